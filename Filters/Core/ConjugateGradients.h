@@ -1,0 +1,59 @@
+// Iterative solution of A x = b with a multigrid cycle, for several right-hand sides at once.
+#ifndef GridFEM_ConjugateGradients_h
+#define GridFEM_ConjugateGradients_h
+
+#include "Multigrid.h"
+#include "Progress.h"
+
+#include <functional>
+#include <vector>
+
+namespace gridfem
+{
+
+struct SolveOptions
+{
+  double tolerance = 1e-8;     // on the stopping measure, relative to its start; > 0
+  int maximumIterations = 100; // >= 1
+  /// What has to fall below the tolerance: the energy estimate sqrt(rᵀBr) or the residual |r|.
+  enum class Measure
+  {
+    Energy,
+    Residual
+  } measure = Measure::Energy;
+};
+
+/// Relative to the measures of x = 0; the largest over the right-hand sides.
+struct IterationRecord
+{
+  int iteration;
+  double energy;   // sqrt(rᵀBr)
+  double residual; // |r|
+};
+
+struct SolveReport
+{
+  bool converged = false;
+  int iterations = 0;
+  std::vector<IterationRecord> history; // iteration 0 is the start
+  double convergenceFactor = 0.0;       // mean reduction of the energy measure per iteration
+};
+
+/// Removes from x what the solution must not contain (or from a residual what the range of A does
+/// not contain): constants of each component when A is singular. May be empty.
+using Projection = std::function<void(MultiVector&)>;
+
+/// Conjugate gradients with one cycle as preconditioner; each column has its own steps, and stops
+/// on its own. Starts from x. A column with b = 0 gives x = 0. NaN in b or a breakdown ends the
+/// iteration with converged = false and the last finite x. Throws Aborted.
+SolveReport SolveConjugateGradients(const Multigrid& multigrid, const MultiVector& b,
+  MultiVector& x, const SolveOptions& options, const Projection& project = {},
+  const Progress& progress = {});
+
+/// The cycle alone, repeated.
+SolveReport SolveCycles(const Multigrid& multigrid, const MultiVector& b, MultiVector& x,
+  const SolveOptions& options, const Projection& project = {}, const Progress& progress = {});
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,55 @@
+// A mesh in its grid with the nested function spaces on it: what every solver starts from.
+#ifndef GridFEM_FunctionSpace_h
+#define GridFEM_FunctionSpace_h
+
+#include "Clip.h"
+#include "Level.h"
+
+#include <vector>
+
+namespace gridfem
+{
+
+struct SpaceOptions
+{
+  int depth = 7;                    // 2^depth cells along the longest side, 2..14
+  bool connectivityAware = true;    // one function per connected component of a support
+  bool weldCoincidentPoints = true; // coincident points count as one for connectivity
+  int threads = 0;                  // 0: all
+};
+
+struct FunctionSpace
+{
+  ClippedMesh clipped;
+  std::vector<Id> piecePatch;   // per piece: patch of the finest level
+  std::vector<Level> levels;    // finest first, down to depth 0
+  std::vector<Id> pointPatch;   // per input point: a patch that contains it; -1 if unused
+  std::vector<Index> component; // per finest function
+  Index numberOfComponents = 0;
+
+  const Grid& GetGrid() const { return clipped.grid; }
+  const Level& Finest() const { return levels.front(); }
+};
+
+/// Clip, patches and levels in one go.
+FunctionSpace BuildFunctionSpace(
+  const TriangleMesh& mesh, const SpaceOptions& options, const Progress& progress = {});
+
+/// The same on a mesh that is clipped already.
+FunctionSpace BuildFunctionSpace(
+  ClippedMesh clipped, FunctionSupport support, int threads = 0, const Progress& progress = {});
+
+/// The same from stored tables: patches and functions are taken as they are, links are found again
+/// from shared point ids. `finest.cell` and `finest.dof` must be filled. Throws InvalidInput when
+/// the tables do not fit together.
+FunctionSpace RestoreFunctionSpace(ClippedMesh clipped, std::vector<Id> piecePatch, Level finest,
+  FunctionSupport support, const Progress& progress = {});
+
+/// Pieces that share an edge (two point ids, after `pointClass` if it is not empty), for a clipped
+/// mesh that comes without links. Sorted, unique.
+std::vector<PieceLink> FindLinks(
+  const ClippedMesh& clipped, const std::vector<Id>& pointClass, const Progress& progress = {});
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,78 @@
+// The multigrid cycle. It sees matrices and patch lists only, never triangles. [T §3.3, §4.2]
+#ifndef GridFEM_Multigrid_h
+#define GridFEM_Multigrid_h
+
+#include "CoarseSolver.h"
+#include "Smoother.h"
+
+#include <memory>
+#include <vector>
+
+namespace gridfem
+{
+
+enum class CycleType
+{
+  V = 0,
+  W = 1
+};
+
+enum class SmootherType
+{
+  Patch = 0,
+  GaussSeidel = 1
+};
+
+struct MultigridOptions
+{
+  CycleType cycle = CycleType::W;
+  SmootherType smoother = SmootherType::Patch;
+  int preSweeps = 1;  // >= 0; equal counts keep the cycle symmetric
+  int postSweeps = 1; // >= 0
+  int threads = 0;    // 0: all
+};
+
+/// One level as the cycle sees it.
+struct MultigridLevel
+{
+  SparseMatrix A;
+  SparseMatrix prolongation; // from the next coarser level to this one; empty on the coarsest
+  SparseMatrix restriction;  // its transpose
+  PatchOrder order;
+  std::unique_ptr<Smoother> smoother; // none on the coarsest
+};
+
+/// A hierarchy that is ready to cycle. Const methods are safe to call from several threads.
+class Multigrid
+{
+public:
+  /// @param levels finest first, with A, prolongation and order filled; the rest is built here.
+  /// The coarsest level is solved directly.
+  Multigrid(std::vector<MultigridLevel> levels, const MultigridOptions& options);
+
+  /// New matrix values on the same patterns (finest first): rebuilds smoothers and coarse solver.
+  void Update(std::vector<SparseMatrix> matrices);
+
+  /// One cycle: improves x for A x = b.
+  void Cycle(const MultiVector& b, MultiVector& x) const;
+
+  /// One cycle from zero: x = B b, B symmetric when both sweep counts are equal.
+  void Precondition(const MultiVector& b, MultiVector& x) const;
+
+  const SparseMatrix& Matrix() const { return levels_.front().A; }
+  const std::vector<MultigridLevel>& Levels() const { return levels_; }
+  const MultigridOptions& Options() const { return options_; }
+  std::size_t Memory() const;
+
+private:
+  void BuildSolvers();
+  void CycleLevel(std::size_t level, const MultiVector& b, MultiVector& x, bool zeroStart) const;
+
+  std::vector<MultigridLevel> levels_;
+  CoarseSolver coarse_;
+  MultigridOptions options_;
+};
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,36 @@
+// The screened Poisson equation (λM + L) u = λ f + s on a function space. [T (3.1); DESIGN §3]
+#ifndef GridFEM_Poisson_h
+#define GridFEM_Poisson_h
+
+#include "ConjugateGradients.h"
+#include "System.h"
+
+namespace gridfem
+{
+
+struct PoissonOptions
+{
+  double screeningWeight = 1.0; // λ >= 0, in 1 / grid unit²: world λ times spacing²
+  MultigridOptions multigrid;
+  SolveOptions solve;
+};
+
+struct PoissonSolution
+{
+  MultiVector coefficients; // rows = functions, one column per component
+  SolveReport report;
+};
+
+/// Solves for all columns. The solution has the mean of f on every connected component, for every
+/// λ >= 0: the constant part is taken from f and the rest is iterated orthogonal to it.
+/// @param values     ∫ f b_i (IntegrateValues), grid units
+/// @param gradients  ∫ <s, ∇b_i> (IntegrateGradients), grid units; may have no rows for s = 0
+/// @param multigrid  of λM + L, built with the same λ
+/// Same bits for any number of threads.
+PoissonSolution SolvePoisson(const FunctionSpace& space, const System& system,
+  const Multigrid& multigrid, const MultiVector& values, const MultiVector& gradients,
+  const PoissonOptions& options, const Progress& progress = {});
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,56 @@
+// Relaxation on one level: Gauss-Seidel [T §4.2] and the multiplicative patch smoother that no
+// orientation of the surface slows down. Both work in blocks of neighbouring cells; blocks of one
+// colour do not touch each other, so they run in parallel and the result never depends on threads.
+#ifndef GridFEM_Smoother_h
+#define GridFEM_Smoother_h
+
+#include "SparseMatrix.h"
+
+#include <memory>
+#include <vector>
+
+namespace gridfem
+{
+
+/// Patches of a level in the order a sweep visits them. Knows no mesh: groups of unknowns suffice.
+struct PatchOrder
+{
+  std::vector<std::array<Index, FunctionsPerPatch>> dof; // -1 marks an unused place
+  /// Block k has the patches blockBegin[k] .. blockBegin[k + 1). Blocks are sorted by colour.
+  std::vector<Id> blockBegin;
+  /// Colour c has the blocks colourBegin[c] .. colourBegin[c + 1). Unknowns of two blocks of one
+  /// colour are not coupled by the matrix.
+  std::vector<Id> colourBegin;
+};
+
+enum class SweepDirection
+{
+  Forward,
+  Backward
+};
+
+class Smoother
+{
+public:
+  virtual ~Smoother() = default;
+
+  /// One sweep: improves x for A x = b. The backward sweep is the adjoint of the forward one.
+  virtual void Sweep(const SparseMatrix& A, const MultiVector& b, MultiVector& x,
+    SweepDirection direction, int threads) const = 0;
+
+  /// Bytes held.
+  virtual std::size_t Memory() const = 0;
+};
+
+/// Gauss-Seidel: every unknown once, in the order of the first patch that contains it. Rows with a
+/// zero diagonal are left alone.
+std::unique_ptr<Smoother> MakeGaussSeidel(const SparseMatrix& A, const PatchOrder& order);
+
+/// Multiplicative Schwarz: for each patch solves its block of A. Local solve: scaled by the
+/// diagonal, pivoted Cholesky, stopped at pivot 1e-10, the kept part is inverted.
+std::unique_ptr<Smoother> MakePatchSmoother(
+  const SparseMatrix& A, const PatchOrder& order, int threads = 0);
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,39 @@
+// A sparse matrix in compressed rows, with products for several vectors at once.
+#ifndef GridFEM_SparseMatrix_h
+#define GridFEM_SparseMatrix_h
+
+#include "Types.h"
+
+#include <vector>
+
+namespace gridfem
+{
+
+struct SparseMatrix
+{
+  Index rows = 0;
+  Index columns = 0;
+  std::vector<Id> rowBegin;  // rows + 1
+  std::vector<Index> column; // ascending in each row
+  std::vector<double> value;
+
+  Id NonZeros() const { return static_cast<Id>(column.size()); }
+
+  /// Value at (row, column), 0 where there is no entry.
+  double Coefficient(Index row, Index col) const;
+
+  std::vector<double> Diagonal() const;
+};
+
+/// y = A x. Same bits for any number of threads.
+void Multiply(const SparseMatrix& A, const MultiVector& x, MultiVector& y, int threads = 0);
+
+/// r = b - A x.
+void Residual(const SparseMatrix& A, const MultiVector& x, const MultiVector& b, MultiVector& r,
+  int threads = 0);
+
+SparseMatrix Transpose(const SparseMatrix& A);
+
+} // namespace gridfem
+
+#endif

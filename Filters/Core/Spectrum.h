@@ -1,0 +1,39 @@
+// The smallest eigenpairs of L x = α M x by a nested block method. [NUMERICS §3; T §4.3.1]
+#ifndef GridFEM_Spectrum_h
+#define GridFEM_Spectrum_h
+
+#include "System.h"
+
+namespace gridfem
+{
+
+struct SpectrumOptions
+{
+  int numberOfModes = 10; // >= 1
+  /// Wanted relative error of the eigenvalues: the square of the residual measure sqrt(rᵀBr / θ).
+  double tolerance = 1e-10;
+  int maximumIterations = 100; // per level
+  MultigridOptions multigrid;
+};
+
+struct Spectrum
+{
+  std::vector<double> eigenvalues; // ascending, 1 / grid unit²
+  MultiVector vectors;             // columns M-orthonormal (grid units); rows = finest functions
+  std::vector<double> residuals;   // per pair: sqrt(rᵀBr / max(θ, shift)), r = L x - θ M x
+  bool converged = false;          // all pairs reached the tolerance
+  int numberOfConverged = 0;       // how many did
+  int iterations = 0;              // on the finest level
+  bool truncated = false;          // fewer modes exist than were asked for
+};
+
+/// Dense problem on a coarse level, prolongation, block iterations with one multigrid cycle of
+/// L + σM per level, rank-revealing Rayleigh-Ritz (M may be singular). Fixed start and sign (the
+/// entry of largest magnitude of M x is positive, ties to the lowest index): a run repeats bit
+/// for bit. Throws Aborted.
+Spectrum ComputeSpectrum(const FunctionSpace& space, const System& system,
+  const SpectrumOptions& options, const Progress& progress = {});
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,45 @@
+// The discrete operators on a function space: element matrices of all levels, patterns and
+// prolongations, from which a hierarchy for any a M + b L is combined. [T (4.5), (4.6)]
+#ifndef GridFEM_System_h
+#define GridFEM_System_h
+
+#include "Assembly.h"
+#include "Multigrid.h"
+
+#include <memory>
+#include <vector>
+
+namespace gridfem
+{
+
+/// Depends on the mesh and the space, not on λ. Grid units.
+struct System
+{
+  std::vector<ElementMatrices> elements;  // per level, finest first
+  std::vector<FunctionPatches> patches;   // per level
+  std::vector<SparseMatrix> pattern;      // per level, values zero
+  std::vector<SparseMatrix> prolongation; // level l+1 to l; one less than levels
+  std::vector<double> integral;           // ∫ b_i of the finest functions, grid units
+  double quadratureDegree = 2;
+};
+
+/// Integrates, coarsens down to the first level with at most `coarsestSize` functions in its
+/// largest component (or to depth 0), builds patterns and prolongations.
+System BuildSystem(const FunctionSpace& space, const QuadratureRule& rule, int threads = 0,
+  Index coarsestSize = 256, const Progress& progress = {});
+
+/// a M + b L on every level, ready to cycle. Grid units: mass carries spacing².
+Multigrid BuildMultigrid(const FunctionSpace& space, const System& system, double a, double b,
+  const MultigridOptions& options, const Progress& progress = {});
+
+/// New factors for a hierarchy of the same space and system.
+void UpdateMultigrid(
+  const FunctionSpace& space, const System& system, double a, double b, Multigrid& multigrid);
+
+/// The finest mass or stiffness matrix, grid units.
+SparseMatrix MassMatrix(const FunctionSpace& space, const System& system, int threads = 0);
+SparseMatrix StiffnessMatrix(const FunctionSpace& space, const System& system, int threads = 0);
+
+} // namespace gridfem
+
+#endif

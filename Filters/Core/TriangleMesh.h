@@ -1,0 +1,35 @@
+// The input of everything: a triangle soup with shared points, in world coordinates, and the
+// identification of its coincident points.
+#ifndef GridFEM_TriangleMesh_h
+#define GridFEM_TriangleMesh_h
+
+#include "Types.h"
+
+#include <vector>
+
+namespace gridfem
+{
+
+struct TriangleMesh
+{
+  std::vector<Vec3> points;                 // world units
+  std::vector<std::array<Id, 3>> triangles; // indices into points
+};
+
+/// Throws InvalidInput naming the first triangle with an index out of range, or the first
+/// triangle corner with a NaN or infinite coordinate.
+void Validate(const TriangleMesh& mesh);
+
+/// For each point the lowest id of a point with the same three coordinates (bitwise, with -0 = 0).
+/// Cost O(n log n); independent of the number of threads.
+std::vector<Id> WeldCoincidentPoints(const std::vector<Vec3>& points, int threads = 0);
+
+/// 1 for points that a triangle uses.
+std::vector<char> UsedPoints(const TriangleMesh& mesh);
+
+/// Surface area, world units.
+double SurfaceArea(const TriangleMesh& mesh);
+
+} // namespace gridfem
+
+#endif

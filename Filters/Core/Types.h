@@ -1,0 +1,38 @@
+// Scalar and vector types shared by all of Core.
+// Ids of points, triangles, pieces and patches have 64 bits. Functions of one level are numbered
+// with 32 bits, because these numbers fill the matrices; more than 2^31 of them are refused.
+#ifndef GridFEM_Types_h
+#define GridFEM_Types_h
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstdint>
+
+namespace gridfem
+{
+
+using Id = std::int64_t;
+using Index = std::int32_t;
+using Vec3 = Eigen::Vector3d;
+
+/// Several vectors side by side: one row per function (or point), one column per right-hand side.
+/// Row-major, so that the columns of one row are neighbours in memory and fill SIMD lanes.
+using MultiVector = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Trilinear B-splines that do not vanish inside one cell, one per corner, x fastest.
+constexpr int FunctionsPerPatch = 8;
+
+/// Entries of a symmetric element matrix, upper triangle row by row.
+constexpr int ElementEntries = FunctionsPerPatch * (FunctionsPerPatch + 1) / 2;
+
+/// Position of entry (row, column) in the packed upper triangle; order of the arguments is free.
+constexpr int PackedIndex(int row, int column)
+{
+  return row <= column ? row * FunctionsPerPatch - row * (row - 1) / 2 + (column - row)
+                       : PackedIndex(column, row);
+}
+
+} // namespace gridfem
+
+#endif
