@@ -1,0 +1,204 @@
+/**
+ * @class   vtkSurfaceFEMAlgorithm
+ * @brief   what all surface finite element filters share
+ *
+ * The surface is laid into a cube of 2^Depth cells per side; the functions are the trilinear
+ * B-splines of the grid corners, restricted to the surface. This class holds the properties that
+ * have the same name and meaning in every filter, the stages that are run again only when what they
+ * depend on has changed, and the rule by which every filter fails:
+ *
+ * - An input without points gives empty outputs, silently.
+ * - An unusable input gives one error message, empty outputs, and RequestData returns 0.
+ * - A solver that does not converge warns, keeps its result, and sets the field array `Converged`
+ *   (int, one value) to 0.
+ * - An abort gives empty outputs.
+ *
+ * Input port 0 takes vtkPolyData with polygons of any size or triangle strips; vertices and lines
+ * are passed on, but take no part. Computation is in double precision. Results do not depend on
+ * NumberOfThreads. The filters refuse to run on more than one MPI rank.
+ *
+ * A solver filter finds its function space in this order: on input port 0, when that is the output
+ * of vtkConnectivityAwareBasis; on the optional input port 1, when that is connected, which must be
+ * the output of vtkConnectivityAwareBasis for the mesh of port 0; else it builds the space itself.
+ */
+#ifndef vtkSurfaceFEMAlgorithm_h
+#define vtkSurfaceFEMAlgorithm_h
+
+#include "vtkGridFEMFiltersModule.h" // for export macro
+#include "vtkPolyDataAlgorithm.h"
+
+#include <memory> // for std::unique_ptr
+
+class SurfaceSolverState;
+
+class VTKGRIDFEMFILTERS_EXPORT vtkSurfaceFEMAlgorithm : public vtkPolyDataAlgorithm
+{
+public:
+  vtkTypeMacro(vtkSurfaceFEMAlgorithm, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * 2^Depth cells lie along the longest side of the bounding box. 2..14, default 7.
+   */
+  vtkSetClampMacro(Depth, int, 2, 14);
+  vtkGetMacro(Depth, int);
+  ///@}
+
+  ///@{
+  /**
+   * When on, a function whose support meets the surface in several connected pieces is split, one
+   * function per piece, so that sheets that are close in space do not feel each other. Default on.
+   */
+  vtkSetMacro(ConnectivityAware, bool);
+  vtkGetMacro(ConnectivityAware, bool);
+  vtkBooleanMacro(ConnectivityAware, bool);
+  ///@}
+
+  ///@{
+  /**
+   * When on, coincident points count as one for connectivity, as they have to in meshes from STL
+   * files. The output keeps the input's points either way. Default on.
+   */
+  vtkSetMacro(WeldCoincidentPoints, bool);
+  vtkGetMacro(WeldCoincidentPoints, bool);
+  vtkBooleanMacro(WeldCoincidentPoints, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Polynomials up to this degree are integrated exactly on every clipped triangle: 2, 4, 6, 10 or
+   * 12; default 2 (three points). Another degree is refused when the filter runs.
+   */
+  vtkSetMacro(QuadratureDegree, int);
+  vtkGetMacro(QuadratureDegree, int);
+  ///@}
+
+  enum CycleType
+  {
+    VCycle = 0,
+    WCycle = 1
+  };
+  ///@{
+  /**
+   * How the multigrid cycle visits the coarser levels. Default WCycle.
+   */
+  vtkSetClampMacro(Cycle, int, VCycle, WCycle);
+  vtkGetMacro(Cycle, int);
+  ///@}
+
+  enum SmootherType
+  {
+    PatchSmoother = 0,
+    GaussSeidelSmoother = 1
+  };
+  ///@{
+  /**
+   * How a level is relaxed: the patch smoother converges for every orientation of the surface;
+   * Gauss-Seidel is cheaper per sweep and stalls on surfaces nearly aligned with the grid. Default
+   * PatchSmoother.
+   */
+  vtkSetClampMacro(Smoother, int, PatchSmoother, GaussSeidelSmoother);
+  vtkGetMacro(Smoother, int);
+  ///@}
+
+  ///@{
+  /**
+   * The solver stops when its error measure has fallen by this factor. What is measured is said by
+   * the filter. Above 0, below 1.
+   */
+  vtkSetClampMacro(Tolerance, double, 1e-16, 0.999);
+  vtkGetMacro(Tolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * The solver stops after this number of iterations and warns. At least 1, default 100.
+   */
+  vtkSetClampMacro(MaximumIterations, int, 1, VTK_INT_MAX);
+  vtkGetMacro(MaximumIterations, int);
+  ///@}
+
+  ///@{
+  /**
+   * 0 (default) takes all processors. Results are the same for any number.
+   */
+  vtkSetClampMacro(NumberOfThreads, int, 0, 1024);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  enum ParameterUnitsType
+  {
+    World = 0,
+    UnitArea = 1,
+    UnitCube = 2
+  };
+  ///@{
+  /**
+   * The length unit of weights and times that are given as properties: World takes the units of the
+   * points, UnitArea (default) those of the surface scaled to area 1, UnitCube those of the surface
+   * scaled to a longest side of 1. Results are always in world units.
+   */
+  vtkSetClampMacro(ParameterUnits, int, World, UnitCube);
+  vtkGetMacro(ParameterUnits, int);
+  ///@}
+
+  /**
+   * The steps of a run. Each is repeated only when something it depends on has changed.
+   */
+  enum StageType
+  {
+    SpaceStage = 0,         ///< mesh, clipping, patches, levels
+    SystemStage = 1,        ///< element matrices, patterns, prolongations
+    HierarchyStage = 2,     ///< level matrices, smoothers
+    RightHandSideStage = 3, ///< integrals of the given arrays
+    SolveStage = 4,
+    NumberOfStages = 5
+  };
+
+  /**
+   * How often this filter has run a stage since it was made; 0 for an unknown stage.
+   */
+  vtkIdType GetNumberOfRuns(int stage);
+
+  /**
+   * Seconds the last run of a stage took; 0 when it has not run.
+   */
+  double GetStageSeconds(int stage);
+
+protected:
+  vtkSurfaceFEMAlgorithm();
+  ~vtkSurfaceFEMAlgorithm() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+
+  /**
+   * Applies the failure rule around Compute.
+   */
+  int RequestData(vtkInformation* request, vtkInformationVector** inputs,
+    vtkInformationVector* outputs) final;
+
+  /**
+   * What the filter does with a non-empty input. Throws on unusable input and on abort.
+   */
+  virtual void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) = 0;
+
+  int Depth = 7;
+  bool ConnectivityAware = true;
+  bool WeldCoincidentPoints = true;
+  int QuadratureDegree = 2;
+  int Cycle = WCycle;
+  int Smoother = PatchSmoother;
+  double Tolerance = 1e-8;
+  int MaximumIterations = 100;
+  int NumberOfThreads = 0;
+  int ParameterUnits = UnitArea;
+
+  std::unique_ptr<SurfaceSolverState> State;
+
+private:
+  vtkSurfaceFEMAlgorithm(const vtkSurfaceFEMAlgorithm&) = delete;
+  void operator=(const vtkSurfaceFEMAlgorithm&) = delete;
+};
+
+#endif
