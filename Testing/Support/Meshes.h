@@ -14,7 +14,8 @@ namespace gridfem::testing
 TriangleMesh LatLongSphere(
   int longitudes, int latitudes, double radius = 0.5, const Vec3& centre = { 0.5, 0.5, 0.5 });
 
-/// Octahedron subdivided n times per edge and projected: well-shaped triangles.
+/// Octahedron with every edge cut into `subdivisions` parts, projected: 8 n² triangles, 4 n² + 2
+/// points; centred at 0.
 TriangleMesh GeodesicSphere(int subdivisions, double radius = 1.0);
 
 /// Surface of an axis-aligned box, every face cut into n x n squares of two triangles.
@@ -23,8 +24,9 @@ TriangleMesh Box(int n, const Vec3& low = { 0, 0, 0 }, const Vec3& high = { 1, 1
 /// Flat rectangle [0,width] x [0,height] in the plane z = 0, nx x ny squares of two triangles.
 TriangleMesh FlatRectangle(int nx, int ny, double width = 1.0, double height = 1.0);
 
-/// Tube around a torus knot (2,3); strands come as near as `gap` of the tube's diameter.
-TriangleMesh TrefoilTube(int along, int around, double tubeRadius);
+/// Trefoil tube: around the (2,3) knot on the torus of radii 2 and 1, whose strands come as near as
+/// 1.663. The default radius leaves 0.063 between the tube's strands: they nearly touch.
+TriangleMesh TrefoilTube(int along, int around, double tubeRadius = 0.8);
 
 /// Torus with the given radii; genus 1.
 TriangleMesh Torus(int along, int around, double radius, double tubeRadius);
@@ -35,7 +37,8 @@ TriangleMesh CubeArray(int counts, int facesPerEdge, double gap);
 /// Two parallel flat sheets at distance `gap`.
 TriangleMesh TwoSheets(int n, double gap);
 
-/// A belt pulley of genus 1 with thin walls: a surface of revolution around z.
+/// A belt pulley of outer radius 1 and genus 1: a surface of revolution around z of a hub, a thin
+/// web and a rim with a V groove. 0 < wallThickness <= 0.2.
 TriangleMesh Pulley(int around, double wallThickness);
 
 /// Every triangle into four by its edge midpoints; shared midpoints are one point.
