@@ -45,7 +45,9 @@ struct ClippedMesh
   std::vector<Id> pieceBegin;    // corners of piece p: corners[pieceBegin[p] .. pieceBegin[p + 1])
   std::vector<Id> corners;       // point ids, oriented as the source triangle
 
-  std::vector<PieceLink> links; // sorted, unique
+  /// Connects the pieces that share an edge: within a cell at least as a tree, between two cells at
+  /// least one pair per shared edge. Fixed order.
+  std::vector<PieceLink> links;
 
   Id NumberOfPieces() const { return static_cast<Id>(pieceCell.size()); }
 

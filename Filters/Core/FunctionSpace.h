@@ -20,6 +20,7 @@ struct SpaceOptions
 
 struct FunctionSpace
 {
+  FunctionSupport support = FunctionSupport::ConnectivityAware;
   ClippedMesh clipped;
   std::vector<Id> piecePatch;   // per piece: patch of the finest level
   std::vector<Level> levels;    // finest first, down to depth 0
@@ -39,14 +40,14 @@ FunctionSpace BuildFunctionSpace(
 FunctionSpace BuildFunctionSpace(
   ClippedMesh clipped, FunctionSupport support, int threads = 0, const Progress& progress = {});
 
-/// The same from stored tables: patches and functions are taken as they are, links are found again
-/// from shared point ids. `finest.cell` and `finest.dof` must be filled. Throws InvalidInput when
-/// the tables do not fit together.
+/// The same from stored tables: patches and functions are taken as they are. `clipped.links` must be
+/// filled (FindLinks finds them in a mesh that was read from a file), `finest.cell` and `finest.dof`
+/// too. Throws InvalidInput when the tables do not fit together.
 FunctionSpace RestoreFunctionSpace(ClippedMesh clipped, std::vector<Id> piecePatch, Level finest,
   FunctionSupport support, const Progress& progress = {});
 
 /// Pieces that share an edge (two point ids, after `pointClass` if it is not empty), for a clipped
-/// mesh that comes without links. Sorted, unique.
+/// mesh that comes without links.
 std::vector<PieceLink> FindLinks(
   const ClippedMesh& clipped, const std::vector<Id>& pointClass, const Progress& progress = {});
 

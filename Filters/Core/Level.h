@@ -16,6 +16,10 @@ struct PatchLink
 {
   Id first;
   Id second;
+  bool operator==(const PatchLink& other) const
+  {
+    return first == other.first && second == other.second;
+  }
 };
 
 struct Level
@@ -49,6 +53,13 @@ struct PatchPartition
 /// joins a patch it shares an edge with, if there is one: rounding makes no functions.
 /// Cost O(pieces + links); the same for any number of threads.
 PatchPartition BuildPatches(const ClippedMesh& clipped, FunctionSupport support, int threads = 0);
+
+/// Links between the patches of linked pieces. Sorted, unique.
+std::vector<PatchLink> LinksOfPatches(
+  const std::vector<PieceLink>& links, const std::vector<Id>& piecePatch);
+
+/// Sorts by first, then second; drops repetitions.
+void SortUnique(std::vector<PatchLink>& links);
 
 /// The finest level on given patches; functions are numbered in the order of their first patch.
 /// Throws InvalidInput when there are more than 2^31 - 1 functions.

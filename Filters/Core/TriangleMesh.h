@@ -20,9 +20,12 @@ struct TriangleMesh
 /// triangle corner with a NaN or infinite coordinate.
 void Validate(const TriangleMesh& mesh);
 
-/// For each point the lowest id of a point with the same three coordinates (bitwise, with -0 = 0).
-/// Cost O(n log n); independent of the number of threads.
-std::vector<Id> WeldCoincidentPoints(const std::vector<Vec3>& points, int threads = 0);
+/// For each point that `used` marks (all when empty) the lowest id of such a point with the same
+/// three coordinates; other points stand for themselves. Coordinates are compared
+/// exactly (-0 = 0).
+/// Cost O(n log n).
+std::vector<Id> WeldCoincidentPoints(
+  const std::vector<Vec3>& points, const std::vector<char>& used = {});
 
 /// 1 for points that a triangle uses.
 std::vector<char> UsedPoints(const TriangleMesh& mesh);

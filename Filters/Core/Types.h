@@ -5,6 +5,7 @@
 #define GridFEM_Types_h
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <array>
 #include <cstdint>

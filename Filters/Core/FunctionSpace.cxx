@@ -1,0 +1,180 @@
+#include "FunctionSpace.h"
+
+#include "Errors.h"
+#include "Links.h"
+#include "Parallel.h"
+
+#include <algorithm>
+#include <string>
+
+namespace gridfem
+{
+
+namespace
+{
+
+/// The lowest patch among the pieces around each input point.
+std::vector<Id> FindPointPatches(const ClippedMesh& clipped, const std::vector<Id>& piecePatch)
+{
+  std::vector<Id> pointPatch(clipped.numberOfInputPoints, -1);
+  for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
+  {
+    const Id patch = piecePatch[piece];
+    for (Id k = clipped.pieceBegin[piece]; k < clipped.pieceBegin[piece + 1]; ++k)
+    {
+      const Id point = clipped.corners[k];
+      if (point < clipped.numberOfInputPoints &&
+          (pointPatch[point] < 0 || patch < pointPatch[point]))
+      {
+        pointPatch[point] = patch;
+      }
+    }
+  }
+  return pointPatch;
+}
+
+FunctionSpace Complete(ClippedMesh clipped, std::vector<Id> piecePatch, Level finest,
+  std::vector<PatchLink> links, FunctionSupport support, const Progress& progress)
+{
+  FunctionSpace space;
+  space.support = support;
+  space.clipped = std::move(clipped);
+  space.piecePatch = std::move(piecePatch);
+  space.pointPatch = FindPointPatches(space.clipped, space.piecePatch);
+  progress.Check(0.3);
+  space.levels = BuildLevels(std::move(finest), std::move(links), support, progress.Part(0.3, 0.9));
+  space.component = FunctionComponents(space.Finest());
+  space.numberOfComponents =
+    space.component.empty() ? 0
+                            : *std::max_element(space.component.begin(), space.component.end()) + 1;
+  progress.Check(1.0);
+  return space;
+}
+
+void CheckTables(const ClippedMesh& clipped, const std::vector<Id>& piecePatch, const Level& finest)
+{
+  if (static_cast<Id>(piecePatch.size()) != clipped.NumberOfPieces())
+  {
+    throw InvalidInput("There are " + std::to_string(piecePatch.size()) + " patch ids for " +
+                       std::to_string(clipped.NumberOfPieces()) + " clipped triangles.");
+  }
+  if (finest.cell.size() != finest.dof.size())
+  {
+    throw InvalidInput("There are " + std::to_string(finest.cell.size()) +
+                       " patch cells but functions for " + std::to_string(finest.dof.size()) +
+                       " patches.");
+  }
+  for (std::size_t piece = 0; piece < piecePatch.size(); ++piece)
+  {
+    if (piecePatch[piece] < 0 || piecePatch[piece] >= finest.NumberOfPatches())
+    {
+      throw InvalidInput("Clipped triangle " + std::to_string(piece) + " has patch " +
+                         std::to_string(piecePatch[piece]) + ", but there are " +
+                         std::to_string(finest.NumberOfPatches()) + " patches.");
+    }
+  }
+  for (std::size_t patch = 0; patch < finest.dof.size(); ++patch)
+  {
+    for (const Index function : finest.dof[patch])
+    {
+      if (function < 0 || function >= finest.numberOfFunctions)
+      {
+        throw InvalidInput("Patch " + std::to_string(patch) + " has function " +
+                           std::to_string(function) + ", but there are " +
+                           std::to_string(finest.numberOfFunctions) + " functions.");
+      }
+    }
+    if (patch > 0 && finest.cell[patch] < finest.cell[patch - 1])
+    {
+      throw InvalidInput("Patch " + std::to_string(patch) + " is not in Morton order.");
+    }
+  }
+}
+
+} // namespace
+
+FunctionSpace BuildFunctionSpace(
+  const TriangleMesh& mesh, const SpaceOptions& options, const Progress& progress)
+{
+  ClipOptions clip;
+  clip.depth = options.depth;
+  clip.weldCoincidentPoints = options.weldCoincidentPoints;
+  clip.threads = options.threads;
+  return BuildFunctionSpace(Clip(mesh, clip, progress.Part(0.0, 0.7)),
+    options.connectivityAware ? FunctionSupport::ConnectivityAware : FunctionSupport::Plain,
+    options.threads, progress.Part(0.7, 1.0));
+}
+
+FunctionSpace BuildFunctionSpace(
+  ClippedMesh clipped, FunctionSupport support, int threads, const Progress& progress)
+{
+  PatchPartition patches = BuildPatches(clipped, support, threads);
+  progress.Check(0.4);
+  Level finest = BuildFinestLevel(clipped.grid.depth, patches, support);
+  return Complete(std::move(clipped), std::move(patches.piecePatch), std::move(finest),
+    std::move(patches.links), support, progress.Part(0.5, 1.0));
+}
+
+FunctionSpace RestoreFunctionSpace(ClippedMesh clipped, std::vector<Id> piecePatch, Level finest,
+  FunctionSupport support, const Progress& progress)
+{
+  CheckTables(clipped, piecePatch, finest);
+  finest.depth = clipped.grid.depth;
+  std::vector<PatchLink> links = LinksOfPatches(clipped.links, piecePatch);
+  return Complete(std::move(clipped), std::move(piecePatch), std::move(finest), std::move(links),
+    support, progress);
+}
+
+std::vector<PieceLink> FindLinks(
+  const ClippedMesh& clipped, const std::vector<Id>& pointClass, const Progress& progress)
+{
+  struct PieceEdge
+  {
+    Id low;
+    Id high;
+    Id piece;
+  };
+  std::vector<PieceEdge> pieceEdges;
+  pieceEdges.reserve(clipped.corners.size());
+  const auto classOf = [&](Id point)
+  { return point < static_cast<Id>(pointClass.size()) ? pointClass[point] : point; };
+  for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
+  {
+    const Id begin = clipped.pieceBegin[piece];
+    const Id end = clipped.pieceBegin[piece + 1];
+    for (Id k = begin; k < end; ++k)
+    {
+      const Id a = classOf(clipped.corners[k]);
+      const Id b = classOf(clipped.corners[k + 1 == end ? begin : k + 1]);
+      if (a != b)
+      {
+        pieceEdges.push_back({ std::min(a, b), std::max(a, b), piece });
+      }
+    }
+  }
+  progress.Check(0.2);
+  std::sort(pieceEdges.begin(), pieceEdges.end(),
+    [](const PieceEdge& a, const PieceEdge& b)
+    {
+      return a.low != b.low     ? a.low < b.low
+             : a.high != b.high ? a.high < b.high
+                                : a.piece < b.piece;
+    });
+  progress.Check(0.7);
+  std::vector<std::vector<EdgeUse>> uses(1);
+  uses[0].reserve(pieceEdges.size());
+  Id edge = -1;
+  for (std::size_t k = 0; k < pieceEdges.size(); ++k)
+  {
+    const bool same = k > 0 && pieceEdges[k].low == pieceEdges[k - 1].low &&
+                      pieceEdges[k].high == pieceEdges[k - 1].high;
+    edge += same ? 0 : 1;
+    uses[0].push_back({ edge, pieceEdges[k].piece });
+  }
+  std::vector<PieceLink> links;
+  LinkByEdges(uses, edge + 1, clipped.pieceCell, 1, links);
+  progress.Check(1.0);
+  return links;
+}
+
+} // namespace gridfem
