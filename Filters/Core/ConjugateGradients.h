@@ -39,8 +39,9 @@ struct SolveReport
   double convergenceFactor = 0.0;       // mean reduction of the energy measure per iteration
 };
 
-/// Removes from x what the solution must not contain (or from a residual what the range of A does
-/// not contain): constants of each component when A is singular. May be empty.
+/// Removes from a correction what the solution must not contain, such as the mean of each component.
+/// Applied to every preconditioned residual B r, never to a residual: where A does not mix the kept
+/// part with the removed one, residuals stay in the range by themselves. May be empty.
 using Projection = std::function<void(MultiVector&)>;
 
 /// Conjugate gradients with one cycle as preconditioner; each column has its own steps, and stops

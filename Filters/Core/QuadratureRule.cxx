@@ -99,8 +99,8 @@ const QuadratureRule& TriangleRule(int degree)
       return rule;
     }
   }
-  throw InvalidInput("there is no quadrature rule of degree " + std::to_string(degree) +
-                     "; choose 2, 4, 6, 10 or 12");
+  throw InvalidInput("There is no quadrature rule of degree " + std::to_string(degree) +
+                     "; choose 2, 4, 6, 10 or 12.");
 }
 
 } // namespace gridfem

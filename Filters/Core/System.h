@@ -20,7 +20,7 @@ struct System
   std::vector<SparseMatrix> pattern;      // per level, values zero
   std::vector<SparseMatrix> prolongation; // level l+1 to l; one less than levels
   std::vector<double> integral;           // ∫ b_i of the finest functions, grid units
-  double quadratureDegree = 2;
+  int quadratureDegree = 2;
 };
 
 /// Integrates, coarsens down to the first level with at most `coarsestSize` functions in its

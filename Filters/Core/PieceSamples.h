@@ -1,0 +1,83 @@
+// What all integrals over the clipped mesh share: the plane of a piece and its quadrature samples.
+// A piece is integrated as the fan of triangles around its first corner. [T Alg. 4.1]
+#ifndef GridFEM_PieceSamples_h
+#define GridFEM_PieceSamples_h
+
+#include "Clip.h"
+#include "QuadratureRule.h"
+
+#include <Eigen/Geometry>
+
+namespace gridfem
+{
+
+/// Lowest corner of the cell with this key, grid units: the origin of its local coordinates.
+inline Vec3 CellCorner(MortonKey key)
+{
+  const CellIndex cell = MortonDecode(key);
+  return Vec3(cell[0], cell[1], cell[2]);
+}
+
+/// Sum of the area vectors of the fan: twice the area along the normal, which is less sensitive to
+/// short edges than the normal of any of its triangles.
+inline Vec3 AreaVector(const ClippedMesh& clipped, Id piece)
+{
+  const Id begin = clipped.pieceBegin[piece];
+  const Id end = clipped.pieceBegin[piece + 1];
+  const Vec3& apex = clipped.position[clipped.corners[begin]];
+  Vec3 sum = Vec3::Zero();
+  for (Id k = begin + 1; k + 1 < end; ++k)
+  {
+    sum += (clipped.position[clipped.corners[k]] - apex)
+             .cross(clipped.position[clipped.corners[k + 1]] - apex);
+  }
+  return sum;
+}
+
+/// Unit normal of a piece, zero for a piece without area.
+inline Vec3 UnitNormal(const ClippedMesh& clipped, Id piece)
+{
+  const Vec3 area = AreaVector(clipped, piece);
+  const double norm = area.norm();
+  return norm > 0.0 ? Vec3(area / norm) : Vec3(Vec3::Zero());
+}
+
+/// A triangle of a piece's fan: its corners are the piece's corners 0, k and k + 1.
+struct FanTriangle
+{
+  Id k;
+  std::array<Vec3, 3> corner; // relative to the given origin, grid units
+  double area;                // grid units, > 0
+
+  Vec3 At(const std::array<double, 3>& barycentric) const
+  {
+    return barycentric[0] * corner[0] + barycentric[1] * corner[1] + barycentric[2] * corner[2];
+  }
+};
+
+/// Calls body(FanTriangle) for the triangles of a piece that have an area.
+template<class Body>
+void ForEachFanTriangle(const ClippedMesh& clipped, Id piece, const Vec3& origin, Body&& body)
+{
+  const Id* corner = clipped.corners.data() + clipped.pieceBegin[piece];
+  const Id count = clipped.pieceBegin[piece + 1] - clipped.pieceBegin[piece];
+  FanTriangle triangle;
+  triangle.corner[0] = clipped.position[corner[0]] - origin;
+  for (Id k = 1; k + 1 < count; ++k)
+  {
+    triangle.k = k;
+    triangle.corner[1] = clipped.position[corner[k]] - origin;
+    triangle.corner[2] = clipped.position[corner[k + 1]] - origin;
+    triangle.area = 0.5 * (triangle.corner[1] - triangle.corner[0])
+                            .cross(triangle.corner[2] - triangle.corner[0])
+                            .norm();
+    if (triangle.area > 0.0)
+    {
+      body(triangle);
+    }
+  }
+}
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,167 @@
+#include "Poisson.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace gridfem
+{
+
+namespace
+{
+
+/// The constants of the connected components. λM + L maps the functions of zero mean to the vectors
+/// of zero sum and the constants to M's, so the two parts of the equation can be solved apart.
+class ComponentMeans
+{
+public:
+  ComponentMeans(const FunctionSpace& space, const std::vector<double>& integral)
+    : component_(space.component), integral_(integral), area_(space.numberOfComponents, 0.0)
+  {
+    for (std::size_t i = 0; i < component_.size(); ++i)
+    {
+      area_[component_[i]] += integral_[i];
+    }
+  }
+
+  /// Means of a field over the components, from its integrals against the functions. Components
+  /// without area have mean 0.
+  MultiVector OfIntegrals(const MultiVector& load) const
+  {
+    MultiVector sum = this->Zero(load.cols());
+    for (std::size_t i = 0; i < component_.size(); ++i)
+    {
+      sum.row(component_[i]) += load.row(i);
+    }
+    return this->DividedByArea(std::move(sum));
+  }
+
+  /// Means of a function over the components, from its coefficients.
+  MultiVector OfFunction(const MultiVector& coefficients) const
+  {
+    MultiVector sum = this->Zero(coefficients.cols());
+    for (std::size_t i = 0; i < component_.size(); ++i)
+    {
+      sum.row(component_[i]) += integral_[i] * coefficients.row(i);
+    }
+    return this->DividedByArea(std::move(sum));
+  }
+
+  /// coefficients += the constants `mean`
+  void AddConstants(const MultiVector& mean, MultiVector& coefficients) const
+  {
+    for (std::size_t i = 0; i < component_.size(); ++i)
+    {
+      if (area_[component_[i]] > 0.0)
+      {
+        coefficients.row(i) += mean.row(component_[i]);
+      }
+    }
+  }
+
+  /// load -= the integrals of the constants `mean`
+  void SubtractIntegrals(const MultiVector& mean, MultiVector& load) const
+  {
+    for (std::size_t i = 0; i < component_.size(); ++i)
+    {
+      load.row(i) -= integral_[i] * mean.row(component_[i]);
+    }
+  }
+
+private:
+  MultiVector Zero(Id columns) const { return MultiVector::Zero(area_.size(), columns); }
+
+  MultiVector DividedByArea(MultiVector sum) const
+  {
+    for (std::size_t k = 0; k < area_.size(); ++k)
+    {
+      sum.row(k) *= area_[k] > 0.0 ? 1.0 / area_[k] : 0.0;
+    }
+    return sum;
+  }
+
+  const std::vector<Index>& component_;
+  const std::vector<double>& integral_;
+  std::vector<double> area_;
+};
+
+void CheckRows(const char* name, const MultiVector& load, Index functions)
+{
+  if (load.rows() != functions)
+  {
+    throw InvalidInput("The integrals of the " + std::string(name) + " have " +
+                       std::to_string(load.rows()) + " rows for " + std::to_string(functions) +
+                       " functions.");
+  }
+}
+
+void CheckInput(const FunctionSpace& space, const MultiVector& values, const MultiVector& gradients,
+  const PoissonOptions& options)
+{
+  if (!(options.screeningWeight >= 0.0) || std::isinf(options.screeningWeight))
+  {
+    throw InvalidInput("The screening weight is " + std::to_string(options.screeningWeight) +
+                       "; it must be a number of 0 or more.");
+  }
+  CheckRows("values", values, space.Finest().numberOfFunctions);
+  if (gradients.rows() != 0)
+  {
+    CheckRows("gradients", gradients, space.Finest().numberOfFunctions);
+    if (gradients.cols() != values.cols())
+    {
+      throw InvalidInput("There are " + std::to_string(gradients.cols()) + " gradient fields for " +
+                         std::to_string(values.cols()) + " value fields.");
+    }
+  }
+}
+
+/// What is left in a column after the means are taken out can be rounding alone: then it is 0.
+void DropRounding(const Eigen::RowVectorXd& size, MultiVector& rest)
+{
+  constexpr double Relative = 8.0 * std::numeric_limits<double>::epsilon();
+  for (Id c = 0; c < rest.cols(); ++c)
+  {
+    if (rest.col(c).norm() <= Relative * size[c])
+    {
+      rest.col(c).setZero();
+    }
+  }
+}
+
+} // namespace
+
+PoissonSolution SolvePoisson(const FunctionSpace& space, const System& system,
+  const Multigrid& multigrid, const MultiVector& values, const MultiVector& gradients,
+  const PoissonOptions& options, const Progress& progress)
+{
+  CheckInput(space, values, gradients, options);
+  const double lambda = options.screeningWeight;
+  const ComponentMeans means(space, system.integral);
+
+  const MultiVector meanOfField = means.OfIntegrals(values);
+  MultiVector rest = values;
+  means.SubtractIntegrals(meanOfField, rest);
+  rest *= lambda;
+  Eigen::RowVectorXd size = lambda * values.colwise().norm();
+  if (gradients.rows() != 0)
+  {
+    rest += gradients;
+    size += gradients.colwise().norm();
+  }
+  // ∫ <s, ∇b_i> sums to 0 over a component but for rounding, which a small λ would blow up.
+  means.SubtractIntegrals(means.OfIntegrals(rest), rest);
+  DropRounding(size, rest);
+
+  const Projection removeMeans = [&means](MultiVector& correction)
+  { means.AddConstants(-means.OfFunction(correction), correction); };
+  PoissonSolution solution;
+  solution.coefficients = MultiVector::Zero(values.rows(), values.cols());
+  solution.report = SolveConjugateGradients(
+    multigrid, rest, solution.coefficients, options.solve, removeMeans, progress);
+  removeMeans(solution.coefficients);
+  means.AddConstants(meanOfField, solution.coefficients);
+  return solution;
+}
+
+} // namespace gridfem

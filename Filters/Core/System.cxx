@@ -1,0 +1,136 @@
+#include "System.h"
+
+#include "Parallel.h"
+#include "PatchOrdering.h"
+
+#include <algorithm>
+
+namespace gridfem
+{
+
+namespace
+{
+
+/// Number of functions of the largest connected component.
+Index LargestComponent(const Level& level)
+{
+  std::vector<Index> size;
+  for (const Index component : FunctionComponents(level))
+  {
+    size.resize(std::max(size.size(), static_cast<std::size_t>(component) + 1), 0);
+    ++size[component];
+  }
+  return size.empty() ? 0 : *std::max_element(size.begin(), size.end());
+}
+
+bool IsCoarsest(const FunctionSpace& space, std::size_t level, Index coarsestSize)
+{
+  return level + 1 == space.levels.size() ||
+         space.levels[level].numberOfFunctions <= coarsestSize ||
+         LargestComponent(space.levels[level]) <= coarsestSize;
+}
+
+/// The functions of a patch sum to 1, so that ∫ b_i is the sum of row i of the mass matrix.
+std::vector<double> IntegralsOfFunctions(
+  const FunctionPatches& patches, const std::vector<ElementMatrix>& mass, int threads)
+{
+  const auto functions = static_cast<Id>(patches.begin.size()) - 1;
+  std::vector<double> integral(functions, 0.0);
+  ParallelRanges(functions, threads,
+    [&](Id begin, Id end)
+    {
+      for (Id f = begin; f < end; ++f)
+      {
+        for (Id k = patches.begin[f]; k < patches.begin[f + 1]; ++k)
+        {
+          for (int j = 0; j < FunctionsPerPatch; ++j)
+          {
+            integral[f] += mass[patches.patch[k]][PackedIndex(patches.corner[k], j)];
+          }
+        }
+      }
+    });
+  return integral;
+}
+
+SparseMatrix Combine(
+  const Level& level, const System& system, std::size_t l, double a, double b, int threads)
+{
+  SparseMatrix matrix = system.pattern[l];
+  const ElementMatrices& elements = system.elements[l];
+  AssembleValues(
+    level, system.patches[l], elements.mass, a, elements.stiffness, b, matrix, threads);
+  return matrix;
+}
+
+} // namespace
+
+System BuildSystem(const FunctionSpace& space, const QuadratureRule& rule, int threads,
+  Index coarsestSize, const Progress& progress)
+{
+  System system;
+  system.quadratureDegree = rule.degree;
+  system.elements.push_back(IntegrateElements(space, rule, threads, progress.Part(0.0, 0.5)));
+  for (std::size_t l = 0;; ++l)
+  {
+    const Level& level = space.levels[l];
+    system.patches.push_back(PatchesOfFunctions(level));
+    system.pattern.push_back(BuildPattern(level, system.patches.back(), threads));
+    progress.Check(0.5 + 0.4 * double(l + 1) / double(space.levels.size()));
+    if (IsCoarsest(space, l, coarsestSize))
+    {
+      break;
+    }
+    const Level& coarse = space.levels[l + 1];
+    system.prolongation.push_back(BuildProlongation(level, coarse, threads));
+    const ElementMatrices& fine = system.elements.back();
+    system.elements.push_back({ CoarsenElements(level, coarse, fine.mass, threads),
+      CoarsenElements(level, coarse, fine.stiffness, threads) });
+  }
+  system.integral =
+    IntegralsOfFunctions(system.patches.front(), system.elements.front().mass, threads);
+  progress.Check(1.0);
+  return system;
+}
+
+Multigrid BuildMultigrid(const FunctionSpace& space, const System& system, double a, double b,
+  const MultigridOptions& options, const Progress& progress)
+{
+  std::vector<MultigridLevel> levels(system.pattern.size());
+  for (std::size_t l = 0; l < levels.size(); ++l)
+  {
+    levels[l].A = Combine(space.levels[l], system, l, a, b, options.threads);
+    levels[l].order = OrderPatches(space.levels[l]);
+    if (l < system.prolongation.size())
+    {
+      levels[l].prolongation = system.prolongation[l];
+    }
+    progress.Check(0.5 * double(l + 1) / double(levels.size()));
+  }
+  Multigrid multigrid(std::move(levels), options);
+  progress.Check(1.0);
+  return multigrid;
+}
+
+void UpdateMultigrid(
+  const FunctionSpace& space, const System& system, double a, double b, Multigrid& multigrid)
+{
+  std::vector<SparseMatrix> matrices;
+  for (std::size_t l = 0; l < system.pattern.size(); ++l)
+  {
+    matrices.push_back(Combine(space.levels[l], system, l, a, b, multigrid.Options().threads));
+  }
+  multigrid.Update(std::move(matrices));
+}
+
+SparseMatrix MassMatrix(const FunctionSpace& space, const System& system, int threads)
+{
+  return Combine(space.Finest(), system, 0, 1.0, 0.0, threads);
+}
+
+SparseMatrix StiffnessMatrix(const FunctionSpace& space, const System& system, int threads)
+{
+  return Combine(space.Finest(), system, 0, 0.0, 1.0, threads);
+}
+
+} // namespace gridfem
