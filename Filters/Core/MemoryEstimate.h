@@ -17,7 +17,7 @@ struct MemoryEstimate
 
 /// Expected sizes for a mesh at a depth, from the areas and extents of its triangles. Cost
 /// O(triangles).
-MemoryEstimate EstimateMemory(const TriangleMesh& mesh, int depth, int threads = 0);
+MemoryEstimate EstimateMemory(const TriangleMesh& mesh, int depth);
 
 /// Bytes that can be allocated on this machine now; 0 when unknown.
 double AvailableMemory();
