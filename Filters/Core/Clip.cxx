@@ -287,9 +287,38 @@ void PlacePoints(
     });
 }
 
+/// Calls visit(number) for every stretch of a mesh edge, between two of its cut points, that bounds
+/// piece k of a block. A stretch is numbered by its end nearer to the edge's lower end.
+template<class Visit>
+void ForMeshEdges(const ClipBlock& block, std::size_t k, std::size_t firstCorner,
+  const std::vector<std::array<Id, 3>>& triangles, const MeshEdges& edges,
+  const std::vector<Id>& pointClass, Id numberOfPoints, const Visit& visit)
+{
+  const Id t = block.triangle[k];
+  for (int i = 0; i < block.size[k]; ++i)
+  {
+    const int tag = block.tag[firstCorner + i];
+    if (tag >= PlaneTag)
+    {
+      continue;
+    }
+    const Id e = edges.ofTriangle[t][tag];
+    if (edges.ends[e][0] == edges.ends[e][1])
+    {
+      continue;
+    }
+    const bool forward = pointClass[triangles[t][tag]] == edges.ends[e][0];
+    const int near = forward ? i : (i + 1 == block.size[k] ? 0 : i + 1);
+    const Id id = block.corner[firstCorner + near];
+    visit(edges.cutBegin[e] + e +
+          (id < numberOfPoints ? 0 : 1 + id - numberOfPoints - edges.cutBegin[e]));
+  }
+}
+
 std::vector<PieceLink> CollectLinks(const std::vector<ClipBlock>& blocks,
-  const BlockOffsets& offsets, const std::vector<Id>& place, const ClippedMesh& clipped,
-  Id numberOfPortions, int threads)
+  const BlockOffsets& offsets, const std::vector<Id>& place,
+  const std::vector<std::array<Id, 3>>& triangles, const MeshEdges& edges,
+  const std::vector<Id>& pointClass, const ClippedMesh& clipped, int threads)
 {
   std::vector<PieceLink> links(offsets.link.back());
   ParallelBlocks(static_cast<Id>(blocks.size()), threads,
@@ -303,17 +332,19 @@ std::vector<PieceLink> CollectLinks(const std::vector<ClipBlock>& blocks,
         links[offsets.link[b] + k] = { std::min(first, second), std::max(first, second) };
       }
     });
-  std::vector<std::vector<EdgeUse>> uses(blocks.size());
-  ParallelBlocks(static_cast<Id>(blocks.size()), threads,
-    [&](Id b)
+  const Id inputs = clipped.numberOfInputPoints;
+  const auto forUses = [&](Id b, const auto& visit)
+  {
+    std::size_t corner = 0;
+    for (std::size_t k = 0; k < blocks[b].key.size(); ++k)
     {
-      uses[b].reserve(blocks[b].edgeUses.size());
-      for (const auto& use : blocks[b].edgeUses)
-      {
-        uses[b].push_back({ use.portion, place[offsets.piece[b] + use.piece] });
-      }
-    });
-  LinkByEdges(uses, numberOfPortions, clipped.pieceCell, threads, links);
+      ForMeshEdges(blocks[b], k, corner, triangles, edges, pointClass, inputs,
+        [&](Id stretch) { visit(stretch, place[offsets.piece[b] + static_cast<Id>(k)]); });
+      corner += blocks[b].size[k];
+    }
+  };
+  LinkByEdges(static_cast<Id>(blocks.size()), forUses,
+    edges.NumberOfCuts() + static_cast<Id>(edges.ends.size()), clipped.pieceCell, threads, links);
   return links;
 }
 
@@ -379,8 +410,8 @@ ClippedMesh Clip(const TriangleMesh& mesh, const ClipOptions& options, const Pro
     CollectCutPoints(mesh, edges, pointClass, snapped, blocks, offsets, threads), threads, clipped);
   PlacePoints(mesh, std::move(inputPosition), threads, clipped);
   progress.Check(0.9);
-  clipped.links = CollectLinks(blocks, offsets, place, clipped,
-    edges.NumberOfCuts() + static_cast<Id>(edges.ends.size()), threads);
+  clipped.links =
+    CollectLinks(blocks, offsets, place, mesh.triangles, edges, pointClass, clipped, threads);
   progress.Check(1.0);
   return clipped;
 }

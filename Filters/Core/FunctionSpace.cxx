@@ -161,18 +161,18 @@ std::vector<PieceLink> FindLinks(
                                 : a.piece < b.piece;
     });
   progress.Check(0.7);
-  std::vector<std::vector<EdgeUse>> uses(1);
-  uses[0].reserve(pieceEdges.size());
+  std::vector<EdgeUse> uses;
+  uses.reserve(pieceEdges.size());
   Id edge = -1;
   for (std::size_t k = 0; k < pieceEdges.size(); ++k)
   {
     const bool same = k > 0 && pieceEdges[k].low == pieceEdges[k - 1].low &&
                       pieceEdges[k].high == pieceEdges[k - 1].high;
     edge += same ? 0 : 1;
-    uses[0].push_back({ edge, pieceEdges[k].piece });
+    uses.push_back({ edge, pieceEdges[k].piece });
   }
   std::vector<PieceLink> links;
-  LinkByEdges(uses, edge + 1, clipped.pieceCell, 1, links);
+  LinkStars(uses, clipped.pieceCell, links);
   progress.Check(1.0);
   return links;
 }

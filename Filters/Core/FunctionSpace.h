@@ -40,9 +40,9 @@ FunctionSpace BuildFunctionSpace(
 FunctionSpace BuildFunctionSpace(
   ClippedMesh clipped, FunctionSupport support, int threads = 0, const Progress& progress = {});
 
-/// The same from stored tables: patches and functions are taken as they are. `clipped.links` must be
-/// filled (FindLinks finds them in a mesh that was read from a file), `finest.cell` and `finest.dof`
-/// too. Throws InvalidInput when the tables do not fit together.
+/// The same from stored tables: patches and functions are taken as they are. `clipped.links` must
+/// be filled (FindLinks finds them in a mesh that was read from a file), `finest.cell` and
+/// `finest.dof` too. Throws InvalidInput when the tables do not fit together.
 FunctionSpace RestoreFunctionSpace(ClippedMesh clipped, std::vector<Id> piecePatch, Level finest,
   FunctionSupport support, const Progress& progress = {});
 

@@ -1,9 +1,10 @@
-#include "Errors.h"
+#include "Grouping.h"
 #include "Level.h"
 #include "Parallel.h"
 #include "UnionFind.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace gridfem
 {
@@ -156,10 +157,30 @@ std::vector<PatchLink> LinksOfPatches(
 
 void SortUnique(std::vector<PatchLink>& links)
 {
-  std::sort(links.begin(), links.end(),
-    [](const PatchLink& a, const PatchLink& b)
-    { return a.first != b.first ? a.first < b.first : a.second < b.second; });
-  links.erase(std::unique(links.begin(), links.end()), links.end());
+  const Id patches = std::accumulate(links.begin(), links.end(), Id{ 0 },
+    [](Id most, const PatchLink& link) { return std::max(most, link.first + 1); });
+  std::vector<Id> group(links.size());
+  std::transform(
+    links.begin(), links.end(), group.begin(), [](const PatchLink& link) { return link.first; });
+  const Groups byFirst = GroupItems(group, patches);
+  std::vector<PatchLink> sorted;
+  sorted.reserve(links.size());
+  std::vector<Id> seconds;
+  for (Id first = 0; first < patches; ++first)
+  {
+    seconds.clear();
+    for (Id k = byFirst.begin[first]; k < byFirst.begin[first + 1]; ++k)
+    {
+      seconds.push_back(links[byFirst.item[k]].second);
+    }
+    std::sort(seconds.begin(), seconds.end());
+    seconds.erase(std::unique(seconds.begin(), seconds.end()), seconds.end());
+    for (const Id second : seconds)
+    {
+      sorted.push_back({ first, second });
+    }
+  }
+  links = std::move(sorted);
 }
 
 } // namespace gridfem

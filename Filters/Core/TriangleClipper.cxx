@@ -261,8 +261,8 @@ void TriangleClipper::Emit(const Polygon& polygon, ClipBlock& block)
   for (int i = 0; i < polygon.size; ++i)
   {
     block.corner.push_back(polygon.vertex[i].id);
+    block.tag.push_back(static_cast<std::uint8_t>(polygon.vertex[i].tag));
   }
-  this->AddEdgeUses(polygon, piece, block);
   if (&polygon != &start_)
   {
     pieces_.push_back({ cell, piece, static_cast<int>(corners_.size()), polygon.size });
@@ -271,29 +271,6 @@ void TriangleClipper::Emit(const Polygon& polygon, ClipBlock& block)
       const Vertex& v = polygon.vertex[i];
       corners_.push_back({ v.id, v.tag, v.position });
     }
-  }
-}
-
-void TriangleClipper::AddEdgeUses(const Polygon& polygon, Id piece, ClipBlock& block) const
-{
-  const Id numberOfPoints = static_cast<Id>(position_.size());
-  for (int i = 0; i < polygon.size; ++i)
-  {
-    const int tag = polygon.vertex[i].tag;
-    if (tag >= PlaneTag)
-    {
-      continue;
-    }
-    const Id e = edges_.ofTriangle[triangle_][tag];
-    const auto& ends = edges_.ends[e];
-    if (ends[0] == ends[1])
-    {
-      continue;
-    }
-    const bool forward = pointClass_[triangles_[triangle_][tag]] == ends[0];
-    const Id first = polygon.vertex[forward ? i : (i + 1) % polygon.size].id;
-    const Id cut = first < numberOfPoints ? 0 : 1 + first - numberOfPoints - edges_.cutBegin[e];
-    block.edgeUses.push_back({ edges_.cutBegin[e] + e + cut, piece });
   }
 }
 

@@ -17,19 +17,17 @@ namespace gridfem
 /// k.
 struct ClipBlock
 {
-  struct EdgeUse
-  {
-    Id portion; // a stretch of a mesh edge between two of its cut points
-    Id piece;
-  };
   std::vector<MortonKey> key;
   std::vector<Id> triangle;
   std::vector<int> size; // corners per piece
   std::vector<Id> corner;
+  std::vector<std::uint8_t> tag;  // of the edge from each corner to the next, see PlaneTag
   std::vector<CutPoint> interior; // points where two planes cut a triangle
   std::vector<PieceLink> links;   // pieces of one triangle in neighbouring cells
-  std::vector<EdgeUse> edgeUses;
 };
+
+/// What an edge of a piece lies on: 0, 1, 2 a mesh edge of its triangle, PlaneTag + axis a cut.
+constexpr int PlaneTag = 3;
 
 class TriangleClipper
 {
@@ -43,9 +41,6 @@ public:
   void Clip(Id triangle, ClipBlock& block);
 
 private:
-  /// Edge tags: 0, 1, 2 a mesh edge of the triangle; PlaneTag + axis a cut.
-  static constexpr int PlaneTag = 3;
-
   struct Vertex
   {
     std::array<double, 3> position; // snapped
@@ -97,7 +92,6 @@ private:
   double Snap(double value) const;
   CellIndex CellOf(const Polygon& polygon) const;
   void Emit(const Polygon& polygon, ClipBlock& block);
-  void AddEdgeUses(const Polygon& polygon, Id piece, ClipBlock& block) const;
   void LinkPieces(ClipBlock& block) const;
   const LocalPiece* FindPiece(const CellIndex& cell) const;
   bool HasEdge(const LocalPiece& piece, Id a, Id b) const;

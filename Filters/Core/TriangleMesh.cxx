@@ -1,9 +1,9 @@
 #include "TriangleMesh.h"
 
 #include "Errors.h"
+#include "RadixSort.h"
 
-#include <algorithm>
-#include <iterator>
+#include <cstring>
 #include <numeric>
 #include <string>
 
@@ -36,16 +36,19 @@ void Validate(const TriangleMesh& mesh)
 namespace
 {
 
-bool LexicographicLess(const Vec3& a, const Vec3& b)
+/// Mixes the bits of the coordinates; equal points give equal values.
+std::uint64_t HashPoint(const Vec3& point)
 {
+  std::uint64_t hash = 0;
   for (int axis = 0; axis < 3; ++axis)
   {
-    if (a[axis] != b[axis])
-    {
-      return a[axis] < b[axis];
-    }
+    const double value = point[axis] + 0.0; // -0 becomes 0
+    std::uint64_t bits;
+    std::memcpy(&bits, &value, sizeof(bits));
+    hash = (hash ^ bits) * 0x9e3779b97f4a7c15u;
+    hash ^= hash >> 32;
   }
-  return false;
+  return hash;
 }
 
 } // namespace
@@ -54,23 +57,35 @@ std::vector<Id> WeldCoincidentPoints(const std::vector<Vec3>& points, const std:
 {
   std::vector<Id> representative(points.size());
   std::iota(representative.begin(), representative.end(), Id{ 0 });
-  std::vector<Id> order;
-  order.reserve(points.size());
-  std::copy_if(representative.begin(), representative.end(), std::back_inserter(order),
-    [&](Id point) { return used.empty() || used[point]; });
-  std::sort(order.begin(), order.end(),
-    [&](Id a, Id b)
-    {
-      if (LexicographicLess(points[a], points[b]))
-      {
-        return true;
-      }
-      return !LexicographicLess(points[b], points[a]) && a < b;
-    });
-  for (std::size_t k = 0; k < order.size(); ++k)
+  std::vector<SortEntry> entries;
+  entries.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
   {
-    const bool same = k > 0 && points[order[k]] == points[order[k - 1]];
-    representative[order[k]] = same ? representative[order[k - 1]] : order[k];
+    if (used.empty() || used[i])
+    {
+      entries.push_back({ HashPoint(points[i]), static_cast<Id>(i) });
+    }
+  }
+  // Equal points have equal hashes, so they are neighbours after sorting by any part of the hash;
+  // the few others beside them are told apart by their coordinates.
+  constexpr int HashBits = 33;
+  constexpr std::uint64_t Mask = (std::uint64_t{ 1 } << HashBits) - 1;
+  RadixSort(entries, HashBits);
+  std::size_t begin = 0;
+  for (std::size_t k = 0; k < entries.size(); ++k)
+  {
+    if ((entries[k].key & Mask) != (entries[begin].key & Mask))
+    {
+      begin = k;
+    }
+    for (std::size_t other = begin; other < k; ++other)
+    {
+      if (points[entries[other].item] == points[entries[k].item])
+      {
+        representative[entries[k].item] = representative[entries[other].item];
+        break;
+      }
+    }
   }
   return representative;
 }
