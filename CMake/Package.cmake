@@ -1,0 +1,33 @@
+# find_package(GridFEM), from the build tree and installed, and the Debian package.
+
+include(CMakePackageConfigHelpers)
+configure_package_config_file(${PROJECT_SOURCE_DIR}/CMake/GridFEMConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/${GRIDFEM_CMAKE_DESTINATION}/GridFEMConfig.cmake
+  INSTALL_DESTINATION ${GRIDFEM_CMAKE_DESTINATION})
+write_basic_package_version_file(
+  ${PROJECT_BINARY_DIR}/${GRIDFEM_CMAKE_DESTINATION}/GridFEMConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES
+  ${PROJECT_BINARY_DIR}/${GRIDFEM_CMAKE_DESTINATION}/GridFEMConfig.cmake
+  ${PROJECT_BINARY_DIR}/${GRIDFEM_CMAKE_DESTINATION}/GridFEMConfigVersion.cmake
+  DESTINATION ${GRIDFEM_CMAKE_DESTINATION})
+
+install(EXPORT GridFEMCore
+  NAMESPACE GridFEM::
+  FILE GridFEMCore-targets.cmake
+  DESTINATION ${GRIDFEM_CMAKE_DESTINATION})
+export(EXPORT GridFEMCore
+  NAMESPACE GridFEM::
+  FILE ${PROJECT_BINARY_DIR}/${GRIDFEM_CMAKE_DESTINATION}/GridFEMCore-targets.cmake)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME gridfem)
+set(CPACK_PACKAGE_VENDOR "GridFEM developers")
+set(CPACK_PACKAGE_CONTACT "GridFEM developers <gridfem@example.org>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Laplace-Beltrami problems on triangle meshes for ParaView")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON) # pins the ParaView that the plugin was built for
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
+include(CPack)

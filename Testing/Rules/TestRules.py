@@ -1,0 +1,195 @@
+"""Rules of the source text that no compiler checks.
+
+    python3 TestRules.py [GROUP...]
+
+Exit code 77 when nothing could be checked.
+"""
+
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+FOLDERS = ("Filters", "Plugin", "Testing", "Examples", "CMake")
+SOURCE_SUFFIXES = (".h", ".cxx")
+
+# The layers of Core from the bottom up. A file may include its own layer and the ones below; so the
+# solvers, which see matrices and lists of unknowns only, cannot reach a mesh.
+CORE_LAYERS = {
+    "foundation": "Types Errors Progress Parallel UnionFind RadixSort Grouping",
+    "algebra": "SparseMatrix RowKernels PivotedCholesky BlockSweep Smoother GaussSeidel"
+               " PatchSmoother CoarseSolver Multigrid ConjugateGradients RayleighRitz"
+               " BlockIteration",
+    "grid and clip": "TriangleMesh MeshEdges Grid SourceTriangle TriangleClipper Clip Links"
+                     " MemoryEstimate",
+    "patches and levels": "Level Patches FunctionSpace PatchOrdering",
+    "integrals": "QuadratureRule TrilinearBasis PieceSamples ElementMatrices LoadVector Evaluation"
+                 " Assembly",
+    "hierarchy": "System",
+    "problems": "Poisson Spectrum",
+}
+
+
+def sources(folder, suffixes=SOURCE_SUFFIXES):
+    return sorted(p for p in (ROOT / folder).rglob("*") if p.suffix in suffixes and p.is_file())
+
+
+def relative(path):
+    return str(path.relative_to(ROOT))
+
+
+def included(path):
+    """Names in the include lines of a file, as they stand there."""
+    return re.findall(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', path.read_text(), re.MULTILINE)
+
+
+def without_comments(text):
+    text = re.sub(r"/\*.*?\*/", " ", text, flags=re.DOTALL)
+    text = re.sub(r'"(?:\\.|[^"\\\n])*"', '""', text)
+    return re.sub(r"//[^\n]*", " ", text)
+
+
+def core_headers():
+    return {p.stem: p for p in (ROOT / "Filters/Core").glob("*.h")}
+
+
+def reachable(path):
+    """Core headers that a file includes, directly or through others."""
+    headers = core_headers()
+    found, waiting = set(), [path]
+    while waiting:
+        for name in included(waiting.pop()):
+            stem = pathlib.PurePath(name).stem
+            if stem in headers and stem not in found:
+                found.add(stem)
+                waiting.append(headers[stem])
+    return found
+
+
+class Rule(unittest.TestCase):
+    def assertNothing(self, offences, rule):
+        self.assertFalse(offences, rule + "\n  " + "\n  ".join(offences))
+
+
+class Layers(Rule):
+    def test_core_knows_no_vtk(self):
+        offences = [f"{relative(p)} includes {name}" for p in sources("Filters/Core")
+                    for name in included(p) if name.startswith("vtk")]
+        self.assertNothing(offences, "Core includes no VTK header.")
+
+    def test_public_vtk_headers_hide_core(self):
+        core = {p.name for p in core_headers().values()}
+        offences = [f"{relative(p)} includes {name}" for p in (ROOT / "Filters/VTK").glob("*.h")
+                    for name in included(p)
+                    if name in core or name.startswith(("Eigen", "omp", "Private"))]
+        self.assertNothing(offences, "The headers of the filters include no Core header.")
+
+    def test_core_includes_go_one_way(self):
+        rank = {name: i for i, names in enumerate(CORE_LAYERS.values()) for name in names.split()}
+        offences = []
+        for path in sources("Filters/Core"):
+            if path.stem not in rank:
+                offences.append(f"{relative(path)} has no layer yet: name it in CORE_LAYERS")
+                continue
+            offences += [f"{relative(path)} reaches {below}.h" for below in sorted(reachable(path))
+                         if rank.get(below, 0) > rank[path.stem]]
+        self.assertNothing(offences, "Files of Core include only their own layer and those below.")
+
+
+class Core(Rule):
+    FORBIDDEN = re.compile(
+        r"std::(?:cout|cerr|clog|terminate|exit|abort|quick_exit)\b|#\s*include\s*<iostream>"
+        r"|(?<![\w.>])f?(?:printf|puts)\s*\(|(?<![\w:.>])(?:exit|abort|_Exit)\s*\(")
+
+    def test_core_neither_prints_nor_ends_the_program(self):
+        offences = [f"{relative(p)}: {match.group().strip()}" for p in sources("Filters/Core")
+                    for match in self.FORBIDDEN.finditer(without_comments(p.read_text()))]
+        self.assertNothing(offences, "Core returns or throws; it never prints, exits or aborts.")
+
+
+class Text(Rule):
+    OPEN_ENDS = re.compile(r"\b(?:TO" r"DO|FIX" r"ME|X" r"XX|HA" r"CK)\b")
+    MACHINE_PATHS = re.compile(r"(?<![\w.$}\]/])/(?:work|tmp|home|root)/")
+
+    def find(self, pattern):
+        suffixes = SOURCE_SUFFIXES + (".py", ".sh", ".txt", ".cmake", ".in", ".xml", ".md")
+        return [f"{relative(p)}:{number}: {line.strip()}"
+                for folder in FOLDERS for p in sources(folder, suffixes)
+                for number, line in enumerate(p.read_text().splitlines(), 1)
+                if pattern.search(line)]
+
+    def test_nothing_is_left_open(self):
+        self.assertNothing(self.find(self.OPEN_ENDS), "What is left to do is an issue, not a comment.")
+
+    def test_no_paths_of_one_machine(self):
+        paths = [line for line in self.find(self.MACHINE_PATHS) if "TestRules.py" not in line]
+        self.assertNothing(paths, "The sources name no folder of somebody's machine.")
+
+
+class Format(Rule):
+    def test_sources_are_formatted(self):
+        program = shutil.which("clang-format-14") or shutil.which("clang-format")
+        if not program:
+            self.skipTest("clang-format is not installed")
+        version = subprocess.run([program, "--version"], capture_output=True, text=True).stdout
+        if not re.search(r"version 14\.", version):
+            self.skipTest("the format is that of clang-format 14, here is " + version.strip())
+        offences = []
+        for path in (p for folder in FOLDERS for p in sources(folder)):
+            formatted = subprocess.run([program, "--style=file", str(path)],
+                                       capture_output=True, text=True, check=True).stdout
+            if formatted != path.read_text():
+                offences.append(relative(path))
+        self.assertNothing(offences, "Run clang-format -i on:")
+
+
+class Tests(Rule):
+    def test_every_test_file_is_registered(self):
+        """Test files are found by their names, so each needs the right name and folder."""
+        offences = [relative(p) for p in sources("Testing", (".cxx",))
+                    if re.search(r"\bTEST(?:_F|_P)?\s*\(", p.read_text())
+                    and not (p.name.startswith("Test") and p.parent.name in ("Core", "VTK"))]
+        offences += [relative(p) for p in sources("Testing/Plugin", (".py", ".sh"))
+                     if not p.name.startswith("Test") and not self.is_used(p)]
+        self.assertNothing(offences, "These are not found by the build (Test<Concept>.cxx):")
+
+    def is_used(self, module):
+        """Whether another file of the folder imports or runs this one."""
+        return any(re.search(rf"\b{module.stem}\b", other.read_text())
+                   for other in sources("Testing/Plugin", (".py", ".sh", ".txt"))
+                   if other != module)
+
+    def test_every_plugin_file_is_built(self):
+        listed = (ROOT / "Plugin/CMakeLists.txt").read_text()
+        offences = [relative(p) for p in (ROOT / "Plugin").glob("*.xml") if p.name not in listed]
+        self.assertNothing(offences, "Plugin/CMakeLists.txt does not name:")
+
+
+class Readme(Rule):
+    def test_both_commands_are_named(self):
+        text = (ROOT / "README.md").read_text()
+        offences = [c for c in ("./Examples/run.sh", "./Testing/run.sh") if c not in text]
+        self.assertNothing(offences, "README.md does not name:")
+
+    def test_linked_files_exist(self):
+        offences = []
+        for page in ROOT.glob("*.md"):
+            for target in re.findall(r"\]\(([^)#\s]+)[^)]*\)", page.read_text()):
+                if "://" not in target and not (ROOT / target).exists():
+                    offences.append(f"{page.name} links to {target}")
+        self.assertNothing(offences, "A link leads nowhere.")
+
+
+def main():
+    program = unittest.main(argv=sys.argv, exit=False, verbosity=2)
+    result = program.result
+    if not result.wasSuccessful():
+        return 1
+    return 77 if result.testsRun == len(result.skipped) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

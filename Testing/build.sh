@@ -1,0 +1,87 @@
+# shellcheck shell=bash disable=SC2034
+# Sourced by the run scripts: installs what is missing, configures and builds.
+# Gives SOURCE and BUILD (the two folders), Say, InstallMissing and BuildTree.
+
+SOURCE="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+BUILD="$SOURCE/build"
+JOBS="${GRIDFEM_JOBS:-$(nproc)}"
+
+BUILD_PACKAGES=(cmake ninja-build g++ paraview paraview-dev python3-paraview libopenmpi-dev
+  libeigen3-dev python3-dev libcli11-dev libgtest-dev xvfb xauth)
+TEST_PACKAGES=(clang-format)
+BENCHMARK_PACKAGES=(libbenchmark-dev)
+PEER_PACKAGES=(libsuitesparse-dev libopenblas-dev libhypre-dev libpetsc-real-dev slepc-dev
+  libspectra-dev)
+
+Say() { printf '%s\n' "-- $*" >&2; }
+
+# Runs a command with its output kept in a file; shows the end of that only when the command fails.
+Quietly()
+{
+  local log="$1"
+  shift
+  if ! "$@" > "$log" 2>&1 < /dev/null; then
+    tail -n 60 "$log" >&2
+    Say "That did not work: $* (all of its output: $log)"
+    return 1
+  fi
+}
+
+IsInstalled()
+{
+  [ "$(dpkg-query -W -f='${Status}' "$1" 2> /dev/null)" = "install ok installed" ]
+}
+
+# Installs those of the given Debian packages that are missing.
+InstallMissing()
+{
+  if ! command -v dpkg-query > /dev/null || ! command -v apt-get > /dev/null; then
+    Say "This is not Debian or Ubuntu. Needed are what these packages hold there: $*"
+    return
+  fi
+  local missing=() package
+  for package in "$@"; do
+    IsInstalled "$package" || missing+=("$package")
+  done
+  [ ${#missing[@]} -gt 0 ] || return 0
+
+  local root=()
+  if [ "$(id -u)" -ne 0 ]; then
+    if ! command -v sudo > /dev/null; then
+      Say "Install these as root, then run this again: ${missing[*]}"
+      return 1
+    fi
+    root=(sudo)
+  fi
+  mkdir -p "$BUILD"
+  Say "Installing ${missing[*]}"
+  [ ${#root[@]} -eq 0 ] || sudo -v
+  Quietly "$BUILD/install.log" "${root[@]}" apt-get update
+  Quietly "$BUILD/install.log" "${root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y --no-install-recommends "${missing[@]}"
+}
+
+# Configures when options differ from the last time, then builds what has changed.
+# Usage: BuildTree TARGET [-DOPTION=VALUE...]
+BuildTree()
+{
+  local target="$1"
+  shift
+  local options=(-DCMAKE_BUILD_TYPE=Release "$@") werror=OFF
+  [ "${CI:-}" != "true" ] || werror=ON
+  options+=("-DGRIDFEM_WERROR=$werror")
+  mkdir -p "$BUILD"
+  if [ ! -f "$BUILD/build.ninja" ] ||
+    [ "${options[*]}" != "$(cat "$BUILD/options" 2> /dev/null)" ]; then
+    Say "Configuring"
+    Quietly "$BUILD/configure.log" cmake -S "$SOURCE" -B "$BUILD" -G Ninja "${options[@]}"
+    printf '%s\n' "${options[*]}" > "$BUILD/options"
+  fi
+  Say "Building"
+  # Ninja's own status line on a terminal; in a log only what goes wrong.
+  if [ -t 2 ]; then
+    cmake --build "$BUILD" --target "$target" -j "$JOBS" >&2
+  else
+    Quietly "$BUILD/build.log" cmake --build "$BUILD" --target "$target" -j "$JOBS"
+  fi
+}
