@@ -29,7 +29,10 @@
 
 #include <memory> // for std::unique_ptr
 
+namespace gridfem
+{
 class SurfaceSolverState;
+}
 
 class VTKGRIDFEMFILTERS_EXPORT vtkSurfaceFEMAlgorithm : public vtkPolyDataAlgorithm
 {
@@ -175,8 +178,8 @@ protected:
   /**
    * Applies the failure rule around Compute.
    */
-  int RequestData(vtkInformation* request, vtkInformationVector** inputs,
-    vtkInformationVector* outputs) final;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) final;
 
   /**
    * What the filter does with a non-empty input. Throws on unusable input and on abort.
@@ -194,7 +197,7 @@ protected:
   int NumberOfThreads = 0;
   int ParameterUnits = UnitArea;
 
-  std::unique_ptr<SurfaceSolverState> State;
+  std::unique_ptr<gridfem::SurfaceSolverState> State;
 
 private:
   vtkSurfaceFEMAlgorithm(const vtkSurfaceFEMAlgorithm&) = delete;

@@ -1,0 +1,231 @@
+#include "BasisConversion.h"
+
+#include "Errors.h"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace gridfem
+{
+namespace
+{
+
+/// Points agree when they differ by less than this part of a cell: covers the rounding of points
+/// that were stored in single precision, as long as a cell can be told from its neighbour.
+constexpr double SamePoint = 1e-3;
+
+[[noreturn]] void RefuseForeignBasis(const std::string& reason)
+{
+  throw InvalidInput(
+    "The basis was made from another mesh: " + reason +
+    " Connect the mesh that went into the basis filter, or the output of the basis filter itself.");
+}
+
+/// Corners of the clipped triangles: the fan of every piece.
+TriangleMesh FanTriangles(const ClippedMesh& clipped)
+{
+  TriangleMesh mesh;
+  mesh.points.reserve(clipped.position.size());
+  for (const Vec3& position : clipped.position)
+  {
+    mesh.points.push_back(clipped.grid.ToWorld(position));
+  }
+  mesh.triangles.reserve(clipped.NumberOfTriangles());
+  for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
+  {
+    const Id first = clipped.pieceBegin[piece];
+    for (Id k = first + 1; k + 1 < clipped.pieceBegin[piece + 1]; ++k)
+    {
+      mesh.triangles.push_back(
+        { clipped.corners[first], clipped.corners[k], clipped.corners[k + 1] });
+    }
+  }
+  return mesh;
+}
+
+/// Replaces the pieces by clipped triangles.
+void SplitPieces(const TriangleMesh& mesh, FunctionSpace& space)
+{
+  ClippedMesh& clipped = space.clipped;
+  const Id count = static_cast<Id>(mesh.triangles.size());
+  std::vector<Id> cell;
+  std::vector<Id> patch;
+  cell.reserve(count);
+  patch.reserve(count);
+  for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
+  {
+    const Id triangles = clipped.pieceBegin[piece + 1] - clipped.pieceBegin[piece] - 2;
+    cell.insert(cell.end(), triangles, clipped.pieceCell[piece]);
+    patch.insert(patch.end(), triangles, space.piecePatch[piece]);
+  }
+  clipped.pieceCell = std::move(cell);
+  space.piecePatch = std::move(patch);
+  clipped.pieceTriangle.resize(count);
+  clipped.pieceBegin.resize(count + 1);
+  clipped.corners.resize(3 * count);
+  for (Id t = 0; t < count; ++t)
+  {
+    clipped.pieceTriangle[t] = t;
+    clipped.pieceBegin[t + 1] = 3 * (t + 1);
+    std::copy(mesh.triangles[t].begin(), mesh.triangles[t].end(), &clipped.corners[3 * t]);
+  }
+  clipped.pieceBegin[0] = 0;
+  clipped.links.clear(); // the levels are built already
+}
+
+void FindPointPatches(FunctionSpace& space)
+{
+  const ClippedMesh& clipped = space.clipped;
+  space.pointPatch.assign(clipped.numberOfInputPoints, -1);
+  for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
+  {
+    for (Id k = clipped.pieceBegin[piece]; k < clipped.pieceBegin[piece + 1]; ++k)
+    {
+      const Id point = clipped.corners[k];
+      if (point >= clipped.numberOfInputPoints)
+      {
+        continue;
+      }
+      Id& patch = space.pointPatch[point];
+      patch = patch < 0 ? space.piecePatch[piece] : std::min(patch, space.piecePatch[piece]);
+    }
+  }
+}
+
+/// Barycentric coordinates of the point of the triangle's plane nearest to `position`; the centroid
+/// for a triangle without area.
+std::array<double, 3> Barycentric(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& position)
+{
+  const Vec3 normal = (b - a).cross(c - a);
+  const double square = normal.squaredNorm();
+  if (!(square > 0.0))
+  {
+    return { 1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0 };
+  }
+  const double wb = (position - a).cross(c - a).dot(normal) / square;
+  const double wc = (b - a).cross(position - a).dot(normal) / square;
+  return { 1.0 - wb - wc, wb, wc };
+}
+
+std::array<double, 3> WeightsIn(
+  const TriangleMesh& mesh, const Grid& grid, Id triangle, const Vec3& position)
+{
+  const auto& corner = mesh.triangles[triangle];
+  return Barycentric(grid.ToGrid(mesh.points[corner[0]]), grid.ToGrid(mesh.points[corner[1]]),
+    grid.ToGrid(mesh.points[corner[2]]), position);
+}
+
+/// Of the triangles of a source cell the one that contains the piece's centre best.
+Id FindSourceTriangle(
+  const ClippedMesh& clipped, Id piece, std::pair<Id, Id> candidates, const TriangleMesh& source)
+{
+  if (candidates.second - candidates.first == 1)
+  {
+    return candidates.first;
+  }
+  const Id* corner = &clipped.corners[clipped.pieceBegin[piece]];
+  const Vec3 centre =
+    (clipped.position[corner[0]] + clipped.position[corner[1]] + clipped.position[corner[2]]) / 3.0;
+  Id best = candidates.first;
+  double bestInside = -std::numeric_limits<double>::infinity();
+  for (Id triangle = candidates.first; triangle < candidates.second; ++triangle)
+  {
+    const auto weight = WeightsIn(source, clipped.grid, triangle, centre);
+    const double inside = std::min({ weight[0], weight[1], weight[2] });
+    if (inside > bestInside)
+    {
+      bestInside = inside;
+      best = triangle;
+    }
+  }
+  return best;
+}
+
+void RequireSamePoints(const ClippedMesh& clipped, const TriangleMesh& source)
+{
+  if (clipped.position.size() < source.points.size())
+  {
+    RefuseForeignBasis("it has " + std::to_string(clipped.position.size()) +
+                       " points, this mesh has " + std::to_string(source.points.size()) + ".");
+  }
+  const std::vector<char> used = UsedPoints(source);
+  for (std::size_t point = 0; point < source.points.size(); ++point)
+  {
+    const Vec3 difference = clipped.grid.ToGrid(source.points[point]) - clipped.position[point];
+    if (used[point] && !(difference.cwiseAbs().maxCoeff() <= SamePoint))
+    {
+      RefuseForeignBasis("point " + std::to_string(point) + " is elsewhere.");
+    }
+  }
+}
+
+void RequireSameArea(const TriangleMesh& clipped, const TriangleMesh& source)
+{
+  const double clippedArea = SurfaceArea(clipped);
+  const double sourceArea = SurfaceArea(source);
+  // Cut points in single precision move areas by far less.
+  if (!(std::abs(clippedArea - sourceArea) <= 1e-3 * sourceArea))
+  {
+    RefuseForeignBasis("its surface has area " + std::to_string(clippedArea) +
+                       ", this mesh has area " + std::to_string(sourceArea) + ".");
+  }
+}
+
+} // namespace
+
+SurfaceBasis OnClippedMesh(const SurfaceBasis& basis)
+{
+  FunctionSpace space = *basis.space;
+  auto mesh = std::make_shared<TriangleMesh>(FanTriangles(space.clipped));
+  SplitPieces(*mesh, space);
+  space.clipped.numberOfInputPoints = static_cast<Id>(mesh->points.size());
+  space.clipped.cutPoints.clear();
+  FindPointPatches(space);
+
+  SurfaceBasis result = MakeSurfaceBasis(std::move(mesh), std::move(space));
+  result.systems = basis.systems;
+  return result;
+}
+
+SurfaceBasis OnSourceMesh(
+  const SurfaceBasis& basis, const std::vector<Id>& sourceCell, const InputMesh& source)
+{
+  RequireSamePoints(basis.space->clipped, *source.triangles);
+  RequireSameArea(*basis.mesh, *source.triangles);
+
+  FunctionSpace space = *basis.space;
+  ClippedMesh& clipped = space.clipped;
+  const Id inputPoints = static_cast<Id>(source.triangles->points.size());
+  clipped.numberOfInputPoints = inputPoints;
+  clipped.cutPoints.assign(clipped.position.size() - inputPoints, { -1, { 0.0, 0.0, 0.0 } });
+  for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
+  {
+    const Id cell = sourceCell[clipped.pieceTriangle[piece]];
+    const auto candidates = TrianglesOfCell(source, cell);
+    if (candidates.first == candidates.second)
+    {
+      RefuseForeignBasis(
+        "it refers to cell " + std::to_string(cell) + ", which is no polygon here.");
+    }
+    const Id triangle = FindSourceTriangle(clipped, piece, candidates, *source.triangles);
+    clipped.pieceTriangle[piece] = triangle;
+    for (Id k = clipped.pieceBegin[piece]; k < clipped.pieceBegin[piece + 1]; ++k)
+    {
+      const Id cut = clipped.corners[k] - inputPoints;
+      if (cut >= 0 && clipped.cutPoints[cut].triangle < 0)
+      {
+        clipped.cutPoints[cut] = { triangle, WeightsIn(*source.triangles, clipped.grid, triangle,
+                                               clipped.position[cut + inputPoints]) };
+      }
+    }
+  }
+  FindPointPatches(space);
+  SurfaceBasis result = MakeSurfaceBasis(source.triangles, std::move(space));
+  result.systems = basis.systems;
+  return result;
+}
+
+} // namespace gridfem

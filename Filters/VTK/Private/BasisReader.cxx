@@ -1,0 +1,295 @@
+#include "BasisReader.h"
+
+#include "BasisConversion.h"
+#include "Errors.h"
+#include "vtkSurfaceBasisHolder.h"
+
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkFieldData.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+
+namespace gridfem
+{
+namespace
+{
+
+/// How far, in cells, a point may lie outside its cell: what single precision does to cut points of
+/// a deep octree far from the origin.
+constexpr double OutsideCell = 0.05;
+
+vtkDataArray* RequireArray(vtkFieldData* fields, const char* name, int components, Id tuples)
+{
+  vtkDataArray* array = fields->GetArray(name);
+  if (!array)
+  {
+    throw InvalidInput("Array '" + std::string(name) +
+                       "' is missing. Run the basis filter again instead of editing its output.");
+  }
+  if (array->GetNumberOfComponents() != components ||
+      (tuples >= 0 && array->GetNumberOfTuples() != tuples))
+  {
+    throw InvalidInput("Array '" + std::string(name) + "' has " +
+                       std::to_string(array->GetNumberOfTuples()) + " tuples of " +
+                       std::to_string(array->GetNumberOfComponents()) + " components, expected " +
+                       (tuples >= 0 ? std::to_string(tuples) + " tuples of " : std::string()) +
+                       std::to_string(components) + ".");
+  }
+  return array;
+}
+
+Id IntegerIn(vtkDataArray* array, vtkIdType tuple, int component, Id limit)
+{
+  const double value = array->GetComponent(tuple, component); // exact up to 2^53
+  if (!(value >= 0.0 && value < static_cast<double>(limit)))
+  {
+    throw InvalidInput("Array '" + std::string(array->GetName()) + "' has the value " +
+                       std::to_string(value) + " at " + std::to_string(tuple) +
+                       ", allowed are 0 to " + std::to_string(limit - 1) + ".");
+  }
+  return static_cast<Id>(value);
+}
+
+bool FlagOf(vtkPolyData* data, const char* name)
+{
+  vtkDataArray* array = data->GetFieldData()->GetArray(name);
+  return !array || array->GetNumberOfTuples() == 0 || array->GetComponent(0, 0) != 0.0;
+}
+
+Grid ReadGrid(vtkFieldData* fields)
+{
+  Grid grid;
+  vtkDataArray* origin = RequireArray(fields, GridOriginName, 3, 1);
+  grid.origin =
+    Vec3(origin->GetComponent(0, 0), origin->GetComponent(0, 1), origin->GetComponent(0, 2));
+  grid.spacing = RequireArray(fields, GridSpacingName, 1, 1)->GetComponent(0, 0);
+  grid.depth =
+    static_cast<int>(IntegerIn(RequireArray(fields, GridDepthName, 1, 1), 0, 0, MaximumDepth + 1));
+  if (!(grid.spacing > 0.0) || !grid.origin.allFinite() || grid.depth < MinimumDepth)
+  {
+    throw InvalidInput("GridOrigin, GridSpacing or GridDepth is out of range.");
+  }
+  return grid;
+}
+
+std::vector<MortonKey> ReadCells(vtkFieldData* fields, const Grid& grid)
+{
+  vtkDataArray* array = RequireArray(fields, OctreeCellsName, 3, -1);
+  std::vector<MortonKey> cells(array->GetNumberOfTuples());
+  for (std::size_t k = 0; k < cells.size(); ++k)
+  {
+    CellIndex cell;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      cell[axis] = static_cast<int>(IntegerIn(array, k, axis, grid.CellsPerSide()));
+    }
+    cells[k] = MortonEncode(cell);
+    if (k > 0 && cells[k] <= cells[k - 1])
+    {
+      throw InvalidInput(
+        "Array 'OctreeCells' is not in Morton order at " + std::to_string(k) + ".");
+    }
+  }
+  return cells;
+}
+
+/// Cells of the triangles; the triangles sorted by cell become the pieces.
+void ReadPieces(vtkPolyData* data, const InputMesh& mesh, ClippedMesh& clipped)
+{
+  vtkDataArray* octreeCell =
+    RequireArray(data->GetCellData(), OctreeCellIdName, 1, data->GetNumberOfCells());
+  const Id count = static_cast<Id>(mesh.sourceCell.size());
+  std::vector<Id> cell(count);
+  for (Id t = 0; t < count; ++t)
+  {
+    cell[t] = IntegerIn(octreeCell, mesh.sourceCell[t], 0, static_cast<Id>(clipped.cells.size()));
+  }
+  clipped.pieceTriangle.resize(count);
+  std::iota(clipped.pieceTriangle.begin(), clipped.pieceTriangle.end(), Id(0));
+  std::stable_sort(clipped.pieceTriangle.begin(), clipped.pieceTriangle.end(),
+    [&](Id a, Id b) { return cell[a] < cell[b]; });
+  clipped.pieceBegin.push_back(0);
+  for (const Id triangle : clipped.pieceTriangle)
+  {
+    const auto& corners = mesh.triangles->triangles[triangle];
+    clipped.pieceCell.push_back(cell[triangle]);
+    clipped.corners.insert(clipped.corners.end(), corners.begin(), corners.end());
+    clipped.pieceBegin.push_back(static_cast<Id>(clipped.corners.size()));
+  }
+}
+
+void RequireInsideCells(const ClippedMesh& clipped)
+{
+  for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
+  {
+    const CellIndex cell = MortonDecode(clipped.cells[clipped.pieceCell[piece]]);
+    for (Id k = clipped.pieceBegin[piece]; k < clipped.pieceBegin[piece + 1]; ++k)
+    {
+      const Vec3 local = clipped.position[clipped.corners[k]] - Vec3(cell[0], cell[1], cell[2]);
+      if (!(local.minCoeff() >= -OutsideCell && local.maxCoeff() <= 1.0 + OutsideCell))
+      {
+        throw InvalidInput(
+          "Point " + std::to_string(clipped.corners[k]) +
+          " does not lie in its octree cell: the mesh was moved or changed after it was clipped. "
+          "Clip it again.");
+      }
+    }
+  }
+}
+
+/// Whether the points and triangles of the shortcut are those of the data.
+bool Fits(const SurfaceBasis& basis, const InputMesh& mesh)
+{
+  const TriangleMesh& ours = *basis.mesh;
+  const TriangleMesh& theirs = *mesh.triangles;
+  if (ours.points.size() != theirs.points.size() || ours.triangles != theirs.triangles)
+  {
+    return false;
+  }
+  const double spacing = basis.space->GetGrid().spacing;
+  for (std::size_t point = 0; point < ours.points.size(); ++point)
+  {
+    constexpr double rounding = 1.2e-7; // of single precision
+    const Vec3 difference = (ours.points[point] - theirs.points[point]).cwiseAbs();
+    const double allowed = 1e-6 * spacing + rounding * ours.points[point].cwiseAbs().maxCoeff();
+    // Written so that points with NaN, which no triangle uses, are let through.
+    if (difference.maxCoeff() > allowed)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool IsMadeFrom(const SurfaceBasis& basis, const InputMesh& source)
+{
+  return basis.mesh->points == source.triangles->points &&
+         basis.mesh->triangles == source.triangles->triangles;
+}
+
+Level ReadFinestLevel(vtkFieldData* fields, const ClippedMesh& clipped)
+{
+  Level finest;
+  finest.depth = clipped.grid.depth;
+  vtkDataArray* patchCell = RequireArray(fields, PatchCellIdName, 1, -1);
+  const Id patches = patchCell->GetNumberOfTuples();
+  vtkDataArray* basisIds = RequireArray(fields, PatchBasisIdsName, FunctionsPerPatch, patches);
+  constexpr Id functionLimit = Id(1) << 31;
+  finest.numberOfFunctions = static_cast<Index>(
+    IntegerIn(RequireArray(fields, NumberOfBasisFunctionsName, 1, 1), 0, 0, functionLimit));
+  finest.cell.resize(patches);
+  finest.dof.resize(patches);
+  for (Id patch = 0; patch < patches; ++patch)
+  {
+    finest.cell[patch] =
+      clipped.cells[IntegerIn(patchCell, patch, 0, static_cast<Id>(clipped.cells.size()))];
+    for (int corner = 0; corner < FunctionsPerPatch; ++corner)
+    {
+      finest.dof[patch][corner] =
+        static_cast<Index>(IntegerIn(basisIds, patch, corner, finest.numberOfFunctions));
+    }
+  }
+  return finest;
+}
+
+SurfaceBasis RebuildBasis(vtkPolyData* data, const InputMesh& mesh, const Progress& progress)
+{
+  ClippedMesh clipped =
+    ReadClippedMesh(data, mesh, FlagOf(data, WeldCoincidentPointsName), progress.Part(0.0, 0.6));
+  Level finest = ReadFinestLevel(data->GetFieldData(), clipped);
+  vtkDataArray* patchId =
+    RequireArray(data->GetCellData(), PatchIdName, 1, data->GetNumberOfCells());
+  std::vector<Id> piecePatch;
+  piecePatch.reserve(clipped.pieceTriangle.size());
+  for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
+  {
+    const vtkIdType cell = mesh.sourceCell[clipped.pieceTriangle[piece]];
+    piecePatch.push_back(IntegerIn(patchId, cell, 0, finest.NumberOfPatches()));
+    if (finest.cell[piecePatch.back()] != clipped.cells[clipped.pieceCell[piece]])
+    {
+      throw InvalidInput(
+        "The patch of cell " + std::to_string(cell) +
+        " lies in another octree cell: 'PatchId' and 'OctreeCellId' do not fit together.");
+    }
+  }
+  const FunctionSupport support = FlagOf(data, ConnectivityAwareName)
+                                    ? FunctionSupport::ConnectivityAware
+                                    : FunctionSupport::Plain;
+  return MakeSurfaceBasis(
+    mesh.triangles, RestoreFunctionSpace(std::move(clipped), std::move(piecePatch),
+                      std::move(finest), support, progress.Part(0.6, 1.0)));
+}
+
+std::vector<Id> ReadSourceCells(vtkPolyData* data, const InputMesh& mesh)
+{
+  vtkDataArray* array =
+    RequireArray(data->GetCellData(), SourceCellIdName, 1, data->GetNumberOfCells());
+  std::vector<Id> source;
+  source.reserve(mesh.sourceCell.size());
+  for (const Id cell : mesh.sourceCell)
+  {
+    source.push_back(static_cast<Id>(array->GetComponent(cell, 0)));
+  }
+  return source;
+}
+
+} // namespace
+
+ClippedMesh ReadClippedMesh(
+  vtkPolyData* data, const InputMesh& mesh, bool weldCoincidentPoints, const Progress& progress)
+{
+  Validate(*mesh.triangles);
+  ClippedMesh clipped;
+  clipped.grid = ReadGrid(data->GetFieldData());
+  clipped.cells = ReadCells(data->GetFieldData(), clipped.grid);
+  clipped.numberOfInputPoints = static_cast<Id>(mesh.triangles->points.size());
+  clipped.position.reserve(mesh.triangles->points.size());
+  for (const Vec3& point : mesh.triangles->points)
+  {
+    clipped.position.push_back(clipped.grid.ToGrid(point));
+  }
+  progress.Check(0.1);
+  ReadPieces(data, mesh, clipped);
+  RequireInsideCells(clipped);
+  progress.Check(0.4);
+  const std::vector<Id> pointClass =
+    weldCoincidentPoints ? WeldCoincidentPoints(mesh.triangles->points, UsedPoints(*mesh.triangles))
+                         : std::vector<Id>{};
+  clipped.links = FindLinks(clipped, pointClass, progress.Part(0.5, 1.0));
+  return clipped;
+}
+
+SurfaceBasis ReadBasis(vtkPolyData* data, const InputMesh& mesh, const Progress& progress)
+{
+  auto* holder =
+    vtkSurfaceBasisHolder::Find(data->GetFieldData()->GetAbstractArray(PatchBasisIdsName));
+  if (holder)
+  {
+    SurfaceBasis basis = holder->OnClippedMesh();
+    if (Fits(basis, mesh))
+    {
+      return basis;
+    }
+  }
+  return RebuildBasis(data, mesh, progress);
+}
+
+SurfaceBasis ReadBasisFor(vtkPolyData* data, const InputMesh& source, const Progress& progress)
+{
+  auto* holder =
+    vtkSurfaceBasisHolder::Find(data->GetFieldData()->GetAbstractArray(PatchBasisIdsName));
+  if (holder && IsMadeFrom(holder->OnSourceMesh(), source) &&
+      holder->OnSourceMesh().space->clipped.NumberOfTriangles() == data->GetNumberOfPolys())
+  {
+    return holder->OnSourceMesh();
+  }
+  const InputMesh mesh = ReadInputMesh(data, progress.Part(0.0, 0.1));
+  const SurfaceBasis basis = ReadBasis(data, mesh, progress.Part(0.1, 0.9));
+  return OnSourceMesh(basis, ReadSourceCells(data, mesh), source);
+}
+
+} // namespace gridfem

@@ -1,0 +1,177 @@
+#include "InputArray.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkDataObject.h"
+#include "vtkInformation.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+
+#include <cmath>
+
+namespace gridfem
+{
+namespace
+{
+
+std::string ChosenName(vtkInformation* choice)
+{
+  const char* name =
+    choice->Has(vtkDataObject::FIELD_NAME()) ? choice->Get(vtkDataObject::FIELD_NAME()) : nullptr;
+  return name ? name : "";
+}
+
+bool HasArray(vtkPolyData* input, const std::string& name)
+{
+  return input->GetPointData()->HasArray(name.c_str()) ||
+         input->GetCellData()->HasArray(name.c_str());
+}
+
+bool IsChosen(vtkInformation* choice, vtkPolyData* input)
+{
+  if (choice->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
+  {
+    return true;
+  }
+  const std::string name = ChosenName(choice);
+  return !name.empty() && (name != "None" || HasArray(input, name));
+}
+
+std::string ArrayNames(vtkDataSetAttributes* attributes)
+{
+  std::string names;
+  for (int k = 0; k < attributes->GetNumberOfArrays(); ++k)
+  {
+    const char* name = attributes->GetAbstractArray(k)->GetName();
+    names += (names.empty() ? "" : ", ") + std::string(name ? name : "(no name)");
+  }
+  return names.empty() ? "none" : names;
+}
+
+/// The chosen array among one kind of data, or null.
+vtkAbstractArray* FindAmong(vtkDataSetAttributes* attributes, vtkInformation* choice)
+{
+  if (choice->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
+  {
+    return attributes->GetAbstractAttribute(choice->Get(vtkDataObject::FIELD_ATTRIBUTE_TYPE()));
+  }
+  return attributes->GetAbstractArray(ChosenName(choice).c_str());
+}
+
+/// The chosen array, or null; says whether it is point data.
+vtkAbstractArray* FindArray(
+  vtkInformation* choice, vtkPolyData* input, const std::string& property, bool& onPoints)
+{
+  const int association = choice->Get(vtkDataObject::FIELD_ASSOCIATION());
+  const bool both = association == vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS;
+  const bool points = both || association == vtkDataObject::FIELD_ASSOCIATION_POINTS;
+  const bool cells = both || association == vtkDataObject::FIELD_ASSOCIATION_CELLS;
+  if (!points && !cells)
+  {
+    throw InvalidInput(
+      property + " '" + ChosenName(choice) + "' must be a point array or a cell array.");
+  }
+  vtkAbstractArray* found = points ? FindAmong(input->GetPointData(), choice) : nullptr;
+  onPoints = found != nullptr;
+  return found || !cells ? found : FindAmong(input->GetCellData(), choice);
+}
+
+void RequireFound(vtkAbstractArray* found, const InputArray& result, const std::string& property,
+  vtkPolyData* input)
+{
+  const std::string subject = property + " '" + result.name + "'";
+  if (!found)
+  {
+    throw InvalidInput(subject +
+                       " does not exist. Point arrays: " + ArrayNames(input->GetPointData()) +
+                       ". Cell arrays: " + ArrayNames(input->GetCellData()) + ".");
+  }
+  if (!result.array)
+  {
+    throw InvalidInput(subject + " is not numeric.");
+  }
+  const bool onPoints = result.association == FieldAssociation::Points;
+  const vtkIdType expected = onPoints ? input->GetNumberOfPoints() : input->GetNumberOfCells();
+  if (found->GetNumberOfTuples() != expected)
+  {
+    throw InvalidInput(subject + " has " + std::to_string(found->GetNumberOfTuples()) +
+                       " values, but the mesh has " + std::to_string(expected) +
+                       (onPoints ? " points." : " cells."));
+  }
+}
+
+/// Copies a tuple into a row; throws when a value is not finite.
+void CopyTuple(const InputArray& input, vtkIdType tuple, MultiVector& values, Id row)
+{
+  for (int c = 0; c < input.array->GetNumberOfComponents(); ++c)
+  {
+    const double value = input.array->GetComponent(tuple, c);
+    if (!std::isfinite(value))
+    {
+      const bool onPoints = input.association == FieldAssociation::Points;
+      throw InvalidInput("Array '" + input.name + "' has a NaN or infinite value at " +
+                         (onPoints ? "point " : "cell ") + std::to_string(tuple) +
+                         ". Replace such values first, for example with the Calculator.");
+    }
+    values(row, c) = value;
+  }
+}
+
+} // namespace
+
+InputArray FindInputArray(
+  vtkAlgorithm* algorithm, int index, vtkPolyData* input, const std::string& property)
+{
+  InputArray result;
+  vtkInformation* choice = algorithm->GetInputArrayInformation(index);
+  if (!IsChosen(choice, input))
+  {
+    return result;
+  }
+  bool onPoints = false;
+  vtkAbstractArray* found = FindArray(choice, input, property, onPoints);
+  result.array = vtkDataArray::SafeDownCast(found);
+  result.name = found && found->GetName() ? found->GetName() : ChosenName(choice);
+  result.association = onPoints ? FieldAssociation::Points : FieldAssociation::Triangles;
+  RequireFound(found, result, property, input);
+  return result;
+}
+
+Field ReadField(const InputArray& input, const InputMesh& mesh)
+{
+  const TriangleMesh& triangles = *mesh.triangles;
+  Field field;
+  field.association = input.association;
+  const bool onPoints = input.association == FieldAssociation::Points;
+  const Id rows = onPoints ? static_cast<Id>(triangles.points.size())
+                           : static_cast<Id>(triangles.triangles.size());
+  field.values = MultiVector::Zero(rows, input.array->GetNumberOfComponents());
+  const std::vector<char> used = onPoints ? UsedPoints(triangles) : std::vector<char>{};
+  for (Id row = 0; row < rows; ++row)
+  {
+    if (!onPoints || used[row])
+    {
+      CopyTuple(input, onPoints ? row : mesh.sourceCell[row], field.values, row);
+    }
+  }
+  return field;
+}
+
+Field CoordinatesField(const InputMesh& mesh)
+{
+  const TriangleMesh& triangles = *mesh.triangles;
+  const std::vector<char> used = UsedPoints(triangles);
+  Field field;
+  field.values = MultiVector::Zero(static_cast<Id>(triangles.points.size()), 3);
+  for (std::size_t point = 0; point < used.size(); ++point)
+  {
+    if (used[point])
+    {
+      field.values.row(point) = triangles.points[point].transpose();
+    }
+  }
+  return field;
+}
+
+} // namespace gridfem

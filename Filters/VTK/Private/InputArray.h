@@ -1,0 +1,42 @@
+// Arrays chosen by the user as fields that Core integrates.
+#ifndef GridFEM_InputArray_h
+#define GridFEM_InputArray_h
+
+#include "InputMesh.h"
+#include "LoadVector.h"
+
+#include <string>
+
+class vtkAlgorithm;
+class vtkDataArray;
+class vtkPolyData;
+
+namespace gridfem
+{
+
+/// An array of the input; without one, `array` is null.
+struct InputArray
+{
+  vtkDataArray* array = nullptr;
+  FieldAssociation association = FieldAssociation::Points; // Triangles: cell data
+  std::string name;
+};
+
+/// The array that SetInputArrayToProcess(index, ...) names, null array when none is chosen (an
+/// empty name or "None", unless an array has that name). Throws InvalidInput when the chosen array
+/// does not exist, is not numeric, is neither point nor cell data, or has the wrong length;
+/// `property` is the name the message gives.
+InputArray FindInputArray(
+  vtkAlgorithm* algorithm, int index, vtkPolyData* input, const std::string& property);
+
+/// The array's values: rows are points, or triangles for cell data. Throws InvalidInput naming the
+/// first point or cell of the surface with a NaN or infinite value; values that no polygon uses
+/// are taken as 0.
+Field ReadField(const InputArray& input, const InputMesh& mesh);
+
+/// The coordinates as a field with three components; 0 at points that no polygon uses.
+Field CoordinatesField(const InputMesh& mesh);
+
+} // namespace gridfem
+
+#endif

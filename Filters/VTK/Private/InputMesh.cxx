@@ -1,0 +1,212 @@
+#include "InputMesh.h"
+
+#include "vtkCellArray.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkPolygon.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace gridfem
+{
+namespace
+{
+
+constexpr vtkIdType CellsPerReport = 1 << 16;
+
+/// Collects the triangles of one vtkPolyData.
+class TriangleCollector
+{
+public:
+  TriangleCollector(const std::vector<Vec3>& points, InputMesh& mesh, TriangleMesh& triangles)
+    : points_(points), mesh_(mesh), triangles_(triangles)
+  {
+  }
+
+  void AddPolygon(Id cell, vtkIdType size, const vtkIdType* ids)
+  {
+    this->CheckIds(cell, size, ids);
+    if (size == 3)
+    {
+      this->Add(cell, ids[0], ids[1], ids[2]);
+    }
+    else if (size == 4)
+    {
+      this->AddQuad(cell, ids);
+    }
+    else if (size > 4)
+    {
+      this->AddLargePolygon(cell, size, ids);
+    }
+  }
+
+  void AddStrip(Id cell, vtkIdType size, const vtkIdType* ids)
+  {
+    this->CheckIds(cell, size, ids);
+    for (vtkIdType k = 0; k + 2 < size; ++k)
+    {
+      const vtkIdType flip = k & 1; // every second triangle of a strip is turned over
+      this->Add(cell, ids[k], ids[k + 1 + flip], ids[k + 2 - flip]);
+    }
+  }
+
+private:
+  void Add(Id cell, Id a, Id b, Id c)
+  {
+    triangles_.triangles.push_back({ a, b, c });
+    mesh_.sourceCell.push_back(cell);
+  }
+
+  void CheckIds(Id cell, vtkIdType size, const vtkIdType* ids) const
+  {
+    for (vtkIdType k = 0; k < size; ++k)
+    {
+      if (ids[k] < 0 || ids[k] >= static_cast<vtkIdType>(points_.size()))
+      {
+        throw InvalidInput("Cell " + std::to_string(cell) + " uses point " +
+                           std::to_string(ids[k]) + ", but the mesh has " +
+                           std::to_string(points_.size()) + " points. Clean the mesh first.");
+      }
+    }
+  }
+
+  Vec3 Normal(Id a, Id b, Id c) const
+  {
+    return (points_[b] - points_[a]).cross(points_[c] - points_[a]);
+  }
+
+  /// Along the shorter diagonal, unless only the other one lies inside.
+  void AddQuad(Id cell, const vtkIdType* q)
+  {
+    const bool firstInside = Normal(q[0], q[1], q[2]).dot(Normal(q[0], q[2], q[3])) >= 0.0;
+    const bool secondInside = Normal(q[1], q[2], q[3]).dot(Normal(q[1], q[3], q[0])) >= 0.0;
+    const bool firstShorter = (points_[q[0]] - points_[q[2]]).squaredNorm() <=
+                              (points_[q[1]] - points_[q[3]]).squaredNorm();
+    const bool useFirst = firstInside == secondInside ? firstShorter : firstInside;
+    if (useFirst)
+    {
+      this->Add(cell, q[0], q[1], q[2]);
+      this->Add(cell, q[0], q[2], q[3]);
+    }
+    else
+    {
+      this->Add(cell, q[0], q[1], q[3]);
+      this->Add(cell, q[1], q[2], q[3]);
+    }
+  }
+
+  /// Ear clipping; a fan where the polygon is too degenerate for it. The corners are shifted and
+  /// scaled to unit size, because the tolerances of vtkPolygon are absolute.
+  void AddLargePolygon(Id cell, vtkIdType size, const vtkIdType* ids)
+  {
+    double extent = 0.0;
+    for (vtkIdType k = 1; k < size; ++k)
+    {
+      extent = std::max(extent, (points_[ids[k]] - points_[ids[0]]).cwiseAbs().maxCoeff());
+    }
+    const double scale = extent > 0.0 ? 1.0 / extent : 1.0;
+    polygon_->PointIds->SetNumberOfIds(size);
+    polygon_->Points->SetDataTypeToDouble();
+    polygon_->Points->SetNumberOfPoints(size);
+    for (vtkIdType k = 0; k < size; ++k)
+    {
+      const Vec3 corner = scale * (points_[ids[k]] - points_[ids[0]]);
+      polygon_->PointIds->SetId(k, k);
+      polygon_->Points->SetPoint(k, corner.data());
+    }
+    corners_->Reset();
+    const bool finite = std::isfinite(extent);
+    if (finite && polygon_->EarCutTriangulation(corners_.Get()) &&
+        corners_->GetNumberOfIds() == 3 * (size - 2))
+    {
+      for (vtkIdType k = 0; k < corners_->GetNumberOfIds(); k += 3)
+      {
+        this->Add(
+          cell, ids[corners_->GetId(k)], ids[corners_->GetId(k + 1)], ids[corners_->GetId(k + 2)]);
+      }
+      return;
+    }
+    for (vtkIdType k = 1; k + 1 < size; ++k)
+    {
+      this->Add(cell, ids[0], ids[k], ids[k + 1]);
+    }
+  }
+
+  const std::vector<Vec3>& points_;
+  InputMesh& mesh_;
+  TriangleMesh& triangles_;
+  vtkNew<vtkPolygon> polygon_;
+  vtkNew<vtkIdList> corners_;
+};
+
+std::vector<Vec3> ReadPoints(vtkPolyData* input)
+{
+  std::vector<Vec3> points(input->GetNumberOfPoints());
+  for (vtkIdType k = 0; k < input->GetNumberOfPoints(); ++k)
+  {
+    input->GetPoint(k, points[k].data());
+  }
+  return points;
+}
+
+template<class Add>
+void ForEachCell(vtkCellArray* cells, Id firstCell, const Progress& progress, Add&& add)
+{
+  if (!cells)
+  {
+    return;
+  }
+  const vtkIdType count = cells->GetNumberOfCells();
+  vtkNew<vtkIdList> storage;
+  for (vtkIdType k = 0; k < count; ++k)
+  {
+    if (k % CellsPerReport == 0)
+    {
+      progress.Check(double(k) / double(count));
+    }
+    vtkIdType size = 0;
+    const vtkIdType* ids = nullptr;
+    cells->GetCellAtId(k, size, ids, storage);
+    add(firstCell + k, size, ids);
+  }
+}
+
+} // namespace
+
+InputMesh ReadInputMesh(vtkPolyData* input, const Progress& progress)
+{
+  InputMesh mesh;
+  auto triangles = std::make_shared<TriangleMesh>();
+  triangles->points = ReadPoints(input);
+  triangles->triangles.reserve(input->GetNumberOfPolys());
+  mesh.sourceCell.reserve(input->GetNumberOfPolys());
+
+  TriangleCollector collector(triangles->points, mesh, *triangles);
+  const Id firstPolygon = input->GetNumberOfVerts() + input->GetNumberOfLines();
+  ForEachCell(input->GetPolys(), firstPolygon, progress,
+    [&](Id cell, vtkIdType size, const vtkIdType* ids) { collector.AddPolygon(cell, size, ids); });
+  ForEachCell(input->GetStrips(), firstPolygon + input->GetNumberOfPolys(), progress,
+    [&](Id cell, vtkIdType size, const vtkIdType* ids) { collector.AddStrip(cell, size, ids); });
+  if (triangles->triangles.empty())
+  {
+    throw InvalidInput("The input has no polygons and no triangle strips. A surface is needed: "
+                       "Extract Surface makes one from a volume mesh, Delaunay 2D from points.");
+  }
+  mesh.triangles = std::move(triangles);
+  return mesh;
+}
+
+std::pair<Id, Id> TrianglesOfCell(const InputMesh& mesh, Id cell)
+{
+  const auto begin = mesh.sourceCell.begin();
+  const auto range = std::equal_range(begin, mesh.sourceCell.end(), cell);
+  return { range.first - begin, range.second - begin };
+}
+
+} // namespace gridfem

@@ -1,0 +1,35 @@
+// From vtkPolyData to the triangles that Core computes on.
+#ifndef GridFEM_InputMesh_h
+#define GridFEM_InputMesh_h
+
+#include "Progress.h"
+#include "TriangleMesh.h"
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+class vtkPolyData;
+
+namespace gridfem
+{
+
+/// The polygons and strips of a vtkPolyData as triangles, in the order of its cells. The points are
+/// all points of the vtkPolyData, in double precision.
+struct InputMesh
+{
+  std::shared_ptr<const TriangleMesh> triangles;
+  std::vector<Id> sourceCell; // per triangle, ascending: the cell of the vtkPolyData it comes from
+};
+
+/// Decomposes polygons of any size, concave ones too, and strips. Vertices, lines and polygons with
+/// fewer than three corners are left out. Throws InvalidInput when nothing is left, or naming the
+/// first cell with a point that does not exist.
+InputMesh ReadInputMesh(vtkPolyData* input, const Progress& progress = {});
+
+/// The triangles of one cell: indices [first, second) into InputMesh::triangles.
+std::pair<Id, Id> TrianglesOfCell(const InputMesh& mesh, Id cell);
+
+} // namespace gridfem
+
+#endif

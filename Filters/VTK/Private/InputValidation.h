@@ -1,0 +1,27 @@
+// The one place that decides whether an input can be computed on, and says why not.
+#ifndef GridFEM_InputValidation_h
+#define GridFEM_InputValidation_h
+
+#include "TriangleMesh.h"
+
+class vtkPolyData;
+
+namespace gridfem
+{
+
+/// No points at all: gives empty outputs without a word.
+bool IsEmpty(vtkPolyData* input);
+
+/// Throws InvalidInput on more than one MPI rank, because every rank would solve on its own piece
+/// as if that were the whole surface.
+void RequireSingleProcess();
+
+/// Throws InvalidInput for NaN or infinite coordinates, and for a surface without area.
+void RequireSurface(const TriangleMesh& mesh);
+
+/// Throws InvalidInput, with the estimate, when this depth needs more memory than there is.
+void RequireMemory(const TriangleMesh& mesh, int depth);
+
+} // namespace gridfem
+
+#endif

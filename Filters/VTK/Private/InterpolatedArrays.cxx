@@ -1,0 +1,157 @@
+#include "InterpolatedArrays.h"
+
+#include "ClippedArrays.h"
+#include "Errors.h"
+
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkSmartPointer.h"
+
+#include <algorithm>
+#include <string>
+
+namespace gridfem
+{
+namespace
+{
+
+void RequireLength(vtkAbstractArray* array, Id expected, const std::string& kind)
+{
+  if (array->GetNumberOfTuples() != expected)
+  {
+    const char* name = array->GetName();
+    throw InvalidInput("Array '" + std::string(name ? name : "(no name)") + "' has " +
+                       std::to_string(array->GetNumberOfTuples()) + " values, but the mesh has " +
+                       std::to_string(expected) + " " + kind + ".");
+  }
+}
+
+void CopyNames(vtkAbstractArray* from, vtkAbstractArray* to)
+{
+  to->SetName(from->GetName());
+  to->SetNumberOfComponents(from->GetNumberOfComponents());
+  to->CopyComponentNames(from);
+}
+
+vtkSmartPointer<vtkAbstractArray> Interpolate(
+  vtkDataArray* input, const TriangleMesh& mesh, const ClippedMesh& clipped)
+{
+  vtkNew<vtkDoubleArray> output;
+  CopyNames(input, output);
+  output->SetNumberOfTuples(static_cast<vtkIdType>(clipped.position.size()));
+  const int components = input->GetNumberOfComponents();
+  for (Id point = 0; point < clipped.numberOfInputPoints; ++point)
+  {
+    input->GetTuple(point, output->GetPointer(point * components));
+  }
+  for (std::size_t cut = 0; cut < clipped.cutPoints.size(); ++cut)
+  {
+    const CutPoint& at = clipped.cutPoints[cut];
+    const auto& corner = mesh.triangles[at.triangle];
+    double* value = output->GetPointer((clipped.numberOfInputPoints + cut) * components);
+    for (int c = 0; c < components; ++c)
+    {
+      value[c] = 0.0;
+      for (int k = 0; k < 3; ++k)
+      {
+        // A corner that does not count must not spoil the value with its NaN.
+        value[c] += at.weight[k] == 0.0 ? 0.0 : at.weight[k] * input->GetComponent(corner[k], c);
+      }
+    }
+  }
+  return output;
+}
+
+/// Values that cannot be averaged.
+vtkSmartPointer<vtkAbstractArray> TakeNearest(
+  vtkAbstractArray* input, const TriangleMesh& mesh, const ClippedMesh& clipped)
+{
+  vtkNew<vtkIdList> from;
+  for (Id point = 0; point < clipped.numberOfInputPoints; ++point)
+  {
+    from->InsertNextId(point);
+  }
+  for (const CutPoint& at : clipped.cutPoints)
+  {
+    const auto nearest = std::max_element(at.weight.begin(), at.weight.end()) - at.weight.begin();
+    from->InsertNextId(mesh.triangles[at.triangle][nearest]);
+  }
+  auto output = vtk::TakeSmartPointer(input->NewInstance());
+  CopyNames(input, output);
+  output->SetNumberOfTuples(from->GetNumberOfIds());
+  input->GetTuples(from, output);
+  return output;
+}
+
+/// Active attributes of the input become active in the output, but for ids.
+void PassActiveAttributes(vtkDataSetAttributes* input, vtkDataSetAttributes* output)
+{
+  for (const int attribute :
+    { vtkDataSetAttributes::SCALARS, vtkDataSetAttributes::VECTORS, vtkDataSetAttributes::NORMALS,
+      vtkDataSetAttributes::TCOORDS, vtkDataSetAttributes::TENSORS })
+  {
+    vtkAbstractArray* active = input->GetAbstractAttribute(attribute);
+    if (active && active->GetName())
+    {
+      output->SetActiveAttribute(active->GetName(), attribute);
+    }
+  }
+}
+
+} // namespace
+
+void InterpolatePointArrays(
+  vtkPointData* input, const TriangleMesh& mesh, const ClippedMesh& clipped, vtkPointData* output)
+{
+  for (int k = 0; k < input->GetNumberOfArrays(); ++k)
+  {
+    vtkAbstractArray* array = input->GetAbstractArray(k);
+    RequireLength(array, clipped.numberOfInputPoints, "points");
+    if (clipped.cutPoints.empty())
+    {
+      output->AddArray(array);
+    }
+    else if (auto* numbers = vtkDataArray::SafeDownCast(array))
+    {
+      output->AddArray(Interpolate(numbers, mesh, clipped));
+    }
+    else
+    {
+      output->AddArray(TakeNearest(array, mesh, clipped));
+    }
+  }
+  PassActiveAttributes(input, output);
+}
+
+void CopyCellArrays(
+  vtkCellData* input, Id numberOfCells, vtkCellData* output, vtkDataArray* sourceCellId)
+{
+  const vtkIdType count = sourceCellId->GetNumberOfTuples();
+  vtkNew<vtkIdList> from;
+  from->SetNumberOfIds(count);
+  for (vtkIdType cell = 0; cell < count; ++cell)
+  {
+    from->SetId(cell, static_cast<vtkIdType>(sourceCellId->GetComponent(cell, 0)));
+  }
+  for (int k = 0; k < input->GetNumberOfArrays(); ++k)
+  {
+    vtkAbstractArray* array = input->GetAbstractArray(k);
+    const std::string name = array->GetName() ? array->GetName() : "";
+    if (name == SourceCellIdName || name == OctreeCellIdName || name == PatchIdName)
+    {
+      continue;
+    }
+    RequireLength(array, numberOfCells, "cells");
+    auto copy = vtk::TakeSmartPointer(array->NewInstance());
+    CopyNames(array, copy);
+    copy->SetNumberOfTuples(count);
+    array->GetTuples(from, copy);
+    output->AddArray(copy);
+  }
+  PassActiveAttributes(input, output);
+}
+
+} // namespace gridfem

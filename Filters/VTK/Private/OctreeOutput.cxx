@@ -1,0 +1,312 @@
+#include "OctreeOutput.h"
+
+#include "ElementMatrices.h"
+#include "Errors.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkCellType.h"
+#include "vtkDoubleArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace gridfem
+{
+namespace
+{
+
+vtkSmartPointer<vtkPoints> NewPoints(int precision, Id count)
+{
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetDataType(precision);
+  points->SetNumberOfPoints(count);
+  return points;
+}
+
+/// World position of a cell's corner on a level.
+Vec3 CornerPosition(const Grid& grid, int depth, MortonKey key, int corner)
+{
+  const CellIndex cell = MortonDecode(key);
+  const double side = std::ldexp(1.0, grid.depth - depth);
+  return grid.ToWorld(side * Vec3(cell[0] + (corner & 1), cell[1] + ((corner >> 1) & 1),
+                               cell[2] + ((corner >> 2) & 1)));
+}
+
+/// Cells of a coarser level: ancestors, once each.
+std::vector<MortonKey> AncestorCells(const std::vector<MortonKey>& cells, int generations)
+{
+  std::vector<MortonKey> ancestors;
+  for (const MortonKey key : cells)
+  {
+    const MortonKey ancestor = key >> (3 * generations);
+    if (ancestors.empty() || ancestors.back() != ancestor)
+    {
+      ancestors.push_back(ancestor);
+    }
+  }
+  return ancestors;
+}
+
+/// World area of the surface in every patch of a level.
+std::vector<double> PatchAreas(const FunctionSpace& space, std::size_t level)
+{
+  std::vector<double> area(space.Finest().NumberOfPatches(), 0.0);
+  const double cellArea = space.GetGrid().spacing * space.GetGrid().spacing;
+  for (Id piece = 0; piece < space.clipped.NumberOfPieces(); ++piece)
+  {
+    area[space.piecePatch[piece]] += cellArea * PieceArea(space.clipped, piece);
+  }
+  for (std::size_t k = 0; k < level; ++k)
+  {
+    std::vector<double> coarse(space.levels[k + 1].NumberOfPatches(), 0.0);
+    for (std::size_t patch = 0; patch < area.size(); ++patch)
+    {
+      coarse[space.levels[k].parent[patch]] += area[patch];
+    }
+    area = std::move(coarse);
+  }
+  return area;
+}
+
+/// Connected component of every patch of a level, by the numbers of the finest; the lowest where
+/// the plain space joins several.
+std::vector<Index> PatchComponents(const FunctionSpace& space, std::size_t level)
+{
+  std::vector<Index> component;
+  for (const auto& dof : space.Finest().dof)
+  {
+    component.push_back(space.component[dof[0]]);
+  }
+  for (std::size_t k = 0; k < level; ++k)
+  {
+    std::vector<Index> coarse(
+      space.levels[k + 1].NumberOfPatches(), std::numeric_limits<Index>::max());
+    for (std::size_t patch = 0; patch < component.size(); ++patch)
+    {
+      Index& parent = coarse[space.levels[k].parent[patch]];
+      parent = std::min(parent, component[patch]);
+    }
+    component = std::move(coarse);
+  }
+  return component;
+}
+
+void AddFunctionArrays(const FunctionSpace& space, std::size_t index, vtkUnstructuredGrid* output)
+{
+  const Level& level = space.levels[index];
+  const std::vector<double> area = PatchAreas(space, index);
+  const std::vector<Index> component = PatchComponents(space, index);
+  vtkNew<vtkIdTypeArray> basisId;
+  basisId->SetName("BasisId");
+  basisId->SetNumberOfTuples(level.numberOfFunctions);
+  vtkNew<vtkDoubleArray> supportArea;
+  supportArea->SetName("SupportArea");
+  supportArea->SetNumberOfTuples(level.numberOfFunctions);
+  supportArea->FillValue(0.0);
+  vtkNew<vtkIdTypeArray> functionComponent;
+  functionComponent->SetName("Component");
+  functionComponent->SetNumberOfTuples(level.numberOfFunctions);
+  for (Index function = 0; function < level.numberOfFunctions; ++function)
+  {
+    basisId->SetValue(function, function);
+    functionComponent->SetValue(function, -1);
+  }
+  for (Id patch = level.NumberOfPatches() - 1; patch >= 0; --patch)
+  {
+    for (const Index function : level.dof[patch])
+    {
+      supportArea->SetValue(function, supportArea->GetValue(function) + area[patch]);
+      functionComponent->SetValue(function, component[patch]);
+    }
+  }
+  output->GetPointData()->AddArray(basisId);
+  output->GetPointData()->AddArray(supportArea);
+  output->GetPointData()->AddArray(functionComponent);
+}
+
+} // namespace
+
+void WriteOctreeCells(
+  const ClippedMesh& clipped, int level, int precision, vtkUnstructuredGrid* output)
+{
+  const int finest = clipped.grid.depth;
+  const int from = level < 0 ? finest : std::min(level, finest);
+  const int to = level < 0 ? 0 : from;
+  std::vector<std::pair<int, MortonKey>> cells;
+  for (int depth = from; depth >= to; --depth)
+  {
+    for (const MortonKey key : AncestorCells(clipped.cells, finest - depth))
+    {
+      cells.emplace_back(depth, key);
+    }
+  }
+  const Id count = static_cast<Id>(cells.size());
+  auto points = NewPoints(precision, FunctionsPerPatch * count);
+  vtkNew<vtkIntArray> levels;
+  levels->SetName("Level");
+  levels->SetNumberOfTuples(count);
+  output->Allocate(count);
+  for (Id cell = 0; cell < count; ++cell)
+  {
+    vtkIdType ids[FunctionsPerPatch];
+    for (int corner = 0; corner < FunctionsPerPatch; ++corner)
+    {
+      ids[corner] = FunctionsPerPatch * cell + corner;
+      const Vec3 position =
+        CornerPosition(clipped.grid, cells[cell].first, cells[cell].second, corner);
+      points->SetPoint(ids[corner], position.data());
+    }
+    output->InsertNextCell(VTK_VOXEL, FunctionsPerPatch, ids);
+    levels->SetValue(cell, cells[cell].first);
+  }
+  output->SetPoints(points);
+  output->GetCellData()->SetScalars(levels);
+}
+
+void WriteQuadraturePoints(const InputMesh& mesh, const ClippedMesh& clipped,
+  const QuadratureRule& rule, int precision, vtkPolyData* output)
+{
+  const Id perTriangle = static_cast<Id>(rule.points.size());
+  const Id count = perTriangle * clipped.NumberOfTriangles();
+  auto points = NewPoints(precision, count);
+  vtkNew<vtkDoubleArray> weight;
+  weight->SetName("Weight");
+  weight->SetNumberOfTuples(count);
+  vtkNew<vtkIdTypeArray> sourceCell;
+  sourceCell->SetName("SourceCellId");
+  sourceCell->SetNumberOfTuples(count);
+  const double cellArea = clipped.grid.spacing * clipped.grid.spacing;
+  Id sample = 0;
+  for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
+  {
+    const Id first = clipped.pieceBegin[piece];
+    const Vec3& a = clipped.position[clipped.corners[first]];
+    for (Id k = first + 1; k + 1 < clipped.pieceBegin[piece + 1]; ++k)
+    {
+      const Vec3& b = clipped.position[clipped.corners[k]];
+      const Vec3& c = clipped.position[clipped.corners[k + 1]];
+      const double area = 0.5 * cellArea * (b - a).cross(c - a).norm();
+      for (const auto& point : rule.points)
+      {
+        const auto& w = point.barycentric;
+        const Vec3 position = clipped.grid.ToWorld(w[0] * a + w[1] * b + w[2] * c);
+        points->SetPoint(sample, position.data());
+        weight->SetValue(sample, point.weight * area);
+        sourceCell->SetValue(sample, mesh.sourceCell[clipped.pieceTriangle[piece]]);
+        ++sample;
+      }
+    }
+  }
+  vtkNew<vtkIdTypeArray> offsets;
+  offsets->SetNumberOfValues(count + 1);
+  vtkNew<vtkIdTypeArray> connectivity;
+  connectivity->SetNumberOfValues(count);
+  for (Id k = 0; k < count; ++k)
+  {
+    offsets->SetValue(k, k);
+    connectivity->SetValue(k, k);
+  }
+  offsets->SetValue(count, count);
+  vtkNew<vtkCellArray> verts;
+  verts->SetData(offsets, connectivity);
+  output->SetPoints(points);
+  output->SetVerts(verts);
+  output->GetPointData()->AddArray(weight);
+  output->GetPointData()->AddArray(sourceCell);
+}
+
+const Level& LevelOfDepth(const FunctionSpace& space, int depth)
+{
+  const auto found = std::find_if(space.levels.begin(), space.levels.end(),
+    [&](const Level& level) { return level.depth <= depth; });
+  return found == space.levels.end() ? space.levels.back() : *found;
+}
+
+void WriteBasisFunctions(
+  const FunctionSpace& space, int depth, int precision, vtkUnstructuredGrid* output)
+{
+  const Level& level = LevelOfDepth(space, depth);
+  auto points = NewPoints(precision, level.numberOfFunctions);
+  for (Index function = 0; function < level.numberOfFunctions; ++function)
+  {
+    points->SetPoint(function, space.GetGrid().origin.data()); // functions without a patch
+  }
+  vtkNew<vtkIdTypeArray> patchId;
+  patchId->SetName("PatchId");
+  patchId->SetNumberOfTuples(level.NumberOfPatches());
+  vtkNew<vtkIntArray> levels;
+  levels->SetName("Level");
+  levels->SetNumberOfTuples(level.NumberOfPatches());
+  output->Allocate(level.NumberOfPatches());
+  for (Id patch = 0; patch < level.NumberOfPatches(); ++patch)
+  {
+    vtkIdType ids[FunctionsPerPatch];
+    for (int corner = 0; corner < FunctionsPerPatch; ++corner)
+    {
+      ids[corner] = level.dof[patch][corner];
+      const Vec3 position = CornerPosition(space.GetGrid(), level.depth, level.cell[patch], corner);
+      points->SetPoint(ids[corner], position.data());
+    }
+    output->InsertNextCell(VTK_VOXEL, FunctionsPerPatch, ids);
+    patchId->SetValue(patch, patch);
+    levels->SetValue(patch, level.depth);
+  }
+  output->SetPoints(points);
+  output->GetCellData()->AddArray(patchId);
+  output->GetCellData()->AddArray(levels);
+  AddFunctionArrays(space, &level - space.levels.data(), output);
+}
+
+MultiVector BasisFunctionCoefficients(const FunctionSpace& space, int depth, Id function)
+{
+  const Level& level = LevelOfDepth(space, depth);
+  if (function < 0 || function >= level.numberOfFunctions)
+  {
+    throw InvalidInput("BasisId " + std::to_string(function) + " does not exist: level " +
+                       std::to_string(level.depth) + " has the basis functions 0 to " +
+                       std::to_string(level.numberOfFunctions - 1) + ".");
+  }
+  MultiVector coefficients = MultiVector::Zero(space.Finest().numberOfFunctions, 1);
+  const int generations = space.GetGrid().depth - level.depth;
+  const double side = std::ldexp(1.0, generations);
+  for (Id patch = 0; patch < space.Finest().NumberOfPatches(); ++patch)
+  {
+    Id ancestor = patch;
+    for (int k = 0; k < generations; ++k)
+    {
+      ancestor = space.levels[k].parent[ancestor];
+    }
+    const auto& dof = level.dof[ancestor];
+    const auto found = std::find(dof.begin(), dof.end(), function);
+    if (found == dof.end())
+    {
+      continue;
+    }
+    const CellIndex cell = MortonDecode(space.Finest().cell[patch]);
+    const CellIndex coarse = MortonDecode(level.cell[ancestor]);
+    for (int corner = 0; corner < FunctionsPerPatch; ++corner)
+    {
+      const Vec3 local(cell[0] + (corner & 1) - side * coarse[0],
+        cell[1] + ((corner >> 1) & 1) - side * coarse[1],
+        cell[2] + ((corner >> 2) & 1) - side * coarse[2]);
+      std::array<double, FunctionsPerPatch> value;
+      EvaluateTrilinear(local / side, value);
+      coefficients(space.Finest().dof[patch][corner], 0) = value[found - dof.begin()];
+    }
+  }
+  return coefficients;
+}
+
+} // namespace gridfem

@@ -1,0 +1,38 @@
+// Progress and abort between Core and a VTK algorithm.
+#ifndef GridFEM_ProgressBridge_h
+#define GridFEM_ProgressBridge_h
+
+#include "Progress.h"
+
+#include <chrono>
+
+class vtkAlgorithm;
+
+namespace gridfem
+{
+
+/// Passes progress on at most every tenth of a second, never backwards, and asks the algorithm
+/// whether to abort. Core calls it from the thread that called Core, which is the pipeline's.
+class ProgressBridge
+{
+public:
+  explicit ProgressBridge(vtkAlgorithm* algorithm) : algorithm_(algorithm) {}
+
+  /// A new run starts: the next report is passed on at once.
+  void Restart();
+
+  /// Refers to this bridge, which has to live as long.
+  Progress GetProgress();
+
+private:
+  bool Report(double fraction);
+
+  using Clock = std::chrono::steady_clock;
+  vtkAlgorithm* algorithm_;
+  Clock::time_point lastReport_ = Clock::time_point::min();
+  double furthest_ = 0.0;
+};
+
+} // namespace gridfem
+
+#endif

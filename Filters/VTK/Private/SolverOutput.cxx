@@ -1,0 +1,110 @@
+#include "SolverOutput.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkFloatArray.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+#include "vtkTable.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gridfem
+{
+namespace
+{
+
+template<class Array>
+vtkSmartPointer<vtkDataArray> CopyRows(const char* name, const MultiVector& values)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(static_cast<int>(values.cols()));
+  array->SetNumberOfTuples(values.rows());
+  std::transform(values.data(), values.data() + values.size(), array->GetPointer(0),
+    [](double value) { return static_cast<typename Array::ValueType>(value); });
+  return array;
+}
+
+/// An exact zero is shown as the smallest number instead of minus infinity.
+double SafeLog10(double value)
+{
+  return std::log10(std::max(value, std::numeric_limits<double>::min()));
+}
+
+} // namespace
+
+vtkSmartPointer<vtkDataArray> MakePointArray(
+  const char* name, const MultiVector& values, int dataType)
+{
+  return dataType == VTK_FLOAT ? CopyRows<vtkFloatArray>(name, values)
+                               : CopyRows<vtkDoubleArray>(name, values);
+}
+
+void AddFieldInt(vtkPolyData* output, const char* name, int value)
+{
+  vtkNew<vtkIntArray> array;
+  array->SetName(name);
+  array->InsertNextValue(value);
+  output->GetFieldData()->AddArray(array);
+}
+
+void AddReport(const SolveReport& report, vtkPolyData* output)
+{
+  AddFieldInt(output, "Converged", report.converged ? 1 : 0);
+  AddFieldInt(output, "Iterations", report.iterations);
+  vtkNew<vtkDoubleArray> residual;
+  residual->SetName("Residual");
+  residual->InsertNextValue(LastRecord(report).residual);
+  output->GetFieldData()->AddArray(residual);
+}
+
+void AddColumn(vtkTable* table, const char* name, const std::vector<double>& values)
+{
+  vtkNew<vtkDoubleArray> column;
+  column->SetName(name);
+  column->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
+  std::copy(values.begin(), values.end(), column->GetPointer(0));
+  table->AddColumn(column);
+}
+
+void AddColumn(vtkTable* table, const char* name, const std::vector<int>& values)
+{
+  vtkNew<vtkIntArray> column;
+  column->SetName(name);
+  column->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
+  std::copy(values.begin(), values.end(), column->GetPointer(0));
+  table->AddColumn(column);
+}
+
+void WriteHistory(const SolveReport& report, vtkTable* table)
+{
+  std::vector<int> iteration;
+  std::vector<double> energy;
+  std::vector<double> residual;
+  std::vector<double> logEnergy;
+  std::vector<double> logResidual;
+  for (const IterationRecord& record : report.history)
+  {
+    iteration.push_back(record.iteration);
+    energy.push_back(record.energy);
+    residual.push_back(record.residual);
+    logEnergy.push_back(SafeLog10(record.energy));
+    logResidual.push_back(SafeLog10(record.residual));
+  }
+  AddColumn(table, "Iteration", iteration);
+  AddColumn(table, "EnergyResidual", energy);
+  AddColumn(table, "Residual", residual);
+  AddColumn(table, "Log10EnergyResidual", logEnergy);
+  AddColumn(table, "Log10Residual", logResidual);
+}
+
+IterationRecord LastRecord(const SolveReport& report)
+{
+  return report.history.empty() ? IterationRecord{ 0, 0.0, 0.0 } : report.history.back();
+}
+
+} // namespace gridfem

@@ -1,0 +1,41 @@
+// Solutions and reports of Core as VTK arrays and tables.
+#ifndef GridFEM_SolverOutput_h
+#define GridFEM_SolverOutput_h
+
+#include "ConjugateGradients.h"
+#include "Types.h"
+
+#include "vtkSmartPointer.h"
+
+class vtkDataArray;
+class vtkPolyData;
+class vtkTable;
+
+namespace gridfem
+{
+
+/// An array with one tuple per row: float when `dataType` is VTK_FLOAT, else double.
+vtkSmartPointer<vtkDataArray> MakePointArray(
+  const char* name, const MultiVector& values, int dataType);
+
+/// Adds the field arrays Converged, Iterations and Residual.
+void AddReport(const SolveReport& report, vtkPolyData* output);
+
+/// Adds a field array with one int.
+void AddFieldInt(vtkPolyData* output, const char* name, int value);
+
+/// The columns Iteration, EnergyResidual, Residual, Log10EnergyResidual, Log10Residual.
+void WriteHistory(const SolveReport& report, vtkTable* table);
+
+/// Adds a column of numbers to a table.
+void AddColumn(vtkTable* table, const char* name, const std::vector<double>& values);
+
+/// Adds a column of integers to a table.
+void AddColumn(vtkTable* table, const char* name, const std::vector<int>& values);
+
+/// The last iteration, or zeros when nothing had to be iterated.
+IterationRecord LastRecord(const SolveReport& report);
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,39 @@
+#include "SurfaceBasis.h"
+
+#include "QuadratureRule.h"
+
+namespace gridfem
+{
+
+std::shared_ptr<const System> SystemStore::Find(int quadratureDegree) const
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto found = systems_.find(quadratureDegree);
+  return found == systems_.end() ? nullptr : found->second;
+}
+
+std::shared_ptr<const System> SystemStore::Get(
+  const FunctionSpace& space, int quadratureDegree, int threads, const Progress& progress)
+{
+  const QuadratureRule& rule = TriangleRule(quadratureDegree);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  auto& system = systems_[quadratureDegree];
+  if (!system)
+  {
+    constexpr Index coarsestSize = 256;
+    system =
+      std::make_shared<const System>(BuildSystem(space, rule, threads, coarsestSize, progress));
+  }
+  return system;
+}
+
+SurfaceBasis MakeSurfaceBasis(std::shared_ptr<const TriangleMesh> mesh, FunctionSpace space)
+{
+  SurfaceBasis basis;
+  basis.mesh = std::move(mesh);
+  basis.space = std::make_shared<const FunctionSpace>(std::move(space));
+  basis.systems = std::make_shared<SystemStore>();
+  return basis;
+}
+
+} // namespace gridfem

@@ -1,0 +1,46 @@
+// A function space together with the triangles it was made from, and what solvers share of it.
+#ifndef GridFEM_SurfaceBasis_h
+#define GridFEM_SurfaceBasis_h
+
+#include "FunctionSpace.h"
+#include "InputMesh.h"
+#include "System.h"
+
+#include <map>
+#include <memory>
+#include <mutex>
+
+namespace gridfem
+{
+
+/// The systems of one function space, one per quadrature degree, built when first asked for.
+class SystemStore
+{
+public:
+  /// The system, or null when it has not been built yet.
+  std::shared_ptr<const System> Find(int quadratureDegree) const;
+
+  /// Builds it if need be; a second caller waits. Throws InvalidInput and Aborted.
+  std::shared_ptr<const System> Get(
+    const FunctionSpace& space, int quadratureDegree, int threads, const Progress& progress);
+
+private:
+  mutable std::mutex mutex_;
+  std::map<int, std::shared_ptr<const System>> systems_;
+};
+
+/// Immutable but for the store, so that it may be shared between filters and threads.
+struct SurfaceBasis
+{
+  std::shared_ptr<const TriangleMesh> mesh; // what the pieces' source triangles refer to
+  std::shared_ptr<const FunctionSpace> space;
+  std::shared_ptr<SystemStore> systems; // element matrices belong to patches, not to triangles
+
+  explicit operator bool() const { return space != nullptr; }
+};
+
+SurfaceBasis MakeSurfaceBasis(std::shared_ptr<const TriangleMesh> mesh, FunctionSpace space);
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,69 @@
+// What a filter keeps between runs: its input mesh, function space and system, and the stages that
+// made them.
+#ifndef GridFEM_SurfaceSolverState_h
+#define GridFEM_SurfaceSolverState_h
+
+#include "ConjugateGradients.h"
+#include "InputMesh.h"
+#include "ProgressBridge.h"
+#include "StageCache.h"
+#include "SurfaceBasis.h"
+
+class vtkPolyData;
+
+namespace gridfem
+{
+
+/// The shared properties in Core's terms.
+struct SurfaceOptions
+{
+  SpaceOptions space;
+  int quadratureDegree = 2;
+  MultigridOptions multigrid;
+  SolveOptions solve;
+  int parameterUnits = 1; // vtkSurfaceFEMAlgorithm::ParameterUnitsType
+};
+
+/// Adds all that the triangles of the mesh depend on; never the vtkPolyData itself, which is a new
+/// one after every hop through ParaView.
+void AddMesh(StageKey& key, vtkPolyData* data);
+
+/// Adds the arrays of the clip.
+void AddClipArrays(StageKey& key, vtkPolyData* data);
+
+/// Adds the arrays of the clip and of the basis.
+void AddBasisArrays(StageKey& key, vtkPolyData* data);
+
+class SurfaceSolverState
+{
+public:
+  explicit SurfaceSolverState(vtkAlgorithm* algorithm) : bridge(algorithm) {}
+
+  /// Brings the mesh and the function space up to date: from `input` where it carries a basis, else
+  /// from `basisData` where it is not null, else built.
+  /// Throws InvalidInput and Aborted.
+  void UpdateSpace(vtkPolyData* input, vtkPolyData* basisData, const Progress& progress);
+
+  /// Builds the function space of a mesh and clips it before. Validates the mesh.
+  void BuildSpace(vtkPolyData* input, const Progress& progress);
+
+  /// Brings the system up to date. A system that another filter has built on the same basis is
+  /// taken over without a run.
+  void UpdateSystem(const Progress& progress);
+
+  const FunctionSpace& Space() const { return *basis.space; }
+
+  /// A weight per squared length of the parameter units, per squared grid unit.
+  double WeightInGridUnits(double weight) const;
+
+  SurfaceOptions options;
+  StageCache stages;
+  InputMesh mesh;
+  SurfaceBasis basis;
+  std::shared_ptr<const System> system;
+  ProgressBridge bridge;
+};
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,49 @@
+// The in-memory shortcut of the basis: rides on the field array PatchBasisIds, by an information
+// key, so that it survives shallow copies from filter to filter. It holds nothing that cannot be
+// rebuilt from the arrays.
+#ifndef vtkSurfaceBasisHolder_h
+#define vtkSurfaceBasisHolder_h
+
+#include "SurfaceBasis.h"
+
+#include "vtkObject.h"
+
+#include <mutex>
+
+class vtkAbstractArray;
+class vtkInformationObjectBaseKey;
+
+class vtkSurfaceBasisHolder : public vtkObject
+{
+public:
+  static vtkSurfaceBasisHolder* New();
+  vtkTypeMacro(vtkSurfaceBasisHolder, vtkObject);
+
+  static vtkInformationObjectBaseKey* BASIS();
+
+  /// Puts a holder of the basis on the array.
+  static void Attach(vtkAbstractArray* array, const gridfem::SurfaceBasis& basis);
+
+  /// The holder on the array, or null. The array may be null.
+  static vtkSurfaceBasisHolder* Find(vtkAbstractArray* array);
+
+  /// On the mesh the basis filter was given.
+  const gridfem::SurfaceBasis& OnSourceMesh() const { return this->Source; }
+
+  /// On the basis filter's output; converted when first asked for.
+  gridfem::SurfaceBasis OnClippedMesh();
+
+protected:
+  vtkSurfaceBasisHolder() = default;
+  ~vtkSurfaceBasisHolder() override = default;
+
+private:
+  vtkSurfaceBasisHolder(const vtkSurfaceBasisHolder&) = delete;
+  void operator=(const vtkSurfaceBasisHolder&) = delete;
+
+  gridfem::SurfaceBasis Source;
+  gridfem::SurfaceBasis Clipped;
+  std::mutex Mutex;
+};
+
+#endif

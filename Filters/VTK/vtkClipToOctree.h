@@ -1,0 +1,67 @@
+/**
+ * @class   vtkClipToOctree
+ * @brief   cut a surface along the cells of an octree
+ *
+ * Lays the surface into a cube of 2^Depth cells per side and cuts every polygon along the cell
+ * faces, so that every triangle of the output lies in one cell. All surface finite element filters
+ * integrate on this mesh; the output is also the input of vtkConnectivityAwareBasis.
+ *
+ * Input: vtkPolyData with polygons of any size, concave ones too, or triangle strips. Vertices and
+ * lines are left out.
+ *
+ * Output port 0 (vtkPolyData), the clipped mesh: triangles; the input's points first, in the same
+ * order and precision (double when they are integers), then the cut points.
+ * - point data: the input's arrays, interpolated to double (text: from the nearest corner)
+ * - cell data: the input's arrays; `SourceCellId` (vtkIdType, 1): the input's cell; `OctreeCellId`
+ *   (vtkIdType, 1): index into `OctreeCells`
+ * - field data: the input's arrays; `OctreeCells` (int, 3): (i,j,k) of every cell, in Morton order;
+ *   `GridOrigin` (double, 3), `GridSpacing` (double, 1), `GridDepth` (int, 1): the cube's lowest
+ *   corner, the side of a cell, Depth; `WeldCoincidentPoints` (int, 1): the property
+ *
+ * Output port 1 (vtkPolyData), the quadrature points: one vertex each, with the point arrays
+ * `Weight` (double, 1), the surface area it stands for, and `SourceCellId` (vtkIdType, 1).
+ *
+ * Output port 2 (vtkUnstructuredGrid), the octree: a voxel for every cell that holds surface, with
+ * the cell array `Level` (int, 1): 0 is the whole cube, Depth the finest level.
+ *
+ * Used shared properties: Depth, WeldCoincidentPoints, QuadratureDegree, NumberOfThreads.
+ */
+#ifndef vtkClipToOctree_h
+#define vtkClipToOctree_h
+
+#include "vtkSurfaceFEMAlgorithm.h"
+
+class VTKGRIDFEMFILTERS_EXPORT vtkClipToOctree : public vtkSurfaceFEMAlgorithm
+{
+public:
+  static vtkClipToOctree* New();
+  vtkTypeMacro(vtkClipToOctree, vtkSurfaceFEMAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The level that output port 2 shows: 0..14, where a level beyond Depth means the finest, or -1
+   * for all levels. Default 14: the finest.
+   */
+  vtkSetClampMacro(Level, int, -1, 14);
+  vtkGetMacro(Level, int);
+  ///@}
+
+protected:
+  vtkClipToOctree();
+  ~vtkClipToOctree() override;
+
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+  int Level = 14;
+
+private:
+  vtkClipToOctree(const vtkClipToOctree&) = delete;
+  void operator=(const vtkClipToOctree&) = delete;
+
+  struct Internals;
+  std::unique_ptr<Internals> Data;
+};
+
+#endif

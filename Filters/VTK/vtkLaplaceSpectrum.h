@@ -1,0 +1,101 @@
+/**
+ * @class   vtkLaplaceSpectrum
+ * @brief   the smallest eigenvalues and eigenfunctions of the Laplace operator of a surface
+ *
+ * The eigenfunctions are the standing waves of the surface, ascending in frequency; the first of
+ * every connected component is constant. Nothing flows across boundaries.
+ *
+ * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
+ * vtkConnectivityAwareBasis. Input port 1 (optional): the output of vtkConnectivityAwareBasis for
+ * the mesh of port 0.
+ *
+ * Output port 0 (vtkPolyData): the input with
+ * - point data, in the precision of the points (double when they are integers): `Mode` (1
+ *   component), the mode that is shown; or, with AllModes on, `Mode000`, `Mode001`, ... The
+ * integral of a squared mode over the surface is 1 in world units. Points that no polygon uses get
+ * 0.
+ * - field data: `Eigenvalues` (double, 1; a tuple per mode, one over squared world length),
+ *   `Converged` (int, 1)
+ *
+ * Output port 1 (vtkTable): a row per mode with `Mode` (int), `Eigenvalue` (double) and `Residual`
+ * (double), whose square estimates the relative error of the eigenvalue.
+ *
+ * Time: unless AllModes is on or Mode is fixed, every mode is a time step, with its index as time
+ * value. All modes are computed once; a change of time or of Mode computes nothing.
+ *
+ * Tolerance (default 1e-10) is the wanted relative error of the eigenvalues. All shared properties
+ * but ParameterUnits are used.
+ */
+#ifndef vtkLaplaceSpectrum_h
+#define vtkLaplaceSpectrum_h
+
+#include "vtkSurfaceFEMAlgorithm.h"
+
+class vtkTable;
+
+class VTKGRIDFEMFILTERS_EXPORT vtkLaplaceSpectrum : public vtkSurfaceFEMAlgorithm
+{
+public:
+  static vtkLaplaceSpectrum* New();
+  vtkTypeMacro(vtkLaplaceSpectrum, vtkSurfaceFEMAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * How many modes to compute; when fewer exist, a warning says so. At least 1, default 20.
+   */
+  vtkSetClampMacro(NumberOfModes, int, 1, VTK_INT_MAX);
+  vtkGetMacro(NumberOfModes, int);
+  ///@}
+
+  ///@{
+  /**
+   * The mode to show, from 0; -1 (default) shows the mode of the time that is asked for, 0 when
+   * none is.
+   */
+  vtkSetClampMacro(Mode, int, -1, VTK_INT_MAX);
+  vtkGetMacro(Mode, int);
+  ///@}
+
+  ///@{
+  /**
+   * When on, the output has an array for each mode. Default off.
+   */
+  vtkSetMacro(AllModes, bool);
+  vtkGetMacro(AllModes, bool);
+  vtkBooleanMacro(AllModes, bool);
+  ///@}
+
+  /**
+   * The input of port 1: the basis.
+   */
+  void SetBasisConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
+
+protected:
+  vtkLaplaceSpectrum();
+  ~vtkLaplaceSpectrum() override;
+
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+  int NumberOfModes = 20;
+  int Mode = -1;
+  bool AllModes = false;
+
+private:
+  vtkLaplaceSpectrum(const vtkLaplaceSpectrum&) = delete;
+  void operator=(const vtkLaplaceSpectrum&) = delete;
+
+  void UpdateSpectrum();
+  int ShownMode(vtkInformation* output);
+  void WriteModes(vtkPolyData* input, vtkInformation* info, vtkPolyData* output);
+  void WriteTable(vtkTable* table);
+  void Warn();
+
+  struct Internals;
+  std::unique_ptr<Internals> Data;
+};
+
+#endif

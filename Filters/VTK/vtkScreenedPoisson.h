@@ -1,0 +1,108 @@
+/**
+ * @class   vtkScreenedPoisson
+ * @brief   fit a function on a surface to values and gradients
+ *
+ * Finds the function u that minimises, over the surface, the integral of
+ *
+ *     w (u - f)^2 + |grad u - s g|^2
+ *
+ * with the values f, the gradients g, the ScreeningWeight w and the gradient scale s. Without
+ * gradients it smooths f; with amplified gradients it sharpens f; with gradients from elsewhere it
+ * stitches and fills. The gradients' part normal to the surface does not count. Nothing flows
+ * across boundaries. With w = 0 the solution keeps the mean of f on every connected component.
+ *
+ * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
+ * vtkConnectivityAwareBasis. Input port 1 (optional): the output of vtkConnectivityAwareBasis for
+ * the mesh of port 0.
+ *
+ * Arrays, of any numeric type, as point or cell data of input port 0, chosen by
+ * SetInputArrayToProcess:
+ * - index 0, `ValueArray`: f, any number of components C; without it the coordinates
+ * - index 1, `GradientArray` (optional): g in world units, 3 C components: the three of the first
+ *   component of f, then those of the second, ...
+ * - index 2, `GradientScaleArray` (optional): one component, multiplies GradientScale
+ *
+ * Output port 0 (vtkPolyData): the input with
+ * - point data: `Solution` (C components, named as those of f; float if f or the coordinates that
+ *   stand in for it are float, else double). Points that no polygon uses keep f if that is a point
+ *   array, else get 0.
+ * - field data: `Converged` (int, 1), `Iterations` (int, 1), `Residual` (double, 1; relative to
+ *   the start)
+ *
+ * Output port 1 (vtkTable): a row per iteration with `Iteration` (int), `EnergyResidual` and
+ * `Residual` (double, relative to the zero start, the largest over the components),
+ * `Log10EnergyResidual` and `Log10Residual`.
+ *
+ * Tolerance (default 1e-8) is on the energy residual. All shared properties are used.
+ */
+#ifndef vtkScreenedPoisson_h
+#define vtkScreenedPoisson_h
+
+#include "vtkSurfaceFEMAlgorithm.h"
+
+class VTKGRIDFEMFILTERS_EXPORT vtkScreenedPoisson : public vtkSurfaceFEMAlgorithm
+{
+public:
+  static vtkScreenedPoisson* New();
+  vtkTypeMacro(vtkScreenedPoisson, vtkSurfaceFEMAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * How strongly the solution is held to the values; one over the squared length of ParameterUnits.
+   * Features smaller than about 1 / sqrt(ScreeningWeight) follow the gradients. 0 or more, default
+   * 100.
+   */
+  vtkSetClampMacro(ScreeningWeight, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(ScreeningWeight, double);
+  ///@}
+
+  ///@{
+  /**
+   * Factor on the gradients: 0 smooths, 1 (default) keeps them, more than 1 sharpens.
+   */
+  vtkSetMacro(GradientScale, double);
+  vtkGetMacro(GradientScale, double);
+  ///@}
+
+  ///@{
+  /**
+   * When on and no GradientArray is chosen, the gradients are those of the values, which must be
+   * point data then. When off (default), no GradientArray means zero gradients.
+   */
+  vtkSetMacro(UseValueGradient, bool);
+  vtkGetMacro(UseValueGradient, bool);
+  vtkBooleanMacro(UseValueGradient, bool);
+  ///@}
+
+  /**
+   * The input of port 1: the basis.
+   */
+  void SetBasisConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
+
+protected:
+  vtkScreenedPoisson();
+  ~vtkScreenedPoisson() override;
+
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+  double ScreeningWeight = 100.0;
+  double GradientScale = 1.0;
+  bool UseValueGradient = false;
+
+private:
+  vtkScreenedPoisson(const vtkScreenedPoisson&) = delete;
+  void operator=(const vtkScreenedPoisson&) = delete;
+
+  void FindArrays(vtkPolyData* input);
+  void UpdateRightHandSide();
+  void UpdateHierarchy();
+  void UpdateSolution();
+  void WriteSolution(vtkPolyData* input, vtkPolyData* output);
+
+  struct Internals;
+  std::unique_ptr<Internals> Data;
+};
+
+#endif
