@@ -47,17 +47,23 @@ class Multigrid
 {
 public:
   /// @param levels finest first, with A, prolongation and order filled; the rest is built here.
-  /// The coarsest level is solved directly.
+  /// The coarsest level is solved directly; its prolongation and order are not used.
+  /// Throws InvalidInput when there is no level, shapes do not fit or a sweep count is negative.
   Multigrid(std::vector<MultigridLevel> levels, const MultigridOptions& options);
 
   /// New matrix values on the same patterns (finest first): rebuilds smoothers and coarse solver.
+  /// Throws InvalidInput, and changes nothing, when a pattern differs in shape or size.
   void Update(std::vector<SparseMatrix> matrices);
 
-  /// One cycle: improves x for A x = b.
+  /// One cycle: improves x for A x = b. Any number of columns. Levels above the finest allocate
+  /// their vectors per call: a quarter of b, and less.
   void Cycle(const MultiVector& b, MultiVector& x) const;
 
   /// One cycle from zero: x = B b, B symmetric when both sweep counts are equal.
   void Precondition(const MultiVector& b, MultiVector& x) const;
+
+  /// The same on the hierarchy that begins at `level`.
+  void PreconditionFrom(std::size_t level, const MultiVector& b, MultiVector& x) const;
 
   const SparseMatrix& Matrix() const { return levels_.front().A; }
   const std::vector<MultigridLevel>& Levels() const { return levels_; }
@@ -66,7 +72,19 @@ public:
 
 private:
   void BuildSolvers();
-  void CycleLevel(std::size_t level, const MultiVector& b, MultiVector& x, bool zeroStart) const;
+  /// Vectors of one level during one call.
+  struct Scratch
+  {
+    MultiVector residual;
+    MultiVector coarseB;
+    MultiVector coarseX;
+  };
+
+  void Start(std::size_t level, const MultiVector& b, MultiVector& x, bool zeroStart) const;
+  void CycleLevel(std::size_t level, const MultiVector& b, MultiVector& x, bool zeroStart,
+    std::vector<Scratch>& scratch) const;
+  void CorrectFromCoarse(std::size_t level, const MultiVector& b, MultiVector& x, bool zeroX,
+    std::vector<Scratch>& scratch) const;
 
   std::vector<MultigridLevel> levels_;
   CoarseSolver coarse_;

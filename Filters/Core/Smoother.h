@@ -6,13 +6,15 @@
 
 #include "SparseMatrix.h"
 
+#include <array>
 #include <memory>
 #include <vector>
 
 namespace gridfem
 {
 
-/// Patches of a level in the order a sweep visits them. Knows no mesh: groups of unknowns suffice.
+/// Patches of a level in the order a forward sweep visits them; a backward sweep visits them in the
+/// opposite order. Knows no mesh: groups of unknowns suffice.
 struct PatchOrder
 {
   std::vector<std::array<Index, FunctionsPerPatch>> dof; // -1 marks an unused place
@@ -34,7 +36,9 @@ class Smoother
 public:
   virtual ~Smoother() = default;
 
-  /// One sweep: improves x for A x = b. The backward sweep is the adjoint of the forward one.
+  /// One sweep: improves x for A x = b, with the matrix the smoother was made for. Any number of
+  /// columns; same bits for any number of threads (0: all). The backward sweep is the adjoint of
+  /// the forward one.
   virtual void Sweep(const SparseMatrix& A, const MultiVector& b, MultiVector& x,
     SweepDirection direction, int threads) const = 0;
 
@@ -42,12 +46,15 @@ public:
   virtual std::size_t Memory() const = 0;
 };
 
-/// Gauss-Seidel: every unknown once, in the order of the first patch that contains it. Rows with a
-/// zero diagonal are left alone.
+/// Gauss-Seidel: every unknown once, in the order of the first patch that contains it; unknowns of
+/// no patch come last. Rows whose diagonal is not a positive number are left alone. Throws
+/// InvalidInput when the order does not fit the matrix.
 std::unique_ptr<Smoother> MakeGaussSeidel(const SparseMatrix& A, const PatchOrder& order);
 
 /// Multiplicative Schwarz: for each patch solves its block of A. Local solve: scaled by the
-/// diagonal, pivoted Cholesky, stopped at pivot 1e-10, the kept part is inverted.
+/// diagonal, pivoted elimination (the pivots of pivoted Cholesky), stopped at pivot 1e-10, the kept
+/// part is inverted. Unknowns whose diagonal is not a positive number, and unknowns of no patch,
+/// are left alone. Throws InvalidInput when the order does not fit the matrix. [NUMERICS §1]
 std::unique_ptr<Smoother> MakePatchSmoother(
   const SparseMatrix& A, const PatchOrder& order, int threads = 0);
 

@@ -25,10 +25,14 @@ struct SparseMatrix
   std::vector<double> Diagonal() const;
 };
 
-/// y = A x. Same bits for any number of threads.
+/// y = A x; y must not be x. Throws InvalidInput, as the next two, when shapes do not fit. Same
+/// bits for any number of threads.
 void Multiply(const SparseMatrix& A, const MultiVector& x, MultiVector& y, int threads = 0);
 
-/// r = b - A x.
+/// y += A x.
+void MultiplyAdd(const SparseMatrix& A, const MultiVector& x, MultiVector& y, int threads = 0);
+
+/// r = b - A x; r may be b.
 void Residual(const SparseMatrix& A, const MultiVector& x, const MultiVector& b, MultiVector& r,
   int threads = 0);
 

@@ -1,0 +1,395 @@
+#include "ConjugateGradients.h"
+
+#include "Errors.h"
+#include "RowKernels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace gridfem
+{
+namespace
+{
+
+using Columns = Eigen::ArrayXd; // one number per right-hand side
+
+/// x_cᵀ y_c of every column c.
+Columns ColumnProducts(const MultiVector& x, const MultiVector& y, int threads)
+{
+  const auto sumRange = [&](Id begin, Id end)
+  {
+    Columns sums = Columns::Zero(x.cols());
+    ForEachChunk(x.cols(),
+      [&](auto chunk)
+      {
+        using Lanes = typename decltype(chunk)::Lanes;
+        Lanes part[4] = { Lanes::Zero(), Lanes::Zero(), Lanes::Zero(), Lanes::Zero() };
+        for (Index row = static_cast<Index>(begin); row < end; ++row)
+        {
+          part[row & 3] += chunk.Row(x.data(), row) * chunk.Row(y.data(), row);
+        }
+        sums.segment<Lanes::SizeAtCompileTime>(chunk.first) =
+          (part[0] + part[1]) + (part[2] + part[3]);
+      });
+    return sums;
+  };
+  return ParallelSum(
+    x.rows(), ThreadsFor(x.size(), threads), Columns(Columns::Zero(x.cols())), sumRange);
+}
+
+/// y_c += factor_c x_c.
+void AddScaled(const MultiVector& x, const Columns& factor, MultiVector& y, int threads)
+{
+  ParallelRanges(x.rows(), ThreadsFor(x.size(), threads),
+    [&](Id begin, Id end)
+    {
+      y.middleRows(begin, end - begin) +=
+        x.middleRows(begin, end - begin) * factor.matrix().asDiagonal();
+    });
+}
+
+/// x_c = z_c + factor_c x_c.
+void ScaleAndAdd(const MultiVector& z, const Columns& factor, MultiVector& x, int threads)
+{
+  ParallelRanges(x.rows(), ThreadsFor(x.size(), threads),
+    [&](Id begin, Id end)
+    {
+      auto rows = x.middleRows(begin, end - begin);
+      rows = z.middleRows(begin, end - begin) + rows * factor.matrix().asDiagonal();
+    });
+}
+
+void CheckProblem(const Multigrid& multigrid, const MultiVector& b, const MultiVector& x,
+  const SolveOptions& options)
+{
+  if (b.rows() != multigrid.Matrix().rows || x.rows() != b.rows() || x.cols() != b.cols())
+  {
+    throw InvalidInput("a system of " + std::to_string(multigrid.Matrix().rows) +
+                       " unknowns got b " + std::to_string(b.rows()) + " x " +
+                       std::to_string(b.cols()) + " and x " + std::to_string(x.rows()) + " x " +
+                       std::to_string(x.cols()));
+  }
+  if (!(options.tolerance > 0.0) || options.maximumIterations < 1)
+  {
+    throw InvalidInput("the tolerance must be positive and at least one iteration allowed");
+  }
+  if (!x.allFinite())
+  {
+    throw InvalidInput("the start of the iteration contains values that are not finite");
+  }
+}
+
+/// What conjugate gradients and repeated cycles have in common: the residual r, z = B r with one
+/// cycle B, their measures, and which columns still iterate. The columns of r and z that do not are
+/// zero, so that they neither change x nor spread NaN.
+class Iteration
+{
+public:
+  Iteration(const Multigrid& multigrid, const MultiVector& b, MultiVector& x,
+    const SolveOptions& options, const Projection& project);
+
+  bool CanGoOn() const
+  {
+    return this->IsActive() && report_.iterations < options_.maximumIterations;
+  }
+  bool IsActive() const { return isActive_.any(); }
+  bool IsActive(Id column) const { return isActive_[column]; }
+
+  /// Counts an iteration and reports progress; throws Aborted.
+  void Begin(const Progress& progress);
+
+  /// r = b - A x in the columns that iterate.
+  void ComputeResidual();
+
+  /// z = B r and its measures; retires columns that are done.
+  void Measure();
+
+  /// Ends the iteration of a column.
+  void Retire(Id column, bool isConverged);
+
+  /// Looks at the true residual of converged columns: an updated one drifts away by rounding. Those
+  /// that were wrong iterate again, from z.
+  void Confirm();
+
+  SolveReport Finish();
+
+  MultiVector r;
+  MultiVector z;
+  Columns rz; // rᵀz of the columns that iterate
+
+private:
+  void SetReference();
+  bool IsSolved(Id column) const;
+  void Project(MultiVector& v) const;
+  void Record();
+  int Threads() const { return multigrid_.Options().threads; }
+
+  const Multigrid& multigrid_;
+  const MultiVector& b_;
+  MultiVector& x_;
+  const SolveOptions& options_;
+  const Projection& project_;
+
+  Eigen::Array<bool, Eigen::Dynamic, 1> isActive_;
+  Eigen::Array<bool, Eigen::Dynamic, 1> isConverged_;
+  Columns energyOfZero_;
+  Columns residualOfZero_;
+  Columns energy_;   // relative to that
+  Columns residual_; // relative to that
+  SolveReport report_;
+};
+
+Iteration::Iteration(const Multigrid& multigrid, const MultiVector& b, MultiVector& x,
+  const SolveOptions& options, const Projection& project)
+  : r(b), rz(Columns::Zero(b.cols())), multigrid_(multigrid), b_(b), x_(x), options_(options),
+    project_(project)
+{
+  CheckProblem(multigrid, b, x, options);
+  isActive_.setConstant(b.cols(), true);
+  isConverged_.setConstant(b.cols(), false);
+  energy_.setOnes(b.cols());
+  residual_.setOnes(b.cols());
+  this->SetReference();
+  if (!x_.isZero(0.0))
+  {
+    this->ComputeResidual();
+    this->Measure();
+  }
+  else
+  {
+    this->Record();
+  }
+}
+
+/// The measures of x = 0, where r = b. Retires columns without a solution or with a trivial one.
+void Iteration::SetReference()
+{
+  this->Project(r);
+  residualOfZero_ = ColumnProducts(r, r, this->Threads()).sqrt();
+  for (Id c = 0; c < r.cols(); ++c)
+  {
+    if (!std::isfinite(residualOfZero_[c]))
+    {
+      energy_[c] = residual_[c] = std::numeric_limits<double>::quiet_NaN();
+      this->Retire(c, false);
+    }
+    else if (residualOfZero_[c] == 0.0)
+    {
+      energy_[c] = residual_[c] = 0.0;
+      x_.col(c).setZero();
+      this->Retire(c, true);
+    }
+  }
+  multigrid_.Precondition(r, z);
+  this->Project(z);
+  rz = ColumnProducts(r, z, this->Threads());
+  energyOfZero_ = rz.sqrt();
+  for (Id c = 0; c < r.cols(); ++c)
+  {
+    if (this->IsActive(c) && !(energyOfZero_[c] > 0.0 && std::isfinite(energyOfZero_[c])))
+    {
+      this->Retire(c, false);
+    }
+  }
+}
+
+void Iteration::Begin(const Progress& progress)
+{
+  const double worst = std::clamp(energy_.maxCoeff(), options_.tolerance, 1.0);
+  const double byMeasure =
+    options_.tolerance < 1.0 ? std::log(worst) / std::log(options_.tolerance) : 0.0;
+  progress.Check(std::max(byMeasure, double(report_.iterations) / options_.maximumIterations));
+  ++report_.iterations;
+}
+
+void Iteration::ComputeResidual()
+{
+  Residual(multigrid_.Matrix(), x_, b_, r, this->Threads());
+  this->Project(r);
+  for (Id c = 0; c < r.cols(); ++c)
+  {
+    if (!this->IsActive(c))
+    {
+      r.col(c).setZero();
+    }
+  }
+}
+
+void Iteration::Measure()
+{
+  multigrid_.Precondition(r, z);
+  this->Project(z);
+  rz = ColumnProducts(r, z, this->Threads());
+  const Columns rr = ColumnProducts(r, r, this->Threads());
+  for (Id c = 0; c < r.cols(); ++c)
+  {
+    if (!this->IsActive(c))
+    {
+      continue;
+    }
+    energy_[c] = std::sqrt(rz[c]) / energyOfZero_[c];
+    residual_[c] = std::sqrt(rr[c]) / residualOfZero_[c];
+    const bool isBroken = !std::isfinite(energy_[c]) || !std::isfinite(residual_[c]);
+    if (isBroken || this->IsSolved(c))
+    {
+      this->Retire(c, !isBroken);
+    }
+  }
+  this->Record();
+}
+
+/// A vanishing energy may be underflow or a residual that the cycle does not see; |r| tells.
+bool Iteration::IsSolved(Id column) const
+{
+  const bool byEnergy = options_.measure == SolveOptions::Measure::Energy && energy_[column] > 0.0;
+  return (byEnergy ? energy_[column] : residual_[column]) <= options_.tolerance;
+}
+
+void Iteration::Retire(Id column, bool isConverged)
+{
+  isActive_[column] = false;
+  isConverged_[column] = isConverged;
+  r.col(column).setZero();
+  if (z.size() > 0)
+  {
+    z.col(column).setZero();
+  }
+}
+
+void Iteration::Confirm()
+{
+  isActive_ = isConverged_;
+  isConverged_.setConstant(false);
+  this->ComputeResidual();
+  const Columns norm = ColumnProducts(r, r, this->Threads()).sqrt();
+  for (Id c = 0; c < r.cols(); ++c)
+  {
+    if (this->IsActive(c) && norm[c] <= 2.0 * residual_[c] * residualOfZero_[c])
+    {
+      this->Retire(c, true);
+    }
+  }
+  if (this->IsActive())
+  {
+    this->Measure();
+  }
+}
+
+void Iteration::Project(MultiVector& v) const
+{
+  if (project_)
+  {
+    project_(v);
+  }
+}
+
+/// The largest over the columns; NaN if there is one.
+double Worst(const Columns& values)
+{
+  return values.size() == 0 ? 0.0 : values.maxCoeff<Eigen::PropagateNaN>();
+}
+
+void Iteration::Record()
+{
+  const IterationRecord record{ report_.iterations, Worst(energy_), Worst(residual_) };
+  if (!report_.history.empty() && report_.history.back().iteration == record.iteration)
+  {
+    report_.history.back() = record;
+  }
+  else
+  {
+    report_.history.push_back(record);
+  }
+}
+
+SolveReport Iteration::Finish()
+{
+  this->Project(x_);
+  report_.converged = isConverged_.all();
+  const double first = report_.history.front().energy;
+  const double last = report_.history.back().energy;
+  if (report_.iterations > 0 && first > 0.0)
+  {
+    report_.convergenceFactor = std::pow(last / first, 1.0 / report_.iterations);
+  }
+  return std::move(report_);
+}
+
+/// The cycle B makes p'Ap / p'B⁻¹p at most 1 or so. Below the inverse of this, p lies in the null
+/// space of A: the system has no solution.
+constexpr double LongestStep = 1e12;
+
+/// Steps to the minimum along p; 0 in columns that do not iterate. A column whose p does not have
+/// positive energy breaks down, and what its q holds is forgotten.
+Columns StepLengths(Iteration& iteration, MultiVector& p, MultiVector& q, int threads)
+{
+  const Columns pq = ColumnProducts(p, q, threads);
+  Columns step = Columns::Zero(pq.size());
+  for (Id c = 0; c < pq.size(); ++c)
+  {
+    if (!iteration.IsActive(c))
+    {
+      continue;
+    }
+    step[c] = iteration.rz[c] / pq[c];
+    if (!(pq[c] > 0.0 && step[c] < LongestStep))
+    {
+      step[c] = 0.0;
+      p.col(c).setZero();
+      q.col(c).setZero();
+      iteration.Retire(c, false);
+    }
+  }
+  return step;
+}
+
+} // namespace
+
+SolveReport SolveConjugateGradients(const Multigrid& multigrid, const MultiVector& b,
+  MultiVector& x, const SolveOptions& options, const Projection& project, const Progress& progress)
+{
+  const int threads = multigrid.Options().threads;
+  Iteration iteration(multigrid, b, x, options, project);
+  MultiVector p = iteration.z;
+  MultiVector q;
+  while (iteration.CanGoOn())
+  {
+    iteration.Begin(progress);
+    Multiply(multigrid.Matrix(), p, q, threads);
+    const Columns step = StepLengths(iteration, p, q, threads);
+    AddScaled(p, step, x, threads);
+    AddScaled(q, -step, iteration.r, threads);
+    const Columns before = iteration.rz;
+    iteration.Measure();
+    Columns factor = Columns::Zero(b.cols());
+    for (Id c = 0; c < b.cols(); ++c)
+    {
+      factor[c] = iteration.IsActive(c) ? iteration.rz[c] / before[c] : 0.0;
+    }
+    if (!iteration.IsActive())
+    {
+      iteration.Confirm();
+    }
+    ScaleAndAdd(iteration.z, factor, p, threads);
+  }
+  return iteration.Finish();
+}
+
+SolveReport SolveCycles(const Multigrid& multigrid, const MultiVector& b, MultiVector& x,
+  const SolveOptions& options, const Projection& project, const Progress& progress)
+{
+  const int threads = multigrid.Options().threads;
+  Iteration iteration(multigrid, b, x, options, project);
+  while (iteration.CanGoOn())
+  {
+    iteration.Begin(progress);
+    AddScaled(iteration.z, Columns::Ones(b.cols()), x, threads);
+    iteration.ComputeResidual();
+    iteration.Measure();
+  }
+  return iteration.Finish();
+}
+
+} // namespace gridfem

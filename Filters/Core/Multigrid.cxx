@@ -1,0 +1,176 @@
+#include "Multigrid.h"
+
+#include "Errors.h"
+
+#include <string>
+
+namespace gridfem
+{
+namespace
+{
+
+void CheckLevels(const std::vector<MultigridLevel>& levels, const MultigridOptions& options)
+{
+  if (levels.empty())
+  {
+    throw InvalidInput("a multigrid hierarchy needs at least one level");
+  }
+  if (options.preSweeps < 0 || options.postSweeps < 0)
+  {
+    throw InvalidInput("the number of smoothing sweeps must not be negative");
+  }
+  for (std::size_t l = 0; l < levels.size(); ++l)
+  {
+    const SparseMatrix& A = levels[l].A;
+    const SparseMatrix& P = levels[l].prolongation;
+    const bool isCoarsest = l + 1 == levels.size();
+    if (A.rows != A.columns ||
+        (!isCoarsest && (P.rows != A.rows || P.columns != levels[l + 1].A.rows)))
+    {
+      throw InvalidInput(
+        "the matrix or the prolongation of level " + std::to_string(l) + " has the wrong shape");
+    }
+  }
+}
+
+std::size_t MatrixMemory(const SparseMatrix& A)
+{
+  return A.rowBegin.size() * sizeof(Id) + A.column.size() * sizeof(Index) +
+         A.value.size() * sizeof(double);
+}
+
+} // namespace
+
+Multigrid::Multigrid(std::vector<MultigridLevel> levels, const MultigridOptions& options)
+  : levels_(std::move(levels)), options_(options)
+{
+  CheckLevels(levels_, options_);
+  for (std::size_t l = 0; l + 1 < levels_.size(); ++l)
+  {
+    levels_[l].restriction = Transpose(levels_[l].prolongation);
+  }
+  this->BuildSolvers();
+}
+
+void Multigrid::Update(std::vector<SparseMatrix> matrices)
+{
+  bool fits = matrices.size() == levels_.size();
+  for (std::size_t l = 0; fits && l < levels_.size(); ++l)
+  {
+    fits = matrices[l].rows == levels_[l].A.rows && matrices[l].columns == levels_[l].A.columns &&
+           matrices[l].NonZeros() == levels_[l].A.NonZeros();
+  }
+  if (!fits)
+  {
+    throw InvalidInput("new matrix values must have the patterns of the hierarchy");
+  }
+  for (std::size_t l = 0; l < levels_.size(); ++l)
+  {
+    levels_[l].A = std::move(matrices[l]);
+  }
+  this->BuildSolvers();
+}
+
+void Multigrid::BuildSolvers()
+{
+  for (std::size_t l = 0; l + 1 < levels_.size(); ++l)
+  {
+    MultigridLevel& level = levels_[l];
+    level.smoother.reset(); // its memory is free before the new one is built
+    level.smoother = options_.smoother == SmootherType::Patch
+                       ? MakePatchSmoother(level.A, level.order, options_.threads)
+                       : MakeGaussSeidel(level.A, level.order);
+  }
+  coarse_ = CoarseSolver(levels_.back().A, options_.threads);
+}
+
+void Multigrid::Cycle(const MultiVector& b, MultiVector& x) const
+{
+  if (x.rows() != b.rows() || x.cols() != b.cols())
+  {
+    throw InvalidInput("x and b of a multigrid cycle must have the same shape");
+  }
+  this->Start(0, b, x, false);
+}
+
+void Multigrid::Precondition(const MultiVector& b, MultiVector& x) const
+{
+  this->Start(0, b, x, true);
+}
+
+void Multigrid::PreconditionFrom(std::size_t level, const MultiVector& b, MultiVector& x) const
+{
+  this->Start(level, b, x, true);
+}
+
+void Multigrid::Start(
+  std::size_t level, const MultiVector& b, MultiVector& x, bool zeroStart) const
+{
+  const Index unknowns = levels_.at(level).A.rows;
+  if (b.rows() != unknowns)
+  {
+    throw InvalidInput("a right-hand side of " + std::to_string(b.rows()) +
+                       " rows does not fit a system of " + std::to_string(unknowns) + " unknowns");
+  }
+  std::vector<Scratch> scratch(levels_.size());
+  this->CycleLevel(level, b, x, zeroStart, scratch);
+}
+
+void Multigrid::CycleLevel(std::size_t l, const MultiVector& b, MultiVector& x, bool zeroStart,
+  std::vector<Scratch>& scratch) const
+{
+  const MultigridLevel& level = levels_[l];
+  if (l + 1 == levels_.size())
+  {
+    coarse_.Solve(b, x, options_.threads);
+    return;
+  }
+  if (zeroStart)
+  {
+    x.setZero(b.rows(), b.cols());
+  }
+  for (int sweep = 0; sweep < options_.preSweeps; ++sweep)
+  {
+    level.smoother->Sweep(level.A, b, x, SweepDirection::Forward, options_.threads);
+  }
+  this->CorrectFromCoarse(l, b, x, zeroStart && options_.preSweeps == 0, scratch);
+  for (int sweep = 0; sweep < options_.postSweeps; ++sweep)
+  {
+    level.smoother->Sweep(level.A, b, x, SweepDirection::Backward, options_.threads);
+  }
+}
+
+void Multigrid::CorrectFromCoarse(std::size_t l, const MultiVector& b, MultiVector& x, bool zeroX,
+  std::vector<Scratch>& scratch) const
+{
+  const MultigridLevel& level = levels_[l];
+  auto& [residual, coarseB, coarseX] = scratch[l];
+  if (!zeroX)
+  {
+    Residual(level.A, x, b, residual, options_.threads);
+  }
+  Multiply(level.restriction, zeroX ? b : residual, coarseB, options_.threads);
+  this->CycleLevel(l + 1, coarseB, coarseX, true, scratch);
+  const bool coarseIsSolved = l + 2 == levels_.size(); // directly: once is enough
+  if (options_.cycle == CycleType::W && !coarseIsSolved)
+  {
+    this->CycleLevel(l + 1, coarseB, coarseX, false, scratch);
+  }
+  MultiplyAdd(level.prolongation, coarseX, x, options_.threads);
+}
+
+std::size_t Multigrid::Memory() const
+{
+  std::size_t bytes = coarse_.Memory();
+  for (const MultigridLevel& level : levels_)
+  {
+    bytes += MatrixMemory(level.A) + MatrixMemory(level.prolongation) +
+             MatrixMemory(level.restriction) +
+             level.order.dof.size() * sizeof(level.order.dof.front()) +
+             (level.order.blockBegin.size() + level.order.colourBegin.size()) * sizeof(Id);
+    bytes += level.smoother ? level.smoother->Memory() : 0;
+  }
+  return bytes;
+}
+
+} // namespace gridfem

@@ -1,0 +1,95 @@
+#include "PatchOrdering.h"
+
+#include "Errors.h"
+
+#include <algorithm>
+#include <string>
+
+namespace gridfem
+{
+namespace
+{
+
+/// Three bits of a Morton key are one level: the key of the block of 8 x 8 x 8 cells.
+constexpr int BlockShift = 9;
+
+/// The lowest bits of the block's i, j and k. Functions of a block lie on the corners 0 .. 8 of its
+/// cells along each axis and their rows reach the corners -1 .. 9; the next block of the colour
+/// begins at corner 16. So two blocks of a colour neither share nor couple functions.
+int Colour(MortonKey block)
+{
+  return static_cast<int>(block & 7);
+}
+
+struct BlockRange
+{
+  int colour;
+  Id begin;
+  Id end;
+};
+
+/// Runs of patches that lie in one block; patches in Morton order are in block order, too.
+std::vector<BlockRange> FindBlocks(const std::vector<MortonKey>& cell)
+{
+  std::vector<BlockRange> blocks;
+  const Id count = static_cast<Id>(cell.size());
+  for (Id begin = 0; begin < count;)
+  {
+    const MortonKey block = cell[begin] >> BlockShift;
+    Id end = begin + 1;
+    while (end < count && cell[end] >> BlockShift == block)
+    {
+      ++end;
+    }
+    blocks.push_back({ Colour(block), begin, end });
+    begin = end;
+  }
+  return blocks;
+}
+
+void CheckLevel(const Level& level)
+{
+  if (level.dof.size() != level.cell.size())
+  {
+    throw InvalidInput("a level has " + std::to_string(level.cell.size()) + " cells but " +
+                       std::to_string(level.dof.size()) + " rows of functions");
+  }
+  const auto wrong = std::is_sorted_until(level.cell.begin(), level.cell.end());
+  if (wrong != level.cell.end())
+  {
+    throw InvalidInput("patches must be sorted by the Morton key of their cell; patch " +
+                       std::to_string(wrong - level.cell.begin()) + " is not");
+  }
+}
+
+} // namespace
+
+PatchOrder OrderPatches(const Level& level)
+{
+  CheckLevel(level);
+  std::vector<BlockRange> blocks = FindBlocks(level.cell);
+  std::stable_sort(blocks.begin(), blocks.end(),
+    [](const BlockRange& a, const BlockRange& b) { return a.colour < b.colour; });
+
+  PatchOrder order;
+  order.dof.reserve(level.dof.size());
+  order.blockBegin.push_back(0);
+  order.colourBegin.push_back(0);
+  for (Id k = 0; k < static_cast<Id>(blocks.size()); ++k)
+  {
+    if (k > 0 && blocks[k].colour != blocks[k - 1].colour)
+    {
+      order.colourBegin.push_back(k);
+    }
+    order.dof.insert(
+      order.dof.end(), level.dof.begin() + blocks[k].begin, level.dof.begin() + blocks[k].end);
+    order.blockBegin.push_back(static_cast<Id>(order.dof.size()));
+  }
+  if (!blocks.empty())
+  {
+    order.colourBegin.push_back(static_cast<Id>(blocks.size()));
+  }
+  return order;
+}
+
+} // namespace gridfem
