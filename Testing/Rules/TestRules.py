@@ -20,8 +20,8 @@ SOURCE_SUFFIXES = (".h", ".cxx")
 # solvers, which see matrices and lists of unknowns only, cannot reach a mesh.
 CORE_LAYERS = {
     "foundation": "Types Errors Progress Parallel UnionFind RadixSort Grouping",
-    "algebra": "SparseMatrix RowKernels PivotedCholesky BlockSweep Smoother GaussSeidel"
-               " PatchSmoother CoarseSolver Multigrid ConjugateGradients RayleighRitz"
+    "algebra": "SparseMatrix RowKernels PairedProduct PivotedCholesky BlockSweep Smoother"
+               " GaussSeidel PatchSmoother CoarseSolver Multigrid ConjugateGradients RayleighRitz"
                " BlockIteration",
     "grid and clip": "TriangleMesh MeshEdges Grid SourceTriangle TriangleClipper Clip Links"
                      " MemoryEstimate",
