@@ -1,0 +1,153 @@
+// What the filter tests share: meshes as vtkPolyData, collected messages, arrays as vectors.
+#ifndef GridFEM_Testing_FilterSupport_h
+#define GridFEM_Testing_FilterSupport_h
+
+#include "Meshes.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkCallbackCommand.h"
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkExecutive.h"
+#include "vtkFieldData.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace gridfem::testing
+{
+
+inline vtkSmartPointer<vtkPolyData> ToPolyData(const TriangleMesh& mesh, int precision = VTK_DOUBLE)
+{
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataType(precision);
+  for (const Vec3& point : mesh.points)
+  {
+    points->InsertNextPoint(point.data());
+  }
+  vtkNew<vtkCellArray> polys;
+  for (const auto& triangle : mesh.triangles)
+  {
+    polys->InsertNextCell({ triangle[0], triangle[1], triangle[2] });
+  }
+  data->SetPoints(points);
+  data->SetPolys(polys);
+  return data;
+}
+
+/// Adds a double point array with the components f(point).
+inline vtkDoubleArray* AddPointArray(vtkPolyData* data, const char* name, int components,
+  const std::function<double(const Vec3&, int)>& f)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(data->GetNumberOfPoints());
+  for (vtkIdType k = 0; k < data->GetNumberOfPoints(); ++k)
+  {
+    const Vec3 point(data->GetPoint(k));
+    for (int c = 0; c < components; ++c)
+    {
+      array->SetComponent(k, c, f(point, c));
+    }
+  }
+  data->GetPointData()->AddArray(array);
+  return array;
+}
+
+/// Collects the messages of a filter, and keeps those of its executive quiet.
+class Messages
+{
+public:
+  explicit Messages(vtkAlgorithm* algorithm)
+  {
+    errorCommand_->SetClientData(&errors);
+    errorCommand_->SetCallback(&Messages::Collect);
+    warningCommand_->SetClientData(&warnings);
+    warningCommand_->SetCallback(&Messages::Collect);
+    quiet_->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+    algorithm->AddObserver(vtkCommand::ErrorEvent, errorCommand_);
+    algorithm->AddObserver(vtkCommand::WarningEvent, warningCommand_);
+    algorithm->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, quiet_);
+  }
+
+  std::vector<std::string> errors;
+  std::vector<std::string> warnings;
+
+private:
+  static void Collect(vtkObject*, unsigned long, void* list, void* text)
+  {
+    static_cast<std::vector<std::string>*>(list)->emplace_back(static_cast<const char*>(text));
+  }
+
+  vtkNew<vtkCallbackCommand> errorCommand_;
+  vtkNew<vtkCallbackCommand> warningCommand_;
+  vtkNew<vtkCallbackCommand> quiet_;
+};
+
+/// All values of an array; empty without one.
+inline std::vector<double> Values(vtkDataArray* array)
+{
+  std::vector<double> values;
+  for (vtkIdType k = 0; array && k < array->GetNumberOfTuples(); ++k)
+  {
+    for (int c = 0; c < array->GetNumberOfComponents(); ++c)
+    {
+      values.push_back(array->GetComponent(k, c));
+    }
+  }
+  return values;
+}
+
+inline std::vector<double> PointValues(vtkDataObject* data, const char* name)
+{
+  return Values(vtkPolyData::SafeDownCast(data)->GetPointData()->GetArray(name));
+}
+
+inline double FieldValue(vtkDataObject* data, const char* name)
+{
+  vtkDataArray* array = data->GetFieldData()->GetArray(name);
+  return array ? array->GetComponent(0, 0) : std::nan("");
+}
+
+inline bool AllFinite(const std::vector<double>& values)
+{
+  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+}
+
+/// Largest difference; infinite for different sizes.
+inline double Difference(const std::vector<double>& a, const std::vector<double>& b)
+{
+  if (a.size() != b.size())
+  {
+    return INFINITY;
+  }
+  double largest = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k)
+  {
+    largest = std::max(largest, std::abs(a[k] - b[k]));
+  }
+  return largest;
+}
+
+inline bool IsEmptyData(vtkDataObject* data)
+{
+  return data->GetNumberOfElements(vtkDataObject::POINT) <= 0 &&
+         data->GetNumberOfElements(vtkDataObject::CELL) <= 0 &&
+         data->GetNumberOfElements(vtkDataObject::ROW) <= 0 &&
+         data->GetFieldData()->GetNumberOfArrays() == 0;
+}
+
+} // namespace gridfem::testing
+
+#endif

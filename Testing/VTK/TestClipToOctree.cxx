@@ -1,0 +1,327 @@
+// Clip To Octree: ports, arrays, precision, polygons of every kind.
+
+#include "FilterSupport.h"
+
+#include "QuadratureRule.h"
+#include "TriangleMesh.h"
+
+#include "vtkClipToOctree.h"
+
+#include "vtkFloatArray.h"
+#include "vtkIntArray.h"
+#include "vtkStringArray.h"
+#include "vtkTriangle.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+vtkPolyData* Clipped(vtkClipToOctree* filter)
+{
+  filter->Update();
+  return filter->GetOutput();
+}
+
+double Area(vtkPolyData* data, vtkIdType cell)
+{
+  vtkNew<vtkIdList> ids;
+  data->GetCellPoints(cell, ids);
+  double p[3][3];
+  for (int k = 0; k < 3; ++k)
+  {
+    data->GetPoint(ids->GetId(k), p[k]);
+  }
+  return vtkTriangle::TriangleArea(p[0], p[1], p[2]);
+}
+
+/// Area of the clipped triangles by source cell.
+std::vector<double> AreaBySource(vtkPolyData* clipped, vtkIdType cells)
+{
+  std::vector<double> area(cells, 0.0);
+  const auto source = Values(clipped->GetCellData()->GetArray("SourceCellId"));
+  for (vtkIdType cell = 0; cell < clipped->GetNumberOfCells(); ++cell)
+  {
+    area[std::size_t(source[cell])] += Area(clipped, cell);
+  }
+  return area;
+}
+
+/// L-shaped hexagon of area 3 in the plane z = 0.
+vtkSmartPointer<vtkPolyData> ConcavePolygon(double scale, double shift)
+{
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  const double corners[6][2] = { { 0, 0 }, { 2, 0 }, { 2, 1 }, { 1, 1 }, { 1, 2 }, { 0, 2 } };
+  vtkNew<vtkCellArray> polys;
+  polys->InsertNextCell(6);
+  for (int k = 0; k < 6; ++k)
+  {
+    polys->InsertCellPoint(
+      points->InsertNextPoint(scale * corners[k][0] + shift, scale * corners[k][1] + shift, 0.0));
+  }
+  data->SetPoints(points);
+  data->SetPolys(polys);
+  return data;
+}
+
+TEST(ClipToOctree, InputPointsComeFirstAndAreasAddUp)
+{
+  const TriangleMesh mesh = GeodesicSphere(6);
+  auto input = ToPolyData(mesh);
+  vtkNew<vtkClipToOctree> filter;
+  filter->SetDepth(4);
+  filter->SetInputData(input);
+  vtkPolyData* output = Clipped(filter);
+  ASSERT_GT(output->GetNumberOfPoints(), input->GetNumberOfPoints());
+  for (vtkIdType point = 0; point < input->GetNumberOfPoints(); ++point)
+  {
+    EXPECT_EQ(Vec3(output->GetPoint(point)), Vec3(input->GetPoint(point)));
+  }
+  const auto area = AreaBySource(output, input->GetNumberOfCells());
+  for (vtkIdType cell = 0; cell < input->GetNumberOfCells(); ++cell)
+  {
+    EXPECT_NEAR(area[cell], Area(input, cell), 1e-12);
+  }
+}
+
+TEST(ClipToOctree, EveryTriangleLiesInItsCell)
+{
+  vtkNew<vtkClipToOctree> filter;
+  filter->SetDepth(4);
+  filter->SetInputData(ToPolyData(Torus(20, 10, 1.0, 0.4)));
+  vtkPolyData* output = Clipped(filter);
+  const Vec3 origin(output->GetFieldData()->GetArray("GridOrigin")->GetTuple(0));
+  const double spacing = FieldValue(output, "GridSpacing");
+  EXPECT_EQ(FieldValue(output, "GridDepth"), 4);
+  vtkDataArray* cells = output->GetFieldData()->GetArray("OctreeCells");
+  vtkDataArray* cellId = output->GetCellData()->GetArray("OctreeCellId");
+  ASSERT_TRUE(vtkIntArray::SafeDownCast(cells));
+  EXPECT_EQ(cellId->GetDataType(), VTK_ID_TYPE);
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType triangle = 0; triangle < output->GetNumberOfCells(); ++triangle)
+  {
+    const Vec3 low(cells->GetTuple(vtkIdType(cellId->GetComponent(triangle, 0))));
+    output->GetCellPoints(triangle, ids);
+    for (const vtkIdType point : *ids)
+    {
+      const Vec3 local = (Vec3(output->GetPoint(point)) - origin) / spacing - low;
+      EXPECT_GE(local.minCoeff(), -1e-9);
+      EXPECT_LE(local.maxCoeff(), 1 + 1e-9);
+    }
+  }
+}
+
+TEST(ClipToOctree, QuadraturePointsCarryTheArea)
+{
+  for (const int degree : { 2, 4, 6, 10, 12 })
+  {
+    vtkNew<vtkClipToOctree> filter;
+    filter->SetDepth(3);
+    filter->SetQuadratureDegree(degree);
+    filter->SetInputData(ToPolyData(GeodesicSphere(4)));
+    const vtkIdType triangles = Clipped(filter)->GetNumberOfCells();
+    vtkPolyData* samples = filter->GetOutput(1);
+    const vtkIdType expected = triangles * vtkIdType(TriangleRule(degree).points.size());
+    EXPECT_EQ(samples->GetNumberOfPoints(), expected);
+    EXPECT_EQ(samples->GetNumberOfVerts(), expected);
+    const auto weight = PointValues(samples, "Weight");
+    EXPECT_NEAR(
+      std::accumulate(weight.begin(), weight.end(), 0.0), SurfaceArea(GeodesicSphere(4)), 1e-11);
+    EXPECT_EQ(samples->GetPointData()->GetArray("SourceCellId")->GetNumberOfTuples(), expected);
+  }
+}
+
+TEST(ClipToOctree, OctreeShowsOneLevelOrAll)
+{
+  vtkNew<vtkClipToOctree> filter;
+  filter->SetDepth(4);
+  filter->SetInputData(ToPolyData(GeodesicSphere(4)));
+  const auto cellsOf = [&](int level)
+  {
+    filter->SetLevel(level);
+    filter->Update();
+    auto* octree = vtkUnstructuredGrid::SafeDownCast(filter->GetOutputDataObject(2));
+    for (vtkIdType cell = 0; level >= 0 && cell < octree->GetNumberOfCells(); ++cell)
+    {
+      EXPECT_EQ(octree->GetCellType(cell), VTK_VOXEL);
+      EXPECT_EQ(
+        octree->GetCellData()->GetArray("Level")->GetComponent(cell, 0), std::min(level, 4));
+    }
+    return octree->GetNumberOfCells();
+  };
+  EXPECT_EQ(cellsOf(0), 1);
+  EXPECT_EQ(cellsOf(1), 8);
+  const vtkIdType finest =
+    filter->GetOutput()->GetFieldData()->GetArray("OctreeCells")->GetNumberOfTuples();
+  EXPECT_EQ(cellsOf(4), finest);
+  EXPECT_EQ(cellsOf(14), finest);
+  EXPECT_EQ(cellsOf(-1), finest + cellsOf(3) + cellsOf(2) + 8 + 1);
+  EXPECT_EQ(filter->GetNumberOfRuns(vtkClipToOctree::SpaceStage), 1);
+}
+
+TEST(ClipToOctree, ConcavePolygonsOfAnyScaleAreDecomposed)
+{
+  for (const double scale : { 1.0, 1e-9, 1e9 })
+  {
+    vtkNew<vtkClipToOctree> filter;
+    filter->SetDepth(3);
+    filter->SetInputData(ConcavePolygon(scale, 0.0));
+    const auto area = AreaBySource(Clipped(filter), 1);
+    EXPECT_NEAR(area[0] / (scale * scale), 3.0, 1e-9);
+  }
+}
+
+TEST(ClipToOctree, SourceCellIdsCountVerticesLinesAndStrips)
+{
+  auto input = ConcavePolygon(1.0, 0.0);
+  vtkNew<vtkCellArray> verts;
+  verts->InsertNextCell({ 0 });
+  vtkNew<vtkCellArray> lines;
+  lines->InsertNextCell({ 0, 1 });
+  vtkNew<vtkCellArray> strips;
+  const vtkIdType a = input->GetPoints()->InsertNextPoint(0, 0, 1);
+  input->GetPoints()->InsertNextPoint(1, 0, 1);
+  input->GetPoints()->InsertNextPoint(0, 1, 1);
+  input->GetPoints()->InsertNextPoint(1, 1, 1);
+  strips->InsertNextCell({ a, a + 1, a + 2, a + 3 });
+  const vtkIdType concave[4] = { 0, 2, 3, 4 }; // an arrow with its reflex corner at (1,1)
+  input->GetPolys()->InsertNextCell(4, concave);
+  input->SetVerts(verts);
+  input->SetLines(lines);
+  input->SetStrips(strips);
+  vtkNew<vtkIntArray> label;
+  label->SetName("label");
+  for (int k = 0; k < 5; ++k)
+  {
+    label->InsertNextValue(10 * k);
+  }
+  input->GetCellData()->AddArray(label);
+
+  vtkNew<vtkClipToOctree> filter;
+  filter->SetDepth(3);
+  filter->SetInputData(input);
+  vtkPolyData* output = Clipped(filter);
+  const auto area = AreaBySource(output, 5);
+  EXPECT_EQ(area[0], 0.0);
+  EXPECT_EQ(area[1], 0.0);
+  EXPECT_NEAR(area[2], 3.0, 1e-12);
+  EXPECT_NEAR(area[3], 1.0, 1e-12);
+  EXPECT_NEAR(area[4], 1.0, 1e-12);
+  auto* copied = vtkIntArray::SafeDownCast(output->GetCellData()->GetArray("label"));
+  ASSERT_TRUE(copied);
+  const auto source = Values(output->GetCellData()->GetArray("SourceCellId"));
+  for (vtkIdType cell = 0; cell < output->GetNumberOfCells(); ++cell)
+  {
+    EXPECT_EQ(copied->GetValue(cell), 10 * source[cell]);
+  }
+}
+
+TEST(ClipToOctree, PointArraysAreInterpolatedLinearly)
+{
+  auto input = ToPolyData(GeodesicSphere(5));
+  AddPointArray(input, "linear", 2, [](const Vec3& p, int c) { return c + 2 * p[0] - p[2]; });
+  vtkNew<vtkIntArray> integer;
+  integer->SetName("integer");
+  vtkNew<vtkStringArray> text;
+  text->SetName("text");
+  for (vtkIdType k = 0; k < input->GetNumberOfPoints(); ++k)
+  {
+    integer->InsertNextValue(int(k));
+    text->InsertNextValue(std::to_string(k));
+  }
+  input->GetPointData()->AddArray(integer);
+  input->GetPointData()->AddArray(text);
+  vtkNew<vtkIntArray> field;
+  field->SetName("field");
+  field->InsertNextValue(3);
+  input->GetFieldData()->AddArray(field);
+
+  vtkNew<vtkClipToOctree> filter;
+  filter->SetDepth(4);
+  filter->SetInputData(input);
+  vtkPolyData* output = Clipped(filter);
+  vtkDataArray* linear = output->GetPointData()->GetArray("linear");
+  for (vtkIdType k = 0; k < output->GetNumberOfPoints(); ++k)
+  {
+    const Vec3 p(output->GetPoint(k)); // a linear function of space is linear on every triangle
+    EXPECT_NEAR(linear->GetComponent(k, 1), 1 + 2 * p[0] - p[2], 1e-12);
+  }
+  EXPECT_EQ(output->GetPointData()->GetArray("integer")->GetDataType(), VTK_DOUBLE);
+  EXPECT_EQ(output->GetPointData()->GetAbstractArray("text")->GetNumberOfTuples(),
+    output->GetNumberOfPoints());
+  EXPECT_EQ(FieldValue(output, "field"), 3);
+}
+
+TEST(ClipToOctree, AnArrayOfWrongLengthIsRefusedByName)
+{
+  auto input = ToPolyData(GeodesicSphere(3));
+  vtkNew<vtkFloatArray> shortArray;
+  shortArray->SetName("short");
+  shortArray->InsertNextValue(1.0f);
+  input->GetPointData()->AddArray(shortArray);
+  vtkNew<vtkClipToOctree> filter;
+  Messages messages(filter);
+  filter->SetInputData(input);
+  filter->Update();
+  ASSERT_EQ(messages.errors.size(), 1u);
+  EXPECT_NE(messages.errors[0].find("'short'"), std::string::npos);
+}
+
+TEST(ClipToOctree, OutputHasThePrecisionOfTheInput)
+{
+  for (const int precision : { VTK_FLOAT, VTK_DOUBLE, VTK_INT })
+  {
+    vtkNew<vtkClipToOctree> filter;
+    filter->SetDepth(3);
+    filter->SetInputData(ToPolyData(GeodesicSphere(4, 100.0), precision));
+    const int expected = precision == VTK_FLOAT ? VTK_FLOAT : VTK_DOUBLE;
+    EXPECT_EQ(Clipped(filter)->GetPoints()->GetDataType(), expected);
+    EXPECT_EQ(filter->GetOutput(1)->GetPoints()->GetDataType(), expected);
+  }
+}
+
+TEST(ClipToOctree, WeldingJoinsCutPointsOfCoincidentEdges)
+{
+  auto input = ToPolyData(Unweld(GeodesicSphere(4)));
+  vtkNew<vtkClipToOctree> filter;
+  filter->SetDepth(3);
+  filter->SetInputData(input);
+  const vtkIdType welded = Clipped(filter)->GetNumberOfPoints();
+  filter->WeldCoincidentPointsOff();
+  EXPECT_GT(Clipped(filter)->GetNumberOfPoints(), welded);
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "WeldCoincidentPoints"), 0);
+}
+
+TEST(ClipToOctree, ClippingRunsAgainOnlyForANewMeshOrDepth)
+{
+  auto input = ToPolyData(GeodesicSphere(4));
+  vtkNew<vtkClipToOctree> filter;
+  filter->SetDepth(3);
+  filter->SetInputData(input);
+  filter->Update();
+  vtkPoints* points = filter->GetOutput()->GetPoints();
+  AddPointArray(input, "new", 1, [](const Vec3&, int) { return 1.0; });
+  input->Modified();
+  filter->Update();
+  EXPECT_TRUE(filter->GetOutput()->GetPointData()->HasArray("new"));
+  EXPECT_EQ(filter->GetNumberOfRuns(vtkClipToOctree::SpaceStage), 1);
+  EXPECT_EQ(filter->GetOutput()->GetPoints(), points); // later filters see an unchanged mesh
+  filter->SetDepth(4);
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfRuns(vtkClipToOctree::SpaceStage), 2);
+  EXPECT_GE(filter->GetStageSeconds(vtkClipToOctree::SpaceStage), 0.0);
+  input->GetPoints()->SetPoint(0, 3, 3, 3);
+  input->GetPoints()->Modified();
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfRuns(vtkClipToOctree::SpaceStage), 3);
+}
+
+} // namespace

@@ -1,0 +1,209 @@
+// Laplace Spectrum: eigenvalues in world units, normalised modes, time steps, caching.
+
+#include "FilterSupport.h"
+
+#include "TriangleMesh.h"
+
+#include "vtkLaplaceSpectrum.h"
+
+#include "vtkInformation.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkTable.h"
+
+#include <gtest/gtest.h>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+using Spectrum = vtkLaplaceSpectrum;
+
+class LaplaceSpectrum : public ::testing::Test
+{
+protected:
+  LaplaceSpectrum() : messages(filter)
+  {
+    filter->SetDepth(4);
+    filter->SetNumberOfModes(9);
+    filter->SetInputData(ToPolyData(GeodesicSphere(8)));
+  }
+
+  std::vector<double> Eigenvalues()
+  {
+    filter->Update();
+    return Values(filter->GetOutput()->GetFieldData()->GetArray("Eigenvalues"));
+  }
+
+  std::vector<double> ModeAt(double time)
+  {
+    filter->UpdateTimeStep(time);
+    return PointValues(filter->GetOutput(), "Mode");
+  }
+
+  vtkNew<Spectrum> filter;
+  Messages messages;
+};
+
+TEST_F(LaplaceSpectrum, ASphereHasItsEigenvalues)
+{
+  const auto eigenvalues = this->Eigenvalues();
+  ASSERT_EQ(eigenvalues.size(), 9u);
+  EXPECT_NEAR(eigenvalues[0], 0.0, 1e-8);
+  for (int k = 1; k < 9; ++k)
+  {
+    // l (l + 1); depth 4 and 512 flat triangles are good for a few percent
+    const double exact = k < 4 ? 2.0 : 6.0;
+    EXPECT_NEAR(eigenvalues[k], exact, 0.05 * exact);
+  }
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 1);
+}
+
+TEST_F(LaplaceSpectrum, EigenvaluesScaleWithTheSquaredLength)
+{
+  const auto plain = this->Eigenvalues();
+  filter->SetInputData(ToPolyData(GeodesicSphere(8, 10.0)));
+  const auto scaled = this->Eigenvalues();
+  for (int k = 1; k < 9; ++k)
+  {
+    EXPECT_NEAR(100 * scaled[k], plain[k], 1e-6);
+  }
+}
+
+TEST_F(LaplaceSpectrum, ModesHaveUnitNormInWorldUnits)
+{
+  for (const double radius : { 1.0, 10.0 })
+  {
+    const TriangleMesh mesh = GeodesicSphere(8, radius);
+    filter->SetInputData(ToPolyData(mesh));
+    const double constant = 1.0 / std::sqrt(SurfaceArea(mesh));
+    for (const double value : this->ModeAt(0))
+    {
+      EXPECT_NEAR(std::abs(value), constant, 1e-6 * constant);
+    }
+    // ∫ φ², by one point per vertex of a nearly uniform mesh
+    const auto mode = this->ModeAt(2);
+    double sum = 0.0;
+    for (const double value : mode)
+    {
+      sum += value * value / double(mode.size());
+    }
+    EXPECT_NEAR(sum * SurfaceArea(mesh), 1.0, 0.15);
+  }
+}
+
+TEST_F(LaplaceSpectrum, TimeStepsAreModesAndAreNeverSolvedAgain)
+{
+  filter->UpdateInformation();
+  for (int port = 0; port < 2; ++port)
+  {
+    vtkInformation* info = filter->GetOutputInformation(port);
+    ASSERT_EQ(info->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS()), 9);
+    EXPECT_EQ(info->Get(vtkStreamingDemandDrivenPipeline::TIME_STEPS())[3], 3.0);
+    EXPECT_EQ(info->Get(vtkStreamingDemandDrivenPipeline::TIME_RANGE())[1], 8.0);
+  }
+  filter->AllModesOn();
+  filter->Update();
+  std::vector<std::vector<double>> modes;
+  for (int mode = 0; mode < 9; ++mode)
+  {
+    modes.push_back(PointValues(filter->GetOutput(), ("Mode00" + std::to_string(mode)).c_str()));
+    EXPECT_FALSE(modes.back().empty());
+  }
+  EXPECT_FALSE(
+    filter->GetOutputInformation(0)->Has(vtkStreamingDemandDrivenPipeline::TIME_STEPS()));
+  filter->AllModesOff();
+  for (const int mode : { 3, 0, 8 })
+  {
+    EXPECT_EQ(this->ModeAt(mode), modes[mode]);
+    EXPECT_EQ(filter->GetOutput()->GetInformation()->Get(vtkDataObject::DATA_TIME_STEP()), mode);
+  }
+  EXPECT_EQ(this->ModeAt(100), modes[8]);
+  filter->SetMode(5);
+  EXPECT_EQ(this->ModeAt(1), modes[5]);
+  EXPECT_EQ(filter->GetNumberOfRuns(Spectrum::SolveStage), 1);
+  EXPECT_EQ(filter->GetNumberOfRuns(Spectrum::SpaceStage), 1);
+}
+
+TEST_F(LaplaceSpectrum, AModeThatDoesNotExistIsRefused)
+{
+  filter->SetMode(9);
+  EXPECT_EQ(filter->GetExecutive()->Update(), 0);
+  ASSERT_EQ(messages.errors.size(), 1u);
+  EXPECT_NE(messages.errors[0].find("Mode 9 does not exist"), std::string::npos);
+  EXPECT_TRUE(IsEmptyData(filter->GetOutput()));
+}
+
+TEST_F(LaplaceSpectrum, TheTableListsTheModes)
+{
+  const auto eigenvalues = this->Eigenvalues();
+  auto* table = vtkTable::SafeDownCast(filter->GetOutputDataObject(1));
+  ASSERT_EQ(table->GetNumberOfRows(), 9);
+  EXPECT_EQ(Values(vtkDataArray::SafeDownCast(table->GetColumnByName("Eigenvalue"))), eigenvalues);
+  EXPECT_EQ(table->GetColumnByName("Mode")->GetVariantValue(4).ToInt(), 4);
+  for (const double residual :
+    Values(vtkDataArray::SafeDownCast(table->GetColumnByName("Residual"))))
+  {
+    EXPECT_LE(residual, 1e-4); // its square is below the tolerance with room to spare
+  }
+}
+
+TEST_F(LaplaceSpectrum, MoreModesThanExistWarnsAndGivesAll)
+{
+  filter->SetDepth(2);
+  filter->SetNumberOfModes(100000);
+  const auto eigenvalues = this->Eigenvalues();
+  EXPECT_TRUE(messages.errors.empty());
+  ASSERT_FALSE(messages.warnings.empty());
+  EXPECT_NE(messages.warnings[0].find("modes exist"), std::string::npos);
+  EXPECT_GT(eigenvalues.size(), 20u);
+  EXPECT_LT(eigenvalues.size(), 1000u);
+}
+
+TEST_F(LaplaceSpectrum, NotConvergedWarnsAndKeepsTheResult)
+{
+  filter->SetTolerance(1e-16);
+  filter->SetMaximumIterations(1);
+  EXPECT_EQ(this->Eigenvalues().size(), 9u);
+  ASSERT_EQ(messages.warnings.size(), 1u);
+  EXPECT_NE(messages.warnings[0].find("residual"), std::string::npos);
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 0);
+}
+
+TEST_F(LaplaceSpectrum, TwoComponentsHaveTwoZeros)
+{
+  const TriangleMesh sphere = GeodesicSphere(6);
+  filter->SetInputData(
+    ToPolyData(Join(sphere, Transform(sphere, { 0, 0, 1 }, 0.3, 1.0, { 3, 0, 0 }))));
+  const auto eigenvalues = this->Eigenvalues();
+  EXPECT_NEAR(eigenvalues[1], 0.0, 1e-8);
+  EXPECT_GT(eigenvalues[2], 1.0);
+}
+
+TEST_F(LaplaceSpectrum, ARunRepeatsBitForBitAndThreadsAgree)
+{
+  filter->SetNumberOfThreads(1);
+  const auto one = this->Eigenvalues();
+  vtkNew<Spectrum> again;
+  again->SetDepth(4);
+  again->SetNumberOfModes(9);
+  again->SetNumberOfThreads(1);
+  again->SetInputData(ToPolyData(GeodesicSphere(8)));
+  again->Update();
+  EXPECT_EQ(Values(again->GetOutput()->GetFieldData()->GetArray("Eigenvalues")), one);
+  filter->SetNumberOfThreads(2);
+  EXPECT_LT(Difference(this->Eigenvalues(), one), 1e-9);
+}
+
+TEST_F(LaplaceSpectrum, ModesHaveThePrecisionOfThePoints)
+{
+  for (const int precision : { VTK_FLOAT, VTK_DOUBLE })
+  {
+    filter->SetInputData(ToPolyData(GeodesicSphere(6), precision));
+    filter->Update();
+    EXPECT_EQ(filter->GetOutput()->GetPointData()->GetArray("Mode")->GetDataType(), precision);
+  }
+}
+
+} // namespace

@@ -1,0 +1,376 @@
+// Screened Poisson: values, gradients, units, tables, precision, stages, refusals.
+
+#include "FilterSupport.h"
+
+#include "TriangleMesh.h"
+
+#include "vtkScreenedPoisson.h"
+
+#include "vtkCharArray.h"
+#include "vtkFloatArray.h"
+#include "vtkIntArray.h"
+#include "vtkStringArray.h"
+#include "vtkTable.h"
+
+#include <gtest/gtest.h>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+using Poisson = vtkScreenedPoisson;
+constexpr int Points = vtkDataObject::FIELD_ASSOCIATION_POINTS;
+constexpr int Cells = vtkDataObject::FIELD_ASSOCIATION_CELLS;
+
+double Wave(const Vec3& p, int c)
+{
+  return std::sin(3 * p[0] + c) + p[2];
+}
+
+class ScreenedPoisson : public ::testing::Test
+{
+protected:
+  ScreenedPoisson() : input(ToPolyData(GeodesicSphere(8))), messages(filter)
+  {
+    AddPointArray(input, "f", 1, Wave);
+    filter->SetDepth(4);
+    filter->SetInputData(input);
+    filter->SetInputArrayToProcess(0, 0, 0, Points, "f");
+  }
+
+  std::vector<double> Solution()
+  {
+    filter->Update();
+    return PointValues(filter->GetOutput(), "Solution");
+  }
+
+  void ExpectRefused(const std::string& reason)
+  {
+    EXPECT_EQ(filter->GetExecutive()->Update(), 0);
+    ASSERT_EQ(messages.errors.size(), 1u);
+    EXPECT_NE(messages.errors[0].find(reason), std::string::npos) << messages.errors[0];
+    EXPECT_TRUE(IsEmptyData(filter->GetOutput()));
+    EXPECT_TRUE(IsEmptyData(filter->GetOutputDataObject(1)));
+  }
+
+  std::vector<vtkIdType> Runs()
+  {
+    std::vector<vtkIdType> runs;
+    for (int stage = 0; stage < Poisson::NumberOfStages; ++stage)
+    {
+      runs.push_back(filter->GetNumberOfRuns(stage));
+    }
+    return runs;
+  }
+
+  vtkSmartPointer<vtkPolyData> input;
+  vtkNew<Poisson> filter;
+  Messages messages;
+};
+
+using Counts = std::vector<vtkIdType>;
+
+TEST_F(ScreenedPoisson, CoordinatesAreReproducedByTheirOwnGradient)
+{
+  filter->SetInputArrayToProcess(0, 0, 0, Points, "");
+  filter->UseValueGradientOn();
+  std::vector<double> expected;
+  for (vtkIdType k = 0; k < input->GetNumberOfPoints(); ++k)
+  {
+    const Vec3 p(input->GetPoint(k));
+    expected.insert(expected.end(), p.data(), p.data() + 3);
+  }
+  for (const double weight : { 0.0, 1e-6, 1.0, 1e6 })
+  {
+    filter->SetScreeningWeight(weight);
+    // The coordinates lie in the space: what is left is the solver's tolerance.
+    EXPECT_LT(Difference(this->Solution(), expected), 1e-6) << weight;
+    EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 1) << weight;
+  }
+}
+
+TEST_F(ScreenedPoisson, AGivenGradientCountsAsTheValuesOwn)
+{
+  // f = the first two coordinates, g = their gradients in space.
+  AddPointArray(input, "xy", 2, [](const Vec3& p, int c) { return p[c]; });
+  AddPointArray(input, "g", 6, [](const Vec3&, int c) { return c == 0 || c == 4 ? 1.0 : 0.0; });
+  filter->SetInputArrayToProcess(0, 0, 0, Points, "xy");
+  filter->SetInputArrayToProcess(1, 0, 0, Points, "g");
+  filter->SetScreeningWeight(1.0);
+  const auto solution = this->Solution();
+  EXPECT_LT(Difference(solution, PointValues(input, "xy")), 1e-6);
+  EXPECT_EQ(filter->GetOutput()->GetPointData()->GetArray("Solution")->GetNumberOfComponents(), 2);
+  // Any scale and a scale array multiply.
+  filter->SetGradientScale(0.5);
+  AddPointArray(input, "two", 1, [](const Vec3&, int) { return 2.0; });
+  filter->SetInputArrayToProcess(2, 0, 0, Points, "two");
+  EXPECT_LT(Difference(this->Solution(), solution), 1e-6);
+}
+
+TEST_F(ScreenedPoisson, GradientsMayBeCellData)
+{
+  vtkNew<vtkFloatArray> g;
+  g->SetName("g");
+  g->SetNumberOfComponents(3);
+  for (vtkIdType k = 0; k < input->GetNumberOfCells(); ++k)
+  {
+    g->InsertNextTuple3(0, 0, 1);
+  }
+  input->GetCellData()->AddArray(g);
+  AddPointArray(input, "z", 1, [](const Vec3& p, int) { return p[2]; });
+  filter->SetInputArrayToProcess(0, 0, 0, Points, "z");
+  filter->SetInputArrayToProcess(1, 0, 0, Cells, "g");
+  EXPECT_LT(Difference(this->Solution(), PointValues(input, "z")), 1e-6);
+}
+
+TEST_F(ScreenedPoisson, SmoothingLowersTheWaveAndSharpeningRaisesIt)
+{
+  AddPointArray(input, "z", 1, [](const Vec3& p, int) { return p[2]; });
+  filter->SetInputArrayToProcess(0, 0, 0, Points, "z");
+  filter->SetScreeningWeight(10.0);
+  const auto largest = [&](double scale)
+  {
+    filter->SetUseValueGradient(true);
+    filter->SetGradientScale(scale);
+    const auto solution = this->Solution();
+    return *std::max_element(solution.begin(), solution.end());
+  };
+  // z is an eigenfunction of the unit sphere: -Δz = 2z, area 4π, so with w = 10 / (4π) in world
+  // units u = z (w + 2 s) / (w + 2). Depth 4 resolves it to about a percent.
+  const double w = 10.0 / (4 * 3.14159265358979);
+  for (const double scale : { 0.0, 0.5, 2.0 })
+  {
+    EXPECT_NEAR(largest(scale), (w + 2 * scale) / (w + 2), 0.03) << scale;
+  }
+}
+
+TEST_F(ScreenedPoisson, UnitsOfTheWeight)
+{
+  const double area = SurfaceArea(GeodesicSphere(8));
+  filter->SetParameterUnits(Poisson::World);
+  filter->SetScreeningWeight(3.0);
+  const auto world = this->Solution();
+  filter->SetParameterUnits(Poisson::UnitArea);
+  filter->SetScreeningWeight(3.0 * area);
+  EXPECT_LT(Difference(this->Solution(), world), 1e-12);
+  filter->SetParameterUnits(Poisson::UnitCube);
+  filter->SetScreeningWeight(3.0 * 4.0); // the box has side 2
+  EXPECT_LT(Difference(this->Solution(), world), 1e-12);
+}
+
+TEST_F(ScreenedPoisson, CellValuesGiveAPointSolution)
+{
+  vtkNew<vtkIntArray> seven;
+  seven->SetName("seven");
+  for (vtkIdType k = 0; k < input->GetNumberOfCells(); ++k)
+  {
+    seven->InsertNextValue(7);
+  }
+  input->GetCellData()->AddArray(seven);
+  filter->SetInputArrayToProcess(0, 0, 0, Cells, "seven");
+  const auto solution = this->Solution();
+  EXPECT_LT(Difference(solution, std::vector<double>(input->GetNumberOfPoints(), 7.0)), 1e-9);
+}
+
+TEST_F(ScreenedPoisson, OutputKeepsTheInputAndItsPrecision)
+{
+  input->GetPointData()->GetArray("f")->SetComponentName(0, "height");
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetPoints(), input->GetPoints());
+  EXPECT_EQ(filter->GetOutput()->GetPolys(), input->GetPolys());
+  EXPECT_EQ(
+    filter->GetOutput()->GetPointData()->GetArray("f"), input->GetPointData()->GetArray("f"));
+  EXPECT_STREQ(
+    filter->GetOutput()->GetPointData()->GetArray("Solution")->GetComponentName(0), "height");
+
+  vtkNew<vtkFloatArray> single;
+  single->SetName("single");
+  vtkNew<vtkCharArray> character;
+  character->SetName("character");
+  for (vtkIdType k = 0; k < input->GetNumberOfPoints(); ++k)
+  {
+    single->InsertNextValue(float(k % 5));
+    character->InsertNextValue(char(k % 5));
+  }
+  input->GetPointData()->AddArray(single);
+  input->GetPointData()->AddArray(character);
+  const auto typeFor = [&](const char* name)
+  {
+    filter->SetInputArrayToProcess(0, 0, 0, Points, name);
+    filter->Update();
+    return filter->GetOutput()->GetPointData()->GetArray("Solution")->GetDataType();
+  };
+  EXPECT_EQ(typeFor("f"), VTK_DOUBLE);
+  EXPECT_EQ(typeFor("single"), VTK_FLOAT);
+  EXPECT_EQ(typeFor("character"), VTK_DOUBLE);
+}
+
+TEST_F(ScreenedPoisson, PointsWithoutPolygonsKeepTheirValue)
+{
+  TriangleMesh mesh = GeodesicSphere(8);
+  mesh.points.push_back({ 9, 9, 9 });
+  auto data = ToPolyData(mesh);
+  AddPointArray(data, "f", 1, Wave);
+  filter->SetInputData(data);
+  EXPECT_EQ(this->Solution().back(), Wave({ 9, 9, 9 }, 0));
+}
+
+TEST_F(ScreenedPoisson, TheTableHasARowPerIteration)
+{
+  filter->Update();
+  auto* table = vtkTable::SafeDownCast(filter->GetOutputDataObject(1));
+  EXPECT_EQ(table->GetNumberOfRows(), FieldValue(filter->GetOutput(), "Iterations") + 1);
+  for (const char* name : { "Iteration", "EnergyResidual", "Residual" })
+  {
+    ASSERT_TRUE(table->GetColumnByName(name)) << name;
+  }
+  const auto energy = Values(vtkDataArray::SafeDownCast(table->GetColumnByName("EnergyResidual")));
+  const auto residual = Values(vtkDataArray::SafeDownCast(table->GetColumnByName("Residual")));
+  const auto logs = Values(vtkDataArray::SafeDownCast(table->GetColumnByName("Log10Residual")));
+  EXPECT_LE(energy.back(), 1e-8);
+  EXPECT_EQ(residual.back(), FieldValue(filter->GetOutput(), "Residual"));
+  EXPECT_NEAR(logs.back(), std::log10(residual.back()), 1e-12);
+}
+
+TEST_F(ScreenedPoisson, NotConvergedWarnsAndKeepsTheResult)
+{
+  filter->SetMaximumIterations(1);
+  filter->SetTolerance(1e-14);
+  EXPECT_EQ(filter->GetExecutive()->Update(), 1);
+  EXPECT_TRUE(messages.errors.empty());
+  ASSERT_EQ(messages.warnings.size(), 1u);
+  EXPECT_NE(messages.warnings[0].find("residual"), std::string::npos);
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 0);
+  EXPECT_FALSE(PointValues(filter->GetOutput(), "Solution").empty());
+}
+
+TEST_F(ScreenedPoisson, EveryCycleAndSmootherFindsTheSameSolution)
+{
+  filter->SetTolerance(1e-11);
+  filter->SetMaximumIterations(1000);
+  const auto reference = this->Solution();
+  for (const int cycle : { Poisson::VCycle, Poisson::WCycle })
+  {
+    for (const int smoother : { Poisson::PatchSmoother, Poisson::GaussSeidelSmoother })
+    {
+      filter->SetCycle(cycle);
+      filter->SetSmoother(smoother);
+      EXPECT_LT(Difference(this->Solution(), reference), 1e-6);
+    }
+  }
+}
+
+TEST_F(ScreenedPoisson, ThreadsDoNotChangeABit)
+{
+  filter->SetNumberOfThreads(1);
+  const auto one = this->Solution();
+  filter->SetNumberOfThreads(2);
+  EXPECT_EQ(this->Solution(), one);
+}
+
+TEST_F(ScreenedPoisson, AChangeRunsOnlyItsOwnStages)
+{
+  filter->Update();
+  EXPECT_EQ(this->Runs(), (Counts{ 1, 1, 1, 1, 1 }));
+  filter->SetScreeningWeight(5.0);
+  filter->Update();
+  EXPECT_EQ(this->Runs(), (Counts{ 1, 1, 2, 1, 2 }));
+  AddPointArray(input, "f", 1, [](const Vec3& p, int) { return p[0]; });
+  input->Modified();
+  filter->Update();
+  EXPECT_EQ(this->Runs(), (Counts{ 1, 1, 2, 2, 3 }));
+  vtkNew<vtkPolyData> copy; // a hop through ParaView makes a new data object
+  copy->ShallowCopy(input);
+  filter->SetInputData(copy);
+  filter->Update();
+  EXPECT_EQ(this->Runs(), (Counts{ 1, 1, 2, 2, 3 }));
+  filter->SetTolerance(1e-6);
+  filter->Update();
+  EXPECT_EQ(this->Runs(), (Counts{ 1, 1, 2, 2, 4 }));
+  filter->SetQuadratureDegree(4);
+  filter->Update();
+  EXPECT_EQ(this->Runs(), (Counts{ 1, 2, 3, 3, 5 }));
+  filter->SetDepth(3);
+  filter->Update();
+  EXPECT_EQ(this->Runs(), (Counts{ 2, 3, 4, 4, 6 }));
+  input->GetPoints()->SetPoint(0, 1.1, 0, 0);
+  input->GetPoints()->Modified();
+  filter->Update();
+  EXPECT_EQ(this->Runs(), (Counts{ 3, 4, 5, 5, 7 }));
+}
+
+TEST_F(ScreenedPoisson, AnUpdatedWeightGivesTheSameAsAFreshFilter)
+{
+  filter->Update();
+  filter->SetScreeningWeight(5.0);
+  const auto updated = this->Solution();
+  vtkNew<Poisson> fresh;
+  fresh->SetDepth(4);
+  fresh->SetScreeningWeight(5.0);
+  fresh->SetInputData(input);
+  fresh->SetInputArrayToProcess(0, 0, 0, Points, "f");
+  fresh->Update();
+  EXPECT_EQ(updated, PointValues(fresh->GetOutput(), "Solution"));
+}
+
+TEST_F(ScreenedPoisson, AMissingArrayIsRefusedByName)
+{
+  filter->SetInputArrayToProcess(0, 0, 0, Points, "missing");
+  this->ExpectRefused("'missing' does not exist");
+}
+
+TEST_F(ScreenedPoisson, AnArrayOfWrongLengthIsRefusedByName)
+{
+  vtkNew<vtkFloatArray> shortArray;
+  shortArray->SetName("short");
+  shortArray->InsertNextValue(1.0f);
+  input->GetPointData()->AddArray(shortArray);
+  filter->SetInputArrayToProcess(0, 0, 0, Points, "short");
+  this->ExpectRefused("'short' has 1 values");
+}
+
+TEST_F(ScreenedPoisson, NaNInTheArrayIsRefusedByPoint)
+{
+  input->GetPointData()->GetArray("f")->SetComponent(17, 0, std::nan(""));
+  this->ExpectRefused("'f' has a NaN or infinite value at point 17");
+}
+
+TEST_F(ScreenedPoisson, TextIsRefused)
+{
+  vtkNew<vtkStringArray> text;
+  text->SetName("text");
+  text->SetNumberOfValues(input->GetNumberOfPoints());
+  input->GetPointData()->AddArray(text);
+  filter->SetInputArrayToProcess(0, 0, 0, Points, "text");
+  this->ExpectRefused("'text' is not numeric");
+}
+
+TEST_F(ScreenedPoisson, AGradientOfWrongSizeIsRefused)
+{
+  filter->SetInputArrayToProcess(1, 0, 0, Points, "f");
+  this->ExpectRefused("GradientArray 'f' has 1 components");
+}
+
+TEST_F(ScreenedPoisson, ValueGradientOfCellDataIsRefused)
+{
+  vtkNew<vtkIntArray> label;
+  label->SetName("label");
+  label->SetNumberOfValues(input->GetNumberOfCells());
+  label->FillValue(1);
+  input->GetCellData()->AddArray(label);
+  filter->SetInputArrayToProcess(0, 0, 0, Cells, "label");
+  filter->UseValueGradientOn();
+  this->ExpectRefused("'label' is a cell array");
+}
+
+TEST_F(ScreenedPoisson, ItRunsAfterARefusal)
+{
+  filter->SetInputArrayToProcess(0, 0, 0, Points, "missing");
+  this->ExpectRefused("missing");
+  filter->SetInputArrayToProcess(0, 0, 0, Points, "f");
+  EXPECT_FALSE(this->Solution().empty());
+}
+
+} // namespace
