@@ -81,6 +81,14 @@ void CheckProblem(const Multigrid& multigrid, const MultiVector& b, const MultiV
   }
 }
 
+void Project(const std::function<void(MultiVector&)>& projection, MultiVector& v)
+{
+  if (projection)
+  {
+    projection(v);
+  }
+}
+
 /// What conjugate gradients and repeated cycles have in common: the residual r, z = B r with one
 /// cycle B, their measures, and which columns still iterate. The columns of r and z that do not are
 /// zero, so that they neither change x nor spread NaN.
@@ -122,7 +130,6 @@ public:
 private:
   void SetReference();
   bool IsSolved(Id column) const;
-  void Project(MultiVector& v) const;
   void Record();
   int Threads() const { return multigrid_.Options().threads; }
 
@@ -166,7 +173,7 @@ Iteration::Iteration(const Multigrid& multigrid, const MultiVector& b, MultiVect
 /// The measures of x = 0, where r = b. Retires columns without a solution or with a trivial one.
 void Iteration::SetReference()
 {
-  this->Project(r);
+  Project(project_.residual, r);
   residualOfZero_ = ColumnProducts(r, r, this->Threads()).sqrt();
   for (Id c = 0; c < r.cols(); ++c)
   {
@@ -183,7 +190,7 @@ void Iteration::SetReference()
     }
   }
   multigrid_.Precondition(r, z);
-  this->Project(z);
+  Project(project_.solution, z);
   rz = ColumnProducts(r, z, this->Threads());
   energyOfZero_ = rz.sqrt();
   for (Id c = 0; c < r.cols(); ++c)
@@ -207,7 +214,7 @@ void Iteration::Begin(const Progress& progress)
 void Iteration::ComputeResidual()
 {
   Residual(multigrid_.Matrix(), x_, b_, r, this->Threads());
-  this->Project(r);
+  Project(project_.residual, r);
   for (Id c = 0; c < r.cols(); ++c)
   {
     if (!this->IsActive(c))
@@ -220,7 +227,7 @@ void Iteration::ComputeResidual()
 void Iteration::Measure()
 {
   multigrid_.Precondition(r, z);
-  this->Project(z);
+  Project(project_.solution, z);
   rz = ColumnProducts(r, z, this->Threads());
   const Columns rr = ColumnProducts(r, r, this->Threads());
   for (Id c = 0; c < r.cols(); ++c)
@@ -277,14 +284,6 @@ void Iteration::Confirm()
   }
 }
 
-void Iteration::Project(MultiVector& v) const
-{
-  if (project_)
-  {
-    project_(v);
-  }
-}
-
 /// The largest over the columns; NaN if there is one.
 double Worst(const Columns& values)
 {
@@ -306,7 +305,7 @@ void Iteration::Record()
 
 SolveReport Iteration::Finish()
 {
-  this->Project(x_);
+  Project(project_.solution, x_);
   report_.converged = isConverged_.all();
   const double first = report_.history.front().energy;
   const double last = report_.history.back().energy;

@@ -39,10 +39,14 @@ struct SolveReport
   double convergenceFactor = 0.0;       // mean reduction of the energy measure per iteration
 };
 
-/// Removes from a correction what the solution must not contain, such as the mean of each component.
-/// Applied to every preconditioned residual B r, never to a residual: where A does not mix the kept
-/// part with the removed one, residuals stay in the range by themselves. May be empty.
-using Projection = std::function<void(MultiVector&)>;
+/// Keeps an iteration out of directions that are solved otherwise, such as the constants of each
+/// component. A must map what `solution` keeps to what `residual` keeps; the two are each other's
+/// transposes. Both empty: no projection.
+struct Projection
+{
+  std::function<void(MultiVector&)> solution; // removes the direction from x and from B r
+  std::function<void(MultiVector&)> residual; // removes it from b and from b - A x
+};
 
 /// Conjugate gradients with one cycle as preconditioner; each column has its own steps, and stops
 /// on its own. Starts from x. A column with b = 0 gives x = 0. NaN in b or a breakdown ends the

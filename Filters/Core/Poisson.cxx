@@ -139,6 +139,11 @@ PoissonSolution SolvePoisson(const FunctionSpace& space, const System& system,
   const double lambda = options.screeningWeight;
   const ComponentMeans means(space, system.integral);
 
+  const auto removeMeans = [&means](MultiVector& coefficients)
+  { means.AddConstants(-means.OfFunction(coefficients), coefficients); };
+  const auto removeSums = [&means](MultiVector& load)
+  { means.SubtractIntegrals(means.OfIntegrals(load), load); };
+
   const MultiVector meanOfField = means.OfIntegrals(values);
   MultiVector rest = values;
   means.SubtractIntegrals(meanOfField, rest);
@@ -150,16 +155,13 @@ PoissonSolution SolvePoisson(const FunctionSpace& space, const System& system,
     size += gradients.colwise().norm();
   }
   // ∫ <s, ∇b_i> sums to 0 over a component but for rounding, which a small λ would blow up.
-  means.SubtractIntegrals(means.OfIntegrals(rest), rest);
+  removeSums(rest);
   DropRounding(size, rest);
 
-  const Projection removeMeans = [&means](MultiVector& correction)
-  { means.AddConstants(-means.OfFunction(correction), correction); };
   PoissonSolution solution;
   solution.coefficients = MultiVector::Zero(values.rows(), values.cols());
   solution.report = SolveConjugateGradients(
-    multigrid, rest, solution.coefficients, options.solve, removeMeans, progress);
-  removeMeans(solution.coefficients);
+    multigrid, rest, solution.coefficients, options.solve, { removeMeans, removeSums }, progress);
   means.AddConstants(meanOfField, solution.coefficients);
   return solution;
 }
