@@ -1,0 +1,217 @@
+// The main job: a mesh goes in; its octree, basis, Poisson solution and Laplace spectrum come out.
+// Examples/run.sh builds it, runs it and renders what it writes.
+//
+// What the Poisson solution shows: noise is taken off a striped (or coloured) surface. Minimising
+// ∫ λ (u - f)² + |∇u|² keeps u near the noisy f over lengths above 1 / √λ and smooths below.
+//
+// Exit codes: 0 all written; 1 a step could not do its work; 2 the command line is wrong;
+// 3 all written, but a solver stopped before it reached its tolerance.
+
+#include "MeshInput.h"
+#include "Report.h"
+#include "TrefoilKnot.h"
+
+#include <vtkClipToOctree.h>
+#include <vtkConnectivityAwareBasis.h>
+#include <vtkLaplaceSpectrum.h>
+#include <vtkScreenedPoisson.h>
+
+#include <vtkDataArray.h>
+#include <vtkDelimitedTextWriter.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkXMLPolyDataWriter.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <iostream>
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+enum ExitCode
+{
+  Done = 0,
+  Failed = 1,
+  WrongCommandLine = 2,
+  NotConverged = 3
+};
+
+struct Options
+{
+  std::string mesh; // empty: the trefoil knot
+  std::string output = "output";
+  int depth = 6;
+  int modes = 24;
+};
+
+/// 1 / √λ is a fiftieth of the side of a square with the surface's area (units: UnitArea).
+constexpr double ScreeningWeight = 2500;
+
+struct Pipeline
+{
+  vtkNew<vtkClipToOctree> clip;
+  vtkNew<vtkConnectivityAwareBasis> basis;
+  vtkNew<vtkScreenedPoisson> poisson;
+  vtkNew<vtkLaplaceSpectrum> spectrum;
+};
+
+vtkSmartPointer<vtkPolyData> ReadMesh(const Options& options, StepClock& clock)
+{
+  if (options.mesh.empty())
+  {
+    return TrefoilKnot();
+  }
+  vtkSmartPointer<vtkAlgorithm> reader = FindReader(options.mesh);
+  if (!reader)
+  {
+    throw StepFailed(options.mesh + ": not a kind of file this reads; give one that ends in " +
+                     MeshFileEndings + ".");
+  }
+  clock.Run("Read " + fs::path(options.mesh).filename().string(), reader);
+  vtkPolyData* mesh = vtkPolyData::SafeDownCast(reader->GetOutputDataObject(0));
+  if (!mesh || mesh->GetNumberOfPolys() + mesh->GetNumberOfStrips() == 0)
+  {
+    throw StepFailed(options.mesh + ": holds no polygons.");
+  }
+  return mesh;
+}
+
+void Connect(vtkPolyData* mesh, const std::string& array, const Options& options, Pipeline& p)
+{
+  p.clip->SetInputData(mesh);
+  p.clip->SetDepth(options.depth);
+  p.basis->SetInputConnection(p.clip->GetOutputPort());
+
+  p.poisson->SetInputData(0, mesh);
+  p.poisson->SetInputConnection(1, p.basis->GetOutputPort());
+  p.poisson->SetInputArrayToProcess(
+    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, array.c_str());
+  p.poisson->SetScreeningWeight(ScreeningWeight);
+
+  p.spectrum->SetInputData(0, mesh);
+  p.spectrum->SetInputConnection(1, p.basis->GetOutputPort());
+  p.spectrum->SetNumberOfModes(options.modes);
+  p.spectrum->SetAllModes(true);
+}
+
+void Run(Pipeline& p, StepClock& clock)
+{
+  clock.Run("Clip To Octree", p.clip);
+  clock.Run("Connectivity-Aware Basis", p.basis);
+  clock.Run("Screened Poisson", p.poisson);
+  clock.AddPart("element matrices", p.poisson->GetStageSeconds(vtkScreenedPoisson::SystemStage));
+  clock.AddPart("hierarchy", p.poisson->GetStageSeconds(vtkScreenedPoisson::HierarchyStage));
+  clock.AddPart(
+    "right-hand side", p.poisson->GetStageSeconds(vtkScreenedPoisson::RightHandSideStage));
+  clock.AddPart("solve", p.poisson->GetStageSeconds(vtkScreenedPoisson::SolveStage));
+  clock.Run("Laplace Spectrum", p.spectrum);
+}
+
+template<class Writer>
+void Write(const fs::path& path, vtkAlgorithmOutput* port, StepClock& clock)
+{
+  vtkNew<Writer> writer;
+  writer->SetFileName(path.c_str());
+  writer->SetInputConnection(port);
+  clock.Run("Write", writer);
+}
+
+void WriteAll(const fs::path& folder, Pipeline& p, StepClock& clock)
+{
+  using MeshWriter = vtkXMLPolyDataWriter;
+  using GridWriter = vtkXMLUnstructuredGridWriter;
+  Write<MeshWriter>(folder / "clipped.vtp", p.basis->GetOutputPort(0), clock);
+  Write<MeshWriter>(folder / "quadrature.vtp", p.clip->GetOutputPort(1), clock);
+  Write<GridWriter>(folder / "octree.vtu", p.clip->GetOutputPort(2), clock);
+  Write<GridWriter>(folder / "basis.vtu", p.basis->GetOutputPort(1), clock);
+  Write<MeshWriter>(folder / "poisson.vtp", p.poisson->GetOutputPort(0), clock);
+  Write<MeshWriter>(folder / "modes.vtp", p.spectrum->GetOutputPort(0), clock);
+  Write<vtkDelimitedTextWriter>(folder / "eigenvalues.csv", p.spectrum->GetOutputPort(1), clock);
+}
+
+std::vector<LevelSummary> SummarizeLevels(int depth, vtkConnectivityAwareBasis* basis)
+{
+  std::vector<LevelSummary> levels;
+  for (int level = depth; level >= 0; --level)
+  {
+    basis->SetLevel(level);
+    basis->Update();
+    levels.push_back(
+      SummarizeLevel(level, vtkUnstructuredGrid::SafeDownCast(basis->GetOutputDataObject(1))));
+  }
+  return levels;
+}
+
+bool Converged(vtkAlgorithm* solver)
+{
+  vtkFieldData* fields = solver->GetOutputDataObject(0)->GetFieldData();
+  vtkDataArray* converged = fields->GetArray("Converged");
+  return !converged || converged->GetTuple1(0) != 0;
+}
+
+void PrintResults(vtkPolyData* mesh, const std::string& array, Pipeline& p, const StepClock& clock)
+{
+  std::cout << "mesh               " << mesh->GetNumberOfPoints() << " points, "
+            << mesh->GetNumberOfCells() << " cells\n"
+            << "clipped triangles  " << p.clip->GetOutput()->GetNumberOfPolys() << "\n";
+  PrintLevels(SummarizeLevels(p.clip->GetDepth(), p.basis), std::cout);
+  std::cout << "\nPoisson, " << array << " smoothed: ";
+  PrintConvergence(vtkTable::SafeDownCast(p.poisson->GetOutputDataObject(1)), std::cout);
+  PrintEigenvalues(vtkTable::SafeDownCast(p.spectrum->GetOutputDataObject(1)), std::cout);
+  clock.Print(std::cout);
+}
+
+ExitCode DoMainJob(const Options& options)
+{
+  StepClock clock;
+  fs::create_directories(options.output);
+  vtkSmartPointer<vtkPolyData> mesh = ReadMesh(options, clock);
+  const std::string array = AddArrayToSmooth(mesh);
+  Pipeline pipeline;
+  Connect(mesh, array, options, pipeline);
+  Run(pipeline, clock);
+  WriteAll(options.output, pipeline, clock);
+  PrintResults(mesh, array, pipeline, clock);
+  std::cout << "\nwritten to " << options.output << std::endl;
+  const bool converged = Converged(pipeline.poisson) && Converged(pipeline.spectrum);
+  return converged ? Done : NotConverged;
+}
+
+} // namespace
+
+int main(int argc, char* argv[])
+{
+  Options options;
+  CLI::App app("Octree, basis, Poisson solution and Laplace spectrum of a triangle mesh.");
+  app
+    .add_option("MESH", options.mesh,
+      std::string("a mesh to work on (") + MeshFileEndings +
+        "); without one, a trefoil knot whose strands nearly touch")
+    ->check(CLI::ExistingFile);
+  app.add_option("--depth", options.depth, "2^DEPTH cells lie along the longest side")
+    ->check(CLI::Range(2, 14))
+    ->capture_default_str();
+  app.add_option("--modes", options.modes, "how many eigenfunctions")
+    ->check(CLI::Range(1, 10000))
+    ->capture_default_str();
+  app.add_option("--output", options.output, "the folder to write to")->capture_default_str();
+  try
+  {
+    app.parse(argc, argv);
+    return DoMainJob(options);
+  }
+  catch (const CLI::ParseError& error)
+  {
+    return app.exit(error) == 0 ? Done : WrongCommandLine;
+  }
+  catch (const std::exception& error)
+  {
+    std::cerr << "gridfem_main_job: " << error.what() << std::endl;
+    return Failed;
+  }
+}

@@ -1,0 +1,200 @@
+"""Draws pictures side by side on one white sheet, with VTK's own classes.
+
+Used by contact_sheet.py and readme_pictures.py.
+"""
+
+import math
+from dataclasses import dataclass, field
+
+import vtkmodules.vtkRenderingFreeType  # noqa: F401, draws text
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401, draws everything else
+from vtkmodules.vtkFiltersGeneral import vtkOBBTree
+from vtkmodules.vtkIOImage import vtkPNGWriter
+from vtkmodules.vtkRenderingCore import (
+    vtkActor,
+    vtkColorTransferFunction,
+    vtkDataSetMapper,
+    vtkRenderer,
+    vtkRenderWindow,
+    vtkTextActor,
+    vtkWindowToImageFilter,
+)
+
+BLUE, WHITE, RED = (0.13, 0.34, 0.68), (0.96, 0.96, 0.95), (0.76, 0.16, 0.15)
+INK = (0.15, 0.15, 0.15)
+
+
+@dataclass
+class Layer:
+    """A data set in a tile: coloured by a point or cell array, or all grey."""
+
+    data: object
+    array: str = ""
+    low: float = -1.0
+    high: float = 1.0
+    shuffled: bool = False  # ids: every value its own colour
+    wireframe: bool = False
+    edges: bool = False
+    color: tuple = (0.85, 0.85, 0.83)
+
+
+@dataclass
+class View:
+    """Where a tile is looked at from, in parallel projection."""
+
+    centre: tuple
+    direction: tuple  # from the centre to the eye
+    up: tuple
+    height: float  # of what is seen
+
+
+@dataclass
+class Tile:
+    label: str
+    view: View
+    layers: list = field(default_factory=list)
+
+
+def view_of(data, width_to_height=1.0, tilt=25.0):
+    """Looks at the broadest side of a data set, a little from above."""
+    corner, longest, middle, shortest = [0.0] * 3, [0.0] * 3, [0.0] * 3, [0.0] * 3
+    vtkOBBTree().ComputeOBB(data, corner, longest, middle, shortest, [0.0] * 3)
+    centre = [c + (a + b + d) / 2 for c, a, b, d in zip(corner, longest, middle, shortest)]
+    broad, tall, deep = (math.hypot(*axis) for axis in (longest, middle, shortest))
+    across = [x / broad for x in longest]
+    up = [x / (tall or 1) for x in middle]
+    front = [across[i - 2] * up[i - 1] - across[i - 1] * up[i - 2] for i in range(3)]
+    cosine, sine = math.cos(math.radians(tilt)), math.sin(math.radians(tilt))
+    seen = max(tall * cosine + deep * sine, broad / width_to_height)
+    return View(
+        centre,
+        [cosine * f - sine * u for f, u in zip(front, up)],
+        [cosine * u + sine * f for f, u in zip(front, up)],
+        1.2 * seen,  # room for the label
+    )
+
+
+def diverging_colors(low, high):
+    colors = vtkColorTransferFunction()
+    colors.SetColorSpaceToLab()
+    for value, color in ((low, BLUE), ((low + high) / 2, WHITE), (high, RED)):
+        colors.AddRGBPoint(value, *color)
+    return colors
+
+
+def shuffled_colors(count):
+    """Light colours of which neighbouring numbers differ."""
+    colors = vtkColorTransferFunction()
+    colors.SetColorSpaceToHSV()
+    colors.HSVWrapOff()
+    for i in range(count):
+        hue = i * 0.61803398875 % 1.0
+        colors.AddHSVPoint(i, hue, 0.25 + 0.35 * (i * 0.7548776662 % 1.0), 0.97)
+    return colors
+
+
+def actor_of(layer):
+    mapper = vtkDataSetMapper()
+    mapper.SetInputData(layer.data)
+    mapper.SetScalarVisibility(bool(layer.array))
+    if layer.array:
+        in_cells = layer.data.GetCellData().HasArray(layer.array)
+        attributes = layer.data.GetCellData() if in_cells else layer.data.GetPointData()
+        mapper.SetScalarModeToUseCellFieldData() if in_cells else (
+            mapper.SetScalarModeToUsePointFieldData()
+        )
+        mapper.SelectColorArray(layer.array)
+        if layer.shuffled:
+            largest = attributes.GetArray(layer.array).GetRange()[1]
+            mapper.SetLookupTable(shuffled_colors(int(largest) + 1))
+        else:
+            mapper.SetLookupTable(diverging_colors(layer.low, layer.high))
+            mapper.InterpolateScalarsBeforeMappingOff()
+        mapper.UseLookupTableScalarRangeOn()
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    look = actor.GetProperty()
+    look.SetColor(layer.color)
+    look.SetAmbient(0.25)
+    look.SetDiffuse(0.8)
+    look.SetEdgeVisibility(layer.edges)
+    look.SetEdgeColor(0.25, 0.25, 0.25)
+    look.SetLineWidth(1.0)
+    if layer.wireframe:
+        look.SetRepresentationToWireframe()
+        look.LightingOff()
+    return actor
+
+
+def text_of(text, font_size, height):
+    actor = vtkTextActor()
+    actor.SetInput(text)
+    style = actor.GetTextProperty()
+    style.SetFontSize(font_size)
+    style.SetColor(INK)
+    style.SetJustificationToCentered()
+    actor.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
+    actor.SetPosition(0.5, height)
+    return actor
+
+
+def renderer_of(tile, viewport, font_size):
+    renderer = vtkRenderer()
+    renderer.SetViewport(*viewport)
+    renderer.SetBackground(1, 1, 1)
+    for layer in tile.layers:
+        renderer.AddActor(actor_of(layer))
+    renderer.AddActor2D(text_of(tile.label, font_size, 0.03))
+
+    camera = renderer.GetActiveCamera()
+    camera.ParallelProjectionOn()
+    camera.SetFocalPoint(*tile.view.centre)
+    camera.SetPosition(
+        *(c + tile.view.height * d for c, d in zip(tile.view.centre, tile.view.direction))
+    )
+    camera.SetViewUp(*tile.view.up)
+    camera.SetWindowCenter(0, -0.08)  # up, off the label
+    camera.SetParallelScale(tile.view.height / 2)
+    renderer.ResetCameraClippingRange()
+    return renderer
+
+
+def background_of(title, font_size, height):
+    renderer = vtkRenderer()
+    renderer.SetBackground(1, 1, 1)
+    renderer.AddActor2D(text_of(title, font_size, height))
+    return renderer
+
+
+def window_of(tiles, columns, tile_size, title):
+    rows = math.ceil(len(tiles) / columns)
+    font_size = max(12, tile_size[1] // 17)
+    strip = 3 * font_size if title else 0
+    total = rows * tile_size[1] + strip
+    window = vtkRenderWindow()
+    window.SetOffScreenRendering(True)
+    window.SetMultiSamples(8)
+    window.SetSize(columns * tile_size[0], total)
+    window.AddRenderer(background_of(title, font_size + 2, 1 - 0.7 * strip / total))
+    for i, tile in enumerate(tiles):
+        row, column = rows - 1 - i // columns, i % columns
+        bottom, top = row * tile_size[1] / total, (row + 1) * tile_size[1] / total
+        viewport = (column / columns, bottom, (column + 1) / columns, top)
+        window.AddRenderer(renderer_of(tile, viewport, font_size))
+    return window
+
+
+def write_sheet(tiles, path, columns, tile_size, title=""):
+    """Writes tiles, row by row from the top, as a PNG file; tile_size is in pixels."""
+    window = window_of(tiles, columns, tile_size, title)
+    window.Render()
+    image = vtkWindowToImageFilter()
+    image.SetInput(window)
+    image.ReadFrontBufferOff()
+    writer = vtkPNGWriter()
+    writer.SetCompressionLevel(9)
+    writer.SetFileName(str(path))
+    writer.SetInputConnection(image.GetOutputPort())
+    writer.Write()
+    if writer.GetErrorCode() != 0:
+        raise OSError(f"{path} could not be written.")
