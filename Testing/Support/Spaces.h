@@ -1,0 +1,129 @@
+// What tests of function spaces share: named meshes in both spaces, coefficients of known
+// functions, dense copies of sparse matrices.
+#ifndef GridFEM_Testing_Spaces_h
+#define GridFEM_Testing_Spaces_h
+
+#include "FunctionSpace.h"
+#include "Meshes.h"
+#include "SparseMatrix.h"
+
+#include <ostream>
+#include <random>
+#include <string>
+
+namespace gridfem::testing
+{
+
+/// A mesh with a space on it, as a test parameter.
+struct SpaceCase
+{
+  std::string name;
+  TriangleMesh mesh;
+  SpaceOptions options;
+
+  FunctionSpace Build() const { return BuildFunctionSpace(mesh, options); }
+};
+
+inline std::ostream& operator<<(std::ostream& stream, const SpaceCase& space)
+{
+  return stream << space.name << (space.options.connectivityAware ? "" : " plain");
+}
+
+/// Curved, flat, on grid planes, nearly on grid planes (slivers), with holes of connectivity.
+inline std::vector<SpaceCase> AllSpaces(int depth = 4)
+{
+  const double nearly = 1e-7; // radians: the faces cross grid planes at glancing angles
+  const std::vector<std::pair<std::string, TriangleMesh>> meshes = {
+    { "sphere", GeodesicSphere(8) },
+    { "torus", Torus(30, 12, 1.0, 0.3) },
+    { "box on grid planes", Box(5) },
+    { "box nearly on grid planes", Transform(Box(5), { 1, 1, 1 }, nearly) },
+    { "rotated box far away", Transform(Box(4), { 1, 2, 3 }, 0.7, 10.0, { 500, -300, 20 }) },
+    { "two sheets", Transform(TwoSheets(6, 0.01), { 1, 0.3, 0 }, 0.4) },
+    { "soup", Unweld(Transform(GeodesicSphere(5), { 1, 0, 1 }, 0.3)) },
+  };
+  std::vector<SpaceCase> cases;
+  for (const auto& [name, mesh] : meshes)
+  {
+    for (const bool connectivityAware : { true, false })
+    {
+      SpaceOptions options;
+      options.depth = depth;
+      options.connectivityAware = connectivityAware;
+      cases.push_back({ name, mesh, options });
+    }
+  }
+  return cases;
+}
+
+/// One number at a time: a fixed-size vector in a dynamic row makes GCC warn about its bounds.
+inline void SetRow(MultiVector& values, Id row, const Vec3& vector)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    values(row, axis) = vector[axis];
+  }
+}
+
+/// Grid corner of every finest function, world units: the coefficients of the coordinate functions.
+inline MultiVector CoordinateCoefficients(const FunctionSpace& space)
+{
+  const Level& level = space.Finest();
+  MultiVector result = MultiVector::Zero(level.numberOfFunctions, 3);
+  for (Id patch = 0; patch < level.NumberOfPatches(); ++patch)
+  {
+    const CellIndex cell = MortonDecode(level.cell[patch]);
+    for (int c = 0; c < FunctionsPerPatch; ++c)
+    {
+      const Vec3 corner(cell[0] + (c & 1), cell[1] + ((c >> 1) & 1), cell[2] + (c >> 2));
+      SetRow(result, level.dof[patch][c], space.GetGrid().ToWorld(corner));
+    }
+  }
+  return result;
+}
+
+/// The points of a mesh as values on points.
+inline MultiVector PointCoordinates(const TriangleMesh& mesh)
+{
+  MultiVector result(mesh.points.size(), 3);
+  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+  {
+    SetRow(result, static_cast<Id>(i), mesh.points[i]);
+  }
+  return result;
+}
+
+/// Numbers in [-1, 1], the same in every run.
+inline MultiVector RandomValues(Id rows, Id columns, unsigned seed = 1)
+{
+  std::mt19937 generator(seed);
+  MultiVector result(rows, columns);
+  for (Id i = 0; i < rows * columns; ++i)
+  {
+    result.data()[i] = 2.0 * double(generator()) / double(std::mt19937::max()) - 1.0;
+  }
+  return result;
+}
+
+inline Eigen::MatrixXd Dense(const SparseMatrix& A)
+{
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(A.rows, A.columns);
+  for (Index row = 0; row < A.rows; ++row)
+  {
+    for (Id k = A.rowBegin[row]; k < A.rowBegin[row + 1]; ++k)
+    {
+      dense(row, A.column[k]) += A.value[k];
+    }
+  }
+  return dense;
+}
+
+/// Largest difference relative to the largest entry of the second.
+inline double RelativeDifference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
+{
+  return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
+}
+
+} // namespace gridfem::testing
+
+#endif
