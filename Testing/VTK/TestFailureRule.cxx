@@ -193,7 +193,7 @@ TEST_P(FailureRule, NonManifoldAndBadlyOrientedMeshesAreComputed)
 {
   TriangleMesh mesh = GeodesicSphere(4);
   mesh.points.push_back({ 2, 2, 2 });
-  const auto& triangle = mesh.triangles[0];
+  const auto triangle = mesh.triangles[0]; // a copy: the list grows below
   mesh.triangles.push_back({ triangle[0], triangle[1], Id(mesh.points.size()) - 1 });
   mesh.triangles.push_back(triangle);
   std::swap(mesh.triangles[7][0], mesh.triangles[7][1]);
@@ -293,6 +293,6 @@ INSTANTIATE_TEST_SUITE_P(AllFilters, FailureRule,
     FilterCase{ "ConnectivityAwareBasis", &Make<vtkConnectivityAwareBasis>, nullptr },
     FilterCase{ "ScreenedPoisson", &Make<vtkScreenedPoisson>, "Solution" },
     FilterCase{ "LaplaceSpectrum", &Make<vtkLaplaceSpectrum>, "Mode" }),
-  [](const auto& info) { return std::string(info.param.name); });
+  [](const auto& filter) { return std::string(filter.param.name); });
 
 } // namespace

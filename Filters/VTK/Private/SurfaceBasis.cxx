@@ -13,7 +13,7 @@ std::shared_ptr<const System> SystemStore::Find(int quadratureDegree) const
 }
 
 std::shared_ptr<const System> SystemStore::Get(
-  const FunctionSpace& space, int quadratureDegree, int threads, const Progress& progress)
+  int quadratureDegree, int threads, const Progress& progress)
 {
   const QuadratureRule& rule = TriangleRule(quadratureDegree);
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -22,7 +22,7 @@ std::shared_ptr<const System> SystemStore::Get(
   {
     constexpr Index coarsestSize = 256;
     system =
-      std::make_shared<const System>(BuildSystem(space, rule, threads, coarsestSize, progress));
+      std::make_shared<const System>(BuildSystem(*space_, rule, threads, coarsestSize, progress));
   }
   return system;
 }
@@ -32,7 +32,7 @@ SurfaceBasis MakeSurfaceBasis(std::shared_ptr<const TriangleMesh> mesh, Function
   SurfaceBasis basis;
   basis.mesh = std::move(mesh);
   basis.space = std::make_shared<const FunctionSpace>(std::move(space));
-  basis.systems = std::make_shared<SystemStore>();
+  basis.systems = std::make_shared<SystemStore>(basis.space);
   return basis;
 }
 

@@ -13,18 +13,21 @@
 namespace gridfem
 {
 
-/// The systems of one function space, one per quadrature degree, built when first asked for.
+/// The systems of one function space, one per quadrature degree, built when first asked for. All
+/// views of a space on different meshes share one store, so that who asks first changes no bit.
 class SystemStore
 {
 public:
+  explicit SystemStore(std::shared_ptr<const FunctionSpace> space) : space_(std::move(space)) {}
+
   /// The system, or null when it has not been built yet.
   std::shared_ptr<const System> Find(int quadratureDegree) const;
 
   /// Builds it if need be; a second caller waits. Throws InvalidInput and Aborted.
-  std::shared_ptr<const System> Get(
-    const FunctionSpace& space, int quadratureDegree, int threads, const Progress& progress);
+  std::shared_ptr<const System> Get(int quadratureDegree, int threads, const Progress& progress);
 
 private:
+  std::shared_ptr<const FunctionSpace> space_;
   mutable std::mutex mutex_;
   std::map<int, std::shared_ptr<const System>> systems_;
 };

@@ -86,6 +86,7 @@ void SurfaceSolverState::UpdateSpace(
     }
     basis = carries ? ReadBasis(input, mesh, progress.Part(0.1, 1.0))
                     : ReadBasisFor(basisData, mesh, progress.Part(0.1, 1.0));
+    RequireMemory(*mesh.triangles, basis.space->GetGrid().depth);
   };
   stages.Run(vtkSurfaceFEMAlgorithm::SpaceStage, key, update);
 }
@@ -117,10 +118,7 @@ void SurfaceSolverState::UpdateSystem(const Progress& progress)
   }
   stages.Run(stage, key,
     [&]
-    {
-      system =
-        basis.systems->Get(*basis.space, options.quadratureDegree, options.space.threads, progress);
-    });
+    { system = basis.systems->Get(options.quadratureDegree, options.space.threads, progress); });
 }
 
 double SurfaceSolverState::WeightInGridUnits(double weight) const
