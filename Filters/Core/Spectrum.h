@@ -11,8 +11,8 @@ struct SpectrumOptions
 {
   int numberOfModes = 10; // >= 1
   /// Wanted relative error of the eigenvalues: the square of the residual measure sqrt(rᵀBr / θ).
-  double tolerance = 1e-10;
-  int maximumIterations = 100; // per level
+  double tolerance = 1e-8;     // in (0, 1)
+  int maximumIterations = 100; // per level, >= 0
   MultigridOptions multigrid;
 };
 
@@ -28,9 +28,10 @@ struct Spectrum
 };
 
 /// Dense problem on a coarse level, prolongation, block iterations with one multigrid cycle of
-/// L + σM per level, rank-revealing Rayleigh-Ritz (M may be singular). Fixed start and sign (the
-/// entry of largest magnitude of M x is positive, ties to the lowest index): a run repeats bit
-/// for bit. Throws Aborted.
+/// L + σM per level, rank-revealing Rayleigh-Ritz (M may be singular). The zero modes, one constant
+/// per connected component in the order of the components, are exact. Fixed start and sign (the
+/// entry of largest magnitude of M x is positive, ties to the lowest index): same bits for any
+/// number of threads. Throws InvalidInput for options out of range, and Aborted.
 Spectrum ComputeSpectrum(const FunctionSpace& space, const System& system,
   const SpectrumOptions& options, const Progress& progress = {});
 

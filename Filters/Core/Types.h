@@ -4,6 +4,11 @@
 #ifndef GridFEM_Types_h
 #define GridFEM_Types_h
 
+// Threads are split over fixed blocks by Parallel.h; Eigen's own would change bits with their
+// number.
+#ifndef EIGEN_DONT_PARALLELIZE
+#define EIGEN_DONT_PARALLELIZE
+#endif
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 

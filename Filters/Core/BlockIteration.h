@@ -1,0 +1,86 @@
+// Block iteration for the lowest eigenpairs of L x = θ M x on one level: Rayleigh-Ritz on the
+// vectors, their preconditioned residuals and the last directions (LOBPCG). Knows no mesh.
+// [NUMERICS §3]
+#ifndef GridFEM_BlockIteration_h
+#define GridFEM_BlockIteration_h
+
+#include "Progress.h"
+#include "SparseMatrix.h"
+
+#include <functional>
+#include <vector>
+
+namespace gridfem
+{
+
+/// The null space of the stiffness matrix, known exactly: the constants of every component.
+class Constants
+{
+public:
+  /// @param component  per function, 0 .. numberOfComponents - 1
+  Constants(
+    const SparseMatrix& mass, std::vector<Index> component, Index numberOfComponents, int threads);
+
+  /// Removes the constants from every column, in the inner product of the mass matrix.
+  void Remove(MultiVector& X) const;
+
+  /// Takes the constants out of a dense mass matrix of the same size: M - M Z Zᵀ M.
+  void Deflate(Eigen::MatrixXd& mass) const;
+
+  /// The first `count` constants, of mass norm 1: one component each, in order of their numbers.
+  MultiVector Vectors(Index count) const;
+
+  /// Components without mass do not count.
+  Index Count() const { return static_cast<Index>(massive_.size()); }
+
+private:
+  std::vector<Index> component_;
+  std::vector<double> weight_; // ∫ b_i
+  std::vector<double> mass_;   // per component; 0 when negligible
+  std::vector<Index> massive_; // components with mass
+  int threads_;
+};
+
+/// One level's eigenproblem. The precondition function applies an approximate inverse, symmetric
+/// positive semi-definite, of stiffness + shift mass.
+struct SpectralProblem
+{
+  SparseMatrix stiffness;
+  SparseMatrix mass;
+  double shift = 1.0;
+  std::function<void(const MultiVector& r, MultiVector& z)> precondition;
+  const Constants* constants = nullptr; // the pairs found are orthogonal to them
+  int threads = 0;
+};
+
+struct BlockOptions
+{
+  Index wanted = 1;         // lowest pairs that have to converge
+  Index blockSize = 1;      // pairs carried along, >= wanted
+  double tolerance = 1e-10; // on rᵀBr / θ
+  int maximumIterations = 100;
+};
+
+struct EigenPairs
+{
+  Eigen::VectorXd values; // ascending
+  MultiVector vectors;    // columns orthonormal in the mass matrix
+};
+
+struct BlockReport
+{
+  std::vector<double> residuals; // per wanted pair: sqrt(rᵀBr / max(θ, shift))
+  Index numberOfConverged = 0;   // of the wanted ones
+  int iterations = 0;            // Rayleigh-Ritz steps
+};
+
+/// Improves `pairs` (orthonormal Ritz pairs; may be fewer than blockSize, or none) until the wanted
+/// ones reach the tolerance. Columns that did drop out of the work until they move again. A few
+/// fixed random directions are mixed in, so that no eigenvector stays hidden. Returns at most
+/// blockSize pairs, fewer when fewer exist. Same bits for any number of threads. Throws Aborted.
+BlockReport ImproveEigenPairs(const SpectralProblem& problem, const BlockOptions& options,
+  EigenPairs& pairs, const Progress& progress = {});
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,19 @@
+// Stiffness and mass times the same block of vectors in one pass: the two matrices share their
+// pattern, so every row of the block is fetched once. Eigenproblems multiply by hundreds of
+// columns.
+#ifndef GridFEM_PairedProduct_h
+#define GridFEM_PairedProduct_h
+
+#include "SparseMatrix.h"
+
+namespace gridfem
+{
+
+/// AX = A X and BX = B X for matrices of one pattern; AX, BX must not be X. Throws InvalidInput
+/// when the shapes do not fit. Same bits for any number of threads.
+void MultiplyPair(const SparseMatrix& A, const SparseMatrix& B, const MultiVector& X,
+  MultiVector& AX, MultiVector& BX, int threads = 0);
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,40 @@
+// Rayleigh-Ritz: the best approximations of eigenpairs of L x = θ M x inside the span of a few
+// vectors. The span may be dependent and M may be singular on it: dependent directions are found
+// and left out. Used by the block iteration and, with all unit vectors, by the dense coarse solve.
+#ifndef GridFEM_RayleighRitz_h
+#define GridFEM_RayleighRitz_h
+
+#include "Types.h"
+
+namespace gridfem
+{
+
+struct RitzPairs
+{
+  Eigen::VectorXd values;       // ascending
+  Eigen::MatrixXd coefficients; // one column per pair, orthonormal in the mass matrix
+};
+
+/// Pivots of the matrix scaled to unit diagonal below this mark a dependent direction: far above
+/// rounding (1e-16), so that noise never poses as a vector, and below what a solution needs.
+constexpr double DependentPivot = 1e-12;
+
+/// The lowest pairs of stiffness c = θ mass c, at most `wanted`; fewer when fewer exist. Both are
+/// symmetric positive semi-definite, of equal size; what both map to zero does not count. Solved
+/// as the largest pairs of mass c = μ (stiffness + shift mass) c, μ = 1 / (θ + shift): rounding
+/// then harms the highest pairs, not the lowest, and directions with mass zero are harmless.
+/// @param shift  > 0, about the size of the lowest values of θ
+RitzPairs SolvePencil(
+  const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass, double shift, Index wanted);
+
+/// The symmetric matrices Xᵀ AX and Xᵀ BX, each from its upper half. Same bits for any number of
+/// threads.
+void ProjectPair(const MultiVector& X, const MultiVector& AX, const MultiVector& BX,
+  Eigen::MatrixXd& A, Eigen::MatrixXd& B, int threads = 0);
+
+/// X C for a small C. Same bits for any number of threads.
+MultiVector Combine(const MultiVector& X, const Eigen::MatrixXd& C, int threads = 0);
+
+} // namespace gridfem
+
+#endif
