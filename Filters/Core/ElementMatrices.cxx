@@ -2,6 +2,7 @@
 #include "ElementMatrices.h"
 
 #include "Grouping.h"
+#include "PatchMoments.h"
 #include "PieceSamples.h"
 #include "TrilinearBasis.h"
 
@@ -13,80 +14,22 @@ namespace
 /// Patches per parallel job: some ten thousand samples.
 constexpr Id PatchesPerBlock = 256;
 
-constexpr int Half = FunctionsPerPatch / 2;
-
-/// A symmetric 8 x 8 matrix while it is summed; whole SIMD rows, of which the block below the
-/// diagonal is left out.
-class RankOneSum
-{
-public:
-  void Add(double weight, const CornerValues& v)
-  {
-    for (int i = 0; i < Half; ++i)
-    {
-      const double factor = weight * v[i];
-      for (int j = 0; j < FunctionsPerPatch; ++j)
-      {
-        upper_[i][j] += factor * v[j];
-      }
-    }
-    for (int i = 0; i < Half; ++i)
-    {
-      const double factor = weight * v[Half + i];
-      for (int j = 0; j < Half; ++j)
-      {
-        lower_[i][j] += factor * v[Half + j];
-      }
-    }
-  }
-
-  ElementMatrix Packed() const
-  {
-    ElementMatrix packed;
-    int entry = 0;
-    for (int i = 0; i < FunctionsPerPatch; ++i)
-    {
-      for (int j = i; j < FunctionsPerPatch; ++j)
-      {
-        packed[entry++] = i < Half ? upper_[i][j] : lower_[i - Half][j - Half];
-      }
-    }
-    return packed;
-  }
-
-private:
-  double upper_[Half][FunctionsPerPatch] = {};
-  double lower_[Half][Half] = {};
-};
-
 /// Adds the integrals over one piece.
 void AddPiece(const ClippedMesh& clipped, Id piece, const Vec3& origin, const QuadratureRule& rule,
-  RankOneSum& mass, RankOneSum& stiffness)
+  PatchMoments& patch)
 {
-  const Vec3 normal = UnitNormal(clipped, piece);
-  if (normal.isZero(0.0))
-  {
-    return;
-  }
-  // <∇b_i, ∇b_j> of the tangential parts is a sum of two products in an orthonormal frame.
-  const Vec3 u = normal.unitOrthogonal();
-  const Vec3 v = normal.cross(u);
+  Moments moments;
+  Vec3 areaVector = Vec3::Zero();
   ForEachFanTriangle(clipped, piece, origin,
     [&](const FanTriangle& triangle)
     {
-      CornerValues b;
+      areaVector += triangle.areaVector;
       for (const QuadratureRule::Point& point : rule.points)
       {
-        const Vec3 local = triangle.At(point.barycentric);
-        const double weight = point.weight * triangle.area;
-        TrilinearValues(local, b);
-        mass.Add(weight, b);
-        TrilinearDerivatives(local, u, b);
-        stiffness.Add(weight, b);
-        TrilinearDerivatives(local, v, b);
-        stiffness.Add(weight, b);
+        moments.AddSample(triangle.At(point.barycentric), point.weight * triangle.area);
       }
     });
+  patch.AddPiece(moments, areaVector);
 }
 
 using DenseElement = Eigen::Matrix<double, FunctionsPerPatch, FunctionsPerPatch, Eigen::RowMajor>;
@@ -174,14 +117,13 @@ ElementMatrices IntegrateElements(
       for (Id patch = begin; patch < end; ++patch)
       {
         const Vec3 origin = CellCorner(level.cell[patch]);
-        RankOneSum mass;
-        RankOneSum stiffness;
+        PatchMoments moments;
         for (Id k = pieces.begin[patch]; k < pieces.begin[patch + 1]; ++k)
         {
-          AddPiece(space.clipped, pieces.item[k], origin, rule, mass, stiffness);
+          AddPiece(space.clipped, pieces.item[k], origin, rule, moments);
         }
-        elements.mass[patch] = mass.Packed();
-        elements.stiffness[patch] = stiffness.Packed();
+        elements.mass[patch] = moments.Mass();
+        elements.stiffness[patch] = moments.Stiffness();
       }
     },
     PatchesPerBlock, progress);

@@ -20,11 +20,20 @@ constexpr Id PatchesPerBlock = 256;
 /// Columns that are integrated in one pass: bounds the memory per patch.
 constexpr Id ColumnsPerPass = 4;
 
-/// weight[i][k]: what corner k of the source triangle contributes to function i of a patch.
-using CornerWeights = std::array<std::array<double, 3>, FunctionsPerPatch>;
+/// weight[k][i]: what corner k of the source triangle contributes to function i of a patch.
+using CornerWeights = std::array<CornerValues, 3>;
 
-/// The same for vectors.
-using CornerVectors = std::array<std::array<Vec3, 3>, FunctionsPerPatch>;
+/// The same for vectors: weight[k][axis][i].
+using CornerVectors = std::array<std::array<CornerValues, 3>, 3>;
+
+/// sum += factor x values
+void AddScaled(double factor, const CornerValues& values, CornerValues& sum)
+{
+  for (int i = 0; i < FunctionsPerPatch; ++i)
+  {
+    sum[i] += factor * values[i];
+  }
+}
 
 void CheckMesh(const FunctionSpace& space, const TriangleMesh& mesh)
 {
@@ -195,7 +204,7 @@ void AddScalars(
     {
       for (Id c = 0; c < share.columns; ++c)
       {
-        share.At(i, c) += weights[i][k] * value[c];
+        share.At(i, c) += weights[k][i] * value[c];
       }
     }
   }
@@ -214,7 +223,8 @@ void AddVectors(const CornerVectors& weights, const Field& s, const std::array<I
       const Vec3 tangential = factor * (vector - normal.dot(vector) * normal);
       for (int i = 0; i < FunctionsPerPatch; ++i)
       {
-        share.At(i, c) += weights[i][k].dot(tangential);
+        share.At(i, c) += weights[k][0][i] * tangential[0] + weights[k][1][i] * tangential[1] +
+                          weights[k][2][i] * tangential[2];
       }
     }
   }
@@ -238,12 +248,9 @@ MultiVector IntegrateValues(const FunctionSpace& space, const TriangleMesh& mesh
         {
           CornerValues b;
           TrilinearValues(local, b);
-          for (int i = 0; i < FunctionsPerPatch; ++i)
+          for (int k = 0; k < 3; ++k)
           {
-            for (int k = 0; k < 3; ++k)
-            {
-              weights[i][k] += weight * b[i] * lambda[k];
-            }
+            AddScaled(weight * lambda[k], b, weights[k]);
           }
         });
       AddScalars(weights, f, f.RowsOf(triangle, source.Points()), share);
@@ -261,21 +268,17 @@ MultiVector IntegrateGradients(const FunctionSpace& space, const TriangleMesh& m
     {
       const Id triangle = space.clipped.pieceTriangle[piece];
       const SourceTriangle source(space.clipped, mesh, triangle);
-      CornerVectors weights;
-      for (auto& vectors : weights)
-      {
-        vectors.fill(Vec3::Zero());
-      }
+      CornerVectors weights{};
       ForEachSample(space, piece, origin, source, scale, rule,
         [&](const Vec3& local, double weight, const Barycentric& lambda)
         {
-          std::array<Vec3, FunctionsPerPatch> gradient;
-          EvaluateTrilinearGradient(local, gradient);
-          for (int i = 0; i < FunctionsPerPatch; ++i)
+          std::array<CornerValues, 3> derivative;
+          TrilinearGradients(local, derivative);
+          for (int k = 0; k < 3; ++k)
           {
-            for (int k = 0; k < 3; ++k)
+            for (int axis = 0; axis < 3; ++axis)
             {
-              weights[i][k] += weight * lambda[k] * gradient[i];
+              AddScaled(weight * lambda[k], derivative[axis], weights[k][axis]);
             }
           }
         });
@@ -307,19 +310,16 @@ MultiVector IntegrateGradientsOf(const FunctionSpace& space, const TriangleMesh&
           TrilinearGradients(local, derivative);
           for (int axis = 0; axis < 3; ++axis)
           {
-            for (int i = 0; i < FunctionsPerPatch; ++i)
-            {
-              sum[axis][i] += weight * derivative[axis][i];
-            }
+            AddScaled(weight, derivative[axis], sum[axis]);
           }
         });
       const std::array<Vec3, 3> gradient = source.Gradients();
-      CornerWeights weights;
-      for (int i = 0; i < FunctionsPerPatch; ++i)
+      CornerWeights weights{};
+      for (int k = 0; k < 3; ++k)
       {
-        for (int k = 0; k < 3; ++k)
+        for (int axis = 0; axis < 3; ++axis)
         {
-          weights[i][k] = gradient[k].dot(Vec3(sum[0][i], sum[1][i], sum[2][i]));
+          AddScaled(gradient[k][axis], sum[axis], weights[k]);
         }
       }
       AddScalars(weights, f, source.Points(), share);

@@ -47,7 +47,8 @@ struct FanTriangle
 {
   Id k;
   std::array<Vec3, 3> corner; // relative to the given origin, grid units
-  double area;                // grid units, > 0
+  Vec3 areaVector;            // along the normal
+  double area;                // its length, grid units, > 0
 
   Vec3 At(const std::array<double, 3>& barycentric) const
   {
@@ -68,9 +69,10 @@ void ForEachFanTriangle(const ClippedMesh& clipped, Id piece, const Vec3& origin
     triangle.k = k;
     triangle.corner[1] = clipped.position[corner[k]] - origin;
     triangle.corner[2] = clipped.position[corner[k + 1]] - origin;
-    triangle.area = 0.5 * (triangle.corner[1] - triangle.corner[0])
-                            .cross(triangle.corner[2] - triangle.corner[0])
-                            .norm();
+    triangle.areaVector =
+      0.5 *
+      (triangle.corner[1] - triangle.corner[0]).cross(triangle.corner[2] - triangle.corner[0]);
+    triangle.area = triangle.areaVector.norm();
     if (triangle.area > 0.0)
     {
       body(triangle);

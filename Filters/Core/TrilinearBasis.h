@@ -16,9 +16,11 @@ inline void TrilinearValues(const Vec3& local, CornerValues& value)
   const double x[2] = { 1.0 - local[0], local[0] };
   const double y[2] = { 1.0 - local[1], local[1] };
   const double z[2] = { 1.0 - local[2], local[2] };
-  for (int c = 0; c < FunctionsPerPatch; ++c)
+  const double xy[4] = { x[0] * y[0], x[1] * y[0], x[0] * y[1], x[1] * y[1] };
+  for (int c = 0; c < 4; ++c)
   {
-    value[c] = x[c & 1] * y[(c >> 1) & 1] * z[c >> 2];
+    value[c] = xy[c] * z[0];
+    value[c + 4] = xy[c] * z[1];
   }
 }
 
@@ -28,33 +30,17 @@ inline void TrilinearGradients(const Vec3& local, std::array<CornerValues, 3>& d
   const double x[2] = { 1.0 - local[0], local[0] };
   const double y[2] = { 1.0 - local[1], local[1] };
   const double z[2] = { 1.0 - local[2], local[2] };
-  const double sign[2] = { -1.0, 1.0 };
-  for (int c = 0; c < FunctionsPerPatch; ++c)
+  const double dx[4] = { -y[0], y[0], -y[1], y[1] };
+  const double dy[4] = { -x[0], -x[1], x[0], x[1] };
+  const double xy[4] = { x[0] * y[0], x[1] * y[0], x[0] * y[1], x[1] * y[1] };
+  for (int c = 0; c < 4; ++c)
   {
-    const int i = c & 1;
-    const int j = (c >> 1) & 1;
-    const int k = c >> 2;
-    derivative[0][c] = sign[i] * y[j] * z[k];
-    derivative[1][c] = x[i] * sign[j] * z[k];
-    derivative[2][c] = x[i] * y[j] * sign[k];
-  }
-}
-
-/// Derivatives along a direction: <direction, ∇b_c>.
-inline void TrilinearDerivatives(const Vec3& local, const Vec3& direction, CornerValues& value)
-{
-  const double x[2] = { 1.0 - local[0], local[0] };
-  const double y[2] = { 1.0 - local[1], local[1] };
-  const double z[2] = { 1.0 - local[2], local[2] };
-  const double dx[2] = { -direction[0], direction[0] };
-  const double dy[2] = { -direction[1], direction[1] };
-  const double dz[2] = { -direction[2], direction[2] };
-  for (int c = 0; c < FunctionsPerPatch; ++c)
-  {
-    const int i = c & 1;
-    const int j = (c >> 1) & 1;
-    const int k = c >> 2;
-    value[c] = (dx[i] * y[j] + x[i] * dy[j]) * z[k] + x[i] * y[j] * dz[k];
+    derivative[0][c] = dx[c] * z[0];
+    derivative[0][c + 4] = dx[c] * z[1];
+    derivative[1][c] = dy[c] * z[0];
+    derivative[1][c + 4] = dy[c] * z[1];
+    derivative[2][c] = -xy[c];
+    derivative[2][c + 4] = xy[c];
   }
 }
 
