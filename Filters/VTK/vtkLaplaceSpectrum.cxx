@@ -1,6 +1,7 @@
 #include "vtkLaplaceSpectrum.h"
 
 #include "Private/ClippedMeshWriter.h"
+#include "Private/InputValidation.h"
 #include "Private/SolverOutput.h"
 #include "Private/SurfaceSolverState.h"
 
@@ -84,6 +85,7 @@ void vtkLaplaceSpectrum::UpdateSpectrum()
   key.Add(this->Cycle).Add(this->Smoother).Add(this->NumberOfThreads);
   const auto solve = [&]
   {
+    gridfem::RequireMemoryForModes(state.Space().Finest().numberOfFunctions, this->NumberOfModes);
     gridfem::SpectrumOptions options;
     options.numberOfModes = this->NumberOfModes;
     options.tolerance = this->Tolerance;

@@ -42,9 +42,9 @@ public:
 
   ///@{
   /**
-   * How many modes to compute; when fewer exist, a warning says so. At least 1, default 20.
+   * How many modes to compute; when fewer exist, a warning says so. 1..100000, default 20.
    */
-  vtkSetClampMacro(NumberOfModes, int, 1, VTK_INT_MAX);
+  vtkSetClampMacro(NumberOfModes, int, 1, 100000);
   vtkGetMacro(NumberOfModes, int);
   ///@}
 

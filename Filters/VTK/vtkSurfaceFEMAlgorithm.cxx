@@ -72,6 +72,7 @@ int vtkSurfaceFEMAlgorithm::RequestData(
   catch (const gridfem::Aborted&)
   {
     EmptyOutputs(outputs);
+    this->AbortExecute = 0; // the request is served; left standing, it would empty the next run
     return 1;
   }
   catch (const std::bad_alloc&)

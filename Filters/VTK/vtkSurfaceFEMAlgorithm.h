@@ -11,7 +11,7 @@
  * - An unusable input gives one error message, empty outputs, and RequestData returns 0.
  * - A solver that does not converge warns, keeps its result, and sets the field array `Converged`
  *   (int, one value) to 0.
- * - An abort gives empty outputs.
+ * - An abort gives empty outputs and is served by that: AbortExecute is off again.
  *
  * Input port 0 takes vtkPolyData with polygons of any size or triangle strips; vertices and lines
  * are passed on, but take no part. Computation is in double precision. Results do not depend on

@@ -161,6 +161,16 @@ TEST_F(LaplaceSpectrum, MoreModesThanExistWarnsAndGivesAll)
   EXPECT_LT(eigenvalues.size(), 1000u);
 }
 
+TEST_F(LaplaceSpectrum, MoreModesThanMemoryHoldsAreRefusedWithTheEstimate)
+{
+  filter->SetInputData(ToPolyData(GeodesicSphere(16)));
+  filter->SetDepth(7); // about 80,000 functions: their square takes 300 GB
+  filter->SetNumberOfModes(100000);
+  EXPECT_EQ(filter->GetExecutive()->Update(), 0);
+  ASSERT_EQ(messages.errors.size(), 1u);
+  EXPECT_NE(messages.errors[0].find("NumberOfModes 100000"), std::string::npos);
+}
+
 TEST_F(LaplaceSpectrum, NotConvergedWarnsAndKeepsTheResult)
 {
   filter->SetTolerance(1e-16);

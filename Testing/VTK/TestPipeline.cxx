@@ -258,6 +258,42 @@ TEST_F(Pipeline, AMeshThatIsNoBasisIsRefusedOnPortOne)
   this->ExpectRefused(input, clip->GetOutput(), "not the output of a basis filter");
 }
 
+TEST_F(Pipeline, DamagedTablesAreRefusedByName)
+{
+  directBasis->Update();
+  auto stored = ThroughFile(directBasis->GetOutput());
+  struct Damage
+  {
+    const char* array;
+    bool isCellData;
+    double value;
+  };
+  const Damage damages[] = { { "PatchId", true, -1 }, { "PatchId", true, 1e9 },
+    { "PatchId", true, std::nan("") }, { "OctreeCellId", true, 1e9 },
+    { "PatchBasisIds", false, -5 }, { "PatchBasisIds", false, 1e12 }, { "PatchCellId", false, 1e9 },
+    { "OctreeCells", false, 16 }, { "GridDepth", false, 77 }, { "GridSpacing", false, 0 },
+    { "GridOrigin", false, INFINITY }, { "NumberOfBasisFunctions", false, 1e12 } };
+  for (const Damage& damage : damages)
+  {
+    vtkNew<vtkPolyData> damaged;
+    damaged->ShallowCopy(stored);
+    vtkFieldData* place = damage.isCellData ? static_cast<vtkFieldData*>(damaged->GetCellData())
+                                            : damaged->GetFieldData();
+    vtkDataArray* original = place->GetArray(damage.array);
+    vtkNew<vtkDoubleArray> array; // holds any value
+    array->DeepCopy(original);
+    array->SetName(damage.array);
+    array->SetComponent(0, 0, damage.value);
+    place->AddArray(array);
+    messages.errors.clear();
+    solver->SetInputData(0, damaged);
+    EXPECT_EQ(solver->GetExecutive()->Update(), 0) << damage.array << " " << damage.value;
+    ASSERT_EQ(messages.errors.size(), 1u);
+    EXPECT_NE(messages.errors[0].find(damage.array), std::string::npos) << messages.errors[0];
+    EXPECT_TRUE(IsEmptyData(solver->GetOutput()));
+  }
+}
+
 TEST_F(Pipeline, AMovedBasisIsRefused)
 {
   directBasis->Update();

@@ -9,9 +9,28 @@
 #include <algorithm>
 #include <iomanip>
 #include <sstream>
+#include <string>
 
 namespace gridfem
 {
+namespace
+{
+
+/// Throws when a job needs more memory than there is; unknown memory is taken as enough.
+void RequireBytes(double bytes, const std::string& subject, const std::string& advice)
+{
+  constexpr double GB = 1e9;
+  const double available = AvailableMemory();
+  if (available > 0.0 && bytes > available)
+  {
+    std::ostringstream message;
+    message << std::setprecision(3) << subject << " needs about " << bytes / GB
+            << " GB of memory, but only " << available / GB << " GB are free. " << advice;
+    throw InvalidInput(message.str());
+  }
+}
+
+} // namespace
 
 bool IsEmpty(vtkPolyData* input)
 {
@@ -52,19 +71,23 @@ void RequireSurface(const TriangleMesh& mesh)
 
 void RequireMemory(const TriangleMesh& mesh, int depth)
 {
-  const double available = AvailableMemory();
   const MemoryEstimate estimate = EstimateMemory(mesh, depth);
-  if (available <= 0.0 || estimate.bytes <= available)
-  {
-    return;
-  }
-  constexpr double GB = 1e9;
-  std::ostringstream message;
-  message << "Depth " << depth << " needs about " << std::setprecision(3) << estimate.bytes / GB
-          << " GB of memory (about " << estimate.functions << " basis functions), but only "
-          << available / GB << " GB are free. Every step down in Depth takes a quarter of the "
-          << "memory.";
-  throw InvalidInput(message.str());
+  std::ostringstream subject;
+  subject << "Depth " << depth << " (about " << std::setprecision(3) << estimate.functions
+          << " basis functions)";
+  RequireBytes(
+    estimate.bytes, subject.str(), "Every step down in Depth takes a quarter of the memory.");
+}
+
+void RequireMemoryForModes(Id functions, Id modes)
+{
+  // The vectors themselves, their images and the blocks that are iterated on.
+  constexpr double blocks = 6.0;
+  const double columns = static_cast<double>(std::min(functions, modes));
+  RequireBytes(blocks * sizeof(double) * static_cast<double>(functions) * columns,
+    "NumberOfModes " + std::to_string(modes) + " with " + std::to_string(functions) +
+      " basis functions",
+    "Choose fewer modes or a smaller Depth.");
 }
 
 } // namespace gridfem

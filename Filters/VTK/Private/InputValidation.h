@@ -22,6 +22,10 @@ void RequireSurface(const TriangleMesh& mesh);
 /// Throws InvalidInput, with the estimate, when this depth needs more memory than there is.
 void RequireMemory(const TriangleMesh& mesh, int depth);
 
+/// Throws InvalidInput, with the estimate, when so many eigenvectors need more memory than there
+/// is.
+void RequireMemoryForModes(Id functions, Id modes);
+
 } // namespace gridfem
 
 #endif

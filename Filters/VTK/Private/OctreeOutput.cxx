@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 
 namespace gridfem
@@ -33,6 +34,27 @@ vtkSmartPointer<vtkPoints> NewPoints(int precision, Id count)
   points->SetDataType(precision);
   points->SetNumberOfPoints(count);
   return points;
+}
+
+template<class Array>
+vtkSmartPointer<Array> NewArray(const char* name, Id count)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  array->SetNumberOfTuples(count);
+  return array;
+}
+
+/// A vertex for each point.
+vtkSmartPointer<vtkCellArray> MakeVertices(Id count)
+{
+  auto offsets = NewArray<vtkIdTypeArray>("", count + 1);
+  auto connectivity = NewArray<vtkIdTypeArray>("", count);
+  std::iota(offsets->GetPointer(0), offsets->GetPointer(0) + count + 1, vtkIdType(0));
+  std::iota(connectivity->GetPointer(0), connectivity->GetPointer(0) + count, vtkIdType(0));
+  auto vertices = vtkSmartPointer<vtkCellArray>::New();
+  vertices->SetData(offsets, connectivity);
+  return vertices;
 }
 
 /// World position of a cell's corner on a level.
@@ -108,16 +130,10 @@ void AddFunctionArrays(const FunctionSpace& space, std::size_t index, vtkUnstruc
   const Level& level = space.levels[index];
   const std::vector<double> area = PatchAreas(space, index);
   const std::vector<Index> component = PatchComponents(space, index);
-  vtkNew<vtkIdTypeArray> basisId;
-  basisId->SetName("BasisId");
-  basisId->SetNumberOfTuples(level.numberOfFunctions);
-  vtkNew<vtkDoubleArray> supportArea;
-  supportArea->SetName("SupportArea");
-  supportArea->SetNumberOfTuples(level.numberOfFunctions);
+  auto basisId = NewArray<vtkIdTypeArray>("BasisId", level.numberOfFunctions);
+  auto supportArea = NewArray<vtkDoubleArray>("SupportArea", level.numberOfFunctions);
   supportArea->FillValue(0.0);
-  vtkNew<vtkIdTypeArray> functionComponent;
-  functionComponent->SetName("Component");
-  functionComponent->SetNumberOfTuples(level.numberOfFunctions);
+  auto functionComponent = NewArray<vtkIdTypeArray>("Component", level.numberOfFunctions);
   for (Index function = 0; function < level.numberOfFunctions; ++function)
   {
     basisId->SetValue(function, function);
@@ -154,9 +170,7 @@ void WriteOctreeCells(
   }
   const Id count = static_cast<Id>(cells.size());
   auto points = NewPoints(precision, FunctionsPerPatch * count);
-  vtkNew<vtkIntArray> levels;
-  levels->SetName("Level");
-  levels->SetNumberOfTuples(count);
+  auto levels = NewArray<vtkIntArray>("Level", count);
   output->Allocate(count);
   for (Id cell = 0; cell < count; ++cell)
   {
@@ -178,51 +192,37 @@ void WriteOctreeCells(
 void WriteQuadraturePoints(const InputMesh& mesh, const ClippedMesh& clipped,
   const QuadratureRule& rule, int precision, vtkPolyData* output)
 {
-  const Id perTriangle = static_cast<Id>(rule.points.size());
-  const Id count = perTriangle * clipped.NumberOfTriangles();
+  const Id count = static_cast<Id>(rule.points.size()) * clipped.NumberOfTriangles();
   auto points = NewPoints(precision, count);
-  vtkNew<vtkDoubleArray> weight;
-  weight->SetName("Weight");
-  weight->SetNumberOfTuples(count);
-  vtkNew<vtkIdTypeArray> sourceCell;
-  sourceCell->SetName("SourceCellId");
-  sourceCell->SetNumberOfTuples(count);
+  auto weight = NewArray<vtkDoubleArray>("Weight", count);
+  auto sourceCell = NewArray<vtkIdTypeArray>("SourceCellId", count);
   const double cellArea = clipped.grid.spacing * clipped.grid.spacing;
   Id sample = 0;
+  const auto addTriangle = [&](const Vec3& a, const Vec3& b, const Vec3& c, Id source)
+  {
+    const double area = 0.5 * cellArea * (b - a).cross(c - a).norm();
+    for (const auto& point : rule.points)
+    {
+      const auto& w = point.barycentric;
+      const Vec3 position = clipped.grid.ToWorld(w[0] * a + w[1] * b + w[2] * c);
+      points->SetPoint(sample, position.data());
+      weight->SetValue(sample, point.weight * area);
+      sourceCell->SetValue(sample, source);
+      ++sample;
+    }
+  };
   for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
   {
+    const auto corner = [&](Id k) -> const Vec3& { return clipped.position[clipped.corners[k]]; };
     const Id first = clipped.pieceBegin[piece];
-    const Vec3& a = clipped.position[clipped.corners[first]];
     for (Id k = first + 1; k + 1 < clipped.pieceBegin[piece + 1]; ++k)
     {
-      const Vec3& b = clipped.position[clipped.corners[k]];
-      const Vec3& c = clipped.position[clipped.corners[k + 1]];
-      const double area = 0.5 * cellArea * (b - a).cross(c - a).norm();
-      for (const auto& point : rule.points)
-      {
-        const auto& w = point.barycentric;
-        const Vec3 position = clipped.grid.ToWorld(w[0] * a + w[1] * b + w[2] * c);
-        points->SetPoint(sample, position.data());
-        weight->SetValue(sample, point.weight * area);
-        sourceCell->SetValue(sample, mesh.sourceCell[clipped.pieceTriangle[piece]]);
-        ++sample;
-      }
+      addTriangle(
+        corner(first), corner(k), corner(k + 1), mesh.sourceCell[clipped.pieceTriangle[piece]]);
     }
   }
-  vtkNew<vtkIdTypeArray> offsets;
-  offsets->SetNumberOfValues(count + 1);
-  vtkNew<vtkIdTypeArray> connectivity;
-  connectivity->SetNumberOfValues(count);
-  for (Id k = 0; k < count; ++k)
-  {
-    offsets->SetValue(k, k);
-    connectivity->SetValue(k, k);
-  }
-  offsets->SetValue(count, count);
-  vtkNew<vtkCellArray> verts;
-  verts->SetData(offsets, connectivity);
   output->SetPoints(points);
-  output->SetVerts(verts);
+  output->SetVerts(MakeVertices(count));
   output->GetPointData()->AddArray(weight);
   output->GetPointData()->AddArray(sourceCell);
 }
@@ -243,12 +243,8 @@ void WriteBasisFunctions(
   {
     points->SetPoint(function, space.GetGrid().origin.data()); // functions without a patch
   }
-  vtkNew<vtkIdTypeArray> patchId;
-  patchId->SetName("PatchId");
-  patchId->SetNumberOfTuples(level.NumberOfPatches());
-  vtkNew<vtkIntArray> levels;
-  levels->SetName("Level");
-  levels->SetNumberOfTuples(level.NumberOfPatches());
+  auto patchId = NewArray<vtkIdTypeArray>("PatchId", level.NumberOfPatches());
+  auto levels = NewArray<vtkIntArray>("Level", level.NumberOfPatches());
   output->Allocate(level.NumberOfPatches());
   for (Id patch = 0; patch < level.NumberOfPatches(); ++patch)
   {

@@ -1,0 +1,56 @@
+// Small real meshes with every defect that files have: all filters compute or refuse, none crashes.
+
+#include "FilterSupport.h"
+
+#include "vtkClipToOctree.h"
+#include "vtkConnectivityAwareBasis.h"
+#include "vtkLaplaceSpectrum.h"
+#include "vtkScreenedPoisson.h"
+
+#include <gtest/gtest.h>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+class RealMeshes : public ::testing::TestWithParam<const char*>
+{
+};
+
+TEST_P(RealMeshes, TheWholeChainComputes)
+{
+  const std::string path = RealMesh(std::string("small/") + GetParam());
+  if (path.empty())
+  {
+    GTEST_SKIP() << "the folder of real meshes is not there";
+  }
+  auto input = ToPolyData(ReadMesh(path));
+  vtkNew<vtkClipToOctree> clip;
+  clip->SetDepth(4);
+  clip->SetInputData(input);
+  vtkNew<vtkConnectivityAwareBasis> basis;
+  basis->SetInputConnection(clip->GetOutputPort());
+  vtkNew<vtkScreenedPoisson> poisson;
+  poisson->SetInputData(input);
+  poisson->SetInputConnection(1, basis->GetOutputPort());
+  vtkNew<vtkLaplaceSpectrum> spectrum;
+  spectrum->SetNumberOfModes(4);
+  spectrum->SetInputConnection(basis->GetOutputPort());
+  EXPECT_EQ(poisson->GetExecutive()->Update(), 1);
+  EXPECT_EQ(spectrum->GetExecutive()->Update(), 1);
+  EXPECT_EQ(FieldValue(poisson->GetOutput(), "Converged"), 1);
+  EXPECT_EQ(FieldValue(spectrum->GetOutput(), "Converged"), 1);
+  const auto solution = PointValues(poisson->GetOutput(), "Solution");
+  EXPECT_FALSE(solution.empty());
+  EXPECT_TRUE(AllFinite(solution));
+}
+
+INSTANTIATE_TEST_SUITE_P(Small, RealMeshes,
+  ::testing::Values("degenerated-libigl.obj", "degtri_2dt_1edge_split_twice.off", "degtri_four.off",
+    "degtri_nullface_bis.off", "degtri_sliding.off", "joinedtets.obj", "multibody.stl",
+    "non_manifold_face_graph.off", "prim.off", "tetra_intersected_by_triangle.off",
+    "twoboxes.ply"));
+
+} // namespace
