@@ -1,0 +1,173 @@
+"""The three ways of working: a filter on a mesh, a chain, one basis for several filters."""
+import unittest
+
+import gridfem.vtkGridFEMFilters  # before the plugin, which makes objects of its classes
+from paraview import simple
+from paraview.modules.vtkRemotingViews import vtkSMParaViewPipelineControllerWithRendering
+
+import plugin
+
+DEPTH = 4
+
+
+def outputs(proxy):
+    """The class of every output port's data."""
+    ports = range(proxy.SMProxy.GetNumberOfOutputPorts())
+    return [plugin.data(proxy, port).GetClassName() for port in ports]
+
+
+class TestPipeline(unittest.TestCase):
+    def setUp(self):
+        self.surface = plugin.sphere()
+
+    def tearDown(self):
+        simple.ResetSession()
+
+    def largest_difference(self, one, other, name):
+        one, other = (plugin.data(proxy).GetPointData().GetArray(name) for proxy in (one, other))
+        # The clipped mesh has the input's points first.
+        return max(abs(one.GetTuple(i)[c] - other.GetTuple(i)[c])
+                   for i in range(one.GetNumberOfTuples())
+                   for c in range(one.GetNumberOfComponents()))
+
+    def test_every_filter_runs_on_a_mesh(self):
+        expected = {
+            "ClipToOctree": ["vtkPolyData", "vtkPolyData", "vtkUnstructuredGrid"],
+            "ConnectivityAwareBasis": ["vtkPolyData", "vtkUnstructuredGrid"],
+            "ScreenedPoisson": ["vtkPolyData", "vtkTable"],
+            "LaplaceSpectrum": ["vtkPolyData", "vtkTable"]}
+        for name in plugin.PROXIES:
+            with self.subTest(proxy=name):
+                proxy = getattr(simple, name)(Input=self.surface, Depth=DEPTH)
+                self.assertEqual(outputs(proxy), expected[name])
+                self.assertGreater(plugin.data(proxy).GetNumberOfCells(), 0)
+
+    def test_output_ports_have_names(self):
+        clip = simple.ClipToOctree(Input=self.surface, Depth=DEPTH)
+        octree = simple.OutputPort(clip, "Octree Cells")
+        self.assertEqual(plugin.data(clip, 2).GetNumberOfCells(),
+                         octree.GetDataInformation().GetNumberOfCells())
+
+    def test_chain_gives_what_one_filter_gives(self):
+        clip = simple.ClipToOctree(Input=self.surface, Depth=DEPTH)
+        basis = simple.ConnectivityAwareBasis(Input=clip)
+        chained = simple.ScreenedPoisson(Input=basis)
+        alone = simple.ScreenedPoisson(Input=self.surface, Depth=DEPTH)
+        # Other triangles, same surface: equal to the tolerance of the solver, 1e-8, and the float
+        # coordinates, 1e-7. A basis of another depth is off by 1e-3.
+        self.assertLess(self.largest_difference(alone, chained, "Solution"), 1e-6)
+
+    def test_two_solvers_share_a_basis(self):
+        basis = simple.ConnectivityAwareBasis(Input=self.surface, Depth=DEPTH)
+        poisson = simple.ScreenedPoisson(Input=self.surface, Basis=basis, Depth=7)
+        spectrum = simple.LaplaceSpectrum(Input=self.surface, Basis=basis, Depth=7)
+        self.assertEqual(plugin.data(poisson).GetNumberOfPoints(),
+                         plugin.data(self.surface).GetNumberOfPoints())
+        plugin.data(spectrum)
+        systems = plugin.runs(poisson)["system"] + plugin.runs(spectrum)["system"]
+        self.assertEqual(systems, 1)
+        alone = simple.ScreenedPoisson(Input=self.surface, Depth=DEPTH)
+        self.assertLess(self.largest_difference(alone, poisson, "Solution"), 1e-6)
+
+    def test_a_basis_of_another_mesh_is_refused(self):
+        other = simple.Sphere(Radius=1.0, ThetaResolution=20, PhiResolution=20)
+        basis = simple.ConnectivityAwareBasis(Input=other, Depth=DEPTH)
+        poisson = simple.ScreenedPoisson(Input=self.surface, Basis=basis)
+        self.assertEqual(plugin.data(poisson).GetNumberOfPoints(), 0)
+
+    def test_only_what_depends_on_a_change_runs_again(self):
+        values = simple.Calculator(Input=self.surface, ResultArrayName="f", Function="coordsX")
+        poisson = simple.ScreenedPoisson(
+            Input=values, ValueArray=["POINTS", "f"], Depth=DEPTH)
+        plugin.data(poisson)
+        self.assertEqual(set(plugin.runs(poisson).values()), {1})
+
+        def set_weight():
+            poisson.ScreeningWeight = 10
+
+        def set_function():
+            values.Function = "coordsY"
+
+        def set_depth():
+            poisson.Depth = DEPTH + 1
+
+        self.assertEqual(plugin.reruns(poisson, set_weight), ["hierarchy", "solve"])
+        self.assertEqual(plugin.reruns(poisson, set_function), ["right-hand side", "solve"])
+        self.assertEqual(plugin.reruns(poisson, set_depth), list(plugin.STAGES))
+
+    def test_arrays_are_chosen_by_name(self):
+        def components(proxy):
+            return plugin.data(proxy).GetPointData().GetArray("Solution").GetNumberOfComponents()
+
+        values = simple.Calculator(Input=self.surface, ResultArrayName="f", Function="coordsX")
+        plugin.data(values)
+        poisson = simple.ScreenedPoisson(Input=values, Depth=DEPTH)
+        self.assertEqual(components(poisson), 3)  # the coordinates, whatever arrays there are
+        poisson.ValueArray = ["POINTS", "f"]
+        self.assertEqual(components(poisson), 1)
+
+    def test_sharpening_by_the_gradient_of_the_values(self):
+        values = simple.Calculator(Input=self.surface, ResultArrayName="f", Function="coordsX")
+        poisson = simple.ScreenedPoisson(Input=values, Depth=DEPTH, UseValueGradient=1)
+
+        def largest(scale):
+            poisson.GradientScale = scale
+            return plugin.data(poisson).GetPointData().GetArray("Solution").GetRange()[1]
+
+        smoothed, kept, sharpened = (largest(scale) for scale in (0, 1, 2))
+        self.assertAlmostEqual(kept, 1.0, delta=0.01)  # x on a sphere of radius 1
+        self.assertLess(smoothed, kept - 0.05)
+        self.assertGreater(sharpened, kept + 0.05)
+
+    def test_modes_are_time_steps(self):
+        spectrum = simple.LaplaceSpectrum(Input=self.surface, Depth=DEPTH, NumberOfModes=6)
+        plugin.data(spectrum)
+        self.assertEqual(list(spectrum.TimestepValues), [0, 1, 2, 3, 4, 5])
+        every = simple.LaplaceSpectrum(
+            Input=self.surface, Depth=DEPTH, NumberOfModes=6, AllModes=1)
+        expected = plugin.data(every).GetPointData()
+        for mode in (3, 0, 5):
+            spectrum.UpdatePipeline(float(mode))
+            shown = spectrum.PointData["Mode"].GetRange()
+            self.assertEqual(shown, expected.GetArray(f"Mode{mode:03}").GetRange())
+        self.assertEqual(plugin.runs(spectrum)["solve"], 1)
+
+        spectrum.Mode = 2
+        spectrum.UpdatePipeline(5.0)
+        self.assertEqual(spectrum.PointData["Mode"].GetRange(),
+                         expected.GetArray("Mode002").GetRange())
+        spectrum.UpdatePipelineInformation()
+        self.assertEqual(len(spectrum.TimestepValues), 0)
+        self.assertEqual(plugin.runs(spectrum)["solve"], 1)
+
+    def test_tables(self):
+        def columns(table):
+            return [table.GetColumnName(column) for column in range(table.GetNumberOfColumns())]
+
+        spectrum = simple.LaplaceSpectrum(Input=self.surface, Depth=DEPTH, NumberOfModes=6)
+        self.assertLessEqual({"Mode", "Eigenvalue", "Residual"},
+                             set(columns(plugin.data(spectrum, 1))))
+        self.assertEqual(plugin.data(spectrum, 1).GetNumberOfRows(), 6)
+        poisson = simple.ScreenedPoisson(Input=self.surface, Depth=DEPTH)
+        self.assertLessEqual({"Iteration", "EnergyResidual", "Residual"},
+                             set(columns(plugin.data(poisson, 1))))
+
+    def test_charts_draw_what_tells(self):
+        drawn = {
+            "ScreenedPoisson": ["Log10EnergyResidual", "Log10Residual"],
+            "LaplaceSpectrum": ["Eigenvalue"]}
+        controller = vtkSMParaViewPipelineControllerWithRendering()
+        for name, series in drawn.items():
+            proxy = getattr(simple, name)(Input=self.surface, Depth=DEPTH)
+            plugin.data(proxy)
+            with self.subTest(proxy=name):
+                self.assertEqual(
+                    controller.GetPreferredViewType(proxy.SMProxy, 1), "XYChartView")
+                chart = simple.Show(simple.OutputPort(proxy, 1), simple.CreateView("XYChartView"))
+                self.assertEqual(list(chart.SeriesVisibility), series)
+                self.assertEqual(chart.UseIndexForXAxis, 1)  # row = iteration or mode
+
+
+if __name__ == "__main__":
+    plugin.load()
+    unittest.main()

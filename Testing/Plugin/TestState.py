@@ -1,0 +1,76 @@
+"""A pipeline of all filters survives a state file, in ParaView's format and as Python."""
+import os
+import tempfile
+import unittest
+
+from paraview import simple, smstate
+
+import plugin
+
+
+def build():
+    surface = plugin.sphere()
+    simple.RenameSource("surface", surface)
+    values = simple.Calculator(Input=surface, ResultArrayName="f", Function="coordsX*coordsY")
+    clip = simple.ClipToOctree(Input=values, Depth=4, Level=-1, QuadratureDegree="6")
+    basis = simple.ConnectivityAwareBasis(Input=clip, Level=3, BasisId=5)
+    poisson = simple.ScreenedPoisson(
+        Input=values, Basis=basis, ValueArray=["POINTS", "f"], ScreeningWeight=7.0,
+        ParameterUnits="World", UseValueGradient=1, GradientScale=2.0)
+    spectrum = simple.LaplaceSpectrum(
+        Input=values, Basis=basis, NumberOfModes=5, Mode=3, Cycle="V", Smoother="Gauss-Seidel")
+    for name, proxy in (("clip", clip), ("basis", basis), ("poisson", poisson),
+                        ("spectrum", spectrum)):
+        simple.RenameSource(name, proxy)
+
+
+def results():
+    """Every setting and the range of every point array, to compare before and after."""
+    found = {}
+    for name in ("clip", "basis", "poisson", "spectrum"):
+        proxy = simple.FindSource(name)
+        proxy.UpdatePipeline()
+        for key in proxy.ListProperties():
+            if key not in ("Input", "Basis"):
+                found[name, key] = str(proxy.GetPropertyValue(key))
+        arrays = proxy.PointData
+        for array in arrays.keys():
+            found[name, "array", array] = arrays[array].GetRange()
+    return found
+
+
+class TestState(unittest.TestCase):
+    def check(self, suffix, save, load):
+        build()
+        expected = results()
+        self.assertIn(("poisson", "array", "Solution"), expected)
+        self.assertIn(("basis", "array", "BasisFunction"), expected)
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "state" + suffix)
+            save(path)
+            simple.ResetSession()
+            self.assertIsNone(simple.FindSource("poisson"))
+            load(path)
+        self.assertEqual(results(), expected)
+        basis = simple.FindSource("poisson").Basis
+        self.assertEqual(basis.SMProxy, simple.FindSource("basis").SMProxy)
+        simple.ResetSession()
+
+    def test_paraview_state(self):
+        self.check(".pvsm", simple.SaveState, simple.LoadState)
+
+    def test_python_state(self):
+        def write(path):
+            with open(path, "w") as script:
+                script.write(smstate.get_state())
+
+        def run(path):
+            with open(path) as script:
+                exec(compile(script.read(), path, "exec"), {})
+
+        self.check(".py", write, run)
+
+
+if __name__ == "__main__":
+    plugin.load()
+    unittest.main()
