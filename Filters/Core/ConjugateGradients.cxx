@@ -81,6 +81,10 @@ void CheckProblem(const Multigrid& multigrid, const MultiVector& b, const MultiV
   }
 }
 
+/// Growth of the energy measure that a solvable system does not show: conjugate gradients stay
+/// below the root of the condition number.
+constexpr double Divergence = 1e8;
+
 void Project(const std::function<void(MultiVector&)>& projection, MultiVector& v)
 {
   if (projection)
@@ -238,7 +242,7 @@ void Iteration::Measure()
     }
     energy_[c] = std::sqrt(rz[c]) / energyOfZero_[c];
     residual_[c] = std::sqrt(rr[c]) / residualOfZero_[c];
-    const bool isBroken = !std::isfinite(energy_[c]) || !std::isfinite(residual_[c]);
+    const bool isBroken = !(energy_[c] < Divergence) || !std::isfinite(residual_[c]);
     if (isBroken || this->IsSolved(c))
     {
       this->Retire(c, !isBroken);

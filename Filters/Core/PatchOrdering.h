@@ -8,8 +8,10 @@
 namespace gridfem
 {
 
-/// Blocks of 8 x 8 x 8 cells (patches in Morton order inside), coloured by the parity of the
-/// block's i, j, k: eight colours. A sweep then stays in the cache and every block is a serial job.
+/// Blocks of 8 x 8 x 8 cells, coloured by the parity of the block's i, j, k: eight colours. A sweep
+/// then stays in the cache and every block is a serial job. Inside a block, patches are visited by
+/// the parity of their cell, then in Morton order. Throws InvalidInput when patches are not sorted
+/// by cell.
 PatchOrder OrderPatches(const Level& level);
 
 } // namespace gridfem
