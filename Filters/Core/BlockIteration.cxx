@@ -246,7 +246,7 @@ void BlockIteration::RayleighRitz(const Progress& progress)
 double BlockIteration::Fraction() const
 {
   const Index wanted = std::min<Index>(options_.wanted, static_cast<Index>(pairs_.values.size()));
-  double worst = options_.tolerance;
+  double worst = wanted < options_.wanted ? 1.0 : options_.tolerance;
   for (Index j = 0; j < wanted; ++j)
   {
     worst = std::max(worst, measure_[j]);

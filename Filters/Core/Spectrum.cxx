@@ -12,12 +12,14 @@ namespace gridfem
 namespace
 {
 
-/// A level this small is solved densely, whatever the number of modes.
-constexpr Index AlwaysDense = 600;
+/// A level with this many functions is solved densely, or with this many per pair.
+constexpr double AlwaysDense = 600.0;
+constexpr double DensePerPair = 3.5;
 
 /// Accuracy of the eigenvalues on coarser levels, whose discretisation error is far larger.
 constexpr double CoarseTolerance = 1e-3;
 constexpr int CoarseIterations = 4;
+constexpr int RandomStartIterations = 40;
 
 /// Columns that go through a cycle together.
 constexpr Id PanelWidth = 8;
@@ -44,15 +46,19 @@ void Validate(const SpectrumOptions& options)
   }
 }
 
-/// The deepest level is solved densely if it is small. Else the start is the coarsest level with
-/// enough functions, or the one above it when that is too large for a dense solve.
+bool IsDense(const Level& level, Index blockSize)
+{
+  return level.numberOfFunctions <= std::max(AlwaysDense, DensePerPair * blockSize);
+}
+
+/// The finest level if it is solved densely. Else the coarsest level with enough functions, or the
+/// one above it when that is too large for a dense solve.
 std::size_t StartLevel(const FunctionSpace& space, std::size_t levels, Index blockSize)
 {
   const auto size = [&](std::size_t l) { return space.levels[l].numberOfFunctions; };
-  const double dense = std::max<double>(AlwaysDense, 3.5 * blockSize);
   std::size_t level = 0;
-  while (level + 1 < levels &&
-         (size(level) > dense || (level > 0 && size(level + 1) >= 1.5 * blockSize)))
+  while (level + 1 < levels && (!IsDense(space.levels[level], blockSize) ||
+                                 (level > 0 && size(level + 1) >= 1.5 * blockSize)))
   {
     ++level;
   }
@@ -191,6 +197,7 @@ public:
   Spectrum Run(const Progress& progress);
 
 private:
+  BlockOptions Options(std::size_t level, Index wanted) const;
   SpectralProblem Problem(std::size_t level, const Constants& constants, const Multigrid* multigrid,
     SparseMatrix mass) const;
 
@@ -213,6 +220,17 @@ SpectralProblem NestedIteration::Problem(std::size_t level, const Constants& con
   problem.precondition = [multigrid, level](const MultiVector& r, MultiVector& z)
   { CycleOnPanels(*multigrid, level, r, z); };
   return problem;
+}
+
+BlockOptions NestedIteration::Options(std::size_t level, Index wanted) const
+{
+  BlockOptions block;
+  block.wanted = wanted;
+  block.blockSize = GuardedSize(wanted);
+  block.tolerance = level == 0 ? options_.tolerance : CoarseTolerance;
+  block.maximumIterations = level == 0 ? options_.maximumIterations
+                                       : std::min(CoarseIterations, options_.maximumIterations);
+  return block;
 }
 
 Spectrum NestedIteration::Run(const Progress& progress)
@@ -244,28 +262,28 @@ Spectrum NestedIteration::Run(const Progress& progress)
     const Constants constants(levelMass, std::move(component), components, threads);
     const SpectralProblem problem =
       this->Problem(level, constants, &multigrid, std::move(levelMass));
-    if (level == start)
-    {
-      pairs = SolveDense(problem, blockSize);
-      if (level > 0)
-      {
-        continue;
-      }
-    }
-    else
+    BlockOptions block = this->Options(level, wanted);
+    if (level != start)
     {
       MultiVector fine;
       Multiply(system_.prolongation[level], pairs.vectors, fine, threads);
       pairs.vectors = std::move(fine);
       constants.Remove(pairs.vectors);
     }
-    BlockOptions block;
-    block.wanted =
-      level == start ? std::min<Index>(wanted, static_cast<Index>(pairs.values.size())) : wanted;
-    block.blockSize = blockSize;
-    block.tolerance = level == 0 ? options_.tolerance : CoarseTolerance;
-    block.maximumIterations = level == 0 ? options_.maximumIterations
-                                         : std::min(CoarseIterations, options_.maximumIterations);
+    else if (IsDense(space_.levels[level], blockSize))
+    {
+      pairs = SolveDense(problem, blockSize);
+      if (level > 0)
+      {
+        continue;
+      }
+      block.wanted = std::min<Index>(wanted, static_cast<Index>(pairs.values.size()));
+    }
+    else // thousands of components: no small level, but B is nearly exact there
+    {
+      pairs = EigenPairs{ {}, MultiVector(problem.mass.rows, 0) };
+      block.maximumIterations = std::max(RandomStartIterations, options_.maximumIterations);
+    }
     report = ImproveEigenPairs(problem, block, pairs, LevelPart(progress, level));
   }
   return Collect(zeroModes, pairs, report, mass, options_);

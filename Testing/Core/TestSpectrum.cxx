@@ -254,6 +254,20 @@ TEST(Spectrum, EqualSpheresShareEveryEigenvalue)
   }
 }
 
+TEST(Spectrum, ManyComponentsHaveNoSmallLevel)
+{
+  // A cube has 4 cells a side and a period of 6: all lie equally in the grid.
+  const Discretisation on = Discretise(CubeArray(3, 2, 0.5), 4);
+  ASSERT_EQ(on.space.numberOfComponents, 27);
+  ASSERT_GT(on.space.levels[on.system.elements.size() - 1].numberOfFunctions, 600);
+  const Spectrum spectrum = Solve(on, 40);
+  EXPECT_TRUE(spectrum.converged);
+  CheckPairs(on, spectrum);
+  EXPECT_EQ(std::count(spectrum.eigenvalues.begin(), spectrum.eigenvalues.end(), 0.0), 27);
+  // The first value of a cube is threefold, that of 27 cubes 81-fold.
+  EXPECT_NEAR(spectrum.eigenvalues.back() / spectrum.eigenvalues[27], 1.0, 1e-7);
+}
+
 TEST(Spectrum, OnlyZeroModesAskedFor)
 {
   const Discretisation on = Discretise(CubeArray(2, 2, 1.0), 4);
