@@ -103,8 +103,7 @@ void Multigrid::PreconditionFrom(std::size_t level, const MultiVector& b, MultiV
   this->Start(level, b, x, true);
 }
 
-void Multigrid::Start(
-  std::size_t level, const MultiVector& b, MultiVector& x, bool zeroStart) const
+void Multigrid::Start(std::size_t level, const MultiVector& b, MultiVector& x, bool zeroStart) const
 {
   const Index unknowns = levels_.at(level).A.rows;
   if (b.rows() != unknowns)
