@@ -166,10 +166,21 @@ void PrintResults(vtkPolyData* mesh, const std::string& array, Pipeline& p, cons
   clock.Print(std::cout);
 }
 
+void CreateFolder(const fs::path& folder)
+{
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder))
+  {
+    throw StepFailed("The folder " + folder.string() + " cannot be made (" + error.message() +
+                     "); choose another with --output.");
+  }
+}
+
 ExitCode DoMainJob(const Options& options)
 {
   StepClock clock;
-  fs::create_directories(options.output);
+  CreateFolder(options.output);
   vtkSmartPointer<vtkPolyData> mesh = ReadMesh(options, clock);
   const std::string array = AddArrayToSmooth(mesh);
   Pipeline pipeline;

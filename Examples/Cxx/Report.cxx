@@ -1,6 +1,7 @@
 #include "Report.h"
 
 #include <vtkCallbackCommand.h>
+#include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
@@ -108,6 +109,7 @@ unsigned long ObserveProgress(const std::string& name, vtkAlgorithm* algorithm)
 
 StepClock::StepClock()
 {
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF); // would say all of it a second time
   vtkNew<MessageWindow> window;
   vtkOutputWindow::SetInstance(window);
 }

@@ -30,5 +30,5 @@ modes = LaplaceSpectrum(Input=mesh, Basis=basis, NumberOfModes=10, AllModes=1)  
 SaveData(sys.argv[3], proxy=smooth)
 SaveData(sys.argv[4], proxy=modes)
 
-if 0 in (smooth.GetDataInformation().GetNumberOfPoints(), modes.GetDataInformation().GetNumberOfPoints()):
+if 0 in (f.GetDataInformation().GetNumberOfPoints() for f in (smooth, modes)):
     sys.exit("A filter could not do its work; ParaView said above why.")

@@ -16,11 +16,39 @@ from gridfem.vtkGridFEMFilters import (
     vtkScreenedPoisson,
 )
 from sheet import Layer, Tile, View, view_of, write_sheet
-from vtkmodules.vtkCommonDataModel import vtkDataObject
+from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkSphere
+from vtkmodules.vtkFiltersCore import vtkClipPolyData, vtkPolyDataConnectivityFilter
 
-# One of the three places where strands of the knot cross, looked at from outside.
-CROSSING = View((-2.0, 0.0, 0.0), (-0.91, -0.0, 0.42), (0.42, 0.0, 0.91), 3.4)
-COARSE = 5
+# One of the three places where strands of the knot cross, one above the other, and a bend.
+CROSSING = (-2.0, 0.0, 0.0)
+BEND = View((2.4, 0.0, 0.0), (0.6, -0.1, 0.79), (-0.79, 0.0, 0.6), 3.0)
+
+
+BASIS_TITLE = "One basis function where two strands nearly touch, seen from between them"
+CONNECTIVITY_TITLE = "Stripes fitted on a coarse grid (depth 4), where two strands nearly touch"
+LOWER, UPPER = -1.0, 1.0
+
+
+def strand(mesh, side):
+    """One of the two strands at the crossing, alone."""
+    ball = vtkSphere()
+    ball.SetCenter(CROSSING)
+    ball.SetRadius(1.5)
+    clip = vtkClipPolyData()
+    clip.SetInputData(mesh)
+    clip.SetClipFunction(ball)
+    clip.InsideOutOn()
+    pieces = vtkPolyDataConnectivityFilter()
+    pieces.SetInputConnection(clip.GetOutputPort())
+    pieces.SetExtractionModeToClosestPointRegion()
+    pieces.SetClosestPoint(CROSSING[0], CROSSING[1], 1.4 * side)
+    pieces.Update()
+    return pieces.GetOutput()
+
+
+def seen_from_other(side):
+    """The face of a strand that the other strand touches."""
+    return View(CROSSING, (0.0, 0.0, -side), (0.0, 1.0, 0.0), 3.1)
 
 
 def basis_filter(knot, depth, aware):
@@ -35,56 +63,59 @@ def projected(knot, aware):
     """The stripes as a coarse function space shows them."""
     poisson = vtkScreenedPoisson()
     poisson.SetInputData(0, knot)
-    poisson.SetDepth(COARSE)
+    poisson.SetDepth(4)
     poisson.SetConnectivityAware(aware)
     points = vtkDataObject.FIELD_ASSOCIATION_POINTS
     poisson.SetInputArrayToProcess(0, 0, 0, points, "Stripes")
-    poisson.SetScreeningWeight(1e6)
+    poisson.SetScreeningWeight(1e5)
     poisson.Update()
     return poisson.GetOutput()
 
 
 def function_at_crossing(knot, aware):
-    """The basis function of the grid corner next to the crossing."""
-    basis = basis_filter(knot, COARSE, aware)
+    """A basis function of the grid corner between the strands."""
+    basis = basis_filter(knot, 4, aware)
     basis.Update()
-    basis.SetBasisId(basis.GetOutputDataObject(1).FindPoint(CROSSING.centre))
+    basis.SetBasisId(basis.GetOutputDataObject(1).FindPoint(CROSSING))
     basis.Update()
     return basis.GetOutput()
 
 
 def clip_tiles(knot):
+    depth = 4
     clip = vtkClipToOctree()
     clip.SetInputData(knot)
-    clip.SetDepth(COARSE)
-    basis = basis_filter(knot, COARSE, True)
-    basis.Update()
+    clip.SetDepth(depth)
     clip.Update()
+    basis = basis_filter(knot, depth, True)
+    basis.Update()
     cells = Layer(clip.GetOutputDataObject(2), wireframe=True, color=(0.35, 0.45, 0.6))
     patches = Layer(basis.GetOutput(), "PatchId", shuffled=True, edges=True)
-    near = View(CROSSING.centre, CROSSING.direction, CROSSING.up, 2.6)
     return [
-        Tile("the surface and its octree cells", view_of(knot, 4 / 3), [Layer(knot), cells]),
-        Tile("clipped to the cells: every patch its own colour", near, [patches]),
+        Tile("a surface and its octree cells", view_of(knot, 4 / 3), [Layer(knot), cells]),
+        Tile("clipped to the cells; one colour, one patch", BEND, [patches]),
     ]
 
 
 def connectivity_tiles(knot):
-    plain, aware = projected(knot, False), projected(knot, True)
+    view = seen_from_other(LOWER)
+    meshes = (knot, projected(knot, False), projected(knot, True))
+    given, plain, aware = (strand(mesh, LOWER) for mesh in meshes)
     return [
-        Tile("given: stripes", CROSSING, [Layer(knot, "Stripes", 0, 1)]),
-        Tile("plain functions: strands mix", CROSSING, [Layer(plain, "Solution", 0, 1)]),
-        Tile("connectivity-aware functions", CROSSING, [Layer(aware, "Solution", 0, 1)]),
+        Tile("given on the lower strand", view, [Layer(given, "Stripes", 0, 1)]),
+        Tile("plain: the strand above shows", view, [Layer(plain, "Solution", 0, 1)]),
+        Tile("connectivity-aware", view, [Layer(aware, "Solution", 0, 1)]),
     ]
 
 
 def basis_tiles(knot):
-    near = View(CROSSING.centre, CROSSING.direction, CROSSING.up, 2.0)
-    labels = ("plain: one function, on both strands", "connectivity-aware: one for each strand")
-    return [
-        Tile(label, near, [Layer(function_at_crossing(knot, aware), "BasisFunction", -0.5, 0.5)])
-        for label, aware in zip(labels, (False, True))
-    ]
+    tiles = []
+    for space, aware in (("plain", False), ("connectivity-aware", True)):
+        function = function_at_crossing(knot, aware)
+        for name, side in (("lower", LOWER), ("upper", UPPER)):
+            layer = Layer(strand(function, side), "BasisFunction", -0.6, 0.6)
+            tiles.append(Tile(f"{space}: {name} strand", seen_from_other(side), [layer]))
+    return tiles
 
 
 def poisson_tiles(solution):
@@ -102,11 +133,11 @@ def main():
     pictures.mkdir(parents=True, exist_ok=True)
     solution = read(output / "poisson.vtp")
     modes = tiles_of(read(output / "modes.vtp"), 24)[1:24:2]
-    write_sheet(modes, pictures / "modes.png", 4, (210, 189), TITLE)
+    write_sheet(modes, pictures / "modes.png", 4, (200, 185), TITLE)
     write_sheet(poisson_tiles(solution), pictures / "poisson.png", 2, (400, 300))
     write_sheet(clip_tiles(solution), pictures / "clip.png", 2, (400, 300))
-    write_sheet(basis_tiles(solution), pictures / "basis.png", 2, (400, 300))
-    write_sheet(connectivity_tiles(solution), pictures / "connectivity.png", 3, (300, 270))
+    write_sheet(basis_tiles(solution), pictures / "basis.png", 4, (225, 215), BASIS_TITLE)
+    write_sheet(connectivity_tiles(solution), pictures / "connectivity.png", 3, (300, 270), CONNECTIVITY_TITLE)
 
 
 if __name__ == "__main__":

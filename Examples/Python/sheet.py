@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 
 import vtkmodules.vtkRenderingFreeType  # noqa: F401, draws text
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401, draws everything else
+from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
 from vtkmodules.vtkFiltersGeneral import vtkOBBTree
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingCore import (
@@ -22,6 +23,7 @@ from vtkmodules.vtkRenderingCore import (
 
 BLUE, WHITE, RED = (0.13, 0.34, 0.68), (0.96, 0.96, 0.95), (0.76, 0.16, 0.15)
 INK = (0.15, 0.15, 0.15)
+GAP = 8  # pixels between tiles
 
 
 @dataclass
@@ -70,7 +72,7 @@ def view_of(data, width_to_height=1.0, tilt=25.0):
         centre,
         [cosine * f - sine * u for f, u in zip(front, up)],
         [cosine * u + sine * f for f, u in zip(front, up)],
-        1.2 * seen,  # room for the label
+        1.08 * seen,
     )
 
 
@@ -93,9 +95,19 @@ def shuffled_colors(count):
     return colors
 
 
+def shaded(mesh):
+    """With normals, so that it looks smooth but at sharp edges."""
+    normals = vtkPolyDataNormals()
+    normals.SetInputData(mesh)
+    normals.SetFeatureAngle(40)
+    normals.ConsistencyOff()
+    normals.Update()
+    return normals.GetOutput()
+
+
 def actor_of(layer):
     mapper = vtkDataSetMapper()
-    mapper.SetInputData(layer.data)
+    mapper.SetInputData(shaded(layer.data) if layer.data.IsA("vtkPolyData") else layer.data)
     mapper.SetScalarVisibility(bool(layer.array))
     if layer.array:
         in_cells = layer.data.GetCellData().HasArray(layer.array)
@@ -126,26 +138,23 @@ def actor_of(layer):
     return actor
 
 
-def text_of(text, font_size, height):
+def text_of(text, font_size, x, y):
     actor = vtkTextActor()
     actor.SetInput(text)
     style = actor.GetTextProperty()
     style.SetFontSize(font_size)
     style.SetColor(INK)
     style.SetJustificationToCentered()
-    actor.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
-    actor.SetPosition(0.5, height)
+    actor.SetPosition(x, y)
     return actor
 
 
-def renderer_of(tile, viewport, font_size):
+def renderer_of(tile, viewport):
     renderer = vtkRenderer()
     renderer.SetViewport(*viewport)
     renderer.SetBackground(1, 1, 1)
     for layer in tile.layers:
         renderer.AddActor(actor_of(layer))
-    renderer.AddActor2D(text_of(tile.label, font_size, 0.03))
-
     camera = renderer.GetActiveCamera()
     camera.ParallelProjectionOn()
     camera.SetFocalPoint(*tile.view.centre)
@@ -153,34 +162,34 @@ def renderer_of(tile, viewport, font_size):
         *(c + tile.view.height * d for c, d in zip(tile.view.centre, tile.view.direction))
     )
     camera.SetViewUp(*tile.view.up)
-    camera.SetWindowCenter(0, -0.08)  # up, off the label
     camera.SetParallelScale(tile.view.height / 2)
     renderer.ResetCameraClippingRange()
-    return renderer
-
-
-def background_of(title, font_size, height):
-    renderer = vtkRenderer()
-    renderer.SetBackground(1, 1, 1)
-    renderer.AddActor2D(text_of(title, font_size, height))
     return renderer
 
 
 def window_of(tiles, columns, tile_size, title):
     rows = math.ceil(len(tiles) / columns)
     font_size = max(12, tile_size[1] // 17)
-    strip = 3 * font_size if title else 0
-    total = rows * tile_size[1] + strip
+    strip = 2 * font_size  # below every tile, for its label
+    width = columns * tile_size[0]
+    height = rows * tile_size[1] + (strip if title else 0)
     window = vtkRenderWindow()
     window.SetOffScreenRendering(True)
     window.SetMultiSamples(8)
-    window.SetSize(columns * tile_size[0], total)
-    window.AddRenderer(background_of(title, font_size + 2, 1 - 0.7 * strip / total))
+    window.SetSize(width, height)
+    texts = vtkRenderer()
+    texts.SetBackground(1, 1, 1)
+    window.AddRenderer(texts)
+    if title:
+        texts.AddActor2D(text_of(title, font_size + 2, width / 2, height - 0.75 * strip))
     for i, tile in enumerate(tiles):
-        row, column = rows - 1 - i // columns, i % columns
-        bottom, top = row * tile_size[1] / total, (row + 1) * tile_size[1] / total
-        viewport = (column / columns, bottom, (column + 1) / columns, top)
-        window.AddRenderer(renderer_of(tile, viewport, font_size))
+        left, bottom = i % columns * tile_size[0], (rows - 1 - i // columns) * tile_size[1]
+        right, top = left + tile_size[0] - GAP, bottom + tile_size[1] - GAP
+        texts.AddActor2D(
+            text_of(tile.label, font_size, (left + right) / 2, bottom + 0.4 * font_size)
+        )
+        viewport = (left / width, (bottom + strip) / height, right / width, top / height)
+        window.AddRenderer(renderer_of(tile, viewport))
     return window
 
 
