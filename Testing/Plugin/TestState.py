@@ -31,7 +31,7 @@ def results():
         proxy = simple.FindSource(name)
         proxy.UpdatePipeline()
         for key in proxy.ListProperties():
-            if key not in ("Input", "Basis"):
+            if key not in ("Input", "Basis", "TimestepValues"):
                 found[name, key] = str(proxy.GetPropertyValue(key))
         arrays = proxy.PointData
         for array in arrays.keys():
