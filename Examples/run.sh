@@ -36,6 +36,8 @@ done
 
 InstallMissing "${BUILD_PACKAGES[@]}"
 BuildTree gridfem_main_job
+# Threads that spin while they wait would starve each other on a busy machine.
+export OMP_WAIT_POLICY="${OMP_WAIT_POLICY:-passive}"
 "$BUILD/bin/gridfem_main_job" "${arguments[@]}" --output "$output"
 
 Say "Rendering the eigenfunctions"
