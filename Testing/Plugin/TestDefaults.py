@@ -6,7 +6,7 @@ from paraview import simple
 
 import plugin
 
-UNBOUNDED = 2**31 - 1  # from here on a class's limit is that of the type
+UNBOUNDED = 1000  # from here on the panel has no upper end, and so no slider that nobody can set
 
 # Properties without a value that a getter of the class could give.
 CONNECTIONS = {"Input", "Basis"}

@@ -11,7 +11,7 @@ STAGES = ("space", "system", "hierarchy", "right-hand side", "solve")
 
 
 def load():
-    """Loads the plugin that the environment names; its filters become functions of paraview.simple."""
+    """Loads the plugin; its filters become functions of paraview.simple."""
     simple.LoadPlugin(os.environ["GRIDFEM_PLUGIN"], remote=False, ns=vars(simple))
 
 
