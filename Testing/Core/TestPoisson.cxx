@@ -152,6 +152,63 @@ TEST_P(PoissonOnSpaces, KeepsTheMeanOfTheFieldForEveryWeight)
 
 INSTANTIATE_TEST_SUITE_P(Spaces, PoissonOnSpaces, ::testing::ValuesIn(AllSpaces()));
 
+namespace
+{
+
+/// Solves for the coordinates from their values and gradients.
+void ExpectCoordinatesBack(const TriangleMesh& mesh, int depth)
+{
+  for (const bool connectivityAware : { true, false })
+  {
+    Problem problem(mesh, AtDepth(depth, connectivityAware), 1e-4);
+    problem.options.solve.tolerance = 1e-8;
+    const MultiVector f = PointCoordinates(mesh);
+    const PoissonSolution solution = problem.Solve(problem.Values(f), problem.Gradients(f));
+    EXPECT_TRUE(solution.report.converged);
+    EXPECT_LE(solution.report.iterations, 30);
+    const MultiVector u = EvaluateAtPoints(problem.space, solution.coefficients);
+    double worst = 0.0;
+    for (Id i = 0; i < u.rows(); ++i)
+    {
+      const bool isUsed = problem.space.pointPatch[i] >= 0;
+      worst = std::max(worst, isUsed ? (u.row(i) - f.row(i)).norm() : 0.0);
+    }
+    // The tolerance bounds the energy; largest pointwise errors are some hundred times that.
+    EXPECT_LT(worst, 1e-5 * problem.space.GetGrid().spacing);
+  }
+}
+
+} // namespace
+
+TEST(Poisson, IsNotFooledByRoundingOnGridPlanes)
+{
+  // The large faces lie on planes of the grid but for rounding: functions that vanish on them must
+  // not get energies of squared rounding errors.
+  for (const double noise : { 0.0, 1e-14, 1e-11, 1e-8 })
+  {
+    TriangleMesh plate = Box(6, { 0.1, 0.2, 0.3 }, { 0.8, 0.9, 0.65 });
+    const MultiVector random = RandomValues(static_cast<Id>(plate.points.size()), 3);
+    for (std::size_t i = 0; i < plate.points.size(); ++i)
+    {
+      plate.points[i] += noise * random.row(i).transpose();
+    }
+    ExpectCoordinatesBack(plate, 4);
+  }
+}
+
+TEST(Poisson, ReturnsTheCoordinatesOfRealMeshes)
+{
+  for (const char* name : { "conrod.stl", "bones_26comp_4k.ply", "dragon_res3_nonmanifold.ply" })
+  {
+    const std::string path = RealMesh(name);
+    if (path.empty())
+    {
+      GTEST_SKIP() << "the folder of real meshes is not there";
+    }
+    ExpectCoordinatesBack(ReadMesh(path), 6);
+  }
+}
+
 TEST(Poisson, AgreesWithADenseSolve)
 {
   const TriangleMesh mesh = Torus(20, 10, 1.0, 0.35);
