@@ -18,6 +18,9 @@ constexpr Index MinimumRandomColumns = 4;
 /// A converged column whose value moves by more than this many tolerances has to work again.
 constexpr double WakeFactor = 10.0;
 
+/// After so many iterations the projected matrices are computed anew.
+constexpr int RefreshInterval = 8;
+
 /// Columns are handled in groups of this size where a loop over rows has to be serial.
 constexpr Id ColumnGroup = 16;
 
@@ -68,7 +71,7 @@ Eigen::VectorXd ColumnDots(const MultiVector& X, const MultiVector& Y, int threa
     });
 }
 
-/// The iteration's state: the basis is [X, W, P].
+/// The iteration's state: the basis is [X, P, W].
 class BlockIteration
 {
 public:
@@ -81,23 +84,33 @@ public:
 
 private:
   void AddRandomDirections();
+  void RemoveKnown(MultiVector& X);
   bool Precondition(const Progress& progress);
+  void ComputeResiduals(const MultiVector& X);
+  bool MeasureResiduals();
   void RayleighRitz(const Progress& progress);
+  void ProjectOldPart();
+  void ProjectCorrections();
   std::vector<Index> ColumnsAtWork(bool all) const;
-  Eigen::MatrixXd NextDirections(
-    const RitzPairs& ritz, const Eigen::MatrixXd& shifted, Id oldSize) const;
+  void NextCoefficients(const RitzPairs& ritz, Eigen::MatrixXd& step, Eigen::MatrixXd& overlap);
+  void NextVectors(const RitzPairs& ritz);
   double Fraction() const;
 
   const SpectralProblem& problem_;
   const BlockOptions& options_;
-  EigenPairs& pairs_;
-  MultiVector corrections_; // W = B r of the columns at work
+  EigenPairs& pairs_;       // X
   MultiVector directions_;  // P
+  MultiVector corrections_; // W = B r of the columns at work
+  MultiVector residual_;
+  MultiVector pair_;        // stiffness and mass times a part of the basis
+  MultiVector nextVectors_; // room that is kept: fresh pages cost as much as the numbers in them
+  MultiVector nextDirections_;
+  Eigen::MatrixXd stiffness_; // projected on [X, P], later [X, P, W]
+  Eigen::MatrixXd mass_;
   std::vector<Index> atWork_;
   std::vector<double> measure_;   // per column: rᵀBr / θ when it was last looked at
   std::vector<double> settledAt_; // value at which a column has converged, else -1
   BlockReport report_;
-  double firstWorst_ = 0.0;
   double fraction_ = 0.0;
 };
 
@@ -110,7 +123,20 @@ void BlockIteration::AddRandomDirections()
   MultiVector load;
   Multiply(problem_.mass, random, load, problem_.threads);
   problem_.precondition(load, directions_);
-  problem_.constants->Remove(directions_);
+  this->RemoveKnown(directions_);
+}
+
+/// Makes X orthogonal to all that is known.
+void BlockIteration::RemoveKnown(MultiVector& X)
+{
+  problem_.constants->Remove(X);
+  if (problem_.known != nullptr && problem_.known->cols() > 0)
+  {
+    Multiply(problem_.mass, X, residual_, problem_.threads);
+    const Eigen::MatrixXd share = Project({ problem_.known }, residual_, problem_.threads);
+    Combine({ problem_.known }, share, residual_, problem_.threads);
+    X -= residual_;
+  }
 }
 
 std::vector<Index> BlockIteration::ColumnsAtWork(bool all) const
@@ -129,12 +155,49 @@ std::vector<Index> BlockIteration::ColumnsAtWork(bool all) const
   return columns;
 }
 
+/// residual = L X - M X diag(θ) of the columns at work.
+void BlockIteration::ComputeResiduals(const MultiVector& X)
+{
+  MultiplyPair(problem_.stiffness, problem_.mass, X, pair_, problem_.threads);
+  const Id count = X.cols();
+  Eigen::RowVectorXd values(count);
+  for (Id j = 0; j < count; ++j)
+  {
+    values[j] = pairs_.values[atWork_[j]];
+  }
+  residual_.resize(X.rows(), count);
+  ParallelRanges(X.rows(), problem_.threads,
+    [&](Id begin, Id end)
+    {
+      for (Id i = begin; i < end; ++i)
+      {
+        residual_.row(i) = pair_.row(i).head(count) - pair_.row(i).tail(count).cwiseProduct(values);
+      }
+    });
+}
+
+/// True when all wanted columns at work have converged.
+bool BlockIteration::MeasureResiduals()
+{
+  const Eigen::VectorXd energy = ColumnDots(residual_, corrections_, problem_.threads);
+  bool done = true;
+  for (Id j = 0; j < energy.size(); ++j)
+  {
+    const Index column = atWork_[j];
+    const double value = pairs_.values[column];
+    measure_[column] = std::max(0.0, energy[j]) / std::max(value, problem_.shift);
+    const bool converged = measure_[column] <= options_.tolerance;
+    settledAt_[column] = converged ? value : -1.0;
+    done = done && (converged || column >= options_.wanted);
+  }
+  return done;
+}
+
 /// Residuals and corrections of the columns at work. True when all wanted pairs have converged:
 /// columns that converged earlier are looked at once more before that is said.
 bool BlockIteration::Precondition(const Progress& progress)
 {
-  const int threads = problem_.threads;
-  const Index size = static_cast<Index>(pairs_.values.size());
+  const std::size_t size = static_cast<std::size_t>(pairs_.values.size());
   measure_.resize(size, 1.0);
   settledAt_.resize(size, -1.0);
   for (const bool all : { false, true })
@@ -145,48 +208,73 @@ bool BlockIteration::Precondition(const Progress& progress)
       corrections_.resize(problem_.mass.rows, 0);
       continue;
     }
-    const MultiVector X = SelectColumns(pairs_.vectors, atWork_, threads);
-    MultiVector residual;
-    MultiVector massX;
-    MultiplyPair(problem_.stiffness, problem_.mass, X, residual, massX, threads);
-    Eigen::RowVectorXd values(X.cols());
-    for (Id j = 0; j < X.cols(); ++j)
+    if (atWork_.size() == size)
     {
-      values[j] = pairs_.values[atWork_[j]];
+      this->ComputeResiduals(pairs_.vectors);
     }
-    ParallelRanges(X.rows(), threads,
-      [&](Id begin, Id end)
-      {
-        residual.middleRows(begin, end - begin) -=
-          massX.middleRows(begin, end - begin) * values.asDiagonal();
-      });
-    progress.Check(fraction_);
-    problem_.precondition(residual, corrections_);
-    progress.Check(fraction_);
-    const Eigen::VectorXd energy = ColumnDots(residual, corrections_, threads);
-    bool done = true;
-    for (Id j = 0; j < X.cols(); ++j)
+    else
     {
-      const Index column = atWork_[j];
-      measure_[column] = std::max(0.0, energy[j]) / std::max(values[j], problem_.shift);
-      const bool converged = measure_[column] <= options_.tolerance;
-      settledAt_[column] = converged && column < options_.wanted ? values[j] : -1.0;
-      done = done && (converged || column >= options_.wanted);
+      this->ComputeResiduals(SelectColumns(pairs_.vectors, atWork_, problem_.threads));
     }
-    if (!done)
+    progress.Check(fraction_);
+    problem_.precondition(residual_, corrections_);
+    progress.Check(fraction_);
+    if (!this->MeasureResiduals())
     {
       return false;
     }
   }
-  return size >= options_.wanted || report_.iterations > 0;
+  return static_cast<Index>(size) >= options_.wanted || report_.iterations > 0;
 }
 
-/// Coefficients of the new directions: the share of W and P in the new vectors that still work,
-/// made orthogonal to all new vectors, so that [X, P] stays well conditioned.
-Eigen::MatrixXd BlockIteration::NextDirections(
-  const RitzPairs& ritz, const Eigen::MatrixXd& shifted, Id oldSize) const
+/// Stiffness and mass on [X, P] from the vectors. Between, they follow from the coefficients, and
+/// rounding adds up.
+void BlockIteration::ProjectOldPart()
 {
-  const Id size = ritz.coefficients.rows();
+  const Id size = pairs_.vectors.cols();
+  const Id added = directions_.cols();
+  const int threads = problem_.threads;
+  stiffness_.resize(size + added, size + added);
+  mass_.resize(size + added, size + added);
+  if (size > 0)
+  {
+    MultiplyPair(problem_.stiffness, problem_.mass, pairs_.vectors, pair_, threads);
+    const Eigen::MatrixXd X = Project({ &pairs_.vectors, &directions_ }, pair_, threads);
+    stiffness_.leftCols(size) = X.leftCols(size);
+    mass_.leftCols(size) = X.rightCols(size);
+  }
+  MultiplyPair(problem_.stiffness, problem_.mass, directions_, pair_, threads);
+  const Eigen::MatrixXd P = Project({ &pairs_.vectors, &directions_ }, pair_, threads);
+  stiffness_.rightCols(added) = P.leftCols(added);
+  mass_.rightCols(added) = P.rightCols(added);
+}
+
+/// Extends stiffness and mass by the corrections.
+void BlockIteration::ProjectCorrections()
+{
+  const Id old = stiffness_.rows();
+  const Id added = corrections_.cols();
+  const int threads = problem_.threads;
+  MultiplyPair(problem_.stiffness, problem_.mass, corrections_, pair_, threads);
+  const Eigen::MatrixXd projected =
+    Project({ &pairs_.vectors, &directions_, &corrections_ }, pair_, threads);
+  const auto extend = [&](Eigen::MatrixXd& A, auto columns)
+  {
+    A.conservativeResize(old + added, old + added);
+    A.rightCols(added) = columns;
+    A.bottomLeftCorner(added, old) = A.topRightCorner(old, added).transpose();
+    A.triangularView<Eigen::StrictlyLower>() = A.transpose();
+  };
+  extend(stiffness_, projected.leftCols(added));
+  extend(mass_, projected.rightCols(added));
+}
+
+/// The columns of the new vectors that still work get directions: their share `step` of P and W,
+/// less `overlap` of the new vectors, which makes them orthogonal to all of these, so that [X, P]
+/// stays well conditioned.
+void BlockIteration::NextCoefficients(
+  const RitzPairs& ritz, Eigen::MatrixXd& step, Eigen::MatrixXd& overlap)
+{
   std::vector<Index> columns;
   for (const Index column : atWork_)
   {
@@ -195,51 +283,55 @@ Eigen::MatrixXd BlockIteration::NextDirections(
       columns.push_back(column);
     }
   }
-  Eigen::MatrixXd C = Eigen::MatrixXd::Zero(size, static_cast<Id>(columns.size()));
-  for (Id j = 0; j < C.cols(); ++j)
+  const Id oldSize = pairs_.vectors.cols();
+  const Id size = ritz.coefficients.rows();
+  step.setZero(size, static_cast<Id>(columns.size()));
+  for (Id j = 0; j < step.cols(); ++j)
   {
-    C.col(j).tail(size - oldSize) = ritz.coefficients.col(columns[j]).tail(size - oldSize);
+    step.col(j).tail(size - oldSize) = ritz.coefficients.col(columns[j]).tail(size - oldSize);
   }
   const Eigen::VectorXd inverse = (ritz.values.array() + problem_.shift).inverse();
-  const Eigen::MatrixXd overlap = ritz.coefficients.transpose() * (shifted * C);
-  C.noalias() -= ritz.coefficients * (inverse.asDiagonal() * overlap);
-  return C;
+  const Eigen::MatrixXd image = stiffness_ * step + problem_.shift * (mass_ * step);
+  overlap = inverse.asDiagonal() * (ritz.coefficients.transpose() * image);
+}
+
+/// New X and P, and stiffness and mass on them.
+void BlockIteration::NextVectors(const RitzPairs& ritz)
+{
+  Eigen::MatrixXd step;
+  Eigen::MatrixXd overlap;
+  this->NextCoefficients(ritz, step, overlap);
+  Eigen::MatrixXd C(step.rows(), ritz.values.size() + step.cols());
+  C << ritz.coefficients, step - ritz.coefficients * overlap;
+  stiffness_ = (C.transpose() * (stiffness_ * C)).eval();
+  mass_ = (C.transpose() * (mass_ * C)).eval();
+
+  const Id oldSize = pairs_.vectors.cols();
+  Combine({ &pairs_.vectors, &directions_, &corrections_ }, ritz.coefficients, nextVectors_,
+    problem_.threads);
+  Combine({ &directions_, &corrections_, &nextVectors_ },
+    (Eigen::MatrixXd(step.rows() - oldSize + overlap.rows(), step.cols())
+        << step.bottomRows(step.rows() - oldSize),
+      -overlap)
+      .finished(),
+    nextDirections_, problem_.threads);
+  pairs_.values = ritz.values;
+  pairs_.vectors.swap(nextVectors_);
+  directions_.swap(nextDirections_);
 }
 
 void BlockIteration::RayleighRitz(const Progress& progress)
 {
-  const int threads = problem_.threads;
-  problem_.constants->Remove(corrections_);
-  const Id oldSize = pairs_.vectors.cols();
-  MultiVector basis(problem_.mass.rows, oldSize + corrections_.cols() + directions_.cols());
-  ParallelRanges(basis.rows(), threads,
-    [&](Id begin, Id end)
-    {
-      const Id count = end - begin;
-      auto rows = basis.middleRows(begin, count);
-      rows.leftCols(oldSize) = pairs_.vectors.middleRows(begin, count);
-      rows.middleCols(oldSize, corrections_.cols()) = corrections_.middleRows(begin, count);
-      rows.rightCols(directions_.cols()) = directions_.middleRows(begin, count);
-    });
-  MultiVector stiffnessBasis;
-  MultiVector massBasis;
-  MultiplyPair(problem_.stiffness, problem_.mass, basis, stiffnessBasis, massBasis, threads);
+  this->RemoveKnown(corrections_);
+  if (report_.iterations % RefreshInterval == 0)
+  {
+    this->ProjectOldPart();
+  }
+  this->ProjectCorrections();
   progress.Check(fraction_);
-  Eigen::MatrixXd stiffness;
-  Eigen::MatrixXd mass;
-  ProjectPair(basis, stiffnessBasis, massBasis, stiffness, mass, threads);
+  const RitzPairs ritz = SolvePencil(stiffness_, mass_, problem_.shift, options_.blockSize);
   progress.Check(fraction_);
-
-  const RitzPairs ritz = SolvePencil(stiffness, mass, problem_.shift, options_.blockSize);
-  const Id newSize = ritz.values.size();
-  const Eigen::MatrixXd next =
-    this->NextDirections(ritz, stiffness + problem_.shift * mass, oldSize);
-  Eigen::MatrixXd C(basis.cols(), newSize + next.cols());
-  C << ritz.coefficients, next;
-  const MultiVector combined = Combine(basis, C, threads);
-  pairs_.values = ritz.values;
-  pairs_.vectors = combined.leftCols(newSize);
-  directions_ = combined.rightCols(next.cols());
+  this->NextVectors(ritz);
 }
 
 /// How far the slowest wanted pair has come, in orders of magnitude.

@@ -50,14 +50,15 @@ struct SpectralProblem
   double shift = 1.0;
   std::function<void(const MultiVector& r, MultiVector& z)> precondition;
   const Constants* constants = nullptr; // the pairs found are orthogonal to them
+  const MultiVector* known = nullptr;   // and to these columns, orthonormal in the mass matrix
   int threads = 0;
 };
 
 struct BlockOptions
 {
-  Index wanted = 1;         // lowest pairs that have to converge
-  Index blockSize = 1;      // pairs carried along, >= wanted
-  double tolerance = 1e-10; // on rᵀBr / θ
+  Index wanted = 1;        // lowest pairs that have to converge
+  Index blockSize = 1;     // pairs carried along, >= wanted
+  double tolerance = 1e-8; // on rᵀBr / θ
   int maximumIterations = 100;
 };
 

@@ -13,7 +13,7 @@ constexpr Id RangeSize = 256;
 /// One row of both products, columns begin .. begin + Width.
 template<int Width>
 inline void RowPair(const SparseMatrix& A, const SparseMatrix& B, const MultiVector& X, Id row,
-  Id begin, MultiVector& AX, MultiVector& BX)
+  Id begin, MultiVector& pair)
 {
   using Lanes = Eigen::Array<double, Width, 1>;
   Lanes a = Lanes::Zero();
@@ -24,22 +24,22 @@ inline void RowPair(const SparseMatrix& A, const SparseMatrix& B, const MultiVec
     a += A.value[k] * x;
     b += B.value[k] * x;
   }
-  Eigen::Map<Lanes>(AX.data() + row * X.cols() + begin) = a;
-  Eigen::Map<Lanes>(BX.data() + row * X.cols() + begin) = b;
+  double* to = pair.data() + row * pair.cols() + begin;
+  Eigen::Map<Lanes>{ to } = a;
+  Eigen::Map<Lanes>{ to + X.cols() } = b;
 }
 
 } // namespace
 
 void MultiplyPair(const SparseMatrix& A, const SparseMatrix& B, const MultiVector& X,
-  MultiVector& AX, MultiVector& BX, int threads)
+  MultiVector& pair, int threads)
 {
   if (A.columns != X.rows() || B.rows != A.rows || B.columns != A.columns ||
       B.NonZeros() != A.NonZeros())
   {
     throw InvalidInput("a paired product needs two matrices of one pattern that fit the block");
   }
-  AX.resize(A.rows, X.cols());
-  BX.resize(A.rows, X.cols());
+  pair.resize(A.rows, 2 * X.cols());
   ParallelRanges(
     A.rows, threads,
     [&](Id first, Id last)
@@ -49,15 +49,15 @@ void MultiplyPair(const SparseMatrix& A, const SparseMatrix& B, const MultiVecto
         Id column = 0;
         for (; column + 16 <= X.cols(); column += 16)
         {
-          RowPair<16>(A, B, X, row, column, AX, BX);
+          RowPair<16>(A, B, X, row, column, pair);
         }
         for (; column + 4 <= X.cols(); column += 4)
         {
-          RowPair<4>(A, B, X, row, column, AX, BX);
+          RowPair<4>(A, B, X, row, column, pair);
         }
         for (; column < X.cols(); ++column)
         {
-          RowPair<1>(A, B, X, row, column, AX, BX);
+          RowPair<1>(A, B, X, row, column, pair);
         }
       }
     },

@@ -9,10 +9,10 @@
 namespace gridfem
 {
 
-/// AX = A X and BX = B X for matrices of one pattern; AX, BX must not be X. Throws InvalidInput
-/// when the shapes do not fit. Same bits for any number of threads.
+/// pair = [A X, B X] side by side, for matrices of one pattern; pair must not be X. Throws
+/// InvalidInput when the shapes do not fit. Same bits for any number of threads.
 void MultiplyPair(const SparseMatrix& A, const SparseMatrix& B, const MultiVector& X,
-  MultiVector& AX, MultiVector& BX, int threads = 0);
+  MultiVector& pair, int threads = 0);
 
 } // namespace gridfem
 

@@ -18,6 +18,9 @@ constexpr double MasslessFraction = 1e-12;
 /// Side of the square blocks in which projected matrices are computed.
 constexpr Id TileSize = 112;
 
+/// Rows that are combined at a time: they stay in the cache.
+constexpr Id CombineRows = 512;
+
 /// 1 / sqrt(diagonal); 0 where there is nothing to scale.
 Eigen::VectorXd DiagonalScale(const Eigen::MatrixXd& A)
 {
@@ -83,41 +86,55 @@ RitzPairs SolvePencil(
   return result;
 }
 
-void ProjectPair(const MultiVector& X, const MultiVector& AX, const MultiVector& BX,
-  Eigen::MatrixXd& A, Eigen::MatrixXd& B, int threads)
+Eigen::MatrixXd Project(const BasisParts& parts, const MultiVector& Y, int threads)
 {
-  const Id size = X.cols();
-  const Id tiles = (size + TileSize - 1) / TileSize;
-  A.resize(size, size);
-  B.resize(size, size);
-  ParallelBlocks(2 * tiles * tiles, threads,
+  struct Tile
+  {
+    const MultiVector* part;
+    Id column, row, height; // in the part, in the result
+  };
+  std::vector<Tile> tiles;
+  Id size = 0;
+  for (const MultiVector* part : parts)
+  {
+    for (Id column = 0; column < part->cols(); column += TileSize)
+    {
+      tiles.push_back({ part, column, size + column, std::min(TileSize, part->cols() - column) });
+    }
+    size += part->cols();
+  }
+  const Id across = (Y.cols() + TileSize - 1) / TileSize;
+  Eigen::MatrixXd result(size, Y.cols());
+  ParallelBlocks(static_cast<Id>(tiles.size()) * across, threads,
     [&](Id block)
     {
-      const Id i = TileSize * (block / 2 / tiles);
-      const Id j = TileSize * (block / 2 % tiles);
-      if (i > j)
-      {
-        return;
-      }
-      const Id height = std::min(TileSize, size - i);
-      const Id width = std::min(TileSize, size - j);
-      const MultiVector& Y = block % 2 == 0 ? AX : BX;
-      (block % 2 == 0 ? A : B).block(i, j, height, width).noalias() =
-        X.middleCols(i, height).transpose() * Y.middleCols(j, width);
+      const Tile& tile = tiles[block / across];
+      const Id j = TileSize * (block % across);
+      const Id width = std::min(TileSize, Y.cols() - j);
+      result.block(tile.row, j, tile.height, width).noalias() =
+        tile.part->middleCols(tile.column, tile.height).transpose() * Y.middleCols(j, width);
     });
-  A.triangularView<Eigen::StrictlyLower>() = A.transpose();
-  B.triangularView<Eigen::StrictlyLower>() = B.transpose();
+  return result;
 }
 
-MultiVector Combine(const MultiVector& X, const Eigen::MatrixXd& C, int threads)
+void Combine(const BasisParts& parts, const Eigen::MatrixXd& C, MultiVector& result, int threads)
 {
-  MultiVector result(X.rows(), C.cols());
+  const Id rows = parts.front()->rows();
+  result.resize(rows, C.cols());
   ParallelRanges(
-    X.rows(), threads,
+    rows, threads,
     [&](Id begin, Id end)
-    { result.middleRows(begin, end - begin).noalias() = X.middleRows(begin, end - begin) * C; },
-    512);
-  return result;
+    {
+      auto block = result.middleRows(begin, end - begin);
+      block.setZero();
+      Id first = 0;
+      for (const MultiVector* part : parts)
+      {
+        block.noalias() += part->middleRows(begin, end - begin) * C.middleRows(first, part->cols());
+        first += part->cols();
+      }
+    },
+    CombineRows);
 }
 
 } // namespace gridfem

@@ -6,6 +6,8 @@
 
 #include "Types.h"
 
+#include <vector>
+
 namespace gridfem
 {
 
@@ -27,13 +29,15 @@ constexpr double DependentPivot = 1e-12;
 RitzPairs SolvePencil(
   const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass, double shift, Index wanted);
 
-/// The symmetric matrices Xᵀ AX and Xᵀ BX, each from its upper half. Same bits for any number of
-/// threads.
-void ProjectPair(const MultiVector& X, const MultiVector& AX, const MultiVector& BX,
-  Eigen::MatrixXd& A, Eigen::MatrixXd& B, int threads = 0);
+/// A basis in parts that lie apart in memory.
+using BasisParts = std::vector<const MultiVector*>;
 
-/// X C for a small C. Same bits for any number of threads.
-MultiVector Combine(const MultiVector& X, const Eigen::MatrixXd& C, int threads = 0);
+/// [X₁ X₂ ...]ᵀ Y. Same bits for any number of threads.
+Eigen::MatrixXd Project(const BasisParts& parts, const MultiVector& Y, int threads = 0);
+
+/// [X₁ X₂ ...] C for a small C. Same bits for any number of threads.
+void Combine(
+  const BasisParts& parts, const Eigen::MatrixXd& C, MultiVector& result, int threads = 0);
 
 } // namespace gridfem
 

@@ -102,28 +102,26 @@ TEST(SolvePencil, NothingGivesNothing)
 TEST(Products, EqualPlainOnesAndDoNotDependOnThreads)
 {
   const Index rows = 1500; // several ranges and tiles
-  const Index columns = 150;
-  const MultiVector X = Random(rows, columns, 5);
-  const MultiVector AX = Ramp(rows).asDiagonal() * X;
-  const MultiVector BX = Ramp(rows).cwiseInverse().asDiagonal() * X;
-  Eigen::MatrixXd A;
-  Eigen::MatrixXd B;
-  ProjectPair(X, AX, BX, A, B, 1);
-  const Eigen::MatrixXd plainA = X.transpose() * AX;
-  const Eigen::MatrixXd plainB = X.transpose() * BX;
-  EXPECT_LT((A - plainA).norm(), 1e-12 * plainA.norm());
-  EXPECT_LT((B - plainB).norm(), 1e-12 * plainB.norm());
-  const Eigen::MatrixXd C = Random(columns, 70, 6);
-  const MultiVector XC = Combine(X, C, 1);
-  const MultiVector plainXC = X * C;
-  EXPECT_LT((XC - plainXC).norm(), 1e-12 * plainXC.norm());
+  const MultiVector X = Random(rows, 150, 5);
+  const MultiVector empty(rows, 0);
+  const MultiVector Z = Random(rows, 20, 9);
+  const MultiVector Y = Random(rows, 130, 10);
+  MultiVector basis(rows, 170);
+  basis << X, Z;
+  const BasisParts parts = { &X, &empty, &Z };
+  const Eigen::MatrixXd projected = Project(parts, Y, 1);
+  const Eigen::MatrixXd plain = basis.transpose() * Y;
+  EXPECT_LT((projected - plain).norm(), 1e-12 * plain.norm());
+  const Eigen::MatrixXd C = Random(170, 70, 6);
+  MultiVector combined;
+  Combine(parts, C, combined, 1);
+  const MultiVector plainCombined = basis * C;
+  EXPECT_LT((combined - plainCombined).norm(), 1e-12 * plainCombined.norm());
 
-  Eigen::MatrixXd A3;
-  Eigen::MatrixXd B3;
-  ProjectPair(X, AX, BX, A3, B3, 3);
-  EXPECT_TRUE(A == A3);
-  EXPECT_TRUE(B == B3);
-  EXPECT_TRUE(XC == Combine(X, C, 3));
+  EXPECT_TRUE(projected == Project(parts, Y, 3));
+  MultiVector again;
+  Combine(parts, C, again, 3);
+  EXPECT_TRUE(combined == again);
 }
 
 /// A matrix with entries on three diagonals.
@@ -151,18 +149,16 @@ TEST(Products, PairedSparseProductEqualsTwo)
   for (const Index columns : { 1, 3, 16, 39 })
   {
     const MultiVector X = Random(700, columns, 7);
-    MultiVector AX;
-    MultiVector BX;
+    MultiVector pair;
     MultiVector plain;
-    MultiplyPair(A, B, X, AX, BX, 2);
+    MultiplyPair(A, B, X, pair, 2);
     Multiply(A, X, plain);
-    EXPECT_LT((AX - plain).norm(), 1e-14 * plain.norm());
+    EXPECT_LT((pair.leftCols(columns) - plain).norm(), 1e-14 * plain.norm());
     Multiply(B, X, plain);
-    EXPECT_LT((BX - plain).norm(), 1e-14 * plain.norm());
+    EXPECT_LT((pair.rightCols(columns) - plain).norm(), 1e-14 * plain.norm());
   }
-  MultiVector AX;
-  MultiVector BX;
-  EXPECT_THROW(MultiplyPair(A, B, Random(699, 2, 8), AX, BX), InvalidInput);
+  MultiVector pair;
+  EXPECT_THROW(MultiplyPair(A, B, Random(699, 2, 8), pair), InvalidInput);
 }
 
 } // namespace

@@ -268,6 +268,30 @@ TEST(Spectrum, ManyComponentsHaveNoSmallLevel)
   EXPECT_NEAR(spectrum.eigenvalues.back() / spectrum.eigenvalues[27], 1.0, 1e-7);
 }
 
+TEST(Spectrum, ComponentsWithoutAreaHaveNoModes)
+{
+  // A triangle of collinear points, and one of equal points, far from the sphere.
+  TriangleMesh mesh = GeodesicSphere(16);
+  const Index first = static_cast<Index>(mesh.points.size());
+  for (const double x : { 0.0, 0.1, 0.2, 0.3 })
+  {
+    mesh.points.push_back({ 1.9 + x, 1.9, 1.9 });
+  }
+  mesh.triangles.push_back({ first, first + 1, first + 2 });
+  mesh.triangles.push_back({ first + 3, first + 3, first + 3 });
+  for (const int depth : { 3, 5 }) // dense, and nested
+  {
+    const Discretisation on = Discretise(mesh, depth);
+    const Spectrum spectrum = Solve(on, 16);
+    EXPECT_TRUE(spectrum.converged);
+    CheckPairs(on, spectrum);
+    EXPECT_EQ(std::count(spectrum.eigenvalues.begin(), spectrum.eigenvalues.end(), 0.0), 1);
+    EXPECT_TRUE(spectrum.vectors.allFinite());
+    // Twelve cells across a sphere (depth 5) or three (depth 3).
+    EXPECT_LT(LargestError(WorldValues(on, spectrum), SphereValues(16)), depth == 3 ? 0.7 : 0.05);
+  }
+}
+
 TEST(Spectrum, OnlyZeroModesAskedFor)
 {
   const Discretisation on = Discretise(CubeArray(2, 2, 1.0), 4);
