@@ -40,7 +40,7 @@ vtkLaplaceSpectrum::vtkLaplaceSpectrum() : Data(std::make_unique<Internals>())
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
-  this->Tolerance = 1e-10;
+  this->Tolerance = 1e-8;
 }
 
 vtkLaplaceSpectrum::~vtkLaplaceSpectrum() = default;

@@ -23,7 +23,7 @@
  * Time: unless AllModes is on or Mode is fixed, every mode is a time step, with its index as time
  * value. All modes are computed once; a change of time or of Mode computes nothing.
  *
- * Tolerance (default 1e-10) is the wanted relative error of the eigenvalues. All shared properties
+ * Tolerance (default 1e-8) is the wanted relative error of the eigenvalues. All shared properties
  * but ParameterUnits are used.
  */
 #ifndef vtkLaplaceSpectrum_h
