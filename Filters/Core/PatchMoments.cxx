@@ -91,8 +91,9 @@ void PatchMoments::AddPiece(const Moments& piece, const Vec3& normal)
     const int q = (p + 1) % 3;
     const int r = (p + 2) % 3;
     // Entry (p, p) of the projection without the cancellation of 1 - n_p².
-    same_[p].AddScaled((normal[q] * normal[q] + normal[r] * normal[r]) / square, piece);
-    mixed_[p].AddScaled(-normal[p] * normal[q] / square, piece);
+    const double tangential = normal[q] * normal[q] + normal[r] * normal[r];
+    same_[p].AddScaled((tangential + NormalWeight * normal[p] * normal[p]) / square, piece);
+    mixed_[p].AddScaled((NormalWeight - 1.0) * normal[p] * normal[q] / square, piece);
   }
 }
 

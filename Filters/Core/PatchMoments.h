@@ -54,6 +54,14 @@ private:
   alignas(32) double value_[Size] = {};
 };
 
+/// Weight of the normal derivative in the stiffness matrix. On a nearly flat piece of surface a
+/// function can be almost zero although its coefficients are not; its energy is the square of the
+/// surface's roughness, which for coordinates in single precision is as small as rounding. Such
+/// functions stop any solver: they are neither zero nor known. The weight lifts their energy to
+/// what double precision can resolve and changes solutions by no more than its root, in general by
+/// no more than itself.
+constexpr double NormalWeight = 1e-12;
+
 /// Moments of a patch, summed piece by piece.
 class PatchMoments
 {
@@ -66,7 +74,7 @@ public:
 
 private:
   Moments mass_;
-  std::array<Moments, 3> same_;  // times entry (p, p) of I - n nᵀ
+  std::array<Moments, 3> same_;  // times entry (p, p) of I - (1 - NormalWeight) n nᵀ
   std::array<Moments, 3> mixed_; // times entries (x, y), (y, z), (z, x)
 };
 

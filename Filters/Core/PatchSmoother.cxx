@@ -12,7 +12,7 @@ namespace
 constexpr int N = FunctionsPerPatch;
 
 /// Pivots of the scaled block below this are rounding: the direction is left out.
-constexpr double SmallestPivot = 1e-10;
+constexpr double SmallestPivot = 1e-14;
 
 using LocalMatrix = Eigen::Matrix<double, N, N>;
 

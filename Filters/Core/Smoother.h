@@ -52,7 +52,7 @@ public:
 std::unique_ptr<Smoother> MakeGaussSeidel(const SparseMatrix& A, const PatchOrder& order);
 
 /// Multiplicative Schwarz: for each patch solves its block of A. Local solve: scaled by the
-/// diagonal, pivoted elimination (the pivots of pivoted Cholesky), stopped at pivot 1e-10, the kept
+/// diagonal, pivoted elimination (the pivots of pivoted Cholesky), stopped at pivot 1e-14, the kept
 /// part is inverted. Unknowns whose diagonal is not a positive number, and unknowns of no patch,
 /// are left alone. Throws InvalidInput when the order does not fit the matrix. [NUMERICS §1]
 std::unique_ptr<Smoother> MakePatchSmoother(
