@@ -83,7 +83,7 @@ public:
   BlockReport Run(const Progress& progress);
 
 private:
-  void AddRandomDirections();
+  void SetStart();
   void RemoveKnown(MultiVector& X);
   bool Precondition(const Progress& progress);
   void ComputeResiduals(const MultiVector& X);
@@ -114,7 +114,8 @@ private:
   double fraction_ = 0.0;
 };
 
-void BlockIteration::AddRandomDirections()
+/// Random directions; vectors that are no Ritz pairs become directions as well.
+void BlockIteration::SetStart()
 {
   const Id rows = problem_.mass.rows;
   const Id missing = options_.blockSize - pairs_.vectors.cols();
@@ -123,6 +124,13 @@ void BlockIteration::AddRandomDirections()
   MultiVector load;
   Multiply(problem_.mass, random, load, problem_.threads);
   problem_.precondition(load, directions_);
+  if (pairs_.values.size() == 0 && pairs_.vectors.cols() > 0)
+  {
+    MultiVector start(rows, pairs_.vectors.cols() + directions_.cols());
+    start << pairs_.vectors, directions_;
+    directions_.swap(start);
+    pairs_.vectors.resize(rows, 0);
+  }
   this->RemoveKnown(directions_);
 }
 
@@ -130,11 +138,11 @@ void BlockIteration::AddRandomDirections()
 void BlockIteration::RemoveKnown(MultiVector& X)
 {
   problem_.constants->Remove(X);
-  if (problem_.known != nullptr && problem_.known->cols() > 0)
+  if (!problem_.known.empty())
   {
     Multiply(problem_.mass, X, residual_, problem_.threads);
-    const Eigen::MatrixXd share = Project({ problem_.known }, residual_, problem_.threads);
-    Combine({ problem_.known }, share, residual_, problem_.threads);
+    const Eigen::MatrixXd share = Project(problem_.known, residual_, problem_.threads);
+    Combine(problem_.known, share, residual_, problem_.threads);
     X -= residual_;
   }
 }
@@ -349,7 +357,7 @@ double BlockIteration::Fraction() const
 BlockReport BlockIteration::Run(const Progress& progress)
 {
   progress.Check(0.0);
-  this->AddRandomDirections();
+  this->SetStart();
   while (true)
   {
     const bool done = this->Precondition(progress);

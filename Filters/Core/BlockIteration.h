@@ -5,6 +5,7 @@
 #define GridFEM_BlockIteration_h
 
 #include "Progress.h"
+#include "RayleighRitz.h"
 #include "SparseMatrix.h"
 
 #include <functional>
@@ -50,7 +51,7 @@ struct SpectralProblem
   double shift = 1.0;
   std::function<void(const MultiVector& r, MultiVector& z)> precondition;
   const Constants* constants = nullptr; // the pairs found are orthogonal to them
-  const MultiVector* known = nullptr;   // and to these columns, orthonormal in the mass matrix
+  BasisParts known;                     // and to these, orthonormal in the mass matrix
   int threads = 0;
 };
 
@@ -75,10 +76,11 @@ struct BlockReport
   int iterations = 0;            // Rayleigh-Ritz steps
 };
 
-/// Improves `pairs` (orthonormal Ritz pairs; may be fewer than blockSize, or none) until the wanted
-/// ones reach the tolerance. Columns that did drop out of the work until they move again. A few
-/// fixed random directions are mixed in, so that no eigenvector stays hidden. Returns at most
-/// blockSize pairs, fewer when fewer exist. Same bits for any number of threads. Throws Aborted.
+/// Improves `pairs` (orthonormal Ritz pairs, or vectors of any kind without values; may be fewer
+/// than blockSize, or none) until the wanted ones reach the tolerance. Columns that did drop out of
+/// the work until they move again. A few fixed random directions are mixed in, so that no
+/// eigenvector stays hidden. Returns at most blockSize pairs, fewer when fewer exist. Same bits for
+/// any number of threads. Throws Aborted.
 BlockReport ImproveEigenPairs(const SpectralProblem& problem, const BlockOptions& options,
   EigenPairs& pairs, const Progress& progress = {});
 

@@ -1,8 +1,7 @@
 #include "Spectrum.h"
 
-#include "BlockIteration.h"
 #include "Parallel.h"
-#include "RayleighRitz.h"
+#include "WindowIteration.h"
 
 #include <cmath>
 #include <numeric>
@@ -12,9 +11,10 @@ namespace gridfem
 namespace
 {
 
-/// A level with this many functions is solved densely, or with this many per pair.
+/// A level with this many functions is solved densely, or with this many per pair, if not too many.
 constexpr double AlwaysDense = 600.0;
 constexpr double DensePerPair = 3.5;
+constexpr double LargestDense = 1200.0;
 
 /// Accuracy of the eigenvalues on coarser levels, whose discretisation error is far larger.
 constexpr double CoarseTolerance = 1e-3;
@@ -23,12 +23,6 @@ constexpr int RandomStartIterations = 40;
 
 /// Columns that go through a cycle together.
 constexpr Id PanelWidth = 8;
-
-/// Pairs carried along beyond the wanted ones: they keep the gap to the rest open.
-Index GuardedSize(Index wanted)
-{
-  return wanted + std::max<Index>(8, wanted / 8);
-}
 
 void Validate(const SpectrumOptions& options)
 {
@@ -48,7 +42,7 @@ void Validate(const SpectrumOptions& options)
 
 bool IsDense(const Level& level, Index blockSize)
 {
-  return level.numberOfFunctions <= std::max(AlwaysDense, DensePerPair * blockSize);
+  return level.numberOfFunctions <= std::clamp(DensePerPair * blockSize, AlwaysDense, LargestDense);
 }
 
 /// The finest level if it is solved densely. Else the coarsest level with enough functions, or the
@@ -269,6 +263,10 @@ Spectrum NestedIteration::Run(const Progress& progress)
       Multiply(system_.prolongation[level], pairs.vectors, fine, threads);
       pairs.vectors = std::move(fine);
       constants.Remove(pairs.vectors);
+      if (pairs.vectors.cols() < wanted)
+      {
+        block.maximumIterations = std::max(RandomStartIterations, block.maximumIterations);
+      }
     }
     else if (IsDense(space_.levels[level], blockSize))
     {
@@ -284,7 +282,7 @@ Spectrum NestedIteration::Run(const Progress& progress)
       pairs = EigenPairs{ {}, MultiVector(problem.mass.rows, 0) };
       block.maximumIterations = std::max(RandomStartIterations, options_.maximumIterations);
     }
-    report = ImproveEigenPairs(problem, block, pairs, LevelPart(progress, level));
+    report = ImproveManyEigenPairs(problem, block, pairs, LevelPart(progress, level));
   }
   return Collect(zeroModes, pairs, report, mass, options_);
 }

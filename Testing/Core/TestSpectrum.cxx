@@ -173,6 +173,25 @@ TEST(Spectrum, NestedIterationEqualsDenseReference)
   }
 }
 
+TEST(Spectrum, ManyModesComeInWindows)
+{
+  // Two windows, the second of which has few vectors to start from: the coarser level is small. The
+  // dense solver shows that no pair is missed.
+  const Discretisation on = Discretise(TrefoilTube(120, 16, 0.12), 4);
+  ASSERT_GT(on.space.Finest().numberOfFunctions, 700);
+  const Spectrum spectrum = Solve(on, 170, 1e-8, 1);
+  EXPECT_TRUE(spectrum.converged);
+  CheckPairs(on, spectrum);
+  const std::vector<double> reference = DenseReference(on, 170);
+  for (int j = 1; j < 170; ++j)
+  {
+    EXPECT_NEAR(spectrum.eigenvalues[j] / reference[j], 1.0, 1e-7) << "mode " << j;
+  }
+  const Spectrum again = Solve(on, 170, 1e-8, 2);
+  EXPECT_EQ(spectrum.eigenvalues, again.eigenvalues);
+  EXPECT_TRUE(spectrum.vectors == again.vectors);
+}
+
 TEST(Spectrum, UnitSphere)
 {
   const TriangleMesh mesh = GeodesicSphere(48);
