@@ -21,8 +21,8 @@ constexpr double WakeFactor = 10.0;
 /// After so many iterations the projected matrices are computed anew.
 constexpr int RefreshInterval = 8;
 
-/// Columns are handled in groups of this size where a loop over rows has to be serial.
-constexpr Id ColumnGroup = 16;
+/// Rows of the basis that are combined at a time: they stay in the cache.
+constexpr Id CombinedRows = 512;
 
 /// Uniform in [-1, 1), the same on every platform.
 MultiVector RandomColumns(Id rows, Id columns)
@@ -45,13 +45,8 @@ MultiVector SelectColumns(const MultiVector& X, const std::vector<Index>& column
   ParallelRanges(X.rows(), threads,
     [&](Id begin, Id end)
     {
-      for (Id i = begin; i < end; ++i)
-      {
-        for (std::size_t j = 0; j < columns.size(); ++j)
-        {
-          result(i, static_cast<Id>(j)) = X(i, columns[j]);
-        }
-      }
+      const Id count = end - begin;
+      result.middleRows(begin, count) = X.middleRows(begin, count)(Eigen::all, columns);
     });
   return result;
 }
@@ -92,7 +87,8 @@ private:
   void ProjectOldPart();
   void ProjectCorrections();
   std::vector<Index> ColumnsAtWork(bool all) const;
-  void NextCoefficients(const RitzPairs& ritz, Eigen::MatrixXd& step, Eigen::MatrixXd& overlap);
+  std::vector<Index> ColumnsWithDirections(Index size) const;
+  Eigen::MatrixXd Overlap(const RitzPairs& ritz, const Eigen::MatrixXd& step) const;
   void NextVectors(const RitzPairs& ritz);
   double Fraction() const;
 
@@ -277,52 +273,65 @@ void BlockIteration::ProjectCorrections()
   extend(mass_, projected.rightCols(added));
 }
 
-/// The columns of the new vectors that still work get directions: their share `step` of P and W,
-/// less `overlap` of the new vectors, which makes them orthogonal to all of these, so that [X, P]
-/// stays well conditioned.
-void BlockIteration::NextCoefficients(
-  const RitzPairs& ritz, Eigen::MatrixXd& step, Eigen::MatrixXd& overlap)
+/// The columns of the new vectors that still work.
+std::vector<Index> BlockIteration::ColumnsWithDirections(Index size) const
 {
   std::vector<Index> columns;
   for (const Index column : atWork_)
   {
-    if (column < ritz.values.size() && measure_[column] > options_.tolerance)
+    if (column < size && measure_[column] > options_.tolerance)
     {
       columns.push_back(column);
     }
   }
-  const Id oldSize = pairs_.vectors.cols();
-  const Id size = ritz.coefficients.rows();
-  step.setZero(size, static_cast<Id>(columns.size()));
-  for (Id j = 0; j < step.cols(); ++j)
-  {
-    step.col(j).tail(size - oldSize) = ritz.coefficients.col(columns[j]).tail(size - oldSize);
-  }
-  const Eigen::VectorXd inverse = (ritz.values.array() + problem_.shift).inverse();
-  const Eigen::MatrixXd image = stiffness_ * step + problem_.shift * (mass_ * step);
-  overlap = inverse.asDiagonal() * (ritz.coefficients.transpose() * image);
+  return columns;
 }
 
-/// New X and P, and stiffness and mass on them.
+/// Coefficients in the new vectors of what makes `step` orthogonal to all of them when subtracted.
+Eigen::MatrixXd BlockIteration::Overlap(const RitzPairs& ritz, const Eigen::MatrixXd& step) const
+{
+  const Eigen::VectorXd inverse = (ritz.values.array() + problem_.shift).inverse();
+  const Eigen::MatrixXd image = stiffness_ * step + problem_.shift * (mass_ * step);
+  return inverse.asDiagonal() * (ritz.coefficients.transpose() * image);
+}
+
+/// New X and P, and stiffness and mass on them. New directions are the shares of P and W in the new
+/// vectors, less their overlap with these, so that [X, P] stays well conditioned.
 void BlockIteration::NextVectors(const RitzPairs& ritz)
 {
-  Eigen::MatrixXd step;
-  Eigen::MatrixXd overlap;
-  this->NextCoefficients(ritz, step, overlap);
-  Eigen::MatrixXd C(step.rows(), ritz.values.size() + step.cols());
-  C << ritz.coefficients, step - ritz.coefficients * overlap;
+  const Id oldX = pairs_.vectors.cols();
+  const Id oldP = directions_.cols();
+  const Id size = ritz.coefficients.rows();
+  const Id newX = ritz.values.size();
+  const std::vector<Index> columns = this->ColumnsWithDirections(static_cast<Index>(newX));
+  const Id newP = static_cast<Id>(columns.size());
+  Eigen::MatrixXd C = Eigen::MatrixXd::Zero(size, newX + newP);
+  C.leftCols(newX) = ritz.coefficients;
+  C.bottomRightCorner(size - oldX, newP) =
+    ritz.coefficients.bottomRows(size - oldX)(Eigen::all, columns);
+  const Eigen::MatrixXd overlap = this->Overlap(ritz, C.rightCols(newP));
+  C.rightCols(newP) -= ritz.coefficients * overlap;
   stiffness_ = (C.transpose() * (stiffness_ * C)).eval();
   mass_ = (C.transpose() * (mass_ * C)).eval();
 
-  const Id oldSize = pairs_.vectors.cols();
-  Combine({ &pairs_.vectors, &directions_, &corrections_ }, ritz.coefficients, nextVectors_,
-    problem_.threads);
-  Combine({ &directions_, &corrections_, &nextVectors_ },
-    (Eigen::MatrixXd(step.rows() - oldSize + overlap.rows(), step.cols())
-        << step.bottomRows(step.rows() - oldSize),
-      -overlap)
-      .finished(),
-    nextDirections_, problem_.threads);
+  nextVectors_.resize(problem_.mass.rows, newX);
+  nextDirections_.resize(problem_.mass.rows, newP);
+  ParallelRanges(
+    problem_.mass.rows, problem_.threads,
+    [&](Id begin, Id end)
+    {
+      const Id count = end - begin;
+      const auto rows = [&](MultiVector& A) { return A.middleRows(begin, count); };
+      MultiVector share = rows(directions_) * ritz.coefficients.middleRows(oldX, oldP);
+      share.noalias() += rows(corrections_) * ritz.coefficients.bottomRows(size - oldX - oldP);
+      auto vectors = rows(nextVectors_);
+      auto directions = rows(nextDirections_);
+      vectors = share;
+      vectors.noalias() += rows(pairs_.vectors) * ritz.coefficients.topRows(oldX);
+      directions = share(Eigen::all, columns);
+      directions.noalias() -= vectors * overlap;
+    },
+    CombinedRows);
   pairs_.values = ritz.values;
   pairs_.vectors.swap(nextVectors_);
   directions_.swap(nextDirections_);
@@ -380,93 +389,6 @@ BlockReport BlockIteration::Run(const Progress& progress)
 }
 
 } // namespace
-
-Constants::Constants(
-  const SparseMatrix& mass, std::vector<Index> component, Index numberOfComponents, int threads)
-  : component_(std::move(component)), threads_(threads)
-{
-  weight_.assign(mass.rows, 0.0);
-  mass_.assign(numberOfComponents, 0.0);
-  double total = 0.0;
-  for (Index i = 0; i < mass.rows; ++i)
-  {
-    for (Id k = mass.rowBegin[i]; k < mass.rowBegin[i + 1]; ++k)
-    {
-      weight_[i] += mass.value[k];
-    }
-    mass_[component_[i]] += weight_[i];
-    total += weight_[i];
-  }
-  for (Index c = 0; c < numberOfComponents; ++c)
-  {
-    if (mass_[c] > 1e-14 * total)
-    {
-      massive_.push_back(c);
-    }
-    else
-    {
-      mass_[c] = 0.0;
-    }
-  }
-}
-
-void Constants::Remove(MultiVector& X) const
-{
-  const Id rows = X.rows();
-  ParallelRanges(
-    X.cols(), threads_,
-    [&](Id begin, Id end)
-    {
-      MultiVector mean = MultiVector::Zero(static_cast<Id>(mass_.size()), end - begin);
-      for (Id i = 0; i < rows; ++i)
-      {
-        mean.row(component_[i]) += weight_[i] * X.row(i).segment(begin, end - begin);
-      }
-      for (std::size_t c = 0; c < mass_.size(); ++c)
-      {
-        mean.row(static_cast<Id>(c)) *= mass_[c] > 0.0 ? 1.0 / mass_[c] : 0.0;
-      }
-      for (Id i = 0; i < rows; ++i)
-      {
-        X.row(i).segment(begin, end - begin) -= mean.row(component_[i]);
-      }
-    },
-    ColumnGroup);
-}
-
-void Constants::Deflate(Eigen::MatrixXd& mass) const
-{
-  for (Id j = 0; j < mass.cols(); ++j)
-  {
-    const double total = mass_[component_[j]];
-    for (Id i = 0; i < mass.rows(); ++i)
-    {
-      if (total > 0.0 && component_[i] == component_[j])
-      {
-        mass(i, j) -= weight_[i] * weight_[j] / total;
-      }
-    }
-  }
-}
-
-MultiVector Constants::Vectors(Index count) const
-{
-  MultiVector result = MultiVector::Zero(static_cast<Id>(component_.size()), count);
-  std::vector<Index> column(mass_.size(), -1);
-  for (Index j = 0; j < count; ++j)
-  {
-    column[massive_[j]] = j;
-  }
-  for (std::size_t i = 0; i < component_.size(); ++i)
-  {
-    const Index j = column[component_[i]];
-    if (j >= 0)
-    {
-      result(static_cast<Id>(i), j) = 1.0 / std::sqrt(mass_[component_[i]]);
-    }
-  }
-  return result;
-}
 
 BlockReport ImproveEigenPairs(const SpectralProblem& problem, const BlockOptions& options,
   EigenPairs& pairs, const Progress& progress)

@@ -4,6 +4,7 @@
 #ifndef GridFEM_BlockIteration_h
 #define GridFEM_BlockIteration_h
 
+#include "Constants.h"
 #include "Progress.h"
 #include "RayleighRitz.h"
 #include "SparseMatrix.h"
@@ -13,34 +14,6 @@
 
 namespace gridfem
 {
-
-/// The null space of the stiffness matrix, known exactly: the constants of every component.
-class Constants
-{
-public:
-  /// @param component  per function, 0 .. numberOfComponents - 1
-  Constants(
-    const SparseMatrix& mass, std::vector<Index> component, Index numberOfComponents, int threads);
-
-  /// Removes the constants from every column, in the inner product of the mass matrix.
-  void Remove(MultiVector& X) const;
-
-  /// Takes the constants out of a dense mass matrix of the same size: M - M Z Zᵀ M.
-  void Deflate(Eigen::MatrixXd& mass) const;
-
-  /// The first `count` constants, of mass norm 1: one component each, in order of their numbers.
-  MultiVector Vectors(Index count) const;
-
-  /// Components without mass do not count.
-  Index Count() const { return static_cast<Index>(massive_.size()); }
-
-private:
-  std::vector<Index> component_;
-  std::vector<double> weight_; // ∫ b_i
-  std::vector<double> mass_;   // per component; 0 when negligible
-  std::vector<Index> massive_; // components with mass
-  int threads_;
-};
 
 /// One level's eigenproblem. The precondition function applies an approximate inverse, symmetric
 /// positive semi-definite, of stiffness + shift mass.

@@ -22,7 +22,7 @@ CORE_LAYERS = {
     "foundation": "Types Errors Progress Parallel UnionFind RadixSort Grouping",
     "algebra": "SparseMatrix RowKernels PairedProduct PivotedCholesky BlockSweep Smoother"
                " GaussSeidel PatchSmoother CoarseSolver Multigrid ConjugateGradients RayleighRitz"
-               " BlockIteration WindowIteration",
+               " Constants BlockIteration WindowIteration",
     "grid and clip": "TriangleMesh MeshEdges Grid SourceTriangle TriangleClipper Clip Links"
                      " MemoryEstimate",
     "patches and levels": "Level Patches FunctionSpace PatchOrdering",
