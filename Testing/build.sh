@@ -6,12 +6,11 @@ SOURCE="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 BUILD="$SOURCE/build"
 JOBS="${GRIDFEM_JOBS:-$(nproc)}"
 
-BUILD_PACKAGES=(cmake ninja-build g++ paraview paraview-dev python3-paraview libopenmpi-dev
-  libeigen3-dev python3-dev libcli11-dev libgtest-dev xvfb xauth)
+CORE_PACKAGES=(cmake ninja-build g++ libeigen3-dev)
+BUILD_PACKAGES=("${CORE_PACKAGES[@]}" paraview paraview-dev python3-paraview libopenmpi-dev
+  python3-dev libcli11-dev libgtest-dev xvfb xauth)
 TEST_PACKAGES=(clang-format)
 BENCHMARK_PACKAGES=(libbenchmark-dev)
-PEER_PACKAGES=(libsuitesparse-dev libopenblas-dev libhypre-dev libpetsc-real-dev slepc-dev
-  libspectra-dev)
 
 Say() { printf '%s\n' "-- $*" >&2; }
 

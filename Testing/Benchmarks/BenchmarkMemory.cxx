@@ -1,0 +1,89 @@
+// The estimate of memory against the real peak, and the expected sizes against the real ones.
+#include "Measure.h"
+#include "MemoryEstimate.h"
+#include "Meshes.h"
+#include "SetupCost.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+
+namespace
+{
+
+using namespace gridfem;
+using namespace gridfem::benchmarks;
+
+struct Case
+{
+  std::string name;
+  std::function<TriangleMesh()> mesh;
+  int depth;
+};
+
+std::vector<Case> Cases()
+{
+  std::vector<Case> cases{
+    { "rocker arm 16x", [] { return RockerArm(2).mesh; }, 7 },
+    { "rocker arm 64x", [] { return RockerArm(3).mesh; }, 8 },
+    { "rocker arm 16x soup", [] { return testing::Unweld(RockerArm(2).mesh); }, 7 },
+    { "cube of 12 triangles", [] { return testing::Box(1); }, 8 },
+    { "cube rotated by 5 degrees",
+      [] {
+        return testing::Transform(testing::Box(1), { 1, 1, 1 }, 0.0873);
+      },
+      8 },
+    { "sphere of 1.3 M triangles", [] { return testing::GeodesicSphere(400); }, 5 },
+  };
+  for (const auto& [file, depth] : { std::pair{ "brain_mni_LR.ply", 7 },
+         std::pair{ "armadillo_100k.ply", 6 }, std::pair{ "dragon_871k.ply", 9 } })
+  {
+    if (const std::string path = testing::RealMesh(file); !path.empty())
+    {
+      cases.push_back({ file, [path] { return testing::ReadMesh(path); }, depth });
+    }
+  }
+  return cases;
+}
+
+std::string Quotient(double estimate, double real)
+{
+  return Text("%.2f", estimate / real);
+}
+
+} // namespace
+
+int main()
+{
+  const Table table({ "estimate / real", "depth", "triangles", "patches", "functions", "MB real",
+    "MB estimated", "memory" });
+  std::vector<std::pair<std::string, double>> ratios;
+  for (const Case& item : Cases())
+  {
+    const std::vector<double> numbers = InOwnProcess(
+      [&]
+      {
+        const TriangleMesh mesh = item.mesh();
+        const MemoryEstimate estimate = EstimateMemory(mesh, item.depth);
+        std::vector<double> result{ estimate.clippedTriangles, estimate.patches, estimate.functions,
+          estimate.bytes };
+        const std::vector<double> cost = MeasureSetup(mesh, item.depth, 0).Pack();
+        result.insert(result.end(), cost.begin(), cost.end());
+        return result;
+      });
+    const SetupCost cost = SetupCost::Unpack({ numbers.begin() + 4, numbers.end() });
+    table.Row({ item.name, std::to_string(item.depth), Quotient(numbers[0], cost.clippedTriangles),
+      Quotient(numbers[1], cost.patches), Quotient(numbers[2], cost.functions),
+      Text("%.0f", 1e-6 * cost.Peak()), Text("%.0f", 1e-6 * numbers[3]),
+      Quotient(numbers[3], cost.Peak()) });
+    std::string name = "estimate_over_peak_" + item.name;
+    std::replace(name.begin(), name.end(), ' ', '_');
+    ratios.emplace_back(name, numbers[3] / cost.Peak());
+  }
+  std::printf("\n");
+  for (const auto& [name, ratio] : ratios)
+  {
+    PrintAtMost(name, ratio, 1.3);
+    PrintAtLeast(name, ratio, 0.8);
+  }
+}

@@ -1,0 +1,61 @@
+// What all benchmarks share: clock, memory of the process, tables, and lines a machine can read.
+#ifndef GridFEM_Benchmarks_Measure_h
+#define GridFEM_Benchmarks_Measure_h
+
+#include <chrono>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace gridfem::benchmarks
+{
+
+class Stopwatch
+{
+public:
+  double Seconds() const
+  {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Bytes of this process in memory now, and the most there were since ResetPeak. 0 where the system
+/// does not tell (only Linux does).
+double ResidentBytes();
+double PeakBytes();
+
+/// Gives memory that was freed back to the system, which the allocator does not always do.
+void ReleaseFreeMemory();
+
+/// Where the system does not allow this, peaks are those of the whole run.
+void ResetPeak();
+
+/// Runs `body` in a process of its own, so that what other measurements left in memory does not
+/// count; returns its numbers. This process must not have used threads. Throws std::runtime_error
+/// when the other one fails.
+std::vector<double> InOwnProcess(const std::function<std::vector<double>()>& body);
+
+/// printf into a string.
+std::string Text(const char* format, double value);
+
+/// A Markdown table, printed row by row.
+class Table
+{
+public:
+  explicit Table(const std::vector<std::string>& header);
+  void Row(const std::vector<std::string>& cells) const;
+
+private:
+  std::vector<std::size_t> width_;
+};
+
+/// RATIO <name> <measured> <= <bound>, and the same with >=. Flushed at once.
+void PrintAtMost(const std::string& name, double measured, double bound);
+void PrintAtLeast(const std::string& name, double measured, double bound);
+
+} // namespace gridfem::benchmarks
+
+#endif

@@ -1,0 +1,112 @@
+#include "SetupCost.h"
+
+#include "Measure.h"
+#include "Meshes.h"
+#include "System.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gridfem::benchmarks
+{
+
+NamedMesh RockerArm(int subdivisions)
+{
+  const std::string path = testing::RealMesh("rocker_arm.ply");
+  NamedMesh result{ path.empty() ? "geodesic sphere" : "rocker arm",
+    path.empty() ? testing::GeodesicSphere(50) : testing::ReadMesh(path) };
+  for (int k = 0; k < subdivisions; ++k)
+  {
+    result.mesh = testing::SubdivideInPlane(result.mesh);
+  }
+  return result;
+}
+
+double SetupCost::Seconds() const
+{
+  double sum = 0.0;
+  for (const StageCost& stage : stages)
+  {
+    sum += stage.seconds;
+  }
+  return sum;
+}
+
+double SetupCost::Peak() const
+{
+  double peak = 0.0;
+  for (const StageCost& stage : stages)
+  {
+    peak = std::max(peak, stage.peak);
+  }
+  return peak;
+}
+
+std::vector<double> SetupCost::Pack() const
+{
+  std::vector<double> numbers{ before, clippedTriangles, pieces, patches, functions };
+  for (const StageCost& stage : stages)
+  {
+    numbers.insert(numbers.end(), { stage.seconds, stage.held, stage.peak });
+  }
+  return numbers;
+}
+
+SetupCost SetupCost::Unpack(const std::vector<double>& numbers)
+{
+  SetupCost cost;
+  auto next = numbers.begin();
+  for (double* field :
+    { &cost.before, &cost.clippedTriangles, &cost.pieces, &cost.patches, &cost.functions })
+  {
+    *field = *next++;
+  }
+  for (StageCost& stage : cost.stages)
+  {
+    for (double* field : { &stage.seconds, &stage.held, &stage.peak })
+    {
+      *field = *next++;
+    }
+  }
+  return cost;
+}
+
+SetupCost MeasureSetup(const TriangleMesh& mesh, int depth, int threads)
+{
+  SetupCost cost;
+  ReleaseFreeMemory();
+  cost.before = ResidentBytes();
+  auto measure = [&, stage = cost.stages.begin()](auto&& run) mutable
+  {
+    ResetPeak();
+    const Stopwatch watch;
+    auto result = run();
+    stage->seconds = watch.Seconds();
+    stage->peak = PeakBytes() - cost.before;
+    stage->held = ResidentBytes() - cost.before;
+    ++stage;
+    return result;
+  };
+  ClipOptions clip;
+  clip.depth = depth;
+  clip.threads = threads;
+  ClippedMesh clipped = measure([&] { return Clip(mesh, clip); });
+  cost.clippedTriangles = static_cast<double>(clipped.NumberOfTriangles());
+  cost.pieces = static_cast<double>(clipped.NumberOfPieces());
+  const FunctionSpace space = measure(
+    [&] {
+      return BuildFunctionSpace(std::move(clipped), FunctionSupport::ConnectivityAware, threads);
+    });
+  cost.patches = static_cast<double>(space.Finest().NumberOfPatches());
+  cost.functions = static_cast<double>(space.Finest().numberOfFunctions);
+  const System system = measure([&] { return BuildSystem(space, TriangleRule(2), threads); });
+  MultigridOptions options;
+  options.threads = threads;
+  // λ = 0.01 for a mesh scaled to longest side 1.
+  const double lambda = 0.01 * std::pow(0.25, depth);
+  const Multigrid multigrid =
+    measure([&] { return BuildMultigrid(space, system, lambda, 1.0, options); });
+  return cost;
+}
+
+} // namespace gridfem::benchmarks

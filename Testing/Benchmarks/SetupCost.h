@@ -1,0 +1,56 @@
+// Time and memory of everything that comes before a solve, and the meshes it is measured on.
+#ifndef GridFEM_Benchmarks_SetupCost_h
+#define GridFEM_Benchmarks_SetupCost_h
+
+#include "TriangleMesh.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace gridfem::benchmarks
+{
+
+struct NamedMesh
+{
+  std::string name;
+  TriangleMesh mesh;
+};
+
+/// The rocker arm (20,088 triangles), every triangle cut into four `subdivisions` times; where the
+/// real meshes are absent a geodesic sphere of 20,000 triangles takes its place.
+NamedMesh RockerArm(int subdivisions);
+
+constexpr int SetupStages = 4;
+constexpr std::array<const char*, SetupStages> SetupStageNames = { "Clip", "BuildFunctionSpace",
+  "BuildSystem", "BuildMultigrid" };
+
+struct StageCost
+{
+  double seconds = 0.0;
+  double held = 0.0; // bytes in memory after the stage, beyond those before the first stage
+  double peak = 0.0; // the same for the most there were during the stage
+};
+
+struct SetupCost
+{
+  std::array<StageCost, SetupStages> stages;
+  double before = 0.0; // bytes in memory before the first stage: program and mesh
+  double clippedTriangles = 0.0;
+  double pieces = 0.0;
+  double patches = 0.0;
+  double functions = 0.0;
+
+  double Seconds() const;
+  double Peak() const; // the largest of the stages
+
+  std::vector<double> Pack() const;
+  static SetupCost Unpack(const std::vector<double>& numbers);
+};
+
+/// Runs Clip, BuildFunctionSpace, BuildSystem and BuildMultigrid, default options but for these.
+SetupCost MeasureSetup(const TriangleMesh& mesh, int depth, int threads);
+
+} // namespace gridfem::benchmarks
+
+#endif
