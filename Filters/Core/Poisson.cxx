@@ -148,7 +148,16 @@ PoissonSolution SolvePoisson(const FunctionSpace& space, const System& system,
   MultiVector rest = values;
   means.SubtractIntegrals(meanOfField, rest);
   rest *= lambda;
+  // The constants cancel to rounding in every row, in the matrix and in ∫ <∇f, ∇b_i> alike.
+  const std::vector<double> diagonal = multigrid.Matrix().Diagonal();
+  const double matrixSize =
+    Eigen::Map<const Eigen::VectorXd>(diagonal.data(), static_cast<Eigen::Index>(diagonal.size()))
+      .norm();
   Eigen::RowVectorXd size = lambda * values.colwise().norm();
+  if (meanOfField.rows() > 0)
+  {
+    size += matrixSize * meanOfField.cwiseAbs().colwise().maxCoeff();
+  }
   if (gradients.rows() != 0)
   {
     rest += gradients;

@@ -28,6 +28,17 @@
 
 vtkStandardNewMacro(vtkLaplaceSpectrum);
 
+namespace
+{
+
+/// The first mode that is a time step: mode 0 is constant, so there is nothing to see.
+int FirstTimeStep(int numberOfModes)
+{
+  return std::min(1, numberOfModes - 1);
+}
+
+} // namespace
+
 struct vtkLaplaceSpectrum::Internals
 {
   gridfem::Spectrum Spectrum;
@@ -54,10 +65,10 @@ int vtkLaplaceSpectrum::FillOutputPortInformation(int port, vtkInformation* info
 int vtkLaplaceSpectrum::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
-  std::vector<double> times(this->NumberOfModes);
-  for (int mode = 0; mode < this->NumberOfModes; ++mode)
+  std::vector<double> times;
+  for (int mode = FirstTimeStep(this->NumberOfModes); mode < this->NumberOfModes; ++mode)
   {
-    times[mode] = mode;
+    times.push_back(mode);
   }
   const double range[2] = { times.front(), times.back() };
   for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
@@ -112,12 +123,17 @@ int vtkLaplaceSpectrum::ShownMode(vtkInformation* output)
                                 " does not exist: there are " + std::to_string(count) +
                                 " modes. Raise NumberOfModes or Depth.");
   }
-  if (this->Mode >= 0 || !output->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
+  if (this->Mode >= 0)
   {
-    return std::max(this->Mode, 0);
+    return this->Mode;
+  }
+  const int first = FirstTimeStep(count);
+  if (!output->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
+  {
+    return first;
   }
   const double time = output->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
-  return static_cast<int>(std::lround(std::clamp(time, 0.0, double(count - 1))));
+  return static_cast<int>(std::lround(std::clamp(time, double(first), double(count - 1))));
 }
 
 void vtkLaplaceSpectrum::WriteModes(vtkPolyData* input, vtkInformation* info, vtkPolyData* output)

@@ -20,8 +20,9 @@
  * Output port 1 (vtkTable): a row per mode with `Mode` (int), `Eigenvalue` (double) and `Residual`
  * (double), whose square estimates the relative error of the eigenvalue.
  *
- * Time: unless AllModes is on or Mode is fixed, every mode is a time step, with its index as time
- * value. All modes are computed once; a change of time or of Mode computes nothing.
+ * Time: unless AllModes is on or Mode is fixed, every mode but mode 0 is a time step, with its
+ * index as time value. Mode 0 is constant, so there is nothing to see; Mode = 0 shows it. All modes
+ * are computed once; a change of time or of Mode computes nothing.
  *
  * Tolerance (default 1e-8) is the wanted relative error of the eigenvalues. All shared properties
  * but ParameterUnits are used.
@@ -50,8 +51,8 @@ public:
 
   ///@{
   /**
-   * The mode to show, from 0; -1 (default) shows the mode of the time that is asked for, 0 when
-   * none is.
+   * The mode to show, from 0; -1 (default) shows the mode of the time that is asked for, the first
+   * time step when none is.
    */
   vtkSetClampMacro(Mode, int, -1, VTK_INT_MAX);
   vtkGetMacro(Mode, int);

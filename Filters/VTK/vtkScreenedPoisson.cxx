@@ -38,6 +38,8 @@ vtkScreenedPoisson::vtkScreenedPoisson() : Data(std::make_unique<Internals>())
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
+  this->Tolerance = 1e-6;
+  this->MaximumIterations = 200;
 }
 
 vtkScreenedPoisson::~vtkScreenedPoisson() = default;

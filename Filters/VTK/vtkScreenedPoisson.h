@@ -33,7 +33,8 @@
  * `Residual` (double, relative to the zero start, the largest over the components),
  * `Log10EnergyResidual` and `Log10Residual`.
  *
- * Tolerance (default 1e-8) is on the energy residual. All shared properties are used.
+ * Tolerance (default 1e-6) is on the energy residual; the error over the surface is smaller still.
+ * MaximumIterations is 200 by default. All shared properties are used.
  */
 #ifndef vtkScreenedPoisson_h
 #define vtkScreenedPoisson_h

@@ -116,7 +116,8 @@ public:
 
   ///@{
   /**
-   * The solver stops after this number of iterations and warns. At least 1, default 100.
+   * The solver stops after this number of iterations and warns. At least 1; the filter says
+   * the default.
    */
   vtkSetClampMacro(MaximumIterations, int, 1, VTK_INT_MAX);
   vtkGetMacro(MaximumIterations, int);

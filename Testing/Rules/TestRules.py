@@ -26,7 +26,7 @@ CORE_LAYERS = {
     "grid and clip": "TriangleMesh MeshEdges Grid SourceTriangle TriangleClipper Clip Links"
                      " MemoryEstimate",
     "patches and levels": "Level Patches FunctionSpace PatchOrdering",
-    "integrals": "QuadratureRule TrilinearBasis PieceSamples ElementMatrices LoadVector Evaluation"
+    "integrals": "QuadratureRule TrilinearBasis PieceSamples PatchMoments ElementMatrices LoadVector Evaluation"
                  " Assembly",
     "hierarchy": "System",
     "problems": "Poisson Spectrum",

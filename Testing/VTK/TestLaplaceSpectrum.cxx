@@ -78,11 +78,13 @@ TEST_F(LaplaceSpectrum, ModesHaveUnitNormInWorldUnits)
     const TriangleMesh mesh = GeodesicSphere(8, radius);
     filter->SetInputData(ToPolyData(mesh));
     const double constant = 1.0 / std::sqrt(SurfaceArea(mesh));
+    filter->SetMode(0);
     for (const double value : this->ModeAt(0))
     {
       EXPECT_NEAR(std::abs(value), constant, 1e-6 * constant);
     }
     // ∫ φ², by one point per vertex of a nearly uniform mesh
+    filter->SetMode(-1);
     const auto mode = this->ModeAt(2);
     double sum = 0.0;
     for (const double value : mode)
@@ -99,8 +101,8 @@ TEST_F(LaplaceSpectrum, TimeStepsAreModesAndAreNeverSolvedAgain)
   for (int port = 0; port < 2; ++port)
   {
     vtkInformation* info = filter->GetOutputInformation(port);
-    ASSERT_EQ(info->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS()), 9);
-    EXPECT_EQ(info->Get(vtkStreamingDemandDrivenPipeline::TIME_STEPS())[3], 3.0);
+    ASSERT_EQ(info->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS()), 8);
+    EXPECT_EQ(info->Get(vtkStreamingDemandDrivenPipeline::TIME_STEPS())[3], 4.0);
     EXPECT_EQ(info->Get(vtkStreamingDemandDrivenPipeline::TIME_RANGE())[1], 8.0);
   }
   filter->AllModesOn();
@@ -114,14 +116,17 @@ TEST_F(LaplaceSpectrum, TimeStepsAreModesAndAreNeverSolvedAgain)
   EXPECT_FALSE(
     filter->GetOutputInformation(0)->Has(vtkStreamingDemandDrivenPipeline::TIME_STEPS()));
   filter->AllModesOff();
-  for (const int mode : { 3, 0, 8 })
+  for (const int mode : { 3, 1, 8 })
   {
     EXPECT_EQ(this->ModeAt(mode), modes[mode]);
     EXPECT_EQ(filter->GetOutput()->GetInformation()->Get(vtkDataObject::DATA_TIME_STEP()), mode);
   }
   EXPECT_EQ(this->ModeAt(100), modes[8]);
+  EXPECT_EQ(this->ModeAt(0), modes[1]); // mode 0 is no time step
   filter->SetMode(5);
   EXPECT_EQ(this->ModeAt(1), modes[5]);
+  filter->SetMode(0);
+  EXPECT_EQ(this->ModeAt(1), modes[0]);
   EXPECT_EQ(filter->GetNumberOfRuns(Spectrum::SolveStage), 1);
   EXPECT_EQ(filter->GetNumberOfRuns(Spectrum::SpaceStage), 1);
 }
