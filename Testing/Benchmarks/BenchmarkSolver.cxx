@@ -74,7 +74,7 @@ Solve Run(const TriangleMesh& mesh, int depth, int threads)
 
 /// @param one  null: not run
 void PrintRow(
-  const Table& table, const std::string& name, int depth, const Solve& one, const Solve& two)
+  const Table& table, const std::string& name, int depth, const Solve* one, const Solve& two)
 {
   table.Row({ name, std::to_string(depth), std::to_string(two.functions),
     std::to_string(two.energyIterations), std::to_string(two.residualIterations),
