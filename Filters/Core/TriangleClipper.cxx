@@ -37,6 +37,13 @@ void TriangleClipper::Clip(Id triangle, ClipBlock& block)
   pieces_.clear();
   corners_.clear();
   interiorPosition_.clear();
+  for (auto& slots : sparseSlots_)
+  {
+    if (!slots.empty())
+    {
+      slots.clear();
+    }
+  }
   interiorBegin_ = static_cast<Id>(block.interior.size());
   this->ClipAxis(start_, 0, block);
   this->LinkPieces(block);
