@@ -116,6 +116,18 @@ void CheckInput(const FunctionSpace& space, const MultiVector& values, const Mul
   }
 }
 
+/// Squares of sizes have to stay in the range of numbers, or sums of them would end the iteration
+/// before it has begun.
+void RequireInRange(const Eigen::RowVectorXd& size)
+{
+  constexpr double Largest = 1e150;
+  if (!(size.array() <= Largest).all())
+  {
+    throw InvalidInput(
+      "The values, the gradients or the screening weight are too large. Scale them down.");
+  }
+}
+
 /// What is left in a column after the means are taken out can be rounding alone: then it is 0.
 void DropRounding(const Eigen::RowVectorXd& size, MultiVector& rest)
 {
@@ -163,6 +175,7 @@ PoissonSolution SolvePoisson(const FunctionSpace& space, const System& system,
     rest += gradients;
     size += gradients.colwise().norm();
   }
+  RequireInRange(size);
   // ∫ <s, ∇b_i> sums to 0 over a component but for rounding, which a small λ would blow up.
   removeSums(rest);
   DropRounding(size, rest);

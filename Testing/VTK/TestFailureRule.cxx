@@ -152,6 +152,28 @@ TEST_P(FailureRule, OnlyTrianglesWithoutAreaAreRefused)
     ToPolyData({ { { 0, 0, 0 }, { 1, 1, 1 }, { 3, 3, 3 } }, { { 0, 1, 2 } } }), "no area");
 }
 
+TEST_P(FailureRule, ASliverIsComputedUntilItIsRounding)
+{
+  const auto sliver = [](double height)
+  {
+    return ToPolyData(
+      { { { 0, 0, 0 }, { 1, 1, 1 }, { 0.5, 0.5, 0.5 + height } }, { { 0, 1, 2 } } });
+  };
+  this->ExpectComputed(sliver(1e-9));
+  this->ExpectRefused(sliver(1e-12), "no area");
+}
+
+TEST_P(FailureRule, CoordinatesOutsideTheRangeOfNumbersAreRefused)
+{
+  for (const double scale : { 1e300, 1e-300 })
+  {
+    messages.errors.clear();
+    this->ExpectRefused(
+      ToPolyData({ { { 0, 0, 0 }, { scale, 0, 0 }, { 0, scale, 0 } }, { { 0, 1, 2 } } }),
+      "Scale it first");
+  }
+}
+
 TEST_P(FailureRule, TrianglesWithoutAreaAmongOthersAreComputed)
 {
   TriangleMesh mesh = GeodesicSphere(4);

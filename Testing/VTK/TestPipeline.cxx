@@ -252,6 +252,21 @@ TEST_F(Pipeline, ABasisOfALargerMeshIsRefused)
   this->ExpectRefused(smaller, directBasis->GetOutput(), "made from another mesh");
 }
 
+TEST_F(Pipeline, ABasisOfTheSameCellsInAnotherOrderIsRefused)
+{
+  auto reversed = MakeInput();
+  vtkNew<vtkCellArray> polys;
+  for (vtkIdType cell = reversed->GetNumberOfCells() - 1; cell >= 0; --cell)
+  {
+    vtkNew<vtkIdList> ids;
+    reversed->GetCellPoints(cell, ids);
+    polys->InsertNextCell(ids);
+  }
+  reversed->SetPolys(polys);
+  directBasis->Update();
+  this->ExpectRefused(reversed, directBasis->GetOutput(), "another order");
+}
+
 TEST_F(Pipeline, AMeshThatIsNoBasisIsRefusedOnPortOne)
 {
   clip->Update();

@@ -338,6 +338,18 @@ TEST_F(ScreenedPoisson, NaNInTheArrayIsRefusedByPoint)
   this->ExpectRefused("'f' has a NaN or infinite value at point 17");
 }
 
+TEST_F(ScreenedPoisson, NumbersOutOfRangeAreRefused)
+{
+  filter->SetScreeningWeight(1e299);
+  this->ExpectRefused("too large");
+}
+
+TEST_F(ScreenedPoisson, HugeValuesAreRefused)
+{
+  input->GetPointData()->GetArray("f")->SetComponent(17, 0, 1e300);
+  this->ExpectRefused("too large");
+}
+
 TEST_F(ScreenedPoisson, TextIsRefused)
 {
   vtkNew<vtkStringArray> text;

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -16,6 +17,10 @@ namespace
 /// Points agree when they differ by less than this part of a cell: covers the rounding of points
 /// that were stored in single precision, as long as a cell can be told from its neighbour.
 constexpr double SamePoint = 1e-3;
+
+/// A clipped triangle belongs to a source triangle that it is nearer to than this part of a cell:
+/// covers cut points in single precision.
+constexpr double SameTriangle = 0.05;
 
 [[noreturn]] void RefuseForeignBasis(const std::string& reason)
 {
@@ -118,14 +123,40 @@ std::array<double, 3> WeightsIn(
     grid.ToGrid(mesh.points[corner[2]]), position);
 }
 
-/// Of the triangles of a source cell the one that contains the piece's centre best.
+double DistanceFromSegment(const Vec3& a, const Vec3& b, const Vec3& position)
+{
+  const Vec3 along = b - a;
+  const double square = along.squaredNorm();
+  const double at = square > 0.0 ? (position - a).dot(along) / square : 0.0;
+  return (a + std::clamp(at, 0.0, 1.0) * along - position).norm();
+}
+
+/// In cells. The edges are asked as well, since barycentric coordinates in slivers are rounding.
+double DistanceFromTriangle(
+  const TriangleMesh& mesh, const Grid& grid, Id triangle, const Vec3& position)
+{
+  std::array<Vec3, 3> corner;
+  for (int k = 0; k < 3; ++k)
+  {
+    corner[k] = grid.ToGrid(mesh.points[mesh.triangles[triangle][k]]);
+  }
+  const auto weight = Barycentric(corner[0], corner[1], corner[2], position);
+  double distance = std::min({ DistanceFromSegment(corner[0], corner[1], position),
+    DistanceFromSegment(corner[1], corner[2], position),
+    DistanceFromSegment(corner[2], corner[0], position) });
+  if (std::min({ weight[0], weight[1], weight[2] }) >= 0.0)
+  {
+    const Vec3 nearest = weight[0] * corner[0] + weight[1] * corner[1] + weight[2] * corner[2];
+    distance = std::min(distance, (nearest - position).norm());
+  }
+  return distance;
+}
+
+/// Of the triangles of a source cell the one that contains the piece's centre best. Throws when the
+/// piece does not lie on it.
 Id FindSourceTriangle(
   const ClippedMesh& clipped, Id piece, std::pair<Id, Id> candidates, const TriangleMesh& source)
 {
-  if (candidates.second - candidates.first == 1)
-  {
-    return candidates.first;
-  }
   const Id* corner = &clipped.corners[clipped.pieceBegin[piece]];
   const Vec3 centre =
     (clipped.position[corner[0]] + clipped.position[corner[1]] + clipped.position[corner[2]]) / 3.0;
@@ -140,6 +171,10 @@ Id FindSourceTriangle(
       bestInside = inside;
       best = triangle;
     }
+  }
+  if (!(DistanceFromTriangle(source, clipped.grid, best, centre) <= SameTriangle))
+  {
+    RefuseForeignBasis("its cells are in another order or join other points.");
   }
   return best;
 }
