@@ -3,7 +3,7 @@
     PV_PLUGIN_CONFIG_FILE=build/lib/paraview-5.11/plugins/gridfem.plugins.xml \\
         pvpython pipeline.py MESH.vtp DEPTH SMOOTH.vtp MODES.vtp
 
-Installed, ParaView finds the plugin by itself, and the first line is not needed.
+Installed, the first line is needed too, with the path of the installed gridfem.plugins.xml.
 """
 
 import sys

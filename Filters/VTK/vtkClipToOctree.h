@@ -24,7 +24,8 @@
  * Output port 2 (vtkUnstructuredGrid), the octree: a voxel for every cell that holds surface, with
  * the cell array `Level` (int, 1): 0 is the whole cube, Depth the finest level.
  *
- * Used shared properties: Depth, WeldCoincidentPoints, QuadratureDegree, NumberOfThreads.
+ * Used shared properties: Depth, WeldCoincidentPoints, QuadratureDegree (changes only output port
+ * 1), NumberOfThreads.
  */
 #ifndef vtkClipToOctree_h
 #define vtkClipToOctree_h

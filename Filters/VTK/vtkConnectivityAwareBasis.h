@@ -24,7 +24,8 @@
  * - cell data: `PatchId` (vtkIdType, 1), `Level` (int, 1)
  *
  * Used shared properties: Depth (of a mesh that is not clipped yet), ConnectivityAware,
- * WeldCoincidentPoints, NumberOfThreads.
+ * WeldCoincidentPoints (of a mesh that is clipped as well, whatever the clip was made with),
+ * NumberOfThreads.
  */
 #ifndef vtkConnectivityAwareBasis_h
 #define vtkConnectivityAwareBasis_h

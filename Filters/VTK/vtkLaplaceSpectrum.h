@@ -2,8 +2,9 @@
  * @class   vtkLaplaceSpectrum
  * @brief   the smallest eigenvalues and eigenfunctions of the Laplace operator of a surface
  *
- * The eigenfunctions are the standing waves of the surface, ascending in frequency; the first of
- * every connected component is constant. Nothing flows across boundaries.
+ * The eigenfunctions are the standing waves of the surface, ascending in frequency. The first
+ * modes, one per connected component, have eigenvalue 0 and are constant on every component.
+ * Nothing flows across boundaries.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
  * vtkConnectivityAwareBasis. Input port 1 (optional): the output of vtkConnectivityAwareBasis for
@@ -12,8 +13,8 @@
  * Output port 0 (vtkPolyData): the input with
  * - point data, in the precision of the points (double when they are integers): `Mode` (1
  *   component), the mode that is shown; or, with AllModes on, `Mode000`, `Mode001`, ... The
- * integral of a squared mode over the surface is 1 in world units. Points that no polygon uses get
- * 0.
+ *   integral of a squared mode over the surface is 1 in world units. Points that no polygon uses
+ *   get 0.
  * - field data: `Eigenvalues` (double, 1; a tuple per mode, one over squared world length),
  *   `Converged` (int, 1)
  *
@@ -52,7 +53,7 @@ public:
   ///@{
   /**
    * The mode to show, from 0; -1 (default) shows the mode of the time that is asked for, the first
-   * time step when none is.
+   * time step when none is. A mode that does not exist is an error; AllModes ignores this property.
    */
   vtkSetClampMacro(Mode, int, -1, VTK_INT_MAX);
   vtkGetMacro(Mode, int);

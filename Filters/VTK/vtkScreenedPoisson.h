@@ -9,7 +9,7 @@
  * with the values f, the gradients g, the ScreeningWeight w and the gradient scale s. Without
  * gradients it smooths f; with amplified gradients it sharpens f; with gradients from elsewhere it
  * stitches and fills. The gradients' part normal to the surface does not count. Nothing flows
- * across boundaries. With w = 0 the solution keeps the mean of f on every connected component.
+ * across boundaries. The solution keeps the mean of f on every connected component, for every w.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
  * vtkConnectivityAwareBasis. Input port 1 (optional): the output of vtkConnectivityAwareBasis for
@@ -26,8 +26,8 @@
  * - point data: `Solution` (C components, named as those of f; float if f or the coordinates that
  *   stand in for it are float, else double). Points that no polygon uses keep f if that is a point
  *   array, else get 0.
- * - field data: `Converged` (int, 1), `Iterations` (int, 1), `Residual` (double, 1; relative to
- *   the start)
+ * - field data: `Converged` (int, 1), `Iterations` (int, 1), `Residual` (double, 1): the norm of
+ *   the residual vector relative to the zero start, which is not the measure that Tolerance is on
  *
  * Output port 1 (vtkTable): a row per iteration with `Iteration` (int), `EnergyResidual` and
  * `Residual` (double, relative to the zero start, the largest over the components),

@@ -11,11 +11,13 @@
  * - An unusable input gives one error message, empty outputs, and RequestData returns 0.
  * - A solver that does not converge warns, keeps its result, and sets the field array `Converged`
  *   (int, one value) to 0.
- * - An abort gives empty outputs and is served by that: AbortExecute is off again.
+ * - An abort gives empty outputs. The filter switches AbortExecute off again, so that the next run,
+ *   after a change, is a full one.
  *
- * Input port 0 takes vtkPolyData with polygons of any size or triangle strips; vertices and lines
- * are passed on, but take no part. Computation is in double precision. Results do not depend on
- * NumberOfThreads. The filters refuse to run on more than one MPI rank.
+ * Input port 0 takes vtkPolyData with polygons of any size or triangle strips. Vertices and lines
+ * take no part; the solvers pass them on, the clip leaves them out. Computation is in double
+ * precision. Results do not depend on NumberOfThreads. The filters refuse to run on more than one
+ * MPI rank.
  *
  * A solver filter finds its function space in this order: on input port 0, when that is the output
  * of vtkConnectivityAwareBasis; on the optional input port 1, when that is connected, which must be
@@ -97,9 +99,9 @@ public:
   };
   ///@{
   /**
-   * How a level is relaxed: the patch smoother converges for every orientation of the surface;
-   * Gauss-Seidel is cheaper per sweep and stalls on surfaces nearly aligned with the grid. Default
-   * PatchSmoother.
+   * How a level is relaxed: the patch smoother converges for every orientation of the surface.
+   * Gauss-Seidel is cheaper per sweep, but stalls on surfaces nearly aligned with the grid, and on
+   * smooth surfaces as well the finer the grid is. Default PatchSmoother.
    */
   vtkSetClampMacro(Smoother, int, PatchSmoother, GaussSeidelSmoother);
   vtkGetMacro(Smoother, int);
@@ -125,7 +127,7 @@ public:
 
   ///@{
   /**
-   * 0 (default) takes all processors. Results are the same for any number.
+   * Threads to use; 0 (default) takes all processors. Results are the same for any number.
    */
   vtkSetClampMacro(NumberOfThreads, int, 0, 1024);
   vtkGetMacro(NumberOfThreads, int);
