@@ -133,7 +133,11 @@ int vtkLaplaceSpectrum::ShownMode(vtkInformation* output)
     return first;
   }
   const double time = output->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
-  return static_cast<int>(std::lround(std::clamp(time, double(first), double(count - 1))));
+  if (!(time > first)) // NaN as well
+  {
+    return first;
+  }
+  return static_cast<int>(std::lround(std::min(time, double(count - 1))));
 }
 
 void vtkLaplaceSpectrum::WriteModes(vtkPolyData* input, vtkInformation* info, vtkPolyData* output)

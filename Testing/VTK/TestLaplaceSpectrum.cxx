@@ -123,6 +123,7 @@ TEST_F(LaplaceSpectrum, TimeStepsAreModesAndAreNeverSolvedAgain)
   }
   EXPECT_EQ(this->ModeAt(100), modes[8]);
   EXPECT_EQ(this->ModeAt(0), modes[1]); // mode 0 is no time step
+  EXPECT_EQ(this->ModeAt(std::nan("")), modes[1]);
   filter->SetMode(5);
   EXPECT_EQ(this->ModeAt(1), modes[5]);
   filter->SetMode(0);
