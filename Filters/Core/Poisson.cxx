@@ -117,11 +117,11 @@ void CheckInput(const FunctionSpace& space, const MultiVector& values, const Mul
 }
 
 /// Squares of sizes have to stay in the range of numbers, or sums of them would end the iteration
-/// before it has begun.
+/// before it has begun. NaN is let through: it stays in its column and is reported there.
 void RequireInRange(const Eigen::RowVectorXd& size)
 {
   constexpr double Largest = 1e150;
-  if (!(size.array() <= Largest).all())
+  if ((size.array() > Largest).any())
   {
     throw InvalidInput(
       "The values, the gradients or the screening weight are too large. Scale them down.");
