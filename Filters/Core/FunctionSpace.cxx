@@ -13,26 +13,6 @@ namespace gridfem
 namespace
 {
 
-/// The lowest patch among the pieces around each input point.
-std::vector<Id> FindPointPatches(const ClippedMesh& clipped, const std::vector<Id>& piecePatch)
-{
-  std::vector<Id> pointPatch(clipped.numberOfInputPoints, -1);
-  for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
-  {
-    const Id patch = piecePatch[piece];
-    for (Id k = clipped.pieceBegin[piece]; k < clipped.pieceBegin[piece + 1]; ++k)
-    {
-      const Id point = clipped.corners[k];
-      if (point < clipped.numberOfInputPoints &&
-          (pointPatch[point] < 0 || patch < pointPatch[point]))
-      {
-        pointPatch[point] = patch;
-      }
-    }
-  }
-  return pointPatch;
-}
-
 FunctionSpace Complete(ClippedMesh clipped, std::vector<Id> piecePatch, Level finest,
   std::vector<PatchLink> links, FunctionSupport support, const Progress& progress)
 {
@@ -92,6 +72,25 @@ void CheckTables(const ClippedMesh& clipped, const std::vector<Id>& piecePatch, 
 }
 
 } // namespace
+
+std::vector<Id> FindPointPatches(const ClippedMesh& clipped, const std::vector<Id>& piecePatch)
+{
+  std::vector<Id> pointPatch(clipped.numberOfInputPoints, -1);
+  for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
+  {
+    const Id patch = piecePatch[piece];
+    for (Id k = clipped.pieceBegin[piece]; k < clipped.pieceBegin[piece + 1]; ++k)
+    {
+      const Id point = clipped.corners[k];
+      if (point < clipped.numberOfInputPoints &&
+          (pointPatch[point] < 0 || patch < pointPatch[point]))
+      {
+        pointPatch[point] = patch;
+      }
+    }
+  }
+  return pointPatch;
+}
 
 FunctionSpace BuildFunctionSpace(
   const TriangleMesh& mesh, const SpaceOptions& options, const Progress& progress)

@@ -46,6 +46,9 @@ FunctionSpace BuildFunctionSpace(
 FunctionSpace RestoreFunctionSpace(ClippedMesh clipped, std::vector<Id> piecePatch, Level finest,
   FunctionSupport support, const Progress& progress = {});
 
+/// For each input point the lowest patch among the pieces around it; -1 for points without a piece.
+std::vector<Id> FindPointPatches(const ClippedMesh& clipped, const std::vector<Id>& piecePatch);
+
 /// Pieces that share an edge (two point ids, after `pointClass` if it is not empty), for a clipped
 /// mesh that comes without links.
 std::vector<PieceLink> FindLinks(

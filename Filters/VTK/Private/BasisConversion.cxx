@@ -81,25 +81,6 @@ void SplitPieces(const TriangleMesh& mesh, FunctionSpace& space)
   clipped.links.clear(); // the levels are built already
 }
 
-void FindPointPatches(FunctionSpace& space)
-{
-  const ClippedMesh& clipped = space.clipped;
-  space.pointPatch.assign(clipped.numberOfInputPoints, -1);
-  for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
-  {
-    for (Id k = clipped.pieceBegin[piece]; k < clipped.pieceBegin[piece + 1]; ++k)
-    {
-      const Id point = clipped.corners[k];
-      if (point >= clipped.numberOfInputPoints)
-      {
-        continue;
-      }
-      Id& patch = space.pointPatch[point];
-      patch = patch < 0 ? space.piecePatch[piece] : std::min(patch, space.piecePatch[piece]);
-    }
-  }
-}
-
 /// Barycentric coordinates of the point of the triangle's plane nearest to `position`; the centroid
 /// for a triangle without area.
 std::array<double, 3> Barycentric(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& position)
@@ -218,7 +199,7 @@ SurfaceBasis OnClippedMesh(const SurfaceBasis& basis)
   SplitPieces(*mesh, space);
   space.clipped.numberOfInputPoints = static_cast<Id>(mesh->points.size());
   space.clipped.cutPoints.clear();
-  FindPointPatches(space);
+  space.pointPatch = FindPointPatches(space.clipped, space.piecePatch);
 
   SurfaceBasis result = MakeSurfaceBasis(std::move(mesh), std::move(space));
   result.systems = basis.systems;
@@ -257,7 +238,7 @@ SurfaceBasis OnSourceMesh(
       }
     }
   }
-  FindPointPatches(space);
+  space.pointPatch = FindPointPatches(space.clipped, space.piecePatch);
   SurfaceBasis result = MakeSurfaceBasis(source.triangles, std::move(space));
   result.systems = basis.systems;
   return result;
