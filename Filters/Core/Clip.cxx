@@ -318,7 +318,8 @@ void ForMeshEdges(const ClipBlock& block, std::size_t k, std::size_t firstCorner
 std::vector<PieceLink> CollectLinks(const std::vector<ClipBlock>& blocks,
   const BlockOffsets& offsets, const std::vector<Id>& place,
   const std::vector<std::array<Id, 3>>& triangles, const MeshEdges& edges,
-  const std::vector<Id>& pointClass, const ClippedMesh& clipped, int threads)
+  const std::vector<Id>& pointClass, const ClippedMesh& clipped, int threads,
+  const Progress& progress)
 {
   std::vector<PieceLink> links(offsets.link.back());
   ParallelBlocks(static_cast<Id>(blocks.size()), threads,
@@ -344,7 +345,8 @@ std::vector<PieceLink> CollectLinks(const std::vector<ClipBlock>& blocks,
     }
   };
   LinkByEdges(static_cast<Id>(blocks.size()), forUses,
-    edges.NumberOfCuts() + static_cast<Id>(edges.ends.size()), clipped.pieceCell, threads, links);
+    edges.NumberOfCuts() + static_cast<Id>(edges.ends.size()), clipped.pieceCell, threads, links,
+    progress);
   return links;
 }
 
@@ -406,12 +408,14 @@ ClippedMesh Clip(const TriangleMesh& mesh, const ClipOptions& options, const Pro
   FillPieces(
     blocks, offsets, place, clipped.numberOfInputPoints + edges.NumberOfCuts(), threads, clipped);
   progress.Check(0.8);
-  DropUnusedCutPoints(
-    CollectCutPoints(mesh, edges, pointClass, snapped, blocks, offsets, threads), threads, clipped);
+  std::vector<CutPoint> cutPoints =
+    CollectCutPoints(mesh, edges, pointClass, snapped, blocks, offsets, threads);
+  progress.Check(0.83);
+  DropUnusedCutPoints(std::move(cutPoints), threads, clipped);
+  progress.Check(0.86);
   PlacePoints(mesh, std::move(inputPosition), threads, clipped);
-  progress.Check(0.9);
-  clipped.links =
-    CollectLinks(blocks, offsets, place, mesh.triangles, edges, pointClass, clipped, threads);
+  clipped.links = CollectLinks(blocks, offsets, place, mesh.triangles, edges, pointClass, clipped,
+    threads, progress.Part(0.9, 1.0));
   progress.Check(1.0);
   return clipped;
 }

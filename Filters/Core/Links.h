@@ -30,7 +30,8 @@ void LinkStars(
 ///                 called twice. The links depend on that order, not on the number of threads.
 template<class ForUses>
 void LinkByEdges(Id blocks, const ForUses& forUses, Id numberOfEdges,
-  const std::vector<Id>& pieceCell, int threads, std::vector<PieceLink>& links)
+  const std::vector<Id>& pieceCell, int threads, std::vector<PieceLink>& links,
+  const Progress& progress)
 {
   // The lowest piece and the number of uses of each edge: neither depends on the order in which
   // threads arrive.
@@ -40,7 +41,8 @@ void LinkByEdges(Id blocks, const ForUses& forUses, Id numberOfEdges,
     std::atomic<Id> count{ 0 };
   };
   std::vector<Edge> edges(numberOfEdges);
-  ParallelBlocks(blocks, threads,
+  ParallelBlocks(
+    blocks, threads,
     [&](Id block)
     {
       forUses(block,
@@ -54,10 +56,12 @@ void LinkByEdges(Id blocks, const ForUses& forUses, Id numberOfEdges,
           {
           }
         });
-    });
+    },
+    progress.Part(0.0, 0.4));
   std::vector<std::vector<PieceLink>> pairs(blocks);
   std::vector<std::vector<EdgeUse>> shared(blocks);
-  ParallelBlocks(blocks, threads,
+  ParallelBlocks(
+    blocks, threads,
     [&](Id block)
     {
       forUses(block,
@@ -73,7 +77,8 @@ void LinkByEdges(Id blocks, const ForUses& forUses, Id numberOfEdges,
             pairs[block].push_back({ other, piece });
           }
         });
-    });
+    },
+    progress.Part(0.4, 0.8));
   std::vector<EdgeUse> stars;
   for (Id block = 0; block < blocks; ++block)
   {
