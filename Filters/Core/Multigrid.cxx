@@ -9,18 +9,27 @@ namespace gridfem
 namespace
 {
 
+void CheckSweeps(int pre, int post)
+{
+  if (pre < 0 || post < 0)
+  {
+    throw InvalidInput("the number of smoothing sweeps must not be negative");
+  }
+}
+
 void CheckLevels(const std::vector<MultigridLevel>& levels, const MultigridOptions& options)
 {
   if (levels.empty())
   {
     throw InvalidInput("a multigrid hierarchy needs at least one level");
   }
-  if (options.preSweeps < 0 || options.postSweeps < 0)
-  {
-    throw InvalidInput("the number of smoothing sweeps must not be negative");
-  }
+  CheckSweeps(options.preSweeps, options.postSweeps);
   for (std::size_t l = 0; l < levels.size(); ++l)
   {
+    if (levels[l].smoothing)
+    {
+      CheckSweeps(levels[l].smoothing->preSweeps, levels[l].smoothing->postSweeps);
+    }
     const SparseMatrix& A = levels[l].A;
     const SparseMatrix& P = levels[l].prolongation;
     const bool isCoarsest = l + 1 == levels.size();
@@ -77,11 +86,17 @@ void Multigrid::BuildSolvers()
   {
     MultigridLevel& level = levels_[l];
     level.smoother.reset(); // its memory is free before the new one is built
-    level.smoother = options_.smoother == SmootherType::Patch
+    level.smoother = this->SmoothingOf(l).smoother == SmootherType::Patch
                        ? MakePatchSmoother(level.A, level.order, options_.threads)
                        : MakeGaussSeidel(level.A, level.order);
   }
   coarse_ = CoarseSolver(levels_.back().A, options_.threads);
+}
+
+LevelSmoothing Multigrid::SmoothingOf(std::size_t level) const
+{
+  return levels_[level].smoothing.value_or(
+    LevelSmoothing{ options_.smoother, options_.preSweeps, options_.postSweeps, options_.cycle });
 }
 
 void Multigrid::Cycle(const MultiVector& b, MultiVector& x) const
@@ -124,16 +139,17 @@ void Multigrid::CycleLevel(std::size_t l, const MultiVector& b, MultiVector& x, 
     coarse_.Solve(b, x, options_.threads);
     return;
   }
+  const LevelSmoothing smoothing = this->SmoothingOf(l);
   if (zeroStart)
   {
     x.setZero(b.rows(), b.cols());
   }
-  for (int sweep = 0; sweep < options_.preSweeps; ++sweep)
+  for (int sweep = 0; sweep < smoothing.preSweeps; ++sweep)
   {
     level.smoother->Sweep(level.A, b, x, SweepDirection::Forward, options_.threads);
   }
-  this->CorrectFromCoarse(l, b, x, zeroStart && options_.preSweeps == 0, scratch);
-  for (int sweep = 0; sweep < options_.postSweeps; ++sweep)
+  this->CorrectFromCoarse(l, b, x, zeroStart && smoothing.preSweeps == 0, scratch);
+  for (int sweep = 0; sweep < smoothing.postSweeps; ++sweep)
   {
     level.smoother->Sweep(level.A, b, x, SweepDirection::Backward, options_.threads);
   }
@@ -151,7 +167,7 @@ void Multigrid::CorrectFromCoarse(std::size_t l, const MultiVector& b, MultiVect
   Multiply(level.restriction, zeroX ? b : residual, coarseB, options_.threads);
   this->CycleLevel(l + 1, coarseB, coarseX, true, scratch);
   const bool coarseIsSolved = l + 2 == levels_.size(); // directly: once is enough
-  if (options_.cycle == CycleType::W && !coarseIsSolved)
+  if (this->SmoothingOf(l).cycle == CycleType::W && !coarseIsSolved)
   {
     this->CycleLevel(l + 1, coarseB, coarseX, false, scratch);
   }

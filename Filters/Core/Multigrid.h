@@ -6,6 +6,7 @@
 #include "Smoother.h"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace gridfem
@@ -32,6 +33,16 @@ struct MultigridOptions
   int threads = 0;    // 0: all
 };
 
+/// How one level is relaxed, where that differs from the rest of the hierarchy: the hat functions
+/// of a mesh above the levels of a grid.
+struct LevelSmoothing
+{
+  SmootherType smoother = SmootherType::GaussSeidel;
+  int preSweeps = 2;
+  int postSweeps = 2;
+  CycleType cycle = CycleType::V; // V: the next coarser level is visited once, W: twice
+};
+
 /// One level as the cycle sees it.
 struct MultigridLevel
 {
@@ -39,7 +50,8 @@ struct MultigridLevel
   SparseMatrix prolongation; // from the next coarser level to this one; empty on the coarsest
   SparseMatrix restriction;  // its transpose
   PatchOrder order;
-  std::unique_ptr<Smoother> smoother; // none on the coarsest
+  std::optional<LevelSmoothing> smoothing; // in place of the options of the hierarchy
+  std::unique_ptr<Smoother> smoother;      // none on the coarsest
 };
 
 /// A hierarchy that is ready to cycle. Const methods are safe to call from several threads.
@@ -72,6 +84,7 @@ public:
 
 private:
   void BuildSolvers();
+  LevelSmoothing SmoothingOf(std::size_t level) const;
   /// Vectors of one level during one call.
   struct Scratch
   {

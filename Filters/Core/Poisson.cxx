@@ -16,8 +16,9 @@ namespace
 class ComponentMeans
 {
 public:
-  ComponentMeans(const FunctionSpace& space, const std::vector<double>& integral)
-    : component_(space.component), integral_(integral), area_(space.numberOfComponents, 0.0)
+  explicit ComponentMeans(const ComponentFunctions& functions)
+    : component_(functions.component), integral_(functions.integral),
+      area_(functions.numberOfComponents, 0.0)
   {
     for (std::size_t i = 0; i < component_.size(); ++i)
     {
@@ -86,9 +87,9 @@ private:
   std::vector<double> area_;
 };
 
-void CheckRows(const char* name, const MultiVector& load, Index functions)
+void CheckRows(const char* name, const MultiVector& load, std::size_t functions)
 {
-  if (load.rows() != functions)
+  if (static_cast<std::size_t>(load.rows()) != functions)
   {
     throw InvalidInput("The integrals of the " + std::string(name) + " have " +
                        std::to_string(load.rows()) + " rows for " + std::to_string(functions) +
@@ -96,18 +97,18 @@ void CheckRows(const char* name, const MultiVector& load, Index functions)
   }
 }
 
-void CheckInput(const FunctionSpace& space, const MultiVector& values, const MultiVector& gradients,
-  const PoissonOptions& options)
+void CheckInput(const ComponentFunctions& functions, const MultiVector& values,
+  const MultiVector& gradients, const PoissonOptions& options)
 {
   if (!(options.screeningWeight >= 0.0) || std::isinf(options.screeningWeight))
   {
     throw InvalidInput("The screening weight is " + std::to_string(options.screeningWeight) +
                        "; it must be a number of 0 or more.");
   }
-  CheckRows("values", values, space.Finest().numberOfFunctions);
+  CheckRows("values", values, functions.integral.size());
   if (gradients.rows() != 0)
   {
-    CheckRows("gradients", gradients, space.Finest().numberOfFunctions);
+    CheckRows("gradients", gradients, functions.integral.size());
     if (gradients.cols() != values.cols())
     {
       throw InvalidInput("There are " + std::to_string(gradients.cols()) + " gradient fields for " +
@@ -143,13 +144,13 @@ void DropRounding(const Eigen::RowVectorXd& size, MultiVector& rest)
 
 } // namespace
 
-PoissonSolution SolvePoisson(const FunctionSpace& space, const System& system,
-  const Multigrid& multigrid, const MultiVector& values, const MultiVector& gradients,
-  const PoissonOptions& options, const Progress& progress)
+PoissonSolution SolvePoisson(const ComponentFunctions& functions, const Multigrid& multigrid,
+  const MultiVector& values, const MultiVector& gradients, const PoissonOptions& options,
+  const Progress& progress)
 {
-  CheckInput(space, values, gradients, options);
+  CheckInput(functions, values, gradients, options);
   const double lambda = options.screeningWeight;
-  const ComponentMeans means(space, system.integral);
+  const ComponentMeans means(functions);
 
   const auto removeMeans = [&means](MultiVector& coefficients)
   { means.AddConstants(-means.OfFunction(coefficients), coefficients); };
@@ -186,6 +187,14 @@ PoissonSolution SolvePoisson(const FunctionSpace& space, const System& system,
     multigrid, rest, solution.coefficients, options.solve, { removeMeans, removeSums }, progress);
   means.AddConstants(meanOfField, solution.coefficients);
   return solution;
+}
+
+PoissonSolution SolvePoisson(const FunctionSpace& space, const System& system,
+  const Multigrid& multigrid, const MultiVector& values, const MultiVector& gradients,
+  const PoissonOptions& options, const Progress& progress)
+{
+  const ComponentFunctions functions{ space.component, space.numberOfComponents, system.integral };
+  return SolvePoisson(functions, multigrid, values, gradients, options, progress);
 }
 
 } // namespace gridfem

@@ -15,6 +15,14 @@ struct PoissonOptions
   SolveOptions solve;
 };
 
+/// What the solver has to know of the functions of any space.
+struct ComponentFunctions
+{
+  const std::vector<Index>& component; // per function: its connected component
+  Index numberOfComponents;
+  const std::vector<double>& integral; // ∫ b_i; the functions of a component sum to 1
+};
+
 struct PoissonSolution
 {
   MultiVector coefficients; // rows = functions, one column per component
@@ -27,6 +35,11 @@ struct PoissonSolution
 /// @param gradients  ∫ <s, ∇b_i> (IntegrateGradients), grid units; may have no rows for s = 0
 /// @param multigrid  of λM + L, built with the same λ
 /// Same bits for any number of threads.
+PoissonSolution SolvePoisson(const ComponentFunctions& functions, const Multigrid& multigrid,
+  const MultiVector& values, const MultiVector& gradients, const PoissonOptions& options,
+  const Progress& progress = {});
+
+/// The same on the finest functions of a grid.
 PoissonSolution SolvePoisson(const FunctionSpace& space, const System& system,
   const Multigrid& multigrid, const MultiVector& values, const MultiVector& gradients,
   const PoissonOptions& options, const Progress& progress = {});

@@ -93,21 +93,39 @@ System BuildSystem(const FunctionSpace& space, const QuadratureRule& rule, int t
   return system;
 }
 
-Multigrid BuildMultigrid(const FunctionSpace& space, const System& system, double a, double b,
-  const MultigridOptions& options, const Progress& progress)
+std::vector<SparseMatrix> LevelMatrices(
+  const FunctionSpace& space, const System& system, double a, double b, int threads)
+{
+  std::vector<SparseMatrix> matrices;
+  for (std::size_t l = 0; l < system.pattern.size(); ++l)
+  {
+    matrices.push_back(Combine(space.levels[l], system, l, a, b, threads));
+  }
+  return matrices;
+}
+
+std::vector<MultigridLevel> BuildMultigridLevels(const FunctionSpace& space, const System& system,
+  double a, double b, int threads, const Progress& progress)
 {
   std::vector<MultigridLevel> levels(system.pattern.size());
   for (std::size_t l = 0; l < levels.size(); ++l)
   {
-    levels[l].A = Combine(space.levels[l], system, l, a, b, options.threads);
+    levels[l].A = Combine(space.levels[l], system, l, a, b, threads);
     levels[l].order = OrderPatches(space.levels[l]);
     if (l < system.prolongation.size())
     {
       levels[l].prolongation = system.prolongation[l];
     }
-    progress.Check(0.5 * double(l + 1) / double(levels.size()));
+    progress.Check(double(l + 1) / double(levels.size()));
   }
-  Multigrid multigrid(std::move(levels), options);
+  return levels;
+}
+
+Multigrid BuildMultigrid(const FunctionSpace& space, const System& system, double a, double b,
+  const MultigridOptions& options, const Progress& progress)
+{
+  Multigrid multigrid(
+    BuildMultigridLevels(space, system, a, b, options.threads, progress.Part(0.0, 0.5)), options);
   progress.Check(1.0);
   return multigrid;
 }
@@ -115,12 +133,7 @@ Multigrid BuildMultigrid(const FunctionSpace& space, const System& system, doubl
 void UpdateMultigrid(
   const FunctionSpace& space, const System& system, double a, double b, Multigrid& multigrid)
 {
-  std::vector<SparseMatrix> matrices;
-  for (std::size_t l = 0; l < system.pattern.size(); ++l)
-  {
-    matrices.push_back(Combine(space.levels[l], system, l, a, b, multigrid.Options().threads));
-  }
-  multigrid.Update(std::move(matrices));
+  multigrid.Update(LevelMatrices(space, system, a, b, multigrid.Options().threads));
 }
 
 SparseMatrix MassMatrix(const FunctionSpace& space, const System& system, int threads)

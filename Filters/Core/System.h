@@ -28,6 +28,14 @@ struct System
 System BuildSystem(const FunctionSpace& space, const QuadratureRule& rule, int threads = 0,
   Index coarsestSize = 256, const Progress& progress = {});
 
+/// a M + b L on every level. Grid units.
+std::vector<SparseMatrix> LevelMatrices(
+  const FunctionSpace& space, const System& system, double a, double b, int threads = 0);
+
+/// The levels of a hierarchy for a M + b L, finest first, as Multigrid takes them.
+std::vector<MultigridLevel> BuildMultigridLevels(const FunctionSpace& space, const System& system,
+  double a, double b, int threads = 0, const Progress& progress = {});
+
 /// a M + b L on every level, ready to cycle. Grid units: mass carries spacing².
 Multigrid BuildMultigrid(const FunctionSpace& space, const System& system, double a, double b,
   const MultigridOptions& options, const Progress& progress = {});
