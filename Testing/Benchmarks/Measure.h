@@ -3,8 +3,10 @@
 #define GridFEM_Benchmarks_Measure_h
 
 #include <chrono>
+#include <cstring>
 #include <functional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace gridfem::benchmarks
@@ -37,6 +39,27 @@ void ResetPeak();
 /// count; returns its numbers. This process must not have used threads. Throws std::runtime_error
 /// when the other one fails.
 std::vector<double> InOwnProcess(const std::function<std::vector<double>()>& body);
+
+/// The same for a struct of numbers.
+template<class Numbers, class Body>
+Numbers MeasureInOwnProcess(Body&& body)
+{
+  static_assert(std::is_trivially_copyable_v<Numbers> && sizeof(Numbers) % sizeof(double) == 0);
+  Numbers result{};
+  const std::vector<double> numbers = InOwnProcess(
+    [&]
+    {
+      const Numbers measured = body();
+      std::vector<double> packed(sizeof measured / sizeof(double));
+      std::memcpy(packed.data(), &measured, sizeof measured);
+      return packed;
+    });
+  if (numbers.size() * sizeof(double) == sizeof result)
+  {
+    std::memcpy(static_cast<void*>(&result), numbers.data(), sizeof result);
+  }
+  return result;
+}
 
 /// printf into a string.
 std::string Text(const char* format, double value);

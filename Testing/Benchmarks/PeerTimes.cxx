@@ -1,0 +1,195 @@
+#include "PeerTimes.h"
+
+#include "AlgebraicMultigrid.h"
+#include "Cholmod.h"
+#include "Evaluation.h"
+#include "LoadVector.h"
+#include "Measure.h"
+#include "Problems.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace gridfem::benchmarks
+{
+
+namespace
+{
+
+constexpr int Columns = 3;
+
+/// Keeps the least of the seconds that `body` took so far; 0 counts as not run yet.
+template<class Body>
+void Time(double& best, Body&& body)
+{
+  const Stopwatch watch;
+  body();
+  const double seconds = watch.Seconds();
+  best = best > 0.0 ? std::min(best, seconds) : seconds;
+}
+
+/// Everybody's state between the repetitions.
+class Contest
+{
+public:
+  explicit Contest(const PeerJob& job) : job_(job), mesh_(job.mesh.mesh)
+  {
+    hats_ = AssembleProblem(mesh_);
+    ChooseColours(mesh_, hats_, Columns);
+    times_.vertices = static_cast<double>(mesh_.points.size());
+    points_.values = Colours(mesh_.points, Vec3::Zero(), 1.0, Columns);
+  }
+
+  PeerTimes Run()
+  {
+    const auto boomerAmg = MakeBoomerAmg(hats_.A);
+    const auto gamg = MakeGamg(hats_.A);
+    for (int k = 0; k < job_.repetitions; ++k)
+    {
+      Time(times_.assembly, [&] { AssembleProblem(mesh_); });
+      this->RunAmg(*boomerAmg, times_.boomerAmg);
+      this->RunAmg(*gamg, times_.gamg);
+      for (const int threads : { 1, 2 })
+      {
+        this->RunGrid(threads, times_.grid[threads - 1]);
+        this->RunCholmod(threads, times_.cholmod[threads - 1]);
+      }
+    }
+    return times_;
+  }
+
+private:
+  void RunAmg(AlgebraicMultigrid& amg, AmgTimes& times)
+  {
+    Time(times.setup, [&] { amg.Setup(); });
+    const Eigen::VectorXd b = hats_.b.col(0);
+    Eigen::VectorXd x;
+    if (times.iterations == 0.0)
+    {
+      times.iterations = IterationsToError(
+        [&](int iterations)
+        {
+          amg.Solve(b, x, 0.0, iterations);
+          return hats_.Error(x);
+        },
+        job_.error);
+    }
+    Time(times.solve, [&] { amg.Solve(b, x, 0.0, static_cast<int>(times.iterations)); });
+  }
+
+  void RunCholmod(int threads, CholmodTimes& times)
+  {
+    SetBlasThreads(threads);
+    Cholmod cholmod;
+    Time(times.analyse, [&] { cholmod.Analyse(hats_.A); });
+    Time(times.factor, [&] { cholmod.Factor(hats_.A); });
+    Time(times.solve, [&] { cholmod.Solve(hats_.b.leftCols(1)); });
+    Time(times.solve3, [&] { cholmod.Solve(hats_.b); });
+    SetBlasThreads(1);
+  }
+
+  void RunGrid(int threads, GridTimes& times)
+  {
+    Time(times.plain, [&] { SetUp(mesh_, job_.depth, threads, FunctionSupport::Plain); });
+    GridProblem grid;
+    Time(times.setup, [&] { grid = SetUp(mesh_, job_.depth, threads); });
+    times.functions = grid.space.Finest().numberOfFunctions;
+    times.clippedTriangles = static_cast<double>(grid.space.clipped.NumberOfTriangles());
+    Time(times.load,
+      [&]
+      {
+        IntegrateValues(grid.space, mesh_, points_, TriangleRule(2), threads);
+        IntegrateGradientsOf(grid.space, mesh_, points_, nullptr, TriangleRule(2), threads);
+      });
+    ChooseColours(grid, Columns);
+    if (times.iterations == 0.0)
+    {
+      times.iterations = this->GridIterations(grid, 1);
+      times.iterations3 = this->GridIterations(grid, Columns);
+    }
+    MultiVector x;
+    Time(times.solve, [&] { x = grid.Solve(1, static_cast<int>(times.iterations)); });
+    Time(times.solve3, [&] { x = grid.Solve(Columns, static_cast<int>(times.iterations3)); });
+    Time(times.evaluate, [&] { EvaluateAtPoints(grid.space, x, threads); });
+    const MultiVector b = grid.gradients.leftCols(1);
+    Time(times.cycle, [&] { grid.multigrid->Precondition(b, x); });
+  }
+
+  int GridIterations(const GridProblem& grid, int columns) const
+  {
+    return IterationsToError(
+      [&](int iterations) { return grid.Error(grid.Solve(columns, iterations)); }, job_.error);
+  }
+
+  const PeerJob& job_;
+  const TriangleMesh& mesh_;
+  HatProblem hats_;
+  Field points_;
+  PeerTimes times_;
+};
+
+void PrintGrid(const Table& table, const char* name, const GridTimes& grid)
+{
+  table.Row({ name, Text("%.3f", grid.setup), Text("%.3f", grid.solve),
+    Text("%.0f", grid.iterations), Text("%.3f", grid.solve3), Text("%.3f", grid.setup + grid.solve),
+    Text("%.0f", grid.functions) });
+}
+
+void PrintAmg(const Table& table, const char* name, const PeerTimes& times, const AmgTimes& amg)
+{
+  table.Row({ name, Text("%.3f", amg.setup), Text("%.3f", amg.solve), Text("%.0f", amg.iterations),
+    "", Text("%.3f", times.assembly + amg.setup + amg.solve), Text("%.0f", times.vertices) });
+}
+
+void PrintCholmod(
+  const Table& table, const char* name, const PeerTimes& times, const CholmodTimes& cholmod)
+{
+  const double setup = cholmod.analyse + cholmod.factor;
+  table.Row({ name, Text("%.3f", setup), Text("%.3f", cholmod.solve), "",
+    Text("%.3f", cholmod.solve3), Text("%.3f", times.assembly + setup + cholmod.solve),
+    Text("%.0f", times.vertices) });
+}
+
+} // namespace
+
+const AmgTimes& PeerTimes::FasterSolve() const
+{
+  return boomerAmg.solve < gamg.solve ? boomerAmg : gamg;
+}
+
+double PeerTimes::FasterStatic() const
+{
+  return assembly + std::min(boomerAmg.setup + boomerAmg.solve, gamg.setup + gamg.solve);
+}
+
+PeerTimes MeasurePeers(const PeerJob& job)
+{
+  return MeasureInOwnProcess<PeerTimes>(
+    [&]
+    {
+      const MessagePassing libraries;
+      SetBlasThreads(1);
+      return Contest(job).Run();
+    });
+}
+
+void PrintPeers(const PeerJob& job, const PeerTimes& times)
+{
+  std::printf("\n%s, %.0f vertices, depth %d, to L2 error %g; seconds, best of %d\n",
+    job.mesh.name.c_str(), times.vertices, job.depth, job.error, job.repetitions);
+  const Table table(
+    { "solver", "set-up", "solve", "iterations", "solve 3", "from mesh", "unknowns" });
+  PrintGrid(table, "grid, 1 thread", times.grid[0]);
+  PrintGrid(table, "grid, 2 threads", times.grid[1]);
+  PrintAmg(table, "BoomerAMG-CG, 1 process", times, times.boomerAmg);
+  PrintAmg(table, "GAMG-CG, 1 process", times, times.gamg);
+  PrintCholmod(table, "CHOLMOD, 1 thread", times, times.cholmod[0]);
+  PrintCholmod(table, "CHOLMOD, 2 threads", times, times.cholmod[1]);
+  std::printf("Hat assembly %.3f; ours, 1 / 2 threads: plain set-up %.3f / %.3f, right-hand sides "
+              "%.3f / %.3f, cycle %.4f / %.4f, values at points %.4f / %.4f\n",
+    times.assembly, times.grid[0].plain, times.grid[1].plain, times.grid[0].load,
+    times.grid[1].load, times.grid[0].cycle, times.grid[1].cycle, times.grid[0].evaluate,
+    times.grid[1].evaluate);
+}
+
+} // namespace gridfem::benchmarks

@@ -1,0 +1,76 @@
+// The same surface and the same accuracy for everybody: seconds of every stage of ours and of the
+// peers, in one process and in turns, so that whatever else the machine does meets all of them.
+#ifndef GridFEM_Benchmarks_PeerTimes_h
+#define GridFEM_Benchmarks_PeerTimes_h
+
+#include "SetupCost.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace gridfem::benchmarks
+{
+
+/// What is timed; every stage is the best of the repetitions.
+struct GridTimes
+{
+  double setup = 0.0;    // triangles to ready-to-solve hierarchy
+  double plain = 0.0;    // the same on the plain space; 0: not run
+  double load = 0.0;     // right-hand sides from values at the points
+  double solve = 0.0;    // one column to the error of the comparison
+  double solve3 = 0.0;   // three
+  double cycle = 0.0;    // one cycle
+  double evaluate = 0.0; // values at the points
+  double iterations = 0.0;
+  double iterations3 = 0.0;
+  double functions = 0.0;
+  double clippedTriangles = 0.0;
+};
+
+struct AmgTimes
+{
+  double setup = 0.0;
+  double solve = 0.0;
+  double iterations = 0.0;
+};
+
+struct CholmodTimes
+{
+  double analyse = 0.0;
+  double factor = 0.0;
+  double solve = 0.0;  // one column
+  double solve3 = 0.0; // three columns in one call
+};
+
+struct PeerTimes
+{
+  double vertices = 0.0;
+  double assembly = 0.0; // of the hat system, one thread
+  std::array<GridTimes, 2> grid;       // one thread, two threads
+  std::array<CholmodTimes, 2> cholmod; // its BLAS on one thread, on two
+  AmgTimes boomerAmg;                  // one process
+  AmgTimes gamg;
+
+  const AmgTimes& FasterSolve() const;
+  /// Seconds of assembly, set-up and solve of the faster one.
+  double FasterStatic() const;
+};
+
+struct PeerJob
+{
+  NamedMesh mesh;
+  int depth = 8;
+  double error = 1e-4; // L2 over the surface, relative
+  int repetitions = 3;
+};
+
+/// In a process of its own.
+PeerTimes MeasurePeers(const PeerJob& job);
+
+/// A table of everything.
+void PrintPeers(const PeerJob& job, const PeerTimes& times);
+
+} // namespace gridfem::benchmarks
+
+#endif

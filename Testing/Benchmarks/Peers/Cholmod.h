@@ -1,0 +1,41 @@
+// Supernodal sparse Cholesky by CHOLMOD, with its own choice of ordering (AMD, then METIS).
+#ifndef GridFEM_Benchmarks_Cholmod_h
+#define GridFEM_Benchmarks_Cholmod_h
+
+#include "HatMatrices.h"
+
+#include <memory>
+
+namespace gridfem::benchmarks
+{
+
+/// Threads of the BLAS that CHOLMOD and the eigensolvers call. Only OpenBLAS can be told; others
+/// keep what their environment variables say.
+void SetBlasThreads(int threads);
+
+class Cholmod
+{
+public:
+  Cholmod();
+  ~Cholmod();
+  Cholmod(const Cholmod&) = delete;
+  Cholmod& operator=(const Cholmod&) = delete;
+
+  /// The symbolic part.
+  void Analyse(const HatMatrix& A);
+
+  /// The numeric part; may be repeated for new values of the same pattern. Throws
+  /// std::runtime_error when A is not positive definite.
+  void Factor(const HatMatrix& A);
+
+  /// All columns at once.
+  Eigen::MatrixXd Solve(const Eigen::MatrixXd& b) const;
+
+private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+} // namespace gridfem::benchmarks
+
+#endif

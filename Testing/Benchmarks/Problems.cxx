@@ -1,0 +1,168 @@
+#include "Problems.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gridfem::benchmarks
+{
+
+namespace
+{
+
+/// sqrt of the largest quotient of the diagonals of eᵀ M e and uᵀ M u.
+template<class Difference, class Product>
+double LargestQuotient(const Difference& error, const Product& massError, const Difference& exact,
+  const Product& massExact)
+{
+  const auto squares = error.cwiseProduct(massError).colwise().sum().eval();
+  const auto norms = exact.cwiseProduct(massExact).colwise().sum().eval();
+  return std::sqrt(squares.cwiseQuotient(norms).maxCoeff());
+}
+
+/// The grid's corner of every finest function, world units.
+std::vector<Vec3> Corners(const FunctionSpace& space)
+{
+  const Level& level = space.Finest();
+  std::vector<Vec3> corners(level.numberOfFunctions);
+  for (Id patch = 0; patch < level.NumberOfPatches(); ++patch)
+  {
+    const CellIndex cell = MortonDecode(level.cell[patch]);
+    for (int c = 0; c < FunctionsPerPatch; ++c)
+    {
+      corners[level.dof[patch][c]] = space.GetGrid().ToWorld(
+        Vec3(cell[0] + (c & 1), cell[1] + ((c >> 1) & 1), cell[2] + (c >> 2)));
+    }
+  }
+  return corners;
+}
+
+struct Box
+{
+  Vec3 centre;
+  double side;
+};
+
+Box BoxOf(const TriangleMesh& mesh)
+{
+  Vec3 low = mesh.points.front();
+  Vec3 high = low;
+  for (const Vec3& point : mesh.points)
+  {
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  return { 0.5 * (low + high), (high - low).maxCoeff() };
+}
+
+} // namespace
+
+MultiVector Colours(const std::vector<Vec3>& points, const Vec3& centre, double side, int columns)
+{
+  MultiVector values(static_cast<Id>(points.size()), columns);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const Vec3 p = (points[i] - centre) / side;
+    for (int c = 0; c < columns; ++c)
+    {
+      values(static_cast<Id>(i), c) = std::sin(6.0 * p[c % 3] + 4.0 * p[(c + 1) % 3] + c);
+    }
+  }
+  return values;
+}
+
+GridProblem SetUp(const TriangleMesh& mesh, int depth, int threads, FunctionSupport support,
+  double screeningWeight)
+{
+  GridProblem problem;
+  SpaceOptions options;
+  options.depth = depth;
+  options.threads = threads;
+  options.connectivityAware = support == FunctionSupport::ConnectivityAware;
+  problem.space = BuildFunctionSpace(mesh, options);
+  problem.system = BuildSystem(problem.space, TriangleRule(2), threads);
+  problem.options.screeningWeight = screeningWeight * std::pow(0.25, depth);
+  problem.options.multigrid.threads = threads;
+  problem.multigrid = std::make_unique<Multigrid>(BuildMultigrid(problem.space, problem.system,
+    problem.options.screeningWeight, 1.0, problem.options.multigrid));
+  return problem;
+}
+
+void ChooseColours(GridProblem& problem, int columns)
+{
+  const FunctionSpace& space = problem.space;
+  const double half = 0.5 * std::pow(2.0, space.Finest().depth);
+  const Vec3 centre = space.GetGrid().ToWorld(Vec3(half, half, half));
+  const double side = (space.GetGrid().ToWorld(Vec3(2 * half, 0, 0)) -
+                       space.GetGrid().ToWorld(Vec3(0, 0, 0)))
+                        .norm();
+  problem.exact = Colours(Corners(space), centre, side, columns);
+  problem.mass = MassMatrix(space, problem.system);
+  Multiply(problem.mass, problem.exact, problem.values);
+  Multiply(StiffnessMatrix(space, problem.system), problem.exact, problem.gradients);
+}
+
+MultiVector GridProblem::Solve(int columns, int iterations) const
+{
+  PoissonOptions poisson = options;
+  poisson.solve.tolerance = 1e-15;
+  poisson.solve.maximumIterations = iterations;
+  return SolvePoisson(space, system, *multigrid, values.leftCols(columns),
+    gradients.leftCols(columns), poisson)
+    .coefficients;
+}
+
+double GridProblem::Error(const MultiVector& x) const
+{
+  const MultiVector wanted = exact.leftCols(x.cols());
+  const MultiVector error = x - wanted;
+  MultiVector massError;
+  Multiply(mass, error, massError);
+  return LargestQuotient(error, massError, wanted, MultiVector(values.leftCols(x.cols())));
+}
+
+HatProblem AssembleProblem(const TriangleMesh& mesh, double screeningWeight)
+{
+  HatProblem problem;
+  const double side = BoxOf(mesh).side;
+  problem.hats = AssembleHats(mesh);
+  problem.A = Combine(problem.hats, screeningWeight / (side * side));
+  return problem;
+}
+
+void ChooseColours(const TriangleMesh& mesh, HatProblem& problem, int columns)
+{
+  const Box box = BoxOf(mesh);
+  problem.exact = ToRows(problem.hats, Colours(mesh.points, box.centre, box.side, columns));
+  problem.b = problem.A * problem.exact;
+}
+
+double HatProblem::Error(const Eigen::MatrixXd& x) const
+{
+  const Eigen::MatrixXd wanted = exact.leftCols(x.cols());
+  const Eigen::MatrixXd error = x - wanted;
+  return LargestQuotient(
+    error, Eigen::MatrixXd(hats.mass * error), wanted, Eigen::MatrixXd(hats.mass * wanted));
+}
+
+int IterationsToError(const std::function<double(int)>& error, double target, int most)
+{
+  int below = 0; // too few
+  int enough = 1;
+  while (!(error(enough) <= target))
+  {
+    if (enough >= most)
+    {
+      return -1;
+    }
+    below = enough;
+    enough = std::min(2 * enough, most);
+  }
+  while (enough - below > 1)
+  {
+    const int middle = (below + enough) / 2;
+    (error(middle) <= target ? enough : below) = middle;
+  }
+  return enough;
+}
+
+} // namespace gridfem::benchmarks

@@ -1,0 +1,69 @@
+// One Poisson problem in the two discretisations that are compared: B-splines of the grid and hat
+// functions of the mesh. λ = 0.01 for a mesh of longest side 1; the exact solution is a smooth
+// colour, so that errors are known without another solver.
+#ifndef GridFEM_Benchmarks_Problems_h
+#define GridFEM_Benchmarks_Problems_h
+
+#include "HatMatrices.h"
+#include "Poisson.h"
+
+#include <functional>
+#include <memory>
+
+namespace gridfem::benchmarks
+{
+
+/// The value of λ in units of the unit cube, as the thesis gives it.
+constexpr double ScreeningWeight = 0.01;
+
+/// Smooth values in [-1, 1], a wave or so along the longest side, at points in world units.
+/// @return rows = points
+MultiVector Colours(const std::vector<Vec3>& points, const Vec3& centre, double side, int columns);
+
+struct GridProblem
+{
+  FunctionSpace space;
+  System system;
+  PoissonOptions options;
+  std::unique_ptr<Multigrid> multigrid;
+  SparseMatrix mass;
+  MultiVector exact;     // coefficients of the colours at the grid's corners
+  MultiVector values;    // M exact
+  MultiVector gradients; // L exact
+
+  /// Solves for the first columns in exactly that many steps of conjugate gradients.
+  MultiVector Solve(int columns, int iterations) const;
+
+  /// Largest relative error of the columns, L2 over the surface.
+  double Error(const MultiVector& x) const;
+};
+
+/// Triangles to ready-to-solve hierarchy: what "set-up" means in every table.
+GridProblem SetUp(const TriangleMesh& mesh, int depth, int threads,
+  FunctionSupport support = FunctionSupport::ConnectivityAware,
+  double screeningWeight = ScreeningWeight);
+
+/// Chooses the exact solution; not part of the set-up.
+void ChooseColours(GridProblem& problem, int columns);
+
+struct HatProblem
+{
+  HatMatrices hats;
+  HatMatrix A; // λM + L
+  Eigen::MatrixXd exact;
+  Eigen::MatrixXd b; // A exact
+
+  double Error(const Eigen::MatrixXd& x) const;
+};
+
+/// The matrix alone: what the peers' "assembly" means in every table.
+HatProblem AssembleProblem(const TriangleMesh& mesh, double screeningWeight = ScreeningWeight);
+void ChooseColours(const TriangleMesh& mesh, HatProblem& problem, int columns);
+
+/// The least number of iterations after which `error` is at most `target`; -1: not within `most`.
+/// Takes the error for decreasing, and so searches by doubling and halving.
+int IterationsToError(const std::function<double(int)>& error, double target, int most = 256);
+
+} // namespace gridfem::benchmarks
+
+#endif
