@@ -46,6 +46,12 @@ std::vector<Case> Cases()
   return cases;
 }
 
+struct EstimateAndCost
+{
+  MemoryEstimate estimate;
+  SetupCost cost;
+};
+
 std::string Quotient(double estimate, double real)
 {
   return Text("%.2f", estimate / real);
@@ -60,25 +66,21 @@ int main()
   std::vector<std::pair<std::string, double>> ratios;
   for (const Case& item : Cases())
   {
-    const std::vector<double> numbers = InOwnProcess(
+    const auto [estimate, cost] = MeasureInOwnProcess<EstimateAndCost>(
       [&]
       {
         const TriangleMesh mesh = item.mesh();
-        const MemoryEstimate estimate = EstimateMemory(mesh, item.depth);
-        std::vector<double> result{ estimate.clippedTriangles, estimate.patches, estimate.functions,
-          estimate.bytes };
-        const std::vector<double> cost = MeasureSetup(mesh, item.depth, 0).Pack();
-        result.insert(result.end(), cost.begin(), cost.end());
-        return result;
+        return EstimateAndCost{ EstimateMemory(mesh, item.depth),
+          MeasureSetup(mesh, item.depth, 0) };
       });
-    const SetupCost cost = SetupCost::Unpack({ numbers.begin() + 4, numbers.end() });
-    table.Row({ item.name, std::to_string(item.depth), Quotient(numbers[0], cost.clippedTriangles),
-      Quotient(numbers[1], cost.patches), Quotient(numbers[2], cost.functions),
-      Text("%.0f", 1e-6 * cost.Peak()), Text("%.0f", 1e-6 * numbers[3]),
-      Quotient(numbers[3], cost.Peak()) });
+    table.Row({ item.name, std::to_string(item.depth),
+      Quotient(estimate.clippedTriangles, cost.clippedTriangles),
+      Quotient(estimate.patches, cost.patches), Quotient(estimate.functions, cost.functions),
+      Text("%.0f", 1e-6 * cost.Peak()), Text("%.0f", 1e-6 * estimate.bytes),
+      Quotient(estimate.bytes, cost.Peak()) });
     std::string name = "estimate_over_peak_" + item.name;
     std::replace(name.begin(), name.end(), ' ', '_');
-    ratios.emplace_back(name, numbers[3] / cost.Peak());
+    ratios.emplace_back(name, estimate.bytes / cost.Peak());
   }
   std::printf("\n");
   for (const auto& [name, ratio] : ratios)

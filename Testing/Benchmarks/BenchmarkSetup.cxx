@@ -1,9 +1,13 @@
-// Time and memory of everything that comes before a solve, on 1.3 million triangles.
+// Time and memory of everything that comes before a solve, and of one solve with it: where they go,
+// how they grow, and what the peers need for the same surface.
+#include "Cholmod.h"
 #include "Measure.h"
-#include "Meshes.h"
+#include "PeerTimes.h"
+#include "Problems.h"
 #include "SetupCost.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 
 namespace
@@ -23,30 +27,27 @@ struct Measurement
 
 Measurement Measure(int subdivisions, int depth, int threads)
 {
-  const std::vector<double> numbers = InOwnProcess(
+  return MeasureInOwnProcess<Measurement>(
     [&]
     {
       const TriangleMesh mesh = RockerArm(subdivisions).mesh;
-      const SetupCost first = MeasureSetup(mesh, depth, threads);
-      SetupCost best = first;
+      Measurement result;
+      result.vertices = static_cast<double>(mesh.points.size());
+      result.first = MeasureSetup(mesh, depth, threads);
+      result.best = result.first;
       for (int k = 1; k < Repetitions; ++k)
       {
         const SetupCost next = MeasureSetup(mesh, depth, threads);
-        best = next.Seconds() < best.Seconds() ? next : best;
+        result.best = next.Seconds() < result.best.Seconds() ? next : result.best;
       }
-      std::vector<double> result = first.Pack();
-      const std::vector<double> second = best.Pack();
-      result.insert(result.end(), second.begin(), second.end());
-      result.push_back(static_cast<double>(mesh.points.size()));
       return result;
     });
-  const auto half = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
-  return { numbers.back(), SetupCost::Unpack({ numbers.begin(), half }),
-    SetupCost::Unpack({ half, numbers.end() - 1 }) };
 }
 
 void PrintStages(const Measurement& one, const Measurement& two)
 {
+  std::printf("\nSet-up on %s, %.0f vertices, depth 8; best of %d runs, memory of the first\n",
+    RockerArm(0).name.c_str(), two.vertices, Repetitions);
   const Table table({ "stage", "s, 1 thread", "s, 2 threads", "MB held", "MB peak" });
   for (int stage = 0; stage < SetupStages; ++stage)
   {
@@ -60,17 +61,118 @@ void PrintStages(const Measurement& one, const Measurement& two)
     Text("%.0f", 1e-6 * two.first.stages.back().held), Text("%.0f", 1e-6 * two.first.Peak()) });
 }
 
-void PrintScaling(const std::vector<std::array<Measurement, 2>>& sizes)
+double MicrosecondsPerTriangle(const Measurement& size)
 {
-  const Table table({ "vertices", "triangles after clip", "patches", "functions", "us, 1 thread",
-    "us, 2 threads", "clip alone" });
-  for (const auto& [one, two] : sizes)
+  return 1e6 * size.best.Seconds() / size.best.clippedTriangles;
+}
+
+/// Two threads.
+void PrintScaling(const char* title, const std::vector<std::pair<int, Measurement>>& sizes)
+{
+  std::printf("\n%s, 2 threads\n", title);
+  const Table table(
+    { "vertices", "depth", "clipped", "patches", "functions", "s", "us / clipped", "clip alone" });
+  for (const auto& [depth, size] : sizes)
   {
-    const double scale = 1e6 / one.best.clippedTriangles;
-    table.Row({ Text("%.0f", one.vertices), Text("%.0f", one.best.clippedTriangles),
-      Text("%.0f", one.best.patches), Text("%.0f", one.best.functions),
-      Text("%.2f", scale * one.best.Seconds()), Text("%.2f", scale * two.best.Seconds()),
-      Text("%.2f", scale * two.best.stages.front().seconds) });
+    table.Row({ Text("%.0f", size.vertices), std::to_string(depth),
+      Text("%.0f", size.best.clippedTriangles), Text("%.0f", size.best.patches),
+      Text("%.0f", size.best.functions), Text("%.2f", size.best.Seconds()),
+      Text("%.3f", MicrosecondsPerTriangle(size)),
+      Text("%.3f", 1e6 * size.best.stages.front().seconds / size.best.clippedTriangles) });
+  }
+}
+
+/// The slowest of the sizes against the fastest, per clipped triangle.
+double Spread(const std::vector<std::pair<int, Measurement>>& sizes)
+{
+  const auto [low, high] = std::minmax_element(sizes.begin(), sizes.end(),
+    [](const auto& a, const auto& b)
+    { return MicrosecondsPerTriangle(a.second) < MicrosecondsPerTriangle(b.second); });
+  return MicrosecondsPerTriangle(high->second) / MicrosecondsPerTriangle(low->second);
+}
+
+struct Peaks
+{
+  double grid = 0.0;
+  double cholmod = 0.0;
+};
+
+/// Bytes that a solve needs beyond the mesh (the grid), with the hat matrix (CHOLMOD).
+Peaks MeasurePeaks(const NamedMesh& mesh, int depth)
+{
+  Peaks peaks;
+  peaks.grid = MeasureInOwnProcess<double>(
+    [&]
+    {
+      ReleaseFreeMemory();
+      const double before = ResidentBytes();
+      ResetPeak();
+      GridProblem grid = SetUp(mesh.mesh, depth, 2);
+      grid.values = MultiVector::Ones(grid.space.Finest().numberOfFunctions, 1);
+      grid.gradients = grid.values;
+      grid.Solve(1, 1);
+      return PeakBytes() - before;
+    });
+  peaks.cholmod = MeasureInOwnProcess<double>(
+    [&]
+    {
+      const HatMatrix A = AssembleProblem(mesh.mesh).A;
+      ReleaseFreeMemory();
+      const double entry = sizeof(double) + sizeof(int);
+      const double before = ResidentBytes() - entry * static_cast<double>(A.nonZeros());
+      ResetPeak();
+      Cholmod cholmod;
+      cholmod.Analyse(A);
+      cholmod.Factor(A);
+      cholmod.Solve(Eigen::MatrixXd::Ones(A.rows(), 1));
+      return PeakBytes() - before;
+    });
+  return peaks;
+}
+
+double SetupSeconds(const CholmodTimes& cholmod)
+{
+  return cholmod.analyse + cholmod.factor;
+}
+
+void PrintPeerRatios(
+  const std::string& name, const PeerTimes& times, const Peaks& peaks, double cholmodBound)
+{
+  const auto& [one, two] = times.grid;
+  PrintAtMost(
+    "setup_over_cholmod_" + name, two.setup / SetupSeconds(times.cholmod[1]), cholmodBound);
+  PrintAtMost("setup_and_solve_over_faster_amg_one_thread_" + name,
+    (one.setup + one.solve) / times.FasterStatic(), 0.8);
+  PrintAtMost("connectivity_aware_over_plain_" + name, two.setup / two.plain, 1.3);
+  PrintAtLeast("setup_second_thread_" + name, one.setup / two.setup, 1.6);
+  PrintAtMost("peak_memory_over_cholmod_" + name, peaks.grid / peaks.cholmod, 0.7);
+}
+
+struct Contest
+{
+  std::string name;
+  NamedMesh mesh;
+  int depth;
+  double cholmodBound;
+};
+
+void RunContests()
+{
+  std::vector<Contest> contests{ { "160704", RockerArm(2), 7, 1.0 },
+    { "642816", RockerArm(3), 8, 0.5 } };
+  if (NamedMesh dragon = RealMesh("dragon", "dragon_871k.ply"); !dragon.mesh.points.empty())
+  {
+    contests.push_back({ "dragon", std::move(dragon), 8, 0.5 });
+  }
+  for (const Contest& contest : contests)
+  {
+    const PeerJob job{ contest.mesh, contest.depth, 1e-4, Repetitions };
+    const PeerTimes times = MeasurePeers(job);
+    const Peaks peaks = MeasurePeaks(contest.mesh, contest.depth);
+    PrintPeers(job, times);
+    std::printf("Peak memory beyond the mesh: grid %.0f MB, CHOLMOD %.0f MB\n", 1e-6 * peaks.grid,
+      1e-6 * peaks.cholmod);
+    PrintPeerRatios(contest.name, times, peaks, contest.cholmodBound);
   }
 }
 
@@ -78,16 +180,15 @@ void PrintScaling(const std::vector<std::array<Measurement, 2>>& sizes)
 
 int main()
 {
-  const std::array<Measurement, 2> small{ Measure(2, 7, 1), Measure(2, 7, 2) };
-  const std::array<Measurement, 2> large{ Measure(3, 8, 1), Measure(3, 8, 2) };
-  std::printf("\nSet-up on %s, depth 8; best of %d runs, memory of the first\n",
-    RockerArm(0).name.c_str(), Repetitions);
-  PrintStages(large[0], large[1]);
-  std::printf("\nTime per clipped triangle, depths 7 and 8\n");
-  PrintScaling({ small, large });
-  std::printf("\n");
-  PrintAtMost("setup_seconds_1.3M_depth8", large[1].best.Seconds(), 6.0);
-  PrintAtMost("setup_seconds_1.3M_depth8_one_thread", large[0].best.Seconds(), 6.0);
-  const SetupCost& memory = large[1].first;
-  PrintAtMost("setup_peak_GB", 1e-9 * (memory.before + memory.Peak()), 1.5);
+  const Measurement large = Measure(3, 8, 2);
+  PrintStages(Measure(3, 8, 1), large);
+  const std::vector<std::pair<int, Measurement>> fixed{ { 8, Measure(2, 8, 2) }, { 8, large },
+    { 8, Measure(4, 8, 2) } };
+  const std::vector<std::pair<int, Measurement>> growing{ { 7, Measure(2, 7, 2) }, { 8, large },
+    { 9, Measure(4, 9, 2) } };
+  PrintScaling("Cost at a fixed depth", fixed);
+  PrintScaling("Cost at a growing depth", growing);
+  PrintAtMost("setup_per_clipped_triangle_fixed_depth_spread", Spread(fixed), 1.25);
+  PrintAtMost("setup_per_clipped_triangle_growing_depth_spread", Spread(growing), 1.25);
+  RunContests();
 }

@@ -1,13 +1,12 @@
-// Conjugate gradients with one W(1,1) cycle of the patch smoother: iterations and seconds, on cubes
-// in all positions and on smooth surfaces.
-#include "LoadVector.h"
+// Iterations and seconds of the solver: rotated cubes, smooth surfaces, and the peers on the same
+// surface.
 #include "Measure.h"
 #include "Meshes.h"
-#include "Poisson.h"
+#include "PeerTimes.h"
+#include "Problems.h"
 #include "SetupCost.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 namespace
@@ -17,77 +16,8 @@ using namespace gridfem;
 using namespace gridfem::benchmarks;
 
 constexpr double Degree = 3.14159265358979323846 / 180.0;
-constexpr double Tolerance = 1e-8;
-
-struct Solve
-{
-  Index functions = 0;
-  double setup = 0.0;
-  double solve = 0.0;
-  int residualIterations = 0; // until |r| is below the tolerance; -1: never
-  int energyIterations = 0;   // until sqrt(rᵀBr) is
-};
-
-/// First iteration whose measure is below the tolerance.
-int IterationsTo(const std::vector<IterationRecord>& history, double IterationRecord::*measure)
-{
-  const auto found = std::find_if(history.begin(), history.end(),
-    [&](const IterationRecord& record) { return record.*measure <= Tolerance; });
-  return found == history.end() ? -1 : found->iteration;
-}
-
-/// (λM + L) u = λ f for the first coordinate as f, λ = 0.01 for a mesh of longest side 1.
-Solve Run(const TriangleMesh& mesh, int depth, int threads)
-{
-  Solve result;
-  const Stopwatch setup;
-  SpaceOptions options;
-  options.depth = depth;
-  options.threads = threads;
-  const FunctionSpace space = BuildFunctionSpace(mesh, options);
-  const System system = BuildSystem(space, TriangleRule(2), threads);
-  PoissonOptions poisson;
-  poisson.screeningWeight = 0.01 * std::pow(0.25, depth);
-  poisson.multigrid.threads = threads;
-  poisson.solve.tolerance = Tolerance;
-  poisson.solve.maximumIterations = 200;
-  poisson.solve.measure = SolveOptions::Measure::Residual;
-  const Multigrid multigrid =
-    BuildMultigrid(space, system, poisson.screeningWeight, 1.0, poisson.multigrid);
-  result.setup = setup.Seconds();
-  Field f;
-  f.values.resize(static_cast<Id>(mesh.points.size()), 1);
-  for (std::size_t i = 0; i < mesh.points.size(); ++i)
-  {
-    f.values(static_cast<Id>(i), 0) = mesh.points[i][0];
-  }
-  const MultiVector load = IntegrateValues(space, mesh, f, TriangleRule(2), threads);
-  const Stopwatch solve;
-  const PoissonSolution solution =
-    SolvePoisson(space, system, multigrid, load, MultiVector(), poisson);
-  result.solve = solve.Seconds();
-  result.functions = space.Finest().numberOfFunctions;
-  result.residualIterations = IterationsTo(solution.report.history, &IterationRecord::residual);
-  result.energyIterations = IterationsTo(solution.report.history, &IterationRecord::energy);
-  return result;
-}
-
-/// @param one  null: not run
-void PrintRow(
-  const Table& table, const std::string& name, int depth, const Solve* one, const Solve& two)
-{
-  table.Row({ name, std::to_string(depth), std::to_string(two.functions),
-    std::to_string(two.energyIterations), std::to_string(two.residualIterations),
-    Text("%.2f", two.setup), one ? Text("%.3f", one->solve) : "-", Text("%.3f", two.solve),
-    Text("%.1f", 1e3 * two.solve / std::max(1, two.residualIterations)) });
-}
-
-Table MakeTable(const char* title)
-{
-  std::printf("\n%s, iterations from zero to 1e-8 of the start\n", title);
-  return Table({ "surface", "depth", "functions", "energy", "residual", "s set-up", "s, 1 thread",
-    "s, 2 threads", "ms / iteration" });
-}
+constexpr int Threads = 2;
+constexpr int Never = 1000; // counts as iterations where a target is not reached: beyond any bound
 
 struct Bound
 {
@@ -96,67 +26,157 @@ struct Bound
   double bound;
 };
 
+void Print(const std::vector<Bound>& bounds)
+{
+  for (const Bound& bound : bounds)
+  {
+    PrintAtMost(bound.name, bound.measured, bound.bound);
+  }
+}
+
+/// First iteration whose measure is below 1e-8.
+int IterationsTo(const std::vector<IterationRecord>& history, double IterationRecord::*measure)
+{
+  const auto found = std::find_if(history.begin(), history.end(),
+    [&](const IterationRecord& record) { return record.*measure <= 1e-8; });
+  return found == history.end() ? Never : found->iteration;
+}
+
+/// Conjugate gradients until the residual is 1e-8 of its start.
+struct Convergence
+{
+  double functions = 0.0;
+  double seconds = 0.0;
+  double energy = 0.0;   // iterations until sqrt(rᵀBr) is 1e-8 of its start
+  double residual = 0.0; // until |r| is
+
+  explicit Convergence(const GridProblem& grid)
+  {
+    PoissonOptions options = grid.options;
+    options.solve.tolerance = 1e-8;
+    options.solve.maximumIterations = 200;
+    options.solve.measure = SolveOptions::Measure::Residual;
+    const Stopwatch watch;
+    const std::vector<IterationRecord> history =
+      SolvePoisson(grid.space, grid.system, *grid.multigrid, grid.values, grid.gradients, options)
+        .report.history;
+    seconds = watch.Seconds();
+    functions = grid.space.Finest().numberOfFunctions;
+    energy = IterationsTo(history, &IterationRecord::energy);
+    residual = IterationsTo(history, &IterationRecord::residual);
+  }
+};
+
+GridProblem Build(const TriangleMesh& mesh, int depth)
+{
+  GridProblem grid = SetUp(mesh, depth, Threads);
+  ChooseColours(grid, 1);
+  return grid;
+}
+
 std::vector<Bound> RunCubes()
 {
-  const Table table = MakeTable("Cube of 12 triangles rotated about (1,1,1)");
+  std::printf("\nCube of 12 triangles rotated about (1,1,1): iterations to 1e-8 of the start\n");
+  const Table table(
+    { "angle, degrees", "depth", "functions", "energy", "residual", "s", "ms / iteration" });
   std::vector<Bound> bounds;
   for (const auto& [depth, bound] : { std::pair{ 5, 12 }, std::pair{ 6, 16 }, std::pair{ 7, 20 } })
   {
-    for (const double angle : { 0.0, 0.01, 0.1, 1.0, 5.0, 15.0, 45.0 })
+    double worst = 0.0;
+    for (const double angle : { 0.0, 0.01, 0.1, 1.0, 5.0, 15.0, 30.0, 45.0 })
     {
       const TriangleMesh cube = testing::Transform(testing::Box(1), { 1, 1, 1 }, angle * Degree);
-      const Solve two = Run(cube, depth, 2);
-      const Solve one = Run(cube, depth, 1);
-      PrintRow(table, Text("%g degrees", angle), depth, &one, two);
-      const auto add = [&, depth = depth, limit = bound](const char* measure, int iterations)
-      {
-        // Not converged is worse than any bound.
-        bounds.push_back({ "solver_cube_" + Text("%g", angle) + "_degrees_depth" +
-                             std::to_string(depth) + "_iterations_" + measure,
-          iterations < 0 ? 1e3 : double(iterations), double(limit) });
-      };
-      add("residual", two.residualIterations);
-      add("energy", two.energyIterations);
+      const Convergence cg(Build(cube, depth));
+      table.Row({ Text("%g", angle), std::to_string(depth), Text("%.0f", cg.functions),
+        Text("%.0f", cg.energy), Text("%.0f", cg.residual), Text("%.3f", cg.seconds),
+        Text("%.1f", 1e3 * cg.seconds / cg.residual) });
+      worst = std::max(worst, cg.residual);
     }
+    bounds.push_back({ "cube_worst_angle_iterations_to_residual_1e-8_depth" + std::to_string(depth),
+      worst, double(bound) });
   }
   return bounds;
 }
 
-/// How much faster two threads solve the largest system that is solved with one as well.
-double RunSmoothSurfaces()
+/// Cycles alone until the error is below 1e-4 and 1e-6.
+std::array<int, 2> StandaloneCycles(const GridProblem& grid)
 {
-  constexpr int DeepestAlone = 7; // one thread takes too long beyond
-  const Table table = MakeTable("Smooth surfaces");
-  double speedUp = 0.0;
+  constexpr std::array<double, 2> Targets{ 1e-4, 1e-6 };
+  constexpr int Most = 40;
+  MultiVector b;
+  Multiply(grid.multigrid->Matrix(), grid.exact, b);
+  MultiVector x = MultiVector::Zero(b.rows(), b.cols());
+  std::array<int, 2> cycles{ Never, Never };
+  for (int cycle = 1; cycle <= Most && cycles[1] == Never; ++cycle)
+  {
+    grid.multigrid->Cycle(b, x);
+    const double error = grid.Error(x);
+    for (int k = 0; k < 2; ++k)
+    {
+      cycles[k] = error <= Targets[k] ? std::min(cycles[k], cycle) : Never;
+    }
+  }
+  return cycles;
+}
+
+std::vector<Bound> RunSmoothSurfaces()
+{
+  constexpr int DeepestConverged = 8;
+  std::printf("\nSmooth surfaces: conjugate gradients to 1e-8 of the start; W(1,1) cycles alone to "
+              "an error, L2 over the surface\n");
+  const Table table(
+    { "surface", "depth", "functions", "energy", "residual", "s", "cycles to 1e-4", "to 1e-6" });
+  std::vector<Bound> bounds;
   for (const NamedMesh& mesh :
     { NamedMesh{ "sphere", testing::GeodesicSphere(160) }, RockerArm(2) })
   {
-    for (const int depth : { 5, 6, 7, 8 })
+    std::array<int, 2> most{ 0, 0 };
+    for (const int depth : { 5, 6, 7, 8, 9 })
     {
-      const Solve two = Run(mesh.mesh, depth, 2);
-      if (depth > DeepestAlone)
+      const GridProblem grid = Build(mesh.mesh, depth);
+      const std::array<int, 2> cycles = StandaloneCycles(grid);
+      std::vector<std::string> row{ mesh.name, std::to_string(depth),
+        std::to_string(grid.exact.rows()), "-", "-", "-", std::to_string(cycles[0]),
+        std::to_string(cycles[1]) };
+      if (depth <= DeepestConverged)
       {
-        PrintRow(table, mesh.name, depth, nullptr, two);
-        continue;
+        const Convergence cg(grid);
+        row[3] = Text("%.0f", cg.energy);
+        row[4] = Text("%.0f", cg.residual);
+        row[5] = Text("%.3f", cg.seconds);
       }
-      const Solve one = Run(mesh.mesh, depth, 1);
-      PrintRow(table, mesh.name, depth, &one, two);
-      speedUp = one.solve / two.solve;
+      table.Row(row);
+      most = { std::max(most[0], cycles[0]), std::max(most[1], cycles[1]) };
     }
+    const std::string name = mesh.name.substr(0, mesh.name.find(' ')) + "_worst_depth_cycles_to_";
+    bounds.push_back({ name + "1e-4", double(most[0]), 3.0 });
+    bounds.push_back({ name + "1e-6", double(most[1]), 15.0 });
   }
-  return speedUp;
+  return bounds;
+}
+
+void RunPeers()
+{
+  const PeerJob job{ RockerArm(3), 8, 1e-4, 3 };
+  const PeerTimes times = MeasurePeers(job);
+  PrintPeers(job, times);
+  const auto& [one, two] = times.grid;
+  PrintAtMost("solve_over_faster_amg_one_thread", one.solve / times.FasterSolve().solve, 0.3);
+  PrintAtMost("solve_seconds_two_threads", two.solve, 0.2);
+  PrintAtMost("solve_three_columns_over_one", two.solve3 / two.solve, 1.6);
+  PrintAtMost("solve_three_columns_over_cholmod_substitutions",
+    two.solve3 / std::min(times.cholmod[0].solve3, times.cholmod[1].solve3), 1.0);
+  PrintAtLeast("cycle_second_thread", one.cycle / two.cycle, 1.6);
 }
 
 } // namespace
 
 int main()
 {
-  const std::vector<Bound> bounds = RunCubes();
-  const double speedUp = RunSmoothSurfaces();
+  RunPeers(); // first: it starts processes, which must come before threads
+  const std::vector<Bound> cubes = RunCubes();
+  const std::vector<Bound> smooth = RunSmoothSurfaces();
   std::printf("\n");
-  for (const Bound& bound : bounds)
-  {
-    PrintAtMost(bound.name, bound.measured, bound.bound);
-  }
-  PrintAtLeast("solver_second_thread_depth7", speedUp, 1.6);
+  Print(cubes);
+  Print(smooth);
 }

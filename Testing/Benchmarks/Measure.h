@@ -40,7 +40,7 @@ void ResetPeak();
 /// when the other one fails.
 std::vector<double> InOwnProcess(const std::function<std::vector<double>()>& body);
 
-/// The same for a struct of numbers.
+/// The same for a number or a struct of numbers.
 template<class Numbers, class Body>
 Numbers MeasureInOwnProcess(Body&& body)
 {

@@ -145,9 +145,9 @@ void PrintCholmod(
   const Table& table, const char* name, const PeerTimes& times, const CholmodTimes& cholmod)
 {
   const double setup = cholmod.analyse + cholmod.factor;
-  table.Row({ name, Text("%.3f", setup), Text("%.3f", cholmod.solve), "",
-    Text("%.3f", cholmod.solve3), Text("%.3f", times.assembly + setup + cholmod.solve),
-    Text("%.0f", times.vertices) });
+  table.Row(
+    { name, Text("%.3f", setup), Text("%.3f", cholmod.solve), "", Text("%.3f", cholmod.solve3),
+      Text("%.3f", times.assembly + setup + cholmod.solve), Text("%.0f", times.vertices) });
 }
 
 } // namespace

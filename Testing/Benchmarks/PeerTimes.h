@@ -46,7 +46,7 @@ struct CholmodTimes
 struct PeerTimes
 {
   double vertices = 0.0;
-  double assembly = 0.0; // of the hat system, one thread
+  double assembly = 0.0;               // of the hat system, one thread
   std::array<GridTimes, 2> grid;       // one thread, two threads
   std::array<CholmodTimes, 2> cholmod; // its BLAS on one thread, on two
   AmgTimes boomerAmg;                  // one process

@@ -70,8 +70,8 @@ MultiVector Colours(const std::vector<Vec3>& points, const Vec3& centre, double 
   return values;
 }
 
-GridProblem SetUp(const TriangleMesh& mesh, int depth, int threads, FunctionSupport support,
-  double screeningWeight)
+GridProblem SetUp(
+  const TriangleMesh& mesh, int depth, int threads, FunctionSupport support, double screeningWeight)
 {
   GridProblem problem;
   SpaceOptions options;
@@ -92,9 +92,8 @@ void ChooseColours(GridProblem& problem, int columns)
   const FunctionSpace& space = problem.space;
   const double half = 0.5 * std::pow(2.0, space.Finest().depth);
   const Vec3 centre = space.GetGrid().ToWorld(Vec3(half, half, half));
-  const double side = (space.GetGrid().ToWorld(Vec3(2 * half, 0, 0)) -
-                       space.GetGrid().ToWorld(Vec3(0, 0, 0)))
-                        .norm();
+  const double side =
+    (space.GetGrid().ToWorld(Vec3(2 * half, 0, 0)) - space.GetGrid().ToWorld(Vec3(0, 0, 0))).norm();
   problem.exact = Colours(Corners(space), centre, side, columns);
   problem.mass = MassMatrix(space, problem.system);
   Multiply(problem.mass, problem.exact, problem.values);
@@ -106,8 +105,8 @@ MultiVector GridProblem::Solve(int columns, int iterations) const
   PoissonOptions poisson = options;
   poisson.solve.tolerance = 1e-15;
   poisson.solve.maximumIterations = iterations;
-  return SolvePoisson(space, system, *multigrid, values.leftCols(columns),
-    gradients.leftCols(columns), poisson)
+  return SolvePoisson(
+    space, system, *multigrid, values.leftCols(columns), gradients.leftCols(columns), poisson)
     .coefficients;
 }
 

@@ -10,6 +10,12 @@
 namespace gridfem::benchmarks
 {
 
+NamedMesh RealMesh(const std::string& name, const std::string& file)
+{
+  const std::string path = testing::RealMesh(file);
+  return { name, path.empty() ? TriangleMesh() : testing::ReadMesh(path) };
+}
+
 NamedMesh RockerArm(int subdivisions)
 {
   const std::string path = testing::RealMesh("rocker_arm.ply");
@@ -40,35 +46,6 @@ double SetupCost::Peak() const
     peak = std::max(peak, stage.peak);
   }
   return peak;
-}
-
-std::vector<double> SetupCost::Pack() const
-{
-  std::vector<double> numbers{ before, clippedTriangles, pieces, patches, functions };
-  for (const StageCost& stage : stages)
-  {
-    numbers.insert(numbers.end(), { stage.seconds, stage.held, stage.peak });
-  }
-  return numbers;
-}
-
-SetupCost SetupCost::Unpack(const std::vector<double>& numbers)
-{
-  SetupCost cost;
-  auto next = numbers.begin();
-  for (double* field :
-    { &cost.before, &cost.clippedTriangles, &cost.pieces, &cost.patches, &cost.functions })
-  {
-    *field = *next++;
-  }
-  for (StageCost& stage : cost.stages)
-  {
-    for (double* field : { &stage.seconds, &stage.held, &stage.peak })
-    {
-      *field = *next++;
-    }
-  }
-  return cost;
 }
 
 SetupCost MeasureSetup(const TriangleMesh& mesh, int depth, int threads)

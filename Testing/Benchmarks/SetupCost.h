@@ -6,7 +6,6 @@
 
 #include <array>
 #include <string>
-#include <vector>
 
 namespace gridfem::benchmarks
 {
@@ -16,6 +15,9 @@ struct NamedMesh
   std::string name;
   TriangleMesh mesh;
 };
+
+/// One of the real meshes; without points when it is absent.
+NamedMesh RealMesh(const std::string& name, const std::string& file);
 
 /// The rocker arm (20,088 triangles), every triangle cut into four `subdivisions` times; where the
 /// real meshes are absent a geodesic sphere of 20,000 triangles takes its place.
@@ -43,9 +45,6 @@ struct SetupCost
 
   double Seconds() const;
   double Peak() const; // the largest of the stages
-
-  std::vector<double> Pack() const;
-  static SetupCost Unpack(const std::vector<double>& numbers);
 };
 
 /// Runs Clip, BuildFunctionSpace, BuildSystem and BuildMultigrid, default options but for these.

@@ -26,14 +26,12 @@ public:
   void Set(const Eigen::VectorXd& values)
   {
     HYPRE_IJVectorInitialize(vector_);
-    HYPRE_IJVectorSetValues(
-      vector_, static_cast<HYPRE_Int>(values.size()), nullptr, values.data());
+    HYPRE_IJVectorSetValues(vector_, static_cast<HYPRE_Int>(values.size()), nullptr, values.data());
     HYPRE_IJVectorAssemble(vector_);
   }
   void Get(Eigen::VectorXd& values) const
   {
-    HYPRE_IJVectorGetValues(
-      vector_, static_cast<HYPRE_Int>(values.size()), nullptr, values.data());
+    HYPRE_IJVectorGetValues(vector_, static_cast<HYPRE_Int>(values.size()), nullptr, values.data());
   }
   HYPRE_ParVector Object() const
   {
@@ -49,8 +47,7 @@ private:
 class BoomerAmg : public AlgebraicMultigrid
 {
 public:
-  explicit BoomerAmg(const HatMatrix& A)
-    : rows_(static_cast<int>(A.rows())), b_(rows_), x_(rows_)
+  explicit BoomerAmg(const HatMatrix& A) : rows_(static_cast<int>(A.rows())), b_(rows_), x_(rows_)
   {
     HYPRE_IJMatrixCreate(MPI_COMM_SELF, 0, rows_ - 1, 0, rows_ - 1, &matrix_);
     HYPRE_IJMatrixSetObjectType(matrix_, HYPRE_PARCSR);
@@ -95,8 +92,7 @@ public:
     HYPRE_ParCSRPCGSetup(solver_, this->Matrix(), b_.Object(), x_.Object());
   }
 
-  int Solve(
-    const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance, int iterations) override
+  int Solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance, int iterations) override
   {
     b_.Set(b);
     x_.Set(Eigen::VectorXd::Zero(rows_));

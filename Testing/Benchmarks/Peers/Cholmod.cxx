@@ -57,7 +57,9 @@ struct Cholmod::State
   }
 };
 
-Cholmod::Cholmod() : state_(std::make_unique<State>()) {}
+Cholmod::Cholmod() : state_(std::make_unique<State>())
+{
+}
 
 Cholmod::~Cholmod() = default;
 

@@ -39,8 +39,7 @@ public:
     KSPSetUp(solver_);
   }
 
-  int Solve(
-    const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance, int iterations) override
+  int Solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance, int iterations) override
   {
     x.resize(rows_);
     Vec source = nullptr;

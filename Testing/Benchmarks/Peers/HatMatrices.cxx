@@ -21,8 +21,8 @@ class Row
 public:
   void Add(int column, double mass, double stiffness)
   {
-    const auto found = std::find_if(entries_.begin(), entries_.end(),
-      [&](const Entry& entry) { return entry.column == column; });
+    const auto found = std::find_if(
+      entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.column == column; });
     if (found == entries_.end())
     {
       entries_.push_back({ column, mass, stiffness });

@@ -18,8 +18,8 @@ using HatMatrix = Eigen::SparseMatrix<double>;
 /// World units. Both matrices have one pattern.
 struct HatMatrices
 {
-  HatMatrix mass;      // L²
-  HatMatrix stiffness; // dimensionless
+  HatMatrix mass;       // L²
+  HatMatrix stiffness;  // dimensionless
   std::vector<int> row; // per mesh point; -1 for points without a triangle
 };
 

@@ -1,0 +1,67 @@
+#include "ShiftInvert.h"
+
+#include "Cholmod.h"
+
+#include <Spectra/MatOp/SparseSymMatProd.h>
+#include <Spectra/SymGEigsShiftSolver.h>
+
+#include <algorithm>
+
+namespace gridfem::benchmarks
+{
+
+namespace
+{
+
+/// (L - σM)⁻¹ as Spectra asks for it.
+class InverseOperator
+{
+public:
+  using Scalar = double;
+
+  explicit InverseOperator(const HatMatrices& hats) : hats_(hats) {}
+
+  Eigen::Index rows() const { return hats_.mass.rows(); }
+  Eigen::Index cols() const { return hats_.mass.cols(); }
+  void set_shift(const double& sigma)
+  {
+    const HatMatrix matrix = Combine(hats_, -sigma);
+    factor_.Analyse(matrix);
+    factor_.Factor(matrix);
+  }
+  void perform_op(const double* x, double* y) const
+  {
+    ++solves_;
+    Eigen::Map<Eigen::VectorXd>(y, this->rows()) =
+      factor_.Solve(Eigen::Map<const Eigen::VectorXd>(x, this->rows()));
+  }
+  double Solves() const { return solves_; }
+
+private:
+  const HatMatrices& hats_;
+  Cholmod factor_;
+  mutable double solves_ = 0.0;
+};
+
+} // namespace
+
+HatSpectrum ComputeHatSpectrum(const HatMatrices& hats, int count)
+{
+  InverseOperator inverse(hats);
+  Spectra::SparseSymMatProd<double> mass(hats.mass);
+  // Below zero, so that the matrix is definite; of the order of the first eigenvalue.
+  const double shift = -1.0 / hats.mass.sum();
+  Spectra::SymGEigsShiftSolver<InverseOperator, Spectra::SparseSymMatProd<double>,
+    Spectra::GEigsMode::ShiftInvert>
+    solver(inverse, mass, count, std::min<int>(2 * count, static_cast<int>(mass.rows())), shift);
+  solver.init();
+  solver.compute(Spectra::SortRule::LargestMagn, 1000, 1e-6);
+  HatSpectrum result;
+  const Eigen::VectorXd values = solver.eigenvalues();
+  result.eigenvalues.assign(values.data(), values.data() + values.size());
+  std::sort(result.eigenvalues.begin(), result.eigenvalues.end());
+  result.solves = inverse.Solves();
+  return result;
+}
+
+} // namespace gridfem::benchmarks
