@@ -10,7 +10,8 @@ CORE_PACKAGES=(cmake ninja-build g++ libeigen3-dev)
 BUILD_PACKAGES=("${CORE_PACKAGES[@]}" paraview paraview-dev python3-paraview libopenmpi-dev
   python3-dev libcli11-dev libgtest-dev xvfb xauth)
 TEST_PACKAGES=(clang-format)
-BENCHMARK_PACKAGES=(libbenchmark-dev)
+BENCHMARK_PACKAGES=(libbenchmark-dev pkg-config libsuitesparse-dev libhypre-dev libpetsc-real-dev
+  libspectra-dev libopenblas-dev libopenmpi-dev)
 
 Say() { printf '%s\n' "-- $*" >&2; }
 
