@@ -1,6 +1,7 @@
 #include "Spectrum.h"
 
 #include "Parallel.h"
+#include "SpectrumAccuracy.h"
 #include "WindowIteration.h"
 
 #include <cmath>
@@ -16,8 +17,10 @@ constexpr double AlwaysDense = 600.0;
 constexpr double DensePerPair = 3.5;
 constexpr double LargestDense = 1200.0;
 
-/// Accuracy of the eigenvalues on coarser levels, whose discretisation error is far larger.
+/// Accuracy of the eigenvalues on coarser levels, whose discretisation error is far larger. The
+/// level below the finest also serves the estimate of the error.
 constexpr double CoarseTolerance = 1e-3;
+constexpr double SecondTolerance = 1e-4;
 constexpr int CoarseIterations = 4;
 constexpr int RandomStartIterations = 40;
 
@@ -45,11 +48,15 @@ bool IsDense(const Level& level, Index blockSize)
   return level.numberOfFunctions <= std::clamp(DensePerPair * blockSize, AlwaysDense, LargestDense);
 }
 
-/// The finest level if it is solved densely. Else the coarsest level with enough functions, or the
-/// one above it when that is too large for a dense solve.
+/// The level below the finest if the finest is solved densely. Else the coarsest level with enough
+/// functions, or the one above it when that is too large for a dense solve.
 std::size_t StartLevel(const FunctionSpace& space, std::size_t levels, Index blockSize)
 {
   const auto size = [&](std::size_t l) { return space.levels[l].numberOfFunctions; };
+  if (IsDense(space.levels[0], blockSize))
+  {
+    return std::min<std::size_t>(1, levels - 1);
+  }
   std::size_t level = 0;
   while (level + 1 < levels && (!IsDense(space.levels[level], blockSize) ||
                                  (level > 0 && size(level + 1) >= 1.5 * blockSize)))
@@ -124,13 +131,16 @@ void FixSigns(const SparseMatrix& mass, MultiVector& X, int threads)
   }
 }
 
-/// Zero modes in front, then the iterated pairs up to the wanted number.
-Spectrum Collect(const Constants& constants, const EigenPairs& pairs, const BlockReport& report,
-  const SparseMatrix& mass, const SpectrumOptions& options)
+void Append(std::vector<double>& list, const std::vector<double>& more)
 {
-  const Index wanted = options.numberOfModes;
-  const Index zeros = std::min(constants.Count(), wanted);
-  const Index others = std::min<Index>(wanted - zeros, static_cast<Index>(pairs.values.size()));
+  list.insert(list.end(), more.begin(), more.end());
+}
+
+/// The first `zeros` constants in front, then the pairs of the report.
+Spectrum Collect(const Constants& constants, Index zeros, const EigenPairs& pairs,
+  const BlockReport& report, const SparseMatrix& mass, int threads)
+{
+  const Index others = static_cast<Index>(report.residuals.size());
   Spectrum spectrum;
   spectrum.eigenvalues.assign(zeros, 0.0);
   spectrum.eigenvalues.insert(
@@ -141,14 +151,13 @@ Spectrum Collect(const Constants& constants, const EigenPairs& pairs, const Bloc
   {
     spectrum.vectors.rightCols(others) = pairs.vectors.leftCols(others);
   }
-  FixSigns(mass, spectrum.vectors, options.multigrid.threads);
+  FixSigns(mass, spectrum.vectors, threads);
   spectrum.residuals.assign(zeros, 0.0);
-  spectrum.residuals.insert(
-    spectrum.residuals.end(), report.residuals.begin(), report.residuals.end());
+  Append(spectrum.residuals, report.residuals);
+  spectrum.estimatedErrors.assign(zeros, 0.0);
   spectrum.numberOfConverged = zeros + report.numberOfConverged;
   spectrum.converged = spectrum.numberOfConverged == zeros + others;
   spectrum.iterations = report.iterations;
-  spectrum.truncated = zeros + others < wanted;
   return spectrum;
 }
 
@@ -179,6 +188,16 @@ void CycleOnPanels(
     PanelWidth);
 }
 
+/// About the size of the lowest value of a connected surface: by area as on a sphere, by length
+/// where it is so thin that the area says nothing. A shift far above the values would cost their
+/// digits.
+double LowestValue(const SparseMatrix& mass, double side)
+{
+  const double pi = 3.14159265358979323846;
+  const double area = std::accumulate(mass.value.begin(), mass.value.end(), 0.0);
+  return std::min(4.0 * pi / area, pi * pi / (side * side));
+}
+
 /// The nested iteration: holds what the levels share.
 class NestedIteration
 {
@@ -191,14 +210,21 @@ public:
   Spectrum Run(const Progress& progress);
 
 private:
+  Spectrum OnlyConstants(const Constants& zeroModes, const SparseMatrix& mass) const;
   BlockOptions Options(std::size_t level, Index wanted) const;
   SpectralProblem Problem(std::size_t level, const Constants& constants, const Multigrid* multigrid,
     SparseMatrix mass) const;
+  void Prolong(std::size_t level, const Constants& constants, BlockOptions& block);
+  BlockReport FinishList(
+    const SpectralProblem& problem, BlockOptions block, const Progress& progress);
 
   const FunctionSpace& space_;
   const System& system_;
   const SpectrumOptions& options_;
   double shift_ = 1.0;
+  Index zeros_ = 0;
+  EigenPairs pairs_;
+  bool cutsMultiplet_ = false;
 };
 
 SpectralProblem NestedIteration::Problem(std::size_t level, const Constants& constants,
@@ -221,10 +247,88 @@ BlockOptions NestedIteration::Options(std::size_t level, Index wanted) const
   BlockOptions block;
   block.wanted = wanted;
   block.blockSize = GuardedSize(wanted);
-  block.tolerance = level == 0 ? options_.tolerance : CoarseTolerance;
+  block.tolerance = level == 0   ? options_.tolerance
+                    : level == 1 ? SecondTolerance
+                                 : CoarseTolerance;
   block.maximumIterations = level == 0 ? options_.maximumIterations
                                        : std::min(CoarseIterations, options_.maximumIterations);
   return block;
+}
+
+/// The list ends among the constants.
+Spectrum NestedIteration::OnlyConstants(const Constants& zeroModes, const SparseMatrix& mass) const
+{
+  const bool cut = zeroModes.Count() > options_.numberOfModes;
+  const Index count = options_.completeMultiplets ? zeroModes.Count() : options_.numberOfModes;
+  Spectrum spectrum = Collect(zeroModes, count, {}, {}, mass, options_.multigrid.threads);
+  spectrum.cutsMultiplet = cut && !options_.completeMultiplets;
+  return spectrum;
+}
+
+/// Brings the pairs to a finer level.
+void NestedIteration::Prolong(std::size_t level, const Constants& constants, BlockOptions& block)
+{
+  MultiVector fine;
+  Multiply(system_.prolongation[level], pairs_.vectors, fine, options_.multigrid.threads);
+  pairs_.vectors = std::move(fine);
+  pairs_.values.resize(0);
+  constants.Remove(pairs_.vectors);
+  if (pairs_.vectors.cols() < block.wanted)
+  {
+    block.maximumIterations = std::max(RandomStartIterations, block.maximumIterations);
+  }
+}
+
+/// The wanted pairs and one more, which tells whether a multiplet is cut; more of them until it is
+/// whole, if that is asked for. The report is that of the list without the one more.
+BlockReport NestedIteration::FinishList(
+  const SpectralProblem& problem, BlockOptions block, const Progress& progress)
+{
+  Id count = block.wanted;
+  const bool isAll = pairs_.values.size() > 0 && pairs_.values.size() < block.blockSize;
+  const Index most = isAll ? static_cast<Index>(pairs_.values.size()) : problem.mass.rows;
+  if (isAll) // an iteration would only find rounding
+  {
+    block.maximumIterations = 0;
+    block.blockSize = most;
+  }
+  BlockReport report;
+  double done = 0.0;
+  while (true)
+  {
+    block.wanted = std::min(static_cast<Index>(count) + 1, most);
+    const int before = report.iterations;
+    const Progress part = progress.Part(done, 0.5 + 0.5 * done);
+    if (!isAll)
+    {
+      block.blockSize = std::max(block.blockSize, GuardedSize(block.wanted));
+    }
+    report = isAll ? ImproveEigenPairs(problem, block, pairs_, part)
+                   : ImproveManyEigenPairs(problem, block, pairs_, part);
+    report.iterations += before;
+    done = 0.5 + 0.5 * done;
+    const Id found = static_cast<Id>(report.residuals.size());
+    const auto endsInside = [&](Id end)
+    {
+      return end < pairs_.values.size() &&
+             IsMultiplet(pairs_.values[end - 1], pairs_.values[end], zeros_ + end);
+    };
+    cutsMultiplet_ = found > count && endsInside(count);
+    if (!cutsMultiplet_ || !options_.completeMultiplets || report.numberOfConverged < found)
+    {
+      count = std::min(count, found);
+      break;
+    }
+    while (endsInside(count))
+    {
+      ++count;
+    }
+  }
+  report.residuals.resize(count);
+  report.numberOfConverged =
+    static_cast<Index>(std::count_if(report.residuals.begin(), report.residuals.end(),
+      [&](double residual) { return residual * residual <= block.tolerance; }));
+  return report;
 }
 
 Spectrum NestedIteration::Run(const Progress& progress)
@@ -232,20 +336,19 @@ Spectrum NestedIteration::Run(const Progress& progress)
   const int threads = options_.multigrid.threads;
   SparseMatrix mass = AssembleLevel(space_, system_, 0, 1.0, 0.0, threads);
   const Constants zeroModes(mass, space_.component, space_.numberOfComponents, threads);
-  if (zeroModes.Count() >= options_.numberOfModes)
+  zeros_ = zeroModes.Count();
+  if (zeros_ >= options_.numberOfModes)
   {
-    return Collect(zeroModes, {}, {}, mass, options_);
+    return this->OnlyConstants(zeroModes, mass);
   }
-  const Index wanted = options_.numberOfModes - zeroModes.Count();
-  const double area = std::accumulate(mass.value.begin(), mass.value.end(), 0.0);
-  const double pi = 3.14159265358979323846;
-  shift_ = 4.0 * pi * zeroModes.Count() / area;
+  const Index wanted = options_.numberOfModes - zeros_;
+  shift_ = zeros_ * LowestValue(mass, space_.GetGrid().CellsPerSide());
   const Multigrid multigrid =
     BuildMultigrid(space_, system_, shift_, 1.0, options_.multigrid, progress.Part(0.0, 0.1));
 
   const Index blockSize = GuardedSize(wanted);
   const std::size_t start = StartLevel(space_, system_.elements.size(), blockSize);
-  EigenPairs pairs;
+  Eigen::VectorXd coarseValues;
   BlockReport report;
   for (std::size_t level = start + 1; level-- > 0;)
   {
@@ -257,34 +360,33 @@ Spectrum NestedIteration::Run(const Progress& progress)
     const SpectralProblem problem =
       this->Problem(level, constants, &multigrid, std::move(levelMass));
     BlockOptions block = this->Options(level, wanted);
-    if (level != start)
+    coarseValues = pairs_.values;
+    if ((level == start || level == 0) && IsDense(space_.levels[level], blockSize))
     {
-      MultiVector fine;
-      Multiply(system_.prolongation[level], pairs.vectors, fine, threads);
-      pairs.vectors = std::move(fine);
-      constants.Remove(pairs.vectors);
-      if (pairs.vectors.cols() < wanted)
-      {
-        block.maximumIterations = std::max(RandomStartIterations, block.maximumIterations);
-      }
-    }
-    else if (IsDense(space_.levels[level], blockSize))
-    {
-      pairs = SolveDense(problem, blockSize);
+      pairs_ = SolveDense(problem, blockSize);
       if (level > 0)
       {
         continue;
       }
-      block.wanted = std::min<Index>(wanted, static_cast<Index>(pairs.values.size()));
+    }
+    else if (level != start)
+    {
+      this->Prolong(level, constants, block);
     }
     else // thousands of components: no small level, but B is nearly exact there
     {
-      pairs = EigenPairs{ {}, MultiVector(problem.mass.rows, 0) };
+      pairs_ = EigenPairs{ {}, MultiVector(problem.mass.rows, 0) };
       block.maximumIterations = std::max(RandomStartIterations, options_.maximumIterations);
     }
-    report = ImproveManyEigenPairs(problem, block, pairs, LevelPart(progress, level));
+    report = level == 0 ? this->FinishList(problem, block, LevelPart(progress, level))
+                        : ImproveManyEigenPairs(problem, block, pairs_, LevelPart(progress, level));
   }
-  return Collect(zeroModes, pairs, report, mass, options_);
+  Spectrum spectrum = Collect(zeroModes, zeros_, pairs_, report, mass, threads);
+  Append(spectrum.estimatedErrors, EstimateErrors(coarseValues, pairs_.values, report.residuals));
+  spectrum.truncated =
+    zeros_ + static_cast<Index>(report.residuals.size()) < options_.numberOfModes;
+  spectrum.cutsMultiplet = cutsMultiplet_;
+  return spectrum;
 }
 
 } // namespace

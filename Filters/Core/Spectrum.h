@@ -13,6 +13,8 @@ struct SpectrumOptions
   /// Wanted relative error of the eigenvalues: the square of the residual measure sqrt(rᵀBr / θ).
   double tolerance = 1e-8;     // in (0, 1)
   int maximumIterations = 100; // per level, >= 0
+  /// Go on behind numberOfModes to the end of the multiplet that is cut there.
+  bool completeMultiplets = false;
   MultigridOptions multigrid;
 };
 
@@ -25,6 +27,10 @@ struct Spectrum
   int numberOfConverged = 0;       // how many did
   int iterations = 0;              // on the finest level
   bool truncated = false;          // fewer modes exist than were asked for
+  bool cutsMultiplet = false;      // the next eigenvalue belongs to the multiplet of the last
+  /// Per pair: the relative error of the eigenvalue, as that of the space, from the next coarser
+  /// level, whose error is four times as large; 1 (unknown) where that level has no such pair.
+  std::vector<double> estimatedErrors;
 };
 
 /// Dense problem on a coarse level, prolongation, block iterations with one multigrid cycle of

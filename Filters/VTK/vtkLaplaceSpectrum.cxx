@@ -1,13 +1,13 @@
 #include "vtkLaplaceSpectrum.h"
 
 #include "Private/ClippedMeshWriter.h"
-#include "Private/InputValidation.h"
+#include "Private/ModeReader.h"
 #include "Private/SolverOutput.h"
 #include "Private/SurfaceSolverState.h"
+#include "Private/SurfaceSpectrum.h"
 
 #include "Errors.h"
-#include "Evaluation.h"
-#include "Spectrum.h"
+#include "QuadratureRule.h"
 
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
@@ -23,8 +23,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 
 vtkStandardNewMacro(vtkLaplaceSpectrum);
 
@@ -39,12 +37,9 @@ int FirstTimeStep(int numberOfModes)
 
 } // namespace
 
-struct vtkLaplaceSpectrum::Internals
+struct vtkLaplaceSpectrum::Internals : gridfem::SurfaceSpectrum
 {
-  gridfem::Spectrum Spectrum;
-  std::vector<double> Eigenvalues; // world units
-
-  int NumberOfModes() const { return static_cast<int>(this->Eigenvalues.size()); }
+  std::int64_t WarnedRun = 0; // the last solve whose cut multiplet was told of: not every time step
 };
 
 vtkLaplaceSpectrum::vtkLaplaceSpectrum() : Data(std::make_unique<Internals>())
@@ -87,33 +82,6 @@ int vtkLaplaceSpectrum::RequestInformation(
   return 1;
 }
 
-void vtkLaplaceSpectrum::UpdateSpectrum()
-{
-  gridfem::SurfaceSolverState& state = *this->State;
-  gridfem::StageKey key;
-  key.Add(state.stages.Version(SystemStage)).Add(this->NumberOfModes);
-  key.Add(this->Tolerance).Add(this->MaximumIterations);
-  key.Add(this->Cycle).Add(this->Smoother).Add(this->NumberOfThreads);
-  const auto solve = [&]
-  {
-    gridfem::RequireMemoryForModes(state.Space().Finest().numberOfFunctions, this->NumberOfModes);
-    gridfem::SpectrumOptions options;
-    options.numberOfModes = this->NumberOfModes;
-    options.tolerance = this->Tolerance;
-    options.maximumIterations = this->MaximumIterations;
-    options.multigrid = state.options.multigrid;
-    this->Data->Spectrum = gridfem::ComputeSpectrum(
-      state.Space(), *state.system, options, state.bridge.GetProgress().Part(0.5, 0.95));
-    const double spacing = state.Space().GetGrid().spacing;
-    this->Data->Eigenvalues = this->Data->Spectrum.eigenvalues;
-    for (double& eigenvalue : this->Data->Eigenvalues)
-    {
-      eigenvalue /= spacing * spacing;
-    }
-  };
-  state.stages.Run(SolveStage, key, solve);
-}
-
 int vtkLaplaceSpectrum::ShownMode(vtkInformation* output)
 {
   const int count = this->Data->NumberOfModes();
@@ -143,15 +111,12 @@ int vtkLaplaceSpectrum::ShownMode(vtkInformation* output)
 void vtkLaplaceSpectrum::WriteModes(vtkPolyData* input, vtkInformation* info, vtkPolyData* output)
 {
   const gridfem::SurfaceSolverState& state = *this->State;
-  const gridfem::MultiVector& vectors = this->Data->Spectrum.vectors;
   const int precision = gridfem::OutputPrecision(input->GetPoints());
   output->ShallowCopy(input);
   const auto addMode = [&](int mode, const std::string& name)
   {
-    // The integral over grid units is spacing² times smaller than the one over world units.
-    const gridfem::MultiVector coefficients = vectors.col(mode) / state.Space().GetGrid().spacing;
     const gridfem::MultiVector values =
-      gridfem::EvaluateAtPoints(state.Space(), coefficients, this->NumberOfThreads);
+      gridfem::EvaluateModes(state, this->Data->spectrum, mode, 1, this->NumberOfThreads);
     output->GetPointData()->AddArray(gridfem::MakePointArray(name.c_str(), values, precision));
     return name;
   };
@@ -160,11 +125,9 @@ void vtkLaplaceSpectrum::WriteModes(vtkPolyData* input, vtkInformation* info, vt
   {
     for (int mode = 0; mode < this->Data->NumberOfModes(); ++mode)
     {
-      std::ostringstream name;
-      name << "Mode" << std::setfill('0') << std::setw(3) << mode;
-      shown = addMode(mode, name.str());
+      addMode(mode, gridfem::ModeName(mode));
     }
-    shown = "Mode000";
+    shown = gridfem::ModeName(0);
   }
   else
   {
@@ -180,9 +143,11 @@ void vtkLaplaceSpectrum::WriteModes(vtkPolyData* input, vtkInformation* info, vt
   eigenvalues->SetName("Eigenvalues");
   eigenvalues->SetNumberOfTuples(this->Data->NumberOfModes());
   std::copy(
-    this->Data->Eigenvalues.begin(), this->Data->Eigenvalues.end(), eigenvalues->GetPointer(0));
+    this->Data->eigenvalues.begin(), this->Data->eigenvalues.end(), eigenvalues->GetPointer(0));
   output->GetFieldData()->AddArray(eigenvalues);
-  gridfem::AddFieldInt(output, "Converged", this->Data->Spectrum.converged ? 1 : 0);
+  const bool converged = this->Data->spectrum.converged && this->IsAccurate();
+  gridfem::AddFieldInt(output, "Converged", converged ? 1 : 0);
+  gridfem::AddFieldInt(output, "UsedDepth", this->Data->depth);
 }
 
 void vtkLaplaceSpectrum::WriteTable(vtkTable* table)
@@ -193,46 +158,62 @@ void vtkLaplaceSpectrum::WriteTable(vtkTable* table)
     modes[mode] = mode;
   }
   gridfem::AddColumn(table, "Mode", modes);
-  gridfem::AddColumn(table, "Eigenvalue", this->Data->Eigenvalues);
-  gridfem::AddColumn(table, "Residual", this->Data->Spectrum.residuals);
+  gridfem::AddColumn(table, "Eigenvalue", this->Data->eigenvalues);
+  gridfem::AddColumn(table, "Residual", this->Data->spectrum.residuals);
+  gridfem::AddColumn(table, "EstimatedError", this->Data->spectrum.estimatedErrors);
+}
+
+bool vtkLaplaceSpectrum::IsAccurate() const
+{
+  return !this->AccuracyDriven || this->Data->LargestEstimatedError() <= this->Accuracy;
 }
 
 void vtkLaplaceSpectrum::Warn()
 {
-  const gridfem::Spectrum& spectrum = this->Data->Spectrum;
+  const gridfem::Spectrum& spectrum = this->Data->spectrum;
   if (spectrum.truncated)
   {
     vtkWarningMacro("Only " << this->Data->NumberOfModes() << " of the " << this->NumberOfModes
-                            << " modes exist at this Depth.");
+                            << " modes exist at Depth " << this->Data->depth << ".");
+  }
+  const std::int64_t run = this->State->stages.Runs(SolveStage);
+  if (spectrum.cutsMultiplet && run != this->Data->WarnedRun)
+  {
+    this->Data->WarnedRun = run;
+    vtkWarningMacro("The list ends inside a group of equal eigenvalues: the last of its "
+                    "eigenfunctions are missing. CompleteMultiplets adds them.");
   }
   if (!spectrum.converged)
   {
-    const double worst = spectrum.residuals.empty() ? 0.0
-                                                    : *std::max_element(spectrum.residuals.begin(),
-                                                        spectrum.residuals.end());
     vtkWarningMacro("Not converged after "
                     << spectrum.iterations << " iterations: " << spectrum.numberOfConverged
                     << " of " << this->Data->NumberOfModes()
-                    << " modes reached the tolerance, the largest residual is " << worst
-                    << ". The result is kept.");
+                    << " modes reached the tolerance, the largest residual is "
+                    << this->Data->LargestResidual() << ". The result is kept.");
+  }
+  if (!this->IsAccurate())
+  {
+    vtkWarningMacro("The wanted Accuracy of "
+                    << this->Accuracy << " is not reached: at Depth " << this->Data->depth
+                    << " the estimated error is up to " << this->Data->LargestEstimatedError()
+                    << ". A given basis has a fixed Depth; else the next one does not fit into "
+                       "memory. The result is kept.");
   }
 }
 
 void vtkLaplaceSpectrum::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
-  gridfem::SurfaceSolverState& state = *this->State;
-  const gridfem::Progress progress = state.bridge.GetProgress();
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
-  state.UpdateSpace(input, vtkPolyData::GetData(inputs[1]), progress.Part(0.0, 0.3));
-  progress.Check(0.3);
-  state.UpdateSystem(progress.Part(0.3, 0.5));
-  progress.Check(0.5);
-  this->UpdateSpectrum();
+  gridfem::SpectrumRequest request;
+  request.numberOfModes = this->NumberOfModes;
+  request.completeMultiplets = this->CompleteMultiplets;
+  request.accuracy = this->AccuracyDriven ? this->Accuracy : 0.0;
+  this->Data->Update(*this->State, input, vtkPolyData::GetData(inputs[1]), request);
   this->WriteModes(input, outputs->GetInformationObject(0), vtkPolyData::GetData(outputs, 0));
   this->WriteTable(vtkTable::GetData(outputs, 1));
   this->Warn();
-  progress.Check(1.0);
+  this->State->bridge.GetProgress().Check(1.0);
 }
 
 void vtkLaplaceSpectrum::PrintSelf(ostream& os, vtkIndent indent)
@@ -241,4 +222,7 @@ void vtkLaplaceSpectrum::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfModes: " << this->NumberOfModes << "\n";
   os << indent << "Mode: " << this->Mode << "\n";
   os << indent << "AllModes: " << this->AllModes << "\n";
+  os << indent << "CompleteMultiplets: " << this->CompleteMultiplets << "\n";
+  os << indent << "AccuracyDriven: " << this->AccuracyDriven << "\n";
+  os << indent << "Accuracy: " << this->Accuracy << "\n";
 }

@@ -16,16 +16,20 @@
  *   integral of a squared mode over the surface is 1 in world units. Points that no polygon uses
  *   get 0.
  * - field data: `Eigenvalues` (double, 1; a tuple per mode, one over squared world length),
- *   `Converged` (int, 1)
+ *   `Converged` (int, 1), `UsedDepth` (int, 1): the depth of the space
  *
- * Output port 1 (vtkTable): a row per mode with `Mode` (int), `Eigenvalue` (double) and `Residual`
- * (double), whose square estimates the relative error of the eigenvalue.
+ * Output port 1 (vtkTable): a row per mode with `Mode` (int), `Eigenvalue` (double), `Residual`
+ * (double), whose square estimates the relative error of the eigenvalue as one of the space, and
+ * `EstimatedError` (double): the relative error of the eigenvalue as one of the surface, estimated
+ * from the space of half the resolution, whose errors are four times as large; 1 where that space
+ * has no such mode.
  *
  * Time: unless AllModes is on or Mode is fixed, every mode but mode 0 is a time step, with its
  * index as time value. Mode 0 is constant, so there is nothing to see; Mode = 0 shows it. All modes
  * are computed once; a change of time or of Mode computes nothing.
  *
- * Tolerance (default 1e-8) is the wanted relative error of the eigenvalues. All shared properties
+ * Tolerance (default 1e-8) is the wanted relative error of the eigenvalues as those of the space;
+ * Depth, or Accuracy, decides about the error of the space. All shared properties
  * but ParameterUnits are used.
  */
 #ifndef vtkLaplaceSpectrum_h
@@ -68,6 +72,38 @@ public:
   vtkBooleanMacro(AllModes, bool);
   ///@}
 
+  ///@{
+  /**
+   * When on, a group of equal eigenvalues that NumberOfModes would cut is put out whole, so that
+   * there may be more modes than were asked for. When off (default), a warning says that a group is
+   * cut. Eigenvalues count as equal when they differ by less than 1 % and by less than a quarter of
+   * their mean distance: the grid splits groups a little.
+   */
+  vtkSetMacro(CompleteMultiplets, bool);
+  vtkGetMacro(CompleteMultiplets, bool);
+  vtkBooleanMacro(CompleteMultiplets, bool);
+  ///@}
+
+  ///@{
+  /**
+   * When on, the depth is chosen such that the estimated error of every eigenvalue is at most
+   * Accuracy; Depth is not used. When off (default), Depth is used. The warning, and `Converged` =
+   * 0, say when the accuracy is not reached: with a basis that is given, or for want of memory.
+   */
+  vtkSetMacro(AccuracyDriven, bool);
+  vtkGetMacro(AccuracyDriven, bool);
+  vtkBooleanMacro(AccuracyDriven, bool);
+  ///@}
+
+  ///@{
+  /**
+   * The wanted relative error of the eigenvalues as those of the surface, with AccuracyDriven on.
+   * 1e-6..0.5, default 0.01.
+   */
+  vtkSetClampMacro(Accuracy, double, 1e-6, 0.5);
+  vtkGetMacro(Accuracy, double);
+  ///@}
+
   /**
    * The input of port 1: the basis.
    */
@@ -85,12 +121,15 @@ protected:
   int NumberOfModes = 20;
   int Mode = -1;
   bool AllModes = false;
+  bool CompleteMultiplets = false;
+  bool AccuracyDriven = false;
+  double Accuracy = 0.01;
 
 private:
   vtkLaplaceSpectrum(const vtkLaplaceSpectrum&) = delete;
   void operator=(const vtkLaplaceSpectrum&) = delete;
 
-  void UpdateSpectrum();
+  bool IsAccurate() const;
   int ShownMode(vtkInformation* output);
   void WriteModes(vtkPolyData* input, vtkInformation* info, vtkPolyData* output);
   void WriteTable(vtkTable* table);

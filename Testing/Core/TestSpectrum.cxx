@@ -1,6 +1,7 @@
 // The nested eigensolver, against exact spectra and against a dense solver.
 #include "Meshes.h"
 #include "Spectrum.h"
+#include "SpectrumAccuracy.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -271,6 +272,114 @@ TEST(Spectrum, EqualSpheresShareEveryEigenvalue)
     // Twelve cells across a sphere: the fourth level of the sphere (l = 3) is 3 % off.
     EXPECT_LT(LargestError(WorldValues(on, spectrum), SphereValues(48, 3)), 0.06);
   }
+}
+
+TEST(Spectrum, SpheresInEqualCellsShareEveryEigenvalueExactly)
+{
+  // Three spheres of radius 1 in a cube of side 8 and 32 cells a side: 12 cells apart, so that all
+  // lie equally in the grid and every eigenvalue comes in threes.
+  TriangleMesh mesh = GeodesicSphere(8);
+  for (const double x : { 3.0, 6.0 })
+  {
+    mesh = Join(mesh, Transform(GeodesicSphere(8), { 0, 0, 1 }, 0.0, 1.0, { x, 0, 0 }));
+  }
+  const Discretisation on = Discretise(mesh, 5);
+  const Spectrum spectrum = Solve(on, 75); // 3 (1 + 3 + 5 + 7 + 9): all of degree 4
+  EXPECT_TRUE(spectrum.converged);
+  EXPECT_FALSE(spectrum.cutsMultiplet);
+  CheckPairs(on, spectrum);
+  for (int j = 3; j < 75; j += 3)
+  {
+    EXPECT_NEAR(spectrum.eigenvalues[j + 2] / spectrum.eigenvalues[j], 1.0, 1e-7) << "mode " << j;
+  }
+}
+
+Spectrum SolveWhole(const Discretisation& on, int modes)
+{
+  SpectrumOptions options;
+  options.numberOfModes = modes;
+  options.completeMultiplets = true;
+  return ComputeSpectrum(on.space, on.system, options);
+}
+
+TEST(Spectrum, AMultipletAtTheEndIsCompletedOrReported)
+{
+  const Discretisation on = Discretise(GeodesicSphere(24), 5);
+  for (const int modes : { 2, 10, 15, 16 })
+  {
+    const int whole = modes == 2 ? 4 : 16; // 1 + 3, 1 + 3 + 5 + 7
+    const Spectrum cut = Solve(on, modes);
+    EXPECT_EQ(cut.eigenvalues.size(), std::size_t(modes));
+    EXPECT_EQ(cut.cutsMultiplet, modes != whole) << modes;
+    const Spectrum complete = SolveWhole(on, modes);
+    EXPECT_EQ(complete.eigenvalues.size(), std::size_t(whole)) << modes;
+    EXPECT_FALSE(complete.cutsMultiplet);
+    EXPECT_TRUE(complete.converged);
+    CheckPairs(on, complete);
+  }
+}
+
+TEST(Spectrum, AMultipletLongerThanTheGuardsIsCompleted)
+{
+  // The first value of 8 equal cubes is 24-fold, more than guards reach; so are the zeros.
+  const Discretisation on = Discretise(CubeArray(2, 2, 1.0), 4);
+  ASSERT_EQ(on.space.numberOfComponents, 8);
+  EXPECT_EQ(SolveWhole(on, 3).eigenvalues.size(), 8u);
+  EXPECT_TRUE(Solve(on, 3).cutsMultiplet);
+  EXPECT_FALSE(Solve(on, 8).cutsMultiplet);
+  const Spectrum spectrum = SolveWhole(on, 9);
+  EXPECT_EQ(spectrum.eigenvalues.size(), 32u);
+  EXPECT_LT(spectrum.eigenvalues[31] / spectrum.eigenvalues[8], 1.01);
+  CheckPairs(on, spectrum);
+}
+
+TEST(Spectrum, EstimatedErrorsAreTheTrueOnesWithinAFactorOfTwo)
+{
+  const TriangleMesh mesh = GeodesicSphere(96);
+  const std::vector<double> exact = SphereValues(100);
+  const Discretisation on = Discretise(mesh, 5);
+  const Spectrum spectrum = Solve(on, 100);
+  const std::vector<double> values = WorldValues(on, spectrum);
+  EXPECT_EQ(spectrum.estimatedErrors[0], 0.0);
+  const double areaOfFacets = SurfaceArea(mesh) / (4 * Pi); // most of their own error
+  for (int j = 1; j < 100; ++j)
+  {
+    // A factor of two: members of a multiplet may change places between the levels. The facets'
+    // error beyond their area is 2e-4.
+    const double error = values[j] * areaOfFacets / exact[j] - 1.0;
+    EXPECT_LE(spectrum.estimatedErrors[j], 2.0 * error + 2e-4) << "mode " << j;
+    EXPECT_GE(spectrum.estimatedErrors[j], 0.5 * error - 2e-4) << "mode " << j;
+  }
+}
+
+TEST(Spectrum, TheDepthFollowsFromTheWantedAccuracy)
+{
+  const TriangleMesh mesh = GeodesicSphere(64);
+  const std::vector<double> exact = SphereValues(36);
+  for (const double accuracy : { 0.05, 0.004 })
+  {
+    int depth = FirstDepthForAccuracy(9500, 36, accuracy); // functions of a sphere at depth 5
+    Discretisation on = Discretise(mesh, depth);
+    Spectrum spectrum = Solve(on, 36);
+    for (int next; (next = DepthForAccuracy(spectrum.estimatedErrors, depth, accuracy)) != depth;)
+    {
+      depth = next;
+      on = Discretise(mesh, depth);
+      spectrum = Solve(on, 36);
+    }
+    EXPECT_LE(LargestError(WorldValues(on, spectrum), exact), 1.2 * accuracy);
+    EXPECT_LE(depth, 5); // 0.3 % at depth 5: no deeper than needed
+  }
+}
+
+TEST(Spectrum, DepthsForAccuracy)
+{
+  EXPECT_EQ(DepthForAccuracy({ 0.0, 0.01 }, 5, 0.01), 5);
+  EXPECT_EQ(DepthForAccuracy({ 0.0, 0.011 }, 5, 0.01), 6);
+  EXPECT_EQ(DepthForAccuracy({ 0.17, 0.0 }, 5, 0.01), 8); // 17 -> 4.25 -> 1.06 -> 0.27 %
+  EXPECT_EQ(DepthForAccuracy({ 1.0 }, 5, 1e-9), MaximumDepth);
+  EXPECT_THROW(DepthForAccuracy({ 1.0 }, 5, 0.0), InvalidInput);
+  EXPECT_THROW(FirstDepthForAccuracy(1000, 10, 1.0), InvalidInput);
 }
 
 TEST(Spectrum, ManyComponentsHaveNoSmallLevel)

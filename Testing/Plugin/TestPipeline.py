@@ -2,7 +2,7 @@
 import unittest
 
 import gridfem.vtkGridFEMFilters  # before the plugin, which makes objects of its classes
-from paraview import simple
+from paraview import servermanager, simple
 from paraview.modules.vtkRemotingViews import vtkSMParaViewPipelineControllerWithRendering
 
 import plugin
@@ -35,7 +35,8 @@ class TestPipeline(unittest.TestCase):
             "ClipToOctree": ["vtkPolyData", "vtkPolyData", "vtkUnstructuredGrid"],
             "ConnectivityAwareBasis": ["vtkPolyData", "vtkUnstructuredGrid"],
             "ScreenedPoisson": ["vtkPolyData", "vtkTable"],
-            "LaplaceSpectrum": ["vtkPolyData", "vtkTable"]}
+            "LaplaceSpectrum": ["vtkPolyData", "vtkTable"],
+            "SpectralSignatures": ["vtkPolyData", "vtkTable"]}
         for name in plugin.PROXIES:
             with self.subTest(proxy=name):
                 proxy = getattr(simple, name)(Input=self.surface, Depth=DEPTH)
@@ -139,6 +140,54 @@ class TestPipeline(unittest.TestCase):
         spectrum.UpdatePipelineInformation()
         self.assertEqual(len(spectrum.TimestepValues), 0)
         self.assertEqual(plugin.runs(spectrum)["solve"], 1)
+
+    def test_signatures_take_the_modes_of_the_input(self):
+        spectrum = simple.LaplaceSpectrum(
+            Input=self.surface, Depth=DEPTH, NumberOfModes=16, AllModes=1)
+        signatures = simple.SpectralSignatures(Input=spectrum, NumberOfScales=5)
+        arrays = plugin.data(signatures).GetPointData()
+        self.assertEqual(arrays.GetArray("HeatKernelSignature").GetNumberOfComponents(), 5)
+        self.assertEqual(plugin.runs(signatures)["solve"], 0)
+        self.assertEqual(plugin.data(signatures, 1).GetNumberOfRows(), 16)
+
+    def test_distances_from_ids_and_from_other_points(self):
+        signatures = simple.SpectralSignatures(
+            Input=self.surface, Depth=DEPTH, NumberOfModes=16)
+        self.assertIsNone(plugin.data(signatures).GetPointData().GetArray("BiharmonicDistance"))
+        signatures.SourcePointIds = [0, 5]
+        by_id = plugin.data(signatures).GetPointData().GetArray("BiharmonicDistance")
+        self.assertEqual((by_id.GetValue(0), by_id.GetValue(5)), (0, 0))
+        self.assertGreater(by_id.GetRange()[1], 0.1)
+
+        places = [plugin.data(self.surface).GetPoint(point) for point in (0, 5)]
+        selected = simple.Line(Point1=places[0], Point2=places[1], Resolution=1)
+        signatures.SourcePointIds = []
+        signatures.Sources = selected
+        by_place = plugin.data(signatures).GetPointData().GetArray("BiharmonicDistance")
+        self.assertEqual(by_place.GetRange(), by_id.GetRange())
+        self.assertEqual(plugin.runs(signatures)["solve"], 1)
+
+    def test_modes_vibrate_in_animate_modes(self):
+        modes = simple.LaplaceSpectrum(
+            Input=self.surface, Depth=DEPTH, NumberOfModes=9, AllModes=1)
+        displacement = simple.Calculator(
+            Input=modes, ResultArrayName="displacement", Function="Mode005*Normals")
+        vibration = simple.AnimateModes(
+            Input=displacement, Vectors=["POINTS", "displacement"], DisplacementPreapplied=0,
+            DisplacementMagnitude=0.2)
+        rest, moved = [], []
+        for time, points in ((0.25, rest), (0.5, moved)):
+            vibration.UpdatePipeline(time)
+            data = servermanager.Fetch(vibration)
+            data = data.GetBlock(0) if data.IsA("vtkMultiBlockDataSet") else data
+            points += [data.GetPoint(point) for point in range(data.GetNumberOfPoints())]
+        self.assertEqual(len(rest), plugin.data(modes).GetNumberOfPoints())
+        values = plugin.data(modes).GetPointData().GetArray("Mode005")
+        distances = [sum((a - b) ** 2 for a, b in zip(*pair)) ** 0.5 for pair in zip(rest, moved)]
+        # cos(2 pi t) is 0 at the first time and -1 at the second.
+        for point, distance in enumerate(distances):
+            self.assertAlmostEqual(distance, 0.2 * abs(values.GetValue(point)), delta=1e-5)
+        self.assertGreater(max(distances), 0.05)
 
     def test_tables(self):
         def columns(table):

@@ -19,19 +19,22 @@ def build():
         ParameterUnits="World", UseValueGradient=1, GradientScale=2.0)
     spectrum = simple.LaplaceSpectrum(
         Input=values, Basis=basis, NumberOfModes=5, Mode=3, Cycle="V", Smoother="Gauss-Seidel")
+    signatures = simple.SpectralSignatures(
+        Input=values, Basis=basis, Sources=surface, NumberOfModes=9, NumberOfScales=3,
+        SourcePointIds=[3, 4], FilterType="Low Pass", LastMode=4, ValueArray=["POINTS", "f"])
     for name, proxy in (("clip", clip), ("basis", basis), ("poisson", poisson),
-                        ("spectrum", spectrum)):
+                        ("spectrum", spectrum), ("signatures", signatures)):
         simple.RenameSource(name, proxy)
 
 
 def results():
     """Every setting and the range of every point array, to compare before and after."""
     found = {}
-    for name in ("clip", "basis", "poisson", "spectrum"):
+    for name in ("clip", "basis", "poisson", "spectrum", "signatures"):
         proxy = simple.FindSource(name)
         proxy.UpdatePipeline()
         for key in proxy.ListProperties():
-            if key not in ("Input", "Basis", "TimestepValues"):
+            if key not in ("Input", "Basis", "Sources", "TimestepValues"):
                 found[name, key] = str(proxy.GetPropertyValue(key))
         arrays = proxy.PointData
         for array in arrays.keys():

@@ -3,7 +3,8 @@ import os
 
 from paraview import servermanager, simple
 
-PROXIES = ("ClipToOctree", "ConnectivityAwareBasis", "ScreenedPoisson", "LaplaceSpectrum")
+PROXIES = ("ClipToOctree", "ConnectivityAwareBasis", "ScreenedPoisson", "LaplaceSpectrum",
+           "SpectralSignatures")
 SOLVERS = PROXIES[2:]
 
 # vtkSurfaceFEMAlgorithm::StageType

@@ -29,7 +29,7 @@ CORE_LAYERS = {
     "integrals": "QuadratureRule TrilinearBasis PieceSamples PatchMoments ElementMatrices LoadVector Evaluation"
                  " Assembly",
     "hierarchy": "System",
-    "problems": "Poisson Spectrum",
+    "problems": "Poisson SpectrumAccuracy Spectrum ModeSums",
 }
 
 

@@ -7,6 +7,7 @@
 #include "vtkConnectivityAwareBasis.h"
 #include "vtkLaplaceSpectrum.h"
 #include "vtkScreenedPoisson.h"
+#include "vtkSpectralSignatures.h"
 
 #include "vtkDummyCommunicator.h"
 #include "vtkDummyController.h"
@@ -339,7 +340,8 @@ INSTANTIATE_TEST_SUITE_P(AllFilters, FailureRule,
   ::testing::Values(FilterCase{ "ClipToOctree", &Make<vtkClipToOctree>, nullptr },
     FilterCase{ "ConnectivityAwareBasis", &Make<vtkConnectivityAwareBasis>, nullptr },
     FilterCase{ "ScreenedPoisson", &Make<vtkScreenedPoisson>, "Solution" },
-    FilterCase{ "LaplaceSpectrum", &Make<vtkLaplaceSpectrum>, "Mode" }),
+    FilterCase{ "LaplaceSpectrum", &Make<vtkLaplaceSpectrum>, "Mode" },
+    FilterCase{ "SpectralSignatures", &Make<vtkSpectralSignatures>, "HeatKernelSignature" }),
   [](const auto& filter) { return std::string(filter.param.name); });
 
 } // namespace

@@ -4,6 +4,7 @@
 
 #include "TriangleMesh.h"
 
+#include "vtkConnectivityAwareBasis.h"
 #include "vtkLaplaceSpectrum.h"
 
 #include "vtkInformation.h"
@@ -185,6 +186,66 @@ TEST_F(LaplaceSpectrum, NotConvergedWarnsAndKeepsTheResult)
   ASSERT_EQ(messages.warnings.size(), 1u);
   EXPECT_NE(messages.warnings[0].find("residual"), std::string::npos);
   EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 0);
+}
+
+TEST_F(LaplaceSpectrum, ACutMultipletIsCompletedOrReported)
+{
+  filter->SetNumberOfModes(6);
+  EXPECT_EQ(this->Eigenvalues().size(), 6u);
+  ASSERT_EQ(messages.warnings.size(), 1u);
+  EXPECT_NE(messages.warnings[0].find("CompleteMultiplets"), std::string::npos);
+  this->ModeAt(4);
+  EXPECT_EQ(messages.warnings.size(), 1u); // not at every time step
+  filter->CompleteMultipletsOn();
+  EXPECT_EQ(this->Eigenvalues().size(), 9u); // 1 + 3 + 5
+  EXPECT_EQ(messages.warnings.size(), 1u);
+}
+
+TEST_F(LaplaceSpectrum, TheDepthFollowsFromTheAccuracy)
+{
+  filter->SetInputData(ToPolyData(GeodesicSphere(32)));
+  filter->AccuracyDrivenOn();
+  int depth = 0;
+  for (const double accuracy : { 0.1, 0.003 })
+  {
+    filter->SetAccuracy(accuracy);
+    const auto eigenvalues = this->Eigenvalues();
+    for (int k = 1; k < 9; ++k)
+    {
+      // the facets' own error is 2e-3
+      EXPECT_NEAR(eigenvalues[k] / (k < 4 ? 2.0 : 6.0), 1.0, 1.2 * accuracy + 2e-3);
+    }
+    EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 1);
+    EXPECT_GT(FieldValue(filter->GetOutput(), "UsedDepth"), depth);
+    depth = static_cast<int>(FieldValue(filter->GetOutput(), "UsedDepth"));
+    auto* table = vtkTable::SafeDownCast(filter->GetOutputDataObject(1));
+    for (const double error :
+      Values(vtkDataArray::SafeDownCast(table->GetColumnByName("EstimatedError"))))
+    {
+      EXPECT_LE(error, accuracy);
+    }
+  }
+  EXPECT_LE(depth, 6);
+  // Another time step computes nothing, though the depth was found by trying.
+  const vtkIdType runs = filter->GetNumberOfRuns(Spectrum::SolveStage);
+  this->ModeAt(5);
+  EXPECT_EQ(filter->GetNumberOfRuns(Spectrum::SolveStage), runs);
+  EXPECT_TRUE(messages.warnings.empty());
+}
+
+TEST_F(LaplaceSpectrum, AnAccuracyOutOfReachIsReported)
+{
+  vtkNew<vtkConnectivityAwareBasis> basis;
+  basis->SetInputData(filter->GetInput());
+  basis->SetDepth(4);
+  filter->SetBasisConnection(basis->GetOutputPort());
+  filter->AccuracyDrivenOn();
+  filter->SetAccuracy(1e-5);
+  EXPECT_EQ(this->Eigenvalues().size(), 9u);
+  ASSERT_EQ(messages.warnings.size(), 1u);
+  EXPECT_NE(messages.warnings[0].find("not reached"), std::string::npos);
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 0);
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "UsedDepth"), 4);
 }
 
 TEST_F(LaplaceSpectrum, TwoComponentsHaveTwoZeros)

@@ -1,4 +1,4 @@
-"""Whether a state saved by the program holds the four filters, and they give results."""
+"""Whether a state saved by the program holds all filters, and they give results."""
 import os
 import sys
 

@@ -1,0 +1,133 @@
+#include "ModeReader.h"
+
+#include "Errors.h"
+
+#include "vtkDataArray.h"
+#include "vtkDataSet.h"
+#include "vtkFieldData.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkStaticPointLocator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace gridfem
+{
+namespace
+{
+
+constexpr const char* EigenvaluesName = "Eigenvalues";
+
+vtkDataArray* Eigenvalues(vtkPolyData* input)
+{
+  return input->GetFieldData()->GetArray(EigenvaluesName);
+}
+
+void ReadMode(vtkPolyData* input, int mode, const std::vector<char>& used, MultiVector& values)
+{
+  const std::string name = ModeName(mode);
+  vtkDataArray* array = input->GetPointData()->GetArray(name.c_str());
+  if (!array || array->GetNumberOfComponents() != 1 ||
+      array->GetNumberOfTuples() != input->GetNumberOfPoints())
+  {
+    throw InvalidInput("The field array 'Eigenvalues' lists " + std::to_string(values.cols()) +
+                       " modes, but the point array '" + name + "' is missing or does not fit.");
+  }
+  for (Id point = 0; point < values.rows(); ++point)
+  {
+    const double value = array->GetComponent(point, 0);
+    if (used[point] && !std::isfinite(value))
+    {
+      throw InvalidInput(
+        "Array '" + name + "' has a NaN or infinite value at point " + std::to_string(point) + ".");
+    }
+    values(point, mode) = used[point] ? value : 0.0;
+  }
+}
+
+} // namespace
+
+std::string ModeName(int mode)
+{
+  std::ostringstream name;
+  name << "Mode" << std::setfill('0') << std::setw(3) << mode;
+  return name.str();
+}
+
+bool CarriesModes(vtkPolyData* input)
+{
+  return Eigenvalues(input) && input->GetPointData()->HasArray(ModeName(0).c_str());
+}
+
+void AddModeArrays(StageKey& key, vtkPolyData* input)
+{
+  key.Add(Eigenvalues(input));
+  for (int mode = 0; mode < Eigenvalues(input)->GetNumberOfTuples(); ++mode)
+  {
+    key.Add(input->GetPointData()->GetAbstractArray(ModeName(mode).c_str()));
+  }
+}
+
+PointModes ReadModes(vtkPolyData* input, const InputMesh& mesh)
+{
+  vtkDataArray* eigenvalues = Eigenvalues(input);
+  PointModes modes;
+  modes.area = SurfaceArea(*mesh.triangles);
+  const int count = static_cast<int>(eigenvalues->GetNumberOfTuples());
+  modes.values.resize(static_cast<Id>(mesh.triangles->points.size()), count);
+  const std::vector<char> used = UsedPoints(*mesh.triangles);
+  for (int mode = 0; mode < count; ++mode)
+  {
+    modes.eigenvalues.push_back(eigenvalues->GetComponent(mode, 0));
+    ReadMode(input, mode, used, modes.values);
+  }
+  return modes;
+}
+
+std::vector<Id> SourcePoints(
+  const TriangleMesh& mesh, const std::vector<Id>& ids, vtkDataSet* places)
+{
+  const std::vector<char> used = UsedPoints(mesh);
+  for (const Id id : ids)
+  {
+    if (id < 0 || id >= static_cast<Id>(used.size()) || !used[id])
+    {
+      throw InvalidInput(
+        "SourcePointIds: " + std::to_string(id) + " is not a point of a polygon of the mesh.");
+    }
+  }
+  std::vector<Id> sources = ids;
+  if (places && places->GetNumberOfPoints() > 0)
+  {
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    std::vector<Id> idOf;
+    for (Id point = 0; point < static_cast<Id>(used.size()); ++point)
+    {
+      if (used[point])
+      {
+        points->InsertNextPoint(mesh.points[point].data());
+        idOf.push_back(point);
+      }
+    }
+    vtkNew<vtkPolyData> candidates;
+    candidates->SetPoints(points);
+    vtkNew<vtkStaticPointLocator> locator;
+    locator->SetDataSet(candidates);
+    locator->BuildLocator();
+    for (vtkIdType k = 0; k < places->GetNumberOfPoints(); ++k)
+    {
+      sources.push_back(idOf[locator->FindClosestPoint(places->GetPoint(k))]);
+    }
+  }
+  std::sort(sources.begin(), sources.end());
+  sources.erase(std::unique(sources.begin(), sources.end()), sources.end());
+  return sources;
+}
+
+} // namespace gridfem

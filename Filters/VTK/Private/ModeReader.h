@@ -1,0 +1,41 @@
+// The modes that Laplace Spectrum has put on a mesh, and the points that distances start from.
+#ifndef GridFEM_ModeReader_h
+#define GridFEM_ModeReader_h
+
+#include "InputMesh.h"
+#include "StageCache.h"
+
+#include "ModeSums.h"
+
+#include <string>
+#include <vector>
+
+class vtkDataSet;
+class vtkPolyData;
+
+namespace gridfem
+{
+
+/// Mode000, Mode001, ...
+std::string ModeName(int mode);
+
+/// Whether the mesh has the field array Eigenvalues and the point array Mode000.
+bool CarriesModes(vtkPolyData* input);
+
+/// Adds the arrays of the modes.
+void AddModeArrays(StageKey& key, vtkPolyData* input);
+
+/// The modes on a mesh that carries them; 0 at points that no polygon uses. Throws InvalidInput
+/// naming an array that is missing or does not fit, or the first point with a NaN or infinite
+/// value.
+PointModes ReadModes(vtkPolyData* input, const InputMesh& mesh);
+
+/// The given point ids, and the points of the mesh nearest to those of `places` (may be null);
+/// ascending, every point once. Points that no polygon uses do not count. Throws InvalidInput
+/// naming an id that is no point of a polygon.
+std::vector<Id> SourcePoints(
+  const TriangleMesh& mesh, const std::vector<Id>& ids, vtkDataSet* places);
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,134 @@
+#include "SurfaceSpectrum.h"
+
+#include "ClippedArrays.h"
+#include "InputValidation.h"
+#include "vtkSurfaceFEMAlgorithm.h"
+
+#include "Evaluation.h"
+#include "MemoryEstimate.h"
+#include "SpectrumAccuracy.h"
+
+#include "vtkPolyData.h"
+
+#include <algorithm>
+
+namespace gridfem
+{
+namespace
+{
+
+double Largest(const std::vector<double>& values)
+{
+  return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
+}
+
+bool FitsMemory(const TriangleMesh& mesh, int depth)
+{
+  const double available = AvailableMemory();
+  return available <= 0.0 || EstimateMemory(mesh, depth).bytes <= available;
+}
+
+} // namespace
+
+double SurfaceSpectrum::LargestResidual() const
+{
+  return Largest(spectrum.residuals);
+}
+
+double SurfaceSpectrum::LargestEstimatedError() const
+{
+  return Largest(spectrum.estimatedErrors);
+}
+
+void SurfaceSpectrum::Solve(
+  SurfaceSolverState& state, const SpectrumRequest& request, const Progress& progress)
+{
+  StageKey key;
+  key.Add(state.stages.Version(vtkSurfaceFEMAlgorithm::SystemStage)).Add(request.numberOfModes);
+  key.Add(request.completeMultiplets).Add(state.options.solve.tolerance);
+  key.Add(state.options.solve.maximumIterations).Add(state.options.multigrid.threads);
+  key.Add(static_cast<int>(state.options.multigrid.cycle));
+  key.Add(static_cast<int>(state.options.multigrid.smoother));
+  const auto solve = [&]
+  {
+    RequireMemoryForModes(state.Space().Finest().numberOfFunctions, request.numberOfModes);
+    SpectrumOptions options;
+    options.numberOfModes = request.numberOfModes;
+    options.completeMultiplets = request.completeMultiplets;
+    options.tolerance = state.options.solve.tolerance;
+    options.maximumIterations = state.options.solve.maximumIterations;
+    options.multigrid = state.options.multigrid;
+    spectrum = ComputeSpectrum(state.Space(), *state.system, options, progress);
+    const double spacing = state.Space().GetGrid().spacing;
+    eigenvalues = spectrum.eigenvalues;
+    for (double& eigenvalue : eigenvalues)
+    {
+      eigenvalue /= spacing * spacing;
+    }
+  };
+  state.stages.Run(vtkSurfaceFEMAlgorithm::SolveStage, key, solve);
+}
+
+/// The depth that was found last time for the same mesh and wishes, else a first guess.
+void SurfaceSpectrum::ChooseDepth(
+  SurfaceSolverState& state, vtkPolyData* input, const SpectrumRequest& request)
+{
+  StageKey asked;
+  AddMesh(asked, input);
+  asked.Add(request.numberOfModes).Add(request.accuracy);
+  asked.Add(state.options.space.connectivityAware).Add(state.options.space.weldCoincidentPoints);
+  if (!(asked == asked_))
+  {
+    asked_ = asked;
+    const InputMesh mesh = ReadInputMesh(input);
+    RequireSurface(*mesh.triangles);
+    depth = FirstDepthForAccuracy(
+      EstimateMemory(*mesh.triangles, 5).functions, request.numberOfModes, request.accuracy);
+    while (depth > MinimumDepth && !FitsMemory(*mesh.triangles, depth))
+    {
+      --depth;
+    }
+  }
+  state.options.space.depth = depth;
+}
+
+void SurfaceSpectrum::Update(SurfaceSolverState& state, vtkPolyData* input, vtkPolyData* basisData,
+  const SpectrumRequest& request)
+{
+  const Progress all = state.bridge.GetProgress();
+  const bool choose = request.accuracy > 0.0 && !basisData && !CarriesBasis(input);
+  if (choose)
+  {
+    this->ChooseDepth(state, input, request);
+  }
+  double done = 0.0;
+  while (true)
+  {
+    const Progress progress = all.Part(done, choose ? 0.5 + 0.45 * done : 0.95);
+    state.UpdateSpace(input, basisData, progress.Part(0.0, 0.3));
+    progress.Check(0.3);
+    state.UpdateSystem(progress.Part(0.3, 0.5));
+    progress.Check(0.5);
+    this->Solve(state, request, progress.Part(0.5, 1.0));
+    depth = state.Space().GetGrid().depth;
+    const int next =
+      choose ? DepthForAccuracy(spectrum.estimatedErrors, depth, request.accuracy) : depth;
+    if (next == depth || !FitsMemory(*state.mesh.triangles, next))
+    {
+      return;
+    }
+    done = 0.5 + 0.45 * done;
+    state.options.space.depth = next;
+  }
+}
+
+MultiVector EvaluateModes(
+  const SurfaceSolverState& state, const Spectrum& spectrum, Id first, Id count, int threads)
+{
+  // The integral over grid units is spacing² times smaller than the one over world units.
+  const MultiVector coefficients =
+    spectrum.vectors.middleCols(first, count) / state.Space().GetGrid().spacing;
+  return EvaluateAtPoints(state.Space(), coefficients, threads);
+}
+
+} // namespace gridfem

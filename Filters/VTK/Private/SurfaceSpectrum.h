@@ -1,0 +1,57 @@
+// The spectrum of a filter's surface, with its stages: at the filter's depth, or at the depth that
+// a wanted accuracy needs.
+#ifndef GridFEM_SurfaceSpectrum_h
+#define GridFEM_SurfaceSpectrum_h
+
+#include "StageCache.h"
+#include "SurfaceSolverState.h"
+
+#include "Spectrum.h"
+
+#include <vector>
+
+namespace gridfem
+{
+
+struct SpectrumRequest
+{
+  int numberOfModes = 20;
+  bool completeMultiplets = false;
+  /// Wanted relative accuracy of the eigenvalues, which chooses the depth; 0 keeps the depth.
+  double accuracy = 0.0;
+};
+
+class SurfaceSpectrum
+{
+public:
+  /// Brings space, system and spectrum up to date. With a wanted accuracy the depth is raised until
+  /// the estimated errors are small enough, or the next one does not fit into memory; a basis that
+  /// is given has its depth. Throws InvalidInput and Aborted.
+  void Update(SurfaceSolverState& state, vtkPolyData* input, vtkPolyData* basisData,
+    const SpectrumRequest& request);
+
+  int NumberOfModes() const { return static_cast<int>(eigenvalues.size()); }
+
+  /// Of all modes: the largest residual and the largest estimated error.
+  double LargestResidual() const;
+  double LargestEstimatedError() const;
+
+  Spectrum spectrum;               // grid units
+  std::vector<double> eigenvalues; // world units
+  int depth = 0;                   // at which it was computed
+
+private:
+  void Solve(SurfaceSolverState& state, const SpectrumRequest& request, const Progress& progress);
+  void ChooseDepth(SurfaceSolverState& state, vtkPolyData* input, const SpectrumRequest& request);
+
+  StageKey asked_; // what `depth` was chosen for
+};
+
+/// The modes `first` and following, `count` of them, at the input's points, world units: a column
+/// per mode.
+MultiVector EvaluateModes(
+  const SurfaceSolverState& state, const Spectrum& spectrum, Id first, Id count, int threads);
+
+} // namespace gridfem
+
+#endif

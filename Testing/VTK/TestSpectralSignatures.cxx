@@ -1,0 +1,248 @@
+// Spectral Signatures: on a sphere against exact series, on modes from Laplace Spectrum, and what
+// is refused.
+
+#include "FilterSupport.h"
+
+#include "TriangleMesh.h"
+
+#include "vtkLaplaceSpectrum.h"
+#include "vtkSpectralSignatures.h"
+
+#include "vtkTable.h"
+
+#include <gtest/gtest.h>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+using Signatures = vtkSpectralSignatures;
+
+class SpectralSignaturesFilter : public ::testing::Test
+{
+protected:
+  SpectralSignaturesFilter() : messages(filter)
+  {
+    filter->SetDepth(5);
+    filter->SetNumberOfModes(25);
+    filter->SetNumberOfScales(4);
+    filter->SetInputData(ToPolyData(sphere));
+  }
+
+  std::vector<double> Run(const char* name)
+  {
+    filter->Update();
+    return PointValues(filter->GetOutput(), name);
+  }
+
+  /// A mesh that carries its modes.
+  vtkSmartPointer<vtkPolyData> WithModes(int numberOfModes)
+  {
+    vtkNew<vtkLaplaceSpectrum> spectrum;
+    spectrum->SetInputData(ToPolyData(sphere));
+    spectrum->SetDepth(5);
+    spectrum->SetNumberOfModes(numberOfModes);
+    spectrum->AllModesOn();
+    spectrum->Update();
+    return spectrum->GetOutput();
+  }
+
+  const TriangleMesh sphere = GeodesicSphere(16);
+  vtkNew<Signatures> filter;
+  Messages messages;
+};
+
+TEST_F(SpectralSignaturesFilter, TheHeatKernelOfASphereIsItsSeriesEverywhere)
+{
+  const auto signature = this->Run("HeatKernelSignature");
+  const auto times = Values(filter->GetOutput()->GetFieldData()->GetArray("HeatTimes"));
+  ASSERT_EQ(times.size(), 4u);
+  ASSERT_EQ(signature.size(), 4 * sphere.points.size());
+  for (std::size_t k = 0; k < signature.size(); ++k)
+  {
+    double series = 0.0;
+    for (int l = 0; l < 5; ++l)
+    {
+      series += (2 * l + 1) * std::exp(-l * (l + 1) * times[k % 4]);
+    }
+    // 1,000 flat triangles and cells of 1/16 of the radius: 2 % for the fourth degree.
+    EXPECT_NEAR(signature[k], series, 0.02 * series);
+  }
+  const auto wave = this->Run("WaveKernelSignature");
+  for (const double value : wave)
+  {
+    EXPECT_NEAR(value, 1.0, 0.02);
+  }
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 1);
+  EXPECT_TRUE(messages.warnings.empty());
+}
+
+TEST_F(SpectralSignaturesFilter, ModesOfTheInputAreTaken)
+{
+  const auto own = this->Run("HeatKernelSignature");
+  filter->SetInputData(this->WithModes(25));
+  const vtkIdType runs = filter->GetNumberOfRuns(Signatures::SolveStage);
+  filter->SetNumberOfModes(7); // not used
+  EXPECT_LT(Difference(this->Run("HeatKernelSignature"), own), 1e-6);
+  EXPECT_EQ(filter->GetNumberOfRuns(Signatures::SolveStage), runs);
+}
+
+TEST_F(SpectralSignaturesFilter, AModeThatIsMissingIsNamed)
+{
+  auto data = this->WithModes(25);
+  data->GetPointData()->RemoveArray("Mode017");
+  filter->SetInputData(data);
+  EXPECT_EQ(filter->GetExecutive()->Update(), 0);
+  ASSERT_EQ(messages.errors.size(), 1u);
+  EXPECT_NE(messages.errors[0].find("Mode017"), std::string::npos);
+  EXPECT_TRUE(IsEmptyData(filter->GetOutput()));
+}
+
+TEST_F(SpectralSignaturesFilter, TheLastMultipletIsCompleted)
+{
+  filter->SetNumberOfModes(11);
+  filter->Update();
+  auto* table = vtkTable::SafeDownCast(filter->GetOutputDataObject(1));
+  EXPECT_EQ(table->GetNumberOfRows(), 16);
+}
+
+TEST_F(SpectralSignaturesFilter, ShapeDNADoesNotDependOnSizeAndPlace)
+{
+  const auto fingerprint = [&](const TriangleMesh& mesh)
+  {
+    filter->SetInputData(ToPolyData(mesh));
+    filter->Update();
+    auto* table = vtkTable::SafeDownCast(filter->GetOutputDataObject(1));
+    return Values(vtkDataArray::SafeDownCast(table->GetColumnByName("ShapeDNA")));
+  };
+  const auto plain = fingerprint(sphere);
+  const double area = SurfaceArea(sphere);
+  for (int k = 1; k < 4; ++k)
+  {
+    EXPECT_NEAR(plain[k], 2 * area, 0.01 * 2 * area); // 1 % for the first degree
+  }
+  const auto scaled = fingerprint(Transform(sphere, { 0, 0, 1 }, 0.0, 8.0, { 3, 0, 0 }));
+  // Turned, the surface lies in the grid in another way: an eigenvalue changes by its error.
+  const auto turned = fingerprint(Transform(sphere, { 1, 2, 3 }, 0.5));
+  for (std::size_t k = 1; k < plain.size(); ++k)
+  {
+    EXPECT_NEAR(scaled[k] / plain[k], 1.0, 1e-7);
+    EXPECT_NEAR(turned[k] / plain[k], 1.0, 0.01);
+  }
+}
+
+TEST_F(SpectralSignaturesFilter, DistancesStartAtTheSources)
+{
+  EXPECT_TRUE(this->Run("BiharmonicDistance").empty()); // no source, no distance
+  filter->AddSourcePointId(7);
+  const auto one = this->Run("BiharmonicDistance");
+  EXPECT_EQ(one[7], 0.0);
+  EXPECT_EQ(this->Run("DiffusionDistance")[7], 0.0);
+  // The farthest point is the antipode: d² = Σ (2l + 1) / 4π 2 / (l (l + 1))² over odd l.
+  const double exact = std::sqrt((3.0 / 4 + 7.0 / 144) * 4 / (4 * 3.14159265358979));
+  EXPECT_NEAR(*std::max_element(one.begin(), one.end()), exact, 0.02 * exact);
+  filter->ClearSourcePointIds();
+  filter->AddSourcePointId(50);
+  EXPECT_EQ(this->Run("BiharmonicDistance")[7], one[50]); // symmetric
+}
+
+TEST_F(SpectralSignaturesFilter, SourcesAreThePointsNearestToThoseOfTheThirdInput)
+{
+  filter->AddSourcePointId(7);
+  const auto expected = this->Run("BiharmonicDistance");
+  filter->ClearSourcePointIds();
+  vtkNew<vtkPolyData> place;
+  vtkNew<vtkPoints> points;
+  const Vec3 near = 1.1 * sphere.points[7];
+  points->InsertNextPoint(near.data());
+  place->SetPoints(points);
+  filter->SetInputDataObject(2, place);
+  EXPECT_EQ(this->Run("BiharmonicDistance"), expected);
+}
+
+TEST_F(SpectralSignaturesFilter, ASourceThatIsNoPointIsRefused)
+{
+  filter->AddSourcePointId(vtkIdType(sphere.points.size()));
+  EXPECT_EQ(filter->GetExecutive()->Update(), 0);
+  ASSERT_EQ(messages.errors.size(), 1u);
+  EXPECT_NE(messages.errors[0].find("SourcePointIds"), std::string::npos);
+}
+
+TEST_F(SpectralSignaturesFilter, AModeInsideTheBandPassesUnchanged)
+{
+  auto data = this->WithModes(25);
+  filter->SetInputData(data);
+  filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Mode007");
+  const auto mode = PointValues(data, "Mode007");
+  const std::vector<double> nothing(mode.size(), 0.0);
+  const auto expect = [&](int type, int first, int last, const std::vector<double>& expected)
+  {
+    filter->SetFilterType(type);
+    filter->SetFirstMode(first);
+    filter->SetLastMode(last);
+    EXPECT_LT(Difference(this->Run("Filtered"), expected), 1e-6) << type << " " << first;
+  };
+  expect(Signatures::LowPass, 0, 7, mode);
+  expect(Signatures::LowPass, 0, 6, nothing);
+  expect(Signatures::HighPass, 7, 0, mode);
+  expect(Signatures::HighPass, 8, 0, nothing);
+  expect(Signatures::BandPass, 5, 10, mode);
+  expect(Signatures::BandPass, 8, 1000, nothing);
+}
+
+TEST_F(SpectralSignaturesFilter, TheShapeItselfIsFiltered)
+{
+  // The coordinates of a sphere are modes of degree 1: a low pass at 3 leaves it as it is, to the
+  // error of the grid and of the facets. The mean alone moves all points into the centre.
+  filter->SetFilterType(Signatures::LowPass);
+  filter->SetLastMode(3);
+  filter->MovePointsOn();
+  filter->Update();
+  double largest = 0.0;
+  for (std::size_t k = 0; k < sphere.points.size(); ++k)
+  {
+    const Vec3 moved(filter->GetOutput()->GetPoint(k));
+    largest = std::max(largest, (moved - sphere.points[k]).norm());
+  }
+  EXPECT_LT(largest, 0.02);
+  EXPECT_GT(largest, 0.0);
+  filter->SetLastMode(0);
+  filter->Update();
+  EXPECT_LT(Vec3(filter->GetOutput()->GetPoint(9)).norm(), 1e-6);
+  filter->MovePointsOff();
+  filter->Update();
+  EXPECT_EQ(Vec3(filter->GetOutput()->GetPoint(9)), sphere.points[9]);
+}
+
+TEST_F(SpectralSignaturesFilter, OnlyWhatDependsOnAChangeIsComputedAgain)
+{
+  filter->Update();
+  filter->AddSourcePointId(3);
+  filter->SetFilterType(Signatures::BandPass);
+  filter->SetNumberOfScales(9);
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfRuns(Signatures::SolveStage), 1);
+  EXPECT_EQ(
+    filter->GetOutput()->GetPointData()->GetArray("WaveKernelSignature")->GetNumberOfComponents(),
+    9);
+}
+
+TEST_F(SpectralSignaturesFilter, ACellArrayIsNotFiltered)
+{
+  auto data = ToPolyData(sphere);
+  vtkNew<vtkDoubleArray> cells;
+  cells->SetName("c");
+  cells->SetNumberOfTuples(data->GetNumberOfCells());
+  cells->Fill(1.0);
+  data->GetCellData()->AddArray(cells);
+  filter->SetInputData(data);
+  filter->SetFilterType(Signatures::LowPass);
+  filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "c");
+  EXPECT_EQ(filter->GetExecutive()->Update(), 0);
+  ASSERT_EQ(messages.errors.size(), 1u);
+  EXPECT_NE(messages.errors[0].find("point array"), std::string::npos);
+}
+
+} // namespace
