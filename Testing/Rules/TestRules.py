@@ -20,7 +20,7 @@ SOURCE_SUFFIXES = (".h", ".cxx")
 # solvers, which see matrices and lists of unknowns only, cannot reach a mesh.
 CORE_LAYERS = {
     "foundation": "Types Errors Progress Parallel UnionFind RadixSort Grouping",
-    "algebra": "SparseMatrix RowKernels PairedProduct PivotedCholesky BlockSweep Smoother"
+    "algebra": "SparseMatrix RowKernels ColumnAlgebra PairedProduct PivotedCholesky BlockSweep Smoother"
                " GaussSeidel PatchSmoother CoarseSolver Multigrid ConjugateGradients RayleighRitz"
                " Constants BlockIteration WindowIteration",
     "grid and clip": "TriangleMesh MeshEdges Grid SourceTriangle TriangleClipper Clip Links"
