@@ -53,42 +53,6 @@ void CheckMesh(const FunctionSpace& space, const TriangleMesh& mesh)
   }
 }
 
-void CheckField(const Field& field, const TriangleMesh& mesh)
-{
-  const bool onPoints = field.association == FieldAssociation::Points;
-  const std::size_t rows = onPoints ? mesh.points.size() : mesh.triangles.size();
-  if (static_cast<std::size_t>(field.values.rows()) != rows)
-  {
-    throw InvalidInput("The field has " + std::to_string(field.values.rows()) +
-                       " rows; the mesh has " + std::to_string(rows) +
-                       (onPoints ? " points." : " triangles."));
-  }
-}
-
-void CheckVectors(const Field& field, const TriangleMesh& mesh)
-{
-  CheckField(field, mesh);
-  if (field.values.cols() % 3 != 0)
-  {
-    throw InvalidInput("The vector field has " + std::to_string(field.values.cols()) +
-                       " columns; vectors need a multiple of 3.");
-  }
-}
-
-void CheckScale(const Field* scale, const TriangleMesh& mesh)
-{
-  if (!scale)
-  {
-    return;
-  }
-  CheckField(*scale, mesh);
-  if (scale->values.cols() != 1)
-  {
-    throw InvalidInput(
-      "The gradient scale has " + std::to_string(scale->values.cols()) + " columns instead of 1.");
-  }
-}
-
 /// A pass over the pieces for some of the columns: function and column of a patch's share.
 struct Share
 {
@@ -236,7 +200,7 @@ MultiVector IntegrateValues(const FunctionSpace& space, const TriangleMesh& mesh
   const QuadratureRule& rule, int threads, const Progress& progress)
 {
   CheckMesh(space, mesh);
-  CheckField(f, mesh);
+  RequireField(f, mesh);
   return IntegratePieces(space, f.values.cols(), threads, progress,
     [&](Id piece, const Vec3& origin, const Share& share)
     {
@@ -261,8 +225,8 @@ MultiVector IntegrateGradients(const FunctionSpace& space, const TriangleMesh& m
   const Field* scale, const QuadratureRule& rule, int threads, const Progress& progress)
 {
   CheckMesh(space, mesh);
-  CheckVectors(s, mesh);
-  CheckScale(scale, mesh);
+  RequireVectors(s, mesh);
+  RequireScale(scale, mesh);
   return IntegratePieces(space, s.values.cols() / 3, threads, progress,
     [&](Id piece, const Vec3& origin, const Share& share)
     {
@@ -292,12 +256,8 @@ MultiVector IntegrateGradientsOf(const FunctionSpace& space, const TriangleMesh&
   const Progress& progress)
 {
   CheckMesh(space, mesh);
-  CheckField(f, mesh);
-  CheckScale(scale, mesh);
-  if (f.association != FieldAssociation::Points)
-  {
-    throw InvalidInput("A field that is constant on triangles has no gradient; give it on points.");
-  }
+  RequireOnPoints(f, mesh);
+  RequireScale(scale, mesh);
   return IntegratePieces(space, f.values.cols(), threads, progress,
     [&](Id piece, const Vec3& origin, const Share& share)
     {

@@ -2,33 +2,12 @@
 #ifndef GridFEM_LoadVector_h
 #define GridFEM_LoadVector_h
 
+#include "Field.h"
 #include "FunctionSpace.h"
 #include "QuadratureRule.h"
 
 namespace gridfem
 {
-
-/// Where the rows of a field live.
-enum class FieldAssociation
-{
-  Points,   // one row per input point, linear along each source triangle
-  Triangles // one row per source triangle, constant on it
-};
-
-struct Field
-{
-  FieldAssociation association = FieldAssociation::Points;
-  MultiVector values; // rows: points or triangles; columns: components
-
-  /// Rows of `values` at the corners of a source triangle.
-  /// (All three are the triangle's own row for FieldAssociation::Triangles.)
-  std::array<Id, 3> RowsOf(Id triangle, const std::array<Id, 3>& points) const
-  {
-    return association == FieldAssociation::Points
-             ? points
-             : std::array<Id, 3>{ triangle, triangle, triangle };
-  }
-};
 
 /// All integrals throw InvalidInput when the rows or columns of a field do not fit the mesh.
 /// f_i = ∫ f b_i in grid units (field unit x cell sides squared): rows = functions of the finest

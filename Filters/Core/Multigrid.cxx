@@ -1,6 +1,7 @@
 #include "Multigrid.h"
 
 #include "Errors.h"
+#include "SmootherSequence.h"
 
 #include <string>
 
@@ -86,11 +87,25 @@ void Multigrid::BuildSolvers()
   {
     MultigridLevel& level = levels_[l];
     level.smoother.reset(); // its memory is free before the new one is built
-    level.smoother = this->SmoothingOf(l).smoother == SmootherType::Patch
-                       ? MakePatchSmoother(level.A, level.order, options_.threads)
-                       : MakeGaussSeidel(level.A, level.order);
+    level.smoother = this->MakeSmoother(l);
   }
   coarse_ = CoarseSolver(levels_.back().A, options_.threads);
+}
+
+std::unique_ptr<Smoother> Multigrid::MakeSmoother(std::size_t l) const
+{
+  const MultigridLevel& level = levels_[l];
+  std::unique_ptr<Smoother> smoother = this->SmoothingOf(l).smoother == SmootherType::Patch
+                                         ? MakePatchSmoother(level.A, level.order, options_.threads)
+                                         : MakeGaussSeidel(level.A, level.order);
+  if (level.groups.dof.empty())
+  {
+    return smoother;
+  }
+  std::vector<std::unique_ptr<Smoother>> sequence;
+  sequence.push_back(std::move(smoother));
+  sequence.push_back(MakePatchSmoother(level.A, level.groups, options_.threads));
+  return MakeSmootherSequence(std::move(sequence));
 }
 
 LevelSmoothing Multigrid::SmoothingOf(std::size_t level) const
@@ -118,29 +133,7 @@ void Multigrid::PreconditionFrom(std::size_t level, const MultiVector& b, MultiV
   this->Start(level, b, x, true);
 }
 
-void Multigrid::NestedIteration(const MultiVector& b, MultiVector& x) const
-{
-  this->CheckRows(0, b);
-  std::vector<MultiVector> load(levels_.size());
-  for (std::size_t l = 1; l < levels_.size(); ++l)
-  {
-    Multiply(levels_[l - 1].restriction, l == 1 ? b : load[l - 1], load[l], options_.threads);
-  }
-  std::vector<Scratch> scratch(levels_.size());
-  coarse_.Solve(levels_.size() == 1 ? b : load.back(), x, options_.threads);
-  for (std::size_t l = levels_.size() - 1; l > 0; --l)
-  {
-    if (l + 1 < levels_.size())
-    {
-      this->CycleLevel(l, load[l], x, false, scratch);
-    }
-    MultiVector finer;
-    Multiply(levels_[l - 1].prolongation, x, finer, options_.threads);
-    x.swap(finer);
-  }
-}
-
-void Multigrid::CheckRows(std::size_t level, const MultiVector& b) const
+void Multigrid::Start(std::size_t level, const MultiVector& b, MultiVector& x, bool zeroStart) const
 {
   const Index unknowns = levels_.at(level).A.rows;
   if (b.rows() != unknowns)
@@ -148,11 +141,6 @@ void Multigrid::CheckRows(std::size_t level, const MultiVector& b) const
     throw InvalidInput("a right-hand side of " + std::to_string(b.rows()) +
                        " rows does not fit a system of " + std::to_string(unknowns) + " unknowns");
   }
-}
-
-void Multigrid::Start(std::size_t level, const MultiVector& b, MultiVector& x, bool zeroStart) const
-{
-  this->CheckRows(level, b);
   std::vector<Scratch> scratch(levels_.size());
   this->CycleLevel(level, b, x, zeroStart, scratch);
 }

@@ -50,6 +50,7 @@ struct MultigridLevel
   SparseMatrix prolongation; // from the next coarser level to this one; empty on the coarsest
   SparseMatrix restriction;  // its transpose
   PatchOrder order;
+  PatchOrder groups; // strongly coupled unknowns, relaxed together after a sweep over all; or empty
   std::optional<LevelSmoothing> smoothing; // in place of the options of the hierarchy
   std::unique_ptr<Smoother> smoother;      // none on the coarsest
 };
@@ -74,12 +75,7 @@ public:
   /// One cycle from zero: x = B b, B symmetric when both sweep counts are equal.
   void Precondition(const MultiVector& b, MultiVector& x) const;
 
-  /// A start for the iteration [T §3.3]: solves the coarsest system, takes the solution up and
-  /// improves it by one cycle on every level but the finest. x = C b with C symmetric positive
-  /// semi-definite where B is. Cost: a third of a W cycle. x must not be b.
-  void NestedIteration(const MultiVector& b, MultiVector& x) const;
-
-  /// The same as Precondition on the hierarchy that begins at `level`.
+  /// The same on the hierarchy that begins at `level`.
   void PreconditionFrom(std::size_t level, const MultiVector& b, MultiVector& x) const;
 
   const SparseMatrix& Matrix() const { return levels_.front().A; }
@@ -89,6 +85,7 @@ public:
 
 private:
   void BuildSolvers();
+  std::unique_ptr<Smoother> MakeSmoother(std::size_t level) const;
   LevelSmoothing SmoothingOf(std::size_t level) const;
   /// Vectors of one level during one call.
   struct Scratch
@@ -98,7 +95,6 @@ private:
     MultiVector coarseX;
   };
 
-  void CheckRows(std::size_t level, const MultiVector& b) const;
   void Start(std::size_t level, const MultiVector& b, MultiVector& x, bool zeroStart) const;
   void CycleLevel(std::size_t level, const MultiVector& b, MultiVector& x, bool zeroStart,
     std::vector<Scratch>& scratch) const;

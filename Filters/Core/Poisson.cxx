@@ -142,21 +142,6 @@ void DropRounding(const Eigen::RowVectorXd& size, MultiVector& rest)
   }
 }
 
-/// Starts columns that hold NaN from zero.
-MultiVector NestedStart(const Multigrid& multigrid, const MultiVector& load)
-{
-  MultiVector start;
-  multigrid.NestedIteration(load, start);
-  for (Id c = 0; c < start.cols(); ++c)
-  {
-    if (!start.col(c).allFinite())
-    {
-      start.col(c).setZero();
-    }
-  }
-  return start;
-}
-
 } // namespace
 
 PoissonSolution SolvePoisson(const ComponentFunctions& functions, const Multigrid& multigrid,
@@ -197,8 +182,7 @@ PoissonSolution SolvePoisson(const ComponentFunctions& functions, const Multigri
   DropRounding(size, rest);
 
   PoissonSolution solution;
-  solution.coefficients = NestedStart(multigrid, rest);
-  removeMeans(solution.coefficients);
+  solution.coefficients = MultiVector::Zero(values.rows(), values.cols());
   solution.report = SolveConjugateGradients(
     multigrid, rest, solution.coefficients, options.solve, { removeMeans, removeSums }, progress);
   means.AddConstants(meanOfField, solution.coefficients);

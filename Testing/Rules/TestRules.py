@@ -20,15 +20,15 @@ SOURCE_SUFFIXES = (".h", ".cxx")
 # solvers, which see matrices and lists of unknowns only, cannot reach a mesh.
 CORE_LAYERS = {
     "foundation": "Types Errors Progress Parallel UnionFind RadixSort Grouping",
-    "algebra": "SparseMatrix RowKernels ColumnAlgebra PairedProduct PivotedCholesky BlockSweep Smoother"
+    "algebra": "SparseMatrix RowKernels PairedProduct PivotedCholesky BlockSweep Smoother"
                " GaussSeidel PatchSmoother CoarseSolver Multigrid ConjugateGradients RayleighRitz"
-               " Constants BlockIteration WindowIteration",
-    "grid and clip": "TriangleMesh MeshEdges Grid SourceTriangle TriangleClipper Clip Links"
-                     " MemoryEstimate",
+               " Constants BlockIteration WindowIteration SmootherSequence HatOrdering",
+    "grid and clip": "TriangleMesh Field MeshEdges Grid SourceTriangle TriangleClipper Clip Links"
+                     " MemoryEstimate HatFunctions HatMatrices HatLoad",
     "patches and levels": "Level Patches FunctionSpace PatchOrdering",
     "integrals": "QuadratureRule TrilinearBasis PieceSamples PatchMoments ElementMatrices LoadVector Evaluation"
-                 " Assembly",
-    "hierarchy": "System",
+                 " Assembly HatTransfer",
+    "hierarchy": "System HatMultigrid",
     "problems": "Poisson SpectrumAccuracy Spectrum ModeSums",
 }
 

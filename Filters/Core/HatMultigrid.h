@@ -1,0 +1,46 @@
+// The hybrid hierarchy: hat functions of the mesh above the levels of a grid. [T §4.2, Hat-Basis
+// Incorporation]
+#ifndef GridFEM_HatMultigrid_h
+#define GridFEM_HatMultigrid_h
+
+#include "HatMatrices.h"
+#include "HatTransfer.h"
+#include "System.h"
+
+namespace gridfem
+{
+
+struct HatMultigridOptions
+{
+  MultigridOptions grid; // of the levels below the hats
+  LevelSmoothing hats;   // two sweeps before and after
+  bool relaxGroups =
+    true; // strongly coupled hats together after each sweep (before, on the way back)
+};
+
+/// What the hybrid hierarchy of one mesh and one grid keeps for any a M + b L.
+struct HatHierarchy
+{
+  HatFunctions functions; // in grid units
+  HatMatrices matrices;
+  PatchOrder order;          // of the sweeps
+  PatchOrder groups;         // of hats that thin triangles couple strongly
+  SparseMatrix prolongation; // from the finest functions of the grid
+};
+
+/// @param mesh  what the space was made from, weldCoincidentPoints as there
+HatHierarchy BuildHatHierarchy(const TriangleMesh& mesh, const FunctionSpace& space,
+  bool weldCoincidentPoints, HatTransfer transfer, int threads = 0, const Progress& progress = {});
+
+/// a M + b L of the hats on top of the grid's levels, ready to cycle. Grid units.
+Multigrid BuildHatMultigrid(const HatHierarchy& hats, const FunctionSpace& space,
+  const System& system, double a, double b, const HatMultigridOptions& options,
+  const Progress& progress = {});
+
+/// New factors for such a hierarchy.
+void UpdateHatMultigrid(const HatHierarchy& hats, const FunctionSpace& space, const System& system,
+  double a, double b, Multigrid& multigrid);
+
+} // namespace gridfem
+
+#endif
