@@ -16,6 +16,10 @@ HatHierarchy BuildHatHierarchy(const TriangleMesh& mesh, const FunctionSpace& sp
   options.threads = threads;
   HatHierarchy hats;
   hats.functions = NumberHatFunctions(mesh, options);
+  if (hats.functions.Count() == 0)
+  {
+    throw InvalidInput("No triangle has an area, so there are no hat functions.");
+  }
   progress.Check(0.3);
   hats.matrices = AssembleHatMatrices(mesh, hats.functions, threads);
   hats.order = OrderInBlocks(hats.matrices.stiffness);

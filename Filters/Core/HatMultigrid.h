@@ -29,6 +29,7 @@ struct HatHierarchy
 };
 
 /// @param mesh  what the space was made from, weldCoincidentPoints as there
+/// Throws InvalidInput when no triangle has an area.
 HatHierarchy BuildHatHierarchy(const TriangleMesh& mesh, const FunctionSpace& space,
   bool weldCoincidentPoints, HatTransfer transfer, int threads = 0, const Progress& progress = {});
 

@@ -3,6 +3,7 @@
 #define GridFEM_Poisson_h
 
 #include "ConjugateGradients.h"
+#include "HatMultigrid.h"
 #include "System.h"
 
 namespace gridfem
@@ -38,6 +39,12 @@ struct PoissonSolution
 PoissonSolution SolvePoisson(const ComponentFunctions& functions, const Multigrid& multigrid,
   const MultiVector& values, const MultiVector& gradients, const PoissonOptions& options,
   const Progress& progress = {});
+
+/// The hats of a mesh.
+inline ComponentFunctions FunctionsOf(const HatHierarchy& hats)
+{
+  return { hats.functions.component, hats.functions.numberOfComponents, hats.matrices.integral };
+}
 
 /// The same on the finest functions of a grid.
 PoissonSolution SolvePoisson(const FunctionSpace& space, const System& system,

@@ -6,6 +6,7 @@
 
 #include "Errors.h"
 #include "Evaluation.h"
+#include "HatLoad.h"
 #include "Poisson.h"
 
 #include "vtkDataArray.h"
@@ -18,6 +19,7 @@
 #include "vtkTable.h"
 
 #include <cmath>
+#include <optional>
 
 vtkStandardNewMacro(vtkScreenedPoisson);
 
@@ -29,6 +31,13 @@ struct vtkScreenedPoisson::Internals
 
   gridfem::MultiVector ValueIntegrals;
   gridfem::MultiVector GradientIntegrals;
+  /// The factor on the gradients at points or cells, if one is chosen.
+  std::optional<gridfem::Field> ReadScale(const gridfem::InputMesh& mesh) const
+  {
+    return this->Scale.array ? std::make_optional(gridfem::ReadField(this->Scale, mesh))
+                             : std::nullopt;
+  }
+
   std::unique_ptr<gridfem::Multigrid> Hierarchy;
   gridfem::StageKey HierarchyShape; // what the hierarchy depends on but for the weight
   gridfem::PoissonSolution Solution;
@@ -82,50 +91,98 @@ void vtkScreenedPoisson::FindArrays(vtkPolyData* input)
   }
 }
 
+void vtkScreenedPoisson::IntegrateOnGrid(
+  const gridfem::Field& value, const gridfem::Progress& progress)
+{
+  Internals& data = *this->Data;
+  const gridfem::SurfaceSolverState& state = *this->State;
+  const gridfem::QuadratureRule& rule = gridfem::TriangleRule(this->QuadratureDegree);
+  const gridfem::FunctionSpace& space = state.Space();
+  const gridfem::TriangleMesh& mesh = *state.basis.mesh;
+  const int threads = this->NumberOfThreads;
+  const std::optional<gridfem::Field> scale = data.ReadScale(state.mesh);
+  data.ValueIntegrals =
+    gridfem::IntegrateValues(space, mesh, value, rule, threads, progress.Part(0.0, 0.5));
+  data.GradientIntegrals.resize(0, 0);
+  if (data.Gradient.array)
+  {
+    data.GradientIntegrals =
+      gridfem::IntegrateGradients(space, mesh, gridfem::ReadField(data.Gradient, state.mesh),
+        scale ? &*scale : nullptr, rule, threads, progress.Part(0.5, 1.0));
+  }
+  else if (this->UseValueGradient)
+  {
+    data.GradientIntegrals = gridfem::IntegrateGradientsOf(
+      space, mesh, value, scale ? &*scale : nullptr, rule, threads, progress.Part(0.5, 1.0));
+  }
+  data.GradientIntegrals *= this->GradientScale;
+}
+
+void vtkScreenedPoisson::IntegrateOnHats(const gridfem::Field& value)
+{
+  Internals& data = *this->Data;
+  const gridfem::SurfaceSolverState& state = *this->State;
+  const gridfem::HatFunctions& hats = state.hats->functions;
+  const gridfem::TriangleMesh& mesh = *state.basis.mesh;
+  const int threads = this->NumberOfThreads;
+  const std::optional<gridfem::Field> scale = data.ReadScale(state.mesh);
+  data.ValueIntegrals = gridfem::IntegrateValues(hats, mesh, value, threads);
+  data.GradientIntegrals.resize(0, 0);
+  if (data.Gradient.array)
+  {
+    data.GradientIntegrals = gridfem::IntegrateGradients(hats, mesh,
+      gridfem::ReadField(data.Gradient, state.mesh), scale ? &*scale : nullptr, threads);
+  }
+  else if (this->UseValueGradient)
+  {
+    data.GradientIntegrals =
+      gridfem::IntegrateGradientsOf(hats, mesh, value, scale ? &*scale : nullptr, threads);
+  }
+  data.GradientIntegrals *= this->GradientScale;
+}
+
 void vtkScreenedPoisson::UpdateRightHandSide()
 {
   Internals& data = *this->Data;
   gridfem::SurfaceSolverState& state = *this->State;
   gridfem::StageKey key;
-  key.Add(state.stages.Version(SpaceStage)).Add(this->QuadratureDegree);
+  key.Add(state.stages.Version(SpaceStage)).Add(this->QuadratureDegree).Add(this->FunctionSpace);
   key.Add(this->GradientScale).Add(this->UseValueGradient);
   for (const gridfem::InputArray* array : { &data.Value, &data.Gradient, &data.Scale })
   {
     key.Add(array->array).Add(static_cast<int>(array->association));
   }
-  const auto integrate = [&]
+  state.stages.Run(RightHandSideStage, key,
+    [&]
+    {
+      const gridfem::Progress progress = state.bridge.GetProgress().Part(0.5, 0.6);
+      const gridfem::Field value = data.Value.array ? gridfem::ReadField(data.Value, state.mesh)
+                                                    : gridfem::CoordinatesField(state.mesh);
+      if (state.hats)
+      {
+        this->IntegrateOnHats(value);
+      }
+      else
+      {
+        this->IntegrateOnGrid(value, progress);
+      }
+      progress.Check(1.0);
+    });
+}
+
+std::unique_ptr<gridfem::Multigrid> vtkScreenedPoisson::BuildHierarchy(double weight)
+{
+  gridfem::SurfaceSolverState& state = *this->State;
+  const gridfem::Progress progress = state.bridge.GetProgress().Part(0.6, 0.7);
+  if (state.hats)
   {
-    const gridfem::Progress progress = state.bridge.GetProgress().Part(0.5, 0.6);
-    const gridfem::QuadratureRule& rule = gridfem::TriangleRule(this->QuadratureDegree);
-    const gridfem::FunctionSpace& space = state.Space();
-    const gridfem::TriangleMesh& mesh = *state.basis.mesh;
-    const int threads = this->NumberOfThreads;
-    const gridfem::Field value = data.Value.array ? gridfem::ReadField(data.Value, state.mesh)
-                                                  : gridfem::CoordinatesField(state.mesh);
-    gridfem::Field scale;
-    if (data.Scale.array)
-    {
-      scale = gridfem::ReadField(data.Scale, state.mesh);
-    }
-    const gridfem::Field* scaleOrNone = data.Scale.array ? &scale : nullptr;
-    data.ValueIntegrals =
-      gridfem::IntegrateValues(space, mesh, value, rule, threads, progress.Part(0.0, 0.5));
-    data.GradientIntegrals.resize(0, 0);
-    if (data.Gradient.array)
-    {
-      data.GradientIntegrals =
-        this->GradientScale * gridfem::IntegrateGradients(space, mesh,
-                                gridfem::ReadField(data.Gradient, state.mesh), scaleOrNone, rule,
-                                threads, progress.Part(0.5, 1.0));
-    }
-    else if (this->UseValueGradient)
-    {
-      data.GradientIntegrals =
-        this->GradientScale * gridfem::IntegrateGradientsOf(space, mesh, value, scaleOrNone, rule,
-                                threads, progress.Part(0.5, 1.0));
-    }
-  };
-  state.stages.Run(RightHandSideStage, key, integrate);
+    gridfem::HatMultigridOptions options;
+    options.grid = state.options.multigrid;
+    return std::make_unique<gridfem::Multigrid>(gridfem::BuildHatMultigrid(
+      *state.hats, state.Space(), *state.system, weight, 1.0, options, progress));
+  }
+  return std::make_unique<gridfem::Multigrid>(gridfem::BuildMultigrid(
+    state.Space(), *state.system, weight, 1.0, state.options.multigrid, progress));
 }
 
 void vtkScreenedPoisson::UpdateHierarchy()
@@ -140,15 +197,20 @@ void vtkScreenedPoisson::UpdateHierarchy()
   key.Add(weight);
   const auto build = [&]
   {
-    if (data.Hierarchy && data.HierarchyShape == shape)
+    const bool update = data.Hierarchy && data.HierarchyShape == shape;
+    if (update && state.hats)
+    {
+      gridfem::UpdateHatMultigrid(
+        *state.hats, state.Space(), *state.system, weight, 1.0, *data.Hierarchy);
+      return;
+    }
+    if (update)
     {
       gridfem::UpdateMultigrid(state.Space(), *state.system, weight, 1.0, *data.Hierarchy);
       return;
     }
     data.Hierarchy.reset();
-    data.Hierarchy =
-      std::make_unique<gridfem::Multigrid>(gridfem::BuildMultigrid(state.Space(), *state.system,
-        weight, 1.0, state.options.multigrid, state.bridge.GetProgress().Part(0.6, 0.7)));
+    data.Hierarchy = this->BuildHierarchy(weight);
     data.HierarchyShape = shape;
   };
   state.stages.Run(HierarchyStage, key, build);
@@ -167,9 +229,12 @@ void vtkScreenedPoisson::UpdateSolution()
     options.screeningWeight = state.WeightInGridUnits(this->ScreeningWeight);
     options.multigrid = state.options.multigrid;
     options.solve = state.options.solve;
-    data.Solution =
-      gridfem::SolvePoisson(state.Space(), *state.system, *data.Hierarchy, data.ValueIntegrals,
-        data.GradientIntegrals, options, state.bridge.GetProgress().Part(0.7, 0.95));
+    const gridfem::Progress progress = state.bridge.GetProgress().Part(0.7, 0.95);
+    data.Solution = state.hats
+                      ? gridfem::SolvePoisson(gridfem::FunctionsOf(*state.hats), *data.Hierarchy,
+                          data.ValueIntegrals, data.GradientIntegrals, options, progress)
+                      : gridfem::SolvePoisson(state.Space(), *state.system, *data.Hierarchy,
+                          data.ValueIntegrals, data.GradientIntegrals, options, progress);
   };
   state.stages.Run(SolveStage, key, solve);
 }
@@ -178,15 +243,18 @@ void vtkScreenedPoisson::WriteSolution(vtkPolyData* input, vtkPolyData* output)
 {
   const Internals& data = *this->Data;
   const gridfem::SurfaceSolverState& state = *this->State;
-  gridfem::MultiVector values =
-    gridfem::EvaluateAtPoints(state.Space(), data.Solution.coefficients, this->NumberOfThreads);
+  gridfem::MultiVector values = state.hats ? gridfem::ValuesAtPoints(state.hats->functions,
+                                               data.Solution.coefficients, this->NumberOfThreads)
+                                           : gridfem::EvaluateAtPoints(state.Space(),
+                                               data.Solution.coefficients, this->NumberOfThreads);
   vtkDataArray* given = data.Value.array ? data.Value.array : input->GetPoints()->GetData();
   if (data.Value.association == gridfem::FieldAssociation::Points)
   {
     const std::vector<char> used = gridfem::UsedPoints(*state.mesh.triangles);
     for (gridfem::Id point = 0; point < values.rows(); ++point)
     {
-      for (gridfem::Id c = 0; !used[point] && c < values.cols(); ++c)
+      const bool isSolved = state.hats ? state.hats->functions.ofPoint[point] >= 0 : used[point];
+      for (gridfem::Id c = 0; !isSolved && c < values.cols(); ++c)
       {
         values(point, c) = given->GetComponent(point, static_cast<int>(c));
       }
@@ -208,6 +276,7 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   gridfem::SurfaceSolverState& state = *this->State;
   const gridfem::Progress progress = state.bridge.GetProgress();
+  state.options.hatFunctions = this->FunctionSpace == HatFunctions;
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
   this->FindArrays(input);
   state.UpdateSpace(input, vtkPolyData::GetData(inputs[1]), progress.Part(0.0, 0.3));
@@ -236,6 +305,7 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
 void vtkScreenedPoisson::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "FunctionSpace: " << this->FunctionSpace << "\n";
   os << indent << "ScreeningWeight: " << this->ScreeningWeight << "\n";
   os << indent << "GradientScale: " << this->GradientScale << "\n";
   os << indent << "UseValueGradient: " << this->UseValueGradient << "\n";

@@ -24,8 +24,8 @@
  *
  * Output port 0 (vtkPolyData): the input with
  * - point data: `Solution` (C components, named as those of f; float if f or the coordinates that
- *   stand in for it are float, else double). Points that no polygon uses keep f if that is a point
- *   array, else get 0.
+ *   stand in for it are float, else double). Points that no polygon uses (with HatFunctions: none
+ * with an area) keep f if that is a point array, else get 0.
  * - field data: `Converged` (int, 1), `Iterations` (int, 1), `Residual` (double, 1): the norm of
  *   the residual vector relative to the zero start, which is not the measure that Tolerance is on
  *
@@ -34,12 +34,21 @@
  * `Log10EnergyResidual` and `Log10Residual`.
  *
  * Tolerance (default 1e-6) is on the energy residual; the error over the surface is smaller still.
- * MaximumIterations is 200 by default. All shared properties are used.
+ * MaximumIterations is 200 by default. All shared properties are used; with HatFunctions as
+ * FunctionSpace, QuadratureDegree touches the preconditioner alone, because all integrals over hat
+ * functions are exact.
  */
 #ifndef vtkScreenedPoisson_h
 #define vtkScreenedPoisson_h
 
 #include "vtkSurfaceFEMAlgorithm.h"
+
+namespace gridfem
+{
+class Multigrid;
+class Progress;
+struct Field;
+} // namespace gridfem
 
 class VTKGRIDFEMFILTERS_EXPORT vtkScreenedPoisson : public vtkSurfaceFEMAlgorithm
 {
@@ -47,6 +56,23 @@ public:
   static vtkScreenedPoisson* New();
   vtkTypeMacro(vtkScreenedPoisson, vtkSurfaceFEMAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum FunctionSpaceType
+  {
+    Grid = 0,
+    HatFunctions = 1
+  };
+  ///@{
+  /**
+   * What the solution is made of. Grid (default): the functions of the grid, of which Depth says
+   * how fine they are. HatFunctions: the piecewise linear functions of the mesh itself, with
+   * cotangent stiffness and consistent area mass; the solution at the points is that of a direct
+   * solver on the same system, and the grid only speeds up the iteration. A grid with about a third
+   * as many functions as the mesh has points serves well; any other is right, too.
+   */
+  vtkSetClampMacro(FunctionSpace, int, Grid, HatFunctions);
+  vtkGetMacro(FunctionSpace, int);
+  ///@}
 
   ///@{
   /**
@@ -88,6 +114,7 @@ protected:
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
+  int FunctionSpace = Grid;
   double ScreeningWeight = 100.0;
   double GradientScale = 1.0;
   bool UseValueGradient = false;
@@ -98,6 +125,9 @@ private:
 
   void FindArrays(vtkPolyData* input);
   void UpdateRightHandSide();
+  void IntegrateOnGrid(const gridfem::Field& value, const gridfem::Progress& progress);
+  void IntegrateOnHats(const gridfem::Field& value);
+  std::unique_ptr<gridfem::Multigrid> BuildHierarchy(double weight);
   void UpdateHierarchy();
   void UpdateSolution();
   void WriteSolution(vtkPolyData* input, vtkPolyData* output);

@@ -46,10 +46,7 @@ struct Hybrid
     return BuildHatMultigrid(hats, space, system, weight, 1.0, options);
   }
 
-  ComponentFunctions Functions() const
-  {
-    return { hats.functions.component, hats.functions.numberOfComponents, hats.matrices.integral };
-  }
+  ComponentFunctions Functions() const { return FunctionsOf(hats); }
 
   /// Solves (λM + L) u = λ f, f at points.
   PoissonSolution Solve(double lambda, const MultiVector& f) const

@@ -22,7 +22,9 @@ def build():
     signatures = simple.SpectralSignatures(
         Input=values, Basis=basis, Sources=surface, NumberOfModes=9, NumberOfScales=3,
         SourcePointIds=[3, 4], FilterType="Low Pass", LastMode=4, ValueArray=["POINTS", "f"])
-    for name, proxy in (("clip", clip), ("basis", basis), ("poisson", poisson),
+    hats = simple.ScreenedPoisson(
+        Input=values, Depth=4, ValueArray=["POINTS", "f"], FunctionSpace="Hat Functions")
+    for name, proxy in (("clip", clip), ("basis", basis), ("poisson", poisson), ("hats", hats),
                         ("spectrum", spectrum), ("signatures", signatures)):
         simple.RenameSource(name, proxy)
 
@@ -30,7 +32,7 @@ def build():
 def results():
     """Every setting and the range of every point array, to compare before and after."""
     found = {}
-    for name in ("clip", "basis", "poisson", "spectrum", "signatures"):
+    for name in ("clip", "basis", "poisson", "hats", "spectrum", "signatures"):
         proxy = simple.FindSource(name)
         proxy.UpdatePipeline()
         for key in proxy.ListProperties():

@@ -199,7 +199,7 @@ Level ReadFinestLevel(vtkFieldData* fields, const ClippedMesh& clipped)
 SurfaceBasis RebuildBasis(vtkPolyData* data, const InputMesh& mesh, const Progress& progress)
 {
   ClippedMesh clipped =
-    ReadClippedMesh(data, mesh, FlagOf(data, WeldCoincidentPointsName), progress.Part(0.0, 0.6));
+    ReadClippedMesh(data, mesh, WeldsCoincidentPoints(data), progress.Part(0.0, 0.6));
   Level finest = ReadFinestLevel(data->GetFieldData(), clipped);
   vtkDataArray* patchId =
     RequireArray(data->GetCellData(), PatchIdName, 1, data->GetNumberOfCells());
@@ -261,6 +261,11 @@ ClippedMesh ReadClippedMesh(
                          : std::vector<Id>{};
   clipped.links = FindLinks(clipped, pointClass, progress.Part(0.5, 1.0));
   return clipped;
+}
+
+bool WeldsCoincidentPoints(vtkPolyData* data)
+{
+  return FlagOf(data, WeldCoincidentPointsName);
 }
 
 SurfaceBasis ReadBasis(vtkPolyData* data, const InputMesh& mesh, const Progress& progress)

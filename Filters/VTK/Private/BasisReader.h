@@ -20,6 +20,9 @@ namespace gridfem
 ClippedMesh ReadClippedMesh(vtkPolyData* data, const InputMesh& mesh, bool weldCoincidentPoints,
   const Progress& progress = {});
 
+/// Whether coincident points counted as one when the basis of `data` was made.
+bool WeldsCoincidentPoints(vtkPolyData* data);
+
 /// The basis on the triangles of `data`: the shortcut in memory where it fits, else from the arrays
 /// alone. Throws like ReadClippedMesh.
 SurfaceBasis ReadBasis(vtkPolyData* data, const InputMesh& mesh, const Progress& progress = {});

@@ -87,6 +87,7 @@ void SurfaceSolverState::UpdateSpace(
     basis = carries ? ReadBasis(input, mesh, progress.Part(0.1, 1.0))
                     : ReadBasisFor(basisData, mesh, progress.Part(0.1, 1.0));
     RequireMemory(*mesh.triangles, basis.space->GetGrid().depth);
+    weldCoincidentPoints_ = WeldsCoincidentPoints(carries ? input : basisData);
   };
   stages.Run(vtkSurfaceFEMAlgorithm::SpaceStage, key, update);
 }
@@ -95,6 +96,8 @@ void SurfaceSolverState::BuildSpace(vtkPolyData* input, const Progress& progress
 {
   basis = {}; // frees the memory of the last one first
   system = {};
+  hats.reset();
+  weldCoincidentPoints_ = options.space.weldCoincidentPoints;
   mesh = ReadInputMesh(input, progress.Part(0.0, 0.1));
   RequireSurface(*mesh.triangles);
   RequireMemory(*mesh.triangles, options.space.depth);
@@ -107,18 +110,29 @@ void SurfaceSolverState::UpdateSystem(const Progress& progress)
   constexpr int stage = vtkSurfaceFEMAlgorithm::SystemStage;
   StageKey key;
   key.Add(stages.Version(vtkSurfaceFEMAlgorithm::SpaceStage)).Add(options.quadratureDegree);
-  if (!stages.IsCurrent(stage, key))
+  key.Add(options.hatFunctions);
+  if (!options.hatFunctions && !stages.IsCurrent(stage, key))
   {
     system = basis.systems->Find(options.quadratureDegree);
     if (system)
     {
+      hats.reset();
       stages.Adopt(stage, key);
       return;
     }
   }
-  stages.Run(stage, key,
-    [&]
-    { system = basis.systems->Get(options.quadratureDegree, options.space.threads, progress); });
+  const auto build = [&]
+  {
+    const int threads = options.space.threads;
+    hats.reset();
+    system = basis.systems->Get(options.quadratureDegree, threads, progress.Part(0.0, 0.7));
+    if (options.hatFunctions)
+    {
+      hats = BuildHatHierarchy(*basis.mesh, *basis.space, weldCoincidentPoints_,
+        HatTransfer::Evaluation, threads, progress.Part(0.7, 1.0));
+    }
+  };
+  stages.Run(stage, key, build);
 }
 
 double SurfaceSolverState::WeightInGridUnits(double weight) const

@@ -4,10 +4,13 @@
 #define GridFEM_SurfaceSolverState_h
 
 #include "ConjugateGradients.h"
+#include "HatMultigrid.h"
 #include "InputMesh.h"
 #include "ProgressBridge.h"
 #include "StageCache.h"
 #include "SurfaceBasis.h"
+
+#include <optional>
 
 class vtkPolyData;
 
@@ -18,6 +21,7 @@ namespace gridfem
 struct SurfaceOptions
 {
   SpaceOptions space;
+  bool hatFunctions = false; // the functions are the hats of the mesh, the grid preconditions
   int quadratureDegree = 2;
   MultigridOptions multigrid;
   SolveOptions solve;
@@ -47,8 +51,8 @@ public:
   /// Builds the function space of a mesh and clips it before. Validates the mesh.
   void BuildSpace(vtkPolyData* input, const Progress& progress);
 
-  /// Brings the system up to date. A system that another filter has built on the same basis is
-  /// taken over without a run.
+  /// Brings the system up to date, and `hats` where they are asked for. A system that another
+  /// filter has built on the same basis is taken over without a run.
   void UpdateSystem(const Progress& progress);
 
   const FunctionSpace& Space() const { return *basis.space; }
@@ -61,7 +65,11 @@ public:
   InputMesh mesh;
   SurfaceBasis basis;
   std::shared_ptr<const System> system;
+  std::optional<HatHierarchy> hats; // only with options.hatFunctions
   ProgressBridge bridge;
+
+private:
+  bool weldCoincidentPoints_ = true; // as the basis was made
 };
 
 } // namespace gridfem
