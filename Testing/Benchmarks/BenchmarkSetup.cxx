@@ -116,7 +116,7 @@ Peaks MeasurePeaks(const NamedMesh& mesh, int depth)
   peaks.cholmod = MeasureInOwnProcess<double>(
     [&]
     {
-      const HatMatrix A = AssembleProblem(mesh.mesh).A;
+      const SymmetricMatrix A = AssembleProblem(mesh.mesh).A;
       ReleaseFreeMemory();
       const double entry = sizeof(double) + sizeof(int);
       const double before = ResidentBytes() - entry * static_cast<double>(A.nonZeros());

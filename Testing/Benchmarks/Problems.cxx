@@ -123,7 +123,7 @@ HatProblem AssembleProblem(const TriangleMesh& mesh, double screeningWeight)
 {
   HatProblem problem;
   const double side = BoxOf(mesh).side;
-  problem.hats = AssembleHats(mesh);
+  problem.hats = AssembleCotangents(mesh);
   problem.A = Combine(problem.hats, screeningWeight / (side * side));
   return problem;
 }

@@ -4,7 +4,7 @@
 #ifndef GridFEM_Benchmarks_Problems_h
 #define GridFEM_Benchmarks_Problems_h
 
-#include "HatMatrices.h"
+#include "CotangentSystem.h"
 #include "Poisson.h"
 
 #include <functional>
@@ -48,8 +48,8 @@ void ChooseColours(GridProblem& problem, int columns);
 
 struct HatProblem
 {
-  HatMatrices hats;
-  HatMatrix A; // λM + L
+  CotangentSystem hats;
+  SymmetricMatrix A; // λM + L
   Eigen::MatrixXd exact;
   Eigen::MatrixXd b; // A exact
 

@@ -4,7 +4,7 @@
 #ifndef GridFEM_Benchmarks_AlgebraicMultigrid_h
 #define GridFEM_Benchmarks_AlgebraicMultigrid_h
 
-#include "HatMatrices.h"
+#include "CotangentSystem.h"
 
 #include <memory>
 #include <string>
@@ -23,6 +23,12 @@ public:
   MessagePassing& operator=(const MessagePassing&) = delete;
 };
 
+enum class AmgUse
+{
+  Preconditioner, // of conjugate gradients, with the settings each library recommends
+  ThesisCycle     // alone: W-cycles, ten Gauss-Seidel sweeps before and after [T §4.3.2]
+};
+
 class AlgebraicMultigrid
 {
 public:
@@ -31,20 +37,22 @@ public:
   /// The hierarchy. The matrix was handed over at construction and is not copied here.
   virtual void Setup() = 0;
 
-  /// From zero, until |r| is `tolerance` of its start or after `iterations`; 0 for the tolerance:
-  /// as many as allowed.
-  /// @return the number of iterations
+  /// From zero, steps of conjugate gradients or cycles, until |r| is `tolerance` of its start or
+  /// after `iterations`; 0 for the tolerance: as many as allowed.
+  /// @return the number of iterations; of cycles always as many as allowed
   virtual int Solve(
     const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance, int iterations) = 0;
 };
 
 /// HMIS coarsening, extended+i interpolation of at most four entries, strong threshold 0.25,
 /// symmetric Gauss-Seidel, V-cycle.
-std::unique_ptr<AlgebraicMultigrid> MakeBoomerAmg(const HatMatrix& A);
+std::unique_ptr<AlgebraicMultigrid> MakeBoomerAmg(
+  const SymmetricMatrix& A, AmgUse use = AmgUse::Preconditioner);
 
 /// The library's defaults for symmetric positive definite matrices: one smoothing of the
 /// aggregates, Chebyshev smoothers of degree two, V-cycle.
-std::unique_ptr<AlgebraicMultigrid> MakeGamg(const HatMatrix& A);
+std::unique_ptr<AlgebraicMultigrid> MakeGamg(
+  const SymmetricMatrix& A, AmgUse use = AmgUse::Preconditioner);
 
 } // namespace gridfem::benchmarks
 

@@ -47,7 +47,8 @@ private:
 class BoomerAmg : public AlgebraicMultigrid
 {
 public:
-  explicit BoomerAmg(const HatMatrix& A) : rows_(static_cast<int>(A.rows())), b_(rows_), x_(rows_)
+  BoomerAmg(const SymmetricMatrix& A, AmgUse use)
+    : use_(use), rows_(static_cast<int>(A.rows())), b_(rows_), x_(rows_)
   {
     HYPRE_IJMatrixCreate(MPI_COMM_SELF, 0, rows_ - 1, 0, rows_ - 1, &matrix_);
     HYPRE_IJMatrixSetObjectType(matrix_, HYPRE_PARCSR);
@@ -81,9 +82,19 @@ public:
     HYPRE_BoomerAMGSetPMaxElmts(cycle_, 4);
     HYPRE_BoomerAMGSetStrongThreshold(cycle_, 0.25);
     HYPRE_BoomerAMGSetAggNumLevels(cycle_, 0);
+    HYPRE_BoomerAMGSetTol(cycle_, 0.0);
+    if (use_ == AmgUse::ThesisCycle)
+    {
+      HYPRE_BoomerAMGSetCycleType(cycle_, 2); // W
+      HYPRE_BoomerAMGSetMaxCoarseSize(cycle_, 99);
+      HYPRE_BoomerAMGSetRelaxType(cycle_, 3); // Gauss-Seidel
+      HYPRE_BoomerAMGSetNumSweeps(cycle_, 10);
+      HYPRE_BoomerAMGSetCycleRelaxType(cycle_, 9, 3); // a direct solve on the coarsest level
+      HYPRE_BoomerAMGSetup(cycle_, this->Matrix(), b_.Object(), x_.Object());
+      return;
+    }
     HYPRE_BoomerAMGSetRelaxType(cycle_, 6); // symmetric Gauss-Seidel
     HYPRE_BoomerAMGSetNumSweeps(cycle_, 1);
-    HYPRE_BoomerAMGSetTol(cycle_, 0.0); // a preconditioner: one cycle
     HYPRE_BoomerAMGSetMaxIter(cycle_, 1);
     HYPRE_ParCSRPCGCreate(MPI_COMM_SELF, &solver_);
     HYPRE_PCGSetTwoNorm(solver_, 1);
@@ -96,11 +107,19 @@ public:
   {
     b_.Set(b);
     x_.Set(Eigen::VectorXd::Zero(rows_));
+    x.resize(rows_);
+    if (use_ == AmgUse::ThesisCycle)
+    {
+      HYPRE_BoomerAMGSetMaxIter(cycle_, iterations);
+      HYPRE_BoomerAMGSolve(cycle_, this->Matrix(), b_.Object(), x_.Object());
+      HYPRE_ClearAllErrors();
+      x_.Get(x);
+      return iterations;
+    }
     HYPRE_PCGSetTol(solver_, tolerance);
     HYPRE_PCGSetMaxIter(solver_, iterations);
     HYPRE_ParCSRPCGSolve(solver_, this->Matrix(), b_.Object(), x_.Object());
     HYPRE_ClearAllErrors(); // stopping at the limit counts as an error there
-    x.resize(rows_);
     x_.Get(x);
     HYPRE_Int count = 0;
     HYPRE_PCGGetNumIterations(solver_, &count);
@@ -113,8 +132,12 @@ private:
     if (solver_ != nullptr)
     {
       HYPRE_ParCSRPCGDestroy(solver_);
-      HYPRE_BoomerAMGDestroy(cycle_);
       solver_ = nullptr;
+    }
+    if (cycle_ != nullptr)
+    {
+      HYPRE_BoomerAMGDestroy(cycle_);
+      cycle_ = nullptr;
     }
   }
   HYPRE_ParCSRMatrix Matrix() const
@@ -124,6 +147,7 @@ private:
     return static_cast<HYPRE_ParCSRMatrix>(object);
   }
 
+  AmgUse use_;
   int rows_;
   Vector b_;
   Vector x_;
@@ -134,9 +158,9 @@ private:
 
 } // namespace
 
-std::unique_ptr<AlgebraicMultigrid> MakeBoomerAmg(const HatMatrix& A)
+std::unique_ptr<AlgebraicMultigrid> MakeBoomerAmg(const SymmetricMatrix& A, AmgUse use)
 {
-  return std::make_unique<BoomerAmg>(A);
+  return std::make_unique<BoomerAmg>(A, use);
 }
 
 } // namespace gridfem::benchmarks

@@ -12,7 +12,7 @@ namespace
 {
 
 /// The lower triangle of a symmetric matrix that stores both, as CHOLMOD's own type; no copy.
-cholmod_sparse View(const HatMatrix& A)
+cholmod_sparse View(const SymmetricMatrix& A)
 {
   cholmod_sparse view{};
   view.nrow = static_cast<std::size_t>(A.rows());
@@ -63,14 +63,14 @@ Cholmod::Cholmod() : state_(std::make_unique<State>())
 
 Cholmod::~Cholmod() = default;
 
-void Cholmod::Analyse(const HatMatrix& A)
+void Cholmod::Analyse(const SymmetricMatrix& A)
 {
   cholmod_sparse view = View(A);
   cholmod_free_factor(&state_->factor, &state_->common);
   state_->factor = cholmod_analyze(&view, &state_->common);
 }
 
-void Cholmod::Factor(const HatMatrix& A)
+void Cholmod::Factor(const SymmetricMatrix& A)
 {
   cholmod_sparse view = View(A);
   cholmod_factorize(&view, state_->factor, &state_->common);

@@ -2,7 +2,7 @@
 #ifndef GridFEM_Benchmarks_Cholmod_h
 #define GridFEM_Benchmarks_Cholmod_h
 
-#include "HatMatrices.h"
+#include "CotangentSystem.h"
 
 #include <memory>
 
@@ -22,11 +22,11 @@ public:
   Cholmod& operator=(const Cholmod&) = delete;
 
   /// The symbolic part.
-  void Analyse(const HatMatrix& A);
+  void Analyse(const SymmetricMatrix& A);
 
   /// The numeric part; may be repeated for new values of the same pattern. Throws
   /// std::runtime_error when A is not positive definite.
-  void Factor(const HatMatrix& A);
+  void Factor(const SymmetricMatrix& A);
 
   /// All columns at once.
   Eigen::MatrixXd Solve(const Eigen::MatrixXd& b) const;

@@ -10,10 +10,23 @@ namespace gridfem::benchmarks
 namespace
 {
 
+/// The library takes settings of inner solvers only as text.
+void UseThesisOptions()
+{
+  const char* const settings[][2] = { { "-thesis_pc_mg_cycle_type", "w" },
+    { "-thesis_pc_gamg_coarse_eq_limit", "99" }, { "-thesis_mg_levels_ksp_type", "richardson" },
+    { "-thesis_mg_levels_ksp_max_it", "10" }, { "-thesis_mg_levels_pc_type", "sor" },
+    { "-thesis_mg_levels_pc_sor_forward", nullptr } };
+  for (const auto& [name, value] : settings)
+  {
+    PetscOptionsSetValue(nullptr, name, value);
+  }
+}
+
 class Gamg : public AlgebraicMultigrid
 {
 public:
-  explicit Gamg(const HatMatrix& A) : rows_(static_cast<PetscInt>(A.rows()))
+  Gamg(const SymmetricMatrix& A, AmgUse use) : use_(use), rows_(static_cast<PetscInt>(A.rows()))
   {
     MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, rows_, rows_, const_cast<int*>(A.outerIndexPtr()),
       const_cast<int*>(A.innerIndexPtr()), const_cast<double*>(A.valuePtr()), &matrix_);
@@ -31,10 +44,15 @@ public:
     KSPDestroy(&solver_);
     KSPCreate(PETSC_COMM_SELF, &solver_);
     KSPSetOperators(solver_, matrix_, matrix_);
-    KSPSetType(solver_, KSPCG);
+    KSPSetType(solver_, use_ == AmgUse::ThesisCycle ? KSPRICHARDSON : KSPCG);
     PC cycle = nullptr;
     KSPGetPC(solver_, &cycle);
     PCSetType(cycle, PCGAMG);
+    if (use_ == AmgUse::ThesisCycle)
+    {
+      UseThesisOptions();
+      KSPSetOptionsPrefix(solver_, "thesis_");
+    }
     KSPSetFromOptions(solver_); // PETSC_OPTIONS in the environment tries other settings
     KSPSetUp(solver_);
   }
@@ -46,7 +64,8 @@ public:
     Vec solution = nullptr;
     VecCreateSeqWithArray(PETSC_COMM_SELF, 1, rows_, b.data(), &source);
     VecCreateSeqWithArray(PETSC_COMM_SELF, 1, rows_, x.data(), &solution);
-    KSPSetNormType(solver_, KSP_NORM_UNPRECONDITIONED);
+    KSPSetNormType(
+      solver_, use_ == AmgUse::ThesisCycle ? KSP_NORM_NONE : KSP_NORM_UNPRECONDITIONED);
     KSPSetTolerances(solver_, tolerance, PETSC_DEFAULT, PETSC_DEFAULT, iterations);
     KSPSolve(solver_, source, solution);
     PetscInt count = 0;
@@ -57,6 +76,7 @@ public:
   }
 
 private:
+  AmgUse use_;
   PetscInt rows_;
   Mat matrix_ = nullptr;
   KSP solver_ = nullptr;
@@ -77,9 +97,9 @@ MessagePassing::~MessagePassing()
   PetscFinalize();
 }
 
-std::unique_ptr<AlgebraicMultigrid> MakeGamg(const HatMatrix& A)
+std::unique_ptr<AlgebraicMultigrid> MakeGamg(const SymmetricMatrix& A, AmgUse use)
 {
-  return std::make_unique<Gamg>(A);
+  return std::make_unique<Gamg>(A, use);
 }
 
 } // namespace gridfem::benchmarks

@@ -5,8 +5,6 @@
 #include <Spectra/MatOp/SparseSymMatProd.h>
 #include <Spectra/SymGEigsShiftSolver.h>
 
-#include <algorithm>
-
 namespace gridfem::benchmarks
 {
 
@@ -19,13 +17,13 @@ class InverseOperator
 public:
   using Scalar = double;
 
-  explicit InverseOperator(const HatMatrices& hats) : hats_(hats) {}
+  explicit InverseOperator(const CotangentSystem& hats) : hats_(hats) {}
 
   Eigen::Index rows() const { return hats_.mass.rows(); }
   Eigen::Index cols() const { return hats_.mass.cols(); }
   void set_shift(const double& sigma)
   {
-    const HatMatrix matrix = Combine(hats_, -sigma);
+    const SymmetricMatrix matrix = Combine(hats_, -sigma);
     factor_.Analyse(matrix);
     factor_.Factor(matrix);
   }
@@ -38,14 +36,14 @@ public:
   double Solves() const { return solves_; }
 
 private:
-  const HatMatrices& hats_;
+  const CotangentSystem& hats_;
   Cholmod factor_;
   mutable double solves_ = 0.0;
 };
 
 } // namespace
 
-HatSpectrum ComputeHatSpectrum(const HatMatrices& hats, int count)
+HatSpectrum SpectraSpectrum(const CotangentSystem& hats, int count)
 {
   InverseOperator inverse(hats);
   Spectra::SparseSymMatProd<double> mass(hats.mass);
@@ -53,13 +51,14 @@ HatSpectrum ComputeHatSpectrum(const HatMatrices& hats, int count)
   const double shift = -1.0 / hats.mass.sum();
   Spectra::SymGEigsShiftSolver<InverseOperator, Spectra::SparseSymMatProd<double>,
     Spectra::GEigsMode::ShiftInvert>
-    solver(inverse, mass, count, std::min<int>(2 * count, static_cast<int>(mass.rows())), shift);
+    solver(
+      inverse, mass, count, std::min<int>(3 * count / 2, static_cast<int>(mass.rows())), shift);
   solver.init();
-  solver.compute(Spectra::SortRule::LargestMagn, 1000, 1e-6);
+  solver.compute(Spectra::SortRule::LargestMagn, 1000, 1e-6, Spectra::SortRule::SmallestAlge);
   HatSpectrum result;
   const Eigen::VectorXd values = solver.eigenvalues();
   result.eigenvalues.assign(values.data(), values.data() + values.size());
-  std::sort(result.eigenvalues.begin(), result.eigenvalues.end());
+  result.vectors = solver.eigenvectors();
   result.solves = inverse.Solves();
   return result;
 }

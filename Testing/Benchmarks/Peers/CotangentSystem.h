@@ -1,7 +1,7 @@
 // The classical system the peers solve: piecewise linear hat functions on the mesh, consistent area
 // mass and cotangent stiffness [T (3.9), (3.10)], assembled row by row as fast as one thread can.
-#ifndef GridFEM_Benchmarks_HatMatrices_h
-#define GridFEM_Benchmarks_HatMatrices_h
+#ifndef GridFEM_Benchmarks_CotangentSystem_h
+#define GridFEM_Benchmarks_CotangentSystem_h
 
 #include "TriangleMesh.h"
 
@@ -13,24 +13,24 @@ namespace gridfem::benchmarks
 {
 
 /// Symmetric, both triangles stored, indices of each column ascending: it may be read by rows too.
-using HatMatrix = Eigen::SparseMatrix<double>;
+using SymmetricMatrix = Eigen::SparseMatrix<double>;
 
 /// World units. Both matrices have one pattern.
-struct HatMatrices
+struct CotangentSystem
 {
-  HatMatrix mass;       // L²
-  HatMatrix stiffness;  // dimensionless
-  std::vector<int> row; // per mesh point; -1 for points without a triangle
+  SymmetricMatrix mass;      // L²
+  SymmetricMatrix stiffness; // dimensionless
+  std::vector<int> row;      // per mesh point; -1 for points without a triangle
 };
 
 /// Triangles without area are left out. Cost O(triangles), one thread.
-HatMatrices AssembleHats(const TriangleMesh& mesh);
+CotangentSystem AssembleCotangents(const TriangleMesh& mesh);
 
 /// λM + L.
-HatMatrix Combine(const HatMatrices& hats, double lambda);
+SymmetricMatrix Combine(const CotangentSystem& hats, double lambda);
 
 /// Values at the points of the mesh as values of the rows.
-Eigen::MatrixXd ToRows(const HatMatrices& hats, const MultiVector& values);
+Eigen::MatrixXd ToRows(const CotangentSystem& hats, const MultiVector& values);
 
 } // namespace gridfem::benchmarks
 

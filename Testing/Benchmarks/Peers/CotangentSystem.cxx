@@ -1,4 +1,4 @@
-#include "HatMatrices.h"
+#include "CotangentSystem.h"
 
 #include <algorithm>
 
@@ -120,17 +120,17 @@ void AddCorner(
 
 } // namespace
 
-HatMatrices AssembleHats(const TriangleMesh& mesh)
+CotangentSystem AssembleCotangents(const TriangleMesh& mesh)
 {
-  HatMatrices hats;
+  CotangentSystem hats;
   int rows = 0;
   hats.row = NumberRows(mesh, rows);
   const Fans fans = FindFans(mesh, hats.row, rows);
   // Closed surfaces have half as many vertices as triangles and seven entries per row.
   const std::size_t guess = rows + 3 * mesh.triangles.size() + 1024;
-  HatMatrix& mass = hats.mass;
-  HatMatrix& stiffness = hats.stiffness;
-  for (HatMatrix* matrix : { &mass, &stiffness })
+  SymmetricMatrix& mass = hats.mass;
+  SymmetricMatrix& stiffness = hats.stiffness;
+  for (SymmetricMatrix* matrix : { &mass, &stiffness })
   {
     matrix->resize(rows, rows);
     matrix->reserve(static_cast<Eigen::Index>(guess));
@@ -156,9 +156,9 @@ HatMatrices AssembleHats(const TriangleMesh& mesh)
   return hats;
 }
 
-HatMatrix Combine(const HatMatrices& hats, double lambda)
+SymmetricMatrix Combine(const CotangentSystem& hats, double lambda)
 {
-  HatMatrix matrix = hats.stiffness;
+  SymmetricMatrix matrix = hats.stiffness;
   for (Eigen::Index k = 0; k < matrix.nonZeros(); ++k)
   {
     matrix.valuePtr()[k] += lambda * hats.mass.valuePtr()[k];
@@ -166,7 +166,7 @@ HatMatrix Combine(const HatMatrices& hats, double lambda)
   return matrix;
 }
 
-Eigen::MatrixXd ToRows(const HatMatrices& hats, const MultiVector& values)
+Eigen::MatrixXd ToRows(const CotangentSystem& hats, const MultiVector& values)
 {
   Eigen::MatrixXd rows(hats.mass.rows(), values.cols());
   for (std::size_t point = 0; point < hats.row.size(); ++point)

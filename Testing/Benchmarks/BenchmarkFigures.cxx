@@ -1,0 +1,40 @@
+// The figures of the thesis' chapters 4 and 6.2.2: writes into the folder that is the first
+// argument what draw_figures.py draws. Further arguments: the figures to compute (default: all).
+#include "AlgebraicMultigrid.h"
+#include "Figures.h"
+#include "Measure.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+int main(int argc, char** argv)
+{
+  using namespace gridfem::benchmarks;
+  const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+  const std::string folder = arguments.empty() ? "." : arguments.front();
+  std::filesystem::create_directories(folder);
+  const MessagePassing libraries;
+  const std::pair<const char*, void (*)(const std::string&)> figures[] = {
+    { "4.4", WriteQuadratureFigure },
+    { "4.5", WriteRigidMotionFigure },
+    { "4.6", WriteCotangentFigure },
+    { "4.7", WriteHatConvergence },
+    { "4.8", WriteGridConvergence },
+    { "4.11", WriteRotatedCubes },
+    { "4.13", WriteErrorMaps },
+    { "6.6", WriteSeparatedCubes },
+  };
+  for (const auto& [number, write] : figures)
+  {
+    const bool isWanted =
+      arguments.size() < 2 || std::count(arguments.begin() + 1, arguments.end(), number) > 0;
+    if (isWanted)
+    {
+      const Stopwatch watch;
+      write(folder);
+      std::printf("Figure %s: %.1f s\n", number, watch.Seconds());
+      std::fflush(stdout);
+    }
+  }
+}

@@ -1,0 +1,97 @@
+#include "SpectrumJobs.h"
+
+#include "AlgebraicMultigrid.h"
+#include "Cholmod.h"
+#include "Measure.h"
+#include "Spectrum.h"
+
+#include <functional>
+
+namespace gridfem::benchmarks
+{
+
+namespace
+{
+
+/// The numbers of a job through the pipe of its process.
+SpectrumJob InOwnProcessWithPeak(const std::function<SpectrumJob()>& body)
+{
+  const std::vector<double> numbers = InOwnProcess(
+    [&]
+    {
+      ReleaseFreeMemory();
+      const double before = ResidentBytes();
+      ResetPeak();
+      const Stopwatch watch;
+      const SpectrumJob job = body();
+      std::vector<double> packed{ watch.Seconds(), PeakBytes() - before, job.unknowns, job.setup,
+        job.steps, job.converged };
+      packed.insert(packed.end(), job.eigenvalues.begin(), job.eigenvalues.end());
+      return packed;
+    });
+  SpectrumJob job;
+  auto next = numbers.begin();
+  for (double* field :
+    { &job.seconds, &job.peak, &job.unknowns, &job.setup, &job.steps, &job.converged })
+  {
+    *field = *next++;
+  }
+  job.eigenvalues.assign(next, numbers.end());
+  return job;
+}
+
+} // namespace
+
+SpectrumJob GridSpectrum(
+  const TriangleMesh& mesh, int depth, int modes, int threads, FunctionSupport support)
+{
+  return InOwnProcessWithPeak(
+    [&]
+    {
+      SpectrumJob job;
+      const Stopwatch setup;
+      SpaceOptions options;
+      options.depth = depth;
+      options.threads = threads;
+      options.connectivityAware = support == FunctionSupport::ConnectivityAware;
+      const FunctionSpace space = BuildFunctionSpace(mesh, options);
+      const System system = BuildSystem(space, TriangleRule(2), threads);
+      job.setup = setup.Seconds();
+      SpectrumOptions spectrum;
+      spectrum.numberOfModes = modes;
+      spectrum.multigrid.threads = threads;
+      const Spectrum result = ComputeSpectrum(space, system, spectrum);
+      job.unknowns = space.Finest().numberOfFunctions;
+      job.steps = result.iterations;
+      job.converged = result.numberOfConverged;
+      const double spacing = space.GetGrid().spacing;
+      for (const double value : result.eigenvalues)
+      {
+        job.eigenvalues.push_back(value / (spacing * spacing));
+      }
+      return job;
+    });
+}
+
+SpectrumJob ShiftInvertSpectrum(
+  HatEigensolver solver, const TriangleMesh& mesh, int modes, int blasThreads)
+{
+  return InOwnProcessWithPeak(
+    [&]
+    {
+      const MessagePassing libraries;
+      SetBlasThreads(blasThreads);
+      SpectrumJob job;
+      const Stopwatch setup;
+      const CotangentSystem hats = AssembleCotangents(mesh);
+      job.setup = setup.Seconds();
+      const HatSpectrum result = solver(hats, modes);
+      job.unknowns = static_cast<double>(hats.mass.rows());
+      job.steps = result.solves;
+      job.converged = static_cast<double>(result.eigenvalues.size());
+      job.eigenvalues = result.eigenvalues;
+      return job;
+    });
+}
+
+} // namespace gridfem::benchmarks

@@ -1,0 +1,35 @@
+// The smallest eigenpairs from the triangles on, by the grid and by the usual way on hat functions,
+// each in a process of its own.
+#ifndef GridFEM_Benchmarks_SpectrumJobs_h
+#define GridFEM_Benchmarks_SpectrumJobs_h
+
+#include "FunctionSpace.h"
+#include "ShiftInvert.h"
+
+#include <vector>
+
+namespace gridfem::benchmarks
+{
+
+struct SpectrumJob
+{
+  double unknowns = 0.0;
+  double setup = 0.0;   // seconds of clip, space and system; of assembly
+  double seconds = 0.0; // of everything
+  double peak = 0.0;    // bytes beyond the mesh
+  double steps = 0.0;   // block iterations on the finest level; substitutions
+  double converged = 0.0;
+  std::vector<double> eigenvalues; // ascending, world units
+};
+
+SpectrumJob GridSpectrum(const TriangleMesh& mesh, int depth, int modes, int threads,
+  FunctionSupport support = FunctionSupport::ConnectivityAware);
+
+/// SpectraSpectrum or SlepcSpectrum.
+using HatEigensolver = HatSpectrum (*)(const CotangentSystem&, int);
+SpectrumJob ShiftInvertSpectrum(
+  HatEigensolver solver, const TriangleMesh& mesh, int modes, int blasThreads);
+
+} // namespace gridfem::benchmarks
+
+#endif

@@ -1,0 +1,190 @@
+"""Draws the figures that BenchmarkFigures computed, with VTK's charts.
+
+    pvpython draw_figures.py NUMBERS PICTURES
+
+NUMBERS is the folder with the .csv and .vtk files, PICTURES the one for the .png files. Needs a
+display (xvfb-run gives one).
+"""
+
+import csv
+import pathlib
+import sys
+
+import vtkmodules.vtkRenderingContextOpenGL2  # noqa: F401 (draws the charts)
+import vtkmodules.vtkRenderingFreeType  # noqa: F401 (draws their texts)
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
+from vtkmodules.vtkChartsCore import vtkAxis, vtkChart, vtkChartLegend, vtkChartMatrix, vtkChartXY
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkLookupTable
+from vtkmodules.vtkCommonDataModel import vtkTable, vtkVector2f, vtkVector2i
+from vtkmodules.vtkIOImage import vtkPNGWriter
+from vtkmodules.vtkIOLegacy import vtkPolyDataReader
+from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
+from vtkmodules.vtkRenderingContext2D import vtkPen
+from vtkmodules.vtkRenderingCore import (vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow,
+                                         vtkWindowToImageFilter)
+from vtkmodules.vtkViewsContext2D import vtkContextView
+
+WIDTH, HEIGHT = 480, 400  # of a panel, pixels
+
+# Ours is blue, the thesis' smoother orange, peers have the other hues.
+COLOURS = {
+    "ours": [(31, 90, 180), (90, 170, 235), (20, 40, 110), (0, 150, 160), (120, 110, 220)],
+    "thesis": [(230, 110, 0), (245, 180, 60), (150, 70, 0), (205, 150, 110)],
+    "peer": [(200, 30, 40), (130, 130, 130), (40, 150, 60), (150, 60, 160), (110, 80, 50)],
+    "reference": [(0, 0, 0), (110, 110, 110)],
+}
+
+
+def read_panels(path):
+    """{panel title: {"x axis", "y axis", "logarithmic", "curves": {name: (kind, [(x, y)])}}}"""
+    panels = {}
+    with open(path, newline="") as file:
+        for row in csv.DictReader(file):
+            panel = panels.setdefault(row["panel"], dict(row, curves={}))
+            kind, points = panel["curves"].setdefault(row["curve"], (row["kind"], []))
+            points.append((float(row["x"]), float(row["y"])))
+    return panels
+
+
+def add_curve(chart, name, kind, points, number):
+    columns = [vtkDoubleArray(), vtkDoubleArray()]
+    for column, title in zip(columns, ("x", name)):
+        column.SetName(title)
+    for point in points:
+        for column, value in zip(columns, point):
+            column.InsertNextValue(value)
+    table = vtkTable()
+    for column in columns:
+        table.AddColumn(column)
+    plot = chart.AddPlot(vtkChart.LINE)
+    plot.SetInputData(table, 0, 1)
+    plot.SetColor(*COLOURS[kind][number % len(COLOURS[kind])], 255)
+    plot.SetWidth(2.5 if kind == "ours" else 1.7)
+    plot.GetPen().SetLineType(vtkPen.DASH_LINE if kind == "reference" else vtkPen.SOLID_LINE)
+
+
+def fill_chart(chart, title, panel):
+    logarithmic = panel["logarithmic"] == "1"
+    counts = {}
+    for name, (kind, points) in panel["curves"].items():
+        kept = [p for p in points if p[1] > 0 or not logarithmic]
+        add_curve(chart, name, kind, kept, counts.get(kind, 0))
+        counts[kind] = counts.get(kind, 0) + 1
+    chart.SetTitle(title)
+    chart.GetTitleProperties().SetFontSize(15)
+    chart.SetShowLegend(len(panel["curves"]) <= 8)
+    chart.GetLegend().SetLabelSize(12)
+    for place, label in ((vtkAxis.BOTTOM, "x axis"), (vtkAxis.LEFT, "y axis")):
+        axis = chart.GetAxis(place)
+        axis.SetTitle(panel[label])
+        axis.GetTitleProperties().SetFontSize(13)
+        axis.GetTitleProperties().BoldOff()
+        axis.GetLabelProperties().SetFontSize(12)
+        axis.GetGridPen().SetColor(228, 228, 228, 255)
+    chart.GetAxis(vtkAxis.LEFT).SetLogScale(logarithmic)
+
+
+def place_legend(chart, panel):
+    """Where the curves leave room: below those that rise, above those that fall."""
+    rises = sum(points[-1][1] - points[0][1] for _, points in panel["curves"].values()) > 0
+    legend = chart.GetLegend()
+    legend.SetVerticalAlignment(vtkChartLegend.BOTTOM if rises else vtkChartLegend.TOP)
+    legend.SetHorizontalAlignment(vtkChartLegend.RIGHT)
+
+
+def write_png(window, path):
+    window.Render()
+    image = vtkWindowToImageFilter()
+    image.SetInput(window)
+    image.ReadFrontBufferOff()
+    writer = vtkPNGWriter()
+    writer.SetInputConnection(image.GetOutputPort())
+    writer.SetCompressionLevel(9)
+    writer.SetFileName(str(path))
+    writer.Write()
+
+
+def draw_panels(path, picture):
+    panels = read_panels(path)
+    columns = 2 if len(panels) in (2, 4) else min(3, len(panels))
+    rows = -(-len(panels) // columns)
+    view = vtkContextView()
+    view.GetRenderWindow().SetSize(columns * WIDTH, rows * HEIGHT)
+    view.GetRenderer().SetBackground(1, 1, 1)
+    matrix = vtkChartMatrix()
+    matrix.SetSize(vtkVector2i(columns, rows))
+    matrix.SetGutter(vtkVector2f(20, 20))
+    view.GetScene().AddItem(matrix)
+    for k, (title, panel) in enumerate(panels.items()):
+        chart = vtkChartXY()
+        fill_chart(chart, title, panel)
+        place_legend(chart, panel)
+        matrix.SetChart(vtkVector2i(k % columns, rows - 1 - k // columns), chart)
+    write_png(view.GetRenderWindow(), picture)
+
+
+def surface_renderer(path):
+    with open(path) as file:
+        file.readline()
+        largest, title = file.readline().strip().split(" ", 1)
+    reader = vtkPolyDataReader()
+    reader.SetFileName(str(path))
+    colours = vtkLookupTable()
+    colours.SetHueRange(0.62, 0.0)
+    colours.SetRange(0.0, float(largest))
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputConnection(reader.GetOutputPort())
+    mapper.SetLookupTable(colours)
+    mapper.UseLookupTableScalarRangeOn()
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().LightingOff()
+    bar = vtkScalarBarActor()
+    bar.SetLookupTable(colours)
+    bar.SetTitle(title)
+    bar.SetNumberOfLabels(3)
+    bar.SetLabelFormat("%.1e")
+    bar.SetOrientationToHorizontal()
+    bar.SetPosition(0.1, 0.02)
+    bar.SetWidth(0.8)
+    bar.SetHeight(0.14)
+    bar.UnconstrainedFontSizeOn()
+    for text in (bar.GetTitleTextProperty(), bar.GetLabelTextProperty()):
+        text.SetColor(0, 0, 0)
+        text.SetFontSize(14)
+        text.BoldOff()
+        text.ItalicOff()
+        text.ShadowOff()
+    renderer = vtkRenderer()
+    renderer.AddActor(actor)
+    renderer.AddViewProp(bar)
+    renderer.SetBackground(1, 1, 1)
+    camera = renderer.GetActiveCamera()
+    camera.SetPosition(1, 0.8, 0.6)
+    camera.SetViewUp(0, 0, 1)
+    renderer.ResetCamera()
+    camera.Zoom(1.1)
+    return renderer
+
+
+def draw_surfaces(paths, picture):
+    window = vtkRenderWindow()
+    window.SetSize(len(paths) * WIDTH * 3 // 4, HEIGHT)
+    for k, path in enumerate(paths):
+        renderer = surface_renderer(path)
+        renderer.SetViewport(k / len(paths), 0, (k + 1) / len(paths), 1)
+        window.AddRenderer(renderer)
+    write_png(window, picture)
+
+
+def main():
+    numbers, pictures = map(pathlib.Path, sys.argv[1:3])
+    pictures.mkdir(parents=True, exist_ok=True)
+    for path in sorted(numbers.glob("*.csv")):
+        draw_panels(path, pictures / (path.stem + ".png"))
+    names = sorted({path.stem.rpartition("-")[0] for path in numbers.glob("*.vtk")})
+    for name in names:
+        draw_surfaces(sorted(numbers.glob(name + "-*.vtk")), pictures / (name + ".png"))
+
+
+main()
