@@ -24,6 +24,7 @@ int main(int argc, char** argv)
     { "4.11", WriteRotatedCubes },
     { "4.13", WriteErrorMaps },
     { "6.6", WriteSeparatedCubes },
+    { "6.7", WriteKnotConvergence },
   };
   for (const auto& [number, write] : figures)
   {

@@ -1,5 +1,7 @@
 // Iterations and seconds of the solver: rotated cubes, smooth surfaces, and the peers on the same
 // surface.
+#include "AlgebraicMultigrid.h"
+#include "Hierarchy.h"
 #include "Measure.h"
 #include "Meshes.h"
 #include "PeerTimes.h"
@@ -169,11 +171,98 @@ void RunPeers()
   PrintAtLeast("cycle_second_thread", one.cycle / two.cycle, 1.6);
 }
 
+constexpr double HatTolerance = 1e-8;
+
+/// Iterations of conjugate gradients on a hat system to a residual of 1e-8.
+struct HatIterations
+{
+  double hybrid = Never;
+  double boomerAmg = Never;
+  double gamg = Never;
+  double hybridSeconds = 0.0;
+  double thesisCycles = Never; // of the hybrid alone, W with ten Gauss-Seidel sweeps everywhere
+};
+
+int Iterations(AlgebraicMultigrid& amg, const HatProblem& problem)
+{
+  constexpr int Most = 200;
+  amg.Setup();
+  Eigen::VectorXd x;
+  const int iterations = amg.Solve(problem.b.col(0), x, HatTolerance, Most);
+  return iterations < Most ? iterations : Never;
+}
+
+int Iterations(const SolveReport& report)
+{
+  return report.converged ? report.iterations : Never;
+}
+
+HatIterations RunHats(const TriangleMesh& mesh, const HybridProblem& hybrid, double weight)
+{
+  HatIterations result;
+  HatProblem problem = AssembleProblem(mesh, weight);
+  ChooseColours(mesh, problem, 1);
+  result.boomerAmg = Iterations(*MakeBoomerAmg(problem.A), problem);
+  result.gamg = Iterations(*MakeGamg(problem.A), problem);
+
+  SolveOptions solve;
+  solve.tolerance = HatTolerance;
+  solve.maximumIterations = 200;
+  solve.measure = SolveOptions::Measure::Residual;
+  const Multigrid cycle = hybrid.BuildCycle(weight, {});
+  MultiVector b;
+  Multiply(cycle.Matrix(), hybrid.ToFunctions(ColoursAtPoints(mesh, 1)), b);
+  MultiVector x = MultiVector::Zero(b.rows(), 1);
+  const Stopwatch watch;
+  result.hybrid = Iterations(SolveConjugateGradients(cycle, b, x, solve));
+  result.hybridSeconds = watch.Seconds();
+
+  const Multigrid thesis = hybrid.BuildCycle(weight, ThesisHybrid());
+  x.setZero();
+  solve.maximumIterations = 30;
+  result.thesisCycles = Iterations(SolveCycles(thesis, b, x, solve));
+  return result;
+}
+
+void RunHatTable()
+{
+  std::printf("\nHat functions, rocker arm: conjugate gradients to residual 1e-8; thesis: the "
+              "hybrid alone, W, ten Gauss-Seidel sweeps, cycles to 1e-8\n");
+  const Table table(
+    { "vertices", "depth", "screening", "hybrid", "BoomerAMG", "GAMG", "s hybrid", "thesis" });
+  double worst = 0.0;
+  double againstPeers = 0.0;
+  double thesis = 0.0;
+  for (const int subdivisions : { 0, 1, 2, 3 })
+  {
+    const int depth = 5 + subdivisions;
+    const TriangleMesh mesh = RockerArm(subdivisions).mesh;
+    const HybridProblem hybrid = SetUpHybrid(mesh, depth, Threads);
+    for (const double weight : { 1e-2, 1.0, 1e2, 1e4 })
+    {
+      const HatIterations row = RunHats(mesh, hybrid, weight);
+      table.Row({ std::to_string(mesh.points.size()), std::to_string(depth), Text("%g", weight),
+        Text("%.0f", row.hybrid), Text("%.0f", row.boomerAmg), Text("%.0f", row.gamg),
+        Text("%.3f", row.hybridSeconds), Text("%.0f", row.thesisCycles) });
+      worst = std::max(worst, row.hybrid);
+      againstPeers = std::max(againstPeers, row.hybrid / std::min(row.boomerAmg, row.gamg));
+      thesis = std::max(thesis, row.thesisCycles);
+    }
+  }
+  PrintAtMost("hat_hybrid_worst_iterations_to_residual_1e-8", worst, 18.0);
+  PrintAtMost("hat_hybrid_worst_iterations_over_fewer_of_the_peers", againstPeers, 1.0);
+  PrintAtMost("hat_hybrid_ten_sweeps_worst_cycles_to_residual_1e-8", thesis, 10.0);
+}
+
 } // namespace
 
 int main()
 {
   RunPeers(); // first: it starts processes, which must come before threads
+  {
+    const MessagePassing libraries;
+    RunHatTable();
+  }
   const std::vector<Bound> cubes = RunCubes();
   const std::vector<Bound> smooth = RunSmoothSurfaces();
   std::printf("\n");

@@ -37,6 +37,15 @@ MultigridOptions ThesisCycle()
   return options;
 }
 
+HatMultigridOptions ThesisHybrid()
+{
+  HatMultigridOptions options;
+  options.grid = ThesisCycle();
+  options.hats = { SmootherType::GaussSeidel, 10, 10, CycleType::W };
+  options.relaxGroups = false;
+  return options;
+}
+
 SparseMatrix FromEigen(const Eigen::SparseMatrix<double>& matrix)
 {
   const Eigen::SparseMatrix<double, Eigen::RowMajor> rows = matrix;

@@ -4,6 +4,7 @@
 #define GridFEM_Benchmarks_Hierarchy_h
 
 #include "CotangentSystem.h"
+#include "HatMultigrid.h"
 #include "Multigrid.h"
 
 #include <functional>
@@ -14,6 +15,9 @@ namespace gridfem::benchmarks
 
 /// The thesis' cycle: W, ten Gauss-Seidel sweeps before and after the coarse correction. [T §4.3.2]
 MultigridOptions ThesisCycle();
+
+/// The same for hat functions above a grid.
+HatMultigridOptions ThesisHybrid();
 
 SparseMatrix FromEigen(const Eigen::SparseMatrix<double>& matrix);
 SymmetricMatrix ToEigen(const SparseMatrix& matrix);

@@ -130,8 +130,7 @@ HatProblem AssembleProblem(const TriangleMesh& mesh, double screeningWeight)
 
 void ChooseColours(const TriangleMesh& mesh, HatProblem& problem, int columns)
 {
-  const Box box = BoxOf(mesh);
-  problem.exact = ToRows(problem.hats, Colours(mesh.points, box.centre, box.side, columns));
+  problem.exact = ToRows(problem.hats, ColoursAtPoints(mesh, columns));
   problem.b = problem.A * problem.exact;
 }
 
@@ -141,6 +140,45 @@ double HatProblem::Error(const Eigen::MatrixXd& x) const
   const Eigen::MatrixXd error = x - wanted;
   return LargestQuotient(
     error, Eigen::MatrixXd(hats.mass * error), wanted, Eigen::MatrixXd(hats.mass * wanted));
+}
+
+MultiVector ColoursAtPoints(const TriangleMesh& mesh, int columns)
+{
+  const Box box = BoxOf(mesh);
+  return Colours(mesh.points, box.centre, box.side, columns);
+}
+
+HybridProblem SetUpHybrid(const TriangleMesh& mesh, int depth, int threads, FunctionSupport support)
+{
+  HybridProblem problem;
+  SpaceOptions options;
+  options.depth = depth;
+  options.threads = threads;
+  options.connectivityAware = support == FunctionSupport::ConnectivityAware;
+  problem.space = BuildFunctionSpace(mesh, options);
+  problem.system = BuildSystem(problem.space, TriangleRule(2), threads);
+  problem.hats = BuildHatHierarchy(
+    mesh, problem.space, options.weldCoincidentPoints, HatTransfer::PseudoEvaluation, threads);
+  return problem;
+}
+
+Multigrid HybridProblem::BuildCycle(double weight, const HatMultigridOptions& options) const
+{
+  const double inGrid = weight * std::pow(0.25, space.Finest().depth);
+  return BuildHatMultigrid(hats, space, system, inGrid, 1.0, options);
+}
+
+MultiVector HybridProblem::ToFunctions(const MultiVector& values) const
+{
+  MultiVector result(hats.functions.Count(), values.cols());
+  for (std::size_t point = 0; point < hats.functions.ofPoint.size(); ++point)
+  {
+    if (hats.functions.ofPoint[point] >= 0)
+    {
+      result.row(hats.functions.ofPoint[point]) = values.row(static_cast<Id>(point));
+    }
+  }
+  return result;
 }
 
 int IterationsToError(const std::function<double(int)>& error, double target, int most)

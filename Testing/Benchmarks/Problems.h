@@ -5,6 +5,7 @@
 #define GridFEM_Benchmarks_Problems_h
 
 #include "CotangentSystem.h"
+#include "HatMultigrid.h"
 #include "Poisson.h"
 
 #include <functional>
@@ -59,6 +60,27 @@ struct HatProblem
 /// The matrix alone: what the peers' "assembly" means in every table.
 HatProblem AssembleProblem(const TriangleMesh& mesh, double screeningWeight = ScreeningWeight);
 void ChooseColours(const TriangleMesh& mesh, HatProblem& problem, int columns);
+
+/// Colours at the points of a mesh, centred and scaled by its bounding box.
+MultiVector ColoursAtPoints(const TriangleMesh& mesh, int columns);
+
+/// Hat functions of the mesh above the levels of a grid: the same equation as HatProblem's.
+struct HybridProblem
+{
+  FunctionSpace space;
+  System system;
+  HatHierarchy hats;
+
+  /// The cycle for λ = `weight` in units of the unit cube. It holds on to nothing of this.
+  Multigrid BuildCycle(double weight, const HatMultigridOptions& options) const;
+
+  /// Values at the mesh's points as values of the functions.
+  MultiVector ToFunctions(const MultiVector& values) const;
+};
+
+/// Everything that does not depend on λ.
+HybridProblem SetUpHybrid(const TriangleMesh& mesh, int depth, int threads,
+  FunctionSupport support = FunctionSupport::ConnectivityAware);
 
 /// The least number of iterations after which `error` is at most `target`; -1: not within `most`.
 /// Takes the error for decreasing, and so searches by doubling and halving.

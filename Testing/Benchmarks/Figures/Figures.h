@@ -18,6 +18,7 @@ void WriteGridConvergence(const std::string& folder);   // 4.8
 void WriteRotatedCubes(const std::string& folder);      // 4.11, 4.12
 void WriteErrorMaps(const std::string& folder);         // 4.13
 void WriteSeparatedCubes(const std::string& folder);    // 6.5, 6.6
+void WriteKnotConvergence(const std::string& folder);   // 6.7
 
 } // namespace gridfem::benchmarks
 
