@@ -70,8 +70,8 @@ MultiVector Colours(const std::vector<Vec3>& points, const Vec3& centre, double 
   return values;
 }
 
-GridProblem SetUp(
-  const TriangleMesh& mesh, int depth, int threads, FunctionSupport support, double screeningWeight)
+GridProblem SetUp(const TriangleMesh& mesh, int depth, int threads, FunctionSupport support,
+  double screeningWeight, Index coarsestSize)
 {
   GridProblem problem;
   SpaceOptions options;
@@ -79,7 +79,7 @@ GridProblem SetUp(
   options.threads = threads;
   options.connectivityAware = support == FunctionSupport::ConnectivityAware;
   problem.space = BuildFunctionSpace(mesh, options);
-  problem.system = BuildSystem(problem.space, TriangleRule(2), threads);
+  problem.system = BuildSystem(problem.space, TriangleRule(2), threads, coarsestSize);
   problem.options.screeningWeight = screeningWeight * std::pow(0.25, depth);
   problem.options.multigrid.threads = threads;
   problem.multigrid = std::make_unique<Multigrid>(BuildMultigrid(problem.space, problem.system,

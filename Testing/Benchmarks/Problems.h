@@ -42,7 +42,7 @@ struct GridProblem
 /// Triangles to ready-to-solve hierarchy: what "set-up" means in every table.
 GridProblem SetUp(const TriangleMesh& mesh, int depth, int threads,
   FunctionSupport support = FunctionSupport::ConnectivityAware,
-  double screeningWeight = ScreeningWeight);
+  double screeningWeight = ScreeningWeight, Index coarsestSize = 256);
 
 /// Chooses the exact solution; not part of the set-up.
 void ChooseColours(GridProblem& problem, int columns);

@@ -7,6 +7,7 @@ display (xvfb-run gives one).
 """
 
 import csv
+import math
 import pathlib
 import sys
 
@@ -24,7 +25,8 @@ from vtkmodules.vtkRenderingCore import (vtkActor, vtkPolyDataMapper, vtkRendere
                                          vtkWindowToImageFilter)
 from vtkmodules.vtkViewsContext2D import vtkContextView
 
-WIDTH, HEIGHT = 480, 400  # of a panel, pixels
+WIDTH, HEIGHT = 430, 350  # of a panel, pixels
+SMALLEST = 1e-16  # on logarithmic axes
 
 # Ours is blue, the thesis' smoother orange, peers have the other hues.
 COLOURS = {
@@ -67,7 +69,7 @@ def fill_chart(chart, title, panel):
     logarithmic = panel["logarithmic"] == "1"
     counts = {}
     for name, (kind, points) in panel["curves"].items():
-        kept = [p for p in points if p[1] > 0 or not logarithmic]
+        kept = [p for p in points if p[1] > SMALLEST or not logarithmic]
         add_curve(chart, name, kind, kept, counts.get(kind, 0))
         counts[kind] = counts.get(kind, 0) + 1
     chart.SetTitle(title)
@@ -82,14 +84,27 @@ def fill_chart(chart, title, panel):
         axis.GetLabelProperties().SetFontSize(12)
         axis.GetGridPen().SetColor(228, 228, 228, 255)
     chart.GetAxis(vtkAxis.LEFT).SetLogScale(logarithmic)
+    chart.GetAxis(vtkAxis.LEFT).SetGridVisible(not logarithmic)  # a line per digit is too much
 
 
 def place_legend(chart, panel):
-    """Where the curves leave room: below those that rise, above those that fall."""
-    rises = sum(points[-1][1] - points[0][1] for _, points in panel["curves"].values()) > 0
+    """In the corner with the fewest points of the curves."""
+    points = [p for _, curve in panel["curves"].values() for p in curve]
+    if panel["logarithmic"] == "1":
+        points = [(x, math.log(y)) for x, y in points if y > SMALLEST]
+    low, high = ([f(p[k] for p in points) for k in (0, 1)] for f in (min, max))
+    shares = [[(p[k] - low[k]) / ((high[k] - low[k]) or 1.0) for k in (0, 1)] for p in points]
+
+    def crowd(corner):
+        return sum(abs(x - corner[0]) < 0.55 and abs(y - corner[1]) < 0.35 for x, y in shares)
+
+    x, y = min(((1, 1), (1, 0), (0, 1), (0, 0)), key=crowd)
     legend = chart.GetLegend()
-    legend.SetVerticalAlignment(vtkChartLegend.BOTTOM if rises else vtkChartLegend.TOP)
-    legend.SetHorizontalAlignment(vtkChartLegend.RIGHT)
+    legend.SetHorizontalAlignment(vtkChartLegend.RIGHT if x else vtkChartLegend.LEFT)
+    legend.SetVerticalAlignment(vtkChartLegend.TOP if y else vtkChartLegend.BOTTOM)
+    legend.SetPadding(6)
+    legend.GetPen().SetColor(200, 200, 200, 255)
+    legend.GetBrush().SetColor(255, 255, 255, 200)
 
 
 def write_png(window, path):
@@ -113,13 +128,15 @@ def draw_panels(path, picture):
     view.GetRenderer().SetBackground(1, 1, 1)
     matrix = vtkChartMatrix()
     matrix.SetSize(vtkVector2i(columns, rows))
-    matrix.SetGutter(vtkVector2f(20, 20))
+    matrix.SetGutter(vtkVector2f(100, 95))
+    matrix.SetBorders(85, 60, 25, 45)
     view.GetScene().AddItem(matrix)
     for k, (title, panel) in enumerate(panels.items()):
         chart = vtkChartXY()
         fill_chart(chart, title, panel)
         place_legend(chart, panel)
         matrix.SetChart(vtkVector2i(k % columns, rows - 1 - k // columns), chart)
+    view.GetRenderWindow().SetMultiSamples(0)  # smooth edges would double the size of the file
     write_png(view.GetRenderWindow(), picture)
 
 
@@ -130,6 +147,7 @@ def surface_renderer(path):
     reader = vtkPolyDataReader()
     reader.SetFileName(str(path))
     colours = vtkLookupTable()
+    colours.SetNumberOfTableValues(12)  # steps: contours are seen, and the picture stays small
     colours.SetHueRange(0.62, 0.0)
     colours.SetRange(0.0, float(largest))
     mapper = vtkPolyDataMapper()
@@ -141,13 +159,13 @@ def surface_renderer(path):
     actor.GetProperty().LightingOff()
     bar = vtkScalarBarActor()
     bar.SetLookupTable(colours)
-    bar.SetTitle(title)
+    bar.SetTitle(title + "\n")
     bar.SetNumberOfLabels(3)
     bar.SetLabelFormat("%.1e")
     bar.SetOrientationToHorizontal()
     bar.SetPosition(0.1, 0.02)
     bar.SetWidth(0.8)
-    bar.SetHeight(0.14)
+    bar.SetHeight(0.16)
     bar.UnconstrainedFontSizeOn()
     for text in (bar.GetTitleTextProperty(), bar.GetLabelTextProperty()):
         text.SetColor(0, 0, 0)
@@ -163,12 +181,14 @@ def surface_renderer(path):
     camera.SetPosition(1, 0.8, 0.6)
     camera.SetViewUp(0, 0, 1)
     renderer.ResetCamera()
-    camera.Zoom(1.1)
+    camera.Zoom(0.95)
+    camera.SetWindowCenter(0, -0.18)
     return renderer
 
 
 def draw_surfaces(paths, picture):
     window = vtkRenderWindow()
+    window.SetMultiSamples(0)
     window.SetSize(len(paths) * WIDTH * 3 // 4, HEIGHT)
     for k, path in enumerate(paths):
         renderer = surface_renderer(path)

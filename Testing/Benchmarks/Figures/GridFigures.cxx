@@ -29,9 +29,10 @@ struct GridCase
   Eigen::MatrixXd b;
 
   GridCase(const TriangleMesh& mesh, int depth,
-    FunctionSupport support = FunctionSupport::ConnectivityAware)
-    : grid(SetUp(mesh, depth, 1, support)), thesis(BuildMultigrid(grid.space, grid.system,
-                                              grid.options.screeningWeight, 1.0, ThesisCycle())),
+    FunctionSupport support = FunctionSupport::ConnectivityAware, Index coarsestSize = 100)
+    : grid(SetUp(mesh, depth, 1, support, ScreeningWeight, coarsestSize)),
+      thesis(
+        BuildMultigrid(grid.space, grid.system, grid.options.screeningWeight, 1.0, ThesisCycle())),
       A(ToEigen(grid.multigrid->Matrix()))
   {
     ChooseColours(grid, 1);
@@ -231,9 +232,9 @@ void WriteErrorMaps(const std::string& folder)
   const std::vector<double> later = ErrorAtPoints(on, Cycles(*on.grid.multigrid, on.b)(3));
   const double largest = *std::max_element(thesis.begin(), thesis.end());
   WriteSurfaces("figure-4.13",
-    { { "error, 1 cycle, 10 Gauss-Seidel", cube, thesis, largest },
-      { "error, 1 cycle, 1 patch sweep", cube, ours, largest },
-      { "error, 3 cycles, 1 patch sweep", cube, later, largest } },
+    { { "1 cycle, 10 Gauss-Seidel sweeps", cube, thesis, largest },
+      { "1 cycle, 1 patch sweep", cube, ours, largest },
+      { "3 cycles, 1 patch sweep", cube, later, largest } },
     folder);
 }
 
@@ -249,7 +250,9 @@ void WriteSeparatedCubes(const std::string& folder)
   {
     const bool isPlain = support == FunctionSupport::Plain;
     const std::string name = isPlain ? "plain space" : "connectivity-aware space";
-    const GridCase on(cubes, 5, support);
+    // So small that no level is solved directly on which plain functions reach several cubes.
+    constexpr Index CoarsestSize = 8;
+    const GridCase on(cubes, 5, support, CoarsestSize);
     std::mt19937 generator(1);
     Eigen::MatrixXd start(on.b.rows(), 1);
     for (Eigen::Index i = 0; i < start.rows(); ++i)
@@ -258,7 +261,8 @@ void WriteSeparatedCubes(const std::string& folder)
     }
     const Curve::Kind kind = isPlain ? Curve::Kind::Peer : Curve::Kind::Ours;
     const Iterate cycles = Cycles(on.thesis, on.b, start);
-    surfaces.push_back({ "error, 10 cycles, " + name, cubes, ErrorAtPoints(on, cycles(10)), 0.0 });
+    surfaces.push_back(
+      { "error after 10 cycles, " + name, cubes, ErrorAtPoints(on, cycles(10)), 0.0 });
     thesis.curves.push_back(CountedCurve(name, kind, Residuals(on.A, on.b, cycles, MostCycles)));
     ours.curves.push_back(CountedCurve(
       name, kind, Residuals(on.A, on.b, Cycles(*on.grid.multigrid, on.b, start), MostCycles)));

@@ -175,14 +175,14 @@ void WriteCotangentFigure(const std::string& folder)
 {
   Figure figure{ "figure-4.6", {} };
   figure.panels.push_back(CompareWithCotangents("Sphere", testing::LatLongSphere(140, 69), { 5 }));
-  figure.panels.push_back(CompareWithCotangents(RockerArm(0).name, RockerArm(0).mesh, { 5, 6 }));
+  figure.panels.push_back(CompareWithCotangents("Rocker arm", RockerArm(0).mesh, { 5, 6 }));
   const NamedMesh genus3 = RealMesh("Genus-3", "genus3_13k.ply");
   if (!genus3.mesh.points.empty())
   {
     figure.panels.push_back(CompareWithCotangents(genus3.name, genus3.mesh, { 5, 6 }));
   }
   figure.panels.push_back(CompareWithCotangents(
-    "Pulley, walls 1.5 cells at depth 5", testing::Pulley(180, 1.5 / 16.0), { 5, 6 }));
+    "Pulley, walls 1.5 cells at depth 5", testing::Pulley(60, 1.5 / 16.0), { 5 }));
   WriteFigure(figure, folder);
 }
 
