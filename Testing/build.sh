@@ -11,7 +11,8 @@ BUILD_PACKAGES=("${CORE_PACKAGES[@]}" paraview paraview-dev python3-paraview lib
   python3-dev libcli11-dev libgtest-dev xvfb xauth)
 TEST_PACKAGES=(clang-format)
 BENCHMARK_PACKAGES=(libbenchmark-dev pkg-config libsuitesparse-dev libhypre-dev libpetsc-real-dev
-  libspectra-dev libopenblas-dev libopenmpi-dev)
+  libspectra-dev libopenblas-dev libopenmpi-dev slepc-dev)
+FIGURE_PACKAGES=(paraview python3-paraview xvfb xauth)
 
 Say() { printf '%s\n' "-- $*" >&2; }
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <random>
 
 namespace
@@ -48,8 +49,6 @@ void RunContest(const Contest& contest, bool memory)
     contest.mesh.name.c_str(), mesh.points.size(), contest.depth);
   const Table table({ "method", "unknowns", "converged", "steps or solves", "s set-up", "s",
     "MB peak", "last eigenvalue" });
-  const SpectrumJob one = GridSpectrum(mesh, contest.depth, contest.modes, 1);
-  PrintJob(table, "grid, 1 thread", one);
   const SpectrumJob two = GridSpectrum(mesh, contest.depth, contest.modes, Threads);
   PrintJob(table, "grid, 2 threads", two);
   const SpectrumJob spectra = ShiftInvertSpectrum(SpectraSpectrum, mesh, contest.modes, Threads);
@@ -249,15 +248,14 @@ void RunNeedles()
 
 } // namespace
 
-/// Arguments: names of contests to run besides the rest; 1000 is left out unless it is named.
-int main(int argc, char** argv)
+int main()
 {
   RunContest({ "100_pairs_160704", RockerArm(2), 7, 100, 8.0 }, true);
   if (const NamedMesh dragon = RealMesh("dragon", "dragon_871k.ply"); !dragon.mesh.points.empty())
   {
     RunContest({ "100_pairs_dragon", dragon, 8, 100, 10.0 }, true);
   }
-  if (argc > 1 && std::string(argv[1]) == "1000")
+  if (std::getenv("GRIDFEM_LONG") != nullptr) // half an hour, most of it the peers'
   {
     RunContest({ "1000_pairs_160704", RockerArm(2), 7, 1000, 4.0 }, true);
   }

@@ -74,7 +74,6 @@ def fill_chart(chart, title, panel):
         counts[kind] = counts.get(kind, 0) + 1
     chart.SetTitle(title)
     chart.GetTitleProperties().SetFontSize(15)
-    chart.SetShowLegend(len(panel["curves"]) <= 8)
     chart.GetLegend().SetLabelSize(12)
     for place, label in ((vtkAxis.BOTTOM, "x axis"), (vtkAxis.LEFT, "y axis")):
         axis = chart.GetAxis(place)
@@ -131,9 +130,13 @@ def draw_panels(path, picture):
     matrix.SetGutter(vtkVector2f(100, 95))
     matrix.SetBorders(85, 60, 25, 45)
     view.GetScene().AddItem(matrix)
+    explained = []
     for k, (title, panel) in enumerate(panels.items()):
         chart = vtkChartXY()
         fill_chart(chart, title, panel)
+        names = [(name, kind) for name, (kind, _) in panel["curves"].items()]
+        chart.SetShowLegend(1 < len(names) <= 8 and names not in explained)
+        explained.append(names)
         place_legend(chart, panel)
         matrix.SetChart(vtkVector2i(k % columns, rows - 1 - k // columns), chart)
     view.GetRenderWindow().SetMultiSamples(0)  # smooth edges would double the size of the file
@@ -181,8 +184,8 @@ def surface_renderer(path):
     camera.SetPosition(1, 0.8, 0.6)
     camera.SetViewUp(0, 0, 1)
     renderer.ResetCamera()
-    camera.Zoom(0.95)
-    camera.SetWindowCenter(0, -0.18)
+    camera.Zoom(0.85)
+    camera.SetWindowCenter(0, -0.3)
     return renderer
 
 

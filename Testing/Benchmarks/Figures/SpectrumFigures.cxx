@@ -88,8 +88,8 @@ void WriteQuadratureFigure(const std::string& folder)
     figure.panels[0].curves.push_back(CountedCurve(name, Curve::Kind::Ours, values, 1));
     if (degree != 12)
     {
-      figure.panels[1].curves.push_back(
-        CountedCurve(name, Curve::Kind::Ours, Differences(values, best), 2));
+      figure.panels[1].curves.push_back(CountedCurve(
+        "degree " + std::to_string(degree), Curve::Kind::Ours, Differences(values, best), 2));
     }
   }
   WriteFigure(figure, folder);
