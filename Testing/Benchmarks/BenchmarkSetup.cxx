@@ -156,29 +156,18 @@ struct Contest
   double cholmodBound;
 };
 
-void RunContests()
+void RunContest(const Contest& contest)
 {
-  std::vector<Contest> contests{ { "160704", RockerArm(2), 7, 1.0 },
-    { "642816", RockerArm(3), 8, 0.5 } };
-  if (NamedMesh dragon = RealMesh("dragon", "dragon_871k.ply"); !dragon.mesh.points.empty())
-  {
-    contests.push_back({ "dragon", std::move(dragon), 8, 0.5 });
-  }
-  for (const Contest& contest : contests)
-  {
-    const PeerJob job{ contest.mesh, contest.depth, 1e-4, Repetitions };
-    const PeerTimes times = MeasurePeers(job);
-    const Peaks peaks = MeasurePeaks(contest.mesh, contest.depth);
-    PrintPeers(job, times);
-    std::printf("Peak memory beyond the mesh: grid %.0f MB, CHOLMOD %.0f MB\n", 1e-6 * peaks.grid,
-      1e-6 * peaks.cholmod);
-    PrintPeerRatios(contest.name, times, peaks, contest.cholmodBound);
-  }
+  const PeerJob job{ contest.mesh, contest.depth, 1e-4, Repetitions };
+  const PeerTimes times = MeasurePeers(job);
+  const Peaks peaks = MeasurePeaks(contest.mesh, contest.depth);
+  PrintPeers(job, times);
+  std::printf("Peak memory beyond the mesh: grid %.0f MB, CHOLMOD %.0f MB\n", 1e-6 * peaks.grid,
+    1e-6 * peaks.cholmod);
+  PrintPeerRatios(contest.name, times, peaks, contest.cholmodBound);
 }
 
-} // namespace
-
-int main()
+void RunScaling()
 {
   const Measurement large = Measure(3, 8, 2);
   PrintStages(Measure(3, 8, 1), large);
@@ -190,5 +179,29 @@ int main()
   PrintScaling("Cost at a growing depth", growing);
   PrintAtMost("setup_per_clipped_triangle_fixed_depth_spread", Spread(fixed), 1.25);
   PrintAtMost("setup_per_clipped_triangle_growing_depth_spread", Spread(growing), 1.25);
-  RunContests();
+}
+
+} // namespace
+
+/// Arguments: parts of scaling, 160704, 642816, dragon.
+int main(int argc, char** argv)
+{
+  const Parts parts(argc, argv);
+  if (parts.Want("scaling"))
+  {
+    RunScaling();
+  }
+  if (parts.Want("160704"))
+  {
+    RunContest({ "160704", RockerArm(2), 7, 1.0 });
+  }
+  if (parts.Want("642816"))
+  {
+    RunContest({ "642816", RockerArm(3), 8, 0.5 });
+  }
+  const NamedMesh dragon = RealMesh("dragon", "dragon_871k.ply");
+  if (parts.Want("dragon") && !dragon.mesh.points.empty())
+  {
+    RunContest({ "dragon", dragon, 8, 0.5 });
+  }
 }

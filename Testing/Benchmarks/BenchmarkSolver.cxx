@@ -256,16 +256,25 @@ void RunHatTable()
 
 } // namespace
 
-int main()
+/// Arguments: parts of peers, hats, cubes, smooth.
+int main(int argc, char** argv)
 {
-  RunPeers(); // first: it starts processes, which must come before threads
+  const Parts parts(argc, argv);
+  if (parts.Want("peers")) // first: it starts processes, which must come before threads
+  {
+    RunPeers();
+  }
+  if (parts.Want("hats"))
   {
     const MessagePassing libraries;
     RunHatTable();
   }
-  const std::vector<Bound> cubes = RunCubes();
-  const std::vector<Bound> smooth = RunSmoothSurfaces();
-  std::printf("\n");
-  Print(cubes);
-  Print(smooth);
+  if (parts.Want("cubes"))
+  {
+    Print(RunCubes());
+  }
+  if (parts.Want("smooth"))
+  {
+    Print(RunSmoothSurfaces());
+  }
 }

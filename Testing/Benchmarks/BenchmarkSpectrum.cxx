@@ -248,20 +248,38 @@ void RunNeedles()
 
 } // namespace
 
-int main()
+/// Arguments: parts of 160704, dragon, sphere, motions, walls, needles.
+int main(int argc, char** argv)
 {
-  RunContest({ "100_pairs_160704", RockerArm(2), 7, 100, 8.0 }, true);
-  if (const NamedMesh dragon = RealMesh("dragon", "dragon_871k.ply"); !dragon.mesh.points.empty())
+  const Parts parts(argc, argv);
+  if (parts.Want("160704"))
   {
-    RunContest({ "100_pairs_dragon", dragon, 8, 100, 10.0 }, true);
+    RunContest({ "100_pairs_160704", RockerArm(2), 7, 100, 8.0 }, false);
+  }
+  const NamedMesh dragon = RealMesh("dragon", "dragon_871k.ply");
+  if (parts.Want("dragon") && !dragon.mesh.points.empty())
+  {
+    RunContest({ "100_pairs_dragon", dragon, 8, 100, 10.0 }, false);
   }
   if (std::getenv("GRIDFEM_LONG") != nullptr) // half an hour, most of it the peers'
   {
     RunContest({ "1000_pairs_160704", RockerArm(2), 7, 1000, 4.0 }, true);
   }
-  RunSphere();
-  RunRigidMotions(RockerArm(0));
-  RunRigidMotions({ "pulley", ThinPulley() });
-  RunThinWalls();
-  RunNeedles();
+  if (parts.Want("sphere"))
+  {
+    RunSphere();
+  }
+  if (parts.Want("motions"))
+  {
+    RunRigidMotions(RockerArm(0));
+    RunRigidMotions({ "pulley", ThinPulley() });
+  }
+  if (parts.Want("walls"))
+  {
+    RunThinWalls();
+  }
+  if (parts.Want("needles"))
+  {
+    RunNeedles();
+  }
 }

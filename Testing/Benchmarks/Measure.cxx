@@ -108,6 +108,11 @@ std::vector<double> InOwnProcess(const std::function<std::vector<double>()>& bod
   return numbers;
 }
 
+bool Parts::Want(const std::string& name) const
+{
+  return names_.empty() || std::find(names_.begin(), names_.end(), name) != names_.end();
+}
+
 std::string Text(const char* format, double value)
 {
   char buffer[64];

@@ -61,6 +61,17 @@ Numbers MeasureInOwnProcess(Body&& body)
   return result;
 }
 
+/// The parts of a group that the command line names; all when it names none.
+class Parts
+{
+public:
+  Parts(int argc, char** argv) : names_(argv + (argc > 0 ? 1 : 0), argv + argc) {}
+  bool Want(const std::string& name) const;
+
+private:
+  std::vector<std::string> names_;
+};
+
 /// printf into a string.
 std::string Text(const char* format, double value);
 
