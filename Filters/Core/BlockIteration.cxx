@@ -18,6 +18,9 @@ constexpr Index MinimumRandomColumns = 4;
 /// A converged column whose value moves by more than this many tolerances has to work again.
 constexpr double WakeFactor = 10.0;
 
+/// A converged column whose squared residual grows by more than this is measured again.
+constexpr double GrowthFactor = 1.5;
+
 /// After so many iterations the projected matrices are computed anew.
 constexpr int RefreshInterval = 8;
 
@@ -81,12 +84,14 @@ private:
   void SetStart();
   void RemoveKnown(MultiVector& X);
   bool Precondition(const Progress& progress);
-  void ComputeResiduals(const MultiVector& X);
+  void ComputeResiduals();
   bool MeasureResiduals();
+  bool Correct(const Progress& progress);
   void RayleighRitz(const Progress& progress);
   void ProjectOldPart();
   void ProjectCorrections();
-  std::vector<Index> ColumnsAtWork(bool all) const;
+  std::vector<Index> ColumnsAtWork() const;
+  std::vector<Index> ColumnsThatMoved();
   std::vector<Index> ColumnsWithDirections(Index size) const;
   Eigen::MatrixXd Overlap(const RitzPairs& ritz, const Eigen::MatrixXd& step) const;
   void NextVectors(const RitzPairs& ritz);
@@ -104,8 +109,9 @@ private:
   Eigen::MatrixXd stiffness_; // projected on [X, P], later [X, P, W]
   Eigen::MatrixXd mass_;
   std::vector<Index> atWork_;
-  std::vector<double> measure_;   // per column: rᵀBr / θ when it was last looked at
-  std::vector<double> settledAt_; // value at which a column has converged, else -1
+  std::vector<double> measure_;     // per column: rᵀBr / θ when it was last looked at
+  std::vector<double> settledAt_;   // value at which a column has converged, else -1
+  std::vector<double> settledNorm_; // squared norm of its residual then
   BlockReport report_;
   double fraction_ = 0.0;
 };
@@ -143,7 +149,8 @@ void BlockIteration::RemoveKnown(MultiVector& X)
   }
 }
 
-std::vector<Index> BlockIteration::ColumnsAtWork(bool all) const
+/// Columns that have not converged, or have moved since.
+std::vector<Index> BlockIteration::ColumnsAtWork() const
 {
   std::vector<Index> columns;
   for (Index j = 0; j < static_cast<Index>(pairs_.values.size()); ++j)
@@ -151,7 +158,7 @@ std::vector<Index> BlockIteration::ColumnsAtWork(bool all) const
     const bool settled =
       settledAt_[j] >= 0.0 && std::abs(pairs_.values[j] - settledAt_[j]) <=
                                 WakeFactor * options_.tolerance * pairs_.values[j];
-    if (all ? j < options_.wanted : !settled)
+    if (!settled)
     {
       columns.push_back(j);
     }
@@ -160,8 +167,12 @@ std::vector<Index> BlockIteration::ColumnsAtWork(bool all) const
 }
 
 /// residual = L X - M X diag(θ) of the columns at work.
-void BlockIteration::ComputeResiduals(const MultiVector& X)
+void BlockIteration::ComputeResiduals()
 {
+  const bool all = static_cast<Id>(atWork_.size()) == pairs_.values.size();
+  const MultiVector selected =
+    all ? MultiVector() : SelectColumns(pairs_.vectors, atWork_, problem_.threads);
+  const MultiVector& X = all ? pairs_.vectors : selected;
   MultiplyPair(problem_.stiffness, problem_.mass, X, pair_, problem_.threads);
   const Id count = X.cols();
   Eigen::RowVectorXd values(count);
@@ -184,6 +195,7 @@ void BlockIteration::ComputeResiduals(const MultiVector& X)
 bool BlockIteration::MeasureResiduals()
 {
   const Eigen::VectorXd energy = ColumnDots(residual_, corrections_, problem_.threads);
+  const Eigen::VectorXd norm = ColumnDots(residual_, residual_, problem_.threads);
   bool done = true;
   for (Id j = 0; j < energy.size(); ++j)
   {
@@ -192,43 +204,65 @@ bool BlockIteration::MeasureResiduals()
     measure_[column] = std::max(0.0, energy[j]) / std::max(value, problem_.shift);
     const bool converged = measure_[column] <= options_.tolerance;
     settledAt_[column] = converged ? value : -1.0;
+    settledNorm_[column] = norm[j];
     done = done && (converged || column >= options_.wanted);
   }
   return done;
 }
 
-/// Residuals and corrections of the columns at work. True when all wanted pairs have converged:
-/// columns that converged earlier are looked at once more before that is said.
+/// Residuals and corrections of the columns at work. True when all wanted ones have converged.
+bool BlockIteration::Correct(const Progress& progress)
+{
+  if (atWork_.empty())
+  {
+    corrections_.resize(problem_.mass.rows, 0);
+    return true;
+  }
+  this->ComputeResiduals();
+  progress.Check(fraction_);
+  problem_.precondition(residual_, corrections_);
+  progress.Check(fraction_);
+  return this->MeasureResiduals();
+}
+
+/// Wanted columns that converged earlier and whose residual has grown since. A cycle for each would
+/// measure it anew; its norm costs far less.
+std::vector<Index> BlockIteration::ColumnsThatMoved()
+{
+  atWork_.clear();
+  for (Index j = 0; j < std::min<Id>(options_.wanted, pairs_.values.size()); ++j)
+  {
+    atWork_.push_back(j);
+  }
+  this->ComputeResiduals();
+  const Eigen::VectorXd norm = ColumnDots(residual_, residual_, problem_.threads);
+  std::vector<Index> moved;
+  for (const Index column : atWork_)
+  {
+    if (norm[column] > GrowthFactor * settledNorm_[column])
+    {
+      moved.push_back(column);
+    }
+  }
+  return moved;
+}
+
+/// Residuals and corrections. True when all wanted pairs have converged: columns that converged
+/// earlier are looked at once more before that is said.
 bool BlockIteration::Precondition(const Progress& progress)
 {
   const std::size_t size = static_cast<std::size_t>(pairs_.values.size());
   measure_.resize(size, 1.0);
   settledAt_.resize(size, -1.0);
-  for (const bool all : { false, true })
+  settledNorm_.resize(size, 0.0);
+  atWork_ = this->ColumnsAtWork();
+  if (!this->Correct(progress))
   {
-    atWork_ = this->ColumnsAtWork(all);
-    if (atWork_.empty())
-    {
-      corrections_.resize(problem_.mass.rows, 0);
-      continue;
-    }
-    if (atWork_.size() == size)
-    {
-      this->ComputeResiduals(pairs_.vectors);
-    }
-    else
-    {
-      this->ComputeResiduals(SelectColumns(pairs_.vectors, atWork_, problem_.threads));
-    }
-    progress.Check(fraction_);
-    problem_.precondition(residual_, corrections_);
-    progress.Check(fraction_);
-    if (!this->MeasureResiduals())
-    {
-      return false;
-    }
+    return false;
   }
-  return static_cast<Index>(size) >= options_.wanted || report_.iterations > 0;
+  atWork_ = this->ColumnsThatMoved();
+  const bool converged = this->Correct(progress);
+  return converged && (static_cast<Index>(size) >= options_.wanted || report_.iterations > 0);
 }
 
 /// Stiffness and mass on [X, P] from the vectors. Between, they follow from the coefficients, and
@@ -383,6 +417,10 @@ BlockReport BlockIteration::Run(const Progress& progress)
   {
     report_.residuals.push_back(std::sqrt(measure_[j]));
     report_.numberOfConverged += measure_[j] <= options_.tolerance;
+  }
+  if (wanted < static_cast<Index>(pairs_.values.size()))
+  {
+    report_.nextResidual = std::sqrt(measure_[wanted]);
   }
   progress.Check(1.0);
   return report_;

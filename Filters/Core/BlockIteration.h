@@ -45,6 +45,7 @@ struct EigenPairs
 struct BlockReport
 {
   std::vector<double> residuals; // per wanted pair: sqrt(rᵀBr / max(θ, shift))
+  double nextResidual = 1.0;     // of the first pair behind them; 1 when there is none
   Index numberOfConverged = 0;   // of the wanted ones
   int iterations = 0;            // Rayleigh-Ritz steps
 };

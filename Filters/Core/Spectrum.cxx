@@ -131,6 +131,14 @@ void FixSigns(const SparseMatrix& mass, MultiVector& X, int threads)
   }
 }
 
+/// Leaves out all pairs but the first.
+void Shorten(BlockReport& report, Id count, double tolerance)
+{
+  report.residuals.resize(std::min<std::size_t>(count, report.residuals.size()));
+  report.numberOfConverged = static_cast<Index>(std::count_if(report.residuals.begin(),
+    report.residuals.end(), [&](double residual) { return residual * residual <= tolerance; }));
+}
+
 void Append(std::vector<double>& list, const std::vector<double>& more)
 {
   list.insert(list.end(), more.begin(), more.end());
@@ -217,6 +225,7 @@ private:
   void Prolong(std::size_t level, const Constants& constants, BlockOptions& block);
   BlockReport FinishList(
     const SpectralProblem& problem, BlockOptions block, const Progress& progress);
+  bool EndsInside(Id count, double error) const;
 
   const FunctionSpace& space_;
   const System& system_;
@@ -279,56 +288,59 @@ void NestedIteration::Prolong(std::size_t level, const Constants& constants, Blo
   }
 }
 
-/// The wanted pairs and one more, which tells whether a multiplet is cut; more of them until it is
-/// whole, if that is asked for. The report is that of the list without the one more.
+/// The wanted pairs; more of them until the multiplet at their end is whole, if that is asked for.
+/// The pair behind them tells whether it is cut: its value can only fall, by its measure, so that
+/// it has to converge as well only when that is in doubt. Values that come from a dense solve and
+/// are fewer than the block has room for are all there are.
 BlockReport NestedIteration::FinishList(
   const SpectralProblem& problem, BlockOptions block, const Progress& progress)
 {
-  Id count = block.wanted;
   const bool isAll = pairs_.values.size() > 0 && pairs_.values.size() < block.blockSize;
-  const Index most = isAll ? static_cast<Index>(pairs_.values.size()) : problem.mass.rows;
   if (isAll) // an iteration would only find rounding
   {
     block.maximumIterations = 0;
-    block.blockSize = most;
+    block.wanted = block.blockSize = static_cast<Index>(pairs_.values.size());
+    return ImproveEigenPairs(problem, block, pairs_, progress);
   }
+  Id count = block.wanted;
   BlockReport report;
   double done = 0.0;
   while (true)
   {
-    block.wanted = std::min(static_cast<Index>(count) + 1, most);
+    block.blockSize = std::max(block.blockSize, GuardedSize(block.wanted));
     const int before = report.iterations;
     const Progress part = progress.Part(done, 0.5 + 0.5 * done);
-    if (!isAll)
-    {
-      block.blockSize = std::max(block.blockSize, GuardedSize(block.wanted));
-    }
-    report = isAll ? ImproveEigenPairs(problem, block, pairs_, part)
-                   : ImproveManyEigenPairs(problem, block, pairs_, part);
+    report = ImproveManyEigenPairs(problem, block, pairs_, part);
     report.iterations += before;
     done = 0.5 + 0.5 * done;
-    const Id found = static_cast<Id>(report.residuals.size());
-    const auto endsInside = [&](Id end)
+    const bool converged = report.numberOfConverged == block.wanted;
+    cutsMultiplet_ = this->EndsInside(count, 0.0);
+    if (!converged)
     {
-      return end < pairs_.values.size() &&
-             IsMultiplet(pairs_.values[end - 1], pairs_.values[end], zeros_ + end);
-    };
-    cutsMultiplet_ = found > count && endsInside(count);
-    if (!cutsMultiplet_ || !options_.completeMultiplets || report.numberOfConverged < found)
-    {
-      count = std::min(count, found);
       break;
     }
-    while (endsInside(count))
+    const bool isSure = block.wanted > count || cutsMultiplet_ ||
+                        !this->EndsInside(count, std::pow(report.nextResidual, 2));
+    if (isSure && (!cutsMultiplet_ || !options_.completeMultiplets))
+    {
+      break;
+    }
+    while (isSure && this->EndsInside(count, 0.0))
     {
       ++count;
     }
+    block.wanted = static_cast<Index>(isSure ? count : count + 1);
   }
-  report.residuals.resize(count);
-  report.numberOfConverged =
-    static_cast<Index>(std::count_if(report.residuals.begin(), report.residuals.end(),
-      [&](double residual) { return residual * residual <= block.tolerance; }));
+  Shorten(report, count, block.tolerance);
   return report;
+}
+
+/// Whether the pair behind the first `count` belongs to the multiplet of the last of them, when its
+/// value is too large by the relative error.
+bool NestedIteration::EndsInside(Id count, double error) const
+{
+  return count < pairs_.values.size() && IsMultiplet(pairs_.values[count - 1],
+                                           (1.0 - error) * pairs_.values[count], zeros_ + count);
 }
 
 Spectrum NestedIteration::Run(const Progress& progress)

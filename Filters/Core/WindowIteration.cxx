@@ -72,6 +72,7 @@ void WindowIteration::Lock(const EigenPairs& window, const BlockReport& report)
   guards_ = window.vectors.rightCols(window.vectors.cols() - locked);
   guardValues_ = window.values.tail(guards_.cols());
   report_.numberOfConverged += report.numberOfConverged;
+  report_.nextResidual = report.nextResidual;
   report_.iterations = std::max(report_.iterations, report.iterations);
 }
 
@@ -137,7 +138,8 @@ BlockReport WindowIteration::Run(const Progress& progress)
 
 Index GuardedSize(Index wanted)
 {
-  return wanted + std::max<Index>(8, wanted / 8);
+  const Index guards = std::max<Index>(8, wanted / 8);
+  return (wanted + guards + 7) / 8 * 8; // whole SIMD lanes
 }
 
 BlockReport ImproveManyEigenPairs(const SpectralProblem& problem, const BlockOptions& options,
