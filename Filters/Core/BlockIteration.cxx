@@ -1,11 +1,11 @@
 #include "BlockIteration.h"
 
+#include "BlockVectors.h"
 #include "PairedProduct.h"
 #include "Parallel.h"
 #include "RayleighRitz.h"
 
 #include <cmath>
-#include <random>
 
 namespace gridfem
 {
@@ -26,48 +26,6 @@ constexpr int RefreshInterval = 8;
 
 /// Rows of the basis that are combined at a time: they stay in the cache.
 constexpr Id CombinedRows = 512;
-
-/// Uniform in [-1, 1), the same on every platform.
-MultiVector RandomColumns(Id rows, Id columns)
-{
-  std::mt19937_64 generator(20180901);
-  MultiVector X(rows, columns);
-  for (Id i = 0; i < rows; ++i)
-  {
-    for (Id j = 0; j < columns; ++j)
-    {
-      X(i, j) = static_cast<double>(generator() >> 11) * 0x1p-52 - 1.0;
-    }
-  }
-  return X;
-}
-
-MultiVector SelectColumns(const MultiVector& X, const std::vector<Index>& columns, int threads)
-{
-  MultiVector result(X.rows(), static_cast<Id>(columns.size()));
-  ParallelRanges(X.rows(), threads,
-    [&](Id begin, Id end)
-    {
-      const Id count = end - begin;
-      result.middleRows(begin, count) = X.middleRows(begin, count)(Eigen::all, columns);
-    });
-  return result;
-}
-
-/// Column-wise xᵀ y.
-Eigen::VectorXd ColumnDots(const MultiVector& X, const MultiVector& Y, int threads)
-{
-  return ParallelSum(X.rows(), threads, Eigen::VectorXd(Eigen::VectorXd::Zero(X.cols())),
-    [&](Id begin, Id end)
-    {
-      Eigen::VectorXd sum = Eigen::VectorXd::Zero(X.cols());
-      for (Id i = begin; i < end; ++i)
-      {
-        sum += X.row(i).cwiseProduct(Y.row(i)).transpose();
-      }
-      return sum;
-    });
-}
 
 /// The iteration's state: the basis is [X, P, W].
 class BlockIteration

@@ -11,7 +11,8 @@ struct SpectrumOptions
 {
   int numberOfModes = 10; // >= 1
   /// Wanted relative error of the eigenvalues: the square of the residual measure sqrt(rᵀBr / θ).
-  double tolerance = 1e-8;     // in (0, 1)
+  /// The error of the space is far larger at any depth that fits into memory.
+  double tolerance = 1e-6;     // in (0, 1)
   int maximumIterations = 100; // per level, >= 0
   /// Go on behind numberOfModes to the end of the multiplet that is cut there.
   bool completeMultiplets = false;

@@ -46,7 +46,7 @@ vtkLaplaceSpectrum::vtkLaplaceSpectrum() : Data(std::make_unique<Internals>())
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
-  this->Tolerance = 1e-8;
+  this->Tolerance = 1e-6;
 }
 
 vtkLaplaceSpectrum::~vtkLaplaceSpectrum() = default;

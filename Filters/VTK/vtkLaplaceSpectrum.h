@@ -28,7 +28,7 @@
  * index as time value. Mode 0 is constant, so there is nothing to see; Mode = 0 shows it. All modes
  * are computed once; a change of time or of Mode computes nothing.
  *
- * Tolerance (default 1e-8) is the wanted relative error of the eigenvalues as those of the space;
+ * Tolerance (default 1e-6) is the wanted relative error of the eigenvalues as those of the space;
  * Depth, or Accuracy, decides about the error of the space. All shared properties
  * but ParameterUnits are used.
  */

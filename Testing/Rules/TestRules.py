@@ -22,7 +22,7 @@ CORE_LAYERS = {
     "foundation": "Types Errors Progress Parallel UnionFind RadixSort Grouping",
     "algebra": "SparseMatrix RowKernels PairedProduct PivotedCholesky BlockSweep Smoother"
                " GaussSeidel PatchSmoother CoarseSolver Multigrid ConjugateGradients RayleighRitz"
-               " Constants BlockIteration WindowIteration SmootherSequence HatOrdering",
+               " Constants BlockVectors BlockIteration WindowIteration SmootherSequence HatOrdering",
     "grid and clip": "TriangleMesh Field MeshEdges Grid SourceTriangle TriangleClipper Clip Links"
                      " MemoryEstimate HatFunctions HatMatrices HatLoad",
     "patches and levels": "Level Patches FunctionSpace PatchOrdering",

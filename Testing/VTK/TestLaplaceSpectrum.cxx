@@ -152,7 +152,7 @@ TEST_F(LaplaceSpectrum, TheTableListsTheModes)
   for (const double residual :
     Values(vtkDataArray::SafeDownCast(table->GetColumnByName("Residual"))))
   {
-    EXPECT_LE(residual, 1e-4); // its square is below the tolerance with room to spare
+    EXPECT_LE(residual, 1e-3); // its square is at most the tolerance
   }
 }
 

@@ -1,0 +1,23 @@
+// Columns of a block of vectors: made, selected, multiplied. Used by the block iteration.
+#ifndef GridFEM_BlockVectors_h
+#define GridFEM_BlockVectors_h
+
+#include "Types.h"
+
+#include <vector>
+
+namespace gridfem
+{
+
+/// Uniform in [-1, 1), the same on every platform.
+MultiVector RandomColumns(Id rows, Id columns);
+
+/// The columns of X with these numbers, in this order.
+MultiVector SelectColumns(const MultiVector& X, const std::vector<Index>& columns, int threads = 0);
+
+/// xᵀ y for every pair of columns. Same bits for any number of threads.
+Eigen::VectorXd ColumnDots(const MultiVector& X, const MultiVector& Y, int threads = 0);
+
+} // namespace gridfem
+
+#endif
