@@ -61,14 +61,14 @@ def draw(mesh, path):
 
     view = view_of(mesh)
     tiles = []
-    for component, word in ((2, "small time"), (8, "middle time")):
+    for component, word in ((2, "small"), (8, "middle")):
         layer = Layer(mesh, *logarithm(mesh, "HeatKernelSignature", component))
-        tiles.append(Tile(f"heat kernel signature, {word}", view, [layer]))
+        tiles.append(Tile(f"heat kernel, {word} time", view, [layer]))
     farthest = mesh.GetPointData().GetArray("BiharmonicDistance").GetRange()[1]
     layer = Layer(mesh, "BiharmonicDistance", 0, farthest)
-    tiles.append(Tile("biharmonic distance from one point", view, [layer]))
+    tiles.append(Tile("biharmonic distance", view, [layer]))
     tiles.append(Tile("the shape of 41 modes", view, [Layer(moved(mesh))]))
-    write_sheet(tiles, path, 4, (340, 400), "")
+    write_sheet(tiles, path, 4, (340, 300), "")
 
 
 def main():
