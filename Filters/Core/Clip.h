@@ -4,6 +4,7 @@
 #ifndef GridFEM_Clip_h
 #define GridFEM_Clip_h
 
+#include "Array.h"
 #include "Grid.h"
 #include "Progress.h"
 #include "TriangleMesh.h"
@@ -17,37 +18,43 @@ namespace gridfem
 /// mesh edge have a zero weight at the opposite corner.
 struct CutPoint
 {
-  Id triangle;
+  Index triangle;
   std::array<double, 3> weight; // sums to 1
 };
 
-/// Two pieces that share an edge of the clipped mesh; first < second.
-struct PieceLink
+/// Two pieces, or two patches, that share an edge of the clipped mesh; first < second.
+struct Link
 {
-  Id first;
-  Id second;
+  Index first;
+  Index second;
+  bool operator==(const Link& other) const
+  {
+    return first == other.first && second == other.second;
+  }
 };
 
 /// A mesh clipped by the cells of a grid.
 /// Point ids: the input's points first, then the cut points.
 /// Pieces are sorted by the Morton key of their cell, then by source triangle.
+/// What is numbered here has 32 bits: it fills most of the memory of a run, and half the size is
+/// half the time. Clip refuses what does not fit.
 struct ClippedMesh
 {
   Grid grid;
   Id numberOfInputPoints = 0;
-  std::vector<CutPoint> cutPoints;
-  std::vector<Vec3> position; // of all points, grid units
+  Array<CutPoint> cutPoints;
+  Array<Vec3> position; // of all points, grid units
 
   std::vector<MortonKey> cells; // cells that contain a piece, ascending
 
-  std::vector<Id> pieceCell;     // index into cells
-  std::vector<Id> pieceTriangle; // source triangle
-  std::vector<Id> pieceBegin;    // corners of piece p: corners[pieceBegin[p] .. pieceBegin[p + 1])
-  std::vector<Id> corners;       // point ids, oriented as the source triangle
+  Array<Index> pieceCell;     // index into cells
+  Array<Index> pieceTriangle; // source triangle
+  Array<Index> pieceBegin;    // corners of piece p: corners[pieceBegin[p] .. pieceBegin[p + 1])
+  Array<Index> corners;       // point ids, oriented as the source triangle
 
   /// Connects the pieces that share an edge: within a cell at least as a tree, between two cells at
   /// least one pair per shared edge. Fixed order.
-  std::vector<PieceLink> links;
+  Array<Link> links;
 
   Id NumberOfPieces() const { return static_cast<Id>(pieceCell.size()); }
 
@@ -67,8 +74,8 @@ struct ClipOptions
 
 /// Clips. Areas of the pieces add up to the areas of the triangles to rounding; a coordinate within
 /// 1e-10 of a cell (or within the rounding of the input) of a face counts as lying on it.
-/// Throws InvalidInput (see Validate) and Aborted. The result is the same for any number of
-/// threads.
+/// Throws InvalidInput (see Validate; or more than 2^31 - 1 corners) and Aborted. The result is the
+/// same for any number of threads.
 ClippedMesh Clip(
   const TriangleMesh& mesh, const ClipOptions& options, const Progress& progress = {});
 

@@ -106,7 +106,7 @@ ElementMatrices IntegrateElements(
   const FunctionSpace& space, const QuadratureRule& rule, int threads, const Progress& progress)
 {
   const Level& level = space.Finest();
-  const Groups pieces = GroupItems(space.piecePatch, level.NumberOfPatches());
+  const Groups pieces = GroupItems(space.piecePatch, level.NumberOfPatches(), threads);
   ElementMatrices elements;
   elements.mass.resize(level.NumberOfPatches());
   elements.stiffness.resize(level.NumberOfPatches());
@@ -133,7 +133,7 @@ ElementMatrices IntegrateElements(
 std::vector<ElementMatrix> CoarsenElements(
   const Level& fine, const Level& coarse, const std::vector<ElementMatrix>& matrices, int threads)
 {
-  const Groups children = GroupItems(fine.parent, coarse.NumberOfPatches());
+  const Groups children = GroupItems(fine.parent, coarse.NumberOfPatches(), threads);
   std::vector<ElementMatrix> result(coarse.NumberOfPatches());
   ParallelRanges(coarse.NumberOfPatches(), threads,
     [&](Id begin, Id end)

@@ -2,6 +2,9 @@
 #ifndef GridFEM_Errors_h
 #define GridFEM_Errors_h
 
+#include "Types.h"
+
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -19,6 +22,16 @@ struct Aborted : std::runtime_error
 {
   Aborted() : std::runtime_error("aborted") {}
 };
+
+/// Throws InvalidInput when `count` things cannot be numbered by Index.
+inline void RequireIndices(double count, const char* what)
+{
+  if (count > std::numeric_limits<Index>::max())
+  {
+    throw InvalidInput("There are " + std::to_string(count) + " " + what +
+                       ", more than 2^31 - 1. Choose a smaller depth or split the mesh.");
+  }
+}
 
 } // namespace gridfem
 

@@ -5,6 +5,8 @@
 #include "Parallel.h"
 
 #include <algorithm>
+#include <atomic>
+#include <limits>
 #include <string>
 
 namespace gridfem
@@ -13,17 +15,18 @@ namespace gridfem
 namespace
 {
 
-FunctionSpace Complete(ClippedMesh clipped, std::vector<Id> piecePatch, Level finest,
-  std::vector<PatchLink> links, FunctionSupport support, const Progress& progress)
+FunctionSpace Complete(ClippedMesh clipped, std::vector<Index> piecePatch, Level finest,
+  Array<Link> links, FunctionSupport support, int threads, const Progress& progress)
 {
   FunctionSpace space;
   space.support = support;
   space.clipped = std::move(clipped);
   space.piecePatch = std::move(piecePatch);
-  space.pointPatch = FindPointPatches(space.clipped, space.piecePatch);
+  space.pointPatch = FindPointPatches(space.clipped, space.piecePatch, threads);
   progress.Check(0.3);
-  space.levels = BuildLevels(std::move(finest), std::move(links), support, progress.Part(0.3, 0.9));
-  space.component = FunctionComponents(space.Finest());
+  space.levels =
+    BuildLevels(std::move(finest), std::move(links), support, threads, progress.Part(0.3, 0.9));
+  space.component = FunctionComponents(space.Finest(), threads);
   space.numberOfComponents =
     space.component.empty() ? 0
                             : *std::max_element(space.component.begin(), space.component.end()) + 1;
@@ -31,7 +34,8 @@ FunctionSpace Complete(ClippedMesh clipped, std::vector<Id> piecePatch, Level fi
   return space;
 }
 
-void CheckTables(const ClippedMesh& clipped, const std::vector<Id>& piecePatch, const Level& finest)
+void CheckTables(
+  const ClippedMesh& clipped, const std::vector<Index>& piecePatch, const Level& finest)
 {
   if (static_cast<Id>(piecePatch.size()) != clipped.NumberOfPieces())
   {
@@ -71,24 +75,43 @@ void CheckTables(const ClippedMesh& clipped, const std::vector<Id>& piecePatch, 
   }
 }
 
+/// value = min(value, other), whichever thread comes first.
+void Lower(std::atomic<Index>& value, Index other)
+{
+  Index known = value.load(std::memory_order_relaxed);
+  while (other < known && !value.compare_exchange_weak(known, other, std::memory_order_relaxed))
+  {
+  }
+}
+
 } // namespace
 
-std::vector<Id> FindPointPatches(const ClippedMesh& clipped, const std::vector<Id>& piecePatch)
+std::vector<Index> FindPointPatches(
+  const ClippedMesh& clipped, const std::vector<Index>& piecePatch, int threads)
 {
-  std::vector<Id> pointPatch(clipped.numberOfInputPoints, -1);
-  for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
+  constexpr Index None = std::numeric_limits<Index>::max();
+  std::vector<std::atomic<Index>> lowest(clipped.numberOfInputPoints);
+  for (std::atomic<Index>& patch : lowest)
   {
-    const Id patch = piecePatch[piece];
-    for (Id k = clipped.pieceBegin[piece]; k < clipped.pieceBegin[piece + 1]; ++k)
-    {
-      const Id point = clipped.corners[k];
-      if (point < clipped.numberOfInputPoints &&
-          (pointPatch[point] < 0 || patch < pointPatch[point]))
-      {
-        pointPatch[point] = patch;
-      }
-    }
+    patch.store(None, std::memory_order_relaxed);
   }
+  ParallelRanges(clipped.NumberOfPieces(), threads,
+    [&](Id begin, Id end)
+    {
+      for (Id piece = begin; piece < end; ++piece)
+      {
+        for (Index k = clipped.pieceBegin[piece]; k < clipped.pieceBegin[piece + 1]; ++k)
+        {
+          if (clipped.corners[k] < clipped.numberOfInputPoints)
+          {
+            Lower(lowest[clipped.corners[k]], piecePatch[piece]);
+          }
+        }
+      }
+    });
+  std::vector<Index> pointPatch(lowest.size());
+  std::transform(lowest.begin(), lowest.end(), pointPatch.begin(),
+    [](const std::atomic<Index>& patch) { return patch == None ? -1 : patch.load(); });
   return pointPatch;
 }
 
@@ -109,42 +132,42 @@ FunctionSpace BuildFunctionSpace(
 {
   PatchPartition patches = BuildPatches(clipped, support, threads);
   progress.Check(0.4);
-  Level finest = BuildFinestLevel(clipped.grid.depth, patches, support);
+  Level finest = BuildFinestLevel(clipped.grid.depth, patches, support, threads);
   return Complete(std::move(clipped), std::move(patches.piecePatch), std::move(finest),
-    std::move(patches.links), support, progress.Part(0.5, 1.0));
+    std::move(patches.links), support, threads, progress.Part(0.5, 1.0));
 }
 
-FunctionSpace RestoreFunctionSpace(ClippedMesh clipped, std::vector<Id> piecePatch, Level finest,
+FunctionSpace RestoreFunctionSpace(ClippedMesh clipped, std::vector<Index> piecePatch, Level finest,
   FunctionSupport support, const Progress& progress)
 {
   CheckTables(clipped, piecePatch, finest);
   finest.depth = clipped.grid.depth;
-  std::vector<PatchLink> links = LinksOfPatches(clipped.links, piecePatch);
+  Array<Link> links = LinksOfGroups(clipped.links, piecePatch);
   return Complete(std::move(clipped), std::move(piecePatch), std::move(finest), std::move(links),
-    support, progress);
+    support, 0, progress);
 }
 
-std::vector<PieceLink> FindLinks(
-  const ClippedMesh& clipped, const std::vector<Id>& pointClass, const Progress& progress)
+Array<Link> FindLinks(
+  const ClippedMesh& clipped, const std::vector<Index>& pointClass, const Progress& progress)
 {
   struct PieceEdge
   {
-    Id low;
-    Id high;
-    Id piece;
+    Index low;
+    Index high;
+    Index piece;
   };
   std::vector<PieceEdge> pieceEdges;
   pieceEdges.reserve(clipped.corners.size());
-  const auto classOf = [&](Id point)
-  { return point < static_cast<Id>(pointClass.size()) ? pointClass[point] : point; };
-  for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
+  const auto classOf = [&](Index point)
+  { return point < static_cast<Index>(pointClass.size()) ? pointClass[point] : point; };
+  for (Index piece = 0; piece < clipped.NumberOfPieces(); ++piece)
   {
     const Id begin = clipped.pieceBegin[piece];
     const Id end = clipped.pieceBegin[piece + 1];
     for (Id k = begin; k < end; ++k)
     {
-      const Id a = classOf(clipped.corners[k]);
-      const Id b = classOf(clipped.corners[k + 1 == end ? begin : k + 1]);
+      const Index a = classOf(clipped.corners[k]);
+      const Index b = classOf(clipped.corners[k + 1 == end ? begin : k + 1]);
       if (a != b)
       {
         pieceEdges.push_back({ std::min(a, b), std::max(a, b), piece });
@@ -162,7 +185,7 @@ std::vector<PieceLink> FindLinks(
   progress.Check(0.7);
   std::vector<EdgeUse> uses;
   uses.reserve(pieceEdges.size());
-  Id edge = -1;
+  Index edge = -1;
   for (std::size_t k = 0; k < pieceEdges.size(); ++k)
   {
     const bool same = k > 0 && pieceEdges[k].low == pieceEdges[k - 1].low &&
@@ -170,7 +193,7 @@ std::vector<PieceLink> FindLinks(
     edge += same ? 0 : 1;
     uses.push_back({ edge, pieceEdges[k].piece });
   }
-  std::vector<PieceLink> links;
+  Array<Link> links;
   LinkStars(uses, clipped.pieceCell, links);
   progress.Check(1.0);
   return links;

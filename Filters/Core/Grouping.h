@@ -12,25 +12,37 @@ namespace gridfem
 /// Items of group g are item[begin[g] .. begin[g + 1]), ascending.
 struct Groups
 {
-  std::vector<Id> begin;
-  std::vector<Id> item;
+  std::vector<Index> begin;
+  std::vector<Index> item;
 };
 
 /// @param group  of every item, in [0, numberOfGroups)
-/// Counting sort: cost O(items + groups).
-inline Groups GroupItems(const std::vector<Id>& group, Id numberOfGroups)
+/// Counting sort. Each thread reads all items and serves a range of groups: with the few threads
+/// that memory can feed, reading is the smaller part. Cost O(items + groups / threads).
+inline Groups GroupItems(const std::vector<Index>& group, Id numberOfGroups, int threads = 1)
 {
-  Groups groups{ std::vector<Id>(numberOfGroups + 1, 0), std::vector<Id>(group.size()) };
-  for (const Id g : group)
+  Groups groups{ std::vector<Index>(numberOfGroups + 1, 0), std::vector<Index>(group.size()) };
+  const Id ranges = NumberOfThreads(threads);
+  const auto forItems = [&](const auto& visit)
   {
-    ++groups.begin[g];
-  }
+    ParallelBlocks(ranges, threads,
+      [&](Id range)
+      {
+        const Id low = range * numberOfGroups / ranges;
+        const Id high = (range + 1) * numberOfGroups / ranges;
+        for (Index item = 0; item < static_cast<Index>(group.size()); ++item)
+        {
+          if (group[item] >= low && group[item] < high)
+          {
+            visit(group[item], item);
+          }
+        }
+      });
+  };
+  forItems([&](Index g, Index) { ++groups.begin[g]; });
   ExclusiveScan(groups.begin);
-  std::vector<Id> next(groups.begin.begin(), groups.begin.end() - 1);
-  for (Id item = 0; item < static_cast<Id>(group.size()); ++item)
-  {
-    groups.item[next[group[item]]++] = item;
-  }
+  std::vector<Index> next(groups.begin.begin(), groups.begin.end() - 1);
+  forItems([&](Index g, Index item) { groups.item[next[g]++] = item; });
   return groups;
 }
 

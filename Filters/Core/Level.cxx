@@ -4,8 +4,6 @@
 #include "RadixSort.h"
 #include "UnionFind.h"
 
-#include <limits>
-
 namespace gridfem
 {
 
@@ -36,28 +34,32 @@ CellIndex LatticePoint(const CellIndex& cell, int corner)
 /// One set per component of a corner's support: linked patches share the functions of the corners
 /// they have in common. Slot 8 p + c is corner c of patch p.
 void UniteAlongLinks(
-  const std::vector<MortonKey>& cell, const std::vector<PatchLink>& links, UnionFind& slots)
+  const std::vector<MortonKey>& cell, const Array<Link>& links, int threads, UnionFind& slots)
 {
-  for (const PatchLink& link : links)
-  {
-    const CellIndex first = MortonDecode(cell[link.first]);
-    const CellIndex second = MortonDecode(cell[link.second]);
-    for (int corner = 0; corner < FunctionsPerPatch; ++corner)
+  ParallelRanges(static_cast<Id>(links.size()), threads,
+    [&](Id begin, Id end)
     {
-      const int other = CornerOf(second, LatticePoint(first, corner));
-      if (other >= 0)
+      for (Id k = begin; k < end; ++k)
       {
-        slots.Unite(
-          FunctionsPerPatch * link.first + corner, FunctionsPerPatch * link.second + other);
+        const CellIndex first = MortonDecode(cell[links[k].first]);
+        const CellIndex second = MortonDecode(cell[links[k].second]);
+        for (int corner = 0; corner < FunctionsPerPatch; ++corner)
+        {
+          const int other = CornerOf(second, LatticePoint(first, corner));
+          if (other >= 0)
+          {
+            slots.Unite(FunctionsPerPatch * links[k].first + corner,
+              FunctionsPerPatch * links[k].second + other);
+          }
+        }
       }
-    }
-  }
+    });
 }
 
 /// One set per lattice point.
-void UniteByCorner(const std::vector<MortonKey>& cell, int depth, UnionFind& slots)
+void UniteByCorner(const std::vector<MortonKey>& cell, int depth, int threads, UnionFind& slots)
 {
-  std::vector<SortEntry> entries(cell.size() * FunctionsPerPatch);
+  Array<SortEntry> entries(cell.size() * FunctionsPerPatch);
   for (std::size_t patch = 0; patch < cell.size(); ++patch)
   {
     const CellIndex index = MortonDecode(cell[patch]);
@@ -67,51 +69,44 @@ void UniteByCorner(const std::vector<MortonKey>& cell, int depth, UnionFind& slo
       entries[slot] = { MortonEncode(LatticePoint(index, corner)), static_cast<Id>(slot) };
     }
   }
-  RadixSort(entries, 3 * (depth + 1));
+  RadixSort(entries, 3 * (depth + 1), threads);
   for (std::size_t k = 1; k < entries.size(); ++k)
   {
     if (entries[k].key == entries[k - 1].key)
     {
-      slots.Unite(entries[k - 1].item, entries[k].item);
+      slots.Unite(static_cast<Index>(entries[k - 1].item), static_cast<Index>(entries[k].item));
     }
   }
 }
 
 /// Numbers the functions of a level whose cells are known.
-void NumberFunctions(Level& level, const std::vector<PatchLink>& links, FunctionSupport support)
+void NumberFunctions(Level& level, const Array<Link>& links, FunctionSupport support, int threads)
 {
-  UnionFind slots(FunctionsPerPatch * level.NumberOfPatches());
+  RequireIndices(double(FunctionsPerPatch) * level.NumberOfPatches(), "corners of patches");
+  UnionFind slots(FunctionsPerPatch * level.NumberOfPatches(), threads);
   if (support == FunctionSupport::Plain)
   {
-    UniteByCorner(level.cell, level.depth, slots);
+    UniteByCorner(level.cell, level.depth, threads, slots);
   }
   else
   {
-    UniteAlongLinks(level.cell, links, slots);
+    UniteAlongLinks(level.cell, links, threads, slots);
   }
-  Id count = 0;
-  const std::vector<Id> number = NumberSets<Id>(slots, count);
-  if (count > std::numeric_limits<Index>::max())
-  {
-    throw InvalidInput("The space has " + std::to_string(count) +
-                       " functions, more than can be numbered. Choose a smaller depth.");
-  }
-  level.numberOfFunctions = static_cast<Index>(count);
+  const std::vector<Index> number = NumberSets(slots, level.numberOfFunctions, threads);
   level.dof.resize(level.cell.size());
   for (std::size_t slot = 0; slot < number.size(); ++slot)
   {
-    level.dof[slot / FunctionsPerPatch][slot % FunctionsPerPatch] =
-      static_cast<Index>(number[slot]);
+    level.dof[slot / FunctionsPerPatch][slot % FunctionsPerPatch] = number[slot];
   }
 }
 
 /// Fills `fine.parent`; returns the parents' level without functions.
-Level GroupToParents(Level& fine, const std::vector<PatchLink>& links, FunctionSupport support)
+Level GroupToParents(Level& fine, const Array<Link>& links, FunctionSupport support, int threads)
 {
-  UnionFind sets(fine.NumberOfPatches());
+  UnionFind sets(fine.NumberOfPatches(), threads);
   if (support == FunctionSupport::Plain)
   {
-    for (Id patch = 1; patch < fine.NumberOfPatches(); ++patch)
+    for (Index patch = 1; patch < fine.NumberOfPatches(); ++patch)
     {
       if (fine.cell[patch] >> 3 == fine.cell[patch - 1] >> 3)
       {
@@ -121,7 +116,7 @@ Level GroupToParents(Level& fine, const std::vector<PatchLink>& links, FunctionS
   }
   else
   {
-    for (const PatchLink& link : links)
+    for (const Link& link : links)
     {
       if (fine.cell[link.first] >> 3 == fine.cell[link.second] >> 3)
       {
@@ -129,8 +124,8 @@ Level GroupToParents(Level& fine, const std::vector<PatchLink>& links, FunctionS
       }
     }
   }
-  Id count = 0;
-  fine.parent = NumberSets<Id>(sets, count);
+  Index count = 0;
+  fine.parent = NumberSets(sets, count, threads);
   Level coarse;
   coarse.depth = fine.depth - 1;
   coarse.cell.resize(count);
@@ -141,36 +136,20 @@ Level GroupToParents(Level& fine, const std::vector<PatchLink>& links, FunctionS
   return coarse;
 }
 
-std::vector<PatchLink> LinksOfParents(
-  const std::vector<PatchLink>& links, const std::vector<Id>& parent)
-{
-  std::vector<PatchLink> coarse;
-  for (const PatchLink& link : links)
-  {
-    const Id a = parent[link.first];
-    const Id b = parent[link.second];
-    if (a != b)
-    {
-      coarse.push_back({ std::min(a, b), std::max(a, b) });
-    }
-  }
-  SortUnique(coarse);
-  return coarse;
-}
-
 } // namespace
 
-Level BuildFinestLevel(int depth, const PatchPartition& patches, FunctionSupport support)
+Level BuildFinestLevel(
+  int depth, const PatchPartition& patches, FunctionSupport support, int threads)
 {
   Level level;
   level.depth = depth;
   level.cell = patches.cell;
-  NumberFunctions(level, patches.links, support);
+  NumberFunctions(level, patches.links, support, threads);
   return level;
 }
 
 std::vector<Level> BuildLevels(
-  Level finest, std::vector<PatchLink> links, FunctionSupport support, const Progress& progress)
+  Level finest, Array<Link> links, FunctionSupport support, int threads, const Progress& progress)
 {
   std::vector<Level> levels;
   levels.push_back(std::move(finest));
@@ -178,26 +157,31 @@ std::vector<Level> BuildLevels(
   while (levels.back().depth > 0)
   {
     progress.Check(1.0 - double(levels.back().depth) / depth);
-    Level coarse = GroupToParents(levels.back(), links, support);
-    links = LinksOfParents(links, levels.back().parent);
-    NumberFunctions(coarse, links, support);
+    Level coarse = GroupToParents(levels.back(), links, support, threads);
+    links = LinksOfGroups(links, levels.back().parent, threads);
+    NumberFunctions(coarse, links, support, threads);
     levels.push_back(std::move(coarse));
   }
   return levels;
 }
 
-std::vector<Index> FunctionComponents(const Level& level)
+std::vector<Index> FunctionComponents(const Level& level, int threads)
 {
-  UnionFind sets(level.numberOfFunctions);
-  for (const auto& dof : level.dof)
-  {
-    for (int corner = 1; corner < FunctionsPerPatch; ++corner)
+  UnionFind sets(level.numberOfFunctions, threads);
+  ParallelRanges(level.NumberOfPatches(), threads,
+    [&](Id begin, Id end)
     {
-      sets.Unite(dof[0], dof[corner]);
-    }
-  }
-  Id count = 0;
-  return NumberSets<Index>(sets, count);
+      for (Id patch = begin; patch < end; ++patch)
+      {
+        const auto& dof = level.dof[patch];
+        for (int corner = 1; corner < FunctionsPerPatch; ++corner)
+        {
+          sets.Unite(dof[0], dof[corner]);
+        }
+      }
+    });
+  Index count = 0;
+  return NumberSets(sets, count, threads);
 }
 
 } // namespace gridfem

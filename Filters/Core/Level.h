@@ -11,23 +11,12 @@
 namespace gridfem
 {
 
-/// Two patches that share an edge of the clipped mesh; first < second.
-struct PatchLink
-{
-  Id first;
-  Id second;
-  bool operator==(const PatchLink& other) const
-  {
-    return first == other.first && second == other.second;
-  }
-};
-
 struct Level
 {
   int depth = 0;
   std::vector<MortonKey> cell;                           // per patch, ascending
   std::vector<std::array<Index, FunctionsPerPatch>> dof; // per patch, corner order x fastest
-  std::vector<Id> parent;                                // per patch; empty on the coarsest level
+  std::vector<Index> parent;                             // per patch; empty on the coarsest level
   Index numberOfFunctions = 0;
 
   Id NumberOfPatches() const { return static_cast<Id>(cell.size()); }
@@ -44,9 +33,9 @@ enum class FunctionSupport
 /// Patches of the finest level: connected pieces of a cell (or all pieces of it, when plain).
 struct PatchPartition
 {
-  std::vector<Id> piecePatch;   // per piece
-  std::vector<MortonKey> cell;  // per patch, ascending
-  std::vector<PatchLink> links; // sorted, unique
+  std::vector<Index> piecePatch; // per piece
+  std::vector<MortonKey> cell;   // per patch, ascending
+  Array<Link> links;             // sorted, unique
 };
 
 /// Groups the pieces of a clipped mesh to patches. A patch whose area is below 1e-10 of a cell face
@@ -54,26 +43,25 @@ struct PatchPartition
 /// Cost O(pieces + links); the same for any number of threads.
 PatchPartition BuildPatches(const ClippedMesh& clipped, FunctionSupport support, int threads = 0);
 
-/// Links between the patches of linked pieces. Sorted, unique.
-std::vector<PatchLink> LinksOfPatches(
-  const std::vector<PieceLink>& links, const std::vector<Id>& piecePatch);
-
-/// Sorts by first, then second; drops repetitions.
-void SortUnique(std::vector<PatchLink>& links);
+/// The links between the groups that linked items belong to: from pieces to their patches, from
+/// patches to their parents. Sorted by first, then second; unique.
+Array<Link> LinksOfGroups(
+  const Array<Link>& links, const std::vector<Index>& group, int threads = 0);
 
 /// The finest level on given patches; functions are numbered in the order of their first patch.
 /// Throws InvalidInput when there are more than 2^31 - 1 functions.
-Level BuildFinestLevel(int depth, const PatchPartition& patches, FunctionSupport support);
+Level BuildFinestLevel(
+  int depth, const PatchPartition& patches, FunctionSupport support, int threads = 0);
 
 /// The levels above `finest`, down to depth 0: coarse patches are unions of connected fine patches
 /// inside the parent cell. Returns finest first; fills `parent` of every level but the last.
 /// @param links  of the finest level's patches
-std::vector<Level> BuildLevels(Level finest, std::vector<PatchLink> links, FunctionSupport support,
-  const Progress& progress = {});
+std::vector<Level> BuildLevels(Level finest, Array<Link> links, FunctionSupport support,
+  int threads = 0, const Progress& progress = {});
 
 /// Connected component of every function: functions of one patch are connected. Numbered 0, 1, ...
 /// in the order of the lowest function.
-std::vector<Index> FunctionComponents(const Level& level);
+std::vector<Index> FunctionComponents(const Level& level, int threads = 0);
 
 } // namespace gridfem
 

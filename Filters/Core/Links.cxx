@@ -1,5 +1,9 @@
 #include "Links.h"
 
+#include "Errors.h"
+#include "Parallel.h"
+#include "TriangleClipper.h"
+
 #include <algorithm>
 
 namespace gridfem
@@ -9,18 +13,17 @@ namespace
 {
 
 /// Links of one edge. `pieces` is sorted and unique, so it is grouped by cell.
-void LinkStar(
-  const std::vector<Id>& pieces, const std::vector<Id>& pieceCell, std::vector<PieceLink>& links)
+void LinkStar(const std::vector<Index>& pieces, const Array<Index>& pieceCell, Array<Link>& links)
 {
-  std::vector<Id> firstOfCell;
-  for (const Id piece : pieces)
+  std::vector<Index> firstOfCell;
+  for (const Index piece : pieces)
   {
     if (!firstOfCell.empty() && pieceCell[firstOfCell.back()] == pieceCell[piece])
     {
       links.push_back({ firstOfCell.back(), piece });
       continue;
     }
-    for (const Id other : firstOfCell)
+    for (const Index other : firstOfCell)
     {
       links.push_back({ other, piece });
     }
@@ -28,15 +31,59 @@ void LinkStar(
   }
 }
 
+/// The pieces along a side of an edge, one per stretch.
+const Index* PiecesAlong(const MeshEdges& edges, const Stretches& stretches, Index side)
+{
+  const Index triangle = side / 3;
+  const Index* piece = stretches.piece.data() + stretches.begin[triangle];
+  const bool isCut = stretches.begin[triangle + 1] - stretches.begin[triangle] > 3;
+  for (int k = 0; k < side % 3; ++k)
+  {
+    piece += isCut ? StretchesOf(edges, edges.ofTriangle[triangle][k]) : 1;
+  }
+  return piece;
+}
+
+void LinkTwoSides(const Index* first, const Index* second, Index stretches, Array<Link>& links)
+{
+  for (Index k = 0; k < stretches; ++k)
+  {
+    const auto [low, high] = std::minmax(first[k], second[k]);
+    if (low >= 0 && low != high)
+    {
+      links.push_back({ low, high });
+    }
+  }
+}
+
+void LinkManySides(const MeshEdges& edges, const Stretches& stretches, Index edge,
+  const Array<Index>& pieceCell, Array<Link>& links)
+{
+  for (Index k = 0; k < StretchesOf(edges, edge); ++k)
+  {
+    std::vector<Index> pieces;
+    for (Index side = edges.sideBegin[edge]; side < edges.sideBegin[edge + 1]; ++side)
+    {
+      const Index piece = PiecesAlong(edges, stretches, edges.side[side])[k];
+      if (piece >= 0)
+      {
+        pieces.push_back(piece);
+      }
+    }
+    std::sort(pieces.begin(), pieces.end());
+    pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
+    LinkStar(pieces, pieceCell, links);
+  }
+}
+
 } // namespace
 
-void LinkStars(
-  std::vector<EdgeUse>& uses, const std::vector<Id>& pieceCell, std::vector<PieceLink>& links)
+void LinkStars(std::vector<EdgeUse>& uses, const Array<Index>& pieceCell, Array<Link>& links)
 {
   std::sort(uses.begin(), uses.end(),
     [](const EdgeUse& a, const EdgeUse& b)
     { return a.edge != b.edge ? a.edge < b.edge : a.piece < b.piece; });
-  std::vector<Id> pieces;
+  std::vector<Index> pieces;
   for (std::size_t k = 0; k < uses.size(); ++k)
   {
     if (pieces.empty() || pieces.back() != uses[k].piece)
@@ -49,6 +96,66 @@ void LinkStars(
       pieces.clear();
     }
   }
+}
+
+Stretches AllocateStretches(const MeshEdges& edges, int threads)
+{
+  Stretches stretches;
+  const Id triangles = static_cast<Id>(edges.ofTriangle.size());
+  stretches.begin.resize(triangles + 1);
+  const double total = ParallelSum(triangles, threads, 0.0,
+    [&](Id begin, Id end)
+    {
+      double sum = 0.0;
+      for (Id t = begin; t < end; ++t)
+      {
+        stretches.begin[t] = 0;
+        for (const Index edge : edges.ofTriangle[t])
+        {
+          stretches.begin[t] += StretchesOf(edges, edge);
+        }
+        sum += stretches.begin[t];
+      }
+      return sum;
+    });
+  RequireIndices(total, "stretches of edges");
+  stretches.begin[triangles] = 0;
+  stretches.piece.resize(ExclusiveScan(stretches.begin));
+  return stretches;
+}
+
+void LinkAlongEdges(const MeshEdges& edges, const Stretches& stretches,
+  const Array<Index>& pieceCell, int threads, Array<Link>& links, const Progress& progress)
+{
+  const Id count = edges.NumberOfEdges();
+  std::vector<Array<Link>> parts((count + DefaultBlockSize - 1) / DefaultBlockSize);
+  ParallelRanges(
+    count, threads,
+    [&](Id begin, Id end)
+    {
+      Array<Link>& part = parts[begin / DefaultBlockSize];
+      part.reserve(edges.cutBegin[end] - edges.cutBegin[begin] + end - begin);
+      for (Index edge = static_cast<Index>(begin); edge < end; ++edge)
+      {
+        const Index* side = edges.side.data() + edges.sideBegin[edge];
+        const Index sides = edges.sideBegin[edge + 1] - edges.sideBegin[edge];
+        if (edges.ends[edge][0] == edges.ends[edge][1] || sides == 1)
+        {
+          continue;
+        }
+        if (sides == 2)
+        {
+          LinkTwoSides(PiecesAlong(edges, stretches, side[0]),
+            PiecesAlong(edges, stretches, side[1]), StretchesOf(edges, edge), part);
+        }
+        else
+        {
+          LinkManySides(edges, stretches, edge, pieceCell, part);
+        }
+      }
+    },
+    DefaultBlockSize, progress);
+  AppendParts(std::move(parts), threads, links);
 }
 
 } // namespace gridfem

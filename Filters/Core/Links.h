@@ -3,10 +3,8 @@
 #define GridFEM_Links_h
 
 #include "Clip.h"
-#include "Parallel.h"
+#include "MeshEdges.h"
 
-#include <atomic>
-#include <limits>
 #include <vector>
 
 namespace gridfem
@@ -15,78 +13,29 @@ namespace gridfem
 /// A piece has an edge; edges are numbered, and equal for all pieces that share them.
 struct EdgeUse
 {
-  Id edge;
-  Id piece;
+  Index edge;
+  Index piece;
 };
 
-/// Links for edges that more than two pieces use: pieces of one cell in a star, the stars of
-/// different cells pairwise. Sorts `uses`.
-void LinkStars(
-  std::vector<EdgeUse>& uses, const std::vector<Id>& pieceCell, std::vector<PieceLink>& links);
+/// Links for edges given by their uses: pieces of one cell in a star, the stars of different cells
+/// pairwise. Sorts `uses`.
+void LinkStars(std::vector<EdgeUse>& uses, const Array<Index>& pieceCell, Array<Link>& links);
 
-/// Appends a link for every two pieces that use the same edge.
-/// @param forUses  forUses(block, visit) calls visit(edge, piece) for every use in that block; it
-/// is
-///                 called twice. The links depend on that order, not on the number of threads.
-template<class ForUses>
-void LinkByEdges(Id blocks, const ForUses& forUses, Id numberOfEdges,
-  const std::vector<Id>& pieceCell, int threads, std::vector<PieceLink>& links,
-  const Progress& progress)
+/// The pieces along the mesh edges of every triangle (see TriangleClipper): those of triangle t are
+/// piece[begin[t] .. begin[t + 1]).
+struct Stretches
 {
-  // The lowest piece and the number of uses of each edge: neither depends on the order in which
-  // threads arrive.
-  struct Edge
-  {
-    std::atomic<Id> lowest{ std::numeric_limits<Id>::max() };
-    std::atomic<Id> count{ 0 };
-  };
-  std::vector<Edge> edges(numberOfEdges);
-  ParallelBlocks(
-    blocks, threads,
-    [&](Id block)
-    {
-      forUses(block,
-        [&](Id e, Id piece)
-        {
-          Edge& edge = edges[e];
-          edge.count.fetch_add(1, std::memory_order_relaxed);
-          Id known = edge.lowest.load(std::memory_order_relaxed);
-          while (piece < known &&
-                 !edge.lowest.compare_exchange_weak(known, piece, std::memory_order_relaxed))
-          {
-          }
-        });
-    },
-    progress.Part(0.0, 0.4));
-  std::vector<std::vector<PieceLink>> pairs(blocks);
-  std::vector<std::vector<EdgeUse>> shared(blocks);
-  ParallelBlocks(
-    blocks, threads,
-    [&](Id block)
-    {
-      forUses(block,
-        [&](Id e, Id piece)
-        {
-          const Id other = edges[e].lowest.load(std::memory_order_relaxed);
-          if (edges[e].count.load(std::memory_order_relaxed) > 2)
-          {
-            shared[block].push_back({ e, piece });
-          }
-          else if (other != piece)
-          {
-            pairs[block].push_back({ other, piece });
-          }
-        });
-    },
-    progress.Part(0.4, 0.8));
-  std::vector<EdgeUse> stars;
-  for (Id block = 0; block < blocks; ++block)
-  {
-    links.insert(links.end(), pairs[block].begin(), pairs[block].end());
-    stars.insert(stars.end(), shared[block].begin(), shared[block].end());
-  }
-  LinkStars(stars, pieceCell, links);
-}
+  Array<Index> begin;
+  Array<Index> piece; // -1: none
+};
+
+/// Makes room for the stretches of all triangles. Throws InvalidInput when there are too many.
+Stretches AllocateStretches(const MeshEdges& edges, int threads);
+
+/// Appends a link for every two pieces on different sides of a mesh edge that share a stretch of
+/// it; where more than two do, as LinkStars. The same for any number of threads.
+void LinkAlongEdges(const MeshEdges& edges, const Stretches& stretches,
+  const Array<Index>& pieceCell, int threads, Array<Link>& links, const Progress& progress);
 
 } // namespace gridfem
 

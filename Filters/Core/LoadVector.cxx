@@ -91,7 +91,7 @@ MultiVector IntegratePieces(const FunctionSpace& space, Id columns, int threads,
   const Progress& progress, AddPiece&& addPiece)
 {
   const Level& level = space.Finest();
-  const Groups pieces = GroupItems(space.piecePatch, level.NumberOfPatches());
+  const Groups pieces = GroupItems(space.piecePatch, level.NumberOfPatches(), threads);
   const FunctionPatches patches = PatchesOfFunctions(level);
   MultiVector result = MultiVector::Zero(level.numberOfFunctions, columns);
   std::vector<double> shares;
@@ -134,7 +134,7 @@ void ForEachSample(const FunctionSpace& space, Id piece, const Vec3& origin,
   const SourceTriangle& source, const Field* scale, const QuadratureRule& rule, Body&& body)
 {
   const ClippedMesh& clipped = space.clipped;
-  const Id* corner = clipped.corners.data() + clipped.pieceBegin[piece];
+  const Index* corner = clipped.corners.data() + clipped.pieceBegin[piece];
   const std::array<Id, 3> scaleRows =
     scale ? scale->RowsOf(clipped.pieceTriangle[piece], source.Points()) : std::array<Id, 3>{};
   const Barycentric apex = source.Locate(corner[0]);

@@ -19,13 +19,12 @@ namespace
 // the memory that is freed but not yet used again.
 
 // While clipping:
-constexpr double ClipPerPoint = 80.0;    // position, the same on planes, welded id (64)
-constexpr double ClipPerTriangle = 30.0; // the rest of its edges and their cuts (48 + 24 per edge)
-constexpr double ClipPerPiece = 265.0;   // pieces, corners, cut points and links, by block (110)
-                                         // and joined (150)
+constexpr double ClipPerPoint = 60.0;    // position, the same on planes, welded id (54)
+constexpr double ClipPerTriangle = 70.0; // its sides, edges and stretches (28 + 18 per edge)
+constexpr double ClipPerPiece = 135.0; // pieces, corners and links, by block and joined; cut points
 // Kept ever after:
-constexpr double HeldPerPoint = 32.0;  // position, patch (32)
-constexpr double HeldPerPiece = 170.0; // piece 32, corners 8 each, cut points 56, links 16 (150)
+constexpr double HeldPerPoint = 28.0; // position, patch (28)
+constexpr double HeldPerPiece = 90.0; // piece 16, corners 4 each, cut points 56, links 8 (80)
 // Function space, system and hierarchy, all levels (4/3 of the finest): tables 180, element
 // matrices 576, patterns and matrices of 2 functions with 18 entries each 900, inverses 580,
 // prolongations and their transposes 250.

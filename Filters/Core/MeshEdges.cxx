@@ -1,114 +1,222 @@
 #include "MeshEdges.h"
 
+#include "Errors.h"
 #include "Parallel.h"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 namespace gridfem
 {
 
-PlaneRange PlanesBetween(double a, double b)
-{
-  const int first = static_cast<int>(std::floor(std::min(a, b))) + 1;
-  const int last = static_cast<int>(std::ceil(std::max(a, b))) - 1;
-  return { first, std::max(0, last - first + 1) };
-}
-
 namespace
 {
 
-struct HalfEdge
+/// Lower ends per bucket: its sides are sorted in cache.
+constexpr Index PointsPerBucket = 512;
+
+/// Ranges of triangles that the partition treats in parallel: few, because each counts all buckets.
+constexpr Id MostRanges = 64;
+constexpr Id SmallestRange = Id{ 1 } << 14;
+
+/// One side of an edge: the triangle's edge from a corner to the next.
+struct Side
 {
-  Id high; // higher end
-  Id slot; // 3 * triangle + local edge
+  Index low; // lower end of the edge
+  Index high;
+  Index side; // 3 triangle + edge
 };
 
-/// Half edges grouped by their lower end, sorted by the higher one: equal edges are neighbours.
-struct HalfEdgeTable
+/// Finds the edges bucket by bucket: one partition of the sides by lower end, then sorts in cache.
+class EdgeFinder
 {
-  std::vector<Id> begin; // per point
-  std::vector<HalfEdge> halfEdges;
+public:
+  EdgeFinder(const std::vector<std::array<Id, 3>>& triangles, const std::vector<Index>& pointClass,
+    int threads)
+    : triangles_(triangles), pointClass_(pointClass), threads_(threads),
+      buckets_((static_cast<Index>(pointClass.size()) + PointsPerBucket - 1) / PointsPerBucket)
+  {
+  }
+
+  void Find(MeshEdges& edges);
+
+private:
+  void Partition();
+  void SortBucket(Index bucket);
+  void FillBucket(Index bucket, MeshEdges& edges) const;
+
+  /// Whether a side is the first of its edge. Only inside sorted buckets.
+  bool IsFirst(Index k, Index bucketBegin) const
+  {
+    return k == bucketBegin || sides_[k].low != sides_[k - 1].low ||
+           sides_[k].high != sides_[k - 1].high;
+  }
+
+  const std::vector<std::array<Id, 3>>& triangles_;
+  const std::vector<Index>& pointClass_;
+  const int threads_;
+  const Index buckets_;
+  Array<Side> sides_;
+  std::vector<Index> bucketBegin_; // into sides_
+  std::vector<Index> edgeBegin_;   // first edge of each bucket
 };
 
-HalfEdgeTable GroupHalfEdges(
-  const std::vector<std::array<Id, 3>>& triangles, const std::vector<Id>& pointClass, int threads)
+/// A stable counting sort of the sides by bucket, ranges of triangles in parallel.
+void EdgeFinder::Partition()
 {
-  HalfEdgeTable table;
-  table.begin.assign(pointClass.size() + 1, 0);
-  const auto ends = [&](std::size_t t, int edge)
+  const Id triangles = static_cast<Id>(triangles_.size());
+  const Id size = std::max(SmallestRange, (triangles + MostRanges - 1) / MostRanges);
+  const Id ranges = (triangles + size - 1) / size;
+  std::vector<Index> next(ranges * buckets_, 0);
+  const auto forSides = [&](const auto& visit)
   {
-    const Id a = pointClass[triangles[t][edge]];
-    const Id b = pointClass[triangles[t][(edge + 1) % 3]];
-    return std::array<Id, 2>{ std::min(a, b), std::max(a, b) };
-  };
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-  {
-    for (int edge = 0; edge < 3; ++edge)
-    {
-      ++table.begin[ends(t, edge)[0]];
-    }
-  }
-  ExclusiveScan(table.begin);
-  table.halfEdges.resize(3 * triangles.size());
-  std::vector<Id> next(table.begin.begin(), table.begin.end() - 1);
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-  {
-    for (int edge = 0; edge < 3; ++edge)
-    {
-      const auto [low, high] = ends(t, edge);
-      table.halfEdges[next[low]++] = { high, static_cast<Id>(3 * t + edge) };
-    }
-  }
-  ParallelRanges(static_cast<Id>(pointClass.size()), threads,
-    [&](Id begin, Id end)
-    {
-      for (Id point = begin; point < end; ++point)
+    ParallelBlocks(ranges, threads_,
+      [&](Id range)
       {
-        std::sort(table.halfEdges.begin() + table.begin[point],
-          table.halfEdges.begin() + table.begin[point + 1],
-          [](const HalfEdge& a, const HalfEdge& b)
-          { return a.high != b.high ? a.high < b.high : a.slot < b.slot; });
-      }
-    });
-  return table;
+        Index* ofBucket = next.data() + range * buckets_;
+        const Id end = std::min(triangles, (range + 1) * size);
+        for (Id t = range * size; t < end; ++t)
+        {
+          const std::array<Index, 3> corner{ pointClass_[triangles_[t][0]],
+            pointClass_[triangles_[t][1]], pointClass_[triangles_[t][2]] };
+          for (int k = 0; k < 3; ++k)
+          {
+            const auto [low, high] = std::minmax(corner[k], corner[k == 2 ? 0 : k + 1]);
+            visit(
+              Side{ low, high, static_cast<Index>(3 * t + k) }, ofBucket[low / PointsPerBucket]);
+          }
+        }
+      });
+  };
+  forSides([](const Side&, Index& count) { ++count; });
+  bucketBegin_.assign(buckets_ + 1, 0);
+  Index total = 0;
+  for (Index bucket = 0; bucket < buckets_; ++bucket)
+  {
+    bucketBegin_[bucket] = total;
+    for (Id range = 0; range < ranges; ++range)
+    {
+      total += std::exchange(next[range * buckets_ + bucket], total);
+    }
+  }
+  bucketBegin_[buckets_] = total;
+  sides_.resize(total);
+  forSides([&](const Side& side, Index& place) { sides_[place++] = side; });
+}
+
+/// Sorts by the higher end; sides of one edge keep their order.
+void SortByHighEnd(Side* begin, Side* end)
+{
+  constexpr std::ptrdiff_t Few = 32;
+  const auto isLess = [](const Side& a, const Side& b) { return a.high < b.high; };
+  if (end - begin > Few)
+  {
+    std::stable_sort(begin, end, isLess);
+    return;
+  }
+  for (Side* next = begin; next < end; ++next)
+  {
+    const Side side = *next;
+    Side* place = next;
+    for (; place > begin && isLess(side, place[-1]); --place)
+    {
+      *place = place[-1];
+    }
+    *place = side;
+  }
+}
+
+/// Sorts the sides of a bucket by edge and counts its edges.
+void EdgeFinder::SortBucket(Index bucket)
+{
+  const Index bucketBegin = bucketBegin_[bucket];
+  const Index bucketEnd = bucketBegin_[bucket + 1];
+  const Index firstPoint = bucket * PointsPerBucket;
+  std::array<Index, PointsPerBucket + 1> begin{};
+  for (Index k = bucketBegin; k < bucketEnd; ++k)
+  {
+    ++begin[sides_[k].low - firstPoint + 1];
+  }
+  for (Index point = 0; point < PointsPerBucket; ++point)
+  {
+    begin[point + 1] += begin[point];
+  }
+  const std::vector<Side> unsorted(sides_.begin() + bucketBegin, sides_.begin() + bucketEnd);
+  std::array<Index, PointsPerBucket + 1> next = begin;
+  for (const Side& side : unsorted)
+  {
+    sides_[bucketBegin + next[side.low - firstPoint]++] = side;
+  }
+  Side* sides = sides_.data() + bucketBegin;
+  for (Index point = 0; point < PointsPerBucket; ++point)
+  {
+    SortByHighEnd(sides + begin[point], sides + begin[point + 1]);
+  }
+  for (Index k = bucketBegin; k < bucketEnd; ++k)
+  {
+    edgeBegin_[bucket] += this->IsFirst(k, bucketBegin) ? 1 : 0;
+  }
+}
+
+void EdgeFinder::FillBucket(Index bucket, MeshEdges& edges) const
+{
+  Index edge = edgeBegin_[bucket] - 1;
+  for (Index k = bucketBegin_[bucket]; k < bucketBegin_[bucket + 1]; ++k)
+  {
+    const auto [low, high, side] = sides_[k];
+    if (this->IsFirst(k, bucketBegin_[bucket]))
+    {
+      ++edge;
+      edges.ends[edge] = { low, high };
+      edges.sideBegin[edge] = k;
+    }
+    edges.side[k] = side;
+    edges.ofTriangle[side / 3][side % 3] = edge;
+  }
+}
+
+void EdgeFinder::Find(MeshEdges& edges)
+{
+  this->Partition();
+  edgeBegin_.assign(buckets_ + 1, 0);
+  ParallelBlocks(
+    buckets_, threads_, [&](Id bucket) { this->SortBucket(static_cast<Index>(bucket)); });
+  const Index count = ExclusiveScan(edgeBegin_);
+  edges.ofTriangle.resize(triangles_.size());
+  edges.ends.resize(count);
+  edges.sideBegin.resize(count + 1);
+  edges.side.resize(sides_.size());
+  ParallelBlocks(
+    buckets_, threads_, [&](Id bucket) { this->FillBucket(static_cast<Index>(bucket), edges); });
+  edges.sideBegin[count] = static_cast<Index>(sides_.size());
 }
 
 } // namespace
 
 MeshEdges BuildMeshEdges(const std::vector<std::array<Id, 3>>& triangles,
-  const std::vector<Id>& pointClass, const std::vector<Vec3>& position, int threads)
+  const std::vector<Index>& pointClass, const Array<Vec3>& position, int threads)
 {
-  const HalfEdgeTable table = GroupHalfEdges(triangles, pointClass, threads);
+  RequireIndices(3.0 * static_cast<double>(triangles.size()), "sides of triangles");
   MeshEdges edges;
-  edges.ofTriangle.resize(triangles.size());
-  edges.ends.reserve(3 * triangles.size() / 2 + 1);
-  for (std::size_t point = 0; point < pointClass.size(); ++point)
-  {
-    for (Id k = table.begin[point]; k < table.begin[point + 1]; ++k)
-    {
-      const HalfEdge& half = table.halfEdges[k];
-      if (k == table.begin[point] || table.halfEdges[k - 1].high != half.high)
-      {
-        edges.ends.push_back({ static_cast<Id>(point), half.high });
-      }
-      edges.ofTriangle[half.slot / 3][half.slot % 3] = static_cast<Id>(edges.ends.size()) - 1;
-    }
-  }
-  edges.cutBegin.assign(edges.ends.size() + 1, 0);
-  ParallelRanges(static_cast<Id>(edges.ends.size()), threads,
+  EdgeFinder(triangles, pointClass, threads).Find(edges);
+  const Index count = edges.NumberOfEdges();
+  edges.cutBegin.resize(count + 1);
+  const double cuts = ParallelSum(count, threads, 0.0,
     [&](Id begin, Id end)
     {
+      double sum = 0.0;
       for (Id e = begin; e < end; ++e)
       {
         const Vec3& a = position[edges.ends[e][0]];
         const Vec3& b = position[edges.ends[e][1]];
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          edges.cutBegin[e] += PlanesBetween(a[axis], b[axis]).count;
-        }
+        edges.cutBegin[e] = PlanesBetween(a[0], b[0]).count + PlanesBetween(a[1], b[1]).count +
+                            PlanesBetween(a[2], b[2]).count;
+        sum += edges.cutBegin[e];
       }
+      return sum;
     });
+  RequireIndices(cuts, "cut points");
+  edges.cutBegin[count] = 0;
   ExclusiveScan(edges.cutBegin);
   return edges;
 }

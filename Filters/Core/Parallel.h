@@ -103,17 +103,38 @@ Value ParallelSum(Id count, int threads, Value zero, Body&& body, Id size = Defa
 }
 
 /// Replaces counts by their running sum, starting at 0; returns the total.
-template<class Count>
-Count ExclusiveScan(std::vector<Count>& counts)
+template<class Counts>
+auto ExclusiveScan(Counts& counts)
 {
-  Count total = 0;
-  for (Count& count : counts)
+  typename Counts::value_type total = 0;
+  for (auto& count : counts)
   {
-    const Count next = total + count;
+    const auto next = total + count;
     count = total;
     total = next;
   }
   return total;
+}
+
+/// Appends what the blocks of a loop have made, in their order; frees it.
+template<class Items>
+void AppendParts(std::vector<Items> parts, int threads, Items& items)
+{
+  std::vector<Id> begin;
+  begin.reserve(parts.size() + 1);
+  Id total = static_cast<Id>(items.size());
+  for (const Items& part : parts)
+  {
+    begin.push_back(total);
+    total += static_cast<Id>(part.size());
+  }
+  items.resize(total);
+  ParallelBlocks(static_cast<Id>(parts.size()), threads,
+    [&](Id block)
+    {
+      const Items part = std::move(parts[block]);
+      std::copy(part.begin(), part.end(), items.begin() + begin[block]);
+    });
 }
 
 } // namespace gridfem

@@ -4,7 +4,6 @@
 #include "UnionFind.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace gridfem
 {
@@ -16,70 +15,78 @@ namespace
 constexpr double SmallestArea = 1e-10;
 
 /// Patch of every piece, numbered by the first piece: so by Morton key.
-std::vector<Id> GroupPieces(const ClippedMesh& clipped, FunctionSupport support, Id& count)
+std::vector<Index> GroupPieces(
+  const ClippedMesh& clipped, FunctionSupport support, int threads, Index& count)
 {
   if (support == FunctionSupport::Plain)
   {
-    count = static_cast<Id>(clipped.cells.size());
-    return clipped.pieceCell;
+    count = static_cast<Index>(clipped.cells.size());
+    return { clipped.pieceCell.begin(), clipped.pieceCell.end() };
   }
-  UnionFind sets(clipped.NumberOfPieces());
-  for (const PieceLink& link : clipped.links)
-  {
-    if (clipped.pieceCell[link.first] == clipped.pieceCell[link.second])
-    {
-      sets.Unite(link.first, link.second);
-    }
-  }
-  return NumberSets<Id>(sets, count);
-}
-
-std::vector<double> PatchAreas(
-  const ClippedMesh& clipped, const std::vector<Id>& piecePatch, Id numberOfPatches, int threads)
-{
-  std::vector<double> pieceArea(piecePatch.size());
-  ParallelRanges(clipped.NumberOfPieces(), threads,
+  UnionFind sets(clipped.NumberOfPieces(), threads);
+  ParallelRanges(static_cast<Id>(clipped.links.size()), threads,
     [&](Id begin, Id end)
     {
-      for (Id piece = begin; piece < end; ++piece)
+      for (Id k = begin; k < end; ++k)
       {
-        pieceArea[piece] = PieceArea(clipped, piece);
+        const auto [first, second] = clipped.links[k];
+        if (clipped.pieceCell[first] == clipped.pieceCell[second])
+        {
+          sets.Unite(first, second);
+        }
       }
     });
-  std::vector<double> area(numberOfPatches, 0.0);
-  for (std::size_t piece = 0; piece < piecePatch.size(); ++piece)
-  {
-    area[piecePatch[piece]] += pieceArea[piece];
-  }
-  return area;
+  return NumberSets(sets, count, threads);
+}
+
+/// Patches whose pieces together have less than the smallest area. Pieces are sorted by cell, so
+/// that those of a patch are near each other.
+std::vector<char> FindSlivers(
+  const ClippedMesh& clipped, const Groups& pieces, Index numberOfPatches, int threads)
+{
+  std::vector<char> isSliver(numberOfPatches);
+  ParallelRanges(numberOfPatches, threads,
+    [&](Id begin, Id end)
+    {
+      for (Id patch = begin; patch < end; ++patch)
+      {
+        double area = 0.0;
+        for (Index k = pieces.begin[patch]; k < pieces.begin[patch + 1] && area < SmallestArea; ++k)
+        {
+          area += PieceArea(clipped, pieces.item[k]);
+        }
+        isSliver[patch] = area < SmallestArea;
+      }
+    });
+  return isSliver;
 }
 
 /// For every patch the patch it becomes part of: itself, or for a sliver the lowest patch that is
 /// none and that it touches, over other slivers if need be. Slivers that touch none stay.
-std::vector<Id> AbsorbSlivers(
-  const ClippedMesh& clipped, const std::vector<Id>& piecePatch, const std::vector<double>& area)
+std::vector<Index> AbsorbSlivers(const ClippedMesh& clipped, const std::vector<Index>& piecePatch,
+  const std::vector<char>& isSliver)
 {
-  std::vector<Id> target(area.size());
+  std::vector<Index> target(isSliver.size());
   bool open = false;
-  for (std::size_t patch = 0; patch < area.size(); ++patch)
+  for (std::size_t patch = 0; patch < target.size(); ++patch)
   {
-    target[patch] = area[patch] < SmallestArea ? -1 : static_cast<Id>(patch);
-    open |= target[patch] < 0;
+    target[patch] = isSliver[patch] ? -1 : static_cast<Index>(patch);
+    open |= isSliver[patch] != 0;
   }
-  std::vector<PatchLink> links;
-  for (const PieceLink& link : clipped.links)
+  Array<Link> links;
+  for (std::size_t k = 0; open && k < clipped.links.size(); ++k)
   {
-    const Id a = piecePatch[link.first];
-    const Id b = piecePatch[link.second];
-    if (open && a != b && (target[a] < 0 || target[b] < 0))
+    const Index a = piecePatch[clipped.links[k].first];
+    const Index b = piecePatch[clipped.links[k].second];
+    if (a != b && (target[a] < 0 || target[b] < 0))
     {
       links.push_back({ a, b });
     }
   }
   while (open)
   {
-    std::vector<Id> next = target;
-    const auto offer = [&](Id sliver, Id patch)
+    std::vector<Index> next = target;
+    const auto offer = [&](Index sliver, Index patch)
     {
       if (target[sliver] < 0 && target[patch] >= 0 &&
           (next[sliver] < 0 || target[patch] < next[sliver]))
@@ -87,7 +94,7 @@ std::vector<Id> AbsorbSlivers(
         next[sliver] = target[patch];
       }
     };
-    for (const PatchLink& link : links)
+    for (const Link& link : links)
     {
       offer(link.first, link.second);
       offer(link.second, link.first);
@@ -97,9 +104,48 @@ std::vector<Id> AbsorbSlivers(
   }
   for (std::size_t patch = 0; patch < target.size(); ++patch)
   {
-    target[patch] = target[patch] < 0 ? static_cast<Id>(patch) : target[patch];
+    target[patch] = target[patch] < 0 ? static_cast<Index>(patch) : target[patch];
   }
   return target;
+}
+
+/// Sorts a few links by first, then second; drops repetitions.
+void SortFew(Array<Link>& links)
+{
+  std::sort(links.begin(), links.end(),
+    [](const Link& a, const Link& b)
+    { return a.first != b.first ? a.first < b.first : a.second < b.second; });
+  links.erase(std::unique(links.begin(), links.end()), links.end());
+}
+
+/// The same for many, in time linear in their number.
+Array<Link> SortMany(const Array<Link>& links, int threads)
+{
+  std::vector<Index> group(links.size());
+  std::transform(
+    links.begin(), links.end(), group.begin(), [](const Link& link) { return link.first; });
+  const Id groups = group.empty() ? 0 : Id{ *std::max_element(group.begin(), group.end()) } + 1;
+  const Groups byFirst = GroupItems(group, groups, threads);
+  std::vector<Array<Link>> parts((groups + DefaultBlockSize - 1) / DefaultBlockSize);
+  ParallelRanges(groups, threads,
+    [&](Id begin, Id end)
+    {
+      Array<Link> ofFirst;
+      for (Id first = begin; first < end; ++first)
+      {
+        ofFirst.clear();
+        for (Index k = byFirst.begin[first]; k < byFirst.begin[first + 1]; ++k)
+        {
+          ofFirst.push_back(links[byFirst.item[k]]);
+        }
+        SortFew(ofFirst);
+        Array<Link>& part = parts[begin / DefaultBlockSize];
+        part.insert(part.end(), ofFirst.begin(), ofFirst.end());
+      }
+    });
+  Array<Link> sorted;
+  AppendParts(std::move(parts), threads, sorted);
+  return sorted;
 }
 
 } // namespace
@@ -107,22 +153,18 @@ std::vector<Id> AbsorbSlivers(
 PatchPartition BuildPatches(const ClippedMesh& clipped, FunctionSupport support, int threads)
 {
   PatchPartition patches;
-  Id count = 0;
-  patches.piecePatch = GroupPieces(clipped, support, count);
-  std::vector<MortonKey> cell(count);
-  for (std::size_t piece = 0; piece < patches.piecePatch.size(); ++piece)
-  {
-    cell[patches.piecePatch[piece]] = clipped.cells[clipped.pieceCell[piece]];
-  }
-  const std::vector<Id> target = AbsorbSlivers(
-    clipped, patches.piecePatch, PatchAreas(clipped, patches.piecePatch, count, threads));
-  std::vector<Id> number(count, -1);
-  for (Id patch = 0; patch < count; ++patch)
+  Index count = 0;
+  patches.piecePatch = GroupPieces(clipped, support, threads, count);
+  const Groups pieces = GroupItems(patches.piecePatch, count, threads);
+  const std::vector<Index> target =
+    AbsorbSlivers(clipped, patches.piecePatch, FindSlivers(clipped, pieces, count, threads));
+  std::vector<Index> number(count, -1);
+  for (Index patch = 0; patch < count; ++patch)
   {
     if (target[patch] == patch)
     {
-      number[patch] = static_cast<Id>(patches.cell.size());
-      patches.cell.push_back(cell[patch]);
+      number[patch] = static_cast<Index>(patches.cell.size());
+      patches.cell.push_back(clipped.cells[clipped.pieceCell[pieces.item[pieces.begin[patch]]]]);
     }
   }
   ParallelRanges(clipped.NumberOfPieces(), threads,
@@ -133,54 +175,36 @@ PatchPartition BuildPatches(const ClippedMesh& clipped, FunctionSupport support,
         patches.piecePatch[piece] = number[target[patches.piecePatch[piece]]];
       }
     });
-  patches.links = LinksOfPatches(clipped.links, patches.piecePatch);
+  patches.links = LinksOfGroups(clipped.links, patches.piecePatch, threads);
   return patches;
 }
 
-std::vector<PatchLink> LinksOfPatches(
-  const std::vector<PieceLink>& links, const std::vector<Id>& piecePatch)
+Array<Link> LinksOfGroups(const Array<Link>& links, const std::vector<Index>& group, int threads)
 {
-  std::vector<PatchLink> patchLinks;
-  for (const PieceLink& link : links)
-  {
-    const Id a = piecePatch[link.first];
-    const Id b = piecePatch[link.second];
-    const PatchLink ordered{ std::min(a, b), std::max(a, b) };
-    if (a != b && (patchLinks.empty() || !(patchLinks.back() == ordered)))
+  // Neighbouring links often join the same groups: most repetitions go block by block.
+  constexpr Id LinksPerBlock = 16384;
+  const Id count = static_cast<Id>(links.size());
+  std::vector<Array<Link>> parts((count + LinksPerBlock - 1) / LinksPerBlock);
+  ParallelRanges(
+    count, threads,
+    [&](Id begin, Id end)
     {
-      patchLinks.push_back(ordered);
-    }
-  }
-  SortUnique(patchLinks);
-  return patchLinks;
-}
-
-void SortUnique(std::vector<PatchLink>& links)
-{
-  const Id patches = std::accumulate(links.begin(), links.end(), Id{ 0 },
-    [](Id most, const PatchLink& link) { return std::max(most, link.first + 1); });
-  std::vector<Id> group(links.size());
-  std::transform(
-    links.begin(), links.end(), group.begin(), [](const PatchLink& link) { return link.first; });
-  const Groups byFirst = GroupItems(group, patches);
-  std::vector<PatchLink> sorted;
-  sorted.reserve(links.size());
-  std::vector<Id> seconds;
-  for (Id first = 0; first < patches; ++first)
-  {
-    seconds.clear();
-    for (Id k = byFirst.begin[first]; k < byFirst.begin[first + 1]; ++k)
-    {
-      seconds.push_back(links[byFirst.item[k]].second);
-    }
-    std::sort(seconds.begin(), seconds.end());
-    seconds.erase(std::unique(seconds.begin(), seconds.end()), seconds.end());
-    for (const Id second : seconds)
-    {
-      sorted.push_back({ first, second });
-    }
-  }
-  links = std::move(sorted);
+      Array<Link>& part = parts[begin / LinksPerBlock];
+      for (Id k = begin; k < end; ++k)
+      {
+        const auto [low, high] = std::minmax(group[links[k].first], group[links[k].second]);
+        const Link link{ low, high };
+        if (low != high && (part.empty() || !(part.back() == link)))
+        {
+          part.push_back(link);
+        }
+      }
+      SortFew(part);
+    },
+    LinksPerBlock);
+  Array<Link> groupLinks;
+  AppendParts(std::move(parts), threads, groupLinks);
+  return SortMany(groupLinks, threads);
 }
 
 } // namespace gridfem

@@ -60,7 +60,7 @@ struct FanTriangle
 template<class Body>
 void ForEachFanTriangle(const ClippedMesh& clipped, Id piece, const Vec3& origin, Body&& body)
 {
-  const Id* corner = clipped.corners.data() + clipped.pieceBegin[piece];
+  const Index* corner = clipped.corners.data() + clipped.pieceBegin[piece];
   const Id count = clipped.pieceBegin[piece + 1] - clipped.pieceBegin[piece];
   FanTriangle triangle;
   triangle.corner[0] = clipped.position[corner[0]] - origin;

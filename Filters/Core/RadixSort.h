@@ -2,9 +2,8 @@
 #ifndef GridFEM_RadixSort_h
 #define GridFEM_RadixSort_h
 
+#include "Array.h"
 #include "Types.h"
-
-#include <vector>
 
 namespace gridfem
 {
@@ -16,8 +15,8 @@ struct SortEntry
 };
 
 /// Sorts ascending by the lowest `bits` bits of the key; equal keys keep their order.
-/// Cost O(n bits / 11); the same for any number of threads.
-void RadixSort(std::vector<SortEntry>& entries, int bits, int threads = 0);
+/// Cost O(n bits / 12); the same for any number of threads.
+void RadixSort(Array<SortEntry>& entries, int bits, int threads = 0);
 
 } // namespace gridfem
 

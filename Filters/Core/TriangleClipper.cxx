@@ -1,5 +1,7 @@
 #include "TriangleClipper.h"
 
+#include "CutPoints.h"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -7,36 +9,27 @@
 namespace gridfem
 {
 
-TriangleClipper::TriangleClipper(const std::vector<std::array<Id, 3>>& triangles,
-  const std::vector<Id>& pointClass, const std::vector<Vec3>& position, const MeshEdges& edges,
-  int cellsPerSide, double tolerance)
-  : triangles_(triangles), pointClass_(pointClass), position_(position), edges_(edges),
-    cellsPerSide_(cellsPerSide), tolerance_(tolerance)
-{
-}
-
-void TriangleClipper::Polygon::Push(const Vertex& v, int tag)
+void TriangleClipper::Polygon::Push(std::int32_t vertex, int tag)
 {
   if (size == Capacity)
   {
     throw std::length_error("A clipped polygon has too many corners.");
   }
-  vertex[size] = v;
-  vertex[size].tag = tag;
-  ++size;
+  corner[size++] = { vertex, static_cast<std::int16_t>(tag) };
 }
 
-void TriangleClipper::Clip(Id triangle, ClipBlock& block)
+void TriangleClipper::Clip(Id triangle, ClipBlock& block, Index* stretchPiece)
 {
-  this->Start(triangle);
-  if (planes_[0].count + planes_[1].count + planes_[2].count == 0)
+  triangle_ = triangle;
+  CellIndex cell;
+  if (this->IsInOneCell(cell))
   {
-    this->Emit(start_, block);
+    this->EmitWhole(cell, block, stretchPiece);
     return;
   }
+  vertices_.clear();
   pieces_.clear();
   corners_.clear();
-  interiorPosition_.clear();
   for (auto& slots : sparseSlots_)
   {
     if (!slots.empty())
@@ -44,30 +37,79 @@ void TriangleClipper::Clip(Id triangle, ClipBlock& block)
       slots.clear();
     }
   }
-  interiorBegin_ = static_cast<Id>(block.interior.size());
-  this->ClipAxis(start_, 0, block);
+  this->Start(stretchPiece);
+  Polygon whole;
+  for (int corner = 0; corner < 3; ++corner)
+  {
+    whole.Push(corner, corner);
+  }
+  this->ClipAxis(whole, 0, block);
   this->LinkPieces(block);
 }
 
-void TriangleClipper::Start(Id triangle)
+bool TriangleClipper::IsInOneCell(CellIndex& cell)
 {
-  triangle_ = triangle;
-  start_.size = 0;
-  Vec3 low = position_[triangles_[triangle][0]];
-  Vec3 high = low;
-  for (int corner = 0; corner < 3; ++corner)
-  {
-    const Id id = triangles_[triangle][corner];
-    const Vec3& p = position_[id];
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-    Vertex v{ { p[0], p[1], p[2] }, { 0.0, 0.0, 0.0 }, id, corner };
-    v.weight[corner] = 1.0;
-    start_.Push(v, corner);
-  }
+  const auto& corner = input_.triangles[triangle_];
+  const Vec3& a = input_.position[corner[0]];
+  const Vec3& b = input_.position[corner[1]];
+  const Vec3& c = input_.position[corner[2]];
+  const Vec3 low = a.cwiseMin(b).cwiseMin(c);
+  const Vec3 high = a.cwiseMax(b).cwiseMax(c);
+  bool isCut = false;
   for (int axis = 0; axis < 3; ++axis)
   {
     planes_[axis] = PlanesBetween(low[axis], high[axis]);
+    isCut |= planes_[axis].count > 0;
+    cell[axis] = std::min(static_cast<int>(low[axis]), input_.cellsPerSide - 1);
+  }
+  return !isCut;
+}
+
+void TriangleClipper::EmitWhole(const CellIndex& cell, ClipBlock& block, Index* stretchPiece) const
+{
+  const auto piece = static_cast<Index>(block.key.size());
+  block.key.push_back(MortonEncode(cell));
+  block.triangle.push_back(static_cast<Index>(triangle_));
+  for (const Id corner : input_.triangles[triangle_])
+  {
+    block.corner.push_back(static_cast<Index>(corner));
+  }
+  block.cornerBegin.push_back(static_cast<Index>(block.corner.size()));
+  std::fill_n(stretchPiece, 3, piece);
+}
+
+void TriangleClipper::Start(Index* stretchPiece)
+{
+  const auto& corners = input_.triangles[triangle_];
+  const auto& edges = input_.edges.ofTriangle[triangle_];
+  for (int k = 0; k < 3; ++k)
+  {
+    const Vec3& p = input_.position[corners[k]];
+    Vertex vertex{ { p[0], p[1], p[2] }, { 0.0, 0.0, 0.0 }, static_cast<Index>(corners[k]) };
+    vertex.weight[k] = 1.0;
+    vertices_.push_back(vertex);
+
+    const auto& ends = input_.edges.ends[edges[k]];
+    const int next = k == 2 ? 0 : k + 1;
+    const bool isForward = input_.pointClass[corners[k]] == ends[0];
+    Edge& edge = edge_[k];
+    edge.low = &input_.position[ends[0]];
+    edge.high = &input_.position[ends[1]];
+    edge.lowCorner = isForward ? k : next;
+    edge.highCorner = isForward ? next : k;
+    edge.cutBegin = input_.edges.cutBegin[edges[k]];
+    Index cut = static_cast<Index>(input_.position.size()) + edge.cutBegin;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      edge.planes[axis] = PlanesBetween((*edge.low)[axis], (*edge.high)[axis]);
+      edge.firstCut[axis] = cut;
+      cut += edge.planes[axis].count;
+    }
+    const Index stretches = StretchesOf(input_.edges, edges[k]);
+    edge.isNamedHere = input_.edges.side[input_.edges.sideBegin[edges[k]]] == 3 * triangle_ + k;
+    edge.stretchPiece = ends[0] == ends[1] ? nullptr : stretchPiece;
+    std::fill_n(stretchPiece, stretches, -1);
+    stretchPiece += stretches;
   }
 }
 
@@ -78,14 +120,20 @@ void TriangleClipper::ClipAxis(const Polygon& polygon, int axis, ClipBlock& bloc
     this->Emit(polygon, block);
     return;
   }
-  double low = polygon.vertex[0].position[axis];
+  double low = vertices_[polygon.corner[0].vertex].position[axis];
   double high = low;
   for (int i = 1; i < polygon.size; ++i)
   {
-    low = std::min(low, polygon.vertex[i].position[axis]);
-    high = std::max(high, polygon.vertex[i].position[axis]);
+    const double value = vertices_[polygon.corner[i].vertex].position[axis];
+    low = std::min(low, value);
+    high = std::max(high, value);
   }
   const PlaneRange planes = PlanesBetween(low, high);
+  if (planes.count == 0)
+  {
+    this->ClipAxis(polygon, axis + 1, block);
+    return;
+  }
   Polygon below;
   std::array<Polygon, 2> above;
   const Polygon* rest = &polygon;
@@ -111,84 +159,66 @@ void TriangleClipper::Split(
   below.size = above.size = 0;
   bool hasBelow = false;
   bool hasAbove = false;
-  const auto side = [&](const Vertex& v)
-  { return (v.position[axis] > plane) - (v.position[axis] < plane); };
+  const auto sideOf = [&](const Corner& corner)
+  {
+    const double value = vertices_[corner.vertex].position[axis];
+    return (value > plane) - (value < plane);
+  };
+  const int planeTag = PlaneTag + axis;
+  int there = sideOf(polygon.corner[0]);
   for (int i = 0; i < polygon.size; ++i)
   {
-    const Vertex& v = polygon.vertex[i];
-    const Vertex& next = polygon.vertex[i + 1 == polygon.size ? 0 : i + 1];
-    const int here = side(v);
-    const int there = side(next);
+    const Corner& corner = polygon.corner[i];
+    const Corner& next = polygon.corner[i + 1 == polygon.size ? 0 : i + 1];
+    const int here = there;
+    there = sideOf(next);
     hasBelow |= here < 0;
     hasAbove |= here > 0;
     if (here <= 0)
     {
-      below.Push(v, here == 0 && there > 0 ? PlaneTag + axis : v.tag);
+      below.Push(corner.vertex, here == 0 && there > 0 ? planeTag : corner.tag);
     }
     if (here >= 0)
     {
-      above.Push(v, here == 0 && there < 0 ? PlaneTag + axis : v.tag);
+      above.Push(corner.vertex, here == 0 && there < 0 ? planeTag : corner.tag);
     }
     if (here * there < 0)
     {
-      const Vertex cut = this->Cut(v, next, axis, plane, block);
-      below.Push(cut, here < 0 ? PlaneTag + axis : v.tag);
-      above.Push(cut, here < 0 ? v.tag : PlaneTag + axis);
+      const std::int32_t cut = corner.tag < PlaneTag
+                                 ? this->CutMeshEdge(edge_[corner.tag], axis, plane)
+                                 : this->CutPlaneEdge(corner, next, axis, plane, block);
+      below.Push(cut, here < 0 ? planeTag : corner.tag);
+      above.Push(cut, here < 0 ? corner.tag : planeTag);
     }
   }
-  if (!hasBelow)
-  {
-    below.size = 0;
-  }
-  if (!hasAbove)
-  {
-    above.size = 0;
-  }
-}
-
-TriangleClipper::Vertex TriangleClipper::Cut(
-  const Vertex& from, const Vertex& to, int axis, int plane, ClipBlock& block)
-{
-  return from.tag < PlaneTag ? this->CutMeshEdge(from.tag, axis, plane)
-                             : this->CutPlaneEdge(from, to, axis, plane, block);
+  below.size = hasBelow ? below.size : 0;
+  above.size = hasAbove ? above.size : 0;
 }
 
 double TriangleClipper::Snap(double value) const
 {
   const double nearest = std::nearbyint(value);
-  return std::abs(value - nearest) <= tolerance_ ? nearest : value;
+  return std::abs(value - nearest) <= input_.tolerance ? nearest : value;
 }
 
-TriangleClipper::Vertex TriangleClipper::CutMeshEdge(int edge, int axis, int plane) const
+std::int32_t TriangleClipper::CutMeshEdge(const Edge& edge, int axis, int plane)
 {
-  const Id e = edges_.ofTriangle[triangle_][edge];
-  const auto& ends = edges_.ends[e];
-  const Vec3& a = position_[ends[0]];
-  const Vec3& b = position_[ends[1]];
+  const Vec3& a = *edge.low;
+  const Vec3& b = *edge.high;
   const double t = (plane - a[axis]) / (b[axis] - a[axis]);
-  Vertex cut;
-  Id number = edges_.cutBegin[e];
+  Vertex cut{ {}, { 0.0, 0.0, 0.0 }, edge.firstCut[axis] + (plane - edge.planes[axis].first) };
   for (int other = 0; other < 3; ++other)
   {
-    const PlaneRange planes = PlanesBetween(a[other], b[other]);
-    if (other < axis)
-    {
-      number += planes.count;
-    }
-    else if (other == axis)
-    {
-      number += plane - planes.first;
-    }
     cut.position[other] = other == axis ? plane : this->Snap(a[other] + t * (b[other] - a[other]));
   }
-  cut.id = static_cast<Id>(position_.size()) + number;
-  const int next = edge == 2 ? 0 : edge + 1;
-  const bool forward = pointClass_[triangles_[triangle_][edge]] == ends[0];
-  cut.weight = { 0.0, 0.0, 0.0 };
-  cut.weight[forward ? edge : next] = 1.0 - t;
-  cut.weight[forward ? next : edge] = t;
-  cut.tag = edge;
-  return cut;
+  cut.weight[edge.lowCorner] = 1.0 - t;
+  cut.weight[edge.highCorner] = t;
+  if (edge.isNamedHere)
+  {
+    PlaceCutPoint(cut.id, { static_cast<Index>(triangle_), cut.weight }, input_, clipped_);
+  }
+  vertices_.push_back(cut);
+  return static_cast<std::int32_t>(vertices_.size()) - 1;
 }
 
 TriangleClipper::Slot& TriangleClipper::InteriorSlot(int axisA, int planeA, int axisB, int planeB)
@@ -212,71 +242,85 @@ TriangleClipper::Slot& TriangleClipper::InteriorSlot(int axisA, int planeA, int 
   return slots_[table][place];
 }
 
-TriangleClipper::Vertex TriangleClipper::CutPlaneEdge(
-  const Vertex& from, const Vertex& to, int axis, int plane, ClipBlock& block)
+std::int32_t TriangleClipper::CutPlaneEdge(
+  const Corner& fromCorner, const Corner& toCorner, int axis, int plane, ClipBlock& block)
 {
-  const int edgeAxis = from.tag - PlaneTag;
+  const Vertex& from = vertices_[fromCorner.vertex];
+  const Vertex& to = vertices_[toCorner.vertex];
+  const int edgeAxis = fromCorner.tag - PlaneTag;
   const int edgePlane = static_cast<int>(from.position[edgeAxis]);
   Slot& slot = this->InteriorSlot(edgeAxis, edgePlane, axis, plane);
   if (slot.stamp != triangle_)
   {
     const double t = (plane - from.position[axis]) / (to.position[axis] - from.position[axis]);
-    std::array<double, 3> position;
-    CutPoint point;
-    point.triangle = triangle_;
+    Vertex cut{ {}, {}, -1 - static_cast<Index>(block.interior.size()) };
     for (int k = 0; k < 3; ++k)
     {
-      position[k] = this->Snap(from.position[k] + t * (to.position[k] - from.position[k]));
-      point.weight[k] = from.weight[k] + t * (to.weight[k] - from.weight[k]);
+      cut.position[k] = k == axis ? plane
+                        : k == edgeAxis
+                          ? edgePlane
+                          : this->Snap(from.position[k] + t * (to.position[k] - from.position[k]));
+      cut.weight[k] = from.weight[k] + t * (to.weight[k] - from.weight[k]);
     }
-    position[axis] = plane;
-    position[edgeAxis] = edgePlane;
-    slot = { triangle_, static_cast<Id>(block.interior.size()) };
-    block.interior.push_back(point);
-    interiorPosition_.push_back(position);
+    slot = { triangle_, static_cast<std::int32_t>(vertices_.size()) };
+    block.interior.push_back({ static_cast<Index>(triangle_), cut.weight });
+    vertices_.push_back(cut);
   }
-  Vertex cut;
-  cut.id = -1 - slot.id;
-  cut.position = interiorPosition_[slot.id - interiorBegin_];
-  cut.weight = block.interior[slot.id].weight;
-  cut.tag = from.tag;
-  return cut;
-}
-
-CellIndex TriangleClipper::CellOf(const Polygon& polygon) const
-{
-  CellIndex cell;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    double low = polygon.vertex[0].position[axis];
-    for (int i = 1; i < polygon.size; ++i)
-    {
-      low = std::min(low, polygon.vertex[i].position[axis]);
-    }
-    cell[axis] = std::clamp(static_cast<int>(low), 0, cellsPerSide_ - 1);
-  }
-  return cell;
+  return slot.vertex;
 }
 
 void TriangleClipper::Emit(const Polygon& polygon, ClipBlock& block)
 {
-  const CellIndex cell = this->CellOf(polygon);
-  const Id piece = static_cast<Id>(block.key.size());
+  Point low = vertices_[polygon.corner[0].vertex].position;
+  for (int i = 1; i < polygon.size; ++i)
+  {
+    const Point& position = vertices_[polygon.corner[i].vertex].position;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      low[axis] = std::min(low[axis], position[axis]);
+    }
+  }
+  CellIndex cell;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    cell[axis] = std::clamp(static_cast<int>(low[axis]), 0, input_.cellsPerSide - 1);
+  }
+  const auto piece = static_cast<Index>(block.key.size());
   block.key.push_back(MortonEncode(cell));
-  block.triangle.push_back(triangle_);
-  block.size.push_back(polygon.size);
+  block.triangle.push_back(static_cast<Index>(triangle_));
+  pieces_.push_back({ cell, piece, static_cast<int>(corners_.size()), polygon.size });
   for (int i = 0; i < polygon.size; ++i)
   {
-    block.corner.push_back(polygon.vertex[i].id);
-    block.tag.push_back(static_cast<std::uint8_t>(polygon.vertex[i].tag));
+    block.corner.push_back(vertices_[polygon.corner[i].vertex].id);
+    corners_.push_back(polygon.corner[i]);
   }
-  if (&polygon != &start_)
+  block.cornerBegin.push_back(static_cast<Index>(block.corner.size()));
+  this->NoteStretches(polygon, piece, block);
+}
+
+/// Two pieces on one stretch come from rounding; they are linked, and the first stands for both.
+void TriangleClipper::NoteStretches(const Polygon& polygon, Index piece, ClipBlock& block)
+{
+  const auto inputs = static_cast<Index>(input_.position.size());
+  for (int i = 0; i < polygon.size; ++i)
   {
-    pieces_.push_back({ cell, piece, static_cast<int>(corners_.size()), polygon.size });
-    for (int i = 0; i < polygon.size; ++i)
+    const int tag = polygon.corner[i].tag;
+    if (tag >= PlaneTag || !edge_[tag].stretchPiece)
     {
-      const Vertex& v = polygon.vertex[i];
-      corners_.push_back({ v.id, v.tag, v.position });
+      continue;
+    }
+    const Edge& edge = edge_[tag];
+    const bool isForward = edge.lowCorner == tag;
+    const int near = isForward ? i : (i + 1 == polygon.size ? 0 : i + 1);
+    const Index id = vertices_[polygon.corner[near].vertex].id;
+    Index& known = edge.stretchPiece[id < inputs ? 0 : 1 + id - inputs - edge.cutBegin];
+    if (known < 0)
+    {
+      known = piece;
+    }
+    else if (known != piece)
+    {
+      block.links.push_back({ known, piece });
     }
   }
 }
@@ -287,9 +331,10 @@ void TriangleClipper::LinkPieces(ClipBlock& block) const
   {
     for (int i = 0; i < piece.size; ++i)
     {
-      const LocalCorner& corner = corners_[piece.firstCorner + i];
+      const Corner& corner = corners_[piece.firstCorner + i];
       const int axis = corner.tag - PlaneTag;
-      if (axis >= 0 && static_cast<int>(corner.position[axis]) == piece.cell[axis] + 1)
+      if (axis >= 0 &&
+          static_cast<int>(vertices_[corner.vertex].position[axis]) == piece.cell[axis] + 1)
       {
         this->LinkAcross(piece, i, block);
       }
@@ -304,12 +349,13 @@ const TriangleClipper::LocalPiece* TriangleClipper::FindPiece(const CellIndex& c
   return found != pieces_.end() && found->cell == cell ? &*found : nullptr;
 }
 
-bool TriangleClipper::HasEdge(const LocalPiece& piece, Id a, Id b) const
+bool TriangleClipper::HasEdge(const LocalPiece& piece, Index a, Index b) const
 {
   for (int i = 0; i < piece.size; ++i)
   {
-    const Id from = corners_[piece.firstCorner + i].id;
-    const Id to = corners_[piece.firstCorner + (i + 1) % piece.size].id;
+    const Index from = vertices_[corners_[piece.firstCorner + i].vertex].id;
+    const int next = i + 1 == piece.size ? 0 : i + 1;
+    const Index to = vertices_[corners_[piece.firstCorner + next].vertex].id;
     if ((from == a && to == b) || (from == b && to == a))
     {
       return true;
@@ -322,9 +368,11 @@ bool TriangleClipper::HasEdge(const LocalPiece& piece, Id a, Id b) const
 /// the grid it can be one further along the axes that were clipped later.
 void TriangleClipper::LinkAcross(const LocalPiece& piece, int corner, ClipBlock& block) const
 {
-  const LocalCorner& from = corners_[piece.firstCorner + corner];
-  const LocalCorner& to = corners_[piece.firstCorner + (corner + 1) % piece.size];
-  const int axis = from.tag - PlaneTag;
+  const Corner& here = corners_[piece.firstCorner + corner];
+  const int next = corner + 1 == piece.size ? 0 : corner + 1;
+  const Index from = vertices_[here.vertex].id;
+  const Index to = vertices_[corners_[piece.firstCorner + next].vertex].id;
+  const int axis = here.tag - PlaneTag;
   static constexpr std::array<int, 3> Shifts = { 0, -1, 1 };
   for (const int shiftZ : Shifts)
   {
@@ -339,7 +387,7 @@ void TriangleClipper::LinkAcross(const LocalPiece& piece, int corner, ClipBlock&
       cell[1] += shiftY;
       cell[2] += shiftZ;
       const LocalPiece* other = this->FindPiece(cell);
-      if (other && this->HasEdge(*other, from.id, to.id))
+      if (other && this->HasEdge(*other, from, to))
       {
         block.links.push_back({ piece.piece, other->piece });
         return;

@@ -18,58 +18,94 @@ namespace gridfem
 struct ClipBlock
 {
   std::vector<MortonKey> key;
-  std::vector<Id> triangle;
-  std::vector<int> size; // corners per piece
-  std::vector<Id> corner;
-  std::vector<std::uint8_t> tag;  // of the edge from each corner to the next, see PlaneTag
+  std::vector<Index> triangle;
+  std::vector<Index> cornerBegin; // one more than pieces
+  std::vector<Index> corner;
   std::vector<CutPoint> interior; // points where two planes cut a triangle
-  std::vector<PieceLink> links;   // pieces of one triangle in neighbouring cells
+  std::vector<Link> links;        // pieces of one triangle that share an edge
 };
 
-/// What an edge of a piece lies on: 0, 1, 2 a mesh edge of its triangle, PlaneTag + axis a cut.
-constexpr int PlaneTag = 3;
+/// What the clipper knows of the mesh; all of it outlives the clipper.
+struct ClipInput
+{
+  const std::vector<std::array<Id, 3>>& triangles;
+  const std::vector<Index>& pointClass; // welded id of each point
+  const Array<Vec3>& position;          // of the input points, grid units, snapped to the planes
+  const MeshEdges& edges;
+  int cellsPerSide;
+  double tolerance; // of snapping
+};
+
+/// Cut points divide an edge of a triangle into stretches. A stretch is numbered by its end nearer
+/// to the edge's lower end: 0 for that end itself, 1 + n for cut point n of the edge.
+/// The stretches of edge k of a triangle begin at the sum over its edges before.
+inline Index StretchesOf(const MeshEdges& edges, Index edge)
+{
+  return edges.cutBegin[edge + 1] - edges.cutBegin[edge] + 1;
+}
 
 class TriangleClipper
 {
 public:
-  /// @param position  of the input points, grid units, snapped to the planes
-  TriangleClipper(const std::vector<std::array<Id, 3>>& triangles,
-    const std::vector<Id>& pointClass, const std::vector<Vec3>& position, const MeshEdges& edges,
-    int cellsPerSide, double tolerance);
+  /// @param clipped  has room for the cut points of mesh edges; the first triangle at an edge fills
+  ///                 those it makes
+  TriangleClipper(const ClipInput& input, ClippedMesh& clipped) : input_(input), clipped_(clipped)
+  {
+  }
 
   /// Appends the pieces of one triangle.
-  void Clip(Id triangle, ClipBlock& block);
+  /// @param stretchPiece  gets the piece along each stretch of the triangle's three edges; -1 for a
+  ///                      stretch without length
+  void Clip(Id triangle, ClipBlock& block, Index* stretchPiece);
 
 private:
+  using Point = std::array<double, 3>;
+
+  /// A point of this triangle.
   struct Vertex
   {
-    std::array<double, 3> position; // snapped
-    std::array<double, 3> weight;   // barycentric
-    Id id;
-    int tag; // of the edge to the next vertex
+    Point position; // snapped
+    Point weight;   // barycentric
+    Index id;
+  };
+
+  /// A corner of a polygon. The edge from it to the next lies on edge `tag` of the triangle, or,
+  /// from PlaneTag on, on a plane across axis tag - PlaneTag.
+  static constexpr std::int16_t PlaneTag = 3;
+  struct Corner
+  {
+    std::int32_t vertex;
+    std::int16_t tag;
   };
 
   struct Polygon
   {
     static constexpr int Capacity = 24;
-    std::array<Vertex, Capacity> vertex;
+    std::array<Corner, Capacity> corner;
     int size = 0;
-    void Push(const Vertex& v, int tag);
+    void Push(std::int32_t vertex, int tag);
+  };
+
+  /// An edge of the triangle, seen from its lower end.
+  struct Edge
+  {
+    const Vec3* low;
+    const Vec3* high;
+    int lowCorner; // of the triangle
+    int highCorner;
+    std::array<PlaneRange, 3> planes;
+    std::array<Index, 3> firstCut; // per axis
+    Index cutBegin;
+    bool isNamedHere;    // this is the first triangle at the edge
+    Index* stretchPiece; // null for an edge whose ends are one point
   };
 
   struct LocalPiece
   {
     CellIndex cell;
-    Id piece;
+    Index piece;
     int firstCorner; // into corners_
     int size;
-  };
-
-  struct LocalCorner
-  {
-    Id id;
-    int tag;
-    std::array<double, 3> position;
   };
 
   /// Interior points by the two planes that make them: entries of earlier triangles are told by
@@ -78,39 +114,35 @@ private:
   struct Slot
   {
     Id stamp = -1;
-    Id id = 0;
+    std::int32_t vertex = 0;
   };
 
-  void Start(Id triangle);
+  bool IsInOneCell(CellIndex& cell);
+  void EmitWhole(const CellIndex& cell, ClipBlock& block, Index* stretchPiece) const;
+  void Start(Index* stretchPiece);
   void ClipAxis(const Polygon& polygon, int axis, ClipBlock& block);
   void Split(
     const Polygon& polygon, int axis, int plane, Polygon& below, Polygon& above, ClipBlock& block);
-  Vertex Cut(const Vertex& from, const Vertex& to, int axis, int plane, ClipBlock& block);
-  Vertex CutMeshEdge(int edge, int axis, int plane) const;
-  Vertex CutPlaneEdge(const Vertex& from, const Vertex& to, int axis, int plane, ClipBlock& block);
+  std::int32_t CutMeshEdge(const Edge& edge, int axis, int plane);
+  std::int32_t CutPlaneEdge(
+    const Corner& from, const Corner& to, int axis, int plane, ClipBlock& block);
   Slot& InteriorSlot(int axisA, int planeA, int axisB, int planeB);
   double Snap(double value) const;
-  CellIndex CellOf(const Polygon& polygon) const;
   void Emit(const Polygon& polygon, ClipBlock& block);
+  void NoteStretches(const Polygon& polygon, Index piece, ClipBlock& block);
   void LinkPieces(ClipBlock& block) const;
   const LocalPiece* FindPiece(const CellIndex& cell) const;
-  bool HasEdge(const LocalPiece& piece, Id a, Id b) const;
+  bool HasEdge(const LocalPiece& piece, Index a, Index b) const;
   void LinkAcross(const LocalPiece& piece, int corner, ClipBlock& block) const;
 
-  const std::vector<std::array<Id, 3>>& triangles_;
-  const std::vector<Id>& pointClass_;
-  const std::vector<Vec3>& position_;
-  const MeshEdges& edges_;
-  int cellsPerSide_;
-  double tolerance_;
-
+  const ClipInput& input_;
+  ClippedMesh& clipped_;
   Id triangle_ = 0;
-  Polygon start_;
   std::array<PlaneRange, 3> planes_{};
+  std::array<Edge, 3> edge_{};
+  std::vector<Vertex> vertices_;
   std::vector<LocalPiece> pieces_; // ascending by (i, j, k)
-  std::vector<LocalCorner> corners_;
-  std::vector<std::array<double, 3>> interiorPosition_;
-  Id interiorBegin_ = 0;
+  std::vector<Corner> corners_;
 
   static constexpr Id LargestTable = Id{ 1 } << 20;
   std::array<std::vector<Slot>, 3> slots_; // planes xy, xz, yz

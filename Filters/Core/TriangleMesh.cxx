@@ -1,8 +1,10 @@
 #include "TriangleMesh.h"
 
 #include "Errors.h"
+#include "Parallel.h"
 #include "RadixSort.h"
 
+#include <algorithm>
 #include <cstring>
 #include <numeric>
 #include <string>
@@ -10,10 +12,43 @@
 namespace gridfem
 {
 
-void Validate(const TriangleMesh& mesh)
+namespace
+{
+
+bool IsValid(const TriangleMesh& mesh, Id triangle)
+{
+  const auto& corners = mesh.triangles[triangle];
+  return std::all_of(corners.begin(), corners.end(),
+    [&](Id corner)
+    {
+      return corner >= 0 && corner < static_cast<Id>(mesh.points.size()) &&
+             mesh.points[corner].allFinite();
+    });
+}
+
+/// The first triangle that is not valid; the number of triangles if all are.
+Id FirstInvalid(const TriangleMesh& mesh, int threads)
+{
+  const Id count = static_cast<Id>(mesh.triangles.size());
+  std::vector<Id> first((count + DefaultBlockSize - 1) / DefaultBlockSize, count);
+  ParallelRanges(count, threads,
+    [&](Id begin, Id end)
+    {
+      while (begin < end && IsValid(mesh, begin))
+      {
+        ++begin;
+      }
+      first[(end - 1) / DefaultBlockSize] = begin < end ? begin : count;
+    });
+  return first.empty() ? 0 : *std::min_element(first.begin(), first.end());
+}
+
+} // namespace
+
+void Validate(const TriangleMesh& mesh, int threads)
 {
   const Id numberOfPoints = static_cast<Id>(mesh.points.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  for (std::size_t t = FirstInvalid(mesh, threads); t < mesh.triangles.size(); ++t)
   {
     for (const Id corner : mesh.triangles[t])
     {
@@ -53,11 +88,13 @@ std::uint64_t HashPoint(const Vec3& point)
 
 } // namespace
 
-std::vector<Id> WeldCoincidentPoints(const std::vector<Vec3>& points, const std::vector<char>& used)
+std::vector<Index> WeldCoincidentPoints(
+  const std::vector<Vec3>& points, const std::vector<char>& used, int threads)
 {
-  std::vector<Id> representative(points.size());
-  std::iota(representative.begin(), representative.end(), Id{ 0 });
-  std::vector<SortEntry> entries;
+  RequireIndices(static_cast<double>(points.size()), "points");
+  std::vector<Index> representative(points.size());
+  std::iota(representative.begin(), representative.end(), Index{ 0 });
+  Array<SortEntry> entries;
   entries.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
   {
@@ -70,7 +107,7 @@ std::vector<Id> WeldCoincidentPoints(const std::vector<Vec3>& points, const std:
   // the few others beside them are told apart by their coordinates.
   constexpr int HashBits = 33;
   constexpr std::uint64_t Mask = (std::uint64_t{ 1 } << HashBits) - 1;
-  RadixSort(entries, HashBits);
+  RadixSort(entries, HashBits, threads);
   std::size_t begin = 0;
   for (std::size_t k = 0; k < entries.size(); ++k)
   {

@@ -18,14 +18,14 @@ struct TriangleMesh
 
 /// Throws InvalidInput naming the first triangle with an index out of range, or the first
 /// triangle corner with a NaN or infinite coordinate.
-void Validate(const TriangleMesh& mesh);
+void Validate(const TriangleMesh& mesh, int threads = 0);
 
 /// For each point that `used` marks (all when empty) the lowest id of such a point with the same
 /// three coordinates; other points stand for themselves. Coordinates are compared
 /// exactly (-0 = 0).
 /// Cost O(n log n).
-std::vector<Id> WeldCoincidentPoints(
-  const std::vector<Vec3>& points, const std::vector<char>& used = {});
+std::vector<Index> WeldCoincidentPoints(
+  const std::vector<Vec3>& points, const std::vector<char>& used = {}, int threads = 0);
 
 /// 1 for points that a triangle uses.
 std::vector<char> UsedPoints(const TriangleMesh& mesh);

@@ -193,7 +193,7 @@ TEST_P(AssemblyOnSpaces, ProlongedFunctionsHaveTheSameValuesOnTheSurface)
   {
     const Id piece = std::min(space.clipped.NumberOfPieces() - 1,
       static_cast<Id>(random(k, 0) * double(space.clipped.NumberOfPieces())));
-    const Id* ids = space.clipped.corners.data() + space.clipped.pieceBegin[piece];
+    const Index* ids = space.clipped.corners.data() + space.clipped.pieceBegin[piece];
     const double s = random(k, 1);
     const double t = random(k, 2) * (1.0 - s);
     const Vec3 position = (1.0 - s - t) * space.clipped.position[ids[0]] +

@@ -162,7 +162,7 @@ TEST(Clip, ClosedMeshStaysClosed)
     }
     // Every edge has two sides, and each pair of sides is linked.
     std::set<std::pair<Id, Id>> links;
-    for (const PieceLink& link : clipped.links)
+    for (const Link& link : clipped.links)
     {
       ASSERT_LT(link.first, link.second);
       links.insert({ link.first, link.second });
@@ -276,7 +276,7 @@ TEST(Clip, NonManifoldEdgesConnectAllTheirTriangles)
   fins.triangles = { { 0, 1, 2 }, { 0, 1, 3 }, { 1, 0, 4 } };
   const ClippedMesh clipped = ClipAt(fins, 2);
   std::set<std::pair<Id, Id>> pairs;
-  for (const PieceLink& link : clipped.links)
+  for (const Link& link : clipped.links)
   {
     const Id a = clipped.pieceTriangle[link.first];
     const Id b = clipped.pieceTriangle[link.second];

@@ -58,7 +58,7 @@ DirectIntegrals IntegrateOnLevel(
     }
     const CellIndex cell = MortonDecode(level.cell[patch]);
     const Vec3 corner = side * Vec3(cell[0], cell[1], cell[2]);
-    const Id* ids = space.clipped.corners.data() + space.clipped.pieceBegin[piece];
+    const Index* ids = space.clipped.corners.data() + space.clipped.pieceBegin[piece];
     const Id count = space.clipped.pieceBegin[piece + 1] - space.clipped.pieceBegin[piece];
     for (Id k = 1; k + 1 < count; ++k)
     {

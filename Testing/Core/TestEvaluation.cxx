@@ -64,7 +64,7 @@ TEST_P(EvaluationOnSpaces, GradientsOfTheCoordinatesSpanTheTangentPlane)
 {
   for (Id piece = 0; piece < space.clipped.NumberOfPieces(); ++piece)
   {
-    const Id* ids = space.clipped.corners.data() + space.clipped.pieceBegin[piece];
+    const Index* ids = space.clipped.corners.data() + space.clipped.pieceBegin[piece];
     const Eigen::Matrix3d gradient =
       EvaluateGradientInPiece(space, piece, space.clipped.position[ids[0]], coordinates);
     if (PieceArea(space.clipped, piece) == 0.0)

@@ -123,7 +123,7 @@ TEST(Level, FunctionsAreTheComponentsOfTheirSupport)
       for (bool changed = true; changed;)
       {
         changed = false;
-        for (const PatchLink& link : patches.links)
+        for (const Link& link : patches.links)
         {
           const auto a = labels.find(link.first);
           const auto b = labels.find(link.second);
@@ -292,7 +292,7 @@ TEST(Level, RefusesTablesThatDoNotFit)
   finest.dof[3][2] = finest.numberOfFunctions;
   EXPECT_THROW(
     RestoreFunctionSpace(live.clipped, live.piecePatch, finest, live.support), InvalidInput);
-  std::vector<Id> piecePatch = live.piecePatch;
+  std::vector<Index> piecePatch = live.piecePatch;
   piecePatch[0] = live.Finest().NumberOfPatches();
   EXPECT_THROW(
     RestoreFunctionSpace(live.clipped, piecePatch, live.Finest(), live.support), InvalidInput);

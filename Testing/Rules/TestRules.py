@@ -19,7 +19,7 @@ SOURCE_SUFFIXES = (".h", ".cxx")
 # The layers of Core from the bottom up. A file may include its own layer and the ones below; so the
 # solvers, which see matrices and lists of unknowns only, cannot reach a mesh.
 CORE_LAYERS = {
-    "foundation": "Types Errors Progress Parallel UnionFind RadixSort Grouping",
+    "foundation": "Array Types Errors Progress Parallel UnionFind RadixSort Grouping",
     "algebra": "SparseMatrix RowKernels PairedProduct PivotedCholesky BlockSweep Smoother"
                " GaussSeidel PatchSmoother CoarseSolver Multigrid ConjugateGradients RayleighRitz"
                " Constants BlockVectors BlockIteration WindowIteration SmootherSequence HatOrdering",

@@ -56,8 +56,8 @@ void SplitPieces(const TriangleMesh& mesh, FunctionSpace& space)
 {
   ClippedMesh& clipped = space.clipped;
   const Id count = static_cast<Id>(mesh.triangles.size());
-  std::vector<Id> cell;
-  std::vector<Id> patch;
+  std::vector<Index> cell;
+  std::vector<Index> patch;
   cell.reserve(count);
   patch.reserve(count);
   for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
@@ -73,9 +73,12 @@ void SplitPieces(const TriangleMesh& mesh, FunctionSpace& space)
   clipped.corners.resize(3 * count);
   for (Id t = 0; t < count; ++t)
   {
-    clipped.pieceTriangle[t] = t;
-    clipped.pieceBegin[t + 1] = 3 * (t + 1);
-    std::copy(mesh.triangles[t].begin(), mesh.triangles[t].end(), &clipped.corners[3 * t]);
+    clipped.pieceTriangle[t] = static_cast<Index>(t);
+    clipped.pieceBegin[t + 1] = static_cast<Index>(3 * (t + 1));
+    for (int k = 0; k < 3; ++k)
+    {
+      clipped.corners[3 * t + k] = static_cast<Index>(mesh.triangles[t][k]);
+    }
   }
   clipped.pieceBegin[0] = 0;
   clipped.links.clear(); // the levels are built already
@@ -138,7 +141,7 @@ double DistanceFromTriangle(
 Id FindSourceTriangle(
   const ClippedMesh& clipped, Id piece, std::pair<Id, Id> candidates, const TriangleMesh& source)
 {
-  const Id* corner = &clipped.corners[clipped.pieceBegin[piece]];
+  const Index* corner = &clipped.corners[clipped.pieceBegin[piece]];
   const Vec3 centre =
     (clipped.position[corner[0]] + clipped.position[corner[1]] + clipped.position[corner[2]]) / 3.0;
   Id best = candidates.first;
@@ -227,14 +230,15 @@ SurfaceBasis OnSourceMesh(
         "it refers to cell " + std::to_string(cell) + ", which is no polygon here.");
     }
     const Id triangle = FindSourceTriangle(clipped, piece, candidates, *source.triangles);
-    clipped.pieceTriangle[piece] = triangle;
+    clipped.pieceTriangle[piece] = static_cast<Index>(triangle);
     for (Id k = clipped.pieceBegin[piece]; k < clipped.pieceBegin[piece + 1]; ++k)
     {
       const Id cut = clipped.corners[k] - inputPoints;
       if (cut >= 0 && clipped.cutPoints[cut].triangle < 0)
       {
-        clipped.cutPoints[cut] = { triangle, WeightsIn(*source.triangles, clipped.grid, triangle,
-                                               clipped.position[cut + inputPoints]) };
+        clipped.cutPoints[cut] = { static_cast<Index>(triangle),
+          WeightsIn(
+            *source.triangles, clipped.grid, triangle, clipped.position[cut + inputPoints]) };
       }
     }
   }

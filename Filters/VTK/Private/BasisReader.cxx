@@ -103,22 +103,27 @@ void ReadPieces(vtkPolyData* data, const InputMesh& mesh, ClippedMesh& clipped)
   vtkDataArray* octreeCell =
     RequireArray(data->GetCellData(), OctreeCellIdName, 1, data->GetNumberOfCells());
   const Id count = static_cast<Id>(mesh.sourceCell.size());
-  std::vector<Id> cell(count);
+  RequireIndices(3.0 * static_cast<double>(count), "corners of triangles");
+  std::vector<Index> cell(count);
   for (Id t = 0; t < count; ++t)
   {
-    cell[t] = IntegerIn(octreeCell, mesh.sourceCell[t], 0, static_cast<Id>(clipped.cells.size()));
+    cell[t] = static_cast<Index>(
+      IntegerIn(octreeCell, mesh.sourceCell[t], 0, static_cast<Id>(clipped.cells.size())));
   }
   clipped.pieceTriangle.resize(count);
-  std::iota(clipped.pieceTriangle.begin(), clipped.pieceTriangle.end(), Id(0));
+  std::iota(clipped.pieceTriangle.begin(), clipped.pieceTriangle.end(), Index{ 0 });
   std::stable_sort(clipped.pieceTriangle.begin(), clipped.pieceTriangle.end(),
-    [&](Id a, Id b) { return cell[a] < cell[b]; });
+    [&](Index a, Index b) { return cell[a] < cell[b]; });
   clipped.pieceBegin.push_back(0);
-  for (const Id triangle : clipped.pieceTriangle)
+  for (const Index triangle : clipped.pieceTriangle)
   {
     const auto& corners = mesh.triangles->triangles[triangle];
     clipped.pieceCell.push_back(cell[triangle]);
-    clipped.corners.insert(clipped.corners.end(), corners.begin(), corners.end());
-    clipped.pieceBegin.push_back(static_cast<Id>(clipped.corners.size()));
+    for (const Id corner : corners)
+    {
+      clipped.corners.push_back(static_cast<Index>(corner));
+    }
+    clipped.pieceBegin.push_back(static_cast<Index>(clipped.corners.size()));
   }
 }
 
@@ -203,12 +208,12 @@ SurfaceBasis RebuildBasis(vtkPolyData* data, const InputMesh& mesh, const Progre
   Level finest = ReadFinestLevel(data->GetFieldData(), clipped);
   vtkDataArray* patchId =
     RequireArray(data->GetCellData(), PatchIdName, 1, data->GetNumberOfCells());
-  std::vector<Id> piecePatch;
+  std::vector<Index> piecePatch;
   piecePatch.reserve(clipped.pieceTriangle.size());
   for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
   {
     const vtkIdType cell = mesh.sourceCell[clipped.pieceTriangle[piece]];
-    piecePatch.push_back(IntegerIn(patchId, cell, 0, finest.NumberOfPatches()));
+    piecePatch.push_back(static_cast<Index>(IntegerIn(patchId, cell, 0, finest.NumberOfPatches())));
     if (finest.cell[piecePatch.back()] != clipped.cells[clipped.pieceCell[piece]])
     {
       throw InvalidInput(
@@ -256,9 +261,9 @@ ClippedMesh ReadClippedMesh(
   ReadPieces(data, mesh, clipped);
   RequireInsideCells(clipped);
   progress.Check(0.4);
-  const std::vector<Id> pointClass =
+  const std::vector<Index> pointClass =
     weldCoincidentPoints ? WeldCoincidentPoints(mesh.triangles->points, UsedPoints(*mesh.triangles))
-                         : std::vector<Id>{};
+                         : std::vector<Index>{};
   clipped.links = FindLinks(clipped, pointClass, progress.Part(0.5, 1.0));
   return clipped;
 }

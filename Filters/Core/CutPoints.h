@@ -1,0 +1,36 @@
+// The points that clipping makes: cuts of mesh edges, then crossings of two planes inside
+// triangles.
+#ifndef GridFEM_CutPoints_h
+#define GridFEM_CutPoints_h
+
+#include "TriangleClipper.h"
+
+namespace gridfem
+{
+
+/// Makes room for the cuts of all mesh edges after the input points, none of them made yet.
+void AllocateEdgeCuts(const MeshEdges& edges, int threads, ClippedMesh& clipped);
+
+/// Sets a cut point and its position.
+/// @param point  its number among all points
+inline void PlaceCutPoint(
+  Id point, const CutPoint& cut, const ClipInput& input, ClippedMesh& clipped)
+{
+  const auto& corner = input.triangles[cut.triangle];
+  clipped.cutPoints[point - clipped.numberOfInputPoints] = cut;
+  clipped.position[point] = cut.weight[0] * clipped.position[corner[0]] +
+                            cut.weight[1] * clipped.position[corner[1]] +
+                            cut.weight[2] * clipped.position[corner[2]];
+}
+
+/// Appends the interior points of all blocks.
+/// @param interiorOffset  number of interior points in the blocks before each block
+void AppendInteriorPoints(const ClipInput& input, const std::vector<ClipBlock>& blocks,
+  const std::vector<Index>& interiorOffset, int threads, ClippedMesh& clipped);
+
+/// Where several planes cut an edge in one point only one of its numbers is made: drops the others.
+void DropUnmadeCutPoints(int threads, ClippedMesh& clipped);
+
+} // namespace gridfem
+
+#endif
