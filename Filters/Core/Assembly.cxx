@@ -1,7 +1,7 @@
 // Patterns, values and prolongations of level matrices, row by row and without hash maps.
 #include "Assembly.h"
 
-#include "Parallel.h"
+#include "FillRows.h"
 
 #include <utility>
 
@@ -12,52 +12,21 @@ namespace
 
 /// Appends the distinct functions that share a patch with function f, ascending.
 void AppendNeighbours(
-  const Level& level, const FunctionPatches& patches, Index f, std::vector<Index>& columns)
+  const Level& level, const FunctionPlaces& places, Index f, Array<Index>& columns)
 {
   const auto first = static_cast<std::ptrdiff_t>(columns.size());
-  for (Id k = patches.begin[f]; k < patches.begin[f + 1]; ++k)
+  for (Index k = places.begin[f]; k < places.begin[f + 1]; ++k)
   {
-    const auto& dof = level.dof[patches.patch[k]];
-    columns.insert(columns.end(), dof.begin(), dof.end());
+    for (const Index column : level.dof[places.item[k] / FunctionsPerPatch])
+    {
+      // Rows are short: a look through what is there costs less than sorting all repetitions.
+      if (std::find(columns.begin() + first, columns.end(), column) == columns.end())
+      {
+        columns.push_back(column);
+      }
+    }
   }
   std::sort(columns.begin() + first, columns.end());
-  columns.erase(std::unique(columns.begin() + first, columns.end()), columns.end());
-}
-
-/// Fills a matrix from rows made block by block: row(r, columns, values) appends one row's entries.
-template<class Row>
-void FillRows(SparseMatrix& matrix, int threads, Row&& row)
-{
-  struct Part
-  {
-    std::vector<Index> column;
-    std::vector<double> value;
-  };
-  const Id blocks = (Id(matrix.rows) + DefaultBlockSize - 1) / DefaultBlockSize;
-  std::vector<Part> parts(blocks);
-  matrix.rowBegin.assign(Id(matrix.rows) + 1, 0);
-  ParallelRanges(matrix.rows, threads,
-    [&](Id begin, Id end)
-    {
-      Part& part = parts[begin / DefaultBlockSize];
-      for (Id r = begin; r < end; ++r)
-      {
-        const std::size_t before = part.column.size();
-        row(static_cast<Index>(r), part.column, part.value);
-        matrix.rowBegin[r] = static_cast<Id>(part.column.size() - before);
-      }
-    });
-  const Id nonZeros = ExclusiveScan(matrix.rowBegin);
-  matrix.column.resize(nonZeros);
-  matrix.value.resize(nonZeros);
-  ParallelBlocks(blocks, threads,
-    [&](Id block)
-    {
-      const Id begin = matrix.rowBegin[block * DefaultBlockSize];
-      Part part = std::move(parts[block]);
-      std::copy(part.column.begin(), part.column.end(), matrix.column.begin() + begin);
-      std::copy(part.value.begin(), part.value.end(), matrix.value.begin() + begin);
-    });
 }
 
 /// Packed positions of the entries of each row of an element matrix.
@@ -85,7 +54,7 @@ constexpr RowEntries Rows = MakeRowEntries();
 struct ElementSum
 {
   const Level& level;
-  const FunctionPatches& patches;
+  const FunctionPlaces& places;
   const ElementMatrix* mass; // null when its factor is 0
   double a;
   const ElementMatrix* stiffness; // null when its factor is 0
@@ -102,10 +71,10 @@ struct ElementSum
       position[matrix.column[begin + k]] = k;
       value[k] = 0.0;
     }
-    for (Id k = patches.begin[row]; k < patches.begin[row + 1]; ++k)
+    for (Index k = places.begin[row]; k < places.begin[row + 1]; ++k)
     {
-      const Id patch = patches.patch[k];
-      const int* entry = Rows.entry[patches.corner[k]];
+      const Index patch = places.item[k] / FunctionsPerPatch;
+      const int* entry = Rows.entry[places.item[k] % FunctionsPerPatch];
       for (int j = 0; j < FunctionsPerPatch; ++j)
       {
         const double m = mass ? a * mass[patch][entry[j]] : 0.0;
@@ -116,69 +85,31 @@ struct ElementSum
   }
 };
 
-/// First patch of every function and the function's corner in it.
-std::vector<std::pair<Id, int>> FirstPatches(const Level& level)
-{
-  std::vector<std::pair<Id, int>> first(level.numberOfFunctions, { -1, 0 });
-  for (Id patch = 0; patch < level.NumberOfPatches(); ++patch)
-  {
-    for (int corner = 0; corner < FunctionsPerPatch; ++corner)
-    {
-      auto& entry = first[level.dof[patch][corner]];
-      if (entry.first < 0)
-      {
-        entry = { patch, corner };
-      }
-    }
-  }
-  return first;
-}
-
 } // namespace
 
-FunctionPatches PatchesOfFunctions(const Level& level)
+FunctionPlaces PlacesOfFunctions(const Level& level, int threads)
 {
-  FunctionPatches patches;
-  patches.begin.assign(Id(level.numberOfFunctions) + 1, 0);
-  for (const auto& dof : level.dof)
-  {
-    for (const Index f : dof)
-    {
-      ++patches.begin[f];
-    }
-  }
-  const Id total = ExclusiveScan(patches.begin);
-  patches.patch.resize(total);
-  patches.corner.resize(total);
-  std::vector<Id> next(patches.begin.begin(), patches.begin.end() - 1);
-  for (Id patch = 0; patch < level.NumberOfPatches(); ++patch)
-  {
-    for (int corner = 0; corner < FunctionsPerPatch; ++corner)
-    {
-      const Id place = next[level.dof[patch][corner]]++;
-      patches.patch[place] = patch;
-      patches.corner[place] = static_cast<std::uint8_t>(corner);
-    }
-  }
-  return patches;
+  return GroupItems(level.dof.empty() ? nullptr : level.dof.front().data(),
+    FunctionsPerPatch * level.NumberOfPatches(), level.numberOfFunctions, threads);
 }
 
-SparseMatrix BuildPattern(const Level& level, const FunctionPatches& patches, int threads)
+SparseMatrix BuildPattern(const Level& level, const FunctionPlaces& places, int threads)
 {
   SparseMatrix pattern;
   pattern.rows = pattern.columns = level.numberOfFunctions;
   FillRows(pattern, threads,
-    [&](Index row, std::vector<Index>& columns, std::vector<double>&)
-    { AppendNeighbours(level, patches, row, columns); });
+    [&](Index row, Array<Index>& columns, Array<double>&)
+    { AppendNeighbours(level, places, row, columns); });
   return pattern;
 }
 
-void AssembleValues(const Level& level, const FunctionPatches& patches,
-  const std::vector<ElementMatrix>& mass, double a, const std::vector<ElementMatrix>& stiffness,
+void AssembleValues(const Level& level, const FunctionPlaces& places,
+  const Array<ElementMatrix>& mass, double a, const Array<ElementMatrix>& stiffness,
   double b, SparseMatrix& matrix, int threads)
 {
-  const ElementSum sum{ level, patches, a != 0.0 ? mass.data() : nullptr, a,
+  const ElementSum sum{ level, places, a != 0.0 ? mass.data() : nullptr, a,
     b != 0.0 ? stiffness.data() : nullptr, b };
+  matrix.value.resize(matrix.NonZeros());
   const int team = NumberOfThreads(threads);
   // One table per thread, made before the threads start: their bodies then cannot throw.
   std::vector<std::vector<Index>> positions(team, std::vector<Index>(matrix.columns));
@@ -189,20 +120,22 @@ void AssembleValues(const Level& level, const FunctionPatches& patches,
   }
 }
 
-SparseMatrix BuildProlongation(const Level& fine, const Level& coarse, int threads)
+SparseMatrix BuildProlongation(
+  const Level& fine, const FunctionPlaces& places, const Level& coarse, int threads)
 {
-  const std::vector<std::pair<Id, int>> first = FirstPatches(fine);
   SparseMatrix prolongation;
   prolongation.rows = fine.numberOfFunctions;
   prolongation.columns = coarse.numberOfFunctions;
   FillRows(prolongation, threads,
-    [&](Index row, std::vector<Index>& columns, std::vector<double>& values)
+    [&](Index row, Array<Index>& columns, Array<double>& values)
     {
-      const auto [patch, corner] = first[row];
-      if (patch < 0)
+      if (places.begin[row] == places.begin[row + 1])
       {
         return;
       }
+      const Index first = places.item[places.begin[row]];
+      const Index patch = first / FunctionsPerPatch;
+      const Index corner = first % FunctionsPerPatch;
       const auto& dof = coarse.dof[fine.parent[patch]];
       const auto& weights = ChildWeights(fine.Octant(patch))[corner];
       std::array<std::pair<Index, double>, FunctionsPerPatch> entries;

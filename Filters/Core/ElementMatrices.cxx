@@ -130,11 +130,11 @@ ElementMatrices IntegrateElements(
   return elements;
 }
 
-std::vector<ElementMatrix> CoarsenElements(
-  const Level& fine, const Level& coarse, const std::vector<ElementMatrix>& matrices, int threads)
+Array<ElementMatrix> CoarsenElements(
+  const Level& fine, const Level& coarse, const Array<ElementMatrix>& matrices, int threads)
 {
   const Groups children = GroupItems(fine.parent, coarse.NumberOfPatches(), threads);
-  std::vector<ElementMatrix> result(coarse.NumberOfPatches());
+  Array<ElementMatrix> result(coarse.NumberOfPatches());
   ParallelRanges(coarse.NumberOfPatches(), threads,
     [&](Id begin, Id end)
     {

@@ -2,6 +2,7 @@
 #ifndef GridFEM_Grouping_h
 #define GridFEM_Grouping_h
 
+#include "Array.h"
 #include "Parallel.h"
 
 #include <vector>
@@ -13,15 +14,15 @@ namespace gridfem
 struct Groups
 {
   std::vector<Index> begin;
-  std::vector<Index> item;
+  Array<Index> item;
 };
 
-/// @param group  of every item, in [0, numberOfGroups)
 /// Counting sort. Each thread reads all items and serves a range of groups: with the few threads
 /// that memory can feed, reading is the smaller part. Cost O(items + groups / threads).
-inline Groups GroupItems(const std::vector<Index>& group, Id numberOfGroups, int threads = 1)
+/// @param group  of every one of `items` items, in [0, numberOfGroups)
+inline Groups GroupItems(const Index* group, Id items, Id numberOfGroups, int threads = 1)
 {
-  Groups groups{ std::vector<Index>(numberOfGroups + 1, 0), std::vector<Index>(group.size()) };
+  Groups groups{ std::vector<Index>(numberOfGroups + 1, 0), Array<Index>(items) };
   const Id ranges = NumberOfThreads(threads);
   const auto forItems = [&](const auto& visit)
   {
@@ -30,7 +31,7 @@ inline Groups GroupItems(const std::vector<Index>& group, Id numberOfGroups, int
       {
         const Id low = range * numberOfGroups / ranges;
         const Id high = (range + 1) * numberOfGroups / ranges;
-        for (Index item = 0; item < static_cast<Index>(group.size()); ++item)
+        for (Index item = 0; item < items; ++item)
         {
           if (group[item] >= low && group[item] < high)
           {
@@ -44,6 +45,11 @@ inline Groups GroupItems(const std::vector<Index>& group, Id numberOfGroups, int
   std::vector<Index> next(groups.begin.begin(), groups.begin.end() - 1);
   forItems([&](Index g, Index item) { groups.item[next[g]++] = item; });
   return groups;
+}
+
+inline Groups GroupItems(const std::vector<Index>& group, Id numberOfGroups, int threads = 1)
+{
+  return GroupItems(group.data(), static_cast<Id>(group.size()), numberOfGroups, threads);
 }
 
 } // namespace gridfem

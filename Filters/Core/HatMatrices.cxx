@@ -130,7 +130,7 @@ HatMatrices AssembleHatMatrices(const TriangleMesh& mesh, const HatFunctions& ha
   HatMatrices matrices;
   matrices.integral.resize(rows);
   matrices.mass.rows = matrices.mass.columns = rows;
-  matrices.mass.rowBegin.assign(rows + 1, 0);
+  Array<Id> rowBegin(rows + 1, 0);
   std::vector<RowBlock> blocks((rows + DefaultBlockSize - 1) / DefaultBlockSize);
   ParallelRanges(rows, threads,
     [&](Id begin, Id end)
@@ -142,26 +142,27 @@ HatMatrices AssembleHatMatrices(const TriangleMesh& mesh, const HatFunctions& ha
         const std::size_t before = block.column.size();
         CollectRow(mesh, hats, terms, row, contributions);
         matrices.integral[row] = AppendRow(row, contributions, block);
-        matrices.mass.rowBegin[row] = static_cast<Id>(block.column.size() - before);
+        rowBegin[row] = static_cast<Id>(block.column.size() - before);
       }
     });
-  const Id nonZeros = ExclusiveScan(matrices.mass.rowBegin);
-  matrices.stiffness = matrices.mass;
-  for (SparseMatrix* matrix : { &matrices.mass, &matrices.stiffness })
-  {
-    matrix->column.resize(nonZeros);
-    matrix->value.resize(nonZeros);
-  }
+  Array<Index> column(ExclusiveScan(rowBegin));
+  matrices.mass.value.resize(column.size());
+  matrices.stiffness.value.resize(column.size());
   ParallelRanges(rows, threads,
     [&](Id begin, Id)
     {
       const RowBlock& block = blocks[begin / DefaultBlockSize];
-      const Id place = matrices.mass.rowBegin[begin];
-      std::copy(block.column.begin(), block.column.end(), &matrices.mass.column[place]);
-      std::copy(block.column.begin(), block.column.end(), &matrices.stiffness.column[place]);
-      std::copy(block.mass.begin(), block.mass.end(), &matrices.mass.value[place]);
-      std::copy(block.stiffness.begin(), block.stiffness.end(), &matrices.stiffness.value[place]);
+      const Id place = rowBegin[begin];
+      std::copy(block.column.begin(), block.column.end(), column.begin() + place);
+      std::copy(block.mass.begin(), block.mass.end(), matrices.mass.value.begin() + place);
+      std::copy(
+        block.stiffness.begin(), block.stiffness.end(), matrices.stiffness.value.begin() + place);
     });
+  matrices.mass.rowBegin = std::move(rowBegin);
+  matrices.mass.column = std::move(column);
+  matrices.stiffness.rows = matrices.stiffness.columns = rows;
+  matrices.stiffness.rowBegin = matrices.mass.rowBegin;
+  matrices.stiffness.column = matrices.mass.column;
   return matrices;
 }
 

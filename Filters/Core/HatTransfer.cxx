@@ -112,32 +112,27 @@ struct Entry
   double value;
 };
 
-/// Appends the entries of a row, sorted by column, divided by their sum. Returns their number.
-Id AppendRow(const Level& level, const Row& row, std::vector<Entry>& entries)
+/// The entries of a row, sorted by column, divided by their sum.
+std::vector<Entry> EntriesOf(const Level& level, const Row& row)
 {
   const double sum = Sum(row);
-  if (!(sum > 0.0))
-  {
-    return 0;
-  }
-  const std::size_t first = entries.size();
+  std::vector<Entry> entries;
   for (const PatchWeights& weights : row)
   {
     for (int c = 0; c < FunctionsPerPatch; ++c)
     {
-      if (weights.weight[c] > 0.0)
+      if (sum > 0.0 && weights.weight[c] > 0.0)
       {
         entries.push_back({ level.dof[weights.patch][c], weights.weight[c] / sum });
       }
     }
   }
-  const auto begin = entries.begin() + static_cast<std::ptrdiff_t>(first);
-  std::stable_sort(
-    begin, entries.end(), [](const Entry& a, const Entry& b) { return a.column < b.column; });
-  std::size_t end = first;
-  for (std::size_t k = first; k < entries.size(); ++k)
+  std::stable_sort(entries.begin(), entries.end(),
+    [](const Entry& a, const Entry& b) { return a.column < b.column; });
+  std::size_t end = 0;
+  for (std::size_t k = 0; k < entries.size(); ++k)
   {
-    if (k > first && entries[k].column == entries[end - 1].column)
+    if (k > 0 && entries[k].column == entries[end - 1].column)
     {
       entries[end - 1].value += entries[k].value;
     }
@@ -147,7 +142,7 @@ Id AppendRow(const Level& level, const Row& row, std::vector<Entry>& entries)
     }
   }
   entries.resize(end);
-  return static_cast<Id>(end - first);
+  return entries;
 }
 
 /// A point of every function: the lowest.
@@ -185,30 +180,15 @@ SparseMatrix BuildRows(
   SparseMatrix matrix;
   matrix.rows = hats.Count();
   matrix.columns = space.Finest().numberOfFunctions;
-  matrix.rowBegin.assign(matrix.rows + 1, 0);
-  std::vector<std::vector<Entry>> blocks((matrix.rows + DefaultBlockSize - 1) / DefaultBlockSize);
-  ParallelRanges(matrix.rows, threads,
-    [&](Id begin, Id end)
+  FillRows(matrix, threads,
+    [&](Index hat, Array<Index>& columns, Array<double>& values)
     {
       Row row;
-      for (Id hat = begin; hat < end; ++hat)
+      fillRow(hat, row);
+      for (const Entry& entry : EntriesOf(space.Finest(), row))
       {
-        row.clear();
-        fillRow(hat, row);
-        matrix.rowBegin[hat] = AppendRow(space.Finest(), row, blocks[begin / DefaultBlockSize]);
-      }
-    });
-  const Id nonZeros = ExclusiveScan(matrix.rowBegin);
-  matrix.column.resize(nonZeros);
-  matrix.value.resize(nonZeros);
-  ParallelRanges(matrix.rows, threads,
-    [&](Id begin, Id)
-    {
-      Id place = matrix.rowBegin[begin];
-      for (const Entry& entry : blocks[begin / DefaultBlockSize])
-      {
-        matrix.column[place] = entry.column;
-        matrix.value[place++] = entry.value;
+        columns.push_back(entry.column);
+        values.push_back(entry.value);
       }
     });
   return matrix;

@@ -64,7 +64,7 @@ struct Share
 };
 
 /// Adds the shares of all patches of each function.
-void GatherShares(const std::vector<double>& shares, const FunctionPatches& patches, Id firstColumn,
+void GatherShares(const std::vector<double>& shares, const FunctionPlaces& places, Id firstColumn,
   Id columns, int threads, MultiVector& result)
 {
   ParallelRanges(result.rows(), threads,
@@ -72,10 +72,9 @@ void GatherShares(const std::vector<double>& shares, const FunctionPatches& patc
     {
       for (Id f = begin; f < end; ++f)
       {
-        for (Id k = patches.begin[f]; k < patches.begin[f + 1]; ++k)
+        for (Index k = places.begin[f]; k < places.begin[f + 1]; ++k)
         {
-          const double* share =
-            shares.data() + (patches.patch[k] * FunctionsPerPatch + patches.corner[k]) * columns;
+          const double* share = shares.data() + places.item[k] * columns;
           for (Id c = 0; c < columns; ++c)
           {
             result(f, firstColumn + c) += share[c];
@@ -92,7 +91,7 @@ MultiVector IntegratePieces(const FunctionSpace& space, Id columns, int threads,
 {
   const Level& level = space.Finest();
   const Groups pieces = GroupItems(space.piecePatch, level.NumberOfPatches(), threads);
-  const FunctionPatches patches = PatchesOfFunctions(level);
+  const FunctionPlaces places = PlacesOfFunctions(level, threads);
   MultiVector result = MultiVector::Zero(level.numberOfFunctions, columns);
   std::vector<double> shares;
   for (Id first = 0; first < columns; first += ColumnsPerPass)
@@ -115,7 +114,7 @@ MultiVector IntegratePieces(const FunctionSpace& space, Id columns, int threads,
       },
       PatchesPerBlock,
       progress.Part(double(first) / double(columns), double(first + count) / double(columns)));
-    GatherShares(shares, patches, first, count, threads, result);
+    GatherShares(shares, places, first, count, threads, result);
   }
   return result;
 }

@@ -95,24 +95,26 @@ SparseMatrix Transpose(const SparseMatrix& A)
   SparseMatrix T;
   T.rows = A.columns;
   T.columns = A.rows;
-  T.rowBegin.assign(T.rows + 1, 0);
-  T.column.resize(A.column.size());
+  Array<Id> rowBegin(T.rows + 1, 0);
+  Array<Index> column(A.column.size());
   T.value.resize(A.value.size());
   for (const Index col : A.column)
   {
-    ++T.rowBegin[col];
+    ++rowBegin[col];
   }
-  ExclusiveScan(T.rowBegin);
-  std::vector<Id> next = T.rowBegin;
+  ExclusiveScan(rowBegin);
+  T.rowBegin = rowBegin;
+  Array<Id>& next = rowBegin;
   for (Index row = 0; row < A.rows; ++row)
   {
     for (Id k = A.rowBegin[row]; k < A.rowBegin[row + 1]; ++k)
     {
       const Id place = next[A.column[k]]++;
-      T.column[place] = row;
+      column[place] = row;
       T.value[place] = A.value[k];
     }
   }
+  T.column = std::move(column);
   return T;
 }
 

@@ -2,7 +2,7 @@
 #ifndef GridFEM_SparseMatrix_h
 #define GridFEM_SparseMatrix_h
 
-#include "Types.h"
+#include "SharedArray.h"
 
 #include <vector>
 
@@ -13,9 +13,9 @@ struct SparseMatrix
 {
   Index rows = 0;
   Index columns = 0;
-  std::vector<Id> rowBegin;  // rows + 1
-  std::vector<Index> column; // ascending in each row
-  std::vector<double> value;
+  SharedArray<Id> rowBegin;  // rows + 1
+  SharedArray<Index> column; // ascending in each row
+  Array<double> value;
 
   Id NonZeros() const { return static_cast<Id>(column.size()); }
 

@@ -86,7 +86,7 @@ SparseMatrix AssembleLevel(const FunctionSpace& space, const System& system, std
 {
   SparseMatrix matrix = system.pattern[level];
   const ElementMatrices& elements = system.elements[level];
-  AssembleValues(space.levels[level], system.patches[level], elements.mass, mass,
+  AssembleValues(space.levels[level], system.places[level], elements.mass, mass,
     elements.stiffness, stiffness, matrix, threads);
   return matrix;
 }

@@ -32,20 +32,22 @@ bool IsCoarsest(const FunctionSpace& space, std::size_t level, Index coarsestSiz
 
 /// The functions of a patch sum to 1, so that ∫ b_i is the sum of row i of the mass matrix.
 std::vector<double> IntegralsOfFunctions(
-  const FunctionPatches& patches, const std::vector<ElementMatrix>& mass, int threads)
+  const FunctionPlaces& places, const Array<ElementMatrix>& mass, int threads)
 {
-  const auto functions = static_cast<Id>(patches.begin.size()) - 1;
+  const auto functions = static_cast<Id>(places.begin.size()) - 1;
   std::vector<double> integral(functions, 0.0);
   ParallelRanges(functions, threads,
     [&](Id begin, Id end)
     {
       for (Id f = begin; f < end; ++f)
       {
-        for (Id k = patches.begin[f]; k < patches.begin[f + 1]; ++k)
+        for (Index k = places.begin[f]; k < places.begin[f + 1]; ++k)
         {
+          const Index patch = places.item[k] / FunctionsPerPatch;
+          const Index corner = places.item[k] % FunctionsPerPatch;
           for (int j = 0; j < FunctionsPerPatch; ++j)
           {
-            integral[f] += mass[patches.patch[k]][PackedIndex(patches.corner[k], j)];
+            integral[f] += mass[patch][PackedIndex(corner, j)];
           }
         }
       }
@@ -59,7 +61,7 @@ SparseMatrix Combine(
   SparseMatrix matrix = system.pattern[l];
   const ElementMatrices& elements = system.elements[l];
   AssembleValues(
-    level, system.patches[l], elements.mass, a, elements.stiffness, b, matrix, threads);
+    level, system.places[l], elements.mass, a, elements.stiffness, b, matrix, threads);
   return matrix;
 }
 
@@ -74,21 +76,21 @@ System BuildSystem(const FunctionSpace& space, const QuadratureRule& rule, int t
   for (std::size_t l = 0;; ++l)
   {
     const Level& level = space.levels[l];
-    system.patches.push_back(PatchesOfFunctions(level));
-    system.pattern.push_back(BuildPattern(level, system.patches.back(), threads));
+    system.places.push_back(PlacesOfFunctions(level, threads));
+    system.pattern.push_back(BuildPattern(level, system.places.back(), threads));
     progress.Check(0.5 + 0.4 * double(l + 1) / double(space.levels.size()));
     if (IsCoarsest(space, l, coarsestSize))
     {
       break;
     }
     const Level& coarse = space.levels[l + 1];
-    system.prolongation.push_back(BuildProlongation(level, coarse, threads));
+    system.prolongation.push_back(BuildProlongation(level, system.places.back(), coarse, threads));
     const ElementMatrices& fine = system.elements.back();
     system.elements.push_back({ CoarsenElements(level, coarse, fine.mass, threads),
       CoarsenElements(level, coarse, fine.stiffness, threads) });
   }
   system.integral =
-    IntegralsOfFunctions(system.patches.front(), system.elements.front().mass, threads);
+    IntegralsOfFunctions(system.places.front(), system.elements.front().mass, threads);
   progress.Check(1.0);
   return system;
 }

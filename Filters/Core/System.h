@@ -16,8 +16,8 @@ namespace gridfem
 struct System
 {
   std::vector<ElementMatrices> elements;  // per level, finest first
-  std::vector<FunctionPatches> patches;   // per level
-  std::vector<SparseMatrix> pattern;      // per level, values zero
+  std::vector<FunctionPlaces> places;     // per level
+  std::vector<SparseMatrix> pattern;      // per level, without values
   std::vector<SparseMatrix> prolongation; // level l+1 to l; one less than levels
   std::vector<double> integral;           // ∫ b_i of the finest functions, grid units
   int quadratureDegree = 2;

@@ -17,7 +17,7 @@ class AssemblyOnSpaces : public ::testing::TestWithParam<SpaceCase>
 {
 };
 
-Eigen::MatrixXd DenseSum(const Level& level, const std::vector<ElementMatrix>& elements)
+Eigen::MatrixXd DenseSum(const Level& level, const Array<ElementMatrix>& elements)
 {
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(level.numberOfFunctions, level.numberOfFunctions);
   for (Id p = 0; p < level.NumberOfPatches(); ++p)
@@ -36,9 +36,9 @@ Eigen::MatrixXd DenseSum(const Level& level, const std::vector<ElementMatrix>& e
 SparseMatrix Assemble(
   const Level& level, const ElementMatrices& elements, double a, double b, int threads = 0)
 {
-  const FunctionPatches patches = PatchesOfFunctions(level);
-  SparseMatrix matrix = BuildPattern(level, patches, threads);
-  AssembleValues(level, patches, elements.mass, a, elements.stiffness, b, matrix, threads);
+  const FunctionPlaces places = PlacesOfFunctions(level);
+  SparseMatrix matrix = BuildPattern(level, places, threads);
+  AssembleValues(level, places, elements.mass, a, elements.stiffness, b, matrix, threads);
   return matrix;
 }
 
@@ -57,22 +57,28 @@ double ValueInPatch(
   return value;
 }
 
+SparseMatrix ProlongationOf(const Level& fine, const Level& coarse)
+{
+  return BuildProlongation(fine, PlacesOfFunctions(fine), coarse);
+}
+
 } // namespace
 
-TEST_P(AssemblyOnSpaces, PatchesOfFunctionsInvertTheTable)
+TEST_P(AssemblyOnSpaces, PlacesOfFunctionsInvertTheTable)
 {
   const FunctionSpace space = GetParam().Build();
   for (const Level& level : space.levels)
   {
-    const FunctionPatches patches = PatchesOfFunctions(level);
-    ASSERT_EQ(static_cast<Id>(patches.patch.size()), FunctionsPerPatch * level.NumberOfPatches());
+    const FunctionPlaces places = PlacesOfFunctions(level);
+    ASSERT_EQ(static_cast<Id>(places.item.size()), FunctionsPerPatch * level.NumberOfPatches());
     for (Index f = 0; f < level.numberOfFunctions; ++f)
     {
-      ASSERT_LT(patches.begin[f], patches.begin[f + 1]) << "function without a patch";
-      for (Id k = patches.begin[f]; k < patches.begin[f + 1]; ++k)
+      ASSERT_LT(places.begin[f], places.begin[f + 1]) << "function without a patch";
+      for (Index k = places.begin[f]; k < places.begin[f + 1]; ++k)
       {
-        ASSERT_EQ(level.dof[patches.patch[k]][patches.corner[k]], f);
-        ASSERT_TRUE(k == patches.begin[f] || patches.patch[k - 1] < patches.patch[k]);
+        const Index place = places.item[k];
+        ASSERT_EQ(level.dof[place / FunctionsPerPatch][place % FunctionsPerPatch], f);
+        ASSERT_TRUE(k == places.begin[f] || places.item[k - 1] < place);
       }
     }
   }
@@ -116,11 +122,11 @@ TEST_P(AssemblyOnSpaces, FillingAgainReplacesTheValues)
   const FunctionSpace space = GetParam().Build();
   const Level& level = space.Finest();
   const ElementMatrices elements = IntegrateElements(space, TriangleRule(2));
-  const FunctionPatches patches = PatchesOfFunctions(level);
-  SparseMatrix A = BuildPattern(level, patches);
-  EXPECT_EQ(A.value, std::vector<double>(A.column.size(), 0.0));
-  AssembleValues(level, patches, elements.mass, 7.0, elements.stiffness, 1.0, A, 1);
-  AssembleValues(level, patches, elements.mass, 0.1, elements.stiffness, 1.0, A, 2);
+  const FunctionPlaces places = PlacesOfFunctions(level);
+  SparseMatrix A = BuildPattern(level, places);
+  EXPECT_TRUE(A.value.empty());
+  AssembleValues(level, places, elements.mass, 7.0, elements.stiffness, 1.0, A, 1);
+  AssembleValues(level, places, elements.mass, 0.1, elements.stiffness, 1.0, A, 2);
   const SparseMatrix B = Assemble(level, elements, 0.1, 1.0, 1);
   EXPECT_EQ(A.rowBegin, B.rowBegin);
   EXPECT_EQ(A.column, B.column);
@@ -142,7 +148,7 @@ TEST_P(AssemblyOnSpaces, GalerkinProductsEqualTheAssembledCoarseMatrices)
     }
     if (l + 1 < space.levels.size())
     {
-      const SparseMatrix prolongation = BuildProlongation(space.levels[l], space.levels[l + 1]);
+      const SparseMatrix prolongation = ProlongationOf(space.levels[l], space.levels[l + 1]);
       const Eigen::SparseMatrix<double> P = Dense(prolongation).sparseView();
       const Eigen::SparseMatrix<double> fine = Dense(assembled).sparseView();
       A = P.transpose() * fine * P;
@@ -160,7 +166,7 @@ TEST_P(AssemblyOnSpaces, ProlongationRowsAreTheSameFromEveryPatchOfASupport)
   {
     const Level& fine = space.levels[l];
     const Level& coarse = space.levels[l + 1];
-    const Eigen::MatrixXd P = Dense(BuildProlongation(fine, coarse, 2));
+    const Eigen::MatrixXd P = Dense(BuildProlongation(fine, PlacesOfFunctions(fine), coarse, 2));
     ASSERT_EQ(P.rowwise().sum(), Eigen::VectorXd::Ones(fine.numberOfFunctions));
     for (Id patch = 0; patch < fine.NumberOfPatches(); ++patch)
     {
@@ -185,7 +191,7 @@ TEST_P(AssemblyOnSpaces, ProlongedFunctionsHaveTheSameValuesOnTheSurface)
   for (std::size_t l = top; l-- > 0;)
   {
     MultiVector next;
-    Multiply(BuildProlongation(space.levels[l], space.levels[l + 1]), fine, next);
+    Multiply(ProlongationOf(space.levels[l], space.levels[l + 1]), fine, next);
     fine = next;
   }
   const MultiVector random = RandomValues(10000, 3, 5).cwiseAbs();
@@ -218,6 +224,6 @@ TEST(Assembly, OfTheThesisSphereHasEighteenEntriesPerRow)
   options.depth = 5;
   options.connectivityAware = false;
   const FunctionSpace space = BuildFunctionSpace(LatLongSphere(140, 69), options);
-  const SparseMatrix A = BuildPattern(space.Finest(), PatchesOfFunctions(space.Finest()));
+  const SparseMatrix A = BuildPattern(space.Finest(), PlacesOfFunctions(space.Finest()));
   EXPECT_NEAR(double(A.NonZeros()) / A.rows, 18.0, 0.5); // thesis, Table 6.2: 18.3 and 17.95
 }

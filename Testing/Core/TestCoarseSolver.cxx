@@ -3,6 +3,7 @@
 #include "Errors.h"
 #include "PivotedCholesky.h"
 #include "SampledHierarchy.h"
+#include "SparseRows.h"
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
@@ -97,22 +98,20 @@ TEST(CoarseSolver, ThousandsOfComponentsAreSolvedOneByOne)
 {
   // Interleaved chains of three unknowns; one dense factor would take 2 GB.
   const Index chains = 5000;
-  SparseMatrix A;
-  A.rows = A.columns = 3 * chains;
-  A.rowBegin.push_back(0);
-  for (Index row = 0; row < A.rows; ++row)
+  testing::SparseRows rows;
+  for (Index row = 0; row < 3 * chains; ++row)
   {
     for (Index part = 0; part < 3; ++part)
     {
       const Index distance = std::abs(part - row / chains);
       if (distance < 2)
       {
-        A.column.push_back(row % chains + part * chains);
-        A.value.push_back(distance == 0 ? 2.0 : -1.0);
+        rows.Add(row % chains + part * chains, distance == 0 ? 2.0 : -1.0);
       }
     }
-    A.rowBegin.push_back(A.NonZeros());
+    rows.EndRow();
   }
+  const SparseMatrix A = rows.Matrix(3 * chains);
   const CoarseSolver solver(A, 2);
   EXPECT_LT(solver.Memory(), std::size_t(10) << 20);
   const MultiVector exact = RandomVectors(A.rows, 2);

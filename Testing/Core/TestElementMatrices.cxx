@@ -96,7 +96,7 @@ DirectIntegrals IntegrateOnLevel(
 }
 
 void ExpectNear(
-  const std::vector<ElementMatrix>& actual, const std::vector<Element>& expected, double relative)
+  const Array<ElementMatrix>& actual, const std::vector<Element>& expected, double relative)
 {
   ASSERT_EQ(actual.size(), expected.size());
   double largest = 0.0;
@@ -109,7 +109,7 @@ void ExpectNear(
   EXPECT_LT(worst, relative * largest);
 }
 
-std::vector<Element> FullOf(const std::vector<ElementMatrix>& packed)
+std::vector<Element> FullOf(const Array<ElementMatrix>& packed)
 {
   std::vector<Element> full;
   for (const ElementMatrix& element : packed)
@@ -260,7 +260,7 @@ TEST(ElementMatrices, OfASquareInTheMiddleOfACellAreTheKnownOnes)
   mesh.points = { { 0, 0, 0.5 }, { 1, 0, 0.5 }, { 1, 1, 0.5 }, { 0, 1, 0.5 } };
   mesh.triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
   FunctionSpace space;
-  space.clipped.position = mesh.points;
+  space.clipped.position.assign(mesh.points.begin(), mesh.points.end());
   space.clipped.numberOfInputPoints = 4;
   space.clipped.cells = { 0 };
   space.clipped.pieceCell = { 0 };

@@ -22,9 +22,9 @@ protected:
   MultiVector Apply(double a, double b, const MultiVector& coefficients) const
   {
     const ElementMatrices elements = IntegrateElements(space, rule);
-    const FunctionPatches patches = PatchesOfFunctions(space.Finest());
-    SparseMatrix A = BuildPattern(space.Finest(), patches);
-    AssembleValues(space.Finest(), patches, elements.mass, a, elements.stiffness, b, A);
+    const FunctionPlaces places = PlacesOfFunctions(space.Finest());
+    SparseMatrix A = BuildPattern(space.Finest(), places);
+    AssembleValues(space.Finest(), places, elements.mass, a, elements.stiffness, b, A);
     MultiVector result;
     Multiply(A, coefficients, result);
     return result;

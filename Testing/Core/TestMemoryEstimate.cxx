@@ -41,15 +41,16 @@ std::vector<Case> Cases()
   return cases;
 }
 
-template<class T>
-double Bytes(const std::vector<T>& items)
+template<class T, class Allocator>
+double Bytes(const std::vector<T, Allocator>& items)
 {
   return static_cast<double>(items.size() * sizeof(T));
 }
 
 double Bytes(const SparseMatrix& A)
 {
-  return Bytes(A.rowBegin) + Bytes(A.column) + Bytes(A.value);
+  return Bytes(A.value) + static_cast<double>(A.rowBegin.size() * sizeof(Id)) +
+         static_cast<double>(A.column.size() * sizeof(Index));
 }
 
 double Bytes(const ClippedMesh& clipped)
@@ -76,8 +77,7 @@ double Bytes(const System& system)
   for (std::size_t l = 0; l < system.elements.size(); ++l)
   {
     bytes += Bytes(system.elements[l].mass) + Bytes(system.elements[l].stiffness) +
-             Bytes(system.patches[l].begin) + Bytes(system.patches[l].patch) +
-             Bytes(system.patches[l].corner) + Bytes(system.pattern[l]);
+             Bytes(system.places[l].begin) + Bytes(system.places[l].item) + Bytes(system.pattern[l]);
   }
   for (const SparseMatrix& prolongation : system.prolongation)
   {

@@ -2,6 +2,7 @@
 #include "Errors.h"
 #include "PairedProduct.h"
 #include "RayleighRitz.h"
+#include "SparseRows.h"
 
 #include <gtest/gtest.h>
 
@@ -127,19 +128,16 @@ TEST(Products, EqualPlainOnesAndDoNotDependOnThreads)
 /// A matrix with entries on three diagonals.
 SparseMatrix Tridiagonal(Index size, double diagonal, double beside)
 {
-  SparseMatrix A;
-  A.rows = A.columns = size;
-  A.rowBegin.push_back(0);
+  testing::SparseRows rows;
   for (Index i = 0; i < size; ++i)
   {
     for (Index j = std::max(i - 1, 0); j <= std::min(i + 1, size - 1); ++j)
     {
-      A.column.push_back(j);
-      A.value.push_back(i == j ? diagonal + i : beside);
+      rows.Add(j, i == j ? diagonal + i : beside);
     }
-    A.rowBegin.push_back(A.NonZeros());
+    rows.EndRow();
   }
-  return A;
+  return rows.Matrix(size);
 }
 
 TEST(Products, PairedSparseProductEqualsTwo)

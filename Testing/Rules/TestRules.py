@@ -19,12 +19,13 @@ SOURCE_SUFFIXES = (".h", ".cxx")
 # The layers of Core from the bottom up. A file may include its own layer and the ones below; so the
 # solvers, which see matrices and lists of unknowns only, cannot reach a mesh.
 CORE_LAYERS = {
-    "foundation": "Array Types Errors Progress Parallel UnionFind RadixSort Grouping",
+    "foundation": "Array SharedArray Types Errors Progress Parallel UnionFind RadixSort Grouping",
     "algebra": "SparseMatrix RowKernels PairedProduct PivotedCholesky BlockSweep Smoother"
                " GaussSeidel PatchSmoother CoarseSolver Multigrid ConjugateGradients RayleighRitz"
-               " Constants BlockVectors BlockIteration WindowIteration SmootherSequence HatOrdering",
-    "grid and clip": "TriangleMesh Field MeshEdges Grid SourceTriangle TriangleClipper Clip Links"
-                     " MemoryEstimate HatFunctions HatMatrices HatLoad",
+               " Constants BlockVectors BlockIteration WindowIteration SmootherSequence HatOrdering"
+               " FillRows",
+    "grid and clip": "TriangleMesh Field MeshEdges Grid SourceTriangle TriangleClipper CutPoints"
+                     " Clip Links MemoryEstimate HatFunctions HatMatrices HatLoad",
     "patches and levels": "Level Patches FunctionSpace PatchOrdering",
     "integrals": "QuadratureRule TrilinearBasis PieceSamples PatchMoments ElementMatrices LoadVector Evaluation"
                  " Assembly HatTransfer",

@@ -1,5 +1,7 @@
 #include "SampledHierarchy.h"
 
+#include "SparseRows.h"
+
 #include "PatchOrdering.h"
 
 #include <algorithm>
@@ -67,20 +69,16 @@ SampledLevel BuildLevel(const std::vector<Sample>& samples, int depth, double si
 
 SparseMatrix FromRows(const std::vector<std::map<Index, double>>& rows, Index columns)
 {
-  SparseMatrix A;
-  A.rows = static_cast<Index>(rows.size());
-  A.columns = columns;
-  A.rowBegin.push_back(0);
+  SparseRows sparse;
   for (const auto& row : rows)
   {
     for (const auto& [column, value] : row)
     {
-      A.column.push_back(column);
-      A.value.push_back(value);
+      sparse.Add(column, value);
     }
-    A.rowBegin.push_back(A.NonZeros());
+    sparse.EndRow();
   }
-  return A;
+  return sparse.Matrix(columns);
 }
 
 /// Value and gradient of the function of a corner at local coordinates in [0, 1]³.

@@ -56,7 +56,7 @@ void SplitPieces(const TriangleMesh& mesh, FunctionSpace& space)
 {
   ClippedMesh& clipped = space.clipped;
   const Id count = static_cast<Id>(mesh.triangles.size());
-  std::vector<Index> cell;
+  Array<Index> cell;
   std::vector<Index> patch;
   cell.reserve(count);
   patch.reserve(count);
