@@ -104,8 +104,8 @@ SparseMatrix BuildPattern(const Level& level, const FunctionPlaces& places, int 
 }
 
 void AssembleValues(const Level& level, const FunctionPlaces& places,
-  const Array<ElementMatrix>& mass, double a, const Array<ElementMatrix>& stiffness,
-  double b, SparseMatrix& matrix, int threads)
+  const Array<ElementMatrix>& mass, double a, const Array<ElementMatrix>& stiffness, double b,
+  SparseMatrix& matrix, int threads)
 {
   const ElementSum sum{ level, places, a != 0.0 ? mass.data() : nullptr, a,
     b != 0.0 ? stiffness.data() : nullptr, b };

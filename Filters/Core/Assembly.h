@@ -16,11 +16,11 @@ FunctionPlaces PlacesOfFunctions(const Level& level, int threads = 0);
 /// The pattern of every matrix of a level, without values.
 SparseMatrix BuildPattern(const Level& level, const FunctionPlaces& places, int threads = 0);
 
-/// Gives a matrix of that pattern its values: the sum of combine(mass, stiffness) = a mass + b stiffness.
-/// Either may be empty when its factor is 0. Same bits for any number of threads.
+/// Gives a matrix of that pattern its values: the sum of combine(mass, stiffness) = a mass + b
+/// stiffness. Either may be empty when its factor is 0. Same bits for any number of threads.
 void AssembleValues(const Level& level, const FunctionPlaces& places,
-  const Array<ElementMatrix>& mass, double a, const Array<ElementMatrix>& stiffness,
-  double b, SparseMatrix& matrix, int threads = 0);
+  const Array<ElementMatrix>& mass, double a, const Array<ElementMatrix>& stiffness, double b,
+  SparseMatrix& matrix, int threads = 0);
 
 /// Rows = functions of `fine`, columns = functions of `coarse`: a coarse function written in fine
 /// ones. Any patch of a fine function's support gives the same row [T (6.1)]; the first is used.

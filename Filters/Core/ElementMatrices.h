@@ -32,8 +32,8 @@ ElementMatrices IntegrateElements(const FunctionSpace& space, const QuadratureRu
 
 /// Galerkin coarsening: adds every patch's matrix, interpolated, to its parent's. [T (4.6)]
 /// @return one entry per patch of `coarse`. Children are added in Morton order: same bits always.
-Array<ElementMatrix> CoarsenElements(const Level& fine, const Level& coarse,
-  const Array<ElementMatrix>& matrices, int threads = 0);
+Array<ElementMatrix> CoarsenElements(
+  const Level& fine, const Level& coarse, const Array<ElementMatrix>& matrices, int threads = 0);
 
 /// Weights with which the eight functions of a parent cell make up those of the child in `octant`:
 /// value of the child's corner c = Σ_p weights[c][p] value of the parent's corner p.

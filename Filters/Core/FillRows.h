@@ -10,8 +10,8 @@
 namespace gridfem
 {
 
-/// Fills a matrix whose shape is set from rows made block by block: row(r, columns, values) appends one row's entries;
-/// a pattern's rows have no values.
+/// Fills a matrix whose shape is set from rows made block by block: row(r, columns, values) appends
+/// one row's entries; a pattern's rows have no values.
 template<class Row>
 void FillRows(SparseMatrix& matrix, int threads, Row&& row)
 {
@@ -35,8 +35,8 @@ void FillRows(SparseMatrix& matrix, int threads, Row&& row)
       }
     });
   Array<Index> column(ExclusiveScan(rowBegin));
-  const bool hasValues = std::any_of(
-    parts.begin(), parts.end(), [](const Part& part) { return !part.value.empty(); });
+  const bool hasValues =
+    std::any_of(parts.begin(), parts.end(), [](const Part& part) { return !part.value.empty(); });
   matrix.value.resize(hasValues ? column.size() : 0);
   ParallelBlocks(blocks, threads,
     [&](Id block)

@@ -45,11 +45,11 @@ std::vector<char> PointsWithFunction(const TriangleMesh& mesh, const std::vector
 }
 
 /// Points that have a function of their own, along the Morton curve.
-std::vector<SortEntry> SortPoints(const TriangleMesh& mesh, const std::vector<char>& used,
-  const std::vector<Id>& pointClass, int threads)
+Array<SortEntry> SortPoints(const TriangleMesh& mesh, const std::vector<char>& used,
+  const std::vector<Index>& pointClass, int threads)
 {
   const Grid grid = EmbedInGrid(mesh.points, used, MaximumDepth);
-  std::vector<SortEntry> entries;
+  Array<SortEntry> entries;
   for (Id point = 0; point < static_cast<Id>(mesh.points.size()); ++point)
   {
     if (used[point] && (pointClass.empty() || pointClass[point] == point))
@@ -71,14 +71,10 @@ void NumberPoints(const TriangleMesh& mesh, const std::vector<char>& isFlat,
   const HatOptions& options, HatFunctions& hats)
 {
   const std::vector<char> used = PointsWithFunction(mesh, isFlat);
-  const std::vector<Id> pointClass =
-    options.weldCoincidentPoints ? WeldCoincidentPoints(mesh.points, used) : std::vector<Id>();
-  const std::vector<SortEntry> sorted = SortPoints(mesh, used, pointClass, options.threads);
-  if (sorted.size() > static_cast<std::size_t>(std::numeric_limits<Index>::max()))
-  {
-    throw InvalidInput("There are " + std::to_string(sorted.size()) +
-                       " hat functions; at most 2^31 - 1 can be numbered.");
-  }
+  const std::vector<Index> pointClass =
+    options.weldCoincidentPoints ? WeldCoincidentPoints(mesh.points, used) : std::vector<Index>();
+  const Array<SortEntry> sorted = SortPoints(mesh, used, pointClass, options.threads);
+  RequireIndices(static_cast<double>(sorted.size()), "hat functions");
   hats.ofPoint.assign(mesh.points.size(), -1);
   for (std::size_t k = 0; k < sorted.size(); ++k)
   {
@@ -94,8 +90,9 @@ void NumberPoints(const TriangleMesh& mesh, const std::vector<char>& isFlat,
 void ListTriangles(const TriangleMesh& mesh, const std::vector<char>& isFlat, HatFunctions& hats)
 {
   // The corners of flat triangles form a last group, which is dropped.
-  const Id none = hats.Count();
-  std::vector<Id> functionOfCorner(3 * mesh.triangles.size());
+  const Index none = hats.Count();
+  RequireIndices(3.0 * static_cast<double>(mesh.triangles.size()), "corners of triangles");
+  std::vector<Index> functionOfCorner(3 * mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
   {
     for (int k = 0; k < 3; ++k)
@@ -103,10 +100,10 @@ void ListTriangles(const TriangleMesh& mesh, const std::vector<char>& isFlat, Ha
       functionOfCorner[3 * t + k] = isFlat[t] ? none : hats.ofPoint[mesh.triangles[t][k]];
     }
   }
-  Groups groups = GroupItems(functionOfCorner, none + 1);
+  Groups groups = GroupItems(functionOfCorner, Id{ none } + 1);
   groups.begin.pop_back();
   hats.corners.reserve(groups.begin.back());
-  for (Id k = 0; k < groups.begin.back(); ++k)
+  for (Index k = 0; k < groups.begin.back(); ++k)
   {
     hats.corners.push_back({ groups.item[k] });
   }
@@ -123,9 +120,7 @@ void FindComponents(const TriangleMesh& mesh, const std::vector<char>& isFlat, H
       sets.Unite(hats.ofPoint[mesh.triangles[t][0]], hats.ofPoint[mesh.triangles[t][k]]);
     }
   }
-  Id count = 0;
-  hats.component = NumberSets<Index>(sets, count);
-  hats.numberOfComponents = static_cast<Index>(count);
+  hats.component = NumberSets(sets, hats.numberOfComponents);
 }
 
 } // namespace

@@ -21,7 +21,7 @@ struct HatOptions
 /// A corner of a triangle, packed: 3 triangle + corner.
 struct TriangleCorner
 {
-  Id packed;
+  Index packed;
   Id Triangle() const { return packed / 3; }
   int Corner() const { return static_cast<int>(packed % 3); }
 };
@@ -33,7 +33,7 @@ struct HatFunctions
   double unitLength = 1.0;
   std::vector<Index> ofPoint; // per mesh point: its function; -1 where there is none
   /// Triangles around function i: corners[begin[i] .. begin[i + 1]), ascending.
-  std::vector<Id> begin;
+  std::vector<Index> begin;
   std::vector<TriangleCorner> corners;
   std::vector<Index> component; // per function; triangles that share a function are connected
   Index numberOfComponents = 0;

@@ -5,6 +5,7 @@
 #include "HatTransfer.h"
 
 #include "Errors.h"
+#include "FillRows.h"
 #include "Grouping.h"
 #include "PieceSamples.h"
 #include "SourceTriangle.h"
@@ -57,7 +58,7 @@ void AddPiece(
   const ClippedMesh& clipped = space.clipped;
   const Id patch = space.piecePatch[piece];
   const Vec3 origin = CellCorner(space.Finest().cell[patch]);
-  const Id* point = clipped.corners.data() + clipped.pieceBegin[piece];
+  const Index* point = clipped.corners.data() + clipped.pieceBegin[piece];
   CornerValues& sum = WeightsOf(patch, row).weight;
   const auto add = [&](Id k, double mass)
   {
@@ -206,8 +207,8 @@ SparseMatrix BuildHatProlongation(const HatFunctions& hats, const FunctionSpace&
     return BuildRows(
       hats, space, threads, [&](Id hat, Row& row) { AddPoint(space, pointOfHat[hat], row); });
   }
-  const Groups pieces =
-    GroupItems(space.clipped.pieceTriangle, static_cast<Id>(mesh.triangles.size()));
+  const Groups pieces = GroupItems(space.clipped.pieceTriangle.data(),
+    space.clipped.NumberOfPieces(), static_cast<Id>(mesh.triangles.size()), threads);
   return BuildRows(hats, space, threads,
     [&](Id hat, Row& row)
     {

@@ -86,8 +86,8 @@ SparseMatrix AssembleLevel(const FunctionSpace& space, const System& system, std
 {
   SparseMatrix matrix = system.pattern[level];
   const ElementMatrices& elements = system.elements[level];
-  AssembleValues(space.levels[level], system.places[level], elements.mass, mass,
-    elements.stiffness, stiffness, matrix, threads);
+  AssembleValues(space.levels[level], system.places[level], elements.mass, mass, elements.stiffness,
+    stiffness, matrix, threads);
   return matrix;
 }
 

@@ -60,8 +60,7 @@ SparseMatrix Combine(
 {
   SparseMatrix matrix = system.pattern[l];
   const ElementMatrices& elements = system.elements[l];
-  AssembleValues(
-    level, system.places[l], elements.mass, a, elements.stiffness, b, matrix, threads);
+  AssembleValues(level, system.places[l], elements.mass, a, elements.stiffness, b, matrix, threads);
   return matrix;
 }
 

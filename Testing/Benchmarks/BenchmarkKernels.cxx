@@ -101,7 +101,7 @@ void Assemble(benchmark::State& state)
   const ElementMatrices& elements = problem.system.elements.front();
   for (auto _ : state)
   {
-    AssembleValues(problem.space.Finest(), problem.system.patches.front(), elements.mass,
+    AssembleValues(problem.space.Finest(), problem.system.places.front(), elements.mass,
       problem.lambda, elements.stiffness, 1.0, matrix, Threads(state));
     benchmark::DoNotOptimize(matrix.value.data());
   }

@@ -98,7 +98,7 @@ Eigen::MatrixXd PseudoEvaluation(const Hybrid& hybrid)
   Eigen::VectorXd mass = Eigen::VectorXd::Zero(points);
   for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
   {
-    const Id* corner = &clipped.corners[clipped.pieceBegin[piece]];
+    const Index* corner = &clipped.corners[clipped.pieceBegin[piece]];
     const Id count = clipped.pieceBegin[piece + 1] - clipped.pieceBegin[piece];
     for (Id k = 1; k + 1 < count; ++k)
     {
@@ -137,7 +137,7 @@ Eigen::MatrixXd PseudoEvaluation(const Hybrid& hybrid)
 /// Part of the surface, measured in ∫ b_i, whose grid functions get no residual: empty columns.
 double ShareWithoutResidual(const Hybrid& hybrid)
 {
-  const std::vector<Index>& column = hybrid.hats.prolongation.column;
+  const SharedArray<Index>& column = hybrid.hats.prolongation.column;
   const std::set<Index> reached(column.begin(), column.end());
   double without = 0.0;
   double all = 0.0;

@@ -77,7 +77,8 @@ double Bytes(const System& system)
   for (std::size_t l = 0; l < system.elements.size(); ++l)
   {
     bytes += Bytes(system.elements[l].mass) + Bytes(system.elements[l].stiffness) +
-             Bytes(system.places[l].begin) + Bytes(system.places[l].item) + Bytes(system.pattern[l]);
+             Bytes(system.places[l].begin) + Bytes(system.places[l].item) +
+             Bytes(system.pattern[l]);
   }
   for (const SparseMatrix& prolongation : system.prolongation)
   {
