@@ -52,8 +52,8 @@ SparseMatrix FromEigen(const Eigen::SparseMatrix<double>& matrix)
   SparseMatrix result;
   result.rows = static_cast<Index>(rows.rows());
   result.columns = static_cast<Index>(rows.cols());
-  result.rowBegin.assign(rows.outerIndexPtr(), rows.outerIndexPtr() + rows.rows() + 1);
-  result.column.assign(rows.innerIndexPtr(), rows.innerIndexPtr() + rows.nonZeros());
+  result.rowBegin = Array<Id>(rows.outerIndexPtr(), rows.outerIndexPtr() + rows.rows() + 1);
+  result.column = Array<Index>(rows.innerIndexPtr(), rows.innerIndexPtr() + rows.nonZeros());
   result.value.assign(rows.valuePtr(), rows.valuePtr() + rows.nonZeros());
   return result;
 }
