@@ -131,22 +131,12 @@ void BlockIteration::ComputeResiduals()
   const MultiVector selected =
     all ? MultiVector() : SelectColumns(pairs_.vectors, atWork_, problem_.threads);
   const MultiVector& X = all ? pairs_.vectors : selected;
-  MultiplyPair(problem_.stiffness, problem_.mass, X, pair_, problem_.threads);
-  const Id count = X.cols();
-  Eigen::RowVectorXd values(count);
-  for (Id j = 0; j < count; ++j)
+  Eigen::VectorXd values(X.cols());
+  for (Id j = 0; j < X.cols(); ++j)
   {
     values[j] = pairs_.values[atWork_[j]];
   }
-  residual_.resize(X.rows(), count);
-  ParallelRanges(X.rows(), problem_.threads,
-    [&](Id begin, Id end)
-    {
-      for (Id i = begin; i < end; ++i)
-      {
-        residual_.row(i) = pair_.row(i).head(count) - pair_.row(i).tail(count).cwiseProduct(values);
-      }
-    });
+  EigenResidual(problem_.stiffness, problem_.mass, X, values, residual_, problem_.threads);
 }
 
 /// True when all wanted columns at work have converged.

@@ -2,6 +2,8 @@
 
 #include "Parallel.h"
 
+#include <type_traits>
+
 namespace gridfem
 {
 namespace
@@ -10,10 +12,10 @@ namespace
 /// Rows are handed out in ranges of this size.
 constexpr Id RangeSize = 256;
 
-/// One row of both products, columns begin .. begin + Width.
-template<int Width>
+/// One row of both products, columns begin .. begin + Width, to store(a, b).
+template<int Width, class Store>
 inline void RowPair(const SparseMatrix& A, const SparseMatrix& B, const MultiVector& X, Id row,
-  Id begin, MultiVector& pair)
+  Id begin, Store&& store)
 {
   using Lanes = Eigen::Array<double, Width, 1>;
   Lanes a = Lanes::Zero();
@@ -24,9 +26,48 @@ inline void RowPair(const SparseMatrix& A, const SparseMatrix& B, const MultiVec
     a += A.value[k] * x;
     b += B.value[k] * x;
   }
-  double* to = pair.data() + row * pair.cols() + begin;
-  Eigen::Map<Lanes>{ to } = a;
-  Eigen::Map<Lanes>{ to + X.cols() } = b;
+  store(a, b);
+}
+
+void CheckShapes(const SparseMatrix& A, const SparseMatrix& B, const MultiVector& X)
+{
+  if (A.columns != X.rows() || B.rows != A.rows || B.columns != A.columns ||
+      B.NonZeros() != A.NonZeros())
+  {
+    throw InvalidInput("a paired product needs two matrices of one pattern that fit the block");
+  }
+}
+
+/// Calls store(row, column, a, b) with the lanes of A X and B X that begin there.
+template<class Store>
+void ForEachRowPair(
+  const SparseMatrix& A, const SparseMatrix& B, const MultiVector& X, int threads, Store&& store)
+{
+  ParallelRanges(
+    A.rows, threads,
+    [&](Id first, Id last)
+    {
+      for (Id row = first; row < last; ++row)
+      {
+        const auto put = [&](Id column) {
+          return [&store, row, column](const auto& a, const auto& b) { store(row, column, a, b); };
+        };
+        Id column = 0;
+        for (; column + 16 <= X.cols(); column += 16)
+        {
+          RowPair<16>(A, B, X, row, column, put(column));
+        }
+        for (; column + 4 <= X.cols(); column += 4)
+        {
+          RowPair<4>(A, B, X, row, column, put(column));
+        }
+        for (; column < X.cols(); ++column)
+        {
+          RowPair<1>(A, B, X, row, column, put(column));
+        }
+      }
+    },
+    RangeSize);
 }
 
 } // namespace
@@ -34,34 +75,35 @@ inline void RowPair(const SparseMatrix& A, const SparseMatrix& B, const MultiVec
 void MultiplyPair(const SparseMatrix& A, const SparseMatrix& B, const MultiVector& X,
   MultiVector& pair, int threads)
 {
-  if (A.columns != X.rows() || B.rows != A.rows || B.columns != A.columns ||
-      B.NonZeros() != A.NonZeros())
-  {
-    throw InvalidInput("a paired product needs two matrices of one pattern that fit the block");
-  }
-  pair.resize(A.rows, 2 * X.cols());
-  ParallelRanges(
-    A.rows, threads,
-    [&](Id first, Id last)
+  CheckShapes(A, B, X);
+  const Id columns = X.cols();
+  pair.resize(A.rows, 2 * columns);
+  ForEachRowPair(A, B, X, threads,
+    [&](Id row, Id column, const auto& a, const auto& b)
     {
-      for (Id row = first; row < last; ++row)
-      {
-        Id column = 0;
-        for (; column + 16 <= X.cols(); column += 16)
-        {
-          RowPair<16>(A, B, X, row, column, pair);
-        }
-        for (; column + 4 <= X.cols(); column += 4)
-        {
-          RowPair<4>(A, B, X, row, column, pair);
-        }
-        for (; column < X.cols(); ++column)
-        {
-          RowPair<1>(A, B, X, row, column, pair);
-        }
-      }
-    },
-    RangeSize);
+      using Lanes = std::decay_t<decltype(a)>;
+      double* to = pair.data() + row * 2 * columns + column;
+      Eigen::Map<Lanes>{ to } = a;
+      Eigen::Map<Lanes>{ to + columns } = b;
+    });
+}
+
+void EigenResidual(const SparseMatrix& A, const SparseMatrix& B, const MultiVector& X,
+  const Eigen::VectorXd& values, MultiVector& residual, int threads)
+{
+  CheckShapes(A, B, X);
+  if (values.size() != X.cols())
+  {
+    throw InvalidInput("a residual needs a value for every column");
+  }
+  residual.resize(A.rows, X.cols());
+  ForEachRowPair(A, B, X, threads,
+    [&](Id row, Id column, const auto& a, const auto& b)
+    {
+      using Lanes = std::decay_t<decltype(a)>;
+      const Eigen::Map<const Lanes> theta(values.data() + column);
+      Eigen::Map<Lanes>{ residual.data() + row * X.cols() + column } = a - theta * b;
+    });
 }
 
 } // namespace gridfem

@@ -14,6 +14,10 @@ namespace gridfem
 void MultiplyPair(const SparseMatrix& A, const SparseMatrix& B, const MultiVector& X,
   MultiVector& pair, int threads = 0);
 
+/// residual = A X - B X diag(values), under the same conditions.
+void EigenResidual(const SparseMatrix& A, const SparseMatrix& B, const MultiVector& X,
+  const Eigen::VectorXd& values, MultiVector& residual, int threads = 0);
+
 } // namespace gridfem
 
 #endif
