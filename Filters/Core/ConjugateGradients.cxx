@@ -1,7 +1,7 @@
 #include "ConjugateGradients.h"
 
+#include "ColumnAlgebra.h"
 #include "Errors.h"
-#include "RowKernels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,54 +12,6 @@ namespace gridfem
 {
 namespace
 {
-
-using Columns = Eigen::ArrayXd; // one number per right-hand side
-
-/// x_cᵀ y_c of every column c.
-Columns ColumnProducts(const MultiVector& x, const MultiVector& y, int threads)
-{
-  const auto sumRange = [&](Id begin, Id end)
-  {
-    Columns sums = Columns::Zero(x.cols());
-    ForEachChunk(x.cols(),
-      [&](auto chunk)
-      {
-        using Lanes = typename decltype(chunk)::Lanes;
-        Lanes part[4] = { Lanes::Zero(), Lanes::Zero(), Lanes::Zero(), Lanes::Zero() };
-        for (Index row = static_cast<Index>(begin); row < end; ++row)
-        {
-          part[row & 3] += chunk.Row(x.data(), row) * chunk.Row(y.data(), row);
-        }
-        sums.segment<Lanes::SizeAtCompileTime>(chunk.first) =
-          (part[0] + part[1]) + (part[2] + part[3]);
-      });
-    return sums;
-  };
-  return ParallelSum(
-    x.rows(), ThreadsFor(x.size(), threads), Columns(Columns::Zero(x.cols())), sumRange);
-}
-
-/// y_c += factor_c x_c.
-void AddScaled(const MultiVector& x, const Columns& factor, MultiVector& y, int threads)
-{
-  ParallelRanges(x.rows(), ThreadsFor(x.size(), threads),
-    [&](Id begin, Id end)
-    {
-      y.middleRows(begin, end - begin) +=
-        x.middleRows(begin, end - begin) * factor.matrix().asDiagonal();
-    });
-}
-
-/// x_c = z_c + factor_c x_c.
-void ScaleAndAdd(const MultiVector& z, const Columns& factor, MultiVector& x, int threads)
-{
-  ParallelRanges(x.rows(), ThreadsFor(x.size(), threads),
-    [&](Id begin, Id end)
-    {
-      auto rows = x.middleRows(begin, end - begin);
-      rows = z.middleRows(begin, end - begin) + rows * factor.matrix().asDiagonal();
-    });
-}
 
 void CheckProblem(const Multigrid& multigrid, const MultiVector& b, const MultiVector& x,
   const SolveOptions& options)
@@ -118,7 +70,7 @@ public:
   /// z = B r and its measures; retires columns that are done.
   void Measure();
 
-  /// Ends the iteration of a column.
+  /// Ends the iteration of a column. One that has converged by energy takes z, which is there.
   void Retire(Id column, bool isConverged);
 
   /// Looks at the true residual of converged columns: an updated one drifts away by rounding. Those
@@ -132,7 +84,10 @@ public:
   Columns rz; // rᵀz of the columns that iterate
 
 private:
-  void SetReference();
+  void MeasureZero();
+  void ApplyCycle(const MultiVector& residual, MultiVector& correction, Columns& energy) const;
+  void SetReference(const Columns& workOfStart);
+  void Judge();
   bool IsSolved(Id column) const;
   void Record();
   int Threads() const { return multigrid_.Options().threads; }
@@ -145,39 +100,42 @@ private:
 
   Eigen::Array<bool, Eigen::Dynamic, 1> isActive_;
   Eigen::Array<bool, Eigen::Dynamic, 1> isConverged_;
-  Columns energyOfZero_;
+  Columns reference_; // of the energy; see IterationRecord
   Columns residualOfZero_;
-  Columns energy_;   // relative to that
-  Columns residual_; // relative to that
+  Columns energy_;   // relative to the first
+  Columns residual_; // relative to the second
   SolveReport report_;
 };
 
 Iteration::Iteration(const Multigrid& multigrid, const MultiVector& b, MultiVector& x,
   const SolveOptions& options, const Projection& project)
-  : r(b), rz(Columns::Zero(b.cols())), multigrid_(multigrid), b_(b), x_(x), options_(options),
-    project_(project)
+  : r(b), multigrid_(multigrid), b_(b), x_(x), options_(options), project_(project)
 {
   CheckProblem(multigrid, b, x, options);
   isActive_.setConstant(b.cols(), true);
   isConverged_.setConstant(b.cols(), false);
   energy_.setOnes(b.cols());
   residual_.setOnes(b.cols());
-  this->SetReference();
-  if (!x_.isZero(0.0))
+  Project(project_.residual, r);
+  this->MeasureZero();
+  const bool isZero = x_.isZero(0.0);
+  const Columns workOfStart = ColumnProducts(x_, r, this->Threads());
+  if (!isZero)
   {
     this->ComputeResidual();
-    this->Measure();
   }
-  else
+  this->ApplyCycle(r, z, rz);
+  reference_ = rz.sqrt();
+  if (!isZero)
   {
-    this->Record();
+    this->SetReference(workOfStart);
   }
+  this->Judge();
 }
 
-/// The measures of x = 0, where r = b. Retires columns without a solution or with a trivial one.
-void Iteration::SetReference()
+/// |b|. Retires columns without a solution or with a trivial one.
+void Iteration::MeasureZero()
 {
-  Project(project_.residual, r);
   residualOfZero_ = ColumnProducts(r, r, this->Threads()).sqrt();
   for (Id c = 0; c < r.cols(); ++c)
   {
@@ -193,16 +151,34 @@ void Iteration::SetReference()
       this->Retire(c, true);
     }
   }
-  multigrid_.Precondition(r, z);
-  Project(project_.solution, z);
-  rz = ColumnProducts(r, z, this->Threads());
-  energyOfZero_ = rz.sqrt();
-  for (Id c = 0; c < r.cols(); ++c)
+}
+
+void Iteration::ApplyCycle(
+  const MultiVector& residual, MultiVector& correction, Columns& energy) const
+{
+  multigrid_.Precondition(residual, correction);
+  Project(project_.solution, correction);
+  energy = ColumnProducts(residual, correction, this->Threads());
+}
+
+/// By Cauchy and Schwarz bᵀx / |x| is at most |A⁻¹b|, both in the energy norm, and near it for a
+/// start that is worth something. Where it is not even above the error that is left, the energy of
+/// zero costs a cycle.
+/// @param workOfStart  bᵀx
+void Iteration::SetReference(const Columns& workOfStart)
+{
+  const Columns energyOfStart = workOfStart - ColumnProducts(x_, r, this->Threads()); // xᵀAx
+  const Columns bound = workOfStart.square() / energyOfStart;
+  const auto isBound = energyOfStart > 0.0 && bound >= rz;
+  reference_ = bound.sqrt();
+  if ((isActive_ && !isBound).any())
   {
-    if (this->IsActive(c) && !(energyOfZero_[c] > 0.0 && std::isfinite(energyOfZero_[c])))
-    {
-      this->Retire(c, false);
-    }
+    MultiVector zeroResidual = b_;
+    Project(project_.residual, zeroResidual);
+    MultiVector correction;
+    Columns energyOfZero;
+    this->ApplyCycle(zeroResidual, correction, energyOfZero);
+    reference_ = isBound.select(reference_, energyOfZero.sqrt());
   }
 }
 
@@ -230,9 +206,12 @@ void Iteration::ComputeResidual()
 
 void Iteration::Measure()
 {
-  multigrid_.Precondition(r, z);
-  Project(project_.solution, z);
-  rz = ColumnProducts(r, z, this->Threads());
+  this->ApplyCycle(r, z, rz);
+  this->Judge();
+}
+
+void Iteration::Judge()
+{
   const Columns rr = ColumnProducts(r, r, this->Threads());
   for (Id c = 0; c < r.cols(); ++c)
   {
@@ -240,7 +219,7 @@ void Iteration::Measure()
     {
       continue;
     }
-    energy_[c] = std::sqrt(rz[c]) / energyOfZero_[c];
+    energy_[c] = std::sqrt(rz[c]) / reference_[c];
     residual_[c] = std::sqrt(rr[c]) / residualOfZero_[c];
     const bool isBroken = !(energy_[c] < Divergence) || !std::isfinite(residual_[c]);
     if (isBroken || this->IsSolved(c))
@@ -265,6 +244,10 @@ void Iteration::Retire(Id column, bool isConverged)
   r.col(column).setZero();
   if (z.size() > 0)
   {
+    if (isConverged && options_.measure == SolveOptions::Measure::Energy)
+    {
+      x_.col(column) += z.col(column);
+    }
     z.col(column).setZero();
   }
 }

@@ -13,7 +13,7 @@ namespace gridfem
 
 struct SolveOptions
 {
-  double tolerance = 1e-8;     // on the stopping measure, relative to its start; > 0
+  double tolerance = 1e-8;     // on the stopping measure as in IterationRecord; > 0
   int maximumIterations = 100; // >= 1
   /// What has to fall below the tolerance: the energy estimate sqrt(rᵀBr) or the residual |r|.
   enum class Measure
@@ -23,12 +23,17 @@ struct SolveOptions
   } measure = Measure::Energy;
 };
 
-/// Relative to the measures of x = 0; the largest over the right-hand sides.
+/// The state of x before the correction B r of that iteration; the largest over the right-hand
+/// sides.
 struct IterationRecord
 {
   int iteration;
-  double energy;   // sqrt(rᵀBr)
-  double residual; // |r|
+  /// sqrt(rᵀBr), an estimate of the error in the energy norm |·|_A, relative to the size of the
+  /// solution in that norm: sqrt(bᵀBb) for an iteration that starts from x = 0, else the lower
+  /// bound bᵀx / |x|_A with the start x, or sqrt(bᵀBb) again where a start is farther from the
+  /// solution than this bound.
+  double energy;
+  double residual; // |r| / |b|
 };
 
 struct SolveReport
@@ -49,8 +54,10 @@ struct Projection
 };
 
 /// Conjugate gradients with one cycle as preconditioner; each column has its own steps, and stops
-/// on its own. Starts from x. A column with b = 0 gives x = 0. NaN in b or a breakdown ends the
-/// iteration with converged = false and the last finite x. Throws Aborted.
+/// on its own. Starts from x. A column that has converged by energy still takes its last correction
+/// B r, which was computed for the measure: it lowers the energy of the error once more. A column
+/// with b = 0 gives x = 0. NaN in b or a breakdown ends the iteration with converged = false and
+/// the last finite x. Throws Aborted.
 SolveReport SolveConjugateGradients(const Multigrid& multigrid, const MultiVector& b,
   MultiVector& x, const SolveOptions& options, const Projection& project = {},
   const Progress& progress = {});

@@ -133,7 +133,29 @@ void Multigrid::PreconditionFrom(std::size_t level, const MultiVector& b, MultiV
   this->Start(level, b, x, true);
 }
 
-void Multigrid::Start(std::size_t level, const MultiVector& b, MultiVector& x, bool zeroStart) const
+void Multigrid::NestedIteration(const MultiVector& b, MultiVector& x) const
+{
+  this->CheckRows(0, b);
+  std::vector<MultiVector> load(levels_.size());
+  for (std::size_t l = 1; l < levels_.size(); ++l)
+  {
+    Multiply(levels_[l - 1].restriction, l == 1 ? b : load[l - 1], load[l], options_.threads);
+  }
+  std::vector<Scratch> scratch(levels_.size());
+  coarse_.Solve(levels_.size() == 1 ? b : load.back(), x, options_.threads);
+  for (std::size_t l = levels_.size() - 1; l > 0; --l)
+  {
+    if (l + 1 < levels_.size())
+    {
+      this->CycleLevel(l, load[l], x, false, scratch);
+    }
+    MultiVector finer;
+    Multiply(levels_[l - 1].prolongation, x, finer, options_.threads);
+    x.swap(finer);
+  }
+}
+
+void Multigrid::CheckRows(std::size_t level, const MultiVector& b) const
 {
   const Index unknowns = levels_.at(level).A.rows;
   if (b.rows() != unknowns)
@@ -141,6 +163,11 @@ void Multigrid::Start(std::size_t level, const MultiVector& b, MultiVector& x, b
     throw InvalidInput("a right-hand side of " + std::to_string(b.rows()) +
                        " rows does not fit a system of " + std::to_string(unknowns) + " unknowns");
   }
+}
+
+void Multigrid::Start(std::size_t level, const MultiVector& b, MultiVector& x, bool zeroStart) const
+{
+  this->CheckRows(level, b);
   std::vector<Scratch> scratch(levels_.size());
   this->CycleLevel(level, b, x, zeroStart, scratch);
 }

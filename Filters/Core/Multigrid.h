@@ -75,7 +75,12 @@ public:
   /// One cycle from zero: x = B b, B symmetric when both sweep counts are equal.
   void Precondition(const MultiVector& b, MultiVector& x) const;
 
-  /// The same on the hierarchy that begins at `level`.
+  /// A start for the iteration [T §3.3]: solves the coarsest system, takes the solution up and
+  /// improves it by one cycle on every level but the finest. x = C b with C symmetric positive
+  /// semi-definite where B is. Cost: a third of a W cycle. x must not be b.
+  void NestedIteration(const MultiVector& b, MultiVector& x) const;
+
+  /// The same as Precondition on the hierarchy that begins at `level`.
   void PreconditionFrom(std::size_t level, const MultiVector& b, MultiVector& x) const;
 
   const SparseMatrix& Matrix() const { return levels_.front().A; }
@@ -95,6 +100,7 @@ private:
     MultiVector coarseX;
   };
 
+  void CheckRows(std::size_t level, const MultiVector& b) const;
   void Start(std::size_t level, const MultiVector& b, MultiVector& x, bool zeroStart) const;
   void CycleLevel(std::size_t level, const MultiVector& b, MultiVector& x, bool zeroStart,
     std::vector<Scratch>& scratch) const;

@@ -142,6 +142,21 @@ void DropRounding(const Eigen::RowVectorXd& size, MultiVector& rest)
   }
 }
 
+/// Starts columns that hold NaN from zero.
+MultiVector NestedStart(const Multigrid& multigrid, const MultiVector& load)
+{
+  MultiVector start;
+  multigrid.NestedIteration(load, start);
+  for (Id c = 0; c < start.cols(); ++c)
+  {
+    if (!start.col(c).allFinite())
+    {
+      start.col(c).setZero();
+    }
+  }
+  return start;
+}
+
 } // namespace
 
 PoissonSolution SolvePoisson(const ComponentFunctions& functions, const Multigrid& multigrid,
@@ -182,7 +197,8 @@ PoissonSolution SolvePoisson(const ComponentFunctions& functions, const Multigri
   DropRounding(size, rest);
 
   PoissonSolution solution;
-  solution.coefficients = MultiVector::Zero(values.rows(), values.cols());
+  solution.coefficients = NestedStart(multigrid, rest);
+  removeMeans(solution.coefficients);
   solution.report = SolveConjugateGradients(
     multigrid, rest, solution.coefficients, options.solve, { removeMeans, removeSums }, progress);
   means.AddConstants(meanOfField, solution.coefficients);

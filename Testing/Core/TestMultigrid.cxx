@@ -104,6 +104,29 @@ TEST(Multigrid, TwoLevelsReproduceTheTextbook)
   EXPECT_LT(RelativeDifference(x, expected), 1e-13);
 }
 
+TEST(Multigrid, NestedIterationReproducesTheTextbook)
+{
+  const Multigrid multigrid = Make(testing::SolidCube(3), 3, {});
+  ASSERT_EQ(multigrid.Levels().size(), 3u);
+  const Eigen::MatrixXd P0 = Dense(multigrid.Levels()[0].prolongation);
+  const Eigen::MatrixXd P1 = Dense(multigrid.Levels()[1].prolongation);
+  const MultiVector b = RandomVectors(multigrid.Matrix().rows, 2);
+  const MultiVector load = P0.transpose() * b;
+  MultiVector middle = P1 * Dense(multigrid.Levels()[2].A).llt().solve(P1.transpose() * load);
+  auto levels = testing::SampledHierarchy(testing::SolidCube(3), 3, 1, 1.0, 1.0);
+  levels.erase(levels.begin());
+  Multigrid(std::move(levels), {}).Cycle(load, middle);
+  MultiVector x;
+  multigrid.NestedIteration(b, x);
+  EXPECT_LT(RelativeDifference(x, P0 * middle), 1e-13);
+
+  const Multigrid direct = Make(testing::SolidCube(2), 2, {}, 1.0, 1.0, 2);
+  const MultiVector exact = RandomVectors(direct.Matrix().rows, 1);
+  direct.NestedIteration(Applied(direct.Matrix(), exact), x);
+  EXPECT_LT(RelativeDifference(x, exact), 1e-12);
+  EXPECT_THROW(direct.NestedIteration(MultiVector::Zero(3, 1), x), InvalidInput);
+}
+
 struct Variant
 {
   CycleType cycle;
