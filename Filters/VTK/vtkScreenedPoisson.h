@@ -27,11 +27,14 @@
  *   stand in for it are float, else double). Points that no polygon uses (with HatFunctions: none
  * with an area) keep f if that is a point array, else get 0.
  * - field data: `Converged` (int, 1), `Iterations` (int, 1), `Residual` (double, 1): the norm of
- *   the residual vector relative to the zero start, which is not the measure that Tolerance is on
+ *   the residual vector relative to the right-hand side, which is not the measure that Tolerance is
+ *   on; `ConvergenceFactor` (double, 1): mean reduction of the energy residual per iteration
  *
- * Output port 1 (vtkTable): a row per iteration with `Iteration` (int), `EnergyResidual` and
- * `Residual` (double, relative to the zero start, the largest over the components),
- * `Log10EnergyResidual` and `Log10Residual`.
+ * Output port 1 (vtkTable): a row per iteration with `Iteration` (int), 0 being the start by nested
+ * iteration; `EnergyResidual` (double): an estimate of the error in the energy norm, relative to the
+ * solution's, and `Residual` (double, relative to the right-hand side), the largest over the
+ * components; `ConvergenceFactor` (double): the energy residual over that of the row before;
+ * `Log10EnergyResidual` and `Log10Residual`. The result is one correction ahead of the last row.
  *
  * Tolerance (default 1e-6) is on the energy residual; the error over the surface is smaller still.
  * MaximumIterations is 200 by default. All shared properties are used; with HatFunctions as

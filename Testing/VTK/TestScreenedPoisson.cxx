@@ -223,7 +223,7 @@ TEST_F(ScreenedPoisson, TheTableHasARowPerIteration)
   filter->Update();
   auto* table = vtkTable::SafeDownCast(filter->GetOutputDataObject(1));
   EXPECT_EQ(table->GetNumberOfRows(), FieldValue(filter->GetOutput(), "Iterations") + 1);
-  for (const char* name : { "Iteration", "EnergyResidual", "Residual" })
+  for (const char* name : { "Iteration", "EnergyResidual", "Residual", "ConvergenceFactor" })
   {
     ASSERT_TRUE(table->GetColumnByName(name)) << name;
   }
@@ -231,6 +231,18 @@ TEST_F(ScreenedPoisson, TheTableHasARowPerIteration)
   const auto residual = Values(vtkDataArray::SafeDownCast(table->GetColumnByName("Residual")));
   const auto logs = Values(vtkDataArray::SafeDownCast(table->GetColumnByName("Log10Residual")));
   EXPECT_LE(energy.back(), filter->GetTolerance());
+  const auto factor =
+    Values(vtkDataArray::SafeDownCast(table->GetColumnByName("ConvergenceFactor")));
+  ASSERT_GE(energy.size(), 2u);
+  EXPECT_EQ(factor.front(), 1.0);
+  double product = 1.0;
+  for (std::size_t i = 1; i < energy.size(); ++i)
+  {
+    EXPECT_DOUBLE_EQ(factor[i], energy[i] / energy[i - 1]);
+    product *= factor[i];
+  }
+  EXPECT_NEAR(FieldValue(filter->GetOutput(), "ConvergenceFactor"),
+    std::pow(product, 1.0 / double(energy.size() - 1)), 1e-12);
   EXPECT_EQ(residual.back(), FieldValue(filter->GetOutput(), "Residual"));
   EXPECT_NEAR(logs.back(), std::log10(residual.back()), 1e-12);
 }

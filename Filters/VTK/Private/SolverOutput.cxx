@@ -60,6 +60,10 @@ void AddReport(const SolveReport& report, vtkPolyData* output)
   residual->SetName("Residual");
   residual->InsertNextValue(LastRecord(report).residual);
   output->GetFieldData()->AddArray(residual);
+  vtkNew<vtkDoubleArray> factor;
+  factor->SetName("ConvergenceFactor");
+  factor->InsertNextValue(report.convergenceFactor);
+  output->GetFieldData()->AddArray(factor);
 }
 
 void AddColumn(vtkTable* table, const char* name, const std::vector<double>& values)
@@ -87,9 +91,11 @@ void WriteHistory(const SolveReport& report, vtkTable* table)
   std::vector<double> residual;
   std::vector<double> logEnergy;
   std::vector<double> logResidual;
+  std::vector<double> factor;
   for (const IterationRecord& record : report.history)
   {
     iteration.push_back(record.iteration);
+    factor.push_back(energy.empty() || energy.back() == 0.0 ? 1.0 : record.energy / energy.back());
     energy.push_back(record.energy);
     residual.push_back(record.residual);
     logEnergy.push_back(SafeLog10(record.energy));
@@ -98,6 +104,7 @@ void WriteHistory(const SolveReport& report, vtkTable* table)
   AddColumn(table, "Iteration", iteration);
   AddColumn(table, "EnergyResidual", energy);
   AddColumn(table, "Residual", residual);
+  AddColumn(table, "ConvergenceFactor", factor);
   AddColumn(table, "Log10EnergyResidual", logEnergy);
   AddColumn(table, "Log10Residual", logResidual);
 }

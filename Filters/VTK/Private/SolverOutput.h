@@ -18,13 +18,14 @@ namespace gridfem
 vtkSmartPointer<vtkDataArray> MakePointArray(
   const char* name, const MultiVector& values, int dataType);
 
-/// Adds the field arrays Converged, Iterations and Residual.
+/// Adds the field arrays Converged, Iterations, Residual and ConvergenceFactor (mean per iteration).
 void AddReport(const SolveReport& report, vtkPolyData* output);
 
 /// Adds a field array with one int.
 void AddFieldInt(vtkPolyData* output, const char* name, int value);
 
-/// The columns Iteration, EnergyResidual, Residual, Log10EnergyResidual, Log10Residual.
+/// The columns Iteration, EnergyResidual, Residual, ConvergenceFactor (energy residual over that of
+/// the row before; 1 in the first), Log10EnergyResidual, Log10Residual.
 void WriteHistory(const SolveReport& report, vtkTable* table);
 
 /// Adds a column of numbers to a table.
