@@ -1,5 +1,6 @@
 // How a sweep runs over the blocks of a PatchOrder: colour after colour, the blocks of one colour
-// in parallel. Shared by the smoothers.
+// in parallel. Shared by the smoothers. One team of threads does all colours: to wake a team for
+// each would take longer than a colour of a coarse level.
 #ifndef GridFEM_BlockSweep_h
 #define GridFEM_BlockSweep_h
 
@@ -7,7 +8,9 @@
 #include "RowKernels.h"
 #include "Smoother.h"
 
-#include <string>
+#include <atomic>
+#include <thread>
+#include <vector>
 
 namespace gridfem
 {
@@ -22,6 +25,37 @@ struct BlockRanges
   std::size_t Memory() const { return (blockBegin.size() + colourBegin.size()) * sizeof(Id); }
 };
 
+/// Runs body(phase, item) for all items of phase 0, then of phase 1 ...; those of one phase in any
+/// order, in parallel. A thread that has to wait for a phase looks again and again for a while,
+/// then lets others run. The body must not throw.
+/// @param count  items of each phase
+template<class Body>
+void ParallelPhases(const std::vector<Id>& count, int threads, Body&& body)
+{
+  constexpr int LooksBeforeYield = 4096;
+  const Id phases = static_cast<Id>(count.size());
+  std::vector<std::atomic<Id>> next(phases);
+  std::vector<std::atomic<Id>> done(phases);
+#pragma omp parallel num_threads(NumberOfThreads(threads))
+  {
+    for (Id phase = 0; phase < phases; ++phase)
+    {
+      for (Id item = next[phase]++; item < count[phase]; item = next[phase]++)
+      {
+        body(phase, item);
+        ++done[phase];
+      }
+      for (int look = 0; done[phase] < count[phase]; ++look)
+      {
+        if (look >= LooksBeforeYield)
+        {
+          std::this_thread::yield();
+        }
+      }
+    }
+  }
+}
+
 /// Calls relax(item, chunk) for every item and every chunk of `columns`, in the order of the
 /// direction. @param work  multiplications of the whole sweep per column
 template<class Relax>
@@ -30,26 +64,27 @@ void SweepBlocks(const BlockRanges& ranges, Id columns, SweepDirection direction
 {
   const bool forward = direction == SweepDirection::Forward;
   const Id colours = ranges.NumberOfColours();
-  const int useful = ThreadsFor(work * columns, threads);
+  const auto colourOf = [&](Id step) { return forward ? step : colours - 1 - step; };
+  std::vector<Id> blocks(colours);
   for (Id step = 0; step < colours; ++step)
   {
-    const Id colour = forward ? step : colours - 1 - step;
-    const Id firstBlock = ranges.colourBegin[colour];
-    ParallelBlocks(ranges.colourBegin[colour + 1] - firstBlock, useful,
-      [&](Id k)
-      {
-        const Id begin = ranges.blockBegin[firstBlock + k];
-        const Id end = ranges.blockBegin[firstBlock + k + 1];
-        ForEachChunk(columns,
-          [&](auto chunk)
-          {
-            for (Id i = begin; i < end; ++i)
-            {
-              relax(forward ? i : begin + end - 1 - i, chunk);
-            }
-          });
-      });
+    blocks[step] = ranges.colourBegin[colourOf(step) + 1] - ranges.colourBegin[colourOf(step)];
   }
+  ParallelPhases(blocks, ThreadsFor(work * columns, threads),
+    [&](Id step, Id k)
+    {
+      const Id block = ranges.colourBegin[colourOf(step)] + k;
+      const Id begin = ranges.blockBegin[block];
+      const Id end = ranges.blockBegin[block + 1];
+      ForEachChunk(columns,
+        [&](auto chunk)
+        {
+          for (Id i = begin; i < end; ++i)
+          {
+            relax(forward ? i : begin + end - 1 - i, chunk);
+          }
+        });
+    });
 }
 
 /// Diagonals that can be divided by, with room for the inverse of what they scale.

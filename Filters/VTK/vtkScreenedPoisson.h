@@ -31,8 +31,8 @@
  *   on; `ConvergenceFactor` (double, 1): mean reduction of the energy residual per iteration
  *
  * Output port 1 (vtkTable): a row per iteration with `Iteration` (int), 0 being the start by nested
- * iteration; `EnergyResidual` (double): an estimate of the error in the energy norm, relative to the
- * solution's, and `Residual` (double, relative to the right-hand side), the largest over the
+ * iteration; `EnergyResidual` (double): an estimate of the error in the energy norm, relative to
+ * the solution's, and `Residual` (double, relative to the right-hand side), the largest over the
  * components; `ConvergenceFactor` (double): the energy residual over that of the row before;
  * `Log10EnergyResidual` and `Log10Residual`. The result is one correction ahead of the last row.
  *

@@ -18,7 +18,8 @@ namespace gridfem
 vtkSmartPointer<vtkDataArray> MakePointArray(
   const char* name, const MultiVector& values, int dataType);
 
-/// Adds the field arrays Converged, Iterations, Residual and ConvergenceFactor (mean per iteration).
+/// Adds the field arrays Converged, Iterations, Residual and ConvergenceFactor (mean per
+/// iteration).
 void AddReport(const SolveReport& report, vtkPolyData* output);
 
 /// Adds a field array with one int.
