@@ -1,6 +1,7 @@
 #include "Multigrid.h"
 
 #include "Errors.h"
+#include "PatchCover.h"
 #include "SmootherSequence.h"
 
 #include <string>
@@ -95,9 +96,7 @@ void Multigrid::BuildSolvers()
 std::unique_ptr<Smoother> Multigrid::MakeSmoother(std::size_t l) const
 {
   const MultigridLevel& level = levels_[l];
-  std::unique_ptr<Smoother> smoother = this->SmoothingOf(l).smoother == SmootherType::Patch
-                                         ? MakePatchSmoother(level.A, level.order, options_.threads)
-                                         : MakeGaussSeidel(level.A, level.order);
+  std::unique_ptr<Smoother> smoother = this->MakeSmoother(level, this->SmoothingOf(l).smoother);
   if (level.groups.dof.empty())
   {
     return smoother;
@@ -106,6 +105,26 @@ std::unique_ptr<Smoother> Multigrid::MakeSmoother(std::size_t l) const
   sequence.push_back(std::move(smoother));
   sequence.push_back(MakePatchSmoother(level.A, level.groups, options_.threads));
   return MakeSmootherSequence(std::move(sequence));
+}
+
+std::unique_ptr<Smoother> Multigrid::MakeSmoother(
+  const MultigridLevel& level, SmootherType type) const
+{
+  switch (type)
+  {
+    case SmootherType::GaussSeidel:
+      return MakeGaussSeidel(level.A, level.order);
+    case SmootherType::SliceGaussSeidel:
+      return MakeSliceGaussSeidel(level.A, level.order, options_.sweepsPerSynchronisation);
+    default:
+      break;
+  }
+  if (options_.coverage == 0)
+  {
+    return MakePatchSmoother(level.A, level.order, options_.threads);
+  }
+  const PatchOrder cover = CoverUnknowns(level.order, level.A.rows, options_.coverage);
+  return MakePatchSmoother(level.A, cover, options_.threads);
 }
 
 LevelSmoothing Multigrid::SmoothingOf(std::size_t level) const
@@ -224,7 +243,8 @@ std::size_t Multigrid::Memory() const
     bytes += MatrixMemory(level.A) + MatrixMemory(level.prolongation) +
              MatrixMemory(level.restriction) +
              level.order.dof.size() * sizeof(level.order.dof.front()) +
-             (level.order.blockBegin.size() + level.order.colourBegin.size()) * sizeof(Id);
+             (level.order.blockBegin.size() + level.order.colourBegin.size()) * sizeof(Id) +
+             level.order.slice.size() * sizeof(Index);
     bytes += level.smoother ? level.smoother->Memory() : 0;
   }
   return bytes;

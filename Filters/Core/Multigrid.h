@@ -21,7 +21,8 @@ enum class CycleType
 enum class SmootherType
 {
   Patch = 0,
-  GaussSeidel = 1
+  GaussSeidel = 1,
+  SliceGaussSeidel = 2 // needs slices in the order; see MakeSliceGaussSeidel
 };
 
 struct MultigridOptions
@@ -30,7 +31,12 @@ struct MultigridOptions
   SmootherType smoother = SmootherType::Patch;
   int preSweeps = 1;  // >= 0; equal counts keep the cycle symmetric
   int postSweeps = 1; // >= 0
-  int threads = 0;    // 0: all
+  /// Patch smoother: patches per unknown and sweep, see CoverUnknowns; 0: all. 1 halves the time of
+  /// a cycle and gives the same error after the first cycles; all need fewer iterations to a small
+  /// one.
+  int coverage = 0;
+  int sweepsPerSynchronisation = 1; // of SliceGaussSeidel: one Sweep is so many
+  int threads = 0;                  // 0: all
 };
 
 /// How one level is relaxed, where that differs from the rest of the hierarchy: the hat functions
@@ -91,6 +97,7 @@ public:
 private:
   void BuildSolvers();
   std::unique_ptr<Smoother> MakeSmoother(std::size_t level) const;
+  std::unique_ptr<Smoother> MakeSmoother(const MultigridLevel& level, SmootherType type) const;
   LevelSmoothing SmoothingOf(std::size_t level) const;
   /// Vectors of one level during one call.
   struct Scratch

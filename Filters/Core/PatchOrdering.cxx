@@ -75,6 +75,25 @@ void CheckLevel(const Level& level)
   }
 }
 
+/// The k of every function's corner.
+std::vector<Index> SlicesOfFunctions(const Level& level)
+{
+  std::vector<Index> slice(level.numberOfFunctions, 0);
+  for (std::size_t patch = 0; patch < level.dof.size(); ++patch)
+  {
+    const Index k = MortonDecode(level.cell[patch])[2];
+    for (int corner = 0; corner < FunctionsPerPatch; ++corner)
+    {
+      const Index function = level.dof[patch][corner];
+      if (function >= 0 && function < level.numberOfFunctions)
+      {
+        slice[function] = k + (corner >> 2);
+      }
+    }
+  }
+  return slice;
+}
+
 } // namespace
 
 PatchOrder OrderPatches(const Level& level)
@@ -104,6 +123,7 @@ PatchOrder OrderPatches(const Level& level)
   {
     order.colourBegin.push_back(static_cast<Id>(blocks.size()));
   }
+  order.slice = SlicesOfFunctions(level);
   return order;
 }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 namespace gridfem
 {
@@ -14,57 +16,73 @@ constexpr int N = FunctionsPerPatch;
 /// Pivots of the scaled block below this are rounding: the direction is left out.
 constexpr double SmallestPivot = 1e-14;
 
+/// Rounding V to single precision changes V S Vᵀ = I by some 6e-8 / sqrt(pivot). From this pivot on
+/// that is 2 %, which a smoother does not feel; below it, as on flat faces, V is kept in double.
+constexpr double SmallestSinglePivot = 1e-11;
+
+/// Sizes that single precision holds with all its digits.
+constexpr double LargestSingle = 1e30;
+
 using LocalMatrix = Eigen::Matrix<double, N, N>;
 
-/// A patch has `count` unknowns, ascending. The other places repeat the first one and have zeros in
-/// the inverse, so that the sweep needs no case distinction.
+/// A patch has `count` unknowns. The other places repeat the first one and have zeros in the
+/// factor, so that the sweep needs no case distinction.
 struct Patch
 {
-  LocalMatrix inverse;
   std::array<Index, N> dof;
   Index count;
 };
 
-/// Replaces a symmetric matrix with unit diagonal by the inverse of its numerically independent
-/// part, zeros elsewhere: symmetric Gauss-Jordan steps on the largest remaining diagonal, which are
-/// the pivots of pivoted Cholesky. NaN is never a pivot.
-void InvertIndependentPart(LocalMatrix& S, int count)
+/// Vᵀ V is the inverse of a scaled block S on its numerically independent part.
+struct InverseFactor
 {
-  unsigned kept = 0;
+  LocalMatrix V = LocalMatrix::Zero(); // row k: zero but in the first k + 1 of `order`
+  std::array<int, N> order;            // of the pivots; the unknowns that are left out come last
+  double smallestPivot = 1.0;
+};
+
+/// Position, in `order` of the largest diagonal above SmallestPivot; -1 if none. NaN never is.
+int FindPivot(const LocalMatrix& S, const std::array<int, N>& order, int begin, int end)
+{
+  int found = -1;
+  double largest = SmallestPivot;
+  for (int k = begin; k < end; ++k)
+  {
+    if (S(order[k], order[k]) > largest)
+    {
+      largest = S(order[k], order[k]);
+      found = k;
+    }
+  }
+  return found;
+}
+
+/// Symmetric elimination with the pivots of pivoted Cholesky, applied to the identity as well.
+InverseFactor Factor(LocalMatrix S, int count)
+{
+  InverseFactor factor;
+  std::iota(factor.order.begin(), factor.order.end(), 0);
+  LocalMatrix rows = LocalMatrix::Identity();
   for (int step = 0; step < count; ++step)
   {
-    int pivot = -1;
-    double largest = SmallestPivot;
-    for (int i = 0; i < count; ++i)
-    {
-      if (!(kept >> i & 1u) && S(i, i) > largest)
-      {
-        largest = S(i, i);
-        pivot = i;
-      }
-    }
-    if (pivot < 0)
+    const int found = FindPivot(S, factor.order, step, count);
+    if (found < 0)
     {
       break;
     }
-    kept |= 1u << pivot;
-    const Eigen::Matrix<double, N, 1> column = S.col(pivot);
-    const Eigen::Matrix<double, N, 1> scaled = column / largest;
-    for (int j = 0; j < N; ++j)
+    std::swap(factor.order[step], factor.order[found]);
+    const int p = factor.order[step];
+    factor.smallestPivot = S(p, p);
+    factor.V.row(step) = rows.row(p) / std::sqrt(S(p, p));
+    for (int k = step + 1; k < count; ++k)
     {
-      S.col(j) -= scaled * column[j];
-    }
-    S.col(pivot) = scaled;
-    S.row(pivot) = scaled;
-    S(pivot, pivot) = -1.0 / largest;
-  }
-  for (int j = 0; j < N; ++j)
-  {
-    for (int i = 0; i < N; ++i)
-    {
-      S(i, j) = (kept >> i & kept >> j & 1u) ? -S(i, j) : 0.0;
+      const int i = factor.order[k];
+      const double part = S(i, p) / S(p, p);
+      S.row(i) -= part * S.row(p);
+      rows.row(i) -= part * rows.row(p);
     }
   }
+  return factor;
 }
 
 /// The block of A with the patch's unknowns as rows and columns; zeros beyond `count`.
@@ -101,57 +119,130 @@ void SetUnknowns(const std::array<Index, N>& dof, const std::vector<double>& dia
   std::fill(end, patch.dof.end(), patch.dof.front());
 }
 
-void SetInverse(const SparseMatrix& A, const std::vector<double>& diagonal, Patch& patch)
+/// Puts the patch's unknowns in the order of the pivots.
+/// @return  V for them, scaled back to A: lower triangular, and mirrored to the upper triangle
+LocalMatrix SetFactor(
+  const SparseMatrix& A, const std::vector<double>& diagonal, Patch& patch, bool& isSingle)
 {
   Eigen::Matrix<double, N, 1> scale = Eigen::Matrix<double, N, 1>::Zero();
   for (int i = 0; i < patch.count; ++i)
   {
     scale[i] = 1.0 / std::sqrt(diagonal[patch.dof[i]]);
   }
-  patch.inverse = scale.asDiagonal() * PrincipalBlock(A, patch) * scale.asDiagonal();
-  InvertIndependentPart(patch.inverse, patch.count);
-  patch.inverse = scale.asDiagonal() * patch.inverse * scale.asDiagonal();
+  const InverseFactor factor =
+    Factor(scale.asDiagonal() * PrincipalBlock(A, patch) * scale.asDiagonal(), patch.count);
+  const std::array<Index, N> dof = patch.dof;
+  LocalMatrix V = LocalMatrix::Zero();
+  for (int j = 0; j < N; ++j)
+  {
+    patch.dof[j] = dof[factor.order[j]];
+    for (int i = j; i < N; ++i)
+    {
+      V(i, j) = V(j, i) = factor.V(i, factor.order[j]) * scale[factor.order[j]];
+    }
+  }
+  isSingle = factor.smallestPivot >= SmallestSinglePivot &&
+             scale.head(patch.count).maxCoeff() / std::sqrt(factor.smallestPivot) < LargestSingle &&
+             scale.head(patch.count).minCoeff() > 1.0 / LargestSingle;
+  return V;
 }
 
-/// x += inverse (b - A x) on the patch.
-template<class Chunk>
-inline void Relax(const RowView& A, const Patch& patch, const double* b, double* x, Chunk chunk)
+/// x += Vᵀ V (b - A x) on the patch.
+/// @param V  lower triangle, mirrored to the upper one, so that both products run along columns
+template<class Chunk, class Real>
+inline void Relax(const RowView& A, const std::array<Index, N>& dof, const Real* V, const double* b,
+  double* x, Chunk chunk)
 {
   using Lanes = typename Chunk::Lanes;
   Lanes residual[N];
   for (int i = 0; i < N; ++i)
   {
-    const Index row = patch.dof[i];
-    residual[i] = chunk.Row(b, row) - RowProduct(A, row, x, chunk);
+    residual[i] = chunk.Row(b, dof[i]) - RowProduct(A, dof[i], x, chunk);
   }
   if constexpr (Chunk::Width == 1)
   {
-    Eigen::Matrix<double, N, 1> even = patch.inverse.col(0) * residual[0][0];
-    Eigen::Matrix<double, N, 1> odd = patch.inverse.col(1) * residual[1][0];
-    for (int j = 2; j < N; j += 2)
+    double y[N] = {};
+    double step[N] = {};
+    for (int j = 0; j < N; ++j)
     {
-      even += patch.inverse.col(j) * residual[j][0];
-      odd += patch.inverse.col(j + 1) * residual[j + 1][0];
+      for (int i = 0; i < N; ++i)
+      {
+        y[i] += V[N * j + i] * (i >= j ? residual[j][0] : 0.0);
+      }
     }
-    even += odd;
+    for (int j = 0; j < N; ++j)
+    {
+      for (int i = 0; i < N; ++i)
+      {
+        step[i] += V[N * j + i] * (i <= j ? y[j] : 0.0);
+      }
+    }
     for (int i = 0; i < N; ++i)
     {
-      x[chunk.Offset(patch.dof[i])] += even[i];
+      x[chunk.Offset(dof[i])] += step[i];
     }
   }
   else
   {
+    for (int i = N - 1; i >= 0; --i)
+    {
+      residual[i] *= double(V[N * i + i]);
+      for (int j = 0; j < i; ++j)
+      {
+        residual[i] += double(V[N * i + j]) * residual[j];
+      }
+    }
     for (int i = 0; i < N; ++i)
     {
-      Lanes step = patch.inverse(0, i) * residual[0];
-      for (int j = 1; j < N; ++j)
+      Lanes step = double(V[N * i + i]) * residual[i];
+      for (int j = i + 1; j < N; ++j)
       {
-        step += patch.inverse(j, i) * residual[j];
+        step += double(V[N * i + j]) * residual[j];
       }
-      chunk.Row(x, patch.dof[i]) += step;
+      chunk.Row(x, dof[i]) += step;
     }
   }
 }
+
+/// Factors of some patches, in visiting order.
+struct PatchFactors
+{
+  /// The factor of a patch is single[factor], or exact[-1 - factor] where that is negative.
+  struct Place
+  {
+    std::array<Index, N> dof;
+    Index factor;
+  };
+  std::vector<Place> patches;
+  std::vector<std::array<float, N * N>> single;
+  std::vector<std::array<double, N * N>> exact;
+
+  void Append(const std::array<Index, N>& dof, const LocalMatrix& V, bool isSingle)
+  {
+    if (isSingle)
+    {
+      patches.push_back({ dof, static_cast<Index>(single.size()) });
+      Eigen::Map<Eigen::Matrix<float, N, N>>(single.emplace_back().data()) = V.cast<float>();
+    }
+    else
+    {
+      patches.push_back({ dof, -1 - static_cast<Index>(exact.size()) });
+      Eigen::Map<LocalMatrix>(exact.emplace_back().data()) = V;
+    }
+  }
+
+  void Append(const PatchFactors& more)
+  {
+    const Index singles = static_cast<Index>(single.size());
+    const Index exacts = static_cast<Index>(exact.size());
+    for (const Place& place : more.patches)
+    {
+      patches.push_back({ place.dof, place.factor + (place.factor < 0 ? -exacts : singles) });
+    }
+    single.insert(single.end(), more.single.begin(), more.single.end());
+    exact.insert(exact.end(), more.exact.begin(), more.exact.end());
+  }
+};
 
 class PatchSmoother : public Smoother
 {
@@ -161,13 +252,16 @@ public:
   void Sweep(const SparseMatrix& A, const MultiVector& b, MultiVector& x, SweepDirection direction,
     int threads) const override;
 
-  std::size_t Memory() const override { return patches_.size() * sizeof(Patch) + ranges_.Memory(); }
+  std::size_t Memory() const override
+  {
+    return factors_.patches.size() * sizeof(factors_.patches.front()) +
+           factors_.single.size() * sizeof(factors_.single.front()) +
+           factors_.exact.size() * sizeof(factors_.exact.front()) + ranges_.Memory();
+  }
 
 private:
-  void DropEmptyPatches();
-
   Index rows_;
-  std::vector<Patch> patches_; // in visiting order
+  PatchFactors factors_;
   BlockRanges ranges_;
 };
 
@@ -175,45 +269,31 @@ PatchSmoother::PatchSmoother(const SparseMatrix& A, const PatchOrder& order, int
   : rows_(A.rows)
 {
   CheckOrder(A, order);
-  ranges_.blockBegin = order.blockBegin;
-  ranges_.colourBegin = order.colourBegin;
-  patches_.resize(order.dof.size());
+  const Id blocks = std::max<Id>(0, static_cast<Id>(order.blockBegin.size()) - 1);
   const std::vector<double> diagonal = A.Diagonal();
-  ParallelRanges(
-    static_cast<Id>(patches_.size()), threads,
-    [&](Id begin, Id end)
+  std::vector<PatchFactors> parts(blocks);
+  ParallelBlocks(blocks, threads,
+    [&](Id block)
     {
-      for (Id p = begin; p < end; ++p)
+      for (Id p = order.blockBegin[block]; p < order.blockBegin[block + 1]; ++p)
       {
-        SetUnknowns(order.dof[p], diagonal, patches_[p]);
-        if (patches_[p].count > 0)
+        Patch patch;
+        SetUnknowns(order.dof[p], diagonal, patch);
+        if (patch.count > 0)
         {
-          SetInverse(A, diagonal, patches_[p]);
+          bool isSingle = false;
+          const LocalMatrix V = SetFactor(A, diagonal, patch, isSingle);
+          parts[block].Append(patch.dof, V, isSingle);
         }
       }
-    },
-    512);
-  this->DropEmptyPatches();
-}
-
-void PatchSmoother::DropEmptyPatches()
-{
-  Id kept = 0;
-  Id begin = 0;
-  for (std::size_t block = 1; block < ranges_.blockBegin.size(); ++block)
+    });
+  ranges_.colourBegin = order.colourBegin;
+  ranges_.blockBegin = { 0 };
+  for (PatchFactors& part : parts)
   {
-    const Id end = ranges_.blockBegin[block];
-    for (Id p = begin; p < end; ++p)
-    {
-      if (patches_[p].count > 0)
-      {
-        patches_[kept++] = patches_[p];
-      }
-    }
-    begin = end;
-    ranges_.blockBegin[block] = kept;
+    factors_.Append(std::exchange(part, {}));
+    ranges_.blockBegin.push_back(static_cast<Id>(factors_.patches.size()));
   }
-  patches_.resize(kept);
 }
 
 void PatchSmoother::Sweep(const SparseMatrix& A, const MultiVector& b, MultiVector& x,
@@ -221,8 +301,19 @@ void PatchSmoother::Sweep(const SparseMatrix& A, const MultiVector& b, MultiVect
 {
   CheckSweep(A, rows_, b, x);
   const RowView rows(A);
-  SweepBlocks(ranges_, x.cols(), direction, 128 * static_cast<Id>(patches_.size()), threads,
-    [&](Id p, auto chunk) { Relax(rows, patches_[p], b.data(), x.data(), chunk); });
+  SweepBlocks(ranges_, x.cols(), direction, 128 * static_cast<Id>(factors_.patches.size()), threads,
+    [&](Id p, auto chunk)
+    {
+      const PatchFactors::Place& patch = factors_.patches[p];
+      if (patch.factor >= 0)
+      {
+        Relax(rows, patch.dof, factors_.single[patch.factor].data(), b.data(), x.data(), chunk);
+      }
+      else
+      {
+        Relax(rows, patch.dof, factors_.exact[-1 - patch.factor].data(), b.data(), x.data(), chunk);
+      }
+    });
 }
 
 } // namespace

@@ -1,5 +1,7 @@
 #include "Poisson.h"
 
+#include "ComponentMeans.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,82 +12,6 @@ namespace gridfem
 
 namespace
 {
-
-/// The constants of the connected components. λM + L maps the functions of zero mean to the vectors
-/// of zero sum and the constants to M's, so the two parts of the equation can be solved apart.
-class ComponentMeans
-{
-public:
-  explicit ComponentMeans(const ComponentFunctions& functions)
-    : component_(functions.component), integral_(functions.integral),
-      area_(functions.numberOfComponents, 0.0)
-  {
-    for (std::size_t i = 0; i < component_.size(); ++i)
-    {
-      area_[component_[i]] += integral_[i];
-    }
-  }
-
-  /// Means of a field over the components, from its integrals against the functions. Components
-  /// without area have mean 0.
-  MultiVector OfIntegrals(const MultiVector& load) const
-  {
-    MultiVector sum = this->Zero(load.cols());
-    for (std::size_t i = 0; i < component_.size(); ++i)
-    {
-      sum.row(component_[i]) += load.row(i);
-    }
-    return this->DividedByArea(std::move(sum));
-  }
-
-  /// Means of a function over the components, from its coefficients.
-  MultiVector OfFunction(const MultiVector& coefficients) const
-  {
-    MultiVector sum = this->Zero(coefficients.cols());
-    for (std::size_t i = 0; i < component_.size(); ++i)
-    {
-      sum.row(component_[i]) += integral_[i] * coefficients.row(i);
-    }
-    return this->DividedByArea(std::move(sum));
-  }
-
-  /// coefficients += the constants `mean`
-  void AddConstants(const MultiVector& mean, MultiVector& coefficients) const
-  {
-    for (std::size_t i = 0; i < component_.size(); ++i)
-    {
-      if (area_[component_[i]] > 0.0)
-      {
-        coefficients.row(i) += mean.row(component_[i]);
-      }
-    }
-  }
-
-  /// load -= the integrals of the constants `mean`
-  void SubtractIntegrals(const MultiVector& mean, MultiVector& load) const
-  {
-    for (std::size_t i = 0; i < component_.size(); ++i)
-    {
-      load.row(i) -= integral_[i] * mean.row(component_[i]);
-    }
-  }
-
-private:
-  MultiVector Zero(Id columns) const { return MultiVector::Zero(area_.size(), columns); }
-
-  MultiVector DividedByArea(MultiVector sum) const
-  {
-    for (std::size_t k = 0; k < area_.size(); ++k)
-    {
-      sum.row(k) *= area_[k] > 0.0 ? 1.0 / area_[k] : 0.0;
-    }
-    return sum;
-  }
-
-  const std::vector<Index>& component_;
-  const std::vector<double>& integral_;
-  std::vector<double> area_;
-};
 
 void CheckRows(const char* name, const MultiVector& load, std::size_t functions)
 {
@@ -165,8 +91,11 @@ PoissonSolution SolvePoisson(const ComponentFunctions& functions, const Multigri
 {
   CheckInput(functions, values, gradients, options);
   const double lambda = options.screeningWeight;
-  const ComponentMeans means(functions);
+  const ComponentMeans means(functions.component, functions.integral, functions.numberOfComponents,
+    multigrid.Options().threads);
 
+  // λM + L maps the functions of zero mean to the vectors of zero sum and the constants to M's, so
+  // the two parts of the equation can be solved apart.
   const auto removeMeans = [&means](MultiVector& coefficients)
   { means.AddConstants(-means.OfFunction(coefficients), coefficients); };
   const auto removeSums = [&means](MultiVector& load)

@@ -118,8 +118,8 @@ TEST(PatchSmoother, SolvesExactlyWhenOnePatchCoversEverything)
   const auto smoother = MakePatchSmoother(A, OneBlock({ { 7, 0, 3, 2, 6, 5, 1, 4 } }));
   const MultiVector exact = RandomVectors(8, 3, 1);
   const MultiVector x = Swept(*smoother, A, Dense(A) * exact, RandomVectors(8, 3, 2));
-  // The condition number is below 10.
-  EXPECT_LT(RelativeDifference(x, exact), 1e-14);
+  // Factors are in single precision, 6e-8; the condition number is below 10.
+  EXPECT_LT(RelativeDifference(x, exact), 1e-6);
 }
 
 TEST(PatchSmoother, IsMultiplicativeSchwarz)
@@ -133,20 +133,44 @@ TEST(PatchSmoother, IsMultiplicativeSchwarz)
   const MultiVector start = x;
   x.head(3) += D.topLeftCorner(3, 3).ldlt().solve((b - D * x).eval().topRows(3));
   x.tail(4) += D.bottomRightCorner(4, 4).ldlt().solve((b - D * x).eval().bottomRows(4));
-  EXPECT_LT((Swept(*smoother, A, b, start) - x).cwiseAbs().maxCoeff(), 1e-14);
+  EXPECT_LT((Swept(*smoother, A, b, start) - x).cwiseAbs().maxCoeff(), 1e-6); // single precision
+}
+
+/// Rank 4 out of 8, as eight functions act like four on a plane, and the rest at size `hidden`.
+Eigen::MatrixXd NearlyDependent(double hidden)
+{
+  const Eigen::MatrixXd R = RandomVectors(8, 8, 1);
+  const Eigen::MatrixXd seen = R.leftCols(4) * R.leftCols(4).transpose();
+  return seen + hidden * (R.rightCols(4) * R.rightCols(4).transpose());
+}
+
+TEST(PatchSmoother, RoundingOfTheFactorsIsHarmlessHoweverDependentFunctionsAre)
+{
+  for (const double hidden : { 1.0, 1e-4, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13 })
+  {
+    const Eigen::MatrixXd D = NearlyDependent(hidden);
+    const auto smoother = MakePatchSmoother(Sparse(D), OneBlock({ { 0, 1, 2, 3, 4, 5, 6, 7 } }));
+    for (const int width : { 1, 3 })
+    {
+      // The zero right-hand side: what a sweep leaves of x is the error. Without double precision
+      // for small pivots half of the energy is left at 1e-13.
+      const MultiVector start = RandomVectors(8, width, 2);
+      const MultiVector x = Swept(*smoother, Sparse(D), MultiVector::Zero(8, width), start);
+      const double left = (x.transpose() * D * x).trace() / (start.transpose() * D * start).trace();
+      EXPECT_LT(std::sqrt(left), 0.05) << hidden;
+    }
+  }
 }
 
 TEST(PatchSmoother, SolvesSingularPatchesOnTheirRange)
 {
-  // Rank 4 out of 8, as eight functions act like four on a plane.
-  const Eigen::MatrixXd R = RandomVectors(8, 4, 1);
-  const Eigen::MatrixXd D = R * R.transpose();
+  const Eigen::MatrixXd D = NearlyDependent(0.0);
   const SparseMatrix A = Sparse(D);
   const auto smoother = MakePatchSmoother(A, OneBlock({ { 0, 1, 2, 3, 4, 5, 6, 7 } }));
   const MultiVector b = D * RandomVectors(8, 1, 2);
   const MultiVector x = Swept(*smoother, A, b, MultiVector::Zero(8, 1));
-  // The four kept pivots are above 1e-2.
-  EXPECT_LT(RelativeDifference(D * x, b), 1e-12);
+  // The four kept pivots are above 1e-2; single precision.
+  EXPECT_LT(RelativeDifference(D * x, b), 1e-5);
 }
 
 TEST(PatchSmoother, LocalInverseDoesNotDependOnTheScaleOfFunctions)
@@ -159,7 +183,12 @@ TEST(PatchSmoother, LocalInverseDoesNotDependOnTheScaleOfFunctions)
   const MultiVector exact = RandomVectors(8, 1, 1);
   const MultiVector b = scale.asDiagonal() * (D * exact);
   const MultiVector x = Swept(*smoother, A, b, MultiVector::Zero(8, 1));
-  EXPECT_LT(RelativeDifference(scale.asDiagonal() * x, exact), 1e-13);
+  EXPECT_LT(RelativeDifference(scale.asDiagonal() * x, exact), 1e-6);
+  // Diagonals that single precision cannot hold: double precision takes over.
+  const SparseMatrix huge = Sparse(1e100 * D);
+  const auto exactly = MakePatchSmoother(huge, OneBlock({ { 0, 1, 2, 3, 4, 5, 6, 7 } }));
+  const MultiVector y = Swept(*exactly, huge, 1e100 * (D * exact), MultiVector::Zero(8, 1));
+  EXPECT_LT(RelativeDifference(y, exact), 1e-13);
 }
 
 TEST(PatchSmoother, LeavesOutUnknownsThatCannotBeSolvedFor)
@@ -174,7 +203,7 @@ TEST(PatchSmoother, LeavesOutUnknownsThatCannotBeSolvedFor)
     Swept(*smoother, A, MultiVector::Ones(8, 1), MultiVector::Constant(8, 1, 0.25));
   Eigen::VectorXd expected(8);
   expected << 0.5, 0.25, 0.25, 0.25, 0.25, 0.25, 0.2, 0.125;
-  EXPECT_LT((x - expected).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_LT((x - expected).cwiseAbs().maxCoeff(), 1e-7); // single precision
 }
 
 TEST(PatchSmoother, NaNOffTheDiagonalDoesNotReachTheInverse)

@@ -23,7 +23,7 @@ CORE_LAYERS = {
     "algebra": "SparseMatrix RowKernels PairedProduct PivotedCholesky BlockSweep Smoother"
                " GaussSeidel PatchSmoother CoarseSolver Multigrid ConjugateGradients RayleighRitz"
                " Constants BlockVectors BlockIteration WindowIteration SmootherSequence HatOrdering"
-               " FillRows ColumnAlgebra",
+               " FillRows ColumnAlgebra SliceGaussSeidel PatchCover ComponentMeans",
     "grid and clip": "TriangleMesh Field MeshEdges Grid SourceTriangle TriangleClipper CutPoints"
                      " Clip Links MemoryEstimate HatFunctions HatMatrices HatLoad",
     "patches and levels": "Level Patches FunctionSpace PatchOrdering",
