@@ -26,7 +26,7 @@ constexpr double ClipPerPiece = 135.0; // pieces, corners and links, by block an
 constexpr double HeldPerPoint = 28.0; // position, patch (28)
 constexpr double HeldPerPiece = 90.0; // piece 16, corners 4 each, cut points 56, links 8 (80)
 // Function space, system and hierarchy, all levels (4/3 of the finest): tables 180, element
-// matrices 576, patterns and matrices of 2 functions with 18 entries each 900, inverses 580,
+// matrices 576, patterns and matrices of 2 functions with 18 entries each 900, inverses up to 580,
 // prolongations and their transposes 250.
 constexpr double HeldPerPatch = 3300.0;
 // For one right-hand side: ten vectors.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 
 namespace gridfem
@@ -147,60 +148,74 @@ LocalMatrix SetFactor(
   return V;
 }
 
-/// x += Vᵀ V (b - A x) on the patch.
+/// r = Vᵀ V r for one column: vectors run along the patch.
 /// @param V  lower triangle, mirrored to the upper one, so that both products run along columns
+template<class Real>
+inline void ApplyInverse(const Real* V, double (&r)[N])
+{
+  double y[N] = {};
+  for (int j = 0; j < N; ++j)
+  {
+    for (int i = 0; i < N; ++i)
+    {
+      y[i] += V[N * j + i] * (i >= j ? r[j] : 0.0);
+    }
+  }
+  std::fill(r, r + N, 0.0);
+  for (int j = 0; j < N; ++j)
+  {
+    for (int i = 0; i < N; ++i)
+    {
+      r[i] += V[N * j + i] * (i <= j ? y[j] : 0.0);
+    }
+  }
+}
+
+/// The same for several columns: vectors run along them.
+template<class Real, class Lanes>
+inline void ApplyInverse(const Real* V, Lanes (&r)[N])
+{
+  for (int i = N - 1; i >= 0; --i)
+  {
+    r[i] *= double(V[N * i + i]);
+    for (int j = 0; j < i; ++j)
+    {
+      r[i] += double(V[N * i + j]) * r[j];
+    }
+  }
+  for (int i = 0; i < N; ++i)
+  {
+    r[i] *= double(V[N * i + i]);
+    for (int j = i + 1; j < N; ++j)
+    {
+      r[i] += double(V[N * i + j]) * r[j];
+    }
+  }
+}
+
+/// x += Vᵀ V (b - A x) on the patch.
 template<class Chunk, class Real>
 inline void Relax(const RowView& A, const std::array<Index, N>& dof, const Real* V, const double* b,
   double* x, Chunk chunk)
 {
   using Lanes = typename Chunk::Lanes;
-  Lanes residual[N];
+  std::conditional_t<Chunk::Width == 1, double, Lanes> r[N];
   for (int i = 0; i < N; ++i)
   {
-    residual[i] = chunk.Row(b, dof[i]) - RowProduct(A, dof[i], x, chunk);
-  }
-  if constexpr (Chunk::Width == 1)
-  {
-    double y[N] = {};
-    double step[N] = {};
-    for (int j = 0; j < N; ++j)
+    const Lanes residual = chunk.Row(b, dof[i]) - RowProduct(A, dof[i], x, chunk);
+    if constexpr (Chunk::Width == 1)
     {
-      for (int i = 0; i < N; ++i)
-      {
-        y[i] += V[N * j + i] * (i >= j ? residual[j][0] : 0.0);
-      }
+      r[i] = residual[0];
     }
-    for (int j = 0; j < N; ++j)
+    else
     {
-      for (int i = 0; i < N; ++i)
-      {
-        step[i] += V[N * j + i] * (i <= j ? y[j] : 0.0);
-      }
-    }
-    for (int i = 0; i < N; ++i)
-    {
-      x[chunk.Offset(dof[i])] += step[i];
+      r[i] = residual;
     }
   }
-  else
+  ApplyInverse(V, r);
+  for (int i = 0; i < N; ++i)
   {
-    for (int i = N - 1; i >= 0; --i)
-    {
-      residual[i] *= double(V[N * i + i]);
-      for (int j = 0; j < i; ++j)
-      {
-        residual[i] += double(V[N * i + j]) * residual[j];
-      }
-    }
-    for (int i = 0; i < N; ++i)
-    {
-      Lanes step = double(V[N * i + i]) * residual[i];
-      for (int j = i + 1; j < N; ++j)
-      {
-        step += double(V[N * i + j]) * residual[j];
-      }
-      chunk.Row(x, dof[i]) += step;
-    }
+    chunk.Row(x, dof[i]) += r[i];
   }
 }
 

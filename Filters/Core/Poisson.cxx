@@ -128,7 +128,9 @@ PoissonSolution SolvePoisson(const ComponentFunctions& functions, const Multigri
   PoissonSolution solution;
   solution.coefficients = NestedStart(multigrid, rest);
   removeMeans(solution.coefficients);
-  solution.report = SolveConjugateGradients(
+  const auto solve =
+    options.iteration == IterationType::Cycles ? &SolveCycles : &SolveConjugateGradients;
+  solution.report = solve(
     multigrid, rest, solution.coefficients, options.solve, { removeMeans, removeSums }, progress);
   means.AddConstants(meanOfField, solution.coefficients);
   return solution;

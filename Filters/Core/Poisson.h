@@ -9,10 +9,17 @@
 namespace gridfem
 {
 
+enum class IterationType
+{
+  ConjugateGradients = 0, // with one cycle as preconditioner
+  Cycles = 1              // the cycle alone
+};
+
 struct PoissonOptions
 {
   double screeningWeight = 1.0; // λ >= 0, in 1 / grid unit²: world λ times spacing²
   MultigridOptions multigrid;
+  IterationType iteration = IterationType::ConjugateGradients;
   SolveOptions solve;
 };
 
@@ -31,7 +38,8 @@ struct PoissonSolution
 };
 
 /// Solves for all columns. The solution has the mean of f on every connected component, for every
-/// λ >= 0: the constant part is taken from f and the rest is iterated orthogonal to it.
+/// λ >= 0: the constant part is taken from f and the rest is iterated orthogonal to it, from a
+/// start by nested iteration.
 /// @param values     ∫ f b_i (IntegrateValues), grid units
 /// @param gradients  ∫ <s, ∇b_i> (IntegrateGradients), grid units; may have no rows for s = 0
 /// @param multigrid  of λM + L, built with the same λ

@@ -263,6 +263,25 @@ TEST(Poisson, ConvergesAtSecondOrderToASphericalHarmonic)
   EXPECT_LT(last, 1e-3);
 }
 
+TEST(Poisson, IsSolvedByCyclesAloneAsWell)
+{
+  const TriangleMesh mesh = Torus(40, 20, 1.0, 0.4);
+  Problem problem(mesh, AtDepth(5), 0.1);
+  const MultiVector load = problem.Values(RandomValues(mesh.points.size(), 2));
+  problem.options.solve.tolerance = 1e-9;
+  problem.options.solve.maximumIterations = 300;
+  const PoissonSolution krylov = problem.Solve(load, {});
+  problem.options.iteration = IterationType::Cycles;
+  const PoissonSolution cycles = problem.Solve(load, {});
+  EXPECT_TRUE(krylov.report.converged);
+  EXPECT_TRUE(cycles.report.converged);
+  EXPECT_GT(cycles.report.iterations, krylov.report.iterations);
+  const MultiVector values = EvaluateAtPoints(problem.space, krylov.coefficients);
+  // sqrt(rᵀBr) underestimates the error of slow cycles by their number.
+  EXPECT_LT(
+    (EvaluateAtPoints(problem.space, cycles.coefficients) - values).norm(), 1e-6 * values.norm());
+}
+
 TEST(Poisson, IsTheSameBitsForAnyNumberOfThreads)
 {
   const TriangleMesh mesh = Torus(60, 24, 1.0, 0.4);
