@@ -285,7 +285,7 @@ PatchSmoother::PatchSmoother(const SparseMatrix& A, const PatchOrder& order, int
 {
   CheckOrder(A, order);
   const Id blocks = std::max<Id>(0, static_cast<Id>(order.blockBegin.size()) - 1);
-  const std::vector<double> diagonal = A.Diagonal();
+  const std::vector<double> diagonal = A.Diagonal(threads);
   std::vector<PatchFactors> parts(blocks);
   ParallelBlocks(blocks, threads,
     [&](Id block)

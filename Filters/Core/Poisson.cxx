@@ -91,8 +91,9 @@ PoissonSolution SolvePoisson(const ComponentFunctions& functions, const Multigri
 {
   CheckInput(functions, values, gradients, options);
   const double lambda = options.screeningWeight;
-  const ComponentMeans means(functions.component, functions.integral, functions.numberOfComponents,
-    multigrid.Options().threads);
+  const int threads = multigrid.Options().threads;
+  const ComponentMeans means(
+    functions.component, functions.integral, functions.numberOfComponents, threads);
 
   // λM + L maps the functions of zero mean to the vectors of zero sum and the constants to M's, so
   // the two parts of the equation can be solved apart.
@@ -106,7 +107,7 @@ PoissonSolution SolvePoisson(const ComponentFunctions& functions, const Multigri
   means.SubtractIntegrals(meanOfField, rest);
   rest *= lambda;
   // The constants cancel to rounding in every row, in the matrix and in ∫ <∇f, ∇b_i> alike.
-  const std::vector<double> diagonal = multigrid.Matrix().Diagonal();
+  const std::vector<double> diagonal = multigrid.Matrix().Diagonal(threads);
   const double matrixSize =
     Eigen::Map<const Eigen::VectorXd>(diagonal.data(), static_cast<Eigen::Index>(diagonal.size()))
       .norm();

@@ -53,13 +53,17 @@ double SparseMatrix::Coefficient(Index row, Index col) const
   return found != last && *found == col ? value[found - column.begin()] : 0.0;
 }
 
-std::vector<double> SparseMatrix::Diagonal() const
+std::vector<double> SparseMatrix::Diagonal(int threads) const
 {
   std::vector<double> diagonal(std::min(rows, columns));
-  for (Index row = 0; row < static_cast<Index>(diagonal.size()); ++row)
-  {
-    diagonal[row] = this->Coefficient(row, row);
-  }
+  ParallelRanges(static_cast<Id>(diagonal.size()), ThreadsFor(this->NonZeros(), threads),
+    [&](Id begin, Id end)
+    {
+      for (Index row = static_cast<Index>(begin); row < end; ++row)
+      {
+        diagonal[row] = this->Coefficient(row, row);
+      }
+    });
   return diagonal;
 }
 

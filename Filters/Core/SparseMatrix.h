@@ -22,7 +22,7 @@ struct SparseMatrix
   /// Value at (row, column), 0 where there is no entry.
   double Coefficient(Index row, Index col) const;
 
-  std::vector<double> Diagonal() const;
+  std::vector<double> Diagonal(int threads = 1) const;
 };
 
 /// y = A x; y must not be x. Throws InvalidInput, as the next two, when shapes do not fit. Same

@@ -88,7 +88,7 @@ TEST_P(SliceGaussSeidel, EqualsSequentialSweepsBitForBit)
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sweeps, SliceGaussSeidel, ::testing::Values(1, 2, 3, 10));
+INSTANTIATE_TEST_SUITE_P(Sweeps, SliceGaussSeidel, ::testing::Values(1, 2, 3, 5));
 
 TEST(SliceGaussSeidelSlabs, SlabsAreHighEnough)
 {
