@@ -143,6 +143,10 @@ void PrintPeerRatios(
     "setup_over_cholmod_" + name, two.setup / SetupSeconds(times.cholmod[1]), cholmodBound);
   PrintAtMost("setup_and_solve_over_faster_amg_one_thread_" + name,
     (one.setup + one.solve) / times.FasterStatic(), 0.8);
+  PrintAtMost("values_update_over_setup_" + name, two.values / two.setup, 0.2);
+  PrintAtMost(
+    "values_update_over_cholmod_refactor_" + name, two.values / times.cholmod[1].factor, 0.25);
+  PrintAtMost("weight_update_over_setup_" + name, two.weight / two.setup, 0.1);
   PrintAtMost("connectivity_aware_over_plain_" + name, two.setup / two.plain, 1.3);
   PrintAtLeast("setup_second_thread_" + name, one.setup / two.setup, 1.6);
   PrintAtMost("peak_memory_over_cholmod_" + name, peaks.grid / peaks.cholmod, 0.7);

@@ -95,6 +95,18 @@ private:
     Time(times.setup, [&] { grid = SetUp(mesh_, job_.depth, threads); });
     times.functions = grid.space.Finest().numberOfFunctions;
     times.clippedTriangles = static_cast<double>(grid.space.clipped.NumberOfTriangles());
+    Time(times.values,
+      [&]
+      {
+        const System system = BuildSystem(grid.space, TriangleRule(2), threads);
+        BuildMultigrid(
+          grid.space, system, grid.options.screeningWeight, 1.0, grid.options.multigrid);
+      });
+    Time(times.weight,
+      [&] {
+        UpdateMultigrid(
+          grid.space, grid.system, grid.options.screeningWeight, 1.0, *grid.multigrid);
+      });
     Time(times.load,
       [&]
       {
@@ -185,9 +197,11 @@ void PrintPeers(const PeerJob& job, const PeerTimes& times)
   PrintAmg(table, "GAMG-CG, 1 process", times, times.gamg);
   PrintCholmod(table, "CHOLMOD, 1 thread", times, times.cholmod[0]);
   PrintCholmod(table, "CHOLMOD, 2 threads", times, times.cholmod[1]);
-  std::printf("Hat assembly %.3f; ours, 1 / 2 threads: plain set-up %.3f / %.3f, right-hand sides "
-              "%.3f / %.3f, cycle %.4f / %.4f, values at points %.4f / %.4f\n",
-    times.assembly, times.grid[0].plain, times.grid[1].plain, times.grid[0].load,
+  std::printf("Hat assembly %.3f; ours, 1 / 2 threads: plain set-up %.3f / %.3f, new values "
+              "%.3f / %.3f, new screening %.3f / %.3f, right-hand sides %.3f / %.3f, cycle %.4f / "
+              "%.4f, values at points %.4f / %.4f\n",
+    times.assembly, times.grid[0].plain, times.grid[1].plain, times.grid[0].values,
+    times.grid[1].values, times.grid[0].weight, times.grid[1].weight, times.grid[0].load,
     times.grid[1].load, times.grid[0].cycle, times.grid[1].cycle, times.grid[0].evaluate,
     times.grid[1].evaluate);
 }
