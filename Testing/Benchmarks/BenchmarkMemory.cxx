@@ -70,8 +70,9 @@ int main()
       [&]
       {
         const TriangleMesh mesh = item.mesh();
-        return EstimateAndCost{ EstimateMemory(mesh, item.depth),
-          MeasureSetup(mesh, item.depth, 0) };
+        const MemoryEstimate estimated = EstimateMemory(mesh, item.depth);
+        ReleaseFreeMemory();
+        return EstimateAndCost{ estimated, MeasureSetup(mesh, item.depth, 0) };
       });
     table.Row({ item.name, std::to_string(item.depth),
       Quotient(estimate.clippedTriangles, cost.clippedTriangles),

@@ -33,6 +33,7 @@ Measurement Measure(int subdivisions, int depth, int threads)
       const TriangleMesh mesh = RockerArm(subdivisions).mesh;
       Measurement result;
       result.vertices = static_cast<double>(mesh.points.size());
+      ReleaseFreeMemory();
       result.first = MeasureSetup(mesh, depth, threads);
       result.best = result.first;
       for (int k = 1; k < Repetitions; ++k)

@@ -121,6 +121,11 @@ std::array<int, 2> StandaloneCycles(const GridProblem& grid)
   return cycles;
 }
 
+std::string CyclesText(int cycles)
+{
+  return cycles < Never ? std::to_string(cycles) : "> 40";
+}
+
 std::vector<Bound> RunSmoothSurfaces()
 {
   constexpr int DeepestConverged = 8;
@@ -138,8 +143,8 @@ std::vector<Bound> RunSmoothSurfaces()
       const GridProblem grid = Build(mesh.mesh, depth);
       const std::array<int, 2> cycles = StandaloneCycles(grid);
       std::vector<std::string> row{ mesh.name, std::to_string(depth),
-        std::to_string(grid.exact.rows()), "-", "-", "-", std::to_string(cycles[0]),
-        std::to_string(cycles[1]) };
+        std::to_string(grid.exact.rows()), "-", "-", "-", CyclesText(cycles[0]),
+        CyclesText(cycles[1]) };
       if (depth <= DeepestConverged)
       {
         const Convergence cg(grid);

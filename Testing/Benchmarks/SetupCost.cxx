@@ -51,7 +51,6 @@ double SetupCost::Peak() const
 SetupCost MeasureSetup(const TriangleMesh& mesh, int depth, int threads)
 {
   SetupCost cost;
-  ReleaseFreeMemory();
   cost.before = ResidentBytes();
   auto measure = [&, stage = cost.stages.begin()](auto&& run) mutable
   {

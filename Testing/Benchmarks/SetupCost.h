@@ -48,6 +48,8 @@ struct SetupCost
 };
 
 /// Runs Clip, BuildFunctionSpace, BuildSystem and BuildMultigrid, default options but for these.
+/// The memory is right only right after ReleaseFreeMemory, the time faster without: memory that the
+/// system has to hand out anew costs a fifth of the set-up.
 SetupCost MeasureSetup(const TriangleMesh& mesh, int depth, int threads);
 
 } // namespace gridfem::benchmarks
