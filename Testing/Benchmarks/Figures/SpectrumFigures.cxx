@@ -182,7 +182,7 @@ void WriteCotangentFigure(const std::string& folder)
     figure.panels.push_back(CompareWithCotangents(genus3.name, genus3.mesh, { 5, 6 }));
   }
   figure.panels.push_back(CompareWithCotangents(
-    "Pulley, walls 1.5 cells at depth 5", testing::Pulley(100, 1.5 / 16.0), { 5 }));
+    "Pulley, walls 1.5 cells at depth 5", testing::Pulley(60, 1.5 / 16.0), { 5 }));
   WriteFigure(figure, folder);
 }
 
