@@ -25,7 +25,7 @@ from vtkmodules.vtkRenderingCore import (vtkActor, vtkPolyDataMapper, vtkRendere
                                          vtkWindowToImageFilter)
 from vtkmodules.vtkViewsContext2D import vtkContextView
 
-WIDTH, HEIGHT = 420, 340  # of a panel, pixels
+WIDTH, HEIGHT = 410, 325  # of a panel, pixels
 SMALLEST = 1e-16  # on logarithmic axes
 
 # Ours is blue, the thesis' smoother orange, peers have the other hues.
