@@ -19,16 +19,17 @@ namespace
 // the memory that is freed but not yet used again.
 
 // While clipping:
-constexpr double ClipPerPoint = 60.0;    // position, the same on planes, welded id (54)
-constexpr double ClipPerTriangle = 70.0; // its sides, edges and stretches (28 + 18 per edge)
-constexpr double ClipPerPiece = 135.0; // pieces, corners and links, by block and joined; cut points
+constexpr double ClipPerPoint = 54.0;    // position, the same on planes, welded id (54)
+constexpr double ClipPerTriangle = 58.0; // its sides, edges and stretches (28 + 18 per edge)
+constexpr double ClipPerPiece = 118.0;   // pieces, corners and links, by block and joined, and
+                                         // cut points
 // Kept ever after:
 constexpr double HeldPerPoint = 28.0; // position, patch (28)
-constexpr double HeldPerPiece = 90.0; // piece 16, corners 4 each, cut points 56, links 8 (80)
-// Function space, system and hierarchy, all levels (4/3 of the finest): tables 180, element
-// matrices 576, patterns and matrices of 2 functions with 18 entries each 900, inverses up to 580,
-// prolongations and their transposes 250.
-constexpr double HeldPerPatch = 3300.0;
+constexpr double HeldPerPiece = 70.0; // piece 16, corners 4 each, cut points 56 (65)
+// Function space, system and hierarchy, all levels (4/3 of the finest): tables 150, element
+// matrices 770, patterns and matrices of 2 functions with 18 entries each 600, inverses up to 770,
+// prolongations and their transposes 300.
+constexpr double HeldPerPatch = 2750.0;
 // For one right-hand side: ten vectors.
 constexpr double HeldPerFunction = 80.0;
 
