@@ -109,38 +109,33 @@ std::vector<Index> AbsorbSlivers(const ClippedMesh& clipped, const std::vector<I
   return target;
 }
 
-/// Sorts a few links by first, then second; drops repetitions.
-void SortFew(Array<Link>& links)
+/// Sorts by first, then second, and drops repetitions, in time linear in the number of links.
+Array<Link> SortUnique(const Array<Link>& links, int threads)
 {
-  std::sort(links.begin(), links.end(),
-    [](const Link& a, const Link& b)
-    { return a.first != b.first ? a.first < b.first : a.second < b.second; });
-  links.erase(std::unique(links.begin(), links.end()), links.end());
-}
-
-/// The same for many, in time linear in their number.
-Array<Link> SortMany(const Array<Link>& links, int threads)
-{
-  std::vector<Index> group(links.size());
+  Array<Index> group(links.size());
   std::transform(
     links.begin(), links.end(), group.begin(), [](const Link& link) { return link.first; });
   const Id groups = group.empty() ? 0 : Id{ *std::max_element(group.begin(), group.end()) } + 1;
-  const Groups byFirst = GroupItems(group, groups, threads);
+  const Groups byFirst = GroupItems(group.data(), static_cast<Id>(group.size()), groups, threads);
   std::vector<Array<Link>> parts((groups + DefaultBlockSize - 1) / DefaultBlockSize);
   ParallelRanges(groups, threads,
     [&](Id begin, Id end)
     {
-      Array<Link> ofFirst;
-      for (Id first = begin; first < end; ++first)
+      Array<Link>& part = parts[begin / DefaultBlockSize];
+      std::vector<Index> seconds;
+      for (auto first = static_cast<Index>(begin); first < end; ++first)
       {
-        ofFirst.clear();
+        seconds.clear();
         for (Index k = byFirst.begin[first]; k < byFirst.begin[first + 1]; ++k)
         {
-          ofFirst.push_back(links[byFirst.item[k]]);
+          seconds.push_back(links[byFirst.item[k]].second);
         }
-        SortFew(ofFirst);
-        Array<Link>& part = parts[begin / DefaultBlockSize];
-        part.insert(part.end(), ofFirst.begin(), ofFirst.end());
+        std::sort(seconds.begin(), seconds.end());
+        seconds.erase(std::unique(seconds.begin(), seconds.end()), seconds.end());
+        for (const Index second : seconds)
+        {
+          part.push_back({ first, second });
+        }
       }
     });
   Array<Link> sorted;
@@ -181,15 +176,12 @@ PatchPartition BuildPatches(const ClippedMesh& clipped, FunctionSupport support,
 
 Array<Link> LinksOfGroups(const Array<Link>& links, const std::vector<Index>& group, int threads)
 {
-  // Neighbouring links often join the same groups: most repetitions go block by block.
-  constexpr Id LinksPerBlock = 16384;
   const Id count = static_cast<Id>(links.size());
-  std::vector<Array<Link>> parts((count + LinksPerBlock - 1) / LinksPerBlock);
-  ParallelRanges(
-    count, threads,
+  std::vector<Array<Link>> parts((count + DefaultBlockSize - 1) / DefaultBlockSize);
+  ParallelRanges(count, threads,
     [&](Id begin, Id end)
     {
-      Array<Link>& part = parts[begin / LinksPerBlock];
+      Array<Link>& part = parts[begin / DefaultBlockSize];
       for (Id k = begin; k < end; ++k)
       {
         const auto [low, high] = std::minmax(group[links[k].first], group[links[k].second]);
@@ -199,12 +191,10 @@ Array<Link> LinksOfGroups(const Array<Link>& links, const std::vector<Index>& gr
           part.push_back(link);
         }
       }
-      SortFew(part);
-    },
-    LinksPerBlock);
+    });
   Array<Link> groupLinks;
   AppendParts(std::move(parts), threads, groupLinks);
-  return SortMany(groupLinks, threads);
+  return SortUnique(groupLinks, threads);
 }
 
 } // namespace gridfem
