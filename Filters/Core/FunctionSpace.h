@@ -21,7 +21,7 @@ struct SpaceOptions
 struct FunctionSpace
 {
   FunctionSupport support = FunctionSupport::ConnectivityAware;
-  ClippedMesh clipped; // without its links
+  ClippedMesh clipped;           // without its links
   std::vector<Index> piecePatch; // per piece: patch of the finest level
   std::vector<Level> levels;     // finest first, down to depth 0
   std::vector<Index> pointPatch; // per input point: a patch that contains it; -1 if unused

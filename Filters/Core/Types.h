@@ -1,6 +1,7 @@
 // Scalar and vector types shared by all of Core.
-// Ids have 64 bits. Arrays of numbers of points, pieces, patches and functions have 32, because they
-// fill most of the memory; a mesh with more than 2^31 - 1 of a kind is refused (RequireIndices).
+// Ids have 64 bits. Arrays of numbers of points, pieces, patches and functions have 32, because
+// they fill most of the memory; a mesh with more than 2^31 - 1 of a kind is refused
+// (RequireIndices).
 #ifndef GridFEM_Types_h
 #define GridFEM_Types_h
 
