@@ -264,10 +264,13 @@ void ClipAndJoin(
   Stretches stretches = AllocateStretches(input.edges, threads);
   const std::vector<Id> work = SplitWork(input.triangles, input.position, threads);
   progress.Check(0.05);
+  const double points = static_cast<double>(input.position.size()) + input.edges.NumberOfCuts();
+  RequireIndices(points, "points of the clipped mesh");
   AllocateEdgeCuts(input.edges, threads, clipped);
   std::vector<ClipBlock> blocks =
     ClipTriangles(input, work, stretches, clipped, threads, progress.Part(0.05, 0.5));
   const BlockOffsets offsets = OffsetsOf(blocks);
+  RequireIndices(points + offsets.interior.back(), "points of the clipped mesh");
   Array<SortEntry> entries = SortPieces(blocks, offsets, clipped.grid.depth, threads);
   progress.Check(0.6);
   ListCells(entries, threads, clipped);
