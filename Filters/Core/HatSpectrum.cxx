@@ -1,5 +1,6 @@
 #include "HatSpectrum.h"
 
+#include "CollectSpectrum.h"
 #include "SpectrumAccuracy.h"
 #include "WindowIteration.h"
 
@@ -14,22 +15,6 @@ namespace
 /// Far below what the two discretisations differ by.
 constexpr double GridTolerance = 1e-4;
 constexpr int RandomStartIterations = 40;
-
-/// Columns that go through a cycle together: SIMD lanes, and few enough for the cache.
-constexpr Id PanelWidth = 8;
-
-void CycleOnPanels(const Multigrid& multigrid, const MultiVector& r, MultiVector& z)
-{
-  z.resize(r.rows(), r.cols());
-  MultiVector correction;
-  for (Id begin = 0; begin < r.cols(); begin += PanelWidth)
-  {
-    const Id count = std::min(PanelWidth, r.cols() - begin);
-    const MultiVector residual = r.middleCols(begin, count);
-    multigrid.Precondition(residual, correction);
-    z.middleCols(begin, count) = correction;
-  }
-}
 
 /// The modes of the grid, with enough behind the wanted ones to keep the gap open.
 Spectrum GridModes(const FunctionSpace& space, const System& system, SpectrumOptions options,
@@ -64,45 +49,8 @@ SpectralProblem HatProblem(
   problem.constants = &constants;
   problem.threads = multigrid.Options().threads;
   problem.precondition = [&multigrid](const MultiVector& r, MultiVector& z)
-  { CycleOnPanels(multigrid, r, z); };
+  { CycleOnColumns(multigrid, 0, r, z); };
   return problem;
-}
-
-/// The entry of largest magnitude of M x becomes positive, ties to the lowest index.
-void FixSigns(const SparseMatrix& mass, MultiVector& X, int threads)
-{
-  MultiVector load;
-  Multiply(mass, X, load, threads);
-  for (Id j = 0; j < X.cols(); ++j)
-  {
-    Id largest = 0;
-    load.col(j).cwiseAbs().maxCoeff(&largest);
-    X.col(j) *= load(largest, j) < 0.0 ? -1.0 : 1.0;
-  }
-}
-
-/// The constants in front, then the pairs that were wanted.
-Spectrum Collect(const Constants& constants, Index zeros, const EigenPairs& pairs,
-  const BlockReport& report, const HatHierarchy& hats, int threads)
-{
-  const auto others = static_cast<Index>(report.residuals.size());
-  Spectrum spectrum;
-  spectrum.eigenvalues.assign(zeros + others, 0.0);
-  std::copy_n(pairs.values.data(), others, spectrum.eigenvalues.begin() + zeros);
-  spectrum.vectors.resize(hats.functions.Count(), zeros + others);
-  spectrum.vectors.leftCols(zeros) = constants.Vectors(zeros);
-  if (others > 0)
-  {
-    spectrum.vectors.rightCols(others) = pairs.vectors.leftCols(others);
-  }
-  FixSigns(hats.matrices.mass, spectrum.vectors, threads);
-  spectrum.residuals.assign(zeros, 0.0);
-  spectrum.residuals.insert(
-    spectrum.residuals.end(), report.residuals.begin(), report.residuals.end());
-  spectrum.numberOfConverged = zeros + report.numberOfConverged;
-  spectrum.converged = report.numberOfConverged == others;
-  spectrum.iterations = report.iterations;
-  return spectrum;
 }
 
 /// Relative differences from the values on the grid; 1 (unknown) where it has none.
@@ -152,7 +100,7 @@ Spectrum ComputeHatSpectrum(const HatHierarchy& hats, const FunctionSpace& space
     report = ImproveManyEigenPairs(
       HatProblem(hats, constants, shift, multigrid), block, pairs, progress.Part(0.3, 1.0));
   }
-  Spectrum spectrum = Collect(constants, zeros, pairs, report, hats, threads);
+  Spectrum spectrum = CollectSpectrum(constants, zeros, pairs, report, hats.matrices.mass, threads);
   spectrum.estimatedErrors = Differences(spectrum.eigenvalues, grid.eigenvalues);
   const auto found = static_cast<Index>(spectrum.eigenvalues.size());
   spectrum.truncated = found < options.numberOfModes;

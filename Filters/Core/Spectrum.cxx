@@ -1,6 +1,6 @@
 #include "Spectrum.h"
 
-#include "Parallel.h"
+#include "CollectSpectrum.h"
 #include "SpectrumAccuracy.h"
 #include "WindowIteration.h"
 
@@ -23,9 +23,6 @@ constexpr double CoarseTolerance = 1e-3;
 constexpr double SecondTolerance = 1e-4;
 constexpr int CoarseIterations = 4;
 constexpr int RandomStartIterations = 40;
-
-/// Columns that go through a cycle together.
-constexpr Id PanelWidth = 8;
 
 void Validate(const SpectrumOptions& options)
 {
@@ -81,16 +78,6 @@ Index CountComponents(const std::vector<Index>& component)
   return count;
 }
 
-SparseMatrix AssembleLevel(const FunctionSpace& space, const System& system, std::size_t level,
-  double mass, double stiffness, int threads)
-{
-  SparseMatrix matrix = system.pattern[level];
-  const ElementMatrices& elements = system.elements[level];
-  AssembleValues(space.levels[level], system.places[level], elements.mass, mass, elements.stiffness,
-    stiffness, matrix, threads);
-  return matrix;
-}
-
 Eigen::MatrixXd ToDense(const SparseMatrix& A)
 {
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(A.rows, A.columns);
@@ -115,22 +102,6 @@ EigenPairs SolveDense(const SpectralProblem& problem, Index count)
   return pairs;
 }
 
-/// The entry of largest magnitude of M x becomes positive, ties to the lowest index.
-void FixSigns(const SparseMatrix& mass, MultiVector& X, int threads)
-{
-  MultiVector load;
-  Multiply(mass, X, load, threads);
-  for (Id j = 0; j < X.cols(); ++j)
-  {
-    Id largest = 0;
-    load.col(j).cwiseAbs().maxCoeff(&largest);
-    if (load(largest, j) < 0.0)
-    {
-      X.col(j) *= -1.0;
-    }
-  }
-}
-
 /// Leaves out all pairs but the first.
 void Shorten(BlockReport& report, Id count, double tolerance)
 {
@@ -144,31 +115,6 @@ void Append(std::vector<double>& list, const std::vector<double>& more)
   list.insert(list.end(), more.begin(), more.end());
 }
 
-/// The first `zeros` constants in front, then the pairs of the report.
-Spectrum Collect(const Constants& constants, Index zeros, const EigenPairs& pairs,
-  const BlockReport& report, const SparseMatrix& mass, int threads)
-{
-  const Index others = static_cast<Index>(report.residuals.size());
-  Spectrum spectrum;
-  spectrum.eigenvalues.assign(zeros, 0.0);
-  spectrum.eigenvalues.insert(
-    spectrum.eigenvalues.end(), pairs.values.data(), pairs.values.data() + others);
-  spectrum.vectors.resize(mass.rows, zeros + others);
-  spectrum.vectors.leftCols(zeros) = constants.Vectors(zeros);
-  if (others > 0)
-  {
-    spectrum.vectors.rightCols(others) = pairs.vectors.leftCols(others);
-  }
-  FixSigns(mass, spectrum.vectors, threads);
-  spectrum.residuals.assign(zeros, 0.0);
-  Append(spectrum.residuals, report.residuals);
-  spectrum.estimatedErrors.assign(zeros, 0.0);
-  spectrum.numberOfConverged = zeros + report.numberOfConverged;
-  spectrum.converged = spectrum.numberOfConverged == zeros + others;
-  spectrum.iterations = report.iterations;
-  return spectrum;
-}
-
 /// Work grows by four per level: each level gets its share.
 Progress LevelPart(const Progress& progress, std::size_t level)
 {
@@ -176,24 +122,6 @@ Progress LevelPart(const Progress& progress, std::size_t level)
   const double begin = std::pow(0.25, static_cast<double>(level) + 1.0);
   const double end = std::pow(0.25, static_cast<double>(level));
   return progress.Part(setUp + (1.0 - setUp) * begin, setUp + (1.0 - setUp) * end);
-}
-
-/// One cycle on every column. Panels are as wide as SIMD lanes need and small enough for the cache;
-/// they know nothing of each other, so each is the job of one thread.
-void CycleOnPanels(
-  const Multigrid& multigrid, std::size_t level, const MultiVector& r, MultiVector& z)
-{
-  z.resize(r.rows(), r.cols());
-  ParallelRanges(
-    r.cols(), multigrid.Options().threads,
-    [&](Id begin, Id end)
-    {
-      const MultiVector residual = r.middleCols(begin, end - begin);
-      MultiVector correction;
-      multigrid.PreconditionFrom(level, residual, correction);
-      z.middleCols(begin, end - begin) = correction;
-    },
-    PanelWidth);
 }
 
 /// About the size of the lowest value of a connected surface: by area as on a sphere, by length
@@ -241,13 +169,13 @@ SpectralProblem NestedIteration::Problem(std::size_t level, const Constants& con
 {
   const int threads = options_.multigrid.threads;
   SpectralProblem problem;
-  problem.stiffness = AssembleLevel(space_, system_, level, 0.0, 1.0, threads);
+  problem.stiffness = LevelMatrix(space_, system_, level, 0.0, 1.0, threads);
   problem.mass = std::move(mass);
   problem.shift = shift_;
   problem.constants = &constants;
   problem.threads = threads;
   problem.precondition = [multigrid, level](const MultiVector& r, MultiVector& z)
-  { CycleOnPanels(*multigrid, level, r, z); };
+  { CycleOnColumns(*multigrid, level, r, z); };
   return problem;
 }
 
@@ -269,7 +197,7 @@ Spectrum NestedIteration::OnlyConstants(const Constants& zeroModes, const Sparse
 {
   const bool cut = zeroModes.Count() > options_.numberOfModes;
   const Index count = options_.completeMultiplets ? zeroModes.Count() : options_.numberOfModes;
-  Spectrum spectrum = Collect(zeroModes, count, {}, {}, mass, options_.multigrid.threads);
+  Spectrum spectrum = CollectSpectrum(zeroModes, count, {}, {}, mass, options_.multigrid.threads);
   spectrum.cutsMultiplet = cut && !options_.completeMultiplets;
   return spectrum;
 }
@@ -346,7 +274,7 @@ bool NestedIteration::EndsInside(Id count, double error) const
 Spectrum NestedIteration::Run(const Progress& progress)
 {
   const int threads = options_.multigrid.threads;
-  SparseMatrix mass = AssembleLevel(space_, system_, 0, 1.0, 0.0, threads);
+  SparseMatrix mass = LevelMatrix(space_, system_, 0, 1.0, 0.0, threads);
   const Constants zeroModes(mass, space_.component, space_.numberOfComponents, threads);
   zeros_ = zeroModes.Count();
   if (zeros_ >= options_.numberOfModes)
@@ -367,7 +295,7 @@ Spectrum NestedIteration::Run(const Progress& progress)
     std::vector<Index> component = Components(space_, level);
     const Index components = CountComponents(component);
     SparseMatrix levelMass =
-      level == 0 ? mass : AssembleLevel(space_, system_, level, 1.0, 0.0, threads);
+      level == 0 ? mass : LevelMatrix(space_, system_, level, 1.0, 0.0, threads);
     const Constants constants(levelMass, std::move(component), components, threads);
     const SpectralProblem problem =
       this->Problem(level, constants, &multigrid, std::move(levelMass));
@@ -393,7 +321,7 @@ Spectrum NestedIteration::Run(const Progress& progress)
     report = level == 0 ? this->FinishList(problem, block, LevelPart(progress, level))
                         : ImproveManyEigenPairs(problem, block, pairs_, LevelPart(progress, level));
   }
-  Spectrum spectrum = Collect(zeroModes, zeros_, pairs_, report, mass, threads);
+  Spectrum spectrum = CollectSpectrum(zeroModes, zeros_, pairs_, report, mass, threads);
   Append(spectrum.estimatedErrors, EstimateErrors(coarseValues, pairs_.values, report.residuals));
   spectrum.truncated =
     zeros_ + static_cast<Index>(report.residuals.size()) < options_.numberOfModes;

@@ -55,15 +55,6 @@ std::vector<double> IntegralsOfFunctions(
   return integral;
 }
 
-SparseMatrix Combine(
-  const Level& level, const System& system, std::size_t l, double a, double b, int threads)
-{
-  SparseMatrix matrix = system.pattern[l];
-  const ElementMatrices& elements = system.elements[l];
-  AssembleValues(level, system.places[l], elements.mass, a, elements.stiffness, b, matrix, threads);
-  return matrix;
-}
-
 } // namespace
 
 System BuildSystem(const FunctionSpace& space, const QuadratureRule& rule, int threads,
@@ -94,13 +85,23 @@ System BuildSystem(const FunctionSpace& space, const QuadratureRule& rule, int t
   return system;
 }
 
+SparseMatrix LevelMatrix(const FunctionSpace& space, const System& system, std::size_t level,
+  double a, double b, int threads)
+{
+  SparseMatrix matrix = system.pattern[level];
+  const ElementMatrices& elements = system.elements[level];
+  AssembleValues(space.levels[level], system.places[level], elements.mass, a, elements.stiffness, b,
+    matrix, threads);
+  return matrix;
+}
+
 std::vector<SparseMatrix> LevelMatrices(
   const FunctionSpace& space, const System& system, double a, double b, int threads)
 {
   std::vector<SparseMatrix> matrices;
   for (std::size_t l = 0; l < system.pattern.size(); ++l)
   {
-    matrices.push_back(Combine(space.levels[l], system, l, a, b, threads));
+    matrices.push_back(LevelMatrix(space, system, l, a, b, threads));
   }
   return matrices;
 }
@@ -111,7 +112,7 @@ std::vector<MultigridLevel> BuildMultigridLevels(const FunctionSpace& space, con
   std::vector<MultigridLevel> levels(system.pattern.size());
   for (std::size_t l = 0; l < levels.size(); ++l)
   {
-    levels[l].A = Combine(space.levels[l], system, l, a, b, threads);
+    levels[l].A = LevelMatrix(space, system, l, a, b, threads);
     levels[l].order = OrderPatches(space.levels[l]);
     if (l < system.prolongation.size())
     {
@@ -139,12 +140,12 @@ void UpdateMultigrid(
 
 SparseMatrix MassMatrix(const FunctionSpace& space, const System& system, int threads)
 {
-  return Combine(space.Finest(), system, 0, 1.0, 0.0, threads);
+  return LevelMatrix(space, system, 0, 1.0, 0.0, threads);
 }
 
 SparseMatrix StiffnessMatrix(const FunctionSpace& space, const System& system, int threads)
 {
-  return Combine(space.Finest(), system, 0, 0.0, 1.0, threads);
+  return LevelMatrix(space, system, 0, 0.0, 1.0, threads);
 }
 
 } // namespace gridfem

@@ -28,7 +28,9 @@ struct System
 System BuildSystem(const FunctionSpace& space, const QuadratureRule& rule, int threads = 0,
   Index coarsestSize = 256, const Progress& progress = {});
 
-/// a M + b L on every level. Grid units.
+/// a M + b L on one level, and on every level. Grid units.
+SparseMatrix LevelMatrix(const FunctionSpace& space, const System& system, std::size_t level,
+  double a, double b, int threads = 0);
 std::vector<SparseMatrix> LevelMatrices(
   const FunctionSpace& space, const System& system, double a, double b, int threads = 0);
 

@@ -54,6 +54,15 @@ Box BoxOf(const TriangleMesh& mesh)
   return { 0.5 * (low + high), (high - low).maxCoeff() };
 }
 
+SpaceOptions OptionsOf(int depth, int threads, FunctionSupport support)
+{
+  SpaceOptions options;
+  options.depth = depth;
+  options.threads = threads;
+  options.connectivityAware = support == FunctionSupport::ConnectivityAware;
+  return options;
+}
+
 } // namespace
 
 MultiVector Colours(const std::vector<Vec3>& points, const Vec3& centre, double side, int columns)
@@ -74,10 +83,7 @@ GridProblem SetUp(const TriangleMesh& mesh, int depth, int threads, FunctionSupp
   double screeningWeight, Index coarsestSize)
 {
   GridProblem problem;
-  SpaceOptions options;
-  options.depth = depth;
-  options.threads = threads;
-  options.connectivityAware = support == FunctionSupport::ConnectivityAware;
+  const SpaceOptions options = OptionsOf(depth, threads, support);
   problem.space = BuildFunctionSpace(mesh, options);
   problem.system = BuildSystem(problem.space, TriangleRule(2), threads, coarsestSize);
   problem.options.screeningWeight = screeningWeight * std::pow(0.25, depth);
@@ -151,10 +157,7 @@ MultiVector ColoursAtPoints(const TriangleMesh& mesh, int columns)
 HybridProblem SetUpHybrid(const TriangleMesh& mesh, int depth, int threads, FunctionSupport support)
 {
   HybridProblem problem;
-  SpaceOptions options;
-  options.depth = depth;
-  options.threads = threads;
-  options.connectivityAware = support == FunctionSupport::ConnectivityAware;
+  const SpaceOptions options = OptionsOf(depth, threads, support);
   problem.space = BuildFunctionSpace(mesh, options);
   problem.system = BuildSystem(problem.space, TriangleRule(2), threads);
   problem.hats = BuildHatHierarchy(

@@ -30,7 +30,7 @@ CORE_LAYERS = {
     "integrals": "QuadratureRule TrilinearBasis PieceSamples PatchMoments ElementMatrices LoadVector Evaluation"
                  " Assembly HatTransfer",
     "hierarchy": "System HatMultigrid",
-    "problems": "Poisson HatSpectrum SpectrumAccuracy Spectrum ModeSums",
+    "problems": "Poisson CollectSpectrum HatSpectrum SpectrumAccuracy Spectrum ModeSums",
 }
 
 

@@ -26,6 +26,15 @@
 namespace gridfem::testing
 {
 
+inline constexpr int Points = vtkDataObject::FIELD_ASSOCIATION_POINTS;
+inline constexpr int Cells = vtkDataObject::FIELD_ASSOCIATION_CELLS;
+
+/// A smooth function of the position, one per component.
+inline double Wave(const Vec3& p, int c)
+{
+  return std::sin(3 * p[0] + c) + p[2];
+}
+
 inline vtkSmartPointer<vtkPolyData> ToPolyData(const TriangleMesh& mesh, int precision = VTK_DOUBLE)
 {
   auto data = vtkSmartPointer<vtkPolyData>::New();

@@ -21,8 +21,6 @@ using namespace gridfem::testing;
 namespace
 {
 
-constexpr int Points = vtkDataObject::FIELD_ASSOCIATION_POINTS;
-
 vtkSmartPointer<vtkPolyData> MakeInput(int precision = VTK_DOUBLE)
 {
   auto data = ToPolyData(Torus(30, 14, 1.0, 0.4), precision);

@@ -21,13 +21,6 @@ namespace
 {
 
 using Poisson = vtkScreenedPoisson;
-constexpr int Points = vtkDataObject::FIELD_ASSOCIATION_POINTS;
-constexpr int Cells = vtkDataObject::FIELD_ASSOCIATION_CELLS;
-
-double Wave(const Vec3& p, int c)
-{
-  return std::sin(3 * p[0] + c) + p[2];
-}
 
 class ScreenedPoisson : public ::testing::Test
 {
