@@ -5,7 +5,6 @@
 #include "WindowIteration.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace gridfem
 {
@@ -16,23 +15,20 @@ namespace
 constexpr double GridTolerance = 1e-4;
 constexpr int RandomStartIterations = 40;
 
-/// The modes of the grid, with enough behind the wanted ones to keep the gap open.
-Spectrum GridModes(const FunctionSpace& space, const System& system, SpectrumOptions options,
-  const Progress& progress)
+/// Whether the value behind the first `count` belongs to the multiplet of the last of them.
+/// @param before  how many values precede these
+template<class Values>
+bool EndsInside(const Values& values, Index before, Index count)
 {
-  options.numberOfModes = GuardedSize(options.numberOfModes);
-  options.tolerance = std::max(options.tolerance, GridTolerance);
-  options.completeMultiplets = false;
-  return ComputeSpectrum(space, system, options, progress);
+  return count > 0 && count < static_cast<Index>(values.size()) &&
+         IsMultiplet(values[count - 1], values[count], before + count);
 }
 
 /// How many of the grid's modes make up the list.
 Index ListLength(const Spectrum& grid, const SpectrumOptions& options)
 {
-  const auto modes = static_cast<Index>(grid.eigenvalues.size());
-  Index count = std::min<Index>(options.numberOfModes, modes);
-  while (options.completeMultiplets && count < modes &&
-         IsMultiplet(grid.eigenvalues[count - 1], grid.eigenvalues[count], count))
+  Index count = options.numberOfModes;
+  while (options.completeMultiplets && EndsInside(grid.eigenvalues, 0, count))
   {
     ++count;
   }
@@ -53,61 +49,108 @@ SpectralProblem HatProblem(
   return problem;
 }
 
-/// Relative differences from the values on the grid; 1 (unknown) where it has none.
-std::vector<double> Differences(const std::vector<double>& hats, const std::vector<double>& grid)
+/// About the lowest value: far above it, a shift would cost digits.
+double LowestValue(const Spectrum& grid)
 {
-  std::vector<double> difference(hats.size(), 1.0);
-  for (std::size_t k = 0; k < std::min(hats.size(), grid.size()); ++k)
+  const auto first = std::find_if(
+    grid.eigenvalues.begin(), grid.eigenvalues.end(), [](double value) { return value > 0.0; });
+  return first == grid.eigenvalues.end() ? 1.0 : *first;
+}
+
+/// The wanted pairs, at most `all`; more until the multiplet at their end is whole, if that is
+/// asked for.
+BlockReport FindPairs(const SpectralProblem& problem, const SpectrumOptions& options, Index wanted,
+  Index all, EigenPairs& pairs, const Progress& progress)
+{
+  const Index zeros = problem.constants->Count();
+  BlockReport report;
+  double done = 0.0;
+  BlockOptions block;
+  block.tolerance = options.tolerance;
+  block.wanted = std::min(wanted, all);
+  for (Index found = 0; found < block.wanted;)
   {
-    const double larger = std::max(hats[k], grid[k]);
-    difference[k] = larger > 0.0 ? std::abs(hats[k] - grid[k]) / larger : 0.0;
+    found = block.wanted;
+    block.blockSize = std::min(GuardedSize(found), all);
+    block.maximumIterations = pairs.vectors.cols() < found
+                                ? std::max(RandomStartIterations, options.maximumIterations)
+                                : options.maximumIterations;
+    report = ImproveManyEigenPairs(problem, block, pairs, progress.Part(done, 0.5 + 0.5 * done));
+    done = 0.5 + 0.5 * done;
+    while (options.completeMultiplets && report.numberOfConverged == found &&
+           EndsInside(pairs.values, zeros, block.wanted))
+    {
+      ++block.wanted;
+    }
   }
-  return difference;
+  return report;
+}
+
+/// Relative errors as eigenvalues of the surface; 1 (unknown) where the grid has no such value.
+std::vector<double> EstimateHatErrors(const std::vector<double>& hats, const Spectrum& grid)
+{
+  std::vector<double> errors(hats.size(), 0.0);
+  for (std::size_t k = 0; k < hats.size(); ++k)
+  {
+    const double value = k < grid.eigenvalues.size() ? grid.eigenvalues[k] : 0.0;
+    if (hats[k] > 0.0)
+    {
+      errors[k] = value > 0.0 ? std::min(1.0,
+                                  grid.estimatedErrors[k] + std::max(0.0, hats[k] - value) / value)
+                              : 1.0;
+    }
+  }
+  return errors;
 }
 
 } // namespace
 
+SpectrumOptions HatStartOptions(SpectrumOptions options)
+{
+  options.numberOfModes = GuardedSize(options.numberOfModes);
+  options.tolerance = std::max(options.tolerance, GridTolerance);
+  return options;
+}
+
 Spectrum ComputeHatSpectrum(const HatHierarchy& hats, const FunctionSpace& space,
-  const System& system, const SpectrumOptions& options, const Progress& progress)
+  const System& system, const Spectrum& grid, const SpectrumOptions& options,
+  const Progress& progress)
 {
   const int threads = options.multigrid.threads;
-  const Spectrum grid = GridModes(space, system, options, progress.Part(0.0, 0.3));
   const Constants constants(
     hats.matrices.mass, hats.functions.component, hats.functions.numberOfComponents, threads);
-  const Index modes =
-    std::min(std::max(options.numberOfModes, ListLength(grid, options)), hats.functions.Count());
-  const Index zeros = std::min(constants.Count(), modes);
+  const Index zeros = constants.Count();
+  const Index all = hats.functions.Count() - zeros;
+  const Index listed = options.completeMultiplets ? zeros : std::min(zeros, options.numberOfModes);
   EigenPairs pairs;
   BlockReport report;
-  if (zeros < modes)
+  if (options.numberOfModes > zeros && all > 0)
   {
-    const auto first = std::find_if(
-      grid.eigenvalues.begin(), grid.eigenvalues.end(), [](double value) { return value > 0.0; });
-    // About the lowest value: far above it, a shift would cost digits.
-    const double shift = first == grid.eigenvalues.end() ? 1.0 : *first;
+    const double shift = LowestValue(grid);
     HatMultigridOptions cycle;
     cycle.grid = options.multigrid;
     const Multigrid multigrid = BuildHatMultigrid(hats, space, system, shift, 1.0, cycle);
+    progress.Check(0.1);
     Multiply(hats.prolongation, grid.vectors, pairs.vectors, threads);
     constants.Remove(pairs.vectors);
-    BlockOptions block;
-    block.wanted = modes - zeros;
-    block.blockSize = GuardedSize(block.wanted);
-    block.tolerance = options.tolerance;
-    block.maximumIterations = pairs.vectors.cols() < block.wanted
-                                ? std::max(RandomStartIterations, options.maximumIterations)
-                                : options.maximumIterations;
-    report = ImproveManyEigenPairs(
-      HatProblem(hats, constants, shift, multigrid), block, pairs, progress.Part(0.3, 1.0));
+    report = FindPairs(HatProblem(hats, constants, shift, multigrid), options,
+      ListLength(grid, options) - zeros, all, pairs, progress.Part(0.1, 1.0));
   }
-  Spectrum spectrum = CollectSpectrum(constants, zeros, pairs, report, hats.matrices.mass, threads);
-  spectrum.estimatedErrors = Differences(spectrum.eigenvalues, grid.eigenvalues);
-  const auto found = static_cast<Index>(spectrum.eigenvalues.size());
-  spectrum.truncated = found < options.numberOfModes;
-  spectrum.cutsMultiplet =
-    found - zeros < pairs.values.size() &&
-    IsMultiplet(spectrum.eigenvalues.back(), pairs.values[found - zeros], found);
+  Spectrum spectrum =
+    CollectSpectrum(constants, listed, pairs, report, hats.matrices.mass, threads);
+  spectrum.estimatedErrors = EstimateHatErrors(spectrum.eigenvalues, grid);
+  const auto others = static_cast<Index>(report.residuals.size());
+  spectrum.truncated = listed + others < options.numberOfModes;
+  spectrum.cutsMultiplet = listed < zeros || EndsInside(pairs.values, zeros, others);
   return spectrum;
+}
+
+Spectrum ComputeHatSpectrum(const HatHierarchy& hats, const FunctionSpace& space,
+  const System& system, const SpectrumOptions& options, const Progress& progress)
+{
+  const Spectrum grid =
+    ComputeSpectrum(space, system, HatStartOptions(options), progress.Part(0.0, 0.3));
+  return ComputeHatSpectrum(hats, space, system, grid, options, progress.Part(0.3, 1.0));
 }
 
 } // namespace gridfem

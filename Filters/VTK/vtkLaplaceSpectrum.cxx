@@ -161,6 +161,31 @@ void vtkLaplaceSpectrum::WriteTable(vtkTable* table)
   gridfem::AddColumn(table, "Eigenvalue", this->Data->eigenvalues);
   gridfem::AddColumn(table, "Residual", this->Data->spectrum.residuals);
   gridfem::AddColumn(table, "EstimatedError", this->Data->spectrum.estimatedErrors);
+  if (this->CompareFunctionSpaces)
+  {
+    this->WriteComparison(table);
+  }
+}
+
+void vtkLaplaceSpectrum::WriteComparison(vtkTable* table)
+{
+  const std::vector<double>& chosen = this->Data->eigenvalues;
+  std::vector<double> other = this->Data->otherEigenvalues;
+  other.resize(chosen.size(), std::nan(""));
+  const bool hats = this->FunctionSpace == HatFunctions;
+  const std::vector<double>& onGrid = hats ? other : chosen;
+  const std::vector<double>& onHats = hats ? chosen : other;
+  std::vector<double> difference(chosen.size(), 0.0);
+  for (std::size_t mode = 0; mode < chosen.size(); ++mode)
+  {
+    if (onHats[mode] != onGrid[mode])
+    {
+      difference[mode] = (onHats[mode] - onGrid[mode]) / std::max(onHats[mode], onGrid[mode]);
+    }
+  }
+  gridfem::AddColumn(table, "GridEigenvalue", onGrid);
+  gridfem::AddColumn(table, "HatEigenvalue", onHats);
+  gridfem::AddColumn(table, "RelativeDifference", difference);
 }
 
 bool vtkLaplaceSpectrum::IsAccurate() const
@@ -173,8 +198,11 @@ void vtkLaplaceSpectrum::Warn()
   const gridfem::Spectrum& spectrum = this->Data->spectrum;
   if (spectrum.truncated)
   {
+    const std::string where = this->FunctionSpace == HatFunctions
+                                ? "with the hat functions of this mesh"
+                                : "at Depth " + std::to_string(this->Data->depth);
     vtkWarningMacro("Only " << this->Data->NumberOfModes() << " of the " << this->NumberOfModes
-                            << " modes exist at Depth " << this->Data->depth << ".");
+                            << " modes exist " << where << ".");
   }
   const std::int64_t run = this->State->stages.Runs(SolveStage);
   if (spectrum.cutsMultiplet && run != this->Data->WarnedRun)
@@ -191,14 +219,28 @@ void vtkLaplaceSpectrum::Warn()
                     << " modes reached the tolerance, the largest residual is "
                     << this->Data->LargestResidual() << ". The result is kept.");
   }
+  if (this->CompareFunctionSpaces && !this->Data->otherConverged)
+  {
+    vtkWarningMacro("The eigenvalues in the function space that they are compared with have not "
+                    "converged; they are too large. Raise MaximumIterations.");
+  }
   if (!this->IsAccurate())
   {
-    vtkWarningMacro("The wanted Accuracy of "
-                    << this->Accuracy << " is not reached: at Depth " << this->Data->depth
-                    << " the estimated error is up to " << this->Data->LargestEstimatedError()
-                    << ". A given basis has a fixed Depth; else the next one does not fit into "
-                       "memory. The result is kept.");
+    this->WarnOfAccuracy();
   }
+}
+
+void vtkLaplaceSpectrum::WarnOfAccuracy()
+{
+  const char* reason = this->FunctionSpace == HatFunctions
+                         ? " No Depth changes the error of hat functions: subdivide the mesh, or "
+                           "take FunctionSpace = Grid."
+                         : " A given basis has a fixed Depth; else the next one does not fit into "
+                           "memory.";
+  vtkWarningMacro("The wanted Accuracy of " << this->Accuracy << " is not reached: at Depth "
+                                            << this->Data->depth << " the estimated error is up to "
+                                            << this->Data->LargestEstimatedError() << "." << reason
+                                            << " The result is kept.");
 }
 
 void vtkLaplaceSpectrum::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
@@ -208,6 +250,7 @@ void vtkLaplaceSpectrum::Compute(vtkInformationVector** inputs, vtkInformationVe
   gridfem::SpectrumRequest request;
   request.numberOfModes = this->NumberOfModes;
   request.completeMultiplets = this->CompleteMultiplets;
+  request.compare = this->CompareFunctionSpaces;
   request.accuracy = this->AccuracyDriven ? this->Accuracy : 0.0;
   this->Data->Update(*this->State, input, vtkPolyData::GetData(inputs[1]), request);
   this->WriteModes(input, outputs->GetInformationObject(0), vtkPolyData::GetData(outputs, 0));
@@ -223,6 +266,7 @@ void vtkLaplaceSpectrum::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Mode: " << this->Mode << "\n";
   os << indent << "AllModes: " << this->AllModes << "\n";
   os << indent << "CompleteMultiplets: " << this->CompleteMultiplets << "\n";
+  os << indent << "CompareFunctionSpaces: " << this->CompareFunctionSpaces << "\n";
   os << indent << "AccuracyDriven: " << this->AccuracyDriven << "\n";
   os << indent << "Accuracy: " << this->Accuracy << "\n";
 }

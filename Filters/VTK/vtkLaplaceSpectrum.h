@@ -22,7 +22,10 @@
  * (double), whose square estimates the relative error of the eigenvalue as one of the space, and
  * `EstimatedError` (double): the relative error of the eigenvalue as one of the surface, estimated
  * from the space of half the resolution, whose errors are four times as large; 1 where that space
- * has no such mode.
+ * has no such mode. With HatFunctions as FunctionSpace what the hat functions lie above the grid is
+ * added: both are upper bounds, so this is the error of the worse of the two. With
+ * CompareFunctionSpaces also `GridEigenvalue`, `HatEigenvalue` (double; NaN where there are fewer)
+ * and `RelativeDifference` (double): hat minus grid over the larger of the two.
  *
  * Time: unless AllModes is on or Mode is fixed, every mode but mode 0 is a time step, with its
  * index as time value. Mode 0 is constant, so there is nothing to see; Mode = 0 shows it. All modes
@@ -86,9 +89,20 @@ public:
 
   ///@{
   /**
+   * When on, the table gets the eigenvalues in the other function space, too: two discretisations
+   * of one surface. That takes about as long again. Default off.
+   */
+  vtkSetMacro(CompareFunctionSpaces, bool);
+  vtkGetMacro(CompareFunctionSpaces, bool);
+  vtkBooleanMacro(CompareFunctionSpaces, bool);
+  ///@}
+
+  ///@{
+  /**
    * When on, the depth is chosen such that the estimated error of every eigenvalue is at most
    * Accuracy; Depth is not used. When off (default), Depth is used. The warning, and `Converged` =
-   * 0, say when the accuracy is not reached: with a basis that is given, or for want of memory.
+   * 0, say when the accuracy is not reached: with a basis that is given, for want of memory, or
+   * with HatFunctions on a mesh that is too coarse, whose error no depth changes.
    */
   vtkSetMacro(AccuracyDriven, bool);
   vtkGetMacro(AccuracyDriven, bool);
@@ -122,6 +136,7 @@ protected:
   int Mode = -1;
   bool AllModes = false;
   bool CompleteMultiplets = false;
+  bool CompareFunctionSpaces = false;
   bool AccuracyDriven = false;
   double Accuracy = 0.01;
 
@@ -133,7 +148,9 @@ private:
   int ShownMode(vtkInformation* output);
   void WriteModes(vtkPolyData* input, vtkInformation* info, vtkPolyData* output);
   void WriteTable(vtkTable* table);
+  void WriteComparison(vtkTable* table);
   void Warn();
+  void WarnOfAccuracy();
 
   struct Internals;
   std::unique_ptr<Internals> Data;

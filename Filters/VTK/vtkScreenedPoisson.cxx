@@ -276,7 +276,6 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   gridfem::SurfaceSolverState& state = *this->State;
   const gridfem::Progress progress = state.bridge.GetProgress();
-  state.options.hatFunctions = this->FunctionSpace == HatFunctions;
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
   this->FindArrays(input);
   state.UpdateSpace(input, vtkPolyData::GetData(inputs[1]), progress.Part(0.0, 0.3));
@@ -305,7 +304,6 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
 void vtkScreenedPoisson::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "FunctionSpace: " << this->FunctionSpace << "\n";
   os << indent << "ScreeningWeight: " << this->ScreeningWeight << "\n";
   os << indent << "GradientScale: " << this->GradientScale << "\n";
   os << indent << "UseValueGradient: " << this->UseValueGradient << "\n";

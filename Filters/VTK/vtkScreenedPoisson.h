@@ -60,23 +60,6 @@ public:
   vtkTypeMacro(vtkScreenedPoisson, vtkSurfaceFEMAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  enum FunctionSpaceType
-  {
-    Grid = 0,
-    HatFunctions = 1
-  };
-  ///@{
-  /**
-   * What the solution is made of. Grid (default): the functions of the grid, of which Depth says
-   * how fine they are. HatFunctions: the piecewise linear functions of the mesh itself, with
-   * cotangent stiffness and consistent area mass; the solution at the points is that of a direct
-   * solver on the same system, and the grid only speeds up the iteration. A grid with about a third
-   * as many functions as the mesh has points serves well; any other is right, too.
-   */
-  vtkSetClampMacro(FunctionSpace, int, Grid, HatFunctions);
-  vtkGetMacro(FunctionSpace, int);
-  ///@}
-
   ///@{
   /**
    * How strongly the solution is held to the values; one over the squared length of ParameterUnits.
@@ -117,7 +100,6 @@ protected:
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
-  int FunctionSpace = Grid;
   double ScreeningWeight = 100.0;
   double GradientScale = 1.0;
   bool UseValueGradient = false;

@@ -50,6 +50,7 @@ int vtkSurfaceFEMAlgorithm::RequestData(
   options.space.connectivityAware = this->ConnectivityAware;
   options.space.weldCoincidentPoints = this->WeldCoincidentPoints;
   options.space.threads = this->NumberOfThreads;
+  options.hatFunctions = this->FunctionSpace == HatFunctions;
   options.quadratureDegree = this->QuadratureDegree;
   options.multigrid.cycle = static_cast<gridfem::CycleType>(this->Cycle);
   options.multigrid.smoother = static_cast<gridfem::SmootherType>(this->Smoother);
@@ -103,6 +104,7 @@ void vtkSurfaceFEMAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Depth: " << this->Depth << "\n";
   os << indent << "ConnectivityAware: " << this->ConnectivityAware << "\n";
   os << indent << "WeldCoincidentPoints: " << this->WeldCoincidentPoints << "\n";
+  os << indent << "FunctionSpace: " << this->FunctionSpace << "\n";
   os << indent << "QuadratureDegree: " << this->QuadratureDegree << "\n";
   os << indent << "Cycle: " << this->Cycle << "\n";
   os << indent << "Smoother: " << this->Smoother << "\n";

@@ -70,6 +70,23 @@ public:
   vtkBooleanMacro(WeldCoincidentPoints, bool);
   ///@}
 
+  enum FunctionSpaceType
+  {
+    Grid = 0,
+    HatFunctions = 1
+  };
+  ///@{
+  /**
+   * What solutions are made of. Grid (default): the functions of the grid, of which Depth says how
+   * fine they are. HatFunctions: the piecewise linear functions of the mesh itself, with cotangent
+   * stiffness and consistent area mass; the result at the points is that of a direct solver for the
+   * same system, and the grid only speeds up the iteration. A grid with about a third as many
+   * functions as the mesh has points serves well; any other is right, too. Only the solvers use it.
+   */
+  vtkSetClampMacro(FunctionSpace, int, Grid, HatFunctions);
+  vtkGetMacro(FunctionSpace, int);
+  ///@}
+
   ///@{
   /**
    * Polynomials up to this degree are integrated exactly on every clipped triangle: 2, 4, 6, 10 or
@@ -192,6 +209,7 @@ protected:
   int Depth = 7;
   bool ConnectivityAware = true;
   bool WeldCoincidentPoints = true;
+  int FunctionSpace = Grid;
   int QuadratureDegree = 2;
   int Cycle = WCycle;
   int Smoother = PatchSmoother;

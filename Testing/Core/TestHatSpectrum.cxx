@@ -104,6 +104,54 @@ TEST(HatSpectrum, GoesOnToTheEndOfAMultipletOrSaysThatItIsCut)
   EXPECT_FALSE(whole.spectrum.cutsMultiplet);
 }
 
+TEST(HatSpectrum, ZerosOfEqualComponentsAreAMultiplet)
+{
+  const TriangleMesh one = GeodesicSphere(6);
+  const TriangleMesh two = Join(one, Transform(one, { 0, 0, 1 }, 0.0, 1.0, { 3, 0, 0 }));
+  const TriangleMesh mesh = Join(two, Transform(two, { 0, 0, 1 }, 0.0, 1.0, { 0, 3, 0 }));
+  SpectrumOptions options = Options(2);
+  const Modes cut(mesh, 4, options);
+  EXPECT_EQ(cut.spectrum.eigenvalues, std::vector<double>(2, 0.0));
+  EXPECT_TRUE(cut.spectrum.cutsMultiplet);
+  options.completeMultiplets = true;
+  EXPECT_EQ(Modes(mesh, 4, options).spectrum.eigenvalues, std::vector<double>(4, 0.0));
+  options.numberOfModes = 5; // 4 zeros, and l = 1 of four equal spheres: more than the guards
+  const Modes whole(mesh, 4, options);
+  EXPECT_EQ(whole.spectrum.eigenvalues.size(), 16u);
+  EXPECT_FALSE(whole.spectrum.cutsMultiplet);
+}
+
+TEST(HatSpectrum, EstimatesTheErrorOfTheWorseOfBothSpaces)
+{
+  const TriangleMesh mesh = Transform(GeodesicSphere(5), { 1, 2, 3 }, 0.4);
+  // The same surface with hats of an eighth of the size: a 64th of the error.
+  TriangleMesh fine = mesh;
+  for (int k = 0; k < 3; ++k)
+  {
+    fine = SubdivideInPlane(fine);
+  }
+  const std::vector<double> exact = HatEigenvalues(BuildHatSystem(fine), 17);
+  const std::vector<double> hats = HatEigenvalues(BuildHatSystem(mesh), 17);
+  SpaceOptions spaceOptions;
+  for (const int depth : { 4, 6 }) // grids worse and better than the hats
+  {
+    spaceOptions.depth = depth;
+    const FunctionSpace space = BuildFunctionSpace(mesh, spaceOptions);
+    const Spectrum grid =
+      ComputeSpectrum(space, BuildSystem(space, TriangleRule(2)), Options(17, 1e-8));
+    const Modes modes(mesh, depth, Options(17));
+    for (int k = 1; k < 17; ++k)
+    {
+      const double hatError = hats[k] / exact[k] - 1.0;
+      const double gridError = grid.eigenvalues[k] / modes.unit2 / exact[k] - 1.0;
+      const double estimate = modes.spectrum.estimatedErrors[k];
+      // The grid's part is known to a quarter, and its loose start adds 1e-4.
+      EXPECT_GT(estimate, 0.75 * std::max(hatError, gridError)) << depth << " " << k;
+      EXPECT_LT(estimate, 1.25 * std::max(hatError, gridError) + 2e-4) << depth << " " << k;
+    }
+  }
+}
+
 TEST(HatSpectrum, HasNoMoreModesThanFunctions)
 {
   const TriangleMesh mesh = GeodesicSphere(1); // 6 points

@@ -201,6 +201,18 @@ class TestPipeline(unittest.TestCase):
         self.assertLessEqual({"Iteration", "EnergyResidual", "Residual"},
                              set(columns(plugin.data(poisson, 1))))
 
+    def test_both_spectra_in_table_and_chart(self):
+        spectrum = simple.LaplaceSpectrum(
+            Input=self.surface, Depth=DEPTH, NumberOfModes=6, FunctionSpace="Hat Functions",
+            CompareFunctionSpaces=1)
+        table = plugin.data(spectrum, 1)
+        hats, chosen = (table.GetColumnByName(name) for name in ("HatEigenvalue", "Eigenvalue"))
+        self.assertEqual([hats.GetValue(row) for row in range(6)],
+                         [chosen.GetValue(row) for row in range(6)])
+        chart = simple.Show(simple.OutputPort(spectrum, 1), simple.CreateView("XYChartView"))
+        self.assertEqual(list(chart.SeriesVisibility),
+                         ["Eigenvalue", "GridEigenvalue", "HatEigenvalue"])
+
     def test_charts_draw_what_tells(self):
         drawn = {
             "ScreenedPoisson": ["Log10EnergyResidual", "Log10Residual"],

@@ -24,15 +24,18 @@ def build():
         SourcePointIds=[3, 4], FilterType="Low Pass", LastMode=4, ValueArray=["POINTS", "f"])
     hats = simple.ScreenedPoisson(
         Input=values, Depth=4, ValueArray=["POINTS", "f"], FunctionSpace="Hat Functions")
+    both = simple.LaplaceSpectrum(
+        Input=values, Depth=4, NumberOfModes=5, Mode=2, FunctionSpace="Hat Functions",
+        CompareFunctionSpaces=1)
     for name, proxy in (("clip", clip), ("basis", basis), ("poisson", poisson), ("hats", hats),
-                        ("spectrum", spectrum), ("signatures", signatures)):
+                        ("spectrum", spectrum), ("both", both), ("signatures", signatures)):
         simple.RenameSource(name, proxy)
 
 
 def results():
     """Every setting and the range of every point array, to compare before and after."""
     found = {}
-    for name in ("clip", "basis", "poisson", "hats", "spectrum", "signatures"):
+    for name in ("clip", "basis", "poisson", "hats", "spectrum", "both", "signatures"):
         proxy = simple.FindSource(name)
         proxy.UpdatePipeline()
         for key in proxy.ListProperties():

@@ -31,6 +31,14 @@ vtkSmartPointer<vtkSurfaceFEMAlgorithm> Make()
   return vtkSmartPointer<Filter>::New();
 }
 
+template<class Filter>
+vtkSmartPointer<vtkSurfaceFEMAlgorithm> MakeOnHats()
+{
+  auto filter = Make<Filter>();
+  filter->SetFunctionSpace(vtkSurfaceFEMAlgorithm::HatFunctions);
+  return filter;
+}
+
 struct FilterCase
 {
   const char* name;
@@ -293,16 +301,20 @@ TEST_P(FailureRule, TheInputIsNotChanged)
   EXPECT_EQ(data->GetFieldData()->GetNumberOfArrays(), 0);
 }
 
-/// A sphere with the array f = z of the sphere before it was moved, run in its own place; the
-/// values of the result array.
+/// An ellipsoid, whose modes are no multiplets, with an array of it before it was moved, run in its
+/// own place; the values of the result array.
 std::vector<double> RunMoved(const FilterCase& filterCase, double scale, const Vec3& shift)
 {
-  const TriangleMesh sphere = GeodesicSphere(6);
-  auto data = ToPolyData(Transform(sphere, { 0, 0, 1 }, 0.0, scale, shift));
-  auto* f = AddPointArray(data, "f", 1, [](const Vec3&, int) { return 0.0; });
-  for (std::size_t k = 0; k < sphere.points.size(); ++k)
+  TriangleMesh ellipsoid = GeodesicSphere(6);
+  for (Vec3& point : ellipsoid.points)
   {
-    f->SetValue(k, sphere.points[k][2] + 0.3 * sphere.points[k][0]);
+    point = point.cwiseProduct(Vec3(1.0, 0.8, 0.6));
+  }
+  auto data = ToPolyData(Transform(ellipsoid, { 0, 0, 1 }, 0.0, scale, shift));
+  auto* f = AddPointArray(data, "f", 1, [](const Vec3&, int) { return 0.0; });
+  for (std::size_t k = 0; k < ellipsoid.points.size(); ++k)
+  {
+    f->SetValue(k, ellipsoid.points[k][2] + 0.3 * ellipsoid.points[k][0]);
   }
   auto filter = filterCase.make();
   filter->SetDepth(4);
@@ -341,7 +353,11 @@ INSTANTIATE_TEST_SUITE_P(AllFilters, FailureRule,
     FilterCase{ "ConnectivityAwareBasis", &Make<vtkConnectivityAwareBasis>, nullptr },
     FilterCase{ "ScreenedPoisson", &Make<vtkScreenedPoisson>, "Solution" },
     FilterCase{ "LaplaceSpectrum", &Make<vtkLaplaceSpectrum>, "Mode" },
-    FilterCase{ "SpectralSignatures", &Make<vtkSpectralSignatures>, "HeatKernelSignature" }),
+    FilterCase{ "SpectralSignatures", &Make<vtkSpectralSignatures>, "HeatKernelSignature" },
+    FilterCase{ "ScreenedPoissonOnHats", &MakeOnHats<vtkScreenedPoisson>, "Solution" },
+    FilterCase{ "LaplaceSpectrumOnHats", &MakeOnHats<vtkLaplaceSpectrum>, "Mode" },
+    FilterCase{
+      "SpectralSignaturesOnHats", &MakeOnHats<vtkSpectralSignatures>, "HeatKernelSignature" }),
   [](const auto& filter) { return std::string(filter.param.name); });
 
 } // namespace

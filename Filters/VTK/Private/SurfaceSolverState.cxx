@@ -123,16 +123,21 @@ void SurfaceSolverState::UpdateSystem(const Progress& progress)
   }
   const auto build = [&]
   {
-    const int threads = options.space.threads;
     hats.reset();
-    system = basis.systems->Get(options.quadratureDegree, threads, progress.Part(0.0, 0.7));
+    system =
+      basis.systems->Get(options.quadratureDegree, options.space.threads, progress.Part(0.0, 0.7));
     if (options.hatFunctions)
     {
-      hats = BuildHatHierarchy(*basis.mesh, *basis.space, weldCoincidentPoints_,
-        HatTransfer::Evaluation, threads, progress.Part(0.7, 1.0));
+      hats = this->BuildHats(progress.Part(0.7, 1.0));
     }
   };
   stages.Run(stage, key, build);
+}
+
+HatHierarchy SurfaceSolverState::BuildHats(const Progress& progress) const
+{
+  return BuildHatHierarchy(*basis.mesh, *basis.space, weldCoincidentPoints_,
+    HatTransfer::Evaluation, options.space.threads, progress);
 }
 
 double SurfaceSolverState::WeightInGridUnits(double weight) const

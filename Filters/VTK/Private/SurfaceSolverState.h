@@ -55,6 +55,9 @@ public:
   /// filter has built on the same basis is taken over without a run.
   void UpdateSystem(const Progress& progress);
 
+  /// The hat functions of the mesh above the space.
+  HatHierarchy BuildHats(const Progress& progress) const;
+
   const FunctionSpace& Space() const { return *basis.space; }
 
   /// A weight per squared length of the parameter units, per squared grid unit.

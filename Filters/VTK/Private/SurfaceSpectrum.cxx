@@ -5,6 +5,7 @@
 #include "vtkSurfaceFEMAlgorithm.h"
 
 #include "Evaluation.h"
+#include "HatSpectrum.h"
 #include "MemoryEstimate.h"
 #include "SpectrumAccuracy.h"
 
@@ -26,6 +27,25 @@ bool FitsMemory(const TriangleMesh& mesh, int depth)
 {
   const double available = AvailableMemory();
   return available <= 0.0 || EstimateMemory(mesh, depth).bytes <= available;
+}
+
+SpectrumOptions SolverOptions(const SurfaceSolverState& state, int numberOfModes)
+{
+  SpectrumOptions options;
+  options.numberOfModes = numberOfModes;
+  options.tolerance = state.options.solve.tolerance;
+  options.maximumIterations = state.options.solve.maximumIterations;
+  options.multigrid = state.options.multigrid;
+  return options;
+}
+
+std::vector<double> InWorldUnits(std::vector<double> eigenvalues, const Grid& grid)
+{
+  for (double& eigenvalue : eigenvalues)
+  {
+    eigenvalue /= grid.spacing * grid.spacing;
+  }
+  return eigenvalues;
 }
 
 } // namespace
@@ -51,22 +71,59 @@ void SurfaceSpectrum::Solve(
   key.Add(static_cast<int>(state.options.multigrid.smoother));
   const auto solve = [&]
   {
-    RequireMemoryForModes(state.Space().Finest().numberOfFunctions, request.numberOfModes);
-    SpectrumOptions options;
-    options.numberOfModes = request.numberOfModes;
+    const FunctionSpace& space = state.Space();
+    RequireMemoryForModes(
+      space.Finest().numberOfFunctions + (state.hats ? state.hats->functions.Count() : 0),
+      request.numberOfModes);
+    SpectrumOptions options = SolverOptions(state, request.numberOfModes);
     options.completeMultiplets = request.completeMultiplets;
-    options.tolerance = state.options.solve.tolerance;
-    options.maximumIterations = state.options.solve.maximumIterations;
-    options.multigrid = state.options.multigrid;
-    spectrum = ComputeSpectrum(state.Space(), *state.system, options, progress);
-    const double spacing = state.Space().GetGrid().spacing;
-    eigenvalues = spectrum.eigenvalues;
-    for (double& eigenvalue : eigenvalues)
+    spectrum = {}; // frees its memory first
+    if (state.hats)
     {
-      eigenvalue /= spacing * spacing;
+      const Spectrum grid =
+        ComputeSpectrum(space, *state.system, HatStartOptions(options), progress.Part(0.0, 0.3));
+      gridErrors_ = grid.estimatedErrors;
+      spectrum = ComputeHatSpectrum(
+        *state.hats, space, *state.system, grid, options, progress.Part(0.3, 1.0));
     }
+    else
+    {
+      spectrum = ComputeSpectrum(space, *state.system, options, progress);
+      gridErrors_ = spectrum.estimatedErrors;
+    }
+    gridErrors_.resize(std::min(gridErrors_.size(), spectrum.eigenvalues.size()));
+    eigenvalues = InWorldUnits(spectrum.eigenvalues, space.GetGrid());
   };
   state.stages.Run(vtkSurfaceFEMAlgorithm::SolveStage, key, solve);
+}
+
+/// As many eigenvalues as there are modes, in the function space that was not chosen.
+void SurfaceSpectrum::Compare(SurfaceSolverState& state, const Progress& progress)
+{
+  StageKey key;
+  key.Add(state.stages.Version(vtkSurfaceFEMAlgorithm::SolveStage));
+  if (key == compared_)
+  {
+    return;
+  }
+  compared_ = {};
+  const FunctionSpace& space = state.Space();
+  const SpectrumOptions options = SolverOptions(state, this->NumberOfModes());
+  Spectrum other;
+  if (state.hats)
+  {
+    other = ComputeSpectrum(space, *state.system, options, progress);
+  }
+  else
+  {
+    const HatHierarchy hats = state.BuildHats(progress.Part(0.0, 0.1));
+    RequireMemoryForModes(
+      space.Finest().numberOfFunctions + hats.functions.Count(), options.numberOfModes);
+    other = ComputeHatSpectrum(hats, space, *state.system, options, progress.Part(0.1, 1.0));
+  }
+  otherEigenvalues = InWorldUnits(other.eigenvalues, space.GetGrid());
+  otherConverged = other.converged;
+  compared_ = key;
 }
 
 /// The depth that was found last time for the same mesh and wishes, else a first guess.
@@ -95,7 +152,7 @@ void SurfaceSpectrum::ChooseDepth(
 void SurfaceSpectrum::Update(SurfaceSolverState& state, vtkPolyData* input, vtkPolyData* basisData,
   const SpectrumRequest& request)
 {
-  const Progress all = state.bridge.GetProgress();
+  const Progress all = state.bridge.GetProgress().Part(0.0, request.compare ? 0.5 : 1.0);
   const bool choose = request.accuracy > 0.0 && !basisData && !CarriesBasis(input);
   if (choose)
   {
@@ -111,14 +168,17 @@ void SurfaceSpectrum::Update(SurfaceSolverState& state, vtkPolyData* input, vtkP
     progress.Check(0.5);
     this->Solve(state, request, progress.Part(0.5, 1.0));
     depth = state.Space().GetGrid().depth;
-    const int next =
-      choose ? DepthForAccuracy(spectrum.estimatedErrors, depth, request.accuracy) : depth;
+    const int next = choose ? DepthForAccuracy(gridErrors_, depth, request.accuracy) : depth;
     if (next == depth || !FitsMemory(*state.mesh.triangles, next))
     {
-      return;
+      break;
     }
     done = 0.5 + 0.45 * done;
     state.options.space.depth = next;
+  }
+  if (request.compare)
+  {
+    this->Compare(state, state.bridge.GetProgress().Part(0.5, 0.95));
   }
 }
 
@@ -128,7 +188,8 @@ MultiVector EvaluateModes(
   // The integral over grid units is spacing² times smaller than the one over world units.
   const MultiVector coefficients =
     spectrum.vectors.middleCols(first, count) / state.Space().GetGrid().spacing;
-  return EvaluateAtPoints(state.Space(), coefficients, threads);
+  return state.hats ? ValuesAtPoints(state.hats->functions, coefficients, threads)
+                    : EvaluateAtPoints(state.Space(), coefficients, threads);
 }
 
 } // namespace gridfem

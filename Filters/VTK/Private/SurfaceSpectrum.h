@@ -1,5 +1,5 @@
-// The spectrum of a filter's surface, with its stages: at the filter's depth, or at the depth that
-// a wanted accuracy needs.
+// The spectrum of a filter's surface, with its stages: in the filter's function space, at its depth
+// or at the one that a wanted accuracy needs.
 #ifndef GridFEM_SurfaceSpectrum_h
 #define GridFEM_SurfaceSpectrum_h
 
@@ -19,14 +19,15 @@ struct SpectrumRequest
   bool completeMultiplets = false;
   /// Wanted relative accuracy of the eigenvalues, which chooses the depth; 0 keeps the depth.
   double accuracy = 0.0;
+  bool compare = false; // compute the eigenvalues in the other function space, too
 };
 
 class SurfaceSpectrum
 {
 public:
   /// Brings space, system and spectrum up to date. With a wanted accuracy the depth is raised until
-  /// the estimated errors are small enough, or the next one does not fit into memory; a basis that
-  /// is given has its depth. Throws InvalidInput and Aborted.
+  /// the estimated errors on the grid are small enough, or the next one does not fit into memory; a
+  /// basis that is given has its depth. Throws InvalidInput and Aborted.
   void Update(SurfaceSolverState& state, vtkPolyData* input, vtkPolyData* basisData,
     const SpectrumRequest& request);
 
@@ -40,11 +41,19 @@ public:
   std::vector<double> eigenvalues; // world units
   int depth = 0;                   // at which it was computed
 
+  /// With request.compare, in world units: in the function space that was not chosen. May be fewer
+  /// than there are modes.
+  std::vector<double> otherEigenvalues;
+  bool otherConverged = true;
+
 private:
   void Solve(SurfaceSolverState& state, const SpectrumRequest& request, const Progress& progress);
+  void Compare(SurfaceSolverState& state, const Progress& progress);
   void ChooseDepth(SurfaceSolverState& state, vtkPolyData* input, const SpectrumRequest& request);
 
-  StageKey asked_; // what `depth` was chosen for
+  std::vector<double> gridErrors_; // estimated, of the wanted modes on the grid
+  StageKey asked_;                 // what `depth` was chosen for
+  StageKey compared_;              // what `otherEigenvalues` are compared with
 };
 
 /// The modes `first` and following, `count` of them, at the input's points, world units: a column

@@ -1,0 +1,275 @@
+// Laplace Spectrum on hat functions: the spectrum of a direct solver at every depth and for every
+// kind of input, and both spectra side by side.
+
+#include "FilterSupport.h"
+#include "Support/HatSystem.h"
+
+#include "vtkConnectivityAwareBasis.h"
+#include "vtkLaplaceSpectrum.h"
+#include "vtkSpectralSignatures.h"
+
+#include "vtkInformation.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkStripper.h"
+#include "vtkTable.h"
+
+#include <gtest/gtest.h>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+using Spectrum = vtkLaplaceSpectrum;
+constexpr int Modes = 9;
+
+std::vector<double> Column(vtkLaplaceSpectrum* filter, const char* name)
+{
+  auto* table = vtkTable::SafeDownCast(filter->GetOutputDataObject(1));
+  return Values(vtkDataArray::SafeDownCast(table->GetColumnByName(name)));
+}
+
+class HatLaplaceSpectrum : public ::testing::Test
+{
+protected:
+  HatLaplaceSpectrum() : mesh(Transform(GeodesicSphere(8), { 1, 2, 0 }, 0.5, 3.0)), messages(filter)
+  {
+    filter->SetFunctionSpace(Spectrum::HatFunctions);
+    filter->SetDepth(4);
+    filter->SetNumberOfModes(Modes);
+    filter->SetTolerance(1e-10);
+    filter->SetInputData(ToPolyData(mesh));
+  }
+
+  std::vector<double> Eigenvalues()
+  {
+    filter->Update();
+    return Values(filter->GetOutput()->GetFieldData()->GetArray("Eigenvalues"));
+  }
+
+  /// The tolerance is the relative error of a value; that of the reference is 1e-8.
+  void ExpectSpectrumOf(const TriangleMesh& surface, const std::string& what)
+  {
+    const std::vector<double> expected = HatEigenvalues(BuildHatSystem(surface), Modes);
+    EXPECT_LT(Difference(this->Eigenvalues(), expected), 1e-7 * expected.back()) << what;
+    EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 1) << what;
+  }
+
+  TriangleMesh mesh;
+  vtkNew<Spectrum> filter;
+  Messages messages;
+};
+
+TEST_F(HatLaplaceSpectrum, IsThatOfADirectSolverAtEveryDepth)
+{
+  for (const int depth : { 2, 4, 6 })
+  {
+    filter->SetDepth(depth);
+    this->ExpectSpectrumOf(mesh, "depth " + std::to_string(depth));
+    EXPECT_EQ(FieldValue(filter->GetOutput(), "UsedDepth"), depth);
+  }
+}
+
+TEST_F(HatLaplaceSpectrum, ModesAreOrthonormalInTheMassOfTheMesh)
+{
+  filter->AllModesOn();
+  filter->Update();
+  Eigen::MatrixXd X(mesh.points.size(), Modes);
+  for (int mode = 0; mode < Modes; ++mode)
+  {
+    const auto values = PointValues(filter->GetOutput(), ("Mode00" + std::to_string(mode)).c_str());
+    ASSERT_EQ(values.size(), mesh.points.size());
+    X.col(mode) = Eigen::Map<const Eigen::VectorXd>(values.data(), X.rows());
+  }
+  const HatSystem system = BuildHatSystem(mesh);
+  Eigen::MatrixXd ordered(X.rows(), Modes);
+  for (Eigen::Index point = 0; point < X.rows(); ++point)
+  {
+    ordered.row(system.row[point]) = X.row(point);
+  }
+  const Eigen::MatrixXd gram = ordered.transpose() * (system.mass * ordered);
+  EXPECT_LT((gram - Eigen::MatrixXd::Identity(Modes, Modes)).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST_F(HatLaplaceSpectrum, TimeStepsAreModesAndAreNeverSolvedAgain)
+{
+  filter->AllModesOn();
+  filter->Update();
+  const auto fifth = PointValues(filter->GetOutput(), "Mode005");
+  filter->AllModesOff();
+  filter->UpdateTimeStep(5);
+  EXPECT_EQ(PointValues(filter->GetOutput(), "Mode"), fifth);
+  EXPECT_EQ(filter->GetNumberOfRuns(Spectrum::SolveStage), 1);
+}
+
+TEST_F(HatLaplaceSpectrum, StripsSoupAndFoldsAreTheirTriangles)
+{
+  vtkNew<vtkStripper> stripper;
+  stripper->SetInputData(ToPolyData(mesh));
+  stripper->Update();
+  ASSERT_GT(stripper->GetOutput()->GetNumberOfStrips(), 0);
+  filter->SetInputData(stripper->GetOutput());
+  this->ExpectSpectrumOf(mesh, "strips");
+  filter->SetInputData(ToPolyData(Unweld(mesh)));
+  this->ExpectSpectrumOf(mesh, "soup");
+  // Three half-planes share an edge.
+  TriangleMesh book = FlatRectangle(6, 6);
+  const TriangleMesh page = book;
+  for (const double angle : { 2.0, 4.0 })
+  {
+    book = Join(book, Transform(page, { 0, 1, 0 }, angle));
+  }
+  filter->SetInputData(ToPolyData(book));
+  this->ExpectSpectrumOf(book, "book");
+}
+
+TEST_F(HatLaplaceSpectrum, PointsWithoutAFunctionGetZero)
+{
+  const TriangleMesh clean = mesh;
+  mesh.points.push_back({ 9, 9, 9 });
+  mesh.points.push_back({ 1, 0, 0 });
+  const Id last = static_cast<Id>(mesh.points.size()) - 1;
+  mesh.triangles.push_back({ last, last, 0 }); // has no area
+  filter->SetInputData(ToPolyData(mesh));
+  this->ExpectSpectrumOf(clean, "unused points");
+  const auto mode = PointValues(filter->GetOutput(), "Mode");
+  EXPECT_EQ(mode[last - 1], 0.0);
+  EXPECT_EQ(mode[last], 0.0);
+}
+
+TEST_F(HatLaplaceSpectrum, TakesABasisOrTheClippedMesh)
+{
+  vtkNew<vtkConnectivityAwareBasis> basis;
+  basis->SetDepth(4);
+  basis->SetInputData(filter->GetInput());
+  filter->SetBasisConnection(basis->GetOutputPort());
+  this->ExpectSpectrumOf(mesh, "basis on port 1");
+  const auto coarse = this->Eigenvalues();
+  filter->SetInputConnection(1, nullptr);
+  filter->SetInputConnection(0, basis->GetOutputPort());
+  const auto clipped = this->Eigenvalues();
+  ASSERT_EQ(clipped.size(), coarse.size());
+  for (int k = 1; k < Modes; ++k)
+  {
+    EXPECT_LT(clipped[k], coarse[k]); // the hats of the clipped mesh hold those of the mesh
+  }
+}
+
+TEST_F(HatLaplaceSpectrum, ACutMultipletIsCompletedOrReported)
+{
+  filter->SetNumberOfModes(6);
+  EXPECT_EQ(this->Eigenvalues().size(), 6u);
+  ASSERT_EQ(messages.warnings.size(), 1u);
+  EXPECT_NE(messages.warnings[0].find("CompleteMultiplets"), std::string::npos);
+  filter->CompleteMultipletsOn();
+  EXPECT_EQ(this->Eigenvalues().size(), 9u); // 1 + 3 + 5
+  EXPECT_EQ(messages.warnings.size(), 1u);
+}
+
+TEST_F(HatLaplaceSpectrum, MoreModesThanHatsWarnsAndGivesAll)
+{
+  filter->SetInputData(ToPolyData(GeodesicSphere(2)));
+  filter->SetNumberOfModes(100);
+  EXPECT_EQ(this->Eigenvalues().size(), 18u); // 4 n² + 2 points
+  ASSERT_FALSE(messages.warnings.empty());
+  EXPECT_NE(messages.warnings[0].find("hat functions of this mesh"), std::string::npos);
+}
+
+TEST_F(HatLaplaceSpectrum, NotConvergedWarnsAndKeepsTheResult)
+{
+  filter->SetTolerance(1e-16);
+  filter->SetMaximumIterations(1);
+  EXPECT_EQ(this->Eigenvalues().size(), std::size_t(Modes));
+  ASSERT_EQ(messages.warnings.size(), 1u);
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 0);
+}
+
+TEST_F(HatLaplaceSpectrum, AnAccuracyThatTheMeshDoesNotHaveIsReported)
+{
+  // The ninth eigenvalue of 512 flat triangles is good to 3 %.
+  filter->AccuracyDrivenOn();
+  filter->SetAccuracy(0.1);
+  this->Eigenvalues();
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 1);
+  EXPECT_TRUE(messages.warnings.empty());
+  filter->SetAccuracy(0.005);
+  this->Eigenvalues();
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 0);
+  ASSERT_EQ(messages.warnings.size(), 1u);
+  EXPECT_NE(messages.warnings[0].find("subdivide the mesh"), std::string::npos);
+  EXPECT_LE(FieldValue(filter->GetOutput(), "UsedDepth"), 6); // no depth helps, so none is tried
+}
+
+TEST_F(HatLaplaceSpectrum, ThreadsDoNotChangeABit)
+{
+  filter->SetNumberOfThreads(1);
+  filter->Update();
+  const auto one = PointValues(filter->GetOutput(), "Mode");
+  filter->SetNumberOfThreads(2);
+  filter->Update();
+  EXPECT_EQ(PointValues(filter->GetOutput(), "Mode"), one);
+}
+
+TEST_F(HatLaplaceSpectrum, BothSpectraStandSideBySide)
+{
+  const auto hats = this->Eigenvalues();
+  auto* table = vtkTable::SafeDownCast(filter->GetOutputDataObject(1));
+  EXPECT_FALSE(table->GetColumnByName("GridEigenvalue")); // unless asked for
+  filter->SetFunctionSpace(Spectrum::Grid);
+  const auto grid = this->Eigenvalues();
+  const double accuracy = 1e-8 * grid.back(); // of both, by the tolerance
+  EXPECT_GT(Difference(grid, hats), 1e-3 * grid.back());
+  const vtkIdType runs = filter->GetNumberOfRuns(Spectrum::SolveStage);
+  filter->CompareFunctionSpacesOn();
+  EXPECT_EQ(this->Eigenvalues(), grid);
+  EXPECT_EQ(filter->GetNumberOfRuns(Spectrum::SolveStage), runs);
+  EXPECT_EQ(Column(filter, "GridEigenvalue"), grid);
+  EXPECT_LT(Difference(Column(filter, "HatEigenvalue"), hats), accuracy);
+  filter->SetFunctionSpace(Spectrum::HatFunctions);
+  filter->Update();
+  EXPECT_EQ(Column(filter, "Eigenvalue"), Column(filter, "HatEigenvalue"));
+  EXPECT_LT(Difference(Column(filter, "GridEigenvalue"), grid), accuracy);
+  const auto difference = Column(filter, "RelativeDifference");
+  for (int k = 0; k < Modes; ++k)
+  {
+    const double expected = k == 0 ? 0.0 : (hats[k] - grid[k]) / std::max(hats[k], grid[k]);
+    EXPECT_NEAR(difference[k], expected, 1e-7);
+  }
+}
+
+TEST_F(HatLaplaceSpectrum, AComparisonWithASmallerSpaceHasHoles)
+{
+  filter->SetInputData(ToPolyData(GeodesicSphere(1))); // 6 hats
+  filter->SetFunctionSpace(Spectrum::Grid);
+  filter->CompareFunctionSpacesOn();
+  EXPECT_EQ(this->Eigenvalues().size(), std::size_t(Modes));
+  const auto hats = Column(filter, "HatEigenvalue");
+  const auto difference = Column(filter, "RelativeDifference");
+  for (int k = 0; k < Modes; ++k)
+  {
+    EXPECT_EQ(std::isnan(hats[k]), k >= 6);
+    EXPECT_EQ(std::isnan(difference[k]), k >= 6);
+  }
+}
+
+TEST_F(HatLaplaceSpectrum, SignaturesAreThoseOfItsModes)
+{
+  vtkNew<vtkSpectralSignatures> own;
+  own->SetFunctionSpace(Spectrum::HatFunctions);
+  own->SetDepth(4);
+  own->SetNumberOfModes(Modes);
+  own->SetTolerance(1e-10);
+  own->SetInputData(filter->GetInput());
+  own->Update();
+  filter->AllModesOn();
+  vtkNew<vtkSpectralSignatures> chained;
+  chained->SetInputConnection(filter->GetOutputPort());
+  chained->Update();
+  const auto expected = PointValues(chained->GetOutput(), "HeatKernelSignature");
+  ASSERT_FALSE(expected.empty());
+  // Values to 1e-10 and vectors to its root; the signature is of second order in those.
+  EXPECT_LT(Difference(PointValues(own->GetOutput(), "HeatKernelSignature"), expected), 1e-7);
+}
+
+} // namespace
