@@ -30,6 +30,15 @@ HatHierarchy BuildHatHierarchy(const TriangleMesh& mesh, const FunctionSpace& sp
   return hats;
 }
 
+HatMultigridOptions HatCycle(const MultigridOptions& grid)
+{
+  HatMultigridOptions options;
+  options.grid = grid;
+  options.hats.preSweeps = 2 * grid.preSweeps;
+  options.hats.postSweeps = 2 * grid.postSweeps;
+  return options;
+}
+
 Multigrid BuildHatMultigrid(const HatHierarchy& hats, const FunctionSpace& space,
   const System& system, double a, double b, const HatMultigridOptions& options,
   const Progress& progress)

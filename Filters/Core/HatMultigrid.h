@@ -18,6 +18,9 @@ struct HatMultigridOptions
     true; // strongly coupled hats together after each sweep (before, on the way back)
 };
 
+/// Twice as many Gauss-Seidel sweeps on the hats as there are sweeps on the levels of the grid.
+HatMultigridOptions HatCycle(const MultigridOptions& grid);
+
 /// What the hybrid hierarchy of one mesh and one grid keeps for any a M + b L.
 struct HatHierarchy
 {

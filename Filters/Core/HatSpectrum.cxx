@@ -127,9 +127,8 @@ Spectrum ComputeHatSpectrum(const HatHierarchy& hats, const FunctionSpace& space
   if (options.numberOfModes > zeros && all > 0)
   {
     const double shift = LowestValue(grid);
-    HatMultigridOptions cycle;
-    cycle.grid = options.multigrid;
-    const Multigrid multigrid = BuildHatMultigrid(hats, space, system, shift, 1.0, cycle);
+    const Multigrid multigrid =
+      BuildHatMultigrid(hats, space, system, shift, 1.0, HatCycle(options.multigrid));
     progress.Check(0.1);
     Multiply(hats.prolongation, grid.vectors, pairs.vectors, threads);
     constants.Remove(pairs.vectors);

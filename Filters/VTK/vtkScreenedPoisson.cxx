@@ -176,10 +176,9 @@ std::unique_ptr<gridfem::Multigrid> vtkScreenedPoisson::BuildHierarchy(double we
   const gridfem::Progress progress = state.bridge.GetProgress().Part(0.6, 0.7);
   if (state.hats)
   {
-    gridfem::HatMultigridOptions options;
-    options.grid = state.options.multigrid;
-    return std::make_unique<gridfem::Multigrid>(gridfem::BuildHatMultigrid(
-      *state.hats, state.Space(), *state.system, weight, 1.0, options, progress));
+    return std::make_unique<gridfem::Multigrid>(
+      gridfem::BuildHatMultigrid(*state.hats, state.Space(), *state.system, weight, 1.0,
+        gridfem::HatCycle(state.options.multigrid), progress));
   }
   return std::make_unique<gridfem::Multigrid>(gridfem::BuildMultigrid(
     state.Space(), *state.system, weight, 1.0, state.options.multigrid, progress));
@@ -191,7 +190,7 @@ void vtkScreenedPoisson::UpdateHierarchy()
   gridfem::SurfaceSolverState& state = *this->State;
   gridfem::StageKey shape;
   shape.Add(state.stages.Version(SystemStage));
-  shape.Add(this->Cycle).Add(this->Smoother).Add(this->NumberOfThreads);
+  gridfem::AddMultigrid(shape, state.options.multigrid);
   const double weight = state.WeightInGridUnits(this->ScreeningWeight);
   gridfem::StageKey key = shape;
   key.Add(weight);
@@ -222,12 +221,13 @@ void vtkScreenedPoisson::UpdateSolution()
   gridfem::SurfaceSolverState& state = *this->State;
   gridfem::StageKey key;
   key.Add(state.stages.Version(HierarchyStage)).Add(state.stages.Version(RightHandSideStage));
-  key.Add(this->Tolerance).Add(this->MaximumIterations);
+  key.Add(this->Iteration).Add(this->Tolerance).Add(this->MaximumIterations);
   const auto solve = [&]
   {
     gridfem::PoissonOptions options;
     options.screeningWeight = state.WeightInGridUnits(this->ScreeningWeight);
     options.multigrid = state.options.multigrid;
+    options.iteration = static_cast<gridfem::IterationType>(this->Iteration);
     options.solve = state.options.solve;
     const gridfem::Progress progress = state.bridge.GetProgress().Part(0.7, 0.95);
     data.Solution = state.hats
@@ -306,5 +306,6 @@ void vtkScreenedPoisson::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "ScreeningWeight: " << this->ScreeningWeight << "\n";
   os << indent << "GradientScale: " << this->GradientScale << "\n";
+  os << indent << "Iteration: " << this->Iteration << "\n";
   os << indent << "UseValueGradient: " << this->UseValueGradient << "\n";
 }

@@ -88,6 +88,20 @@ public:
   vtkBooleanMacro(UseValueGradient, bool);
   ///@}
 
+  enum IterationType
+  {
+    ConjugateGradients = 0,
+    Cycles = 1
+  };
+  ///@{
+  /**
+   * ConjugateGradients (default): with a multigrid cycle as preconditioner. Cycles: the cycle
+   * alone, which needs more iterations, and shows how good it is.
+   */
+  vtkSetClampMacro(Iteration, int, ConjugateGradients, Cycles);
+  vtkGetMacro(Iteration, int);
+  ///@}
+
   /**
    * The input of port 1: the basis.
    */
@@ -103,6 +117,7 @@ protected:
   double ScreeningWeight = 100.0;
   double GradientScale = 1.0;
   bool UseValueGradient = false;
+  int Iteration = ConjugateGradients;
 
 private:
   vtkScreenedPoisson(const vtkScreenedPoisson&) = delete;

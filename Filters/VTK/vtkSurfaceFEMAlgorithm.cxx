@@ -54,6 +54,10 @@ int vtkSurfaceFEMAlgorithm::RequestData(
   options.quadratureDegree = this->QuadratureDegree;
   options.multigrid.cycle = static_cast<gridfem::CycleType>(this->Cycle);
   options.multigrid.smoother = static_cast<gridfem::SmootherType>(this->Smoother);
+  options.multigrid.preSweeps = this->NumberOfSweeps;
+  options.multigrid.postSweeps = this->NumberOfSweeps;
+  options.multigrid.sweepsPerSynchronisation = this->SweepsPerSynchronisation;
+  options.coarsestSize = this->CoarsestSize;
   options.multigrid.threads = this->NumberOfThreads;
   options.solve.tolerance = this->Tolerance;
   options.solve.maximumIterations = this->MaximumIterations;
@@ -108,6 +112,9 @@ void vtkSurfaceFEMAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "QuadratureDegree: " << this->QuadratureDegree << "\n";
   os << indent << "Cycle: " << this->Cycle << "\n";
   os << indent << "Smoother: " << this->Smoother << "\n";
+  os << indent << "NumberOfSweeps: " << this->NumberOfSweeps << "\n";
+  os << indent << "SweepsPerSynchronisation: " << this->SweepsPerSynchronisation << "\n";
+  os << indent << "CoarsestSize: " << this->CoarsestSize << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";

@@ -112,16 +112,46 @@ public:
   enum SmootherType
   {
     PatchSmoother = 0,
-    GaussSeidelSmoother = 1
+    GaussSeidelSmoother = 1,
+    SliceGaussSeidelSmoother = 2
   };
   ///@{
   /**
    * How a level is relaxed: the patch smoother converges for every orientation of the surface.
    * Gauss-Seidel is cheaper per sweep, but stalls on surfaces nearly aligned with the grid, and on
-   * smooth surfaces as well the finer the grid is. Default PatchSmoother.
+   * smooth surfaces as well the finer the grid is. SliceGaussSeidelSmoother is the same with slabs
+   * of slices in parallel, whose threads wait for each other once in SweepsPerSynchronisation
+   * sweeps. Default PatchSmoother. The hat functions of a mesh are always relaxed by Gauss-Seidel.
    */
-  vtkSetClampMacro(Smoother, int, PatchSmoother, GaussSeidelSmoother);
+  vtkSetClampMacro(Smoother, int, PatchSmoother, SliceGaussSeidelSmoother);
   vtkGetMacro(Smoother, int);
+  ///@}
+
+  ///@{
+  /**
+   * Sweeps of the smoother on a level before and after the correction by the coarser ones; twice as
+   * many on the hat functions of a mesh. 1..100, default 1.
+   */
+  vtkSetClampMacro(NumberOfSweeps, int, 1, 100);
+  vtkGetMacro(NumberOfSweeps, int);
+  ///@}
+
+  ///@{
+  /**
+   * Of SliceGaussSeidelSmoother: one of the NumberOfSweeps is so many. 1..100, default 1.
+   */
+  vtkSetClampMacro(SweepsPerSynchronisation, int, 1, 100);
+  vtkGetMacro(SweepsPerSynchronisation, int);
+  ///@}
+
+  ///@{
+  /**
+   * The coarsest level, which is solved directly, is the finest that has no more functions than
+   * this on any connected component. The direct solver takes time with its cube, memory with its
+   * square. 1..4096, default 256.
+   */
+  vtkSetClampMacro(CoarsestSize, int, 1, 4096);
+  vtkGetMacro(CoarsestSize, int);
   ///@}
 
   ///@{
@@ -213,6 +243,9 @@ protected:
   int QuadratureDegree = 2;
   int Cycle = WCycle;
   int Smoother = PatchSmoother;
+  int NumberOfSweeps = 1;
+  int SweepsPerSynchronisation = 1;
+  int CoarsestSize = 256;
   double Tolerance = 1e-8;
   int MaximumIterations = 100;
   int NumberOfThreads = 0;

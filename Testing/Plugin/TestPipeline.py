@@ -215,7 +215,7 @@ class TestPipeline(unittest.TestCase):
 
     def test_charts_draw_what_tells(self):
         drawn = {
-            "ScreenedPoisson": ["Log10EnergyResidual", "Log10Residual"],
+            "ScreenedPoisson": ["ConvergenceFactor", "Log10EnergyResidual", "Log10Residual"],
             "LaplaceSpectrum": ["Eigenvalue"]}
         controller = vtkSMParaViewPipelineControllerWithRendering()
         for name, series in drawn.items():

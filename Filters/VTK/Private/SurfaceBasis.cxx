@@ -5,24 +5,23 @@
 namespace gridfem
 {
 
-std::shared_ptr<const System> SystemStore::Find(int quadratureDegree) const
+std::shared_ptr<const System> SystemStore::Find(const SystemKey& key) const
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const auto found = systems_.find(quadratureDegree);
+  const auto found = systems_.find(key);
   return found == systems_.end() ? nullptr : found->second;
 }
 
 std::shared_ptr<const System> SystemStore::Get(
-  int quadratureDegree, int threads, const Progress& progress)
+  const SystemKey& key, int threads, const Progress& progress)
 {
-  const QuadratureRule& rule = TriangleRule(quadratureDegree);
+  const QuadratureRule& rule = TriangleRule(key.quadratureDegree);
   const std::lock_guard<std::mutex> lock(mutex_);
-  auto& system = systems_[quadratureDegree];
+  auto& system = systems_[key];
   if (!system)
   {
-    constexpr Index coarsestSize = 256;
-    system =
-      std::make_shared<const System>(BuildSystem(*space_, rule, threads, coarsestSize, progress));
+    system = std::make_shared<const System>(
+      BuildSystem(*space_, rule, threads, key.coarsestSize, progress));
   }
   return system;
 }

@@ -9,11 +9,24 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <tuple>
 
 namespace gridfem
 {
 
-/// The systems of one function space, one per quadrature degree, built when first asked for. All
+struct SystemKey
+{
+  int quadratureDegree;
+  Index coarsestSize; // functions of the largest component on the coarsest level, at most
+
+  bool operator<(const SystemKey& other) const
+  {
+    return std::tie(quadratureDegree, coarsestSize) <
+           std::tie(other.quadratureDegree, other.coarsestSize);
+  }
+};
+
+/// The systems of one function space, one per key, built when first asked for. All
 /// views of a space on different meshes share one store, so that who asks first changes no bit.
 class SystemStore
 {
@@ -21,15 +34,15 @@ public:
   explicit SystemStore(std::shared_ptr<const FunctionSpace> space) : space_(std::move(space)) {}
 
   /// The system, or null when it has not been built yet.
-  std::shared_ptr<const System> Find(int quadratureDegree) const;
+  std::shared_ptr<const System> Find(const SystemKey& key) const;
 
   /// Builds it if need be; a second caller waits. Throws InvalidInput and Aborted.
-  std::shared_ptr<const System> Get(int quadratureDegree, int threads, const Progress& progress);
+  std::shared_ptr<const System> Get(const SystemKey& key, int threads, const Progress& progress);
 
 private:
   std::shared_ptr<const FunctionSpace> space_;
   mutable std::mutex mutex_;
-  std::map<int, std::shared_ptr<const System>> systems_;
+  std::map<SystemKey, std::shared_ptr<const System>> systems_;
 };
 
 /// Immutable but for the store, so that it may be shared between filters and threads.

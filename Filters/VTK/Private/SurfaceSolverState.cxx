@@ -28,6 +28,13 @@ void AddMesh(StageKey& key, vtkPolyData* data)
   key.Add(std::int64_t{ data->GetNumberOfVerts() }).Add(std::int64_t{ data->GetNumberOfLines() });
 }
 
+void AddMultigrid(StageKey& key, const MultigridOptions& options)
+{
+  key.Add(static_cast<int>(options.cycle)).Add(static_cast<int>(options.smoother));
+  key.Add(options.preSweeps).Add(options.postSweeps).Add(options.sweepsPerSynchronisation);
+  key.Add(options.threads);
+}
+
 void AddClipArrays(StageKey& key, vtkPolyData* data)
 {
   for (const char* name : { SourceCellIdName, OctreeCellIdName })
@@ -110,10 +117,10 @@ void SurfaceSolverState::UpdateSystem(const Progress& progress)
   constexpr int stage = vtkSurfaceFEMAlgorithm::SystemStage;
   StageKey key;
   key.Add(stages.Version(vtkSurfaceFEMAlgorithm::SpaceStage)).Add(options.quadratureDegree);
-  key.Add(options.hatFunctions);
+  key.Add(options.coarsestSize).Add(options.hatFunctions);
   if (!options.hatFunctions && !stages.IsCurrent(stage, key))
   {
-    system = basis.systems->Find(options.quadratureDegree);
+    system = basis.systems->Find({ options.quadratureDegree, options.coarsestSize });
     if (system)
     {
       hats.reset();
@@ -124,8 +131,8 @@ void SurfaceSolverState::UpdateSystem(const Progress& progress)
   const auto build = [&]
   {
     hats.reset();
-    system =
-      basis.systems->Get(options.quadratureDegree, options.space.threads, progress.Part(0.0, 0.7));
+    system = basis.systems->Get({ options.quadratureDegree, options.coarsestSize },
+      options.space.threads, progress.Part(0.0, 0.7));
     if (options.hatFunctions)
     {
       hats = this->BuildHats(progress.Part(0.7, 1.0));

@@ -23,6 +23,7 @@ struct SurfaceOptions
   SpaceOptions space;
   bool hatFunctions = false; // the functions are the hats of the mesh, the grid preconditions
   int quadratureDegree = 2;
+  Index coarsestSize = 256;
   MultigridOptions multigrid;
   SolveOptions solve;
   int parameterUnits = 1; // vtkSurfaceFEMAlgorithm::ParameterUnitsType
@@ -31,6 +32,9 @@ struct SurfaceOptions
 /// Adds all that the triangles of the mesh depend on; never the vtkPolyData itself, which is a new
 /// one after every hop through ParaView.
 void AddMesh(StageKey& key, vtkPolyData* data);
+
+/// Adds what a hierarchy depends on besides its matrices.
+void AddMultigrid(StageKey& key, const MultigridOptions& options);
 
 /// Adds the arrays of the clip.
 void AddClipArrays(StageKey& key, vtkPolyData* data);

@@ -66,9 +66,8 @@ void SurfaceSpectrum::Solve(
   StageKey key;
   key.Add(state.stages.Version(vtkSurfaceFEMAlgorithm::SystemStage)).Add(request.numberOfModes);
   key.Add(request.completeMultiplets).Add(state.options.solve.tolerance);
-  key.Add(state.options.solve.maximumIterations).Add(state.options.multigrid.threads);
-  key.Add(static_cast<int>(state.options.multigrid.cycle));
-  key.Add(static_cast<int>(state.options.multigrid.smoother));
+  key.Add(state.options.solve.maximumIterations);
+  AddMultigrid(key, state.options.multigrid);
   const auto solve = [&]
   {
     const FunctionSpace& space = state.Space();
