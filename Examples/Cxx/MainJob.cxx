@@ -85,6 +85,7 @@ void Connect(vtkPolyData* mesh, const std::string& array, const Options& options
 {
   p.clip->SetInputData(mesh);
   p.clip->SetDepth(options.depth);
+  p.clip->GenerateQuadraturePointsOn();
   p.basis->SetInputConnection(p.clip->GetOutputPort());
 
   p.poisson->SetInputData(0, mesh);

@@ -46,34 +46,38 @@ void vtkClipToOctree::Compute(vtkInformationVector** inputs, vtkInformationVecto
   key.Add(options.depth).Add(options.weldCoincidentPoints);
   const auto clip = [&]
   {
-    state.mesh = gridfem::ReadInputMesh(input, progress.Part(0.0, 0.1));
+    state.mesh = gridfem::ReadInputMesh(input, options.threads, progress.Part(0.0, 0.1));
     gridfem::RequireSurface(*state.mesh.triangles);
     gridfem::RequireMemory(*state.mesh.triangles, options.depth);
     const gridfem::ClipOptions clipOptions{ options.depth, options.weldCoincidentPoints,
       options.threads };
     this->Data->Clipped =
       gridfem::Clip(*state.mesh.triangles, clipOptions, progress.Part(0.1, 0.7));
-    gridfem::WriteClippedFrame(
-      input, state.mesh, this->Data->Clipped, options.weldCoincidentPoints, this->Data->Frame);
+    gridfem::WriteClippedFrame(input, state.mesh, this->Data->Clipped, options.weldCoincidentPoints,
+      options.threads, this->Data->Frame);
   };
   state.stages.Run(SpaceStage, key, clip);
   progress.Check(0.7);
 
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
   output->ShallowCopy(this->Data->Frame);
-  gridfem::AddInputArrays(input, state.mesh, this->Data->Clipped, output);
+  gridfem::AddInputArrays(input, state.mesh, this->Data->Clipped, options.threads, output);
   progress.Check(0.8);
   const int precision = gridfem::OutputPrecision(input->GetPoints());
-  gridfem::WriteQuadraturePoints(
-    state.mesh, this->Data->Clipped, rule, precision, vtkPolyData::GetData(outputs, 1));
+  if (this->GenerateQuadraturePoints)
+  {
+    gridfem::WriteQuadraturePoints(state.mesh, this->Data->Clipped, rule, precision,
+      options.threads, vtkPolyData::GetData(outputs, 1));
+  }
   progress.Check(0.9);
-  gridfem::WriteOctreeCells(
-    this->Data->Clipped, this->Level, precision, vtkUnstructuredGrid::GetData(outputs, 2));
+  gridfem::WriteOctreeCells(this->Data->Clipped, this->Level, precision, options.threads,
+    vtkUnstructuredGrid::GetData(outputs, 2));
   progress.Check(1.0);
 }
 
 void vtkClipToOctree::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "GenerateQuadraturePoints: " << this->GenerateQuadraturePoints << "\n";
   os << indent << "Level: " << this->Level << "\n";
 }

@@ -18,8 +18,9 @@
  *   `GridOrigin` (double, 3), `GridSpacing` (double, 1), `GridDepth` (int, 1): the cube's lowest
  *   corner, the side of a cell, Depth; `WeldCoincidentPoints` (int, 1): the property
  *
- * Output port 1 (vtkPolyData), the quadrature points: one vertex each, with the point arrays
- * `Weight` (double, 1), the surface area it stands for, and `SourceCellId` (vtkIdType, 1).
+ * Output port 1 (vtkPolyData), with GenerateQuadraturePoints on: the quadrature points, one vertex
+ * each, with the point arrays `Weight` (double, 1), the surface area it stands for, and
+ * `SourceCellId` (vtkIdType, 1).
  *
  * Output port 2 (vtkUnstructuredGrid), the octree: a voxel for every cell that holds surface, with
  * the cell array `Level` (int, 1): 0 is the whole cube, Depth the finest level.
@@ -48,6 +49,16 @@ public:
   vtkGetMacro(Level, int);
   ///@}
 
+  ///@{
+  /**
+   * When on, output port 1 has the quadrature points: three and more for every clipped triangle,
+   * several times the memory of the clipped mesh. When off (default), it is empty.
+   */
+  vtkSetMacro(GenerateQuadraturePoints, bool);
+  vtkGetMacro(GenerateQuadraturePoints, bool);
+  vtkBooleanMacro(GenerateQuadraturePoints, bool);
+  ///@}
+
 protected:
   vtkClipToOctree();
   ~vtkClipToOctree() override;
@@ -55,6 +66,7 @@ protected:
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
+  bool GenerateQuadraturePoints = false;
   int Level = 14;
 
 private:

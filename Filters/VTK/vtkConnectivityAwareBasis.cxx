@@ -48,7 +48,7 @@ void vtkConnectivityAwareBasis::ReadClip(vtkPolyData* input)
   const gridfem::SpaceOptions& options = state.options.space;
   const gridfem::Progress progress = state.bridge.GetProgress();
   state.basis = {};
-  state.mesh = gridfem::ReadInputMesh(input, progress.Part(0.0, 0.1));
+  state.mesh = gridfem::ReadInputMesh(input, options.threads, progress.Part(0.0, 0.1));
   gridfem::RequireSurface(*state.mesh.triangles);
   gridfem::ClippedMesh clipped = gridfem::ReadClippedMesh(
     input, state.mesh, options.weldCoincidentPoints, progress.Part(0.1, 0.4));
@@ -94,10 +94,11 @@ void vtkConnectivityAwareBasis::UpdateBasis(vtkPolyData* input)
     else
     {
       state.BuildSpace(input, state.bridge.GetProgress().Part(0.0, 0.8));
-      gridfem::WriteClippedFrame(
-        input, state.mesh, state.Space().clipped, options.weldCoincidentPoints, this->Data->Frame);
-      gridfem::WriteBasis(state.Space(), gridfem::PatchesOfTriangles(state.Space()),
-        options.weldCoincidentPoints, this->Data->Frame);
+      gridfem::WriteClippedFrame(input, state.mesh, state.Space().clipped,
+        options.weldCoincidentPoints, options.threads, this->Data->Frame);
+      gridfem::WriteBasis(state.Space(),
+        gridfem::PatchesOfTriangles(state.Space(), options.threads), options.weldCoincidentPoints,
+        this->Data->Frame);
     }
     vtkSurfaceBasisHolder::Attach(
       this->Data->Frame->GetFieldData()->GetAbstractArray(gridfem::PatchBasisIdsName), state.basis);
@@ -136,7 +137,7 @@ void vtkConnectivityAwareBasis::Compute(
   else
   {
     output->ShallowCopy(this->Data->Frame);
-    gridfem::AddInputArrays(input, this->State->mesh, space.clipped, output);
+    gridfem::AddInputArrays(input, this->State->mesh, space.clipped, this->NumberOfThreads, output);
   }
   if (this->BasisId >= 0)
   {

@@ -168,7 +168,7 @@ void vtkSpectralSignatures::UpdateModes(vtkPolyData* input, vtkPolyData* basis)
     return;
   }
   data.ModesKey = {};
-  data.Mesh = gridfem::ReadInputMesh(input);
+  data.Mesh = gridfem::ReadInputMesh(input, this->NumberOfThreads);
   gridfem::RequireSurface(*data.Mesh.triangles);
   data.Modes = gridfem::ReadModes(input, data.Mesh);
   data.ModesKey = key;

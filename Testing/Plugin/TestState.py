@@ -12,7 +12,8 @@ def build():
     surface = plugin.sphere()
     simple.RenameSource("surface", surface)
     values = simple.Calculator(Input=surface, ResultArrayName="f", Function="coordsX*coordsY")
-    clip = simple.ClipToOctree(Input=values, Depth=4, Level=-1, QuadratureDegree="6")
+    clip = simple.ClipToOctree(
+        Input=values, Depth=4, Level=-1, GenerateQuadraturePoints=1, QuadratureDegree="6")
     basis = simple.ConnectivityAwareBasis(Input=clip, Level=3, BasisId=5)
     poisson = simple.ScreenedPoisson(
         Input=values, Basis=basis, ValueArray=["POINTS", "f"], ScreeningWeight=7.0,

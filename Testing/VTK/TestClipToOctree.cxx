@@ -125,6 +125,7 @@ TEST(ClipToOctree, QuadraturePointsCarryTheArea)
   {
     vtkNew<vtkClipToOctree> filter;
     filter->SetDepth(3);
+    filter->GenerateQuadraturePointsOn();
     filter->SetQuadratureDegree(degree);
     filter->SetInputData(ToPolyData(GeodesicSphere(4)));
     const vtkIdType triangles = Clipped(filter)->GetNumberOfCells();
@@ -137,6 +138,45 @@ TEST(ClipToOctree, QuadraturePointsCarryTheArea)
       std::accumulate(weight.begin(), weight.end(), 0.0), SurfaceArea(GeodesicSphere(4)), 1e-11);
     EXPECT_EQ(samples->GetPointData()->GetArray("SourceCellId")->GetNumberOfTuples(), expected);
   }
+}
+
+TEST(ClipToOctree, QuadraturePointsAreMadeOnRequestAlone)
+{
+  vtkNew<vtkClipToOctree> filter;
+  filter->SetDepth(3);
+  filter->SetInputData(ToPolyData(GeodesicSphere(4)));
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput(1)->GetNumberOfPoints(), 0);
+  filter->GenerateQuadraturePointsOn();
+  filter->Update();
+  EXPECT_GT(filter->GetOutput(1)->GetNumberOfPoints(), 0);
+  EXPECT_EQ(filter->GetNumberOfRuns(vtkClipToOctree::SpaceStage), 1);
+}
+
+TEST(ClipToOctree, ThreadsDoNotChangeABit)
+{
+  auto input = ToPolyData(GeodesicSphere(60)); // more points and pieces than one thread's block
+  AddPointArray(input, "f", 2, Wave);
+  const auto run = [&](int threads)
+  {
+    vtkNew<vtkClipToOctree> filter;
+    filter->SetDepth(5);
+    filter->SetNumberOfThreads(threads);
+    filter->GenerateQuadraturePointsOn();
+    filter->SetLevel(-1);
+    filter->SetInputData(input);
+    filter->Update();
+    auto* mesh = vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0));
+    auto* samples = vtkPolyData::SafeDownCast(filter->GetOutputDataObject(1));
+    auto* octree = vtkPointSet::SafeDownCast(filter->GetOutputDataObject(2));
+    return std::vector<std::vector<double>>{ Values(mesh->GetPoints()->GetData()),
+      Values(mesh->GetPolys()->GetConnectivityArray()), PointValues(mesh, "f"),
+      Values(mesh->GetCellData()->GetArray("SourceCellId")),
+      Values(mesh->GetCellData()->GetArray("OctreeCellId")),
+      Values(samples->GetPoints()->GetData()), PointValues(samples, "Weight"),
+      Values(octree->GetPoints()->GetData()) };
+  };
+  EXPECT_EQ(run(3), run(1));
 }
 
 TEST(ClipToOctree, OctreeShowsOneLevelOrAll)
@@ -281,6 +321,7 @@ TEST(ClipToOctree, OutputHasThePrecisionOfTheInput)
   {
     vtkNew<vtkClipToOctree> filter;
     filter->SetDepth(3);
+    filter->GenerateQuadraturePointsOn();
     filter->SetInputData(ToPolyData(GeodesicSphere(4, 100.0), precision));
     const int expected = precision == VTK_FLOAT ? VTK_FLOAT : VTK_DOUBLE;
     EXPECT_EQ(Clipped(filter)->GetPoints()->GetDataType(), expected);

@@ -1,7 +1,11 @@
 #include "ClippedMeshWriter.h"
 
-#include "Errors.h"
+#include "ClippedFans.h"
 #include "InterpolatedArrays.h"
+#include "PointCoordinates.h"
+
+#include "Errors.h"
+#include "Parallel.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -13,9 +17,12 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkTypeInt32Array.h"
+#include "vtkTypeInt64Array.h"
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 namespace gridfem
 {
@@ -47,63 +54,95 @@ void AddInt(vtkPolyData* output, const char* name, int value)
   output->GetFieldData()->AddArray(array);
 }
 
-vtkSmartPointer<vtkPoints> MakePoints(vtkPolyData* input, const ClippedMesh& clipped)
+/// The input's points as they are, then the cut points.
+template<class Real>
+void FillPoints(vtkPoints* input, const ClippedMesh& clipped, int threads, Real* output)
+{
+  const Id inputs = clipped.numberOfInputPoints;
+  const auto copy = [&](const auto* given)
+  {
+    ParallelRanges(inputs, threads,
+      [&](Id begin, Id end) { std::copy(given + 3 * begin, given + 3 * end, output + 3 * begin); });
+  };
+  if (!VisitCoordinates(input, copy))
+  {
+    for (Id point = 0; point < inputs; ++point)
+    {
+      StorePoint(Vec3(input->GetPoint(point)), output + 3 * point);
+    }
+  }
+  ParallelRanges(static_cast<Id>(clipped.position.size()) - inputs, threads,
+    [&](Id begin, Id end)
+    {
+      for (Id point = inputs + begin; point < inputs + end; ++point)
+      {
+        StorePoint(clipped.grid.ToWorld(clipped.position[point]), output + 3 * point);
+      }
+    });
+}
+
+vtkSmartPointer<vtkPoints> MakePoints(vtkPolyData* input, const ClippedMesh& clipped, int threads)
 {
   auto points = vtkSmartPointer<vtkPoints>::New();
   points->SetDataType(OutputPrecision(input->GetPoints()));
   points->SetNumberOfPoints(static_cast<vtkIdType>(clipped.position.size()));
-  for (Id point = 0; point < clipped.numberOfInputPoints; ++point)
-  {
-    points->SetPoint(point, input->GetPoint(point));
-  }
-  for (Id point = clipped.numberOfInputPoints; point < points->GetNumberOfPoints(); ++point)
-  {
-    const Vec3 position = clipped.grid.ToWorld(clipped.position[point]);
-    points->SetPoint(point, position.data());
-  }
+  VisitCoordinates(points,
+    [&](auto* coordinates) { FillPoints(input->GetPoints(), clipped, threads, coordinates); });
   return points;
 }
 
-/// Triangles of the fans, in the order of the pieces.
-vtkSmartPointer<vtkCellArray> MakeTriangles(const ClippedMesh& clipped)
+/// Triangles of the fans, in the order of the pieces. Clip has made sure that 32 bits are enough
+/// for the corners of pieces; those of triangles may be more.
+template<class Ids>
+vtkSmartPointer<vtkCellArray> MakeTriangles(const ClippedMesh& clipped, int threads)
 {
   const Id count = clipped.NumberOfTriangles();
-  vtkNew<vtkIdTypeArray> offsets;
-  vtkNew<vtkIdTypeArray> connectivity;
+  vtkNew<Ids> offsets;
+  vtkNew<Ids> connectivity;
   offsets->SetNumberOfValues(count + 1);
   connectivity->SetNumberOfValues(3 * count);
-  Id triangle = 0;
-  for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
-  {
-    const Id first = clipped.pieceBegin[piece];
-    for (Id k = first + 1; k + 1 < clipped.pieceBegin[piece + 1]; ++k, ++triangle)
+  using Value = typename Ids::ValueType;
+  Value* offset = offsets->GetPointer(0);
+  Value* corner = connectivity->GetPointer(0);
+  ForEachFan(clipped, threads,
+    [&](Id piece, Id begin, Id end)
     {
-      offsets->SetValue(triangle, 3 * triangle);
-      connectivity->SetValue(3 * triangle, clipped.corners[first]);
-      connectivity->SetValue(3 * triangle + 1, clipped.corners[k]);
-      connectivity->SetValue(3 * triangle + 2, clipped.corners[k + 1]);
-    }
-  }
-  offsets->SetValue(count, 3 * count);
+      const Index* corners = clipped.corners.data() + clipped.pieceBegin[piece];
+      for (Id triangle = begin; triangle < end; ++triangle)
+      {
+        const Id k = triangle - begin;
+        offset[triangle] = static_cast<Value>(3 * triangle);
+        corner[3 * triangle] = corners[0];
+        corner[3 * triangle + 1] = corners[k + 1];
+        corner[3 * triangle + 2] = corners[k + 2];
+      }
+    });
+  offset[count] = static_cast<Value>(3 * count);
   auto cells = vtkSmartPointer<vtkCellArray>::New();
   cells->SetData(offsets, connectivity);
   return cells;
 }
 
-void AddCellIds(const InputMesh& mesh, const ClippedMesh& clipped, vtkPolyData* output)
+/// Half the size is half the time.
+vtkSmartPointer<vtkCellArray> MakeTriangles(const ClippedMesh& clipped, int threads)
+{
+  const bool isSmall = 3 * clipped.NumberOfTriangles() <= std::numeric_limits<Index>::max();
+  return isSmall ? MakeTriangles<vtkTypeInt32Array>(clipped, threads)
+                 : MakeTriangles<vtkTypeInt64Array>(clipped, threads);
+}
+
+void AddCellIds(const InputMesh& mesh, const ClippedMesh& clipped, int threads, vtkPolyData* output)
 {
   auto source = NewIds(SourceCellIdName, clipped.NumberOfTriangles());
   auto octree = NewIds(OctreeCellIdName, clipped.NumberOfTriangles());
-  Id triangle = 0;
-  for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
-  {
-    const Id fan = clipped.pieceBegin[piece + 1] - clipped.pieceBegin[piece] - 2;
-    for (Id k = 0; k < fan; ++k, ++triangle)
+  vtkIdType* sources = source->GetPointer(0);
+  vtkIdType* octreeCells = octree->GetPointer(0);
+  ForEachFan(clipped, threads,
+    [&](Id piece, Id begin, Id end)
     {
-      source->SetValue(triangle, mesh.sourceCell[clipped.pieceTriangle[piece]]);
-      octree->SetValue(triangle, clipped.pieceCell[piece]);
-    }
-  }
+      std::fill(sources + begin, sources + end, mesh.sourceCell[clipped.pieceTriangle[piece]]);
+      std::fill(octreeCells + begin, octreeCells + end, clipped.pieceCell[piece]);
+    });
   output->GetCellData()->AddArray(source);
   output->GetCellData()->AddArray(octree);
 }
@@ -160,20 +199,21 @@ int OutputPrecision(vtkPoints* input)
 }
 
 void WriteClippedFrame(vtkPolyData* input, const InputMesh& mesh, const ClippedMesh& clipped,
-  bool weldCoincidentPoints, vtkPolyData* frame)
+  bool weldCoincidentPoints, int threads, vtkPolyData* frame)
 {
   frame->Initialize();
-  frame->SetPoints(MakePoints(input, clipped));
-  frame->SetPolys(MakeTriangles(clipped));
-  AddCellIds(mesh, clipped, frame);
+  frame->SetPoints(MakePoints(input, clipped, threads));
+  frame->SetPolys(MakeTriangles(clipped, threads));
+  AddCellIds(mesh, clipped, threads, frame);
   AddGrid(clipped, frame);
   AddInt(frame, WeldCoincidentPointsName, weldCoincidentPoints);
 }
 
-void AddInputArrays(
-  vtkPolyData* input, const InputMesh& mesh, const ClippedMesh& clipped, vtkPolyData* output)
+void AddInputArrays(vtkPolyData* input, const InputMesh& mesh, const ClippedMesh& clipped,
+  int threads, vtkPolyData* output)
 {
-  InterpolatePointArrays(input->GetPointData(), *mesh.triangles, clipped, output->GetPointData());
+  InterpolatePointArrays(
+    input->GetPointData(), *mesh.triangles, clipped, threads, output->GetPointData());
   CopyCellArrays(input->GetCellData(), input->GetNumberOfCells(), output->GetCellData(),
     output->GetCellData()->GetArray(SourceCellIdName));
   vtkFieldData* fields = input->GetFieldData();
@@ -187,15 +227,12 @@ void AddInputArrays(
   }
 }
 
-std::vector<Id> PatchesOfTriangles(const FunctionSpace& space)
+std::vector<Id> PatchesOfTriangles(const FunctionSpace& space, int threads)
 {
-  std::vector<Id> patches;
-  patches.reserve(space.clipped.NumberOfTriangles());
-  for (Id piece = 0; piece < space.clipped.NumberOfPieces(); ++piece)
-  {
-    const Id fan = space.clipped.pieceBegin[piece + 1] - space.clipped.pieceBegin[piece] - 2;
-    patches.insert(patches.end(), fan, space.piecePatch[piece]);
-  }
+  std::vector<Id> patches(space.clipped.NumberOfTriangles());
+  ForEachFan(space.clipped, threads,
+    [&](Id piece, Id begin, Id end)
+    { std::fill(patches.data() + begin, patches.data() + end, space.piecePatch[piece]); });
   return patches;
 }
 

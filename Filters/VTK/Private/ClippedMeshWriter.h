@@ -13,12 +13,12 @@ namespace gridfem
 /// points first, in the input's precision (double for integer points), then cut points; the clip's
 /// own cell and field arrays. Kept between runs, so that later filters see unchanged arrays.
 void WriteClippedFrame(vtkPolyData* input, const InputMesh& mesh, const ClippedMesh& clipped,
-  bool weldCoincidentPoints, vtkPolyData* frame);
+  bool weldCoincidentPoints, int threads, vtkPolyData* frame);
 
 /// Adds the input's point arrays, interpolated along source triangles, its cell arrays by source
 /// cell, and its field arrays. Throws InvalidInput naming an array of wrong length.
-void AddInputArrays(
-  vtkPolyData* input, const InputMesh& mesh, const ClippedMesh& clipped, vtkPolyData* output);
+void AddInputArrays(vtkPolyData* input, const InputMesh& mesh, const ClippedMesh& clipped,
+  int threads, vtkPolyData* output);
 
 /// Adds PatchId, PatchCellId, PatchBasisIds, NumberOfBasisFunctions, ConnectivityAware and
 /// WeldCoincidentPoints.
@@ -30,7 +30,7 @@ void WriteBasis(const FunctionSpace& space, const std::vector<Id>& cellPatch,
 void PassArrays(vtkPolyData* from, vtkPolyData* to);
 
 /// The patch of every clipped triangle: pieces in order, each with its fan.
-std::vector<Id> PatchesOfTriangles(const FunctionSpace& space);
+std::vector<Id> PatchesOfTriangles(const FunctionSpace& space, int threads);
 
 /// Points in the precision of the input's: single stays single, all else becomes double.
 int OutputPrecision(vtkPoints* input);

@@ -1,16 +1,23 @@
 #include "InputMesh.h"
 
+#include "PointCoordinates.h"
+
+#include "Parallel.h"
+
 #include "vtkCellArray.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkPolygon.h"
+#include "vtkTypeInt32Array.h"
+#include "vtkTypeInt64Array.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 namespace gridfem
@@ -145,14 +152,71 @@ private:
   vtkNew<vtkIdList> corners_;
 };
 
-std::vector<Vec3> ReadPoints(vtkPolyData* input)
+std::vector<Vec3> ReadPoints(vtkPolyData* input, int threads)
 {
   std::vector<Vec3> points(input->GetNumberOfPoints());
-  for (vtkIdType k = 0; k < input->GetNumberOfPoints(); ++k)
+  const auto copy = [&](const auto* coordinates)
   {
-    input->GetPoint(k, points[k].data());
+    ParallelRanges(input->GetNumberOfPoints(), threads,
+      [&](Id begin, Id end)
+      { std::copy(coordinates + 3 * begin, coordinates + 3 * end, points[begin].data()); });
+  };
+  if (!points.empty() && !VisitCoordinates(input->GetPoints(), copy))
+  {
+    for (vtkIdType k = 0; k < input->GetNumberOfPoints(); ++k)
+    {
+      input->GetPoint(k, points[k].data());
+    }
   }
   return points;
+}
+
+/// Three corners for every triangle; false when one names a point that does not exist.
+template<class Corner>
+bool CopyTriangles(const Corner* corners, Id numberOfPoints, int threads, TriangleMesh& mesh)
+{
+  const Id wrong = ParallelSum(static_cast<Id>(mesh.triangles.size()), threads, Id{ 0 },
+    [&](Id begin, Id end)
+    {
+      Id count = 0;
+      for (Id t = begin; t < end; ++t)
+      {
+        for (int k = 0; k < 3; ++k)
+        {
+          const Id point = corners[3 * t + k];
+          mesh.triangles[t][k] = point;
+          count += point < 0 || point >= numberOfPoints ? 1 : 0;
+        }
+      }
+      return count;
+    });
+  return wrong == 0;
+}
+
+/// The short way for polygons that all are triangles. False, and nothing read, when they are not,
+/// or when something is wrong with one of them.
+bool ReadTriangles(
+  vtkCellArray* polys, Id firstCell, int threads, InputMesh& mesh, TriangleMesh& triangles)
+{
+  if (!polys || polys->IsHomogeneous() != 3)
+  {
+    return false;
+  }
+  const Id numberOfPoints = static_cast<Id>(triangles.points.size());
+  triangles.triangles.resize(polys->GetNumberOfCells());
+  const bool isRight = polys->IsStorage64Bit()
+                         ? CopyTriangles(polys->GetConnectivityArray64()->GetPointer(0),
+                             numberOfPoints, threads, triangles)
+                         : CopyTriangles(polys->GetConnectivityArray32()->GetPointer(0),
+                             numberOfPoints, threads, triangles);
+  if (!isRight)
+  {
+    triangles.triangles.clear();
+    return false;
+  }
+  mesh.sourceCell.resize(polys->GetNumberOfCells());
+  std::iota(mesh.sourceCell.begin(), mesh.sourceCell.end(), firstCell);
+  return true;
 }
 
 template<class Add>
@@ -179,18 +243,21 @@ void ForEachCell(vtkCellArray* cells, Id firstCell, const Progress& progress, Ad
 
 } // namespace
 
-InputMesh ReadInputMesh(vtkPolyData* input, const Progress& progress)
+InputMesh ReadInputMesh(vtkPolyData* input, int threads, const Progress& progress)
 {
   InputMesh mesh;
   auto triangles = std::make_shared<TriangleMesh>();
-  triangles->points = ReadPoints(input);
-  triangles->triangles.reserve(input->GetNumberOfPolys());
-  mesh.sourceCell.reserve(input->GetNumberOfPolys());
-
+  triangles->points = ReadPoints(input, threads);
   TriangleCollector collector(triangles->points, mesh, *triangles);
   const Id firstPolygon = input->GetNumberOfVerts() + input->GetNumberOfLines();
-  ForEachCell(input->GetPolys(), firstPolygon, progress,
-    [&](Id cell, vtkIdType size, const vtkIdType* ids) { collector.AddPolygon(cell, size, ids); });
+  if (!ReadTriangles(input->GetPolys(), firstPolygon, threads, mesh, *triangles))
+  {
+    triangles->triangles.reserve(input->GetNumberOfPolys());
+    mesh.sourceCell.reserve(input->GetNumberOfPolys());
+    ForEachCell(input->GetPolys(), firstPolygon, progress,
+      [&](Id cell, vtkIdType size, const vtkIdType* ids)
+      { collector.AddPolygon(cell, size, ids); });
+  }
   ForEachCell(input->GetStrips(), firstPolygon + input->GetNumberOfPolys(), progress,
     [&](Id cell, vtkIdType size, const vtkIdType* ids) { collector.AddStrip(cell, size, ids); });
   if (triangles->triangles.empty())

@@ -2,6 +2,7 @@
 
 #include "ClippedArrays.h"
 #include "Errors.h"
+#include "Parallel.h"
 
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
@@ -37,31 +38,43 @@ void CopyNames(vtkAbstractArray* from, vtkAbstractArray* to)
 }
 
 vtkSmartPointer<vtkAbstractArray> Interpolate(
-  vtkDataArray* input, const TriangleMesh& mesh, const ClippedMesh& clipped)
+  vtkDataArray* input, const TriangleMesh& mesh, const ClippedMesh& clipped, int threads)
 {
   vtkNew<vtkDoubleArray> output;
   CopyNames(input, output);
   output->SetNumberOfTuples(static_cast<vtkIdType>(clipped.position.size()));
   const int components = input->GetNumberOfComponents();
-  for (Id point = 0; point < clipped.numberOfInputPoints; ++point)
-  {
-    input->GetTuple(point, output->GetPointer(point * components));
-  }
-  for (std::size_t cut = 0; cut < clipped.cutPoints.size(); ++cut)
-  {
-    const CutPoint& at = clipped.cutPoints[cut];
-    const auto& corner = mesh.triangles[at.triangle];
-    double* value = output->GetPointer((clipped.numberOfInputPoints + cut) * components);
-    for (int c = 0; c < components; ++c)
+  double* values = output->GetPointer(0);
+  // What an array computes by itself may not be asked for by several threads.
+  const int readers = input->HasStandardMemoryLayout() ? threads : 1;
+  ParallelRanges(clipped.numberOfInputPoints, readers,
+    [&](Id begin, Id end)
     {
-      value[c] = 0.0;
-      for (int k = 0; k < 3; ++k)
+      for (Id point = begin; point < end; ++point)
       {
-        // A corner that does not count must not spoil the value with its NaN.
-        value[c] += at.weight[k] == 0.0 ? 0.0 : at.weight[k] * input->GetComponent(corner[k], c);
+        input->GetTuple(point, values + point * components);
       }
-    }
-  }
+    });
+  double* cutValues = values + clipped.numberOfInputPoints * components;
+  ParallelRanges(static_cast<Id>(clipped.cutPoints.size()), readers,
+    [&](Id begin, Id end)
+    {
+      for (Id cut = begin; cut < end; ++cut)
+      {
+        const CutPoint& at = clipped.cutPoints[cut];
+        const auto& corner = mesh.triangles[at.triangle];
+        for (int c = 0; c < components; ++c)
+        {
+          double value = 0.0;
+          for (int k = 0; k < 3; ++k)
+          {
+            // A corner that does not count must not spoil the value with its NaN.
+            value += at.weight[k] == 0.0 ? 0.0 : at.weight[k] * input->GetComponent(corner[k], c);
+          }
+          cutValues[cut * components + c] = value;
+        }
+      }
+    });
   return output;
 }
 
@@ -103,8 +116,8 @@ void PassActiveAttributes(vtkDataSetAttributes* input, vtkDataSetAttributes* out
 
 } // namespace
 
-void InterpolatePointArrays(
-  vtkPointData* input, const TriangleMesh& mesh, const ClippedMesh& clipped, vtkPointData* output)
+void InterpolatePointArrays(vtkPointData* input, const TriangleMesh& mesh,
+  const ClippedMesh& clipped, int threads, vtkPointData* output)
 {
   for (int k = 0; k < input->GetNumberOfArrays(); ++k)
   {
@@ -116,7 +129,7 @@ void InterpolatePointArrays(
     }
     else if (auto* numbers = vtkDataArray::SafeDownCast(array))
     {
-      output->AddArray(Interpolate(numbers, mesh, clipped));
+      output->AddArray(Interpolate(numbers, mesh, clipped, threads));
     }
     else
     {
@@ -129,6 +142,10 @@ void InterpolatePointArrays(
 void CopyCellArrays(
   vtkCellData* input, Id numberOfCells, vtkCellData* output, vtkDataArray* sourceCellId)
 {
+  if (input->GetNumberOfArrays() == 0)
+  {
+    return;
+  }
   const vtkIdType count = sourceCellId->GetNumberOfTuples();
   vtkNew<vtkIdList> from;
   from->SetNumberOfIds(count);

@@ -15,8 +15,8 @@ namespace gridfem
 /// they are shared as they are. Text is taken from the nearest corner. Active attributes stay
 /// active, but for ids, which interpolation spoils. Throws InvalidInput naming an array of wrong
 /// length.
-void InterpolatePointArrays(
-  vtkPointData* input, const TriangleMesh& mesh, const ClippedMesh& clipped, vtkPointData* output);
+void InterpolatePointArrays(vtkPointData* input, const TriangleMesh& mesh,
+  const ClippedMesh& clipped, int threads, vtkPointData* output);
 
 /// Cell arrays, copied from the source cell of every output cell. Arrays of the clip itself (from
 /// an earlier clip) are left out.

@@ -1,7 +1,11 @@
 #include "OctreeOutput.h"
 
+#include "ClippedFans.h"
+#include "PointCoordinates.h"
+
 #include "ElementMatrices.h"
 #include "Errors.h"
+#include "Parallel.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -45,16 +49,19 @@ vtkSmartPointer<Array> NewArray(const char* name, Id count)
   return array;
 }
 
-/// A vertex for each point.
-vtkSmartPointer<vtkCellArray> MakeVertices(Id count)
+/// Cells of `size` points each, that no other cell has.
+vtkSmartPointer<vtkCellArray> CellsOfConsecutivePoints(Id cells, int size)
 {
-  auto offsets = NewArray<vtkIdTypeArray>("", count + 1);
-  auto connectivity = NewArray<vtkIdTypeArray>("", count);
-  std::iota(offsets->GetPointer(0), offsets->GetPointer(0) + count + 1, vtkIdType(0));
-  std::iota(connectivity->GetPointer(0), connectivity->GetPointer(0) + count, vtkIdType(0));
-  auto vertices = vtkSmartPointer<vtkCellArray>::New();
-  vertices->SetData(offsets, connectivity);
-  return vertices;
+  auto offsets = NewArray<vtkIdTypeArray>("", cells + 1);
+  auto connectivity = NewArray<vtkIdTypeArray>("", cells * size);
+  for (Id cell = 0; cell <= cells; ++cell)
+  {
+    offsets->SetValue(cell, cell * size);
+  }
+  std::iota(connectivity->GetPointer(0), connectivity->GetPointer(0) + cells * size, vtkIdType(0));
+  auto result = vtkSmartPointer<vtkCellArray>::New();
+  result->SetData(offsets, connectivity);
+  return result;
 }
 
 /// World position of a cell's corner on a level.
@@ -155,7 +162,7 @@ void AddFunctionArrays(const FunctionSpace& space, std::size_t index, vtkUnstruc
 } // namespace
 
 void WriteOctreeCells(
-  const ClippedMesh& clipped, int level, int precision, vtkUnstructuredGrid* output)
+  const ClippedMesh& clipped, int level, int precision, int threads, vtkUnstructuredGrid* output)
 {
   const int finest = clipped.grid.depth;
   const int from = level < 0 ? finest : std::min(level, finest);
@@ -171,58 +178,67 @@ void WriteOctreeCells(
   const Id count = static_cast<Id>(cells.size());
   auto points = NewPoints(precision, FunctionsPerPatch * count);
   auto levels = NewArray<vtkIntArray>("Level", count);
-  output->Allocate(count);
-  for (Id cell = 0; cell < count; ++cell)
+  const auto fill = [&](auto* coordinates)
   {
-    vtkIdType ids[FunctionsPerPatch];
-    for (int corner = 0; corner < FunctionsPerPatch; ++corner)
-    {
-      ids[corner] = FunctionsPerPatch * cell + corner;
-      const Vec3 position =
-        CornerPosition(clipped.grid, cells[cell].first, cells[cell].second, corner);
-      points->SetPoint(ids[corner], position.data());
-    }
-    output->InsertNextCell(VTK_VOXEL, FunctionsPerPatch, ids);
-    levels->SetValue(cell, cells[cell].first);
-  }
+    ParallelRanges(count, threads,
+      [&](Id begin, Id end)
+      {
+        for (Id cell = begin; cell < end; ++cell)
+        {
+          const auto& [depth, key] = cells[cell];
+          for (int corner = 0; corner < FunctionsPerPatch; ++corner)
+          {
+            StorePoint(CornerPosition(clipped.grid, depth, key, corner),
+              coordinates + 3 * (FunctionsPerPatch * cell + corner));
+          }
+          levels->SetValue(cell, depth);
+        }
+      });
+  };
+  VisitCoordinates(points, fill);
   output->SetPoints(points);
+  output->SetCells(VTK_VOXEL, CellsOfConsecutivePoints(count, FunctionsPerPatch));
   output->GetCellData()->SetScalars(levels);
 }
 
 void WriteQuadraturePoints(const InputMesh& mesh, const ClippedMesh& clipped,
-  const QuadratureRule& rule, int precision, vtkPolyData* output)
+  const QuadratureRule& rule, int precision, int threads, vtkPolyData* output)
 {
-  const Id count = static_cast<Id>(rule.points.size()) * clipped.NumberOfTriangles();
+  const Id perTriangle = static_cast<Id>(rule.points.size());
+  const Id count = perTriangle * clipped.NumberOfTriangles();
   auto points = NewPoints(precision, count);
   auto weight = NewArray<vtkDoubleArray>("Weight", count);
   auto sourceCell = NewArray<vtkIdTypeArray>("SourceCellId", count);
   const double cellArea = clipped.grid.spacing * clipped.grid.spacing;
-  Id sample = 0;
-  const auto addTriangle = [&](const Vec3& a, const Vec3& b, const Vec3& c, Id source)
+  const auto position = [&](Index corner) -> const Vec3&
+  { return clipped.position[clipped.corners[corner]]; };
+  const auto fill = [&](auto* coordinates)
   {
-    const double area = 0.5 * cellArea * (b - a).cross(c - a).norm();
-    for (const auto& point : rule.points)
-    {
-      const auto& w = point.barycentric;
-      const Vec3 position = clipped.grid.ToWorld(w[0] * a + w[1] * b + w[2] * c);
-      points->SetPoint(sample, position.data());
-      weight->SetValue(sample, point.weight * area);
-      sourceCell->SetValue(sample, source);
-      ++sample;
-    }
+    ForEachFan(clipped, threads,
+      [&](Id piece, Id begin, Id end)
+      {
+        const Index first = clipped.pieceBegin[piece];
+        const Vec3& a = position(first);
+        for (Id triangle = begin; triangle < end; ++triangle)
+        {
+          const Vec3& b = position(first + 1 + static_cast<Index>(triangle - begin));
+          const Vec3& c = position(first + 2 + static_cast<Index>(triangle - begin));
+          const double area = 0.5 * cellArea * (b - a).cross(c - a).norm();
+          for (Id k = 0; k < perTriangle; ++k)
+          {
+            const Id sample = perTriangle * triangle + k;
+            const auto& w = rule.points[k].barycentric;
+            StorePoint(
+              clipped.grid.ToWorld(w[0] * a + w[1] * b + w[2] * c), coordinates + 3 * sample);
+            weight->SetValue(sample, rule.points[k].weight * area);
+            sourceCell->SetValue(sample, mesh.sourceCell[clipped.pieceTriangle[piece]]);
+          }
+        }
+      });
   };
-  for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
-  {
-    const auto corner = [&](Id k) -> const Vec3& { return clipped.position[clipped.corners[k]]; };
-    const Id first = clipped.pieceBegin[piece];
-    for (Id k = first + 1; k + 1 < clipped.pieceBegin[piece + 1]; ++k)
-    {
-      addTriangle(
-        corner(first), corner(k), corner(k + 1), mesh.sourceCell[clipped.pieceTriangle[piece]]);
-    }
-  }
+  VisitCoordinates(points, fill);
   output->SetPoints(points);
-  output->SetVerts(MakeVertices(count));
+  output->SetVerts(CellsOfConsecutivePoints(count, 1));
   output->GetPointData()->AddArray(weight);
   output->GetPointData()->AddArray(sourceCell);
 }

@@ -17,12 +17,12 @@ namespace gridfem
 ///                   -1 for all levels, finest first
 /// @param precision  VTK_FLOAT or VTK_DOUBLE
 void WriteOctreeCells(
-  const ClippedMesh& clipped, int level, int precision, vtkUnstructuredGrid* output);
+  const ClippedMesh& clipped, int level, int precision, int threads, vtkUnstructuredGrid* output);
 
 /// The points of the rule on every clipped triangle as vertices with the point arrays Weight (world
 /// area) and SourceCellId.
 void WriteQuadraturePoints(const InputMesh& mesh, const ClippedMesh& clipped,
-  const QuadratureRule& rule, int precision, vtkPolyData* output);
+  const QuadratureRule& rule, int precision, int threads, vtkPolyData* output);
 
 /// The patches of a level as voxels whose points are the basis functions: point arrays BasisId,
 /// SupportArea (world area of the patches a function touches), Component; cell arrays PatchId,

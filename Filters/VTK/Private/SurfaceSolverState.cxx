@@ -84,7 +84,7 @@ void SurfaceSolverState::UpdateSpace(
       return;
     }
     basis = {};
-    mesh = ReadInputMesh(input, progress.Part(0.0, 0.1));
+    mesh = ReadInputMesh(input, options.space.threads, progress.Part(0.0, 0.1));
     RequireSurface(*mesh.triangles);
     if (!carries && !CarriesBasis(basisData))
     {
@@ -105,7 +105,7 @@ void SurfaceSolverState::BuildSpace(vtkPolyData* input, const Progress& progress
   system = {};
   hats.reset();
   weldCoincidentPoints_ = options.space.weldCoincidentPoints;
-  mesh = ReadInputMesh(input, progress.Part(0.0, 0.1));
+  mesh = ReadInputMesh(input, options.space.threads, progress.Part(0.0, 0.1));
   RequireSurface(*mesh.triangles);
   RequireMemory(*mesh.triangles, options.space.depth);
   basis = MakeSurfaceBasis(

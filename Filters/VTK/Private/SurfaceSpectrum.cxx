@@ -136,7 +136,7 @@ void SurfaceSpectrum::ChooseDepth(
   if (!(asked == asked_))
   {
     asked_ = asked;
-    const InputMesh mesh = ReadInputMesh(input);
+    const InputMesh mesh = ReadInputMesh(input, state.options.space.threads);
     RequireSurface(*mesh.triangles);
     depth = FirstDepthForAccuracy(
       EstimateMemory(*mesh.triangles, 5).functions, request.numberOfModes, request.accuracy);

@@ -1,0 +1,29 @@
+// The triangles of a clipped mesh: every piece is a fan of them.
+#ifndef GridFEM_ClippedFans_h
+#define GridFEM_ClippedFans_h
+
+#include "Clip.h"
+#include "Parallel.h"
+
+namespace gridfem
+{
+
+/// Calls body(piece, begin, end) for all pieces with their fans: begin .. end among all triangles.
+template<class Body>
+void ForEachFan(const ClippedMesh& clipped, int threads, Body&& body)
+{
+  ParallelRanges(clipped.NumberOfPieces(), threads,
+    [&](Id first, Id last)
+    {
+      for (Id piece = first; piece < last; ++piece)
+      {
+        // A piece of n corners has n - 2 triangles.
+        body(piece, clipped.pieceBegin[piece] - 2 * piece,
+          clipped.pieceBegin[piece + 1] - 2 * (piece + 1));
+      }
+    });
+}
+
+} // namespace gridfem
+
+#endif
