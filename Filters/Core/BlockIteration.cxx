@@ -1,11 +1,13 @@
 #include "BlockIteration.h"
 
+#include "BasisProducts.h"
 #include "BlockVectors.h"
 #include "PairedProduct.h"
 #include "Parallel.h"
-#include "RayleighRitz.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace gridfem
 {
@@ -21,7 +23,7 @@ constexpr double WakeFactor = 10.0;
 /// A converged column whose squared residual grows by more than this is measured again.
 constexpr double GrowthFactor = 1.5;
 
-/// After so many iterations the projected matrices are computed anew.
+/// After so many iterations the projected matrices are computed anew: rounding adds up.
 constexpr int RefreshInterval = 8;
 
 /// Rows of the basis that are combined at a time: they stay in the cache.
@@ -44,26 +46,25 @@ private:
   bool Precondition(const Progress& progress);
   void ComputeResiduals();
   bool MeasureResiduals();
+  void DropConverged();
   bool Correct(const Progress& progress);
   void RayleighRitz(const Progress& progress);
-  void ProjectOldPart();
-  void ProjectCorrections();
+  void ProjectPart(const BasisParts& before, const MultiVector& part);
   std::vector<Index> ColumnsAtWork() const;
   std::vector<Index> ColumnsThatMoved();
   std::vector<Index> ColumnsWithDirections(Index size) const;
   Eigen::MatrixXd Overlap(const RitzPairs& ritz, const Eigen::MatrixXd& step) const;
   void NextVectors(const RitzPairs& ritz);
+  void CombineRows(const RitzPairs& ritz, const std::vector<Index>& columns,
+    const Eigen::MatrixXd& overlap, MultiVector& vectors, MultiVector& directions);
   double Fraction() const;
 
   const SpectralProblem& problem_;
   const BlockOptions& options_;
   EigenPairs& pairs_;       // X
   MultiVector directions_;  // P
-  MultiVector corrections_; // W = B r of the columns at work
+  MultiVector corrections_; // W = B r of the columns at work that have not converged
   MultiVector residual_;
-  MultiVector pair_;        // stiffness and mass times a part of the basis
-  MultiVector nextVectors_; // room that is kept: fresh pages cost as much as the numbers in them
-  MultiVector nextDirections_;
   Eigen::MatrixXd stiffness_; // projected on [X, P], later [X, P, W]
   Eigen::MatrixXd mass_;
   std::vector<Index> atWork_;
@@ -86,7 +87,8 @@ void BlockIteration::SetStart()
   problem_.precondition(load, directions_);
   if (pairs_.values.size() == 0 && pairs_.vectors.cols() > 0)
   {
-    MultiVector start(rows, pairs_.vectors.cols() + directions_.cols());
+    MultiVector start;
+    Reshape(start, rows, pairs_.vectors.cols() + directions_.cols());
     start << pairs_.vectors, directions_;
     directions_.swap(start);
     pairs_.vectors.resize(rows, 0);
@@ -98,12 +100,10 @@ void BlockIteration::SetStart()
 void BlockIteration::RemoveKnown(MultiVector& X)
 {
   problem_.constants->Remove(X);
-  if (!problem_.known.empty())
+  if (!problem_.known.empty() && X.cols() > 0)
   {
-    Multiply(problem_.mass, X, residual_, problem_.threads);
-    const Eigen::MatrixXd share = Project(problem_.known, residual_, problem_.threads);
-    Combine(problem_.known, share, residual_, problem_.threads);
-    X -= residual_;
+    const Eigen::MatrixXd share = Project(problem_.known, problem_.mass, X, problem_.threads);
+    SubtractCombination(problem_.known, share, X, problem_.threads);
   }
 }
 
@@ -158,6 +158,26 @@ bool BlockIteration::MeasureResiduals()
   return done;
 }
 
+/// What has converged leaves the work; its correction is not needed.
+void BlockIteration::DropConverged()
+{
+  std::vector<Index> kept;
+  std::vector<Index> places;
+  for (std::size_t j = 0; j < atWork_.size(); ++j)
+  {
+    if (measure_[atWork_[j]] > options_.tolerance)
+    {
+      kept.push_back(atWork_[j]);
+      places.push_back(static_cast<Index>(j));
+    }
+  }
+  if (kept.size() < atWork_.size())
+  {
+    corrections_ = SelectColumns(corrections_, places, problem_.threads);
+    atWork_ = std::move(kept);
+  }
+}
+
 /// Residuals and corrections of the columns at work. True when all wanted ones have converged.
 bool BlockIteration::Correct(const Progress& progress)
 {
@@ -170,7 +190,9 @@ bool BlockIteration::Correct(const Progress& progress)
   progress.Check(fraction_);
   problem_.precondition(residual_, corrections_);
   progress.Check(fraction_);
-  return this->MeasureResiduals();
+  const bool done = this->MeasureResiduals();
+  this->DropConverged();
+  return done;
 }
 
 /// Wanted columns that converged earlier and whose residual has grown since. A cycle for each would
@@ -210,40 +232,19 @@ bool BlockIteration::Precondition(const Progress& progress)
   }
   atWork_ = this->ColumnsThatMoved();
   const bool converged = this->Correct(progress);
-  return converged && (static_cast<Index>(size) >= options_.wanted || report_.iterations > 0);
+  return converged && report_.iterations >= options_.minimumIterations &&
+         (static_cast<Index>(size) >= options_.wanted || report_.iterations > 0);
 }
 
-/// Stiffness and mass on [X, P] from the vectors. Between, they follow from the coefficients, and
-/// rounding adds up.
-void BlockIteration::ProjectOldPart()
+/// Extends stiffness and mass on the basis `before` by one more part of it.
+void BlockIteration::ProjectPart(const BasisParts& before, const MultiVector& part)
 {
-  const Id size = pairs_.vectors.cols();
-  const Id added = directions_.cols();
-  const int threads = problem_.threads;
-  stiffness_.resize(size + added, size + added);
-  mass_.resize(size + added, size + added);
-  if (size > 0)
-  {
-    MultiplyPair(problem_.stiffness, problem_.mass, pairs_.vectors, pair_, threads);
-    const Eigen::MatrixXd X = Project({ &pairs_.vectors, &directions_ }, pair_, threads);
-    stiffness_.leftCols(size) = X.leftCols(size);
-    mass_.leftCols(size) = X.rightCols(size);
-  }
-  MultiplyPair(problem_.stiffness, problem_.mass, directions_, pair_, threads);
-  const Eigen::MatrixXd P = Project({ &pairs_.vectors, &directions_ }, pair_, threads);
-  stiffness_.rightCols(added) = P.leftCols(added);
-  mass_.rightCols(added) = P.rightCols(added);
-}
-
-/// Extends stiffness and mass by the corrections.
-void BlockIteration::ProjectCorrections()
-{
-  const Id old = stiffness_.rows();
-  const Id added = corrections_.cols();
-  const int threads = problem_.threads;
-  MultiplyPair(problem_.stiffness, problem_.mass, corrections_, pair_, threads);
+  BasisParts basis = before;
+  basis.push_back(&part);
+  const Id added = part.cols();
   const Eigen::MatrixXd projected =
-    Project({ &pairs_.vectors, &directions_, &corrections_ }, pair_, threads);
+    ProjectPair(basis, problem_.stiffness, problem_.mass, part, problem_.threads);
+  const Id old = projected.rows() - added;
   const auto extend = [&](Eigen::MatrixXd& A, auto columns)
   {
     A.conservativeResize(old + added, old + added);
@@ -259,13 +260,8 @@ void BlockIteration::ProjectCorrections()
 std::vector<Index> BlockIteration::ColumnsWithDirections(Index size) const
 {
   std::vector<Index> columns;
-  for (const Index column : atWork_)
-  {
-    if (column < size && measure_[column] > options_.tolerance)
-    {
-      columns.push_back(column);
-    }
-  }
+  std::copy_if(atWork_.begin(), atWork_.end(), std::back_inserter(columns),
+    [size](Index column) { return column < size; });
   return columns;
 }
 
@@ -282,7 +278,6 @@ Eigen::MatrixXd BlockIteration::Overlap(const RitzPairs& ritz, const Eigen::Matr
 void BlockIteration::NextVectors(const RitzPairs& ritz)
 {
   const Id oldX = pairs_.vectors.cols();
-  const Id oldP = directions_.cols();
   const Id size = ritz.coefficients.rows();
   const Id newX = ritz.values.size();
   const std::vector<Index> columns = this->ColumnsWithDirections(static_cast<Index>(newX));
@@ -296,37 +291,60 @@ void BlockIteration::NextVectors(const RitzPairs& ritz)
   stiffness_ = (C.transpose() * (stiffness_ * C)).eval();
   mass_ = (C.transpose() * (mass_ * C)).eval();
 
-  nextVectors_.resize(problem_.mass.rows, newX);
-  nextDirections_.resize(problem_.mass.rows, newP);
+  // In place where the shapes allow it: fresh pages cost as much as the numbers in them.
+  MultiVector vectors;
+  if (newX != oldX)
+  {
+    Reshape(vectors, problem_.mass.rows, newX);
+  }
+  MultiVector directions;
+  if (newP != corrections_.cols())
+  {
+    Reshape(directions, problem_.mass.rows, newP);
+  }
+  MultiVector& toX = newX != oldX ? vectors : pairs_.vectors;
+  MultiVector& toP = newP != corrections_.cols() ? directions : corrections_;
+  this->CombineRows(ritz, columns, overlap, toX, toP);
+  pairs_.values = ritz.values;
+  pairs_.vectors.swap(toX);
+  directions_.swap(toP);
+}
+
+/// The products of NextVectors. The results may lie where vectors and corrections do.
+void BlockIteration::CombineRows(const RitzPairs& ritz, const std::vector<Index>& columns,
+  const Eigen::MatrixXd& overlap, MultiVector& vectors, MultiVector& directions)
+{
+  const Id oldX = pairs_.vectors.cols();
+  const Id oldP = directions_.cols();
+  const Id oldW = corrections_.cols();
+  const Eigen::MatrixXd& C = ritz.coefficients;
   ParallelRanges(
     problem_.mass.rows, problem_.threads,
     [&](Id begin, Id end)
     {
-      const Id count = end - begin;
-      const auto rows = [&](MultiVector& A) { return A.middleRows(begin, count); };
-      MultiVector share = rows(directions_) * ritz.coefficients.middleRows(oldX, oldP);
-      share.noalias() += rows(corrections_) * ritz.coefficients.bottomRows(size - oldX - oldP);
-      auto vectors = rows(nextVectors_);
-      auto directions = rows(nextDirections_);
-      vectors = share;
-      vectors.noalias() += rows(pairs_.vectors) * ritz.coefficients.topRows(oldX);
-      directions = share(Eigen::all, columns);
-      directions.noalias() -= vectors * overlap;
+      const auto rows = [&](MultiVector& A) { return A.middleRows(begin, end - begin); };
+      MultiVector share = rows(directions_) * C.middleRows(oldX, oldP);
+      share.noalias() += rows(corrections_) * C.bottomRows(oldW);
+      MultiVector next = rows(pairs_.vectors) * C.topRows(oldX);
+      next += share;
+      MultiVector step = share(Eigen::all, columns);
+      step.noalias() -= next * overlap;
+      rows(vectors) = next;
+      rows(directions) = step;
     },
     CombinedRows);
-  pairs_.values = ritz.values;
-  pairs_.vectors.swap(nextVectors_);
-  directions_.swap(nextDirections_);
 }
 
 void BlockIteration::RayleighRitz(const Progress& progress)
 {
   this->RemoveKnown(corrections_);
-  if (report_.iterations % RefreshInterval == 0)
+  const MultiVector& X = pairs_.vectors;
+  if (report_.iterations % RefreshInterval == 0) // between, they follow from the coefficients
   {
-    this->ProjectOldPart();
+    this->ProjectPart({}, X);
+    this->ProjectPart({ &X }, directions_);
   }
-  this->ProjectCorrections();
+  this->ProjectPart({ &X, &directions_ }, corrections_);
   progress.Check(fraction_);
   const RitzPairs ritz = SolvePencil(stiffness_, mass_, problem_.shift, options_.blockSize);
   progress.Check(fraction_);

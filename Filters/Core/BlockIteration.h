@@ -4,6 +4,7 @@
 #ifndef GridFEM_BlockIteration_h
 #define GridFEM_BlockIteration_h
 
+#include "BasisProducts.h"
 #include "Constants.h"
 #include "Progress.h"
 #include "RayleighRitz.h"
@@ -34,6 +35,7 @@ struct BlockOptions
   Index blockSize = 1;     // pairs carried along, >= wanted
   double tolerance = 1e-8; // on rᵀBr / θ
   int maximumIterations = 100;
+  int minimumIterations = 0; // 1: the random directions have their say even if all has converged
 };
 
 struct EigenPairs

@@ -1,11 +1,23 @@
 #include "BlockVectors.h"
 
+#include "LargePages.h"
 #include "Parallel.h"
 
 #include <random>
 
 namespace gridfem
 {
+
+void Reshape(MultiVector& X, Id rows, Id columns)
+{
+  if (X.size() != rows * columns)
+  {
+    X.resize(0, 0); // two blocks at a time would be one too many
+    X.resize(rows, columns);
+    PreferLargePages(X.data(), X.size() * sizeof(double));
+  }
+  X.resize(rows, columns);
+}
 
 MultiVector RandomColumns(Id rows, Id columns)
 {
@@ -23,7 +35,8 @@ MultiVector RandomColumns(Id rows, Id columns)
 
 MultiVector SelectColumns(const MultiVector& X, const std::vector<Index>& columns, int threads)
 {
-  MultiVector result(X.rows(), static_cast<Id>(columns.size()));
+  MultiVector result;
+  Reshape(result, X.rows(), static_cast<Id>(columns.size()));
   ParallelRanges(X.rows(), threads,
     [&](Id begin, Id end)
     {

@@ -9,6 +9,10 @@
 namespace gridfem
 {
 
+/// Makes room for a block of this shape, in large pages where it is large; its numbers are lost
+/// where the shape changes.
+void Reshape(MultiVector& X, Id rows, Id columns);
+
 /// Uniform in [-1, 1), the same on every platform.
 MultiVector RandomColumns(Id rows, Id columns);
 

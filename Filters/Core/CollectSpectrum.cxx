@@ -1,5 +1,6 @@
 #include "CollectSpectrum.h"
 
+#include "BlockVectors.h"
 #include "Parallel.h"
 
 namespace gridfem
@@ -55,7 +56,7 @@ Spectrum CollectSpectrum(const Constants& constants, Index zeros, const EigenPai
 void CycleOnColumns(
   const Multigrid& multigrid, std::size_t level, const MultiVector& r, MultiVector& z)
 {
-  z.resize(r.rows(), r.cols());
+  Reshape(z, r.rows(), r.cols());
   ParallelRanges(
     r.cols(), multigrid.Options().threads,
     [&](Id begin, Id end)

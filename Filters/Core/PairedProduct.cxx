@@ -1,6 +1,9 @@
 #include "PairedProduct.h"
 
+#include "BlockVectors.h"
+#include "Errors.h"
 #include "Parallel.h"
+#include "RowKernels.h"
 
 #include <type_traits>
 
@@ -40,51 +43,66 @@ void CheckShapes(const SparseMatrix& A, const SparseMatrix& B, const MultiVector
 
 /// Calls store(row, column, a, b) with the lanes of A X and B X that begin there.
 template<class Store>
-void ForEachRowPair(
-  const SparseMatrix& A, const SparseMatrix& B, const MultiVector& X, int threads, Store&& store)
+void ForEachRowPair(const SparseMatrix& A, const SparseMatrix& B, const MultiVector& X, Id first,
+  Id last, Store&& store)
 {
-  ParallelRanges(
-    A.rows, threads,
-    [&](Id first, Id last)
+  for (Id row = first; row < last; ++row)
+  {
+    const auto put = [&](Id column) {
+      return [&store, row, column](const auto& a, const auto& b) { store(row, column, a, b); };
+    };
+    Id column = 0;
+    for (; column + 16 <= X.cols(); column += 16)
     {
-      for (Id row = first; row < last; ++row)
-      {
-        const auto put = [&](Id column) {
-          return [&store, row, column](const auto& a, const auto& b) { store(row, column, a, b); };
-        };
-        Id column = 0;
-        for (; column + 16 <= X.cols(); column += 16)
-        {
-          RowPair<16>(A, B, X, row, column, put(column));
-        }
-        for (; column + 4 <= X.cols(); column += 4)
-        {
-          RowPair<4>(A, B, X, row, column, put(column));
-        }
-        for (; column < X.cols(); ++column)
-        {
-          RowPair<1>(A, B, X, row, column, put(column));
-        }
-      }
-    },
-    RangeSize);
+      RowPair<16>(A, B, X, row, column, put(column));
+    }
+    for (; column + 4 <= X.cols(); column += 4)
+    {
+      RowPair<4>(A, B, X, row, column, put(column));
+    }
+    for (; column < X.cols(); ++column)
+    {
+      RowPair<1>(A, B, X, row, column, put(column));
+    }
+  }
 }
 
 } // namespace
 
-void MultiplyPair(const SparseMatrix& A, const SparseMatrix& B, const MultiVector& X,
-  MultiVector& pair, int threads)
+PairedProduct::PairedProduct(const SparseMatrix& A, const SparseMatrix& B, const MultiVector& X)
+  : A_(A), B_(B), X_(X)
 {
   CheckShapes(A, B, X);
-  const Id columns = X.cols();
-  pair.resize(A.rows, 2 * columns);
-  ForEachRowPair(A, B, X, threads,
+}
+
+void PairedProduct::Rows(Id begin, Id end, MultiVector& image) const
+{
+  const Id columns = X_.cols();
+  ForEachRowPair(A_, B_, X_, begin, end,
     [&](Id row, Id column, const auto& a, const auto& b)
     {
       using Lanes = std::decay_t<decltype(a)>;
-      double* to = pair.data() + row * 2 * columns + column;
+      double* to = image.data() + (row - begin) * 2 * columns + column;
       Eigen::Map<Lanes>{ to } = a;
       Eigen::Map<Lanes>{ to + columns } = b;
+    });
+}
+
+void MultiplyRows(const SparseMatrix& A, const MultiVector& X, Id begin, Id end, MultiVector& image)
+{
+  if (A.columns != X.rows())
+  {
+    throw InvalidInput("a matrix does not fit the block it is multiplied with");
+  }
+  const RowView rows(A);
+  ForEachChunk(X.cols(),
+    [&](auto chunk)
+    {
+      for (Id row = begin; row < end; ++row)
+      {
+        chunk.Row(image.data(), static_cast<Index>(row - begin)) =
+          RowProduct(rows, static_cast<Index>(row), X.data(), chunk);
+      }
     });
 }
 
@@ -96,14 +114,20 @@ void EigenResidual(const SparseMatrix& A, const SparseMatrix& B, const MultiVect
   {
     throw InvalidInput("a residual needs a value for every column");
   }
-  residual.resize(A.rows, X.cols());
-  ForEachRowPair(A, B, X, threads,
-    [&](Id row, Id column, const auto& a, const auto& b)
+  Reshape(residual, A.rows, X.cols());
+  ParallelRanges(
+    A.rows, threads,
+    [&](Id begin, Id end)
     {
-      using Lanes = std::decay_t<decltype(a)>;
-      const Eigen::Map<const Lanes> theta(values.data() + column);
-      Eigen::Map<Lanes>{ residual.data() + row * X.cols() + column } = a - theta * b;
-    });
+      ForEachRowPair(A, B, X, begin, end,
+        [&](Id row, Id column, const auto& a, const auto& b)
+        {
+          using Lanes = std::decay_t<decltype(a)>;
+          const Eigen::Map<const Lanes> theta(values.data() + column);
+          Eigen::Map<Lanes>{ residual.data() + row * X.cols() + column } = a - theta * b;
+        });
+    },
+    RangeSize);
 }
 
 } // namespace gridfem

@@ -9,12 +9,29 @@
 namespace gridfem
 {
 
-/// pair = [A X, B X] side by side, for matrices of one pattern; pair must not be X. Throws
-/// InvalidInput when the shapes do not fit. Same bits for any number of threads.
-void MultiplyPair(const SparseMatrix& A, const SparseMatrix& B, const MultiVector& X,
-  MultiVector& pair, int threads = 0);
+/// [A X, B X] side by side, for matrices of one pattern, some rows at a time. Keeps references.
+/// Throws InvalidInput when the shapes do not fit.
+class PairedProduct
+{
+public:
+  PairedProduct(const SparseMatrix& A, const SparseMatrix& B, const MultiVector& X);
 
-/// residual = A X - B X diag(values), under the same conditions.
+  /// The rows begin .. end - 1, from the first row of `image` on, which has 2 X.cols() columns.
+  void Rows(Id begin, Id end, MultiVector& image) const;
+
+private:
+  const SparseMatrix& A_;
+  const SparseMatrix& B_;
+  const MultiVector& X_;
+};
+
+/// The rows begin .. end - 1 of A X, from the first row of `image` on, which has X.cols() columns.
+/// Throws InvalidInput when the shapes do not fit.
+void MultiplyRows(
+  const SparseMatrix& A, const MultiVector& X, Id begin, Id end, MultiVector& image);
+
+/// residual = A X - B X diag(values) for matrices of one pattern. Throws InvalidInput when the
+/// shapes do not fit. Same bits for any number of threads.
 void EigenResidual(const SparseMatrix& A, const SparseMatrix& B, const MultiVector& X,
   const Eigen::VectorXd& values, MultiVector& residual, int threads = 0);
 

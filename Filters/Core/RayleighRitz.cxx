@@ -1,6 +1,5 @@
 #include "RayleighRitz.h"
 
-#include "Parallel.h"
 #include "PivotedCholesky.h"
 
 #include <Eigen/Eigenvalues>
@@ -14,12 +13,6 @@ namespace
 
 /// Pairs of mass c = μ K c with μ below this fraction of the largest count as μ = 0 (θ infinite).
 constexpr double MasslessFraction = 1e-12;
-
-/// Side of the square blocks in which projected matrices are computed.
-constexpr Id TileSize = 112;
-
-/// Rows that are combined at a time: they stay in the cache.
-constexpr Id CombineRows = 512;
 
 /// 1 / sqrt(diagonal); 0 where there is nothing to scale.
 Eigen::VectorXd DiagonalScale(const Eigen::MatrixXd& A)
@@ -84,57 +77,6 @@ RitzPairs SolvePencil(
     result.coefficients.row(kept[i]) = scale[kept[i]] * vectors.row(i);
   }
   return result;
-}
-
-Eigen::MatrixXd Project(const BasisParts& parts, const MultiVector& Y, int threads)
-{
-  struct Tile
-  {
-    const MultiVector* part;
-    Id column, row, height; // in the part, in the result
-  };
-  std::vector<Tile> tiles;
-  Id size = 0;
-  for (const MultiVector* part : parts)
-  {
-    for (Id column = 0; column < part->cols(); column += TileSize)
-    {
-      tiles.push_back({ part, column, size + column, std::min(TileSize, part->cols() - column) });
-    }
-    size += part->cols();
-  }
-  const Id across = (Y.cols() + TileSize - 1) / TileSize;
-  Eigen::MatrixXd result(size, Y.cols());
-  ParallelBlocks(static_cast<Id>(tiles.size()) * across, threads,
-    [&](Id block)
-    {
-      const Tile& tile = tiles[block / across];
-      const Id j = TileSize * (block % across);
-      const Id width = std::min(TileSize, Y.cols() - j);
-      result.block(tile.row, j, tile.height, width).noalias() =
-        tile.part->middleCols(tile.column, tile.height).transpose() * Y.middleCols(j, width);
-    });
-  return result;
-}
-
-void Combine(const BasisParts& parts, const Eigen::MatrixXd& C, MultiVector& result, int threads)
-{
-  const Id rows = parts.front()->rows();
-  result.resize(rows, C.cols());
-  ParallelRanges(
-    rows, threads,
-    [&](Id begin, Id end)
-    {
-      auto block = result.middleRows(begin, end - begin);
-      block.setZero();
-      Id first = 0;
-      for (const MultiVector* part : parts)
-      {
-        block.noalias() += part->middleRows(begin, end - begin) * C.middleRows(first, part->cols());
-        first += part->cols();
-      }
-    },
-    CombineRows);
 }
 
 } // namespace gridfem

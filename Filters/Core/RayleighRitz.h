@@ -29,16 +29,6 @@ constexpr double DependentPivot = 1e-12;
 RitzPairs SolvePencil(
   const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass, double shift, Index wanted);
 
-/// A basis in parts that lie apart in memory.
-using BasisParts = std::vector<const MultiVector*>;
-
-/// [X₁ X₂ ...]ᵀ Y. Same bits for any number of threads.
-Eigen::MatrixXd Project(const BasisParts& parts, const MultiVector& Y, int threads = 0);
-
-/// [X₁ X₂ ...] C for a small C. Same bits for any number of threads.
-void Combine(
-  const BasisParts& parts, const Eigen::MatrixXd& C, MultiVector& result, int threads = 0);
-
 } // namespace gridfem
 
 #endif

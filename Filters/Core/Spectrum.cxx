@@ -1,5 +1,6 @@
 #include "Spectrum.h"
 
+#include "BlockVectors.h"
 #include "CollectSpectrum.h"
 #include "SpectrumAccuracy.h"
 #include "WindowIteration.h"
@@ -161,6 +162,7 @@ private:
   double shift_ = 1.0;
   Index zeros_ = 0;
   EigenPairs pairs_;
+  bool isDense_ = false; // the finest level was solved densely
   bool cutsMultiplet_ = false;
 };
 
@@ -202,13 +204,14 @@ Spectrum NestedIteration::OnlyConstants(const Constants& zeroModes, const Sparse
   return spectrum;
 }
 
-/// Brings the pairs to a finer level.
+/// Brings the pairs to a finer level. The spaces are nested, so they stay Ritz pairs.
 void NestedIteration::Prolong(std::size_t level, const Constants& constants, BlockOptions& block)
 {
   MultiVector fine;
+  Reshape(fine, system_.prolongation[level].rows, pairs_.vectors.cols());
   Multiply(system_.prolongation[level], pairs_.vectors, fine, options_.multigrid.threads);
   pairs_.vectors = std::move(fine);
-  pairs_.values.resize(0);
+  block.minimumIterations = std::min(1, block.maximumIterations);
   constants.Remove(pairs_.vectors);
   if (pairs_.vectors.cols() < block.wanted)
   {
@@ -223,7 +226,7 @@ void NestedIteration::Prolong(std::size_t level, const Constants& constants, Blo
 BlockReport NestedIteration::FinishList(
   const SpectralProblem& problem, BlockOptions block, const Progress& progress)
 {
-  const bool isAll = pairs_.values.size() > 0 && pairs_.values.size() < block.blockSize;
+  const bool isAll = isDense_ && pairs_.values.size() < block.blockSize;
   if (isAll) // an iteration would only find rounding
   {
     block.maximumIterations = 0;
@@ -304,6 +307,7 @@ Spectrum NestedIteration::Run(const Progress& progress)
     if ((level == start || level == 0) && IsDense(space_.levels[level], blockSize))
     {
       pairs_ = SolveDense(problem, blockSize);
+      isDense_ = level == 0;
       if (level > 0)
       {
         continue;
