@@ -1,6 +1,7 @@
 #include "CollectSpectrum.h"
 
 #include "BlockVectors.h"
+#include "PairedProduct.h"
 #include "Parallel.h"
 
 namespace gridfem
@@ -10,20 +11,44 @@ namespace
 
 constexpr Id PanelWidth = 8;
 
+/// Rows whose images are looked at together.
+constexpr Id RowsAtOnce = 512;
+
+/// Per column of M X the entry of largest magnitude, ties to the lowest row.
+Eigen::RowVectorXd LargestEntries(const SparseMatrix& mass, const MultiVector& X, int threads)
+{
+  const Id ranges = (X.rows() + RowsAtOnce - 1) / RowsAtOnce;
+  std::vector<Eigen::RowVectorXd> parts(ranges, Eigen::RowVectorXd::Zero(X.cols()));
+  const auto update = [](Eigen::RowVectorXd& largest, const auto& row)
+  { largest = (row.array().abs() > largest.array().abs()).select(row, largest); };
+  ParallelBlocks(ranges, threads,
+    [&](Id range)
+    {
+      const Id begin = range * RowsAtOnce;
+      const Id end = std::min(X.rows(), begin + RowsAtOnce);
+      MultiVector load(RowsAtOnce, X.cols());
+      MultiplyRows(mass, X, begin, end, load);
+      for (Id row = 0; row < end - begin; ++row)
+      {
+        update(parts[range], load.row(row));
+      }
+    });
+  Eigen::RowVectorXd largest = Eigen::RowVectorXd::Zero(X.cols());
+  for (const Eigen::RowVectorXd& part : parts)
+  {
+    update(largest, part);
+  }
+  return largest;
+}
+
 /// The entry of largest magnitude of M x becomes positive, ties to the lowest index.
 void FixSigns(const SparseMatrix& mass, MultiVector& X, int threads)
 {
-  MultiVector load;
-  Multiply(mass, X, load, threads);
-  for (Id j = 0; j < X.cols(); ++j)
-  {
-    Id largest = 0;
-    load.col(j).cwiseAbs().maxCoeff(&largest);
-    if (load(largest, j) < 0.0)
-    {
-      X.col(j) *= -1.0;
-    }
-  }
+  const Eigen::RowVectorXd sign =
+    LargestEntries(mass, X, threads)
+      .unaryExpr([](double value) { return value < 0.0 ? -1.0 : 1.0; });
+  ParallelRanges(X.rows(), threads,
+    [&](Id begin, Id end) { X.middleRows(begin, end - begin) *= sign.asDiagonal(); });
 }
 
 } // namespace
@@ -36,12 +61,18 @@ Spectrum CollectSpectrum(const Constants& constants, Index zeros, const EigenPai
   spectrum.eigenvalues.assign(zeros, 0.0);
   spectrum.eigenvalues.insert(
     spectrum.eigenvalues.end(), pairs.values.data(), pairs.values.data() + others);
-  spectrum.vectors.resize(mass.rows, zeros + others);
-  spectrum.vectors.leftCols(zeros) = constants.Vectors(zeros);
-  if (others > 0)
-  {
-    spectrum.vectors.rightCols(others) = pairs.vectors.leftCols(others);
-  }
+  Reshape(spectrum.vectors, mass.rows, zeros + others);
+  const MultiVector constant = constants.Vectors(zeros);
+  ParallelRanges(mass.rows, threads,
+    [&](Id begin, Id end)
+    {
+      auto rows = spectrum.vectors.middleRows(begin, end - begin);
+      rows.leftCols(zeros) = constant.middleRows(begin, end - begin);
+      if (others > 0)
+      {
+        rows.rightCols(others) = pairs.vectors.middleRows(begin, end - begin).leftCols(others);
+      }
+    });
   FixSigns(mass, spectrum.vectors, threads);
   spectrum.residuals.assign(zeros, 0.0);
   spectrum.residuals.insert(

@@ -48,9 +48,8 @@ void ForEachRowPair(const SparseMatrix& A, const SparseMatrix& B, const MultiVec
 {
   for (Id row = first; row < last; ++row)
   {
-    const auto put = [&](Id column) {
-      return [&store, row, column](const auto& a, const auto& b) { store(row, column, a, b); };
-    };
+    const auto put = [&](Id column)
+    { return [&store, row, column](const auto& a, const auto& b) { store(row, column, a, b); }; };
     Id column = 0;
     for (; column + 16 <= X.cols(); column += 16)
     {

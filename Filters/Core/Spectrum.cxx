@@ -21,8 +21,8 @@ constexpr double LargestDense = 1200.0;
 /// Accuracy of the eigenvalues on coarser levels, whose discretisation error is far larger. The
 /// level below the finest also serves the estimate of the error.
 constexpr double CoarseTolerance = 1e-3;
-constexpr double SecondTolerance = 1e-4;
-constexpr int CoarseIterations = 4;
+constexpr double SecondTolerance = 1e-5;
+constexpr int CoarseIterations = 5;
 constexpr int RandomStartIterations = 40;
 
 void Validate(const SpectrumOptions& options)
