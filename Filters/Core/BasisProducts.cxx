@@ -17,9 +17,9 @@ constexpr Id NumberOfSums = 16;
 Id Width(const BasisParts& parts)
 {
   Id width = 0;
-  for (const MultiVector* part : parts)
+  for (const ConstBlock& part : parts)
   {
-    width += part->cols();
+    width += part.cols();
   }
   return width;
 }
@@ -39,11 +39,11 @@ Eigen::MatrixXd ProjectRows(
       const Id count = std::min(RowsAtOnce, last - begin);
       imageRows(begin, begin + count, image);
       Id row = 0;
-      for (const MultiVector* part : parts)
+      for (const ConstBlock& part : parts)
       {
-        result.middleRows(row, part->cols()).noalias() +=
-          part->middleRows(begin, count).transpose() * image.topRows(count);
-        row += part->cols();
+        result.middleRows(row, part.cols()).noalias() +=
+          part.middleRows(begin, count).transpose() * image.topRows(count);
+        row += part.cols();
       }
     }
     return result;
@@ -56,7 +56,7 @@ Eigen::MatrixXd ProjectRows(
 } // namespace
 
 Eigen::MatrixXd ProjectPair(const BasisParts& parts, const SparseMatrix& A, const SparseMatrix& B,
-  const MultiVector& Y, int threads)
+  const ConstBlock& Y, int threads)
 {
   const PairedProduct product(A, B, Y);
   return ProjectRows(parts, A.rows, 2 * Y.cols(), threads,
@@ -64,25 +64,24 @@ Eigen::MatrixXd ProjectPair(const BasisParts& parts, const SparseMatrix& A, cons
 }
 
 Eigen::MatrixXd Project(
-  const BasisParts& parts, const SparseMatrix& A, const MultiVector& Y, int threads)
+  const BasisParts& parts, const SparseMatrix& A, const ConstBlock& Y, int threads)
 {
   return ProjectRows(parts, A.rows, Y.cols(), threads,
     [&](Id begin, Id end, MultiVector& image) { MultiplyRows(A, Y, begin, end, image); });
 }
 
-void SubtractCombination(
-  const BasisParts& parts, const Eigen::MatrixXd& C, MultiVector& Y, int threads)
+void SubtractCombination(const BasisParts& parts, const Eigen::MatrixXd& C, Block Y, int threads)
 {
   ParallelRanges(
     Y.rows(), threads,
     [&](Id begin, Id end)
     {
       Id row = 0;
-      for (const MultiVector* part : parts)
+      for (const ConstBlock& part : parts)
       {
         Y.middleRows(begin, end - begin).noalias() -=
-          part->middleRows(begin, end - begin) * C.middleRows(row, part->cols());
-        row += part->cols();
+          part.middleRows(begin, end - begin) * C.middleRows(row, part.cols());
+        row += part.cols();
       }
     },
     RowsAtOnce);

@@ -33,8 +33,10 @@ constexpr Id CombinedRows = 512;
 class BlockIteration
 {
 public:
-  BlockIteration(const SpectralProblem& problem, const BlockOptions& options, EigenPairs& pairs)
-    : problem_(problem), options_(options), pairs_(pairs)
+  BlockIteration(const SpectralProblem& problem, const BlockOptions& options, EigenPairs& pairs,
+    BlockWorkspace& workspace)
+    : problem_(problem), options_(options), pairs_(pairs), directions_(workspace.directions),
+      corrections_(workspace.corrections), residual_(workspace.residual), spare_(workspace.vectors)
   {
   }
 
@@ -42,29 +44,30 @@ public:
 
 private:
   void SetStart();
-  void RemoveKnown(MultiVector& X);
+  void RemoveKnown(Block X);
   bool Precondition(const Progress& progress);
   void ComputeResiduals();
   bool MeasureResiduals();
   void DropConverged();
   bool Correct(const Progress& progress);
   void RayleighRitz(const Progress& progress);
-  void ProjectPart(const BasisParts& before, const MultiVector& part);
+  void ProjectPart(const BasisParts& before, const ConstBlock& part);
   std::vector<Index> ColumnsAtWork() const;
   std::vector<Index> ColumnsThatMoved();
   std::vector<Index> ColumnsWithDirections(Index size) const;
   Eigen::MatrixXd Overlap(const RitzPairs& ritz, const Eigen::MatrixXd& step) const;
   void NextVectors(const RitzPairs& ritz);
   void CombineRows(const RitzPairs& ritz, const std::vector<Index>& columns,
-    const Eigen::MatrixXd& overlap, MultiVector& vectors, MultiVector& directions);
+    const Eigen::MatrixXd& overlap, MultiVector& vectors, Eigen::Map<MultiVector>& directions);
   double Fraction() const;
 
   const SpectralProblem& problem_;
   const BlockOptions& options_;
-  EigenPairs& pairs_;       // X
-  MultiVector directions_;  // P
-  MultiVector corrections_; // W = B r of the columns at work that have not converged
-  MultiVector residual_;
+  EigenPairs& pairs_;        // X
+  BlockBuffer& directions_;  // P
+  BlockBuffer& corrections_; // W = B r of the columns at work that have not converged
+  BlockBuffer& residual_;
+  MultiVector& spare_;        // where new vectors go when their number changes
   Eigen::MatrixXd stiffness_; // projected on [X, P], later [X, P, W]
   Eigen::MatrixXd mass_;
   std::vector<Index> atWork_;
@@ -84,20 +87,26 @@ void BlockIteration::SetStart()
     RandomColumns(rows, std::max<Id>(MinimumRandomColumns, missing + MinimumRandomColumns));
   MultiVector load;
   Multiply(problem_.mass, random, load, problem_.threads);
-  problem_.precondition(load, directions_);
-  if (pairs_.values.size() == 0 && pairs_.vectors.cols() > 0)
+  const Id vectors = pairs_.values.size() > 0 ? 0 : pairs_.vectors.cols();
+  directions_.Reshape(rows, vectors + random.cols());
+  Eigen::Map<MultiVector>& P = directions_.View();
+  problem_.precondition(load, P.rightCols(random.cols()));
+  if (vectors > 0)
   {
-    MultiVector start;
-    Reshape(start, rows, pairs_.vectors.cols() + directions_.cols());
-    start << pairs_.vectors, directions_;
-    directions_.swap(start);
+    ParallelRanges(rows, problem_.threads,
+      [&](Id begin, Id end)
+      {
+        P.middleRows(begin, end - begin).leftCols(vectors) =
+          pairs_.vectors.middleRows(begin, end - begin);
+      });
+    pairs_.vectors.swap(spare_);
     pairs_.vectors.resize(rows, 0);
   }
-  this->RemoveKnown(directions_);
+  this->RemoveKnown(P);
 }
 
 /// Makes X orthogonal to all that is known.
-void BlockIteration::RemoveKnown(MultiVector& X)
+void BlockIteration::RemoveKnown(Block X)
 {
   problem_.constants->Remove(X);
   if (!problem_.known.empty() && X.cols() > 0)
@@ -127,23 +136,25 @@ std::vector<Index> BlockIteration::ColumnsAtWork() const
 /// residual = L X - M X diag(θ) of the columns at work.
 void BlockIteration::ComputeResiduals()
 {
-  const bool all = static_cast<Id>(atWork_.size()) == pairs_.values.size();
-  const MultiVector selected =
-    all ? MultiVector() : SelectColumns(pairs_.vectors, atWork_, problem_.threads);
-  const MultiVector& X = all ? pairs_.vectors : selected;
-  Eigen::VectorXd values(X.cols());
-  for (Id j = 0; j < X.cols(); ++j)
+  const int threads = problem_.threads;
+  const Id count = static_cast<Id>(atWork_.size());
+  const Eigen::VectorXd values = pairs_.values(atWork_);
+  const bool all = count == pairs_.values.size();
+  if (!all) // corrections are not needed any more
   {
-    values[j] = pairs_.values[atWork_[j]];
+    SelectColumns(pairs_.vectors, atWork_, corrections_, threads);
   }
-  EigenResidual(problem_.stiffness, problem_.mass, X, values, residual_, problem_.threads);
+  const ConstBlock X = all ? ConstBlock(pairs_.vectors) : ConstBlock(corrections_.View());
+  residual_.Reshape(problem_.mass.rows, count);
+  EigenResidual(problem_.stiffness, problem_.mass, X, values, residual_.View(), threads);
 }
 
 /// True when all wanted columns at work have converged.
 bool BlockIteration::MeasureResiduals()
 {
-  const Eigen::VectorXd energy = ColumnDots(residual_, corrections_, problem_.threads);
-  const Eigen::VectorXd norm = ColumnDots(residual_, residual_, problem_.threads);
+  const ConstBlock r = residual_.View();
+  const Eigen::VectorXd energy = ColumnDots(r, corrections_.View(), problem_.threads);
+  const Eigen::VectorXd norm = ColumnDots(r, r, problem_.threads);
   bool done = true;
   for (Id j = 0; j < energy.size(); ++j)
   {
@@ -173,7 +184,8 @@ void BlockIteration::DropConverged()
   }
   if (kept.size() < atWork_.size())
   {
-    corrections_ = SelectColumns(corrections_, places, problem_.threads);
+    SelectColumns(corrections_.View(), places, residual_, problem_.threads);
+    corrections_.Swap(residual_);
     atWork_ = std::move(kept);
   }
 }
@@ -183,12 +195,13 @@ bool BlockIteration::Correct(const Progress& progress)
 {
   if (atWork_.empty())
   {
-    corrections_.resize(problem_.mass.rows, 0);
+    corrections_.Reshape(problem_.mass.rows, 0);
     return true;
   }
   this->ComputeResiduals();
   progress.Check(fraction_);
-  problem_.precondition(residual_, corrections_);
+  corrections_.Reshape(problem_.mass.rows, residual_.Columns());
+  problem_.precondition(residual_.View(), corrections_.View());
   progress.Check(fraction_);
   const bool done = this->MeasureResiduals();
   this->DropConverged();
@@ -205,7 +218,7 @@ std::vector<Index> BlockIteration::ColumnsThatMoved()
     atWork_.push_back(j);
   }
   this->ComputeResiduals();
-  const Eigen::VectorXd norm = ColumnDots(residual_, residual_, problem_.threads);
+  const Eigen::VectorXd norm = ColumnDots(residual_.View(), residual_.View(), problem_.threads);
   std::vector<Index> moved;
   for (const Index column : atWork_)
   {
@@ -237,10 +250,10 @@ bool BlockIteration::Precondition(const Progress& progress)
 }
 
 /// Extends stiffness and mass on the basis `before` by one more part of it.
-void BlockIteration::ProjectPart(const BasisParts& before, const MultiVector& part)
+void BlockIteration::ProjectPart(const BasisParts& before, const ConstBlock& part)
 {
   BasisParts basis = before;
-  basis.push_back(&part);
+  basis.push_back(part);
   const Id added = part.cols();
   const Eigen::MatrixXd projected =
     ProjectPair(basis, problem_.stiffness, problem_.mass, part, problem_.threads);
@@ -291,40 +304,34 @@ void BlockIteration::NextVectors(const RitzPairs& ritz)
   stiffness_ = (C.transpose() * (stiffness_ * C)).eval();
   mass_ = (C.transpose() * (mass_ * C)).eval();
 
-  // In place where the shapes allow it: fresh pages cost as much as the numbers in them.
-  MultiVector vectors;
+  // The residual is not needed any more. New vectors replace the old ones row by row.
+  residual_.Reshape(problem_.mass.rows, newP);
   if (newX != oldX)
   {
-    Reshape(vectors, problem_.mass.rows, newX);
+    Reshape(spare_, problem_.mass.rows, newX);
   }
-  MultiVector directions;
-  if (newP != corrections_.cols())
-  {
-    Reshape(directions, problem_.mass.rows, newP);
-  }
-  MultiVector& toX = newX != oldX ? vectors : pairs_.vectors;
-  MultiVector& toP = newP != corrections_.cols() ? directions : corrections_;
-  this->CombineRows(ritz, columns, overlap, toX, toP);
+  MultiVector& vectors = newX != oldX ? spare_ : pairs_.vectors;
+  this->CombineRows(ritz, columns, overlap, vectors, residual_.View());
   pairs_.values = ritz.values;
-  pairs_.vectors.swap(toX);
-  directions_.swap(toP);
+  pairs_.vectors.swap(vectors);
+  directions_.Swap(residual_);
 }
 
-/// The products of NextVectors. The results may lie where vectors and corrections do.
+/// The products of NextVectors. `vectors` may be the old ones.
 void BlockIteration::CombineRows(const RitzPairs& ritz, const std::vector<Index>& columns,
-  const Eigen::MatrixXd& overlap, MultiVector& vectors, MultiVector& directions)
+  const Eigen::MatrixXd& overlap, MultiVector& vectors, Eigen::Map<MultiVector>& directions)
 {
   const Id oldX = pairs_.vectors.cols();
-  const Id oldP = directions_.cols();
-  const Id oldW = corrections_.cols();
+  const Id oldP = directions_.Columns();
+  const Id oldW = corrections_.Columns();
   const Eigen::MatrixXd& C = ritz.coefficients;
   ParallelRanges(
     problem_.mass.rows, problem_.threads,
     [&](Id begin, Id end)
     {
-      const auto rows = [&](MultiVector& A) { return A.middleRows(begin, end - begin); };
-      MultiVector share = rows(directions_) * C.middleRows(oldX, oldP);
-      share.noalias() += rows(corrections_) * C.bottomRows(oldW);
+      const auto rows = [&](auto& A) { return A.middleRows(begin, end - begin); };
+      MultiVector share = rows(directions_.View()) * C.middleRows(oldX, oldP);
+      share.noalias() += rows(corrections_.View()) * C.bottomRows(oldW);
       MultiVector next = rows(pairs_.vectors) * C.topRows(oldX);
       next += share;
       MultiVector step = share(Eigen::all, columns);
@@ -337,14 +344,15 @@ void BlockIteration::CombineRows(const RitzPairs& ritz, const std::vector<Index>
 
 void BlockIteration::RayleighRitz(const Progress& progress)
 {
-  this->RemoveKnown(corrections_);
-  const MultiVector& X = pairs_.vectors;
+  this->RemoveKnown(corrections_.View());
+  const ConstBlock X = pairs_.vectors;
+  const ConstBlock P = directions_.View();
   if (report_.iterations % RefreshInterval == 0) // between, they follow from the coefficients
   {
     this->ProjectPart({}, X);
-    this->ProjectPart({ &X }, directions_);
+    this->ProjectPart({ X }, P);
   }
-  this->ProjectPart({ &X, &directions_ }, corrections_);
+  this->ProjectPart({ X, P }, corrections_.View());
   progress.Check(fraction_);
   const RitzPairs ritz = SolvePencil(stiffness_, mass_, problem_.shift, options_.blockSize);
   progress.Check(fraction_);
@@ -395,9 +403,9 @@ BlockReport BlockIteration::Run(const Progress& progress)
 } // namespace
 
 BlockReport ImproveEigenPairs(const SpectralProblem& problem, const BlockOptions& options,
-  EigenPairs& pairs, const Progress& progress)
+  EigenPairs& pairs, BlockWorkspace& workspace, const Progress& progress)
 {
-  return BlockIteration(problem, options, pairs).Run(progress);
+  return BlockIteration(problem, options, pairs, workspace).Run(progress);
 }
 
 } // namespace gridfem

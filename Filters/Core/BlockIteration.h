@@ -23,7 +23,7 @@ struct SpectralProblem
   SparseMatrix stiffness;
   SparseMatrix mass;
   double shift = 1.0;
-  std::function<void(const MultiVector& r, MultiVector& z)> precondition;
+  std::function<void(const ConstBlock& r, Block z)> precondition;
   const Constants* constants = nullptr; // the pairs found are orthogonal to them
   BasisParts known;                     // and to these, orthonormal in the mass matrix
   int threads = 0;
@@ -52,13 +52,22 @@ struct BlockReport
   int iterations = 0;            // Rayleigh-Ritz steps
 };
 
+/// Memory of an iteration, for one that comes after it.
+struct BlockWorkspace
+{
+  BlockBuffer directions;
+  BlockBuffer corrections;
+  BlockBuffer residual;
+  MultiVector vectors;
+};
+
 /// Improves `pairs` (orthonormal Ritz pairs, or vectors of any kind without values; may be fewer
 /// than blockSize, or none) until the wanted ones reach the tolerance. Columns that did drop out of
 /// the work until they move again. A few fixed random directions are mixed in, so that no
 /// eigenvector stays hidden. Returns at most blockSize pairs, fewer when fewer exist. Same bits for
 /// any number of threads. Throws Aborted.
 BlockReport ImproveEigenPairs(const SpectralProblem& problem, const BlockOptions& options,
-  EigenPairs& pairs, const Progress& progress = {});
+  EigenPairs& pairs, BlockWorkspace& workspace, const Progress& progress = {});
 
 } // namespace gridfem
 

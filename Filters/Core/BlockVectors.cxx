@@ -3,19 +3,53 @@
 #include "LargePages.h"
 #include "Parallel.h"
 
+#include <algorithm>
+#include <new>
 #include <random>
 
 namespace gridfem
 {
 
+void BlockBuffer::Reshape(Id rows, Id columns)
+{
+  if (memory_.size() < rows * columns)
+  {
+    memory_.resize(0); // two blocks at a time would be one too many
+    memory_.resize(rows * columns);
+    PreferLargePages(memory_.data(), memory_.size() * sizeof(double));
+  }
+  new (&block_) Eigen::Map<MultiVector>(memory_.data(), rows, columns);
+}
+
+void BlockBuffer::Swap(BlockBuffer& other)
+{
+  const Eigen::Map<MultiVector> mine = block_;
+  memory_.swap(other.memory_);
+  new (&block_) Eigen::Map<MultiVector>(other.block_);
+  new (&other.block_) Eigen::Map<MultiVector>(mine);
+}
+
 void Reshape(MultiVector& X, Id rows, Id columns)
 {
   if (X.size() != rows * columns)
   {
-    X.resize(0, 0); // two blocks at a time would be one too many
+    X.resize(0, 0);
     X.resize(rows, columns);
     PreferLargePages(X.data(), X.size() * sizeof(double));
   }
+  X.resize(rows, columns);
+}
+
+void KeepColumns(MultiVector& X, Id columns)
+{
+  const Id rows = X.rows();
+  const Id before = X.cols();
+  for (Id row = 1; row < rows; ++row)
+  {
+    std::copy_n(X.data() + row * before, columns, X.data() + row * columns);
+  }
+  X.resize(rows * before, 1); // as one column, so that its end can be cut off in place
+  X.conservativeResize(rows * columns, 1);
   X.resize(rows, columns);
 }
 
@@ -33,20 +67,19 @@ MultiVector RandomColumns(Id rows, Id columns)
   return X;
 }
 
-MultiVector SelectColumns(const MultiVector& X, const std::vector<Index>& columns, int threads)
+void SelectColumns(
+  const ConstBlock& X, const std::vector<Index>& columns, BlockBuffer& selected, int threads)
 {
-  MultiVector result;
-  Reshape(result, X.rows(), static_cast<Id>(columns.size()));
+  selected.Reshape(X.rows(), static_cast<Id>(columns.size()));
   ParallelRanges(X.rows(), threads,
     [&](Id begin, Id end)
     {
       const Id count = end - begin;
-      result.middleRows(begin, count) = X.middleRows(begin, count)(Eigen::all, columns);
+      selected.View().middleRows(begin, count) = X.middleRows(begin, count)(Eigen::all, columns);
     });
-  return result;
 }
 
-Eigen::VectorXd ColumnDots(const MultiVector& X, const MultiVector& Y, int threads)
+Eigen::VectorXd ColumnDots(const ConstBlock& X, const ConstBlock& Y, int threads)
 {
   return ParallelSum(X.rows(), threads, Eigen::VectorXd(Eigen::VectorXd::Zero(X.cols())),
     [&](Id begin, Id end)

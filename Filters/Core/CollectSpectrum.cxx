@@ -11,16 +11,19 @@ namespace
 
 constexpr Id PanelWidth = 8;
 
+/// Entries that differ by less, relatively, are equal up to rounding: symmetric surfaces have many.
+constexpr double NearTie = 1e-6;
+
 /// Rows whose images are looked at together.
 constexpr Id RowsAtOnce = 512;
 
-/// Per column of M X the entry of largest magnitude, ties to the lowest row.
+/// Per column of M X the entry of largest magnitude, near ties to the lowest row.
 Eigen::RowVectorXd LargestEntries(const SparseMatrix& mass, const MultiVector& X, int threads)
 {
   const Id ranges = (X.rows() + RowsAtOnce - 1) / RowsAtOnce;
   std::vector<Eigen::RowVectorXd> parts(ranges, Eigen::RowVectorXd::Zero(X.cols()));
   const auto update = [](Eigen::RowVectorXd& largest, const auto& row)
-  { largest = (row.array().abs() > largest.array().abs()).select(row, largest); };
+  { largest = (row.array().abs() > (1.0 + NearTie) * largest.array().abs()).select(row, largest); };
   ParallelBlocks(ranges, threads,
     [&](Id range)
     {
@@ -41,7 +44,7 @@ Eigen::RowVectorXd LargestEntries(const SparseMatrix& mass, const MultiVector& X
   return largest;
 }
 
-/// The entry of largest magnitude of M x becomes positive, ties to the lowest index.
+/// The entry of largest magnitude of M x becomes positive.
 void FixSigns(const SparseMatrix& mass, MultiVector& X, int threads)
 {
   const Eigen::RowVectorXd sign =
@@ -51,9 +54,26 @@ void FixSigns(const SparseMatrix& mass, MultiVector& X, int threads)
     [&](Id begin, Id end) { X.middleRows(begin, end - begin) *= sign.asDiagonal(); });
 }
 
+/// X becomes [front, first `count` columns of X].
+void PutInFront(const MultiVector& front, Id count, MultiVector& X)
+{
+  const Id width = front.cols() + count;
+  if (X.rows() < front.rows() || X.cols() < width)
+  {
+    X.conservativeResize(front.rows(), width);
+  }
+  for (Id row = 0; row < front.rows(); ++row)
+  {
+    double* to = X.data() + row * X.cols();
+    std::copy_backward(to, to + count, to + width);
+    std::copy_n(front.data() + row * front.cols(), front.cols(), to);
+  }
+  KeepColumns(X, width);
+}
+
 } // namespace
 
-Spectrum CollectSpectrum(const Constants& constants, Index zeros, const EigenPairs& pairs,
+Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs& pairs,
   const BlockReport& report, const SparseMatrix& mass, int threads)
 {
   const Index others = static_cast<Index>(report.residuals.size());
@@ -61,18 +81,8 @@ Spectrum CollectSpectrum(const Constants& constants, Index zeros, const EigenPai
   spectrum.eigenvalues.assign(zeros, 0.0);
   spectrum.eigenvalues.insert(
     spectrum.eigenvalues.end(), pairs.values.data(), pairs.values.data() + others);
-  Reshape(spectrum.vectors, mass.rows, zeros + others);
-  const MultiVector constant = constants.Vectors(zeros);
-  ParallelRanges(mass.rows, threads,
-    [&](Id begin, Id end)
-    {
-      auto rows = spectrum.vectors.middleRows(begin, end - begin);
-      rows.leftCols(zeros) = constant.middleRows(begin, end - begin);
-      if (others > 0)
-      {
-        rows.rightCols(others) = pairs.vectors.middleRows(begin, end - begin).leftCols(others);
-      }
-    });
+  spectrum.vectors = std::move(pairs.vectors);
+  PutInFront(constants.Vectors(zeros), others, spectrum.vectors);
   FixSigns(mass, spectrum.vectors, threads);
   spectrum.residuals.assign(zeros, 0.0);
   spectrum.residuals.insert(
@@ -84,10 +94,8 @@ Spectrum CollectSpectrum(const Constants& constants, Index zeros, const EigenPai
   return spectrum;
 }
 
-void CycleOnColumns(
-  const Multigrid& multigrid, std::size_t level, const MultiVector& r, MultiVector& z)
+void CycleOnColumns(const Multigrid& multigrid, std::size_t level, const ConstBlock& r, Block z)
 {
-  Reshape(z, r.rows(), r.cols());
   ParallelRanges(
     r.cols(), multigrid.Options().threads,
     [&](Id begin, Id end)

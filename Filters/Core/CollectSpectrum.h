@@ -10,16 +10,16 @@ namespace gridfem
 {
 
 /// The first `zeros` constants in front, then the pairs of the report; the entry of largest
-/// magnitude of M x becomes positive, ties to the lowest index. Estimated errors: 0 for the
-/// constants, none yet for the others.
-Spectrum CollectSpectrum(const Constants& constants, Index zeros, const EigenPairs& pairs,
+/// magnitude of M x becomes positive, near ties to the lowest index. Estimated errors: 0 for the
+/// constants, none yet for the others. Takes the vectors out of `pairs`: they become the result in
+/// the same memory where they are wide enough.
+Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs& pairs,
   const BlockReport& report, const SparseMatrix& mass, int threads);
 
 /// z = one cycle from `level` on, from zero, on every column of r. Panels are as wide as SIMD lanes
 /// need and small enough for the cache; they know nothing of each other, so each is the job of one
 /// thread.
-void CycleOnColumns(
-  const Multigrid& multigrid, std::size_t level, const MultiVector& r, MultiVector& z);
+void CycleOnColumns(const Multigrid& multigrid, std::size_t level, const ConstBlock& r, Block z);
 
 } // namespace gridfem
 

@@ -43,7 +43,7 @@ Constants::Constants(
   }
 }
 
-void Constants::Remove(MultiVector& X) const
+void Constants::Remove(Eigen::Ref<MultiVector> X) const
 {
   const Id rows = X.rows();
   ParallelRanges(

@@ -19,7 +19,7 @@ public:
     const SparseMatrix& mass, std::vector<Index> component, Index numberOfComponents, int threads);
 
   /// Removes the constants from every column, in the inner product of the mass matrix.
-  void Remove(MultiVector& X) const;
+  void Remove(Eigen::Ref<MultiVector> X) const;
 
   /// Takes the constants out of a dense mass matrix of the same size: M - M Z Zᵀ M.
   void Deflate(Eigen::MatrixXd& mass) const;

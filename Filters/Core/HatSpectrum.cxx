@@ -44,7 +44,7 @@ SpectralProblem HatProblem(
   problem.shift = shift;
   problem.constants = &constants;
   problem.threads = multigrid.Options().threads;
-  problem.precondition = [&multigrid](const MultiVector& r, MultiVector& z)
+  problem.precondition = [&multigrid](const ConstBlock& r, Block z)
   { CycleOnColumns(multigrid, 0, r, z); };
   return problem;
 }

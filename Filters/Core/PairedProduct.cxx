@@ -1,6 +1,5 @@
 #include "PairedProduct.h"
 
-#include "BlockVectors.h"
 #include "Errors.h"
 #include "Parallel.h"
 #include "RowKernels.h"
@@ -15,24 +14,32 @@ namespace
 /// Rows are handed out in ranges of this size.
 constexpr Id RangeSize = 256;
 
-/// One row of both products, columns begin .. begin + Width, to store(a, b).
-template<int Width, class Store>
-inline void RowPair(const SparseMatrix& A, const SparseMatrix& B, const MultiVector& X, Id row,
-  Id begin, Store&& store)
+/// Calls body(column, lanes) for groups of 16, 4 and 1 columns; lanes gives their type.
+template<class Body>
+inline void ForEachLanes(Id columns, Body&& body)
 {
-  using Lanes = Eigen::Array<double, Width, 1>;
-  Lanes a = Lanes::Zero();
-  Lanes b = Lanes::Zero();
-  for (Id k = A.rowBegin[row]; k < A.rowBegin[row + 1]; ++k)
+  Id column = 0;
+  for (; column + 16 <= columns; column += 16)
   {
-    const Eigen::Map<const Lanes> x(X.data() + A.column[k] * X.cols() + begin);
-    a += A.value[k] * x;
-    b += B.value[k] * x;
+    body(column, Eigen::Array<double, 16, 1>());
   }
-  store(a, b);
+  for (; column + 4 <= columns; column += 4)
+  {
+    body(column, Eigen::Array<double, 4, 1>());
+  }
+  for (; column < columns; ++column)
+  {
+    body(column, Eigen::Array<double, 1, 1>());
+  }
 }
 
-void CheckShapes(const SparseMatrix& A, const SparseMatrix& B, const MultiVector& X)
+template<class Lanes>
+inline Eigen::Map<const Lanes> LanesAt(const ConstBlock& X, Id row, Id column)
+{
+  return Eigen::Map<const Lanes>(X.data() + row * X.outerStride() + column);
+}
+
+void CheckShapes(const SparseMatrix& A, const SparseMatrix& B, const ConstBlock& X)
 {
   if (A.columns != X.rows() || B.rows != A.rows || B.columns != A.columns ||
       B.NonZeros() != A.NonZeros())
@@ -43,32 +50,33 @@ void CheckShapes(const SparseMatrix& A, const SparseMatrix& B, const MultiVector
 
 /// Calls store(row, column, a, b) with the lanes of A X and B X that begin there.
 template<class Store>
-void ForEachRowPair(const SparseMatrix& A, const SparseMatrix& B, const MultiVector& X, Id first,
+void ForEachRowPair(const SparseMatrix& A, const SparseMatrix& B, const ConstBlock& X, Id first,
   Id last, Store&& store)
 {
+  const RowView rows(A);
+  const double* valueB = B.value.data();
   for (Id row = first; row < last; ++row)
   {
-    const auto put = [&](Id column)
-    { return [&store, row, column](const auto& a, const auto& b) { store(row, column, a, b); }; };
-    Id column = 0;
-    for (; column + 16 <= X.cols(); column += 16)
-    {
-      RowPair<16>(A, B, X, row, column, put(column));
-    }
-    for (; column + 4 <= X.cols(); column += 4)
-    {
-      RowPair<4>(A, B, X, row, column, put(column));
-    }
-    for (; column < X.cols(); ++column)
-    {
-      RowPair<1>(A, B, X, row, column, put(column));
-    }
+    ForEachLanes(X.cols(),
+      [&](Id column, auto lanes)
+      {
+        using Lanes = decltype(lanes);
+        Lanes a = Lanes::Zero();
+        Lanes b = Lanes::Zero();
+        for (Id k = rows.begin[row]; k < rows.begin[row + 1]; ++k)
+        {
+          const auto x = LanesAt<Lanes>(X, rows.column[k], column);
+          a += rows.value[k] * x;
+          b += valueB[k] * x;
+        }
+        store(row, column, a, b);
+      });
   }
 }
 
 } // namespace
 
-PairedProduct::PairedProduct(const SparseMatrix& A, const SparseMatrix& B, const MultiVector& X)
+PairedProduct::PairedProduct(const SparseMatrix& A, const SparseMatrix& B, const ConstBlock& X)
   : A_(A), B_(B), X_(X)
 {
   CheckShapes(A, B, X);
@@ -87,33 +95,38 @@ void PairedProduct::Rows(Id begin, Id end, MultiVector& image) const
     });
 }
 
-void MultiplyRows(const SparseMatrix& A, const MultiVector& X, Id begin, Id end, MultiVector& image)
+void MultiplyRows(const SparseMatrix& A, const ConstBlock& X, Id begin, Id end, MultiVector& image)
 {
   if (A.columns != X.rows())
   {
     throw InvalidInput("a matrix does not fit the block it is multiplied with");
   }
   const RowView rows(A);
-  ForEachChunk(X.cols(),
-    [&](auto chunk)
-    {
-      for (Id row = begin; row < end; ++row)
+  for (Id row = begin; row < end; ++row)
+  {
+    ForEachLanes(X.cols(),
+      [&](Id column, auto lanes)
       {
-        chunk.Row(image.data(), static_cast<Index>(row - begin)) =
-          RowProduct(rows, static_cast<Index>(row), X.data(), chunk);
-      }
-    });
+        using Lanes = decltype(lanes);
+        Lanes sum = Lanes::Zero();
+        for (Id k = rows.begin[row]; k < rows.begin[row + 1]; ++k)
+        {
+          sum += rows.value[k] * LanesAt<Lanes>(X, rows.column[k], column);
+        }
+        Eigen::Map<Lanes>{ image.data() + (row - begin) * X.cols() + column } = sum;
+      });
+  }
 }
 
-void EigenResidual(const SparseMatrix& A, const SparseMatrix& B, const MultiVector& X,
-  const Eigen::VectorXd& values, MultiVector& residual, int threads)
+void EigenResidual(const SparseMatrix& A, const SparseMatrix& B, const ConstBlock& X,
+  const Eigen::VectorXd& values, Block residual, int threads)
 {
   CheckShapes(A, B, X);
-  if (values.size() != X.cols())
+  if (values.size() != X.cols() || residual.rows() != A.rows || residual.cols() != X.cols() ||
+      residual.outerStride() != X.cols())
   {
-    throw InvalidInput("a residual needs a value for every column");
+    throw InvalidInput("a residual needs a value and room for every column");
   }
-  Reshape(residual, A.rows, X.cols());
   ParallelRanges(
     A.rows, threads,
     [&](Id begin, Id end)

@@ -4,6 +4,7 @@
 #ifndef GridFEM_PairedProduct_h
 #define GridFEM_PairedProduct_h
 
+#include "BlockVectors.h"
 #include "SparseMatrix.h"
 
 namespace gridfem
@@ -14,7 +15,7 @@ namespace gridfem
 class PairedProduct
 {
 public:
-  PairedProduct(const SparseMatrix& A, const SparseMatrix& B, const MultiVector& X);
+  PairedProduct(const SparseMatrix& A, const SparseMatrix& B, const ConstBlock& X);
 
   /// The rows begin .. end - 1, from the first row of `image` on, which has 2 X.cols() columns.
   void Rows(Id begin, Id end, MultiVector& image) const;
@@ -22,18 +23,18 @@ public:
 private:
   const SparseMatrix& A_;
   const SparseMatrix& B_;
-  const MultiVector& X_;
+  ConstBlock X_;
 };
 
 /// The rows begin .. end - 1 of A X, from the first row of `image` on, which has X.cols() columns.
 /// Throws InvalidInput when the shapes do not fit.
-void MultiplyRows(
-  const SparseMatrix& A, const MultiVector& X, Id begin, Id end, MultiVector& image);
+void MultiplyRows(const SparseMatrix& A, const ConstBlock& X, Id begin, Id end, MultiVector& image);
 
-/// residual = A X - B X diag(values) for matrices of one pattern. Throws InvalidInput when the
-/// shapes do not fit. Same bits for any number of threads.
-void EigenResidual(const SparseMatrix& A, const SparseMatrix& B, const MultiVector& X,
-  const Eigen::VectorXd& values, MultiVector& residual, int threads = 0);
+/// residual = A X - B X diag(values) for matrices of one pattern; residual has the shape of X and
+/// its rows lie one behind the other. Throws InvalidInput when the shapes do not fit. Same bits for
+/// any number of threads.
+void EigenResidual(const SparseMatrix& A, const SparseMatrix& B, const ConstBlock& X,
+  const Eigen::VectorXd& values, Block residual, int threads = 0);
 
 } // namespace gridfem
 

@@ -176,7 +176,7 @@ SpectralProblem NestedIteration::Problem(std::size_t level, const Constants& con
   problem.shift = shift_;
   problem.constants = &constants;
   problem.threads = threads;
-  problem.precondition = [multigrid, level](const MultiVector& r, MultiVector& z)
+  problem.precondition = [multigrid, level](const ConstBlock& r, Block z)
   { CycleOnColumns(*multigrid, level, r, z); };
   return problem;
 }
@@ -199,7 +199,8 @@ Spectrum NestedIteration::OnlyConstants(const Constants& zeroModes, const Sparse
 {
   const bool cut = zeroModes.Count() > options_.numberOfModes;
   const Index count = options_.completeMultiplets ? zeroModes.Count() : options_.numberOfModes;
-  Spectrum spectrum = CollectSpectrum(zeroModes, count, {}, {}, mass, options_.multigrid.threads);
+  EigenPairs none;
+  Spectrum spectrum = CollectSpectrum(zeroModes, count, none, {}, mass, options_.multigrid.threads);
   spectrum.cutsMultiplet = cut && !options_.completeMultiplets;
   return spectrum;
 }
@@ -231,7 +232,8 @@ BlockReport NestedIteration::FinishList(
   {
     block.maximumIterations = 0;
     block.wanted = block.blockSize = static_cast<Index>(pairs_.values.size());
-    return ImproveEigenPairs(problem, block, pairs_, progress);
+    BlockWorkspace workspace;
+    return ImproveEigenPairs(problem, block, pairs_, workspace, progress);
   }
   Id count = block.wanted;
   BlockReport report;

@@ -38,7 +38,7 @@ struct Spectrum
 /// Dense problem on a coarse level, prolongation, block iterations with one multigrid cycle of
 /// L + σM per level, rank-revealing Rayleigh-Ritz (M may be singular). The zero modes, one constant
 /// per connected component in the order of the components, are exact. Fixed start and sign (the
-/// entry of largest magnitude of M x is positive, ties to the lowest index): same bits for any
+/// entry of largest magnitude of M x is positive, near ties to the lowest index): same bits for any
 /// number of threads. Throws InvalidInput for options out of range, and Aborted.
 Spectrum ComputeSpectrum(const FunctionSpace& space, const System& system,
   const SpectrumOptions& options, const Progress& progress = {});

@@ -2,7 +2,7 @@
 
 #include "Parallel.h"
 
-#include <deque>
+#include <algorithm>
 #include <numeric>
 
 namespace gridfem
@@ -18,59 +18,91 @@ constexpr Index LargestBlock = 160;
 constexpr Index WindowSize = 112;
 constexpr Index WindowGuard = 32;
 
-/// Windows that have been found, and the start vectors that are left.
+/// Windows that have been found, and the start vectors that are left. Both share one block: the
+/// windows that were found need no more columns than were taken out of it, but at its end.
 class WindowIteration
 {
 public:
   WindowIteration(const SpectralProblem& problem, const BlockOptions& options, EigenPairs& pairs)
-    : problem_(problem), options_(options), pairs_(pairs)
+    : problem_(problem), options_(options), pairs_(pairs), start_(pairs.vectors.cols())
   {
   }
 
   BlockReport Run(const Progress& progress);
 
 private:
+  void MakeRoom();
   bool NextWindow(const Progress& progress);
-  EigenPairs StartVectors(Index blockSize);
-  void Lock(const EigenPairs& window, const BlockReport& report);
+  void SetStartVectors(Index blockSize);
+  void Lock(const BlockReport& report);
   BlockReport Collect();
+  void Arrange(const std::vector<Index>& order);
 
   SpectralProblem problem_;
   const BlockOptions& options_;
   EigenPairs& pairs_;
-  std::deque<MultiVector> found_; // addresses stay
+  const Id start_; // columns of the start
+  Id used_ = 0;    // of them have been in a window
+  EigenPairs window_;
+  MultiVector guards_; // of the last window
   std::vector<double> values_;
   std::vector<double> residuals_;
-  MultiVector guards_; // of the last window
-  Eigen::VectorXd guardValues_;
-  Id used_ = 0; // columns of pairs_ that have been in a window
+  BlockWorkspace workspace_;
   BlockReport report_;
 };
 
-/// The guards of the last window and the next columns of the start.
-EigenPairs WindowIteration::StartVectors(Index blockSize)
+/// One column for every wanted pair and guard.
+void WindowIteration::MakeRoom()
 {
-  const Id fresh = std::clamp<Id>(blockSize - guards_.cols(), 0, pairs_.vectors.cols() - used_);
-  EigenPairs window;
-  window.vectors.resize(problem_.mass.rows, guards_.cols() + fresh);
-  if (guards_.cols() > 0)
+  const Id columns = options_.wanted + WindowGuard;
+  if (start_ < columns)
   {
-    window.vectors.leftCols(guards_.cols()) = guards_;
+    MultiVector wide;
+    Reshape(wide, problem_.mass.rows, columns);
+    wide.leftCols(start_) = pairs_.vectors;
+    pairs_.vectors.swap(wide);
   }
-  window.vectors.rightCols(fresh) = pairs_.vectors.middleCols(used_, fresh);
-  used_ += fresh;
-  return window;
 }
 
-void WindowIteration::Lock(const EigenPairs& window, const BlockReport& report)
+/// The guards of the last window and the next columns of the start.
+void WindowIteration::SetStartVectors(Index blockSize)
 {
+  const Id guards = guards_.cols();
+  const Id fresh = std::clamp<Id>(blockSize - guards, 0, start_ - used_);
+  window_.values.resize(0);
+  Reshape(window_.vectors, problem_.mass.rows, guards + fresh);
+  ParallelRanges(problem_.mass.rows, problem_.threads,
+    [&](Id begin, Id end)
+    {
+      const Id count = end - begin;
+      auto rows = window_.vectors.middleRows(begin, count);
+      if (guards > 0)
+      {
+        rows.leftCols(guards) = guards_.middleRows(begin, count);
+      }
+      rows.rightCols(fresh) = pairs_.vectors.block(begin, used_, count, fresh);
+    });
+  used_ += fresh;
+}
+
+/// Puts what was found behind what is locked.
+void WindowIteration::Lock(const BlockReport& report)
+{
+  const Id found = static_cast<Id>(values_.size());
   const Id locked = static_cast<Id>(report.residuals.size());
-  values_.insert(values_.end(), window.values.data(), window.values.data() + locked);
+  const double* values = window_.values.data();
+  values_.insert(values_.end(), values, values + locked);
   residuals_.insert(residuals_.end(), report.residuals.begin(), report.residuals.end());
-  found_.emplace_back(window.vectors.leftCols(locked));
-  problem_.known.push_back(&found_.back());
-  guards_ = window.vectors.rightCols(window.vectors.cols() - locked);
-  guardValues_ = window.values.tail(guards_.cols());
+  Reshape(guards_, problem_.mass.rows, window_.vectors.cols() - locked);
+  ParallelRanges(problem_.mass.rows, problem_.threads,
+    [&](Id begin, Id end)
+    {
+      const Id count = end - begin;
+      const auto rows = window_.vectors.middleRows(begin, count);
+      pairs_.vectors.block(begin, found, count, locked) = rows.leftCols(locked);
+      guards_.middleRows(begin, count) = rows.rightCols(guards_.cols());
+    });
+  problem_.known = BasisParts{ pairs_.vectors.leftCols(found + locked) };
   report_.numberOfConverged += report.numberOfConverged;
   report_.nextResidual = report.nextResidual;
   report_.iterations = std::max(report_.iterations, report.iterations);
@@ -84,10 +116,29 @@ bool WindowIteration::NextWindow(const Progress& progress)
   const Index windows = (left + WindowSize - 1) / WindowSize;
   block.wanted = (left + windows - 1) / windows; // windows of equal size
   block.blockSize = block.wanted + WindowGuard;
-  EigenPairs window = this->StartVectors(block.blockSize);
-  const BlockReport report = ImproveEigenPairs(problem_, block, window, progress);
-  this->Lock(window, report);
+  this->SetStartVectors(block.blockSize);
+  const BlockReport report = ImproveEigenPairs(problem_, block, window_, workspace_, progress);
+  this->Lock(report);
   return static_cast<Index>(report.residuals.size()) == block.wanted;
+}
+
+/// Orders the columns that were found and puts the guards behind.
+void WindowIteration::Arrange(const std::vector<Index>& order)
+{
+  const Id found = static_cast<Id>(order.size());
+  const Id guards = guards_.cols();
+  ParallelRanges(problem_.mass.rows, problem_.threads,
+    [&](Id begin, Id end)
+    {
+      for (Id row = begin; row < end; ++row)
+      {
+        auto columns = pairs_.vectors.row(row);
+        const Eigen::RowVectorXd ordered = columns(order);
+        columns.head(found) = ordered;
+        columns.segment(found, guards) = guards_.row(row);
+      }
+    });
+  KeepColumns(pairs_.vectors, found + guards);
 }
 
 /// All windows as one, in ascending order, and the guards of the last behind.
@@ -97,33 +148,21 @@ BlockReport WindowIteration::Collect()
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(
     order.begin(), order.end(), [&](Index a, Index b) { return values_[a] < values_[b]; });
-  const Id count = static_cast<Id>(order.size());
-  std::vector<Id> place(order.size());
-  pairs_.values.resize(count + guards_.cols());
-  pairs_.values.tail(guards_.cols()) = guardValues_;
-  for (Id j = 0; j < count; ++j)
+  const Id found = static_cast<Id>(order.size());
+  pairs_.values.resize(found + guards_.cols());
+  pairs_.values.tail(guards_.cols()) = window_.values.tail(guards_.cols());
+  for (Id j = 0; j < found; ++j)
   {
-    place[order[j]] = j;
     pairs_.values[j] = values_[order[j]];
     report_.residuals.push_back(residuals_[order[j]]);
   }
-  pairs_.vectors.resize(problem_.mass.rows, pairs_.values.size());
-  pairs_.vectors.rightCols(guards_.cols()) = guards_;
-  Id first = 0;
-  while (!found_.empty())
-  {
-    for (Id j = 0; j < found_.front().cols(); ++j)
-    {
-      pairs_.vectors.col(place[first + j]) = found_.front().col(j);
-    }
-    first += found_.front().cols();
-    found_.pop_front();
-  }
+  this->Arrange(order);
   return report_;
 }
 
 BlockReport WindowIteration::Run(const Progress& progress)
 {
+  this->MakeRoom();
   bool more = true;
   while (more && static_cast<Index>(values_.size()) < options_.wanted)
   {
@@ -147,7 +186,8 @@ BlockReport ImproveManyEigenPairs(const SpectralProblem& problem, const BlockOpt
 {
   if (options.blockSize <= LargestBlock)
   {
-    return ImproveEigenPairs(problem, options, pairs, progress);
+    BlockWorkspace workspace;
+    return ImproveEigenPairs(problem, options, pairs, workspace, progress);
   }
   return WindowIteration(problem, options, pairs).Run(progress);
 }

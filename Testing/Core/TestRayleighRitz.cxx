@@ -1,4 +1,5 @@
 // The projected eigenproblem and the products that build it.
+#include "BasisProducts.h"
 #include "Errors.h"
 #include "PairedProduct.h"
 #include "RayleighRitz.h"
@@ -100,31 +101,6 @@ TEST(SolvePencil, NothingGivesNothing)
   EXPECT_EQ(SolvePencil({}, {}, 1.0, 3).values.size(), 0);
 }
 
-TEST(Products, EqualPlainOnesAndDoNotDependOnThreads)
-{
-  const Index rows = 1500; // several ranges and tiles
-  const MultiVector X = Random(rows, 150, 5);
-  const MultiVector empty(rows, 0);
-  const MultiVector Z = Random(rows, 20, 9);
-  const MultiVector Y = Random(rows, 130, 10);
-  MultiVector basis(rows, 170);
-  basis << X, Z;
-  const BasisParts parts = { &X, &empty, &Z };
-  const Eigen::MatrixXd projected = Project(parts, Y, 1);
-  const Eigen::MatrixXd plain = basis.transpose() * Y;
-  EXPECT_LT((projected - plain).norm(), 1e-12 * plain.norm());
-  const Eigen::MatrixXd C = Random(170, 70, 6);
-  MultiVector combined;
-  Combine(parts, C, combined, 1);
-  const MultiVector plainCombined = basis * C;
-  EXPECT_LT((combined - plainCombined).norm(), 1e-12 * plainCombined.norm());
-
-  EXPECT_TRUE(projected == Project(parts, Y, 3));
-  MultiVector again;
-  Combine(parts, C, again, 3);
-  EXPECT_TRUE(combined == again);
-}
-
 /// A matrix with entries on three diagonals.
 SparseMatrix Tridiagonal(Index size, double diagonal, double beside)
 {
@@ -140,23 +116,88 @@ SparseMatrix Tridiagonal(Index size, double diagonal, double beside)
   return rows.Matrix(size);
 }
 
-TEST(Products, PairedSparseProductEqualsTwo)
+TEST(Products, EqualPlainOnesAndDoNotDependOnThreads)
+{
+  const Index rows = 5500; // several sums of several ranges
+  const SparseMatrix A = Tridiagonal(rows, 2.0, -1.0);
+  const SparseMatrix B = Tridiagonal(rows, 4.0, 0.5);
+  const MultiVector X = Random(rows, 150, 5);
+  const MultiVector empty(rows, 0);
+  const MultiVector Z = Random(rows, 20, 9);
+  const MultiVector Y = Random(rows, 23, 10); // groups of 16, 4 and 1
+  MultiVector basis(rows, 170);
+  basis << X, Z;
+  MultiVector image(rows, 46);
+  MultiVector part;
+  Multiply(A, Y, part);
+  image.leftCols(23) = part;
+  Multiply(B, Y, part);
+  image.rightCols(23) = part;
+  const Eigen::MatrixXd plain = basis.transpose() * image;
+  const BasisParts parts = { X, empty, Z };
+  const Eigen::MatrixXd pair = ProjectPair(parts, A, B, Y, 1);
+  EXPECT_LT((pair - plain).norm(), 1e-12 * plain.norm());
+  const Eigen::MatrixXd single = Project(parts, A, Y, 1);
+  EXPECT_LT((single - plain.leftCols(23)).norm(), 1e-12 * plain.norm());
+  const Eigen::MatrixXd C = Random(170, 23, 6);
+  MultiVector rest = Y;
+  SubtractCombination(parts, C, rest, 1);
+  const MultiVector plainRest = Y - basis * C;
+  EXPECT_LT((rest - plainRest).norm(), 1e-12 * plainRest.norm());
+
+  EXPECT_TRUE(pair == ProjectPair(parts, A, B, Y, 3));
+  EXPECT_TRUE(single == Project(parts, A, Y, 3));
+  MultiVector again = Y;
+  SubtractCombination(parts, C, again, 3);
+  EXPECT_TRUE(rest == again);
+  EXPECT_THROW(Project(parts, A, Random(rows - 1, 2, 8)), InvalidInput);
+  EXPECT_THROW(ProjectPair(parts, A, Tridiagonal(rows - 1, 1.0, 1.0), Y), InvalidInput);
+}
+
+TEST(Products, TakeColumnsOfAWiderBlock)
 {
   const SparseMatrix A = Tridiagonal(700, 2.0, -1.0);
   const SparseMatrix B = Tridiagonal(700, 4.0, 0.5);
-  for (const Index columns : { 1, 3, 16, 39 })
+  const MultiVector wide = Random(700, 60, 7);
+  const MultiVector X = wide.middleCols(3, 39);
+  EXPECT_TRUE(ProjectPair({ X }, A, B, X) ==
+              ProjectPair({ wide.middleCols(3, 39) }, A, B, wide.middleCols(3, 39)));
+  const Eigen::VectorXd values = Ramp(39);
+  MultiVector a;
+  MultiVector b;
+  Multiply(A, X, a);
+  Multiply(B, X, b);
+  const MultiVector plain = a - b * values.asDiagonal();
+  MultiVector residual(700, 39);
+  EigenResidual(A, B, wide.middleCols(3, 39), values, residual, 2);
+  EXPECT_LT((residual - plain).norm(), 1e-13 * plain.norm());
+  MultiVector narrow(700, 38);
+  EXPECT_THROW(EigenResidual(A, B, X, values, narrow), InvalidInput);
+}
+
+TEST(BlockVectors, BuffersKeepTheirMemory)
+{
+  BlockBuffer buffer;
+  buffer.Reshape(100, 8);
+  const double* memory = buffer.View().data();
+  buffer.Reshape(100, 3);
+  EXPECT_EQ(buffer.View().data(), memory);
+  EXPECT_EQ(buffer.Columns(), 3);
+  BlockBuffer other;
+  buffer.Swap(other);
+  EXPECT_EQ(other.View().data(), memory);
+  EXPECT_EQ(buffer.Columns(), 0);
+}
+
+TEST(BlockVectors, FirstColumnsStayAsTheyAre)
+{
+  const MultiVector wide = Random(1000, 17, 11);
+  for (const Index columns : { 17, 5, 0 })
   {
-    const MultiVector X = Random(700, columns, 7);
-    MultiVector pair;
-    MultiVector plain;
-    MultiplyPair(A, B, X, pair, 2);
-    Multiply(A, X, plain);
-    EXPECT_LT((pair.leftCols(columns) - plain).norm(), 1e-14 * plain.norm());
-    Multiply(B, X, plain);
-    EXPECT_LT((pair.rightCols(columns) - plain).norm(), 1e-14 * plain.norm());
+    MultiVector X = wide;
+    KeepColumns(X, columns);
+    EXPECT_TRUE(X == wide.leftCols(columns));
   }
-  MultiVector pair;
-  EXPECT_THROW(MultiplyPair(A, B, Random(699, 2, 8), pair), InvalidInput);
 }
 
 } // namespace

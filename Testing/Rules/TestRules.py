@@ -19,11 +19,12 @@ SOURCE_SUFFIXES = (".h", ".cxx")
 # The layers of Core from the bottom up. A file may include its own layer and the ones below; so the
 # solvers, which see matrices and lists of unknowns only, cannot reach a mesh.
 CORE_LAYERS = {
-    "foundation": "Array SharedArray Types Errors Progress Parallel UnionFind RadixSort Grouping",
+    "foundation": "Array SharedArray LargePages Types Errors Progress Parallel UnionFind RadixSort"
+                  " Grouping",
     "algebra": "SparseMatrix RowKernels PairedProduct PivotedCholesky BlockSweep Smoother"
                " GaussSeidel PatchSmoother CoarseSolver Multigrid ConjugateGradients RayleighRitz"
-               " Constants BlockVectors BlockIteration WindowIteration SmootherSequence HatOrdering"
-               " FillRows ColumnAlgebra SliceGaussSeidel PatchCover ComponentMeans",
+               " Constants BlockVectors BasisProducts BlockIteration WindowIteration SmootherSequence"
+               " HatOrdering FillRows ColumnAlgebra SliceGaussSeidel PatchCover ComponentMeans",
     "grid and clip": "TriangleMesh Field MeshEdges Grid SourceTriangle TriangleClipper CutPoints"
                      " Clip Links MemoryEstimate HatFunctions HatMatrices HatLoad",
     "patches and levels": "Level Patches FunctionSpace PatchOrdering",
