@@ -1,6 +1,7 @@
 #include "vtkLaplaceSpectrum.h"
 
 #include "Private/ClippedMeshWriter.h"
+#include "Private/InputValidation.h"
 #include "Private/ModeReader.h"
 #include "Private/SolverOutput.h"
 #include "Private/SurfaceSolverState.h"
@@ -247,6 +248,7 @@ void vtkLaplaceSpectrum::Compute(vtkInformationVector** inputs, vtkInformationVe
 {
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
+  gridfem::RequireNumber("Accuracy", this->Accuracy);
   gridfem::SpectrumRequest request;
   request.numberOfModes = this->NumberOfModes;
   request.completeMultiplets = this->CompleteMultiplets;

@@ -7,6 +7,7 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <sstream>
 #include <string>
@@ -35,6 +36,14 @@ void RequireBytes(double bytes, const std::string& subject, const std::string& a
 bool IsEmpty(vtkPolyData* input)
 {
   return !input || input->GetNumberOfPoints() == 0;
+}
+
+void RequireNumber(const char* property, double value)
+{
+  if (std::isnan(value))
+  {
+    throw InvalidInput(std::string(property) + " is not a number.");
+  }
 }
 
 void RequireSingleProcess()

@@ -12,6 +12,9 @@ namespace gridfem
 /// No points at all: gives empty outputs without a word.
 bool IsEmpty(vtkPolyData* input);
 
+/// Throws InvalidInput, naming the property, when its value is NaN, which passes every clamp.
+void RequireNumber(const char* property, double value);
+
 /// Throws InvalidInput on more than one MPI rank, because every rank would solve on its own piece
 /// as if that were the whole surface.
 void RequireSingleProcess();

@@ -61,6 +61,7 @@ void AddBasisArrays(StageKey& key, vtkPolyData* data)
 void SurfaceSolverState::UpdateSpace(
   vtkPolyData* input, vtkPolyData* basisData, const Progress& progress)
 {
+  RequireNumber("Tolerance", options.solve.tolerance);
   StageKey key;
   AddMesh(key, input);
   const bool carries = CarriesBasis(input);

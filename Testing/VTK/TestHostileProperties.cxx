@@ -1,0 +1,125 @@
+// Numbers that no panel would let through: NaN, infinity and what is far out of range. Each is
+// refused with one message, or clamped, and never makes a result that looks like one.
+
+#include "FilterSupport.h"
+
+#include "vtkLaplaceSpectrum.h"
+#include "vtkScreenedPoisson.h"
+#include "vtkSpectralSignatures.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double Infinity = std::numeric_limits<double>::infinity();
+
+struct HostileCase
+{
+  const char* name; // of the property
+  vtkSmartPointer<vtkSurfaceFEMAlgorithm> (*make)(double value);
+};
+
+template<class Filter, class Set>
+vtkSmartPointer<vtkSurfaceFEMAlgorithm> With(Set&& set)
+{
+  auto filter = vtkSmartPointer<Filter>::New();
+  set(filter.Get());
+  return filter;
+}
+
+const HostileCase Cases[] = {
+  { "Tolerance", [](double value)
+    { return With<vtkScreenedPoisson>([=](auto* filter) { filter->SetTolerance(value); }); } },
+  { "Tolerance", [](double value)
+    { return With<vtkLaplaceSpectrum>([=](auto* filter) { filter->SetTolerance(value); }); } },
+  { "ScreeningWeight",
+    [](double value) {
+      return With<vtkScreenedPoisson>([=](auto* filter) { filter->SetScreeningWeight(value); });
+    } },
+  { "GradientScale", [](double value)
+    { return With<vtkScreenedPoisson>([=](auto* filter) { filter->SetGradientScale(value); }); } },
+  { "Accuracy",
+    [](double value)
+    {
+      return With<vtkLaplaceSpectrum>(
+        [=](auto* filter)
+        {
+          filter->AccuracyDrivenOn();
+          filter->SetAccuracy(value);
+        });
+    } },
+  { "DiffusionTime",
+    [](double value)
+    {
+      return With<vtkSpectralSignatures>(
+        [=](auto* filter)
+        {
+          filter->SetNumberOfModes(10);
+          filter->AddSourcePointId(0);
+          filter->SetDiffusionTime(value);
+        });
+    } },
+};
+
+class HostileProperties : public ::testing::TestWithParam<int>
+{
+};
+
+TEST_P(HostileProperties, NaNIsRefusedByName)
+{
+  for (const HostileCase& hostile : Cases)
+  {
+    auto filter = hostile.make(NaN);
+    filter->SetDepth(3);
+    filter->SetFunctionSpace(this->GetParam());
+    filter->SetInputDataObject(ToPolyData(GeodesicSphere(4)));
+    const Messages messages(filter);
+    EXPECT_EQ(filter->GetExecutive()->Update(), 0) << hostile.name;
+    ASSERT_EQ(messages.errors.size(), 1u) << hostile.name;
+    EXPECT_NE(messages.errors[0].find(hostile.name), std::string::npos) << messages.errors[0];
+    for (int port = 0; port < filter->GetNumberOfOutputPorts(); ++port)
+    {
+      EXPECT_TRUE(IsEmptyData(filter->GetOutputDataObject(port))) << hostile.name;
+    }
+  }
+}
+
+TEST_P(HostileProperties, InfinityIsClampedOrRefused)
+{
+  for (const HostileCase& hostile : Cases)
+  {
+    if (std::string(hostile.name) == "Accuracy") // the least takes all memory there is, rightly
+    {
+      continue;
+    }
+    for (const double value : { Infinity, -Infinity })
+    {
+      auto filter = hostile.make(value);
+      filter->SetDepth(3);
+      filter->SetMaximumIterations(3);
+      filter->SetFunctionSpace(this->GetParam());
+      filter->SetInputDataObject(ToPolyData(GeodesicSphere(4)));
+      const Messages messages(filter);
+      const int result = filter->GetExecutive()->Update();
+      EXPECT_EQ(result, messages.errors.empty() ? 1 : 0) << hostile.name;
+      for (const char* name : { "Solution", "Mode", "HeatKernelSignature", "DiffusionDistance" })
+      {
+        EXPECT_TRUE(AllFinite(PointValues(filter->GetOutputDataObject(0), name)))
+          << hostile.name << " " << name;
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(BothSpaces, HostileProperties,
+  ::testing::Values(int(vtkSurfaceFEMAlgorithm::Grid), int(vtkSurfaceFEMAlgorithm::HatFunctions)),
+  [](const auto& space) { return std::string(space.param == 0 ? "Grid" : "HatFunctions"); });
+
+} // namespace
