@@ -16,7 +16,8 @@ struct SpectrumOptions
   int maximumIterations = 100; // per level, >= 0
   /// Go on behind numberOfModes to the end of the multiplet that is cut there.
   bool completeMultiplets = false;
-  /// V: the few steps that are needed are the same as with W, and each costs a quarter less.
+  /// V: the few steps that are needed are at most one more than with W, and a cycle costs a quarter
+  /// less.
   MultigridOptions multigrid{ CycleType::V };
 };
 

@@ -48,6 +48,7 @@ vtkLaplaceSpectrum::vtkLaplaceSpectrum() : Data(std::make_unique<Internals>())
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
   this->Tolerance = 1e-6;
+  this->Cycle = VCycle;
 }
 
 vtkLaplaceSpectrum::~vtkLaplaceSpectrum() = default;

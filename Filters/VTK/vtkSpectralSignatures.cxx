@@ -80,6 +80,7 @@ vtkSpectralSignatures::vtkSpectralSignatures() : Data(std::make_unique<Internals
   this->SetNumberOfInputPorts(3);
   this->SetNumberOfOutputPorts(2);
   this->Tolerance = 1e-6;
+  this->Cycle = VCycle;
 }
 
 vtkSpectralSignatures::~vtkSpectralSignatures() = default;

@@ -103,7 +103,8 @@ public:
   };
   ///@{
   /**
-   * How the multigrid cycle visits the coarser levels. Default WCycle.
+   * How the multigrid cycle visits the coarser levels. Default WCycle; VCycle for spectra, which
+   * need few iterations.
    */
   vtkSetClampMacro(Cycle, int, VCycle, WCycle);
   vtkGetMacro(Cycle, int);
