@@ -19,7 +19,7 @@ def build():
         Input=values, Basis=basis, ValueArray=["POINTS", "f"], ScreeningWeight=7.0,
         ParameterUnits="World", UseValueGradient=1, GradientScale=2.0)
     spectrum = simple.LaplaceSpectrum(
-        Input=values, Basis=basis, NumberOfModes=5, Mode=3, Cycle="V", Smoother="Gauss-Seidel")
+        Input=values, Basis=basis, NumberOfModes=5, Mode=3, Cycle="W", Smoother="Gauss-Seidel")
     signatures = simple.SpectralSignatures(
         Input=values, Basis=basis, Sources=surface, NumberOfModes=9, NumberOfScales=3,
         SourcePointIds=[3, 4], FilterType="Low Pass", LastMode=4, ValueArray=["POINTS", "f"])
