@@ -3,6 +3,8 @@
 #ifndef GridFEM_Array_h
 #define GridFEM_Array_h
 
+#include "LargeMemory.h"
+
 #include <memory>
 #include <utility>
 #include <vector>
@@ -25,6 +27,24 @@ struct UninitializedAllocator : std::allocator<T>
   {
   }
 
+  T* allocate(std::size_t count)
+  {
+    const bool isLarge = count >= LargeMemorySize / sizeof(T);
+    return isLarge ? static_cast<T*>(AllocateLargeMemory(count * sizeof(T)))
+                   : std::allocator<T>::allocate(count);
+  }
+  void deallocate(T* items, std::size_t count) noexcept
+  {
+    if (count >= LargeMemorySize / sizeof(T))
+    {
+      FreeLargeMemory(items, count * sizeof(T));
+    }
+    else
+    {
+      std::allocator<T>::deallocate(items, count);
+    }
+  }
+
   template<class U>
   void construct(U* place)
   {
@@ -39,6 +59,13 @@ struct UninitializedAllocator : std::allocator<T>
 
 template<class T>
 using Array = std::vector<T, UninitializedAllocator<T>>;
+
+/// Gives the memory of an array back: `array = {}` would keep it.
+template<class T>
+void Release(Array<T>& array)
+{
+  array = Array<T>();
+}
 
 } // namespace gridfem
 

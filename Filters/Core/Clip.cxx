@@ -53,10 +53,16 @@ Array<Vec3> SnapToPlanes(const Array<Vec3>& points, double side, double toleranc
 
 /// Consecutive triangles with about the same number of pieces in each range; depends on the mesh
 /// alone.
-std::vector<Id> SplitWork(
+struct WorkRanges
+{
+  std::vector<Id> begin; // one more than ranges
+  double pieces = 0.0;   // expected in all
+};
+
+WorkRanges SplitWork(
   const std::vector<std::array<Id, 3>>& triangles, const Array<Vec3>& position, int threads)
 {
-  constexpr float PiecesPerBlock = 8192.0f;
+  constexpr float PiecesPerRange = 8192.0f;
   std::vector<float> pieces(triangles.size());
   ParallelRanges(static_cast<Id>(triangles.size()), threads,
     [&](Id begin, Id end)
@@ -70,62 +76,122 @@ std::vector<Id> SplitWork(
         pieces[t] = static_cast<float>(1.0 + extent.sum() + 0.5 * (b - a).cross(c - a).norm());
       }
     });
-  std::vector<Id> begin{ 0 };
+  WorkRanges work;
+  work.begin.push_back(0);
   float sum = 0.0f;
   for (std::size_t t = 0; t < triangles.size(); ++t)
   {
     sum += pieces[t];
-    if (sum > PiecesPerBlock)
+    if (sum > PiecesPerRange || t + 1 == triangles.size())
     {
-      begin.push_back(static_cast<Id>(t) + 1);
+      work.begin.push_back(static_cast<Id>(t) + 1);
+      work.pieces += sum;
       sum = 0.0f;
     }
   }
-  if (begin.back() != static_cast<Id>(triangles.size()))
-  {
-    begin.push_back(static_cast<Id>(triangles.size()));
-  }
-  return begin;
+  return work;
 }
 
-std::vector<ClipBlock> ClipTriangles(const ClipInput& input, const std::vector<Id>& work,
-  Stretches& stretches, ClippedMesh& clipped, int threads, const Progress& progress)
+/// One range of triangles: its part of the store of the thread that clipped it.
+struct ClipBlock
 {
-  std::vector<ClipBlock> blocks(work.size() - 1);
+  const PieceStore* store;
+  Index firstPiece;
+  Index firstCorner;
+  Index firstInterior;
+  Index firstLink;
+  Index pieces;
+  Index corners;
+  Index interiors;
+  Index links;
+};
+
+struct ClippedTriangles
+{
+  std::vector<PieceStore> stores; // per thread
+  std::vector<ClipBlock> blocks;  // per range of triangles
+};
+
+/// A store with room for its share, so that it need not move; memory that is not used costs
+/// nothing.
+PieceStore MakeStore(double pieces)
+{
+  const auto room = static_cast<std::size_t>(std::min(1.2 * pieces, 2e9)) + 64;
+  PieceStore store;
+  store.key.reserve(room);
+  store.triangle.reserve(room);
+  store.cornerBegin.reserve(room + 1);
+  store.corner.reserve(4 * room);
+  store.interior.reserve(room / 4);
+  store.links.reserve(room);
+  store.cornerBegin.push_back(0);
+  return store;
+}
+
+/// Ends a block that began when the store was as `block` says.
+void Close(ClipBlock& block)
+{
+  const PieceStore& store = *block.store;
+  const double corners = static_cast<double>(store.corner.size());
+  RequireIndices(corners, "corners of pieces");
+  block.pieces = static_cast<Index>(store.key.size()) - block.firstPiece;
+  block.corners = static_cast<Index>(store.corner.size()) - block.firstCorner;
+  block.interiors = static_cast<Index>(store.interior.size()) - block.firstInterior;
+  block.links = static_cast<Index>(store.links.size()) - block.firstLink;
+}
+
+ClippedTriangles ClipTriangles(const ClipInput& input, const WorkRanges& work, Stretches& stretches,
+  ClippedMesh& clipped, int threads, const Progress& progress)
+{
+  ClippedTriangles result;
+  const int team = NumberOfThreads(threads);
+  std::vector<TriangleClipper> clippers;
+  for (int t = 0; t < team; ++t)
+  {
+    result.stores.push_back(MakeStore(work.pieces / team));
+    clippers.emplace_back(input, clipped);
+  }
+  result.blocks.resize(work.begin.size() - 1);
   ParallelBlocks(
-    static_cast<Id>(blocks.size()), threads,
+    static_cast<Id>(result.blocks.size()), team,
     [&](Id b)
     {
-      blocks[b].cornerBegin.push_back(0);
-      TriangleClipper clipper(input, clipped);
-      for (Id t = work[b]; t < work[b + 1]; ++t)
+      const int thread = omp_get_thread_num();
+      PieceStore& store = result.stores[thread];
+      ClipBlock& block = result.blocks[b];
+      block.store = &store;
+      block.firstPiece = static_cast<Index>(store.key.size());
+      block.firstCorner = static_cast<Index>(store.corner.size());
+      block.firstInterior = static_cast<Index>(store.interior.size());
+      block.firstLink = static_cast<Index>(store.links.size());
+      for (Id t = work.begin[b]; t < work.begin[b + 1]; ++t)
       {
-        clipper.Clip(t, blocks[b], stretches.piece.data() + stretches.begin[t]);
+        clippers[thread].Clip(t, store, stretches.piece.data() + stretches.begin[t]);
       }
+      Close(block);
     },
     progress);
-  return blocks;
+  return result;
 }
 
 /// Where each block's entries begin in the joined arrays; one more entry than blocks.
 struct BlockOffsets
 {
   std::vector<Index> piece;
-  std::vector<Index> corner;
   std::vector<Index> interior;
   std::vector<Index> link;
+  Index corners = 0; // of all pieces
 };
 
 BlockOffsets OffsetsOf(const std::vector<ClipBlock>& blocks)
 {
-  BlockOffsets offsets;
-  const auto scan = [&](const char* what, auto count)
+  const auto scan = [&](const char* what, Index ClipBlock::*count)
   {
     double total = 0.0;
     std::vector<Index> begin;
     for (const ClipBlock& block : blocks)
     {
-      begin.push_back(static_cast<Index>(count(block)));
+      begin.push_back(block.*count);
       total += begin.back();
     }
     RequireIndices(total, what);
@@ -133,27 +199,29 @@ BlockOffsets OffsetsOf(const std::vector<ClipBlock>& blocks)
     ExclusiveScan(begin);
     return begin;
   };
-  offsets.piece = scan("pieces", [](const ClipBlock& b) { return b.key.size(); });
-  offsets.corner = scan("corners of pieces", [](const ClipBlock& b) { return b.corner.size(); });
-  offsets.interior = scan("cut points", [](const ClipBlock& b) { return b.interior.size(); });
-  offsets.link = scan("links", [](const ClipBlock& b) { return b.links.size(); });
-  return offsets;
+  return { scan("pieces", &ClipBlock::pieces), scan("cut points", &ClipBlock::interiors),
+    scan("links", &ClipBlock::links), scan("corners of pieces", &ClipBlock::corners).back() };
 }
 
-/// A piece by its block (upper half) and its number there, sorted by cell.
+/// A piece by its block (upper half) and its number in the block's store, sorted by cell.
 Array<SortEntry> SortPieces(
-  std::vector<ClipBlock>& blocks, const BlockOffsets& offsets, int depth, int threads)
+  ClippedTriangles& parts, const BlockOffsets& offsets, int depth, int threads)
 {
   Array<SortEntry> entries(offsets.piece.back());
-  ParallelBlocks(static_cast<Id>(blocks.size()), threads,
+  ParallelBlocks(static_cast<Id>(parts.blocks.size()), threads,
     [&](Id b)
     {
-      const std::vector<MortonKey> key = std::move(blocks[b].key);
-      for (std::size_t k = 0; k < key.size(); ++k)
+      const ClipBlock& block = parts.blocks[b];
+      for (Index k = 0; k < block.pieces; ++k)
       {
-        entries[offsets.piece[b] + k] = { key[k], b << 32 | static_cast<Id>(k) };
+        const Index number = block.firstPiece + k;
+        entries[offsets.piece[b] + k] = { block.store->key[number], b << 32 | Id{ number } };
       }
     });
+  for (PieceStore& store : parts.stores)
+  {
+    Release(store.key);
+  }
   RadixSort(entries, 3 * depth, threads);
   return entries;
 }
@@ -200,7 +268,7 @@ Array<Index> JoinPieces(const std::vector<ClipBlock>& blocks, const BlockOffsets
   Array<Index> place(count);
   clipped.pieceTriangle.resize(count);
   clipped.pieceBegin.resize(count + 1);
-  clipped.corners.resize(offsets.corner.back());
+  clipped.corners.resize(offsets.corners);
   ParallelRanges(count, threads,
     [&](Id begin, Id end)
     {
@@ -208,9 +276,10 @@ Array<Index> JoinPieces(const std::vector<ClipBlock>& blocks, const BlockOffsets
       {
         const ClipBlock& block = blocks[blockOf(k)];
         const Id number = numberOf(k);
-        place[offsets.piece[blockOf(k)] + number] = static_cast<Index>(k);
-        clipped.pieceTriangle[k] = block.triangle[number];
-        clipped.pieceBegin[k] = block.cornerBegin[number + 1] - block.cornerBegin[number];
+        place[offsets.piece[blockOf(k)] + number - block.firstPiece] = static_cast<Index>(k);
+        clipped.pieceTriangle[k] = block.store->triangle[number];
+        clipped.pieceBegin[k] =
+          block.store->cornerBegin[number + 1] - block.store->cornerBegin[number];
       }
     });
   clipped.pieceBegin[count] = 0;
@@ -221,8 +290,9 @@ Array<Index> JoinPieces(const std::vector<ClipBlock>& blocks, const BlockOffsets
       for (Id k = begin; k < end; ++k)
       {
         const ClipBlock& block = blocks[blockOf(k)];
-        const Index interior = firstInterior + offsets.interior[blockOf(k)] - 1;
-        const Index* corner = block.corner.data() + block.cornerBegin[numberOf(k)];
+        const Index interior =
+          firstInterior + offsets.interior[blockOf(k)] - block.firstInterior - 1;
+        const Index* corner = block.store->corner.data() + block.store->cornerBegin[numberOf(k)];
         for (Index i = clipped.pieceBegin[k]; i < clipped.pieceBegin[k + 1]; ++i, ++corner)
         {
           clipped.corners[i] = *corner >= 0 ? *corner : interior - *corner;
@@ -232,26 +302,46 @@ Array<Index> JoinPieces(const std::vector<ClipBlock>& blocks, const BlockOffsets
   return place;
 }
 
+/// Appends the interior points of all blocks.
+void AppendInteriorPoints(const ClipInput& input, const std::vector<ClipBlock>& blocks,
+  const BlockOffsets& offsets, int threads, ClippedMesh& clipped)
+{
+  const Id first = static_cast<Id>(clipped.position.size());
+  clipped.cutPoints.resize(clipped.cutPoints.size() + offsets.interior.back());
+  clipped.position.resize(clipped.position.size() + offsets.interior.back());
+  ParallelBlocks(static_cast<Id>(blocks.size()), threads,
+    [&](Id b)
+    {
+      const ClipBlock& block = blocks[b];
+      for (Index k = 0; k < block.interiors; ++k)
+      {
+        const CutPoint& cut = block.store->interior[block.firstInterior + k];
+        PlaceCutPoint(first + offsets.interior[b] + k, cut, input, clipped);
+      }
+    });
+}
+
 /// Links inside triangles; gives the stretches the final numbers of their pieces.
 void PlaceLinks(const std::vector<ClipBlock>& blocks, const BlockOffsets& offsets,
-  const std::vector<Id>& work, const Array<Index>& place, int threads, Stretches& stretches,
+  const WorkRanges& work, const Array<Index>& place, int threads, Stretches& stretches,
   ClippedMesh& clipped)
 {
   clipped.links.resize(offsets.link.back());
   ParallelBlocks(static_cast<Id>(blocks.size()), threads,
     [&](Id b)
     {
-      const Index* number = place.data() + offsets.piece[b];
-      Index next = offsets.link[b];
-      for (const Link& link : blocks[b].links)
+      const ClipBlock& block = blocks[b];
+      const Index shift = offsets.piece[b] - block.firstPiece;
+      for (Index k = 0; k < block.links; ++k)
       {
-        const auto [low, high] = std::minmax(number[link.first], number[link.second]);
-        clipped.links[next++] = { low, high };
+        const Link& link = block.store->links[block.firstLink + k];
+        const auto [low, high] = std::minmax(place[shift + link.first], place[shift + link.second]);
+        clipped.links[offsets.link[b] + k] = { low, high };
       }
-      for (Index k = stretches.begin[work[b]]; k < stretches.begin[work[b + 1]]; ++k)
+      for (Index k = stretches.begin[work.begin[b]]; k < stretches.begin[work.begin[b + 1]]; ++k)
       {
         Index& piece = stretches.piece[k];
-        piece = piece < 0 ? piece : number[piece];
+        piece = piece < 0 ? piece : place[shift + piece];
       }
     });
 }
@@ -262,29 +352,29 @@ void ClipAndJoin(
   const ClipInput& input, int threads, const Progress& progress, ClippedMesh& clipped)
 {
   Stretches stretches = AllocateStretches(input.edges, threads);
-  const std::vector<Id> work = SplitWork(input.triangles, input.position, threads);
+  const WorkRanges work = SplitWork(input.triangles, input.position, threads);
   progress.Check(0.05);
   const double points = static_cast<double>(input.position.size()) + input.edges.NumberOfCuts();
   RequireIndices(points, "points of the clipped mesh");
   AllocateEdgeCuts(input.edges, threads, clipped);
-  std::vector<ClipBlock> blocks =
+  ClippedTriangles parts =
     ClipTriangles(input, work, stretches, clipped, threads, progress.Part(0.05, 0.5));
-  const BlockOffsets offsets = OffsetsOf(blocks);
+  const BlockOffsets offsets = OffsetsOf(parts.blocks);
   RequireIndices(points + offsets.interior.back(), "points of the clipped mesh");
-  Array<SortEntry> entries = SortPieces(blocks, offsets, clipped.grid.depth, threads);
+  Array<SortEntry> entries = SortPieces(parts, offsets, clipped.grid.depth, threads);
   progress.Check(0.6);
   ListCells(entries, threads, clipped);
   const Index firstInterior =
     static_cast<Index>(clipped.numberOfInputPoints) + input.edges.NumberOfCuts();
-  Array<Index> place = JoinPieces(blocks, offsets, entries, firstInterior, threads, clipped);
-  entries = {};
+  Array<Index> place = JoinPieces(parts.blocks, offsets, entries, firstInterior, threads, clipped);
+  Release(entries);
   progress.Check(0.75);
-  AppendInteriorPoints(input, blocks, offsets.interior, threads, clipped);
+  AppendInteriorPoints(input, parts.blocks, offsets, threads, clipped);
   DropUnmadeCutPoints(threads, clipped);
   progress.Check(0.85);
-  PlaceLinks(blocks, offsets, work, place, threads, stretches, clipped);
-  blocks = {};
-  place = {};
+  PlaceLinks(parts.blocks, offsets, work, place, threads, stretches, clipped);
+  parts = ClippedTriangles();
+  Release(place);
   LinkAlongEdges(
     input.edges, stretches, clipped.pieceCell, threads, clipped.links, progress.Part(0.9, 1.0));
 }

@@ -4,6 +4,8 @@
 #include "PairedProduct.h"
 #include "Parallel.h"
 
+#include <algorithm>
+
 namespace gridfem
 {
 namespace
@@ -79,8 +81,11 @@ Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs& pa
   const Index others = static_cast<Index>(report.residuals.size());
   Spectrum spectrum;
   spectrum.eigenvalues.assign(zeros, 0.0);
-  spectrum.eigenvalues.insert(
-    spectrum.eigenvalues.end(), pairs.values.data(), pairs.values.data() + others);
+  for (Index j = 0; j < others; ++j)
+  {
+    // Below 0 there is only rounding, where a sliver has functions that almost vanish.
+    spectrum.eigenvalues.push_back(std::max(0.0, pairs.values[j]));
+  }
   spectrum.vectors = std::move(pairs.vectors);
   PutInFront(constants.Vectors(zeros), others, spectrum.vectors);
   FixSigns(mass, spectrum.vectors, threads);

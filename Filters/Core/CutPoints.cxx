@@ -30,23 +30,6 @@ void AllocateEdgeCuts(const MeshEdges& edges, int threads, ClippedMesh& clipped)
     });
 }
 
-void AppendInteriorPoints(const ClipInput& input, const std::vector<ClipBlock>& blocks,
-  const std::vector<Index>& interiorOffset, int threads, ClippedMesh& clipped)
-{
-  const Id first = static_cast<Id>(clipped.position.size());
-  clipped.cutPoints.resize(clipped.cutPoints.size() + interiorOffset.back());
-  clipped.position.resize(clipped.position.size() + interiorOffset.back());
-  ParallelBlocks(static_cast<Id>(blocks.size()), threads,
-    [&](Id b)
-    {
-      Id next = first + interiorOffset[b];
-      for (const CutPoint& cut : blocks[b].interior)
-      {
-        PlaceCutPoint(next++, cut, input, clipped);
-      }
-    });
-}
-
 void DropUnmadeCutPoints(int threads, ClippedMesh& clipped)
 {
   const Id cuts = static_cast<Id>(clipped.cutPoints.size());

@@ -1,5 +1,4 @@
-// The points that clipping makes: cuts of mesh edges, then crossings of two planes inside
-// triangles.
+// The points that clipping makes.
 #ifndef GridFEM_CutPoints_h
 #define GridFEM_CutPoints_h
 
@@ -22,11 +21,6 @@ inline void PlaceCutPoint(
                             cut.weight[1] * clipped.position[corner[1]] +
                             cut.weight[2] * clipped.position[corner[2]];
 }
-
-/// Appends the interior points of all blocks.
-/// @param interiorOffset  number of interior points in the blocks before each block
-void AppendInteriorPoints(const ClipInput& input, const std::vector<ClipBlock>& blocks,
-  const std::vector<Index>& interiorOffset, int threads, ClippedMesh& clipped);
 
 /// Where several planes cut an edge in one point only one of its numbers is made: drops the others.
 void DropUnmadeCutPoints(int threads, ClippedMesh& clipped);

@@ -2,35 +2,13 @@
 #include "ElementMatrices.h"
 
 #include "Grouping.h"
-#include "PatchMoments.h"
-#include "PieceSamples.h"
+#include "PatchIntegrals.h"
 #include "TrilinearBasis.h"
 
 namespace gridfem
 {
 namespace
 {
-
-/// Patches per parallel job: some ten thousand samples.
-constexpr Id PatchesPerBlock = 256;
-
-/// Adds the integrals over one piece.
-void AddPiece(const ClippedMesh& clipped, Id piece, const Vec3& origin, const QuadratureRule& rule,
-  PatchMoments& patch)
-{
-  Moments moments;
-  Vec3 areaVector = Vec3::Zero();
-  ForEachFanTriangle(clipped, piece, origin,
-    [&](const FanTriangle& triangle)
-    {
-      areaVector += triangle.areaVector;
-      for (const QuadratureRule::Point& point : rule.points)
-      {
-        moments.AddSample(triangle.At(point.barycentric), point.weight * triangle.area);
-      }
-    });
-  patch.AddPiece(moments, areaVector);
-}
 
 using DenseElement = Eigen::Matrix<double, FunctionsPerPatch, FunctionsPerPatch, Eigen::RowMajor>;
 
@@ -85,6 +63,27 @@ std::array<OctantWeights, 8> MakeChildWeights()
   return weights;
 }
 
+/// m = Wᵀ m, W the weights of a child's corners in its parent's: axis by axis, where the child's
+/// nodes lie at 0 and 1/2 or at 1/2 and 1 of the parent.
+void InterpolateRows(DenseElement& m, int octant)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int step = 1 << axis;
+    for (int corner = 0; corner < FunctionsPerPatch; ++corner)
+    {
+      if (corner & step)
+      {
+        continue;
+      }
+      const bool isUpper = octant & step;
+      auto middle = m.row(isUpper ? corner : corner + step);
+      middle *= 0.5;
+      m.row(isUpper ? corner + step : corner) += middle;
+    }
+  }
+}
+
 } // namespace
 
 void EvaluateTrilinear(const Vec3& local, std::array<double, FunctionsPerPatch>& value)
@@ -105,28 +104,32 @@ void EvaluateTrilinearGradient(const Vec3& local, std::array<Vec3, FunctionsPerP
 ElementMatrices IntegrateElements(
   const FunctionSpace& space, const QuadratureRule& rule, int threads, const Progress& progress)
 {
-  const Level& level = space.Finest();
-  const Groups pieces = GroupItems(space.piecePatch, level.NumberOfPatches(), threads);
   ElementMatrices elements;
-  elements.mass.resize(level.NumberOfPatches());
-  elements.stiffness.resize(level.NumberOfPatches());
-  ParallelRanges(
-    level.NumberOfPatches(), threads,
-    [&](Id begin, Id end)
+  elements.mass.resize(space.Finest().NumberOfPatches());
+  elements.stiffness.resize(space.Finest().NumberOfPatches());
+  ForEachPatch(space, rule, threads, progress,
+    [&](Id patch, auto&& forEachBatch)
     {
-      for (Id patch = begin; patch < end; ++patch)
-      {
-        const Vec3 origin = CellCorner(level.cell[patch]);
-        PatchMoments moments;
-        for (Id k = pieces.begin[patch]; k < pieces.begin[patch + 1]; ++k)
+      MassMoments mass;
+      StiffnessMoments stiffness;
+      forEachBatch(
+        [&](const TriangleBatch& batch)
         {
-          AddPiece(space.clipped, pieces.item[k], origin, rule, moments);
-        }
-        elements.mass[patch] = moments.Mass();
-        elements.stiffness[patch] = moments.Stiffness();
-      }
-    },
-    PatchesPerBlock, progress);
+          const TrianglePlanes planes(batch);
+          const LaneTensor tensor = TangentialProjection(planes.normal);
+          SampleBatch samples;
+          for (const QuadratureRule::Point& point : rule.points)
+          {
+            SetPositions(batch, point, samples);
+            samples.mass = point.weight * planes.area;
+            samples.tensor = tensor.Times(samples.mass);
+            mass.Add(samples);
+            stiffness.Add(samples);
+          }
+        });
+      elements.mass[patch] = mass.Matrix();
+      elements.stiffness[patch] = stiffness.Matrix();
+    });
   return elements;
 }
 
@@ -144,10 +147,11 @@ Array<ElementMatrix> CoarsenElements(
         for (Id k = children.begin[parent]; k < children.begin[parent + 1]; ++k)
         {
           const Id child = children.item[k];
-          const Eigen::Map<const DenseElement> weights(
-            ChildWeights(fine.Octant(child)).front().data());
-          const DenseElement product = Unpack(matrices[child]) * weights;
-          sum.noalias() += weights.transpose() * product;
+          DenseElement part = Unpack(matrices[child]);
+          InterpolateRows(part, fine.Octant(child));
+          part.transposeInPlace();
+          InterpolateRows(part, fine.Octant(child));
+          sum += part;
         }
         result[parent] = Pack(sum);
       }

@@ -23,7 +23,7 @@ FunctionSpace Complete(ClippedMesh clipped, std::vector<Index> piecePatch, Level
   space.clipped = std::move(clipped);
   space.piecePatch = std::move(piecePatch);
   space.pointPatch = FindPointPatches(space.clipped, space.piecePatch, threads);
-  space.clipped.links = {}; // the patches' links stand for them
+  Release(space.clipped.links); // the patches' links stand for them
   progress.Check(0.3);
   space.levels =
     BuildLevels(std::move(finest), std::move(links), support, threads, progress.Part(0.3, 0.9));

@@ -75,9 +75,14 @@ void Multigrid::Update(std::vector<SparseMatrix> matrices)
   {
     throw InvalidInput("new matrix values must have the patterns of the hierarchy");
   }
+  this->Update([&](std::size_t l, SparseMatrix& matrix) { matrix = std::move(matrices[l]); });
+}
+
+void Multigrid::Update(const std::function<void(std::size_t, SparseMatrix&)>& refill)
+{
   for (std::size_t l = 0; l < levels_.size(); ++l)
   {
-    levels_[l].A = std::move(matrices[l]);
+    refill(l, levels_[l].A);
   }
   this->BuildSolvers();
 }

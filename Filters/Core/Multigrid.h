@@ -5,6 +5,7 @@
 #include "CoarseSolver.h"
 #include "Smoother.h"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -73,6 +74,10 @@ public:
   /// New matrix values on the same patterns (finest first): rebuilds smoothers and coarse solver.
   /// Throws InvalidInput, and changes nothing, when a pattern differs in shape or size.
   void Update(std::vector<SparseMatrix> matrices);
+
+  /// The same in place: refill(level, matrix) gives the matrix of every level its values. When it
+  /// throws, the hierarchy must not be used any more.
+  void Update(const std::function<void(std::size_t, SparseMatrix&)>& refill);
 
   /// One cycle: improves x for A x = b. Any number of columns. Levels above the finest allocate
   /// their vectors per call: a quarter of b, and less.

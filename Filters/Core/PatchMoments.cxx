@@ -6,123 +6,174 @@ namespace gridfem
 namespace
 {
 
+constexpr int Mixed = 27;
+
+/// Functions of one coordinate.
+struct Factors
+{
+  Lanes linear[2];    // 1 - t, t
+  Lanes quadratic[3]; // (1 - t)², t (1 - t), t²
+
+  explicit Factors(const Lanes& t)
+  {
+    linear[0] = 1.0 - t;
+    linear[1] = t;
+    quadratic[0] = linear[0] * linear[0];
+    quadratic[1] = linear[0] * linear[1];
+    quadratic[2] = linear[1] * linear[1];
+  }
+};
+
 /// Bit of a corner along an axis.
-int Bit(int corner, int axis)
+constexpr int Bit(int corner, int axis)
 {
   return (corner >> axis) & 1;
 }
 
 /// Derivative of the function of a corner along an axis, up to the other two factors.
-double Slope(int corner, int axis)
+constexpr double Slope(int corner, int axis)
 {
   return Bit(corner, axis) ? 1.0 : -1.0;
 }
 
-/// Adds ∫ T_pp ∂_p b_i ∂_p b_j to all entries.
-void AddSameAxis(const double* moments, int p, ElementMatrix& stiffness)
+/// An entry of an element matrix is the sum of sign[entry][k] times moment place[entry][k].
+template<int Terms>
+struct MomentSums
 {
-  const auto& stride = Moments::Stride;
-  const int q = (p + 1) % 3;
-  const int r = (p + 2) % 3;
-  // The derivatives are constant along p, where the quadratics sum to 1 = q_0 + 2 q_1 + q_2.
-  double sum[3][3];
-  for (int a = 0; a < 3; ++a)
+  int place[ElementEntries][Terms] = {};
+  double sign[ElementEntries][Terms] = {};
+
+  template<std::size_t Count>
+  ElementMatrix Apply(const std::array<Lanes, Count>& lanes) const
   {
-    for (int b = 0; b < 3; ++b)
+    std::array<double, Count> moment;
+    for (std::size_t k = 0; k < Count; ++k)
     {
-      const double* m = moments + a * stride[q] + b * stride[r];
-      sum[a][b] = m[0] + 2.0 * m[stride[p]] + m[2 * stride[p]];
+      moment[k] = lanes[k].sum();
     }
+    ElementMatrix matrix;
+    for (int entry = 0; entry < ElementEntries; ++entry)
+    {
+      matrix[entry] = 0.0;
+      for (int k = 0; k < Terms; ++k)
+      {
+        matrix[entry] += sign[entry][k] * moment[place[entry][k]];
+      }
+    }
+    return matrix;
   }
-  int entry = 0;
+};
+
+constexpr MomentSums<1> MakeMassTerms()
+{
+  MomentSums<1> sums;
   for (int i = 0; i < FunctionsPerPatch; ++i)
   {
     for (int j = i; j < FunctionsPerPatch; ++j)
     {
-      stiffness[entry++] +=
-        Slope(i, p) * Slope(j, p) * sum[Bit(i, q) + Bit(j, q)][Bit(i, r) + Bit(j, r)];
+      const int entry = PackedIndex(i, j);
+      sums.place[entry][0] =
+        9 * (Bit(i, 1) + Bit(j, 1)) + 3 * (Bit(i, 0) + Bit(j, 0)) + Bit(i, 2) + Bit(j, 2);
+      sums.sign[entry][0] = 1.0;
     }
   }
+  return sums;
 }
 
-/// Adds ∫ T_pq (∂_p b_i ∂_q b_j + ∂_q b_i ∂_p b_j) to all entries, q the axis after p.
-void AddMixedAxes(const double* moments, int p, ElementMatrix& stiffness)
+/// Per axis T_pp ∂_p b_i ∂_p b_j and T_pq (∂_p b_i ∂_q b_j + ∂_q b_i ∂_p b_j).
+constexpr MomentSums<9> MakeStiffnessTerms()
 {
-  const auto& stride = Moments::Stride;
-  const int q = (p + 1) % 3;
-  const int r = (p + 2) % 3;
-  // One function has its slope along p, the other along q: t = q_1 + q_2, 1 - t = q_0 + q_1.
-  double sum[2][2][3];
-  for (int a = 0; a < 2; ++a)
+  MomentSums<9> sums;
+  for (int i = 0; i < FunctionsPerPatch; ++i)
   {
-    for (int b = 0; b < 2; ++b)
+    for (int j = i; j < FunctionsPerPatch; ++j)
     {
-      for (int c = 0; c < 3; ++c)
+      int* const place = sums.place[PackedIndex(i, j)];
+      double* const sign = sums.sign[PackedIndex(i, j)];
+      for (int p = 0; p < 3; ++p)
       {
-        const double* m = moments + a * stride[p] + b * stride[q] + c * stride[r];
-        sum[a][b][c] = m[0] + m[stride[p]] + m[stride[q]] + m[stride[p] + stride[q]];
+        const int q = (p + 1) % 3;
+        const int r = (p + 2) % 3;
+        const int alongR = Bit(i, r) + Bit(j, r);
+        place[3 * p] = 9 * p + 3 * (Bit(i, q) + Bit(j, q)) + alongR;
+        sign[3 * p] = Slope(i, p) * Slope(j, p);
+        // One function has its slope along p, the other along q.
+        place[3 * p + 1] = Mixed + 12 * p + 3 * (Bit(j, p) + 2 * Bit(i, q)) + alongR;
+        sign[3 * p + 1] = Slope(i, p) * Slope(j, q);
+        place[3 * p + 2] = Mixed + 12 * p + 3 * (Bit(i, p) + 2 * Bit(j, q)) + alongR;
+        sign[3 * p + 2] = Slope(i, q) * Slope(j, p);
       }
     }
   }
-  int entry = 0;
-  for (int i = 0; i < FunctionsPerPatch; ++i)
-  {
-    for (int j = i; j < FunctionsPerPatch; ++j)
-    {
-      const int c = Bit(i, r) + Bit(j, r);
-      stiffness[entry++] += Slope(i, p) * Slope(j, q) * sum[Bit(j, p)][Bit(i, q)][c] +
-                            Slope(i, q) * Slope(j, p) * sum[Bit(i, p)][Bit(j, q)][c];
-    }
-  }
+  return sums;
 }
+
+constexpr MomentSums<1> MassTerms = MakeMassTerms();
+constexpr MomentSums<9> StiffnessTerms = MakeStiffnessTerms();
 
 } // namespace
 
-void PatchMoments::AddPiece(const Moments& piece, const Vec3& normal)
+void MassMoments::Add(const SampleBatch& batch)
 {
-  const double square = normal.squaredNorm();
-  if (!(square > 0.0))
+  const Factors x(batch.position[0]);
+  const Factors y(batch.position[1]);
+  const Factors z(batch.position[2]);
+  Lanes* sum = sum_.data();
+  for (const Lanes& b : y.quadratic)
   {
-    return;
-  }
-  mass_.AddScaled(1.0, piece);
-  for (int p = 0; p < 3; ++p)
-  {
-    const int q = (p + 1) % 3;
-    const int r = (p + 2) % 3;
-    // Entry (p, p) of the projection without the cancellation of 1 - n_p².
-    const double tangential = normal[q] * normal[q] + normal[r] * normal[r];
-    same_[p].AddScaled((tangential + NormalWeight * normal[p] * normal[p]) / square, piece);
-    mixed_[p].AddScaled((NormalWeight - 1.0) * normal[p] * normal[q] / square, piece);
-  }
-}
-
-ElementMatrix PatchMoments::Mass() const
-{
-  const auto& stride = Moments::Stride;
-  ElementMatrix mass;
-  int entry = 0;
-  for (int i = 0; i < FunctionsPerPatch; ++i)
-  {
-    for (int j = i; j < FunctionsPerPatch; ++j)
+    const Lanes weightedY = batch.mass * b;
+    for (const Lanes& a : x.quadratic)
     {
-      mass[entry++] =
-        mass_.Values()[stride[0] * (Bit(i, 0) + Bit(j, 0)) + stride[1] * (Bit(i, 1) + Bit(j, 1)) +
-                       stride[2] * (Bit(i, 2) + Bit(j, 2))];
+      const Lanes weightedXY = weightedY * a;
+      for (const Lanes& c : z.quadratic)
+      {
+        *sum++ += weightedXY * c;
+      }
     }
   }
-  return mass;
 }
 
-ElementMatrix PatchMoments::Stiffness() const
+ElementMatrix MassMoments::Matrix() const
 {
-  ElementMatrix stiffness{};
+  return MassTerms.Apply(sum_);
+}
+
+void StiffnessMoments::Add(const SampleBatch& batch)
+{
+  const Factors factors[3] = { Factors(batch.position[0]), Factors(batch.position[1]),
+    Factors(batch.position[2]) };
+  Lanes* same = sum_.data();
+  Lanes* mixed = sum_.data() + Mixed;
   for (int p = 0; p < 3; ++p)
   {
-    AddSameAxis(same_[p].Values(), p, stiffness);
-    AddMixedAxes(mixed_[p].Values(), p, stiffness);
+    const Factors& ofQ = factors[(p + 1) % 3];
+    const Factors& ofR = factors[(p + 2) % 3];
+    for (const Lanes& alongQ : ofQ.quadratic)
+    {
+      const Lanes weighted = batch.tensor.same[p] * alongQ;
+      for (const Lanes& alongR : ofR.quadratic)
+      {
+        *same++ += weighted * alongR;
+      }
+    }
+    for (const Lanes& alongQ : ofQ.linear)
+    {
+      const Lanes weightedQ = batch.tensor.mixed[p] * alongQ;
+      for (const Lanes& alongP : factors[p].linear)
+      {
+        const Lanes weighted = weightedQ * alongP;
+        for (const Lanes& alongR : ofR.quadratic)
+        {
+          *mixed++ += weighted * alongR;
+        }
+      }
+    }
   }
-  return stiffness;
+}
+
+ElementMatrix StiffnessMoments::Matrix() const
+{
+  return StiffnessTerms.Apply(sum_);
 }
 
 } // namespace gridfem

@@ -1,4 +1,5 @@
 #include "BlockSweep.h"
+#include "Parallel.h"
 #include "Smoother.h"
 
 #include <algorithm>
@@ -37,8 +38,9 @@ struct Patch
 /// Vᵀ V is the inverse of a scaled block S on its numerically independent part.
 struct InverseFactor
 {
-  LocalMatrix V = LocalMatrix::Zero(); // row k: zero but in the first k + 1 of `order`
-  std::array<int, N> order;            // of the pivots; the unknowns that are left out come last
+  LocalMatrix row = LocalMatrix::Zero(); // column k: row k of V; zero but in the first k + 1 of
+                                         // `order`
+  std::array<int, N> order;              // of the pivots; the unknowns that are left out come last
   double smallestPivot = 1.0;
 };
 
@@ -58,7 +60,8 @@ int FindPivot(const LocalMatrix& S, const std::array<int, N>& order, int begin, 
   return found;
 }
 
-/// Symmetric elimination with the pivots of pivoted Cholesky, applied to the identity as well.
+/// Symmetric elimination with the pivots of pivoted Cholesky, applied to the identity as well. Both
+/// matrices are stored so that vectors run along columns.
 InverseFactor Factor(LocalMatrix S, int count)
 {
   InverseFactor factor;
@@ -74,27 +77,56 @@ InverseFactor Factor(LocalMatrix S, int count)
     std::swap(factor.order[step], factor.order[found]);
     const int p = factor.order[step];
     factor.smallestPivot = S(p, p);
-    factor.V.row(step) = rows.row(p) / std::sqrt(S(p, p));
+    factor.row.col(step) = rows.col(p) / std::sqrt(S(p, p));
     for (int k = step + 1; k < count; ++k)
     {
       const int i = factor.order[k];
-      const double part = S(i, p) / S(p, p);
-      S.row(i) -= part * S.row(p);
-      rows.row(i) -= part * rows.row(p);
+      const double part = S(p, i) / S(p, p);
+      S.col(i) -= part * S.col(p);
+      rows.col(i) -= part * rows.col(p);
     }
   }
   return factor;
 }
 
-/// The block of A with the patch's unknowns as rows and columns; zeros beyond `count`.
-LocalMatrix PrincipalBlock(const SparseMatrix& A, const Patch& patch)
+/// What the blocks are cut from: a matrix, and where the diagonal is in its rows.
+struct BlockSource
 {
+  const SparseMatrix& A;
+  Array<Id> diagonal; // per row; -1 where it is not a positive number
+
+  BlockSource(const SparseMatrix& matrix, int threads) : A(matrix), diagonal(matrix.rows)
+  {
+    ParallelRanges(A.rows, threads,
+      [&](Id begin, Id end)
+      {
+        for (Id row = begin; row < end; ++row)
+        {
+          const Index* const last = A.column.data() + A.rowBegin[row + 1];
+          const Index* const found =
+            std::lower_bound(A.column.data() + A.rowBegin[row], last, static_cast<Index>(row));
+          const Id place = found - A.column.data();
+          const bool isUsable = found != last && *found == row && IsUsableDiagonal(A.value[place]);
+          diagonal[row] = isUsable ? place : -1;
+        }
+      });
+  }
+
+  double Diagonal(Index row) const { return A.value[diagonal[row]]; }
+};
+
+/// The block of A with the patch's unknowns, which ascend, as rows and columns; zeros beyond
+/// `count`.
+LocalMatrix PrincipalBlock(const BlockSource& source, const Patch& patch)
+{
+  const SparseMatrix& A = source.A;
   LocalMatrix S = LocalMatrix::Zero();
   for (int i = 0; i < patch.count; ++i)
   {
     const Id end = A.rowBegin[patch.dof[i] + 1];
-    Id k = A.rowBegin[patch.dof[i]];
-    for (int j = 0; j < patch.count; ++j)
+    Id k = source.diagonal[patch.dof[i]];
+    S(i, i) = A.value[k];
+    for (int j = i + 1; j < patch.count; ++j)
     {
       while (k < end && A.column[k] < patch.dof[j])
       {
@@ -102,7 +134,7 @@ LocalMatrix PrincipalBlock(const SparseMatrix& A, const Patch& patch)
       }
       if (k < end && A.column[k] == patch.dof[j])
       {
-        S(i, j) = A.value[k];
+        S(i, j) = S(j, i) = A.value[k];
       }
     }
   }
@@ -110,28 +142,29 @@ LocalMatrix PrincipalBlock(const SparseMatrix& A, const Patch& patch)
 }
 
 /// The unknowns that can be solved for: used places, once, with a positive diagonal; ascending.
-void SetUnknowns(const std::array<Index, N>& dof, const std::vector<double>& diagonal, Patch& patch)
+Patch UnknownsOf(const std::array<Index, N>& dof, const BlockSource& source)
 {
+  Patch patch;
   auto end = std::copy_if(dof.begin(), dof.end(), patch.dof.begin(),
-    [&](Index unknown) { return unknown >= 0 && IsUsableDiagonal(diagonal[unknown]); });
+    [&](Index unknown) { return unknown >= 0 && source.diagonal[unknown] >= 0; });
   std::sort(patch.dof.begin(), end);
   end = std::unique(patch.dof.begin(), end);
   patch.count = static_cast<Index>(end - patch.dof.begin());
-  std::fill(end, patch.dof.end(), patch.dof.front());
+  std::fill(end, patch.dof.end(), patch.count > 0 ? patch.dof.front() : 0);
+  return patch;
 }
 
 /// Puts the patch's unknowns in the order of the pivots.
 /// @return  V for them, scaled back to A: lower triangular, and mirrored to the upper triangle
-LocalMatrix SetFactor(
-  const SparseMatrix& A, const std::vector<double>& diagonal, Patch& patch, bool& isSingle)
+LocalMatrix SetFactor(const BlockSource& source, Patch& patch, bool& isSingle)
 {
   Eigen::Matrix<double, N, 1> scale = Eigen::Matrix<double, N, 1>::Zero();
   for (int i = 0; i < patch.count; ++i)
   {
-    scale[i] = 1.0 / std::sqrt(diagonal[patch.dof[i]]);
+    scale[i] = 1.0 / std::sqrt(source.Diagonal(patch.dof[i]));
   }
   const InverseFactor factor =
-    Factor(scale.asDiagonal() * PrincipalBlock(A, patch) * scale.asDiagonal(), patch.count);
+    Factor(scale.asDiagonal() * PrincipalBlock(source, patch) * scale.asDiagonal(), patch.count);
   const std::array<Index, N> dof = patch.dof;
   LocalMatrix V = LocalMatrix::Zero();
   for (int j = 0; j < N; ++j)
@@ -139,7 +172,7 @@ LocalMatrix SetFactor(
     patch.dof[j] = dof[factor.order[j]];
     for (int i = j; i < N; ++i)
     {
-      V(i, j) = V(j, i) = factor.V(i, factor.order[j]) * scale[factor.order[j]];
+      V(i, j) = V(j, i) = factor.row(factor.order[j], i) * scale[factor.order[j]];
     }
   }
   isSingle = factor.smallestPivot >= SmallestSinglePivot &&
@@ -219,46 +252,6 @@ inline void Relax(const RowView& A, const std::array<Index, N>& dof, const Real*
   }
 }
 
-/// Factors of some patches, in visiting order.
-struct PatchFactors
-{
-  /// The factor of a patch is single[factor], or exact[-1 - factor] where that is negative.
-  struct Place
-  {
-    std::array<Index, N> dof;
-    Index factor;
-  };
-  std::vector<Place> patches;
-  std::vector<std::array<float, N * N>> single;
-  std::vector<std::array<double, N * N>> exact;
-
-  void Append(const std::array<Index, N>& dof, const LocalMatrix& V, bool isSingle)
-  {
-    if (isSingle)
-    {
-      patches.push_back({ dof, static_cast<Index>(single.size()) });
-      Eigen::Map<Eigen::Matrix<float, N, N>>(single.emplace_back().data()) = V.cast<float>();
-    }
-    else
-    {
-      patches.push_back({ dof, -1 - static_cast<Index>(exact.size()) });
-      Eigen::Map<LocalMatrix>(exact.emplace_back().data()) = V;
-    }
-  }
-
-  void Append(const PatchFactors& more)
-  {
-    const Index singles = static_cast<Index>(single.size());
-    const Index exacts = static_cast<Index>(exact.size());
-    for (const Place& place : more.patches)
-    {
-      patches.push_back({ place.dof, place.factor + (place.factor < 0 ? -exacts : singles) });
-    }
-    single.insert(single.end(), more.single.begin(), more.single.end());
-    exact.insert(exact.end(), more.exact.begin(), more.exact.end());
-  }
-};
-
 class PatchSmoother : public Smoother
 {
 public:
@@ -267,48 +260,84 @@ public:
   void Sweep(const SparseMatrix& A, const MultiVector& b, MultiVector& x, SweepDirection direction,
     int threads) const override;
 
-  std::size_t Memory() const override
-  {
-    return factors_.patches.size() * sizeof(factors_.patches.front()) +
-           factors_.single.size() * sizeof(factors_.single.front()) +
-           factors_.exact.size() * sizeof(factors_.exact.front()) + ranges_.Memory();
-  }
+  std::size_t Memory() const override;
 
 private:
+  /// A patch, in visiting order.
+  struct Place
+  {
+    std::array<Index, N> dof;
+    Index precision; // of its factor
+  };
+  enum Precision : Index
+  {
+    None, // no unknown can be solved for
+    Single,
+    Double
+  };
+
+  void SetPatch(const BlockSource& source, const std::array<Index, N>& dof, Id p);
+
   Index rows_;
-  PatchFactors factors_;
   BlockRanges ranges_;
+  Array<Place> patches_;
+  // The factor of patch p is entry p of one of them. What is not used is never touched, and so
+  // takes no memory.
+  Array<std::array<float, N * N>> single_;
+  Array<std::array<double, N * N>> double_;
 };
 
 PatchSmoother::PatchSmoother(const SparseMatrix& A, const PatchOrder& order, int threads)
   : rows_(A.rows)
 {
   CheckOrder(A, order);
-  const Id blocks = std::max<Id>(0, static_cast<Id>(order.blockBegin.size()) - 1);
-  const std::vector<double> diagonal = A.Diagonal(threads);
-  std::vector<PatchFactors> parts(blocks);
-  ParallelBlocks(blocks, threads,
-    [&](Id block)
+  ranges_.colourBegin = order.colourBegin;
+  ranges_.blockBegin = order.blockBegin.empty() ? std::vector<Id>{ 0 } : order.blockBegin;
+  patches_.resize(order.dof.size());
+  single_.resize(order.dof.size());
+  double_.resize(order.dof.size());
+  const BlockSource source(A, threads);
+  ParallelRanges(static_cast<Id>(order.dof.size()), threads,
+    [&](Id begin, Id end)
     {
-      for (Id p = order.blockBegin[block]; p < order.blockBegin[block + 1]; ++p)
+      for (Id p = begin; p < end; ++p)
       {
-        Patch patch;
-        SetUnknowns(order.dof[p], diagonal, patch);
-        if (patch.count > 0)
-        {
-          bool isSingle = false;
-          const LocalMatrix V = SetFactor(A, diagonal, patch, isSingle);
-          parts[block].Append(patch.dof, V, isSingle);
-        }
+        this->SetPatch(source, order.dof[p], p);
       }
     });
-  ranges_.colourBegin = order.colourBegin;
-  ranges_.blockBegin = { 0 };
-  for (PatchFactors& part : parts)
+}
+
+void PatchSmoother::SetPatch(const BlockSource& source, const std::array<Index, N>& dof, Id p)
+{
+  Patch patch = UnknownsOf(dof, source);
+  if (patch.count == 0)
   {
-    factors_.Append(std::exchange(part, {}));
-    ranges_.blockBegin.push_back(static_cast<Id>(factors_.patches.size()));
+    patches_[p] = { patch.dof, None };
+    return;
   }
+  bool isSingle = false;
+  const LocalMatrix V = SetFactor(source, patch, isSingle);
+  patches_[p] = { patch.dof, isSingle ? Single : Double };
+  if (isSingle)
+  {
+    Eigen::Map<Eigen::Matrix<float, N, N>>(single_[p].data()) = V.cast<float>();
+  }
+  else
+  {
+    Eigen::Map<LocalMatrix>(double_[p].data()) = V;
+  }
+}
+
+std::size_t PatchSmoother::Memory() const
+{
+  std::size_t bytes = patches_.size() * sizeof(patches_.front()) + ranges_.Memory();
+  for (const Place& patch : patches_)
+  {
+    bytes += patch.precision == Single   ? sizeof(single_.front())
+             : patch.precision == Double ? sizeof(double_.front())
+                                         : 0;
+  }
+  return bytes;
 }
 
 void PatchSmoother::Sweep(const SparseMatrix& A, const MultiVector& b, MultiVector& x,
@@ -316,17 +345,17 @@ void PatchSmoother::Sweep(const SparseMatrix& A, const MultiVector& b, MultiVect
 {
   CheckSweep(A, rows_, b, x);
   const RowView rows(A);
-  SweepBlocks(ranges_, x.cols(), direction, 128 * static_cast<Id>(factors_.patches.size()), threads,
+  SweepBlocks(ranges_, x.cols(), direction, 128 * static_cast<Id>(patches_.size()), threads,
     [&](Id p, auto chunk)
     {
-      const PatchFactors::Place& patch = factors_.patches[p];
-      if (patch.factor >= 0)
+      const Place& patch = patches_[p];
+      if (patch.precision == Single)
       {
-        Relax(rows, patch.dof, factors_.single[patch.factor].data(), b.data(), x.data(), chunk);
+        Relax(rows, patch.dof, single_[p].data(), b.data(), x.data(), chunk);
       }
-      else
+      else if (patch.precision == Double)
       {
-        Relax(rows, patch.dof, factors_.exact[-1 - patch.factor].data(), b.data(), x.data(), chunk);
+        Relax(rows, patch.dof, double_[p].data(), b.data(), x.data(), chunk);
       }
     });
 }

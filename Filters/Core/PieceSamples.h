@@ -80,6 +80,37 @@ void ForEachFanTriangle(const ClippedMesh& clipped, Id piece, const Vec3& origin
   }
 }
 
+/// Samples of all pieces have one numbering: piece after piece, triangle after triangle of a fan
+/// (those without area too), point after point of the rule.
+inline Id FirstSample(const ClippedMesh& clipped, Id piece, const QuadratureRule& rule)
+{
+  return (clipped.pieceBegin[piece] - 2 * piece) * static_cast<Id>(rule.points.size());
+}
+
+inline Id NumberOfSamples(const ClippedMesh& clipped, const QuadratureRule& rule)
+{
+  return clipped.NumberOfTriangles() * static_cast<Id>(rule.points.size());
+}
+
+/// Calls body(sample, local, weight) for the samples of a piece: number, position relative to the
+/// origin, area it stands for; grid units.
+template<class Body>
+void ForEachSample(
+  const ClippedMesh& clipped, Id piece, const Vec3& origin, const QuadratureRule& rule, Body&& body)
+{
+  const Id points = static_cast<Id>(rule.points.size());
+  const Id first = FirstSample(clipped, piece, rule);
+  ForEachFanTriangle(clipped, piece, origin,
+    [&](const FanTriangle& triangle)
+    {
+      Id sample = first + (triangle.k - 1) * points;
+      for (const QuadratureRule::Point& point : rule.points)
+      {
+        body(sample++, triangle.At(point.barycentric), point.weight * triangle.area);
+      }
+    });
+}
+
 } // namespace gridfem
 
 #endif

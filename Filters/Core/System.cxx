@@ -55,6 +55,21 @@ std::vector<double> IntegralsOfFunctions(
   return integral;
 }
 
+ElementMatrices Coarsen(
+  const Level& fine, const Level& coarse, const ElementMatrices& elements, int threads)
+{
+  return { CoarsenElements(fine, coarse, elements.mass, threads),
+    CoarsenElements(fine, coarse, elements.stiffness, threads) };
+}
+
+void FillMatrix(const FunctionSpace& space, const System& system, std::size_t level, double a,
+  double b, int threads, SparseMatrix& matrix)
+{
+  const ElementMatrices& elements = system.elements[level];
+  AssembleValues(space.levels[level], system.places[level], elements.mass, a, elements.stiffness, b,
+    matrix, threads);
+}
+
 } // namespace
 
 System BuildSystem(const FunctionSpace& space, const QuadratureRule& rule, int threads,
@@ -75,9 +90,7 @@ System BuildSystem(const FunctionSpace& space, const QuadratureRule& rule, int t
     }
     const Level& coarse = space.levels[l + 1];
     system.prolongation.push_back(BuildProlongation(level, system.places.back(), coarse, threads));
-    const ElementMatrices& fine = system.elements.back();
-    system.elements.push_back({ CoarsenElements(level, coarse, fine.mass, threads),
-      CoarsenElements(level, coarse, fine.stiffness, threads) });
+    system.elements.push_back(Coarsen(level, coarse, system.elements.back(), threads));
   }
   system.integral =
     IntegralsOfFunctions(system.places.front(), system.elements.front().mass, threads);
@@ -85,13 +98,22 @@ System BuildSystem(const FunctionSpace& space, const QuadratureRule& rule, int t
   return system;
 }
 
+void UpdateSystem(const FunctionSpace& space, System& system, int threads)
+{
+  for (std::size_t l = 0; l + 1 < system.elements.size(); ++l)
+  {
+    system.elements[l + 1] =
+      Coarsen(space.levels[l], space.levels[l + 1], system.elements[l], threads);
+  }
+  system.integral =
+    IntegralsOfFunctions(system.places.front(), system.elements.front().mass, threads);
+}
+
 SparseMatrix LevelMatrix(const FunctionSpace& space, const System& system, std::size_t level,
   double a, double b, int threads)
 {
   SparseMatrix matrix = system.pattern[level];
-  const ElementMatrices& elements = system.elements[level];
-  AssembleValues(space.levels[level], system.places[level], elements.mass, a, elements.stiffness, b,
-    matrix, threads);
+  FillMatrix(space, system, level, a, b, threads, matrix);
   return matrix;
 }
 
@@ -135,7 +157,8 @@ Multigrid BuildMultigrid(const FunctionSpace& space, const System& system, doubl
 void UpdateMultigrid(
   const FunctionSpace& space, const System& system, double a, double b, Multigrid& multigrid)
 {
-  multigrid.Update(LevelMatrices(space, system, a, b, multigrid.Options().threads));
+  multigrid.Update([&](std::size_t level, SparseMatrix& matrix)
+    { FillMatrix(space, system, level, a, b, multigrid.Options().threads, matrix); });
 }
 
 SparseMatrix MassMatrix(const FunctionSpace& space, const System& system, int threads)

@@ -28,6 +28,11 @@ struct System
 System BuildSystem(const FunctionSpace& space, const QuadratureRule& rule, int threads = 0,
   Index coarsestSize = 256, const Progress& progress = {});
 
+/// Brings a system up to date whose finest element matrices, elements.front(), have new values: in
+/// another metric (SurfaceMetric.h) or with other weights (DirectionalElements.h) on the same
+/// patches. Patterns and prolongations stay; UpdateMultigrid does the same for its hierarchies.
+void UpdateSystem(const FunctionSpace& space, System& system, int threads = 0);
+
 /// a M + b L on one level, and on every level. Grid units.
 SparseMatrix LevelMatrix(const FunctionSpace& space, const System& system, std::size_t level,
   double a, double b, int threads = 0);
@@ -42,7 +47,7 @@ std::vector<MultigridLevel> BuildMultigridLevels(const FunctionSpace& space, con
 Multigrid BuildMultigrid(const FunctionSpace& space, const System& system, double a, double b,
   const MultigridOptions& options, const Progress& progress = {});
 
-/// New factors for a hierarchy of the same space and system.
+/// New values, in place, for a hierarchy of the same space and system.
 void UpdateMultigrid(
   const FunctionSpace& space, const System& system, double a, double b, Multigrid& multigrid);
 

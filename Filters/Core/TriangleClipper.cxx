@@ -18,13 +18,13 @@ void TriangleClipper::Polygon::Push(std::int32_t vertex, int tag)
   corner[size++] = { vertex, static_cast<std::int16_t>(tag) };
 }
 
-void TriangleClipper::Clip(Id triangle, ClipBlock& block, Index* stretchPiece)
+void TriangleClipper::Clip(Id triangle, PieceStore& store, Index* stretchPiece)
 {
   triangle_ = triangle;
   CellIndex cell;
   if (this->IsInOneCell(cell))
   {
-    this->EmitWhole(cell, block, stretchPiece);
+    this->EmitWhole(cell, store, stretchPiece);
     return;
   }
   vertices_.clear();
@@ -43,8 +43,8 @@ void TriangleClipper::Clip(Id triangle, ClipBlock& block, Index* stretchPiece)
   {
     whole.Push(corner, corner);
   }
-  this->ClipAxis(whole, 0, block);
-  this->LinkPieces(block);
+  this->ClipAxis(whole, 0, store);
+  this->LinkPieces(store);
 }
 
 bool TriangleClipper::IsInOneCell(CellIndex& cell)
@@ -65,16 +65,16 @@ bool TriangleClipper::IsInOneCell(CellIndex& cell)
   return !isCut;
 }
 
-void TriangleClipper::EmitWhole(const CellIndex& cell, ClipBlock& block, Index* stretchPiece) const
+void TriangleClipper::EmitWhole(const CellIndex& cell, PieceStore& store, Index* stretchPiece) const
 {
-  const auto piece = static_cast<Index>(block.key.size());
-  block.key.push_back(MortonEncode(cell));
-  block.triangle.push_back(static_cast<Index>(triangle_));
+  const auto piece = static_cast<Index>(store.key.size());
+  store.key.push_back(MortonEncode(cell));
+  store.triangle.push_back(static_cast<Index>(triangle_));
   for (const Id corner : input_.triangles[triangle_])
   {
-    block.corner.push_back(static_cast<Index>(corner));
+    store.corner.push_back(static_cast<Index>(corner));
   }
-  block.cornerBegin.push_back(static_cast<Index>(block.corner.size()));
+  store.cornerBegin.push_back(static_cast<Index>(store.corner.size()));
   std::fill_n(stretchPiece, 3, piece);
 }
 
@@ -113,11 +113,11 @@ void TriangleClipper::Start(Index* stretchPiece)
   }
 }
 
-void TriangleClipper::ClipAxis(const Polygon& polygon, int axis, ClipBlock& block)
+void TriangleClipper::ClipAxis(const Polygon& polygon, int axis, PieceStore& store)
 {
   if (axis == 3)
   {
-    this->Emit(polygon, block);
+    this->Emit(polygon, store);
     return;
   }
   double low = vertices_[polygon.corner[0].vertex].position[axis];
@@ -131,7 +131,7 @@ void TriangleClipper::ClipAxis(const Polygon& polygon, int axis, ClipBlock& bloc
   const PlaneRange planes = PlanesBetween(low, high);
   if (planes.count == 0)
   {
-    this->ClipAxis(polygon, axis + 1, block);
+    this->ClipAxis(polygon, axis + 1, store);
     return;
   }
   Polygon below;
@@ -140,21 +140,21 @@ void TriangleClipper::ClipAxis(const Polygon& polygon, int axis, ClipBlock& bloc
   for (int k = 0; k < planes.count; ++k)
   {
     Polygon& next = above[k % 2];
-    this->Split(*rest, axis, planes.first + k, below, next, block);
+    this->Split(*rest, axis, planes.first + k, below, next, store);
     if (below.size > 0)
     {
-      this->ClipAxis(below, axis + 1, block);
+      this->ClipAxis(below, axis + 1, store);
     }
     rest = &next;
   }
   if (rest->size > 0)
   {
-    this->ClipAxis(*rest, axis + 1, block);
+    this->ClipAxis(*rest, axis + 1, store);
   }
 }
 
 void TriangleClipper::Split(
-  const Polygon& polygon, int axis, int plane, Polygon& below, Polygon& above, ClipBlock& block)
+  const Polygon& polygon, int axis, int plane, Polygon& below, Polygon& above, PieceStore& store)
 {
   below.size = above.size = 0;
   bool hasBelow = false;
@@ -186,7 +186,7 @@ void TriangleClipper::Split(
     {
       const std::int32_t cut = corner.tag < PlaneTag
                                  ? this->CutMeshEdge(edge_[corner.tag], axis, plane)
-                                 : this->CutPlaneEdge(corner, next, axis, plane, block);
+                                 : this->CutPlaneEdge(corner, next, axis, plane, store);
       below.Push(cut, here < 0 ? planeTag : corner.tag);
       above.Push(cut, here < 0 ? corner.tag : planeTag);
     }
@@ -243,7 +243,7 @@ TriangleClipper::Slot& TriangleClipper::InteriorSlot(int axisA, int planeA, int 
 }
 
 std::int32_t TriangleClipper::CutPlaneEdge(
-  const Corner& fromCorner, const Corner& toCorner, int axis, int plane, ClipBlock& block)
+  const Corner& fromCorner, const Corner& toCorner, int axis, int plane, PieceStore& store)
 {
   const Vertex& from = vertices_[fromCorner.vertex];
   const Vertex& to = vertices_[toCorner.vertex];
@@ -253,7 +253,7 @@ std::int32_t TriangleClipper::CutPlaneEdge(
   if (slot.stamp != triangle_)
   {
     const double t = (plane - from.position[axis]) / (to.position[axis] - from.position[axis]);
-    Vertex cut{ {}, {}, -1 - static_cast<Index>(block.interior.size()) };
+    Vertex cut{ {}, {}, -1 - static_cast<Index>(store.interior.size()) };
     for (int k = 0; k < 3; ++k)
     {
       cut.position[k] = k == axis ? plane
@@ -263,13 +263,13 @@ std::int32_t TriangleClipper::CutPlaneEdge(
       cut.weight[k] = from.weight[k] + t * (to.weight[k] - from.weight[k]);
     }
     slot = { triangle_, static_cast<std::int32_t>(vertices_.size()) };
-    block.interior.push_back({ static_cast<Index>(triangle_), cut.weight });
+    store.interior.push_back({ static_cast<Index>(triangle_), cut.weight });
     vertices_.push_back(cut);
   }
   return slot.vertex;
 }
 
-void TriangleClipper::Emit(const Polygon& polygon, ClipBlock& block)
+void TriangleClipper::Emit(const Polygon& polygon, PieceStore& store)
 {
   Point low = vertices_[polygon.corner[0].vertex].position;
   for (int i = 1; i < polygon.size; ++i)
@@ -285,21 +285,21 @@ void TriangleClipper::Emit(const Polygon& polygon, ClipBlock& block)
   {
     cell[axis] = std::clamp(static_cast<int>(low[axis]), 0, input_.cellsPerSide - 1);
   }
-  const auto piece = static_cast<Index>(block.key.size());
-  block.key.push_back(MortonEncode(cell));
-  block.triangle.push_back(static_cast<Index>(triangle_));
+  const auto piece = static_cast<Index>(store.key.size());
+  store.key.push_back(MortonEncode(cell));
+  store.triangle.push_back(static_cast<Index>(triangle_));
   pieces_.push_back({ cell, piece, static_cast<int>(corners_.size()), polygon.size });
   for (int i = 0; i < polygon.size; ++i)
   {
-    block.corner.push_back(vertices_[polygon.corner[i].vertex].id);
+    store.corner.push_back(vertices_[polygon.corner[i].vertex].id);
     corners_.push_back(polygon.corner[i]);
   }
-  block.cornerBegin.push_back(static_cast<Index>(block.corner.size()));
-  this->NoteStretches(polygon, piece, block);
+  store.cornerBegin.push_back(static_cast<Index>(store.corner.size()));
+  this->NoteStretches(polygon, piece, store);
 }
 
 /// Two pieces on one stretch come from rounding; they are linked, and the first stands for both.
-void TriangleClipper::NoteStretches(const Polygon& polygon, Index piece, ClipBlock& block)
+void TriangleClipper::NoteStretches(const Polygon& polygon, Index piece, PieceStore& store)
 {
   const auto inputs = static_cast<Index>(input_.position.size());
   for (int i = 0; i < polygon.size; ++i)
@@ -320,12 +320,12 @@ void TriangleClipper::NoteStretches(const Polygon& polygon, Index piece, ClipBlo
     }
     else if (known != piece)
     {
-      block.links.push_back({ known, piece });
+      store.links.push_back({ known, piece });
     }
   }
 }
 
-void TriangleClipper::LinkPieces(ClipBlock& block) const
+void TriangleClipper::LinkPieces(PieceStore& store) const
 {
   for (const LocalPiece& piece : pieces_)
   {
@@ -336,7 +336,7 @@ void TriangleClipper::LinkPieces(ClipBlock& block) const
       if (axis >= 0 &&
           static_cast<int>(vertices_[corner.vertex].position[axis]) == piece.cell[axis] + 1)
       {
-        this->LinkAcross(piece, i, block);
+        this->LinkAcross(piece, i, store);
       }
     }
   }
@@ -366,7 +366,7 @@ bool TriangleClipper::HasEdge(const LocalPiece& piece, Index a, Index b) const
 
 /// The piece on the other side of a cut is in the next cell; where the cut runs along an edge of
 /// the grid it can be one further along the axes that were clipped later.
-void TriangleClipper::LinkAcross(const LocalPiece& piece, int corner, ClipBlock& block) const
+void TriangleClipper::LinkAcross(const LocalPiece& piece, int corner, PieceStore& store) const
 {
   const Corner& here = corners_[piece.firstCorner + corner];
   const int next = corner + 1 == piece.size ? 0 : corner + 1;
@@ -389,7 +389,7 @@ void TriangleClipper::LinkAcross(const LocalPiece& piece, int corner, ClipBlock&
       const LocalPiece* other = this->FindPiece(cell);
       if (other && this->HasEdge(*other, from, to))
       {
-        block.links.push_back({ piece.piece, other->piece });
+        store.links.push_back({ piece.piece, other->piece });
         return;
       }
     }

@@ -12,17 +12,17 @@
 namespace gridfem
 {
 
-/// What a number of consecutive triangles fall into. Pieces are numbered from 0 in each block.
+/// What the triangles fall into that one thread clips, in the order it meets them.
 /// Corner ids: input points and cuts of mesh edges have their global id; -1 - k is interior point
 /// k.
-struct ClipBlock
+struct PieceStore
 {
-  std::vector<MortonKey> key;
-  std::vector<Index> triangle;
-  std::vector<Index> cornerBegin; // one more than pieces
-  std::vector<Index> corner;
-  std::vector<CutPoint> interior; // points where two planes cut a triangle
-  std::vector<Link> links;        // pieces of one triangle that share an edge
+  Array<MortonKey> key;
+  Array<Index> triangle;
+  Array<Index> cornerBegin; // one more than pieces
+  Array<Index> corner;
+  Array<CutPoint> interior; // points where two planes cut a triangle
+  Array<Link> links;        // pieces of one triangle that share an edge
 };
 
 /// What the clipper knows of the mesh; all of it outlives the clipper.
@@ -56,7 +56,7 @@ public:
   /// Appends the pieces of one triangle.
   /// @param stretchPiece  gets the piece along each stretch of the triangle's three edges; -1 for a
   ///                      stretch without length
-  void Clip(Id triangle, ClipBlock& block, Index* stretchPiece);
+  void Clip(Id triangle, PieceStore& store, Index* stretchPiece);
 
 private:
   using Point = std::array<double, 3>;
@@ -118,22 +118,22 @@ private:
   };
 
   bool IsInOneCell(CellIndex& cell);
-  void EmitWhole(const CellIndex& cell, ClipBlock& block, Index* stretchPiece) const;
+  void EmitWhole(const CellIndex& cell, PieceStore& store, Index* stretchPiece) const;
   void Start(Index* stretchPiece);
-  void ClipAxis(const Polygon& polygon, int axis, ClipBlock& block);
+  void ClipAxis(const Polygon& polygon, int axis, PieceStore& store);
   void Split(
-    const Polygon& polygon, int axis, int plane, Polygon& below, Polygon& above, ClipBlock& block);
+    const Polygon& polygon, int axis, int plane, Polygon& below, Polygon& above, PieceStore& store);
   std::int32_t CutMeshEdge(const Edge& edge, int axis, int plane);
   std::int32_t CutPlaneEdge(
-    const Corner& from, const Corner& to, int axis, int plane, ClipBlock& block);
+    const Corner& from, const Corner& to, int axis, int plane, PieceStore& store);
   Slot& InteriorSlot(int axisA, int planeA, int axisB, int planeB);
   double Snap(double value) const;
-  void Emit(const Polygon& polygon, ClipBlock& block);
-  void NoteStretches(const Polygon& polygon, Index piece, ClipBlock& block);
-  void LinkPieces(ClipBlock& block) const;
+  void Emit(const Polygon& polygon, PieceStore& store);
+  void NoteStretches(const Polygon& polygon, Index piece, PieceStore& store);
+  void LinkPieces(PieceStore& store) const;
   const LocalPiece* FindPiece(const CellIndex& cell) const;
   bool HasEdge(const LocalPiece& piece, Index a, Index b) const;
-  void LinkAcross(const LocalPiece& piece, int corner, ClipBlock& block) const;
+  void LinkAcross(const LocalPiece& piece, int corner, PieceStore& store) const;
 
   const ClipInput& input_;
   ClippedMesh& clipped_;

@@ -1,0 +1,141 @@
+// How integrals over the clipped mesh run: patch by patch, so that each has its own sums, and over
+// several triangles at once, one per SIMD lane.
+#ifndef GridFEM_PatchIntegrals_h
+#define GridFEM_PatchIntegrals_h
+
+#include "FunctionSpace.h"
+#include "Grouping.h"
+#include "Lanes.h"
+#include "PatchMoments.h"
+#include "PieceSamples.h"
+
+namespace gridfem
+{
+
+/// Fan triangles of one patch. Lanes from `count` on have no area.
+struct TriangleBatch
+{
+  Lanes corner[3][3]; // corner, axis; in the cell's own coordinates
+  Index piece[LaneCount];
+  Id firstSample[LaneCount]; // see FirstSample
+  int count = 0;
+};
+
+/// The planes of the triangles of a batch.
+struct TrianglePlanes
+{
+  LaneVector normal; // unit; 0 for a triangle without area
+  Lanes area;        // grid units
+
+  explicit TrianglePlanes(const TriangleBatch& batch)
+  {
+    LaneVector u;
+    LaneVector v;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      u.axis[axis] = batch.corner[1][axis] - batch.corner[0][axis];
+      v.axis[axis] = batch.corner[2][axis] - batch.corner[0][axis];
+    }
+    for (int p = 0; p < 3; ++p)
+    {
+      const int q = (p + 1) % 3;
+      const int r = (p + 2) % 3;
+      normal.axis[p] = u.axis[q] * v.axis[r] - u.axis[r] * v.axis[q];
+    }
+    const Lanes norm = normal.Dot(normal).sqrt();
+    const Lanes inverse = 1.0 / norm.max(1e-300); // 0 times this is 0
+    for (Lanes& component : normal.axis)
+    {
+      component *= inverse;
+    }
+    area = 0.5 * norm;
+  }
+};
+
+/// Positions of one point of a rule on all triangles of a batch.
+inline void SetPositions(
+  const TriangleBatch& batch, const QuadratureRule::Point& point, SampleBatch& samples)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    samples.position[axis] = point.barycentric[0] * batch.corner[0][axis] +
+                             point.barycentric[1] * batch.corner[1][axis] +
+                             point.barycentric[2] * batch.corner[2][axis];
+  }
+}
+
+/// Calls body(batch) for the fan triangles of some pieces, several at a time.
+template<class Body>
+void ForEachBatch(const ClippedMesh& clipped, const Index* pieceBegin, const Index* pieceEnd,
+  const Vec3& origin, const QuadratureRule& rule, Body&& body)
+{
+  const Id points = static_cast<Id>(rule.points.size());
+  TriangleBatch batch;
+  const auto setCorner = [&](int corner, Index point)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      batch.corner[corner][axis][batch.count] = clipped.position[point][axis] - origin[axis];
+    }
+  };
+  for (const Index* piece = pieceBegin; piece < pieceEnd; ++piece)
+  {
+    const Index* corner = clipped.corners.data() + clipped.pieceBegin[*piece];
+    const Index count = clipped.pieceBegin[*piece + 1] - clipped.pieceBegin[*piece];
+    for (Index k = 1; k + 1 < count; ++k)
+    {
+      setCorner(0, corner[0]);
+      setCorner(1, corner[k]);
+      setCorner(2, corner[k + 1]);
+      batch.piece[batch.count] = *piece;
+      batch.firstSample[batch.count] = FirstSample(clipped, *piece, rule) + (k - 1) * points;
+      if (++batch.count == LaneCount)
+      {
+        body(batch);
+        batch.count = 0;
+      }
+    }
+  }
+  if (batch.count > 0)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      for (auto& corner : batch.corner)
+      {
+        corner[axis].tail(LaneCount - batch.count).setZero();
+      }
+    }
+    body(batch);
+  }
+}
+
+/// Calls body(patch, forEachBatch) for every finest patch, in parallel; forEachBatch(body) as
+/// ForEachBatch on its pieces, relative to the lowest corner of its cell.
+template<class Body>
+void ForEachPatch(const FunctionSpace& space, const QuadratureRule& rule, int threads,
+  const Progress& progress, Body&& body)
+{
+  constexpr Id PatchesPerBlock = 256; // some ten thousand samples
+  const Level& level = space.Finest();
+  const Groups pieces = GroupItems(space.piecePatch, level.NumberOfPatches(), threads);
+  ParallelRanges(
+    level.NumberOfPatches(), threads,
+    [&](Id begin, Id end)
+    {
+      for (Id patch = begin; patch < end; ++patch)
+      {
+        const Index* const items = pieces.item.data();
+        body(patch,
+          [&](auto&& onBatch)
+          {
+            ForEachBatch(space.clipped, items + pieces.begin[patch],
+              items + pieces.begin[patch + 1], CellCorner(level.cell[patch]), rule, onBatch);
+          });
+      }
+    },
+    PatchesPerBlock, progress);
+}
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,195 @@
+#include "SurfaceMetric.h"
+
+#include "Errors.h"
+#include "PatchIntegrals.h"
+
+#include <atomic>
+#include <utility>
+
+namespace gridfem
+{
+
+namespace
+{
+
+/// A metric with a smaller determinant over its squared trace counts as singular.
+constexpr double SmallestQuotient = 1e-14;
+constexpr double LargestDeterminant = 1e300;
+
+/// One point of the rule on all triangles of a batch.
+struct LaneMetric
+{
+  Lanes E = Lanes::Zero();
+  Lanes F = Lanes::Zero();
+  Lanes G = Lanes::Zero();
+};
+
+LaneMetric Load(const SampleMetric& metric, const TriangleBatch& batch, Id point)
+{
+  LaneMetric lanes;
+  for (int lane = 0; lane < batch.count; ++lane)
+  {
+    const FundamentalForm& form = metric[batch.firstSample[lane] + point];
+    lanes.E[lane] = form.E;
+    lanes.F[lane] = form.F;
+    lanes.G[lane] = form.G;
+  }
+  return lanes;
+}
+
+void Store(const LaneMetric& lanes, const TriangleBatch& batch, Id point, SampleMetric& metric)
+{
+  for (int lane = 0; lane < batch.count; ++lane)
+  {
+    metric[batch.firstSample[lane] + point] = { lanes.E[lane], lanes.F[lane], lanes.G[lane] };
+  }
+}
+
+/// Sets mass and tensor of samples that stand for `weight` of area in the metric of the mesh.
+/// @return  number of singular metrics; they weigh nothing
+Id SetWeights(const LaneMetric& metric, const Lanes& weight, const TangentBasis& basis,
+  const LaneVector& normal, SampleBatch& samples)
+{
+  const Lanes determinant = metric.E * metric.G - metric.F * metric.F;
+  const Lanes trace = metric.E + metric.G;
+  const Lanes root = determinant.max(1e-300).sqrt();
+  Lanes a;
+  Lanes b;
+  Lanes c;
+  Lanes n; // like the stiffness of a scaled surface, it does not scale
+  Id singular = 0;
+  for (int lane = 0; lane < LaneCount; ++lane)
+  {
+    const bool isRegular = metric.E[lane] > 0.0 && determinant[lane] <= LargestDeterminant &&
+                           determinant[lane] > SmallestQuotient * trace[lane] * trace[lane];
+    const double over = weight[lane] / root[lane];
+    a[lane] = isRegular ? over * metric.G[lane] : 0.0;
+    b[lane] = isRegular ? -over * metric.F[lane] : 0.0;
+    c[lane] = isRegular ? over * metric.E[lane] : 0.0;
+    n[lane] = isRegular ? NormalWeight * weight[lane] : 0.0;
+    samples.mass[lane] = isRegular ? weight[lane] * root[lane] : 0.0;
+    singular += weight[lane] > 0.0 && !isRegular ? 1 : 0;
+  }
+  samples.tensor = TensorInBasis(a, b, c, n, basis, normal);
+  return singular;
+}
+
+/// Coefficients of an embedding on a patch, one column per coordinate.
+using PatchEmbedding = Eigen::Matrix<double, FunctionsPerPatch, 3>;
+
+/// The metric of the embedding at positions in the cell.
+LaneMetric MetricAt(
+  const Lanes (&position)[3], const TangentBasis& basis, const PatchEmbedding& embedding)
+{
+  Lanes alongFirst[3] = { Lanes::Zero(), Lanes::Zero(), Lanes::Zero() };
+  Lanes alongSecond[3] = { Lanes::Zero(), Lanes::Zero(), Lanes::Zero() };
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int first = 1 << ((axis + 1) % 3);
+    const int second = 1 << ((axis + 2) % 3);
+    const Lanes& s = position[(axis + 1) % 3];
+    const Lanes& t = position[(axis + 2) % 3];
+    const Lanes st = s * t;
+    // The slope along the axis is bilinear in the other two coordinates.
+    const std::pair<int, Lanes> edges[4] = { { 0, 1.0 - s - t + st }, { first, s - st },
+      { second, t - st }, { first + second, st } };
+    for (int component = 0; component < 3; ++component)
+    {
+      Lanes slope = Lanes::Zero();
+      for (const auto& [corner, factor] : edges)
+      {
+        slope +=
+          (embedding(corner + (1 << axis), component) - embedding(corner, component)) * factor;
+      }
+      alongFirst[component] += slope * basis.first.axis[axis];
+      alongSecond[component] += slope * basis.second.axis[axis];
+    }
+  }
+  LaneMetric metric;
+  for (int component = 0; component < 3; ++component)
+  {
+    metric.E += alongFirst[component] * alongFirst[component];
+    metric.F += alongFirst[component] * alongSecond[component];
+    metric.G += alongSecond[component] * alongSecond[component];
+  }
+  return metric;
+}
+
+} // namespace
+
+SampleMetric MetricOfEmbedding(const FunctionSpace& space, const QuadratureRule& rule,
+  const MultiVector& embedding, int threads, const Progress& progress)
+{
+  const Level& level = space.Finest();
+  if (embedding.rows() != level.numberOfFunctions || embedding.cols() != 3)
+  {
+    throw InvalidInput("an embedding needs three coefficients for each function of the space");
+  }
+  const Id points = static_cast<Id>(rule.points.size());
+  SampleMetric metric(NumberOfSamples(space.clipped, rule));
+  ForEachPatch(space, rule, threads, progress,
+    [&](Id patch, auto&& forEachBatch)
+    {
+      PatchEmbedding coefficients;
+      for (int corner = 0; corner < FunctionsPerPatch; ++corner)
+      {
+        coefficients.row(corner) = embedding.row(level.dof[patch][corner]);
+      }
+      forEachBatch(
+        [&](const TriangleBatch& batch)
+        {
+          const TangentBasis basis(TrianglePlanes(batch).normal);
+          SampleBatch samples;
+          for (Id point = 0; point < points; ++point)
+          {
+            SetPositions(batch, rule.points[point], samples);
+            Store(MetricAt(samples.position, basis, coefficients), batch, point, metric);
+          }
+        });
+    });
+  return metric;
+}
+
+Id IntegrateElements(const FunctionSpace& space, const QuadratureRule& rule,
+  const SampleMetric& metric, ElementMatrices& result, int threads, const Progress& progress)
+{
+  if (static_cast<Id>(metric.size()) != NumberOfSamples(space.clipped, rule))
+  {
+    throw InvalidInput("a metric is needed for every sample of the quadrature rule");
+  }
+  const Id points = static_cast<Id>(rule.points.size());
+  result.mass.resize(space.Finest().NumberOfPatches());
+  result.stiffness.resize(space.Finest().NumberOfPatches());
+  std::atomic<Id> singular = 0;
+  ForEachPatch(space, rule, threads, progress,
+    [&](Id patch, auto&& forEachBatch)
+    {
+      MassMoments mass;
+      StiffnessMoments stiffness;
+      forEachBatch(
+        [&](const TriangleBatch& batch)
+        {
+          const TrianglePlanes planes(batch);
+          const TangentBasis basis(planes.normal);
+          SampleBatch samples;
+          for (Id point = 0; point < points; ++point)
+          {
+            SetPositions(batch, rule.points[point], samples);
+            const Lanes weight = rule.points[point].weight * planes.area;
+            const Id here =
+              SetWeights(Load(metric, batch, point), weight, basis, planes.normal, samples);
+            if (here > 0)
+            {
+              singular += here;
+            }
+            mass.Add(samples);
+            stiffness.Add(samples);
+          }
+        });
+      result.mass[patch] = mass.Matrix();
+      result.stiffness[patch] = stiffness.Matrix();
+    });
+  return singular;
+}
+
+} // namespace gridfem
