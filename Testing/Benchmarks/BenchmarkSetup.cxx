@@ -147,7 +147,7 @@ void PrintPeerRatios(
   PrintAtMost("values_update_over_setup_" + name, two.values / two.setup, 0.2);
   PrintAtMost(
     "values_update_over_cholmod_refactor_" + name, two.values / times.cholmod[1].factor, 0.25);
-  PrintAtMost("weight_update_over_setup_" + name, two.weight / two.setup, 0.1);
+  PrintAtMost("weights_update_over_setup_" + name, two.weights / two.setup, 0.1);
   PrintAtMost("connectivity_aware_over_plain_" + name, two.setup / two.plain, 1.3);
   PrintAtLeast("setup_second_thread_" + name, one.setup / two.setup, 1.6);
   PrintAtMost("peak_memory_over_cholmod_" + name, peaks.grid / peaks.cholmod, 0.7);

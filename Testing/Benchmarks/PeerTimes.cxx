@@ -2,10 +2,12 @@
 
 #include "AlgebraicMultigrid.h"
 #include "Cholmod.h"
+#include "DirectionalElements.h"
 #include "Evaluation.h"
 #include "LoadVector.h"
 #include "Measure.h"
 #include "Problems.h"
+#include "SurfaceMetric.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -95,18 +97,7 @@ private:
     Time(times.setup, [&] { grid = SetUp(mesh_, job_.depth, threads); });
     times.functions = grid.space.Finest().numberOfFunctions;
     times.clippedTriangles = static_cast<double>(grid.space.clipped.NumberOfTriangles());
-    Time(times.values,
-      [&]
-      {
-        const System system = BuildSystem(grid.space, TriangleRule(2), threads);
-        BuildMultigrid(
-          grid.space, system, grid.options.screeningWeight, 1.0, grid.options.multigrid);
-      });
-    Time(times.weight,
-      [&] {
-        UpdateMultigrid(
-          grid.space, grid.system, grid.options.screeningWeight, 1.0, *grid.multigrid);
-      });
+    this->RunUpdates(threads, grid, times);
     Time(times.load,
       [&]
       {
@@ -125,6 +116,40 @@ private:
     Time(times.evaluate, [&] { EvaluateAtPoints(grid.space, x, threads); });
     const MultiVector b = grid.gradients.leftCols(1);
     Time(times.cycle, [&] { grid.multigrid->Precondition(b, x); });
+  }
+
+  /// What changes the values of the system on the same patches; leaves those of the mesh.
+  void RunUpdates(int threads, GridProblem& grid, GridTimes& times) const
+  {
+    const FunctionSpace& space = grid.space;
+    const QuadratureRule& rule = TriangleRule(2);
+    ElementMatrices& elements = grid.system.elements.front();
+    const auto update = [&]
+    { UpdateMultigrid(space, grid.system, grid.options.screeningWeight, 1.0, *grid.multigrid); };
+
+    Time(times.lambda, update);
+    {
+      const MultiVector embedding = GridCoordinates(space);
+      SampleMetric metric;
+      Time(times.metric, [&] { metric = MetricOfEmbedding(space, rule, embedding, threads); });
+      Time(times.values,
+        [&]
+        {
+          IntegrateElements(space, rule, metric, elements, threads);
+          UpdateSystem(space, grid.system, threads);
+          update();
+        });
+    }
+    const std::vector<Vec3> directions(mesh_.triangles.size(), Vec3::UnitX());
+    const DirectionalElements parts = IntegrateElements(space, rule, directions, threads);
+    const std::vector<ElementWeights> weights(parts.mass.size());
+    Time(times.weights,
+      [&]
+      {
+        Weigh(parts, weights, elements, threads);
+        UpdateSystem(space, grid.system, threads);
+        update();
+      });
   }
 
   int GridIterations(const GridProblem& grid, int columns) const
@@ -197,11 +222,13 @@ void PrintPeers(const PeerJob& job, const PeerTimes& times)
   PrintAmg(table, "GAMG-CG, 1 process", times, times.gamg);
   PrintCholmod(table, "CHOLMOD, 1 thread", times, times.cholmod[0]);
   PrintCholmod(table, "CHOLMOD, 2 threads", times, times.cholmod[1]);
-  std::printf("Hat assembly %.3f; ours, 1 / 2 threads: plain set-up %.3f / %.3f, new values "
-              "%.3f / %.3f, new screening %.3f / %.3f, right-hand sides %.3f / %.3f, cycle %.4f / "
+  std::printf("Hat assembly %.3f; ours, 1 / 2 threads: plain set-up %.3f / %.3f, metric of "
+              "an embedding %.3f / %.3f, new metric %.3f / %.3f, new weights %.3f / %.3f, new "
+              "screening %.3f / %.3f, right-hand sides %.3f / %.3f, cycle %.4f / "
               "%.4f, values at points %.4f / %.4f\n",
-    times.assembly, times.grid[0].plain, times.grid[1].plain, times.grid[0].values,
-    times.grid[1].values, times.grid[0].weight, times.grid[1].weight, times.grid[0].load,
+    times.assembly, times.grid[0].plain, times.grid[1].plain, times.grid[0].metric,
+    times.grid[1].metric, times.grid[0].values, times.grid[1].values, times.grid[0].weights,
+    times.grid[1].weights, times.grid[0].lambda, times.grid[1].lambda, times.grid[0].load,
     times.grid[1].load, times.grid[0].cycle, times.grid[1].cycle, times.grid[0].evaluate,
     times.grid[1].evaluate);
 }

@@ -17,8 +17,10 @@ struct GridTimes
 {
   double setup = 0.0;    // triangles to ready-to-solve hierarchy
   double plain = 0.0;    // the same on the plain space; 0: not run
-  double values = 0.0;   // new element matrices on the same patches to ready-to-solve hierarchy
-  double weight = 0.0;   // new λ to ready-to-solve hierarchy
+  double metric = 0.0;   // metric of an embedding at every sample
+  double values = 0.0;   // new metric at every sample to ready-to-solve hierarchy
+  double weights = 0.0;  // new weights for every patch and direction to ready-to-solve hierarchy
+  double lambda = 0.0;   // new λ to ready-to-solve hierarchy
   double load = 0.0;     // right-hand sides from values at the points
   double solve = 0.0;    // one column to the error of the comparison
   double solve3 = 0.0;   // three
