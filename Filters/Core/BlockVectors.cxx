@@ -1,6 +1,6 @@
 #include "BlockVectors.h"
 
-#include "LargePages.h"
+#include "LargeMemory.h"
 #include "Parallel.h"
 
 #include <algorithm>

@@ -2,59 +2,75 @@
 
 #include <new>
 
-// Address sanitizers watch the heap alone.
-#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__)
-#define GRIDFEM_MAPS_MEMORY
+#ifdef __linux__
 #include <sys/mman.h>
 #include <unistd.h>
+#endif
 
 #include <cstdint>
-#endif
 
 namespace gridfem
 {
 
-#ifdef GRIDFEM_MAPS_MEMORY
+#ifdef __linux__
 
 namespace
 {
 
 constexpr std::size_t LargePage = std::size_t{ 1 } << 21;
 
-void* Map(std::size_t bytes)
+std::size_t RoundUp(std::size_t size, std::size_t unit)
 {
-  void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (memory == MAP_FAILED)
-  {
-    throw std::bad_alloc();
-  }
-  return memory;
+  return (size + unit - 1) / unit * unit;
 }
 
 } // namespace
 
+void PreferLargePages(void* begin, std::size_t bytes) noexcept
+{
+  const auto address = reinterpret_cast<std::uintptr_t>(begin);
+  const std::uintptr_t first = RoundUp(address, LargePage);
+  const std::uintptr_t last = (address + bytes) / LargePage * LargePage;
+  if (last > first)
+  {
+    madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
+  }
+}
+
+#else
+
+void PreferLargePages(void*, std::size_t) noexcept
+{
+}
+
+#endif
+
+// Address sanitizers watch the heap alone.
+#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__)
+
 void* AllocateLargeMemory(std::size_t bytes)
 {
-  if (bytes < LargePage)
-  {
-    return Map(bytes);
-  }
   // More than is wanted, so that a part of it begins with a large page; the rest is given back.
-  char* const mapped = static_cast<char*>(Map(bytes + LargePage));
-  const std::size_t before =
-    (LargePage - reinterpret_cast<std::uintptr_t>(mapped) % LargePage) % LargePage;
-  char* const memory = mapped + before;
-  const std::size_t page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-  const std::size_t kept = (bytes + page - 1) / page * page;
+  const std::size_t kept = RoundUp(bytes, static_cast<std::size_t>(sysconf(_SC_PAGESIZE)));
+  const std::size_t mapped = kept + LargePage;
+  void* const begin =
+    mmap(nullptr, mapped, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (begin == MAP_FAILED)
+  {
+    throw std::bad_alloc();
+  }
+  const auto address = reinterpret_cast<std::uintptr_t>(begin);
+  const std::size_t before = RoundUp(address, LargePage) - address;
+  char* const memory = static_cast<char*>(begin) + before;
   if (before > 0)
   {
-    munmap(mapped, before);
+    munmap(begin, before);
   }
-  if (before + kept < bytes + LargePage)
+  if (before < LargePage)
   {
-    munmap(memory + kept, bytes + LargePage - before - kept);
+    munmap(memory + kept, LargePage - before);
   }
-  madvise(memory, kept, MADV_HUGEPAGE); // a wish; nothing is lost when it is refused
+  PreferLargePages(memory, kept);
   return memory;
 }
 

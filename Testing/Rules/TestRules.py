@@ -19,12 +19,8 @@ SOURCE_SUFFIXES = (".h", ".cxx")
 # The layers of Core from the bottom up. A file may include its own layer and the ones below; so the
 # solvers, which see matrices and lists of unknowns only, cannot reach a mesh.
 CORE_LAYERS = {
-<<<<<<< HEAD
-    "foundation": "Array SharedArray LargePages Types Errors Progress Parallel UnionFind RadixSort"
+    "foundation": "LargeMemory Array SharedArray Types Errors Progress Parallel UnionFind RadixSort"
                   " Grouping",
-=======
-    "foundation": "LargeMemory Array SharedArray Types Errors Progress Parallel UnionFind RadixSort Grouping",
->>>>>>> 6ab8c92 (New metrics and weights without a new system; less memory and time for the set-up)
     "algebra": "SparseMatrix RowKernels PairedProduct PivotedCholesky BlockSweep Smoother"
                " GaussSeidel PatchSmoother CoarseSolver Multigrid ConjugateGradients RayleighRitz"
                " Constants BlockVectors BasisProducts BlockIteration WindowIteration SmootherSequence"
@@ -32,8 +28,9 @@ CORE_LAYERS = {
     "grid and clip": "TriangleMesh Field MeshEdges Grid SourceTriangle TriangleClipper CutPoints"
                      " Clip Links MemoryEstimate HatFunctions HatMatrices HatLoad",
     "patches and levels": "Level Patches FunctionSpace PatchOrdering",
-    "integrals": "QuadratureRule TrilinearBasis PieceSamples PatchMoments Lanes PatchIntegrals ElementMatrices SurfaceMetric DirectionalElements LoadVector Evaluation"
-                 " Assembly HatTransfer",
+    "integrals": "QuadratureRule TrilinearBasis PieceSamples Lanes PatchMoments PatchIntegrals"
+                 " ElementMatrices SurfaceMetric DirectionalElements LoadVector Evaluation Assembly"
+                 " HatTransfer",
     "hierarchy": "System HatMultigrid",
     "problems": "Poisson CollectSpectrum HatSpectrum SpectrumAccuracy Spectrum ModeSums",
 }
