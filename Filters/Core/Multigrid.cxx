@@ -1,5 +1,6 @@
 #include "Multigrid.h"
 
+#include "ColumnAlgebra.h"
 #include "Errors.h"
 #include "PatchCover.h"
 #include "SmootherSequence.h"
@@ -50,6 +51,19 @@ std::size_t MatrixMemory(const SparseMatrix& A)
          A.value.size() * sizeof(double);
 }
 
+/// Row i times factor[i] scale.
+void ScaleRows(const std::vector<double>& factor, double scale, MultiVector& v, int threads)
+{
+  ParallelRanges(v.rows(), ThreadsFor(v.size(), threads),
+    [&](Id begin, Id end)
+    {
+      for (Id row = begin; row < end; ++row)
+      {
+        v.row(row) *= factor[row] * scale;
+      }
+    });
+}
+
 } // namespace
 
 Multigrid::Multigrid(std::vector<MultigridLevel> levels, const MultigridOptions& options)
@@ -61,6 +75,22 @@ Multigrid::Multigrid(std::vector<MultigridLevel> levels, const MultigridOptions&
     levels_[l].restriction = Transpose(levels_[l].prolongation);
   }
   this->BuildSolvers();
+}
+
+void Multigrid::AddHidden(HiddenLevels hidden, double size)
+{
+  if (levels_.size() < 2 || hidden.levels.size() + 1 != levels_.size() || !(size > 0.0) ||
+      static_cast<Index>(hidden.height.size()) != levels_.front().A.rows ||
+      hidden.levels.front().A.rows != levels_[1].A.rows)
+  {
+    throw InvalidInput("the hidden functions do not fit the hierarchy");
+  }
+  MultigridOptions options = options_;
+  options.cycle = CycleType::V;
+  hidden_ = std::make_unique<Multigrid>(std::move(hidden.levels), options);
+  height_ = std::move(hidden.height);
+  sizeOfHidden_ = size;
+  revisionOfHidden_ = hidden.revision;
 }
 
 void Multigrid::Update(std::vector<SparseMatrix> matrices)
@@ -224,6 +254,21 @@ void Multigrid::CycleLevel(std::size_t l, const MultiVector& b, MultiVector& x, 
 void Multigrid::CorrectFromCoarse(std::size_t l, const MultiVector& b, MultiVector& x, bool zeroX,
   std::vector<Scratch>& scratch) const
 {
+  if (l == 0 && hidden_)
+  {
+    this->VisitCoarse(l, b, x, zeroX, 1, scratch);
+    this->CorrectHidden(b, x, scratch[l]);
+    this->VisitCoarse(l, b, x, false, 1, scratch);
+    return;
+  }
+  const bool coarseIsSolved = l + 2 == levels_.size(); // directly: once is enough
+  const bool isW = this->SmoothingOf(l).cycle == CycleType::W;
+  this->VisitCoarse(l, b, x, zeroX, isW && !coarseIsSolved ? 2 : 1, scratch);
+}
+
+void Multigrid::VisitCoarse(std::size_t l, const MultiVector& b, MultiVector& x, bool zeroX,
+  int times, std::vector<Scratch>& scratch) const
+{
   const MultigridLevel& level = levels_[l];
   auto& [residual, coarseB, coarseX] = scratch[l];
   if (!zeroX)
@@ -231,18 +276,31 @@ void Multigrid::CorrectFromCoarse(std::size_t l, const MultiVector& b, MultiVect
     Residual(level.A, x, b, residual, options_.threads);
   }
   Multiply(level.restriction, zeroX ? b : residual, coarseB, options_.threads);
-  this->CycleLevel(l + 1, coarseB, coarseX, true, scratch);
-  const bool coarseIsSolved = l + 2 == levels_.size(); // directly: once is enough
-  if (this->SmoothingOf(l).cycle == CycleType::W && !coarseIsSolved)
+  for (int time = 0; time < times; ++time)
   {
-    this->CycleLevel(l + 1, coarseB, coarseX, false, scratch);
+    this->CycleLevel(l + 1, coarseB, coarseX, time == 0, scratch);
   }
   MultiplyAdd(level.prolongation, coarseX, x, options_.threads);
 }
 
+/// x += D P B Pᵀ D (b - A x)
+void Multigrid::CorrectHidden(const MultiVector& b, MultiVector& x, Scratch& scratch) const
+{
+  const MultigridLevel& level = levels_.front();
+  auto& [residual, coarseB, coarseX] = scratch;
+  Residual(level.A, x, b, residual, options_.threads);
+  ScaleRows(height_, 1.0, residual, options_.threads);
+  Multiply(level.restriction, residual, coarseB, options_.threads);
+  hidden_->Precondition(coarseB, coarseX);
+  Multiply(level.prolongation, coarseX, residual, options_.threads);
+  ScaleRows(height_, 1.0 / sizeOfHidden_, residual, options_.threads);
+  AddScaled(residual, Columns::Ones(x.cols()), x, options_.threads);
+}
+
 std::size_t Multigrid::Memory() const
 {
-  std::size_t bytes = coarse_.Memory();
+  std::size_t bytes = coarse_.Memory() + height_.size() * sizeof(double);
+  bytes += hidden_ ? hidden_->Memory() : 0;
   for (const MultigridLevel& level : levels_)
   {
     bytes += MatrixMemory(level.A) + MatrixMemory(level.prolongation) +

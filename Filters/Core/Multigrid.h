@@ -37,7 +37,9 @@ struct MultigridOptions
   /// one.
   int coverage = 0;
   int sweepsPerSynchronisation = 1; // of SliceGaussSeidel: one Sweep is so many
-  int threads = 0;                  // 0: all
+  /// W cycles with the patch smoother on a grid: correct hidden functions, too; see HiddenLevels.
+  bool correctHidden = true;
+  int threads = 0; // 0: all
 };
 
 /// How one level is relaxed, where that differs from the rest of the hierarchy: the hat functions
@@ -62,6 +64,16 @@ struct MultigridLevel
   std::unique_ptr<Smoother> smoother;      // none on the coarsest
 };
 
+/// Functions of the finest level that are nearly invisible on the surface, and that coarse levels
+/// see several times too large: `height` times a function of the next coarser level, and a
+/// hierarchy of their own. See HiddenFunctions.h.
+struct HiddenLevels
+{
+  std::vector<double> height;         // a factor per finest unknown
+  std::vector<MultigridLevel> levels; // from the second level on; prolongations as in the other one
+  int revision = 0;                   // of the system they come from
+};
+
 /// A hierarchy that is ready to cycle. Const methods are safe to call from several threads.
 class Multigrid
 {
@@ -70,6 +82,17 @@ public:
   /// The coarsest level is solved directly; its prolongation and order are not used.
   /// Throws InvalidInput when there is no level, shapes do not fit or a sweep count is negative.
   Multigrid(std::vector<MultigridLevel> levels, const MultigridOptions& options);
+
+  /// From now on cycles of the finest level have a third correction: one from the coarser level,
+  /// one by a V cycle of the hidden functions, one more from the coarser level, in place of the two
+  /// that a W cycle has. All three are corrections in a space of functions, so that the cycle stays
+  /// symmetric and convergent whatever the heights are. Costs a seventh of a cycle more.
+  /// @param size  of the matrix on hidden functions, in units of the hierarchy `hidden`
+  /// Throws InvalidInput when shapes do not fit.
+  void AddHidden(HiddenLevels hidden, double size);
+  void SetSizeOfHidden(double size) { sizeOfHidden_ = size; }
+  /// -1 where there are none.
+  int RevisionOfHidden() const { return hidden_ ? revisionOfHidden_ : -1; }
 
   /// New matrix values on the same patterns (finest first): rebuilds smoothers and coarse solver.
   /// Throws InvalidInput, and changes nothing, when a pattern differs in shape or size.
@@ -118,10 +141,17 @@ private:
     std::vector<Scratch>& scratch) const;
   void CorrectFromCoarse(std::size_t level, const MultiVector& b, MultiVector& x, bool zeroX,
     std::vector<Scratch>& scratch) const;
+  void VisitCoarse(std::size_t level, const MultiVector& b, MultiVector& x, bool zeroX, int times,
+    std::vector<Scratch>& scratch) const;
+  void CorrectHidden(const MultiVector& b, MultiVector& x, Scratch& scratch) const;
 
   std::vector<MultigridLevel> levels_;
   CoarseSolver coarse_;
   MultigridOptions options_;
+  std::vector<double> height_;
+  std::unique_ptr<Multigrid> hidden_; // none: no such correction
+  double sizeOfHidden_ = 1.0;
+  int revisionOfHidden_ = 0;
 };
 
 } // namespace gridfem

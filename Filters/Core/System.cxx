@@ -1,5 +1,6 @@
 #include "System.h"
 
+#include "HiddenFunctions.h"
 #include "Parallel.h"
 #include "PatchOrdering.h"
 
@@ -70,6 +71,28 @@ void FillMatrix(const FunctionSpace& space, const System& system, std::size_t le
     matrix, threads);
 }
 
+/// Hidden functions of W cycles of patches; those that are there are kept while the elements are
+/// the same, whatever the factors.
+void AddHidden(
+  const FunctionSpace& space, const System& system, double a, double b, Multigrid& multigrid)
+{
+  const MultigridOptions& options = multigrid.Options();
+  const double size = SizeOnHidden(a, b);
+  if (!options.correctHidden || options.cycle != CycleType::W ||
+      options.smoother != SmootherType::Patch || system.prolongation.empty() || !(size > 0.0))
+  {
+    return;
+  }
+  if (multigrid.RevisionOfHidden() == system.revision)
+  {
+    multigrid.SetSizeOfHidden(size);
+  }
+  else
+  {
+    multigrid.AddHidden(BuildHiddenLevels(space, system, options.threads), size);
+  }
+}
+
 } // namespace
 
 System BuildSystem(const FunctionSpace& space, const QuadratureRule& rule, int threads,
@@ -107,6 +130,7 @@ void UpdateSystem(const FunctionSpace& space, System& system, int threads)
   }
   system.integral =
     IntegralsOfFunctions(system.places.front(), system.elements.front().mass, threads);
+  ++system.revision;
 }
 
 SparseMatrix LevelMatrix(const FunctionSpace& space, const System& system, std::size_t level,
@@ -150,6 +174,7 @@ Multigrid BuildMultigrid(const FunctionSpace& space, const System& system, doubl
 {
   Multigrid multigrid(
     BuildMultigridLevels(space, system, a, b, options.threads, progress.Part(0.0, 0.5)), options);
+  AddHidden(space, system, a, b, multigrid);
   progress.Check(1.0);
   return multigrid;
 }
@@ -159,6 +184,7 @@ void UpdateMultigrid(
 {
   multigrid.Update([&](std::size_t level, SparseMatrix& matrix)
     { FillMatrix(space, system, level, a, b, multigrid.Options().threads, matrix); });
+  AddHidden(space, system, a, b, multigrid);
 }
 
 SparseMatrix MassMatrix(const FunctionSpace& space, const System& system, int threads)

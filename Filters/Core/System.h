@@ -21,6 +21,7 @@ struct System
   std::vector<SparseMatrix> prolongation; // level l+1 to l; one less than levels
   std::vector<double> integral;           // ∫ b_i of the finest functions, grid units
   int quadratureDegree = 2;
+  int revision = 0; // how often UpdateSystem has changed the elements
 };
 
 /// Integrates, coarsens down to the first level with at most `coarsestSize` functions in its

@@ -105,7 +105,7 @@ private:
         IntegrateGradientsOf(grid.space, mesh_, points_, nullptr, TriangleRule(2), threads);
       });
     ChooseColours(grid, Columns);
-    if (times.iterations == 0.0)
+    if (times.iterations < 0.0)
     {
       times.iterations = this->GridIterations(grid, 1);
       times.iterations3 = this->GridIterations(grid, Columns);
@@ -154,8 +154,8 @@ private:
 
   int GridIterations(const GridProblem& grid, int columns) const
   {
-    return IterationsToError(
-      [&](int iterations) { return grid.Error(grid.Solve(columns, iterations)); }, job_.error);
+    const auto error = [&](int iterations) { return grid.Error(grid.Solve(columns, iterations)); };
+    return error(0) <= job_.error ? 0 : IterationsToError(error, job_.error);
   }
 
   const PeerJob& job_;

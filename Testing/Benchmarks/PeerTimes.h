@@ -15,19 +15,19 @@ namespace gridfem::benchmarks
 /// What is timed; every stage is the best of the repetitions.
 struct GridTimes
 {
-  double setup = 0.0;    // triangles to ready-to-solve hierarchy
-  double plain = 0.0;    // the same on the plain space; 0: not run
-  double metric = 0.0;   // metric of an embedding at every sample
-  double values = 0.0;   // new metric at every sample to ready-to-solve hierarchy
-  double weights = 0.0;  // new weights for every patch and direction to ready-to-solve hierarchy
-  double lambda = 0.0;   // new λ to ready-to-solve hierarchy
-  double load = 0.0;     // right-hand sides from values at the points
-  double solve = 0.0;    // one column to the error of the comparison
-  double solve3 = 0.0;   // three
-  double cycle = 0.0;    // one cycle
-  double evaluate = 0.0; // values at the points
-  double iterations = 0.0;
-  double iterations3 = 0.0;
+  double setup = 0.0;       // triangles to ready-to-solve hierarchy
+  double plain = 0.0;       // the same on the plain space; 0: not run
+  double metric = 0.0;      // metric of an embedding at every sample
+  double values = 0.0;      // new metric at every sample to ready-to-solve hierarchy
+  double weights = 0.0;     // new weights for every patch and direction to ready-to-solve hierarchy
+  double lambda = 0.0;      // new λ to ready-to-solve hierarchy
+  double load = 0.0;        // right-hand sides from values at the points
+  double solve = 0.0;       // one column to the error of the comparison
+  double solve3 = 0.0;      // three
+  double cycle = 0.0;       // one cycle
+  double evaluate = 0.0;    // values at the points
+  double iterations = -1.0; // fewest to the error; 0: the start and its correction
+  double iterations3 = -1.0;
   double functions = 0.0;
   double clippedTriangles = 0.0;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace gridfem::benchmarks
 {
@@ -123,8 +124,8 @@ void ChooseColours(GridProblem& problem, int columns)
 MultiVector GridProblem::Solve(int columns, int iterations) const
 {
   PoissonOptions poisson = options;
-  poisson.solve.tolerance = 1e-15;
-  poisson.solve.maximumIterations = iterations;
+  poisson.solve.tolerance = iterations == 0 ? std::numeric_limits<double>::max() : 1e-15;
+  poisson.solve.maximumIterations = std::max(1, iterations);
   return SolvePoisson(
     space, system, *multigrid, values.leftCols(columns), gradients.leftCols(columns), poisson)
     .coefficients;

@@ -32,7 +32,8 @@ struct GridProblem
   MultiVector values;    // M exact
   MultiVector gradients; // L exact
 
-  /// Solves for the first columns in exactly that many steps of conjugate gradients.
+  /// Solves for the first columns in exactly that many steps of conjugate gradients; 0: the start
+  /// by nested iteration and its correction by one cycle.
   MultiVector Solve(int columns, int iterations) const;
 
   /// Largest relative error of the columns, L2 over the surface.

@@ -73,7 +73,7 @@ class RotatedCube : public ::testing::TestWithParam<std::tuple<int, double>>
 // Thesis Fig. 4.11: Gauss-Seidel stalls on a cube that is barely turned. The cube has side 0.55 in
 // a unit cube, whose corners two tiny triangles hold; the colour is fitted with its gradient at
 // screening weight 0.01.
-TEST_P(RotatedCube, TakesAtMostSixteenIterations)
+TEST_P(RotatedCube, TakesAtMostTenIterations)
 {
   const auto [depth, degrees] = GetParam();
   TriangleMesh corners;
@@ -88,7 +88,7 @@ TEST_P(RotatedCube, TakesAtMostSixteenIterations)
   ASSERT_NEAR(space.GetGrid().spacing, std::pow(0.5, depth), 1e-15);
   const PoissonSolution solution = FitField(mesh, space, Colour(mesh), 0.01);
   EXPECT_TRUE(solution.report.converged);
-  EXPECT_LE(solution.report.iterations, 16);
+  EXPECT_LE(solution.report.iterations, 10); // at every depth; depth 7 is left to the benchmark
   RecordProperty("iterations", solution.report.iterations);
 }
 
@@ -158,7 +158,7 @@ TEST(Acceptance, SeparatedCubesConvergeFasterWhenConnectivityAware)
   const SolveReport plainReport = FitField(cubes, plain, colour, 0.01, all).report;
   const SolveReport awareReport = FitField(cubes, aware, colour, 0.01, all).report;
   EXPECT_TRUE(awareReport.converged);
-  EXPECT_LT(awareReport.iterations, plainReport.iterations);
+  EXPECT_LT(awareReport.convergenceFactor, plainReport.convergenceFactor);
 }
 
 // Thesis Fig. 6.2: stripes along a knot whose strands nearly touch.

@@ -31,7 +31,7 @@ CORE_LAYERS = {
     "integrals": "QuadratureRule TrilinearBasis PieceSamples Lanes PatchMoments PatchIntegrals"
                  " ElementMatrices SurfaceMetric DirectionalElements LoadVector Evaluation Assembly"
                  " HatTransfer",
-    "hierarchy": "System HatMultigrid",
+    "hierarchy": "System HiddenFunctions HatMultigrid",
     "problems": "Poisson CollectSpectrum HatSpectrum SpectrumAccuracy Spectrum ModeSums",
 }
 
