@@ -86,7 +86,7 @@ public:
   /// From now on cycles of the finest level have a third correction: one from the coarser level,
   /// one by a V cycle of the hidden functions, one more from the coarser level, in place of the two
   /// that a W cycle has. All three are corrections in a space of functions, so that the cycle stays
-  /// symmetric and convergent whatever the heights are. Costs a seventh of a cycle more.
+  /// symmetric and convergent whatever the heights are. Costs a quarter of a cycle more.
   /// @param size  of the matrix on hidden functions, in units of the hierarchy `hidden`
   /// Throws InvalidInput when shapes do not fit.
   void AddHidden(HiddenLevels hidden, double size);
