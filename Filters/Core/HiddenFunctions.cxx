@@ -58,18 +58,18 @@ Plane FitPlane(const ElementMatrix& mass, const ElementMatrix& stiffness)
 {
   static const Eigen::Matrix<double, FunctionsPerPatch, 3> corners = MakeCorners();
   const Eigen::Matrix<double, 1, FunctionsPerPatch> integral = Unpack(mass).colwise().sum();
-  const double area = integral.sum();
   const Eigen::Matrix<double, FunctionsPerPatch, 3> product = Unpack(stiffness) * corners;
-  // ∫ n nᵀ, from the stiffness ∫ I - n nᵀ
-  const Eigen::Matrix3d normals =
-    area * Eigen::Matrix3d::Identity() - corners.transpose() * product;
+  const Eigen::Matrix3d tangential = corners.transpose() * product; // ∫ I - n nᵀ
+  const double area =
+    0.5 * tangential.trace(); // not the mass: that of a metric may be any multiple
+  const Eigen::Matrix3d normals = area * Eigen::Matrix3d::Identity() - tangential;
   Plane plane;
   int largest = 0;
   // Of one normal any column has the direction; of several the largest comes near their mean.
-  if (area > 0.0 && normals.diagonal().maxCoeff(&largest) > 0.0)
+  if (integral.sum() > 0.0 && normals.diagonal().maxCoeff(&largest) > 0.0)
   {
     plane.normal = normals.col(largest).normalized();
-    plane.centre = (integral * corners).transpose() / area;
+    plane.centre = (integral * corners).transpose() / integral.sum();
   }
   return plane;
 }
