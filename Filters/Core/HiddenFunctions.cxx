@@ -3,6 +3,8 @@
 #include "Parallel.h"
 #include "PatchOrdering.h"
 
+#include <Eigen/Eigenvalues>
+
 #include <cmath>
 
 namespace gridfem
@@ -143,6 +145,27 @@ Array<ElementMatrix> Scaled(const Level& level, const ElementMatrices& elements,
 }
 
 } // namespace
+
+double FlatShare(const System& system)
+{
+  // Of the stiffness of the coordinates, ∫ I - n nᵀ: on a flat patch only rounding and the weight
+  // of the normal are left along n.
+  constexpr double FlatRatio = 1e-6;
+  static const Eigen::Matrix<double, FunctionsPerPatch, 3> corners = MakeCorners();
+  const std::size_t level = std::min<std::size_t>(2, system.elements.size() - 1);
+  double flat = 0.0;
+  double all = 0.0;
+  for (const ElementMatrix& stiffness : system.elements[level].stiffness)
+  {
+    const Eigen::Matrix3d coordinates = corners.transpose() * Unpack(stiffness) * corners;
+    const double area = 0.5 * coordinates.trace();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(
+      coordinates, Eigen::EigenvaluesOnly);
+    all += area;
+    flat += solver.eigenvalues()[0] <= FlatRatio * area ? area : 0.0;
+  }
+  return all > 0.0 ? flat / all : 0.0;
+}
 
 std::vector<double> CornerHeights(
   const Level& level, const FunctionPlaces& places, const ElementMatrices& elements, int threads)

@@ -23,6 +23,10 @@ namespace gridfem
 std::vector<double> CornerHeights(const Level& level, const FunctionPlaces& places,
   const ElementMatrices& elements, int threads = 0);
 
+/// Share of the area, in [0, 1], where the surface is flat over four of the finest cells: there the
+/// second coarser level still has hidden functions. Cost O(patches of that level).
+double FlatShare(const System& system);
+
 /// The hierarchy for the hidden functions of the finest level, with A = M + L. None where the
 /// system has one level.
 HiddenLevels BuildHiddenLevels(const FunctionSpace& space, const System& system, int threads = 0);

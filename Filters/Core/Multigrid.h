@@ -26,6 +26,15 @@ enum class SmootherType
   SliceGaussSeidel = 2 // needs slices in the order; see MakeSliceGaussSeidel
 };
 
+/// When W cycles with the patch smoother on a grid correct hidden functions, too; see HiddenLevels.
+/// It costs a quarter of a cycle and a third of the hierarchy's memory and time to build.
+enum class HiddenCorrection
+{
+  Never = 0,
+  WhereFlat = 1, // where half of the surface is flat over four cells: half as much work there
+  Always = 2     // on curved surfaces as much work, or up to a fifth more
+};
+
 struct MultigridOptions
 {
   CycleType cycle = CycleType::W;
@@ -37,8 +46,7 @@ struct MultigridOptions
   /// one.
   int coverage = 0;
   int sweepsPerSynchronisation = 1; // of SliceGaussSeidel: one Sweep is so many
-  /// W cycles with the patch smoother on a grid: correct hidden functions, too; see HiddenLevels.
-  bool correctHidden = true;
+  HiddenCorrection hidden = HiddenCorrection::WhereFlat;
   int threads = 0; // 0: all
 };
 

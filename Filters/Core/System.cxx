@@ -71,15 +71,28 @@ void FillMatrix(const FunctionSpace& space, const System& system, std::size_t le
     matrix, threads);
 }
 
+/// From this share on a surface counts as flat.
+constexpr double MostlyFlat = 0.5;
+
+bool WantsHidden(const System& system, const Multigrid& multigrid)
+{
+  const MultigridOptions& options = multigrid.Options();
+  if (options.hidden == HiddenCorrection::Never || options.cycle != CycleType::W ||
+      options.smoother != SmootherType::Patch || system.prolongation.empty())
+  {
+    return false;
+  }
+  return options.hidden == HiddenCorrection::Always || multigrid.RevisionOfHidden() >= 0 ||
+         FlatShare(system) >= MostlyFlat;
+}
+
 /// Hidden functions of W cycles of patches; those that are there are kept while the elements are
 /// the same, whatever the factors.
 void AddHidden(
   const FunctionSpace& space, const System& system, double a, double b, Multigrid& multigrid)
 {
-  const MultigridOptions& options = multigrid.Options();
   const double size = SizeOnHidden(a, b);
-  if (!options.correctHidden || options.cycle != CycleType::W ||
-      options.smoother != SmootherType::Patch || system.prolongation.empty() || !(size > 0.0))
+  if (!WantsHidden(system, multigrid) || !(size > 0.0))
   {
     return;
   }
@@ -89,7 +102,7 @@ void AddHidden(
   }
   else
   {
-    multigrid.AddHidden(BuildHiddenLevels(space, system, options.threads), size);
+    multigrid.AddHidden(BuildHiddenLevels(space, system, multigrid.Options().threads), size);
   }
 }
 

@@ -34,10 +34,11 @@ struct Problem
     return CornerHeights(space.Finest(), system.places.front(), system.elements.front(), threads);
   }
 
-  Multigrid Cycle(double a, double b, bool correctHidden = true, int threads = 0) const
+  Multigrid Cycle(
+    double a, double b, HiddenCorrection hidden = HiddenCorrection::Always, int threads = 0) const
   {
     MultigridOptions options;
-    options.correctHidden = correctHidden;
+    options.hidden = hidden;
     options.threads = threads;
     return BuildMultigrid(space, system, a, b, options);
   }
@@ -179,8 +180,8 @@ TEST(HiddenCycle, ThreadsDoNotChangeABit)
 {
   const Problem problem(testing::Transform(testing::Box(2), { 1, 1, 1 }, 0.3), 5);
   EXPECT_EQ(problem.Heights(1), problem.Heights(2));
-  const Multigrid one = problem.Cycle(0.01, 1.0, true, 1);
-  const Multigrid two = problem.Cycle(0.01, 1.0, true, 2);
+  const Multigrid one = problem.Cycle(0.01, 1.0, HiddenCorrection::Always, 1);
+  const Multigrid two = problem.Cycle(0.01, 1.0, HiddenCorrection::Always, 2);
   const MultiVector b = RandomVectors(one.Matrix().rows, 3);
   MultiVector x1;
   MultiVector x2;
@@ -213,9 +214,18 @@ TEST(HiddenCycle, ConvergesFastOnFlatFaces)
   {
     const Problem problem(
       testing::Transform(testing::Box(1), { 1, 1, 1 }, degrees * std::acos(-1.0) / 180.0), 5);
-    EXPECT_LT(
-      EnergyLeft(problem.Cycle(1e-5, 1.0)), 1e-2 * EnergyLeft(problem.Cycle(1e-5, 1.0, false)));
+    EXPECT_LT(EnergyLeft(problem.Cycle(1e-5, 1.0)),
+      1e-2 * EnergyLeft(problem.Cycle(1e-5, 1.0, HiddenCorrection::Never)));
   }
+}
+
+TEST(HiddenCycle, IsTakenWhereTheSurfaceIsFlat)
+{
+  const auto hasHidden = [](const TriangleMesh& mesh)
+  { return Problem(mesh, 5).Cycle(1.0, 1.0, HiddenCorrection::WhereFlat).RevisionOfHidden() >= 0; };
+  EXPECT_TRUE(hasHidden(testing::Transform(testing::Box(3), { 1, 2, 3 }, 0.7)));
+  EXPECT_FALSE(hasHidden(testing::GeodesicSphere(40)));
+  EXPECT_FALSE(hasHidden(testing::Torus(90, 40, 1.0, 0.4)));
 }
 
 TEST(HiddenLevels, BrokenInputIsRefused)
@@ -223,7 +233,7 @@ TEST(HiddenLevels, BrokenInputIsRefused)
   const Problem problem(testing::GeodesicSphere(6), 4);
   const auto add = [&](auto&& damage, double size)
   {
-    Multigrid cycle = problem.Cycle(1.0, 1.0, false);
+    Multigrid cycle = problem.Cycle(1.0, 1.0, HiddenCorrection::Never);
     HiddenLevels hidden = BuildHiddenLevels(problem.space, problem.system);
     damage(hidden);
     cycle.AddHidden(std::move(hidden), size);
