@@ -29,7 +29,7 @@ constexpr double HeldPerPiece = 70.0; // piece 16, corners 4 each, cut points 56
 // Function space, system and hierarchy, all levels (4/3 of the finest): tables 150, element
 // matrices 770, patterns and matrices of 2 functions with 18 entries each 600, inverses 390 to 770,
 // prolongations and their transposes 300; on flat surfaces also the hidden functions.
-constexpr double HeldPerPatch = 2500.0;
+constexpr double HeldPerPatch = 2700.0;
 // For one right-hand side: ten vectors.
 constexpr double HeldPerFunction = 80.0;
 
