@@ -1,6 +1,7 @@
 // Integration of element matrices patch by patch, and their Galerkin coarsening.
 #include "ElementMatrices.h"
 
+#include "DenseElement.h"
 #include "Grouping.h"
 #include "PatchIntegrals.h"
 #include "TrilinearBasis.h"
@@ -9,22 +10,6 @@ namespace gridfem
 {
 namespace
 {
-
-using DenseElement = Eigen::Matrix<double, FunctionsPerPatch, FunctionsPerPatch, Eigen::RowMajor>;
-
-DenseElement Unpack(const ElementMatrix& packed)
-{
-  DenseElement dense;
-  int entry = 0;
-  for (int i = 0; i < FunctionsPerPatch; ++i)
-  {
-    for (int j = i; j < FunctionsPerPatch; ++j)
-    {
-      dense(i, j) = dense(j, i) = packed[entry++];
-    }
-  }
-  return dense;
-}
 
 ElementMatrix Pack(const DenseElement& dense)
 {
@@ -105,30 +90,15 @@ ElementMatrices IntegrateElements(
   const FunctionSpace& space, const QuadratureRule& rule, int threads, const Progress& progress)
 {
   ElementMatrices elements;
-  elements.mass.resize(space.Finest().NumberOfPatches());
-  elements.stiffness.resize(space.Finest().NumberOfPatches());
-  ForEachPatch(space, rule, threads, progress,
-    [&](Id patch, auto&& forEachBatch)
+  IntegratePatches(space, rule, threads, progress, elements,
+    [](const TriangleBatch&, const TrianglePlanes& planes)
     {
-      MassMoments mass;
-      StiffnessMoments stiffness;
-      forEachBatch(
-        [&](const TriangleBatch& batch)
-        {
-          const TrianglePlanes planes(batch);
-          const LaneTensor tensor = TangentialProjection(planes.normal);
-          SampleBatch samples;
-          for (const QuadratureRule::Point& point : rule.points)
-          {
-            SetPositions(batch, point, samples);
-            samples.mass = point.weight * planes.area;
-            samples.tensor = tensor.Times(samples.mass);
-            mass.Add(samples);
-            stiffness.Add(samples);
-          }
-        });
-      elements.mass[patch] = mass.Matrix();
-      elements.stiffness[patch] = stiffness.Matrix();
+      return
+        [tensor = TangentialProjection(planes.normal)](Id, const Lanes& area, SampleBatch& samples)
+      {
+        samples.mass = area;
+        samples.tensor = tensor.Times(area);
+      };
     });
   return elements;
 }

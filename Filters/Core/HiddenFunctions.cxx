@@ -1,5 +1,6 @@
 #include "HiddenFunctions.h"
 
+#include "DenseElement.h"
 #include "Parallel.h"
 #include "PatchOrdering.h"
 
@@ -27,22 +28,6 @@ Vec3 Corner(int corner)
   return Vec3(corner & 1, (corner >> 1) & 1, corner >> 2);
 }
 
-using DenseElement = Eigen::Matrix<double, FunctionsPerPatch, FunctionsPerPatch>;
-
-DenseElement Unpack(const ElementMatrix& packed)
-{
-  DenseElement dense;
-  int entry = 0;
-  for (int i = 0; i < FunctionsPerPatch; ++i)
-  {
-    for (int j = i; j < FunctionsPerPatch; ++j)
-    {
-      dense(i, j) = dense(j, i) = packed[entry++];
-    }
-  }
-  return dense;
-}
-
 /// Row c: the corner c.
 Eigen::Matrix<double, FunctionsPerPatch, 3> MakeCorners()
 {
@@ -54,16 +39,26 @@ Eigen::Matrix<double, FunctionsPerPatch, 3> MakeCorners()
   return corners;
 }
 
-/// The coordinates are sums of the corners' functions; so their mass and stiffness are sums of
-/// entries.
-Plane FitPlane(const ElementMatrix& mass, const ElementMatrix& stiffness)
+const Eigen::Matrix<double, FunctionsPerPatch, 3>& Corners()
 {
   static const Eigen::Matrix<double, FunctionsPerPatch, 3> corners = MakeCorners();
+  return corners;
+}
+
+/// ∫ I - n nᵀ: the stiffness of the coordinates, which are sums of the corners' functions.
+Eigen::Matrix3d StiffnessOfCoordinates(const ElementMatrix& stiffness)
+{
+  const Eigen::Matrix<double, FunctionsPerPatch, 3> product = Unpack(stiffness) * Corners();
+  return Corners().transpose() * product;
+}
+
+/// The centre is a sum of entries, too.
+Plane FitPlane(const ElementMatrix& mass, const ElementMatrix& stiffness)
+{
   const Eigen::Matrix<double, 1, FunctionsPerPatch> integral = Unpack(mass).colwise().sum();
-  const Eigen::Matrix<double, FunctionsPerPatch, 3> product = Unpack(stiffness) * corners;
-  const Eigen::Matrix3d tangential = corners.transpose() * product; // ∫ I - n nᵀ
-  const double area =
-    0.5 * tangential.trace(); // not the mass: that of a metric may be any multiple
+  const Eigen::Matrix3d tangential = StiffnessOfCoordinates(stiffness);
+  // Not the mass: that of a metric may be any multiple.
+  const double area = 0.5 * tangential.trace();
   const Eigen::Matrix3d normals = area * Eigen::Matrix3d::Identity() - tangential;
   Plane plane;
   int largest = 0;
@@ -71,7 +66,7 @@ Plane FitPlane(const ElementMatrix& mass, const ElementMatrix& stiffness)
   if (integral.sum() > 0.0 && normals.diagonal().maxCoeff(&largest) > 0.0)
   {
     plane.normal = normals.col(largest).normalized();
-    plane.centre = (integral * corners).transpose() / integral.sum();
+    plane.centre = (integral * Corners()).transpose() / integral.sum();
   }
   return plane;
 }
@@ -151,13 +146,12 @@ double FlatShare(const System& system)
   // Of the stiffness of the coordinates, ∫ I - n nᵀ: on a flat patch only rounding and the weight
   // of the normal are left along n.
   constexpr double FlatRatio = 1e-6;
-  static const Eigen::Matrix<double, FunctionsPerPatch, 3> corners = MakeCorners();
   const std::size_t level = std::min<std::size_t>(2, system.elements.size() - 1);
   double flat = 0.0;
   double all = 0.0;
   for (const ElementMatrix& stiffness : system.elements[level].stiffness)
   {
-    const Eigen::Matrix3d coordinates = corners.transpose() * Unpack(stiffness) * corners;
+    const Eigen::Matrix3d coordinates = StiffnessOfCoordinates(stiffness);
     const double area = 0.5 * coordinates.trace();
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(
       coordinates, Eigen::EigenvaluesOnly);

@@ -136,6 +136,40 @@ void ForEachPatch(const FunctionSpace& space, const QuadratureRule& rule, int th
     PatchesPerBlock, progress);
 }
 
+/// Mass and stiffness of every finest patch. prepare(batch, planes) returns what gives the samples
+/// of one point of the rule on the triangles of a batch their mass and tensor: set(point, area,
+/// samples), where the samples have their positions and stand for that much of the triangles.
+template<class Prepare>
+void IntegratePatches(const FunctionSpace& space, const QuadratureRule& rule, int threads,
+  const Progress& progress, ElementMatrices& result, Prepare&& prepare)
+{
+  const Id points = static_cast<Id>(rule.points.size());
+  result.mass.resize(space.Finest().NumberOfPatches());
+  result.stiffness.resize(space.Finest().NumberOfPatches());
+  ForEachPatch(space, rule, threads, progress,
+    [&](Id patch, auto&& forEachBatch)
+    {
+      MassMoments mass;
+      StiffnessMoments stiffness;
+      forEachBatch(
+        [&](const TriangleBatch& batch)
+        {
+          const TrianglePlanes planes(batch);
+          const auto set = prepare(batch, planes);
+          SampleBatch samples;
+          for (Id point = 0; point < points; ++point)
+          {
+            SetPositions(batch, rule.points[point], samples);
+            set(point, Lanes(rule.points[point].weight * planes.area), samples);
+            mass.Add(samples);
+            stiffness.Add(samples);
+          }
+        });
+      result.mass[patch] = mass.Matrix();
+      result.stiffness[patch] = stiffness.Matrix();
+    });
+}
+
 } // namespace gridfem
 
 #endif

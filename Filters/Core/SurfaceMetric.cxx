@@ -157,37 +157,19 @@ Id IntegrateElements(const FunctionSpace& space, const QuadratureRule& rule,
   {
     throw InvalidInput("a metric is needed for every sample of the quadrature rule");
   }
-  const Id points = static_cast<Id>(rule.points.size());
-  result.mass.resize(space.Finest().NumberOfPatches());
-  result.stiffness.resize(space.Finest().NumberOfPatches());
   std::atomic<Id> singular = 0;
-  ForEachPatch(space, rule, threads, progress,
-    [&](Id patch, auto&& forEachBatch)
+  IntegratePatches(space, rule, threads, progress, result,
+    [&](const TriangleBatch& batch, const TrianglePlanes& planes)
     {
-      MassMoments mass;
-      StiffnessMoments stiffness;
-      forEachBatch(
-        [&](const TriangleBatch& batch)
+      return
+        [&, basis = TangentBasis(planes.normal)](Id point, const Lanes& area, SampleBatch& samples)
+      {
+        const Id here = SetWeights(Load(metric, batch, point), area, basis, planes.normal, samples);
+        if (here > 0)
         {
-          const TrianglePlanes planes(batch);
-          const TangentBasis basis(planes.normal);
-          SampleBatch samples;
-          for (Id point = 0; point < points; ++point)
-          {
-            SetPositions(batch, rule.points[point], samples);
-            const Lanes weight = rule.points[point].weight * planes.area;
-            const Id here =
-              SetWeights(Load(metric, batch, point), weight, basis, planes.normal, samples);
-            if (here > 0)
-            {
-              singular += here;
-            }
-            mass.Add(samples);
-            stiffness.Add(samples);
-          }
-        });
-      result.mass[patch] = mass.Matrix();
-      result.stiffness[patch] = stiffness.Matrix();
+          singular += here;
+        }
+      };
     });
   return singular;
 }

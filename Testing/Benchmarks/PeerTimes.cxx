@@ -7,6 +7,7 @@
 #include "LoadVector.h"
 #include "Measure.h"
 #include "Problems.h"
+#include "Spaces.h"
 #include "SurfaceMetric.h"
 
 #include <algorithm>
@@ -129,7 +130,7 @@ private:
 
     Time(times.lambda, update);
     {
-      const MultiVector embedding = GridCoordinates(space);
+      const MultiVector embedding = testing::GridCoordinates(space);
       SampleMetric metric;
       Time(times.metric, [&] { metric = MetricOfEmbedding(space, rule, embedding, threads); });
       Time(times.values,

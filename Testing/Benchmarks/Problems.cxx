@@ -1,5 +1,7 @@
 #include "Problems.h"
 
+#include "Spaces.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -23,12 +25,11 @@ double LargestQuotient(const Difference& error, const Product& massError, const 
 /// The grid's corner of every finest function, world units.
 std::vector<Vec3> Corners(const FunctionSpace& space)
 {
-  const MultiVector coordinates = GridCoordinates(space);
+  const MultiVector coordinates = testing::CoordinateCoefficients(space);
   std::vector<Vec3> corners;
   for (Id i = 0; i < coordinates.rows(); ++i)
   {
-    corners.push_back(
-      space.GetGrid().ToWorld(Vec3(coordinates(i, 0), coordinates(i, 1), coordinates(i, 2))));
+    corners.emplace_back(coordinates(i, 0), coordinates(i, 1), coordinates(i, 2));
   }
   return corners;
 }
@@ -88,24 +89,6 @@ GridProblem SetUp(const TriangleMesh& mesh, int depth, int threads, FunctionSupp
   problem.multigrid = std::make_unique<Multigrid>(BuildMultigrid(problem.space, problem.system,
     problem.options.screeningWeight, 1.0, problem.options.multigrid));
   return problem;
-}
-
-MultiVector GridCoordinates(const FunctionSpace& space)
-{
-  const Level& level = space.Finest();
-  MultiVector coordinates = MultiVector::Zero(level.numberOfFunctions, 3);
-  for (Id patch = 0; patch < level.NumberOfPatches(); ++patch)
-  {
-    const CellIndex cell = MortonDecode(level.cell[patch]);
-    for (int corner = 0; corner < FunctionsPerPatch; ++corner)
-    {
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        coordinates(level.dof[patch][corner], axis) = cell[axis] + ((corner >> axis) & 1);
-      }
-    }
-  }
-  return coordinates;
 }
 
 void ChooseColours(GridProblem& problem, int columns)

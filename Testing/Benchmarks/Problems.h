@@ -45,9 +45,6 @@ GridProblem SetUp(const TriangleMesh& mesh, int depth, int threads,
   FunctionSupport support = FunctionSupport::ConnectivityAware,
   double screeningWeight = ScreeningWeight, Index coarsestSize = 256);
 
-/// Coefficients of the mesh itself: the grid's corner of every finest function, grid units.
-MultiVector GridCoordinates(const FunctionSpace& space);
-
 /// Chooses the exact solution; not part of the set-up.
 void ChooseColours(GridProblem& problem, int columns);
 

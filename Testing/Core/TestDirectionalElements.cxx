@@ -2,6 +2,7 @@
 // are the same as the metric they stand for.
 #include "DirectionalElements.h"
 
+#include "ElementSums.h"
 #include "Errors.h"
 #include "Spaces.h"
 #include "SurfaceMetric.h"
@@ -15,20 +16,6 @@ using namespace gridfem::testing;
 
 namespace
 {
-
-double LargestDifference(const Array<ElementMatrix>& a, const Array<ElementMatrix>& b)
-{
-  EXPECT_EQ(a.size(), b.size());
-  double difference = 0.0;
-  for (std::size_t patch = 0; patch < a.size(); ++patch)
-  {
-    for (int k = 0; k < ElementEntries; ++k)
-    {
-      difference = std::max(difference, std::abs(a[patch][k] - b[patch][k]));
-    }
-  }
-  return difference;
-}
 
 /// Random ones, some of them zero, some across the surface.
 std::vector<Vec3> RandomDirections(const TriangleMesh& mesh)
@@ -46,25 +33,6 @@ std::vector<Vec3> RandomDirections(const TriangleMesh& mesh)
   return directions;
 }
 
-/// xᵀ A x.
-double Energy(
-  const FunctionSpace& space, const Array<ElementMatrix>& elements, const Eigen::VectorXd& x)
-{
-  double energy = 0.0;
-  for (std::size_t patch = 0; patch < elements.size(); ++patch)
-  {
-    const auto& dof = space.Finest().dof[patch];
-    for (int i = 0; i < FunctionsPerPatch; ++i)
-    {
-      for (int j = 0; j < FunctionsPerPatch; ++j)
-      {
-        energy += elements[patch][PackedIndex(i, j)] * x[dof[i]] * x[dof[j]];
-      }
-    }
-  }
-  return energy;
-}
-
 /// A tilted rectangle of 2 x 1 with the directions of its sides.
 struct TiltedRectangle
 {
@@ -77,7 +45,7 @@ struct TiltedRectangle
     space, TriangleRule(2), std::vector<Vec3>(mesh.triangles.size(), 5.0 * along));
 
   /// Coefficients of the distance along a direction.
-  Eigen::VectorXd Distance(const Vec3& direction) const
+  MultiVector Distance(const Vec3& direction) const
   {
     return CoordinateCoefficients(space) * direction;
   }

@@ -43,23 +43,6 @@ struct Problem
     return BuildMultigrid(space, system, a, b, options);
   }
 
-  /// The grid's corner of every finest function.
-  std::vector<Vec3> Corners() const
-  {
-    const Level& level = space.Finest();
-    std::vector<Vec3> corners(level.numberOfFunctions);
-    for (Id patch = 0; patch < level.NumberOfPatches(); ++patch)
-    {
-      const CellIndex cell = MortonDecode(level.cell[patch]);
-      for (int c = 0; c < FunctionsPerPatch; ++c)
-      {
-        corners[level.dof[patch][c]] = space.GetGrid().ToWorld(
-          Vec3(cell[0] + (c & 1), cell[1] + ((c >> 1) & 1), cell[2] + (c >> 2)));
-      }
-    }
-    return corners;
-  }
-
   FunctionSpace space;
   System system;
 };
@@ -68,11 +51,12 @@ struct Problem
 double LargestError(const Problem& problem, const std::function<double(const Vec3&)>& distance)
 {
   const std::vector<double> height = problem.Heights();
-  const std::vector<Vec3> corner = problem.Corners();
+  const MultiVector corner = testing::CoordinateCoefficients(problem.space);
   double error[2] = { 0.0, 0.0 };
   for (std::size_t f = 0; f < height.size(); ++f)
   {
-    const double exact = distance(corner[f]) / problem.space.GetGrid().spacing;
+    const double exact =
+      distance(Vec3(corner.row(static_cast<Id>(f)).transpose())) / problem.space.GetGrid().spacing;
     error[0] = std::max(error[0], std::abs(height[f] - exact));
     error[1] = std::max(error[1], std::abs(height[f] + exact));
   }

@@ -2,6 +2,7 @@
 // pseudo-inverse in space, and against what must hold on any surface.
 #include "SurfaceMetric.h"
 
+#include "ElementSums.h"
 #include "Errors.h"
 #include "PieceSamples.h"
 #include "Spaces.h"
@@ -15,17 +16,6 @@ using namespace gridfem::testing;
 
 namespace
 {
-
-/// Coefficients of the identity, in grid units.
-MultiVector GridCoordinates(const FunctionSpace& space)
-{
-  MultiVector coordinates = CoordinateCoefficients(space);
-  for (Id i = 0; i < coordinates.rows(); ++i)
-  {
-    SetRow(coordinates, i, space.GetGrid().ToGrid(coordinates.row(i).transpose()));
-  }
-  return coordinates;
-}
 
 MultiVector Mapped(const MultiVector& coordinates, const Eigen::Matrix3d& map)
 {
@@ -48,31 +38,9 @@ Integrals IntegrateEmbedding(
   return result;
 }
 
-double LargestEntry(const Array<ElementMatrix>& matrices)
-{
-  double largest = 0.0;
-  for (const ElementMatrix& matrix : matrices)
-  {
-    for (const double entry : matrix)
-    {
-      largest = std::max(largest, std::abs(entry));
-    }
-  }
-  return largest;
-}
-
 void ExpectNear(const Array<ElementMatrix>& a, const Array<ElementMatrix>& b, double tolerance)
 {
-  ASSERT_EQ(a.size(), b.size());
-  double difference = 0.0;
-  for (std::size_t patch = 0; patch < a.size(); ++patch)
-  {
-    for (int k = 0; k < ElementEntries; ++k)
-    {
-      difference = std::max(difference, std::abs(a[patch][k] - b[patch][k]));
-    }
-  }
-  EXPECT_LE(difference, tolerance * LargestEntry(b));
+  EXPECT_LE(LargestDifference(a, b), tolerance * LargestEntry(b));
 }
 
 Array<ElementMatrix> Scaled(double factor, Array<ElementMatrix> matrices)
@@ -85,25 +53,6 @@ Array<ElementMatrix> Scaled(double factor, Array<ElementMatrix> matrices)
     }
   }
   return matrices;
-}
-
-/// xᵀ A x summed over the columns of x, A the matrix with these element matrices.
-double Energy(
-  const FunctionSpace& space, const Array<ElementMatrix>& elements, const MultiVector& x)
-{
-  double energy = 0.0;
-  for (std::size_t patch = 0; patch < elements.size(); ++patch)
-  {
-    const auto& dof = space.Finest().dof[patch];
-    for (int i = 0; i < FunctionsPerPatch; ++i)
-    {
-      for (int j = 0; j < FunctionsPerPatch; ++j)
-      {
-        energy += elements[patch][PackedIndex(i, j)] * x.row(dof[i]).dot(x.row(dof[j]));
-      }
-    }
-  }
-  return energy;
 }
 
 /// Element matrices with everything in space: the metric restricted to the tangent plane and its

@@ -29,8 +29,8 @@ CORE_LAYERS = {
                      " Clip Links MemoryEstimate HatFunctions HatMatrices HatLoad",
     "patches and levels": "Level Patches FunctionSpace PatchOrdering",
     "integrals": "QuadratureRule TrilinearBasis PieceSamples Lanes PatchMoments PatchIntegrals"
-                 " ElementMatrices SurfaceMetric DirectionalElements LoadVector Evaluation Assembly"
-                 " HatTransfer",
+                 " ElementMatrices DenseElement SurfaceMetric DirectionalElements LoadVector"
+                 " Evaluation Assembly HatTransfer",
     "hierarchy": "System HiddenFunctions HatMultigrid",
     "problems": "Poisson CollectSpectrum HatSpectrum SpectrumAccuracy Spectrum ModeSums",
 }

@@ -82,6 +82,17 @@ inline MultiVector CoordinateCoefficients(const FunctionSpace& space)
   return result;
 }
 
+/// The same in grid units: the coefficients of the embedding that is the mesh itself.
+inline MultiVector GridCoordinates(const FunctionSpace& space)
+{
+  MultiVector coordinates = CoordinateCoefficients(space);
+  for (Id i = 0; i < coordinates.rows(); ++i)
+  {
+    SetRow(coordinates, i, space.GetGrid().ToGrid(coordinates.row(i).transpose()));
+  }
+  return coordinates;
+}
+
 /// The points of a mesh as values on points.
 inline MultiVector PointCoordinates(const TriangleMesh& mesh)
 {

@@ -261,8 +261,7 @@ void WriteSeparatedCubes(const std::string& folder)
     }
     const Curve::Kind kind = isPlain ? Curve::Kind::Peer : Curve::Kind::Ours;
     const Iterate cycles = Cycles(on.thesis, on.b, start);
-    surfaces.push_back(
-      { "error after 10 cycles, " + name, cubes, ErrorAtPoints(on, cycles(10)), 0.0 });
+    surfaces.push_back({ "10 cycles, " + name, cubes, ErrorAtPoints(on, cycles(10)), 0.0 });
     thesis.curves.push_back(CountedCurve(name, kind, Residuals(on.A, on.b, cycles, MostCycles)));
     ours.curves.push_back(CountedCurve(
       name, kind, Residuals(on.A, on.b, Cycles(*on.grid.multigrid, on.b, start), MostCycles)));

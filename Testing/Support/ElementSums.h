@@ -1,0 +1,64 @@
+// What tests ask of element matrices as a whole.
+#ifndef GridFEM_Testing_ElementSums_h
+#define GridFEM_Testing_ElementSums_h
+
+#include "ElementMatrices.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gridfem::testing
+{
+
+inline double LargestEntry(const Array<ElementMatrix>& matrices)
+{
+  double largest = 0.0;
+  for (const ElementMatrix& matrix : matrices)
+  {
+    for (const double entry : matrix)
+    {
+      largest = std::max(largest, std::abs(entry));
+    }
+  }
+  return largest;
+}
+
+/// Of two lists that must be of one length.
+inline double LargestDifference(const Array<ElementMatrix>& a, const Array<ElementMatrix>& b)
+{
+  EXPECT_EQ(a.size(), b.size());
+  double difference = 0.0;
+  for (std::size_t patch = 0; patch < std::min(a.size(), b.size()); ++patch)
+  {
+    for (int k = 0; k < ElementEntries; ++k)
+    {
+      difference = std::max(difference, std::abs(a[patch][k] - b[patch][k]));
+    }
+  }
+  return difference;
+}
+
+/// xᵀ A x summed over the columns of x, A the finest matrix with these element matrices.
+inline double Energy(
+  const FunctionSpace& space, const Array<ElementMatrix>& elements, const MultiVector& x)
+{
+  double energy = 0.0;
+  for (std::size_t patch = 0; patch < elements.size(); ++patch)
+  {
+    const auto& dof = space.Finest().dof[patch];
+    for (int i = 0; i < FunctionsPerPatch; ++i)
+    {
+      for (int j = 0; j < FunctionsPerPatch; ++j)
+      {
+        energy += elements[patch][PackedIndex(i, j)] * x.row(dof[i]).dot(x.row(dof[j]));
+      }
+    }
+  }
+  return energy;
+}
+
+} // namespace gridfem::testing
+
+#endif
