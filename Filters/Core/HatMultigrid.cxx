@@ -23,7 +23,7 @@ HatHierarchy BuildHatHierarchy(const TriangleMesh& mesh, const FunctionSpace& sp
   progress.Check(0.3);
   hats.matrices = AssembleHatMatrices(mesh, hats.functions, threads);
   hats.order = OrderInBlocks(hats.matrices.stiffness);
-  hats.groups = GroupStronglyCoupled(hats.matrices.stiffness, threads);
+  hats.groups = GroupByCoupling(hats.matrices.stiffness, threads);
   progress.Check(0.6);
   hats.prolongation = BuildHatProlongation(hats.functions, space, mesh, transfer, threads);
   progress.Check(1.0);

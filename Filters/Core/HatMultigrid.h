@@ -12,10 +12,9 @@ namespace gridfem
 
 struct HatMultigridOptions
 {
-  MultigridOptions grid; // of the levels below the hats
-  LevelSmoothing hats;   // two sweeps before and after
-  bool relaxGroups =
-    true; // strongly coupled hats together after each sweep (before, on the way back)
+  MultigridOptions grid;   // of the levels below the hats
+  LevelSmoothing hats;     // two sweeps before and after
+  bool relaxGroups = true; // groups of hats together after each sweep (before, on the way back)
 };
 
 /// Twice as many Gauss-Seidel sweeps on the hats as there are sweeps on the levels of the grid.
@@ -27,7 +26,7 @@ struct HatHierarchy
   HatFunctions functions; // in grid units
   HatMatrices matrices;
   PatchOrder order;          // of the sweeps
-  PatchOrder groups;         // of hats that thin triangles couple strongly
+  PatchOrder groups;         // of eight hats each; see GroupByCoupling
   SparseMatrix prolongation; // from the finest functions of the grid
 };
 

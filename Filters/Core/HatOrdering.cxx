@@ -14,7 +14,9 @@ namespace
 /// Small enough for many blocks per thread, large enough that few unknowns are at a border.
 constexpr Index UnknownsPerBlock = 512;
 
-constexpr double StrongCoupling = 0.3;
+/// Of a coupling with an unknown that another group has already. Groups overlap where couplings are
+/// strong, but not everywhere: half as many groups need the same iterations.
+constexpr double WeightOfGrouped = 0.7;
 
 using Group = std::array<Index, FunctionsPerPatch>;
 
@@ -37,23 +39,80 @@ Range BlockOf(const SparseMatrix& A, Id block)
   return { begin, static_cast<Index>(std::min<Id>(A.rows, Id(begin) + UnknownsPerBlock)) };
 }
 
-/// The lowest colour that no coupled block before it has, block by block.
-std::vector<int> ColourBlocks(const SparseMatrix& A)
+/// The blocks that have a group with unknown i: block[begin[i] .. begin[i + 1]), ascending.
+struct BlocksOfUnknowns
 {
-  std::vector<int> colour(NumberOfBlocks(A), -1);
-  std::vector<char> isTaken;
-  for (Id block = 0; block < static_cast<Id>(colour.size()); ++block)
+  std::vector<Index> begin;
+  std::vector<Index> block;
+};
+
+template<class Visit>
+void ForMembers(const std::vector<Group>& groups, Visit&& visit)
+{
+  for (const Group& group : groups)
   {
-    isTaken.assign(isTaken.size(), 0);
-    const Range range = BlockOf(A, block);
-    for (Id k = A.rowBegin[range.begin]; k < A.rowBegin[range.end]; ++k)
+    for (const Index member : group)
     {
-      const int other = colour[A.column[k] / UnknownsPerBlock];
-      if (other >= 0)
+      if (member >= 0)
       {
-        isTaken[other] = 1;
+        visit(member);
       }
     }
+  }
+}
+
+BlocksOfUnknowns FindBlocks(Index unknowns, const std::vector<std::vector<Group>>& groups)
+{
+  std::vector<Index> last(unknowns, -1); // the last block that has counted or listed the unknown
+  BlocksOfUnknowns blocks;
+  blocks.begin.assign(Id(unknowns) + 1, 0);
+  const auto forPairs = [&](const auto& visit)
+  {
+    std::fill(last.begin(), last.end(), -1);
+    for (Index block = 0; block < static_cast<Index>(groups.size()); ++block)
+    {
+      ForMembers(groups[block],
+        [&](Index member)
+        {
+          if (last[member] != block)
+          {
+            last[member] = block;
+            visit(member, block);
+          }
+        });
+    }
+  };
+  forPairs([&](Index member, Index) { ++blocks.begin[member]; });
+  blocks.block.resize(ExclusiveScan(blocks.begin));
+  std::vector<Index> next = blocks.begin;
+  forPairs([&](Index member, Index block) { blocks.block[next[member]++] = block; });
+  return blocks;
+}
+
+/// The lowest colour that no block before it has whose groups are coupled with its own.
+std::vector<int> ColourBlocks(const SparseMatrix& A, const std::vector<std::vector<Group>>& groups)
+{
+  const BlocksOfUnknowns blocks = FindBlocks(A.rows, groups);
+  std::vector<int> colour(groups.size(), -1);
+  std::vector<char> isTaken;
+  for (std::size_t block = 0; block < groups.size(); ++block)
+  {
+    isTaken.assign(isTaken.size(), 0);
+    ForMembers(groups[block],
+      [&](Index member)
+      {
+        for (Id k = A.rowBegin[member]; k < A.rowBegin[member + 1]; ++k)
+        {
+          const Index j = A.column[k];
+          for (Index other = blocks.begin[j]; other < blocks.begin[j + 1]; ++other)
+          {
+            if (colour[blocks.block[other]] >= 0)
+            {
+              isTaken[colour[blocks.block[other]]] = 1;
+            }
+          }
+        }
+      });
     const auto free = std::find(isTaken.begin(), isTaken.end(), 0);
     colour[block] = static_cast<int>(free - isTaken.begin());
     if (free == isTaken.end())
@@ -67,7 +126,7 @@ std::vector<int> ColourBlocks(const SparseMatrix& A)
 /// An order of the groups of all blocks; blocks without a group are left out.
 PatchOrder SortByColour(const SparseMatrix& A, const std::vector<std::vector<Group>>& groups)
 {
-  const std::vector<int> colour = ColourBlocks(A);
+  const std::vector<int> colour = ColourBlocks(A, groups);
   const int colours = colour.empty() ? 0 : 1 + *std::max_element(colour.begin(), colour.end());
   PatchOrder order;
   order.blockBegin.push_back(0);
@@ -87,7 +146,7 @@ PatchOrder SortByColour(const SparseMatrix& A, const std::vector<std::vector<Gro
   return order;
 }
 
-/// Grows groups inside one block, each by the strongest coupling of any of its members.
+/// Grows groups from the unknowns of one block, each by the strongest coupling of its members.
 class GroupGrower
 {
 public:
@@ -101,7 +160,7 @@ public:
     std::vector<Group> groups;
     for (Index seed = range_.begin; seed < range_.end; ++seed)
     {
-      if (isGrouped_[seed - range_.begin])
+      if (this->IsGrouped(seed))
       {
         continue;
       }
@@ -111,7 +170,7 @@ public:
         groups.push_back(group);
         for (const Index member : group)
         {
-          if (member >= 0)
+          if (range_.Contains(member))
           {
             isGrouped_[member - range_.begin] = 1;
           }
@@ -122,7 +181,10 @@ public:
   }
 
 private:
-  /// May take in members of other groups: lines that overlap reach further.
+  /// True only for unknowns of the own block: the result must not depend on the other blocks'.
+  bool IsGrouped(Index i) const { return range_.Contains(i) && isGrouped_[i - range_.begin]; }
+
+  /// May take in members of other groups and of other blocks: lines must not end at their borders.
   Group GrowFrom(Index seed) const
   {
     Group group;
@@ -130,7 +192,7 @@ private:
     group[0] = seed;
     for (int size = 1; size < FunctionsPerPatch; ++size)
     {
-      std::pair<double, Index> strongest{ StrongCoupling, -1 };
+      std::pair<double, Index> strongest{ 0.0, -1 };
       for (int k = 0; k < size; ++k)
       {
         this->FindStronger(group, group[k], strongest);
@@ -149,11 +211,12 @@ private:
     for (Id k = A_.rowBegin[member]; k < A_.rowBegin[member + 1]; ++k)
     {
       const Index other = A_.column[k];
-      if (!range_.Contains(other) || std::find(group.begin(), group.end(), other) != group.end())
+      if (std::find(group.begin(), group.end(), other) != group.end())
       {
         continue;
       }
-      const double coupling = -A_.value[k] / std::sqrt(diagonal_[member] * diagonal_[other]);
+      const double coupling = -A_.value[k] / std::sqrt(diagonal_[member] * diagonal_[other]) *
+                              (this->IsGrouped(other) ? WeightOfGrouped : 1.0);
       if (coupling > strongest.first)
       {
         strongest = { coupling, other };
@@ -188,7 +251,7 @@ PatchOrder OrderInBlocks(const SparseMatrix& A)
   return SortByColour(A, groups);
 }
 
-PatchOrder GroupStronglyCoupled(const SparseMatrix& A, int threads)
+PatchOrder GroupByCoupling(const SparseMatrix& A, int threads)
 {
   const std::vector<double> diagonal = A.Diagonal();
   std::vector<std::vector<Group>> groups(NumberOfBlocks(A));

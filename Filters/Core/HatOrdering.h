@@ -12,11 +12,12 @@ namespace gridfem
 /// are near should have near numbers.
 PatchOrder OrderInBlocks(const SparseMatrix& A);
 
-/// Groups of up to eight strongly coupled unknowns, in the same blocks and colours: those across
-/// thin triangles, along which a Gauss-Seidel sweep leaves errors that no coarser grid can see.
-/// Relaxed as groups, they are as easy as the others. Unknowns without a strong coupling are in
-/// none. Strong: -a_ij > 0.3 sqrt(a_ii a_jj); right and equilateral triangles have at most 0.25.
-PatchOrder GroupStronglyCoupled(const SparseMatrix& A, int threads = 0);
+/// Groups of eight coupled unknowns, grown from every unknown that is in none by the strongest
+/// coupling -a_ij / sqrt(a_ii a_jj); fewer only where no positive coupling leads on. Across thin
+/// triangles a Gauss-Seidel sweep leaves errors that no coarser grid can see; groups follow these
+/// couplings, and solve for eight unknowns at once everywhere else. Groups overlap. Blocks of one
+/// colour are not coupled. Cost O(entries of A), partly serial; same for any number of threads.
+PatchOrder GroupByCoupling(const SparseMatrix& A, int threads = 0);
 
 } // namespace gridfem
 

@@ -67,7 +67,7 @@ struct MultigridLevel
   SparseMatrix prolongation; // from the next coarser level to this one; empty on the coarsest
   SparseMatrix restriction;  // its transpose
   PatchOrder order;
-  PatchOrder groups; // strongly coupled unknowns, relaxed together after a sweep over all; or empty
+  PatchOrder groups; // of unknowns that are relaxed together after a sweep over all; or empty
   std::optional<LevelSmoothing> smoothing; // in place of the options of the hierarchy
   std::unique_ptr<Smoother> smoother;      // none on the coarsest
 };
