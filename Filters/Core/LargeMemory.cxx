@@ -1,13 +1,17 @@
 #include "LargeMemory.h"
 
-#include <new>
-
 #ifdef __linux__
 #include <sys/mman.h>
 #include <unistd.h>
 #endif
 
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <new>
 
 namespace gridfem
 {
@@ -48,11 +52,19 @@ void PreferLargePages(void*, std::size_t) noexcept
 // Address sanitizers watch the heap alone.
 #if defined(__linux__) && !defined(__SANITIZE_ADDRESS__)
 
-void* AllocateLargeMemory(std::size_t bytes)
+namespace
 {
-  // More than is wanted, so that a part of it begins with a large page; the rest is given back.
-  const std::size_t kept = RoundUp(bytes, static_cast<std::size_t>(sysconf(_SC_PAGESIZE)));
-  const std::size_t mapped = kept + LargePage;
+
+std::size_t RoundUpToPages(std::size_t bytes)
+{
+  return RoundUp(bytes, static_cast<std::size_t>(sysconf(_SC_PAGESIZE)));
+}
+
+/// New memory that begins with a large page.
+char* MapMemory(std::size_t bytes)
+{
+  // More than is wanted, so that a part of it begins there; the rest is given back.
+  const std::size_t mapped = bytes + LargePage;
   void* const begin =
     mmap(nullptr, mapped, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (begin == MAP_FAILED)
@@ -68,18 +80,151 @@ void* AllocateLargeMemory(std::size_t bytes)
   }
   if (before < LargePage)
   {
-    munmap(memory + kept, LargePage - before);
+    munmap(memory + bytes, LargePage - before);
   }
-  PreferLargePages(memory, kept);
+  PreferLargePages(memory, bytes);
   return memory;
+}
+
+/// Blocks that were freed while somebody wants to use them again. Sizes are whole pages.
+class FreeBlocks
+{
+public:
+  void Keep()
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++users_;
+  }
+
+  void Drop() noexcept
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (--users_ == 0)
+    {
+      this->Return(std::numeric_limits<std::size_t>::max());
+    }
+  }
+
+  /// A part of the smallest block that is large enough; null, and `bytes` fewer kept, if none is.
+  char* Take(std::size_t bytes)
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    auto best = blocks_.end();
+    for (auto block = blocks_.begin(); block != blocks_.end(); ++block)
+    {
+      if (block->second >= bytes && (best == blocks_.end() || block->second < best->second))
+      {
+        best = block;
+      }
+    }
+    if (best == blocks_.end())
+    {
+      this->Return(bytes);
+      return nullptr;
+    }
+    best->second -= bytes;
+    char* const memory = best->first + best->second;
+    if (best->second == 0)
+    {
+      blocks_.erase(best);
+    }
+    return memory;
+  }
+
+  void Give(char* memory, std::size_t bytes) noexcept
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (users_ == 0 || !this->Insert(memory, bytes))
+    {
+      munmap(memory, bytes);
+    }
+  }
+
+private:
+  /// Joins neighbours. Returns false where there is no memory for the entry itself.
+  bool Insert(char* memory, std::size_t bytes) noexcept
+  try
+  {
+    const auto block = blocks_.emplace(memory, bytes).first;
+    const auto next = std::next(block);
+    if (next != blocks_.end() && memory + bytes == next->first)
+    {
+      block->second += next->second;
+      blocks_.erase(next);
+    }
+    if (block != blocks_.begin())
+    {
+      const auto before = std::prev(block);
+      if (before->first + before->second == memory)
+      {
+        before->second += block->second;
+        blocks_.erase(block);
+      }
+    }
+    return true;
+  }
+  catch (const std::bad_alloc&)
+  {
+    return false;
+  }
+
+  /// Gives that much, or all there is, back to the system.
+  void Return(std::size_t bytes) noexcept
+  {
+    while (bytes > 0 && !blocks_.empty())
+    {
+      const auto block = blocks_.begin();
+      const std::size_t part = std::min(bytes, block->second);
+      block->second -= part;
+      bytes -= part;
+      munmap(block->first + block->second, part);
+      if (block->second == 0)
+      {
+        blocks_.erase(block);
+      }
+    }
+  }
+
+  std::mutex mutex_;
+  int users_ = 0;
+  std::map<char*, std::size_t> blocks_; // bytes by first address
+};
+
+/// Never destroyed: arrays of static lifetime may outlive it.
+FreeBlocks& KeptBlocks()
+{
+  static FreeBlocks& blocks = *new FreeBlocks;
+  return blocks;
+}
+
+} // namespace
+
+MemoryReuse::MemoryReuse()
+{
+  KeptBlocks().Keep();
+}
+
+MemoryReuse::~MemoryReuse()
+{
+  KeptBlocks().Drop();
+}
+
+void* AllocateLargeMemory(std::size_t bytes)
+{
+  const std::size_t size = RoundUpToPages(bytes);
+  char* const kept = KeptBlocks().Take(size);
+  return kept ? kept : MapMemory(size);
 }
 
 void FreeLargeMemory(void* memory, std::size_t bytes) noexcept
 {
-  munmap(memory, bytes);
+  KeptBlocks().Give(static_cast<char*>(memory), RoundUpToPages(bytes));
 }
 
 #else
+
+MemoryReuse::MemoryReuse() = default;
+MemoryReuse::~MemoryReuse() = default;
 
 void* AllocateLargeMemory(std::size_t bytes)
 {

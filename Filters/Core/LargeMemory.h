@@ -11,12 +11,25 @@ namespace gridfem
 /// From this size on (bytes) arrays take large memory; below it the usual heap is faster.
 constexpr std::size_t LargeMemorySize = std::size_t{ 1 } << 20;
 
-/// Memory without values, aligned to a page, that goes back to the system as soon as it is free:
-/// the peak of a run then is what its arrays need. Throws std::bad_alloc.
+/// Memory without values, aligned to a page, that goes back to the system as soon as it is free
+/// (but see MemoryReuse): the peak of a run then is what its arrays need. Any thread. Throws
+/// std::bad_alloc.
 void* AllocateLargeMemory(std::size_t bytes);
 
 /// @param bytes  as at AllocateLargeMemory
 void FreeLargeMemory(void* memory, std::size_t bytes) noexcept;
+
+/// While one exists, large memory that is freed stays for the next requests, because the system
+/// takes a fifth of a set-up to clear new pages. Where none of it fits, as much of it goes back as
+/// the request takes, so that the peak does not grow. The last one to go returns what is left.
+class MemoryReuse
+{
+public:
+  MemoryReuse();
+  ~MemoryReuse();
+  MemoryReuse(const MemoryReuse&) = delete;
+  MemoryReuse& operator=(const MemoryReuse&) = delete;
+};
 
 /// Asks for large pages where memory of any origin that has not been touched yet spans some of
 /// them. A wish: the system may ignore it, and only Linux is asked. Contents do not change.

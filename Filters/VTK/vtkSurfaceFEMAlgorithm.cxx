@@ -3,6 +3,8 @@
 #include "Private/InputValidation.h"
 #include "Private/SurfaceSolverState.h"
 
+#include "LargeMemory.h"
+
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkPolyData.h"
@@ -65,6 +67,7 @@ int vtkSurfaceFEMAlgorithm::RequestData(
 
   EmptyOutputs(outputs);
   this->State->bridge.Restart();
+  const gridfem::MemoryReuse reuse;
   try
   {
     gridfem::RequireSingleProcess();

@@ -1,5 +1,6 @@
 #include "Problems.h"
 
+#include "LargeMemory.h"
 #include "Spaces.h"
 
 #include <algorithm>
@@ -80,6 +81,7 @@ MultiVector Colours(const std::vector<Vec3>& points, const Vec3& centre, double 
 GridProblem SetUp(const TriangleMesh& mesh, int depth, int threads, FunctionSupport support,
   double screeningWeight, Index coarsestSize)
 {
+  const MemoryReuse reuse;
   GridProblem problem;
   const SpaceOptions options = OptionsOf(depth, threads, support);
   problem.space = BuildFunctionSpace(mesh, options);

@@ -1,5 +1,6 @@
 #include "SetupCost.h"
 
+#include "LargeMemory.h"
 #include "Measure.h"
 #include "Meshes.h"
 #include "System.h"
@@ -50,6 +51,7 @@ double SetupCost::Peak() const
 
 SetupCost MeasureSetup(const TriangleMesh& mesh, int depth, int threads)
 {
+  const MemoryReuse reuse;
   SetupCost cost;
   cost.before = ResidentBytes();
   auto measure = [&, stage = cost.stages.begin()](auto&& run) mutable

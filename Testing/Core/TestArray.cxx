@@ -3,9 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstring>
+#include <fstream>
 #include <limits>
 #include <new>
 #include <numeric>
+
+#ifdef __linux__
+#include <unistd.h>
+#endif
 
 using namespace gridfem;
 
@@ -48,3 +55,88 @@ TEST(LargeMemory, ThatDoesNotExistIsRefused)
 {
   EXPECT_THROW(AllocateLargeMemory(std::numeric_limits<std::size_t>::max() / 4), std::bad_alloc);
 }
+
+#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__)
+
+namespace
+{
+
+constexpr std::size_t Block = 4 * LargeMemorySize;
+
+/// Bytes of the process that are in memory.
+double ResidentBytes()
+{
+  std::ifstream file("/proc/self/statm");
+  double size = 0.0;
+  double resident = 0.0;
+  file >> size >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+char* AllocateAndTouch(std::size_t bytes)
+{
+  auto* const memory = static_cast<char*>(AllocateLargeMemory(bytes));
+  std::memset(memory, 1, bytes);
+  return memory;
+}
+
+} // namespace
+
+TEST(LargeMemory, IsUsedAgainInPartsAndAsAWhole)
+{
+  const MemoryReuse reuse;
+  char* const whole = AllocateAndTouch(Block);
+  FreeLargeMemory(whole, Block);
+  char* const half = AllocateAndTouch(Block / 2);
+  char* const other = AllocateAndTouch(Block / 2);
+  EXPECT_EQ(std::min(half, other), whole);
+  EXPECT_EQ(std::max(half, other), whole + Block / 2);
+  FreeLargeMemory(half, Block / 2);
+  FreeLargeMemory(other, Block / 2);
+  char* const again = AllocateAndTouch(Block);
+  EXPECT_EQ(again, whole);
+  FreeLargeMemory(again, Block);
+}
+
+TEST(LargeMemory, ThatIsKeptGoesBackWithTheLastReuse)
+{
+  const double before = ResidentBytes();
+  {
+    const MemoryReuse outer;
+    {
+      const MemoryReuse inner;
+      FreeLargeMemory(AllocateAndTouch(8 * Block), 8 * Block);
+    }
+    EXPECT_GT(ResidentBytes(), before + 7.0 * Block);
+  }
+  EXPECT_LT(ResidentBytes(), before + Block);
+}
+
+TEST(LargeMemory, ThatIsKeptMakesRoomForARequestItDoesNotFit)
+{
+  const MemoryReuse reuse;
+  FreeLargeMemory(AllocateAndTouch(8 * Block), 8 * Block);
+  const double before = ResidentBytes();
+  char* const larger = AllocateAndTouch(9 * Block);
+  EXPECT_LT(ResidentBytes(), before + 2.0 * Block);
+  FreeLargeMemory(larger, 9 * Block);
+}
+
+TEST(LargeMemory, IsSharedByThreads)
+{
+  const MemoryReuse reuse;
+  int wrong = 0;
+#pragma omp parallel for num_threads(4) schedule(dynamic, 1) reduction(+ : wrong)
+  for (int k = 0; k < 200; ++k)
+  {
+    const std::size_t size = LargeMemorySize + 5000 * (k % 17);
+    auto* const memory = static_cast<char*>(AllocateLargeMemory(size));
+    std::memset(memory, k, size);
+    wrong +=
+      std::count(memory, memory + size, static_cast<char>(k)) == std::ptrdiff_t(size) ? 0 : 1;
+    FreeLargeMemory(memory, size);
+  }
+  EXPECT_EQ(wrong, 0);
+}
+
+#endif
