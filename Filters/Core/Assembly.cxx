@@ -3,6 +3,9 @@
 
 #include "FillRows.h"
 
+#include <algorithm>
+#include <array>
+#include <limits>
 #include <utility>
 
 namespace gridfem
@@ -10,23 +13,89 @@ namespace gridfem
 namespace
 {
 
-/// Appends the distinct functions that share a patch with function f, ascending.
+/// Around a grid corner are 27, itself included: number of corner j of a cell, seen from corner i.
+constexpr int CornersAround = 27;
+
+constexpr int NumberAround(int i, int j)
+{
+  int number = 0;
+  for (int axis = 2; axis >= 0; --axis)
+  {
+    number = 3 * number + ((j >> axis) & 1) - ((i >> axis) & 1) + 1;
+  }
+  return number;
+}
+
+struct AroundTable
+{
+  int number[FunctionsPerPatch][FunctionsPerPatch];
+};
+
+constexpr AroundTable MakeAroundTable()
+{
+  AroundTable table{};
+  for (int i = 0; i < FunctionsPerPatch; ++i)
+  {
+    for (int j = 0; j < FunctionsPerPatch; ++j)
+    {
+      table.number[i][j] = NumberAround(i, j);
+    }
+  }
+  return table;
+}
+
+constexpr AroundTable Around = MakeAroundTable();
+
+/// Sorts different numbers by counting the smaller ones of each, which has no branch to guess.
+void SortFew(Index* begin, Index* end)
+{
+  constexpr int Few = 32;
+  const auto count = static_cast<int>(end - begin);
+  if (count > Few)
+  {
+    std::sort(begin, end);
+    return;
+  }
+  std::array<Index, Few> item;
+  item.fill(std::numeric_limits<Index>::max());
+  std::copy(begin, end, item.begin());
+  for (int i = 0; i < count; ++i)
+  {
+    int smaller = 0;
+    for (const Index other : item)
+    {
+      smaller += other < item[i] ? 1 : 0;
+    }
+    begin[smaller] = item[i];
+  }
+}
+
+/// Appends the distinct functions that share a patch with function f, ascending. Most grid corners
+/// around its own have one of them, so that a repetition is known by its corner.
 void AppendNeighbours(
   const Level& level, const FunctionPlaces& places, Index f, Array<Index>& columns)
 {
-  const auto first = static_cast<std::ptrdiff_t>(columns.size());
+  const std::size_t first = columns.size();
+  std::array<Index, CornersAround> known;
+  known.fill(-1);
   for (Index k = places.begin[f]; k < places.begin[f + 1]; ++k)
   {
-    for (const Index column : level.dof[places.item[k] / FunctionsPerPatch])
+    const auto& dof = level.dof[places.item[k] / FunctionsPerPatch];
+    const int* const around = Around.number[places.item[k] % FunctionsPerPatch];
+    for (int j = 0; j < FunctionsPerPatch; ++j)
     {
-      // Rows are short: a look through what is there costs less than sorting all repetitions.
-      if (std::find(columns.begin() + first, columns.end(), column) == columns.end())
+      Index& here = known[around[j]];
+      const bool isFirst = here < 0;
+      if (here == dof[j] ||
+          (!isFirst && std::find(columns.begin() + first, columns.end(), dof[j]) != columns.end()))
       {
-        columns.push_back(column);
+        continue;
       }
+      here = isFirst ? dof[j] : here;
+      columns.push_back(dof[j]);
     }
   }
-  std::sort(columns.begin() + first, columns.end());
+  SortFew(columns.data() + first, columns.data() + columns.size());
 }
 
 /// Packed positions of the entries of each row of an element matrix.

@@ -63,7 +63,7 @@ WorkRanges SplitWork(
   const std::vector<std::array<Id, 3>>& triangles, const Array<Vec3>& position, int threads)
 {
   constexpr float PiecesPerRange = 8192.0f;
-  std::vector<float> pieces(triangles.size());
+  Array<float> pieces(triangles.size());
   ParallelRanges(static_cast<Id>(triangles.size()), threads,
     [&](Id begin, Id end)
     {
@@ -154,9 +154,8 @@ ClippedTriangles ClipTriangles(const ClipInput& input, const WorkRanges& work, S
   result.blocks.resize(work.begin.size() - 1);
   ParallelBlocks(
     static_cast<Id>(result.blocks.size()), team,
-    [&](Id b)
+    [&](Id b, int thread)
     {
-      const int thread = omp_get_thread_num();
       PieceStore& store = result.stores[thread];
       ClipBlock& block = result.blocks[b];
       block.store = &store;
@@ -204,25 +203,27 @@ BlockOffsets OffsetsOf(const std::vector<ClipBlock>& blocks)
 }
 
 /// A piece by its block (upper half) and its number in the block's store, sorted by cell.
-Array<SortEntry> SortPieces(
-  ClippedTriangles& parts, const BlockOffsets& offsets, int depth, int threads)
+Array<SortEntry> SortPieces(ClippedTriangles& parts, int depth, int threads)
 {
-  Array<SortEntry> entries(offsets.piece.back());
-  ParallelBlocks(static_cast<Id>(parts.blocks.size()), threads,
-    [&](Id b)
+  constexpr Id BlocksPerRange = 4;
+  Array<SortEntry> entries = SortByKey(
+    static_cast<Id>(parts.blocks.size()), 3 * depth, threads,
+    [&](Id begin, Id end, const auto& add)
     {
-      const ClipBlock& block = parts.blocks[b];
-      for (Index k = 0; k < block.pieces; ++k)
+      for (Id b = begin; b < end; ++b)
       {
-        const Index number = block.firstPiece + k;
-        entries[offsets.piece[b] + k] = { block.store->key[number], b << 32 | Id{ number } };
+        const ClipBlock& block = parts.blocks[b];
+        for (Index number = block.firstPiece; number < block.firstPiece + block.pieces; ++number)
+        {
+          add(block.store->key[number], b << 32 | Id{ number });
+        }
       }
-    });
+    },
+    BlocksPerRange);
   for (PieceStore& store : parts.stores)
   {
     Release(store.key);
   }
-  RadixSort(entries, 3 * depth, threads);
   return entries;
 }
 
@@ -231,28 +232,30 @@ void ListCells(const Array<SortEntry>& entries, int threads, ClippedMesh& clippe
 {
   const Id count = static_cast<Id>(entries.size());
   const auto isFirst = [&](Id k) { return k == 0 || entries[k].key != entries[k - 1].key; };
-  std::vector<Id> cellBegin((count + DefaultBlockSize - 1) / DefaultBlockSize + 1, 0);
+  std::vector<Index> firstCell((count + DefaultBlockSize - 1) / DefaultBlockSize + 1, 0);
   ParallelRanges(count, threads,
     [&](Id begin, Id end)
     {
       for (Id k = begin; k < end; ++k)
       {
-        cellBegin[begin / DefaultBlockSize] += isFirst(k) ? 1 : 0;
+        firstCell[begin / DefaultBlockSize] += isFirst(k) ? 1 : 0;
       }
     });
-  clipped.cells.resize(ExclusiveScan(cellBegin));
-  clipped.pieceCell.resize(count);
+  const Index cells = ExclusiveScan(firstCell);
+  clipped.cells.resize(cells);
+  clipped.cellBegin.resize(cells + 1);
+  clipped.cellBegin[cells] = static_cast<Index>(count);
   ParallelRanges(count, threads,
     [&](Id begin, Id end)
     {
-      Id cell = cellBegin[begin / DefaultBlockSize] - 1;
+      Index cell = firstCell[begin / DefaultBlockSize];
       for (Id k = begin; k < end; ++k)
       {
         if (isFirst(k))
         {
-          clipped.cells[++cell] = entries[k].key;
+          clipped.cells[cell] = entries[k].key;
+          clipped.cellBegin[cell++] = static_cast<Index>(k);
         }
-        clipped.pieceCell[k] = static_cast<Index>(cell);
       }
     });
 }
@@ -361,7 +364,7 @@ void ClipAndJoin(
     ClipTriangles(input, work, stretches, clipped, threads, progress.Part(0.05, 0.5));
   const BlockOffsets offsets = OffsetsOf(parts.blocks);
   RequireIndices(points + offsets.interior.back(), "points of the clipped mesh");
-  Array<SortEntry> entries = SortPieces(parts, offsets, clipped.grid.depth, threads);
+  Array<SortEntry> entries = SortPieces(parts, clipped.grid.depth, threads);
   progress.Check(0.6);
   ListCells(entries, threads, clipped);
   const Index firstInterior =
@@ -375,8 +378,7 @@ void ClipAndJoin(
   PlaceLinks(parts.blocks, offsets, work, place, threads, stretches, clipped);
   parts = ClippedTriangles();
   Release(place);
-  LinkAlongEdges(
-    input.edges, stretches, clipped.pieceCell, threads, clipped.links, progress.Part(0.9, 1.0));
+  LinkAlongEdges(input.edges, stretches, threads, progress.Part(0.9, 1.0), clipped);
 }
 
 } // namespace
@@ -403,7 +405,7 @@ ClippedMesh Clip(const TriangleMesh& mesh, const ClipOptions& options, const Pro
   const double tolerance = SnapTolerance(mesh, used, clipped.grid);
   const Array<Vec3> snapped =
     SnapToPlanes(clipped.position, clipped.grid.CellsPerSide(), tolerance, threads);
-  std::vector<Index> pointClass;
+  Array<Index> pointClass;
   if (options.weldCoincidentPoints)
   {
     pointClass = WeldCoincidentPoints(mesh.points, used, threads);
@@ -422,6 +424,27 @@ ClippedMesh Clip(const TriangleMesh& mesh, const ClipOptions& options, const Pro
     progress.Part(0.25, 1.0), clipped);
   progress.Check(1.0);
   return clipped;
+}
+
+Index ClippedMesh::CellOf(Id piece) const
+{
+  const auto next = std::upper_bound(cellBegin.begin(), cellBegin.end(), piece);
+  return static_cast<Index>(next - cellBegin.begin()) - 1;
+}
+
+Array<Index> PieceCells(const ClippedMesh& clipped, int threads)
+{
+  Array<Index> cell(clipped.NumberOfPieces());
+  ParallelRanges(static_cast<Id>(clipped.cells.size()), threads,
+    [&](Id begin, Id end)
+    {
+      for (Id c = begin; c < end; ++c)
+      {
+        std::fill(cell.begin() + clipped.cellBegin[c], cell.begin() + clipped.cellBegin[c + 1],
+          static_cast<Index>(c));
+      }
+    });
+  return cell;
 }
 
 double PieceArea(const ClippedMesh& clipped, Id piece)

@@ -14,12 +14,38 @@
 namespace gridfem
 {
 
-/// A point made by clipping, as a combination of the corners of one source triangle. Points on a
-/// mesh edge have a zero weight at the opposite corner.
-struct CutPoint
+/// A point made by clipping, as a combination of the corners of one source triangle. The weights
+/// sum to 1, so that two of them are enough.
+class CutPoint
 {
+public:
+  CutPoint() = default; // without a value
+  CutPoint(Index source, const std::array<double, 3>& weight)
+    : triangle(source), zero_(weight[0] == 0.0   ? 0
+                              : weight[1] == 0.0 ? 1
+                              : weight[2] == 0.0 ? 2
+                                                 : None),
+      first_(weight[(zero_ + 1) % 3]), second_(weight[(zero_ + 2) % 3])
+  {
+  }
+
+  /// Per corner of the triangle. Points on a mesh edge have zero at the opposite corner.
+  std::array<double, 3> Weights() const
+  {
+    std::array<double, 3> weight;
+    weight[(zero_ + 1) % 3] = first_;
+    weight[(zero_ + 2) % 3] = second_;
+    weight[zero_ % 3] = zero_ == None ? 1.0 - first_ - second_ : 0.0;
+    return weight;
+  }
+
   Index triangle;
-  std::array<double, 3> weight; // sums to 1
+
+private:
+  static constexpr Index None = 3; // as if it were corner 0
+  Index zero_;
+  double first_;
+  double second_;
 };
 
 /// Two pieces, or two patches, that share an edge of the clipped mesh; first < second.
@@ -46,8 +72,8 @@ struct ClippedMesh
   Array<Vec3> position; // of all points, grid units
 
   std::vector<MortonKey> cells; // cells that contain a piece, ascending
+  Array<Index> cellBegin;       // pieces of cell c: cellBegin[c] .. cellBegin[c + 1]
 
-  Array<Index> pieceCell;     // index into cells
   Array<Index> pieceTriangle; // source triangle
   Array<Index> pieceBegin;    // corners of piece p: corners[pieceBegin[p] .. pieceBegin[p + 1])
   Array<Index> corners;       // point ids, oriented as the source triangle
@@ -56,9 +82,14 @@ struct ClippedMesh
   /// least one pair per shared edge. Fixed order.
   Array<Link> links;
 
-  Id NumberOfPieces() const { return static_cast<Id>(pieceCell.size()); }
+  Id NumberOfPieces() const { return static_cast<Id>(pieceTriangle.size()); }
 
-  /// A piece with n corners is the fan of n - 2 triangles around its first corner.
+  /// Index into cells, by bisection; where many are asked for see PieceCells.
+  Index CellOf(Id piece) const;
+
+  /// A piece with n corners is the fan of n - 2 triangles around its first corner; the triangles of
+  /// all pieces are numbered one piece after the other.
+  Id FirstTriangle(Id piece) const { return pieceBegin[piece] - 2 * piece; }
   Id NumberOfTriangles() const
   {
     return static_cast<Id>(corners.size()) - 2 * this->NumberOfPieces();
@@ -78,6 +109,9 @@ struct ClipOptions
 /// same for any number of threads.
 ClippedMesh Clip(
   const TriangleMesh& mesh, const ClipOptions& options, const Progress& progress = {});
+
+/// Index into cells of every piece.
+Array<Index> PieceCells(const ClippedMesh& clipped, int threads = 1);
 
 /// Area of one piece in grid units.
 double PieceArea(const ClippedMesh& clipped, Id piece);

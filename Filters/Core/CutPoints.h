@@ -17,9 +17,10 @@ inline void PlaceCutPoint(
 {
   const auto& corner = input.triangles[cut.triangle];
   clipped.cutPoints[point - clipped.numberOfInputPoints] = cut;
-  clipped.position[point] = cut.weight[0] * clipped.position[corner[0]] +
-                            cut.weight[1] * clipped.position[corner[1]] +
-                            cut.weight[2] * clipped.position[corner[2]];
+  const std::array<double, 3> weight = cut.Weights();
+  clipped.position[point] = weight[0] * clipped.position[corner[0]] +
+                            weight[1] * clipped.position[corner[1]] +
+                            weight[2] * clipped.position[corner[2]];
 }
 
 /// Where several planes cut an edge in one point only one of its numbers is made: drops the others.

@@ -22,10 +22,10 @@ void CheckCoefficients(const FunctionSpace& space, const MultiVector& coefficien
 }
 
 /// For all points of the clipped mesh a patch that contains it, -1 if no piece uses it.
-std::vector<Index> PatchOfClippedPoints(const FunctionSpace& space)
+Array<Index> PatchOfClippedPoints(const FunctionSpace& space)
 {
   const ClippedMesh& clipped = space.clipped;
-  std::vector<Index> patch(clipped.position.size(), -1);
+  Array<Index> patch(clipped.position.size(), -1);
   for (Id piece = clipped.NumberOfPieces() - 1; piece >= 0; --piece)
   {
     for (Id k = clipped.pieceBegin[piece]; k < clipped.pieceBegin[piece + 1]; ++k)
@@ -37,7 +37,7 @@ std::vector<Index> PatchOfClippedPoints(const FunctionSpace& space)
   return patch;
 }
 
-MultiVector EvaluateAt(const FunctionSpace& space, const std::vector<Index>& patchOfPoint,
+MultiVector EvaluateAt(const FunctionSpace& space, const Array<Index>& patchOfPoint,
   const MultiVector& coefficients, int threads)
 {
   CheckCoefficients(space, coefficients);

@@ -2,7 +2,7 @@
 #ifndef GridFEM_FillRows_h
 #define GridFEM_FillRows_h
 
-#include "Parallel.h"
+#include "BlockLists.h"
 #include "SparseMatrix.h"
 
 #include <algorithm>
@@ -15,37 +15,33 @@ namespace gridfem
 template<class Row>
 void FillRows(SparseMatrix& matrix, int threads, Row&& row)
 {
-  struct Part
-  {
-    Array<Index> column;
-    Array<double> value;
-  };
   const Id blocks = (Id(matrix.rows) + DefaultBlockSize - 1) / DefaultBlockSize;
-  std::vector<Part> parts(blocks);
+  BlockLists<Index> columns(blocks, threads);
+  BlockLists<double> values(blocks, threads);
   Array<Id> rowBegin(Id(matrix.rows) + 1, 0);
-  ParallelRanges(matrix.rows, threads,
-    [&](Id begin, Id end)
+  const auto fillBlock = [&](Id block, Array<Index>& column, Array<double>& value)
+  {
+    const Id end = std::min<Id>(matrix.rows, (block + 1) * DefaultBlockSize);
+    for (Id r = block * DefaultBlockSize; r < end; ++r)
     {
-      Part& part = parts[begin / DefaultBlockSize];
-      for (Id r = begin; r < end; ++r)
-      {
-        const std::size_t before = part.column.size();
-        row(static_cast<Index>(r), part.column, part.value);
-        rowBegin[r] = static_cast<Id>(part.column.size() - before);
-      }
-    });
-  Array<Index> column(ExclusiveScan(rowBegin));
-  const bool hasValues =
-    std::any_of(parts.begin(), parts.end(), [](const Part& part) { return !part.value.empty(); });
-  matrix.value.resize(hasValues ? column.size() : 0);
+      const std::size_t before = column.size();
+      row(static_cast<Index>(r), column, value);
+      rowBegin[r] = static_cast<Id>(column.size() - before);
+    }
+  };
   ParallelBlocks(blocks, threads,
-    [&](Id block)
+    [&](Id block, int thread)
     {
-      const Id begin = rowBegin[block * DefaultBlockSize];
-      const Part part = std::move(parts[block]);
-      std::copy(part.column.begin(), part.column.end(), column.begin() + begin);
-      std::copy(part.value.begin(), part.value.end(), matrix.value.begin() + begin);
+      columns.Make(block, thread,
+        [&](Array<Index>& column) {
+          values.Make(
+            block, thread, [&](Array<double>& value) { fillBlock(block, column, value); });
+        });
     });
+  ExclusiveScan(rowBegin);
+  Array<Index> column;
+  columns.AppendTo(column, threads);
+  values.AppendTo(matrix.value, threads);
   matrix.rowBegin = std::move(rowBegin);
   matrix.column = std::move(column);
 }

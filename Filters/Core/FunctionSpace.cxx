@@ -15,7 +15,7 @@ namespace gridfem
 namespace
 {
 
-FunctionSpace Complete(ClippedMesh clipped, std::vector<Index> piecePatch, Level finest,
+FunctionSpace Complete(ClippedMesh clipped, Array<Index> piecePatch, Level finest,
   Array<Link> links, FunctionSupport support, int threads, const Progress& progress)
 {
   FunctionSpace space;
@@ -35,8 +35,7 @@ FunctionSpace Complete(ClippedMesh clipped, std::vector<Index> piecePatch, Level
   return space;
 }
 
-void CheckTables(
-  const ClippedMesh& clipped, const std::vector<Index>& piecePatch, const Level& finest)
+void CheckTables(const ClippedMesh& clipped, const Array<Index>& piecePatch, const Level& finest)
 {
   if (static_cast<Id>(piecePatch.size()) != clipped.NumberOfPieces())
   {
@@ -87,8 +86,8 @@ void Lower(std::atomic<Index>& value, Index other)
 
 } // namespace
 
-std::vector<Index> FindPointPatches(
-  const ClippedMesh& clipped, const std::vector<Index>& piecePatch, int threads)
+Array<Index> FindPointPatches(
+  const ClippedMesh& clipped, const Array<Index>& piecePatch, int threads)
 {
   constexpr Index None = std::numeric_limits<Index>::max();
   std::vector<std::atomic<Index>> lowest(clipped.numberOfInputPoints);
@@ -110,7 +109,7 @@ std::vector<Index> FindPointPatches(
         }
       }
     });
-  std::vector<Index> pointPatch(lowest.size());
+  Array<Index> pointPatch(lowest.size());
   std::transform(lowest.begin(), lowest.end(), pointPatch.begin(),
     [](const std::atomic<Index>& patch) { return patch == None ? -1 : patch.load(); });
   return pointPatch;
@@ -138,7 +137,7 @@ FunctionSpace BuildFunctionSpace(
     std::move(patches.links), support, threads, progress.Part(0.5, 1.0));
 }
 
-FunctionSpace RestoreFunctionSpace(ClippedMesh clipped, std::vector<Index> piecePatch, Level finest,
+FunctionSpace RestoreFunctionSpace(ClippedMesh clipped, Array<Index> piecePatch, Level finest,
   FunctionSupport support, const Progress& progress)
 {
   CheckTables(clipped, piecePatch, finest);
@@ -149,7 +148,7 @@ FunctionSpace RestoreFunctionSpace(ClippedMesh clipped, std::vector<Index> piece
 }
 
 Array<Link> FindLinks(
-  const ClippedMesh& clipped, const std::vector<Index>& pointClass, const Progress& progress)
+  const ClippedMesh& clipped, const Array<Index>& pointClass, const Progress& progress)
 {
   struct PieceEdge
   {
@@ -195,7 +194,7 @@ Array<Link> FindLinks(
     uses.push_back({ edge, pieceEdges[k].piece });
   }
   Array<Link> links;
-  LinkStars(uses, clipped.pieceCell, links);
+  LinkStars(uses, PieceCells(clipped), links);
   progress.Check(1.0);
   return links;
 }

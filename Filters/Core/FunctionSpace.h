@@ -21,11 +21,11 @@ struct SpaceOptions
 struct FunctionSpace
 {
   FunctionSupport support = FunctionSupport::ConnectivityAware;
-  ClippedMesh clipped;           // without its links
-  std::vector<Index> piecePatch; // per piece: patch of the finest level
-  std::vector<Level> levels;     // finest first, down to depth 0
-  std::vector<Index> pointPatch; // per input point: a patch that contains it; -1 if unused
-  std::vector<Index> component;  // per finest function
+  ClippedMesh clipped;          // without its links
+  Array<Index> piecePatch;      // per piece: patch of the finest level
+  std::vector<Level> levels;    // finest first, down to depth 0
+  Array<Index> pointPatch;      // per input point: a patch that contains it; -1 if unused
+  std::vector<Index> component; // per finest function
   Index numberOfComponents = 0;
 
   const Grid& GetGrid() const { return clipped.grid; }
@@ -43,17 +43,17 @@ FunctionSpace BuildFunctionSpace(
 /// The same from stored tables: patches and functions are taken as they are. `clipped.links` must
 /// be filled (FindLinks finds them in a mesh that was read from a file), `finest.cell` and
 /// `finest.dof` too. Throws InvalidInput when the tables do not fit together.
-FunctionSpace RestoreFunctionSpace(ClippedMesh clipped, std::vector<Index> piecePatch, Level finest,
+FunctionSpace RestoreFunctionSpace(ClippedMesh clipped, Array<Index> piecePatch, Level finest,
   FunctionSupport support, const Progress& progress = {});
 
 /// For each input point the lowest patch among the pieces around it; -1 for points without a piece.
-std::vector<Index> FindPointPatches(
-  const ClippedMesh& clipped, const std::vector<Index>& piecePatch, int threads = 0);
+Array<Index> FindPointPatches(
+  const ClippedMesh& clipped, const Array<Index>& piecePatch, int threads = 0);
 
 /// Pieces that share an edge (two point ids, after `pointClass` if it is not empty), for a clipped
 /// mesh that comes without links.
 Array<Link> FindLinks(
-  const ClippedMesh& clipped, const std::vector<Index>& pointClass, const Progress& progress = {});
+  const ClippedMesh& clipped, const Array<Index>& pointClass, const Progress& progress = {});
 
 } // namespace gridfem
 

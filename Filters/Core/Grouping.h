@@ -13,7 +13,7 @@ namespace gridfem
 /// Items of group g are item[begin[g] .. begin[g + 1]), ascending.
 struct Groups
 {
-  std::vector<Index> begin;
+  Array<Index> begin;
   Array<Index> item;
 };
 
@@ -22,7 +22,7 @@ struct Groups
 /// @param group  of every one of `items` items, in [0, numberOfGroups)
 inline Groups GroupItems(const Index* group, Id items, Id numberOfGroups, int threads = 1)
 {
-  Groups groups{ std::vector<Index>(numberOfGroups + 1, 0), Array<Index>(items) };
+  Groups groups{ Array<Index>(numberOfGroups + 1, 0), Array<Index>(items) };
   const Id ranges = NumberOfThreads(threads);
   const auto forItems = [&](const auto& visit)
   {
@@ -42,12 +42,12 @@ inline Groups GroupItems(const Index* group, Id items, Id numberOfGroups, int th
   };
   forItems([&](Index g, Index) { ++groups.begin[g]; });
   ExclusiveScan(groups.begin);
-  std::vector<Index> next(groups.begin.begin(), groups.begin.end() - 1);
+  Array<Index> next(groups.begin.begin(), groups.begin.end() - 1);
   forItems([&](Index g, Index item) { groups.item[next[g]++] = item; });
   return groups;
 }
 
-inline Groups GroupItems(const std::vector<Index>& group, Id numberOfGroups, int threads = 1)
+inline Groups GroupItems(const Array<Index>& group, Id numberOfGroups, int threads = 1)
 {
   return GroupItems(group.data(), static_cast<Id>(group.size()), numberOfGroups, threads);
 }

@@ -46,33 +46,34 @@ std::vector<char> PointsWithFunction(const TriangleMesh& mesh, const std::vector
 
 /// Points that have a function of their own, along the Morton curve.
 Array<SortEntry> SortPoints(const TriangleMesh& mesh, const std::vector<char>& used,
-  const std::vector<Index>& pointClass, int threads)
+  const Array<Index>& pointClass, int threads)
 {
   const Grid grid = EmbedInGrid(mesh.points, used, MaximumDepth);
-  Array<SortEntry> entries;
-  for (Id point = 0; point < static_cast<Id>(mesh.points.size()); ++point)
-  {
-    if (used[point] && (pointClass.empty() || pointClass[point] == point))
+  return SortByKey(static_cast<Id>(mesh.points.size()), 3 * MaximumDepth, threads,
+    [&](Id begin, Id end, const auto& add)
     {
-      const Vec3 position = grid.ToGrid(mesh.points[point]);
-      CellIndex cell;
-      for (int axis = 0; axis < 3; ++axis)
+      for (Id point = begin; point < end; ++point)
       {
-        cell[axis] = std::clamp(static_cast<int>(position[axis]), 0, grid.CellsPerSide() - 1);
+        if (used[point] && (pointClass.empty() || pointClass[point] == point))
+        {
+          const Vec3 position = grid.ToGrid(mesh.points[point]);
+          CellIndex cell;
+          for (int axis = 0; axis < 3; ++axis)
+          {
+            cell[axis] = std::clamp(static_cast<int>(position[axis]), 0, grid.CellsPerSide() - 1);
+          }
+          add(MortonEncode(cell), point);
+        }
       }
-      entries.push_back({ MortonEncode(cell), point });
-    }
-  }
-  RadixSort(entries, 3 * MaximumDepth, threads);
-  return entries;
+    });
 }
 
 void NumberPoints(const TriangleMesh& mesh, const std::vector<char>& isFlat,
   const HatOptions& options, HatFunctions& hats)
 {
   const std::vector<char> used = PointsWithFunction(mesh, isFlat);
-  const std::vector<Index> pointClass =
-    options.weldCoincidentPoints ? WeldCoincidentPoints(mesh.points, used) : std::vector<Index>();
+  const Array<Index> pointClass =
+    options.weldCoincidentPoints ? WeldCoincidentPoints(mesh.points, used) : Array<Index>();
   const Array<SortEntry> sorted = SortPoints(mesh, used, pointClass, options.threads);
   RequireIndices(static_cast<double>(sorted.size()), "hat functions");
   hats.ofPoint.assign(mesh.points.size(), -1);
@@ -92,7 +93,7 @@ void ListTriangles(const TriangleMesh& mesh, const std::vector<char>& isFlat, Ha
   // The corners of flat triangles form a last group, which is dropped.
   const Index none = hats.Count();
   RequireIndices(3.0 * static_cast<double>(mesh.triangles.size()), "corners of triangles");
-  std::vector<Index> functionOfCorner(3 * mesh.triangles.size());
+  Array<Index> functionOfCorner(3 * mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
   {
     for (int k = 0; k < 3; ++k)
@@ -120,7 +121,8 @@ void FindComponents(const TriangleMesh& mesh, const std::vector<char>& isFlat, H
       sets.Unite(hats.ofPoint[mesh.triangles[t][0]], hats.ofPoint[mesh.triangles[t][k]]);
     }
   }
-  hats.component = NumberSets(sets, hats.numberOfComponents);
+  const Array<Index> component = NumberSets(sets, hats.numberOfComponents);
+  hats.component.assign(component.begin(), component.end());
 }
 
 } // namespace

@@ -33,7 +33,7 @@ struct HatFunctions
   double unitLength = 1.0;
   std::vector<Index> ofPoint; // per mesh point: its function; -1 where there is none
   /// Triangles around function i: corners[begin[i] .. begin[i + 1]), ascending.
-  std::vector<Index> begin;
+  Array<Index> begin;
   std::vector<TriangleCorner> corners;
   std::vector<Index> component; // per function; triangles that share a function are connected
   Index numberOfComponents = 0;

@@ -224,6 +224,7 @@ HiddenLevels BuildHiddenLevels(const FunctionSpace& space, const System& system,
     if (l < system.prolongation.size())
     {
       level.prolongation = system.prolongation[l];
+      level.restriction = system.restriction[l];
     }
   }
   return hidden;

@@ -105,7 +105,8 @@ public:
     }
   }
 
-  /// A part of the smallest block that is large enough; null, and `bytes` fewer kept, if none is.
+  /// A part of the smallest block that is large enough; null, and more than `bytes` fewer kept, if
+  /// none is.
   char* Take(std::size_t bytes)
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -119,7 +120,7 @@ public:
     }
     if (best == blocks_.end())
     {
-      this->Return(bytes);
+      this->Return(Generously * bytes);
       return nullptr;
     }
     best->second -= bytes;
@@ -141,6 +142,9 @@ public:
   }
 
 private:
+  /// Blocks also hold what arrays had reserved and not used, which was no memory yet.
+  static constexpr std::size_t Generously = 2;
+
   /// Joins neighbours. Returns false where there is no memory for the entry itself.
   bool Insert(char* memory, std::size_t bytes) noexcept
   try

@@ -20,7 +20,7 @@ void* AllocateLargeMemory(std::size_t bytes);
 void FreeLargeMemory(void* memory, std::size_t bytes) noexcept;
 
 /// While one exists, large memory that is freed stays for the next requests, because the system
-/// takes a fifth of a set-up to clear new pages. Where none of it fits, as much of it goes back as
+/// takes a fifth of a set-up to clear new pages. Where none of it fits, more of it goes back than
 /// the request takes, so that the peak does not grow. The last one to go returns what is left.
 class MemoryReuse
 {

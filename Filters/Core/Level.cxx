@@ -59,17 +59,18 @@ void UniteAlongLinks(
 /// One set per lattice point.
 void UniteByCorner(const std::vector<MortonKey>& cell, int depth, int threads, UnionFind& slots)
 {
-  Array<SortEntry> entries(cell.size() * FunctionsPerPatch);
-  for (std::size_t patch = 0; patch < cell.size(); ++patch)
-  {
-    const CellIndex index = MortonDecode(cell[patch]);
-    for (int corner = 0; corner < FunctionsPerPatch; ++corner)
+  const Array<SortEntry> entries = SortByKey(static_cast<Id>(cell.size()), 3 * (depth + 1), threads,
+    [&](Id begin, Id end, const auto& add)
     {
-      const std::size_t slot = FunctionsPerPatch * patch + corner;
-      entries[slot] = { MortonEncode(LatticePoint(index, corner)), static_cast<Id>(slot) };
-    }
-  }
-  RadixSort(entries, 3 * (depth + 1), threads);
+      for (Id patch = begin; patch < end; ++patch)
+      {
+        const CellIndex index = MortonDecode(cell[patch]);
+        for (int corner = 0; corner < FunctionsPerPatch; ++corner)
+        {
+          add(MortonEncode(LatticePoint(index, corner)), FunctionsPerPatch * patch + corner);
+        }
+      }
+    });
   for (std::size_t k = 1; k < entries.size(); ++k)
   {
     if (entries[k].key == entries[k - 1].key)
@@ -92,7 +93,7 @@ void NumberFunctions(Level& level, const Array<Link>& links, FunctionSupport sup
   {
     UniteAlongLinks(level.cell, links, threads, slots);
   }
-  const std::vector<Index> number = NumberSets(slots, level.numberOfFunctions, threads);
+  const Array<Index> number = NumberSets(slots, level.numberOfFunctions, threads);
   level.dof.resize(level.cell.size());
   for (std::size_t slot = 0; slot < number.size(); ++slot)
   {
@@ -181,7 +182,8 @@ std::vector<Index> FunctionComponents(const Level& level, int threads)
       }
     });
   Index count = 0;
-  return NumberSets(sets, count, threads);
+  const Array<Index> number = NumberSets(sets, count, threads);
+  return { number.begin(), number.end() };
 }
 
 } // namespace gridfem

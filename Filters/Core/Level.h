@@ -16,7 +16,7 @@ struct Level
   int depth = 0;
   std::vector<MortonKey> cell;                           // per patch, ascending
   std::vector<std::array<Index, FunctionsPerPatch>> dof; // per patch, corner order x fastest
-  std::vector<Index> parent;                             // per patch; empty on the coarsest level
+  Array<Index> parent;                                   // per patch; empty on the coarsest level
   Index numberOfFunctions = 0;
 
   Id NumberOfPatches() const { return static_cast<Id>(cell.size()); }
@@ -33,9 +33,9 @@ enum class FunctionSupport
 /// Patches of the finest level: connected pieces of a cell (or all pieces of it, when plain).
 struct PatchPartition
 {
-  std::vector<Index> piecePatch; // per piece
-  std::vector<MortonKey> cell;   // per patch, ascending
-  Array<Link> links;             // sorted, unique
+  Array<Index> piecePatch;     // per piece
+  std::vector<MortonKey> cell; // per patch, ascending
+  Array<Link> links;           // sorted, unique
 };
 
 /// Groups the pieces of a clipped mesh to patches. A patch whose area is below 1e-10 of a cell face
@@ -45,8 +45,7 @@ PatchPartition BuildPatches(const ClippedMesh& clipped, FunctionSupport support,
 
 /// The links between the groups that linked items belong to: from pieces to their patches, from
 /// patches to their parents. Sorted by first, then second; unique.
-Array<Link> LinksOfGroups(
-  const Array<Link>& links, const std::vector<Index>& group, int threads = 0);
+Array<Link> LinksOfGroups(const Array<Link>& links, const Array<Index>& group, int threads = 0);
 
 /// The finest level on given patches; functions are numbered in the order of their first patch.
 /// Throws InvalidInput when there are more than 2^31 - 1 functions.

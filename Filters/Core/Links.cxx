@@ -1,5 +1,6 @@
 #include "Links.h"
 
+#include "BlockLists.h"
 #include "Errors.h"
 #include "Parallel.h"
 #include "TriangleClipper.h"
@@ -13,12 +14,13 @@ namespace
 {
 
 /// Links of one edge. `pieces` is sorted and unique, so it is grouped by cell.
-void LinkStar(const std::vector<Index>& pieces, const Array<Index>& pieceCell, Array<Link>& links)
+template<class CellOf>
+void LinkStar(const std::vector<Index>& pieces, const CellOf& cellOf, Array<Link>& links)
 {
   std::vector<Index> firstOfCell;
   for (const Index piece : pieces)
   {
-    if (!firstOfCell.empty() && pieceCell[firstOfCell.back()] == pieceCell[piece])
+    if (!firstOfCell.empty() && cellOf(firstOfCell.back()) == cellOf(piece))
     {
       links.push_back({ firstOfCell.back(), piece });
       continue;
@@ -57,7 +59,7 @@ void LinkTwoSides(const Index* first, const Index* second, Index stretches, Arra
 }
 
 void LinkManySides(const MeshEdges& edges, const Stretches& stretches, Index edge,
-  const Array<Index>& pieceCell, Array<Link>& links)
+  const ClippedMesh& clipped, Array<Link>& links)
 {
   for (Index k = 0; k < StretchesOf(edges, edge); ++k)
   {
@@ -72,7 +74,28 @@ void LinkManySides(const MeshEdges& edges, const Stretches& stretches, Index edg
     }
     std::sort(pieces.begin(), pieces.end());
     pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
-    LinkStar(pieces, pieceCell, links);
+    LinkStar(
+      pieces, [&](Index piece) { return clipped.CellOf(piece); }, links);
+  }
+}
+
+void LinkEdge(const MeshEdges& edges, const Stretches& stretches, Index edge,
+  const ClippedMesh& clipped, Array<Link>& links)
+{
+  const Index* side = edges.side.data() + edges.sideBegin[edge];
+  const Index sides = edges.sideBegin[edge + 1] - edges.sideBegin[edge];
+  if (edges.ends[edge][0] == edges.ends[edge][1] || sides == 1)
+  {
+    return;
+  }
+  if (sides == 2)
+  {
+    LinkTwoSides(PiecesAlong(edges, stretches, side[0]), PiecesAlong(edges, stretches, side[1]),
+      StretchesOf(edges, edge), links);
+  }
+  else
+  {
+    LinkManySides(edges, stretches, edge, clipped, links);
   }
 }
 
@@ -92,7 +115,8 @@ void LinkStars(std::vector<EdgeUse>& uses, const Array<Index>& pieceCell, Array<
     }
     if (k + 1 == uses.size() || uses[k + 1].edge != uses[k].edge)
     {
-      LinkStar(pieces, pieceCell, links);
+      LinkStar(
+        pieces, [&](Index piece) { return pieceCell[piece]; }, links);
       pieces.clear();
     }
   }
@@ -124,38 +148,28 @@ Stretches AllocateStretches(const MeshEdges& edges, int threads)
   return stretches;
 }
 
-void LinkAlongEdges(const MeshEdges& edges, const Stretches& stretches,
-  const Array<Index>& pieceCell, int threads, Array<Link>& links, const Progress& progress)
+void LinkAlongEdges(const MeshEdges& edges, const Stretches& stretches, int threads,
+  const Progress& progress, ClippedMesh& clipped)
 {
   const Id count = edges.NumberOfEdges();
-  std::vector<Array<Link>> parts((count + DefaultBlockSize - 1) / DefaultBlockSize);
-  ParallelRanges(
-    count, threads,
-    [&](Id begin, Id end)
+  const Id blocks = (count + DefaultBlockSize - 1) / DefaultBlockSize;
+  BlockLists<Link> lists(blocks, threads);
+  ParallelBlocks(
+    blocks, threads,
+    [&](Id block, int thread)
     {
-      Array<Link>& part = parts[begin / DefaultBlockSize];
-      part.reserve(edges.cutBegin[end] - edges.cutBegin[begin] + end - begin);
-      for (Index edge = static_cast<Index>(begin); edge < end; ++edge)
-      {
-        const Index* side = edges.side.data() + edges.sideBegin[edge];
-        const Index sides = edges.sideBegin[edge + 1] - edges.sideBegin[edge];
-        if (edges.ends[edge][0] == edges.ends[edge][1] || sides == 1)
+      lists.Make(block, thread,
+        [&](Array<Link>& list)
         {
-          continue;
-        }
-        if (sides == 2)
-        {
-          LinkTwoSides(PiecesAlong(edges, stretches, side[0]),
-            PiecesAlong(edges, stretches, side[1]), StretchesOf(edges, edge), part);
-        }
-        else
-        {
-          LinkManySides(edges, stretches, edge, pieceCell, part);
-        }
-      }
+          const Id end = std::min(count, (block + 1) * DefaultBlockSize);
+          for (Id edge = block * DefaultBlockSize; edge < end; ++edge)
+          {
+            LinkEdge(edges, stretches, static_cast<Index>(edge), clipped, list);
+          }
+        });
     },
-    DefaultBlockSize, progress);
-  AppendParts(std::move(parts), threads, links);
+    progress);
+  lists.AppendTo(clipped.links, threads);
 }
 
 } // namespace gridfem

@@ -34,8 +34,8 @@ Stretches AllocateStretches(const MeshEdges& edges, int threads);
 
 /// Appends a link for every two pieces on different sides of a mesh edge that share a stretch of
 /// it; where more than two do, as LinkStars. The same for any number of threads.
-void LinkAlongEdges(const MeshEdges& edges, const Stretches& stretches,
-  const Array<Index>& pieceCell, int threads, Array<Link>& links, const Progress& progress);
+void LinkAlongEdges(const MeshEdges& edges, const Stretches& stretches, int threads,
+  const Progress& progress, ClippedMesh& clipped);
 
 } // namespace gridfem
 

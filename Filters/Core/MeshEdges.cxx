@@ -31,8 +31,8 @@ struct Side
 class EdgeFinder
 {
 public:
-  EdgeFinder(const std::vector<std::array<Id, 3>>& triangles, const std::vector<Index>& pointClass,
-    int threads)
+  EdgeFinder(
+    const std::vector<std::array<Id, 3>>& triangles, const Array<Index>& pointClass, int threads)
     : triangles_(triangles), pointClass_(pointClass), threads_(threads),
       buckets_((static_cast<Index>(pointClass.size()) + PointsPerBucket - 1) / PointsPerBucket)
   {
@@ -53,7 +53,7 @@ private:
   }
 
   const std::vector<std::array<Id, 3>>& triangles_;
-  const std::vector<Index>& pointClass_;
+  const Array<Index>& pointClass_;
   const int threads_;
   const Index buckets_;
   Array<Side> sides_;
@@ -194,7 +194,7 @@ void EdgeFinder::Find(MeshEdges& edges)
 } // namespace
 
 MeshEdges BuildMeshEdges(const std::vector<std::array<Id, 3>>& triangles,
-  const std::vector<Index>& pointClass, const Array<Vec3>& position, int threads)
+  const Array<Index>& pointClass, const Array<Vec3>& position, int threads)
 {
   RequireIndices(3.0 * static_cast<double>(triangles.size()), "sides of triangles");
   MeshEdges edges;

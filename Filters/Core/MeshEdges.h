@@ -50,7 +50,7 @@ inline PlaneRange PlanesBetween(double a, double b)
 /// @param pointClass  welded id of each point
 /// @param position    of each point, grid units, snapped to the planes
 MeshEdges BuildMeshEdges(const std::vector<std::array<Id, 3>>& triangles,
-  const std::vector<Index>& pointClass, const Array<Vec3>& position, int threads);
+  const Array<Index>& pointClass, const Array<Vec3>& position, int threads);
 
 } // namespace gridfem
 

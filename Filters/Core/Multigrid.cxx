@@ -72,7 +72,10 @@ Multigrid::Multigrid(std::vector<MultigridLevel> levels, const MultigridOptions&
   CheckLevels(levels_, options_);
   for (std::size_t l = 0; l + 1 < levels_.size(); ++l)
   {
-    levels_[l].restriction = Transpose(levels_[l].prolongation);
+    if (levels_[l].restriction->rows == 0)
+    {
+      levels_[l].restriction = Transpose(levels_[l].prolongation, options_.threads);
+    }
   }
   this->BuildSolvers();
 }

@@ -64,8 +64,8 @@ struct LevelSmoothing
 struct MultigridLevel
 {
   SparseMatrix A;
-  SparseMatrix prolongation; // from the next coarser level to this one; empty on the coarsest
-  SparseMatrix restriction;  // its transpose
+  SharedMatrix prolongation; // from the next coarser level to this one; empty on the coarsest
+  SharedMatrix restriction;  // its transpose; is made where it is empty
   PatchOrder order;
   PatchOrder groups; // of unknowns that are relaxed together after a sweep over all; or empty
   std::optional<LevelSmoothing> smoothing; // in place of the options of the hierarchy

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <type_traits>
 #include <vector>
 
 namespace gridfem
@@ -25,18 +26,30 @@ inline int NumberOfThreads(int wanted)
 /// Items per block where nothing else suggests a size.
 constexpr Id DefaultBlockSize = 4096;
 
-/// Runs body(block) for every block in [0, blocks), in any order, on `threads` threads (0: all).
-/// The first exception of a body, or Aborted, is thrown again after the loop.
+/// Runs body(block) or body(block, thread) for every block in [0, blocks), in any order, on
+/// `threads` threads (0: all), which are numbered from 0. The first exception of a body, or
+/// Aborted, is thrown again after the loop.
 template<class Body>
 void ParallelBlocks(Id blocks, int threads, Body&& body, const Progress& progress = {})
 {
+  const auto run = [&](Id block, [[maybe_unused]] int thread)
+  {
+    if constexpr (std::is_invocable_v<Body, Id, int>)
+    {
+      body(block, thread);
+    }
+    else
+    {
+      body(block);
+    }
+  };
   threads = static_cast<int>(std::min<Id>(NumberOfThreads(threads), std::max<Id>(blocks, 1)));
   if (threads == 1)
   {
     for (Id block = 0; block < blocks; ++block)
     {
       progress.Check(double(block) / double(blocks));
-      body(block);
+      run(block, 0);
     }
     return;
   }
@@ -58,7 +71,7 @@ void ParallelBlocks(Id blocks, int threads, Body&& body, const Progress& progres
         {
           progress.Check(double(block) / double(blocks));
         }
-        body(block);
+        run(block, omp_get_thread_num());
       }
       catch (...)
       {
@@ -114,27 +127,6 @@ auto ExclusiveScan(Counts& counts)
     total = next;
   }
   return total;
-}
-
-/// Appends what the blocks of a loop have made, in their order; frees it.
-template<class Items>
-void AppendParts(std::vector<Items> parts, int threads, Items& items)
-{
-  std::vector<Id> begin;
-  begin.reserve(parts.size() + 1);
-  Id total = static_cast<Id>(items.size());
-  for (const Items& part : parts)
-  {
-    begin.push_back(total);
-    total += static_cast<Id>(part.size());
-  }
-  items.resize(total);
-  ParallelBlocks(static_cast<Id>(parts.size()), threads,
-    [&](Id block)
-    {
-      const Items part = std::move(parts[block]);
-      std::copy(part.begin(), part.end(), items.begin() + begin[block]);
-    });
 }
 
 } // namespace gridfem

@@ -1,3 +1,4 @@
+#include "BlockLists.h"
 #include "Grouping.h"
 #include "Level.h"
 #include "Parallel.h"
@@ -15,13 +16,13 @@ namespace
 constexpr double SmallestArea = 1e-10;
 
 /// Patch of every piece, numbered by the first piece: so by Morton key.
-std::vector<Index> GroupPieces(
-  const ClippedMesh& clipped, FunctionSupport support, int threads, Index& count)
+Array<Index> GroupPieces(const ClippedMesh& clipped, const Array<Index>& pieceCell,
+  FunctionSupport support, int threads, Index& count)
 {
   if (support == FunctionSupport::Plain)
   {
     count = static_cast<Index>(clipped.cells.size());
-    return { clipped.pieceCell.begin(), clipped.pieceCell.end() };
+    return pieceCell;
   }
   UnionFind sets(clipped.NumberOfPieces(), threads);
   ParallelRanges(static_cast<Id>(clipped.links.size()), threads,
@@ -30,7 +31,7 @@ std::vector<Index> GroupPieces(
       for (Id k = begin; k < end; ++k)
       {
         const auto [first, second] = clipped.links[k];
-        if (clipped.pieceCell[first] == clipped.pieceCell[second])
+        if (pieceCell[first] == pieceCell[second])
         {
           sets.Unite(first, second);
         }
@@ -63,8 +64,8 @@ std::vector<char> FindSlivers(
 
 /// For every patch the patch it becomes part of: itself, or for a sliver the lowest patch that is
 /// none and that it touches, over other slivers if need be. Slivers that touch none stay.
-std::vector<Index> AbsorbSlivers(const ClippedMesh& clipped, const std::vector<Index>& piecePatch,
-  const std::vector<char>& isSliver)
+std::vector<Index> AbsorbSlivers(
+  const ClippedMesh& clipped, const Array<Index>& piecePatch, const std::vector<char>& isSliver)
 {
   std::vector<Index> target(isSliver.size());
   bool open = false;
@@ -109,6 +110,25 @@ std::vector<Index> AbsorbSlivers(const ClippedMesh& clipped, const std::vector<I
   return target;
 }
 
+/// What fill(begin, end, links) appends for consecutive ranges of [0, count), in their order.
+template<class Fill>
+Array<Link> MakeLinks(Id count, int threads, Fill&& fill)
+{
+  const Id blocks = (count + DefaultBlockSize - 1) / DefaultBlockSize;
+  BlockLists<Link> lists(blocks, threads);
+  ParallelBlocks(blocks, threads,
+    [&](Id block, int thread)
+    {
+      lists.Make(block, thread,
+        [&](Array<Link>& links) {
+          fill(block * DefaultBlockSize, std::min(count, (block + 1) * DefaultBlockSize), links);
+        });
+    });
+  Array<Link> links;
+  lists.AppendTo(links, threads);
+  return links;
+}
+
 /// Sorts by first, then second, and drops repetitions, in time linear in the number of links.
 Array<Link> SortUnique(const Array<Link>& links, int threads)
 {
@@ -117,11 +137,9 @@ Array<Link> SortUnique(const Array<Link>& links, int threads)
     links.begin(), links.end(), group.begin(), [](const Link& link) { return link.first; });
   const Id groups = group.empty() ? 0 : Id{ *std::max_element(group.begin(), group.end()) } + 1;
   const Groups byFirst = GroupItems(group.data(), static_cast<Id>(group.size()), groups, threads);
-  std::vector<Array<Link>> parts((groups + DefaultBlockSize - 1) / DefaultBlockSize);
-  ParallelRanges(groups, threads,
-    [&](Id begin, Id end)
+  return MakeLinks(groups, threads,
+    [&](Id begin, Id end, Array<Link>& sorted)
     {
-      Array<Link>& part = parts[begin / DefaultBlockSize];
       std::vector<Index> seconds;
       for (auto first = static_cast<Index>(begin); first < end; ++first)
       {
@@ -134,13 +152,10 @@ Array<Link> SortUnique(const Array<Link>& links, int threads)
         seconds.erase(std::unique(seconds.begin(), seconds.end()), seconds.end());
         for (const Index second : seconds)
         {
-          part.push_back({ first, second });
+          sorted.push_back({ first, second });
         }
       }
     });
-  Array<Link> sorted;
-  AppendParts(std::move(parts), threads, sorted);
-  return sorted;
 }
 
 } // namespace
@@ -149,7 +164,8 @@ PatchPartition BuildPatches(const ClippedMesh& clipped, FunctionSupport support,
 {
   PatchPartition patches;
   Index count = 0;
-  patches.piecePatch = GroupPieces(clipped, support, threads, count);
+  const Array<Index> pieceCell = PieceCells(clipped, threads);
+  patches.piecePatch = GroupPieces(clipped, pieceCell, support, threads, count);
   const Groups pieces = GroupItems(patches.piecePatch, count, threads);
   const std::vector<Index> target =
     AbsorbSlivers(clipped, patches.piecePatch, FindSlivers(clipped, pieces, count, threads));
@@ -159,7 +175,7 @@ PatchPartition BuildPatches(const ClippedMesh& clipped, FunctionSupport support,
     if (target[patch] == patch)
     {
       number[patch] = static_cast<Index>(patches.cell.size());
-      patches.cell.push_back(clipped.cells[clipped.pieceCell[pieces.item[pieces.begin[patch]]]]);
+      patches.cell.push_back(clipped.cells[pieceCell[pieces.item[pieces.begin[patch]]]]);
     }
   }
   ParallelRanges(clipped.NumberOfPieces(), threads,
@@ -174,27 +190,23 @@ PatchPartition BuildPatches(const ClippedMesh& clipped, FunctionSupport support,
   return patches;
 }
 
-Array<Link> LinksOfGroups(const Array<Link>& links, const std::vector<Index>& group, int threads)
+Array<Link> LinksOfGroups(const Array<Link>& links, const Array<Index>& group, int threads)
 {
-  const Id count = static_cast<Id>(links.size());
-  std::vector<Array<Link>> parts((count + DefaultBlockSize - 1) / DefaultBlockSize);
-  ParallelRanges(count, threads,
-    [&](Id begin, Id end)
+  const auto groupLinks = [&](Id begin, Id end, Array<Link>& list)
+  {
+    Link last{ -1, -1 };
+    for (Id k = begin; k < end; ++k)
     {
-      Array<Link>& part = parts[begin / DefaultBlockSize];
-      for (Id k = begin; k < end; ++k)
+      const auto [low, high] = std::minmax(group[links[k].first], group[links[k].second]);
+      const Link link{ low, high };
+      if (low != high && !(link == last))
       {
-        const auto [low, high] = std::minmax(group[links[k].first], group[links[k].second]);
-        const Link link{ low, high };
-        if (low != high && (part.empty() || !(part.back() == link)))
-        {
-          part.push_back(link);
-        }
+        list.push_back(link);
+        last = link;
       }
-    });
-  Array<Link> groupLinks;
-  AppendParts(std::move(parts), threads, groupLinks);
-  return SortUnique(groupLinks, threads);
+    }
+  };
+  return SortUnique(MakeLinks(static_cast<Id>(links.size()), threads, groupLinks), threads);
 }
 
 } // namespace gridfem

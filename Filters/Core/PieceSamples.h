@@ -84,7 +84,7 @@ void ForEachFanTriangle(const ClippedMesh& clipped, Id piece, const Vec3& origin
 /// (those without area too), point after point of the rule.
 inline Id FirstSample(const ClippedMesh& clipped, Id piece, const QuadratureRule& rule)
 {
-  return (clipped.pieceBegin[piece] - 2 * piece) * static_cast<Id>(rule.points.size());
+  return clipped.FirstTriangle(piece) * static_cast<Id>(rule.points.size());
 }
 
 inline Id NumberOfSamples(const ClippedMesh& clipped, const QuadratureRule& rule)

@@ -68,6 +68,14 @@ void DropRounding(const Eigen::RowVectorXd& size, MultiVector& rest)
   }
 }
 
+double NormOfDiagonal(const SparseMatrix& A, int threads)
+{
+  const std::vector<double> diagonal = A.Diagonal(threads);
+  return Eigen::Map<const Eigen::VectorXd>(
+    diagonal.data(), static_cast<Eigen::Index>(diagonal.size()))
+    .norm();
+}
+
 /// Starts columns that hold NaN from zero.
 MultiVector NestedStart(const Multigrid& multigrid, const MultiVector& load)
 {
@@ -106,15 +114,12 @@ PoissonSolution SolvePoisson(const ComponentFunctions& functions, const Multigri
   MultiVector rest = values;
   means.SubtractIntegrals(meanOfField, rest);
   rest *= lambda;
-  // The constants cancel to rounding in every row, in the matrix and in ∫ <∇f, ∇b_i> alike.
-  const std::vector<double> diagonal = multigrid.Matrix().Diagonal(threads);
-  const double matrixSize =
-    Eigen::Map<const Eigen::VectorXd>(diagonal.data(), static_cast<Eigen::Index>(diagonal.size()))
-      .norm();
   Eigen::RowVectorXd size = lambda * values.colwise().norm();
   if (meanOfField.rows() > 0)
   {
-    size += matrixSize * meanOfField.cwiseAbs().colwise().maxCoeff();
+    // The constants cancel to rounding in every row, in the matrix and in ∫ <∇f, ∇b_i> alike.
+    size +=
+      NormOfDiagonal(multigrid.Matrix(), threads) * meanOfField.cwiseAbs().colwise().maxCoeff();
   }
   if (gradients.rows() != 0)
   {

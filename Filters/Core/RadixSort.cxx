@@ -1,6 +1,6 @@
 #include "RadixSort.h"
 
-#include "Parallel.h"
+#include <utility>
 
 namespace gridfem
 {
@@ -8,54 +8,82 @@ namespace gridfem
 namespace
 {
 
+/// Up to this size comparing costs less than counting digits.
+constexpr Id Few = 48;
+
 /// More digits than this do not fit the first cache beside the entries.
-constexpr int MostDigitBits = 12;
-constexpr Id RangeSize = Id{ 1 } << 17;
+constexpr int MostDigitBits = 11;
+
+/// From the lowest digit up; stable.
+void SortByDigits(SortEntry* entries, Id count, int bits)
+{
+  const int passes = (bits + MostDigitBits - 1) / MostDigitBits;
+  const int digitBits = (bits + passes - 1) / passes;
+  const std::uint64_t mask = (std::uint64_t{ 1 } << digitBits) - 1;
+  Array<SortEntry> buffer(count);
+  std::vector<Id> place(mask + 1);
+  SortEntry* from = entries;
+  SortEntry* to = buffer.data();
+  for (int pass = 0; pass < passes; ++pass)
+  {
+    const int shift = pass * digitBits;
+    std::fill(place.begin(), place.end(), 0);
+    for (Id k = 0; k < count; ++k)
+    {
+      ++place[(from[k].key >> shift) & mask];
+    }
+    ExclusiveScan(place);
+    for (Id k = 0; k < count; ++k)
+    {
+      to[place[(from[k].key >> shift) & mask]++] = from[k];
+    }
+    std::swap(from, to);
+  }
+  if (from != entries)
+  {
+    std::copy_n(from, count, entries);
+  }
+}
 
 } // namespace
 
-void RadixSort(Array<SortEntry>& entries, int bits, int threads)
+std::vector<Id> PlacesOfBuckets(std::vector<Id>& next, Id ranges, Id buckets)
 {
-  const int passes = (bits + MostDigitBits - 1) / MostDigitBits;
-  const int digitBits = passes > 0 ? (bits + passes - 1) / passes : 0;
-  const Id digits = Id{ 1 } << digitBits;
-  const Id count = static_cast<Id>(entries.size());
-  const Id ranges = (count + RangeSize - 1) / RangeSize;
-  Array<SortEntry> sorted(entries.size());
-  std::vector<Id> begin(ranges * digits);
-  for (int shift = 0; shift < bits; shift += digitBits)
+  std::vector<Id> begin(buckets + 1);
+  Id total = 0;
+  for (Id bucket = 0; bucket < buckets; ++bucket)
   {
-    const auto digit = [shift, digits](std::uint64_t key)
-    { return static_cast<Id>(key >> shift) & (digits - 1); };
-    std::fill(begin.begin(), begin.end(), 0);
-    ParallelBlocks(ranges, threads,
-      [&](Id range)
-      {
-        for (Id k = range * RangeSize; k < std::min(count, (range + 1) * RangeSize); ++k)
-        {
-          ++begin[range * digits + digit(entries[k].key)];
-        }
-      });
-    Id total = 0;
-    for (Id d = 0; d < digits; ++d)
+    begin[bucket] = total;
+    for (Id range = 0; range < ranges; ++range)
     {
-      for (Id range = 0; range < ranges; ++range)
-      {
-        const Id next = total + begin[range * digits + d];
-        begin[range * digits + d] = total;
-        total = next;
-      }
+      total += std::exchange(next[range * buckets + bucket], total);
     }
-    ParallelBlocks(ranges, threads,
-      [&](Id range)
-      {
-        for (Id k = range * RangeSize; k < std::min(count, (range + 1) * RangeSize); ++k)
-        {
-          sorted[begin[range * digits + digit(entries[k].key)]++] = entries[k];
-        }
-      });
-    entries.swap(sorted);
   }
+  begin[buckets] = total;
+  return begin;
+}
+
+void SortBuckets(Array<SortEntry>& entries, const std::vector<Id>& begin, int bits, int threads)
+{
+  if (bits == 0)
+  {
+    return;
+  }
+  ParallelBlocks(static_cast<Id>(begin.size()) - 1, threads,
+    [&](Id bucket)
+    {
+      SortEntry* const first = entries.data() + begin[bucket];
+      const Id count = begin[bucket + 1] - begin[bucket];
+      if (count > Few)
+      {
+        SortByDigits(first, count, bits);
+      }
+      else
+      {
+        std::stable_sort(first, first + count,
+          [](const SortEntry& a, const SortEntry& b) { return a.key < b.key; });
+      }
+    });
 }
 
 } // namespace gridfem

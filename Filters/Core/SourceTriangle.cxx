@@ -39,20 +39,21 @@ Barycentric SourceTriangle::Locate(Id point) const
     return this->LocateByPosition(point);
   }
   const CutPoint& cut = clipped_.cutPoints[number];
+  const std::array<double, 3> weight = cut.Weights();
   if (cut.triangle == triangle_)
   {
-    return cut.weight;
+    return weight;
   }
   for (int k = 0; k < 3; ++k)
   {
-    if (cut.weight[k] != 0.0)
+    if (weight[k] != 0.0)
     {
       const int corner = this->CornerAt(mesh_.triangles[cut.triangle][k]);
       if (corner < 0)
       {
         return this->LocateByPosition(point);
       }
-      result[corner] += cut.weight[k];
+      result[corner] += weight[k];
     }
   }
   return result;

@@ -1,6 +1,7 @@
 #include "SparseMatrix.h"
 
 #include "Errors.h"
+#include "Grouping.h"
 #include "RowKernels.h"
 
 #include <algorithm>
@@ -94,30 +95,34 @@ void Residual(
     { chunk.Row(r.data(), row) = chunk.Row(b.data(), row) - product; });
 }
 
-SparseMatrix Transpose(const SparseMatrix& A)
+SparseMatrix Transpose(const SparseMatrix& A, int threads)
 {
+  const Groups entries = GroupItems(A.column.data(), A.NonZeros(), A.columns, threads);
+  Array<Index> rowOf(A.NonZeros());
+  ParallelRanges(A.rows, threads,
+    [&](Id begin, Id end)
+    {
+      for (Id row = begin; row < end; ++row)
+      {
+        std::fill(rowOf.begin() + A.rowBegin[row], rowOf.begin() + A.rowBegin[row + 1],
+          static_cast<Index>(row));
+      }
+    });
   SparseMatrix T;
   T.rows = A.columns;
   T.columns = A.rows;
-  Array<Id> rowBegin(T.rows + 1, 0);
-  Array<Index> column(A.column.size());
   T.value.resize(A.value.size());
-  for (const Index col : A.column)
-  {
-    ++rowBegin[col];
-  }
-  ExclusiveScan(rowBegin);
-  T.rowBegin = rowBegin;
-  Array<Id>& next = rowBegin;
-  for (Index row = 0; row < A.rows; ++row)
-  {
-    for (Id k = A.rowBegin[row]; k < A.rowBegin[row + 1]; ++k)
+  Array<Index> column(A.column.size());
+  ParallelRanges(A.NonZeros(), threads,
+    [&](Id begin, Id end)
     {
-      const Id place = next[A.column[k]]++;
-      column[place] = row;
-      T.value[place] = A.value[k];
-    }
-  }
+      for (Id k = begin; k < end; ++k)
+      {
+        column[k] = rowOf[entries.item[k]];
+        T.value[k] = A.value[entries.item[k]];
+      }
+    });
+  T.rowBegin = Array<Id>(entries.begin.begin(), entries.begin.end());
   T.column = std::move(column);
   return T;
 }

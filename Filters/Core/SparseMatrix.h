@@ -25,6 +25,23 @@ struct SparseMatrix
   std::vector<double> Diagonal(int threads = 1) const;
 };
 
+/// A matrix that never changes once it is made, so that hierarchies can share it.
+class SharedMatrix
+{
+public:
+  SharedMatrix() : SharedMatrix(SparseMatrix()) {}
+  SharedMatrix(SparseMatrix matrix)
+    : matrix_(std::make_shared<const SparseMatrix>(std::move(matrix)))
+  {
+  }
+
+  operator const SparseMatrix&() const { return *matrix_; }
+  const SparseMatrix* operator->() const { return matrix_.get(); }
+
+private:
+  std::shared_ptr<const SparseMatrix> matrix_;
+};
+
 /// y = A x; y must not be x. Throws InvalidInput, as the next two, when shapes do not fit. Same
 /// bits for any number of threads.
 void Multiply(const SparseMatrix& A, const MultiVector& x, MultiVector& y, int threads = 0);
@@ -36,7 +53,7 @@ void MultiplyAdd(const SparseMatrix& A, const MultiVector& x, MultiVector& y, in
 void Residual(const SparseMatrix& A, const MultiVector& x, const MultiVector& b, MultiVector& r,
   int threads = 0);
 
-SparseMatrix Transpose(const SparseMatrix& A);
+SparseMatrix Transpose(const SparseMatrix& A, int threads = 0);
 
 } // namespace gridfem
 

@@ -209,7 +209,7 @@ Spectrum NestedIteration::OnlyConstants(const Constants& zeroModes, const Sparse
 void NestedIteration::Prolong(std::size_t level, const Constants& constants, BlockOptions& block)
 {
   MultiVector fine;
-  Reshape(fine, system_.prolongation[level].rows, pairs_.vectors.cols());
+  Reshape(fine, system_.prolongation[level]->rows, pairs_.vectors.cols());
   Multiply(system_.prolongation[level], pairs_.vectors, fine, options_.multigrid.threads);
   pairs_.vectors = std::move(fine);
   block.minimumIterations = std::min(1, block.maximumIterations);

@@ -126,6 +126,7 @@ System BuildSystem(const FunctionSpace& space, const QuadratureRule& rule, int t
     }
     const Level& coarse = space.levels[l + 1];
     system.prolongation.push_back(BuildProlongation(level, system.places.back(), coarse, threads));
+    system.restriction.push_back(Transpose(system.prolongation.back(), threads));
     system.elements.push_back(Coarsen(level, coarse, system.elements.back(), threads));
   }
   system.integral =
@@ -176,6 +177,7 @@ std::vector<MultigridLevel> BuildMultigridLevels(const FunctionSpace& space, con
     if (l < system.prolongation.size())
     {
       levels[l].prolongation = system.prolongation[l];
+      levels[l].restriction = system.restriction[l];
     }
     progress.Check(double(l + 1) / double(levels.size()));
   }

@@ -18,7 +18,8 @@ struct System
   std::vector<ElementMatrices> elements;  // per level, finest first
   std::vector<FunctionPlaces> places;     // per level
   std::vector<SparseMatrix> pattern;      // per level, without values
-  std::vector<SparseMatrix> prolongation; // level l+1 to l; one less than levels
+  std::vector<SharedMatrix> prolongation; // level l+1 to l; one less than levels
+  std::vector<SharedMatrix> restriction;  // their transposes
   std::vector<double> integral;           // ∫ b_i of the finest functions, grid units
   int quadratureDegree = 2;
   int revision = 0; // how often UpdateSystem has changed the elements

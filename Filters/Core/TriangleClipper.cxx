@@ -288,7 +288,9 @@ void TriangleClipper::Emit(const Polygon& polygon, PieceStore& store)
   const auto piece = static_cast<Index>(store.key.size());
   store.key.push_back(MortonEncode(cell));
   store.triangle.push_back(static_cast<Index>(triangle_));
-  pieces_.push_back({ cell, piece, static_cast<int>(corners_.size()), polygon.size });
+  const CellCode code = (CellCode{ cell[0] } << ShiftOf(0)) + (CellCode{ cell[1] } << ShiftOf(1)) +
+                        (CellCode{ cell[2] } << ShiftOf(2));
+  pieces_.push_back({ code, piece, static_cast<int>(corners_.size()), polygon.size });
   for (int i = 0; i < polygon.size; ++i)
   {
     store.corner.push_back(vertices_[polygon.corner[i].vertex].id);
@@ -333,8 +335,13 @@ void TriangleClipper::LinkPieces(PieceStore& store) const
     {
       const Corner& corner = corners_[piece.firstCorner + i];
       const int axis = corner.tag - PlaneTag;
-      if (axis >= 0 &&
-          static_cast<int>(vertices_[corner.vertex].position[axis]) == piece.cell[axis] + 1)
+      if (axis < 0)
+      {
+        continue;
+      }
+      constexpr CellCode Mask = (CellCode{ 1 } << BitsPerAxis) - 1;
+      const CellCode index = (piece.cell >> ShiftOf(axis)) & Mask;
+      if (static_cast<CellCode>(vertices_[corner.vertex].position[axis]) == index + 1)
       {
         this->LinkAcross(piece, i, store);
       }
@@ -342,37 +349,37 @@ void TriangleClipper::LinkPieces(PieceStore& store) const
   }
 }
 
-const TriangleClipper::LocalPiece* TriangleClipper::FindPiece(const CellIndex& cell) const
+bool TriangleClipper::HasEdge(const PieceStore& store, const LocalPiece& piece, Index a, Index b)
 {
-  const auto found = std::lower_bound(pieces_.begin(), pieces_.end(), cell,
-    [](const LocalPiece& piece, const CellIndex& wanted) { return piece.cell < wanted; });
-  return found != pieces_.end() && found->cell == cell ? &*found : nullptr;
-}
-
-bool TriangleClipper::HasEdge(const LocalPiece& piece, Index a, Index b) const
-{
+  const Index* const ids = store.corner.data() + store.cornerBegin[piece.piece];
+  Index from = ids[piece.size - 1];
   for (int i = 0; i < piece.size; ++i)
   {
-    const Index from = vertices_[corners_[piece.firstCorner + i].vertex].id;
-    const int next = i + 1 == piece.size ? 0 : i + 1;
-    const Index to = vertices_[corners_[piece.firstCorner + next].vertex].id;
+    const Index to = ids[i];
     if ((from == a && to == b) || (from == b && to == a))
     {
       return true;
     }
+    from = to;
   }
   return false;
+}
+
+const TriangleClipper::LocalPiece* TriangleClipper::FindPiece(CellCode cell) const
+{
+  const auto found = std::lower_bound(pieces_.begin(), pieces_.end(), cell,
+    [](const LocalPiece& piece, CellCode wanted) { return piece.cell < wanted; });
+  return found != pieces_.end() && found->cell == cell ? &*found : nullptr;
 }
 
 /// The piece on the other side of a cut is in the next cell; where the cut runs along an edge of
 /// the grid it can be one further along the axes that were clipped later.
 void TriangleClipper::LinkAcross(const LocalPiece& piece, int corner, PieceStore& store) const
 {
-  const Corner& here = corners_[piece.firstCorner + corner];
-  const int next = corner + 1 == piece.size ? 0 : corner + 1;
-  const Index from = vertices_[here.vertex].id;
-  const Index to = vertices_[corners_[piece.firstCorner + next].vertex].id;
-  const int axis = here.tag - PlaneTag;
+  const Index* const ids = store.corner.data() + store.cornerBegin[piece.piece];
+  const Index from = ids[corner];
+  const Index to = ids[corner + 1 == piece.size ? 0 : corner + 1];
+  const int axis = corners_[piece.firstCorner + corner].tag - PlaneTag;
   static constexpr std::array<int, 3> Shifts = { 0, -1, 1 };
   for (const int shiftZ : Shifts)
   {
@@ -382,12 +389,9 @@ void TriangleClipper::LinkAcross(const LocalPiece& piece, int corner, PieceStore
       {
         continue;
       }
-      CellIndex cell = piece.cell;
-      ++cell[axis];
-      cell[1] += shiftY;
-      cell[2] += shiftZ;
-      const LocalPiece* other = this->FindPiece(cell);
-      if (other && this->HasEdge(*other, from, to))
+      const LocalPiece* other = this->FindPiece(piece.cell + (CellCode{ 1 } << ShiftOf(axis)) +
+                                                shiftY * (CellCode{ 1 } << ShiftOf(1)) + shiftZ);
+      if (other && HasEdge(store, *other, from, to))
       {
         store.links.push_back({ piece.piece, other->piece });
         return;

@@ -29,8 +29,8 @@ struct PieceStore
 struct ClipInput
 {
   const std::vector<std::array<Id, 3>>& triangles;
-  const std::vector<Index>& pointClass; // welded id of each point
-  const Array<Vec3>& position;          // of the input points, grid units, snapped to the planes
+  const Array<Index>& pointClass; // welded id of each point
+  const Array<Vec3>& position;    // of the input points, grid units, snapped to the planes
   const MeshEdges& edges;
   int cellsPerSide;
   double tolerance; // of snapping
@@ -100,9 +100,14 @@ private:
     Index* stretchPiece; // null for an edge whose ends are one point
   };
 
+  /// A cell as one number that ascends with (i, j, k): fast to compare, and to step from.
+  using CellCode = std::int64_t;
+  static constexpr int BitsPerAxis = 20;
+  static constexpr int ShiftOf(int axis) { return BitsPerAxis * (2 - axis); }
+
   struct LocalPiece
   {
-    CellIndex cell;
+    CellCode cell;
     Index piece;
     int firstCorner; // into corners_
     int size;
@@ -131,8 +136,8 @@ private:
   void Emit(const Polygon& polygon, PieceStore& store);
   void NoteStretches(const Polygon& polygon, Index piece, PieceStore& store);
   void LinkPieces(PieceStore& store) const;
-  const LocalPiece* FindPiece(const CellIndex& cell) const;
-  bool HasEdge(const LocalPiece& piece, Index a, Index b) const;
+  const LocalPiece* FindPiece(CellCode cell) const;
+  static bool HasEdge(const PieceStore& store, const LocalPiece& piece, Index a, Index b);
   void LinkAcross(const LocalPiece& piece, int corner, PieceStore& store) const;
 
   const ClipInput& input_;

@@ -88,34 +88,31 @@ std::uint64_t HashPoint(const Vec3& point)
 
 } // namespace
 
-std::vector<Index> WeldCoincidentPoints(
+Array<Index> WeldCoincidentPoints(
   const std::vector<Vec3>& points, const std::vector<char>& used, int threads)
 {
   RequireIndices(static_cast<double>(points.size()), "points");
-  std::vector<Index> representative(points.size());
+  Array<Index> representative(points.size());
   std::iota(representative.begin(), representative.end(), Index{ 0 });
-  Array<SortEntry> entries;
-  entries.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    if (used.empty() || used[i])
-    {
-      entries.push_back({ HashPoint(points[i]), static_cast<Id>(i) });
-    }
-  }
   // Equal points have equal hashes, so they are neighbours after sorting by any part of the hash;
   // the few others beside them are told apart by their coordinates.
-  constexpr int HashBits = 33;
-  constexpr std::uint64_t Mask = (std::uint64_t{ 1 } << HashBits) - 1;
-  RadixSort(entries, HashBits, threads);
-  std::size_t begin = 0;
-  for (std::size_t k = 0; k < entries.size(); ++k)
-  {
-    if ((entries[k].key & Mask) != (entries[begin].key & Mask))
+  constexpr int HashBits = 34;
+  const Array<SortEntry> entries = SortByKey(static_cast<Id>(points.size()), HashBits, threads,
+    [&](Id begin, Id end, const auto& add)
     {
-      begin = k;
-    }
-    for (std::size_t other = begin; other < k; ++other)
+      for (Id i = begin; i < end; ++i)
+      {
+        if (used.empty() || used[i])
+        {
+          add(HashPoint(points[i]) >> (64 - HashBits), i);
+        }
+      }
+    });
+  const auto isFirst = [&](Id k) { return k == 0 || entries[k].key != entries[k - 1].key; };
+  const auto count = static_cast<Id>(entries.size());
+  const auto weldToEarlier = [&](Id first, Id k)
+  {
+    for (Id other = first; other < k; ++other)
     {
       if (points[entries[other].item] == points[entries[k].item])
       {
@@ -123,7 +120,18 @@ std::vector<Index> WeldCoincidentPoints(
         break;
       }
     }
-  }
+  };
+  ParallelRanges(count, threads,
+    [&](Id begin, Id end)
+    {
+      for (Id first = begin; first < end; ++first)
+      {
+        for (Id k = first + 1; isFirst(first) && k < count && !isFirst(k); ++k)
+        {
+          weldToEarlier(first, k);
+        }
+      }
+    });
   return representative;
 }
 

@@ -3,6 +3,7 @@
 #ifndef GridFEM_TriangleMesh_h
 #define GridFEM_TriangleMesh_h
 
+#include "Array.h"
 #include "Types.h"
 
 #include <vector>
@@ -24,7 +25,7 @@ void Validate(const TriangleMesh& mesh, int threads = 0);
 /// three coordinates; other points stand for themselves. Coordinates are compared
 /// exactly (-0 = 0).
 /// Cost O(n log n).
-std::vector<Index> WeldCoincidentPoints(
+Array<Index> WeldCoincidentPoints(
   const std::vector<Vec3>& points, const std::vector<char>& used = {}, int threads = 0);
 
 /// 1 for points that a triangle uses.

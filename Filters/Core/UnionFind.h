@@ -3,6 +3,7 @@
 #ifndef GridFEM_UnionFind_h
 #define GridFEM_UnionFind_h
 
+#include "Array.h"
 #include "Parallel.h"
 
 #include <atomic>
@@ -61,14 +62,14 @@ public:
 private:
   Index Parent(Index x) const { return parent_[x].load(std::memory_order_relaxed); }
 
-  std::vector<std::atomic<Index>> parent_;
+  Array<std::atomic<Index>> parent_;
 };
 
 /// Numbers the sets 0, 1, ... in the order of their lowest members; returns the number of each
 /// member's set. `count` gets the number of sets.
-inline std::vector<Index> NumberSets(UnionFind& sets, Index& count, int threads = 1)
+inline Array<Index> NumberSets(UnionFind& sets, Index& count, int threads = 1)
 {
-  std::vector<Index> number(sets.Size());
+  Array<Index> number(sets.Size());
   std::vector<Index> first((sets.Size() + DefaultBlockSize - 1) / DefaultBlockSize + 1, 0);
   const auto forMembers = [&](const auto& visit)
   {

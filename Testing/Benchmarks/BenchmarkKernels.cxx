@@ -138,7 +138,7 @@ void ComputeResidual(benchmark::State& state)
 void Prolongate(benchmark::State& state)
 {
   const MultigridLevel& level = FinestLevel();
-  const MultiVector coarse = Vectors(level.prolongation.columns, state.range(1));
+  const MultiVector coarse = Vectors(level.prolongation->columns, state.range(1));
   MultiVector x = Vectors(level.A.rows, state.range(1));
   for (auto _ : state)
   {

@@ -111,9 +111,10 @@ MultiVector GridProblem::Solve(int columns, int iterations) const
   PoissonOptions poisson = options;
   poisson.solve.tolerance = iterations == 0 ? std::numeric_limits<double>::max() : 1e-15;
   poisson.solve.maximumIterations = std::max(1, iterations);
-  return SolvePoisson(
-    space, system, *multigrid, values.leftCols(columns), gradients.leftCols(columns), poisson)
-    .coefficients;
+  const auto solve = [&](const MultiVector& f, const MultiVector& s)
+  { return SolvePoisson(space, system, *multigrid, f, s, poisson).coefficients; };
+  return columns == values.cols() ? solve(values, gradients)
+                                  : solve(values.leftCols(columns), gradients.leftCols(columns));
 }
 
 double GridProblem::Error(const MultiVector& x) const

@@ -104,7 +104,7 @@ TEST(Clip, PiecesStayInsideTheirCells)
     const double tolerance = name == "far away" ? 1e-6 : 1e-9;
     for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
     {
-      const CellIndex cell = MortonDecode(clipped.cells[clipped.pieceCell[piece]]);
+      const CellIndex cell = MortonDecode(clipped.cells[clipped.CellOf(piece)]);
       for (Id k = clipped.pieceBegin[piece]; k < clipped.pieceBegin[piece + 1]; ++k)
       {
         for (int axis = 0; axis < 3; ++axis)
@@ -125,10 +125,13 @@ TEST(Clip, PiecesAreSortedByCellThenTriangle)
   {
     ASSERT_LT(clipped.cells[c - 1], clipped.cells[c]);
   }
+  const Array<Index> cell = PieceCells(clipped);
+  EXPECT_EQ(cell.front(), 0);
+  EXPECT_EQ(cell.back() + 1, static_cast<Index>(clipped.cells.size()));
   for (Id piece = 1; piece < clipped.NumberOfPieces(); ++piece)
   {
-    const auto key = [&](Id p)
-    { return std::pair(clipped.pieceCell[p], clipped.pieceTriangle[p]); };
+    ASSERT_EQ(cell[piece], clipped.CellOf(piece));
+    const auto key = [&](Id p) { return std::pair(cell[p], clipped.pieceTriangle[p]); };
     ASSERT_LE(key(piece - 1), key(piece));
   }
 }
@@ -183,15 +186,16 @@ TEST(Clip, CutPointsAreUsedAndLieOnTheirTriangle)
   for (std::size_t k = 0; k < clipped.cutPoints.size(); ++k)
   {
     const CutPoint& cut = clipped.cutPoints[k];
+    const std::array<double, 3> weight = cut.Weights();
     EXPECT_TRUE(used[clipped.numberOfInputPoints + k]);
     Vec3 position = Vec3::Zero();
     double sum = 0.0;
     for (int corner = 0; corner < 3; ++corner)
     {
-      EXPECT_GE(cut.weight[corner], -1e-15);
-      sum += cut.weight[corner];
+      EXPECT_GE(weight[corner], -1e-15);
+      sum += weight[corner];
       position +=
-        cut.weight[corner] * clipped.grid.ToGrid(mesh.points[mesh.triangles[cut.triangle][corner]]);
+        weight[corner] * clipped.grid.ToGrid(mesh.points[mesh.triangles[cut.triangle][corner]]);
     }
     EXPECT_NEAR(sum, 1.0, 1e-14);
     EXPECT_LT((position - clipped.position[clipped.numberOfInputPoints + k]).norm(), 1e-13);
@@ -329,6 +333,26 @@ TEST(Clip, EmptyMeshGivesNothing)
   const ClippedMesh clipped = ClipAt(TriangleMesh(), 4);
   EXPECT_EQ(clipped.NumberOfPieces(), 0);
   EXPECT_EQ(clipped.NumberOfTriangles(), 0);
+}
+
+TEST(Clip, OnOneThreadWorksInsideAParallelRegion)
+{
+  const TriangleMesh mesh = GeodesicSphere(9);
+  ClipOptions options;
+  options.depth = 4;
+  options.threads = 1;
+  const ClippedMesh alone = Clip(mesh, options);
+  std::array<bool, 4> isEqual{};
+#pragma omp parallel for num_threads(4) schedule(static, 1)
+  for (int k = 0; k < 4; ++k)
+  {
+    const ClippedMesh clipped = Clip(mesh, options);
+    isEqual[k] = clipped.corners == alone.corners && clipped.links == alone.links;
+  }
+  for (const bool equal : isEqual)
+  {
+    EXPECT_TRUE(equal);
+  }
 }
 
 TEST(Clip, RealMeshesKeepTheirArea)

@@ -263,7 +263,7 @@ TEST(ElementMatrices, OfASquareInTheMiddleOfACellAreTheKnownOnes)
   space.clipped.position.assign(mesh.points.begin(), mesh.points.end());
   space.clipped.numberOfInputPoints = 4;
   space.clipped.cells = { 0 };
-  space.clipped.pieceCell = { 0 };
+  space.clipped.cellBegin = { 0, 1 };
   space.clipped.pieceTriangle = { 0 };
   space.clipped.pieceBegin = { 0, 4 };
   space.clipped.corners = { 0, 1, 2, 3 };

@@ -124,7 +124,7 @@ Eigen::MatrixXd PseudoEvaluation(const Hybrid& hybrid)
     const CutPoint& cut = clipped.cutPoints[point - clipped.numberOfInputPoints];
     for (int k = 0; k < 3; ++k)
     {
-      P(point, functions.ofPoint[hybrid.mesh.triangles[cut.triangle][k]]) += cut.weight[k];
+      P(point, functions.ofPoint[hybrid.mesh.triangles[cut.triangle][k]]) += cut.Weights()[k];
     }
   }
   const Index count = hybrid.space.Finest().numberOfFunctions;

@@ -292,7 +292,7 @@ TEST(Level, RefusesTablesThatDoNotFit)
   finest.dof[3][2] = finest.numberOfFunctions;
   EXPECT_THROW(
     RestoreFunctionSpace(live.clipped, live.piecePatch, finest, live.support), InvalidInput);
-  std::vector<Index> piecePatch = live.piecePatch;
+  Array<Index> piecePatch = live.piecePatch;
   piecePatch[0] = live.Finest().NumberOfPatches();
   EXPECT_THROW(
     RestoreFunctionSpace(live.clipped, piecePatch, live.Finest(), live.support), InvalidInput);

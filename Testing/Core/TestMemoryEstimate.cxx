@@ -56,7 +56,7 @@ double Bytes(const SparseMatrix& A)
 double Bytes(const ClippedMesh& clipped)
 {
   return Bytes(clipped.cutPoints) + Bytes(clipped.position) + Bytes(clipped.cells) +
-         Bytes(clipped.pieceCell) + Bytes(clipped.pieceTriangle) + Bytes(clipped.pieceBegin) +
+         Bytes(clipped.cellBegin) + Bytes(clipped.pieceTriangle) + Bytes(clipped.pieceBegin) +
          Bytes(clipped.corners) + Bytes(clipped.links);
 }
 
@@ -71,6 +71,7 @@ double Bytes(const FunctionSpace& space)
   return bytes;
 }
 
+/// Without what the hierarchy shares: prolongations and their transposes.
 double Bytes(const System& system)
 {
   double bytes = Bytes(system.integral);
@@ -79,10 +80,6 @@ double Bytes(const System& system)
     bytes += Bytes(system.elements[l].mass) + Bytes(system.elements[l].stiffness) +
              Bytes(system.places[l].begin) + Bytes(system.places[l].item) +
              Bytes(system.pattern[l]);
-  }
-  for (const SparseMatrix& prolongation : system.prolongation)
-  {
-    bytes += Bytes(prolongation);
   }
   return bytes;
 }

@@ -301,7 +301,9 @@ TEST(Multigrid, BrokenInputIsRefused)
   options.preSweeps = -1;
   EXPECT_THROW(Make(testing::SolidCube(1), 1, options), InvalidInput);
   auto levels = testing::SampledHierarchy(testing::SolidCube(2), 2, 1, 1.0, 1.0);
-  levels[0].prolongation.columns -= 1;
+  SparseMatrix narrow = levels[0].prolongation;
+  narrow.columns -= 1;
+  levels[0].prolongation = narrow;
   EXPECT_THROW(Multigrid(std::move(levels), {}), InvalidInput);
   const Multigrid multigrid = Make(testing::SolidCube(1), 1, {});
   MultiVector x(3, 1);

@@ -20,7 +20,7 @@ SOURCE_SUFFIXES = (".h", ".cxx")
 # solvers, which see matrices and lists of unknowns only, cannot reach a mesh.
 CORE_LAYERS = {
     "foundation": "LargeMemory Array SharedArray Types Errors Progress Parallel UnionFind RadixSort"
-                  " Grouping",
+                  " Grouping BlockLists",
     "algebra": "SparseMatrix RowKernels PairedProduct PivotedCholesky BlockSweep Smoother"
                " GaussSeidel PatchSmoother CoarseSolver Multigrid ConjugateGradients RayleighRitz"
                " Constants BlockVectors BasisProducts BlockIteration WindowIteration SmootherSequence"

@@ -11,7 +11,7 @@ namespace gridfem::testing
 HatSystem BuildHatSystem(const TriangleMesh& mesh)
 {
   HatSystem system;
-  const std::vector<Index> welded = WeldCoincidentPoints(mesh.points);
+  const Array<Index> welded = WeldCoincidentPoints(mesh.points);
   system.row.assign(mesh.points.size(), -1);
   int rows = 0;
   for (const auto& triangle : mesh.triangles)

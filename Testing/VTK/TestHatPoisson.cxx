@@ -92,7 +92,7 @@ TEST_F(HatPoisson, SoupIsWeldedUnlessToldOtherwise)
   filter->WeldCoincidentPointsOff();
   const std::vector<double> apart = this->Solution();
   double jump = 0.0;
-  const std::vector<Index> welded = WeldCoincidentPoints(soup.points);
+  const Array<Index> welded = WeldCoincidentPoints(soup.points);
   for (std::size_t point = 0; point < welded.size(); ++point)
   {
     jump = std::max(jump, std::abs(apart[point] - apart[welded[point]]));

@@ -56,17 +56,17 @@ void SplitPieces(const TriangleMesh& mesh, FunctionSpace& space)
 {
   ClippedMesh& clipped = space.clipped;
   const Id count = static_cast<Id>(mesh.triangles.size());
-  Array<Index> cell;
-  std::vector<Index> patch;
-  cell.reserve(count);
+  Array<Index> patch;
   patch.reserve(count);
   for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
   {
     const Id triangles = clipped.pieceBegin[piece + 1] - clipped.pieceBegin[piece] - 2;
-    cell.insert(cell.end(), triangles, clipped.pieceCell[piece]);
     patch.insert(patch.end(), triangles, space.piecePatch[piece]);
   }
-  clipped.pieceCell = std::move(cell);
+  for (Index& begin : clipped.cellBegin)
+  {
+    begin = static_cast<Index>(clipped.FirstTriangle(begin));
+  }
   space.piecePatch = std::move(patch);
   clipped.pieceTriangle.resize(count);
   clipped.pieceBegin.resize(count + 1);
@@ -219,7 +219,7 @@ SurfaceBasis OnSourceMesh(
   ClippedMesh& clipped = space.clipped;
   const Id inputPoints = static_cast<Id>(source.triangles->points.size());
   clipped.numberOfInputPoints = inputPoints;
-  clipped.cutPoints.assign(clipped.position.size() - inputPoints, { -1, { 0.0, 0.0, 0.0 } });
+  clipped.cutPoints.assign(clipped.position.size() - inputPoints, CutPoint(-1, {}));
   for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
   {
     const Id cell = sourceCell[clipped.pieceTriangle[piece]];

@@ -2,6 +2,7 @@
 
 #include "BasisConversion.h"
 #include "Errors.h"
+#include "Grouping.h"
 #include "vtkSurfaceBasisHolder.h"
 
 #include "vtkCellData.h"
@@ -104,21 +105,19 @@ void ReadPieces(vtkPolyData* data, const InputMesh& mesh, ClippedMesh& clipped)
     RequireArray(data->GetCellData(), OctreeCellIdName, 1, data->GetNumberOfCells());
   const Id count = static_cast<Id>(mesh.sourceCell.size());
   RequireIndices(3.0 * static_cast<double>(count), "corners of triangles");
-  std::vector<Index> cell(count);
+  Array<Index> cell(count);
   for (Id t = 0; t < count; ++t)
   {
     cell[t] = static_cast<Index>(
       IntegerIn(octreeCell, mesh.sourceCell[t], 0, static_cast<Id>(clipped.cells.size())));
   }
-  clipped.pieceTriangle.resize(count);
-  std::iota(clipped.pieceTriangle.begin(), clipped.pieceTriangle.end(), Index{ 0 });
-  std::stable_sort(clipped.pieceTriangle.begin(), clipped.pieceTriangle.end(),
-    [&](Index a, Index b) { return cell[a] < cell[b]; });
+  Groups byCell = GroupItems(cell, static_cast<Id>(clipped.cells.size()));
+  clipped.cellBegin = std::move(byCell.begin);
+  clipped.pieceTriangle = std::move(byCell.item);
   clipped.pieceBegin.push_back(0);
   for (const Index triangle : clipped.pieceTriangle)
   {
     const auto& corners = mesh.triangles->triangles[triangle];
-    clipped.pieceCell.push_back(cell[triangle]);
     for (const Id corner : corners)
     {
       clipped.corners.push_back(static_cast<Index>(corner));
@@ -129,9 +128,10 @@ void ReadPieces(vtkPolyData* data, const InputMesh& mesh, ClippedMesh& clipped)
 
 void RequireInsideCells(const ClippedMesh& clipped)
 {
+  const Array<Index> pieceCell = PieceCells(clipped);
   for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
   {
-    const CellIndex cell = MortonDecode(clipped.cells[clipped.pieceCell[piece]]);
+    const CellIndex cell = MortonDecode(clipped.cells[pieceCell[piece]]);
     for (Id k = clipped.pieceBegin[piece]; k < clipped.pieceBegin[piece + 1]; ++k)
     {
       const Vec3 local = clipped.position[clipped.corners[k]] - Vec3(cell[0], cell[1], cell[2]);
@@ -208,13 +208,14 @@ SurfaceBasis RebuildBasis(vtkPolyData* data, const InputMesh& mesh, const Progre
   Level finest = ReadFinestLevel(data->GetFieldData(), clipped);
   vtkDataArray* patchId =
     RequireArray(data->GetCellData(), PatchIdName, 1, data->GetNumberOfCells());
-  std::vector<Index> piecePatch;
+  const Array<Index> pieceCell = PieceCells(clipped);
+  Array<Index> piecePatch;
   piecePatch.reserve(clipped.pieceTriangle.size());
   for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
   {
     const vtkIdType cell = mesh.sourceCell[clipped.pieceTriangle[piece]];
     piecePatch.push_back(static_cast<Index>(IntegerIn(patchId, cell, 0, finest.NumberOfPatches())));
-    if (finest.cell[piecePatch.back()] != clipped.cells[clipped.pieceCell[piece]])
+    if (finest.cell[piecePatch.back()] != clipped.cells[pieceCell[piece]])
     {
       throw InvalidInput(
         "The patch of cell " + std::to_string(cell) +
@@ -261,9 +262,9 @@ ClippedMesh ReadClippedMesh(
   ReadPieces(data, mesh, clipped);
   RequireInsideCells(clipped);
   progress.Check(0.4);
-  const std::vector<Index> pointClass =
+  const Array<Index> pointClass =
     weldCoincidentPoints ? WeldCoincidentPoints(mesh.triangles->points, UsedPoints(*mesh.triangles))
-                         : std::vector<Index>{};
+                         : Array<Index>{};
   clipped.links = FindLinks(clipped, pointClass, progress.Part(0.5, 1.0));
   return clipped;
 }

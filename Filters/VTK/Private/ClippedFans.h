@@ -18,8 +18,7 @@ void ForEachFan(const ClippedMesh& clipped, int threads, Body&& body)
       for (Id piece = first; piece < last; ++piece)
       {
         // A piece of n corners has n - 2 triangles.
-        body(piece, clipped.pieceBegin[piece] - 2 * piece,
-          clipped.pieceBegin[piece + 1] - 2 * (piece + 1));
+        body(piece, clipped.FirstTriangle(piece), clipped.FirstTriangle(piece + 1));
       }
     });
 }

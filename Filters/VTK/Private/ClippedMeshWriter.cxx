@@ -137,11 +137,12 @@ void AddCellIds(const InputMesh& mesh, const ClippedMesh& clipped, int threads, 
   auto octree = NewIds(OctreeCellIdName, clipped.NumberOfTriangles());
   vtkIdType* sources = source->GetPointer(0);
   vtkIdType* octreeCells = octree->GetPointer(0);
+  const Array<Index> pieceCell = PieceCells(clipped, threads);
   ForEachFan(clipped, threads,
     [&](Id piece, Id begin, Id end)
     {
       std::fill(sources + begin, sources + end, mesh.sourceCell[clipped.pieceTriangle[piece]]);
-      std::fill(octreeCells + begin, octreeCells + end, clipped.pieceCell[piece]);
+      std::fill(octreeCells + begin, octreeCells + end, pieceCell[piece]);
     });
   output->GetCellData()->AddArray(source);
   output->GetCellData()->AddArray(octree);

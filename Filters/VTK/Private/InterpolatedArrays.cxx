@@ -63,13 +63,14 @@ vtkSmartPointer<vtkAbstractArray> Interpolate(
       {
         const CutPoint& at = clipped.cutPoints[cut];
         const auto& corner = mesh.triangles[at.triangle];
+        const std::array<double, 3> weight = at.Weights();
         for (int c = 0; c < components; ++c)
         {
           double value = 0.0;
           for (int k = 0; k < 3; ++k)
           {
             // A corner that does not count must not spoil the value with its NaN.
-            value += at.weight[k] == 0.0 ? 0.0 : at.weight[k] * input->GetComponent(corner[k], c);
+            value += weight[k] == 0.0 ? 0.0 : weight[k] * input->GetComponent(corner[k], c);
           }
           cutValues[cut * components + c] = value;
         }
@@ -89,7 +90,8 @@ vtkSmartPointer<vtkAbstractArray> TakeNearest(
   }
   for (const CutPoint& at : clipped.cutPoints)
   {
-    const auto nearest = std::max_element(at.weight.begin(), at.weight.end()) - at.weight.begin();
+    const std::array<double, 3> weight = at.Weights();
+    const auto nearest = std::max_element(weight.begin(), weight.end()) - weight.begin();
     from->InsertNextId(mesh.triangles[at.triangle][nearest]);
   }
   auto output = vtk::TakeSmartPointer(input->NewInstance());

@@ -139,7 +139,7 @@ double TwoLevelResidual(const GridCase& on, SmootherType smoother, int sweeps)
   std::vector<MultigridLevel> levels =
     BuildMultigridLevels(on.grid.space, on.grid.system, on.grid.options.screeningWeight, 1.0);
   levels.resize(2);
-  levels[1].prolongation = SparseMatrix();
+  levels[1].prolongation = SharedMatrix();
   MultigridOptions options = ThesisCycle();
   options.smoother = smoother;
   options.preSweeps = sweeps;

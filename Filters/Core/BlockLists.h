@@ -1,0 +1,63 @@
+// Lists of unknown length that the blocks of a parallel loop make, joined in the order of the
+// blocks. Every thread appends to one array: many small ones would stay in its heap.
+#ifndef GridFEM_BlockLists_h
+#define GridFEM_BlockLists_h
+
+#include "Array.h"
+#include "Parallel.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace gridfem
+{
+
+template<class T>
+class BlockLists
+{
+public:
+  BlockLists(Id blocks, int threads) : lists_(NumberOfThreads(threads)), blocks_(blocks) {}
+
+  /// fill(list) appends what the block makes to the list of its thread. For the body of
+  /// ParallelBlocks; every block once.
+  template<class Fill>
+  void Make(Id block, int thread, Fill&& fill)
+  {
+    Array<T>& list = lists_[thread];
+    const auto begin = static_cast<Id>(list.size());
+    fill(list);
+    blocks_[block] = { thread, begin, static_cast<Id>(list.size()) - begin };
+  }
+
+  /// Appends the lists of all blocks.
+  void AppendTo(Array<T>& items, int threads) const
+  {
+    std::vector<Id> first(blocks_.size());
+    std::transform(
+      blocks_.begin(), blocks_.end(), first.begin(), [](const Block& block) { return block.size; });
+    const auto before = static_cast<Id>(items.size());
+    items.resize(before + ExclusiveScan(first));
+    ParallelBlocks(static_cast<Id>(blocks_.size()), threads,
+      [&](Id b)
+      {
+        const Block& block = blocks_[b];
+        std::copy_n(lists_[block.thread].begin() + block.begin, block.size,
+          items.begin() + before + first[b]);
+      });
+  }
+
+private:
+  struct Block
+  {
+    int thread = 0;
+    Id begin = 0;
+    Id size = 0;
+  };
+
+  std::vector<Array<T>> lists_; // per thread
+  std::vector<Block> blocks_;
+};
+
+} // namespace gridfem
+
+#endif
