@@ -29,6 +29,24 @@ constexpr int RefreshInterval = 8;
 /// Rows of the basis that are combined at a time: they stay in the cache.
 constexpr Id CombinedRows = 512;
 
+/// Steps after which the fallback takes over. Most problems need three to six; those with strands
+/// of surface that nearly touch fifteen, whatever the preconditioner's precision.
+constexpr int StepsBeforeFallback = 20;
+
+/// Calls body(first, count) for panels of columns that a preconditioner takes. Panels know nothing
+/// of each other, so each is the job of one thread where there are enough of them.
+template<class Body>
+void ForEachPanel(Id columns, int threads, Body&& body)
+{
+  const Id panels = (columns + PreconditionedColumns - 1) / PreconditionedColumns;
+  ParallelBlocks(panels, panels >= NumberOfThreads(threads) ? threads : 1,
+    [&](Id panel)
+    {
+      const Id first = panel * PreconditionedColumns;
+      body(first, std::min(PreconditionedColumns, columns - first));
+    });
+}
+
 /// The iteration's state: the basis is [X, P, W].
 class BlockIteration
 {
@@ -36,7 +54,7 @@ public:
   BlockIteration(const SpectralProblem& problem, const BlockOptions& options, EigenPairs& pairs,
     BlockWorkspace& workspace)
     : problem_(problem), options_(options), pairs_(pairs), directions_(workspace.directions),
-      corrections_(workspace.corrections), residual_(workspace.residual), spare_(workspace.vectors)
+      corrections_(workspace.corrections), spare_(workspace.vectors)
   {
   }
 
@@ -46,8 +64,9 @@ private:
   void SetStart();
   void RemoveKnown(Block X);
   bool Precondition(const Progress& progress);
-  void ComputeResiduals();
-  bool MeasureResiduals();
+  EigenResidual ResidualOf(Id first, Id count) const;
+  const Preconditioner& CurrentPreconditioner();
+  bool TakeMeasures(const Eigen::VectorXd& energy, const Eigen::VectorXd& norm);
   void DropConverged();
   bool Correct(const Progress& progress);
   void RayleighRitz(const Progress& progress);
@@ -58,18 +77,18 @@ private:
   Eigen::MatrixXd Overlap(const RitzPairs& ritz, const Eigen::MatrixXd& step) const;
   void NextVectors(const RitzPairs& ritz);
   void CombineRows(const RitzPairs& ritz, const std::vector<Index>& columns,
-    const Eigen::MatrixXd& overlap, MultiVector& vectors, Eigen::Map<MultiVector>& directions);
+    const Eigen::MatrixXd& overlap, MultiVector& vectors);
   double Fraction() const;
 
   const SpectralProblem& problem_;
   const BlockOptions& options_;
-  EigenPairs& pairs_;        // X
-  BlockBuffer& directions_;  // P
-  BlockBuffer& corrections_; // W = B r of the columns at work that have not converged
-  BlockBuffer& residual_;
+  EigenPairs& pairs_;         // X
+  BlockBuffer& directions_;   // P
+  BlockBuffer& corrections_;  // W = B r of the columns at work that have not converged
   MultiVector& spare_;        // where new vectors go when their number changes
   Eigen::MatrixXd stiffness_; // projected on [X, P], later [X, P, W]
   Eigen::MatrixXd mass_;
+  Preconditioner fallback_; // when it is needed
   std::vector<Index> atWork_;
   std::vector<double> measure_;     // per column: rᵀBr / θ when it was last looked at
   std::vector<double> settledAt_;   // value at which a column has converged, else -1
@@ -88,9 +107,18 @@ void BlockIteration::SetStart()
   MultiVector load;
   Multiply(problem_.mass, random, load, problem_.threads);
   const Id vectors = pairs_.values.size() > 0 ? 0 : pairs_.vectors.cols();
-  directions_.Reshape(rows, vectors + random.cols());
-  Eigen::Map<MultiVector>& P = directions_.View();
-  problem_.precondition(load, P.rightCols(random.cols()));
+  directions_.Reserve(rows, std::max<Id>(options_.blockSize, vectors + random.cols()));
+  directions_.Show(vectors + random.cols());
+  corrections_.Reserve(rows, options_.blockSize);
+  corrections_.Show(0);
+  BlockBuffer::Map& P = directions_.View();
+  ForEachPanel(random.cols(), problem_.threads,
+    [&](Id first, Id count)
+    {
+      problem_.precondition([&](Id begin, Id end, MultiVector& part)
+        { part.topRows(end - begin) = load.block(begin, first, end - begin, count); },
+        P.middleCols(vectors + first, count));
+    });
   if (vectors > 0)
   {
     ParallelRanges(rows, problem_.threads,
@@ -133,28 +161,29 @@ std::vector<Index> BlockIteration::ColumnsAtWork() const
   return columns;
 }
 
-/// residual = L X - M X diag(θ) of the columns at work.
-void BlockIteration::ComputeResiduals()
+/// L X - M X diag(θ) of `count` columns at work, the first of them number `first`.
+EigenResidual BlockIteration::ResidualOf(Id first, Id count) const
 {
-  const int threads = problem_.threads;
-  const Id count = static_cast<Id>(atWork_.size());
-  const Eigen::VectorXd values = pairs_.values(atWork_);
-  const bool all = count == pairs_.values.size();
-  if (!all) // corrections are not needed any more
-  {
-    SelectColumns(pairs_.vectors, atWork_, corrections_, threads);
-  }
-  const ConstBlock X = all ? ConstBlock(pairs_.vectors) : ConstBlock(corrections_.View());
-  residual_.Reshape(problem_.mass.rows, count);
-  EigenResidual(problem_.stiffness, problem_.mass, X, values, residual_.View(), threads);
+  return EigenResidual(problem_.stiffness, problem_.mass, pairs_.vectors, pairs_.values,
+    { atWork_.begin() + first, atWork_.begin() + first + count });
 }
 
-/// True when all wanted columns at work have converged.
-bool BlockIteration::MeasureResiduals()
+const Preconditioner& BlockIteration::CurrentPreconditioner()
 {
-  const ConstBlock r = residual_.View();
-  const Eigen::VectorXd energy = ColumnDots(r, corrections_.View(), problem_.threads);
-  const Eigen::VectorXd norm = ColumnDots(r, r, problem_.threads);
+  if (report_.iterations < StepsBeforeFallback || !problem_.fallback)
+  {
+    return problem_.precondition;
+  }
+  if (!fallback_)
+  {
+    fallback_ = problem_.fallback();
+  }
+  return fallback_;
+}
+
+/// Per column at work rᵀBr and rᵀr. True when all wanted ones have converged.
+bool BlockIteration::TakeMeasures(const Eigen::VectorXd& energy, const Eigen::VectorXd& norm)
+{
   bool done = true;
   for (Id j = 0; j < energy.size(); ++j)
   {
@@ -184,8 +213,8 @@ void BlockIteration::DropConverged()
   }
   if (kept.size() < atWork_.size())
   {
-    SelectColumns(corrections_.View(), places, residual_, problem_.threads);
-    corrections_.Swap(residual_);
+    SelectColumns(corrections_.View(), places, corrections_.View(), problem_.threads);
+    corrections_.Show(static_cast<Id>(kept.size()));
     atWork_ = std::move(kept);
   }
 }
@@ -193,17 +222,24 @@ void BlockIteration::DropConverged()
 /// Residuals and corrections of the columns at work. True when all wanted ones have converged.
 bool BlockIteration::Correct(const Progress& progress)
 {
-  if (atWork_.empty())
-  {
-    corrections_.Reshape(problem_.mass.rows, 0);
-    return true;
-  }
-  this->ComputeResiduals();
+  const Id columns = static_cast<Id>(atWork_.size());
+  Eigen::VectorXd energy(columns);
+  Eigen::VectorXd norm(columns);
+  corrections_.Show(columns);
+  const Preconditioner& precondition = this->CurrentPreconditioner();
+
+  ForEachPanel(columns, problem_.threads,
+    [&](Id first, Id count)
+    {
+      const EigenResidual residual = this->ResidualOf(first, count);
+      const ResidualMeasures measures =
+        precondition([&](Id begin, Id end, MultiVector& rows) { residual.Rows(begin, end, rows); },
+          corrections_.View().middleCols(first, count));
+      energy.segment(first, count) = measures.energy;
+      norm.segment(first, count) = measures.norm;
+    });
   progress.Check(fraction_);
-  corrections_.Reshape(problem_.mass.rows, residual_.Columns());
-  problem_.precondition(residual_.View(), corrections_.View());
-  progress.Check(fraction_);
-  const bool done = this->MeasureResiduals();
+  const bool done = this->TakeMeasures(energy, norm);
   this->DropConverged();
   return done;
 }
@@ -217,8 +253,15 @@ std::vector<Index> BlockIteration::ColumnsThatMoved()
   {
     atWork_.push_back(j);
   }
-  this->ComputeResiduals();
-  const Eigen::VectorXd norm = ColumnDots(residual_.View(), residual_.View(), problem_.threads);
+  Eigen::VectorXd norm(static_cast<Id>(atWork_.size()));
+  ForEachPanel(norm.size(), problem_.threads,
+    [&](Id first, Id count)
+    {
+      const EigenResidual residual = this->ResidualOf(first, count);
+      norm.segment(first, count) =
+        SquaredNorms([&](Id begin, Id end, MultiVector& rows) { residual.Rows(begin, end, rows); },
+          problem_.mass.rows, count, problem_.threads);
+    });
   std::vector<Index> moved;
   for (const Index column : atWork_)
   {
@@ -304,40 +347,41 @@ void BlockIteration::NextVectors(const RitzPairs& ritz)
   stiffness_ = (C.transpose() * (stiffness_ * C)).eval();
   mass_ = (C.transpose() * (mass_ * C)).eval();
 
-  // The residual is not needed any more. New vectors replace the old ones row by row.
-  residual_.Reshape(problem_.mass.rows, newP);
+  // New vectors replace the old ones row by row.
   if (newX != oldX)
   {
     Reshape(spare_, problem_.mass.rows, newX);
   }
   MultiVector& vectors = newX != oldX ? spare_ : pairs_.vectors;
-  this->CombineRows(ritz, columns, overlap, vectors, residual_.View());
+  this->CombineRows(ritz, columns, overlap, vectors);
   pairs_.values = ritz.values;
   pairs_.vectors.swap(vectors);
-  directions_.Swap(residual_);
 }
 
-/// The products of NextVectors. `vectors` may be the old ones.
+/// The products of NextVectors. `vectors` may be the old ones; new directions take the place of the
+/// old ones.
 void BlockIteration::CombineRows(const RitzPairs& ritz, const std::vector<Index>& columns,
-  const Eigen::MatrixXd& overlap, MultiVector& vectors, Eigen::Map<MultiVector>& directions)
+  const Eigen::MatrixXd& overlap, MultiVector& vectors)
 {
   const Id oldX = pairs_.vectors.cols();
   const Id oldP = directions_.Columns();
   const Id oldW = corrections_.Columns();
+  const BlockBuffer::Map oldDirections = directions_.View();
+  directions_.Show(static_cast<Id>(columns.size()));
   const Eigen::MatrixXd& C = ritz.coefficients;
   ParallelRanges(
     problem_.mass.rows, problem_.threads,
     [&](Id begin, Id end)
     {
       const auto rows = [&](auto& A) { return A.middleRows(begin, end - begin); };
-      MultiVector share = rows(directions_.View()) * C.middleRows(oldX, oldP);
+      MultiVector share = rows(oldDirections) * C.middleRows(oldX, oldP);
       share.noalias() += rows(corrections_.View()) * C.bottomRows(oldW);
       MultiVector next = rows(pairs_.vectors) * C.topRows(oldX);
       next += share;
       MultiVector step = share(Eigen::all, columns);
       step.noalias() -= next * overlap;
       rows(vectors) = next;
-      rows(directions) = step;
+      rows(directions_.View()) = step;
     },
     CombinedRows);
 }

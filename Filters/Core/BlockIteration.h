@@ -6,6 +6,7 @@
 
 #include "BasisProducts.h"
 #include "Constants.h"
+#include "Preconditioner.h"
 #include "Progress.h"
 #include "RayleighRitz.h"
 #include "SparseMatrix.h"
@@ -16,14 +17,16 @@
 namespace gridfem
 {
 
-/// One level's eigenproblem. The precondition function applies an approximate inverse, symmetric
-/// positive semi-definite, of stiffness + shift mass.
+/// One level's eigenproblem.
 struct SpectralProblem
 {
   SparseMatrix stiffness;
   SparseMatrix mass;
   double shift = 1.0;
-  std::function<void(const ConstBlock& r, Block z)> precondition;
+  /// Approximate inverse, symmetric positive semi-definite, of stiffness + shift mass.
+  Preconditioner precondition;
+  /// Makes a better one, where there is: it takes over when convergence is slow.
+  std::function<Preconditioner()> fallback;
   const Constants* constants = nullptr; // the pairs found are orthogonal to them
   BasisParts known;                     // and to these, orthonormal in the mass matrix
   int threads = 0;
@@ -57,7 +60,6 @@ struct BlockWorkspace
 {
   BlockBuffer directions;
   BlockBuffer corrections;
-  BlockBuffer residual;
   MultiVector vectors;
 };
 

@@ -56,11 +56,10 @@ void ParallelPhases(const std::vector<Id>& count, int threads, Body&& body)
   }
 }
 
-/// Calls relax(item, chunk) for every item and every chunk of `columns`, in the order of the
-/// direction. @param work  multiplications of the whole sweep per column
-template<class Relax>
-void SweepBlocks(const BlockRanges& ranges, Id columns, SweepDirection direction, Id work,
-  int threads, Relax&& relax)
+/// Calls body(begin, end) for the items of every block, colour after colour in the order of the
+/// direction.
+template<class Body>
+void VisitBlocks(const BlockRanges& ranges, SweepDirection direction, int threads, Body&& body)
 {
   const bool forward = direction == SweepDirection::Forward;
   const Id colours = ranges.NumberOfColours();
@@ -70,12 +69,24 @@ void SweepBlocks(const BlockRanges& ranges, Id columns, SweepDirection direction
   {
     blocks[step] = ranges.colourBegin[colourOf(step) + 1] - ranges.colourBegin[colourOf(step)];
   }
-  ParallelPhases(blocks, ThreadsFor(work * columns, threads),
+  ParallelPhases(blocks, threads,
     [&](Id step, Id k)
     {
       const Id block = ranges.colourBegin[colourOf(step)] + k;
-      const Id begin = ranges.blockBegin[block];
-      const Id end = ranges.blockBegin[block + 1];
+      body(ranges.blockBegin[block], ranges.blockBegin[block + 1]);
+    });
+}
+
+/// Calls relax(item, chunk) for every item and every chunk of `columns`, in the order of the
+/// direction. @param work  multiplications of the whole sweep per column
+template<class Relax>
+void SweepBlocks(const BlockRanges& ranges, Id columns, SweepDirection direction, Id work,
+  int threads, Relax&& relax)
+{
+  const bool forward = direction == SweepDirection::Forward;
+  VisitBlocks(ranges, direction, ThreadsFor(work * columns, threads),
+    [&](Id begin, Id end)
+    {
       ForEachChunk(columns,
         [&](auto chunk)
         {

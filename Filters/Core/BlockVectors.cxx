@@ -10,23 +10,21 @@
 namespace gridfem
 {
 
-void BlockBuffer::Reshape(Id rows, Id columns)
+void BlockBuffer::Reserve(Id rows, Id columns)
 {
-  if (memory_.size() < rows * columns)
+  if (block_.rows() != rows || block_.outerStride() < columns)
   {
     memory_.resize(0); // two blocks at a time would be one too many
     memory_.resize(rows * columns);
     PreferLargePages(memory_.data(), memory_.size() * sizeof(double));
+    new (&block_) Map(memory_.data(), rows, 0, Eigen::OuterStride<>(columns));
   }
-  new (&block_) Eigen::Map<MultiVector>(memory_.data(), rows, columns);
 }
 
-void BlockBuffer::Swap(BlockBuffer& other)
+void BlockBuffer::Show(Id columns)
 {
-  const Eigen::Map<MultiVector> mine = block_;
-  memory_.swap(other.memory_);
-  new (&block_) Eigen::Map<MultiVector>(other.block_);
-  new (&other.block_) Eigen::Map<MultiVector>(mine);
+  new (&block_)
+    Map(memory_.data(), block_.rows(), columns, Eigen::OuterStride<>(block_.outerStride()));
 }
 
 void Reshape(MultiVector& X, Id rows, Id columns)
@@ -68,14 +66,21 @@ MultiVector RandomColumns(Id rows, Id columns)
 }
 
 void SelectColumns(
-  const ConstBlock& X, const std::vector<Index>& columns, BlockBuffer& selected, int threads)
+  const ConstBlock& X, const std::vector<Index>& columns, Block selected, int threads)
 {
-  selected.Reshape(X.rows(), static_cast<Id>(columns.size()));
+  const Id count = static_cast<Id>(columns.size());
   ParallelRanges(X.rows(), threads,
     [&](Id begin, Id end)
     {
-      const Id count = end - begin;
-      selected.View().middleRows(begin, count) = X.middleRows(begin, count)(Eigen::all, columns);
+      for (Id row = begin; row < end; ++row)
+      {
+        const double* from = X.data() + row * X.outerStride();
+        double* to = selected.data() + row * selected.outerStride();
+        for (Id j = 0; j < count; ++j)
+        {
+          to[j] = from[columns[j]];
+        }
+      }
     });
 }
 

@@ -18,19 +18,23 @@ using ConstBlock = Eigen::Ref<const MultiVector>;
 class BlockBuffer
 {
 public:
-  BlockBuffer() : block_(nullptr, 0, 0) {}
+  using Map = Eigen::Map<MultiVector, 0, Eigen::OuterStride<>>;
 
-  /// Makes room for a block of this shape; its numbers are lost.
-  void Reshape(Id rows, Id columns);
+  BlockBuffer() : block_(nullptr, 0, 0, Eigen::OuterStride<>(0)) {}
 
-  Eigen::Map<MultiVector>& View() { return block_; }
-  const Eigen::Map<MultiVector>& View() const { return block_; }
+  /// Room for blocks of up to so many columns; their numbers are lost where it has to grow.
+  void Reserve(Id rows, Id columns);
+
+  /// Shows the first columns, of which there is room for at least so many; numbers stay.
+  void Show(Id columns);
+
+  Map& View() { return block_; }
+  const Map& View() const { return block_; }
   Id Columns() const { return block_.cols(); }
-  void Swap(BlockBuffer& other);
 
 private:
   Eigen::VectorXd memory_;
-  Eigen::Map<MultiVector> block_;
+  Map block_; // rows lie the capacity apart
 };
 
 /// Makes room for a block of this shape, in large pages where it is large; its numbers are lost
@@ -44,9 +48,10 @@ void KeepColumns(MultiVector& X, Id columns);
 /// Uniform in [-1, 1), the same on every platform.
 MultiVector RandomColumns(Id rows, Id columns);
 
-/// The columns of X with these numbers, in this order, as `selected`.
+/// selected = the columns of X with these numbers, in this order. They may be the first columns of
+/// X itself when the numbers ascend.
 void SelectColumns(
-  const ConstBlock& X, const std::vector<Index>& columns, BlockBuffer& selected, int threads = 0);
+  const ConstBlock& X, const std::vector<Index>& columns, Block selected, int threads = 0);
 
 /// xᵀ y for every pair of columns. Same bits for any number of threads.
 Eigen::VectorXd ColumnDots(const ConstBlock& X, const ConstBlock& Y, int threads = 0);

@@ -11,6 +11,7 @@ namespace gridfem
 namespace
 {
 
+/// Columns of one cycle: as wide as SIMD lanes need and small enough for the cache.
 constexpr Id PanelWidth = 8;
 
 /// Entries that differ by less, relatively, are equal up to rounding: symmetric surfaces have many.
@@ -99,18 +100,33 @@ Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs& pa
   return spectrum;
 }
 
-void CycleOnColumns(const Multigrid& multigrid, std::size_t level, const ConstBlock& r, Block z)
+Preconditioner CyclePreconditioner(const Multigrid& multigrid, std::size_t level)
 {
-  ParallelRanges(
-    r.cols(), multigrid.Options().threads,
-    [&](Id begin, Id end)
-    {
-      const MultiVector residual = r.middleCols(begin, end - begin);
-      MultiVector correction;
-      multigrid.PreconditionFrom(level, residual, correction);
-      z.middleCols(begin, end - begin) = correction;
-    },
-    PanelWidth);
+  return [&multigrid, level](const RowSource& source, Block z)
+  {
+    const int threads = multigrid.Options().threads;
+    MultiVector r(z.rows(), z.cols());
+    ParallelRanges(
+      z.rows(), threads,
+      [&](Id begin, Id end)
+      {
+        MultiVector rows(SourceRows, z.cols());
+        source(begin, end, rows);
+        r.middleRows(begin, end - begin) = rows.topRows(end - begin);
+      },
+      SourceRows);
+    ParallelRanges(
+      z.cols(), threads,
+      [&](Id begin, Id end)
+      {
+        const MultiVector residual = r.middleCols(begin, end - begin);
+        MultiVector correction;
+        multigrid.PreconditionFrom(level, residual, correction);
+        z.middleCols(begin, end - begin) = correction;
+      },
+      PanelWidth);
+    return ResidualMeasures{ ColumnDots(r, z, threads), ColumnDots(r, r, threads) };
+  };
 }
 
 } // namespace gridfem

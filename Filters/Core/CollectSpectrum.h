@@ -16,10 +16,8 @@ namespace gridfem
 Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs& pairs,
   const BlockReport& report, const SparseMatrix& mass, int threads);
 
-/// z = one cycle from `level` on, from zero, on every column of r. Panels are as wide as SIMD lanes
-/// need and small enough for the cache; they know nothing of each other, so each is the job of one
-/// thread.
-void CycleOnColumns(const Multigrid& multigrid, std::size_t level, const ConstBlock& r, Block z);
+/// One cycle from `level` on, from zero. The hierarchy has to outlive it.
+Preconditioner CyclePreconditioner(const Multigrid& multigrid, std::size_t level);
 
 } // namespace gridfem
 

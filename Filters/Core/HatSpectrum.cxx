@@ -44,8 +44,7 @@ SpectralProblem HatProblem(
   problem.shift = shift;
   problem.constants = &constants;
   problem.threads = multigrid.Options().threads;
-  problem.precondition = [&multigrid](const ConstBlock& r, Block z)
-  { CycleOnColumns(multigrid, 0, r, z); };
+  problem.precondition = CyclePreconditioner(multigrid, 0);
   return problem;
 }
 

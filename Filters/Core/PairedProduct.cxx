@@ -1,7 +1,6 @@
 #include "PairedProduct.h"
 
 #include "Errors.h"
-#include "Parallel.h"
 #include "RowKernels.h"
 
 #include <type_traits>
@@ -10,9 +9,6 @@ namespace gridfem
 {
 namespace
 {
-
-/// Rows are handed out in ranges of this size.
-constexpr Id RangeSize = 256;
 
 /// Calls body(column, lanes) for groups of 16, 4 and 1 columns; lanes gives their type.
 template<class Body>
@@ -118,28 +114,46 @@ void MultiplyRows(const SparseMatrix& A, const ConstBlock& X, Id begin, Id end, 
   }
 }
 
-void EigenResidual(const SparseMatrix& A, const SparseMatrix& B, const ConstBlock& X,
-  const Eigen::VectorXd& values, Block residual, int threads)
+EigenResidual::EigenResidual(const SparseMatrix& A, const SparseMatrix& B, const ConstBlock& X,
+  const Eigen::VectorXd& values, std::vector<Index> columns)
+  : A_(A), B_(B), columns_(std::move(columns)),
+    X_(X.middleCols(columns_.at(0), columns_.back() + 1 - columns_.front())),
+    values_(values.segment(columns_.front(), X_.cols()))
 {
   CheckShapes(A, B, X);
-  if (values.size() != X.cols() || residual.rows() != A.rows || residual.cols() != X.cols() ||
-      residual.outerStride() != X.cols())
+  if (values.size() != X.cols() || columns_.back() >= X.cols())
   {
-    throw InvalidInput("a residual needs a value and room for every column");
+    throw InvalidInput("a residual needs a value for every column, and wanted columns of these");
   }
-  ParallelRanges(
-    A.rows, threads,
-    [&](Id begin, Id end)
+}
+
+void EigenResidual::Rows(Id begin, Id end, MultiVector& rows) const
+{
+  const auto compute = [&](double* to, Id stride)
+  {
+    ForEachRowPair(A_, B_, X_, begin, end,
+      [&](Id row, Id column, const auto& a, const auto& b)
+      {
+        using Lanes = std::decay_t<decltype(a)>;
+        const Eigen::Map<const Lanes> theta(values_.data() + column);
+        Eigen::Map<Lanes>{ to + (row - begin)* stride + column } = a - theta * b;
+      });
+  };
+  const Id count = static_cast<Id>(columns_.size());
+  if (count == X_.cols())
+  {
+    compute(rows.data(), rows.cols());
+    return;
+  }
+  MultiVector all(end - begin, X_.cols());
+  compute(all.data(), all.cols());
+  for (Id row = 0; row < end - begin; ++row)
+  {
+    for (Id j = 0; j < count; ++j)
     {
-      ForEachRowPair(A, B, X, begin, end,
-        [&](Id row, Id column, const auto& a, const auto& b)
-        {
-          using Lanes = std::decay_t<decltype(a)>;
-          const Eigen::Map<const Lanes> theta(values.data() + column);
-          Eigen::Map<Lanes>{ residual.data() + row * X.cols() + column } = a - theta * b;
-        });
-    },
-    RangeSize);
+      rows(row, j) = all(row, columns_[j] - columns_.front());
+    }
+  }
 }
 
 } // namespace gridfem

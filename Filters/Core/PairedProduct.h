@@ -7,6 +7,8 @@
 #include "BlockVectors.h"
 #include "SparseMatrix.h"
 
+#include <vector>
+
 namespace gridfem
 {
 
@@ -30,11 +32,28 @@ private:
 /// Throws InvalidInput when the shapes do not fit.
 void MultiplyRows(const SparseMatrix& A, const ConstBlock& X, Id begin, Id end, MultiVector& image);
 
-/// residual = A X - B X diag(values) for matrices of one pattern; residual has the shape of X and
-/// its rows lie one behind the other. Throws InvalidInput when the shapes do not fit. Same bits for
-/// any number of threads.
-void EigenResidual(const SparseMatrix& A, const SparseMatrix& B, const ConstBlock& X,
-  const Eigen::VectorXd& values, Block residual, int threads = 0);
+/// The columns of A X - B X diag(values), for matrices of one pattern, some rows and some columns
+/// at a time. Keeps references.
+class EigenResidual
+{
+public:
+  /// @param values   one per column of X
+  /// @param columns  of X that are wanted, at least one, ascending; the work is that of all between
+  /// the first and the last
+  /// Throws InvalidInput when the shapes do not fit.
+  EigenResidual(const SparseMatrix& A, const SparseMatrix& B, const ConstBlock& X,
+    const Eigen::VectorXd& values, std::vector<Index> columns);
+
+  /// The rows begin .. end - 1 of the wanted columns, from the first row and column of `rows` on.
+  void Rows(Id begin, Id end, MultiVector& rows) const;
+
+private:
+  const SparseMatrix& A_;
+  const SparseMatrix& B_;
+  std::vector<Index> columns_;
+  ConstBlock X_; // from the first wanted column to the last
+  Eigen::VectorXd values_;
+};
 
 } // namespace gridfem
 

@@ -3,6 +3,7 @@
 #include "BlockVectors.h"
 #include "CollectSpectrum.h"
 #include "SpectrumAccuracy.h"
+#include "SpectrumCycle.h"
 #include "WindowIteration.h"
 
 #include <cmath>
@@ -149,8 +150,8 @@ public:
 private:
   Spectrum OnlyConstants(const Constants& zeroModes, const SparseMatrix& mass) const;
   BlockOptions Options(std::size_t level, Index wanted) const;
-  SpectralProblem Problem(std::size_t level, const Constants& constants, const Multigrid* multigrid,
-    SparseMatrix mass) const;
+  SpectralProblem Problem(
+    std::size_t level, const Constants& constants, SpectrumCycle& cycle, SparseMatrix mass) const;
   void Prolong(std::size_t level, const Constants& constants, BlockOptions& block);
   BlockReport FinishList(
     const SpectralProblem& problem, BlockOptions block, const Progress& progress);
@@ -166,8 +167,8 @@ private:
   bool cutsMultiplet_ = false;
 };
 
-SpectralProblem NestedIteration::Problem(std::size_t level, const Constants& constants,
-  const Multigrid* multigrid, SparseMatrix mass) const
+SpectralProblem NestedIteration::Problem(
+  std::size_t level, const Constants& constants, SpectrumCycle& cycle, SparseMatrix mass) const
 {
   const int threads = options_.multigrid.threads;
   SpectralProblem problem;
@@ -176,8 +177,11 @@ SpectralProblem NestedIteration::Problem(std::size_t level, const Constants& con
   problem.shift = shift_;
   problem.constants = &constants;
   problem.threads = threads;
-  problem.precondition = [multigrid, level](const ConstBlock& r, Block z)
-  { CycleOnColumns(*multigrid, level, r, z); };
+  problem.precondition = cycle.From(level);
+  if (cycle.IsSingle())
+  {
+    problem.fallback = [&cycle, level] { return cycle.DoubleFrom(level); };
+  }
   return problem;
 }
 
@@ -288,8 +292,7 @@ Spectrum NestedIteration::Run(const Progress& progress)
   }
   const Index wanted = options_.numberOfModes - zeros_;
   shift_ = zeros_ * LowestValue(mass, space_.GetGrid().CellsPerSide());
-  const Multigrid multigrid =
-    BuildMultigrid(space_, system_, shift_, 1.0, options_.multigrid, progress.Part(0.0, 0.1));
+  SpectrumCycle cycle(space_, system_, shift_, options_.multigrid, progress.Part(0.0, 0.1));
 
   const Index blockSize = GuardedSize(wanted);
   const std::size_t start = StartLevel(space_, system_.elements.size(), blockSize);
@@ -302,8 +305,7 @@ Spectrum NestedIteration::Run(const Progress& progress)
     SparseMatrix levelMass =
       level == 0 ? mass : LevelMatrix(space_, system_, level, 1.0, 0.0, threads);
     const Constants constants(levelMass, std::move(component), components, threads);
-    const SpectralProblem problem =
-      this->Problem(level, constants, &multigrid, std::move(levelMass));
+    const SpectralProblem problem = this->Problem(level, constants, cycle, std::move(levelMass));
     BlockOptions block = this->Options(level, wanted);
     coarseValues = pairs_.values;
     if ((level == start || level == 0) && IsDense(space_.levels[level], blockSize))
@@ -332,6 +334,7 @@ Spectrum NestedIteration::Run(const Progress& progress)
   spectrum.truncated =
     zeros_ + static_cast<Index>(report.residuals.size()) < options_.numberOfModes;
   spectrum.cutsMultiplet = cutsMultiplet_;
+  spectrum.singlePrecision = cycle.IsSingle();
   return spectrum;
 }
 

@@ -29,6 +29,7 @@ struct Spectrum
   bool converged = false;          // all pairs reached the tolerance
   int numberOfConverged = 0;       // how many did
   int iterations = 0;              // on the finest level
+  bool singlePrecision = false;    // of all cycles, see SpectrumCycle; pairs are always in double
   bool truncated = false;          // fewer modes exist than were asked for
   bool cutsMultiplet = false;      // the next eigenvalue belongs to the multiplet of the last
   /// Per pair: the relative error of the eigenvalue, as that of the space, from the next coarser

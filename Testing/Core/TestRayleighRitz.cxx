@@ -168,25 +168,43 @@ TEST(Products, TakeColumnsOfAWiderBlock)
   Multiply(A, X, a);
   Multiply(B, X, b);
   const MultiVector plain = a - b * values.asDiagonal();
-  MultiVector residual(700, 39);
-  EigenResidual(A, B, wide.middleCols(3, 39), values, residual, 2);
-  EXPECT_LT((residual - plain).norm(), 1e-13 * plain.norm());
-  MultiVector narrow(700, 38);
-  EXPECT_THROW(EigenResidual(A, B, X, values, narrow), InvalidInput);
+  const auto rowsOf = [&](const std::vector<Index>& columns)
+  {
+    MultiVector rows(700, static_cast<Id>(columns.size()));
+    MultiVector part(300, rows.cols());
+    for (const Id begin : { 0, 300, 600 })
+    {
+      const Id end = std::min<Id>(700, begin + 300);
+      EigenResidual(A, B, wide.middleCols(3, 39), values, columns).Rows(begin, end, part);
+      rows.middleRows(begin, end - begin) = part.topRows(end - begin);
+    }
+    return rows;
+  };
+  for (const std::vector<Index>& columns :
+    { std::vector<Index>{ 4, 5, 6 }, { 0, 17, 18, 38 }, { 20 } })
+  {
+    const MultiVector wanted = plain(Eigen::all, columns);
+    EXPECT_LT((rowsOf(columns) - wanted).norm(), 1e-13 * wanted.norm());
+  }
+  EXPECT_THROW(EigenResidual(A, B, X, values.head(38), { 1 }), InvalidInput);
 }
 
-TEST(BlockVectors, BuffersKeepTheirMemory)
+TEST(BlockVectors, BuffersKeepTheirMemoryAndTheirNumbers)
 {
   BlockBuffer buffer;
-  buffer.Reshape(100, 8);
+  buffer.Reserve(100, 8);
+  buffer.Show(8);
+  const MultiVector X = Random(100, 8, 10);
+  buffer.View() = X;
   const double* memory = buffer.View().data();
-  buffer.Reshape(100, 3);
+  buffer.Reserve(100, 5);
+  buffer.Show(3);
   EXPECT_EQ(buffer.View().data(), memory);
   EXPECT_EQ(buffer.Columns(), 3);
-  BlockBuffer other;
-  buffer.Swap(other);
-  EXPECT_EQ(other.View().data(), memory);
-  EXPECT_EQ(buffer.Columns(), 0);
+  EXPECT_TRUE(buffer.View() == X.leftCols(3));
+  buffer.Show(8);
+  SelectColumns(buffer.View(), { 1, 4, 7 }, buffer.View());
+  EXPECT_TRUE(buffer.View().leftCols(3) == X(Eigen::all, std::vector<Index>{ 1, 4, 7 }));
 }
 
 TEST(BlockVectors, FirstColumnsStayAsTheyAre)

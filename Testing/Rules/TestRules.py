@@ -22,8 +22,9 @@ CORE_LAYERS = {
     "foundation": "LargeMemory Array SharedArray Types Errors Progress Parallel UnionFind RadixSort"
                   " Grouping BlockLists",
     "algebra": "SparseMatrix RowKernels PairedProduct PivotedCholesky BlockSweep Smoother"
-               " GaussSeidel PatchSmoother CoarseSolver Multigrid ConjugateGradients RayleighRitz"
+               " GaussSeidel PatchFactor PatchSmoother CoarseSolver Multigrid ConjugateGradients RayleighRitz"
                " Constants BlockVectors BasisProducts BlockIteration WindowIteration SmootherSequence"
+               " Pool Preconditioner SingleLevel SingleCycle"
                " HatOrdering FillRows ColumnAlgebra SliceGaussSeidel PatchCover ComponentMeans",
     "grid and clip": "TriangleMesh Field MeshEdges Grid SourceTriangle TriangleClipper CutPoints"
                      " Clip Links MemoryEstimate HatFunctions HatMatrices HatLoad",
@@ -32,7 +33,7 @@ CORE_LAYERS = {
                  " ElementMatrices DenseElement SurfaceMetric DirectionalElements LoadVector"
                  " Evaluation Assembly HatTransfer",
     "hierarchy": "System HiddenFunctions HatMultigrid",
-    "problems": "Poisson CollectSpectrum HatSpectrum SpectrumAccuracy Spectrum ModeSums",
+    "problems": "Poisson SpectrumCycle CollectSpectrum HatSpectrum SpectrumAccuracy Spectrum ModeSums",
 }
 
 

@@ -1,0 +1,200 @@
+#include "SingleLevel.h"
+
+#include "PatchFactor.h"
+
+namespace gridfem
+{
+namespace
+{
+
+/// Directions with smaller pivots of a patch's scaled block are left out: rounding to single
+/// precision would disturb their corrections more than it serves the others. Pivots are about the
+/// square of a flat face's slope against the grid. Boxes of which all faces have one slope need as
+/// many steps as in double with pivots of 3e-6, twice as many with 3e-7, and do not converge with
+/// 3e-8.
+constexpr double SmallestPivot = 1e-6;
+
+/// Rows are handed out in ranges of this size.
+constexpr Id RangeSize = 1024;
+
+/// A row of the matrix times a panel, in two sums that need not wait for each other.
+template<int Width>
+inline PanelRow<Width> RowProduct(const SingleMatrix& A, Index row, const PanelRow<Width>* x)
+{
+  const Index* const column = A.column.data();
+  const float* const value = A.value.data();
+  const Id end = A.rowBegin[row + 1];
+  Id k = A.rowBegin[row];
+  PanelRow<Width> even = PanelRow<Width>::Zero();
+  PanelRow<Width> odd = PanelRow<Width>::Zero();
+  for (; k + 2 <= end; k += 2)
+  {
+    even += value[k] * x[column[k]];
+    odd += value[k + 1] * x[column[k + 1]];
+  }
+  if (k < end)
+  {
+    even += value[k] * x[column[k]];
+  }
+  return even + odd;
+}
+
+/// r = Vᵀ V r for the packed rows of a lower triangular V.
+template<int Width>
+inline void ApplyInverse(const std::array<float, 36>& V, PanelRow<Width> (&r)[FunctionsPerPatch])
+{
+  constexpr int N = FunctionsPerPatch;
+#pragma GCC unroll 8
+  for (int i = N - 1; i >= 0; --i)
+  {
+    r[i] *= V[i * (i + 1) / 2 + i];
+#pragma GCC unroll 8
+    for (int j = 0; j < i; ++j)
+    {
+      r[i] += V[i * (i + 1) / 2 + j] * r[j];
+    }
+  }
+#pragma GCC unroll 8
+  for (int i = 0; i < N; ++i)
+  {
+    r[i] *= V[i * (i + 1) / 2 + i];
+#pragma GCC unroll 8
+    for (int j = i + 1; j < N; ++j)
+    {
+      r[i] += V[j * (j + 1) / 2 + i] * r[j];
+    }
+  }
+}
+
+/// Calls body(row) for all rows.
+template<class Body>
+void ForEachRow(Index rows, Id work, int threads, Body&& body)
+{
+  ParallelRanges(
+    rows, ThreadsFor(work, threads),
+    [&](Id begin, Id end)
+    {
+      for (Index row = static_cast<Index>(begin); row < end; ++row)
+      {
+        body(row);
+      }
+    },
+    RangeSize);
+}
+
+} // namespace
+
+SingleMatrix::SingleMatrix(const SparseMatrix& A, int threads)
+  : rows(A.rows), rowBegin(A.rowBegin), column(A.column), value(A.value.size())
+{
+  ParallelRanges(static_cast<Id>(value.size()), threads,
+    [&](Id begin, Id end)
+    {
+      for (Id k = begin; k < end; ++k)
+      {
+        value[k] = static_cast<float>(A.value[k]);
+      }
+    });
+}
+
+SingleLevel::SingleLevel(const MultigridLevel& level, int threads)
+  : A_(level.A, threads), prolongation_(level.prolongation, threads),
+    restriction_(Transpose(level.prolongation), threads), ranges_{ level.order.blockBegin,
+      level.order.colourBegin },
+    patches_(level.order.dof.size())
+{
+  CheckOrder(level.A, level.order);
+  const BlockSource source(level.A, threads);
+  unresolved_ = ParallelSum(this->Patches(), threads, Id{ 0 },
+    [&](Id begin, Id end)
+    {
+      Id unresolved = 0;
+      for (Id p = begin; p < end; ++p)
+      {
+        const PatchFactor factor = FactorPatch(source, level.order.dof[p], SmallestPivot);
+        const bool fits = !factor.hasLargeScales;
+        patches_[p].dof = factor.dof;
+        for (int i = 0; i < N; ++i)
+        {
+          for (int j = 0; j <= i; ++j)
+          {
+            patches_[p].factor[i * (i + 1) / 2 + j] = fits ? float(factor.V(i, j)) : 0.0f;
+          }
+        }
+        unresolved += !(fits && factor.isComplete);
+      }
+      return unresolved;
+    });
+}
+
+/// x += Vᵀ V (b - A x) on the patch.
+template<int Width>
+void SingleLevel::Relax(const Patch& patch, const PanelRow<Width>* b, PanelRow<Width>* x) const
+{
+  PanelRow<Width> r[N];
+  for (int i = 0; i < N; ++i)
+  {
+    r[i] = b[patch.dof[i]] - RowProduct<Width>(A_, patch.dof[i], x);
+  }
+  ApplyInverse<Width>(patch.factor, r);
+  for (int i = 0; i < N; ++i)
+  {
+    x[patch.dof[i]] += r[i];
+  }
+}
+
+template<int Width>
+void SingleLevel::Sweep(
+  const Panel<Width>& b, Panel<Width>& x, SweepDirection direction, int threads) const
+{
+  VisitBlocks(ranges_, direction, ThreadsFor(128 * Width * this->Patches(), threads),
+    [&](Id begin, Id end)
+    {
+      for (Id i = begin; i < end; ++i)
+      {
+        const Id p = direction == SweepDirection::Forward ? i : begin + end - 1 - i;
+        this->Relax<Width>(patches_[p], b.data(), x.data());
+      }
+    });
+}
+
+template<int Width>
+void SingleLevel::Residual(
+  const Panel<Width>& b, const Panel<Width>& x, Panel<Width>& r, int threads) const
+{
+  ForEachRow(A_.rows, Width * Id(A_.value.size()), threads,
+    [&](Index row) { r[row] = b[row] - RowProduct<Width>(A_, row, x.data()); });
+}
+
+template<int Width>
+void SingleLevel::Restrict(const Panel<Width>& r, Panel<Width>& coarse, int threads) const
+{
+  ForEachRow(restriction_.rows, Width * Id(restriction_.value.size()), threads,
+    [&](Index row) { coarse[row] = RowProduct<Width>(restriction_, row, r.data()); });
+}
+
+template<int Width>
+void SingleLevel::AddProlonged(const Panel<Width>& coarse, Panel<Width>& x, int threads) const
+{
+  ForEachRow(prolongation_.rows, Width * Id(prolongation_.value.size()), threads,
+    [&](Index row) { x[row] += RowProduct<Width>(prolongation_, row, coarse.data()); });
+}
+
+std::size_t SingleLevel::Memory() const
+{
+  return A_.Memory() + prolongation_.Memory() + restriction_.Memory() + ranges_.Memory() +
+         patches_.size() * sizeof(Patch);
+}
+
+#define GRIDFEM_INSTANTIATE(Width)                                                                 \
+  template void SingleLevel::Sweep<Width>(const Panel<Width>&, Panel<Width>&, SweepDirection, int) \
+    const;                                                                                         \
+  template void SingleLevel::Residual<Width>(                                                      \
+    const Panel<Width>&, const Panel<Width>&, Panel<Width>&, int) const;                           \
+  template void SingleLevel::Restrict<Width>(const Panel<Width>&, Panel<Width>&, int) const;       \
+  template void SingleLevel::AddProlonged<Width>(const Panel<Width>&, Panel<Width>&, int) const;
+GRIDFEM_INSTANTIATE(16)
+GRIDFEM_INSTANTIATE(32)
+#undef GRIDFEM_INSTANTIATE
+
+} // namespace gridfem

@@ -1,0 +1,221 @@
+// The cycle in single precision, against the one in double, and who decides between the two.
+#include "BlockIteration.h"
+#include "CollectSpectrum.h"
+#include "Errors.h"
+#include "Meshes.h"
+#include "Spectrum.h"
+#include "SpectrumCycle.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace gridfem
+{
+namespace
+{
+
+using namespace gridfem::testing;
+
+struct Discretisation
+{
+  FunctionSpace space;
+  System system;
+};
+
+Discretisation Discretise(const TriangleMesh& mesh, int depth)
+{
+  SpaceOptions options;
+  options.depth = depth;
+  Discretisation result;
+  result.space = BuildFunctionSpace(mesh, options);
+  result.system = BuildSystem(result.space, TriangleRule(2));
+  return result;
+}
+
+constexpr double Shift = 0.01;
+
+SingleCycle MakeSingle(const Discretisation& on, int threads = 0)
+{
+  return SingleCycle(BuildMultigridLevels(on.space, on.system, Shift, 1.0), threads);
+}
+
+Multigrid MakeDouble(const Discretisation& on)
+{
+  return BuildMultigrid(on.space, on.system, Shift, 1.0, MultigridOptions{ CycleType::V });
+}
+
+MultiVector RandomBlock(Id rows, Id columns)
+{
+  std::mt19937_64 generator(3);
+  MultiVector X(rows, columns);
+  for (Id k = 0; k < X.size(); ++k)
+  {
+    X.data()[k] = static_cast<double>(generator() >> 11) * 0x1p-52 - 1.0;
+  }
+  return X;
+}
+
+/// The preconditioner on a block that is stored.
+ResidualMeasures Apply(const Preconditioner& precondition, const MultiVector& r, MultiVector& z)
+{
+  z.resize(r.rows(), r.cols());
+  return precondition([&r](Id begin, Id end, MultiVector& rows)
+    { rows.topRows(end - begin) = r.middleRows(begin, end - begin); },
+    z);
+}
+
+ResidualMeasures Apply(
+  const SingleCycle& cycle, std::size_t level, const MultiVector& r, MultiVector& z)
+{
+  return Apply(
+    [&](const RowSource& source, Block to) { return cycle.Apply(level, source, to); }, r, z);
+}
+
+/// A box whose faces lie between planes of the grid.
+TriangleMesh TiltedBox(double degrees)
+{
+  TriangleMesh box = Box(1);
+  for (Vec3& point : box.points)
+  {
+    point = point.cwiseProduct(Vec3(1.0, 0.83, 0.41));
+  }
+  return Transform(box, { 1, 1, 1 }, degrees * std::acos(-1.0) / 180.0);
+}
+
+TEST(SingleCycle, IsTheDoubleOneUpToSinglePrecision)
+{
+  const Discretisation on = Discretise(Torus(64, 32, 1.0, 0.4), 5);
+  const SingleCycle single = MakeSingle(on);
+  const Multigrid multigrid = MakeDouble(on);
+  EXPECT_TRUE(single.IsReliable());
+  for (const std::size_t level : { 0, 1 })
+  {
+    for (const Id columns : { 1, 16, 17, 32 })
+    {
+      const MultiVector r = RandomBlock(on.space.levels[level].numberOfFunctions, columns);
+      MultiVector z;
+      MultiVector reference;
+      const ResidualMeasures mine = Apply(single, level, r, z);
+      const ResidualMeasures exact = Apply(CyclePreconditioner(multigrid, level), r, reference);
+      // Patches have pivots down to 1e-5, whose root times 6e-8 is 2e-5, and corrections add up.
+      EXPECT_LT((z - reference).norm(), 1e-3 * reference.norm());
+      EXPECT_LT((mine.energy - exact.energy).norm(), 1e-4 * exact.energy.norm());
+      EXPECT_LT((mine.norm - exact.norm).norm(), 1e-6 * exact.norm.norm());
+    }
+  }
+}
+
+TEST(SingleCycle, ColumnsKnowNothingOfEachOtherNorOfThreads)
+{
+  const Discretisation on = Discretise(TrefoilTube(120, 16, 0.12), 5);
+  const SingleCycle one = MakeSingle(on, 1);
+  const SingleCycle three = MakeSingle(on, 3);
+  const MultiVector r = RandomBlock(on.space.Finest().numberOfFunctions, 32);
+  MultiVector z;
+  MultiVector again;
+  const ResidualMeasures measures = Apply(one, 0, r, z);
+  const ResidualMeasures sameMeasures = Apply(three, 0, r, again);
+  EXPECT_TRUE(z == again);
+  EXPECT_TRUE(measures.energy == sameMeasures.energy);
+  Apply(one, 0, r.rightCols(20), again);
+  EXPECT_TRUE(z.rightCols(20) == again);
+}
+
+TEST(SingleCycle, RefusesMoreColumnsThanItTakes)
+{
+  const Discretisation on = Discretise(GeodesicSphere(8), 3);
+  const SingleCycle single = MakeSingle(on);
+  MultiVector z;
+  const MultiVector r = RandomBlock(on.space.Finest().numberOfFunctions, 33);
+  EXPECT_THROW(Apply(single, 0, r, z), InvalidInput);
+}
+
+/// Pivots are about the square of the faces' slope: 3e-6 at 0.1 degrees, 3e-8 at 0.01.
+TEST(SingleCycle, IsReliableWhereFunctionsDoNotAlmostVanish)
+{
+  EXPECT_TRUE(MakeSingle(Discretise(GeodesicSphere(32), 5)).IsReliable());
+  EXPECT_TRUE(MakeSingle(Discretise(TiltedBox(0.1), 5)).IsReliable());
+  EXPECT_FALSE(MakeSingle(Discretise(TiltedBox(0.01), 5)).IsReliable());
+  EXPECT_FALSE(MakeSingle(Discretise(TiltedBox(0.0), 5)).IsReliable());
+}
+
+Spectrum Solve(const Discretisation& on, const MultigridOptions& multigrid)
+{
+  SpectrumOptions options;
+  options.numberOfModes = 20;
+  options.tolerance = 1e-8;
+  options.multigrid = multigrid;
+  return ComputeSpectrum(on.space, on.system, options);
+}
+
+TEST(SpectrumCycle, IsDoubleWhereSinglePrecisionWouldNotDo)
+{
+  const MultigridOptions standard{ CycleType::V };
+  const Spectrum flat = Solve(Discretise(TiltedBox(0.01), 5), standard);
+  EXPECT_TRUE(flat.converged);
+  EXPECT_FALSE(flat.singlePrecision);
+  const Discretisation sphere = Discretise(GeodesicSphere(32), 5);
+  const Spectrum single = Solve(sphere, standard);
+  EXPECT_TRUE(single.converged);
+  EXPECT_TRUE(single.singlePrecision);
+  MultigridOptions twice = standard;
+  twice.preSweeps = twice.postSweeps = 2;
+  for (const MultigridOptions& other : { MultigridOptions{ CycleType::W }, twice })
+  {
+    const Spectrum inDouble = Solve(sphere, other);
+    EXPECT_TRUE(inDouble.converged);
+    EXPECT_FALSE(inDouble.singlePrecision);
+    for (std::size_t j = 1; j < single.eigenvalues.size(); ++j)
+    {
+      // Both stop at an error of 1e-8 of the eigenvalue.
+      EXPECT_NEAR(single.eigenvalues[j] / inDouble.eigenvalues[j], 1.0, 2e-8);
+    }
+  }
+}
+
+/// A preconditioner that is no better than none, with the cycle to fall back to.
+TEST(BlockIteration, FallsBackToABetterPreconditionerWhenItStagnates)
+{
+  const Discretisation on = Discretise(Torus(64, 32, 1.0, 0.4), 5);
+  const Multigrid multigrid = MakeDouble(on);
+  SpectralProblem problem;
+  problem.stiffness = StiffnessMatrix(on.space, on.system);
+  problem.mass = MassMatrix(on.space, on.system);
+  const Constants constants(problem.mass, on.space.component, on.space.numberOfComponents, 0);
+  problem.shift = Shift;
+  problem.constants = &constants;
+  problem.precondition = [](const RowSource& source, Block z)
+  {
+    MultiVector r(z.rows(), z.cols());
+    source(0, z.rows(), r);
+    z = r;
+    const Eigen::VectorXd norm = r.colwise().squaredNorm();
+    return ResidualMeasures{ norm, norm };
+  };
+  BlockOptions options;
+  options.wanted = 8;
+  options.blockSize = 16;
+  options.maximumIterations = 60;
+  const auto solve = [&]
+  {
+    EigenPairs pairs{ {}, MultiVector(problem.mass.rows, 0) };
+    BlockWorkspace workspace;
+    return ImproveEigenPairs(problem, options, pairs, workspace);
+  };
+  EXPECT_LT(solve().numberOfConverged, 8);
+  int made = 0;
+  problem.fallback = [&]
+  {
+    ++made;
+    return CyclePreconditioner(multigrid, 0);
+  };
+  const BlockReport report = solve();
+  EXPECT_EQ(report.numberOfConverged, 8);
+  EXPECT_EQ(made, 1);
+  EXPECT_GT(report.iterations, 20);
+}
+
+} // namespace
+} // namespace gridfem
