@@ -21,8 +21,6 @@ thesis into Testing/Benchmarks/Figures.
 Groups: ${groups[*]}
 
 Environment: GRIDFEM_DATA_DIR  folder of the real meshes (default: ../shared/data)
-             GRIDFEM_LONG      set: the group spectrum computes 1,000 eigenpairs, too, and takes
-                               half an hour longer
 HELP
   exit
 fi

@@ -1,10 +1,13 @@
 #include "Measure.h"
 
 #include <malloc.h>
+#include <poll.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <fstream>
@@ -17,10 +20,12 @@ namespace gridfem::benchmarks
 namespace
 {
 
-/// A line of /proc/self/status, in bytes.
-double StatusBytes(const std::string& key)
+constexpr int LookEveryMilliseconds = 100;
+
+/// A line of the status of a process, in bytes.
+double StatusBytes(const std::string& key, const std::string& process = "self")
 {
-  std::ifstream status("/proc/self/status");
+  std::ifstream status("/proc/" + process + "/status");
   for (std::string name; status >> name;)
   {
     if (name == key)
@@ -81,8 +86,15 @@ void ResetPeak()
 
 std::vector<double> InOwnProcess(const std::function<std::vector<double>()>& body)
 {
+  return InOwnProcess(body, HUGE_VAL).numbers;
+}
+
+LimitedRun InOwnProcess(const std::function<std::vector<double>()>& body, double limit)
+{
   int ends[2];
   std::fflush(stdout);
+  const double before = ResidentBytes();
+  const Stopwatch watch;
   const pid_t child = pipe(ends) == 0 ? fork() : -1;
   if (child < 0)
   {
@@ -93,19 +105,29 @@ std::vector<double> InOwnProcess(const std::function<std::vector<double>()>& bod
     Deliver(ends[1], body);
   }
   close(ends[1]);
-  std::vector<double> numbers;
+  LimitedRun run;
+  pollfd answer{ ends[0], POLLIN, 0 };
+  while (poll(&answer, 1, LookEveryMilliseconds) == 0 && !run.isStopped)
+  {
+    if (watch.Seconds() > limit)
+    {
+      run.isStopped = true;
+      run.peak = StatusBytes("VmHWM:", std::to_string(child)) - before;
+      kill(child, SIGKILL);
+    }
+  }
   for (double number; read(ends[0], &number, sizeof number) == sizeof number;)
   {
-    numbers.push_back(number);
+    run.numbers.push_back(number);
   }
   close(ends[0]);
   int status = 0;
   waitpid(child, &status, 0);
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+  if (!run.isStopped && (!WIFEXITED(status) || WEXITSTATUS(status) != 0))
   {
     throw std::runtime_error("The process of a measurement failed.");
   }
-  return numbers;
+  return run;
 }
 
 bool Parts::Want(const std::string& name) const

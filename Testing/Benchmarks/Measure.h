@@ -40,7 +40,18 @@ void ResetPeak();
 /// when the other one fails.
 std::vector<double> InOwnProcess(const std::function<std::vector<double>()>& body);
 
-/// The same for a number or a struct of numbers.
+/// What a process has left that may have been stopped.
+struct LimitedRun
+{
+  std::vector<double> numbers; // none when it was stopped
+  bool isStopped = false;
+  double peak = 0.0; // bytes it had taken until then, beyond those of this process
+};
+
+/// The same, but stops the process after so many seconds.
+LimitedRun InOwnProcess(const std::function<std::vector<double>()>& body, double limit);
+
+/// The same as the first for a number or a struct of numbers.
 template<class Numbers, class Body>
 Numbers MeasureInOwnProcess(Body&& body)
 {

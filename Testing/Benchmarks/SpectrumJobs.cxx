@@ -14,9 +14,9 @@ namespace
 {
 
 /// The numbers of a job through the pipe of its process.
-SpectrumJob InOwnProcessWithPeak(const std::function<SpectrumJob()>& body)
+SpectrumJob InOwnProcessWithPeak(const std::function<SpectrumJob()>& body, double limit = HUGE_VAL)
 {
-  const std::vector<double> numbers = InOwnProcess(
+  const LimitedRun run = InOwnProcess(
     [&]
     {
       ReleaseFreeMemory();
@@ -28,15 +28,23 @@ SpectrumJob InOwnProcessWithPeak(const std::function<SpectrumJob()>& body)
         job.steps, job.converged };
       packed.insert(packed.end(), job.eigenvalues.begin(), job.eigenvalues.end());
       return packed;
-    });
+    },
+    limit);
   SpectrumJob job;
-  auto next = numbers.begin();
+  if (run.isStopped)
+  {
+    job.isStopped = true;
+    job.seconds = limit;
+    job.peak = run.peak;
+    return job;
+  }
+  auto next = run.numbers.begin();
   for (double* field :
     { &job.seconds, &job.peak, &job.unknowns, &job.setup, &job.steps, &job.converged })
   {
     *field = *next++;
   }
-  job.eigenvalues.assign(next, numbers.end());
+  job.eigenvalues.assign(next, run.numbers.end());
   return job;
 }
 
@@ -74,7 +82,7 @@ SpectrumJob GridSpectrum(
 }
 
 SpectrumJob ShiftInvertSpectrum(
-  HatEigensolver solver, const TriangleMesh& mesh, int modes, int blasThreads)
+  HatEigensolver solver, const TriangleMesh& mesh, int modes, int blasThreads, double limit)
 {
   return InOwnProcessWithPeak(
     [&]
@@ -91,7 +99,8 @@ SpectrumJob ShiftInvertSpectrum(
       job.converged = static_cast<double>(result.eigenvalues.size());
       job.eigenvalues = result.eigenvalues;
       return job;
-    });
+    },
+    limit);
 }
 
 } // namespace gridfem::benchmarks

@@ -6,6 +6,7 @@
 #include "FunctionSpace.h"
 #include "ShiftInvert.h"
 
+#include <cmath>
 #include <vector>
 
 namespace gridfem::benchmarks
@@ -19,6 +20,7 @@ struct SpectrumJob
   double peak = 0.0;    // bytes beyond the mesh
   double steps = 0.0;   // block iterations on the finest level; substitutions
   double converged = 0.0;
+  bool isStopped = false;          // before its end: seconds and peak until then, and nothing else
   std::vector<double> eigenvalues; // ascending, world units
 };
 
@@ -27,8 +29,9 @@ SpectrumJob GridSpectrum(const TriangleMesh& mesh, int depth, int modes, int thr
 
 /// SpectraSpectrum or SlepcSpectrum.
 using HatEigensolver = HatSpectrum (*)(const CotangentSystem&, int);
-SpectrumJob ShiftInvertSpectrum(
-  HatEigensolver solver, const TriangleMesh& mesh, int modes, int blasThreads);
+/// @param limit  seconds after which it is stopped
+SpectrumJob ShiftInvertSpectrum(HatEigensolver solver, const TriangleMesh& mesh, int modes,
+  int blasThreads, double limit = HUGE_VAL);
 
 } // namespace gridfem::benchmarks
 
