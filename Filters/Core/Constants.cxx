@@ -2,6 +2,7 @@
 
 #include "Parallel.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace gridfem
@@ -9,8 +10,9 @@ namespace gridfem
 namespace
 {
 
-/// Columns are handled in groups of this size where a loop over rows has to be serial.
-constexpr Id ColumnGroup = 16;
+/// Sums over all rows are made of at most so many, whatever the number of threads.
+constexpr Id MostSums = 16;
+constexpr Id RowsPerComponent = 64;
 
 } // namespace
 
@@ -45,26 +47,39 @@ Constants::Constants(
 
 void Constants::Remove(Eigen::Ref<MultiVector> X) const
 {
-  const Id rows = X.rows();
-  ParallelRanges(
-    X.cols(), threads_,
+  const MultiVector mean = this->Means(X);
+  ParallelRanges(X.rows(), threads_,
     [&](Id begin, Id end)
     {
-      MultiVector mean = MultiVector::Zero(static_cast<Id>(mass_.size()), end - begin);
-      for (Id i = 0; i < rows; ++i)
+      for (Id i = begin; i < end; ++i)
       {
-        mean.row(component_[i]) += weight_[i] * X.row(i).segment(begin, end - begin);
+        X.row(i) -= mean.row(component_[i]);
       }
-      for (std::size_t c = 0; c < mass_.size(); ++c)
+    });
+}
+
+MultiVector Constants::Means(const Eigen::Ref<const MultiVector>& X) const
+{
+  const Id components = static_cast<Id>(mass_.size());
+  // A sum of every component each: as many as take less memory than a part of X.
+  const Id sums = std::clamp<Id>(X.rows() / (RowsPerComponent * components + 1), 1, MostSums);
+  MultiVector mean = ParallelSum(
+    X.rows(), threads_, MultiVector(MultiVector::Zero(components, X.cols())),
+    [&](Id begin, Id end)
+    {
+      MultiVector sum = MultiVector::Zero(components, X.cols());
+      for (Id i = begin; i < end; ++i)
       {
-        mean.row(static_cast<Id>(c)) *= mass_[c] > 0.0 ? 1.0 / mass_[c] : 0.0;
+        sum.row(component_[i]) += weight_[i] * X.row(i);
       }
-      for (Id i = 0; i < rows; ++i)
-      {
-        X.row(i).segment(begin, end - begin) -= mean.row(component_[i]);
-      }
+      return sum;
     },
-    ColumnGroup);
+    X.rows() / sums + 1);
+  for (Id c = 0; c < components; ++c)
+  {
+    mean.row(c) *= mass_[c] > 0.0 ? 1.0 / mass_[c] : 0.0;
+  }
+  return mean;
 }
 
 void Constants::Deflate(Eigen::MatrixXd& mass) const

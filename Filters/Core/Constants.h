@@ -31,6 +31,9 @@ public:
   Index Count() const { return static_cast<Index>(massive_.size()); }
 
 private:
+  /// Mean of every column on every component.
+  MultiVector Means(const Eigen::Ref<const MultiVector>& X) const;
+
   std::vector<Index> component_;
   std::vector<double> weight_; // ∫ b_i
   std::vector<double> mass_;   // per component; 0 when negligible

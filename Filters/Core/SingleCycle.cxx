@@ -12,18 +12,17 @@ namespace
 constexpr double UnresolvedShare = 1e-3;
 
 /// Lanes without a column are zero.
-template<int Width, class Row>
-void SetRow(const Row& row, PanelRow<Width>& lanes)
+template<class Row>
+void SetRow(const Row& row, PanelRow& lanes)
 {
-  if (row.size() < Width)
+  if (row.size() < lanes.size())
   {
     lanes.setZero();
   }
   lanes.head(row.size()) = row.transpose().array().template cast<float>();
 }
 
-template<int Width>
-void Load(const RowSource& r, Id columns, Panel<Width>& b, int threads)
+void Load(const RowSource& r, Id columns, Panel& b, int threads)
 {
   ParallelRanges(
     static_cast<Id>(b.size()), threads,
@@ -40,18 +39,17 @@ void Load(const RowSource& r, Id columns, Panel<Width>& b, int threads)
 }
 
 /// Stores x and takes the measures of b and x.
-template<int Width>
-ResidualMeasures Store(const Panel<Width>& b, const Panel<Width>& x, Block z, int threads)
+ResidualMeasures Store(const Panel& b, const Panel& x, Block z, int threads)
 {
-  using Sums = Eigen::Array<double, Width, 2>;
+  using Sums = Eigen::Array<double, PreconditionedColumns, 2>;
   const Sums sums = ParallelSum(z.rows(), threads, Sums(Sums::Zero()),
     [&](Id begin, Id end)
     {
       Sums sum = Sums::Zero();
       for (Id row = begin; row < end; ++row)
       {
-        const Eigen::Array<double, Width, 1> r = b[row].template cast<double>();
-        const Eigen::Array<double, Width, 1> correction = x[row].template cast<double>();
+        const auto r = b[row].cast<double>();
+        const auto correction = x[row].cast<double>();
         sum.col(0) += r * correction;
         sum.col(1) += r * r;
         z.row(row) = correction.head(z.cols()).matrix().transpose();
@@ -61,13 +59,11 @@ ResidualMeasures Store(const Panel<Width>& b, const Panel<Width>& x, Block z, in
   return { sums.col(0).head(z.cols()), sums.col(1).head(z.cols()) };
 }
 
-template<int Width>
-void SetZero(Id rows, Panel<Width>& x, int threads)
+void SetZero(Id rows, Panel& x, int threads)
 {
   x.resize(rows);
   ParallelRanges(rows, threads,
-    [&](Id begin, Id end)
-    { std::fill(x.begin() + begin, x.begin() + end, PanelRow<Width>::Zero()); });
+    [&](Id begin, Id end) { std::fill(x.begin() + begin, x.begin() + end, PanelRow::Zero()); });
 }
 
 } // namespace
@@ -96,20 +92,12 @@ bool SingleCycle::IsReliable() const
 
 ResidualMeasures SingleCycle::Apply(std::size_t level, const RowSource& r, Block z) const
 {
-  if (z.cols() > WidePanel)
+  if (z.cols() > PreconditionedColumns)
   {
     throw InvalidInput("a cycle in single precision takes a few columns at a time");
   }
-  return z.cols() > NarrowPanel ? this->ApplyPanel(level, r, z, wide_)
-                                : this->ApplyPanel(level, r, z, narrow_);
-}
-
-template<int Width>
-ResidualMeasures SingleCycle::ApplyPanel(
-  std::size_t level, const RowSource& r, Block z, Pool<Panels<Width>>& pool) const
-{
-  const typename Pool<Panels<Width>>::Loan loan(pool);
-  Panels<Width>& panels = *loan;
+  const Pool<Panels>::Loan loan(panels_);
+  Panels& panels = *loan;
   panels.resize(levels_.size() + 1);
   panels[level].b.resize(z.rows());
   Load(r, z.cols(), panels[level].b, threads_);
@@ -117,8 +105,7 @@ ResidualMeasures SingleCycle::ApplyPanel(
   return Store(panels[level].b, panels[level].x, z, threads_);
 }
 
-template<int Width>
-void SingleCycle::CycleLevel(std::size_t l, Panels<Width>& panels) const
+void SingleCycle::CycleLevel(std::size_t l, Panels& panels) const
 {
   if (l == levels_.size())
   {
@@ -127,27 +114,26 @@ void SingleCycle::CycleLevel(std::size_t l, Panels<Width>& panels) const
   }
   const SingleLevel& level = levels_[l];
   auto& [b, x, residual] = panels[l];
-  Panel<Width>& coarseB = panels[l + 1].b;
+  Panel& coarseB = panels[l + 1].b;
   SetZero(level.Rows(), x, threads_);
   residual.resize(level.Rows());
   coarseB.resize(level.CoarseRows());
-  level.Sweep<Width>(b, x, SweepDirection::Forward, threads_);
-  level.Residual<Width>(b, x, residual, threads_);
-  level.Restrict<Width>(residual, coarseB, threads_);
+  level.Sweep(b, x, SweepDirection::Forward, threads_);
+  level.Residual(b, x, residual, threads_);
+  level.Restrict(residual, coarseB, threads_);
   this->CycleLevel(l + 1, panels);
-  level.AddProlonged<Width>(panels[l + 1].x, x, threads_);
-  level.Sweep<Width>(b, x, SweepDirection::Backward, threads_);
+  level.AddProlonged(panels[l + 1].x, x, threads_);
+  level.Sweep(b, x, SweepDirection::Backward, threads_);
 }
 
 /// Few unknowns: in double.
-template<int Width>
-void SingleCycle::SolveCoarsest(LevelPanels<Width>& panels) const
+void SingleCycle::SolveCoarsest(LevelPanels& panels) const
 {
   const Id rows = static_cast<Id>(panels.b.size());
-  MultiVector b(rows, Width);
+  MultiVector b(rows, PreconditionedColumns);
   for (Id row = 0; row < rows; ++row)
   {
-    b.row(row) = panels.b[row].matrix().transpose().template cast<double>();
+    b.row(row) = panels.b[row].matrix().transpose().cast<double>();
   }
   MultiVector x;
   coarse_.Solve(b, x, threads_);

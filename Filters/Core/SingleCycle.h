@@ -30,35 +30,22 @@ public:
   std::size_t Memory() const;
 
 private:
-  /// Two vector registers of sixteen columns each share every number of a matrix that is read; the
-  /// rest of a block takes one.
-  static constexpr int WidePanel = PreconditionedColumns;
-  static constexpr int NarrowPanel = 16;
-
   /// Vectors of one level.
-  template<int Width>
   struct LevelPanels
   {
-    Panel<Width> b;
-    Panel<Width> x;
-    Panel<Width> residual;
+    Panel b;
+    Panel x;
+    Panel residual;
   };
-  template<int Width>
-  using Panels = std::vector<LevelPanels<Width>>;
+  using Panels = std::vector<LevelPanels>;
 
-  template<int Width>
-  ResidualMeasures ApplyPanel(
-    std::size_t level, const RowSource& r, Block z, Pool<Panels<Width>>& pool) const;
-  template<int Width>
-  void CycleLevel(std::size_t level, Panels<Width>& panels) const;
-  template<int Width>
-  void SolveCoarsest(LevelPanels<Width>& panels) const;
+  void CycleLevel(std::size_t level, Panels& panels) const;
+  void SolveCoarsest(LevelPanels& panels) const;
 
   std::vector<SingleLevel> levels_; // all but the coarsest
   CoarseSolver coarse_;
   int threads_;
-  mutable Pool<Panels<WidePanel>> wide_;
-  mutable Pool<Panels<NarrowPanel>> narrow_;
+  mutable Pool<Panels> panels_;
 };
 
 } // namespace gridfem

@@ -18,15 +18,14 @@ constexpr double SmallestPivot = 1e-6;
 constexpr Id RangeSize = 1024;
 
 /// A row of the matrix times a panel, in two sums that need not wait for each other.
-template<int Width>
-inline PanelRow<Width> RowProduct(const SingleMatrix& A, Index row, const PanelRow<Width>* x)
+inline PanelRow RowProduct(const SingleMatrix& A, Index row, const PanelRow* x)
 {
   const Index* const column = A.column.data();
   const float* const value = A.value.data();
   const Id end = A.rowBegin[row + 1];
   Id k = A.rowBegin[row];
-  PanelRow<Width> even = PanelRow<Width>::Zero();
-  PanelRow<Width> odd = PanelRow<Width>::Zero();
+  PanelRow even = PanelRow::Zero();
+  PanelRow odd = PanelRow::Zero();
   for (; k + 2 <= end; k += 2)
   {
     even += value[k] * x[column[k]];
@@ -40,8 +39,7 @@ inline PanelRow<Width> RowProduct(const SingleMatrix& A, Index row, const PanelR
 }
 
 /// r = Vᵀ V r for the packed rows of a lower triangular V.
-template<int Width>
-inline void ApplyInverse(const std::array<float, 36>& V, PanelRow<Width> (&r)[FunctionsPerPatch])
+inline void ApplyInverse(const std::array<float, 36>& V, PanelRow (&r)[FunctionsPerPatch])
 {
   constexpr int N = FunctionsPerPatch;
 #pragma GCC unroll 8
@@ -128,56 +126,50 @@ SingleLevel::SingleLevel(const MultigridLevel& level, int threads)
 }
 
 /// x += Vᵀ V (b - A x) on the patch.
-template<int Width>
-void SingleLevel::Relax(const Patch& patch, const PanelRow<Width>* b, PanelRow<Width>* x) const
+void SingleLevel::Relax(const Patch& patch, const PanelRow* b, PanelRow* x) const
 {
-  PanelRow<Width> r[N];
+  PanelRow r[N];
   for (int i = 0; i < N; ++i)
   {
-    r[i] = b[patch.dof[i]] - RowProduct<Width>(A_, patch.dof[i], x);
+    r[i] = b[patch.dof[i]] - RowProduct(A_, patch.dof[i], x);
   }
-  ApplyInverse<Width>(patch.factor, r);
+  ApplyInverse(patch.factor, r);
   for (int i = 0; i < N; ++i)
   {
     x[patch.dof[i]] += r[i];
   }
 }
 
-template<int Width>
-void SingleLevel::Sweep(
-  const Panel<Width>& b, Panel<Width>& x, SweepDirection direction, int threads) const
+void SingleLevel::Sweep(const Panel& b, Panel& x, SweepDirection direction, int threads) const
 {
-  VisitBlocks(ranges_, direction, ThreadsFor(128 * Width * this->Patches(), threads),
+  VisitBlocks(ranges_, direction,
+    ThreadsFor(128 * PreconditionedColumns * this->Patches(), threads),
     [&](Id begin, Id end)
     {
       for (Id i = begin; i < end; ++i)
       {
         const Id p = direction == SweepDirection::Forward ? i : begin + end - 1 - i;
-        this->Relax<Width>(patches_[p], b.data(), x.data());
+        this->Relax(patches_[p], b.data(), x.data());
       }
     });
 }
 
-template<int Width>
-void SingleLevel::Residual(
-  const Panel<Width>& b, const Panel<Width>& x, Panel<Width>& r, int threads) const
+void SingleLevel::Residual(const Panel& b, const Panel& x, Panel& r, int threads) const
 {
-  ForEachRow(A_.rows, Width * Id(A_.value.size()), threads,
-    [&](Index row) { r[row] = b[row] - RowProduct<Width>(A_, row, x.data()); });
+  ForEachRow(A_.rows, PreconditionedColumns * Id(A_.value.size()), threads,
+    [&](Index row) { r[row] = b[row] - RowProduct(A_, row, x.data()); });
 }
 
-template<int Width>
-void SingleLevel::Restrict(const Panel<Width>& r, Panel<Width>& coarse, int threads) const
+void SingleLevel::Restrict(const Panel& r, Panel& coarse, int threads) const
 {
-  ForEachRow(restriction_.rows, Width * Id(restriction_.value.size()), threads,
-    [&](Index row) { coarse[row] = RowProduct<Width>(restriction_, row, r.data()); });
+  ForEachRow(restriction_.rows, PreconditionedColumns * Id(restriction_.value.size()), threads,
+    [&](Index row) { coarse[row] = RowProduct(restriction_, row, r.data()); });
 }
 
-template<int Width>
-void SingleLevel::AddProlonged(const Panel<Width>& coarse, Panel<Width>& x, int threads) const
+void SingleLevel::AddProlonged(const Panel& coarse, Panel& x, int threads) const
 {
-  ForEachRow(prolongation_.rows, Width * Id(prolongation_.value.size()), threads,
-    [&](Index row) { x[row] += RowProduct<Width>(prolongation_, row, coarse.data()); });
+  ForEachRow(prolongation_.rows, PreconditionedColumns * Id(prolongation_.value.size()), threads,
+    [&](Index row) { x[row] += RowProduct(prolongation_, row, coarse.data()); });
 }
 
 std::size_t SingleLevel::Memory() const
@@ -185,16 +177,5 @@ std::size_t SingleLevel::Memory() const
   return A_.Memory() + prolongation_.Memory() + restriction_.Memory() + ranges_.Memory() +
          patches_.size() * sizeof(Patch);
 }
-
-#define GRIDFEM_INSTANTIATE(Width)                                                                 \
-  template void SingleLevel::Sweep<Width>(const Panel<Width>&, Panel<Width>&, SweepDirection, int) \
-    const;                                                                                         \
-  template void SingleLevel::Residual<Width>(                                                      \
-    const Panel<Width>&, const Panel<Width>&, Panel<Width>&, int) const;                           \
-  template void SingleLevel::Restrict<Width>(const Panel<Width>&, Panel<Width>&, int) const;       \
-  template void SingleLevel::AddProlonged<Width>(const Panel<Width>&, Panel<Width>&, int) const;
-GRIDFEM_INSTANTIATE(16)
-GRIDFEM_INSTANTIATE(32)
-#undef GRIDFEM_INSTANTIATE
 
 } // namespace gridfem

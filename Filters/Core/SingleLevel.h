@@ -6,18 +6,18 @@
 
 #include "BlockSweep.h"
 #include "Multigrid.h"
+#include "Preconditioner.h"
 
 #include <array>
 
 namespace gridfem
 {
 
-/// Columns of a block of vectors that are worked on together: one row, aligned to its vector
-/// registers.
-template<int Width>
-using PanelRow = Eigen::Array<float, Width, 1>;
-template<int Width>
-using Panel = Array<PanelRow<Width>>;
+/// A row of the few columns that are worked on together: two vector registers of sixteen share
+/// every number of a matrix that is read. Reading matrices takes most of the time, so that fewer
+/// columns are not much faster.
+using PanelRow = Eigen::Array<float, PreconditionedColumns, 1>;
+using Panel = Array<PanelRow>;
 
 /// A sparse matrix in single precision; shares its pattern with the one it comes from.
 struct SingleMatrix
@@ -43,20 +43,16 @@ public:
   Index CoarseRows() const { return restriction_.rows; }
 
   /// As Smoother::Sweep: improves x for A x = b.
-  template<int Width>
-  void Sweep(const Panel<Width>& b, Panel<Width>& x, SweepDirection direction, int threads) const;
+  void Sweep(const Panel& b, Panel& x, SweepDirection direction, int threads) const;
 
   /// r = b - A x
-  template<int Width>
-  void Residual(const Panel<Width>& b, const Panel<Width>& x, Panel<Width>& r, int threads) const;
+  void Residual(const Panel& b, const Panel& x, Panel& r, int threads) const;
 
   /// coarse = Pᵀ r
-  template<int Width>
-  void Restrict(const Panel<Width>& r, Panel<Width>& coarse, int threads) const;
+  void Restrict(const Panel& r, Panel& coarse, int threads) const;
 
   /// x += P coarse
-  template<int Width>
-  void AddProlonged(const Panel<Width>& coarse, Panel<Width>& x, int threads) const;
+  void AddProlonged(const Panel& coarse, Panel& x, int threads) const;
 
   Id Patches() const { return static_cast<Id>(patches_.size()); }
   /// Patches with directions that single precision does not resolve: the sweep leaves them out.
@@ -72,8 +68,7 @@ private:
     std::array<float, N*(N + 1) / 2> factor;
   };
 
-  template<int Width>
-  void Relax(const Patch& patch, const PanelRow<Width>* b, PanelRow<Width>* x) const;
+  void Relax(const Patch& patch, const PanelRow* b, PanelRow* x) const;
 
   SingleMatrix A_;
   SingleMatrix prolongation_;
