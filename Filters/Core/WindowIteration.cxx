@@ -18,6 +18,13 @@ constexpr Index LargestBlock = 160;
 constexpr Index WindowSize = 112;
 constexpr Index WindowGuard = 32;
 
+/// Windows are of equal size.
+Index NextWindowSize(Index left)
+{
+  const Index windows = (left + WindowSize - 1) / WindowSize;
+  return (left + windows - 1) / windows;
+}
+
 /// Windows that have been found, and the start vectors that are left. Both share one block: the
 /// windows that were found need no more columns than were taken out of it, but at its end.
 class WindowIteration
@@ -113,8 +120,7 @@ bool WindowIteration::NextWindow(const Progress& progress)
 {
   BlockOptions block = options_;
   const Index left = options_.wanted - static_cast<Index>(values_.size());
-  const Index windows = (left + WindowSize - 1) / WindowSize;
-  block.wanted = (left + windows - 1) / windows; // windows of equal size
+  block.wanted = NextWindowSize(left);
   block.blockSize = block.wanted + WindowGuard;
   this->SetStartVectors(block.blockSize);
   const BlockReport report = ImproveEigenPairs(problem_, block, window_, workspace_, progress);
@@ -179,6 +185,15 @@ Index GuardedSize(Index wanted)
 {
   const Index guards = std::max<Index>(8, wanted / 8);
   return (wanted + guards + 7) / 8 * 8; // whole SIMD lanes
+}
+
+Id HeldColumns(Index wanted)
+{
+  constexpr Id blocks = 3; // vectors, directions, corrections
+  const Id one = GuardedSize(wanted);
+  return one <= LargestBlock
+           ? blocks * one
+           : wanted + WindowGuard + blocks * (NextWindowSize(wanted) + WindowGuard);
 }
 
 BlockReport ImproveManyEigenPairs(const SpectralProblem& problem, const BlockOptions& options,

@@ -12,6 +12,9 @@ namespace gridfem
 /// Pairs carried along beyond the wanted ones: they keep the gap to the rest open.
 Index GuardedSize(Index wanted);
 
+/// Columns of vectors that ImproveManyEigenPairs holds at its peak, in all blocks.
+Id HeldColumns(Index wanted);
+
 /// As ImproveEigenPairs, for any number of wanted pairs; one window where they are few. The
 /// iterations reported are those of the slowest window.
 BlockReport ImproveManyEigenPairs(const SpectralProblem& problem, const BlockOptions& options,

@@ -3,6 +3,7 @@
 #include "MemoryEstimate.h"
 #include "Meshes.h"
 #include "SetupCost.h"
+#include "Spectrum.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -52,9 +53,60 @@ struct EstimateAndCost
   SetupCost cost;
 };
 
+struct SpectrumCase
+{
+  NamedMesh mesh;
+  int depth;
+  int modes;
+};
+
+struct EstimateAndPeak
+{
+  double functions;
+  double estimated;
+  double real; // growth of the process from the system on
+};
+
+EstimateAndPeak MeasureSpectrum(const SpectrumCase& item)
+{
+  SpaceOptions options;
+  options.depth = item.depth;
+  const FunctionSpace space = BuildFunctionSpace(item.mesh.mesh, options);
+  const System system = BuildSystem(space, TriangleRule(2));
+  const Index functions = space.Finest().numberOfFunctions;
+  ReleaseFreeMemory();
+  const double before = ResidentBytes();
+  ResetPeak();
+  SpectrumOptions spectrum;
+  spectrum.numberOfModes = item.modes;
+  ComputeSpectrum(space, system, spectrum);
+  return { double(functions), EstimateSpectrumMemory(functions, item.modes), PeakBytes() - before };
+}
+
 std::string Quotient(double estimate, double real)
 {
   return Text("%.2f", estimate / real);
+}
+
+/// The estimate of the memory of spectra against the growth from the system on.
+void RunSpectra()
+{
+  std::vector<SpectrumCase> cases{ { RockerArm(2), 7, 20 }, { RockerArm(2), 7, 100 },
+    { RockerArm(2), 7, 300 }, { { "sphere", testing::GeodesicSphere(100) }, 7, 100 } };
+  if (NamedMesh dragon = RealMesh("dragon", "dragon_871k.ply"); !dragon.mesh.points.empty())
+  {
+    cases.push_back({ dragon, 8, 100 });
+  }
+  const Table table(
+    { "spectrum", "depth", "modes", "functions", "MB real", "MB estimated", "estimate / real" });
+  for (const SpectrumCase& item : cases)
+  {
+    const auto [functions, estimated, real] =
+      MeasureInOwnProcess<EstimateAndPeak>([&] { return MeasureSpectrum(item); });
+    table.Row({ item.mesh.name, std::to_string(item.depth), std::to_string(item.modes),
+      Text("%.0f", functions), Text("%.0f", 1e-6 * real), Text("%.0f", 1e-6 * estimated),
+      Quotient(estimated, real) });
+  }
 }
 
 } // namespace
@@ -89,4 +141,5 @@ int main()
     PrintAtMost(name, ratio, 1.3);
     PrintAtLeast(name, ratio, 0.8);
   }
+  RunSpectra();
 }

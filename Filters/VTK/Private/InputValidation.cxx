@@ -2,11 +2,11 @@
 
 #include "Errors.h"
 #include "MemoryEstimate.h"
+#include "Spectrum.h"
 
 #include "vtkMultiProcessController.h"
 #include "vtkPolyData.h"
 
-#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <sstream>
@@ -98,12 +98,9 @@ void RequireMemory(const TriangleMesh& mesh, int depth)
     estimate.bytes, subject.str(), "Every step down in Depth takes a quarter of the memory.");
 }
 
-void RequireMemoryForModes(Id functions, Id modes)
+void RequireMemoryForModes(Id functions, Id modes, int threads)
 {
-  // The vectors themselves, their images and the blocks that are iterated on.
-  constexpr double blocks = 6.0;
-  const double columns = static_cast<double>(std::min(functions, modes));
-  RequireBytes(blocks * sizeof(double) * static_cast<double>(functions) * columns,
+  RequireBytes(EstimateSpectrumMemory(functions, modes, threads),
     "NumberOfModes " + std::to_string(modes) + " with " + std::to_string(functions) +
       " basis functions",
     "Choose fewer modes or a smaller Depth.");

@@ -27,7 +27,7 @@ void RequireMemory(const TriangleMesh& mesh, int depth);
 
 /// Throws InvalidInput, with the estimate, when so many eigenvectors need more memory than there
 /// is.
-void RequireMemoryForModes(Id functions, Id modes);
+void RequireMemoryForModes(Id functions, Id modes, int threads);
 
 } // namespace gridfem
 

@@ -66,6 +66,8 @@ void SurfaceSpectrum::Solve(
   StageKey key;
   key.Add(state.stages.Version(vtkSurfaceFEMAlgorithm::SystemStage)).Add(request.numberOfModes);
   key.Add(request.completeMultiplets).Add(state.options.solve.tolerance);
+  // Hats are solved only at the depth that the accuracy asks for.
+  key.Add(state.hats ? request.accuracy : 0.0);
   key.Add(state.options.solve.maximumIterations);
   AddMultigrid(key, state.options.multigrid);
   const auto solve = [&]
@@ -73,7 +75,7 @@ void SurfaceSpectrum::Solve(
     const FunctionSpace& space = state.Space();
     RequireMemoryForModes(
       space.Finest().numberOfFunctions + (state.hats ? state.hats->functions.Count() : 0),
-      request.numberOfModes);
+      request.numberOfModes, state.options.multigrid.threads);
     SpectrumOptions options = SolverOptions(state, request.numberOfModes);
     options.completeMultiplets = request.completeMultiplets;
     spectrum = {}; // frees its memory first
@@ -82,18 +84,35 @@ void SurfaceSpectrum::Solve(
       const Spectrum grid =
         ComputeSpectrum(space, *state.system, HatStartOptions(options), progress.Part(0.0, 0.3));
       gridErrors_ = grid.estimatedErrors;
-      spectrum = ComputeHatSpectrum(
-        *state.hats, space, *state.system, grid, options, progress.Part(0.3, 1.0));
+      gridErrors_.resize(std::min<std::size_t>(gridErrors_.size(), request.numberOfModes));
+      nextDepth_ = this->NextDepth(state, request.accuracy);
+      if (nextDepth_ == space.GetGrid().depth)
+      {
+        spectrum = ComputeHatSpectrum(
+          *state.hats, space, *state.system, grid, options, progress.Part(0.3, 1.0));
+      }
     }
     else
     {
       spectrum = ComputeSpectrum(space, *state.system, options, progress);
       gridErrors_ = spectrum.estimatedErrors;
     }
-    gridErrors_.resize(std::min(gridErrors_.size(), spectrum.eigenvalues.size()));
     eigenvalues = InWorldUnits(spectrum.eigenvalues, space.GetGrid());
   };
   state.stages.Run(vtkSurfaceFEMAlgorithm::SolveStage, key, solve);
+  if (!state.hats)
+  {
+    nextDepth_ = this->NextDepth(state, request.accuracy);
+  }
+}
+
+/// The depth at which the errors on the grid should be small enough, if that fits into memory; else
+/// this one. With accuracy 0 any error is.
+int SurfaceSpectrum::NextDepth(const SurfaceSolverState& state, double accuracy) const
+{
+  const int now = state.Space().GetGrid().depth;
+  const int next = accuracy > 0.0 ? DepthForAccuracy(gridErrors_, now, accuracy) : now;
+  return next == now || FitsMemory(*state.mesh.triangles, next) ? next : now;
 }
 
 /// As many eigenvalues as there are modes, in the function space that was not chosen.
@@ -116,8 +135,8 @@ void SurfaceSpectrum::Compare(SurfaceSolverState& state, const Progress& progres
   else
   {
     const HatHierarchy hats = state.BuildHats(progress.Part(0.0, 0.1));
-    RequireMemoryForModes(
-      space.Finest().numberOfFunctions + hats.functions.Count(), options.numberOfModes);
+    RequireMemoryForModes(space.Finest().numberOfFunctions + hats.functions.Count(),
+      options.numberOfModes, options.multigrid.threads);
     other = ComputeHatSpectrum(hats, space, *state.system, options, progress.Part(0.1, 1.0));
   }
   otherEigenvalues = InWorldUnits(other.eigenvalues, space.GetGrid());
@@ -152,10 +171,15 @@ void SurfaceSpectrum::Update(SurfaceSolverState& state, vtkPolyData* input, vtkP
   const SpectrumRequest& request)
 {
   const Progress all = state.bridge.GetProgress().Part(0.0, request.compare ? 0.5 : 1.0);
-  const bool choose = request.accuracy > 0.0 && !basisData && !CarriesBasis(input);
+  SpectrumRequest wanted = request;
+  if (basisData || CarriesBasis(input))
+  {
+    wanted.accuracy = 0.0;
+  }
+  const bool choose = wanted.accuracy > 0.0;
   if (choose)
   {
-    this->ChooseDepth(state, input, request);
+    this->ChooseDepth(state, input, wanted);
   }
   double done = 0.0;
   while (true)
@@ -165,15 +189,14 @@ void SurfaceSpectrum::Update(SurfaceSolverState& state, vtkPolyData* input, vtkP
     progress.Check(0.3);
     state.UpdateSystem(progress.Part(0.3, 0.5));
     progress.Check(0.5);
-    this->Solve(state, request, progress.Part(0.5, 1.0));
+    this->Solve(state, wanted, progress.Part(0.5, 1.0));
     depth = state.Space().GetGrid().depth;
-    const int next = choose ? DepthForAccuracy(gridErrors_, depth, request.accuracy) : depth;
-    if (next == depth || !FitsMemory(*state.mesh.triangles, next))
+    if (nextDepth_ == depth)
     {
       break;
     }
     done = 0.5 + 0.45 * done;
-    state.options.space.depth = next;
+    state.options.space.depth = nextDepth_;
   }
   if (request.compare)
   {

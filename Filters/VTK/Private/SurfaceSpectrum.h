@@ -51,7 +51,10 @@ private:
   void Compare(SurfaceSolverState& state, const Progress& progress);
   void ChooseDepth(SurfaceSolverState& state, vtkPolyData* input, const SpectrumRequest& request);
 
+  int NextDepth(const SurfaceSolverState& state, double accuracy) const;
+
   std::vector<double> gridErrors_; // estimated, of the wanted modes on the grid
+  int nextDepth_ = 0;              // that they ask for; the depth they were found at: they suffice
   StageKey asked_;                 // what `depth` was chosen for
   StageKey compared_;              // what `otherEigenvalues` are compared with
 };
