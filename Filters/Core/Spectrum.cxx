@@ -352,7 +352,7 @@ double EstimateSpectrumMemory(Id functions, Id modes, int threads)
   // Bytes per function, fitted to the growth of the process (Testing/Benchmarks, group `memory`).
   constexpr double matrices = 1000.0; // two of 18 entries per row, one of them twice; a hierarchy
                                       // of floats and factors
-  constexpr double panels = 512.0; // of each cycle at work: three of 32 floats, all levels
+  constexpr double panels = 512.0;    // of each cycle at work: three of 32 floats, all levels
   const Id columns = std::min(functions, modes);
   const Id cycles = std::min<Id>(
     NumberOfThreads(threads), (columns + PreconditionedColumns - 1) / PreconditionedColumns);
