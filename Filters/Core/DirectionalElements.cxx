@@ -91,11 +91,11 @@ DirectionalElements IntegrateElements(const FunctionSpace& space, const Quadratu
           {
             SetPositions(batch, point, samples);
             samples.mass = point.weight * planes.area;
-            mass.Add(samples);
+            mass.Add(&samples, 1);
             for (int part = 0; part < 2; ++part)
             {
               samples.tensor = tensors[part].Times(samples.mass);
-              stiffness[part].Add(samples);
+              stiffness[part].Add(&samples, 1);
             }
           }
         });

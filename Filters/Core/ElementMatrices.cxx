@@ -69,6 +69,23 @@ void InterpolateRows(DenseElement& m, int octant)
   }
 }
 
+/// Galerkin coarsening: the functions of the parent in terms of those of its children.
+ElementMatrix SumOfChildren(
+  const Level& fine, const Groups& children, Id parent, const Array<ElementMatrix>& matrices)
+{
+  DenseElement sum = DenseElement::Zero();
+  for (Id k = children.begin[parent]; k < children.begin[parent + 1]; ++k)
+  {
+    const Id child = children.item[k];
+    DenseElement part = Unpack(matrices[child]);
+    InterpolateRows(part, fine.Octant(child));
+    part.transposeInPlace();
+    InterpolateRows(part, fine.Octant(child));
+    sum += part;
+  }
+  return Pack(sum);
+}
+
 } // namespace
 
 void EvaluateTrilinear(const Vec3& local, std::array<double, FunctionsPerPatch>& value)
@@ -113,20 +130,27 @@ Array<ElementMatrix> CoarsenElements(
     {
       for (Id parent = begin; parent < end; ++parent)
       {
-        DenseElement sum = DenseElement::Zero();
-        for (Id k = children.begin[parent]; k < children.begin[parent + 1]; ++k)
-        {
-          const Id child = children.item[k];
-          DenseElement part = Unpack(matrices[child]);
-          InterpolateRows(part, fine.Octant(child));
-          part.transposeInPlace();
-          InterpolateRows(part, fine.Octant(child));
-          sum += part;
-        }
-        result[parent] = Pack(sum);
+        result[parent] = SumOfChildren(fine, children, parent, matrices);
       }
     });
   return result;
+}
+
+void CoarsenElements(const Level& fine, const Level& coarse, const ElementMatrices& elements,
+  ElementMatrices& result, int threads)
+{
+  const Groups children = GroupItems(fine.parent, coarse.NumberOfPatches(), threads);
+  result.mass.resize(coarse.NumberOfPatches());
+  result.stiffness.resize(coarse.NumberOfPatches());
+  ParallelRanges(coarse.NumberOfPatches(), threads,
+    [&](Id begin, Id end)
+    {
+      for (Id parent = begin; parent < end; ++parent)
+      {
+        result.mass[parent] = SumOfChildren(fine, children, parent, elements.mass);
+        result.stiffness[parent] = SumOfChildren(fine, children, parent, elements.stiffness);
+      }
+    });
 }
 
 const OctantWeights& ChildWeights(int octant)

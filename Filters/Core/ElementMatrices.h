@@ -35,6 +35,10 @@ ElementMatrices IntegrateElements(const FunctionSpace& space, const QuadratureRu
 Array<ElementMatrix> CoarsenElements(
   const Level& fine, const Level& coarse, const Array<ElementMatrix>& matrices, int threads = 0);
 
+/// The same for both matrices at once, in place where `result` has its size already.
+void CoarsenElements(const Level& fine, const Level& coarse, const ElementMatrices& elements,
+  ElementMatrices& result, int threads = 0);
+
 /// Weights with which the eight functions of a parent cell make up those of the child in `octant`:
 /// value of the child's corner c = Σ_p weights[c][p] value of the parent's corner p.
 using OctantWeights = std::array<std::array<double, FunctionsPerPatch>, FunctionsPerPatch>;

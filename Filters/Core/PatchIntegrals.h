@@ -12,7 +12,7 @@
 namespace gridfem
 {
 
-/// Fan triangles of one patch. Lanes from `count` on have no area.
+/// Fan triangles of one patch. Lanes from `count` on repeat the first triangle without an area.
 struct TriangleBatch
 {
   Lanes corner[3][3]; // corner, axis; in the cell's own coordinates
@@ -67,7 +67,7 @@ inline void SetPositions(
 /// Calls body(batch) for the fan triangles of some pieces, several at a time.
 template<class Body>
 void ForEachBatch(const ClippedMesh& clipped, const Index* pieceBegin, const Index* pieceEnd,
-  const Vec3& origin, const QuadratureRule& rule, Body&& body)
+  const Index* listEnd, const Vec3& origin, const QuadratureRule& rule, Body&& body)
 {
   const Id points = static_cast<Id>(rule.points.size());
   TriangleBatch batch;
@@ -80,6 +80,16 @@ void ForEachBatch(const ClippedMesh& clipped, const Index* pieceBegin, const Ind
   };
   for (const Index* piece = pieceBegin; piece < pieceEnd; ++piece)
   {
+    constexpr int Ahead = 8; // pieces: their corners may lie anywhere in memory
+    if (piece + Ahead < listEnd)
+    {
+      const Index* next = clipped.corners.data() + clipped.pieceBegin[piece[Ahead]];
+      const Index* const nextEnd = clipped.corners.data() + clipped.pieceBegin[piece[Ahead] + 1];
+      for (; next < nextEnd; ++next)
+      {
+        __builtin_prefetch(&clipped.position[*next]);
+      }
+    }
     const Index* corner = clipped.corners.data() + clipped.pieceBegin[*piece];
     const Index count = clipped.pieceBegin[*piece + 1] - clipped.pieceBegin[*piece];
     for (Index k = 1; k + 1 < count; ++k)
@@ -98,6 +108,8 @@ void ForEachBatch(const ClippedMesh& clipped, const Index* pieceBegin, const Ind
   }
   if (batch.count > 0)
   {
+    std::fill(batch.piece + batch.count, batch.piece + LaneCount, batch.piece[0]);
+    std::fill(batch.firstSample + batch.count, batch.firstSample + LaneCount, batch.firstSample[0]);
     for (int axis = 0; axis < 3; ++axis)
     {
       for (auto& corner : batch.corner)
@@ -129,7 +141,8 @@ void ForEachPatch(const FunctionSpace& space, const QuadratureRule& rule, int th
           [&](auto&& onBatch)
           {
             ForEachBatch(space.clipped, items + pieces.begin[patch],
-              items + pieces.begin[patch + 1], CellCorner(level.cell[patch]), rule, onBatch);
+              items + pieces.begin[patch + 1], items + pieces.item.size(),
+              CellCorner(level.cell[patch]), rule, onBatch);
           });
       }
     },
@@ -156,13 +169,18 @@ void IntegratePatches(const FunctionSpace& space, const QuadratureRule& rule, in
         {
           const TrianglePlanes planes(batch);
           const auto set = prepare(batch, planes);
-          SampleBatch samples;
-          for (Id point = 0; point < points; ++point)
+          std::array<SampleBatch, BatchesAtOnce> samples;
+          for (Id begin = 0; begin < points; begin += BatchesAtOnce)
           {
-            SetPositions(batch, rule.points[point], samples);
-            set(point, Lanes(rule.points[point].weight * planes.area), samples);
-            mass.Add(samples);
-            stiffness.Add(samples);
+            const int count = static_cast<int>(std::min<Id>(BatchesAtOnce, points - begin));
+            for (int k = 0; k < count; ++k)
+            {
+              const QuadratureRule::Point& point = rule.points[begin + k];
+              SetPositions(batch, point, samples[k]);
+              set(begin + k, Lanes(point.weight * planes.area), samples[k]);
+            }
+            mass.Add(samples.data(), count);
+            stiffness.Add(samples.data(), count);
           }
         });
       result.mass[patch] = mass.Matrix();

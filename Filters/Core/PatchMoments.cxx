@@ -1,5 +1,7 @@
 #include "PatchMoments.h"
 
+#include <utility>
+
 namespace gridfem
 {
 
@@ -8,21 +10,115 @@ namespace
 
 constexpr int Mixed = 27;
 
-/// Functions of one coordinate.
+/// Functions of one coordinate of several batches of samples.
+template<int Batches>
 struct Factors
 {
-  Lanes linear[2];    // 1 - t, t
-  Lanes quadratic[3]; // (1 - t)², t (1 - t), t²
+  Lanes linear[2][Batches];    // 1 - t, t
+  Lanes quadratic[3][Batches]; // (1 - t)², t (1 - t), t²
 
-  explicit Factors(const Lanes& t)
+  Factors(const SampleBatch* batch, int axis)
   {
-    linear[0] = 1.0 - t;
-    linear[1] = t;
-    quadratic[0] = linear[0] * linear[0];
-    quadratic[1] = linear[0] * linear[1];
-    quadratic[2] = linear[1] * linear[1];
+    for (int b = 0; b < Batches; ++b)
+    {
+      const Lanes& t = batch[b].position[axis];
+      linear[0][b] = 1.0 - t;
+      linear[1][b] = t;
+      quadratic[0][b] = linear[0][b] * linear[0][b];
+      quadratic[1][b] = linear[0][b] * t;
+      quadratic[2][b] = t * t;
+    }
   }
 };
+
+template<int Batches>
+using Weights = std::array<Lanes, Batches>;
+
+template<int Batches>
+Weights<Batches> Product(const Weights<Batches>& a, const Lanes (&b)[Batches])
+{
+  Weights<Batches> product;
+  for (int k = 0; k < Batches; ++k)
+  {
+    product[k] = a[k] * b[k];
+  }
+  return product;
+}
+
+/// sum += Σ a b: a sum that is loaded and stored once for several batches.
+template<int Batches>
+void AddProduct(const Weights<Batches>& a, const Lanes (&b)[Batches], Lanes& sum)
+{
+  Lanes result = sum;
+  for (int k = 0; k < Batches; ++k)
+  {
+    result += a[k] * b[k];
+  }
+  sum = result;
+}
+
+template<int Batches>
+void AddMass(const SampleBatch* batch, Lanes* sum)
+{
+  const Factors<Batches> x(batch, 0);
+  const Factors<Batches> y(batch, 1);
+  const Factors<Batches> z(batch, 2);
+  Weights<Batches> mass;
+  for (int k = 0; k < Batches; ++k)
+  {
+    mass[k] = batch[k].mass;
+  }
+  for (const auto& b : y.quadratic)
+  {
+    const Weights<Batches> weightedY = Product<Batches>(mass, b);
+    for (const auto& a : x.quadratic)
+    {
+      const Weights<Batches> weighted = Product<Batches>(weightedY, a);
+      for (const auto& c : z.quadratic)
+      {
+        AddProduct<Batches>(weighted, c, *sum++);
+      }
+    }
+  }
+}
+
+template<int Batches>
+void AddStiffness(const SampleBatch* batch, Lanes* same, Lanes* mixed)
+{
+  const Factors<Batches> factors[3] = { { batch, 0 }, { batch, 1 }, { batch, 2 } };
+  for (int p = 0; p < 3; ++p)
+  {
+    const Factors<Batches>& ofQ = factors[(p + 1) % 3];
+    const Factors<Batches>& ofR = factors[(p + 2) % 3];
+    Weights<Batches> sameTensor;
+    Weights<Batches> mixedTensor;
+    for (int k = 0; k < Batches; ++k)
+    {
+      sameTensor[k] = batch[k].tensor.same[p];
+      mixedTensor[k] = batch[k].tensor.mixed[p];
+    }
+    for (const auto& alongQ : ofQ.quadratic)
+    {
+      const Weights<Batches> weighted = Product<Batches>(sameTensor, alongQ);
+      for (const auto& alongR : ofR.quadratic)
+      {
+        AddProduct<Batches>(weighted, alongR, *same++);
+      }
+    }
+    for (const auto& alongQ : ofQ.linear)
+    {
+      const Weights<Batches> weightedQ = Product<Batches>(mixedTensor, alongQ);
+      for (const auto& alongP : factors[p].linear)
+      {
+        const Weights<Batches> weighted = Product<Batches>(weightedQ, alongP);
+        for (const auto& alongR : ofR.quadratic)
+        {
+          AddProduct<Batches>(weighted, alongR, *mixed++);
+        }
+      }
+    }
+  }
+}
 
 /// Bit of a corner along an axis.
 constexpr int Bit(int corner, int axis)
@@ -42,27 +138,31 @@ struct MomentSums
 {
   int place[ElementEntries][Terms] = {};
   double sign[ElementEntries][Terms] = {};
-
-  template<std::size_t Count>
-  ElementMatrix Apply(const std::array<Lanes, Count>& lanes) const
-  {
-    std::array<double, Count> moment;
-    for (std::size_t k = 0; k < Count; ++k)
-    {
-      moment[k] = lanes[k].sum();
-    }
-    ElementMatrix matrix;
-    for (int entry = 0; entry < ElementEntries; ++entry)
-    {
-      matrix[entry] = 0.0;
-      for (int k = 0; k < Terms; ++k)
-      {
-        matrix[entry] += sign[entry][k] * moment[place[entry][k]];
-      }
-    }
-    return matrix;
-  }
 };
+
+template<const auto& Sums, std::size_t Entry, std::size_t... Term>
+double EntryOf(const double* moment, std::index_sequence<Term...>)
+{
+  return ((Sums.sign[Entry][Term] * moment[Sums.place[Entry][Term]]) + ...);
+}
+
+template<const auto& Sums, int Terms, std::size_t... Entry>
+ElementMatrix EntriesOf(const double* moment, std::index_sequence<Entry...>)
+{
+  return { EntryOf<Sums, Entry>(moment, std::make_index_sequence<Terms>())... };
+}
+
+/// Unrolled, so that places and signs are part of the code.
+template<const auto& Sums, int Terms, std::size_t Count>
+ElementMatrix Apply(const std::array<Lanes, Count>& lanes)
+{
+  std::array<double, Count> moment;
+  for (std::size_t k = 0; k < Count; ++k)
+  {
+    moment[k] = lanes[k].sum();
+  }
+  return EntriesOf<Sums, Terms>(moment.data(), std::make_index_sequence<ElementEntries>());
+}
 
 constexpr MomentSums<1> MakeMassTerms()
 {
@@ -113,67 +213,40 @@ constexpr MomentSums<9> StiffnessTerms = MakeStiffnessTerms();
 
 } // namespace
 
-void MassMoments::Add(const SampleBatch& batch)
+void MassMoments::Add(const SampleBatch* batch, int count)
 {
-  const Factors x(batch.position[0]);
-  const Factors y(batch.position[1]);
-  const Factors z(batch.position[2]);
-  Lanes* sum = sum_.data();
-  for (const Lanes& b : y.quadratic)
+  for (; count >= BatchesAtOnce; count -= BatchesAtOnce, batch += BatchesAtOnce)
   {
-    const Lanes weightedY = batch.mass * b;
-    for (const Lanes& a : x.quadratic)
-    {
-      const Lanes weightedXY = weightedY * a;
-      for (const Lanes& c : z.quadratic)
-      {
-        *sum++ += weightedXY * c;
-      }
-    }
+    AddMass<BatchesAtOnce>(batch, sum_.data());
+  }
+  for (; count > 0; --count, ++batch)
+  {
+    AddMass<1>(batch, sum_.data());
   }
 }
 
 ElementMatrix MassMoments::Matrix() const
 {
-  return MassTerms.Apply(sum_);
+  return Apply<MassTerms, 1>(sum_);
 }
 
-void StiffnessMoments::Add(const SampleBatch& batch)
+void StiffnessMoments::Add(const SampleBatch* batch, int count)
 {
-  const Factors factors[3] = { Factors(batch.position[0]), Factors(batch.position[1]),
-    Factors(batch.position[2]) };
-  Lanes* same = sum_.data();
-  Lanes* mixed = sum_.data() + Mixed;
-  for (int p = 0; p < 3; ++p)
+  Lanes* const same = sum_.data();
+  Lanes* const mixed = sum_.data() + Mixed;
+  for (; count >= BatchesAtOnce; count -= BatchesAtOnce, batch += BatchesAtOnce)
   {
-    const Factors& ofQ = factors[(p + 1) % 3];
-    const Factors& ofR = factors[(p + 2) % 3];
-    for (const Lanes& alongQ : ofQ.quadratic)
-    {
-      const Lanes weighted = batch.tensor.same[p] * alongQ;
-      for (const Lanes& alongR : ofR.quadratic)
-      {
-        *same++ += weighted * alongR;
-      }
-    }
-    for (const Lanes& alongQ : ofQ.linear)
-    {
-      const Lanes weightedQ = batch.tensor.mixed[p] * alongQ;
-      for (const Lanes& alongP : factors[p].linear)
-      {
-        const Lanes weighted = weightedQ * alongP;
-        for (const Lanes& alongR : ofR.quadratic)
-        {
-          *mixed++ += weighted * alongR;
-        }
-      }
-    }
+    AddStiffness<BatchesAtOnce>(batch, same, mixed);
+  }
+  for (; count > 0; --count, ++batch)
+  {
+    AddStiffness<1>(batch, same, mixed);
   }
 }
 
 ElementMatrix StiffnessMoments::Matrix() const
 {
-  return StiffnessTerms.Apply(sum_);
+  return Apply<StiffnessTerms, 9>(sum_);
 }
 
 } // namespace gridfem

@@ -19,10 +19,14 @@ struct SampleBatch
   LaneTensor tensor; // of ∇b_i and ∇b_j, times the weight
 };
 
+/// What a sum takes in one go: the points of the default rule.
+constexpr int BatchesAtOnce = 3;
+
 class MassMoments
 {
 public:
-  void Add(const SampleBatch& batch);
+  /// @param batch  `count` of them; BatchesAtOnce or a multiple is the fastest
+  void Add(const SampleBatch* batch, int count);
   ElementMatrix Matrix() const;
 
 private:
@@ -42,7 +46,7 @@ private:
 class StiffnessMoments
 {
 public:
-  void Add(const SampleBatch& batch);
+  void Add(const SampleBatch* batch, int count);
   ElementMatrix Matrix() const;
 
 private:

@@ -26,13 +26,20 @@ struct LaneMetric
 
 LaneMetric Load(const SampleMetric& metric, const TriangleBatch& batch, Id point)
 {
+  // One loop per number, over all lanes: the compiler makes a gather instruction of each.
+  const FundamentalForm* const form = metric.data() + point;
   LaneMetric lanes;
-  for (int lane = 0; lane < batch.count; ++lane)
+  for (int lane = 0; lane < LaneCount; ++lane)
   {
-    const FundamentalForm& form = metric[batch.firstSample[lane] + point];
-    lanes.E[lane] = form.E;
-    lanes.F[lane] = form.F;
-    lanes.G[lane] = form.G;
+    lanes.E[lane] = form[batch.firstSample[lane]].E;
+  }
+  for (int lane = 0; lane < LaneCount; ++lane)
+  {
+    lanes.F[lane] = form[batch.firstSample[lane]].F;
+  }
+  for (int lane = 0; lane < LaneCount; ++lane)
+  {
+    lanes.G[lane] = form[batch.firstSample[lane]].G;
   }
   return lanes;
 }
@@ -45,32 +52,52 @@ void Store(const LaneMetric& lanes, const TriangleBatch& batch, Id point, Sample
   }
 }
 
-/// Sets mass and tensor of samples that stand for `weight` of area in the metric of the mesh.
-/// @return  number of singular metrics; they weigh nothing
-Id SetWeights(const LaneMetric& metric, const Lanes& weight, const TangentBasis& basis,
-  const LaneVector& normal, SampleBatch& samples)
+Lanes Determinant(const LaneMetric& metric)
 {
-  const Lanes determinant = metric.E * metric.G - metric.F * metric.F;
+  return metric.E * metric.G - metric.F * metric.F;
+}
+
+/// Takes the weight of samples with a singular metric.
+/// @return  their number, of those that had a weight
+Id DropSingular(LaneMetric& metric, Lanes& weight)
+{
+  const Lanes determinant = Determinant(metric);
   const Lanes trace = metric.E + metric.G;
-  const Lanes root = determinant.max(1e-300).sqrt();
-  Lanes a;
-  Lanes b;
-  Lanes c;
-  Lanes n; // like the stiffness of a scaled surface, it does not scale
+  const Lanes smallest = SmallestQuotient * trace * trace;
+  // All lanes at once. Least values may miss what is no number; the sum cannot.
+  const Lanes margin = metric.E.min(determinant - smallest).min(LargestDeterminant - determinant);
+  if (margin.minCoeff() > 0.0 && (0.0 * (determinant + trace)).sum() == 0.0)
+  {
+    return 0;
+  }
   Id singular = 0;
   for (int lane = 0; lane < LaneCount; ++lane)
   {
-    const bool isRegular = metric.E[lane] > 0.0 && determinant[lane] <= LargestDeterminant &&
-                           determinant[lane] > SmallestQuotient * trace[lane] * trace[lane];
-    const double over = weight[lane] / root[lane];
-    a[lane] = isRegular ? over * metric.G[lane] : 0.0;
-    b[lane] = isRegular ? -over * metric.F[lane] : 0.0;
-    c[lane] = isRegular ? over * metric.E[lane] : 0.0;
-    n[lane] = isRegular ? NormalWeight * weight[lane] : 0.0;
-    samples.mass[lane] = isRegular ? weight[lane] * root[lane] : 0.0;
-    singular += weight[lane] > 0.0 && !isRegular ? 1 : 0;
+    const bool isRegular = metric.E[lane] > 0.0 && determinant[lane] < LargestDeterminant &&
+                           determinant[lane] > smallest[lane];
+    if (!isRegular)
+    {
+      singular += weight[lane] > 0.0 ? 1 : 0;
+      weight[lane] = 0.0;
+      metric.E[lane] = metric.G[lane] = 1.0;
+      metric.F[lane] = 0.0;
+    }
   }
-  samples.tensor = TensorInBasis(a, b, c, n, basis, normal);
+  return singular;
+}
+
+/// Sets mass and tensor of samples that stand for `weight` of area in the metric of the mesh.
+/// @return  number of singular metrics; they weigh nothing
+Id SetWeights(LaneMetric metric, Lanes weight, const TangentBasis& basis, const LaneVector& normal,
+  SampleBatch& samples)
+{
+  const Id singular = DropSingular(metric, weight);
+  const Lanes root = Determinant(metric).sqrt();
+  const Lanes over = weight / root;
+  samples.mass = weight * root;
+  // Like the stiffness of a scaled surface, the part along the normal does not scale.
+  samples.tensor = TensorInBasis(
+    over * metric.G, -over * metric.F, over * metric.E, NormalWeight * weight, basis, normal);
   return singular;
 }
 

@@ -1,6 +1,7 @@
 #include "System.h"
 
 #include "HiddenFunctions.h"
+#include "LargeMemory.h"
 #include "Parallel.h"
 #include "PatchOrdering.h"
 
@@ -54,13 +55,6 @@ std::vector<double> IntegralsOfFunctions(
       }
     });
   return integral;
-}
-
-ElementMatrices Coarsen(
-  const Level& fine, const Level& coarse, const ElementMatrices& elements, int threads)
-{
-  return { CoarsenElements(fine, coarse, elements.mass, threads),
-    CoarsenElements(fine, coarse, elements.stiffness, threads) };
 }
 
 void FillMatrix(const FunctionSpace& space, const System& system, std::size_t level, double a,
@@ -127,7 +121,9 @@ System BuildSystem(const FunctionSpace& space, const QuadratureRule& rule, int t
     const Level& coarse = space.levels[l + 1];
     system.prolongation.push_back(BuildProlongation(level, system.places.back(), coarse, threads));
     system.restriction.push_back(Transpose(system.prolongation.back(), threads));
-    system.elements.push_back(Coarsen(level, coarse, system.elements.back(), threads));
+    ElementMatrices elements;
+    CoarsenElements(level, coarse, system.elements.back(), elements, threads);
+    system.elements.push_back(std::move(elements));
   }
   system.integral =
     IntegralsOfFunctions(system.places.front(), system.elements.front().mass, threads);
@@ -139,8 +135,8 @@ void UpdateSystem(const FunctionSpace& space, System& system, int threads)
 {
   for (std::size_t l = 0; l + 1 < system.elements.size(); ++l)
   {
-    system.elements[l + 1] =
-      Coarsen(space.levels[l], space.levels[l + 1], system.elements[l], threads);
+    CoarsenElements(
+      space.levels[l], space.levels[l + 1], system.elements[l], system.elements[l + 1], threads);
   }
   system.integral =
     IntegralsOfFunctions(system.places.front(), system.elements.front().mass, threads);
@@ -197,6 +193,7 @@ Multigrid BuildMultigrid(const FunctionSpace& space, const System& system, doubl
 void UpdateMultigrid(
   const FunctionSpace& space, const System& system, double a, double b, Multigrid& multigrid)
 {
+  const MemoryReuse reuse; // the new factors take the place of the old ones
   multigrid.Update([&](std::size_t level, SparseMatrix& matrix)
     { FillMatrix(space, system, level, a, b, multigrid.Options().threads, matrix); });
   AddHidden(space, system, a, b, multigrid);
