@@ -111,7 +111,24 @@ PatchMatrix PrincipalBlock(const BlockSource& source, const Patch& patch)
 /// The unknowns that can be solved for: used places, once, with a positive diagonal; ascending.
 Patch UnknownsOf(const std::array<Index, N>& dof, const BlockSource& source)
 {
+  // Nearly always all of them; then each comes after as many as are smaller.
   Patch patch;
+  patch.dof.fill(-1);
+  patch.count = N;
+  for (int i = 0; i < N; ++i)
+  {
+    int smaller = 0;
+    for (const Index other : dof)
+    {
+      smaller += other < dof[i] ? 1 : 0;
+    }
+    patch.dof[smaller] = dof[i];
+  }
+  if (std::all_of(patch.dof.begin(), patch.dof.end(),
+        [&](Index unknown) { return unknown >= 0 && source.diagonal[unknown] >= 0; }))
+  {
+    return patch;
+  }
   auto end = std::copy_if(dof.begin(), dof.end(), patch.dof.begin(),
     [&](Index unknown) { return unknown >= 0 && source.diagonal[unknown] >= 0; });
   std::sort(patch.dof.begin(), end);
@@ -121,9 +138,150 @@ Patch UnknownsOf(const std::array<Index, N>& dof, const BlockSource& source)
   return patch;
 }
 
+/// The diagonal scaling of a patch's block; zeros beyond `count`.
+using PatchScale = Eigen::Matrix<double, N, 1>;
+
+PatchScale ScaleOf(const BlockSource& source, const Patch& patch)
+{
+  PatchScale scale = PatchScale::Zero();
+  for (int i = 0; i < patch.count; ++i)
+  {
+    scale[i] = source.scale[patch.dof[i]];
+  }
+  return scale;
+}
+
+bool HasLargeScales(const PatchScale& scale, Index count, double smallestPivot)
+{
+  return !(scale.head(count).maxCoeff() / std::sqrt(smallestPivot) < LargestSingle &&
+           scale.head(count).minCoeff() > 1.0 / LargestSingle);
+}
+
+/// @param block  not scaled
+void FactorWithPivots(const PatchMatrix& block, const Patch& patch, const PatchScale& scale,
+  double smallestPivot, PatchFactor& result)
+{
+  result = PatchFactor();
+  result.dof = patch.dof;
+  result.count = patch.count;
+  result.V.setZero();
+  if (patch.count == 0)
+  {
+    return;
+  }
+  const InverseFactor factor =
+    Factor(scale.asDiagonal() * block * scale.asDiagonal(), patch.count, smallestPivot);
+  for (int j = 0; j < N; ++j)
+  {
+    result.dof[j] = patch.dof[factor.order[j]];
+    for (int i = j; i < N; ++i)
+    {
+      result.V(i, j) = result.V(j, i) = factor.row(factor.order[j], i) * scale[factor.order[j]];
+    }
+  }
+  result.smallestPivot = factor.smallestPivot;
+  result.isComplete = factor.rank == patch.count;
+  result.hasLargeScales = HasLargeScales(scale, patch.count, factor.smallestPivot);
+}
+
+/// A number of each of some patches.
+using PatchLanes = Eigen::Array<double, PatchesAtOnce, 1>;
+
+/// Scaled blocks of patches without a missing unknown, and the inverses of their factors.
+class LaneFactors
+{
+public:
+  /// Unit matrices.
+  LaneFactors()
+  {
+    for (int j = 0; j < N; ++j)
+    {
+      for (int i = 0; i <= j; ++i)
+      {
+        S_[i][j].setConstant(i == j ? 1.0 : 0.0);
+      }
+    }
+  }
+
+  void Set(int lane, const PatchMatrix& block, const PatchScale& scale)
+  {
+    for (int j = 0; j < N; ++j)
+    {
+      for (int i = 0; i <= j; ++i)
+      {
+        S_[i][j][lane] = scale[i] * block(i, j) * scale[j];
+      }
+    }
+  }
+
+  /// Elimination in the order of the unknowns, applied to the identity as well.
+  void Factor()
+  {
+    for (int step = 0; step < N; ++step)
+    {
+      V_[step][step].setOnes();
+      for (int i = step + 1; i < N; ++i)
+      {
+        const PatchLanes part = S_[step][i] / S_[step][step];
+        for (int j = i; j < N; ++j)
+        {
+          S_[i][j] -= part * S_[step][j];
+        }
+        for (int j = 0; j < step; ++j)
+        {
+          V_[i][j] -= part * V_[step][j];
+        }
+        V_[i][step] = -part;
+      }
+    }
+    for (int i = 0; i < N; ++i)
+    {
+      const PatchLanes factor = 1.0 / S_[i][i].sqrt();
+      for (int j = 0; j <= i; ++j)
+      {
+        V_[i][j] *= factor;
+      }
+    }
+  }
+
+  /// NaN if any pivot is.
+  double SmallestPivot(int lane) const
+  {
+    double smallest = 1.0;
+    for (int i = 0; i < N; ++i)
+    {
+      const double pivot = S_[i][i][lane];
+      smallest = pivot >= smallest ? smallest : pivot;
+    }
+    return smallest;
+  }
+
+  void Get(int lane, const PatchScale& scale, PatchMatrix& V) const
+  {
+    for (int j = 0; j < N; ++j)
+    {
+      for (int i = j; i < N; ++i)
+      {
+        V(i, j) = V(j, i) = V_[i][j][lane] * scale[j];
+      }
+    }
+  }
+
+private:
+  PatchLanes S_[N][N]; // upper triangle; in the end the pivots are on the diagonal
+  PatchLanes V_[N][N]; // lower triangle
+};
+
+/// From this pivot on the order of elimination does not matter.
+double SafePivot(double smallestPivot)
+{
+  return std::max(1e-10, 100.0 * smallestPivot);
+}
+
 } // namespace
 
-BlockSource::BlockSource(const SparseMatrix& matrix, int threads) : A(matrix), diagonal(matrix.rows)
+BlockSource::BlockSource(const SparseMatrix& matrix, int threads)
+  : A(matrix), diagonal(matrix.rows), scale(matrix.rows)
 {
   ParallelRanges(A.rows, threads,
     [&](Id begin, Id end)
@@ -136,44 +294,44 @@ BlockSource::BlockSource(const SparseMatrix& matrix, int threads) : A(matrix), d
         const Id place = found - A.column.data();
         const bool isUsable = found != last && *found == row && IsUsableDiagonal(A.value[place]);
         diagonal[row] = isUsable ? place : -1;
+        scale[row] = isUsable ? 1.0 / std::sqrt(A.value[place]) : 0.0;
       }
     });
 }
 
-PatchFactor FactorPatch(
-  const BlockSource& source, const std::array<Index, N>& dof, double smallestPivot)
+void FactorPatches(const BlockSource& source, const std::array<Index, N>* dof, int count,
+  double smallestPivot, PatchFactor* factors)
 {
-  const Patch patch = UnknownsOf(dof, source);
-  PatchFactor result;
-  result.dof = patch.dof;
-  result.count = patch.count;
-  result.V.setZero();
-  if (patch.count == 0)
+  std::array<Patch, PatchesAtOnce> patch;
+  std::array<PatchScale, PatchesAtOnce> scale;
+  std::array<PatchMatrix, PatchesAtOnce> block;
+  LaneFactors lanes;
+  for (int k = 0; k < count; ++k)
   {
-    return result;
-  }
-  Eigen::Matrix<double, N, 1> scale = Eigen::Matrix<double, N, 1>::Zero();
-  for (int i = 0; i < patch.count; ++i)
-  {
-    scale[i] = 1.0 / std::sqrt(source.Diagonal(patch.dof[i]));
-  }
-  const InverseFactor factor =
-    Factor(scale.asDiagonal() * PrincipalBlock(source, patch) * scale.asDiagonal(), patch.count,
-      smallestPivot);
-  for (int j = 0; j < N; ++j)
-  {
-    result.dof[j] = patch.dof[factor.order[j]];
-    for (int i = j; i < N; ++i)
+    patch[k] = UnknownsOf(dof[k], source);
+    scale[k] = ScaleOf(source, patch[k]);
+    block[k] = PrincipalBlock(source, patch[k]);
+    if (patch[k].count == N)
     {
-      result.V(i, j) = result.V(j, i) = factor.row(factor.order[j], i) * scale[factor.order[j]];
+      lanes.Set(k, block[k], scale[k]);
     }
   }
-  result.smallestPivot = factor.smallestPivot;
-  result.isComplete = factor.rank == patch.count;
-  result.hasLargeScales =
-    !(scale.head(patch.count).maxCoeff() / std::sqrt(factor.smallestPivot) < LargestSingle &&
-      scale.head(patch.count).minCoeff() > 1.0 / LargestSingle);
-  return result;
+  lanes.Factor();
+  for (int k = 0; k < count; ++k)
+  {
+    PatchFactor& result = factors[k];
+    result.smallestPivot = lanes.SmallestPivot(k);
+    if (!(patch[k].count == N && result.smallestPivot >= SafePivot(smallestPivot)))
+    {
+      FactorWithPivots(block[k], patch[k], scale[k], smallestPivot, result);
+      continue;
+    }
+    result.dof = patch[k].dof;
+    result.count = N;
+    lanes.Get(k, scale[k], result.V);
+    result.isComplete = true;
+    result.hasLargeScales = HasLargeScales(scale[k], N, result.smallestPivot);
+  }
 }
 
 } // namespace gridfem

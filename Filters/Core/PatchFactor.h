@@ -4,6 +4,7 @@
 
 #include "SparseMatrix.h"
 
+#include <algorithm>
 #include <array>
 
 namespace gridfem
@@ -16,11 +17,10 @@ using PatchMatrix = Eigen::Matrix<double, FunctionsPerPatch, FunctionsPerPatch>;
 struct BlockSource
 {
   const SparseMatrix& A;
-  Array<Id> diagonal; // per row; -1 where it is not a positive number
+  Array<Id> diagonal;  // per row; -1 where it is not a positive number
+  Array<double> scale; // per row: 1 / √diagonal; 0 where it is not a positive number
 
   BlockSource(const SparseMatrix& matrix, int threads);
-
-  double Diagonal(Index row) const { return A.value[diagonal[row]]; }
 };
 
 /// Vᵀ V is the inverse of the block on its numerically independent part. A patch has `count`
@@ -28,7 +28,7 @@ struct BlockSource
 /// case distinction.
 struct PatchFactor
 {
-  std::array<Index, FunctionsPerPatch> dof; // in the order of the pivots
+  std::array<Index, FunctionsPerPatch> dof; // in the order of elimination
   Index count = 0;                          // 0: no unknown can be solved for
   PatchMatrix V;               // lower triangular, and mirrored to the upper triangle; zero without
                                // unknowns
@@ -37,10 +37,33 @@ struct PatchFactor
   bool hasLargeScales = false; // V would leave the range of single precision
 };
 
-/// Pivoted Cholesky of the scaled block, stopped at the smallest pivot that counts. Places of dof
-/// with -1 are not used; unknowns without a positive diagonal are left out.
-PatchFactor FactorPatch(
-  const BlockSource& source, const std::array<Index, FunctionsPerPatch>& dof, double smallestPivot);
+/// As many patches are factored together as vector registers have lanes.
+constexpr int PatchesAtOnce = 8;
+
+/// Pivoted Cholesky of the scaled blocks, stopped at the smallest pivot that counts. Blocks whose
+/// pivots stay large in the order of their unknowns keep that order: it is as exact, and without
+/// choices all lanes go at once. Places of dof with -1 are not used; unknowns without a positive
+/// diagonal are left out.
+/// @param dof, factors  `count` of them, at most PatchesAtOnce
+void FactorPatches(const BlockSource& source, const std::array<Index, FunctionsPerPatch>* dof,
+  int count, double smallestPivot, PatchFactor* factors);
+
+/// Calls body(patch, factor) for the patches from `begin` to `end`.
+template<class Body>
+void ForEachFactor(const BlockSource& source, const std::array<Index, FunctionsPerPatch>* dof,
+  Id begin, Id end, double smallestPivot, Body&& body)
+{
+  std::array<PatchFactor, PatchesAtOnce> factors;
+  for (Id first = begin; first < end; first += PatchesAtOnce)
+  {
+    const int count = static_cast<int>(std::min<Id>(PatchesAtOnce, end - first));
+    FactorPatches(source, dof + first, count, smallestPivot, factors.data());
+    for (int k = 0; k < count; ++k)
+    {
+      body(first + k, factors[k]);
+    }
+  }
+}
 
 } // namespace gridfem
 

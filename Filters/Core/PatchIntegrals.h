@@ -64,7 +64,22 @@ inline void SetPositions(
   }
 }
 
+/// The corners of a piece may lie anywhere in memory; a wish.
+inline void FetchCorners(const ClippedMesh& clipped, Index piece)
+{
+#ifdef __GNUC__
+  for (Index k = clipped.pieceBegin[piece]; k < clipped.pieceBegin[piece + 1]; ++k)
+  {
+    __builtin_prefetch(&clipped.position[clipped.corners[k]]);
+  }
+#else
+  static_cast<void>(clipped);
+  static_cast<void>(piece);
+#endif
+}
+
 /// Calls body(batch) for the fan triangles of some pieces, several at a time.
+/// @param listEnd  of the list they are part of: corners of the next ones are fetched ahead
 template<class Body>
 void ForEachBatch(const ClippedMesh& clipped, const Index* pieceBegin, const Index* pieceEnd,
   const Index* listEnd, const Vec3& origin, const QuadratureRule& rule, Body&& body)
@@ -80,15 +95,10 @@ void ForEachBatch(const ClippedMesh& clipped, const Index* pieceBegin, const Ind
   };
   for (const Index* piece = pieceBegin; piece < pieceEnd; ++piece)
   {
-    constexpr int Ahead = 8; // pieces: their corners may lie anywhere in memory
+    constexpr int Ahead = 8;
     if (piece + Ahead < listEnd)
     {
-      const Index* next = clipped.corners.data() + clipped.pieceBegin[piece[Ahead]];
-      const Index* const nextEnd = clipped.corners.data() + clipped.pieceBegin[piece[Ahead] + 1];
-      for (; next < nextEnd; ++next)
-      {
-        __builtin_prefetch(&clipped.position[*next]);
-      }
+      FetchCorners(clipped, piece[Ahead]);
     }
     const Index* corner = clipped.corners.data() + clipped.pieceBegin[*piece];
     const Index count = clipped.pieceBegin[*piece + 1] - clipped.pieceBegin[*piece];

@@ -115,7 +115,7 @@ private:
     Double
   };
 
-  void SetPatch(const BlockSource& source, const std::array<Index, N>& dof, Id p);
+  void SetPatch(Id p, const PatchFactor& factor);
 
   Index rows_;
   BlockRanges ranges_;
@@ -139,16 +139,13 @@ PatchSmoother::PatchSmoother(const SparseMatrix& A, const PatchOrder& order, int
   ParallelRanges(static_cast<Id>(order.dof.size()), threads,
     [&](Id begin, Id end)
     {
-      for (Id p = begin; p < end; ++p)
-      {
-        this->SetPatch(source, order.dof[p], p);
-      }
+      ForEachFactor(source, order.dof.data(), begin, end, SmallestPivot,
+        [&](Id p, const PatchFactor& factor) { this->SetPatch(p, factor); });
     });
 }
 
-void PatchSmoother::SetPatch(const BlockSource& source, const std::array<Index, N>& dof, Id p)
+void PatchSmoother::SetPatch(Id p, const PatchFactor& factor)
 {
-  const PatchFactor factor = FactorPatch(source, dof, SmallestPivot);
   if (factor.count == 0)
   {
     patches_[p] = { factor.dof, None };

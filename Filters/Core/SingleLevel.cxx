@@ -97,9 +97,10 @@ SingleMatrix::SingleMatrix(const SparseMatrix& A, int threads)
 
 SingleLevel::SingleLevel(const MultigridLevel& level, int threads)
   : A_(level.A, threads), prolongation_(level.prolongation, threads),
-    restriction_(Transpose(level.prolongation), threads), ranges_{ level.order.blockBegin,
-      level.order.colourBegin },
-    patches_(level.order.dof.size())
+    restriction_(
+      level.restriction->rows > 0 ? level.restriction : SharedMatrix(Transpose(level.prolongation)),
+      threads),
+    ranges_{ level.order.blockBegin, level.order.colourBegin }, patches_(level.order.dof.size())
 {
   CheckOrder(level.A, level.order);
   const BlockSource source(level.A, threads);
@@ -107,20 +108,20 @@ SingleLevel::SingleLevel(const MultigridLevel& level, int threads)
     [&](Id begin, Id end)
     {
       Id unresolved = 0;
-      for (Id p = begin; p < end; ++p)
-      {
-        const PatchFactor factor = FactorPatch(source, level.order.dof[p], SmallestPivot);
-        const bool fits = !factor.hasLargeScales;
-        patches_[p].dof = factor.dof;
-        for (int i = 0; i < N; ++i)
+      ForEachFactor(source, level.order.dof.data(), begin, end, SmallestPivot,
+        [&](Id p, const PatchFactor& factor)
         {
-          for (int j = 0; j <= i; ++j)
+          const bool fits = !factor.hasLargeScales;
+          patches_[p].dof = factor.dof;
+          for (int i = 0; i < N; ++i)
           {
-            patches_[p].factor[i * (i + 1) / 2 + j] = fits ? float(factor.V(i, j)) : 0.0f;
+            for (int j = 0; j <= i; ++j)
+            {
+              patches_[p].factor[i * (i + 1) / 2 + j] = fits ? float(factor.V(i, j)) : 0.0f;
+            }
           }
-        }
-        unresolved += !(fits && factor.isComplete);
-      }
+          unresolved += !(fits && factor.isComplete);
+        });
       return unresolved;
     });
 }
