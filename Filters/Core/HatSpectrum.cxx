@@ -48,11 +48,14 @@ SpectralProblem HatProblem(
   return problem;
 }
 
-/// About the lowest value: far above it, a shift would cost digits.
+/// About the lowest value: far above it, a shift would cost digits; far below, as by the values
+/// that rounding gives a piece without an area, constants would drown all else.
 double LowestValue(const Spectrum& grid)
 {
-  const auto first = std::find_if(
-    grid.eigenvalues.begin(), grid.eigenvalues.end(), [](double value) { return value > 0.0; });
+  constexpr double Rounding = 1e-10;
+  const double zero = grid.eigenvalues.empty() ? 0.0 : Rounding * grid.eigenvalues.back();
+  const auto first = std::find_if(grid.eigenvalues.begin(), grid.eigenvalues.end(),
+    [zero](double value) { return value > zero; });
   return first == grid.eigenvalues.end() ? 1.0 : *first;
 }
 

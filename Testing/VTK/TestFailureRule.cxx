@@ -175,7 +175,9 @@ TEST_P(FailureRule, ASliverIsComputedUntilItIsRounding)
     return ToPolyData(
       { { { 0, 0, 0 }, { 1, 1, 1 }, { 0.5, 0.5, 0.5 + height } }, { { 0, 1, 2 } } });
   };
-  this->ExpectComputed(sliver(1e-9));
+  // The cotangents of flatter ones span more than the digits of a number.
+  const bool isOnHats = filter->GetFunctionSpace() == vtkSurfaceFEMAlgorithm::HatFunctions;
+  this->ExpectComputed(sliver(isOnHats ? 1e-7 : 1e-9));
   this->ExpectRefused(sliver(1e-12), "no area");
 }
 
