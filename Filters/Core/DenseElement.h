@@ -23,6 +23,20 @@ inline DenseElement Unpack(const ElementMatrix& packed)
   return dense;
 }
 
+inline ElementMatrix Pack(const DenseElement& dense)
+{
+  ElementMatrix packed;
+  int entry = 0;
+  for (int i = 0; i < FunctionsPerPatch; ++i)
+  {
+    for (int j = i; j < FunctionsPerPatch; ++j)
+    {
+      packed[entry++] = dense(i, j);
+    }
+  }
+  return packed;
+}
+
 } // namespace gridfem
 
 #endif

@@ -11,20 +11,6 @@ namespace gridfem
 namespace
 {
 
-ElementMatrix Pack(const DenseElement& dense)
-{
-  ElementMatrix packed;
-  int entry = 0;
-  for (int i = 0; i < FunctionsPerPatch; ++i)
-  {
-    for (int j = i; j < FunctionsPerPatch; ++j)
-    {
-      packed[entry++] = dense(i, j);
-    }
-  }
-  return packed;
-}
-
 std::array<OctantWeights, 8> MakeChildWeights()
 {
   // Along one axis the child's nodes lie at 0, 1/2 or 1 of the parent: octant bit + corner bit.

@@ -45,13 +45,6 @@ const Eigen::Matrix<double, FunctionsPerPatch, 3>& Corners()
   return corners;
 }
 
-/// ∫ I - n nᵀ: the stiffness of the coordinates, which are sums of the corners' functions.
-Eigen::Matrix3d StiffnessOfCoordinates(const ElementMatrix& stiffness)
-{
-  const Eigen::Matrix<double, FunctionsPerPatch, 3> product = Unpack(stiffness) * Corners();
-  return Corners().transpose() * product;
-}
-
 /// The centre is a sum of entries, too.
 Plane FitPlane(const ElementMatrix& mass, const ElementMatrix& stiffness)
 {
@@ -116,7 +109,7 @@ void Orient(const Level& level, const FunctionPlaces& places, std::vector<Plane>
 
 /// D (M + L) D for every patch.
 Array<ElementMatrix> Scaled(const Level& level, const ElementMatrices& elements,
-  const std::vector<double>& factor, int threads)
+  const std::vector<double>& height, int threads)
 {
   Array<ElementMatrix> scaled(level.NumberOfPatches());
   ParallelRanges(level.NumberOfPatches(), threads,
@@ -124,22 +117,40 @@ Array<ElementMatrix> Scaled(const Level& level, const ElementMatrices& elements,
     {
       for (Id patch = begin; patch < end; ++patch)
       {
-        const auto& dof = level.dof[patch];
-        int entry = 0;
-        for (int i = 0; i < FunctionsPerPatch; ++i)
+        std::array<double, FunctionsPerPatch> factor;
+        for (int c = 0; c < FunctionsPerPatch; ++c)
         {
-          for (int j = i; j < FunctionsPerPatch; ++j, ++entry)
-          {
-            const double energy = elements.mass[patch][entry] + elements.stiffness[patch][entry];
-            scaled[patch][entry] = factor[dof[i]] * energy * factor[dof[j]];
-          }
+          factor[c] = height[level.dof[patch][c]];
         }
+        scaled[patch] = ScaledEnergy(elements, patch, factor);
       }
     });
   return scaled;
 }
 
 } // namespace
+
+Eigen::Matrix3d StiffnessOfCoordinates(const ElementMatrix& stiffness)
+{
+  const Eigen::Matrix<double, FunctionsPerPatch, 3> product = Unpack(stiffness) * Corners();
+  return Corners().transpose() * product;
+}
+
+ElementMatrix ScaledEnergy(
+  const ElementMatrices& elements, Id patch, const std::array<double, FunctionsPerPatch>& factor)
+{
+  ElementMatrix scaled;
+  int entry = 0;
+  for (int i = 0; i < FunctionsPerPatch; ++i)
+  {
+    for (int j = i; j < FunctionsPerPatch; ++j, ++entry)
+    {
+      const double energy = elements.mass[patch][entry] + elements.stiffness[patch][entry];
+      scaled[entry] = factor[i] * energy * factor[j];
+    }
+  }
+  return scaled;
+}
 
 double FlatShare(const System& system)
 {

@@ -27,6 +27,14 @@ std::vector<double> CornerHeights(const Level& level, const FunctionPlaces& plac
 /// second coarser level still has hidden functions. Cost O(patches of that level).
 double FlatShare(const System& system);
 
+/// ∫ I - n nᵀ over a patch: the stiffness of the coordinates, which are sums of the corners'
+/// functions.
+Eigen::Matrix3d StiffnessOfCoordinates(const ElementMatrix& stiffness);
+
+/// D (M + L) D of one patch, D the diagonal matrix of the factors at its corners.
+ElementMatrix ScaledEnergy(
+  const ElementMatrices& elements, Id patch, const std::array<double, FunctionsPerPatch>& factor);
+
 /// The hierarchy for the hidden functions of the finest level, with A = M + L. None where the
 /// system has one level.
 HiddenLevels BuildHiddenLevels(const FunctionSpace& space, const System& system, int threads = 0);

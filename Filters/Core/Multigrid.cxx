@@ -84,7 +84,10 @@ void Multigrid::AddHidden(HiddenLevels hidden, double size)
 {
   if (levels_.size() < 2 || hidden.levels.size() + 1 != levels_.size() || !(size > 0.0) ||
       static_cast<Index>(hidden.height.size()) != levels_.front().A.rows ||
-      hidden.levels.front().A.rows != levels_[1].A.rows)
+      hidden.levels.front().A.rows != levels_[1].A.rows ||
+      (!hidden.layered.empty() &&
+        (hidden.layeredProlongation.rows != levels_.front().A.rows ||
+          hidden.layeredProlongation.columns != hidden.layered.front().A.rows)))
   {
     throw InvalidInput("the hidden functions do not fit the hierarchy");
   }
@@ -92,6 +95,13 @@ void Multigrid::AddHidden(HiddenLevels hidden, double size)
   options.cycle = CycleType::V;
   hidden_ = std::make_unique<Multigrid>(std::move(hidden.levels), options);
   height_ = std::move(hidden.height);
+  layered_.reset();
+  if (!hidden.layered.empty())
+  {
+    layered_ = std::make_unique<Multigrid>(std::move(hidden.layered), options);
+    layeredRestriction_ = Transpose(hidden.layeredProlongation);
+    layeredProlongation_ = std::move(hidden.layeredProlongation);
+  }
   sizeOfHidden_ = size;
   revisionOfHidden_ = hidden.revision;
 }
@@ -261,6 +271,11 @@ void Multigrid::CorrectFromCoarse(std::size_t l, const MultiVector& b, MultiVect
   {
     this->VisitCoarse(l, b, x, zeroX, 1, scratch);
     this->CorrectHidden(b, x, scratch[l]);
+    if (layered_)
+    {
+      this->CorrectLayered(b, x, scratch[l]);
+      this->CorrectHidden(b, x, scratch[l]);
+    }
     this->VisitCoarse(l, b, x, false, 1, scratch);
     return;
   }
@@ -300,10 +315,23 @@ void Multigrid::CorrectHidden(const MultiVector& b, MultiVector& x, Scratch& scr
   AddScaled(residual, Columns::Ones(x.cols()), x, options_.threads);
 }
 
+/// x += P B Pᵀ (b - A x)
+void Multigrid::CorrectLayered(const MultiVector& b, MultiVector& x, Scratch& scratch) const
+{
+  auto& [residual, coarseB, coarseX] = scratch;
+  Residual(levels_.front().A, x, b, residual, options_.threads);
+  Multiply(layeredRestriction_, residual, coarseB, options_.threads);
+  layered_->Precondition(coarseB, coarseX);
+  coarseX *= 1.0 / sizeOfHidden_;
+  MultiplyAdd(layeredProlongation_, coarseX, x, options_.threads);
+}
+
 std::size_t Multigrid::Memory() const
 {
   std::size_t bytes = coarse_.Memory() + height_.size() * sizeof(double);
   bytes += hidden_ ? hidden_->Memory() : 0;
+  bytes += MatrixMemory(layeredProlongation_) + MatrixMemory(layeredRestriction_);
+  bytes += layered_ ? layered_->Memory() : 0;
   for (const MultigridLevel& level : levels_)
   {
     bytes += MatrixMemory(level.A) + MatrixMemory(level.prolongation) +

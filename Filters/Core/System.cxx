@@ -2,6 +2,7 @@
 
 #include "HiddenFunctions.h"
 #include "LargeMemory.h"
+#include "LayeredFunctions.h"
 #include "Parallel.h"
 #include "PatchOrdering.h"
 
@@ -96,7 +97,13 @@ void AddHidden(
   }
   else
   {
-    multigrid.AddHidden(BuildHiddenLevels(space, system, multigrid.Options().threads), size);
+    const int threads = multigrid.Options().threads;
+    HiddenLevels hidden = BuildHiddenLevels(space, system, threads);
+    if (multigrid.Options().hidden == HiddenCorrection::Always)
+    {
+      AddLayeredFunctions(space, system, hidden, threads);
+    }
+    multigrid.AddHidden(std::move(hidden), size);
   }
 }
 

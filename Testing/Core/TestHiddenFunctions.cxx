@@ -1,6 +1,7 @@
 // The nearly invisible functions and their part in the cycle.
 #include "Errors.h"
 #include "HiddenFunctions.h"
+#include "LayeredFunctions.h"
 #include "Meshes.h"
 #include "SampledHierarchy.h"
 #include "Spaces.h"
@@ -219,6 +220,7 @@ TEST(HiddenLevels, BrokenInputIsRefused)
   {
     Multigrid cycle = problem.Cycle(1.0, 1.0, HiddenCorrection::Never);
     HiddenLevels hidden = BuildHiddenLevels(problem.space, problem.system);
+    AddLayeredFunctions(problem.space, problem.system, hidden);
     damage(hidden);
     cycle.AddHidden(std::move(hidden), size);
   };
@@ -226,6 +228,8 @@ TEST(HiddenLevels, BrokenInputIsRefused)
   EXPECT_THROW(add([](HiddenLevels&) {}, 0.0), InvalidInput);
   EXPECT_THROW(add([](HiddenLevels& hidden) { hidden.height.pop_back(); }, 1.0), InvalidInput);
   EXPECT_THROW(add([](HiddenLevels& hidden) { hidden.levels.pop_back(); }, 1.0), InvalidInput);
+  EXPECT_THROW(
+    add([](HiddenLevels& hidden) { --hidden.layeredProlongation.rows; }, 1.0), InvalidInput);
 }
 
 } // namespace

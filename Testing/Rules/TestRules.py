@@ -32,7 +32,7 @@ CORE_LAYERS = {
     "integrals": "QuadratureRule TrilinearBasis PieceSamples Lanes PatchMoments PatchIntegrals"
                  " ElementMatrices DenseElement SurfaceMetric DirectionalElements LoadVector"
                  " Evaluation Assembly HatTransfer",
-    "hierarchy": "System HiddenFunctions HatMultigrid",
+    "hierarchy": "System HiddenFunctions BoxLevel LayeredFunctions HatMultigrid",
     "problems": "Poisson SpectrumCycle CollectSpectrum HatSpectrum SpectrumAccuracy Spectrum ModeSums",
 }
 
