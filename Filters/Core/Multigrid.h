@@ -100,10 +100,10 @@ public:
 
   /// From now on cycles of the finest level have more corrections: one from the coarser level, one
   /// by a V cycle of the hidden functions, and one more from the coarser level, in place of the two
-  /// that a W cycle has. Where there are layered functions, a V cycle of them follows the hidden
-  /// ones, and then these once more. All are corrections in a space of functions, so that the cycle
-  /// stays symmetric, and convergent whatever the heights are. Costs a quarter of a cycle more,
-  /// with layered functions three quarters.
+  /// that a W cycle has. All three are corrections in a space of functions, so that the cycle stays
+  /// symmetric and convergent whatever the heights are. Costs a quarter of a cycle more. Layered
+  /// functions are corrected between two corrections of the hidden ones, those of all axes at once;
+  /// that costs as much as a cycle. The cycle stays symmetric.
   /// @param size  of the matrix on hidden functions, in units of the hierarchy `hidden`
   /// Throws InvalidInput when shapes do not fit.
   void AddHidden(HiddenLevels hidden, double size);
