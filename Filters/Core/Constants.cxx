@@ -53,7 +53,14 @@ void Constants::Remove(Eigen::Ref<MultiVector> X) const
     {
       for (Id i = begin; i < end; ++i)
       {
-        X.row(i) -= mean.row(component_[i]);
+        if (mass_[component_[i]] > 0.0)
+        {
+          X.row(i) -= mean.row(component_[i]);
+        }
+        else
+        {
+          X.row(i).setZero();
+        }
       }
     });
 }
@@ -89,9 +96,9 @@ void Constants::Deflate(Eigen::MatrixXd& mass) const
     const double total = mass_[component_[j]];
     for (Id i = 0; i < mass.rows(); ++i)
     {
-      if (total > 0.0 && component_[i] == component_[j])
+      if (component_[i] == component_[j])
       {
-        mass(i, j) -= weight_[i] * weight_[j] / total;
+        mass(i, j) = total > 0.0 ? mass(i, j) - weight_[i] * weight_[j] / total : 0.0;
       }
     }
   }

@@ -18,10 +18,12 @@ public:
   Constants(
     const SparseMatrix& mass, std::vector<Index> component, Index numberOfComponents, int threads);
 
-  /// Removes the constants from every column, in the inner product of the mass matrix.
+  /// Removes the constants from every column, in the inner product of the mass matrix; components
+  /// without mass, as pieces without an area are, become zero.
   void Remove(Eigen::Ref<MultiVector> X) const;
 
-  /// Takes the constants out of a dense mass matrix of the same size: M - M Z Zᵀ M.
+  /// Takes the constants out of a dense mass matrix of the same size, M - M Z Zᵀ M, and components
+  /// without mass.
   void Deflate(Eigen::MatrixXd& mass) const;
 
   /// The first `count` constants, of mass norm 1: one component each, in order of their numbers.

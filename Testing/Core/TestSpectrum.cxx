@@ -397,7 +397,8 @@ TEST(Spectrum, ManyComponentsHaveNoSmallLevel)
 
 TEST(Spectrum, ComponentsWithoutAreaHaveNoModes)
 {
-  // A triangle of collinear points, and one of equal points, far from the sphere.
+  // A triangle of collinear points, one of equal points, and an oblique line whose pieces have an
+  // area of rounding, far from the sphere.
   TriangleMesh mesh = GeodesicSphere(16);
   const Index first = static_cast<Index>(mesh.points.size());
   for (const double x : { 0.0, 0.1, 0.2, 0.3 })
@@ -406,6 +407,8 @@ TEST(Spectrum, ComponentsWithoutAreaHaveNoModes)
   }
   mesh.triangles.push_back({ first, first + 1, first + 2 });
   mesh.triangles.push_back({ first + 3, first + 3, first + 3 });
+  mesh.points.push_back({ -1.7, 1.31, 1.9 });
+  mesh.triangles.push_back({ first + 4, first + 4, first });
   for (const int depth : { 3, 5 }) // dense, and nested
   {
     const Discretisation on = Discretise(mesh, depth);
