@@ -96,11 +96,12 @@ ElementMatrices IntegrateElements(
   IntegratePatches(space, rule, threads, progress, elements,
     [](const TriangleBatch&, const TrianglePlanes& planes)
     {
-      return
-        [tensor = TangentialProjection(planes.normal)](Id, const Lanes& area, SampleBatch& samples)
+      return [tensor = TangentialProjection(planes.normal)](Id, int count, SampleBatch* samples)
       {
-        samples.mass = area;
-        samples.tensor = tensor.Times(area);
+        for (int k = 0; k < count; ++k)
+        {
+          samples[k].tensor = tensor.Times(samples[k].mass);
+        }
       };
     });
   return elements;

@@ -159,9 +159,10 @@ void ForEachPatch(const FunctionSpace& space, const QuadratureRule& rule, int th
     PatchesPerBlock, progress);
 }
 
-/// Mass and stiffness of every finest patch. prepare(batch, planes) returns what gives the samples
-/// of one point of the rule on the triangles of a batch their mass and tensor: set(point, area,
-/// samples), where the samples have their positions and stand for that much of the triangles.
+/// Mass and stiffness of every finest patch. prepare(batch, planes) returns what gives samples on
+/// the triangles of a batch their mass and tensor: set(point, count, samples), for that many points
+/// of the rule from `point` on. The samples have their positions, and as mass the area they stand
+/// for.
 template<class Prepare>
 void IntegratePatches(const FunctionSpace& space, const QuadratureRule& rule, int threads,
   const Progress& progress, ElementMatrices& result, Prepare&& prepare)
@@ -187,8 +188,9 @@ void IntegratePatches(const FunctionSpace& space, const QuadratureRule& rule, in
             {
               const QuadratureRule::Point& point = rule.points[begin + k];
               SetPositions(batch, point, samples[k]);
-              set(begin + k, Lanes(point.weight * planes.area), samples[k]);
+              samples[k].mass = point.weight * planes.area;
             }
+            set(begin, count, samples.data());
             mass.Add(samples.data(), count);
             stiffness.Add(samples.data(), count);
           }

@@ -57,28 +57,42 @@ Lanes Determinant(const LaneMetric& metric)
   return metric.E * metric.G - metric.F * metric.F;
 }
 
+/// Metrics that are looked at together.
+using MetricGroup = std::array<LaneMetric, BatchesAtOnce>;
+
+/// All lanes at once.
+bool AreRegular(const MetricGroup& metric, int count)
+{
+  Lanes margin = Lanes::Ones();
+  Lanes zero = Lanes::Zero();
+  for (int k = 0; k < count; ++k)
+  {
+    const Lanes determinant = Determinant(metric[k]);
+    const Lanes trace = metric[k].E + metric[k].G;
+    margin = margin.min(metric[k].E)
+               .min(determinant - SmallestQuotient * trace * trace)
+               .min(LargestDeterminant - determinant);
+    zero += 0.0 * (determinant + trace);
+  }
+  // Least values may miss what is no number; the sum cannot.
+  return margin.minCoeff() > 0.0 && zero.sum() == 0.0;
+}
+
 /// Takes the weight of samples with a singular metric.
 /// @return  their number, of those that had a weight
-Id DropSingular(LaneMetric& metric, Lanes& weight)
+Id DropSingular(LaneMetric& metric, SampleBatch& samples)
 {
-  const Lanes determinant = Determinant(metric);
-  const Lanes trace = metric.E + metric.G;
-  const Lanes smallest = SmallestQuotient * trace * trace;
-  // All lanes at once. Least values may miss what is no number; the sum cannot.
-  const Lanes margin = metric.E.min(determinant - smallest).min(LargestDeterminant - determinant);
-  if (margin.minCoeff() > 0.0 && (0.0 * (determinant + trace)).sum() == 0.0)
-  {
-    return 0;
-  }
   Id singular = 0;
   for (int lane = 0; lane < LaneCount; ++lane)
   {
-    const bool isRegular = metric.E[lane] > 0.0 && determinant[lane] < LargestDeterminant &&
-                           determinant[lane] > smallest[lane];
+    const double determinant = metric.E[lane] * metric.G[lane] - metric.F[lane] * metric.F[lane];
+    const double trace = metric.E[lane] + metric.G[lane];
+    const bool isRegular = metric.E[lane] > 0.0 && determinant < LargestDeterminant &&
+                           determinant > SmallestQuotient * trace * trace;
     if (!isRegular)
     {
-      singular += weight[lane] > 0.0 ? 1 : 0;
-      weight[lane] = 0.0;
+      singular += samples.mass[lane] > 0.0 ? 1 : 0;
+      samples.mass[lane] = 0.0;
       metric.E[lane] = metric.G[lane] = 1.0;
       metric.F[lane] = 0.0;
     }
@@ -86,19 +100,16 @@ Id DropSingular(LaneMetric& metric, Lanes& weight)
   return singular;
 }
 
-/// Sets mass and tensor of samples that stand for `weight` of area in the metric of the mesh.
-/// @return  number of singular metrics; they weigh nothing
-Id SetWeights(LaneMetric metric, Lanes weight, const TangentBasis& basis, const LaneVector& normal,
+/// Sets mass and tensor of samples whose mass is that of the mesh.
+void SetWeights(const LaneMetric& metric, const TangentBasis& basis, const LaneVector& normal,
   SampleBatch& samples)
 {
-  const Id singular = DropSingular(metric, weight);
   const Lanes root = Determinant(metric).sqrt();
-  const Lanes over = weight / root;
-  samples.mass = weight * root;
+  const Lanes over = samples.mass / root;
   // Like the stiffness of a scaled surface, the part along the normal does not scale.
   samples.tensor = TensorInBasis(
-    over * metric.G, -over * metric.F, over * metric.E, NormalWeight * weight, basis, normal);
-  return singular;
+    over * metric.G, -over * metric.F, over * metric.E, NormalWeight * samples.mass, basis, normal);
+  samples.mass *= root;
 }
 
 /// Coefficients of an embedding on a patch, one column per coordinate.
@@ -188,13 +199,21 @@ Id IntegrateElements(const FunctionSpace& space, const QuadratureRule& rule,
   IntegratePatches(space, rule, threads, progress, result,
     [&](const TriangleBatch& batch, const TrianglePlanes& planes)
     {
-      return
-        [&, basis = TangentBasis(planes.normal)](Id point, const Lanes& area, SampleBatch& samples)
+      return [&, basis = TangentBasis(planes.normal)](Id point, int count, SampleBatch* samples)
       {
-        const Id here = SetWeights(Load(metric, batch, point), area, basis, planes.normal, samples);
-        if (here > 0)
+        MetricGroup group;
+        for (int k = 0; k < count; ++k)
         {
-          singular += here;
+          group[k] = Load(metric, batch, point + k);
+        }
+        const bool areRegular = AreRegular(group, count);
+        for (int k = 0; k < count; ++k)
+        {
+          if (!areRegular)
+          {
+            singular += DropSingular(group[k], samples[k]);
+          }
+          SetWeights(group[k], basis, planes.normal, samples[k]);
         }
       };
     });

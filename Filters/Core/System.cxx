@@ -33,10 +33,34 @@ bool IsCoarsest(const FunctionSpace& space, std::size_t level, Index coarsestSiz
          LargestComponent(space.levels[level]) <= coarsestSize;
 }
 
+std::array<double, FunctionsPerPatch> RowSums(const ElementMatrix& matrix)
+{
+  std::array<double, FunctionsPerPatch> sum{};
+  for (int i = 0, entry = 0; i < FunctionsPerPatch; ++i)
+  {
+    sum[i] += matrix[entry++];
+    for (int j = i + 1; j < FunctionsPerPatch; ++j, ++entry)
+    {
+      sum[i] += matrix[entry];
+      sum[j] += matrix[entry];
+    }
+  }
+  return sum;
+}
+
 /// The functions of a patch sum to 1, so that ∫ b_i is the sum of row i of the mass matrix.
 std::vector<double> IntegralsOfFunctions(
   const FunctionPlaces& places, const Array<ElementMatrix>& mass, int threads)
 {
+  Array<std::array<double, FunctionsPerPatch>> rowSum(mass.size());
+  ParallelRanges(static_cast<Id>(mass.size()), threads,
+    [&](Id begin, Id end)
+    {
+      for (Id patch = begin; patch < end; ++patch)
+      {
+        rowSum[patch] = RowSums(mass[patch]);
+      }
+    });
   const auto functions = static_cast<Id>(places.begin.size()) - 1;
   std::vector<double> integral(functions, 0.0);
   ParallelRanges(functions, threads,
@@ -46,12 +70,8 @@ std::vector<double> IntegralsOfFunctions(
       {
         for (Index k = places.begin[f]; k < places.begin[f + 1]; ++k)
         {
-          const Index patch = places.item[k] / FunctionsPerPatch;
-          const Index corner = places.item[k] % FunctionsPerPatch;
-          for (int j = 0; j < FunctionsPerPatch; ++j)
-          {
-            integral[f] += mass[patch][PackedIndex(corner, j)];
-          }
+          integral[f] +=
+            rowSum[places.item[k] / FunctionsPerPatch][places.item[k] % FunctionsPerPatch];
         }
       }
     });
