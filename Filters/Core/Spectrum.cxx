@@ -303,9 +303,9 @@ Spectrum NestedIteration::Run(const Progress& progress)
     std::vector<Index> component = Components(space_, level);
     const Index components = CountComponents(component);
     SparseMatrix levelMass =
-      level == 0 ? mass : LevelMatrix(space_, system_, level, 1.0, 0.0, threads);
+      level == 0 ? std::move(mass) : LevelMatrix(space_, system_, level, 1.0, 0.0, threads);
     const Constants constants(levelMass, std::move(component), components, threads);
-    const SpectralProblem problem = this->Problem(level, constants, cycle, std::move(levelMass));
+    SpectralProblem problem = this->Problem(level, constants, cycle, std::move(levelMass));
     BlockOptions block = this->Options(level, wanted);
     coarseValues = pairs_.values;
     if ((level == start || level == 0) && IsDense(space_.levels[level], blockSize))
@@ -328,6 +328,10 @@ Spectrum NestedIteration::Run(const Progress& progress)
     }
     report = level == 0 ? this->FinishList(problem, block, LevelPart(progress, level))
                         : ImproveManyEigenPairs(problem, block, pairs_, LevelPart(progress, level));
+    if (level == 0)
+    {
+      mass = std::move(problem.mass);
+    }
   }
   Spectrum spectrum = CollectSpectrum(zeroModes, zeros_, pairs_, report, mass, threads);
   Append(spectrum.estimatedErrors, EstimateErrors(coarseValues, pairs_.values, report.residuals));

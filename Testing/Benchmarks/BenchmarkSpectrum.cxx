@@ -6,6 +6,7 @@
 #include "SpectrumJobs.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <random>
@@ -38,6 +39,14 @@ double SecondsIfAll(const SpectrumJob& job, int modes)
   return job.converged >= modes ? job.seconds : HUGE_VAL;
 }
 
+struct Peer
+{
+  std::string name;
+  HatEigensolver solver;
+};
+const Peer Spectra{ "Spectra", SpectraSpectrum };
+const Peer Slepc{ "SLEPc", SlepcSpectrum };
+
 struct Contest
 {
   std::string name;
@@ -45,18 +54,16 @@ struct Contest
   int depth;
   int modes;
   double speedBound;
+  std::vector<Peer> peers{ Spectra, Slepc };
   double limit = HUGE_VAL; // of the peers, in units of our time
   double memoryBound = HUGE_VAL;
 };
 
-/// Measures a peer and prints how much longer it takes; at least so much where it was stopped.
-SpectrumJob RunPeer(const Contest& contest, const Table& table, const std::string& peer,
-  HatEigensolver solver, double ours)
+std::string LowerCase(std::string text)
 {
-  const SpectrumJob job =
-    ShiftInvertSpectrum(solver, contest.mesh.mesh, contest.modes, Threads, contest.limit * ours);
-  PrintJob(table, peer + " and CHOLMOD, 2 threads", job);
-  return job;
+  std::transform(
+    text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
 }
 
 void RunContest(const Contest& contest)
@@ -66,22 +73,31 @@ void RunContest(const Contest& contest)
     contest.mesh.name.c_str(), mesh.points.size(), contest.depth);
   const Table table({ "method", "unknowns", "converged", "steps or solves", "s set-up", "s",
     "MB peak", "last eigenvalue" });
-  const SpectrumJob two = GridSpectrum(mesh, contest.depth, contest.modes, Threads);
-  PrintJob(table, "grid, 2 threads", two);
-  const double ours = SecondsIfAll(two, contest.modes);
-  const SpectrumJob spectra = RunPeer(contest, table, "Spectra", SpectraSpectrum, two.seconds);
-  const SpectrumJob slepc = RunPeer(contest, table, "SLEPc", SlepcSpectrum, two.seconds);
-  if (spectra.isStopped || slepc.isStopped)
+  const SpectrumJob grid = GridSpectrum(mesh, contest.depth, contest.modes, Threads);
+  PrintJob(table, "grid, 2 threads", grid);
+  std::vector<SpectrumJob> jobs;
+  for (const Peer& peer : contest.peers)
   {
-    std::printf("Who was stopped would need longer and more memory: ratios are bounds.\n");
+    jobs.push_back(
+      ShiftInvertSpectrum(peer.solver, mesh, contest.modes, Threads, contest.limit * grid.seconds));
+    PrintJob(table, peer.name + " and CHOLMOD, 2 threads", jobs.back());
   }
-  PrintAtLeast(
-    "spectra_seconds_over_grid_" + contest.name, spectra.seconds / ours, contest.speedBound);
-  PrintAtLeast("slepc_seconds_over_grid_" + contest.name, slepc.seconds / ours, contest.speedBound);
+  double peak = HUGE_VAL;
+  for (std::size_t k = 0; k < jobs.size(); ++k)
+  {
+    if (jobs[k].isStopped)
+    {
+      std::printf(
+        "%s was stopped: its time and memory are at least these.\n", contest.peers[k].name.c_str());
+    }
+    PrintAtLeast(LowerCase(contest.peers[k].name) + "_seconds_over_grid_" + contest.name,
+      jobs[k].seconds / SecondsIfAll(grid, contest.modes), contest.speedBound);
+    peak = std::min(peak, jobs[k].peak);
+  }
   if (contest.memoryBound < HUGE_VAL)
   {
-    PrintAtMost("peak_memory_over_shift_invert_" + contest.name,
-      two.peak / std::min(spectra.peak, slepc.peak), contest.memoryBound);
+    PrintAtMost(
+      "peak_memory_over_shift_invert_" + contest.name, grid.peak / peak, contest.memoryBound);
   }
 }
 
@@ -282,7 +298,7 @@ int main(int argc, char** argv)
   }
   if (parts.Want("thousand"))
   {
-    RunContest({ "1000_pairs_160704", RockerArm(2), 7, 1000, 4.0, 4.0, 0.5 });
+    RunContest({ "1000_pairs_160704", RockerArm(2), 7, 1000, 4.0, { Spectra }, 4.1, 0.5 });
   }
   if (parts.Want("sphere"))
   {
