@@ -23,7 +23,8 @@ constexpr double LargestDense = 1200.0;
 /// level below the finest also serves the estimate of the error.
 constexpr double CoarseTolerance = 1e-3;
 constexpr double SecondTolerance = 1e-5;
-constexpr int CoarseIterations = 5;
+constexpr int SecondIterations = 5;
+constexpr int CoarseIterations = 2;
 constexpr int RandomStartIterations = 40;
 
 void Validate(const SpectrumOptions& options)
@@ -193,8 +194,9 @@ BlockOptions NestedIteration::Options(std::size_t level, Index wanted) const
   block.tolerance = level == 0   ? options_.tolerance
                     : level == 1 ? SecondTolerance
                                  : CoarseTolerance;
-  block.maximumIterations = level == 0 ? options_.maximumIterations
-                                       : std::min(CoarseIterations, options_.maximumIterations);
+  const int most = level == 1 ? SecondIterations : CoarseIterations;
+  block.maximumIterations =
+    level == 0 ? options_.maximumIterations : std::min(most, options_.maximumIterations);
   return block;
 }
 

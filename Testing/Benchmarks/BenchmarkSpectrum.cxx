@@ -298,7 +298,7 @@ int main(int argc, char** argv)
   }
   if (parts.Want("thousand"))
   {
-    RunContest({ "1000_pairs_160704", RockerArm(2), 7, 1000, 4.0, { Spectra }, 4.1, 0.5 });
+    RunContest({ "1000_pairs_160704", RockerArm(2), 7, 1000, 4.0, { Spectra }, 6.0, 0.5 });
   }
   if (parts.Want("sphere"))
   {
