@@ -9,7 +9,10 @@ namespace gridfem
 namespace
 {
 
-constexpr double UnresolvedShare = 1e-3;
+/// What is left out is seen neither by the cycle nor by the measure of the residual. On a part with
+/// flat faces, a quarter of its patches, that moved eigenvalues by 7e-7 at a tolerance of 1e-6; on
+/// a brain of 0.4 % of the patches by 2e-10.
+constexpr double UnresolvedShare = 1e-2;
 
 /// Lanes without a column are zero.
 template<class Row>

@@ -18,8 +18,8 @@ public:
   /// As Multigrid; takes the levels apart one after the other.
   SingleCycle(std::vector<MultigridLevel> levels, int threads);
 
-  /// Whether single precision resolves all but a thousandth of the patches. The others are flat
-  /// and almost parallel to a plane of the grid, where differences of functions nearly vanish.
+  /// Whether single precision resolves all but a hundredth of the patches. The others are flat and
+  /// almost parallel to a plane of the grid, where differences of functions nearly vanish.
   bool IsReliable() const;
 
   /// z = one cycle from `level` on, from zero, on every column of r; see Preconditioner. Keeps its
