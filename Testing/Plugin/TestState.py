@@ -25,8 +25,8 @@ def build():
         SourcePointIds=[3, 4], FilterType="Low Pass", LastMode=4, ValueArray=["POINTS", "f"])
     hats = simple.ScreenedPoisson(
         Input=values, Depth=4, ValueArray=["POINTS", "f"], FunctionSpace="Hat Functions",
-        Iteration="Cycles", Smoother="Gauss-Seidel in Slices", SweepsPerSynchronisation=2,
-        NumberOfSweeps=3, CoarsestSize=100)
+        Iteration="Cycles", HiddenCorrection="Always", Smoother="Gauss-Seidel in Slices",
+        SweepsPerSynchronisation=2, NumberOfSweeps=3, CoarsestSize=100)
     both = simple.LaplaceSpectrum(
         Input=values, Depth=4, NumberOfModes=5, Mode=2, FunctionSpace="Hat Functions",
         CompareFunctionSpaces=1)
