@@ -18,16 +18,25 @@ namespace
 {
 
 /// A coordinate this near to a grid plane (in cells) lies on it.
-double SnapTolerance(const TriangleMesh& mesh, const std::vector<char>& used, const Grid& grid)
+double SnapTolerance(
+  const TriangleMesh& mesh, const std::vector<char>& used, const Grid& grid, int threads)
 {
-  double largest = 0.0;
-  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+  struct Largest
   {
-    if (used[i])
+    double value = 0.0;
+    void operator+=(const Largest& other) { value = std::max(value, other.value); }
+  };
+  const double largest = ParallelSum(static_cast<Id>(mesh.points.size()), threads, Largest(),
+    [&](Id begin, Id end)
     {
-      largest = std::max(largest, mesh.points[i].cwiseAbs().maxCoeff());
-    }
-  }
+      Largest part;
+      for (Id i = begin; i < end; ++i)
+      {
+        part.value =
+          used[i] ? std::max(part.value, mesh.points[i].cwiseAbs().maxCoeff()) : part.value;
+      }
+      return part;
+    }).value;
   const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * largest / grid.spacing;
   return std::clamp(rounding, 1e-10, 1e-3);
 }
@@ -402,7 +411,7 @@ ClippedMesh Clip(const TriangleMesh& mesh, const ClipOptions& options, const Pro
         clipped.position[i] = used[i] ? clipped.grid.ToGrid(mesh.points[i]) : Vec3::Zero();
       }
     });
-  const double tolerance = SnapTolerance(mesh, used, clipped.grid);
+  const double tolerance = SnapTolerance(mesh, used, clipped.grid, threads);
   const Array<Vec3> snapped =
     SnapToPlanes(clipped.position, clipped.grid.CellsPerSide(), tolerance, threads);
   Array<Index> pointClass;

@@ -5,7 +5,8 @@
 #include "Array.h"
 #include "Parallel.h"
 
-#include <vector>
+#include <algorithm>
+#include <utility>
 
 namespace gridfem
 {
@@ -17,33 +18,42 @@ struct Groups
   Array<Index> item;
 };
 
-/// Counting sort. Each thread reads all items and serves a range of groups: with the few threads
-/// that memory can feed, reading is the smaller part. Cost O(items + groups / threads).
+/// Counting sort, ranges of items in parallel. Cost O(items + groups).
 /// @param group  of every one of `items` items, in [0, numberOfGroups)
 inline Groups GroupItems(const Index* group, Id items, Id numberOfGroups, int threads = 1)
 {
-  Groups groups{ Array<Index>(numberOfGroups + 1, 0), Array<Index>(items) };
-  const Id ranges = NumberOfThreads(threads);
+  // Each range has a counter per group: no more of them than four times the items.
+  const Id ranges = std::clamp<Id>(4 * items / (numberOfGroups + 1), 1, NumberOfThreads(threads));
+  Array<Index> next(ranges * numberOfGroups);
   const auto forItems = [&](const auto& visit)
   {
     ParallelBlocks(ranges, threads,
       [&](Id range)
       {
-        const Id low = range * numberOfGroups / ranges;
-        const Id high = (range + 1) * numberOfGroups / ranges;
-        for (Index item = 0; item < items; ++item)
+        Index* const ofGroup = next.data() + range * numberOfGroups;
+        const auto end = static_cast<Index>((range + 1) * items / ranges);
+        for (auto item = static_cast<Index>(range * items / ranges); item < end; ++item)
         {
-          if (group[item] >= low && group[item] < high)
-          {
-            visit(group[item], item);
-          }
+          visit(ofGroup[group[item]], item);
         }
       });
   };
-  forItems([&](Index g, Index) { ++groups.begin[g]; });
-  ExclusiveScan(groups.begin);
-  Array<Index> next(groups.begin.begin(), groups.begin.end() - 1);
-  forItems([&](Index g, Index item) { groups.item[next[g]++] = item; });
+  ParallelBlocks(ranges, threads,
+    [&](Id range)
+    { std::fill_n(next.begin() + range * numberOfGroups, numberOfGroups, Index{ 0 }); });
+  forItems([](Index& count, Index) { ++count; });
+  Groups groups{ Array<Index>(numberOfGroups + 1), Array<Index>(items) };
+  Index total = 0;
+  for (Id g = 0; g < numberOfGroups; ++g)
+  {
+    groups.begin[g] = total;
+    for (Id range = 0; range < ranges; ++range)
+    {
+      total += std::exchange(next[range * numberOfGroups + g], total);
+    }
+  }
+  groups.begin[numberOfGroups] = total;
+  forItems([&groups](Index& place, Index item) { groups.item[place++] = item; });
   return groups;
 }
 
