@@ -106,7 +106,7 @@ inline bool IsUsableDiagonal(double value)
 
 /// Throws InvalidInput when the order is not a partition into blocks and colours, or names unknowns
 /// that the matrix does not have.
-void CheckOrder(const SparseMatrix& A, const PatchOrder& order);
+void CheckOrder(const SparseMatrix& A, const PatchOrder& order, int threads = 1);
 
 /// Throws InvalidInput when the shapes of a sweep do not fit.
 void CheckSweep(const SparseMatrix& A, Id rows, const MultiVector& b, const MultiVector& x);

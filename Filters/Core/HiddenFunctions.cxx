@@ -152,24 +152,32 @@ ElementMatrix ScaledEnergy(
   return scaled;
 }
 
-double FlatShare(const System& system)
+double FlatShare(const System& system, int threads)
 {
   // Of the stiffness of the coordinates, ∫ I - n nᵀ: on a flat patch only rounding and the weight
   // of the normal are left along n.
   constexpr double FlatRatio = 1e-6;
   const std::size_t level = std::min<std::size_t>(2, system.elements.size() - 1);
-  double flat = 0.0;
-  double all = 0.0;
-  for (const ElementMatrix& stiffness : system.elements[level].stiffness)
-  {
-    const Eigen::Matrix3d coordinates = StiffnessOfCoordinates(stiffness);
-    const double area = 0.5 * coordinates.trace();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(
-      coordinates, Eigen::EigenvaluesOnly);
-    all += area;
-    flat += solver.eigenvalues()[0] <= FlatRatio * area ? area : 0.0;
-  }
-  return all > 0.0 ? flat / all : 0.0;
+  const Array<ElementMatrix>& stiffness = system.elements[level].stiffness;
+  constexpr Id PatchesPerRange = 512;
+  const Eigen::Vector2d flatAndAll = ParallelSum(
+    static_cast<Id>(stiffness.size()), threads, Eigen::Vector2d(0.0, 0.0),
+    [&](Id begin, Id end)
+    {
+      Eigen::Vector2d sum(0.0, 0.0);
+      for (Id patch = begin; patch < end; ++patch)
+      {
+        const Eigen::Matrix3d coordinates = StiffnessOfCoordinates(stiffness[patch]);
+        const double area = 0.5 * coordinates.trace();
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(
+          coordinates, Eigen::EigenvaluesOnly);
+        const bool isFlat = solver.eigenvalues()[0] <= FlatRatio * area;
+        sum += Eigen::Vector2d(isFlat ? area : 0.0, area);
+      }
+      return sum;
+    },
+    PatchesPerRange);
+  return flatAndAll[1] > 0.0 ? flatAndAll[0] / flatAndAll[1] : 0.0;
 }
 
 std::vector<double> CornerHeights(

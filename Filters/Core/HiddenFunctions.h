@@ -24,8 +24,9 @@ std::vector<double> CornerHeights(const Level& level, const FunctionPlaces& plac
   const ElementMatrices& elements, int threads = 0);
 
 /// Share of the area, in [0, 1], where the surface is flat over four of the finest cells: there the
-/// second coarser level still has hidden functions. Cost O(patches of that level).
-double FlatShare(const System& system);
+/// second coarser level still has hidden functions. Cost O(patches of that level); same bits for
+/// any number of threads.
+double FlatShare(const System& system, int threads = 0);
 
 /// ∫ I - n nᵀ over a patch: the stiffness of the coordinates, which are sums of the corners'
 /// functions.

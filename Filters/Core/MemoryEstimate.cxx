@@ -19,17 +19,17 @@ namespace
 // the memory that is freed but not yet used again.
 
 // While clipping:
-constexpr double ClipPerPoint = 54.0;    // position, the same on planes, welded id (54)
+constexpr double ClipPerPoint = 70.0;    // position, the same on planes, welded id, sort entry (68)
 constexpr double ClipPerTriangle = 58.0; // its sides, edges and stretches (28 + 18 per edge)
 constexpr double ClipPerPiece = 102.0;   // pieces, corners and links, by thread and joined, and
                                          // cut points
 // Kept ever after:
 constexpr double HeldPerPoint = 28.0; // position, patch (28)
-constexpr double HeldPerPiece = 70.0; // piece 16, corners 4 each, cut points 56 (65)
+constexpr double HeldPerPiece = 50.0; // piece 12, corners 4 each, cut points 48 (49)
 // Function space, system and hierarchy, all levels (4/3 of the finest): tables 150, element
 // matrices 770, patterns and matrices of 2 functions with 18 entries each 600, inverses 390 to 770,
-// prolongations and their transposes 300; on flat surfaces also the hidden functions.
-constexpr double HeldPerPatch = 2700.0;
+// prolongations and their transposes 240; on flat surfaces also the hidden functions.
+constexpr double HeldPerPatch = 2600.0;
 // For one right-hand side: ten vectors.
 constexpr double HeldPerFunction = 80.0;
 

@@ -129,7 +129,7 @@ private:
 PatchSmoother::PatchSmoother(const SparseMatrix& A, const PatchOrder& order, int threads)
   : rows_(A.rows)
 {
-  CheckOrder(A, order);
+  CheckOrder(A, order, threads);
   ranges_.colourBegin = order.colourBegin;
   ranges_.blockBegin = order.blockBegin.empty() ? std::vector<Id>{ 0 } : order.blockBegin;
   patches_.resize(order.dof.size());

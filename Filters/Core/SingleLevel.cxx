@@ -102,7 +102,7 @@ SingleLevel::SingleLevel(const MultigridLevel& level, int threads)
       threads),
     ranges_{ level.order.blockBegin, level.order.colourBegin }, patches_(level.order.dof.size())
 {
-  CheckOrder(level.A, level.order);
+  CheckOrder(level.A, level.order, threads);
   const BlockSource source(level.A, threads);
   unresolved_ = ParallelSum(this->Patches(), threads, Id{ 0 },
     [&](Id begin, Id end)

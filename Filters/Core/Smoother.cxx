@@ -21,7 +21,7 @@ bool Covers(const std::vector<Id>& begin, Id count)
 
 } // namespace
 
-void CheckOrder(const SparseMatrix& A, const PatchOrder& order)
+void CheckOrder(const SparseMatrix& A, const PatchOrder& order, int threads)
 {
   if (A.rows != A.columns || static_cast<Id>(A.rowBegin.size()) != Id(A.rows) + 1)
   {
@@ -32,17 +32,21 @@ void CheckOrder(const SparseMatrix& A, const PatchOrder& order)
   {
     throw InvalidInput("blocks and colours of a patch order must cover all patches");
   }
-  for (std::size_t patch = 0; patch < order.dof.size(); ++patch)
-  {
-    for (const Index unknown : order.dof[patch])
+  ParallelRanges(static_cast<Id>(order.dof.size()), threads,
+    [&](Id begin, Id end)
     {
-      if (unknown < -1 || unknown >= A.rows)
+      for (Id patch = begin; patch < end; ++patch)
       {
-        throw InvalidInput("patch " + std::to_string(patch) + " names unknown " +
-                           std::to_string(unknown) + " of " + std::to_string(A.rows));
+        for (const Index unknown : order.dof[patch])
+        {
+          if (unknown < -1 || unknown >= A.rows)
+          {
+            throw InvalidInput("patch " + std::to_string(patch) + " names unknown " +
+                               std::to_string(unknown) + " of " + std::to_string(A.rows));
+          }
+        }
       }
-    }
-  }
+    });
 }
 
 void CheckSweep(const SparseMatrix& A, Id rows, const MultiVector& b, const MultiVector& x)

@@ -98,7 +98,7 @@ bool WantsHidden(const System& system, const Multigrid& multigrid)
     return false;
   }
   return options.hidden == HiddenCorrection::Always || multigrid.RevisionOfHidden() >= 0 ||
-         FlatShare(system) >= MostlyFlat;
+         FlatShare(system, options.threads) >= MostlyFlat;
 }
 
 /// Hidden functions of W cycles of patches; those that are there are kept while the elements are

@@ -183,6 +183,9 @@ void RunScaling()
   PrintScaling("Cost at a fixed depth", fixed);
   PrintScaling("Cost at a growing depth", growing);
   PrintAtMost("setup_per_clipped_triangle_fixed_depth_spread", Spread(fixed), 1.25);
+  PrintAtMost("setup_per_clipped_triangle_fixed_depth_largest_over_smallest",
+    MicrosecondsPerTriangle(fixed.back().second) / MicrosecondsPerTriangle(fixed.front().second),
+    1.25);
   PrintAtMost("setup_per_clipped_triangle_growing_depth_spread", Spread(growing), 1.25);
 }
 

@@ -4,6 +4,7 @@
 #include "Cholmod.h"
 #include "DirectionalElements.h"
 #include "Evaluation.h"
+#include "LargeMemory.h"
 #include "LoadVector.h"
 #include "Measure.h"
 #include "Problems.h"
@@ -122,6 +123,7 @@ private:
   /// What changes the values of the system on the same patches; leaves those of the mesh.
   void RunUpdates(int threads, GridProblem& grid, GridTimes& times) const
   {
+    const MemoryReuse reuse; // as around a flow of many updates
     const FunctionSpace& space = grid.space;
     const QuadratureRule& rule = TriangleRule(2);
     ElementMatrices& elements = grid.system.elements.front();
