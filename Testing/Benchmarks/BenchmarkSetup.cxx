@@ -16,7 +16,7 @@ namespace
 using namespace gridfem;
 using namespace gridfem::benchmarks;
 
-constexpr int Repetitions = 3;
+constexpr int Repetitions = 5;
 
 struct Measurement
 {
