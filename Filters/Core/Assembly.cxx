@@ -26,25 +26,30 @@ constexpr int NumberAround(int i, int j)
   return number;
 }
 
-struct AroundTable
+/// A number for every two corners of a cell.
+struct CornerTable
 {
   int number[FunctionsPerPatch][FunctionsPerPatch];
 };
 
-constexpr AroundTable MakeAroundTable()
+template<class Number>
+constexpr CornerTable MakeCornerTable(Number number)
 {
-  AroundTable table{};
+  CornerTable table{};
   for (int i = 0; i < FunctionsPerPatch; ++i)
   {
     for (int j = 0; j < FunctionsPerPatch; ++j)
     {
-      table.number[i][j] = NumberAround(i, j);
+      table.number[i][j] = number(i, j);
     }
   }
   return table;
 }
 
-constexpr AroundTable Around = MakeAroundTable();
+constexpr CornerTable Around = MakeCornerTable(NumberAround);
+
+/// Packed positions of the entries of each row of an element matrix.
+constexpr CornerTable Rows = MakeCornerTable(PackedIndex);
 
 /// Sorts different numbers by counting the smaller ones of each, which has no branch to guess.
 void SortFew(Index* begin, Index* end)
@@ -98,27 +103,6 @@ void AppendNeighbours(
   SortFew(columns.data() + first, columns.data() + columns.size());
 }
 
-/// Packed positions of the entries of each row of an element matrix.
-struct RowEntries
-{
-  int entry[FunctionsPerPatch][FunctionsPerPatch];
-};
-
-constexpr RowEntries MakeRowEntries()
-{
-  RowEntries rows{};
-  for (int i = 0; i < FunctionsPerPatch; ++i)
-  {
-    for (int j = 0; j < FunctionsPerPatch; ++j)
-    {
-      rows.entry[i][j] = PackedIndex(i, j);
-    }
-  }
-  return rows;
-}
-
-constexpr RowEntries Rows = MakeRowEntries();
-
 /// What the rows of a level matrix are summed from.
 struct ElementSum
 {
@@ -143,7 +127,7 @@ struct ElementSum
     for (Index k = places.begin[row]; k < places.begin[row + 1]; ++k)
     {
       const Index patch = places.item[k] / FunctionsPerPatch;
-      const int* entry = Rows.entry[places.item[k] % FunctionsPerPatch];
+      const int* entry = Rows.number[places.item[k] % FunctionsPerPatch];
       for (int j = 0; j < FunctionsPerPatch; ++j)
       {
         const double m = mass ? a * mass[patch][entry[j]] : 0.0;
@@ -207,20 +191,7 @@ SparseMatrix BuildProlongation(
       const Index corner = first % FunctionsPerPatch;
       const auto& dof = coarse.dof[fine.parent[patch]];
       const auto& weights = ChildWeights(fine.Octant(patch))[corner];
-      std::array<std::pair<Index, double>, FunctionsPerPatch> entries;
-      for (int p = 0; p < FunctionsPerPatch; ++p)
-      {
-        entries[p] = { dof[p], weights[p] };
-      }
-      std::sort(entries.begin(), entries.end());
-      for (const auto& [column, weight] : entries)
-      {
-        if (weight != 0.0)
-        {
-          columns.push_back(column);
-          values.push_back(weight);
-        }
-      }
+      AppendRow(dof, weights.data(), columns, values);
     });
   return prolongation;
 }

@@ -58,6 +58,26 @@ private:
   std::vector<Block> blocks_;
 };
 
+/// Appends to `items` what fill(begin, end, list) appends to a list for consecutive ranges that
+/// cover [0, count), in their order.
+template<class T, class Fill>
+void AppendRanges(
+  Id count, int threads, Array<T>& items, Fill&& fill, const Progress& progress = {})
+{
+  const Id blocks = (count + DefaultBlockSize - 1) / DefaultBlockSize;
+  BlockLists<T> lists(blocks, threads);
+  ParallelBlocks(
+    blocks, threads,
+    [&](Id block, int thread)
+    {
+      lists.Make(block, thread,
+        [&](Array<T>& list)
+        { fill(block * DefaultBlockSize, std::min(count, (block + 1) * DefaultBlockSize), list); });
+    },
+    progress);
+  lists.AppendTo(items, threads);
+}
+
 } // namespace gridfem
 
 #endif

@@ -11,6 +11,25 @@
 namespace gridfem
 {
 
+/// Turns the number of items per range and group, counts[range * groups + group], into the places
+/// where they begin: group after group, in each range after range. `begin`, one longer than there
+/// are groups, gets where each group begins.
+template<class Counts, class Begins>
+void ScanGroups(Counts& counts, Id ranges, Begins& begin)
+{
+  const Id groups = static_cast<Id>(begin.size()) - 1;
+  typename Begins::value_type total = 0;
+  for (Id group = 0; group < groups; ++group)
+  {
+    begin[group] = total;
+    for (Id range = 0; range < ranges; ++range)
+    {
+      total += std::exchange(counts[range * groups + group], total);
+    }
+  }
+  begin[groups] = total;
+}
+
 /// Items of group g are item[begin[g] .. begin[g + 1]), ascending.
 struct Groups
 {
@@ -43,16 +62,7 @@ inline Groups GroupItems(const Index* group, Id items, Id numberOfGroups, int th
     { std::fill_n(next.begin() + range * numberOfGroups, numberOfGroups, Index{ 0 }); });
   forItems([](Index& count, Index) { ++count; });
   Groups groups{ Array<Index>(numberOfGroups + 1), Array<Index>(items) };
-  Index total = 0;
-  for (Id g = 0; g < numberOfGroups; ++g)
-  {
-    groups.begin[g] = total;
-    for (Id range = 0; range < ranges; ++range)
-    {
-      total += std::exchange(next[range * numberOfGroups + g], total);
-    }
-  }
-  groups.begin[numberOfGroups] = total;
+  ScanGroups(next, ranges, groups.begin);
   forItems([&groups](Index& place, Index item) { groups.item[place++] = item; });
   return groups;
 }

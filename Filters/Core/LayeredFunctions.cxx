@@ -94,27 +94,8 @@ Array<ElementMatrix> ElementsOf(const std::vector<Box>& boxes, const Level& fine
   return scaled;
 }
 
+/// Of a function on the functions of a box.
 using CornerWeights = Eigen::Matrix<double, 1, FunctionsPerPatch>;
-
-/// Appends the row of a function with these weights on the functions of a box.
-void AppendRow(const std::array<Index, FunctionsPerPatch>& dof, const CornerWeights& weights,
-  Array<Index>& columns, Array<double>& values)
-{
-  std::array<std::pair<Index, double>, FunctionsPerPatch> entries;
-  for (int p = 0; p < FunctionsPerPatch; ++p)
-  {
-    entries[p] = { dof[p], weights[p] };
-  }
-  std::sort(entries.begin(), entries.end());
-  for (const auto& [column, weight] : entries)
-  {
-    if (weight != 0.0)
-    {
-      columns.push_back(column);
-      values.push_back(weight);
-    }
-  }
-}
 
 /// Any box of a function's support gives the same row; the first is used.
 SparseMatrix ProlongationBetween(const BoxLevel& boxes, const Level& fine,
@@ -128,8 +109,9 @@ SparseMatrix ProlongationBetween(const BoxLevel& boxes, const Level& fine,
     {
       const Index place = places.item[places.begin[row]];
       const Index box = place / FunctionsPerPatch;
-      AppendRow(coarse.dof[boxes.parent[box]],
-        WeightsInParent(boxes, boxes.boxes[box]).row(place % FunctionsPerPatch), columns, values);
+      const CornerWeights weights =
+        WeightsInParent(boxes, boxes.boxes[box]).row(place % FunctionsPerPatch);
+      AppendRow(coarse.dof[boxes.parent[box]], weights.data(), columns, values);
     });
   return prolongation;
 }
@@ -157,7 +139,7 @@ SparseMatrix ProlongationToFinest(const FinestBoxes& finest, const std::vector<B
         weights = (weights * WeightsInParent(level, level.boxes[box])).eval();
         box = level.parent[box];
       }
-      AppendRow(coarse.dof[box], weights, columns, values);
+      AppendRow(coarse.dof[box], weights.data(), columns, values);
     });
   return prolongation;
 }

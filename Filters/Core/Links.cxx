@@ -151,25 +151,16 @@ Stretches AllocateStretches(const MeshEdges& edges, int threads)
 void LinkAlongEdges(const MeshEdges& edges, const Stretches& stretches, int threads,
   const Progress& progress, ClippedMesh& clipped)
 {
-  const Id count = edges.NumberOfEdges();
-  const Id blocks = (count + DefaultBlockSize - 1) / DefaultBlockSize;
-  BlockLists<Link> lists(blocks, threads);
-  ParallelBlocks(
-    blocks, threads,
-    [&](Id block, int thread)
+  AppendRanges(
+    edges.NumberOfEdges(), threads, clipped.links,
+    [&](Id begin, Id end, Array<Link>& links)
     {
-      lists.Make(block, thread,
-        [&](Array<Link>& list)
-        {
-          const Id end = std::min(count, (block + 1) * DefaultBlockSize);
-          for (Id edge = block * DefaultBlockSize; edge < end; ++edge)
-          {
-            LinkEdge(edges, stretches, static_cast<Index>(edge), clipped, list);
-          }
-        });
+      for (Id edge = begin; edge < end; ++edge)
+      {
+        LinkEdge(edges, stretches, static_cast<Index>(edge), clipped, links);
+      }
     },
     progress);
-  lists.AppendTo(clipped.links, threads);
 }
 
 } // namespace gridfem

@@ -1,6 +1,7 @@
 #include "MeshEdges.h"
 
 #include "Errors.h"
+#include "Grouping.h"
 #include "Parallel.h"
 
 #include <algorithm>
@@ -89,18 +90,9 @@ void EdgeFinder::Partition()
       });
   };
   forSides([](const Side&, Index& count) { ++count; });
-  bucketBegin_.assign(buckets_ + 1, 0);
-  Index total = 0;
-  for (Index bucket = 0; bucket < buckets_; ++bucket)
-  {
-    bucketBegin_[bucket] = total;
-    for (Id range = 0; range < ranges; ++range)
-    {
-      total += std::exchange(next[range * buckets_ + bucket], total);
-    }
-  }
-  bucketBegin_[buckets_] = total;
-  sides_.resize(total);
+  bucketBegin_.resize(buckets_ + 1);
+  ScanGroups(next, ranges, bucketBegin_);
+  sides_.resize(bucketBegin_.back());
   forSides([&](const Side& side, Index& place) { sides_[place++] = side; });
 }
 

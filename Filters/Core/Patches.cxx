@@ -110,25 +110,6 @@ std::vector<Index> AbsorbSlivers(
   return target;
 }
 
-/// What fill(begin, end, links) appends for consecutive ranges of [0, count), in their order.
-template<class Fill>
-Array<Link> MakeLinks(Id count, int threads, Fill&& fill)
-{
-  const Id blocks = (count + DefaultBlockSize - 1) / DefaultBlockSize;
-  BlockLists<Link> lists(blocks, threads);
-  ParallelBlocks(blocks, threads,
-    [&](Id block, int thread)
-    {
-      lists.Make(block, thread,
-        [&](Array<Link>& links) {
-          fill(block * DefaultBlockSize, std::min(count, (block + 1) * DefaultBlockSize), links);
-        });
-    });
-  Array<Link> links;
-  lists.AppendTo(links, threads);
-  return links;
-}
-
 /// Sorts by first, then second, and drops repetitions, in time linear in the number of links.
 Array<Link> SortUnique(const Array<Link>& links, int threads)
 {
@@ -137,7 +118,8 @@ Array<Link> SortUnique(const Array<Link>& links, int threads)
     links.begin(), links.end(), group.begin(), [](const Link& link) { return link.first; });
   const Id groups = group.empty() ? 0 : Id{ *std::max_element(group.begin(), group.end()) } + 1;
   const Groups byFirst = GroupItems(group.data(), static_cast<Id>(group.size()), groups, threads);
-  return MakeLinks(groups, threads,
+  Array<Link> result;
+  AppendRanges(groups, threads, result,
     [&](Id begin, Id end, Array<Link>& sorted)
     {
       std::vector<Index> seconds;
@@ -156,6 +138,7 @@ Array<Link> SortUnique(const Array<Link>& links, int threads)
         }
       }
     });
+  return result;
 }
 
 } // namespace
@@ -206,7 +189,9 @@ Array<Link> LinksOfGroups(const Array<Link>& links, const Array<Index>& group, i
       }
     }
   };
-  return SortUnique(MakeLinks(static_cast<Id>(links.size()), threads, groupLinks), threads);
+  Array<Link> ofGroups;
+  AppendRanges(static_cast<Id>(links.size()), threads, ofGroups, groupLinks);
+  return SortUnique(ofGroups, threads);
 }
 
 } // namespace gridfem

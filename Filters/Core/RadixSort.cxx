@@ -47,22 +47,6 @@ void SortByDigits(SortEntry* entries, Id count, int bits)
 
 } // namespace
 
-std::vector<Id> PlacesOfBuckets(std::vector<Id>& next, Id ranges, Id buckets)
-{
-  std::vector<Id> begin(buckets + 1);
-  Id total = 0;
-  for (Id bucket = 0; bucket < buckets; ++bucket)
-  {
-    begin[bucket] = total;
-    for (Id range = 0; range < ranges; ++range)
-    {
-      total += std::exchange(next[range * buckets + bucket], total);
-    }
-  }
-  begin[buckets] = total;
-  return begin;
-}
-
 void SortBuckets(Array<SortEntry>& entries, const std::vector<Id>& begin, int bits, int threads)
 {
   if (bits == 0)

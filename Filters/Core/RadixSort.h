@@ -3,8 +3,7 @@
 #ifndef GridFEM_RadixSort_h
 #define GridFEM_RadixSort_h
 
-#include "Array.h"
-#include "Parallel.h"
+#include "Grouping.h"
 
 #include <algorithm>
 #include <vector>
@@ -20,11 +19,6 @@ struct SortEntry
 
 /// Sorts every bucket, entries[begin[b] .. begin[b + 1]), by the lowest `bits` bits.
 void SortBuckets(Array<SortEntry>& entries, const std::vector<Id>& begin, int bits, int threads);
-
-/// Turns the number of entries per range and bucket into the places where they begin: bucket after
-/// bucket, in each range after range.
-/// @return  where each bucket begins; one more than buckets
-std::vector<Id> PlacesOfBuckets(std::vector<Id>& next, Id ranges, Id buckets);
 
 /// Entries ascending by key; equal keys in the order of their sources. The same for any number of
 /// threads. Cost O(n bits / 11).
@@ -54,7 +48,8 @@ Array<SortEntry> SortByKey(
       });
   };
   forRanges([](std::uint64_t, Id, Id& count) { ++count; });
-  const std::vector<Id> begin = PlacesOfBuckets(next, ranges, buckets);
+  std::vector<Id> begin(buckets + 1);
+  ScanGroups(next, ranges, begin);
   Array<SortEntry> entries(begin.back());
   forRanges([&](std::uint64_t key, Id item, Id& place) { entries[place++] = { key, item }; });
   SortBuckets(entries, begin, rest, threads);

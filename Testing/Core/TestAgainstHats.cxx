@@ -4,6 +4,7 @@
 #include "LoadVector.h"
 #include "Poisson.h"
 #include "Spectrum.h"
+#include "Support/Discretisation.h"
 #include "Support/HatSystem.h"
 #include "Support/Meshes.h"
 
@@ -17,21 +18,6 @@ using namespace gridfem::testing;
 
 namespace
 {
-
-struct Discretisation
-{
-  FunctionSpace space;
-  System system;
-};
-
-Discretisation Discretise(const TriangleMesh& mesh, int depth)
-{
-  SpaceOptions options;
-  options.depth = depth;
-  Discretisation d{ BuildFunctionSpace(mesh, options), {} };
-  d.system = BuildSystem(d.space, TriangleRule(2));
-  return d;
-}
 
 /// A smooth function of the position that is no polynomial and has no symmetry.
 MultiVector Waves(const TriangleMesh& mesh)

@@ -1,6 +1,7 @@
 // The cycle in single precision, against the one in double, and who decides between the two.
 #include "BlockIteration.h"
 #include "CollectSpectrum.h"
+#include "Discretisation.h"
 #include "Errors.h"
 #include "Meshes.h"
 #include "Spectrum.h"
@@ -17,22 +18,6 @@ namespace
 {
 
 using namespace gridfem::testing;
-
-struct Discretisation
-{
-  FunctionSpace space;
-  System system;
-};
-
-Discretisation Discretise(const TriangleMesh& mesh, int depth)
-{
-  SpaceOptions options;
-  options.depth = depth;
-  Discretisation result;
-  result.space = BuildFunctionSpace(mesh, options);
-  result.system = BuildSystem(result.space, TriangleRule(2));
-  return result;
-}
 
 constexpr double Shift = 0.01;
 

@@ -1,4 +1,5 @@
 // The nested eigensolver, against exact spectra and against a dense solver.
+#include "Discretisation.h"
 #include "Meshes.h"
 #include "Spectrum.h"
 #include "SpectrumAccuracy.h"
@@ -19,23 +20,10 @@ using namespace gridfem::testing;
 
 constexpr double Pi = 3.14159265358979323846;
 
-struct Discretisation
+/// With a rule that is exact.
+Discretisation DiscretiseExactly(const TriangleMesh& mesh, int depth, bool connectivityAware = true)
 {
-  FunctionSpace space;
-  System system;
-
-  double Spacing() const { return space.GetGrid().spacing; }
-};
-
-Discretisation Discretise(const TriangleMesh& mesh, int depth, bool connectivityAware = true)
-{
-  SpaceOptions options;
-  options.depth = depth;
-  options.connectivityAware = connectivityAware;
-  Discretisation result;
-  result.space = BuildFunctionSpace(mesh, options);
-  result.system = BuildSystem(result.space, TriangleRule(6));
-  return result;
+  return Discretise(mesh, depth, 6, connectivityAware);
 }
 
 Spectrum Solve(const Discretisation& on, int modes, double tolerance = 1e-8, int threads = 0)
@@ -145,7 +133,7 @@ std::vector<double> SphereValues(int modes, int spheres = 1)
 
 TEST(Spectrum, SmallSpaceEqualsDenseReference)
 {
-  const Discretisation on = Discretise(Torus(48, 24, 1.0, 0.4), 3);
+  const Discretisation on = DiscretiseExactly(Torus(48, 24, 1.0, 0.4), 3);
   ASSERT_LE(on.space.Finest().numberOfFunctions, 600);
   const Spectrum spectrum = Solve(on, 60, 1e-10);
   EXPECT_TRUE(spectrum.converged);
@@ -160,7 +148,7 @@ TEST(Spectrum, SmallSpaceEqualsDenseReference)
 
 TEST(Spectrum, NestedIterationEqualsDenseReference)
 {
-  const Discretisation on = Discretise(TrefoilTube(120, 16, 0.12), 4);
+  const Discretisation on = DiscretiseExactly(TrefoilTube(120, 16, 0.12), 4);
   ASSERT_GT(on.space.Finest().numberOfFunctions, 600);
   const Spectrum spectrum = Solve(on, 30, 1e-11);
   EXPECT_TRUE(spectrum.converged);
@@ -177,7 +165,7 @@ TEST(Spectrum, ManyModesComeInWindows)
 {
   // Two windows, the second of which has few vectors to start from: the coarser level is small. The
   // dense solver shows that no pair is missed.
-  const Discretisation on = Discretise(TrefoilTube(120, 16, 0.12), 4);
+  const Discretisation on = DiscretiseExactly(TrefoilTube(120, 16, 0.12), 4);
   ASSERT_GT(on.space.Finest().numberOfFunctions, 700);
   const Spectrum spectrum = Solve(on, 170, 1e-8, 1);
   EXPECT_TRUE(spectrum.converged);
@@ -199,7 +187,7 @@ TEST(Spectrum, UnitSphere)
   double errors[2];
   for (const int depth : { 4, 5 })
   {
-    const Discretisation on = Discretise(mesh, depth);
+    const Discretisation on = DiscretiseExactly(mesh, depth);
     const Spectrum spectrum = Solve(on, 100, 1e-6); // far below the discretisation error
     EXPECT_TRUE(spectrum.converged);
     CheckPairs(on, spectrum);
@@ -223,20 +211,20 @@ TEST(Spectrum, FlatSquare)
   std::sort(exact.begin(), exact.end());
   exact.resize(30);
   // Bilinear elements are (π k h)² / 12 too high; k = 5 and h = 1/32 are the worst: 2 %.
-  const Discretisation flat = Discretise(mesh, 5);
+  const Discretisation flat = DiscretiseExactly(mesh, 5);
   const Spectrum spectrum = Solve(flat, 30);
   EXPECT_TRUE(spectrum.converged);
   CheckPairs(flat, spectrum);
   EXPECT_LT(LargestError(WorldValues(flat, spectrum), exact), 0.021);
   // Out of the grid's planes and diagonals the eight functions of a cell act like four.
-  const Discretisation tilted = Discretise(Transform(mesh, { 1, 2, 3 }, 0.7), 5);
+  const Discretisation tilted = DiscretiseExactly(Transform(mesh, { 1, 2, 3 }, 0.7), 5);
   EXPECT_LT(LargestError(WorldValues(tilted, Solve(tilted, 30)), exact), 0.021);
 }
 
 TEST(Spectrum, AxisAlignedCubeHasItsMultiplicities)
 {
   // On grid planes half of the functions of a cell are null on the surface: M is singular.
-  const Discretisation on = Discretise(Box(4), 4);
+  const Discretisation on = DiscretiseExactly(Box(4), 4);
   const Spectrum spectrum = Solve(on, 20, 1e-10);
   EXPECT_TRUE(spectrum.converged);
   CheckPairs(on, spectrum);
@@ -262,7 +250,7 @@ TEST(Spectrum, EqualSpheresShareEveryEigenvalue)
   }
   for (const bool connectivityAware : { true, false })
   {
-    const Discretisation on = Discretise(mesh, 5, connectivityAware);
+    const Discretisation on = DiscretiseExactly(mesh, 5, connectivityAware);
     ASSERT_EQ(on.space.numberOfComponents, 3);
     const Spectrum spectrum = Solve(on, 48);
     EXPECT_TRUE(spectrum.converged);
@@ -282,7 +270,7 @@ TEST(Spectrum, SpheresInEqualCellsShareEveryEigenvalueExactly)
   {
     mesh = Join(mesh, Transform(GeodesicSphere(8), { 0, 0, 1 }, 0.0, 1.0, { x, 0, 0 }));
   }
-  const Discretisation on = Discretise(mesh, 5);
+  const Discretisation on = DiscretiseExactly(mesh, 5);
   const Spectrum spectrum = Solve(on, 75); // 3 (1 + 3 + 5 + 7 + 9): all of degree 4
   EXPECT_TRUE(spectrum.converged);
   EXPECT_FALSE(spectrum.cutsMultiplet);
@@ -303,7 +291,7 @@ Spectrum SolveWhole(const Discretisation& on, int modes)
 
 TEST(Spectrum, AMultipletAtTheEndIsCompletedOrReported)
 {
-  const Discretisation on = Discretise(GeodesicSphere(24), 5);
+  const Discretisation on = DiscretiseExactly(GeodesicSphere(24), 5);
   for (const int modes : { 2, 10, 15, 16 })
   {
     const int whole = modes == 2 ? 4 : 16; // 1 + 3, 1 + 3 + 5 + 7
@@ -321,7 +309,7 @@ TEST(Spectrum, AMultipletAtTheEndIsCompletedOrReported)
 TEST(Spectrum, AMultipletLongerThanTheGuardsIsCompleted)
 {
   // The first value of 8 equal cubes is 24-fold, more than guards reach; so are the zeros.
-  const Discretisation on = Discretise(CubeArray(2, 2, 1.0), 4);
+  const Discretisation on = DiscretiseExactly(CubeArray(2, 2, 1.0), 4);
   ASSERT_EQ(on.space.numberOfComponents, 8);
   EXPECT_EQ(SolveWhole(on, 3).eigenvalues.size(), 8u);
   EXPECT_TRUE(Solve(on, 3).cutsMultiplet);
@@ -336,7 +324,7 @@ TEST(Spectrum, EstimatedErrorsAreTheTrueOnesWithinAFactorOfTwo)
 {
   const TriangleMesh mesh = GeodesicSphere(96);
   const std::vector<double> exact = SphereValues(100);
-  const Discretisation on = Discretise(mesh, 5);
+  const Discretisation on = DiscretiseExactly(mesh, 5);
   const Spectrum spectrum = Solve(on, 100);
   const std::vector<double> values = WorldValues(on, spectrum);
   EXPECT_EQ(spectrum.estimatedErrors[0], 0.0);
@@ -358,12 +346,12 @@ TEST(Spectrum, TheDepthFollowsFromTheWantedAccuracy)
   for (const double accuracy : { 0.05, 0.004 })
   {
     int depth = FirstDepthForAccuracy(9500, 36, accuracy); // functions of a sphere at depth 5
-    Discretisation on = Discretise(mesh, depth);
+    Discretisation on = DiscretiseExactly(mesh, depth);
     Spectrum spectrum = Solve(on, 36);
     for (int next; (next = DepthForAccuracy(spectrum.estimatedErrors, depth, accuracy)) != depth;)
     {
       depth = next;
-      on = Discretise(mesh, depth);
+      on = DiscretiseExactly(mesh, depth);
       spectrum = Solve(on, 36);
     }
     EXPECT_LE(LargestError(WorldValues(on, spectrum), exact), 1.2 * accuracy);
@@ -384,7 +372,7 @@ TEST(Spectrum, DepthsForAccuracy)
 TEST(Spectrum, ManyComponentsHaveNoSmallLevel)
 {
   // A cube has 4 cells a side and a period of 6: all lie equally in the grid.
-  const Discretisation on = Discretise(CubeArray(3, 2, 0.5), 4);
+  const Discretisation on = DiscretiseExactly(CubeArray(3, 2, 0.5), 4);
   ASSERT_EQ(on.space.numberOfComponents, 27);
   ASSERT_GT(on.space.levels[on.system.elements.size() - 1].numberOfFunctions, 600);
   const Spectrum spectrum = Solve(on, 40);
@@ -411,7 +399,7 @@ TEST(Spectrum, ComponentsWithoutAreaHaveNoModes)
   mesh.triangles.push_back({ first + 4, first + 4, first });
   for (const int depth : { 3, 5 }) // dense, and nested
   {
-    const Discretisation on = Discretise(mesh, depth);
+    const Discretisation on = DiscretiseExactly(mesh, depth);
     const Spectrum spectrum = Solve(on, 16);
     EXPECT_TRUE(spectrum.converged);
     CheckPairs(on, spectrum);
@@ -424,7 +412,7 @@ TEST(Spectrum, ComponentsWithoutAreaHaveNoModes)
 
 TEST(Spectrum, OnlyZeroModesAskedFor)
 {
-  const Discretisation on = Discretise(CubeArray(2, 2, 1.0), 4);
+  const Discretisation on = DiscretiseExactly(CubeArray(2, 2, 1.0), 4);
   ASSERT_EQ(on.space.numberOfComponents, 8);
   for (const int modes : { 1, 5, 8 })
   {
@@ -438,7 +426,7 @@ TEST(Spectrum, OnlyZeroModesAskedFor)
 TEST(Spectrum, MoreModesThanExist)
 {
   // A flat square in a grid plane, 4 x 4 cells: 25 functions of the plane, the rest is null.
-  const Discretisation on = Discretise(FlatRectangle(4, 4), 2);
+  const Discretisation on = DiscretiseExactly(FlatRectangle(4, 4), 2);
   const Spectrum spectrum = Solve(on, 100);
   EXPECT_TRUE(spectrum.truncated);
   EXPECT_TRUE(spectrum.converged);
@@ -449,7 +437,7 @@ TEST(Spectrum, MoreModesThanExist)
 
 TEST(Spectrum, RepeatsBitForBitOnAnyNumberOfThreads)
 {
-  const Discretisation on = Discretise(TrefoilTube(120, 16, 0.12), 4);
+  const Discretisation on = DiscretiseExactly(TrefoilTube(120, 16, 0.12), 4);
   const Spectrum one = Solve(on, 20, 1e-8, 1);
   for (const int threads : { 1, 2, 3 })
   {
@@ -463,9 +451,9 @@ TEST(Spectrum, RepeatsBitForBitOnAnyNumberOfThreads)
 TEST(Spectrum, ScalesWithTheInverseSquareOfLength)
 {
   const TriangleMesh mesh = Torus(48, 24, 1.0, 0.4);
-  const Discretisation small = Discretise(mesh, 4);
+  const Discretisation small = DiscretiseExactly(mesh, 4);
   const Discretisation large =
-    Discretise(Transform(mesh, { 0, 0, 1 }, 0.0, 1024.0), 4); // exact in binary
+    DiscretiseExactly(Transform(mesh, { 0, 0, 1 }, 0.0, 1024.0), 4); // exact in binary
   const std::vector<double> a = WorldValues(small, Solve(small, 20));
   const std::vector<double> b = WorldValues(large, Solve(large, 20));
   for (std::size_t j = 1; j < a.size(); ++j)
@@ -476,7 +464,7 @@ TEST(Spectrum, ScalesWithTheInverseSquareOfLength)
 
 TEST(Spectrum, ReportsWhatHasNotConverged)
 {
-  const Discretisation on = Discretise(GeodesicSphere(16), 4);
+  const Discretisation on = DiscretiseExactly(GeodesicSphere(16), 4);
   SpectrumOptions options;
   options.numberOfModes = 20;
   options.tolerance = 1e-12;
@@ -490,7 +478,7 @@ TEST(Spectrum, ReportsWhatHasNotConverged)
 
 TEST(Spectrum, ReportsProgressAndStopsWhenAsked)
 {
-  const Discretisation on = Discretise(GeodesicSphere(16), 4);
+  const Discretisation on = DiscretiseExactly(GeodesicSphere(16), 4);
   SpectrumOptions options;
   options.numberOfModes = 20;
   std::vector<double> reports;
@@ -516,7 +504,7 @@ TEST(Spectrum, ReportsProgressAndStopsWhenAsked)
 
 TEST(Spectrum, RefusesOptionsOutOfRange)
 {
-  const Discretisation on = Discretise(Box(2), 2);
+  const Discretisation on = DiscretiseExactly(Box(2), 2);
   EXPECT_THROW(Solve(on, 0), InvalidInput);
   EXPECT_THROW(Solve(on, 3, 0.0), InvalidInput);
   EXPECT_THROW(Solve(on, 3, 1.0), InvalidInput);

@@ -1,0 +1,32 @@
+// A mesh with a space and a system on it, for tests that start from both.
+#ifndef GridFEM_Testing_Discretisation_h
+#define GridFEM_Testing_Discretisation_h
+
+#include "System.h"
+
+namespace gridfem::testing
+{
+
+struct Discretisation
+{
+  FunctionSpace space;
+  System system;
+
+  double Spacing() const { return space.GetGrid().spacing; }
+};
+
+inline Discretisation Discretise(
+  const TriangleMesh& mesh, int depth, int quadratureDegree = 2, bool connectivityAware = true)
+{
+  SpaceOptions options;
+  options.depth = depth;
+  options.connectivityAware = connectivityAware;
+  Discretisation result;
+  result.space = BuildFunctionSpace(mesh, options);
+  result.system = BuildSystem(result.space, TriangleRule(quadratureDegree));
+  return result;
+}
+
+} // namespace gridfem::testing
+
+#endif
