@@ -6,6 +6,7 @@
 #include "LargeMemory.h"
 
 #include <memory>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -50,10 +51,19 @@ struct UninitializedAllocator : std::allocator<T>
   {
     ::new (static_cast<void*>(place)) U;
   }
+  /// Aggregates, too, so that emplace_back writes them where they stay: a copy of what was just
+  /// written in parts waits until the parts are in the cache.
   template<class U, class... Args>
   void construct(U* place, Args&&... args)
   {
-    ::new (static_cast<void*>(place)) U(std::forward<Args>(args)...);
+    if constexpr (std::is_constructible_v<U, Args...>)
+    {
+      ::new (static_cast<void*>(place)) U(std::forward<Args>(args)...);
+    }
+    else
+    {
+      ::new (static_cast<void*>(place)) U{ std::forward<Args>(args)... };
+    }
   }
 };
 

@@ -29,6 +29,12 @@ public:
   {
   }
 
+  /// On the edge across from corner `opposite`; `first` belongs to the corner after that one.
+  CutPoint(Index source, int opposite, double first, double second)
+    : triangle(source), zero_(opposite), first_(first), second_(second)
+  {
+  }
+
   /// Per corner of the triangle. Points on a mesh edge have zero at the opposite corner.
   std::array<double, 3> Weights() const
   {

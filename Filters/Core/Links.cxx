@@ -22,12 +22,12 @@ void LinkStar(const std::vector<Index>& pieces, const CellOf& cellOf, Array<Link
   {
     if (!firstOfCell.empty() && cellOf(firstOfCell.back()) == cellOf(piece))
     {
-      links.push_back({ firstOfCell.back(), piece });
+      links.emplace_back(firstOfCell.back(), piece);
       continue;
     }
     for (const Index other : firstOfCell)
     {
-      links.push_back({ other, piece });
+      links.emplace_back(other, piece);
     }
     firstOfCell.push_back(piece);
   }
@@ -53,7 +53,7 @@ void LinkTwoSides(const Index* first, const Index* second, Index stretches, Arra
     const auto [low, high] = std::minmax(first[k], second[k]);
     if (low >= 0 && low != high)
     {
-      links.push_back({ low, high });
+      links.emplace_back(low, high);
     }
   }
 }

@@ -81,7 +81,7 @@ std::vector<Index> AbsorbSlivers(
     const Index b = piecePatch[clipped.links[k].second];
     if (a != b && (target[a] < 0 || target[b] < 0))
     {
-      links.push_back({ a, b });
+      links.emplace_back(a, b);
     }
   }
   while (open)
@@ -134,7 +134,7 @@ Array<Link> SortUnique(const Array<Link>& links, int threads)
         seconds.erase(std::unique(seconds.begin(), seconds.end()), seconds.end());
         for (const Index second : seconds)
         {
-          sorted.push_back({ first, second });
+          sorted.emplace_back(first, second);
         }
       }
     });

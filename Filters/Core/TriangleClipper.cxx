@@ -9,13 +9,26 @@
 namespace gridfem
 {
 
+namespace
+{
+
+double Snap(double value, double tolerance)
+{
+  const double nearest = std::nearbyint(value);
+  return std::abs(value - nearest) <= tolerance ? nearest : value;
+}
+
+} // namespace
+
 void TriangleClipper::Polygon::Push(std::int32_t vertex, int tag)
 {
   if (size == Capacity)
   {
     throw std::length_error("A clipped polygon has too many corners.");
   }
-  corner[size++] = { vertex, static_cast<std::int16_t>(tag) };
+  corner[size].vertex = vertex;
+  corner[size].tag = static_cast<std::int16_t>(tag);
+  ++size;
 }
 
 void TriangleClipper::Clip(Id triangle, PieceStore& store, Index* stretchPiece)
@@ -85,9 +98,13 @@ void TriangleClipper::Start(Index* stretchPiece)
   for (int k = 0; k < 3; ++k)
   {
     const Vec3& p = input_.position[corners[k]];
-    Vertex vertex{ { p[0], p[1], p[2] }, { 0.0, 0.0, 0.0 }, static_cast<Index>(corners[k]) };
-    vertex.weight[k] = 1.0;
-    vertices_.push_back(vertex);
+    Vertex& vertex = vertices_.emplace_back();
+    vertex.id = static_cast<Index>(corners[k]);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      vertex.position[axis] = p[axis];
+      vertex.weight[axis] = axis == k ? 1.0 : 0.0;
+    }
 
     const auto& ends = input_.edges.ends[edges[k]];
     const int next = k == 2 ? 0 : k + 1;
@@ -195,29 +212,30 @@ void TriangleClipper::Split(
   above.size = hasAbove ? above.size : 0;
 }
 
-double TriangleClipper::Snap(double value) const
-{
-  const double nearest = std::nearbyint(value);
-  return std::abs(value - nearest) <= input_.tolerance ? nearest : value;
-}
-
 std::int32_t TriangleClipper::CutMeshEdge(const Edge& edge, int axis, int plane)
 {
   const Vec3& a = *edge.low;
   const Vec3& b = *edge.high;
   const double t = (plane - a[axis]) / (b[axis] - a[axis]);
-  Vertex cut{ {}, { 0.0, 0.0, 0.0 }, edge.firstCut[axis] + (plane - edge.planes[axis].first) };
+  Vertex& cut = vertices_.emplace_back();
+  cut.id = edge.firstCut[axis] + (plane - edge.planes[axis].first);
   for (int other = 0; other < 3; ++other)
   {
-    cut.position[other] = other == axis ? plane : this->Snap(a[other] + t * (b[other] - a[other]));
+    cut.position[other] =
+      other == axis ? plane : Snap(a[other] + t * (b[other] - a[other]), input_.tolerance);
+    cut.weight[other] = 0.0;
   }
   cut.weight[edge.lowCorner] = 1.0 - t;
   cut.weight[edge.highCorner] = t;
   if (edge.isNamedHere)
   {
-    PlaceCutPoint(cut.id, { static_cast<Index>(triangle_), cut.weight }, input_, clipped_);
+    const int opposite = 3 - edge.lowCorner - edge.highCorner;
+    const bool isLowFirst = edge.lowCorner == (opposite + 1) % 3;
+    PlaceCutPoint(cut.id,
+      { static_cast<Index>(triangle_), opposite, isLowFirst ? 1.0 - t : t,
+        isLowFirst ? t : 1.0 - t },
+      input_, clipped_);
   }
-  vertices_.push_back(cut);
   return static_cast<std::int32_t>(vertices_.size()) - 1;
 }
 
@@ -245,26 +263,27 @@ TriangleClipper::Slot& TriangleClipper::InteriorSlot(int axisA, int planeA, int 
 std::int32_t TriangleClipper::CutPlaneEdge(
   const Corner& fromCorner, const Corner& toCorner, int axis, int plane, PieceStore& store)
 {
-  const Vertex& from = vertices_[fromCorner.vertex];
-  const Vertex& to = vertices_[toCorner.vertex];
   const int edgeAxis = fromCorner.tag - PlaneTag;
-  const int edgePlane = static_cast<int>(from.position[edgeAxis]);
+  const int edgePlane = static_cast<int>(vertices_[fromCorner.vertex].position[edgeAxis]);
   Slot& slot = this->InteriorSlot(edgeAxis, edgePlane, axis, plane);
   if (slot.stamp != triangle_)
   {
+    slot = { triangle_, static_cast<std::int32_t>(vertices_.size()) };
+    Vertex& cut = vertices_.emplace_back();
+    const Vertex& from = vertices_[fromCorner.vertex];
+    const Vertex& to = vertices_[toCorner.vertex];
     const double t = (plane - from.position[axis]) / (to.position[axis] - from.position[axis]);
-    Vertex cut{ {}, {}, -1 - static_cast<Index>(store.interior.size()) };
+    cut.id = -1 - static_cast<Index>(store.interior.size());
     for (int k = 0; k < 3; ++k)
     {
-      cut.position[k] = k == axis ? plane
-                        : k == edgeAxis
-                          ? edgePlane
-                          : this->Snap(from.position[k] + t * (to.position[k] - from.position[k]));
+      cut.position[k] =
+        k == axis ? plane
+        : k == edgeAxis
+          ? edgePlane
+          : Snap(from.position[k] + t * (to.position[k] - from.position[k]), input_.tolerance);
       cut.weight[k] = from.weight[k] + t * (to.weight[k] - from.weight[k]);
     }
-    slot = { triangle_, static_cast<std::int32_t>(vertices_.size()) };
-    store.interior.push_back({ static_cast<Index>(triangle_), cut.weight });
-    vertices_.push_back(cut);
+    store.interior.emplace_back(static_cast<Index>(triangle_), cut.weight);
   }
   return slot.vertex;
 }
@@ -290,11 +309,11 @@ void TriangleClipper::Emit(const Polygon& polygon, PieceStore& store)
   store.triangle.push_back(static_cast<Index>(triangle_));
   const CellCode code = (CellCode{ cell[0] } << ShiftOf(0)) + (CellCode{ cell[1] } << ShiftOf(1)) +
                         (CellCode{ cell[2] } << ShiftOf(2));
-  pieces_.push_back({ code, piece, static_cast<int>(corners_.size()), polygon.size });
+  pieces_.emplace_back(code, piece, static_cast<int>(corners_.size()), polygon.size);
   for (int i = 0; i < polygon.size; ++i)
   {
     store.corner.push_back(vertices_[polygon.corner[i].vertex].id);
-    corners_.push_back(polygon.corner[i]);
+    corners_.emplace_back(polygon.corner[i].vertex, polygon.corner[i].tag);
   }
   store.cornerBegin.push_back(static_cast<Index>(store.corner.size()));
   this->NoteStretches(polygon, piece, store);
@@ -322,7 +341,7 @@ void TriangleClipper::NoteStretches(const Polygon& polygon, Index piece, PieceSt
     }
     else if (known != piece)
     {
-      store.links.push_back({ known, piece });
+      store.links.emplace_back(known, piece);
     }
   }
 }
@@ -393,7 +412,7 @@ void TriangleClipper::LinkAcross(const LocalPiece& piece, int corner, PieceStore
                                                 shiftY * (CellCode{ 1 } << ShiftOf(1)) + shiftZ);
       if (other && HasEdge(store, *other, from, to))
       {
-        store.links.push_back({ piece.piece, other->piece });
+        store.links.emplace_back(piece.piece, other->piece);
         return;
       }
     }

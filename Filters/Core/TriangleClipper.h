@@ -132,7 +132,6 @@ private:
   std::int32_t CutPlaneEdge(
     const Corner& from, const Corner& to, int axis, int plane, PieceStore& store);
   Slot& InteriorSlot(int axisA, int planeA, int axisB, int planeB);
-  double Snap(double value) const;
   void Emit(const Polygon& polygon, PieceStore& store);
   void NoteStretches(const Polygon& polygon, Index piece, PieceStore& store);
   void LinkPieces(PieceStore& store) const;
@@ -145,9 +144,9 @@ private:
   Id triangle_ = 0;
   std::array<PlaneRange, 3> planes_{};
   std::array<Edge, 3> edge_{};
-  std::vector<Vertex> vertices_;
-  std::vector<LocalPiece> pieces_; // ascending by (i, j, k)
-  std::vector<Corner> corners_;
+  Array<Vertex> vertices_;
+  Array<LocalPiece> pieces_; // ascending by (i, j, k)
+  Array<Corner> corners_;
 
   static constexpr Id LargestTable = Id{ 1 } << 20;
   std::array<std::vector<Slot>, 3> slots_; // planes xy, xz, yz
