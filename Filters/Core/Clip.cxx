@@ -2,11 +2,12 @@
 
 #include "CutPoints.h"
 #include "Errors.h"
+#include "JoinPieces.h"
 #include "Links.h"
 #include "Parallel.h"
-#include "RadixSort.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -101,26 +102,6 @@ WorkRanges SplitWork(
   return work;
 }
 
-/// One range of triangles: its part of the store of the thread that clipped it.
-struct ClipBlock
-{
-  const PieceStore* store;
-  Index firstPiece;
-  Index firstCorner;
-  Index firstInterior;
-  Index firstLink;
-  Index pieces;
-  Index corners;
-  Index interiors;
-  Index links;
-};
-
-struct ClippedTriangles
-{
-  std::vector<PieceStore> stores; // per thread
-  std::vector<ClipBlock> blocks;  // per range of triangles
-};
-
 /// A store with room for its share, so that it need not move; memory that is not used costs
 /// nothing.
 PieceStore MakeStore(double pieces)
@@ -137,225 +118,54 @@ PieceStore MakeStore(double pieces)
   return store;
 }
 
-/// Ends a block that began when the store was as `block` says.
-void Close(ClipBlock& block)
+ClipBlock BeginBlock(PieceStore& store)
+{
+  ClipBlock block{};
+  block.store = &store;
+  block.firstPiece = store.Size();
+  block.firstCorner = static_cast<Index>(store.corner.size());
+  block.firstInterior = static_cast<Index>(store.interior.size());
+  block.firstLink = static_cast<Index>(store.links.size());
+  return block;
+}
+
+void EndBlock(ClipBlock& block)
 {
   const PieceStore& store = *block.store;
-  const double corners = static_cast<double>(store.corner.size());
-  RequireIndices(corners, "corners of pieces");
-  block.pieces = static_cast<Index>(store.key.size()) - block.firstPiece;
+  RequireIndices(static_cast<double>(store.corner.size()), "corners of pieces");
+  block.pieces = store.Size() - block.firstPiece;
   block.corners = static_cast<Index>(store.corner.size()) - block.firstCorner;
   block.interiors = static_cast<Index>(store.interior.size()) - block.firstInterior;
   block.links = static_cast<Index>(store.links.size()) - block.firstLink;
 }
 
-ClippedTriangles ClipTriangles(const ClipInput& input, const WorkRanges& work, Stretches& stretches,
-  ClippedMesh& clipped, int threads, const Progress& progress)
+ClippedTriangles ClipTriangles(const ClipInput& input, const WorkRanges& work,
+  Array<Index>& stretches, ClippedMesh& clipped, int threads, const Progress& progress)
 {
   ClippedTriangles result;
   const int team = NumberOfThreads(threads);
+  std::atomic<Index> nextChunk{ 0 };
   std::vector<TriangleClipper> clippers;
   for (int t = 0; t < team; ++t)
   {
     result.stores.push_back(MakeStore(work.pieces / team));
-    clippers.emplace_back(input, clipped);
+    clippers.emplace_back(input, clipped, stretches, nextChunk);
   }
   result.blocks.resize(work.begin.size() - 1);
   ParallelBlocks(
     static_cast<Id>(result.blocks.size()), team,
     [&](Id b, int thread)
     {
-      PieceStore& store = result.stores[thread];
       ClipBlock& block = result.blocks[b];
-      block.store = &store;
-      block.firstPiece = static_cast<Index>(store.key.size());
-      block.firstCorner = static_cast<Index>(store.corner.size());
-      block.firstInterior = static_cast<Index>(store.interior.size());
-      block.firstLink = static_cast<Index>(store.links.size());
+      block = BeginBlock(result.stores[thread]);
       for (Id t = work.begin[b]; t < work.begin[b + 1]; ++t)
       {
-        clippers[thread].Clip(t, store, stretches.piece.data() + stretches.begin[t]);
+        clippers[thread].Clip(t, *block.store);
       }
-      Close(block);
+      EndBlock(block);
     },
     progress);
   return result;
-}
-
-/// Where each block's entries begin in the joined arrays; one more entry than blocks.
-struct BlockOffsets
-{
-  std::vector<Index> piece;
-  std::vector<Index> interior;
-  std::vector<Index> link;
-  Index corners = 0; // of all pieces
-};
-
-BlockOffsets OffsetsOf(const std::vector<ClipBlock>& blocks)
-{
-  const auto scan = [&](const char* what, Index ClipBlock::*count)
-  {
-    double total = 0.0;
-    std::vector<Index> begin;
-    for (const ClipBlock& block : blocks)
-    {
-      begin.push_back(block.*count);
-      total += begin.back();
-    }
-    RequireIndices(total, what);
-    begin.push_back(0);
-    ExclusiveScan(begin);
-    return begin;
-  };
-  return { scan("pieces", &ClipBlock::pieces), scan("cut points", &ClipBlock::interiors),
-    scan("links", &ClipBlock::links), scan("corners of pieces", &ClipBlock::corners).back() };
-}
-
-/// A piece by its block (upper half) and its number in the block's store, sorted by cell.
-Array<SortEntry> SortPieces(ClippedTriangles& parts, int depth, int threads)
-{
-  constexpr Id BlocksPerRange = 4;
-  Array<SortEntry> entries = SortByKey(
-    static_cast<Id>(parts.blocks.size()), 3 * depth, threads,
-    [&](Id begin, Id end, const auto& add)
-    {
-      for (Id b = begin; b < end; ++b)
-      {
-        const ClipBlock& block = parts.blocks[b];
-        for (Index number = block.firstPiece; number < block.firstPiece + block.pieces; ++number)
-        {
-          add(block.store->key[number], b << 32 | Id{ number });
-        }
-      }
-    },
-    BlocksPerRange);
-  for (PieceStore& store : parts.stores)
-  {
-    Release(store.key);
-  }
-  return entries;
-}
-
-/// Lists the cells that the sorted pieces lie in.
-void ListCells(const Array<SortEntry>& entries, int threads, ClippedMesh& clipped)
-{
-  const Id count = static_cast<Id>(entries.size());
-  const auto isFirst = [&](Id k) { return k == 0 || entries[k].key != entries[k - 1].key; };
-  std::vector<Index> firstCell((count + DefaultBlockSize - 1) / DefaultBlockSize + 1, 0);
-  ParallelRanges(count, threads,
-    [&](Id begin, Id end)
-    {
-      for (Id k = begin; k < end; ++k)
-      {
-        firstCell[begin / DefaultBlockSize] += isFirst(k) ? 1 : 0;
-      }
-    });
-  const Index cells = ExclusiveScan(firstCell);
-  clipped.cells.resize(cells);
-  clipped.cellBegin.resize(cells + 1);
-  clipped.cellBegin[cells] = static_cast<Index>(count);
-  ParallelRanges(count, threads,
-    [&](Id begin, Id end)
-    {
-      Index cell = firstCell[begin / DefaultBlockSize];
-      for (Id k = begin; k < end; ++k)
-      {
-        if (isFirst(k))
-        {
-          clipped.cells[cell] = entries[k].key;
-          clipped.cellBegin[cell++] = static_cast<Index>(k);
-        }
-      }
-    });
-}
-
-/// Copies the pieces in their sorted order.
-/// @return the place of each piece, pieces numbered block after block
-Array<Index> JoinPieces(const std::vector<ClipBlock>& blocks, const BlockOffsets& offsets,
-  const Array<SortEntry>& entries, Index firstInterior, int threads, ClippedMesh& clipped)
-{
-  const Id count = static_cast<Id>(entries.size());
-  const auto blockOf = [&](Id k) { return entries[k].item >> 32; };
-  const auto numberOf = [&](Id k) { return entries[k].item & 0xffffffff; };
-  Array<Index> place(count);
-  clipped.pieceTriangle.resize(count);
-  clipped.pieceBegin.resize(count + 1);
-  clipped.corners.resize(offsets.corners);
-  ParallelRanges(count, threads,
-    [&](Id begin, Id end)
-    {
-      for (Id k = begin; k < end; ++k)
-      {
-        const ClipBlock& block = blocks[blockOf(k)];
-        const Id number = numberOf(k);
-        place[offsets.piece[blockOf(k)] + number - block.firstPiece] = static_cast<Index>(k);
-        clipped.pieceTriangle[k] = block.store->triangle[number];
-        clipped.pieceBegin[k] =
-          block.store->cornerBegin[number + 1] - block.store->cornerBegin[number];
-      }
-    });
-  clipped.pieceBegin[count] = 0;
-  ExclusiveScan(clipped.pieceBegin);
-  ParallelRanges(count, threads,
-    [&](Id begin, Id end)
-    {
-      for (Id k = begin; k < end; ++k)
-      {
-        const ClipBlock& block = blocks[blockOf(k)];
-        const Index interior =
-          firstInterior + offsets.interior[blockOf(k)] - block.firstInterior - 1;
-        const Index* corner = block.store->corner.data() + block.store->cornerBegin[numberOf(k)];
-        for (Index i = clipped.pieceBegin[k]; i < clipped.pieceBegin[k + 1]; ++i, ++corner)
-        {
-          clipped.corners[i] = *corner >= 0 ? *corner : interior - *corner;
-        }
-      }
-    });
-  return place;
-}
-
-/// Appends the interior points of all blocks.
-void AppendInteriorPoints(const ClipInput& input, const std::vector<ClipBlock>& blocks,
-  const BlockOffsets& offsets, int threads, ClippedMesh& clipped)
-{
-  const Id first = static_cast<Id>(clipped.position.size());
-  clipped.cutPoints.resize(clipped.cutPoints.size() + offsets.interior.back());
-  clipped.position.resize(clipped.position.size() + offsets.interior.back());
-  ParallelBlocks(static_cast<Id>(blocks.size()), threads,
-    [&](Id b)
-    {
-      const ClipBlock& block = blocks[b];
-      for (Index k = 0; k < block.interiors; ++k)
-      {
-        const CutPoint& cut = block.store->interior[block.firstInterior + k];
-        PlaceCutPoint(first + offsets.interior[b] + k, cut, input, clipped);
-      }
-    });
-}
-
-/// Links inside triangles; gives the stretches the final numbers of their pieces.
-void PlaceLinks(const std::vector<ClipBlock>& blocks, const BlockOffsets& offsets,
-  const WorkRanges& work, const Array<Index>& place, int threads, Stretches& stretches,
-  ClippedMesh& clipped)
-{
-  clipped.links.resize(offsets.link.back());
-  ParallelBlocks(static_cast<Id>(blocks.size()), threads,
-    [&](Id b)
-    {
-      const ClipBlock& block = blocks[b];
-      const Index shift = offsets.piece[b] - block.firstPiece;
-      for (Index k = 0; k < block.links; ++k)
-      {
-        const Link& link = block.store->links[block.firstLink + k];
-        const auto [low, high] = std::minmax(place[shift + link.first], place[shift + link.second]);
-        clipped.links[offsets.link[b] + k] = { low, high };
-      }
-      for (Index k = stretches.begin[work.begin[b]]; k < stretches.begin[work.begin[b + 1]]; ++k)
-      {
-        Index& piece = stretches.piece[k];
-        piece = piece < 0 ? piece : place[shift + piece];
-      }
-    });
 }
 
 /// Clips with everything that depends on the mesh alone at hand; clipped.position holds the input
@@ -363,31 +173,20 @@ void PlaceLinks(const std::vector<ClipBlock>& blocks, const BlockOffsets& offset
 void ClipAndJoin(
   const ClipInput& input, int threads, const Progress& progress, ClippedMesh& clipped)
 {
-  Stretches stretches = AllocateStretches(input.edges, threads);
   const WorkRanges work = SplitWork(input.triangles, input.position, threads);
   progress.Check(0.05);
-  const double points = static_cast<double>(input.position.size()) + input.edges.NumberOfCuts();
-  RequireIndices(points, "points of the clipped mesh");
-  AllocateEdgeCuts(input.edges, threads, clipped);
-  ClippedTriangles parts =
-    ClipTriangles(input, work, stretches, clipped, threads, progress.Part(0.05, 0.5));
-  const BlockOffsets offsets = OffsetsOf(parts.blocks);
-  RequireIndices(points + offsets.interior.back(), "points of the clipped mesh");
-  Array<SortEntry> entries = SortPieces(parts, clipped.grid.depth, threads);
-  progress.Check(0.6);
-  ListCells(entries, threads, clipped);
-  const Index firstInterior =
-    static_cast<Index>(clipped.numberOfInputPoints) + input.edges.NumberOfCuts();
-  Array<Index> place = JoinPieces(parts.blocks, offsets, entries, firstInterior, threads, clipped);
-  Release(entries);
-  progress.Check(0.75);
-  AppendInteriorPoints(input, parts.blocks, offsets, threads, clipped);
+  RequireIndices(static_cast<double>(input.position.size()) + input.edges.numberOfCuts,
+    "points of the clipped mesh");
+  AllocateEdgeCuts(input.edges.numberOfCuts, threads, clipped);
+  Array<Index> stretches(input.edges.numberOfPlaces);
+  ParallelRanges(input.edges.numberOfPlaces, threads,
+    [&](Id begin, Id end) { std::fill(stretches.begin() + begin, stretches.begin() + end, -1); });
+  const Array<Index> place =
+    JoinPieces(ClipTriangles(input, work, stretches, clipped, threads, progress.Part(0.05, 0.5)),
+      input, threads, progress.Part(0.5, 0.85), clipped);
   DropUnmadeCutPoints(threads, clipped);
-  progress.Check(0.85);
-  PlaceLinks(parts.blocks, offsets, work, place, threads, stretches, clipped);
-  parts = ClippedTriangles();
-  Release(place);
-  LinkAlongEdges(input.edges, stretches, threads, progress.Part(0.9, 1.0), clipped);
+  progress.Check(0.9);
+  LinkAlongEdges(input.edges, stretches, place, threads, progress.Part(0.9, 1.0), clipped);
 }
 
 } // namespace

@@ -12,9 +12,8 @@ constexpr Index Unmade = -1;
 
 } // namespace
 
-void AllocateEdgeCuts(const MeshEdges& edges, int threads, ClippedMesh& clipped)
+void AllocateEdgeCuts(Id cuts, int threads, ClippedMesh& clipped)
 {
-  const Id cuts = edges.NumberOfCuts();
   // Interior points follow: on fine meshes fewer than this, so that nothing moves then.
   clipped.cutPoints.reserve(cuts + cuts / 3);
   clipped.position.reserve(clipped.numberOfInputPoints + cuts + cuts / 3);

@@ -7,8 +7,8 @@
 namespace gridfem
 {
 
-/// Makes room for the cuts of all mesh edges after the input points, none of them made yet.
-void AllocateEdgeCuts(const MeshEdges& edges, int threads, ClippedMesh& clipped);
+/// Makes room for so many cuts of mesh edges after the input points, none of them made yet.
+void AllocateEdgeCuts(Id cuts, int threads, ClippedMesh& clipped);
 
 /// Sets a cut point and its position.
 /// @param point  its number among all points

@@ -1,9 +1,6 @@
 #include "Links.h"
 
 #include "BlockLists.h"
-#include "Errors.h"
-#include "Parallel.h"
-#include "TriangleClipper.h"
 
 #include <algorithm>
 
@@ -33,69 +30,24 @@ void LinkStar(const std::vector<Index>& pieces, const CellOf& cellOf, Array<Link
   }
 }
 
-/// The pieces along a side of an edge, one per stretch.
-const Index* PiecesAlong(const MeshEdges& edges, const Stretches& stretches, Index side)
+void LinkManySides(const ManySidedEdge& edge, const Array<Index>& stretches,
+  const Array<Index>& place, const ClippedMesh& clipped, Array<Link>& links)
 {
-  const Index triangle = side / 3;
-  const Index* piece = stretches.piece.data() + stretches.begin[triangle];
-  const bool isCut = stretches.begin[triangle + 1] - stretches.begin[triangle] > 3;
-  for (int k = 0; k < side % 3; ++k)
-  {
-    piece += isCut ? StretchesOf(edges, edges.ofTriangle[triangle][k]) : 1;
-  }
-  return piece;
-}
-
-void LinkTwoSides(const Index* first, const Index* second, Index stretches, Array<Link>& links)
-{
-  for (Index k = 0; k < stretches; ++k)
-  {
-    const auto [low, high] = std::minmax(first[k], second[k]);
-    if (low >= 0 && low != high)
-    {
-      links.emplace_back(low, high);
-    }
-  }
-}
-
-void LinkManySides(const MeshEdges& edges, const Stretches& stretches, Index edge,
-  const ClippedMesh& clipped, Array<Link>& links)
-{
-  for (Index k = 0; k < StretchesOf(edges, edge); ++k)
+  for (Index k = 0; k < edge.stretches; ++k)
   {
     std::vector<Index> pieces;
-    for (Index side = edges.sideBegin[edge]; side < edges.sideBegin[edge + 1]; ++side)
+    for (Index side = 0; side < edge.sides; ++side)
     {
-      const Index piece = PiecesAlong(edges, stretches, edges.side[side])[k];
+      const Index piece = stretches[edge.begin + side * edge.stretches + k];
       if (piece >= 0)
       {
-        pieces.push_back(piece);
+        pieces.push_back(place[piece]);
       }
     }
     std::sort(pieces.begin(), pieces.end());
     pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
     LinkStar(
       pieces, [&](Index piece) { return clipped.CellOf(piece); }, links);
-  }
-}
-
-void LinkEdge(const MeshEdges& edges, const Stretches& stretches, Index edge,
-  const ClippedMesh& clipped, Array<Link>& links)
-{
-  const Index* side = edges.side.data() + edges.sideBegin[edge];
-  const Index sides = edges.sideBegin[edge + 1] - edges.sideBegin[edge];
-  if (edges.ends[edge][0] == edges.ends[edge][1] || sides == 1)
-  {
-    return;
-  }
-  if (sides == 2)
-  {
-    LinkTwoSides(PiecesAlong(edges, stretches, side[0]), PiecesAlong(edges, stretches, side[1]),
-      StretchesOf(edges, edge), links);
-  }
-  else
-  {
-    LinkManySides(edges, stretches, edge, clipped, links);
   }
 }
 
@@ -122,45 +74,33 @@ void LinkStars(std::vector<EdgeUse>& uses, const Array<Index>& pieceCell, Array<
   }
 }
 
-Stretches AllocateStretches(const MeshEdges& edges, int threads)
-{
-  Stretches stretches;
-  const Id triangles = static_cast<Id>(edges.ofTriangle.size());
-  stretches.begin.resize(triangles + 1);
-  const double total = ParallelSum(triangles, threads, 0.0,
-    [&](Id begin, Id end)
-    {
-      double sum = 0.0;
-      for (Id t = begin; t < end; ++t)
-      {
-        stretches.begin[t] = 0;
-        for (const Index edge : edges.ofTriangle[t])
-        {
-          stretches.begin[t] += StretchesOf(edges, edge);
-        }
-        sum += stretches.begin[t];
-      }
-      return sum;
-    });
-  RequireIndices(total, "stretches of edges");
-  stretches.begin[triangles] = 0;
-  stretches.piece.resize(ExclusiveScan(stretches.begin));
-  return stretches;
-}
-
-void LinkAlongEdges(const MeshEdges& edges, const Stretches& stretches, int threads,
-  const Progress& progress, ClippedMesh& clipped)
+void LinkAlongEdges(const MeshEdges& edges, const Array<Index>& stretches,
+  const Array<Index>& place, int threads, const Progress& progress, ClippedMesh& clipped)
 {
   AppendRanges(
-    edges.NumberOfEdges(), threads, clipped.links,
+    edges.numberOfPairs, threads, clipped.links,
+    [&](Id begin, Id end, Array<Link>& links)
+    {
+      for (Id pair = begin; pair < end; ++pair)
+      {
+        const Index first = stretches[2 * pair];
+        const Index second = stretches[2 * pair + 1];
+        if (first >= 0 && second >= 0 && first != second)
+        {
+          const auto [low, high] = std::minmax(place[first], place[second]);
+          links.emplace_back(low, high);
+        }
+      }
+    },
+    progress);
+  AppendRanges(static_cast<Id>(edges.manySided.size()), threads, clipped.links,
     [&](Id begin, Id end, Array<Link>& links)
     {
       for (Id edge = begin; edge < end; ++edge)
       {
-        LinkEdge(edges, stretches, static_cast<Index>(edge), clipped, links);
+        LinkManySides(edges.manySided[edge], stretches, place, clipped, links);
       }
-    },
-    progress);
+    });
 }
 
 } // namespace gridfem

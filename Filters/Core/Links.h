@@ -21,21 +21,12 @@ struct EdgeUse
 /// pairwise. Sorts `uses`.
 void LinkStars(std::vector<EdgeUse>& uses, const Array<Index>& pieceCell, Array<Link>& links);
 
-/// The pieces along the mesh edges of every triangle (see TriangleClipper): those of triangle t are
-/// piece[begin[t] .. begin[t + 1]).
-struct Stretches
-{
-  Array<Index> begin;
-  Array<Index> piece; // -1: none
-};
-
-/// Makes room for the stretches of all triangles. Throws InvalidInput when there are too many.
-Stretches AllocateStretches(const MeshEdges& edges, int threads);
-
 /// Appends a link for every two pieces on different sides of a mesh edge that share a stretch of
 /// it; where more than two do, as LinkStars. The same for any number of threads.
-void LinkAlongEdges(const MeshEdges& edges, const Stretches& stretches, int threads,
-  const Progress& progress, ClippedMesh& clipped);
+/// @param stretches  number of the piece at every place of a stretch, -1: none (see EdgeSide)
+/// @param place      of every piece in the clipped mesh, by its number
+void LinkAlongEdges(const MeshEdges& edges, const Array<Index>& stretches,
+  const Array<Index>& place, int threads, const Progress& progress, ClippedMesh& clipped);
 
 } // namespace gridfem
 

@@ -1,5 +1,6 @@
 #include "MeshEdges.h"
 
+#include "BlockLists.h"
 #include "Errors.h"
 #include "Grouping.h"
 #include "Parallel.h"
@@ -28,38 +29,46 @@ struct Side
   Index side; // 3 triangle + edge
 };
 
+/// What a bucket's edges need, then where it begins.
+struct Places
+{
+  double cuts = 0.0;
+  double pairs = 0.0;
+  double manySided = 0.0; // places of stretches
+};
+
 /// Finds the edges bucket by bucket: one partition of the sides by lower end, then sorts in cache.
 class EdgeFinder
 {
 public:
-  EdgeFinder(
-    const std::vector<std::array<Id, 3>>& triangles, const Array<Index>& pointClass, int threads)
-    : triangles_(triangles), pointClass_(pointClass), threads_(threads),
+  EdgeFinder(const std::vector<std::array<Id, 3>>& triangles, const Array<Index>& pointClass,
+    const Array<Vec3>& position, int threads)
+    : triangles_(triangles), pointClass_(pointClass), position_(position), threads_(threads),
       buckets_((static_cast<Index>(pointClass.size()) + PointsPerBucket - 1) / PointsPerBucket)
   {
   }
 
-  void Find(MeshEdges& edges);
+  MeshEdges Find();
 
 private:
+  /// Stands for the number of cuts of an edge without length.
+  static constexpr Index NoLength = -1;
+
   void Partition();
   void SortBucket(Index bucket);
-  void FillBucket(Index bucket, MeshEdges& edges) const;
-
-  /// Whether a side is the first of its edge. Only inside sorted buckets.
-  bool IsFirst(Index k, Index bucketBegin) const
-  {
-    return k == bucketBegin || sides_[k].low != sides_[k - 1].low ||
-           sides_[k].high != sides_[k - 1].high;
-  }
+  void MeasureBucket(Index bucket);
+  void ScanPlaces(MeshEdges& edges);
+  void FillBucket(Index bucket, MeshEdges& edges, Array<ManySidedEdge>& manySided) const;
+  Index CutsOf(const Side& side) const;
 
   const std::vector<std::array<Id, 3>>& triangles_;
   const Array<Index>& pointClass_;
+  const Array<Vec3>& position_;
   const int threads_;
   const Index buckets_;
   Array<Side> sides_;
   std::vector<Index> bucketBegin_; // into sides_
-  std::vector<Index> edgeBegin_;   // first edge of each bucket
+  std::vector<Places> places_;     // per bucket
 };
 
 /// A stable counting sort of the sides by bucket, ranges of triangles in parallel.
@@ -118,7 +127,7 @@ void SortByHighEnd(Side* begin, Side* end)
   }
 }
 
-/// Sorts the sides of a bucket by edge and counts its edges.
+/// Sorts the sides of a bucket by edge.
 void EdgeFinder::SortBucket(Index bucket)
 {
   const Index bucketBegin = bucketBegin_[bucket];
@@ -144,43 +153,122 @@ void EdgeFinder::SortBucket(Index bucket)
   {
     SortByHighEnd(sides + begin[point], sides + begin[point + 1]);
   }
-  for (Index k = bucketBegin; k < bucketEnd; ++k)
-  {
-    edgeBegin_[bucket] += this->IsFirst(k, bucketBegin) ? 1 : 0;
-  }
 }
 
-void EdgeFinder::FillBucket(Index bucket, MeshEdges& edges) const
+Index EdgeFinder::CutsOf(const Side& side) const
 {
-  Index edge = edgeBegin_[bucket] - 1;
-  for (Index k = bucketBegin_[bucket]; k < bucketBegin_[bucket + 1]; ++k)
+  if (side.low == side.high)
   {
-    const auto [low, high, side] = sides_[k];
-    if (this->IsFirst(k, bucketBegin_[bucket]))
+    return NoLength;
+  }
+  const Vec3& a = position_[side.low];
+  const Vec3& b = position_[side.high];
+  return PlanesBetween(a[0], b[0]).count + PlanesBetween(a[1], b[1]).count +
+         PlanesBetween(a[2], b[2]).count;
+}
+
+/// Counts what the edges of a sorted bucket need. The first side of an edge gets its number of cuts
+/// in the place of the lower end, and its number of sides in that of the higher end: looking at the
+/// positions is what takes time here.
+void EdgeFinder::MeasureBucket(Index bucket)
+{
+  Places& places = places_[bucket];
+  const Index end = bucketBegin_[bucket + 1];
+  for (Index k = bucketBegin_[bucket]; k < end;)
+  {
+    Index next = k + 1;
+    while (next < end && sides_[next].low == sides_[k].low && sides_[next].high == sides_[k].high)
     {
-      ++edge;
-      edges.ends[edge] = { low, high };
-      edges.sideBegin[edge] = k;
+      ++next;
     }
-    edges.side[k] = side;
-    edges.ofTriangle[side / 3][side % 3] = edge;
+    const Index cuts = this->CutsOf(sides_[k]);
+    const Index sides = next - k;
+    if (cuts != NoLength)
+    {
+      places.cuts += cuts;
+      (sides <= 2 ? places.pairs : places.manySided) += (sides <= 2 ? 1.0 : sides) * (cuts + 1.0);
+    }
+    sides_[k].low = cuts;
+    sides_[k].high = sides;
+    k = next;
   }
 }
 
-void EdgeFinder::Find(MeshEdges& edges)
+void EdgeFinder::ScanPlaces(MeshEdges& edges)
+{
+  Places sum;
+  for (Places& places : places_)
+  {
+    const Places here = std::exchange(places, sum);
+    sum.cuts += here.cuts;
+    sum.pairs += here.pairs;
+    sum.manySided += here.manySided;
+  }
+  RequireIndices(sum.cuts, "cut points");
+  RequireIndices(2.0 * sum.pairs + sum.manySided, "stretches of edges");
+  edges.numberOfCuts = static_cast<Index>(sum.cuts);
+  edges.numberOfPairs = static_cast<Index>(sum.pairs);
+  edges.numberOfPlaces = static_cast<Index>(2.0 * sum.pairs + sum.manySided);
+}
+
+/// @param manySided  gets the bucket's edges of more than two sides
+void EdgeFinder::FillBucket(Index bucket, MeshEdges& edges, Array<ManySidedEdge>& manySided) const
+{
+  auto cut = static_cast<Index>(places_[bucket].cuts);
+  auto pair = static_cast<Index>(places_[bucket].pairs);
+  Index many = 2 * edges.numberOfPairs + static_cast<Index>(places_[bucket].manySided);
+  for (Index k = bucketBegin_[bucket]; k < bucketBegin_[bucket + 1];)
+  {
+    const Index cuts = sides_[k].low;
+    const Index sides = sides_[k].high;
+    const bool isPair = sides <= 2;
+    const Index begin = isPair ? 2 * pair : many;
+    const Index step = isPair ? 1 : cuts + 1;
+    for (Index j = 0; j < sides; ++j)
+    {
+      const Index side = sides_[k + j].side;
+      EdgeSide& place = edges.ofTriangle[side / 3][side % 3];
+      place.cut = j == 0 ? cut : ~cut;
+      place.stretch = cuts == NoLength ? EdgeSide::None : begin + j * step;
+    }
+    k += sides;
+    if (cuts == NoLength)
+    {
+      continue;
+    }
+    cut += cuts;
+    pair += isPair ? cuts + 1 : 0;
+    if (!isPair)
+    {
+      manySided.emplace_back(begin, sides, cuts + 1);
+      many += sides * (cuts + 1);
+    }
+  }
+}
+
+MeshEdges EdgeFinder::Find()
 {
   this->Partition();
-  edgeBegin_.assign(buckets_ + 1, 0);
-  ParallelBlocks(
-    buckets_, threads_, [&](Id bucket) { this->SortBucket(static_cast<Index>(bucket)); });
-  const Index count = ExclusiveScan(edgeBegin_);
+  places_.resize(buckets_);
+  ParallelBlocks(buckets_, threads_,
+    [&](Id bucket)
+    {
+      this->SortBucket(static_cast<Index>(bucket));
+      this->MeasureBucket(static_cast<Index>(bucket));
+    });
+  MeshEdges edges;
+  this->ScanPlaces(edges);
   edges.ofTriangle.resize(triangles_.size());
-  edges.ends.resize(count);
-  edges.sideBegin.resize(count + 1);
-  edges.side.resize(sides_.size());
-  ParallelBlocks(
-    buckets_, threads_, [&](Id bucket) { this->FillBucket(static_cast<Index>(bucket), edges); });
-  edges.sideBegin[count] = static_cast<Index>(sides_.size());
+  BlockLists<ManySidedEdge> manySided(buckets_, threads_);
+  ParallelBlocks(buckets_, threads_,
+    [&](Id bucket, int thread)
+    {
+      manySided.Make(bucket, thread,
+        [&](Array<ManySidedEdge>& list)
+        { this->FillBucket(static_cast<Index>(bucket), edges, list); });
+    });
+  manySided.AppendTo(edges.manySided, threads_);
+  return edges;
 }
 
 } // namespace
@@ -189,28 +277,7 @@ MeshEdges BuildMeshEdges(const std::vector<std::array<Id, 3>>& triangles,
   const Array<Index>& pointClass, const Array<Vec3>& position, int threads)
 {
   RequireIndices(3.0 * static_cast<double>(triangles.size()), "sides of triangles");
-  MeshEdges edges;
-  EdgeFinder(triangles, pointClass, threads).Find(edges);
-  const Index count = edges.NumberOfEdges();
-  edges.cutBegin.resize(count + 1);
-  const double cuts = ParallelSum(count, threads, 0.0,
-    [&](Id begin, Id end)
-    {
-      double sum = 0.0;
-      for (Id e = begin; e < end; ++e)
-      {
-        const Vec3& a = position[edges.ends[e][0]];
-        const Vec3& b = position[edges.ends[e][1]];
-        edges.cutBegin[e] = PlanesBetween(a[0], b[0]).count + PlanesBetween(a[1], b[1]).count +
-                            PlanesBetween(a[2], b[2]).count;
-        sum += edges.cutBegin[e];
-      }
-      return sum;
-    });
-  RequireIndices(cuts, "cut points");
-  edges.cutBegin[count] = 0;
-  ExclusiveScan(edges.cutBegin);
-  return edges;
+  return EdgeFinder(triangles, pointClass, position, threads).Find();
 }
 
 } // namespace gridfem

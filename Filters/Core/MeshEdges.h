@@ -13,22 +13,43 @@
 namespace gridfem
 {
 
+/// A triangle's side of an edge: where the cut points of the edge and the pieces along this side
+/// are numbered. Cut points divide an edge into stretches; a stretch is named by its end nearer to
+/// the lower end of the edge: 0 for that end itself, 1 + n for cut point n.
+struct EdgeSide
+{
+  Index cut;     // of the edge's cut point 0; ~cut on all sides but the first
+  Index stretch; // place of stretch 0; None on an edge without length
+
+  static constexpr Index None = -1;
+  bool IsFirst() const { return cut >= 0; }
+  Index FirstCut() const { return this->IsFirst() ? cut : ~cut; }
+};
+
+/// An edge of more than two triangles. Its sides follow each other from `begin` on, each with its
+/// stretches.
+struct ManySidedEdge
+{
+  Index begin;
+  Index sides;
+  Index stretches;
+};
+
+/// Edges are in the order of their lower end, then of the higher one. Cut points of an edge are
+/// numbered consecutively: planes across x in ascending order, then y, then z.
 struct MeshEdges
 {
-  /// Per triangle: the edges from corner 0 to 1, 1 to 2, 2 to 0.
-  Array<std::array<Index, 3>> ofTriangle;
-  /// Ends of each edge, lower welded point id first.
-  Array<std::array<Index, 2>> ends;
-  /// Cut points of edge e are numbered cutBegin[e] .. cutBegin[e + 1): planes across x in ascending
-  /// order, then y, then z.
-  Array<Index> cutBegin;
-  /// The sides of edge e are side[sideBegin[e] .. sideBegin[e + 1]), ascending: 3 triangle + k for
-  /// the triangle's k-th edge.
-  Array<Index> sideBegin;
-  Array<Index> side;
+  /// Per triangle: the sides from corner 0 to 1, 1 to 2, 2 to 0.
+  Array<std::array<EdgeSide, 3>> ofTriangle;
+  Index numberOfCuts = 0;
+  /// Places of stretches begin with the pairs: one for each stretch of an edge with one or two
+  /// sides.
+  Index numberOfPairs = 0;
+  Index numberOfPlaces = 0; // of stretches
+  Array<ManySidedEdge> manySided;
 
-  Index NumberOfEdges() const { return static_cast<Index>(ends.size()); }
-  Index NumberOfCuts() const { return cutBegin.back(); }
+  /// From one stretch of a side to the next.
+  Index StrideOf(const EdgeSide& side) const { return side.stretch < 2 * numberOfPairs ? 2 : 1; }
 };
 
 /// First integer plane strictly above the lower value, and how many lie strictly between the two.
@@ -45,8 +66,8 @@ inline PlaneRange PlanesBetween(double a, double b)
   return { first, last < first ? 0 : last - first + 1 };
 }
 
-/// Edges are sorted by their lower end, then by the higher one: the same for any number of threads.
-/// Throws InvalidInput when there are more than 2^31 - 1 sides or cut points.
+/// The same for any number of threads. Throws InvalidInput when there are more than 2^31 - 1 sides,
+/// cut points or stretches.
 /// @param pointClass  welded id of each point
 /// @param position    of each point, grid units, snapped to the planes
 MeshEdges BuildMeshEdges(const std::vector<std::array<Id, 3>>& triangles,

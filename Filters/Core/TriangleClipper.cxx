@@ -31,13 +31,13 @@ void TriangleClipper::Polygon::Push(std::int32_t vertex, int tag)
   ++size;
 }
 
-void TriangleClipper::Clip(Id triangle, PieceStore& store, Index* stretchPiece)
+void TriangleClipper::Clip(Id triangle, PieceStore& store)
 {
   triangle_ = triangle;
   CellIndex cell;
   if (this->IsInOneCell(cell))
   {
-    this->EmitWhole(cell, store, stretchPiece);
+    this->EmitWhole(cell, store);
     return;
   }
   vertices_.clear();
@@ -50,7 +50,7 @@ void TriangleClipper::Clip(Id triangle, PieceStore& store, Index* stretchPiece)
       slots.clear();
     }
   }
-  this->Start(stretchPiece);
+  this->Start();
   Polygon whole;
   for (int corner = 0; corner < 3; ++corner)
   {
@@ -78,23 +78,25 @@ bool TriangleClipper::IsInOneCell(CellIndex& cell)
   return !isCut;
 }
 
-void TriangleClipper::EmitWhole(const CellIndex& cell, PieceStore& store, Index* stretchPiece) const
+void TriangleClipper::EmitWhole(const CellIndex& cell, PieceStore& store)
 {
-  const auto piece = static_cast<Index>(store.key.size());
-  store.key.push_back(MortonEncode(cell));
-  store.triangle.push_back(static_cast<Index>(triangle_));
-  for (const Id corner : input_.triangles[triangle_])
+  const Index piece = store.Append(MortonEncode(cell), static_cast<Index>(triangle_), nextChunk_);
+  const Index number = store.NumberOf(piece);
+  for (int k = 0; k < 3; ++k)
   {
-    store.corner.push_back(static_cast<Index>(corner));
+    store.corner.push_back(static_cast<Index>(input_.triangles[triangle_][k]));
+    const EdgeSide& side = input_.edges.ofTriangle[triangle_][k];
+    if (side.stretch != EdgeSide::None)
+    {
+      stretches_[side.stretch] = number;
+    }
   }
   store.cornerBegin.push_back(static_cast<Index>(store.corner.size()));
-  std::fill_n(stretchPiece, 3, piece);
 }
 
-void TriangleClipper::Start(Index* stretchPiece)
+void TriangleClipper::Start()
 {
   const auto& corners = input_.triangles[triangle_];
-  const auto& edges = input_.edges.ofTriangle[triangle_];
   for (int k = 0; k < 3; ++k)
   {
     const Vec3& p = input_.position[corners[k]];
@@ -106,27 +108,24 @@ void TriangleClipper::Start(Index* stretchPiece)
       vertex.weight[axis] = axis == k ? 1.0 : 0.0;
     }
 
-    const auto& ends = input_.edges.ends[edges[k]];
+    const EdgeSide& side = input_.edges.ofTriangle[triangle_][k];
     const int next = k == 2 ? 0 : k + 1;
-    const bool isForward = input_.pointClass[corners[k]] == ends[0];
+    const Index from = input_.pointClass[corners[k]];
+    const Index to = input_.pointClass[corners[next]];
     Edge& edge = edge_[k];
-    edge.low = &input_.position[ends[0]];
-    edge.high = &input_.position[ends[1]];
-    edge.lowCorner = isForward ? k : next;
-    edge.highCorner = isForward ? next : k;
-    edge.cutBegin = input_.edges.cutBegin[edges[k]];
-    Index cut = static_cast<Index>(input_.position.size()) + edge.cutBegin;
+    edge.low = &input_.position[std::min(from, to)];
+    edge.high = &input_.position[std::max(from, to)];
+    edge.lowCorner = from <= to ? k : next;
+    edge.highCorner = from <= to ? next : k;
+    edge.firstCut[0] = static_cast<Index>(input_.position.size()) + side.FirstCut();
     for (int axis = 0; axis < 3; ++axis)
     {
       edge.planes[axis] = PlanesBetween((*edge.low)[axis], (*edge.high)[axis]);
-      edge.firstCut[axis] = cut;
-      cut += edge.planes[axis].count;
+      edge.firstCut[axis + 1] = edge.firstCut[axis] + edge.planes[axis].count;
     }
-    const Index stretches = StretchesOf(input_.edges, edges[k]);
-    edge.isNamedHere = input_.edges.side[input_.edges.sideBegin[edges[k]]] == 3 * triangle_ + k;
-    edge.stretchPiece = ends[0] == ends[1] ? nullptr : stretchPiece;
-    std::fill_n(stretchPiece, stretches, -1);
-    stretchPiece += stretches;
+    edge.isNamedHere = side.IsFirst();
+    edge.stretch = side.stretch == EdgeSide::None ? nullptr : &stretches_[side.stretch];
+    edge.stride = input_.edges.StrideOf(side);
   }
 }
 
@@ -304,9 +303,7 @@ void TriangleClipper::Emit(const Polygon& polygon, PieceStore& store)
   {
     cell[axis] = std::clamp(static_cast<int>(low[axis]), 0, input_.cellsPerSide - 1);
   }
-  const auto piece = static_cast<Index>(store.key.size());
-  store.key.push_back(MortonEncode(cell));
-  store.triangle.push_back(static_cast<Index>(triangle_));
+  const Index piece = store.Append(MortonEncode(cell), static_cast<Index>(triangle_), nextChunk_);
   const CellCode code = (CellCode{ cell[0] } << ShiftOf(0)) + (CellCode{ cell[1] } << ShiftOf(1)) +
                         (CellCode{ cell[2] } << ShiftOf(2));
   pieces_.emplace_back(code, piece, static_cast<int>(corners_.size()), polygon.size);
@@ -322,11 +319,12 @@ void TriangleClipper::Emit(const Polygon& polygon, PieceStore& store)
 /// Two pieces on one stretch come from rounding; they are linked, and the first stands for both.
 void TriangleClipper::NoteStretches(const Polygon& polygon, Index piece, PieceStore& store)
 {
+  const Index number = store.NumberOf(piece);
   const auto inputs = static_cast<Index>(input_.position.size());
   for (int i = 0; i < polygon.size; ++i)
   {
     const int tag = polygon.corner[i].tag;
-    if (tag >= PlaneTag || !edge_[tag].stretchPiece)
+    if (tag >= PlaneTag || !edge_[tag].stretch)
     {
       continue;
     }
@@ -334,14 +332,14 @@ void TriangleClipper::NoteStretches(const Polygon& polygon, Index piece, PieceSt
     const bool isForward = edge.lowCorner == tag;
     const int near = isForward ? i : (i + 1 == polygon.size ? 0 : i + 1);
     const Index id = vertices_[polygon.corner[near].vertex].id;
-    Index& known = edge.stretchPiece[id < inputs ? 0 : 1 + id - inputs - edge.cutBegin];
+    Index& known = edge.stretch[id < inputs ? 0 : edge.stride * (1 + id - edge.firstCut[0])];
     if (known < 0)
     {
-      known = piece;
+      known = number;
     }
-    else if (known != piece)
+    else if (known != number)
     {
-      store.links.emplace_back(known, piece);
+      store.links.emplace_back(known, number);
     }
   }
 }
@@ -412,7 +410,7 @@ void TriangleClipper::LinkAcross(const LocalPiece& piece, int corner, PieceStore
                                                 shiftY * (CellCode{ 1 } << ShiftOf(1)) + shiftZ);
       if (other && HasEdge(store, *other, from, to))
       {
-        store.links.emplace_back(piece.piece, other->piece);
+        store.links.emplace_back(store.NumberOf(piece.piece), store.NumberOf(other->piece));
         return;
       }
     }

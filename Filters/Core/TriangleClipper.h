@@ -3,27 +3,14 @@
 #ifndef GridFEM_TriangleClipper_h
 #define GridFEM_TriangleClipper_h
 
-#include "Clip.h"
 #include "MeshEdges.h"
+#include "PieceStore.h"
 
 #include <unordered_map>
 #include <vector>
 
 namespace gridfem
 {
-
-/// What the triangles fall into that one thread clips, in the order it meets them.
-/// Corner ids: input points and cuts of mesh edges have their global id; -1 - k is interior point
-/// k.
-struct PieceStore
-{
-  Array<MortonKey> key;
-  Array<Index> triangle;
-  Array<Index> cornerBegin; // one more than pieces
-  Array<Index> corner;
-  Array<CutPoint> interior; // points where two planes cut a triangle
-  Array<Link> links;        // pieces of one triangle that share an edge
-};
 
 /// What the clipper knows of the mesh; all of it outlives the clipper.
 struct ClipInput
@@ -36,27 +23,22 @@ struct ClipInput
   double tolerance; // of snapping
 };
 
-/// Cut points divide an edge of a triangle into stretches. A stretch is numbered by its end nearer
-/// to the edge's lower end: 0 for that end itself, 1 + n for cut point n of the edge.
-/// The stretches of edge k of a triangle begin at the sum over its edges before.
-inline Index StretchesOf(const MeshEdges& edges, Index edge)
-{
-  return edges.cutBegin[edge + 1] - edges.cutBegin[edge] + 1;
-}
-
 class TriangleClipper
 {
 public:
-  /// @param clipped  has room for the cut points of mesh edges; the first triangle at an edge fills
-  ///                 those it makes
-  TriangleClipper(const ClipInput& input, ClippedMesh& clipped) : input_(input), clipped_(clipped)
+  /// @param clipped    has room for the cut points of mesh edges; the first triangle at an edge
+  ///                   fills those it makes
+  /// @param stretches  all -1; get the numbers of the pieces along the triangles' sides
+  /// @param nextChunk  of the numbers of pieces
+  TriangleClipper(const ClipInput& input, ClippedMesh& clipped, Array<Index>& stretches,
+    std::atomic<Index>& nextChunk)
+    : input_(input), clipped_(clipped), stretches_(stretches), nextChunk_(nextChunk)
   {
   }
 
-  /// Appends the pieces of one triangle.
-  /// @param stretchPiece  gets the piece along each stretch of the triangle's three edges; -1 for a
-  ///                      stretch without length
-  void Clip(Id triangle, PieceStore& store, Index* stretchPiece);
+  /// Appends the pieces of one triangle. Clippers may clip different triangles of one mesh at the
+  /// same time.
+  void Clip(Id triangle, PieceStore& store);
 
 private:
   using Point = std::array<double, 3>;
@@ -94,10 +76,10 @@ private:
     int lowCorner; // of the triangle
     int highCorner;
     std::array<PlaneRange, 3> planes;
-    std::array<Index, 3> firstCut; // per axis
-    Index cutBegin;
-    bool isNamedHere;    // this is the first triangle at the edge
-    Index* stretchPiece; // null for an edge whose ends are one point
+    std::array<Index, 4> firstCut; // per axis; then where they end
+    bool isNamedHere;              // this is the first triangle at the edge
+    Index* stretch;                // piece along stretch 0; null for an edge without length
+    Index stride;                  // from one stretch to the next
   };
 
   /// A cell as one number that ascends with (i, j, k): fast to compare, and to step from.
@@ -108,7 +90,7 @@ private:
   struct LocalPiece
   {
     CellCode cell;
-    Index piece;
+    Index piece;     // in the store
     int firstCorner; // into corners_
     int size;
   };
@@ -123,8 +105,8 @@ private:
   };
 
   bool IsInOneCell(CellIndex& cell);
-  void EmitWhole(const CellIndex& cell, PieceStore& store, Index* stretchPiece) const;
-  void Start(Index* stretchPiece);
+  void EmitWhole(const CellIndex& cell, PieceStore& store);
+  void Start();
   void ClipAxis(const Polygon& polygon, int axis, PieceStore& store);
   void Split(
     const Polygon& polygon, int axis, int plane, Polygon& below, Polygon& above, PieceStore& store);
@@ -141,6 +123,8 @@ private:
 
   const ClipInput& input_;
   ClippedMesh& clipped_;
+  Array<Index>& stretches_;
+  std::atomic<Index>& nextChunk_;
   Id triangle_ = 0;
   std::array<PlaneRange, 3> planes_{};
   std::array<Edge, 3> edge_{};

@@ -26,7 +26,7 @@ CORE_LAYERS = {
                " Constants BlockVectors BasisProducts BlockIteration WindowIteration SmootherSequence"
                " Pool Preconditioner SingleLevel SingleCycle"
                " HatOrdering FillRows ColumnAlgebra SliceGaussSeidel PatchCover ComponentMeans",
-    "grid and clip": "TriangleMesh Field MeshEdges Grid SourceTriangle TriangleClipper CutPoints"
+    "grid and clip": "TriangleMesh Field MeshEdges Grid SourceTriangle PieceStore TriangleClipper CutPoints JoinPieces"
                      " Clip Links MemoryEstimate HatFunctions HatMatrices HatLoad",
     "patches and levels": "Level Patches FunctionSpace PatchOrdering",
     "integrals": "QuadratureRule TrilinearBasis PieceSamples Lanes PatchMoments PatchIntegrals"
