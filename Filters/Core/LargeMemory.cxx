@@ -86,6 +86,41 @@ char* MapMemory(std::size_t bytes)
   return memory;
 }
 
+/// Moves the last large pages of a block, at most so many; what is behind them goes back. Mappings
+/// begin with a large page, so that none of these pages lies in two.
+/// @param bytes  of the block; gets what is left of it
+/// @return bytes moved
+std::size_t MoveLastPages(char* block, std::size_t& bytes, char* to, std::size_t most) noexcept
+{
+  const auto address = reinterpret_cast<std::uintptr_t>(block);
+  const std::uintptr_t first = RoundUp(address, LargePage);
+  const std::uintptr_t last = (address + bytes) / LargePage * LargePage;
+  if (last <= first || most == 0)
+  {
+    return 0;
+  }
+  const std::size_t pages = std::min(most, (last - first) / LargePage);
+  const std::size_t begin = last - address - pages * LargePage;
+  std::size_t moved = 0;
+  while (moved < pages * LargePage && mremap(block + begin + moved, LargePage, LargePage,
+                                        MREMAP_MAYMOVE | MREMAP_FIXED, to + moved) != MAP_FAILED)
+  {
+    moved += LargePage;
+  }
+  if (moved < pages * LargePage)
+  {
+    // The system may have removed what was there.
+    mmap(to + moved, LargePage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED, -1,
+      0);
+  }
+  if (begin + moved < bytes)
+  {
+    munmap(block + begin + moved, bytes - begin - moved);
+  }
+  bytes = begin;
+  return moved;
+}
+
 /// Blocks that were freed while somebody wants to use them again. Sizes are whole pages.
 class FreeBlocks
 {
@@ -105,8 +140,7 @@ public:
     }
   }
 
-  /// A part of the smallest block that is large enough; null, and more than `bytes` fewer kept, if
-  /// none is.
+  /// A part of the smallest block that is large enough; null if none is.
   char* Take(std::size_t bytes)
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -120,7 +154,6 @@ public:
     }
     if (best == blocks_.end())
     {
-      this->Return(Generously * bytes);
       return nullptr;
     }
     best->second -= bytes;
@@ -130,6 +163,21 @@ public:
       blocks_.erase(best);
     }
     return memory;
+  }
+
+  /// Puts large pages of kept blocks in the place of those of `memory`, which begins with one and
+  /// has not been touched: as many as there are. Then more than `bytes` fewer are kept.
+  void MovePages(char* memory, std::size_t bytes) noexcept
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    std::size_t moved = 0;
+    for (auto block = blocks_.begin(); block != blocks_.end() && moved + LargePage <= bytes;)
+    {
+      moved +=
+        MoveLastPages(block->first, block->second, memory + moved, (bytes - moved) / LargePage);
+      block = block->second == 0 ? blocks_.erase(block) : std::next(block);
+    }
+    this->Return(Generously * bytes - moved);
   }
 
   void Give(char* memory, std::size_t bytes) noexcept
@@ -216,8 +264,13 @@ MemoryReuse::~MemoryReuse()
 void* AllocateLargeMemory(std::size_t bytes)
 {
   const std::size_t size = RoundUpToPages(bytes);
-  char* const kept = KeptBlocks().Take(size);
-  return kept ? kept : MapMemory(size);
+  if (char* const kept = KeptBlocks().Take(size))
+  {
+    return kept;
+  }
+  char* const memory = MapMemory(size);
+  KeptBlocks().MovePages(memory, size);
+  return memory;
 }
 
 void FreeLargeMemory(void* memory, std::size_t bytes) noexcept

@@ -20,8 +20,9 @@ void* AllocateLargeMemory(std::size_t bytes);
 void FreeLargeMemory(void* memory, std::size_t bytes) noexcept;
 
 /// While one exists, large memory that is freed stays for the next requests, because the system
-/// takes a fifth of a set-up to clear new pages. Where none of it fits, more of it goes back than
-/// the request takes, so that the peak does not grow. The last one to go returns what is left.
+/// takes a fifth of a set-up to clear new pages. A request that no block of it is large enough for
+/// gets large pages of several, and some more go back, so that the peak does not grow. The last one
+/// to go returns what is left.
 class MemoryReuse
 {
 public:

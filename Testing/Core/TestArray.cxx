@@ -9,6 +9,7 @@
 #include <limits>
 #include <new>
 #include <numeric>
+#include <vector>
 
 #ifdef __linux__
 #include <unistd.h>
@@ -96,6 +97,32 @@ TEST(LargeMemory, IsUsedAgainInPartsAndAsAWhole)
   char* const again = AllocateAndTouch(Block);
   EXPECT_EQ(again, whole);
   FreeLargeMemory(again, Block);
+}
+
+TEST(LargeMemory, IsPutTogetherFromSeveralBlocks)
+{
+  const MemoryReuse reuse;
+  std::vector<char*> blocks;
+  std::vector<char*> between; // so that no two blocks are neighbours
+  for (int k = 0; k < 8; ++k)
+  {
+    blocks.push_back(AllocateAndTouch(Block));
+    between.push_back(AllocateAndTouch(Block / 2));
+  }
+  for (char* const block : blocks)
+  {
+    FreeLargeMemory(block, Block);
+  }
+  // New pages are zero. What is less than a large page at the ends of blocks is not taken.
+  char* const whole = static_cast<char*>(AllocateLargeMemory(8 * Block));
+  EXPECT_GE(std::count(whole, whole + 8 * Block, 1), static_cast<std::ptrdiff_t>(4 * Block));
+  std::memset(whole, 2, 8 * Block);
+  for (char* const other : between)
+  {
+    EXPECT_EQ(std::count(other, other + Block / 2, 1), static_cast<std::ptrdiff_t>(Block / 2));
+    FreeLargeMemory(other, Block / 2);
+  }
+  FreeLargeMemory(whole, 8 * Block);
 }
 
 TEST(LargeMemory, ThatIsKeptGoesBackWithTheLastReuse)
