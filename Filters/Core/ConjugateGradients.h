@@ -21,6 +21,13 @@ struct SolveOptions
     Energy,
     Residual
   } measure = Measure::Energy;
+  /// What ends an iteration before maximumIterations, as stagnated.
+  enum class GiveUp
+  {
+    Never,
+    AtStandstill, // Stagnation::IsAtStandstill
+    WhenTooSlow   // Stagnation::IsTooSlow: for those who can go on with a better cycle
+  } giveUp = GiveUp::Never;
 };
 
 /// The state of x before the correction B r of that iteration; the largest over the right-hand
@@ -36,13 +43,28 @@ struct IterationRecord
   double residual; // |r| / |b|
 };
 
+/// Why an iteration ended; of several right-hand sides, what comes last here.
+enum class SolveEnd
+{
+  Converged,
+  IterationLimit,
+  NotFinite,  // a right-hand side is not
+  Stagnation, // see SolveOptions::GiveUp
+  Breakdown   // a direction without positive energy, or numbers without bounds
+};
+
 struct SolveReport
 {
-  bool converged = false;
+  bool converged = false; // end == Converged
+  SolveEnd end = SolveEnd::IterationLimit;
   int iterations = 0;
   std::vector<IterationRecord> history; // iteration 0 is the start
   double convergenceFactor = 0.0;       // mean reduction of the energy measure per iteration
+  int doubleSince = -1;                 // iteration of the fall-back to double precision; -1: none
 };
+
+/// What `convergenceFactor` is.
+double MeanFactor(const SolveReport& report);
 
 /// Keeps an iteration out of directions that are solved otherwise, such as the constants of each
 /// component. A must map what `solution` keeps to what `residual` keeps; the two are each other's
@@ -56,8 +78,8 @@ struct Projection
 /// Conjugate gradients with one cycle as preconditioner; each column has its own steps, and stops
 /// on its own. Starts from x. A column that has converged by energy still takes its last correction
 /// B r, which was computed for the measure: it lowers the energy of the error once more. A column
-/// with b = 0 gives x = 0. NaN in b or a breakdown ends the iteration with converged = false and
-/// the last finite x. Throws Aborted.
+/// with b = 0 gives x = 0. NaN in b or a breakdown ends the iteration with converged
+/// = false and the last finite x. Throws Aborted.
 SolveReport SolveConjugateGradients(const Multigrid& multigrid, const MultiVector& b,
   MultiVector& x, const SolveOptions& options, const Projection& project = {},
   const Progress& progress = {});

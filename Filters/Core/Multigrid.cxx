@@ -5,6 +5,7 @@
 #include "PatchCover.h"
 #include "SmootherSequence.h"
 
+#include <algorithm>
 #include <string>
 
 namespace gridfem
@@ -151,7 +152,8 @@ std::unique_ptr<Smoother> Multigrid::MakeSmoother(std::size_t l) const
   }
   std::vector<std::unique_ptr<Smoother>> sequence;
   sequence.push_back(std::move(smoother));
-  sequence.push_back(MakePatchSmoother(level.A, level.groups, options_.threads));
+  sequence.push_back(
+    MakePatchSmoother(level.A, level.groups, options_.threads, options_.precision));
   return MakeSmootherSequence(std::move(sequence));
 }
 
@@ -169,16 +171,48 @@ std::unique_ptr<Smoother> Multigrid::MakeSmoother(
   }
   if (options_.coverage == 0)
   {
-    return MakePatchSmoother(level.A, level.order, options_.threads);
+    return MakePatchSmoother(level.A, level.order, options_.threads, options_.precision);
   }
   const PatchOrder cover = CoverUnknowns(level.order, level.A.rows, options_.coverage);
-  return MakePatchSmoother(level.A, cover, options_.threads);
+  return MakePatchSmoother(level.A, cover, options_.threads, options_.precision);
 }
 
 LevelSmoothing Multigrid::SmoothingOf(std::size_t level) const
 {
   return levels_[level].smoothing.value_or(
     LevelSmoothing{ options_.smoother, options_.preSweeps, options_.postSweeps, options_.cycle });
+}
+
+bool Multigrid::HasSingleFactors() const
+{
+  return (hidden_ && hidden_->HasSingleFactors()) || (layered_ && layered_->HasSingleFactors()) ||
+         std::any_of(levels_.begin(), levels_.end(),
+           [](const MultigridLevel& level)
+           { return level.smoother && level.smoother->HasSingleFactors(); });
+}
+
+Multigrid Multigrid::InDoublePrecision() const
+{
+  std::vector<MultigridLevel> levels(levels_.size());
+  for (std::size_t l = 0; l < levels_.size(); ++l)
+  {
+    const MultigridLevel& from = levels_[l];
+    levels[l] = { from.A, from.prolongation, from.restriction, from.order, from.groups,
+      from.smoothing, nullptr };
+  }
+  MultigridOptions options = options_;
+  options.precision = FactorPrecision::Double;
+  Multigrid copy(std::move(levels), options);
+  const auto inDouble = [](const std::unique_ptr<Multigrid>& part)
+  { return part ? std::make_unique<Multigrid>(part->InDoublePrecision()) : nullptr; };
+  copy.height_ = height_;
+  copy.hidden_ = inDouble(hidden_);
+  copy.layeredProlongation_ = layeredProlongation_;
+  copy.layeredRestriction_ = layeredRestriction_;
+  copy.layered_ = inDouble(layered_);
+  copy.sizeOfHidden_ = sizeOfHidden_;
+  copy.revisionOfHidden_ = revisionOfHidden_;
+  return copy;
 }
 
 void Multigrid::Cycle(const MultiVector& b, MultiVector& x) const

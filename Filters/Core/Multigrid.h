@@ -49,7 +49,8 @@ struct MultigridOptions
   /// a cycle and gives the same error after the first cycles; all need fewer iterations to a small
   /// one.
   int coverage = 0;
-  int sweepsPerSynchronisation = 1; // of SliceGaussSeidel: one Sweep is so many
+  FactorPrecision precision = FactorPrecision::Mixed; // of the patch smoother
+  int sweepsPerSynchronisation = 1;                   // of SliceGaussSeidel: one Sweep is so many
   HiddenCorrection hidden = HiddenCorrection::WhereFlat;
   int threads = 0; // 0: all
 };
@@ -118,6 +119,13 @@ public:
   /// The same in place: refill(level, matrix) gives the matrix of every level its values. When it
   /// throws, the hierarchy must not be used any more.
   void Update(const std::function<void(std::size_t, SparseMatrix&)>& refill);
+
+  /// Whether a patch smoother stores factors in single precision.
+  bool HasSingleFactors() const;
+
+  /// A copy whose patch smoothers store all factors in double precision; it shares patterns and
+  /// prolongations.
+  Multigrid InDoublePrecision() const;
 
   /// One cycle: improves x for A x = b. Any number of columns. Levels above the finest allocate
   /// their vectors per call: a quarter of b, and less.

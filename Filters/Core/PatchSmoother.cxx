@@ -94,10 +94,13 @@ inline void Relax(const RowView& A, const std::array<Index, N>& dof, const Real*
 class PatchSmoother : public Smoother
 {
 public:
-  PatchSmoother(const SparseMatrix& A, const PatchOrder& order, int threads);
+  PatchSmoother(
+    const SparseMatrix& A, const PatchOrder& order, int threads, FactorPrecision precision);
 
   void Sweep(const SparseMatrix& A, const MultiVector& b, MultiVector& x, SweepDirection direction,
     int threads) const override;
+
+  bool HasSingleFactors() const override;
 
   std::size_t Memory() const override;
 
@@ -115,7 +118,7 @@ private:
     Double
   };
 
-  void SetPatch(Id p, const PatchFactor& factor);
+  void SetPatch(Id p, const PatchFactor& factor, FactorPrecision precision);
 
   Index rows_;
   BlockRanges ranges_;
@@ -126,7 +129,8 @@ private:
   Array<std::array<double, N * N>> double_;
 };
 
-PatchSmoother::PatchSmoother(const SparseMatrix& A, const PatchOrder& order, int threads)
+PatchSmoother::PatchSmoother(
+  const SparseMatrix& A, const PatchOrder& order, int threads, FactorPrecision precision)
   : rows_(A.rows)
 {
   CheckOrder(A, order, threads);
@@ -140,18 +144,26 @@ PatchSmoother::PatchSmoother(const SparseMatrix& A, const PatchOrder& order, int
     [&](Id begin, Id end)
     {
       ForEachFactor(source, order.dof.data(), begin, end, SmallestPivot,
-        [&](Id p, const PatchFactor& factor) { this->SetPatch(p, factor); });
+        [&](Id p, const PatchFactor& factor) { this->SetPatch(p, factor, precision); });
     });
 }
 
-void PatchSmoother::SetPatch(Id p, const PatchFactor& factor)
+/// Numbers that single precision does not hold would be zero or infinite.
+bool IsSingle(const PatchFactor& factor, FactorPrecision precision)
+{
+  return !factor.hasLargeScales &&
+         (precision == FactorPrecision::Single ||
+           (precision == FactorPrecision::Mixed && factor.smallestPivot >= SmallestSinglePivot));
+}
+
+void PatchSmoother::SetPatch(Id p, const PatchFactor& factor, FactorPrecision precision)
 {
   if (factor.count == 0)
   {
     patches_[p] = { factor.dof, None };
     return;
   }
-  const bool isSingle = factor.smallestPivot >= SmallestSinglePivot && !factor.hasLargeScales;
+  const bool isSingle = IsSingle(factor, precision);
   patches_[p] = { factor.dof, isSingle ? Single : Double };
   if (isSingle)
   {
@@ -161,6 +173,12 @@ void PatchSmoother::SetPatch(Id p, const PatchFactor& factor)
   {
     Eigen::Map<PatchMatrix>(double_[p].data()) = factor.V;
   }
+}
+
+bool PatchSmoother::HasSingleFactors() const
+{
+  return std::any_of(
+    patches_.begin(), patches_.end(), [](const Place& patch) { return patch.precision == Single; });
 }
 
 std::size_t PatchSmoother::Memory() const
@@ -198,9 +216,9 @@ void PatchSmoother::Sweep(const SparseMatrix& A, const MultiVector& b, MultiVect
 } // namespace
 
 std::unique_ptr<Smoother> MakePatchSmoother(
-  const SparseMatrix& A, const PatchOrder& order, int threads)
+  const SparseMatrix& A, const PatchOrder& order, int threads, FactorPrecision precision)
 {
-  return std::make_unique<PatchSmoother>(A, order, threads);
+  return std::make_unique<PatchSmoother>(A, order, threads, precision);
 }
 
 } // namespace gridfem

@@ -134,10 +134,8 @@ PoissonSolution SolvePoisson(const ComponentFunctions& functions, const Multigri
   PoissonSolution solution;
   solution.coefficients = NestedStart(multigrid, rest);
   removeMeans(solution.coefficients);
-  const auto solve =
-    options.iteration == IterationType::Cycles ? &SolveCycles : &SolveConjugateGradients;
-  solution.report = solve(
-    multigrid, rest, solution.coefficients, options.solve, { removeMeans, removeSums }, progress);
+  solution.report = SolveWithFallback(options.iteration, multigrid, rest, solution.coefficients,
+    options.solve, { removeMeans, removeSums }, progress);
   means.AddConstants(meanOfField, solution.coefficients);
   return solution;
 }

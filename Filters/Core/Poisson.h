@@ -2,18 +2,12 @@
 #ifndef GridFEM_Poisson_h
 #define GridFEM_Poisson_h
 
-#include "ConjugateGradients.h"
 #include "HatMultigrid.h"
+#include "PrecisionFallback.h"
 #include "System.h"
 
 namespace gridfem
 {
-
-enum class IterationType
-{
-  ConjugateGradients = 0, // with one cycle as preconditioner
-  Cycles = 1              // the cycle alone
-};
 
 struct PoissonOptions
 {
@@ -39,7 +33,7 @@ struct PoissonSolution
 
 /// Solves for all columns. The solution has the mean of f on every connected component, for every
 /// λ >= 0: the constant part is taken from f and the rest is iterated orthogonal to it, from a
-/// start by nested iteration.
+/// start by nested iteration; in double precision where single is not enough (SolveWithFallback).
 /// @param values     ∫ f b_i (IntegrateValues), grid units
 /// @param gradients  ∫ <s, ∇b_i> (IntegrateGradients), grid units; may have no rows for s = 0
 /// @param multigrid  of λM + L, built with the same λ

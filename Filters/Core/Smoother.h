@@ -34,6 +34,14 @@ enum class SweepDirection
   Backward
 };
 
+/// Of the factors that a patch smoother stores.
+enum class FactorPrecision
+{
+  Mixed = 0,  // single where its rounding changes nothing, else double
+  Single = 1, // single wherever it holds the numbers, however they are rounded
+  Double = 2
+};
+
 class Smoother
 {
 public:
@@ -44,6 +52,9 @@ public:
   /// the forward one.
   virtual void Sweep(const SparseMatrix& A, const MultiVector& b, MultiVector& x,
     SweepDirection direction, int threads) const = 0;
+
+  /// True if double precision could make a sweep better.
+  virtual bool HasSingleFactors() const { return false; }
 
   /// Bytes held.
   virtual std::size_t Memory() const = 0;
@@ -74,8 +85,8 @@ std::vector<Index> SlabBoundaries(const std::vector<Index>& slice, int sweeps);
 /// in double: the sweep stays symmetric and as good as with exact solves, whatever the surface.
 /// Unknowns whose diagonal is not a positive number, and unknowns of no patch, are left alone.
 /// Throws InvalidInput when the order does not fit the matrix. [NUMERICS §1]
-std::unique_ptr<Smoother> MakePatchSmoother(
-  const SparseMatrix& A, const PatchOrder& order, int threads = 0);
+std::unique_ptr<Smoother> MakePatchSmoother(const SparseMatrix& A, const PatchOrder& order,
+  int threads = 0, FactorPrecision precision = FactorPrecision::Mixed);
 
 } // namespace gridfem
 

@@ -1,5 +1,7 @@
 #include "SmootherSequence.h"
 
+#include <algorithm>
+
 namespace gridfem
 {
 namespace
@@ -21,6 +23,12 @@ public:
     {
       smoothers_[forward ? k : smoothers_.size() - 1 - k]->Sweep(A, b, x, direction, threads);
     }
+  }
+
+  bool HasSingleFactors() const override
+  {
+    return std::any_of(smoothers_.begin(), smoothers_.end(),
+      [](const auto& smoother) { return smoother->HasSingleFactors(); });
   }
 
   std::size_t Memory() const override

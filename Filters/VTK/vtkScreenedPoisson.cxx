@@ -1,6 +1,7 @@
 #include "vtkScreenedPoisson.h"
 
 #include "Private/InputArray.h"
+#include "Private/InputValidation.h"
 #include "Private/SolverOutput.h"
 #include "Private/SurfaceSolverState.h"
 
@@ -180,8 +181,14 @@ std::unique_ptr<gridfem::Multigrid> vtkScreenedPoisson::BuildHierarchy(double we
       gridfem::BuildHatMultigrid(*state.hats, state.Space(), *state.system, weight, 1.0,
         gridfem::HatCycle(state.options.multigrid), progress));
   }
-  return std::make_unique<gridfem::Multigrid>(gridfem::BuildMultigrid(
-    state.Space(), *state.system, weight, 1.0, state.options.multigrid, progress));
+  const gridfem::MultigridOptions& options = state.options.multigrid;
+  if (options.hidden == gridfem::HiddenCorrection::Always &&
+      options.cycle == gridfem::CycleType::W && options.smoother == gridfem::SmootherType::Patch)
+  {
+    gridfem::RequireMemoryForLayers(state.Space().Finest().numberOfFunctions);
+  }
+  return std::make_unique<gridfem::Multigrid>(
+    gridfem::BuildMultigrid(state.Space(), *state.system, weight, 1.0, options, progress));
 }
 
 void vtkScreenedPoisson::UpdateHierarchy()
@@ -294,10 +301,10 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
   if (!report.converged)
   {
     vtkWarningMacro("Not converged after "
-                    << report.iterations << " iterations: the energy "
-                    << "residual is " << gridfem::LastRecord(report).energy << ", the residual "
-                    << gridfem::LastRecord(report).residual << ", wanted is " << this->Tolerance
-                    << ". The result is kept.");
+                    << report.iterations << " iterations, because " << gridfem::ReasonOf(report)
+                    << ". The energy residual is " << gridfem::LastRecord(report).energy
+                    << ", the residual " << gridfem::LastRecord(report).residual << ", wanted is "
+                    << this->Tolerance << ". The result is kept.");
   }
   progress.Check(1.0);
 }

@@ -28,7 +28,9 @@
  * with an area) keep f if that is a point array, else get 0.
  * - field data: `Converged` (int, 1), `Iterations` (int, 1), `Residual` (double, 1): the norm of
  *   the residual vector relative to the right-hand side, which is not the measure that Tolerance is
- *   on; `ConvergenceFactor` (double, 1): mean reduction of the energy residual per iteration
+ *   on; `ConvergenceFactor` (double, 1): mean reduction of the energy residual per iteration;
+ *   `DoublePrecisionSince` (int, 1): the iteration after which the smoother went on in double
+ *   precision, because single precision was too slow or broke down; -1: never
  *
  * Output port 1 (vtkTable): a row per iteration with `Iteration` (int), 0 being the start by nested
  * iteration; `EnergyResidual` (double): an estimate of the error in the energy norm, relative to

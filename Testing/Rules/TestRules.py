@@ -22,7 +22,8 @@ CORE_LAYERS = {
     "foundation": "LargeMemory Array SharedArray Types Errors Progress Parallel UnionFind RadixSort"
                   " Grouping BlockLists",
     "algebra": "SparseMatrix RowKernels PairedProduct PivotedCholesky BlockSweep Smoother"
-               " GaussSeidel PatchFactor PatchSmoother CoarseSolver Multigrid ConjugateGradients RayleighRitz"
+               " GaussSeidel PatchFactor PatchSmoother CoarseSolver Multigrid Stagnation"
+               " SolverIteration ConjugateGradients PrecisionFallback RayleighRitz"
                " Constants BlockVectors BasisProducts BlockIteration WindowIteration SmootherSequence"
                " Pool Preconditioner SingleLevel SingleCycle"
                " HatOrdering FillRows ColumnAlgebra SliceGaussSeidel PatchCover ComponentMeans",

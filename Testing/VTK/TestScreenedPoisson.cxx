@@ -247,9 +247,25 @@ TEST_F(ScreenedPoisson, NotConvergedWarnsAndKeepsTheResult)
   EXPECT_EQ(filter->GetExecutive()->Update(), 1);
   EXPECT_TRUE(messages.errors.empty());
   ASSERT_EQ(messages.warnings.size(), 1u);
+  EXPECT_NE(messages.warnings[0].find("more are not allowed"), std::string::npos);
   EXPECT_NE(messages.warnings[0].find("residual"), std::string::npos);
   EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 0);
   EXPECT_FALSE(PointValues(filter->GetOutput(), "Solution").empty());
+}
+
+TEST_F(ScreenedPoisson, ToleranceBelowRoundingEndsAtAStandstillAndSaysSo)
+{
+  filter->SetIteration(Poisson::Cycles); // conjugate gradients update their residual
+  filter->SetTolerance(1e-100);
+  filter->SetMaximumIterations(5000);
+  filter->Update();
+  ASSERT_EQ(messages.warnings.size(), 1u);
+  EXPECT_NE(messages.warnings[0].find("stagnated"), std::string::npos);
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 0);
+  EXPECT_LT(FieldValue(filter->GetOutput(), "Iterations"), 5000);
+  EXPECT_GT(FieldValue(filter->GetOutput(), "DoublePrecisionSince"), 0);
+  EXPECT_LT(FieldValue(filter->GetOutput(), "DoublePrecisionSince"),
+    FieldValue(filter->GetOutput(), "Iterations"));
 }
 
 TEST_F(ScreenedPoisson, EveryCycleAndSmootherFindsTheSameSolution)

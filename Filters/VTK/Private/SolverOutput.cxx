@@ -56,6 +56,7 @@ void AddReport(const SolveReport& report, vtkPolyData* output)
 {
   AddFieldInt(output, "Converged", report.converged ? 1 : 0);
   AddFieldInt(output, "Iterations", report.iterations);
+  AddFieldInt(output, "DoublePrecisionSince", report.doubleSince);
   vtkNew<vtkDoubleArray> residual;
   residual->SetName("Residual");
   residual->InsertNextValue(LastRecord(report).residual);
@@ -107,6 +108,24 @@ void WriteHistory(const SolveReport& report, vtkTable* table)
   AddColumn(table, "ConvergenceFactor", factor);
   AddColumn(table, "Log10EnergyResidual", logEnergy);
   AddColumn(table, "Log10Residual", logResidual);
+}
+
+const char* ReasonOf(const SolveReport& report)
+{
+  switch (report.end)
+  {
+    case SolveEnd::Converged:
+      return "it has converged";
+    case SolveEnd::IterationLimit:
+      return "more are not allowed";
+    case SolveEnd::NotFinite:
+      return "the values or gradients contain numbers that are not finite";
+    case SolveEnd::Stagnation:
+      return "it stagnated: more would bring nothing";
+    case SolveEnd::Breakdown:
+      break;
+  }
+  return "it broke down: the system has no solution, or numbers are out of range";
 }
 
 IterationRecord LastRecord(const SolveReport& report)

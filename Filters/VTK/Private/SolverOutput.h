@@ -18,8 +18,8 @@ namespace gridfem
 vtkSmartPointer<vtkDataArray> MakePointArray(
   const char* name, const MultiVector& values, int dataType);
 
-/// Adds the field arrays Converged, Iterations, Residual and ConvergenceFactor (mean per
-/// iteration).
+/// Adds the field arrays Converged, Iterations, DoublePrecisionSince (iteration of the fall-back;
+/// -1: none), Residual and ConvergenceFactor (mean per iteration).
 void AddReport(const SolveReport& report, vtkPolyData* output);
 
 /// Adds a field array with one int.
@@ -34,6 +34,9 @@ void AddColumn(vtkTable* table, const char* name, const std::vector<double>& val
 
 /// Adds a column of integers to a table.
 void AddColumn(vtkTable* table, const char* name, const std::vector<int>& values);
+
+/// Why the iteration ended, in words.
+const char* ReasonOf(const SolveReport& report);
 
 /// The last iteration, or zeros when nothing had to be iterated.
 IterationRecord LastRecord(const SolveReport& report);
