@@ -1,4 +1,5 @@
 // The nearly invisible functions and their part in the cycle.
+#include "Discretisation.h"
 #include "Errors.h"
 #include "HiddenFunctions.h"
 #include "LayeredFunctions.h"
@@ -20,14 +21,11 @@ using testing::Dense;
 using testing::RandomVectors;
 using testing::RelativeDifference;
 
-struct Problem
+struct Problem : testing::Discretisation
 {
   Problem(const TriangleMesh& mesh, int depth, Index coarsestSize = 64)
+    : Discretisation(testing::Discretise(mesh, depth, 2, true, coarsestSize))
   {
-    SpaceOptions options;
-    options.depth = depth;
-    space = BuildFunctionSpace(mesh, options);
-    system = BuildSystem(space, TriangleRule(2), 0, coarsestSize);
   }
 
   std::vector<double> Heights(int threads = 0) const
@@ -43,9 +41,6 @@ struct Problem
     options.threads = threads;
     return BuildMultigrid(space, system, a, b, options);
   }
-
-  FunctionSpace space;
-  System system;
 };
 
 /// Largest difference of the heights from a distance, in cells, after the better of both signs.
@@ -202,6 +197,25 @@ TEST(HiddenCycle, ConvergesFastOnFlatFaces)
     EXPECT_LT(EnergyLeft(problem.Cycle(1e-5, 1.0)),
       1e-2 * EnergyLeft(problem.Cycle(1e-5, 1.0, HiddenCorrection::Never)));
   }
+}
+
+TEST(HiddenCycle, HasACopyInDoublePrecision)
+{
+  const Problem problem(testing::Transform(testing::Box(3), { 1, 2, 3 }, 0.7), 5);
+  MultigridOptions options;
+  options.hidden = HiddenCorrection::Always;
+  options.precision = FactorPrecision::Double;
+  const Multigrid built = BuildMultigrid(problem.space, problem.system, 0.1, 1.0, options);
+  const Multigrid mixed = problem.Cycle(0.1, 1.0);
+  const MultiVector b = RandomVectors(built.Matrix().rows, 1);
+  MultiVector expected;
+  MultiVector copied;
+  MultiVector x;
+  built.Precondition(b, expected);
+  mixed.InDoublePrecision().Precondition(b, copied);
+  mixed.Precondition(b, x);
+  EXPECT_EQ(copied, expected);
+  EXPECT_NE(x, expected);
 }
 
 TEST(HiddenCycle, IsTakenWhereTheSurfaceIsFlat)

@@ -1,5 +1,6 @@
 // Hidden functions that are fine along one axis.
 #include "BoxLevel.h"
+#include "Discretisation.h"
 #include "HiddenFunctions.h"
 #include "LayeredFunctions.h"
 #include "Meshes.h"
@@ -20,20 +21,15 @@ using testing::Dense;
 using testing::RandomVectors;
 using testing::RelativeDifference;
 
-struct Problem
+struct Problem : testing::Discretisation
 {
   Problem(const TriangleMesh& mesh, int depth)
+    : Discretisation(testing::Discretise(mesh, depth, 2, true, 64)),
+      hidden(BuildHiddenLevels(space, system))
   {
-    SpaceOptions options;
-    options.depth = depth;
-    space = BuildFunctionSpace(mesh, options);
-    system = BuildSystem(space, TriangleRule(2), 0, 64);
-    hidden = BuildHiddenLevels(space, system);
     AddLayeredFunctions(space, system, hidden);
   }
 
-  FunctionSpace space;
-  System system;
   HiddenLevels hidden;
 };
 
@@ -202,6 +198,25 @@ TEST(LayeredFunctions, LetCyclesConvergeOnSmoothSurfacesAtEveryDepth)
     // 0.48, 0.34, 0.36 were measured, and 0.77, 0.84, 0.90 without.
     EXPECT_LT(factor, 0.5) << depth;
     EXPECT_GT(without, 0.75) << depth;
+  }
+}
+
+TEST(LayeredFunctions, TakeTheMemoryThatIsEstimated)
+{
+  for (const TriangleMesh& mesh : { testing::GeodesicSphere(60), testing::Torus(90, 40, 1.0, 0.4),
+         testing::Transform(testing::Box(2), { 1, 2, 3 }, 0.7) })
+  {
+    const testing::Discretisation on = testing::Discretise(mesh, 6);
+    const auto memory = [&](HiddenCorrection hidden)
+    {
+      MultigridOptions options;
+      options.hidden = hidden;
+      return double(BuildMultigrid(on.space, on.system, 1e-4, 1.0, options).Memory());
+    };
+    const double taken = memory(HiddenCorrection::Always) - memory(HiddenCorrection::Never);
+    const double estimate = EstimateLayeredMemory(on.space.Finest().numberOfFunctions);
+    EXPECT_LE(taken, estimate);
+    EXPECT_GE(taken, 0.6 * estimate); // not refused without need
   }
 }
 

@@ -15,15 +15,15 @@ struct Discretisation
   double Spacing() const { return space.GetGrid().spacing; }
 };
 
-inline Discretisation Discretise(
-  const TriangleMesh& mesh, int depth, int quadratureDegree = 2, bool connectivityAware = true)
+inline Discretisation Discretise(const TriangleMesh& mesh, int depth, int quadratureDegree = 2,
+  bool connectivityAware = true, Index coarsestSize = 256)
 {
   SpaceOptions options;
   options.depth = depth;
   options.connectivityAware = connectivityAware;
   Discretisation result;
   result.space = BuildFunctionSpace(mesh, options);
-  result.system = BuildSystem(result.space, TriangleRule(quadratureDegree));
+  result.system = BuildSystem(result.space, TriangleRule(quadratureDegree), 0, coarsestSize);
   return result;
 }
 

@@ -1,6 +1,7 @@
 #include "InputValidation.h"
 
 #include "Errors.h"
+#include "LayeredFunctions.h"
 #include "MemoryEstimate.h"
 #include "Spectrum.h"
 
@@ -96,6 +97,13 @@ void RequireMemory(const TriangleMesh& mesh, int depth)
           << " basis functions)";
   RequireBytes(
     estimate.bytes, subject.str(), "Every step down in Depth takes a quarter of the memory.");
+}
+
+void RequireMemoryForLayers(Id functions)
+{
+  RequireBytes(EstimateLayeredMemory(functions),
+    "HiddenCorrection Always with " + std::to_string(functions) + " basis functions",
+    "Choose Where Flat or a smaller Depth.");
 }
 
 void RequireMemoryForModes(Id functions, Id modes, int threads)
