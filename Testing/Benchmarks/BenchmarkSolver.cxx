@@ -212,6 +212,21 @@ int Iterations(const SolveReport& report)
   return report.converged ? report.iterations : Never;
 }
 
+/// Of the hybrid alone, to the same residual as conjugate gradients.
+int CyclesAlone(const TriangleMesh& mesh, const HybridProblem& hybrid, double weight,
+  const HatMultigridOptions& options)
+{
+  SolveOptions solve;
+  solve.tolerance = HatTolerance;
+  solve.maximumIterations = 30;
+  solve.measure = SolveOptions::Measure::Residual;
+  const Multigrid cycle = hybrid.BuildCycle(weight, options);
+  MultiVector b;
+  Multiply(cycle.Matrix(), hybrid.ToFunctions(ColoursAtPoints(mesh, 1)), b);
+  MultiVector x = MultiVector::Zero(b.rows(), 1);
+  return Iterations(SolveCycles(cycle, b, x, solve));
+}
+
 HatIterations RunHats(const TriangleMesh& mesh, const HybridProblem& hybrid, double weight)
 {
   HatIterations result;
@@ -232,16 +247,10 @@ HatIterations RunHats(const TriangleMesh& mesh, const HybridProblem& hybrid, dou
   result.hybrid = Iterations(SolveConjugateGradients(cycle, b, x, solve));
   result.hybridSeconds = watch.Seconds();
 
-  solve.maximumIterations = 30;
-  const auto cyclesAlone = [&](const HatMultigridOptions& options)
-  {
-    x.setZero();
-    return Iterations(SolveCycles(hybrid.BuildCycle(weight, options), b, x, solve));
-  };
   HatMultigridOptions tenSweeps = ThesisHybrid();
-  result.thesisCycles = cyclesAlone(tenSweeps);
+  result.thesisCycles = CyclesAlone(mesh, hybrid, weight, tenSweeps);
   tenSweeps.relaxGroups = true;
-  result.groupedCycles = cyclesAlone(tenSweeps);
+  result.groupedCycles = CyclesAlone(mesh, hybrid, weight, tenSweeps);
   return result;
 }
 
@@ -279,6 +288,31 @@ void RunHatTable()
   PrintAtMost("hat_hybrid_ten_sweeps_with_groups_worst_cycles_to_residual_1e-8", grouped, 10.0);
 }
 
+/// Table 4.3 of the thesis compares grids that have as many functions as the mesh has vertices.
+/// Here are grids with a third as many, with 1.4 times as many, and with 5.6 times.
+void RunGridsOfHats()
+{
+  constexpr double Weight = 1e-2; // the slowest
+  std::printf("\nHat functions, the thesis' ten sweeps: cycles to residual 1e-8 over grids that "
+              "are one and two levels finer\n");
+  const Table table({ "vertices", "depth", "functions", "thesis" });
+  double worst = 0.0;
+  for (const int subdivisions : { 0, 1, 2, 3 })
+  {
+    const TriangleMesh mesh = RockerArm(subdivisions).mesh;
+    for (const int finer : { 0, 1, 2 })
+    {
+      const int depth = 5 + subdivisions + finer;
+      const HybridProblem hybrid = SetUpHybrid(mesh, depth, Threads);
+      const double cycles = CyclesAlone(mesh, hybrid, Weight, ThesisHybrid());
+      table.Row({ std::to_string(mesh.points.size()), std::to_string(depth),
+        std::to_string(hybrid.space.Finest().numberOfFunctions), Text("%.0f", cycles) });
+      worst = finer == 1 ? std::max(worst, cycles) : worst;
+    }
+  }
+  PrintAtMost("hat_hybrid_ten_sweeps_grid_as_large_as_mesh_worst_cycles", worst, 10.0);
+}
+
 } // namespace
 
 /// Arguments: parts of peers, hats, cubes, smooth.
@@ -293,6 +327,7 @@ int main(int argc, char** argv)
   {
     const MessagePassing libraries;
     RunHatTable();
+    RunGridsOfHats();
   }
   if (parts.Want("cubes"))
   {
