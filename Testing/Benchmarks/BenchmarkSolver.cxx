@@ -289,14 +289,14 @@ void RunHatTable()
 }
 
 /// Table 4.3 of the thesis compares grids that have as many functions as the mesh has vertices.
-/// Here are grids with a third as many, with 1.4 times as many, and with 5.6 times.
+/// Here are grids with a third as many, with 1.4 times as many, and with 5.6 times. [T Fig. 4.7]
 void RunGridsOfHats()
 {
   constexpr double Weight = 1e-2; // the slowest
   std::printf("\nHat functions, the thesis' ten sweeps: cycles to residual 1e-8 over grids that "
               "are one and two levels finer\n");
   const Table table({ "vertices", "depth", "functions", "thesis" });
-  double worst = 0.0;
+  std::array<double, 3> worst{};
   for (const int subdivisions : { 0, 1, 2, 3 })
   {
     const TriangleMesh mesh = RockerArm(subdivisions).mesh;
@@ -307,15 +307,16 @@ void RunGridsOfHats()
       const double cycles = CyclesAlone(mesh, hybrid, Weight, ThesisHybrid());
       table.Row({ std::to_string(mesh.points.size()), std::to_string(depth),
         std::to_string(hybrid.space.Finest().numberOfFunctions), Text("%.0f", cycles) });
-      worst = finer == 1 ? std::max(worst, cycles) : worst;
+      worst[finer] = std::max(worst[finer], cycles);
     }
   }
-  PrintAtMost("hat_hybrid_ten_sweeps_grid_as_large_as_mesh_worst_cycles", worst, 10.0);
+  PrintAtMost("hat_hybrid_ten_sweeps_grid_one_deeper_worst_cycles", worst[1], 10.0);
+  PrintAtMost("hat_hybrid_ten_sweeps_grid_two_deeper_worst_cycles", worst[2], 10.0);
 }
 
 } // namespace
 
-/// Arguments: parts of peers, hats, cubes, smooth.
+/// Arguments: parts of peers, hats, grids, cubes, smooth.
 int main(int argc, char** argv)
 {
   const Parts parts(argc, argv);
@@ -327,6 +328,9 @@ int main(int argc, char** argv)
   {
     const MessagePassing libraries;
     RunHatTable();
+  }
+  if (parts.Want("grids"))
+  {
     RunGridsOfHats();
   }
   if (parts.Want("cubes"))
