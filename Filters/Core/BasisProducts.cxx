@@ -9,15 +9,17 @@ namespace
 {
 
 /// Rows whose images are computed and multiplied at a time: they fit the second-level cache.
-constexpr Id RowsAtOnce = 256;
+template<class Real>
+constexpr Id RowsAtOnce = 2048 / sizeof(Real);
 
 /// Sums over all rows are made of this many, each by one thread and added in order.
 constexpr Id NumberOfSums = 16;
 
-Id Width(const BasisParts& parts)
+template<class Real>
+Id Width(const BasisParts<Real>& parts)
 {
   Id width = 0;
-  for (const ConstBlock& part : parts)
+  for (const ConstBlock<Real>& part : parts)
   {
     width += part.cols();
   }
@@ -26,23 +28,24 @@ Id Width(const BasisParts& parts)
 
 /// Sum over the rows of [X₁ X₂ ...]ᵀ image, where imageRows(begin, end, image) fills the first rows
 /// of a block of `columns` columns.
-template<class ImageRows>
+template<class Real, class ImageRows>
 Eigen::MatrixXd ProjectRows(
-  const BasisParts& parts, Id rows, Id columns, int threads, ImageRows&& imageRows)
+  const BasisParts<Real>& parts, Id rows, Id columns, int threads, ImageRows&& imageRows)
 {
   const auto sum = [&](Id first, Id last)
   {
     Eigen::MatrixXd result = Eigen::MatrixXd::Zero(Width(parts), columns);
-    MultiVector image(RowsAtOnce, columns);
-    for (Id begin = first; begin < last; begin += RowsAtOnce)
+    Vectors<Real> image(RowsAtOnce<Real>, columns);
+    Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic> product;
+    for (Id begin = first; begin < last; begin += RowsAtOnce<Real>)
     {
-      const Id count = std::min(RowsAtOnce, last - begin);
+      const Id count = std::min(RowsAtOnce<Real>, last - begin);
       imageRows(begin, begin + count, image);
       Id row = 0;
-      for (const ConstBlock& part : parts)
+      for (const ConstBlock<Real>& part : parts)
       {
-        result.middleRows(row, part.cols()).noalias() +=
-          part.middleRows(begin, count).transpose() * image.topRows(count);
+        product.noalias() = part.middleRows(begin, count).transpose() * image.topRows(count);
+        result.middleRows(row, part.cols()) += product.template cast<double>();
         row += part.cols();
       }
     }
@@ -50,41 +53,62 @@ Eigen::MatrixXd ProjectRows(
   };
   const Id perSum = (rows + NumberOfSums - 1) / NumberOfSums;
   return ParallelSum(rows, threads, Eigen::MatrixXd(Eigen::MatrixXd::Zero(Width(parts), columns)),
-    sum, std::max(perSum, RowsAtOnce));
+    sum, std::max(perSum, RowsAtOnce<Real>));
 }
 
 } // namespace
 
-Eigen::MatrixXd ProjectPair(const BasisParts& parts, const SparseMatrix& A, const SparseMatrix& B,
-  const ConstBlock& Y, int threads)
+template<class Real>
+Eigen::MatrixXd ProjectPair(const BasisParts<Real>& parts, const SparseMatrix& A,
+  const SparseMatrix& B, const ConstBlock<Real>& Y, int threads)
 {
-  const PairedProduct product(A, B, Y);
+  const PairedProduct<Real> product(A, B, Y);
   return ProjectRows(parts, A.rows, 2 * Y.cols(), threads,
-    [&](Id begin, Id end, MultiVector& image) { product.Rows(begin, end, image); });
+    [&](Id begin, Id end, Vectors<Real>& image) { product.Rows(begin, end, image); });
 }
 
+template<class Real>
 Eigen::MatrixXd Project(
-  const BasisParts& parts, const SparseMatrix& A, const ConstBlock& Y, int threads)
+  const BasisParts<Real>& parts, const SparseMatrix& A, const ConstBlock<Real>& Y, int threads)
 {
   return ProjectRows(parts, A.rows, Y.cols(), threads,
-    [&](Id begin, Id end, MultiVector& image) { MultiplyRows(A, Y, begin, end, image); });
+    [&](Id begin, Id end, Vectors<Real>& image)
+    { MultiplyRows<Real>(A, Y, begin, end, image); });
 }
 
-void SubtractCombination(const BasisParts& parts, const Eigen::MatrixXd& C, Block Y, int threads)
+template<class Real>
+void SubtractCombination(
+  const BasisParts<Real>& parts, const Eigen::MatrixXd& C, Block<Real> Y, int threads)
 {
+  const Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic> coefficients =
+    C.template cast<Real>();
   ParallelRanges(
     Y.rows(), threads,
     [&](Id begin, Id end)
     {
       Id row = 0;
-      for (const ConstBlock& part : parts)
+      for (const ConstBlock<Real>& part : parts)
       {
         Y.middleRows(begin, end - begin).noalias() -=
-          part.middleRows(begin, end - begin) * C.middleRows(row, part.cols());
+          part.middleRows(begin, end - begin) * coefficients.middleRows(row, part.cols());
         row += part.cols();
       }
     },
-    RowsAtOnce);
+    RowsAtOnce<Real>);
 }
+
+template Eigen::MatrixXd ProjectPair(const BasisParts<float>&, const SparseMatrix&,
+  const SparseMatrix&, const ConstBlock<float>&, int);
+template Eigen::MatrixXd Project(
+  const BasisParts<float>&, const SparseMatrix&, const ConstBlock<float>&, int);
+template void SubtractCombination(
+  const BasisParts<float>&, const Eigen::MatrixXd&, Block<float>, int);
+
+template Eigen::MatrixXd ProjectPair(const BasisParts<double>&, const SparseMatrix&,
+  const SparseMatrix&, const ConstBlock<double>&, int);
+template Eigen::MatrixXd Project(
+  const BasisParts<double>&, const SparseMatrix&, const ConstBlock<double>&, int);
+template void SubtractCombination(
+  const BasisParts<double>&, const Eigen::MatrixXd&, Block<double>, int);
 
 } // namespace gridfem

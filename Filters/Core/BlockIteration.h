@@ -28,7 +28,6 @@ struct SpectralProblem
   /// Makes a better one, where there is: it takes over when convergence is slow.
   std::function<Preconditioner()> fallback;
   const Constants* constants = nullptr; // the pairs found are orthogonal to them
-  BasisParts known;                     // and to these, orthonormal in the mass matrix
   int threads = 0;
 };
 
@@ -41,10 +40,11 @@ struct BlockOptions
   int minimumIterations = 0; // 1: the random directions have their say even if all has converged
 };
 
+template<class Real>
 struct EigenPairs
 {
-  Eigen::VectorXd values; // ascending
-  MultiVector vectors;    // columns orthonormal in the mass matrix
+  Eigen::VectorXd values;    // ascending
+  BlockBuffer<Real> vectors; // columns orthonormal in the mass matrix, up to rounding of Real
 };
 
 struct BlockReport
@@ -56,20 +56,25 @@ struct BlockReport
 };
 
 /// Memory of an iteration, for one that comes after it.
+template<class Real>
 struct BlockWorkspace
 {
-  BlockBuffer directions;
-  BlockBuffer corrections;
-  MultiVector vectors;
+  BlockBuffer<Real> directions;
+  BlockBuffer<Real> corrections;
 };
 
 /// Improves `pairs` (orthonormal Ritz pairs, or vectors of any kind without values; may be fewer
 /// than blockSize, or none) until the wanted ones reach the tolerance. Columns that did drop out of
 /// the work until they move again. A few fixed random directions are mixed in, so that no
-/// eigenvector stays hidden. Returns at most blockSize pairs, fewer when fewer exist. Same bits for
-/// any number of threads. Throws Aborted.
+/// eigenvector stays hidden. Returns at most blockSize pairs, fewer when fewer exist. Blocks in
+/// single precision halve memory and the time of dense products; residuals are in double, so that
+/// tolerances down to 1e-7 are reached in the same steps. Same bits for any number of threads.
+/// Throws Aborted.
+/// @param known  orthonormal in the mass matrix; the pairs found are orthogonal to them
+template<class Real>
 BlockReport ImproveEigenPairs(const SpectralProblem& problem, const BlockOptions& options,
-  EigenPairs& pairs, BlockWorkspace& workspace, const Progress& progress = {});
+  const BasisParts<Real>& known, EigenPairs<Real>& pairs, BlockWorkspace<Real>& workspace,
+  const Progress& progress = {});
 
 } // namespace gridfem
 

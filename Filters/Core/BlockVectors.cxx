@@ -1,55 +1,61 @@
 #include "BlockVectors.h"
 
-#include "LargeMemory.h"
-#include "Parallel.h"
-
-#include <algorithm>
-#include <new>
 #include <random>
 
 namespace gridfem
 {
 
-void BlockBuffer::Reserve(Id rows, Id columns)
+template<class Real>
+void BlockBuffer<Real>::Reserve(Id rows, Id columns)
 {
-  if (block_.rows() != rows || block_.outerStride() < columns)
+  if (rows_ != rows || capacity_ < columns)
   {
-    memory_.resize(0); // two blocks at a time would be one too many
+    Release(memory_); // two blocks at a time would be one too many
     memory_.resize(rows * columns);
-    PreferLargePages(memory_.data(), memory_.size() * sizeof(double));
-    new (&block_) Map(memory_.data(), rows, 0, Eigen::OuterStride<>(columns));
+    rows_ = rows;
+    capacity_ = columns;
+    columns_ = 0;
   }
 }
 
-void BlockBuffer::Show(Id columns)
+template<class Real>
+void BlockBuffer<Real>::Grow(Id rows, Id columns, int threads)
 {
-  new (&block_)
-    Map(memory_.data(), block_.rows(), columns, Eigen::OuterStride<>(block_.outerStride()));
-}
-
-void Reshape(MultiVector& X, Id rows, Id columns)
-{
-  if (X.size() != rows * columns)
+  if (columns_ == 0)
   {
-    X.resize(0, 0);
-    X.resize(rows, columns);
-    PreferLargePages(X.data(), X.size() * sizeof(double));
+    this->Reserve(rows, columns);
   }
-  X.resize(rows, columns);
+  else if (capacity_ < columns)
+  {
+    BlockBuffer wide;
+    wide.Reserve(rows, columns);
+    wide.Show(columns_);
+    CopyBlock(this->View(), wide.View(), threads);
+    std::swap(*this, wide);
+  }
 }
 
-void KeepColumns(MultiVector& X, Id columns)
+template<class Real>
+void BlockBuffer<Real>::Keep(const std::vector<Index>& columns, int threads)
 {
-  const Id rows = X.rows();
-  const Id before = X.cols();
-  for (Id row = 1; row < rows; ++row)
-  {
-    std::copy_n(X.data() + row * before, columns, X.data() + row * columns);
-  }
-  X.resize(rows * before, 1); // as one column, so that its end can be cut off in place
-  X.conservativeResize(rows * columns, 1);
-  X.resize(rows, columns);
+  ParallelRanges(rows_, threads,
+    [&](Id begin, Id end)
+    {
+      for (Id row = begin; row < end; ++row)
+      {
+        Real* const numbers = memory_.data() + row * capacity_;
+        Id place = 0;
+        for (const Index column : columns)
+        {
+          numbers[place++] = numbers[column];
+        }
+      }
+    });
+  columns_ = static_cast<Id>(columns.size());
 }
+
+template class BlockBuffer<float>;
+template class BlockBuffer<double>;
 
 MultiVector RandomColumns(Id rows, Id columns)
 {
@@ -65,26 +71,7 @@ MultiVector RandomColumns(Id rows, Id columns)
   return X;
 }
 
-void SelectColumns(
-  const ConstBlock& X, const std::vector<Index>& columns, Block selected, int threads)
-{
-  const Id count = static_cast<Id>(columns.size());
-  ParallelRanges(X.rows(), threads,
-    [&](Id begin, Id end)
-    {
-      for (Id row = begin; row < end; ++row)
-      {
-        const double* from = X.data() + row * X.outerStride();
-        double* to = selected.data() + row * selected.outerStride();
-        for (Id j = 0; j < count; ++j)
-        {
-          to[j] = from[columns[j]];
-        }
-      }
-    });
-}
-
-Eigen::VectorXd ColumnDots(const ConstBlock& X, const ConstBlock& Y, int threads)
+Eigen::VectorXd ColumnDots(const ConstBlock<double>& X, const ConstBlock<double>& Y, int threads)
 {
   return ParallelSum(X.rows(), threads, Eigen::VectorXd(Eigen::VectorXd::Zero(X.cols())),
     [&](Id begin, Id end)

@@ -1,7 +1,10 @@
-// Columns of a block of vectors: stored, made, selected, multiplied. Used by the block iteration.
+// Columns of a block of vectors, in single or double precision: stored, made, selected. Used by the
+// block iteration.
 #ifndef GridFEM_BlockVectors_h
 #define GridFEM_BlockVectors_h
 
+#include "Array.h"
+#include "Parallel.h"
 #include "Types.h"
 
 #include <vector>
@@ -9,52 +12,70 @@
 namespace gridfem
 {
 
+/// MultiVector is the one in double precision.
+template<class Real>
+using Vectors = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 /// Neighbouring columns of a block that is stored elsewhere, all of them or some.
-using Block = Eigen::Ref<MultiVector>;
-using ConstBlock = Eigen::Ref<const MultiVector>;
+template<class Real>
+using Block = Eigen::Ref<Vectors<Real>>;
+template<class Real>
+using ConstBlock = Eigen::Ref<const Vectors<Real>>;
 
 /// Room for a block whose width changes from step to step. Memory is kept: touching fresh pages
 /// takes longer than the work on them.
+template<class Real>
 class BlockBuffer
 {
 public:
-  using Map = Eigen::Map<MultiVector, 0, Eigen::OuterStride<>>;
-
-  BlockBuffer() : block_(nullptr, 0, 0, Eigen::OuterStride<>(0)) {}
+  using Map = Eigen::Map<Vectors<Real>, 0, Eigen::OuterStride<>>;
 
   /// Room for blocks of up to so many columns; their numbers are lost where it has to grow.
   void Reserve(Id rows, Id columns);
 
-  /// Shows the first columns, of which there is room for at least so many; numbers stay.
-  void Show(Id columns);
+  /// As Reserve, but the columns that are shown keep their numbers.
+  void Grow(Id rows, Id columns, int threads = 0);
 
-  Map& View() { return block_; }
-  const Map& View() const { return block_; }
-  Id Columns() const { return block_.cols(); }
+  /// Shows the first columns, of which there is room for at least so many; numbers stay.
+  void Show(Id columns) { columns_ = columns; }
+
+  /// Shows these columns, which ascend, and loses the others.
+  void Keep(const std::vector<Index>& columns, int threads = 0);
+
+  /// The columns that are shown. Rows lie the capacity apart.
+  Map View() { return Map(memory_.data(), rows_, columns_, Eigen::OuterStride<>(capacity_)); }
+  Eigen::Map<const Vectors<Real>, 0, Eigen::OuterStride<>> View() const
+  {
+    return { memory_.data(), rows_, columns_, Eigen::OuterStride<>(capacity_) };
+  }
+  Id Rows() const { return rows_; }
+  Id Columns() const { return columns_; }
 
 private:
-  Eigen::VectorXd memory_;
-  Map block_; // rows lie the capacity apart
+  Array<Real> memory_;
+  Id rows_ = 0;
+  Id columns_ = 0;
+  Id capacity_ = 0;
 };
 
-/// Makes room for a block of this shape, in large pages where it is large; its numbers are lost
-/// where the shape changes.
-void Reshape(MultiVector& X, Id rows, Id columns);
-
-/// Keeps the first columns only. Needs no second block: rows move up, and the rest of the memory is
-/// given back.
-void KeepColumns(MultiVector& X, Id columns);
+/// to = from, in the precision of `to`; of one shape.
+template<class From, class To>
+void CopyBlock(const From& from, To to, int threads)
+{
+  ParallelRanges(from.rows(), threads,
+    [&](Id begin, Id end)
+    {
+      to.middleRows(begin, end - begin) =
+        from.middleRows(begin, end - begin).template cast<typename To::Scalar>();
+    });
+}
 
 /// Uniform in [-1, 1), the same on every platform.
 MultiVector RandomColumns(Id rows, Id columns);
 
-/// selected = the columns of X with these numbers, in this order. They may be the first columns of
-/// X itself when the numbers ascend.
-void SelectColumns(
-  const ConstBlock& X, const std::vector<Index>& columns, Block selected, int threads = 0);
-
 /// xᵀ y for every pair of columns. Same bits for any number of threads.
-Eigen::VectorXd ColumnDots(const ConstBlock& X, const ConstBlock& Y, int threads = 0);
+Eigen::VectorXd ColumnDots(
+  const ConstBlock<double>& X, const ConstBlock<double>& Y, int threads = 0);
 
 } // namespace gridfem
 

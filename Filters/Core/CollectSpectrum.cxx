@@ -1,18 +1,17 @@
 #include "CollectSpectrum.h"
 
 #include "BlockVectors.h"
+#include "LargeMemory.h"
 #include "PairedProduct.h"
 #include "Parallel.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace gridfem
 {
 namespace
 {
-
-/// Columns of one cycle: as wide as SIMD lanes need and small enough for the cache.
-constexpr Id PanelWidth = 8;
 
 /// Entries that differ by less, relatively, are equal up to rounding: symmetric surfaces have many.
 constexpr double NearTie = 1e-6;
@@ -20,79 +19,123 @@ constexpr double NearTie = 1e-6;
 /// Rows whose images are looked at together.
 constexpr Id RowsAtOnce = 512;
 
-/// Per column of M X the entry of largest magnitude, near ties to the lowest row.
-Eigen::RowVectorXd LargestEntries(const SparseMatrix& mass, const MultiVector& X, int threads)
+/// Per column x.
+struct ColumnFacts
 {
+  Eigen::RowVectorXd energy;  // xᵀLx
+  Eigen::RowVectorXd mass;    // xᵀMx
+  Eigen::RowVectorXd largest; // the entry of M x of largest magnitude, near ties to the lowest row
+
+  explicit ColumnFacts(Id columns)
+    : energy(Eigen::RowVectorXd::Zero(columns)), mass(energy), largest(energy)
+  {
+  }
+  template<class Row>
+  void TakeLargest(const Row& row)
+  {
+    largest = (row.array().abs() > (1.0 + NearTie) * largest.array().abs()).select(row, largest);
+  }
+};
+
+ColumnFacts LookAt(const SpectralProblem& problem, const MultiVector& X)
+{
+  const Id columns = X.cols();
   const Id ranges = (X.rows() + RowsAtOnce - 1) / RowsAtOnce;
-  std::vector<Eigen::RowVectorXd> parts(ranges, Eigen::RowVectorXd::Zero(X.cols()));
-  const auto update = [](Eigen::RowVectorXd& largest, const auto& row)
-  { largest = (row.array().abs() > (1.0 + NearTie) * largest.array().abs()).select(row, largest); };
-  ParallelBlocks(ranges, threads,
+  std::vector<ColumnFacts> parts(ranges, ColumnFacts(columns));
+  const PairedProduct<double> product(problem.stiffness, problem.mass, X);
+  ParallelBlocks(ranges, problem.threads,
     [&](Id range)
     {
       const Id begin = range * RowsAtOnce;
       const Id end = std::min(X.rows(), begin + RowsAtOnce);
-      MultiVector load(RowsAtOnce, X.cols());
-      MultiplyRows(mass, X, begin, end, load);
-      for (Id row = 0; row < end - begin; ++row)
+      MultiVector image(RowsAtOnce, 2 * columns);
+      product.Rows(begin, end, image);
+      for (Id row = begin; row < end; ++row)
       {
-        update(parts[range], load.row(row));
+        const auto images = image.row(row - begin);
+        parts[range].energy += X.row(row).cwiseProduct(images.head(columns));
+        parts[range].mass += X.row(row).cwiseProduct(images.tail(columns));
+        parts[range].TakeLargest(images.tail(columns));
       }
     });
-  Eigen::RowVectorXd largest = Eigen::RowVectorXd::Zero(X.cols());
-  for (const Eigen::RowVectorXd& part : parts)
+  ColumnFacts facts(columns);
+  for (const ColumnFacts& part : parts)
   {
-    update(largest, part);
+    facts.energy += part.energy;
+    facts.mass += part.mass;
+    facts.TakeLargest(part.largest);
   }
-  return largest;
+  return facts;
 }
 
-/// The entry of largest magnitude of M x becomes positive.
-void FixSigns(const SparseMatrix& mass, MultiVector& X, int threads)
+/// Constants and the first `others` pairs side by side, in double precision.
+template<class Real>
+MultiVector SideBySide(
+  const MultiVector& constants, const BlockBuffer<Real>& vectors, Id others, int threads)
 {
-  const Eigen::RowVectorXd sign =
-    LargestEntries(mass, X, threads)
-      .unaryExpr([](double value) { return value < 0.0 ? -1.0 : 1.0; });
+  ReturnLargeMemory((constants.cols() + others) * constants.rows() * sizeof(double));
+  MultiVector all(constants.rows(), constants.cols() + others);
+  PreferLargePages(all.data(), all.size() * sizeof(double));
+  CopyBlock(constants, all.leftCols(constants.cols()), threads);
+  if (others > 0)
+  {
+    CopyBlock(vectors.View().leftCols(others), all.rightCols(others), threads);
+  }
+  return all;
+}
+
+/// Every column times its factor, in the given order.
+void ScaleAndOrder(const Eigen::RowVectorXd& factor, const std::vector<Index>& order,
+  MultiVector& X, int threads)
+{
   ParallelRanges(X.rows(), threads,
-    [&](Id begin, Id end) { X.middleRows(begin, end - begin) *= sign.asDiagonal(); });
+    [&](Id begin, Id end)
+    {
+      for (Id row = begin; row < end; ++row)
+      {
+        const Eigen::RowVectorXd scaled = X.row(row).cwiseProduct(factor);
+        X.row(row) = scaled(order);
+      }
+    });
 }
 
-/// X becomes [front, first `count` columns of X].
-void PutInFront(const MultiVector& front, Id count, MultiVector& X)
+template<class List>
+std::vector<double> Ordered(const List& list, const std::vector<Index>& order)
 {
-  const Id width = front.cols() + count;
-  if (X.rows() < front.rows() || X.cols() < width)
-  {
-    X.conservativeResize(front.rows(), width);
-  }
-  for (Id row = 0; row < front.rows(); ++row)
-  {
-    double* to = X.data() + row * X.cols();
-    std::copy_backward(to, to + count, to + width);
-    std::copy_n(front.data() + row * front.cols(), front.cols(), to);
-  }
-  KeepColumns(X, width);
+  std::vector<double> result;
+  std::transform(order.begin(), order.end(), std::back_inserter(result),
+    [&](Index place) { return list[place]; });
+  return result;
 }
 
 } // namespace
 
-Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs& pairs,
-  const BlockReport& report, const SparseMatrix& mass, int threads)
+template<class Real>
+Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs<Real>& pairs,
+  const BlockReport& report, const SpectralProblem& problem)
 {
   const Index others = static_cast<Index>(report.residuals.size());
   Spectrum spectrum;
-  spectrum.eigenvalues.assign(zeros, 0.0);
-  for (Index j = 0; j < others; ++j)
-  {
-    // Below 0 there is only rounding, where a sliver has functions that almost vanish.
-    spectrum.eigenvalues.push_back(std::max(0.0, pairs.values[j]));
-  }
-  spectrum.vectors = std::move(pairs.vectors);
-  PutInFront(constants.Vectors(zeros), others, spectrum.vectors);
-  FixSigns(mass, spectrum.vectors, threads);
-  spectrum.residuals.assign(zeros, 0.0);
-  spectrum.residuals.insert(
-    spectrum.residuals.end(), report.residuals.begin(), report.residuals.end());
+  spectrum.vectors =
+    SideBySide(constants.Vectors(zeros), pairs.vectors, others, problem.threads);
+  pairs.vectors = {};
+  constants.Remove<double>(spectrum.vectors.rightCols(others));
+
+  const ColumnFacts facts = LookAt(problem, spectrum.vectors);
+  // Below 0 there is only rounding, where a sliver has functions that almost vanish.
+  Eigen::RowVectorXd values = facts.energy.cwiseQuotient(facts.mass).cwiseMax(0.0);
+  values.head(zeros).setZero();
+  std::vector<Index> order(zeros + others);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin() + zeros, order.end(),
+    [&](Index a, Index b) { return values[a] < values[b]; });
+  const Eigen::RowVectorXd factor = facts.mass.cwiseSqrt().cwiseInverse().cwiseProduct(
+    facts.largest.unaryExpr([](double value) { return value < 0.0 ? -1.0 : 1.0; }));
+  ScaleAndOrder(factor, order, spectrum.vectors, problem.threads);
+  spectrum.eigenvalues = Ordered(values, order);
+  std::vector<double> residuals(zeros, 0.0);
+  residuals.insert(residuals.end(), report.residuals.begin(), report.residuals.end());
+  spectrum.residuals = Ordered(residuals, order);
   spectrum.estimatedErrors.assign(zeros, 0.0);
   spectrum.numberOfConverged = zeros + report.numberOfConverged;
   spectrum.converged = spectrum.numberOfConverged == zeros + others;
@@ -100,33 +143,9 @@ Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs& pa
   return spectrum;
 }
 
-Preconditioner CyclePreconditioner(const Multigrid& multigrid, std::size_t level)
-{
-  return [&multigrid, level](const RowSource& source, Block z)
-  {
-    const int threads = multigrid.Options().threads;
-    MultiVector r(z.rows(), z.cols());
-    ParallelRanges(
-      z.rows(), threads,
-      [&](Id begin, Id end)
-      {
-        MultiVector rows(SourceRows, z.cols());
-        source(begin, end, rows);
-        r.middleRows(begin, end - begin) = rows.topRows(end - begin);
-      },
-      SourceRows);
-    ParallelRanges(
-      z.cols(), threads,
-      [&](Id begin, Id end)
-      {
-        const MultiVector residual = r.middleCols(begin, end - begin);
-        MultiVector correction;
-        multigrid.PreconditionFrom(level, residual, correction);
-        z.middleCols(begin, end - begin) = correction;
-      },
-      PanelWidth);
-    return ResidualMeasures{ ColumnDots(r, z, threads), ColumnDots(r, r, threads) };
-  };
-}
+template Spectrum CollectSpectrum(
+  const Constants&, Index, EigenPairs<float>&, const BlockReport&, const SpectralProblem&);
+template Spectrum CollectSpectrum(
+  const Constants&, Index, EigenPairs<double>&, const BlockReport&, const SpectralProblem&);
 
 } // namespace gridfem

@@ -3,21 +3,19 @@
 #define GridFEM_CollectSpectrum_h
 
 #include "BlockIteration.h"
-#include "Multigrid.h"
 #include "Spectrum.h"
 
 namespace gridfem
 {
 
-/// The first `zeros` constants in front, then the pairs of the report; the entry of largest
-/// magnitude of M x becomes positive, near ties to the lowest index. Estimated errors: 0 for the
-/// constants, none yet for the others. Takes the vectors out of `pairs`: they become the result in
-/// the same memory where they are wide enough.
-Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs& pairs,
-  const BlockReport& report, const SparseMatrix& mass, int threads);
-
-/// One cycle from `level` on, from zero. The hierarchy has to outlive it.
-Preconditioner CyclePreconditioner(const Multigrid& multigrid, std::size_t level);
+/// The first `zeros` constants in front, then the pairs of the report. Whatever the precision of the
+/// blocks: each vector gets mass 1 and its value is its Rayleigh quotient, in double precision, and
+/// values ascend. The entry of largest magnitude of M x becomes positive, near ties to the lowest
+/// index. Estimated errors: 0 for the constants, none yet for the others. Takes the vectors out of
+/// `pairs`.
+template<class Real>
+Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs<Real>& pairs,
+  const BlockReport& report, const SpectralProblem& problem);
 
 } // namespace gridfem
 

@@ -45,9 +45,10 @@ Constants::Constants(
   }
 }
 
-void Constants::Remove(Eigen::Ref<MultiVector> X) const
+template<class Real>
+void Constants::Remove(Block<Real> X) const
 {
-  const MultiVector mean = this->Means(X);
+  const MultiVector mean = this->Means<Real>(X);
   ParallelRanges(X.rows(), threads_,
     [&](Id begin, Id end)
     {
@@ -55,7 +56,7 @@ void Constants::Remove(Eigen::Ref<MultiVector> X) const
       {
         if (mass_[component_[i]] > 0.0)
         {
-          X.row(i) -= mean.row(component_[i]);
+          X.row(i) -= mean.row(component_[i]).cast<Real>();
         }
         else
         {
@@ -65,7 +66,11 @@ void Constants::Remove(Eigen::Ref<MultiVector> X) const
     });
 }
 
-MultiVector Constants::Means(const Eigen::Ref<const MultiVector>& X) const
+template void Constants::Remove(Block<float>) const;
+template void Constants::Remove(Block<double>) const;
+
+template<class Real>
+MultiVector Constants::Means(const ConstBlock<Real>& X) const
 {
   const Id components = static_cast<Id>(mass_.size());
   // A sum of every component each: as many as take less memory than a part of X.
@@ -77,7 +82,7 @@ MultiVector Constants::Means(const Eigen::Ref<const MultiVector>& X) const
       MultiVector sum = MultiVector::Zero(components, X.cols());
       for (Id i = begin; i < end; ++i)
       {
-        sum.row(component_[i]) += weight_[i] * X.row(i);
+        sum.row(component_[i]) += weight_[i] * X.row(i).template cast<double>();
       }
       return sum;
     },

@@ -3,6 +3,7 @@
 #ifndef GridFEM_Constants_h
 #define GridFEM_Constants_h
 
+#include "BlockVectors.h"
 #include "SparseMatrix.h"
 
 #include <vector>
@@ -20,7 +21,8 @@ public:
 
   /// Removes the constants from every column, in the inner product of the mass matrix; components
   /// without mass, as pieces without an area are, become zero.
-  void Remove(Eigen::Ref<MultiVector> X) const;
+  template<class Real>
+  void Remove(Block<Real> X) const;
 
   /// Takes the constants out of a dense mass matrix of the same size, M - M Z Zᵀ M, and components
   /// without mass.
@@ -34,7 +36,8 @@ public:
 
 private:
   /// Mean of every column on every component.
-  MultiVector Means(const Eigen::Ref<const MultiVector>& X) const;
+  template<class Real>
+  MultiVector Means(const ConstBlock<Real>& X) const;
 
   std::vector<Index> component_;
   std::vector<double> weight_; // ∫ b_i

@@ -1,6 +1,8 @@
 #include "HatSpectrum.h"
 
 #include "CollectSpectrum.h"
+#include "PairedProduct.h"
+#include "Preconditioner.h"
 #include "SpectrumAccuracy.h"
 #include "WindowIteration.h"
 
@@ -35,16 +37,14 @@ Index ListLength(const Spectrum& grid, const SpectrumOptions& options)
   return count;
 }
 
-SpectralProblem HatProblem(
-  const HatHierarchy& hats, const Constants& constants, double shift, const Multigrid& multigrid)
+/// Without a preconditioner, which is not needed where the list ends among the constants.
+SpectralProblem HatProblem(const HatHierarchy& hats, const Constants& constants, int threads)
 {
   SpectralProblem problem;
   problem.stiffness = hats.matrices.stiffness;
   problem.mass = hats.matrices.mass;
-  problem.shift = shift;
   problem.constants = &constants;
-  problem.threads = multigrid.Options().threads;
-  problem.precondition = CyclePreconditioner(multigrid, 0);
+  problem.threads = threads;
   return problem;
 }
 
@@ -62,7 +62,7 @@ double LowestValue(const Spectrum& grid)
 /// The wanted pairs, at most `all`; more until the multiplet at their end is whole, if that is
 /// asked for.
 BlockReport FindPairs(const SpectralProblem& problem, const SpectrumOptions& options, Index wanted,
-  Index all, EigenPairs& pairs, const Progress& progress)
+  Index all, EigenPairs<double>& pairs, const Progress& progress)
 {
   const Index zeros = problem.constants->Count();
   BlockReport report;
@@ -74,10 +74,10 @@ BlockReport FindPairs(const SpectralProblem& problem, const SpectrumOptions& opt
   {
     found = block.wanted;
     block.blockSize = std::min(GuardedSize(found), all);
-    block.maximumIterations = pairs.vectors.cols() < found
+    block.maximumIterations = pairs.vectors.Columns() < found
                                 ? std::max(RandomStartIterations, options.maximumIterations)
                                 : options.maximumIterations;
-    report = ImproveManyEigenPairs(problem, block, pairs, progress.Part(done, 0.5 + 0.5 * done));
+    report = ImproveManyEigenPairs<double>(problem, block, pairs, progress.Part(done, 0.5 + 0.5 * done));
     done = 0.5 + 0.5 * done;
     while (options.completeMultiplets && report.numberOfConverged == found &&
            EndsInside(pairs.values, zeros, block.wanted))
@@ -124,21 +124,24 @@ Spectrum ComputeHatSpectrum(const HatHierarchy& hats, const FunctionSpace& space
   const Index zeros = constants.Count();
   const Index all = hats.functions.Count() - zeros;
   const Index listed = options.completeMultiplets ? zeros : std::min(zeros, options.numberOfModes);
-  EigenPairs pairs;
+  SpectralProblem problem = HatProblem(hats, constants, threads);
+  EigenPairs<double> pairs;
   BlockReport report;
   if (options.numberOfModes > zeros && all > 0)
   {
-    const double shift = LowestValue(grid);
+    problem.shift = LowestValue(grid);
     const Multigrid multigrid =
-      BuildHatMultigrid(hats, space, system, shift, 1.0, HatCycle(options.multigrid));
+      BuildHatMultigrid(hats, space, system, problem.shift, 1.0, HatCycle(options.multigrid));
+    problem.precondition = CyclePreconditioner(multigrid, 0);
     progress.Check(0.1);
-    Multiply(hats.prolongation, grid.vectors, pairs.vectors, threads);
-    constants.Remove(pairs.vectors);
-    report = FindPairs(HatProblem(hats, constants, shift, multigrid), options,
-      ListLength(grid, options) - zeros, all, pairs, progress.Part(0.1, 1.0));
+    pairs.vectors.Reserve(problem.mass.rows, grid.vectors.cols());
+    pairs.vectors.Show(grid.vectors.cols());
+    MultiplyBlock<double>(hats.prolongation, grid.vectors, pairs.vectors.View(), threads);
+    constants.Remove<double>(pairs.vectors.View());
+    report = FindPairs(
+      problem, options, ListLength(grid, options) - zeros, all, pairs, progress.Part(0.1, 1.0));
   }
-  Spectrum spectrum =
-    CollectSpectrum(constants, listed, pairs, report, hats.matrices.mass, threads);
+  Spectrum spectrum = CollectSpectrum(constants, listed, pairs, report, problem);
   spectrum.estimatedErrors = EstimateHatErrors(spectrum.eigenvalues, grid);
   const auto others = static_cast<Index>(report.residuals.size());
   spectrum.truncated = listed + others < options.numberOfModes;

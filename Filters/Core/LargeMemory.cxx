@@ -189,6 +189,12 @@ public:
     }
   }
 
+  void Shrink(std::size_t bytes) noexcept
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    this->Return(Generously * bytes);
+  }
+
 private:
   /// Blocks also hold what arrays had reserved and not used, which was no memory yet.
   static constexpr std::size_t Generously = 2;
@@ -278,7 +284,16 @@ void FreeLargeMemory(void* memory, std::size_t bytes) noexcept
   KeptBlocks().Give(static_cast<char*>(memory), RoundUpToPages(bytes));
 }
 
+void ReturnLargeMemory(std::size_t bytes) noexcept
+{
+  KeptBlocks().Shrink(bytes);
+}
+
 #else
+
+void ReturnLargeMemory(std::size_t) noexcept
+{
+}
 
 MemoryReuse::MemoryReuse() = default;
 MemoryReuse::~MemoryReuse() = default;

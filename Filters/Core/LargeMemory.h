@@ -32,6 +32,10 @@ public:
   MemoryReuse& operator=(const MemoryReuse&) = delete;
 };
 
+/// Gives that much of what is kept for reuse back to the system, because memory of another origin is
+/// about to be taken.
+void ReturnLargeMemory(std::size_t bytes) noexcept;
+
 /// Asks for large pages where memory of any origin that has not been touched yet spans some of
 /// them. A wish: the system may ignore it, and only Linux is asked. Contents do not change.
 void PreferLargePages(void* begin, std::size_t bytes) noexcept;

@@ -29,13 +29,30 @@ inline void ForEachLanes(Id columns, Body&& body)
   }
 }
 
-template<class Lanes>
-inline Eigen::Map<const Lanes> LanesAt(const ConstBlock& X, Id row, Id column)
+/// Lanes of doubles from a block of any precision.
+template<class Lanes, class Real>
+inline Lanes LanesAt(const ConstBlock<Real>& X, Id row, Id column)
 {
-  return Eigen::Map<const Lanes>(X.data() + row * X.outerStride() + column);
+  const Real* const from = X.data() + row * X.outerStride() + column;
+  Lanes lanes;
+  for (Id k = 0; k < lanes.size(); ++k)
+  {
+    lanes[k] = static_cast<double>(from[k]);
+  }
+  return lanes;
 }
 
-void CheckShapes(const SparseMatrix& A, const SparseMatrix& B, const ConstBlock& X)
+template<class Lanes, class Real>
+inline void StoreLanes(const Lanes& lanes, Real* to)
+{
+  for (Id k = 0; k < lanes.size(); ++k)
+  {
+    to[k] = static_cast<Real>(lanes[k]);
+  }
+}
+
+template<class Real>
+void CheckShapes(const SparseMatrix& A, const SparseMatrix& B, const ConstBlock<Real>& X)
 {
   if (A.columns != X.rows() || B.rows != A.rows || B.columns != A.columns ||
       B.NonZeros() != A.NonZeros())
@@ -45,9 +62,9 @@ void CheckShapes(const SparseMatrix& A, const SparseMatrix& B, const ConstBlock&
 }
 
 /// Calls store(row, column, a, b) with the lanes of A X and B X that begin there.
-template<class Store>
-void ForEachRowPair(const SparseMatrix& A, const SparseMatrix& B, const ConstBlock& X, Id first,
-  Id last, Store&& store)
+template<class Real, class Store>
+void ForEachRowPair(const SparseMatrix& A, const SparseMatrix& B, const ConstBlock<Real>& X,
+  Id first, Id last, Store&& store)
 {
   const RowView rows(A);
   const double* valueB = B.value.data();
@@ -61,7 +78,7 @@ void ForEachRowPair(const SparseMatrix& A, const SparseMatrix& B, const ConstBlo
         Lanes b = Lanes::Zero();
         for (Id k = rows.begin[row]; k < rows.begin[row + 1]; ++k)
         {
-          const auto x = LanesAt<Lanes>(X, rows.column[k], column);
+          const Lanes x = LanesAt<Lanes>(X, rows.column[k], column);
           a += rows.value[k] * x;
           b += valueB[k] * x;
         }
@@ -72,26 +89,33 @@ void ForEachRowPair(const SparseMatrix& A, const SparseMatrix& B, const ConstBlo
 
 } // namespace
 
-PairedProduct::PairedProduct(const SparseMatrix& A, const SparseMatrix& B, const ConstBlock& X)
+template<class Real>
+PairedProduct<Real>::PairedProduct(
+  const SparseMatrix& A, const SparseMatrix& B, const ConstBlock<Real>& X)
   : A_(A), B_(B), X_(X)
 {
   CheckShapes(A, B, X);
 }
 
-void PairedProduct::Rows(Id begin, Id end, MultiVector& image) const
+template<class Real>
+void PairedProduct<Real>::Rows(Id begin, Id end, Vectors<Real>& image) const
 {
   const Id columns = X_.cols();
   ForEachRowPair(A_, B_, X_, begin, end,
     [&](Id row, Id column, const auto& a, const auto& b)
     {
-      using Lanes = std::decay_t<decltype(a)>;
-      double* to = image.data() + (row - begin) * 2 * columns + column;
-      Eigen::Map<Lanes>{ to } = a;
-      Eigen::Map<Lanes>{ to + columns } = b;
+      Real* const to = image.data() + (row - begin) * 2 * columns + column;
+      StoreLanes(a, to);
+      StoreLanes(b, to + columns);
     });
 }
 
-void MultiplyRows(const SparseMatrix& A, const ConstBlock& X, Id begin, Id end, MultiVector& image)
+template class PairedProduct<float>;
+template class PairedProduct<double>;
+
+template<class Real>
+void MultiplyRows(
+  const SparseMatrix& A, const ConstBlock<Real>& X, Id begin, Id end, Block<Real> image)
 {
   if (A.columns != X.rows())
   {
@@ -109,13 +133,32 @@ void MultiplyRows(const SparseMatrix& A, const ConstBlock& X, Id begin, Id end, 
         {
           sum += rows.value[k] * LanesAt<Lanes>(X, rows.column[k], column);
         }
-        Eigen::Map<Lanes>{ image.data() + (row - begin) * X.cols() + column } = sum;
+        StoreLanes(sum, image.data() + (row - begin) * image.outerStride() + column);
       });
   }
 }
 
-EigenResidual::EigenResidual(const SparseMatrix& A, const SparseMatrix& B, const ConstBlock& X,
-  const Eigen::VectorXd& values, std::vector<Index> columns)
+template void MultiplyRows<float>(
+  const SparseMatrix&, const ConstBlock<float>&, Id, Id, Block<float>);
+template void MultiplyRows<double>(
+  const SparseMatrix&, const ConstBlock<double>&, Id, Id, Block<double>);
+
+template<class Real>
+void MultiplyBlock(const SparseMatrix& A, const ConstBlock<Real>& X, Block<Real> Y, int threads)
+{
+  ParallelRanges(A.rows, threads,
+    [&](Id begin, Id end)
+    { MultiplyRows<Real>(A, X, begin, end, Y.middleRows(begin, end - begin)); });
+}
+
+template void MultiplyBlock<float>(
+  const SparseMatrix&, const ConstBlock<float>&, Block<float>, int);
+template void MultiplyBlock<double>(
+  const SparseMatrix&, const ConstBlock<double>&, Block<double>, int);
+
+template<class Real>
+EigenResidual<Real>::EigenResidual(const SparseMatrix& A, const SparseMatrix& B,
+  const ConstBlock<Real>& X, const Eigen::VectorXd& values, std::vector<Index> columns)
   : A_(A), B_(B), columns_(std::move(columns)),
     X_(X.middleCols(columns_.at(0), columns_.back() + 1 - columns_.front())),
     values_(values.segment(columns_.front(), X_.cols()))
@@ -127,7 +170,8 @@ EigenResidual::EigenResidual(const SparseMatrix& A, const SparseMatrix& B, const
   }
 }
 
-void EigenResidual::Rows(Id begin, Id end, MultiVector& rows) const
+template<class Real>
+void EigenResidual<Real>::Rows(Id begin, Id end, MultiVector& rows) const
 {
   const auto compute = [&](double* to, Id stride)
   {
@@ -155,5 +199,8 @@ void EigenResidual::Rows(Id begin, Id end, MultiVector& rows) const
     }
   }
 }
+
+template class EigenResidual<float>;
+template class EigenResidual<double>;
 
 } // namespace gridfem

@@ -1,6 +1,6 @@
 // Stiffness and mass times the same block of vectors in one pass: the two matrices share their
 // pattern, so every row of the block is fetched once. Eigenproblems multiply by hundreds of
-// columns.
+// columns. Blocks may be in single precision; sums are always in double.
 #ifndef GridFEM_PairedProduct_h
 #define GridFEM_PairedProduct_h
 
@@ -14,26 +14,35 @@ namespace gridfem
 
 /// [A X, B X] side by side, for matrices of one pattern, some rows at a time. Keeps references.
 /// Throws InvalidInput when the shapes do not fit.
+template<class Real>
 class PairedProduct
 {
 public:
-  PairedProduct(const SparseMatrix& A, const SparseMatrix& B, const ConstBlock& X);
+  PairedProduct(const SparseMatrix& A, const SparseMatrix& B, const ConstBlock<Real>& X);
 
   /// The rows begin .. end - 1, from the first row of `image` on, which has 2 X.cols() columns.
-  void Rows(Id begin, Id end, MultiVector& image) const;
+  void Rows(Id begin, Id end, Vectors<Real>& image) const;
 
 private:
   const SparseMatrix& A_;
   const SparseMatrix& B_;
-  ConstBlock X_;
+  ConstBlock<Real> X_;
 };
 
 /// The rows begin .. end - 1 of A X, from the first row of `image` on, which has X.cols() columns.
 /// Throws InvalidInput when the shapes do not fit.
-void MultiplyRows(const SparseMatrix& A, const ConstBlock& X, Id begin, Id end, MultiVector& image);
+template<class Real>
+void MultiplyRows(
+  const SparseMatrix& A, const ConstBlock<Real>& X, Id begin, Id end, Block<Real> image);
+
+/// Y = A X for columns of wider blocks, under the same conditions.
+template<class Real>
+void MultiplyBlock(
+  const SparseMatrix& A, const ConstBlock<Real>& X, Block<Real> Y, int threads = 0);
 
 /// The columns of A X - B X diag(values), for matrices of one pattern, some rows and some columns
-/// at a time. Keeps references.
+/// at a time: in double precision, because most digits cancel. Keeps references.
+template<class Real>
 class EigenResidual
 {
 public:
@@ -41,7 +50,7 @@ public:
   /// @param columns  of X that are wanted, at least one, ascending; the work is that of all between
   /// the first and the last
   /// Throws InvalidInput when the shapes do not fit.
-  EigenResidual(const SparseMatrix& A, const SparseMatrix& B, const ConstBlock& X,
+  EigenResidual(const SparseMatrix& A, const SparseMatrix& B, const ConstBlock<Real>& X,
     const Eigen::VectorXd& values, std::vector<Index> columns);
 
   /// The rows begin .. end - 1 of the wanted columns, from the first row and column of `rows` on.
@@ -51,7 +60,7 @@ private:
   const SparseMatrix& A_;
   const SparseMatrix& B_;
   std::vector<Index> columns_;
-  ConstBlock X_; // from the first wanted column to the last
+  ConstBlock<Real> X_; // from the first wanted column to the last
   Eigen::VectorXd values_;
 };
 

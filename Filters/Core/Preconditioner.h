@@ -1,5 +1,5 @@
-// What a block iteration asks of a preconditioner: corrections of a few columns whose residuals are
-// never stored.
+// What a block iteration asks of a preconditioner: corrections of a few columns, whose residuals
+// are never stored.
 #ifndef GridFEM_Preconditioner_h
 #define GridFEM_Preconditioner_h
 
@@ -10,18 +10,30 @@
 namespace gridfem
 {
 
+class Multigrid;
+
 /// Columns that are corrected together, at most.
 constexpr Id PreconditionedColumns = 32;
 
-/// A block of vectors that is computed some rows at a time: fills the first rows of `rows` with the
-/// rows begin .. end - 1. Safe to call from several threads.
-using RowSource = std::function<void(Id begin, Id end, MultiVector& rows)>;
-
-/// Rows to ask a source for at a time: they stay in the cache.
+/// Rows that are asked for or handed over at a time, at most: they stay in the cache.
 constexpr Id SourceRows = 256;
 
+/// A block of vectors that is computed some rows at a time.
+struct RowSource
+{
+  Id rows = 0;
+  Id columns = 0;
+  /// Fills the first rows of `part` with the rows begin .. end - 1. Safe to call from several
+  /// threads.
+  std::function<void(Id begin, Id end, MultiVector& part)> fill;
+};
+
+/// Takes the rows begin .. end - 1 of a block, which are the first of `part`. Safe to call from
+/// several threads.
+using RowSink = std::function<void(Id begin, Id end, const MultiVector& part)>;
+
 /// Σ r² of every column. Same bits for any number of threads.
-Eigen::VectorXd SquaredNorms(const RowSource& r, Id rows, Id columns, int threads);
+Eigen::VectorXd SquaredNorms(const RowSource& r, int threads);
 
 /// Per column.
 struct ResidualMeasures
@@ -30,10 +42,12 @@ struct ResidualMeasures
   Eigen::VectorXd norm;   // rᵀr
 };
 
-/// z = B r, B symmetric positive semi-definite; r has the shape of z, with at most
-/// PreconditionedColumns columns. Safe to call from several threads; same bits for any number of
-/// them.
-using Preconditioner = std::function<ResidualMeasures(const RowSource& r, Block z)>;
+/// Hands over z = B r, B symmetric positive semi-definite; r has at most PreconditionedColumns
+/// columns. Safe to call from several threads; same bits for any number of them.
+using Preconditioner = std::function<ResidualMeasures(const RowSource& r, const RowSink& z)>;
+
+/// One cycle from `level` on, from zero, in double precision. The hierarchy has to outlive it.
+Preconditioner CyclePreconditioner(const Multigrid& multigrid, std::size_t level);
 
 } // namespace gridfem
 

@@ -38,13 +38,13 @@ Eigen::MatrixXd Select(
 
 } // namespace
 
-RitzPairs SolvePencil(
-  const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass, double shift, Index wanted)
+RitzPairs SolvePencil(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass, double shift,
+  Index wanted, double smallest)
 {
   const Eigen::MatrixXd shifted = stiffness + shift * mass;
   const Eigen::VectorXd scale = DiagonalScale(shifted);
   Eigen::MatrixXd factor = scale.asDiagonal() * shifted * scale.asDiagonal();
-  const std::vector<Index> kept = PivotedCholesky(factor, DependentPivot);
+  const std::vector<Index> kept = PivotedCholesky(factor, smallest);
   const Index rank = static_cast<Index>(kept.size());
   RitzPairs result;
   result.values.resize(0);

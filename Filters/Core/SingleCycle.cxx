@@ -25,14 +25,15 @@ void SetRow(const Row& row, PanelRow& lanes)
   lanes.head(row.size()) = row.transpose().array().template cast<float>();
 }
 
-void Load(const RowSource& r, Id columns, Panel& b, int threads)
+void Load(const RowSource& r, Panel& b, int threads)
 {
+  b.resize(r.rows);
   ParallelRanges(
-    static_cast<Id>(b.size()), threads,
+    r.rows, threads,
     [&](Id begin, Id end)
     {
-      MultiVector rows(SourceRows, columns);
-      r(begin, end, rows);
+      MultiVector rows(SourceRows, r.columns);
+      r.fill(begin, end, rows);
       for (Id row = begin; row < end; ++row)
       {
         SetRow(rows.row(row - begin), b[row]);
@@ -41,25 +42,31 @@ void Load(const RowSource& r, Id columns, Panel& b, int threads)
     SourceRows);
 }
 
-/// Stores x and takes the measures of b and x.
-ResidualMeasures Store(const Panel& b, const Panel& x, Block z, int threads)
+/// Hands x over and takes the measures of b and x.
+ResidualMeasures Store(const Panel& b, const Panel& x, Id columns, const RowSink& z, int threads)
 {
   using Sums = Eigen::Array<double, PreconditionedColumns, 2>;
-  const Sums sums = ParallelSum(z.rows(), threads, Sums(Sums::Zero()),
-    [&](Id begin, Id end)
+  const Sums sums = ParallelSum(static_cast<Id>(x.size()), threads, Sums(Sums::Zero()),
+    [&](Id first, Id last)
     {
       Sums sum = Sums::Zero();
-      for (Id row = begin; row < end; ++row)
+      MultiVector rows(SourceRows, columns);
+      for (Id begin = first; begin < last; begin += SourceRows)
       {
-        const auto r = b[row].cast<double>();
-        const auto correction = x[row].cast<double>();
-        sum.col(0) += r * correction;
-        sum.col(1) += r * r;
-        z.row(row) = correction.head(z.cols()).matrix().transpose();
+        const Id end = std::min(last, begin + SourceRows);
+        for (Id row = begin; row < end; ++row)
+        {
+          const auto r = b[row].cast<double>();
+          const auto correction = x[row].cast<double>();
+          sum.col(0) += r * correction;
+          sum.col(1) += r * r;
+          rows.row(row - begin) = correction.head(columns).matrix().transpose();
+        }
+        z(begin, end, rows);
       }
       return sum;
     });
-  return { sums.col(0).head(z.cols()), sums.col(1).head(z.cols()) };
+  return { sums.col(0).head(columns), sums.col(1).head(columns) };
 }
 
 void SetZero(Id rows, Panel& x, int threads)
@@ -93,19 +100,19 @@ bool SingleCycle::IsReliable() const
   return double(unresolved) <= UnresolvedShare * double(patches);
 }
 
-ResidualMeasures SingleCycle::Apply(std::size_t level, const RowSource& r, Block z) const
+ResidualMeasures SingleCycle::Apply(
+  std::size_t level, const RowSource& r, const RowSink& z) const
 {
-  if (z.cols() > PreconditionedColumns)
+  if (r.columns > PreconditionedColumns)
   {
     throw InvalidInput("a cycle in single precision takes a few columns at a time");
   }
   const Pool<Panels>::Loan loan(panels_);
   Panels& panels = *loan;
   panels.resize(levels_.size() + 1);
-  panels[level].b.resize(z.rows());
-  Load(r, z.cols(), panels[level].b, threads_);
+  Load(r, panels[level].b, threads_);
   this->CycleLevel(level, panels);
-  return Store(panels[level].b, panels[level].x, z, threads_);
+  return Store(panels[level].b, panels[level].x, r.columns, z, threads_);
 }
 
 void SingleCycle::CycleLevel(std::size_t l, Panels& panels) const

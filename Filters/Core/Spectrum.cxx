@@ -2,6 +2,8 @@
 
 #include "BlockVectors.h"
 #include "CollectSpectrum.h"
+#include "LargeMemory.h"
+#include "PairedProduct.h"
 #include "SpectrumAccuracy.h"
 #include "SpectrumCycle.h"
 #include "WindowIteration.h"
@@ -26,6 +28,10 @@ constexpr double SecondTolerance = 1e-5;
 constexpr int SecondIterations = 5;
 constexpr int CoarseIterations = 2;
 constexpr int RandomStartIterations = 40;
+
+/// Wanted errors from which on blocks are in single precision. Rounding them makes an error of 1e-14
+/// times the ratio of the largest eigenvalue to the lowest, below 1e-9 at depth 8.
+constexpr double SmallestSingleTolerance = 1e-7;
 
 void Validate(const SpectrumOptions& options)
 {
@@ -66,11 +72,6 @@ std::size_t StartLevel(const FunctionSpace& space, std::size_t levels, Index blo
   return level;
 }
 
-std::vector<Index> Components(const FunctionSpace& space, std::size_t level)
-{
-  return level == 0 ? space.component : FunctionComponents(space.levels[level]);
-}
-
 Index CountComponents(const std::vector<Index>& component)
 {
   Index count = 0;
@@ -95,13 +96,17 @@ Eigen::MatrixXd ToDense(const SparseMatrix& A)
 }
 
 /// All of the lowest pairs there are, up to `count`, by the dense solver.
-EigenPairs SolveDense(const SpectralProblem& problem, Index count)
+template<class Real>
+EigenPairs<Real> SolveDense(const SpectralProblem& problem, Index count)
 {
   Eigen::MatrixXd mass = ToDense(problem.mass);
   problem.constants->Deflate(mass);
   const RitzPairs ritz = SolvePencil(ToDense(problem.stiffness), mass, problem.shift, count);
-  EigenPairs pairs{ ritz.values, ritz.coefficients };
-  problem.constants->Remove(pairs.vectors);
+  EigenPairs<Real> pairs{ ritz.values, {} };
+  pairs.vectors.Reserve(ritz.coefficients.rows(), count);
+  pairs.vectors.Show(ritz.coefficients.cols());
+  CopyBlock(ritz.coefficients, pairs.vectors.View(), problem.threads);
+  problem.constants->Remove<Real>(pairs.vectors.View());
   return pairs;
 }
 
@@ -137,22 +142,36 @@ double LowestValue(const SparseMatrix& mass, double side)
   return std::min(4.0 * pi / area, pi * pi / (side * side));
 }
 
-/// The nested iteration: holds what the levels share.
+/// The list ends among the constants.
+Spectrum OnlyConstants(
+  const Constants& zeroModes, const SpectralProblem& problem, const SpectrumOptions& options)
+{
+  const bool cut = zeroModes.Count() > options.numberOfModes;
+  const Index count = options.completeMultiplets ? zeroModes.Count() : options.numberOfModes;
+  EigenPairs<double> none;
+  Spectrum spectrum = CollectSpectrum(zeroModes, count, none, {}, problem);
+  spectrum.cutsMultiplet = cut && !options.completeMultiplets;
+  return spectrum;
+}
+
+/// The nested iteration with blocks of one precision: holds what the levels share.
+template<class Real>
 class NestedIteration
 {
 public:
-  NestedIteration(const FunctionSpace& space, const System& system, const SpectrumOptions& options)
-    : space_(space), system_(system), options_(options)
+  NestedIteration(const FunctionSpace& space, const System& system, const SpectrumOptions& options,
+    SpectrumCycle& cycle, double shift)
+    : space_(space), system_(system), options_(options), cycle_(cycle), shift_(shift)
   {
   }
 
-  Spectrum Run(const Progress& progress);
+  Spectrum Run(const Constants& zeroModes, SparseMatrix mass, const Progress& progress);
 
 private:
-  Spectrum OnlyConstants(const Constants& zeroModes, const SparseMatrix& mass) const;
   BlockOptions Options(std::size_t level, Index wanted) const;
-  SpectralProblem Problem(
-    std::size_t level, const Constants& constants, SpectrumCycle& cycle, SparseMatrix mass) const;
+  SpectralProblem Problem(std::size_t level, const Constants& constants, SparseMatrix mass) const;
+  BlockReport ImproveLevel(
+    std::size_t level, std::size_t start, const SpectralProblem& problem, const Progress& progress);
   void Prolong(std::size_t level, const Constants& constants, BlockOptions& block);
   BlockReport FinishList(
     const SpectralProblem& problem, BlockOptions block, const Progress& progress);
@@ -161,15 +180,17 @@ private:
   const FunctionSpace& space_;
   const System& system_;
   const SpectrumOptions& options_;
-  double shift_ = 1.0;
+  SpectrumCycle& cycle_;
+  const double shift_;
   Index zeros_ = 0;
-  EigenPairs pairs_;
+  EigenPairs<Real> pairs_;
   bool isDense_ = false; // the finest level was solved densely
   bool cutsMultiplet_ = false;
 };
 
-SpectralProblem NestedIteration::Problem(
-  std::size_t level, const Constants& constants, SpectrumCycle& cycle, SparseMatrix mass) const
+template<class Real>
+SpectralProblem NestedIteration<Real>::Problem(
+  std::size_t level, const Constants& constants, SparseMatrix mass) const
 {
   const int threads = options_.multigrid.threads;
   SpectralProblem problem;
@@ -178,15 +199,16 @@ SpectralProblem NestedIteration::Problem(
   problem.shift = shift_;
   problem.constants = &constants;
   problem.threads = threads;
-  problem.precondition = cycle.From(level);
-  if (cycle.IsSingle())
+  problem.precondition = cycle_.From(level);
+  if (cycle_.IsSingle())
   {
-    problem.fallback = [&cycle, level] { return cycle.DoubleFrom(level); };
+    problem.fallback = [this, level] { return cycle_.DoubleFrom(level); };
   }
   return problem;
 }
 
-BlockOptions NestedIteration::Options(std::size_t level, Index wanted) const
+template<class Real>
+BlockOptions NestedIteration<Real>::Options(std::size_t level, Index wanted) const
 {
   BlockOptions block;
   block.wanted = wanted;
@@ -200,27 +222,20 @@ BlockOptions NestedIteration::Options(std::size_t level, Index wanted) const
   return block;
 }
 
-/// The list ends among the constants.
-Spectrum NestedIteration::OnlyConstants(const Constants& zeroModes, const SparseMatrix& mass) const
-{
-  const bool cut = zeroModes.Count() > options_.numberOfModes;
-  const Index count = options_.completeMultiplets ? zeroModes.Count() : options_.numberOfModes;
-  EigenPairs none;
-  Spectrum spectrum = CollectSpectrum(zeroModes, count, none, {}, mass, options_.multigrid.threads);
-  spectrum.cutsMultiplet = cut && !options_.completeMultiplets;
-  return spectrum;
-}
-
 /// Brings the pairs to a finer level. The spaces are nested, so they stay Ritz pairs.
-void NestedIteration::Prolong(std::size_t level, const Constants& constants, BlockOptions& block)
+template<class Real>
+void NestedIteration<Real>::Prolong(
+  std::size_t level, const Constants& constants, BlockOptions& block)
 {
-  MultiVector fine;
-  Reshape(fine, system_.prolongation[level]->rows, pairs_.vectors.cols());
-  Multiply(system_.prolongation[level], pairs_.vectors, fine, options_.multigrid.threads);
-  pairs_.vectors = std::move(fine);
+  const SparseMatrix& P = system_.prolongation[level];
+  const BlockBuffer<Real> coarse = std::move(pairs_.vectors);
+  const Id columns = coarse.Columns();
+  pairs_.vectors.Reserve(P.rows, std::max<Id>(columns, block.blockSize));
+  pairs_.vectors.Show(columns);
+  MultiplyBlock<Real>(P, coarse.View(), pairs_.vectors.View(), options_.multigrid.threads);
+  constants.Remove<Real>(pairs_.vectors.View());
   block.minimumIterations = std::min(1, block.maximumIterations);
-  constants.Remove(pairs_.vectors);
-  if (pairs_.vectors.cols() < block.wanted)
+  if (columns < block.wanted)
   {
     block.maximumIterations = std::max(RandomStartIterations, block.maximumIterations);
   }
@@ -230,7 +245,8 @@ void NestedIteration::Prolong(std::size_t level, const Constants& constants, Blo
 /// The pair behind them tells whether it is cut: its value can only fall, by its measure, so that
 /// it has to converge as well only when that is in doubt. Values that come from a dense solve and
 /// are fewer than the block has room for are all there are.
-BlockReport NestedIteration::FinishList(
+template<class Real>
+BlockReport NestedIteration<Real>::FinishList(
   const SpectralProblem& problem, BlockOptions block, const Progress& progress)
 {
   const bool isAll = isDense_ && pairs_.values.size() < block.blockSize;
@@ -238,8 +254,8 @@ BlockReport NestedIteration::FinishList(
   {
     block.maximumIterations = 0;
     block.wanted = block.blockSize = static_cast<Index>(pairs_.values.size());
-    BlockWorkspace workspace;
-    return ImproveEigenPairs(problem, block, pairs_, workspace, progress);
+    BlockWorkspace<Real> workspace;
+    return ImproveEigenPairs<Real>(problem, block, {}, pairs_, workspace, progress);
   }
   Id count = block.wanted;
   BlockReport report;
@@ -276,71 +292,66 @@ BlockReport NestedIteration::FinishList(
 
 /// Whether the pair behind the first `count` belongs to the multiplet of the last of them, when its
 /// value is too large by the relative error.
-bool NestedIteration::EndsInside(Id count, double error) const
+template<class Real>
+bool NestedIteration<Real>::EndsInside(Id count, double error) const
 {
   return count < pairs_.values.size() && IsMultiplet(pairs_.values[count - 1],
                                            (1.0 - error) * pairs_.values[count], zeros_ + count);
 }
 
-Spectrum NestedIteration::Run(const Progress& progress)
+/// Pairs of a level from those of the next coarser one, or from nothing on level `start`.
+template<class Real>
+BlockReport NestedIteration<Real>::ImproveLevel(
+  std::size_t level, std::size_t start, const SpectralProblem& problem, const Progress& progress)
+{
+  BlockOptions block = this->Options(level, options_.numberOfModes - zeros_);
+  if ((level == start || level == 0) && IsDense(space_.levels[level], block.blockSize))
+  {
+    pairs_ = SolveDense<Real>(problem, block.blockSize);
+    isDense_ = level == 0;
+    if (level > 0)
+    {
+      return {};
+    }
+  }
+  else if (level != start)
+  {
+    this->Prolong(level, *problem.constants, block);
+  }
+  else // thousands of components: no small level, but B is nearly exact there
+  {
+    block.maximumIterations = std::max(RandomStartIterations, options_.maximumIterations);
+  }
+  return level == 0 ? this->FinishList(problem, block, progress)
+                    : ImproveManyEigenPairs<Real>(problem, block, pairs_, progress);
+}
+
+template<class Real>
+Spectrum NestedIteration<Real>::Run(
+  const Constants& zeroModes, SparseMatrix mass, const Progress& progress)
 {
   const int threads = options_.multigrid.threads;
-  SparseMatrix mass = LevelMatrix(space_, system_, 0, 1.0, 0.0, threads);
-  const Constants zeroModes(mass, space_.component, space_.numberOfComponents, threads);
   zeros_ = zeroModes.Count();
-  if (zeros_ >= options_.numberOfModes)
-  {
-    return this->OnlyConstants(zeroModes, mass);
-  }
-  const Index wanted = options_.numberOfModes - zeros_;
-  shift_ = zeros_ * LowestValue(mass, space_.GetGrid().CellsPerSide());
-  SpectrumCycle cycle(space_, system_, shift_, options_.multigrid, progress.Part(0.0, 0.1));
-
-  const Index blockSize = GuardedSize(wanted);
+  const Index blockSize = GuardedSize(options_.numberOfModes - zeros_);
   const std::size_t start = StartLevel(space_, system_.elements.size(), blockSize);
-  Eigen::VectorXd coarseValues;
-  BlockReport report;
-  for (std::size_t level = start + 1; level-- > 0;)
+  for (std::size_t level = start; level > 0; --level)
   {
-    std::vector<Index> component = Components(space_, level);
+    std::vector<Index> component = FunctionComponents(space_.levels[level]);
     const Index components = CountComponents(component);
-    SparseMatrix levelMass =
-      level == 0 ? std::move(mass) : LevelMatrix(space_, system_, level, 1.0, 0.0, threads);
+    SparseMatrix levelMass = LevelMatrix(space_, system_, level, 1.0, 0.0, threads);
     const Constants constants(levelMass, std::move(component), components, threads);
-    SpectralProblem problem = this->Problem(level, constants, cycle, std::move(levelMass));
-    BlockOptions block = this->Options(level, wanted);
-    coarseValues = pairs_.values;
-    if ((level == start || level == 0) && IsDense(space_.levels[level], blockSize))
-    {
-      pairs_ = SolveDense(problem, blockSize);
-      isDense_ = level == 0;
-      if (level > 0)
-      {
-        continue;
-      }
-    }
-    else if (level != start)
-    {
-      this->Prolong(level, constants, block);
-    }
-    else // thousands of components: no small level, but B is nearly exact there
-    {
-      pairs_ = EigenPairs{ {}, MultiVector(problem.mass.rows, 0) };
-      block.maximumIterations = std::max(RandomStartIterations, options_.maximumIterations);
-    }
-    report = level == 0 ? this->FinishList(problem, block, LevelPart(progress, level))
-                        : ImproveManyEigenPairs(problem, block, pairs_, LevelPart(progress, level));
-    if (level == 0)
-    {
-      mass = std::move(problem.mass);
-    }
+    const SpectralProblem problem = this->Problem(level, constants, std::move(levelMass));
+    this->ImproveLevel(level, start, problem, LevelPart(progress, level));
   }
-  Spectrum spectrum = CollectSpectrum(zeroModes, zeros_, pairs_, report, mass, threads);
+  const Eigen::VectorXd coarseValues = pairs_.values;
+  const SpectralProblem problem = this->Problem(0, zeroModes, std::move(mass));
+  const BlockReport report = this->ImproveLevel(0, start, problem, LevelPart(progress, 0));
+  Spectrum spectrum = CollectSpectrum(zeroModes, zeros_, pairs_, report, problem);
   Append(spectrum.estimatedErrors, EstimateErrors(coarseValues, pairs_.values, report.residuals));
   spectrum.truncated =
     zeros_ + static_cast<Index>(report.residuals.size()) < options_.numberOfModes;
   spectrum.cutsMultiplet = cutsMultiplet_;
-  spectrum.singlePrecision = cycle.IsSingle();
+  spectrum.singlePrecision = cycle_.IsSingle();
   return spectrum;
 }
 
@@ -350,7 +361,27 @@ Spectrum ComputeSpectrum(const FunctionSpace& space, const System& system,
   const SpectrumOptions& options, const Progress& progress)
 {
   Validate(options);
-  return NestedIteration(space, system, options).Run(progress);
+  const MemoryReuse reuse; // the blocks of a level take the place of those of the one before
+  const int threads = options.multigrid.threads;
+  SparseMatrix mass = LevelMatrix(space, system, 0, 1.0, 0.0, threads);
+  const Constants zeroModes(mass, space.component, space.numberOfComponents, threads);
+  if (zeroModes.Count() >= options.numberOfModes)
+  {
+    SpectralProblem problem;
+    problem.stiffness = LevelMatrix(space, system, 0, 0.0, 1.0, threads);
+    problem.mass = std::move(mass);
+    problem.threads = threads;
+    return OnlyConstants(zeroModes, problem, options);
+  }
+  const double shift = zeroModes.Count() * LowestValue(mass, space.GetGrid().CellsPerSide());
+  SpectrumCycle cycle(space, system, shift, options.multigrid, progress.Part(0.0, 0.1));
+  if (cycle.IsSingle() && options.tolerance >= SmallestSingleTolerance)
+  {
+    return NestedIteration<float>(space, system, options, cycle, shift)
+      .Run(zeroModes, std::move(mass), progress);
+  }
+  return NestedIteration<double>(space, system, options, cycle, shift)
+    .Run(zeroModes, std::move(mass), progress);
 }
 
 double EstimateSpectrumMemory(Id functions, Id modes, int threads)

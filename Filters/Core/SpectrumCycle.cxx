@@ -1,7 +1,5 @@
 #include "SpectrumCycle.h"
 
-#include "CollectSpectrum.h"
-
 namespace gridfem
 {
 namespace
@@ -44,7 +42,8 @@ Preconditioner SpectrumCycle::From(std::size_t level) const
   {
     return CyclePreconditioner(*double_, level);
   }
-  return [this, level](const RowSource& r, Block z) { return single_->Apply(level, r, z); };
+  return [this, level](const RowSource& r, const RowSink& z)
+  { return single_->Apply(level, r, z); };
 }
 
 Preconditioner SpectrumCycle::DoubleFrom(std::size_t level)

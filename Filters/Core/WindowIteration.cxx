@@ -27,11 +27,13 @@ Index NextWindowSize(Index left)
 
 /// Windows that have been found, and the start vectors that are left. Both share one block: the
 /// windows that were found need no more columns than were taken out of it, but at its end.
+template<class Real>
 class WindowIteration
 {
 public:
-  WindowIteration(const SpectralProblem& problem, const BlockOptions& options, EigenPairs& pairs)
-    : problem_(problem), options_(options), pairs_(pairs), start_(pairs.vectors.cols())
+  WindowIteration(
+    const SpectralProblem& problem, const BlockOptions& options, EigenPairs<Real>& pairs)
+    : problem_(problem), options_(options), pairs_(pairs), start_(pairs.vectors.Columns())
   {
   }
 
@@ -45,118 +47,119 @@ private:
   BlockReport Collect();
   void Arrange(const std::vector<Index>& order);
 
-  SpectralProblem problem_;
+  const SpectralProblem& problem_;
   const BlockOptions& options_;
-  EigenPairs& pairs_;
+  EigenPairs<Real>& pairs_;
   const Id start_; // columns of the start
   Id used_ = 0;    // of them have been in a window
-  EigenPairs window_;
-  MultiVector guards_; // of the last window
+  EigenPairs<Real> window_;
+  BlockBuffer<Real> guards_; // of the last window
   std::vector<double> values_;
   std::vector<double> residuals_;
-  BlockWorkspace workspace_;
+  BlockWorkspace<Real> workspace_;
   BlockReport report_;
 };
 
 /// One column for every wanted pair and guard.
-void WindowIteration::MakeRoom()
+template<class Real>
+void WindowIteration<Real>::MakeRoom()
 {
-  const Id columns = options_.wanted + WindowGuard;
-  if (start_ < columns)
-  {
-    MultiVector wide;
-    Reshape(wide, problem_.mass.rows, columns);
-    wide.leftCols(start_) = pairs_.vectors;
-    pairs_.vectors.swap(wide);
-  }
+  const Id columns = std::max<Id>(start_, options_.wanted + WindowGuard);
+  pairs_.vectors.Grow(problem_.mass.rows, columns, problem_.threads);
+  pairs_.vectors.Show(columns);
 }
 
 /// The guards of the last window and the next columns of the start.
-void WindowIteration::SetStartVectors(Index blockSize)
+template<class Real>
+void WindowIteration<Real>::SetStartVectors(Index blockSize)
 {
-  const Id guards = guards_.cols();
+  const Id guards = guards_.Columns();
   const Id fresh = std::clamp<Id>(blockSize - guards, 0, start_ - used_);
   window_.values.resize(0);
-  Reshape(window_.vectors, problem_.mass.rows, guards + fresh);
-  ParallelRanges(problem_.mass.rows, problem_.threads,
-    [&](Id begin, Id end)
-    {
-      const Id count = end - begin;
-      auto rows = window_.vectors.middleRows(begin, count);
-      if (guards > 0)
-      {
-        rows.leftCols(guards) = guards_.middleRows(begin, count);
-      }
-      rows.rightCols(fresh) = pairs_.vectors.block(begin, used_, count, fresh);
-    });
+  window_.vectors.Reserve(problem_.mass.rows, std::max<Id>(blockSize, guards + fresh));
+  window_.vectors.Show(guards + fresh);
+  auto window = window_.vectors.View();
+  CopyBlock(guards_.View(), window.leftCols(guards), problem_.threads);
+  CopyBlock(
+    pairs_.vectors.View().middleCols(used_, fresh), window.rightCols(fresh), problem_.threads);
   used_ += fresh;
 }
 
 /// Puts what was found behind what is locked.
-void WindowIteration::Lock(const BlockReport& report)
+template<class Real>
+void WindowIteration<Real>::Lock(const BlockReport& report)
 {
   const Id found = static_cast<Id>(values_.size());
   const Id locked = static_cast<Id>(report.residuals.size());
   const double* values = window_.values.data();
   values_.insert(values_.end(), values, values + locked);
   residuals_.insert(residuals_.end(), report.residuals.begin(), report.residuals.end());
-  Reshape(guards_, problem_.mass.rows, window_.vectors.cols() - locked);
-  ParallelRanges(problem_.mass.rows, problem_.threads,
-    [&](Id begin, Id end)
-    {
-      const Id count = end - begin;
-      const auto rows = window_.vectors.middleRows(begin, count);
-      pairs_.vectors.block(begin, found, count, locked) = rows.leftCols(locked);
-      guards_.middleRows(begin, count) = rows.rightCols(guards_.cols());
-    });
-  problem_.known = BasisParts{ pairs_.vectors.leftCols(found + locked) };
+  const auto window = window_.vectors.View();
+  const Id guards = window.cols() - locked;
+  guards_.Reserve(problem_.mass.rows, std::max<Id>(WindowGuard, guards));
+  guards_.Show(guards);
+  CopyBlock(window.leftCols(locked), pairs_.vectors.View().middleCols(found, locked),
+    problem_.threads);
+  CopyBlock(window.rightCols(guards), guards_.View(), problem_.threads);
   report_.numberOfConverged += report.numberOfConverged;
   report_.nextResidual = report.nextResidual;
   report_.iterations = std::max(report_.iterations, report.iterations);
 }
 
 /// False when no pairs are left.
-bool WindowIteration::NextWindow(const Progress& progress)
+template<class Real>
+bool WindowIteration<Real>::NextWindow(const Progress& progress)
 {
   BlockOptions block = options_;
-  const Index left = options_.wanted - static_cast<Index>(values_.size());
-  block.wanted = NextWindowSize(left);
+  const Id found = static_cast<Id>(values_.size());
+  block.wanted = NextWindowSize(options_.wanted - static_cast<Index>(found));
   block.blockSize = block.wanted + WindowGuard;
   this->SetStartVectors(block.blockSize);
-  const BlockReport report = ImproveEigenPairs(problem_, block, window_, workspace_, progress);
+  BasisParts<Real> known;
+  if (found > 0)
+  {
+    known.push_back(pairs_.vectors.View().leftCols(found));
+  }
+  const BlockReport report =
+    ImproveEigenPairs<Real>(problem_, block, known, window_, workspace_, progress);
   this->Lock(report);
   return static_cast<Index>(report.residuals.size()) == block.wanted;
 }
 
 /// Orders the columns that were found and puts the guards behind.
-void WindowIteration::Arrange(const std::vector<Index>& order)
+template<class Real>
+void WindowIteration<Real>::Arrange(const std::vector<Index>& order)
 {
   const Id found = static_cast<Id>(order.size());
-  const Id guards = guards_.cols();
-  ParallelRanges(problem_.mass.rows, problem_.threads,
+  const Id guards = guards_.Columns();
+  auto all = pairs_.vectors.View();
+  const auto last = guards_.View();
+  ParallelRanges(all.rows(), problem_.threads,
     [&](Id begin, Id end)
     {
       for (Id row = begin; row < end; ++row)
       {
-        auto columns = pairs_.vectors.row(row);
-        const Eigen::RowVectorXd ordered = columns(order);
+        auto columns = all.row(row);
+        const Eigen::Matrix<Real, 1, Eigen::Dynamic> ordered = columns(order);
         columns.head(found) = ordered;
-        columns.segment(found, guards) = guards_.row(row);
+        columns.segment(found, guards) = last.row(row);
       }
     });
-  KeepColumns(pairs_.vectors, found + guards);
+  pairs_.vectors.Show(found + guards);
 }
 
 /// All windows as one, in ascending order, and the guards of the last behind.
-BlockReport WindowIteration::Collect()
+template<class Real>
+BlockReport WindowIteration<Real>::Collect()
 {
   std::vector<Index> order(values_.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(
     order.begin(), order.end(), [&](Index a, Index b) { return values_[a] < values_[b]; });
   const Id found = static_cast<Id>(order.size());
-  pairs_.values.resize(found + guards_.cols());
-  pairs_.values.tail(guards_.cols()) = window_.values.tail(guards_.cols());
+  const Id guards = guards_.Columns();
+  pairs_.values.resize(found + guards);
+  pairs_.values.tail(guards) = window_.values.tail(guards);
   for (Id j = 0; j < found; ++j)
   {
     pairs_.values[j] = values_[order[j]];
@@ -166,7 +169,8 @@ BlockReport WindowIteration::Collect()
   return report_;
 }
 
-BlockReport WindowIteration::Run(const Progress& progress)
+template<class Real>
+BlockReport WindowIteration<Real>::Run(const Progress& progress)
 {
   this->MakeRoom();
   bool more = true;
@@ -196,15 +200,21 @@ Id HeldColumns(Index wanted)
            : wanted + WindowGuard + blocks * (NextWindowSize(wanted) + WindowGuard);
 }
 
+template<class Real>
 BlockReport ImproveManyEigenPairs(const SpectralProblem& problem, const BlockOptions& options,
-  EigenPairs& pairs, const Progress& progress)
+  EigenPairs<Real>& pairs, const Progress& progress)
 {
   if (options.blockSize <= LargestBlock)
   {
-    BlockWorkspace workspace;
-    return ImproveEigenPairs(problem, options, pairs, workspace, progress);
+    BlockWorkspace<Real> workspace;
+    return ImproveEigenPairs<Real>(problem, options, {}, pairs, workspace, progress);
   }
-  return WindowIteration(problem, options, pairs).Run(progress);
+  return WindowIteration<Real>(problem, options, pairs).Run(progress);
 }
+
+template BlockReport ImproveManyEigenPairs(
+  const SpectralProblem&, const BlockOptions&, EigenPairs<float>&, const Progress&);
+template BlockReport ImproveManyEigenPairs(
+  const SpectralProblem&, const BlockOptions&, EigenPairs<double>&, const Progress&);
 
 } // namespace gridfem

@@ -17,8 +17,9 @@ Id HeldColumns(Index wanted);
 
 /// As ImproveEigenPairs, for any number of wanted pairs; one window where they are few. The
 /// iterations reported are those of the slowest window.
+template<class Real>
 BlockReport ImproveManyEigenPairs(const SpectralProblem& problem, const BlockOptions& options,
-  EigenPairs& pairs, const Progress& progress = {});
+  EigenPairs<Real>& pairs, const Progress& progress = {});
 
 } // namespace gridfem
 
