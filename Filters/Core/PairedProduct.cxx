@@ -10,11 +10,15 @@ namespace gridfem
 namespace
 {
 
-/// Calls body(column, lanes) for groups of 16, 4 and 1 columns; lanes gives their type.
+/// Calls body(column, lanes) for groups of 32, 16, 4 and 1 columns; lanes gives their type.
 template<class Body>
 inline void ForEachLanes(Id columns, Body&& body)
 {
   Id column = 0;
+  for (; column + 32 <= columns; column += 32)
+  {
+    body(column, Eigen::Array<double, 32, 1>());
+  }
   for (; column + 16 <= columns; column += 16)
   {
     body(column, Eigen::Array<double, 16, 1>());
@@ -29,25 +33,44 @@ inline void ForEachLanes(Id columns, Body&& body)
   }
 }
 
-/// Lanes of doubles from a block of any precision.
-template<class Lanes, class Real>
-inline Lanes LanesAt(const ConstBlock<Real>& X, Id row, Id column)
+/// a += p x, b += q x for entries x of any precision.
+template<class Real, class Lanes>
+inline void AddProducts(double p, double q, const Real* x, Lanes& a, Lanes& b)
 {
-  const Real* const from = X.data() + row * X.outerStride() + column;
-  Lanes lanes;
-  for (Id k = 0; k < lanes.size(); ++k)
+  if constexpr (std::is_same_v<Real, double>)
   {
-    lanes[k] = static_cast<double>(from[k]);
+    const Eigen::Map<const Lanes> entries(x);
+    a += p * entries;
+    b += q * entries;
   }
-  return lanes;
+  else // Eigen does not convert whole registers
+  {
+    double* const sumA = a.data();
+    double* const sumB = b.data();
+#pragma omp simd
+    for (int k = 0; k < Lanes::RowsAtCompileTime; ++k)
+    {
+      const double wide = x[k];
+      sumA[k] += p * wide;
+      sumB[k] += q * wide;
+    }
+  }
+}
+
+/// A row of the block, from that column on.
+template<class Real>
+inline const Real* RowAt(const ConstBlock<Real>& X, Id row, Id column)
+{
+  return X.data() + row * X.outerStride() + column;
 }
 
 template<class Lanes, class Real>
 inline void StoreLanes(const Lanes& lanes, Real* to)
 {
-  for (Id k = 0; k < lanes.size(); ++k)
+#pragma omp simd
+  for (int k = 0; k < Lanes::RowsAtCompileTime; ++k)
   {
-    to[k] = static_cast<Real>(lanes[k]);
+    to[k] = static_cast<Real>(lanes.data()[k]);
   }
 }
 
@@ -78,9 +101,7 @@ void ForEachRowPair(const SparseMatrix& A, const SparseMatrix& B, const ConstBlo
         Lanes b = Lanes::Zero();
         for (Id k = rows.begin[row]; k < rows.begin[row + 1]; ++k)
         {
-          const Lanes x = LanesAt<Lanes>(X, rows.column[k], column);
-          a += rows.value[k] * x;
-          b += valueB[k] * x;
+          AddProducts(rows.value[k], valueB[k], RowAt(X, rows.column[k], column), a, b);
         }
         store(row, column, a, b);
       });
@@ -131,7 +152,9 @@ void MultiplyRows(
         Lanes sum = Lanes::Zero();
         for (Id k = rows.begin[row]; k < rows.begin[row + 1]; ++k)
         {
-          sum += rows.value[k] * LanesAt<Lanes>(X, rows.column[k], column);
+          const Real* const x = RowAt(X, rows.column[k], column);
+          const Eigen::Map<const Eigen::Array<Real, Lanes::RowsAtCompileTime, 1>> entries(x);
+          sum += rows.value[k] * entries.template cast<double>();
         }
         StoreLanes(sum, image.data() + (row - begin) * image.outerStride() + column);
       });

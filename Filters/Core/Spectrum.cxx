@@ -228,7 +228,8 @@ void NestedIteration<Real>::Prolong(
   std::size_t level, const Constants& constants, BlockOptions& block)
 {
   const SparseMatrix& P = system_.prolongation[level];
-  const BlockBuffer<Real> coarse = std::move(pairs_.vectors);
+  BlockBuffer<Real> coarse;
+  std::swap(coarse, pairs_.vectors);
   const Id columns = coarse.Columns();
   pairs_.vectors.Reserve(P.rows, std::max<Id>(columns, block.blockSize));
   pairs_.vectors.Show(columns);
