@@ -72,16 +72,14 @@ Eigen::MatrixXd Project(
   const BasisParts<Real>& parts, const SparseMatrix& A, const ConstBlock<Real>& Y, int threads)
 {
   return ProjectRows(parts, A.rows, Y.cols(), threads,
-    [&](Id begin, Id end, Vectors<Real>& image)
-    { MultiplyRows<Real>(A, Y, begin, end, image); });
+    [&](Id begin, Id end, Vectors<Real>& image) { MultiplyRows<Real>(A, Y, begin, end, image); });
 }
 
 template<class Real>
 void SubtractCombination(
   const BasisParts<Real>& parts, const Eigen::MatrixXd& C, Block<Real> Y, int threads)
 {
-  const Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic> coefficients =
-    C.template cast<Real>();
+  const Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic> coefficients = C.template cast<Real>();
   ParallelRanges(
     Y.rows(), threads,
     [&](Id begin, Id end)

@@ -16,17 +16,17 @@ namespace gridfem
 template<class Real>
 using BasisParts = std::vector<ConstBlock<Real>>;
 
-/// [X₁ X₂ ...]ᵀ [A Y, B Y] for matrices of one pattern. Blocks in single precision are multiplied in
-/// it, a few hundred rows at a time; what these give is added up in double. Throws InvalidInput when
-/// shapes do not fit. Same bits for any number of threads.
+/// [X₁ X₂ ...]ᵀ [A Y, B Y] for matrices of one pattern. Blocks in single precision are multiplied
+/// in it, a few hundred rows at a time; what these give is added up in double. Throws InvalidInput
+/// when shapes do not fit. Same bits for any number of threads.
 template<class Real>
 Eigen::MatrixXd ProjectPair(const BasisParts<Real>& parts, const SparseMatrix& A,
   const SparseMatrix& B, const ConstBlock<Real>& Y, int threads = 0);
 
 /// [X₁ X₂ ...]ᵀ A Y, under the same conditions.
 template<class Real>
-Eigen::MatrixXd Project(const BasisParts<Real>& parts, const SparseMatrix& A,
-  const ConstBlock<Real>& Y, int threads = 0);
+Eigen::MatrixXd Project(
+  const BasisParts<Real>& parts, const SparseMatrix& A, const ConstBlock<Real>& Y, int threads = 0);
 
 /// Y -= [X₁ X₂ ...] C for a small C. Same bits for any number of threads.
 template<class Real>

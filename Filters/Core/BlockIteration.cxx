@@ -73,8 +73,8 @@ private:
   std::vector<Index> ColumnsWithDirections(Index size) const;
   Eigen::MatrixXd Overlap(const RitzPairs& ritz, const Eigen::MatrixXd& step) const;
   void NextVectors(const RitzPairs& ritz);
-  void CombineRows(const RitzPairs& ritz, const std::vector<Index>& columns,
-    const Eigen::MatrixXd& overlap);
+  void CombineRows(
+    const RitzPairs& ritz, const std::vector<Index>& columns, const Eigen::MatrixXd& overlap);
   double Fraction() const;
   Index FoundAndWanted() const;
 
@@ -189,8 +189,7 @@ bool BlockIteration<Real>::Correct(const Progress& progress)
       const RowSource source{ W.rows(), count,
         [&](Id begin, Id end, MultiVector& part) { residual.Rows(begin, end, part); } };
       const ResidualMeasures measures = precondition(source,
-        [&](Id begin, Id end, const MultiVector& part)
-        {
+        [&](Id begin, Id end, const MultiVector& part) {
           W.block(begin, first, end - begin, count) =
             part.topRows(end - begin).template cast<Real>();
         });
@@ -242,8 +241,7 @@ bool BlockIteration<Real>::Precondition(const Progress& progress)
 
 /// Extends stiffness and mass on the basis `before` by one more part of it.
 template<class Real>
-void BlockIteration<Real>::ProjectPart(
-  const BasisParts<Real>& before, const ConstBlock<Real>& part)
+void BlockIteration<Real>::ProjectPart(const BasisParts<Real>& before, const ConstBlock<Real>& part)
 {
   BasisParts<Real> basis = before;
   basis.push_back(part);

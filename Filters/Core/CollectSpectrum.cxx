@@ -85,8 +85,8 @@ MultiVector SideBySide(
 }
 
 /// Every column times its factor, in the given order.
-void ScaleAndOrder(const Eigen::RowVectorXd& factor, const std::vector<Index>& order,
-  MultiVector& X, int threads)
+void ScaleAndOrder(
+  const Eigen::RowVectorXd& factor, const std::vector<Index>& order, MultiVector& X, int threads)
 {
   ParallelRanges(X.rows(), threads,
     [&](Id begin, Id end)
@@ -116,8 +116,7 @@ Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs<Rea
 {
   const Index others = static_cast<Index>(report.residuals.size());
   Spectrum spectrum;
-  spectrum.vectors =
-    SideBySide(constants.Vectors(zeros), pairs.vectors, others, problem.threads);
+  spectrum.vectors = SideBySide(constants.Vectors(zeros), pairs.vectors, others, problem.threads);
   pairs.vectors = {};
   constants.Remove<double>(spectrum.vectors.rightCols(others));
 
@@ -127,8 +126,8 @@ Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs<Rea
   values.head(zeros).setZero();
   std::vector<Index> order(zeros + others);
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin() + zeros, order.end(),
-    [&](Index a, Index b) { return values[a] < values[b]; });
+  std::stable_sort(
+    order.begin() + zeros, order.end(), [&](Index a, Index b) { return values[a] < values[b]; });
   const Eigen::RowVectorXd factor = facts.mass.cwiseSqrt().cwiseInverse().cwiseProduct(
     facts.largest.unaryExpr([](double value) { return value < 0.0 ? -1.0 : 1.0; }));
   ScaleAndOrder(factor, order, spectrum.vectors, problem.threads);

@@ -77,7 +77,8 @@ BlockReport FindPairs(const SpectralProblem& problem, const SpectrumOptions& opt
     block.maximumIterations = pairs.vectors.Columns() < found
                                 ? std::max(RandomStartIterations, options.maximumIterations)
                                 : options.maximumIterations;
-    report = ImproveManyEigenPairs<double>(problem, block, pairs, progress.Part(done, 0.5 + 0.5 * done));
+    report =
+      ImproveManyEigenPairs<double>(problem, block, pairs, progress.Part(done, 0.5 + 0.5 * done));
     done = 0.5 + 0.5 * done;
     while (options.completeMultiplets && report.numberOfConverged == found &&
            EndsInside(pairs.values, zeros, block.wanted))

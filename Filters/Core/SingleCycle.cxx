@@ -43,10 +43,10 @@ void Load(const RowSource& r, Panel& b, int threads)
 }
 
 /// Hands x over and takes the measures of b and x.
-ResidualMeasures Store(const Panel& b, const Panel& x, Id columns, const RowSink& z, int threads)
+ResidualMeasures Store(const Panel& b, const PanelRow* x, Id columns, const RowSink& z, int threads)
 {
   using Sums = Eigen::Array<double, PreconditionedColumns, 2>;
-  const Sums sums = ParallelSum(static_cast<Id>(x.size()), threads, Sums(Sums::Zero()),
+  const Sums sums = ParallelSum(static_cast<Id>(b.size()), threads, Sums(Sums::Zero()),
     [&](Id first, Id last)
     {
       Sums sum = Sums::Zero();
@@ -69,17 +69,20 @@ ResidualMeasures Store(const Panel& b, const Panel& x, Id columns, const RowSink
   return { sums.col(0).head(columns), sums.col(1).head(columns) };
 }
 
-void SetZero(Id rows, Panel& x, int threads)
+void SetZero(Id rows, PanelRow* x, int threads)
 {
-  x.resize(rows);
-  ParallelRanges(rows, threads,
-    [&](Id begin, Id end) { std::fill(x.begin() + begin, x.begin() + end, PanelRow::Zero()); });
+  ParallelRanges(
+    rows, threads, [&](Id begin, Id end) { std::fill(x + begin, x + end, PanelRow::Zero()); });
 }
 
 } // namespace
 
 SingleCycle::SingleCycle(std::vector<MultigridLevel> levels, int threads) : threads_(threads)
 {
+  for (const MultigridLevel& level : levels)
+  {
+    rows_.push_back(static_cast<std::size_t>(level.A.rows));
+  }
   for (std::size_t l = 0; l + 1 < levels.size(); ++l)
   {
     levels_.emplace_back(levels[l], threads);
@@ -100,57 +103,65 @@ bool SingleCycle::IsReliable() const
   return double(unresolved) <= UnresolvedShare * double(patches);
 }
 
-ResidualMeasures SingleCycle::Apply(
-  std::size_t level, const RowSource& r, const RowSink& z) const
+ResidualMeasures SingleCycle::Apply(std::size_t level, const RowSource& r, const RowSink& z) const
 {
   if (r.columns > PreconditionedColumns)
   {
     throw InvalidInput("a cycle in single precision takes a few columns at a time");
   }
   const Pool<Panels>::Loan loan(panels_);
-  Panels& panels = *loan;
-  panels.resize(levels_.size() + 1);
-  Load(r, panels[level].b, threads_);
-  this->CycleLevel(level, panels);
-  return Store(panels[level].b, panels[level].x, r.columns, z, threads_);
+  auto& [b, work] = *loan;
+  b.resize(levels_.size() + 1);
+  work.resize(this->WorkRows(level));
+  Load(r, b[level], threads_);
+  this->CycleLevel(level, b, work.data());
+  return Store(b[level], work.data(), r.columns, z, threads_);
 }
 
-void SingleCycle::CycleLevel(std::size_t l, Panels& panels) const
+/// x, and the residual or what the coarser levels need in its place.
+std::size_t SingleCycle::WorkRows(std::size_t level) const
+{
+  const std::size_t rows = rows_[level];
+  return level == levels_.size() ? rows : rows + std::max(rows, this->WorkRows(level + 1));
+}
+
+/// Puts x at the front of `work`.
+void SingleCycle::CycleLevel(std::size_t l, std::vector<Panel>& panels, PanelRow* work) const
 {
   if (l == levels_.size())
   {
-    this->SolveCoarsest(panels[l]);
+    this->SolveCoarsest(panels[l], work);
     return;
   }
   const SingleLevel& level = levels_[l];
-  auto& [b, x, residual] = panels[l];
-  Panel& coarseB = panels[l + 1].b;
+  const PanelRow* const b = panels[l].data();
+  PanelRow* const x = work;
+  PanelRow* const residual = work + level.Rows();
   SetZero(level.Rows(), x, threads_);
-  residual.resize(level.Rows());
-  coarseB.resize(level.CoarseRows());
+  panels[l + 1].resize(level.CoarseRows());
   level.Sweep(b, x, SweepDirection::Forward, threads_);
   level.Residual(b, x, residual, threads_);
-  level.Restrict(residual, coarseB, threads_);
-  this->CycleLevel(l + 1, panels);
-  level.AddProlonged(panels[l + 1].x, x, threads_);
+  level.Restrict(residual, panels[l + 1].data(), threads_);
+  PanelRow* const correction = residual; // which is not needed any more
+  this->CycleLevel(l + 1, panels, correction);
+  level.AddProlonged(correction, x, threads_);
   level.Sweep(b, x, SweepDirection::Backward, threads_);
 }
 
 /// Few unknowns: in double.
-void SingleCycle::SolveCoarsest(LevelPanels& panels) const
+void SingleCycle::SolveCoarsest(const Panel& panel, PanelRow* x) const
 {
-  const Id rows = static_cast<Id>(panels.b.size());
+  const Id rows = static_cast<Id>(panel.size());
   MultiVector b(rows, PreconditionedColumns);
   for (Id row = 0; row < rows; ++row)
   {
-    b.row(row) = panels.b[row].matrix().transpose().cast<double>();
+    b.row(row) = panel[row].matrix().transpose().cast<double>();
   }
-  MultiVector x;
-  coarse_.Solve(b, x, threads_);
-  panels.x.resize(rows);
+  MultiVector solution;
+  coarse_.Solve(b, solution, threads_);
   for (Id row = 0; row < rows; ++row)
   {
-    SetRow(x.row(row), panels.x[row]);
+    SetRow(solution.row(row), x[row]);
   }
 }
 

@@ -30,19 +30,18 @@ public:
   std::size_t Memory() const;
 
 private:
-  /// Vectors of one level.
-  struct LevelPanels
+  struct Panels
   {
-    Panel b;
-    Panel x;
-    Panel residual;
+    std::vector<Panel> b; // of every level
+    Panel work;           // x and residual: those of coarser levels where a residual has been used
   };
-  using Panels = std::vector<LevelPanels>;
 
-  void CycleLevel(std::size_t level, Panels& panels) const;
-  void SolveCoarsest(LevelPanels& panels) const;
+  std::size_t WorkRows(std::size_t level) const;
+  void CycleLevel(std::size_t level, std::vector<Panel>& b, PanelRow* work) const;
+  void SolveCoarsest(const Panel& b, PanelRow* x) const;
 
   std::vector<SingleLevel> levels_; // all but the coarsest
+  std::vector<std::size_t> rows_;   // of all
   CoarseSolver coarse_;
   int threads_;
   mutable Pool<Panels> panels_;

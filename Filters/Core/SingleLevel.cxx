@@ -141,7 +141,7 @@ void SingleLevel::Relax(const Patch& patch, const PanelRow* b, PanelRow* x) cons
   }
 }
 
-void SingleLevel::Sweep(const Panel& b, Panel& x, SweepDirection direction, int threads) const
+void SingleLevel::Sweep(const PanelRow* b, PanelRow* x, SweepDirection direction, int threads) const
 {
   VisitBlocks(ranges_, direction,
     ThreadsFor(128 * PreconditionedColumns * this->Patches(), threads),
@@ -150,27 +150,27 @@ void SingleLevel::Sweep(const Panel& b, Panel& x, SweepDirection direction, int 
       for (Id i = begin; i < end; ++i)
       {
         const Id p = direction == SweepDirection::Forward ? i : begin + end - 1 - i;
-        this->Relax(patches_[p], b.data(), x.data());
+        this->Relax(patches_[p], b, x);
       }
     });
 }
 
-void SingleLevel::Residual(const Panel& b, const Panel& x, Panel& r, int threads) const
+void SingleLevel::Residual(const PanelRow* b, const PanelRow* x, PanelRow* r, int threads) const
 {
   ForEachRow(A_.rows, PreconditionedColumns * Id(A_.value.size()), threads,
-    [&](Index row) { r[row] = b[row] - RowProduct(A_, row, x.data()); });
+    [&](Index row) { r[row] = b[row] - RowProduct(A_, row, x); });
 }
 
-void SingleLevel::Restrict(const Panel& r, Panel& coarse, int threads) const
+void SingleLevel::Restrict(const PanelRow* r, PanelRow* coarse, int threads) const
 {
   ForEachRow(restriction_.rows, PreconditionedColumns * Id(restriction_.value.size()), threads,
-    [&](Index row) { coarse[row] = RowProduct(restriction_, row, r.data()); });
+    [&](Index row) { coarse[row] = RowProduct(restriction_, row, r); });
 }
 
-void SingleLevel::AddProlonged(const Panel& coarse, Panel& x, int threads) const
+void SingleLevel::AddProlonged(const PanelRow* coarse, PanelRow* x, int threads) const
 {
   ForEachRow(prolongation_.rows, PreconditionedColumns * Id(prolongation_.value.size()), threads,
-    [&](Index row) { x[row] += RowProduct(prolongation_, row, coarse.data()); });
+    [&](Index row) { x[row] += RowProduct(prolongation_, row, coarse); });
 }
 
 std::size_t SingleLevel::Memory() const

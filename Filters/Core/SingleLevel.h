@@ -42,17 +42,17 @@ public:
   Index Rows() const { return A_.rows; }
   Index CoarseRows() const { return restriction_.rows; }
 
-  /// As Smoother::Sweep: improves x for A x = b.
-  void Sweep(const Panel& b, Panel& x, SweepDirection direction, int threads) const;
+  /// As Smoother::Sweep: improves x for A x = b. Here as below panels have a row per unknown.
+  void Sweep(const PanelRow* b, PanelRow* x, SweepDirection direction, int threads) const;
 
   /// r = b - A x
-  void Residual(const Panel& b, const Panel& x, Panel& r, int threads) const;
+  void Residual(const PanelRow* b, const PanelRow* x, PanelRow* r, int threads) const;
 
   /// coarse = Pᵀ r
-  void Restrict(const Panel& r, Panel& coarse, int threads) const;
+  void Restrict(const PanelRow* r, PanelRow* coarse, int threads) const;
 
   /// x += P coarse
-  void AddProlonged(const Panel& coarse, Panel& x, int threads) const;
+  void AddProlonged(const PanelRow* coarse, PanelRow* x, int threads) const;
 
   Id Patches() const { return static_cast<Id>(patches_.size()); }
   /// Patches with directions that single precision does not resolve: the sweep leaves them out.

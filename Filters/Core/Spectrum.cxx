@@ -24,13 +24,13 @@ constexpr double LargestDense = 1200.0;
 /// Accuracy of the eigenvalues on coarser levels, whose discretisation error is far larger. The
 /// level below the finest also serves the estimate of the error.
 constexpr double CoarseTolerance = 1e-3;
-constexpr double SecondTolerance = 1e-5;
+constexpr double SecondTolerance = 3e-5;
 constexpr int SecondIterations = 5;
 constexpr int CoarseIterations = 2;
 constexpr int RandomStartIterations = 40;
 
-/// Wanted errors from which on blocks are in single precision. Rounding them makes an error of 1e-14
-/// times the ratio of the largest eigenvalue to the lowest, below 1e-9 at depth 8.
+/// Wanted errors from which on blocks are in single precision. Rounding them makes an error of
+/// 1e-14 times the ratio of the largest eigenvalue to the lowest, below 1e-9 at depth 8.
 constexpr double SmallestSingleTolerance = 1e-7;
 
 void Validate(const SpectrumOptions& options)

@@ -98,8 +98,8 @@ void WindowIteration<Real>::Lock(const BlockReport& report)
   const Id guards = window.cols() - locked;
   guards_.Reserve(problem_.mass.rows, std::max<Id>(WindowGuard, guards));
   guards_.Show(guards);
-  CopyBlock(window.leftCols(locked), pairs_.vectors.View().middleCols(found, locked),
-    problem_.threads);
+  CopyBlock(
+    window.leftCols(locked), pairs_.vectors.View().middleCols(found, locked), problem_.threads);
   CopyBlock(window.rightCols(guards), guards_.View(), problem_.threads);
   report_.numberOfConverged += report.numberOfConverged;
   report_.nextResidual = report.nextResidual;

@@ -283,7 +283,8 @@ void RunNeedles()
 
 } // namespace
 
-/// Arguments: parts of 160704, dragon, thousand, sphere, motions, walls, needles.
+/// Arguments: parts of 160704, dragon, thousand, sphere, motions, walls, needles;
+/// thousand-to-the-end, which is not run unless it is named, lets Spectra finish.
 int main(int argc, char** argv)
 {
   const Parts parts(argc, argv);
@@ -299,6 +300,11 @@ int main(int argc, char** argv)
   if (parts.Want("thousand"))
   {
     RunContest({ "1000_pairs_160704", RockerArm(2), 7, 1000, 4.0, { Spectra }, 6.0, 0.5 });
+  }
+  if (parts.IsNamed("thousand-to-the-end"))
+  {
+    RunContest(
+      { "1000_pairs_160704_to_the_end", RockerArm(2), 7, 1000, 4.0, { Spectra }, HUGE_VAL, 0.5 });
   }
   if (parts.Want("sphere"))
   {

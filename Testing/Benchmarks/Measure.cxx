@@ -79,6 +79,13 @@ void ReleaseFreeMemory()
   malloc_trim(0);
 }
 
+void WarmMemory(double bytes)
+{
+  std::vector<char> memory(static_cast<std::size_t>(bytes));
+  volatile char* const first = memory.data(); // or nothing would be touched
+  *first = 1;
+}
+
 void ResetPeak()
 {
   std::ofstream("/proc/self/clear_refs") << "5";
@@ -132,7 +139,12 @@ LimitedRun InOwnProcess(const std::function<std::vector<double>()>& body, double
 
 bool Parts::Want(const std::string& name) const
 {
-  return names_.empty() || std::find(names_.begin(), names_.end(), name) != names_.end();
+  return names_.empty() || this->IsNamed(name);
+}
+
+bool Parts::IsNamed(const std::string& name) const
+{
+  return std::find(names_.begin(), names_.end(), name) != names_.end();
 }
 
 std::string Text(const char* format, double value)

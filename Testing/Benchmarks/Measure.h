@@ -32,6 +32,11 @@ double PeakBytes();
 /// Gives memory that was freed back to the system, which the allocator does not always do.
 void ReleaseFreeMemory();
 
+/// Touches that much memory and gives it back. A virtual machine gets pages from its host when it
+/// touches them first, ten times as slowly as later, and loses them when it leaves them free for
+/// seconds: whoever is measured first would pay for all.
+void WarmMemory(double bytes);
+
 /// Where the system does not allow this, peaks are those of the whole run.
 void ResetPeak();
 
@@ -77,7 +82,9 @@ class Parts
 {
 public:
   Parts(int argc, char** argv) : names_(argv + (argc > 0 ? 1 : 0), argv + argc) {}
+  /// Named, or none is.
   bool Want(const std::string& name) const;
+  bool IsNamed(const std::string& name) const;
 
 private:
   std::vector<std::string> names_;

@@ -13,12 +13,16 @@ namespace gridfem::benchmarks
 namespace
 {
 
+/// Bytes that a job takes, more or less.
+constexpr double UsualPeak = 2e9;
+
 /// The numbers of a job through the pipe of its process.
 SpectrumJob InOwnProcessWithPeak(const std::function<SpectrumJob()>& body, double limit = HUGE_VAL)
 {
   const LimitedRun run = InOwnProcess(
     [&]
     {
+      WarmMemory(UsualPeak);
       ReleaseFreeMemory();
       const double before = ResidentBytes();
       ResetPeak();

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 #include <random>
 
 namespace gridfem
@@ -134,24 +135,24 @@ TEST(Products, EqualPlainOnesAndDoNotDependOnThreads)
   Multiply(B, Y, part);
   image.rightCols(23) = part;
   const Eigen::MatrixXd plain = basis.transpose() * image;
-  const BasisParts parts = { X, empty, Z };
-  const Eigen::MatrixXd pair = ProjectPair(parts, A, B, Y, 1);
+  const BasisParts<double> parts = { X, empty, Z };
+  const Eigen::MatrixXd pair = ProjectPair<double>(parts, A, B, Y, 1);
   EXPECT_LT((pair - plain).norm(), 1e-12 * plain.norm());
-  const Eigen::MatrixXd single = Project(parts, A, Y, 1);
+  const Eigen::MatrixXd single = Project<double>(parts, A, Y, 1);
   EXPECT_LT((single - plain.leftCols(23)).norm(), 1e-12 * plain.norm());
   const Eigen::MatrixXd C = Random(170, 23, 6);
   MultiVector rest = Y;
-  SubtractCombination(parts, C, rest, 1);
+  SubtractCombination<double>(parts, C, rest, 1);
   const MultiVector plainRest = Y - basis * C;
   EXPECT_LT((rest - plainRest).norm(), 1e-12 * plainRest.norm());
 
-  EXPECT_TRUE(pair == ProjectPair(parts, A, B, Y, 3));
-  EXPECT_TRUE(single == Project(parts, A, Y, 3));
+  EXPECT_TRUE(pair == ProjectPair<double>(parts, A, B, Y, 3));
+  EXPECT_TRUE(single == Project<double>(parts, A, Y, 3));
   MultiVector again = Y;
-  SubtractCombination(parts, C, again, 3);
+  SubtractCombination<double>(parts, C, again, 3);
   EXPECT_TRUE(rest == again);
-  EXPECT_THROW(Project(parts, A, Random(rows - 1, 2, 8)), InvalidInput);
-  EXPECT_THROW(ProjectPair(parts, A, Tridiagonal(rows - 1, 1.0, 1.0), Y), InvalidInput);
+  EXPECT_THROW(Project<double>(parts, A, Random(rows - 1, 2, 8)), InvalidInput);
+  EXPECT_THROW(ProjectPair<double>(parts, A, Tridiagonal(rows - 1, 1.0, 1.0), Y), InvalidInput);
 }
 
 TEST(Products, TakeColumnsOfAWiderBlock)
@@ -160,8 +161,8 @@ TEST(Products, TakeColumnsOfAWiderBlock)
   const SparseMatrix B = Tridiagonal(700, 4.0, 0.5);
   const MultiVector wide = Random(700, 60, 7);
   const MultiVector X = wide.middleCols(3, 39);
-  EXPECT_TRUE(ProjectPair({ X }, A, B, X) ==
-              ProjectPair({ wide.middleCols(3, 39) }, A, B, wide.middleCols(3, 39)));
+  EXPECT_TRUE(ProjectPair<double>({ X }, A, B, X) ==
+              ProjectPair<double>({ wide.middleCols(3, 39) }, A, B, wide.middleCols(3, 39)));
   const Eigen::VectorXd values = Ramp(39);
   MultiVector a;
   MultiVector b;
@@ -175,7 +176,7 @@ TEST(Products, TakeColumnsOfAWiderBlock)
     for (const Id begin : { 0, 300, 600 })
     {
       const Id end = std::min<Id>(700, begin + 300);
-      EigenResidual(A, B, wide.middleCols(3, 39), values, columns).Rows(begin, end, part);
+      EigenResidual<double>(A, B, wide.middleCols(3, 39), values, columns).Rows(begin, end, part);
       rows.middleRows(begin, end - begin) = part.topRows(end - begin);
     }
     return rows;
@@ -186,36 +187,64 @@ TEST(Products, TakeColumnsOfAWiderBlock)
     const MultiVector wanted = plain(Eigen::all, columns);
     EXPECT_LT((rowsOf(columns) - wanted).norm(), 1e-13 * wanted.norm());
   }
-  EXPECT_THROW(EigenResidual(A, B, X, values.head(38), { 1 }), InvalidInput);
+  EXPECT_THROW(EigenResidual<double>(A, B, X, values.head(38), { 1 }), InvalidInput);
 }
 
-TEST(BlockVectors, BuffersKeepTheirMemoryAndTheirNumbers)
+TEST(Products, InSinglePrecisionAreRoundedOnce)
 {
-  BlockBuffer buffer;
+  const Index rows = 5500;
+  const SparseMatrix A = Tridiagonal(rows, 2.0, -1.0);
+  const SparseMatrix B = Tridiagonal(rows, 4.0, 0.5);
+  const Vectors<float> X = Random(rows, 40, 5).cast<float>();
+  const Vectors<float> Y = Random(rows, 55, 10).cast<float>(); // groups of 32, 16, 4 and 1
+  const MultiVector wideX = X.cast<double>();
+  const MultiVector wideY = Y.cast<double>();
+  const BasisParts<float> parts = { X };
+  const Eigen::MatrixXd pair = ProjectPair<float>(parts, A, B, Y, 1);
+  const Eigen::MatrixXd exact = ProjectPair<double>({ wideX }, A, B, wideY, 1);
+  // Sums of a few hundred products, each rounded to 6e-8, next to terms that cancel.
+  EXPECT_LT((pair - exact).norm(), 1e-6 * exact.norm());
+  EXPECT_TRUE(pair == ProjectPair<float>(parts, A, B, Y, 3));
+  // A residual keeps its digits although its two terms are equal in eight.
+  const Eigen::VectorXd values = Eigen::VectorXd::Constant(55, 0.37);
+  MultiVector single(256, 55);
+  MultiVector wide(256, 55);
+  std::vector<Index> all(55);
+  std::iota(all.begin(), all.end(), 0);
+  EigenResidual<float>(A, B, Y, values, all).Rows(256, 512, single);
+  EigenResidual<double>(A, B, wideY, values, all).Rows(256, 512, wide);
+  EXPECT_LT((single - wide).norm(), 1e-14 * wide.norm());
+}
+
+template<class Real>
+class BlockBuffers : public ::testing::Test
+{
+};
+using Precisions = ::testing::Types<float, double>;
+TYPED_TEST_SUITE(BlockBuffers, Precisions, );
+
+TYPED_TEST(BlockBuffers, KeepTheirMemoryAndTheirNumbers)
+{
+  BlockBuffer<TypeParam> buffer;
   buffer.Reserve(100, 8);
   buffer.Show(8);
-  const MultiVector X = Random(100, 8, 10);
+  const Vectors<TypeParam> X = Random(100, 8, 10).cast<TypeParam>();
   buffer.View() = X;
-  const double* memory = buffer.View().data();
+  const TypeParam* memory = buffer.View().data();
   buffer.Reserve(100, 5);
   buffer.Show(3);
   EXPECT_EQ(buffer.View().data(), memory);
   EXPECT_EQ(buffer.Columns(), 3);
   EXPECT_TRUE(buffer.View() == X.leftCols(3));
   buffer.Show(8);
-  SelectColumns(buffer.View(), { 1, 4, 7 }, buffer.View());
-  EXPECT_TRUE(buffer.View().leftCols(3) == X(Eigen::all, std::vector<Index>{ 1, 4, 7 }));
-}
-
-TEST(BlockVectors, FirstColumnsStayAsTheyAre)
-{
-  const MultiVector wide = Random(1000, 17, 11);
-  for (const Index columns : { 17, 5, 0 })
-  {
-    MultiVector X = wide;
-    KeepColumns(X, columns);
-    EXPECT_TRUE(X == wide.leftCols(columns));
-  }
+  buffer.Keep({ 1, 4, 7 });
+  EXPECT_EQ(buffer.Columns(), 3);
+  EXPECT_TRUE(buffer.View() == X(Eigen::all, std::vector<Index>{ 1, 4, 7 }));
+  const Vectors<TypeParam> kept = buffer.View();
+  buffer.Grow(100, 20);
+  EXPECT_TRUE(buffer.View() == kept);
+  buffer.Show(20);
+  EXPECT_EQ(buffer.View().cols(), 20);
 }
 
 } // namespace

@@ -1,6 +1,5 @@
 // The cycle in single precision, against the one in double, and who decides between the two.
 #include "BlockIteration.h"
-#include "CollectSpectrum.h"
 #include "Discretisation.h"
 #include "Errors.h"
 #include "Meshes.h"
@@ -46,16 +45,19 @@ MultiVector RandomBlock(Id rows, Id columns)
 ResidualMeasures Apply(const Preconditioner& precondition, const MultiVector& r, MultiVector& z)
 {
   z.resize(r.rows(), r.cols());
-  return precondition([&r](Id begin, Id end, MultiVector& rows)
-    { rows.topRows(end - begin) = r.middleRows(begin, end - begin); },
-    z);
+  const RowSource source{ r.rows(), r.cols(), [&r](Id begin, Id end, MultiVector& part) {
+                           part.topRows(end - begin) = r.middleRows(begin, end - begin);
+                         } };
+  return precondition(source, [&z](Id begin, Id end, const MultiVector& part)
+    { z.middleRows(begin, end - begin) = part.topRows(end - begin); });
 }
 
 ResidualMeasures Apply(
   const SingleCycle& cycle, std::size_t level, const MultiVector& r, MultiVector& z)
 {
-  return Apply(
-    [&](const RowSource& source, Block to) { return cycle.Apply(level, source, to); }, r, z);
+  return Apply([&](const RowSource& source, const RowSink& sink)
+    { return cycle.Apply(level, source, sink); },
+    r, z);
 }
 
 /// A box whose faces lie between planes of the grid.
@@ -171,11 +173,11 @@ TEST(BlockIteration, FallsBackToABetterPreconditionerWhenItStagnates)
   const Constants constants(problem.mass, on.space.component, on.space.numberOfComponents, 0);
   problem.shift = Shift;
   problem.constants = &constants;
-  problem.precondition = [](const RowSource& source, Block z)
+  problem.precondition = [](const RowSource& source, const RowSink& sink)
   {
-    MultiVector r(z.rows(), z.cols());
-    source(0, z.rows(), r);
-    z = r;
+    MultiVector r(source.rows, source.columns);
+    source.fill(0, source.rows, r);
+    sink(0, source.rows, r);
     const Eigen::VectorXd norm = r.colwise().squaredNorm();
     return ResidualMeasures{ norm, norm };
   };
@@ -185,9 +187,9 @@ TEST(BlockIteration, FallsBackToABetterPreconditionerWhenItStagnates)
   options.maximumIterations = 60;
   const auto solve = [&]
   {
-    EigenPairs pairs{ {}, MultiVector(problem.mass.rows, 0) };
-    BlockWorkspace workspace;
-    return ImproveEigenPairs(problem, options, pairs, workspace);
+    EigenPairs<double> pairs;
+    BlockWorkspace<double> workspace;
+    return ImproveEigenPairs<double>(problem, options, {}, pairs, workspace);
   };
   EXPECT_LT(solve().numberOfConverged, 8);
   int made = 0;

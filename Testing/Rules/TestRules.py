@@ -24,7 +24,8 @@ CORE_LAYERS = {
     "algebra": "SparseMatrix RowKernels PairedProduct PivotedCholesky BlockSweep Smoother"
                " GaussSeidel PatchFactor PatchSmoother CoarseSolver Multigrid Stagnation"
                " SolverIteration ConjugateGradients PrecisionFallback RayleighRitz"
-               " Constants BlockVectors BasisProducts BlockIteration WindowIteration SmootherSequence"
+               " Constants BlockVectors BasisProducts SoftLocking BlockIteration"
+               " WindowIteration SmootherSequence"
                " Pool Preconditioner SingleLevel SingleCycle"
                " HatOrdering FillRows ColumnAlgebra SliceGaussSeidel PatchCover ComponentMeans",
     "grid and clip": "TriangleMesh Field MeshEdges Grid SourceTriangle PieceStore TriangleClipper CutPoints JoinPieces"
