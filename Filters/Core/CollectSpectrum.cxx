@@ -1,5 +1,6 @@
 #include "CollectSpectrum.h"
 
+#include "BasisProducts.h"
 #include "BlockVectors.h"
 #include "LargeMemory.h"
 #include "PairedProduct.h"
@@ -84,6 +85,22 @@ MultiVector SideBySide(
   return all;
 }
 
+/// One step of Newton's method for columns that are orthonormal up to rounding to single precision:
+/// it squares what is missing. [X (3 - XᵀMX) / 2]
+void Orthonormalize(const SparseMatrix& mass, Block<double> X, int threads)
+{
+  const Eigen::MatrixXd gram = Project<double>({ X }, mass, X, threads);
+  const Eigen::MatrixXd step = 1.5 * Eigen::MatrixXd::Identity(X.cols(), X.cols()) - 0.5 * gram;
+  ParallelRanges(
+    X.rows(), threads,
+    [&](Id begin, Id end)
+    {
+      const MultiVector rows = X.middleRows(begin, end - begin) * step;
+      X.middleRows(begin, end - begin) = rows;
+    },
+    RowsAtOnce);
+}
+
 /// Every column times its factor, in the given order.
 void ScaleAndOrder(
   const Eigen::RowVectorXd& factor, const std::vector<Index>& order, MultiVector& X, int threads)
@@ -118,7 +135,11 @@ Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs<Rea
   Spectrum spectrum;
   spectrum.vectors = SideBySide(constants.Vectors(zeros), pairs.vectors, others, problem.threads);
   pairs.vectors = {};
-  constants.Remove<double>(spectrum.vectors.rightCols(others));
+  if (std::is_same_v<Real, float> && others > 0)
+  {
+    constants.Remove<double>(spectrum.vectors.rightCols(others));
+    Orthonormalize(problem.mass, spectrum.vectors.rightCols(others), problem.threads);
+  }
 
   const ColumnFacts facts = LookAt(problem, spectrum.vectors);
   // Below 0 there is only rounding, where a sliver has functions that almost vanish.
