@@ -20,6 +20,10 @@ constexpr double NearTie = 1e-6;
 /// Rows whose images are looked at together.
 constexpr Id RowsAtOnce = 512;
 
+/// Columns that are projected together: sums of all of a thousand would take as much as the
+/// vectors.
+constexpr Id ColumnsAtOnce = 128;
+
 /// Per column x.
 struct ColumnFacts
 {
@@ -89,8 +93,14 @@ MultiVector SideBySide(
 /// it squares what is missing. [X (3 - XᵀMX) / 2]
 void Orthonormalize(const SparseMatrix& mass, Block<double> X, int threads)
 {
-  const Eigen::MatrixXd gram = Project<double>({ X }, mass, X, threads);
-  const Eigen::MatrixXd step = 1.5 * Eigen::MatrixXd::Identity(X.cols(), X.cols()) - 0.5 * gram;
+  Eigen::MatrixXd step(X.cols(), X.cols());
+  for (Id first = 0; first < X.cols(); first += ColumnsAtOnce)
+  {
+    const Id count = std::min(ColumnsAtOnce, X.cols() - first);
+    step.middleCols(first, count) =
+      -0.5 * Project<double>({ X }, mass, X.middleCols(first, count), threads);
+  }
+  step.diagonal().array() += 1.5;
   ParallelRanges(
     X.rows(), threads,
     [&](Id begin, Id end)

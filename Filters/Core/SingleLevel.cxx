@@ -64,6 +64,21 @@ inline void ApplyInverse(const std::array<float, 36>& V, PanelRow (&r)[Functions
   }
 }
 
+/// Asks for the panel rows of a patch while the one before is at work.
+inline void FetchAhead(
+  const std::array<Index, FunctionsPerPatch>& dof, const PanelRow* b, const PanelRow* x)
+{
+  constexpr int FloatsPerLine = 16;
+  for (const Index row : dof)
+  {
+    for (int k = 0; k < PreconditionedColumns; k += FloatsPerLine)
+    {
+      __builtin_prefetch(b[row].data() + k);
+      __builtin_prefetch(x[row].data() + k);
+    }
+  }
+}
+
 /// Calls body(row) for all rows.
 template<class Body>
 void ForEachRow(Index rows, Id work, int threads, Body&& body)
@@ -143,14 +158,16 @@ void SingleLevel::Relax(const Patch& patch, const PanelRow* b, PanelRow* x) cons
 
 void SingleLevel::Sweep(const PanelRow* b, PanelRow* x, SweepDirection direction, int threads) const
 {
+  const bool forward = direction == SweepDirection::Forward;
   VisitBlocks(ranges_, direction,
     ThreadsFor(128 * PreconditionedColumns * this->Patches(), threads),
     [&](Id begin, Id end)
     {
       for (Id i = begin; i < end; ++i)
       {
-        const Id p = direction == SweepDirection::Forward ? i : begin + end - 1 - i;
-        this->Relax(patches_[p], b, x);
+        const Id next = std::min(i + 1, end - 1);
+        FetchAhead(patches_[forward ? next : begin + end - 1 - next].dof, b, x);
+        this->Relax(patches_[forward ? i : begin + end - 1 - i], b, x);
       }
     });
 }

@@ -2,6 +2,7 @@
 
 #include "BlockVectors.h"
 #include "CollectSpectrum.h"
+#include "DenseSpectrum.h"
 #include "LargeMemory.h"
 #include "PairedProduct.h"
 #include "SpectrumAccuracy.h"
@@ -15,11 +16,6 @@ namespace gridfem
 {
 namespace
 {
-
-/// A level with this many functions is solved densely, or with this many per pair, if not too many.
-constexpr double AlwaysDense = 600.0;
-constexpr double DensePerPair = 3.5;
-constexpr double LargestDense = 1200.0;
 
 /// Accuracy of the eigenvalues on coarser levels, whose discretisation error is far larger. The
 /// level below the finest also serves the estimate of the error.
@@ -49,23 +45,18 @@ void Validate(const SpectrumOptions& options)
   }
 }
 
-bool IsDense(const Level& level, Index blockSize)
-{
-  return level.numberOfFunctions <= std::clamp(DensePerPair * blockSize, AlwaysDense, LargestDense);
-}
-
 /// The level below the finest if the finest is solved densely. Else the coarsest level with enough
 /// functions, or the one above it when that is too large for a dense solve.
 std::size_t StartLevel(const FunctionSpace& space, std::size_t levels, Index blockSize)
 {
   const auto size = [&](std::size_t l) { return space.levels[l].numberOfFunctions; };
-  if (IsDense(space.levels[0], blockSize))
+  if (IsDense(size(0), blockSize))
   {
     return std::min<std::size_t>(1, levels - 1);
   }
   std::size_t level = 0;
-  while (level + 1 < levels && (!IsDense(space.levels[level], blockSize) ||
-                                 (level > 0 && size(level + 1) >= 1.5 * blockSize)))
+  while (level + 1 < levels &&
+         (!IsDense(size(level), blockSize) || (level > 0 && size(level + 1) >= 1.5 * blockSize)))
   {
     ++level;
   }
@@ -80,34 +71,6 @@ Index CountComponents(const std::vector<Index>& component)
     count = std::max(count, c + 1);
   }
   return count;
-}
-
-Eigen::MatrixXd ToDense(const SparseMatrix& A)
-{
-  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(A.rows, A.columns);
-  for (Index i = 0; i < A.rows; ++i)
-  {
-    for (Id k = A.rowBegin[i]; k < A.rowBegin[i + 1]; ++k)
-    {
-      dense(i, A.column[k]) = A.value[k];
-    }
-  }
-  return dense;
-}
-
-/// All of the lowest pairs there are, up to `count`, by the dense solver.
-template<class Real>
-EigenPairs<Real> SolveDense(const SpectralProblem& problem, Index count)
-{
-  Eigen::MatrixXd mass = ToDense(problem.mass);
-  problem.constants->Deflate(mass);
-  const RitzPairs ritz = SolvePencil(ToDense(problem.stiffness), mass, problem.shift, count);
-  EigenPairs<Real> pairs{ ritz.values, {} };
-  pairs.vectors.Reserve(ritz.coefficients.rows(), count);
-  pairs.vectors.Show(ritz.coefficients.cols());
-  CopyBlock(ritz.coefficients, pairs.vectors.View(), problem.threads);
-  problem.constants->Remove<Real>(pairs.vectors.View());
-  return pairs;
 }
 
 /// Leaves out all pairs but the first.
@@ -306,7 +269,8 @@ BlockReport NestedIteration<Real>::ImproveLevel(
   std::size_t level, std::size_t start, const SpectralProblem& problem, const Progress& progress)
 {
   BlockOptions block = this->Options(level, options_.numberOfModes - zeros_);
-  if ((level == start || level == 0) && IsDense(space_.levels[level], block.blockSize))
+  if ((level == start || level == 0) &&
+      IsDense(space_.levels[level].numberOfFunctions, block.blockSize))
   {
     pairs_ = SolveDense<Real>(problem, block.blockSize);
     isDense_ = level == 0;
@@ -388,14 +352,14 @@ Spectrum ComputeSpectrum(const FunctionSpace& space, const System& system,
 double EstimateSpectrumMemory(Id functions, Id modes, int threads)
 {
   // Bytes per function, fitted to the growth of the process (Testing/Benchmarks, group `memory`).
-  constexpr double matrices = 1000.0; // two of 18 entries per row, one of them twice; a hierarchy
-                                      // of floats and factors
-  constexpr double panels = 512.0;    // of each cycle at work: three of 32 floats, all levels
+  constexpr double matrices = 850.0; // two of 18 entries per row; a hierarchy of floats and factors
+  constexpr double panels = 427.0;   // of each cycle at work: 10/3 of 32 floats
   const Id columns = std::min(functions, modes);
   const Id cycles = std::min<Id>(
     NumberOfThreads(threads), (columns + PreconditionedColumns - 1) / PreconditionedColumns);
-  const double vectors = sizeof(double) * double(HeldColumns(static_cast<Index>(columns)));
-  return double(functions) * (matrices + panels * double(cycles) + vectors);
+  const double blocks = sizeof(float) * double(HeldColumns(static_cast<Index>(columns)));
+  const double result = double(sizeof(float) + sizeof(double)) * double(columns);
+  return double(functions) * (matrices + panels * double(cycles) + std::max(blocks, result));
 }
 
 } // namespace gridfem

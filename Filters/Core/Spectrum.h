@@ -29,7 +29,7 @@ struct Spectrum
   bool converged = false;          // all pairs reached the tolerance
   int numberOfConverged = 0;       // how many did
   int iterations = 0;              // on the finest level
-  bool singlePrecision = false;    // of all cycles, see SpectrumCycle; pairs are always in double
+  bool singlePrecision = false;    // of all cycles, see SpectrumCycle; the result is in double
   bool truncated = false;          // fewer modes exist than were asked for
   bool cutsMultiplet = false;      // the next eigenvalue belongs to the multiplet of the last
   /// Per pair: the relative error of the eigenvalue, as that of the space, from the next coarser
@@ -41,12 +41,14 @@ struct Spectrum
 /// L + σM per level, rank-revealing Rayleigh-Ritz (M may be singular). The zero modes, one constant
 /// per connected component in the order of the components, are exact. Fixed start and sign (the
 /// entry of largest magnitude of M x is positive, near ties to the lowest index): same bits for any
-/// number of threads. Throws InvalidInput for options out of range, and Aborted.
+/// number of threads. Where cycles are in single precision and the tolerance is at least 1e-7, so
+/// are the vectors that are worked on: half the memory; the result is orthonormal and its values
+/// are Rayleigh quotients in double. Throws InvalidInput for options out of range, and Aborted.
 Spectrum ComputeSpectrum(const FunctionSpace& space, const System& system,
   const SpectrumOptions& options, const Progress& progress = {});
 
-/// Bytes that it takes beyond space and system, for so many functions on the finest level: within a
-/// fifth, from 20 to 1,000 modes.
+/// Bytes that it takes beyond space and system, for so many functions on the finest level, in
+/// single precision: within a fifth, from 20 to 1,000 modes.
 double EstimateSpectrumMemory(Id functions, Id modes, int threads = 0);
 
 } // namespace gridfem

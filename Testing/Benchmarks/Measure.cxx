@@ -1,5 +1,7 @@
 #include "Measure.h"
 
+#include "LargeMemory.h"
+
 #include <malloc.h>
 #include <poll.h>
 #include <sys/wait.h>
@@ -9,6 +11,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <fstream>
 #include <limits>
@@ -81,9 +84,10 @@ void ReleaseFreeMemory()
 
 void WarmMemory(double bytes)
 {
-  std::vector<char> memory(static_cast<std::size_t>(bytes));
-  volatile char* const first = memory.data(); // or nothing would be touched
-  *first = 1;
+  const auto size = static_cast<std::size_t>(bytes);
+  void* const memory = AllocateLargeMemory(size);
+  std::memset(memory, 1, size);
+  FreeLargeMemory(memory, size);
 }
 
 void ResetPeak()

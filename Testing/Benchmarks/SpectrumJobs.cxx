@@ -2,6 +2,7 @@
 
 #include "AlgebraicMultigrid.h"
 #include "Cholmod.h"
+#include "LargeMemory.h"
 #include "Measure.h"
 #include "Spectrum.h"
 
@@ -61,6 +62,7 @@ SpectrumJob GridSpectrum(
     [&]
     {
       SpectrumJob job;
+      const MemoryReuse reuse; // as around every filter
       const Stopwatch setup;
       SpaceOptions options;
       options.depth = depth;

@@ -25,7 +25,7 @@ CORE_LAYERS = {
                " GaussSeidel PatchFactor PatchSmoother CoarseSolver Multigrid Stagnation"
                " SolverIteration ConjugateGradients PrecisionFallback RayleighRitz"
                " Constants BlockVectors BasisProducts SoftLocking BlockIteration"
-               " WindowIteration SmootherSequence"
+               " DenseSpectrum WindowIteration SmootherSequence"
                " Pool Preconditioner SingleLevel SingleCycle"
                " HatOrdering FillRows ColumnAlgebra SliceGaussSeidel PatchCover ComponentMeans",
     "grid and clip": "TriangleMesh Field MeshEdges Grid SourceTriangle PieceStore TriangleClipper CutPoints JoinPieces"

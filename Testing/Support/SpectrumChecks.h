@@ -1,0 +1,136 @@
+// Spectra of small problems, what holds for all of them, and independent references: what their
+// tests share.
+#ifndef GridFEM_Testing_SpectrumChecks_h
+#define GridFEM_Testing_SpectrumChecks_h
+
+#include "Discretisation.h"
+#include "Spectrum.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace gridfem::testing
+{
+
+constexpr double Pi = 3.14159265358979323846;
+
+/// With a rule that is exact.
+inline Discretisation DiscretiseExactly(
+  const TriangleMesh& mesh, int depth, bool connectivityAware = true)
+{
+  return Discretise(mesh, depth, 6, connectivityAware);
+}
+
+inline Spectrum Solve(const Discretisation& on, int modes, double tolerance = 1e-8, int threads = 0)
+{
+  SpectrumOptions options;
+  options.numberOfModes = modes;
+  options.tolerance = tolerance;
+  options.multigrid.threads = threads;
+  return ComputeSpectrum(on.space, on.system, options);
+}
+
+/// Eigenvalues in world units.
+inline std::vector<double> WorldValues(const Discretisation& on, const Spectrum& spectrum)
+{
+  std::vector<double> values = spectrum.eigenvalues;
+  for (double& value : values)
+  {
+    value /= on.Spacing() * on.Spacing();
+  }
+  return values;
+}
+
+inline Eigen::MatrixXd Dense(const SparseMatrix& A)
+{
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(A.rows, A.columns);
+  for (Index i = 0; i < A.rows; ++i)
+  {
+    for (Id k = A.rowBegin[i]; k < A.rowBegin[i + 1]; ++k)
+    {
+      dense(i, A.column[k]) = A.value[k];
+    }
+  }
+  return dense;
+}
+
+/// An independent dense solver: an orthonormal basis of the range of K = L + M by its spectral
+/// decomposition, then the largest values of M in it.
+inline std::vector<double> DenseReference(const Discretisation& on, int modes)
+{
+  const Eigen::MatrixXd M = Dense(MassMatrix(on.space, on.system));
+  const Eigen::MatrixXd K = Dense(StiffnessMatrix(on.space, on.system)) + M;
+  const Eigen::VectorXd scale =
+    K.diagonal().unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; });
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> range(
+    scale.asDiagonal() * K * scale.asDiagonal());
+  const Eigen::VectorXd weight = range.eigenvalues().unaryExpr(
+    [](double value) { return value > 1e-12 ? 1.0 / std::sqrt(value) : 0.0; });
+  const Eigen::MatrixXd basis = scale.asDiagonal() * range.eigenvectors() * weight.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(
+    basis.transpose() * M * basis, Eigen::EigenvaluesOnly);
+  std::vector<double> values;
+  for (int j = 0; j < modes; ++j)
+  {
+    values.push_back(1.0 / solver.eigenvalues()[K.rows() - 1 - j] - 1.0);
+  }
+  return values;
+}
+
+/// What must hold for every spectrum: order, M-orthonormality, true residuals, the sign rule.
+inline void CheckPairs(const Discretisation& on, const Spectrum& spectrum)
+{
+  const SparseMatrix mass = MassMatrix(on.space, on.system);
+  const SparseMatrix stiffness = StiffnessMatrix(on.space, on.system);
+  const Id count = static_cast<Id>(spectrum.eigenvalues.size());
+  ASSERT_EQ(spectrum.vectors.cols(), count);
+  ASSERT_EQ(spectrum.residuals.size(), spectrum.eigenvalues.size());
+  EXPECT_TRUE(std::is_sorted(spectrum.eigenvalues.begin(), spectrum.eigenvalues.end()));
+  MultiVector massX;
+  MultiVector stiffnessX;
+  Multiply(mass, spectrum.vectors, massX);
+  Multiply(stiffness, spectrum.vectors, stiffnessX);
+  const Eigen::MatrixXd gram = spectrum.vectors.transpose() * massX;
+  EXPECT_LT((gram - Eigen::MatrixXd::Identity(count, count)).cwiseAbs().maxCoeff(), 1e-9);
+  for (Id j = 0; j < count; ++j)
+  {
+    const Eigen::VectorXd r = stiffnessX.col(j) - spectrum.eigenvalues[j] * massX.col(j);
+    // |r|² <= |L + shift M| rᵀBr up to the quality of B, and the norm of L is below 10.
+    const double bound = 10.0 * spectrum.residuals[j] * std::sqrt(spectrum.eigenvalues[j]);
+    EXPECT_LT(r.norm(), bound + 1e-9) << "mode " << j;
+    // Of two entries of about the same magnitude the first decides.
+    EXPECT_GT(massX.col(j).maxCoeff(), (1.0 - 3e-6) * massX.col(j).cwiseAbs().maxCoeff());
+  }
+}
+
+/// The largest relative error of the modes behind the constants.
+inline double LargestError(const std::vector<double>& values, const std::vector<double>& exact)
+{
+  double error = 0.0;
+  for (std::size_t j = 0; j < values.size(); ++j)
+  {
+    error = std::max(error, exact[j] > 0.0 ? std::abs(values[j] / exact[j] - 1.0) : values[j]);
+  }
+  return error;
+}
+
+/// l (l + 1), each 2 l + 1 times, for `spheres` unit spheres.
+inline std::vector<double> SphereValues(int modes, int spheres = 1)
+{
+  std::vector<double> values;
+  for (int l = 0; static_cast<int>(values.size()) < modes; ++l)
+  {
+    values.insert(values.end(), (2 * l + 1) * spheres, l * (l + 1.0));
+  }
+  values.resize(modes);
+  return values;
+}
+
+} // namespace gridfem::testing
+
+#endif
