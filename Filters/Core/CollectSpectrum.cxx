@@ -20,8 +20,7 @@ constexpr double NearTie = 1e-6;
 /// Rows whose images are looked at together.
 constexpr Id RowsAtOnce = 512;
 
-/// Columns that are projected together: sums of all of a thousand would take as much as the
-/// vectors.
+/// Columns that are projected together: the partial sums of a thousand would take 200 MB.
 constexpr Id ColumnsAtOnce = 128;
 
 /// Per column x.

@@ -149,6 +149,16 @@ TEST(LargeMemory, ThatIsKeptMakesRoomForARequestItDoesNotFit)
   FreeLargeMemory(larger, 9 * Block);
 }
 
+TEST(LargeMemory, ThatIsKeptGoesBackForMemoryOfAnotherOrigin)
+{
+  const MemoryReuse reuse;
+  const double before = ResidentBytes();
+  FreeLargeMemory(AllocateAndTouch(8 * Block), 8 * Block);
+  EXPECT_GT(ResidentBytes(), before + 7.0 * Block);
+  ReturnLargeMemory(6 * Block);
+  EXPECT_LT(ResidentBytes(), before + 3.0 * Block);
+}
+
 TEST(LargeMemory, IsSharedByThreads)
 {
   const MemoryReuse reuse;
