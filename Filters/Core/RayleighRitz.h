@@ -17,11 +17,11 @@ struct RitzPairs
   Eigen::MatrixXd coefficients; // one column per pair, orthonormal in the mass matrix
 };
 
-/// Pivots of the matrix scaled to unit diagonal below this mark a dependent direction: above the
+/// Pivots of the matrix scaled to unit diagonal below this mark a dependent direction: far above the
 /// rounding of products in that precision (1e-16, 1e-7), so that noise never poses as a vector, and
 /// below what a solution needs.
 template<class Real>
-constexpr double DependentPivot = sizeof(Real) == sizeof(double) ? 1e-12 : 1e-6;
+constexpr double DependentPivot = sizeof(Real) == sizeof(double) ? 1e-12 : 1e-4;
 
 /// The lowest pairs of stiffness c = θ mass c, at most `wanted`; fewer when fewer exist. Both are
 /// symmetric positive semi-definite, of equal size; what both map to zero does not count. Solved

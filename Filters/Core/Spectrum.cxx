@@ -29,6 +29,9 @@ constexpr int RandomStartIterations = 40;
 /// 1e-14 times the ratio of the largest eigenvalue to the lowest, below 1e-9 at depth 8.
 constexpr double SmallestSingleTolerance = 1e-7;
 
+/// Steps in single precision; where they do not suffice all is done again in double.
+constexpr int SingleIterations = 40;
+
 void Validate(const SpectrumOptions& options)
 {
   if (options.numberOfModes < 1)
@@ -340,13 +343,21 @@ Spectrum ComputeSpectrum(const FunctionSpace& space, const System& system,
   }
   const double shift = zeroModes.Count() * LowestValue(mass, space.GetGrid().CellsPerSide());
   SpectrumCycle cycle(space, system, shift, options.multigrid, progress.Part(0.0, 0.1));
-  if (cycle.IsSingle() && options.tolerance >= SmallestSingleTolerance)
+  const bool wasSingle = cycle.IsSingle() && options.tolerance >= SmallestSingleTolerance;
+  if (wasSingle)
   {
-    return NestedIteration<float>(space, system, options, cycle, shift)
-      .Run(zeroModes, std::move(mass), progress);
+    SpectrumOptions few = options;
+    few.maximumIterations = std::min(options.maximumIterations, SingleIterations);
+    Spectrum spectrum = NestedIteration<float>(space, system, few, cycle, shift)
+                          .Run(zeroModes, std::move(mass), progress.Part(0.0, 0.99));
+    if (spectrum.converged || options.maximumIterations <= SingleIterations)
+    {
+      return spectrum;
+    }
+    mass = LevelMatrix(space, system, 0, 1.0, 0.0, threads);
   }
   return NestedIteration<double>(space, system, options, cycle, shift)
-    .Run(zeroModes, std::move(mass), progress);
+    .Run(zeroModes, std::move(mass), progress.Part(wasSingle ? 0.99 : 0.0, 1.0));
 }
 
 double EstimateSpectrumMemory(Id functions, Id modes, int threads)
