@@ -17,9 +17,9 @@ struct RitzPairs
   Eigen::MatrixXd coefficients; // one column per pair, orthonormal in the mass matrix
 };
 
-/// Pivots of the matrix scaled to unit diagonal below this mark a dependent direction: far above the
-/// rounding of products in that precision (1e-16, 1e-7), so that noise never poses as a vector, and
-/// below what a solution needs.
+/// Pivots of the matrix scaled to unit diagonal below this mark a dependent direction: far above
+/// the rounding of products in that precision (1e-16, 1e-7), so that noise never poses as a vector,
+/// and below what a solution needs.
 template<class Real>
 constexpr double DependentPivot = sizeof(Real) == sizeof(double) ? 1e-12 : 1e-4;
 
