@@ -23,7 +23,7 @@ public:
   template<class Fill>
   void Make(Id block, int thread, Fill&& fill)
   {
-    Array<T>& list = lists_[thread];
+    Array<T>& list = lists_[thread].items;
     const auto begin = static_cast<Id>(list.size());
     fill(list);
     blocks_[block] = { thread, begin, static_cast<Id>(list.size()) - begin };
@@ -41,7 +41,7 @@ public:
       [&](Id b)
       {
         const Block& block = blocks_[b];
-        std::copy_n(lists_[block.thread].begin() + block.begin, block.size,
+        std::copy_n(lists_[block.thread].items.begin() + block.begin, block.size,
           items.begin() + before + first[b]);
       });
   }
@@ -54,7 +54,13 @@ private:
     Id size = 0;
   };
 
-  std::vector<Array<T>> lists_; // per thread
+  /// Of one thread, which writes to it all the time.
+  struct alignas(CacheLine) List
+  {
+    Array<T> items;
+  };
+
+  std::vector<List> lists_;
   std::vector<Block> blocks_;
 };
 

@@ -1,5 +1,6 @@
 #include "Clip.h"
 
+#include "BlockLists.h"
 #include "CutPoints.h"
 #include "Errors.h"
 #include "JoinPieces.h"
@@ -61,44 +62,39 @@ Array<Vec3> SnapToPlanes(const Array<Vec3>& points, double side, double toleranc
   return snapped;
 }
 
-/// Consecutive triangles with about the same number of pieces in each range; depends on the mesh
-/// alone.
-struct WorkRanges
+/// Consecutive triangles that one thread clips.
+struct WorkRange
 {
-  std::vector<Id> begin; // one more than ranges
-  double pieces = 0.0;   // expected in all
+  Id begin;
+  Id end;
+  double pieces; // expected
 };
 
-WorkRanges SplitWork(
+/// Ranges of not many more pieces than one of them should have; they depend on the mesh alone.
+Array<WorkRange> SplitWork(
   const std::vector<std::array<Id, 3>>& triangles, const Array<Vec3>& position, int threads)
 {
-  constexpr float PiecesPerRange = 8192.0f;
-  Array<float> pieces(triangles.size());
-  ParallelRanges(static_cast<Id>(triangles.size()), threads,
-    [&](Id begin, Id end)
+  constexpr double PiecesPerRange = 8192.0;
+  Array<WorkRange> work;
+  AppendRanges(static_cast<Id>(triangles.size()), threads, work,
+    [&](Id begin, Id end, Array<WorkRange>& ranges)
     {
+      WorkRange range{ begin, begin, 0.0 };
       for (Id t = begin; t < end; ++t)
       {
         const Vec3& a = position[triangles[t][0]];
         const Vec3& b = position[triangles[t][1]];
         const Vec3& c = position[triangles[t][2]];
         const Vec3 extent = a.cwiseMax(b).cwiseMax(c) - a.cwiseMin(b).cwiseMin(c);
-        pieces[t] = static_cast<float>(1.0 + extent.sum() + 0.5 * (b - a).cross(c - a).norm());
+        range.pieces += 1.0 + extent.sum() + 0.5 * (b - a).cross(c - a).norm();
+        range.end = t + 1;
+        if (range.pieces > PiecesPerRange || range.end == end)
+        {
+          ranges.push_back(range);
+          range = { range.end, range.end, 0.0 };
+        }
       }
     });
-  WorkRanges work;
-  work.begin.push_back(0);
-  float sum = 0.0f;
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-  {
-    sum += pieces[t];
-    if (sum > PiecesPerRange || t + 1 == triangles.size())
-    {
-      work.begin.push_back(static_cast<Id>(t) + 1);
-      work.pieces += sum;
-      sum = 0.0f;
-    }
-  }
   return work;
 }
 
@@ -139,26 +135,31 @@ void EndBlock(ClipBlock& block)
   block.links = static_cast<Index>(store.links.size()) - block.firstLink;
 }
 
-ClippedTriangles ClipTriangles(const ClipInput& input, const WorkRanges& work,
+ClippedTriangles ClipTriangles(const ClipInput& input, const Array<WorkRange>& work,
   Array<Index>& stretches, ClippedMesh& clipped, int threads, const Progress& progress)
 {
   ClippedTriangles result;
   const int team = NumberOfThreads(threads);
+  double pieces = 0.0;
+  for (const WorkRange& range : work)
+  {
+    pieces += range.pieces;
+  }
   std::atomic<Index> nextChunk{ 0 };
   std::vector<TriangleClipper> clippers;
   for (int t = 0; t < team; ++t)
   {
-    result.stores.push_back(MakeStore(work.pieces / team));
+    result.stores.push_back(MakeStore(pieces / team));
     clippers.emplace_back(input, clipped, stretches, nextChunk);
   }
-  result.blocks.resize(work.begin.size() - 1);
+  result.blocks.resize(work.size());
   ParallelBlocks(
     static_cast<Id>(result.blocks.size()), team,
     [&](Id b, int thread)
     {
       ClipBlock& block = result.blocks[b];
       block = BeginBlock(result.stores[thread]);
-      for (Id t = work.begin[b]; t < work.begin[b + 1]; ++t)
+      for (Id t = work[b].begin; t < work[b].end; ++t)
       {
         clippers[thread].Clip(t, *block.store);
       }
@@ -173,7 +174,7 @@ ClippedTriangles ClipTriangles(const ClipInput& input, const WorkRanges& work,
 void ClipAndJoin(
   const ClipInput& input, int threads, const Progress& progress, ClippedMesh& clipped)
 {
-  const WorkRanges work = SplitWork(input.triangles, input.position, threads);
+  const Array<WorkRange> work = SplitWork(input.triangles, input.position, threads);
   progress.Check(0.05);
   RequireIndices(static_cast<double>(input.position.size()) + input.edges.numberOfCuts,
     "points of the clipped mesh");
@@ -195,9 +196,9 @@ ClippedMesh Clip(const TriangleMesh& mesh, const ClipOptions& options, const Pro
 {
   Validate(mesh, options.threads);
   const int threads = NumberOfThreads(options.threads);
-  const std::vector<char> used = UsedPoints(mesh);
+  const std::vector<char> used = UsedPoints(mesh, threads);
   ClippedMesh clipped;
-  clipped.grid = EmbedInGrid(mesh.points, used, options.depth);
+  clipped.grid = EmbedInGrid(mesh.points, used, options.depth, threads);
   clipped.numberOfInputPoints = static_cast<Id>(mesh.points.size());
   progress.Check(0.05);
 

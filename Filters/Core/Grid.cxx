@@ -1,6 +1,7 @@
 #include "Grid.h"
 
 #include "Errors.h"
+#include "Parallel.h"
 
 #include <limits>
 #include <string>
@@ -35,6 +36,34 @@ int GatherBits(std::uint64_t x)
   return static_cast<int>(x);
 }
 
+struct Bounds
+{
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
+  Vec3 high = -low;
+  void operator+=(const Bounds& other)
+  {
+    low = low.cwiseMin(other.low);
+    high = high.cwiseMax(other.high);
+  }
+};
+
+Bounds BoundsOf(const std::vector<Vec3>& points, const std::vector<char>& used, int threads)
+{
+  return ParallelSum(static_cast<Id>(points.size()), threads, Bounds(),
+    [&](Id begin, Id end)
+    {
+      Bounds part;
+      for (Id i = begin; i < end; ++i)
+      {
+        if (used.empty() || used[i])
+        {
+          part += { points[i], points[i] };
+        }
+      }
+      return part;
+    });
+}
+
 } // namespace
 
 MortonKey MortonEncode(const CellIndex& cell)
@@ -47,23 +76,15 @@ CellIndex MortonDecode(MortonKey key)
   return { GatherBits(key), GatherBits(key >> 1), GatherBits(key >> 2) };
 }
 
-Grid EmbedInGrid(const std::vector<Vec3>& points, const std::vector<char>& used, int depth)
+Grid EmbedInGrid(
+  const std::vector<Vec3>& points, const std::vector<char>& used, int depth, int threads)
 {
   if (depth < MinimumDepth || depth > MaximumDepth)
   {
     throw InvalidInput("Depth is " + std::to_string(depth) + "; it must be between " +
                        std::to_string(MinimumDepth) + " and " + std::to_string(MaximumDepth) + ".");
   }
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
-  Vec3 high = -low;
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    if (used.empty() || used[i])
-    {
-      low = low.cwiseMin(points[i]);
-      high = high.cwiseMax(points[i]);
-    }
-  }
+  auto [low, high] = BoundsOf(points, used, threads);
   Grid grid;
   grid.depth = depth;
   if (!(low.array() <= high.array()).all())

@@ -37,7 +37,8 @@ struct Grid
 /// The cube that shares the centre and the longest side of the bounding box of the points that
 /// `used` marks (all when empty), cut into 2^depth cells per side. A box without extent gets
 /// side 1. Throws InvalidInput for a depth outside [MinimumDepth, MaximumDepth].
-Grid EmbedInGrid(const std::vector<Vec3>& points, const std::vector<char>& used, int depth);
+Grid EmbedInGrid(
+  const std::vector<Vec3>& points, const std::vector<char>& used, int depth, int threads = 0);
 
 } // namespace gridfem
 

@@ -90,6 +90,10 @@ void ParallelBlocks(Id blocks, int threads, Body&& body, const Progress& progres
   }
 }
 
+/// Bytes that threads cannot write to at the same time without waiting; two lines, because they are
+/// fetched in pairs.
+constexpr std::size_t CacheLine = 128;
+
 /// Runs body(begin, end) for consecutive ranges of `size` items that cover [0, count).
 template<class Body>
 void ParallelRanges(

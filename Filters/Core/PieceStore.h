@@ -4,6 +4,7 @@
 
 #include "Clip.h"
 #include "Errors.h"
+#include "Parallel.h"
 
 #include <atomic>
 #include <vector>
@@ -18,7 +19,8 @@ constexpr Index PiecesPerChunk = 4096;
 /// What the triangles fall into that one thread clips, in the order it meets them.
 /// Corner ids: input points and cuts of mesh edges have their global id; -1 - k is interior point
 /// k.
-struct PieceStore
+/// Threads write to their stores all the time, so that no two share a line of the cache.
+struct alignas(CacheLine) PieceStore
 {
   Array<MortonKey> key;
   Array<Index> triangle;

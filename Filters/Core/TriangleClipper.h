@@ -23,7 +23,8 @@ struct ClipInput
   double tolerance; // of snapping
 };
 
-class TriangleClipper
+/// In cache lines of its own, because threads write to theirs all the time.
+class alignas(CacheLine) TriangleClipper
 {
 public:
   /// @param clipped    has room for the cut points of mesh edges; the first triangle at an edge

@@ -135,16 +135,21 @@ Array<Index> WeldCoincidentPoints(
   return representative;
 }
 
-std::vector<char> UsedPoints(const TriangleMesh& mesh)
+std::vector<char> UsedPoints(const TriangleMesh& mesh, int threads)
 {
   std::vector<char> used(mesh.points.size(), 0);
-  for (const auto& triangle : mesh.triangles)
-  {
-    for (const Id corner : triangle)
+  ParallelRanges(static_cast<Id>(mesh.triangles.size()), threads,
+    [&](Id begin, Id end)
     {
-      used[corner] = 1;
-    }
-  }
+      for (Id t = begin; t < end; ++t)
+      {
+        for (const Id corner : mesh.triangles[t])
+        {
+#pragma omp atomic write
+          used[corner] = 1;
+        }
+      }
+    });
   return used;
 }
 

@@ -29,7 +29,7 @@ Array<Index> WeldCoincidentPoints(
   const std::vector<Vec3>& points, const std::vector<char>& used = {}, int threads = 0);
 
 /// 1 for points that a triangle uses.
-std::vector<char> UsedPoints(const TriangleMesh& mesh);
+std::vector<char> UsedPoints(const TriangleMesh& mesh, int threads = 0);
 
 /// Surface area, world units.
 double SurfaceArea(const TriangleMesh& mesh);
