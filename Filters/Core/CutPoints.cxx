@@ -15,8 +15,8 @@ constexpr Index Unmade = -1;
 void AllocateEdgeCuts(Id cuts, int threads, ClippedMesh& clipped)
 {
   // Interior points follow: on fine meshes fewer than this, so that nothing moves then.
-  clipped.cutPoints.reserve(cuts + cuts / 3);
-  clipped.position.reserve(clipped.numberOfInputPoints + cuts + cuts / 3);
+  clipped.cutPoints.reserve(cuts + cuts / 8);
+  clipped.position.reserve(clipped.numberOfInputPoints + cuts + cuts / 8);
   clipped.cutPoints.resize(cuts);
   clipped.position.resize(clipped.numberOfInputPoints + cuts);
   ParallelRanges(cuts, threads,

@@ -37,7 +37,10 @@ void AppendInteriorPoints(
     BlockOffsets(blocks, &ClipBlock::interiors, "points of the clipped mesh");
   const auto first = static_cast<Index>(clipped.position.size());
   RequireIndices(double(first) + begin.back(), "points of the clipped mesh");
+  // Reserved first: resizing alone would double them.
+  clipped.cutPoints.reserve(clipped.cutPoints.size() + begin.back());
   clipped.cutPoints.resize(clipped.cutPoints.size() + begin.back());
+  clipped.position.reserve(clipped.position.size() + begin.back());
   clipped.position.resize(clipped.position.size() + begin.back());
   ParallelBlocks(static_cast<Id>(blocks.size()), threads,
     [&](Id b)
