@@ -7,6 +7,8 @@
 #include "Parallel.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace gridfem
@@ -19,6 +21,11 @@ constexpr double NearTie = 1e-6;
 
 /// Rows whose images are looked at together.
 constexpr Id RowsAtOnce = 512;
+
+/// Orthonormal columns have a mass of 1 up to this. The mass of others is rounding: they are
+/// functions that almost vanish, as on a sliver.
+constexpr double LargestMassError = 1e-3;
+constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Columns that are projected together: the partial sums of a thousand would take 200 MB.
 constexpr Id ColumnsAtOnce = 128;
@@ -151,15 +158,23 @@ Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs<Rea
   }
 
   const ColumnFacts facts = LookAt(problem, spectrum.vectors);
-  // Below 0 there is only rounding, where a sliver has functions that almost vanish.
-  Eigen::RowVectorXd values = facts.energy.cwiseQuotient(facts.mass).cwiseMax(0.0);
-  values.head(zeros).setZero();
+  Eigen::RowVectorXd values(zeros + others);
+  Eigen::RowVectorXd factor(zeros + others);
+  for (Index j = 0; j < values.size(); ++j)
+  {
+    const bool isNormal = std::abs(facts.mass[j] - 1.0) < LargestMassError;
+    const double ritz = std::is_same_v<Real, float> ? NaN
+                        : j < zeros                 ? 0.0
+                                                    : pairs.values[j - zeros];
+    // Below 0 there is only rounding, where a sliver has functions that almost vanish.
+    values[j] = j < zeros ? 0.0 : std::max(isNormal ? facts.energy[j] / facts.mass[j] : ritz, 0.0);
+    factor[j] = (facts.largest[j] < 0.0 ? -1.0 : 1.0) / std::sqrt(isNormal ? facts.mass[j] : 1.0);
+  }
   std::vector<Index> order(zeros + others);
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(
-    order.begin() + zeros, order.end(), [&](Index a, Index b) { return values[a] < values[b]; });
-  const Eigen::RowVectorXd factor = facts.mass.cwiseSqrt().cwiseInverse().cwiseProduct(
-    facts.largest.unaryExpr([](double value) { return value < 0.0 ? -1.0 : 1.0; }));
+  std::stable_sort(order.begin() + zeros, order.end(),
+    [&](Index a, Index b)
+    { return values[a] < values[b] || (std::isnan(values[b]) && !std::isnan(values[a])); });
   ScaleAndOrder(factor, order, spectrum.vectors, problem.threads);
   spectrum.eigenvalues = Ordered(values, order);
   std::vector<double> residuals(zeros, 0.0);

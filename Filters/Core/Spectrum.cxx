@@ -350,7 +350,8 @@ Spectrum ComputeSpectrum(const FunctionSpace& space, const System& system,
     few.maximumIterations = std::min(options.maximumIterations, SingleIterations);
     Spectrum spectrum = NestedIteration<float>(space, system, few, cycle, shift)
                           .Run(zeroModes, std::move(mass), progress.Part(0.0, 0.99));
-    if (spectrum.converged || options.maximumIterations <= SingleIterations)
+    const bool isLost = !spectrum.eigenvalues.empty() && std::isnan(spectrum.eigenvalues.back());
+    if (!isLost && (spectrum.converged || options.maximumIterations <= SingleIterations))
     {
       return spectrum;
     }

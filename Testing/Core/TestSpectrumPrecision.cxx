@@ -70,5 +70,20 @@ TEST(SpectrumPrecision, LowValuesOfDeepGridsKeepTheirDigits)
   }
 }
 
+/// A function that almost vanishes on a sliver has no mass left after rounding.
+TEST(SpectrumPrecision, WhatItLosesIsComputedInDoublePrecision)
+{
+  TriangleMesh sliver;
+  sliver.points = { { 0, 0, 0 }, { 1, 1, 1 }, { 0.5, 0.5, 0.5 + 1e-9 } };
+  sliver.triangles = { { 0, 1, 2 } };
+  const Discretisation on = DiscretiseExactly(sliver, 4);
+  const Spectrum single = Solve(on, 100, Single);
+  const Spectrum wide = Solve(on, 100, Double);
+  EXPECT_GT(single.eigenvalues.size(), 50u);
+  EXPECT_EQ(single.eigenvalues, wide.eigenvalues);
+  EXPECT_TRUE(std::is_sorted(single.eigenvalues.begin(), single.eigenvalues.end()));
+  EXPECT_TRUE(single.vectors.allFinite());
+}
+
 } // namespace
 } // namespace gridfem
