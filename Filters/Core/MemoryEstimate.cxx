@@ -20,7 +20,7 @@ namespace
 
 // While clipping:
 constexpr double ClipPerPoint = 70.0;    // position, the same on planes, welded id, sort entry (68)
-constexpr double ClipPerTriangle = 58.0; // its sides, edges and stretches (28 + 18 per edge)
+constexpr double ClipPerTriangle = 40.0; // its sides and the pieces along them (36)
 constexpr double ClipPerPiece = 102.0;   // pieces, corners and links, by thread and joined, and
                                          // cut points
 // Kept ever after:
