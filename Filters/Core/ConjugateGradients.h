@@ -78,8 +78,8 @@ struct Projection
 /// Conjugate gradients with one cycle as preconditioner; each column has its own steps, and stops
 /// on its own. Starts from x. A column that has converged by energy still takes its last correction
 /// B r, which was computed for the measure: it lowers the energy of the error once more. A column
-/// with b = 0 gives x = 0. NaN in b or a breakdown ends the iteration with converged
-/// = false and the last finite x. Throws Aborted.
+/// with b = 0 gives x = 0. NaN in b or a breakdown ends the iteration with converged = false and
+/// the last finite x. Throws Aborted.
 SolveReport SolveConjugateGradients(const Multigrid& multigrid, const MultiVector& b,
   MultiVector& x, const SolveOptions& options, const Projection& project = {},
   const Progress& progress = {});

@@ -1,7 +1,7 @@
 #include "Grid.h"
 
 #include "Errors.h"
-#include "Parallel.h"
+#include "TriangleMesh.h"
 
 #include <limits>
 #include <string>
@@ -34,34 +34,6 @@ int GatherBits(std::uint64_t x)
   x = (x | x >> 16) & 0x1f00000000ffff;
   x = (x | x >> 32) & 0x1fffff;
   return static_cast<int>(x);
-}
-
-struct Bounds
-{
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
-  Vec3 high = -low;
-  void operator+=(const Bounds& other)
-  {
-    low = low.cwiseMin(other.low);
-    high = high.cwiseMax(other.high);
-  }
-};
-
-Bounds BoundsOf(const std::vector<Vec3>& points, const std::vector<char>& used, int threads)
-{
-  return ParallelSum(static_cast<Id>(points.size()), threads, Bounds(),
-    [&](Id begin, Id end)
-    {
-      Bounds part;
-      for (Id i = begin; i < end; ++i)
-      {
-        if (used.empty() || used[i])
-        {
-          part += { points[i], points[i] };
-        }
-      }
-      return part;
-    });
 }
 
 } // namespace

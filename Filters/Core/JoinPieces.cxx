@@ -12,18 +12,27 @@ namespace gridfem
 namespace
 {
 
+/// Throws InvalidInput when all blocks together have too many.
+void RequireTotal(const std::vector<ClipBlock>& blocks, Index ClipBlock::*count, const char* what)
+{
+  double total = 0.0;
+  for (const ClipBlock& block : blocks)
+  {
+    total += block.*count;
+  }
+  RequireIndices(total, what);
+}
+
 /// Where each block's entries begin when all are joined; one more than there are blocks.
 std::vector<Index> BlockOffsets(
   const std::vector<ClipBlock>& blocks, Index ClipBlock::*count, const char* what)
 {
-  double total = 0.0;
+  RequireTotal(blocks, count, what);
   std::vector<Index> begin;
   for (const ClipBlock& block : blocks)
   {
     begin.push_back(block.*count);
-    total += begin.back();
   }
-  RequireIndices(total, what);
   begin.push_back(0);
   ExclusiveScan(begin);
   return begin;
@@ -31,7 +40,7 @@ std::vector<Index> BlockOffsets(
 
 /// Appends the interior points of all blocks, and gives the corners of pieces their ids.
 void AppendInteriorPoints(
-  const ClipInput& input, std::vector<ClipBlock>& blocks, int threads, ClippedMesh& clipped)
+  const ClipInput& input, const std::vector<ClipBlock>& blocks, int threads, ClippedMesh& clipped)
 {
   const std::vector<Index> begin =
     BlockOffsets(blocks, &ClipBlock::interiors, "points of the clipped mesh");
@@ -218,18 +227,19 @@ void PlaceLinks(const std::vector<ClipBlock>& blocks, const Array<Index>& place,
 Array<Index> JoinPieces(ClippedTriangles parts, const ClipInput& input, int threads,
   const Progress& progress, ClippedMesh& clipped)
 {
-  BlockOffsets(parts.blocks, &ClipBlock::pieces, "pieces");
-  BlockOffsets(parts.blocks, &ClipBlock::corners, "corners of pieces");
+  RequireTotal(parts.blocks, &ClipBlock::pieces, "pieces");
+  RequireTotal(parts.blocks, &ClipBlock::corners, "corners of pieces");
   AppendInteriorPoints(input, parts.blocks, threads, clipped);
   for (PieceStore& store : parts.stores)
   {
     Release(store.interior);
   }
   progress.Check(0.2);
-  const Array<SortEntry> entries = SortPieces(parts, clipped.grid.depth, threads);
+  Array<SortEntry> entries = SortPieces(parts, clipped.grid.depth, threads);
   progress.Check(0.5);
   ListCells(entries, threads, clipped);
   Array<Index> place = CopyPieces(PieceFinder(parts.stores), entries, threads, clipped);
+  Release(entries);
   progress.Check(0.9);
   PlaceLinks(parts.blocks, place, threads, clipped);
   progress.Check(1.0);

@@ -32,8 +32,8 @@ public:
   MemoryReuse& operator=(const MemoryReuse&) = delete;
 };
 
-/// Gives that much of what is kept for reuse back to the system, because memory of another origin
-/// is about to be taken.
+/// Gives at least that much of what is kept for reuse, if there is, back to the system, because
+/// memory of another origin is about to be taken.
 void ReturnLargeMemory(std::size_t bytes) noexcept;
 
 /// Asks for large pages where memory of any origin that has not been touched yet spans some of

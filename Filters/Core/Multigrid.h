@@ -55,6 +55,13 @@ struct MultigridOptions
   int threads = 0; // 0: all
 };
 
+/// Whether cycles with these options can correct hidden functions: W cycles of patches do.
+inline bool AllowsHidden(const MultigridOptions& options)
+{
+  return options.hidden != HiddenCorrection::Never && options.cycle == CycleType::W &&
+         options.smoother == SmootherType::Patch;
+}
+
 /// How one level is relaxed, where that differs from the rest of the hierarchy: the hat functions
 /// of a mesh above the levels of a grid.
 struct LevelSmoothing

@@ -92,8 +92,7 @@ constexpr double MostlyFlat = 0.5;
 bool WantsHidden(const System& system, const Multigrid& multigrid)
 {
   const MultigridOptions& options = multigrid.Options();
-  if (options.hidden == HiddenCorrection::Never || options.cycle != CycleType::W ||
-      options.smoother != SmootherType::Patch || system.prolongation.empty())
+  if (!AllowsHidden(options) || system.prolongation.empty())
   {
     return false;
   }

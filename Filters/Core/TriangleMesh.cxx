@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <numeric>
 #include <string>
 
@@ -151,6 +152,36 @@ std::vector<char> UsedPoints(const TriangleMesh& mesh, int threads)
       }
     });
   return used;
+}
+
+Bounds BoundsOf(const std::vector<Vec3>& points, const std::vector<char>& used, int threads)
+{
+  struct Box : Bounds
+  {
+    Box()
+      : Bounds{ Vec3::Constant(std::numeric_limits<double>::infinity()),
+          Vec3::Constant(-std::numeric_limits<double>::infinity()) }
+    {
+    }
+    void operator+=(const Bounds& other)
+    {
+      low = low.cwiseMin(other.low);
+      high = high.cwiseMax(other.high);
+    }
+  };
+  return ParallelSum(static_cast<Id>(points.size()), threads, Box(),
+    [&](Id begin, Id end)
+    {
+      Box part;
+      for (Id i = begin; i < end; ++i)
+      {
+        if (used.empty() || used[i])
+        {
+          part += { points[i], points[i] };
+        }
+      }
+      return part;
+    });
 }
 
 double SurfaceArea(const TriangleMesh& mesh)

@@ -31,6 +31,17 @@ Array<Index> WeldCoincidentPoints(
 /// 1 for points that a triangle uses.
 std::vector<char> UsedPoints(const TriangleMesh& mesh, int threads = 0);
 
+struct Bounds
+{
+  Vec3 low;
+  Vec3 high;
+};
+
+/// Of the points that `used` marks (all when empty); low is infinite and high is -infinite when
+/// there are none.
+Bounds BoundsOf(
+  const std::vector<Vec3>& points, const std::vector<char>& used = {}, int threads = 0);
+
 /// Surface area, world units.
 double SurfaceArea(const TriangleMesh& mesh);
 

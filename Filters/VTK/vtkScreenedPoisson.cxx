@@ -182,8 +182,7 @@ std::unique_ptr<gridfem::Multigrid> vtkScreenedPoisson::BuildHierarchy(double we
         gridfem::HatCycle(state.options.multigrid), progress));
   }
   const gridfem::MultigridOptions& options = state.options.multigrid;
-  if (options.hidden == gridfem::HiddenCorrection::Always &&
-      options.cycle == gridfem::CycleType::W && options.smoother == gridfem::SmootherType::Patch)
+  if (options.hidden == gridfem::HiddenCorrection::Always && gridfem::AllowsHidden(options))
   {
     gridfem::RequireMemoryForLayers(state.Space().Finest().numberOfFunctions);
   }

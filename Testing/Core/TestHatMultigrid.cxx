@@ -2,6 +2,7 @@
 #include "HatMultigrid.h"
 
 #include "Hybrid.h"
+#include "PrecisionChecks.h"
 #include "Spaces.h"
 #include "Support/HatSystem.h"
 
@@ -61,16 +62,7 @@ TEST(HatMultigrid, HasACopyInDoublePrecision)
   Hybrid hybrid(Torus(20, 20, 1.0, 0.3), 4);
   const Multigrid mixed = hybrid.Build(hybrid.Weight(1.0));
   hybrid.options.grid.precision = FactorPrecision::Double;
-  const Multigrid built = hybrid.Build(hybrid.Weight(1.0));
-  const MultiVector b = RandomValues(hybrid.hats.functions.Count(), 1);
-  MultiVector expected;
-  MultiVector copied;
-  MultiVector x;
-  built.Precondition(b, expected);
-  mixed.InDoublePrecision().Precondition(b, copied);
-  mixed.Precondition(b, x);
-  EXPECT_EQ(copied, expected);
-  EXPECT_NE(x, expected);
+  ExpectCopyInDoublePrecision(mixed, hybrid.Build(hybrid.Weight(1.0)));
 }
 
 TEST(HatMultigrid, DoesNotDependOnThreads)

@@ -4,6 +4,7 @@
 #include "HiddenFunctions.h"
 #include "LayeredFunctions.h"
 #include "Meshes.h"
+#include "PrecisionChecks.h"
 #include "SampledHierarchy.h"
 #include "Spaces.h"
 
@@ -205,17 +206,8 @@ TEST(HiddenCycle, HasACopyInDoublePrecision)
   MultigridOptions options;
   options.hidden = HiddenCorrection::Always;
   options.precision = FactorPrecision::Double;
-  const Multigrid built = BuildMultigrid(problem.space, problem.system, 0.1, 1.0, options);
-  const Multigrid mixed = problem.Cycle(0.1, 1.0);
-  const MultiVector b = RandomVectors(built.Matrix().rows, 1);
-  MultiVector expected;
-  MultiVector copied;
-  MultiVector x;
-  built.Precondition(b, expected);
-  mixed.InDoublePrecision().Precondition(b, copied);
-  mixed.Precondition(b, x);
-  EXPECT_EQ(copied, expected);
-  EXPECT_NE(x, expected);
+  testing::ExpectCopyInDoublePrecision(
+    problem.Cycle(0.1, 1.0), BuildMultigrid(problem.space, problem.system, 0.1, 1.0, options));
 }
 
 TEST(HiddenCycle, IsTakenWhereTheSurfaceIsFlat)

@@ -1,4 +1,5 @@
 // Solves that single precision spoils go on in double precision.
+#include "PrecisionChecks.h"
 #include "PrecisionFallback.h"
 #include "SampledHierarchy.h"
 #include "Stagnation.h"
@@ -213,17 +214,7 @@ TEST(PrecisionFallback, GoesOnWithTheHierarchyThatIsBuiltInDoublePrecision)
 {
   MultigridOptions inDouble;
   inDouble.precision = FactorPrecision::Double;
-  const Multigrid from = Plane({});
-  const MultiVector b = RandomVectors(from.Matrix().rows, 1);
-  MultiVector x;
-  MultiVector copied;
-  MultiVector built;
-  from.Precondition(b, x);
-  from.InDoublePrecision().Precondition(b, copied);
-  Plane(inDouble).Precondition(b, built);
-  EXPECT_EQ(copied, built);
-  EXPECT_NE(copied, x); // it was not in double before
-  EXPECT_FALSE(from.InDoublePrecision().HasSingleFactors());
+  testing::ExpectCopyInDoublePrecision(Plane({}), Plane(inDouble));
 }
 
 } // namespace

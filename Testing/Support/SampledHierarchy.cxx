@@ -257,19 +257,6 @@ double RelativeDifference(const MultiVector& a, const MultiVector& b)
   return (a - b).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / b.cwiseAbs().maxCoeff();
 }
 
-Eigen::MatrixXd Dense(const SparseMatrix& A)
-{
-  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(A.rows, A.columns);
-  for (Index row = 0; row < A.rows; ++row)
-  {
-    for (Id k = A.rowBegin[row]; k < A.rowBegin[row + 1]; ++k)
-    {
-      dense(row, A.column[k]) += A.value[k];
-    }
-  }
-  return dense;
-}
-
 SparseMatrix Sparse(const Eigen::MatrixXd& A)
 {
   std::vector<std::map<Index, double>> rows(A.rows());

@@ -3,6 +3,7 @@
 #ifndef GridFEM_Testing_SampledHierarchy_h
 #define GridFEM_Testing_SampledHierarchy_h
 
+#include "Dense.h"
 #include "Multigrid.h"
 
 #include <cstdint>
@@ -37,9 +38,6 @@ MultiVector RandomVectors(Id rows, Id columns, std::uint32_t seed = 1);
 
 /// The largest difference of two blocks relative to the largest entry of the second.
 double RelativeDifference(const MultiVector& a, const MultiVector& b);
-
-/// Dense copy, for small matrices.
-Eigen::MatrixXd Dense(const SparseMatrix& A);
 
 /// All entries of a dense matrix that are not zero.
 SparseMatrix Sparse(const Eigen::MatrixXd& A);

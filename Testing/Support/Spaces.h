@@ -3,6 +3,7 @@
 #ifndef GridFEM_Testing_Spaces_h
 #define GridFEM_Testing_Spaces_h
 
+#include "Dense.h"
 #include "FunctionSpace.h"
 #include "Meshes.h"
 #include "SparseMatrix.h"
@@ -114,19 +115,6 @@ inline MultiVector RandomValues(Id rows, Id columns, unsigned seed = 1)
     result.data()[i] = 2.0 * double(generator()) / double(std::mt19937::max()) - 1.0;
   }
   return result;
-}
-
-inline Eigen::MatrixXd Dense(const SparseMatrix& A)
-{
-  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(A.rows, A.columns);
-  for (Index row = 0; row < A.rows; ++row)
-  {
-    for (Id k = A.rowBegin[row]; k < A.rowBegin[row + 1]; ++k)
-    {
-      dense(row, A.column[k]) += A.value[k];
-    }
-  }
-  return dense;
 }
 
 /// Largest difference relative to the largest entry of the second.

@@ -3,6 +3,7 @@
 #ifndef GridFEM_Testing_SpectrumChecks_h
 #define GridFEM_Testing_SpectrumChecks_h
 
+#include "Dense.h"
 #include "Discretisation.h"
 #include "Spectrum.h"
 
@@ -44,19 +45,6 @@ inline std::vector<double> WorldValues(const Discretisation& on, const Spectrum&
     value /= on.Spacing() * on.Spacing();
   }
   return values;
-}
-
-inline Eigen::MatrixXd Dense(const SparseMatrix& A)
-{
-  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(A.rows, A.columns);
-  for (Index i = 0; i < A.rows; ++i)
-  {
-    for (Id k = A.rowBegin[i]; k < A.rowBegin[i + 1]; ++k)
-    {
-      dense(i, A.column[k]) = A.value[k];
-    }
-  }
-  return dense;
 }
 
 /// An independent dense solver: an orthonormal basis of the range of K = L + M by its spectral

@@ -61,17 +61,7 @@ void RequireSingleProcess()
 void RequireSurface(const TriangleMesh& mesh)
 {
   Validate(mesh);
-  const auto& first = mesh.points[mesh.triangles.front()[0]];
-  Vec3 low = first;
-  Vec3 high = first;
-  for (const auto& triangle : mesh.triangles)
-  {
-    for (const Id point : triangle)
-    {
-      low = low.cwiseMin(mesh.points[point]);
-      high = high.cwiseMax(mesh.points[point]);
-    }
-  }
+  const auto [low, high] = BoundsOf(mesh.points, UsedPoints(mesh));
   // Squares of larger and of smaller lengths, and those of eigenvalues, leave the range of doubles.
   constexpr double largest = 1e70;
   const double extent = (high - low).maxCoeff();

@@ -1,0 +1,31 @@
+// What holds for the copy of any hierarchy whose factors are in double precision.
+#ifndef GridFEM_Testing_PrecisionChecks_h
+#define GridFEM_Testing_PrecisionChecks_h
+
+#include "SampledHierarchy.h"
+
+#include <gtest/gtest.h>
+
+namespace gridfem::testing
+{
+
+/// @param mixed  holds factors in single precision
+/// @param built  the same, built in double precision
+inline void ExpectCopyInDoublePrecision(const Multigrid& mixed, const Multigrid& built)
+{
+  const MultiVector b = RandomVectors(built.Matrix().rows, 1);
+  const Multigrid copy = mixed.InDoublePrecision();
+  MultiVector expected;
+  MultiVector copied;
+  MultiVector x;
+  built.Precondition(b, expected);
+  copy.Precondition(b, copied);
+  mixed.Precondition(b, x);
+  EXPECT_EQ(copied, expected);
+  EXPECT_NE(x, expected); // it was not in double before
+  EXPECT_FALSE(copy.HasSingleFactors());
+}
+
+} // namespace gridfem::testing
+
+#endif
