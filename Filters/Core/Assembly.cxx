@@ -128,11 +128,16 @@ struct ElementSum
     {
       const Index patch = places.item[k] / FunctionsPerPatch;
       const int* entry = Rows.number[places.item[k] % FunctionsPerPatch];
+      std::array<double, FunctionsPerPatch> part;
       for (int j = 0; j < FunctionsPerPatch; ++j)
       {
         const double m = mass ? a * mass[patch][entry[j]] : 0.0;
         const double l = stiffness ? b * stiffness[patch][entry[j]] : 0.0;
-        value[position[level.dof[patch][j]]] += m + l;
+        part[j] = m + l;
+      }
+      for (int j = 0; j < FunctionsPerPatch; ++j)
+      {
+        value[position[level.dof[patch][j]]] += part[j];
       }
     }
   }

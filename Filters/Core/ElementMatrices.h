@@ -31,7 +31,7 @@ ElementMatrices IntegrateElements(const FunctionSpace& space, const QuadratureRu
   int threads = 0, const Progress& progress = {});
 
 /// Galerkin coarsening: adds every patch's matrix, interpolated, to its parent's. [T (4.6)]
-/// @return one entry per patch of `coarse`. Children are added in Morton order: same bits always.
+/// @return one entry per patch of `coarse`. Same bits for any number of threads.
 Array<ElementMatrix> CoarsenElements(
   const Level& fine, const Level& coarse, const Array<ElementMatrix>& matrices, int threads = 0);
 

@@ -169,9 +169,10 @@ double FlatShare(const System& system, int threads)
       {
         const Eigen::Matrix3d coordinates = StiffnessOfCoordinates(stiffness[patch]);
         const double area = 0.5 * coordinates.trace();
-        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(
-          coordinates, Eigen::EigenvaluesOnly);
-        const bool isFlat = solver.eigenvalues()[0] <= FlatRatio * area;
+        // Is the least eigenvalue above that share of the area?
+        const Eigen::LLT<Eigen::Matrix3d> above(
+          coordinates - FlatRatio * area * Eigen::Matrix3d::Identity());
+        const bool isFlat = above.info() != Eigen::Success;
         sum += Eigen::Vector2d(isFlat ? area : 0.0, area);
       }
       return sum;

@@ -4,6 +4,7 @@
 
 #include "Types.h"
 
+#include <array>
 #include <cmath>
 
 namespace gridfem
@@ -11,6 +12,24 @@ namespace gridfem
 
 constexpr int LaneCount = 8;
 using Lanes = Eigen::Array<double, LaneCount, 1>;
+
+/// As many numbers of as many items as there are lanes; transposed, every number has its lanes.
+using LaneBlock = Eigen::Array<double, LaneCount, LaneCount>;
+
+/// lanes[k][lane] = item[lane][begin + k] for as many k as there are lanes.
+inline void LoadLanes(const std::array<const double*, LaneCount>& item, int begin, Lanes* lanes)
+{
+  LaneBlock block;
+  for (int lane = 0; lane < LaneCount; ++lane)
+  {
+    block.col(lane) = Eigen::Map<const Lanes>(item[lane] + begin);
+  }
+  block.transposeInPlace();
+  for (int k = 0; k < LaneCount; ++k)
+  {
+    lanes[k] = block.col(k);
+  }
+}
 
 struct LaneVector
 {
@@ -27,6 +46,12 @@ struct LaneTensor
 {
   Lanes same[3];  // xx, yy, zz
   Lanes mixed[3]; // xy, yz, zx
+
+  // Not moved: Eigen copies registers, but moves bytes, in pieces that the next load has to wait
+  // for.
+  LaneTensor() = default;
+  LaneTensor(const LaneTensor&) = default;
+  LaneTensor& operator=(const LaneTensor&) = default;
 
   LaneTensor Times(const Lanes& factor) const
   {

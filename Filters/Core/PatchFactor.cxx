@@ -82,29 +82,33 @@ InverseFactor Factor(PatchMatrix S, int count, double smallestPivot)
   return factor;
 }
 
-/// The block of A with the patch's unknowns, which ascend, as rows and columns; zeros beyond
-/// `count`.
-PatchMatrix PrincipalBlock(const BlockSource& source, const Patch& patch)
+/// Calls visit(i, j, value) for the upper triangle of the block of A with the patch's unknowns,
+/// which ascend, as rows and columns.
+template<class Visit>
+void ForEachEntry(const BlockSource& source, const Patch& patch, Visit&& visit)
 {
   const SparseMatrix& A = source.A;
-  PatchMatrix S = PatchMatrix::Zero();
   for (int i = 0; i < patch.count; ++i)
   {
     const Id end = A.rowBegin[patch.dof[i] + 1];
-    Id k = source.diagonal[patch.dof[i]];
-    S(i, i) = A.value[k];
+    Id k = source.row[patch.dof[i]].diagonal;
+    visit(i, i, A.value[k]);
     for (int j = i + 1; j < patch.count; ++j)
     {
       while (k < end && A.column[k] < patch.dof[j])
       {
         ++k;
       }
-      if (k < end && A.column[k] == patch.dof[j])
-      {
-        S(i, j) = S(j, i) = A.value[k];
-      }
+      visit(i, j, k < end && A.column[k] == patch.dof[j] ? A.value[k] : 0.0);
     }
   }
+}
+
+/// Zeros beyond `count`.
+PatchMatrix PrincipalBlock(const BlockSource& source, const Patch& patch)
+{
+  PatchMatrix S = PatchMatrix::Zero();
+  ForEachEntry(source, patch, [&](int i, int j, double value) { S(i, j) = S(j, i) = value; });
   return S;
 }
 
@@ -125,12 +129,12 @@ Patch UnknownsOf(const std::array<Index, N>& dof, const BlockSource& source)
     patch.dof[smaller] = dof[i];
   }
   if (std::all_of(patch.dof.begin(), patch.dof.end(),
-        [&](Index unknown) { return unknown >= 0 && source.diagonal[unknown] >= 0; }))
+        [&](Index unknown) { return unknown >= 0 && source.row[unknown].diagonal >= 0; }))
   {
     return patch;
   }
   auto end = std::copy_if(dof.begin(), dof.end(), patch.dof.begin(),
-    [&](Index unknown) { return unknown >= 0 && source.diagonal[unknown] >= 0; });
+    [&](Index unknown) { return unknown >= 0 && source.row[unknown].diagonal >= 0; });
   std::sort(patch.dof.begin(), end);
   end = std::unique(patch.dof.begin(), end);
   patch.count = static_cast<Index>(end - patch.dof.begin());
@@ -146,7 +150,7 @@ PatchScale ScaleOf(const BlockSource& source, const Patch& patch)
   PatchScale scale = PatchScale::Zero();
   for (int i = 0; i < patch.count; ++i)
   {
-    scale[i] = source.scale[patch.dof[i]];
+    scale[i] = source.row[patch.dof[i]].scale;
   }
   return scale;
 }
@@ -200,18 +204,18 @@ public:
       {
         S_[i][j].setConstant(i == j ? 1.0 : 0.0);
       }
+      scale_[j].setOnes();
     }
   }
 
-  void Set(int lane, const PatchMatrix& block, const PatchScale& scale)
+  void Set(int lane, const BlockSource& source, const Patch& patch, const PatchScale& scale)
   {
-    for (int j = 0; j < N; ++j)
+    for (int i = 0; i < N; ++i)
     {
-      for (int i = 0; i <= j; ++i)
-      {
-        S_[i][j][lane] = scale[i] * block(i, j) * scale[j];
-      }
+      scale_[i][lane] = scale[i];
     }
+    ForEachEntry(source, patch,
+      [&](int i, int j, double value) { S_[i][j][lane] = scale[i] * value * scale[j]; });
   }
 
   /// Elimination in the order of the unknowns, applied to the identity as well.
@@ -220,9 +224,10 @@ public:
     for (int step = 0; step < N; ++step)
     {
       V_[step][step].setOnes();
+      const PatchLanes inverse = 1.0 / S_[step][step];
       for (int i = step + 1; i < N; ++i)
       {
-        const PatchLanes part = S_[step][i] / S_[step][step];
+        const PatchLanes part = S_[step][i] * inverse;
         for (int j = i; j < N; ++j)
         {
           S_[i][j] -= part * S_[step][j];
@@ -256,13 +261,20 @@ public:
     return smallest;
   }
 
-  void Get(int lane, const PatchScale& scale, PatchMatrix& V) const
+  /// The factors of all patches, scaled and mirrored.
+  void Get(PatchFactor* factors) const
   {
-    for (int j = 0; j < N; ++j)
+    for (int i = 0; i < N; ++i)
     {
-      for (int i = j; i < N; ++i)
+      Eigen::Array<double, PatchesAtOnce, N> row;
+      for (int j = 0; j < N; ++j)
       {
-        V(i, j) = V(j, i) = V_[i][j][lane] * scale[j];
+        row.col(j) = V_[std::max(i, j)][std::min(i, j)] * scale_[std::min(i, j)];
+      }
+      row.transposeInPlace();
+      for (int lane = 0; lane < PatchesAtOnce; ++lane)
+      {
+        factors[lane].V.col(i) = row.col(lane).matrix();
       }
     }
   }
@@ -270,6 +282,7 @@ public:
 private:
   PatchLanes S_[N][N]; // upper triangle; in the end the pivots are on the diagonal
   PatchLanes V_[N][N]; // lower triangle
+  PatchLanes scale_[N];
 };
 
 /// From this pivot on the order of elimination does not matter.
@@ -280,21 +293,19 @@ double SafePivot(double smallestPivot)
 
 } // namespace
 
-BlockSource::BlockSource(const SparseMatrix& matrix, int threads)
-  : A(matrix), diagonal(matrix.rows), scale(matrix.rows)
+BlockSource::BlockSource(const SparseMatrix& matrix, int threads) : A(matrix), row(matrix.rows)
 {
   ParallelRanges(A.rows, threads,
     [&](Id begin, Id end)
     {
-      for (Id row = begin; row < end; ++row)
+      for (Id i = begin; i < end; ++i)
       {
-        const Index* const last = A.column.data() + A.rowBegin[row + 1];
+        const Index* const last = A.column.data() + A.rowBegin[i + 1];
         const Index* const found =
-          std::lower_bound(A.column.data() + A.rowBegin[row], last, static_cast<Index>(row));
+          std::lower_bound(A.column.data() + A.rowBegin[i], last, static_cast<Index>(i));
         const Id place = found - A.column.data();
-        const bool isUsable = found != last && *found == row && IsUsableDiagonal(A.value[place]);
-        diagonal[row] = isUsable ? place : -1;
-        scale[row] = isUsable ? 1.0 / std::sqrt(A.value[place]) : 0.0;
+        const bool isUsable = found != last && *found == i && IsUsableDiagonal(A.value[place]);
+        row[i] = isUsable ? Row{ place, 1.0 / std::sqrt(A.value[place]) } : Row{ -1, 0.0 };
       }
     });
 }
@@ -304,31 +315,29 @@ void FactorPatches(const BlockSource& source, const std::array<Index, N>* dof, i
 {
   std::array<Patch, PatchesAtOnce> patch;
   std::array<PatchScale, PatchesAtOnce> scale;
-  std::array<PatchMatrix, PatchesAtOnce> block;
   LaneFactors lanes;
   for (int k = 0; k < count; ++k)
   {
     patch[k] = UnknownsOf(dof[k], source);
     scale[k] = ScaleOf(source, patch[k]);
-    block[k] = PrincipalBlock(source, patch[k]);
     if (patch[k].count == N)
     {
-      lanes.Set(k, block[k], scale[k]);
+      lanes.Set(k, source, patch[k], scale[k]);
     }
   }
   lanes.Factor();
+  lanes.Get(factors);
   for (int k = 0; k < count; ++k)
   {
     PatchFactor& result = factors[k];
     result.smallestPivot = lanes.SmallestPivot(k);
     if (!(patch[k].count == N && result.smallestPivot >= SafePivot(smallestPivot)))
     {
-      FactorWithPivots(block[k], patch[k], scale[k], smallestPivot, result);
+      FactorWithPivots(PrincipalBlock(source, patch[k]), patch[k], scale[k], smallestPivot, result);
       continue;
     }
     result.dof = patch[k].dof;
     result.count = N;
-    lanes.Get(k, scale[k], result.V);
     result.isComplete = true;
     result.hasLargeScales = HasLargeScales(scale[k], N, result.smallestPivot);
   }

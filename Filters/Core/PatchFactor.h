@@ -17,8 +17,12 @@ using PatchMatrix = Eigen::Matrix<double, FunctionsPerPatch, FunctionsPerPatch>;
 struct BlockSource
 {
   const SparseMatrix& A;
-  Array<Id> diagonal;  // per row; -1 where it is not a positive number
-  Array<double> scale; // per row: 1 / √diagonal; 0 where it is not a positive number
+  struct Row
+  {
+    Id diagonal;  // where it is; -1 where it is not a positive number
+    double scale; // 1 / √diagonal; 0 where it is not a positive number
+  };
+  Array<Row> row;
 
   BlockSource(const SparseMatrix& matrix, int threads);
 };

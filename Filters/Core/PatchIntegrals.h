@@ -86,11 +86,11 @@ void ForEachBatch(const ClippedMesh& clipped, const Index* pieceBegin, const Ind
 {
   const Id points = static_cast<Id>(rule.points.size());
   TriangleBatch batch;
-  const auto setCorner = [&](int corner, Index point)
+  const auto setCorner = [&](int corner, const Vec3& position)
   {
     for (int axis = 0; axis < 3; ++axis)
     {
-      batch.corner[corner][axis][batch.count] = clipped.position[point][axis] - origin[axis];
+      batch.corner[corner][axis][batch.count] = position[axis];
     }
   };
   for (const Index* piece = pieceBegin; piece < pieceEnd; ++piece)
@@ -102,11 +102,15 @@ void ForEachBatch(const ClippedMesh& clipped, const Index* pieceBegin, const Ind
     }
     const Index* corner = clipped.corners.data() + clipped.pieceBegin[*piece];
     const Index count = clipped.pieceBegin[*piece + 1] - clipped.pieceBegin[*piece];
+    const Vec3 apex = clipped.position[corner[0]] - origin;
+    Vec3 second = clipped.position[corner[1]] - origin;
     for (Index k = 1; k + 1 < count; ++k)
     {
-      setCorner(0, corner[0]);
-      setCorner(1, corner[k]);
-      setCorner(2, corner[k + 1]);
+      const Vec3 third = clipped.position[corner[k + 1]] - origin;
+      setCorner(0, apex);
+      setCorner(1, second);
+      setCorner(2, third);
+      second = third;
       batch.piece[batch.count] = *piece;
       batch.firstSample[batch.count] = FirstSample(clipped, *piece, rule) + (k - 1) * points;
       if (++batch.count == LaneCount)

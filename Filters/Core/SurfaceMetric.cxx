@@ -19,29 +19,38 @@ constexpr double LargestDeterminant = 1e300;
 /// One point of the rule on all triangles of a batch.
 struct LaneMetric
 {
-  Lanes E = Lanes::Zero();
-  Lanes F = Lanes::Zero();
-  Lanes G = Lanes::Zero();
+  Lanes E;
+  Lanes F;
+  Lanes G;
 };
 
-LaneMetric Load(const SampleMetric& metric, const TriangleBatch& batch, Id point)
+/// Metrics that are looked at together.
+using MetricGroup = std::array<LaneMetric, BatchesAtOnce>;
+
+/// The metrics of `count` points from `point` on.
+void Load(
+  const SampleMetric& metric, const TriangleBatch& batch, Id point, int count, MetricGroup& group)
 {
-  // One loop per number, over all lanes: the compiler makes a gather instruction of each.
-  const FundamentalForm* const form = metric.data() + point;
-  LaneMetric lanes;
+  static_assert(
+    sizeof(FundamentalForm) == 3 * sizeof(double) && sizeof(LaneMetric) == 3 * sizeof(Lanes));
+  std::array<const double*, LaneCount> form; // E, F, G of point after point
   for (int lane = 0; lane < LaneCount; ++lane)
   {
-    lanes.E[lane] = form[batch.firstSample[lane]].E;
+    form[lane] = &metric[batch.firstSample[lane] + point].E;
   }
-  for (int lane = 0; lane < LaneCount; ++lane)
+  Lanes* const lanes = &group[0].E;
+  int number = 0;
+  for (; number + LaneCount <= 3 * count; number += LaneCount)
   {
-    lanes.F[lane] = form[batch.firstSample[lane]].F;
+    LoadLanes(form, number, lanes + number);
   }
-  for (int lane = 0; lane < LaneCount; ++lane)
+  for (; number < 3 * count; ++number)
   {
-    lanes.G[lane] = form[batch.firstSample[lane]].G;
+    for (int lane = 0; lane < LaneCount; ++lane)
+    {
+      lanes[number][lane] = form[lane][number];
+    }
   }
-  return lanes;
 }
 
 void Store(const LaneMetric& lanes, const TriangleBatch& batch, Id point, SampleMetric& metric)
@@ -56,9 +65,6 @@ Lanes Determinant(const LaneMetric& metric)
 {
   return metric.E * metric.G - metric.F * metric.F;
 }
-
-/// Metrics that are looked at together.
-using MetricGroup = std::array<LaneMetric, BatchesAtOnce>;
 
 /// All lanes at once.
 bool AreRegular(const MetricGroup& metric, int count)
@@ -143,7 +149,7 @@ LaneMetric MetricAt(
       alongSecond[component] += slope * basis.second.axis[axis];
     }
   }
-  LaneMetric metric;
+  LaneMetric metric{ Lanes::Zero(), Lanes::Zero(), Lanes::Zero() };
   for (int component = 0; component < 3; ++component)
   {
     metric.E += alongFirst[component] * alongFirst[component];
@@ -202,10 +208,7 @@ Id IntegrateElements(const FunctionSpace& space, const QuadratureRule& rule,
       return [&, basis = TangentBasis(planes.normal)](Id point, int count, SampleBatch* samples)
       {
         MetricGroup group;
-        for (int k = 0; k < count; ++k)
-        {
-          group[k] = Load(metric, batch, point + k);
-        }
+        Load(metric, batch, point, count, group);
         const bool areRegular = AreRegular(group, count);
         for (int k = 0; k < count; ++k)
         {

@@ -32,7 +32,7 @@ CORE_LAYERS = {
                      " Clip Links MemoryEstimate HatFunctions HatMatrices HatLoad",
     "patches and levels": "Level Patches FunctionSpace PatchOrdering",
     "integrals": "QuadratureRule TrilinearBasis PieceSamples Lanes PatchMoments PatchIntegrals"
-                 " ElementMatrices DenseElement SurfaceMetric DirectionalElements LoadVector"
+                 " ElementMatrices CoarsenElements DenseElement SurfaceMetric DirectionalElements LoadVector"
                  " Evaluation Assembly HatTransfer",
     "hierarchy": "System HiddenFunctions BoxLevel LayeredFunctions HatMultigrid",
     "problems": "Poisson SpectrumCycle CollectSpectrum HatSpectrum SpectrumAccuracy Spectrum ModeSums",

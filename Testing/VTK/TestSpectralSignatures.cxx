@@ -128,7 +128,7 @@ TEST_F(SpectralSignaturesFilter, ShapeDNADoesNotDependOnSizeAndPlace)
   const auto turned = fingerprint(Transform(sphere, { 1, 2, 3 }, 0.5));
   for (std::size_t k = 1; k < plain.size(); ++k)
   {
-    EXPECT_NEAR(scaled[k] / plain[k], 1.0, 1e-7);
+    EXPECT_NEAR(scaled[k] / plain[k], 1.0, 1e-6); // the tolerance of the eigenvalues
     EXPECT_NEAR(turned[k] / plain[k], 1.0, 0.01);
   }
 }
