@@ -5,31 +5,13 @@
 #define GridFEM_BlockIteration_h
 
 #include "BasisProducts.h"
-#include "Constants.h"
-#include "Preconditioner.h"
 #include "Progress.h"
-#include "RayleighRitz.h"
-#include "SparseMatrix.h"
+#include "SpectralProblem.h"
 
-#include <functional>
 #include <vector>
 
 namespace gridfem
 {
-
-/// One level's eigenproblem.
-struct SpectralProblem
-{
-  SparseMatrix stiffness;
-  SparseMatrix mass;
-  double shift = 1.0;
-  /// Approximate inverse, symmetric positive semi-definite, of stiffness + shift mass.
-  Preconditioner precondition;
-  /// Makes a better one, where there is: it takes over when convergence is slow.
-  std::function<Preconditioner()> fallback;
-  const Constants* constants = nullptr; // the pairs found are orthogonal to them
-  int threads = 0;
-};
 
 struct BlockOptions
 {
@@ -38,18 +20,12 @@ struct BlockOptions
   double tolerance = 1e-8; // on rᵀBr / θ
   int maximumIterations = 100;
   int minimumIterations = 0; // 1: the random directions have their say even if all has converged
-};
-
-template<class Real>
-struct EigenPairs
-{
-  Eigen::VectorXd values;    // ascending
-  BlockBuffer<Real> vectors; // columns orthonormal in the mass matrix, up to rounding of Real
+  bool measureLast = true;   // false: residuals of the last step allowed are not asked for
 };
 
 struct BlockReport
 {
-  std::vector<double> residuals; // per wanted pair: sqrt(rᵀBr / max(θ, shift))
+  std::vector<double> residuals; // per wanted pair when last looked at: sqrt(rᵀBr / max(θ, shift))
   double nextResidual = 1.0;     // of the first pair behind them; 1 when there is none
   Index numberOfConverged = 0;   // of the wanted ones
   int iterations = 0;            // Rayleigh-Ritz steps
@@ -72,7 +48,7 @@ struct BlockWorkspace
 /// Throws Aborted.
 /// @param known  orthonormal in the mass matrix; the pairs found are orthogonal to them
 template<class Real>
-BlockReport ImproveEigenPairs(const SpectralProblem& problem, const BlockOptions& options,
+BlockReport ImproveEigenPairs(const SpectralProblem<Real>& problem, const BlockOptions& options,
   const BasisParts<Real>& known, EigenPairs<Real>& pairs, BlockWorkspace<Real>& workspace,
   const Progress& progress = {});
 

@@ -48,7 +48,8 @@ struct ColumnFacts
   }
 };
 
-ColumnFacts LookAt(const SpectralProblem& problem, const MultiVector& X)
+template<class Real>
+ColumnFacts LookAt(const SpectralProblem<Real>& problem, const MultiVector& X)
 {
   const Id columns = X.cols();
   const Id ranges = (X.rows() + RowsAtOnce - 1) / RowsAtOnce;
@@ -84,9 +85,8 @@ template<class Real>
 MultiVector SideBySide(
   const MultiVector& constants, const BlockBuffer<Real>& vectors, Id others, int threads)
 {
-  ReturnLargeMemory((constants.cols() + others) * constants.rows() * sizeof(double));
   MultiVector all(constants.rows(), constants.cols() + others);
-  PreferLargePages(all.data(), all.size() * sizeof(double));
+  AdoptLargeMemory(all.data(), all.size() * sizeof(double));
   CopyBlock(constants, all.leftCols(constants.cols()), threads);
   if (others > 0)
   {
@@ -145,7 +145,7 @@ std::vector<double> Ordered(const List& list, const std::vector<Index>& order)
 
 template<class Real>
 Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs<Real>& pairs,
-  const BlockReport& report, const SpectralProblem& problem)
+  const BlockReport& report, const SpectralProblem<Real>& problem)
 {
   const Index others = static_cast<Index>(report.residuals.size());
   Spectrum spectrum;
@@ -188,8 +188,8 @@ Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs<Rea
 }
 
 template Spectrum CollectSpectrum(
-  const Constants&, Index, EigenPairs<float>&, const BlockReport&, const SpectralProblem&);
+  const Constants&, Index, EigenPairs<float>&, const BlockReport&, const SpectralProblem<float>&);
 template Spectrum CollectSpectrum(
-  const Constants&, Index, EigenPairs<double>&, const BlockReport&, const SpectralProblem&);
+  const Constants&, Index, EigenPairs<double>&, const BlockReport&, const SpectralProblem<double>&);
 
 } // namespace gridfem

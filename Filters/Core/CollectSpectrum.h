@@ -16,7 +16,7 @@ namespace gridfem
 /// for the others. Takes the vectors out of `pairs`.
 template<class Real>
 Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs<Real>& pairs,
-  const BlockReport& report, const SpectralProblem& problem);
+  const BlockReport& report, const SpectralProblem<Real>& problem);
 
 } // namespace gridfem
 

@@ -1,5 +1,7 @@
 #include "DenseSpectrum.h"
 
+#include "RayleighRitz.h"
+
 #include <algorithm>
 
 namespace gridfem
@@ -33,7 +35,7 @@ bool IsDense(Id functions, Index blockSize)
 }
 
 template<class Real>
-EigenPairs<Real> SolveDense(const SpectralProblem& problem, Index count)
+EigenPairs<Real> SolveDense(const SpectralProblem<Real>& problem, Index count)
 {
   Eigen::MatrixXd mass = ToDense(problem.mass);
   problem.constants->Deflate(mass);
@@ -42,11 +44,11 @@ EigenPairs<Real> SolveDense(const SpectralProblem& problem, Index count)
   pairs.vectors.Reserve(ritz.coefficients.rows(), count);
   pairs.vectors.Show(ritz.coefficients.cols());
   CopyBlock(ritz.coefficients, pairs.vectors.View(), problem.threads);
-  problem.constants->Remove<Real>(pairs.vectors.View());
+  problem.constants->template Remove<Real>(pairs.vectors.View());
   return pairs;
 }
 
-template EigenPairs<float> SolveDense(const SpectralProblem&, Index);
-template EigenPairs<double> SolveDense(const SpectralProblem&, Index);
+template EigenPairs<float> SolveDense(const SpectralProblem<float>&, Index);
+template EigenPairs<double> SolveDense(const SpectralProblem<double>&, Index);
 
 } // namespace gridfem

@@ -2,7 +2,7 @@
 #ifndef GridFEM_DenseSpectrum_h
 #define GridFEM_DenseSpectrum_h
 
-#include "BlockIteration.h"
+#include "SpectralProblem.h"
 
 namespace gridfem
 {
@@ -12,7 +12,7 @@ bool IsDense(Id functions, Index blockSize);
 
 /// All of the lowest pairs there are, up to `count`.
 template<class Real>
-EigenPairs<Real> SolveDense(const SpectralProblem& problem, Index count);
+EigenPairs<Real> SolveDense(const SpectralProblem<Real>& problem, Index count);
 
 } // namespace gridfem
 

@@ -38,9 +38,9 @@ Index ListLength(const Spectrum& grid, const SpectrumOptions& options)
 }
 
 /// Without a preconditioner, which is not needed where the list ends among the constants.
-SpectralProblem HatProblem(const HatHierarchy& hats, const Constants& constants, int threads)
+SpectralProblem<double> HatProblem(const HatHierarchy& hats, const Constants& constants, int threads)
 {
-  SpectralProblem problem;
+  SpectralProblem<double> problem;
   problem.stiffness = hats.matrices.stiffness;
   problem.mass = hats.matrices.mass;
   problem.constants = &constants;
@@ -61,7 +61,7 @@ double LowestValue(const Spectrum& grid)
 
 /// The wanted pairs, at most `all`; more until the multiplet at their end is whole, if that is
 /// asked for.
-BlockReport FindPairs(const SpectralProblem& problem, const SpectrumOptions& options, Index wanted,
+BlockReport FindPairs(const SpectralProblem<double>& problem, const SpectrumOptions& options, Index wanted,
   Index all, EigenPairs<double>& pairs, const Progress& progress)
 {
   const Index zeros = problem.constants->Count();
@@ -125,7 +125,7 @@ Spectrum ComputeHatSpectrum(const HatHierarchy& hats, const FunctionSpace& space
   const Index zeros = constants.Count();
   const Index all = hats.functions.Count() - zeros;
   const Index listed = options.completeMultiplets ? zeros : std::min(zeros, options.numberOfModes);
-  SpectralProblem problem = HatProblem(hats, constants, threads);
+  SpectralProblem<double> problem = HatProblem(hats, constants, threads);
   EigenPairs<double> pairs;
   BlockReport report;
   if (options.numberOfModes > zeros && all > 0)
@@ -133,7 +133,7 @@ Spectrum ComputeHatSpectrum(const HatHierarchy& hats, const FunctionSpace& space
     problem.shift = LowestValue(grid);
     const Multigrid multigrid =
       BuildHatMultigrid(hats, space, system, problem.shift, 1.0, HatCycle(options.multigrid));
-    problem.precondition = CyclePreconditioner(multigrid, 0);
+    problem.precondition = CyclePreconditioner<double>(multigrid, 0);
     progress.Check(0.1);
     pairs.vectors.Reserve(problem.mass.rows, grid.vectors.cols());
     pairs.vectors.Show(grid.vectors.cols());

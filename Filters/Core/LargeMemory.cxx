@@ -189,12 +189,6 @@ public:
     }
   }
 
-  void Shrink(std::size_t bytes) noexcept
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    this->Return(Generously * bytes);
-  }
-
 private:
   /// Blocks also hold what arrays had reserved and not used, which was no memory yet.
   static constexpr std::size_t Generously = 2;
@@ -284,14 +278,20 @@ void FreeLargeMemory(void* memory, std::size_t bytes) noexcept
   KeptBlocks().Give(static_cast<char*>(memory), RoundUpToPages(bytes));
 }
 
-void ReturnLargeMemory(std::size_t bytes) noexcept
+void AdoptLargeMemory(void* begin, std::size_t bytes) noexcept
 {
-  KeptBlocks().Shrink(bytes);
+  PreferLargePages(begin, bytes);
+  const auto address = reinterpret_cast<std::uintptr_t>(begin);
+  const std::size_t before = RoundUp(address, LargePage) - address;
+  if (before < bytes)
+  {
+    KeptBlocks().MovePages(static_cast<char*>(begin) + before, bytes - before);
+  }
 }
 
 #else
 
-void ReturnLargeMemory(std::size_t) noexcept
+void AdoptLargeMemory(void*, std::size_t) noexcept
 {
 }
 

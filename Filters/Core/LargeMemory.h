@@ -32,9 +32,10 @@ public:
   MemoryReuse& operator=(const MemoryReuse&) = delete;
 };
 
-/// Gives at least that much of what is kept for reuse, if there is, back to the system, because
-/// memory of another origin is about to be taken.
-void ReturnLargeMemory(std::size_t bytes) noexcept;
+/// Puts what is kept for reuse in the place of memory of any origin that has not been touched yet,
+/// as far as there is, and gives at least as much as is missing back to the system. Contents become
+/// undefined.
+void AdoptLargeMemory(void* begin, std::size_t bytes) noexcept;
 
 /// Asks for large pages where memory of any origin that has not been touched yet spans some of
 /// them. A wish: the system may ignore it, and only Linux is asked. Contents do not change.

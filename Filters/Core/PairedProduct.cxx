@@ -11,48 +11,58 @@ namespace
 {
 
 /// Calls body(column, lanes) for groups of 32, 16, 4 and 1 columns; lanes gives their type.
-template<class Body>
+template<class Sum, class Body>
 inline void ForEachLanes(Id columns, Body&& body)
 {
   Id column = 0;
   for (; column + 32 <= columns; column += 32)
   {
-    body(column, Eigen::Array<double, 32, 1>());
+    body(column, Eigen::Array<Sum, 32, 1>());
   }
   for (; column + 16 <= columns; column += 16)
   {
-    body(column, Eigen::Array<double, 16, 1>());
+    body(column, Eigen::Array<Sum, 16, 1>());
   }
   for (; column + 4 <= columns; column += 4)
   {
-    body(column, Eigen::Array<double, 4, 1>());
+    body(column, Eigen::Array<Sum, 4, 1>());
   }
   for (; column < columns; ++column)
   {
-    body(column, Eigen::Array<double, 1, 1>());
+    body(column, Eigen::Array<Sum, 1, 1>());
   }
 }
 
-/// a += p x, b += q x for entries x of any precision.
+/// Eight neighbouring numbers, wherever they begin.
+typedef float Floats __attribute__((vector_size(32), aligned(4), may_alias));
+typedef double Doubles __attribute__((vector_size(64), aligned(8), may_alias));
+
+/// a += p x, b += q x for entries x of the same precision or less.
 template<class Real, class Lanes>
 inline void AddProducts(double p, double q, const Real* x, Lanes& a, Lanes& b)
 {
-  if constexpr (std::is_same_v<Real, double>)
+  if constexpr (std::is_same_v<Real, typename Lanes::Scalar>)
   {
     const Eigen::Map<const Lanes> entries(x);
-    a += p * entries;
-    b += q * entries;
+    a += static_cast<Real>(p) * entries;
+    b += static_cast<Real>(q) * entries;
   }
-  else // Eigen does not convert whole registers
+  else if constexpr (Lanes::RowsAtCompileTime % 8 == 0) // Eigen does not convert whole registers
   {
-    double* const sumA = a.data();
-    double* const sumB = b.data();
-#pragma omp simd
+    for (int k = 0; k < Lanes::RowsAtCompileTime; k += 8)
+    {
+      const Doubles wide =
+        __builtin_convertvector(*reinterpret_cast<const Floats*>(x + k), Doubles);
+      *reinterpret_cast<Doubles*>(a.data() + k) += p * wide;
+      *reinterpret_cast<Doubles*>(b.data() + k) += q * wide;
+    }
+  }
+  else
+  {
     for (int k = 0; k < Lanes::RowsAtCompileTime; ++k)
     {
-      const double wide = x[k];
-      sumA[k] += p * wide;
-      sumB[k] += q * wide;
+      a.data()[k] += p * x[k];
+      b.data()[k] += q * x[k];
     }
   }
 }
@@ -84,8 +94,17 @@ void CheckShapes(const SparseMatrix& A, const SparseMatrix& B, const ConstBlock<
   }
 }
 
-/// Calls store(row, column, a, b) with the lanes of A X and B X that begin there.
-template<class Real, class Store>
+/// From the first of these columns to the last.
+template<class Real>
+ConstBlock<Real> Span(const ConstBlock<Real>& X, const std::vector<Index>& columns)
+{
+  return columns.empty() ? X.leftCols(0)
+                         : X.middleCols(columns.front(), columns.back() + 1 - columns.front());
+}
+
+/// Calls store(row, column, a, b) with the lanes of A X and B X that begin there, in the precision
+/// of Sum.
+template<class Sum, class Real, class Store>
 void ForEachRowPair(const SparseMatrix& A, const SparseMatrix& B, const ConstBlock<Real>& X,
   Id first, Id last, Store&& store)
 {
@@ -93,7 +112,7 @@ void ForEachRowPair(const SparseMatrix& A, const SparseMatrix& B, const ConstBlo
   const double* valueB = B.value.data();
   for (Id row = first; row < last; ++row)
   {
-    ForEachLanes(X.cols(),
+    ForEachLanes<Sum>(X.cols(),
       [&](Id column, auto lanes)
       {
         using Lanes = decltype(lanes);
@@ -122,7 +141,7 @@ template<class Real>
 void PairedProduct<Real>::Rows(Id begin, Id end, Vectors<Real>& image) const
 {
   const Id columns = X_.cols();
-  ForEachRowPair(A_, B_, X_, begin, end,
+  ForEachRowPair<double>(A_, B_, X_, begin, end,
     [&](Id row, Id column, const auto& a, const auto& b)
     {
       Real* const to = image.data() + (row - begin) * 2 * columns + column;
@@ -145,7 +164,7 @@ void MultiplyRows(
   const RowView rows(A);
   for (Id row = begin; row < end; ++row)
   {
-    ForEachLanes(X.cols(),
+    ForEachLanes<double>(X.cols(),
       [&](Id column, auto lanes)
       {
         using Lanes = decltype(lanes);
@@ -182,23 +201,24 @@ template void MultiplyBlock<double>(
 template<class Real>
 EigenResidual<Real>::EigenResidual(const SparseMatrix& A, const SparseMatrix& B,
   const ConstBlock<Real>& X, const Eigen::VectorXd& values, std::vector<Index> columns)
-  : A_(A), B_(B), columns_(std::move(columns)),
-    X_(X.middleCols(columns_.at(0), columns_.back() + 1 - columns_.front())),
-    values_(values.segment(columns_.front(), X_.cols()))
+  : A_(A), B_(B), columns_(std::move(columns)), X_(Span(X, columns_)),
+    values_(values.segment(columns_.empty() ? 0 : columns_.front(), X_.cols())
+              .template cast<Real>()
+              .array())
 {
   CheckShapes(A, B, X);
-  if (values.size() != X.cols() || columns_.back() >= X.cols())
+  if (values.size() != X.cols() || (!columns_.empty() && columns_.back() >= X.cols()))
   {
     throw InvalidInput("a residual needs a value for every column, and wanted columns of these");
   }
 }
 
 template<class Real>
-void EigenResidual<Real>::Rows(Id begin, Id end, MultiVector& rows) const
+void EigenResidual<Real>::Rows(Id begin, Id end, Block<Real> rows) const
 {
-  const auto compute = [&](double* to, Id stride)
+  const auto compute = [&](Real* to, Id stride)
   {
-    ForEachRowPair(A_, B_, X_, begin, end,
+    ForEachRowPair<Real>(A_, B_, X_, begin, end,
       [&](Id row, Id column, const auto& a, const auto& b)
       {
         using Lanes = std::decay_t<decltype(a)>;
@@ -209,10 +229,10 @@ void EigenResidual<Real>::Rows(Id begin, Id end, MultiVector& rows) const
   const Id count = static_cast<Id>(columns_.size());
   if (count == X_.cols())
   {
-    compute(rows.data(), rows.cols());
+    compute(rows.data(), rows.outerStride());
     return;
   }
-  MultiVector all(end - begin, X_.cols());
+  Vectors<Real> all(end - begin, X_.cols());
   compute(all.data(), all.cols());
   for (Id row = 0; row < end - begin; ++row)
   {

@@ -1,6 +1,6 @@
 // Stiffness and mass times the same block of vectors in one pass: the two matrices share their
 // pattern, so every row of the block is fetched once. Eigenproblems multiply by hundreds of
-// columns. Blocks may be in single precision; sums are always in double.
+// columns. Blocks may be in single precision; sums are in double but for residuals.
 #ifndef GridFEM_PairedProduct_h
 #define GridFEM_PairedProduct_h
 
@@ -41,27 +41,27 @@ void MultiplyBlock(
   const SparseMatrix& A, const ConstBlock<Real>& X, Block<Real> Y, int threads = 0);
 
 /// The columns of A X - B X diag(values), for matrices of one pattern, some rows and some columns
-/// at a time: in double precision, because most digits cancel. Keeps references.
+/// at a time. Sums are in the precision of X: its rounding is as large as theirs. Keeps references.
 template<class Real>
 class EigenResidual
 {
 public:
   /// @param values   one per column of X
-  /// @param columns  of X that are wanted, at least one, ascending; the work is that of all between
-  /// the first and the last
+  /// @param columns  of X that are wanted, ascending; the work is that of all between the first and
+  /// the last
   /// Throws InvalidInput when the shapes do not fit.
   EigenResidual(const SparseMatrix& A, const SparseMatrix& B, const ConstBlock<Real>& X,
     const Eigen::VectorXd& values, std::vector<Index> columns);
 
-  /// The rows begin .. end - 1 of the wanted columns, from the first row and column of `rows` on.
-  void Rows(Id begin, Id end, MultiVector& rows) const;
+  /// The rows begin .. end - 1 of the wanted columns.
+  void Rows(Id begin, Id end, Block<Real> rows) const;
 
 private:
   const SparseMatrix& A_;
   const SparseMatrix& B_;
   std::vector<Index> columns_;
   ConstBlock<Real> X_; // from the first wanted column to the last
-  Eigen::VectorXd values_;
+  Eigen::Array<Real, Eigen::Dynamic, 1> values_;
 };
 
 } // namespace gridfem

@@ -11,31 +11,39 @@ namespace
 /// Columns of one cycle: as wide as SIMD lanes need and small enough for the cache.
 constexpr Id PanelWidth = 8;
 
-MultiVector AllRows(const RowSource& r, int threads)
+template<class Real>
+MultiVector AllRows(const RowSource<Real>& r, int threads)
 {
   MultiVector all(r.rows, r.columns);
   ParallelRanges(
     r.rows, threads,
     [&](Id begin, Id end)
     {
-      MultiVector part(SourceRows, r.columns);
+      Vectors<Real> part(end - begin, r.columns);
       r.fill(begin, end, part);
-      all.middleRows(begin, end - begin) = part.topRows(end - begin);
+      all.middleRows(begin, end - begin) = part.template cast<double>();
     },
     SourceRows);
   return all;
 }
 
-void HandOver(const MultiVector& z, const RowSink& sink, int threads)
+template<class Real>
+void HandOver(const MultiVector& z, const RowSink<Real>& sink, int threads)
 {
   ParallelRanges(
     z.rows(), threads,
-    [&](Id begin, Id end) { sink(begin, end, z.middleRows(begin, end - begin)); }, SourceRows);
+    [&](Id begin, Id end)
+    {
+      const Vectors<Real> part = z.middleRows(begin, end - begin).template cast<Real>();
+      sink(begin, end, part);
+    },
+    SourceRows);
 }
 
 } // namespace
 
-Eigen::VectorXd SquaredNorms(const RowSource& r, int threads)
+template<class Real>
+Eigen::VectorXd SquaredNorms(const RowSource<Real>& r, int threads)
 {
   // Few sums of many ranges each: their number does not depend on the threads.
   constexpr Id RangesPerSum = 16;
@@ -43,15 +51,15 @@ Eigen::VectorXd SquaredNorms(const RowSource& r, int threads)
     r.rows, threads, Eigen::VectorXd(Eigen::VectorXd::Zero(r.columns)),
     [&](Id first, Id last)
     {
-      MultiVector part(SourceRows, r.columns);
+      Vectors<Real> part(SourceRows, r.columns);
       Eigen::VectorXd sum = Eigen::VectorXd::Zero(r.columns);
       for (Id begin = first; begin < last; begin += SourceRows)
       {
         const Id end = std::min(last, begin + SourceRows);
-        r.fill(begin, end, part);
+        r.fill(begin, end, part.topRows(end - begin));
         for (Id row = 0; row < end - begin; ++row)
         {
-          sum += part.row(row).cwiseAbs2().transpose();
+          sum += part.row(row).template cast<double>().cwiseAbs2().transpose();
         }
       }
       return sum;
@@ -59,9 +67,13 @@ Eigen::VectorXd SquaredNorms(const RowSource& r, int threads)
     RangesPerSum * SourceRows);
 }
 
-Preconditioner CyclePreconditioner(const Multigrid& multigrid, std::size_t level)
+template Eigen::VectorXd SquaredNorms(const RowSource<float>&, int);
+template Eigen::VectorXd SquaredNorms(const RowSource<double>&, int);
+
+template<class Real>
+Preconditioner<Real> CyclePreconditioner(const Multigrid& multigrid, std::size_t level)
 {
-  return [&multigrid, level](const RowSource& r, const RowSink& z)
+  return [&multigrid, level](const RowSource<Real>& r, const RowSink<Real>& z)
   {
     const int threads = multigrid.Options().threads;
     MultiVector block = AllRows(r, threads); // corrections take the place of residuals
@@ -82,5 +94,8 @@ Preconditioner CyclePreconditioner(const Multigrid& multigrid, std::size_t level
     return measures;
   };
 }
+
+template Preconditioner<float> CyclePreconditioner(const Multigrid&, std::size_t);
+template Preconditioner<double> CyclePreconditioner(const Multigrid&, std::size_t);
 
 } // namespace gridfem

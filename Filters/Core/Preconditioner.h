@@ -19,21 +19,22 @@ constexpr Id PreconditionedColumns = 32;
 constexpr Id SourceRows = 256;
 
 /// A block of vectors that is computed some rows at a time.
+template<class Real>
 struct RowSource
 {
   Id rows = 0;
   Id columns = 0;
-  /// Fills the first rows of `part` with the rows begin .. end - 1. Safe to call from several
-  /// threads.
-  std::function<void(Id begin, Id end, MultiVector& part)> fill;
+  /// Fills `part` with the rows begin .. end - 1. Safe to call from several threads.
+  std::function<void(Id begin, Id end, Block<Real> part)> fill;
 };
 
-/// Takes the rows begin .. end - 1 of a block, which are the first of `part`. Safe to call from
-/// several threads.
-using RowSink = std::function<void(Id begin, Id end, const MultiVector& part)>;
+/// Takes the rows begin .. end - 1 of a block. Safe to call from several threads.
+template<class Real>
+using RowSink = std::function<void(Id begin, Id end, const ConstBlock<Real>& part)>;
 
 /// Σ r² of every column. Same bits for any number of threads.
-Eigen::VectorXd SquaredNorms(const RowSource& r, int threads);
+template<class Real>
+Eigen::VectorXd SquaredNorms(const RowSource<Real>& r, int threads);
 
 /// Per column.
 struct ResidualMeasures
@@ -44,10 +45,13 @@ struct ResidualMeasures
 
 /// Hands over z = B r, B symmetric positive semi-definite; r has at most PreconditionedColumns
 /// columns. Safe to call from several threads; same bits for any number of them.
-using Preconditioner = std::function<ResidualMeasures(const RowSource& r, const RowSink& z)>;
+template<class Real>
+using Preconditioner =
+  std::function<ResidualMeasures(const RowSource<Real>& r, const RowSink<Real>& z)>;
 
 /// One cycle from `level` on, from zero, in double precision. The hierarchy has to outlive it.
-Preconditioner CyclePreconditioner(const Multigrid& multigrid, std::size_t level);
+template<class Real>
+Preconditioner<Real> CyclePreconditioner(const Multigrid& multigrid, std::size_t level);
 
 } // namespace gridfem
 

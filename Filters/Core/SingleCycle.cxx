@@ -3,6 +3,7 @@
 #include "Parallel.h"
 
 #include <algorithm>
+#include <type_traits>
 
 namespace gridfem
 {
@@ -14,55 +15,77 @@ namespace
 /// a brain of 0.4 % of the patches by 2e-10.
 constexpr double UnresolvedShare = 1e-2;
 
-/// Lanes without a column are zero.
+/// Some columns of a few rows of a panel.
 template<class Row>
-void SetRow(const Row& row, PanelRow& lanes)
+auto PanelBlock(Row* rows, Id count, Id columns)
 {
-  if (row.size() < lanes.size())
-  {
-    lanes.setZero();
-  }
-  lanes.head(row.size()) = row.transpose().array().template cast<float>();
+  using Scalars = std::conditional_t<std::is_const_v<Row>, const Vectors<float>, Vectors<float>>;
+  constexpr Id stride = PreconditionedColumns;
+  return Eigen::Map<Scalars, 0, Eigen::OuterStride<stride>>(rows->data(), count, columns);
 }
 
-void Load(const RowSource& r, Panel& b, int threads)
+template<class Real>
+void Load(const RowSource<Real>& r, Panel& b, int threads)
 {
   b.resize(r.rows);
   ParallelRanges(
     r.rows, threads,
     [&](Id begin, Id end)
     {
-      MultiVector rows(SourceRows, r.columns);
-      r.fill(begin, end, rows);
-      for (Id row = begin; row < end; ++row)
+      const Id count = end - begin;
+      auto part = PanelBlock(&b[begin], count, r.columns);
+      PanelBlock(&b[begin], count, PreconditionedColumns)
+        .rightCols(PreconditionedColumns - r.columns)
+        .setZero();
+      if constexpr (std::is_same_v<Real, float>)
       {
-        SetRow(rows.row(row - begin), b[row]);
+        r.fill(begin, end, part);
+      }
+      else
+      {
+        Vectors<Real> rows(count, r.columns);
+        r.fill(begin, end, rows);
+        part = rows.template cast<float>();
       }
     },
     SourceRows);
 }
 
+template<class Real>
+void HandOver(const PanelRow* x, Id begin, Id end, Id columns, const RowSink<Real>& z)
+{
+  const auto part = PanelBlock(x + begin, end - begin, columns);
+  if constexpr (std::is_same_v<Real, float>)
+  {
+    z(begin, end, part);
+  }
+  else
+  {
+    const Vectors<Real> rows = part.template cast<Real>();
+    z(begin, end, rows);
+  }
+}
+
 /// Hands x over and takes the measures of b and x.
-ResidualMeasures Store(const Panel& b, const PanelRow* x, Id columns, const RowSink& z, int threads)
+template<class Real>
+ResidualMeasures Store(
+  const Panel& b, const PanelRow* x, Id columns, const RowSink<Real>& z, int threads)
 {
   using Sums = Eigen::Array<double, PreconditionedColumns, 2>;
   const Sums sums = ParallelSum(static_cast<Id>(b.size()), threads, Sums(Sums::Zero()),
     [&](Id first, Id last)
     {
       Sums sum = Sums::Zero();
-      MultiVector rows(SourceRows, columns);
       for (Id begin = first; begin < last; begin += SourceRows)
       {
         const Id end = std::min(last, begin + SourceRows);
         for (Id row = begin; row < end; ++row)
         {
           const auto r = b[row].cast<double>();
-          const auto correction = x[row].cast<double>();
-          sum.col(0) += r * correction;
+          sum.col(0) += r * x[row].cast<double>();
           sum.col(1) += r * r;
-          rows.row(row - begin) = correction.head(columns).matrix().transpose();
         }
-        z(begin, end, rows);
+        HandOver(x, begin, end, columns, z);
       }
       return sum;
     });
@@ -103,7 +126,9 @@ bool SingleCycle::IsReliable() const
   return double(unresolved) <= UnresolvedShare * double(patches);
 }
 
-ResidualMeasures SingleCycle::Apply(std::size_t level, const RowSource& r, const RowSink& z) const
+template<class Real>
+ResidualMeasures SingleCycle::Apply(
+  std::size_t level, const RowSource<Real>& r, const RowSink<Real>& z) const
 {
   if (r.columns > PreconditionedColumns)
   {
@@ -117,6 +142,11 @@ ResidualMeasures SingleCycle::Apply(std::size_t level, const RowSource& r, const
   this->CycleLevel(level, b, work.data());
   return Store(b[level], work.data(), r.columns, z, threads_);
 }
+
+template ResidualMeasures SingleCycle::Apply(
+  std::size_t, const RowSource<float>&, const RowSink<float>&) const;
+template ResidualMeasures SingleCycle::Apply(
+  std::size_t, const RowSource<double>&, const RowSink<double>&) const;
 
 /// x, and the residual or what the coarser levels need in its place.
 std::size_t SingleCycle::WorkRows(std::size_t level) const
@@ -161,7 +191,7 @@ void SingleCycle::SolveCoarsest(const Panel& panel, PanelRow* x) const
   coarse_.Solve(b, solution, threads_);
   for (Id row = 0; row < rows; ++row)
   {
-    SetRow(solution.row(row), x[row]);
+    x[row] = solution.row(row).transpose().array().cast<float>();
   }
 }
 

@@ -25,7 +25,9 @@ public:
   /// z = one cycle from `level` on, from zero, on every column of r; see Preconditioner. Keeps its
   /// vectors, as many as are used at the same time, for the next call. Throws InvalidInput when
   /// there are too many columns.
-  ResidualMeasures Apply(std::size_t level, const RowSource& r, const RowSink& z) const;
+  template<class Real>
+  ResidualMeasures Apply(
+    std::size_t level, const RowSource<Real>& r, const RowSink<Real>& z) const;
 
   std::size_t Memory() const;
 

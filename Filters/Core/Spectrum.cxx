@@ -19,10 +19,10 @@ namespace
 
 /// Accuracy of the eigenvalues on coarser levels, whose discretisation error is far larger. The
 /// level below the finest also serves the estimate of the error.
-constexpr double CoarseTolerance = 1e-3;
+constexpr double CoarseTolerance = 3e-4;
 constexpr double SecondTolerance = 3e-5;
-constexpr int SecondIterations = 5;
-constexpr int CoarseIterations = 2;
+constexpr int SecondIterations = 3;
+constexpr int CoarseIterations = 3;
 constexpr int RandomStartIterations = 40;
 
 /// Wanted errors from which on blocks are in single precision. Rounding them makes an error of
@@ -110,7 +110,7 @@ double LowestValue(const SparseMatrix& mass, double side)
 
 /// The list ends among the constants.
 Spectrum OnlyConstants(
-  const Constants& zeroModes, const SpectralProblem& problem, const SpectrumOptions& options)
+  const Constants& zeroModes, const SpectralProblem<double>& problem, const SpectrumOptions& options)
 {
   const bool cut = zeroModes.Count() > options.numberOfModes;
   const Index count = options.completeMultiplets ? zeroModes.Count() : options.numberOfModes;
@@ -135,12 +135,12 @@ public:
 
 private:
   BlockOptions Options(std::size_t level, Index wanted) const;
-  SpectralProblem Problem(std::size_t level, const Constants& constants, SparseMatrix mass) const;
+  SpectralProblem<Real> Problem(std::size_t level, const Constants& constants, SparseMatrix mass) const;
   BlockReport ImproveLevel(
-    std::size_t level, std::size_t start, const SpectralProblem& problem, const Progress& progress);
+    std::size_t level, std::size_t start, const SpectralProblem<Real>& problem, const Progress& progress);
   void Prolong(std::size_t level, const Constants& constants, BlockOptions& block);
   BlockReport FinishList(
-    const SpectralProblem& problem, BlockOptions block, const Progress& progress);
+    const SpectralProblem<Real>& problem, BlockOptions block, const Progress& progress);
   bool EndsInside(Id count, double error) const;
 
   const FunctionSpace& space_;
@@ -155,20 +155,20 @@ private:
 };
 
 template<class Real>
-SpectralProblem NestedIteration<Real>::Problem(
+SpectralProblem<Real> NestedIteration<Real>::Problem(
   std::size_t level, const Constants& constants, SparseMatrix mass) const
 {
   const int threads = options_.multigrid.threads;
-  SpectralProblem problem;
+  SpectralProblem<Real> problem;
   problem.stiffness = LevelMatrix(space_, system_, level, 0.0, 1.0, threads);
   problem.mass = std::move(mass);
   problem.shift = shift_;
   problem.constants = &constants;
   problem.threads = threads;
-  problem.precondition = cycle_.From(level);
+  problem.precondition = cycle_.From<Real>(level);
   if (cycle_.IsSingle())
   {
-    problem.fallback = [this, level] { return cycle_.DoubleFrom(level); };
+    problem.fallback = [this, level] { return cycle_.DoubleFrom<Real>(level); };
   }
   return problem;
 }
@@ -182,6 +182,7 @@ BlockOptions NestedIteration<Real>::Options(std::size_t level, Index wanted) con
   block.tolerance = level == 0   ? options_.tolerance
                     : level == 1 ? SecondTolerance
                                  : CoarseTolerance;
+  block.measureLast = level == 0;
   const int most = level == 1 ? SecondIterations : CoarseIterations;
   block.maximumIterations =
     level == 0 ? options_.maximumIterations : std::min(most, options_.maximumIterations);
@@ -214,7 +215,7 @@ void NestedIteration<Real>::Prolong(
 /// are fewer than the block has room for are all there are.
 template<class Real>
 BlockReport NestedIteration<Real>::FinishList(
-  const SpectralProblem& problem, BlockOptions block, const Progress& progress)
+  const SpectralProblem<Real>& problem, BlockOptions block, const Progress& progress)
 {
   const bool isAll = isDense_ && pairs_.values.size() < block.blockSize;
   if (isAll) // an iteration would only find rounding
@@ -269,7 +270,7 @@ bool NestedIteration<Real>::EndsInside(Id count, double error) const
 /// Pairs of a level from those of the next coarser one, or from nothing on level `start`.
 template<class Real>
 BlockReport NestedIteration<Real>::ImproveLevel(
-  std::size_t level, std::size_t start, const SpectralProblem& problem, const Progress& progress)
+  std::size_t level, std::size_t start, const SpectralProblem<Real>& problem, const Progress& progress)
 {
   BlockOptions block = this->Options(level, options_.numberOfModes - zeros_);
   if ((level == start || level == 0) &&
@@ -308,11 +309,11 @@ Spectrum NestedIteration<Real>::Run(
     const Index components = CountComponents(component);
     SparseMatrix levelMass = LevelMatrix(space_, system_, level, 1.0, 0.0, threads);
     const Constants constants(levelMass, std::move(component), components, threads);
-    const SpectralProblem problem = this->Problem(level, constants, std::move(levelMass));
+    const SpectralProblem<Real> problem = this->Problem(level, constants, std::move(levelMass));
     this->ImproveLevel(level, start, problem, LevelPart(progress, level));
   }
   const Eigen::VectorXd coarseValues = pairs_.values;
-  const SpectralProblem problem = this->Problem(0, zeroModes, std::move(mass));
+  const SpectralProblem<Real> problem = this->Problem(0, zeroModes, std::move(mass));
   const BlockReport report = this->ImproveLevel(0, start, problem, LevelPart(progress, 0));
   Spectrum spectrum = CollectSpectrum(zeroModes, zeros_, pairs_, report, problem);
   Append(spectrum.estimatedErrors, EstimateErrors(coarseValues, pairs_.values, report.residuals));
@@ -335,7 +336,7 @@ Spectrum ComputeSpectrum(const FunctionSpace& space, const System& system,
   const Constants zeroModes(mass, space.component, space.numberOfComponents, threads);
   if (zeroModes.Count() >= options.numberOfModes)
   {
-    SpectralProblem problem;
+    SpectralProblem<double> problem;
     problem.stiffness = LevelMatrix(space, system, 0, 0.0, 1.0, threads);
     problem.mass = std::move(mass);
     problem.threads = threads;

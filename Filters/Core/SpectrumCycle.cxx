@@ -36,23 +36,30 @@ void SpectrumCycle::BuildDouble(const Progress& progress)
     std::make_unique<Multigrid>(BuildMultigrid(space_, system_, shift_, 1.0, options_, progress));
 }
 
-Preconditioner SpectrumCycle::From(std::size_t level) const
+template<class Real>
+Preconditioner<Real> SpectrumCycle::From(std::size_t level) const
 {
   if (!single_)
   {
-    return CyclePreconditioner(*double_, level);
+    return CyclePreconditioner<Real>(*double_, level);
   }
-  return [this, level](const RowSource& r, const RowSink& z)
+  return [this, level](const RowSource<Real>& r, const RowSink<Real>& z)
   { return single_->Apply(level, r, z); };
 }
 
-Preconditioner SpectrumCycle::DoubleFrom(std::size_t level)
+template<class Real>
+Preconditioner<Real> SpectrumCycle::DoubleFrom(std::size_t level)
 {
   if (!double_)
   {
     this->BuildDouble({});
   }
-  return CyclePreconditioner(*double_, level);
+  return CyclePreconditioner<Real>(*double_, level);
 }
+
+template Preconditioner<float> SpectrumCycle::From(std::size_t) const;
+template Preconditioner<double> SpectrumCycle::From(std::size_t) const;
+template Preconditioner<float> SpectrumCycle::DoubleFrom(std::size_t);
+template Preconditioner<double> SpectrumCycle::DoubleFrom(std::size_t);
 
 } // namespace gridfem

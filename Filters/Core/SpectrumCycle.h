@@ -20,11 +20,13 @@ public:
     const MultigridOptions& options, const Progress& progress = {});
 
   /// Of the hierarchy that begins at `level`.
-  Preconditioner From(std::size_t level) const;
+  template<class Real>
+  Preconditioner<Real> From(std::size_t level) const;
 
   /// The same in double, for a solve that stagnates; the hierarchy is built when it is first asked
   /// for. Not safe to call from several threads.
-  Preconditioner DoubleFrom(std::size_t level);
+  template<class Real>
+  Preconditioner<Real> DoubleFrom(std::size_t level);
 
   /// Whether double was never needed.
   bool IsSingle() const { return !double_; }

@@ -32,7 +32,7 @@ class WindowIteration
 {
 public:
   WindowIteration(
-    const SpectralProblem& problem, const BlockOptions& options, EigenPairs<Real>& pairs)
+    const SpectralProblem<Real>& problem, const BlockOptions& options, EigenPairs<Real>& pairs)
     : problem_(problem), options_(options), pairs_(pairs), start_(pairs.vectors.Columns())
   {
   }
@@ -47,7 +47,7 @@ private:
   BlockReport Collect();
   void Arrange(const std::vector<Index>& order);
 
-  const SpectralProblem& problem_;
+  const SpectralProblem<Real>& problem_;
   const BlockOptions& options_;
   EigenPairs<Real>& pairs_;
   const Id start_; // columns of the start
@@ -201,7 +201,7 @@ Id HeldColumns(Index wanted)
 }
 
 template<class Real>
-BlockReport ImproveManyEigenPairs(const SpectralProblem& problem, const BlockOptions& options,
+BlockReport ImproveManyEigenPairs(const SpectralProblem<Real>& problem, const BlockOptions& options,
   EigenPairs<Real>& pairs, const Progress& progress)
 {
   if (options.blockSize <= LargestBlock)
@@ -213,8 +213,8 @@ BlockReport ImproveManyEigenPairs(const SpectralProblem& problem, const BlockOpt
 }
 
 template BlockReport ImproveManyEigenPairs(
-  const SpectralProblem&, const BlockOptions&, EigenPairs<float>&, const Progress&);
+  const SpectralProblem<float>&, const BlockOptions&, EigenPairs<float>&, const Progress&);
 template BlockReport ImproveManyEigenPairs(
-  const SpectralProblem&, const BlockOptions&, EigenPairs<double>&, const Progress&);
+  const SpectralProblem<double>&, const BlockOptions&, EigenPairs<double>&, const Progress&);
 
 } // namespace gridfem

@@ -18,7 +18,7 @@ Id HeldColumns(Index wanted);
 /// As ImproveEigenPairs, for any number of wanted pairs; one window where they are few. The
 /// iterations reported are those of the slowest window.
 template<class Real>
-BlockReport ImproveManyEigenPairs(const SpectralProblem& problem, const BlockOptions& options,
+BlockReport ImproveManyEigenPairs(const SpectralProblem<Real>& problem, const BlockOptions& options,
   EigenPairs<Real>& pairs, const Progress& progress = {});
 
 } // namespace gridfem
