@@ -120,7 +120,7 @@ bool BlockIteration<Real>::Correct(const Progress& progress)
   const bool isFirst = randomLoad_.cols() > 0;
   corrections_.Show(columns);
   const ResidualMeasures measures =
-    CorrectResiduals<Real>(problem_, this->CurrentPreconditioner(), pairs_, locking_.AtWork(),
+    CorrectResiduals<Real>(problem_, this->CurrentPreconditioner(), pairs_, locking_,
       corrections_.View(), randomLoad_, directions_.View().rightCols(randomLoad_.cols()));
   randomLoad_.resize(0, 0);
   if (isFirst)

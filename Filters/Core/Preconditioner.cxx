@@ -73,7 +73,8 @@ template Eigen::VectorXd SquaredNorms(const RowSource<double>&, int);
 template<class Real>
 Preconditioner<Real> CyclePreconditioner(const Multigrid& multigrid, std::size_t level)
 {
-  return [&multigrid, level](const RowSource<Real>& r, const RowSink<Real>& z)
+  return [&multigrid, level](
+           const RowSource<Real>& r, const CorrectionTest& isWanted, const RowSink<Real>& z)
   {
     const int threads = multigrid.Options().threads;
     MultiVector block = AllRows(r, threads); // corrections take the place of residuals
@@ -90,7 +91,10 @@ Preconditioner<Real> CyclePreconditioner(const Multigrid& multigrid, std::size_t
         block.middleCols(begin, end - begin) = correction;
       },
       PanelWidth);
-    HandOver(block, z, threads);
+    if (isWanted(measures))
+    {
+      HandOver(block, z, threads);
+    }
     return measures;
   };
 }

@@ -43,11 +43,15 @@ struct ResidualMeasures
   Eigen::VectorXd norm;   // rᵀr
 };
 
-/// Hands over z = B r, B symmetric positive semi-definite; r has at most PreconditionedColumns
-/// columns. Safe to call from several threads; same bits for any number of them.
+/// Whether corrections are wanted, once the measures are known: that is half of the work.
+using CorrectionTest = std::function<bool(const ResidualMeasures&)>;
+
+/// Hands over z = B r where it is wanted, B symmetric positive semi-definite; r has at most
+/// PreconditionedColumns columns. Safe to call from several threads; same bits for any number of
+/// them.
 template<class Real>
-using Preconditioner =
-  std::function<ResidualMeasures(const RowSource<Real>& r, const RowSink<Real>& z)>;
+using Preconditioner = std::function<ResidualMeasures(
+  const RowSource<Real>& r, const CorrectionTest& isWanted, const RowSink<Real>& z)>;
 
 /// One cycle from `level` on, from zero, in double precision. The hierarchy has to outlive it.
 template<class Real>

@@ -39,8 +39,9 @@ EigenResidual<Real> ResidualOf(const SpectralProblem<Real>& problem, const Eigen
 template<class Real>
 ResidualMeasures CorrectResiduals(const SpectralProblem<Real>& problem,
   const Preconditioner<Real>& precondition, const EigenPairs<Real>& pairs,
-  const std::vector<Index>& columns, Block<Real> W, const MultiVector& load, Block<Real> P)
+  const SoftLocking& locking, Block<Real> W, const MultiVector& load, Block<Real> P)
 {
+  const std::vector<Index>& columns = locking.AtWork();
   const Id residuals = static_cast<Id>(columns.size());
   ResidualMeasures all{ Eigen::VectorXd(residuals), Eigen::VectorXd(residuals) };
   ForEachPanel(residuals + load.cols(), problem.threads,
@@ -57,7 +58,17 @@ ResidualMeasures CorrectResiduals(const SpectralProblem<Real>& problem,
           residual.Rows(begin, end, part.leftCols(ofW));
           part.rightCols(ofP) = load.block(begin, firstP, end - begin, ofP).template cast<Real>();
         } };
-      const ResidualMeasures measures = precondition(source,
+      const auto isWanted = [&](const ResidualMeasures& measures)
+      {
+        bool isSmall = true;
+        for (Id j = 0; j < ofW; ++j)
+        {
+          isSmall =
+            isSmall && locking.IsSmall(measures.energy[j], pairs.values[columns[firstW + j]]);
+        }
+        return !isSmall || ofP > 0;
+      };
+      const ResidualMeasures measures = precondition(source, isWanted,
         [&](Id begin, Id end, const ConstBlock<Real>& part)
         {
           W.block(begin, firstW, end - begin, ofW) = part.leftCols(ofW);
@@ -86,10 +97,10 @@ Eigen::VectorXd SquaredResiduals(const SpectralProblem<Real>& problem,
 }
 
 template ResidualMeasures CorrectResiduals(const SpectralProblem<float>&,
-  const Preconditioner<float>&, const EigenPairs<float>&, const std::vector<Index>&, Block<float>,
+  const Preconditioner<float>&, const EigenPairs<float>&, const SoftLocking&, Block<float>,
   const MultiVector&, Block<float>);
 template ResidualMeasures CorrectResiduals(const SpectralProblem<double>&,
-  const Preconditioner<double>&, const EigenPairs<double>&, const std::vector<Index>&,
+  const Preconditioner<double>&, const EigenPairs<double>&, const SoftLocking&,
   Block<double>, const MultiVector&, Block<double>);
 template Eigen::VectorXd SquaredResiduals(
   const SpectralProblem<float>&, const EigenPairs<float>&, const std::vector<Index>&);

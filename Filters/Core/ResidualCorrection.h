@@ -3,6 +3,7 @@
 #ifndef GridFEM_ResidualCorrection_h
 #define GridFEM_ResidualCorrection_h
 
+#include "SoftLocking.h"
 #include "SpectralProblem.h"
 
 #include <vector>
@@ -10,14 +11,14 @@
 namespace gridfem
 {
 
-/// W = B (L X - M X diag(θ)) for some columns of X, and P = B F for loads F that go with them: a
-/// cycle takes as long for a few columns as for a whole panel. Measures are those of W.
-/// @param columns  of the pairs, ascending; as many as W has
-/// @param load     F; as many columns as P has
+/// W = B (L X - M X diag(θ)) for the columns at work, but for panels that have converged as a whole,
+/// and P = B F for loads F that go with them: a cycle takes as long for a few columns as for a
+/// panel. Measures are those of the columns at work, as many as W has.
+/// @param load  F; as many columns as P has
 template<class Real>
 ResidualMeasures CorrectResiduals(const SpectralProblem<Real>& problem,
   const Preconditioner<Real>& precondition, const EigenPairs<Real>& pairs,
-  const std::vector<Index>& columns, Block<Real> W, const MultiVector& load, Block<Real> P);
+  const SoftLocking& locking, Block<Real> W, const MultiVector& load, Block<Real> P);
 
 /// rᵀr of these columns. A cycle for each would cost far more.
 template<class Real>

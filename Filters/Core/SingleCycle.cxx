@@ -24,12 +24,13 @@ auto PanelBlock(Row* rows, Id count, Id columns)
   return Eigen::Map<Scalars, 0, Eigen::OuterStride<stride>>(rows->data(), count, columns);
 }
 
+/// Returns rᵀr.
 template<class Real>
-void Load(const RowSource<Real>& r, Panel& b, int threads)
+PanelSums Load(const RowSource<Real>& r, Panel& b, int threads)
 {
   b.resize(r.rows);
-  ParallelRanges(
-    r.rows, threads,
+  return ParallelSum(
+    r.rows, threads, PanelSums(PanelSums::Zero()),
     [&](Id begin, Id end)
     {
       const Id count = end - begin;
@@ -47,49 +48,30 @@ void Load(const RowSource<Real>& r, Panel& b, int threads)
         r.fill(begin, end, rows);
         part = rows.template cast<float>();
       }
+      return SumOfRows(begin, end, [&](Id row) -> PanelRow { return b[row] * b[row]; });
     },
     SourceRows);
 }
 
 template<class Real>
-void HandOver(const PanelRow* x, Id begin, Id end, Id columns, const RowSink<Real>& z)
+void HandOver(const PanelRow* x, Id rows, Id columns, const RowSink<Real>& z, int threads)
 {
-  const auto part = PanelBlock(x + begin, end - begin, columns);
-  if constexpr (std::is_same_v<Real, float>)
-  {
-    z(begin, end, part);
-  }
-  else
-  {
-    const Vectors<Real> rows = part.template cast<Real>();
-    z(begin, end, rows);
-  }
-}
-
-/// Hands x over and takes the measures of b and x.
-template<class Real>
-ResidualMeasures Store(
-  const Panel& b, const PanelRow* x, Id columns, const RowSink<Real>& z, int threads)
-{
-  using Sums = Eigen::Array<double, PreconditionedColumns, 2>;
-  const Sums sums = ParallelSum(static_cast<Id>(b.size()), threads, Sums(Sums::Zero()),
-    [&](Id first, Id last)
+  ParallelRanges(
+    rows, threads,
+    [&](Id begin, Id end)
     {
-      Sums sum = Sums::Zero();
-      for (Id begin = first; begin < last; begin += SourceRows)
+      const auto part = PanelBlock(x + begin, end - begin, columns);
+      if constexpr (std::is_same_v<Real, float>)
       {
-        const Id end = std::min(last, begin + SourceRows);
-        for (Id row = begin; row < end; ++row)
-        {
-          const auto r = b[row].cast<double>();
-          sum.col(0) += r * x[row].cast<double>();
-          sum.col(1) += r * r;
-        }
-        HandOver(x, begin, end, columns, z);
+        z(begin, end, part);
       }
-      return sum;
-    });
-  return { sums.col(0).head(columns), sums.col(1).head(columns) };
+      else
+      {
+        const Vectors<Real> wide = part.template cast<Real>();
+        z(begin, end, wide);
+      }
+    },
+    SourceRows);
 }
 
 void SetZero(Id rows, PanelRow* x, int threads)
@@ -127,8 +109,8 @@ bool SingleCycle::IsReliable() const
 }
 
 template<class Real>
-ResidualMeasures SingleCycle::Apply(
-  std::size_t level, const RowSource<Real>& r, const RowSink<Real>& z) const
+ResidualMeasures SingleCycle::Apply(std::size_t level, const RowSource<Real>& r,
+  const CorrectionTest& isWanted, const RowSink<Real>& z) const
 {
   if (r.columns > PreconditionedColumns)
   {
@@ -138,15 +120,21 @@ ResidualMeasures SingleCycle::Apply(
   auto& [b, work] = *loan;
   b.resize(levels_.size() + 1);
   work.resize(this->WorkRows(level));
-  Load(r, b[level], threads_);
-  this->CycleLevel(level, b, work.data());
-  return Store(b[level], work.data(), r.columns, z, threads_);
+  const PanelSums norm = Load(r, b[level], threads_);
+  const PanelSums energy = this->GoDown(level, b, work.data());
+  const ResidualMeasures measures{ energy.head(r.columns), norm.head(r.columns) };
+  if (isWanted(measures))
+  {
+    this->GoUp(level, b, work.data());
+    HandOver(work.data(), r.rows, r.columns, z, threads_);
+  }
+  return measures;
 }
 
 template ResidualMeasures SingleCycle::Apply(
-  std::size_t, const RowSource<float>&, const RowSink<float>&) const;
+  std::size_t, const RowSource<float>&, const CorrectionTest&, const RowSink<float>&) const;
 template ResidualMeasures SingleCycle::Apply(
-  std::size_t, const RowSource<double>&, const RowSink<double>&) const;
+  std::size_t, const RowSource<double>&, const CorrectionTest&, const RowSink<double>&) const;
 
 /// x, and the residual or what the coarser levels need in its place.
 std::size_t SingleCycle::WorkRows(std::size_t level) const
@@ -155,13 +143,15 @@ std::size_t SingleCycle::WorkRows(std::size_t level) const
   return level == levels_.size() ? rows : rows + std::max(rows, this->WorkRows(level + 1));
 }
 
-/// Puts x at the front of `work`.
-void SingleCycle::CycleLevel(std::size_t l, std::vector<Panel>& panels, PanelRow* work) const
+/// First sweeps and the coarsest solution: x of every level behind that of the finer one. Returns
+/// bᵀBb. With S for a sweep, S̄ for one there and one back, and B' for the next coarser level,
+/// B = S̄ + (1 - SᵀA) P B' Pᵀ (1 - A S), so that bᵀBb = xᵀ(b + r) + (Pᵀr)ᵀ B' (Pᵀr) for x = S b and
+/// r = b - A x.
+PanelSums SingleCycle::GoDown(std::size_t l, std::vector<Panel>& panels, PanelRow* work) const
 {
   if (l == levels_.size())
   {
-    this->SolveCoarsest(panels[l], work);
-    return;
+    return this->SolveCoarsest(panels[l], work);
   }
   const SingleLevel& level = levels_[l];
   const PanelRow* const b = panels[l].data();
@@ -170,16 +160,27 @@ void SingleCycle::CycleLevel(std::size_t l, std::vector<Panel>& panels, PanelRow
   SetZero(level.Rows(), x, threads_);
   panels[l + 1].resize(level.CoarseRows());
   level.Sweep(b, x, SweepDirection::Forward, threads_);
-  level.Residual(b, x, residual, threads_);
-  level.Restrict(residual, panels[l + 1].data(), threads_);
-  PanelRow* const correction = residual; // which is not needed any more
-  this->CycleLevel(l + 1, panels, correction);
-  level.AddProlonged(correction, x, threads_);
-  level.Sweep(b, x, SweepDirection::Backward, threads_);
+  const PanelSums energy = level.Residual(b, x, residual, threads_);
+  level.Restrict(residual, panels[l + 1].data(), threads_); // after which it is not needed any more
+  return energy + this->GoDown(l + 1, panels, residual);
 }
 
-/// Few unknowns: in double.
-void SingleCycle::SolveCoarsest(const Panel& panel, PanelRow* x) const
+/// Corrections and last sweeps. x of this level is at the front of `work`.
+void SingleCycle::GoUp(std::size_t l, const std::vector<Panel>& panels, PanelRow* work) const
+{
+  if (l == levels_.size())
+  {
+    return;
+  }
+  const SingleLevel& level = levels_[l];
+  PanelRow* const correction = work + level.Rows();
+  this->GoUp(l + 1, panels, correction);
+  level.AddProlonged(correction, work, threads_);
+  level.Sweep(panels[l].data(), work, SweepDirection::Backward, threads_);
+}
+
+/// Few unknowns: in double. Returns bᵀx.
+PanelSums SingleCycle::SolveCoarsest(const Panel& panel, PanelRow* x) const
 {
   const Id rows = static_cast<Id>(panel.size());
   MultiVector b(rows, PreconditionedColumns);
@@ -193,6 +194,7 @@ void SingleCycle::SolveCoarsest(const Panel& panel, PanelRow* x) const
   {
     x[row] = solution.row(row).transpose().array().cast<float>();
   }
+  return b.cwiseProduct(solution).colwise().sum().transpose();
 }
 
 std::size_t SingleCycle::Memory() const

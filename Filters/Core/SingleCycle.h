@@ -22,12 +22,14 @@ public:
   /// almost parallel to a plane of the grid, where differences of functions nearly vanish.
   bool IsReliable() const;
 
-  /// z = one cycle from `level` on, from zero, on every column of r; see Preconditioner. Keeps its
+  /// z = one cycle from `level` on, from zero, on every column of r; see Preconditioner. Half of a
+  /// cycle, down to the coarsest level, makes rᵀBr known. Keeps its
   /// vectors, as many as are used at the same time, for the next call. Throws InvalidInput when
   /// there are too many columns.
   template<class Real>
   ResidualMeasures Apply(
-    std::size_t level, const RowSource<Real>& r, const RowSink<Real>& z) const;
+    std::size_t level, const RowSource<Real>& r, const CorrectionTest& isWanted,
+    const RowSink<Real>& z) const;
 
   std::size_t Memory() const;
 
@@ -39,8 +41,9 @@ private:
   };
 
   std::size_t WorkRows(std::size_t level) const;
-  void CycleLevel(std::size_t level, std::vector<Panel>& b, PanelRow* work) const;
-  void SolveCoarsest(const Panel& b, PanelRow* x) const;
+  PanelSums GoDown(std::size_t level, std::vector<Panel>& b, PanelRow* work) const;
+  void GoUp(std::size_t level, const std::vector<Panel>& b, PanelRow* work) const;
+  PanelSums SolveCoarsest(const Panel& b, PanelRow* x) const;
 
   std::vector<SingleLevel> levels_; // all but the coarsest
   std::vector<std::size_t> rows_;   // of all

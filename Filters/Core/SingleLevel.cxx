@@ -172,10 +172,22 @@ void SingleLevel::Sweep(const PanelRow* b, PanelRow* x, SweepDirection direction
     });
 }
 
-void SingleLevel::Residual(const PanelRow* b, const PanelRow* x, PanelRow* r, int threads) const
+PanelSums SingleLevel::Residual(
+  const PanelRow* b, const PanelRow* x, PanelRow* r, int threads) const
 {
-  ForEachRow(A_.rows, PreconditionedColumns * Id(A_.value.size()), threads,
-    [&](Index row) { r[row] = b[row] - RowProduct(A_, row, x); });
+  return ParallelSum(
+    Id(A_.rows), ThreadsFor(PreconditionedColumns * Id(A_.value.size()), threads),
+    PanelSums(PanelSums::Zero()),
+    [&](Id begin, Id end)
+    {
+      return SumOfRows(begin, end,
+        [&](Id row) -> PanelRow
+        {
+          r[row] = b[row] - RowProduct(A_, static_cast<Index>(row), x);
+          return x[row] * (b[row] + r[row]);
+        });
+    },
+    RangeSize);
 }
 
 void SingleLevel::Restrict(const PanelRow* r, PanelRow* coarse, int threads) const

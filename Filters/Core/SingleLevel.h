@@ -18,6 +18,25 @@ namespace gridfem
 /// columns are not much faster.
 using PanelRow = Eigen::Array<float, PreconditionedColumns, 1>;
 using Panel = Array<PanelRow>;
+using PanelSums = Eigen::Array<double, PreconditionedColumns, 1>;
+
+/// Adds up products(row), in single precision a few rows at a time.
+template<class Products>
+PanelSums SumOfRows(Id begin, Id end, Products&& products)
+{
+  constexpr Id rowsAtOnce = 64;
+  PanelSums sum = PanelSums::Zero();
+  for (Id first = begin; first < end; first += rowsAtOnce)
+  {
+    PanelRow part = PanelRow::Zero();
+    for (Id row = first; row < std::min(end, first + rowsAtOnce); ++row)
+    {
+      part += products(row);
+    }
+    sum += part.cast<double>();
+  }
+  return sum;
+}
 
 /// A sparse matrix in single precision; shares its pattern with the one it comes from.
 struct SingleMatrix
@@ -45,8 +64,8 @@ public:
   /// As Smoother::Sweep: improves x for A x = b. Here as below panels have a row per unknown.
   void Sweep(const PanelRow* b, PanelRow* x, SweepDirection direction, int threads) const;
 
-  /// r = b - A x
-  void Residual(const PanelRow* b, const PanelRow* x, PanelRow* r, int threads) const;
+  /// r = b - A x; returns xᵀ(b + r), which for the first sweep from zero is its share of bᵀBb.
+  PanelSums Residual(const PanelRow* b, const PanelRow* x, PanelRow* r, int threads) const;
 
   /// coarse = Pᵀ r
   void Restrict(const PanelRow* r, PanelRow* coarse, int threads) const;

@@ -47,7 +47,7 @@ bool SoftLocking::Update(const ResidualMeasures& measures, const Eigen::VectorXd
   {
     const Index column = atWork_[j];
     const double value = values[column];
-    measure_[column] = std::max(0.0, measures.energy[j]) / std::max(value, shift_);
+    measure_[column] = this->Relative(measures.energy[j], value);
     const bool converged = this->IsConverged(column);
     settledAt_[column] = converged ? value : -1.0;
     settledNorm_[column] = measures.norm[j];

@@ -5,6 +5,7 @@
 
 #include "Preconditioner.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace gridfem
@@ -28,6 +29,9 @@ public:
   /// Numbers of the columns that work, ascending.
   const std::vector<Index>& AtWork() const { return atWork_; }
 
+  /// Whether a column with this value and rᵀBr has converged.
+  bool IsSmall(double energy, double value) const { return Relative(energy, value) <= tolerance_; }
+
   /// Takes the measures of the columns at work, all of which have a value. True when all wanted
   /// ones of them have converged.
   bool Update(const ResidualMeasures& measures, const Eigen::VectorXd& values);
@@ -43,6 +47,10 @@ public:
   double Measure(Index column) const { return measure_[column]; }
 
 private:
+  double Relative(double energy, double value) const
+  {
+    return std::max(0.0, energy) / std::max(value, shift_);
+  }
   template<class Condition>
   std::vector<Index> KeepWhere(Condition&& condition);
 
