@@ -204,6 +204,10 @@ BlockReport BlockIteration<Real>::Run(const Progress& progress)
     }
     this->NextVectors(progress);
   }
+  if (!options_.measureLast)
+  {
+    rayleighRitz_.Renew();
+  }
   this->Report();
   progress.Check(1.0);
   return report_;

@@ -20,7 +20,8 @@ struct BlockOptions
   double tolerance = 1e-8; // on rᵀBr / θ
   int maximumIterations = 100;
   int minimumIterations = 0; // 1: the random directions have their say even if all has converged
-  bool measureLast = true;   // false: residuals of the last step allowed are not asked for
+  /// False: pairs for a finer level. They are renewed, and the last step allowed is not measured.
+  bool measureLast = true;
 };
 
 struct BlockReport

@@ -30,7 +30,7 @@ void BlockRayleighRitz<Real>::Step(Index wanted, const std::vector<Index>& withD
 {
   const ConstBlock<Real> X = pairs_.vectors.View();
   const ConstBlock<Real> P = directions_.View();
-  if (steps_ == 0) // pairs of a coarser level are pairs of its space on this one, too
+  if (pairs_.isRenewed) // on this level or a coarser one, whose products are the same
   {
     stiffness_ = pairs_.values.asDiagonal();
     mass_ = Eigen::MatrixXd::Identity(X.cols(), X.cols());
@@ -45,12 +45,26 @@ void BlockRayleighRitz<Real>::Step(Index wanted, const std::vector<Index>& withD
   const RitzPairs ritz =
     SolvePencil(stiffness_, mass_, problem_.shift, wanted, DependentPivot<Real>);
   this->NextVectors(ritz, withDirections);
+  pairs_.isRenewed = false;
   ++steps_;
+}
+
+template<class Real>
+void BlockRayleighRitz<Real>::Renew()
+{
+  directions_.Show(0);
+  corrections_.Show(0);
+  this->ProjectPart({}, pairs_.vectors.View());
+  const Index count = static_cast<Index>(pairs_.values.size());
+  this->NextVectors(
+    SolvePencil(stiffness_, mass_, problem_.shift, count, DependentPivot<Real>), {});
+  pairs_.isRenewed = true;
 }
 
 /// Extends stiffness and mass on the basis `before` by one more part of it.
 template<class Real>
-void BlockRayleighRitz<Real>::ProjectPart(const BasisParts<Real>& before, const ConstBlock<Real>& part)
+void BlockRayleighRitz<Real>::ProjectPart(
+  const BasisParts<Real>& before, const ConstBlock<Real>& part)
 {
   BasisParts<Real> basis = before;
   basis.push_back(part);

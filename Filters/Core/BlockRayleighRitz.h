@@ -17,13 +17,17 @@ template<class Real>
 class BlockRayleighRitz
 {
 public:
-  /// @param pairs  X; orthonormal Ritz pairs, or no vectors
+  /// @param pairs  X; Ritz pairs, or none
   BlockRayleighRitz(const SpectralProblem<Real>& problem, EigenPairs<Real>& pairs,
     BlockBuffer<Real>& directions, BlockBuffer<Real>& corrections);
 
-  /// The lowest `wanted` pairs of the span become X, their shares of P and W become P; W is used up.
+  /// The lowest `wanted` pairs of the span become X, their shares of P and W become P; W is used
+  /// up.
   /// @param withDirections  columns of X that get a direction, ascending
   void Step(Index wanted, const std::vector<Index>& withDirections);
+
+  /// Rayleigh-Ritz on X alone, of which it computes all products; P and W are lost.
+  void Renew();
 
 private:
   using SmallMatrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;

@@ -40,7 +40,7 @@ EigenPairs<Real> SolveDense(const SpectralProblem<Real>& problem, Index count)
   Eigen::MatrixXd mass = ToDense(problem.mass);
   problem.constants->Deflate(mass);
   const RitzPairs ritz = SolvePencil(ToDense(problem.stiffness), mass, problem.shift, count);
-  EigenPairs<Real> pairs{ ritz.values, {} };
+  EigenPairs<Real> pairs{ ritz.values, {}, true };
   pairs.vectors.Reserve(ritz.coefficients.rows(), count);
   pairs.vectors.Show(ritz.coefficients.cols());
   CopyBlock(ritz.coefficients, pairs.vectors.View(), problem.threads);

@@ -38,7 +38,8 @@ Index ListLength(const Spectrum& grid, const SpectrumOptions& options)
 }
 
 /// Without a preconditioner, which is not needed where the list ends among the constants.
-SpectralProblem<double> HatProblem(const HatHierarchy& hats, const Constants& constants, int threads)
+SpectralProblem<double> HatProblem(
+  const HatHierarchy& hats, const Constants& constants, int threads)
 {
   SpectralProblem<double> problem;
   problem.stiffness = hats.matrices.stiffness;
@@ -61,8 +62,8 @@ double LowestValue(const Spectrum& grid)
 
 /// The wanted pairs, at most `all`; more until the multiplet at their end is whole, if that is
 /// asked for.
-BlockReport FindPairs(const SpectralProblem<double>& problem, const SpectrumOptions& options, Index wanted,
-  Index all, EigenPairs<double>& pairs, const Progress& progress)
+BlockReport FindPairs(const SpectralProblem<double>& problem, const SpectrumOptions& options,
+  Index wanted, Index all, EigenPairs<double>& pairs, const Progress& progress)
 {
   const Index zeros = problem.constants->Count();
   BlockReport report;

@@ -30,8 +30,8 @@ EigenResidual<Real> ResidualOf(const SpectralProblem<Real>& problem, const Eigen
   const std::vector<Index>& columns, Id first, Id count)
 {
   const auto begin = columns.begin() + first;
-  return EigenResidual<Real>(problem.stiffness, problem.mass, pairs.vectors.View(), pairs.values,
-    { begin, begin + count });
+  return EigenResidual<Real>(
+    problem.stiffness, problem.mass, pairs.vectors.View(), pairs.values, { begin, begin + count });
 }
 
 } // namespace
@@ -100,8 +100,8 @@ template ResidualMeasures CorrectResiduals(const SpectralProblem<float>&,
   const Preconditioner<float>&, const EigenPairs<float>&, const SoftLocking&, Block<float>,
   const MultiVector&, Block<float>);
 template ResidualMeasures CorrectResiduals(const SpectralProblem<double>&,
-  const Preconditioner<double>&, const EigenPairs<double>&, const SoftLocking&,
-  Block<double>, const MultiVector&, Block<double>);
+  const Preconditioner<double>&, const EigenPairs<double>&, const SoftLocking&, Block<double>,
+  const MultiVector&, Block<double>);
 template Eigen::VectorXd SquaredResiduals(
   const SpectralProblem<float>&, const EigenPairs<float>&, const std::vector<Index>&);
 template Eigen::VectorXd SquaredResiduals(

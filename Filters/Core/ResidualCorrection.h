@@ -11,9 +11,9 @@
 namespace gridfem
 {
 
-/// W = B (L X - M X diag(θ)) for the columns at work, but for panels that have converged as a whole,
-/// and P = B F for loads F that go with them: a cycle takes as long for a few columns as for a
-/// panel. Measures are those of the columns at work, as many as W has.
+/// W = B (L X - M X diag(θ)) for the columns at work, but for panels that have converged as a
+/// whole, and P = B F for loads F that go with them: a cycle takes as long for a few columns as for
+/// a panel. Measures are those of the columns at work, as many as W has.
 /// @param load  F; as many columns as P has
 template<class Real>
 ResidualMeasures CorrectResiduals(const SpectralProblem<Real>& problem,

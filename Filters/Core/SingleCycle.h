@@ -27,9 +27,8 @@ public:
   /// vectors, as many as are used at the same time, for the next call. Throws InvalidInput when
   /// there are too many columns.
   template<class Real>
-  ResidualMeasures Apply(
-    std::size_t level, const RowSource<Real>& r, const CorrectionTest& isWanted,
-    const RowSink<Real>& z) const;
+  ResidualMeasures Apply(std::size_t level, const RowSource<Real>& r,
+    const CorrectionTest& isWanted, const RowSink<Real>& z) const;
 
   std::size_t Memory() const;
 

@@ -32,6 +32,7 @@ struct EigenPairs
 {
   Eigen::VectorXd values;    // ascending
   BlockBuffer<Real> vectors; // columns orthonormal in the mass matrix, up to rounding of Real
+  bool isRenewed = false; // by Rayleigh-Ritz on these vectors: without the rounding of many steps
 };
 
 } // namespace gridfem

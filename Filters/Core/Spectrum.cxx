@@ -109,8 +109,8 @@ double LowestValue(const SparseMatrix& mass, double side)
 }
 
 /// The list ends among the constants.
-Spectrum OnlyConstants(
-  const Constants& zeroModes, const SpectralProblem<double>& problem, const SpectrumOptions& options)
+Spectrum OnlyConstants(const Constants& zeroModes, const SpectralProblem<double>& problem,
+  const SpectrumOptions& options)
 {
   const bool cut = zeroModes.Count() > options.numberOfModes;
   const Index count = options.completeMultiplets ? zeroModes.Count() : options.numberOfModes;
@@ -135,9 +135,10 @@ public:
 
 private:
   BlockOptions Options(std::size_t level, Index wanted) const;
-  SpectralProblem<Real> Problem(std::size_t level, const Constants& constants, SparseMatrix mass) const;
-  BlockReport ImproveLevel(
-    std::size_t level, std::size_t start, const SpectralProblem<Real>& problem, const Progress& progress);
+  SpectralProblem<Real> Problem(
+    std::size_t level, const Constants& constants, SparseMatrix mass) const;
+  BlockReport ImproveLevel(std::size_t level, std::size_t start,
+    const SpectralProblem<Real>& problem, const Progress& progress);
   void Prolong(std::size_t level, const Constants& constants, BlockOptions& block);
   BlockReport FinishList(
     const SpectralProblem<Real>& problem, BlockOptions block, const Progress& progress);
@@ -269,8 +270,8 @@ bool NestedIteration<Real>::EndsInside(Id count, double error) const
 
 /// Pairs of a level from those of the next coarser one, or from nothing on level `start`.
 template<class Real>
-BlockReport NestedIteration<Real>::ImproveLevel(
-  std::size_t level, std::size_t start, const SpectralProblem<Real>& problem, const Progress& progress)
+BlockReport NestedIteration<Real>::ImproveLevel(std::size_t level, std::size_t start,
+  const SpectralProblem<Real>& problem, const Progress& progress)
 {
   BlockOptions block = this->Options(level, options_.numberOfModes - zeros_);
   if ((level == start || level == 0) &&

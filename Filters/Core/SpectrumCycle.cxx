@@ -43,9 +43,8 @@ Preconditioner<Real> SpectrumCycle::From(std::size_t level) const
   {
     return CyclePreconditioner<Real>(*double_, level);
   }
-  return [this, level](
-           const RowSource<Real>& r, const CorrectionTest& isWanted, const RowSink<Real>& z)
-  { return single_->Apply(level, r, isWanted, z); };
+  return [this, level](const RowSource<Real>& r, const CorrectionTest& isWanted,
+           const RowSink<Real>& z) { return single_->Apply(level, r, isWanted, z); };
 }
 
 template<class Real>

@@ -160,6 +160,7 @@ BlockReport WindowIteration<Real>::Collect()
   const Id guards = guards_.Columns();
   pairs_.values.resize(found + guards);
   pairs_.values.tail(guards) = window_.values.tail(guards);
+  pairs_.isRenewed = false;
   for (Id j = 0; j < found; ++j)
   {
     pairs_.values[j] = values_[order[j]];

@@ -42,21 +42,26 @@ MultiVector RandomBlock(Id rows, Id columns)
 }
 
 /// The preconditioner on a block that is stored.
-ResidualMeasures Apply(const Preconditioner& precondition, const MultiVector& r, MultiVector& z)
+template<class Real>
+ResidualMeasures Apply(
+  const Preconditioner<Real>& precondition, const Vectors<Real>& r, Vectors<Real>& z)
 {
   z.resize(r.rows(), r.cols());
-  const RowSource source{ r.rows(), r.cols(), [&r](Id begin, Id end, MultiVector& part) {
-                           part.topRows(end - begin) = r.middleRows(begin, end - begin);
-                         } };
-  return precondition(source, [&z](Id begin, Id end, const MultiVector& part)
-    { z.middleRows(begin, end - begin) = part.topRows(end - begin); });
+  const RowSource<Real> source{ r.rows(), r.cols(),
+    [&r](Id begin, Id end, Block<Real> part) { part = r.middleRows(begin, end - begin); } };
+  return precondition(
+    source, [](const ResidualMeasures&) { return true; },
+    [&z](Id begin, Id end, const ConstBlock<Real>& part)
+    { z.middleRows(begin, end - begin) = part; });
 }
 
+template<class Real>
 ResidualMeasures Apply(
-  const SingleCycle& cycle, std::size_t level, const MultiVector& r, MultiVector& z)
+  const SingleCycle& cycle, std::size_t level, const Vectors<Real>& r, Vectors<Real>& z)
 {
-  return Apply([&](const RowSource& source, const RowSink& sink)
-    { return cycle.Apply(level, source, sink); },
+  return Apply<Real>(
+    [&](const RowSource<Real>& source, const CorrectionTest& isWanted, const RowSink<Real>& sink)
+    { return cycle.Apply(level, source, isWanted, sink); },
     r, z);
 }
 
@@ -85,7 +90,8 @@ TEST(SingleCycle, IsTheDoubleOneUpToSinglePrecision)
       MultiVector z;
       MultiVector reference;
       const ResidualMeasures mine = Apply(single, level, r, z);
-      const ResidualMeasures exact = Apply(CyclePreconditioner(multigrid, level), r, reference);
+      const ResidualMeasures exact =
+        Apply<double>(CyclePreconditioner<double>(multigrid, level), r, reference);
       // Patches have pivots down to 1e-5, whose root times 6e-8 is 2e-5, and corrections add up.
       EXPECT_LT((z - reference).norm(), 1e-3 * reference.norm());
       EXPECT_LT((mine.energy - exact.energy).norm(), 1e-4 * exact.energy.norm());
@@ -106,8 +112,47 @@ TEST(SingleCycle, ColumnsKnowNothingOfEachOtherNorOfThreads)
   const ResidualMeasures sameMeasures = Apply(three, 0, r, again);
   EXPECT_TRUE(z == again);
   EXPECT_TRUE(measures.energy == sameMeasures.energy);
-  Apply(one, 0, r.rightCols(20), again);
+  Apply<double>(one, 0, r.rightCols(20), again);
   EXPECT_TRUE(z.rightCols(20) == again);
+}
+
+TEST(SingleCycle, IsTheSameForBlocksInSinglePrecision)
+{
+  const Discretisation on = Discretise(Torus(64, 32, 1.0, 0.4), 5);
+  const SingleCycle cycle = MakeSingle(on);
+  const Vectors<float> r = RandomBlock(on.space.Finest().numberOfFunctions, 21).cast<float>();
+  Vectors<float> z;
+  const ResidualMeasures measures = Apply(cycle, 0, r, z);
+  MultiVector wide;
+  const ResidualMeasures wideMeasures = Apply<double>(cycle, 0, r.cast<double>(), wide);
+  EXPECT_TRUE(z.cast<double>() == wide);
+  EXPECT_TRUE(measures.energy == wideMeasures.energy);
+  EXPECT_TRUE(measures.norm == wideMeasures.norm);
+}
+
+TEST(SingleCycle, KeepsCorrectionsThatAreNotWanted)
+{
+  const Discretisation on = Discretise(Torus(64, 32, 1.0, 0.4), 5);
+  const SingleCycle single = MakeSingle(on);
+  const Multigrid multigrid = MakeDouble(on);
+  const MultiVector r = RandomBlock(on.space.Finest().numberOfFunctions, 5);
+  const RowSource<double> source{ r.rows(), r.cols(),
+    [&r](Id begin, Id end, Block<double> part) { part = r.middleRows(begin, end - begin); } };
+  int handedOver = 0;
+  ResidualMeasures seen;
+  const CorrectionTest isWanted = [&](const ResidualMeasures& measures)
+  {
+    seen = measures;
+    return false;
+  };
+  const RowSink<double> sink = [&](Id, Id, const ConstBlock<double>&) { ++handedOver; };
+  MultiVector z;
+  const ResidualMeasures whole = Apply(single, 0, r, z);
+  EXPECT_TRUE(single.Apply(0, source, isWanted, sink).energy == whole.energy);
+  EXPECT_TRUE(seen.energy == whole.energy);
+  EXPECT_TRUE(seen.norm == whole.norm);
+  CyclePreconditioner<double>(multigrid, 0)(source, isWanted, sink);
+  EXPECT_EQ(handedOver, 0);
 }
 
 TEST(SingleCycle, RefusesMoreColumnsThanItTakes)
@@ -167,13 +212,14 @@ TEST(BlockIteration, FallsBackToABetterPreconditionerWhenItStagnates)
 {
   const Discretisation on = Discretise(Torus(64, 32, 1.0, 0.4), 5);
   const Multigrid multigrid = MakeDouble(on);
-  SpectralProblem problem;
+  SpectralProblem<double> problem;
   problem.stiffness = StiffnessMatrix(on.space, on.system);
   problem.mass = MassMatrix(on.space, on.system);
   const Constants constants(problem.mass, on.space.component, on.space.numberOfComponents, 0);
   problem.shift = Shift;
   problem.constants = &constants;
-  problem.precondition = [](const RowSource& source, const RowSink& sink)
+  problem.precondition =
+    [](const RowSource<double>& source, const CorrectionTest&, const RowSink<double>& sink)
   {
     MultiVector r(source.rows, source.columns);
     source.fill(0, source.rows, r);
@@ -196,7 +242,7 @@ TEST(BlockIteration, FallsBackToABetterPreconditionerWhenItStagnates)
   problem.fallback = [&]
   {
     ++made;
-    return CyclePreconditioner(multigrid, 0);
+    return CyclePreconditioner<double>(multigrid, 0);
   };
   const BlockReport report = solve();
   EXPECT_EQ(report.numberOfConverged, 8);

@@ -24,7 +24,8 @@ CORE_LAYERS = {
     "algebra": "SparseMatrix RowKernels PairedProduct PivotedCholesky BlockSweep Smoother"
                " GaussSeidel PatchFactor PatchSmoother CoarseSolver Multigrid Stagnation"
                " SolverIteration ConjugateGradients PrecisionFallback RayleighRitz"
-               " Constants BlockVectors BasisProducts SoftLocking BlockIteration"
+               " Constants BlockVectors BasisProducts SoftLocking SpectralProblem ResidualCorrection"
+               " BlockRayleighRitz BlockIteration"
                " DenseSpectrum WindowIteration SmootherSequence"
                " Pool Preconditioner SingleLevel SingleCycle"
                " HatOrdering FillRows ColumnAlgebra SliceGaussSeidel PatchCover ComponentMeans",
