@@ -44,9 +44,9 @@ struct BlockWorkspace
 /// than blockSize, or none) until the wanted ones reach the tolerance. Columns that did drop out of
 /// the work until they move again. A few fixed random directions are mixed in, so that no
 /// eigenvector stays hidden. Returns at most blockSize pairs, fewer when fewer exist. Blocks in
-/// single precision halve memory and the time of dense products; residuals are in double, so that
-/// tolerances down to 1e-7 are reached in the same steps. Same bits for any number of threads.
-/// Throws Aborted.
+/// single precision halve memory and the time of dense products; projected matrices are added up in
+/// double, so that tolerances down to 1e-7 are reached in the same steps. Same bits for any number
+/// of threads. Throws Aborted.
 /// @param known  orthonormal in the mass matrix; the pairs found are orthogonal to them
 template<class Real>
 BlockReport ImproveEigenPairs(const SpectralProblem<Real>& problem, const BlockOptions& options,
