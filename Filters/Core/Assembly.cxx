@@ -128,7 +128,7 @@ struct ElementSum
     {
       const Index patch = places.item[k] / FunctionsPerPatch;
       const int* entry = Rows.number[places.item[k] % FunctionsPerPatch];
-      std::array<double, FunctionsPerPatch> part;
+      std::array<double, FunctionsPerPatch> part; // apart from the sums, so that lanes can make it
       for (int j = 0; j < FunctionsPerPatch; ++j)
       {
         const double m = mass ? a * mass[patch][entry[j]] : 0.0;

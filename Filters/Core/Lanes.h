@@ -31,6 +31,14 @@ inline void LoadLanes(const std::array<const double*, LaneCount>& item, int begi
   }
 }
 
+/// The sum over the lanes of what lies in memory: its quarters are loaded one by one, which takes
+/// fewer shuffles than to split a register.
+inline double SumOverLanes(const Lanes& lanes)
+{
+  return ((lanes.segment<2>(0) + lanes.segment<2>(2)) + (lanes.segment<2>(4) + lanes.segment<2>(6)))
+    .sum();
+}
+
 struct LaneVector
 {
   Lanes axis[3];

@@ -159,7 +159,7 @@ ElementMatrix Apply(const std::array<Lanes, Count>& lanes)
   std::array<double, Count> moment;
   for (std::size_t k = 0; k < Count; ++k)
   {
-    moment[k] = lanes[k].sum();
+    moment[k] = SumOverLanes(lanes[k]);
   }
   return EntriesOf<Sums, Terms>(moment.data(), std::make_index_sequence<ElementEntries>());
 }
