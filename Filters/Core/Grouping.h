@@ -6,6 +6,7 @@
 #include "Parallel.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace gridfem
@@ -51,19 +52,29 @@ inline Groups GroupItems(const Index* group, Id items, Id numberOfGroups, int th
       {
         Index* const ofGroup = next.data() + range * numberOfGroups;
         const auto end = static_cast<Index>((range + 1) * items / ranges);
-        for (auto item = static_cast<Index>(range * items / ranges); item < end; ++item)
+        // Neighbours often are of one group: run by run, as each has to wait for the one before.
+        for (auto item = static_cast<Index>(range * items / ranges); item < end;)
         {
-          visit(ofGroup[group[item]], item);
+          const Index first = item;
+          while (++item < end && group[item] == group[first])
+          {
+          }
+          visit(ofGroup[group[first]], first, item);
         }
       });
   };
   ParallelBlocks(ranges, threads,
     [&](Id range)
     { std::fill_n(next.begin() + range * numberOfGroups, numberOfGroups, Index{ 0 }); });
-  forItems([](Index& count, Index) { ++count; });
+  forItems([](Index& count, Index first, Index last) { count += last - first; });
   Groups groups{ Array<Index>(numberOfGroups + 1), Array<Index>(items) };
   ScanGroups(next, ranges, groups.begin);
-  forItems([&groups](Index& place, Index item) { groups.item[place++] = item; });
+  forItems(
+    [&groups](Index& place, Index first, Index last)
+    {
+      std::iota(groups.item.begin() + place, groups.item.begin() + place + (last - first), first);
+      place += last - first;
+    });
   return groups;
 }
 
