@@ -3,6 +3,7 @@
 #include "RayleighRitz.h"
 
 #include <algorithm>
+#include <type_traits>
 
 namespace gridfem
 {
@@ -40,7 +41,9 @@ EigenPairs<Real> SolveDense(const SpectralProblem<Real>& problem, Index count)
   Eigen::MatrixXd mass = ToDense(problem.mass);
   problem.constants->Deflate(mass);
   const RitzPairs ritz = SolvePencil(ToDense(problem.stiffness), mass, problem.shift, count);
-  EigenPairs<Real> pairs{ ritz.values, {}, true };
+  // Coefficients of nearly dependent functions are large: rounded to Real, vectors have other
+  // products.
+  EigenPairs<Real> pairs{ ritz.values, {}, std::is_same_v<Real, double> };
   pairs.vectors.Reserve(ritz.coefficients.rows(), count);
   pairs.vectors.Show(ritz.coefficients.cols());
   CopyBlock(ritz.coefficients, pairs.vectors.View(), problem.threads);

@@ -32,9 +32,9 @@ public:
   MemoryReuse& operator=(const MemoryReuse&) = delete;
 };
 
-/// Puts what is kept for reuse in the place of memory of any origin that has not been touched yet,
-/// as far as there is, and gives at least as much as is missing back to the system. Contents become
-/// undefined.
+/// Puts what is kept for reuse in the place of private memory, of a vector for example, that has
+/// not been touched yet, as far as there is, and gives at least as much as is missing back to the
+/// system. Contents become undefined; the pages do not return to what is kept.
 void AdoptLargeMemory(void* begin, std::size_t bytes) noexcept;
 
 /// Asks for large pages where memory of any origin that has not been touched yet spans some of

@@ -102,6 +102,17 @@ ConstBlock<Real> Span(const ConstBlock<Real>& X, const std::vector<Index>& colum
                          : X.middleCols(columns.front(), columns.back() + 1 - columns.front());
 }
 
+template<class Real>
+std::vector<Index> CheckColumns(
+  const ConstBlock<Real>& X, const Eigen::VectorXd& values, std::vector<Index> columns)
+{
+  if (values.size() != X.cols() || (!columns.empty() && columns.back() >= X.cols()))
+  {
+    throw InvalidInput("a residual needs a value for every column, and wanted columns of these");
+  }
+  return columns;
+}
+
 /// Calls store(row, column, a, b) with the lanes of A X and B X that begin there, in the precision
 /// of Sum.
 template<class Sum, class Real, class Store>
@@ -201,16 +212,13 @@ template void MultiplyBlock<double>(
 template<class Real>
 EigenResidual<Real>::EigenResidual(const SparseMatrix& A, const SparseMatrix& B,
   const ConstBlock<Real>& X, const Eigen::VectorXd& values, std::vector<Index> columns)
-  : A_(A), B_(B), columns_(std::move(columns)), X_(Span(X, columns_)),
+  : A_(A), B_(B), columns_(CheckColumns<Real>(X, values, std::move(columns))),
+    X_(Span(X, columns_)),
     values_(values.segment(columns_.empty() ? 0 : columns_.front(), X_.cols())
               .template cast<Real>()
               .array())
 {
   CheckShapes(A, B, X);
-  if (values.size() != X.cols() || (!columns_.empty() && columns_.back() >= X.cols()))
-  {
-    throw InvalidInput("a residual needs a value for every column, and wanted columns of these");
-  }
 }
 
 template<class Real>

@@ -43,7 +43,8 @@ struct ResidualMeasures
   Eigen::VectorXd norm;   // rᵀr
 };
 
-/// Whether corrections are wanted, once the measures are known: that is half of the work.
+/// Whether corrections are wanted, once the measures of all columns of r are known, which may be
+/// after half of the work. Called once for every r, by the thread that corrects it.
 using CorrectionTest = std::function<bool(const ResidualMeasures&)>;
 
 /// Hands over z = B r where it is wanted, B symmetric positive semi-definite; r has at most

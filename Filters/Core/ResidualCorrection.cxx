@@ -56,7 +56,10 @@ ResidualMeasures CorrectResiduals(const SpectralProblem<Real>& problem,
         [&](Id begin, Id end, Block<Real> part)
         {
           residual.Rows(begin, end, part.leftCols(ofW));
-          part.rightCols(ofP) = load.block(begin, firstP, end - begin, ofP).template cast<Real>();
+          if (ofP > 0) // the load may have no rows else
+          {
+            part.rightCols(ofP) = load.block(begin, firstP, end - begin, ofP).template cast<Real>();
+          }
         } };
       const auto isWanted = [&](const ResidualMeasures& measures)
       {

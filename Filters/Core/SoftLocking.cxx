@@ -81,8 +81,8 @@ std::vector<Index> SoftLocking::DropConverged()
 
 void SoftLocking::DropUnmoved(const Eigen::VectorXd& norm)
 {
-  this->KeepWhere(
-    [&](Index place, Index column) { return norm[place] > GrowthFactor * settledNorm_[column]; });
+  this->KeepWhere([&](Index place, Index column)
+    { return !(norm[place] <= GrowthFactor * settledNorm_[column]); });
 }
 
 } // namespace gridfem

@@ -6,6 +6,7 @@
 #include "Preconditioner.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace gridfem
@@ -47,9 +48,11 @@ public:
   double Measure(Index column) const { return measure_[column]; }
 
 private:
+  /// Rounding may make rᵀBr negative: it is as far from zero then. NaN stays, and has not
+  /// converged.
   double Relative(double energy, double value) const
   {
-    return std::max(0.0, energy) / std::max(value, shift_);
+    return std::abs(energy) / std::max(value, shift_);
   }
   template<class Condition>
   std::vector<Index> KeepWhere(Condition&& condition);

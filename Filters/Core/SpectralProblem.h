@@ -32,7 +32,9 @@ struct EigenPairs
 {
   Eigen::VectorXd values;    // ascending
   BlockBuffer<Real> vectors; // columns orthonormal in the mass matrix, up to rounding of Real
-  bool isRenewed = false; // by Rayleigh-Ritz on these vectors: without the rounding of many steps
+  /// By Rayleigh-Ritz on these vectors or on those they are prolonged from: XᵀLX = diag(values) and
+  /// XᵀMX = 1 up to rounding of Real, not up to that of many steps.
+  bool isRenewed = false;
 };
 
 } // namespace gridfem

@@ -150,6 +150,7 @@ private:
   SpectrumCycle& cycle_;
   const double shift_;
   Index zeros_ = 0;
+  Index coarserConstants_ = 0; // of the level that the pairs come from
   EigenPairs<Real> pairs_;
   bool isDense_ = false; // the finest level was solved densely
   bool cutsMultiplet_ = false;
@@ -190,7 +191,9 @@ BlockOptions NestedIteration<Real>::Options(std::size_t level, Index wanted) con
   return block;
 }
 
-/// Brings the pairs to a finer level. The spaces are nested, so they stay Ritz pairs.
+/// Brings the pairs to a finer level. The spaces are nested, so they stay Ritz pairs, but where
+/// components part that were one on the coarser level, of which plain functions know nothing: there
+/// are more constants then to be taken out.
 template<class Real>
 void NestedIteration<Real>::Prolong(
   std::size_t level, const Constants& constants, BlockOptions& block)
@@ -203,6 +206,7 @@ void NestedIteration<Real>::Prolong(
   pairs_.vectors.Show(columns);
   MultiplyBlock<Real>(P, coarse.View(), pairs_.vectors.View(), options_.multigrid.threads);
   constants.Remove<Real>(pairs_.vectors.View());
+  pairs_.isRenewed = pairs_.isRenewed && constants.Count() == coarserConstants_;
   block.minimumIterations = std::min(1, block.maximumIterations);
   if (columns < block.wanted)
   {
@@ -312,6 +316,7 @@ Spectrum NestedIteration<Real>::Run(
     const Constants constants(levelMass, std::move(component), components, threads);
     const SpectralProblem<Real> problem = this->Problem(level, constants, std::move(levelMass));
     this->ImproveLevel(level, start, problem, LevelPart(progress, level));
+    coarserConstants_ = constants.Count();
   }
   const Eigen::VectorXd coarseValues = pairs_.values;
   const SpectralProblem<Real> problem = this->Problem(0, zeroModes, std::move(mass));

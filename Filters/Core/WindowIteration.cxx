@@ -76,6 +76,7 @@ void WindowIteration<Real>::SetStartVectors(Index blockSize)
   const Id guards = guards_.Columns();
   const Id fresh = std::clamp<Id>(blockSize - guards, 0, start_ - used_);
   window_.values.resize(0);
+  window_.isRenewed = false;
   window_.vectors.Reserve(problem_.mass.rows, std::max<Id>(blockSize, guards + fresh));
   window_.vectors.Show(guards + fresh);
   auto window = window_.vectors.View();

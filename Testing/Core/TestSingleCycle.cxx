@@ -130,7 +130,7 @@ TEST(SingleCycle, IsTheSameForBlocksInSinglePrecision)
   EXPECT_TRUE(measures.norm == wideMeasures.norm);
 }
 
-TEST(SingleCycle, KeepsCorrectionsThatAreNotWanted)
+TEST(SingleCycle, HandsOverOnlyWhatIsWanted)
 {
   const Discretisation on = Discretise(Torus(64, 32, 1.0, 0.4), 5);
   const SingleCycle single = MakeSingle(on);

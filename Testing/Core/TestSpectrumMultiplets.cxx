@@ -20,6 +20,31 @@ Spectrum SolveWhole(const Discretisation& on, int modes)
   return ComputeSpectrum(on.space, on.system, options);
 }
 
+TEST(Spectrum, ComponentsThatPartOnTheFinestLevelKeepTheirPairs)
+{
+  // The gap is wide enough for the finest cells. Coarser plain functions reach over it: what is
+  // nearly constant on both boxes there is none of the finer pairs.
+  const TriangleMesh boxes =
+    testing::Join(Box(6, { 0, 0, 0 }, { 1, 1, 0.3 }), Box(6, { 0, 0, 0.41 }, { 1, 1, 0.71 }));
+  const Discretisation plain = DiscretiseExactly(boxes, 5, false);
+  const Discretisation aware = DiscretiseExactly(boxes, 5, true);
+  ASSERT_EQ(plain.space.numberOfComponents, 2);
+  const std::vector<Index> coarse = FunctionComponents(plain.space.levels[2]);
+  ASSERT_EQ(*std::max_element(coarse.begin(), coarse.end()), 0);
+  ASSERT_EQ(plain.space.Finest().numberOfFunctions, aware.space.Finest().numberOfFunctions);
+  for (const double tolerance : { 1e-6, 1e-10 }) // vectors in single, in double precision
+  {
+    const Spectrum spectrum = Solve(plain, 24, tolerance);
+    const Spectrum expected = Solve(aware, 24, tolerance);
+    EXPECT_TRUE(spectrum.converged);
+    CheckPairs(plain, spectrum);
+    for (int j = 2; j < 24; ++j) // the finest spaces are the same
+    {
+      EXPECT_NEAR(spectrum.eigenvalues[j] / expected.eigenvalues[j], 1.0, 2.0 * tolerance);
+    }
+  }
+}
+
 TEST(Spectrum, AxisAlignedCubeHasItsMultiplicities)
 {
   // On grid planes half of the functions of a cell are null on the surface: M is singular.
