@@ -1,7 +1,6 @@
 #include "BlockIteration.h"
 
 #include "BlockRayleighRitz.h"
-#include "PairedProduct.h"
 #include "ResidualCorrection.h"
 #include "SoftLocking.h"
 

@@ -79,6 +79,9 @@ void Gather(const MatrixPointers& matrices, ElementLanes& lanes)
 /// The first `count` lanes.
 void Scatter(const ElementLanes& lanes, int count, ElementMatrix* matrices)
 {
+  std::array<double*, LaneCount> entries{};
+  std::transform(matrices, matrices + count, entries.begin(),
+    [](ElementMatrix& matrix) { return matrix.data(); });
   for (int begin = 0; begin < ElementEntries; begin += LaneCount)
   {
     const int first = std::min(begin, ElementEntries - LaneCount);
@@ -87,11 +90,7 @@ void Scatter(const ElementLanes& lanes, int count, ElementMatrix* matrices)
     {
       block.col(k) = lanes[first + k];
     }
-    block.transposeInPlace();
-    for (int lane = 0; lane < count; ++lane)
-    {
-      Eigen::Map<Lanes>(matrices[lane].data() + first) = block.col(lane);
-    }
+    StoreLanes(block, entries, count, first);
   }
 }
 
@@ -124,8 +123,12 @@ void SumChildren(const Level& fine, const Groups& children, Id begin, int count,
   forChildren(
     [&](int octant, int lane, const double* matrix)
     {
+      if (matrix == ofOctant[octant][lane])
+      {
+        return;
+      }
       // An octant has several patches where pieces of surface are close to each other.
-      for (int entry = 0; matrix != ofOctant[octant][lane] && entry < ElementEntries; ++entry)
+      for (int entry = 0; entry < ElementEntries; ++entry)
       {
         sum[octant][entry][lane] += matrix[entry];
       }

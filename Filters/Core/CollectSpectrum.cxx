@@ -158,17 +158,18 @@ Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs<Rea
   }
 
   const ColumnFacts facts = LookAt(problem, spectrum.vectors);
-  Eigen::RowVectorXd values(zeros + others);
+  Eigen::RowVectorXd values = Eigen::RowVectorXd::Zero(zeros + others);
   Eigen::RowVectorXd factor(zeros + others);
   for (Index j = 0; j < values.size(); ++j)
   {
     const bool isNormal = std::abs(facts.mass[j] - 1.0) < LargestMassError;
-    const double ritz = std::is_same_v<Real, float> ? NaN
-                        : j < zeros                 ? 0.0
-                                                    : pairs.values[j - zeros];
-    // Below 0 there is only rounding, where a sliver has functions that almost vanish.
-    values[j] = j < zeros ? 0.0 : std::max(isNormal ? facts.energy[j] / facts.mass[j] : ritz, 0.0);
     factor[j] = (facts.largest[j] < 0.0 ? -1.0 : 1.0) / std::sqrt(isNormal ? facts.mass[j] : 1.0);
+    if (j >= zeros)
+    {
+      const double ritz = std::is_same_v<Real, float> ? NaN : pairs.values[j - zeros];
+      // Below 0 there is only rounding, where a sliver has functions that almost vanish.
+      values[j] = std::max(isNormal ? facts.energy[j] / facts.mass[j] : ritz, 0.0);
+    }
   }
   std::vector<Index> order(zeros + others);
   std::iota(order.begin(), order.end(), 0);

@@ -31,6 +31,18 @@ inline void LoadLanes(const std::array<const double*, LaneCount>& item, int begi
   }
 }
 
+/// The reverse, for the first `count` items: item[lane][begin + k] = lanes(lane, k). The block is
+/// used up.
+inline void StoreLanes(
+  LaneBlock& lanes, const std::array<double*, LaneCount>& item, int count, int begin)
+{
+  lanes.transposeInPlace();
+  for (int lane = 0; lane < count; ++lane)
+  {
+    Eigen::Map<Lanes>(item[lane] + begin) = lanes.col(lane);
+  }
+}
+
 /// The sum over the lanes of what lies in memory: its quarters are loaded one by one, which takes
 /// fewer shuffles than to split a register.
 inline double SumOverLanes(const Lanes& lanes)

@@ -1,6 +1,7 @@
 #include "PatchFactor.h"
 
 #include "BlockSweep.h"
+#include "Lanes.h"
 #include "Parallel.h"
 
 #include <algorithm>
@@ -188,8 +189,7 @@ void FactorWithPivots(const PatchMatrix& block, const Patch& patch, const PatchS
   result.hasLargeScales = HasLargeScales(scale, patch.count, factor.smallestPivot);
 }
 
-/// A number of each of some patches.
-using PatchLanes = Eigen::Array<double, PatchesAtOnce, 1>;
+static_assert(PatchesAtOnce == LaneCount && N == LaneCount);
 
 /// Scaled blocks of patches without a missing unknown, and the inverses of their factors.
 class LaneFactors
@@ -224,10 +224,10 @@ public:
     for (int step = 0; step < N; ++step)
     {
       V_[step][step].setOnes();
-      const PatchLanes inverse = 1.0 / S_[step][step];
+      const Lanes inverse = 1.0 / S_[step][step];
       for (int i = step + 1; i < N; ++i)
       {
-        const PatchLanes part = S_[step][i] * inverse;
+        const Lanes part = S_[step][i] * inverse;
         for (int j = i; j < N; ++j)
         {
           S_[i][j] -= part * S_[step][j];
@@ -241,7 +241,7 @@ public:
     }
     for (int i = 0; i < N; ++i)
     {
-      const PatchLanes factor = 1.0 / S_[i][i].sqrt();
+      const Lanes factor = 1.0 / S_[i][i].sqrt();
       for (int j = 0; j <= i; ++j)
       {
         V_[i][j] *= factor;
@@ -261,28 +261,29 @@ public:
     return smallest;
   }
 
-  /// The factors of all patches, scaled and mirrored.
-  void Get(PatchFactor* factors) const
+  /// The factors of the first `count` patches, scaled and mirrored.
+  void Get(int count, PatchFactor* factors) const
   {
     for (int i = 0; i < N; ++i)
     {
-      Eigen::Array<double, PatchesAtOnce, N> row;
+      LaneBlock row;
       for (int j = 0; j < N; ++j)
       {
         row.col(j) = V_[std::max(i, j)][std::min(i, j)] * scale_[std::min(i, j)];
       }
-      row.transposeInPlace();
-      for (int lane = 0; lane < PatchesAtOnce; ++lane)
+      std::array<double*, LaneCount> column{};
+      for (int lane = 0; lane < count; ++lane)
       {
-        factors[lane].V.col(i) = row.col(lane).matrix();
+        column[lane] = factors[lane].V.col(i).data();
       }
+      StoreLanes(row, column, count, 0);
     }
   }
 
 private:
-  PatchLanes S_[N][N]; // upper triangle; in the end the pivots are on the diagonal
-  PatchLanes V_[N][N]; // lower triangle
-  PatchLanes scale_[N];
+  Lanes S_[N][N]; // upper triangle; in the end the pivots are on the diagonal
+  Lanes V_[N][N]; // lower triangle
+  Lanes scale_[N];
 };
 
 /// From this pivot on the order of elimination does not matter.
@@ -326,7 +327,7 @@ void FactorPatches(const BlockSource& source, const std::array<Index, N>* dof, i
     }
   }
   lanes.Factor();
-  lanes.Get(factors);
+  lanes.Get(count, factors);
   for (int k = 0; k < count; ++k)
   {
     PatchFactor& result = factors[k];

@@ -134,8 +134,8 @@ private:
     {
       const MultiVector embedding = testing::GridCoordinates(space);
       SampleMetric metric;
-      for (int step = 0; step < 2;
-           ++step) // a flow touches fresh memory for the old and the new one
+      // In a flow, the first two steps touch fresh memory: for the new metric and for the old one.
+      for (int step = 0; step < 2; ++step)
       {
         metric = MetricOfEmbedding(space, rule, embedding, threads);
       }

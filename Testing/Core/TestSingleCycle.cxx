@@ -207,18 +207,27 @@ TEST(SpectrumCycle, IsDoubleWhereSinglePrecisionWouldNotDo)
   }
 }
 
+/// The finest level, without a preconditioner.
+template<class Real>
+SpectralProblem<Real> ProblemOn(const Discretisation& on, const Constants& constants)
+{
+  SpectralProblem<Real> problem;
+  problem.stiffness = StiffnessMatrix(on.space, on.system);
+  problem.mass = MassMatrix(on.space, on.system);
+  problem.shift = Shift;
+  problem.constants = &constants;
+  return problem;
+}
+
 /// Some functions of this space have hardly any mass: after some steps in single precision,
 /// products of vectors that follow from coefficients are wrong in the second digit.
 TEST(BlockIteration, PairsForAFinerLevelAreRenewed)
 {
   const Discretisation on = Discretise(TrefoilTube(120, 16, 0.12), 4);
   const SingleCycle cycle = MakeSingle(on);
-  SpectralProblem<float> problem;
-  problem.stiffness = StiffnessMatrix(on.space, on.system);
-  problem.mass = MassMatrix(on.space, on.system);
-  const Constants constants(problem.mass, on.space.component, on.space.numberOfComponents, 0);
-  problem.shift = Shift;
-  problem.constants = &constants;
+  const Constants constants(
+    MassMatrix(on.space, on.system), on.space.component, on.space.numberOfComponents, 0);
+  SpectralProblem<float> problem = ProblemOn<float>(on, constants);
   problem.precondition = [&](const RowSource<float>& r, const CorrectionTest& isWanted,
                            const RowSink<float>& z) { return cycle.Apply(0, r, isWanted, z); };
   BlockOptions options;
@@ -246,12 +255,9 @@ TEST(BlockIteration, FallsBackToABetterPreconditionerWhenItStagnates)
 {
   const Discretisation on = Discretise(Torus(64, 32, 1.0, 0.4), 5);
   const Multigrid multigrid = MakeDouble(on);
-  SpectralProblem<double> problem;
-  problem.stiffness = StiffnessMatrix(on.space, on.system);
-  problem.mass = MassMatrix(on.space, on.system);
-  const Constants constants(problem.mass, on.space.component, on.space.numberOfComponents, 0);
-  problem.shift = Shift;
-  problem.constants = &constants;
+  const Constants constants(
+    MassMatrix(on.space, on.system), on.space.component, on.space.numberOfComponents, 0);
+  SpectralProblem<double> problem = ProblemOn<double>(on, constants);
   problem.precondition =
     [](const RowSource<double>& source, const CorrectionTest&, const RowSink<double>& sink)
   {

@@ -20,7 +20,7 @@ SOURCE_SUFFIXES = (".h", ".cxx")
 # solvers, which see matrices and lists of unknowns only, cannot reach a mesh.
 CORE_LAYERS = {
     "foundation": "LargeMemory Array SharedArray Types Errors Progress Parallel UnionFind RadixSort"
-                  " Grouping BlockLists",
+                  " Grouping BlockLists Lanes",
     "algebra": "SparseMatrix RowKernels PairedProduct PivotedCholesky BlockSweep Smoother"
                " GaussSeidel PatchFactor PatchSmoother CoarseSolver Multigrid Stagnation"
                " SolverIteration ConjugateGradients PrecisionFallback RayleighRitz"
@@ -32,7 +32,7 @@ CORE_LAYERS = {
     "grid and clip": "TriangleMesh Field MeshEdges Grid SourceTriangle PieceStore TriangleClipper CutPoints JoinPieces"
                      " Clip Links MemoryEstimate HatFunctions HatMatrices HatLoad",
     "patches and levels": "Level Patches FunctionSpace PatchOrdering",
-    "integrals": "QuadratureRule TrilinearBasis PieceSamples Lanes PatchMoments PatchIntegrals"
+    "integrals": "QuadratureRule TrilinearBasis PieceSamples PatchMoments PatchIntegrals"
                  " ElementMatrices CoarsenElements DenseElement SurfaceMetric DirectionalElements LoadVector"
                  " Evaluation Assembly HatTransfer",
     "hierarchy": "System HiddenFunctions BoxLevel LayeredFunctions HatMultigrid",
