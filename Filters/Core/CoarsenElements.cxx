@@ -1,9 +1,7 @@
 // Galerkin coarsening of element matrices: the functions of a parent in terms of those of its
 // children, for several parents at once, one per SIMD lane. [T (4.6)]
-#include "ElementMatrices.h"
-
+#include "ElementLanes.h"
 #include "Grouping.h"
-#include "Lanes.h"
 
 #include <algorithm>
 
@@ -11,8 +9,6 @@ namespace gridfem
 {
 namespace
 {
-
-using ElementLanes = std::array<Lanes, ElementEntries>;
 
 /// The four entries between two pairs of corners; those of a pair differ along one axis.
 struct PairBlock
@@ -61,36 +57,6 @@ void Join(const PairBlocks& blocks, ElementLanes& lower, const ElementLanes& upp
     lower[e11] = upper[e11] + 0.5 * (upper[e01] + upper[e10]) + middle;
     lower[e01] = across;
     lower[e10] = back;
-  }
-}
-
-/// Matrices of several patches, lane by lane.
-using MatrixPointers = std::array<const double*, LaneCount>;
-
-void Gather(const MatrixPointers& matrices, ElementLanes& lanes)
-{
-  for (int begin = 0; begin < ElementEntries; begin += LaneCount)
-  {
-    const int first = std::min(begin, ElementEntries - LaneCount);
-    LoadLanes(matrices, first, &lanes[first]);
-  }
-}
-
-/// The first `count` lanes.
-void Scatter(const ElementLanes& lanes, int count, ElementMatrix* matrices)
-{
-  std::array<double*, LaneCount> entries{};
-  std::transform(matrices, matrices + count, entries.begin(),
-    [](ElementMatrix& matrix) { return matrix.data(); });
-  for (int begin = 0; begin < ElementEntries; begin += LaneCount)
-  {
-    const int first = std::min(begin, ElementEntries - LaneCount);
-    LaneBlock block;
-    for (int k = 0; k < LaneCount; ++k)
-    {
-      block.col(k) = lanes[first + k];
-    }
-    StoreLanes(block, entries, count, first);
   }
 }
 
@@ -171,14 +137,16 @@ std::array<OctantWeights, 8> MakeChildWeights()
 template<class Body>
 void ForEachFamily(Id parents, int threads, Body&& body)
 {
-  ParallelRanges(parents, threads,
+  ParallelRanges(
+    parents, threads,
     [&](Id begin, Id end)
     {
       for (Id first = begin; first < end; first += LaneCount)
       {
         body(first, static_cast<int>(std::min<Id>(LaneCount, end - first)));
       }
-    });
+    },
+    PatchesPerBlock);
 }
 
 } // namespace

@@ -26,6 +26,9 @@ inline int NumberOfThreads(int wanted)
 /// Items per block where nothing else suggests a size.
 constexpr Id DefaultBlockSize = 4096;
 
+/// Patches per block: each has matrices, and takes as long as many items of other kinds.
+constexpr Id PatchesPerBlock = 256;
+
 /// Runs body(block) or body(block, thread) for every block in [0, blocks), in any order, on
 /// `threads` threads (0: all), which are numbered from 0. The first exception of a body, or
 /// Aborted, is thrown again after the loop.

@@ -10,34 +10,14 @@ namespace
 
 constexpr int Mixed = 27;
 
-/// Functions of one coordinate of several batches of samples.
+/// A number for each sample of several batches.
 template<int Batches>
-struct Factors
+using Factors = std::array<Lanes, Batches>;
+
+template<int Batches>
+EIGEN_ALWAYS_INLINE Factors<Batches> Product(const Factors<Batches>& a, const Factors<Batches>& b)
 {
-  Lanes linear[2][Batches];    // 1 - t, t
-  Lanes quadratic[3][Batches]; // (1 - t)², t (1 - t), t²
-
-  Factors(const SampleBatch* batch, int axis)
-  {
-    for (int b = 0; b < Batches; ++b)
-    {
-      const Lanes& t = batch[b].position[axis];
-      linear[0][b] = 1.0 - t;
-      linear[1][b] = t;
-      quadratic[0][b] = linear[0][b] * linear[0][b];
-      quadratic[1][b] = linear[0][b] * t;
-      quadratic[2][b] = t * t;
-    }
-  }
-};
-
-template<int Batches>
-using Weights = std::array<Lanes, Batches>;
-
-template<int Batches>
-Weights<Batches> Product(const Weights<Batches>& a, const Lanes (&b)[Batches])
-{
-  Weights<Batches> product;
+  Factors<Batches> product;
   for (int k = 0; k < Batches; ++k)
   {
     product[k] = a[k] * b[k];
@@ -45,78 +25,104 @@ Weights<Batches> Product(const Weights<Batches>& a, const Lanes (&b)[Batches])
   return product;
 }
 
-/// sum += Σ a b: a sum that is loaded and stored once for several batches.
+/// The two linear functions along an axis: 1 - t and t.
 template<int Batches>
-void AddProduct(const Weights<Batches>& a, const Lanes (&b)[Batches], Lanes& sum)
+struct Linear
 {
-  Lanes result = sum;
-  for (int k = 0; k < Batches; ++k)
+  Factors<Batches> down;
+  Factors<Batches> up;
+
+  Linear(const SampleBatch* batch, int axis)
   {
-    result += a[k] * b[k];
+    for (int k = 0; k < Batches; ++k)
+    {
+      up[k] = batch[k].position[axis];
+      down[k] = 1.0 - up[k];
+    }
   }
-  sum = result;
+};
+
+/// The quadratics: (1 - t)², t (1 - t) and t².
+template<int Batches>
+struct Quadratic
+{
+  Factors<Batches> factor[3];
+
+  explicit Quadratic(const Linear<Batches>& t)
+    : factor{ Product<Batches>(t.down, t.down), Product<Batches>(t.down, t.up),
+        Product<Batches>(t.up, t.up) }
+  {
+  }
+};
+
+/// To the next three sums: Σ weight z_c. They are loaded and stored once for several batches.
+template<int Batches>
+EIGEN_ALWAYS_INLINE void AddProducts(
+  const Factors<Batches>& weight, const Quadratic<Batches>& z, Lanes*& sum)
+{
+  for (const Factors<Batches>& factor : z.factor)
+  {
+    Lanes result = *sum;
+    for (int k = 0; k < Batches; ++k)
+    {
+      result += weight[k] * factor[k];
+    }
+    *sum++ = result;
+  }
+}
+
+/// To the next nine: Σ weight t_a z_c, with the quadratics of t.
+template<int Batches>
+EIGEN_ALWAYS_INLINE void AddProducts(const Factors<Batches>& weight, const Linear<Batches>& t,
+  const Quadratic<Batches>& z, Lanes*& sum)
+{
+  const Factors<Batches> down = Product<Batches>(weight, t.down);
+  const Factors<Batches> up = Product<Batches>(weight, t.up);
+  AddProducts<Batches>(Product<Batches>(down, t.down), z, sum);
+  AddProducts<Batches>(Product<Batches>(down, t.up), z, sum);
+  AddProducts<Batches>(Product<Batches>(up, t.up), z, sum);
 }
 
 template<int Batches>
 void AddMass(const SampleBatch* batch, Lanes* sum)
 {
-  const Factors<Batches> x(batch, 0);
-  const Factors<Batches> y(batch, 1);
-  const Factors<Batches> z(batch, 2);
-  Weights<Batches> mass;
+  const Linear<Batches> x(batch, 0);
+  const Linear<Batches> y(batch, 1);
+  const Quadratic<Batches> z(Linear<Batches>(batch, 2));
+  Factors<Batches> mass;
   for (int k = 0; k < Batches; ++k)
   {
     mass[k] = batch[k].mass;
   }
-  for (const auto& b : y.quadratic)
-  {
-    const Weights<Batches> weightedY = Product<Batches>(mass, b);
-    for (const auto& a : x.quadratic)
-    {
-      const Weights<Batches> weighted = Product<Batches>(weightedY, a);
-      for (const auto& c : z.quadratic)
-      {
-        AddProduct<Batches>(weighted, c, *sum++);
-      }
-    }
-  }
+  const Factors<Batches> down = Product<Batches>(mass, y.down);
+  const Factors<Batches> up = Product<Batches>(mass, y.up);
+  AddProducts<Batches>(Product<Batches>(down, y.down), x, z, sum);
+  AddProducts<Batches>(Product<Batches>(down, y.up), x, z, sum);
+  AddProducts<Batches>(Product<Batches>(up, y.up), x, z, sum);
 }
 
 template<int Batches>
 void AddStiffness(const SampleBatch* batch, Lanes* same, Lanes* mixed)
 {
-  const Factors<Batches> factors[3] = { { batch, 0 }, { batch, 1 }, { batch, 2 } };
   for (int p = 0; p < 3; ++p)
   {
-    const Factors<Batches>& ofQ = factors[(p + 1) % 3];
-    const Factors<Batches>& ofR = factors[(p + 2) % 3];
-    Weights<Batches> sameTensor;
-    Weights<Batches> mixedTensor;
+    const Linear<Batches> ofP(batch, p);
+    const Linear<Batches> ofQ(batch, (p + 1) % 3);
+    const Quadratic<Batches> ofR(Linear<Batches>(batch, (p + 2) % 3));
+    Factors<Batches> sameTensor;
+    Factors<Batches> mixedTensor;
     for (int k = 0; k < Batches; ++k)
     {
       sameTensor[k] = batch[k].tensor.same[p];
       mixedTensor[k] = batch[k].tensor.mixed[p];
     }
-    for (const auto& alongQ : ofQ.quadratic)
-    {
-      const Weights<Batches> weighted = Product<Batches>(sameTensor, alongQ);
-      for (const auto& alongR : ofR.quadratic)
-      {
-        AddProduct<Batches>(weighted, alongR, *same++);
-      }
-    }
-    for (const auto& alongQ : ofQ.linear)
-    {
-      const Weights<Batches> weightedQ = Product<Batches>(mixedTensor, alongQ);
-      for (const auto& alongP : factors[p].linear)
-      {
-        const Weights<Batches> weighted = Product<Batches>(weightedQ, alongP);
-        for (const auto& alongR : ofR.quadratic)
-        {
-          AddProduct<Batches>(weighted, alongR, *mixed++);
-        }
-      }
-    }
+    AddProducts<Batches>(sameTensor, ofQ, ofR, same);
+    const Factors<Batches> down = Product<Batches>(mixedTensor, ofQ.down);
+    const Factors<Batches> up = Product<Batches>(mixedTensor, ofQ.up);
+    AddProducts<Batches>(Product<Batches>(down, ofP.down), ofR, mixed);
+    AddProducts<Batches>(Product<Batches>(down, ofP.up), ofR, mixed);
+    AddProducts<Batches>(Product<Batches>(up, ofP.down), ofR, mixed);
+    AddProducts<Batches>(Product<Batches>(up, ofP.up), ofR, mixed);
   }
 }
 

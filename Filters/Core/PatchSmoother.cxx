@@ -140,12 +140,14 @@ PatchSmoother::PatchSmoother(
   single_.resize(order.dof.size());
   double_.resize(order.dof.size());
   const BlockSource source(A, threads);
-  ParallelRanges(static_cast<Id>(order.dof.size()), threads,
+  ParallelRanges(
+    static_cast<Id>(order.dof.size()), threads,
     [&](Id begin, Id end)
     {
       ForEachFactor(source, order.dof.data(), begin, end, SmallestPivot,
         [&](Id p, const PatchFactor& factor) { this->SetPatch(p, factor, precision); });
-    });
+    },
+    PatchesPerBlock);
 }
 
 /// Numbers that single precision does not hold would be zero or infinite.

@@ -119,7 +119,8 @@ SingleLevel::SingleLevel(const MultigridLevel& level, int threads)
 {
   CheckOrder(level.A, level.order, threads);
   const BlockSource source(level.A, threads);
-  unresolved_ = ParallelSum(this->Patches(), threads, Id{ 0 },
+  unresolved_ = ParallelSum(
+    this->Patches(), threads, Id{ 0 },
     [&](Id begin, Id end)
     {
       Id unresolved = 0;
@@ -138,7 +139,8 @@ SingleLevel::SingleLevel(const MultigridLevel& level, int threads)
           unresolved += !(fits && factor.isComplete);
         });
       return unresolved;
-    });
+    },
+    PatchesPerBlock);
 }
 
 /// x += Vᵀ V (b - A x) on the patch.

@@ -12,8 +12,10 @@ namespace gridfem
 namespace
 {
 
-/// A metric with a smaller determinant over its squared trace counts as singular.
+/// A metric counts as singular if its determinant is not between these: a share of its squared
+/// trace and what a number can hold with all its digits.
 constexpr double SmallestQuotient = 1e-14;
+constexpr double SmallestDeterminant = 1e-300;
 constexpr double LargestDeterminant = 1e300;
 
 /// One point of the rule on all triangles of a batch.
@@ -76,7 +78,7 @@ bool AreRegular(const MetricGroup& metric, int count)
     const Lanes determinant = Determinant(metric[k]);
     const Lanes trace = metric[k].E + metric[k].G;
     margin = margin.min(metric[k].E)
-               .min(determinant - SmallestQuotient * trace * trace)
+               .min(determinant - (SmallestQuotient * trace * trace + SmallestDeterminant))
                .min(LargestDeterminant - determinant);
     zero += 0.0 * (determinant + trace);
   }
@@ -94,7 +96,7 @@ Id DropSingular(LaneMetric& metric, SampleBatch& samples)
     const double determinant = metric.E[lane] * metric.G[lane] - metric.F[lane] * metric.F[lane];
     const double trace = metric.E[lane] + metric.G[lane];
     const bool isRegular = metric.E[lane] > 0.0 && determinant < LargestDeterminant &&
-                           determinant > SmallestQuotient * trace * trace;
+                           determinant > SmallestQuotient * trace * trace + SmallestDeterminant;
     if (!isRegular)
     {
       singular += samples.mass[lane] > 0.0 ? 1 : 0;
@@ -110,12 +112,13 @@ Id DropSingular(LaneMetric& metric, SampleBatch& samples)
 void SetWeights(const LaneMetric& metric, const TangentBasis& basis, const LaneVector& normal,
   SampleBatch& samples)
 {
-  const Lanes root = Determinant(metric).sqrt();
-  const Lanes over = samples.mass / root;
+  const Lanes determinant = Determinant(metric);
+  const Lanes inverseRoot = determinant.rsqrt();
+  const Lanes over = samples.mass * inverseRoot;
   // Like the stiffness of a scaled surface, the part along the normal does not scale.
   samples.tensor = TensorInBasis(
     over * metric.G, -over * metric.F, over * metric.E, NormalWeight * samples.mass, basis, normal);
-  samples.mass *= root;
+  samples.mass = over * determinant;
 }
 
 /// Coefficients of an embedding on a patch, one column per coordinate.

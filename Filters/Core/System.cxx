@@ -1,5 +1,6 @@
 #include "System.h"
 
+#include "ElementLanes.h"
 #include "HiddenFunctions.h"
 #include "LargeMemory.h"
 #include "LayeredFunctions.h"
@@ -33,46 +34,60 @@ bool IsCoarsest(const FunctionSpace& space, std::size_t level, Index coarsestSiz
          LargestComponent(space.levels[level]) <= coarsestSize;
 }
 
-std::array<double, FunctionsPerPatch> RowSums(const ElementMatrix& matrix)
+using RowSums = std::array<double, FunctionsPerPatch>;
+
+/// Of `count` matrices, at most LaneCount.
+void SumRows(const ElementMatrix* matrices, int count, RowSums* sums)
 {
-  std::array<double, FunctionsPerPatch> sum{};
-  for (int i = 0, entry = 0; i < FunctionsPerPatch; ++i)
+  MatrixPointers entries;
+  std::array<double*, LaneCount> result{};
+  for (int lane = 0; lane < LaneCount; ++lane)
   {
-    sum[i] += matrix[entry++];
-    for (int j = i + 1; j < FunctionsPerPatch; ++j, ++entry)
+    entries[lane] = matrices[std::min(lane, count - 1)].data();
+    result[lane] = lane < count ? sums[lane].data() : nullptr;
+  }
+  ElementLanes lanes;
+  Gather(entries, lanes);
+  LaneBlock block;
+  for (int i = 0; i < FunctionsPerPatch; ++i)
+  {
+    block.col(i) = lanes[PackedIndex(i, 0)];
+    for (int j = 1; j < FunctionsPerPatch; ++j)
     {
-      sum[i] += matrix[entry];
-      sum[j] += matrix[entry];
+      block.col(i) += lanes[PackedIndex(i, j)];
     }
   }
-  return sum;
+  StoreLanes(block, result, count, 0);
 }
 
 /// The functions of a patch sum to 1, so that ∫ b_i is the sum of row i of the mass matrix.
 std::vector<double> IntegralsOfFunctions(
   const FunctionPlaces& places, const Array<ElementMatrix>& mass, int threads)
 {
-  Array<std::array<double, FunctionsPerPatch>> rowSum(mass.size());
+  Array<RowSums> ofPatch(mass.size());
   ParallelRanges(static_cast<Id>(mass.size()), threads,
     [&](Id begin, Id end)
     {
-      for (Id patch = begin; patch < end; ++patch)
+      for (Id first = begin; first < end; first += LaneCount)
       {
-        rowSum[patch] = RowSums(mass[patch]);
+        const int count = static_cast<int>(std::min<Id>(LaneCount, end - first));
+        SumRows(mass.data() + first, count, ofPatch.data() + first);
       }
     });
+  const double* const sums = ofPatch.empty() ? nullptr : ofPatch.front().data();
   const auto functions = static_cast<Id>(places.begin.size()) - 1;
-  std::vector<double> integral(functions, 0.0);
+  std::vector<double> integral(functions);
   ParallelRanges(functions, threads,
     [&](Id begin, Id end)
     {
       for (Id f = begin; f < end; ++f)
       {
+        double sum = 0.0;
         for (Index k = places.begin[f]; k < places.begin[f + 1]; ++k)
         {
-          integral[f] +=
-            rowSum[places.item[k] / FunctionsPerPatch][places.item[k] % FunctionsPerPatch];
+          sum += sums[places.item[k]];
         }
+        integral[f] = sum;
       }
     });
   return integral;

@@ -210,7 +210,8 @@ TEST(SurfaceMetric, OneBadSampleIsLeftOut)
   const double infinity = std::numeric_limits<double>::infinity();
   for (const FundamentalForm& bad :
     { FundamentalForm{ nan, 0, 1 }, FundamentalForm{ 1, nan, 1 }, FundamentalForm{ 1, 0, infinity },
-      FundamentalForm{ -1, 0, -1 }, FundamentalForm{ 1, 2, 1 }, FundamentalForm{ 0, 0, 0 } })
+      FundamentalForm{ -1, 0, -1 }, FundamentalForm{ 1, 2, 1 }, FundamentalForm{ 0, 0, 0 },
+      FundamentalForm{ 1e-160, 0, 1e-160 }, FundamentalForm{ 1e160, 0, 1e160 } })
   {
     SampleMetric metric(NumberOfSamples(space.clipped, rule), { 1, 0, 1 });
     metric[7] = bad;

@@ -32,7 +32,7 @@ CORE_LAYERS = {
     "grid and clip": "TriangleMesh Field MeshEdges Grid SourceTriangle PieceStore TriangleClipper CutPoints JoinPieces"
                      " Clip Links MemoryEstimate HatFunctions HatMatrices HatLoad",
     "patches and levels": "Level Patches FunctionSpace PatchOrdering",
-    "integrals": "QuadratureRule TrilinearBasis PieceSamples PatchMoments PatchIntegrals"
+    "integrals": "QuadratureRule TrilinearBasis PieceSamples ElementLanes PatchMoments PatchIntegrals"
                  " ElementMatrices CoarsenElements DenseElement SurfaceMetric DirectionalElements LoadVector"
                  " Evaluation Assembly HatTransfer",
     "hierarchy": "System HiddenFunctions BoxLevel LayeredFunctions HatMultigrid",

@@ -1,0 +1,47 @@
+// Element matrices of several patches at once, one per SIMD lane.
+#ifndef GridFEM_ElementLanes_h
+#define GridFEM_ElementLanes_h
+
+#include "ElementMatrices.h"
+#include "Lanes.h"
+
+#include <algorithm>
+
+namespace gridfem
+{
+
+using ElementLanes = std::array<Lanes, ElementEntries>;
+
+/// The entries of the matrix of each lane.
+using MatrixPointers = std::array<const double*, LaneCount>;
+
+inline void Gather(const MatrixPointers& matrices, ElementLanes& lanes)
+{
+  for (int begin = 0; begin < ElementEntries; begin += LaneCount)
+  {
+    const int first = std::min(begin, ElementEntries - LaneCount);
+    LoadLanes(matrices, first, &lanes[first]);
+  }
+}
+
+/// The first `count` lanes.
+inline void Scatter(const ElementLanes& lanes, int count, ElementMatrix* matrices)
+{
+  std::array<double*, LaneCount> entries{};
+  std::transform(matrices, matrices + count, entries.begin(),
+    [](ElementMatrix& matrix) { return matrix.data(); });
+  for (int begin = 0; begin < ElementEntries; begin += LaneCount)
+  {
+    const int first = std::min(begin, ElementEntries - LaneCount);
+    LaneBlock block;
+    for (int k = 0; k < LaneCount; ++k)
+    {
+      block.col(k) = lanes[first + k];
+    }
+    StoreLanes(block, entries, count, first);
+  }
+}
+
+} // namespace gridfem
+
+#endif
