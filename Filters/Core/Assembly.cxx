@@ -1,6 +1,7 @@
 // Patterns, values and prolongations of level matrices, row by row and without hash maps.
 #include "Assembly.h"
 
+#include "Fetch.h"
 #include "FillRows.h"
 
 #include <algorithm>
@@ -113,6 +114,24 @@ struct ElementSum
   const ElementMatrix* stiffness; // null when its factor is 0
   double b;
 
+  /// The matrices of the last patch of a row, which may be new after earlier rows.
+  EIGEN_ALWAYS_INLINE void FetchLast(Index row) const
+  {
+    const Index end = places.begin[row + 1];
+    if (end == 0)
+    {
+      return;
+    }
+    const Index patch = places.item[end - 1] / FunctionsPerPatch;
+    for (const ElementMatrix* const matrices : { mass, stiffness })
+    {
+      if (matrices)
+      {
+        FetchAll(matrices[patch]);
+      }
+    }
+  }
+
   /// @param position  scratch, one per column: place of the column's entry in the row
   void FillRow(SparseMatrix& matrix, Index row, std::vector<Index>& position) const
   {
@@ -174,6 +193,11 @@ void AssembleValues(const Level& level, const FunctionPlaces& places,
 #pragma omp parallel for num_threads(team) schedule(dynamic, DefaultBlockSize)
   for (Index row = 0; row < matrix.rows; ++row)
   {
+    constexpr Index Ahead = 16;
+    if (row + Ahead < matrix.rows)
+    {
+      sum.FetchLast(row + Ahead);
+    }
     sum.FillRow(matrix, row, positions[omp_get_thread_num()]);
   }
 }

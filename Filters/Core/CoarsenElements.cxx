@@ -1,6 +1,7 @@
 // Galerkin coarsening of element matrices: the functions of a parent in terms of those of its
 // children, for several parents at once, one per SIMD lane. [T (4.6)]
 #include "ElementLanes.h"
+#include "Fetch.h"
 #include "Grouping.h"
 
 #include <algorithm>
@@ -74,6 +75,12 @@ void SumChildren(const Level& fine, const Groups& children, Id begin, int count,
       }
     }
   };
+  const Id parents = static_cast<Id>(children.begin.size()) - 1;
+  const Index endOfNext = children.begin[std::min<Id>(begin + 2 * LaneCount, parents)];
+  for (Index k = children.begin[begin + count]; k < endOfNext; ++k)
+  {
+    FetchAll(matrices[children.item[k]]);
+  }
   static constexpr ElementMatrix Zero{};
   MatrixPointers ofOctant[8];
   for (MatrixPointers& pointers : ofOctant)

@@ -301,9 +301,11 @@ BlockSource::BlockSource(const SparseMatrix& matrix, int threads) : A(matrix), r
     {
       for (Id i = begin; i < end; ++i)
       {
+        // Behind as many as are smaller: short rows are counted faster than bisected.
+        const Index* const first = A.column.data() + A.rowBegin[i];
         const Index* const last = A.column.data() + A.rowBegin[i + 1];
         const Index* const found =
-          std::lower_bound(A.column.data() + A.rowBegin[i], last, static_cast<Index>(i));
+          first + std::count_if(first, last, [i](Index column) { return column < i; });
         const Id place = found - A.column.data();
         const bool isUsable = found != last && *found == i && IsUsableDiagonal(A.value[place]);
         row[i] = isUsable ? Row{ place, 1.0 / std::sqrt(A.value[place]) } : Row{ -1, 0.0 };

@@ -3,6 +3,7 @@
 #ifndef GridFEM_PatchIntegrals_h
 #define GridFEM_PatchIntegrals_h
 
+#include "Fetch.h"
 #include "FunctionSpace.h"
 #include "Grouping.h"
 #include "Lanes.h"
@@ -67,22 +68,15 @@ inline void SetPositions(
 /// So many are fetched of every piece, which leaves no branch to guess.
 constexpr Index UsualCorners = 4;
 
-/// The corners of a piece may lie anywhere in memory; a wish, for meshes with UsualCorners at
-/// least. Part of its caller: a function that only fetches counts as one without effect, and is not
-/// called.
+/// The corners of a piece may lie anywhere in memory. For meshes with UsualCorners at least.
 EIGEN_ALWAYS_INLINE void FetchCorners(const ClippedMesh& clipped, Index piece)
 {
-#ifdef __GNUC__
   const Index last = static_cast<Index>(clipped.corners.size()) - UsualCorners;
   const Index first = std::min(clipped.pieceBegin[piece], last);
   for (Index k = first; k < first + UsualCorners; ++k)
   {
-    __builtin_prefetch(&clipped.position[clipped.corners[k]]);
+    Fetch(&clipped.position[clipped.corners[k]]);
   }
-#else
-  static_cast<void>(clipped);
-  static_cast<void>(piece);
-#endif
 }
 
 /// Calls body(batch) for the fan triangles of some pieces, several at a time.

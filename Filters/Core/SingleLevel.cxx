@@ -1,5 +1,6 @@
 #include "SingleLevel.h"
 
+#include "Fetch.h"
 #include "PatchFactor.h"
 
 namespace gridfem
@@ -65,17 +66,13 @@ inline void ApplyInverse(const std::array<float, 36>& V, PanelRow (&r)[Functions
 }
 
 /// Asks for the panel rows of a patch while the one before is at work.
-inline void FetchAhead(
+EIGEN_ALWAYS_INLINE void FetchAhead(
   const std::array<Index, FunctionsPerPatch>& dof, const PanelRow* b, const PanelRow* x)
 {
-  constexpr int FloatsPerLine = 16;
   for (const Index row : dof)
   {
-    for (int k = 0; k < PreconditionedColumns; k += FloatsPerLine)
-    {
-      __builtin_prefetch(b[row].data() + k);
-      __builtin_prefetch(x[row].data() + k);
-    }
+    FetchAll(b[row]);
+    FetchAll(x[row]);
   }
 }
 

@@ -1,6 +1,7 @@
 #include "System.h"
 
 #include "ElementLanes.h"
+#include "Fetch.h"
 #include "HiddenFunctions.h"
 #include "LargeMemory.h"
 #include "LayeredFunctions.h"
@@ -71,6 +72,10 @@ std::vector<double> IntegralsOfFunctions(
       for (Id first = begin; first < end; first += LaneCount)
       {
         const int count = static_cast<int>(std::min<Id>(LaneCount, end - first));
+        for (Id next = first + count; next < std::min(end, first + 2 * LaneCount); ++next)
+        {
+          FetchAll(mass[next]);
+        }
         SumRows(mass.data() + first, count, ofPatch.data() + first);
       }
     });

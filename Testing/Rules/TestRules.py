@@ -20,7 +20,7 @@ SOURCE_SUFFIXES = (".h", ".cxx")
 # solvers, which see matrices and lists of unknowns only, cannot reach a mesh.
 CORE_LAYERS = {
     "foundation": "LargeMemory Array SharedArray Types Errors Progress Parallel UnionFind RadixSort"
-                  " Grouping BlockLists Lanes",
+                  " Grouping BlockLists Lanes Fetch",
     "algebra": "SparseMatrix RowKernels PairedProduct PivotedCholesky BlockSweep Smoother"
                " GaussSeidel PatchFactor PatchSmoother CoarseSolver Multigrid Stagnation"
                " SolverIteration ConjugateGradients PrecisionFallback RayleighRitz"
