@@ -15,8 +15,6 @@ namespace gridfem
 namespace
 {
 
-constexpr Id PatchesPerBlock = 256;
-
 /// Columns that are integrated in one pass: bounds the memory per patch.
 constexpr Id ColumnsPerPass = 4;
 

@@ -118,6 +118,18 @@ private:
     Double
   };
 
+  /// Of a patch that is visited soon; there may be none.
+  EIGEN_ALWAYS_INLINE void FetchRows(const RowView& A, Id p) const
+  {
+    if (p >= 0 && p < static_cast<Id>(patches_.size()))
+    {
+      for (const Index row : patches_[p].dof)
+      {
+        FetchRow(A, row);
+      }
+    }
+  }
+
   void SetPatch(Id p, const PatchFactor& factor, FactorPrecision precision);
 
   Index rows_;
@@ -200,9 +212,11 @@ void PatchSmoother::Sweep(const SparseMatrix& A, const MultiVector& b, MultiVect
 {
   CheckSweep(A, rows_, b, x);
   const RowView rows(A);
+  const Id ahead = direction == SweepDirection::Forward ? 2 : -2;
   SweepBlocks(ranges_, x.cols(), direction, 128 * static_cast<Id>(patches_.size()), threads,
     [&](Id p, auto chunk)
     {
+      this->FetchRows(rows, p + ahead);
       const Place& patch = patches_[p];
       if (patch.precision == Single)
       {
