@@ -194,7 +194,7 @@ void AssembleValues(const Level& level, const FunctionPlaces& places,
   for (Index row = 0; row < matrix.rows; ++row)
   {
     constexpr Index Ahead = 16;
-    if (row + Ahead < matrix.rows)
+    if (row < matrix.rows - Ahead)
     {
       sum.FetchLast(row + Ahead);
     }

@@ -69,7 +69,8 @@ Array<ElementMatrix> CoarsenElements(const BoxLevel& fine, Id parents, int threa
 {
   const Groups children = GroupItems(fine.parent, parents, threads);
   Array<ElementMatrix> elements(parents);
-  ParallelRanges(parents, threads,
+  ParallelRanges(
+    parents, threads,
     [&](Id begin, Id end)
     {
       for (Id parent = begin; parent < end; ++parent)
@@ -84,7 +85,8 @@ Array<ElementMatrix> CoarsenElements(const BoxLevel& fine, Id parents, int threa
         }
         elements[parent] = Pack(sum);
       }
-    });
+    },
+    PatchesPerBlock);
   return elements;
 }
 

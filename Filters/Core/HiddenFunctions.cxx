@@ -112,7 +112,8 @@ Array<ElementMatrix> Scaled(const Level& level, const ElementMatrices& elements,
   const std::vector<double>& height, int threads)
 {
   Array<ElementMatrix> scaled(level.NumberOfPatches());
-  ParallelRanges(level.NumberOfPatches(), threads,
+  ParallelRanges(
+    level.NumberOfPatches(), threads,
     [&](Id begin, Id end)
     {
       for (Id patch = begin; patch < end; ++patch)
@@ -124,7 +125,8 @@ Array<ElementMatrix> Scaled(const Level& level, const ElementMatrices& elements,
         }
         scaled[patch] = ScaledEnergy(elements, patch, factor);
       }
-    });
+    },
+    PatchesPerBlock);
   return scaled;
 }
 
@@ -159,7 +161,6 @@ double FlatShare(const System& system, int threads)
   constexpr double FlatRatio = 1e-6;
   const std::size_t level = std::min<std::size_t>(2, system.elements.size() - 1);
   const Array<ElementMatrix>& stiffness = system.elements[level].stiffness;
-  constexpr Id PatchesPerRange = 512;
   const Eigen::Vector2d flatAndAll = ParallelSum(
     static_cast<Id>(stiffness.size()), threads, Eigen::Vector2d(0.0, 0.0),
     [&](Id begin, Id end)
@@ -177,7 +178,7 @@ double FlatShare(const System& system, int threads)
       }
       return sum;
     },
-    PatchesPerRange);
+    PatchesPerBlock);
   return flatAndAll[1] > 0.0 ? flatAndAll[0] / flatAndAll[1] : 0.0;
 }
 
@@ -185,14 +186,16 @@ std::vector<double> CornerHeights(
   const Level& level, const FunctionPlaces& places, const ElementMatrices& elements, int threads)
 {
   std::vector<Plane> planes(level.NumberOfPatches());
-  ParallelRanges(level.NumberOfPatches(), threads,
+  ParallelRanges(
+    level.NumberOfPatches(), threads,
     [&](Id begin, Id end)
     {
       for (Id patch = begin; patch < end; ++patch)
       {
         planes[patch] = FitPlane(elements.mass[patch], elements.stiffness[patch]);
       }
-    });
+    },
+    PatchesPerBlock);
   Orient(level, places, planes);
   std::vector<double> height(level.numberOfFunctions, 0.0);
   ParallelRanges(level.numberOfFunctions, threads,

@@ -25,7 +25,7 @@ struct TriangleBatch
 /// The planes of the triangles of a batch.
 struct TrianglePlanes
 {
-  LaneVector normal; // unit; 0 for a triangle without area
+  LaneVector normal; // unit; 0, or short, for a triangle with hardly any area
   Lanes area;        // grid units
 
   explicit TrianglePlanes(const TriangleBatch& batch)
@@ -97,7 +97,7 @@ void ForEachBatch(const ClippedMesh& clipped, const Index* pieceBegin, const Ind
   for (const Index* piece = pieceBegin; piece < pieceEnd; ++piece)
   {
     constexpr int Ahead = 16; // so many pieces have more than enough corners
-    if (piece + Ahead < listEnd)
+    if (listEnd - piece > Ahead)
     {
       FetchCorners(clipped, piece[Ahead]);
     }

@@ -18,6 +18,13 @@ constexpr double SmallestQuotient = 1e-14;
 constexpr double SmallestDeterminant = 1e-300;
 constexpr double LargestDeterminant = 1e300;
 
+/// For a number or for lanes.
+template<class Number>
+Number LeastDeterminant(const Number& trace)
+{
+  return SmallestQuotient * trace * trace + SmallestDeterminant;
+}
+
 /// One point of the rule on all triangles of a batch.
 struct LaneMetric
 {
@@ -78,7 +85,7 @@ bool AreRegular(const MetricGroup& metric, int count)
     const Lanes determinant = Determinant(metric[k]);
     const Lanes trace = metric[k].E + metric[k].G;
     margin = margin.min(metric[k].E)
-               .min(determinant - (SmallestQuotient * trace * trace + SmallestDeterminant))
+               .min(determinant - LeastDeterminant(trace))
                .min(LargestDeterminant - determinant);
     zero += 0.0 * (determinant + trace);
   }
@@ -96,7 +103,7 @@ Id DropSingular(LaneMetric& metric, SampleBatch& samples)
     const double determinant = metric.E[lane] * metric.G[lane] - metric.F[lane] * metric.F[lane];
     const double trace = metric.E[lane] + metric.G[lane];
     const bool isRegular = metric.E[lane] > 0.0 && determinant < LargestDeterminant &&
-                           determinant > SmallestQuotient * trace * trace + SmallestDeterminant;
+                           determinant > LeastDeterminant(trace);
     if (!isRegular)
     {
       singular += samples.mass[lane] > 0.0 ? 1 : 0;

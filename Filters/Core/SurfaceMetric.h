@@ -31,8 +31,8 @@ SampleMetric MetricOfEmbedding(const FunctionSpace& space, const QuadratureRule&
 /// sample of the rule.
 /// @param result  for UpdateSystem: the finest element matrices of a system, in place
 /// @return  number of samples on triangles with an area whose metric is not positive definite, not
-///          finite, or stretches one direction 1e7 times as much as the other: they contribute
-///          nothing
+///          finite, or stretches one direction 1e7 times as much as the other, or whose determinant
+///          is not between 1e-300 and 1e300: they contribute nothing
 Id IntegrateElements(const FunctionSpace& space, const QuadratureRule& rule,
   const SampleMetric& metric, ElementMatrices& result, int threads = 0,
   const Progress& progress = {});

@@ -66,7 +66,8 @@ std::vector<double> IntegralsOfFunctions(
   const FunctionPlaces& places, const Array<ElementMatrix>& mass, int threads)
 {
   Array<RowSums> ofPatch(mass.size());
-  ParallelRanges(static_cast<Id>(mass.size()), threads,
+  ParallelRanges(
+    static_cast<Id>(mass.size()), threads,
     [&](Id begin, Id end)
     {
       for (Id first = begin; first < end; first += LaneCount)
@@ -78,7 +79,8 @@ std::vector<double> IntegralsOfFunctions(
         }
         SumRows(mass.data() + first, count, ofPatch.data() + first);
       }
-    });
+    },
+    PatchesPerBlock);
   const double* const sums = ofPatch.empty() ? nullptr : ofPatch.front().data();
   const auto functions = static_cast<Id>(places.begin.size()) - 1;
   std::vector<double> integral(functions);

@@ -223,6 +223,22 @@ TEST(SurfaceMetric, OneBadSampleIsLeftOut)
   }
 }
 
+/// Close to the least and the largest determinant a root has all its digits.
+TEST(SurfaceMetric, TinyAndHugeMetricsScaleAreas)
+{
+  const FunctionSpace space = BuildFunctionSpace(GeodesicSphere(6), { 3 });
+  const QuadratureRule& rule = TriangleRule(2);
+  const ElementMatrices own = IntegrateElements(space, rule);
+  for (const double scale : { 1e-149, 1e149 })
+  {
+    const SampleMetric metric(NumberOfSamples(space.clipped, rule), { scale, 0, scale });
+    ElementMatrices elements;
+    EXPECT_EQ(IntegrateElements(space, rule, metric, elements), 0);
+    ExpectNear(elements.mass, Scaled(scale, own.mass), 1e-12);
+    ExpectNear(elements.stiffness, own.stiffness, 1e-12);
+  }
+}
+
 TEST(SurfaceMetric, RefusesTheWrongNumbers)
 {
   const FunctionSpace space = BuildFunctionSpace(GeodesicSphere(4), { 3 });
