@@ -38,13 +38,15 @@ struct Groups
   Array<Index> item;
 };
 
+/// Fewer are sorted before a sleeping thread has begun.
+constexpr Id ItemsPerRange = 16 * DefaultBlockSize;
+
 /// Counting sort, ranges of items in parallel. Cost O(items + groups).
 /// @param group  of every one of `items` items, in [0, numberOfGroups)
 inline Groups GroupItems(const Index* group, Id items, Id numberOfGroups, int threads = 1)
 {
-  // Each range has a counter per group: no more of them than four times the items. Few items are
-  // sorted before a second thread has begun.
-  const Id most = std::min(4 * items / (numberOfGroups + 1), items / DefaultBlockSize);
+  // Each range has a counter per group: no more of them than four times the items.
+  const Id most = std::min(4 * items / (numberOfGroups + 1), items / ItemsPerRange);
   const Id ranges = std::clamp<Id>(most, 1, NumberOfThreads(threads));
   Array<Index> next(ranges * numberOfGroups);
   const auto forItems = [&](const auto& visit)

@@ -42,8 +42,8 @@ void ExpectGroups(const Array<Index>& group, Id groups)
 
 } // namespace
 
-/// More than enough items for a range per thread.
-constexpr Id Many = 8 * DefaultBlockSize + 3;
+/// Enough items for several ranges.
+constexpr Id Many = 4 * ItemsPerRange + 3;
 
 TEST(Grouping, KeepsTheOrderOfItemsInAnyOrderOfGroups)
 {
