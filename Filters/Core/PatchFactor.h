@@ -2,6 +2,7 @@
 #ifndef GridFEM_PatchFactor_h
 #define GridFEM_PatchFactor_h
 
+#include "Fetch.h"
 #include "SparseMatrix.h"
 
 #include <algorithm>
@@ -52,6 +53,23 @@ constexpr int PatchesAtOnce = 8;
 void FactorPatches(const BlockSource& source, const std::array<Index, FunctionsPerPatch>* dof,
   int count, double smallestPivot, PatchFactor* factors);
 
+/// What a patch's block is cut from: its rows from the diagonal on.
+EIGEN_ALWAYS_INLINE void FetchRows(
+  const BlockSource& source, const std::array<Index, FunctionsPerPatch>& dof)
+{
+  constexpr Id NumbersPerLine = 8;
+  for (const Index unknown : dof)
+  {
+    const Id k = unknown >= 0 ? source.row[unknown].diagonal : -1;
+    if (k >= 0)
+    {
+      Fetch(source.A.column.data() + k);
+      Fetch(source.A.value.data() + k);
+      Fetch(source.A.value.data() + k + NumbersPerLine);
+    }
+  }
+}
+
 /// Calls body(patch, factor) for the patches from `begin` to `end`.
 template<class Body>
 void ForEachFactor(const BlockSource& source, const std::array<Index, FunctionsPerPatch>* dof,
@@ -61,6 +79,10 @@ void ForEachFactor(const BlockSource& source, const std::array<Index, FunctionsP
   for (Id first = begin; first < end; first += PatchesAtOnce)
   {
     const int count = static_cast<int>(std::min<Id>(PatchesAtOnce, end - first));
+    for (Id next = first + count; next < std::min(end, first + 2 * PatchesAtOnce); ++next)
+    {
+      FetchRows(source, dof[next]);
+    }
     FactorPatches(source, dof + first, count, smallestPivot, factors.data());
     for (int k = 0; k < count; ++k)
     {
