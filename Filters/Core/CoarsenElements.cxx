@@ -140,22 +140,6 @@ std::array<OctantWeights, 8> MakeChildWeights()
   return weights;
 }
 
-/// Calls body(begin, count) for groups of parents, in parallel.
-template<class Body>
-void ForEachFamily(Id parents, int threads, Body&& body)
-{
-  ParallelRanges(
-    parents, threads,
-    [&](Id begin, Id end)
-    {
-      for (Id first = begin; first < end; first += LaneCount)
-      {
-        body(first, static_cast<int>(std::min<Id>(LaneCount, end - first)));
-      }
-    },
-    PatchesPerBlock);
-}
-
 } // namespace
 
 Array<ElementMatrix> CoarsenElements(
@@ -163,7 +147,7 @@ Array<ElementMatrix> CoarsenElements(
 {
   const Groups children = GroupItems(fine.parent, coarse.NumberOfPatches(), threads);
   Array<ElementMatrix> result(coarse.NumberOfPatches());
-  ForEachFamily(coarse.NumberOfPatches(), threads,
+  ForEachLaneGroup(coarse.NumberOfPatches(), threads,
     [&](Id begin, int count)
     { SumChildren(fine, children, begin, count, matrices, result.data() + begin); });
   return result;
@@ -175,7 +159,7 @@ void CoarsenElements(const Level& fine, const Level& coarse, const ElementMatric
   const Groups children = GroupItems(fine.parent, coarse.NumberOfPatches(), threads);
   result.mass.resize(coarse.NumberOfPatches());
   result.stiffness.resize(coarse.NumberOfPatches());
-  ForEachFamily(coarse.NumberOfPatches(), threads,
+  ForEachLaneGroup(coarse.NumberOfPatches(), threads,
     [&](Id begin, int count)
     {
       SumChildren(fine, children, begin, count, elements.mass, result.mass.data() + begin);

@@ -4,6 +4,7 @@
 
 #include "ElementMatrices.h"
 #include "Lanes.h"
+#include "Parallel.h"
 
 #include <algorithm>
 
@@ -40,6 +41,22 @@ inline void Scatter(const ElementLanes& lanes, int count, ElementMatrix* matrice
     }
     StoreLanes(block, entries, count, first);
   }
+}
+
+/// Calls body(begin, count) for groups of up to LaneCount of `patches`, in parallel.
+template<class Body>
+void ForEachLaneGroup(Id patches, int threads, Body&& body)
+{
+  ParallelRanges(
+    patches, threads,
+    [&](Id begin, Id end)
+    {
+      for (Id first = begin; first < end; first += LaneCount)
+      {
+        body(first, static_cast<int>(std::min<Id>(LaneCount, end - first)));
+      }
+    },
+    PatchesPerBlock);
 }
 
 } // namespace gridfem

@@ -11,26 +11,27 @@
 namespace gridfem
 {
 
-/// The line of the cache that holds an address.
+constexpr std::size_t LineSize = 64;
+
+/// As many lines of the cache, from that of an address on.
+template<std::size_t Lines = 1>
 EIGEN_ALWAYS_INLINE void Fetch(const void* address)
 {
 #ifdef __GNUC__
-  __builtin_prefetch(address);
+  for (std::size_t line = 0; line < Lines; ++line)
+  {
+    __builtin_prefetch(static_cast<const char*>(address) + line * LineSize);
+  }
 #else
   static_cast<void>(address);
 #endif
 }
 
-/// All of an object.
+/// All of an object that begins with a line.
 template<class Object>
 EIGEN_ALWAYS_INLINE void FetchAll(const Object& object)
 {
-  constexpr std::size_t LineSize = 64;
-  const char* const begin = reinterpret_cast<const char*>(&object);
-  for (std::size_t byte = 0; byte < sizeof(Object); byte += LineSize)
-  {
-    Fetch(begin + byte);
-  }
+  Fetch<(sizeof(Object) + LineSize - 1) / LineSize>(&object);
 }
 
 } // namespace gridfem

@@ -57,15 +57,13 @@ void FactorPatches(const BlockSource& source, const std::array<Index, FunctionsP
 EIGEN_ALWAYS_INLINE void FetchRows(
   const BlockSource& source, const std::array<Index, FunctionsPerPatch>& dof)
 {
-  constexpr Id NumbersPerLine = 8;
   for (const Index unknown : dof)
   {
     const Id k = unknown >= 0 ? source.row[unknown].diagonal : -1;
     if (k >= 0)
     {
       Fetch(source.A.column.data() + k);
-      Fetch(source.A.value.data() + k);
-      Fetch(source.A.value.data() + k + NumbersPerLine);
+      Fetch<2>(source.A.value.data() + k);
     }
   }
 }

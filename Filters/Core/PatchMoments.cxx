@@ -71,16 +71,25 @@ EIGEN_ALWAYS_INLINE void AddProducts(
   }
 }
 
+/// Calls add(weight t_a) for the quadratics of t.
+template<int Batches, class Add>
+EIGEN_ALWAYS_INLINE void ForQuadratics(
+  const Factors<Batches>& weight, const Linear<Batches>& t, Add&& add)
+{
+  const Factors<Batches> down = Product<Batches>(weight, t.down);
+  const Factors<Batches> up = Product<Batches>(weight, t.up);
+  add(Product<Batches>(down, t.down));
+  add(Product<Batches>(down, t.up));
+  add(Product<Batches>(up, t.up));
+}
+
 /// To the next nine: Σ weight t_a z_c, with the quadratics of t.
 template<int Batches>
 EIGEN_ALWAYS_INLINE void AddProducts(const Factors<Batches>& weight, const Linear<Batches>& t,
   const Quadratic<Batches>& z, Lanes*& sum)
 {
-  const Factors<Batches> down = Product<Batches>(weight, t.down);
-  const Factors<Batches> up = Product<Batches>(weight, t.up);
-  AddProducts<Batches>(Product<Batches>(down, t.down), z, sum);
-  AddProducts<Batches>(Product<Batches>(down, t.up), z, sum);
-  AddProducts<Batches>(Product<Batches>(up, t.up), z, sum);
+  ForQuadratics<Batches>(
+    weight, t, [&](const Factors<Batches>& product) { AddProducts<Batches>(product, z, sum); });
 }
 
 template<int Batches>
@@ -94,11 +103,8 @@ void AddMass(const SampleBatch* batch, Lanes* sum)
   {
     mass[k] = batch[k].mass;
   }
-  const Factors<Batches> down = Product<Batches>(mass, y.down);
-  const Factors<Batches> up = Product<Batches>(mass, y.up);
-  AddProducts<Batches>(Product<Batches>(down, y.down), x, z, sum);
-  AddProducts<Batches>(Product<Batches>(down, y.up), x, z, sum);
-  AddProducts<Batches>(Product<Batches>(up, y.up), x, z, sum);
+  ForQuadratics<Batches>(
+    mass, y, [&](const Factors<Batches>& product) { AddProducts<Batches>(product, x, z, sum); });
 }
 
 template<int Batches>

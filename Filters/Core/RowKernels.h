@@ -92,12 +92,8 @@ struct RowView
 /// Asks for the entries of a row, of a long one for the first.
 EIGEN_ALWAYS_INLINE void FetchRow(const RowView& A, Index row)
 {
-  constexpr Id NumbersPerLine = 8;
-  const Id k = A.begin[row];
-  Fetch(A.column + k);
-  Fetch(A.value + k);
-  Fetch(A.value + k + NumbersPerLine);
-  Fetch(A.value + k + 2 * NumbersPerLine);
+  Fetch(A.column + A.begin[row]);
+  Fetch<3>(A.value + A.begin[row]);
 }
 
 /// One row of A times a chunk of x. A single column is added up in four parts, so that additions

@@ -66,21 +66,16 @@ std::vector<double> IntegralsOfFunctions(
   const FunctionPlaces& places, const Array<ElementMatrix>& mass, int threads)
 {
   Array<RowSums> ofPatch(mass.size());
-  ParallelRanges(
-    static_cast<Id>(mass.size()), threads,
-    [&](Id begin, Id end)
+  const auto patches = static_cast<Id>(mass.size());
+  ForEachLaneGroup(patches, threads,
+    [&](Id begin, int count)
     {
-      for (Id first = begin; first < end; first += LaneCount)
+      for (Id next = begin + count; next < std::min<Id>(patches, begin + 2 * LaneCount); ++next)
       {
-        const int count = static_cast<int>(std::min<Id>(LaneCount, end - first));
-        for (Id next = first + count; next < std::min(end, first + 2 * LaneCount); ++next)
-        {
-          FetchAll(mass[next]);
-        }
-        SumRows(mass.data() + first, count, ofPatch.data() + first);
+        FetchAll(mass[next]);
       }
-    },
-    PatchesPerBlock);
+      SumRows(mass.data() + begin, count, ofPatch.data() + begin);
+    });
   const double* const sums = ofPatch.empty() ? nullptr : ofPatch.front().data();
   const auto functions = static_cast<Id>(places.begin.size()) - 1;
   std::vector<double> integral(functions);
