@@ -7,7 +7,7 @@
 #include "Private/SurfaceSolverState.h"
 #include "Private/vtkSurfaceBasisHolder.h"
 
-#include "Evaluation.h"
+#include "Integrals/Evaluation.h"
 
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
@@ -56,10 +56,10 @@ void vtkConnectivityAwareBasis::ReadClip(vtkPolyData* input)
   const auto support = options.connectivityAware ? gridfem::FunctionSupport::ConnectivityAware
                                                  : gridfem::FunctionSupport::Plain;
   state.basis = gridfem::MakeSurfaceBasis(
-    state.mesh.triangles, gridfem::BuildFunctionSpace(
+    state.mesh.triangles, gridfem::BuildGridFunctions(
                             std::move(clipped), support, options.threads, progress.Part(0.4, 0.8)));
 
-  const gridfem::FunctionSpace& space = state.Space();
+  const gridfem::GridFunctions& space = state.Space();
   std::vector<gridfem::Id> cellPatch(input->GetNumberOfCells(), -1);
   for (gridfem::Id piece = 0; piece < space.clipped.NumberOfPieces(); ++piece)
   {
@@ -108,7 +108,7 @@ void vtkConnectivityAwareBasis::UpdateBasis(vtkPolyData* input)
 
 void vtkConnectivityAwareBasis::AddBasisFunction(vtkPolyData* output)
 {
-  const gridfem::FunctionSpace& space = this->State->Space();
+  const gridfem::GridFunctions& space = this->State->Space();
   const gridfem::MultiVector values = gridfem::EvaluateAtClippedPoints(space,
     gridfem::BasisFunctionCoefficients(space, this->Level, this->BasisId), this->NumberOfThreads);
   vtkNew<vtkDoubleArray> array;
@@ -128,7 +128,7 @@ void vtkConnectivityAwareBasis::Compute(
   this->UpdateBasis(input);
   progress.Check(0.8);
 
-  const gridfem::FunctionSpace& space = this->State->Space();
+  const gridfem::GridFunctions& space = this->State->Space();
   if (gridfem::CarriesClip(input))
   {
     output->ShallowCopy(input);

@@ -7,8 +7,8 @@
 #include "Private/SurfaceSolverState.h"
 #include "Private/SurfaceSpectrum.h"
 
-#include "Errors.h"
-#include "QuadratureRule.h"
+#include "Base/Errors.h"
+#include "Integrals/QuadratureRule.h"
 
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"

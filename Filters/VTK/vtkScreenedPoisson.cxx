@@ -5,10 +5,10 @@
 #include "Private/SolverOutput.h"
 #include "Private/SurfaceSolverState.h"
 
-#include "Errors.h"
-#include "Evaluation.h"
-#include "HatLoad.h"
-#include "Poisson.h"
+#include "Base/Errors.h"
+#include "Integrals/Evaluation.h"
+#include "Problems/Poisson.h"
+#include "Spaces/HatLoad.h"
 
 #include "vtkDataArray.h"
 #include "vtkInformation.h"
@@ -98,7 +98,7 @@ void vtkScreenedPoisson::IntegrateOnGrid(
   Internals& data = *this->Data;
   const gridfem::SurfaceSolverState& state = *this->State;
   const gridfem::QuadratureRule& rule = gridfem::TriangleRule(this->QuadratureDegree);
-  const gridfem::FunctionSpace& space = state.Space();
+  const gridfem::GridFunctions& space = state.Space();
   const gridfem::TriangleMesh& mesh = *state.basis.mesh;
   const int threads = this->NumberOfThreads;
   const std::optional<gridfem::Field> scale = data.ReadScale(state.mesh);

@@ -3,7 +3,7 @@
 #include "Private/InputValidation.h"
 #include "Private/SurfaceSolverState.h"
 
-#include "LargeMemory.h"
+#include "Base/LargeMemory.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"

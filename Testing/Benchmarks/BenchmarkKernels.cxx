@@ -1,8 +1,8 @@
 // The kernels one by one, on the rocker arm at depth 7: google-benchmark, its options apply.
 // Arguments: threads; columns where there are two.
-#include "LoadVector.h"
+#include "Integrals/LoadVector.h"
 #include "SetupCost.h"
-#include "System.h"
+#include "Spaces/LevelOperators.h"
 
 #include <benchmark/benchmark.h>
 
@@ -20,8 +20,8 @@ constexpr int Depth = 7;
 struct Problem
 {
   TriangleMesh mesh = benchmarks::RockerArm(2).mesh;
-  FunctionSpace space;
-  System system;
+  GridFunctions space;
+  LevelOperators system;
   double lambda = 0.01 * std::pow(0.25, Depth);
   std::unique_ptr<Multigrid> multigrid;
 
@@ -29,7 +29,7 @@ struct Problem
   {
     SpaceOptions options;
     options.depth = Depth;
-    space = BuildFunctionSpace(mesh, options);
+    space = BuildGridFunctions(mesh, options);
     system = BuildSystem(space, TriangleRule(2));
     multigrid =
       std::make_unique<Multigrid>(BuildMultigrid(space, system, lambda, 1.0, MultigridOptions{}));
@@ -85,7 +85,7 @@ void ClipMesh(benchmark::State& state)
 /// Items: triangles after the clip.
 void IntegrateElementMatrices(benchmark::State& state)
 {
-  const FunctionSpace& space = TheProblem().space;
+  const GridFunctions& space = TheProblem().space;
   for (auto _ : state)
   {
     benchmark::DoNotOptimize(IntegrateElements(space, TriangleRule(2), Threads(state)));

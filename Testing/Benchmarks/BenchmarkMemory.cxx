@@ -1,9 +1,9 @@
 // The estimate of memory against the real peak, and the expected sizes against the real ones.
 #include "Measure.h"
-#include "MemoryEstimate.h"
 #include "Meshes.h"
+#include "Problems/MemoryEstimate.h"
+#include "Problems/Spectrum.h"
 #include "SetupCost.h"
-#include "Spectrum.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -71,8 +71,8 @@ EstimateAndPeak MeasureSpectrum(const SpectrumCase& item)
 {
   SpaceOptions options;
   options.depth = item.depth;
-  const FunctionSpace space = BuildFunctionSpace(item.mesh.mesh, options);
-  const System system = BuildSystem(space, TriangleRule(2));
+  const GridFunctions space = BuildGridFunctions(item.mesh.mesh, options);
+  const LevelOperators system = BuildSystem(space, TriangleRule(2));
   const Index functions = space.Finest().numberOfFunctions;
   ReleaseFreeMemory();
   const double before = ResidentBytes();

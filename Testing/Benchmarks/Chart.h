@@ -3,7 +3,7 @@
 #ifndef GridFEM_Benchmarks_Chart_h
 #define GridFEM_Benchmarks_Chart_h
 
-#include "TriangleMesh.h"
+#include "Grid/TriangleMesh.h"
 
 #include <string>
 #include <vector>

@@ -4,8 +4,8 @@
 #define GridFEM_Benchmarks_Hierarchy_h
 
 #include "CotangentSystem.h"
-#include "HatMultigrid.h"
-#include "Multigrid.h"
+#include "Multigrid/Multigrid.h"
+#include "Spaces/HatMultigrid.h"
 
 #include <functional>
 #include <vector>

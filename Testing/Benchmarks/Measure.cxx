@@ -1,6 +1,6 @@
 #include "Measure.h"
 
-#include "LargeMemory.h"
+#include "Base/LargeMemory.h"
 
 #include <malloc.h>
 #include <poll.h>

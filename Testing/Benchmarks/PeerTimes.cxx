@@ -1,15 +1,15 @@
 #include "PeerTimes.h"
 
 #include "AlgebraicMultigrid.h"
+#include "Base/LargeMemory.h"
 #include "Cholmod.h"
-#include "DirectionalElements.h"
-#include "Evaluation.h"
-#include "LargeMemory.h"
-#include "LoadVector.h"
+#include "Integrals/DirectionalElements.h"
+#include "Integrals/Evaluation.h"
+#include "Integrals/LoadVector.h"
+#include "Integrals/SurfaceMetric.h"
 #include "Measure.h"
 #include "Problems.h"
 #include "Spaces.h"
-#include "SurfaceMetric.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -124,7 +124,7 @@ private:
   void RunUpdates(int threads, GridProblem& grid, GridTimes& times) const
   {
     const MemoryReuse reuse; // as around a flow of many updates
-    const FunctionSpace& space = grid.space;
+    const GridFunctions& space = grid.space;
     const QuadratureRule& rule = TriangleRule(2);
     ElementMatrices& elements = grid.system.elements.front();
     const auto update = [&]

@@ -1,6 +1,6 @@
 #include "Problems.h"
 
-#include "LargeMemory.h"
+#include "Base/LargeMemory.h"
 #include "Spaces.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ double LargestQuotient(const Difference& error, const Product& massError, const 
 }
 
 /// The grid's corner of every finest function, world units.
-std::vector<Vec3> Corners(const FunctionSpace& space)
+std::vector<Vec3> Corners(const GridFunctions& space)
 {
   const MultiVector coordinates = testing::CoordinateCoefficients(space);
   std::vector<Vec3> corners;
@@ -84,7 +84,7 @@ GridProblem SetUp(const TriangleMesh& mesh, int depth, int threads, FunctionSupp
   const MemoryReuse reuse;
   GridProblem problem;
   const SpaceOptions options = OptionsOf(depth, threads, support);
-  problem.space = BuildFunctionSpace(mesh, options);
+  problem.space = BuildGridFunctions(mesh, options);
   problem.system = BuildSystem(problem.space, TriangleRule(2), threads, coarsestSize);
   problem.options.screeningWeight = screeningWeight * std::pow(0.25, depth);
   problem.options.multigrid.threads = threads;
@@ -95,7 +95,7 @@ GridProblem SetUp(const TriangleMesh& mesh, int depth, int threads, FunctionSupp
 
 void ChooseColours(GridProblem& problem, int columns)
 {
-  const FunctionSpace& space = problem.space;
+  const GridFunctions& space = problem.space;
   const double half = 0.5 * std::pow(2.0, space.Finest().depth);
   const Vec3 centre = space.GetGrid().ToWorld(Vec3(half, half, half));
   const double side =
@@ -159,7 +159,7 @@ HybridProblem SetUpHybrid(const TriangleMesh& mesh, int depth, int threads, Func
 {
   HybridProblem problem;
   const SpaceOptions options = OptionsOf(depth, threads, support);
-  problem.space = BuildFunctionSpace(mesh, options);
+  problem.space = BuildGridFunctions(mesh, options);
   problem.system = BuildSystem(problem.space, TriangleRule(2), threads);
   problem.hats = BuildHatHierarchy(
     mesh, problem.space, options.weldCoincidentPoints, HatTransfer::PseudoEvaluation, threads);

@@ -5,8 +5,8 @@
 #define GridFEM_Benchmarks_Problems_h
 
 #include "CotangentSystem.h"
-#include "HatMultigrid.h"
-#include "Poisson.h"
+#include "Problems/Poisson.h"
+#include "Spaces/HatMultigrid.h"
 
 #include <functional>
 #include <memory>
@@ -23,8 +23,8 @@ MultiVector Colours(const std::vector<Vec3>& points, const Vec3& centre, double 
 
 struct GridProblem
 {
-  FunctionSpace space;
-  System system;
+  GridFunctions space;
+  LevelOperators system;
   PoissonOptions options;
   std::unique_ptr<Multigrid> multigrid;
   SparseMatrix mass;
@@ -68,8 +68,8 @@ MultiVector ColoursAtPoints(const TriangleMesh& mesh, int columns);
 /// Hat functions of the mesh above the levels of a grid: the same equation as HatProblem's.
 struct HybridProblem
 {
-  FunctionSpace space;
-  System system;
+  GridFunctions space;
+  LevelOperators system;
   HatHierarchy hats;
 
   /// The cycle for λ = `weight` in units of the unit cube. It holds on to nothing of this.

@@ -1,9 +1,9 @@
 #include "SetupCost.h"
 
-#include "LargeMemory.h"
+#include "Base/LargeMemory.h"
 #include "Measure.h"
 #include "Meshes.h"
-#include "System.h"
+#include "Spaces/LevelOperators.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,13 +71,14 @@ SetupCost MeasureSetup(const TriangleMesh& mesh, int depth, int threads)
   ClippedMesh clipped = measure([&] { return Clip(mesh, clip); });
   cost.clippedTriangles = static_cast<double>(clipped.NumberOfTriangles());
   cost.pieces = static_cast<double>(clipped.NumberOfPieces());
-  const FunctionSpace space = measure(
+  const GridFunctions space = measure(
     [&] {
-      return BuildFunctionSpace(std::move(clipped), FunctionSupport::ConnectivityAware, threads);
+      return BuildGridFunctions(std::move(clipped), FunctionSupport::ConnectivityAware, threads);
     });
   cost.patches = static_cast<double>(space.Finest().NumberOfPatches());
   cost.functions = static_cast<double>(space.Finest().numberOfFunctions);
-  const System system = measure([&] { return BuildSystem(space, TriangleRule(2), threads); });
+  const LevelOperators system =
+    measure([&] { return BuildSystem(space, TriangleRule(2), threads); });
   MultigridOptions options;
   options.threads = threads;
   // λ = 0.01 for a mesh scaled to longest side 1.

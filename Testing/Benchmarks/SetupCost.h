@@ -2,7 +2,7 @@
 #ifndef GridFEM_Benchmarks_SetupCost_h
 #define GridFEM_Benchmarks_SetupCost_h
 
-#include "TriangleMesh.h"
+#include "Grid/TriangleMesh.h"
 
 #include <array>
 #include <string>

@@ -1,10 +1,10 @@
 #include "SpectrumJobs.h"
 
 #include "AlgebraicMultigrid.h"
+#include "Base/LargeMemory.h"
 #include "Cholmod.h"
-#include "LargeMemory.h"
 #include "Measure.h"
-#include "Spectrum.h"
+#include "Problems/Spectrum.h"
 
 #include <functional>
 
@@ -68,8 +68,8 @@ SpectrumJob GridSpectrum(
       options.depth = depth;
       options.threads = threads;
       options.connectivityAware = support == FunctionSupport::ConnectivityAware;
-      const FunctionSpace space = BuildFunctionSpace(mesh, options);
-      const System system = BuildSystem(space, TriangleRule(2), threads);
+      const GridFunctions space = BuildGridFunctions(mesh, options);
+      const LevelOperators system = BuildSystem(space, TriangleRule(2), threads);
       job.setup = setup.Seconds();
       SpectrumOptions spectrum;
       spectrum.numberOfModes = modes;

@@ -3,7 +3,7 @@
 #ifndef GridFEM_Benchmarks_SpectrumJobs_h
 #define GridFEM_Benchmarks_SpectrumJobs_h
 
-#include "FunctionSpace.h"
+#include "Grid/GridFunctions.h"
 #include "ShiftInvert.h"
 
 #include <cmath>

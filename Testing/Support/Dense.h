@@ -2,7 +2,7 @@
 #ifndef GridFEM_Testing_Dense_h
 #define GridFEM_Testing_Dense_h
 
-#include "SparseMatrix.h"
+#include "Algebra/SparseMatrix.h"
 
 namespace gridfem::testing
 {

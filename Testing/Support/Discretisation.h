@@ -2,15 +2,15 @@
 #ifndef GridFEM_Testing_Discretisation_h
 #define GridFEM_Testing_Discretisation_h
 
-#include "System.h"
+#include "Spaces/LevelOperators.h"
 
 namespace gridfem::testing
 {
 
 struct Discretisation
 {
-  FunctionSpace space;
-  System system;
+  GridFunctions space;
+  LevelOperators system;
 
   double Spacing() const { return space.GetGrid().spacing; }
 };
@@ -22,7 +22,7 @@ inline Discretisation Discretise(const TriangleMesh& mesh, int depth, int quadra
   options.depth = depth;
   options.connectivityAware = connectivityAware;
   Discretisation result;
-  result.space = BuildFunctionSpace(mesh, options);
+  result.space = BuildGridFunctions(mesh, options);
   result.system = BuildSystem(result.space, TriangleRule(quadratureDegree), 0, coarsestSize);
   return result;
 }

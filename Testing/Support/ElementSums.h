@@ -2,7 +2,7 @@
 #ifndef GridFEM_Testing_ElementSums_h
 #define GridFEM_Testing_ElementSums_h
 
-#include "ElementMatrices.h"
+#include "Integrals/ElementMatrices.h"
 
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ inline double LargestDifference(const Array<ElementMatrix>& a, const Array<Eleme
 
 /// xᵀ A x summed over the columns of x, A the finest matrix with these element matrices.
 inline double Energy(
-  const FunctionSpace& space, const Array<ElementMatrix>& elements, const MultiVector& x)
+  const GridFunctions& space, const Array<ElementMatrix>& elements, const MultiVector& x)
 {
   double energy = 0.0;
   for (std::size_t patch = 0; patch < elements.size(); ++patch)

@@ -4,7 +4,7 @@
 #ifndef GridFEM_Testing_HatSystem_h
 #define GridFEM_Testing_HatSystem_h
 
-#include "TriangleMesh.h"
+#include "Grid/TriangleMesh.h"
 
 #include <Eigen/SparseCore>
 

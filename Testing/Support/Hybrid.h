@@ -2,8 +2,8 @@
 #ifndef GridFEM_Testing_Hybrid_h
 #define GridFEM_Testing_Hybrid_h
 
-#include "HatLoad.h"
-#include "Poisson.h"
+#include "Problems/Poisson.h"
+#include "Spaces/HatLoad.h"
 
 #include <cmath>
 
@@ -19,7 +19,7 @@ struct Hybrid
     SpaceOptions spaceOptions;
     spaceOptions.depth = depth;
     spaceOptions.threads = threads;
-    space = BuildFunctionSpace(mesh, spaceOptions);
+    space = BuildGridFunctions(mesh, spaceOptions);
     system = BuildSystem(space, TriangleRule(2), threads, 64);
     hats = BuildHatHierarchy(mesh, space, true, transfer, threads);
     options.grid.threads = threads;
@@ -48,8 +48,8 @@ struct Hybrid
   }
 
   TriangleMesh mesh;
-  FunctionSpace space;
-  System system;
+  GridFunctions space;
+  LevelOperators system;
   HatHierarchy hats;
   HatMultigridOptions options;
   SolveOptions solve;

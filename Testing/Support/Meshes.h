@@ -2,7 +2,7 @@
 #ifndef GridFEM_Testing_Meshes_h
 #define GridFEM_Testing_Meshes_h
 
-#include "TriangleMesh.h"
+#include "Grid/TriangleMesh.h"
 
 #include <string>
 

@@ -2,7 +2,7 @@
 
 #include "SparseRows.h"
 
-#include "PatchOrdering.h"
+#include "Spaces/PatchOrdering.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ namespace
 
 struct SampledLevel
 {
-  Level level;
+  PatchLevel level;
   std::map<MortonKey, Id> patchOfCell;
   std::vector<CellIndex> node; // per function
 };

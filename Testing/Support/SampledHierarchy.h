@@ -4,7 +4,7 @@
 #define GridFEM_Testing_SampledHierarchy_h
 
 #include "Dense.h"
-#include "Multigrid.h"
+#include "Multigrid/Multigrid.h"
 
 #include <cstdint>
 

@@ -3,10 +3,10 @@
 #ifndef GridFEM_Testing_Spaces_h
 #define GridFEM_Testing_Spaces_h
 
+#include "Algebra/SparseMatrix.h"
 #include "Dense.h"
-#include "FunctionSpace.h"
+#include "Grid/GridFunctions.h"
 #include "Meshes.h"
-#include "SparseMatrix.h"
 
 #include <ostream>
 #include <random>
@@ -22,7 +22,7 @@ struct SpaceCase
   TriangleMesh mesh;
   SpaceOptions options;
 
-  FunctionSpace Build() const { return BuildFunctionSpace(mesh, options); }
+  GridFunctions Build() const { return BuildGridFunctions(mesh, options); }
 };
 
 inline std::ostream& operator<<(std::ostream& stream, const SpaceCase& space)
@@ -67,9 +67,9 @@ inline void SetRow(MultiVector& values, Id row, const Vec3& vector)
 }
 
 /// Grid corner of every finest function, world units: the coefficients of the coordinate functions.
-inline MultiVector CoordinateCoefficients(const FunctionSpace& space)
+inline MultiVector CoordinateCoefficients(const GridFunctions& space)
 {
-  const Level& level = space.Finest();
+  const PatchLevel& level = space.Finest();
   MultiVector result = MultiVector::Zero(level.numberOfFunctions, 3);
   for (Id patch = 0; patch < level.NumberOfPatches(); ++patch)
   {
@@ -84,7 +84,7 @@ inline MultiVector CoordinateCoefficients(const FunctionSpace& space)
 }
 
 /// The same in grid units: the coefficients of the embedding that is the mesh itself.
-inline MultiVector GridCoordinates(const FunctionSpace& space)
+inline MultiVector GridCoordinates(const GridFunctions& space)
 {
   MultiVector coordinates = CoordinateCoefficients(space);
   for (Id i = 0; i < coordinates.rows(); ++i)

@@ -2,7 +2,7 @@
 #ifndef GridFEM_Testing_SparseRows_h
 #define GridFEM_Testing_SparseRows_h
 
-#include "SparseMatrix.h"
+#include "Algebra/SparseMatrix.h"
 
 namespace gridfem::testing
 {

@@ -5,7 +5,7 @@
 
 #include "Dense.h"
 #include "Discretisation.h"
-#include "Spectrum.h"
+#include "Problems/Spectrum.h"
 
 #include <Eigen/Eigenvalues>
 

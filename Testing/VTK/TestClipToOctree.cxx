@@ -2,8 +2,8 @@
 
 #include "FilterSupport.h"
 
-#include "QuadratureRule.h"
-#include "TriangleMesh.h"
+#include "Grid/TriangleMesh.h"
+#include "Integrals/QuadratureRule.h"
 
 #include "vtkClipToOctree.h"
 

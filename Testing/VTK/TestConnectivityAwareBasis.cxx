@@ -2,7 +2,7 @@
 
 #include "FilterSupport.h"
 
-#include "TriangleMesh.h"
+#include "Grid/TriangleMesh.h"
 
 #include "vtkClipToOctree.h"
 #include "vtkConnectivityAwareBasis.h"

@@ -2,7 +2,7 @@
 
 #include "FilterSupport.h"
 
-#include "TriangleMesh.h"
+#include "Grid/TriangleMesh.h"
 
 #include "vtkConnectivityAwareBasis.h"
 #include "vtkLaplaceSpectrum.h"

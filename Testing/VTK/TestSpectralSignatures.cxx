@@ -3,7 +3,7 @@
 
 #include "FilterSupport.h"
 
-#include "TriangleMesh.h"
+#include "Grid/TriangleMesh.h"
 
 #include "vtkLaplaceSpectrum.h"
 #include "vtkSpectralSignatures.h"

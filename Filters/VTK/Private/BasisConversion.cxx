@@ -1,6 +1,6 @@
 #include "BasisConversion.h"
 
-#include "Errors.h"
+#include "Base/Errors.h"
 
 #include <Eigen/Geometry>
 
@@ -52,7 +52,7 @@ TriangleMesh FanTriangles(const ClippedMesh& clipped)
 }
 
 /// Replaces the pieces by clipped triangles.
-void SplitPieces(const TriangleMesh& mesh, FunctionSpace& space)
+void SplitPieces(const TriangleMesh& mesh, GridFunctions& space)
 {
   ClippedMesh& clipped = space.clipped;
   const Id count = static_cast<Id>(mesh.triangles.size());
@@ -197,7 +197,7 @@ void RequireSameArea(const TriangleMesh& clipped, const TriangleMesh& source)
 
 SurfaceBasis OnClippedMesh(const SurfaceBasis& basis)
 {
-  FunctionSpace space = *basis.space;
+  GridFunctions space = *basis.space;
   auto mesh = std::make_shared<TriangleMesh>(FanTriangles(space.clipped));
   SplitPieces(*mesh, space);
   space.clipped.numberOfInputPoints = static_cast<Id>(mesh->points.size());
@@ -215,7 +215,7 @@ SurfaceBasis OnSourceMesh(
   RequireSamePoints(basis.space->clipped, *source.triangles);
   RequireSameArea(*basis.mesh, *source.triangles);
 
-  FunctionSpace space = *basis.space;
+  GridFunctions space = *basis.space;
   ClippedMesh& clipped = space.clipped;
   const Id inputPoints = static_cast<Id>(source.triangles->points.size());
   clipped.numberOfInputPoints = inputPoints;

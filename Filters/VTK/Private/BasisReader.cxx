@@ -1,8 +1,8 @@
 #include "BasisReader.h"
 
+#include "Base/Errors.h"
+#include "Base/Grouping.h"
 #include "BasisConversion.h"
-#include "Errors.h"
-#include "Grouping.h"
 #include "vtkSurfaceBasisHolder.h"
 
 #include "vtkCellData.h"
@@ -176,9 +176,9 @@ bool IsMadeFrom(const SurfaceBasis& basis, const InputMesh& source)
          basis.mesh->triangles == source.triangles->triangles;
 }
 
-Level ReadFinestLevel(vtkFieldData* fields, const ClippedMesh& clipped)
+PatchLevel ReadFinestLevel(vtkFieldData* fields, const ClippedMesh& clipped)
 {
-  Level finest;
+  PatchLevel finest;
   finest.depth = clipped.grid.depth;
   vtkDataArray* patchCell = RequireArray(fields, PatchCellIdName, 1, -1);
   const Id patches = patchCell->GetNumberOfTuples();
@@ -205,7 +205,7 @@ SurfaceBasis RebuildBasis(vtkPolyData* data, const InputMesh& mesh, const Progre
 {
   ClippedMesh clipped =
     ReadClippedMesh(data, mesh, WeldsCoincidentPoints(data), progress.Part(0.0, 0.6));
-  Level finest = ReadFinestLevel(data->GetFieldData(), clipped);
+  PatchLevel finest = ReadFinestLevel(data->GetFieldData(), clipped);
   vtkDataArray* patchId =
     RequireArray(data->GetCellData(), PatchIdName, 1, data->GetNumberOfCells());
   const Array<Index> pieceCell = PieceCells(clipped);
@@ -226,7 +226,7 @@ SurfaceBasis RebuildBasis(vtkPolyData* data, const InputMesh& mesh, const Progre
                                     ? FunctionSupport::ConnectivityAware
                                     : FunctionSupport::Plain;
   return MakeSurfaceBasis(
-    mesh.triangles, RestoreFunctionSpace(std::move(clipped), std::move(piecePatch),
+    mesh.triangles, RestoreGridFunctions(std::move(clipped), std::move(piecePatch),
                       std::move(finest), support, progress.Part(0.6, 1.0)));
 }
 

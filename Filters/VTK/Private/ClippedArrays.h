@@ -2,7 +2,7 @@
 #ifndef GridFEM_ClippedArrays_h
 #define GridFEM_ClippedArrays_h
 
-#include "FunctionSpace.h"
+#include "Grid/GridFunctions.h"
 #include "InputMesh.h"
 
 class vtkPolyData;

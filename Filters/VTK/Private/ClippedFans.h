@@ -2,8 +2,8 @@
 #ifndef GridFEM_ClippedFans_h
 #define GridFEM_ClippedFans_h
 
-#include "Clip.h"
-#include "Parallel.h"
+#include "Base/Parallel.h"
+#include "Grid/Clip.h"
 
 namespace gridfem
 {

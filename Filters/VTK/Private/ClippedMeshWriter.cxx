@@ -4,8 +4,8 @@
 #include "InterpolatedArrays.h"
 #include "PointCoordinates.h"
 
-#include "Errors.h"
-#include "Parallel.h"
+#include "Base/Errors.h"
+#include "Base/Parallel.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -228,7 +228,7 @@ void AddInputArrays(vtkPolyData* input, const InputMesh& mesh, const ClippedMesh
   }
 }
 
-std::vector<Id> PatchesOfTriangles(const FunctionSpace& space, int threads)
+std::vector<Id> PatchesOfTriangles(const GridFunctions& space, int threads)
 {
   std::vector<Id> patches(space.clipped.NumberOfTriangles());
   ForEachFan(space.clipped, threads,
@@ -237,14 +237,14 @@ std::vector<Id> PatchesOfTriangles(const FunctionSpace& space, int threads)
   return patches;
 }
 
-void WriteBasis(const FunctionSpace& space, const std::vector<Id>& cellPatch,
+void WriteBasis(const GridFunctions& space, const std::vector<Id>& cellPatch,
   bool weldCoincidentPoints, vtkPolyData* output)
 {
   auto patchId = NewIds(PatchIdName, static_cast<Id>(cellPatch.size()));
   std::copy(cellPatch.begin(), cellPatch.end(), patchId->GetPointer(0));
   output->GetCellData()->AddArray(patchId);
 
-  const Level& finest = space.Finest();
+  const PatchLevel& finest = space.Finest();
   auto patchCell = NewIds(PatchCellIdName, finest.NumberOfPatches());
   auto basisIds = NewIds(PatchBasisIdsName, finest.NumberOfPatches(), FunctionsPerPatch);
   const std::vector<MortonKey>& cells = space.clipped.cells;

@@ -23,14 +23,14 @@ void AddInputArrays(vtkPolyData* input, const InputMesh& mesh, const ClippedMesh
 /// Adds PatchId, PatchCellId, PatchBasisIds, NumberOfBasisFunctions, ConnectivityAware and
 /// WeldCoincidentPoints.
 /// @param cellPatch  per cell of `output`
-void WriteBasis(const FunctionSpace& space, const std::vector<Id>& cellPatch,
+void WriteBasis(const GridFunctions& space, const std::vector<Id>& cellPatch,
   bool weldCoincidentPoints, vtkPolyData* output);
 
 /// Adds the cell and field arrays of one mesh to another; replaces those of the same name.
 void PassArrays(vtkPolyData* from, vtkPolyData* to);
 
 /// The patch of every clipped triangle: pieces in order, each with its fan.
-std::vector<Id> PatchesOfTriangles(const FunctionSpace& space, int threads);
+std::vector<Id> PatchesOfTriangles(const GridFunctions& space, int threads);
 
 /// Points in the precision of the input's: single stays single, all else becomes double.
 int OutputPrecision(vtkPoints* input);

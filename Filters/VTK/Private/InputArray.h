@@ -3,7 +3,7 @@
 #define GridFEM_InputArray_h
 
 #include "InputMesh.h"
-#include "LoadVector.h"
+#include "Integrals/LoadVector.h"
 
 #include <string>
 

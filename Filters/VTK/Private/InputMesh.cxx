@@ -2,7 +2,7 @@
 
 #include "PointCoordinates.h"
 
-#include "Parallel.h"
+#include "Base/Parallel.h"
 
 #include "vtkCellArray.h"
 #include "vtkIdList.h"

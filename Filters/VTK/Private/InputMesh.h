@@ -2,8 +2,8 @@
 #ifndef GridFEM_InputMesh_h
 #define GridFEM_InputMesh_h
 
-#include "Progress.h"
-#include "TriangleMesh.h"
+#include "Base/Progress.h"
+#include "Grid/TriangleMesh.h"
 
 #include <memory>
 #include <utility>

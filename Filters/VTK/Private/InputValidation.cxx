@@ -1,9 +1,9 @@
 #include "InputValidation.h"
 
-#include "Errors.h"
-#include "LayeredFunctions.h"
-#include "MemoryEstimate.h"
-#include "Spectrum.h"
+#include "Base/Errors.h"
+#include "Problems/MemoryEstimate.h"
+#include "Problems/Spectrum.h"
+#include "Spaces/LayeredFunctions.h"
 
 #include "vtkMultiProcessController.h"
 #include "vtkPolyData.h"

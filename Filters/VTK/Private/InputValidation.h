@@ -2,7 +2,7 @@
 #ifndef GridFEM_InputValidation_h
 #define GridFEM_InputValidation_h
 
-#include "TriangleMesh.h"
+#include "Grid/TriangleMesh.h"
 
 class vtkPolyData;
 

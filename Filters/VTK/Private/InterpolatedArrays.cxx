@@ -1,8 +1,8 @@
 #include "InterpolatedArrays.h"
 
+#include "Base/Errors.h"
+#include "Base/Parallel.h"
 #include "ClippedArrays.h"
-#include "Errors.h"
-#include "Parallel.h"
 
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"

@@ -2,7 +2,7 @@
 #ifndef GridFEM_InterpolatedArrays_h
 #define GridFEM_InterpolatedArrays_h
 
-#include "Clip.h"
+#include "Grid/Clip.h"
 
 class vtkCellData;
 class vtkDataArray;

@@ -1,6 +1,6 @@
 #include "ModeReader.h"
 
-#include "Errors.h"
+#include "Base/Errors.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"

@@ -5,7 +5,7 @@
 #include "InputMesh.h"
 #include "StageCache.h"
 
-#include "ModeSums.h"
+#include "Problems/SpectralDescriptors.h"
 
 #include <string>
 #include <vector>

@@ -3,9 +3,9 @@
 #include "ClippedFans.h"
 #include "PointCoordinates.h"
 
-#include "ElementMatrices.h"
-#include "Errors.h"
-#include "Parallel.h"
+#include "Base/Errors.h"
+#include "Base/Parallel.h"
+#include "Integrals/ElementMatrices.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -89,7 +89,7 @@ std::vector<MortonKey> AncestorCells(const std::vector<MortonKey>& cells, int ge
 }
 
 /// World area of the surface in every patch of a level.
-std::vector<double> PatchAreas(const FunctionSpace& space, std::size_t level)
+std::vector<double> PatchAreas(const GridFunctions& space, std::size_t level)
 {
   std::vector<double> area(space.Finest().NumberOfPatches(), 0.0);
   const double cellArea = space.GetGrid().spacing * space.GetGrid().spacing;
@@ -111,7 +111,7 @@ std::vector<double> PatchAreas(const FunctionSpace& space, std::size_t level)
 
 /// Connected component of every patch of a level, by the numbers of the finest; the lowest where
 /// the plain space joins several.
-std::vector<Index> PatchComponents(const FunctionSpace& space, std::size_t level)
+std::vector<Index> PatchComponents(const GridFunctions& space, std::size_t level)
 {
   std::vector<Index> component;
   for (const auto& dof : space.Finest().dof)
@@ -132,9 +132,9 @@ std::vector<Index> PatchComponents(const FunctionSpace& space, std::size_t level
   return component;
 }
 
-void AddFunctionArrays(const FunctionSpace& space, std::size_t index, vtkUnstructuredGrid* output)
+void AddFunctionArrays(const GridFunctions& space, std::size_t index, vtkUnstructuredGrid* output)
 {
-  const Level& level = space.levels[index];
+  const PatchLevel& level = space.levels[index];
   const std::vector<double> area = PatchAreas(space, index);
   const std::vector<Index> component = PatchComponents(space, index);
   auto basisId = NewArray<vtkIdTypeArray>("BasisId", level.numberOfFunctions);
@@ -243,17 +243,17 @@ void WriteQuadraturePoints(const InputMesh& mesh, const ClippedMesh& clipped,
   output->GetPointData()->AddArray(sourceCell);
 }
 
-const Level& LevelOfDepth(const FunctionSpace& space, int depth)
+const PatchLevel& LevelOfDepth(const GridFunctions& space, int depth)
 {
   const auto found = std::find_if(space.levels.begin(), space.levels.end(),
-    [&](const Level& level) { return level.depth <= depth; });
+    [&](const PatchLevel& level) { return level.depth <= depth; });
   return found == space.levels.end() ? space.levels.back() : *found;
 }
 
 void WriteBasisFunctions(
-  const FunctionSpace& space, int depth, int precision, vtkUnstructuredGrid* output)
+  const GridFunctions& space, int depth, int precision, vtkUnstructuredGrid* output)
 {
-  const Level& level = LevelOfDepth(space, depth);
+  const PatchLevel& level = LevelOfDepth(space, depth);
   auto points = NewPoints(precision, level.numberOfFunctions);
   for (Index function = 0; function < level.numberOfFunctions; ++function)
   {
@@ -281,9 +281,9 @@ void WriteBasisFunctions(
   AddFunctionArrays(space, &level - space.levels.data(), output);
 }
 
-MultiVector BasisFunctionCoefficients(const FunctionSpace& space, int depth, Id function)
+MultiVector BasisFunctionCoefficients(const GridFunctions& space, int depth, Id function)
 {
-  const Level& level = LevelOfDepth(space, depth);
+  const PatchLevel& level = LevelOfDepth(space, depth);
   if (function < 0 || function >= level.numberOfFunctions)
   {
     throw InvalidInput("BasisId " + std::to_string(function) + " does not exist: level " +

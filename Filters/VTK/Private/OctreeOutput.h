@@ -2,9 +2,9 @@
 #ifndef GridFEM_OctreeOutput_h
 #define GridFEM_OctreeOutput_h
 
-#include "FunctionSpace.h"
+#include "Grid/GridFunctions.h"
 #include "InputMesh.h"
-#include "QuadratureRule.h"
+#include "Integrals/QuadratureRule.h"
 
 class vtkPolyData;
 class vtkUnstructuredGrid;
@@ -28,14 +28,14 @@ void WriteQuadraturePoints(const InputMesh& mesh, const ClippedMesh& clipped,
 /// SupportArea (world area of the patches a function touches), Component; cell arrays PatchId,
 /// Level.
 void WriteBasisFunctions(
-  const FunctionSpace& space, int level, int precision, vtkUnstructuredGrid* output);
+  const GridFunctions& space, int level, int precision, vtkUnstructuredGrid* output);
 
 /// The coefficients, on the finest level, of one function of a level. Throws InvalidInput when
 /// there is no function with this id.
-MultiVector BasisFunctionCoefficients(const FunctionSpace& space, int level, Id function);
+MultiVector BasisFunctionCoefficients(const GridFunctions& space, int level, Id function);
 
 /// The level of this depth; the finest for a greater one.
-const Level& LevelOfDepth(const FunctionSpace& space, int depth);
+const PatchLevel& LevelOfDepth(const GridFunctions& space, int depth);
 
 } // namespace gridfem
 

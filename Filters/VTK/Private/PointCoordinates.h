@@ -2,7 +2,7 @@
 #ifndef GridFEM_PointCoordinates_h
 #define GridFEM_PointCoordinates_h
 
-#include "Types.h"
+#include "Base/Types.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"

@@ -2,7 +2,7 @@
 #ifndef GridFEM_ProgressBridge_h
 #define GridFEM_ProgressBridge_h
 
-#include "Progress.h"
+#include "Base/Progress.h"
 
 #include <chrono>
 

@@ -2,8 +2,8 @@
 #ifndef GridFEM_SolverOutput_h
 #define GridFEM_SolverOutput_h
 
-#include "ConjugateGradients.h"
-#include "Types.h"
+#include "Base/Types.h"
+#include "Krylov/ConjugateGradients.h"
 
 #include "vtkSmartPointer.h"
 

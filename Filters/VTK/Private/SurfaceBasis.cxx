@@ -1,18 +1,18 @@
 #include "SurfaceBasis.h"
 
-#include "QuadratureRule.h"
+#include "Integrals/QuadratureRule.h"
 
 namespace gridfem
 {
 
-std::shared_ptr<const System> SystemStore::Find(const SystemKey& key) const
+std::shared_ptr<const LevelOperators> SystemStore::Find(const SystemKey& key) const
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   const auto found = systems_.find(key);
   return found == systems_.end() ? nullptr : found->second;
 }
 
-std::shared_ptr<const System> SystemStore::Get(
+std::shared_ptr<const LevelOperators> SystemStore::Get(
   const SystemKey& key, int threads, const Progress& progress)
 {
   const QuadratureRule& rule = TriangleRule(key.quadratureDegree);
@@ -20,17 +20,17 @@ std::shared_ptr<const System> SystemStore::Get(
   auto& system = systems_[key];
   if (!system)
   {
-    system = std::make_shared<const System>(
+    system = std::make_shared<const LevelOperators>(
       BuildSystem(*space_, rule, threads, key.coarsestSize, progress));
   }
   return system;
 }
 
-SurfaceBasis MakeSurfaceBasis(std::shared_ptr<const TriangleMesh> mesh, FunctionSpace space)
+SurfaceBasis MakeSurfaceBasis(std::shared_ptr<const TriangleMesh> mesh, GridFunctions space)
 {
   SurfaceBasis basis;
   basis.mesh = std::move(mesh);
-  basis.space = std::make_shared<const FunctionSpace>(std::move(space));
+  basis.space = std::make_shared<const GridFunctions>(std::move(space));
   basis.systems = std::make_shared<SystemStore>(basis.space);
   return basis;
 }

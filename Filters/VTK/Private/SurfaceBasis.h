@@ -2,9 +2,9 @@
 #ifndef GridFEM_SurfaceBasis_h
 #define GridFEM_SurfaceBasis_h
 
-#include "FunctionSpace.h"
+#include "Grid/GridFunctions.h"
 #include "InputMesh.h"
-#include "System.h"
+#include "Spaces/LevelOperators.h"
 
 #include <map>
 #include <memory>
@@ -31,31 +31,32 @@ struct SystemKey
 class SystemStore
 {
 public:
-  explicit SystemStore(std::shared_ptr<const FunctionSpace> space) : space_(std::move(space)) {}
+  explicit SystemStore(std::shared_ptr<const GridFunctions> space) : space_(std::move(space)) {}
 
   /// The system, or null when it has not been built yet.
-  std::shared_ptr<const System> Find(const SystemKey& key) const;
+  std::shared_ptr<const LevelOperators> Find(const SystemKey& key) const;
 
   /// Builds it if need be; a second caller waits. Throws InvalidInput and Aborted.
-  std::shared_ptr<const System> Get(const SystemKey& key, int threads, const Progress& progress);
+  std::shared_ptr<const LevelOperators> Get(
+    const SystemKey& key, int threads, const Progress& progress);
 
 private:
-  std::shared_ptr<const FunctionSpace> space_;
+  std::shared_ptr<const GridFunctions> space_;
   mutable std::mutex mutex_;
-  std::map<SystemKey, std::shared_ptr<const System>> systems_;
+  std::map<SystemKey, std::shared_ptr<const LevelOperators>> systems_;
 };
 
 /// Immutable but for the store, so that it may be shared between filters and threads.
 struct SurfaceBasis
 {
   std::shared_ptr<const TriangleMesh> mesh; // what the pieces' source triangles refer to
-  std::shared_ptr<const FunctionSpace> space;
+  std::shared_ptr<const GridFunctions> space;
   std::shared_ptr<SystemStore> systems; // element matrices belong to patches, not to triangles
 
   explicit operator bool() const { return space != nullptr; }
 };
 
-SurfaceBasis MakeSurfaceBasis(std::shared_ptr<const TriangleMesh> mesh, FunctionSpace space);
+SurfaceBasis MakeSurfaceBasis(std::shared_ptr<const TriangleMesh> mesh, GridFunctions space);
 
 } // namespace gridfem
 

@@ -1,7 +1,7 @@
 #include "SurfaceSolverState.h"
 
+#include "Base/Errors.h"
 #include "BasisReader.h"
-#include "Errors.h"
 #include "InputValidation.h"
 #include "vtkSurfaceFEMAlgorithm.h"
 
@@ -110,7 +110,7 @@ void SurfaceSolverState::BuildSpace(vtkPolyData* input, const Progress& progress
   RequireSurface(*mesh.triangles);
   RequireMemory(*mesh.triangles, options.space.depth);
   basis = MakeSurfaceBasis(
-    mesh.triangles, BuildFunctionSpace(*mesh.triangles, options.space, progress.Part(0.1, 1.0)));
+    mesh.triangles, BuildGridFunctions(*mesh.triangles, options.space, progress.Part(0.1, 1.0)));
 }
 
 void SurfaceSolverState::UpdateSystem(const Progress& progress)

@@ -3,10 +3,10 @@
 #ifndef GridFEM_SurfaceSolverState_h
 #define GridFEM_SurfaceSolverState_h
 
-#include "ConjugateGradients.h"
-#include "HatMultigrid.h"
 #include "InputMesh.h"
+#include "Krylov/ConjugateGradients.h"
 #include "ProgressBridge.h"
+#include "Spaces/HatMultigrid.h"
 #include "StageCache.h"
 #include "SurfaceBasis.h"
 
@@ -62,7 +62,7 @@ public:
   /// The hat functions of the mesh above the space.
   HatHierarchy BuildHats(const Progress& progress) const;
 
-  const FunctionSpace& Space() const { return *basis.space; }
+  const GridFunctions& Space() const { return *basis.space; }
 
   /// A weight per squared length of the parameter units, per squared grid unit.
   double WeightInGridUnits(double weight) const;
@@ -71,7 +71,7 @@ public:
   StageCache stages;
   InputMesh mesh;
   SurfaceBasis basis;
-  std::shared_ptr<const System> system;
+  std::shared_ptr<const LevelOperators> system;
   std::optional<HatHierarchy> hats; // only with options.hatFunctions
   ProgressBridge bridge;
 

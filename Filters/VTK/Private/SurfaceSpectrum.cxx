@@ -4,10 +4,10 @@
 #include "InputValidation.h"
 #include "vtkSurfaceFEMAlgorithm.h"
 
-#include "Evaluation.h"
-#include "HatSpectrum.h"
-#include "MemoryEstimate.h"
-#include "SpectrumAccuracy.h"
+#include "Integrals/Evaluation.h"
+#include "Problems/HatSpectrum.h"
+#include "Problems/MemoryEstimate.h"
+#include "Problems/SpectrumAccuracy.h"
 
 #include "vtkPolyData.h"
 
@@ -72,7 +72,7 @@ void SurfaceSpectrum::Solve(
   AddMultigrid(key, state.options.multigrid);
   const auto solve = [&]
   {
-    const FunctionSpace& space = state.Space();
+    const GridFunctions& space = state.Space();
     RequireMemoryForModes(
       space.Finest().numberOfFunctions + (state.hats ? state.hats->functions.Count() : 0),
       request.numberOfModes, state.options.multigrid.threads);
@@ -125,7 +125,7 @@ void SurfaceSpectrum::Compare(SurfaceSolverState& state, const Progress& progres
     return;
   }
   compared_ = {};
-  const FunctionSpace& space = state.Space();
+  const GridFunctions& space = state.Space();
   const SpectrumOptions options = SolverOptions(state, this->NumberOfModes());
   Spectrum other;
   if (state.hats)

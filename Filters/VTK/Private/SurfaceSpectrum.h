@@ -6,7 +6,7 @@
 #include "StageCache.h"
 #include "SurfaceSolverState.h"
 
-#include "Spectrum.h"
+#include "Problems/Spectrum.h"
 
 #include <vector>
 

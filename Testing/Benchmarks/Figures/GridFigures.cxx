@@ -1,7 +1,7 @@
 #include "AlgebraicMultigrid.h"
-#include "Evaluation.h"
 #include "Figures.h"
 #include "Hierarchy.h"
+#include "Integrals/Evaluation.h"
 #include "Measure.h"
 #include "Meshes.h"
 #include "Problems.h"

@@ -1,9 +1,9 @@
 #include "Figures.h"
 #include "Measure.h"
 #include "Meshes.h"
+#include "Problems/Spectrum.h"
 #include "SetupCost.h"
 #include "ShiftInvert.h"
-#include "Spectrum.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ constexpr int Modes = 100;
 const char* const Number = "number of the eigenvalue";
 
 /// World units.
-std::vector<double> Eigenvalues(const FunctionSpace& space, int degree)
+std::vector<double> Eigenvalues(const GridFunctions& space, int degree)
 {
   SpectrumOptions options;
   options.numberOfModes = Modes;
@@ -33,12 +33,12 @@ std::vector<double> Eigenvalues(const FunctionSpace& space, int degree)
   return values;
 }
 
-FunctionSpace Space(const TriangleMesh& mesh, int depth, bool connectivityAware = true)
+GridFunctions Space(const TriangleMesh& mesh, int depth, bool connectivityAware = true)
 {
   SpaceOptions options;
   options.depth = depth;
   options.connectivityAware = connectivityAware;
-  return BuildFunctionSpace(mesh, options);
+  return BuildGridFunctions(mesh, options);
 }
 
 /// |value / reference - 1| from the second eigenvalue on.
@@ -72,7 +72,7 @@ std::vector<double> HatEigenvalues(const TriangleMesh& mesh)
 
 void WriteQuadratureFigure(const std::string& folder)
 {
-  const FunctionSpace space = Space(RockerArm(0).mesh, 5);
+  const GridFunctions space = Space(RockerArm(0).mesh, 5);
   const double triangles = static_cast<double>(space.clipped.NumberOfTriangles());
   Figure figure{ "figure-4.4",
     { SpectrumPanel("Rocker arm, depth 5: five quadrature rules"),
@@ -157,7 +157,7 @@ Panel CompareWithCotangents(
     label("cotangents", mid.points.size()), Curve::Kind::Peer, Differences(fine, truth), 2));
   for (const int depth : depths)
   {
-    const FunctionSpace space = Space(low, depth);
+    const GridFunctions space = Space(low, depth);
     const Index functions = space.Finest().numberOfFunctions;
     std::printf("Table 4.3: %s: cotangents %zu / %zu / %zu, depth %d: %d functions, plain %d\n",
       title.c_str(), low.points.size(), mid.points.size(), high.points.size(), depth, functions,

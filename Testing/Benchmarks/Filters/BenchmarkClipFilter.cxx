@@ -1,6 +1,6 @@
 // The filter Clip To Octree, from vtkPolyData to vtkPolyData, against Core's clip that it stands
 // for: what reading, checking and writing arrays of VTK cost.
-#include "Clip.h"
+#include "Grid/Clip.h"
 #include "Measure.h"
 #include "SetupCost.h"
 

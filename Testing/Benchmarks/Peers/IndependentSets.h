@@ -3,7 +3,7 @@
 #ifndef GridFEM_Benchmarks_IndependentSets_h
 #define GridFEM_Benchmarks_IndependentSets_h
 
-#include "TriangleMesh.h"
+#include "Grid/TriangleMesh.h"
 
 #include <Eigen/SparseCore>
 

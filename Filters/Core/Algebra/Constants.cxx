@@ -1,0 +1,131 @@
+#include "Algebra/Constants.h"
+
+#include "Base/Parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gridfem
+{
+namespace
+{
+
+/// Sums over all rows are made of at most so many, whatever the number of threads.
+constexpr Id MostSums = 16;
+constexpr Id RowsPerComponent = 64;
+
+} // namespace
+
+Constants::Constants(
+  const SparseMatrix& mass, std::vector<Index> component, Index numberOfComponents, int threads)
+  : component_(std::move(component)), threads_(threads)
+{
+  weight_.assign(mass.rows, 0.0);
+  mass_.assign(numberOfComponents, 0.0);
+  double total = 0.0;
+  for (Index i = 0; i < mass.rows; ++i)
+  {
+    for (Id k = mass.rowBegin[i]; k < mass.rowBegin[i + 1]; ++k)
+    {
+      weight_[i] += mass.value[k];
+    }
+    mass_[component_[i]] += weight_[i];
+    total += weight_[i];
+  }
+  for (Index c = 0; c < numberOfComponents; ++c)
+  {
+    if (mass_[c] > 1e-14 * total)
+    {
+      massive_.push_back(c);
+    }
+    else
+    {
+      mass_[c] = 0.0;
+    }
+  }
+}
+
+template<class Real>
+void Constants::Remove(Block<Real> X) const
+{
+  const MultiVector mean = this->Means<Real>(X);
+  ParallelRanges(X.rows(), threads_,
+    [&](Id begin, Id end)
+    {
+      for (Id i = begin; i < end; ++i)
+      {
+        if (mass_[component_[i]] > 0.0)
+        {
+          X.row(i) -= mean.row(component_[i]).cast<Real>();
+        }
+        else
+        {
+          X.row(i).setZero();
+        }
+      }
+    });
+}
+
+template void Constants::Remove(Block<float>) const;
+template void Constants::Remove(Block<double>) const;
+
+template<class Real>
+MultiVector Constants::Means(const ConstBlock<Real>& X) const
+{
+  const Id components = static_cast<Id>(mass_.size());
+  // A sum of every component each: as many as take less memory than a part of X.
+  const Id sums = std::clamp<Id>(X.rows() / (RowsPerComponent * components + 1), 1, MostSums);
+  MultiVector mean = ParallelSum(
+    X.rows(), threads_, MultiVector(MultiVector::Zero(components, X.cols())),
+    [&](Id begin, Id end)
+    {
+      MultiVector sum = MultiVector::Zero(components, X.cols());
+      for (Id i = begin; i < end; ++i)
+      {
+        sum.row(component_[i]) += weight_[i] * X.row(i).template cast<double>();
+      }
+      return sum;
+    },
+    X.rows() / sums + 1);
+  for (Id c = 0; c < components; ++c)
+  {
+    mean.row(c) *= mass_[c] > 0.0 ? 1.0 / mass_[c] : 0.0;
+  }
+  return mean;
+}
+
+void Constants::Deflate(Eigen::MatrixXd& mass) const
+{
+  for (Id j = 0; j < mass.cols(); ++j)
+  {
+    const double total = mass_[component_[j]];
+    for (Id i = 0; i < mass.rows(); ++i)
+    {
+      if (component_[i] == component_[j])
+      {
+        mass(i, j) = total > 0.0 ? mass(i, j) - weight_[i] * weight_[j] / total : 0.0;
+      }
+    }
+  }
+}
+
+MultiVector Constants::Vectors(Index count) const
+{
+  MultiVector result = MultiVector::Zero(static_cast<Id>(component_.size()), count);
+  std::vector<Index> column(mass_.size(), -1);
+  for (Index j = 0; j < count; ++j)
+  {
+    column[massive_[j]] = j;
+  }
+  for (std::size_t i = 0; i < component_.size(); ++i)
+  {
+    const Index j = column[component_[i]];
+    if (j >= 0)
+    {
+      result(static_cast<Id>(i), j) = 1.0 / std::sqrt(mass_[component_[i]]);
+    }
+  }
+  return result;
+}
+
+} // namespace gridfem

@@ -1,0 +1,37 @@
+// Rayleigh-Ritz: the best approximations of eigenpairs of L x = θ M x inside the span of a few
+// vectors. The span may be dependent and M may be singular on it: dependent directions are found
+// and left out. Used by the block iteration and, with all unit vectors, by the dense coarse solve.
+#ifndef GridFEM_RayleighRitz_h
+#define GridFEM_RayleighRitz_h
+
+#include "Base/Types.h"
+
+#include <vector>
+
+namespace gridfem
+{
+
+struct RitzPairs
+{
+  Eigen::VectorXd values;       // ascending
+  Eigen::MatrixXd coefficients; // one column per pair, orthonormal in the mass matrix
+};
+
+/// Pivots of the matrix scaled to unit diagonal below this mark a dependent direction: far above
+/// the rounding of products in that precision (1e-16, 1e-7), so that noise never poses as a vector,
+/// and below what a solution needs.
+template<class Real>
+constexpr double DependentPivot = sizeof(Real) == sizeof(double) ? 1e-12 : 1e-4;
+
+/// The lowest pairs of stiffness c = θ mass c, at most `wanted`; fewer when fewer exist. Both are
+/// symmetric positive semi-definite, of equal size; what both map to zero does not count. Solved
+/// as the largest pairs of mass c = μ (stiffness + shift mass) c, μ = 1 / (θ + shift): rounding
+/// then harms the highest pairs, not the lowest, and directions with mass zero are harmless.
+/// @param shift     > 0, about the size of the lowest values of θ
+/// @param smallest  pivot of an independent direction
+RitzPairs SolvePencil(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass, double shift,
+  Index wanted, double smallest = DependentPivot<double>);
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,150 @@
+// Inner loops shared by matrix products and smoothers: one row of a sparse matrix times a few
+// columns of a row-major block. The number of columns is known at compile time, so that they fill
+// SIMD lanes; the choice at run time is made in one place, ForEachChunk.
+#ifndef GridFEM_RowKernels_h
+#define GridFEM_RowKernels_h
+
+#include "Algebra/SparseMatrix.h"
+#include "Base/Parallel.h"
+#include "Base/Prefetch.h"
+
+namespace gridfem
+{
+
+/// `Columns` neighbouring columns of a row-major block, the first of them `first`. `Stride` is the
+/// distance of two rows, 0 where it is known at run time only.
+template<int Columns, int Stride>
+struct ColumnChunk
+{
+  static constexpr int Width = Columns;
+  using ColumnLanes = Eigen::Array<double, Columns, 1>;
+
+  Id first = 0;
+  Id stride = Stride;
+
+  Id Offset(Index row) const { return Id(row) * (Stride > 0 ? Stride : stride) + first; }
+
+  Eigen::Map<ColumnLanes> Row(double* x, Index row) const
+  {
+    return Eigen::Map<ColumnLanes>(x + this->Offset(row));
+  }
+  Eigen::Map<const ColumnLanes> Row(const double* x, Index row) const
+  {
+    return Eigen::Map<const ColumnLanes>(x + this->Offset(row));
+  }
+};
+
+/// Calls body(chunk) for chunks of 8, 4, 3, 2 or 1 columns that cover a block of `columns`.
+template<class Body>
+void ForEachChunk(Id columns, Body&& body)
+{
+  switch (columns)
+  {
+    case 1:
+      return body(ColumnChunk<1, 1>());
+    case 2:
+      return body(ColumnChunk<2, 2>());
+    case 3:
+      return body(ColumnChunk<3, 3>());
+    case 4:
+      return body(ColumnChunk<4, 4>());
+    case 8:
+      return body(ColumnChunk<8, 8>());
+    default:
+      break;
+  }
+  Id first = 0;
+  for (; columns - first >= 8; first += 8)
+  {
+    body(ColumnChunk<8, 0>{ first, columns });
+  }
+  if (columns - first >= 4)
+  {
+    body(ColumnChunk<4, 0>{ first, columns });
+    first += 4;
+  }
+  switch (columns - first)
+  {
+    case 1:
+      return body(ColumnChunk<1, 0>{ first, columns });
+    case 2:
+      return body(ColumnChunk<2, 0>{ first, columns });
+    case 3:
+      return body(ColumnChunk<3, 0>{ first, columns });
+    default:
+      break;
+  }
+}
+
+/// The arrays of a matrix, for loops that should not look them up again.
+struct RowView
+{
+  const Id* begin;
+  const Index* column;
+  const double* value;
+
+  explicit RowView(const SparseMatrix& A)
+    : begin(A.rowBegin.data()), column(A.column.data()), value(A.value.data())
+  {
+  }
+};
+
+/// Asks for the entries of a row, of a long one for the first.
+EIGEN_ALWAYS_INLINE void FetchRow(const RowView& A, Index row)
+{
+  Fetch(A.column + A.begin[row]);
+  Fetch<3>(A.value + A.begin[row]);
+}
+
+/// One row of A times a chunk of x. A single column is added up in four parts, so that additions
+/// need not wait for each other.
+template<class Chunk>
+inline typename Chunk::ColumnLanes RowProduct(const RowView& A, Index row, const double* x, Chunk chunk)
+{
+  using ColumnLanes = typename Chunk::ColumnLanes;
+  const Id end = A.begin[row + 1];
+  Id k = A.begin[row];
+  if constexpr (Chunk::Width == 1)
+  {
+    double part[4] = { 0.0, 0.0, 0.0, 0.0 };
+    for (; k + 4 <= end; k += 4)
+    {
+      for (int i = 0; i < 4; ++i)
+      {
+        part[i] += A.value[k + i] * x[chunk.Offset(A.column[k + i])];
+      }
+    }
+    for (; k < end; ++k)
+    {
+      part[0] += A.value[k] * x[chunk.Offset(A.column[k])];
+    }
+    return ColumnLanes((part[0] + part[1]) + (part[2] + part[3]));
+  }
+  else
+  {
+    ColumnLanes even = ColumnLanes::Zero();
+    ColumnLanes odd = ColumnLanes::Zero();
+    for (; k + 2 <= end; k += 2)
+    {
+      even += A.value[k] * chunk.Row(x, A.column[k]);
+      odd += A.value[k + 1] * chunk.Row(x, A.column[k + 1]);
+    }
+    if (k < end)
+    {
+      even += A.value[k] * chunk.Row(x, A.column[k]);
+    }
+    return even + odd;
+  }
+}
+
+/// `threads` where there is enough to do (multiplications) to be worth waking them, else 1. A
+/// sleeping thread takes some 20 µs to wake, 100,000 multiplications some 100 µs.
+inline int ThreadsFor(Id work, int threads)
+{
+  constexpr Id Worthwhile = 100000;
+  return work < Worthwhile ? 1 : threads;
+}
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,55 @@
+#include "Grid/Field.h"
+
+#include "Base/Errors.h"
+
+#include <string>
+
+namespace gridfem
+{
+
+void RequireField(const Field& field, const TriangleMesh& mesh)
+{
+  const bool onPoints = field.association == FieldAssociation::Points;
+  const std::size_t rows = onPoints ? mesh.points.size() : mesh.triangles.size();
+  if (static_cast<std::size_t>(field.values.rows()) != rows)
+  {
+    throw InvalidInput("The field has " + std::to_string(field.values.rows()) +
+                       " rows; the mesh has " + std::to_string(rows) +
+                       (onPoints ? " points." : " triangles."));
+  }
+}
+
+void RequireVectors(const Field& field, const TriangleMesh& mesh)
+{
+  RequireField(field, mesh);
+  if (field.values.cols() % 3 != 0)
+  {
+    throw InvalidInput("The vector field has " + std::to_string(field.values.cols()) +
+                       " columns; vectors need a multiple of 3.");
+  }
+}
+
+void RequireScale(const Field* scale, const TriangleMesh& mesh)
+{
+  if (!scale)
+  {
+    return;
+  }
+  RequireField(*scale, mesh);
+  if (scale->values.cols() != 1)
+  {
+    throw InvalidInput(
+      "The gradient scale has " + std::to_string(scale->values.cols()) + " columns instead of 1.");
+  }
+}
+
+void RequireOnPoints(const Field& field, const TriangleMesh& mesh)
+{
+  RequireField(field, mesh);
+  if (field.association != FieldAssociation::Points)
+  {
+    throw InvalidInput("A field that is constant on triangles has no gradient; give it on points.");
+  }
+}
+
+} // namespace gridfem

@@ -1,0 +1,46 @@
+// Fields given on a mesh: what right-hand sides are integrated from.
+#ifndef GridFEM_Field_h
+#define GridFEM_Field_h
+
+#include "Grid/TriangleMesh.h"
+
+namespace gridfem
+{
+
+/// Where the rows of a field live.
+enum class FieldAssociation
+{
+  Points,   // one row per input point, linear along each source triangle
+  Triangles // one row per source triangle, constant on it
+};
+
+struct Field
+{
+  FieldAssociation association = FieldAssociation::Points;
+  MultiVector values; // rows: points or triangles; columns: components
+
+  /// Rows of `values` at the corners of a source triangle.
+  /// (All three are the triangle's own row for FieldAssociation::Triangles.)
+  std::array<Id, 3> RowsOf(Id triangle, const std::array<Id, 3>& points) const
+  {
+    return association == FieldAssociation::Points
+             ? points
+             : std::array<Id, 3>{ triangle, triangle, triangle };
+  }
+};
+
+/// Throws InvalidInput when the rows of a field do not fit the mesh.
+void RequireField(const Field& field, const TriangleMesh& mesh);
+
+/// The same, and when the columns are no vectors: 3 C columns, vector c in 3c .. 3c+2.
+void RequireVectors(const Field& field, const TriangleMesh& mesh);
+
+/// The same, and when there is more than one column. Null is let through.
+void RequireScale(const Field* scale, const TriangleMesh& mesh);
+
+/// The same, and when the field is constant on triangles.
+void RequireOnPoints(const Field& field, const TriangleMesh& mesh);
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,45 @@
+// The regular grid a mesh is laid into, and the Morton keys of its cells. [T §4.2]
+// Grid units: the cell (i,j,k) is [i,i+1] x [j,j+1] x [k,k+1].
+#ifndef GridFEM_Grid_h
+#define GridFEM_Grid_h
+
+#include "Base/Types.h"
+
+#include <vector>
+
+namespace gridfem
+{
+
+/// Bits of i, j and k interleaved, x lowest: the three lowest bits are the octant x + 2y + 4z in
+/// the parent cell, and key >> 3 is the parent's key.
+using MortonKey = std::uint64_t;
+
+using CellIndex = std::array<int, 3>;
+
+constexpr int MinimumDepth = 2;
+constexpr int MaximumDepth = 14;
+
+MortonKey MortonEncode(const CellIndex& cell);
+CellIndex MortonDecode(MortonKey key);
+
+/// A cube of 2^depth cells per side.
+struct Grid
+{
+  Vec3 origin = Vec3::Zero(); // lowest corner, world units
+  double spacing = 1.0;       // side of a cell, world units
+  int depth = 0;
+
+  int CellsPerSide() const { return 1 << depth; }
+  Vec3 ToGrid(const Vec3& world) const { return (world - origin) / spacing; }
+  Vec3 ToWorld(const Vec3& grid) const { return origin + spacing * grid; }
+};
+
+/// The cube that shares the centre and the longest side of the bounding box of the points that
+/// `used` marks (all when empty), cut into 2^depth cells per side. A box without extent gets
+/// side 1. Throws InvalidInput for a depth outside [MinimumDepth, MaximumDepth].
+Grid EmbedInGrid(
+  const std::vector<Vec3>& points, const std::vector<char>& used, int depth, int threads = 0);
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,203 @@
+#include "Grid/GridFunctions.h"
+
+#include "Base/Errors.h"
+#include "Base/Parallel.h"
+#include "Grid/PieceAdjacency.h"
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+#include <string>
+
+namespace gridfem
+{
+
+namespace
+{
+
+GridFunctions Complete(ClippedMesh clipped, Array<Index> piecePatch, PatchLevel finest,
+  Array<Link> links, FunctionSupport support, int threads, const Progress& progress)
+{
+  GridFunctions space;
+  space.support = support;
+  space.clipped = std::move(clipped);
+  space.piecePatch = std::move(piecePatch);
+  space.pointPatch = FindPointPatches(space.clipped, space.piecePatch, threads);
+  Release(space.clipped.links); // the patches' links stand for them
+  progress.Check(0.3);
+  space.levels =
+    BuildLevels(std::move(finest), std::move(links), support, threads, progress.Part(0.3, 0.9));
+  space.component = FunctionComponents(space.Finest(), threads);
+  space.numberOfComponents =
+    space.component.empty() ? 0
+                            : *std::max_element(space.component.begin(), space.component.end()) + 1;
+  progress.Check(1.0);
+  return space;
+}
+
+void CheckTables(
+  const ClippedMesh& clipped, const Array<Index>& piecePatch, const PatchLevel& finest)
+{
+  if (static_cast<Id>(piecePatch.size()) != clipped.NumberOfPieces())
+  {
+    throw InvalidInput("There are " + std::to_string(piecePatch.size()) + " patch ids for " +
+                       std::to_string(clipped.NumberOfPieces()) + " clipped triangles.");
+  }
+  if (finest.cell.size() != finest.dof.size())
+  {
+    throw InvalidInput("There are " + std::to_string(finest.cell.size()) +
+                       " patch cells but functions for " + std::to_string(finest.dof.size()) +
+                       " patches.");
+  }
+  for (std::size_t piece = 0; piece < piecePatch.size(); ++piece)
+  {
+    if (piecePatch[piece] < 0 || piecePatch[piece] >= finest.NumberOfPatches())
+    {
+      throw InvalidInput("Clipped triangle " + std::to_string(piece) + " has patch " +
+                         std::to_string(piecePatch[piece]) + ", but there are " +
+                         std::to_string(finest.NumberOfPatches()) + " patches.");
+    }
+  }
+  for (std::size_t patch = 0; patch < finest.dof.size(); ++patch)
+  {
+    for (const Index function : finest.dof[patch])
+    {
+      if (function < 0 || function >= finest.numberOfFunctions)
+      {
+        throw InvalidInput("Patch " + std::to_string(patch) + " has function " +
+                           std::to_string(function) + ", but there are " +
+                           std::to_string(finest.numberOfFunctions) + " functions.");
+      }
+    }
+    if (patch > 0 && finest.cell[patch] < finest.cell[patch - 1])
+    {
+      throw InvalidInput("Patch " + std::to_string(patch) + " is not in Morton order.");
+    }
+  }
+}
+
+/// value = min(value, other), whichever thread comes first.
+void Lower(std::atomic<Index>& value, Index other)
+{
+  Index known = value.load(std::memory_order_relaxed);
+  while (other < known && !value.compare_exchange_weak(known, other, std::memory_order_relaxed))
+  {
+  }
+}
+
+} // namespace
+
+Array<Index> FindPointPatches(
+  const ClippedMesh& clipped, const Array<Index>& piecePatch, int threads)
+{
+  constexpr Index None = std::numeric_limits<Index>::max();
+  std::vector<std::atomic<Index>> lowest(clipped.numberOfInputPoints);
+  for (std::atomic<Index>& patch : lowest)
+  {
+    patch.store(None, std::memory_order_relaxed);
+  }
+  ParallelRanges(clipped.NumberOfPieces(), threads,
+    [&](Id begin, Id end)
+    {
+      for (Id piece = begin; piece < end; ++piece)
+      {
+        for (Index k = clipped.pieceBegin[piece]; k < clipped.pieceBegin[piece + 1]; ++k)
+        {
+          if (clipped.corners[k] < clipped.numberOfInputPoints)
+          {
+            Lower(lowest[clipped.corners[k]], piecePatch[piece]);
+          }
+        }
+      }
+    });
+  Array<Index> pointPatch(lowest.size());
+  std::transform(lowest.begin(), lowest.end(), pointPatch.begin(),
+    [](const std::atomic<Index>& patch) { return patch == None ? -1 : patch.load(); });
+  return pointPatch;
+}
+
+GridFunctions BuildGridFunctions(
+  const TriangleMesh& mesh, const SpaceOptions& options, const Progress& progress)
+{
+  ClipOptions clip;
+  clip.depth = options.depth;
+  clip.weldCoincidentPoints = options.weldCoincidentPoints;
+  clip.threads = options.threads;
+  return BuildGridFunctions(Clip(mesh, clip, progress.Part(0.0, 0.7)),
+    options.connectivityAware ? FunctionSupport::ConnectivityAware : FunctionSupport::Plain,
+    options.threads, progress.Part(0.7, 1.0));
+}
+
+GridFunctions BuildGridFunctions(
+  ClippedMesh clipped, FunctionSupport support, int threads, const Progress& progress)
+{
+  PatchPartition patches = BuildPatches(clipped, support, threads);
+  progress.Check(0.4);
+  PatchLevel finest = BuildFinestLevel(clipped.grid.depth, patches, support, threads);
+  return Complete(std::move(clipped), std::move(patches.piecePatch), std::move(finest),
+    std::move(patches.links), support, threads, progress.Part(0.5, 1.0));
+}
+
+GridFunctions RestoreGridFunctions(ClippedMesh clipped, Array<Index> piecePatch, PatchLevel finest,
+  FunctionSupport support, const Progress& progress)
+{
+  CheckTables(clipped, piecePatch, finest);
+  finest.depth = clipped.grid.depth;
+  Array<Link> links = LinksOfGroups(clipped.links, piecePatch);
+  return Complete(std::move(clipped), std::move(piecePatch), std::move(finest), std::move(links),
+    support, 0, progress);
+}
+
+Array<Link> FindLinks(
+  const ClippedMesh& clipped, const Array<Index>& pointClass, const Progress& progress)
+{
+  struct PieceEdge
+  {
+    Index low;
+    Index high;
+    Index piece;
+  };
+  std::vector<PieceEdge> pieceEdges;
+  pieceEdges.reserve(clipped.corners.size());
+  const auto classOf = [&](Index point)
+  { return point < static_cast<Index>(pointClass.size()) ? pointClass[point] : point; };
+  for (Index piece = 0; piece < clipped.NumberOfPieces(); ++piece)
+  {
+    const Id begin = clipped.pieceBegin[piece];
+    const Id end = clipped.pieceBegin[piece + 1];
+    for (Id k = begin; k < end; ++k)
+    {
+      const Index a = classOf(clipped.corners[k]);
+      const Index b = classOf(clipped.corners[k + 1 == end ? begin : k + 1]);
+      if (a != b)
+      {
+        pieceEdges.push_back({ std::min(a, b), std::max(a, b), piece });
+      }
+    }
+  }
+  progress.Check(0.2);
+  std::sort(pieceEdges.begin(), pieceEdges.end(),
+    [](const PieceEdge& a, const PieceEdge& b)
+    {
+      return a.low != b.low     ? a.low < b.low
+             : a.high != b.high ? a.high < b.high
+                                : a.piece < b.piece;
+    });
+  progress.Check(0.7);
+  std::vector<EdgeUse> uses;
+  uses.reserve(pieceEdges.size());
+  Index edge = -1;
+  for (std::size_t k = 0; k < pieceEdges.size(); ++k)
+  {
+    const bool same = k > 0 && pieceEdges[k].low == pieceEdges[k - 1].low &&
+                      pieceEdges[k].high == pieceEdges[k - 1].high;
+    edge += same ? 0 : 1;
+    uses.push_back({ edge, pieceEdges[k].piece });
+  }
+  Array<Link> links;
+  LinkStars(uses, PieceCells(clipped), links);
+  progress.Check(1.0);
+  return links;
+}
+
+} // namespace gridfem

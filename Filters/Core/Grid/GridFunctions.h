@@ -1,0 +1,60 @@
+// A mesh in its grid with the nested function spaces on it: what every solver starts from.
+#ifndef GridFEM_GridFunctions_h
+#define GridFEM_GridFunctions_h
+
+#include "Grid/Clip.h"
+#include "Grid/PatchLevel.h"
+
+#include <vector>
+
+namespace gridfem
+{
+
+struct SpaceOptions
+{
+  int depth = 7;                    // 2^depth cells along the longest side, 2..14
+  bool connectivityAware = true;    // one function per connected component of a support
+  bool weldCoincidentPoints = true; // coincident points count as one for connectivity
+  int threads = 0;                  // 0: all
+};
+
+struct GridFunctions
+{
+  FunctionSupport support = FunctionSupport::ConnectivityAware;
+  ClippedMesh clipped;            // without its links
+  Array<Index> piecePatch;        // per piece: patch of the finest level
+  std::vector<PatchLevel> levels; // finest first, down to depth 0
+  Array<Index> pointPatch;        // per input point: a patch that contains it; -1 if unused
+  std::vector<Index> component;   // per finest function
+  Index numberOfComponents = 0;
+
+  const Grid& GetGrid() const { return clipped.grid; }
+  const PatchLevel& Finest() const { return levels.front(); }
+};
+
+/// Clip, patches and levels in one go.
+GridFunctions BuildGridFunctions(
+  const TriangleMesh& mesh, const SpaceOptions& options, const Progress& progress = {});
+
+/// The same on a mesh that is clipped already.
+GridFunctions BuildGridFunctions(
+  ClippedMesh clipped, FunctionSupport support, int threads = 0, const Progress& progress = {});
+
+/// The same from stored tables: patches and functions are taken as they are. `clipped.links` must
+/// be filled (FindLinks finds them in a mesh that was read from a file), `finest.cell` and
+/// `finest.dof` too. Throws InvalidInput when the tables do not fit together.
+GridFunctions RestoreGridFunctions(ClippedMesh clipped, Array<Index> piecePatch, PatchLevel finest,
+  FunctionSupport support, const Progress& progress = {});
+
+/// For each input point the lowest patch among the pieces around it; -1 for points without a piece.
+Array<Index> FindPointPatches(
+  const ClippedMesh& clipped, const Array<Index>& piecePatch, int threads = 0);
+
+/// Pieces that share an edge (two point ids, after `pointClass` if it is not empty), for a clipped
+/// mesh that comes without links.
+Array<Link> FindLinks(
+  const ClippedMesh& clipped, const Array<Index>& pointClass, const Progress& progress = {});
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,197 @@
+#include "Base/Grouping.h"
+#include "Base/Parallel.h"
+#include "Base/PerThreadLists.h"
+#include "Base/UnionFind.h"
+#include "Grid/PatchLevel.h"
+
+#include <algorithm>
+
+namespace gridfem
+{
+
+namespace
+{
+
+/// Patches of less area, in cell faces, come from rounding.
+constexpr double SmallestArea = 1e-10;
+
+/// Patch of every piece, numbered by the first piece: so by Morton key.
+Array<Index> GroupPieces(const ClippedMesh& clipped, const Array<Index>& pieceCell,
+  FunctionSupport support, int threads, Index& count)
+{
+  if (support == FunctionSupport::Plain)
+  {
+    count = static_cast<Index>(clipped.cells.size());
+    return pieceCell;
+  }
+  UnionFind sets(clipped.NumberOfPieces(), threads);
+  ParallelRanges(static_cast<Id>(clipped.links.size()), threads,
+    [&](Id begin, Id end)
+    {
+      for (Id k = begin; k < end; ++k)
+      {
+        const auto [first, second] = clipped.links[k];
+        if (pieceCell[first] == pieceCell[second])
+        {
+          sets.Unite(first, second);
+        }
+      }
+    });
+  return NumberSets(sets, count, threads);
+}
+
+/// Patches whose pieces together have less than the smallest area. Pieces are sorted by cell, so
+/// that those of a patch are near each other.
+std::vector<char> FindSlivers(
+  const ClippedMesh& clipped, const Groups& pieces, Index numberOfPatches, int threads)
+{
+  std::vector<char> isSliver(numberOfPatches);
+  ParallelRanges(numberOfPatches, threads,
+    [&](Id begin, Id end)
+    {
+      for (Id patch = begin; patch < end; ++patch)
+      {
+        double area = 0.0;
+        for (Index k = pieces.begin[patch]; k < pieces.begin[patch + 1] && area < SmallestArea; ++k)
+        {
+          area += PieceArea(clipped, pieces.item[k]);
+        }
+        isSliver[patch] = area < SmallestArea;
+      }
+    });
+  return isSliver;
+}
+
+/// For every patch the patch it becomes part of: itself, or for a sliver the lowest patch that is
+/// none and that it touches, over other slivers if need be. Slivers that touch none stay.
+std::vector<Index> AbsorbSlivers(
+  const ClippedMesh& clipped, const Array<Index>& piecePatch, const std::vector<char>& isSliver)
+{
+  std::vector<Index> target(isSliver.size());
+  bool open = false;
+  for (std::size_t patch = 0; patch < target.size(); ++patch)
+  {
+    target[patch] = isSliver[patch] ? -1 : static_cast<Index>(patch);
+    open |= isSliver[patch] != 0;
+  }
+  Array<Link> links;
+  for (std::size_t k = 0; open && k < clipped.links.size(); ++k)
+  {
+    const Index a = piecePatch[clipped.links[k].first];
+    const Index b = piecePatch[clipped.links[k].second];
+    if (a != b && (target[a] < 0 || target[b] < 0))
+    {
+      links.emplace_back(a, b);
+    }
+  }
+  while (open)
+  {
+    std::vector<Index> next = target;
+    const auto offer = [&](Index sliver, Index patch)
+    {
+      if (target[sliver] < 0 && target[patch] >= 0 &&
+          (next[sliver] < 0 || target[patch] < next[sliver]))
+      {
+        next[sliver] = target[patch];
+      }
+    };
+    for (const Link& link : links)
+    {
+      offer(link.first, link.second);
+      offer(link.second, link.first);
+    }
+    open = next != target;
+    target = std::move(next);
+  }
+  for (std::size_t patch = 0; patch < target.size(); ++patch)
+  {
+    target[patch] = target[patch] < 0 ? static_cast<Index>(patch) : target[patch];
+  }
+  return target;
+}
+
+/// Sorts by first, then second, and drops repetitions, in time linear in the number of links.
+Array<Link> SortUnique(const Array<Link>& links, int threads)
+{
+  Array<Index> group(links.size());
+  std::transform(
+    links.begin(), links.end(), group.begin(), [](const Link& link) { return link.first; });
+  const Id groups = group.empty() ? 0 : Id{ *std::max_element(group.begin(), group.end()) } + 1;
+  const Groups byFirst = GroupItems(group.data(), static_cast<Id>(group.size()), groups, threads);
+  Array<Link> result;
+  AppendRanges(groups, threads, result,
+    [&](Id begin, Id end, Array<Link>& sorted)
+    {
+      std::vector<Index> seconds;
+      for (auto first = static_cast<Index>(begin); first < end; ++first)
+      {
+        seconds.clear();
+        for (Index k = byFirst.begin[first]; k < byFirst.begin[first + 1]; ++k)
+        {
+          seconds.push_back(links[byFirst.item[k]].second);
+        }
+        std::sort(seconds.begin(), seconds.end());
+        seconds.erase(std::unique(seconds.begin(), seconds.end()), seconds.end());
+        for (const Index second : seconds)
+        {
+          sorted.emplace_back(first, second);
+        }
+      }
+    });
+  return result;
+}
+
+} // namespace
+
+PatchPartition BuildPatches(const ClippedMesh& clipped, FunctionSupport support, int threads)
+{
+  PatchPartition patches;
+  Index count = 0;
+  const Array<Index> pieceCell = PieceCells(clipped, threads);
+  patches.piecePatch = GroupPieces(clipped, pieceCell, support, threads, count);
+  const Groups pieces = GroupItems(patches.piecePatch, count, threads);
+  const std::vector<Index> target =
+    AbsorbSlivers(clipped, patches.piecePatch, FindSlivers(clipped, pieces, count, threads));
+  std::vector<Index> number(count, -1);
+  for (Index patch = 0; patch < count; ++patch)
+  {
+    if (target[patch] == patch)
+    {
+      number[patch] = static_cast<Index>(patches.cell.size());
+      patches.cell.push_back(clipped.cells[pieceCell[pieces.item[pieces.begin[patch]]]]);
+    }
+  }
+  ParallelRanges(clipped.NumberOfPieces(), threads,
+    [&](Id begin, Id end)
+    {
+      for (Id piece = begin; piece < end; ++piece)
+      {
+        patches.piecePatch[piece] = number[target[patches.piecePatch[piece]]];
+      }
+    });
+  patches.links = LinksOfGroups(clipped.links, patches.piecePatch, threads);
+  return patches;
+}
+
+Array<Link> LinksOfGroups(const Array<Link>& links, const Array<Index>& group, int threads)
+{
+  const auto groupLinks = [&](Id begin, Id end, Array<Link>& list)
+  {
+    Link last{ -1, -1 };
+    for (Id k = begin; k < end; ++k)
+    {
+      const auto [low, high] = std::minmax(group[links[k].first], group[links[k].second]);
+      const Link link{ low, high };
+      if (low != high && !(link == last))
+      {
+        list.push_back(link);
+        last = link;
+      }
+    }
+  };
+  Array<Link> ofGroups;
+  AppendRanges(static_cast<Id>(links.size()), threads, ofGroups, groupLinks);
+  return SortUnique(ofGroups, threads);
+}
+
+} // namespace gridfem

@@ -1,0 +1,33 @@
+// Which pieces of a clipped mesh share an edge.
+#ifndef GridFEM_PieceAdjacency_h
+#define GridFEM_PieceAdjacency_h
+
+#include "Grid/Clip.h"
+#include "Grid/MeshEdges.h"
+
+#include <vector>
+
+namespace gridfem
+{
+
+/// A piece has an edge; edges are numbered, and equal for all pieces that share them.
+struct EdgeUse
+{
+  Index edge;
+  Index piece;
+};
+
+/// Links for edges given by their uses: pieces of one cell in a star, the stars of different cells
+/// pairwise. Sorts `uses`.
+void LinkStars(std::vector<EdgeUse>& uses, const Array<Index>& pieceCell, Array<Link>& links);
+
+/// Appends a link for every two pieces on different sides of a mesh edge that share a stretch of
+/// it; where more than two do, as LinkStars. The same for any number of threads.
+/// @param stretches  number of the piece at every place of a stretch, -1: none (see EdgeSide)
+/// @param place      of every piece in the clipped mesh, by its number
+void LinkAlongEdges(const MeshEdges& edges, const Array<Index>& stretches,
+  const Array<Index>& place, int threads, const Progress& progress, ClippedMesh& clipped);
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,143 @@
+// Clips one triangle by the planes of a grid, axis by axis. Points are named by what makes them (a
+// corner; an edge and a plane; two planes), so no search is needed to know equal ones.
+#ifndef GridFEM_TriangleClipper_h
+#define GridFEM_TriangleClipper_h
+
+#include "Grid/ClipBuffer.h"
+#include "Grid/MeshEdges.h"
+
+#include <unordered_map>
+#include <vector>
+
+namespace gridfem
+{
+
+/// What the clipper knows of the mesh; all of it outlives the clipper.
+struct ClipInput
+{
+  const std::vector<std::array<Id, 3>>& triangles;
+  const Array<Index>& pointClass; // welded id of each point
+  const Array<Vec3>& position;    // of the input points, grid units, snapped to the planes
+  const MeshEdges& edges;
+  int cellsPerSide;
+  double tolerance; // of snapping
+};
+
+/// In cache lines of its own, because threads write to theirs all the time.
+class alignas(CacheLine) TriangleClipper
+{
+public:
+  /// @param clipped    has room for the cut points of mesh edges; the first triangle at an edge
+  ///                   fills those it makes
+  /// @param stretches  all -1; get the numbers of the pieces along the triangles' sides
+  /// @param nextChunk  of the numbers of pieces
+  TriangleClipper(const ClipInput& input, ClippedMesh& clipped, Array<Index>& stretches,
+    std::atomic<Index>& nextChunk)
+    : input_(input), clipped_(clipped), stretches_(stretches), nextChunk_(nextChunk)
+  {
+  }
+
+  /// Appends the pieces of one triangle. Clippers may clip different triangles of one mesh at the
+  /// same time.
+  void Clip(Id triangle, ClipBuffer& store);
+
+private:
+  using Point = std::array<double, 3>;
+
+  /// A point of this triangle.
+  struct Vertex
+  {
+    Point position; // snapped
+    Point weight;   // barycentric
+    Index id;
+  };
+
+  /// A corner of a polygon. The edge from it to the next lies on edge `tag` of the triangle, or,
+  /// from PlaneTag on, on a plane across axis tag - PlaneTag.
+  static constexpr std::int16_t PlaneTag = 3;
+  struct Corner
+  {
+    std::int32_t vertex;
+    std::int16_t tag;
+  };
+
+  struct Polygon
+  {
+    static constexpr int Capacity = 24;
+    std::array<Corner, Capacity> corner;
+    int size = 0;
+    void Push(std::int32_t vertex, int tag);
+  };
+
+  /// An edge of the triangle, seen from its lower end.
+  struct Edge
+  {
+    const Vec3* low;
+    const Vec3* high;
+    int lowCorner; // of the triangle
+    int highCorner;
+    std::array<PlaneRange, 3> planes;
+    std::array<Index, 4> firstCut; // per axis; then where they end
+    bool isNamedHere;              // this is the first triangle at the edge
+    Index* stretch;                // piece along stretch 0; null for an edge without length
+    Index stride;                  // from one stretch to the next
+  };
+
+  /// A cell as one number that ascends with (i, j, k): fast to compare, and to step from.
+  using CellCode = std::int64_t;
+  static constexpr int BitsPerAxis = 20;
+  static constexpr int ShiftOf(int axis) { return BitsPerAxis * (2 - axis); }
+
+  struct LocalPiece
+  {
+    CellCode cell;
+    Index piece;     // in the store
+    int firstCorner; // into corners_
+    int size;
+  };
+
+  /// Interior points by the two planes that make them: entries of earlier triangles are told by
+  /// their stamp, so nothing is cleared. Where the table would be large and nearly empty (a needle
+  /// across a fine grid) a map takes its place.
+  struct Slot
+  {
+    Id stamp = -1;
+    std::int32_t vertex = 0;
+  };
+
+  bool IsInOneCell(CellIndex& cell);
+  void EmitWhole(const CellIndex& cell, ClipBuffer& store);
+  void Start();
+  void ClipAxis(const Polygon& polygon, int axis, ClipBuffer& store);
+  void Split(
+    const Polygon& polygon, int axis, int plane, Polygon& below, Polygon& above, ClipBuffer& store);
+  std::int32_t CutMeshEdge(const Edge& edge, int axis, int plane);
+  std::int32_t CutPlaneEdge(
+    const Corner& from, const Corner& to, int axis, int plane, ClipBuffer& store);
+  Slot& InteriorSlot(int axisA, int planeA, int axisB, int planeB);
+  void Emit(const Polygon& polygon, ClipBuffer& store);
+  void NoteStretches(const Polygon& polygon, Index piece, ClipBuffer& store);
+  void LinkPieces(ClipBuffer& store) const;
+  const LocalPiece* FindPiece(CellCode cell) const;
+  static bool HasEdge(const ClipBuffer& store, const LocalPiece& piece, Index a, Index b);
+  void LinkAcross(const LocalPiece& piece, int corner, ClipBuffer& store) const;
+
+  const ClipInput& input_;
+  ClippedMesh& clipped_;
+  Array<Index>& stretches_;
+  std::atomic<Index>& nextChunk_;
+  Id triangle_ = 0;
+  std::array<PlaneRange, 3> planes_{};
+  std::array<Edge, 3> edge_{};
+  Array<Vertex> vertices_;
+  Array<LocalPiece> pieces_; // ascending by (i, j, k)
+  Array<Corner> corners_;
+
+  static constexpr Id LargestTable = Id{ 1 } << 20;
+  std::array<std::vector<Slot>, 3> slots_; // planes xy, xz, yz
+  std::array<std::unordered_map<Id, Slot>, 3> sparseSlots_;
+};
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,49 @@
+// Element matrices: per patch 36 integrals of products of its eight functions. [T (4.1), (4.2)]
+// Grid units: mass in cell sides squared, stiffness dimensionless.
+#ifndef GridFEM_ElementMatrices_h
+#define GridFEM_ElementMatrices_h
+
+#include "Grid/GridFunctions.h"
+#include "Integrals/QuadratureRule.h"
+
+#include <vector>
+
+namespace gridfem
+{
+
+using ElementMatrix = std::array<double, ElementEntries>;
+
+struct ElementMatrices
+{
+  Array<ElementMatrix> mass;      // ∫ b_i b_j
+  Array<ElementMatrix> stiffness; // ∫ <∇b_i, ∇b_j>, gradients tangential
+};
+
+/// Values and gradients of the eight trilinear functions at a point given in the cell's own
+/// coordinates [0,1]^3, corner order x fastest.
+void EvaluateTrilinear(const Vec3& local, std::array<double, FunctionsPerPatch>& value);
+void EvaluateTrilinearGradient(const Vec3& local, std::array<Vec3, FunctionsPerPatch>& gradient);
+
+/// Integrates over every piece with `rule` on every triangle of its fan. [T Alg. 4.1]
+/// Pieces of zero area contribute nothing. Cost O(clipped triangles x points); same bits for any
+/// number of threads.
+ElementMatrices IntegrateElements(const GridFunctions& space, const QuadratureRule& rule,
+  int threads = 0, const Progress& progress = {});
+
+/// Galerkin coarsening: adds every patch's matrix, interpolated, to its parent's. [T (4.6)]
+/// @return one entry per patch of `coarse`. Same bits for any number of threads.
+Array<ElementMatrix> CoarsenElements(const PatchLevel& fine, const PatchLevel& coarse,
+  const Array<ElementMatrix>& matrices, int threads = 0);
+
+/// The same for both matrices at once, in place where `result` has its size already.
+void CoarsenElements(const PatchLevel& fine, const PatchLevel& coarse,
+  const ElementMatrices& elements, ElementMatrices& result, int threads = 0);
+
+/// Weights with which the eight functions of a parent cell make up those of the child in `octant`:
+/// value of the child's corner c = Σ_p weights[c][p] value of the parent's corner p.
+using OctantWeights = std::array<std::array<double, FunctionsPerPatch>, FunctionsPerPatch>;
+const OctantWeights& ChildWeights(int octant);
+
+} // namespace gridfem
+
+#endif

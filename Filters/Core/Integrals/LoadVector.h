@@ -1,0 +1,32 @@
+// Right-hand sides: integrals of given fields against the functions. [T (4.3), (4.4), Alg. 4.2]
+#ifndef GridFEM_LoadVector_h
+#define GridFEM_LoadVector_h
+
+#include "Grid/Field.h"
+#include "Grid/GridFunctions.h"
+#include "Integrals/QuadratureRule.h"
+
+namespace gridfem
+{
+
+/// All integrals throw InvalidInput when the rows or columns of a field do not fit the mesh.
+/// f_i = ∫ f b_i in grid units (field unit x cell sides squared): rows = functions of the finest
+/// level, columns = components of f. Same bits for any number of threads.
+MultiVector IntegrateValues(const GridFunctions& space, const TriangleMesh& mesh, const Field& f,
+  const QuadratureRule& rule, int threads = 0, const Progress& progress = {});
+
+/// s_i = ∫ <s, ∇b_i> in the units of λM + L in grid units (the world's integral: spacing times the
+/// one over grid units), for vector fields in world units: s.values has 3 C columns, the three
+/// components of vector c in columns 3c .. 3c+2; the part normal to the surface is ignored.
+/// @return rows = functions, C columns; multiplied by `scale` (a Field with one column, or none)
+MultiVector IntegrateGradients(const GridFunctions& space, const TriangleMesh& mesh, const Field& s,
+  const Field* scale, const QuadratureRule& rule, int threads = 0, const Progress& progress = {});
+
+/// The same with s = ∇f, f linear on each triangle (f must live on points).
+MultiVector IntegrateGradientsOf(const GridFunctions& space, const TriangleMesh& mesh,
+  const Field& f, const Field* scale, const QuadratureRule& rule, int threads = 0,
+  const Progress& progress = {});
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,210 @@
+// How integrals over the clipped mesh run: patch by patch, so that each has its own sums, and over
+// several triangles at once, one per SIMD lane.
+#ifndef GridFEM_PatchIntegrals_h
+#define GridFEM_PatchIntegrals_h
+
+#include "Base/Grouping.h"
+#include "Base/Prefetch.h"
+#include "Base/SimdLanes.h"
+#include "Grid/GridFunctions.h"
+#include "Integrals/PatchMoments.h"
+#include "Integrals/QuadratureSamples.h"
+#include "Integrals/TangentPlane.h"
+
+namespace gridfem
+{
+
+/// Fan triangles of one patch. Lanes from `count` on repeat the first triangle without an area.
+struct TriangleBatch
+{
+  Lanes corner[3][3]; // corner, axis; in the cell's own coordinates
+  Index piece[LaneCount];
+  Id firstSample[LaneCount]; // see FirstSample
+  int count = 0;
+};
+
+/// The planes of the triangles of a batch.
+struct TrianglePlanes
+{
+  LaneVector normal; // unit; 0, or short, for a triangle with hardly any area
+  Lanes area;        // grid units
+
+  explicit TrianglePlanes(const TriangleBatch& batch)
+  {
+    LaneVector u;
+    LaneVector v;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      u.axis[axis] = batch.corner[1][axis] - batch.corner[0][axis];
+      v.axis[axis] = batch.corner[2][axis] - batch.corner[0][axis];
+    }
+    for (int p = 0; p < 3; ++p)
+    {
+      const int q = (p + 1) % 3;
+      const int r = (p + 2) % 3;
+      normal.axis[p] = u.axis[q] * v.axis[r] - u.axis[r] * v.axis[q];
+    }
+    const Lanes square = normal.Dot(normal);
+    const Lanes inverse = square.max(1e-300).rsqrt(); // 0 times this is 0
+    for (Lanes& component : normal.axis)
+    {
+      component *= inverse;
+    }
+    area = 0.5 * square * inverse;
+  }
+};
+
+/// Positions of one point of a rule on all triangles of a batch.
+inline void SetPositions(
+  const TriangleBatch& batch, const QuadratureRule::Point& point, SampleBatch& samples)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    samples.position[axis] = point.barycentric[0] * batch.corner[0][axis] +
+                             point.barycentric[1] * batch.corner[1][axis] +
+                             point.barycentric[2] * batch.corner[2][axis];
+  }
+}
+
+/// So many are fetched of every piece, which leaves no branch to guess.
+constexpr Index UsualCorners = 4;
+
+/// The corners of a piece may lie anywhere in memory. For meshes with UsualCorners at least.
+EIGEN_ALWAYS_INLINE void FetchCorners(const ClippedMesh& clipped, Index piece)
+{
+  const Index last = static_cast<Index>(clipped.corners.size()) - UsualCorners;
+  const Index first = std::min(clipped.pieceBegin[piece], last);
+  for (Index k = first; k < first + UsualCorners; ++k)
+  {
+    Fetch(&clipped.position[clipped.corners[k]]);
+  }
+}
+
+/// Calls body(batch) for the fan triangles of some pieces, several at a time.
+/// @param listEnd  of the list they are part of: corners of the next ones are fetched ahead
+template<class Body>
+void ForEachBatch(const ClippedMesh& clipped, const Index* pieceBegin, const Index* pieceEnd,
+  const Index* listEnd, const Vec3& origin, const QuadratureRule& rule, Body&& body)
+{
+  const Id points = static_cast<Id>(rule.points.size());
+  TriangleBatch batch;
+  const auto setCorner = [&](int corner, const Vec3& position)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      batch.corner[corner][axis][batch.count] = position[axis];
+    }
+  };
+  for (const Index* piece = pieceBegin; piece < pieceEnd; ++piece)
+  {
+    constexpr int Ahead = 16; // so many pieces have more than enough corners
+    if (listEnd - piece > Ahead)
+    {
+      FetchCorners(clipped, piece[Ahead]);
+    }
+    const Index* corner = clipped.corners.data() + clipped.pieceBegin[*piece];
+    const Index count = clipped.pieceBegin[*piece + 1] - clipped.pieceBegin[*piece];
+    const Vec3 apex = clipped.position[corner[0]] - origin;
+    Vec3 second = clipped.position[corner[1]] - origin;
+    for (Index k = 1; k + 1 < count; ++k)
+    {
+      const Vec3 third = clipped.position[corner[k + 1]] - origin;
+      setCorner(0, apex);
+      setCorner(1, second);
+      setCorner(2, third);
+      second = third;
+      batch.piece[batch.count] = *piece;
+      batch.firstSample[batch.count] = FirstSample(clipped, *piece, rule) + (k - 1) * points;
+      if (++batch.count == LaneCount)
+      {
+        body(batch);
+        batch.count = 0;
+      }
+    }
+  }
+  if (batch.count > 0)
+  {
+    std::fill(batch.piece + batch.count, batch.piece + LaneCount, batch.piece[0]);
+    std::fill(batch.firstSample + batch.count, batch.firstSample + LaneCount, batch.firstSample[0]);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      for (auto& corner : batch.corner)
+      {
+        corner[axis].tail(LaneCount - batch.count).setZero();
+      }
+    }
+    body(batch);
+  }
+}
+
+/// Calls body(patch, forEachBatch) for every finest patch, in parallel; forEachBatch(body) as
+/// ForEachBatch on its pieces, relative to the lowest corner of its cell.
+template<class Body>
+void ForEachPatch(const GridFunctions& space, const QuadratureRule& rule, int threads,
+  const Progress& progress, Body&& body)
+{
+  const PatchLevel& level = space.Finest();
+  const Groups pieces = GroupItems(space.piecePatch, level.NumberOfPatches(), threads);
+  ParallelRanges(
+    level.NumberOfPatches(), threads,
+    [&](Id begin, Id end)
+    {
+      for (Id patch = begin; patch < end; ++patch)
+      {
+        const Index* const items = pieces.item.data();
+        body(patch,
+          [&](auto&& onBatch)
+          {
+            ForEachBatch(space.clipped, items + pieces.begin[patch],
+              items + pieces.begin[patch + 1], items + pieces.item.size(),
+              CellCorner(level.cell[patch]), rule, onBatch);
+          });
+      }
+    },
+    PatchesPerBlock, progress);
+}
+
+/// Mass and stiffness of every finest patch. prepare(batch, planes) returns what gives samples on
+/// the triangles of a batch their mass and tensor: set(point, count, samples), for that many points
+/// of the rule from `point` on. The samples have their positions, and as mass the area they stand
+/// for.
+template<class Prepare>
+void IntegratePatches(const GridFunctions& space, const QuadratureRule& rule, int threads,
+  const Progress& progress, ElementMatrices& result, Prepare&& prepare)
+{
+  const Id points = static_cast<Id>(rule.points.size());
+  result.mass.resize(space.Finest().NumberOfPatches());
+  result.stiffness.resize(space.Finest().NumberOfPatches());
+  ForEachPatch(space, rule, threads, progress,
+    [&](Id patch, auto&& forEachBatch)
+    {
+      MassMoments mass;
+      StiffnessMoments stiffness;
+      forEachBatch(
+        [&](const TriangleBatch& batch)
+        {
+          const TrianglePlanes planes(batch);
+          const auto set = prepare(batch, planes);
+          std::array<SampleBatch, BatchesAtOnce> samples;
+          for (Id begin = 0; begin < points; begin += BatchesAtOnce)
+          {
+            const int count = static_cast<int>(std::min<Id>(BatchesAtOnce, points - begin));
+            for (int k = 0; k < count; ++k)
+            {
+              const QuadratureRule::Point& point = rule.points[begin + k];
+              SetPositions(batch, point, samples[k]);
+              samples[k].mass = point.weight * planes.area;
+            }
+            set(begin, count, samples.data());
+            mass.Add(samples.data(), count);
+            stiffness.Add(samples.data(), count);
+          }
+        });
+      result.mass[patch] = mass.Matrix();
+      result.stiffness[patch] = stiffness.Matrix();
+    });
+}
+
+} // namespace gridfem
+
+#endif

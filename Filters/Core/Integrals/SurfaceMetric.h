@@ -1,0 +1,42 @@
+// Integrals in another metric than that of the mesh, on the same clipped triangles: a surface that
+// moves is tracked without clipping it again. [T §5.1, (5.5), (5.6)]
+#ifndef GridFEM_SurfaceMetric_h
+#define GridFEM_SurfaceMetric_h
+
+#include "Integrals/ElementMatrices.h"
+
+namespace gridfem
+{
+
+/// A metric at one sample: the first fundamental form in an orthonormal basis of the plane of the
+/// sample's triangle (see TangentBasis). (1, 0, 1) is the metric of the mesh itself.
+struct FundamentalForm
+{
+  double E;
+  double F;
+  double G;
+};
+
+/// One per sample, numbered as in PieceSamples.h. 24 bytes a sample: what a metric depends on (25
+/// numbers in the thesis) is computed again from the triangles, which is faster than to read it.
+using SampleMetric = Array<FundamentalForm>;
+
+/// The metric of an embedding whose coordinates are grid functions: g = dXᵀ dX. [T (5.5)]
+/// @param embedding  functions x 3 coefficients, grid units. Throws InvalidInput for another shape.
+SampleMetric MetricOfEmbedding(const GridFunctions& space, const QuadratureRule& rule,
+  const MultiVector& embedding, int threads = 0, const Progress& progress = {});
+
+/// Element matrices in a metric: mass b_i b_j √|g|, stiffness <∇b_i, g⁻¹ ∇b_j> √|g|. [T (5.6)]
+/// Cost and determinism as IntegrateElements. Throws InvalidInput when there is not one metric per
+/// sample of the rule.
+/// @param result  for UpdateSystem: the finest element matrices of a system, in place
+/// @return  number of samples on triangles with an area whose metric is not positive definite, not
+///          finite, or stretches one direction 1e7 times as much as the other, or whose determinant
+///          is not between 1e-300 and 1e300: they contribute nothing
+Id IntegrateElements(const GridFunctions& space, const QuadratureRule& rule,
+  const SampleMetric& metric, ElementMatrices& result, int threads = 0,
+  const Progress& progress = {});
+
+} // namespace gridfem
+
+#endif

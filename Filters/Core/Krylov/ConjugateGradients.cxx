@@ -1,0 +1,95 @@
+#include "Krylov/ConjugateGradients.h"
+
+#include "Krylov/SolverIteration.h"
+
+#include <cmath>
+
+namespace gridfem
+{
+namespace
+{
+
+/// The cycle B makes p'Ap / p'B⁻¹p at most 1 or so. Below the inverse of this, p lies in the null
+/// space of A: the system has no solution.
+constexpr double LongestStep = 1e12;
+
+/// Steps to the minimum along p; 0 in columns that do not iterate. A column whose p does not have
+/// positive energy breaks down, and what its q holds is forgotten.
+Columns StepLengths(SolverIteration& iteration, MultiVector& p, MultiVector& q, int threads)
+{
+  const Columns pq = ColumnProducts(p, q, threads);
+  Columns step = Columns::Zero(pq.size());
+  for (Id c = 0; c < pq.size(); ++c)
+  {
+    if (!iteration.IsActive(c))
+    {
+      continue;
+    }
+    step[c] = iteration.rz[c] / pq[c];
+    if (!(pq[c] > 0.0 && step[c] < LongestStep))
+    {
+      step[c] = 0.0;
+      p.col(c).setZero();
+      q.col(c).setZero();
+      iteration.Retire(c, SolveEnd::Breakdown);
+    }
+  }
+  return step;
+}
+
+} // namespace
+
+double MeanFactor(const SolveReport& report)
+{
+  const double first = report.history.front().energy;
+  const double last = report.history.back().energy;
+  return report.iterations > 0 && first > 0.0 ? std::pow(last / first, 1.0 / report.iterations)
+                                              : 0.0;
+}
+
+SolveReport SolveConjugateGradients(const Multigrid& multigrid, const MultiVector& b,
+  MultiVector& x, const SolveOptions& options, const Projection& project, const Progress& progress)
+{
+  const int threads = multigrid.Options().threads;
+  SolverIteration iteration(multigrid, b, x, options, project);
+  MultiVector p = iteration.z;
+  MultiVector q;
+  while (iteration.CanGoOn())
+  {
+    iteration.Begin(progress);
+    Multiply(multigrid.Matrix(), p, q, threads);
+    const Columns step = StepLengths(iteration, p, q, threads);
+    AddScaled(p, step, x, threads);
+    AddScaled(q, -step, iteration.r, threads);
+    const Columns before = iteration.rz;
+    iteration.Measure();
+    Columns factor = Columns::Zero(b.cols());
+    for (Id c = 0; c < b.cols(); ++c)
+    {
+      factor[c] = iteration.IsActive(c) ? iteration.rz[c] / before[c] : 0.0;
+    }
+    if (!iteration.IsActive())
+    {
+      iteration.Confirm();
+    }
+    ScaleAndAdd(iteration.z, factor, p, threads);
+  }
+  return iteration.Finish();
+}
+
+SolveReport SolveCycles(const Multigrid& multigrid, const MultiVector& b, MultiVector& x,
+  const SolveOptions& options, const Projection& project, const Progress& progress)
+{
+  const int threads = multigrid.Options().threads;
+  SolverIteration iteration(multigrid, b, x, options, project);
+  while (iteration.CanGoOn())
+  {
+    iteration.Begin(progress);
+    AddScaled(iteration.z, Columns::Ones(b.cols()), x, threads);
+    iteration.ComputeResidual();
+    iteration.Measure();
+  }
+  return iteration.Finish();
+}
+
+} // namespace gridfem

@@ -1,0 +1,93 @@
+// Iterative solution of A x = b with a multigrid cycle, for several right-hand sides at once.
+#ifndef GridFEM_ConjugateGradients_h
+#define GridFEM_ConjugateGradients_h
+
+#include "Base/Progress.h"
+#include "Multigrid/Multigrid.h"
+
+#include <functional>
+#include <vector>
+
+namespace gridfem
+{
+
+struct SolveOptions
+{
+  double tolerance = 1e-8;     // on the stopping measure as in IterationRecord; > 0
+  int maximumIterations = 100; // >= 1
+  /// What has to fall below the tolerance: the energy estimate sqrt(rᵀBr) or the residual |r|.
+  enum class Measure
+  {
+    Energy,
+    Residual
+  } measure = Measure::Energy;
+  /// What ends an iteration before maximumIterations, as stagnated.
+  enum class GiveUp
+  {
+    Never,
+    AtStandstill, // Stagnation::IsAtStandstill
+    WhenTooSlow   // Stagnation::IsTooSlow: for those who can go on with a better cycle
+  } giveUp = GiveUp::Never;
+};
+
+/// The state of x before the correction B r of that iteration; the largest over the right-hand
+/// sides.
+struct IterationRecord
+{
+  int iteration;
+  /// sqrt(rᵀBr), an estimate of the error in the energy norm |·|_A, relative to the size of the
+  /// solution in that norm: sqrt(bᵀBb) for an iteration that starts from x = 0, else the lower
+  /// bound bᵀx / |x|_A with the start x, or sqrt(bᵀBb) again where a start is farther from the
+  /// solution than this bound.
+  double energy;
+  double residual; // |r| / |b|
+};
+
+/// Why an iteration ended; of several right-hand sides, what comes last here.
+enum class SolveEnd
+{
+  Converged,
+  IterationLimit,
+  NotFinite,  // a right-hand side is not
+  Stagnation, // see SolveOptions::GiveUp
+  Breakdown   // a direction without positive energy, or numbers without bounds
+};
+
+struct SolveReport
+{
+  bool converged = false; // end == Converged
+  SolveEnd end = SolveEnd::IterationLimit;
+  int iterations = 0;
+  std::vector<IterationRecord> history; // iteration 0 is the start
+  double convergenceFactor = 0.0;       // mean reduction of the energy measure per iteration
+  int doubleSince = -1;                 // iteration of the fall-back to double precision; -1: none
+};
+
+/// What `convergenceFactor` is.
+double MeanFactor(const SolveReport& report);
+
+/// Keeps an iteration out of directions that are solved otherwise, such as the constants of each
+/// component. A must map what `solution` keeps to what `residual` keeps; the two are each other's
+/// transposes. Both empty: no projection.
+struct Projection
+{
+  std::function<void(MultiVector&)> solution; // removes the direction from x and from B r
+  std::function<void(MultiVector&)> residual; // removes it from b and from b - A x
+};
+
+/// Conjugate gradients with one cycle as preconditioner; each column has its own steps, and stops
+/// on its own. Starts from x. A column that has converged by energy still takes its last correction
+/// B r, which was computed for the measure: it lowers the energy of the error once more. A column
+/// with b = 0 gives x = 0. NaN in b or a breakdown ends the iteration with converged = false and
+/// the last finite x. Throws Aborted.
+SolveReport SolveConjugateGradients(const Multigrid& multigrid, const MultiVector& b,
+  MultiVector& x, const SolveOptions& options, const Projection& project = {},
+  const Progress& progress = {});
+
+/// The cycle alone, repeated.
+SolveReport SolveCycles(const Multigrid& multigrid, const MultiVector& b, MultiVector& x,
+  const SolveOptions& options, const Projection& project = {}, const Progress& progress = {});
+
+} // namespace gridfem
+
+#endif

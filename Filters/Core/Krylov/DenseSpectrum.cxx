@@ -1,0 +1,57 @@
+#include "Krylov/DenseSpectrum.h"
+
+#include "Algebra/RayleighRitz.h"
+
+#include <algorithm>
+#include <type_traits>
+
+namespace gridfem
+{
+namespace
+{
+
+/// A level with this many functions is solved densely, or with this many per pair, if not too many.
+constexpr double AlwaysDense = 600.0;
+constexpr double DensePerPair = 3.5;
+constexpr double LargestDense = 1200.0;
+
+Eigen::MatrixXd ToDense(const SparseMatrix& A)
+{
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(A.rows, A.columns);
+  for (Index i = 0; i < A.rows; ++i)
+  {
+    for (Id k = A.rowBegin[i]; k < A.rowBegin[i + 1]; ++k)
+    {
+      dense(i, A.column[k]) = A.value[k];
+    }
+  }
+  return dense;
+}
+
+} // namespace
+
+bool IsDense(Id functions, Index blockSize)
+{
+  return double(functions) <= std::clamp(DensePerPair * blockSize, AlwaysDense, LargestDense);
+}
+
+template<class Real>
+EigenPairs<Real> SolveDense(const SpectralProblem<Real>& problem, Index count)
+{
+  Eigen::MatrixXd mass = ToDense(problem.mass);
+  problem.constants->Deflate(mass);
+  const RitzPairs ritz = SolvePencil(ToDense(problem.stiffness), mass, problem.shift, count);
+  // Coefficients of nearly dependent functions are large: rounded to Real, vectors have other
+  // products.
+  EigenPairs<Real> pairs{ ritz.values, {}, std::is_same_v<Real, double> };
+  pairs.vectors.Reserve(ritz.coefficients.rows(), count);
+  pairs.vectors.Show(ritz.coefficients.cols());
+  CopyBlock(ritz.coefficients, pairs.vectors.View(), problem.threads);
+  problem.constants->template Remove<Real>(pairs.vectors.View());
+  return pairs;
+}
+
+template EigenPairs<float> SolveDense(const SpectralProblem<float>&, Index);
+template EigenPairs<double> SolveDense(const SpectralProblem<double>&, Index);
+
+} // namespace gridfem

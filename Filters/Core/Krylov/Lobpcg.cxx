@@ -1,0 +1,245 @@
+#include "Krylov/Lobpcg.h"
+
+#include "Krylov/BlockRayleighRitz.h"
+#include "Krylov/ResidualCorrection.h"
+#include "Krylov/SoftLocking.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gridfem
+{
+namespace
+{
+
+/// Directions mixed in at the start of a level against eigenvectors the coarser level has missed.
+constexpr Index MinimumRandomColumns = 4;
+
+/// Steps after which the fallback takes over. Most problems need three to six; those with strands
+/// of surface that nearly touch fifteen, whatever the preconditioner's precision.
+constexpr int StepsBeforeFallback = 20;
+
+/// The iteration's state: the basis is [X, P, W].
+template<class Real>
+class BlockIteration
+{
+public:
+  BlockIteration(const SpectralProblem<Real>& problem, const BlockOptions& options,
+    const BasisParts<Real>& known, EigenPairs<Real>& pairs, BlockWorkspace<Real>& workspace)
+    : problem_(problem), options_(options), known_(known), pairs_(pairs),
+      directions_(workspace.directions), corrections_(workspace.corrections),
+      rayleighRitz_(problem, pairs, directions_, corrections_),
+      locking_(options.wanted, options.tolerance, problem.shift)
+  {
+  }
+
+  BlockReport Run(const Progress& progress);
+
+private:
+  void SetStart();
+  void RemoveKnown(Block<Real> X);
+  const Preconditioner<Real>& CurrentPreconditioner();
+  bool Correct(const Progress& progress);
+  bool Precondition(const Progress& progress);
+  void NextVectors(const Progress& progress);
+  double Fraction() const;
+  Index FoundAndWanted() const;
+  void Report();
+
+  const SpectralProblem<Real>& problem_;
+  const BlockOptions& options_;
+  const BasisParts<Real>& known_;
+  EigenPairs<Real>& pairs_;        // X
+  BlockBuffer<Real>& directions_;  // P
+  BlockBuffer<Real>& corrections_; // W = B r of the columns at work that have not converged
+  MultiVector randomLoad_;         // of the last columns of P, which have no values yet
+  BlockRayleighRitz<Real> rayleighRitz_;
+  Preconditioner<Real> fallback_; // when it is needed
+  SoftLocking locking_;
+  BlockReport report_;
+  double fraction_ = 0.0;
+};
+
+/// Loads M x of random x, of which B M x become directions; vectors that are no Ritz pairs become
+/// directions as well.
+template<class Real>
+void BlockIteration<Real>::SetStart()
+{
+  const Id rows = problem_.mass.rows;
+  const Id missing = options_.blockSize - pairs_.vectors.Columns();
+  const MultiVector random =
+    RandomColumns(rows, std::max<Id>(MinimumRandomColumns, missing + MinimumRandomColumns));
+  Multiply(problem_.mass, random, randomLoad_, problem_.threads);
+  const Id vectors = pairs_.values.size() > 0 ? 0 : pairs_.vectors.Columns();
+  directions_.Reserve(rows, std::max<Id>(options_.blockSize, vectors + random.cols()));
+  directions_.Show(vectors + random.cols());
+  corrections_.Reserve(rows, options_.blockSize);
+  corrections_.Show(0);
+  if (vectors > 0)
+  {
+    CopyBlock(pairs_.vectors.View(), directions_.View().leftCols(vectors), problem_.threads);
+    pairs_.vectors.Show(0);
+  }
+  pairs_.vectors.Grow(rows, options_.blockSize, problem_.threads);
+}
+
+/// Makes X orthogonal to all that is known.
+template<class Real>
+void BlockIteration<Real>::RemoveKnown(Block<Real> X)
+{
+  problem_.constants->template Remove<Real>(X);
+  if (!known_.empty() && X.cols() > 0)
+  {
+    const Eigen::MatrixXd share = Project<Real>(known_, problem_.mass, X, problem_.threads);
+    SubtractCombination<Real>(known_, share, X, problem_.threads);
+  }
+}
+
+template<class Real>
+const Preconditioner<Real>& BlockIteration<Real>::CurrentPreconditioner()
+{
+  if (report_.iterations < StepsBeforeFallback || !problem_.fallback)
+  {
+    return problem_.precondition;
+  }
+  if (!fallback_)
+  {
+    fallback_ = problem_.fallback();
+  }
+  return fallback_;
+}
+
+/// Residuals and corrections of the columns at work, and the random directions when it is called
+/// for the first time. True when all wanted ones have converged.
+template<class Real>
+bool BlockIteration<Real>::Correct(const Progress& progress)
+{
+  const Id columns = static_cast<Id>(locking_.AtWork().size());
+  const bool isFirst = randomLoad_.cols() > 0;
+  corrections_.Show(columns);
+  const ResidualMeasures measures =
+    CorrectResiduals<Real>(problem_, this->CurrentPreconditioner(), pairs_, locking_,
+      corrections_.View(), randomLoad_, directions_.View().rightCols(randomLoad_.cols()));
+  randomLoad_.resize(0, 0);
+  if (isFirst)
+  {
+    this->RemoveKnown(directions_.View());
+  }
+  progress.Check(fraction_);
+  const bool done = locking_.Update(measures, pairs_.values);
+  const std::vector<Index> places = locking_.DropConverged();
+  if (static_cast<Id>(places.size()) < columns) // their corrections are not needed
+  {
+    corrections_.Keep(places, problem_.threads);
+  }
+  return done;
+}
+
+/// Residuals and corrections. True when all wanted pairs have converged: columns that converged
+/// earlier are looked at once more before that is said.
+template<class Real>
+bool BlockIteration<Real>::Precondition(const Progress& progress)
+{
+  locking_.Start(pairs_.values);
+  if (!this->Correct(progress))
+  {
+    return false;
+  }
+  locking_.StartWanted();
+  locking_.DropUnmoved(SquaredResiduals(problem_, pairs_, locking_.AtWork()));
+  const bool converged = this->Correct(progress);
+  return converged && report_.iterations >= options_.minimumIterations &&
+         (this->FoundAndWanted() == options_.wanted || report_.iterations > 0);
+}
+
+/// A step of Rayleigh-Ritz. The columns of the new vectors that still work get directions.
+template<class Real>
+void BlockIteration<Real>::NextVectors(const Progress& progress)
+{
+  this->RemoveKnown(corrections_.View());
+  progress.Check(fraction_);
+  rayleighRitz_.Step(options_.blockSize, locking_.AtWork());
+  progress.Check(fraction_);
+  ++report_.iterations;
+}
+
+template<class Real>
+Index BlockIteration<Real>::FoundAndWanted() const
+{
+  return std::min<Index>(options_.wanted, static_cast<Index>(pairs_.values.size()));
+}
+
+/// How far the slowest wanted pair has come, in orders of magnitude.
+template<class Real>
+double BlockIteration<Real>::Fraction() const
+{
+  const Index found = this->FoundAndWanted();
+  double worst = found < options_.wanted ? 1.0 : options_.tolerance;
+  for (Index j = 0; j < found; ++j)
+  {
+    worst = std::max(worst, locking_.Measure(j));
+  }
+  return std::log(1.0 / worst) / std::log(1.0 / options_.tolerance);
+}
+
+template<class Real>
+BlockReport BlockIteration<Real>::Run(const Progress& progress)
+{
+  progress.Check(0.0);
+  this->SetStart();
+  while (true)
+  {
+    const bool isLast = report_.iterations == options_.maximumIterations;
+    if (isLast && !options_.measureLast && report_.iterations > 0)
+    {
+      break;
+    }
+    const bool done = this->Precondition(progress);
+    fraction_ = std::clamp(this->Fraction(), fraction_, 1.0);
+    if (done || isLast)
+    {
+      break;
+    }
+    this->NextVectors(progress);
+  }
+  if (!options_.measureLast)
+  {
+    rayleighRitz_.Renew();
+  }
+  this->Report();
+  progress.Check(1.0);
+  return report_;
+}
+
+template<class Real>
+void BlockIteration<Real>::Report()
+{
+  locking_.Start(pairs_.values); // there may be pairs that were not looked at
+  const Index found = this->FoundAndWanted();
+  for (Index j = 0; j < found; ++j)
+  {
+    report_.residuals.push_back(std::sqrt(locking_.Measure(j)));
+    report_.numberOfConverged += locking_.IsConverged(j);
+  }
+  if (found < static_cast<Index>(pairs_.values.size()))
+  {
+    report_.nextResidual = std::sqrt(locking_.Measure(found));
+  }
+}
+
+} // namespace
+
+template<class Real>
+BlockReport ImproveEigenPairs(const SpectralProblem<Real>& problem, const BlockOptions& options,
+  const BasisParts<Real>& known, EigenPairs<Real>& pairs, BlockWorkspace<Real>& workspace,
+  const Progress& progress)
+{
+  return BlockIteration<Real>(problem, options, known, pairs, workspace).Run(progress);
+}
+
+template BlockReport ImproveEigenPairs(const SpectralProblem<float>&, const BlockOptions&,
+  const BasisParts<float>&, EigenPairs<float>&, BlockWorkspace<float>&, const Progress&);
+template BlockReport ImproveEigenPairs(const SpectralProblem<double>&, const BlockOptions&,
+  const BasisParts<double>&, EigenPairs<double>&, BlockWorkspace<double>&, const Progress&);
+
+} // namespace gridfem

@@ -1,0 +1,270 @@
+#include "Krylov/SolverIteration.h"
+
+#include "Base/Errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace gridfem
+{
+namespace
+{
+
+void CheckProblem(const Multigrid& multigrid, const MultiVector& b, const MultiVector& x,
+  const SolveOptions& options)
+{
+  if (b.rows() != multigrid.Matrix().rows || x.rows() != b.rows() || x.cols() != b.cols())
+  {
+    throw InvalidInput("a system of " + std::to_string(multigrid.Matrix().rows) +
+                       " unknowns got b " + std::to_string(b.rows()) + " x " +
+                       std::to_string(b.cols()) + " and x " + std::to_string(x.rows()) + " x " +
+                       std::to_string(x.cols()));
+  }
+  if (!(options.tolerance > 0.0) || options.maximumIterations < 1)
+  {
+    throw InvalidInput("the tolerance must be positive and at least one iteration allowed");
+  }
+  if (!x.allFinite())
+  {
+    throw InvalidInput("the start of the iteration contains values that are not finite");
+  }
+}
+
+/// Growth of the energy measure that a solvable system does not show: conjugate gradients stay
+/// below the root of the condition number.
+constexpr double Divergence = 1e8;
+
+void Project(const std::function<void(MultiVector&)>& projection, MultiVector& v)
+{
+  if (projection)
+  {
+    projection(v);
+  }
+}
+
+/// The largest over the columns; NaN if there is one.
+double Worst(const Columns& values)
+{
+  return values.size() == 0 ? 0.0 : values.maxCoeff<Eigen::PropagateNaN>();
+}
+
+} // namespace
+
+SolverIteration::SolverIteration(const Multigrid& multigrid, const MultiVector& b, MultiVector& x,
+  const SolveOptions& options, const Projection& project)
+  : r(b), multigrid_(multigrid), b_(b), x_(x), options_(options), project_(project),
+    stagnation_(options.tolerance, options.maximumIterations)
+{
+  CheckProblem(multigrid, b, x, options);
+  isActive_.setConstant(b.cols(), true);
+  end_.assign(b.cols(), SolveEnd::IterationLimit);
+  energy_.setOnes(b.cols());
+  residual_.setOnes(b.cols());
+  Project(project_.residual, r);
+  this->MeasureZero();
+  const bool isZero = x_.isZero(0.0);
+  const Columns workOfStart = ColumnProducts(x_, r, this->Threads());
+  if (!isZero)
+  {
+    this->ComputeResidual();
+  }
+  this->ApplyCycle(r, z, rz);
+  reference_ = rz.sqrt();
+  if (!isZero)
+  {
+    this->SetReference(workOfStart);
+  }
+  this->Judge();
+}
+
+/// |b|. Retires columns without a solution or with a trivial one.
+void SolverIteration::MeasureZero()
+{
+  residualOfZero_ = ColumnProducts(r, r, this->Threads()).sqrt();
+  for (Id c = 0; c < r.cols(); ++c)
+  {
+    if (!std::isfinite(residualOfZero_[c]))
+    {
+      energy_[c] = residual_[c] = std::numeric_limits<double>::quiet_NaN();
+      this->Retire(c, SolveEnd::NotFinite);
+    }
+    else if (residualOfZero_[c] == 0.0)
+    {
+      energy_[c] = residual_[c] = 0.0;
+      x_.col(c).setZero();
+      this->Retire(c, SolveEnd::Converged);
+    }
+  }
+}
+
+void SolverIteration::ApplyCycle(
+  const MultiVector& residual, MultiVector& correction, Columns& energy) const
+{
+  multigrid_.Precondition(residual, correction);
+  Project(project_.solution, correction);
+  energy = ColumnProducts(residual, correction, this->Threads());
+}
+
+/// By Cauchy and Schwarz bᵀx / |x| is at most |A⁻¹b|, both in the energy norm, and near it for a
+/// start that is worth something. Where it is not even above the error that is left, the energy of
+/// zero costs a cycle.
+/// @param workOfStart  bᵀx
+void SolverIteration::SetReference(const Columns& workOfStart)
+{
+  const Columns energyOfStart = workOfStart - ColumnProducts(x_, r, this->Threads()); // xᵀAx
+  const Columns bound = workOfStart.square() / energyOfStart;
+  const auto isBound = energyOfStart > 0.0 && bound >= rz;
+  reference_ = bound.sqrt();
+  if ((isActive_ && !isBound).any())
+  {
+    MultiVector zeroResidual = b_;
+    Project(project_.residual, zeroResidual);
+    MultiVector correction;
+    Columns energyOfZero;
+    this->ApplyCycle(zeroResidual, correction, energyOfZero);
+    reference_ = isBound.select(reference_, energyOfZero.sqrt());
+  }
+}
+
+void SolverIteration::Begin(const Progress& progress)
+{
+  const double worst = std::clamp(energy_.maxCoeff(), options_.tolerance, 1.0);
+  const double byMeasure =
+    options_.tolerance < 1.0 ? std::log(worst) / std::log(options_.tolerance) : 0.0;
+  progress.Check(std::max(byMeasure, double(report_.iterations) / options_.maximumIterations));
+  ++report_.iterations;
+}
+
+void SolverIteration::ComputeResidual()
+{
+  Residual(multigrid_.Matrix(), x_, b_, r, this->Threads());
+  Project(project_.residual, r);
+  for (Id c = 0; c < r.cols(); ++c)
+  {
+    if (!this->IsActive(c))
+    {
+      r.col(c).setZero();
+    }
+  }
+}
+
+void SolverIteration::Measure()
+{
+  this->ApplyCycle(r, z, rz);
+  this->Judge();
+}
+
+void SolverIteration::Judge()
+{
+  const Columns rr = ColumnProducts(r, r, this->Threads());
+  for (Id c = 0; c < r.cols(); ++c)
+  {
+    if (!this->IsActive(c))
+    {
+      continue;
+    }
+    energy_[c] = std::sqrt(rz[c]) / reference_[c];
+    residual_[c] = std::sqrt(rr[c]) / residualOfZero_[c];
+    const bool isBroken = !(energy_[c] < Divergence) || !std::isfinite(residual_[c]);
+    if (isBroken || this->IsSolved(c))
+    {
+      this->Retire(c, isBroken ? SolveEnd::Breakdown : SolveEnd::Converged);
+    }
+  }
+  this->Record();
+  this->JudgePace();
+}
+
+/// Ends all columns at once: they share their cycles, and the slowest decides.
+void SolverIteration::JudgePace()
+{
+  if (!this->IsActive())
+  {
+    return;
+  }
+  const bool isEnergy = options_.measure == SolveOptions::Measure::Energy;
+  stagnation_.Add(isActive_.select(isEnergy ? energy_ : residual_, 0.0).maxCoeff());
+  const bool givesUp =
+    (options_.giveUp == SolveOptions::GiveUp::AtStandstill && stagnation_.IsAtStandstill()) ||
+    (options_.giveUp == SolveOptions::GiveUp::WhenTooSlow && stagnation_.IsTooSlow());
+  if (givesUp)
+  {
+    for (Id c = 0; c < r.cols(); ++c)
+    {
+      if (this->IsActive(c))
+      {
+        this->Retire(c, SolveEnd::Stagnation);
+      }
+    }
+  }
+}
+
+/// A vanishing energy may be underflow or a residual that the cycle does not see; |r| tells.
+bool SolverIteration::IsSolved(Id column) const
+{
+  const bool byEnergy = options_.measure == SolveOptions::Measure::Energy && energy_[column] > 0.0;
+  return (byEnergy ? energy_[column] : residual_[column]) <= options_.tolerance;
+}
+
+void SolverIteration::Retire(Id column, SolveEnd end)
+{
+  isActive_[column] = false;
+  end_[column] = end;
+  r.col(column).setZero();
+  if (z.size() > 0)
+  {
+    if (end == SolveEnd::Converged && options_.measure == SolveOptions::Measure::Energy)
+    {
+      x_.col(column) += z.col(column);
+    }
+    z.col(column).setZero();
+  }
+}
+
+void SolverIteration::Confirm()
+{
+  for (Id c = 0; c < r.cols(); ++c)
+  {
+    isActive_[c] = end_[c] == SolveEnd::Converged;
+    end_[c] = isActive_[c] ? SolveEnd::IterationLimit : end_[c];
+  }
+  this->ComputeResidual();
+  const Columns norm = ColumnProducts(r, r, this->Threads()).sqrt();
+  for (Id c = 0; c < r.cols(); ++c)
+  {
+    if (this->IsActive(c) && norm[c] <= 2.0 * residual_[c] * residualOfZero_[c])
+    {
+      this->Retire(c, SolveEnd::Converged);
+    }
+  }
+  if (this->IsActive())
+  {
+    this->Measure();
+  }
+}
+
+void SolverIteration::Record()
+{
+  const IterationRecord record{ report_.iterations, Worst(energy_), Worst(residual_) };
+  if (!report_.history.empty() && report_.history.back().iteration == record.iteration)
+  {
+    report_.history.back() = record;
+  }
+  else
+  {
+    report_.history.push_back(record);
+  }
+}
+
+SolveReport SolverIteration::Finish()
+{
+  Project(project_.solution, x_);
+  report_.end = end_.empty() ? SolveEnd::Converged : *std::max_element(end_.begin(), end_.end());
+  report_.converged = report_.end == SolveEnd::Converged;
+  report_.convergenceFactor = MeanFactor(report_);
+  return std::move(report_);
+}
+
+} // namespace gridfem

@@ -1,0 +1,116 @@
+// How a sweep runs over the blocks of a PatchOrder: colour after colour, the blocks of one colour
+// in parallel. Shared by the smoothers. One team of threads does all colours: to wake a team for
+// each would take longer than a colour of a coarse level.
+#ifndef GridFEM_BlockSweep_h
+#define GridFEM_BlockSweep_h
+
+#include "Algebra/RowKernels.h"
+#include "Base/Errors.h"
+#include "Multigrid/Smoother.h"
+
+#include <atomic>
+#include <thread>
+#include <vector>
+
+namespace gridfem
+{
+
+/// Items (patches or unknowns) in visiting order, cut into blocks and colours as in PatchOrder.
+struct BlockRanges
+{
+  std::vector<Id> blockBegin;
+  std::vector<Id> colourBegin;
+
+  Id NumberOfColours() const { return std::max<Id>(0, Id(colourBegin.size()) - 1); }
+  std::size_t Memory() const { return (blockBegin.size() + colourBegin.size()) * sizeof(Id); }
+};
+
+/// Runs body(phase, item) for all items of phase 0, then of phase 1 ...; those of one phase in any
+/// order, in parallel. A thread that has to wait for a phase looks again and again for a while,
+/// then lets others run. The body must not throw.
+/// @param count  items of each phase
+template<class Body>
+void ParallelPhases(const std::vector<Id>& count, int threads, Body&& body)
+{
+  constexpr int LooksBeforeYield = 4096;
+  const Id phases = static_cast<Id>(count.size());
+  std::vector<std::atomic<Id>> next(phases);
+  std::vector<std::atomic<Id>> done(phases);
+#pragma omp parallel num_threads(NumberOfThreads(threads))
+  {
+    for (Id phase = 0; phase < phases; ++phase)
+    {
+      for (Id item = next[phase]++; item < count[phase]; item = next[phase]++)
+      {
+        body(phase, item);
+        ++done[phase];
+      }
+      for (int look = 0; done[phase] < count[phase]; ++look)
+      {
+        if (look >= LooksBeforeYield)
+        {
+          std::this_thread::yield();
+        }
+      }
+    }
+  }
+}
+
+/// Calls body(begin, end) for the items of every block, colour after colour in the order of the
+/// direction.
+template<class Body>
+void VisitBlocks(const BlockRanges& ranges, SweepDirection direction, int threads, Body&& body)
+{
+  const bool forward = direction == SweepDirection::Forward;
+  const Id colours = ranges.NumberOfColours();
+  const auto colourOf = [&](Id step) { return forward ? step : colours - 1 - step; };
+  std::vector<Id> blocks(colours);
+  for (Id step = 0; step < colours; ++step)
+  {
+    blocks[step] = ranges.colourBegin[colourOf(step) + 1] - ranges.colourBegin[colourOf(step)];
+  }
+  ParallelPhases(blocks, threads,
+    [&](Id step, Id k)
+    {
+      const Id block = ranges.colourBegin[colourOf(step)] + k;
+      body(ranges.blockBegin[block], ranges.blockBegin[block + 1]);
+    });
+}
+
+/// Calls relax(item, chunk) for every item and every chunk of `columns`, in the order of the
+/// direction. @param work  multiplications of the whole sweep per column
+template<class Relax>
+void SweepBlocks(const BlockRanges& ranges, Id columns, SweepDirection direction, Id work,
+  int threads, Relax&& relax)
+{
+  const bool forward = direction == SweepDirection::Forward;
+  VisitBlocks(ranges, direction, ThreadsFor(work * columns, threads),
+    [&](Id begin, Id end)
+    {
+      ForEachChunk(columns,
+        [&](auto chunk)
+        {
+          for (Id i = begin; i < end; ++i)
+          {
+            relax(forward ? i : begin + end - 1 - i, chunk);
+          }
+        });
+    });
+}
+
+/// Diagonals that can be divided by, with room for the inverse of what they scale.
+inline bool IsUsableDiagonal(double value)
+{
+  return value > 1e-200 && value < 1e200;
+}
+
+/// Throws InvalidInput when the order is not a partition into blocks and colours, or names unknowns
+/// that the matrix does not have.
+void CheckOrder(const SparseMatrix& A, const PatchOrder& order, int threads = 1);
+
+/// Throws InvalidInput when the shapes of a sweep do not fit.
+void CheckSweep(const SparseMatrix& A, Id rows, const MultiVector& b, const MultiVector& x);
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,180 @@
+#include "Multigrid/CoarseSolver.h"
+
+#include "Algebra/PivotedCholesky.h"
+#include "Multigrid/BlockSweep.h"
+
+#include <cmath>
+
+namespace gridfem
+{
+namespace
+{
+
+constexpr double SmallestPivot = 1e-12;
+
+/// Components per parallel task: most have a handful of unknowns.
+constexpr Id ComponentsPerRange = 8;
+
+/// Connected components of the matrix graph; unknowns ascending in each.
+std::vector<std::vector<Index>> FindComponents(const SparseMatrix& A)
+{
+  std::vector<Index> component(A.rows, -1);
+  std::vector<Index> stack;
+  Index count = 0;
+  for (Index start = 0; start < A.rows; ++start)
+  {
+    if (component[start] >= 0)
+    {
+      continue;
+    }
+    component[start] = count;
+    stack.assign(1, start);
+    while (!stack.empty())
+    {
+      const Index row = stack.back();
+      stack.pop_back();
+      for (Id k = A.rowBegin[row]; k < A.rowBegin[row + 1]; ++k)
+      {
+        if (component[A.column[k]] < 0)
+        {
+          component[A.column[k]] = count;
+          stack.push_back(A.column[k]);
+        }
+      }
+    }
+    ++count;
+  }
+  std::vector<std::vector<Index>> members(count);
+  for (Index row = 0; row < A.rows; ++row)
+  {
+    members[component[row]].push_back(row);
+  }
+  return members;
+}
+
+/// The part of A that couples the given unknowns (ascending), scaled.
+Eigen::MatrixXd ScaledBlock(
+  const SparseMatrix& A, const std::vector<Index>& unknown, const Eigen::VectorXd& scale)
+{
+  const Id size = static_cast<Id>(unknown.size());
+  Eigen::MatrixXd S = Eigen::MatrixXd::Zero(size, size);
+  for (Id i = 0; i < size; ++i)
+  {
+    for (Id k = A.rowBegin[unknown[i]]; k < A.rowBegin[unknown[i] + 1]; ++k)
+    {
+      const auto found = std::lower_bound(unknown.begin(), unknown.end(), A.column[k]);
+      if (found != unknown.end() && *found == A.column[k])
+      {
+        const Id j = found - unknown.begin();
+        S(i, j) = scale[i] * A.value[k] * scale[j];
+      }
+    }
+  }
+  return S;
+}
+
+} // namespace
+
+CoarseSolver::CoarseSolver(const SparseMatrix& A, int threads) : rows_(A.rows)
+{
+  if (A.rows != A.columns)
+  {
+    throw InvalidInput("the coarsest matrix is not square");
+  }
+  const std::vector<std::vector<Index>> members = FindComponents(A);
+  components_.resize(members.size());
+  ParallelRanges(
+    static_cast<Id>(members.size()), threads,
+    [&](Id begin, Id end)
+    {
+      for (Id c = begin; c < end; ++c)
+      {
+        components_[c] = Factor(A, members[c]);
+      }
+    },
+    ComponentsPerRange);
+}
+
+CoarseSolver::Component CoarseSolver::Factor(
+  const SparseMatrix& A, const std::vector<Index>& unknowns)
+{
+  std::vector<Index> usable;
+  std::vector<double> scales;
+  for (const Index unknown : unknowns)
+  {
+    const double diagonal = A.Coefficient(unknown, unknown);
+    if (IsUsableDiagonal(diagonal))
+    {
+      usable.push_back(unknown);
+      scales.push_back(1.0 / std::sqrt(diagonal));
+    }
+  }
+  const Eigen::VectorXd scale =
+    Eigen::Map<const Eigen::VectorXd>(scales.data(), static_cast<Id>(scales.size()));
+  Eigen::MatrixXd S = ScaledBlock(A, usable, scale);
+  const std::vector<Index> pivots = PivotedCholesky(S, SmallestPivot);
+
+  Component component;
+  const Id rank = static_cast<Id>(pivots.size());
+  component.scale.resize(rank);
+  for (Id i = 0; i < rank; ++i)
+  {
+    component.unknown.push_back(usable[pivots[i]]);
+    component.scale[i] = scale[pivots[i]];
+  }
+  component.L = S.topLeftCorner(rank, rank);
+  return component;
+}
+
+void CoarseSolver::SolveComponent(const Component& component, const MultiVector& b, MultiVector& x)
+{
+  const Id rank = component.scale.size();
+  Eigen::MatrixXd y(rank, b.cols());
+  for (Id i = 0; i < rank; ++i)
+  {
+    y.row(i) = component.scale[i] * b.row(component.unknown[i]);
+  }
+  const auto lower = component.L.triangularView<Eigen::Lower>();
+  for (Id column = 0; column < b.cols(); ++column)
+  {
+    lower.solveInPlace(y.col(column));
+    lower.transpose().solveInPlace(y.col(column));
+  }
+  for (Id i = 0; i < rank; ++i)
+  {
+    x.row(component.unknown[i]) = component.scale[i] * y.row(i);
+  }
+}
+
+void CoarseSolver::Solve(const MultiVector& b, MultiVector& x, int threads) const
+{
+  if (b.rows() != rows_)
+  {
+    throw InvalidInput("the coarsest system has " + std::to_string(rows_) +
+                       " unknowns, the right-hand side " + std::to_string(b.rows()));
+  }
+  x.setZero(b.rows(), b.cols());
+  ParallelRanges(
+    static_cast<Id>(components_.size()), threads,
+    [&](Id begin, Id end)
+    {
+      for (Id c = begin; c < end; ++c)
+      {
+        SolveComponent(components_[c], b, x);
+      }
+    },
+    ComponentsPerRange);
+}
+
+std::size_t CoarseSolver::Memory() const
+{
+  std::size_t bytes = 0;
+  for (const Component& component : components_)
+  {
+    bytes += component.unknown.size() * sizeof(Index) +
+             (component.scale.size() + component.L.size()) * sizeof(double) + sizeof(Component);
+  }
+  return bytes;
+}
+
+} // namespace gridfem

@@ -1,0 +1,48 @@
+// Direct solve of the coarsest system, which may be singular.
+#ifndef GridFEM_CoarseSolver_h
+#define GridFEM_CoarseSolver_h
+
+#include "Algebra/SparseMatrix.h"
+
+#include <vector>
+
+namespace gridfem
+{
+
+/// Dense factors of a symmetric positive semi-definite matrix, one per connected component of its
+/// graph, so that thousands of components cost no more than one. Dependent directions (pivots below
+/// 1e-12 of the scaled diagonal) and unknowns whose diagonal is not a positive number are left out.
+/// Cost: n³ / 3 multiplications and 8 n² bytes for a component of n unknowns.
+class CoarseSolver
+{
+public:
+  CoarseSolver() = default;
+
+  /// Throws InvalidInput when A is not square.
+  explicit CoarseSolver(const SparseMatrix& A, int threads = 1);
+
+  /// x = B b with B symmetric, positive semi-definite and A B A = A: a solution of A x = b wherever
+  /// b is consistent. Unknowns that were left out get 0. Any number of columns; x must not be b.
+  void Solve(const MultiVector& b, MultiVector& x, int threads = 1) const;
+
+  std::size_t Memory() const;
+
+private:
+  /// S A S restricted to `unknown` is L Lᵀ, with S = diag(scale).
+  struct Component
+  {
+    std::vector<Index> unknown; // kept ones, in the order of the pivots
+    Eigen::VectorXd scale;
+    Eigen::MatrixXd L; // lower triangle
+  };
+
+  static Component Factor(const SparseMatrix& A, const std::vector<Index>& unknowns);
+  static void SolveComponent(const Component& component, const MultiVector& b, MultiVector& x);
+
+  Id rows_ = 0;
+  std::vector<Component> components_;
+};
+
+} // namespace gridfem
+
+#endif

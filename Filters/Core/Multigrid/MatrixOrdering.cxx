@@ -1,0 +1,263 @@
+#include "Multigrid/MatrixOrdering.h"
+
+#include "Base/Parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace gridfem
+{
+namespace
+{
+
+/// Small enough for many blocks per thread, large enough that few unknowns are at a border.
+constexpr Index UnknownsPerBlock = 512;
+
+/// Of a coupling with an unknown that another group has already. Groups overlap where couplings are
+/// strong, but not everywhere: half as many groups need the same iterations.
+constexpr double WeightOfGrouped = 0.7;
+
+using Group = std::array<Index, FunctionsPerPatch>;
+
+/// The unknowns of one block.
+struct Range
+{
+  Index begin;
+  Index end;
+  bool Contains(Index i) const { return begin <= i && i < end; }
+};
+
+Id NumberOfBlocks(const SparseMatrix& A)
+{
+  return (Id(A.rows) + UnknownsPerBlock - 1) / UnknownsPerBlock;
+}
+
+Range BlockOf(const SparseMatrix& A, Id block)
+{
+  const auto begin = static_cast<Index>(block * UnknownsPerBlock);
+  return { begin, static_cast<Index>(std::min<Id>(A.rows, Id(begin) + UnknownsPerBlock)) };
+}
+
+/// The blocks that have a group with unknown i: block[begin[i] .. begin[i + 1]), ascending.
+struct BlocksOfUnknowns
+{
+  std::vector<Index> begin;
+  std::vector<Index> block;
+};
+
+template<class Visit>
+void ForMembers(const std::vector<Group>& groups, Visit&& visit)
+{
+  for (const Group& group : groups)
+  {
+    for (const Index member : group)
+    {
+      if (member >= 0)
+      {
+        visit(member);
+      }
+    }
+  }
+}
+
+BlocksOfUnknowns FindBlocks(Index unknowns, const std::vector<std::vector<Group>>& groups)
+{
+  std::vector<Index> last(unknowns, -1); // the last block that has counted or listed the unknown
+  BlocksOfUnknowns blocks;
+  blocks.begin.assign(Id(unknowns) + 1, 0);
+  const auto forPairs = [&](const auto& visit)
+  {
+    std::fill(last.begin(), last.end(), -1);
+    for (Index block = 0; block < static_cast<Index>(groups.size()); ++block)
+    {
+      ForMembers(groups[block],
+        [&](Index member)
+        {
+          if (last[member] != block)
+          {
+            last[member] = block;
+            visit(member, block);
+          }
+        });
+    }
+  };
+  forPairs([&](Index member, Index) { ++blocks.begin[member]; });
+  blocks.block.resize(ExclusiveScan(blocks.begin));
+  std::vector<Index> next = blocks.begin;
+  forPairs([&](Index member, Index block) { blocks.block[next[member]++] = block; });
+  return blocks;
+}
+
+/// The lowest colour that no block before it has whose groups are coupled with its own.
+std::vector<int> ColourBlocks(const SparseMatrix& A, const std::vector<std::vector<Group>>& groups)
+{
+  const BlocksOfUnknowns blocks = FindBlocks(A.rows, groups);
+  std::vector<int> colour(groups.size(), -1);
+  std::vector<char> isTaken;
+  for (std::size_t block = 0; block < groups.size(); ++block)
+  {
+    isTaken.assign(isTaken.size(), 0);
+    ForMembers(groups[block],
+      [&](Index member)
+      {
+        for (Id k = A.rowBegin[member]; k < A.rowBegin[member + 1]; ++k)
+        {
+          const Index j = A.column[k];
+          for (Index other = blocks.begin[j]; other < blocks.begin[j + 1]; ++other)
+          {
+            if (colour[blocks.block[other]] >= 0)
+            {
+              isTaken[colour[blocks.block[other]]] = 1;
+            }
+          }
+        }
+      });
+    const auto free = std::find(isTaken.begin(), isTaken.end(), 0);
+    colour[block] = static_cast<int>(free - isTaken.begin());
+    if (free == isTaken.end())
+    {
+      isTaken.push_back(0);
+    }
+  }
+  return colour;
+}
+
+/// An order of the groups of all blocks; blocks without a group are left out.
+PatchOrder SortByColour(const SparseMatrix& A, const std::vector<std::vector<Group>>& groups)
+{
+  const std::vector<int> colour = ColourBlocks(A, groups);
+  const int colours = colour.empty() ? 0 : 1 + *std::max_element(colour.begin(), colour.end());
+  PatchOrder order;
+  order.blockBegin.push_back(0);
+  order.colourBegin.push_back(0);
+  for (int c = 0; c < colours; ++c)
+  {
+    for (std::size_t block = 0; block < groups.size(); ++block)
+    {
+      if (colour[block] == c && !groups[block].empty())
+      {
+        order.dof.insert(order.dof.end(), groups[block].begin(), groups[block].end());
+        order.blockBegin.push_back(static_cast<Id>(order.dof.size()));
+      }
+    }
+    order.colourBegin.push_back(static_cast<Id>(order.blockBegin.size()) - 1);
+  }
+  return order;
+}
+
+/// Grows groups from the unknowns of one block, each by the strongest coupling of its members.
+class GroupGrower
+{
+public:
+  GroupGrower(const SparseMatrix& A, const std::vector<double>& diagonal, const Range& range)
+    : A_(A), diagonal_(diagonal), range_(range), isGrouped_(range.end - range.begin, 0)
+  {
+  }
+
+  std::vector<Group> Grow()
+  {
+    std::vector<Group> groups;
+    for (Index seed = range_.begin; seed < range_.end; ++seed)
+    {
+      if (this->IsGrouped(seed))
+      {
+        continue;
+      }
+      const Group group = this->GrowFrom(seed);
+      if (group[1] >= 0)
+      {
+        groups.push_back(group);
+        for (const Index member : group)
+        {
+          if (range_.Contains(member))
+          {
+            isGrouped_[member - range_.begin] = 1;
+          }
+        }
+      }
+    }
+    return groups;
+  }
+
+private:
+  /// True only for unknowns of the own block: the result must not depend on the other blocks'.
+  bool IsGrouped(Index i) const { return range_.Contains(i) && isGrouped_[i - range_.begin]; }
+
+  /// May take in members of other groups and of other blocks: lines must not end at their borders.
+  Group GrowFrom(Index seed) const
+  {
+    Group group;
+    group.fill(-1);
+    group[0] = seed;
+    for (int size = 1; size < FunctionsPerPatch; ++size)
+    {
+      std::pair<double, Index> strongest{ 0.0, -1 };
+      for (int k = 0; k < size; ++k)
+      {
+        this->FindStronger(group, group[k], strongest);
+      }
+      if (strongest.second < 0)
+      {
+        break;
+      }
+      group[size] = strongest.second;
+    }
+    return group;
+  }
+
+  void FindStronger(const Group& group, Index member, std::pair<double, Index>& strongest) const
+  {
+    for (Id k = A_.rowBegin[member]; k < A_.rowBegin[member + 1]; ++k)
+    {
+      const Index other = A_.column[k];
+      if (std::find(group.begin(), group.end(), other) != group.end())
+      {
+        continue;
+      }
+      const double coupling = -A_.value[k] / std::sqrt(diagonal_[member] * diagonal_[other]) *
+                              (this->IsGrouped(other) ? WeightOfGrouped : 1.0);
+      if (coupling > strongest.first)
+      {
+        strongest = { coupling, other };
+      }
+    }
+  }
+
+  const SparseMatrix& A_;
+  const std::vector<double>& diagonal_;
+  Range range_;
+  std::vector<char> isGrouped_;
+};
+
+} // namespace
+
+PatchOrder OrderInBlocks(const SparseMatrix& A)
+{
+  std::vector<std::vector<Group>> groups(NumberOfBlocks(A));
+  for (std::size_t block = 0; block < groups.size(); ++block)
+  {
+    const Range range = BlockOf(A, static_cast<Id>(block));
+    for (Index first = range.begin; first < range.end; first += FunctionsPerPatch)
+    {
+      Group group;
+      for (int k = 0; k < FunctionsPerPatch; ++k)
+      {
+        group[k] = range.Contains(first + k) ? first + k : -1;
+      }
+      groups[block].push_back(group);
+    }
+  }
+  return SortByColour(A, groups);
+}
+
+PatchOrder GroupByCoupling(const SparseMatrix& A, int threads)
+{
+  const std::vector<double> diagonal = A.Diagonal();
+  std::vector<std::vector<Group>> groups(NumberOfBlocks(A));
+  ParallelBlocks(static_cast<Id>(groups.size()), threads,
+    [&](Id block) { groups[block] = GroupGrower(A, diagonal, BlockOf(A, block)).Grow(); });
+  return SortByColour(A, groups);
+}
+
+} // namespace gridfem

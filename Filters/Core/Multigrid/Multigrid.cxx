@@ -1,0 +1,381 @@
+#include "Multigrid/Multigrid.h"
+
+#include "Algebra/ColumnAlgebra.h"
+#include "Base/Errors.h"
+#include "Multigrid/PatchCover.h"
+#include "Multigrid/SmootherSequence.h"
+
+#include <algorithm>
+#include <string>
+
+namespace gridfem
+{
+namespace
+{
+
+void CheckSweeps(int pre, int post)
+{
+  if (pre < 0 || post < 0)
+  {
+    throw InvalidInput("the number of smoothing sweeps must not be negative");
+  }
+}
+
+void CheckLevels(const std::vector<MultigridLevel>& levels, const MultigridOptions& options)
+{
+  if (levels.empty())
+  {
+    throw InvalidInput("a multigrid hierarchy needs at least one level");
+  }
+  CheckSweeps(options.preSweeps, options.postSweeps);
+  for (std::size_t l = 0; l < levels.size(); ++l)
+  {
+    if (levels[l].smoothing)
+    {
+      CheckSweeps(levels[l].smoothing->preSweeps, levels[l].smoothing->postSweeps);
+    }
+    const SparseMatrix& A = levels[l].A;
+    const SparseMatrix& P = levels[l].prolongation;
+    const bool isCoarsest = l + 1 == levels.size();
+    if (A.rows != A.columns ||
+        (!isCoarsest && (P.rows != A.rows || P.columns != levels[l + 1].A.rows)))
+    {
+      throw InvalidInput(
+        "the matrix or the prolongation of level " + std::to_string(l) + " has the wrong shape");
+    }
+  }
+}
+
+std::size_t MatrixMemory(const SparseMatrix& A)
+{
+  return A.rowBegin.size() * sizeof(Id) + A.column.size() * sizeof(Index) +
+         A.value.size() * sizeof(double);
+}
+
+/// Row i times factor[i] scale.
+void ScaleRows(const std::vector<double>& factor, double scale, MultiVector& v, int threads)
+{
+  ParallelRanges(v.rows(), ThreadsFor(v.size(), threads),
+    [&](Id begin, Id end)
+    {
+      for (Id row = begin; row < end; ++row)
+      {
+        v.row(row) *= factor[row] * scale;
+      }
+    });
+}
+
+} // namespace
+
+Multigrid::Multigrid(std::vector<MultigridLevel> levels, const MultigridOptions& options)
+  : levels_(std::move(levels)), options_(options)
+{
+  CheckLevels(levels_, options_);
+  for (std::size_t l = 0; l + 1 < levels_.size(); ++l)
+  {
+    if (levels_[l].restriction->rows == 0)
+    {
+      levels_[l].restriction = Transpose(levels_[l].prolongation, options_.threads);
+    }
+  }
+  this->BuildSolvers();
+}
+
+void Multigrid::AddHidden(HiddenLevels hidden, double size)
+{
+  if (levels_.size() < 2 || hidden.levels.size() + 1 != levels_.size() || !(size > 0.0) ||
+      static_cast<Index>(hidden.height.size()) != levels_.front().A.rows ||
+      hidden.levels.front().A.rows != levels_[1].A.rows ||
+      (!hidden.layered.empty() &&
+        (hidden.layeredProlongation.rows != levels_.front().A.rows ||
+          hidden.layeredProlongation.columns != hidden.layered.front().A.rows)))
+  {
+    throw InvalidInput("the hidden functions do not fit the hierarchy");
+  }
+  MultigridOptions options = options_;
+  options.cycle = CycleType::V;
+  hidden_ = std::make_unique<Multigrid>(std::move(hidden.levels), options);
+  height_ = std::move(hidden.height);
+  layered_.reset();
+  if (!hidden.layered.empty())
+  {
+    layered_ = std::make_unique<Multigrid>(std::move(hidden.layered), options);
+    layeredRestriction_ = Transpose(hidden.layeredProlongation);
+    layeredProlongation_ = std::move(hidden.layeredProlongation);
+  }
+  sizeOfHidden_ = size;
+  revisionOfHidden_ = hidden.revision;
+}
+
+void Multigrid::Update(std::vector<SparseMatrix> matrices)
+{
+  bool fits = matrices.size() == levels_.size();
+  for (std::size_t l = 0; fits && l < levels_.size(); ++l)
+  {
+    fits = matrices[l].rows == levels_[l].A.rows && matrices[l].columns == levels_[l].A.columns &&
+           matrices[l].NonZeros() == levels_[l].A.NonZeros();
+  }
+  if (!fits)
+  {
+    throw InvalidInput("new matrix values must have the patterns of the hierarchy");
+  }
+  this->Update([&](std::size_t l, SparseMatrix& matrix) { matrix = std::move(matrices[l]); });
+}
+
+void Multigrid::Update(const std::function<void(std::size_t, SparseMatrix&)>& refill)
+{
+  for (std::size_t l = 0; l < levels_.size(); ++l)
+  {
+    refill(l, levels_[l].A);
+  }
+  this->BuildSolvers();
+}
+
+void Multigrid::BuildSolvers()
+{
+  for (std::size_t l = 0; l + 1 < levels_.size(); ++l)
+  {
+    MultigridLevel& level = levels_[l];
+    level.smoother.reset(); // its memory is free before the new one is built
+    level.smoother = this->MakeSmoother(l);
+  }
+  coarse_ = CoarseSolver(levels_.back().A, options_.threads);
+}
+
+std::unique_ptr<Smoother> Multigrid::MakeSmoother(std::size_t l) const
+{
+  const MultigridLevel& level = levels_[l];
+  std::unique_ptr<Smoother> smoother = this->MakeSmoother(level, this->SmoothingOf(l).smoother);
+  if (level.groups.dof.empty())
+  {
+    return smoother;
+  }
+  std::vector<std::unique_ptr<Smoother>> sequence;
+  sequence.push_back(std::move(smoother));
+  sequence.push_back(
+    MakePatchSmoother(level.A, level.groups, options_.threads, options_.precision));
+  return MakeSmootherSequence(std::move(sequence));
+}
+
+std::unique_ptr<Smoother> Multigrid::MakeSmoother(
+  const MultigridLevel& level, SmootherType type) const
+{
+  switch (type)
+  {
+    case SmootherType::GaussSeidel:
+      return MakeGaussSeidel(level.A, level.order);
+    case SmootherType::SliceGaussSeidel:
+      return MakeSliceGaussSeidel(level.A, level.order, options_.sweepsPerSynchronisation);
+    default:
+      break;
+  }
+  if (options_.coverage == 0)
+  {
+    return MakePatchSmoother(level.A, level.order, options_.threads, options_.precision);
+  }
+  const PatchOrder cover = CoverUnknowns(level.order, level.A.rows, options_.coverage);
+  return MakePatchSmoother(level.A, cover, options_.threads, options_.precision);
+}
+
+LevelSmoothing Multigrid::SmoothingOf(std::size_t level) const
+{
+  return levels_[level].smoothing.value_or(
+    LevelSmoothing{ options_.smoother, options_.preSweeps, options_.postSweeps, options_.cycle });
+}
+
+bool Multigrid::HasSingleFactors() const
+{
+  return (hidden_ && hidden_->HasSingleFactors()) || (layered_ && layered_->HasSingleFactors()) ||
+         std::any_of(levels_.begin(), levels_.end(),
+           [](const MultigridLevel& level)
+           { return level.smoother && level.smoother->HasSingleFactors(); });
+}
+
+Multigrid Multigrid::InDoublePrecision() const
+{
+  std::vector<MultigridLevel> levels(levels_.size());
+  for (std::size_t l = 0; l < levels_.size(); ++l)
+  {
+    const MultigridLevel& from = levels_[l];
+    levels[l] = { from.A, from.prolongation, from.restriction, from.order, from.groups,
+      from.smoothing, nullptr };
+  }
+  MultigridOptions options = options_;
+  options.precision = FactorPrecision::Double;
+  Multigrid copy(std::move(levels), options);
+  const auto inDouble = [](const std::unique_ptr<Multigrid>& part)
+  { return part ? std::make_unique<Multigrid>(part->InDoublePrecision()) : nullptr; };
+  copy.height_ = height_;
+  copy.hidden_ = inDouble(hidden_);
+  copy.layeredProlongation_ = layeredProlongation_;
+  copy.layeredRestriction_ = layeredRestriction_;
+  copy.layered_ = inDouble(layered_);
+  copy.sizeOfHidden_ = sizeOfHidden_;
+  copy.revisionOfHidden_ = revisionOfHidden_;
+  return copy;
+}
+
+void Multigrid::Cycle(const MultiVector& b, MultiVector& x) const
+{
+  if (x.rows() != b.rows() || x.cols() != b.cols())
+  {
+    throw InvalidInput("x and b of a multigrid cycle must have the same shape");
+  }
+  this->Start(0, b, x, false);
+}
+
+void Multigrid::Precondition(const MultiVector& b, MultiVector& x) const
+{
+  this->Start(0, b, x, true);
+}
+
+void Multigrid::PreconditionFrom(std::size_t level, const MultiVector& b, MultiVector& x) const
+{
+  this->Start(level, b, x, true);
+}
+
+void Multigrid::NestedIteration(const MultiVector& b, MultiVector& x) const
+{
+  this->CheckRows(0, b);
+  std::vector<MultiVector> load(levels_.size());
+  for (std::size_t l = 1; l < levels_.size(); ++l)
+  {
+    Multiply(levels_[l - 1].restriction, l == 1 ? b : load[l - 1], load[l], options_.threads);
+  }
+  std::vector<Scratch> scratch(levels_.size());
+  coarse_.Solve(levels_.size() == 1 ? b : load.back(), x, options_.threads);
+  for (std::size_t l = levels_.size() - 1; l > 0; --l)
+  {
+    if (l + 1 < levels_.size())
+    {
+      this->CycleLevel(l, load[l], x, false, scratch);
+    }
+    MultiVector finer;
+    Multiply(levels_[l - 1].prolongation, x, finer, options_.threads);
+    x.swap(finer);
+  }
+}
+
+void Multigrid::CheckRows(std::size_t level, const MultiVector& b) const
+{
+  const Index unknowns = levels_.at(level).A.rows;
+  if (b.rows() != unknowns)
+  {
+    throw InvalidInput("a right-hand side of " + std::to_string(b.rows()) +
+                       " rows does not fit a system of " + std::to_string(unknowns) + " unknowns");
+  }
+}
+
+void Multigrid::Start(std::size_t level, const MultiVector& b, MultiVector& x, bool zeroStart) const
+{
+  this->CheckRows(level, b);
+  std::vector<Scratch> scratch(levels_.size());
+  this->CycleLevel(level, b, x, zeroStart, scratch);
+}
+
+void Multigrid::CycleLevel(std::size_t l, const MultiVector& b, MultiVector& x, bool zeroStart,
+  std::vector<Scratch>& scratch) const
+{
+  const MultigridLevel& level = levels_[l];
+  if (l + 1 == levels_.size())
+  {
+    coarse_.Solve(b, x, options_.threads);
+    return;
+  }
+  const LevelSmoothing smoothing = this->SmoothingOf(l);
+  if (zeroStart)
+  {
+    x.setZero(b.rows(), b.cols());
+  }
+  for (int sweep = 0; sweep < smoothing.preSweeps; ++sweep)
+  {
+    level.smoother->Sweep(level.A, b, x, SweepDirection::Forward, options_.threads);
+  }
+  this->CorrectFromCoarse(l, b, x, zeroStart && smoothing.preSweeps == 0, scratch);
+  for (int sweep = 0; sweep < smoothing.postSweeps; ++sweep)
+  {
+    level.smoother->Sweep(level.A, b, x, SweepDirection::Backward, options_.threads);
+  }
+}
+
+void Multigrid::CorrectFromCoarse(std::size_t l, const MultiVector& b, MultiVector& x, bool zeroX,
+  std::vector<Scratch>& scratch) const
+{
+  if (l == 0 && hidden_)
+  {
+    this->VisitCoarse(l, b, x, zeroX, 1, scratch);
+    this->CorrectHidden(b, x, scratch[l]);
+    if (layered_)
+    {
+      this->CorrectLayered(b, x, scratch[l]);
+      this->CorrectHidden(b, x, scratch[l]);
+    }
+    this->VisitCoarse(l, b, x, false, 1, scratch);
+    return;
+  }
+  const bool coarseIsSolved = l + 2 == levels_.size(); // directly: once is enough
+  const bool isW = this->SmoothingOf(l).cycle == CycleType::W;
+  this->VisitCoarse(l, b, x, zeroX, isW && !coarseIsSolved ? 2 : 1, scratch);
+}
+
+void Multigrid::VisitCoarse(std::size_t l, const MultiVector& b, MultiVector& x, bool zeroX,
+  int times, std::vector<Scratch>& scratch) const
+{
+  const MultigridLevel& level = levels_[l];
+  auto& [residual, coarseB, coarseX] = scratch[l];
+  if (!zeroX)
+  {
+    Residual(level.A, x, b, residual, options_.threads);
+  }
+  Multiply(level.restriction, zeroX ? b : residual, coarseB, options_.threads);
+  for (int time = 0; time < times; ++time)
+  {
+    this->CycleLevel(l + 1, coarseB, coarseX, time == 0, scratch);
+  }
+  MultiplyAdd(level.prolongation, coarseX, x, options_.threads);
+}
+
+/// x += D P B Pᵀ D (b - A x)
+void Multigrid::CorrectHidden(const MultiVector& b, MultiVector& x, Scratch& scratch) const
+{
+  const MultigridLevel& level = levels_.front();
+  auto& [residual, coarseB, coarseX] = scratch;
+  Residual(level.A, x, b, residual, options_.threads);
+  ScaleRows(height_, 1.0, residual, options_.threads);
+  Multiply(level.restriction, residual, coarseB, options_.threads);
+  hidden_->Precondition(coarseB, coarseX);
+  Multiply(level.prolongation, coarseX, residual, options_.threads);
+  ScaleRows(height_, 1.0 / sizeOfHidden_, residual, options_.threads);
+  AddScaled(residual, Columns::Ones(x.cols()), x, options_.threads);
+}
+
+/// x += P B Pᵀ (b - A x)
+void Multigrid::CorrectLayered(const MultiVector& b, MultiVector& x, Scratch& scratch) const
+{
+  auto& [residual, coarseB, coarseX] = scratch;
+  Residual(levels_.front().A, x, b, residual, options_.threads);
+  Multiply(layeredRestriction_, residual, coarseB, options_.threads);
+  layered_->Precondition(coarseB, coarseX);
+  coarseX *= 1.0 / sizeOfHidden_;
+  MultiplyAdd(layeredProlongation_, coarseX, x, options_.threads);
+}
+
+std::size_t Multigrid::Memory() const
+{
+  std::size_t bytes = coarse_.Memory() + height_.size() * sizeof(double);
+  bytes += hidden_ ? hidden_->Memory() : 0;
+  bytes += MatrixMemory(layeredProlongation_) + MatrixMemory(layeredRestriction_);
+  bytes += layered_ ? layered_->Memory() : 0;
+  for (const MultigridLevel& level : levels_)
+  {
+    bytes += MatrixMemory(level.A) + MatrixMemory(level.prolongation) +
+             MatrixMemory(level.restriction) +
+             level.order.dof.size() * sizeof(level.order.dof.front()) +
+             (level.order.blockBegin.size() + level.order.colourBegin.size()) * sizeof(Id) +
+             level.order.slice.size() * sizeof(Index);
+    bytes += level.smoother ? level.smoother->Memory() : 0;
+  }
+  return bytes;
+}
+
+} // namespace gridfem

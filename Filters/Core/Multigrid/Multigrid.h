@@ -1,0 +1,195 @@
+// The multigrid cycle. It sees matrices and patch lists only, never triangles. [T §3.3, §4.2]
+#ifndef GridFEM_Multigrid_h
+#define GridFEM_Multigrid_h
+
+#include "Multigrid/CoarseSolver.h"
+#include "Multigrid/Smoother.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace gridfem
+{
+
+enum class CycleType
+{
+  V = 0,
+  W = 1
+};
+
+enum class SmootherType
+{
+  Patch = 0,
+  GaussSeidel = 1,
+  SliceGaussSeidel = 2 // needs slices in the order; see MakeSliceGaussSeidel
+};
+
+/// When W cycles with the patch smoother on a grid correct hidden functions, too; see HiddenLevels.
+enum class HiddenCorrection
+{
+  Never = 0,
+  /// Where half of the surface is flat over four cells, which halves the work there: a quarter of a
+  /// cycle and a third of the hierarchy's memory more.
+  WhereFlat = 1,
+  /// With layered functions: twice the time of a cycle and 1.7 to 1.9 times the memory. Iterations
+  /// then hardly grow with depth on any smooth surface: it pays for small errors and where the
+  /// surface hardly curves within four cells.
+  Always = 2
+};
+
+struct MultigridOptions
+{
+  CycleType cycle = CycleType::W;
+  SmootherType smoother = SmootherType::Patch;
+  int preSweeps = 1;  // >= 0; equal counts keep the cycle symmetric
+  int postSweeps = 1; // >= 0
+  /// Patch smoother: patches per unknown and sweep, see CoverUnknowns; 0: all. 1 halves the time of
+  /// a cycle and gives the same error after the first cycles; all need fewer iterations to a small
+  /// one.
+  int coverage = 0;
+  FactorPrecision precision = FactorPrecision::Mixed; // of the patch smoother
+  int sweepsPerSynchronisation = 1;                   // of SliceGaussSeidel: one Sweep is so many
+  HiddenCorrection hidden = HiddenCorrection::WhereFlat;
+  int threads = 0; // 0: all
+};
+
+/// Whether cycles with these options can correct hidden functions: W cycles of patches do.
+inline bool AllowsHidden(const MultigridOptions& options)
+{
+  return options.hidden != HiddenCorrection::Never && options.cycle == CycleType::W &&
+         options.smoother == SmootherType::Patch;
+}
+
+/// How one level is relaxed, where that differs from the rest of the hierarchy: the hat functions
+/// of a mesh above the levels of a grid.
+struct LevelSmoothing
+{
+  SmootherType smoother = SmootherType::GaussSeidel;
+  int preSweeps = 2;
+  int postSweeps = 2;
+  CycleType cycle = CycleType::V; // V: the next coarser level is visited once, W: twice
+};
+
+/// One level as the cycle sees it.
+struct MultigridLevel
+{
+  SparseMatrix A;
+  SharedMatrix prolongation; // from the next coarser level to this one; empty on the coarsest
+  SharedMatrix restriction;  // its transpose; is made where it is empty
+  PatchOrder order;
+  PatchOrder groups; // of unknowns that are relaxed together after a sweep over all; or empty
+  std::optional<LevelSmoothing> smoothing; // in place of the options of the hierarchy
+  std::unique_ptr<Smoother> smoother;      // none on the coarsest
+};
+
+/// Functions of the finest level that are nearly invisible on the surface, and that coarse levels
+/// see several times too large: `height` times a function of the next coarser level, and a
+/// hierarchy of their own, see HiddenFunctions.h; those that are fine along one axis have another
+/// one, see LayeredFunctions.h.
+struct HiddenLevels
+{
+  std::vector<double> height;         // a factor per finest unknown
+  std::vector<MultigridLevel> levels; // from the second level on; prolongations as in the other one
+  SparseMatrix layeredProlongation; // from the first layered level to the finest; heights included
+  std::vector<MultigridLevel> layered; // may be empty
+  int revision = 0;                    // of the system they come from
+};
+
+/// A hierarchy that is ready to cycle. Const methods are safe to call from several threads.
+class Multigrid
+{
+public:
+  /// @param levels finest first, with A, prolongation and order filled; the rest is built here.
+  /// The coarsest level is solved directly; its prolongation and order are not used.
+  /// Throws InvalidInput when there is no level, shapes do not fit or a sweep count is negative.
+  Multigrid(std::vector<MultigridLevel> levels, const MultigridOptions& options);
+
+  /// From now on cycles of the finest level have more corrections: one from the coarser level, one
+  /// by a V cycle of the hidden functions, and one more from the coarser level, in place of the two
+  /// that a W cycle has. All three are corrections in a space of functions, so that the cycle stays
+  /// symmetric and convergent whatever the heights are. Costs a quarter of a cycle more. Layered
+  /// functions are corrected between two corrections of the hidden ones, those of all axes at once;
+  /// that costs as much as a cycle. The cycle stays symmetric.
+  /// @param size  of the matrix on hidden functions, in units of the hierarchy `hidden`
+  /// Throws InvalidInput when shapes do not fit.
+  void AddHidden(HiddenLevels hidden, double size);
+  void SetSizeOfHidden(double size) { sizeOfHidden_ = size; }
+  /// -1 where there are none.
+  int RevisionOfHidden() const { return hidden_ ? revisionOfHidden_ : -1; }
+
+  /// New matrix values on the same patterns (finest first): rebuilds smoothers and coarse solver.
+  /// Throws InvalidInput, and changes nothing, when a pattern differs in shape or size.
+  void Update(std::vector<SparseMatrix> matrices);
+
+  /// The same in place: refill(level, matrix) gives the matrix of every level its values. When it
+  /// throws, the hierarchy must not be used any more.
+  void Update(const std::function<void(std::size_t, SparseMatrix&)>& refill);
+
+  /// Whether a patch smoother stores factors in single precision.
+  bool HasSingleFactors() const;
+
+  /// A copy whose patch smoothers store all factors in double precision; it shares patterns and
+  /// prolongations.
+  Multigrid InDoublePrecision() const;
+
+  /// One cycle: improves x for A x = b. Any number of columns. Levels above the finest allocate
+  /// their vectors per call: a quarter of b, and less.
+  void Cycle(const MultiVector& b, MultiVector& x) const;
+
+  /// One cycle from zero: x = B b, B symmetric when both sweep counts are equal.
+  void Precondition(const MultiVector& b, MultiVector& x) const;
+
+  /// A start for the iteration [T §3.3]: solves the coarsest system, takes the solution up and
+  /// improves it by one cycle on every level but the finest. x = C b with C symmetric positive
+  /// semi-definite where B is. Cost: a third of a W cycle. x must not be b.
+  void NestedIteration(const MultiVector& b, MultiVector& x) const;
+
+  /// The same as Precondition on the hierarchy that begins at `level`.
+  void PreconditionFrom(std::size_t level, const MultiVector& b, MultiVector& x) const;
+
+  const SparseMatrix& Matrix() const { return levels_.front().A; }
+  const std::vector<MultigridLevel>& Levels() const { return levels_; }
+  const MultigridOptions& Options() const { return options_; }
+  std::size_t Memory() const;
+
+private:
+  void BuildSolvers();
+  std::unique_ptr<Smoother> MakeSmoother(std::size_t level) const;
+  std::unique_ptr<Smoother> MakeSmoother(const MultigridLevel& level, SmootherType type) const;
+  LevelSmoothing SmoothingOf(std::size_t level) const;
+  /// Vectors of one level during one call.
+  struct Scratch
+  {
+    MultiVector residual;
+    MultiVector coarseB;
+    MultiVector coarseX;
+  };
+
+  void CheckRows(std::size_t level, const MultiVector& b) const;
+  void Start(std::size_t level, const MultiVector& b, MultiVector& x, bool zeroStart) const;
+  void CycleLevel(std::size_t level, const MultiVector& b, MultiVector& x, bool zeroStart,
+    std::vector<Scratch>& scratch) const;
+  void CorrectFromCoarse(std::size_t level, const MultiVector& b, MultiVector& x, bool zeroX,
+    std::vector<Scratch>& scratch) const;
+  void VisitCoarse(std::size_t level, const MultiVector& b, MultiVector& x, bool zeroX, int times,
+    std::vector<Scratch>& scratch) const;
+  void CorrectHidden(const MultiVector& b, MultiVector& x, Scratch& scratch) const;
+  void CorrectLayered(const MultiVector& b, MultiVector& x, Scratch& scratch) const;
+
+  std::vector<MultigridLevel> levels_;
+  CoarseSolver coarse_;
+  MultigridOptions options_;
+  std::vector<double> height_;
+  std::unique_ptr<Multigrid> hidden_; // none: no such correction
+  SparseMatrix layeredProlongation_;
+  SparseMatrix layeredRestriction_;
+  std::unique_ptr<Multigrid> layered_; // none: no such correction
+  double sizeOfHidden_ = 1.0;
+  int revisionOfHidden_ = 0;
+};
+
+} // namespace gridfem
+
+#endif

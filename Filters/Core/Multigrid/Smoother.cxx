@@ -1,0 +1,63 @@
+#include "Multigrid/Smoother.h"
+
+#include "Multigrid/BlockSweep.h"
+
+#include <algorithm>
+
+namespace gridfem
+{
+namespace
+{
+
+/// True for 0 = begin[0] <= begin[1] <= ... <= begin[last] = count; may be empty when count is 0.
+bool Covers(const std::vector<Id>& begin, Id count)
+{
+  if (begin.empty())
+  {
+    return count == 0;
+  }
+  return begin.front() == 0 && begin.back() == count && std::is_sorted(begin.begin(), begin.end());
+}
+
+} // namespace
+
+void CheckOrder(const SparseMatrix& A, const PatchOrder& order, int threads)
+{
+  if (A.rows != A.columns || static_cast<Id>(A.rowBegin.size()) != Id(A.rows) + 1)
+  {
+    throw InvalidInput("a smoother needs a square matrix");
+  }
+  const Id blocks = std::max<Id>(0, Id(order.blockBegin.size()) - 1);
+  if (!Covers(order.blockBegin, Id(order.dof.size())) || !Covers(order.colourBegin, blocks))
+  {
+    throw InvalidInput("blocks and colours of a patch order must cover all patches");
+  }
+  ParallelRanges(static_cast<Id>(order.dof.size()), threads,
+    [&](Id begin, Id end)
+    {
+      for (Id patch = begin; patch < end; ++patch)
+      {
+        for (const Index unknown : order.dof[patch])
+        {
+          if (unknown < -1 || unknown >= A.rows)
+          {
+            throw InvalidInput("patch " + std::to_string(patch) + " names unknown " +
+                               std::to_string(unknown) + " of " + std::to_string(A.rows));
+          }
+        }
+      }
+    });
+}
+
+void CheckSweep(const SparseMatrix& A, Id rows, const MultiVector& b, const MultiVector& x)
+{
+  if (A.rows != rows || b.rows() != rows || x.rows() != rows || b.cols() != x.cols())
+  {
+    throw InvalidInput("a sweep over " + std::to_string(rows) + " unknowns got a matrix of " +
+                       std::to_string(A.rows) + ", b " + std::to_string(b.rows()) + " x " +
+                       std::to_string(b.cols()) + " and x " + std::to_string(x.rows()) + " x " +
+                       std::to_string(x.cols()));
+  }
+}
+
+} // namespace gridfem

@@ -1,0 +1,196 @@
+#include "Problems/FinishSpectrum.h"
+
+#include "Algebra/BasisProducts.h"
+#include "Algebra/BlockProducts.h"
+#include "Algebra/BlockVectors.h"
+#include "Base/LargeMemory.h"
+#include "Base/Parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace gridfem
+{
+namespace
+{
+
+/// Entries that differ by less, relatively, are equal up to rounding: symmetric surfaces have many.
+constexpr double NearTie = 1e-6;
+
+/// Rows whose images are looked at together.
+constexpr Id RowsAtOnce = 512;
+
+/// Orthonormal columns have a mass of 1 up to this. The mass of others is rounding: they are
+/// functions that almost vanish, as on a sliver.
+constexpr double LargestMassError = 1e-3;
+constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+
+/// Columns that are projected together: the partial sums of a thousand would take 200 MB.
+constexpr Id ColumnsAtOnce = 128;
+
+/// Per column x.
+struct ColumnFacts
+{
+  Eigen::RowVectorXd energy;  // xᵀLx
+  Eigen::RowVectorXd mass;    // xᵀMx
+  Eigen::RowVectorXd largest; // the entry of M x of largest magnitude, near ties to the lowest row
+
+  explicit ColumnFacts(Id columns)
+    : energy(Eigen::RowVectorXd::Zero(columns)), mass(energy), largest(energy)
+  {
+  }
+  template<class Row>
+  void TakeLargest(const Row& row)
+  {
+    largest = (row.array().abs() > (1.0 + NearTie) * largest.array().abs()).select(row, largest);
+  }
+};
+
+template<class Real>
+ColumnFacts LookAt(const SpectralProblem<Real>& problem, const MultiVector& X)
+{
+  const Id columns = X.cols();
+  const Id ranges = (X.rows() + RowsAtOnce - 1) / RowsAtOnce;
+  std::vector<ColumnFacts> parts(ranges, ColumnFacts(columns));
+  const BlockProducts<double> product(problem.stiffness, problem.mass, X);
+  ParallelBlocks(ranges, problem.threads,
+    [&](Id range)
+    {
+      const Id begin = range * RowsAtOnce;
+      const Id end = std::min(X.rows(), begin + RowsAtOnce);
+      MultiVector image(RowsAtOnce, 2 * columns);
+      product.Rows(begin, end, image);
+      for (Id row = begin; row < end; ++row)
+      {
+        const auto images = image.row(row - begin);
+        parts[range].energy += X.row(row).cwiseProduct(images.head(columns));
+        parts[range].mass += X.row(row).cwiseProduct(images.tail(columns));
+        parts[range].TakeLargest(images.tail(columns));
+      }
+    });
+  ColumnFacts facts(columns);
+  for (const ColumnFacts& part : parts)
+  {
+    facts.energy += part.energy;
+    facts.mass += part.mass;
+    facts.TakeLargest(part.largest);
+  }
+  return facts;
+}
+
+/// Constants and the first `others` pairs side by side, in double precision.
+template<class Real>
+MultiVector SideBySide(
+  const MultiVector& constants, const BlockBuffer<Real>& vectors, Id others, int threads)
+{
+  MultiVector all(constants.rows(), constants.cols() + others);
+  AdoptLargeMemory(all.data(), all.size() * sizeof(double));
+  CopyBlock(constants, all.leftCols(constants.cols()), threads);
+  if (others > 0)
+  {
+    CopyBlock(vectors.View().leftCols(others), all.rightCols(others), threads);
+  }
+  return all;
+}
+
+/// One step of Newton's method for columns that are orthonormal up to rounding to single precision:
+/// it squares what is missing. [X (3 - XᵀMX) / 2]
+void Orthonormalize(const SparseMatrix& mass, Block<double> X, int threads)
+{
+  Eigen::MatrixXd step(X.cols(), X.cols());
+  for (Id first = 0; first < X.cols(); first += ColumnsAtOnce)
+  {
+    const Id count = std::min(ColumnsAtOnce, X.cols() - first);
+    step.middleCols(first, count) =
+      -0.5 * Project<double>({ X }, mass, X.middleCols(first, count), threads);
+  }
+  step.diagonal().array() += 1.5;
+  ParallelRanges(
+    X.rows(), threads,
+    [&](Id begin, Id end)
+    {
+      const MultiVector rows = X.middleRows(begin, end - begin) * step;
+      X.middleRows(begin, end - begin) = rows;
+    },
+    RowsAtOnce);
+}
+
+/// Every column times its factor, in the given order.
+void ScaleAndOrder(
+  const Eigen::RowVectorXd& factor, const std::vector<Index>& order, MultiVector& X, int threads)
+{
+  ParallelRanges(X.rows(), threads,
+    [&](Id begin, Id end)
+    {
+      for (Id row = begin; row < end; ++row)
+      {
+        const Eigen::RowVectorXd scaled = X.row(row).cwiseProduct(factor);
+        X.row(row) = scaled(order);
+      }
+    });
+}
+
+template<class List>
+std::vector<double> Ordered(const List& list, const std::vector<Index>& order)
+{
+  std::vector<double> result;
+  std::transform(order.begin(), order.end(), std::back_inserter(result),
+    [&](Index place) { return list[place]; });
+  return result;
+}
+
+} // namespace
+
+template<class Real>
+Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs<Real>& pairs,
+  const BlockReport& report, const SpectralProblem<Real>& problem)
+{
+  const Index others = static_cast<Index>(report.residuals.size());
+  Spectrum spectrum;
+  spectrum.vectors = SideBySide(constants.Vectors(zeros), pairs.vectors, others, problem.threads);
+  pairs.vectors = {};
+  if (std::is_same_v<Real, float> && others > 0)
+  {
+    constants.Remove<double>(spectrum.vectors.rightCols(others));
+    Orthonormalize(problem.mass, spectrum.vectors.rightCols(others), problem.threads);
+  }
+
+  const ColumnFacts facts = LookAt(problem, spectrum.vectors);
+  Eigen::RowVectorXd values = Eigen::RowVectorXd::Zero(zeros + others);
+  Eigen::RowVectorXd factor(zeros + others);
+  for (Index j = 0; j < values.size(); ++j)
+  {
+    const bool isNormal = std::abs(facts.mass[j] - 1.0) < LargestMassError;
+    factor[j] = (facts.largest[j] < 0.0 ? -1.0 : 1.0) / std::sqrt(isNormal ? facts.mass[j] : 1.0);
+    if (j >= zeros)
+    {
+      const double ritz = std::is_same_v<Real, float> ? NaN : pairs.values[j - zeros];
+      // Below 0 there is only rounding, where a sliver has functions that almost vanish.
+      values[j] = std::max(isNormal ? facts.energy[j] / facts.mass[j] : ritz, 0.0);
+    }
+  }
+  std::vector<Index> order(zeros + others);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin() + zeros, order.end(),
+    [&](Index a, Index b)
+    { return values[a] < values[b] || (std::isnan(values[b]) && !std::isnan(values[a])); });
+  ScaleAndOrder(factor, order, spectrum.vectors, problem.threads);
+  spectrum.eigenvalues = Ordered(values, order);
+  std::vector<double> residuals(zeros, 0.0);
+  residuals.insert(residuals.end(), report.residuals.begin(), report.residuals.end());
+  spectrum.residuals = Ordered(residuals, order);
+  spectrum.estimatedErrors.assign(zeros, 0.0);
+  spectrum.numberOfConverged = zeros + report.numberOfConverged;
+  spectrum.converged = spectrum.numberOfConverged == zeros + others;
+  spectrum.iterations = report.iterations;
+  return spectrum;
+}
+
+template Spectrum CollectSpectrum(
+  const Constants&, Index, EigenPairs<float>&, const BlockReport&, const SpectralProblem<float>&);
+template Spectrum CollectSpectrum(
+  const Constants&, Index, EigenPairs<double>&, const BlockReport&, const SpectralProblem<double>&);
+
+} // namespace gridfem

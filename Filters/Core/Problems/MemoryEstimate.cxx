@@ -1,0 +1,101 @@
+#include "Problems/MemoryEstimate.h"
+
+#include "Grid/Grid.h"
+#include "Grid/MeshEdges.h"
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <string>
+
+namespace gridfem
+{
+
+namespace
+{
+
+// Bytes that live at the peak, fitted to the growth of the process (Testing/Benchmarks, group
+// `memory`); the sizes of the arrays, in brackets, explain all but the slack of growing vectors and
+// the memory that is freed but not yet used again.
+
+// While clipping:
+constexpr double ClipPerPoint = 70.0;    // position, the same on planes, welded id, sort entry (68)
+constexpr double ClipPerTriangle = 40.0; // its sides and the pieces along them (36)
+constexpr double ClipPerPiece = 102.0;   // pieces, corners and links, by thread and joined, and
+                                         // cut points
+// Kept ever after:
+constexpr double HeldPerPoint = 28.0; // position, patch (28)
+constexpr double HeldPerPiece = 50.0; // piece 12, corners 4 each, cut points 48 (49)
+// Function space, system and hierarchy, all levels (4/3 of the finest): tables 150, element
+// matrices 770, patterns and matrices of 2 functions with 18 entries each 600, inverses 390 to 770,
+// prolongations and their transposes 240; on flat surfaces also the hidden functions.
+constexpr double HeldPerPatch = 2600.0;
+// For one right-hand side: ten vectors.
+constexpr double HeldPerFunction = 80.0;
+
+} // namespace
+
+MemoryEstimate EstimateMemory(const TriangleMesh& mesh, int depth)
+{
+  const Grid grid = EmbedInGrid(mesh.points, UsedPoints(mesh), depth);
+  // Lines are the stretches along which planes cut a triangle; crossings the points where two
+  // planes do. A triangle falls into 1 + lines + crossings pieces and 1 + 2 (lines + crossings)
+  // triangles. The number of crossings is the triangle's area projected along each axis, on
+  // average.
+  double lines = 0.0;
+  double crossings = 0.0;
+  for (const auto& triangle : mesh.triangles)
+  {
+    const Vec3 a = grid.ToGrid(mesh.points[triangle[0]]);
+    const Vec3 b = grid.ToGrid(mesh.points[triangle[1]]);
+    const Vec3 c = grid.ToGrid(mesh.points[triangle[2]]);
+    const Vec3 low = a.cwiseMin(b).cwiseMin(c);
+    const Vec3 high = a.cwiseMax(b).cwiseMax(c);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      lines += PlanesBetween(low[axis], high[axis]).count;
+    }
+    crossings += 0.5 * (b - a).cross(c - a).cwiseAbs().sum();
+  }
+  MemoryEstimate estimate;
+  const double triangles = static_cast<double>(mesh.triangles.size());
+  const double pieces = triangles + lines + crossings;
+  estimate.clippedTriangles = triangles + 2.0 * (lines + crossings);
+  // A plane meets as many cells as grid lines cross it; a surface has at least one patch.
+  estimate.patches = crossings + 1.0;
+  estimate.functions = 2.0 * estimate.patches + FunctionsPerPatch;
+  const double points = static_cast<double>(mesh.points.size());
+  const double clip = ClipPerPoint * points + ClipPerTriangle * triangles + ClipPerPiece * pieces;
+  const double solve = HeldPerPoint * points + HeldPerPiece * pieces +
+                       HeldPerPatch * estimate.patches + HeldPerFunction * estimate.functions;
+  estimate.bytes = std::max(clip, solve);
+  return estimate;
+}
+
+double AvailableMemory()
+{
+  double available = std::numeric_limits<double>::infinity();
+  std::ifstream info("/proc/meminfo");
+  for (std::string name; info >> name;)
+  {
+    if (name == "MemAvailable:")
+    {
+      double kibibytes = 0.0;
+      info >> kibibytes;
+      available = 1024.0 * kibibytes;
+      break;
+    }
+    info.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+  }
+  // A container may allow less than the machine has.
+  double limit = 0.0;
+  double used = 0.0;
+  if (std::ifstream("/sys/fs/cgroup/memory.max") >> limit &&
+      std::ifstream("/sys/fs/cgroup/memory.current") >> used && limit - used < available)
+  {
+    available = limit - used;
+  }
+  return available < std::numeric_limits<double>::infinity() ? available : 0.0;
+}
+
+} // namespace gridfem

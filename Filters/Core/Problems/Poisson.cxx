@@ -1,0 +1,151 @@
+#include "Problems/Poisson.h"
+
+#include "Algebra/ComponentMeans.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace gridfem
+{
+
+namespace
+{
+
+void CheckRows(const char* name, const MultiVector& load, std::size_t functions)
+{
+  if (static_cast<std::size_t>(load.rows()) != functions)
+  {
+    throw InvalidInput("The integrals of the " + std::string(name) + " have " +
+                       std::to_string(load.rows()) + " rows for " + std::to_string(functions) +
+                       " functions.");
+  }
+}
+
+void CheckInput(const ComponentFunctions& functions, const MultiVector& values,
+  const MultiVector& gradients, const PoissonOptions& options)
+{
+  if (!(options.screeningWeight >= 0.0) || std::isinf(options.screeningWeight))
+  {
+    throw InvalidInput("The screening weight is " + std::to_string(options.screeningWeight) +
+                       "; it must be a number of 0 or more.");
+  }
+  CheckRows("values", values, functions.integral.size());
+  if (gradients.rows() != 0)
+  {
+    CheckRows("gradients", gradients, functions.integral.size());
+    if (gradients.cols() != values.cols())
+    {
+      throw InvalidInput("There are " + std::to_string(gradients.cols()) + " gradient fields for " +
+                         std::to_string(values.cols()) + " value fields.");
+    }
+  }
+}
+
+/// Squares of sizes have to stay in the range of numbers, or sums of them would end the iteration
+/// before it has begun. NaN is let through: it stays in its column and is reported there.
+void RequireInRange(const Eigen::RowVectorXd& size)
+{
+  constexpr double Largest = 1e150;
+  if ((size.array() > Largest).any())
+  {
+    throw InvalidInput(
+      "The values, the gradients or the screening weight are too large. Scale them down.");
+  }
+}
+
+/// What is left in a column after the means are taken out can be rounding alone: then it is 0.
+void DropRounding(const Eigen::RowVectorXd& size, MultiVector& rest)
+{
+  constexpr double Relative = 8.0 * std::numeric_limits<double>::epsilon();
+  for (Id c = 0; c < rest.cols(); ++c)
+  {
+    if (rest.col(c).norm() <= Relative * size[c])
+    {
+      rest.col(c).setZero();
+    }
+  }
+}
+
+double NormOfDiagonal(const SparseMatrix& A, int threads)
+{
+  const std::vector<double> diagonal = A.Diagonal(threads);
+  return Eigen::Map<const Eigen::VectorXd>(
+    diagonal.data(), static_cast<Eigen::Index>(diagonal.size()))
+    .norm();
+}
+
+/// Starts columns that hold NaN from zero.
+MultiVector NestedStart(const Multigrid& multigrid, const MultiVector& load)
+{
+  MultiVector start;
+  multigrid.NestedIteration(load, start);
+  for (Id c = 0; c < start.cols(); ++c)
+  {
+    if (!start.col(c).allFinite())
+    {
+      start.col(c).setZero();
+    }
+  }
+  return start;
+}
+
+} // namespace
+
+PoissonSolution SolvePoisson(const ComponentFunctions& functions, const Multigrid& multigrid,
+  const MultiVector& values, const MultiVector& gradients, const PoissonOptions& options,
+  const Progress& progress)
+{
+  CheckInput(functions, values, gradients, options);
+  const double lambda = options.screeningWeight;
+  const int threads = multigrid.Options().threads;
+  const ComponentMeans means(
+    functions.component, functions.integral, functions.numberOfComponents, threads);
+
+  // λM + L maps the functions of zero mean to the vectors of zero sum and the constants to M's, so
+  // the two parts of the equation can be solved apart.
+  const auto removeMeans = [&means](MultiVector& coefficients)
+  { means.AddConstants(-means.OfFunction(coefficients), coefficients); };
+  const auto removeSums = [&means](MultiVector& load)
+  { means.SubtractIntegrals(means.OfIntegrals(load), load); };
+
+  const MultiVector meanOfField = means.OfIntegrals(values);
+  MultiVector rest = values;
+  means.SubtractIntegrals(meanOfField, rest);
+  rest *= lambda;
+  Eigen::RowVectorXd size = lambda * values.colwise().norm();
+  if (meanOfField.rows() > 0)
+  {
+    // The constants cancel to rounding in every row, in the matrix and in ∫ <∇f, ∇b_i> alike.
+    size +=
+      NormOfDiagonal(multigrid.Matrix(), threads) * meanOfField.cwiseAbs().colwise().maxCoeff();
+  }
+  if (gradients.rows() != 0)
+  {
+    rest += gradients;
+    size += gradients.colwise().norm();
+  }
+  RequireInRange(size);
+  // ∫ <s, ∇b_i> sums to 0 over a component but for rounding, which a small λ would blow up.
+  removeSums(rest);
+  DropRounding(size, rest);
+
+  PoissonSolution solution;
+  solution.coefficients = NestedStart(multigrid, rest);
+  removeMeans(solution.coefficients);
+  solution.report = SolveWithFallback(options.iteration, multigrid, rest, solution.coefficients,
+    options.solve, { removeMeans, removeSums }, progress);
+  means.AddConstants(meanOfField, solution.coefficients);
+  return solution;
+}
+
+PoissonSolution SolvePoisson(const GridFunctions& space, const LevelOperators& system,
+  const Multigrid& multigrid, const MultiVector& values, const MultiVector& gradients,
+  const PoissonOptions& options, const Progress& progress)
+{
+  const ComponentFunctions functions{ space.component, space.numberOfComponents, system.integral };
+  return SolvePoisson(functions, multigrid, values, gradients, options, progress);
+}
+
+} // namespace gridfem

@@ -1,0 +1,81 @@
+// What is made of eigenfunctions once they are known at the points of a mesh: signatures of points,
+// distances between points, and the parts of a function in a band of frequencies. All sums over
+// modes; nothing here solves an eigenproblem.
+// HKS: Sun, Ovsjanikov, Guibas 2009. WKS: Aubry, Schlickewei, Cremers 2011. Biharmonic distance:
+// Lipman, Rustamov, Funkhouser 2010. Diffusion distance: Coifman, Lafon 2006.
+#ifndef GridFEM_SpectralDescriptors_h
+#define GridFEM_SpectralDescriptors_h
+
+#include "Grid/TriangleMesh.h"
+
+#include <vector>
+
+namespace gridfem
+{
+
+/// Eigenfunctions at the points of a mesh. L is the length unit of the mesh.
+struct PointModes
+{
+  std::vector<double> eigenvalues; // ascending, 1/L²
+  MultiVector values;              // rows = points, a column per mode; ∫ φ² = 1
+  double area = 0.0;               // of the surface, L²
+};
+
+/// The number of leading modes with eigenvalue zero, one per connected component: all below 1e-9 of
+/// the largest. Throws InvalidInput when shapes or values do not fit (NaN, not ascending, area not
+/// positive), or when every eigenvalue is zero.
+Index CountZeroModes(const PointModes& modes);
+
+/// `count` >= 1 times (L²) in geometric order between 4 ln 10 / λ of the last mode and of the first
+/// one that is not constant: from where the last mode has faded to where the first has.
+std::vector<double> HeatTimes(const PointModes& modes, int count);
+
+/// What is left at x of the heat put there, times the area: area Σ exp(-λ t) φ(x)². Rows = points,
+/// a column per time. No unit: the same for a scaled mesh and scaled times, and 1 for long times on
+/// a connected surface.
+MultiVector HeatKernelSignature(
+  const PointModes& modes, const std::vector<double>& times, int threads = 0);
+
+/// Energies are logarithms of eigenvalues (of λ L²); `width` is the standard deviation of a band.
+struct WaveBands
+{
+  std::vector<double> energies;
+  double width = 0.0;
+};
+
+/// `count` >= 1 energies, evenly between those of the first mode that is not constant and of the
+/// last, two widths inside; the width is 7/128 of that range (which is seven steps of the hundred
+/// that the authors take).
+WaveBands WaveEnergies(const PointModes& modes, int count);
+
+/// The weighted mean of area φ(x)² over the modes of a band, with weights
+/// exp(-(E - log λ)² / (2 width²)); constant modes do not count. Rows = points, a column per
+/// energy. No unit; its mean over the surface is 1.
+MultiVector WaveKernelSignature(const PointModes& modes, const WaveBands& bands, int threads = 0);
+
+/// The distance of every point to the nearest of `sources`, in L: sqrt(Σ (φ(x) - φ(y))² / λ²).
+/// Points on a component without a source get NaN: their distance is infinite.
+/// Throws InvalidInput when there is no source, or naming one that is no point.
+std::vector<double> BiharmonicDistance(
+  const PointModes& modes, const std::vector<Id>& sources, int threads = 0);
+
+/// The same for sqrt(area Σ exp(-2 λ t) (φ(x) - φ(y))²): how differently heat from x and y is
+/// spread after the time t >= 0 (L²). No unit; finite between components, too.
+std::vector<double> DiffusionDistance(
+  const PointModes& modes, const std::vector<Id>& sources, double time, int threads = 0);
+
+/// The share of every mode in a function, rows = modes, columns as `f` (rows = points). The
+/// function and the modes are taken as linear on every triangle, with the exact integrals of their
+/// products: c = (ΦᵀMΦ)⁻¹ ΦᵀM f. The inverse makes up for the modes being orthonormal between their
+/// points, too: a mode has the share 1 in itself and 0 in the others, to rounding. Throws
+/// InvalidInput when the mesh has too few points to tell the modes apart.
+MultiVector ModeShares(
+  const TriangleMesh& mesh, const PointModes& modes, const MultiVector& f, int threads = 0);
+
+/// Σ shares φ over the modes first .. last (an empty sum is 0). Rows = points.
+MultiVector SumOfModes(
+  const PointModes& modes, const MultiVector& shares, Index first, Index last, int threads = 0);
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,384 @@
+#include "Problems/Spectrum.h"
+
+#include "Algebra/BlockProducts.h"
+#include "Algebra/BlockVectors.h"
+#include "Base/LargeMemory.h"
+#include "Krylov/DenseSpectrum.h"
+#include "Krylov/LobpcgWindows.h"
+#include "Problems/FinishSpectrum.h"
+#include "Problems/SpectrumAccuracy.h"
+#include "Problems/SpectrumCycle.h"
+
+#include <cmath>
+#include <numeric>
+
+namespace gridfem
+{
+namespace
+{
+
+/// Accuracy of the eigenvalues on coarser levels, whose discretisation error is far larger. The
+/// level below the finest also serves the estimate of the error.
+constexpr double CoarseTolerance = 3e-4;
+constexpr double SecondTolerance = 3e-5;
+constexpr int SecondIterations = 3;
+constexpr int CoarseIterations = 3;
+constexpr int RandomStartIterations = 40;
+
+/// Wanted errors from which on blocks are in single precision. Rounding them makes an error of
+/// 1e-14 times the ratio of the largest eigenvalue to the lowest, below 1e-9 at depth 8.
+constexpr double SmallestSingleTolerance = 1e-7;
+
+/// Steps in single precision; where they do not suffice all is done again in double.
+constexpr int SingleIterations = 40;
+
+void Validate(const SpectrumOptions& options)
+{
+  if (options.numberOfModes < 1)
+  {
+    throw InvalidInput("the number of modes must be at least 1");
+  }
+  if (!(options.tolerance > 0.0 && options.tolerance < 1.0))
+  {
+    throw InvalidInput("the tolerance of the spectrum must lie between 0 and 1");
+  }
+  if (options.maximumIterations < 0)
+  {
+    throw InvalidInput("the number of iterations must not be negative");
+  }
+}
+
+/// The level below the finest if the finest is solved densely. Else the coarsest level with enough
+/// functions, or the one above it when that is too large for a dense solve.
+std::size_t StartLevel(const GridFunctions& space, std::size_t levels, Index blockSize)
+{
+  const auto size = [&](std::size_t l) { return space.levels[l].numberOfFunctions; };
+  if (IsDense(size(0), blockSize))
+  {
+    return std::min<std::size_t>(1, levels - 1);
+  }
+  std::size_t level = 0;
+  while (level + 1 < levels &&
+         (!IsDense(size(level), blockSize) || (level > 0 && size(level + 1) >= 1.5 * blockSize)))
+  {
+    ++level;
+  }
+  return level;
+}
+
+Index CountComponents(const std::vector<Index>& component)
+{
+  Index count = 0;
+  for (const Index c : component)
+  {
+    count = std::max(count, c + 1);
+  }
+  return count;
+}
+
+/// Leaves out all pairs but the first.
+void Shorten(BlockReport& report, Id count, double tolerance)
+{
+  report.residuals.resize(std::min<std::size_t>(count, report.residuals.size()));
+  report.numberOfConverged = static_cast<Index>(std::count_if(report.residuals.begin(),
+    report.residuals.end(), [&](double residual) { return residual * residual <= tolerance; }));
+}
+
+void Append(std::vector<double>& list, const std::vector<double>& more)
+{
+  list.insert(list.end(), more.begin(), more.end());
+}
+
+/// Work grows by four per level: each level gets its share.
+Progress LevelPart(const Progress& progress, std::size_t level)
+{
+  const double setUp = 0.1;
+  const double begin = std::pow(0.25, static_cast<double>(level) + 1.0);
+  const double end = std::pow(0.25, static_cast<double>(level));
+  return progress.Part(setUp + (1.0 - setUp) * begin, setUp + (1.0 - setUp) * end);
+}
+
+/// About the size of the lowest value of a connected surface: by area as on a sphere, by length
+/// where it is so thin that the area says nothing. A shift far above the values would cost their
+/// digits.
+double LowestValue(const SparseMatrix& mass, double side)
+{
+  const double pi = 3.14159265358979323846;
+  const double area = std::accumulate(mass.value.begin(), mass.value.end(), 0.0);
+  return std::min(4.0 * pi / area, pi * pi / (side * side));
+}
+
+/// The list ends among the constants.
+Spectrum OnlyConstants(const Constants& zeroModes, const SpectralProblem<double>& problem,
+  const SpectrumOptions& options)
+{
+  const bool cut = zeroModes.Count() > options.numberOfModes;
+  const Index count = options.completeMultiplets ? zeroModes.Count() : options.numberOfModes;
+  EigenPairs<double> none;
+  Spectrum spectrum = CollectSpectrum(zeroModes, count, none, {}, problem);
+  spectrum.cutsMultiplet = cut && !options.completeMultiplets;
+  return spectrum;
+}
+
+/// The nested iteration with blocks of one precision: holds what the levels share.
+template<class Real>
+class NestedIteration
+{
+public:
+  NestedIteration(const GridFunctions& space, const LevelOperators& system,
+    const SpectrumOptions& options, SpectrumCycle& cycle, double shift)
+    : space_(space), system_(system), options_(options), cycle_(cycle), shift_(shift)
+  {
+  }
+
+  Spectrum Run(const Constants& zeroModes, SparseMatrix mass, const Progress& progress);
+
+private:
+  BlockOptions Options(std::size_t level, Index wanted) const;
+  SpectralProblem<Real> Problem(
+    std::size_t level, const Constants& constants, SparseMatrix mass) const;
+  BlockReport ImproveLevel(std::size_t level, std::size_t start,
+    const SpectralProblem<Real>& problem, const Progress& progress);
+  void Prolong(std::size_t level, const Constants& constants, BlockOptions& block);
+  BlockReport FinishList(
+    const SpectralProblem<Real>& problem, BlockOptions block, const Progress& progress);
+  bool EndsInside(Id count, double error) const;
+
+  const GridFunctions& space_;
+  const LevelOperators& system_;
+  const SpectrumOptions& options_;
+  SpectrumCycle& cycle_;
+  const double shift_;
+  Index zeros_ = 0;
+  Index coarserConstants_ = 0; // of the level that the pairs come from
+  EigenPairs<Real> pairs_;
+  bool isDense_ = false; // the finest level was solved densely
+  bool cutsMultiplet_ = false;
+};
+
+template<class Real>
+SpectralProblem<Real> NestedIteration<Real>::Problem(
+  std::size_t level, const Constants& constants, SparseMatrix mass) const
+{
+  const int threads = options_.multigrid.threads;
+  SpectralProblem<Real> problem;
+  problem.stiffness = LevelMatrix(space_, system_, level, 0.0, 1.0, threads);
+  problem.mass = std::move(mass);
+  problem.shift = shift_;
+  problem.constants = &constants;
+  problem.threads = threads;
+  problem.precondition = cycle_.From<Real>(level);
+  if (cycle_.IsSingle())
+  {
+    problem.fallback = [this, level] { return cycle_.DoubleFrom<Real>(level); };
+  }
+  return problem;
+}
+
+template<class Real>
+BlockOptions NestedIteration<Real>::Options(std::size_t level, Index wanted) const
+{
+  BlockOptions block;
+  block.wanted = wanted;
+  block.blockSize = GuardedSize(wanted);
+  block.tolerance = level == 0   ? options_.tolerance
+                    : level == 1 ? SecondTolerance
+                                 : CoarseTolerance;
+  block.measureLast = level == 0;
+  const int most = level == 1 ? SecondIterations : CoarseIterations;
+  block.maximumIterations =
+    level == 0 ? options_.maximumIterations : std::min(most, options_.maximumIterations);
+  return block;
+}
+
+/// Brings the pairs to a finer level. The spaces are nested, so they stay Ritz pairs, but where
+/// components part that were one on the coarser level, of which plain functions know nothing: there
+/// are more constants then to be taken out.
+template<class Real>
+void NestedIteration<Real>::Prolong(
+  std::size_t level, const Constants& constants, BlockOptions& block)
+{
+  const SparseMatrix& P = system_.prolongation[level];
+  BlockBuffer<Real> coarse;
+  std::swap(coarse, pairs_.vectors);
+  const Id columns = coarse.Columns();
+  pairs_.vectors.Reserve(P.rows, std::max<Id>(columns, block.blockSize));
+  pairs_.vectors.Show(columns);
+  MultiplyBlock<Real>(P, coarse.View(), pairs_.vectors.View(), options_.multigrid.threads);
+  constants.Remove<Real>(pairs_.vectors.View());
+  pairs_.isRenewed = pairs_.isRenewed && constants.Count() == coarserConstants_;
+  block.minimumIterations = std::min(1, block.maximumIterations);
+  if (columns < block.wanted)
+  {
+    block.maximumIterations = std::max(RandomStartIterations, block.maximumIterations);
+  }
+}
+
+/// The wanted pairs; more of them until the multiplet at their end is whole, if that is asked for.
+/// The pair behind them tells whether it is cut: its value can only fall, by its measure, so that
+/// it has to converge as well only when that is in doubt. Values that come from a dense solve and
+/// are fewer than the block has room for are all there are.
+template<class Real>
+BlockReport NestedIteration<Real>::FinishList(
+  const SpectralProblem<Real>& problem, BlockOptions block, const Progress& progress)
+{
+  const bool isAll = isDense_ && pairs_.values.size() < block.blockSize;
+  if (isAll) // an iteration would only find rounding
+  {
+    block.maximumIterations = 0;
+    block.wanted = block.blockSize = static_cast<Index>(pairs_.values.size());
+    BlockWorkspace<Real> workspace;
+    return ImproveEigenPairs<Real>(problem, block, {}, pairs_, workspace, progress);
+  }
+  Id count = block.wanted;
+  BlockReport report;
+  double done = 0.0;
+  while (true)
+  {
+    block.blockSize = std::max(block.blockSize, GuardedSize(block.wanted));
+    const int before = report.iterations;
+    const Progress part = progress.Part(done, 0.5 + 0.5 * done);
+    report = ImproveManyEigenPairs(problem, block, pairs_, part);
+    report.iterations += before;
+    done = 0.5 + 0.5 * done;
+    const bool converged = report.numberOfConverged == block.wanted;
+    cutsMultiplet_ = this->EndsInside(count, 0.0);
+    if (!converged)
+    {
+      break;
+    }
+    const bool isSure = block.wanted > count || cutsMultiplet_ ||
+                        !this->EndsInside(count, std::pow(report.nextResidual, 2));
+    if (isSure && (!cutsMultiplet_ || !options_.completeMultiplets))
+    {
+      break;
+    }
+    while (isSure && this->EndsInside(count, 0.0))
+    {
+      ++count;
+    }
+    block.wanted = static_cast<Index>(isSure ? count : count + 1);
+  }
+  Shorten(report, count, block.tolerance);
+  return report;
+}
+
+/// Whether the pair behind the first `count` belongs to the multiplet of the last of them, when its
+/// value is too large by the relative error.
+template<class Real>
+bool NestedIteration<Real>::EndsInside(Id count, double error) const
+{
+  return count < pairs_.values.size() && IsMultiplet(pairs_.values[count - 1],
+                                           (1.0 - error) * pairs_.values[count], zeros_ + count);
+}
+
+/// Pairs of a level from those of the next coarser one, or from nothing on level `start`.
+template<class Real>
+BlockReport NestedIteration<Real>::ImproveLevel(std::size_t level, std::size_t start,
+  const SpectralProblem<Real>& problem, const Progress& progress)
+{
+  BlockOptions block = this->Options(level, options_.numberOfModes - zeros_);
+  if ((level == start || level == 0) &&
+      IsDense(space_.levels[level].numberOfFunctions, block.blockSize))
+  {
+    pairs_ = SolveDense<Real>(problem, block.blockSize);
+    isDense_ = level == 0;
+    if (level > 0)
+    {
+      return {};
+    }
+  }
+  else if (level != start)
+  {
+    this->Prolong(level, *problem.constants, block);
+  }
+  else // thousands of components: no small level, but B is nearly exact there
+  {
+    block.maximumIterations = std::max(RandomStartIterations, options_.maximumIterations);
+  }
+  return level == 0 ? this->FinishList(problem, block, progress)
+                    : ImproveManyEigenPairs<Real>(problem, block, pairs_, progress);
+}
+
+template<class Real>
+Spectrum NestedIteration<Real>::Run(
+  const Constants& zeroModes, SparseMatrix mass, const Progress& progress)
+{
+  const int threads = options_.multigrid.threads;
+  zeros_ = zeroModes.Count();
+  const Index blockSize = GuardedSize(options_.numberOfModes - zeros_);
+  const std::size_t start = StartLevel(space_, system_.elements.size(), blockSize);
+  for (std::size_t level = start; level > 0; --level)
+  {
+    std::vector<Index> component = FunctionComponents(space_.levels[level]);
+    const Index components = CountComponents(component);
+    SparseMatrix levelMass = LevelMatrix(space_, system_, level, 1.0, 0.0, threads);
+    const Constants constants(levelMass, std::move(component), components, threads);
+    const SpectralProblem<Real> problem = this->Problem(level, constants, std::move(levelMass));
+    this->ImproveLevel(level, start, problem, LevelPart(progress, level));
+    coarserConstants_ = constants.Count();
+  }
+  const Eigen::VectorXd coarseValues = pairs_.values;
+  const SpectralProblem<Real> problem = this->Problem(0, zeroModes, std::move(mass));
+  const BlockReport report = this->ImproveLevel(0, start, problem, LevelPart(progress, 0));
+  Spectrum spectrum = CollectSpectrum(zeroModes, zeros_, pairs_, report, problem);
+  Append(spectrum.estimatedErrors, EstimateErrors(coarseValues, pairs_.values, report.residuals));
+  spectrum.truncated =
+    zeros_ + static_cast<Index>(report.residuals.size()) < options_.numberOfModes;
+  spectrum.cutsMultiplet = cutsMultiplet_;
+  spectrum.singlePrecision = cycle_.IsSingle();
+  return spectrum;
+}
+
+} // namespace
+
+Spectrum ComputeSpectrum(const GridFunctions& space, const LevelOperators& system,
+  const SpectrumOptions& options, const Progress& progress)
+{
+  Validate(options);
+  const MemoryReuse reuse; // the blocks of a level take the place of those of the one before
+  const int threads = options.multigrid.threads;
+  SparseMatrix mass = LevelMatrix(space, system, 0, 1.0, 0.0, threads);
+  const Constants zeroModes(mass, space.component, space.numberOfComponents, threads);
+  if (zeroModes.Count() >= options.numberOfModes)
+  {
+    SpectralProblem<double> problem;
+    problem.stiffness = LevelMatrix(space, system, 0, 0.0, 1.0, threads);
+    problem.mass = std::move(mass);
+    problem.threads = threads;
+    return OnlyConstants(zeroModes, problem, options);
+  }
+  const double shift = zeroModes.Count() * LowestValue(mass, space.GetGrid().CellsPerSide());
+  SpectrumCycle cycle(space, system, shift, options.multigrid, progress.Part(0.0, 0.1));
+  const bool wasSingle = cycle.IsSingle() && options.tolerance >= SmallestSingleTolerance;
+  if (wasSingle)
+  {
+    SpectrumOptions few = options;
+    few.maximumIterations = std::min(options.maximumIterations, SingleIterations);
+    Spectrum spectrum = NestedIteration<float>(space, system, few, cycle, shift)
+                          .Run(zeroModes, std::move(mass), progress.Part(0.0, 0.99));
+    const bool isLost = !spectrum.eigenvalues.empty() && std::isnan(spectrum.eigenvalues.back());
+    if (!isLost && (spectrum.converged || options.maximumIterations <= SingleIterations))
+    {
+      return spectrum;
+    }
+    mass = LevelMatrix(space, system, 0, 1.0, 0.0, threads);
+  }
+  return NestedIteration<double>(space, system, options, cycle, shift)
+    .Run(zeroModes, std::move(mass), progress.Part(wasSingle ? 0.99 : 0.0, 1.0));
+}
+
+double EstimateSpectrumMemory(Id functions, Id modes, int threads)
+{
+  // Bytes per function, fitted to the growth of the process (Testing/Benchmarks, group `memory`).
+  constexpr double matrices = 850.0; // two of 18 entries per row; a hierarchy of floats and factors
+  constexpr double panels = 427.0;   // of each cycle at work: 10/3 of 32 floats
+  const Id columns = std::min(functions, modes);
+  const Id cycles = std::min<Id>(
+    NumberOfThreads(threads), (columns + PreconditionedColumns - 1) / PreconditionedColumns);
+  const double blocks = sizeof(float) * double(HeldColumns(static_cast<Index>(columns)));
+  const double result = double(sizeof(float) + sizeof(double)) * double(columns);
+  return double(functions) * (matrices + panels * double(cycles) + std::max(blocks, result));
+}
+
+} // namespace gridfem

@@ -1,0 +1,56 @@
+// The smallest eigenpairs of L x = α M x by a nested block method. [NUMERICS §3; T §4.3.1]
+#ifndef GridFEM_Spectrum_h
+#define GridFEM_Spectrum_h
+
+#include "Spaces/LevelOperators.h"
+
+namespace gridfem
+{
+
+struct SpectrumOptions
+{
+  int numberOfModes = 10; // >= 1
+  /// Wanted relative error of the eigenvalues: the square of the residual measure sqrt(rᵀBr / θ).
+  /// The error of the space is far larger at any depth that fits into memory.
+  double tolerance = 1e-6;     // in (0, 1)
+  int maximumIterations = 100; // per level, >= 0
+  /// Go on behind numberOfModes to the end of the multiplet that is cut there.
+  bool completeMultiplets = false;
+  /// V: the few steps that are needed are at most one more than with W, and a cycle costs a quarter
+  /// less.
+  MultigridOptions multigrid{ CycleType::V };
+};
+
+struct Spectrum
+{
+  std::vector<double> eigenvalues; // ascending, 1 / grid unit²
+  MultiVector vectors;             // columns M-orthonormal (grid units); rows = finest functions
+  std::vector<double> residuals;   // per pair: sqrt(rᵀBr / max(θ, shift)), r = L x - θ M x
+  bool converged = false;          // all pairs reached the tolerance
+  int numberOfConverged = 0;       // how many did
+  int iterations = 0;              // on the finest level
+  bool singlePrecision = false;    // of all cycles, see SpectrumCycle; the result is in double
+  bool truncated = false;          // fewer modes exist than were asked for
+  bool cutsMultiplet = false;      // the next eigenvalue belongs to the multiplet of the last
+  /// Per pair: the relative error of the eigenvalue, as that of the space, from the next coarser
+  /// level, whose error is four times as large; 1 (unknown) where that level has no such pair.
+  std::vector<double> estimatedErrors;
+};
+
+/// Dense problem on a coarse level, prolongation, block iterations with one multigrid cycle of
+/// L + σM per level, rank-revealing Rayleigh-Ritz (M may be singular). The zero modes, one constant
+/// per connected component in the order of the components, are exact. Fixed start and sign (the
+/// entry of largest magnitude of M x is positive, near ties to the lowest index): same bits for any
+/// number of threads. Where cycles are in single precision and the tolerance is at least 1e-7, so
+/// are the vectors that are worked on: half the memory; the result is orthonormal and its values
+/// are Rayleigh quotients in double. Throws InvalidInput for options out of range, and Aborted.
+Spectrum ComputeSpectrum(const GridFunctions& space, const LevelOperators& system,
+  const SpectrumOptions& options, const Progress& progress = {});
+
+/// Bytes that it takes beyond space and system, for so many functions on the finest level, in
+/// single precision: within a fifth, from 20 to 1,000 modes.
+double EstimateSpectrumMemory(Id functions, Id modes, int threads = 0);
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,47 @@
+// The cycles that precondition an eigenproblem on all its levels, in the precision that it needs.
+#ifndef GridFEM_SpectrumCycle_h
+#define GridFEM_SpectrumCycle_h
+
+#include "Multigrid/SingleCycle.h"
+#include "Spaces/LevelOperators.h"
+
+#include <memory>
+
+namespace gridfem
+{
+
+/// Cycles of L + σM. Single precision where the options ask for V(1,1) cycles of all patches, as
+/// they do by default, and it resolves the operator: it takes half of the time and memory, and the
+/// pairs that are found are the same. Else double. Space and system have to outlive it.
+class SpectrumCycle
+{
+public:
+  SpectrumCycle(const GridFunctions& space, const LevelOperators& system, double shift,
+    const MultigridOptions& options, const Progress& progress = {});
+
+  /// Of the hierarchy that begins at `level`.
+  template<class Real>
+  Preconditioner<Real> From(std::size_t level) const;
+
+  /// The same in double, for a solve that stagnates; the hierarchy is built when it is first asked
+  /// for. Not safe to call from several threads.
+  template<class Real>
+  Preconditioner<Real> DoubleFrom(std::size_t level);
+
+  /// Whether double was never needed.
+  bool IsSingle() const { return !double_; }
+
+private:
+  void BuildDouble(const Progress& progress);
+
+  const GridFunctions& space_;
+  const LevelOperators& system_;
+  double shift_;
+  MultigridOptions options_;
+  std::unique_ptr<SingleCycle> single_;
+  std::unique_ptr<Multigrid> double_;
+};
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,183 @@
+#include "Spaces/HatMatrices.h"
+
+#include "Base/Parallel.h"
+
+#include <algorithm>
+
+namespace gridfem
+{
+namespace
+{
+
+/// What a triangle adds to its element matrices.
+struct TriangleTerms
+{
+  std::array<double, 3> halfCotangent; // of the angle at each corner
+  double twelfthOfArea;
+};
+
+std::vector<TriangleTerms> ComputeTerms(
+  const TriangleMesh& mesh, const HatFunctions& hats, int threads)
+{
+  std::vector<TriangleTerms> terms(mesh.triangles.size());
+  ParallelRanges(static_cast<Id>(terms.size()), threads,
+    [&](Id begin, Id end)
+    {
+      for (Id t = begin; t < end; ++t)
+      {
+        const HatTriangle triangle(mesh, t, hats.unitLength);
+        if (triangle.IsFlat())
+        {
+          continue; // no function lists it
+        }
+        for (int k = 0; k < 3; ++k)
+        {
+          terms[t].halfCotangent[k] =
+            -triangle.edge[(k + 1) % 3].dot(triangle.edge[(k + 2) % 3]) / (4.0 * triangle.area);
+        }
+        terms[t].twelfthOfArea = triangle.area / 12.0;
+      }
+    });
+  return terms;
+}
+
+/// What one triangle adds to an off-diagonal entry of a row.
+struct Contribution
+{
+  Index column;
+  int order; // of the triangle around the function: fixes the order of sums
+  double mass;
+  double stiffness;
+
+  bool operator<(const Contribution& other) const
+  {
+    return column != other.column ? column < other.column : order < other.order;
+  }
+};
+
+/// Rows of a block, before their place in the matrices is known.
+struct RowBlock
+{
+  std::vector<Index> column;
+  std::vector<double> mass;
+  std::vector<double> stiffness;
+
+  void Append(Index col, double m, double s)
+  {
+    column.push_back(col);
+    mass.push_back(m);
+    stiffness.push_back(s);
+  }
+};
+
+void CollectRow(const TriangleMesh& mesh, const HatFunctions& hats,
+  const std::vector<TriangleTerms>& terms, Index row, std::vector<Contribution>& contributions)
+{
+  contributions.clear();
+  for (Id k = hats.begin[row]; k < hats.begin[row + 1]; ++k)
+  {
+    const TriangleCorner corner = hats.corners[k];
+    const TriangleTerms& term = terms[corner.Triangle()];
+    for (int side = 1; side < 3; ++side)
+    {
+      const int neighbour = (corner.Corner() + side) % 3;
+      const int opposite = (corner.Corner() + 3 - side) % 3;
+      contributions.push_back({ hats.ofPoint[mesh.triangles[corner.Triangle()][neighbour]],
+        static_cast<int>(k - hats.begin[row]), term.twelfthOfArea, -term.halfCotangent[opposite] });
+    }
+  }
+  std::sort(contributions.begin(), contributions.end());
+}
+
+/// Appends a row; the diagonal follows from the other entries. Returns ∫ φ_row.
+double AppendRow(Index row, const std::vector<Contribution>& contributions, RowBlock& block)
+{
+  double massSum = 0.0;
+  double stiffnessSum = 0.0;
+  const std::size_t first = block.column.size();
+  std::size_t diagonal = first;
+  for (const Contribution& c : contributions)
+  {
+    if (block.column.size() > first && block.column.back() == c.column)
+    {
+      block.mass.back() += c.mass;
+      block.stiffness.back() += c.stiffness;
+    }
+    else
+    {
+      block.Append(c.column, c.mass, c.stiffness);
+      diagonal += c.column < row;
+    }
+  }
+  for (std::size_t k = first; k < block.column.size(); ++k)
+  {
+    massSum += block.mass[k];
+    stiffnessSum += block.stiffness[k];
+  }
+  const auto place = static_cast<std::ptrdiff_t>(diagonal);
+  block.column.insert(block.column.begin() + place, row);
+  block.mass.insert(block.mass.begin() + place, massSum);
+  block.stiffness.insert(block.stiffness.begin() + place, -stiffnessSum);
+  return 2.0 * massSum;
+}
+
+} // namespace
+
+HatMatrices AssembleHatMatrices(const TriangleMesh& mesh, const HatFunctions& hats, int threads)
+{
+  const std::vector<TriangleTerms> terms = ComputeTerms(mesh, hats, threads);
+  const Index rows = hats.Count();
+  HatMatrices matrices;
+  matrices.integral.resize(rows);
+  matrices.mass.rows = matrices.mass.columns = rows;
+  Array<Id> rowBegin(rows + 1, 0);
+  std::vector<RowBlock> blocks((rows + DefaultBlockSize - 1) / DefaultBlockSize);
+  ParallelRanges(rows, threads,
+    [&](Id begin, Id end)
+    {
+      std::vector<Contribution> contributions;
+      RowBlock& block = blocks[begin / DefaultBlockSize];
+      for (Index row = static_cast<Index>(begin); row < end; ++row)
+      {
+        const std::size_t before = block.column.size();
+        CollectRow(mesh, hats, terms, row, contributions);
+        matrices.integral[row] = AppendRow(row, contributions, block);
+        rowBegin[row] = static_cast<Id>(block.column.size() - before);
+      }
+    });
+  Array<Index> column(ExclusiveScan(rowBegin));
+  matrices.mass.value.resize(column.size());
+  matrices.stiffness.value.resize(column.size());
+  ParallelRanges(rows, threads,
+    [&](Id begin, Id)
+    {
+      const RowBlock& block = blocks[begin / DefaultBlockSize];
+      const Id place = rowBegin[begin];
+      std::copy(block.column.begin(), block.column.end(), column.begin() + place);
+      std::copy(block.mass.begin(), block.mass.end(), matrices.mass.value.begin() + place);
+      std::copy(
+        block.stiffness.begin(), block.stiffness.end(), matrices.stiffness.value.begin() + place);
+    });
+  matrices.mass.rowBegin = std::move(rowBegin);
+  matrices.mass.column = std::move(column);
+  matrices.stiffness.rows = matrices.stiffness.columns = rows;
+  matrices.stiffness.rowBegin = matrices.mass.rowBegin;
+  matrices.stiffness.column = matrices.mass.column;
+  return matrices;
+}
+
+SparseMatrix Combine(const HatMatrices& matrices, double a, double b, int threads)
+{
+  SparseMatrix result = matrices.stiffness;
+  ParallelRanges(result.NonZeros(), threads,
+    [&](Id begin, Id end)
+    {
+      for (Id k = begin; k < end; ++k)
+      {
+        result.value[k] = a * matrices.mass.value[k] + b * matrices.stiffness.value[k];
+      }
+    });
+  return result;
+}
+
+} // namespace gridfem

@@ -1,0 +1,232 @@
+// The clipped mesh is refined, so M_f P is the vertex rule on its triangles: the entry of hat k and
+// grid function i is Σ m λ_k b_i over the corners of all pieces of the hat's triangles, divided by
+// Σ m λ_k, with a third of the area of each triangle as m. Summing corner by corner instead of
+// point by point keeps sheets apart that touch in a point, and needs no numbers of points.
+#include "Spaces/HatTransfer.h"
+
+#include "Algebra/FillRows.h"
+#include "Base/Errors.h"
+#include "Base/Grouping.h"
+#include "Grid/SourceTriangle.h"
+#include "Integrals/QuadratureSamples.h"
+#include "Integrals/TrilinearBasis.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace gridfem
+{
+namespace
+{
+
+struct PatchWeights
+{
+  Id patch;
+  CornerValues weight;
+};
+
+/// One row, patch by patch.
+using Row = std::vector<PatchWeights>;
+
+/// The weights of a patch, if it is among the last in the row, or new ones: a patch may come twice.
+PatchWeights& WeightsOf(Id patch, Row& row)
+{
+  constexpr std::size_t Recent = 8; // more than most rows have
+  const auto oldest = row.rbegin() + static_cast<std::ptrdiff_t>(std::min(Recent, row.size()));
+  const auto found = std::find_if(
+    row.rbegin(), oldest, [&](const PatchWeights& weights) { return weights.patch == patch; });
+  if (found != oldest)
+  {
+    return *found;
+  }
+  row.push_back({ patch, {} });
+  return row.back();
+}
+
+void AddScaled(double factor, const CornerValues& values, CornerValues& sum)
+{
+  for (int i = 0; i < FunctionsPerPatch; ++i)
+  {
+    sum[i] += factor * values[i];
+  }
+}
+
+/// Adds Σ m λ b over the corners of a piece, for one corner of its source triangle.
+void AddPiece(
+  const GridFunctions& space, const SourceTriangle& source, int corner, Id piece, Row& row)
+{
+  const ClippedMesh& clipped = space.clipped;
+  const Id patch = space.piecePatch[piece];
+  const Vec3 origin = CellCorner(space.Finest().cell[patch]);
+  const Index* point = clipped.corners.data() + clipped.pieceBegin[piece];
+  CornerValues& sum = WeightsOf(patch, row).weight;
+  const auto add = [&](Id k, double mass)
+  {
+    const double lambda = source.Locate(point[k])[corner];
+    if (lambda > 0.0)
+    {
+      CornerValues b;
+      TrilinearValues(clipped.position[point[k]] - origin, b);
+      AddScaled(mass * lambda, b, sum);
+    }
+  };
+  double previous = 0.0; // a point's share of the fan triangle before
+  double all = 0.0;
+  const Id last = clipped.pieceBegin[piece + 1] - clipped.pieceBegin[piece] - 1;
+  for (Id k = 1; k < last; ++k)
+  {
+    const Vec3& apex = clipped.position[point[0]];
+    const double third =
+      (clipped.position[point[k]] - apex).cross(clipped.position[point[k + 1]] - apex).norm() / 6.0;
+    add(k, previous + third);
+    previous = third;
+    all += third;
+  }
+  add(last, previous);
+  add(0, all);
+}
+
+/// The values at a point, for a hat without pieces of any area as well.
+void AddPoint(const GridFunctions& space, Id point, Row& row)
+{
+  const Id patch = space.pointPatch[point];
+  if (patch >= 0)
+  {
+    TrilinearValues(space.clipped.position[point] - CellCorner(space.Finest().cell[patch]),
+      WeightsOf(patch, row).weight);
+  }
+}
+
+double Sum(const Row& row)
+{
+  double sum = 0.0;
+  for (const PatchWeights& weights : row)
+  {
+    sum = std::accumulate(weights.weight.begin(), weights.weight.end(), sum);
+  }
+  return sum;
+}
+
+struct Entry
+{
+  Index column;
+  double value;
+};
+
+/// The entries of a row, sorted by column, divided by their sum.
+std::vector<Entry> EntriesOf(const PatchLevel& level, const Row& row)
+{
+  const double sum = Sum(row);
+  std::vector<Entry> entries;
+  for (const PatchWeights& weights : row)
+  {
+    for (int c = 0; c < FunctionsPerPatch; ++c)
+    {
+      if (sum > 0.0 && weights.weight[c] > 0.0)
+      {
+        entries.push_back({ level.dof[weights.patch][c], weights.weight[c] / sum });
+      }
+    }
+  }
+  std::stable_sort(entries.begin(), entries.end(),
+    [](const Entry& a, const Entry& b) { return a.column < b.column; });
+  std::size_t end = 0;
+  for (std::size_t k = 0; k < entries.size(); ++k)
+  {
+    if (k > 0 && entries[k].column == entries[end - 1].column)
+    {
+      entries[end - 1].value += entries[k].value;
+    }
+    else
+    {
+      entries[end++] = entries[k];
+    }
+  }
+  entries.resize(end);
+  return entries;
+}
+
+/// A point of every function: the lowest.
+std::vector<Id> PointsOfFunctions(const HatFunctions& hats)
+{
+  std::vector<Id> point(hats.Count(), -1);
+  for (Id p = static_cast<Id>(hats.ofPoint.size()) - 1; p >= 0; --p)
+  {
+    if (hats.ofPoint[p] >= 0)
+    {
+      point[hats.ofPoint[p]] = p;
+    }
+  }
+  return point;
+}
+
+void CheckMeshes(const HatFunctions& hats, const GridFunctions& space, const TriangleMesh& mesh)
+{
+  const std::size_t points = mesh.points.size();
+  const auto last =
+    std::max_element(space.clipped.pieceTriangle.begin(), space.clipped.pieceTriangle.end());
+  if (hats.ofPoint.size() != points || space.pointPatch.size() != points ||
+      (last != space.clipped.pieceTriangle.end() &&
+        *last >= static_cast<Id>(mesh.triangles.size())))
+  {
+    throw InvalidInput("The hat functions and the function space were made from different meshes.");
+  }
+}
+
+/// Fills a matrix row by row: fillRow(hat, row) lists the weights.
+template<class FillRow>
+SparseMatrix BuildRows(
+  const HatFunctions& hats, const GridFunctions& space, int threads, FillRow&& fillRow)
+{
+  SparseMatrix matrix;
+  matrix.rows = hats.Count();
+  matrix.columns = space.Finest().numberOfFunctions;
+  FillRows(matrix, threads,
+    [&](Index hat, Array<Index>& columns, Array<double>& values)
+    {
+      Row row;
+      fillRow(hat, row);
+      for (const Entry& entry : EntriesOf(space.Finest(), row))
+      {
+        columns.push_back(entry.column);
+        values.push_back(entry.value);
+      }
+    });
+  return matrix;
+}
+
+} // namespace
+
+SparseMatrix BuildHatProlongation(const HatFunctions& hats, const GridFunctions& space,
+  const TriangleMesh& mesh, HatTransfer transfer, int threads)
+{
+  CheckMeshes(hats, space, mesh);
+  const std::vector<Id> pointOfHat = PointsOfFunctions(hats);
+  if (transfer == HatTransfer::Evaluation)
+  {
+    return BuildRows(
+      hats, space, threads, [&](Id hat, Row& row) { AddPoint(space, pointOfHat[hat], row); });
+  }
+  const Groups pieces = GroupItems(space.clipped.pieceTriangle.data(),
+    space.clipped.NumberOfPieces(), static_cast<Id>(mesh.triangles.size()), threads);
+  return BuildRows(hats, space, threads,
+    [&](Id hat, Row& row)
+    {
+      for (Id k = hats.begin[hat]; k < hats.begin[hat + 1]; ++k)
+      {
+        const Id triangle = hats.corners[k].Triangle();
+        const SourceTriangle source(space.clipped, mesh, triangle);
+        for (Id p = pieces.begin[triangle]; p < pieces.begin[triangle + 1]; ++p)
+        {
+          AddPiece(space, source, hats.corners[k].Corner(), pieces.item[p], row);
+        }
+      }
+      if (!(Sum(row) > 0.0))
+      {
+        row.clear();
+        AddPoint(space, pointOfHat[hat], row);
+      }
+    });
+}
+
+} // namespace gridfem

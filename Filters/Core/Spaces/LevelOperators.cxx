@@ -1,0 +1,255 @@
+#include "Spaces/LevelOperators.h"
+
+#include "Base/LargeMemory.h"
+#include "Base/Parallel.h"
+#include "Base/Prefetch.h"
+#include "Integrals/ElementLanes.h"
+#include "Spaces/HiddenFunctions.h"
+#include "Spaces/LayeredFunctions.h"
+#include "Spaces/PatchOrdering.h"
+
+#include <algorithm>
+
+namespace gridfem
+{
+
+namespace
+{
+
+/// Number of functions of the largest connected component.
+Index LargestComponent(const PatchLevel& level)
+{
+  std::vector<Index> size;
+  for (const Index component : FunctionComponents(level))
+  {
+    size.resize(std::max(size.size(), static_cast<std::size_t>(component) + 1), 0);
+    ++size[component];
+  }
+  return size.empty() ? 0 : *std::max_element(size.begin(), size.end());
+}
+
+bool IsCoarsest(const GridFunctions& space, std::size_t level, Index coarsestSize)
+{
+  return level + 1 == space.levels.size() ||
+         space.levels[level].numberOfFunctions <= coarsestSize ||
+         LargestComponent(space.levels[level]) <= coarsestSize;
+}
+
+using RowSums = std::array<double, FunctionsPerPatch>;
+
+/// Of `count` matrices, at most LaneCount.
+void SumRows(const ElementMatrix* matrices, int count, RowSums* sums)
+{
+  MatrixPointers entries;
+  std::array<double*, LaneCount> result{};
+  for (int lane = 0; lane < LaneCount; ++lane)
+  {
+    entries[lane] = matrices[std::min(lane, count - 1)].data();
+    result[lane] = lane < count ? sums[lane].data() : nullptr;
+  }
+  ElementLanes lanes;
+  Gather(entries, lanes);
+  LaneBlock block;
+  for (int i = 0; i < FunctionsPerPatch; ++i)
+  {
+    block.col(i) = lanes[PackedIndex(i, 0)];
+    for (int j = 1; j < FunctionsPerPatch; ++j)
+    {
+      block.col(i) += lanes[PackedIndex(i, j)];
+    }
+  }
+  StoreLanes(block, result, count, 0);
+}
+
+/// The functions of a patch sum to 1, so that ∫ b_i is the sum of row i of the mass matrix.
+std::vector<double> IntegralsOfFunctions(
+  const FunctionPlaces& places, const Array<ElementMatrix>& mass, int threads)
+{
+  Array<RowSums> ofPatch(mass.size());
+  const auto patches = static_cast<Id>(mass.size());
+  ForEachLaneGroup(patches, threads,
+    [&](Id begin, int count)
+    {
+      for (Id next = begin + count; next < std::min<Id>(patches, begin + 2 * LaneCount); ++next)
+      {
+        FetchAll(mass[next]);
+      }
+      SumRows(mass.data() + begin, count, ofPatch.data() + begin);
+    });
+  const double* const sums = ofPatch.empty() ? nullptr : ofPatch.front().data();
+  const auto functions = static_cast<Id>(places.begin.size()) - 1;
+  std::vector<double> integral(functions);
+  ParallelRanges(functions, threads,
+    [&](Id begin, Id end)
+    {
+      for (Id f = begin; f < end; ++f)
+      {
+        double sum = 0.0;
+        for (Index k = places.begin[f]; k < places.begin[f + 1]; ++k)
+        {
+          sum += sums[places.item[k]];
+        }
+        integral[f] = sum;
+      }
+    });
+  return integral;
+}
+
+void FillMatrix(const GridFunctions& space, const LevelOperators& system, std::size_t level,
+  double a, double b, int threads, SparseMatrix& matrix)
+{
+  const ElementMatrices& elements = system.elements[level];
+  AssembleValues(space.levels[level], system.places[level], elements.mass, a, elements.stiffness, b,
+    matrix, threads);
+}
+
+/// From this share on a surface counts as flat.
+constexpr double MostlyFlat = 0.5;
+
+bool WantsHidden(const LevelOperators& system, const Multigrid& multigrid)
+{
+  const MultigridOptions& options = multigrid.Options();
+  if (!AllowsHidden(options) || system.prolongation.empty())
+  {
+    return false;
+  }
+  return options.hidden == HiddenCorrection::Always || multigrid.RevisionOfHidden() >= 0 ||
+         FlatShare(system, options.threads) >= MostlyFlat;
+}
+
+/// Hidden functions of W cycles of patches; those that are there are kept while the elements are
+/// the same, whatever the factors.
+void AddHidden(const GridFunctions& space, const LevelOperators& system, double a, double b,
+  Multigrid& multigrid)
+{
+  const double size = SizeOnHidden(a, b);
+  if (!WantsHidden(system, multigrid) || !(size > 0.0))
+  {
+    return;
+  }
+  if (multigrid.RevisionOfHidden() == system.revision)
+  {
+    multigrid.SetSizeOfHidden(size);
+  }
+  else
+  {
+    const int threads = multigrid.Options().threads;
+    HiddenLevels hidden = BuildHiddenLevels(space, system, threads);
+    if (multigrid.Options().hidden == HiddenCorrection::Always)
+    {
+      AddLayeredFunctions(space, system, hidden, threads);
+    }
+    multigrid.AddHidden(std::move(hidden), size);
+  }
+}
+
+} // namespace
+
+LevelOperators BuildSystem(const GridFunctions& space, const QuadratureRule& rule, int threads,
+  Index coarsestSize, const Progress& progress)
+{
+  LevelOperators system;
+  system.quadratureDegree = rule.degree;
+  system.elements.push_back(IntegrateElements(space, rule, threads, progress.Part(0.0, 0.5)));
+  for (std::size_t l = 0;; ++l)
+  {
+    const PatchLevel& level = space.levels[l];
+    system.places.push_back(PlacesOfFunctions(level, threads));
+    system.pattern.push_back(BuildPattern(level, system.places.back(), threads));
+    progress.Check(0.5 + 0.4 * double(l + 1) / double(space.levels.size()));
+    if (IsCoarsest(space, l, coarsestSize))
+    {
+      break;
+    }
+    const PatchLevel& coarse = space.levels[l + 1];
+    system.prolongation.push_back(BuildProlongation(level, system.places.back(), coarse, threads));
+    system.restriction.push_back(Transpose(system.prolongation.back(), threads));
+    ElementMatrices elements;
+    CoarsenElements(level, coarse, system.elements.back(), elements, threads);
+    system.elements.push_back(std::move(elements));
+  }
+  system.integral =
+    IntegralsOfFunctions(system.places.front(), system.elements.front().mass, threads);
+  progress.Check(1.0);
+  return system;
+}
+
+void UpdateSystem(const GridFunctions& space, LevelOperators& system, int threads)
+{
+  for (std::size_t l = 0; l + 1 < system.elements.size(); ++l)
+  {
+    CoarsenElements(
+      space.levels[l], space.levels[l + 1], system.elements[l], system.elements[l + 1], threads);
+  }
+  system.integral =
+    IntegralsOfFunctions(system.places.front(), system.elements.front().mass, threads);
+  ++system.revision;
+}
+
+SparseMatrix LevelMatrix(const GridFunctions& space, const LevelOperators& system,
+  std::size_t level, double a, double b, int threads)
+{
+  SparseMatrix matrix = system.pattern[level];
+  FillMatrix(space, system, level, a, b, threads, matrix);
+  return matrix;
+}
+
+std::vector<SparseMatrix> LevelMatrices(
+  const GridFunctions& space, const LevelOperators& system, double a, double b, int threads)
+{
+  std::vector<SparseMatrix> matrices;
+  for (std::size_t l = 0; l < system.pattern.size(); ++l)
+  {
+    matrices.push_back(LevelMatrix(space, system, l, a, b, threads));
+  }
+  return matrices;
+}
+
+std::vector<MultigridLevel> BuildMultigridLevels(const GridFunctions& space,
+  const LevelOperators& system, double a, double b, int threads, const Progress& progress)
+{
+  std::vector<MultigridLevel> levels(system.pattern.size());
+  for (std::size_t l = 0; l < levels.size(); ++l)
+  {
+    levels[l].A = LevelMatrix(space, system, l, a, b, threads);
+    levels[l].order = OrderPatches(space.levels[l]);
+    if (l < system.prolongation.size())
+    {
+      levels[l].prolongation = system.prolongation[l];
+      levels[l].restriction = system.restriction[l];
+    }
+    progress.Check(double(l + 1) / double(levels.size()));
+  }
+  return levels;
+}
+
+Multigrid BuildMultigrid(const GridFunctions& space, const LevelOperators& system, double a,
+  double b, const MultigridOptions& options, const Progress& progress)
+{
+  Multigrid multigrid(
+    BuildMultigridLevels(space, system, a, b, options.threads, progress.Part(0.0, 0.5)), options);
+  AddHidden(space, system, a, b, multigrid);
+  progress.Check(1.0);
+  return multigrid;
+}
+
+void UpdateMultigrid(const GridFunctions& space, const LevelOperators& system, double a, double b,
+  Multigrid& multigrid)
+{
+  const MemoryReuse reuse; // the new factors take the place of the old ones
+  multigrid.Update([&](std::size_t level, SparseMatrix& matrix)
+    { FillMatrix(space, system, level, a, b, multigrid.Options().threads, matrix); });
+  AddHidden(space, system, a, b, multigrid);
+}
+
+SparseMatrix MassMatrix(const GridFunctions& space, const LevelOperators& system, int threads)
+{
+  return LevelMatrix(space, system, 0, 1.0, 0.0, threads);
+}
+
+SparseMatrix StiffnessMatrix(const GridFunctions& space, const LevelOperators& system, int threads)
+{
+  return LevelMatrix(space, system, 0, 0.0, 1.0, threads);
+}
+
+} // namespace gridfem

@@ -1,0 +1,124 @@
+// Values and surface gradients at points: the space contains the linear functions of space.
+#include "Integrals/Evaluation.h"
+
+#include "Spaces.h"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+class EvaluationOnSpaces : public ::testing::TestWithParam<SpaceCase>
+{
+protected:
+  GridFunctions space = GetParam().Build();
+  MultiVector coordinates = CoordinateCoefficients(space);
+  /// Rounding of world coordinates, of which grid coordinates and spacing are made.
+  double tolerance = 1e-14 * coordinates.cwiseAbs().maxCoeff();
+};
+
+} // namespace
+
+TEST_P(EvaluationOnSpaces, CoordinatesAreReproducedAtTheInputsPoints)
+{
+  const MultiVector values = EvaluateAtPoints(space, coordinates);
+  const MultiVector points = PointCoordinates(GetParam().mesh);
+  ASSERT_EQ(values.rows(), points.rows());
+  EXPECT_LT((values - points).cwiseAbs().maxCoeff(), tolerance);
+}
+
+TEST_P(EvaluationOnSpaces, CoordinatesAreReproducedAtAllClippedPoints)
+{
+  const MultiVector values = EvaluateAtClippedPoints(space, coordinates);
+  ASSERT_EQ(values.rows(), static_cast<Id>(space.clipped.position.size()));
+  for (Id k = 0; k < values.rows(); ++k)
+  {
+    const Vec3 expected = space.GetGrid().ToWorld(space.clipped.position[k]);
+    ASSERT_LT((values.row(k).transpose() - expected).norm(), tolerance);
+  }
+}
+
+TEST_P(EvaluationOnSpaces, FunctionsAreContinuousAcrossPieces)
+{
+  // A shared point has one value, whichever of its pieces' patches is asked.
+  const MultiVector coefficients = RandomValues(space.Finest().numberOfFunctions, 2);
+  const MultiVector values = EvaluateAtClippedPoints(space, coefficients);
+  for (Id piece = 0; piece < space.clipped.NumberOfPieces(); ++piece)
+  {
+    for (Id k = space.clipped.pieceBegin[piece]; k < space.clipped.pieceBegin[piece + 1]; ++k)
+    {
+      const Id point = space.clipped.corners[k];
+      const Eigen::RowVectorXd value = EvaluateInPatch(
+        space, space.piecePatch[piece], space.clipped.position[point], coefficients);
+      // Points within the clipper's 1e-10 of a cell face are on it for both cells.
+      ASSERT_LT((values.row(point) - value).norm(), 1e-9);
+    }
+  }
+}
+
+TEST_P(EvaluationOnSpaces, GradientsOfTheCoordinatesSpanTheTangentPlane)
+{
+  for (Id piece = 0; piece < space.clipped.NumberOfPieces(); ++piece)
+  {
+    const Index* ids = space.clipped.corners.data() + space.clipped.pieceBegin[piece];
+    const Eigen::Matrix3d gradient =
+      EvaluateGradientInPiece(space, piece, space.clipped.position[ids[0]], coordinates);
+    if (PieceArea(space.clipped, piece) == 0.0)
+    {
+      ASSERT_TRUE(gradient.isZero(0.0));
+      continue;
+    }
+    // The columns of the projection I - n nᵀ: idempotent, symmetric, of trace 2. Differences of
+    // coordinates are divided by the spacing.
+    const double error = 16.0 * tolerance / space.GetGrid().spacing;
+    ASSERT_LT((gradient * gradient - gradient).norm(), error);
+    ASSERT_LT((gradient - gradient.transpose()).norm(), error);
+    ASSERT_NEAR(gradient.trace(), 2.0, error);
+  }
+}
+
+TEST_P(EvaluationOnSpaces, IsTheSameForAnyNumberOfThreads)
+{
+  const MultiVector coefficients = RandomValues(space.Finest().numberOfFunctions, 3);
+  EXPECT_EQ(EvaluateAtPoints(space, coefficients, 1), EvaluateAtPoints(space, coefficients, 2));
+}
+
+INSTANTIATE_TEST_SUITE_P(Spaces, EvaluationOnSpaces, ::testing::ValuesIn(AllSpaces()));
+
+TEST(Evaluation, GivesZeroAtPointsThatNoTriangleUses)
+{
+  TriangleMesh mesh = Box(2);
+  mesh.points.push_back({ 0.5, 0.5, 0.5 });
+  const GridFunctions space = BuildGridFunctions(mesh, {});
+  const MultiVector ones = MultiVector::Ones(space.Finest().numberOfFunctions, 1);
+  const MultiVector values = EvaluateAtPoints(space, ones);
+  EXPECT_EQ(values(values.rows() - 1, 0), 0.0);
+  EXPECT_NEAR(values.topRows(values.rows() - 1).minCoeff(), 1.0, 1e-15);
+}
+
+TEST(Evaluation, OfAFunctionOnTheSideOfASquareHasTheHandMadeGradient)
+{
+  // u = x y on the plane z = 0: the surface gradient is (y, x, 0).
+  const GridFunctions space = BuildGridFunctions(FlatRectangle(4, 4), {});
+  const MultiVector corner = CoordinateCoefficients(space);
+  const MultiVector product = corner.col(0).cwiseProduct(corner.col(1));
+  for (Id piece = 0; piece < space.clipped.NumberOfPieces(); piece += 7)
+  {
+    const Vec3& position =
+      space.clipped.position[space.clipped.corners[2 + space.clipped.pieceBegin[piece]]];
+    const Vec3 world = space.GetGrid().ToWorld(position);
+    const Vec3 gradient = EvaluateGradientInPiece(space, piece, position, product);
+    EXPECT_LT((gradient - Vec3(world[1], world[0], 0.0)).norm(), 1e-12);
+  }
+}
+
+TEST(Evaluation, RefusesCoefficientsOfAnotherSpace)
+{
+  const GridFunctions space = BuildGridFunctions(Box(2), {});
+  EXPECT_THROW(EvaluateAtPoints(space, MultiVector::Ones(5, 1)), InvalidInput);
+  EXPECT_THROW(EvaluateInPatch(space, 0, Vec3::Zero(), MultiVector::Ones(5, 1)), InvalidInput);
+}

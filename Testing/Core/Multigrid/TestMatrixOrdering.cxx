@@ -1,0 +1,130 @@
+// The order in which hats are relaxed, and their groups.
+#include "Multigrid/MatrixOrdering.h"
+
+#include "Meshes.h"
+#include "Spaces/HatMatrices.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+/// The blocks of an order that have each unknown.
+std::vector<std::set<Id>> BlocksOfUnknowns(const PatchOrder& order, Index unknowns)
+{
+  std::vector<std::set<Id>> blocks(unknowns);
+  for (Id block = 0; block + 1 < static_cast<Id>(order.blockBegin.size()); ++block)
+  {
+    for (Id k = order.blockBegin[block]; k < order.blockBegin[block + 1]; ++k)
+    {
+      for (const Index unknown : order.dof[k])
+      {
+        if (unknown >= 0)
+        {
+          blocks[unknown].insert(block);
+        }
+      }
+    }
+  }
+  return blocks;
+}
+
+/// Blocks of one colour are relaxed at the same time.
+void ExpectColoursSeparateBlocks(const PatchOrder& order, const SparseMatrix& A)
+{
+  const std::vector<std::set<Id>> blocks = BlocksOfUnknowns(order, A.rows);
+  std::vector<std::size_t> colour(order.blockBegin.size() - 1);
+  EXPECT_GE(colour.size(), 6u); // there is something to colour
+  for (std::size_t c = 0; c + 1 < order.colourBegin.size(); ++c)
+  {
+    std::fill(colour.begin() + order.colourBegin[c], colour.begin() + order.colourBegin[c + 1], c);
+  }
+  for (Index i = 0; i < A.rows; ++i)
+  {
+    for (Id k = A.rowBegin[i]; k < A.rowBegin[i + 1]; ++k)
+    {
+      for (const Id a : blocks[i])
+      {
+        for (const Id b : blocks[A.column[k]])
+        {
+          ASSERT_TRUE(a == b || colour[a] != colour[b]) << i << " " << A.column[k];
+        }
+      }
+    }
+  }
+}
+
+/// 18 points around a large ring at each of `along` places.
+TriangleMesh Ring(int along)
+{
+  return Torus(along, 18, 10.0, 0.3);
+}
+
+SparseMatrix HatStiffness(const TriangleMesh& mesh)
+{
+  return AssembleHatMatrices(mesh, NumberHatFunctions(mesh)).stiffness;
+}
+
+} // namespace
+
+TEST(HatOrdering, VisitsEveryUnknownOnceAndSeparatesBlocksOfAColour)
+{
+  const SparseMatrix A = HatStiffness(GeodesicSphere(30)); // 3602 functions
+  const PatchOrder order = OrderInBlocks(A);
+  std::vector<int> visits(A.rows, 0);
+  for (const auto& group : order.dof)
+  {
+    for (const Index unknown : group)
+    {
+      visits[std::max(unknown, 0)] += unknown >= 0;
+    }
+  }
+  EXPECT_EQ(visits, std::vector<int>(A.rows, 1));
+  ExpectColoursSeparateBlocks(order, A);
+}
+
+TEST(HatOrdering, GroupsReachEveryUnknownAndSeparateBlocksOfAColour)
+{
+  for (const TriangleMesh& mesh : { GeodesicSphere(30), Ring(150), Ring(600) })
+  {
+    const SparseMatrix A = HatStiffness(mesh);
+    const PatchOrder groups = GroupByCoupling(A);
+    const std::vector<std::set<Id>> blocks = BlocksOfUnknowns(groups, A.rows);
+    EXPECT_TRUE(
+      std::none_of(blocks.begin(), blocks.end(), [](const std::set<Id>& b) { return b.empty(); }));
+    EXPECT_TRUE(std::any_of(blocks.begin(), blocks.end(),
+      [](const std::set<Id>& b) { return b.size() > 1; })); // some reach over borders
+    ExpectColoursSeparateBlocks(groups, A);
+  }
+}
+
+TEST(HatOrdering, GroupsFollowStrongCouplings)
+{
+  // Triangles four times as long along the ring as around the tube: all 18 points at one place are
+  // coupled strongly, so that no group of eight leaves it.
+  constexpr double Pi = 3.14159265358979323846;
+  constexpr int Along = 150;
+  const TriangleMesh mesh = Ring(Along);
+  const HatFunctions hats = NumberHatFunctions(mesh);
+  std::vector<long> place(hats.Count());
+  for (std::size_t p = 0; p < mesh.points.size(); ++p)
+  {
+    const double angle = std::atan2(mesh.points[p][1], mesh.points[p][0]);
+    place[hats.ofPoint[p]] = std::lround(angle / (2.0 * Pi) * Along + Along) % Along;
+  }
+  for (const auto& group : GroupByCoupling(HatStiffness(mesh)).dof)
+  {
+    for (const Index member : group)
+    {
+      ASSERT_GE(member, 0);
+      EXPECT_EQ(place[member], place[group[0]]);
+    }
+  }
+}

@@ -1,0 +1,177 @@
+// The estimate of memory against what is really built.
+#include "Meshes.h"
+#include "Problems/MemoryEstimate.h"
+#include "Spaces/LevelOperators.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace gridfem
+{
+namespace
+{
+
+struct Case
+{
+  std::string name;
+  TriangleMesh mesh;
+  int depth;
+};
+
+/// Coarse and fine meshes: many cells per triangle, and many triangles per cell.
+std::vector<Case> Cases()
+{
+  using namespace testing;
+  std::vector<Case> cases{
+    { "coarse sphere", GeodesicSphere(4), 6 },
+    { "fine sphere", GeodesicSphere(80), 4 },
+    { "box on grid planes", Box(1), 6 },
+    { "tilted box", Transform(Box(1), { 1, 1, 1 }, 0.3), 6 },
+    { "torus", Torus(60, 24, 1.0, 0.3), 6 },
+    { "trefoil", TrefoilTube(200, 24), 6 },
+    { "open sheet", Transform(FlatRectangle(8, 8), { 1, 2, 0 }, 0.7), 6 },
+    { "soup", Unweld(Torus(60, 24, 1.0, 0.3)), 5 },
+    { "far away", Transform(GeodesicSphere(10), { 1, 0, 1 }, 0.2, 1e3, { 1e6, 0, -1e6 }), 5 },
+  };
+  if (const std::string path = RealMesh("rocker_arm.ply"); !path.empty())
+  {
+    cases.push_back({ "rocker arm", ReadMesh(path), 6 });
+  }
+  return cases;
+}
+
+template<class T, class Allocator>
+double Bytes(const std::vector<T, Allocator>& items)
+{
+  return static_cast<double>(items.size() * sizeof(T));
+}
+
+double Bytes(const SparseMatrix& A)
+{
+  return Bytes(A.value) + static_cast<double>(A.rowBegin.size() * sizeof(Id)) +
+         static_cast<double>(A.column.size() * sizeof(Index));
+}
+
+double Bytes(const ClippedMesh& clipped)
+{
+  return Bytes(clipped.cutPoints) + Bytes(clipped.position) + Bytes(clipped.cells) +
+         Bytes(clipped.cellBegin) + Bytes(clipped.pieceTriangle) + Bytes(clipped.pieceBegin) +
+         Bytes(clipped.corners) + Bytes(clipped.links);
+}
+
+double Bytes(const GridFunctions& space)
+{
+  double bytes = Bytes(space.clipped) + Bytes(space.piecePatch) + Bytes(space.pointPatch) +
+                 Bytes(space.component);
+  for (const PatchLevel& level : space.levels)
+  {
+    bytes += Bytes(level.cell) + Bytes(level.dof) + Bytes(level.parent);
+  }
+  return bytes;
+}
+
+/// Without what the hierarchy shares: prolongations and their transposes.
+double Bytes(const LevelOperators& system)
+{
+  double bytes = Bytes(system.integral);
+  for (std::size_t l = 0; l < system.elements.size(); ++l)
+  {
+    bytes += Bytes(system.elements[l].mass) + Bytes(system.elements[l].stiffness) +
+             Bytes(system.places[l].begin) + Bytes(system.places[l].item) +
+             Bytes(system.pattern[l]);
+  }
+  return bytes;
+}
+
+GridFunctions BuildSpace(const Case& item)
+{
+  SpaceOptions options;
+  options.depth = item.depth;
+  return BuildGridFunctions(item.mesh, options);
+}
+
+/// Sizes are exact on average over positions of the grid, but for what depends on curves on the
+/// surface rather than on areas (rims, creases, rows of cells beside faces on grid planes): at most
+/// this share.
+double ShareOfCurves(int depth)
+{
+  return 4.0 / double(1 << depth);
+}
+
+TEST(MemoryEstimate, ExpectsTheSizesThatCome)
+{
+  for (const Case& item : Cases())
+  {
+    SCOPED_TRACE(item.name);
+    const MemoryEstimate estimate = EstimateMemory(item.mesh, item.depth);
+    const GridFunctions space = BuildSpace(item);
+    const auto expectNear = [](double expected, double real, double share)
+    { EXPECT_NEAR(expected / real, 1.0, share); };
+    const double share = ShareOfCurves(item.depth);
+    expectNear(
+      estimate.clippedTriangles, static_cast<double>(space.clipped.NumberOfTriangles()), share);
+    expectNear(estimate.patches, static_cast<double>(space.Finest().NumberOfPatches()), share);
+    expectNear(estimate.functions, space.Finest().numberOfFunctions, share);
+  }
+}
+
+TEST(MemoryEstimate, HoldsWhatIsBuiltAndNotMuchMore)
+{
+  for (const Case& item : Cases())
+  {
+    SCOPED_TRACE(item.name);
+    const MemoryEstimate estimate = EstimateMemory(item.mesh, item.depth);
+    const GridFunctions space = BuildSpace(item);
+    const LevelOperators system = BuildSystem(space, TriangleRule(2));
+    const Multigrid multigrid = BuildMultigrid(space, system, 0.01, 1.0, {});
+    const double arrays = Bytes(space) + Bytes(system) + static_cast<double>(multigrid.Memory());
+    // The arrays that are held at the end; rims and coarse levels have a few more functions than
+    // areas tell. The peak of clipping is up to twice what clipping leaves.
+    EXPECT_GT(estimate.bytes, (1.0 - ShareOfCurves(item.depth)) * arrays);
+    EXPECT_LT(estimate.bytes, 2.5 * arrays);
+  }
+}
+
+TEST(MemoryEstimate, GrowsWithDepth)
+{
+  for (const Case& item : Cases())
+  {
+    SCOPED_TRACE(item.name);
+    for (int depth = MinimumDepth; depth < MaximumDepth; ++depth)
+    {
+      const MemoryEstimate coarse = EstimateMemory(item.mesh, depth);
+      const MemoryEstimate fine = EstimateMemory(item.mesh, depth + 1);
+      EXPECT_GT(fine.bytes, coarse.bytes);
+      // Areas grow by 4, all else by less.
+      EXPECT_LE(fine.bytes, 4.0 * coarse.bytes);
+    }
+    // Deep enough, areas are all that counts.
+    EXPECT_NEAR(
+      EstimateMemory(item.mesh, 14).bytes / EstimateMemory(item.mesh, 13).bytes, 4.0, 0.2);
+  }
+}
+
+TEST(MemoryEstimate, DoesNotDependOnTheUnit)
+{
+  const TriangleMesh mesh = testing::Torus(40, 20, 1.0, 0.4);
+  const MemoryEstimate estimate = EstimateMemory(mesh, 7);
+  for (const double scale : { 1.0 / 1024.0, 1024.0 }) // powers of 2: no rounding
+  {
+    const TriangleMesh scaled = testing::Transform(mesh, { 0, 0, 1 }, 0.0, scale);
+    EXPECT_DOUBLE_EQ(EstimateMemory(scaled, 7).bytes, estimate.bytes);
+  }
+}
+
+TEST(MemoryEstimate, KnowsWhatTheMachineHas)
+{
+  if (!std::ifstream("/proc/meminfo"))
+  {
+    GTEST_SKIP() << "this system does not say how much memory it has";
+  }
+  EXPECT_GT(AvailableMemory(), 1e6);
+  EXPECT_LT(AvailableMemory(), 1e15);
+}
+
+} // namespace
+} // namespace gridfem

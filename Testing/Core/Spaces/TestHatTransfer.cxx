@@ -1,0 +1,140 @@
+// Between hats and grid functions: evaluation and the thesis' pseudo-evaluation.
+#include "Spaces/HatTransfer.h"
+
+#include "Hybrid.h"
+#include "Integrals/Evaluation.h"
+#include "Spaces.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+/// Dense Rᵀ as the thesis writes it: M_c⁻¹ Pᵀ M_f E_f, lumped masses, over the clipped mesh.
+Eigen::MatrixXd PseudoEvaluation(const Hybrid& hybrid)
+{
+  const ClippedMesh& clipped = hybrid.space.clipped;
+  const auto points = static_cast<Id>(clipped.position.size());
+  Eigen::VectorXd mass = Eigen::VectorXd::Zero(points);
+  for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
+  {
+    const Index* corner = &clipped.corners[clipped.pieceBegin[piece]];
+    const Id count = clipped.pieceBegin[piece + 1] - clipped.pieceBegin[piece];
+    for (Id k = 1; k + 1 < count; ++k)
+    {
+      const Vec3& apex = clipped.position[corner[0]];
+      const double third =
+        (clipped.position[corner[k]] - apex).cross(clipped.position[corner[k + 1]] - apex).norm() /
+        6.0;
+      for (const Id point : { corner[0], corner[k], corner[k + 1] })
+      {
+        mass[point] += third;
+      }
+    }
+  }
+  const HatFunctions& functions = hybrid.hats.functions;
+  Eigen::MatrixXd P = Eigen::MatrixXd::Zero(points, functions.Count());
+  for (Id point = 0; point < points; ++point)
+  {
+    if (point < clipped.numberOfInputPoints)
+    {
+      P(point, functions.ofPoint[point]) = 1.0;
+      continue;
+    }
+    const CutPoint& cut = clipped.cutPoints[point - clipped.numberOfInputPoints];
+    for (int k = 0; k < 3; ++k)
+    {
+      P(point, functions.ofPoint[hybrid.mesh.triangles[cut.triangle][k]]) += cut.Weights()[k];
+    }
+  }
+  const Index count = hybrid.space.Finest().numberOfFunctions;
+  const Eigen::MatrixXd E =
+    EvaluateAtClippedPoints(hybrid.space, MultiVector::Identity(count, count));
+  const Eigen::VectorXd lumped = P.transpose() * mass;
+  return lumped.cwiseInverse().asDiagonal() * (P.transpose() * (mass.asDiagonal() * E));
+}
+
+/// Part of the surface, measured in ∫ b_i, whose grid functions get no residual: empty columns.
+double ShareWithoutResidual(const Hybrid& hybrid)
+{
+  const SharedArray<Index>& column = hybrid.hats.prolongation.column;
+  const std::set<Index> reached(column.begin(), column.end());
+  double without = 0.0;
+  double all = 0.0;
+  for (std::size_t i = 0; i < hybrid.system.integral.size(); ++i)
+  {
+    all += hybrid.system.integral[i];
+    without += reached.count(static_cast<Index>(i)) ? 0.0 : hybrid.system.integral[i];
+  }
+  return without / all;
+}
+
+} // namespace
+
+TEST(HatTransfer, EvaluatesAtThePoints)
+{
+  for (const TriangleMesh& mesh :
+    { Transform(GeodesicSphere(5), { 1, 2, 3 }, 0.4), Unweld(Transform(Box(3), { 1, 2, 3 }, 0.4)) })
+  {
+    const Hybrid hybrid(mesh, 4, HatTransfer::Evaluation);
+    const MultiVector x = RandomValues(hybrid.space.Finest().numberOfFunctions, 2);
+    MultiVector onHats;
+    Multiply(hybrid.hats.prolongation, x, onHats);
+    EXPECT_LT(RelativeDifference(
+                ValuesAtPoints(hybrid.hats.functions, onHats), EvaluateAtPoints(hybrid.space, x)),
+      1e-13);
+  }
+}
+
+TEST(HatTransfer, IsThePseudoEvaluationMatrixOfTheThesis)
+{
+  for (const TriangleMesh& mesh : { Transform(GeodesicSphere(4), { 1, 2, 3 }, 0.4),
+         Transform(Box(2), { 1, 1, 3 }, 0.8), FlatRectangle(3, 2) })
+  {
+    for (const int depth : { 2, 3, 4 }) // grids coarser and finer than the mesh
+    {
+      const Hybrid hybrid(mesh, depth, HatTransfer::PseudoEvaluation);
+      EXPECT_LT(
+        (Dense(hybrid.hats.prolongation) - PseudoEvaluation(hybrid)).cwiseAbs().maxCoeff(), 1e-12);
+    }
+  }
+}
+
+TEST(HatTransfer, KeepsConstants)
+{
+  for (const SpaceCase& c : AllSpaces())
+  {
+    const GridFunctions space = c.Build();
+    const HatFunctions hats = NumberHatFunctions(c.mesh);
+    for (const HatTransfer transfer : { HatTransfer::Evaluation, HatTransfer::PseudoEvaluation })
+    {
+      MultiVector sums;
+      Multiply(BuildHatProlongation(hats, space, c.mesh, transfer),
+        MultiVector::Ones(space.Finest().numberOfFunctions, 1), sums);
+      EXPECT_LT((sums.array() - 1.0).abs().maxCoeff(), 1e-14) << c;
+    }
+  }
+}
+
+TEST(HatTransfer, ReachesTheWholeSurfaceAlsoWhereTheGridIsFiner)
+{
+  // 18 points reach their own 8 functions each, some tenth of a grid of depth 5. The points of the
+  // clipped mesh miss only functions that all pieces touch with one cut-off corner of their cell,
+  // where all points lie on faces on which the function vanishes: it is 1/27 there at most.
+  const TriangleMesh mesh = Transform(GeodesicSphere(2), { 1, 2, 3 }, 0.4);
+  EXPECT_GT(ShareWithoutResidual(Hybrid(mesh, 5, HatTransfer::Evaluation)), 0.5);
+  EXPECT_LT(ShareWithoutResidual(Hybrid(mesh, 5, HatTransfer::PseudoEvaluation)), 1.0 / 27.0);
+}
+
+TEST(HatTransfer, RefusesAnotherMesh)
+{
+  const Hybrid hybrid(GeodesicSphere(3), 3);
+  EXPECT_THROW(BuildHatProlongation(
+                 hybrid.hats.functions, hybrid.space, GeodesicSphere(2), HatTransfer::Evaluation),
+    InvalidInput);
+}
