@@ -56,7 +56,7 @@ void vtkClipToOctree::Compute(vtkInformationVector** inputs, vtkInformationVecto
     gridfem::WriteClippedFrame(input, state.mesh, this->Data->Clipped, options.weldCoincidentPoints,
       options.threads, this->Data->Frame);
   };
-  state.stages.Run(SpaceStage, key, clip);
+  state.stages.Run(gridfem::SpaceStage, key, clip);
   progress.Check(0.7);
 
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);

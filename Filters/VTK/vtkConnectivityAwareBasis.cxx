@@ -57,9 +57,9 @@ void vtkConnectivityAwareBasis::ReadClip(vtkPolyData* input)
                                                  : gridfem::FunctionSupport::Plain;
   state.basis = gridfem::MakeSurfaceBasis(
     state.mesh.triangles, gridfem::BuildGridFunctions(
-                            std::move(clipped), support, options.threads, progress.Part(0.4, 0.8)));
+                            std::move(clipped), support, options.threads, progress.Part(0.4, 0.8)), options.weldCoincidentPoints);
 
-  const gridfem::GridFunctions& space = state.Space();
+  const gridfem::GridFunctions& space = state.Functions();
   std::vector<gridfem::Id> cellPatch(input->GetNumberOfCells(), -1);
   for (gridfem::Id piece = 0; piece < space.clipped.NumberOfPieces(); ++piece)
   {
@@ -94,21 +94,21 @@ void vtkConnectivityAwareBasis::UpdateBasis(vtkPolyData* input)
     else
     {
       state.BuildSpace(input, state.bridge.GetProgress().Part(0.0, 0.8));
-      gridfem::WriteClippedFrame(input, state.mesh, state.Space().clipped,
+      gridfem::WriteClippedFrame(input, state.mesh, state.Functions().clipped,
         options.weldCoincidentPoints, options.threads, this->Data->Frame);
-      gridfem::WriteBasis(state.Space(),
-        gridfem::PatchesOfTriangles(state.Space(), options.threads), options.weldCoincidentPoints,
-        this->Data->Frame);
+      gridfem::WriteBasis(state.Functions(),
+        gridfem::PatchesOfTriangles(state.Functions(), options.threads),
+        options.weldCoincidentPoints, this->Data->Frame);
     }
     vtkSurfaceBasisHolder::Attach(
       this->Data->Frame->GetFieldData()->GetAbstractArray(gridfem::PatchBasisIdsName), state.basis);
   };
-  state.stages.Run(SpaceStage, key, build);
+  state.stages.Run(gridfem::SpaceStage, key, build);
 }
 
 void vtkConnectivityAwareBasis::AddBasisFunction(vtkPolyData* output)
 {
-  const gridfem::GridFunctions& space = this->State->Space();
+  const gridfem::GridFunctions& space = this->State->Functions();
   const gridfem::MultiVector values = gridfem::EvaluateAtClippedPoints(space,
     gridfem::BasisFunctionCoefficients(space, this->Level, this->BasisId), this->NumberOfThreads);
   vtkNew<vtkDoubleArray> array;
@@ -128,7 +128,7 @@ void vtkConnectivityAwareBasis::Compute(
   this->UpdateBasis(input);
   progress.Check(0.8);
 
-  const gridfem::GridFunctions& space = this->State->Space();
+  const gridfem::GridFunctions& space = this->State->Functions();
   if (gridfem::CarriesClip(input))
   {
     output->ShallowCopy(input);

@@ -206,7 +206,7 @@ void vtkLaplaceSpectrum::Warn()
     vtkWarningMacro("Only " << this->Data->NumberOfModes() << " of the " << this->NumberOfModes
                             << " modes exist " << where << ".");
   }
-  const std::int64_t run = this->State->stages.Runs(SolveStage);
+  const std::int64_t run = this->State->stages.Runs(gridfem::SolveStage);
   if (spectrum.cutsMultiplet && run != this->Data->WarnedRun)
   {
     this->Data->WarnedRun = run;

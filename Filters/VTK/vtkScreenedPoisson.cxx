@@ -3,12 +3,9 @@
 #include "Private/InputArray.h"
 #include "Private/InputValidation.h"
 #include "Private/SolverOutput.h"
-#include "Private/SurfaceSolverState.h"
+#include "Private/SurfacePoisson.h"
 
 #include "Base/Errors.h"
-#include "Integrals/Evaluation.h"
-#include "Problems/Poisson.h"
-#include "Spaces/HatLoad.h"
 
 #include "vtkDataArray.h"
 #include "vtkInformation.h"
@@ -30,8 +27,6 @@ struct vtkScreenedPoisson::Internals
   gridfem::InputArray Gradient;
   gridfem::InputArray Scale;
 
-  gridfem::MultiVector ValueIntegrals;
-  gridfem::MultiVector GradientIntegrals;
   /// The factor on the gradients at points or cells, if one is chosen.
   std::optional<gridfem::Field> ReadScale(const gridfem::InputMesh& mesh) const
   {
@@ -39,9 +34,7 @@ struct vtkScreenedPoisson::Internals
                              : std::nullopt;
   }
 
-  std::unique_ptr<gridfem::Multigrid> Hierarchy;
-  gridfem::StageKey HierarchyShape; // what the hierarchy depends on but for the weight
-  gridfem::PoissonSolution Solution;
+  gridfem::SurfacePoisson Equation;
 };
 
 vtkScreenedPoisson::vtkScreenedPoisson() : Data(std::make_unique<Internals>())
@@ -92,175 +85,61 @@ void vtkScreenedPoisson::FindArrays(vtkPolyData* input)
   }
 }
 
-void vtkScreenedPoisson::IntegrateOnGrid(
-  const gridfem::Field& value, const gridfem::Progress& progress)
+gridfem::PoissonLoad vtkScreenedPoisson::Integrate(
+  const gridfem::FiniteElementSpace& space, const gridfem::Job& job)
 {
-  Internals& data = *this->Data;
-  const gridfem::SurfaceSolverState& state = *this->State;
-  const gridfem::QuadratureRule& rule = gridfem::TriangleRule(this->QuadratureDegree);
-  const gridfem::GridFunctions& space = state.Space();
-  const gridfem::TriangleMesh& mesh = *state.basis.mesh;
-  const int threads = this->NumberOfThreads;
-  const std::optional<gridfem::Field> scale = data.ReadScale(state.mesh);
-  data.ValueIntegrals =
-    gridfem::IntegrateValues(space, mesh, value, rule, threads, progress.Part(0.0, 0.5));
-  data.GradientIntegrals.resize(0, 0);
+  const Internals& data = *this->Data;
+  const gridfem::InputMesh& mesh = this->State->mesh;
+  const gridfem::Field value =
+    data.Value.array ? gridfem::ReadField(data.Value, mesh) : gridfem::CoordinatesField(mesh);
+  const std::optional<gridfem::Field> factor = data.ReadScale(mesh);
+  const gridfem::Field* scale = factor ? &*factor : nullptr;
+  gridfem::PoissonLoad load;
+  load.values = space.LoadOfValues(value, job.Part(0.0, 0.5));
   if (data.Gradient.array)
   {
-    data.GradientIntegrals =
-      gridfem::IntegrateGradients(space, mesh, gridfem::ReadField(data.Gradient, state.mesh),
-        scale ? &*scale : nullptr, rule, threads, progress.Part(0.5, 1.0));
+    load.gradients =
+      space.LoadOfGradients(gridfem::ReadField(data.Gradient, mesh), scale, job.Part(0.5, 1.0));
   }
   else if (this->UseValueGradient)
   {
-    data.GradientIntegrals = gridfem::IntegrateGradientsOf(
-      space, mesh, value, scale ? &*scale : nullptr, rule, threads, progress.Part(0.5, 1.0));
+    load.gradients = space.LoadOfGradientsOf(value, scale, job.Part(0.5, 1.0));
   }
-  data.GradientIntegrals *= this->GradientScale;
+  return load;
 }
 
-void vtkScreenedPoisson::IntegrateOnHats(const gridfem::Field& value)
+void vtkScreenedPoisson::Solve(const gridfem::Progress& progress)
 {
   Internals& data = *this->Data;
-  const gridfem::SurfaceSolverState& state = *this->State;
-  const gridfem::HatFunctions& hats = state.hats->functions;
-  const gridfem::TriangleMesh& mesh = *state.basis.mesh;
-  const int threads = this->NumberOfThreads;
-  const std::optional<gridfem::Field> scale = data.ReadScale(state.mesh);
-  data.ValueIntegrals = gridfem::IntegrateValues(hats, mesh, value, threads);
-  data.GradientIntegrals.resize(0, 0);
-  if (data.Gradient.array)
-  {
-    data.GradientIntegrals = gridfem::IntegrateGradients(hats, mesh,
-      gridfem::ReadField(data.Gradient, state.mesh), scale ? &*scale : nullptr, threads);
-  }
-  else if (this->UseValueGradient)
-  {
-    data.GradientIntegrals =
-      gridfem::IntegrateGradientsOf(hats, mesh, value, scale ? &*scale : nullptr, threads);
-  }
-  data.GradientIntegrals *= this->GradientScale;
-}
-
-void vtkScreenedPoisson::UpdateRightHandSide()
-{
-  Internals& data = *this->Data;
-  gridfem::SurfaceSolverState& state = *this->State;
-  gridfem::StageKey key;
-  key.Add(state.stages.Version(SpaceStage)).Add(this->QuadratureDegree).Add(this->FunctionSpace);
-  key.Add(this->GradientScale).Add(this->UseValueGradient);
+  gridfem::StageKey fields;
+  fields.Add(this->UseValueGradient);
   for (const gridfem::InputArray* array : { &data.Value, &data.Gradient, &data.Scale })
   {
-    key.Add(array->array).Add(static_cast<int>(array->association));
+    fields.Add(array->array).Add(static_cast<int>(array->association));
   }
-  state.stages.Run(RightHandSideStage, key,
-    [&]
-    {
-      const gridfem::Progress progress = state.bridge.GetProgress().Part(0.5, 0.6);
-      const gridfem::Field value = data.Value.array ? gridfem::ReadField(data.Value, state.mesh)
-                                                    : gridfem::CoordinatesField(state.mesh);
-      if (state.hats)
-      {
-        this->IntegrateOnHats(value);
-      }
-      else
-      {
-        this->IntegrateOnGrid(value, progress);
-      }
-      progress.Check(1.0);
-    });
-}
-
-std::unique_ptr<gridfem::Multigrid> vtkScreenedPoisson::BuildHierarchy(double weight)
-{
-  gridfem::SurfaceSolverState& state = *this->State;
-  const gridfem::Progress progress = state.bridge.GetProgress().Part(0.6, 0.7);
-  if (state.hats)
-  {
-    return std::make_unique<gridfem::Multigrid>(
-      gridfem::BuildHatMultigrid(*state.hats, state.Space(), *state.system, weight, 1.0,
-        gridfem::HatCycle(state.options.multigrid), progress));
-  }
-  const gridfem::MultigridOptions& options = state.options.multigrid;
-  if (options.hidden == gridfem::HiddenCorrection::Always && gridfem::AllowsHidden(options))
-  {
-    gridfem::RequireMemoryForLayers(state.Space().Finest().numberOfFunctions);
-  }
-  return std::make_unique<gridfem::Multigrid>(
-    gridfem::BuildMultigrid(state.Space(), *state.system, weight, 1.0, options, progress));
-}
-
-void vtkScreenedPoisson::UpdateHierarchy()
-{
-  Internals& data = *this->Data;
-  gridfem::SurfaceSolverState& state = *this->State;
-  gridfem::StageKey shape;
-  shape.Add(state.stages.Version(SystemStage));
-  gridfem::AddMultigrid(shape, state.options.multigrid);
-  const double weight = state.WeightInGridUnits(this->ScreeningWeight);
-  gridfem::StageKey key = shape;
-  key.Add(weight);
-  const auto build = [&]
-  {
-    const bool update = data.Hierarchy && data.HierarchyShape == shape;
-    if (update && state.hats)
-    {
-      gridfem::UpdateHatMultigrid(
-        *state.hats, state.Space(), *state.system, weight, 1.0, *data.Hierarchy);
-      return;
-    }
-    if (update)
-    {
-      gridfem::UpdateMultigrid(state.Space(), *state.system, weight, 1.0, *data.Hierarchy);
-      return;
-    }
-    data.Hierarchy.reset();
-    data.Hierarchy = this->BuildHierarchy(weight);
-    data.HierarchyShape = shape;
-  };
-  state.stages.Run(HierarchyStage, key, build);
-}
-
-void vtkScreenedPoisson::UpdateSolution()
-{
-  Internals& data = *this->Data;
-  gridfem::SurfaceSolverState& state = *this->State;
-  gridfem::StageKey key;
-  key.Add(state.stages.Version(HierarchyStage)).Add(state.stages.Version(RightHandSideStage));
-  key.Add(this->Iteration).Add(this->Tolerance).Add(this->MaximumIterations);
-  const auto solve = [&]
-  {
-    gridfem::PoissonOptions options;
-    options.screeningWeight = state.WeightInGridUnits(this->ScreeningWeight);
-    options.multigrid = state.options.multigrid;
-    options.iteration = static_cast<gridfem::IterationType>(this->Iteration);
-    options.solve = state.options.solve;
-    const gridfem::Progress progress = state.bridge.GetProgress().Part(0.7, 0.95);
-    data.Solution = state.hats
-                      ? gridfem::SolvePoisson(gridfem::FunctionsOf(*state.hats), *data.Hierarchy,
-                          data.ValueIntegrals, data.GradientIntegrals, options, progress)
-                      : gridfem::SolvePoisson(state.Space(), *state.system, *data.Hierarchy,
-                          data.ValueIntegrals, data.GradientIntegrals, options, progress);
-  };
-  state.stages.Run(SolveStage, key, solve);
+  gridfem::PoissonRequest request;
+  request.weight = this->ScreeningWeight;
+  request.gradientScale = this->GradientScale;
+  request.iteration = static_cast<gridfem::IterationType>(this->Iteration);
+  data.Equation.Update(
+    *this->State, fields,
+    [this](const gridfem::FiniteElementSpace& space, const gridfem::Job& job)
+    { return this->Integrate(space, job); },
+    request, progress);
 }
 
 void vtkScreenedPoisson::WriteSolution(vtkPolyData* input, vtkPolyData* output)
 {
   const Internals& data = *this->Data;
   const gridfem::SurfaceSolverState& state = *this->State;
-  gridfem::MultiVector values = state.hats ? gridfem::ValuesAtPoints(state.hats->functions,
-                                               data.Solution.coefficients, this->NumberOfThreads)
-                                           : gridfem::EvaluateAtPoints(state.Space(),
-                                               data.Solution.coefficients, this->NumberOfThreads);
+  gridfem::MultiVector values = data.Equation.Values(state);
   vtkDataArray* given = data.Value.array ? data.Value.array : input->GetPoints()->GetData();
   if (data.Value.association == gridfem::FieldAssociation::Points)
   {
-    const std::vector<char> used = gridfem::UsedPoints(*state.mesh.triangles);
+    const std::vector<char> isSolved = state.space->PointsWithFunctions();
     for (gridfem::Id point = 0; point < values.rows(); ++point)
     {
-      const bool isSolved = state.hats ? state.hats->functions.ofPoint[point] >= 0 : used[point];
-      for (gridfem::Id c = 0; !isSolved && c < values.cols(); ++c)
+      for (gridfem::Id c = 0; !isSolved[point] && c < values.cols(); ++c)
       {
         values(point, c) = given->GetComponent(point, static_cast<int>(c));
       }
@@ -274,7 +153,7 @@ void vtkScreenedPoisson::WriteSolution(vtkPolyData* input, vtkPolyData* output)
   output->ShallowCopy(input);
   output->GetPointData()->AddArray(solution);
   output->GetPointData()->SetActiveScalars("Solution");
-  gridfem::AddReport(data.Solution.report, output);
+  gridfem::AddReport(data.Equation.Report(), output);
 }
 
 void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
@@ -289,21 +168,13 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
   progress.Check(0.3);
   state.UpdateSystem(progress.Part(0.3, 0.5));
   progress.Check(0.5);
-  this->UpdateRightHandSide();
-  progress.Check(0.6);
-  this->UpdateHierarchy();
-  progress.Check(0.7);
-  this->UpdateSolution();
+  this->Solve(progress.Part(0.5, 0.95));
   this->WriteSolution(input, vtkPolyData::GetData(outputs, 0));
-  const gridfem::SolveReport& report = this->Data->Solution.report;
-  gridfem::WriteHistory(report, vtkTable::GetData(outputs, 1));
-  if (!report.converged)
+  gridfem::WriteHistory(this->Data->Equation.Report(), vtkTable::GetData(outputs, 1));
+  const std::string warning = this->Data->Equation.Warning(this->Tolerance);
+  if (!warning.empty())
   {
-    vtkWarningMacro("Not converged after "
-                    << report.iterations << " iterations, because " << gridfem::ReasonOf(report)
-                    << ". The energy residual is " << gridfem::LastRecord(report).energy
-                    << ", the residual " << gridfem::LastRecord(report).residual << ", wanted is "
-                    << this->Tolerance << ". The result is kept.");
+    vtkWarningMacro(<< warning);
   }
   progress.Check(1.0);
 }

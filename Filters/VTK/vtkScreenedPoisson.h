@@ -50,9 +50,11 @@
 
 namespace gridfem
 {
-class Multigrid;
-class Progress;
 struct Field;
+struct Job;
+struct PoissonLoad;
+class FiniteElementSpace;
+class Progress;
 } // namespace gridfem
 
 class VTKGRIDFEMFILTERS_EXPORT vtkScreenedPoisson : public vtkSurfaceFEMAlgorithm
@@ -144,12 +146,8 @@ private:
   void operator=(const vtkScreenedPoisson&) = delete;
 
   void FindArrays(vtkPolyData* input);
-  void UpdateRightHandSide();
-  void IntegrateOnGrid(const gridfem::Field& value, const gridfem::Progress& progress);
-  void IntegrateOnHats(const gridfem::Field& value);
-  std::unique_ptr<gridfem::Multigrid> BuildHierarchy(double weight);
-  void UpdateHierarchy();
-  void UpdateSolution();
+  gridfem::PoissonLoad Integrate(const gridfem::FiniteElementSpace& space, const gridfem::Job& job);
+  void Solve(const gridfem::Progress& progress);
   void WriteSolution(vtkPolyData* input, vtkPolyData* output);
 
   struct Internals;

@@ -138,7 +138,7 @@ void vtkSpectralSignatures::ComputeModes(vtkPolyData* input, vtkPolyData* basis)
   data.Solved.Update(state, input, basis, request);
   data.WasSolved = true;
   gridfem::StageKey key;
-  key.Add(true).Add(state.stages.Version(SolveStage));
+  key.Add(true).Add(state.stages.Version(gridfem::SolveStage));
   if (key == data.ModesKey)
   {
     return;

@@ -52,14 +52,15 @@ int vtkSurfaceFEMAlgorithm::RequestData(
   options.space.connectivityAware = this->ConnectivityAware;
   options.space.weldCoincidentPoints = this->WeldCoincidentPoints;
   options.space.threads = this->NumberOfThreads;
-  options.hatFunctions = this->FunctionSpace == HatFunctions;
-  options.quadratureDegree = this->QuadratureDegree;
+  options.choice.kind =
+    this->FunctionSpace == HatFunctions ? gridfem::FunctionKind::Hats : gridfem::FunctionKind::Grid;
+  options.choice.quadratureDegree = this->QuadratureDegree;
+  options.choice.coarsestSize = this->CoarsestSize;
   options.multigrid.cycle = static_cast<gridfem::CycleType>(this->Cycle);
   options.multigrid.smoother = static_cast<gridfem::SmootherType>(this->Smoother);
   options.multigrid.preSweeps = this->NumberOfSweeps;
   options.multigrid.postSweeps = this->NumberOfSweeps;
   options.multigrid.sweepsPerSynchronisation = this->SweepsPerSynchronisation;
-  options.coarsestSize = this->CoarsestSize;
   options.multigrid.threads = this->NumberOfThreads;
   options.solve.tolerance = this->Tolerance;
   options.solve.maximumIterations = this->MaximumIterations;
@@ -95,14 +96,14 @@ int vtkSurfaceFEMAlgorithm::RequestData(
   return 0;
 }
 
-vtkIdType vtkSurfaceFEMAlgorithm::GetNumberOfRuns(int stage)
+vtkIdType vtkSurfaceFEMAlgorithm::GetNumberOfRuns(const char* stage)
 {
-  return stage >= 0 && stage < NumberOfStages ? this->State->stages.Runs(stage) : 0;
+  return stage ? this->State->stages.Runs(stage) : 0;
 }
 
-double vtkSurfaceFEMAlgorithm::GetStageSeconds(int stage)
+double vtkSurfaceFEMAlgorithm::GetStageSeconds(const char* stage)
 {
-  return stage >= 0 && stage < NumberOfStages ? this->State->stages.Seconds(stage) : 0.0;
+  return stage ? this->State->stages.Seconds(stage) : 0.0;
 }
 
 void vtkSurfaceFEMAlgorithm::PrintSelf(ostream& os, vtkIndent indent)

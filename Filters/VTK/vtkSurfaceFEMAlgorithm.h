@@ -198,27 +198,17 @@ public:
   ///@}
 
   /**
-   * The steps of a run. Each is repeated only when something it depends on has changed.
+   * How often this filter has run a stage since it was made; a stage is repeated only when
+   * something it depends on has changed. The stages of solvers are Space (mesh, clipping, patches,
+   * levels), System (element matrices, patterns, prolongations), RightHandSide (integrals of the
+   * given arrays), Hierarchy (level matrices, smoothers) and Solve. 0 for an unknown stage.
    */
-  enum StageType
-  {
-    SpaceStage = 0,         ///< mesh, clipping, patches, levels
-    SystemStage = 1,        ///< element matrices, patterns, prolongations
-    HierarchyStage = 2,     ///< level matrices, smoothers
-    RightHandSideStage = 3, ///< integrals of the given arrays
-    SolveStage = 4,
-    NumberOfStages = 5
-  };
-
-  /**
-   * How often this filter has run a stage since it was made; 0 for an unknown stage.
-   */
-  vtkIdType GetNumberOfRuns(int stage);
+  vtkIdType GetNumberOfRuns(const char* stage);
 
   /**
    * Seconds the last run of a stage took; 0 when it has not run.
    */
-  double GetStageSeconds(int stage);
+  double GetStageSeconds(const char* stage);
 
 protected:
   vtkSurfaceFEMAlgorithm();

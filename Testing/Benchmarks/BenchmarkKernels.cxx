@@ -30,9 +30,9 @@ struct Problem
     SpaceOptions options;
     options.depth = Depth;
     space = BuildGridFunctions(mesh, options);
-    system = BuildSystem(space, TriangleRule(2));
-    multigrid =
-      std::make_unique<Multigrid>(BuildMultigrid(space, system, lambda, 1.0, MultigridOptions{}));
+    system = BuildLevelOperators(space, TriangleRule(2));
+    multigrid = std::make_unique<Multigrid>(
+      BuildMultigrid(testing::ViewOf(space, system), lambda, 1.0, MultigridOptions{}));
   }
 };
 
@@ -155,7 +155,7 @@ void Cycle(benchmark::State& state)
   MultigridOptions options;
   options.threads = Threads(state);
   const Multigrid multigrid =
-    BuildMultigrid(problem.space, problem.system, problem.lambda, 1.0, options);
+    BuildMultigrid(testing::ViewOf(problem.space, problem.system), problem.lambda, 1.0, options);
   const MultiVector b = Vectors(multigrid.Matrix().rows, state.range(1));
   MultiVector x;
   for (auto _ : state)

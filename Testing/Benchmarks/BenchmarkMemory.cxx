@@ -72,14 +72,14 @@ EstimateAndPeak MeasureSpectrum(const SpectrumCase& item)
   SpaceOptions options;
   options.depth = item.depth;
   const GridFunctions space = BuildGridFunctions(item.mesh.mesh, options);
-  const LevelOperators system = BuildSystem(space, TriangleRule(2));
+  const LevelOperators system = BuildLevelOperators(space, TriangleRule(2));
   const Index functions = space.Finest().numberOfFunctions;
   ReleaseFreeMemory();
   const double before = ResidentBytes();
   ResetPeak();
   SpectrumOptions spectrum;
   spectrum.numberOfModes = item.modes;
-  ComputeSpectrum(space, system, spectrum);
+  ComputeSpectrum(testing::ViewOf(space, system), spectrum);
   return { double(functions), EstimateSpectrumMemory(functions, item.modes), PeakBytes() - before };
 }
 

@@ -60,7 +60,8 @@ struct Convergence
     options.solve.measure = SolveOptions::Measure::Residual;
     const Stopwatch watch;
     const std::vector<IterationRecord> history =
-      SolvePoisson(grid.space, grid.system, *grid.multigrid, grid.values, grid.gradients, options)
+      SolvePoisson(testing::ViewOf(grid.space, grid.system), *grid.multigrid, grid.values,
+        grid.gradients, options)
         .report.history;
     seconds = watch.Seconds();
     functions = grid.space.Finest().numberOfFunctions;
@@ -76,8 +77,8 @@ GridProblem Build(
   if (hidden != grid.options.multigrid.hidden)
   {
     grid.options.multigrid.hidden = hidden;
-    *grid.multigrid = BuildMultigrid(
-      grid.space, grid.system, grid.options.screeningWeight, 1.0, grid.options.multigrid);
+    *grid.multigrid = BuildMultigrid(testing::ViewOf(grid.space, grid.system),
+      grid.options.screeningWeight, 1.0, grid.options.multigrid);
   }
   ChooseColours(grid, 1);
   return grid;
@@ -214,7 +215,7 @@ int Iterations(const SolveReport& report)
 
 /// Of the hybrid alone, to the same residual as conjugate gradients.
 int CyclesAlone(const TriangleMesh& mesh, const HybridProblem& hybrid, double weight,
-  const HatMultigridOptions& options)
+  const testing::HybridCycle& options)
 {
   SolveOptions solve;
   solve.tolerance = HatTolerance;
@@ -247,7 +248,7 @@ HatIterations RunHats(const TriangleMesh& mesh, const HybridProblem& hybrid, dou
   result.hybrid = Iterations(SolveConjugateGradients(cycle, b, x, solve));
   result.hybridSeconds = watch.Seconds();
 
-  HatMultigridOptions tenSweeps = ThesisHybrid();
+  testing::HybridCycle tenSweeps = ThesisHybrid();
   result.thesisCycles = CyclesAlone(mesh, hybrid, weight, tenSweeps);
   tenSweeps.relaxGroups = true;
   result.groupedCycles = CyclesAlone(mesh, hybrid, weight, tenSweeps);
@@ -306,7 +307,7 @@ void RunGridsOfHats()
       const HybridProblem hybrid = SetUpHybrid(mesh, depth, Threads);
       const double cycles = CyclesAlone(mesh, hybrid, Weight, ThesisHybrid());
       table.Row({ std::to_string(mesh.points.size()), std::to_string(depth),
-        std::to_string(hybrid.space.Finest().numberOfFunctions), Text("%.0f", cycles) });
+        std::to_string(hybrid.space.NumberOfFunctions(1)), Text("%.0f", cycles) });
       worst[finer] = std::max(worst[finer], cycles);
     }
   }

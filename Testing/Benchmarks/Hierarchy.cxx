@@ -37,11 +37,11 @@ MultigridOptions ThesisCycle()
   return options;
 }
 
-HatMultigridOptions ThesisHybrid()
+testing::HybridCycle ThesisHybrid()
 {
-  HatMultigridOptions options;
+  testing::HybridCycle options;
   options.grid = ThesisCycle();
-  options.hats = { SmootherType::GaussSeidel, 10, 10, CycleType::W };
+  options.hats = LevelSmoothing{ SmootherType::GaussSeidel, 10, 10, CycleType::W };
   options.relaxGroups = false;
   return options;
 }

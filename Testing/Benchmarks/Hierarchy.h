@@ -5,7 +5,7 @@
 
 #include "CotangentSystem.h"
 #include "Multigrid/Multigrid.h"
-#include "Spaces/HatMultigrid.h"
+#include "Support/Hybrid.h"
 
 #include <functional>
 #include <vector>
@@ -17,7 +17,7 @@ namespace gridfem::benchmarks
 MultigridOptions ThesisCycle();
 
 /// The same for hat functions above a grid.
-HatMultigridOptions ThesisHybrid();
+testing::HybridCycle ThesisHybrid();
 
 SparseMatrix FromEigen(const Eigen::SparseMatrix<double>& matrix);
 SymmetricMatrix ToEigen(const SparseMatrix& matrix);

@@ -128,7 +128,10 @@ private:
     const QuadratureRule& rule = TriangleRule(2);
     ElementMatrices& elements = grid.system.elements.front();
     const auto update = [&]
-    { UpdateMultigrid(space, grid.system, grid.options.screeningWeight, 1.0, *grid.multigrid); };
+    {
+      UpdateMultigrid(
+        testing::ViewOf(space, grid.system), grid.options.screeningWeight, 1.0, *grid.multigrid);
+    };
 
     Time(times.lambda, update);
     {
@@ -144,7 +147,7 @@ private:
         [&]
         {
           IntegrateElements(space, rule, metric, elements, threads);
-          UpdateSystem(space, grid.system, threads);
+          UpdateOperators(space, grid.system, threads);
           update();
         });
     }
@@ -155,7 +158,7 @@ private:
       [&]
       {
         Weigh(parts, weights, elements, threads);
-        UpdateSystem(space, grid.system, threads);
+        UpdateOperators(space, grid.system, threads);
         update();
       });
   }

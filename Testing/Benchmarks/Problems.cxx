@@ -85,11 +85,12 @@ GridProblem SetUp(const TriangleMesh& mesh, int depth, int threads, FunctionSupp
   GridProblem problem;
   const SpaceOptions options = OptionsOf(depth, threads, support);
   problem.space = BuildGridFunctions(mesh, options);
-  problem.system = BuildSystem(problem.space, TriangleRule(2), threads, coarsestSize);
+  problem.system = BuildLevelOperators(problem.space, TriangleRule(2), threads, coarsestSize);
   problem.options.screeningWeight = screeningWeight * std::pow(0.25, depth);
   problem.options.multigrid.threads = threads;
-  problem.multigrid = std::make_unique<Multigrid>(BuildMultigrid(problem.space, problem.system,
-    problem.options.screeningWeight, 1.0, problem.options.multigrid));
+  problem.multigrid =
+    std::make_unique<Multigrid>(BuildMultigrid(testing::ViewOf(problem.space, problem.system),
+      problem.options.screeningWeight, 1.0, problem.options.multigrid));
   return problem;
 }
 
@@ -112,7 +113,7 @@ MultiVector GridProblem::Solve(int columns, int iterations) const
   poisson.solve.tolerance = iterations == 0 ? std::numeric_limits<double>::max() : 1e-15;
   poisson.solve.maximumIterations = std::max(1, iterations);
   const auto solve = [&](const MultiVector& f, const MultiVector& s)
-  { return SolvePoisson(space, system, *multigrid, f, s, poisson).coefficients; };
+  { return SolvePoisson(testing::ViewOf(space, system), *multigrid, f, s, poisson).coefficients; };
   return columns == values.cols() ? solve(values, gradients)
                                   : solve(values.leftCols(columns), gradients.leftCols(columns));
 }
@@ -157,29 +158,24 @@ MultiVector ColoursAtPoints(const TriangleMesh& mesh, int columns)
 
 HybridProblem SetUpHybrid(const TriangleMesh& mesh, int depth, int threads, FunctionSupport support)
 {
-  HybridProblem problem;
-  const SpaceOptions options = OptionsOf(depth, threads, support);
-  problem.space = BuildGridFunctions(mesh, options);
-  problem.system = BuildSystem(problem.space, TriangleRule(2), threads);
-  problem.hats = BuildHatHierarchy(
-    mesh, problem.space, options.weldCoincidentPoints, HatTransfer::PseudoEvaluation, threads);
-  return problem;
+  GridSpaceOptions options;
+  options.functions = OptionsOf(depth, threads, support);
+  return { BuildHatSpace(mesh, options) };
 }
 
-Multigrid HybridProblem::BuildCycle(double weight, const HatMultigridOptions& options) const
+Multigrid HybridProblem::BuildCycle(double weight, const testing::HybridCycle& options) const
 {
-  const double inGrid = weight * std::pow(0.25, space.Finest().depth);
-  return BuildHatMultigrid(hats, space, system, inGrid, 1.0, options);
+  return testing::BuildHybridCycle(space, weight / std::pow(space.Extent(), 2), options);
 }
 
 MultiVector HybridProblem::ToFunctions(const MultiVector& values) const
 {
-  MultiVector result(hats.functions.Count(), values.cols());
-  for (std::size_t point = 0; point < hats.functions.ofPoint.size(); ++point)
+  MultiVector result(space.Functions().Count(), values.cols());
+  for (std::size_t point = 0; point < space.Hats().functions.ofPoint.size(); ++point)
   {
-    if (hats.functions.ofPoint[point] >= 0)
+    if (space.Hats().functions.ofPoint[point] >= 0)
     {
-      result.row(hats.functions.ofPoint[point]) = values.row(static_cast<Id>(point));
+      result.row(space.Hats().functions.ofPoint[point]) = values.row(static_cast<Id>(point));
     }
   }
   return result;

@@ -6,7 +6,7 @@
 
 #include "CotangentSystem.h"
 #include "Problems/Poisson.h"
-#include "Spaces/HatMultigrid.h"
+#include "Support/Hybrid.h"
 
 #include <functional>
 #include <memory>
@@ -68,12 +68,10 @@ MultiVector ColoursAtPoints(const TriangleMesh& mesh, int columns);
 /// Hat functions of the mesh above the levels of a grid: the same equation as HatProblem's.
 struct HybridProblem
 {
-  GridFunctions space;
-  LevelOperators system;
-  HatHierarchy hats;
+  HatSpace space;
 
   /// The cycle for λ = `weight` in units of the unit cube. It holds on to nothing of this.
-  Multigrid BuildCycle(double weight, const HatMultigridOptions& options) const;
+  Multigrid BuildCycle(double weight, const testing::HybridCycle& options) const;
 
   /// Values at the mesh's points as values of the functions.
   MultiVector ToFunctions(const MultiVector& values) const;

@@ -78,13 +78,13 @@ SetupCost MeasureSetup(const TriangleMesh& mesh, int depth, int threads)
   cost.patches = static_cast<double>(space.Finest().NumberOfPatches());
   cost.functions = static_cast<double>(space.Finest().numberOfFunctions);
   const LevelOperators system =
-    measure([&] { return BuildSystem(space, TriangleRule(2), threads); });
+    measure([&] { return BuildLevelOperators(space, TriangleRule(2), threads); });
   MultigridOptions options;
   options.threads = threads;
   // λ = 0.01 for a mesh scaled to longest side 1.
   const double lambda = 0.01 * std::pow(0.25, depth);
   const Multigrid multigrid =
-    measure([&] { return BuildMultigrid(space, system, lambda, 1.0, options); });
+    measure([&] { return BuildMultigrid(testing::ViewOf(space, system), lambda, 1.0, options); });
   return cost;
 }
 

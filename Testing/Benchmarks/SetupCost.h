@@ -25,7 +25,7 @@ NamedMesh RockerArm(int subdivisions);
 
 constexpr int SetupStages = 4;
 constexpr std::array<const char*, SetupStages> SetupStageNames = { "Clip", "BuildFunctionSpace",
-  "BuildSystem", "BuildMultigrid" };
+  "BuildLevelOperators", "BuildMultigrid" };
 
 struct StageCost
 {
@@ -47,9 +47,9 @@ struct SetupCost
   double Peak() const; // the largest of the stages
 };
 
-/// Runs Clip, BuildFunctionSpace, BuildSystem and BuildMultigrid, default options but for these.
-/// The memory is right only right after ReleaseFreeMemory, the time faster without: memory that the
-/// system has to hand out anew took 0.4 of 2.5 s.
+/// Runs Clip, BuildFunctionSpace, BuildLevelOperators and BuildMultigrid, default options but for
+/// these. The memory is right only right after ReleaseFreeMemory, the time faster without: memory
+/// that the system has to hand out anew took 0.4 of 2.5 s.
 SetupCost MeasureSetup(const TriangleMesh& mesh, int depth, int threads);
 
 } // namespace gridfem::benchmarks

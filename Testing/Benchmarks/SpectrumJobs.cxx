@@ -69,12 +69,12 @@ SpectrumJob GridSpectrum(
       options.threads = threads;
       options.connectivityAware = support == FunctionSupport::ConnectivityAware;
       const GridFunctions space = BuildGridFunctions(mesh, options);
-      const LevelOperators system = BuildSystem(space, TriangleRule(2), threads);
+      const LevelOperators system = BuildLevelOperators(space, TriangleRule(2), threads);
       job.setup = setup.Seconds();
       SpectrumOptions spectrum;
       spectrum.numberOfModes = modes;
       spectrum.multigrid.threads = threads;
-      const Spectrum result = ComputeSpectrum(space, system, spectrum);
+      const Spectrum result = ComputeSpectrum(testing::ViewOf(space, system), spectrum);
       job.unknowns = space.Finest().numberOfFunctions;
       job.steps = result.iterations;
       job.converged = result.numberOfConverged;

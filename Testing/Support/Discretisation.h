@@ -2,10 +2,21 @@
 #ifndef GridFEM_Testing_Discretisation_h
 #define GridFEM_Testing_Discretisation_h
 
-#include "Spaces/LevelOperators.h"
+#include "Spaces/GridSpace.h"
 
 namespace gridfem::testing
 {
+
+/// A space that owns nothing: its parts have to outlive it. Without a mesh it has no loads.
+inline GridSpace ViewOf(
+  const GridFunctions& space, const LevelOperators& system, const TriangleMesh* mesh = nullptr)
+{
+  const auto view = [](const auto* part)
+  {
+    return std::shared_ptr<std::remove_reference_t<decltype(*part)>>(std::shared_ptr<void>(), part);
+  };
+  return GridSpace(view(mesh), view(&space), view(&system));
+}
 
 struct Discretisation
 {
@@ -23,7 +34,8 @@ inline Discretisation Discretise(const TriangleMesh& mesh, int depth, int quadra
   options.connectivityAware = connectivityAware;
   Discretisation result;
   result.space = BuildGridFunctions(mesh, options);
-  result.system = BuildSystem(result.space, TriangleRule(quadratureDegree), 0, coarsestSize);
+  result.system =
+    BuildLevelOperators(result.space, TriangleRule(quadratureDegree), 0, coarsestSize);
   return result;
 }
 

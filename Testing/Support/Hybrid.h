@@ -2,40 +2,63 @@
 #ifndef GridFEM_Testing_Hybrid_h
 #define GridFEM_Testing_Hybrid_h
 
+#include "Discretisation.h"
 #include "Problems/Poisson.h"
-#include "Spaces/HatLoad.h"
+#include "Spaces/HatSpace.h"
 
 #include <cmath>
 
 namespace gridfem::testing
 {
 
+/// A cycle of a hybrid hierarchy, with other sweeps on the hats than the space has by itself.
+struct HybridCycle
+{
+  MultigridOptions grid; // of the levels below the hats
+  std::optional<LevelSmoothing> hats;
+  bool relaxGroups = true;
+};
+
+/// λM + L, ready to cycle; the weight in grid units.
+inline Multigrid BuildHybridCycle(
+  const FiniteElementSpace& space, double weight, const HybridCycle& options)
+{
+  std::vector<MultigridLevel> levels = BuildMultigridLevels(space, weight, 1.0, options.grid);
+  if (options.hats)
+  {
+    levels[0].smoothing = options.hats;
+  }
+  if (!options.relaxGroups)
+  {
+    levels[0].groups = {};
+  }
+  return Multigrid(std::move(levels), options.grid);
+}
+
 struct Hybrid
 {
   Hybrid(const TriangleMesh& inputMesh, int depth, HatTransfer transfer = HatTransfer::Evaluation,
     int threads = 0)
-    : mesh(inputMesh)
+    : mesh(inputMesh), space(Build(inputMesh, depth, transfer, threads))
   {
-    SpaceOptions spaceOptions;
-    spaceOptions.depth = depth;
-    spaceOptions.threads = threads;
-    space = BuildGridFunctions(mesh, spaceOptions);
-    system = BuildSystem(space, TriangleRule(2), threads, 64);
-    hats = BuildHatHierarchy(mesh, space, true, transfer, threads);
     options.grid.threads = threads;
     solve.tolerance = 1e-8;
     solve.measure = SolveOptions::Measure::Residual;
   }
 
-  /// λ in world units to grid units.
-  double Weight(double lambda) const { return lambda * std::pow(space.GetGrid().spacing, 2); }
-
-  Multigrid Build(double weight) const
+  static HatSpace Build(const TriangleMesh& mesh, int depth, HatTransfer transfer, int threads)
   {
-    return BuildHatMultigrid(hats, space, system, weight, 1.0, options);
+    GridSpaceOptions spaceOptions;
+    spaceOptions.functions.depth = depth;
+    spaceOptions.functions.threads = threads;
+    spaceOptions.coarsestSize = 64;
+    return BuildHatSpace(mesh, spaceOptions, transfer);
   }
 
-  ComponentFunctions Functions() const { return FunctionsOf(hats); }
+  /// λ in world units to grid units.
+  double Weight(double lambda) const { return lambda * std::pow(space.UnitLength(), 2); }
+
+  Multigrid Build(double weight) const { return BuildHybridCycle(space, weight, options); }
 
   /// Solves (λM + L) u = λ f, f at points.
   PoissonSolution Solve(double lambda, const MultiVector& f) const
@@ -43,15 +66,13 @@ struct Hybrid
     PoissonOptions poisson;
     poisson.screeningWeight = this->Weight(lambda);
     poisson.solve = solve;
-    const MultiVector load = IntegrateValues(hats.functions, mesh, { FieldAssociation::Points, f });
-    return SolvePoisson(this->Functions(), this->Build(poisson.screeningWeight), load, {}, poisson);
+    const MultiVector load = space.LoadOfValues({ FieldAssociation::Points, f });
+    return SolvePoisson(space, this->Build(poisson.screeningWeight), load, {}, poisson);
   }
 
   TriangleMesh mesh;
-  GridFunctions space;
-  LevelOperators system;
-  HatHierarchy hats;
-  HatMultigridOptions options;
+  HatSpace space;
+  HybridCycle options;
   SolveOptions solve;
 };
 

@@ -33,7 +33,7 @@ inline Spectrum Solve(const Discretisation& on, int modes, double tolerance = 1e
   options.numberOfModes = modes;
   options.tolerance = tolerance;
   options.multigrid.threads = threads;
-  return ComputeSpectrum(on.space, on.system, options);
+  return ComputeSpectrum(ViewOf(on.space, on.system), options);
 }
 
 /// Eigenvalues in world units.

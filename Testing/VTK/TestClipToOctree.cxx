@@ -150,7 +150,7 @@ TEST(ClipToOctree, QuadraturePointsAreMadeOnRequestAlone)
   filter->GenerateQuadraturePointsOn();
   filter->Update();
   EXPECT_GT(filter->GetOutput(1)->GetNumberOfPoints(), 0);
-  EXPECT_EQ(filter->GetNumberOfRuns(vtkClipToOctree::SpaceStage), 1);
+  EXPECT_EQ(filter->GetNumberOfRuns("Space"), 1);
 }
 
 TEST(ClipToOctree, ThreadsDoNotChangeABit)
@@ -204,7 +204,7 @@ TEST(ClipToOctree, OctreeShowsOneLevelOrAll)
   EXPECT_EQ(cellsOf(4), finest);
   EXPECT_EQ(cellsOf(14), finest);
   EXPECT_EQ(cellsOf(-1), finest + cellsOf(3) + cellsOf(2) + 8 + 1);
-  EXPECT_EQ(filter->GetNumberOfRuns(vtkClipToOctree::SpaceStage), 1);
+  EXPECT_EQ(filter->GetNumberOfRuns("Space"), 1);
 }
 
 TEST(ClipToOctree, ConcavePolygonsOfAnyScaleAreDecomposed)
@@ -353,16 +353,16 @@ TEST(ClipToOctree, ClippingRunsAgainOnlyForANewMeshOrDepth)
   input->Modified();
   filter->Update();
   EXPECT_TRUE(filter->GetOutput()->GetPointData()->HasArray("new"));
-  EXPECT_EQ(filter->GetNumberOfRuns(vtkClipToOctree::SpaceStage), 1);
+  EXPECT_EQ(filter->GetNumberOfRuns("Space"), 1);
   EXPECT_EQ(filter->GetOutput()->GetPoints(), points); // later filters see an unchanged mesh
   filter->SetDepth(4);
   filter->Update();
-  EXPECT_EQ(filter->GetNumberOfRuns(vtkClipToOctree::SpaceStage), 2);
-  EXPECT_GE(filter->GetStageSeconds(vtkClipToOctree::SpaceStage), 0.0);
+  EXPECT_EQ(filter->GetNumberOfRuns("Space"), 2);
+  EXPECT_GE(filter->GetStageSeconds("Space"), 0.0);
   input->GetPoints()->SetPoint(0, 3, 3, 3);
   input->GetPoints()->Modified();
   filter->Update();
-  EXPECT_EQ(filter->GetNumberOfRuns(vtkClipToOctree::SpaceStage), 3);
+  EXPECT_EQ(filter->GetNumberOfRuns("Space"), 3);
 }
 
 } // namespace

@@ -75,7 +75,7 @@ TEST(ConnectivityAwareBasis, FunctionsSumToOne)
     }
   }
   EXPECT_LT(Difference(sum, std::vector<double>(sum.size(), 1.0)), 1e-12);
-  EXPECT_EQ(filter->GetNumberOfRuns(vtkConnectivityAwareBasis::SpaceStage), 1);
+  EXPECT_EQ(filter->GetNumberOfRuns("Space"), 1);
 }
 
 TEST(ConnectivityAwareBasis, ACoarseFunctionIsTrilinearAroundItsCorner)

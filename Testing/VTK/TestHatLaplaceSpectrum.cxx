@@ -100,7 +100,7 @@ TEST_F(HatLaplaceSpectrum, TimeStepsAreModesAndAreNeverSolvedAgain)
   filter->AllModesOff();
   filter->UpdateTimeStep(5);
   EXPECT_EQ(PointValues(filter->GetOutput(), "Mode"), fifth);
-  EXPECT_EQ(filter->GetNumberOfRuns(Spectrum::SolveStage), 1);
+  EXPECT_EQ(filter->GetNumberOfRuns("Solve"), 1);
 }
 
 TEST_F(HatLaplaceSpectrum, StripsSoupAndFoldsAreTheirTriangles)
@@ -220,10 +220,10 @@ TEST_F(HatLaplaceSpectrum, BothSpectraStandSideBySide)
   const auto grid = this->Eigenvalues();
   const double accuracy = 1e-8 * grid.back(); // of both, by the tolerance
   EXPECT_GT(Difference(grid, hats), 1e-3 * grid.back());
-  const vtkIdType runs = filter->GetNumberOfRuns(Spectrum::SolveStage);
+  const vtkIdType runs = filter->GetNumberOfRuns("Solve");
   filter->CompareFunctionSpacesOn();
   EXPECT_EQ(this->Eigenvalues(), grid);
-  EXPECT_EQ(filter->GetNumberOfRuns(Spectrum::SolveStage), runs);
+  EXPECT_EQ(filter->GetNumberOfRuns("Solve"), runs);
   EXPECT_EQ(Column(filter, "GridEigenvalue"), grid);
   EXPECT_LT(Difference(Column(filter, "HatEigenvalue"), hats), accuracy);
   filter->SetFunctionSpace(Spectrum::HatFunctions);

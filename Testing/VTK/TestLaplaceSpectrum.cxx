@@ -129,8 +129,8 @@ TEST_F(LaplaceSpectrum, TimeStepsAreModesAndAreNeverSolvedAgain)
   EXPECT_EQ(this->ModeAt(1), modes[5]);
   filter->SetMode(0);
   EXPECT_EQ(this->ModeAt(1), modes[0]);
-  EXPECT_EQ(filter->GetNumberOfRuns(Spectrum::SolveStage), 1);
-  EXPECT_EQ(filter->GetNumberOfRuns(Spectrum::SpaceStage), 1);
+  EXPECT_EQ(filter->GetNumberOfRuns("Solve"), 1);
+  EXPECT_EQ(filter->GetNumberOfRuns("Space"), 1);
 }
 
 TEST_F(LaplaceSpectrum, AModeThatDoesNotExistIsRefused)
@@ -227,9 +227,9 @@ TEST_F(LaplaceSpectrum, TheDepthFollowsFromTheAccuracy)
   }
   EXPECT_LE(depth, 6);
   // Another time step computes nothing, though the depth was found by trying.
-  const vtkIdType runs = filter->GetNumberOfRuns(Spectrum::SolveStage);
+  const vtkIdType runs = filter->GetNumberOfRuns("Solve");
   this->ModeAt(5);
-  EXPECT_EQ(filter->GetNumberOfRuns(Spectrum::SolveStage), runs);
+  EXPECT_EQ(filter->GetNumberOfRuns("Solve"), runs);
   EXPECT_TRUE(messages.warnings.empty());
 }
 

@@ -32,7 +32,7 @@ DirectionalElements IntegrateElements(const GridFunctions& space, const Quadratu
 
 /// The element matrices with these weights, one per patch. Throws InvalidInput when the numbers
 /// differ or a weight is negative, infinite or not a number.
-/// @param result  for UpdateSystem: the finest element matrices of a system, in place
+/// @param result  for UpdateOperators: the finest element matrices of a system, in place
 void Weigh(const DirectionalElements& elements, const std::vector<ElementWeights>& weights,
   ElementMatrices& result, int threads = 0);
 

@@ -1,10 +1,12 @@
 // Evaluation of functions: every point lies in a patch, and a patch has eight coefficients.
 #include "Integrals/Evaluation.h"
 
+#include "Base/Grouping.h"
 #include "Base/Parallel.h"
 #include "Integrals/QuadratureSamples.h"
 #include "Integrals/TrilinearBasis.h"
 
+#include <algorithm>
 #include <string>
 
 namespace gridfem
@@ -65,6 +67,50 @@ MultiVector EvaluateAt(const GridFunctions& space, const Array<Index>& patchOfPo
   return result;
 }
 
+/// ∫ ∇u over a piece, grid units: gradients of trilinear functions are quadratic on it.
+void IntegrateGradient(const GridFunctions& space, Id piece, const MultiVector& coefficients,
+  Eigen::Ref<Eigen::RowVectorXd> sum)
+{
+  const PatchLevel& level = space.Finest();
+  const Id patch = space.piecePatch[piece];
+  const Vec3 normal = UnitNormal(space.clipped, piece);
+  sum.setZero();
+  ForEachSample(space.clipped, piece, CellCorner(level.cell[patch]), TriangleRule(2),
+    [&](Id, const Vec3& local, double weight)
+    {
+      std::array<CornerValues, 3> derivative;
+      TrilinearGradients(local, derivative);
+      for (int i = 0; i < FunctionsPerPatch; ++i)
+      {
+        const Vec3 gradient(derivative[0][i], derivative[1][i], derivative[2][i]);
+        const Vec3 tangential = weight * (gradient - normal.dot(gradient) * normal);
+        for (Id c = 0; c < coefficients.cols(); ++c)
+        {
+          sum.segment<3>(3 * c) += coefficients(level.dof[patch][i], c) * tangential.transpose();
+        }
+      }
+    });
+}
+
+/// Calls add(triangle, piece) for the pieces of all triangles, those of one in order.
+template<class Add>
+void ForEachPieceOfTriangles(const ClippedMesh& clipped, Id triangles, int threads, Add&& add)
+{
+  const Groups pieces =
+    GroupItems(clipped.pieceTriangle.data(), clipped.NumberOfPieces(), triangles, threads);
+  ParallelRanges(triangles, threads,
+    [&](Id begin, Id end)
+    {
+      for (Id t = begin; t < end; ++t)
+      {
+        for (Index k = pieces.begin[t]; k < pieces.begin[t + 1]; ++k)
+        {
+          add(t, pieces.item[k]);
+        }
+      }
+    });
+}
+
 } // namespace
 
 MultiVector EvaluateAtPoints(
@@ -115,6 +161,89 @@ Eigen::Matrix3Xd EvaluateGradientInPiece(
     result += tangential / space.GetGrid().spacing * coefficients.row(level.dof[patch][c]);
   }
   return result;
+}
+
+MultiVector MeanGradients(
+  const GridFunctions& space, Id triangles, const MultiVector& coefficients, int threads)
+{
+  CheckCoefficients(space, coefficients);
+  MultiVector mean = MultiVector::Zero(triangles, 3 * coefficients.cols());
+  std::vector<double> area(triangles, 0.0);
+  ForEachPieceOfTriangles(space.clipped, triangles, threads,
+    [&](Id triangle, Id piece)
+    {
+      Eigen::RowVectorXd integral(mean.cols());
+      IntegrateGradient(space, piece, coefficients, integral);
+      mean.row(triangle) += integral;
+      area[triangle] += PieceArea(space.clipped, piece);
+    });
+  for (Id t = 0; t < triangles; ++t)
+  {
+    mean.row(t) *= area[t] > 0.0 ? 1.0 / (area[t] * space.GetGrid().spacing) : 0.0;
+  }
+  return mean;
+}
+
+SparseMatrix EvaluationRows(const GridFunctions& space, const std::vector<Id>& points)
+{
+  const PatchLevel& level = space.Finest();
+  Array<Id> rowBegin{ 0 };
+  Array<Index> column;
+  SparseMatrix rows;
+  for (const Id point : points)
+  {
+    if (point < 0 || point >= static_cast<Id>(space.pointPatch.size()))
+    {
+      throw InvalidInput("There is no point " + std::to_string(point) + ".");
+    }
+    const Index patch = space.pointPatch[point];
+    if (patch >= 0)
+    {
+      CornerValues b;
+      TrilinearValues(space.clipped.position[point] - CellCorner(level.cell[patch]), b);
+      std::array<std::pair<Index, double>, FunctionsPerPatch> entries;
+      for (int i = 0; i < FunctionsPerPatch; ++i)
+      {
+        entries[i] = { level.dof[patch][i], b[i] };
+      }
+      std::sort(entries.begin(), entries.end());
+      for (const auto& [function, value] : entries)
+      {
+        column.push_back(function);
+        rows.value.push_back(value);
+      }
+    }
+    rowBegin.push_back(static_cast<Id>(column.size()));
+  }
+  rows.rows = static_cast<Index>(points.size());
+  rows.columns = level.numberOfFunctions;
+  rows.rowBegin = std::move(rowBegin);
+  rows.column = std::move(column);
+  return rows;
+}
+
+MultiVector MeansOnPatches(const GridFunctions& space, const MultiVector& onTriangles, int threads)
+{
+  const Id patches = space.Finest().NumberOfPatches();
+  const Groups pieces =
+    GroupItems(space.piecePatch.data(), space.clipped.NumberOfPieces(), patches, threads);
+  MultiVector mean = MultiVector::Zero(patches, onTriangles.cols());
+  ParallelRanges(patches, threads,
+    [&](Id begin, Id end)
+    {
+      for (Id patch = begin; patch < end; ++patch)
+      {
+        double area = 0.0;
+        for (Index k = pieces.begin[patch]; k < pieces.begin[patch + 1]; ++k)
+        {
+          const double ofPiece = PieceArea(space.clipped, pieces.item[k]);
+          mean.row(patch) += ofPiece * onTriangles.row(space.clipped.pieceTriangle[pieces.item[k]]);
+          area += ofPiece;
+        }
+        mean.row(patch) *= area > 0.0 ? 1.0 / area : 0.0;
+      }
+    });
+  return mean;
 }
 
 } // namespace gridfem

@@ -3,6 +3,7 @@
 #ifndef GridFEM_Evaluation_h
 #define GridFEM_Evaluation_h
 
+#include "Algebra/SparseMatrix.h"
 #include "Grid/GridFunctions.h"
 
 namespace gridfem
@@ -25,6 +26,20 @@ Eigen::RowVectorXd EvaluateInPatch(
 /// The normal is that of the piece; a piece without area gives zero.
 Eigen::Matrix3Xd EvaluateGradientInPiece(
   const GridFunctions& space, Id piece, const Vec3& position, const MultiVector& coefficients);
+
+/// The mean surface gradients on source triangles, world units: rows = triangles, three columns for
+/// each of the coefficients'; 0 on triangles without an area. Same bits for any number of threads.
+MultiVector MeanGradients(
+  const GridFunctions& space, Id triangles, const MultiVector& coefficients, int threads = 0);
+
+/// The values of all functions at input points: a row for each, empty for points that no triangle
+/// uses. Throws InvalidInput for a point that does not exist.
+SparseMatrix EvaluationRows(const GridFunctions& space, const std::vector<Id>& points);
+
+/// The means over the finest patches of values on source triangles, weighted by area; 0 on patches
+/// without an area.
+MultiVector MeansOnPatches(
+  const GridFunctions& space, const MultiVector& onTriangles, int threads = 0);
 
 } // namespace gridfem
 

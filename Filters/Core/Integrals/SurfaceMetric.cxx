@@ -169,6 +169,39 @@ LaneMetric MetricAt(
   return metric;
 }
 
+/// Where the two directions of the basis go with the source triangles of a batch.
+LaneMetric MetricOfTriangles(const ClippedMesh& clipped, const TriangleMesh& mesh,
+  const TriangleMesh& moved, const TriangleBatch& batch, const TangentBasis& basis)
+{
+  LaneMetric metric{ Lanes::Zero(), Lanes::Zero(), Lanes::Zero() };
+  for (int lane = 0; lane < batch.count; ++lane)
+  {
+    const std::array<Id, 3>& corner = mesh.triangles[clipped.pieceTriangle[batch.piece[lane]]];
+    const Vec3& origin = mesh.points[corner[0]];
+    const Vec3 a = mesh.points[corner[1]] - origin;
+    const Vec3 b = mesh.points[corner[2]] - origin;
+    const Vec3 normal = a.cross(b);
+    const double square = normal.squaredNorm();
+    if (!(square > 0.0))
+    {
+      continue;
+    }
+    const Vec3 movedA = moved.points[corner[1]] - moved.points[corner[0]];
+    const Vec3 movedB = moved.points[corner[2]] - moved.points[corner[0]];
+    const auto image = [&](const LaneVector& direction) -> Vec3
+    {
+      const Vec3 d(direction.axis[0][lane], direction.axis[1][lane], direction.axis[2][lane]);
+      return normal.dot(d.cross(b)) / square * movedA + normal.dot(a.cross(d)) / square * movedB;
+    };
+    const Vec3 first = image(basis.first);
+    const Vec3 second = image(basis.second);
+    metric.E[lane] = first.dot(first);
+    metric.F[lane] = first.dot(second);
+    metric.G[lane] = second.dot(second);
+  }
+  return metric;
+}
+
 } // namespace
 
 SampleMetric MetricOfEmbedding(const GridFunctions& space, const QuadratureRule& rule,
@@ -198,6 +231,32 @@ SampleMetric MetricOfEmbedding(const GridFunctions& space, const QuadratureRule&
           {
             SetPositions(batch, rule.points[point], samples);
             Store(MetricAt(samples.position, basis, coefficients), batch, point, metric);
+          }
+        });
+    });
+  return metric;
+}
+
+SampleMetric MetricOfMesh(const GridFunctions& space, const QuadratureRule& rule,
+  const TriangleMesh& mesh, const TriangleMesh& moved, int threads, const Progress& progress)
+{
+  if (mesh.points.size() != moved.points.size() || mesh.triangles != moved.triangles)
+  {
+    throw InvalidInput("a moved mesh needs the points and triangles of the mesh it comes from");
+  }
+  const Id points = static_cast<Id>(rule.points.size());
+  SampleMetric metric(NumberOfSamples(space.clipped, rule));
+  ForEachPatch(space, rule, threads, progress,
+    [&](Id, auto&& forEachBatch)
+    {
+      forEachBatch(
+        [&](const TriangleBatch& batch)
+        {
+          const TangentBasis basis(TrianglePlanes(batch).normal);
+          const LaneMetric ofBatch = MetricOfTriangles(space.clipped, mesh, moved, batch, basis);
+          for (Id point = 0; point < points; ++point)
+          {
+            Store(ofBatch, batch, point, metric);
           }
         });
     });

@@ -26,10 +26,17 @@ using SampleMetric = Array<FundamentalForm>;
 SampleMetric MetricOfEmbedding(const GridFunctions& space, const QuadratureRule& rule,
   const MultiVector& embedding, int threads = 0, const Progress& progress = {});
 
+/// The metric of the mesh with moved points: on every triangle that of the linear map to where it
+/// has gone. Throws InvalidInput when the meshes differ in more than positions; 0 on source
+/// triangles without an area.
+SampleMetric MetricOfMesh(const GridFunctions& space, const QuadratureRule& rule,
+  const TriangleMesh& mesh, const TriangleMesh& moved, int threads = 0,
+  const Progress& progress = {});
+
 /// Element matrices in a metric: mass b_i b_j √|g|, stiffness <∇b_i, g⁻¹ ∇b_j> √|g|. [T (5.6)]
 /// Cost and determinism as IntegrateElements. Throws InvalidInput when there is not one metric per
 /// sample of the rule.
-/// @param result  for UpdateSystem: the finest element matrices of a system, in place
+/// @param result  for UpdateOperators: the finest element matrices of a system, in place
 /// @return  number of samples on triangles with an area whose metric is not positive definite, not
 ///          finite, or stretches one direction 1e7 times as much as the other, or whose determinant
 ///          is not between 1e-300 and 1e300: they contribute nothing

@@ -23,7 +23,7 @@ void CheckRows(const char* name, const MultiVector& load, std::size_t functions)
   }
 }
 
-void CheckInput(const ComponentFunctions& functions, const MultiVector& values,
+void CheckInput(const FiniteElementSpace& space, const MultiVector& values,
   const MultiVector& gradients, const PoissonOptions& options)
 {
   if (!(options.screeningWeight >= 0.0) || std::isinf(options.screeningWeight))
@@ -31,10 +31,10 @@ void CheckInput(const ComponentFunctions& functions, const MultiVector& values,
     throw InvalidInput("The screening weight is " + std::to_string(options.screeningWeight) +
                        "; it must be a number of 0 or more.");
   }
-  CheckRows("values", values, functions.integral.size());
+  CheckRows("values", values, space.Integrals().size());
   if (gradients.rows() != 0)
   {
-    CheckRows("gradients", gradients, functions.integral.size());
+    CheckRows("gradients", gradients, space.Integrals().size());
     if (gradients.cols() != values.cols())
     {
       throw InvalidInput("There are " + std::to_string(gradients.cols()) + " gradient fields for " +
@@ -93,15 +93,15 @@ MultiVector NestedStart(const Multigrid& multigrid, const MultiVector& load)
 
 } // namespace
 
-PoissonSolution SolvePoisson(const ComponentFunctions& functions, const Multigrid& multigrid,
+PoissonSolution SolvePoisson(const FiniteElementSpace& space, const Multigrid& multigrid,
   const MultiVector& values, const MultiVector& gradients, const PoissonOptions& options,
   const Progress& progress)
 {
-  CheckInput(functions, values, gradients, options);
+  CheckInput(space, values, gradients, options);
   const double lambda = options.screeningWeight;
   const int threads = multigrid.Options().threads;
-  const ComponentMeans means(
-    functions.component, functions.integral, functions.numberOfComponents, threads);
+  const Components components = space.ComponentsOf(0, threads);
+  const ComponentMeans means(components.ofFunction, space.Integrals(), components.count, threads);
 
   // λM + L maps the functions of zero mean to the vectors of zero sum and the constants to M's, so
   // the two parts of the equation can be solved apart.
@@ -132,20 +132,14 @@ PoissonSolution SolvePoisson(const ComponentFunctions& functions, const Multigri
   DropRounding(size, rest);
 
   PoissonSolution solution;
-  solution.coefficients = NestedStart(multigrid, rest);
+  const bool hasStart = options.start && options.start->rows() == rest.rows() &&
+                        options.start->cols() == rest.cols() && options.start->allFinite();
+  solution.coefficients = hasStart ? *options.start : NestedStart(multigrid, rest);
   removeMeans(solution.coefficients);
   solution.report = SolveWithFallback(options.iteration, multigrid, rest, solution.coefficients,
     options.solve, { removeMeans, removeSums }, progress);
   means.AddConstants(meanOfField, solution.coefficients);
   return solution;
-}
-
-PoissonSolution SolvePoisson(const GridFunctions& space, const LevelOperators& system,
-  const Multigrid& multigrid, const MultiVector& values, const MultiVector& gradients,
-  const PoissonOptions& options, const Progress& progress)
-{
-  const ComponentFunctions functions{ space.component, space.numberOfComponents, system.integral };
-  return SolvePoisson(functions, multigrid, values, gradients, options, progress);
 }
 
 } // namespace gridfem

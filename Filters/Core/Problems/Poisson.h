@@ -1,28 +1,21 @@
-// The screened Poisson equation (λM + L) u = λ f + s on a function space. [T (3.1); DESIGN §3]
+// The screened Poisson equation (λM + L) u = λ f + s on any space. [T (3.1); DESIGN §3]
 #ifndef GridFEM_Poisson_h
 #define GridFEM_Poisson_h
 
 #include "Krylov/PrecisionFallback.h"
-#include "Spaces/HatMultigrid.h"
-#include "Spaces/LevelOperators.h"
+#include "Spaces/FiniteElementSpace.h"
 
 namespace gridfem
 {
 
 struct PoissonOptions
 {
-  double screeningWeight = 1.0; // λ >= 0, in 1 / grid unit²: world λ times spacing²
+  double screeningWeight = 1.0; // λ >= 0, per squared unit of length of the space
   MultigridOptions multigrid;
   IterationType iteration = IterationType::ConjugateGradients;
   SolveOptions solve;
-};
-
-/// What the solver has to know of the functions of any space.
-struct ComponentFunctions
-{
-  const std::vector<Index>& component; // per function: its connected component
-  Index numberOfComponents;
-  const std::vector<double>& integral; // ∫ b_i; the functions of a component sum to 1
+  /// Coefficients to start from, as of a similar equation on the same space; null: nested iteration.
+  const MultiVector* start = nullptr;
 };
 
 struct PoissonSolution
@@ -34,24 +27,13 @@ struct PoissonSolution
 /// Solves for all columns. The solution has the mean of f on every connected component, for every
 /// λ >= 0: the constant part is taken from f and the rest is iterated orthogonal to it, from a
 /// start by nested iteration; in double precision where single is not enough (SolveWithFallback).
-/// @param values     ∫ f b_i (IntegrateValues), grid units
-/// @param gradients  ∫ <s, ∇b_i> (IntegrateGradients), grid units; may have no rows for s = 0
+/// @param values     ∫ f b_i (LoadOfValues), in the space's unit of length
+/// @param gradients  ∫ <s, ∇b_i> (LoadOfGradients); may have no rows for s = 0
 /// @param multigrid  of λM + L, built with the same λ
 /// Same bits for any number of threads.
-PoissonSolution SolvePoisson(const ComponentFunctions& functions, const Multigrid& multigrid,
+PoissonSolution SolvePoisson(const FiniteElementSpace& space, const Multigrid& multigrid,
   const MultiVector& values, const MultiVector& gradients, const PoissonOptions& options,
   const Progress& progress = {});
-
-/// The hats of a mesh.
-inline ComponentFunctions FunctionsOf(const HatHierarchy& hats)
-{
-  return { hats.functions.component, hats.functions.numberOfComponents, hats.matrices.integral };
-}
-
-/// The same on the finest functions of a grid.
-PoissonSolution SolvePoisson(const GridFunctions& space, const LevelOperators& system,
-  const Multigrid& multigrid, const MultiVector& values, const MultiVector& gradients,
-  const PoissonOptions& options, const Progress& progress = {});
 
 } // namespace gridfem
 

@@ -5,9 +5,10 @@
 #include "Base/LargeMemory.h"
 #include "Krylov/DenseSpectrum.h"
 #include "Krylov/LobpcgWindows.h"
-#include "Problems/FinishSpectrum.h"
+#include "Problems/CollectSpectrum.h"
 #include "Problems/SpectrumAccuracy.h"
 #include "Problems/SpectrumCycle.h"
+#include "Problems/UnnestedSpectrum.h"
 
 #include <cmath>
 #include <numeric>
@@ -50,9 +51,10 @@ void Validate(const SpectrumOptions& options)
 
 /// The level below the finest if the finest is solved densely. Else the coarsest level with enough
 /// functions, or the one above it when that is too large for a dense solve.
-std::size_t StartLevel(const GridFunctions& space, std::size_t levels, Index blockSize)
+std::size_t StartLevel(const FiniteElementSpace& space, Index blockSize)
 {
-  const auto size = [&](std::size_t l) { return space.levels[l].numberOfFunctions; };
+  const std::size_t levels = space.NumberOfLevels();
+  const auto size = [&](std::size_t l) { return space.NumberOfFunctions(l); };
   if (IsDense(size(0), blockSize))
   {
     return std::min<std::size_t>(1, levels - 1);
@@ -64,16 +66,6 @@ std::size_t StartLevel(const GridFunctions& space, std::size_t levels, Index blo
     ++level;
   }
   return level;
-}
-
-Index CountComponents(const std::vector<Index>& component)
-{
-  Index count = 0;
-  for (const Index c : component)
-  {
-    count = std::max(count, c + 1);
-  }
-  return count;
 }
 
 /// Leaves out all pairs but the first.
@@ -125,9 +117,9 @@ template<class Real>
 class NestedIteration
 {
 public:
-  NestedIteration(const GridFunctions& space, const LevelOperators& system,
-    const SpectrumOptions& options, SpectrumCycle& cycle, double shift)
-    : space_(space), system_(system), options_(options), cycle_(cycle), shift_(shift)
+  NestedIteration(const FiniteElementSpace& space, const SpectrumOptions& options,
+    SpectrumCycle& cycle, double shift)
+    : space_(space), options_(options), cycle_(cycle), shift_(shift)
   {
   }
 
@@ -144,8 +136,7 @@ private:
     const SpectralProblem<Real>& problem, BlockOptions block, const Progress& progress);
   bool EndsInside(Id count, double error) const;
 
-  const GridFunctions& space_;
-  const LevelOperators& system_;
+  const FiniteElementSpace& space_;
   const SpectrumOptions& options_;
   SpectrumCycle& cycle_;
   const double shift_;
@@ -162,7 +153,7 @@ SpectralProblem<Real> NestedIteration<Real>::Problem(
 {
   const int threads = options_.multigrid.threads;
   SpectralProblem<Real> problem;
-  problem.stiffness = LevelMatrix(space_, system_, level, 0.0, 1.0, threads);
+  problem.stiffness = space_.Matrix(level, 0.0, 1.0, threads);
   problem.mass = std::move(mass);
   problem.shift = shift_;
   problem.constants = &constants;
@@ -198,7 +189,8 @@ template<class Real>
 void NestedIteration<Real>::Prolong(
   std::size_t level, const Constants& constants, BlockOptions& block)
 {
-  const SparseMatrix& P = system_.prolongation[level];
+  const SharedMatrix prolongation = space_.Prolongation(level);
+  const SparseMatrix& P = prolongation;
   BlockBuffer<Real> coarse;
   std::swap(coarse, pairs_.vectors);
   const Id columns = coarse.Columns();
@@ -278,8 +270,7 @@ BlockReport NestedIteration<Real>::ImproveLevel(std::size_t level, std::size_t s
   const SpectralProblem<Real>& problem, const Progress& progress)
 {
   BlockOptions block = this->Options(level, options_.numberOfModes - zeros_);
-  if ((level == start || level == 0) &&
-      IsDense(space_.levels[level].numberOfFunctions, block.blockSize))
+  if ((level == start || level == 0) && IsDense(space_.NumberOfFunctions(level), block.blockSize))
   {
     pairs_ = SolveDense<Real>(problem, block.blockSize);
     isDense_ = level == 0;
@@ -307,13 +298,13 @@ Spectrum NestedIteration<Real>::Run(
   const int threads = options_.multigrid.threads;
   zeros_ = zeroModes.Count();
   const Index blockSize = GuardedSize(options_.numberOfModes - zeros_);
-  const std::size_t start = StartLevel(space_, system_.elements.size(), blockSize);
+  const std::size_t start = StartLevel(space_, blockSize);
   for (std::size_t level = start; level > 0; --level)
   {
-    std::vector<Index> component = FunctionComponents(space_.levels[level]);
-    const Index components = CountComponents(component);
-    SparseMatrix levelMass = LevelMatrix(space_, system_, level, 1.0, 0.0, threads);
-    const Constants constants(levelMass, std::move(component), components, threads);
+    Components components = space_.ComponentsOf(level, threads);
+    SparseMatrix levelMass = space_.Matrix(level, 1.0, 0.0, threads);
+    const Constants constants(
+      levelMass, std::move(components.ofFunction), components.count, threads);
     const SpectralProblem<Real> problem = this->Problem(level, constants, std::move(levelMass));
     this->ImproveLevel(level, start, problem, LevelPart(progress, level));
     coarserConstants_ = constants.Count();
@@ -330,42 +321,66 @@ Spectrum NestedIteration<Real>::Run(
   return spectrum;
 }
 
-} // namespace
-
-Spectrum ComputeSpectrum(const GridFunctions& space, const LevelOperators& system,
-  const SpectrumOptions& options, const Progress& progress)
+Spectrum ComputeOnNestedLevels(
+  const FiniteElementSpace& space, const SpectrumOptions& options, const Progress& progress)
 {
-  Validate(options);
   const MemoryReuse reuse; // the blocks of a level take the place of those of the one before
   const int threads = options.multigrid.threads;
-  SparseMatrix mass = LevelMatrix(space, system, 0, 1.0, 0.0, threads);
-  const Constants zeroModes(mass, space.component, space.numberOfComponents, threads);
+  SparseMatrix mass = space.Matrix(0, 1.0, 0.0, threads);
+  Components components = space.ComponentsOf(0, threads);
+  const Constants zeroModes(mass, std::move(components.ofFunction), components.count, threads);
   if (zeroModes.Count() >= options.numberOfModes)
   {
     SpectralProblem<double> problem;
-    problem.stiffness = LevelMatrix(space, system, 0, 0.0, 1.0, threads);
+    problem.stiffness = space.Matrix(0, 0.0, 1.0, threads);
     problem.mass = std::move(mass);
     problem.threads = threads;
     return OnlyConstants(zeroModes, problem, options);
   }
-  const double shift = zeroModes.Count() * LowestValue(mass, space.GetGrid().CellsPerSide());
-  SpectrumCycle cycle(space, system, shift, options.multigrid, progress.Part(0.0, 0.1));
+  const double shift = zeroModes.Count() * LowestValue(mass, space.Extent());
+  SpectrumCycle cycle(space, shift, options.multigrid, progress.Part(0.0, 0.1));
   const bool wasSingle = cycle.IsSingle() && options.tolerance >= SmallestSingleTolerance;
   if (wasSingle)
   {
     SpectrumOptions few = options;
     few.maximumIterations = std::min(options.maximumIterations, SingleIterations);
-    Spectrum spectrum = NestedIteration<float>(space, system, few, cycle, shift)
+    Spectrum spectrum = NestedIteration<float>(space, few, cycle, shift)
                           .Run(zeroModes, std::move(mass), progress.Part(0.0, 0.99));
     const bool isLost = !spectrum.eigenvalues.empty() && std::isnan(spectrum.eigenvalues.back());
     if (!isLost && (spectrum.converged || options.maximumIterations <= SingleIterations))
     {
       return spectrum;
     }
-    mass = LevelMatrix(space, system, 0, 1.0, 0.0, threads);
+    mass = space.Matrix(0, 1.0, 0.0, threads);
   }
-  return NestedIteration<double>(space, system, options, cycle, shift)
+  return NestedIteration<double>(space, options, cycle, shift)
     .Run(zeroModes, std::move(mass), progress.Part(wasSingle ? 0.99 : 0.0, 1.0));
+}
+
+} // namespace
+
+Spectrum ComputeNestedSpectrum(
+  const FiniteElementSpace& space, const SpectrumOptions& options, const Progress& progress)
+{
+  Validate(options);
+  const FiniteElementSpace* nested = space.NestedLevels();
+  return nested ? ComputeOnNestedLevels(*nested, StartOptions(options), progress)
+                : ComputeOnNestedLevels(space, options, progress);
+}
+
+Spectrum FinishSpectrum(const FiniteElementSpace& space, Spectrum nested,
+  const SpectrumOptions& options, const Progress& progress)
+{
+  return space.NestedLevels() ? ImproveSpectrum(space, nested, options, progress)
+                              : std::move(nested);
+}
+
+Spectrum ComputeSpectrum(
+  const FiniteElementSpace& space, const SpectrumOptions& options, const Progress& progress)
+{
+  const double split = space.NestedLevels() ? 0.3 : 1.0;
+  return FinishSpectrum(space, ComputeNestedSpectrum(space, options, progress.Part(0.0, split)),
+    options, progress.Part(split, 1.0));
 }
 
 double EstimateSpectrumMemory(Id functions, Id modes, int threads)

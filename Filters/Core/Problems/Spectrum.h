@@ -2,7 +2,7 @@
 #ifndef GridFEM_Spectrum_h
 #define GridFEM_Spectrum_h
 
-#include "Spaces/LevelOperators.h"
+#include "Spaces/FiniteElementSpace.h"
 
 namespace gridfem
 {
@@ -23,8 +23,8 @@ struct SpectrumOptions
 
 struct Spectrum
 {
-  std::vector<double> eigenvalues; // ascending, 1 / grid unit²
-  MultiVector vectors;             // columns M-orthonormal (grid units); rows = finest functions
+  std::vector<double> eigenvalues; // ascending, per squared unit of length of the space
+  MultiVector vectors;             // columns M-orthonormal; rows = finest functions
   std::vector<double> residuals;   // per pair: sqrt(rᵀBr / max(θ, shift)), r = L x - θ M x
   bool converged = false;          // all pairs reached the tolerance
   int numberOfConverged = 0;       // how many did
@@ -44,10 +44,24 @@ struct Spectrum
 /// number of threads. Where cycles are in single precision and the tolerance is at least 1e-7, so
 /// are the vectors that are worked on: half the memory; the result is orthonormal and its values
 /// are Rayleigh quotients in double. Throws InvalidInput for options out of range, and Aborted.
-Spectrum ComputeSpectrum(const GridFunctions& space, const LevelOperators& system,
+/// Where the finest level does not contain the next coarser one the two steps below are taken.
+Spectrum ComputeSpectrum(
+  const FiniteElementSpace& space, const SpectrumOptions& options, const Progress& progress = {});
+
+/// The first step: the spectrum of the nested levels, which is the result where all are nested.
+/// Else it has guards behind the wanted modes, to a loose tolerance.
+Spectrum ComputeNestedSpectrum(
+  const FiniteElementSpace& space, const SpectrumOptions& options, const Progress& progress = {});
+
+/// The second: nothing where all levels are nested. Else carries the pairs over to the finest level
+/// and improves them by block iterations with one cycle of the whole hierarchy. Estimated errors
+/// are those of the nested levels, and what the finest level lies above them: no space has
+/// eigenvalues below the surface's, so this is the error of the worse of the two.
+/// @param nested  fewer modes than asked for do, too, at the price of more iterations
+Spectrum FinishSpectrum(const FiniteElementSpace& space, Spectrum nested,
   const SpectrumOptions& options, const Progress& progress = {});
 
-/// Bytes that it takes beyond space and system, for so many functions on the finest level, in
+/// Bytes that it takes beyond the space, for so many functions on the finest level, in
 /// single precision: within a fifth, from 20 to 1,000 modes.
 double EstimateSpectrumMemory(Id functions, Id modes, int threads = 0);
 

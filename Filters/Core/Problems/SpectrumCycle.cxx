@@ -13,15 +13,14 @@ bool AllowsSingle(const MultigridOptions& options)
 
 } // namespace
 
-SpectrumCycle::SpectrumCycle(const GridFunctions& space, const LevelOperators& system, double shift,
+SpectrumCycle::SpectrumCycle(const FiniteElementSpace& space, double shift,
   const MultigridOptions& options, const Progress& progress)
-  : space_(space), system_(system), shift_(shift), options_(options)
+  : space_(space), shift_(shift), options_(options)
 {
   if (AllowsSingle(options))
   {
     single_ = std::make_unique<SingleCycle>(
-      BuildMultigridLevels(space, system, shift, 1.0, options.threads, progress.Part(0.0, 0.5)),
-      options.threads);
+      BuildMultigridLevels(space, shift, 1.0, options, progress.Part(0.0, 0.5)), options.threads);
   }
   if (!single_ || !single_->IsReliable())
   {
@@ -32,8 +31,7 @@ SpectrumCycle::SpectrumCycle(const GridFunctions& space, const LevelOperators& s
 
 void SpectrumCycle::BuildDouble(const Progress& progress)
 {
-  double_ =
-    std::make_unique<Multigrid>(BuildMultigrid(space_, system_, shift_, 1.0, options_, progress));
+  double_ = std::make_unique<Multigrid>(BuildMultigrid(space_, shift_, 1.0, options_, progress));
 }
 
 template<class Real>

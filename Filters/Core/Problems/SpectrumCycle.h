@@ -3,7 +3,7 @@
 #define GridFEM_SpectrumCycle_h
 
 #include "Multigrid/SingleCycle.h"
-#include "Spaces/LevelOperators.h"
+#include "Spaces/FiniteElementSpace.h"
 
 #include <memory>
 
@@ -12,12 +12,12 @@ namespace gridfem
 
 /// Cycles of L + σM. Single precision where the options ask for V(1,1) cycles of all patches, as
 /// they do by default, and it resolves the operator: it takes half of the time and memory, and the
-/// pairs that are found are the same. Else double. Space and system have to outlive it.
+/// pairs that are found are the same. Else double. The space has to outlive it.
 class SpectrumCycle
 {
 public:
-  SpectrumCycle(const GridFunctions& space, const LevelOperators& system, double shift,
-    const MultigridOptions& options, const Progress& progress = {});
+  SpectrumCycle(const FiniteElementSpace& space, double shift, const MultigridOptions& options,
+    const Progress& progress = {});
 
   /// Of the hierarchy that begins at `level`.
   template<class Real>
@@ -34,8 +34,7 @@ public:
 private:
   void BuildDouble(const Progress& progress);
 
-  const GridFunctions& space_;
-  const LevelOperators& system_;
+  const FiniteElementSpace& space_;
   double shift_;
   MultigridOptions options_;
   std::unique_ptr<SingleCycle> single_;

@@ -187,4 +187,46 @@ MultiVector ValuesAtPoints(const HatFunctions& hats, const MultiVector& coeffici
   return values;
 }
 
+MultiVector GradientsOnTriangles(
+  const HatFunctions& hats, const TriangleMesh& mesh, const MultiVector& coefficients, int threads)
+{
+  const MultiVector values = ValuesAtPoints(hats, coefficients, threads);
+  const auto triangles = static_cast<Id>(mesh.triangles.size());
+  MultiVector gradients = MultiVector::Zero(triangles, 3 * coefficients.cols());
+  ParallelRanges(triangles, threads,
+    [&](Id begin, Id end)
+    {
+      for (Id t = begin; t < end; ++t)
+      {
+        const HatTriangle triangle(mesh, t, 1.0);
+        for (int k = 0; k < 3 && !triangle.IsFlat(); ++k)
+        {
+          const Vec3 gradient = triangle.Gradient(k);
+          for (Id c = 0; c < coefficients.cols(); ++c)
+          {
+            gradients.row(t).segment<3>(3 * c) +=
+              values(mesh.triangles[t][k], c) * gradient.transpose();
+          }
+        }
+      }
+    });
+  return gradients;
+}
+
+Id CountFlattened(const HatFunctions& hats, const TriangleMesh& moved, int threads)
+{
+  return ParallelSum(static_cast<Id>(hats.corners.size()), threads, Id{ 0 },
+    [&](Id begin, Id end)
+    {
+      Id count = 0;
+      for (Id k = begin; k < end; ++k)
+      {
+        const TriangleCorner corner = hats.corners[k];
+        count +=
+          corner.Corner() == 0 && HatTriangle(moved, corner.Triangle(), hats.unitLength).IsFlat();
+      }
+      return count;
+    });
+}
+
 } // namespace gridfem

@@ -66,6 +66,14 @@ struct HatTriangle
 MultiVector ValuesAtPoints(
   const HatFunctions& hats, const MultiVector& coefficients, int threads = 0);
 
+/// Gradients on the triangles, world units: rows = triangles, three columns for each of the
+/// coefficients'; 0 on flat triangles.
+MultiVector GradientsOnTriangles(const HatFunctions& hats, const TriangleMesh& mesh,
+  const MultiVector& coefficients, int threads = 0);
+
+/// How many triangles that carry functions have become flat in a mesh whose points have moved.
+Id CountFlattened(const HatFunctions& hats, const TriangleMesh& moved, int threads = 0);
+
 } // namespace gridfem
 
 #endif

@@ -16,8 +16,47 @@ struct TriangleTerms
   double twelfthOfArea;
 };
 
+TriangleTerms TermsOf(const HatTriangle& triangle)
+{
+  TriangleTerms terms;
+  for (int k = 0; k < 3; ++k)
+  {
+    terms.halfCotangent[k] =
+      -triangle.edge[(k + 1) % 3].dot(triangle.edge[(k + 2) % 3]) / (4.0 * triangle.area);
+  }
+  terms.twelfthOfArea = triangle.area / 12.0;
+  return terms;
+}
+
+/// The same with weights along and across a direction. Where that has no part in the plane, both
+/// ways share the stiffness equally, as in DirectionalElements.
+TriangleTerms WeightedTermsOf(
+  const HatTriangle& triangle, const Vec3& direction, const ElementWeights& weights)
+{
+  constexpr double SmallestPart = 1e-10;
+  TriangleTerms terms = TermsOf(triangle);
+  terms.twelfthOfArea *= weights.mass;
+  const Vec3 normal = triangle.areaVector.normalized();
+  const Vec3 unit = direction.stableNormalized();
+  Vec3 along = unit - normal.dot(unit) * normal;
+  const bool isThere = along.norm() > SmallestPart;
+  along.normalize();
+  const Vec3 across = normal.cross(along);
+  for (int k = 0; k < 3; ++k)
+  {
+    const Vec3& u = triangle.edge[(k + 1) % 3];
+    const Vec3& v = triangle.edge[(k + 2) % 3];
+    // Gradients are edges, turned by a right angle: along takes the part of the edges across.
+    const double ofAlong = isThere ? across.dot(u) * across.dot(v) : 0.5 * u.dot(v);
+    const double ofAcross = isThere ? along.dot(u) * along.dot(v) : 0.5 * u.dot(v);
+    terms.halfCotangent[k] =
+      -(weights.stiffness[0] * ofAlong + weights.stiffness[1] * ofAcross) / (4.0 * triangle.area);
+  }
+  return terms;
+}
+
 std::vector<TriangleTerms> ComputeTerms(
-  const TriangleMesh& mesh, const HatFunctions& hats, int threads)
+  const TriangleMesh& mesh, const HatFunctions& hats, const HatWeights* weights, int threads)
 {
   std::vector<TriangleTerms> terms(mesh.triangles.size());
   ParallelRanges(static_cast<Id>(terms.size()), threads,
@@ -26,16 +65,11 @@ std::vector<TriangleTerms> ComputeTerms(
       for (Id t = begin; t < end; ++t)
       {
         const HatTriangle triangle(mesh, t, hats.unitLength);
-        if (triangle.IsFlat())
+        if (!triangle.IsFlat()) // else no function lists it, or it adds nothing after a move
         {
-          continue; // no function lists it
+          terms[t] = weights ? WeightedTermsOf(triangle, weights->direction[t], weights->weights[t])
+                             : TermsOf(triangle);
         }
-        for (int k = 0; k < 3; ++k)
-        {
-          terms[t].halfCotangent[k] =
-            -triangle.edge[(k + 1) % 3].dot(triangle.edge[(k + 2) % 3]) / (4.0 * triangle.area);
-        }
-        terms[t].twelfthOfArea = triangle.area / 12.0;
       }
     });
   return terms;
@@ -123,9 +157,10 @@ double AppendRow(Index row, const std::vector<Contribution>& contributions, RowB
 
 } // namespace
 
-HatMatrices AssembleHatMatrices(const TriangleMesh& mesh, const HatFunctions& hats, int threads)
+HatMatrices AssembleHatMatrices(
+  const TriangleMesh& mesh, const HatFunctions& hats, const HatWeights* weights, int threads)
 {
-  const std::vector<TriangleTerms> terms = ComputeTerms(mesh, hats, threads);
+  const std::vector<TriangleTerms> terms = ComputeTerms(mesh, hats, weights, threads);
   const Index rows = hats.Count();
   HatMatrices matrices;
   matrices.integral.resize(rows);
@@ -166,9 +201,12 @@ HatMatrices AssembleHatMatrices(const TriangleMesh& mesh, const HatFunctions& ha
   return matrices;
 }
 
-SparseMatrix Combine(const HatMatrices& matrices, double a, double b, int threads)
+void Combine(const HatMatrices& matrices, double a, double b, SparseMatrix& result, int threads)
 {
-  SparseMatrix result = matrices.stiffness;
+  if (result.rows != matrices.mass.rows || result.NonZeros() != matrices.mass.NonZeros())
+  {
+    result = matrices.stiffness;
+  }
   ParallelRanges(result.NonZeros(), threads,
     [&](Id begin, Id end)
     {
@@ -177,7 +215,6 @@ SparseMatrix Combine(const HatMatrices& matrices, double a, double b, int thread
         result.value[k] = a * matrices.mass.value[k] + b * matrices.stiffness.value[k];
       }
     });
-  return result;
 }
 
 } // namespace gridfem

@@ -3,6 +3,7 @@
 #define GridFEM_HatMatrices_h
 
 #include "Algebra/SparseMatrix.h"
+#include "Integrals/DirectionalElements.h"
 #include "Spaces/HatFunctions.h"
 
 namespace gridfem
@@ -18,12 +19,21 @@ struct HatMatrices
   std::vector<double> integral; // ∫ φ_i, the lumped mass
 };
 
-/// Cost O(triangles); same bits for any number of threads, and bitwise symmetric.
-HatMatrices AssembleHatMatrices(
-  const TriangleMesh& mesh, const HatFunctions& hats, int threads = 0);
+/// Weights of every triangle: of its mass, and of its stiffness along and across a direction.
+struct HatWeights
+{
+  const std::vector<Vec3>& direction;
+  const std::vector<ElementWeights>& weights;
+};
 
-/// a M + b L
-SparseMatrix Combine(const HatMatrices& matrices, double a, double b, int threads = 0);
+/// Cost O(triangles); same bits for any number of threads, and bitwise symmetric.
+/// @param weights  null: 1
+HatMatrices AssembleHatMatrices(const TriangleMesh& mesh, const HatFunctions& hats,
+  const HatWeights* weights = nullptr, int threads = 0);
+
+/// a M + b L, in place where `result` has the pattern.
+void Combine(
+  const HatMatrices& matrices, double a, double b, SparseMatrix& result, int threads = 0);
 
 } // namespace gridfem
 

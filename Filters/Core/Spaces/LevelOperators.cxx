@@ -1,12 +1,8 @@
 #include "Spaces/LevelOperators.h"
 
-#include "Base/LargeMemory.h"
 #include "Base/Parallel.h"
 #include "Base/Prefetch.h"
 #include "Integrals/ElementLanes.h"
-#include "Spaces/HiddenFunctions.h"
-#include "Spaces/LayeredFunctions.h"
-#include "Spaces/PatchOrdering.h"
 
 #include <algorithm>
 
@@ -95,58 +91,10 @@ std::vector<double> IntegralsOfFunctions(
   return integral;
 }
 
-void FillMatrix(const GridFunctions& space, const LevelOperators& system, std::size_t level,
-  double a, double b, int threads, SparseMatrix& matrix)
-{
-  const ElementMatrices& elements = system.elements[level];
-  AssembleValues(space.levels[level], system.places[level], elements.mass, a, elements.stiffness, b,
-    matrix, threads);
-}
-
-/// From this share on a surface counts as flat.
-constexpr double MostlyFlat = 0.5;
-
-bool WantsHidden(const LevelOperators& system, const Multigrid& multigrid)
-{
-  const MultigridOptions& options = multigrid.Options();
-  if (!AllowsHidden(options) || system.prolongation.empty())
-  {
-    return false;
-  }
-  return options.hidden == HiddenCorrection::Always || multigrid.RevisionOfHidden() >= 0 ||
-         FlatShare(system, options.threads) >= MostlyFlat;
-}
-
-/// Hidden functions of W cycles of patches; those that are there are kept while the elements are
-/// the same, whatever the factors.
-void AddHidden(const GridFunctions& space, const LevelOperators& system, double a, double b,
-  Multigrid& multigrid)
-{
-  const double size = SizeOnHidden(a, b);
-  if (!WantsHidden(system, multigrid) || !(size > 0.0))
-  {
-    return;
-  }
-  if (multigrid.RevisionOfHidden() == system.revision)
-  {
-    multigrid.SetSizeOfHidden(size);
-  }
-  else
-  {
-    const int threads = multigrid.Options().threads;
-    HiddenLevels hidden = BuildHiddenLevels(space, system, threads);
-    if (multigrid.Options().hidden == HiddenCorrection::Always)
-    {
-      AddLayeredFunctions(space, system, hidden, threads);
-    }
-    multigrid.AddHidden(std::move(hidden), size);
-  }
-}
-
 } // namespace
 
-LevelOperators BuildSystem(const GridFunctions& space, const QuadratureRule& rule, int threads,
-  Index coarsestSize, const Progress& progress)
+LevelOperators BuildLevelOperators(const GridFunctions& space, const QuadratureRule& rule,
+  int threads, Index coarsestSize, const Progress& progress)
 {
   LevelOperators system;
   system.quadratureDegree = rule.degree;
@@ -174,7 +122,7 @@ LevelOperators BuildSystem(const GridFunctions& space, const QuadratureRule& rul
   return system;
 }
 
-void UpdateSystem(const GridFunctions& space, LevelOperators& system, int threads)
+void UpdateOperators(const GridFunctions& space, LevelOperators& system, int threads)
 {
   for (std::size_t l = 0; l + 1 < system.elements.size(); ++l)
   {
@@ -186,60 +134,20 @@ void UpdateSystem(const GridFunctions& space, LevelOperators& system, int thread
   ++system.revision;
 }
 
+void FillLevelMatrix(const GridFunctions& space, const LevelOperators& system, std::size_t level,
+  double a, double b, int threads, SparseMatrix& matrix)
+{
+  const ElementMatrices& elements = system.elements[level];
+  AssembleValues(space.levels[level], system.places[level], elements.mass, a, elements.stiffness, b,
+    matrix, threads);
+}
+
 SparseMatrix LevelMatrix(const GridFunctions& space, const LevelOperators& system,
   std::size_t level, double a, double b, int threads)
 {
   SparseMatrix matrix = system.pattern[level];
-  FillMatrix(space, system, level, a, b, threads, matrix);
+  FillLevelMatrix(space, system, level, a, b, threads, matrix);
   return matrix;
-}
-
-std::vector<SparseMatrix> LevelMatrices(
-  const GridFunctions& space, const LevelOperators& system, double a, double b, int threads)
-{
-  std::vector<SparseMatrix> matrices;
-  for (std::size_t l = 0; l < system.pattern.size(); ++l)
-  {
-    matrices.push_back(LevelMatrix(space, system, l, a, b, threads));
-  }
-  return matrices;
-}
-
-std::vector<MultigridLevel> BuildMultigridLevels(const GridFunctions& space,
-  const LevelOperators& system, double a, double b, int threads, const Progress& progress)
-{
-  std::vector<MultigridLevel> levels(system.pattern.size());
-  for (std::size_t l = 0; l < levels.size(); ++l)
-  {
-    levels[l].A = LevelMatrix(space, system, l, a, b, threads);
-    levels[l].order = OrderPatches(space.levels[l]);
-    if (l < system.prolongation.size())
-    {
-      levels[l].prolongation = system.prolongation[l];
-      levels[l].restriction = system.restriction[l];
-    }
-    progress.Check(double(l + 1) / double(levels.size()));
-  }
-  return levels;
-}
-
-Multigrid BuildMultigrid(const GridFunctions& space, const LevelOperators& system, double a,
-  double b, const MultigridOptions& options, const Progress& progress)
-{
-  Multigrid multigrid(
-    BuildMultigridLevels(space, system, a, b, options.threads, progress.Part(0.0, 0.5)), options);
-  AddHidden(space, system, a, b, multigrid);
-  progress.Check(1.0);
-  return multigrid;
-}
-
-void UpdateMultigrid(const GridFunctions& space, const LevelOperators& system, double a, double b,
-  Multigrid& multigrid)
-{
-  const MemoryReuse reuse; // the new factors take the place of the old ones
-  multigrid.Update([&](std::size_t level, SparseMatrix& matrix)
-    { FillMatrix(space, system, level, a, b, multigrid.Options().threads, matrix); });
-  AddHidden(space, system, a, b, multigrid);
 }
 
 SparseMatrix MassMatrix(const GridFunctions& space, const LevelOperators& system, int threads)

@@ -4,7 +4,7 @@
 #define GridFEM_LevelOperators_h
 
 #include "Integrals/Assembly.h"
-#include "Multigrid/Multigrid.h"
+#include "Integrals/QuadratureRule.h"
 
 #include <memory>
 #include <vector>
@@ -22,36 +22,25 @@ struct LevelOperators
   std::vector<SharedMatrix> restriction;  // their transposes
   std::vector<double> integral;           // ∫ b_i of the finest functions, grid units
   int quadratureDegree = 2;
-  int revision = 0; // how often UpdateSystem has changed the elements
+  int revision = 0; // how often UpdateOperators has changed the elements
 };
 
 /// Integrates, coarsens down to the first level with at most `coarsestSize` functions in its
 /// largest component (or to depth 0), builds patterns and prolongations.
-LevelOperators BuildSystem(const GridFunctions& space, const QuadratureRule& rule, int threads = 0,
-  Index coarsestSize = 256, const Progress& progress = {});
+LevelOperators BuildLevelOperators(const GridFunctions& space, const QuadratureRule& rule,
+  int threads = 0, Index coarsestSize = 256, const Progress& progress = {});
 
 /// Brings a system up to date whose finest element matrices, elements.front(), have new values: in
 /// another metric (SurfaceMetric.h) or with other weights (DirectionalElements.h) on the same
-/// patches. Patterns and prolongations stay; UpdateMultigrid does the same for its hierarchies.
-void UpdateSystem(const GridFunctions& space, LevelOperators& system, int threads = 0);
+/// patches. Patterns and prolongations stay.
+void UpdateOperators(const GridFunctions& space, LevelOperators& system, int threads = 0);
 
-/// a M + b L on one level, and on every level. Grid units.
+/// a M + b L on one level, grid units: new values for a matrix of the level's pattern, and a new
+/// matrix.
+void FillLevelMatrix(const GridFunctions& space, const LevelOperators& system, std::size_t level,
+  double a, double b, int threads, SparseMatrix& matrix);
 SparseMatrix LevelMatrix(const GridFunctions& space, const LevelOperators& system,
   std::size_t level, double a, double b, int threads = 0);
-std::vector<SparseMatrix> LevelMatrices(
-  const GridFunctions& space, const LevelOperators& system, double a, double b, int threads = 0);
-
-/// The levels of a hierarchy for a M + b L, finest first, as Multigrid takes them.
-std::vector<MultigridLevel> BuildMultigridLevels(const GridFunctions& space,
-  const LevelOperators& system, double a, double b, int threads = 0, const Progress& progress = {});
-
-/// a M + b L on every level, ready to cycle. Grid units: mass carries spacing².
-Multigrid BuildMultigrid(const GridFunctions& space, const LevelOperators& system, double a,
-  double b, const MultigridOptions& options, const Progress& progress = {});
-
-/// New values, in place, for a hierarchy of the same space and system.
-void UpdateMultigrid(const GridFunctions& space, const LevelOperators& system, double a, double b,
-  Multigrid& multigrid);
 
 /// The finest mass or stiffness matrix, grid units.
 SparseMatrix MassMatrix(const GridFunctions& space, const LevelOperators& system, int threads = 0);

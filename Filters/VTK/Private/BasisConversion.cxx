@@ -204,8 +204,9 @@ SurfaceBasis OnClippedMesh(const SurfaceBasis& basis)
   space.clipped.cutPoints.clear();
   space.pointPatch = FindPointPatches(space.clipped, space.piecePatch);
 
-  SurfaceBasis result = MakeSurfaceBasis(std::move(mesh), std::move(space));
-  result.systems = basis.systems;
+  SurfaceBasis result =
+    MakeSurfaceBasis(std::move(mesh), std::move(space), basis.weldCoincidentPoints);
+  result.operators = basis.operators;
   return result;
 }
 
@@ -243,8 +244,9 @@ SurfaceBasis OnSourceMesh(
     }
   }
   space.pointPatch = FindPointPatches(space.clipped, space.piecePatch);
-  SurfaceBasis result = MakeSurfaceBasis(source.triangles, std::move(space));
-  result.systems = basis.systems;
+  SurfaceBasis result =
+    MakeSurfaceBasis(source.triangles, std::move(space), basis.weldCoincidentPoints);
+  result.operators = basis.operators;
   return result;
 }
 

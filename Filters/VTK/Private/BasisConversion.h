@@ -11,7 +11,7 @@ namespace gridfem
 {
 
 /// The same space on its clipped triangles (in the order of the fans of its pieces). Shares the
-/// systems.
+/// operators.
 SurfaceBasis OnClippedMesh(const SurfaceBasis& basis);
 
 /// The same space on the mesh that was clipped.

@@ -225,9 +225,10 @@ SurfaceBasis RebuildBasis(vtkPolyData* data, const InputMesh& mesh, const Progre
   const FunctionSupport support = FlagOf(data, ConnectivityAwareName)
                                     ? FunctionSupport::ConnectivityAware
                                     : FunctionSupport::Plain;
-  return MakeSurfaceBasis(
-    mesh.triangles, RestoreGridFunctions(std::move(clipped), std::move(piecePatch),
-                      std::move(finest), support, progress.Part(0.6, 1.0)));
+  return MakeSurfaceBasis(mesh.triangles,
+    RestoreGridFunctions(std::move(clipped), std::move(piecePatch), std::move(finest), support,
+      progress.Part(0.6, 1.0)),
+    WeldsCoincidentPoints(data));
 }
 
 std::vector<Id> ReadSourceCells(vtkPolyData* data, const InputMesh& mesh)

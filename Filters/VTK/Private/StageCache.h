@@ -2,9 +2,9 @@
 #ifndef GridFEM_StageCache_h
 #define GridFEM_StageCache_h
 
-#include <array>
 #include <chrono>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -31,15 +31,14 @@ private:
   std::vector<std::uint64_t> parts_;
 };
 
-/// Runs stages when their keys change; counts the runs and takes their time.
+/// Runs stages when their keys change; counts the runs and takes their time. A stage is known by
+/// its name, which the filter declares by using it.
 class StageCache
 {
 public:
-  static constexpr int Capacity = 8;
-
   /// Runs `body` unless the stage's last result has this key. A body that throws leaves no result.
   template<class Body>
-  void Run(int stage, const StageKey& key, Body&& body)
+  void Run(const std::string& stage, const StageKey& key, Body&& body)
   {
     Entry& entry = entries_[stage];
     if (this->IsCurrent(stage, key))
@@ -54,24 +53,27 @@ public:
     this->Adopt(stage, key);
   }
 
-  bool IsCurrent(int stage, const StageKey& key) const
+  bool IsCurrent(const std::string& stage, const StageKey& key) const
   {
-    return entries_[stage].valid && entries_[stage].key == key;
+    const Entry& entry = this->Find(stage);
+    return entry.valid && entry.key == key;
   }
 
   /// Notes a result that was made elsewhere: it counts as no run.
-  void Adopt(int stage, const StageKey& key)
+  void Adopt(const std::string& stage, const StageKey& key)
   {
-    entries_[stage].key = key;
-    entries_[stage].valid = true;
-    ++entries_[stage].version;
+    Entry& entry = entries_[stage];
+    entry.key = key;
+    entry.valid = true;
+    ++entry.version;
   }
 
   /// Changes with every new result: part of the keys of later stages.
-  std::int64_t Version(int stage) const { return entries_[stage].version; }
+  std::int64_t Version(const std::string& stage) const { return this->Find(stage).version; }
 
-  std::int64_t Runs(int stage) const { return entries_[stage].runs; }
-  double Seconds(int stage) const { return entries_[stage].seconds; }
+  /// 0 for a stage that has not run.
+  std::int64_t Runs(const std::string& stage) const { return this->Find(stage).runs; }
+  double Seconds(const std::string& stage) const { return this->Find(stage).seconds; }
 
 private:
   struct Entry
@@ -82,7 +84,15 @@ private:
     std::int64_t runs = 0;
     double seconds = 0.0;
   };
-  std::array<Entry, Capacity> entries_;
+
+  const Entry& Find(const std::string& stage) const
+  {
+    static const Entry none;
+    const auto found = entries_.find(stage);
+    return found == entries_.end() ? none : found->second;
+  }
+
+  std::map<std::string, Entry> entries_;
 };
 
 } // namespace gridfem

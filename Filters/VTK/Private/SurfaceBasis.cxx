@@ -4,35 +4,69 @@
 
 namespace gridfem
 {
-
-std::shared_ptr<const LevelOperators> SystemStore::Find(const SystemKey& key) const
+namespace
 {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  const auto found = systems_.find(key);
-  return found == systems_.end() ? nullptr : found->second;
-}
 
-std::shared_ptr<const LevelOperators> SystemStore::Get(
-  const SystemKey& key, int threads, const Progress& progress)
+/// Null unless its parts are there.
+std::shared_ptr<const FiniteElementSpace> Compose(const SurfaceBasis& basis,
+  std::shared_ptr<const LevelOperators> operators, FunctionKind kind,
+  std::shared_ptr<const HatLevel> hats)
 {
-  const QuadratureRule& rule = TriangleRule(key.quadratureDegree);
-  const std::lock_guard<std::mutex> lock(mutex_);
-  auto& system = systems_[key];
-  if (!system)
+  if (!operators || (kind == FunctionKind::Hats && !hats))
   {
-    system = std::make_shared<const LevelOperators>(
-      BuildSystem(*space_, rule, threads, key.coarsestSize, progress));
+    return nullptr;
   }
-  return system;
+  GridSpace grid(basis.mesh, basis.space, std::move(operators));
+  if (kind == FunctionKind::Grid)
+  {
+    return std::make_shared<const GridSpace>(std::move(grid));
+  }
+  return std::make_shared<const HatSpace>(std::move(hats), std::move(grid));
 }
 
-SurfaceBasis MakeSurfaceBasis(std::shared_ptr<const TriangleMesh> mesh, GridFunctions space)
+} // namespace
+
+SurfaceBasis MakeSurfaceBasis(
+  std::shared_ptr<const TriangleMesh> mesh, GridFunctions space, bool weldCoincidentPoints)
 {
   SurfaceBasis basis;
   basis.mesh = std::move(mesh);
   basis.space = std::make_shared<const GridFunctions>(std::move(space));
-  basis.systems = std::make_shared<SystemStore>(basis.space);
+  basis.operators = std::make_shared<OperatorStore>();
+  basis.hats = std::make_shared<HatStore>();
+  basis.weldCoincidentPoints = weldCoincidentPoints;
   return basis;
+}
+
+std::shared_ptr<const FiniteElementSpace> FindSpace(
+  const SurfaceBasis& basis, const SpaceChoice& choice)
+{
+  return Compose(basis, basis.operators->Find({ choice.quadratureDegree, choice.coarsestSize }),
+    choice.kind,
+    choice.kind == FunctionKind::Hats ? basis.hats->Find(basis.weldCoincidentPoints) : nullptr);
+}
+
+std::shared_ptr<const FiniteElementSpace> MakeSpace(
+  const SurfaceBasis& basis, const SpaceChoice& choice, const Job& job)
+{
+  const QuadratureRule& rule = TriangleRule(choice.quadratureDegree);
+  auto operators = basis.operators->Get({ choice.quadratureDegree, choice.coarsestSize },
+    [&]
+    {
+      return BuildLevelOperators(
+        *basis.space, rule, job.threads, choice.coarsestSize, job.progress.Part(0.0, 0.7));
+    });
+  std::shared_ptr<const HatLevel> hats;
+  if (choice.kind == FunctionKind::Hats)
+  {
+    hats = basis.hats->Get(basis.weldCoincidentPoints,
+      [&]
+      {
+        return BuildHatLevel(*basis.mesh, *basis.space, basis.weldCoincidentPoints,
+          HatTransfer::Evaluation, job.Part(0.7, 1.0));
+      });
+  }
+  return Compose(basis, std::move(operators), choice.kind, std::move(hats));
 }
 
 } // namespace gridfem

@@ -1,62 +1,60 @@
-// A function space together with the triangles it was made from, and what solvers share of it.
+// The functions of a grid together with the triangles they were made from, what solvers share of
+// them, and the finite element spaces that stand on them.
 #ifndef GridFEM_SurfaceBasis_h
 #define GridFEM_SurfaceBasis_h
 
-#include "Grid/GridFunctions.h"
 #include "InputMesh.h"
-#include "Spaces/LevelOperators.h"
+#include "SharedStore.h"
+#include "Spaces/HatSpace.h"
 
-#include <map>
 #include <memory>
-#include <mutex>
-#include <tuple>
+#include <utility>
 
 namespace gridfem
 {
 
-struct SystemKey
+/// Which functions solutions are made of.
+enum class FunctionKind
 {
-  int quadratureDegree;
-  Index coarsestSize; // functions of the largest component on the coarsest level, at most
-
-  bool operator<(const SystemKey& other) const
-  {
-    return std::tie(quadratureDegree, coarsestSize) <
-           std::tie(other.quadratureDegree, other.coarsestSize);
-  }
+  Grid,
+  Hats
 };
 
-/// The systems of one function space, one per key, built when first asked for. All
-/// views of a space on different meshes share one store, so that who asks first changes no bit.
-class SystemStore
+/// Which space is wanted on a basis.
+struct SpaceChoice
 {
-public:
-  explicit SystemStore(std::shared_ptr<const GridFunctions> space) : space_(std::move(space)) {}
-
-  /// The system, or null when it has not been built yet.
-  std::shared_ptr<const LevelOperators> Find(const SystemKey& key) const;
-
-  /// Builds it if need be; a second caller waits. Throws InvalidInput and Aborted.
-  std::shared_ptr<const LevelOperators> Get(
-    const SystemKey& key, int threads, const Progress& progress);
-
-private:
-  std::shared_ptr<const GridFunctions> space_;
-  mutable std::mutex mutex_;
-  std::map<SystemKey, std::shared_ptr<const LevelOperators>> systems_;
+  FunctionKind kind = FunctionKind::Grid;
+  int quadratureDegree = 2;
+  Index coarsestSize = 256; // functions of the largest component on the coarsest level, at most
 };
 
-/// Immutable but for the store, so that it may be shared between filters and threads.
+using OperatorStore = SharedStore<std::pair<int, Index>, LevelOperators>;
+using HatStore = SharedStore<bool, HatLevel>;
+
+/// Immutable but for the stores, so that it may be shared between filters and threads.
 struct SurfaceBasis
 {
   std::shared_ptr<const TriangleMesh> mesh; // what the pieces' source triangles refer to
   std::shared_ptr<const GridFunctions> space;
-  std::shared_ptr<SystemStore> systems; // element matrices belong to patches, not to triangles
+  /// Element matrices belong to patches, not to triangles: all views of the functions on different
+  /// meshes share one store, so that who asks first changes no bit.
+  std::shared_ptr<OperatorStore> operators;
+  std::shared_ptr<HatStore> hats; // by WeldCoincidentPoints
+  bool weldCoincidentPoints = true;
 
   explicit operator bool() const { return space != nullptr; }
 };
 
-SurfaceBasis MakeSurfaceBasis(std::shared_ptr<const TriangleMesh> mesh, GridFunctions space);
+SurfaceBasis MakeSurfaceBasis(
+  std::shared_ptr<const TriangleMesh> mesh, GridFunctions space, bool weldCoincidentPoints);
+
+/// The space, or null unless all that it takes has been built already, perhaps by another filter.
+std::shared_ptr<const FiniteElementSpace> FindSpace(
+  const SurfaceBasis& basis, const SpaceChoice& choice);
+
+/// Builds what is missing. Throws InvalidInput and Aborted.
+std::shared_ptr<const FiniteElementSpace> MakeSpace(
+  const SurfaceBasis& basis, const SpaceChoice& choice, const Job& job);
 
 } // namespace gridfem
 

@@ -85,6 +85,7 @@ void SurfaceSolverState::UpdateSpace(
       return;
     }
     basis = {};
+    space = {};
     mesh = ReadInputMesh(input, options.space.threads, progress.Part(0.0, 0.1));
     RequireSurface(*mesh.triangles);
     if (!carries && !CarriesBasis(basisData))
@@ -95,57 +96,47 @@ void SurfaceSolverState::UpdateSpace(
     basis = carries ? ReadBasis(input, mesh, progress.Part(0.1, 1.0))
                     : ReadBasisFor(basisData, mesh, progress.Part(0.1, 1.0));
     RequireMemory(*mesh.triangles, basis.space->GetGrid().depth);
-    weldCoincidentPoints_ = WeldsCoincidentPoints(carries ? input : basisData);
   };
-  stages.Run(vtkSurfaceFEMAlgorithm::SpaceStage, key, update);
+  stages.Run(SpaceStage, key, update);
 }
 
 void SurfaceSolverState::BuildSpace(vtkPolyData* input, const Progress& progress)
 {
   basis = {}; // frees the memory of the last one first
-  system = {};
-  hats.reset();
-  weldCoincidentPoints_ = options.space.weldCoincidentPoints;
+  space = {};
   mesh = ReadInputMesh(input, options.space.threads, progress.Part(0.0, 0.1));
   RequireSurface(*mesh.triangles);
   RequireMemory(*mesh.triangles, options.space.depth);
-  basis = MakeSurfaceBasis(
-    mesh.triangles, BuildGridFunctions(*mesh.triangles, options.space, progress.Part(0.1, 1.0)));
+  basis = MakeSurfaceBasis(mesh.triangles,
+    BuildGridFunctions(*mesh.triangles, options.space, progress.Part(0.1, 1.0)),
+    options.space.weldCoincidentPoints);
 }
 
 void SurfaceSolverState::UpdateSystem(const Progress& progress)
 {
-  constexpr int stage = vtkSurfaceFEMAlgorithm::SystemStage;
   StageKey key;
-  key.Add(stages.Version(vtkSurfaceFEMAlgorithm::SpaceStage)).Add(options.quadratureDegree);
-  key.Add(options.coarsestSize).Add(options.hatFunctions);
-  if (!options.hatFunctions && !stages.IsCurrent(stage, key))
+  key.Add(stages.Version(SpaceStage)).Add(options.choice.quadratureDegree);
+  key.Add(options.choice.coarsestSize).Add(static_cast<int>(options.choice.kind));
+  if (stages.IsCurrent(SystemStage, key))
   {
-    system = basis.systems->Find({ options.quadratureDegree, options.coarsestSize });
-    if (system)
-    {
-      hats.reset();
-      stages.Adopt(stage, key);
-      return;
-    }
+    return;
   }
-  const auto build = [&]
+  space = FindSpace(basis, options.choice);
+  if (space)
   {
-    hats.reset();
-    system = basis.systems->Get({ options.quadratureDegree, options.coarsestSize },
-      options.space.threads, progress.Part(0.0, 0.7));
-    if (options.hatFunctions)
-    {
-      hats = this->BuildHats(progress.Part(0.7, 1.0));
-    }
-  };
-  stages.Run(stage, key, build);
+    stages.Adopt(SystemStage, key);
+    return;
+  }
+  stages.Run(
+    SystemStage, key, [&] { space = MakeSpace(basis, options.choice, this->MakeJob(progress)); });
 }
 
-HatHierarchy SurfaceSolverState::BuildHats(const Progress& progress) const
+std::shared_ptr<const FiniteElementSpace> SurfaceSolverState::OtherSpace(
+  const Progress& progress) const
 {
-  return BuildHatHierarchy(*basis.mesh, *basis.space, weldCoincidentPoints_,
-    HatTransfer::Evaluation, options.space.threads, progress);
+  SpaceChoice other = options.choice;
+  other.kind = other.kind == FunctionKind::Grid ? FunctionKind::Hats : FunctionKind::Grid;
+  return MakeSpace(basis, other, this->MakeJob(progress));
 }
 
 double SurfaceSolverState::WeightInGridUnits(double weight) const

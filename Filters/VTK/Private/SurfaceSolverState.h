@@ -6,11 +6,8 @@
 #include "InputMesh.h"
 #include "Krylov/ConjugateGradients.h"
 #include "ProgressBridge.h"
-#include "Spaces/HatMultigrid.h"
 #include "StageCache.h"
 #include "SurfaceBasis.h"
-
-#include <optional>
 
 class vtkPolyData;
 
@@ -21,13 +18,18 @@ namespace gridfem
 struct SurfaceOptions
 {
   SpaceOptions space;
-  bool hatFunctions = false; // the functions are the hats of the mesh, the grid preconditions
-  int quadratureDegree = 2;
-  Index coarsestSize = 256;
+  SpaceChoice choice; // on the basis
   MultigridOptions multigrid;
   SolveOptions solve;
   int parameterUnits = 1; // vtkSurfaceFEMAlgorithm::ParameterUnitsType
 };
+
+/// The stages that filters have in common.
+inline constexpr const char* SpaceStage = "Space";   // mesh, clipping, patches, levels
+inline constexpr const char* SystemStage = "System"; // element matrices, patterns, prolongations
+inline constexpr const char* HierarchyStage = "Hierarchy";         // level matrices, smoothers
+inline constexpr const char* RightHandSideStage = "RightHandSide"; // integrals of given arrays
+inline constexpr const char* SolveStage = "Solve";
 
 /// Adds all that the triangles of the mesh depend on; never the vtkPolyData itself, which is a new
 /// one after every hop through ParaView.
@@ -55,14 +57,17 @@ public:
   /// Builds the function space of a mesh and clips it before. Validates the mesh.
   void BuildSpace(vtkPolyData* input, const Progress& progress);
 
-  /// Brings the system up to date, and `hats` where they are asked for. A system that another
-  /// filter has built on the same basis is taken over without a run.
+  /// Brings the finite element space up to date. One that another filter has built on the same
+  /// basis is taken over without a run.
   void UpdateSystem(const Progress& progress);
 
-  /// The hat functions of the mesh above the space.
-  HatHierarchy BuildHats(const Progress& progress) const;
+  /// The space on the same basis whose functions were not chosen.
+  std::shared_ptr<const FiniteElementSpace> OtherSpace(const Progress& progress) const;
 
-  const GridFunctions& Space() const { return *basis.space; }
+  Job MakeJob(const Progress& progress) const { return { options.space.threads, progress }; }
+
+  /// The functions of the grid.
+  const GridFunctions& Functions() const { return *basis.space; }
 
   /// A weight per squared length of the parameter units, per squared grid unit.
   double WeightInGridUnits(double weight) const;
@@ -71,12 +76,8 @@ public:
   StageCache stages;
   InputMesh mesh;
   SurfaceBasis basis;
-  std::shared_ptr<const LevelOperators> system;
-  std::optional<HatHierarchy> hats; // only with options.hatFunctions
+  std::shared_ptr<const FiniteElementSpace> space;
   ProgressBridge bridge;
-
-private:
-  bool weldCoincidentPoints_ = true; // as the basis was made
 };
 
 } // namespace gridfem

@@ -4,8 +4,6 @@
 #include "InputValidation.h"
 #include "vtkSurfaceFEMAlgorithm.h"
 
-#include "Integrals/Evaluation.h"
-#include "Problems/HatSpectrum.h"
 #include "Problems/MemoryEstimate.h"
 #include "Problems/SpectrumAccuracy.h"
 
@@ -39,13 +37,19 @@ SpectrumOptions SolverOptions(const SurfaceSolverState& state, int numberOfModes
   return options;
 }
 
-std::vector<double> InWorldUnits(std::vector<double> eigenvalues, const Grid& grid)
+std::vector<double> InWorldUnits(std::vector<double> eigenvalues, double unitLength)
 {
   for (double& eigenvalue : eigenvalues)
   {
-    eigenvalue /= grid.spacing * grid.spacing;
+    eigenvalue /= unitLength * unitLength;
   }
   return eigenvalues;
+}
+
+/// For which vectors are held at the same time.
+Id NumberOfUnknowns(const FiniteElementSpace& space)
+{
+  return space.NumberOfFunctions(0) + (space.NestedLevels() ? space.NumberOfFunctions(1) : 0);
 }
 
 } // namespace
@@ -64,53 +68,43 @@ void SurfaceSpectrum::Solve(
   SurfaceSolverState& state, const SpectrumRequest& request, const Progress& progress)
 {
   StageKey key;
-  key.Add(state.stages.Version(vtkSurfaceFEMAlgorithm::SystemStage)).Add(request.numberOfModes);
+  key.Add(state.stages.Version(SystemStage)).Add(request.numberOfModes);
   key.Add(request.completeMultiplets).Add(state.options.solve.tolerance);
-  // Hats are solved only at the depth that the accuracy asks for.
-  key.Add(state.hats ? request.accuracy : 0.0);
+  // What is improved after the nested levels waits for the depth that the accuracy asks for.
+  key.Add(state.space->NestedLevels() ? request.accuracy : 0.0);
   key.Add(state.options.solve.maximumIterations);
   AddMultigrid(key, state.options.multigrid);
   const auto solve = [&]
   {
-    const GridFunctions& space = state.Space();
+    const FiniteElementSpace& space = *state.space;
     RequireMemoryForModes(
-      space.Finest().numberOfFunctions + (state.hats ? state.hats->functions.Count() : 0),
-      request.numberOfModes, state.options.multigrid.threads);
+      NumberOfUnknowns(space), request.numberOfModes, state.options.multigrid.threads);
     SpectrumOptions options = SolverOptions(state, request.numberOfModes);
     options.completeMultiplets = request.completeMultiplets;
     spectrum = {}; // frees its memory first
-    if (state.hats)
+    const double split = space.NestedLevels() ? 0.3 : 1.0;
+    Spectrum nested = ComputeNestedSpectrum(space, options, progress.Part(0.0, split));
+    gridErrors_ = nested.estimatedErrors;
+    if (space.NestedLevels()) // guards have been computed, too
     {
-      const Spectrum grid =
-        ComputeSpectrum(space, *state.system, HatStartOptions(options), progress.Part(0.0, 0.3));
-      gridErrors_ = grid.estimatedErrors;
       gridErrors_.resize(std::min<std::size_t>(gridErrors_.size(), request.numberOfModes));
-      nextDepth_ = this->NextDepth(state, request.accuracy);
-      if (nextDepth_ == space.GetGrid().depth)
-      {
-        spectrum = ComputeHatSpectrum(
-          *state.hats, space, *state.system, grid, options, progress.Part(0.3, 1.0));
-      }
     }
-    else
+    if (!space.NestedLevels() ||
+        this->NextDepth(state, request.accuracy) == state.Functions().GetGrid().depth)
     {
-      spectrum = ComputeSpectrum(space, *state.system, options, progress);
-      gridErrors_ = spectrum.estimatedErrors;
+      spectrum = FinishSpectrum(space, std::move(nested), options, progress.Part(split, 1.0));
     }
-    eigenvalues = InWorldUnits(spectrum.eigenvalues, space.GetGrid());
+    eigenvalues = InWorldUnits(spectrum.eigenvalues, space.UnitLength());
   };
-  state.stages.Run(vtkSurfaceFEMAlgorithm::SolveStage, key, solve);
-  if (!state.hats)
-  {
-    nextDepth_ = this->NextDepth(state, request.accuracy);
-  }
+  state.stages.Run(SolveStage, key, solve);
+  nextDepth_ = this->NextDepth(state, request.accuracy);
 }
 
 /// The depth at which the errors on the grid should be small enough, if that fits into memory; else
 /// this one. With accuracy 0 any error is.
 int SurfaceSpectrum::NextDepth(const SurfaceSolverState& state, double accuracy) const
 {
-  const int now = state.Space().GetGrid().depth;
+  const int now = state.Functions().GetGrid().depth;
   const int next = accuracy > 0.0 ? DepthForAccuracy(gridErrors_, now, accuracy) : now;
   return next == now || FitsMemory(*state.mesh.triangles, next) ? next : now;
 }
@@ -119,27 +113,17 @@ int SurfaceSpectrum::NextDepth(const SurfaceSolverState& state, double accuracy)
 void SurfaceSpectrum::Compare(SurfaceSolverState& state, const Progress& progress)
 {
   StageKey key;
-  key.Add(state.stages.Version(vtkSurfaceFEMAlgorithm::SolveStage));
+  key.Add(state.stages.Version(SolveStage));
   if (key == compared_)
   {
     return;
   }
   compared_ = {};
-  const GridFunctions& space = state.Space();
   const SpectrumOptions options = SolverOptions(state, this->NumberOfModes());
-  Spectrum other;
-  if (state.hats)
-  {
-    other = ComputeSpectrum(space, *state.system, options, progress);
-  }
-  else
-  {
-    const HatHierarchy hats = state.BuildHats(progress.Part(0.0, 0.1));
-    RequireMemoryForModes(space.Finest().numberOfFunctions + hats.functions.Count(),
-      options.numberOfModes, options.multigrid.threads);
-    other = ComputeHatSpectrum(hats, space, *state.system, options, progress.Part(0.1, 1.0));
-  }
-  otherEigenvalues = InWorldUnits(other.eigenvalues, space.GetGrid());
+  const auto space = state.OtherSpace(progress.Part(0.0, 0.1));
+  RequireMemoryForModes(NumberOfUnknowns(*space), options.numberOfModes, options.multigrid.threads);
+  const Spectrum other = ComputeSpectrum(*space, options, progress.Part(0.1, 1.0));
+  otherEigenvalues = InWorldUnits(other.eigenvalues, space->UnitLength());
   otherConverged = other.converged;
   compared_ = key;
 }
@@ -190,7 +174,7 @@ void SurfaceSpectrum::Update(SurfaceSolverState& state, vtkPolyData* input, vtkP
     state.UpdateSystem(progress.Part(0.3, 0.5));
     progress.Check(0.5);
     this->Solve(state, wanted, progress.Part(0.5, 1.0));
-    depth = state.Space().GetGrid().depth;
+    depth = state.Functions().GetGrid().depth;
     if (nextDepth_ == depth)
     {
       break;
@@ -207,11 +191,10 @@ void SurfaceSpectrum::Update(SurfaceSolverState& state, vtkPolyData* input, vtkP
 MultiVector EvaluateModes(
   const SurfaceSolverState& state, const Spectrum& spectrum, Id first, Id count, int threads)
 {
-  // The integral over grid units is spacing² times smaller than the one over world units.
+  // The integral over the space's units is UnitLength² times smaller than the one over world units.
   const MultiVector coefficients =
-    spectrum.vectors.middleCols(first, count) / state.Space().GetGrid().spacing;
-  return state.hats ? ValuesAtPoints(state.hats->functions, coefficients, threads)
-                    : EvaluateAtPoints(state.Space(), coefficients, threads);
+    spectrum.vectors.middleCols(first, count) / state.space->UnitLength();
+  return state.space->ValuesAtPoints(coefficients, threads);
 }
 
 } // namespace gridfem

@@ -31,8 +31,8 @@ struct GridCase
   GridCase(const TriangleMesh& mesh, int depth,
     FunctionSupport support = FunctionSupport::ConnectivityAware, Index coarsestSize = 100)
     : grid(SetUp(mesh, depth, 1, support, ScreeningWeight, coarsestSize)),
-      thesis(
-        BuildMultigrid(grid.space, grid.system, grid.options.screeningWeight, 1.0, ThesisCycle())),
+      thesis(BuildMultigrid(testing::ViewOf(grid.space, grid.system), grid.options.screeningWeight,
+        1.0, ThesisCycle())),
       A(ToEigen(grid.multigrid->Matrix()))
   {
     ChooseColours(grid, 1);
@@ -136,8 +136,8 @@ void AddResiduals(Panel& panel, double angle, const GridCase& on, const Multigri
 /// Residual that is left by sweeps before and after an exact solve on the next coarser level.
 double TwoLevelResidual(const GridCase& on, SmootherType smoother, int sweeps)
 {
-  std::vector<MultigridLevel> levels =
-    BuildMultigridLevels(on.grid.space, on.grid.system, on.grid.options.screeningWeight, 1.0);
+  std::vector<MultigridLevel> levels = BuildMultigridLevels(
+    testing::ViewOf(on.grid.space, on.grid.system), on.grid.options.screeningWeight, 1.0, {});
   levels.resize(2);
   levels[1].prolongation = SharedMatrix();
   MultigridOptions options = ThesisCycle();

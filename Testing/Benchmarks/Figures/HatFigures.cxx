@@ -45,7 +45,7 @@ std::vector<Index> FunctionsOfRows(const CotangentSystem& system, const HybridPr
   {
     if (system.row[point] >= 0)
     {
-      functions[system.row[point]] = hybrid.hats.functions.ofPoint[point];
+      functions[system.row[point]] = hybrid.space.Hats().functions.ofPoint[point];
     }
   }
   return functions;
@@ -236,7 +236,7 @@ void WriteKnotConvergence(const std::string& folder)
     for (Panel* panel : { &thesis, &ours })
     {
       const Multigrid cycle = hybrid.BuildCycle(
-        ScreeningWeight, panel == &thesis ? ThesisHybrid() : HatMultigridOptions());
+        ScreeningWeight, panel == &thesis ? ThesisHybrid() : testing::HybridCycle());
       panel->curves.push_back(
         CountedCurve(isPlain ? "plain grid below" : "connectivity-aware grid below",
           isPlain ? Curve::Kind::Peer : Curve::Kind::Ours,

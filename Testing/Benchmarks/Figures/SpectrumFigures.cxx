@@ -25,7 +25,7 @@ std::vector<double> Eigenvalues(const GridFunctions& space, int degree)
   SpectrumOptions options;
   options.numberOfModes = Modes;
   std::vector<double> values =
-    ComputeSpectrum(space, BuildSystem(space, TriangleRule(degree)), options).eigenvalues;
+    ComputeSpectrum(space, BuildLevelOperators(space, TriangleRule(degree)), options).eigenvalues;
   for (double& value : values)
   {
     value /= space.GetGrid().spacing * space.GetGrid().spacing;

@@ -3,6 +3,7 @@
 #include "Integrals/SurfaceMetric.h"
 
 #include "Base/Errors.h"
+#include "Discretisation.h"
 #include "ElementSums.h"
 #include "Integrals/QuadratureSamples.h"
 #include "Spaces.h"
@@ -258,22 +259,22 @@ TEST(SurfaceMetric, AnUpdatedHierarchyEqualsANewOne)
 {
   const GridFunctions space = BuildGridFunctions(Torus(40, 20, 1.0, 0.4), { 5 });
   const QuadratureRule& rule = TriangleRule(2);
-  LevelOperators system = BuildSystem(space, rule);
+  LevelOperators system = BuildLevelOperators(space, rule);
   const std::vector<double> integral = system.integral;
   const double lambda = 0.125;
   MultigridOptions options;
   // The hierarchy of hidden functions is that of M + L, which is another in each metric.
   options.hidden = HiddenCorrection::Never;
-  Multigrid updated = BuildMultigrid(space, system, lambda, 1.0, options);
+  Multigrid updated = BuildMultigrid(ViewOf(space, system), lambda, 1.0, options);
   const SampleMetric own(NumberOfSamples(space.clipped, rule), { 1, 0, 1 });
   const SampleMetric twice(NumberOfSamples(space.clipped, rule), { 4, 0, 4 });
 
   IntegrateElements(space, rule, own, system.elements.front());
-  UpdateSystem(space, system);
-  const Multigrid fresh = BuildMultigrid(space, system, lambda, 1.0, options);
+  UpdateOperators(space, system);
+  const Multigrid fresh = BuildMultigrid(ViewOf(space, system), lambda, 1.0, options);
   IntegrateElements(space, rule, twice, system.elements.front());
-  UpdateSystem(space, system);
-  UpdateMultigrid(space, system, 0.25 * lambda, 1.0, updated);
+  UpdateOperators(space, system);
+  UpdateMultigrid(ViewOf(space, system), 0.25 * lambda, 1.0, updated);
 
   const MultiVector b = RandomValues(space.Finest().numberOfFunctions, 2);
   MultiVector x;

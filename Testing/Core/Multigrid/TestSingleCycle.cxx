@@ -22,12 +22,12 @@ constexpr double Shift = 0.01;
 
 SingleCycle MakeSingle(const Discretisation& on, int threads = 0)
 {
-  return SingleCycle(BuildMultigridLevels(on.space, on.system, Shift, 1.0), threads);
+  return SingleCycle(BuildMultigridLevels(ViewOf(on.space, on.system), Shift, 1.0, {}), threads);
 }
 
 Multigrid MakeDouble(const Discretisation& on)
 {
-  return BuildMultigrid(on.space, on.system, Shift, 1.0, MultigridOptions{ CycleType::V });
+  return BuildMultigrid(ViewOf(on.space, on.system), Shift, 1.0, MultigridOptions{ CycleType::V });
 }
 
 MultiVector RandomBlock(Id rows, Id columns)
@@ -179,7 +179,7 @@ Spectrum Solve(const Discretisation& on, const MultigridOptions& multigrid)
   options.numberOfModes = 20;
   options.tolerance = 1e-8;
   options.multigrid = multigrid;
-  return ComputeSpectrum(on.space, on.system, options);
+  return ComputeSpectrum(ViewOf(on.space, on.system), options);
 }
 
 TEST(SpectrumCycle, IsDoubleWhereSinglePrecisionWouldNotDo)

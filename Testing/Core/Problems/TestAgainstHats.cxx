@@ -40,9 +40,9 @@ MultiVector SolveGridPoisson(
   options.screeningWeight = lambda * spacing * spacing;
   options.solve.tolerance = 1e-7;
   const Multigrid multigrid =
-    BuildMultigrid(d.space, d.system, options.screeningWeight, 1.0, options.multigrid);
+    BuildMultigrid(ViewOf(d.space, d.system), options.screeningWeight, 1.0, options.multigrid);
   const Field field{ FieldAssociation::Points, f };
-  const PoissonSolution solution = SolvePoisson(d.space, d.system, multigrid,
+  const PoissonSolution solution = SolvePoisson(ViewOf(d.space, d.system), multigrid,
     IntegrateValues(d.space, mesh, field, TriangleRule(2)), {}, options);
   EXPECT_TRUE(solution.report.converged);
   return EvaluateAtPoints(d.space, solution.coefficients);
@@ -124,7 +124,7 @@ TEST_P(AgainstHats, Spectrum)
   const Discretisation d = Discretise(mesh, 7);
   SpectrumOptions options;
   options.numberOfModes = count;
-  const Spectrum spectrum = ComputeSpectrum(d.space, d.system, options);
+  const Spectrum spectrum = ComputeSpectrum(ViewOf(d.space, d.system), options);
   ASSERT_TRUE(spectrum.converged);
   const double spacing = d.space.GetGrid().spacing;
   for (int k = 0; k < count; ++k)

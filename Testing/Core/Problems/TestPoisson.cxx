@@ -1,6 +1,7 @@
 // The screened Poisson equation: exact solutions, means, rates, repeatability.
 #include "Problems/Poisson.h"
 
+#include "Discretisation.h"
 #include "Integrals/Evaluation.h"
 #include "Integrals/LoadVector.h"
 #include "Spaces.h"
@@ -23,7 +24,7 @@ struct Problem
   Problem(const TriangleMesh& inputMesh, const SpaceOptions& spaceOptions, double lambda,
     int degree = 2, int threads = 0)
     : mesh(inputMesh), space(BuildGridFunctions(mesh, spaceOptions)), rule(TriangleRule(degree)),
-      system(BuildSystem(space, rule, threads, 64))
+      system(BuildLevelOperators(space, rule, threads, 64))
   {
     options.screeningWeight = lambda;
     options.multigrid.threads = threads;
@@ -33,8 +34,8 @@ struct Problem
   PoissonSolution Solve(const MultiVector& values, const MultiVector& gradients) const
   {
     const Multigrid multigrid =
-      BuildMultigrid(space, system, options.screeningWeight, 1.0, options.multigrid);
-    return SolvePoisson(space, system, multigrid, values, gradients, options);
+      BuildMultigrid(ViewOf(space, system), options.screeningWeight, 1.0, options.multigrid);
+    return SolvePoisson(ViewOf(space, system), multigrid, values, gradients, options);
   }
 
   MultiVector Values(const MultiVector& onPoints) const
@@ -305,10 +306,10 @@ TEST(Poisson, TakesANewWeightWithoutANewHierarchy)
   Problem problem(mesh, AtDepth(4), 0.5);
   const MultiVector load = problem.Values(RandomValues(mesh.points.size(), 1));
   Multigrid multigrid =
-    BuildMultigrid(problem.space, problem.system, 3.0, 1.0, problem.options.multigrid);
-  UpdateMultigrid(problem.space, problem.system, 0.5, 1.0, multigrid);
+    BuildMultigrid(ViewOf(problem.space, problem.system), 3.0, 1.0, problem.options.multigrid);
+  UpdateMultigrid(ViewOf(problem.space, problem.system), 0.5, 1.0, multigrid);
   const PoissonSolution updated =
-    SolvePoisson(problem.space, problem.system, multigrid, load, {}, problem.options);
+    SolvePoisson(ViewOf(problem.space, problem.system), multigrid, load, {}, problem.options);
   EXPECT_EQ(updated.coefficients, problem.Solve(load, {}).coefficients);
 }
 
@@ -379,9 +380,10 @@ TEST(Poisson, RefusesWhatDoesNotFit)
     { -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity() })
   {
     const Multigrid multigrid =
-      BuildMultigrid(problem.space, problem.system, 1.0, 1.0, problem.options.multigrid);
+      BuildMultigrid(ViewOf(problem.space, problem.system), 1.0, 1.0, problem.options.multigrid);
     problem.options.screeningWeight = bad;
-    EXPECT_THROW(SolvePoisson(problem.space, problem.system, multigrid, load, {}, problem.options),
+    EXPECT_THROW(
+      SolvePoisson(ViewOf(problem.space, problem.system), multigrid, load, {}, problem.options),
       InvalidInput);
   }
 }

@@ -175,7 +175,7 @@ TEST(Spectrum, ReportsWhatHasNotConverged)
   options.numberOfModes = 20;
   options.tolerance = 1e-12;
   options.maximumIterations = 1;
-  const Spectrum spectrum = ComputeSpectrum(on.space, on.system, options);
+  const Spectrum spectrum = ComputeSpectrum(ViewOf(on.space, on.system), options);
   EXPECT_FALSE(spectrum.converged);
   EXPECT_LT(spectrum.numberOfConverged, 20);
   EXPECT_EQ(spectrum.iterations, 1);
@@ -188,7 +188,7 @@ TEST(Spectrum, ReportsProgressAndStopsWhenAsked)
   SpectrumOptions options;
   options.numberOfModes = 20;
   std::vector<double> reports;
-  ComputeSpectrum(on.space, on.system, options,
+  ComputeSpectrum(ViewOf(on.space, on.system), options,
     Progress(
       [&](double fraction)
       {
@@ -201,8 +201,8 @@ TEST(Spectrum, ReportsProgressAndStopsWhenAsked)
   EXPECT_LE(reports.back(), 1.0);
   const auto stopAt = [&](double fraction)
   {
-    ComputeSpectrum(
-      on.space, on.system, options, Progress([fraction](double done) { return done < fraction; }));
+    ComputeSpectrum(ViewOf(on.space, on.system), options,
+      Progress([fraction](double done) { return done < fraction; }));
   };
   EXPECT_THROW(stopAt(0.0), Aborted);
   EXPECT_THROW(stopAt(0.5), Aborted);

@@ -17,7 +17,7 @@ Spectrum SolveWhole(const Discretisation& on, int modes)
   SpectrumOptions options;
   options.numberOfModes = modes;
   options.completeMultiplets = true;
-  return ComputeSpectrum(on.space, on.system, options);
+  return ComputeSpectrum(ViewOf(on.space, on.system), options);
 }
 
 TEST(Spectrum, ComponentsThatPartOnTheFinestLevelKeepTheirPairs)

@@ -1,4 +1,5 @@
 // What the method has to show as a whole: the thesis' figures and the numbers the project promises.
+#include "Discretisation.h"
 #include "Integrals/Evaluation.h"
 #include "Integrals/LoadVector.h"
 #include "Problems/Poisson.h"
@@ -40,21 +41,21 @@ PoissonSolution FitField(const TriangleMesh& mesh, const GridFunctions& space, c
   double unitCubeWeight, Index coarsestSize = 256)
 {
   const QuadratureRule& rule = TriangleRule(2);
-  const LevelOperators system = BuildSystem(space, rule, 0, coarsestSize);
+  const LevelOperators system = BuildLevelOperators(space, rule, 0, coarsestSize);
   PoissonOptions options;
   options.screeningWeight = unitCubeWeight * std::pow(0.25, space.GetGrid().depth);
   const Multigrid multigrid =
-    BuildMultigrid(space, system, options.screeningWeight, 1.0, options.multigrid);
-  return SolvePoisson(space, system, multigrid, IntegrateValues(space, mesh, f, rule),
+    BuildMultigrid(ViewOf(space, system), options.screeningWeight, 1.0, options.multigrid);
+  return SolvePoisson(ViewOf(space, system), multigrid, IntegrateValues(space, mesh, f, rule),
     IntegrateGradientsOf(space, mesh, f, nullptr, rule), options);
 }
 
 std::vector<double> Eigenvalues(const GridFunctions& space, int count, int quadratureDegree = 2)
 {
-  const LevelOperators system = BuildSystem(space, TriangleRule(quadratureDegree));
+  const LevelOperators system = BuildLevelOperators(space, TriangleRule(quadratureDegree));
   SpectrumOptions options;
   options.numberOfModes = count;
-  const Spectrum spectrum = ComputeSpectrum(space, system, options);
+  const Spectrum spectrum = ComputeSpectrum(ViewOf(space, system), options);
   EXPECT_TRUE(spectrum.converged);
   std::vector<double> world;
   for (const double value : spectrum.eigenvalues)
@@ -143,8 +144,8 @@ TEST(Acceptance, SeparatedCubesConvergeFasterWhenConnectivityAware)
   const TriangleMesh cubes = CubeArray(6, 2, 1.0);
   const GridFunctions plain = SpaceOf(cubes, 5, false);
   const GridFunctions aware = SpaceOf(cubes, 5, true);
-  const LevelOperators plainSystem = BuildSystem(plain, TriangleRule(2));
-  const LevelOperators awareSystem = BuildSystem(aware, TriangleRule(2));
+  const LevelOperators plainSystem = BuildLevelOperators(plain, TriangleRule(2));
+  const LevelOperators awareSystem = BuildLevelOperators(aware, TriangleRule(2));
   const SparseMatrix plainMatrix = StiffnessMatrix(plain, plainSystem);
   const SparseMatrix awareMatrix = StiffnessMatrix(aware, awareSystem);
   EXPECT_EQ(plainMatrix.column, awareMatrix.column);

@@ -140,9 +140,10 @@ TEST_P(HatMatricesOf, DoNotDependOnThreads)
   const TriangleMesh& mesh = GetParam().mesh;
   HatOptions options;
   options.threads = 1;
-  const HatMatrices one = AssembleHatMatrices(mesh, NumberHatFunctions(mesh, options), 1);
+  const HatMatrices one = AssembleHatMatrices(mesh, NumberHatFunctions(mesh, options), nullptr, 1);
   options.threads = 3;
-  const HatMatrices three = AssembleHatMatrices(mesh, NumberHatFunctions(mesh, options), 3);
+  const HatMatrices three =
+    AssembleHatMatrices(mesh, NumberHatFunctions(mesh, options), nullptr, 3);
   EXPECT_EQ(one.mass.value, three.mass.value);
   EXPECT_EQ(one.stiffness.value, three.stiffness.value);
   EXPECT_EQ(one.stiffness.column, three.stiffness.column);
@@ -211,7 +212,8 @@ TEST(HatMatrices, AreFiniteOnNeedlesAndObtuseTrianglesOfAnySize)
       HatOptions options;
       options.unitLength = scale;
       const HatMatrices matrices = AssembleHatMatrices(mesh, NumberHatFunctions(mesh, options));
-      const SparseMatrix A = Combine(matrices, 1.0, 1.0);
+      SparseMatrix A;
+      Combine(matrices, 1.0, 1.0, A);
       EXPECT_TRUE(Dense(A).allFinite()) << height << " " << scale;
       EXPECT_GE(A.rows, 3);
       // Negative cotangents do not make the sum of element matrices indefinite.

@@ -18,7 +18,7 @@ namespace
 /// Dense Rᵀ as the thesis writes it: M_c⁻¹ Pᵀ M_f E_f, lumped masses, over the clipped mesh.
 Eigen::MatrixXd PseudoEvaluation(const Hybrid& hybrid)
 {
-  const ClippedMesh& clipped = hybrid.space.clipped;
+  const ClippedMesh& clipped = hybrid.space.Grid().Functions().clipped;
   const auto points = static_cast<Id>(clipped.position.size());
   Eigen::VectorXd mass = Eigen::VectorXd::Zero(points);
   for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
@@ -37,7 +37,7 @@ Eigen::MatrixXd PseudoEvaluation(const Hybrid& hybrid)
       }
     }
   }
-  const HatFunctions& functions = hybrid.hats.functions;
+  const HatFunctions& functions = hybrid.space.Hats().functions;
   Eigen::MatrixXd P = Eigen::MatrixXd::Zero(points, functions.Count());
   for (Id point = 0; point < points; ++point)
   {
@@ -52,9 +52,9 @@ Eigen::MatrixXd PseudoEvaluation(const Hybrid& hybrid)
       P(point, functions.ofPoint[hybrid.mesh.triangles[cut.triangle][k]]) += cut.Weights()[k];
     }
   }
-  const Index count = hybrid.space.Finest().numberOfFunctions;
+  const Index count = hybrid.space.Grid().Functions().Finest().numberOfFunctions;
   const Eigen::MatrixXd E =
-    EvaluateAtClippedPoints(hybrid.space, MultiVector::Identity(count, count));
+    EvaluateAtClippedPoints(hybrid.space.Grid().Functions(), MultiVector::Identity(count, count));
   const Eigen::VectorXd lumped = P.transpose() * mass;
   return lumped.cwiseInverse().asDiagonal() * (P.transpose() * (mass.asDiagonal() * E));
 }
@@ -62,14 +62,15 @@ Eigen::MatrixXd PseudoEvaluation(const Hybrid& hybrid)
 /// Part of the surface, measured in ∫ b_i, whose grid functions get no residual: empty columns.
 double ShareWithoutResidual(const Hybrid& hybrid)
 {
-  const SharedArray<Index>& column = hybrid.hats.prolongation.column;
+  const SharedArray<Index>& column = hybrid.space.Hats().prolongation->column;
   const std::set<Index> reached(column.begin(), column.end());
   double without = 0.0;
   double all = 0.0;
-  for (std::size_t i = 0; i < hybrid.system.integral.size(); ++i)
+  for (std::size_t i = 0; i < hybrid.space.Grid().Operators().integral.size(); ++i)
   {
-    all += hybrid.system.integral[i];
-    without += reached.count(static_cast<Index>(i)) ? 0.0 : hybrid.system.integral[i];
+    all += hybrid.space.Grid().Operators().integral[i];
+    without +=
+      reached.count(static_cast<Index>(i)) ? 0.0 : hybrid.space.Grid().Operators().integral[i];
   }
   return without / all;
 }
@@ -82,11 +83,12 @@ TEST(HatTransfer, EvaluatesAtThePoints)
     { Transform(GeodesicSphere(5), { 1, 2, 3 }, 0.4), Unweld(Transform(Box(3), { 1, 2, 3 }, 0.4)) })
   {
     const Hybrid hybrid(mesh, 4, HatTransfer::Evaluation);
-    const MultiVector x = RandomValues(hybrid.space.Finest().numberOfFunctions, 2);
+    const MultiVector x =
+      RandomValues(hybrid.space.Grid().Functions().Finest().numberOfFunctions, 2);
     MultiVector onHats;
-    Multiply(hybrid.hats.prolongation, x, onHats);
-    EXPECT_LT(RelativeDifference(
-                ValuesAtPoints(hybrid.hats.functions, onHats), EvaluateAtPoints(hybrid.space, x)),
+    Multiply(hybrid.space.Hats().prolongation, x, onHats);
+    EXPECT_LT(RelativeDifference(ValuesAtPoints(hybrid.space.Hats().functions, onHats),
+                EvaluateAtPoints(hybrid.space.Grid().Functions(), x)),
       1e-13);
   }
 }
@@ -100,7 +102,8 @@ TEST(HatTransfer, IsThePseudoEvaluationMatrixOfTheThesis)
     {
       const Hybrid hybrid(mesh, depth, HatTransfer::PseudoEvaluation);
       EXPECT_LT(
-        (Dense(hybrid.hats.prolongation) - PseudoEvaluation(hybrid)).cwiseAbs().maxCoeff(), 1e-12);
+        (Dense(hybrid.space.Hats().prolongation) - PseudoEvaluation(hybrid)).cwiseAbs().maxCoeff(),
+        1e-12);
     }
   }
 }
@@ -134,7 +137,7 @@ TEST(HatTransfer, ReachesTheWholeSurfaceAlsoWhereTheGridIsFiner)
 TEST(HatTransfer, RefusesAnotherMesh)
 {
   const Hybrid hybrid(GeodesicSphere(3), 3);
-  EXPECT_THROW(BuildHatProlongation(
-                 hybrid.hats.functions, hybrid.space, GeodesicSphere(2), HatTransfer::Evaluation),
+  EXPECT_THROW(BuildHatProlongation(hybrid.space.Hats().functions, hybrid.space.Grid().Functions(),
+                 GeodesicSphere(2), HatTransfer::Evaluation),
     InvalidInput);
 }

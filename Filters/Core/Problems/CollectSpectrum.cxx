@@ -1,4 +1,4 @@
-#include "Problems/FinishSpectrum.h"
+#include "Problems/CollectSpectrum.h"
 
 #include "Algebra/BasisProducts.h"
 #include "Algebra/BlockProducts.h"

@@ -1,6 +1,6 @@
-// What the spectra on the grid and on the hat functions of the mesh share.
-#ifndef GridFEM_FinishSpectrum_h
-#define GridFEM_FinishSpectrum_h
+// The result of an eigenproblem from its constants and its pairs.
+#ifndef GridFEM_CollectSpectrum_h
+#define GridFEM_CollectSpectrum_h
 
 #include "Krylov/Lobpcg.h"
 #include "Problems/Spectrum.h"

@@ -1,7 +1,9 @@
 // Eigenpairs on hat functions against dense and shift-inverted references.
-#include "Problems/HatSpectrum.h"
+#include "Problems/Spectrum.h"
 
+#include "Discretisation.h"
 #include "Spaces.h"
+#include "Spaces/HatSpace.h"
 #include "Support/HatSystem.h"
 
 #include <Eigen/Eigenvalues>
@@ -17,21 +19,20 @@ struct Modes
 {
   Modes(const TriangleMesh& mesh, int depth, SpectrumOptions options, int threads = 0)
   {
-    SpaceOptions spaceOptions;
-    spaceOptions.depth = depth;
-    spaceOptions.threads = threads;
-    const GridFunctions space = BuildGridFunctions(mesh, spaceOptions);
-    const LevelOperators system = BuildSystem(space, TriangleRule(2), threads);
-    hats = BuildHatHierarchy(mesh, space, true, HatTransfer::Evaluation, threads);
+    GridSpaceOptions spaceOptions;
+    spaceOptions.functions.depth = depth;
+    spaceOptions.functions.threads = threads;
+    const HatSpace space = BuildHatSpace(mesh, spaceOptions);
     options.multigrid.threads = threads;
-    spectrum = ComputeHatSpectrum(hats, space, system, options);
-    unit2 = std::pow(space.GetGrid().spacing, 2);
+    matrices = space.Matrices();
+    spectrum = ComputeSpectrum(space, options);
+    unit2 = std::pow(space.UnitLength(), 2);
   }
 
   /// World units.
   double Value(int mode) const { return spectrum.eigenvalues[mode] / unit2; }
 
-  HatHierarchy hats;
+  HatMatrices matrices;
   Spectrum spectrum;
   double unit2;
 };
@@ -54,7 +55,7 @@ std::vector<double> DenseEigenvalues(const TriangleMesh& mesh)
 
 } // namespace
 
-TEST(HatSpectrum, IsThatOfADenseSolver)
+TEST(UnnestedSpectrum, IsThatOfADenseSolver)
 {
   for (const TriangleMesh& mesh : { Transform(GeodesicSphere(10), { 1, 2, 0 }, 1.0, 5.0),
          Join(Torus(20, 10, 1.0, 0.3), GeodesicSphere(5, 0.2)), TwoSheets(8, 0.02) })
@@ -74,14 +75,14 @@ TEST(HatSpectrum, IsThatOfADenseSolver)
   }
 }
 
-TEST(HatSpectrum, VectorsAreEigenvectors)
+TEST(UnnestedSpectrum, VectorsAreEigenvectors)
 {
   const Modes modes(Transform(Torus(30, 20, 1.0, 0.4), { 1, 2, 3 }, 0.4), 4, Options(15));
   const MultiVector& X = modes.spectrum.vectors;
   MultiVector MX;
   MultiVector LX;
-  Multiply(modes.hats.matrices.mass, X, MX);
-  Multiply(modes.hats.matrices.stiffness, X, LX);
+  Multiply(modes.matrices.mass, X, MX);
+  Multiply(modes.matrices.stiffness, X, LX);
   EXPECT_LT((X.transpose() * MX - Eigen::MatrixXd::Identity(15, 15)).cwiseAbs().maxCoeff(), 1e-10);
   for (int k = 0; k < 15; ++k)
   {
@@ -91,7 +92,7 @@ TEST(HatSpectrum, VectorsAreEigenvectors)
   }
 }
 
-TEST(HatSpectrum, GoesOnToTheEndOfAMultipletOrSaysThatItIsCut)
+TEST(UnnestedSpectrum, GoesOnToTheEndOfAMultipletOrSaysThatItIsCut)
 {
   const TriangleMesh mesh = Transform(GeodesicSphere(24), { 1, 2, 3 }, 0.4); // 1, 3, 5, ... equal
   SpectrumOptions options = Options(6, 1e-8);
@@ -104,7 +105,7 @@ TEST(HatSpectrum, GoesOnToTheEndOfAMultipletOrSaysThatItIsCut)
   EXPECT_FALSE(whole.spectrum.cutsMultiplet);
 }
 
-TEST(HatSpectrum, ZerosOfEqualComponentsAreAMultiplet)
+TEST(UnnestedSpectrum, ZerosOfEqualComponentsAreAMultiplet)
 {
   const TriangleMesh one = GeodesicSphere(6);
   const TriangleMesh two = Join(one, Transform(one, { 0, 0, 1 }, 0.0, 1.0, { 3, 0, 0 }));
@@ -121,7 +122,7 @@ TEST(HatSpectrum, ZerosOfEqualComponentsAreAMultiplet)
   EXPECT_FALSE(whole.spectrum.cutsMultiplet);
 }
 
-TEST(HatSpectrum, EstimatesTheErrorOfTheWorseOfBothSpaces)
+TEST(UnnestedSpectrum, EstimatesTheErrorOfTheWorseOfBothSpaces)
 {
   const TriangleMesh mesh = Transform(GeodesicSphere(5), { 1, 2, 3 }, 0.4);
   // The same surface with hats of an eighth of the size: a 64th of the error.
@@ -137,8 +138,8 @@ TEST(HatSpectrum, EstimatesTheErrorOfTheWorseOfBothSpaces)
   {
     spaceOptions.depth = depth;
     const GridFunctions space = BuildGridFunctions(mesh, spaceOptions);
-    const Spectrum grid =
-      ComputeSpectrum(space, BuildSystem(space, TriangleRule(2)), Options(17, 1e-8));
+    const Spectrum grid = ComputeSpectrum(
+      ViewOf(space, BuildLevelOperators(space, TriangleRule(2))), Options(17, 1e-8));
     const Modes modes(mesh, depth, Options(17));
     for (int k = 1; k < 17; ++k)
     {
@@ -152,7 +153,7 @@ TEST(HatSpectrum, EstimatesTheErrorOfTheWorseOfBothSpaces)
   }
 }
 
-TEST(HatSpectrum, HasNoMoreModesThanFunctions)
+TEST(UnnestedSpectrum, HasNoMoreModesThanFunctions)
 {
   const TriangleMesh mesh = GeodesicSphere(1); // 6 points
   const Modes modes(mesh, 4, Options(10));
@@ -165,7 +166,7 @@ TEST(HatSpectrum, HasNoMoreModesThanFunctions)
   }
 }
 
-TEST(HatSpectrum, DoesNotDependOnThreads)
+TEST(UnnestedSpectrum, DoesNotDependOnThreads)
 {
   const TriangleMesh mesh = Transform(GeodesicSphere(30), { 1, 2, 3 }, 0.5);
   const Modes one(mesh, 5, Options(12, 1e-8), 1);
@@ -174,7 +175,7 @@ TEST(HatSpectrum, DoesNotDependOnThreads)
   EXPECT_EQ(one.spectrum.vectors, three.spectrum.vectors);
 }
 
-TEST(HatSpectrum, OfRealMeshesIsThatOfShiftInvertIteration)
+TEST(UnnestedSpectrum, OfRealMeshesIsThatOfShiftInvertIteration)
 {
   for (const char* name : { "rocker_arm.ply", "bones_26comp_4k.ply" })
   {

@@ -1,5 +1,5 @@
 // The hybrid hierarchy: solutions against a direct solver, numbers of iterations.
-#include "Spaces/HatMultigrid.h"
+#include "Spaces/HatSpace.h"
 
 #include "Hybrid.h"
 #include "PrecisionChecks.h"
@@ -16,25 +16,24 @@ namespace
 {
 
 /// Ten sweeps of Gauss-Seidel on every level, W cycles: the solver of the thesis.
-void UseThesisSweeps(HatMultigridOptions& options)
+void UseThesisSweeps(HybridCycle& options)
 {
   options.grid.smoother = SmootherType::GaussSeidel;
   options.grid.preSweeps = options.grid.postSweeps = 10;
-  options.hats.preSweeps = options.hats.postSweeps = 10;
-  options.hats.cycle = CycleType::W;
+  options.hats = LevelSmoothing{ SmootherType::GaussSeidel, 10, 10, CycleType::W };
   options.relaxGroups = false;
 }
 
 } // namespace
 
-TEST(HatMultigrid, IsASymmetricPositivePreconditioner)
+TEST(HatSpace, IsASymmetricPositivePreconditioner)
 {
   for (const HatTransfer transfer : { HatTransfer::Evaluation, HatTransfer::PseudoEvaluation })
   {
     const Hybrid hybrid(Torus(12, 60, 1.0, 0.3), 3, transfer);
-    ASSERT_FALSE(hybrid.hats.groups.dof.empty());
+    ASSERT_FALSE(hybrid.space.Relaxation(0, {}).groups.dof.empty());
     const Multigrid multigrid = hybrid.Build(hybrid.Weight(10.0));
-    const MultiVector x = RandomValues(hybrid.hats.functions.Count(), 6);
+    const MultiVector x = RandomValues(hybrid.space.NumberOfFunctions(0), 6);
     MultiVector Bx;
     multigrid.Precondition(x, Bx);
     const Eigen::MatrixXd products = x.transpose() * Bx;
@@ -43,13 +42,13 @@ TEST(HatMultigrid, IsASymmetricPositivePreconditioner)
   }
 }
 
-TEST(HatMultigrid, TakesNewWeights)
+TEST(HatSpace, TakesNewWeights)
 {
   const Hybrid hybrid(Torus(20, 20, 1.0, 0.3), 4);
   Multigrid updated = hybrid.Build(hybrid.Weight(1.0));
-  UpdateHatMultigrid(hybrid.hats, hybrid.space, hybrid.system, hybrid.Weight(50.0), 1.0, updated);
+  UpdateMultigrid(hybrid.space, hybrid.Weight(50.0), 1.0, updated);
   const Multigrid built = hybrid.Build(hybrid.Weight(50.0));
-  const MultiVector b = RandomValues(hybrid.hats.functions.Count(), 1);
+  const MultiVector b = RandomValues(hybrid.space.NumberOfFunctions(0), 1);
   MultiVector x;
   MultiVector y;
   updated.Precondition(b, x);
@@ -57,7 +56,7 @@ TEST(HatMultigrid, TakesNewWeights)
   EXPECT_EQ(x, y);
 }
 
-TEST(HatMultigrid, HasACopyInDoublePrecision)
+TEST(HatSpace, HasACopyInDoublePrecision)
 {
   Hybrid hybrid(Torus(20, 20, 1.0, 0.3), 4);
   const Multigrid mixed = hybrid.Build(hybrid.Weight(1.0));
@@ -65,7 +64,7 @@ TEST(HatMultigrid, HasACopyInDoublePrecision)
   ExpectCopyInDoublePrecision(mixed, hybrid.Build(hybrid.Weight(1.0)));
 }
 
-TEST(HatMultigrid, DoesNotDependOnThreads)
+TEST(HatSpace, DoesNotDependOnThreads)
 {
   const TriangleMesh mesh = Transform(GeodesicSphere(40), { 1, 2, 3 }, 0.5);
   const MultiVector f = Waves(mesh);
@@ -128,7 +127,7 @@ TEST_P(HatPoisson, IsTheSolutionOfADirectSolver)
     const double lambda = relative / SurfaceArea(mesh);
     const PoissonSolution solution = hybrid.Solve(lambda, f);
     EXPECT_TRUE(solution.report.converged);
-    const MultiVector u = ValuesAtPoints(hybrid.hats.functions, solution.coefficients);
+    const MultiVector u = hybrid.space.ValuesAtPoints(solution.coefficients);
     const Eigen::MatrixXd expected = SolveHatPoisson(mesh, reference, lambda, f);
     EXPECT_LT((u - expected).cwiseAbs().maxCoeff(), 1e-7 * expected.cwiseAbs().maxCoeff());
   }
@@ -139,19 +138,19 @@ TEST_P(HatPoisson, KeepsTheMeansWithoutScreening)
   const Hybrid hybrid(GetParam().mesh, GetParam().depth);
   const PoissonSolution solution = hybrid.Solve(0.0, Waves(GetParam().mesh));
   EXPECT_TRUE(solution.report.converged);
-  const ComponentFunctions functions = hybrid.Functions();
-  const MultiVector load = IntegrateValues(
-    hybrid.hats.functions, hybrid.mesh, { FieldAssociation::Points, Waves(GetParam().mesh) });
-  Eigen::VectorXd integral = Eigen::VectorXd::Zero(functions.numberOfComponents);
+  const Components components = hybrid.space.ComponentsOf(0);
+  const MultiVector load =
+    hybrid.space.LoadOfValues({ FieldAssociation::Points, Waves(GetParam().mesh) });
+  Eigen::VectorXd integral = Eigen::VectorXd::Zero(components.count);
   Eigen::VectorXd area = integral;
-  for (std::size_t i = 0; i < functions.component.size(); ++i)
+  for (std::size_t i = 0; i < components.ofFunction.size(); ++i)
   {
-    integral[functions.component[i]] += load(static_cast<Id>(i), 0);
-    area[functions.component[i]] += functions.integral[i];
+    integral[components.ofFunction[i]] += load(static_cast<Id>(i), 0);
+    area[components.ofFunction[i]] += hybrid.space.Integrals()[i];
   }
-  for (std::size_t i = 0; i < functions.component.size(); ++i)
+  for (std::size_t i = 0; i < components.ofFunction.size(); ++i)
   {
-    const Index k = functions.component[i];
+    const Index k = components.ofFunction[i];
     ASSERT_NEAR(solution.coefficients(static_cast<Id>(i), 0), integral[k] / area[k], 1e-12);
   }
 }
@@ -164,7 +163,7 @@ namespace
 /// Iterations to a residual of 1e-8 for one weight in units of the unit cube.
 int Iterations(const Hybrid& hybrid, double lambda)
 {
-  const double side = hybrid.space.GetGrid().spacing * hybrid.space.GetGrid().CellsPerSide();
+  const double side = hybrid.space.UnitLength() * hybrid.space.Extent();
   const PoissonSolution solution = hybrid.Solve(lambda / (side * side), Waves(hybrid.mesh));
   EXPECT_TRUE(solution.report.converged);
   return solution.report.iterations;
@@ -172,7 +171,7 @@ int Iterations(const Hybrid& hybrid, double lambda)
 
 } // namespace
 
-TEST(HatMultigrid, NeedsFewIterationsOnSubdividedMeshes)
+TEST(HatSpace, NeedsFewIterationsOnSubdividedMeshes)
 {
   const std::string path = RealMesh("rocker_arm.ply");
   if (path.empty())
@@ -192,7 +191,7 @@ TEST(HatMultigrid, NeedsFewIterationsOnSubdividedMeshes)
   }
 }
 
-TEST(HatMultigrid, DoesNotMindThinTriangles)
+TEST(HatSpace, DoesNotMindThinTriangles)
 {
   // 150 points around a thin tube and 12 along: triangles 10 and more times as long as wide.
   const TriangleMesh mesh = SubdivideInPlane(Torus(12, 150, 1.0, 0.3));
@@ -204,7 +203,7 @@ TEST(HatMultigrid, DoesNotMindThinTriangles)
   EXPECT_LE(2 * withGroups, without);
 }
 
-TEST(HatMultigrid, ConvergesInTenCyclesOfTheThesis)
+TEST(HatSpace, ConvergesInTenCyclesOfTheThesis)
 {
   const std::string path = RealMesh("rocker_arm.ply");
   const TriangleMesh mesh =
@@ -217,8 +216,7 @@ TEST(HatMultigrid, ConvergesInTenCyclesOfTheThesis)
     {
       const double weight = lambda * std::pow(0.25, 5);
       const Multigrid multigrid = hybrid.Build(weight);
-      const MultiVector load =
-        IntegrateValues(hybrid.hats.functions, mesh, { FieldAssociation::Points, Waves(mesh) });
+      const MultiVector load = hybrid.space.LoadOfValues({ FieldAssociation::Points, Waves(mesh) });
       MultiVector x = MultiVector::Zero(load.rows(), 1);
       const SolveReport report = SolveCycles(multigrid, weight * load, x, hybrid.solve);
       EXPECT_TRUE(report.converged);
@@ -227,7 +225,7 @@ TEST(HatMultigrid, ConvergesInTenCyclesOfTheThesis)
   }
 }
 
-TEST(HatMultigrid, DoesNotMindAGridThatIsMuchFinerThanTheMesh)
+TEST(HatSpace, DoesNotMindAGridThatIsMuchFinerThanTheMesh)
 {
   // A point's residual spread over the hat is answered alike by every grid; a point load is not.
   const TriangleMesh mesh = Transform(GeodesicSphere(3), { 1, 2, 3 }, 0.5); // 38 points
@@ -237,9 +235,8 @@ TEST(HatMultigrid, DoesNotMindAGridThatIsMuchFinerThanTheMesh)
     hybrid.options.relaxGroups = false; // of 38 points they would leave the grid nothing to do
     const double weight = 0.01 * std::pow(0.25, depth);
     const Multigrid multigrid = hybrid.Build(weight);
-    MultiVector x = MultiVector::Zero(hybrid.hats.functions.Count(), 1);
-    const MultiVector load =
-      IntegrateValues(hybrid.hats.functions, mesh, { FieldAssociation::Points, Waves(mesh) });
+    MultiVector x = MultiVector::Zero(hybrid.space.NumberOfFunctions(0), 1);
+    const MultiVector load = hybrid.space.LoadOfValues({ FieldAssociation::Points, Waves(mesh) });
     const SolveReport report = SolveCycles(multigrid, weight * load, x, hybrid.solve);
     EXPECT_TRUE(report.converged);
     return report.iterations;

@@ -1,9 +1,9 @@
-#include "Problems/HatSpectrum.h"
+#include "Problems/UnnestedSpectrum.h"
 
 #include "Algebra/BlockProducts.h"
 #include "Krylov/LobpcgWindows.h"
 #include "Multigrid/BlockPreconditioner.h"
-#include "Problems/FinishSpectrum.h"
+#include "Problems/CollectSpectrum.h"
 #include "Problems/SpectrumAccuracy.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace
 {
 
 /// Far below what the two discretisations differ by.
-constexpr double GridTolerance = 1e-4;
+constexpr double StartTolerance = 1e-4;
 constexpr int RandomStartIterations = 40;
 
 /// Whether the value behind the first `count` belongs to the multiplet of the last of them.
@@ -26,11 +26,11 @@ bool EndsInside(const Values& values, Index before, Index count)
          IsMultiplet(values[count - 1], values[count], before + count);
 }
 
-/// How many of the grid's modes make up the list.
-Index ListLength(const Spectrum& grid, const SpectrumOptions& options)
+/// How many modes of the start make up the list.
+Index ListLength(const Spectrum& start, const SpectrumOptions& options)
 {
   Index count = options.numberOfModes;
-  while (options.completeMultiplets && EndsInside(grid.eigenvalues, 0, count))
+  while (options.completeMultiplets && EndsInside(start.eigenvalues, 0, count))
   {
     ++count;
   }
@@ -38,12 +38,12 @@ Index ListLength(const Spectrum& grid, const SpectrumOptions& options)
 }
 
 /// Without a preconditioner, which is not needed where the list ends among the constants.
-SpectralProblem<double> HatProblem(
-  const HatHierarchy& hats, const Constants& constants, int threads)
+SpectralProblem<double> FinestProblem(
+  const FiniteElementSpace& space, const Constants& constants, SparseMatrix mass, int threads)
 {
   SpectralProblem<double> problem;
-  problem.stiffness = hats.matrices.stiffness;
-  problem.mass = hats.matrices.mass;
+  problem.stiffness = space.Matrix(0, 0.0, 1.0, threads);
+  problem.mass = std::move(mass);
   problem.constants = &constants;
   problem.threads = threads;
   return problem;
@@ -51,13 +51,13 @@ SpectralProblem<double> HatProblem(
 
 /// About the lowest value: far above it, a shift would cost digits; far below, as by the values
 /// that rounding gives a piece without an area, constants would drown all else.
-double LowestValue(const Spectrum& grid)
+double LowestValue(const Spectrum& start)
 {
   constexpr double Rounding = 1e-10;
-  const double zero = grid.eigenvalues.empty() ? 0.0 : Rounding * grid.eigenvalues.back();
-  const auto first = std::find_if(grid.eigenvalues.begin(), grid.eigenvalues.end(),
+  const double zero = start.eigenvalues.empty() ? 0.0 : Rounding * start.eigenvalues.back();
+  const auto first = std::find_if(start.eigenvalues.begin(), start.eigenvalues.end(),
     [zero](double value) { return value > zero; });
-  return first == grid.eigenvalues.end() ? 1.0 : *first;
+  return first == start.eigenvalues.end() ? 1.0 : *first;
 }
 
 /// The wanted pairs, at most `all`; more until the multiplet at their end is whole, if that is
@@ -90,18 +90,19 @@ BlockReport FindPairs(const SpectralProblem<double>& problem, const SpectrumOpti
   return report;
 }
 
-/// Relative errors as eigenvalues of the surface; 1 (unknown) where the grid has no such value.
-std::vector<double> EstimateHatErrors(const std::vector<double>& hats, const Spectrum& grid)
+/// Relative errors as eigenvalues of the surface; 1 (unknown) where the start has no such value.
+std::vector<double> EstimateErrorsBeyond(const std::vector<double>& values, const Spectrum& start)
 {
-  std::vector<double> errors(hats.size(), 0.0);
-  for (std::size_t k = 0; k < hats.size(); ++k)
+  std::vector<double> errors(values.size(), 0.0);
+  for (std::size_t k = 0; k < values.size(); ++k)
   {
-    const double value = k < grid.eigenvalues.size() ? grid.eigenvalues[k] : 0.0;
-    if (hats[k] > 0.0)
+    const double below = k < start.eigenvalues.size() ? start.eigenvalues[k] : 0.0;
+    if (values[k] > 0.0)
     {
-      errors[k] = value > 0.0 ? std::min(1.0,
-                                  grid.estimatedErrors[k] + std::max(0.0, hats[k] - value) / value)
-                              : 1.0;
+      errors[k] =
+        below > 0.0
+          ? std::min(1.0, start.estimatedErrors[k] + std::max(0.0, values[k] - below) / below)
+          : 1.0;
     }
   }
   return errors;
@@ -109,54 +110,45 @@ std::vector<double> EstimateHatErrors(const std::vector<double>& hats, const Spe
 
 } // namespace
 
-SpectrumOptions HatStartOptions(SpectrumOptions options)
+SpectrumOptions StartOptions(SpectrumOptions options)
 {
   options.numberOfModes = GuardedSize(options.numberOfModes);
-  options.tolerance = std::max(options.tolerance, GridTolerance);
+  options.tolerance = std::max(options.tolerance, StartTolerance);
   return options;
 }
 
-Spectrum ComputeHatSpectrum(const HatHierarchy& hats, const GridFunctions& space,
-  const LevelOperators& system, const Spectrum& grid, const SpectrumOptions& options,
-  const Progress& progress)
+Spectrum ImproveSpectrum(const FiniteElementSpace& space, const Spectrum& start,
+  const SpectrumOptions& options, const Progress& progress)
 {
   const int threads = options.multigrid.threads;
-  const Constants constants(
-    hats.matrices.mass, hats.functions.component, hats.functions.numberOfComponents, threads);
+  SparseMatrix mass = space.Matrix(0, 1.0, 0.0, threads);
+  Components components = space.ComponentsOf(0, threads);
+  const Constants constants(mass, std::move(components.ofFunction), components.count, threads);
   const Index zeros = constants.Count();
-  const Index all = hats.functions.Count() - zeros;
+  const Index all = space.NumberOfFunctions(0) - zeros;
   const Index listed = options.completeMultiplets ? zeros : std::min(zeros, options.numberOfModes);
-  SpectralProblem<double> problem = HatProblem(hats, constants, threads);
+  SpectralProblem<double> problem = FinestProblem(space, constants, std::move(mass), threads);
   EigenPairs<double> pairs;
   BlockReport report;
   if (options.numberOfModes > zeros && all > 0)
   {
-    problem.shift = LowestValue(grid);
-    const Multigrid multigrid =
-      BuildHatMultigrid(hats, space, system, problem.shift, 1.0, HatCycle(options.multigrid));
+    problem.shift = LowestValue(start);
+    const Multigrid multigrid = BuildMultigrid(space, problem.shift, 1.0, options.multigrid);
     problem.precondition = CyclePreconditioner<double>(multigrid, 0);
     progress.Check(0.1);
-    pairs.vectors.Reserve(problem.mass.rows, grid.vectors.cols());
-    pairs.vectors.Show(grid.vectors.cols());
-    MultiplyBlock<double>(hats.prolongation, grid.vectors, pairs.vectors.View(), threads);
+    pairs.vectors.Reserve(problem.mass.rows, start.vectors.cols());
+    pairs.vectors.Show(start.vectors.cols());
+    MultiplyBlock<double>(space.Prolongation(0), start.vectors, pairs.vectors.View(), threads);
     constants.Remove<double>(pairs.vectors.View());
     report = FindPairs(
-      problem, options, ListLength(grid, options) - zeros, all, pairs, progress.Part(0.1, 1.0));
+      problem, options, ListLength(start, options) - zeros, all, pairs, progress.Part(0.1, 1.0));
   }
   Spectrum spectrum = CollectSpectrum(constants, listed, pairs, report, problem);
-  spectrum.estimatedErrors = EstimateHatErrors(spectrum.eigenvalues, grid);
+  spectrum.estimatedErrors = EstimateErrorsBeyond(spectrum.eigenvalues, start);
   const auto others = static_cast<Index>(report.residuals.size());
   spectrum.truncated = listed + others < options.numberOfModes;
   spectrum.cutsMultiplet = listed < zeros || EndsInside(pairs.values, zeros, others);
   return spectrum;
-}
-
-Spectrum ComputeHatSpectrum(const HatHierarchy& hats, const GridFunctions& space,
-  const LevelOperators& system, const SpectrumOptions& options, const Progress& progress)
-{
-  const Spectrum grid =
-    ComputeSpectrum(space, system, HatStartOptions(options), progress.Part(0.0, 0.3));
-  return ComputeHatSpectrum(hats, space, system, grid, options, progress.Part(0.3, 1.0));
 }
 
 } // namespace gridfem

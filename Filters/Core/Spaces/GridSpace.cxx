@@ -1,0 +1,201 @@
+#include "Spaces/GridSpace.h"
+
+#include "Integrals/Evaluation.h"
+#include "Integrals/LoadVector.h"
+#include "Spaces/PatchOrdering.h"
+
+#include <algorithm>
+
+namespace gridfem
+{
+
+GridSpace::GridSpace(std::shared_ptr<const TriangleMesh> mesh,
+  std::shared_ptr<const GridFunctions> functions, std::shared_ptr<const LevelOperators> operators)
+  : mesh_(std::move(mesh)), functions_(std::move(functions)), shared_(std::move(operators))
+{
+}
+
+std::size_t GridSpace::NumberOfLevels() const
+{
+  return this->Operators().pattern.size();
+}
+
+Index GridSpace::NumberOfFunctions(std::size_t level) const
+{
+  return functions_->levels.at(level).numberOfFunctions;
+}
+
+void GridSpace::FillMatrix(
+  std::size_t level, double a, double b, SparseMatrix& matrix, const Job& job) const
+{
+  if (matrix.rows != this->NumberOfFunctions(level) || matrix.value.empty())
+  {
+    matrix = this->Operators().pattern.at(level);
+  }
+  FillLevelMatrix(*functions_, this->Operators(), level, a, b, job.threads, matrix);
+}
+
+SharedMatrix GridSpace::Prolongation(std::size_t level) const
+{
+  return this->Operators().prolongation.at(level);
+}
+
+SharedMatrix GridSpace::Restriction(std::size_t level) const
+{
+  return this->Operators().restriction.at(level);
+}
+
+LevelRelaxation GridSpace::Relaxation(std::size_t level, const MultigridOptions&) const
+{
+  return { OrderPatches(functions_->levels.at(level)), {}, {} };
+}
+
+Components GridSpace::ComponentsOf(std::size_t level, const Job& job) const
+{
+  if (level == 0)
+  {
+    return { functions_->component, functions_->numberOfComponents };
+  }
+  Components components;
+  components.ofFunction = FunctionComponents(functions_->levels.at(level), job.threads);
+  for (const Index component : components.ofFunction)
+  {
+    components.count = std::max(components.count, component + 1);
+  }
+  return components;
+}
+
+double GridSpace::UnitLength() const
+{
+  return functions_->GetGrid().spacing;
+}
+
+double GridSpace::Extent() const
+{
+  return functions_->GetGrid().CellsPerSide();
+}
+
+const std::vector<double>& GridSpace::Integrals() const
+{
+  return this->Operators().integral;
+}
+
+const QuadratureRule& GridSpace::Rule() const
+{
+  return TriangleRule(shared_->quadratureDegree);
+}
+
+MultiVector GridSpace::LoadOfValues(const Field& f, const Job& job) const
+{
+  return IntegrateValues(*functions_, *mesh_, f, this->Rule(), job.threads, job.progress);
+}
+
+MultiVector GridSpace::LoadOfGradients(const Field& s, const Field* scale, const Job& job) const
+{
+  return IntegrateGradients(*functions_, *mesh_, s, scale, this->Rule(), job.threads, job.progress);
+}
+
+MultiVector GridSpace::LoadOfGradientsOf(const Field& f, const Field* scale, const Job& job) const
+{
+  return IntegrateGradientsOf(
+    *functions_, *mesh_, f, scale, this->Rule(), job.threads, job.progress);
+}
+
+MultiVector GridSpace::ValuesAtPoints(const MultiVector& coefficients, const Job& job) const
+{
+  return EvaluateAtPoints(*functions_, coefficients, job.threads);
+}
+
+MultiVector GridSpace::GradientsOnTriangles(const MultiVector& coefficients, const Job& job) const
+{
+  return MeanGradients(
+    *functions_, static_cast<Id>(mesh_->triangles.size()), coefficients, job.threads);
+}
+
+SparseMatrix GridSpace::RowsAtPoints(const std::vector<Id>& points) const
+{
+  return EvaluationRows(*functions_, points);
+}
+
+std::vector<char> GridSpace::PointsWithFunctions() const
+{
+  std::vector<char> has(functions_->pointPatch.size());
+  std::transform(functions_->pointPatch.begin(), functions_->pointPatch.end(), has.begin(),
+    [](Index patch) { return patch >= 0; });
+  return has;
+}
+
+std::unique_ptr<FiniteElementSpace> GridSpace::Copy() const
+{
+  return std::make_unique<GridSpace>(*this);
+}
+
+LevelOperators& GridSpace::OwnOperators()
+{
+  if (!own_)
+  {
+    own_ = *shared_;
+  }
+  return *own_;
+}
+
+Id GridSpace::SetMetric(const MultiVector& embedding, const Job& job)
+{
+  return this->Integrate(MetricOfEmbedding(*functions_, this->Rule(), embedding, job.threads,
+                           job.progress.Part(0.0, 0.3)),
+    job.Part(0.3, 1.0));
+}
+
+Id GridSpace::SetMetricOfMesh(const TriangleMesh& moved, const Job& job)
+{
+  return this->Integrate(MetricOfMesh(*functions_, this->Rule(), *mesh_, moved, job.threads,
+                           job.progress.Part(0.0, 0.3)),
+    job.Part(0.3, 1.0));
+}
+
+Id GridSpace::Integrate(const SampleMetric& metric, const Job& job)
+{
+  LevelOperators& operators = this->OwnOperators();
+  const Id singular = IntegrateElements(*functions_, this->Rule(), metric,
+    operators.elements.front(), job.threads, job.progress.Part(0.0, 0.7));
+  UpdateOperators(*functions_, operators, job.threads);
+  job.Check(1.0);
+  return singular;
+}
+
+void GridSpace::SplitStiffness(const std::vector<Vec3>& direction, const Job& job)
+{
+  split_ = std::make_shared<const DirectionalElements>(
+    IntegrateElements(*functions_, this->Rule(), direction, job.threads, job.progress));
+}
+
+MultiVector GridSpace::MeansOnElements(const MultiVector& onTriangles, const Job& job) const
+{
+  return MeansOnPatches(*functions_, onTriangles, job.threads);
+}
+
+void GridSpace::Weigh(const std::vector<ElementWeights>& weights, const Job& job)
+{
+  if (!split_)
+  {
+    throw InvalidInput("Weights need a stiffness that is split by direction.");
+  }
+  LevelOperators& operators = this->OwnOperators();
+  gridfem::Weigh(*split_, weights, operators.elements.front(), job.threads);
+  UpdateOperators(*functions_, operators, job.threads);
+}
+
+GridSpace BuildGridSpace(
+  TriangleMesh mesh, const GridSpaceOptions& options, const Progress& progress)
+{
+  const int threads = options.functions.threads;
+  auto surface = std::make_shared<const TriangleMesh>(std::move(mesh));
+  auto functions = std::make_shared<const GridFunctions>(
+    BuildGridFunctions(*surface, options.functions, progress.Part(0.0, 0.7)));
+  auto operators = std::make_shared<const LevelOperators>(
+    BuildLevelOperators(*functions, TriangleRule(options.quadratureDegree), threads,
+      options.coarsestSize, progress.Part(0.7, 1.0)));
+  return GridSpace(std::move(surface), std::move(functions), std::move(operators));
+}
+
+} // namespace gridfem

@@ -1,0 +1,86 @@
+// The functions of a grid as a finite element space: trilinear B-splines restricted to the surface,
+// nested from level to level. [DESIGN §1, §2]
+#ifndef GridFEM_GridSpace_h
+#define GridFEM_GridSpace_h
+
+#include "Integrals/SurfaceMetric.h"
+#include "Spaces/FiniteElementSpace.h"
+#include "Spaces/LevelOperators.h"
+
+#include <optional>
+
+namespace gridfem
+{
+
+/// The unit of length is a cell's side. Functions and operators may be shared by many spaces; a new
+/// metric or new weights belong to one.
+class GridSpace : public FiniteElementSpace
+{
+public:
+  /// @param mesh  what the pieces' source triangles refer to
+  GridSpace(std::shared_ptr<const TriangleMesh> mesh,
+    std::shared_ptr<const GridFunctions> functions,
+    std::shared_ptr<const LevelOperators> operators);
+
+  std::size_t NumberOfLevels() const override;
+  Index NumberOfFunctions(std::size_t level) const override;
+  void FillMatrix(
+    std::size_t level, double a, double b, SparseMatrix& matrix, const Job& job) const override;
+  SharedMatrix Prolongation(std::size_t level) const override;
+  SharedMatrix Restriction(std::size_t level) const override;
+  LevelRelaxation Relaxation(std::size_t level, const MultigridOptions& options) const override;
+  Components ComponentsOf(std::size_t level, const Job& job = {}) const override;
+
+  double UnitLength() const override;
+  double Extent() const override;
+
+  const std::vector<double>& Integrals() const override;
+  MultiVector LoadOfValues(const Field& f, const Job& job = {}) const override;
+  MultiVector LoadOfGradients(
+    const Field& s, const Field* scale, const Job& job = {}) const override;
+  MultiVector LoadOfGradientsOf(
+    const Field& f, const Field* scale, const Job& job = {}) const override;
+  MultiVector ValuesAtPoints(const MultiVector& coefficients, const Job& job = {}) const override;
+  MultiVector GradientsOnTriangles(
+    const MultiVector& coefficients, const Job& job = {}) const override;
+  SparseMatrix RowsAtPoints(const std::vector<Id>& points) const override;
+  std::vector<char> PointsWithFunctions() const override;
+
+  std::unique_ptr<FiniteElementSpace> Copy() const override;
+  Id SetMetric(const MultiVector& embedding, const Job& job = {}) override;
+  /// The same for the mesh with moved points.
+  Id SetMetricOfMesh(const TriangleMesh& moved, const Job& job = {});
+  void SplitStiffness(const std::vector<Vec3>& direction, const Job& job = {}) override;
+  MultiVector MeansOnElements(const MultiVector& onTriangles, const Job& job = {}) const override;
+  void Weigh(const std::vector<ElementWeights>& weights, const Job& job = {}) override;
+
+  const GridFunctions& Functions() const { return *functions_; }
+  const LevelOperators& Operators() const { return own_ ? *own_ : *shared_; }
+  const TriangleMesh& Mesh() const { return *mesh_; }
+
+private:
+  Id Integrate(const SampleMetric& metric, const Job& job);
+  LevelOperators& OwnOperators();
+  const QuadratureRule& Rule() const;
+
+  std::shared_ptr<const TriangleMesh> mesh_;
+  std::shared_ptr<const GridFunctions> functions_;
+  std::shared_ptr<const LevelOperators> shared_;
+  std::optional<LevelOperators> own_; // once numbers have changed
+  std::shared_ptr<const DirectionalElements> split_;
+};
+
+struct GridSpaceOptions
+{
+  SpaceOptions functions;
+  int quadratureDegree = 2;
+  Index coarsestSize = 256; // functions of the largest component on the coarsest level, at most
+};
+
+/// Clips, builds functions and operators in one go. Throws InvalidInput and Aborted.
+GridSpace BuildGridSpace(
+  TriangleMesh mesh, const GridSpaceOptions& options, const Progress& progress = {});
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,239 @@
+#include "Spaces/HatSpace.h"
+
+#include "Base/Errors.h"
+#include "Multigrid/MatrixOrdering.h"
+#include "Spaces/HatLoad.h"
+
+#include <algorithm>
+#include <string>
+
+namespace gridfem
+{
+
+HatLevel BuildHatLevel(const TriangleMesh& mesh, const GridFunctions& grid,
+  bool weldCoincidentPoints, HatTransfer transfer, const Job& job)
+{
+  HatOptions options;
+  options.weldCoincidentPoints = weldCoincidentPoints;
+  options.unitLength = grid.GetGrid().spacing;
+  options.threads = job.threads;
+  HatLevel hats;
+  hats.functions = NumberHatFunctions(mesh, options);
+  if (hats.functions.Count() == 0)
+  {
+    throw InvalidInput("No triangle has an area, so there are no hat functions.");
+  }
+  job.Check(0.3);
+  hats.matrices = AssembleHatMatrices(mesh, hats.functions, nullptr, job.threads);
+  hats.order = OrderInBlocks(hats.matrices.stiffness);
+  hats.groups = GroupByCoupling(hats.matrices.stiffness, job.threads);
+  job.Check(0.6);
+  hats.prolongation = BuildHatProlongation(hats.functions, grid, mesh, transfer, job.threads);
+  hats.restriction = Transpose(hats.prolongation, job.threads);
+  job.Check(1.0);
+  return hats;
+}
+
+HatSpace::HatSpace(std::shared_ptr<const HatLevel> hats, GridSpace grid)
+  : hats_(std::move(hats)), grid_(std::move(grid))
+{
+}
+
+std::size_t HatSpace::NumberOfLevels() const
+{
+  return 1 + grid_.NumberOfLevels();
+}
+
+Index HatSpace::NumberOfFunctions(std::size_t level) const
+{
+  return level == 0 ? hats_->functions.Count() : grid_.NumberOfFunctions(level - 1);
+}
+
+void HatSpace::FillMatrix(
+  std::size_t level, double a, double b, SparseMatrix& matrix, const Job& job) const
+{
+  if (level == 0)
+  {
+    Combine(this->Matrices(), a, b, matrix, job.threads);
+  }
+  else
+  {
+    grid_.FillMatrix(level - 1, a, b, matrix, job);
+  }
+}
+
+SharedMatrix HatSpace::Prolongation(std::size_t level) const
+{
+  return level == 0 ? hats_->prolongation : grid_.Prolongation(level - 1);
+}
+
+SharedMatrix HatSpace::Restriction(std::size_t level) const
+{
+  return level == 0 ? hats_->restriction : grid_.Restriction(level - 1);
+}
+
+LevelRelaxation HatSpace::Relaxation(std::size_t level, const MultigridOptions& options) const
+{
+  if (level > 0)
+  {
+    return grid_.Relaxation(level - 1, options);
+  }
+  LevelSmoothing smoothing;
+  smoothing.preSweeps = 2 * options.preSweeps;
+  smoothing.postSweeps = 2 * options.postSweeps;
+  return { hats_->order, hats_->groups, smoothing };
+}
+
+Components HatSpace::ComponentsOf(std::size_t level, const Job& job) const
+{
+  return level == 0 ? Components{ hats_->functions.component, hats_->functions.numberOfComponents }
+                    : grid_.ComponentsOf(level - 1, job);
+}
+
+double HatSpace::UnitLength() const
+{
+  return grid_.UnitLength();
+}
+
+double HatSpace::Extent() const
+{
+  return grid_.Extent();
+}
+
+const std::vector<double>& HatSpace::Integrals() const
+{
+  return this->Matrices().integral;
+}
+
+MultiVector HatSpace::LoadOfValues(const Field& f, const Job& job) const
+{
+  return IntegrateValues(hats_->functions, grid_.Mesh(), f, job.threads);
+}
+
+MultiVector HatSpace::LoadOfGradients(const Field& s, const Field* scale, const Job& job) const
+{
+  return IntegrateGradients(hats_->functions, grid_.Mesh(), s, scale, job.threads);
+}
+
+MultiVector HatSpace::LoadOfGradientsOf(const Field& f, const Field* scale, const Job& job) const
+{
+  return IntegrateGradientsOf(hats_->functions, grid_.Mesh(), f, scale, job.threads);
+}
+
+MultiVector HatSpace::ValuesAtPoints(const MultiVector& coefficients, const Job& job) const
+{
+  return gridfem::ValuesAtPoints(hats_->functions, coefficients, job.threads);
+}
+
+MultiVector HatSpace::GradientsOnTriangles(const MultiVector& coefficients, const Job& job) const
+{
+  return gridfem::GradientsOnTriangles(hats_->functions, grid_.Mesh(), coefficients, job.threads);
+}
+
+SparseMatrix HatSpace::RowsAtPoints(const std::vector<Id>& points) const
+{
+  const std::vector<Index>& functionOf = hats_->functions.ofPoint;
+  Array<Id> rowBegin{ 0 };
+  Array<Index> column;
+  for (const Id point : points)
+  {
+    if (point < 0 || point >= static_cast<Id>(functionOf.size()))
+    {
+      throw InvalidInput("There is no point " + std::to_string(point) + ".");
+    }
+    if (functionOf[point] >= 0)
+    {
+      column.push_back(functionOf[point]);
+    }
+    rowBegin.push_back(static_cast<Id>(column.size()));
+  }
+  SparseMatrix rows;
+  rows.rows = static_cast<Index>(points.size());
+  rows.columns = hats_->functions.Count();
+  rows.value.assign(column.size(), 1.0);
+  rows.rowBegin = std::move(rowBegin);
+  rows.column = std::move(column);
+  return rows;
+}
+
+std::vector<char> HatSpace::PointsWithFunctions() const
+{
+  const std::vector<Index>& functionOf = hats_->functions.ofPoint;
+  std::vector<char> has(functionOf.size());
+  std::transform(functionOf.begin(), functionOf.end(), has.begin(),
+    [](Index function) { return function >= 0; });
+  return has;
+}
+
+std::unique_ptr<FiniteElementSpace> HatSpace::Copy() const
+{
+  return std::make_unique<HatSpace>(*this);
+}
+
+/// The cotangent system of the moved points; the grid takes the metric that the moved triangles
+/// have, so that its cycles precondition the same surface.
+Id HatSpace::SetMetric(const MultiVector& embedding, const Job& job)
+{
+  if (embedding.cols() != 3)
+  {
+    throw InvalidInput("an embedding needs three coefficients for each function of the space");
+  }
+  TriangleMesh moved = grid_.Mesh();
+  const MultiVector position = this->ValuesAtPoints(embedding, job);
+  for (Id point = 0; point < position.rows(); ++point)
+  {
+    moved.points[point] = position.row(point).transpose() * this->UnitLength();
+  }
+  auto matrices = std::make_shared<HatMatrices>(
+    AssembleHatMatrices(moved, hats_->functions, nullptr, job.threads));
+  job.Check(0.4);
+  own_ = std::move(matrices);
+  grid_.SetMetricOfMesh(moved, job.Part(0.4, 1.0));
+  return CountFlattened(hats_->functions, moved, job.threads);
+}
+
+void HatSpace::SplitStiffness(const std::vector<Vec3>& direction, const Job& job)
+{
+  grid_.SplitStiffness(direction, job);
+  direction_ = std::make_shared<const std::vector<Vec3>>(direction);
+}
+
+MultiVector HatSpace::MeansOnElements(const MultiVector& onTriangles, const Job&) const
+{
+  return onTriangles;
+}
+
+void HatSpace::Weigh(const std::vector<ElementWeights>& weights, const Job& job)
+{
+  if (!direction_ || weights.size() != grid_.Mesh().triangles.size())
+  {
+    throw InvalidInput("Weights need a split stiffness, and there has to be one per triangle.");
+  }
+  const HatWeights onTriangles{ *direction_, weights };
+  own_ = std::make_shared<const HatMatrices>(
+    AssembleHatMatrices(grid_.Mesh(), hats_->functions, &onTriangles, job.threads));
+  MultiVector columns(static_cast<Id>(weights.size()), 3);
+  for (Id t = 0; t < columns.rows(); ++t)
+  {
+    columns.row(t) << weights[t].mass, weights[t].stiffness[0], weights[t].stiffness[1];
+  }
+  const MultiVector means = grid_.MeansOnElements(columns, job);
+  std::vector<ElementWeights> onPatches(means.rows());
+  for (Id p = 0; p < means.rows(); ++p)
+  {
+    onPatches[p] = { means(p, 0), { means(p, 1), means(p, 2) } };
+  }
+  grid_.Weigh(onPatches, job);
+}
+
+HatSpace BuildHatSpace(TriangleMesh mesh, const GridSpaceOptions& options, HatTransfer transfer,
+  const Progress& progress)
+{
+  GridSpace grid = BuildGridSpace(std::move(mesh), options, progress.Part(0.0, 0.8));
+  auto hats = std::make_shared<const HatLevel>(
+    BuildHatLevel(grid.Mesh(), grid.Functions(), options.functions.weldCoincidentPoints, transfer,
+      { options.functions.threads, progress.Part(0.8, 1.0) }));
+  return HatSpace(std::move(hats), std::move(grid));
+}
+
+} // namespace gridfem

@@ -1,0 +1,84 @@
+// The hat functions of a mesh as a finite element space: the finest level, above those of a grid
+// that speeds up the solution. [T §4.2, Hat-Basis Incorporation]
+#ifndef GridFEM_HatSpace_h
+#define GridFEM_HatSpace_h
+
+#include "Spaces/GridSpace.h"
+#include "Spaces/HatMatrices.h"
+#include "Spaces/HatTransfer.h"
+
+namespace gridfem
+{
+
+/// What hats of one mesh above one grid keep for any a M + b L; in the grid's unit of length.
+struct HatLevel
+{
+  HatFunctions functions;
+  HatMatrices matrices;
+  PatchOrder order;          // of the sweeps
+  PatchOrder groups;         // of eight hats each; see GroupByCoupling
+  SharedMatrix prolongation; // from the finest functions of the grid
+  SharedMatrix restriction;
+};
+
+/// @param mesh  what the functions of the grid were made from, weldCoincidentPoints as there
+/// Throws InvalidInput when no triangle has an area.
+HatLevel BuildHatLevel(const TriangleMesh& mesh, const GridFunctions& grid,
+  bool weldCoincidentPoints, HatTransfer transfer = HatTransfer::Evaluation, const Job& job = {});
+
+/// Level 0 are the hats, relaxed by Gauss-Seidel with twice the sweeps of the grid's levels and, on
+/// the way, in groups; level l + 1 is level l of the grid.
+class HatSpace : public FiniteElementSpace
+{
+public:
+  HatSpace(std::shared_ptr<const HatLevel> hats, GridSpace grid);
+
+  std::size_t NumberOfLevels() const override;
+  Index NumberOfFunctions(std::size_t level) const override;
+  void FillMatrix(
+    std::size_t level, double a, double b, SparseMatrix& matrix, const Job& job) const override;
+  SharedMatrix Prolongation(std::size_t level) const override;
+  SharedMatrix Restriction(std::size_t level) const override;
+  LevelRelaxation Relaxation(std::size_t level, const MultigridOptions& options) const override;
+  Components ComponentsOf(std::size_t level, const Job& job = {}) const override;
+  const FiniteElementSpace* NestedLevels() const override { return &grid_; }
+
+  double UnitLength() const override;
+  double Extent() const override;
+
+  const std::vector<double>& Integrals() const override;
+  MultiVector LoadOfValues(const Field& f, const Job& job = {}) const override;
+  MultiVector LoadOfGradients(
+    const Field& s, const Field* scale, const Job& job = {}) const override;
+  MultiVector LoadOfGradientsOf(
+    const Field& f, const Field* scale, const Job& job = {}) const override;
+  MultiVector ValuesAtPoints(const MultiVector& coefficients, const Job& job = {}) const override;
+  MultiVector GradientsOnTriangles(
+    const MultiVector& coefficients, const Job& job = {}) const override;
+  SparseMatrix RowsAtPoints(const std::vector<Id>& points) const override;
+  std::vector<char> PointsWithFunctions() const override;
+
+  std::unique_ptr<FiniteElementSpace> Copy() const override;
+  Id SetMetric(const MultiVector& embedding, const Job& job = {}) override;
+  void SplitStiffness(const std::vector<Vec3>& direction, const Job& job = {}) override;
+  MultiVector MeansOnElements(const MultiVector& onTriangles, const Job& job = {}) const override;
+  void Weigh(const std::vector<ElementWeights>& weights, const Job& job = {}) override;
+
+  const HatLevel& Hats() const { return *hats_; }
+  const GridSpace& Grid() const { return grid_; }
+  const HatMatrices& Matrices() const { return own_ ? *own_ : hats_->matrices; }
+
+private:
+  std::shared_ptr<const HatLevel> hats_;
+  GridSpace grid_;
+  std::shared_ptr<const HatMatrices> own_; // once numbers have changed
+  std::shared_ptr<const std::vector<Vec3>> direction_;
+};
+
+/// Both in one go. Throws InvalidInput and Aborted.
+HatSpace BuildHatSpace(TriangleMesh mesh, const GridSpaceOptions& options,
+  HatTransfer transfer = HatTransfer::Evaluation, const Progress& progress = {});
+
+} // namespace gridfem
+
+#endif

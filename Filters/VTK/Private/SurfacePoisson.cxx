@@ -1,0 +1,93 @@
+#include "SurfacePoisson.h"
+
+#include "SolverOutput.h"
+
+#include <sstream>
+
+namespace gridfem
+{
+
+void SurfacePoisson::Update(SurfaceSolverState& state, StageKey fields, const Integrate& integrate,
+  const PoissonRequest& request, const Progress& progress)
+{
+  fields.Add(state.stages.Version(SystemStage));
+  state.stages.Run(RightHandSideStage, fields,
+    [&] { load_ = integrate(*state.space, state.MakeJob(progress.Part(0.0, 0.2))); });
+  progress.Check(0.2);
+  const double weight = state.WeightInGridUnits(request.weight);
+  this->UpdateHierarchy(state, weight, progress.Part(0.2, 0.4));
+  progress.Check(0.4);
+  this->Solve(state, request, progress.Part(0.4, 1.0));
+}
+
+void SurfacePoisson::UpdateHierarchy(
+  SurfaceSolverState& state, double weight, const Progress& progress)
+{
+  StageKey shape;
+  shape.Add(state.stages.Version(SystemStage));
+  AddMultigrid(shape, state.options.multigrid);
+  StageKey key = shape;
+  key.Add(weight);
+  state.stages.Run(HierarchyStage, key,
+    [&]
+    {
+      if (multigrid_ && shape_ == shape)
+      {
+        UpdateMultigrid(*state.space, weight, 1.0, *multigrid_);
+        return;
+      }
+      multigrid_.reset(); // frees its memory first
+      multigrid_ = std::make_unique<Multigrid>(
+        BuildMultigrid(*state.space, weight, 1.0, state.options.multigrid, progress));
+      shape_ = shape;
+    });
+}
+
+void SurfacePoisson::Solve(
+  SurfaceSolverState& state, const PoissonRequest& request, const Progress& progress)
+{
+  StageKey key;
+  key.Add(state.stages.Version(HierarchyStage)).Add(state.stages.Version(RightHandSideStage));
+  key.Add(request.gradientScale).Add(static_cast<int>(request.iteration));
+  key.Add(state.options.solve.tolerance).Add(state.options.solve.maximumIterations);
+  state.stages.Run(SolveStage, key,
+    [&]
+    {
+      PoissonOptions options;
+      options.screeningWeight = state.WeightInGridUnits(request.weight);
+      options.multigrid = state.options.multigrid;
+      options.iteration = request.iteration;
+      options.solve = state.options.solve;
+      const std::int64_t space = state.stages.Version(SystemStage);
+      const MultiVector last =
+        solvedOn_ == space ? std::move(solution_.coefficients) : MultiVector();
+      options.start = last.cols() == load_.values.cols() ? &last : nullptr;
+      solvedOn_ = -1;
+      const MultiVector gradients = request.gradientScale * load_.gradients;
+      solution_ =
+        SolvePoisson(*state.space, *multigrid_, load_.values, gradients, options, progress);
+      solvedOn_ = space;
+    });
+}
+
+MultiVector SurfacePoisson::Values(const SurfaceSolverState& state) const
+{
+  return state.space->ValuesAtPoints(solution_.coefficients, state.options.space.threads);
+}
+
+std::string SurfacePoisson::Warning(double tolerance) const
+{
+  const SolveReport& report = solution_.report;
+  if (report.converged)
+  {
+    return {};
+  }
+  const IterationRecord last = LastRecord(report);
+  std::ostringstream text;
+  text << "Not converged after " << report.iterations << " iterations, because " << ReasonOf(report)
+       << ". The energy residual is " << last.energy << ", the residual " << last.residual
+       << ", wanted is " << tolerance << ". The result is kept.";
+  return text.str();
+}
+
+} // namespace gridfem

@@ -1,0 +1,66 @@
+// The screened Poisson equation of a filter's surface, with its stages: load, hierarchy, solve, and
+// what is reported of them.
+#ifndef GridFEM_SurfacePoisson_h
+#define GridFEM_SurfacePoisson_h
+
+#include "StageCache.h"
+#include "SurfaceSolverState.h"
+
+#include "Problems/Poisson.h"
+
+#include <functional>
+#include <memory>
+
+class vtkTable;
+
+namespace gridfem
+{
+
+/// Right-hand sides, as SolvePoisson takes them.
+struct PoissonLoad
+{
+  MultiVector values;
+  MultiVector gradients; // may have no rows
+};
+
+struct PoissonRequest
+{
+  double weight = 1.0;        // λ in parameter units
+  double gradientScale = 1.0; // σ: a factor on the gradients, which are not integrated again
+  IterationType iteration = IterationType::ConjugateGradients;
+};
+
+/// Every stage is repeated only when something it depends on has changed. A change of the weight or
+/// of the load starts from the last solution. All methods throw InvalidInput and Aborted.
+class SurfacePoisson
+{
+public:
+  using Integrate = std::function<PoissonLoad(const FiniteElementSpace&, const Job&)>;
+
+  /// Integrates the load when `fields`, all that it depends on besides the space, has changed, and
+  /// solves. The space has to be up to date.
+  void Update(SurfaceSolverState& state, StageKey fields, const Integrate& integrate,
+    const PoissonRequest& request, const Progress& progress);
+
+  /// At the points of the mesh.
+  MultiVector Values(const SurfaceSolverState& state) const;
+
+  const SolveReport& Report() const { return solution_.report; }
+
+  /// What to warn of when the solve has not converged; empty when it has.
+  std::string Warning(double tolerance) const;
+
+private:
+  void UpdateHierarchy(SurfaceSolverState& state, double weight, const Progress& progress);
+  void Solve(SurfaceSolverState& state, const PoissonRequest& request, const Progress& progress);
+
+  PoissonLoad load_;
+  std::unique_ptr<Multigrid> multigrid_;
+  StageKey shape_; // what the hierarchy depends on but for the weight
+  PoissonSolution solution_;
+  std::int64_t solvedOn_ = -1; // version of the space that the solution belongs to
+};
+
+} // namespace gridfem
+
+#endif

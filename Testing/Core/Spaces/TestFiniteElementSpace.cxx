@@ -1,0 +1,259 @@
+// What every finite element space promises, tried on both kinds.
+#include "Spaces/FiniteElementSpace.h"
+
+#include "Base/Errors.h"
+#include "Spaces.h"
+#include "Spaces/HatSpace.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+constexpr int Depth = 4;
+
+struct Case
+{
+  const char* name;
+  bool isOnHats;
+};
+
+void PrintTo(const Case& c, std::ostream* stream)
+{
+  *stream << c.name;
+}
+
+/// A space, and the coefficients of the coordinates in its unit of length.
+struct SpaceOnMesh
+{
+  SpaceOnMesh(const TriangleMesh& inputMesh, bool isOnHats, int degree = 2) : mesh(inputMesh)
+  {
+    GridSpaceOptions options;
+    options.functions.depth = Depth;
+    options.quadratureDegree = degree;
+    options.coarsestSize = 32;
+    HatSpace hats = BuildHatSpace(mesh, options);
+    const GridSpace& grid = hats.Grid();
+    if (!isOnHats)
+    {
+      coordinates = CoordinateCoefficients(grid.Functions()) / hats.UnitLength();
+      space = grid.Copy();
+      return;
+    }
+    coordinates = MultiVector::Zero(hats.NumberOfFunctions(0), 3);
+    for (std::size_t point = 0; point < mesh.points.size(); ++point)
+    {
+      const Index function = hats.Hats().functions.ofPoint[point];
+      if (function >= 0)
+      {
+        SetRow(coordinates, function, mesh.points[point] / hats.UnitLength());
+      }
+    }
+    space = hats.Copy();
+  }
+
+  TriangleMesh mesh;
+  std::unique_ptr<FiniteElementSpace> space;
+  MultiVector coordinates;
+};
+
+std::vector<TriangleMesh> Meshes()
+{
+  return { Transform(GeodesicSphere(8), { 1, 2, 3 }, 0.4, 5.0), Torus(24, 12, 1.0, 0.3),
+    Transform(TwoSheets(6, 0.01), { 1, 0.3, 0 }, 0.4), Join(Box(4), GeodesicSphere(4, 0.1)) };
+}
+
+class EverySpace : public ::testing::TestWithParam<Case>
+{
+protected:
+  SpaceOnMesh Build(const TriangleMesh& mesh, int degree = 2) const
+  {
+    return { mesh, GetParam().isOnHats, degree };
+  }
+};
+
+Eigen::MatrixXd DenseOf(const FiniteElementSpace& space, double a, double b)
+{
+  return Dense(space.Matrix(0, a, b));
+}
+
+} // namespace
+
+TEST_P(EverySpace, HasALoadOfOneThatAddsUpToTheArea)
+{
+  for (const TriangleMesh& mesh : Meshes())
+  {
+    const SpaceOnMesh on = this->Build(mesh);
+    const MultiVector one = MultiVector::Ones(static_cast<Id>(mesh.points.size()), 1);
+    const MultiVector load = on.space->LoadOfValues({ FieldAssociation::Points, one });
+    const double area = SurfaceArea(mesh) / std::pow(on.space->UnitLength(), 2);
+    EXPECT_NEAR(load.sum(), area, 1e-9 * area);
+    for (Id i = 0; i < load.rows(); ++i)
+    {
+      ASSERT_NEAR(load(i, 0), on.space->Integrals()[i], 1e-11 * area);
+    }
+    const MultiVector ones = MultiVector::Ones(load.rows(), 1);
+    EXPECT_LT((DenseOf(*on.space, 1, 0) * ones - load).norm(), 1e-11 * load.norm());
+    EXPECT_LT((DenseOf(*on.space, 0, 1) * ones).norm(), 1e-9);
+  }
+}
+
+TEST_P(EverySpace, IntegratesGradientsAsItsStiffnessDoes)
+{
+  for (const TriangleMesh& mesh : Meshes())
+  {
+    const SpaceOnMesh on = this->Build(mesh);
+    const MultiVector expected = DenseOf(*on.space, 0, 1) * on.coordinates * on.space->UnitLength();
+    const Field points{ FieldAssociation::Points, PointCoordinates(mesh) };
+    const MultiVector load = on.space->LoadOfGradientsOf(points, nullptr);
+    EXPECT_LT((load - expected).norm(), 1e-6 * expected.norm());
+
+    const MultiVector gradients =
+      on.space->GradientsOnTriangles(on.coordinates) * on.space->UnitLength();
+    const MultiVector again =
+      on.space->LoadOfGradients({ FieldAssociation::Triangles, gradients }, nullptr);
+    EXPECT_LT((again - expected).norm(), 1e-6 * expected.norm());
+  }
+}
+
+TEST_P(EverySpace, GradientsOfCoordinatesAreProjections)
+{
+  for (const TriangleMesh& mesh : Meshes())
+  {
+    const SpaceOnMesh on = this->Build(mesh);
+    const MultiVector gradients =
+      on.space->GradientsOnTriangles(on.coordinates) * on.space->UnitLength();
+    ASSERT_EQ(gradients.rows(), static_cast<Id>(mesh.triangles.size()));
+    for (Id t = 0; t < gradients.rows(); ++t)
+    {
+      const auto& corner = mesh.triangles[t];
+      const Vec3 normal = (mesh.points[corner[1]] - mesh.points[corner[0]])
+                            .cross(mesh.points[corner[2]] - mesh.points[corner[0]])
+                            .normalized();
+      for (int c = 0; c < 3; ++c)
+      {
+        const Vec3 expected = Vec3::Unit(c) - normal[c] * normal;
+        const Vec3 found = gradients.row(t).segment<3>(3 * c).transpose();
+        ASSERT_LT((found - expected).norm(), 1e-8) << t << " " << c;
+      }
+    }
+  }
+}
+
+TEST_P(EverySpace, HasTheSameValuesByRows)
+{
+  for (const TriangleMesh& mesh : Meshes())
+  {
+    const SpaceOnMesh on = this->Build(mesh);
+    const MultiVector x = RandomValues(on.space->NumberOfFunctions(0), 2);
+    const MultiVector values = on.space->ValuesAtPoints(x);
+    std::vector<Id> points;
+    for (Id point = 0; point < values.rows(); point += 3)
+    {
+      points.push_back(point);
+    }
+    MultiVector byRows;
+    Multiply(on.space->RowsAtPoints(points), x, byRows);
+    for (std::size_t k = 0; k < points.size(); ++k)
+    {
+      ASSERT_LT((byRows.row(static_cast<Id>(k)) - values.row(points[k])).norm(), 1e-13);
+    }
+    const Id none = static_cast<Id>(mesh.points.size());
+    EXPECT_THROW(on.space->RowsAtPoints({ none }), InvalidInput);
+    EXPECT_THROW(on.space->RowsAtPoints({ -1 }), InvalidInput);
+  }
+}
+
+TEST_P(EverySpace, ACopyInAnotherMetricLeavesTheOriginalAlone)
+{
+  for (const TriangleMesh& mesh : Meshes())
+  {
+    const SpaceOnMesh on = this->Build(mesh);
+    const Eigen::MatrixXd mass = DenseOf(*on.space, 1, 0);
+    const Eigen::MatrixXd stiffness = DenseOf(*on.space, 0, 1);
+    const std::unique_ptr<FiniteElementSpace> copy = on.space->Copy();
+    EXPECT_EQ(copy->SetMetric(on.coordinates), 0); // of the mesh itself
+    EXPECT_LT(RelativeDifference(DenseOf(*copy, 1, 0), mass), 1e-6);
+    EXPECT_LT(RelativeDifference(DenseOf(*copy, 0, 1), stiffness), 1e-6);
+
+    const Eigen::AngleAxisd turn(0.7, Vec3(1, 2, 3).normalized());
+    const MultiVector moved =
+      3.0 * on.coordinates * turn.toRotationMatrix().transpose() + // scaled and turned
+      MultiVector::Constant(on.coordinates.rows(), 3, 5.0);
+    EXPECT_EQ(copy->SetMetric(moved), 0);
+    EXPECT_LT(RelativeDifference(DenseOf(*copy, 1, 0), 9.0 * mass), 1e-6);
+    EXPECT_LT(RelativeDifference(DenseOf(*copy, 0, 1), stiffness), 1e-6);
+    EXPECT_LT(
+      RelativeDifference(Dense(copy->Matrix(1, 1, 0)), 9.0 * Dense(on.space->Matrix(1, 1, 0))),
+      1e-6);
+    EXPECT_EQ(DenseOf(*on.space, 1, 0), mass);
+    EXPECT_EQ(DenseOf(*on.space, 0, 1), stiffness);
+    EXPECT_THROW(copy->SetMetric(MultiVector::Ones(3, 3)), InvalidInput);
+  }
+}
+
+TEST_P(EverySpace, ASurfaceThatCollapsesIsSingularAndFinite)
+{
+  const SpaceOnMesh on = this->Build(GeodesicSphere(8));
+  const std::unique_ptr<FiniteElementSpace> copy = on.space->Copy();
+  EXPECT_GT(copy->SetMetric(MultiVector::Zero(on.coordinates.rows(), 3)), 0);
+  EXPECT_TRUE(DenseOf(*copy, 1, 1).allFinite());
+}
+
+TEST_P(EverySpace, WeightsOfOneChangeNothing)
+{
+  for (const TriangleMesh& mesh : Meshes())
+  {
+    const SpaceOnMesh on = this->Build(mesh);
+    const std::unique_ptr<FiniteElementSpace> copy = on.space->Copy();
+    const MultiVector area = MultiVector::Ones(static_cast<Id>(mesh.triangles.size()), 1);
+    const auto elements = static_cast<std::size_t>(copy->MeansOnElements(area).rows());
+    EXPECT_THROW(copy->Weigh(std::vector<ElementWeights>(elements)), InvalidInput);
+    copy->SplitStiffness(std::vector<Vec3>(mesh.triangles.size(), Vec3(1, 2, 3)));
+    copy->Weigh(std::vector<ElementWeights>(elements));
+    EXPECT_LT(RelativeDifference(DenseOf(*copy, 1, 0), DenseOf(*on.space, 1, 0)), 1e-6);
+    EXPECT_LT(RelativeDifference(DenseOf(*copy, 0, 1), DenseOf(*on.space, 0, 1)), 1e-6);
+  }
+}
+
+/// On a flat square, turned in space, ∇x has one direction: its energy takes that direction's
+/// weight.
+TEST_P(EverySpace, WeightsAreThoseOfTheDirection)
+{
+  const Eigen::AngleAxisd turn(0.3, Vec3(0, 0, 1)); // stays in a plane of the grid's cells
+  const TriangleMesh mesh = Transform(TwoSheets(6, 0.5), Vec3(0, 0, 1), 0.3);
+  const SpaceOnMesh on = this->Build(mesh);
+  const std::unique_ptr<FiniteElementSpace> copy = on.space->Copy();
+  const Vec3 along = turn * Vec3(1, 0, 0);
+  const Vec3 across = turn * Vec3(0, 1, 0);
+  copy->SplitStiffness(std::vector<Vec3>(mesh.triangles.size(), along));
+  const MultiVector ones = MultiVector::Ones(static_cast<Id>(mesh.triangles.size()), 1);
+  copy->Weigh(
+    std::vector<ElementWeights>(copy->MeansOnElements(ones).rows(), { 3.0, { 5.0, 0.25 } }));
+  const Eigen::MatrixXd stiffness = DenseOf(*copy, 0, 1);
+  const double area = SurfaceArea(mesh) / std::pow(on.space->UnitLength(), 2);
+  const Eigen::VectorXd x = on.coordinates * along;
+  const Eigen::VectorXd y = on.coordinates * across;
+  EXPECT_NEAR(x.dot(stiffness * x), 5.0 * area, 1e-6 * area);
+  EXPECT_NEAR(y.dot(stiffness * y), 0.25 * area, 1e-6 * area);
+  EXPECT_NEAR(x.dot(stiffness * y), 0.0, 1e-6 * area);
+  EXPECT_NEAR(DenseOf(*copy, 1, 0).sum(), 3.0 * area, 1e-6 * area);
+}
+
+TEST_P(EverySpace, MeansOnElementsKeepConstants)
+{
+  const SpaceOnMesh on = this->Build(Torus(24, 12, 1.0, 0.3));
+  const MultiVector seven =
+    MultiVector::Constant(static_cast<Id>(on.mesh.triangles.size()), 2, 7.0);
+  const MultiVector means = on.space->MeansOnElements(seven);
+  EXPECT_LT((means.array() - 7.0).abs().maxCoeff(), 1e-12);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, EverySpace,
+  ::testing::Values(Case{ "grid", false }, Case{ "hats", true }),
+  [](const auto& kind) { return std::string(kind.param.name); });
