@@ -181,13 +181,8 @@ std::unique_ptr<gridfem::Multigrid> vtkScreenedPoisson::BuildHierarchy(double we
       gridfem::BuildHatMultigrid(*state.hats, state.Space(), *state.system, weight, 1.0,
         gridfem::HatCycle(state.options.multigrid), progress));
   }
-  const gridfem::MultigridOptions& options = state.options.multigrid;
-  if (options.hidden == gridfem::HiddenCorrection::Always && gridfem::AllowsHidden(options))
-  {
-    gridfem::RequireMemoryForLayers(state.Space().Finest().numberOfFunctions);
-  }
-  return std::make_unique<gridfem::Multigrid>(
-    gridfem::BuildMultigrid(state.Space(), *state.system, weight, 1.0, options, progress));
+  return std::make_unique<gridfem::Multigrid>(gridfem::BuildMultigrid(
+    state.Space(), *state.system, weight, 1.0, state.options.multigrid, progress));
 }
 
 void vtkScreenedPoisson::UpdateHierarchy()
@@ -283,7 +278,6 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
   gridfem::SurfaceSolverState& state = *this->State;
   const gridfem::Progress progress = state.bridge.GetProgress();
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
-  state.options.multigrid.hidden = static_cast<gridfem::HiddenCorrection>(this->HiddenCorrection);
   this->FindArrays(input);
   state.UpdateSpace(input, vtkPolyData::GetData(inputs[1]), progress.Part(0.0, 0.3));
   progress.Check(0.3);
@@ -314,6 +308,5 @@ void vtkScreenedPoisson::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ScreeningWeight: " << this->ScreeningWeight << "\n";
   os << indent << "GradientScale: " << this->GradientScale << "\n";
   os << indent << "Iteration: " << this->Iteration << "\n";
-  os << indent << "HiddenCorrection: " << this->HiddenCorrection << "\n";
   os << indent << "UseValueGradient: " << this->UseValueGradient << "\n";
 }

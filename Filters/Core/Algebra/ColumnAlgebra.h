@@ -20,7 +20,8 @@ inline Columns ColumnProducts(const MultiVector& x, const MultiVector& y, int th
       [&](auto chunk)
       {
         using ColumnLanes = typename decltype(chunk)::ColumnLanes;
-        ColumnLanes part[4] = { ColumnLanes::Zero(), ColumnLanes::Zero(), ColumnLanes::Zero(), ColumnLanes::Zero() };
+        ColumnLanes part[4] = { ColumnLanes::Zero(), ColumnLanes::Zero(), ColumnLanes::Zero(),
+          ColumnLanes::Zero() };
         for (Index row = static_cast<Index>(begin); row < end; ++row)
         {
           part[row & 3] += chunk.Row(x.data(), row) * chunk.Row(y.data(), row);

@@ -99,7 +99,8 @@ EIGEN_ALWAYS_INLINE void FetchRow(const RowView& A, Index row)
 /// One row of A times a chunk of x. A single column is added up in four parts, so that additions
 /// need not wait for each other.
 template<class Chunk>
-inline typename Chunk::ColumnLanes RowProduct(const RowView& A, Index row, const double* x, Chunk chunk)
+inline typename Chunk::ColumnLanes RowProduct(
+  const RowView& A, Index row, const double* x, Chunk chunk)
 {
   using ColumnLanes = typename Chunk::ColumnLanes;
   const Id end = A.begin[row + 1];

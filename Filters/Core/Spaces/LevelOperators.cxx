@@ -4,8 +4,6 @@
 #include "Base/Parallel.h"
 #include "Base/Prefetch.h"
 #include "Integrals/ElementLanes.h"
-#include "Spaces/HiddenFunctions.h"
-#include "Spaces/LayeredFunctions.h"
 #include "Spaces/PatchOrdering.h"
 
 #include <algorithm>
@@ -103,46 +101,6 @@ void FillMatrix(const GridFunctions& space, const LevelOperators& system, std::s
     matrix, threads);
 }
 
-/// From this share on a surface counts as flat.
-constexpr double MostlyFlat = 0.5;
-
-bool WantsHidden(const LevelOperators& system, const Multigrid& multigrid)
-{
-  const MultigridOptions& options = multigrid.Options();
-  if (!AllowsHidden(options) || system.prolongation.empty())
-  {
-    return false;
-  }
-  return options.hidden == HiddenCorrection::Always || multigrid.RevisionOfHidden() >= 0 ||
-         FlatShare(system, options.threads) >= MostlyFlat;
-}
-
-/// Hidden functions of W cycles of patches; those that are there are kept while the elements are
-/// the same, whatever the factors.
-void AddHidden(const GridFunctions& space, const LevelOperators& system, double a, double b,
-  Multigrid& multigrid)
-{
-  const double size = SizeOnHidden(a, b);
-  if (!WantsHidden(system, multigrid) || !(size > 0.0))
-  {
-    return;
-  }
-  if (multigrid.RevisionOfHidden() == system.revision)
-  {
-    multigrid.SetSizeOfHidden(size);
-  }
-  else
-  {
-    const int threads = multigrid.Options().threads;
-    HiddenLevels hidden = BuildHiddenLevels(space, system, threads);
-    if (multigrid.Options().hidden == HiddenCorrection::Always)
-    {
-      AddLayeredFunctions(space, system, hidden, threads);
-    }
-    multigrid.AddHidden(std::move(hidden), size);
-  }
-}
-
 } // namespace
 
 LevelOperators BuildSystem(const GridFunctions& space, const QuadratureRule& rule, int threads,
@@ -183,7 +141,6 @@ void UpdateSystem(const GridFunctions& space, LevelOperators& system, int thread
   }
   system.integral =
     IntegralsOfFunctions(system.places.front(), system.elements.front().mass, threads);
-  ++system.revision;
 }
 
 SparseMatrix LevelMatrix(const GridFunctions& space, const LevelOperators& system,
@@ -228,7 +185,6 @@ Multigrid BuildMultigrid(const GridFunctions& space, const LevelOperators& syste
 {
   Multigrid multigrid(
     BuildMultigridLevels(space, system, a, b, options.threads, progress.Part(0.0, 0.5)), options);
-  AddHidden(space, system, a, b, multigrid);
   progress.Check(1.0);
   return multigrid;
 }
@@ -239,7 +195,6 @@ void UpdateMultigrid(const GridFunctions& space, const LevelOperators& system, d
   const MemoryReuse reuse; // the new factors take the place of the old ones
   multigrid.Update([&](std::size_t level, SparseMatrix& matrix)
     { FillMatrix(space, system, level, a, b, multigrid.Options().threads, matrix); });
-  AddHidden(space, system, a, b, multigrid);
 }
 
 SparseMatrix MassMatrix(const GridFunctions& space, const LevelOperators& system, int threads)

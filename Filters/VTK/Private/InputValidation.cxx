@@ -3,7 +3,6 @@
 #include "Base/Errors.h"
 #include "Problems/MemoryEstimate.h"
 #include "Problems/Spectrum.h"
-#include "Spaces/LayeredFunctions.h"
 
 #include "vtkMultiProcessController.h"
 #include "vtkPolyData.h"
@@ -87,13 +86,6 @@ void RequireMemory(const TriangleMesh& mesh, int depth)
           << " basis functions)";
   RequireBytes(
     estimate.bytes, subject.str(), "Every step down in Depth takes a quarter of the memory.");
-}
-
-void RequireMemoryForLayers(Id functions)
-{
-  RequireBytes(EstimateLayeredMemory(functions),
-    "HiddenCorrection Always with " + std::to_string(functions) + " basis functions",
-    "Choose Where Flat or a smaller Depth.");
 }
 
 void RequireMemoryForModes(Id functions, Id modes, int threads)

@@ -25,9 +25,6 @@ void RequireSurface(const TriangleMesh& mesh);
 /// Throws InvalidInput, with the estimate, when this depth needs more memory than there is.
 void RequireMemory(const TriangleMesh& mesh, int depth);
 
-/// The same for the hidden and layered functions of a grid with so many functions.
-void RequireMemoryForLayers(Id functions);
-
 /// Throws InvalidInput, with the estimate, when so many eigenvectors need more memory than there
 /// is.
 void RequireMemoryForModes(Id functions, Id modes, int threads);
