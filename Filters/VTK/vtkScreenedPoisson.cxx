@@ -162,7 +162,6 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
   gridfem::SurfaceSolverState& state = *this->State;
   const gridfem::Progress progress = state.bridge.GetProgress();
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
-  state.options.multigrid.hidden = static_cast<gridfem::HiddenCorrection>(this->HiddenCorrection);
   this->FindArrays(input);
   state.UpdateSpace(input, vtkPolyData::GetData(inputs[1]), progress.Part(0.0, 0.3));
   progress.Check(0.3);
@@ -185,6 +184,5 @@ void vtkScreenedPoisson::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ScreeningWeight: " << this->ScreeningWeight << "\n";
   os << indent << "GradientScale: " << this->GradientScale << "\n";
   os << indent << "Iteration: " << this->Iteration << "\n";
-  os << indent << "HiddenCorrection: " << this->HiddenCorrection << "\n";
   os << indent << "UseValueGradient: " << this->UseValueGradient << "\n";
 }

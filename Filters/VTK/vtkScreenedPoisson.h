@@ -104,23 +104,6 @@ public:
    */
   vtkSetClampMacro(Iteration, int, ConjugateGradients, Cycles);
   vtkGetMacro(Iteration, int);
-
-  enum HiddenCorrectionType
-  {
-    Never = 0,
-    WhereFlat = 1,
-    Always = 2
-  };
-
-  /**
-   * Whether W cycles of the patch smoother on a grid also correct functions that hide near the
-   * surface. WhereFlat (default): where half of the surface is flat over four cells. Always: on
-   * curved surfaces as well. A cycle then takes twice as long and the hierarchy nearly twice the
-   * memory, but iterations do not grow with Depth on smooth surfaces. It is worth that for a small
-   * Tolerance and a surface that hardly curves within four cells. The solution is the same.
-   */
-  vtkSetClampMacro(HiddenCorrection, int, Never, Always);
-  vtkGetMacro(HiddenCorrection, int);
   ///@}
 
   /**
@@ -139,7 +122,6 @@ protected:
   double GradientScale = 1.0;
   bool UseValueGradient = false;
   int Iteration = ConjugateGradients;
-  int HiddenCorrection = WhereFlat;
 
 private:
   vtkScreenedPoisson(const vtkScreenedPoisson&) = delete;

@@ -1,4 +1,4 @@
-// Iterations and seconds of the solver: rotated cubes, smooth surfaces, and the peers on the same
+// Iterations and seconds of the solver: rotated cubes, and the peers on the same
 // surface.
 #include "AlgebraicMultigrid.h"
 #include "Hierarchy.h"
@@ -70,16 +70,9 @@ struct Convergence
   }
 };
 
-GridProblem Build(
-  const TriangleMesh& mesh, int depth, HiddenCorrection hidden = HiddenCorrection::WhereFlat)
+GridProblem Build(const TriangleMesh& mesh, int depth)
 {
   GridProblem grid = SetUp(mesh, depth, Threads);
-  if (hidden != grid.options.multigrid.hidden)
-  {
-    grid.options.multigrid.hidden = hidden;
-    *grid.multigrid = BuildMultigrid(testing::ViewOf(grid.space, grid.system),
-      grid.options.screeningWeight, 1.0, grid.options.multigrid);
-  }
   ChooseColours(grid, 1);
   return grid;
 }
@@ -104,68 +97,6 @@ std::vector<Bound> RunCubes()
     }
     bounds.push_back({ "cube_worst_angle_iterations_to_residual_1e-8_depth" + std::to_string(depth),
       worst, double(bound) });
-  }
-  return bounds;
-}
-
-/// Cycles alone until the error is below 1e-4 and 1e-6.
-std::array<int, 2> StandaloneCycles(const GridProblem& grid)
-{
-  constexpr std::array<double, 2> Targets{ 1e-4, 1e-6 };
-  constexpr int Most = 40;
-  MultiVector b;
-  Multiply(grid.multigrid->Matrix(), grid.exact, b);
-  MultiVector x = MultiVector::Zero(b.rows(), b.cols());
-  std::array<int, 2> cycles{ Never, Never };
-  for (int cycle = 1; cycle <= Most && cycles[1] == Never; ++cycle)
-  {
-    grid.multigrid->Cycle(b, x);
-    const double error = grid.Error(x);
-    for (int k = 0; k < 2; ++k)
-    {
-      cycles[k] = error <= Targets[k] ? std::min(cycles[k], cycle) : Never;
-    }
-  }
-  return cycles;
-}
-
-std::string CyclesText(int cycles)
-{
-  return cycles < Never ? std::to_string(cycles) : "> 40";
-}
-
-std::vector<Bound> RunSmoothSurfaces()
-{
-  constexpr int DeepestConverged = 8;
-  std::printf("\nSmooth surfaces, hidden functions corrected: conjugate gradients to 1e-8 of the "
-              "start; W(1,1) cycles alone to an error, L2 over the surface\n");
-  const Table table(
-    { "surface", "depth", "functions", "energy", "residual", "s", "cycles to 1e-4", "to 1e-6" });
-  std::vector<Bound> bounds;
-  for (const NamedMesh& mesh :
-    { NamedMesh{ "sphere", testing::GeodesicSphere(160) }, RockerArm(2) })
-  {
-    std::array<int, 2> most{ 0, 0 };
-    for (const int depth : { 5, 6, 7, 8, 9 })
-    {
-      const GridProblem grid = Build(mesh.mesh, depth, HiddenCorrection::Always);
-      const std::array<int, 2> cycles = StandaloneCycles(grid);
-      std::vector<std::string> row{ mesh.name, std::to_string(depth),
-        std::to_string(grid.exact.rows()), "-", "-", "-", CyclesText(cycles[0]),
-        CyclesText(cycles[1]) };
-      if (depth <= DeepestConverged)
-      {
-        const Convergence cg(grid);
-        row[3] = Text("%.0f", cg.energy);
-        row[4] = Text("%.0f", cg.residual);
-        row[5] = Text("%.3f", cg.seconds);
-      }
-      table.Row(row);
-      most = { std::max(most[0], cycles[0]), std::max(most[1], cycles[1]) };
-    }
-    const std::string name = mesh.name.substr(0, mesh.name.find(' ')) + "_worst_depth_cycles_to_";
-    bounds.push_back({ name + "1e-4", double(most[0]), 3.0 });
-    bounds.push_back({ name + "1e-6", double(most[1]), 15.0 });
   }
   return bounds;
 }
@@ -317,7 +248,7 @@ void RunGridsOfHats()
 
 } // namespace
 
-/// Arguments: parts of peers, hats, grids, cubes, smooth.
+/// Arguments: parts of peers, hats, grids, cubes.
 int main(int argc, char** argv)
 {
   const Parts parts(argc, argv);
@@ -337,9 +268,5 @@ int main(int argc, char** argv)
   if (parts.Want("cubes"))
   {
     Print(RunCubes());
-  }
-  if (parts.Want("smooth"))
-  {
-    Print(RunSmoothSurfaces());
   }
 }

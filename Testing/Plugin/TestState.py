@@ -25,7 +25,7 @@ def build():
         SourcePointIds=[3, 4], FilterType="Low Pass", LastMode=4, ValueArray=["POINTS", "f"])
     hats = simple.ScreenedPoisson(
         Input=values, Depth=4, ValueArray=["POINTS", "f"], FunctionSpace="Hat Functions",
-        Iteration="Cycles", HiddenCorrection="Always", Smoother="Gauss-Seidel in Slices",
+        Iteration="Cycles", Smoother="Gauss-Seidel in Slices",
         SweepsPerSynchronisation=2, NumberOfSweeps=3, CoarsestSize=100)
     both = simple.LaplaceSpectrum(
         Input=values, Depth=4, NumberOfModes=5, Mode=2, FunctionSpace="Hat Functions",

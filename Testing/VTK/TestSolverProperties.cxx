@@ -99,17 +99,6 @@ TEST_P(SolverProperties, CyclesAloneConvergeMoreSlowly)
   EXPECT_EQ(Runs(filter), expected);
 }
 
-TEST_P(SolverProperties, HiddenFunctionsAreCorrectedOnTheGrid)
-{
-  filter->SetHiddenCorrection(Poisson::Never);
-  const double never = this->Iterations();
-  const Counts before = Runs(filter);
-  filter->SetHiddenCorrection(Poisson::Always);
-  const double always = this->Iterations();
-  EXPECT_EQ(always < never, this->GetParam() == Poisson::Grid); // below hats there is no need
-  EXPECT_EQ(Runs(filter), (Counts{ 1, before[1], before[2] + 1, before[3], before[4] + 1 }));
-}
-
 TEST_P(SolverProperties, AnyCoarsestSizeSolves)
 {
   this->Iterations();

@@ -1,8 +1,6 @@
 #include "Multigrid/Multigrid.h"
 
-#include "Algebra/ColumnAlgebra.h"
 #include "Base/Errors.h"
-#include "Multigrid/PatchCover.h"
 #include "Multigrid/SmootherSequence.h"
 
 #include <algorithm>
@@ -52,19 +50,6 @@ std::size_t MatrixMemory(const SparseMatrix& A)
          A.value.size() * sizeof(double);
 }
 
-/// Row i times factor[i] scale.
-void ScaleRows(const std::vector<double>& factor, double scale, MultiVector& v, int threads)
-{
-  ParallelRanges(v.rows(), ThreadsFor(v.size(), threads),
-    [&](Id begin, Id end)
-    {
-      for (Id row = begin; row < end; ++row)
-      {
-        v.row(row) *= factor[row] * scale;
-      }
-    });
-}
-
 } // namespace
 
 Multigrid::Multigrid(std::vector<MultigridLevel> levels, const MultigridOptions& options)
@@ -79,32 +64,6 @@ Multigrid::Multigrid(std::vector<MultigridLevel> levels, const MultigridOptions&
     }
   }
   this->BuildSolvers();
-}
-
-void Multigrid::AddHidden(HiddenLevels hidden, double size)
-{
-  if (levels_.size() < 2 || hidden.levels.size() + 1 != levels_.size() || !(size > 0.0) ||
-      static_cast<Index>(hidden.height.size()) != levels_.front().A.rows ||
-      hidden.levels.front().A.rows != levels_[1].A.rows ||
-      (!hidden.layered.empty() &&
-        (hidden.layeredProlongation.rows != levels_.front().A.rows ||
-          hidden.layeredProlongation.columns != hidden.layered.front().A.rows)))
-  {
-    throw InvalidInput("the hidden functions do not fit the hierarchy");
-  }
-  MultigridOptions options = options_;
-  options.cycle = CycleType::V;
-  hidden_ = std::make_unique<Multigrid>(std::move(hidden.levels), options);
-  height_ = std::move(hidden.height);
-  layered_.reset();
-  if (!hidden.layered.empty())
-  {
-    layered_ = std::make_unique<Multigrid>(std::move(hidden.layered), options);
-    layeredRestriction_ = Transpose(hidden.layeredProlongation);
-    layeredProlongation_ = std::move(hidden.layeredProlongation);
-  }
-  sizeOfHidden_ = size;
-  revisionOfHidden_ = hidden.revision;
 }
 
 void Multigrid::Update(std::vector<SparseMatrix> matrices)
@@ -169,12 +128,7 @@ std::unique_ptr<Smoother> Multigrid::MakeSmoother(
     default:
       break;
   }
-  if (options_.coverage == 0)
-  {
-    return MakePatchSmoother(level.A, level.order, options_.threads, options_.precision);
-  }
-  const PatchOrder cover = CoverUnknowns(level.order, level.A.rows, options_.coverage);
-  return MakePatchSmoother(level.A, cover, options_.threads, options_.precision);
+  return MakePatchSmoother(level.A, level.order, options_.threads, options_.precision);
 }
 
 LevelSmoothing Multigrid::SmoothingOf(std::size_t level) const
@@ -185,10 +139,9 @@ LevelSmoothing Multigrid::SmoothingOf(std::size_t level) const
 
 bool Multigrid::HasSingleFactors() const
 {
-  return (hidden_ && hidden_->HasSingleFactors()) || (layered_ && layered_->HasSingleFactors()) ||
-         std::any_of(levels_.begin(), levels_.end(),
-           [](const MultigridLevel& level)
-           { return level.smoother && level.smoother->HasSingleFactors(); });
+  return std::any_of(levels_.begin(), levels_.end(),
+    [](const MultigridLevel& level)
+    { return level.smoother && level.smoother->HasSingleFactors(); });
 }
 
 Multigrid Multigrid::InDoublePrecision() const
@@ -202,17 +155,7 @@ Multigrid Multigrid::InDoublePrecision() const
   }
   MultigridOptions options = options_;
   options.precision = FactorPrecision::Double;
-  Multigrid copy(std::move(levels), options);
-  const auto inDouble = [](const std::unique_ptr<Multigrid>& part)
-  { return part ? std::make_unique<Multigrid>(part->InDoublePrecision()) : nullptr; };
-  copy.height_ = height_;
-  copy.hidden_ = inDouble(hidden_);
-  copy.layeredProlongation_ = layeredProlongation_;
-  copy.layeredRestriction_ = layeredRestriction_;
-  copy.layered_ = inDouble(layered_);
-  copy.sizeOfHidden_ = sizeOfHidden_;
-  copy.revisionOfHidden_ = revisionOfHidden_;
-  return copy;
+  return Multigrid(std::move(levels), options);
 }
 
 void Multigrid::Cycle(const MultiVector& b, MultiVector& x) const
@@ -301,18 +244,6 @@ void Multigrid::CycleLevel(std::size_t l, const MultiVector& b, MultiVector& x, 
 void Multigrid::CorrectFromCoarse(std::size_t l, const MultiVector& b, MultiVector& x, bool zeroX,
   std::vector<Scratch>& scratch) const
 {
-  if (l == 0 && hidden_)
-  {
-    this->VisitCoarse(l, b, x, zeroX, 1, scratch);
-    this->CorrectHidden(b, x, scratch[l]);
-    if (layered_)
-    {
-      this->CorrectLayered(b, x, scratch[l]);
-      this->CorrectHidden(b, x, scratch[l]);
-    }
-    this->VisitCoarse(l, b, x, false, 1, scratch);
-    return;
-  }
   const bool coarseIsSolved = l + 2 == levels_.size(); // directly: once is enough
   const bool isW = this->SmoothingOf(l).cycle == CycleType::W;
   this->VisitCoarse(l, b, x, zeroX, isW && !coarseIsSolved ? 2 : 1, scratch);
@@ -335,37 +266,9 @@ void Multigrid::VisitCoarse(std::size_t l, const MultiVector& b, MultiVector& x,
   MultiplyAdd(level.prolongation, coarseX, x, options_.threads);
 }
 
-/// x += D P B Pᵀ D (b - A x)
-void Multigrid::CorrectHidden(const MultiVector& b, MultiVector& x, Scratch& scratch) const
-{
-  const MultigridLevel& level = levels_.front();
-  auto& [residual, coarseB, coarseX] = scratch;
-  Residual(level.A, x, b, residual, options_.threads);
-  ScaleRows(height_, 1.0, residual, options_.threads);
-  Multiply(level.restriction, residual, coarseB, options_.threads);
-  hidden_->Precondition(coarseB, coarseX);
-  Multiply(level.prolongation, coarseX, residual, options_.threads);
-  ScaleRows(height_, 1.0 / sizeOfHidden_, residual, options_.threads);
-  AddScaled(residual, Columns::Ones(x.cols()), x, options_.threads);
-}
-
-/// x += P B Pᵀ (b - A x)
-void Multigrid::CorrectLayered(const MultiVector& b, MultiVector& x, Scratch& scratch) const
-{
-  auto& [residual, coarseB, coarseX] = scratch;
-  Residual(levels_.front().A, x, b, residual, options_.threads);
-  Multiply(layeredRestriction_, residual, coarseB, options_.threads);
-  layered_->Precondition(coarseB, coarseX);
-  coarseX *= 1.0 / sizeOfHidden_;
-  MultiplyAdd(layeredProlongation_, coarseX, x, options_.threads);
-}
-
 std::size_t Multigrid::Memory() const
 {
-  std::size_t bytes = coarse_.Memory() + height_.size() * sizeof(double);
-  bytes += hidden_ ? hidden_->Memory() : 0;
-  bytes += MatrixMemory(layeredProlongation_) + MatrixMemory(layeredRestriction_);
-  bytes += layered_ ? layered_->Memory() : 0;
+  std::size_t bytes = coarse_.Memory();
   for (const MultigridLevel& level : levels_)
   {
     bytes += MatrixMemory(level.A) + MatrixMemory(level.prolongation) +

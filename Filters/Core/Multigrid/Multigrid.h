@@ -26,41 +26,16 @@ enum class SmootherType
   SliceGaussSeidel = 2 // needs slices in the order; see MakeSliceGaussSeidel
 };
 
-/// When W cycles with the patch smoother on a grid correct hidden functions, too; see HiddenLevels.
-enum class HiddenCorrection
-{
-  Never = 0,
-  /// Where half of the surface is flat over four cells, which halves the work there: a quarter of a
-  /// cycle and a third of the hierarchy's memory more.
-  WhereFlat = 1,
-  /// With layered functions: twice the time of a cycle and 1.7 to 1.9 times the memory. Iterations
-  /// then hardly grow with depth on any smooth surface: it pays for small errors and where the
-  /// surface hardly curves within four cells.
-  Always = 2
-};
-
 struct MultigridOptions
 {
   CycleType cycle = CycleType::W;
   SmootherType smoother = SmootherType::Patch;
-  int preSweeps = 1;  // >= 0; equal counts keep the cycle symmetric
-  int postSweeps = 1; // >= 0
-  /// Patch smoother: patches per unknown and sweep, see CoverUnknowns; 0: all. 1 halves the time of
-  /// a cycle and gives the same error after the first cycles; all need fewer iterations to a small
-  /// one.
-  int coverage = 0;
+  int preSweeps = 1;                                  // >= 0; equal counts keep the cycle symmetric
+  int postSweeps = 1;                                 // >= 0
   FactorPrecision precision = FactorPrecision::Mixed; // of the patch smoother
   int sweepsPerSynchronisation = 1;                   // of SliceGaussSeidel: one Sweep is so many
-  HiddenCorrection hidden = HiddenCorrection::WhereFlat;
-  int threads = 0; // 0: all
+  int threads = 0;                                    // 0: all
 };
-
-/// Whether cycles with these options can correct hidden functions: W cycles of patches do.
-inline bool AllowsHidden(const MultigridOptions& options)
-{
-  return options.hidden != HiddenCorrection::Never && options.cycle == CycleType::W &&
-         options.smoother == SmootherType::Patch;
-}
 
 /// How one level is relaxed, where that differs from the rest of the hierarchy: the hat functions
 /// of a mesh above the levels of a grid.
@@ -84,19 +59,6 @@ struct MultigridLevel
   std::unique_ptr<Smoother> smoother;      // none on the coarsest
 };
 
-/// Functions of the finest level that are nearly invisible on the surface, and that coarse levels
-/// see several times too large: `height` times a function of the next coarser level, and a
-/// hierarchy of their own, see HiddenFunctions.h; those that are fine along one axis have another
-/// one, see LayeredFunctions.h.
-struct HiddenLevels
-{
-  std::vector<double> height;         // a factor per finest unknown
-  std::vector<MultigridLevel> levels; // from the second level on; prolongations as in the other one
-  SparseMatrix layeredProlongation; // from the first layered level to the finest; heights included
-  std::vector<MultigridLevel> layered; // may be empty
-  int revision = 0;                    // of the system they come from
-};
-
 /// A hierarchy that is ready to cycle. Const methods are safe to call from several threads.
 class Multigrid
 {
@@ -105,19 +67,6 @@ public:
   /// The coarsest level is solved directly; its prolongation and order are not used.
   /// Throws InvalidInput when there is no level, shapes do not fit or a sweep count is negative.
   Multigrid(std::vector<MultigridLevel> levels, const MultigridOptions& options);
-
-  /// From now on cycles of the finest level have more corrections: one from the coarser level, one
-  /// by a V cycle of the hidden functions, and one more from the coarser level, in place of the two
-  /// that a W cycle has. All three are corrections in a space of functions, so that the cycle stays
-  /// symmetric and convergent whatever the heights are. Costs a quarter of a cycle more. Layered
-  /// functions are corrected between two corrections of the hidden ones, those of all axes at once;
-  /// that costs as much as a cycle. The cycle stays symmetric.
-  /// @param size  of the matrix on hidden functions, in units of the hierarchy `hidden`
-  /// Throws InvalidInput when shapes do not fit.
-  void AddHidden(HiddenLevels hidden, double size);
-  void SetSizeOfHidden(double size) { sizeOfHidden_ = size; }
-  /// -1 where there are none.
-  int RevisionOfHidden() const { return hidden_ ? revisionOfHidden_ : -1; }
 
   /// New matrix values on the same patterns (finest first): rebuilds smoothers and coarse solver.
   /// Throws InvalidInput, and changes nothing, when a pattern differs in shape or size.
@@ -175,19 +124,10 @@ private:
     std::vector<Scratch>& scratch) const;
   void VisitCoarse(std::size_t level, const MultiVector& b, MultiVector& x, bool zeroX, int times,
     std::vector<Scratch>& scratch) const;
-  void CorrectHidden(const MultiVector& b, MultiVector& x, Scratch& scratch) const;
-  void CorrectLayered(const MultiVector& b, MultiVector& x, Scratch& scratch) const;
 
   std::vector<MultigridLevel> levels_;
   CoarseSolver coarse_;
   MultigridOptions options_;
-  std::vector<double> height_;
-  std::unique_ptr<Multigrid> hidden_; // none: no such correction
-  SparseMatrix layeredProlongation_;
-  SparseMatrix layeredRestriction_;
-  std::unique_ptr<Multigrid> layered_; // none: no such correction
-  double sizeOfHidden_ = 1.0;
-  int revisionOfHidden_ = 0;
 };
 
 } // namespace gridfem

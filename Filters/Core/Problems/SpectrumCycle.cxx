@@ -8,7 +8,7 @@ namespace
 bool AllowsSingle(const MultigridOptions& options)
 {
   return options.cycle == CycleType::V && options.smoother == SmootherType::Patch &&
-         options.preSweeps == 1 && options.postSweeps == 1 && options.coverage == 0;
+         options.preSweeps == 1 && options.postSweeps == 1;
 }
 
 } // namespace

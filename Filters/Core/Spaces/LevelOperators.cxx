@@ -131,7 +131,6 @@ void UpdateOperators(const GridFunctions& space, LevelOperators& system, int thr
   }
   system.integral =
     IntegralsOfFunctions(system.places.front(), system.elements.front().mass, threads);
-  ++system.revision;
 }
 
 void FillLevelMatrix(const GridFunctions& space, const LevelOperators& system, std::size_t level,

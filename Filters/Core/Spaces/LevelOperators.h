@@ -22,7 +22,6 @@ struct LevelOperators
   std::vector<SharedMatrix> restriction;  // their transposes
   std::vector<double> integral;           // ∫ b_i of the finest functions, grid units
   int quadratureDegree = 2;
-  int revision = 0; // how often UpdateOperators has changed the elements
 };
 
 /// Integrates, coarsens down to the first level with at most `coarsestSize` functions in its

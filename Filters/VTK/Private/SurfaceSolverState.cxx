@@ -32,7 +32,7 @@ void AddMultigrid(StageKey& key, const MultigridOptions& options)
 {
   key.Add(static_cast<int>(options.cycle)).Add(static_cast<int>(options.smoother));
   key.Add(options.preSweeps).Add(options.postSweeps).Add(options.sweepsPerSynchronisation);
-  key.Add(static_cast<int>(options.hidden)).Add(options.threads);
+  key.Add(options.threads);
 }
 
 void AddClipArrays(StageKey& key, vtkPolyData* data)

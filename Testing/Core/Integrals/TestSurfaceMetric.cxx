@@ -263,8 +263,6 @@ TEST(SurfaceMetric, AnUpdatedHierarchyEqualsANewOne)
   const std::vector<double> integral = system.integral;
   const double lambda = 0.125;
   MultigridOptions options;
-  // The hierarchy of hidden functions is that of M + L, which is another in each metric.
-  options.hidden = HiddenCorrection::Never;
   Multigrid updated = BuildMultigrid(ViewOf(space, system), lambda, 1.0, options);
   const SampleMetric own(NumberOfSamples(space.clipped, rule), { 1, 0, 1 });
   const SampleMetric twice(NumberOfSamples(space.clipped, rule), { 4, 0, 4 });
