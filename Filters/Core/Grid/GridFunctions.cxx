@@ -2,11 +2,11 @@
 
 #include "Base/Errors.h"
 #include "Base/Parallel.h"
+#include "Grid/PatchChoice.h"
 #include "Grid/PieceAdjacency.h"
 
 #include <algorithm>
 #include <atomic>
-#include <limits>
 #include <string>
 
 namespace gridfem
@@ -22,7 +22,8 @@ GridFunctions Complete(ClippedMesh clipped, Array<Index> piecePatch, PatchLevel 
   space.support = support;
   space.clipped = std::move(clipped);
   space.piecePatch = std::move(piecePatch);
-  space.pointPatch = FindPointPatches(space.clipped, space.piecePatch, threads);
+  space.pointPatch = FindPointPatches(space.clipped, space.piecePatch, finest.NumberOfPatches(),
+    space.clipped.numberOfInputPoints, threads);
   Release(space.clipped.links); // the patches' links stand for them
   progress.Check(0.3);
   space.levels =
@@ -76,25 +77,26 @@ void CheckTables(
   }
 }
 
-/// value = min(value, other), whichever thread comes first.
-void Lower(std::atomic<Index>& value, Index other)
+/// Puts a better patch in the place of another, whichever thread comes first.
+void Improve(std::atomic<Index>& choice, Index patch, const PatchChoice& patches)
 {
-  Index known = value.load(std::memory_order_relaxed);
-  while (other < known && !value.compare_exchange_weak(known, other, std::memory_order_relaxed))
+  Index known = choice.load(std::memory_order_relaxed);
+  while (patches.IsBetter(patch, known) &&
+         !choice.compare_exchange_weak(known, patch, std::memory_order_relaxed))
   {
   }
 }
 
 } // namespace
 
-Array<Index> FindPointPatches(
-  const ClippedMesh& clipped, const Array<Index>& piecePatch, int threads)
+Array<Index> FindPointPatches(const ClippedMesh& clipped, const Array<Index>& piecePatch,
+  Id numberOfPatches, Id points, int threads)
 {
-  constexpr Index None = std::numeric_limits<Index>::max();
-  std::vector<std::atomic<Index>> lowest(clipped.numberOfInputPoints);
-  for (std::atomic<Index>& patch : lowest)
+  const PatchChoice patches(clipped, piecePatch, numberOfPatches);
+  std::vector<std::atomic<Index>> choice(points);
+  for (std::atomic<Index>& patch : choice)
   {
-    patch.store(None, std::memory_order_relaxed);
+    patch.store(-1, std::memory_order_relaxed);
   }
   ParallelRanges(clipped.NumberOfPieces(), threads,
     [&](Id begin, Id end)
@@ -103,16 +105,16 @@ Array<Index> FindPointPatches(
       {
         for (Index k = clipped.pieceBegin[piece]; k < clipped.pieceBegin[piece + 1]; ++k)
         {
-          if (clipped.corners[k] < clipped.numberOfInputPoints)
+          if (clipped.corners[k] < points)
           {
-            Lower(lowest[clipped.corners[k]], piecePatch[piece]);
+            Improve(choice[clipped.corners[k]], piecePatch[piece], patches);
           }
         }
       }
     });
-  Array<Index> pointPatch(lowest.size());
-  std::transform(lowest.begin(), lowest.end(), pointPatch.begin(),
-    [](const std::atomic<Index>& patch) { return patch == None ? -1 : patch.load(); });
+  Array<Index> pointPatch(choice.size());
+  std::transform(choice.begin(), choice.end(), pointPatch.begin(),
+    [](const std::atomic<Index>& patch) { return patch.load(); });
   return pointPatch;
 }
 

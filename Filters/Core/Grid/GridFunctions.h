@@ -46,9 +46,10 @@ GridFunctions BuildGridFunctions(
 GridFunctions RestoreGridFunctions(ClippedMesh clipped, Array<Index> piecePatch, PatchLevel finest,
   FunctionSupport support, const Progress& progress = {});
 
-/// For each input point the lowest patch among the pieces around it; -1 for points without a piece.
-Array<Index> FindPointPatches(
-  const ClippedMesh& clipped, const Array<Index>& piecePatch, int threads = 0);
+/// For each of the first `points` points of the clipped mesh the patch it is given to among those
+/// of the pieces around it (PatchChoice); -1 for points without a piece.
+Array<Index> FindPointPatches(const ClippedMesh& clipped, const Array<Index>& piecePatch,
+  Id numberOfPatches, Id points, int threads = 0);
 
 /// Pieces that share an edge (two point ids, after `pointClass` if it is not empty), for a clipped
 /// mesh that comes without links.

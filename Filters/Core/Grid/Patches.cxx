@@ -2,6 +2,7 @@
 #include "Base/Parallel.h"
 #include "Base/PerThreadLists.h"
 #include "Base/UnionFind.h"
+#include "Grid/PatchChoice.h"
 #include "Grid/PatchLevel.h"
 
 #include <algorithm>
@@ -11,9 +12,6 @@ namespace gridfem
 
 namespace
 {
-
-/// Patches of less area, in cell faces, come from rounding.
-constexpr double SmallestArea = 1e-10;
 
 /// Patch of every piece, numbered by the first piece: so by Morton key.
 Array<Index> GroupPieces(const ClippedMesh& clipped, const Array<Index>& pieceCell,
@@ -40,25 +38,14 @@ Array<Index> GroupPieces(const ClippedMesh& clipped, const Array<Index>& pieceCe
   return NumberSets(sets, count, threads);
 }
 
-/// Patches whose pieces together have less than the smallest area. Pieces are sorted by cell, so
-/// that those of a patch are near each other.
+/// Patches that come from rounding.
 std::vector<char> FindSlivers(
-  const ClippedMesh& clipped, const Groups& pieces, Index numberOfPatches, int threads)
+  const ClippedMesh& clipped, const Array<Index>& piecePatch, Index numberOfPatches)
 {
-  std::vector<char> isSliver(numberOfPatches);
-  ParallelRanges(numberOfPatches, threads,
-    [&](Id begin, Id end)
-    {
-      for (Id patch = begin; patch < end; ++patch)
-      {
-        double area = 0.0;
-        for (Index k = pieces.begin[patch]; k < pieces.begin[patch + 1] && area < SmallestArea; ++k)
-        {
-          area += PieceArea(clipped, pieces.item[k]);
-        }
-        isSliver[patch] = area < SmallestArea;
-      }
-    });
+  const std::vector<double> area = CountedPatchAreas(clipped, piecePatch, numberOfPatches);
+  std::vector<char> isSliver(area.size());
+  std::transform(area.begin(), area.end(), isSliver.begin(),
+    [](double counted) { return counted < SmallestPatchArea; });
   return isSliver;
 }
 
@@ -149,16 +136,20 @@ PatchPartition BuildPatches(const ClippedMesh& clipped, FunctionSupport support,
   Index count = 0;
   const Array<Index> pieceCell = PieceCells(clipped, threads);
   patches.piecePatch = GroupPieces(clipped, pieceCell, support, threads, count);
-  const Groups pieces = GroupItems(patches.piecePatch, count, threads);
+  std::vector<Index> cellOfPatch(count);
+  for (std::size_t piece = 0; piece < pieceCell.size(); ++piece)
+  {
+    cellOfPatch[patches.piecePatch[piece]] = pieceCell[piece];
+  }
   const std::vector<Index> target =
-    AbsorbSlivers(clipped, patches.piecePatch, FindSlivers(clipped, pieces, count, threads));
+    AbsorbSlivers(clipped, patches.piecePatch, FindSlivers(clipped, patches.piecePatch, count));
   std::vector<Index> number(count, -1);
   for (Index patch = 0; patch < count; ++patch)
   {
     if (target[patch] == patch)
     {
       number[patch] = static_cast<Index>(patches.cell.size());
-      patches.cell.push_back(clipped.cells[pieceCell[pieces.item[pieces.begin[patch]]]]);
+      patches.cell.push_back(clipped.cells[cellOfPatch[patch]]);
     }
   }
   ParallelRanges(clipped.NumberOfPieces(), threads,

@@ -23,22 +23,6 @@ void CheckCoefficients(const GridFunctions& space, const MultiVector& coefficien
   }
 }
 
-/// For all points of the clipped mesh a patch that contains it, -1 if no piece uses it.
-Array<Index> PatchOfClippedPoints(const GridFunctions& space)
-{
-  const ClippedMesh& clipped = space.clipped;
-  Array<Index> patch(clipped.position.size(), -1);
-  for (Id piece = clipped.NumberOfPieces() - 1; piece >= 0; --piece)
-  {
-    for (Id k = clipped.pieceBegin[piece]; k < clipped.pieceBegin[piece + 1]; ++k)
-    {
-      patch[clipped.corners[k]] = space.piecePatch[piece];
-    }
-  }
-  std::copy(space.pointPatch.begin(), space.pointPatch.end(), patch.begin());
-  return patch;
-}
-
 MultiVector EvaluateAt(const GridFunctions& space, const Array<Index>& patchOfPoint,
   const MultiVector& coefficients, int threads)
 {
@@ -122,7 +106,9 @@ MultiVector EvaluateAtPoints(
 MultiVector EvaluateAtClippedPoints(
   const GridFunctions& space, const MultiVector& coefficients, int threads)
 {
-  return EvaluateAt(space, PatchOfClippedPoints(space), coefficients, threads);
+  const Array<Index> patchOfPoint = FindPointPatches(space.clipped, space.piecePatch,
+    space.Finest().NumberOfPatches(), static_cast<Id>(space.clipped.position.size()), threads);
+  return EvaluateAt(space, patchOfPoint, coefficients, threads);
 }
 
 Eigen::RowVectorXd EvaluateInPatch(

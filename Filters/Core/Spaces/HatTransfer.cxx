@@ -7,6 +7,7 @@
 #include "Algebra/FillRows.h"
 #include "Base/Errors.h"
 #include "Base/Grouping.h"
+#include "Grid/PatchChoice.h"
 #include "Grid/SourceTriangle.h"
 #include "Integrals/QuadratureSamples.h"
 #include "Integrals/TrilinearBasis.h"
@@ -86,6 +87,23 @@ void AddPiece(
   add(0, all);
 }
 
+/// Adds the values at a point if it is a corner of the piece, times the area of the piece. All
+/// sheets that meet in the point have their share then: the values of one alone would say nothing
+/// of the others, whose functions at the point may be different ones.
+void AddPieceAtPoint(const GridFunctions& space, Id point, Id piece, Row& row)
+{
+  const ClippedMesh& clipped = space.clipped;
+  const Index* const begin = clipped.corners.data() + clipped.pieceBegin[piece];
+  const Index* const end = clipped.corners.data() + clipped.pieceBegin[piece + 1];
+  if (std::find(begin, end, point) != end)
+  {
+    const Id patch = space.piecePatch[piece];
+    CornerValues b;
+    TrilinearValues(clipped.position[point] - CellCorner(space.Finest().cell[patch]), b);
+    AddScaled(PieceArea(clipped, piece), b, WeightsOf(patch, row).weight);
+  }
+}
+
 /// The values at a point, for a hat without pieces of any area as well.
 void AddPoint(const GridFunctions& space, Id point, Row& row)
 {
@@ -146,15 +164,19 @@ std::vector<Entry> EntriesOf(const PatchLevel& level, const Row& row)
   return entries;
 }
 
-/// A point of every function: the lowest.
-std::vector<Id> PointsOfFunctions(const HatFunctions& hats)
+/// A point of every function: of those that share it the one in the best patch, and of equal ones
+/// the lowest.
+std::vector<Id> PointsOfFunctions(const HatFunctions& hats, const GridFunctions& space)
 {
+  const PatchChoice patches(space.clipped, space.piecePatch, space.Finest().NumberOfPatches());
   std::vector<Id> point(hats.Count(), -1);
-  for (Id p = static_cast<Id>(hats.ofPoint.size()) - 1; p >= 0; --p)
+  for (Id p = 0; p < static_cast<Id>(hats.ofPoint.size()); ++p)
   {
     if (hats.ofPoint[p] >= 0)
     {
-      point[hats.ofPoint[p]] = p;
+      Id& best = point[hats.ofPoint[p]];
+      const Index known = best < 0 ? -1 : space.pointPatch[best];
+      best = best < 0 || patches.IsBetter(space.pointPatch[p], known) ? p : best;
     }
   }
   return point;
@@ -201,25 +223,30 @@ SparseMatrix BuildHatProlongation(const HatFunctions& hats, const GridFunctions&
   const TriangleMesh& mesh, HatTransfer transfer, int threads)
 {
   CheckMeshes(hats, space, mesh);
-  const std::vector<Id> pointOfHat = PointsOfFunctions(hats);
-  if (transfer == HatTransfer::Evaluation)
-  {
-    return BuildRows(
-      hats, space, threads, [&](Id hat, Row& row) { AddPoint(space, pointOfHat[hat], row); });
-  }
+  const std::vector<Id> pointOfHat = PointsOfFunctions(hats, space);
   const Groups pieces = GroupItems(space.clipped.pieceTriangle.data(),
     space.clipped.NumberOfPieces(), static_cast<Id>(mesh.triangles.size()), threads);
+  const auto addTriangle = [&](Id triangle, int corner, Row& row)
+  {
+    const SourceTriangle source(space.clipped, mesh, triangle);
+    for (Id p = pieces.begin[triangle]; p < pieces.begin[triangle + 1]; ++p)
+    {
+      if (transfer == HatTransfer::Evaluation)
+      {
+        AddPieceAtPoint(space, mesh.triangles[triangle][corner], pieces.item[p], row);
+      }
+      else
+      {
+        AddPiece(space, source, corner, pieces.item[p], row);
+      }
+    }
+  };
   return BuildRows(hats, space, threads,
     [&](Id hat, Row& row)
     {
       for (Id k = hats.begin[hat]; k < hats.begin[hat + 1]; ++k)
       {
-        const Id triangle = hats.corners[k].Triangle();
-        const SourceTriangle source(space.clipped, mesh, triangle);
-        for (Id p = pieces.begin[triangle]; p < pieces.begin[triangle + 1]; ++p)
-        {
-          AddPiece(space, source, hats.corners[k].Corner(), pieces.item[p], row);
-        }
+        addTriangle(hats.corners[k].Triangle(), hats.corners[k].Corner(), row);
       }
       if (!(Sum(row) > 0.0))
       {

@@ -15,7 +15,9 @@ namespace gridfem
 /// and conjugate gradients need one or two iterations more; PseudoEvaluation does not notice.
 enum class HatTransfer
 {
-  /// The values of the grid functions at the hats' points. At most eight entries per row.
+  /// The values of the grid functions at the hats' points. Where sheets of the surface meet in a
+  /// point and have functions of their own there, their mean, weighted with area. Eight entries per
+  /// row, but for such points.
   Evaluation = 0,
   /// Rᵀ with the pseudo-evaluation matrix R = E_fᵀ M_f P M_c⁻¹: the mean of a grid function,
   /// weighted with the hat, taken at the points of the clipped mesh.

@@ -202,7 +202,8 @@ SurfaceBasis OnClippedMesh(const SurfaceBasis& basis)
   SplitPieces(*mesh, space);
   space.clipped.numberOfInputPoints = static_cast<Id>(mesh->points.size());
   space.clipped.cutPoints.clear();
-  space.pointPatch = FindPointPatches(space.clipped, space.piecePatch);
+  space.pointPatch = FindPointPatches(space.clipped, space.piecePatch,
+    space.Finest().NumberOfPatches(), space.clipped.numberOfInputPoints);
 
   SurfaceBasis result =
     MakeSurfaceBasis(std::move(mesh), std::move(space), basis.weldCoincidentPoints);
@@ -243,7 +244,8 @@ SurfaceBasis OnSourceMesh(
       }
     }
   }
-  space.pointPatch = FindPointPatches(space.clipped, space.piecePatch);
+  space.pointPatch = FindPointPatches(space.clipped, space.piecePatch,
+    space.Finest().NumberOfPatches(), space.clipped.numberOfInputPoints);
   SurfaceBasis result =
     MakeSurfaceBasis(source.triangles, std::move(space), basis.weldCoincidentPoints);
   result.operators = basis.operators;

@@ -124,7 +124,8 @@ TEST(MemoryEstimate, HoldsWhatIsBuiltAndNotMuchMore)
     const MemoryEstimate estimate = EstimateMemory(item.mesh, item.depth);
     const GridFunctions space = BuildSpace(item);
     const LevelOperators system = BuildLevelOperators(space, TriangleRule(2));
-    const Multigrid multigrid = BuildMultigrid(gridfem::testing::ViewOf(space, system), 0.01, 1.0, {});
+    const Multigrid multigrid =
+      BuildMultigrid(gridfem::testing::ViewOf(space, system), 0.01, 1.0, {});
     const double arrays = Bytes(space) + Bytes(system) + static_cast<double>(multigrid.Memory());
     // The arrays that are held at the end; rims and coarse levels have a few more functions than
     // areas tell. The peak of clipping is up to twice what clipping leaves.

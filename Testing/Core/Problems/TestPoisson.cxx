@@ -345,6 +345,22 @@ TEST(Poisson, StaysFiniteOnComponentsWithoutArea)
   }
 }
 
+TEST(Poisson, IsRightAtPointsOfTrianglesWithoutArea)
+{
+  // The second triangle lies on a line and meets the first in a point. Its functions there have no
+  // equation; the point belongs to the first.
+  const TriangleMesh mesh = { { { 0, 0, 0 }, { 1, .3, .2 }, { .1, 1, .7 }, { -1, -.5, -.3 },
+                                { -.5, -.25, -.15 } },
+    { { 0, 1, 2 }, { 0, 3, 4 } } };
+  const Problem problem(mesh, AtDepth(3), 0.01);
+  const PoissonSolution solution = problem.Solve(problem.Values(MultiVector::Ones(5, 1)), {});
+  EXPECT_TRUE(solution.report.converged);
+  const MultiVector atInput = EvaluateAtPoints(problem.space, solution.coefficients);
+  EXPECT_LT((atInput.topRows(3).array() - 1.0).abs().maxCoeff(), 1e-9);
+  const MultiVector atAll = EvaluateAtClippedPoints(problem.space, solution.coefficients);
+  EXPECT_EQ(atAll.topRows(5), atInput);
+}
+
 TEST(Poisson, ReportsThatItHasNotConverged)
 {
   const TriangleMesh mesh = GeodesicSphere(12);

@@ -1,6 +1,7 @@
 // The hybrid hierarchy: solutions against a direct solver, numbers of iterations.
 #include "Spaces/HatSpace.h"
 
+#include "Dense.h"
 #include "Hybrid.h"
 #include "PrecisionChecks.h"
 #include "Spaces.h"
@@ -243,4 +244,61 @@ TEST(HatSpace, DoesNotMindAGridThatIsMuchFinerThanTheMesh)
   };
   EXPECT_EQ(cycles(6, HatTransfer::PseudoEvaluation), cycles(4, HatTransfer::PseudoEvaluation));
   EXPECT_GT(cycles(6, HatTransfer::Evaluation), cycles(6, HatTransfer::PseudoEvaluation));
+}
+
+namespace
+{
+
+/// Triangles between random points of a small lattice: degenerate ones, crossings, edges with many
+/// triangles, and parts that meet in a point.
+TriangleMesh RandomSoup(int triangles, int points, unsigned seed)
+{
+  std::mt19937 generator(seed);
+  TriangleMesh mesh;
+  for (int i = 0; i < points; ++i)
+  {
+    const auto number = [&] { return 0.25 * double(generator() % 5); };
+    const double x = number();
+    const double y = number();
+    mesh.points.emplace_back(x, y, number());
+  }
+  for (int i = 0; i < triangles; ++i)
+  {
+    const auto point = [&] { return static_cast<Index>(generator() % points); };
+    const Index a = point();
+    const Index b = point();
+    mesh.triangles.push_back({ a, b, point() });
+  }
+  return mesh;
+}
+
+/// Extreme eigenvalues of B A on the functions of zero mean, for the cycle B of A.
+std::pair<double, double> ExtremesOfPreconditioned(const Hybrid& hybrid, double weight)
+{
+  const Multigrid multigrid = hybrid.Build(weight);
+  const Index count = hybrid.hats.functions.Count();
+  MultiVector B;
+  multigrid.Precondition(MultiVector::Identity(count, count), B);
+  const Eigen::MatrixXd A = Dense(multigrid.Matrix());
+  const Eigen::MatrixXd root = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A).operatorSqrt();
+  const Eigen::MatrixXd symmetric = root * (0.5 * (B + B.transpose())) * root;
+  const Eigen::VectorXd values =
+    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, Eigen::EigenvaluesOnly).eigenvalues();
+  return { values.minCoeff(), values.maxCoeff() };
+}
+
+} // namespace
+
+TEST(HatMultigrid, IsNearTheInverseOnSoupsWithDegenerateTriangles)
+{
+  for (const unsigned seed : { 1, 3, 5 })
+  {
+    for (const HatTransfer transfer : { HatTransfer::Evaluation, HatTransfer::PseudoEvaluation })
+    {
+      const Hybrid hybrid(RandomSoup(200, 60, seed), 2, transfer);
+      const auto [lowest, highest] = ExtremesOfPreconditioned(hybrid, 1e-2);
+      EXPECT_GT(lowest, 0.99) << seed;
+      EXPECT_LT(highest, 1.5) << seed; // 1.3 was measured
+    }
+  }
 }
