@@ -276,7 +276,7 @@ TriangleMesh RandomSoup(int triangles, int points, unsigned seed)
 std::pair<double, double> ExtremesOfPreconditioned(const Hybrid& hybrid, double weight)
 {
   const Multigrid multigrid = hybrid.Build(weight);
-  const Index count = hybrid.hats.functions.Count();
+  const Index count = hybrid.space.NumberOfFunctions(0);
   MultiVector B;
   multigrid.Precondition(MultiVector::Identity(count, count), B);
   const Eigen::MatrixXd A = Dense(multigrid.Matrix());
@@ -289,7 +289,7 @@ std::pair<double, double> ExtremesOfPreconditioned(const Hybrid& hybrid, double 
 
 } // namespace
 
-TEST(HatMultigrid, IsNearTheInverseOnSoupsWithDegenerateTriangles)
+TEST(HatSpace, IsNearTheInverseOnSoupsWithDegenerateTriangles)
 {
   for (const unsigned seed : { 1, 3, 5 })
   {
