@@ -105,11 +105,11 @@ void Run(Pipeline& p, StepClock& clock)
   clock.Run("Clip To Octree", p.clip);
   clock.Run("Connectivity-Aware Basis", p.basis);
   clock.Run("Screened Poisson", p.poisson);
-  clock.AddPart("element matrices", p.poisson->GetStageSeconds(vtkScreenedPoisson::SystemStage));
-  clock.AddPart("hierarchy", p.poisson->GetStageSeconds(vtkScreenedPoisson::HierarchyStage));
+  clock.AddPart("element matrices", p.poisson->GetStageSeconds("System"));
+  clock.AddPart("hierarchy", p.poisson->GetStageSeconds("Hierarchy"));
   clock.AddPart(
-    "right-hand side", p.poisson->GetStageSeconds(vtkScreenedPoisson::RightHandSideStage));
-  clock.AddPart("solve", p.poisson->GetStageSeconds(vtkScreenedPoisson::SolveStage));
+    "right-hand side", p.poisson->GetStageSeconds("RightHandSide"));
+  clock.AddPart("solve", p.poisson->GetStageSeconds("Solve"));
   clock.Run("Laplace Spectrum", p.spectrum);
 }
 

@@ -65,7 +65,7 @@ class TestPipeline(unittest.TestCase):
         self.assertEqual(plugin.data(poisson).GetNumberOfPoints(),
                          plugin.data(self.surface).GetNumberOfPoints())
         plugin.data(spectrum)
-        systems = plugin.runs(poisson)["system"] + plugin.runs(spectrum)["system"]
+        systems = plugin.runs(poisson)["System"] + plugin.runs(spectrum)["System"]
         self.assertEqual(systems, 1)
         alone = simple.ScreenedPoisson(Input=self.surface, Depth=DEPTH)
         self.assertLess(self.largest_difference(alone, poisson, "Solution"), 1e-6)
@@ -92,8 +92,8 @@ class TestPipeline(unittest.TestCase):
         def set_depth():
             poisson.Depth = DEPTH + 1
 
-        self.assertEqual(plugin.reruns(poisson, set_weight), ["hierarchy", "solve"])
-        self.assertEqual(plugin.reruns(poisson, set_function), ["right-hand side", "solve"])
+        self.assertEqual(plugin.reruns(poisson, set_weight), ["Hierarchy", "Solve"])
+        self.assertEqual(plugin.reruns(poisson, set_function), ["RightHandSide", "Solve"])
         self.assertEqual(plugin.reruns(poisson, set_depth), list(plugin.STAGES))
 
     def test_arrays_are_chosen_by_name(self):
@@ -131,7 +131,7 @@ class TestPipeline(unittest.TestCase):
             spectrum.UpdatePipeline(float(mode))
             shown = spectrum.PointData["Mode"].GetRange()
             self.assertEqual(shown, expected.GetArray(f"Mode{mode:03}").GetRange())
-        self.assertEqual(plugin.runs(spectrum)["solve"], 1)
+        self.assertEqual(plugin.runs(spectrum)["Solve"], 1)
 
         spectrum.Mode = 2
         spectrum.UpdatePipeline(5.0)
@@ -139,7 +139,7 @@ class TestPipeline(unittest.TestCase):
                          expected.GetArray("Mode002").GetRange())
         spectrum.UpdatePipelineInformation()
         self.assertEqual(len(spectrum.TimestepValues), 0)
-        self.assertEqual(plugin.runs(spectrum)["solve"], 1)
+        self.assertEqual(plugin.runs(spectrum)["Solve"], 1)
 
     def test_signatures_take_the_modes_of_the_input(self):
         spectrum = simple.LaplaceSpectrum(
@@ -147,7 +147,7 @@ class TestPipeline(unittest.TestCase):
         signatures = simple.SpectralSignatures(Input=spectrum, NumberOfScales=5)
         arrays = plugin.data(signatures).GetPointData()
         self.assertEqual(arrays.GetArray("HeatKernelSignature").GetNumberOfComponents(), 5)
-        self.assertEqual(plugin.runs(signatures)["solve"], 0)
+        self.assertEqual(plugin.runs(signatures)["Solve"], 0)
         self.assertEqual(plugin.data(signatures, 1).GetNumberOfRows(), 16)
 
     def test_distances_from_ids_and_from_other_points(self):
@@ -165,7 +165,7 @@ class TestPipeline(unittest.TestCase):
         signatures.Sources = selected
         by_place = plugin.data(signatures).GetPointData().GetArray("BiharmonicDistance")
         self.assertEqual(by_place.GetRange(), by_id.GetRange())
-        self.assertEqual(plugin.runs(signatures)["solve"], 1)
+        self.assertEqual(plugin.runs(signatures)["Solve"], 1)
 
     def test_modes_vibrate_in_animate_modes(self):
         modes = simple.LaplaceSpectrum(

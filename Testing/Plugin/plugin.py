@@ -7,8 +7,7 @@ PROXIES = ("ClipToOctree", "ConnectivityAwareBasis", "ScreenedPoisson", "Laplace
            "SpectralSignatures")
 SOLVERS = PROXIES[2:]
 
-# vtkSurfaceFEMAlgorithm::StageType
-STAGES = ("space", "system", "hierarchy", "right-hand side", "solve")
+STAGES = ("Space", "System", "Hierarchy", "RightHandSide", "Solve")
 
 
 def load():
@@ -30,7 +29,7 @@ def data(proxy, port=0):
 def runs(proxy):
     """How often the filter behind a proxy has run each stage."""
     counts = proxy.GetClientSideObject()
-    return {stage: counts.GetNumberOfRuns(number) for number, stage in enumerate(STAGES)}
+    return {stage: counts.GetNumberOfRuns(stage) for stage in STAGES}
 
 
 def reruns(proxy, change):

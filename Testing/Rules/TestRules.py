@@ -80,6 +80,18 @@ class Layers(Rule):
         self.assertNothing(offences, "Files of Core include only their own layer and those below.")
 
 
+class Spaces(Rule):
+    KINDS = re.compile(r"\b(?:GridSpace|HatSpace|HatLevel|HatMatrices|LevelOperators)\b")
+    MAKERS = ("SurfaceBasis",)  # where a filter's space is made
+
+    def test_nobody_asks_which_space_there_is(self):
+        offences = [f"{relative(p)}: {match.group()}"
+                    for folder in ("Filters/Core/Problems", "Filters/Core/Krylov", "Filters/VTK")
+                    for p in sources(folder) if p.stem not in self.MAKERS
+                    for match in self.KINDS.finditer(without_comments(p.read_text()))]
+        self.assertNothing(offences, "Problems and filters know a FiniteElementSpace alone.")
+
+
 class Core(Rule):
     FORBIDDEN = re.compile(
         r"std::(?:cout|cerr|clog|terminate|exit|abort|quick_exit)\b|#\s*include\s*<iostream>"

@@ -2,52 +2,17 @@
 
 #ifdef __linux__
 #include <sys/mman.h>
-#include <unistd.h>
 #endif
 
 #include <algorithm>
 #include <cstdint>
-#include <iterator>
 #include <limits>
-#include <map>
 #include <mutex>
 #include <new>
+#include <vector>
 
 namespace gridfem
 {
-
-#ifdef __linux__
-
-namespace
-{
-
-constexpr std::size_t LargePage = std::size_t{ 1 } << 21;
-
-std::size_t RoundUp(std::size_t size, std::size_t unit)
-{
-  return (size + unit - 1) / unit * unit;
-}
-
-} // namespace
-
-void PreferLargePages(void* begin, std::size_t bytes) noexcept
-{
-  const auto address = reinterpret_cast<std::uintptr_t>(begin);
-  const std::uintptr_t first = RoundUp(address, LargePage);
-  const std::uintptr_t last = (address + bytes) / LargePage * LargePage;
-  if (last > first)
-  {
-    madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
-  }
-}
-
-#else
-
-void PreferLargePages(void*, std::size_t) noexcept
-{
-}
-
-#endif
 
 // Address sanitizers watch the heap alone.
 #if defined(__linux__) && !defined(__SANITIZE_ADDRESS__)
@@ -55,28 +20,29 @@ void PreferLargePages(void*, std::size_t) noexcept
 namespace
 {
 
-std::size_t RoundUpToPages(std::size_t bytes)
+constexpr std::size_t Page = std::size_t{ 1 } << 16; // a multiple of any system's
+constexpr std::size_t LargePage = std::size_t{ 1 } << 21;
+
+std::size_t RoundUp(std::size_t size, std::size_t unit)
 {
-  return RoundUp(bytes, static_cast<std::size_t>(sysconf(_SC_PAGESIZE)));
+  return (size + unit - 1) / unit * unit;
 }
 
-/// New memory that begins with a large page.
+/// New memory that begins with a large page: more is asked for, and the rest given back.
 char* MapMemory(std::size_t bytes)
 {
-  // More than is wanted, so that a part of it begins there; the rest is given back.
-  const std::size_t mapped = bytes + LargePage;
-  void* const begin =
-    mmap(nullptr, mapped, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (begin == MAP_FAILED)
+  void* const all =
+    mmap(nullptr, bytes + LargePage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (all == MAP_FAILED)
   {
     throw std::bad_alloc();
   }
-  const auto address = reinterpret_cast<std::uintptr_t>(begin);
+  const auto address = reinterpret_cast<std::uintptr_t>(all);
   const std::size_t before = RoundUp(address, LargePage) - address;
-  char* const memory = static_cast<char*>(begin) + before;
+  char* const memory = static_cast<char*>(all) + before;
   if (before > 0)
   {
-    munmap(begin, before);
+    munmap(all, before);
   }
   if (before < LargePage)
   {
@@ -86,42 +52,7 @@ char* MapMemory(std::size_t bytes)
   return memory;
 }
 
-/// Moves the last large pages of a block, at most so many; what is behind them goes back. Mappings
-/// begin with a large page, so that none of these pages lies in two.
-/// @param bytes  of the block; gets what is left of it
-/// @return bytes moved
-std::size_t MoveLastPages(char* block, std::size_t& bytes, char* to, std::size_t most) noexcept
-{
-  const auto address = reinterpret_cast<std::uintptr_t>(block);
-  const std::uintptr_t first = RoundUp(address, LargePage);
-  const std::uintptr_t last = (address + bytes) / LargePage * LargePage;
-  if (last <= first || most == 0)
-  {
-    return 0;
-  }
-  const std::size_t pages = std::min(most, (last - first) / LargePage);
-  const std::size_t begin = last - address - pages * LargePage;
-  std::size_t moved = 0;
-  while (moved < pages * LargePage && mremap(block + begin + moved, LargePage, LargePage,
-                                        MREMAP_MAYMOVE | MREMAP_FIXED, to + moved) != MAP_FAILED)
-  {
-    moved += LargePage;
-  }
-  if (moved < pages * LargePage)
-  {
-    // The system may have removed what was there.
-    mmap(to + moved, LargePage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED, -1,
-      0);
-  }
-  if (begin + moved < bytes)
-  {
-    munmap(block + begin + moved, bytes - begin - moved);
-  }
-  bytes = begin;
-  return moved;
-}
-
-/// Blocks that were freed while somebody wants to use them again. Sizes are whole pages.
+/// Blocks that were freed while somebody wants to use them again.
 class FreeBlocks
 {
 public:
@@ -140,79 +71,73 @@ public:
     }
   }
 
-  /// A part of the smallest block that is large enough; null if none is.
-  char* Take(std::size_t bytes)
+  /// The end of the smallest block that is large enough. Null, and as much is returned, if none is.
+  char* Take(std::size_t bytes) noexcept
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     auto best = blocks_.end();
     for (auto block = blocks_.begin(); block != blocks_.end(); ++block)
     {
-      if (block->second >= bytes && (best == blocks_.end() || block->second < best->second))
+      if (block->bytes >= bytes && (best == blocks_.end() || block->bytes < best->bytes))
       {
         best = block;
       }
     }
     if (best == blocks_.end())
     {
+      this->Return(bytes);
       return nullptr;
     }
-    best->second -= bytes;
-    char* const memory = best->first + best->second;
-    if (best->second == 0)
+    best->bytes -= bytes;
+    char* const memory = best->begin + best->bytes;
+    if (best->bytes == 0)
     {
       blocks_.erase(best);
     }
     return memory;
   }
 
-  /// Puts large pages of kept blocks in the place of those of `memory`, which begins with one and
-  /// has not been touched: as many as there are. Then more than `bytes` fewer are kept.
-  void MovePages(char* memory, std::size_t bytes) noexcept
+  void ReturnSome(std::size_t bytes) noexcept
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    std::size_t moved = 0;
-    for (auto block = blocks_.begin(); block != blocks_.end() && moved + LargePage <= bytes;)
-    {
-      moved +=
-        MoveLastPages(block->first, block->second, memory + moved, (bytes - moved) / LargePage);
-      block = block->second == 0 ? blocks_.erase(block) : std::next(block);
-    }
-    this->Return(Generously * bytes - moved);
+    this->Return(bytes);
   }
 
   void Give(char* memory, std::size_t bytes) noexcept
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (users_ == 0 || !this->Insert(memory, bytes))
+    if (users_ == 0 || !this->Insert({ memory, bytes }))
     {
       munmap(memory, bytes);
     }
   }
 
 private:
-  /// Blocks also hold what arrays had reserved and not used, which was no memory yet.
-  static constexpr std::size_t Generously = 2;
+  struct Block
+  {
+    char* begin;
+    std::size_t bytes;
+  };
 
-  /// Joins neighbours. Returns false where there is no memory for the entry itself.
-  bool Insert(char* memory, std::size_t bytes) noexcept
+  /// Joins what lies side by side. False where there is no memory for the entry itself.
+  bool Insert(Block block) noexcept
   try
   {
-    const auto block = blocks_.emplace(memory, bytes).first;
-    const auto next = std::next(block);
-    if (next != blocks_.end() && memory + bytes == next->first)
+    for (std::size_t k = 0; k < blocks_.size();)
     {
-      block->second += next->second;
-      blocks_.erase(next);
-    }
-    if (block != blocks_.begin())
-    {
-      const auto before = std::prev(block);
-      if (before->first + before->second == memory)
+      const Block& other = blocks_[k];
+      const bool isBefore = other.begin + other.bytes == block.begin;
+      if (isBefore || block.begin + block.bytes == other.begin)
       {
-        before->second += block->second;
-        blocks_.erase(block);
+        block = { isBefore ? other.begin : block.begin, block.bytes + other.bytes };
+        blocks_.erase(blocks_.begin() + static_cast<std::ptrdiff_t>(k));
+      }
+      else
+      {
+        ++k;
       }
     }
+    blocks_.push_back(block);
     return true;
   }
   catch (const std::bad_alloc&)
@@ -225,21 +150,21 @@ private:
   {
     while (bytes > 0 && !blocks_.empty())
     {
-      const auto block = blocks_.begin();
-      const std::size_t part = std::min(bytes, block->second);
-      block->second -= part;
+      Block& block = blocks_.back();
+      const std::size_t part = std::min(bytes, block.bytes);
+      block.bytes -= part;
       bytes -= part;
-      munmap(block->first + block->second, part);
-      if (block->second == 0)
+      munmap(block.begin + block.bytes, part);
+      if (block.bytes == 0)
       {
-        blocks_.erase(block);
+        blocks_.pop_back();
       }
     }
   }
 
   std::mutex mutex_;
   int users_ = 0;
-  std::map<char*, std::size_t> blocks_; // bytes by first address
+  std::vector<Block> blocks_;
 };
 
 /// Never destroyed: arrays of static lifetime may outlive it.
@@ -250,6 +175,17 @@ FreeBlocks& KeptBlocks()
 }
 
 } // namespace
+
+void PreferLargePages(void* begin, std::size_t bytes) noexcept
+{
+  const auto address = reinterpret_cast<std::uintptr_t>(begin);
+  const std::uintptr_t first = RoundUp(address, LargePage);
+  const std::uintptr_t last = (address + bytes) / LargePage * LargePage;
+  if (last > first)
+  {
+    madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
+  }
+}
 
 MemoryReuse::MemoryReuse()
 {
@@ -263,35 +199,28 @@ MemoryReuse::~MemoryReuse()
 
 void* AllocateLargeMemory(std::size_t bytes)
 {
-  const std::size_t size = RoundUpToPages(bytes);
-  if (char* const kept = KeptBlocks().Take(size))
-  {
-    return kept;
-  }
-  char* const memory = MapMemory(size);
-  KeptBlocks().MovePages(memory, size);
-  return memory;
+  const std::size_t size = RoundUp(bytes, Page);
+  char* const kept = KeptBlocks().Take(size);
+  return kept ? kept : MapMemory(size);
 }
 
 void FreeLargeMemory(void* memory, std::size_t bytes) noexcept
 {
-  KeptBlocks().Give(static_cast<char*>(memory), RoundUpToPages(bytes));
+  KeptBlocks().Give(static_cast<char*>(memory), RoundUp(bytes, Page));
 }
 
-void AdoptLargeMemory(void* begin, std::size_t bytes) noexcept
+void ReturnLargeMemory(std::size_t bytes) noexcept
 {
-  PreferLargePages(begin, bytes);
-  const auto address = reinterpret_cast<std::uintptr_t>(begin);
-  const std::size_t before = RoundUp(address, LargePage) - address;
-  if (before < bytes)
-  {
-    KeptBlocks().MovePages(static_cast<char*>(begin) + before, bytes - before);
-  }
+  KeptBlocks().ReturnSome(bytes);
 }
 
 #else
 
-void AdoptLargeMemory(void*, std::size_t) noexcept
+void ReturnLargeMemory(std::size_t) noexcept
+{
+}
+
+void PreferLargePages(void*, std::size_t) noexcept
 {
 }
 

@@ -19,10 +19,9 @@ void* AllocateLargeMemory(std::size_t bytes);
 /// @param bytes  as at AllocateLargeMemory
 void FreeLargeMemory(void* memory, std::size_t bytes) noexcept;
 
-/// While one exists, large memory that is freed stays for the next requests, because the system
-/// takes a fifth of a set-up to clear new pages. A request that no block of it is large enough for
-/// gets large pages of several, and some more go back, so that the peak does not grow. The last one
-/// to go returns what is left.
+/// While one exists, large memory that is freed stays for the next requests: the system takes a
+/// fifth of a set-up to clear new pages. For a request that no free block is large enough for, as
+/// much goes back, so that the peak does not grow. The last one to go returns what is left.
 class MemoryReuse
 {
 public:
@@ -32,10 +31,9 @@ public:
   MemoryReuse& operator=(const MemoryReuse&) = delete;
 };
 
-/// Puts what is kept for reuse in the place of private memory, of a vector for example, that has
-/// not been touched yet, as far as there is, and gives at least as much as is missing back to the
-/// system. Contents become undefined; the pages do not return to what is kept.
-void AdoptLargeMemory(void* begin, std::size_t bytes) noexcept;
+/// Gives up to so many of the bytes that are kept for reuse back to the system, before memory of
+/// another origin is taken.
+void ReturnLargeMemory(std::size_t bytes) noexcept;
 
 /// Asks for large pages where memory of any origin that has not been touched yet spans some of
 /// them. A wish: the system may ignore it, and only Linux is asked. Contents do not change.

@@ -85,8 +85,10 @@ template<class Real>
 MultiVector SideBySide(
   const MultiVector& constants, const BlockBuffer<Real>& vectors, Id others, int threads)
 {
-  MultiVector all(constants.rows(), constants.cols() + others);
-  AdoptLargeMemory(all.data(), all.size() * sizeof(double));
+  const Id columns = constants.cols() + others;
+  ReturnLargeMemory(sizeof(double) * constants.rows() * columns);
+  MultiVector all(constants.rows(), columns);
+  PreferLargePages(all.data(), all.size() * sizeof(double));
   CopyBlock(constants, all.leftCols(constants.cols()), threads);
   if (others > 0)
   {

@@ -58,15 +58,17 @@ void SurfacePoisson::Solve(
       options.multigrid = state.options.multigrid;
       options.iteration = request.iteration;
       options.solve = state.options.solve;
-      const std::int64_t space = state.stages.Version(SystemStage);
-      const MultiVector last =
-        solvedOn_ == space ? std::move(solution_.coefficients) : MultiVector();
-      options.start = last.cols() == load_.values.cols() ? &last : nullptr;
-      solvedOn_ = -1;
+      StageKey solver = shape_; // other options show their own iterations, from the usual start
+      solver.Add(options.solve.tolerance).Add(options.solve.maximumIterations);
+      solver.Add(static_cast<int>(request.iteration));
+      const bool hasStart = solvedWith_ == solver;
+      const MultiVector last = hasStart ? std::move(solution_.coefficients) : MultiVector();
+      options.start = hasStart ? &last : nullptr;
+      solvedWith_ = {};
       const MultiVector gradients = request.gradientScale * load_.gradients;
       solution_ =
         SolvePoisson(*state.space, *multigrid_, load_.values, gradients, options, progress);
-      solvedOn_ = space;
+      solvedWith_ = solver;
     });
 }
 

@@ -58,7 +58,7 @@ private:
   std::unique_ptr<Multigrid> multigrid_;
   StageKey shape_; // what the hierarchy depends on but for the weight
   PoissonSolution solution_;
-  std::int64_t solvedOn_ = -1; // version of the space that the solution belongs to
+  StageKey solvedWith_; // space and solver that the solution comes from
 };
 
 } // namespace gridfem
