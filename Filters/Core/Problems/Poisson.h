@@ -37,6 +37,7 @@ struct PoissonSolution
 /// @param values     ∫ f b_i (IntegrateValues), grid units
 /// @param gradients  ∫ <s, ∇b_i> (IntegrateGradients), grid units; may have no rows for s = 0
 /// @param multigrid  of λM + L, built with the same λ
+/// Columns may have any size in the range of numbers: they are scaled by powers of two.
 /// Same bits for any number of threads.
 PoissonSolution SolvePoisson(const ComponentFunctions& functions, const Multigrid& multigrid,
   const MultiVector& values, const MultiVector& gradients, const PoissonOptions& options,
