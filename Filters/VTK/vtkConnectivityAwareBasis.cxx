@@ -55,9 +55,10 @@ void vtkConnectivityAwareBasis::ReadClip(vtkPolyData* input)
   gridfem::RequireMemory(*state.mesh.triangles, clipped.grid.depth);
   const auto support = options.connectivityAware ? gridfem::FunctionSupport::ConnectivityAware
                                                  : gridfem::FunctionSupport::Plain;
-  state.basis = gridfem::MakeSurfaceBasis(
-    state.mesh.triangles, gridfem::BuildGridFunctions(
-                            std::move(clipped), support, options.threads, progress.Part(0.4, 0.8)), options.weldCoincidentPoints);
+  state.basis = gridfem::MakeSurfaceBasis(state.mesh.triangles,
+    gridfem::BuildGridFunctions(
+      std::move(clipped), support, options.threads, progress.Part(0.4, 0.8)),
+    options.weldCoincidentPoints);
 
   const gridfem::GridFunctions& space = state.Functions();
   std::vector<gridfem::Id> cellPatch(input->GetNumberOfCells(), -1);

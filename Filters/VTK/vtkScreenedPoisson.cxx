@@ -103,7 +103,9 @@ gridfem::PoissonLoad vtkScreenedPoisson::Integrate(
   }
   else if (this->UseValueGradient)
   {
-    load.gradients = space.LoadOfGradientsOf(value, scale, job.Part(0.5, 1.0));
+    load.gradients = data.Value.array
+                       ? space.LoadOfGradientsOf(value, scale, job.Part(0.5, 1.0))
+                       : space.LoadOfGradientsOfCoordinates(scale, job.Part(0.5, 1.0));
   }
   return load;
 }

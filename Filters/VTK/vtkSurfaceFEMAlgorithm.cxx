@@ -56,6 +56,7 @@ int vtkSurfaceFEMAlgorithm::RequestData(
     this->FunctionSpace == HatFunctions ? gridfem::FunctionKind::Hats : gridfem::FunctionKind::Grid;
   options.choice.quadratureDegree = this->QuadratureDegree;
   options.choice.coarsestSize = this->CoarsestSize;
+  options.choice.normalStabilization = this->NormalStabilization;
   options.multigrid.cycle = static_cast<gridfem::CycleType>(this->Cycle);
   options.multigrid.smoother = static_cast<gridfem::SmootherType>(this->Smoother);
   options.multigrid.preSweeps = this->NumberOfSweeps;
@@ -118,6 +119,7 @@ void vtkSurfaceFEMAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Smoother: " << this->Smoother << "\n";
   os << indent << "NumberOfSweeps: " << this->NumberOfSweeps << "\n";
   os << indent << "SweepsPerSynchronisation: " << this->SweepsPerSynchronisation << "\n";
+  os << indent << "NormalStabilization: " << this->NormalStabilization << "\n";
   os << indent << "CoarsestSize: " << this->CoarsestSize << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";

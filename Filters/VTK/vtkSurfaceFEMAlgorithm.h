@@ -157,6 +157,17 @@ public:
 
   ///@{
   /**
+   * The weight s of the squared normal derivative in the operator on a grid, which no function of
+   * the surface has. The default of 1e-12 only makes functions known that hide in flat parts of the
+   * surface. With 1e-2 iterations to small tolerances stay few on any surface and for any Depth,
+   * for an error of the space that is 1.2 to 1.6 times as large. 1e-14..1. Hat functions have none.
+   */
+  vtkSetClampMacro(NormalStabilization, double, 1e-14, 1.0);
+  vtkGetMacro(NormalStabilization, double);
+  ///@}
+
+  ///@{
+  /**
    * The solver stops when its error measure has fallen by this factor. What is measured is said by
    * the filter. Above 0, below 1.
    */
@@ -237,6 +248,7 @@ protected:
   int NumberOfSweeps = 1;
   int SweepsPerSynchronisation = 1;
   int CoarsestSize = 256;
+  double NormalStabilization = 1e-12;
   double Tolerance = 1e-8;
   int MaximumIterations = 100;
   int NumberOfThreads = 0;

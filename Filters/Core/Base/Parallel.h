@@ -17,10 +17,13 @@
 namespace gridfem
 {
 
-/// The number of threads to use when `wanted` are asked for; 0 asks for all processors.
+/// The number of threads to use when `wanted` are asked for; 0 asks for all processors. More than
+/// two per processor are never used: they wait for each other at every barrier, a thousand on two
+/// processors 80 times as long as the work takes.
 inline int NumberOfThreads(int wanted)
 {
-  return wanted > 0 ? wanted : std::max(1, omp_get_num_procs());
+  const int processors = std::max(1, omp_get_num_procs());
+  return wanted > 0 ? std::min(wanted, 2 * processors) : processors;
 }
 
 /// Items per block where nothing else suggests a size.

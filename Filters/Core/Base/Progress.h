@@ -4,6 +4,7 @@
 
 #include "Base/Errors.h"
 
+#include <algorithm>
 #include <functional>
 
 namespace gridfem
@@ -28,10 +29,11 @@ public:
     return Progress(report_, from_ + from * (to_ - from_), from_ + to * (to_ - from_));
   }
 
-  /// Reports; false when an abort is asked for.
+  /// Reports; false when an abort is asked for. What is no number counts as nothing done.
   bool Report(double fraction) const
   {
-    return !report_ || report_(from_ + fraction * (to_ - from_));
+    const double done = fraction > 0.0 ? std::min(fraction, 1.0) : 0.0;
+    return !report_ || report_(from_ + done * (to_ - from_));
   }
 
   /// Reports; throws Aborted when an abort is asked for.

@@ -35,7 +35,8 @@ LaneVector Load(
 }
 
 /// Tensors of the two directions; each has half of the normal's weight.
-std::array<LaneTensor, 2> Split(const LaneVector& direction, const LaneVector& normal)
+std::array<LaneTensor, 2> Split(
+  const LaneVector& direction, const LaneVector& normal, double normalWeight)
 {
   const TangentBasis basis(normal);
   const Lanes x = direction.Dot(basis.first);
@@ -50,7 +51,7 @@ std::array<LaneTensor, 2> Split(const LaneVector& direction, const LaneVector& n
     mixed[lane] = isThere ? x[lane] * y[lane] / square[lane] : 0.0;
   }
   const Lanes across = 1.0 - along;
-  const Lanes ofNormal = Lanes::Constant(0.5 * NormalWeight);
+  const Lanes ofNormal = Lanes::Constant(0.5 * normalWeight);
   return { TensorInBasis(along, mixed, across, ofNormal, basis, normal),
     TensorInBasis(across, -mixed, along, ofNormal, basis, normal) };
 }
@@ -63,7 +64,8 @@ bool IsUsable(double weight)
 } // namespace
 
 DirectionalElements IntegrateElements(const GridFunctions& space, const QuadratureRule& rule,
-  const std::vector<Vec3>& direction, int threads, const Progress& progress)
+  const std::vector<Vec3>& direction, int threads, const Progress& progress,
+  double normalStabilization)
 {
   const auto& triangles = space.clipped.pieceTriangle;
   if (!triangles.empty() &&
@@ -85,7 +87,8 @@ DirectionalElements IntegrateElements(const GridFunctions& space, const Quadratu
         [&](const TriangleBatch& batch)
         {
           const TrianglePlanes planes(batch);
-          const auto tensors = Split(Load(direction, space.clipped, batch), planes.normal);
+          const auto tensors =
+            Split(Load(direction, space.clipped, batch), planes.normal, normalStabilization);
           SampleBatch samples;
           for (const QuadratureRule::Point& point : rule.points)
           {

@@ -8,7 +8,8 @@
 namespace gridfem
 {
 
-/// The two parts add up to the stiffness of IntegrateElements.
+/// The two parts add up to the stiffness of IntegrateElements. Each has half of the weight of the
+/// normal derivative: with weights w it counts s (w_0 + w_1) / 2.
 struct DirectionalElements
 {
   Array<ElementMatrix> mass;
@@ -28,7 +29,8 @@ struct ElementWeights
 /// Throws InvalidInput when there are fewer directions than source triangles. Cost and determinism
 /// as IntegrateElements.
 DirectionalElements IntegrateElements(const GridFunctions& space, const QuadratureRule& rule,
-  const std::vector<Vec3>& direction, int threads = 0, const Progress& progress = {});
+  const std::vector<Vec3>& direction, int threads = 0, const Progress& progress = {},
+  double normalStabilization = DefaultNormalStabilization);
 
 /// The element matrices with these weights, one per patch. Throws InvalidInput when the numbers
 /// differ or a weight is negative, infinite or not a number.

@@ -22,14 +22,15 @@ void EvaluateTrilinearGradient(const Vec3& local, std::array<Vec3, FunctionsPerP
   }
 }
 
-ElementMatrices IntegrateElements(
-  const GridFunctions& space, const QuadratureRule& rule, int threads, const Progress& progress)
+ElementMatrices IntegrateElements(const GridFunctions& space, const QuadratureRule& rule,
+  int threads, const Progress& progress, double normalStabilization)
 {
   ElementMatrices elements;
   IntegratePatches(space, rule, threads, progress, elements,
-    [](const TriangleBatch&, const TrianglePlanes& planes)
+    [normalStabilization](const TriangleBatch&, const TrianglePlanes& planes)
     {
-      return [tensor = TangentialProjection(planes.normal)](Id, int count, SampleBatch* samples)
+      return [tensor = TangentialProjection(planes.normal, normalStabilization)](
+               Id, int count, SampleBatch* samples)
       {
         for (int k = 0; k < count; ++k)
         {

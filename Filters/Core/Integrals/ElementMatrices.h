@@ -16,7 +16,7 @@ using ElementMatrix = std::array<double, ElementEntries>;
 struct ElementMatrices
 {
   Array<ElementMatrix> mass;      // ∫ b_i b_j
-  Array<ElementMatrix> stiffness; // ∫ <∇b_i, ∇b_j>, gradients tangential
+  Array<ElementMatrix> stiffness; // ∫ <∇b_i, ∇b_j> tangential + s ∫ ∂n b_i ∂n b_j
 };
 
 /// Values and gradients of the eight trilinear functions at a point given in the cell's own
@@ -24,11 +24,22 @@ struct ElementMatrices
 void EvaluateTrilinear(const Vec3& local, std::array<double, FunctionsPerPatch>& value);
 void EvaluateTrilinearGradient(const Vec3& local, std::array<Vec3, FunctionsPerPatch>& gradient);
 
+/// The weight s of |∂n u|² in the stiffness (normal-gradient stabilisation: Burman, Hansbo, Larson,
+/// Massing 2018), in (0, 1]. On a nearly flat piece of surface a function can be almost zero
+/// although its coefficients are not; its energy is the square of the surface's roughness, which
+/// for coordinates in single precision is as small as rounding. Such functions are neither zero nor
+/// known and stop any solver. The default lifts their energy to what double precision can resolve
+/// and changes solutions by no more than its root, in general by no more than itself. With 1e-2 the
+/// iterations to any tolerance do not grow with the depth, and the error of the space grows by 1.2
+/// to 1.6 times; its rate stays. [NUMERICS §6]
+constexpr double DefaultNormalStabilization = 1e-12;
+
 /// Integrates over every piece with `rule` on every triangle of its fan. [T Alg. 4.1]
 /// Pieces of zero area contribute nothing. Cost O(clipped triangles x points); same bits for any
 /// number of threads.
 ElementMatrices IntegrateElements(const GridFunctions& space, const QuadratureRule& rule,
-  int threads = 0, const Progress& progress = {});
+  int threads = 0, const Progress& progress = {},
+  double normalStabilization = DefaultNormalStabilization);
 
 /// Galerkin coarsening: adds every patch's matrix, interpolated, to its parent's. [T (4.6)]
 /// @return one entry per patch of `coarse`. Same bits for any number of threads.

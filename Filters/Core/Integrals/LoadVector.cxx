@@ -154,6 +154,24 @@ void ForEachSample(const GridFunctions& space, Id piece, const Vec3& origin,
     });
 }
 
+/// ∫ ∂b_i / ∂axis over a piece, per axis.
+std::array<CornerValues, 3> SumDerivatives(const GridFunctions& space, Id piece, const Vec3& origin,
+  const SourceTriangle& source, const Field* scale, const QuadratureRule& rule)
+{
+  std::array<CornerValues, 3> sum{};
+  ForEachSample(space, piece, origin, source, scale, rule,
+    [&](const Vec3& local, double weight, const Barycentric&)
+    {
+      std::array<CornerValues, 3> derivative;
+      TrilinearGradients(local, derivative);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        AddScaled(weight, derivative[axis], sum[axis]);
+      }
+    });
+  return sum;
+}
+
 /// share += weights x corner values
 void AddScalars(
   const CornerWeights& weights, const Field& f, const std::array<Id, 3>& rows, const Share& share)
@@ -259,17 +277,8 @@ MultiVector IntegrateGradientsOf(const GridFunctions& space, const TriangleMesh&
     [&](Id piece, const Vec3& origin, const Share& share)
     {
       const SourceTriangle source(space.clipped, mesh, space.clipped.pieceTriangle[piece]);
-      std::array<CornerValues, 3> sum{};
-      ForEachSample(space, piece, origin, source, scale, rule,
-        [&](const Vec3& local, double weight, const Barycentric&)
-        {
-          std::array<CornerValues, 3> derivative;
-          TrilinearGradients(local, derivative);
-          for (int axis = 0; axis < 3; ++axis)
-          {
-            AddScaled(weight, derivative[axis], sum[axis]);
-          }
-        });
+      const std::array<CornerValues, 3> sum =
+        SumDerivatives(space, piece, origin, source, scale, rule);
       const std::array<Vec3, 3> gradient = source.Gradients();
       CornerWeights weights{};
       for (int k = 0; k < 3; ++k)
@@ -280,6 +289,32 @@ MultiVector IntegrateGradientsOf(const GridFunctions& space, const TriangleMesh&
         }
       }
       AddScalars(weights, f, source.Points(), share);
+    });
+}
+
+MultiVector IntegrateGradientsOfCoordinates(const GridFunctions& space, const TriangleMesh& mesh,
+  const Field* scale, const QuadratureRule& rule, double normalStabilization, int threads,
+  const Progress& progress)
+{
+  CheckMesh(space, mesh);
+  RequireScale(scale, mesh);
+  const double spacing = space.GetGrid().spacing;
+  return IntegratePieces(space, 3, threads, progress,
+    [&](Id piece, const Vec3& origin, const Share& share)
+    {
+      const SourceTriangle source(space.clipped, mesh, space.clipped.pieceTriangle[piece]);
+      const std::array<CornerValues, 3> sum =
+        SumDerivatives(space, piece, origin, source, scale, rule);
+      const Vec3 normal = source.Normal();
+      for (int i = 0; i < FunctionsPerPatch; ++i)
+      {
+        const Vec3 derivative(sum[0][i], sum[1][i], sum[2][i]);
+        const double less = (1.0 - normalStabilization) * normal.dot(derivative);
+        for (int c = 0; c < 3; ++c)
+        {
+          share.At(i, c) += spacing * (derivative[c] - less * normal[c]);
+        }
+      }
     });
 }
 

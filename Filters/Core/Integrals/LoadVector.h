@@ -27,6 +27,14 @@ MultiVector IntegrateGradientsOf(const GridFunctions& space, const TriangleMesh&
   const Field& f, const Field* scale, const QuadratureRule& rule, int threads = 0,
   const Progress& progress = {});
 
+/// The same for the coordinates of the mesh's points, in world units: ∫ <(I - n nᵀ + s n nᵀ) e_k,
+/// ∇b_i> for coordinate k. Coordinates are functions in space whose normal derivative is known,
+/// n_k, so that with the weight s of the system they stay its solution.
+/// @return  three columns
+MultiVector IntegrateGradientsOfCoordinates(const GridFunctions& space, const TriangleMesh& mesh,
+  const Field* scale, const QuadratureRule& rule, double normalStabilization, int threads = 0,
+  const Progress& progress = {});
+
 } // namespace gridfem
 
 #endif

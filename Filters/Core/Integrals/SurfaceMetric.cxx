@@ -117,14 +117,14 @@ Id DropSingular(LaneMetric& metric, SampleBatch& samples)
 
 /// Sets mass and tensor of samples whose mass is that of the mesh.
 void SetWeights(const LaneMetric& metric, const TangentBasis& basis, const LaneVector& normal,
-  SampleBatch& samples)
+  double normalWeight, SampleBatch& samples)
 {
   const Lanes determinant = Determinant(metric);
   const Lanes inverseRoot = determinant.rsqrt();
   const Lanes over = samples.mass * inverseRoot;
   // Like the stiffness of a scaled surface, the part along the normal does not scale.
   samples.tensor = TensorInBasis(
-    over * metric.G, -over * metric.F, over * metric.E, NormalWeight * samples.mass, basis, normal);
+    over * metric.G, -over * metric.F, over * metric.E, normalWeight * samples.mass, basis, normal);
   samples.mass = over * determinant;
 }
 
@@ -264,7 +264,8 @@ SampleMetric MetricOfMesh(const GridFunctions& space, const QuadratureRule& rule
 }
 
 Id IntegrateElements(const GridFunctions& space, const QuadratureRule& rule,
-  const SampleMetric& metric, ElementMatrices& result, int threads, const Progress& progress)
+  const SampleMetric& metric, ElementMatrices& result, int threads, const Progress& progress,
+  double normalStabilization)
 {
   if (static_cast<Id>(metric.size()) != NumberOfSamples(space.clipped, rule))
   {
@@ -285,7 +286,7 @@ Id IntegrateElements(const GridFunctions& space, const QuadratureRule& rule,
           {
             singular += DropSingular(group[k], samples[k]);
           }
-          SetWeights(group[k], basis, planes.normal, samples[k]);
+          SetWeights(group[k], basis, planes.normal, normalStabilization, samples[k]);
         }
       };
     });

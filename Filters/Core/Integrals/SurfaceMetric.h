@@ -34,6 +34,8 @@ SampleMetric MetricOfMesh(const GridFunctions& space, const QuadratureRule& rule
   const Progress& progress = {});
 
 /// Element matrices in a metric: mass b_i b_j √|g|, stiffness <∇b_i, g⁻¹ ∇b_j> √|g|. [T (5.6)]
+/// The normal derivative is that of the mesh, integrated over the mesh, whatever the metric: it is
+/// there to make functions known and does not scale, as the stiffness of a scaled surface does not.
 /// Cost and determinism as IntegrateElements. Throws InvalidInput when there is not one metric per
 /// sample of the rule.
 /// @param result  for UpdateOperators: the finest element matrices of a system, in place
@@ -42,7 +44,7 @@ SampleMetric MetricOfMesh(const GridFunctions& space, const QuadratureRule& rule
 ///          is not between 1e-300 and 1e300: they contribute nothing
 Id IntegrateElements(const GridFunctions& space, const QuadratureRule& rule,
   const SampleMetric& metric, ElementMatrices& result, int threads = 0,
-  const Progress& progress = {});
+  const Progress& progress = {}, double normalStabilization = DefaultNormalStabilization);
 
 } // namespace gridfem
 

@@ -33,16 +33,8 @@ struct TangentBasis
   }
 };
 
-/// Weight of the normal derivative in the stiffness matrix. On a nearly flat piece of surface a
-/// function can be almost zero although its coefficients are not; its energy is the square of the
-/// surface's roughness, which for coordinates in single precision is as small as rounding. Such
-/// functions stop any solver: they are neither zero nor known. The weight lifts their energy to
-/// what double precision can resolve and changes solutions by no more than its root, in general by
-/// no more than itself.
-constexpr double NormalWeight = 1e-12;
-
-/// The projection to the plane across a unit normal, plus NormalWeight n nᵀ.
-inline LaneTensor TangentialProjection(const LaneVector& normal)
+/// The projection to the plane across a unit normal, plus normalWeight n nᵀ.
+inline LaneTensor TangentialProjection(const LaneVector& normal, double normalWeight)
 {
   LaneTensor tensor;
   for (int p = 0; p < 3; ++p)
@@ -51,8 +43,8 @@ inline LaneTensor TangentialProjection(const LaneVector& normal)
     const Lanes& b = normal.axis[(p + 1) % 3];
     const Lanes& c = normal.axis[(p + 2) % 3];
     // Entry (p, p) of the projection without the cancellation of 1 - n_p².
-    tensor.same[p] = b * b + c * c + NormalWeight * a * a;
-    tensor.mixed[p] = (NormalWeight - 1.0) * a * b;
+    tensor.same[p] = b * b + c * c + normalWeight * a * a;
+    tensor.mixed[p] = (normalWeight - 1.0) * a * b;
   }
   return tensor;
 }

@@ -15,6 +15,9 @@ namespace
 /// Directions mixed in at the start of a level against eigenvectors the coarser level has missed.
 constexpr Index MinimumRandomColumns = 4;
 
+/// Known columns that are removed between two reports of progress.
+constexpr Id KnownAtOnce = 1024;
+
 /// Steps after which the fallback takes over. Most problems need three to six; those with strands
 /// of surface that nearly touch fifteen, whatever the preconditioner's precision.
 constexpr int StepsBeforeFallback = 20;
@@ -37,7 +40,7 @@ public:
 
 private:
   void SetStart();
-  void RemoveKnown(Block<Real> X);
+  void RemoveKnown(Block<Real> X, const Progress& progress);
   const Preconditioner<Real>& CurrentPreconditioner();
   bool Correct(const Progress& progress);
   bool Precondition(const Progress& progress);
@@ -83,15 +86,22 @@ void BlockIteration<Real>::SetStart()
   pairs_.vectors.Grow(rows, options_.blockSize, problem_.threads);
 }
 
-/// Makes X orthogonal to all that is known.
+/// Makes X orthogonal to all that is known, some columns of it at a time: tens of thousands take
+/// minutes.
 template<class Real>
-void BlockIteration<Real>::RemoveKnown(Block<Real> X)
+void BlockIteration<Real>::RemoveKnown(Block<Real> X, const Progress& progress)
 {
   problem_.constants->template Remove<Real>(X);
-  if (!known_.empty() && X.cols() > 0)
+  for (const ConstBlock<Real>& part : known_)
   {
-    const Eigen::MatrixXd share = Project<Real>(known_, problem_.mass, X, problem_.threads);
-    SubtractCombination<Real>(known_, share, X, problem_.threads);
+    for (Id first = 0; X.cols() > 0 && first < part.cols(); first += KnownAtOnce)
+    {
+      progress.Check(fraction_);
+      const BasisParts<Real> some = { part.middleCols(
+        first, std::min(KnownAtOnce, part.cols() - first)) };
+      const Eigen::MatrixXd share = Project<Real>(some, problem_.mass, X, problem_.threads);
+      SubtractCombination<Real>(some, share, X, problem_.threads);
+    }
   }
 }
 
@@ -123,7 +133,7 @@ bool BlockIteration<Real>::Correct(const Progress& progress)
   randomLoad_.resize(0, 0);
   if (isFirst)
   {
-    this->RemoveKnown(directions_.View());
+    this->RemoveKnown(directions_.View(), progress);
   }
   progress.Check(fraction_);
   const bool done = locking_.Update(measures, pairs_.values);
@@ -156,7 +166,7 @@ bool BlockIteration<Real>::Precondition(const Progress& progress)
 template<class Real>
 void BlockIteration<Real>::NextVectors(const Progress& progress)
 {
-  this->RemoveKnown(corrections_.View());
+  this->RemoveKnown(corrections_.View(), progress);
   progress.Check(fraction_);
   rayleighRitz_.Step(options_.blockSize, locking_.AtWork());
   progress.Check(fraction_);

@@ -130,7 +130,8 @@ void SolverIteration::SetReference(const Columns& workOfStart)
 
 void SolverIteration::Begin(const Progress& progress)
 {
-  const double worst = std::clamp(energy_.maxCoeff(), options_.tolerance, 1.0);
+  const double worst =
+    std::clamp(isActive_.select(energy_, 0.0).maxCoeff(), options_.tolerance, 1.0);
   const double byMeasure =
     options_.tolerance < 1.0 ? std::log(worst) / std::log(options_.tolerance) : 0.0;
   progress.Check(std::max(byMeasure, double(report_.iterations) / options_.maximumIterations));
@@ -165,8 +166,10 @@ void SolverIteration::Judge()
     {
       continue;
     }
-    energy_[c] = std::sqrt(rz[c]) / reference_[c];
     residual_[c] = std::sqrt(rr[c]) / residualOfZero_[c];
+    // In a residual that is rounding alone, rᵀBr is too, of either sign.
+    const bool isRounding = !(rz[c] > 0.0) && residual_[c] <= options_.tolerance;
+    energy_[c] = isRounding ? 0.0 : std::sqrt(rz[c]) / reference_[c];
     const bool isBroken = !(energy_[c] < Divergence) || !std::isfinite(residual_[c]);
     if (isBroken || this->IsSolved(c))
     {

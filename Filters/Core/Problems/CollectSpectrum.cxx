@@ -99,11 +99,13 @@ MultiVector SideBySide(
 
 /// One step of Newton's method for columns that are orthonormal up to rounding to single precision:
 /// it squares what is missing. [X (3 - XᵀMX) / 2]
-void Orthonormalize(const SparseMatrix& mass, Block<double> X, int threads)
+void Orthonormalize(
+  const SparseMatrix& mass, Block<double> X, int threads, const Progress& progress)
 {
   Eigen::MatrixXd step(X.cols(), X.cols());
   for (Id first = 0; first < X.cols(); first += ColumnsAtOnce)
   {
+    progress.Check(1.0); // a thousand columns take a second, ten thousand minutes
     const Id count = std::min(ColumnsAtOnce, X.cols() - first);
     step.middleCols(first, count) =
       -0.5 * Project<double>({ X }, mass, X.middleCols(first, count), threads);
@@ -119,19 +121,24 @@ void Orthonormalize(const SparseMatrix& mass, Block<double> X, int threads)
     RowsAtOnce);
 }
 
-/// Every column times its factor, in the given order.
+/// Every column times its factor, in the given order, which may leave some out.
 void ScaleAndOrder(
   const Eigen::RowVectorXd& factor, const std::vector<Index>& order, MultiVector& X, int threads)
 {
+  const auto columns = static_cast<Id>(order.size());
   ParallelRanges(X.rows(), threads,
     [&](Id begin, Id end)
     {
       for (Id row = begin; row < end; ++row)
       {
         const Eigen::RowVectorXd scaled = X.row(row).cwiseProduct(factor);
-        X.row(row) = scaled(order);
+        X.row(row).head(columns) = scaled(order);
       }
     });
+  if (columns < X.cols())
+  {
+    X.conservativeResize(Eigen::NoChange, columns);
+  }
 }
 
 template<class List>
@@ -147,7 +154,8 @@ std::vector<double> Ordered(const List& list, const std::vector<Index>& order)
 
 template<class Real>
 Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs<Real>& pairs,
-  const BlockReport& report, const SpectralProblem<Real>& problem)
+  const BlockReport& report, double tolerance, const SpectralProblem<Real>& problem,
+  const Progress& progress)
 {
   const Index others = static_cast<Index>(report.residuals.size());
   Spectrum spectrum;
@@ -156,25 +164,31 @@ Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs<Rea
   if (std::is_same_v<Real, float> && others > 0)
   {
     constants.Remove<double>(spectrum.vectors.rightCols(others));
-    Orthonormalize(problem.mass, spectrum.vectors.rightCols(others), problem.threads);
+    Orthonormalize(problem.mass, spectrum.vectors.rightCols(others), problem.threads, progress);
   }
 
   const ColumnFacts facts = LookAt(problem, spectrum.vectors);
   Eigen::RowVectorXd values = Eigen::RowVectorXd::Zero(zeros + others);
   Eigen::RowVectorXd factor(zeros + others);
+  const auto isNormal = [&](Index j) { return std::abs(facts.mass[j] - 1.0) < LargestMassError; };
   for (Index j = 0; j < values.size(); ++j)
   {
-    const bool isNormal = std::abs(facts.mass[j] - 1.0) < LargestMassError;
-    factor[j] = (facts.largest[j] < 0.0 ? -1.0 : 1.0) / std::sqrt(isNormal ? facts.mass[j] : 1.0);
+    const double mass = isNormal(j) ? facts.mass[j] : 1.0;
+    factor[j] = (facts.largest[j] < 0.0 ? -1.0 : 1.0) / std::sqrt(mass);
     if (j >= zeros)
     {
-      const double ritz = std::is_same_v<Real, float> ? NaN : pairs.values[j - zeros];
       // Below 0 there is only rounding, where a sliver has functions that almost vanish.
-      values[j] = std::max(isNormal ? facts.energy[j] / facts.mass[j] : ritz, 0.0);
+      values[j] = isNormal(j) ? std::max(facts.energy[j] / mass, 0.0) : NaN;
     }
   }
-  std::vector<Index> order(zeros + others);
-  std::iota(order.begin(), order.end(), 0);
+  std::vector<Index> order;
+  for (Index j = 0; j < zeros + others; ++j)
+  {
+    if (j < zeros || std::is_same_v<Real, float> || isNormal(j))
+    {
+      order.push_back(j);
+    }
+  }
   std::stable_sort(order.begin() + zeros, order.end(),
     [&](Index a, Index b)
     { return values[a] < values[b] || (std::isnan(values[b]) && !std::isnan(values[a])); });
@@ -184,15 +198,16 @@ Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs<Rea
   residuals.insert(residuals.end(), report.residuals.begin(), report.residuals.end());
   spectrum.residuals = Ordered(residuals, order);
   spectrum.estimatedErrors.assign(zeros, 0.0);
-  spectrum.numberOfConverged = zeros + report.numberOfConverged;
-  spectrum.converged = spectrum.numberOfConverged == zeros + others;
+  spectrum.numberOfConverged = static_cast<Index>(std::count_if(spectrum.residuals.begin(),
+    spectrum.residuals.end(), [&](double residual) { return residual * residual <= tolerance; }));
+  spectrum.converged = spectrum.numberOfConverged == static_cast<Index>(order.size());
   spectrum.iterations = report.iterations;
   return spectrum;
 }
 
-template Spectrum CollectSpectrum(
-  const Constants&, Index, EigenPairs<float>&, const BlockReport&, const SpectralProblem<float>&);
-template Spectrum CollectSpectrum(
-  const Constants&, Index, EigenPairs<double>&, const BlockReport&, const SpectralProblem<double>&);
+template Spectrum CollectSpectrum(const Constants&, Index, EigenPairs<float>&, const BlockReport&,
+  double, const SpectralProblem<float>&, const Progress&);
+template Spectrum CollectSpectrum(const Constants&, Index, EigenPairs<double>&, const BlockReport&,
+  double, const SpectralProblem<double>&, const Progress&);
 
 } // namespace gridfem

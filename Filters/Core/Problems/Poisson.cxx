@@ -43,15 +43,34 @@ void CheckInput(const FiniteElementSpace& space, const MultiVector& values,
   }
 }
 
-/// Squares of sizes have to stay in the range of numbers, or sums of them would end the iteration
-/// before it has begun. NaN is let through: it stays in its column and is reported there.
+/// Per column the power of two that brings its largest entry to about 1. Squares of all numbers
+/// stay in the range of numbers then; and not one bit of the solution changes. 1 for columns of
+/// zeros and for those that are not finite.
+Eigen::RowVectorXd ScalesOf(const MultiVector& values, const MultiVector& gradients)
+{
+  constexpr int LargestExponent = 1000;
+  Eigen::RowVectorXd scale(values.cols());
+  for (Id c = 0; c < values.cols(); ++c)
+  {
+    double largest = values.rows() > 0 ? values.col(c).cwiseAbs().maxCoeff() : 0.0;
+    if (gradients.rows() > 0)
+    {
+      largest = std::max(largest, gradients.col(c).cwiseAbs().maxCoeff());
+    }
+    const bool isUsable = largest > 0.0 && std::isfinite(largest);
+    const int exponent = isUsable ? -std::ilogb(largest) : 0;
+    scale[c] = std::ldexp(1.0, std::clamp(exponent, -LargestExponent, LargestExponent));
+  }
+  return scale;
+}
+
+/// NaN is let through: it stays in its column and is reported there.
 void RequireInRange(const Eigen::RowVectorXd& size)
 {
   constexpr double Largest = 1e150;
   if ((size.array() > Largest).any())
   {
-    throw InvalidInput(
-      "The values, the gradients or the screening weight are too large. Scale them down.");
+    throw InvalidInput("The screening weight is too large for the range of numbers.");
   }
 }
 
@@ -91,6 +110,21 @@ MultiVector NestedStart(const Multigrid& multigrid, const MultiVector& load)
   return start;
 }
 
+/// The given start, where it fits and is finite, else nested iteration.
+MultiVector Start(const Multigrid& multigrid, const MultiVector& load, const MultiVector* given,
+  const Eigen::RowVectorXd& scale)
+{
+  if (given && given->rows() == load.rows() && given->cols() == load.cols())
+  {
+    MultiVector start = *given * scale.asDiagonal();
+    if (start.allFinite())
+    {
+      return start;
+    }
+  }
+  return NestedStart(multigrid, load);
+}
+
 } // namespace
 
 PoissonSolution SolvePoisson(const FiniteElementSpace& space, const Multigrid& multigrid,
@@ -110,11 +144,12 @@ PoissonSolution SolvePoisson(const FiniteElementSpace& space, const Multigrid& m
   const auto removeSums = [&means](MultiVector& load)
   { means.SubtractIntegrals(means.OfIntegrals(load), load); };
 
-  const MultiVector meanOfField = means.OfIntegrals(values);
-  MultiVector rest = values;
+  const Eigen::RowVectorXd scale = ScalesOf(values, gradients);
+  MultiVector rest = values * scale.asDiagonal();
+  Eigen::RowVectorXd size = lambda * rest.colwise().norm();
+  const MultiVector meanOfField = means.OfIntegrals(rest);
   means.SubtractIntegrals(meanOfField, rest);
   rest *= lambda;
-  Eigen::RowVectorXd size = lambda * values.colwise().norm();
   if (meanOfField.rows() > 0)
   {
     // The constants cancel to rounding in every row, in the matrix and in ∫ <∇f, ∇b_i> alike.
@@ -123,8 +158,9 @@ PoissonSolution SolvePoisson(const FiniteElementSpace& space, const Multigrid& m
   }
   if (gradients.rows() != 0)
   {
-    rest += gradients;
-    size += gradients.colwise().norm();
+    const MultiVector scaled = gradients * scale.asDiagonal();
+    rest += scaled;
+    size += scaled.colwise().norm();
   }
   RequireInRange(size);
   // ∫ <s, ∇b_i> sums to 0 over a component but for rounding, which a small λ would blow up.
@@ -132,13 +168,12 @@ PoissonSolution SolvePoisson(const FiniteElementSpace& space, const Multigrid& m
   DropRounding(size, rest);
 
   PoissonSolution solution;
-  const bool hasStart = options.start && options.start->rows() == rest.rows() &&
-                        options.start->cols() == rest.cols() && options.start->allFinite();
-  solution.coefficients = hasStart ? *options.start : NestedStart(multigrid, rest);
+  solution.coefficients = Start(multigrid, rest, options.start, scale);
   removeMeans(solution.coefficients);
   solution.report = SolveWithFallback(options.iteration, multigrid, rest, solution.coefficients,
     options.solve, { removeMeans, removeSums }, progress);
   means.AddConstants(meanOfField, solution.coefficients);
+  solution.coefficients *= scale.cwiseInverse().asDiagonal();
   return solution;
 }
 

@@ -14,7 +14,8 @@ struct PoissonOptions
   MultigridOptions multigrid;
   IterationType iteration = IterationType::ConjugateGradients;
   SolveOptions solve;
-  /// Coefficients to start from, as of a similar equation on the same space; null: nested iteration.
+  /// Coefficients to start from, as of a similar equation on the same space; null: nested
+  /// iteration.
   const MultiVector* start = nullptr;
 };
 
@@ -30,6 +31,7 @@ struct PoissonSolution
 /// @param values     ∫ f b_i (LoadOfValues), in the space's unit of length
 /// @param gradients  ∫ <s, ∇b_i> (LoadOfGradients); may have no rows for s = 0
 /// @param multigrid  of λM + L, built with the same λ
+/// Columns may have any size in the range of numbers: they are scaled by powers of two.
 /// Same bits for any number of threads.
 PoissonSolution SolvePoisson(const FiniteElementSpace& space, const Multigrid& multigrid,
   const MultiVector& values, const MultiVector& gradients, const PoissonOptions& options,

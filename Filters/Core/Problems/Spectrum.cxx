@@ -107,7 +107,7 @@ Spectrum OnlyConstants(const Constants& zeroModes, const SpectralProblem<double>
   const bool cut = zeroModes.Count() > options.numberOfModes;
   const Index count = options.completeMultiplets ? zeroModes.Count() : options.numberOfModes;
   EigenPairs<double> none;
-  Spectrum spectrum = CollectSpectrum(zeroModes, count, none, {}, problem);
+  Spectrum spectrum = CollectSpectrum(zeroModes, count, none, {}, options.tolerance, problem);
   spectrum.cutsMultiplet = cut && !options.completeMultiplets;
   return spectrum;
 }
@@ -218,7 +218,13 @@ BlockReport NestedIteration<Real>::FinishList(
   if (isAll) // an iteration would only find rounding
   {
     block.maximumIterations = 0;
-    block.wanted = block.blockSize = static_cast<Index>(pairs_.values.size());
+    block.blockSize = static_cast<Index>(pairs_.values.size());
+    block.wanted = std::min(block.wanted, block.blockSize);
+    while (options_.completeMultiplets && this->EndsInside(block.wanted, 0.0))
+    {
+      ++block.wanted;
+    }
+    cutsMultiplet_ = this->EndsInside(block.wanted, 0.0);
     BlockWorkspace<Real> workspace;
     return ImproveEigenPairs<Real>(problem, block, {}, pairs_, workspace, progress);
   }
@@ -269,8 +275,10 @@ template<class Real>
 BlockReport NestedIteration<Real>::ImproveLevel(std::size_t level, std::size_t start,
   const SpectralProblem<Real>& problem, const Progress& progress)
 {
-  BlockOptions block = this->Options(level, options_.numberOfModes - zeros_);
-  if ((level == start || level == 0) && IsDense(space_.NumberOfFunctions(level), block.blockSize))
+  // No level has more pairs than functions; room for more would only cost memory.
+  const Index functions = space_.NumberOfFunctions(level);
+  BlockOptions block = this->Options(level, std::min(options_.numberOfModes - zeros_, functions));
+  if ((level == start || level == 0) && IsDense(functions, block.blockSize))
   {
     pairs_ = SolveDense<Real>(problem, block.blockSize);
     isDense_ = level == 0;
@@ -312,10 +320,13 @@ Spectrum NestedIteration<Real>::Run(
   const Eigen::VectorXd coarseValues = pairs_.values;
   const SpectralProblem<Real> problem = this->Problem(0, zeroModes, std::move(mass));
   const BlockReport report = this->ImproveLevel(0, start, problem, LevelPart(progress, 0));
-  Spectrum spectrum = CollectSpectrum(zeroModes, zeros_, pairs_, report, problem);
-  Append(spectrum.estimatedErrors, EstimateErrors(coarseValues, pairs_.values, report.residuals));
-  spectrum.truncated =
-    zeros_ + static_cast<Index>(report.residuals.size()) < options_.numberOfModes;
+  const std::vector<double> errors = EstimateErrors(coarseValues, pairs_.values, report.residuals);
+  Spectrum spectrum =
+    CollectSpectrum(zeroModes, zeros_, pairs_, report, options_.tolerance, problem, progress);
+  Append(spectrum.estimatedErrors, errors);
+  // Pairs without mass, which were dropped, are the last: their values are the largest.
+  spectrum.estimatedErrors.resize(spectrum.eigenvalues.size());
+  spectrum.truncated = static_cast<Index>(spectrum.eigenvalues.size()) < options_.numberOfModes;
   spectrum.cutsMultiplet = cutsMultiplet_;
   spectrum.singlePrecision = cycle_.IsSingle();
   return spectrum;
@@ -393,7 +404,9 @@ double EstimateSpectrumMemory(Id functions, Id modes, int threads)
     NumberOfThreads(threads), (columns + PreconditionedColumns - 1) / PreconditionedColumns);
   const double blocks = sizeof(float) * double(HeldColumns(static_cast<Index>(columns)));
   const double result = double(sizeof(float) + sizeof(double)) * double(columns);
-  return double(functions) * (matrices + panels * double(cycles) + std::max(blocks, result));
+  const double products = sizeof(double) * double(columns) * double(columns); // of all modes
+  return double(functions) * (matrices + panels * double(cycles) + std::max(blocks, result)) +
+         products;
 }
 
 } // namespace gridfem

@@ -143,10 +143,10 @@ Spectrum ImproveSpectrum(const FiniteElementSpace& space, const Spectrum& start,
     report = FindPairs(
       problem, options, ListLength(start, options) - zeros, all, pairs, progress.Part(0.1, 1.0));
   }
-  Spectrum spectrum = CollectSpectrum(constants, listed, pairs, report, problem);
+  Spectrum spectrum = CollectSpectrum(constants, listed, pairs, report, options.tolerance, problem);
   spectrum.estimatedErrors = EstimateErrorsBeyond(spectrum.eigenvalues, start);
   const auto others = static_cast<Index>(report.residuals.size());
-  spectrum.truncated = listed + others < options.numberOfModes;
+  spectrum.truncated = static_cast<Index>(spectrum.eigenvalues.size()) < options.numberOfModes;
   spectrum.cutsMultiplet = listed < zeros || EndsInside(pairs.values, zeros, others);
   return spectrum;
 }

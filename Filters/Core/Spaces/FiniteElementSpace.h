@@ -85,6 +85,11 @@ public:
   virtual MultiVector LoadOfGradientsOf(
     const Field& f, const Field* scale, const Job& job = {}) const = 0;
 
+  /// The same for the coordinates of the mesh's points, with what they are in space: on a grid with
+  /// a weight of the normal derivative they stay the solution of their own equation.
+  virtual MultiVector LoadOfGradientsOfCoordinates(
+    const Field* scale, const Job& job = {}) const = 0;
+
   /// Rows = points of the mesh; 0 at points that no function reaches.
   virtual MultiVector ValuesAtPoints(
     const MultiVector& coefficients, const Job& job = {}) const = 0;

@@ -101,6 +101,12 @@ MultiVector GridSpace::LoadOfGradientsOf(const Field& f, const Field* scale, con
     *functions_, *mesh_, f, scale, this->Rule(), job.threads, job.progress);
 }
 
+MultiVector GridSpace::LoadOfGradientsOfCoordinates(const Field* scale, const Job& job) const
+{
+  return IntegrateGradientsOfCoordinates(*functions_, *mesh_, scale, this->Rule(),
+    shared_->normalStabilization, job.threads, job.progress);
+}
+
 MultiVector GridSpace::ValuesAtPoints(const MultiVector& coefficients, const Job& job) const
 {
   return EvaluateAtPoints(*functions_, coefficients, job.threads);
@@ -156,8 +162,9 @@ Id GridSpace::SetMetricOfMesh(const TriangleMesh& moved, const Job& job)
 Id GridSpace::Integrate(const SampleMetric& metric, const Job& job)
 {
   LevelOperators& operators = this->OwnOperators();
-  const Id singular = IntegrateElements(*functions_, this->Rule(), metric,
-    operators.elements.front(), job.threads, job.progress.Part(0.0, 0.7));
+  const Id singular =
+    IntegrateElements(*functions_, this->Rule(), metric, operators.elements.front(), job.threads,
+      job.progress.Part(0.0, 0.7), operators.normalStabilization);
   UpdateOperators(*functions_, operators, job.threads);
   job.Check(1.0);
   return singular;
@@ -165,8 +172,8 @@ Id GridSpace::Integrate(const SampleMetric& metric, const Job& job)
 
 void GridSpace::SplitStiffness(const std::vector<Vec3>& direction, const Job& job)
 {
-  split_ = std::make_shared<const DirectionalElements>(
-    IntegrateElements(*functions_, this->Rule(), direction, job.threads, job.progress));
+  split_ = std::make_shared<const DirectionalElements>(IntegrateElements(
+    *functions_, this->Rule(), direction, job.threads, job.progress, shared_->normalStabilization));
 }
 
 MultiVector GridSpace::MeansOnElements(const MultiVector& onTriangles, const Job& job) const
@@ -194,7 +201,7 @@ GridSpace BuildGridSpace(
     BuildGridFunctions(*surface, options.functions, progress.Part(0.0, 0.7)));
   auto operators = std::make_shared<const LevelOperators>(
     BuildLevelOperators(*functions, TriangleRule(options.quadratureDegree), threads,
-      options.coarsestSize, progress.Part(0.7, 1.0)));
+      options.coarsestSize, progress.Part(0.7, 1.0), options.normalStabilization));
   return GridSpace(std::move(surface), std::move(functions), std::move(operators));
 }
 

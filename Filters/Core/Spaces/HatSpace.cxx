@@ -120,6 +120,18 @@ MultiVector HatSpace::LoadOfGradientsOf(const Field& f, const Field* scale, cons
   return IntegrateGradientsOf(hats_->functions, grid_.Mesh(), f, scale, job.threads);
 }
 
+MultiVector HatSpace::LoadOfGradientsOfCoordinates(const Field* scale, const Job& job) const
+{
+  Field coordinates;
+  const std::vector<Vec3>& points = grid_.Mesh().points;
+  coordinates.values.resize(static_cast<Id>(points.size()), 3);
+  for (std::size_t point = 0; point < points.size(); ++point)
+  {
+    coordinates.values.row(static_cast<Id>(point)) = points[point].transpose();
+  }
+  return this->LoadOfGradientsOf(coordinates, scale, job);
+}
+
 MultiVector HatSpace::ValuesAtPoints(const MultiVector& coefficients, const Job& job) const
 {
   return gridfem::ValuesAtPoints(hats_->functions, coefficients, job.threads);

@@ -52,6 +52,7 @@ public:
     const Field& s, const Field* scale, const Job& job = {}) const override;
   MultiVector LoadOfGradientsOf(
     const Field& f, const Field* scale, const Job& job = {}) const override;
+  MultiVector LoadOfGradientsOfCoordinates(const Field* scale, const Job& job = {}) const override;
   MultiVector ValuesAtPoints(const MultiVector& coefficients, const Job& job = {}) const override;
   MultiVector GradientsOnTriangles(
     const MultiVector& coefficients, const Job& job = {}) const override;

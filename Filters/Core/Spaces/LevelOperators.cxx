@@ -94,11 +94,17 @@ std::vector<double> IntegralsOfFunctions(
 } // namespace
 
 LevelOperators BuildLevelOperators(const GridFunctions& space, const QuadratureRule& rule,
-  int threads, Index coarsestSize, const Progress& progress)
+  int threads, Index coarsestSize, const Progress& progress, double normalStabilization)
 {
+  if (!(normalStabilization > 0.0 && normalStabilization <= 1.0))
+  {
+    throw InvalidInput("NormalStabilization must be above 0 and at most 1.");
+  }
   LevelOperators system;
   system.quadratureDegree = rule.degree;
-  system.elements.push_back(IntegrateElements(space, rule, threads, progress.Part(0.0, 0.5)));
+  system.normalStabilization = normalStabilization;
+  system.elements.push_back(
+    IntegrateElements(space, rule, threads, progress.Part(0.0, 0.5), normalStabilization));
   for (std::size_t l = 0;; ++l)
   {
     const PatchLevel& level = space.levels[l];

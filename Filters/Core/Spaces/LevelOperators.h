@@ -22,12 +22,15 @@ struct LevelOperators
   std::vector<SharedMatrix> restriction;  // their transposes
   std::vector<double> integral;           // ∫ b_i of the finest functions, grid units
   int quadratureDegree = 2;
+  double normalStabilization = DefaultNormalStabilization;
 };
 
 /// Integrates, coarsens down to the first level with at most `coarsestSize` functions in its
-/// largest component (or to depth 0), builds patterns and prolongations.
+/// largest component (or to depth 0), builds patterns and prolongations. Throws InvalidInput when
+/// the weight of the normal derivative is not in (0, 1].
 LevelOperators BuildLevelOperators(const GridFunctions& space, const QuadratureRule& rule,
-  int threads = 0, Index coarsestSize = 256, const Progress& progress = {});
+  int threads = 0, Index coarsestSize = 256, const Progress& progress = {},
+  double normalStabilization = DefaultNormalStabilization);
 
 /// Brings a system up to date whose finest element matrices, elements.front(), have new values: in
 /// another metric (SurfaceMetric.h) or with other weights (DirectionalElements.h) on the same

@@ -7,6 +7,11 @@ namespace gridfem
 namespace
 {
 
+std::tuple<int, Index, double> OperatorKey(const SpaceChoice& choice)
+{
+  return { choice.quadratureDegree, choice.coarsestSize, choice.normalStabilization };
+}
+
 /// Null unless its parts are there.
 std::shared_ptr<const FiniteElementSpace> Compose(const SurfaceBasis& basis,
   std::shared_ptr<const LevelOperators> operators, FunctionKind kind,
@@ -41,8 +46,7 @@ SurfaceBasis MakeSurfaceBasis(
 std::shared_ptr<const FiniteElementSpace> FindSpace(
   const SurfaceBasis& basis, const SpaceChoice& choice)
 {
-  return Compose(basis, basis.operators->Find({ choice.quadratureDegree, choice.coarsestSize }),
-    choice.kind,
+  return Compose(basis, basis.operators->Find(OperatorKey(choice)), choice.kind,
     choice.kind == FunctionKind::Hats ? basis.hats->Find(basis.weldCoincidentPoints) : nullptr);
 }
 
@@ -50,11 +54,11 @@ std::shared_ptr<const FiniteElementSpace> MakeSpace(
   const SurfaceBasis& basis, const SpaceChoice& choice, const Job& job)
 {
   const QuadratureRule& rule = TriangleRule(choice.quadratureDegree);
-  auto operators = basis.operators->Get({ choice.quadratureDegree, choice.coarsestSize },
+  auto operators = basis.operators->Get(OperatorKey(choice),
     [&]
     {
-      return BuildLevelOperators(
-        *basis.space, rule, job.threads, choice.coarsestSize, job.progress.Part(0.0, 0.7));
+      return BuildLevelOperators(*basis.space, rule, job.threads, choice.coarsestSize,
+        job.progress.Part(0.0, 0.7), choice.normalStabilization);
     });
   std::shared_ptr<const HatLevel> hats;
   if (choice.kind == FunctionKind::Hats)

@@ -8,7 +8,7 @@
 #include "Spaces/HatSpace.h"
 
 #include <memory>
-#include <utility>
+#include <tuple>
 
 namespace gridfem
 {
@@ -26,9 +26,10 @@ struct SpaceChoice
   FunctionKind kind = FunctionKind::Grid;
   int quadratureDegree = 2;
   Index coarsestSize = 256; // functions of the largest component on the coarsest level, at most
+  double normalStabilization = DefaultNormalStabilization;
 };
 
-using OperatorStore = SharedStore<std::pair<int, Index>, LevelOperators>;
+using OperatorStore = SharedStore<std::tuple<int, Index, double>, LevelOperators>;
 using HatStore = SharedStore<bool, HatLevel>;
 
 /// Immutable but for the stores, so that it may be shared between filters and threads.

@@ -116,7 +116,8 @@ void SurfaceSolverState::UpdateSystem(const Progress& progress)
 {
   StageKey key;
   key.Add(stages.Version(SpaceStage)).Add(options.choice.quadratureDegree);
-  key.Add(options.choice.coarsestSize).Add(static_cast<int>(options.choice.kind));
+  key.Add(options.choice.coarsestSize).Add(options.choice.normalStabilization);
+  key.Add(static_cast<int>(options.choice.kind));
   if (stages.IsCurrent(SystemStage, key))
   {
     return;

@@ -361,6 +361,46 @@ TEST(Poisson, IsRightAtPointsOfTrianglesWithoutArea)
   EXPECT_EQ(atAll.topRows(5), atInput);
 }
 
+TEST(Poisson, DoesNotDependOnTheSizeOfNumbers)
+{
+  // Scaled by powers of two, the load and the solution have the same digits.
+  const TriangleMesh mesh = GeodesicSphere(8);
+  const Problem problem(mesh, AtDepth(4), 0.1);
+  const MultiVector f = RandomValues(mesh.points.size(), 1);
+  const MultiVector load = problem.Values(f);
+  const MultiVector expected = problem.Solve(load, load).coefficients;
+  for (const int exponent : { -900, -600, 600, 900 })
+  {
+    const MultiVector scaled = std::ldexp(1.0, exponent) * load;
+    const PoissonSolution solution = problem.Solve(scaled, scaled);
+    EXPECT_TRUE(solution.report.converged);
+    EXPECT_EQ(solution.coefficients, std::ldexp(1.0, exponent) * expected) << exponent;
+  }
+  const PoissonSolution small = problem.Solve(problem.Values(1e-170 * f), {});
+  EXPECT_LT(
+    RelativeDifference(1e170 * small.coefficients, problem.Solve(load, {}).coefficients), 1e-9);
+}
+
+TEST(Poisson, ProgressIsAlwaysANumber)
+{
+  const TriangleMesh mesh = GeodesicSphere(8);
+  const Problem problem(mesh, AtDepth(4), 0.1);
+  MultiVector f = RandomValues(mesh.points.size(), 2);
+  f(3, 1) = std::numeric_limits<double>::quiet_NaN();
+  const Multigrid multigrid = BuildMultigrid(problem.space, problem.system, 0.1, 1.0, {});
+  int reports = 0;
+  const Progress progress(
+    [&](double fraction)
+    {
+      EXPECT_TRUE(fraction >= 0.0 && fraction <= 1.0) << fraction;
+      ++reports;
+      return true;
+    });
+  SolvePoisson(
+    problem.space, problem.system, multigrid, problem.Values(f), {}, problem.options, progress);
+  EXPECT_GT(reports, 1);
+}
+
 TEST(Poisson, ReportsThatItHasNotConverged)
 {
   const TriangleMesh mesh = GeodesicSphere(12);

@@ -63,10 +63,10 @@ TEST(Spectrum, ManyModesComeInWindows)
 
 TEST(Spectrum, UnitSphere)
 {
-  const TriangleMesh mesh = GeodesicSphere(48);
+  const TriangleMesh mesh = GeodesicSphere(96);
   const std::vector<double> exact = SphereValues(100);
-  double errors[2];
-  for (const int depth : { 4, 5 })
+  double errors[3];
+  for (const int depth : { 4, 5, 6 })
   {
     const Discretisation on = DiscretiseExactly(mesh, depth);
     const Spectrum spectrum = Solve(on, 100, 1e-6); // far below the discretisation error
@@ -76,6 +76,7 @@ TEST(Spectrum, UnitSphere)
   }
   EXPECT_LT(errors[1], 0.015);
   EXPECT_GT(errors[0] / errors[1], 3.0); // order two is a factor of four
+  EXPECT_GT(errors[1] / errors[2], 3.0); // the facets' own error is a thirtieth of the last
 }
 
 TEST(Spectrum, FlatSquare)
@@ -139,6 +140,24 @@ TEST(Spectrum, MoreModesThanExist)
   EXPECT_EQ(spectrum.eigenvalues.size(), 25u);
   CheckPairs(on, spectrum);
   EXPECT_FALSE(Solve(on, 25).truncated);
+}
+
+TEST(Spectrum, ReturnsNoMoreModesThanAskedAndAllWithAMass)
+{
+  const TriangleMesh mesh = { { { 0, 0, 0 }, { 1, .3, .2 }, { .1, 1, .7 } }, { { 0, 1, 2 } } };
+  const Discretisation on = Discretise(mesh, 2);
+  for (const int modes : { 5, 20, 50, 64 })
+  {
+    const Spectrum spectrum = Solve(on, modes);
+    const auto count = static_cast<int>(spectrum.eigenvalues.size());
+    EXPECT_LE(count, modes);
+    EXPECT_EQ(spectrum.truncated, count < modes);
+    EXPECT_EQ(spectrum.vectors.cols(), count);
+    EXPECT_EQ(spectrum.estimatedErrors.size(), spectrum.eigenvalues.size());
+    const Eigen::MatrixXd mass = Dense(MassMatrix(on.space, on.system));
+    const Eigen::MatrixXd products = spectrum.vectors.transpose() * mass * spectrum.vectors;
+    EXPECT_LT((products.diagonal().array() - 1.0).abs().maxCoeff(), 1e-8) << modes;
+  }
 }
 
 TEST(Spectrum, RepeatsBitForBitOnAnyNumberOfThreads)
