@@ -250,6 +250,10 @@ void vtkLaplaceSpectrum::Compute(vtkInformationVector** inputs, vtkInformationVe
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
   gridfem::RequireNumber("Accuracy", this->Accuracy);
+  if (!this->AllModes)
+  {
+    gridfem::RequireAtLeast("Mode", this->Mode, -1);
+  }
   gridfem::SpectrumRequest request;
   request.numberOfModes = this->NumberOfModes;
   request.completeMultiplets = this->CompleteMultiplets;

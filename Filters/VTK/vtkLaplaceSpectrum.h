@@ -61,9 +61,10 @@ public:
   ///@{
   /**
    * The mode to show, from 0; -1 (default) shows the mode of the time that is asked for, the first
-   * time step when none is. A mode that does not exist is an error; AllModes ignores this property.
+   * time step when none is. A mode that does not exist is refused when the filter runs; AllModes
+   * ignores this property.
    */
-  vtkSetClampMacro(Mode, int, -1, VTK_INT_MAX);
+  vtkSetMacro(Mode, int);
   vtkGetMacro(Mode, int);
   ///@}
 

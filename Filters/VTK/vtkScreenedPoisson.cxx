@@ -86,9 +86,10 @@ void vtkScreenedPoisson::FindArrays(vtkPolyData* input)
     throw gridfem::InvalidInput("UseValueGradient needs values at points, but '" + data.Value.name +
                                 "' is a cell array. Cell Data to Point Data converts it.");
   }
-  if (!std::isfinite(this->ScreeningWeight) || !std::isfinite(this->GradientScale))
+  gridfem::RequireAtLeast("ScreeningWeight", this->ScreeningWeight, 0.0);
+  if (!std::isfinite(this->GradientScale))
   {
-    throw gridfem::InvalidInput("ScreeningWeight and GradientScale must be finite numbers.");
+    throw gridfem::InvalidInput("GradientScale must be a finite number.");
   }
 }
 

@@ -310,7 +310,7 @@ void vtkSpectralSignatures::Compute(vtkInformationVector** inputs, vtkInformatio
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
   const gridfem::Progress progress = this->State->bridge.GetProgress();
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
-  gridfem::RequireNumber("DiffusionTime", this->DiffusionTime);
+  gridfem::RequireAtLeast("DiffusionTime", this->DiffusionTime, 0.0);
   progress.Check(0.0);
   this->UpdateModes(input, vtkPolyData::GetData(inputs[1]));
   progress.Check(0.95);

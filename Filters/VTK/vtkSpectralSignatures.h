@@ -89,9 +89,10 @@ public:
   ///@{
   /**
    * The time of the diffusion distance, squared length of ParameterUnits: features smaller than
-   * about its root are blurred. 0 or more, default 0.01.
+   * about its root are blurred. 0 or more, default 0.01. A negative one is refused when the filter
+   * runs.
    */
-  vtkSetClampMacro(DiffusionTime, double, 0.0, VTK_DOUBLE_MAX);
+  vtkSetMacro(DiffusionTime, double);
   vtkGetMacro(DiffusionTime, double);
   ///@}
 
