@@ -24,6 +24,7 @@ void AddMesh(StageKey& key, vtkPolyData* data)
     key.Add(cells ? cells->GetOffsetsArray() : nullptr);
     key.Add(cells ? cells->GetConnectivityArray() : nullptr);
   }
+  key.Add(data->GetCellData()->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()));
   // Cells of these kinds come first and shift the ids of the polygons.
   key.Add(std::int64_t{ data->GetNumberOfVerts() }).Add(std::int64_t{ data->GetNumberOfLines() });
 }
