@@ -115,6 +115,7 @@ void vtkLaplaceSpectrum::WriteModes(vtkPolyData* input, vtkInformation* info, vt
   const gridfem::SurfaceSolverState& state = *this->State;
   const int precision = gridfem::OutputPrecision(input->GetPoints());
   output->ShallowCopy(input);
+  gridfem::RemoveModes(output); // an earlier run may have had more
   const auto addMode = [&](int mode, const std::string& name)
   {
     const gridfem::MultiVector values =

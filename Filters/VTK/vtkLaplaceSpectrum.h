@@ -14,7 +14,7 @@
  * - point data, in the precision of the points (double when they are integers): `Mode` (1
  *   component), the mode that is shown; or, with AllModes on, `Mode000`, `Mode001`, ... The
  *   integral of a squared mode over the surface is 1 in world units. Points that no polygon uses
- *   get 0.
+ *   get 0. Such arrays of the input are left out.
  * - field data: `Eigenvalues` (double, 1; a tuple per mode, one over squared world length),
  *   `Converged` (int, 1), `UsedDepth` (int, 1): the depth of the space
  *
