@@ -42,7 +42,8 @@ void vtkClipToOctree::Compute(vtkInformationVector** inputs, vtkInformationVecto
   const gridfem::QuadratureRule& rule = gridfem::TriangleRule(this->QuadratureDegree);
 
   gridfem::StageKey key;
-  gridfem::AddMesh(key, input);
+  key.Add(state.meshVersion.Of(input, state.mesh, options.threads));
+  key.Add(gridfem::OutputPrecision(input->GetPoints()));
   key.Add(options.depth).Add(options.weldCoincidentPoints);
   const auto clip = [&]
   {

@@ -75,8 +75,12 @@ void vtkConnectivityAwareBasis::UpdateBasis(vtkPolyData* input)
   const gridfem::SpaceOptions& options = state.options.space;
   const bool isClipped = gridfem::CarriesClip(input);
   gridfem::StageKey key;
-  gridfem::AddMesh(key, input);
-  key.Add(options.connectivityAware).Add(options.weldCoincidentPoints).Add(isClipped);
+  key.Add(state.meshVersion.Of(input, state.mesh, options.threads));
+  key.Add(gridfem::OutputPrecision(input->GetPoints()));
+  key.Add(this->KeepStages)
+    .Add(options.connectivityAware)
+    .Add(options.weldCoincidentPoints)
+    .Add(isClipped);
   if (isClipped)
   {
     gridfem::AddClipArrays(key, input);

@@ -41,6 +41,9 @@ int FirstTimeStep(int numberOfModes)
 struct vtkLaplaceSpectrum::Internals : gridfem::SurfaceSpectrum
 {
   std::int64_t WarnedRun = 0; // the last solve whose cut multiplet was told of: not every time step
+  /// NumberOfModes and CompleteMultiplets of the last solve: how many modes these give is known.
+  int SolvedModes = 0;
+  bool SolvedWhole = false;
 };
 
 vtkLaplaceSpectrum::vtkLaplaceSpectrum() : Data(std::make_unique<Internals>())
@@ -59,29 +62,21 @@ int vtkLaplaceSpectrum::FillOutputPortInformation(int port, vtkInformation* info
   return 1;
 }
 
-int vtkLaplaceSpectrum::RequestInformation(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+std::vector<double> vtkLaplaceSpectrum::OwnTimeSteps()
 {
   std::vector<double> times;
-  for (int mode = FirstTimeStep(this->NumberOfModes); mode < this->NumberOfModes; ++mode)
+  if (this->AllModes || this->Mode != -1)
+  {
+    return times;
+  }
+  const bool isSolved = this->Data->SolvedModes == this->NumberOfModes &&
+                        this->Data->SolvedWhole == this->CompleteMultiplets;
+  const int count = isSolved ? this->Data->NumberOfModes() : this->NumberOfModes;
+  for (int mode = FirstTimeStep(count); mode < count; ++mode)
   {
     times.push_back(mode);
   }
-  const double range[2] = { times.front(), times.back() };
-  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
-  {
-    vtkInformation* info = outputs->GetInformationObject(port);
-    if (this->AllModes || this->Mode >= 0)
-    {
-      info->Remove(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
-      info->Remove(vtkStreamingDemandDrivenPipeline::TIME_RANGE());
-      continue;
-    }
-    info->Set(
-      vtkStreamingDemandDrivenPipeline::TIME_STEPS(), times.data(), static_cast<int>(times.size()));
-    info->Set(vtkStreamingDemandDrivenPipeline::TIME_RANGE(), range, 2);
-  }
-  return 1;
+  return times;
 }
 
 int vtkLaplaceSpectrum::ShownMode(vtkInformation* output)
@@ -137,11 +132,6 @@ void vtkLaplaceSpectrum::WriteModes(vtkPolyData* input, vtkInformation* info, vt
     shown = addMode(this->ShownMode(info), "Mode");
   }
   output->GetPointData()->SetActiveScalars(shown.c_str());
-  if (info->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
-  {
-    output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(),
-      info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()));
-  }
   vtkNew<vtkDoubleArray> eigenvalues;
   eigenvalues->SetName("Eigenvalues");
   eigenvalues->SetNumberOfTuples(this->Data->NumberOfModes());
@@ -260,7 +250,10 @@ void vtkLaplaceSpectrum::Compute(vtkInformationVector** inputs, vtkInformationVe
   request.completeMultiplets = this->CompleteMultiplets;
   request.compare = this->CompareFunctionSpaces;
   request.accuracy = this->AccuracyDriven ? this->Accuracy : 0.0;
+  this->Data->SolvedModes = 0;
   this->Data->Update(*this->State, input, vtkPolyData::GetData(inputs[1]), request);
+  this->Data->SolvedModes = this->NumberOfModes;
+  this->Data->SolvedWhole = this->CompleteMultiplets;
   this->WriteModes(input, outputs->GetInformationObject(0), vtkPolyData::GetData(outputs, 0));
   this->WriteTable(vtkTable::GetData(outputs, 1));
   this->Warn();

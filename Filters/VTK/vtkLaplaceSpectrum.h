@@ -29,7 +29,9 @@
  *
  * Time: unless AllModes is on or Mode is fixed, every mode but mode 0 is a time step, with its
  * index as time value. Mode 0 is constant, so there is nothing to see; Mode = 0 shows it. All modes
- * are computed once; a change of time or of Mode computes nothing.
+ * are computed once; a change of time or of Mode computes nothing. The modes are those of the input
+ * at one time, which stays the same. Modes that CompleteMultiplets adds are time steps as soon as
+ * they are known, after the first run. With AllModes on or Mode fixed, the times are the input's.
  *
  * Tolerance (default 1e-6) is the wanted relative error of the eigenvalues as those of the space;
  * Depth, or Accuracy, decides about the error of the space. All shared properties
@@ -130,9 +132,9 @@ protected:
   ~vtkLaplaceSpectrum() override;
 
   int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestInformation(
-    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  std::vector<double> OwnTimeSteps() override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  void FreeStages() override;
 
   int NumberOfModes = 20;
   int Mode = -1;

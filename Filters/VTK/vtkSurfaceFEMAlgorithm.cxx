@@ -1,13 +1,18 @@
 #include "vtkSurfaceFEMAlgorithm.h"
 
+#include "Private/FailureDump.h"
 #include "Private/InputValidation.h"
+#include "Private/PipelineTime.h"
 #include "Private/SurfaceSolverState.h"
 
 #include "Base/LargeMemory.h"
 
+#include "vtkErrorCode.h"
+#include "vtkExecutive.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkPolyData.h"
+#include "vtkVersionMacros.h"
 
 #include <new>
 
@@ -28,7 +33,8 @@ void EmptyOutputs(vtkInformationVector* outputs)
 } // namespace
 
 vtkSurfaceFEMAlgorithm::vtkSurfaceFEMAlgorithm()
-  : State(std::make_unique<gridfem::SurfaceSolverState>(this))
+  : State(std::make_unique<gridfem::SurfaceSolverState>(this)),
+    Time(std::make_unique<gridfem::InputTime>()), Dump(std::make_unique<gridfem::FailureDump>())
 {
 }
 
@@ -42,6 +48,48 @@ int vtkSurfaceFEMAlgorithm::FillInputPortInformation(int port, vtkInformation* i
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   }
   return 1;
+}
+
+std::vector<double> vtkSurfaceFEMAlgorithm::OwnTimeSteps()
+{
+  return {};
+}
+
+/// The pipeline has handed the input's time steps on already.
+int vtkSurfaceFEMAlgorithm::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+{
+  const std::vector<double> steps = this->OwnTimeSteps();
+  if (!steps.empty())
+  {
+    gridfem::SetTimeSteps(steps, outputs);
+  }
+  return 1;
+}
+
+int vtkSurfaceFEMAlgorithm::RequestUpdateExtent(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  if (this->OwnTimeSteps().empty())
+  {
+    this->Time->Follow(inputs[0]);
+  }
+  else
+  {
+    this->Time->Fix(inputs, this->GetNumberOfInputPorts());
+  }
+  return this->Superclass::RequestUpdateExtent(request, inputs, outputs);
+}
+
+void vtkSurfaceFEMAlgorithm::WriteTimes(
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  const std::vector<double> steps = this->OwnTimeSteps();
+  if (!steps.empty())
+  {
+    gridfem::SetTimeSteps(steps, outputs);
+  }
+  gridfem::StampTime(!steps.empty(), inputs[0], outputs);
 }
 
 int vtkSurfaceFEMAlgorithm::RequestData(
@@ -74,6 +122,7 @@ int vtkSurfaceFEMAlgorithm::RequestData(
     if (!gridfem::IsEmpty(vtkPolyData::GetData(inputs[0])))
     {
       this->Compute(inputs, outputs);
+      this->WriteTimes(inputs, outputs);
     }
     return 1;
   }

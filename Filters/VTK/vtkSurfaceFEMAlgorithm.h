@@ -22,6 +22,10 @@
  * A solver filter finds its function space in this order: on input port 0, when that is the output
  * of vtkConnectivityAwareBasis; on the optional input port 1, when that is connected, which must be
  * the output of vtkConnectivityAwareBasis for the mesh of port 0; else it builds the space itself.
+ *
+ * Time: outputs have the time steps of the input, and the input is asked for the time that they are
+ * asked for. A filter with time steps of its own, such as modes, has these instead, and asks its
+ * inputs for one fixed time: the one they were asked for last, else the one they have.
  */
 #ifndef vtkSurfaceFEMAlgorithm_h
 #define vtkSurfaceFEMAlgorithm_h
@@ -30,11 +34,14 @@
 #include "vtkPolyDataAlgorithm.h"
 
 #include <memory> // for std::unique_ptr
+#include <vector> // for std::vector
 
 namespace gridfem
 {
+class FailureDump;
+class InputTime;
 class SurfaceSolverState;
-}
+} // namespace gridfem
 
 class VTKGRIDFEMFILTERS_EXPORT vtkSurfaceFEMAlgorithm : public vtkPolyDataAlgorithm
 {
@@ -226,6 +233,17 @@ protected:
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
 
+  int RequestInformation(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) final;
+  int RequestUpdateExtent(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) final;
+
+  /**
+   * The time steps, ascending, of a filter that shows something of its own by time; empty (default)
+   * where the times are those of the input. Asked again after Compute, which may find other steps.
+   */
+  virtual std::vector<double> OwnTimeSteps();
+
   /**
    * Applies the failure rule around Compute.
    */
@@ -257,6 +275,13 @@ protected:
 private:
   vtkSurfaceFEMAlgorithm(const vtkSurfaceFEMAlgorithm&) = delete;
   void operator=(const vtkSurfaceFEMAlgorithm&) = delete;
+
+  int RunCompute(vtkInformationVector** inputs, vtkInformationVector* outputs);
+  void FinishAbort(vtkInformationVector* outputs);
+  void WriteTimes(vtkInformationVector** inputs, vtkInformationVector* outputs);
+
+  std::unique_ptr<gridfem::InputTime> Time;
+  std::unique_ptr<gridfem::FailureDump> Dump;
 };
 
 #endif

@@ -64,7 +64,7 @@ void SurfaceSolverState::UpdateSpace(
 {
   RequireNumber("Tolerance", options.solve.tolerance);
   StageKey key;
-  AddMesh(key, input);
+  key.Add(meshVersion.Of(input, mesh, options.space.threads));
   const bool carries = CarriesBasis(input);
   if (carries || basisData)
   {

@@ -5,6 +5,7 @@
 
 #include "InputMesh.h"
 #include "Krylov/ConjugateGradients.h"
+#include "MeshVersion.h"
 #include "ProgressBridge.h"
 #include "Spaces/HatMultigrid.h"
 #include "StageCache.h"
@@ -70,6 +71,7 @@ public:
   SurfaceOptions options;
   StageCache stages;
   InputMesh mesh;
+  MeshVersion meshVersion; // of `mesh`
   SurfaceBasis basis;
   std::shared_ptr<const LevelOperators> system;
   std::optional<HatHierarchy> hats; // only with options.hatFunctions
