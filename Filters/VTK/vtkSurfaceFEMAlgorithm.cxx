@@ -114,7 +114,20 @@ int vtkSurfaceFEMAlgorithm::RequestData(
   options.parameterUnits = this->ParameterUnits;
 
   EmptyOutputs(outputs);
+  this->SetErrorCode(vtkErrorCode::NoError);
+  this->Dump->Print();
   this->State->bridge.Restart();
+  const int result = this->RunCompute(inputs, outputs);
+  if (!this->KeepStages || gridfem::IsEmpty(vtkPolyData::GetData(inputs[0])))
+  {
+    this->FreeStages();
+  }
+  return result;
+}
+
+/// What RequestData returns.
+int vtkSurfaceFEMAlgorithm::RunCompute(vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
   const gridfem::MemoryReuse reuse;
   try
   {
@@ -128,8 +141,7 @@ int vtkSurfaceFEMAlgorithm::RequestData(
   }
   catch (const gridfem::Aborted&)
   {
-    EmptyOutputs(outputs);
-    this->AbortExecute = 0; // the request is served; left standing, it would empty the next run
+    this->FinishAbort(outputs);
     return 1;
   }
   catch (const std::bad_alloc&)
@@ -141,7 +153,23 @@ int vtkSurfaceFEMAlgorithm::RequestData(
     vtkErrorMacro(<< error.what());
   }
   EmptyOutputs(outputs);
+  this->SetErrorCode(vtkErrorCode::UnknownError);
+  this->Dump->Swallow(this->GetExecutive());
   return 0;
+}
+
+void vtkSurfaceFEMAlgorithm::FreeStages()
+{
+  this->State->Free();
+}
+
+void vtkSurfaceFEMAlgorithm::FinishAbort(vtkInformationVector* outputs)
+{
+  EmptyOutputs(outputs);
+  this->AbortExecute = 0; // the request is served; left standing, it would empty the next run
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20230111)
+  this->SetAbortOutput(true); // the pipeline marks the outputs, so that nothing runs on them
+#endif
 }
 
 vtkIdType vtkSurfaceFEMAlgorithm::GetNumberOfRuns(int stage)

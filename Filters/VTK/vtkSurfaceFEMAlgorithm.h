@@ -8,15 +8,17 @@
  * depend on has changed, and the rule by which every filter fails:
  *
  * - An input without points gives empty outputs, silently.
- * - An unusable input gives one error message, empty outputs, and RequestData returns 0.
+ * - An unusable input gives one error message, empty outputs, and RequestData returns 0; the error
+ *   code is vtkErrorCode::UnknownError then, and the pipeline prints nothing of its own.
  * - A solver that does not converge warns, keeps its result, and sets the field array `Converged`
  *   (int, one value) to 0.
- * - An abort gives empty outputs. The filter switches AbortExecute off again, so that the next run,
- *   after a change, is a full one.
+ * - An abort gives empty outputs, which are marked as aborted, so that filters behind do not run
+ *   (VTK 9.3 and later). The filter switches AbortExecute off again, so that the next run, after a
+ *   change, is a full one.
  *
- * Input port 0 takes vtkPolyData with polygons of any size or triangle strips. Vertices and lines
- * take no part; the solvers pass them on, the clip leaves them out. Computation is in double
- * precision. Results do not depend on NumberOfThreads. The filters refuse to run on more than one
+ * Input port 0 takes vtkPolyData with polygons of any size or triangle strips. Vertices,
+ * lines, and cells that vtkGhostType marks as hidden or as duplicates take no part; the solvers pass
+ * them on, the clip leaves them out. Computation is in double precision. Results do not depend on NumberOfThreads. The filters refuse to run on more than one
  * MPI rank.
  *
  * A solver filter finds its function space in this order: on input port 0, when that is the output
