@@ -76,6 +76,13 @@ void vtkClipToOctree::Compute(vtkInformationVector** inputs, vtkInformationVecto
   progress.Check(1.0);
 }
 
+void vtkClipToOctree::FreeStages()
+{
+  this->Superclass::FreeStages();
+  this->Data->Clipped = {};
+  this->Data->Frame->Initialize();
+}
+
 void vtkClipToOctree::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);

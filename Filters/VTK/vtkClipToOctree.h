@@ -67,6 +67,7 @@ protected:
 
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  void FreeStages() override;
 
   bool GenerateQuadraturePoints = false;
   int Level = 14;

@@ -104,8 +104,12 @@ void vtkConnectivityAwareBasis::UpdateBasis(vtkPolyData* input)
         gridfem::PatchesOfTriangles(state.Space(), options.threads), options.weldCoincidentPoints,
         this->Data->Frame);
     }
-    vtkSurfaceBasisHolder::Attach(
-      this->Data->Frame->GetFieldData()->GetAbstractArray(gridfem::PatchBasisIdsName), state.basis);
+    if (this->KeepStages)
+    {
+      vtkSurfaceBasisHolder::Attach(
+        this->Data->Frame->GetFieldData()->GetAbstractArray(gridfem::PatchBasisIdsName),
+        state.basis);
+    }
   };
   state.stages.Run(SpaceStage, key, build);
 }
@@ -151,6 +155,12 @@ void vtkConnectivityAwareBasis::Compute(
   gridfem::WriteBasisFunctions(space, this->Level, gridfem::OutputPrecision(input->GetPoints()),
     vtkUnstructuredGrid::GetData(outputs, 1));
   progress.Check(1.0);
+}
+
+void vtkConnectivityAwareBasis::FreeStages()
+{
+  this->Superclass::FreeStages();
+  this->Data->Frame->Initialize();
 }
 
 void vtkConnectivityAwareBasis::PrintSelf(ostream& os, vtkIndent indent)

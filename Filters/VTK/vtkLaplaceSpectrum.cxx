@@ -260,6 +260,12 @@ void vtkLaplaceSpectrum::Compute(vtkInformationVector** inputs, vtkInformationVe
   this->State->bridge.GetProgress().Check(1.0);
 }
 
+void vtkLaplaceSpectrum::FreeStages()
+{
+  this->Superclass::FreeStages();
+  this->Data->spectrum = {};
+}
+
 void vtkLaplaceSpectrum::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);

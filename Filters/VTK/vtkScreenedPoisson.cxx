@@ -309,6 +309,16 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
   progress.Check(1.0);
 }
 
+void vtkScreenedPoisson::FreeStages()
+{
+  this->Superclass::FreeStages();
+  Internals& data = *this->Data;
+  data.ValueIntegrals.resize(0, 0);
+  data.GradientIntegrals.resize(0, 0);
+  data.Hierarchy.reset();
+  data.Solution = {};
+}
+
 void vtkScreenedPoisson::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);

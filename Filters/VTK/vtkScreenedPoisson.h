@@ -132,6 +132,7 @@ protected:
 
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  void FreeStages() override;
 
   double ScreeningWeight = 100.0;
   double GradientScale = 1.0;

@@ -199,4 +199,5 @@ void vtkSurfaceFEMAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "ParameterUnits: " << this->ParameterUnits << "\n";
+  os << indent << "KeepStages: " << this->KeepStages << "\n";
 }

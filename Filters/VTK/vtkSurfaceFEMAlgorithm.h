@@ -190,6 +190,17 @@ public:
   vtkGetMacro(NumberOfThreads, int);
   ///@}
 
+  ///@{
+  /**
+   * When on (default), what a run has made is kept, so that a change repeats only the steps that
+   * depend on it. When off, it is freed after every run: least memory, but every change, of the
+   * time step as well, repeats all steps. Filters that share a basis then read it from its arrays.
+   */
+  vtkSetMacro(KeepStages, bool);
+  vtkGetMacro(KeepStages, bool);
+  vtkBooleanMacro(KeepStages, bool);
+  ///@}
+
   enum ParameterUnitsType
   {
     World = 0,
@@ -257,6 +268,11 @@ protected:
    */
   virtual void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) = 0;
 
+  /**
+   * Frees all that was made for the next runs. A filter adds what it keeps itself.
+   */
+  virtual void FreeStages();
+
   int Depth = 7;
   bool ConnectivityAware = true;
   bool WeldCoincidentPoints = true;
@@ -271,6 +287,7 @@ protected:
   int MaximumIterations = 100;
   int NumberOfThreads = 0;
   int ParameterUnits = UnitArea;
+  bool KeepStages = true;
 
   std::unique_ptr<gridfem::SurfaceSolverState> State;
 

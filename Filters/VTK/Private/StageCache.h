@@ -67,6 +67,15 @@ public:
     ++entries_[stage].version;
   }
 
+  /// Every stage has to run again; counts and times stay.
+  void Forget()
+  {
+    for (Entry& entry : entries_)
+    {
+      entry.valid = false;
+    }
+  }
+
   /// Changes with every new result: part of the keys of later stages.
   std::int64_t Version(int stage) const { return entries_[stage].version; }
 

@@ -33,7 +33,7 @@ void AddMultigrid(StageKey& key, const MultigridOptions& options)
 {
   key.Add(static_cast<int>(options.cycle)).Add(static_cast<int>(options.smoother));
   key.Add(options.preSweeps).Add(options.postSweeps).Add(options.sweepsPerSynchronisation);
-  key.Add(static_cast<int>(options.hidden)).Add(options.threads);
+  key.Add(static_cast<int>(options.hidden)); // the number of threads changes no bit
 }
 
 void AddClipArrays(StageKey& key, vtkPolyData* data)
@@ -141,6 +141,15 @@ void SurfaceSolverState::UpdateSystem(const Progress& progress)
     }
   };
   stages.Run(stage, key, build);
+}
+
+void SurfaceSolverState::Free()
+{
+  mesh = {};
+  basis = {};
+  system = {};
+  hats.reset();
+  stages.Forget();
 }
 
 HatHierarchy SurfaceSolverState::BuildHats(const Progress& progress) const

@@ -63,6 +63,9 @@ public:
   /// The hat functions of the mesh above the space.
   HatHierarchy BuildHats(const Progress& progress) const;
 
+  /// Frees all that the stages have made.
+  void Free();
+
   const GridFunctions& Space() const { return *basis.space; }
 
   /// A weight per squared length of the parameter units, per squared grid unit.
