@@ -29,5 +29,6 @@ if (TARGET VTK::WrappingPythonCore)
     CMAKE_DESTINATION ${GRIDFEM_CMAKE_DESTINATION})
   file(RELATIVE_PATH libraries
     /${GRIDFEM_PYTHON_DESTINATION}/gridfem /${CMAKE_INSTALL_LIBDIR})
-  set_target_properties(vtkGridFEMFiltersPython PROPERTIES INSTALL_RPATH "$ORIGIN/${libraries}")
+  set_target_properties(vtkGridFEMFiltersPython PROPERTIES INSTALL_RPATH
+    "${GRIDFEM_ORIGIN}/${libraries}")
 endif ()

@@ -14,4 +14,4 @@ paraview_plugin_build(
 
 file(RELATIVE_PATH libraries
   /${CMAKE_INSTALL_LIBDIR}/${PARAVIEW_PLUGIN_SUBDIR}/GridFEM /${CMAKE_INSTALL_LIBDIR})
-set_target_properties(GridFEM PROPERTIES INSTALL_RPATH "$ORIGIN/${libraries}")
+set_target_properties(GridFEM PROPERTIES INSTALL_RPATH "${GRIDFEM_ORIGIN}/${libraries}")

@@ -9,6 +9,7 @@ Usage: Testing/run.sh [CTEST OPTIONS]
 
 Installs the Debian packages that are missing (as root or with sudo), builds into build/, and runs
 the tests. Options go to ctest, for example: -R Clip
+Without options Core is also compiled with clang, into build-clang/, with warnings as errors.
 
 Environment:
   CI=true            compiler warnings are errors
@@ -20,4 +21,12 @@ fi
 
 InstallMissing "${BUILD_PACKAGES[@]}" "${TEST_PACKAGES[@]}"
 BuildTree all
+if [ $# -eq 0 ] && command -v clang++ > /dev/null; then
+  Say "Compiling Core with clang"
+  # Not optimised: warnings are what is looked for.
+  Quietly "$BUILD/clang-configure.log" cmake -S "$SOURCE" -B "$SOURCE/build-clang" -G Ninja \
+    -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=Debug -DGRIDFEM_WERROR=ON \
+    -DGRIDFEM_BUILD_VTK=OFF -DGRIDFEM_BUILD_TESTING=OFF
+  Quietly "$BUILD/clang-build.log" cmake --build "$SOURCE/build-clang" -j "$JOBS"
+fi
 ctest --test-dir "$BUILD" --output-on-failure --timeout 300 -j "$JOBS" "$@" < /dev/null

@@ -42,7 +42,8 @@ void vtkClipToOctree::Compute(vtkInformationVector** inputs, vtkInformationVecto
   const gridfem::QuadratureRule& rule = gridfem::TriangleRule(this->QuadratureDegree);
 
   gridfem::StageKey key;
-  gridfem::AddMesh(key, input);
+  key.Add(state.meshVersion.Of(input, state.mesh, options.threads));
+  key.Add(gridfem::OutputPrecision(input->GetPoints()));
   key.Add(options.depth).Add(options.weldCoincidentPoints);
   const auto clip = [&]
   {
@@ -73,6 +74,13 @@ void vtkClipToOctree::Compute(vtkInformationVector** inputs, vtkInformationVecto
   gridfem::WriteOctreeCells(this->Data->Clipped, this->Level, precision, options.threads,
     vtkUnstructuredGrid::GetData(outputs, 2));
   progress.Check(1.0);
+}
+
+void vtkClipToOctree::FreeStages()
+{
+  this->Superclass::FreeStages();
+  this->Data->Clipped = {};
+  this->Data->Frame->Initialize();
 }
 
 void vtkClipToOctree::PrintSelf(ostream& os, vtkIndent indent)

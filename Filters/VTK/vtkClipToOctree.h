@@ -11,7 +11,9 @@
  *
  * Output port 0 (vtkPolyData), the clipped mesh: triangles; the input's points first, in the same
  * order and precision (double when they are integers), then the cut points.
- * - point data: the input's arrays, interpolated to double (text: from the nearest corner)
+ * - point data: the input's arrays; real numbers interpolated to double, colours (unsigned char, 3
+ *   or 4) interpolated and rounded, other integers and text from the nearest corner; global and
+ *   pedigree ids are left out, because a cut point has none
  * - cell data: the input's arrays; `SourceCellId` (vtkIdType, 1): the input's cell; `OctreeCellId`
  *   (vtkIdType, 1): index into `OctreeCells`
  * - field data: the input's arrays; `OctreeCells` (int, 3): (i,j,k) of every cell, in Morton order;
@@ -65,6 +67,7 @@ protected:
 
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  void FreeStages() override;
 
   bool GenerateQuadraturePoints = false;
   int Level = 14;

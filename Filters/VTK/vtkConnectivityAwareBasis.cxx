@@ -76,8 +76,12 @@ void vtkConnectivityAwareBasis::UpdateBasis(vtkPolyData* input)
   const gridfem::SpaceOptions& options = state.options.space;
   const bool isClipped = gridfem::CarriesClip(input);
   gridfem::StageKey key;
-  gridfem::AddMesh(key, input);
-  key.Add(options.connectivityAware).Add(options.weldCoincidentPoints).Add(isClipped);
+  key.Add(state.meshVersion.Of(input, state.mesh, options.threads));
+  key.Add(gridfem::OutputPrecision(input->GetPoints()));
+  key.Add(this->KeepStages)
+    .Add(options.connectivityAware)
+    .Add(options.weldCoincidentPoints)
+    .Add(isClipped);
   if (isClipped)
   {
     gridfem::AddClipArrays(key, input);
@@ -101,8 +105,12 @@ void vtkConnectivityAwareBasis::UpdateBasis(vtkPolyData* input)
         gridfem::PatchesOfTriangles(state.Functions(), options.threads),
         options.weldCoincidentPoints, this->Data->Frame);
     }
-    vtkSurfaceBasisHolder::Attach(
-      this->Data->Frame->GetFieldData()->GetAbstractArray(gridfem::PatchBasisIdsName), state.basis);
+    if (this->KeepStages)
+    {
+      vtkSurfaceBasisHolder::Attach(
+        this->Data->Frame->GetFieldData()->GetAbstractArray(gridfem::PatchBasisIdsName),
+        state.basis);
+    }
   };
   state.stages.Run(gridfem::SpaceStage, key, build);
 }
@@ -148,6 +156,12 @@ void vtkConnectivityAwareBasis::Compute(
   gridfem::WriteBasisFunctions(space, this->Level, gridfem::OutputPrecision(input->GetPoints()),
     vtkUnstructuredGrid::GetData(outputs, 1));
   progress.Check(1.0);
+}
+
+void vtkConnectivityAwareBasis::FreeStages()
+{
+  this->Superclass::FreeStages();
+  this->Data->Frame->Initialize();
 }
 
 void vtkConnectivityAwareBasis::PrintSelf(ostream& os, vtkIndent indent)

@@ -41,6 +41,9 @@ int FirstTimeStep(int numberOfModes)
 struct vtkLaplaceSpectrum::Internals : gridfem::SurfaceSpectrum
 {
   std::int64_t WarnedRun = 0; // the last solve whose cut multiplet was told of: not every time step
+  /// NumberOfModes and CompleteMultiplets of the last solve: how many modes these give is known.
+  int SolvedModes = 0;
+  bool SolvedWhole = false;
 };
 
 vtkLaplaceSpectrum::vtkLaplaceSpectrum() : Data(std::make_unique<Internals>())
@@ -59,29 +62,21 @@ int vtkLaplaceSpectrum::FillOutputPortInformation(int port, vtkInformation* info
   return 1;
 }
 
-int vtkLaplaceSpectrum::RequestInformation(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+std::vector<double> vtkLaplaceSpectrum::OwnTimeSteps()
 {
   std::vector<double> times;
-  for (int mode = FirstTimeStep(this->NumberOfModes); mode < this->NumberOfModes; ++mode)
+  if (this->AllModes || this->Mode != -1)
+  {
+    return times;
+  }
+  const bool isSolved = this->Data->SolvedModes == this->NumberOfModes &&
+                        this->Data->SolvedWhole == this->CompleteMultiplets;
+  const int count = isSolved ? this->Data->NumberOfModes() : this->NumberOfModes;
+  for (int mode = FirstTimeStep(count); mode < count; ++mode)
   {
     times.push_back(mode);
   }
-  const double range[2] = { times.front(), times.back() };
-  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
-  {
-    vtkInformation* info = outputs->GetInformationObject(port);
-    if (this->AllModes || this->Mode >= 0)
-    {
-      info->Remove(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
-      info->Remove(vtkStreamingDemandDrivenPipeline::TIME_RANGE());
-      continue;
-    }
-    info->Set(
-      vtkStreamingDemandDrivenPipeline::TIME_STEPS(), times.data(), static_cast<int>(times.size()));
-    info->Set(vtkStreamingDemandDrivenPipeline::TIME_RANGE(), range, 2);
-  }
-  return 1;
+  return times;
 }
 
 int vtkLaplaceSpectrum::ShownMode(vtkInformation* output)
@@ -115,6 +110,7 @@ void vtkLaplaceSpectrum::WriteModes(vtkPolyData* input, vtkInformation* info, vt
   const gridfem::SurfaceSolverState& state = *this->State;
   const int precision = gridfem::OutputPrecision(input->GetPoints());
   output->ShallowCopy(input);
+  gridfem::RemoveModes(output); // an earlier run may have had more
   const auto addMode = [&](int mode, const std::string& name)
   {
     const gridfem::MultiVector values =
@@ -136,11 +132,6 @@ void vtkLaplaceSpectrum::WriteModes(vtkPolyData* input, vtkInformation* info, vt
     shown = addMode(this->ShownMode(info), "Mode");
   }
   output->GetPointData()->SetActiveScalars(shown.c_str());
-  if (info->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
-  {
-    output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(),
-      info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()));
-  }
   vtkNew<vtkDoubleArray> eigenvalues;
   eigenvalues->SetName("Eigenvalues");
   eigenvalues->SetNumberOfTuples(this->Data->NumberOfModes());
@@ -250,16 +241,29 @@ void vtkLaplaceSpectrum::Compute(vtkInformationVector** inputs, vtkInformationVe
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
   gridfem::RequireNumber("Accuracy", this->Accuracy);
+  if (!this->AllModes)
+  {
+    gridfem::RequireAtLeast("Mode", this->Mode, -1);
+  }
   gridfem::SpectrumRequest request;
   request.numberOfModes = this->NumberOfModes;
   request.completeMultiplets = this->CompleteMultiplets;
   request.compare = this->CompareFunctionSpaces;
   request.accuracy = this->AccuracyDriven ? this->Accuracy : 0.0;
+  this->Data->SolvedModes = 0;
   this->Data->Update(*this->State, input, vtkPolyData::GetData(inputs[1]), request);
+  this->Data->SolvedModes = this->NumberOfModes;
+  this->Data->SolvedWhole = this->CompleteMultiplets;
   this->WriteModes(input, outputs->GetInformationObject(0), vtkPolyData::GetData(outputs, 0));
   this->WriteTable(vtkTable::GetData(outputs, 1));
   this->Warn();
   this->State->bridge.GetProgress().Check(1.0);
+}
+
+void vtkLaplaceSpectrum::FreeStages()
+{
+  this->Superclass::FreeStages();
+  this->Data->spectrum = {};
 }
 
 void vtkLaplaceSpectrum::PrintSelf(ostream& os, vtkIndent indent)

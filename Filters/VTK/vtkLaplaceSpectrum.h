@@ -14,7 +14,7 @@
  * - point data, in the precision of the points (double when they are integers): `Mode` (1
  *   component), the mode that is shown; or, with AllModes on, `Mode000`, `Mode001`, ... The
  *   integral of a squared mode over the surface is 1 in world units. Points that no polygon uses
- *   get 0.
+ *   get 0. Such arrays of the input are left out.
  * - field data: `Eigenvalues` (double, 1; a tuple per mode, one over squared world length),
  *   `Converged` (int, 1), `UsedDepth` (int, 1): the depth of the space
  *
@@ -29,7 +29,9 @@
  *
  * Time: unless AllModes is on or Mode is fixed, every mode but mode 0 is a time step, with its
  * index as time value. Mode 0 is constant, so there is nothing to see; Mode = 0 shows it. All modes
- * are computed once; a change of time or of Mode computes nothing.
+ * are computed once; a change of time or of Mode computes nothing. The modes are those of the input
+ * at one time, which stays the same. Modes that CompleteMultiplets adds are time steps as soon as
+ * they are known, after the first run. With AllModes on or Mode fixed, the times are the input's.
  *
  * Tolerance (default 1e-6) is the wanted relative error of the eigenvalues as those of the space;
  * Depth, or Accuracy, decides about the error of the space. All shared properties
@@ -61,9 +63,10 @@ public:
   ///@{
   /**
    * The mode to show, from 0; -1 (default) shows the mode of the time that is asked for, the first
-   * time step when none is. A mode that does not exist is an error; AllModes ignores this property.
+   * time step when none is. A mode that does not exist is refused when the filter runs; AllModes
+   * ignores this property.
    */
-  vtkSetClampMacro(Mode, int, -1, VTK_INT_MAX);
+  vtkSetMacro(Mode, int);
   vtkGetMacro(Mode, int);
   ///@}
 
@@ -129,9 +132,9 @@ protected:
   ~vtkLaplaceSpectrum() override;
 
   int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestInformation(
-    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  std::vector<double> OwnTimeSteps() override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  void FreeStages() override;
 
   int NumberOfModes = 20;
   int Mode = -1;

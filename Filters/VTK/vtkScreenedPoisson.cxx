@@ -79,9 +79,10 @@ void vtkScreenedPoisson::FindArrays(vtkPolyData* input)
     throw gridfem::InvalidInput("UseValueGradient needs values at points, but '" + data.Value.name +
                                 "' is a cell array. Cell Data to Point Data converts it.");
   }
-  if (!std::isfinite(this->ScreeningWeight) || !std::isfinite(this->GradientScale))
+  gridfem::RequireAtLeast("ScreeningWeight", this->ScreeningWeight, 0.0);
+  if (!std::isfinite(this->GradientScale))
   {
-    throw gridfem::InvalidInput("ScreeningWeight and GradientScale must be finite numbers.");
+    throw gridfem::InvalidInput("GradientScale must be a finite number.");
   }
 }
 
@@ -178,6 +179,12 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
     vtkWarningMacro(<< warning);
   }
   progress.Check(1.0);
+}
+
+void vtkScreenedPoisson::FreeStages()
+{
+  this->Superclass::FreeStages();
+  this->Data->Equation = {};
 }
 
 void vtkScreenedPoisson::PrintSelf(ostream& os, vtkIndent indent)

@@ -68,9 +68,9 @@ public:
   /**
    * How strongly the solution is held to the values; one over the squared length of ParameterUnits.
    * Features smaller than about 1 / sqrt(ScreeningWeight) follow the gradients. 0 or more, default
-   * 100.
+   * 100. A negative one is refused when the filter runs.
    */
-  vtkSetClampMacro(ScreeningWeight, double, 0.0, VTK_DOUBLE_MAX);
+  vtkSetMacro(ScreeningWeight, double);
   vtkGetMacro(ScreeningWeight, double);
   ///@}
 
@@ -117,6 +117,7 @@ protected:
 
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  void FreeStages() override;
 
   double ScreeningWeight = 100.0;
   double GradientScale = 1.0;

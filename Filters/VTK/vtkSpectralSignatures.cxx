@@ -3,7 +3,9 @@
 #include "Private/ClippedMeshWriter.h"
 #include "Private/InputArray.h"
 #include "Private/InputValidation.h"
+#include "Private/ModeCheck.h"
 #include "Private/ModeReader.h"
+#include "Private/MovedPoints.h"
 #include "Private/SolverOutput.h"
 #include "Private/SurfaceSolverState.h"
 #include "Private/SurfaceSpectrum.h"
@@ -72,7 +74,9 @@ struct vtkSpectralSignatures::Internals
   bool WasSolved = false; // else read from the input
   gridfem::InputMesh Mesh;
   gridfem::PointModes Modes;
-  gridfem::StageKey ModesKey; // what Modes were made from
+  gridfem::StageKey ModesKey;   // what Modes were made from
+  gridfem::StageKey ForeignKey; // the modes of the input that were found to be of another shape
+  std::string Misfit;           // why
 };
 
 vtkSpectralSignatures::vtkSpectralSignatures() : Data(std::make_unique<Internals>())
@@ -136,7 +140,6 @@ void vtkSpectralSignatures::ComputeModes(vtkPolyData* input, vtkPolyData* basis)
   request.numberOfModes = this->NumberOfModes;
   request.completeMultiplets = true;
   data.Solved.Update(state, input, basis, request);
-  data.WasSolved = true;
   gridfem::StageKey key;
   key.Add(true).Add(state.stages.Version(gridfem::SolveStage));
   if (key == data.ModesKey)
@@ -153,26 +156,38 @@ void vtkSpectralSignatures::ComputeModes(vtkPolyData* input, vtkPolyData* basis)
 
 void vtkSpectralSignatures::UpdateModes(vtkPolyData* input, vtkPolyData* basis)
 {
-  Internals& data = *this->Data;
   if (!gridfem::CarriesModes(input))
   {
-    this->ComputeModes(input, basis);
-    return;
+    this->Data->Misfit.clear();
+    this->Data->ForeignKey = {};
   }
-  data.WasSolved = false;
+  this->Data->WasSolved = !gridfem::CarriesModes(input) || !this->TakeModes(input);
+  if (this->Data->WasSolved)
+  {
+    this->ComputeModes(input, basis);
+  }
+}
+
+/// Takes the modes of the input. False when they are those of another shape.
+bool vtkSpectralSignatures::TakeModes(vtkPolyData* input)
+{
+  Internals& data = *this->Data;
   gridfem::StageKey key;
   key.Add(false);
   gridfem::AddMesh(key, input);
   gridfem::AddModeArrays(key, input);
-  if (key == data.ModesKey)
+  if (key == data.ModesKey || key == data.ForeignKey)
   {
-    return;
+    return key == data.ModesKey;
   }
   data.ModesKey = {};
+  data.ForeignKey = {};
   data.Mesh = gridfem::ReadInputMesh(input, this->NumberOfThreads);
   gridfem::RequireSurface(*data.Mesh.triangles);
   data.Modes = gridfem::ReadModes(input, data.Mesh);
-  data.ModesKey = key;
+  data.Misfit = gridfem::FindMisfit(*data.Mesh.triangles, data.Modes, this->NumberOfThreads);
+  (data.Misfit.empty() ? data.ModesKey : data.ForeignKey) = key;
+  return data.Misfit.empty();
 }
 
 void vtkSpectralSignatures::WriteSignatures(int precision, vtkPolyData* output)
@@ -210,6 +225,10 @@ double vtkSpectralSignatures::WorldDiffusionTime()
 void vtkSpectralSignatures::WriteDistances(vtkDataSet* sources, int precision, vtkPolyData* output)
 {
   const Internals& data = *this->Data;
+  if (sources && sources->GetNumberOfPoints() == 0)
+  {
+    vtkWarningMacro("The input Sources has no points, so no distance starts there.");
+  }
   const std::vector<gridfem::Id> points =
     gridfem::SourcePoints(*data.Mesh.triangles, data.SourceIds, sources);
   if (points.empty())
@@ -263,9 +282,7 @@ void vtkSpectralSignatures::WriteFiltered(vtkPolyData* input, vtkPolyData* outpu
   }
   else if (this->MovePoints)
   {
-    vtkNew<vtkPoints> points;
-    points->SetData(array);
-    output->SetPoints(points);
+    gridfem::MovePoints(output, array);
   }
   output->GetPointData()->AddArray(array);
   output->GetPointData()->SetActiveScalars("Filtered");
@@ -289,6 +306,11 @@ void vtkSpectralSignatures::WriteTable(vtkTable* table)
 void vtkSpectralSignatures::Warn()
 {
   const gridfem::Spectrum& spectrum = this->Data->Solved.spectrum;
+  if (!this->Data->Misfit.empty())
+  {
+    vtkWarningMacro("The modes of the input are those of another shape: "
+                    << this->Data->Misfit << ". They are left out, and computed anew.");
+  }
   if (spectrum.truncated)
   {
     vtkWarningMacro("Only " << this->Data->Solved.NumberOfModes() << " of the "
@@ -310,12 +332,16 @@ void vtkSpectralSignatures::Compute(vtkInformationVector** inputs, vtkInformatio
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
   const gridfem::Progress progress = this->State->bridge.GetProgress();
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
-  gridfem::RequireNumber("DiffusionTime", this->DiffusionTime);
+  gridfem::RequireAtLeast("DiffusionTime", this->DiffusionTime, 0.0);
   progress.Check(0.0);
   this->UpdateModes(input, vtkPolyData::GetData(inputs[1]));
   progress.Check(0.95);
   const int precision = gridfem::OutputPrecision(input->GetPoints());
   output->ShallowCopy(input);
+  if (!this->Data->Misfit.empty())
+  {
+    gridfem::RemoveModes(output);
+  }
   this->WriteSignatures(precision, output);
   output->GetPointData()->SetActiveScalars("HeatKernelSignature");
   this->WriteDistances(vtkDataSet::GetData(inputs[2]), precision, output);
@@ -330,6 +356,17 @@ void vtkSpectralSignatures::Compute(vtkInformationVector** inputs, vtkInformatio
     this->Warn();
   }
   progress.Check(1.0);
+}
+
+void vtkSpectralSignatures::FreeStages()
+{
+  this->Superclass::FreeStages();
+  Internals& data = *this->Data;
+  data.Solved.spectrum = {};
+  data.Mesh = {};
+  data.Modes = {};
+  data.ModesKey = {};
+  data.ForeignKey = {};
 }
 
 void vtkSpectralSignatures::PrintSelf(ostream& os, vtkIndent indent)

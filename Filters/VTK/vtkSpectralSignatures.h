@@ -21,6 +21,8 @@
  * `Mode001`, ...), these modes are taken, and nothing is solved; NumberOfModes, the basis and the
  * solver's properties are not used then. Else the modes are computed as Laplace Spectrum does; the
  * last group of equal eigenvalues is completed, because signatures and distances need whole groups.
+ * Modes that are not of this mesh are recognised (the integral of a squared mode is not 1, or its
+ * Rayleigh quotient not the eigenvalue): a warning says so, they are left out and computed anew.
  * Input port 1 (optional): the output of vtkConnectivityAwareBasis for the mesh of port 0. Input
  * port 2 (optional): any vtkDataSet, for example an extracted selection; the mesh points nearest to
  * its points are sources.
@@ -89,9 +91,10 @@ public:
   ///@{
   /**
    * The time of the diffusion distance, squared length of ParameterUnits: features smaller than
-   * about its root are blurred. 0 or more, default 0.01.
+   * about its root are blurred. 0 or more, default 0.01. A negative one is refused when the filter
+   * runs.
    */
-  vtkSetClampMacro(DiffusionTime, double, 0.0, VTK_DOUBLE_MAX);
+  vtkSetMacro(DiffusionTime, double);
   vtkGetMacro(DiffusionTime, double);
   ///@}
 
@@ -131,8 +134,9 @@ public:
 
   ///@{
   /**
-   * When on, and the coordinates are filtered, the points move to their filtered places. Default
-   * off.
+   * When on, and the coordinates are filtered, the points move to their filtered places; the active
+   * normals and tangents, the arrays of the clip and of the basis, and the modes are left out.
+   * Default off.
    */
   vtkSetMacro(MovePoints, bool);
   vtkGetMacro(MovePoints, bool);
@@ -156,6 +160,7 @@ protected:
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  void FreeStages() override;
 
   int NumberOfModes = 100;
   int NumberOfScales = 16;
@@ -170,6 +175,7 @@ private:
   void operator=(const vtkSpectralSignatures&) = delete;
 
   void UpdateModes(vtkPolyData* input, vtkPolyData* basis);
+  bool TakeModes(vtkPolyData* input);
   void ComputeModes(vtkPolyData* input, vtkPolyData* basis);
   void WriteSignatures(int precision, vtkPolyData* output);
   void WriteDistances(vtkDataSet* sources, int precision, vtkPolyData* output);

@@ -1,13 +1,18 @@
 #include "vtkSurfaceFEMAlgorithm.h"
 
+#include "Private/FailureDump.h"
 #include "Private/InputValidation.h"
+#include "Private/PipelineTime.h"
 #include "Private/SurfaceSolverState.h"
 
 #include "Base/LargeMemory.h"
 
+#include "vtkErrorCode.h"
+#include "vtkExecutive.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkPolyData.h"
+#include "vtkVersionMacros.h"
 
 #include <new>
 
@@ -28,7 +33,8 @@ void EmptyOutputs(vtkInformationVector* outputs)
 } // namespace
 
 vtkSurfaceFEMAlgorithm::vtkSurfaceFEMAlgorithm()
-  : State(std::make_unique<gridfem::SurfaceSolverState>(this))
+  : State(std::make_unique<gridfem::SurfaceSolverState>(this)),
+    Time(std::make_unique<gridfem::InputTime>()), Dump(std::make_unique<gridfem::FailureDump>())
 {
 }
 
@@ -42,6 +48,48 @@ int vtkSurfaceFEMAlgorithm::FillInputPortInformation(int port, vtkInformation* i
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   }
   return 1;
+}
+
+std::vector<double> vtkSurfaceFEMAlgorithm::OwnTimeSteps()
+{
+  return {};
+}
+
+/// The pipeline has handed the input's time steps on already.
+int vtkSurfaceFEMAlgorithm::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+{
+  const std::vector<double> steps = this->OwnTimeSteps();
+  if (!steps.empty())
+  {
+    gridfem::SetTimeSteps(steps, outputs);
+  }
+  return 1;
+}
+
+int vtkSurfaceFEMAlgorithm::RequestUpdateExtent(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  if (this->OwnTimeSteps().empty())
+  {
+    this->Time->Follow(inputs[0]);
+  }
+  else
+  {
+    this->Time->Fix(inputs, this->GetNumberOfInputPorts());
+  }
+  return this->Superclass::RequestUpdateExtent(request, inputs, outputs);
+}
+
+void vtkSurfaceFEMAlgorithm::WriteTimes(
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  const std::vector<double> steps = this->OwnTimeSteps();
+  if (!steps.empty())
+  {
+    gridfem::SetTimeSteps(steps, outputs);
+  }
+  gridfem::StampTime(!steps.empty(), inputs[0], outputs);
 }
 
 int vtkSurfaceFEMAlgorithm::RequestData(
@@ -68,7 +116,20 @@ int vtkSurfaceFEMAlgorithm::RequestData(
   options.parameterUnits = this->ParameterUnits;
 
   EmptyOutputs(outputs);
+  this->SetErrorCode(vtkErrorCode::NoError);
+  this->Dump->Print();
   this->State->bridge.Restart();
+  const int result = this->RunCompute(inputs, outputs);
+  if (!this->KeepStages || gridfem::IsEmpty(vtkPolyData::GetData(inputs[0])))
+  {
+    this->FreeStages();
+  }
+  return result;
+}
+
+/// What RequestData returns.
+int vtkSurfaceFEMAlgorithm::RunCompute(vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
   const gridfem::MemoryReuse reuse;
   try
   {
@@ -76,13 +137,13 @@ int vtkSurfaceFEMAlgorithm::RequestData(
     if (!gridfem::IsEmpty(vtkPolyData::GetData(inputs[0])))
     {
       this->Compute(inputs, outputs);
+      this->WriteTimes(inputs, outputs);
     }
     return 1;
   }
   catch (const gridfem::Aborted&)
   {
-    EmptyOutputs(outputs);
-    this->AbortExecute = 0; // the request is served; left standing, it would empty the next run
+    this->FinishAbort(outputs);
     return 1;
   }
   catch (const std::bad_alloc&)
@@ -94,7 +155,23 @@ int vtkSurfaceFEMAlgorithm::RequestData(
     vtkErrorMacro(<< error.what());
   }
   EmptyOutputs(outputs);
+  this->SetErrorCode(vtkErrorCode::UnknownError);
+  this->Dump->Swallow(this->GetExecutive());
   return 0;
+}
+
+void vtkSurfaceFEMAlgorithm::FreeStages()
+{
+  this->State->Free();
+}
+
+void vtkSurfaceFEMAlgorithm::FinishAbort(vtkInformationVector* outputs)
+{
+  EmptyOutputs(outputs);
+  this->AbortExecute = 0; // the request is served; left standing, it would empty the next run
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20230111)
+  this->SetAbortOutput(true); // the pipeline marks the outputs, so that nothing runs on them
+#endif
 }
 
 vtkIdType vtkSurfaceFEMAlgorithm::GetNumberOfRuns(const char* stage)
@@ -125,4 +202,5 @@ void vtkSurfaceFEMAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "ParameterUnits: " << this->ParameterUnits << "\n";
+  os << indent << "KeepStages: " << this->KeepStages << "\n";
 }

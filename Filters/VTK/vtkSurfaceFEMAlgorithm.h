@@ -8,20 +8,26 @@
  * depend on has changed, and the rule by which every filter fails:
  *
  * - An input without points gives empty outputs, silently.
- * - An unusable input gives one error message, empty outputs, and RequestData returns 0.
+ * - An unusable input gives one error message, empty outputs, and RequestData returns 0; the error
+ *   code is vtkErrorCode::UnknownError then, and the pipeline prints nothing of its own.
  * - A solver that does not converge warns, keeps its result, and sets the field array `Converged`
  *   (int, one value) to 0.
- * - An abort gives empty outputs. The filter switches AbortExecute off again, so that the next run,
- *   after a change, is a full one.
+ * - An abort gives empty outputs, which are marked as aborted, so that filters behind do not run
+ *   (VTK 9.3 and later). The filter switches AbortExecute off again, so that the next run, after a
+ *   change, is a full one.
  *
- * Input port 0 takes vtkPolyData with polygons of any size or triangle strips. Vertices and lines
- * take no part; the solvers pass them on, the clip leaves them out. Computation is in double
- * precision. Results do not depend on NumberOfThreads. The filters refuse to run on more than one
+ * Input port 0 takes vtkPolyData with polygons of any size or triangle strips. Vertices,
+ * lines, and cells that vtkGhostType marks as hidden or as duplicates take no part; the solvers pass
+ * them on, the clip leaves them out. Computation is in double precision. Results do not depend on NumberOfThreads. The filters refuse to run on more than one
  * MPI rank.
  *
  * A solver filter finds its function space in this order: on input port 0, when that is the output
  * of vtkConnectivityAwareBasis; on the optional input port 1, when that is connected, which must be
  * the output of vtkConnectivityAwareBasis for the mesh of port 0; else it builds the space itself.
+ *
+ * Time: outputs have the time steps of the input, and the input is asked for the time that they are
+ * asked for. A filter with time steps of its own, such as modes, has these instead, and asks its
+ * inputs for one fixed time: the one they were asked for last, else the one they have.
  */
 #ifndef vtkSurfaceFEMAlgorithm_h
 #define vtkSurfaceFEMAlgorithm_h
@@ -30,11 +36,14 @@
 #include "vtkPolyDataAlgorithm.h"
 
 #include <memory> // for std::unique_ptr
+#include <vector> // for std::vector
 
 namespace gridfem
 {
+class FailureDump;
+class InputTime;
 class SurfaceSolverState;
-}
+} // namespace gridfem
 
 class VTKGRIDFEMFILTERS_EXPORT vtkSurfaceFEMAlgorithm : public vtkPolyDataAlgorithm
 {
@@ -192,6 +201,17 @@ public:
   vtkGetMacro(NumberOfThreads, int);
   ///@}
 
+  ///@{
+  /**
+   * When on (default), what a run has made is kept, so that a change repeats only the steps that
+   * depend on it. When off, it is freed after every run: least memory, but every change, of the
+   * time step as well, repeats all steps. Filters that share a basis then read it from its arrays.
+   */
+  vtkSetMacro(KeepStages, bool);
+  vtkGetMacro(KeepStages, bool);
+  vtkBooleanMacro(KeepStages, bool);
+  ///@}
+
   enum ParameterUnitsType
   {
     World = 0,
@@ -227,6 +247,17 @@ protected:
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
 
+  int RequestInformation(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) final;
+  int RequestUpdateExtent(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) final;
+
+  /**
+   * The time steps, ascending, of a filter that shows something of its own by time; empty (default)
+   * where the times are those of the input. Asked again after Compute, which may find other steps.
+   */
+  virtual std::vector<double> OwnTimeSteps();
+
   /**
    * Applies the failure rule around Compute.
    */
@@ -237,6 +268,11 @@ protected:
    * What the filter does with a non-empty input. Throws on unusable input and on abort.
    */
   virtual void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) = 0;
+
+  /**
+   * Frees all that was made for the next runs. A filter adds what it keeps itself.
+   */
+  virtual void FreeStages();
 
   int Depth = 7;
   bool ConnectivityAware = true;
@@ -253,12 +289,20 @@ protected:
   int MaximumIterations = 100;
   int NumberOfThreads = 0;
   int ParameterUnits = UnitArea;
+  bool KeepStages = true;
 
   std::unique_ptr<gridfem::SurfaceSolverState> State;
 
 private:
   vtkSurfaceFEMAlgorithm(const vtkSurfaceFEMAlgorithm&) = delete;
   void operator=(const vtkSurfaceFEMAlgorithm&) = delete;
+
+  int RunCompute(vtkInformationVector** inputs, vtkInformationVector* outputs);
+  void FinishAbort(vtkInformationVector* outputs);
+  void WriteTimes(vtkInformationVector** inputs, vtkInformationVector* outputs);
+
+  std::unique_ptr<gridfem::InputTime> Time;
+  std::unique_ptr<gridfem::FailureDump> Dump;
 };
 
 #endif

@@ -8,9 +8,11 @@
 #include "vtkClipToOctree.h"
 
 #include "vtkFloatArray.h"
+#include "vtkIdTypeArray.h"
 #include "vtkIntArray.h"
 #include "vtkStringArray.h"
 #include "vtkTriangle.h"
+#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <gtest/gtest.h>
@@ -294,10 +296,80 @@ TEST(ClipToOctree, PointArraysAreInterpolatedLinearly)
     const Vec3 p(output->GetPoint(k)); // a linear function of space is linear on every triangle
     EXPECT_NEAR(linear->GetComponent(k, 1), 1 + 2 * p[0] - p[2], 1e-12);
   }
-  EXPECT_EQ(output->GetPointData()->GetArray("integer")->GetDataType(), VTK_DOUBLE);
   EXPECT_EQ(output->GetPointData()->GetAbstractArray("text")->GetNumberOfTuples(),
     output->GetNumberOfPoints());
   EXPECT_EQ(FieldValue(output, "field"), 3);
+}
+
+/// Whether a value is one of the corners' of the source triangle.
+bool IsOfACorner(vtkPolyData* input, vtkIdType cell, vtkDataArray* array, double value)
+{
+  vtkNew<vtkIdList> corners;
+  input->GetCellPoints(cell, corners);
+  return std::any_of(corners->begin(), corners->end(),
+    [&](vtkIdType corner) { return array->GetComponent(corner, 0) == value; });
+}
+
+TEST(ClipToOctree, WhatCannotBeAveragedIsNot)
+{
+  auto input = ToPolyData(GeodesicSphere(5));
+  vtkNew<vtkIntArray> label;
+  label->SetName("label");
+  vtkNew<vtkUnsignedCharArray> color;
+  color->SetName("color");
+  color->SetNumberOfComponents(3);
+  vtkNew<vtkUnsignedCharArray> ghosts;
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  vtkNew<vtkIdTypeArray> ids;
+  ids->SetName("ids");
+  vtkNew<vtkIntArray> pedigree;
+  pedigree->SetName("pedigree");
+  for (vtkIdType k = 0; k < input->GetNumberOfPoints(); ++k)
+  {
+    label->InsertNextValue(int(1000 * k));
+    const double red = std::round(100.0 + 50.0 * input->GetPoint(k)[0]);
+    color->InsertNextTuple3(red, 255, 0);
+    ghosts->InsertNextValue(k % 3 ? 0 : vtkDataSetAttributes::DUPLICATEPOINT);
+    ids->InsertNextValue(k);
+    pedigree->InsertNextValue(int(k));
+  }
+  input->GetPointData()->AddArray(label);
+  input->GetPointData()->SetScalars(color);
+  input->GetPointData()->AddArray(ghosts);
+  input->GetPointData()->SetGlobalIds(ids);
+  input->GetPointData()->SetPedigreeIds(pedigree);
+
+  vtkNew<vtkClipToOctree> filter;
+  filter->SetDepth(4);
+  filter->SetInputData(input);
+  vtkPolyData* output = Clipped(filter);
+  vtkPointData* arrays = output->GetPointData();
+  EXPECT_FALSE(arrays->HasArray("ids") || arrays->GetGlobalIds());
+  EXPECT_FALSE(arrays->HasArray("pedigree") || arrays->GetPedigreeIds());
+  auto* colors = vtkUnsignedCharArray::SafeDownCast(arrays->GetArray("color"));
+  auto* labels = vtkIntArray::SafeDownCast(arrays->GetArray("label"));
+  auto* flags =
+    vtkUnsignedCharArray::SafeDownCast(arrays->GetArray(vtkDataSetAttributes::GhostArrayName()));
+  ASSERT_TRUE(colors && labels && flags);
+  EXPECT_EQ(arrays->GetScalars(), colors);
+  for (vtkIdType k = 0; k < output->GetNumberOfPoints(); ++k)
+  {
+    // The colours of the corners were rounded, and so is their mean: half a step each.
+    EXPECT_NEAR(colors->GetTypedComponent(k, 0), 100.0 + 50.0 * output->GetPoint(k)[0], 1.001);
+    EXPECT_EQ(colors->GetTypedComponent(k, 1), 255);
+  }
+  const auto source = Values(output->GetCellData()->GetArray("SourceCellId"));
+  vtkNew<vtkIdList> points;
+  for (vtkIdType cell = 0; cell < output->GetNumberOfCells(); ++cell)
+  {
+    output->GetCellPoints(cell, points);
+    for (const vtkIdType point : *points)
+    {
+      // A cut point on an edge takes the corner from either of its triangles: both have the edge.
+      EXPECT_TRUE(IsOfACorner(input, vtkIdType(source[cell]), label, labels->GetValue(point)));
+      EXPECT_TRUE(IsOfACorner(input, vtkIdType(source[cell]), ghosts, flags->GetValue(point)));
+    }
+  }
 }
 
 TEST(ClipToOctree, AnArrayOfWrongLengthIsRefusedByName)

@@ -11,9 +11,13 @@
 
 #include "vtkDummyCommunicator.h"
 #include "vtkDummyController.h"
+#include "vtkErrorCode.h"
 #include "vtkFloatArray.h"
+#include "vtkInformation.h"
 #include "vtkObjectFactory.h"
 #include "vtkStringArray.h"
+#include "vtkStringOutputWindow.h"
+#include "vtkVersionMacros.h"
 
 #include <gtest/gtest.h>
 
@@ -286,19 +290,149 @@ TEST_P(FailureRule, AnAbortGivesEmptyOutputs)
   this->ExpectComputed(data); // nothing half done is left
 }
 
-TEST_P(FailureRule, ProgressRisesFromZeroToOne)
+/// Records the progress of a filter, and aborts it at a progress.
+struct ProgressRecord
 {
   std::vector<double> progress;
-  vtkNew<vtkCallbackCommand> record;
-  record->SetClientData(&progress);
-  record->SetCallback([](vtkObject*, unsigned long, void* list, void* fraction)
-    { static_cast<std::vector<double>*>(list)->push_back(*static_cast<double*>(fraction)); });
-  filter->AddObserver(vtkCommand::ProgressEvent, record);
-  this->ExpectComputed(ToPolyData(GeodesicSphere(4)));
-  ASSERT_FALSE(progress.empty());
-  EXPECT_TRUE(std::is_sorted(progress.begin(), progress.end()));
-  EXPECT_GE(progress.front(), 0.0);
-  EXPECT_LE(progress.back(), 1.0);
+  double abortAt = 2.0;
+  double abortedAt = -1.0;
+
+  static void Add(vtkObject* caller, unsigned long, void* self, void* fraction)
+  {
+    auto* record = static_cast<ProgressRecord*>(self);
+    record->progress.push_back(*static_cast<double*>(fraction));
+    if (record->progress.back() >= record->abortAt && record->abortedAt < 0.0)
+    {
+      record->abortedAt = record->progress.back();
+      vtkAlgorithm::SafeDownCast(caller)->AbortExecuteOn();
+    }
+  }
+};
+
+TEST_P(FailureRule, ProgressRisesStrictlyFromZeroToOne)
+{
+  ProgressRecord record;
+  vtkNew<vtkCallbackCommand> add;
+  add->SetClientData(&record);
+  add->SetCallback(&ProgressRecord::Add);
+  filter->AddObserver(vtkCommand::ProgressEvent, add);
+  for (int run = 0; run < 2; ++run)
+  {
+    record.progress.clear();
+    filter->Modified();
+    this->ExpectComputed(ToPolyData(GeodesicSphere(4)));
+    ASSERT_GE(record.progress.size(), 2u);
+    EXPECT_GE(record.progress.front(), 0.0);
+    for (std::size_t k = 1; k < record.progress.size(); ++k)
+    {
+      EXPECT_GT(record.progress[k], record.progress[k - 1])
+        << k << " of " << record.progress.size();
+    }
+    EXPECT_EQ(record.progress.back(), 1.0);
+    EXPECT_TRUE(run > 0 || record.progress.size() >= 5) << "a course, not only the two ends";
+  }
+}
+
+TEST_P(FailureRule, AnAbortAtAnyProgressGivesEmptyOutputs)
+{
+  ProgressRecord record;
+  vtkNew<vtkCallbackCommand> add;
+  add->SetClientData(&record);
+  add->SetCallback(&ProgressRecord::Add);
+  filter->AddObserver(vtkCommand::ProgressEvent, add);
+  filter->KeepStagesOff(); // so that every run is the same
+  auto data = ToPolyData(GeodesicSphere(4));
+  this->ExpectComputed(data);
+  const std::vector<double> course = record.progress; // the last is the pipeline's own
+  ASSERT_GE(course.size(), 3u);
+  for (const double at : { course.front(), course[course.size() / 2], course[course.size() - 2] })
+  {
+    record = {};
+    record.abortAt = at;
+    filter->Modified();
+    EXPECT_EQ(this->Run(data), 1);
+    EXPECT_GE(record.abortedAt, at);
+    EXPECT_LT(record.abortedAt, 1.0) << at; // what the pipeline reports when all is done
+    EXPECT_TRUE(messages.errors.empty());
+    this->ExpectEmptyOutputs();
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20230111)
+    EXPECT_EQ(filter->GetOutputInformation(0)->Get(vtkAlgorithm::ABORTED()), 1);
+#endif
+    filter->Modified();
+    this->ExpectComputed(data); // nothing half done is left
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20230111)
+    EXPECT_EQ(filter->GetOutputInformation(0)->Get(vtkAlgorithm::ABORTED()), 0);
+#endif
+  }
+}
+
+TEST_P(FailureRule, AFailurePrintsOneMessageAndSetsTheErrorCode)
+{
+  vtkSmartPointer<vtkOutputWindow> former = vtkOutputWindow::GetInstance();
+  auto filterThatPrints = GetParam().make();
+  filterThatPrints->SetDepth(4);
+  auto data = ToPolyData(GeodesicSphere(2));
+  data->SetPolys(vtkNew<vtkCellArray>());
+  filterThatPrints->SetInputDataObject(0, data);
+  for (int run = 0; run < 2; ++run)
+  {
+    vtkNew<vtkStringOutputWindow> window;
+    vtkOutputWindow::SetInstance(window);
+    filterThatPrints->Modified();
+    EXPECT_EQ(filterThatPrints->GetExecutive()->Update(), 0);
+    const std::string text = window->GetOutput();
+    EXPECT_NE(text.find("no polygons"), std::string::npos) << text;
+    EXPECT_EQ(text.find("returned failure"), std::string::npos) << text;
+    EXPECT_NE(filterThatPrints->GetErrorCode(), vtkErrorCode::NoError);
+  }
+  EXPECT_FALSE(filterThatPrints->GetExecutive()->HasObserver(vtkCommand::ErrorEvent));
+  filterThatPrints->SetInputDataObject(0, ToPolyData(GeodesicSphere(4)));
+  EXPECT_EQ(filterThatPrints->GetExecutive()->Update(), 1);
+  EXPECT_EQ(filterThatPrints->GetErrorCode(), vtkErrorCode::NoError);
+  vtkOutputWindow::SetInstance(former);
+}
+
+TEST_P(FailureRule, MemoryIsFreedOnAnEmptyInput)
+{
+  auto data = ToPolyData(GeodesicSphere(4));
+  this->ExpectComputed(data);
+  vtkNew<vtkPolyData> empty;
+  this->Run(empty);
+  this->ExpectComputed(data);
+  EXPECT_EQ(filter->GetNumberOfRuns("Space"), 2);
+}
+
+TEST_P(FailureRule, WithoutKeptStagesEveryRunIsAFirstOne)
+{
+  auto data = ToPolyData(GeodesicSphere(4));
+  this->ExpectComputed(data);
+  const auto kept = GetParam().result
+                      ? PointValues(filter->GetOutputDataObject(0), GetParam().result)
+                      : std::vector<double>{};
+  filter->KeepStagesOff();
+  for (int run = 1; run < 3; ++run)
+  {
+    filter->Modified();
+    this->ExpectComputed(data);
+    if (GetParam().result)
+    {
+      EXPECT_EQ(PointValues(filter->GetOutputDataObject(0), GetParam().result), kept);
+    }
+  }
+  EXPECT_GE(filter->GetNumberOfRuns("Space"), 2);
+}
+
+TEST_P(FailureRule, ThreadsRepeatNoStage)
+{
+  auto data = ToPolyData(GeodesicSphere(4));
+  filter->SetNumberOfThreads(1);
+  this->ExpectComputed(data);
+  filter->SetNumberOfThreads(2);
+  this->ExpectComputed(data);
+  for (int stage = 0; stage < vtkSurfaceFEMAlgorithm::NumberOfStages; ++stage)
+  {
+    EXPECT_LE(filter->GetNumberOfRuns(stage), 1) << stage;
+  }
 }
 
 TEST_P(FailureRule, TheInputIsNotChanged)

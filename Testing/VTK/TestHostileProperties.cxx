@@ -118,6 +118,30 @@ TEST_P(HostileProperties, InfinityIsClampedOrRefused)
   }
 }
 
+TEST_P(HostileProperties, WhatIsBelowTheLeastIsRefusedAndNotClamped)
+{
+  vtkNew<vtkScreenedPoisson> poisson;
+  poisson->SetScreeningWeight(-1.0);
+  vtkNew<vtkLaplaceSpectrum> spectrum;
+  spectrum->SetMode(-2);
+  vtkNew<vtkSpectralSignatures> signatures;
+  signatures->SetNumberOfModes(10);
+  signatures->SetDiffusionTime(-0.1);
+  const std::pair<vtkSurfaceFEMAlgorithm*, const char*> cases[] = { { poisson,
+                                                                      "ScreeningWeight is -1" },
+    { spectrum, "Mode is -2" }, { signatures, "DiffusionTime is -0.1" } };
+  for (const auto& [filter, message] : cases)
+  {
+    filter->SetDepth(3);
+    filter->SetFunctionSpace(this->GetParam());
+    filter->SetInputDataObject(ToPolyData(GeodesicSphere(4)));
+    const Messages messages(filter);
+    EXPECT_EQ(filter->GetExecutive()->Update(), 0) << message;
+    ASSERT_EQ(messages.errors.size(), 1u) << message;
+    EXPECT_NE(messages.errors[0].find(message), std::string::npos) << messages.errors[0];
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(BothSpaces, HostileProperties,
   ::testing::Values(int(vtkSurfaceFEMAlgorithm::Grid), int(vtkSurfaceFEMAlgorithm::HatFunctions)),
   [](const auto& space) { return std::string(space.param == 0 ? "Grid" : "HatFunctions"); });

@@ -210,6 +210,28 @@ TEST_F(Pipeline, TwoSolversShareOneSystem)
   EXPECT_EQ(FieldValue(spectrum->GetOutput(), "Converged"), 1);
 }
 
+TEST_F(Pipeline, ANaNInAnUnusedPointDoesNotDefeatASharedBasis)
+{
+  const double nowhere[] = { std::nan(""), 0, 0 };
+  input->GetPoints()->InsertNextPoint(nowhere);
+  AddPointArray(input, "f", 1, [](const Vec3& p, int) { return p[1]; });
+  auto alone = this->Solve(input);
+  directBasis->Update();
+  auto shared = this->Solve(input, directBasis->GetOutput());
+  alone.pop_back();
+  shared.pop_back();
+  EXPECT_EQ(shared, alone); // exactly: the basis is taken as it is
+}
+
+TEST_F(Pipeline, WithoutKeptStagesABasisIsReadFromItsArrays)
+{
+  const auto alone = this->Solve(input);
+  directBasis->KeepStagesOff();
+  directBasis->Update();
+  EXPECT_LT(Difference(this->Solve(input, directBasis->GetOutput()), alone), SameAnswer);
+  EXPECT_LT(Difference(this->Solve(directBasis->GetOutput()), alone), SameAnswer);
+}
+
 TEST_F(Pipeline, AnArrayChangedBeforeTheChainDoesNotRebuildIt)
 {
   solver->SetInputConnection(0, basis->GetOutputPort());

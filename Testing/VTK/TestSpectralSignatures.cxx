@@ -170,6 +170,32 @@ TEST_F(SpectralSignaturesFilter, ASourceThatIsNoPointIsRefused)
   EXPECT_NE(messages.errors[0].find("SourcePointIds"), std::string::npos);
 }
 
+TEST_F(SpectralSignaturesFilter, SourcesThatAreNowhereAreRefusedByName)
+{
+  for (const double wrong : { double(NAN), double(INFINITY) })
+  {
+    vtkNew<vtkPolyData> places;
+    vtkNew<vtkPoints> points;
+    points->InsertNextPoint(1, 0, 0);
+    points->InsertNextPoint(0, wrong, 0);
+    places->SetPoints(points);
+    filter->SetInputDataObject(2, places);
+    messages.errors.clear();
+    EXPECT_EQ(filter->GetExecutive()->Update(), 0);
+    ASSERT_EQ(messages.errors.size(), 1u);
+    EXPECT_NE(messages.errors[0].find("Sources: point 1"), std::string::npos);
+  }
+}
+
+TEST_F(SpectralSignaturesFilter, SourcesWithoutPointsWarn)
+{
+  vtkNew<vtkPolyData> places;
+  filter->SetInputDataObject(2, places);
+  EXPECT_TRUE(this->Run("BiharmonicDistance").empty());
+  ASSERT_EQ(messages.warnings.size(), 1u);
+  EXPECT_NE(messages.warnings[0].find("Sources has no points"), std::string::npos);
+}
+
 TEST_F(SpectralSignaturesFilter, AModeInsideTheBandPassesUnchanged)
 {
   auto data = this->WithModes(25);

@@ -14,10 +14,6 @@ namespace gridfem
 namespace
 {
 
-/// Points agree when they differ by less than this part of a cell: covers the rounding of points
-/// that were stored in single precision, as long as a cell can be told from its neighbour.
-constexpr double SamePoint = 1e-3;
-
 /// A clipped triangle belongs to a source triangle that it is nearer to than this part of a cell:
 /// covers cut points in single precision.
 constexpr double SameTriangle = 0.05;
@@ -29,14 +25,17 @@ constexpr double SameTriangle = 0.05;
     " Connect the mesh that went into the basis filter, or the output of the basis filter itself.");
 }
 
-/// Corners of the clipped triangles: the fan of every piece.
-TriangleMesh FanTriangles(const ClippedMesh& clipped)
+/// Corners of the clipped triangles: the fan of every piece. The points are exactly those that the
+/// basis filter puts out in double precision.
+TriangleMesh FanTriangles(const SurfaceBasis& basis)
 {
+  const ClippedMesh& clipped = basis.space->clipped;
   TriangleMesh mesh;
+  mesh.points = basis.mesh->points;
   mesh.points.reserve(clipped.position.size());
-  for (const Vec3& position : clipped.position)
+  for (std::size_t point = mesh.points.size(); point < clipped.position.size(); ++point)
   {
-    mesh.points.push_back(clipped.grid.ToWorld(position));
+    mesh.points.push_back(clipped.grid.ToWorld(clipped.position[point]));
   }
   mesh.triangles.reserve(clipped.NumberOfTriangles());
   for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
@@ -163,18 +162,23 @@ Id FindSourceTriangle(
   return best;
 }
 
-void RequireSamePoints(const ClippedMesh& clipped, const TriangleMesh& source)
+/// Whether a point was stored from the given one, in double or in single precision.
+bool IsStored(const Vec3& stored, const Vec3& given)
 {
-  if (clipped.position.size() < source.points.size())
+  return stored == given || stored == Vec3(given.cast<float>().cast<double>());
+}
+
+void RequireSamePoints(const TriangleMesh& stored, const TriangleMesh& source)
+{
+  if (stored.points.size() < source.points.size())
   {
-    RefuseForeignBasis("it has " + std::to_string(clipped.position.size()) +
+    RefuseForeignBasis("it has " + std::to_string(stored.points.size()) +
                        " points, this mesh has " + std::to_string(source.points.size()) + ".");
   }
   const std::vector<char> used = UsedPoints(source);
   for (std::size_t point = 0; point < source.points.size(); ++point)
   {
-    const Vec3 difference = clipped.grid.ToGrid(source.points[point]) - clipped.position[point];
-    if (used[point] && !(difference.cwiseAbs().maxCoeff() <= SamePoint))
+    if (used[point] && !IsStored(stored.points[point], source.points[point]))
     {
       RefuseForeignBasis("point " + std::to_string(point) + " is elsewhere.");
     }
@@ -198,7 +202,7 @@ void RequireSameArea(const TriangleMesh& clipped, const TriangleMesh& source)
 SurfaceBasis OnClippedMesh(const SurfaceBasis& basis)
 {
   GridFunctions space = *basis.space;
-  auto mesh = std::make_shared<TriangleMesh>(FanTriangles(space.clipped));
+  auto mesh = std::make_shared<TriangleMesh>(FanTriangles(basis));
   SplitPieces(*mesh, space);
   space.clipped.numberOfInputPoints = static_cast<Id>(mesh->points.size());
   space.clipped.cutPoints.clear();
@@ -214,7 +218,7 @@ SurfaceBasis OnClippedMesh(const SurfaceBasis& basis)
 SurfaceBasis OnSourceMesh(
   const SurfaceBasis& basis, const std::vector<Id>& sourceCell, const InputMesh& source)
 {
-  RequireSamePoints(basis.space->clipped, *source.triangles);
+  RequireSamePoints(*basis.mesh, *source.triangles);
   RequireSameArea(*basis.mesh, *source.triangles);
 
   GridFunctions space = *basis.space;

@@ -8,9 +8,11 @@
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <string>
 
@@ -19,9 +21,8 @@ namespace gridfem
 namespace
 {
 
-/// How far, in cells, a point may lie outside its cell: what single precision does to cut points of
-/// a deep octree far from the origin.
-constexpr double OutsideCell = 0.05;
+/// How far, in cells, a point may lie outside its cell but for the rounding of its coordinates.
+constexpr double OutsideCell = 1e-9;
 
 vtkDataArray* RequireArray(vtkFieldData* fields, const char* name, int components, Id tuples)
 {
@@ -126,7 +127,15 @@ void ReadPieces(vtkPolyData* data, const InputMesh& mesh, ClippedMesh& clipped)
   }
 }
 
-void RequireInsideCells(const ClippedMesh& clipped)
+/// What a coordinate may be off, relative to its size: it was stored, and then taken to the grid.
+double RoundingOf(vtkPolyData* data)
+{
+  const bool isSingle = data->GetPoints()->GetDataType() == VTK_FLOAT;
+  return isSingle ? std::numeric_limits<float>::epsilon()
+                  : 8.0 * std::numeric_limits<double>::epsilon();
+}
+
+void RequireInsideCells(const ClippedMesh& clipped, const TriangleMesh& mesh, double rounding)
 {
   const Array<Index> pieceCell = PieceCells(clipped);
   for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
@@ -135,7 +144,9 @@ void RequireInsideCells(const ClippedMesh& clipped)
     for (Id k = clipped.pieceBegin[piece]; k < clipped.pieceBegin[piece + 1]; ++k)
     {
       const Vec3 local = clipped.position[clipped.corners[k]] - Vec3(cell[0], cell[1], cell[2]);
-      if (!(local.minCoeff() >= -OutsideCell && local.maxCoeff() <= 1.0 + OutsideCell))
+      const double size = mesh.points[clipped.corners[k]].cwiseAbs().maxCoeff();
+      const double outside = OutsideCell + rounding * size / clipped.grid.spacing;
+      if (!(local.minCoeff() >= -outside && local.maxCoeff() <= 1.0 + outside))
       {
         throw InvalidInput(
           "Point " + std::to_string(clipped.corners[k]) +
@@ -146,8 +157,16 @@ void RequireInsideCells(const ClippedMesh& clipped)
   }
 }
 
+/// Whether a point of ours, stored, is theirs. Points with NaN, which no triangle uses, are let
+/// through.
+bool IsStoredAs(const Vec3& ours, const Vec3& theirs, bool isSingle)
+{
+  const Vec3 stored = isSingle ? Vec3(ours.cast<float>().cast<double>()) : ours;
+  return stored == theirs || theirs.hasNaN();
+}
+
 /// Whether the points and triangles of the shortcut are those of the data.
-bool Fits(const SurfaceBasis& basis, const InputMesh& mesh)
+bool Fits(const SurfaceBasis& basis, vtkPolyData* data, const InputMesh& mesh)
 {
   const TriangleMesh& ours = *basis.mesh;
   const TriangleMesh& theirs = *mesh.triangles;
@@ -155,14 +174,10 @@ bool Fits(const SurfaceBasis& basis, const InputMesh& mesh)
   {
     return false;
   }
-  const double spacing = basis.space->GetGrid().spacing;
+  const bool isSingle = data->GetPoints()->GetDataType() == VTK_FLOAT;
   for (std::size_t point = 0; point < ours.points.size(); ++point)
   {
-    constexpr double rounding = 1.2e-7; // of single precision
-    const Vec3 difference = (ours.points[point] - theirs.points[point]).cwiseAbs();
-    const double allowed = 1e-6 * spacing + rounding * ours.points[point].cwiseAbs().maxCoeff();
-    // Written so that points with NaN, which no triangle uses, are let through.
-    if (difference.maxCoeff() > allowed)
+    if (!IsStoredAs(ours.points[point], theirs.points[point], isSingle))
     {
       return false;
     }
@@ -172,8 +187,21 @@ bool Fits(const SurfaceBasis& basis, const InputMesh& mesh)
 
 bool IsMadeFrom(const SurfaceBasis& basis, const InputMesh& source)
 {
-  return basis.mesh->points == source.triangles->points &&
-         basis.mesh->triangles == source.triangles->triangles;
+  const TriangleMesh& ours = *basis.mesh;
+  const TriangleMesh& theirs = *source.triangles;
+  if (ours.points.size() != theirs.points.size() || ours.triangles != theirs.triangles)
+  {
+    return false;
+  }
+  const std::vector<char> used = UsedPoints(theirs); // the others may be NaN, equal to nothing
+  for (std::size_t point = 0; point < used.size(); ++point)
+  {
+    if (used[point] && ours.points[point] != theirs.points[point])
+    {
+      return false;
+    }
+  }
+  return true;
 }
 
 PatchLevel ReadFinestLevel(vtkFieldData* fields, const ClippedMesh& clipped)
@@ -261,7 +289,7 @@ ClippedMesh ReadClippedMesh(
   }
   progress.Check(0.1);
   ReadPieces(data, mesh, clipped);
-  RequireInsideCells(clipped);
+  RequireInsideCells(clipped, *mesh.triangles, RoundingOf(data));
   progress.Check(0.4);
   const Array<Index> pointClass =
     weldCoincidentPoints ? WeldCoincidentPoints(mesh.triangles->points, UsedPoints(*mesh.triangles))
@@ -282,7 +310,7 @@ SurfaceBasis ReadBasis(vtkPolyData* data, const InputMesh& mesh, const Progress&
   if (holder)
   {
     SurfaceBasis basis = holder->OnClippedMesh();
-    if (Fits(basis, mesh))
+    if (Fits(basis, data, mesh))
     {
       return basis;
     }

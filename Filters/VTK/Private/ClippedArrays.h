@@ -25,6 +25,13 @@ constexpr const char* NumberOfBasisFunctionsName = "NumberOfBasisFunctions";
 constexpr const char* ConnectivityAwareName = "ConnectivityAware";
 constexpr const char* WeldCoincidentPointsName = "WeldCoincidentPoints";
 
+/// Whether a cell array, or a field array, of this name (may be null) is one of a clip or a basis.
+bool IsClipCellArray(const char* name);
+bool IsClipFieldArray(const char* name);
+
+/// Takes the arrays of the clip and of the basis away.
+void RemoveClipArrays(vtkPolyData* data);
+
 /// Whether the vtkPolyData is the output of Clip To Octree (or of the basis filter).
 bool CarriesClip(vtkPolyData* data);
 

@@ -21,7 +21,6 @@
 #include "vtkTypeInt64Array.h"
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 
 namespace gridfem
@@ -170,29 +169,7 @@ void AddGrid(const ClippedMesh& clipped, vtkPolyData* output)
   AddInt(output, GridDepthName, clipped.grid.depth);
 }
 
-/// Field arrays of an earlier clip, when the input is the output of one of our filters.
-bool IsClipField(const char* name)
-{
-  const auto isName = [name](const char* other) { return name && std::strcmp(name, other) == 0; };
-  return isName(OctreeCellsName) || isName(GridOriginName) || isName(GridSpacingName) ||
-         isName(GridDepthName) || isName(WeldCoincidentPointsName) || isName(PatchCellIdName) ||
-         isName(PatchBasisIdsName) || isName(NumberOfBasisFunctionsName) ||
-         isName(ConnectivityAwareName);
-}
-
 } // namespace
-
-bool CarriesClip(vtkPolyData* data)
-{
-  return data && data->GetFieldData()->HasArray(OctreeCellsName) &&
-         data->GetCellData()->HasArray(OctreeCellIdName);
-}
-
-bool CarriesBasis(vtkPolyData* data)
-{
-  return CarriesClip(data) && data->GetFieldData()->HasArray(PatchBasisIdsName) &&
-         data->GetCellData()->HasArray(PatchIdName);
-}
 
 int OutputPrecision(vtkPoints* input)
 {
@@ -221,7 +198,7 @@ void AddInputArrays(vtkPolyData* input, const InputMesh& mesh, const ClippedMesh
   for (int k = 0; k < fields->GetNumberOfArrays(); ++k)
   {
     vtkAbstractArray* array = fields->GetAbstractArray(k);
-    if (!IsClipField(array->GetName()))
+    if (!IsClipFieldArray(array->GetName())) // those of an earlier clip
     {
       output->GetFieldData()->AddArray(array);
     }

@@ -5,6 +5,7 @@
 #include "Base/Parallel.h"
 
 #include "vtkCellArray.h"
+#include "vtkCellData.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPoints.h"
@@ -12,6 +13,7 @@
 #include "vtkPolygon.h"
 #include "vtkTypeInt32Array.h"
 #include "vtkTypeInt64Array.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <Eigen/Geometry>
 
@@ -241,6 +243,33 @@ void ForEachCell(vtkCellArray* cells, Id firstCell, const Progress& progress, Ad
   }
 }
 
+/// Takes away the triangles of cells that are hidden or duplicates.
+void RemoveGhosts(vtkPolyData* input, InputMesh& mesh, TriangleMesh& triangles)
+{
+  auto* ghosts = vtkArrayDownCast<vtkUnsignedCharArray>(
+    input->GetCellData()->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()));
+  if (!ghosts || ghosts->GetNumberOfTuples() != input->GetNumberOfCells())
+  {
+    return;
+  }
+  constexpr int left = vtkDataSetAttributes::HIDDENCELL | vtkDataSetAttributes::DUPLICATECELL;
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < mesh.sourceCell.size(); ++t)
+  {
+    if ((ghosts->GetValue(mesh.sourceCell[t]) & left) == 0)
+    {
+      triangles.triangles[kept] = triangles.triangles[t];
+      mesh.sourceCell[kept++] = mesh.sourceCell[t];
+    }
+  }
+  triangles.triangles.resize(kept);
+  mesh.sourceCell.resize(kept);
+  if (kept == 0)
+  {
+    throw InvalidInput("All polygons are marked by vtkGhostType as hidden or as duplicates.");
+  }
+}
+
 } // namespace
 
 InputMesh ReadInputMesh(vtkPolyData* input, int threads, const Progress& progress)
@@ -265,6 +294,7 @@ InputMesh ReadInputMesh(vtkPolyData* input, int threads, const Progress& progres
     throw InvalidInput("The input has no polygons and no triangle strips. A surface is needed: "
                        "Extract Surface makes one from a volume mesh, Delaunay 2D from points.");
   }
+  RemoveGhosts(input, mesh, *triangles);
   mesh.triangles = std::move(triangles);
   return mesh;
 }

@@ -23,8 +23,9 @@ struct InputMesh
 };
 
 /// Decomposes polygons of any size, concave ones too, and strips. Vertices, lines and polygons with
-/// fewer than three corners are left out. Throws InvalidInput when nothing is left, or naming the
-/// first cell with a point that does not exist.
+/// fewer than three corners are left out, and so are cells that vtkGhostType marks as hidden or as
+/// duplicates of cells elsewhere. Throws InvalidInput when nothing is left, or naming the first
+/// cell with a point that does not exist.
 InputMesh ReadInputMesh(vtkPolyData* input, int threads, const Progress& progress = {});
 
 /// The triangles of one cell: indices [first, second) into InputMesh::triangles.

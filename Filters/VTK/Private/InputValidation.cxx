@@ -46,6 +46,16 @@ void RequireNumber(const char* property, double value)
   }
 }
 
+void RequireAtLeast(const char* property, double value, double least)
+{
+  if (!std::isfinite(value) || value < least)
+  {
+    std::ostringstream message;
+    message << property << " is " << value << "; it must be " << least << " or more.";
+    throw InvalidInput(message.str());
+  }
+}
+
 void RequireSingleProcess()
 {
   vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();

@@ -15,6 +15,9 @@ bool IsEmpty(vtkPolyData* input);
 /// Throws InvalidInput, naming the property, when its value is NaN, which passes every clamp.
 void RequireNumber(const char* property, double value);
 
+/// The same for a value that is not finite or below `least`.
+void RequireAtLeast(const char* property, double value, double least);
+
 /// Throws InvalidInput on more than one MPI rank, because every rank would solve on its own piece
 /// as if that were the whole surface.
 void RequireSingleProcess();

@@ -10,8 +10,10 @@
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkSmartPointer.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace gridfem
@@ -37,10 +39,22 @@ void CopyNames(vtkAbstractArray* from, vtkAbstractArray* to)
   to->CopyComponentNames(from);
 }
 
-vtkSmartPointer<vtkAbstractArray> Interpolate(
+/// Colours are bytes with three or four components, and may be mixed; a label may not.
+bool IsColor(vtkAbstractArray* array)
+{
+  const int components = array->GetNumberOfComponents();
+  return array->GetDataType() == VTK_UNSIGNED_CHAR && (components == 3 || components == 4);
+}
+
+bool IsReal(vtkAbstractArray* array)
+{
+  return array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
+}
+
+vtkSmartPointer<vtkDataArray> Interpolate(
   vtkDataArray* input, const TriangleMesh& mesh, const ClippedMesh& clipped, int threads)
 {
-  vtkNew<vtkDoubleArray> output;
+  auto output = vtkSmartPointer<vtkDoubleArray>::New();
   CopyNames(input, output);
   output->SetNumberOfTuples(static_cast<vtkIdType>(clipped.position.size()));
   const int components = input->GetNumberOfComponents();
@@ -77,6 +91,23 @@ vtkSmartPointer<vtkAbstractArray> Interpolate(
       }
     });
   return output;
+}
+
+/// Means of bytes lie between them, so that nothing but rounding is to do.
+vtkSmartPointer<vtkDataArray> ToColor(vtkDataArray* values)
+{
+  auto color = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  CopyNames(values, color);
+  color->SetNumberOfTuples(values->GetNumberOfTuples());
+  for (vtkIdType tuple = 0; tuple < values->GetNumberOfTuples(); ++tuple)
+  {
+    for (int c = 0; c < values->GetNumberOfComponents(); ++c)
+    {
+      const long rounded = std::lround(values->GetComponent(tuple, c));
+      color->SetTypedComponent(tuple, c, static_cast<unsigned char>(rounded));
+    }
+  }
+  return color;
 }
 
 /// Values that cannot be averaged.
@@ -129,9 +160,14 @@ void InterpolatePointArrays(vtkPointData* input, const TriangleMesh& mesh,
     {
       output->AddArray(array);
     }
-    else if (auto* numbers = vtkDataArray::SafeDownCast(array))
+    else if (array == input->GetGlobalIds() || array == input->GetPedigreeIds())
     {
-      output->AddArray(Interpolate(numbers, mesh, clipped, threads));
+      continue; // a cut point is none of the points that they number
+    }
+    else if (IsReal(array) || IsColor(array))
+    {
+      auto values = Interpolate(vtkDataArray::SafeDownCast(array), mesh, clipped, threads);
+      output->AddArray(IsColor(array) ? ToColor(values) : values);
     }
     else
     {
@@ -158,8 +194,7 @@ void CopyCellArrays(
   for (int k = 0; k < input->GetNumberOfArrays(); ++k)
   {
     vtkAbstractArray* array = input->GetAbstractArray(k);
-    const std::string name = array->GetName() ? array->GetName() : "";
-    if (name == SourceCellIdName || name == OctreeCellIdName || name == PatchIdName)
+    if (IsClipCellArray(array->GetName()))
     {
       continue;
     }

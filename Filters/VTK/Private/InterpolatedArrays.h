@@ -11,10 +11,11 @@ class vtkPointData;
 namespace gridfem
 {
 
-/// Point arrays at the clipped points, linear along source triangles, as double; without cut points
-/// they are shared as they are. Text is taken from the nearest corner. Active attributes stay
-/// active, but for ids, which interpolation spoils. Throws InvalidInput naming an array of wrong
-/// length.
+/// Point arrays at the clipped points; without cut points they are shared as they are. Real numbers
+/// are linear along source triangles, as double; colours (bytes with 3 or 4 components) as well,
+/// rounded, as bytes. Other integers, ghost flags and text are taken from the nearest corner.
+/// Global and pedigree ids are left out. Active attributes stay active. Throws InvalidInput naming
+/// an array of wrong length.
 void InterpolatePointArrays(vtkPointData* input, const TriangleMesh& mesh,
   const ClippedMesh& clipped, int threads, vtkPointData* output);
 

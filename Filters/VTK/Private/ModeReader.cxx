@@ -50,6 +50,29 @@ void ReadMode(vtkPolyData* input, int mode, const std::vector<char>& used, Multi
   }
 }
 
+/// A locator finds nothing near a point that is nowhere.
+void RequireFinitePoints(vtkDataSet* places)
+{
+  for (vtkIdType k = 0; places && k < places->GetNumberOfPoints(); ++k)
+  {
+    const double* point = places->GetPoint(k);
+    if (!std::isfinite(point[0]) || !std::isfinite(point[1]) || !std::isfinite(point[2]))
+    {
+      throw InvalidInput("Sources: point " + std::to_string(k) +
+                         " has a NaN or infinite coordinate, so that no point is nearest to it.");
+    }
+  }
+}
+
+/// Mode, Mode000, Mode001, ...
+bool IsModeName(const std::string& name)
+{
+  const std::string prefix = "Mode";
+  const std::size_t digits = name.size() - std::min(name.size(), prefix.size());
+  return name.compare(0, prefix.size(), prefix) == 0 && (digits == 0 || digits >= 3) &&
+         std::all_of(name.end() - digits, name.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
 } // namespace
 
 std::string ModeName(int mode)
@@ -62,6 +85,20 @@ std::string ModeName(int mode)
 bool CarriesModes(vtkPolyData* input)
 {
   return Eigenvalues(input) && input->GetPointData()->HasArray(ModeName(0).c_str());
+}
+
+void RemoveModes(vtkPolyData* data)
+{
+  vtkPointData* arrays = data->GetPointData();
+  for (int k = arrays->GetNumberOfArrays() - 1; k >= 0; --k)
+  {
+    const char* name = arrays->GetAbstractArray(k)->GetName();
+    if (name && IsModeName(name))
+    {
+      arrays->RemoveArray(k);
+    }
+  }
+  data->GetFieldData()->RemoveArray(EigenvaluesName);
 }
 
 void AddModeArrays(StageKey& key, vtkPolyData* input)
@@ -102,6 +139,7 @@ std::vector<Id> SourcePoints(
     }
   }
   std::vector<Id> sources = ids;
+  RequireFinitePoints(places);
   if (places && places->GetNumberOfPoints() > 0)
   {
     vtkNew<vtkPoints> points;

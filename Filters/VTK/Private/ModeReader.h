@@ -22,6 +22,9 @@ std::string ModeName(int mode);
 /// Whether the mesh has the field array Eigenvalues and the point array Mode000.
 bool CarriesModes(vtkPolyData* input);
 
+/// Takes modes away: the point arrays Mode, Mode000, ..., however many there are, and Eigenvalues.
+void RemoveModes(vtkPolyData* data);
+
 /// Adds the arrays of the modes.
 void AddModeArrays(StageKey& key, vtkPolyData* input);
 
@@ -32,7 +35,7 @@ PointModes ReadModes(vtkPolyData* input, const InputMesh& mesh);
 
 /// The given point ids, and the points of the mesh nearest to those of `places` (may be null);
 /// ascending, every point once. Points that no polygon uses do not count. Throws InvalidInput
-/// naming an id that is no point of a polygon.
+/// naming an id that is no point of a polygon, or a point of `places` that is not finite.
 std::vector<Id> SourcePoints(
   const TriangleMesh& mesh, const std::vector<Id>& ids, vtkDataSet* places);
 

@@ -3,10 +3,15 @@
 #include "vtkAlgorithm.h"
 #include "vtkVersionMacros.h"
 
-#include <algorithm>
-
 namespace gridfem
 {
+namespace
+{
+
+/// So much more is told at once, so that a short run has a course, too.
+constexpr double LeastStep = 0.02;
+
+} // namespace
 
 void ProgressBridge::Restart()
 {
@@ -23,11 +28,17 @@ bool ProgressBridge::Report(double fraction)
 {
   const auto now = Clock::now();
   const bool isFirst = lastReport_ == Clock::time_point::min();
-  if (isFirst || now - lastReport_ >= std::chrono::milliseconds(100))
+  const bool isDue = isFirst || now - lastReport_ >= std::chrono::milliseconds(100);
+  // Passed over are backwards, what is not a number, and both ends, which the pipeline reports.
+  const bool isNews = fraction > furthest_ && fraction < 1.0;
+  if (isNews && (isDue || fraction >= furthest_ + LeastStep))
+  {
+    furthest_ = fraction;
+    algorithm_->UpdateProgress(furthest_);
+  }
+  if (isDue)
   {
     lastReport_ = now;
-    furthest_ = std::max(furthest_, std::min(fraction, 1.0));
-    algorithm_->UpdateProgress(furthest_);
 #if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20220823)
     if (algorithm_->CheckAbort())
     {

@@ -11,8 +11,9 @@ class vtkAlgorithm;
 namespace gridfem
 {
 
-/// Passes progress on at most every tenth of a second, never backwards, and asks the algorithm
-/// whether to abort. Core calls it from the thread that called Core, which is the pipeline's.
+/// Passes progress on every tenth of a second or fiftieth of the work, always more than before, and
+/// asks the algorithm whether to abort. The two ends are the pipeline's to report. Core calls it
+/// from the thread that called Core, which is the pipeline's.
 class ProgressBridge
 {
 public:

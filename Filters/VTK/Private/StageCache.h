@@ -68,6 +68,15 @@ public:
     ++entry.version;
   }
 
+  /// Every stage has to run again; counts and times stay.
+  void Forget()
+  {
+    for (auto& [name, entry] : entries_)
+    {
+      entry.valid = false;
+    }
+  }
+
   /// Changes with every new result: part of the keys of later stages.
   std::int64_t Version(const std::string& stage) const { return this->Find(stage).version; }
 

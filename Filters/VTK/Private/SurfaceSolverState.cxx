@@ -24,6 +24,7 @@ void AddMesh(StageKey& key, vtkPolyData* data)
     key.Add(cells ? cells->GetOffsetsArray() : nullptr);
     key.Add(cells ? cells->GetConnectivityArray() : nullptr);
   }
+  key.Add(data->GetCellData()->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()));
   // Cells of these kinds come first and shift the ids of the polygons.
   key.Add(std::int64_t{ data->GetNumberOfVerts() }).Add(std::int64_t{ data->GetNumberOfLines() });
 }
@@ -31,8 +32,7 @@ void AddMesh(StageKey& key, vtkPolyData* data)
 void AddMultigrid(StageKey& key, const MultigridOptions& options)
 {
   key.Add(static_cast<int>(options.cycle)).Add(static_cast<int>(options.smoother));
-  key.Add(options.preSweeps).Add(options.postSweeps).Add(options.sweepsPerSynchronisation);
-  key.Add(options.threads);
+  key.Add(options.preSweeps).Add(options.postSweeps).Add(options.sweepsPerSynchronisation); // the number of threads changes no bit
 }
 
 void AddClipArrays(StageKey& key, vtkPolyData* data)
@@ -63,7 +63,7 @@ void SurfaceSolverState::UpdateSpace(
 {
   RequireNumber("Tolerance", options.solve.tolerance);
   StageKey key;
-  AddMesh(key, input);
+  key.Add(meshVersion.Of(input, mesh, options.space.threads));
   const bool carries = CarriesBasis(input);
   if (carries || basisData)
   {
@@ -130,6 +130,14 @@ void SurfaceSolverState::UpdateSystem(const Progress& progress)
   }
   stages.Run(
     SystemStage, key, [&] { space = MakeSpace(basis, options.choice, this->MakeJob(progress)); });
+}
+
+void SurfaceSolverState::Free()
+{
+  mesh = {};
+  basis = {};
+  space = {};
+  stages.Forget();
 }
 
 std::shared_ptr<const FiniteElementSpace> SurfaceSolverState::OtherSpace(

@@ -5,6 +5,7 @@
 
 #include "InputMesh.h"
 #include "Krylov/ConjugateGradients.h"
+#include "MeshVersion.h"
 #include "ProgressBridge.h"
 #include "StageCache.h"
 #include "SurfaceBasis.h"
@@ -64,6 +65,9 @@ public:
   /// The space on the same basis whose functions were not chosen.
   std::shared_ptr<const FiniteElementSpace> OtherSpace(const Progress& progress) const;
 
+  /// Frees all that the stages have made.
+  void Free();
+
   Job MakeJob(const Progress& progress) const { return { options.space.threads, progress }; }
 
   /// The functions of the grid.
@@ -75,6 +79,7 @@ public:
   SurfaceOptions options;
   StageCache stages;
   InputMesh mesh;
+  MeshVersion meshVersion; // of `mesh`
   SurfaceBasis basis;
   std::shared_ptr<const FiniteElementSpace> space;
   ProgressBridge bridge;

@@ -1,0 +1,35 @@
+// Keeps the pipeline from adding its own report to a failure that the filter has told of already.
+#ifndef GridFEM_FailureDump_h
+#define GridFEM_FailureDump_h
+
+#include "vtkWeakPointer.h"
+
+class vtkExecutive;
+
+namespace gridfem
+{
+
+/// When a filter says that it failed, its executive prints the request that it failed at: a page of
+/// keys beside the one message that helps.
+class FailureDump
+{
+public:
+  FailureDump() = default;
+  ~FailureDump() { this->Print(); }
+  FailureDump(const FailureDump&) = delete;
+  FailureDump& operator=(const FailureDump&) = delete;
+
+  /// Swallows the next report of the executive. Observers that others have put on it still get it.
+  void Swallow(vtkExecutive* executive);
+
+  /// Reports are printed again.
+  void Print();
+
+private:
+  vtkWeakPointer<vtkExecutive> executive_;
+  unsigned long observer_ = 0;
+};
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,33 @@
+"""Writes a sphere with colours, a function and a vector field at its points."""
+import sys
+
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkUnsignedCharArray
+from vtkmodules.vtkFiltersSources import vtkSphereSource
+from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+
+source = vtkSphereSource()
+source.SetThetaResolution(40)
+source.SetPhiResolution(20)
+source.Update()
+sphere = source.GetOutput()
+
+colors = vtkUnsignedCharArray()
+colors.SetName("colors")
+colors.SetNumberOfComponents(3)
+height = vtkDoubleArray()
+height.SetName("height")
+direction = vtkDoubleArray()
+direction.SetName("direction")
+direction.SetNumberOfComponents(3)
+for point in range(sphere.GetNumberOfPoints()):
+    x, y, z = sphere.GetPoint(point)
+    colors.InsertNextTuple3(*(round(255 * (c + 0.5)) for c in (x, y, z)))
+    height.InsertNextValue(z)
+    direction.InsertNextTuple3(0, 0, 2)
+for array in (colors, height, direction):
+    sphere.GetPointData().AddArray(array)
+
+writer = vtkXMLPolyDataWriter()
+writer.SetFileName(sys.argv[1])
+writer.SetInputData(sphere)
+writer.Write()

@@ -1,0 +1,56 @@
+"""What the lists of arrays in the panels offer: all that the filter can take, and nothing else."""
+import unittest
+
+import gridfem.vtkGridFEMFilters  # before the plugin, which makes objects of its classes
+from paraview import simple
+
+import plugin
+
+SURFACE = """
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkStringArray
+from vtkmodules.vtkFiltersSources import vtkSphereSource
+source = vtkSphereSource()
+source.Update()
+output.ShallowCopy(source.GetOutput())
+def add(attributes, name, components, tuples):
+    array = vtkDoubleArray()
+    array.SetName(name)
+    array.SetNumberOfComponents(components)
+    array.SetNumberOfTuples(tuples)
+    array.Fill(1)
+    attributes.AddArray(array)
+for components in (1, 3, 4, 9):
+    add(output.GetPointData(), "p%d" % components, components, output.GetNumberOfPoints())
+    add(output.GetCellData(), "c%d" % components, components, output.GetNumberOfCells())
+names = vtkStringArray()
+names.SetName("names")
+names.SetNumberOfTuples(output.GetNumberOfPoints())
+output.GetPointData().AddArray(names)
+"""
+
+ANY = {"None", "Normals", "p1", "p3", "p4", "p9", "c1", "c3", "c4", "c9"}
+EXPECTED = {
+    ("ScreenedPoisson", "ValueArray"): ANY,
+    ("ScreenedPoisson", "GradientArray"): {"None", "Normals", "p3", "p9", "c3", "c9"},
+    ("ScreenedPoisson", "GradientScaleArray"): {"None", "p1", "c1"},
+    ("SpectralSignatures", "ValueArray"): {"None", "Normals", "p1", "p3", "p4", "p9"}}
+
+
+class TestArrayLists(unittest.TestCase):
+    def test_every_list_offers_what_its_filter_can_take(self):
+        surface = simple.ProgrammableSource(OutputDataSetType="vtkPolyData", Script=SURFACE)
+        plugin.data(surface)
+        offered = {}
+        for name in plugin.PROXIES:
+            proxy = getattr(simple, name)(Input=surface)
+            for key in proxy.ListProperties():
+                domain = proxy.SMProxy.GetProperty(key).FindDomain("vtkSMArrayListDomain")
+                if domain:
+                    offered[name, key] = {
+                        domain.GetString(k) for k in range(domain.GetNumberOfStrings())}
+        self.assertEqual(offered, EXPECTED)
+
+
+if __name__ == "__main__":
+    plugin.load()
+    unittest.main()

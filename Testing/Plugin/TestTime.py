@@ -1,0 +1,106 @@
+"""A surface that grows with time, through every filter, forwards and backwards."""
+import unittest
+
+import gridfem.vtkGridFEMFilters  # before the plugin, which makes objects of its classes
+from paraview import simple
+
+import plugin
+
+DEPTH = 4
+TIMES = (1.0, 2.0, 3.0)
+FORWARDS_AND_BACKWARDS = (1.0, 2.0, 3.0, 2.0, 1.0)
+
+STEPS = """
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as pipeline
+info = self.GetOutputInformation(0)
+info.Set(pipeline.TIME_STEPS(), [1, 2, 3], 3)
+info.Set(pipeline.TIME_RANGE(), [1, 3], 2)
+"""
+
+SPHERE = """
+from vtkmodules.vtkCommonDataModel import vtkDataObject
+from vtkmodules.vtkFiltersSources import vtkSphereSource
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as pipeline
+info = self.GetOutputInformation(0)
+time = info.Get(pipeline.UPDATE_TIME_STEP()) if info.Has(pipeline.UPDATE_TIME_STEP()) else 1
+source = vtkSphereSource()
+source.SetRadius(time)
+source.SetThetaResolution(40)
+source.SetPhiResolution(20)
+source.Update()
+self.GetPolyDataOutput().ShallowCopy(source.GetOutput())
+self.GetPolyDataOutput().GetInformation().Set(vtkDataObject.DATA_TIME_STEP(), time)
+"""
+
+
+def growing_sphere():
+    """At the times 1, 2 and 3 a sphere whose radius is the time."""
+    return simple.ProgrammableSource(
+        OutputDataSetType="vtkPolyData", Script=SPHERE, ScriptRequestInformation=STEPS)
+
+
+class TestTime(unittest.TestCase):
+    def setUp(self):
+        self.surface = growing_sphere()
+
+    def tearDown(self):
+        simple.ResetSession()
+
+    def largest_x(self, proxy):
+        return proxy.GetDataInformation().GetBounds()[1]
+
+    def test_every_filter_follows_the_surface(self):
+        own = {"LaplaceSpectrum": {"AllModes": 1, "NumberOfModes": 9},
+               "SpectralSignatures": {"NumberOfModes": 9}}
+        for name in plugin.PROXIES:
+            proxy = getattr(simple, name)(Input=self.surface, Depth=DEPTH, **own.get(name, {}))
+            for time in FORWARDS_AND_BACKWARDS:
+                with self.subTest(proxy=name, time=time):
+                    proxy.UpdatePipeline(time)
+                    self.assertAlmostEqual(self.largest_x(proxy), time, delta=0.05 * time)
+
+    def first_eigenvalue(self, proxy):
+        return proxy.GetClientSideObject().GetOutputDataObject(1).GetColumnByName(
+            "Eigenvalue").GetValue(1)
+
+    def test_eigenvalues_scale_through_signatures(self):
+        modes = simple.LaplaceSpectrum(
+            Input=self.surface, Depth=DEPTH, AllModes=1, NumberOfModes=9)
+        signatures = simple.SpectralSignatures(Input=modes, NumberOfScales=3)
+        for time in FORWARDS_AND_BACKWARDS:
+            signatures.UpdatePipeline(time)
+            for proxy in (modes, signatures):
+                self.assertAlmostEqual(self.first_eigenvalue(proxy) * time**2, 2.0, delta=0.1)
+        self.assertEqual(plugin.runs(signatures)["solve"], 0)
+
+    def test_the_steps_of_the_surface_are_handed_on(self):
+        modes = simple.LaplaceSpectrum(Input=self.surface, Depth=DEPTH, NumberOfModes=6)
+        modes.UpdatePipelineInformation()
+        self.assertEqual(list(modes.TimestepValues), [1, 2, 3, 4, 5])
+        modes.Mode = 2
+        modes.UpdatePipelineInformation()
+        self.assertEqual(list(modes.TimestepValues), list(TIMES))
+        modes.AllModes = 1
+        modes.UpdatePipelineInformation()
+        self.assertEqual(list(modes.TimestepValues), list(TIMES))
+
+    def test_stepping_through_modes_does_not_change_the_surface(self):
+        modes = simple.LaplaceSpectrum(Input=self.surface, Depth=DEPTH, NumberOfModes=6)
+        for mode in (1.0, 3.0, 2.0, 5.0):
+            self.surface.UpdatePipeline(mode)  # as the view does that shows the surface, too
+            modes.UpdatePipeline(mode)
+            self.assertAlmostEqual(self.first_eigenvalue(modes), 2.0, delta=0.1)
+            self.assertAlmostEqual(self.largest_x(modes), 1.0, delta=0.05)
+        self.assertEqual(plugin.runs(modes)["solve"], 1)
+
+    def test_modes_that_complete_a_group_are_time_steps(self):
+        modes = simple.LaplaceSpectrum(
+            Input=self.surface, Depth=DEPTH, NumberOfModes=6, CompleteMultiplets=1)
+        modes.UpdatePipeline()
+        modes.UpdatePipelineInformation()
+        self.assertEqual(list(modes.TimestepValues), [1, 2, 3, 4, 5, 6, 7, 8])
+
+
+if __name__ == "__main__":
+    plugin.load()
+    unittest.main()

@@ -1,0 +1,221 @@
+// Arrays that belong to a shape do not outlive it: normals, clip, basis and modes of a mesh whose
+// points have moved since, and modes of another mesh.
+
+#include "FilterSupport.h"
+
+#include "Grid/TriangleMesh.h"
+
+#include "vtkConnectivityAwareBasis.h"
+#include "vtkLaplaceSpectrum.h"
+#include "vtkScreenedPoisson.h"
+#include "vtkSpectralSignatures.h"
+
+#include "vtkPolyDataNormals.h"
+#include "vtkTable.h"
+#include "vtkTransform.h"
+#include "vtkTransformPolyDataFilter.h"
+
+#include <gtest/gtest.h>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+vtkSmartPointer<vtkPolyData> Scaled(vtkPolyData* data, double x, double y, double z)
+{
+  vtkNew<vtkTransform> transform;
+  transform->Scale(x, y, z);
+  vtkNew<vtkTransformPolyDataFilter> scale;
+  scale->SetTransform(transform);
+  scale->SetInputData(data);
+  scale->Update();
+  return scale->GetOutput();
+}
+
+vtkSmartPointer<vtkPolyData> WithModes(vtkPolyData* data, int modes, int depth = 5)
+{
+  vtkNew<vtkLaplaceSpectrum> spectrum;
+  spectrum->SetInputData(data);
+  spectrum->SetDepth(depth);
+  spectrum->SetNumberOfModes(modes);
+  spectrum->AllModesOn();
+  spectrum->Update();
+  return spectrum->GetOutput();
+}
+
+class MovedPoints : public ::testing::Test
+{
+protected:
+  MovedPoints() : messages(signatures)
+  {
+    signatures->SetDepth(5);
+    signatures->SetNumberOfModes(16);
+  }
+
+  std::vector<double> EigenvaluesFor(vtkPolyData* data)
+  {
+    signatures->SetInputData(data);
+    signatures->Update();
+    auto* table = vtkTable::SafeDownCast(signatures->GetOutputDataObject(1));
+    return Values(vtkDataArray::SafeDownCast(table->GetColumnByName("Eigenvalue")));
+  }
+
+  vtkIdType Solves() { return signatures->GetNumberOfRuns("Solve"); }
+
+  vtkSmartPointer<vtkPolyData> sphere = ToPolyData(GeodesicSphere(16));
+  vtkNew<vtkSpectralSignatures> signatures;
+  Messages messages;
+};
+
+TEST_F(MovedPoints, NormalsClipBasisAndModesGo)
+{
+  vtkNew<vtkPolyDataNormals> normals;
+  normals->SetInputData(sphere);
+  normals->ComputeCellNormalsOn();
+  vtkNew<vtkConnectivityAwareBasis> basis;
+  basis->SetInputConnection(normals->GetOutputPort());
+  basis->SetDepth(5);
+  basis->Update();
+  auto before = WithModes(basis->GetOutput(), 16);
+  ASSERT_TRUE(before->GetPointData()->GetNormals() && before->GetCellData()->GetNormals());
+
+  signatures->SetInputData(before);
+  signatures->SetFilterType(vtkSpectralSignatures::LowPass);
+  signatures->SetLastMode(3);
+  signatures->MovePointsOn();
+  signatures->Update();
+  vtkPolyData* moved = signatures->GetOutput();
+  EXPECT_TRUE(messages.errors.empty() && messages.warnings.empty());
+  EXPECT_FALSE(moved->GetPointData()->GetNormals() || moved->GetCellData()->GetNormals());
+  EXPECT_FALSE(moved->GetPointData()->HasArray("Normals"));
+  EXPECT_FALSE(moved->GetFieldData()->HasArray("PatchBasisIds"));
+  EXPECT_FALSE(moved->GetFieldData()->HasArray("OctreeCells"));
+  EXPECT_FALSE(moved->GetCellData()->HasArray("OctreeCellId"));
+  EXPECT_FALSE(moved->GetFieldData()->HasArray("Eigenvalues"));
+  EXPECT_FALSE(moved->GetPointData()->HasArray("Mode003"));
+  EXPECT_TRUE(moved->GetPointData()->HasArray("HeatKernelSignature"));
+
+  signatures->MovePointsOff();
+  signatures->Update();
+  EXPECT_TRUE(signatures->GetOutput()->GetPointData()->GetNormals());
+  EXPECT_TRUE(signatures->GetOutput()->GetPointData()->HasArray("Mode003"));
+}
+
+TEST_F(MovedPoints, ModesOfAnotherShapeAreComputedAnew)
+{
+  auto modes = WithModes(sphere, 16);
+  const auto given = this->EigenvaluesFor(modes);
+  EXPECT_EQ(this->Solves(), 0);
+  EXPECT_TRUE(messages.warnings.empty());
+  const auto doubled = this->EigenvaluesFor(Scaled(modes, 2, 2, 2));
+  EXPECT_EQ(this->Solves(), 1);
+  ASSERT_EQ(messages.warnings.size(), 1u);
+  EXPECT_NE(messages.warnings[0].find("another shape"), std::string::npos);
+  EXPECT_NEAR(doubled[1], given[1] / 4, 1e-3);
+  EXPECT_FALSE(signatures->GetOutput()->GetPointData()->HasArray("Mode003"));
+  EXPECT_FALSE(signatures->GetOutput()->GetFieldData()->HasArray("Eigenvalues"));
+  // The same area, but another shape: the squares alone do not tell.
+  this->EigenvaluesFor(Scaled(modes, 1.25, 1.25, 0.64));
+  EXPECT_EQ(this->Solves(), 2);
+  EXPECT_EQ(this->EigenvaluesFor(modes), given); // and back
+  EXPECT_EQ(this->Solves(), 2);
+}
+
+TEST_F(MovedPoints, ASecondLowPassKeepsTheShape)
+{
+  signatures->SetFilterType(vtkSpectralSignatures::LowPass);
+  signatures->SetLastMode(3);
+  signatures->MovePointsOn();
+  signatures->SetInputData(Scaled(WithModes(sphere, 16), 1, 1, 2)); // stale modes
+  signatures->Update();
+  vtkNew<vtkPolyData> first;
+  first->DeepCopy(signatures->GetOutput());
+  signatures->SetInputData(first);
+  signatures->Update();
+  const double* bounds = signatures->GetOutput()->GetBounds();
+  EXPECT_GT(bounds[1] - bounds[0], 1.0);
+  EXPECT_GT(bounds[5] - bounds[4], 1.0);
+}
+
+TEST_F(MovedPoints, TrueModesAreBelievedWhateverTheMesh)
+{
+  const TriangleMesh meshes[] = { GeodesicSphere(2), GeodesicSphere(5, 100.0),
+    Torus(200, 10, 1.0, 0.3), Torus(7, 5, 1.0, 0.4),
+    Join(GeodesicSphere(6), Transform(GeodesicSphere(3), { 0, 0, 1 }, 0.3, 0.5, { 3, 0, 0 })),
+    Unweld(GeodesicSphere(6)) };
+  for (const TriangleMesh& mesh : meshes)
+  {
+    for (const int depth : { 3, 5 })
+    {
+      for (const int precision : { VTK_FLOAT, VTK_DOUBLE })
+      {
+        this->EigenvaluesFor(WithModes(ToPolyData(mesh, precision), 20, depth));
+        EXPECT_TRUE(messages.warnings.empty()) << messages.warnings[0];
+        EXPECT_EQ(this->Solves(), 0) << mesh.points.size() << " points, depth " << depth;
+      }
+    }
+  }
+}
+
+TEST_F(MovedPoints, ANewRunRemovesTheModesOfAnOlderOneWithMore)
+{
+  auto many = WithModes(sphere, 9);
+  auto few = WithModes(many, 3);
+  EXPECT_TRUE(few->GetPointData()->HasArray("Mode002"));
+  EXPECT_FALSE(few->GetPointData()->HasArray("Mode003"));
+  EXPECT_EQ(few->GetFieldData()->GetArray("Eigenvalues")->GetNumberOfTuples(), 3);
+  vtkNew<vtkLaplaceSpectrum> one;
+  one->SetInputData(many);
+  one->SetDepth(5);
+  one->SetNumberOfModes(4);
+  one->Update();
+  EXPECT_TRUE(one->GetOutput()->GetPointData()->HasArray("Mode"));
+  EXPECT_FALSE(one->GetOutput()->GetPointData()->HasArray("Mode000"));
+}
+
+TEST_F(MovedPoints, ABasisMovedByAHundredthOfACellIsRefused)
+{
+  for (const int precision : { VTK_FLOAT, VTK_DOUBLE })
+  {
+    auto mesh = ToPolyData(GeodesicSphere(6), precision);
+    vtkNew<vtkConnectivityAwareBasis> basis;
+    basis->SetInputData(mesh);
+    basis->SetDepth(4);
+    basis->Update();
+    const double shift = 0.01 * FieldValue(basis->GetOutput(), "GridSpacing");
+    const auto moved = [shift](vtkPolyData* data)
+    {
+      auto copy = vtkSmartPointer<vtkPolyData>::New();
+      copy->ShallowCopy(data);
+      vtkNew<vtkPoints> points;
+      points->DeepCopy(data->GetPoints());
+      for (vtkIdType k = 0; k < points->GetNumberOfPoints(); ++k)
+      {
+        const Vec3 point = Vec3(points->GetPoint(k)) + Vec3(shift, 0, 0);
+        points->SetPoint(k, point.data());
+      }
+      copy->SetPoints(points);
+      return copy;
+    };
+    vtkNew<vtkScreenedPoisson> poisson;
+    Messages refusals(poisson);
+    poisson->SetInputData(0, moved(basis->GetOutput()));
+    poisson->Update();
+    ASSERT_EQ(refusals.errors.size(), 1u);
+    EXPECT_NE(refusals.errors[0].find("moved"), std::string::npos) << refusals.errors[0];
+    // Less than a thousandth of a cell, for the second way of giving a basis.
+    auto other = vtkSmartPointer<vtkPolyData>::New();
+    other->DeepCopy(mesh);
+    const Vec3 point = Vec3(mesh->GetPoint(7)) + Vec3(0.01 * shift, 0, 0);
+    other->GetPoints()->SetPoint(7, point.data());
+    poisson->SetInputData(0, other);
+    poisson->SetInputData(1, basis->GetOutput());
+    poisson->Update();
+    ASSERT_EQ(refusals.errors.size(), 2u);
+    EXPECT_NE(refusals.errors[1].find("another mesh"), std::string::npos) << refusals.errors[1];
+  }
+}
+
+} // namespace
