@@ -17,9 +17,9 @@
  *   change, is a full one.
  *
  * Input port 0 takes vtkPolyData with polygons of any size or triangle strips. Vertices,
- * lines, and cells that vtkGhostType marks as hidden or as duplicates take no part; the solvers pass
- * them on, the clip leaves them out. Computation is in double precision. Results do not depend on NumberOfThreads. The filters refuse to run on more than one
- * MPI rank.
+ * lines, and cells that vtkGhostType marks as hidden or as duplicates take no part; the solvers
+ * pass them on, the clip leaves them out. Computation is in double precision. Results do not depend
+ * on NumberOfThreads. The filters refuse to run on more than one MPI rank.
  *
  * A solver filter finds its function space in this order: on input port 0, when that is the output
  * of vtkConnectivityAwareBasis; on the optional input port 1, when that is connected, which must be

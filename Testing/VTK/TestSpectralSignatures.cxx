@@ -83,10 +83,10 @@ TEST_F(SpectralSignaturesFilter, ModesOfTheInputAreTaken)
 {
   const auto own = this->Run("HeatKernelSignature");
   filter->SetInputData(this->WithModes(25));
-  const vtkIdType runs = filter->GetNumberOfRuns(Signatures::SolveStage);
+  const vtkIdType runs = filter->GetNumberOfRuns("Solve");
   filter->SetNumberOfModes(7); // not used
   EXPECT_LT(Difference(this->Run("HeatKernelSignature"), own), 1e-6);
-  EXPECT_EQ(filter->GetNumberOfRuns(Signatures::SolveStage), runs);
+  EXPECT_EQ(filter->GetNumberOfRuns("Solve"), runs);
 }
 
 TEST_F(SpectralSignaturesFilter, AModeThatIsMissingIsNamed)
@@ -249,7 +249,7 @@ TEST_F(SpectralSignaturesFilter, OnlyWhatDependsOnAChangeIsComputedAgain)
   filter->SetFilterType(Signatures::BandPass);
   filter->SetNumberOfScales(9);
   filter->Update();
-  EXPECT_EQ(filter->GetNumberOfRuns(Signatures::SolveStage), 1);
+  EXPECT_EQ(filter->GetNumberOfRuns("Solve"), 1);
   EXPECT_EQ(
     filter->GetOutput()->GetPointData()->GetArray("WaveKernelSignature")->GetNumberOfComponents(),
     9);

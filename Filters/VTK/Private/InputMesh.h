@@ -28,6 +28,10 @@ struct InputMesh
 /// cell with a point that does not exist.
 InputMesh ReadInputMesh(vtkPolyData* input, int threads, const Progress& progress = {});
 
+/// The means of values on triangles over the cells they come from, weighted by area; 0 on other
+/// cells.
+MultiVector MeansOnCells(const InputMesh& mesh, const MultiVector& onTriangles, Id cells);
+
 /// The triangles of one cell: indices [first, second) into InputMesh::triangles.
 std::pair<Id, Id> TrianglesOfCell(const InputMesh& mesh, Id cell);
 

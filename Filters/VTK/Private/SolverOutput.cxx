@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 namespace gridfem
 {
@@ -131,6 +132,16 @@ const char* ReasonOf(const SolveReport& report)
 IterationRecord LastRecord(const SolveReport& report)
 {
   return report.history.empty() ? IterationRecord{ 0, 0.0, 0.0 } : report.history.back();
+}
+
+std::string WarningOf(const SolveReport& report, double tolerance)
+{
+  const IterationRecord last = LastRecord(report);
+  std::ostringstream text;
+  text << "Not converged after " << report.iterations << " iterations, because " << ReasonOf(report)
+       << ". The energy residual is " << last.energy << ", the residual " << last.residual
+       << ", wanted is " << tolerance << ". The result is kept.";
+  return text.str();
 }
 
 } // namespace gridfem

@@ -7,6 +7,8 @@
 
 #include "vtkSmartPointer.h"
 
+#include <string>
+
 class vtkDataArray;
 class vtkPolyData;
 class vtkTable;
@@ -37,6 +39,9 @@ void AddColumn(vtkTable* table, const char* name, const std::vector<int>& values
 
 /// Why the iteration ended, in words.
 const char* ReasonOf(const SolveReport& report);
+
+/// What to warn of when a solve has not converged.
+std::string WarningOf(const SolveReport& report, double tolerance);
 
 /// The last iteration, or zeros when nothing had to be iterated.
 IterationRecord LastRecord(const SolveReport& report);

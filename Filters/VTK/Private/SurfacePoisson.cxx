@@ -2,8 +2,6 @@
 
 #include "SolverOutput.h"
 
-#include <sstream>
-
 namespace gridfem
 {
 
@@ -79,17 +77,7 @@ MultiVector SurfacePoisson::Values(const SurfaceSolverState& state) const
 
 std::string SurfacePoisson::Warning(double tolerance) const
 {
-  const SolveReport& report = solution_.report;
-  if (report.converged)
-  {
-    return {};
-  }
-  const IterationRecord last = LastRecord(report);
-  std::ostringstream text;
-  text << "Not converged after " << report.iterations << " iterations, because " << ReasonOf(report)
-       << ". The energy residual is " << last.energy << ", the residual " << last.residual
-       << ", wanted is " << tolerance << ". The result is kept.";
-  return text.str();
+  return solution_.report.converged ? std::string() : WarningOf(solution_.report, tolerance);
 }
 
 } // namespace gridfem

@@ -32,7 +32,9 @@ void AddMesh(StageKey& key, vtkPolyData* data)
 void AddMultigrid(StageKey& key, const MultigridOptions& options)
 {
   key.Add(static_cast<int>(options.cycle)).Add(static_cast<int>(options.smoother));
-  key.Add(options.preSweeps).Add(options.postSweeps).Add(options.sweepsPerSynchronisation); // the number of threads changes no bit
+  key.Add(options.preSweeps)
+    .Add(options.postSweeps)
+    .Add(options.sweepsPerSynchronisation); // the number of threads changes no bit
 }
 
 void AddClipArrays(StageKey& key, vtkPolyData* data)

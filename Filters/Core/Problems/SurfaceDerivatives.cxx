@@ -1,0 +1,95 @@
+#include "Problems/SurfaceDerivatives.h"
+
+#include "Base/Parallel.h"
+#include "Problems/Poisson.h"
+
+namespace gridfem
+{
+namespace
+{
+
+/// δ. A projection without it has no unique solution where functions hide in a flat surface.
+constexpr double Smoothing = 1e-3;
+
+/// Solves (M + δL) u = load for any number of columns, and keeps the worst report.
+class L2Projection
+{
+public:
+  L2Projection(const FiniteElementSpace& space, const DerivativeOptions& options, const Job& job)
+    : space_(space),
+      multigrid_(BuildMultigrid(space, 1.0 / Smoothing, 1.0, options.multigrid, job.progress))
+  {
+    poisson_.screeningWeight = 1.0 / Smoothing;
+    poisson_.multigrid = options.multigrid;
+    poisson_.solve = options.solve;
+  }
+
+  /// @param values, gradients  integrals of a field and of its gradient, which may have no rows
+  MultiVector Solve(const MultiVector& values, const MultiVector& gradients, const Job& job)
+  {
+    PoissonSolution solution =
+      SolvePoisson(space_, multigrid_, values, gradients, poisson_, job.progress);
+    const bool isWorse = !solution.report.converged && report.converged;
+    if (isWorse || (report.converged == solution.report.converged &&
+                     solution.report.iterations >= report.iterations))
+    {
+      report = std::move(solution.report);
+    }
+    return std::move(solution.coefficients);
+  }
+
+  SolveReport report = []
+  {
+    SolveReport none;
+    none.converged = true;
+    return none;
+  }();
+
+private:
+  const FiniteElementSpace& space_;
+  Multigrid multigrid_;
+  PoissonOptions poisson_;
+};
+
+/// Σ ∂_k of component k, for each vector: rows of nine numbers become one.
+MultiVector Divergence(const MultiVector& gradients)
+{
+  const Id vectors = gradients.cols() / 9;
+  MultiVector divergence(gradients.rows(), vectors);
+  for (Id v = 0; v < vectors; ++v)
+  {
+    divergence.col(v) = gradients.col(9 * v) + gradients.col(9 * v + 4) + gradients.col(9 * v + 8);
+  }
+  return divergence;
+}
+
+} // namespace
+
+SurfaceDerivatives ComputeDerivatives(const FiniteElementSpace& space, const TriangleMesh& mesh,
+  const Field& f, const DerivativeOptions& options, const Job& job)
+{
+  RequireField(f, mesh);
+  SurfaceDerivatives result;
+  L2Projection projection(space, options, job.Part(0.0, 0.2));
+  const bool isOnPoints = f.association == FieldAssociation::Points;
+  const MultiVector values = space.LoadOfValues(f, job.Part(0.2, 0.25));
+  const MultiVector gradients =
+    isOnPoints ? space.LoadOfGradientsOf(f, nullptr, job.Part(0.25, 0.3)) : MultiVector();
+  const MultiVector u = projection.Solve(values, gradients, job.Part(0.3, 0.5));
+  result.gradientOnTriangles = space.GradientsOnTriangles(u, job.threads);
+
+  const MultiVector load = space.LoadOfValues(
+    { FieldAssociation::Triangles, result.gradientOnTriangles }, job.Part(0.5, 0.55));
+  const MultiVector gradient = projection.Solve(load, {}, job.Part(0.55, 0.8));
+  result.gradientAtPoints = space.ValuesAtPoints(gradient, job.threads);
+  result.laplacianOnTriangles = Divergence(space.GradientsOnTriangles(gradient, job.threads));
+
+  const MultiVector loadOfLaplacian = space.LoadOfValues(
+    { FieldAssociation::Triangles, result.laplacianOnTriangles }, job.Part(0.8, 0.85));
+  result.laplacianAtPoints =
+    space.ValuesAtPoints(projection.Solve(loadOfLaplacian, {}, job.Part(0.85, 1.0)), job.threads);
+  result.report = std::move(projection.report);
+  return result;
+}
+
+} // namespace gridfem

@@ -1,0 +1,40 @@
+// The surface gradient and the Laplacian of a given field, in the weak sense of a space.
+#ifndef GridFEM_SurfaceDerivatives_h
+#define GridFEM_SurfaceDerivatives_h
+
+#include "Krylov/ConjugateGradients.h"
+#include "Spaces/FiniteElementSpace.h"
+
+namespace gridfem
+{
+
+struct DerivativeOptions
+{
+  MultigridOptions multigrid;
+  SolveOptions solve;
+};
+
+/// World units. C components of the field; vectors in columns 3c .. 3c+2.
+struct SurfaceDerivatives
+{
+  MultiVector gradientOnTriangles; // 3 C columns, in the planes of the triangles
+  MultiVector gradientAtPoints;    // 3 C columns; 0 at points that no function reaches
+  MultiVector laplacianOnTriangles;
+  MultiVector laplacianAtPoints; // div grad f: negative at a maximum
+  SolveReport report;            // of the projection that took most iterations
+};
+
+/// The field is projected into the space, its gradient on triangles is projected again, and the
+/// Laplacian is the divergence of that: so it needs no condition at a boundary. A projection u of g
+/// solves (M + δL) u = ∫ g b_i with δ a thousandth of a squared unit of length, far below what a
+/// grid of that unit resolves; a field on points has its ∇f beside it, so that a function of the
+/// space stays what it is.
+/// @param triangles  of the mesh that the space was made from
+/// Throws InvalidInput when the field does not fit, and Aborted. Same bits for any number of
+/// threads.
+SurfaceDerivatives ComputeDerivatives(const FiniteElementSpace& space, const TriangleMesh& mesh,
+  const Field& f, const DerivativeOptions& options, const Job& job = {});
+
+} // namespace gridfem
+
+#endif

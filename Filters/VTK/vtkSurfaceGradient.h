@@ -1,0 +1,58 @@
+/**
+ * @class   vtkSurfaceGradient
+ * @brief   gradient and Laplacian of an array along a surface
+ *
+ * The derivatives are those of the array's projection into the function space, in the weak sense:
+ * the gradient on cells is projected to be one at points, and the Laplacian is the divergence of
+ * that. So they do not depend on how the triangles lie, noise below the resolution of the space is
+ * left out, and no condition is made at boundaries.
+ *
+ * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
+ * vtkConnectivityAwareBasis. Input port 1 (optional): the output of vtkConnectivityAwareBasis for
+ * the mesh of port 0. The array is chosen by SetInputArrayToProcess(0, ...): point or cell data
+ * with any number of components C; none: the coordinates, whose Laplacian is the mean curvature
+ * vector (twice the mean curvature along the normal).
+ *
+ * Output port 0 (vtkPolyData): the input with
+ * - point and cell data, double: `Gradient` (3 C components, the three of component 0 first; per
+ *   unit of length) and `Laplacian` (C; per unit of length squared, negative at a maximum). Cells
+ *   that are no polygons and points that no polygon uses get 0. A polygon has the mean of its
+ *   triangles, weighted by area.
+ * - field data: `Converged`, `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor`
+ *   of the projection that took most iterations
+ *
+ * Tolerance (default 1e-6) is that of the projections, as in vtkScreenedPoisson. All shared
+ * properties but ParameterUnits are used.
+ */
+#ifndef vtkSurfaceGradient_h
+#define vtkSurfaceGradient_h
+
+#include "vtkSurfaceFEMAlgorithm.h"
+
+class VTKGRIDFEMFILTERS_EXPORT vtkSurfaceGradient : public vtkSurfaceFEMAlgorithm
+{
+public:
+  static vtkSurfaceGradient* New();
+  vtkTypeMacro(vtkSurfaceGradient, vtkSurfaceFEMAlgorithm);
+
+  /**
+   * The input of port 1: the basis.
+   */
+  void SetBasisConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
+
+protected:
+  vtkSurfaceGradient();
+  ~vtkSurfaceGradient() override;
+
+  void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  void FreeStages() override;
+
+private:
+  vtkSurfaceGradient(const vtkSurfaceGradient&) = delete;
+  void operator=(const vtkSurfaceGradient&) = delete;
+
+  struct Internals;
+  std::unique_ptr<Internals> Data;
+};
+
+#endif

@@ -1,0 +1,195 @@
+// Gradients and Laplacians against exact ones, on both kinds of space.
+#include "Problems/SurfaceDerivatives.h"
+
+#include "Base/Errors.h"
+#include "Spaces.h"
+#include "Spaces/HatSpace.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+DerivativeOptions Options(int threads = 0)
+{
+  DerivativeOptions options;
+  options.multigrid.threads = threads;
+  options.solve.tolerance = 1e-9;
+  return options;
+}
+
+std::unique_ptr<FiniteElementSpace> Build(
+  const TriangleMesh& mesh, bool isOnHats, int depth, int threads = 0)
+{
+  GridSpaceOptions options;
+  options.functions.depth = depth;
+  options.functions.threads = threads;
+  const HatSpace hats = BuildHatSpace(mesh, options);
+  return isOnHats ? hats.Copy() : hats.Grid().Copy();
+}
+
+/// Relative root mean squares of the errors for f = x y on a sphere of radius 2, whose gradient is
+/// (y, x, 0) without its normal part, and whose Laplacian is -6 / r² f.
+struct Errors
+{
+  double gradient = 0.0;
+  double gradientOnTriangles = 0.0;
+  double laplacian = 0.0;
+};
+
+Errors OnSphere(bool isOnHats, int depth, int fineness)
+{
+  constexpr double Radius = 2.0;
+  const TriangleMesh mesh = Transform(GeodesicSphere(fineness, Radius), { 1, 2, 3 }, 0.4);
+  const MultiVector points = PointCoordinates(mesh);
+  const MultiVector f = points.col(0).cwiseProduct(points.col(1));
+  const SurfaceDerivatives d = ComputeDerivatives(
+    *Build(mesh, isOnHats, depth), mesh, { FieldAssociation::Points, f }, Options());
+  EXPECT_TRUE(d.report.converged);
+  const auto exact = [](const Vec3& p)
+  {
+    const Vec3 normal = p.normalized();
+    const Vec3 gradient(p[1], p[0], 0.0);
+    return Vec3(gradient - normal.dot(gradient) * normal);
+  };
+  Errors error;
+  double size = 0.0;
+  for (Id i = 0; i < points.rows(); ++i)
+  {
+    const Vec3 expected = exact(points.row(i).transpose());
+    error.gradient += (d.gradientAtPoints.row(i).transpose() - expected).squaredNorm();
+    error.laplacian += std::pow(d.laplacianAtPoints(i, 0) + 6.0 / (Radius * Radius) * f(i, 0), 2);
+    size += expected.squaredNorm();
+  }
+  error.gradient = std::sqrt(error.gradient / size);
+  error.laplacian = std::sqrt(error.laplacian) / (6.0 / (Radius * Radius) * f.norm());
+  size = 0.0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  {
+    const auto& corner = mesh.triangles[t];
+    const Vec3 expected =
+      exact((mesh.points[corner[0]] + mesh.points[corner[1]] + mesh.points[corner[2]]) / 3.0);
+    error.gradientOnTriangles +=
+      (d.gradientOnTriangles.row(static_cast<Id>(t)).transpose() - expected).squaredNorm();
+    size += expected.squaredNorm();
+  }
+  error.gradientOnTriangles = std::sqrt(error.gradientOnTriangles / size);
+  return error;
+}
+
+} // namespace
+
+TEST(SurfaceDerivatives, OnAGridConvergeToThoseOfTheSphere)
+{
+  const Errors coarse = OnSphere(false, 4, 60);
+  const Errors fine = OnSphere(false, 5, 60);
+  EXPECT_LT(fine.gradient, 0.02);
+  EXPECT_LT(fine.gradientOnTriangles, 0.03);
+  EXPECT_LT(fine.laplacian, 0.05);
+  EXPECT_LT(fine.gradient, 0.5 * coarse.gradient);
+  EXPECT_LT(fine.laplacian, 0.6 * coarse.laplacian);
+}
+
+TEST(SurfaceDerivatives, OnHatsConvergeToThoseOfTheSphere)
+{
+  const Errors coarse = OnSphere(true, 4, 12);
+  const Errors fine = OnSphere(true, 5, 24);
+  EXPECT_LT(fine.gradient, 0.02);
+  EXPECT_LT(fine.laplacian, 0.05);
+  EXPECT_LT(fine.gradient, 0.5 * coarse.gradient);
+  EXPECT_LT(fine.laplacian, 0.6 * coarse.laplacian);
+}
+
+/// A linear function on a flat sheet with boundaries: constant gradient, Laplacian 0 up to the
+/// edge.
+TEST(SurfaceDerivatives, OfALinearFunctionAreExactUpToTheBoundary)
+{
+  const TriangleMesh mesh = Transform(TwoSheets(8, 0.4), { 1, 2, 3 }, 0.5, 3.0, { 7, 8, 9 });
+  const Eigen::AngleAxisd turn(0.5, Vec3(1, 2, 3).normalized());
+  const Vec3 slope = turn * Vec3(2, -1, 0);
+  const MultiVector f = PointCoordinates(mesh) * slope;
+  for (const bool isOnHats : { false, true })
+  {
+    const SurfaceDerivatives d = ComputeDerivatives(
+      *Build(mesh, isOnHats, 4), mesh, { FieldAssociation::Points, f }, Options());
+    for (Id i = 0; i < f.rows(); ++i)
+    {
+      ASSERT_LT((d.gradientAtPoints.row(i).transpose() - slope).norm(), 1e-5) << isOnHats;
+      ASSERT_LT(std::abs(d.laplacianAtPoints(i, 0)), 1e-4) << isOnHats;
+    }
+    for (Id t = 0; t < d.gradientOnTriangles.rows(); ++t)
+    {
+      ASSERT_LT((d.gradientOnTriangles.row(t).transpose() - slope).norm(), 1e-5) << isOnHats;
+    }
+  }
+}
+
+TEST(SurfaceDerivatives, OfCellValuesAreThoseOfTheFieldTheySample)
+{
+  const TriangleMesh mesh = Transform(GeodesicSphere(60), { 1, 2, 3 }, 0.4);
+  MultiVector f(static_cast<Id>(mesh.triangles.size()), 1);
+  for (Id t = 0; t < f.rows(); ++t)
+  {
+    const auto& corner = mesh.triangles[t];
+    f(t, 0) = (mesh.points[corner[0]] + mesh.points[corner[1]] + mesh.points[corner[2]])[2] / 3.0;
+  }
+  const SurfaceDerivatives d =
+    ComputeDerivatives(*Build(mesh, false, 5), mesh, { FieldAssociation::Triangles, f }, Options());
+  double error = 0.0;
+  double size = 0.0;
+  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+  {
+    const Vec3 normal = mesh.points[i].normalized();
+    const Vec3 expected = Vec3(0, 0, 1) - normal[2] * normal;
+    error += (d.gradientAtPoints.row(static_cast<Id>(i)).transpose() - expected).squaredNorm();
+    size += expected.squaredNorm();
+  }
+  EXPECT_LT(std::sqrt(error / size), 0.03);
+}
+
+TEST(SurfaceDerivatives, ScaleWithTheMeshAndTakeColumnsApart)
+{
+  const TriangleMesh mesh = Torus(30, 20, 1.0, 0.4);
+  const TriangleMesh large = Transform(mesh, { 1, 0, 0 }, 0.0, 10.0);
+  const MultiVector f = RandomValues(static_cast<Id>(mesh.points.size()), 2);
+  const Field field{ FieldAssociation::Points, f };
+  const Field second{ FieldAssociation::Points, f.rightCols(1) };
+  for (const bool isOnHats : { false, true })
+  {
+    const auto space = Build(mesh, isOnHats, 4);
+    const SurfaceDerivatives one = ComputeDerivatives(*space, mesh, field, Options());
+    const SurfaceDerivatives ten =
+      ComputeDerivatives(*Build(large, isOnHats, 4), large, field, Options());
+    EXPECT_LT(RelativeDifference(10.0 * ten.gradientAtPoints, one.gradientAtPoints), 1e-6);
+    EXPECT_LT(RelativeDifference(100.0 * ten.laplacianAtPoints, one.laplacianAtPoints), 1e-6);
+    const SurfaceDerivatives alone = ComputeDerivatives(*space, mesh, second, Options());
+    EXPECT_LT(RelativeDifference(alone.gradientAtPoints, one.gradientAtPoints.rightCols(3)), 1e-5);
+  }
+}
+
+TEST(SurfaceDerivatives, DoNotDependOnThreadsAndStopWhenAsked)
+{
+  const TriangleMesh mesh = GeodesicSphere(20);
+  const Field f{ FieldAssociation::Points, RandomValues(static_cast<Id>(mesh.points.size()), 1) };
+  const SurfaceDerivatives one =
+    ComputeDerivatives(*Build(mesh, false, 5, 1), mesh, f, Options(1), 1);
+  const SurfaceDerivatives three =
+    ComputeDerivatives(*Build(mesh, false, 5, 3), mesh, f, Options(3), 3);
+  EXPECT_EQ(one.gradientAtPoints, three.gradientAtPoints);
+  EXPECT_EQ(one.laplacianAtPoints, three.laplacianAtPoints);
+  const Job stop(0, Progress([](double done) { return done < 0.5; }));
+  EXPECT_THROW(ComputeDerivatives(*Build(mesh, false, 5), mesh, f, Options(), stop), Aborted);
+}
+
+TEST(SurfaceDerivatives, RefuseFieldsThatDoNotFit)
+{
+  const TriangleMesh mesh = GeodesicSphere(4);
+  EXPECT_THROW(ComputeDerivatives(*Build(mesh, false, 3), mesh,
+                 { FieldAssociation::Points, MultiVector::Ones(3, 1) }, Options()),
+    InvalidInput);
+}

@@ -1,0 +1,179 @@
+// Surface Gradient as a user of VTK sees it.
+#include "FilterSupport.h"
+
+#include "vtkConnectivityAwareBasis.h"
+#include "vtkSurfaceGradient.h"
+
+#include <gtest/gtest.h>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+/// A square sheet of quadrilaterals and triangles in the plane z = 0, slightly turned.
+vtkSmartPointer<vtkPolyData> MixedSheet(int n)
+{
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataType(VTK_DOUBLE);
+  const Eigen::AngleAxisd turn(0.2, Vec3(1, 1, 0.5).normalized());
+  for (int j = 0; j <= n; ++j)
+  {
+    for (int i = 0; i <= n; ++i)
+    {
+      const Vec3 p = turn * Vec3(double(i) / n, double(j) / n, 0.0);
+      points->InsertNextPoint(p.data());
+    }
+  }
+  vtkNew<vtkCellArray> polys;
+  for (vtkIdType j = 0; j < n; ++j)
+  {
+    for (vtkIdType i = 0; i < n; ++i)
+    {
+      const vtkIdType a = j * (n + 1) + i;
+      const vtkIdType b = a + n + 1;
+      if ((i + j) % 2)
+      {
+        polys->InsertNextCell({ a, a + 1, b + 1, b });
+      }
+      else
+      {
+        polys->InsertNextCell({ a, a + 1, b + 1 });
+        polys->InsertNextCell({ a, b + 1, b });
+      }
+    }
+  }
+  data->SetPoints(points);
+  data->SetPolys(polys);
+  return data;
+}
+
+} // namespace
+
+class SurfaceGradient : public ::testing::TestWithParam<int>
+{
+};
+
+TEST_P(SurfaceGradient, OfALinearArrayIsItsSlopeAtPointsAndOnCells)
+{
+  const auto sheet = MixedSheet(12);
+  const Vec3 slope = Eigen::AngleAxisd(0.2, Vec3(1, 1, 0.5).normalized()) * Vec3(3, -2, 0);
+  AddPointArray(sheet, "f", 2,
+    [&](const Vec3& p, int c) { return (c == 0 ? 1.0 : -4.0) * slope.dot(p) + 7.0; });
+  vtkNew<vtkSurfaceGradient> filter;
+  filter->SetInputData(sheet);
+  filter->SetInputArrayToProcess(0, 0, 0, Points, "f");
+  filter->SetDepth(4);
+  filter->SetTolerance(1e-10);
+  filter->SetFunctionSpace(this->GetParam());
+  filter->Update();
+  vtkPolyData* output = filter->GetOutput();
+  ASSERT_EQ(output->GetNumberOfPoints(), sheet->GetNumberOfPoints());
+  ASSERT_EQ(output->GetNumberOfCells(), sheet->GetNumberOfCells());
+  for (vtkDataSetAttributes* data : { static_cast<vtkDataSetAttributes*>(output->GetPointData()),
+         static_cast<vtkDataSetAttributes*>(output->GetCellData()) })
+  {
+    vtkDataArray* gradient = data->GetArray("Gradient");
+    vtkDataArray* laplacian = data->GetArray("Laplacian");
+    ASSERT_TRUE(gradient && laplacian);
+    ASSERT_EQ(gradient->GetNumberOfComponents(), 6);
+    ASSERT_EQ(laplacian->GetNumberOfComponents(), 2);
+    for (vtkIdType i = 0; i < gradient->GetNumberOfTuples(); ++i)
+    {
+      for (int c = 0; c < 6; ++c)
+      {
+        const double expected = (c < 3 ? 1.0 : -4.0) * slope[c % 3];
+        ASSERT_NEAR(gradient->GetComponent(i, c), expected, 1e-4);
+      }
+      ASSERT_NEAR(laplacian->GetComponent(i, 0), 0.0, 1e-2);
+    }
+  }
+  EXPECT_EQ(output->GetFieldData()->GetArray("Converged")->GetComponent(0, 0), 1);
+}
+
+TEST_P(SurfaceGradient, IsComputedOnceAndAgainForAnotherArray)
+{
+  const auto sphere = ToPolyData(GeodesicSphere(8));
+  AddPointArray(sphere, "f", 1, Wave);
+  AddPointArray(sphere, "g", 1, [](const Vec3& p, int) { return p[1]; });
+  vtkNew<vtkSurfaceGradient> filter;
+  filter->SetInputData(sphere);
+  filter->SetFunctionSpace(this->GetParam());
+  filter->SetDepth(4);
+  filter->SetInputArrayToProcess(0, 0, 0, Points, "f");
+  filter->Update();
+  filter->Modified();
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfRuns("Solve"), 1);
+  filter->SetInputArrayToProcess(0, 0, 0, Points, "g");
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfRuns("Solve"), 2);
+  EXPECT_EQ(filter->GetNumberOfRuns("System"), 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(BothSpaces, SurfaceGradient,
+  ::testing::Values(int(vtkSurfaceFEMAlgorithm::Grid), int(vtkSurfaceFEMAlgorithm::HatFunctions)));
+
+TEST(SurfaceGradientFilter, TakesASharedBasis)
+{
+  const auto sphere = ToPolyData(GeodesicSphere(8));
+  AddPointArray(sphere, "f", 1, Wave);
+  vtkNew<vtkConnectivityAwareBasis> basis;
+  basis->SetInputData(sphere);
+  basis->SetDepth(4);
+  vtkNew<vtkSurfaceGradient> shared;
+  shared->SetInputData(sphere);
+  shared->SetBasisConnection(basis->GetOutputPort());
+  shared->SetInputArrayToProcess(0, 0, 0, Points, "f");
+  shared->Update();
+  vtkNew<vtkSurfaceGradient> alone;
+  alone->SetInputData(sphere);
+  alone->SetDepth(4);
+  alone->SetInputArrayToProcess(0, 0, 0, Points, "f");
+  alone->Update();
+  vtkDataArray* a = shared->GetOutput()->GetPointData()->GetArray("Gradient");
+  vtkDataArray* b = alone->GetOutput()->GetPointData()->GetArray("Gradient");
+  for (vtkIdType i = 0; i < a->GetNumberOfTuples(); ++i)
+  {
+    ASSERT_NEAR(a->GetComponent(i, 0), b->GetComponent(i, 0), 1e-9);
+  }
+}
+
+TEST(SurfaceGradientFilter, TakesTheCoordinatesWithoutAnArray)
+{
+  vtkNew<vtkSurfaceGradient> filter;
+  const auto sphere = ToPolyData(GeodesicSphere(40));
+  filter->SetInputData(sphere);
+  filter->SetDepth(5);
+  filter->Update();
+  vtkDataArray* laplacian = filter->GetOutput()->GetPointData()->GetArray("Laplacian");
+  double error = 0.0;
+  for (vtkIdType i = 0; i < sphere->GetNumberOfPoints(); ++i)
+  {
+    const Vec3 found(laplacian->GetTuple3(i));
+    error += (found + 2.0 * Vec3(sphere->GetPoint(i))).squaredNorm();
+  }
+  EXPECT_LT(std::sqrt(error / double(sphere->GetNumberOfPoints())), 0.1);
+}
+
+TEST(SurfaceGradientFilter, LeavesVerticesAndUnusedPointsAlone)
+{
+  const auto sphere = ToPolyData(GeodesicSphere(4));
+  const double far[3] = { 9, 9, 9 };
+  const vtkIdType lonely = sphere->GetPoints()->InsertNextPoint(far);
+  vtkNew<vtkCellArray> verts;
+  verts->InsertNextCell({ lonely });
+  sphere->SetVerts(verts);
+  AddPointArray(sphere, "f", 1, Wave);
+  vtkNew<vtkSurfaceGradient> filter;
+  filter->SetInputData(sphere);
+  filter->SetDepth(3);
+  filter->SetInputArrayToProcess(0, 0, 0, Points, "f");
+  filter->Update();
+  ASSERT_EQ(filter->GetOutput()->GetNumberOfCells(), sphere->GetNumberOfCells());
+  EXPECT_EQ(filter->GetOutput()->GetPointData()->GetArray("Laplacian")->GetComponent(lonely, 0), 0);
+  EXPECT_EQ(filter->GetOutput()->GetCellData()->GetArray("Laplacian")->GetComponent(0, 0), 0);
+  EXPECT_NE(filter->GetOutput()->GetCellData()->GetArray("Laplacian")->GetComponent(1, 0), 0);
+}
