@@ -203,7 +203,10 @@ void vtkScreenedPoisson::UpdateHierarchy()
   key.Add(weight);
   const auto build = [&]
   {
-    const bool update = data.Hierarchy && data.HierarchyShape == shape;
+    // Other threads give the same bits; so they are no reason to run, but used where it runs.
+    const int threads = state.options.multigrid.threads;
+    const bool update = data.Hierarchy && data.HierarchyShape == shape &&
+                        data.Hierarchy->Options().threads == threads;
     if (update && state.hats)
     {
       gridfem::UpdateHatMultigrid(
