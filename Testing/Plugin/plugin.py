@@ -1,11 +1,22 @@
 """What the plugin's tests share: the plugin, a surface, and access to filters and their data."""
 import os
+import pathlib
+import re
 
 from paraview import servermanager, simple
 
-PROXIES = ("ClipToOctree", "ConnectivityAwareBasis", "ScreenedPoisson", "LaplaceSpectrum",
-           "SpectralSignatures")
-SOLVERS = PROXIES[2:]
+
+def _filters():
+    """Per filter of the plugin: whether it takes a basis, as solvers do."""
+    folder = pathlib.Path(os.environ["GRIDFEM_SOURCE_DIR"]) / "Plugin"
+    texts = [path.read_text() for path in sorted(folder.glob("*.xml"))]
+    return {re.search(r'<SourceProxy name="(\w+)"', text).group(1): "@Basis@" in text
+            for text in texts}
+
+
+_FILTERS = _filters()
+PROXIES = tuple(_FILTERS)
+SOLVERS = tuple(name for name, takes_basis in _FILTERS.items() if takes_basis)
 
 STAGES = ("Space", "System", "Hierarchy", "RightHandSide", "Solve")
 
