@@ -120,7 +120,6 @@ void vtkScreenedPoisson::Solve(const gridfem::Progress& progress)
   {
     fields.Add(array->array).Add(static_cast<int>(array->association));
   }
-<<<<<<< HEAD
   gridfem::PoissonRequest request;
   request.weight = this->ScreeningWeight;
   request.gradientScale = this->GradientScale;
@@ -130,101 +129,6 @@ void vtkScreenedPoisson::Solve(const gridfem::Progress& progress)
     [this](const gridfem::FiniteElementSpace& space, const gridfem::Job& job)
     { return this->Integrate(space, job); },
     request, progress);
-=======
-  state.stages.Run(RightHandSideStage, key,
-    [&]
-    {
-      const gridfem::Progress progress = state.bridge.GetProgress().Part(0.5, 0.6);
-      const gridfem::Field value = data.Value.array ? gridfem::ReadField(data.Value, state.mesh)
-                                                    : gridfem::CoordinatesField(state.mesh);
-      if (state.hats)
-      {
-        this->IntegrateOnHats(value);
-      }
-      else
-      {
-        this->IntegrateOnGrid(value, progress);
-      }
-      progress.Check(1.0);
-    });
-}
-
-std::unique_ptr<gridfem::Multigrid> vtkScreenedPoisson::BuildHierarchy(double weight)
-{
-  gridfem::SurfaceSolverState& state = *this->State;
-  const gridfem::Progress progress = state.bridge.GetProgress().Part(0.6, 0.7);
-  if (state.hats)
-  {
-    return std::make_unique<gridfem::Multigrid>(
-      gridfem::BuildHatMultigrid(*state.hats, state.Space(), *state.system, weight, 1.0,
-        gridfem::HatCycle(state.options.multigrid), progress));
-  }
-  const gridfem::MultigridOptions& options = state.options.multigrid;
-  if (options.hidden == gridfem::HiddenCorrection::Always && gridfem::AllowsHidden(options))
-  {
-    gridfem::RequireMemoryForLayers(state.Space().Finest().numberOfFunctions);
-  }
-  return std::make_unique<gridfem::Multigrid>(
-    gridfem::BuildMultigrid(state.Space(), *state.system, weight, 1.0, options, progress));
-}
-
-void vtkScreenedPoisson::UpdateHierarchy()
-{
-  Internals& data = *this->Data;
-  gridfem::SurfaceSolverState& state = *this->State;
-  gridfem::StageKey shape;
-  shape.Add(state.stages.Version(SystemStage));
-  gridfem::AddMultigrid(shape, state.options.multigrid);
-  const double weight = state.WeightInGridUnits(this->ScreeningWeight);
-  gridfem::StageKey key = shape;
-  key.Add(weight);
-  const auto build = [&]
-  {
-    // Other threads give the same bits; so they are no reason to run, but used where it runs.
-    const int threads = state.options.multigrid.threads;
-    const bool update = data.Hierarchy && data.HierarchyShape == shape &&
-                        data.Hierarchy->Options().threads == threads;
-    if (update && state.hats)
-    {
-      gridfem::UpdateHatMultigrid(
-        *state.hats, state.Space(), *state.system, weight, 1.0, *data.Hierarchy);
-      return;
-    }
-    if (update)
-    {
-      gridfem::UpdateMultigrid(state.Space(), *state.system, weight, 1.0, *data.Hierarchy);
-      return;
-    }
-    data.Hierarchy.reset();
-    data.Hierarchy = this->BuildHierarchy(weight);
-    data.HierarchyShape = shape;
-  };
-  state.stages.Run(HierarchyStage, key, build);
-}
-
-void vtkScreenedPoisson::UpdateSolution()
-{
-  Internals& data = *this->Data;
-  gridfem::SurfaceSolverState& state = *this->State;
-  gridfem::StageKey key;
-  key.Add(state.stages.Version(HierarchyStage)).Add(state.stages.Version(RightHandSideStage));
-  key.Add(this->Iteration).Add(this->Tolerance).Add(this->MaximumIterations);
-  const auto solve = [&]
-  {
-    gridfem::PoissonOptions options;
-    options.screeningWeight = state.WeightInGridUnits(this->ScreeningWeight);
-    options.multigrid = state.options.multigrid;
-    options.iteration = static_cast<gridfem::IterationType>(this->Iteration);
-    options.solve = state.options.solve;
-    const gridfem::Progress progress = state.bridge.GetProgress().Part(0.7, 0.95);
-    data.Solution = state.hats
-                      ? gridfem::SolvePoisson(gridfem::FunctionsOf(*state.hats), *data.Hierarchy,
-                          data.ValueIntegrals, data.GradientIntegrals, options, progress)
-                      : gridfem::SolvePoisson(state.Space(), *state.system, *data.Hierarchy,
-                          data.ValueIntegrals, data.GradientIntegrals, options, progress);
-  };
-  state.stages.Run(SolveStage, key, solve);
->>>>>>> manners
 }
 
 void vtkScreenedPoisson::WriteSolution(vtkPolyData* input, vtkPolyData* output)

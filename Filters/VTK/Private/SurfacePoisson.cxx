@@ -29,7 +29,9 @@ void SurfacePoisson::UpdateHierarchy(
   state.stages.Run(HierarchyStage, key,
     [&]
     {
-      if (multigrid_ && shape_ == shape)
+      // Other threads give the same bits: no reason to run, but used where it runs.
+      if (multigrid_ && shape_ == shape &&
+          multigrid_->Options().threads == state.options.multigrid.threads)
       {
         UpdateMultigrid(*state.space, weight, 1.0, *multigrid_);
         return;
