@@ -29,6 +29,10 @@ namespace gridfem::testing
 inline constexpr int Points = vtkDataObject::FIELD_ASSOCIATION_POINTS;
 inline constexpr int Cells = vtkDataObject::FIELD_ASSOCIATION_CELLS;
 
+/// Of solvers, in the order in which they depend on each other.
+inline constexpr const char* Stages[] = { "Space", "System", "Hierarchy", "RightHandSide",
+  "Solve" };
+
 /// A smooth function of the position, one per component.
 inline double Wave(const Vec3& p, int c)
 {

@@ -429,7 +429,7 @@ TEST_P(FailureRule, ThreadsRepeatNoStage)
   this->ExpectComputed(data);
   filter->SetNumberOfThreads(2);
   this->ExpectComputed(data);
-  for (int stage = 0; stage < vtkSurfaceFEMAlgorithm::NumberOfStages; ++stage)
+  for (const char* stage : Stages)
   {
     EXPECT_LE(filter->GetNumberOfRuns(stage), 1) << stage;
   }

@@ -201,7 +201,7 @@ TEST_F(HatPoisson, AChangeRunsOnlyItsOwnStagesAndGivesTheSameAsAFreshFilter)
   const auto runs = [&]
   {
     std::vector<vtkIdType> counts;
-    for (int stage = 0; stage < Poisson::NumberOfStages; ++stage)
+    for (const char* stage : Stages)
     {
       counts.push_back(filter->GetNumberOfRuns(stage));
     }

@@ -51,7 +51,7 @@ protected:
   std::vector<vtkIdType> Runs()
   {
     std::vector<vtkIdType> runs;
-    for (int stage = 0; stage < Poisson::NumberOfStages; ++stage)
+    for (const char* stage : Stages)
     {
       runs.push_back(filter->GetNumberOfRuns(stage));
     }
@@ -334,7 +334,8 @@ TEST_F(ScreenedPoisson, AnUpdatedWeightGivesTheSameAsAFreshFilter)
   fresh->SetInputData(input);
   fresh->SetInputArrayToProcess(0, 0, 0, Points, "f");
   fresh->Update();
-  EXPECT_EQ(updated, PointValues(fresh->GetOutput(), "Solution"));
+  // The fresh one starts from nested iteration, the other from its last solution.
+  EXPECT_LT(Difference(updated, PointValues(fresh->GetOutput(), "Solution")), 1e-5);
 }
 
 TEST_F(ScreenedPoisson, AMissingArrayIsRefusedByName)

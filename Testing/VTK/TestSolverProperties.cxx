@@ -24,7 +24,7 @@ using Counts = std::map<std::string, vtkIdType>; // per stage
 Counts Runs(vtkSurfaceFEMAlgorithm* filter)
 {
   Counts counts;
-  for (const char* stage : { "Space", "System", "Hierarchy", "RightHandSide", "Solve" })
+  for (const char* stage : Stages)
   {
     counts[stage] = filter->GetNumberOfRuns(stage);
   }

@@ -1,3 +1,4 @@
+#include "Discretisation.h"
 #include "Figures.h"
 #include "Measure.h"
 #include "Meshes.h"
@@ -24,8 +25,9 @@ std::vector<double> Eigenvalues(const GridFunctions& space, int degree)
 {
   SpectrumOptions options;
   options.numberOfModes = Modes;
-  std::vector<double> values =
-    ComputeSpectrum(space, BuildLevelOperators(space, TriangleRule(degree)), options).eigenvalues;
+  std::vector<double> values = ComputeSpectrum(
+    testing::ViewOf(space, BuildLevelOperators(space, TriangleRule(degree))), options)
+                                 .eigenvalues;
   for (double& value : values)
   {
     value /= space.GetGrid().spacing * space.GetGrid().spacing;

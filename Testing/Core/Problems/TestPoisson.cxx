@@ -387,7 +387,7 @@ TEST(Poisson, ProgressIsAlwaysANumber)
   const Problem problem(mesh, AtDepth(4), 0.1);
   MultiVector f = RandomValues(mesh.points.size(), 2);
   f(3, 1) = std::numeric_limits<double>::quiet_NaN();
-  const Multigrid multigrid = BuildMultigrid(problem.space, problem.system, 0.1, 1.0, {});
+  const Multigrid multigrid = BuildMultigrid(ViewOf(problem.space, problem.system), 0.1, 1.0, {});
   int reports = 0;
   const Progress progress(
     [&](double fraction)
@@ -396,8 +396,8 @@ TEST(Poisson, ProgressIsAlwaysANumber)
       ++reports;
       return true;
     });
-  SolvePoisson(
-    problem.space, problem.system, multigrid, problem.Values(f), {}, problem.options, progress);
+  SolvePoisson(ViewOf(problem.space, problem.system), multigrid, problem.Values(f), {},
+    problem.options, progress);
   EXPECT_GT(reports, 1);
 }
 
