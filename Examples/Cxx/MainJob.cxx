@@ -107,8 +107,7 @@ void Run(Pipeline& p, StepClock& clock)
   clock.Run("Screened Poisson", p.poisson);
   clock.AddPart("element matrices", p.poisson->GetStageSeconds("System"));
   clock.AddPart("hierarchy", p.poisson->GetStageSeconds("Hierarchy"));
-  clock.AddPart(
-    "right-hand side", p.poisson->GetStageSeconds("RightHandSide"));
+  clock.AddPart("right-hand side", p.poisson->GetStageSeconds("RightHandSide"));
   clock.AddPart("solve", p.poisson->GetStageSeconds("Solve"));
   clock.Run("Laplace Spectrum", p.spectrum);
 }

@@ -66,7 +66,7 @@ TEST_P(SurfaceGradient, OfALinearArrayIsItsSlopeAtPointsAndOnCells)
   filter->SetInputData(sheet);
   filter->SetInputArrayToProcess(0, 0, 0, Points, "f");
   filter->SetDepth(4);
-  filter->SetTolerance(1e-10);
+  filter->SetTolerance(1e-8);
   filter->SetFunctionSpace(this->GetParam());
   filter->Update();
   vtkPolyData* output = filter->GetOutput();

@@ -86,8 +86,8 @@ Errors OnSphere(bool isOnHats, int depth, int fineness)
 
 TEST(SurfaceDerivatives, OnAGridConvergeToThoseOfTheSphere)
 {
-  const Errors coarse = OnSphere(false, 4, 60);
-  const Errors fine = OnSphere(false, 5, 60);
+  const Errors coarse = OnSphere(false, 3, 60);
+  const Errors fine = OnSphere(false, 4, 60);
   EXPECT_LT(fine.gradient, 0.02);
   EXPECT_LT(fine.gradientOnTriangles, 0.03);
   EXPECT_LT(fine.laplacian, 0.05);
@@ -102,7 +102,7 @@ TEST(SurfaceDerivatives, OnHatsConvergeToThoseOfTheSphere)
   EXPECT_LT(fine.gradient, 0.02);
   EXPECT_LT(fine.laplacian, 0.05);
   EXPECT_LT(fine.gradient, 0.5 * coarse.gradient);
-  EXPECT_LT(fine.laplacian, 0.6 * coarse.laplacian);
+  EXPECT_LT(fine.laplacian, 0.75 * coarse.laplacian); // a second derivative of linear functions
 }
 
 /// A linear function on a flat sheet with boundaries: constant gradient, Laplacian 0 up to the
