@@ -111,6 +111,11 @@ void vtkScreenedPoisson::IntegrateOnGrid(
       gridfem::IntegrateGradients(space, mesh, gridfem::ReadField(data.Gradient, state.mesh),
         scale ? &*scale : nullptr, rule, threads, progress.Part(0.5, 1.0));
   }
+  else if (this->UseValueGradient && !data.Value.array)
+  {
+    data.GradientIntegrals = gridfem::IntegrateGradientsOfCoordinates(space, mesh,
+      scale ? &*scale : nullptr, rule, this->NormalStabilization, threads, progress.Part(0.5, 1.0));
+  }
   else if (this->UseValueGradient)
   {
     data.GradientIntegrals = gridfem::IntegrateGradientsOf(
@@ -149,6 +154,7 @@ void vtkScreenedPoisson::UpdateRightHandSide()
   gridfem::StageKey key;
   key.Add(state.stages.Version(SpaceStage)).Add(this->QuadratureDegree).Add(this->FunctionSpace);
   key.Add(this->GradientScale).Add(this->UseValueGradient);
+  key.Add(this->UseValueGradient && !data.Value.array ? this->NormalStabilization : 0.0);
   for (const gridfem::InputArray* array : { &data.Value, &data.Gradient, &data.Scale })
   {
     key.Add(array->array).Add(static_cast<int>(array->association));

@@ -60,6 +60,7 @@ int vtkSurfaceFEMAlgorithm::RequestData(
   options.multigrid.postSweeps = this->NumberOfSweeps;
   options.multigrid.sweepsPerSynchronisation = this->SweepsPerSynchronisation;
   options.coarsestSize = this->CoarsestSize;
+  options.normalStabilization = this->NormalStabilization;
   options.multigrid.threads = this->NumberOfThreads;
   options.solve.tolerance = this->Tolerance;
   options.solve.maximumIterations = this->MaximumIterations;
@@ -118,6 +119,7 @@ void vtkSurfaceFEMAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfSweeps: " << this->NumberOfSweeps << "\n";
   os << indent << "SweepsPerSynchronisation: " << this->SweepsPerSynchronisation << "\n";
   os << indent << "CoarsestSize: " << this->CoarsestSize << "\n";
+  os << indent << "NormalStabilization: " << this->NormalStabilization << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";

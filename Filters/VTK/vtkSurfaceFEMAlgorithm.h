@@ -157,6 +157,21 @@ public:
 
   ///@{
   /**
+   * The weight of the squared normal derivative in the operator. The functions of the grid are
+   * functions in space; what they do across the surface has no equation of its own. The default,
+   * 1e-12, only makes it known. With 1e-2 solvers need about ten iterations to small tolerances at
+   * any depth and on any surface, walls and facets included. The error of the space is then 1.1 to
+   * 1.4 times as large on scans and machine parts, two to four times on spheres and cubes; it falls
+   * with the depth as before. Given gradients count as tangential, but those of the coordinates
+   * keep their normal part, so that a GradientScale of 1 gives the shape back. Hat functions have
+   * no normal derivative and ignore it. 1e-14..1, default 1e-12.
+   */
+  vtkSetClampMacro(NormalStabilization, double, 1e-14, 1.0);
+  vtkGetMacro(NormalStabilization, double);
+  ///@}
+
+  ///@{
+  /**
    * The solver stops when its error measure has fallen by this factor. What is measured is said by
    * the filter. Above 0, below 1.
    */
@@ -247,6 +262,7 @@ protected:
   int NumberOfSweeps = 1;
   int SweepsPerSynchronisation = 1;
   int CoarsestSize = 256;
+  double NormalStabilization = 1e-12;
   double Tolerance = 1e-8;
   int MaximumIterations = 100;
   int NumberOfThreads = 0;

@@ -21,7 +21,7 @@ std::shared_ptr<const LevelOperators> SystemStore::Get(
   if (!system)
   {
     system = std::make_shared<const LevelOperators>(
-      BuildSystem(*space_, rule, threads, key.coarsestSize, progress));
+      BuildSystem(*space_, rule, threads, key.coarsestSize, progress, key.normalStabilization));
   }
   return system;
 }

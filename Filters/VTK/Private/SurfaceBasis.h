@@ -18,11 +18,12 @@ struct SystemKey
 {
   int quadratureDegree;
   Index coarsestSize; // functions of the largest component on the coarsest level, at most
+  double normalStabilization;
 
   bool operator<(const SystemKey& other) const
   {
-    return std::tie(quadratureDegree, coarsestSize) <
-           std::tie(other.quadratureDegree, other.coarsestSize);
+    return std::tie(quadratureDegree, coarsestSize, normalStabilization) <
+           std::tie(other.quadratureDegree, other.coarsestSize, other.normalStabilization);
   }
 };
 

@@ -94,7 +94,7 @@ void SurfaceSolverState::UpdateSpace(
     }
     basis = carries ? ReadBasis(input, mesh, progress.Part(0.1, 1.0))
                     : ReadBasisFor(basisData, mesh, progress.Part(0.1, 1.0));
-    RequireMemory(*mesh.triangles, basis.space->GetGrid().depth);
+    RequireMemory(*mesh.triangles, basis.space->GetGrid().depth, options.hatFunctions);
     weldCoincidentPoints_ = WeldsCoincidentPoints(carries ? input : basisData);
   };
   stages.Run(vtkSurfaceFEMAlgorithm::SpaceStage, key, update);
@@ -108,7 +108,7 @@ void SurfaceSolverState::BuildSpace(vtkPolyData* input, const Progress& progress
   weldCoincidentPoints_ = options.space.weldCoincidentPoints;
   mesh = ReadInputMesh(input, options.space.threads, progress.Part(0.0, 0.1));
   RequireSurface(*mesh.triangles);
-  RequireMemory(*mesh.triangles, options.space.depth);
+  RequireMemory(*mesh.triangles, options.space.depth, options.hatFunctions);
   basis = MakeSurfaceBasis(
     mesh.triangles, BuildGridFunctions(*mesh.triangles, options.space, progress.Part(0.1, 1.0)));
 }
@@ -118,10 +118,12 @@ void SurfaceSolverState::UpdateSystem(const Progress& progress)
   constexpr int stage = vtkSurfaceFEMAlgorithm::SystemStage;
   StageKey key;
   key.Add(stages.Version(vtkSurfaceFEMAlgorithm::SpaceStage)).Add(options.quadratureDegree);
-  key.Add(options.coarsestSize).Add(options.hatFunctions);
+  key.Add(options.coarsestSize).Add(options.hatFunctions).Add(options.normalStabilization);
+  const SystemKey wanted{ options.quadratureDegree, options.coarsestSize,
+    options.normalStabilization };
   if (!options.hatFunctions && !stages.IsCurrent(stage, key))
   {
-    system = basis.systems->Find({ options.quadratureDegree, options.coarsestSize });
+    system = basis.systems->Find(wanted);
     if (system)
     {
       hats.reset();
@@ -132,8 +134,7 @@ void SurfaceSolverState::UpdateSystem(const Progress& progress)
   const auto build = [&]
   {
     hats.reset();
-    system = basis.systems->Get({ options.quadratureDegree, options.coarsestSize },
-      options.space.threads, progress.Part(0.0, 0.7));
+    system = basis.systems->Get(wanted, options.space.threads, progress.Part(0.0, 0.7));
     if (options.hatFunctions)
     {
       hats = this->BuildHats(progress.Part(0.7, 1.0));
@@ -144,6 +145,8 @@ void SurfaceSolverState::UpdateSystem(const Progress& progress)
 
 HatHierarchy SurfaceSolverState::BuildHats(const Progress& progress) const
 {
+  RequireMemoryForHats(*basis.mesh,
+    basis.space->Finest().numberOfFunctions); // the space may be older than the wish for hats
   return BuildHatHierarchy(*basis.mesh, *basis.space, weldCoincidentPoints_,
     HatTransfer::Evaluation, options.space.threads, progress);
 }

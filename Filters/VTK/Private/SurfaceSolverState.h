@@ -24,6 +24,7 @@ struct SurfaceOptions
   bool hatFunctions = false; // the functions are the hats of the mesh, the grid preconditions
   int quadratureDegree = 2;
   Index coarsestSize = 256;
+  double normalStabilization = DefaultNormalStabilization;
   MultigridOptions multigrid;
   SolveOptions solve;
   int parameterUnits = 1; // vtkSurfaceFEMAlgorithm::ParameterUnitsType

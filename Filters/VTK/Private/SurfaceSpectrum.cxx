@@ -23,10 +23,12 @@ double Largest(const std::vector<double>& values)
   return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
 }
 
-bool FitsMemory(const TriangleMesh& mesh, int depth)
+bool FitsMemory(const TriangleMesh& mesh, int depth, bool hatFunctions)
 {
   const double available = AvailableMemory();
-  return available <= 0.0 || EstimateMemory(mesh, depth).bytes <= available;
+  const MemoryEstimate estimate = EstimateMemory(mesh, depth);
+  const double hats = hatFunctions ? EstimateHatMemory(mesh, estimate.functions) : 0.0;
+  return available <= 0.0 || estimate.bytes + hats <= available;
 }
 
 SpectrumOptions SolverOptions(const SurfaceSolverState& state, int numberOfModes)
@@ -112,7 +114,8 @@ int SurfaceSpectrum::NextDepth(const SurfaceSolverState& state, double accuracy)
 {
   const int now = state.Space().GetGrid().depth;
   const int next = accuracy > 0.0 ? DepthForAccuracy(gridErrors_, now, accuracy) : now;
-  return next == now || FitsMemory(*state.mesh.triangles, next) ? next : now;
+  return next == now || FitsMemory(*state.mesh.triangles, next, state.options.hatFunctions) ? next
+                                                                                            : now;
 }
 
 /// As many eigenvalues as there are modes, in the function space that was not chosen.
@@ -159,7 +162,7 @@ void SurfaceSpectrum::ChooseDepth(
     RequireSurface(*mesh.triangles);
     depth = FirstDepthForAccuracy(
       EstimateMemory(*mesh.triangles, 5).functions, request.numberOfModes, request.accuracy);
-    while (depth > MinimumDepth && !FitsMemory(*mesh.triangles, depth))
+    while (depth > MinimumDepth && !FitsMemory(*mesh.triangles, depth, state.options.hatFunctions))
     {
       --depth;
     }

@@ -1,7 +1,7 @@
 // The estimate of memory against what is really built.
 #include "Meshes.h"
 #include "Problems/MemoryEstimate.h"
-#include "Spaces/LevelOperators.h"
+#include "Spaces/HatMultigrid.h"
 
 #include <gtest/gtest.h>
 
@@ -130,6 +130,29 @@ TEST(MemoryEstimate, HoldsWhatIsBuiltAndNotMuchMore)
     // areas tell. The peak of clipping is up to twice what clipping leaves.
     EXPECT_GT(estimate.bytes, (1.0 - ShareOfCurves(item.depth)) * arrays);
     EXPECT_LT(estimate.bytes, 2.5 * arrays);
+  }
+}
+
+TEST(MemoryEstimate, HoldsTheHatFunctions)
+{
+  for (const Case& item : Cases())
+  {
+    SCOPED_TRACE(item.name);
+    const GridFunctions space = BuildSpace(item);
+    const LevelOperators system = BuildSystem(space, TriangleRule(2));
+    const HatHierarchy hats = BuildHatHierarchy(item.mesh, space, true, HatTransfer::Evaluation);
+    const std::size_t withHats =
+      BuildHatMultigrid(hats, space, system, 0.01, 1.0, HatCycle({})).Memory();
+    MultigridOptions plain;
+    plain.hidden = HiddenCorrection::Never;
+    const std::size_t without = BuildMultigrid(space, system, 0.01, 1.0, plain).Memory();
+    const HatFunctions& functions = hats.functions;
+    const double arrays =
+      Bytes(functions.ofPoint) + Bytes(functions.begin) + Bytes(functions.corners) +
+      Bytes(functions.component) + Bytes(hats.matrices.mass) + Bytes(hats.matrices.stiffness) +
+      Bytes(hats.matrices.integral) + static_cast<double>(withHats) - static_cast<double>(without);
+    EXPECT_GT(EstimateHatMemory(item.mesh, space.Finest().numberOfFunctions), arrays);
+    EXPECT_LT(EstimateHatMemory(item.mesh, space.Finest().numberOfFunctions), 2.5 * arrays);
   }
 }
 
