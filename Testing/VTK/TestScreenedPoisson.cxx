@@ -76,12 +76,16 @@ TEST_F(ScreenedPoisson, CoordinatesAreReproducedByTheirOwnGradient)
     const Vec3 p(input->GetPoint(k));
     expected.insert(expected.end(), p.data(), p.data() + 3);
   }
-  for (const double weight : { 0.0, 1e-6, 1.0, 1e6 })
+  for (const double stabilization : { 1e-12, 1e-2, 1.0 })
   {
-    filter->SetScreeningWeight(weight);
-    // The coordinates lie in the space: what is left is the solver's tolerance.
-    EXPECT_LT(Difference(this->Solution(), expected), 1e-6) << weight;
-    EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 1) << weight;
+    filter->SetNormalStabilization(stabilization);
+    for (const double weight : { 0.0, 1e-6, 1.0, 1e6 })
+    {
+      filter->SetScreeningWeight(weight);
+      // The coordinates lie in the space: what is left is the solver's tolerance.
+      EXPECT_LT(Difference(this->Solution(), expected), 1e-6) << weight << " " << stabilization;
+      EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 1) << weight;
+    }
   }
 }
 

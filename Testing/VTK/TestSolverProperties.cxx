@@ -119,6 +119,22 @@ TEST_P(SolverProperties, AnyCoarsestSizeSolves)
   EXPECT_EQ(direct <= 2, this->GetParam() == Poisson::Grid);
 }
 
+TEST_P(SolverProperties, NormalStabilizationChangesTheSystemOfTheGrid)
+{
+  this->Iterations();
+  const Counts before = Runs(filter);
+  const std::vector<double> without = PointValues(filter->GetOutput(), "Solution");
+  filter->SetNormalStabilization(1e-2);
+  filter->Update();
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 1);
+  EXPECT_EQ(Runs(filter), (Counts{ 1, before[1] + 1, before[2] + 1, before[3], before[4] + 1 }));
+  // The grid's solution changes by about its error, that of the hats by none.
+  const double change = Difference(PointValues(filter->GetOutput(), "Solution"), without);
+  const bool isGrid = this->GetParam() == Poisson::Grid;
+  EXPECT_GT(change, isGrid ? 1e-5 : -1.0);
+  EXPECT_LT(change, isGrid ? 0.1 : 1e-5);
+}
+
 TEST_P(SolverProperties, ASweepCountRebuildsTheHierarchyAlone)
 {
   this->Iterations();
@@ -167,12 +183,12 @@ INSTANTIATE_TEST_SUITE_P(BothSpaces, SolverProperties,
   [](const auto& space)
   { return std::string(space.param == Poisson::Grid ? "Grid" : "HatFunctions"); });
 
-TEST(SolverProperty, FiltersOnOneBasisMayDifferInTheCoarsestSize)
+TEST(SolverProperty, FiltersOnOneBasisMayDifferInTheirSystems)
 {
   vtkNew<vtkConnectivityAwareBasis> basis;
   basis->SetDepth(4);
   basis->SetInputData(Surface());
-  const auto solution = [&](int coarsestSize, vtkAlgorithmOutput* shared)
+  const auto solution = [&](int coarsestSize, vtkAlgorithmOutput* shared, double weight = 1e-12)
   {
     vtkNew<Poisson> filter;
     filter->SetInputData(basis->GetInput());
@@ -180,6 +196,7 @@ TEST(SolverProperty, FiltersOnOneBasisMayDifferInTheCoarsestSize)
     filter->SetDepth(4);
     filter->SetTolerance(1e-4); // far from the solution, so that a difference shows
     filter->SetCoarsestSize(coarsestSize);
+    filter->SetNormalStabilization(weight);
     filter->SetBasisConnection(shared);
     filter->Update();
     return PointValues(filter->GetOutput(), "Solution");
@@ -189,6 +206,8 @@ TEST(SolverProperty, FiltersOnOneBasisMayDifferInTheCoarsestSize)
     EXPECT_EQ(solution(size, basis->GetOutputPort()), solution(size, nullptr)) << size;
   }
   EXPECT_NE(solution(256, nullptr), solution(16, nullptr));
+  EXPECT_EQ(solution(256, basis->GetOutputPort(), 1e-2), solution(256, nullptr, 1e-2));
+  EXPECT_NE(solution(256, nullptr, 1e-2), solution(256, nullptr));
 }
 
 TEST(SolverProperty, ValuesOutOfRangeAreClamped)

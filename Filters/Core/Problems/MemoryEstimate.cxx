@@ -33,6 +33,12 @@ constexpr double HeldPerPatch = 2600.0;
 // For one right-hand side: ten vectors.
 constexpr double HeldPerFunction = 80.0;
 
+// Hats, whose points have six neighbours: their tables 40, matrices with 7 entries per row 160, the
+// same combined and ordered 130, the transfer of 8 entries and its transpose 210, groups of eight
+// and their factors 60, vectors 80.
+constexpr double HatsPerPoint = 680.0;
+constexpr double HatsPerFunction = 10.0;
+
 } // namespace
 
 MemoryEstimate EstimateMemory(const TriangleMesh& mesh, int depth)
@@ -70,6 +76,14 @@ MemoryEstimate EstimateMemory(const TriangleMesh& mesh, int depth)
                        HeldPerPatch * estimate.patches + HeldPerFunction * estimate.functions;
   estimate.bytes = std::max(clip, solve);
   return estimate;
+}
+
+double EstimateHatMemory(const TriangleMesh& mesh, double functions)
+{
+  // A mesh whose triangles share no points is welded: two triangles to a point, whatever it has.
+  const double welded = 0.5 * static_cast<double>(mesh.triangles.size()) + 3.0;
+  const double points = std::min(static_cast<double>(mesh.points.size()), welded);
+  return HatsPerPoint * points + HatsPerFunction * functions;
 }
 
 double AvailableMemory()

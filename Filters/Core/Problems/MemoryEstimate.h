@@ -21,6 +21,12 @@ struct MemoryEstimate
 /// O(triangles).
 MemoryEstimate EstimateMemory(const TriangleMesh& mesh, int depth);
 
+/// Bytes that the hat functions of a mesh take on top: their matrices, the transfer to the grid and
+/// their part of the hierarchy, with one right-hand side. Within a third on meshes whose triangles
+/// share their points. Cost O(1).
+/// @param functions  of the grid below, which the transfer has a row for each of
+double EstimateHatMemory(const TriangleMesh& mesh, double functions);
+
 /// Bytes that can be allocated on this machine now; 0 when unknown.
 double AvailableMemory();
 

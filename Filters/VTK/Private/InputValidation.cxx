@@ -88,14 +88,26 @@ void RequireSurface(const TriangleMesh& mesh)
   }
 }
 
-void RequireMemory(const TriangleMesh& mesh, int depth)
+void RequireMemory(const TriangleMesh& mesh, int depth, bool hatFunctions)
 {
   const MemoryEstimate estimate = EstimateMemory(mesh, depth);
   std::ostringstream subject;
   subject << "Depth " << depth << " (about " << std::setprecision(3) << estimate.functions
           << " basis functions)";
-  RequireBytes(
-    estimate.bytes, subject.str(), "Every step down in Depth takes a quarter of the memory.");
+  double bytes = estimate.bytes;
+  if (hatFunctions)
+  {
+    bytes += EstimateHatMemory(mesh, estimate.functions);
+    subject << " with the hat functions of " << mesh.points.size() << " points";
+  }
+  RequireBytes(bytes, subject.str(), "Every step down in Depth takes a quarter of the memory.");
+}
+
+void RequireMemoryForHats(const TriangleMesh& mesh, Id functions)
+{
+  RequireBytes(EstimateHatMemory(mesh, static_cast<double>(functions)),
+    "Hat functions on " + std::to_string(mesh.points.size()) + " points",
+    "Choose the functions of the grid, or fewer points.");
 }
 
 void RequireMemoryForModes(Id functions, Id modes, int threads)

@@ -26,7 +26,10 @@ void RequireSingleProcess();
 void RequireSurface(const TriangleMesh& mesh);
 
 /// Throws InvalidInput, with the estimate, when this depth needs more memory than there is.
-void RequireMemory(const TriangleMesh& mesh, int depth);
+void RequireMemory(const TriangleMesh& mesh, int depth, bool hatFunctions = false);
+
+/// The same for hat functions above a grid with so many functions, which is there.
+void RequireMemoryForHats(const TriangleMesh& mesh, Id functions);
 
 /// Throws InvalidInput, with the estimate, when so many eigenvectors need more memory than there
 /// is.

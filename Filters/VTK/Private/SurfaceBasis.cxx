@@ -1,5 +1,6 @@
 #include "SurfaceBasis.h"
 
+#include "InputValidation.h"
 #include "Integrals/QuadratureRule.h"
 
 namespace gridfem
@@ -66,6 +67,7 @@ std::shared_ptr<const FiniteElementSpace> MakeSpace(
     hats = basis.hats->Get(basis.weldCoincidentPoints,
       [&]
       {
+        RequireMemoryForHats(*basis.mesh, basis.space->Finest().numberOfFunctions);
         return BuildHatLevel(*basis.mesh, *basis.space, basis.weldCoincidentPoints,
           HatTransfer::Evaluation, job.Part(0.7, 1.0));
       });

@@ -97,7 +97,8 @@ void SurfaceSolverState::UpdateSpace(
     }
     basis = carries ? ReadBasis(input, mesh, progress.Part(0.1, 1.0))
                     : ReadBasisFor(basisData, mesh, progress.Part(0.1, 1.0));
-    RequireMemory(*mesh.triangles, basis.space->GetGrid().depth);
+    RequireMemory(
+      *mesh.triangles, basis.space->GetGrid().depth, options.choice.kind == FunctionKind::Hats);
   };
   stages.Run(SpaceStage, key, update);
 }
@@ -108,7 +109,7 @@ void SurfaceSolverState::BuildSpace(vtkPolyData* input, const Progress& progress
   space = {};
   mesh = ReadInputMesh(input, options.space.threads, progress.Part(0.0, 0.1));
   RequireSurface(*mesh.triangles);
-  RequireMemory(*mesh.triangles, options.space.depth);
+  RequireMemory(*mesh.triangles, options.space.depth, options.choice.kind == FunctionKind::Hats);
   basis = MakeSurfaceBasis(mesh.triangles,
     BuildGridFunctions(*mesh.triangles, options.space, progress.Part(0.1, 1.0)),
     options.space.weldCoincidentPoints);

@@ -21,10 +21,12 @@ double Largest(const std::vector<double>& values)
   return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
 }
 
-bool FitsMemory(const TriangleMesh& mesh, int depth)
+bool FitsMemory(const TriangleMesh& mesh, int depth, bool hatFunctions)
 {
   const double available = AvailableMemory();
-  return available <= 0.0 || EstimateMemory(mesh, depth).bytes <= available;
+  const MemoryEstimate estimate = EstimateMemory(mesh, depth);
+  const double hats = hatFunctions ? EstimateHatMemory(mesh, estimate.functions) : 0.0;
+  return available <= 0.0 || estimate.bytes + hats <= available;
 }
 
 SpectrumOptions SolverOptions(const SurfaceSolverState& state, int numberOfModes)
@@ -106,7 +108,10 @@ int SurfaceSpectrum::NextDepth(const SurfaceSolverState& state, double accuracy)
 {
   const int now = state.Functions().GetGrid().depth;
   const int next = accuracy > 0.0 ? DepthForAccuracy(gridErrors_, now, accuracy) : now;
-  return next == now || FitsMemory(*state.mesh.triangles, next) ? next : now;
+  return next == now || FitsMemory(*state.mesh.triangles, next,
+                          state.options.choice.kind == FunctionKind::Hats)
+           ? next
+           : now;
 }
 
 /// As many eigenvalues as there are modes, in the function space that was not chosen.
@@ -143,7 +148,8 @@ void SurfaceSpectrum::ChooseDepth(
     RequireSurface(*mesh.triangles);
     depth = FirstDepthForAccuracy(
       EstimateMemory(*mesh.triangles, 5).functions, request.numberOfModes, request.accuracy);
-    while (depth > MinimumDepth && !FitsMemory(*mesh.triangles, depth))
+    while (depth > MinimumDepth &&
+           !FitsMemory(*mesh.triangles, depth, state.options.choice.kind == FunctionKind::Hats))
     {
       --depth;
     }

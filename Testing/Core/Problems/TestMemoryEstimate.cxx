@@ -2,6 +2,7 @@
 #include "Discretisation.h"
 #include "Meshes.h"
 #include "Problems/MemoryEstimate.h"
+#include "Spaces/HatSpace.h"
 
 #include <gtest/gtest.h>
 
@@ -131,6 +132,29 @@ TEST(MemoryEstimate, HoldsWhatIsBuiltAndNotMuchMore)
     // areas tell. The peak of clipping is up to twice what clipping leaves.
     EXPECT_GT(estimate.bytes, (1.0 - ShareOfCurves(item.depth)) * arrays);
     EXPECT_LT(estimate.bytes, 2.5 * arrays);
+  }
+}
+
+TEST(MemoryEstimate, HoldsTheHatFunctions)
+{
+  for (const Case& item : Cases())
+  {
+    SCOPED_TRACE(item.name);
+    const GridFunctions space = BuildSpace(item);
+    const LevelOperators system = BuildLevelOperators(space, TriangleRule(2));
+    const auto level = std::make_shared<const HatLevel>(BuildHatLevel(item.mesh, space, true));
+    const HatLevel& hats = *level;
+    const std::size_t withHats =
+      BuildMultigrid(HatSpace(level, testing::ViewOf(space, system)), 0.01, 1.0, {}).Memory();
+    const std::size_t without =
+      BuildMultigrid(testing::ViewOf(space, system), 0.01, 1.0, {}).Memory();
+    const HatFunctions& functions = hats.functions;
+    const double arrays =
+      Bytes(functions.ofPoint) + Bytes(functions.begin) + Bytes(functions.corners) +
+      Bytes(functions.component) + Bytes(hats.matrices.mass) + Bytes(hats.matrices.stiffness) +
+      Bytes(hats.matrices.integral) + static_cast<double>(withHats) - static_cast<double>(without);
+    EXPECT_GT(EstimateHatMemory(item.mesh, space.Finest().numberOfFunctions), arrays);
+    EXPECT_LT(EstimateHatMemory(item.mesh, space.Finest().numberOfFunctions), 2.5 * arrays);
   }
 }
 

@@ -97,6 +97,37 @@ TEST_F(ModeSums, WaveKernelOfASphereIsOne)
   EXPECT_NEAR(bands.energies.back() + 2 * bands.width, std::log(6), Rounding);
 }
 
+TEST_F(ModeSums, WaveKernelIsTheWeightedMeanOfSquares)
+{
+  // Modes that belong to no sphere: eigenvalues that all differ, values that add up to nothing. The
+  // sums are written out here, the width as seven of 128 steps from the lowest to the highest.
+  modes.eigenvalues = { 0, 1, 1.5, 2.5, 4, 5, 7, 8, 12 };
+  const double width = 7.0 / 128.0 * std::log(12.0);
+  const WaveBands bands = WaveEnergies(modes, 4);
+  const MultiVector signature = WaveKernelSignature(modes, bands);
+  double spread = 0.0;
+  for (int band = 0; band < 4; ++band)
+  {
+    const double energy = 2 * width + band / 3.0 * (std::log(12.0) - 4 * width);
+    ASSERT_NEAR(bands.energies[band], energy, Rounding);
+    for (Id point = 0; point < signature.rows(); ++point)
+    {
+      double above = 0.0;
+      double below = 0.0;
+      for (int k = 1; k < 9; ++k)
+      {
+        const double weight =
+          std::exp(-std::pow((energy - std::log(modes.eigenvalues[k])) / width, 2) / 2);
+        above += weight * 4 * Pi * std::pow(modes.values(point, k), 2);
+        below += weight;
+      }
+      ASSERT_NEAR(signature(point, band), above / below, 1e-11);
+      spread = std::max(spread, std::abs(above / below - 1.0));
+    }
+  }
+  EXPECT_GT(spread, 0.5); // else a signature of ones would pass
+}
+
 TEST_F(ModeSums, DistancesOnASphereAreTheirSeries)
 {
   const double t = 0.2;

@@ -289,6 +289,32 @@ std::pair<double, double> ExtremesOfPreconditioned(const Hybrid& hybrid, double 
 
 } // namespace
 
+TEST(HatSpace, SolvesManyTrianglesAroundOneEdge)
+{
+  // Their hats are nearly solved by the first relaxation; what is left is rounding, in which rᵀBr
+  // can be negative.
+  for (const int pages : { 8, 20, 40, 60 })
+  {
+    TriangleMesh mesh;
+    mesh.points = { { 0, 0, 0 }, { 0, 0, 1 } };
+    for (Index page = 0; page < pages; ++page)
+    {
+      const double angle = 6.283185307179586 * page / pages;
+      mesh.points.emplace_back(std::cos(angle), std::sin(angle), 0.5);
+      mesh.triangles.push_back({ 0, 1, 2 + page });
+    }
+    Hybrid hybrid(mesh, 3);
+    hybrid.solve.measure = SolveOptions::Measure::Energy;
+    for (const double tolerance : { 1e-8, 1e-12, 1e-14 })
+    {
+      hybrid.solve.tolerance = tolerance;
+      const PoissonSolution solution = hybrid.Solve(0.1, Waves(mesh));
+      EXPECT_TRUE(solution.report.converged) << pages << " " << tolerance;
+      EXPECT_TRUE(std::isfinite(solution.report.history.back().energy)) << pages;
+    }
+  }
+}
+
 TEST(HatSpace, IsNearTheInverseOnSoupsWithDegenerateTriangles)
 {
   for (const unsigned seed : { 1, 3, 5 })
