@@ -4,7 +4,7 @@ import os
 from paraview import servermanager, simple
 
 PROXIES = ("ClipToOctree", "ConnectivityAwareBasis", "ScreenedPoisson", "LaplaceSpectrum",
-           "SpectralSignatures")
+           "MeanCurvatureFlow", "SpectralSignatures")
 SOLVERS = PROXIES[2:]
 
 # vtkSurfaceFEMAlgorithm::StageType
