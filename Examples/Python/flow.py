@@ -13,7 +13,7 @@ from paraview import servermanager, simple
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
-from sheet import Layer, Tile, View, view_of, write_sheet
+from sheet import Layer, Tile, View, write_sheet
 
 SHOWN = (0, 2, 6, 30)
 
@@ -24,6 +24,12 @@ def shape_at(flow, step):
     if shape.GetNumberOfPoints() == 0:
         sys.exit("The filter could not do its work; the message above says why.")
     return shape
+
+
+def extents(shape):
+    """Along x and y, of which the picture shows the plane."""
+    bounds = shape.GetBounds()
+    return bounds[1] - bounds[0], bounds[3] - bounds[2]
 
 
 def main():
@@ -40,11 +46,11 @@ def main():
     for step in range(table.GetNumberOfRows()):
         print(f"step {step}: sphericity {sphericity.GetValue(step):.4f}, "
               f"quasi-conformal error {error.GetValue(step):.4f}")
-    view = view_of(shapes[0])
+    height = 1.1 * max(extent for shape in shapes for extent in extents(shape))
     tiles = []
     for step, shape in zip(SHOWN, shapes):
         label = f"step {step}: sphericity {sphericity.GetValue(step):.3f}"
-        seen = View(shape.GetCenter(), view.direction, view.up, view.height)
+        seen = View(shape.GetCenter(), (0, 0, -1), (0, 1, 0), height)
         tiles.append(Tile(label, seen, [Layer(shape)]))
     write_sheet(tiles, sys.argv[3], len(tiles), (300, 300))
 
