@@ -36,6 +36,7 @@ class TestPipeline(unittest.TestCase):
             "ConnectivityAwareBasis": ["vtkPolyData", "vtkUnstructuredGrid"],
             "ScreenedPoisson": ["vtkPolyData", "vtkTable"],
             "LaplaceSpectrum": ["vtkPolyData", "vtkTable"],
+            "MeanCurvatureFlow": ["vtkPolyData", "vtkTable"],
             "SpectralSignatures": ["vtkPolyData", "vtkTable"]}
         for name in plugin.PROXIES:
             with self.subTest(proxy=name):
@@ -141,6 +142,22 @@ class TestPipeline(unittest.TestCase):
         self.assertEqual(len(spectrum.TimestepValues), 0)
         self.assertEqual(plugin.runs(spectrum)["Solve"], 1)
 
+    def test_flow_steps_are_time_steps(self):
+        flow = simple.MeanCurvatureFlow(
+            Input=self.surface, Depth=DEPTH, NumberOfSteps=4, TimeStep=2e-3)
+        plugin.data(flow)
+        self.assertEqual(list(flow.TimestepValues), [0, 1, 2, 3, 4])
+        sizes = []
+        for step in (0, 2, 4, 2):
+            flow.UpdatePipeline(float(step))
+            sizes.append(flow.GetDataInformation().GetBounds()[1])
+        self.assertEqual(sizes[0], self.surface.GetDataInformation().GetBounds()[1])
+        self.assertLess(sizes[2], sizes[1])
+        self.assertEqual(sizes[1], sizes[3])
+        flow.NumberOfSteps = 6
+        flow.UpdatePipelineInformation()
+        self.assertEqual(len(flow.TimestepValues), 7)
+
     def test_signatures_take_the_modes_of_the_input(self):
         spectrum = simple.LaplaceSpectrum(
             Input=self.surface, Depth=DEPTH, NumberOfModes=16, AllModes=1)
@@ -216,7 +233,8 @@ class TestPipeline(unittest.TestCase):
     def test_charts_draw_what_tells(self):
         drawn = {
             "ScreenedPoisson": ["ConvergenceFactor", "Log10EnergyResidual", "Log10Residual"],
-            "LaplaceSpectrum": ["Eigenvalue"]}
+            "LaplaceSpectrum": ["Eigenvalue"],
+            "MeanCurvatureFlow": ["Sphericity"]}
         controller = vtkSMParaViewPipelineControllerWithRendering()
         for name, series in drawn.items():
             proxy = getattr(simple, name)(Input=self.surface, Depth=DEPTH)

@@ -6,6 +6,7 @@
 #include "vtkClipToOctree.h"
 #include "vtkConnectivityAwareBasis.h"
 #include "vtkLaplaceSpectrum.h"
+#include "vtkMeanCurvatureFlow.h"
 #include "vtkScreenedPoisson.h"
 #include "vtkSpectralSignatures.h"
 
@@ -497,9 +498,11 @@ INSTANTIATE_TEST_SUITE_P(AllFilters, FailureRule,
     FilterCase{ "ConnectivityAwareBasis", &Make<vtkConnectivityAwareBasis>, nullptr },
     FilterCase{ "ScreenedPoisson", &Make<vtkScreenedPoisson>, "Solution" },
     FilterCase{ "LaplaceSpectrum", &Make<vtkLaplaceSpectrum>, "Mode" },
+    FilterCase{ "MeanCurvatureFlow", &Make<vtkMeanCurvatureFlow>, "ConformalFactor" },
     FilterCase{ "SpectralSignatures", &Make<vtkSpectralSignatures>, "HeatKernelSignature" },
     FilterCase{ "ScreenedPoissonOnHats", &MakeOnHats<vtkScreenedPoisson>, "Solution" },
     FilterCase{ "LaplaceSpectrumOnHats", &MakeOnHats<vtkLaplaceSpectrum>, "Mode" },
+    FilterCase{ "MeanCurvatureFlowOnHats", &MakeOnHats<vtkMeanCurvatureFlow>, "ConformalFactor" },
     FilterCase{
       "SpectralSignaturesOnHats", &MakeOnHats<vtkSpectralSignatures>, "HeatKernelSignature" }),
   [](const auto& filter) { return std::string(filter.param.name); });

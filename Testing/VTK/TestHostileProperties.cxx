@@ -4,6 +4,7 @@
 #include "FilterSupport.h"
 
 #include "vtkLaplaceSpectrum.h"
+#include "vtkMeanCurvatureFlow.h"
 #include "vtkScreenedPoisson.h"
 #include "vtkSpectralSignatures.h"
 
@@ -55,6 +56,10 @@ const HostileCase Cases[] = {
           filter->SetAccuracy(value);
         });
     } },
+  { "TimeStep", [](double value)
+    { return With<vtkMeanCurvatureFlow>([=](auto* filter) { filter->SetTimeStep(value); }); } },
+  { "Tolerance", [](double value)
+    { return With<vtkMeanCurvatureFlow>([=](auto* filter) { filter->SetTolerance(value); }); } },
   { "DiffusionTime",
     [](double value)
     {
@@ -109,7 +114,8 @@ TEST_P(HostileProperties, InfinityIsClampedOrRefused)
       const Messages messages(filter);
       const int result = filter->GetExecutive()->Update();
       EXPECT_EQ(result, messages.errors.empty() ? 1 : 0) << hostile.name;
-      for (const char* name : { "Solution", "Mode", "HeatKernelSignature", "DiffusionDistance" })
+      for (const char* name :
+        { "Solution", "Mode", "HeatKernelSignature", "DiffusionDistance", "Displacement" })
       {
         EXPECT_TRUE(AllFinite(PointValues(filter->GetOutputDataObject(0), name)))
           << hostile.name << " " << name;

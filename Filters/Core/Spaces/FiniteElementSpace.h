@@ -62,6 +62,9 @@ public:
   /// World units per unit of length.
   virtual double UnitLength() const = 0;
 
+  /// The place in the world that positions in units of length are relative to.
+  virtual Vec3 Origin() const = 0;
+
   /// About the longest extent of the surface, in units of length.
   virtual double Extent() const = 0;
 
@@ -105,6 +108,10 @@ public:
 
   /// Per point of the mesh: 1 where a function reaches it.
   virtual std::vector<char> PointsWithFunctions() const = 0;
+
+  /// The coefficients of the mesh's own coordinates, exact but for rounding: functions x 3, in
+  /// units of length from the origin. What a flow starts from.
+  virtual MultiVector EmbeddingOfMesh(const Job& job = {}) const = 0;
   ///@}
 
   ///@{ Other numbers on the same functions. A copy shares all that does not change.

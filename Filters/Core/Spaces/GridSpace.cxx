@@ -1,5 +1,6 @@
 #include "Spaces/GridSpace.h"
 
+#include "Base/Parallel.h"
 #include "Integrals/Evaluation.h"
 #include "Integrals/LoadVector.h"
 #include "Spaces/PatchOrdering.h"
@@ -70,6 +71,11 @@ double GridSpace::UnitLength() const
   return functions_->GetGrid().spacing;
 }
 
+Vec3 GridSpace::Origin() const
+{
+  return functions_->GetGrid().origin;
+}
+
 double GridSpace::Extent() const
 {
   return functions_->GetGrid().CellsPerSide();
@@ -129,6 +135,28 @@ std::vector<char> GridSpace::PointsWithFunctions() const
   std::transform(functions_->pointPatch.begin(), functions_->pointPatch.end(), has.begin(),
     [](Index patch) { return patch >= 0; });
   return has;
+}
+
+/// Trilinear functions reproduce coordinates: each coefficient is that of its function's corner.
+MultiVector GridSpace::EmbeddingOfMesh(const Job& job) const
+{
+  const FunctionPlaces& places = this->Operators().places.front();
+  const PatchLevel& finest = functions_->Finest();
+  MultiVector embedding(finest.numberOfFunctions, 3);
+  ParallelRanges(embedding.rows(), job.threads,
+    [&](Id begin, Id end)
+    {
+      for (Id f = begin; f < end; ++f)
+      {
+        const Index place = places.item[places.begin[f]];
+        const CellIndex cell = MortonDecode(finest.cell[place / FunctionsPerPatch]);
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          embedding(f, axis) = cell[axis] + ((place >> axis) & 1);
+        }
+      }
+    });
+  return embedding;
 }
 
 std::unique_ptr<FiniteElementSpace> GridSpace::Copy() const

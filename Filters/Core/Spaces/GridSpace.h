@@ -32,6 +32,7 @@ public:
   Components ComponentsOf(std::size_t level, const Job& job = {}) const override;
 
   double UnitLength() const override;
+  Vec3 Origin() const override;
   double Extent() const override;
 
   const std::vector<double>& Integrals() const override;
@@ -46,6 +47,7 @@ public:
     const MultiVector& coefficients, const Job& job = {}) const override;
   SparseMatrix RowsAtPoints(const std::vector<Id>& points) const override;
   std::vector<char> PointsWithFunctions() const override;
+  MultiVector EmbeddingOfMesh(const Job& job = {}) const override;
 
   std::unique_ptr<FiniteElementSpace> Copy() const override;
   Id SetMetric(const MultiVector& embedding, const Job& job = {}) override;

@@ -95,6 +95,11 @@ double HatSpace::UnitLength() const
   return grid_.UnitLength();
 }
 
+Vec3 HatSpace::Origin() const
+{
+  return grid_.Origin();
+}
+
 double HatSpace::Extent() const
 {
   return grid_.Extent();
@@ -175,6 +180,21 @@ std::vector<char> HatSpace::PointsWithFunctions() const
   std::transform(functionOf.begin(), functionOf.end(), has.begin(),
     [](Index function) { return function >= 0; });
   return has;
+}
+
+MultiVector HatSpace::EmbeddingOfMesh(const Job&) const
+{
+  const std::vector<Vec3>& points = grid_.Mesh().points;
+  MultiVector embedding(hats_->functions.Count(), 3);
+  for (std::size_t point = 0; point < points.size(); ++point)
+  {
+    const Index function = hats_->functions.ofPoint[point];
+    for (int axis = 0; function >= 0 && axis < 3; ++axis)
+    {
+      embedding(function, axis) = (points[point][axis] - this->Origin()[axis]) / this->UnitLength();
+    }
+  }
+  return embedding;
 }
 
 std::unique_ptr<FiniteElementSpace> HatSpace::Copy() const

@@ -53,19 +53,21 @@ void AddFieldInt(vtkPolyData* output, const char* name, int value)
   output->GetFieldData()->AddArray(array);
 }
 
+void AddFieldNumber(vtkPolyData* output, const char* name, double value)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->InsertNextValue(value);
+  output->GetFieldData()->AddArray(array);
+}
+
 void AddReport(const SolveReport& report, vtkPolyData* output)
 {
   AddFieldInt(output, "Converged", report.converged ? 1 : 0);
   AddFieldInt(output, "Iterations", report.iterations);
   AddFieldInt(output, "DoublePrecisionSince", report.doubleSince);
-  vtkNew<vtkDoubleArray> residual;
-  residual->SetName("Residual");
-  residual->InsertNextValue(LastRecord(report).residual);
-  output->GetFieldData()->AddArray(residual);
-  vtkNew<vtkDoubleArray> factor;
-  factor->SetName("ConvergenceFactor");
-  factor->InsertNextValue(report.convergenceFactor);
-  output->GetFieldData()->AddArray(factor);
+  AddFieldNumber(output, "Residual", LastRecord(report).residual);
+  AddFieldNumber(output, "ConvergenceFactor", report.convergenceFactor);
 }
 
 void AddColumn(vtkTable* table, const char* name, const std::vector<double>& values)

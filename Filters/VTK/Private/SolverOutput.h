@@ -27,6 +27,9 @@ void AddReport(const SolveReport& report, vtkPolyData* output);
 /// Adds a field array with one int.
 void AddFieldInt(vtkPolyData* output, const char* name, int value);
 
+/// Adds a field array with one number.
+void AddFieldNumber(vtkPolyData* output, const char* name, double value);
+
 /// The columns Iteration, EnergyResidual, Residual, ConvergenceFactor (energy residual over that of
 /// the row before; 1 in the first), Log10EnergyResidual, Log10Residual.
 void WriteHistory(const SolveReport& report, vtkTable* table);

@@ -38,23 +38,13 @@ struct SpaceOnMesh
     options.quadratureDegree = degree;
     options.coarsestSize = 32;
     HatSpace hats = BuildHatSpace(mesh, options);
-    const GridSpace& grid = hats.Grid();
-    if (!isOnHats)
+    space = isOnHats ? hats.Copy() : hats.Grid().Copy();
+    coordinates = space->EmbeddingOfMesh();
+    for (Id i = 0; i < coordinates.rows(); ++i)
     {
-      coordinates = CoordinateCoefficients(grid.Functions()) / hats.UnitLength();
-      space = grid.Copy();
-      return;
+      SetRow(coordinates, i,
+        coordinates.row(i).transpose() + (space->Origin() / space->UnitLength()).eval());
     }
-    coordinates = MultiVector::Zero(hats.NumberOfFunctions(0), 3);
-    for (std::size_t point = 0; point < mesh.points.size(); ++point)
-    {
-      const Index function = hats.Hats().functions.ofPoint[point];
-      if (function >= 0)
-      {
-        SetRow(coordinates, function, mesh.points[point] / hats.UnitLength());
-      }
-    }
-    space = hats.Copy();
   }
 
   TriangleMesh mesh;
@@ -166,6 +156,27 @@ TEST_P(EverySpace, HasTheSameValuesByRows)
     const Id none = static_cast<Id>(mesh.points.size());
     EXPECT_THROW(on.space->RowsAtPoints({ none }), InvalidInput);
     EXPECT_THROW(on.space->RowsAtPoints({ -1 }), InvalidInput);
+  }
+}
+
+TEST_P(EverySpace, TheEmbeddingOfTheMeshHasItsPoints)
+{
+  for (const TriangleMesh& mesh : Meshes())
+  {
+    const SpaceOnMesh on = this->Build(mesh);
+    const MultiVector embedding = on.space->EmbeddingOfMesh();
+    ASSERT_EQ(embedding.rows(), on.space->NumberOfFunctions(0));
+    EXPECT_EQ(on.space->EmbeddingOfMesh(1), embedding);
+    const MultiVector points = on.space->ValuesAtPoints(embedding);
+    const std::vector<char> reached = on.space->PointsWithFunctions();
+    for (std::size_t k = 0; k < mesh.points.size(); ++k)
+    {
+      const Vec3 position =
+        on.space->Origin() + on.space->UnitLength() * points.row(static_cast<Id>(k)).transpose();
+      ASSERT_TRUE(!reached[k] || (position - mesh.points[k]).norm() < 1e-12 * 10.0);
+    }
+    EXPECT_LE(embedding.maxCoeff(), on.space->Extent() + 1e-9);
+    EXPECT_GE(embedding.minCoeff(), -1e-9);
   }
 }
 

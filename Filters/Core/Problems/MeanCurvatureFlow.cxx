@@ -1,0 +1,346 @@
+#include "Problems/MeanCurvatureFlow.h"
+
+#include "Algebra/ComponentMeans.h"
+#include "Base/Errors.h"
+#include "Base/Parallel.h"
+#include "Krylov/PrecisionFallback.h"
+#include "Problems/MovedSurface.h"
+
+#include <cmath>
+#include <string>
+
+namespace gridfem
+{
+namespace
+{
+
+/// Of the area of the start: below, what is left of the shape is rounding.
+constexpr double VanishedArea = 1e-20;
+
+void CheckOptions(const FlowOptions& options)
+{
+  if (!(options.timeStep > 0.0) || std::isinf(options.timeStep))
+  {
+    throw InvalidInput(
+      "The time step is " + std::to_string(options.timeStep) + "; it must be a positive number.");
+  }
+  if (options.conformalized && options.rebuild)
+  {
+    throw InvalidInput("The conformalised flow keeps the stiffness of the start, so its metric has "
+                       "to be tracked: the functions cannot be made anew in every step.");
+  }
+}
+
+/// One number at a time: a fixed-size vector in a dynamic row makes GCC warn about its bounds.
+Vec3 RowOf(const MultiVector& rows, Id row)
+{
+  return { rows(row, 0), rows(row, 1), rows(row, 2) };
+}
+
+void SetRow(MultiVector& rows, Id row, const Vec3& vector)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    rows(row, axis) = vector[axis];
+  }
+}
+
+/// x = centre + scale (x - centre) in each row.
+void ScaleAbout(const Vec3& centre, double scale, MultiVector& positions, int threads)
+{
+  ParallelRanges(positions.rows(), threads,
+    [&](Id begin, Id end)
+    {
+      for (Id i = begin; i < end; ++i)
+      {
+        SetRow(positions, i, centre + scale * (RowOf(positions, i) - centre));
+      }
+    });
+}
+
+struct StepSolution
+{
+  MultiVector embedding;
+  SolveReport report;
+};
+
+/// (M + δL) X⁺ = M X. Constants keep their means and are left out, so that the tolerance is on the
+/// shape and not on its distance from the origin.
+StepSolution SolveStep(const FiniteElementSpace& space, const SparseMatrix& mass,
+  const Multigrid& multigrid, const MultiVector& embedding, const SolveOptions& options,
+  const Job& job)
+{
+  const Components components = space.ComponentsOf(0, job.threads);
+  const ComponentMeans means(
+    components.ofFunction, space.Integrals(), components.count, job.threads);
+  const Projection project{ [&means](MultiVector& x)
+    { means.AddConstants(-means.OfFunction(x), x); },
+    [&means](MultiVector& b) { means.SubtractIntegrals(means.OfIntegrals(b), b); } };
+
+  const MultiVector mean = means.OfFunction(embedding);
+  StepSolution solution;
+  solution.embedding = embedding;
+  means.AddConstants(-mean, solution.embedding);
+  MultiVector b;
+  Multiply(mass, solution.embedding, b, job.threads);
+  project.residual(b);
+  solution.report = SolveWithFallback(IterationType::ConjugateGradients, multigrid, b,
+    solution.embedding, options, project, job.progress);
+  means.AddConstants(mean, solution.embedding);
+  return solution;
+}
+
+bool IsBroken(const StepSolution& solution)
+{
+  return solution.report.end == SolveEnd::Breakdown || solution.report.end == SolveEnd::NotFinite ||
+         !solution.embedding.allFinite();
+}
+
+} // namespace
+
+MeanCurvatureFlow::MeanCurvatureFlow(std::shared_ptr<const FiniteElementSpace> space,
+  std::shared_ptr<const TriangleMesh> mesh, FlowOptions options)
+  : start_(std::move(space)), mesh_(std::move(mesh)), options_(std::move(options)),
+    reached_(start_->PointsWithFunctions())
+{
+  CheckOptions(options_);
+  const SurfaceSize size = SizeOf(mesh_->points, mesh_->triangles, options_.multigrid.threads);
+  startArea_ = size.area;
+  startVolume_ = size.volume;
+  if (options_.rescaling == Rescaling::ConstantVolume &&
+      !(std::abs(startVolume_) > 1e-9 * std::pow(startArea_, 1.5)))
+  {
+    throw InvalidInput("The surface encloses no volume that could be kept constant.");
+  }
+  this->GoToStart();
+}
+
+void MeanCurvatureFlow::GoToStart()
+{
+  step_ = 0;
+  shape_ = MultiVector();
+}
+
+void MeanCurvatureFlow::GoTo(int step, MultiVector shape)
+{
+  step_ = step;
+  shape_ = std::move(shape);
+}
+
+std::vector<Vec3> MeanCurvatureFlow::WorldPoints(
+  const FiniteElementSpace& space, const MultiVector& embedding, const Job& job) const
+{
+  const MultiVector position = space.ValuesAtPoints(embedding, job);
+  std::vector<Vec3> points(mesh_->points.size());
+  ParallelRanges(static_cast<Id>(points.size()), job.threads,
+    [&](Id begin, Id end)
+    {
+      for (Id k = begin; k < end; ++k)
+      {
+        points[k] = reached_[k] ? Vec3(space.Origin() + space.UnitLength() * RowOf(position, k))
+                                : mesh_->points[k];
+      }
+    });
+  return points;
+}
+
+std::vector<Vec3> MeanCurvatureFlow::Points(const Job& job) const
+{
+  if (step_ == 0)
+  {
+    return mesh_->points;
+  }
+  if (!options_.rebuild)
+  {
+    return this->WorldPoints(*start_, shape_, job);
+  }
+  std::vector<Vec3> points(mesh_->points.size());
+  for (Id k = 0; k < shape_.rows(); ++k)
+  {
+    points[k] = start_->Origin() + start_->UnitLength() * RowOf(shape_, k);
+  }
+  return points;
+}
+
+/// Functions and metric of the step to come; no functions where they cannot be made anew.
+/// @return  singular samples
+Id MeanCurvatureFlow::Prepare(MultiVector& embedding, const Job& job)
+{
+  if (step_ == 0)
+  {
+    moving_ = start_->Copy(); // its own metric, not that of its embedding, which has been rounded
+    embedding = moving_->EmbeddingOfMesh(job);
+    return 0;
+  }
+  if (options_.rebuild)
+  {
+    multigrid_.reset(); // frees their memory first
+    moving_.reset();
+    mass_ = {};
+    try
+    {
+      moving_ = options_.rebuild({ this->Points(job), mesh_->triangles }, job);
+    }
+    catch (const InvalidInput&)
+    {
+      return 0;
+    }
+    embedding = moving_->EmbeddingOfMesh(job);
+    return 0;
+  }
+  if (!moving_)
+  {
+    moving_ = start_->Copy();
+  }
+  embedding = shape_;
+  return moving_->SetMetric(embedding, job);
+}
+
+void MeanCurvatureFlow::FillMatrix(
+  std::size_t level, double timeStep, SparseMatrix& matrix, const Job& job)
+{
+  if (startStiffness_.empty())
+  {
+    moving_->FillMatrix(level, 1.0, timeStep, matrix, job);
+    return;
+  }
+  moving_->FillMatrix(level, 1.0, 0.0, matrix, job);
+  const Array<double>& stiffness = startStiffness_[level].value;
+  ParallelRanges(static_cast<Id>(stiffness.size()), job.threads,
+    [&](Id begin, Id end)
+    {
+      for (Id k = begin; k < end; ++k)
+      {
+        matrix.value[k] += stiffness[k];
+      }
+    });
+}
+
+void MeanCurvatureFlow::UpdateHierarchy(double timeStep, const Job& job)
+{
+  if (options_.conformalized && startStiffness_.empty())
+  {
+    for (std::size_t level = 0; level < start_->NumberOfLevels(); ++level)
+    {
+      startStiffness_.push_back(start_->Matrix(level, 0.0, timeStep, job));
+    }
+  }
+  if (!multigrid_)
+  {
+    multigrid_ = std::make_unique<Multigrid>(
+      BuildMultigrid(*moving_, 1.0, timeStep, options_.multigrid, job.progress));
+    if (startStiffness_.empty())
+    {
+      return;
+    }
+  }
+  try
+  {
+    multigrid_->Update([&](std::size_t level, SparseMatrix& matrix)
+      { this->FillMatrix(level, timeStep, matrix, job.threads); });
+  }
+  catch (...)
+  {
+    multigrid_.reset(); // half of it is new
+    throw;
+  }
+}
+
+/// The factor that keeps what is to be kept; none where it is lost.
+std::optional<double> MeanCurvatureFlow::ScaleOf(double area, double volume) const
+{
+  switch (options_.rescaling)
+  {
+    case Rescaling::ConstantArea:
+      return std::sqrt(startArea_ / area);
+    case Rescaling::ConstantVolume:
+      return volume / startVolume_ > 1e-30 ? std::make_optional(std::cbrt(startVolume_ / volume))
+                                           : std::nullopt;
+    case Rescaling::None:
+      break;
+  }
+  return 1.0;
+}
+
+FlowStep MeanCurvatureFlow::Describe(const std::vector<Vec3>& points, const Job& job) const
+{
+  const SurfaceSize size = SizeOf(points, mesh_->triangles, job.threads);
+  FlowStep step;
+  step.area = size.area;
+  step.volume = size.volume;
+  step.sphericity = size.Sphericity();
+  return step;
+}
+
+FlowStep MeanCurvatureFlow::Start(const Job& job) const
+{
+  return this->Describe(mesh_->points, job);
+}
+
+FlowStep MeanCurvatureFlow::Advance(const Job& job)
+{
+  FlowStep stopped;
+  MultiVector embedding;
+  job.Check(0.0);
+  const Id lockedSamples = this->Prepare(embedding, job.Part(0.0, 0.3));
+  if (!moving_)
+  {
+    stopped.end = FlowEnd::Unfit;
+    return stopped;
+  }
+  const double unit = moving_->UnitLength();
+  const double timeStep = options_.timeStep * std::pow(start_->UnitLength() / unit, 2);
+  this->UpdateHierarchy(timeStep, job.Part(0.3, 0.6));
+  moving_->FillMatrix(0, 1.0, 0.0, mass_, job.threads);
+  job.Check(0.6);
+
+  StepSolution solution =
+    SolveStep(*moving_, mass_, *multigrid_, embedding, options_.solve, job.Part(0.6, 1.0));
+  if (IsBroken(solution))
+  {
+    stopped.end = FlowEnd::Breakdown;
+    return stopped;
+  }
+  std::vector<Vec3> points = this->WorldPoints(*moving_, solution.embedding, job.threads);
+  const SurfaceSize size = SizeOf(points, mesh_->triangles, job.threads);
+  if (!(size.area > VanishedArea * startArea_))
+  {
+    stopped.end = FlowEnd::Vanished;
+    return stopped;
+  }
+  const std::optional<double> scale = this->ScaleOf(size.area, size.volume);
+  if (!scale)
+  {
+    stopped.end = FlowEnd::VolumeLost;
+    return stopped;
+  }
+  if (options_.rescaling != Rescaling::None)
+  {
+    ScaleAbout((size.centroid - moving_->Origin()) / unit, *scale, solution.embedding, job.threads);
+    points = this->WorldPoints(*moving_, solution.embedding, job.threads);
+  }
+  FlowStep done = this->Describe(points, job.threads);
+  job.Check(1.0);
+
+  if (options_.rebuild)
+  {
+    shape_.resize(static_cast<Id>(points.size()), 3);
+    for (Id k = 0; k < shape_.rows(); ++k)
+    {
+      SetRow(shape_, k, (points[k] - start_->Origin()) / start_->UnitLength());
+    }
+  }
+  else
+  {
+    shape_ = std::move(solution.embedding);
+  }
+  ++step_;
+  done.step = step_;
+  done.time = step_ * options_.timeStep;
+  done.iterations = solution.report.iterations;
+  done.lockedSamples = lockedSamples;
+  done.converged = solution.report.converged;
+  return done;
+}
+
+} // namespace gridfem

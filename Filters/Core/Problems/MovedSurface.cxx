@@ -1,0 +1,255 @@
+#include "Problems/MovedSurface.h"
+
+#include "Base/Parallel.h"
+#include "Base/UnionFind.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace gridfem
+{
+namespace
+{
+
+constexpr double Pi = 3.14159265358979323846;
+
+/// Twice the area, along the normal.
+Vec3 AreaVector(const std::vector<Vec3>& points, const std::array<Id, 3>& corner)
+{
+  return (points[corner[1]] - points[corner[0]]).cross(points[corner[2]] - points[corner[0]]);
+}
+
+std::vector<double> Areas(const TriangleMesh& mesh, int threads)
+{
+  std::vector<double> area(mesh.triangles.size());
+  ParallelRanges(static_cast<Id>(area.size()), threads,
+    [&](Id begin, Id end)
+    {
+      for (Id t = begin; t < end; ++t)
+      {
+        area[t] = 0.5 * AreaVector(mesh.points, mesh.triangles[t]).norm();
+      }
+    });
+  return area;
+}
+
+/// Area, and the moment of the area about a point.
+Eigen::Vector4d AreaMoments(const std::vector<Vec3>& points,
+  const std::vector<std::array<Id, 3>>& triangles, const Vec3& about, int threads)
+{
+  const auto sum = [&](Id begin, Id end)
+  {
+    Eigen::Vector4d moments = Eigen::Vector4d::Zero();
+    for (Id t = begin; t < end; ++t)
+    {
+      const auto& [a, b, c] = triangles[t];
+      const double area = 0.5 * AreaVector(points, triangles[t]).norm();
+      const Vec3 centre = (points[a] + points[b] + points[c]) / 3.0 - about;
+      moments += area * Eigen::Vector4d(1.0, centre[0], centre[1], centre[2]);
+    }
+    return moments;
+  };
+  return ParallelSum(
+    static_cast<Id>(triangles.size()), threads, Eigen::Vector4d(Eigen::Vector4d::Zero()), sum);
+}
+
+double VolumeAbout(const Vec3& centre, const std::vector<Vec3>& points,
+  const std::vector<std::array<Id, 3>>& triangles, int threads)
+{
+  const auto sum = [&](Id begin, Id end)
+  {
+    double volume = 0.0;
+    for (Id t = begin; t < end; ++t)
+    {
+      const auto& [a, b, c] = triangles[t];
+      volume += (points[a] - centre).dot((points[b] - centre).cross(points[c] - centre)) / 6.0;
+    }
+    return volume;
+  };
+  return ParallelSum(static_cast<Id>(triangles.size()), threads, 0.0, sum);
+}
+
+/// Larger over smaller singular value of the map between two triangles: with its metric's trace T
+/// and the ratio D of the areas, the quotient of (√(T + 2D) ± √(T - 2D)) / 2.
+double StretchRatio(const Vec3& u, const Vec3& v, double ratio, const Vec3& a, const Vec3& b)
+{
+  // The metric's trace in the triangle's plane: (|a|²|v|² - 2 <a,b><u,v> + |b|²|u|²) / |u × v|².
+  const double square = u.cross(v).squaredNorm();
+  const double trace = (a.squaredNorm() * v.squaredNorm() - 2.0 * a.dot(b) * u.dot(v) +
+                         b.squaredNorm() * u.squaredNorm()) /
+                       square;
+  const double plus = std::sqrt(std::max(trace + 2.0 * ratio, 0.0));
+  const double minus = std::sqrt(std::max(trace - 2.0 * ratio, 0.0));
+  // The smaller stretch by their product, which is the ratio, without cancellation.
+  const double larger = 0.5 * (plus + minus);
+  const double quotient = larger * larger / ratio;
+  return quotient < MapDistortion::LargestRatio ? std::max(quotient, 1.0)
+                                                : MapDistortion::LargestRatio;
+}
+
+} // namespace
+
+double SurfaceSize::Sphericity() const
+{
+  return area > 0.0 ? std::cbrt(Pi) * std::pow(6.0 * std::abs(volume), 2.0 / 3.0) / area : 0.0;
+}
+
+SurfaceSize SizeOf(
+  const std::vector<Vec3>& points, const std::vector<std::array<Id, 3>>& triangles, int threads)
+{
+  SurfaceSize size;
+  if (triangles.empty())
+  {
+    return size;
+  }
+  const Vec3 near = points[triangles.front()[0]];
+  const Eigen::Vector4d moments = AreaMoments(points, triangles, near, threads);
+  size.area = moments[0];
+  size.centroid = near;
+  if (size.area > 0.0)
+  {
+    size.centroid += moments.tail<3>() / size.area;
+  }
+  size.volume = VolumeAbout(size.centroid, points, triangles, threads);
+  return size;
+}
+
+MapDistortion DistortionOf(const TriangleMesh& mesh, const std::vector<Vec3>& moved, int threads)
+{
+  MapDistortion distortion;
+  distortion.areaRatio.assign(mesh.triangles.size(), 1.0);
+  distortion.stretchRatio.assign(mesh.triangles.size(), 1.0);
+  ParallelRanges(static_cast<Id>(mesh.triangles.size()), threads,
+    [&](Id begin, Id end)
+    {
+      for (Id t = begin; t < end; ++t)
+      {
+        const std::array<Id, 3>& corner = mesh.triangles[t];
+        const double area = AreaVector(mesh.points, corner).norm();
+        const double ratio = AreaVector(moved, corner).norm() / area;
+        if (!(area > 0.0) || !std::isfinite(ratio))
+        {
+          continue;
+        }
+        distortion.areaRatio[t] = ratio;
+        distortion.stretchRatio[t] =
+          ratio > 0.0 ? StretchRatio(mesh.points[corner[1]] - mesh.points[corner[0]],
+                          mesh.points[corner[2]] - mesh.points[corner[0]], ratio,
+                          moved[corner[1]] - moved[corner[0]], moved[corner[2]] - moved[corner[0]])
+                      : MapDistortion::LargestRatio;
+      }
+    });
+  return distortion;
+}
+
+std::vector<double> MeansAtPoints(
+  const TriangleMesh& mesh, const std::vector<double>& onTriangles, double none, int threads)
+{
+  const std::vector<double> area = Areas(mesh, threads);
+  std::vector<double> mean(mesh.points.size(), 0.0);
+  std::vector<double> weight(mesh.points.size(), 0.0);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  {
+    for (const Id point : mesh.triangles[t])
+    {
+      mean[point] += area[t] * onTriangles[t];
+      weight[point] += area[t];
+    }
+  }
+  for (std::size_t point = 0; point < mean.size(); ++point)
+  {
+    mean[point] = weight[point] > 0.0 ? mean[point] / weight[point] : none;
+  }
+  return mean;
+}
+
+double MeanOverSurface(
+  const TriangleMesh& mesh, const std::vector<double>& onTriangles, int threads)
+{
+  const std::vector<double> area = Areas(mesh, threads);
+  const auto sum = [&](Id begin, Id end)
+  {
+    Eigen::Vector2d sums = Eigen::Vector2d::Zero();
+    for (Id t = begin; t < end; ++t)
+    {
+      sums += area[t] * Eigen::Vector2d(1.0, onTriangles[t]);
+    }
+    return sums;
+  };
+  const Eigen::Vector2d sums = ParallelSum(
+    static_cast<Id>(area.size()), threads, Eigen::Vector2d(Eigen::Vector2d::Zero()), sum);
+  return sums[0] > 0.0 ? sums[1] / sums[0] : 0.0;
+}
+
+std::vector<Vec3> NormalsAtPoints(
+  const std::vector<Vec3>& points, const std::vector<std::array<Id, 3>>& triangles, int threads)
+{
+  std::vector<Vec3> normal(points.size(), Vec3(Vec3::Zero()));
+  for (const std::array<Id, 3>& corner : triangles)
+  {
+    const Vec3 areaVector = AreaVector(points, corner);
+    for (const Id point : corner)
+    {
+      normal[point] += areaVector;
+    }
+  }
+  ParallelRanges(static_cast<Id>(normal.size()), threads,
+    [&](Id begin, Id end)
+    {
+      for (Id k = begin; k < end; ++k)
+      {
+        const double length = normal[k].norm();
+        normal[k] = length > 0.0 ? Vec3(normal[k] / length) : Vec3(Vec3::Zero());
+      }
+    });
+  return normal;
+}
+
+bool IsLikeASphere(const TriangleMesh& mesh, int threads)
+{
+  const Array<Index> pointClass = WeldCoincidentPoints(mesh.points, {}, threads);
+  UnionFind pieces(static_cast<Id>(mesh.points.size()));
+  std::vector<std::pair<Index, Index>> sides;
+  std::vector<char> isUsed(mesh.points.size(), 0);
+  Id triangles = 0;
+  for (const std::array<Id, 3>& corner : mesh.triangles)
+  {
+    const std::array<Index, 3> point = { pointClass[corner[0]], pointClass[corner[1]],
+      pointClass[corner[2]] };
+    if (point[0] == point[1] || point[1] == point[2] || point[2] == point[0])
+    {
+      continue;
+    }
+    ++triangles;
+    for (int k = 0; k < 3; ++k)
+    {
+      sides.push_back(std::minmax({ point[k], point[(k + 1) % 3] }));
+      pieces.Unite(point[k], point[(k + 1) % 3]);
+      isUsed[point[k]] = 1;
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  Id edges = 0;
+  for (std::size_t first = 0; first < sides.size(); ++edges)
+  {
+    const auto last =
+      std::upper_bound(sides.begin() + static_cast<Id>(first), sides.end(), sides[first]);
+    const std::size_t next = static_cast<std::size_t>(last - sides.begin());
+    if (next - first != 2)
+    {
+      return false;
+    }
+    first = next;
+  }
+  Id points = 0;
+  Id components = 0;
+  for (std::size_t k = 0; k < isUsed.size(); ++k)
+  {
+    points += isUsed[k];
+    components += isUsed[k] && pieces.IsRoot(static_cast<Index>(k));
+  }
+  return components == 1 && points - edges + triangles == 2;
+}
+
+} // namespace gridfem

@@ -1,0 +1,81 @@
+#include "MovedMeshWriter.h"
+
+#include "MovedPoints.h"
+#include "Problems/MovedSurface.h"
+#include "SolverOutput.h"
+
+#include "vtkDataArray.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+
+#include <string>
+
+namespace gridfem
+{
+namespace
+{
+
+MultiVector Rows(const std::vector<Vec3>& vectors)
+{
+  MultiVector rows(static_cast<Id>(vectors.size()), 3);
+  for (std::size_t k = 0; k < vectors.size(); ++k)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      rows(static_cast<Id>(k), axis) = vectors[k][axis];
+    }
+  }
+  return rows;
+}
+
+void AddNumbers(
+  const char* name, const std::vector<double>& values, int dataType, vtkPolyData* output)
+{
+  const Eigen::Map<const Eigen::VectorXd> column(
+    values.data(), static_cast<Eigen::Index>(values.size()));
+  output->GetPointData()->AddArray(MakePointArray(name, column, dataType));
+}
+
+/// In place of the active ones at points, on the side of the surface where they are; null without.
+vtkSmartPointer<vtkDataArray> MovedNormals(
+  const TriangleMesh& mesh, const std::vector<Vec3>& points, int threads, vtkPolyData* data)
+{
+  vtkDataArray* given = data->GetPointData()->GetNormals();
+  if (!given)
+  {
+    return nullptr;
+  }
+  const std::vector<Vec3> before = NormalsAtPoints(mesh.points, mesh.triangles, threads);
+  double agreement = 0.0;
+  for (std::size_t k = 0; k < before.size(); ++k)
+  {
+    const double* normal = given->GetTuple3(static_cast<vtkIdType>(k));
+    agreement += before[k].dot(Vec3(normal[0], normal[1], normal[2]));
+  }
+  const double sign = agreement < 0.0 ? -1.0 : 1.0;
+  const std::string name = given->GetName() ? given->GetName() : "Normals";
+  const MultiVector normals = sign * Rows(NormalsAtPoints(points, mesh.triangles, threads));
+  return MakePointArray(name.c_str(), normals, given->GetDataType());
+}
+
+} // namespace
+
+void MoveMesh(const TriangleMesh& mesh, const std::vector<Vec3>& points, int dataType, int threads,
+  vtkPolyData* output)
+{
+  const vtkSmartPointer<vtkDataArray> normals = MovedNormals(mesh, points, threads, output);
+  const MultiVector positions = Rows(points);
+  MovePoints(output, MakePointArray("Points", positions, dataType));
+  if (normals)
+  {
+    output->GetPointData()->SetNormals(normals);
+  }
+  output->GetPointData()->AddArray(
+    MakePointArray("Displacement", positions - Rows(mesh.points), dataType));
+  const MapDistortion map = DistortionOf(mesh, points, threads);
+  AddNumbers("ConformalFactor", MeansAtPoints(mesh, map.areaRatio, 1.0, threads), dataType, output);
+  AddNumbers(
+    "QuasiConformalError", MeansAtPoints(mesh, map.stretchRatio, 1.0, threads), dataType, output);
+}
+
+} // namespace gridfem
