@@ -122,12 +122,16 @@ TEST_P(SolverProperties, AnyCoarsestSizeSolves)
 TEST_P(SolverProperties, NormalStabilizationChangesTheSystemOfTheGrid)
 {
   this->Iterations();
-  const Counts before = Runs(filter);
+  Counts expected = Runs(filter);
   const std::vector<double> without = PointValues(filter->GetOutput(), "Solution");
   filter->SetNormalStabilization(1e-2);
   filter->Update();
   EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 1);
-  EXPECT_EQ(Runs(filter), (Counts{ 1, before[1] + 1, before[2] + 1, before[3], before[4] + 1 }));
+  for (const char* stage : { "System", "Hierarchy", "RightHandSide", "Solve" })
+  {
+    ++expected[stage];
+  }
+  EXPECT_EQ(Runs(filter), expected);
   // The grid's solution changes by about its error, that of the hats by none.
   const double change = Difference(PointValues(filter->GetOutput(), "Solution"), without);
   const bool isGrid = this->GetParam() == Poisson::Grid;
