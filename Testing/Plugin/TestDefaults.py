@@ -48,7 +48,7 @@ class TestDefaults(unittest.TestCase):
                 prop.ResetToXMLDefaults()
                 self.assertEqual(prop.GetElement(0), getattr(instance, "Get" + key)())
                 compared += 1
-        self.assertEqual(compared, 6 + 6 + 19 + 20 + 20 + 21)  # the loop has seen every filter
+        self.assertEqual(compared, 6 + 6 + 18 + 20 + 20 + 21)  # the loop has seen every filter
 
     def test_the_object_gets_the_default(self):
         for name, instance, key, _ in self.values():
