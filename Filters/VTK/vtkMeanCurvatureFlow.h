@@ -28,9 +28,10 @@
  *   input; 1 at points that no polygon uses, which do not move. The active normals, if the input
  *   has some at points, are those of the moved surface; those at cells are left out.
  * - field data: `Step` (int, 1), `FlowTime` (double, 1; squared world length), `Converged` (int,
- *   1): 0 when this step or one before it is not, or the flow has ended before
- * NumberOfSteps
- * - not: the arrays of the clip and the basis, and `Eigenvalues`, which belong to the input.
+ *   1): 0 when this step or one before it has not converged, or the flow has ended before
+ *   NumberOfSteps
+ *
+ * The arrays of the clip and the basis, and `Eigenvalues`, belong to the input and do not come out.
  *
  * Output port 1 (vtkTable): a row per step, the input being step 0, with `Step` (int), `Time`,
  * `Area`, `Volume` (of the cone to the centroid, when open), `Sphericity` (π^(1/3) (6 V)^(2/3) / A,
