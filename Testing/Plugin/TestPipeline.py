@@ -37,7 +37,8 @@ class TestPipeline(unittest.TestCase):
             "ScreenedPoisson": ["vtkPolyData", "vtkTable"],
             "LaplaceSpectrum": ["vtkPolyData", "vtkTable"],
             "MeanCurvatureFlow": ["vtkPolyData", "vtkTable"],
-            "SpectralSignatures": ["vtkPolyData", "vtkTable"]}
+            "SpectralSignatures": ["vtkPolyData", "vtkTable"],
+            "SurfaceGradient": ["vtkPolyData"]}
         for name in plugin.PROXIES:
             with self.subTest(proxy=name):
                 proxy = getattr(simple, name)(Input=self.surface, Depth=DEPTH)
