@@ -308,6 +308,18 @@ FlowStep MeanCurvatureFlow::Advance(const Job& job)
     stopped.end = FlowEnd::Vanished;
     return stopped;
   }
+  // Every step of the flow takes area away: one that has not converged and adds some is none.
+  const auto areaBefore = [&]
+  {
+    return SizeOf(
+      this->WorldPoints(*moving_, embedding, job.threads), mesh_->triangles, job.threads)
+      .area;
+  };
+  if (!solution.report.converged && !options_.conformalized && size.area > areaBefore())
+  {
+    stopped.end = FlowEnd::Breakdown;
+    return stopped;
+  }
   const std::optional<double> scale = this->ScaleOf(size.area, size.volume);
   if (!scale)
   {

@@ -48,7 +48,7 @@ enum class FlowEnd
 {
   None,
   Vanished,   // the surface has shrunk to less than 1e-10 of its size
-  Breakdown,  // a matrix is not positive, or numbers leave their range
+  Breakdown,  // a matrix is not positive, numbers leave their range, or a solve goes astray
   VolumeLost, // there is none left to keep constant
   Unfit       // no functions can be made anew on the moved mesh
 };
