@@ -57,6 +57,10 @@ std::shared_ptr<const FiniteElementSpace> FindSpace(
 std::shared_ptr<const FiniteElementSpace> MakeSpace(
   const SurfaceBasis& basis, const SpaceChoice& choice, const Job& job);
 
+/// The same on a mesh without a basis, all of it new. Throws InvalidInput and Aborted.
+std::unique_ptr<FiniteElementSpace> BuildSpace(const TriangleMesh& mesh,
+  const SpaceOptions& functions, const SpaceChoice& choice, const Progress& progress);
+
 } // namespace gridfem
 
 #endif

@@ -2,7 +2,6 @@
 
 #include "Base/Errors.h"
 #include "Problems/MovedSurface.h"
-#include "Spaces/HatSpace.h"
 
 #include <algorithm>
 #include <sstream>
@@ -11,17 +10,6 @@ namespace gridfem
 {
 namespace
 {
-
-std::unique_ptr<FiniteElementSpace> BuildAgain(const TriangleMesh& mesh,
-  const GridSpaceOptions& options, FunctionKind kind, const Progress& progress)
-{
-  if (kind == FunctionKind::Hats)
-  {
-    return std::make_unique<HatSpace>(
-      BuildHatSpace(mesh, options, HatTransfer::Evaluation, progress));
-  }
-  return std::make_unique<GridSpace>(BuildGridSpace(mesh, options, progress));
-}
 
 const char* ReasonOf(FlowEnd end)
 {
@@ -53,16 +41,13 @@ void SurfaceFlow::Restart(SurfaceSolverState& state)
   options.solve = state.options.solve;
   if (!request_.trackMetric)
   {
-    GridSpaceOptions again;
-    again.functions = state.options.space;
-    again.functions.depth = state.Functions().GetGrid().depth;
-    again.functions.connectivityAware =
-      state.Functions().support == FunctionSupport::ConnectivityAware;
-    again.functions.weldCoincidentPoints = state.basis.weldCoincidentPoints;
-    again.quadratureDegree = state.options.choice.quadratureDegree;
-    again.coarsestSize = state.options.choice.coarsestSize;
-    options.rebuild = [again, kind = state.options.choice.kind](const TriangleMesh& moved,
-                        const Job& job) { return BuildAgain(moved, again, kind, job.progress); };
+    SpaceOptions functions = state.options.space;
+    functions.depth = state.Functions().GetGrid().depth;
+    functions.connectivityAware = state.Functions().support == FunctionSupport::ConnectivityAware;
+    functions.weldCoincidentPoints = state.basis.weldCoincidentPoints;
+    options.rebuild = [functions, choice = state.options.choice](
+                        const TriangleMesh& moved, const Job& job)
+    { return BuildSpace(moved, functions, choice, job.progress); };
   }
   flow_.reset(); // frees its memory first
   flow_ = std::make_unique<MeanCurvatureFlow>(state.space, state.mesh.triangles, options);
