@@ -25,7 +25,8 @@ struct vtkSurfaceGradient::Internals
 vtkSurfaceGradient::vtkSurfaceGradient() : Data(std::make_unique<Internals>())
 {
   this->SetNumberOfInputPorts(2);
-  this->Tolerance = 1e-6;
+  this->Tolerance = 1e-4;
+  this->NormalStabilization = 1e-2;
   this->MaximumIterations = 200;
 }
 

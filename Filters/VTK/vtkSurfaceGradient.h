@@ -21,7 +21,8 @@
  * - field data: `Converged`, `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor`
  *   of the projection that took most iterations
  *
- * Tolerance (default 1e-6) is that of the projections, as in vtkScreenedPoisson. All shared
+ * Tolerance (default 1e-4) is that of the projections, as in vtkScreenedPoisson: the errors of the
+ * space are larger. NormalStabilization is 1e-2 by default. All shared
  * properties but ParameterUnits are used.
  */
 #ifndef vtkSurfaceGradient_h
