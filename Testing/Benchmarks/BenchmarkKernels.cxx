@@ -1,8 +1,8 @@
 // The kernels one by one, on the rocker arm at depth 7: google-benchmark, its options apply.
 // Arguments: threads; columns where there are two.
+#include "Discretisation.h"
 #include "Integrals/LoadVector.h"
 #include "SetupCost.h"
-#include "Spaces/LevelOperators.h"
 
 #include <benchmark/benchmark.h>
 

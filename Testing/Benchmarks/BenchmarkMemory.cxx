@@ -1,4 +1,5 @@
 // The estimate of memory against the real peak, and the expected sizes against the real ones.
+#include "Discretisation.h"
 #include "Measure.h"
 #include "Meshes.h"
 #include "Problems/MemoryEstimate.h"

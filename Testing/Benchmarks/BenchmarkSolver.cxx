@@ -1,6 +1,7 @@
 // Iterations and seconds of the solver: rotated cubes, and the peers on the same
 // surface.
 #include "AlgebraicMultigrid.h"
+#include "Discretisation.h"
 #include "Hierarchy.h"
 #include "Measure.h"
 #include "Meshes.h"

@@ -1,4 +1,5 @@
 #include "PeerTimes.h"
+#include "Discretisation.h"
 
 #include "AlgebraicMultigrid.h"
 #include "Base/LargeMemory.h"

@@ -170,7 +170,7 @@ Multigrid HybridProblem::BuildCycle(double weight, const testing::HybridCycle& o
 
 MultiVector HybridProblem::ToFunctions(const MultiVector& values) const
 {
-  MultiVector result(space.Functions().Count(), values.cols());
+  MultiVector result(space.Hats().functions.Count(), values.cols());
   for (std::size_t point = 0; point < space.Hats().functions.ofPoint.size(); ++point)
   {
     if (space.Hats().functions.ofPoint[point] >= 0)

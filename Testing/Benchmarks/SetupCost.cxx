@@ -1,9 +1,9 @@
 #include "SetupCost.h"
+#include "Discretisation.h"
 
 #include "Base/LargeMemory.h"
 #include "Measure.h"
 #include "Meshes.h"
-#include "Spaces/LevelOperators.h"
 
 #include <algorithm>
 #include <cmath>

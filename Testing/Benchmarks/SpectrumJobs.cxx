@@ -1,4 +1,5 @@
 #include "SpectrumJobs.h"
+#include "Discretisation.h"
 
 #include "AlgebraicMultigrid.h"
 #include "Base/LargeMemory.h"
