@@ -8,8 +8,8 @@ namespace gridfem
 namespace
 {
 
-/// δ. Without it functions that hide in a flat surface are not known. Waves ten cells long lose 4 %,
-/// about what the space itself has as error in their gradients.
+/// δ. Without it functions that hide in a flat surface are not known. Waves ten cells long lose 4
+/// %, about what the space itself has as error in their gradients.
 constexpr double Smoothing = 0.1;
 
 /// Solves (M + δL) u = load for any number of columns, and keeps the worst report.

@@ -26,9 +26,9 @@ struct SurfaceDerivatives
 
 /// The field is projected into the space, its gradient on triangles is projected again, and the
 /// Laplacian is the divergence of that: so it needs no condition at a boundary. A projection u of g
-/// solves (M + δL) u = ∫ g b_i with δ a tenth of a squared unit of length, which smooths less than a
-/// grid of that unit does; a field on points has its ∇f beside it, so that a function of the space
-/// stays what it is.
+/// solves (M + δL) u = ∫ g b_i with δ a tenth of a squared unit of length, which smooths less than
+/// a grid of that unit does; a field on points has its ∇f beside it, so that a function of the
+/// space stays what it is.
 /// @param triangles  of the mesh that the space was made from
 /// Throws InvalidInput when the field does not fit, and Aborted. Same bits for any number of
 /// threads.
