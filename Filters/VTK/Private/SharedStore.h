@@ -39,13 +39,6 @@ public:
     return thing;
   }
 
-  /// Forgets the last thing: it lives as long as its users.
-  void Release()
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    last_.reset();
-  }
-
 private:
   Pointer Known(const Key& key)
   {
