@@ -78,7 +78,7 @@ void vtkConnectivityAwareBasis::UpdateBasis(vtkPolyData* input)
   gridfem::StageKey key;
   key.Add(state.meshVersion.Of(input, state.mesh, options.threads));
   key.Add(gridfem::OutputPrecision(input->GetPoints()));
-  key.Add(this->KeepStages)
+  key.Add(this->KeepsStages())
     .Add(options.connectivityAware)
     .Add(options.weldCoincidentPoints)
     .Add(isClipped);
@@ -105,7 +105,7 @@ void vtkConnectivityAwareBasis::UpdateBasis(vtkPolyData* input)
         gridfem::PatchesOfTriangles(state.Functions(), options.threads),
         options.weldCoincidentPoints, this->Data->Frame);
     }
-    if (this->KeepStages)
+    if (this->KeepsStages())
     {
       vtkSurfaceBasisHolder::Attach(
         this->Data->Frame->GetFieldData()->GetAbstractArray(gridfem::PatchBasisIdsName),

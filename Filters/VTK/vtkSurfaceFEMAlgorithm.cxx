@@ -38,7 +38,11 @@ vtkSurfaceFEMAlgorithm::vtkSurfaceFEMAlgorithm()
 {
 }
 
-vtkSurfaceFEMAlgorithm::~vtkSurfaceFEMAlgorithm() = default;
+vtkSurfaceFEMAlgorithm::~vtkSurfaceFEMAlgorithm()
+{
+  this->State.reset();
+  gridfem::ReturnFreedMemory();
+}
 
 int vtkSurfaceFEMAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
 {
@@ -120,9 +124,10 @@ int vtkSurfaceFEMAlgorithm::RequestData(
   this->Dump->Print();
   this->State->bridge.Restart();
   const int result = this->RunCompute(inputs, outputs);
-  if (!this->KeepStages || gridfem::IsEmpty(vtkPolyData::GetData(inputs[0])))
+  if (!this->KeepsStages() || gridfem::IsEmpty(vtkPolyData::GetData(inputs[0])))
   {
     this->FreeStages();
+    gridfem::ReturnFreedMemory();
   }
   return result;
 }
@@ -158,6 +163,11 @@ int vtkSurfaceFEMAlgorithm::RunCompute(vtkInformationVector** inputs, vtkInforma
   this->SetErrorCode(vtkErrorCode::UnknownError);
   this->Dump->Swallow(this->GetExecutive());
   return 0;
+}
+
+bool vtkSurfaceFEMAlgorithm::KeepsStages()
+{
+  return this->KeepStages && !this->GetReleaseDataFlag();
 }
 
 void vtkSurfaceFEMAlgorithm::FreeStages()

@@ -207,6 +207,9 @@ public:
    * When on (default), what a run has made is kept, so that a change repeats only the steps that
    * depend on it. When off, it is freed after every run: least memory, but every change, of the
    * time step as well, repeats all steps. Filters that share a basis then read it from its arrays.
+   * What is held when on: the clipped mesh, its functions, element and level matrices, the
+   * hierarchy with its smoothers, and the last result. A filter whose output is released after use
+   * (ReleaseDataFlagOn) keeps nothing either.
    */
   vtkSetMacro(KeepStages, bool);
   vtkGetMacro(KeepStages, bool);
@@ -269,6 +272,11 @@ protected:
    * What the filter does with a non-empty input. Throws on unusable input and on abort.
    */
   virtual void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) = 0;
+
+  /**
+   * Whether what a run has made stays for the next one: KeepStages, and no ReleaseDataFlag.
+   */
+  bool KeepsStages();
 
   /**
    * Frees all that was made for the next runs. A filter adds what it keeps itself.

@@ -423,6 +423,24 @@ TEST_P(FailureRule, WithoutKeptStagesEveryRunIsAFirstOne)
   EXPECT_GE(filter->GetNumberOfRuns("Space"), 2);
 }
 
+TEST_P(FailureRule, AReleasedOutputLeavesNothingToGoOnFrom)
+{
+  auto data = ToPolyData(GeodesicSphere(4));
+  filter->ReleaseDataFlagOn();
+  for (int run = 1; run < 3; ++run)
+  {
+    filter->Modified();
+    this->ExpectComputed(data);
+    EXPECT_EQ(filter->GetNumberOfRuns("Space"), run);
+  }
+  filter->ReleaseDataFlagOff();
+  filter->Modified();
+  this->ExpectComputed(data);
+  filter->Modified();
+  this->ExpectComputed(data);
+  EXPECT_EQ(filter->GetNumberOfRuns("Space"), 3);
+}
+
 TEST_P(FailureRule, ThreadsRepeatNoStage)
 {
   auto data = ToPolyData(GeodesicSphere(4));

@@ -11,6 +11,10 @@
 #include <new>
 #include <vector>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace gridfem
 {
 
@@ -238,5 +242,12 @@ void FreeLargeMemory(void* memory, std::size_t) noexcept
 }
 
 #endif
+
+void ReturnFreedMemory() noexcept
+{
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
 
 } // namespace gridfem

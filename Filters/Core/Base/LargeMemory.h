@@ -35,6 +35,9 @@ public:
 /// another origin is taken.
 void ReturnLargeMemory(std::size_t bytes) noexcept;
 
+/// Gives memory of any size that has been freed back to the system, where the heap can (glibc).
+void ReturnFreedMemory() noexcept;
+
 /// Asks for large pages where memory of any origin that has not been touched yet spans some of
 /// them. A wish: the system may ignore it, and only Linux is asked. Contents do not change.
 void PreferLargePages(void* begin, std::size_t bytes) noexcept;

@@ -231,6 +231,10 @@ ClippedMesh Clip(const TriangleMesh& mesh, const ClipOptions& options, const Pro
   ClipAndJoin(
     { mesh.triangles, pointClass, snapped, edges, clipped.grid.CellsPerSide(), tolerance }, threads,
     progress.Part(0.25, 1.0), clipped);
+  if (options.joinAtPoints)
+  {
+    LinkAtPoints(pointClass, clipped);
+  }
   progress.Check(1.0);
   return clipped;
 }

@@ -107,6 +107,7 @@ struct ClipOptions
   int depth = 7;                    // 2^depth cells along the longest side, 2..14
   bool weldCoincidentPoints = true; // coincident points count as one for links and cut points
   int threads = 0;                  // 0: all
+  bool joinAtPoints = false;        // pieces that share a point of the mesh are linked, too
 };
 
 /// Clips. Areas of the pieces add up to the areas of the triangles to rounding; a coordinate within

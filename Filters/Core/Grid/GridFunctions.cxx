@@ -124,6 +124,7 @@ GridFunctions BuildGridFunctions(
   ClipOptions clip;
   clip.depth = options.depth;
   clip.weldCoincidentPoints = options.weldCoincidentPoints;
+  clip.joinAtPoints = options.joinAtPoints;
   clip.threads = options.threads;
   return BuildGridFunctions(Clip(mesh, clip, progress.Part(0.0, 0.7)),
     options.connectivityAware ? FunctionSupport::ConnectivityAware : FunctionSupport::Plain,

@@ -16,6 +16,7 @@ struct SpaceOptions
   bool connectivityAware = true;    // one function per connected component of a support
   bool weldCoincidentPoints = true; // coincident points count as one for connectivity
   int threads = 0;                  // 0: all
+  bool joinAtPoints = false;        // sheets that touch in a point of the mesh are connected
 };
 
 struct GridFunctions

@@ -74,6 +74,22 @@ void LinkStars(std::vector<EdgeUse>& uses, const Array<Index>& pieceCell, Array<
   }
 }
 
+void LinkAtPoints(const Array<Index>& pointClass, ClippedMesh& clipped)
+{
+  std::vector<EdgeUse> uses;
+  for (Index piece = 0; piece < clipped.NumberOfPieces(); ++piece)
+  {
+    for (Index k = clipped.pieceBegin[piece]; k < clipped.pieceBegin[piece + 1]; ++k)
+    {
+      if (clipped.corners[k] < clipped.numberOfInputPoints)
+      {
+        uses.push_back({ pointClass[clipped.corners[k]], piece });
+      }
+    }
+  }
+  LinkStars(uses, PieceCells(clipped), clipped.links);
+}
+
 void LinkAlongEdges(const MeshEdges& edges, const Array<Index>& stretches,
   const Array<Index>& place, int threads, const Progress& progress, ClippedMesh& clipped)
 {

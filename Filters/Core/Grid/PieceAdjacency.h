@@ -28,6 +28,10 @@ void LinkStars(std::vector<EdgeUse>& uses, const Array<Index>& pieceCell, Array<
 void LinkAlongEdges(const MeshEdges& edges, const Array<Index>& stretches,
   const Array<Index>& place, int threads, const Progress& progress, ClippedMesh& clipped);
 
+/// Appends links for pieces that share a point of the mesh, as LinkStars.
+/// @param pointClass  per input point: equal for points that count as one
+void LinkAtPoints(const Array<Index>& pointClass, ClippedMesh& clipped);
+
 } // namespace gridfem
 
 #endif

@@ -10,6 +10,23 @@
 namespace gridfem
 {
 
+namespace
+{
+
+/// The same grid with functions that know of sheets that touch in points.
+std::shared_ptr<const GridSpace> JoinAtPoints(
+  const TriangleMesh& mesh, const GridFunctions& grid, bool weldCoincidentPoints, const Job& job)
+{
+  GridSpaceOptions options;
+  options.functions.depth = grid.GetGrid().depth;
+  options.functions.weldCoincidentPoints = weldCoincidentPoints;
+  options.functions.joinAtPoints = true;
+  options.functions.threads = job.threads;
+  return std::make_shared<const GridSpace>(BuildGridSpace(mesh, options, job.progress));
+}
+
+} // namespace
+
 HatLevel BuildHatLevel(const TriangleMesh& mesh, const GridFunctions& grid,
   bool weldCoincidentPoints, HatTransfer transfer, const Job& job)
 {
@@ -27,15 +44,20 @@ HatLevel BuildHatLevel(const TriangleMesh& mesh, const GridFunctions& grid,
   hats.matrices = AssembleHatMatrices(mesh, hats.functions, nullptr, job.threads);
   hats.order = OrderInBlocks(hats.matrices.stiffness);
   hats.groups = GroupByCoupling(hats.matrices.stiffness, job.threads);
-  job.Check(0.6);
-  hats.prolongation = BuildHatProlongation(hats.functions, grid, mesh, transfer, job.threads);
+  job.Check(0.5);
+  if (hats.functions.numberOfComponents < grid.numberOfComponents)
+  {
+    hats.joinedGrid = JoinAtPoints(mesh, grid, weldCoincidentPoints, job.Part(0.5, 0.8));
+  }
+  hats.prolongation = BuildHatProlongation(hats.functions,
+    hats.joinedGrid ? hats.joinedGrid->Functions() : grid, mesh, transfer, job.threads);
   hats.restriction = Transpose(hats.prolongation, job.threads);
   job.Check(1.0);
   return hats;
 }
 
 HatSpace::HatSpace(std::shared_ptr<const HatLevel> hats, GridSpace grid)
-  : hats_(std::move(hats)), grid_(std::move(grid))
+  : hats_(std::move(hats)), grid_(hats_->joinedGrid ? *hats_->joinedGrid : std::move(grid))
 {
 }
 

@@ -19,6 +19,10 @@ struct HatLevel
   PatchOrder groups;         // of eight hats each; see GroupByCoupling
   SharedMatrix prolongation; // from the finest functions of the grid
   SharedMatrix restriction;
+  /// In place of the given grid, whose functions part where sheets touch in a point only, as hats
+  /// do not: a step that moves one sheet as a whole would cost nothing on the grid and much on
+  /// hats.
+  std::shared_ptr<const GridSpace> joinedGrid;
 };
 
 /// @param mesh  what the functions of the grid were made from, weldCoincidentPoints as there

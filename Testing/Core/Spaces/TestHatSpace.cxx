@@ -10,6 +10,10 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <map>
+#include <random>
+
 using namespace gridfem;
 using namespace gridfem::testing;
 
@@ -317,14 +321,58 @@ TEST(HatSpace, SolvesManyTrianglesAroundOneEdge)
 
 TEST(HatSpace, IsNearTheInverseOnSoupsWithDegenerateTriangles)
 {
-  for (const unsigned seed : { 1, 3, 5 })
+  for (unsigned seed = 1; seed <= 20; ++seed)
   {
     for (const HatTransfer transfer : { HatTransfer::Evaluation, HatTransfer::PseudoEvaluation })
     {
       const Hybrid hybrid(RandomSoup(200, 60, seed), 2, transfer);
       const auto [lowest, highest] = ExtremesOfPreconditioned(hybrid, 1e-2);
-      EXPECT_GT(lowest, 0.99) << seed;
+      EXPECT_GT(lowest, 0.97) << seed; // 0.982 was measured
       EXPECT_LT(highest, 1.5) << seed; // 1.3 was measured
     }
+  }
+}
+
+TEST(HatSpace, JoinsSheetsThatTouchInPoints)
+{
+  // Octahedra that share corners: one surface for hats, one component each for a grid that knows of
+  // edges only. With such a grid the iteration for 64 of them did not end.
+  constexpr int Side = 4;
+  TriangleMesh mesh;
+  std::map<std::array<int, 3>, Index> number;
+  const auto point = [&](int x, int y, int z)
+  {
+    const auto [place, isNew] =
+      number.insert({ { x, y, z }, static_cast<Index>(mesh.points.size()) });
+    if (isNew)
+    {
+      mesh.points.emplace_back(x + 0.03 * y, y + 0.02 * z, z + 0.01 * x);
+    }
+    return place->second;
+  };
+  for (int cell = 0; cell < Side * Side * Side; ++cell)
+  {
+    const int x = 2 * (cell % Side);
+    const int y = 2 * (cell / Side % Side);
+    const int z = 2 * (cell / Side / Side);
+    for (const int i : { -1, 1 })
+    {
+      for (const int j : { -1, 1 })
+      {
+        for (const int k : { -1, 1 })
+        {
+          mesh.triangles.push_back({ point(x + i, y, z), point(x, y + j, z), point(x, y, z + k) });
+        }
+      }
+    }
+  }
+  Hybrid hybrid(mesh, 5);
+  ASSERT_EQ(hybrid.space.ComponentsOf(0).count, 1);
+  EXPECT_EQ(hybrid.space.ComponentsOf(1).count, 1);
+  for (const double lambda : { 1.0, 1e-3, 1e-6 })
+  {
+    const PoissonSolution solution = hybrid.Solve(lambda, Waves(mesh));
+    EXPECT_TRUE(solution.report.converged);
+    EXPECT_LE(solution.report.iterations, 10) << lambda;
   }
 }

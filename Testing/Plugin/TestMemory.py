@@ -1,0 +1,80 @@
+"""What filters hold is given back: when they are deleted, and after every run where that is asked
+for. Memory is the process' own, as the system counts it, beside that of the data in the pipeline."""
+import re
+import unittest
+
+import gridfem.vtkGridFEMFilters  # before the plugin, which makes objects of its classes
+from paraview import simple
+
+import plugin
+
+MEGABYTE = 1 << 20
+
+# Few modes and steps: what is tested is what stays, not what is made.
+OPTIONS = {
+    "LaplaceSpectrum": {"NumberOfModes": 8},
+    "MeanCurvatureFlow": {"NumberOfSteps": 2},
+    "SpectralSignatures": {"NumberOfModes": 8}}
+
+
+def resident():
+    """Bytes of the process that are in memory."""
+    with open("/proc/self/status") as status:
+        return 1024 * int(re.search(r"VmRSS:\s+(\d+)", status.read()).group(1))
+
+
+def make(name, surface, **properties):
+    return getattr(simple, name)(Input=surface, Depth=7, **OPTIONS.get(name, {}), **properties)
+
+
+def update_all_ports(proxy):
+    for port in range(proxy.SMProxy.GetNumberOfOutputPorts()):
+        simple.OutputPort(proxy, port).UpdatePipeline()
+
+
+class TestMemory(unittest.TestCase):
+    def setUp(self):
+        self.surface = simple.Sphere(Radius=1.0, ThetaResolution=240, PhiResolution=240)
+        self.surface.UpdatePipeline()
+
+    def tearDown(self):
+        simple.ResetSession()
+
+    def test_deleted_filters_leave_nothing(self):
+        for name in plugin.PROXIES:
+            with self.subTest(proxy=name):
+                growth = []
+                for _ in range(3):  # the first run loads libraries and makes threads
+                    before = resident()
+                    proxy = make(name, self.surface)
+                    update_all_ports(proxy)
+                    during = resident()
+                    simple.Delete(proxy)
+                    del proxy
+                    after = resident()
+                    growth.append(after / before)
+                print(f"{name}: {before / MEGABYTE:.0f} MB before, {during / MEGABYTE:.0f} with "
+                      f"it, {after / MEGABYTE:.0f} after")
+                self.assertLess(min(growth[1:]), 1.05)
+
+    def test_without_kept_stages_only_data_stays(self):
+        for name in plugin.PROXIES:
+            with self.subTest(proxy=name):
+                for _ in range(2):
+                    before = resident()
+                    proxy = make(name, self.surface, KeepStages=0)
+                    update_all_ports(proxy)
+                    held = resident() - before
+                    ports = range(proxy.SMProxy.GetNumberOfOutputPorts())
+                    data = sum(1024 * proxy.GetClientSideObject().GetOutputDataObject(port)
+                               .GetActualMemorySize() for port in ports)
+                    simple.Delete(proxy)
+                    del proxy
+                print(f"{name}: {held / MEGABYTE:.0f} MB held, {data / MEGABYTE:.0f} of data")
+                # Allocators round up and keep a little: that of the largest share is 4 MB.
+                self.assertLess(held, 1.3 * data + 4 * MEGABYTE)
+
+
+if __name__ == "__main__":
+    plugin.load()
+    unittest.main()
