@@ -157,7 +157,7 @@ int CyclesAlone(const TriangleMesh& mesh, const HybridProblem& hybrid, double we
   MultiVector b;
   Multiply(cycle.Matrix(), hybrid.ToFunctions(ColoursAtPoints(mesh, 1)), b);
   MultiVector x = MultiVector::Zero(b.rows(), 1);
-  return Iterations(SolveCycles(cycle, b, x, solve));
+  return Iterations(SolveCycles(OperatorOf(cycle), CycleOf(cycle), b, x, solve));
 }
 
 HatIterations RunHats(const TriangleMesh& mesh, const HybridProblem& hybrid, double weight)
@@ -177,7 +177,8 @@ HatIterations RunHats(const TriangleMesh& mesh, const HybridProblem& hybrid, dou
   Multiply(cycle.Matrix(), hybrid.ToFunctions(ColoursAtPoints(mesh, 1)), b);
   MultiVector x = MultiVector::Zero(b.rows(), 1);
   const Stopwatch watch;
-  result.hybrid = Iterations(SolveConjugateGradients(cycle, b, x, solve));
+  result.hybrid =
+    Iterations(SolveConjugateGradients(OperatorOf(cycle), CycleOf(cycle), b, x, solve));
   result.hybridSeconds = watch.Seconds();
 
   testing::HybridCycle tenSweeps = ThesisHybrid();

@@ -9,15 +9,16 @@ namespace gridfem
 namespace
 {
 
-/// The cycle B makes p'Ap / p'B⁻¹p at most 1 or so. Below the inverse of this, p lies in the null
-/// space of A: the system has no solution.
+/// The preconditioner B makes p'Ap / p'B⁻¹p at most 1 or so. Below the inverse of this, p lies in
+/// the null space of A: the system has no solution.
 constexpr double LongestStep = 1e12;
 
 /// Steps to the minimum along p; 0 in columns that do not iterate. A column whose p does not have
 /// positive energy breaks down, and what its q holds is forgotten.
-Columns StepLengths(SolverIteration& iteration, MultiVector& p, MultiVector& q, int threads)
+Columns StepLengths(
+  const LinearOperator& A, SolverIteration& iteration, MultiVector& p, MultiVector& q)
 {
-  const Columns pq = ColumnProducts(p, q, threads);
+  const Columns pq = A.products(p, q);
   Columns step = Columns::Zero(pq.size());
   for (Id c = 0; c < pq.size(); ++c)
   {
@@ -47,20 +48,20 @@ double MeanFactor(const SolveReport& report)
                                               : 0.0;
 }
 
-SolveReport SolveConjugateGradients(const Multigrid& multigrid, const MultiVector& b,
-  MultiVector& x, const SolveOptions& options, const Projection& project, const Progress& progress)
+SolveReport SolveConjugateGradients(const LinearOperator& A, const Preconditioner& B,
+  const MultiVector& b, MultiVector& x, const SolveOptions& options, const Projection& project,
+  const Progress& progress)
 {
-  const int threads = multigrid.Options().threads;
-  SolverIteration iteration(multigrid, b, x, options, project);
+  SolverIteration iteration(A, B, b, x, options, project);
   MultiVector p = iteration.z;
   MultiVector q;
   while (iteration.CanGoOn())
   {
     iteration.Begin(progress);
-    Multiply(multigrid.Matrix(), p, q, threads);
-    const Columns step = StepLengths(iteration, p, q, threads);
-    AddScaled(p, step, x, threads);
-    AddScaled(q, -step, iteration.r, threads);
+    A.multiply(p, q);
+    const Columns step = StepLengths(A, iteration, p, q);
+    AddScaled(p, step, x, A.threads);
+    AddScaled(q, -step, iteration.r, A.threads);
     const Columns before = iteration.rz;
     iteration.Measure();
     Columns factor = Columns::Zero(b.cols());
@@ -72,20 +73,19 @@ SolveReport SolveConjugateGradients(const Multigrid& multigrid, const MultiVecto
     {
       iteration.Confirm();
     }
-    ScaleAndAdd(iteration.z, factor, p, threads);
+    ScaleAndAdd(iteration.z, factor, p, A.threads);
   }
   return iteration.Finish();
 }
 
-SolveReport SolveCycles(const Multigrid& multigrid, const MultiVector& b, MultiVector& x,
-  const SolveOptions& options, const Projection& project, const Progress& progress)
+SolveReport SolveCycles(const LinearOperator& A, const Preconditioner& B, const MultiVector& b,
+  MultiVector& x, const SolveOptions& options, const Projection& project, const Progress& progress)
 {
-  const int threads = multigrid.Options().threads;
-  SolverIteration iteration(multigrid, b, x, options, project);
+  SolverIteration iteration(A, B, b, x, options, project);
   while (iteration.CanGoOn())
   {
     iteration.Begin(progress);
-    AddScaled(iteration.z, Columns::Ones(b.cols()), x, threads);
+    AddScaled(iteration.z, Columns::Ones(b.cols()), x, A.threads);
     iteration.ComputeResidual();
     iteration.Measure();
   }

@@ -1,9 +1,9 @@
-// Iterative solution of A x = b with a multigrid cycle, for several right-hand sides at once.
+// Iterative solution of A x = b with a preconditioner, for several right-hand sides at once.
 #ifndef GridFEM_ConjugateGradients_h
 #define GridFEM_ConjugateGradients_h
 
 #include "Base/Progress.h"
-#include "Multigrid/Multigrid.h"
+#include "Krylov/LinearOperator.h"
 
 #include <functional>
 #include <vector>
@@ -75,18 +75,19 @@ struct Projection
   std::function<void(MultiVector&)> residual; // removes it from b and from b - A x
 };
 
-/// Conjugate gradients with one cycle as preconditioner; each column has its own steps, and stops
+/// Preconditioned conjugate gradients; each column has its own steps, and stops
 /// on its own. Starts from x. A column that has converged by energy still takes its last correction
 /// B r, which was computed for the measure: it lowers the energy of the error once more. A column
 /// with b = 0 gives x = 0. NaN in b or a breakdown ends the iteration with converged = false and
 /// the last finite x. Throws Aborted.
-SolveReport SolveConjugateGradients(const Multigrid& multigrid, const MultiVector& b,
-  MultiVector& x, const SolveOptions& options, const Projection& project = {},
+SolveReport SolveConjugateGradients(const LinearOperator& A, const Preconditioner& B,
+  const MultiVector& b, MultiVector& x, const SolveOptions& options, const Projection& project = {},
   const Progress& progress = {});
 
-/// The cycle alone, repeated.
-SolveReport SolveCycles(const Multigrid& multigrid, const MultiVector& b, MultiVector& x,
-  const SolveOptions& options, const Projection& project = {}, const Progress& progress = {});
+/// x += B (b - A x), repeated: cycles alone.
+SolveReport SolveCycles(const LinearOperator& A, const Preconditioner& B, const MultiVector& b,
+  MultiVector& x, const SolveOptions& options, const Projection& project = {},
+  const Progress& progress = {});
 
 } // namespace gridfem
 

@@ -41,7 +41,7 @@ public:
 private:
   void SetStart();
   void RemoveKnown(Block<Real> X, const Progress& progress);
-  const Preconditioner<Real>& CurrentPreconditioner();
+  const BlockPreconditioner<Real>& CurrentPreconditioner();
   bool Correct(const Progress& progress);
   bool Precondition(const Progress& progress);
   void NextVectors(const Progress& progress);
@@ -57,7 +57,7 @@ private:
   BlockBuffer<Real>& corrections_; // W = B r of the columns at work that have not converged
   MultiVector randomLoad_;         // of the last columns of P, which have no values yet
   BlockRayleighRitz<Real> rayleighRitz_;
-  Preconditioner<Real> fallback_; // when it is needed
+  BlockPreconditioner<Real> fallback_; // when it is needed
   SoftLocking locking_;
   BlockReport report_;
   double fraction_ = 0.0;
@@ -106,7 +106,7 @@ void BlockIteration<Real>::RemoveKnown(Block<Real> X, const Progress& progress)
 }
 
 template<class Real>
-const Preconditioner<Real>& BlockIteration<Real>::CurrentPreconditioner()
+const BlockPreconditioner<Real>& BlockIteration<Real>::CurrentPreconditioner()
 {
   if (report_.iterations < StepsBeforeFallback || !problem_.fallback)
   {

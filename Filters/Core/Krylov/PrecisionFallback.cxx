@@ -1,5 +1,9 @@
 #include "Krylov/PrecisionFallback.h"
 
+#include "Multigrid/Multigrid.h"
+
+#include <memory>
+
 namespace gridfem
 {
 namespace
@@ -24,18 +28,32 @@ SolveReport Join(SolveReport first, const SolveReport& second)
 
 } // namespace
 
-SolveReport SolveWithFallback(IterationType iteration, const Multigrid& multigrid,
-  const MultiVector& b, MultiVector& x, const SolveOptions& options, const Projection& project,
-  const Progress& progress)
+FallbackPreconditioner CycleWithFallback(const Multigrid& multigrid)
+{
+  FallbackPreconditioner B{ CycleOf(multigrid), {} };
+  if (multigrid.HasSingleFactors())
+  {
+    B.makeDouble = [&multigrid]() -> Preconditioner
+    {
+      const auto better = std::make_shared<const Multigrid>(multigrid.InDoublePrecision());
+      return [better](const MultiVector& r, MultiVector& z) { better->Precondition(r, z); };
+    };
+  }
+  return B;
+}
+
+SolveReport SolveWithFallback(IterationType iteration, const LinearOperator& A,
+  const FallbackPreconditioner& B, const MultiVector& b, MultiVector& x,
+  const SolveOptions& options, const Projection& project, const Progress& progress)
 {
   const auto solve = iteration == IterationType::Cycles ? &SolveCycles : &SolveConjugateGradients;
-  if (!multigrid.HasSingleFactors())
+  if (!B.makeDouble)
   {
-    return solve(multigrid, b, x, options, project, progress);
+    return solve(A, B.first, b, x, options, project, progress);
   }
   SolveOptions attempt = options;
   attempt.giveUp = SolveOptions::GiveUp::WhenTooSlow;
-  const SolveReport report = solve(multigrid, b, x, attempt, project, progress);
+  const SolveReport report = solve(A, B.first, b, x, attempt, project, progress);
   const bool isStuck = report.end == SolveEnd::Stagnation || report.end == SolveEnd::Breakdown;
   attempt.maximumIterations -= report.iterations;
   if (!isStuck || attempt.maximumIterations < 1)
@@ -48,8 +66,7 @@ SolveReport SolveWithFallback(IterationType iteration, const Multigrid& multigri
   }
   attempt.giveUp = SolveOptions::GiveUp::AtStandstill;
   const double done = double(report.iterations) / options.maximumIterations;
-  const Multigrid better = multigrid.InDoublePrecision();
-  return Join(report, solve(better, b, x, attempt, project, progress.Part(done, 1.0)));
+  return Join(report, solve(A, B.makeDouble(), b, x, attempt, project, progress.Part(done, 1.0)));
 }
 
 } // namespace gridfem

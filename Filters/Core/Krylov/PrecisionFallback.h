@@ -1,5 +1,5 @@
-// Solves that go on in double precision where the smoother's factors in single precision turn out
-// not to be enough.
+// Solves that go on in double precision where a preconditioner in single precision turns out not to
+// be enough.
 #ifndef GridFEM_PrecisionFallback_h
 #define GridFEM_PrecisionFallback_h
 
@@ -14,16 +14,25 @@ enum class IterationType
   Cycles = 1              // the cycle alone
 };
 
-/// SolveConjugateGradients or SolveCycles. Where smoothers hold factors in single precision, an
-/// iteration that is too slow (Stagnation::IsTooSlow) or breaks down begins anew, once, from the x
-/// it has reached or from zero, for the iterations that are left: with a copy of the hierarchy
-/// whose factors are in double precision. That one ends at a standstill. What the report says of
-/// the iteration of this change, `doubleSince`, is measured in double precision. The copy takes
-/// memory and time like new factors for the hierarchy, and only then. options.giveUp counts where
-/// there are no factors in single precision.
-SolveReport SolveWithFallback(IterationType iteration, const Multigrid& multigrid,
-  const MultiVector& b, MultiVector& x, const SolveOptions& options, const Projection& project = {},
-  const Progress& progress = {});
+/// A preconditioner that rounds, and one that does not.
+struct FallbackPreconditioner
+{
+  Preconditioner first;
+  std::function<Preconditioner()> makeDouble; // called at most once; empty: `first` is in double
+};
+
+/// One cycle from zero, and one with factors in double precision; these take memory and time like
+/// new ones for the hierarchy, and only when they are asked for.
+FallbackPreconditioner CycleWithFallback(const Multigrid& multigrid);
+
+/// SolveConjugateGradients or SolveCycles. Where B may be replaced, an iteration that is too slow
+/// (Stagnation::IsTooSlow) or breaks down begins anew, once, from the x it has reached or from
+/// zero, for the iterations that are left, in double precision. That one ends at a standstill. What
+/// the report says of the iteration of this change, `doubleSince`, is measured in double precision.
+/// options.giveUp counts where B is in double precision from the start.
+SolveReport SolveWithFallback(IterationType iteration, const LinearOperator& A,
+  const FallbackPreconditioner& B, const MultiVector& b, MultiVector& x,
+  const SolveOptions& options, const Projection& project = {}, const Progress& progress = {});
 
 } // namespace gridfem
 

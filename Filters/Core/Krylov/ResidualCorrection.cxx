@@ -38,7 +38,7 @@ EigenResidual<Real> ResidualOf(const SpectralProblem<Real>& problem, const Eigen
 
 template<class Real>
 ResidualMeasures CorrectResiduals(const SpectralProblem<Real>& problem,
-  const Preconditioner<Real>& precondition, const EigenPairs<Real>& pairs,
+  const BlockPreconditioner<Real>& precondition, const EigenPairs<Real>& pairs,
   const SoftLocking& locking, Block<Real> W, const MultiVector& load, Block<Real> P)
 {
   const std::vector<Index>& columns = locking.AtWork();
@@ -100,10 +100,10 @@ Eigen::VectorXd SquaredResiduals(const SpectralProblem<Real>& problem,
 }
 
 template ResidualMeasures CorrectResiduals(const SpectralProblem<float>&,
-  const Preconditioner<float>&, const EigenPairs<float>&, const SoftLocking&, Block<float>,
+  const BlockPreconditioner<float>&, const EigenPairs<float>&, const SoftLocking&, Block<float>,
   const MultiVector&, Block<float>);
 template ResidualMeasures CorrectResiduals(const SpectralProblem<double>&,
-  const Preconditioner<double>&, const EigenPairs<double>&, const SoftLocking&, Block<double>,
+  const BlockPreconditioner<double>&, const EigenPairs<double>&, const SoftLocking&, Block<double>,
   const MultiVector&, Block<double>);
 template Eigen::VectorXd SquaredResiduals(
   const SpectralProblem<float>&, const EigenPairs<float>&, const std::vector<Index>&);

@@ -17,7 +17,7 @@ namespace gridfem
 /// @param load  F; as many columns as P has
 template<class Real>
 ResidualMeasures CorrectResiduals(const SpectralProblem<Real>& problem,
-  const Preconditioner<Real>& precondition, const EigenPairs<Real>& pairs,
+  const BlockPreconditioner<Real>& precondition, const EigenPairs<Real>& pairs,
   const SoftLocking& locking, Block<Real> W, const MultiVector& load, Block<Real> P);
 
 /// rᵀr of these columns. A cycle for each would cost far more.

@@ -12,15 +12,14 @@ namespace gridfem
 namespace
 {
 
-void CheckProblem(const Multigrid& multigrid, const MultiVector& b, const MultiVector& x,
-  const SolveOptions& options)
+void CheckProblem(
+  const LinearOperator& A, const MultiVector& b, const MultiVector& x, const SolveOptions& options)
 {
-  if (b.rows() != multigrid.Matrix().rows || x.rows() != b.rows() || x.cols() != b.cols())
+  if (b.rows() != A.rows || x.rows() != b.rows() || x.cols() != b.cols())
   {
-    throw InvalidInput("a system of " + std::to_string(multigrid.Matrix().rows) +
-                       " unknowns got b " + std::to_string(b.rows()) + " x " +
-                       std::to_string(b.cols()) + " and x " + std::to_string(x.rows()) + " x " +
-                       std::to_string(x.cols()));
+    throw InvalidInput("a system of " + std::to_string(A.rows) + " unknowns got b " +
+                       std::to_string(b.rows()) + " x " + std::to_string(b.cols()) + " and x " +
+                       std::to_string(x.rows()) + " x " + std::to_string(x.cols()));
   }
   if (!(options.tolerance > 0.0) || options.maximumIterations < 1)
   {
@@ -52,25 +51,25 @@ double Worst(const Columns& values)
 
 } // namespace
 
-SolverIteration::SolverIteration(const Multigrid& multigrid, const MultiVector& b, MultiVector& x,
-  const SolveOptions& options, const Projection& project)
-  : r(b), multigrid_(multigrid), b_(b), x_(x), options_(options), project_(project),
+SolverIteration::SolverIteration(const LinearOperator& A, const Preconditioner& B,
+  const MultiVector& b, MultiVector& x, const SolveOptions& options, const Projection& project)
+  : r(b), A_(A), B_(B), b_(b), x_(x), options_(options), project_(project),
     stagnation_(options.tolerance, options.maximumIterations)
 {
-  CheckProblem(multigrid, b, x, options);
+  CheckProblem(A, b, x, options);
   isActive_.setConstant(b.cols(), true);
   end_.assign(b.cols(), SolveEnd::IterationLimit);
   energy_.setOnes(b.cols());
   residual_.setOnes(b.cols());
   Project(project_.residual, r);
   this->MeasureZero();
-  const bool isZero = x_.isZero(0.0);
-  const Columns workOfStart = ColumnProducts(x_, r, this->Threads());
+  const bool isZero = (A_.products(x_, x_) == 0.0).all();
+  const Columns workOfStart = A_.products(x_, r);
   if (!isZero)
   {
     this->ComputeResidual();
   }
-  this->ApplyCycle(r, z, rz);
+  this->Precondition(r, z, rz);
   reference_ = rz.sqrt();
   if (!isZero)
   {
@@ -82,7 +81,7 @@ SolverIteration::SolverIteration(const Multigrid& multigrid, const MultiVector& 
 /// |b|. Retires columns without a solution or with a trivial one.
 void SolverIteration::MeasureZero()
 {
-  residualOfZero_ = ColumnProducts(r, r, this->Threads()).sqrt();
+  residualOfZero_ = A_.products(r, r).sqrt();
   for (Id c = 0; c < r.cols(); ++c)
   {
     if (!std::isfinite(residualOfZero_[c]))
@@ -99,21 +98,21 @@ void SolverIteration::MeasureZero()
   }
 }
 
-void SolverIteration::ApplyCycle(
+void SolverIteration::Precondition(
   const MultiVector& residual, MultiVector& correction, Columns& energy) const
 {
-  multigrid_.Precondition(residual, correction);
+  B_(residual, correction);
   Project(project_.solution, correction);
-  energy = ColumnProducts(residual, correction, this->Threads());
+  energy = A_.products(residual, correction);
 }
 
 /// By Cauchy and Schwarz bᵀx / |x| is at most |A⁻¹b|, both in the energy norm, and near it for a
 /// start that is worth something. Where it is not even above the error that is left, the energy of
-/// zero costs a cycle.
+/// zero costs another B.
 /// @param workOfStart  bᵀx
 void SolverIteration::SetReference(const Columns& workOfStart)
 {
-  const Columns energyOfStart = workOfStart - ColumnProducts(x_, r, this->Threads()); // xᵀAx
+  const Columns energyOfStart = workOfStart - A_.products(x_, r); // xᵀAx
   const Columns bound = workOfStart.square() / energyOfStart;
   const auto isBound = energyOfStart > 0.0 && bound >= rz;
   reference_ = bound.sqrt();
@@ -123,7 +122,7 @@ void SolverIteration::SetReference(const Columns& workOfStart)
     Project(project_.residual, zeroResidual);
     MultiVector correction;
     Columns energyOfZero;
-    this->ApplyCycle(zeroResidual, correction, energyOfZero);
+    this->Precondition(zeroResidual, correction, energyOfZero);
     reference_ = isBound.select(reference_, energyOfZero.sqrt());
   }
 }
@@ -140,7 +139,7 @@ void SolverIteration::Begin(const Progress& progress)
 
 void SolverIteration::ComputeResidual()
 {
-  Residual(multigrid_.Matrix(), x_, b_, r, this->Threads());
+  A_.residual(x_, b_, r);
   Project(project_.residual, r);
   for (Id c = 0; c < r.cols(); ++c)
   {
@@ -153,13 +152,13 @@ void SolverIteration::ComputeResidual()
 
 void SolverIteration::Measure()
 {
-  this->ApplyCycle(r, z, rz);
+  this->Precondition(r, z, rz);
   this->Judge();
 }
 
 void SolverIteration::Judge()
 {
-  const Columns rr = ColumnProducts(r, r, this->Threads());
+  const Columns rr = A_.products(r, r);
   for (Id c = 0; c < r.cols(); ++c)
   {
     if (!this->IsActive(c))
@@ -234,7 +233,7 @@ void SolverIteration::Confirm()
     end_[c] = isActive_[c] ? SolveEnd::IterationLimit : end_[c];
   }
   this->ComputeResidual();
-  const Columns norm = ColumnProducts(r, r, this->Threads()).sqrt();
+  const Columns norm = A_.products(r, r).sqrt();
   for (Id c = 0; c < r.cols(); ++c)
   {
     if (this->IsActive(c) && norm[c] <= 2.0 * residual_[c] * residualOfZero_[c])

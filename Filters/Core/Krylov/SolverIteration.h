@@ -2,7 +2,6 @@
 #ifndef GridFEM_SolverIteration_h
 #define GridFEM_SolverIteration_h
 
-#include "Algebra/ColumnAlgebra.h"
 #include "Krylov/ConjugateGradients.h"
 #include "Krylov/Stagnation.h"
 
@@ -11,14 +10,13 @@
 namespace gridfem
 {
 
-/// The residual r, z = B r with one
-/// cycle B, their measures, and which columns still iterate. The columns of r and z that do not are
-/// zero, so that they neither change x nor spread NaN.
+/// The residual r, z = B r, their measures, and which columns still iterate. The columns of r and z
+/// that do not are zero, so that they neither change x nor spread NaN. Keeps references.
 class SolverIteration
 {
 public:
-  SolverIteration(const Multigrid& multigrid, const MultiVector& b, MultiVector& x,
-    const SolveOptions& options, const Projection& project);
+  SolverIteration(const LinearOperator& A, const Preconditioner& B, const MultiVector& b,
+    MultiVector& x, const SolveOptions& options, const Projection& project);
 
   bool CanGoOn() const
   {
@@ -51,15 +49,15 @@ public:
 
 private:
   void MeasureZero();
-  void ApplyCycle(const MultiVector& residual, MultiVector& correction, Columns& energy) const;
+  void Precondition(const MultiVector& residual, MultiVector& correction, Columns& energy) const;
   void SetReference(const Columns& workOfStart);
   void Judge();
   void JudgePace();
   bool IsSolved(Id column) const;
   void Record();
-  int Threads() const { return multigrid_.Options().threads; }
 
-  const Multigrid& multigrid_;
+  const LinearOperator& A_;
+  const Preconditioner& B_;
   const MultiVector& b_;
   MultiVector& x_;
   const SolveOptions& options_;

@@ -20,9 +20,9 @@ struct SpectralProblem
   SparseMatrix mass;
   double shift = 1.0;
   /// Approximate inverse, symmetric positive semi-definite, of stiffness + shift mass.
-  Preconditioner<Real> precondition;
+  BlockPreconditioner<Real> precondition;
   /// Makes a better one, where there is: it takes over when convergence is slow.
-  std::function<Preconditioner<Real>()> fallback;
+  std::function<BlockPreconditioner<Real>()> fallback;
   const Constants* constants = nullptr; // the pairs found are orthogonal to them
   int threads = 0;
 };

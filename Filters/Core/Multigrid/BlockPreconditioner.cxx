@@ -71,7 +71,7 @@ template Eigen::VectorXd SquaredNorms(const RowSource<float>&, int);
 template Eigen::VectorXd SquaredNorms(const RowSource<double>&, int);
 
 template<class Real>
-Preconditioner<Real> CyclePreconditioner(const Multigrid& multigrid, std::size_t level)
+BlockPreconditioner<Real> CyclePreconditioner(const Multigrid& multigrid, std::size_t level)
 {
   return [&multigrid, level](
            const RowSource<Real>& r, const CorrectionTest& isWanted, const RowSink<Real>& z)
@@ -99,7 +99,7 @@ Preconditioner<Real> CyclePreconditioner(const Multigrid& multigrid, std::size_t
   };
 }
 
-template Preconditioner<float> CyclePreconditioner(const Multigrid&, std::size_t);
-template Preconditioner<double> CyclePreconditioner(const Multigrid&, std::size_t);
+template BlockPreconditioner<float> CyclePreconditioner(const Multigrid&, std::size_t);
+template BlockPreconditioner<double> CyclePreconditioner(const Multigrid&, std::size_t);
 
 } // namespace gridfem

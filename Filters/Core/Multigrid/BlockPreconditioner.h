@@ -51,12 +51,12 @@ using CorrectionTest = std::function<bool(const ResidualMeasures&)>;
 /// PreconditionedColumns columns. Safe to call from several threads; same bits for any number of
 /// them.
 template<class Real>
-using Preconditioner = std::function<ResidualMeasures(
+using BlockPreconditioner = std::function<ResidualMeasures(
   const RowSource<Real>& r, const CorrectionTest& isWanted, const RowSink<Real>& z)>;
 
 /// One cycle from `level` on, from zero, in double precision. The hierarchy has to outlive it.
 template<class Real>
-Preconditioner<Real> CyclePreconditioner(const Multigrid& multigrid, std::size_t level);
+BlockPreconditioner<Real> CyclePreconditioner(const Multigrid& multigrid, std::size_t level);
 
 } // namespace gridfem
 

@@ -22,10 +22,9 @@ public:
   /// almost parallel to a plane of the grid, where differences of functions nearly vanish.
   bool IsReliable() const;
 
-  /// z = one cycle from `level` on, from zero, on every column of r; see Preconditioner. Half of a
-  /// cycle, down to the coarsest level, makes rᵀBr known. Keeps its
-  /// vectors, as many as are used at the same time, for the next call. Throws InvalidInput when
-  /// there are too many columns.
+  /// z = one cycle from `level` on, from zero, on every column of r; see BlockPreconditioner. Half
+  /// of a cycle, down to the coarsest level, makes rᵀBr known. Keeps its vectors, as many as are
+  /// used at the same time, for the next call. Throws InvalidInput when there are too many columns.
   template<class Real>
   ResidualMeasures Apply(std::size_t level, const RowSource<Real>& r,
     const CorrectionTest& isWanted, const RowSink<Real>& z) const;

@@ -84,8 +84,8 @@ StepSolution SolveStep(const FiniteElementSpace& space, const SparseMatrix& mass
   MultiVector b;
   Multiply(mass, solution.embedding, b, job.threads);
   project.residual(b);
-  solution.report = SolveWithFallback(IterationType::ConjugateGradients, multigrid, b,
-    solution.embedding, options, project, job.progress);
+  solution.report = SolveWithFallback(IterationType::ConjugateGradients, OperatorOf(multigrid),
+    CycleWithFallback(multigrid), b, solution.embedding, options, project, job.progress);
   means.AddConstants(mean, solution.embedding);
   return solution;
 }

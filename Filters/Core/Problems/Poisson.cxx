@@ -170,8 +170,9 @@ PoissonSolution SolvePoisson(const FiniteElementSpace& space, const Multigrid& m
   PoissonSolution solution;
   solution.coefficients = Start(multigrid, rest, options.start, scale);
   removeMeans(solution.coefficients);
-  solution.report = SolveWithFallback(options.iteration, multigrid, rest, solution.coefficients,
-    options.solve, { removeMeans, removeSums }, progress);
+  solution.report =
+    SolveWithFallback(options.iteration, OperatorOf(multigrid), CycleWithFallback(multigrid), rest,
+      solution.coefficients, options.solve, { removeMeans, removeSums }, progress);
   means.AddConstants(meanOfField, solution.coefficients);
   solution.coefficients *= scale.cwiseInverse().asDiagonal();
   return solution;

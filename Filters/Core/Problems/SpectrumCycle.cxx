@@ -35,7 +35,7 @@ void SpectrumCycle::BuildDouble(const Progress& progress)
 }
 
 template<class Real>
-Preconditioner<Real> SpectrumCycle::From(std::size_t level) const
+BlockPreconditioner<Real> SpectrumCycle::From(std::size_t level) const
 {
   if (!single_)
   {
@@ -46,7 +46,7 @@ Preconditioner<Real> SpectrumCycle::From(std::size_t level) const
 }
 
 template<class Real>
-Preconditioner<Real> SpectrumCycle::DoubleFrom(std::size_t level)
+BlockPreconditioner<Real> SpectrumCycle::DoubleFrom(std::size_t level)
 {
   if (!double_)
   {
@@ -55,9 +55,9 @@ Preconditioner<Real> SpectrumCycle::DoubleFrom(std::size_t level)
   return CyclePreconditioner<Real>(*double_, level);
 }
 
-template Preconditioner<float> SpectrumCycle::From(std::size_t) const;
-template Preconditioner<double> SpectrumCycle::From(std::size_t) const;
-template Preconditioner<float> SpectrumCycle::DoubleFrom(std::size_t);
-template Preconditioner<double> SpectrumCycle::DoubleFrom(std::size_t);
+template BlockPreconditioner<float> SpectrumCycle::From(std::size_t) const;
+template BlockPreconditioner<double> SpectrumCycle::From(std::size_t) const;
+template BlockPreconditioner<float> SpectrumCycle::DoubleFrom(std::size_t);
+template BlockPreconditioner<double> SpectrumCycle::DoubleFrom(std::size_t);
 
 } // namespace gridfem

@@ -21,12 +21,12 @@ public:
 
   /// Of the hierarchy that begins at `level`.
   template<class Real>
-  Preconditioner<Real> From(std::size_t level) const;
+  BlockPreconditioner<Real> From(std::size_t level) const;
 
   /// The same in double, for a solve that stagnates; the hierarchy is built when it is first asked
   /// for. Not safe to call from several threads.
   template<class Real>
-  Preconditioner<Real> DoubleFrom(std::size_t level);
+  BlockPreconditioner<Real> DoubleFrom(std::size_t level);
 
   /// Whether double was never needed.
   bool IsSingle() const { return !double_; }

@@ -47,9 +47,11 @@ std::vector<double> ConjugateGradientResiduals(const GridCase& on)
   options.maximumIterations = MostCycles;
   options.measure = SolveOptions::Measure::Residual;
   MultiVector x = MultiVector::Zero(on.b.rows(), 1);
+  const Multigrid& multigrid = *on.grid.multigrid;
+  const SolveReport report =
+    SolveConjugateGradients(OperatorOf(multigrid), CycleOf(multigrid), on.b, x, options);
   std::vector<double> residuals;
-  for (const IterationRecord& record :
-    SolveConjugateGradients(*on.grid.multigrid, on.b, x, options).history)
+  for (const IterationRecord& record : report.history)
   {
     residuals.push_back(record.residual);
   }

@@ -51,8 +51,8 @@ void RemoveMean(MultiVector& x)
   x.rowwise() -= mean;
 }
 
-using Solver = SolveReport (*)(const Multigrid&, const MultiVector&, MultiVector&,
-  const SolveOptions&, const Projection&, const Progress&);
+using Solver = SolveReport (*)(const LinearOperator&, const Preconditioner&, const MultiVector&,
+  MultiVector&, const SolveOptions&, const Projection&, const Progress&);
 
 class Solvers : public ::testing::TestWithParam<Solver>
 {
@@ -60,7 +60,7 @@ protected:
   static SolveReport Solve(const Multigrid& multigrid, const MultiVector& b, MultiVector& x,
     const SolveOptions& options, const Projection& project = {}, const Progress& progress = {})
   {
-    return GetParam()(multigrid, b, x, options, project, progress);
+    return GetParam()(OperatorOf(multigrid), CycleOf(multigrid), b, x, options, project, progress);
   }
 };
 
@@ -377,6 +377,43 @@ TEST_P(Solvers, NoColumnsIsSolvedAtOnce)
   EXPECT_TRUE(Solve(multigrid, x, x, Tolerance(1e-8)).converged);
 }
 
+/// A diagonal with four values, without a matrix.
+LinearOperator FourValues(Id rows)
+{
+  LinearOperator A;
+  A.rows = rows;
+  A.multiply = [](const MultiVector& x, MultiVector& y)
+  {
+    y = x;
+    for (Id row = 0; row < y.rows(); ++row)
+    {
+      y.row(row) *= 1.0 + double(row % 4);
+    }
+  };
+  A.residual = [multiply = A.multiply](const MultiVector& x, const MultiVector& b, MultiVector& r)
+  {
+    multiply(x, r);
+    r = b - r;
+  };
+  A.products = [](const MultiVector& x, const MultiVector& y) -> Columns
+  { return x.cwiseProduct(y).colwise().sum().transpose(); };
+  return A;
+}
+
+TEST(ConjugateGradients, EndAfterAsManyStepsAsAnyOperatorHasValues)
+{
+  const Preconditioner none = [](const MultiVector& r, MultiVector& z) { z = r; };
+  const LinearOperator A = FourValues(1000);
+  const MultiVector exact = RandomVectors(A.rows, 2);
+  MultiVector b;
+  A.multiply(exact, b);
+  MultiVector x = MultiVector::Zero(A.rows, 2);
+  const SolveReport report = SolveConjugateGradients(A, none, b, x, Tolerance(1e-12));
+  EXPECT_TRUE(report.converged);
+  EXPECT_EQ(report.iterations, 4);
+  EXPECT_LT(RelativeDifference(x, exact), 1e-12);
+}
+
 INSTANTIATE_TEST_SUITE_P(Both, Solvers, ::testing::Values(&SolveConjugateGradients, &SolveCycles),
   [](const auto& test)
   { return test.param == &SolveConjugateGradients ? "ConjugateGradients" : "Cycles"; });
@@ -392,8 +429,8 @@ TEST(ConjugateGradients, IterationsGrowSlowlyOnASurface)
       Make(testing::TiltedPlane(depth, 0.3 * (1 << depth), 0.02), depth, 1e-4);
     const MultiVector exact = RandomVectors(multigrid.Matrix().rows, 1);
     MultiVector x = MultiVector::Zero(exact.rows(), 1);
-    const SolveReport report =
-      SolveConjugateGradients(multigrid, Applied(multigrid, exact), x, Tolerance(1e-8));
+    const SolveReport report = SolveConjugateGradients(
+      OperatorOf(multigrid), CycleOf(multigrid), Applied(multigrid, exact), x, Tolerance(1e-8));
     EXPECT_TRUE(report.converged);
     EXPECT_LE(report.iterations, 1.8 * before) << depth;
     before = report.iterations;
@@ -407,7 +444,8 @@ TEST(ConjugateGradients, IterationsDoNotDependOnTheSizeOfASolid)
     const Multigrid multigrid = Make(testing::SolidCube(depth), depth, 1e-3);
     const MultiVector b = RandomVectors(multigrid.Matrix().rows, 1);
     MultiVector x = MultiVector::Zero(b.rows(), 1);
-    const SolveReport report = SolveConjugateGradients(multigrid, b, x, Tolerance(1e-8));
+    const SolveReport report =
+      SolveConjugateGradients(OperatorOf(multigrid), CycleOf(multigrid), b, x, Tolerance(1e-8));
     EXPECT_TRUE(report.converged);
     EXPECT_LE(report.iterations, 6) << depth;
   }
@@ -419,8 +457,10 @@ TEST(ConjugateGradients, AreFasterThanCyclesAlone)
   const MultiVector b = Applied(multigrid, RandomVectors(multigrid.Matrix().rows, 1));
   MultiVector x = MultiVector::Zero(b.rows(), 1);
   MultiVector y = x;
-  const SolveReport krylov = SolveConjugateGradients(multigrid, b, x, Tolerance(1e-8));
-  const SolveReport cycles = SolveCycles(multigrid, b, y, Tolerance(1e-8, 200));
+  const SolveReport krylov =
+    SolveConjugateGradients(OperatorOf(multigrid), CycleOf(multigrid), b, x, Tolerance(1e-8));
+  const SolveReport cycles =
+    SolveCycles(OperatorOf(multigrid), CycleOf(multigrid), b, y, Tolerance(1e-8, 200));
   EXPECT_TRUE(krylov.converged);
   EXPECT_LT(krylov.iterations, cycles.iterations);
 }

@@ -81,15 +81,17 @@ protected:
     const Multigrid& multigrid, const MultiVector& b, MultiVector& x, const SolveOptions& options)
   {
     x = MultiVector::Zero(b.rows(), b.cols());
-    return SolveWithFallback(GetParam(), multigrid, b, x, options);
+    return SolveWithFallback(
+      GetParam(), OperatorOf(multigrid), CycleWithFallback(multigrid), b, x, options);
   }
 
   static SolveReport Without(
     const Multigrid& multigrid, const MultiVector& b, MultiVector& x, const SolveOptions& options)
   {
     x = MultiVector::Zero(b.rows(), b.cols());
-    return GetParam() == IterationType::Cycles ? SolveCycles(multigrid, b, x, options)
-                                               : SolveConjugateGradients(multigrid, b, x, options);
+    return GetParam() == IterationType::Cycles
+             ? SolveCycles(OperatorOf(multigrid), CycleOf(multigrid), b, x, options)
+             : SolveConjugateGradients(OperatorOf(multigrid), CycleOf(multigrid), b, x, options);
   }
 };
 

@@ -44,7 +44,7 @@ MultiVector RandomBlock(Id rows, Id columns)
 /// The preconditioner on a block that is stored.
 template<class Real>
 ResidualMeasures Apply(
-  const Preconditioner<Real>& precondition, const Vectors<Real>& r, Vectors<Real>& z)
+  const BlockPreconditioner<Real>& precondition, const Vectors<Real>& r, Vectors<Real>& z)
 {
   z.resize(r.rows(), r.cols());
   const RowSource<Real> source{ r.rows(), r.cols(),

@@ -223,7 +223,8 @@ TEST(HatSpace, ConvergesInTenCyclesOfTheThesis)
       const Multigrid multigrid = hybrid.Build(weight);
       const MultiVector load = hybrid.space.LoadOfValues({ FieldAssociation::Points, Waves(mesh) });
       MultiVector x = MultiVector::Zero(load.rows(), 1);
-      const SolveReport report = SolveCycles(multigrid, weight * load, x, hybrid.solve);
+      const SolveReport report =
+        SolveCycles(OperatorOf(multigrid), CycleOf(multigrid), weight * load, x, hybrid.solve);
       EXPECT_TRUE(report.converged);
       EXPECT_LE(report.iterations, 10) << lambda; // Fig. 4.7
     }
@@ -242,7 +243,8 @@ TEST(HatSpace, DoesNotMindAGridThatIsMuchFinerThanTheMesh)
     const Multigrid multigrid = hybrid.Build(weight);
     MultiVector x = MultiVector::Zero(hybrid.space.NumberOfFunctions(0), 1);
     const MultiVector load = hybrid.space.LoadOfValues({ FieldAssociation::Points, Waves(mesh) });
-    const SolveReport report = SolveCycles(multigrid, weight * load, x, hybrid.solve);
+    const SolveReport report =
+      SolveCycles(OperatorOf(multigrid), CycleOf(multigrid), weight * load, x, hybrid.solve);
     EXPECT_TRUE(report.converged);
     return report.iterations;
   };
