@@ -41,7 +41,7 @@ vtkScreenedPoisson::vtkScreenedPoisson() : Data(std::make_unique<Internals>())
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
-  this->Tolerance = 1e-6;
+  this->Tolerance = 0.0;
   this->MaximumIterations = 200;
 }
 
@@ -123,6 +123,7 @@ void vtkScreenedPoisson::Solve(const gridfem::Progress& progress)
   gridfem::PoissonRequest request;
   request.weight = this->ScreeningWeight;
   request.gradientScale = this->GradientScale;
+  request.accuracy = this->Tolerance > 0.0 ? 0.0 : this->Accuracy;
   request.iteration = static_cast<gridfem::IterationType>(this->Iteration);
   data.Equation.Update(
     *this->State, fields,
@@ -157,6 +158,7 @@ void vtkScreenedPoisson::WriteSolution(vtkPolyData* input, vtkPolyData* output)
   output->GetPointData()->AddArray(solution);
   output->GetPointData()->SetActiveScalars("Solution");
   gridfem::AddReport(data.Equation.Report(), output);
+  gridfem::AddAccuracy(data.Equation.Accuracy(), output);
 }
 
 void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
@@ -172,7 +174,9 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
   progress.Check(0.5);
   this->Solve(progress.Part(0.5, 0.95));
   this->WriteSolution(input, vtkPolyData::GetData(outputs, 0));
-  gridfem::WriteHistory(this->Data->Equation.Report(), vtkTable::GetData(outputs, 1));
+  vtkTable* table = vtkTable::GetData(outputs, 1);
+  gridfem::WriteHistory(this->Data->Equation.Report(), table);
+  gridfem::AddErrors(this->Data->Equation.Report(), this->Data->Equation.Accuracy(), table);
   const std::string warning = this->Data->Equation.Warning(this->Tolerance);
   if (!warning.empty())
   {
@@ -192,6 +196,7 @@ void vtkScreenedPoisson::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "ScreeningWeight: " << this->ScreeningWeight << "\n";
   os << indent << "GradientScale: " << this->GradientScale << "\n";
+  os << indent << "Accuracy: " << this->Accuracy << "\n";
   os << indent << "Iteration: " << this->Iteration << "\n";
   os << indent << "UseValueGradient: " << this->UseValueGradient << "\n";
 }

@@ -30,15 +30,23 @@
  *   the residual vector relative to the right-hand side, which is not the measure that Tolerance is
  *   on; `ConvergenceFactor` (double, 1): mean reduction of the energy residual per iteration;
  *   `DoublePrecisionSince` (int, 1): the iteration after which the smoother went on in double
- *   precision, because single precision was too slow or broke down; -1: never
+ *   precision, because single precision was too slow or broke down; -1: never;
+ *   `DiscretizationError` (double, 1): the estimated error of the function space, relative to the
+ *   solution without its mean, in the mean square over the surface; `LargestDiscretizationError`
+ *   (double, 1): the largest at a point, in units of the solution; `AlgebraicError` (double, 1):
+ *   what the iteration has left, relative as the first. Of several components the worst; not a
+ *   number where nothing is known, as without coarser levels. `TrustedEstimate` (int, 1): 0 where
+ *   levels do not differ as they do on a resolved surface: the first may be too small then
  *
  * Output port 1 (vtkTable): a row per iteration with `Iteration` (int), 0 being the start by nested
  * iteration; `EnergyResidual` (double): an estimate of the error in the energy norm, relative to
  * the solution's, and `Residual` (double, relative to the right-hand side), the largest over the
  * components; `ConvergenceFactor` (double): the energy residual over that of the row before;
- * `Log10EnergyResidual` and `Log10Residual`. The result is one correction ahead of the last row.
+ * `Log10EnergyResidual` and `Log10Residual`; `AlgebraicError`, what the correction of the row
+ * leaves, `DiscretizationError`, and their logarithms. The result is one correction ahead of the last row.
  *
- * Tolerance (default 1e-6) is on the energy residual; the error over the surface is smaller still.
+ * The iteration ends by Accuracy. With a Tolerance above 0 (default 0) it ends by the energy
+ * residual instead, for those who want the solution of the discrete equations itself.
  * MaximumIterations is 200 by default. All shared properties are used; with HatFunctions as
  * FunctionSpace, QuadratureDegree touches the preconditioner alone, because all integrals over hat
  * functions are exact.
@@ -92,6 +100,16 @@ public:
   vtkBooleanMacro(UseValueGradient, bool);
   ///@}
 
+  ///@{
+  /**
+   * How good the solution is to be as that of the discrete equations: the iteration ends when its
+   * own error is estimated to be this part of the error that the function space has anyway. Above
+   * 0, at most 1, default 0.1; used where Tolerance is 0. The estimates are in the field data.
+   */
+  vtkSetClampMacro(Accuracy, double, 1e-6, 1.0);
+  vtkGetMacro(Accuracy, double);
+  ///@}
+
   enum IterationType
   {
     ConjugateGradients = 0,
@@ -120,6 +138,7 @@ protected:
   void FreeStages() override;
 
   double ScreeningWeight = 100.0;
+  double Accuracy = 0.1;
   double GradientScale = 1.0;
   bool UseValueGradient = false;
   int Iteration = ConjugateGradients;

@@ -14,6 +14,7 @@
 #include "vtkPolyData.h"
 #include "vtkVersionMacros.h"
 
+#include <algorithm>
 #include <new>
 
 namespace
@@ -115,7 +116,7 @@ int vtkSurfaceFEMAlgorithm::RequestData(
   options.multigrid.postSweeps = this->NumberOfSweeps;
   options.multigrid.sweepsPerSynchronisation = this->SweepsPerSynchronisation;
   options.multigrid.threads = this->NumberOfThreads;
-  options.solve.tolerance = this->Tolerance;
+  options.solve.tolerance = std::max(this->Tolerance, 1e-16);
   options.solve.maximumIterations = this->MaximumIterations;
   options.parameterUnits = this->ParameterUnits;
 

@@ -11,6 +11,13 @@
 namespace gridfem
 {
 
+/// Per right-hand side, and what it has to fall to.
+struct ColumnMeasures
+{
+  Columns value;
+  Columns wanted;
+};
+
 struct SolveOptions
 {
   double tolerance = 1e-8;     // on the stopping measure as in IterationRecord; > 0
@@ -28,6 +35,10 @@ struct SolveOptions
     AtStandstill, // Stagnation::IsAtStandstill
     WhenTooSlow   // Stagnation::IsTooSlow: for those who can go on with a better cycle
   } giveUp = GiveUp::Never;
+  /// A measure of its own, where it is set: of x and the correction B r that x takes when it ends.
+  /// A column is done when this or the tolerance says so. Called once before each iteration and at
+  /// the end; columns that are done already come with a correction of 0.
+  std::function<ColumnMeasures(const MultiVector& x, const MultiVector& correction)> measureBy;
 };
 
 /// The state of x before the correction B r of that iteration; the largest over the right-hand
@@ -40,7 +51,8 @@ struct IterationRecord
   /// bound bᵀx / |x|_A with the start x, or sqrt(bᵀBb) again where a start is farther from the
   /// solution than this bound.
   double energy;
-  double residual; // |r| / |b|
+  double residual;  // |r| / |b|
+  double own = 0.0; // the value of SolveOptions::measureBy
 };
 
 /// Why an iteration ended; of several right-hand sides, what comes last here.

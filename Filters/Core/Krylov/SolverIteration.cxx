@@ -159,6 +159,10 @@ void SolverIteration::Measure()
 void SolverIteration::Judge()
 {
   const Columns rr = A_.products(r, r);
+  if (options_.measureBy && this->IsActive())
+  {
+    own_ = options_.measureBy(x_, z);
+  }
   for (Id c = 0; c < r.cols(); ++c)
   {
     if (!this->IsActive(c))
@@ -206,6 +210,10 @@ void SolverIteration::JudgePace()
 /// A vanishing energy may be underflow or a residual that the cycle does not see; |r| tells.
 bool SolverIteration::IsSolved(Id column) const
 {
+  if (options_.measureBy && own_.value[column] <= own_.wanted[column])
+  {
+    return true;
+  }
   const bool byEnergy = options_.measure == SolveOptions::Measure::Energy && energy_[column] > 0.0;
   return (byEnergy ? energy_[column] : residual_[column]) <= options_.tolerance;
 }
@@ -249,7 +257,8 @@ void SolverIteration::Confirm()
 
 void SolverIteration::Record()
 {
-  const IterationRecord record{ report_.iterations, Worst(energy_), Worst(residual_) };
+  const IterationRecord record{ report_.iterations, Worst(energy_), Worst(residual_),
+    Worst(own_.value) };
   if (!report_.history.empty() && report_.history.back().iteration == record.iteration)
   {
     report_.history.back() = record;

@@ -67,8 +67,9 @@ private:
   std::vector<SolveEnd> end_; // per column; IterationLimit while it iterates
   Columns reference_;         // of the energy; see IterationRecord
   Columns residualOfZero_;
-  Columns energy_;   // relative to the first
-  Columns residual_; // relative to the second
+  Columns energy_;     // relative to the first
+  Columns residual_;   // relative to the second
+  ColumnMeasures own_; // of options_.measureBy; empty without
   Stagnation stagnation_;
   SolveReport report_;
 };

@@ -177,7 +177,7 @@ void Multigrid::PreconditionFrom(std::size_t level, const MultiVector& b, MultiV
   this->Start(level, b, x, true);
 }
 
-void Multigrid::NestedIteration(const MultiVector& b, MultiVector& x) const
+void Multigrid::NestedIteration(const MultiVector& b, MultiVector& x, MultiVector* lastStep) const
 {
   this->CheckRows(0, b);
   std::vector<MultiVector> load(levels_.size());
@@ -191,7 +191,12 @@ void Multigrid::NestedIteration(const MultiVector& b, MultiVector& x) const
   {
     if (l + 1 < levels_.size())
     {
+      const MultiVector before = l == 1 && lastStep ? x : MultiVector();
       this->CycleLevel(l, load[l], x, false, scratch);
+      if (before.rows() > 0)
+      {
+        Multiply(levels_[0].prolongation, x - before, *lastStep, options_.threads);
+      }
     }
     MultiVector finer;
     Multiply(levels_[l - 1].prolongation, x, finer, options_.threads);

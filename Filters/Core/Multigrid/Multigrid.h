@@ -93,7 +93,9 @@ public:
   /// A start for the iteration [T §3.3]: solves the coarsest system, takes the solution up and
   /// improves it by one cycle on every level but the finest. x = C b with C symmetric positive
   /// semi-definite where B is. Cost: a third of a W cycle. x must not be b.
-  void NestedIteration(const MultiVector& b, MultiVector& x) const;
+  /// @param lastStep  if not null: by how much the solution of the second level differs from that
+  ///                  of the third, on the finest; without rows where there are less than three
+  void NestedIteration(const MultiVector& b, MultiVector& x, MultiVector* lastStep = nullptr) const;
 
   /// The same as Precondition on the hierarchy that begins at `level`.
   void PreconditionFrom(std::size_t level, const MultiVector& b, MultiVector& x) const;

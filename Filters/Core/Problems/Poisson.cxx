@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
 namespace gridfem
@@ -30,6 +31,10 @@ void CheckInput(const FiniteElementSpace& space, const MultiVector& values,
   {
     throw InvalidInput("The screening weight is " + std::to_string(options.screeningWeight) +
                        "; it must be a number of 0 or more.");
+  }
+  if (!(options.accuracy >= 0.0 && options.accuracy <= 1.0))
+  {
+    throw InvalidInput("The accuracy must lie between 0 and 1.");
   }
   CheckRows("values", values, space.Integrals().size());
   if (gradients.rows() != 0)
@@ -96,10 +101,10 @@ double NormOfDiagonal(const SparseMatrix& A, int threads)
 }
 
 /// Starts columns that hold NaN from zero.
-MultiVector NestedStart(const Multigrid& multigrid, const MultiVector& load)
+MultiVector NestedStart(const Multigrid& multigrid, const MultiVector& load, MultiVector* lastStep)
 {
   MultiVector start;
-  multigrid.NestedIteration(load, start);
+  multigrid.NestedIteration(load, start, lastStep);
   for (Id c = 0; c < start.cols(); ++c)
   {
     if (!start.col(c).allFinite())
@@ -110,9 +115,9 @@ MultiVector NestedStart(const Multigrid& multigrid, const MultiVector& load)
   return start;
 }
 
-/// The given start, where it fits and is finite, else nested iteration.
-MultiVector Start(const Multigrid& multigrid, const MultiVector& load, const MultiVector* given,
-  const Eigen::RowVectorXd& scale)
+/// The given start, where it fits and is finite; else no rows.
+MultiVector GivenStart(
+  const MultiVector& load, const MultiVector* given, const Eigen::RowVectorXd& scale)
 {
   if (given && given->rows() == load.rows() && given->cols() == load.cols())
   {
@@ -122,7 +127,45 @@ MultiVector Start(const Multigrid& multigrid, const MultiVector& load, const Mul
       return start;
     }
   }
-  return NestedStart(multigrid, load);
+  return {};
+}
+
+/// The part of the solution without means, and what is known of its errors.
+/// @param scale  of the columns of the load
+PoissonSolution SolveWithoutMeans(const FiniteElementSpace& space, const Multigrid& multigrid,
+  const MultiVector& load, const Eigen::RowVectorXd& scale, const PoissonOptions& options,
+  const Projection& project, const Progress& progress)
+{
+  SolveOptions solve = options.solve;
+  std::optional<AccuracyWatch> watch;
+  PoissonSolution solution;
+  solution.coefficients = GivenStart(load, options.start, scale);
+  const bool isWatched = options.accuracy > 0.0 || options.estimateErrors;
+  if (isWatched || solution.coefficients.rows() == 0)
+  {
+    MultiVector lastStep;
+    MultiVector nested = NestedStart(multigrid, load, isWatched ? &lastStep : nullptr);
+    project.solution(nested);
+    if (solution.coefficients.rows() == 0)
+    {
+      solution.coefficients = nested;
+    }
+    if (isWatched)
+    {
+      watch.emplace(
+        space, std::move(nested), lastStep, options.accuracy, multigrid.Options().threads);
+      solve.measureBy = [&watch](const MultiVector& x, const MultiVector& correction)
+      { return (*watch)(x, correction); };
+    }
+  }
+  project.solution(solution.coefficients);
+  solution.report = SolveWithFallback(options.iteration, OperatorOf(multigrid),
+    CycleWithFallback(multigrid), load, solution.coefficients, solve, project, progress);
+  if (watch)
+  {
+    solution.accuracy = watch->Result(solution.coefficients, scale);
+  }
+  return solution;
 }
 
 } // namespace
@@ -167,12 +210,8 @@ PoissonSolution SolvePoisson(const FiniteElementSpace& space, const Multigrid& m
   removeSums(rest);
   DropRounding(size, rest);
 
-  PoissonSolution solution;
-  solution.coefficients = Start(multigrid, rest, options.start, scale);
-  removeMeans(solution.coefficients);
-  solution.report =
-    SolveWithFallback(options.iteration, OperatorOf(multigrid), CycleWithFallback(multigrid), rest,
-      solution.coefficients, options.solve, { removeMeans, removeSums }, progress);
+  PoissonSolution solution = SolveWithoutMeans(
+    space, multigrid, rest, scale, options, { removeMeans, removeSums }, progress);
   means.AddConstants(meanOfField, solution.coefficients);
   solution.coefficients *= scale.cwiseInverse().asDiagonal();
   return solution;

@@ -3,7 +3,7 @@
 #define GridFEM_Poisson_h
 
 #include "Krylov/PrecisionFallback.h"
-#include "Spaces/FiniteElementSpace.h"
+#include "Problems/SolutionAccuracy.h"
 
 namespace gridfem
 {
@@ -14,6 +14,10 @@ struct PoissonOptions
   MultigridOptions multigrid;
   IterationType iteration = IterationType::ConjugateGradients;
   SolveOptions solve;
+  /// In (0, 1]: iterate until the algebraic error is estimated to be this part of the error of the
+  /// space, and solve.tolerance is an end as well, if it comes first. 0: to the tolerance alone.
+  double accuracy = 0.0;
+  bool estimateErrors = false; // also where nothing ends by them
   /// Coefficients to start from, as of a similar equation on the same space; null: nested
   /// iteration.
   const MultiVector* start = nullptr;
@@ -23,6 +27,7 @@ struct PoissonSolution
 {
   MultiVector coefficients; // rows = functions, one column per component
   SolveReport report;
+  SolutionAccuracy accuracy; // unknown unless asked for
 };
 
 /// Solves for all columns. The solution has the mean of f on every connected component, for every

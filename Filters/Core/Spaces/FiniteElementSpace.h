@@ -4,6 +4,7 @@
 #ifndef GridFEM_FiniteElementSpace_h
 #define GridFEM_FiniteElementSpace_h
 
+#include "Algebra/ColumnAlgebra.h"
 #include "Base/Job.h"
 #include "Grid/Field.h"
 #include "Integrals/DirectionalElements.h"
@@ -101,6 +102,9 @@ public:
   /// each of the coefficients'; 0 on triangles without an area.
   virtual MultiVector GradientsOnTriangles(
     const MultiVector& coefficients, const Job& job = {}) const = 0;
+
+  /// ∫ u² of every column, in squared units of length, for functions u of the space.
+  virtual Columns SquaredNorms(const MultiVector& u, const Job& job = {}) const = 0;
 
   /// The values of all functions at some points: rows = points, columns = functions. Throws
   /// InvalidInput for a point that the mesh does not have.

@@ -1,6 +1,7 @@
 #include "Spaces/GridSpace.h"
 
 #include "Base/Parallel.h"
+#include "Integrals/ElementNorms.h"
 #include "Integrals/Evaluation.h"
 #include "Integrals/LoadVector.h"
 #include "Spaces/PatchOrdering.h"
@@ -122,6 +123,12 @@ MultiVector GridSpace::GradientsOnTriangles(const MultiVector& coefficients, con
 {
   return MeanGradients(
     *functions_, static_cast<Id>(mesh_->triangles.size()), coefficients, job.threads);
+}
+
+Columns GridSpace::SquaredNorms(const MultiVector& u, const Job& job) const
+{
+  return gridfem::SquaredNorms(
+    functions_->Finest(), this->Operators().elements.front().mass, u, job.threads);
 }
 
 SparseMatrix GridSpace::RowsAtPoints(const std::vector<Id>& points) const

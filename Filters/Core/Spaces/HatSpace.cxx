@@ -169,6 +169,13 @@ MultiVector HatSpace::GradientsOnTriangles(const MultiVector& coefficients, cons
   return gridfem::GradientsOnTriangles(hats_->functions, grid_.Mesh(), coefficients, job.threads);
 }
 
+Columns HatSpace::SquaredNorms(const MultiVector& u, const Job& job) const
+{
+  MultiVector product;
+  Multiply(this->Matrices().mass, u, product, job.threads);
+  return ColumnProducts(u, product, job.threads);
+}
+
 SparseMatrix HatSpace::RowsAtPoints(const std::vector<Id>& points) const
 {
   const std::vector<Index>& functionOf = hats_->functions.ofPoint;

@@ -61,6 +61,7 @@ public:
   MultiVector ValuesAtPoints(const MultiVector& coefficients, const Job& job = {}) const override;
   MultiVector GradientsOnTriangles(
     const MultiVector& coefficients, const Job& job = {}) const override;
+  Columns SquaredNorms(const MultiVector& u, const Job& job = {}) const override;
   SparseMatrix RowsAtPoints(const std::vector<Id>& points) const override;
   std::vector<char> PointsWithFunctions() const override;
   MultiVector EmbeddingOfMesh(const Job& job = {}) const override;

@@ -70,6 +70,31 @@ void AddReport(const SolveReport& report, vtkPolyData* output)
   AddFieldNumber(output, "ConvergenceFactor", report.convergenceFactor);
 }
 
+void AddAccuracy(const SolutionAccuracy& accuracy, vtkPolyData* output)
+{
+  AddFieldNumber(output, "DiscretizationError", accuracy.discretization);
+  AddFieldNumber(output, "LargestDiscretizationError", accuracy.largest);
+  AddFieldNumber(output, "AlgebraicError", accuracy.algebraic);
+  AddFieldInt(output, "TrustedEstimate", accuracy.isTrusted ? 1 : 0);
+}
+
+void AddErrors(const SolveReport& report, const SolutionAccuracy& accuracy, vtkTable* table)
+{
+  const std::size_t rows = report.history.size();
+  std::vector<double> algebraic;
+  std::vector<double> logAlgebraic;
+  for (const IterationRecord& record : report.history)
+  {
+    algebraic.push_back(record.own);
+    logAlgebraic.push_back(SafeLog10(record.own));
+  }
+  const double logDiscretization = SafeLog10(accuracy.discretization);
+  AddColumn(table, "AlgebraicError", algebraic);
+  AddColumn(table, "DiscretizationError", std::vector<double>(rows, accuracy.discretization));
+  AddColumn(table, "Log10AlgebraicError", logAlgebraic);
+  AddColumn(table, "Log10DiscretizationError", std::vector<double>(rows, logDiscretization));
+}
+
 void AddColumn(vtkTable* table, const char* name, const std::vector<double>& values)
 {
   vtkNew<vtkDoubleArray> column;
@@ -136,13 +161,32 @@ IterationRecord LastRecord(const SolveReport& report)
   return report.history.empty() ? IterationRecord{ 0, 0.0, 0.0 } : report.history.back();
 }
 
+namespace
+{
+
+std::string HowItEnded(const SolveReport& report)
+{
+  return "Not converged after " + std::to_string(report.iterations) + " iterations, because " +
+         ReasonOf(report) + ".";
+}
+
+} // namespace
+
 std::string WarningOf(const SolveReport& report, double tolerance)
 {
   const IterationRecord last = LastRecord(report);
   std::ostringstream text;
-  text << "Not converged after " << report.iterations << " iterations, because " << ReasonOf(report)
-       << ". The energy residual is " << last.energy << ", the residual " << last.residual
-       << ", wanted is " << tolerance << ". The result is kept.";
+  text << HowItEnded(report) << " The energy residual is " << last.energy << ", the residual "
+       << last.residual << ", wanted is " << tolerance << ". The result is kept.";
+  return text.str();
+}
+
+std::string WarningOf(const SolveReport& report, const SolutionAccuracy& accuracy)
+{
+  std::ostringstream text;
+  text << HowItEnded(report) << " What the iteration has left is estimated to be "
+       << accuracy.algebraic << " of the solution, the error of the function space "
+       << accuracy.discretization << ". The result is kept.";
   return text.str();
 }
 

@@ -4,6 +4,7 @@
 
 #include "Base/Types.h"
 #include "Krylov/ConjugateGradients.h"
+#include "Problems/SolutionAccuracy.h"
 
 #include "vtkSmartPointer.h"
 
@@ -24,6 +25,10 @@ vtkSmartPointer<vtkDataArray> MakePointArray(
 /// -1: none), Residual and ConvergenceFactor (mean per iteration).
 void AddReport(const SolveReport& report, vtkPolyData* output);
 
+/// Adds the field arrays DiscretizationError, LargestDiscretizationError, AlgebraicError (relative,
+/// in units of the solution, relative; not a number where unknown) and TrustedEstimate.
+void AddAccuracy(const SolutionAccuracy& accuracy, vtkPolyData* output);
+
 /// Adds a field array with one int.
 void AddFieldInt(vtkPolyData* output, const char* name, int value);
 
@@ -33,6 +38,10 @@ void AddFieldNumber(vtkPolyData* output, const char* name, double value);
 /// The columns Iteration, EnergyResidual, Residual, ConvergenceFactor (energy residual over that of
 /// the row before; 1 in the first), Log10EnergyResidual, Log10Residual.
 void WriteHistory(const SolveReport& report, vtkTable* table);
+
+/// Adds the columns AlgebraicError, after the correction of each row, DiscretizationError, and their
+/// logarithms.
+void AddErrors(const SolveReport& report, const SolutionAccuracy& accuracy, vtkTable* table);
 
 /// Adds a column of numbers to a table.
 void AddColumn(vtkTable* table, const char* name, const std::vector<double>& values);
@@ -45,6 +54,7 @@ const char* ReasonOf(const SolveReport& report);
 
 /// What to warn of when a solve has not converged.
 std::string WarningOf(const SolveReport& report, double tolerance);
+std::string WarningOf(const SolveReport& report, const SolutionAccuracy& accuracy);
 
 /// The last iteration, or zeros when nothing had to be iterated.
 IterationRecord LastRecord(const SolveReport& report);

@@ -4,6 +4,13 @@
 
 namespace gridfem
 {
+namespace
+{
+
+/// Of the energy residual, for solutions that are exact on coarser levels already.
+constexpr double RoundingTolerance = 1e-9;
+
+} // namespace
 
 void SurfacePoisson::Update(SurfaceSolverState& state, StageKey fields, const Integrate& integrate,
   const PoissonRequest& request, const Progress& progress)
@@ -48,7 +55,7 @@ void SurfacePoisson::Solve(
 {
   StageKey key;
   key.Add(state.stages.Version(HierarchyStage)).Add(state.stages.Version(RightHandSideStage));
-  key.Add(request.gradientScale).Add(static_cast<int>(request.iteration));
+  key.Add(request.gradientScale).Add(static_cast<int>(request.iteration)).Add(request.accuracy);
   key.Add(state.options.solve.tolerance).Add(state.options.solve.maximumIterations);
   state.stages.Run(SolveStage, key,
     [&]
@@ -58,9 +65,15 @@ void SurfacePoisson::Solve(
       options.multigrid = state.options.multigrid;
       options.iteration = request.iteration;
       options.solve = state.options.solve;
+      options.accuracy = request.accuracy;
+      if (request.accuracy > 0.0)
+      {
+        options.solve.tolerance = RoundingTolerance;
+      }
+      options.estimateErrors = true;
       StageKey solver = shape_; // other options show their own iterations, from the usual start
       solver.Add(options.solve.tolerance).Add(options.solve.maximumIterations);
-      solver.Add(static_cast<int>(request.iteration));
+      solver.Add(static_cast<int>(request.iteration)).Add(request.accuracy);
       const bool hasStart = solvedWith_ == solver;
       const MultiVector last = hasStart ? std::move(solution_.coefficients) : MultiVector();
       options.start = hasStart ? &last : nullptr;
@@ -79,7 +92,12 @@ MultiVector SurfacePoisson::Values(const SurfaceSolverState& state) const
 
 std::string SurfacePoisson::Warning(double tolerance) const
 {
-  return solution_.report.converged ? std::string() : WarningOf(solution_.report, tolerance);
+  if (solution_.report.converged)
+  {
+    return {};
+  }
+  return tolerance > 0.0 ? WarningOf(solution_.report, tolerance)
+                         : WarningOf(solution_.report, solution_.accuracy);
 }
 
 } // namespace gridfem

@@ -135,6 +135,23 @@ TEST_P(EverySpace, GradientsOfCoordinatesAreProjections)
   }
 }
 
+TEST_P(EverySpace, HasTheNormsOfItsMass)
+{
+  for (const TriangleMesh& mesh : Meshes())
+  {
+    const SpaceOnMesh on = this->Build(mesh);
+    const MultiVector u = RandomValues(on.space->NumberOfFunctions(0), 3);
+    MultiVector product;
+    Multiply(on.space->Matrix(0, 1.0, 0.0), u, product);
+    const Columns norms = on.space->SquaredNorms(u);
+    for (Id c = 0; c < u.cols(); ++c)
+    {
+      EXPECT_NEAR(norms[c], u.col(c).dot(product.col(c)), 1e-12 * norms[c]);
+    }
+    EXPECT_TRUE((on.space->SquaredNorms(u, 1) == on.space->SquaredNorms(u, 2)).all());
+  }
+}
+
 TEST_P(EverySpace, HasTheSameValuesByRows)
 {
   for (const TriangleMesh& mesh : Meshes())

@@ -1,0 +1,116 @@
+#include "Problems/SolutionAccuracy.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gridfem
+{
+namespace
+{
+
+/// The error that is left, over the larger one of the last two corrections. Steps of conjugate
+/// gradients come and go: what was left lay between 0.1 and 1 of it on scans and parts, and up to 4
+/// on spheres at large weights (Testing/Benchmarks/README.md).
+constexpr double LeftByCorrections = 0.75;
+
+/// Corrections before anything ends: the first one leads from the coarser level to this one and
+/// says nothing about what is slow.
+constexpr int FirstJudgement = 3;
+
+/// A solution that is better than this, relative to its size, is not asked to be better still: the
+/// coarser level may contain the solution.
+constexpr double FinestError = 1e-8;
+
+/// The ratio of two errors of neighbouring levels, of which one has four times the functions, is 4
+/// at second order.
+constexpr double SmallestRate = 2.0;
+constexpr double LargestRate = 8.0;
+
+/// With errors that fall with the number of functions: difference of the solutions of two levels
+/// over the error of the finer one. Where the finer one has not many more functions, as hats over a
+/// fine grid, the difference is about its own error.
+double DifferenceOverError(Index fine, Index coarse)
+{
+  return std::max(1.0, double(fine) / double(std::max<Index>(1, coarse)) - 1.0);
+}
+
+double Worst(const Columns& values)
+{
+  return values.size() == 0 ? SolutionAccuracy::Unknown : values.maxCoeff<Eigen::PropagateNaN>();
+}
+
+/// 0 for columns of size 0.
+Columns Relative(const Columns& error, const Columns& size)
+{
+  return (size > 0.0).select(error / size, 0.0);
+}
+
+} // namespace
+
+AccuracyWatch::AccuracyWatch(const FiniteElementSpace& space, MultiVector nested,
+  const MultiVector& coarser, double accuracy, int threads)
+  : space_(space), nested_(std::move(nested)), accuracy_(accuracy), threads_(threads)
+{
+  if (space.NumberOfLevels() > 1)
+  {
+    steps_ = DifferenceOverError(space.NumberOfFunctions(0), space.NumberOfFunctions(1));
+  }
+  if (coarser.rows() > 0 && space.NumberOfLevels() > 2)
+  {
+    coarserError_ = this->Norms(coarser) /
+                    DifferenceOverError(space.NumberOfFunctions(1), space.NumberOfFunctions(2));
+  }
+  algebraic_.setConstant(nested_.cols(), SolutionAccuracy::Unknown);
+  lastStep_.setZero(nested_.cols());
+}
+
+Columns AccuracyWatch::Norms(const MultiVector& u) const
+{
+  return space_.SquaredNorms(u, threads_).max(0.0).sqrt();
+}
+
+ColumnMeasures AccuracyWatch::operator()(const MultiVector& x, const MultiVector& correction)
+{
+  ++calls_;
+  if (calls_ <= FirstJudgement) // what comes later adds less to the difference than is known of it
+  {
+    const MultiVector corrected = x + correction;
+    size_ = this->Norms(corrected);
+    discretization_ = this->Norms(corrected - nested_) / steps_;
+  }
+  const Columns step = this->Norms(correction);
+  const Columns left = LeftByCorrections * step.max(lastStep_);
+  algebraic_ = (step > 0.0).select(left, algebraic_); // columns that are done have no correction
+  lastStep_ = step;
+  const double wanted = calls_ < FirstJudgement ? -1.0 : accuracy_;
+  return { Relative(left, size_), wanted * Relative(discretization_, size_).max(FinestError) };
+}
+
+SolutionAccuracy AccuracyWatch::Result(
+  const MultiVector& solution, const Eigen::RowVectorXd& scale) const
+{
+  SolutionAccuracy result;
+  if (calls_ == 0 || space_.NumberOfLevels() < 2)
+  {
+    return result;
+  }
+  const MultiVector difference = solution - nested_;
+  const Columns error = this->Norms(difference) / steps_;
+  const Columns size = this->Norms(solution);
+  result.discretization = Worst(Relative(error, size));
+  result.algebraic = Worst(Relative(algebraic_, size));
+  const MultiVector atPoints =
+    space_.ValuesAtPoints(difference * scale.cwiseInverse().asDiagonal(), threads_);
+  result.largest = atPoints.size() > 0 ? atPoints.cwiseAbs().maxCoeff() / steps_ : 0.0;
+  if (coarserError_.size() > 0 && !space_.NestedLevels())
+  {
+    const double functions =
+      double(space_.NumberOfFunctions(0)) / double(space_.NumberOfFunctions(1));
+    const Columns rate = 4.0 / functions * coarserError_ / error;
+    result.isTrusted =
+      ((error <= FinestError * size) || (rate >= SmallestRate && rate <= LargestRate)).all();
+  }
+  return result;
+}
+
+} // namespace gridfem

@@ -1,0 +1,66 @@
+// How good a solution is: the error that its space leaves, and what the iteration leaves of its
+// own. Multigrid starts from the solution of the next coarser level, so that both can be seen on
+// the way.
+#ifndef GridFEM_SolutionAccuracy_h
+#define GridFEM_SolutionAccuracy_h
+
+#include "Krylov/ConjugateGradients.h"
+#include "Spaces/FiniteElementSpace.h"
+
+#include <limits>
+#include <vector>
+
+namespace gridfem
+{
+
+/// Of several columns the worst. Not a number where nothing is known.
+struct SolutionAccuracy
+{
+  static constexpr double Unknown = std::numeric_limits<double>::quiet_NaN();
+
+  double discretization = Unknown; // |u - exact| / |u| on the surface, u without its mean; within
+                                   // a factor of two where it can be trusted
+  double largest = Unknown;        // the largest error at a point, in units of the solution
+  double algebraic = Unknown;      // |u - the space's own solution| / |u|, within a factor of five
+  /// Whether the levels are nested and differ as they do where errors fall with the square of the
+  /// cell size. On hats above a grid the first two are rather too large, up to fifteen times. Else
+  /// the surface or the data are not resolved, or the levels are too coarse, and the error of the
+  /// space may be several times as large.
+  bool isTrusted = false;
+};
+
+/// Watches an iteration that starts near the solution of the next coarser level, in the sense of
+/// SolveOptions::measureBy. Keeps references.
+class AccuracyWatch
+{
+public:
+  /// @param nested    the coarser solution, prolonged
+  /// @param coarser   how it differs from that of the level below; no rows: there is none
+  /// @param accuracy  wanted ratio of the algebraic error to that of the space; 0: only watches
+  AccuracyWatch(const FiniteElementSpace& space, MultiVector nested, const MultiVector& coarser,
+    double accuracy, int threads);
+
+  ColumnMeasures operator()(const MultiVector& x, const MultiVector& correction);
+
+  /// Of the solution. Before it is scaled and gets its mean back.
+  SolutionAccuracy Result(const MultiVector& solution, const Eigen::RowVectorXd& scale) const;
+
+private:
+  Columns Norms(const MultiVector& u) const;
+
+  const FiniteElementSpace& space_;
+  const MultiVector nested_;
+  const double accuracy_;
+  const int threads_;
+  double steps_ = 3.0;   // difference of the levels over the error of the finer one
+  Columns coarserError_; // of the next coarser level; empty: unknown
+  int calls_ = 0;
+  Columns size_;           // |u|
+  Columns discretization_; // absolute
+  Columns lastStep_;       // |the last correction|
+  Columns algebraic_;      // absolute, of the last correction that was not zero
+};
+
+} // namespace gridfem
+
+#endif

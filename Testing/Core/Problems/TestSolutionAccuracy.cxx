@@ -1,0 +1,274 @@
+// Estimated errors against true ones: of the space from a grid two levels finer, of the iteration
+// from the solution of the discrete equations.
+#include "Problems/Poisson.h"
+
+#include "Problems/SolutionAccuracy.h"
+#include "Spaces.h"
+#include "Spaces/HatSpace.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+struct Data
+{
+  const char* name;
+  bool isSmooth;
+  std::function<double(const Vec3&)> at;
+};
+
+const std::vector<Data>& AllData()
+{
+  static const std::vector<Data> all = {
+    { "smooth", true,
+      [](const Vec3& p) { return std::sin(2 * p[0] + 1) * std::cos(p[1]) + p[2]; } },
+    { "waves", false, [](const Vec3& p) { return std::sin(12 * p[0] + 9 * p[1] * p[2]); } },
+    { "steps", false, [](const Vec3& p) { return std::sin(7 * p[0] - 5 * p[2]) > 0 ? 1.0 : -1.0; } }
+  };
+  return all;
+}
+
+MultiVector AtPoints(const TriangleMesh& mesh, const Data& data)
+{
+  MultiVector f(static_cast<Id>(mesh.points.size()), 1);
+  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+  {
+    f(static_cast<Id>(i), 0) = data.at(mesh.points[i]);
+  }
+  return f;
+}
+
+/// Parts of the area that belong to the points.
+Eigen::VectorXd AreasOfPoints(const TriangleMesh& mesh)
+{
+  Eigen::VectorXd area = Eigen::VectorXd::Zero(static_cast<Id>(mesh.points.size()));
+  for (const auto& [a, b, c] : mesh.triangles)
+  {
+    const double sixth =
+      (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]).norm() / 6.0;
+    for (const Index point : { a, b, c })
+    {
+      area[point] += sixth;
+    }
+  }
+  return area;
+}
+
+/// One equation on one space.
+struct Equation
+{
+  Equation(const FiniteElementSpace& onSpace, double lambda)
+    : space(onSpace), weight(lambda * std::pow(onSpace.UnitLength(), 2)),
+      multigrid(BuildMultigrid(onSpace, weight, 1.0, {}))
+  {
+  }
+
+  PoissonSolution Solve(const Field& f, double accuracy, double tolerance) const
+  {
+    PoissonOptions options;
+    options.screeningWeight = weight;
+    options.accuracy = accuracy;
+    options.solve.tolerance = tolerance;
+    options.solve.maximumIterations = 500;
+    return SolvePoisson(space, multigrid, space.LoadOfValues(f), {}, options);
+  }
+
+  const FiniteElementSpace& space;
+  double weight;
+  Multigrid multigrid;
+};
+
+/// What the default solve of an equation says, and what is true, over the points of a mesh.
+struct Comparison
+{
+  Comparison(const TriangleMesh& mesh, const FiniteElementSpace& space, const MultiVector& f,
+    double lambda, const MultiVector& truth)
+  {
+    const Field field{ FieldAssociation::Points, f };
+    const Equation equation(space, lambda);
+    const PoissonSolution solution = equation.Solve(field, 0.1, 1e-9);
+    const PoissonSolution discrete = equation.Solve(field, 0.0, 1e-12);
+    report = solution.report;
+    said = solution.accuracy;
+    const Eigen::VectorXd area = AreasOfPoints(mesh);
+    const auto norm = [&](const MultiVector& u)
+    { return std::sqrt(area.dot(u.col(0).cwiseAbs2())); };
+    const MultiVector values = space.ValuesAtPoints(solution.coefficients);
+    const MultiVector exact = space.ValuesAtPoints(discrete.coefficients);
+    const double mean = area.dot(truth.col(0)) / area.sum();
+    const double size = norm(truth.array() - mean);
+    discretization = norm(exact - truth) / size;
+    algebraic = norm(values - exact) / size;
+    total = norm(values - truth) / size;
+    largest = (exact - truth).cwiseAbs().maxCoeff();
+  }
+
+  SolveReport report;
+  SolutionAccuracy said;
+  double discretization;
+  double algebraic;
+  double total;
+  double largest;
+};
+
+GridSpace GridOf(
+  const TriangleMesh& mesh, int depth, double normalStabilization = DefaultNormalStabilization)
+{
+  GridSpaceOptions options;
+  options.normalStabilization = normalStabilization;
+  options.functions.depth = depth;
+  options.coarsestSize = 64;
+  return BuildGridSpace(mesh, options);
+}
+
+void ExpectRightEstimates(const Comparison& c, bool isSmooth)
+{
+  EXPECT_TRUE(c.report.converged);
+  EXPECT_LE(c.report.iterations, 5);
+  EXPECT_LT(c.total, 1.2 * c.discretization);
+  const double errors = c.said.discretization / c.discretization;
+  EXPECT_GT(errors, isSmooth ? 0.5 : 0.33);
+  EXPECT_LT(errors, isSmooth ? 2.0 : 3.0);
+  const double left = c.said.algebraic / c.algebraic;
+  EXPECT_GT(left, 0.2);
+  EXPECT_LT(left, 10.0); // the safe side
+}
+
+} // namespace
+
+TEST(SolutionAccuracy, IsKnownOnGrids)
+{
+  const std::vector<std::pair<const char*, TriangleMesh>> meshes = {
+    { "sphere", Transform(GeodesicSphere(40), { 1, 2, 3 }, 0.5) },
+    { "torus", Transform(Torus(120, 50, 1.0, 0.4), { 1, 0, 1 }, 0.3) },
+    { "plane", Transform(FlatRectangle(60, 50, 2.0, 1.5), { 1, 1, 0 }, 0.7) },
+    { "cube", Transform(Box(24), { 1, 2, 1 }, 0.4) }
+  };
+  for (const auto& [name, mesh] : meshes)
+  {
+    const GridSpace space = GridOf(mesh, 4);
+    const GridSpace finer = GridOf(mesh, 6, 1e-2); // a sixteenth of the error, in few steps
+    for (const Data& data : AllData())
+    {
+      const MultiVector f = AtPoints(mesh, data);
+      for (const double lambda : { 1.0, 100.0, 1e4 })
+      {
+        SCOPED_TRACE(std::string(name) + ", " + data.name + ", " + std::to_string(lambda));
+        const MultiVector truth = finer.ValuesAtPoints(
+          Equation(finer, lambda).Solve({ FieldAssociation::Points, f }, 0.0, 1e-9).coefficients);
+        const Comparison c(mesh, space, f, lambda, truth);
+        ExpectRightEstimates(c, data.isSmooth);
+      }
+    }
+  }
+}
+
+TEST(SolutionAccuracy, IsKnownOnHats)
+{
+  // A linear function is the same on all subdivisions of a mesh, so their solutions compare.
+  const Data linear{ "linear", true, [](const Vec3& p) { return p[0] + 0.5 * p[1] - 0.2 * p[2]; } };
+  for (const TriangleMesh& mesh :
+    { GeodesicSphere(16), Transform(Torus(60, 24, 1.0, 0.4), { 1, 0, 1 }, 0.3) })
+  {
+    const TriangleMesh fineMesh = SubdivideInPlane(SubdivideInPlane(mesh));
+    for (const double lambda : { 0.1, 10.0 })
+    {
+      for (const int depth : { 3, 4, 5 })
+      {
+        SCOPED_TRACE(std::to_string(lambda) + ", depth " + std::to_string(depth));
+        GridSpaceOptions options;
+        options.functions.depth = depth;
+        options.coarsestSize = 64;
+        const HatSpace space = BuildHatSpace(mesh, options);
+        const HatSpace finer = BuildHatSpace(fineMesh, options);
+        const MultiVector truth =
+          finer
+            .ValuesAtPoints(
+              Equation(finer, lambda)
+                .Solve({ FieldAssociation::Points, AtPoints(fineMesh, linear) }, 0.0, 1e-10)
+                .coefficients)
+            .topRows(static_cast<Id>(mesh.points.size()));
+        const Comparison c(mesh, space, AtPoints(mesh, linear), lambda, truth);
+        EXPECT_LT(c.total, 1.1 * c.discretization);
+      }
+    }
+  }
+}
+
+TEST(SolutionAccuracy, DoesNotDependOnThreads)
+{
+  const TriangleMesh mesh = Transform(Torus(120, 50, 1.0, 0.4), { 1, 0, 1 }, 0.3);
+  const GridSpace space = GridOf(mesh, 5);
+  std::vector<SolutionAccuracy> results;
+  for (const int threads : { 1, 2, 3 })
+  {
+    PoissonOptions options;
+    options.screeningWeight = 0.01;
+    options.multigrid.threads = threads;
+    options.accuracy = 0.1;
+    const Field f{ FieldAssociation::Points, AtPoints(mesh, AllData()[1]) };
+    results.push_back(
+      SolvePoisson(space, BuildMultigrid(space, options.screeningWeight, 1.0, options.multigrid),
+        space.LoadOfValues(f), {}, options)
+        .accuracy);
+    EXPECT_EQ(results.back().discretization, results.front().discretization);
+    EXPECT_EQ(results.back().algebraic, results.front().algebraic);
+    EXPECT_EQ(results.back().largest, results.front().largest);
+  }
+}
+
+TEST(SolutionAccuracy, IsUnknownWithoutCoarserLevels)
+{
+  const TriangleMesh mesh = GeodesicSphere(3);
+  GridSpaceOptions spaceOptions;
+  spaceOptions.functions.depth = 2;
+  spaceOptions.coarsestSize = 4096;
+  const GridSpace space = BuildGridSpace(mesh, spaceOptions);
+  ASSERT_EQ(space.NumberOfLevels(), 1u);
+  const PoissonSolution solution =
+    Equation(space, 1.0)
+      .Solve({ FieldAssociation::Points, AtPoints(mesh, AllData()[0]) }, 0.1, 1e-9);
+  EXPECT_TRUE(solution.report.converged);
+  EXPECT_TRUE(std::isnan(solution.accuracy.discretization));
+  EXPECT_FALSE(solution.accuracy.isTrusted);
+}
+
+TEST(SolutionAccuracy, StopsAtRoundingWhereCoarserLevelsAreExact)
+{
+  // Coordinates with their own gradients are solutions on every level.
+  const TriangleMesh mesh = Transform(Torus(60, 24, 1.0, 0.4), { 1, 0, 1 }, 0.3);
+  const GridSpace space = GridOf(mesh, 5);
+  PoissonOptions options;
+  options.screeningWeight = 0.01;
+  options.accuracy = 0.1;
+  options.solve.tolerance = 1e-9;
+  MultiVector coordinates(static_cast<Id>(mesh.points.size()), 3);
+  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+  {
+    coordinates.row(static_cast<Id>(i)) = mesh.points[i].transpose();
+  }
+  const PoissonSolution solution = SolvePoisson(space, BuildMultigrid(space, 0.01, 1.0, {}),
+    space.LoadOfValues({ FieldAssociation::Points, coordinates }),
+    space.LoadOfGradientsOfCoordinates(nullptr), options);
+  EXPECT_TRUE(solution.report.converged);
+  EXPECT_LT(
+    (space.ValuesAtPoints(solution.coefficients) - coordinates).cwiseAbs().maxCoeff(), 1e-7);
+  EXPECT_LT(solution.accuracy.discretization, 1e-7);
+}
+
+TEST(SolutionAccuracy, RefusesWhatIsNoAccuracy)
+{
+  const GridSpace space = GridOf(GeodesicSphere(3), 3);
+  const Equation equation(space, 1.0);
+  const Field f{ FieldAssociation::Points, MultiVector::Ones(38, 1) };
+  EXPECT_THROW(equation.Solve(f, -0.1, 1e-9), InvalidInput);
+  EXPECT_THROW(equation.Solve(f, 1.5, 1e-9), InvalidInput);
+  EXPECT_THROW(equation.Solve(f, std::nan(""), 1e-9), InvalidInput);
+}
