@@ -4,9 +4,9 @@
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
+#include "vtkDataSet.h"
 #include "vtkInformation.h"
 #include "vtkPointData.h"
-#include "vtkPolyData.h"
 
 #include <cmath>
 
@@ -22,13 +22,13 @@ std::string ChosenName(vtkInformation* choice)
   return name ? name : "";
 }
 
-bool HasArray(vtkPolyData* input, const std::string& name)
+bool HasArray(vtkDataSet* input, const std::string& name)
 {
   return input->GetPointData()->HasArray(name.c_str()) ||
          input->GetCellData()->HasArray(name.c_str());
 }
 
-bool IsChosen(vtkInformation* choice, vtkPolyData* input)
+bool IsChosen(vtkInformation* choice, vtkDataSet* input)
 {
   if (choice->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
   {
@@ -61,7 +61,7 @@ vtkAbstractArray* FindAmong(vtkDataSetAttributes* attributes, vtkInformation* ch
 
 /// The chosen array, or null; says whether it is point data.
 vtkAbstractArray* FindArray(
-  vtkInformation* choice, vtkPolyData* input, const std::string& property, bool& onPoints)
+  vtkInformation* choice, vtkDataSet* input, const std::string& property, bool& onPoints)
 {
   const int association = choice->Get(vtkDataObject::FIELD_ASSOCIATION());
   const bool both = association == vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS;
@@ -77,8 +77,8 @@ vtkAbstractArray* FindArray(
   return found || !cells ? found : FindAmong(input->GetCellData(), choice);
 }
 
-void RequireFound(vtkAbstractArray* found, const InputArray& result, const std::string& property,
-  vtkPolyData* input)
+void RequireFound(
+  vtkAbstractArray* found, const InputArray& result, const std::string& property, vtkDataSet* input)
 {
   const std::string subject = property + " '" + result.name + "'";
   if (!found)
@@ -121,7 +121,7 @@ void CopyTuple(const InputArray& input, vtkIdType tuple, MultiVector& values, Id
 } // namespace
 
 InputArray FindInputArray(
-  vtkAlgorithm* algorithm, int index, vtkPolyData* input, const std::string& property)
+  vtkAlgorithm* algorithm, int index, vtkDataSet* input, const std::string& property)
 {
   InputArray result;
   vtkInformation* choice = algorithm->GetInputArrayInformation(index);
