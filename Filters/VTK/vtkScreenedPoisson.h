@@ -21,6 +21,13 @@
  * - index 1, `GradientArray` (optional): g in world units, 3 C components: the three of the first
  *   component of f, then those of the second, ...
  * - index 2, `GradientScaleArray` (optional): one component, multiplies GradientScale
+ * - index 3, `ValueWeightArray` (optional): one component, 0 or more, multiplies ScreeningWeight;
+ * on points its mean over a triangle counts
+ * - index 4, `ConstraintArray` (optional): point data, one component; where it is neither 0 nor NaN
+ *   the solution has the value exactly, which must be point data then
+ *
+ * With one of the last two, or with FillUnknown, the mean is kept only on connected components that
+ * neither a weight nor a constraint holds; the filter warns of those, once.
  *
  * Output port 0 (vtkPolyData): the input with
  * - point data: `Solution` (C components, named as those of f; float if f or the coordinates that
@@ -30,7 +37,8 @@
  *   the residual vector relative to the right-hand side, which is not the measure that Tolerance is
  *   on; `ConvergenceFactor` (double, 1): mean reduction of the energy residual per iteration;
  *   `DoublePrecisionSince` (int, 1): the iteration after which the smoother went on in double
- *   precision, because single precision was too slow or broke down; -1: never
+ *   precision, because single precision was too slow or broke down; -1: never; with ConstraintArray
+ *   also `Misfit` (double, 1): the largest difference from a value that is to be held
  *
  * Output port 1 (vtkTable): a row per iteration with `Iteration` (int), 0 being the start by nested
  * iteration; `EnergyResidual` (double): an estimate of the error in the energy norm, relative to
@@ -50,6 +58,7 @@
 
 namespace gridfem
 {
+struct ConstrainedLoad;
 struct Field;
 struct Job;
 struct PoissonLoad;
@@ -92,6 +101,16 @@ public:
   vtkBooleanMacro(UseValueGradient, bool);
   ///@}
 
+  ///@{
+  /**
+   * When on, a tuple of values with a NaN is unknown, and so is a triangle with such a corner: the
+   * solution fills it in, from the gradients and from around. When off (default), NaN is refused.
+   */
+  vtkSetMacro(FillUnknown, bool);
+  vtkGetMacro(FillUnknown, bool);
+  vtkBooleanMacro(FillUnknown, bool);
+  ///@}
+
   enum IterationType
   {
     ConjugateGradients = 0,
@@ -122,6 +141,7 @@ protected:
   double ScreeningWeight = 100.0;
   double GradientScale = 1.0;
   bool UseValueGradient = false;
+  bool FillUnknown = false;
   int Iteration = ConjugateGradients;
 
 private:
@@ -130,6 +150,10 @@ private:
 
   void FindArrays(vtkPolyData* input);
   gridfem::PoissonLoad Integrate(const gridfem::FiniteElementSpace& space, const gridfem::Job& job);
+  gridfem::ConstrainedLoad IntegrateConstrained(
+    const gridfem::FiniteElementSpace& space, const gridfem::Job& job);
+  bool IsConstrained() const;
+  void FindConstraints(vtkPolyData* input);
   void Solve(const gridfem::Progress& progress);
   void WriteSolution(vtkPolyData* input, vtkPolyData* output);
 

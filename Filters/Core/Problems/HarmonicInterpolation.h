@@ -25,6 +25,7 @@ struct InterpolationOptions
 /// vector.
 constexpr Id LargestBiharmonic = 256;
 
+/// The result is NaN on components without a point.
 /// Biharmonic: u = G μ + c with the Green's function G = L⁺ M L⁺ of the points, c constant on each
 /// connected component; the multipliers μ solve (C G Cᵀ) μ + c = g, Σ μ = 0. Values that
 /// contradict each other are met in the mean.

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 namespace gridfem
@@ -452,12 +451,24 @@ ConstrainedSolution SolveConstrained(const FiniteElementSpace& space, double a,
     {
       solution.coefficients.row(i) += constant.row(own);
     }
-    else
-    {
-      solution.coefficients.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
-    }
   }
   return solution;
+}
+
+void SetMeans(const FiniteElementSpace& space, const std::vector<char>& isHeld,
+  const MultiVector& means, MultiVector& coefficients, int threads)
+{
+  const Components components = space.ComponentsOf(0, threads);
+  const ComponentMeans ofSpace(components.ofFunction, space.Integrals(), components.count, threads);
+  MultiVector change = means - ofSpace.OfFunction(coefficients);
+  for (Id c = 0; c < change.rows(); ++c)
+  {
+    if (isHeld[c])
+    {
+      change.row(c).setZero();
+    }
+  }
+  ofSpace.AddConstants(change, coefficients);
 }
 
 } // namespace gridfem

@@ -46,7 +46,7 @@ private:
 
 struct ConstrainedSolution
 {
-  MultiVector coefficients; // NaN on components that nothing holds
+  MultiVector coefficients; // up to a constant on components that nothing holds (SetMeans)
   SolveReport report;       // of all steps, one after the other
   int steps = 0;
   /// Largest difference from the given values, over all points and columns.
@@ -66,6 +66,13 @@ struct ConstrainedSolution
 ConstrainedSolution SolveConstrained(const FiniteElementSpace& space, double a,
   const ConstrainedHierarchy& hierarchy, const MultiVector& load, const MultiVector& values,
   const ConstraintOptions& constraints, const SolveOptions& options, const Progress& progress = {});
+
+/// Adds constants on components that nothing holds, so that they have these means; a mean of NaN
+/// makes all of the component NaN.
+/// @param space  with the mass of the mesh
+/// @param means  rows = components of the functions, one column per component of the values
+void SetMeans(const FiniteElementSpace& space, const std::vector<char>& isHeld,
+  const MultiVector& means, MultiVector& coefficients, int threads = 0);
 
 } // namespace gridfem
 

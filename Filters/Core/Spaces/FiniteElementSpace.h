@@ -127,9 +127,9 @@ public:
   /// @return  number of samples whose metric is singular: they contribute nothing
   virtual Id SetMetric(const MultiVector& embedding, const Job& job = {}) = 0;
 
-  /// The mass becomes ∫ w b_i b_j with a weight w >= 0 on each triangle, and Integrals() ∫ w b_i; the
-  /// stiffness and all loads stay. In the metric of the mesh. Throws InvalidInput when there is not
-  /// one finite weight per triangle.
+  /// The mass becomes ∫ w b_i b_j with a weight w >= 0 on each triangle, and Integrals() ∫ w b_i;
+  /// the stiffness and all loads stay. In the metric of the mesh. Throws InvalidInput when there is
+  /// not one finite weight per triangle.
   virtual void WeighMass(const std::vector<double>& weight, const Job& job = {}) = 0;
 
   /// Makes ready for Weigh: splits the stiffness along and across a direction on each triangle.

@@ -106,8 +106,9 @@ GivenValues ValuesOfPlaces(const InputArray& array, const TriangleMesh& mesh, vt
 std::string WarningOfConstraints(const ConstrainedSolution& solution, const MultiVector& values)
 {
   constexpr double Visible = 1e-3;
-  const double range = (values.colwise().maxCoeff() - values.colwise().minCoeff()).maxCoeff();
-  if (solution.isExact || solution.misfit <= Visible * range)
+  if (solution.isExact || values.rows() == 0 ||
+      solution.misfit <=
+        Visible * (values.colwise().maxCoeff() - values.colwise().minCoeff()).maxCoeff())
   {
     return {};
   }

@@ -102,12 +102,13 @@ void RequireFound(
 }
 
 /// Copies a tuple into a row; throws when a value is not finite.
-void CopyTuple(const InputArray& input, vtkIdType tuple, MultiVector& values, Id row)
+void CopyTuple(const InputArray& input, vtkIdType tuple, NaNs nans, MultiVector& values, Id row)
 {
   for (int c = 0; c < input.array->GetNumberOfComponents(); ++c)
   {
     const double value = input.array->GetComponent(tuple, c);
-    if (!std::isfinite(value))
+    const bool isKept = nans == NaNs::Kept && std::isnan(value);
+    if (!std::isfinite(value) && !isKept)
     {
       const bool onPoints = input.association == FieldAssociation::Points;
       throw InvalidInput("Array '" + input.name + "' has a NaN or infinite value at " +
@@ -138,7 +139,7 @@ InputArray FindInputArray(
   return result;
 }
 
-Field ReadField(const InputArray& input, const InputMesh& mesh)
+Field ReadField(const InputArray& input, const InputMesh& mesh, NaNs nans)
 {
   const TriangleMesh& triangles = *mesh.triangles;
   Field field;
@@ -152,7 +153,7 @@ Field ReadField(const InputArray& input, const InputMesh& mesh)
   {
     if (!onPoints || used[row])
     {
-      CopyTuple(input, onPoints ? row : mesh.sourceCell[row], field.values, row);
+      CopyTuple(input, onPoints ? row : mesh.sourceCell[row], nans, field.values, row);
     }
   }
   return field;
