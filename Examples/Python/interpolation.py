@@ -110,7 +110,7 @@ def main():
         if result.GetNumberOfPoints() == 0:
             sys.exit("The filter could not do its work; the message above says why.")
         tiles.append(Tile(name, view, [Layer(as_bytes(result), "Colour", direct=True), balls]))
-    write_sheet(tiles, sys.argv[3], 3, (320, 340))
+    write_sheet(tiles, sys.argv[3], 3, (320, 290))
 
 
 main()

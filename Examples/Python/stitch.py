@@ -43,7 +43,8 @@ def colours_of(mesh):
 
 
 def add_scans(mesh):
-    """Adds what the scanners see, Seen, and which one it was, Scan: sectors around the middle."""
+    """Adds what the scanners see, Seen, and which one it was, Scan: sectors around the
+    longest axis, whose number is returned."""
     bounds = mesh.GetBounds()
     extent = [bounds[2 * k + 1] - bounds[2 * k] for k in range(3)]
     upright = extent.index(max(extent))
@@ -63,7 +64,7 @@ def add_scans(mesh):
              for c, tint in zip(colours(point), TINT)])
     mesh.GetPointData().AddArray(seen)
     mesh.GetPointData().AddArray(scan)
-    return upright, across
+    return upright
 
 
 def stitched(mesh, depth):
@@ -82,7 +83,8 @@ def draw(mesh, upright, path):
 
     up = [float(k == upright) for k in range(3)]
     bounds = mesh.GetBounds()
-    height = 1.1 * (bounds[2 * upright + 1] - bounds[2 * upright])
+    extent = [bounds[2 * k + 1] - bounds[2 * k] for k in range(3)]
+    height = 1.05 * max(extent[upright], max(x for k, x in enumerate(extent) if k != upright) * 1.3)
     tiles = []
     for side, sign in (("front", 1.0), ("back", -1.0)):
         eye = [0.0 if k == upright else sign * (0.4 if k == (upright + 2) % 3 else 1.0)
@@ -90,14 +92,14 @@ def draw(mesh, upright, path):
         view = View(mesh.GetCenter(), eye, up, height)
         for name, words in (("Seen", "five scans"), ("StitchedColors", "stitched")):
             tiles.append(Tile(f"{words}, {side}", view, [Layer(mesh, name, direct=True)]))
-    write_sheet(tiles, path, 4, (240, 320))
+    write_sheet(tiles, path, 4, (240, 330))
 
 
 def main():
     if len(sys.argv) != 4:
         sys.exit(__doc__)
     mesh = read(sys.argv[1])
-    upright, _ = add_scans(mesh)
+    upright = add_scans(mesh)
     result = stitched(mesh, int(sys.argv[2]))
     if result.GetNumberOfPoints() == 0:
         sys.exit("The filter could not do its work; the message above says why.")
