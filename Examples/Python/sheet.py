@@ -35,6 +35,7 @@ class Layer:
     low: float = -1.0
     high: float = 1.0
     shuffled: bool = False  # ids: every value its own colour
+    direct: bool = False  # the array holds colours
     wireframe: bool = False
     edges: bool = False
     color: tuple = (0.85, 0.85, 0.83)
@@ -116,7 +117,9 @@ def actor_of(layer):
             mapper.SetScalarModeToUsePointFieldData()
         )
         mapper.SelectColorArray(layer.array)
-        if layer.shuffled:
+        if layer.direct:
+            mapper.SetColorModeToDirectScalars()
+        elif layer.shuffled:
             largest = attributes.GetArray(layer.array).GetRange()[1]
             mapper.SetLookupTable(shuffled_colors(int(largest) + 1))
         else:

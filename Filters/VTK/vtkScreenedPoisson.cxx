@@ -3,6 +3,7 @@
 #include "Private/InputArray.h"
 #include "Private/InputValidation.h"
 #include "Private/SolverOutput.h"
+#include "Private/SurfaceConstrainedPoisson.h"
 #include "Private/SurfacePoisson.h"
 
 #include "Base/Errors.h"
@@ -21,11 +22,22 @@
 
 vtkStandardNewMacro(vtkScreenedPoisson);
 
+namespace
+{
+
+/// Of the energy residual, where no Tolerance is given.
+constexpr double ConstrainedTolerance = 1e-6;
+
+} // namespace
+
 struct vtkScreenedPoisson::Internals
 {
   gridfem::InputArray Value;
   gridfem::InputArray Gradient;
   gridfem::InputArray Scale;
+  gridfem::InputArray Weight;
+  gridfem::InputArray Constraint;
+  gridfem::InputArray Coordinates; // stand in for Value
 
   /// The factor on the gradients at points or cells, if one is chosen.
   std::optional<gridfem::Field> ReadScale(const gridfem::InputMesh& mesh) const
@@ -35,6 +47,7 @@ struct vtkScreenedPoisson::Internals
   }
 
   gridfem::SurfacePoisson Equation;
+  gridfem::SurfaceConstrainedPoisson Constrained;
 };
 
 vtkScreenedPoisson::vtkScreenedPoisson() : Data(std::make_unique<Internals>())
@@ -86,6 +99,83 @@ void vtkScreenedPoisson::FindArrays(vtkPolyData* input)
   }
 }
 
+void vtkScreenedPoisson::FindConstraints(vtkPolyData* input)
+{
+  Internals& data = *this->Data;
+  data.Weight = gridfem::FindInputArray(this, 3, input, "ValueWeightArray");
+  data.Constraint = gridfem::FindInputArray(this, 4, input, "ConstraintArray");
+  data.Coordinates.array = input->GetPoints()->GetData();
+  data.Coordinates.name = "coordinates";
+  if (data.Weight.array && data.Weight.array->GetNumberOfComponents() != 1)
+  {
+    throw gridfem::InvalidInput(
+      "ValueWeightArray '" + data.Weight.name + "' must have one component.");
+  }
+  if (data.Constraint.array && data.Value.association != gridfem::FieldAssociation::Points)
+  {
+    throw gridfem::InvalidInput("ConstraintArray needs values at points, but '" + data.Value.name +
+                                "' is a cell array. Cell Data to Point Data converts it.");
+  }
+  if (this->IsConstrained() && this->Iteration != ConjugateGradients)
+  {
+    throw gridfem::InvalidInput("Constraints, weights and unknown values need Iteration to be "
+                                "ConjugateGradients.");
+  }
+}
+
+bool vtkScreenedPoisson::IsConstrained() const
+{
+  return this->FillUnknown || this->Data->Weight.array || this->Data->Constraint.array;
+}
+
+const gridfem::SolveReport& vtkScreenedPoisson::Report() const
+{
+  return this->IsConstrained() ? this->Data->Constrained.Report() : this->Data->Equation.Report();
+}
+
+gridfem::SolutionAccuracy vtkScreenedPoisson::EstimatedErrors() const
+{
+  return this->IsConstrained() ? gridfem::SolutionAccuracy{} : this->Data->Equation.Accuracy();
+}
+
+gridfem::ConstrainedLoad vtkScreenedPoisson::IntegrateConstrained(
+  const gridfem::FiniteElementSpace& space, const gridfem::Job& job)
+{
+  const Internals& data = *this->Data;
+  const gridfem::InputMesh& mesh = this->State->mesh;
+  const gridfem::TriangleMesh& triangles = *mesh.triangles;
+  const auto weight =
+    data.Weight.array ? std::make_optional(gridfem::ReadField(data.Weight, mesh)) : std::nullopt;
+  const gridfem::InputArray& value = data.Value.array ? data.Value : data.Coordinates;
+  gridfem::ConstrainedLoad load;
+  load.field =
+    gridfem::SplitField(gridfem::ReadField(value, mesh,
+                          this->FillUnknown ? gridfem::NaNs::Kept : gridfem::NaNs::Refused),
+      weight ? &*weight : nullptr, triangles);
+  if (data.Constraint.array)
+  {
+    load.held = gridfem::KnownValues(value, data.Constraint, triangles);
+  }
+  else
+  {
+    load.held.values.resize(0, load.field.values.values.cols());
+  }
+  const auto factor = data.ReadScale(mesh);
+  if (data.Gradient.array)
+  {
+    load.gradients = space.LoadOfGradients(
+      gridfem::ReadField(data.Gradient, mesh), factor ? &*factor : nullptr, job);
+  }
+  else if (this->UseValueGradient)
+  {
+    // Where a corner is unknown there is no gradient.
+    const gridfem::Field known =
+      gridfem::ScaleOfKnown(load.field, factor ? &*factor : nullptr, triangles);
+    load.gradients = space.LoadOfGradientsOf(load.field.values, &known, job);
+  }
+  return load;
+}
+
 gridfem::PoissonLoad vtkScreenedPoisson::Integrate(
   const gridfem::FiniteElementSpace& space, const gridfem::Job& job)
 {
@@ -125,6 +215,21 @@ void vtkScreenedPoisson::Solve(const gridfem::Progress& progress)
   request.gradientScale = this->GradientScale;
   request.accuracy = this->Tolerance > 0.0 ? 0.0 : this->Accuracy;
   request.iteration = static_cast<gridfem::IterationType>(this->Iteration);
+  if (this->IsConstrained())
+  {
+    if (this->Tolerance == 0.0)
+    {
+      this->State->options.solve.tolerance = ConstrainedTolerance;
+    }
+    fields.Add(data.Weight.array).Add(static_cast<int>(data.Weight.association));
+    fields.Add(data.Constraint.array).Add(this->FillUnknown);
+    data.Constrained.Update(
+      *this->State, fields,
+      [this](const gridfem::FiniteElementSpace& space, const gridfem::Job& job)
+      { return this->IntegrateConstrained(space, job); },
+      request, progress);
+    return;
+  }
   data.Equation.Update(
     *this->State, fields,
     [this](const gridfem::FiniteElementSpace& space, const gridfem::Job& job)
@@ -136,7 +241,8 @@ void vtkScreenedPoisson::WriteSolution(vtkPolyData* input, vtkPolyData* output)
 {
   const Internals& data = *this->Data;
   const gridfem::SurfaceSolverState& state = *this->State;
-  gridfem::MultiVector values = data.Equation.Values(state);
+  gridfem::MultiVector values =
+    this->IsConstrained() ? data.Constrained.Values(state) : data.Equation.Values(state);
   vtkDataArray* given = data.Value.array ? data.Value.array : input->GetPoints()->GetData();
   if (data.Value.association == gridfem::FieldAssociation::Points)
   {
@@ -157,8 +263,12 @@ void vtkScreenedPoisson::WriteSolution(vtkPolyData* input, vtkPolyData* output)
   output->ShallowCopy(input);
   output->GetPointData()->AddArray(solution);
   output->GetPointData()->SetActiveScalars("Solution");
-  gridfem::AddReport(data.Equation.Report(), output);
-  gridfem::AddAccuracy(data.Equation.Accuracy(), output);
+  gridfem::AddReport(this->Report(), output);
+  gridfem::AddAccuracy(this->EstimatedErrors(), output);
+  if (data.Constraint.array)
+  {
+    gridfem::AddFieldNumber(output, "Misfit", data.Constrained.Misfit());
+  }
 }
 
 void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
@@ -168,6 +278,7 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
   const gridfem::Progress progress = state.bridge.GetProgress();
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
   this->FindArrays(input);
+  this->FindConstraints(input);
   state.UpdateSpace(input, vtkPolyData::GetData(inputs[1]), progress.Part(0.0, 0.3));
   progress.Check(0.3);
   state.UpdateSystem(progress.Part(0.3, 0.5));
@@ -175,9 +286,12 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
   this->Solve(progress.Part(0.5, 0.95));
   this->WriteSolution(input, vtkPolyData::GetData(outputs, 0));
   vtkTable* table = vtkTable::GetData(outputs, 1);
-  gridfem::WriteHistory(this->Data->Equation.Report(), table);
-  gridfem::AddErrors(this->Data->Equation.Report(), this->Data->Equation.Accuracy(), table);
-  const std::string warning = this->Data->Equation.Warning(this->Tolerance);
+  gridfem::WriteHistory(this->Report(), table);
+  gridfem::AddErrors(this->Report(), this->EstimatedErrors(), table);
+  const Internals& data = *this->Data;
+  const std::string warning = this->IsConstrained()
+                                ? data.Constrained.Warning(state.options.solve.tolerance)
+                                : data.Equation.Warning(this->Tolerance);
   if (!warning.empty())
   {
     vtkWarningMacro(<< warning);
@@ -189,6 +303,7 @@ void vtkScreenedPoisson::FreeStages()
 {
   this->Superclass::FreeStages();
   this->Data->Equation = {};
+  this->Data->Constrained = {};
 }
 
 void vtkScreenedPoisson::PrintSelf(ostream& os, vtkIndent indent)
@@ -198,5 +313,6 @@ void vtkScreenedPoisson::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "GradientScale: " << this->GradientScale << "\n";
   os << indent << "Accuracy: " << this->Accuracy << "\n";
   os << indent << "Iteration: " << this->Iteration << "\n";
+  os << indent << "FillUnknown: " << this->FillUnknown << "\n";
   os << indent << "UseValueGradient: " << this->UseValueGradient << "\n";
 }

@@ -21,6 +21,13 @@
  * - index 1, `GradientArray` (optional): g in world units, 3 C components: the three of the first
  *   component of f, then those of the second, ...
  * - index 2, `GradientScaleArray` (optional): one component, multiplies GradientScale
+ * - index 3, `ValueWeightArray` (optional): one component, 0 or more, multiplies ScreeningWeight;
+ * on points its mean over a triangle counts
+ * - index 4, `ConstraintArray` (optional): point data, one component; where it is neither 0 nor NaN
+ *   the solution has the value exactly, which must be point data then
+ *
+ * With one of the last two, or with FillUnknown, the mean is kept only on connected components that
+ * neither a weight nor a constraint holds; the filter warns of those, once.
  *
  * Output port 0 (vtkPolyData): the input with
  * - point data: `Solution` (C components, named as those of f; float if f or the coordinates that
@@ -36,17 +43,20 @@
  *   (double, 1): the largest at a point, in units of the solution; `AlgebraicError` (double, 1):
  *   what the iteration has left, relative as the first. Of several components the worst; not a
  *   number where nothing is known, as without coarser levels. `TrustedEstimate` (int, 1): 0 where
- *   levels do not differ as they do on a resolved surface: the first may be too small then
+ *   levels do not differ as they do on a resolved surface: the first may be too small then; with
+ * ConstraintArray also `Misfit` (double, 1): the largest difference from a value that is to be held
  *
  * Output port 1 (vtkTable): a row per iteration with `Iteration` (int), 0 being the start by nested
  * iteration; `EnergyResidual` (double): an estimate of the error in the energy norm, relative to
  * the solution's, and `Residual` (double, relative to the right-hand side), the largest over the
  * components; `ConvergenceFactor` (double): the energy residual over that of the row before;
  * `Log10EnergyResidual` and `Log10Residual`; `AlgebraicError`, what the correction of the row
- * leaves, `DiscretizationError`, and their logarithms. The result is one correction ahead of the last row.
+ * leaves, `DiscretizationError`, and their logarithms. The result is one correction ahead of the
+ * last row.
  *
  * The iteration ends by Accuracy. With a Tolerance above 0 (default 0) it ends by the energy
- * residual instead, for those who want the solution of the discrete equations itself.
+ * residual instead, for those who want the solution of the discrete equations itself. Weighed,
+ * unknown and held values are solved for to a tolerance, 1e-6 where it is 0, and have no estimates.
  * MaximumIterations is 200 by default. All shared properties are used; with HatFunctions as
  * FunctionSpace, QuadratureDegree touches the preconditioner alone, because all integrals over hat
  * functions are exact.
@@ -58,9 +68,12 @@
 
 namespace gridfem
 {
+struct ConstrainedLoad;
 struct Field;
 struct Job;
 struct PoissonLoad;
+struct SolutionAccuracy;
+struct SolveReport;
 class FiniteElementSpace;
 class Progress;
 } // namespace gridfem
@@ -110,6 +123,16 @@ public:
   vtkGetMacro(Accuracy, double);
   ///@}
 
+  ///@{
+  /**
+   * When on, a tuple of values with a NaN is unknown, and so is a triangle with such a corner: the
+   * solution fills it in, from the gradients and from around. When off (default), NaN is refused.
+   */
+  vtkSetMacro(FillUnknown, bool);
+  vtkGetMacro(FillUnknown, bool);
+  vtkBooleanMacro(FillUnknown, bool);
+  ///@}
+
   enum IterationType
   {
     ConjugateGradients = 0,
@@ -141,6 +164,7 @@ protected:
   double Accuracy = 0.1;
   double GradientScale = 1.0;
   bool UseValueGradient = false;
+  bool FillUnknown = false;
   int Iteration = ConjugateGradients;
 
 private:
@@ -149,6 +173,12 @@ private:
 
   void FindArrays(vtkPolyData* input);
   gridfem::PoissonLoad Integrate(const gridfem::FiniteElementSpace& space, const gridfem::Job& job);
+  gridfem::ConstrainedLoad IntegrateConstrained(
+    const gridfem::FiniteElementSpace& space, const gridfem::Job& job);
+  bool IsConstrained() const;
+  const gridfem::SolveReport& Report() const;
+  gridfem::SolutionAccuracy EstimatedErrors() const;
+  void FindConstraints(vtkPolyData* input);
   void Solve(const gridfem::Progress& progress);
   void WriteSolution(vtkPolyData* input, vtkPolyData* output);
 

@@ -33,6 +33,13 @@ EXPECTED = {
     ("ScreenedPoisson", "ValueArray"): ANY,
     ("ScreenedPoisson", "GradientArray"): {"None", "Normals", "p3", "p9", "c3", "c9"},
     ("ScreenedPoisson", "GradientScaleArray"): {"None", "p1", "c1"},
+    ("ScreenedPoisson", "ValueWeightArray"): {"None", "p1", "c1"},
+    ("ScreenedPoisson", "ConstraintArray"): {"None", "p1"},
+    ("StitchColors", "ColorArray"): {"None", "Normals", "p1", "p3", "p4", "c1", "c3", "c4"},
+    ("StitchColors", "LabelArray"): {"None", "p1", "c1"},
+    ("HarmonicInterpolation", "ValueArray"): {"None", "Normals", "p1", "p3", "p4", "p9"},
+    ("HarmonicInterpolation", "MaskArray"): {"None", "p1"},
+    ("HarmonicInterpolation", "SourceArray"): {"None"},
     ("SurfaceGradient", "Array"): ANY,
     ("SpectralSignatures", "ValueArray"): {"None", "Normals", "p1", "p3", "p4", "p9"}}
 

@@ -38,10 +38,14 @@ class TestPipeline(unittest.TestCase):
             "LaplaceSpectrum": ["vtkPolyData", "vtkTable"],
             "MeanCurvatureFlow": ["vtkPolyData", "vtkTable"],
             "SpectralSignatures": ["vtkPolyData", "vtkTable"],
+            "StitchColors": ["vtkPolyData"],
+            "HarmonicInterpolation": ["vtkPolyData"],
             "SurfaceGradient": ["vtkPolyData"]}
+        surface = plugin.with_arrays(self.surface)
         for name in plugin.PROXIES:
             with self.subTest(proxy=name):
-                proxy = getattr(simple, name)(Input=self.surface, Depth=DEPTH)
+                proxy = getattr(simple, name)(
+                    Input=surface, Depth=DEPTH, **plugin.CHOICES.get(name, {}))
                 self.assertEqual(outputs(proxy), expected[name])
                 self.assertGreater(plugin.data(proxy).GetNumberOfCells(), 0)
 

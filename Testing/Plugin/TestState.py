@@ -30,7 +30,13 @@ def build():
     both = simple.LaplaceSpectrum(
         Input=values, Depth=4, NumberOfModes=5, Mode=2, FunctionSpace="Hat Functions",
         CompareFunctionSpaces=1)
-    for name, proxy in (("clip", clip), ("basis", basis), ("poisson", poisson), ("hats", hats),
+    labels = simple.Calculator(Input=values, ResultArrayName="label", Function="floor(coordsZ)")
+    stitch = simple.StitchColors(
+        Input=labels, Basis=basis, ColorArray=["POINTS", "Normals"], LabelArray=["POINTS", "label"],
+        KeptMean="Reference Scan", ReferenceLabel=-1, KeepDetails=0)
+    spread = simple.HarmonicInterpolation(
+        Input=labels, Depth=4, ValueArray=["POINTS", "f"], MaskArray=["POINTS", "label"])
+    for name, proxy in (("stitch", stitch), ("spread", spread), ("clip", clip), ("basis", basis), ("poisson", poisson), ("hats", hats),
                         ("spectrum", spectrum), ("both", both), ("signatures", signatures)):
         simple.RenameSource(name, proxy)
 
@@ -38,11 +44,12 @@ def build():
 def results():
     """Every setting and the range of every point array, to compare before and after."""
     found = {}
-    for name in ("clip", "basis", "poisson", "hats", "spectrum", "both", "signatures"):
+    for name in ("clip", "basis", "poisson", "hats", "spectrum", "both", "signatures", "stitch",
+                 "spread"):
         proxy = simple.FindSource(name)
         proxy.UpdatePipeline()
         for key in proxy.ListProperties():
-            if key not in ("Input", "Basis", "Sources", "TimestepValues"):
+            if key not in ("Input", "Basis", "Sources", "Values", "TimestepValues"):
                 found[name, key] = str(proxy.GetPropertyValue(key))
         arrays = proxy.PointData
         for array in arrays.keys():

@@ -51,11 +51,12 @@ class TestTime(unittest.TestCase):
 
     def test_every_filter_follows_the_surface(self):
         own = {"LaplaceSpectrum": {"AllModes": 1, "NumberOfModes": 9},
-               "SpectralSignatures": {"NumberOfModes": 9}}
+               "SpectralSignatures": {"NumberOfModes": 9}, **plugin.CHOICES}
+        surface = plugin.with_arrays(self.surface)
         for name in plugin.PROXIES:
             if name == "MeanCurvatureFlow":
                 continue  # times are always its own steps
-            proxy = getattr(simple, name)(Input=self.surface, Depth=DEPTH, **own.get(name, {}))
+            proxy = getattr(simple, name)(Input=surface, Depth=DEPTH, **own.get(name, {}))
             for time in FORWARDS_AND_BACKWARDS:
                 with self.subTest(proxy=name, time=time):
                     proxy.UpdatePipeline(time)

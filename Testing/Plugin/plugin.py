@@ -18,6 +18,12 @@ _FILTERS = _filters()
 PROXIES = tuple(_FILTERS)
 SOLVERS = tuple(name for name, takes_basis in _FILTERS.items() if takes_basis)
 
+# Filters that compute nothing without an array: properties that choose one, for a surface with the
+# point arrays `f`, any numbers, and `label`, whole ones.
+CHOICES = {
+    "StitchColors": {"ColorArray": ["POINTS", "f"], "LabelArray": ["POINTS", "label"]},
+    "HarmonicInterpolation": {"ValueArray": ["POINTS", "f"]}}
+
 STAGES = ("Space", "System", "Hierarchy", "RightHandSide", "Solve")
 
 
@@ -29,6 +35,12 @@ def load():
 def sphere():
     """A sphere of radius 1."""
     return simple.Sphere(Radius=1.0, ThetaResolution=40, PhiResolution=20)
+
+
+def with_arrays(surface):
+    """The surface with the point arrays that CHOICES names."""
+    values = simple.Calculator(Input=surface, ResultArrayName="f", Function="coordsX*coordsY")
+    return simple.Calculator(Input=values, ResultArrayName="label", Function="floor(coordsZ)")
 
 
 def data(proxy, port=0):

@@ -2,6 +2,8 @@
 
 #include "Base/Errors.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace gridfem
@@ -40,6 +42,16 @@ void RequireScale(const Field* scale, const TriangleMesh& mesh)
   {
     throw InvalidInput(
       "The gradient scale has " + std::to_string(scale->values.cols()) + " columns instead of 1.");
+  }
+}
+
+void RequireWeights(const std::vector<double>& weight, const TriangleMesh& mesh)
+{
+  const bool areUsable = std::all_of(
+    weight.begin(), weight.end(), [](double w) { return w >= 0.0 && std::isfinite(w); });
+  if (weight.size() != mesh.triangles.size() || !areUsable)
+  {
+    throw InvalidInput("every triangle needs a finite weight that is not negative");
   }
 }
 

@@ -38,7 +38,10 @@ void RequireVectors(const Field& field, const TriangleMesh& mesh);
 /// The same, and when there is more than one column. Null is let through.
 void RequireScale(const Field* scale, const TriangleMesh& mesh);
 
-/// The same, and when the field is constant on triangles.
+/// Throws InvalidInput unless there is one weight for each triangle, finite and 0 or more.
+void RequireWeights(const std::vector<double>& weight, const TriangleMesh& mesh);
+
+/// The same as RequireField, and when the field is constant on triangles.
 void RequireOnPoints(const Field& field, const TriangleMesh& mesh);
 
 } // namespace gridfem

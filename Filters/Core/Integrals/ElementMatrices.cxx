@@ -41,4 +41,30 @@ ElementMatrices IntegrateElements(const GridFunctions& space, const QuadratureRu
   return elements;
 }
 
+ElementMatrices IntegrateWeightedElements(const GridFunctions& space, const QuadratureRule& rule,
+  const std::vector<double>& weight, int threads, const Progress& progress,
+  double normalStabilization)
+{
+  ElementMatrices elements;
+  IntegratePatches(space, rule, threads, progress, elements,
+    [&](const TriangleBatch& batch, const TrianglePlanes& planes)
+    {
+      Lanes ofTriangle;
+      for (int lane = 0; lane < LaneCount; ++lane)
+      {
+        ofTriangle[lane] = weight[space.clipped.pieceTriangle[batch.piece[lane]]];
+      }
+      return [ofTriangle, tensor = TangentialProjection(planes.normal, normalStabilization)](
+               Id, int count, SampleBatch* samples)
+      {
+        for (int k = 0; k < count; ++k)
+        {
+          samples[k].tensor = tensor.Times(samples[k].mass);
+          samples[k].mass *= ofTriangle;
+        }
+      };
+    });
+  return elements;
+}
+
 } // namespace gridfem

@@ -42,6 +42,11 @@ ElementMatrices IntegrateElements(const GridFunctions& space, const QuadratureRu
   int threads = 0, const Progress& progress = {},
   double normalStabilization = DefaultNormalStabilization);
 
+/// The same with a weight of the mass on each source triangle: ∫ w b_i b_j.
+ElementMatrices IntegrateWeightedElements(const GridFunctions& space, const QuadratureRule& rule,
+  const std::vector<double>& weight, int threads = 0, const Progress& progress = {},
+  double normalStabilization = DefaultNormalStabilization);
+
 /// Galerkin coarsening: adds every patch's matrix, interpolated, to its parent's. [T (4.6)]
 /// @return one entry per patch of `coarse`. Same bits for any number of threads.
 Array<ElementMatrix> CoarsenElements(const PatchLevel& fine, const PatchLevel& coarse,

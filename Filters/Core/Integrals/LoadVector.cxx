@@ -209,10 +209,11 @@ void AddVectors(const CornerVectors& weights, const Field& s, const std::array<I
   }
 }
 
-} // namespace
-
-MultiVector IntegrateValues(const GridFunctions& space, const TriangleMesh& mesh, const Field& f,
-  const QuadratureRule& rule, int threads, const Progress& progress)
+/// @param weightOf  a factor for each source triangle
+template<class Weight>
+MultiVector IntegrateValuesTimes(const GridFunctions& space, const TriangleMesh& mesh,
+  const Field& f, const Weight& weightOf, const QuadratureRule& rule, int threads,
+  const Progress& progress)
 {
   CheckMesh(space, mesh);
   RequireField(f, mesh);
@@ -221,6 +222,7 @@ MultiVector IntegrateValues(const GridFunctions& space, const TriangleMesh& mesh
     {
       const Id triangle = space.clipped.pieceTriangle[piece];
       const SourceTriangle source(space.clipped, mesh, triangle);
+      const double factor = weightOf(triangle);
       CornerWeights weights{};
       ForEachSample(space, piece, origin, source, nullptr, rule,
         [&](const Vec3& local, double weight, const Barycentric& lambda)
@@ -229,11 +231,29 @@ MultiVector IntegrateValues(const GridFunctions& space, const TriangleMesh& mesh
           TrilinearValues(local, b);
           for (int k = 0; k < 3; ++k)
           {
-            AddScaled(weight * lambda[k], b, weights[k]);
+            AddScaled(weight * factor * lambda[k], b, weights[k]);
           }
         });
       AddScalars(weights, f, f.RowsOf(triangle, source.Points()), share);
     });
+}
+
+} // namespace
+
+MultiVector IntegrateValues(const GridFunctions& space, const TriangleMesh& mesh, const Field& f,
+  const QuadratureRule& rule, int threads, const Progress& progress)
+{
+  return IntegrateValuesTimes(
+    space, mesh, f, [](Id) { return 1.0; }, rule, threads, progress);
+}
+
+MultiVector IntegrateWeightedValues(const GridFunctions& space, const TriangleMesh& mesh,
+  const Field& f, const std::vector<double>& weight, const QuadratureRule& rule, int threads,
+  const Progress& progress)
+{
+  RequireWeights(weight, mesh);
+  return IntegrateValuesTimes(
+    space, mesh, f, [&weight](Id triangle) { return weight[triangle]; }, rule, threads, progress);
 }
 
 MultiVector IntegrateGradients(const GridFunctions& space, const TriangleMesh& mesh, const Field& s,

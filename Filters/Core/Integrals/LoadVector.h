@@ -15,6 +15,11 @@ namespace gridfem
 MultiVector IntegrateValues(const GridFunctions& space, const TriangleMesh& mesh, const Field& f,
   const QuadratureRule& rule, int threads = 0, const Progress& progress = {});
 
+/// ∫ w f b_i with a weight w on each source triangle.
+MultiVector IntegrateWeightedValues(const GridFunctions& space, const TriangleMesh& mesh,
+  const Field& f, const std::vector<double>& weight, const QuadratureRule& rule, int threads = 0,
+  const Progress& progress = {});
+
 /// s_i = ∫ <s, ∇b_i> in the units of λM + L in grid units (the world's integral: spacing times the
 /// one over grid units), for vector fields in world units: s.values has 3 C columns, the three
 /// components of vector c in columns 3c .. 3c+2; the part normal to the surface is ignored.

@@ -78,6 +78,10 @@ public:
   /// ∫ f b_i: rows = functions, columns = components of f.
   virtual MultiVector LoadOfValues(const Field& f, const Job& job = {}) const = 0;
 
+  /// ∫ w f b_i with a weight w on each triangle.
+  virtual MultiVector LoadOfWeightedValues(
+    const Field& f, const std::vector<double>& weight, const Job& job = {}) const = 0;
+
   /// ∫ <s, ∇b_i> as the stiffness has it, without a unit. Vector c of s lies in columns 3c .. 3c+2;
   /// its part normal to the surface is ignored.
   /// @param scale  one column that multiplies s, or null
@@ -126,6 +130,11 @@ public:
   /// @param embedding  functions x 3 coefficients, in units of length
   /// @return  number of samples whose metric is singular: they contribute nothing
   virtual Id SetMetric(const MultiVector& embedding, const Job& job = {}) = 0;
+
+  /// The mass becomes ∫ w b_i b_j with a weight w >= 0 on each triangle, and Integrals() ∫ w b_i;
+  /// the stiffness and all loads stay. In the metric of the mesh. Throws InvalidInput when there is
+  /// not one finite weight per triangle.
+  virtual void WeighMass(const std::vector<double>& weight, const Job& job = {}) = 0;
 
   /// Makes ready for Weigh: splits the stiffness along and across a direction on each triangle.
   /// [T §5.2]

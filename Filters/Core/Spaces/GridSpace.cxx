@@ -97,6 +97,13 @@ MultiVector GridSpace::LoadOfValues(const Field& f, const Job& job) const
   return IntegrateValues(*functions_, *mesh_, f, this->Rule(), job.threads, job.progress);
 }
 
+MultiVector GridSpace::LoadOfWeightedValues(
+  const Field& f, const std::vector<double>& weight, const Job& job) const
+{
+  return IntegrateWeightedValues(
+    *functions_, *mesh_, f, weight, this->Rule(), job.threads, job.progress);
+}
+
 MultiVector GridSpace::LoadOfGradients(const Field& s, const Field* scale, const Job& job) const
 {
   return IntegrateGradients(*functions_, *mesh_, s, scale, this->Rule(), job.threads, job.progress);
@@ -203,6 +210,16 @@ Id GridSpace::Integrate(const SampleMetric& metric, const Job& job)
   UpdateOperators(*functions_, operators, job.threads);
   job.Check(1.0);
   return singular;
+}
+
+void GridSpace::WeighMass(const std::vector<double>& weight, const Job& job)
+{
+  RequireWeights(weight, *mesh_);
+  LevelOperators& operators = this->OwnOperators();
+  operators.elements.front() = IntegrateWeightedElements(*functions_, this->Rule(), weight,
+    job.threads, job.progress.Part(0.0, 0.7), operators.normalStabilization);
+  UpdateOperators(*functions_, operators, job.threads);
+  job.Check(1.0);
 }
 
 void GridSpace::SplitStiffness(const std::vector<Vec3>& direction, const Job& job)

@@ -37,6 +37,8 @@ public:
 
   const std::vector<double>& Integrals() const override;
   MultiVector LoadOfValues(const Field& f, const Job& job = {}) const override;
+  MultiVector LoadOfWeightedValues(
+    const Field& f, const std::vector<double>& weight, const Job& job = {}) const override;
   MultiVector LoadOfGradients(
     const Field& s, const Field* scale, const Job& job = {}) const override;
   MultiVector LoadOfGradientsOf(
@@ -54,6 +56,7 @@ public:
   Id SetMetric(const MultiVector& embedding, const Job& job = {}) override;
   /// The same for the mesh with moved points.
   Id SetMetricOfMesh(const TriangleMesh& moved, const Job& job = {});
+  void WeighMass(const std::vector<double>& weight, const Job& job = {}) override;
   void SplitStiffness(const std::vector<Vec3>& direction, const Job& job = {}) override;
   MultiVector MeansOnElements(const MultiVector& onTriangles, const Job& job = {}) const override;
   void Weigh(const std::vector<ElementWeights>& weights, const Job& job = {}) override;

@@ -61,10 +61,10 @@ MultiVector IntegrateTriangles(const HatFunctions& hats, const TriangleMesh& mes
   return result;
 }
 
-} // namespace
-
-MultiVector IntegrateValues(
-  const HatFunctions& hats, const TriangleMesh& mesh, const Field& f, int threads)
+/// @param weightOf  a factor for each triangle
+template<class Weight>
+MultiVector IntegrateValuesTimes(const HatFunctions& hats, const TriangleMesh& mesh, const Field& f,
+  const Weight& weightOf, int threads)
 {
   CheckMesh(hats, mesh);
   RequireField(f, mesh);
@@ -72,11 +72,29 @@ MultiVector IntegrateValues(
     [&](const HatTriangle& triangle, Id number, int corner, auto sum)
     {
       const std::array<Id, 3> row = f.RowsOf(number, mesh.triangles[number]);
+      const double area = weightOf(number) * triangle.area;
       for (int k = 0; k < 3; ++k)
       {
-        sum += triangle.area / (k == corner ? 6.0 : 12.0) * f.values.row(row[k]);
+        sum += area / (k == corner ? 6.0 : 12.0) * f.values.row(row[k]);
       }
     });
+}
+
+} // namespace
+
+MultiVector IntegrateValues(
+  const HatFunctions& hats, const TriangleMesh& mesh, const Field& f, int threads)
+{
+  return IntegrateValuesTimes(
+    hats, mesh, f, [](Id) { return 1.0; }, threads);
+}
+
+MultiVector IntegrateWeightedValues(const HatFunctions& hats, const TriangleMesh& mesh,
+  const Field& f, const std::vector<double>& weight, int threads)
+{
+  RequireWeights(weight, mesh);
+  return IntegrateValuesTimes(
+    hats, mesh, f, [&weight](Id triangle) { return weight[triangle]; }, threads);
 }
 
 MultiVector IntegrateGradients(const HatFunctions& hats, const TriangleMesh& mesh, const Field& s,

@@ -16,6 +16,10 @@ namespace gridfem
 MultiVector IntegrateValues(
   const HatFunctions& hats, const TriangleMesh& mesh, const Field& f, int threads = 0);
 
+/// ∫ w f φ_i with a weight w on each triangle.
+MultiVector IntegrateWeightedValues(const HatFunctions& hats, const TriangleMesh& mesh,
+  const Field& f, const std::vector<double>& weight, int threads = 0);
+
 /// ∫ <s, ∇φ_i> in world units, in which the stiffness has none. Vector c of s lies in columns
 /// 3c .. 3c+2; its part normal to the triangle is ignored.
 /// @return rows = functions, one column per vector; multiplied by `scale` (one column, or null)

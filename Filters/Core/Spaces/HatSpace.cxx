@@ -137,6 +137,12 @@ MultiVector HatSpace::LoadOfValues(const Field& f, const Job& job) const
   return IntegrateValues(hats_->functions, grid_.Mesh(), f, job.threads);
 }
 
+MultiVector HatSpace::LoadOfWeightedValues(
+  const Field& f, const std::vector<double>& weight, const Job& job) const
+{
+  return IntegrateWeightedValues(hats_->functions, grid_.Mesh(), f, weight, job.threads);
+}
+
 MultiVector HatSpace::LoadOfGradients(const Field& s, const Field* scale, const Job& job) const
 {
   return IntegrateGradients(hats_->functions, grid_.Mesh(), s, scale, job.threads);
@@ -251,6 +257,22 @@ Id HatSpace::SetMetric(const MultiVector& embedding, const Job& job)
   own_ = std::move(matrices);
   grid_.SetMetricOfMesh(moved, job.Part(0.4, 1.0));
   return CountFlattened(hats_->functions, moved, job.threads);
+}
+
+void HatSpace::WeighMass(const std::vector<double>& weight, const Job& job)
+{
+  RequireWeights(weight, grid_.Mesh());
+  const std::vector<Vec3> none(weight.size(), Vec3::Zero()); // the stiffness is not split
+  std::vector<ElementWeights> weights(weight.size());
+  for (std::size_t t = 0; t < weight.size(); ++t)
+  {
+    weights[t].mass = weight[t];
+  }
+  const HatWeights onTriangles{ none, weights };
+  own_ = std::make_shared<const HatMatrices>(
+    AssembleHatMatrices(grid_.Mesh(), hats_->functions, &onTriangles, job.threads));
+  job.Check(0.4);
+  grid_.WeighMass(weight, job.Part(0.4, 1.0));
 }
 
 void HatSpace::SplitStiffness(const std::vector<Vec3>& direction, const Job& job)

@@ -4,9 +4,9 @@
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
+#include "vtkDataSet.h"
 #include "vtkInformation.h"
 #include "vtkPointData.h"
-#include "vtkPolyData.h"
 
 #include <cmath>
 
@@ -22,13 +22,13 @@ std::string ChosenName(vtkInformation* choice)
   return name ? name : "";
 }
 
-bool HasArray(vtkPolyData* input, const std::string& name)
+bool HasArray(vtkDataSet* input, const std::string& name)
 {
   return input->GetPointData()->HasArray(name.c_str()) ||
          input->GetCellData()->HasArray(name.c_str());
 }
 
-bool IsChosen(vtkInformation* choice, vtkPolyData* input)
+bool IsChosen(vtkInformation* choice, vtkDataSet* input)
 {
   if (choice->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
   {
@@ -61,7 +61,7 @@ vtkAbstractArray* FindAmong(vtkDataSetAttributes* attributes, vtkInformation* ch
 
 /// The chosen array, or null; says whether it is point data.
 vtkAbstractArray* FindArray(
-  vtkInformation* choice, vtkPolyData* input, const std::string& property, bool& onPoints)
+  vtkInformation* choice, vtkDataSet* input, const std::string& property, bool& onPoints)
 {
   const int association = choice->Get(vtkDataObject::FIELD_ASSOCIATION());
   const bool both = association == vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS;
@@ -77,8 +77,8 @@ vtkAbstractArray* FindArray(
   return found || !cells ? found : FindAmong(input->GetCellData(), choice);
 }
 
-void RequireFound(vtkAbstractArray* found, const InputArray& result, const std::string& property,
-  vtkPolyData* input)
+void RequireFound(
+  vtkAbstractArray* found, const InputArray& result, const std::string& property, vtkDataSet* input)
 {
   const std::string subject = property + " '" + result.name + "'";
   if (!found)
@@ -102,12 +102,13 @@ void RequireFound(vtkAbstractArray* found, const InputArray& result, const std::
 }
 
 /// Copies a tuple into a row; throws when a value is not finite.
-void CopyTuple(const InputArray& input, vtkIdType tuple, MultiVector& values, Id row)
+void CopyTuple(const InputArray& input, vtkIdType tuple, NaNs nans, MultiVector& values, Id row)
 {
   for (int c = 0; c < input.array->GetNumberOfComponents(); ++c)
   {
     const double value = input.array->GetComponent(tuple, c);
-    if (!std::isfinite(value))
+    const bool isKept = nans == NaNs::Kept && std::isnan(value);
+    if (!std::isfinite(value) && !isKept)
     {
       const bool onPoints = input.association == FieldAssociation::Points;
       throw InvalidInput("Array '" + input.name + "' has a NaN or infinite value at " +
@@ -121,7 +122,7 @@ void CopyTuple(const InputArray& input, vtkIdType tuple, MultiVector& values, Id
 } // namespace
 
 InputArray FindInputArray(
-  vtkAlgorithm* algorithm, int index, vtkPolyData* input, const std::string& property)
+  vtkAlgorithm* algorithm, int index, vtkDataSet* input, const std::string& property)
 {
   InputArray result;
   vtkInformation* choice = algorithm->GetInputArrayInformation(index);
@@ -138,7 +139,7 @@ InputArray FindInputArray(
   return result;
 }
 
-Field ReadField(const InputArray& input, const InputMesh& mesh)
+Field ReadField(const InputArray& input, const InputMesh& mesh, NaNs nans)
 {
   const TriangleMesh& triangles = *mesh.triangles;
   Field field;
@@ -152,7 +153,7 @@ Field ReadField(const InputArray& input, const InputMesh& mesh)
   {
     if (!onPoints || used[row])
     {
-      CopyTuple(input, onPoints ? row : mesh.sourceCell[row], field.values, row);
+      CopyTuple(input, onPoints ? row : mesh.sourceCell[row], nans, field.values, row);
     }
   }
   return field;

@@ -9,7 +9,7 @@
 
 class vtkAlgorithm;
 class vtkDataArray;
-class vtkPolyData;
+class vtkDataSet;
 
 namespace gridfem
 {
@@ -27,12 +27,18 @@ struct InputArray
 /// does not exist, is not numeric, is neither point nor cell data, or has the wrong length;
 /// `property` is the name the message gives.
 InputArray FindInputArray(
-  vtkAlgorithm* algorithm, int index, vtkPolyData* input, const std::string& property);
+  vtkAlgorithm* algorithm, int index, vtkDataSet* input, const std::string& property);
+
+enum class NaNs
+{
+  Refused,
+  Kept // unknown values
+};
 
 /// The array's values: rows are points, or triangles for cell data. Throws InvalidInput naming the
 /// first point or cell of the surface with a NaN or infinite value; values that no polygon uses
 /// are taken as 0.
-Field ReadField(const InputArray& input, const InputMesh& mesh);
+Field ReadField(const InputArray& input, const InputMesh& mesh, NaNs nans = NaNs::Refused);
 
 /// The coordinates as a field with three components; 0 at points that no polygon uses.
 Field CoordinatesField(const InputMesh& mesh);

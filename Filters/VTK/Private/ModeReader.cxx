@@ -1,5 +1,7 @@
 #include "ModeReader.h"
 
+#include "NearestPoints.h"
+
 #include "Base/Errors.h"
 
 #include "vtkDataArray.h"
@@ -9,7 +11,6 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkStaticPointLocator.h"
 
 #include <algorithm>
 #include <cmath>
@@ -47,20 +48,6 @@ void ReadMode(vtkPolyData* input, int mode, const std::vector<char>& used, Multi
         "Array '" + name + "' has a NaN or infinite value at point " + std::to_string(point) + ".");
     }
     values(point, mode) = used[point] ? value : 0.0;
-  }
-}
-
-/// A locator finds nothing near a point that is nowhere.
-void RequireFinitePoints(vtkDataSet* places)
-{
-  for (vtkIdType k = 0; places && k < places->GetNumberOfPoints(); ++k)
-  {
-    const double* point = places->GetPoint(k);
-    if (!std::isfinite(point[0]) || !std::isfinite(point[1]) || !std::isfinite(point[2]))
-    {
-      throw InvalidInput("Sources: point " + std::to_string(k) +
-                         " has a NaN or infinite coordinate, so that no point is nearest to it.");
-    }
   }
 }
 
@@ -139,29 +126,10 @@ std::vector<Id> SourcePoints(
     }
   }
   std::vector<Id> sources = ids;
-  RequireFinitePoints(places);
   if (places && places->GetNumberOfPoints() > 0)
   {
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    std::vector<Id> idOf;
-    for (Id point = 0; point < static_cast<Id>(used.size()); ++point)
-    {
-      if (used[point])
-      {
-        points->InsertNextPoint(mesh.points[point].data());
-        idOf.push_back(point);
-      }
-    }
-    vtkNew<vtkPolyData> candidates;
-    candidates->SetPoints(points);
-    vtkNew<vtkStaticPointLocator> locator;
-    locator->SetDataSet(candidates);
-    locator->BuildLocator();
-    for (vtkIdType k = 0; k < places->GetNumberOfPoints(); ++k)
-    {
-      sources.push_back(idOf[locator->FindClosestPoint(places->GetPoint(k))]);
-    }
+    const std::vector<Id> nearest = NearestPoints(mesh, places, "Sources");
+    sources.insert(sources.end(), nearest.begin(), nearest.end());
   }
   std::sort(sources.begin(), sources.end());
   sources.erase(std::unique(sources.begin(), sources.end()), sources.end());

@@ -85,8 +85,8 @@ void AddErrors(const SolveReport& report, const SolutionAccuracy& accuracy, vtkT
   std::vector<double> logAlgebraic;
   for (const IterationRecord& record : report.history)
   {
-    algebraic.push_back(record.own);
-    logAlgebraic.push_back(SafeLog10(record.own));
+    algebraic.push_back(std::isnan(accuracy.algebraic) ? accuracy.algebraic : record.own);
+    logAlgebraic.push_back(SafeLog10(algebraic.back()));
   }
   const double logDiscretization = SafeLog10(accuracy.discretization);
   AddColumn(table, "AlgebraicError", algebraic);

@@ -273,6 +273,53 @@ TEST_P(EverySpace, WeightsAreThoseOfTheDirection)
   EXPECT_NEAR(DenseOf(*copy, 1, 0).sum(), 3.0 * area, 1e-6 * area);
 }
 
+TEST_P(EverySpace, WeighsItsMassAsItsLoads)
+{
+  for (const TriangleMesh& mesh : Meshes())
+  {
+    const SpaceOnMesh s = this->Build(mesh);
+    const Id triangles = static_cast<Id>(mesh.triangles.size());
+    const MultiVector random = RandomValues(triangles, 1);
+    std::vector<double> weight(triangles);
+    double sum = 0.0; // ∫ w
+    for (Id t = 0; t < triangles; ++t)
+    {
+      weight[t] = std::max(0.0, random(t, 0));
+      const auto& corner = mesh.triangles[t];
+      sum += 0.5 * weight[t] *
+             (mesh.points[corner[1]] - mesh.points[corner[0]])
+               .cross(mesh.points[corner[2]] - mesh.points[corner[0]])
+               .norm();
+    }
+    const auto weighted = s.space->Copy();
+    weighted->WeighMass(weight);
+    const Eigen::MatrixXd mass = DenseOf(*weighted, 1.0, 0.0);
+    const double unit = s.space->UnitLength();
+    EXPECT_NEAR(mass.sum() * unit * unit, sum, 1e-9 * sum);
+    // Functions of the space are what their weighted loads are made of.
+    const Field x{ FieldAssociation::Points, PointCoordinates(mesh) / unit };
+    const MultiVector load = s.space->LoadOfWeightedValues(x, weight);
+    EXPECT_LT(RelativeDifference(mass * s.coordinates, load), 1e-9);
+    const Eigen::Map<const Eigen::VectorXd> integrals(
+      weighted->Integrals().data(), static_cast<Eigen::Index>(weighted->Integrals().size()));
+    EXPECT_LT(RelativeDifference(mass.rowwise().sum(), integrals), 1e-9);
+    EXPECT_LT(RelativeDifference(DenseOf(*weighted, 0.0, 1.0), DenseOf(*s.space, 0.0, 1.0)), 1e-12);
+  }
+}
+
+TEST_P(EverySpace, RefusesWeightsThatDoNotFit)
+{
+  const SpaceOnMesh s = this->Build(GeodesicSphere(4));
+  const Field x{ FieldAssociation::Points, PointCoordinates(s.mesh) };
+  std::vector<double> weight(s.mesh.triangles.size(), 1.0);
+  weight.back() = -1.0;
+  EXPECT_THROW(s.space->WeighMass(weight), InvalidInput);
+  weight.back() = std::nan("");
+  EXPECT_THROW(s.space->LoadOfWeightedValues(x, weight), InvalidInput);
+  weight.pop_back();
+  EXPECT_THROW(s.space->WeighMass(weight), InvalidInput);
+}
+
 TEST_P(EverySpace, MeansOnElementsKeepConstants)
 {
   const SpaceOnMesh on = this->Build(Torus(24, 12, 1.0, 0.3));

@@ -1,0 +1,116 @@
+"""Colours from twelve points, spread over a surface, and a picture of them.
+
+    PYTHONPATH=build/lib/python3/dist-packages \\
+        xvfb-run -a pvpython interpolation.py MESH DEPTH PICTURE.png
+
+MESH is a .vtp or .ply file.
+"""
+
+import colorsys
+import sys
+
+from gridfem.vtkGridFEMFilters import vtkHarmonicInterpolation
+from vtkmodules.vtkCommonCore import vtkPoints, vtkUnsignedCharArray
+from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPolyData
+from vtkmodules.vtkFiltersCore import vtkGlyph3D
+from vtkmodules.vtkFiltersSources import vtkSphereSource
+from vtkmodules.vtkIOPLY import vtkPLYReader
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+COLOURS = 12
+
+
+def read(path):
+    reader = vtkPLYReader() if path.endswith(".ply") else vtkXMLPolyDataReader()
+    reader.SetFileName(path)
+    reader.Update()
+    return reader.GetOutput()
+
+
+def far_apart(mesh, count):
+    """Points of the mesh, each the farthest from those before it."""
+    points = [mesh.GetPoint(k) for k in range(mesh.GetNumberOfPoints())]
+    chosen, nearest = [points[0]], [float("inf")] * len(points)
+    while len(chosen) < count:
+        last = chosen[-1]
+        nearest = [min(d, sum((a - b) ** 2 for a, b in zip(p, last)))
+                   for d, p in zip(nearest, points)]
+        chosen.append(points[nearest.index(max(nearest))])
+    return chosen
+
+
+def coloured_points(places):
+    """Twelve bright colours at twelve places."""
+    points, colours = vtkPoints(), vtkUnsignedCharArray()
+    colours.SetName("Colour")
+    colours.SetNumberOfComponents(3)
+    for k, place in enumerate(places):
+        points.InsertNextPoint(place)
+        colours.InsertNextTuple(
+            [255 * c for c in colorsys.hsv_to_rgb(k * 0.61803398875 % 1.0, 0.9, 0.95)])
+    data = vtkPolyData()
+    data.SetPoints(points)
+    data.GetPointData().AddArray(colours)
+    return data
+
+
+def spread(mesh, places, depth, smoothness):
+    interpolation = vtkHarmonicInterpolation()
+    interpolation.SetInputData(0, mesh)
+    interpolation.SetInputData(2, places)
+    points = vtkDataObject.FIELD_ASSOCIATION_POINTS
+    interpolation.SetInputArrayToProcess(2, 2, 0, points, "Colour")
+    interpolation.SetSmoothness(smoothness)
+    interpolation.SetDepth(depth)
+    interpolation.Update()
+    return interpolation.GetOutput()
+
+
+def as_bytes(mesh):
+    """The mesh with its interpolated colours as bytes."""
+    colours = vtkUnsignedCharArray()
+    colours.SetName("Colour")
+    colours.SetNumberOfComponents(3)
+    values = mesh.GetPointData().GetArray("Interpolated")
+    for point in range(values.GetNumberOfTuples()):
+        colours.InsertNextTuple([min(255, max(0, c)) for c in values.GetTuple(point)])
+    mesh.GetPointData().AddArray(colours)
+    return mesh
+
+
+def dots(places, size):
+    """A small ball at every place."""
+    ball = vtkSphereSource()
+    ball.SetRadius(0.02 * size)
+    places.GetPointData().SetActiveScalars("Colour")
+    glyphs = vtkGlyph3D()
+    glyphs.SetInputData(places)
+    glyphs.SetSourceConnection(ball.GetOutputPort())
+    glyphs.SetScaleModeToDataScalingOff()
+    glyphs.SetColorModeToColorByScalar()
+    glyphs.Update()
+    return glyphs.GetOutput()
+
+
+def main():
+    if len(sys.argv) != 4:
+        sys.exit(__doc__)
+    from sheet import Layer, Tile, view_of, write_sheet
+
+    mesh, depth = read(sys.argv[1]), int(sys.argv[2])
+    places = coloured_points(far_apart(mesh, COLOURS))
+    bounds = mesh.GetBounds()
+    size = max(bounds[2 * k + 1] - bounds[2 * k] for k in range(3))
+    balls = Layer(dots(places, size), "Colour", direct=True)
+    view = view_of(mesh)
+    tiles = [Tile("given at twelve points", view, [Layer(mesh), balls])]
+    for smoothness, name in ((vtkHarmonicInterpolation.Harmonic, "harmonic"),
+                             (vtkHarmonicInterpolation.Biharmonic, "biharmonic")):
+        result = spread(mesh, places, depth, smoothness)
+        if result.GetNumberOfPoints() == 0:
+            sys.exit("The filter could not do its work; the message above says why.")
+        tiles.append(Tile(name, view, [Layer(as_bytes(result), "Colour", direct=True), balls]))
+    write_sheet(tiles, sys.argv[3], 3, (320, 290))
+
+
+main()

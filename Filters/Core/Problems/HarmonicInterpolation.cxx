@@ -1,0 +1,207 @@
+#include "Problems/HarmonicInterpolation.h"
+
+#include "Base/Errors.h"
+#include "Problems/Poisson.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+namespace gridfem
+{
+namespace
+{
+
+/// L⁺ of every column; keeps the worst report.
+class InverseLaplacian
+{
+public:
+  InverseLaplacian(
+    const FiniteElementSpace& space, const InterpolationOptions& options, const Progress& progress)
+    : space_(space), multigrid_(BuildMultigrid(space, 0.0, 1.0, options.multigrid, progress))
+  {
+    poisson_.screeningWeight = 0.0;
+    poisson_.multigrid = options.multigrid;
+    poisson_.solve = options.solve;
+    report.converged = true;
+    report.end = SolveEnd::Converged;
+  }
+
+  MultiVector Of(const MultiVector& load, const Progress& progress)
+  {
+    PoissonSolution solution = SolvePoisson(
+      space_, multigrid_, MultiVector::Zero(load.rows(), load.cols()), load, poisson_, progress);
+    const int iterations = report.iterations + solution.report.iterations;
+    if (report.converged)
+    {
+      report = std::move(solution.report);
+    }
+    report.iterations = iterations;
+    return std::move(solution.coefficients);
+  }
+
+  SolveReport report;
+
+private:
+  const FiniteElementSpace& space_;
+  Multigrid multigrid_;
+  PoissonOptions poisson_;
+};
+
+MultiVector DenseTranspose(const SparseMatrix& rows)
+{
+  MultiVector dense = MultiVector::Zero(rows.columns, rows.rows);
+  for (Index row = 0; row < rows.rows; ++row)
+  {
+    for (Id k = rows.rowBegin[row]; k < rows.rowBegin[row + 1]; ++k)
+    {
+      dense(rows.column[k], row) = rows.value[k];
+    }
+  }
+  return dense;
+}
+
+/// Solves [S B; Bᵀ 0] for a symmetric matrix that may be singular: least squares.
+Eigen::MatrixXd SolveSymmetric(const Eigen::MatrixXd& system, const Eigen::MatrixXd& right)
+{
+  constexpr double Rounding = 1e-10;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(system);
+  const Eigen::ArrayXd size = eigen.eigenvalues().array().abs();
+  const Eigen::ArrayXd inverse =
+    (size > Rounding * size.maxCoeff()).select(eigen.eigenvalues().array().inverse(), 0.0);
+  return eigen.eigenvectors() * inverse.matrix().asDiagonal() *
+         (eigen.eigenvectors().transpose() * right);
+}
+
+/// One column per component that has a point, with 1 at its points.
+struct PointsOfComponents
+{
+  Eigen::MatrixXd ones;
+  std::vector<Index> component; // of each column
+};
+
+PointsOfComponents GroupPoints(const SparseMatrix& rows, const Components& components)
+{
+  std::vector<Index> columnOf(components.count, -1);
+  PointsOfComponents points;
+  for (const Index function : rows.column)
+  {
+    Index& column = columnOf[components.ofFunction[function]];
+    if (column < 0)
+    {
+      column = static_cast<Index>(points.component.size());
+      points.component.push_back(components.ofFunction[function]);
+    }
+  }
+  points.ones =
+    Eigen::MatrixXd::Zero(rows.rows, static_cast<Eigen::Index>(points.component.size()));
+  for (Index row = 0; row < rows.rows; ++row)
+  {
+    if (rows.rowBegin[row] < rows.rowBegin[row + 1])
+    {
+      points.ones(row, columnOf[components.ofFunction[rows.column[rows.rowBegin[row]]]]) = 1.0;
+    }
+  }
+  return points;
+}
+
+ConstrainedSolution Biharmonic(const FiniteElementSpace& space, const SparseMatrix& rows,
+  const MultiVector& values, const InterpolationOptions& options, const Progress& progress)
+{
+  const int threads = options.multigrid.threads;
+  const Components components = space.ComponentsOf(0, threads);
+  const PointsOfComponents points = GroupPoints(rows, components);
+  InverseLaplacian inverse(space, options, progress.Part(0.0, 0.1));
+  const MultiVector ofPoints = inverse.Of(DenseTranspose(rows), progress.Part(0.1, 0.8));
+  MultiVector massOf;
+  Multiply(space.Matrix(0, 1.0, 0.0, threads), ofPoints, massOf, threads);
+
+  const Eigen::Index m = rows.rows;
+  const Eigen::Index constants = points.ones.cols();
+  Eigen::MatrixXd system = Eigen::MatrixXd::Zero(m + constants, m + constants);
+  const Eigen::MatrixXd green = ofPoints.transpose() * massOf;
+  const double size = std::max(green.diagonal().maxCoeff(), std::numeric_limits<double>::min());
+  system.topLeftCorner(m, m) = 0.5 / size * (green + green.transpose());
+  system.topRightCorner(m, constants) = points.ones;
+  system.bottomLeftCorner(constants, m) = points.ones.transpose();
+  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(m + constants, values.cols());
+  right.topRows(m) = values;
+  const Eigen::MatrixXd solved = SolveSymmetric(system, right);
+
+  ConstrainedSolution solution;
+  const MultiVector load = massOf * (solved.topRows(m) / size);
+  solution.coefficients = inverse.Of(load, progress.Part(0.8, 1.0));
+  solution.report = inverse.report;
+  solution.steps = 1;
+  solution.isHeld.assign(components.count, 0);
+  MultiVector constant = MultiVector::Constant(
+    components.count, values.cols(), std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t k = 0; k < points.component.size(); ++k)
+  {
+    solution.isHeld[points.component[k]] = 1;
+    constant.row(points.component[k]) = solved.row(m + static_cast<Eigen::Index>(k));
+  }
+  for (Id i = 0; i < solution.coefficients.rows(); ++i)
+  {
+    solution.coefficients.row(i) += constant.row(components.ofFunction[i]);
+  }
+  return solution;
+}
+
+/// How far a solution is from its values, and whether that is more than its tolerance.
+void MeasureMisfit(const SparseMatrix& rows, const MultiVector& values, double tolerance,
+  int threads, ConstrainedSolution& solution)
+{
+  MultiVector reached;
+  Multiply(rows, solution.coefficients, reached, threads);
+  double range = 0.0;
+  for (Index row = 0; row < rows.rows; ++row)
+  {
+    if (rows.rowBegin[row] < rows.rowBegin[row + 1])
+    {
+      const auto rest = (reached.row(row) - values.row(row)).cwiseAbs();
+      solution.misfit = std::max(solution.misfit, rest.maxCoeff());
+      range = std::max(range, (values.row(row) - values.row(0)).cwiseAbs().maxCoeff());
+    }
+  }
+  solution.isExact = solution.misfit <= tolerance * range;
+}
+
+} // namespace
+
+ConstrainedSolution InterpolateHarmonically(const FiniteElementSpace& space,
+  const SparseMatrix& rows, const MultiVector& values, const InterpolationOptions& options,
+  const Progress& progress)
+{
+  if (rows.column.empty() || rows.rows != values.rows())
+  {
+    throw InvalidInput("There are " + std::to_string(values.rows()) + " values for " +
+                       std::to_string(rows.rows) +
+                       " points; at least one point of the surface needs a value.");
+  }
+  if (options.smoothness == Smoothness::Harmonic)
+  {
+    const ConstrainedHierarchy hierarchy(space, 0.0, 1.0, rows, options.constraints.penalty,
+      options.multigrid, progress.Part(0.0, 0.3));
+    ConstrainedSolution solution = SolveConstrained(space, 0.0, hierarchy, {}, values,
+      options.constraints, options.solve, progress.Part(0.3, 1.0));
+    const MultiVector unknown = MultiVector::Constant(static_cast<Id>(solution.isHeld.size()),
+      values.cols(), std::numeric_limits<double>::quiet_NaN());
+    SetMeans(space, solution.isHeld, unknown, solution.coefficients, options.multigrid.threads);
+    return solution;
+  }
+  if (rows.rows > LargestBiharmonic)
+  {
+    throw InvalidInput("A biharmonic function takes values at " +
+                       std::to_string(LargestBiharmonic) + " points at most, not " +
+                       std::to_string(rows.rows) + ". A harmonic one takes any number.");
+  }
+  constexpr double Tolerance = 1e-4; // dense multipliers carry the tolerance of the solves
+  ConstrainedSolution solution = Biharmonic(space, rows, values, options, progress);
+  MeasureMisfit(rows, values, Tolerance, options.multigrid.threads, solution);
+  return solution;
+}
+
+} // namespace gridfem

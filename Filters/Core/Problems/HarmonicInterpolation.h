@@ -1,0 +1,42 @@
+// The smoothest function on a surface with given values at some of its points.
+#ifndef GridFEM_HarmonicInterpolation_h
+#define GridFEM_HarmonicInterpolation_h
+
+#include "Problems/PointConstraints.h"
+
+namespace gridfem
+{
+
+enum class Smoothness
+{
+  Harmonic,  // the least ∫ |∇u|²: never beyond the values, with a peak at lonely points
+  Biharmonic // the least ∫ |Δu|²: smooth at the points, may overshoot
+};
+
+struct InterpolationOptions
+{
+  Smoothness smoothness = Smoothness::Harmonic;
+  ConstraintOptions constraints; // of the harmonic one
+  MultigridOptions multigrid;
+  SolveOptions solve;
+};
+
+/// The most points that a biharmonic function is interpolated from: each costs a solve and a
+/// vector.
+constexpr Id LargestBiharmonic = 256;
+
+/// The result is NaN on components without a point.
+/// Biharmonic: u = G μ + c with the Green's function G = L⁺ M L⁺ of the points, c constant on each
+/// connected component; the multipliers μ solve (C G Cᵀ) μ + c = g, Σ μ = 0. Values that
+/// contradict each other are met in the mean.
+/// @param rows    RowsAtPoints of the points
+/// @param values  rows = points, one column per component
+/// Throws InvalidInput when there is no point, or too many, or shapes do not fit, and Aborted. Same
+/// bits for any number of threads.
+ConstrainedSolution InterpolateHarmonically(const FiniteElementSpace& space,
+  const SparseMatrix& rows, const MultiVector& values, const InterpolationOptions& options,
+  const Progress& progress = {});
+
+} // namespace gridfem
+
+#endif

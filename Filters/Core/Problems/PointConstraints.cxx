@@ -1,0 +1,474 @@
+#include "Problems/PointConstraints.h"
+
+#include "Algebra/ComponentMeans.h"
+#include "Base/Errors.h"
+#include "Base/Parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace gridfem
+{
+namespace
+{
+
+/// C P, without entries that are rounding.
+SparseMatrix RowsOnCoarser(const SparseMatrix& rows, const SparseMatrix& prolongation)
+{
+  constexpr double Rounding = 1e-13;
+  SparseMatrix coarse;
+  Array<Id> rowBegin{ 0 };
+  Array<Index> column;
+  std::vector<std::pair<Index, double>> entries;
+  for (Index row = 0; row < rows.rows; ++row)
+  {
+    entries.clear();
+    for (Id k = rows.rowBegin[row]; k < rows.rowBegin[row + 1]; ++k)
+    {
+      const Index fine = rows.column[k];
+      for (Id p = prolongation.rowBegin[fine]; p < prolongation.rowBegin[fine + 1]; ++p)
+      {
+        entries.emplace_back(prolongation.column[p], rows.value[k] * prolongation.value[p]);
+      }
+    }
+    std::sort(entries.begin(), entries.end(),
+      [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (std::size_t k = 0; k < entries.size();)
+    {
+      const Index own = entries[k].first;
+      double sum = 0.0;
+      for (; k < entries.size() && entries[k].first == own; ++k)
+      {
+        sum += entries[k].second;
+      }
+      if (std::abs(sum) > Rounding)
+      {
+        column.push_back(own);
+        coarse.value.push_back(sum);
+      }
+    }
+    rowBegin.push_back(static_cast<Id>(column.size()));
+  }
+  coarse.rows = rows.rows;
+  coarse.columns = prolongation.columns;
+  coarse.rowBegin = std::move(rowBegin);
+  coarse.column = std::move(column);
+  return coarse;
+}
+
+/// Place of an entry, or -1.
+Id FindEntry(const SparseMatrix& A, Index row, Index column)
+{
+  const Index* const begin = A.column.data() + A.rowBegin[row];
+  const Index* const end = A.column.data() + A.rowBegin[row + 1];
+  const Index* const found = std::lower_bound(begin, end, column);
+  return found != end && *found == column ? found - A.column.data() : -1;
+}
+
+/// A += Cᵀ W C. What the pattern has no place for goes to the diagonal, so that the sum stays
+/// positive: that happens only below hats, on a level that preconditions.
+void AddPenalty(const SparseMatrix& rows, const SparseMatrix& transposed,
+  const std::vector<double>& weight, SparseMatrix& A, int threads)
+{
+  ParallelRanges(A.rows, threads,
+    [&](Id begin, Id end)
+    {
+      for (Index i = static_cast<Index>(begin); i < end; ++i)
+      {
+        for (Id t = transposed.rowBegin[i]; t < transposed.rowBegin[i + 1]; ++t)
+        {
+          const Index row = transposed.column[t];
+          const double factor = weight[row] * transposed.value[t];
+          for (Id k = rows.rowBegin[row]; k < rows.rowBegin[row + 1]; ++k)
+          {
+            const Id place = FindEntry(A, i, rows.column[k]);
+            const double term = factor * rows.value[k];
+            A.value[place >= 0 ? place : FindEntry(A, i, i)] += place >= 0 ? term : std::abs(term);
+          }
+        }
+      }
+    });
+}
+
+/// Penalties: relative to the diagonal at a point's functions, shared by the constraints that they
+/// have in common.
+std::vector<double> WeightsOfRows(const SparseMatrix& rows, const SparseMatrix& A, double penalty)
+{
+  const std::vector<double> diagonal = A.Diagonal();
+  std::vector<double> touched(A.rows, 0.0); // Σ of the rows at each function
+  for (std::size_t k = 0; k < rows.column.size(); ++k)
+  {
+    touched[rows.column[k]] += rows.value[k];
+  }
+  std::vector<double> weight(rows.rows, 0.0);
+  for (Index row = 0; row < rows.rows; ++row)
+  {
+    double own = 0.0;
+    double shared = 0.0;
+    for (Id k = rows.rowBegin[row]; k < rows.rowBegin[row + 1]; ++k)
+    {
+      own += rows.value[k] * diagonal[rows.column[k]];
+      shared += rows.value[k] * touched[rows.column[k]];
+    }
+    weight[row] = penalty * own / std::max(1.0, shared);
+  }
+  return weight;
+}
+
+/// Which components a constraint or mass holds.
+std::vector<char> HeldComponents(
+  const FiniteElementSpace& space, double a, const SparseMatrix& rows, const Components& components)
+{
+  std::vector<char> isHeld(components.count, 0);
+  for (const Index function : rows.column)
+  {
+    isHeld[components.ofFunction[function]] = 1;
+  }
+  for (std::size_t i = 0; a > 0.0 && i < components.ofFunction.size(); ++i)
+  {
+    isHeld[components.ofFunction[i]] |= space.Integrals()[i] > 0.0;
+  }
+  return isHeld;
+}
+
+/// Where each constraint lies: the component of its first function; -1 without one.
+std::vector<Index> ComponentsOfRows(const SparseMatrix& rows, const Components& components)
+{
+  std::vector<Index> component(rows.rows, -1);
+  for (Index row = 0; row < rows.rows; ++row)
+  {
+    if (rows.rowBegin[row] < rows.rowBegin[row + 1])
+    {
+      component[row] = components.ofFunction[rows.column[rows.rowBegin[row]]];
+    }
+  }
+  return component;
+}
+
+/// A constant for each component near what the solution has there: the means of its constraints, or
+/// of the values in the load.
+MultiVector ConstantsOf(const FiniteElementSpace& space, double a, const MultiVector& load,
+  const std::vector<Index>& componentOfRow, const MultiVector& values, const Components& components)
+{
+  MultiVector constant = MultiVector::Zero(components.count, values.cols());
+  Eigen::ArrayXd count = Eigen::ArrayXd::Zero(components.count);
+  for (Id row = 0; row < values.rows(); ++row)
+  {
+    if (componentOfRow[row] >= 0)
+    {
+      constant.row(componentOfRow[row]) += values.row(row);
+      count[componentOfRow[row]] += 1.0;
+    }
+  }
+  MultiVector sum = MultiVector::Zero(components.count, values.cols());
+  Eigen::ArrayXd mass = Eigen::ArrayXd::Zero(components.count);
+  for (Id i = 0; i < load.rows(); ++i)
+  {
+    sum.row(components.ofFunction[i]) += load.row(i);
+    mass[components.ofFunction[i]] += a * space.Integrals()[i];
+  }
+  for (Index c = 0; c < components.count; ++c)
+  {
+    const double size = count[c] > 0.0 ? count[c] : mass[c];
+    constant.row(c) = (count[c] > 0.0 ? constant : sum).row(c) * (size > 0.0 ? 1.0 / size : 0.0);
+  }
+  return constant;
+}
+
+/// Powers of two that bring the largest entry of each column to about 1.
+Eigen::RowVectorXd ScalesOf(const MultiVector& load, const MultiVector& values)
+{
+  constexpr int LargestExponent = 1000;
+  Eigen::RowVectorXd scale = Eigen::RowVectorXd::Ones(values.cols());
+  for (Id c = 0; c < values.cols(); ++c)
+  {
+    const double ofLoad = load.rows() > 0 ? load.col(c).cwiseAbs().maxCoeff() : 0.0;
+    const double ofValues = values.rows() > 0 ? values.col(c).cwiseAbs().maxCoeff() : 0.0;
+    const double largest = std::max(ofLoad, ofValues);
+    if (largest > 0.0 && std::isfinite(largest))
+    {
+      scale[c] =
+        std::ldexp(1.0, std::clamp(-std::ilogb(largest), -LargestExponent, LargestExponent));
+    }
+  }
+  return scale;
+}
+
+/// One history for all steps.
+void Append(SolveReport step, SolveReport& report)
+{
+  for (IterationRecord record : step.history)
+  {
+    record.iteration += report.iterations;
+    report.history.push_back(record);
+  }
+  if (report.doubleSince < 0 && step.doubleSince >= 0)
+  {
+    report.doubleSince = report.iterations + step.doubleSince;
+  }
+  report.iterations += step.iterations;
+  report.converged = step.converged;
+  report.end = step.end;
+  report.convergenceFactor = MeanFactor(report);
+}
+
+void CheckShapes(const FiniteElementSpace& space, const ConstrainedHierarchy& hierarchy,
+  const MultiVector& load, const MultiVector& values)
+{
+  if (values.rows() != hierarchy.Rows().rows ||
+      (load.rows() != 0 &&
+        (load.rows() != space.NumberOfFunctions(0) || load.cols() != values.cols())))
+  {
+    throw InvalidInput("There are " + std::to_string(values.rows()) + " values for " +
+                       std::to_string(hierarchy.Rows().rows) + " constraints, and a load of " +
+                       std::to_string(load.rows()) + " rows.");
+  }
+}
+
+/// Removes the constants of components that nothing holds; the two are each other's transposes.
+class FreeConstants
+{
+public:
+  FreeConstants(const Components& components, const std::vector<char>& isHeld, int threads)
+    : isHeld_(isHeld), one_(components.ofFunction.size(), 1.0),
+      means_(components.ofFunction, one_, components.count, threads)
+  {
+  }
+
+  Projection AsProjection() const
+  {
+    if (std::all_of(isHeld_.begin(), isHeld_.end(), [](char held) { return held; }))
+    {
+      return {};
+    }
+    return { [this](MultiVector& x) { means_.AddConstants(-this->Of(means_.OfFunction(x)), x); },
+      [this](MultiVector& b) { means_.SubtractIntegrals(this->Of(means_.OfIntegrals(b)), b); } };
+  }
+
+private:
+  MultiVector Of(MultiVector means) const
+  {
+    for (Id c = 0; c < means.rows(); ++c)
+    {
+      if (isHeld_[c])
+      {
+        means.row(c).setZero();
+      }
+    }
+    return means;
+  }
+
+  const std::vector<char>& isHeld_;
+  const std::vector<double> one_;
+  const ComponentMeans means_;
+};
+
+/// The steps of the augmented Lagrangian, for a problem whose values are about 1.
+class ConstrainedIteration
+{
+public:
+  ConstrainedIteration(const ConstrainedHierarchy& hierarchy, const MultiVector& load,
+    const MultiVector& values, const SolveOptions& options, const Projection& project)
+    : hierarchy_(hierarchy), values_(values), options_(options), project_(project), load_(load)
+  {
+    load_ += hierarchy_.LoadOf(values_);
+    hierarchy_.GetMultigrid().NestedIteration(load_, x);
+    if (!x.allFinite())
+    {
+      x.setZero();
+    }
+    if (project_.solution)
+    {
+      project_.solution(x);
+    }
+    range_ = this->LargestOf(values_);
+  }
+
+  /// @return whether another step may help
+  bool Step(
+    const ConstraintOptions& constraints, const Progress& progress, ConstrainedSolution& solution)
+  {
+    SolveOptions step = options_;
+    // Each step starts near its solution, whose last digits the misfit asks for.
+    step.tolerance = std::max(SmallestTolerance, step.tolerance * std::pow(0.1, solution.steps));
+    Append(SolveWithFallback(IterationType::ConjugateGradients, hierarchy_.GetMultigrid(), load_, x,
+             step, project_, progress),
+      solution.report);
+    ++solution.steps;
+    MultiVector atPoints;
+    Multiply(hierarchy_.Rows(), x, atPoints, hierarchy_.GetMultigrid().Options().threads);
+    const MultiVector rest = this->Misfits(atPoints);
+    misfit = this->LargestOf(rest);
+    const double before = relative_;
+    relative_ = 0.0;
+    for (Id c = 0; c < misfit.size(); ++c)
+    {
+      relative_ = std::max(relative_, range_[c] > 0.0 ? misfit[c] / range_[c] : misfit[c]);
+    }
+    solution.isExact = relative_ <= constraints.tolerance;
+    const bool isBetter = solution.steps < 3 || relative_ < 0.7 * before;
+    if (!solution.report.converged || solution.isExact || !isBetter)
+    {
+      return false;
+    }
+    load_ += hierarchy_.LoadOf(rest);
+    return true;
+  }
+
+  MultiVector x;
+  Eigen::RowVectorXd misfit; // largest of each column
+
+private:
+  static constexpr double SmallestTolerance = 1e-13;
+
+  static Eigen::RowVectorXd LargestOf(const MultiVector& rows)
+  {
+    return rows.rows() > 0 ? Eigen::RowVectorXd(rows.cwiseAbs().colwise().maxCoeff())
+                           : Eigen::RowVectorXd(Eigen::RowVectorXd::Zero(rows.cols()));
+  }
+
+  /// Of points that functions reach.
+  MultiVector Misfits(const MultiVector& atPoints) const
+  {
+    MultiVector rest = values_ - atPoints;
+    const SparseMatrix& rows = hierarchy_.Rows();
+    for (Index row = 0; row < rows.rows; ++row)
+    {
+      if (rows.rowBegin[row] == rows.rowBegin[row + 1])
+      {
+        rest.row(row).setZero();
+      }
+    }
+    return rest;
+  }
+
+  const ConstrainedHierarchy& hierarchy_;
+  const MultiVector& values_;
+  const SolveOptions& options_;
+  const Projection& project_;
+  MultiVector load_;
+  Eigen::RowVectorXd range_;
+  double relative_ = 0.0; // the largest misfit of the last step, in the range of its column
+};
+
+} // namespace
+
+ConstrainedHierarchy::ConstrainedHierarchy(const FiniteElementSpace& space, double a, double b,
+  SparseMatrix rows, double penalty, const MultigridOptions& options, const Progress& progress)
+  : rows_(std::move(rows)), transposed_(Transpose(rows_, options.threads)),
+    multigrid_(this->BuildLevels(space, a, b, penalty, options, progress.Part(0.0, 0.5)), options)
+{
+  progress.Check(1.0);
+}
+
+std::vector<MultigridLevel> ConstrainedHierarchy::BuildLevels(const FiniteElementSpace& space,
+  double a, double b, double penalty, const MultigridOptions& options, const Progress& progress)
+{
+  if (rows_.columns != space.NumberOfFunctions(0))
+  {
+    throw InvalidInput("The constraints are rows of " + std::to_string(rows_.columns) +
+                       " values for " + std::to_string(space.NumberOfFunctions(0)) + " functions.");
+  }
+  std::vector<MultigridLevel> levels = BuildMultigridLevels(space, a, b, options, progress);
+  weight_ = WeightsOfRows(rows_, levels.front().A, penalty);
+  SparseMatrix rows = rows_;
+  for (std::size_t l = 0; l < levels.size(); ++l)
+  {
+    AddPenalty(rows, l == 0 ? transposed_ : Transpose(rows, options.threads), weight_, levels[l].A,
+      options.threads);
+    if (l + 1 < levels.size())
+    {
+      rows = RowsOnCoarser(rows, levels[l].prolongation);
+    }
+  }
+  return levels;
+}
+
+MultiVector ConstrainedHierarchy::LoadOf(const MultiVector& values) const
+{
+  const Eigen::Map<const Eigen::VectorXd> weight(
+    weight_.data(), static_cast<Eigen::Index>(weight_.size()));
+  MultiVector load;
+  Multiply(transposed_, weight.asDiagonal() * values, load, multigrid_.Options().threads);
+  return load;
+}
+
+ConstrainedSolution SolveConstrained(const FiniteElementSpace& space, double a,
+  const ConstrainedHierarchy& hierarchy, const MultiVector& load, const MultiVector& values,
+  const ConstraintOptions& constraints, const SolveOptions& options, const Progress& progress)
+{
+  CheckShapes(space, hierarchy, load, values);
+  const int threads = hierarchy.GetMultigrid().Options().threads;
+  const Components components = space.ComponentsOf(0, threads);
+  const std::vector<Index> componentOfRow = ComponentsOfRows(hierarchy.Rows(), components);
+  ConstrainedSolution solution;
+  solution.isHeld = HeldComponents(space, a, hierarchy.Rows(), components);
+  const FreeConstants free(components, solution.isHeld, threads);
+  const Projection project = free.AsProjection();
+
+  // Constants are solved for at once, so that tolerances are on what differs from them.
+  const MultiVector constant = ConstantsOf(space, a, load, componentOfRow, values, components);
+  MultiVector rest = load.rows() > 0
+                       ? load
+                       : MultiVector(MultiVector::Zero(space.NumberOfFunctions(0), values.cols()));
+  for (Id i = 0; a > 0.0 && i < rest.rows(); ++i)
+  {
+    rest.row(i) -= a * space.Integrals()[i] * constant.row(components.ofFunction[i]);
+  }
+  MultiVector wanted = values;
+  for (Id row = 0; row < wanted.rows(); ++row)
+  {
+    if (componentOfRow[row] >= 0)
+    {
+      wanted.row(row) -= constant.row(componentOfRow[row]);
+    }
+    else
+    {
+      wanted.row(row).setZero();
+    }
+  }
+  const Eigen::RowVectorXd scale = ScalesOf(rest, wanted);
+  rest *= scale.asDiagonal();
+  wanted *= scale.asDiagonal();
+  if (project.residual)
+  {
+    project.residual(rest);
+  }
+
+  ConstrainedIteration iteration(hierarchy, rest, wanted, options, project);
+  while (
+    iteration.Step(constraints, progress, solution) && solution.steps < constraints.maximumSteps)
+  {
+  }
+  solution.misfit =
+    iteration.misfit.size() > 0 ? (iteration.misfit.array() / scale.array()).maxCoeff() : 0.0;
+  solution.coefficients = iteration.x * scale.cwiseInverse().asDiagonal();
+  for (Id i = 0; i < solution.coefficients.rows(); ++i)
+  {
+    const Index own = components.ofFunction[i];
+    if (solution.isHeld[own])
+    {
+      solution.coefficients.row(i) += constant.row(own);
+    }
+  }
+  return solution;
+}
+
+void SetMeans(const FiniteElementSpace& space, const std::vector<char>& isHeld,
+  const MultiVector& means, MultiVector& coefficients, int threads)
+{
+  const Components components = space.ComponentsOf(0, threads);
+  const ComponentMeans ofSpace(components.ofFunction, space.Integrals(), components.count, threads);
+  MultiVector change = means - ofSpace.OfFunction(coefficients);
+  for (Id c = 0; c < change.rows(); ++c)
+  {
+    if (isHeld[c])
+    {
+      change.row(c).setZero();
+    }
+  }
+  ofSpace.AddConstants(change, coefficients);
+}
+
+} // namespace gridfem

@@ -1,0 +1,79 @@
+// Values that the solution of an equation has at given points, on any space. [DESIGN §3]
+#ifndef GridFEM_PointConstraints_h
+#define GridFEM_PointConstraints_h
+
+#include "Krylov/PrecisionFallback.h"
+#include "Spaces/FiniteElementSpace.h"
+
+namespace gridfem
+{
+
+struct ConstraintOptions
+{
+  /// How strongly a misfit counts, relative to the diagonal of the matrix: what is left of it falls
+  /// by about this factor in a step, and the iterations of a step grow with it slowly. > 0
+  double penalty = 1e3;
+  /// Steps end when the largest misfit is this part of the range of the values. > 0
+  double tolerance = 1e-7;
+  int maximumSteps = 12; // >= 1
+};
+
+/// The hierarchy of a M + b L + Cᵀ W C: each row of C holds the values of all functions at a point.
+/// A misfit at a point is a term of rank one on the functions of one patch, which the patch
+/// smoother inverts; on coarser levels C has the rows C P.
+class ConstrainedHierarchy
+{
+public:
+  /// @param rows  RowsAtPoints of the constrained points; a point without functions has none
+  ConstrainedHierarchy(const FiniteElementSpace& space, double a, double b, SparseMatrix rows,
+    double penalty, const MultigridOptions& options, const Progress& progress = {});
+
+  const Multigrid& GetMultigrid() const { return multigrid_; }
+  const SparseMatrix& Rows() const { return rows_; }
+
+  /// Cᵀ W r for values at the points: rows = functions.
+  MultiVector LoadOf(const MultiVector& values) const;
+
+private:
+  std::vector<MultigridLevel> BuildLevels(const FiniteElementSpace& space, double a, double b,
+    double penalty, const MultigridOptions& options, const Progress& progress);
+
+  SparseMatrix rows_;
+  SparseMatrix transposed_;
+  std::vector<double> weight_; // of each row
+  Multigrid multigrid_;
+};
+
+struct ConstrainedSolution
+{
+  MultiVector coefficients; // up to a constant on components that nothing holds (SetMeans)
+  SolveReport report;       // of all steps, one after the other
+  int steps = 0;
+  /// Largest difference from the given values, over all points and columns.
+  double misfit = 0.0;
+  /// All constraints are met. Else they contradict each other, or are more than the functions can
+  /// meet, and the solution is the one with the least (weighted) squares of the misfits.
+  bool isExact = true;
+  std::vector<char> isHeld; // per component of the functions
+};
+
+/// Minimises ½ uᵀ (a M + b L) u - loadᵀ u among the functions with these values at the points, by
+/// an augmented Lagrangian: each step solves with the misfit's penalty and adds the misfit that is
+/// left to the load. Components that have neither a constraint nor mass are not determined.
+/// @param load    right-hand side: rows = functions; may have no rows for 0
+/// @param values  rows = rows of C, one column per component
+/// Throws InvalidInput when shapes do not fit, and Aborted. Same bits for any number of threads.
+ConstrainedSolution SolveConstrained(const FiniteElementSpace& space, double a,
+  const ConstrainedHierarchy& hierarchy, const MultiVector& load, const MultiVector& values,
+  const ConstraintOptions& constraints, const SolveOptions& options, const Progress& progress = {});
+
+/// Adds constants on components that nothing holds, so that they have these means; a mean of NaN
+/// makes all of the component NaN.
+/// @param space  with the mass of the mesh
+/// @param means  rows = components of the functions, one column per component of the values
+void SetMeans(const FiniteElementSpace& space, const std::vector<char>& isHeld,
+  const MultiVector& means, MultiVector& coefficients, int threads = 0);
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,405 @@
+#include "Problems/Stitching.h"
+
+#include "Base/Errors.h"
+#include "Problems/Poisson.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <tuple>
+
+namespace gridfem
+{
+namespace
+{
+
+/// Of what stitching changes, per squared unit of length: 1 / (2 cells)². It is harmonic inside a
+/// scan, and what the functions cannot show of the colours is finer than that.
+constexpr double DetailWeight = 0.25;
+
+void RequireLabels(const ScanLabels& labels, const TriangleMesh& mesh)
+{
+  const bool areOnPoints = labels.association == FieldAssociation::Points;
+  const std::size_t rows = areOnPoints ? mesh.points.size() : mesh.triangles.size();
+  if (labels.values.size() != rows)
+  {
+    throw InvalidInput("There are " + std::to_string(labels.values.size()) + " labels for " +
+                       std::to_string(rows) + (areOnPoints ? " points." : " triangles."));
+  }
+  if (std::any_of(labels.values.begin(), labels.values.end(), [](Index l) { return l < 0; }))
+  {
+    throw InvalidInput("Labels of scans must not be negative.");
+  }
+}
+
+/// The scan of a triangle with labels on points; of a colour on the triangle itself the one that
+/// most of its corners have.
+Index ScanOfCorners(const std::array<Index, 3>& label, bool isMajority)
+{
+  if (label[0] == label[1] && label[0] == label[2])
+  {
+    return label[0];
+  }
+  if (!isMajority)
+  {
+    return ScanCut::Seam;
+  }
+  return label[1] == label[2] ? label[1] : label[0];
+}
+
+std::vector<Index> ScansOfTriangles(
+  const TriangleMesh& mesh, const ScanLabels& labels, FieldAssociation colors)
+{
+  const std::vector<Index>& label = labels.values;
+  std::vector<Index> scan(mesh.triangles.size());
+  if (labels.association == FieldAssociation::Points)
+  {
+    for (std::size_t t = 0; t < scan.size(); ++t)
+    {
+      const auto& corner = mesh.triangles[t];
+      scan[t] = ScanOfCorners({ label[corner[0]], label[corner[1]], label[corner[2]] },
+        colors == FieldAssociation::Triangles);
+    }
+    return scan;
+  }
+  if (colors == FieldAssociation::Triangles)
+  {
+    return label;
+  }
+  std::vector<Index> low(mesh.points.size(), std::numeric_limits<Index>::max());
+  std::vector<Index> high(mesh.points.size(), -1);
+  for (std::size_t t = 0; t < scan.size(); ++t)
+  {
+    for (const Id point : mesh.triangles[t])
+    {
+      low[point] = std::min(low[point], label[t]);
+      high[point] = std::max(high[point], label[t]);
+    }
+  }
+  for (std::size_t t = 0; t < scan.size(); ++t)
+  {
+    const auto& corner = mesh.triangles[t];
+    const bool isInside = std::all_of(
+      corner.begin(), corner.end(), [&](Id point) { return low[point] == high[point]; });
+    scan[t] = isInside ? label[t] : ScanCut::Seam;
+  }
+  return scan;
+}
+
+/// A corner of a triangle that is no seam, by place and scan.
+struct ScanCorner
+{
+  Index place; // the welded id of its point
+  Index scan;
+  Id corner; // 3 triangle of the pieces + corner
+};
+
+/// Numbers the points of the pieces: one for each place and scan.
+void NumberPoints(const TriangleMesh& mesh, ScanCut& cut)
+{
+  const Array<Index> place = WeldCoincidentPoints(mesh.points, UsedPoints(mesh));
+  std::vector<ScanCorner> corners;
+  corners.reserve(3 * cut.triangleOfPiece.size());
+  for (std::size_t piece = 0; piece < cut.triangleOfPiece.size(); ++piece)
+  {
+    const Id triangle = cut.triangleOfPiece[piece];
+    for (int k = 0; k < 3; ++k)
+    {
+      corners.push_back({ place[mesh.triangles[triangle][k]], cut.scanOfTriangle[triangle],
+        static_cast<Id>(3 * piece) + k });
+    }
+  }
+  std::sort(corners.begin(), corners.end(),
+    [](const ScanCorner& a, const ScanCorner& b)
+    { return std::tie(a.place, a.scan, a.corner) < std::tie(b.place, b.scan, b.corner); });
+  cut.pieces.triangles.resize(cut.triangleOfPiece.size());
+  cut.pointOfPoint.assign(mesh.points.size(), -1);
+  for (std::size_t k = 0; k < corners.size(); ++k)
+  {
+    const ScanCorner& c = corners[k];
+    if (k == 0 || corners[k - 1].place != c.place || corners[k - 1].scan != c.scan)
+    {
+      cut.pieces.points.push_back(mesh.points[c.place]);
+    }
+    const auto number = static_cast<Index>(cut.pieces.points.size()) - 1;
+    cut.pieces.triangles[c.corner / 3][c.corner % 3] = number;
+    cut.pointOfPoint[mesh.triangles[cut.triangleOfPiece[c.corner / 3]][c.corner % 3]] = number;
+  }
+}
+
+double AreaOf(const TriangleMesh& mesh, const std::array<Id, 3>& corner)
+{
+  const Vec3 u = mesh.points[corner[1]] - mesh.points[corner[0]];
+  const Vec3 v = mesh.points[corner[2]] - mesh.points[corner[0]];
+  return 0.5 * u.cross(v).norm();
+}
+
+/// Means of values on the triangles around each point of the pieces, weighted by area.
+MultiVector MeansAtPoints(const ScanCut& cut, const MultiVector& onTriangles)
+{
+  const auto points = static_cast<Id>(cut.pieces.points.size());
+  MultiVector mean = MultiVector::Zero(points, onTriangles.cols());
+  std::vector<double> area(points, 0.0);
+  for (std::size_t piece = 0; piece < cut.triangleOfPiece.size(); ++piece)
+  {
+    const double own = AreaOf(cut.pieces, cut.pieces.triangles[piece]);
+    for (const Id point : cut.pieces.triangles[piece])
+    {
+      mean.row(point) += own * onTriangles.row(cut.triangleOfPiece[piece]);
+      area[point] += own;
+    }
+  }
+  for (Id point = 0; point < points; ++point)
+  {
+    mean.row(point) *= area[point] > 0.0 ? 1.0 / area[point] : 0.0;
+  }
+  return mean;
+}
+
+/// The means of values at the corners of each triangle.
+MultiVector MeansOnTriangles(
+  const std::vector<std::array<Id, 3>>& triangles, const MultiVector& atPoints)
+{
+  MultiVector mean(static_cast<Id>(triangles.size()), atPoints.cols());
+  for (Id t = 0; t < mean.rows(); ++t)
+  {
+    const auto& corner = triangles[t];
+    mean.row(t) =
+      (atPoints.row(corner[0]) + atPoints.row(corner[1]) + atPoints.row(corner[2])) / 3.0;
+  }
+  return mean;
+}
+
+/// The gradients of values at the points of the pieces, on the triangles of the mesh: three columns
+/// for each; 0 on seams and on triangles without an area.
+MultiVector GradientsOnTriangles(const ScanCut& cut, const MultiVector& atPoints)
+{
+  const auto triangles = static_cast<Id>(cut.scanOfTriangle.size());
+  MultiVector gradient = MultiVector::Zero(triangles, 3 * atPoints.cols());
+  for (std::size_t piece = 0; piece < cut.triangleOfPiece.size(); ++piece)
+  {
+    const auto& corner = cut.pieces.triangles[piece];
+    const std::array<Vec3, 3> p = { cut.pieces.points[corner[0]], cut.pieces.points[corner[1]],
+      cut.pieces.points[corner[2]] };
+    const Vec3 normal = (p[1] - p[0]).cross(p[2] - p[0]);
+    for (int k = 0; k < 3 && normal.squaredNorm() > 0.0; ++k)
+    {
+      const Vec3 ofCorner =
+        normal.cross(Vec3(p[(k + 2) % 3] - p[(k + 1) % 3])) / normal.squaredNorm();
+      for (Id c = 0; c < atPoints.cols(); ++c)
+      {
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          gradient(cut.triangleOfPiece[piece], 3 * c + axis) +=
+            ofCorner[axis] * atPoints(corner[k], c);
+        }
+      }
+    }
+  }
+  return gradient;
+}
+
+/// ∫ <s, ∇b_i> with the gradients that are to be kept.
+MultiVector LoadOfKeptGradients(
+  const FiniteElementSpace& space, const ScanCut& cut, const Field& colors, const Job& job)
+{
+  if (colors.association == FieldAssociation::Triangles)
+  {
+    const Field gradients{ FieldAssociation::Triangles,
+      GradientsOnTriangles(cut, MeansAtPoints(cut, colors.values)) };
+    return space.LoadOfGradients(gradients, nullptr, job);
+  }
+  Field kept{ FieldAssociation::Triangles,
+    MultiVector(static_cast<Id>(cut.scanOfTriangle.size()), 1) };
+  for (Id t = 0; t < kept.values.rows(); ++t)
+  {
+    kept.values(t, 0) = cut.scanOfTriangle[t] == ScanCut::Seam ? 0.0 : 1.0;
+  }
+  return space.LoadOfGradientsOf(colors, &kept, job);
+}
+
+/// Rows at the colours' places as rows of the pieces.
+Field OnPieces(const ScanCut& cut, FieldAssociation association, const MultiVector& rows)
+{
+  Field field{ association, {} };
+  if (association == FieldAssociation::Triangles)
+  {
+    field.values.resize(static_cast<Id>(cut.triangleOfPiece.size()), rows.cols());
+    for (Id piece = 0; piece < field.values.rows(); ++piece)
+    {
+      field.values.row(piece) = rows.row(cut.triangleOfPiece[piece]);
+    }
+    return field;
+  }
+  field.values.resize(static_cast<Id>(cut.pieces.points.size()), rows.cols());
+  for (Id point = 0; point < rows.rows(); ++point)
+  {
+    if (cut.pointOfPoint[point] >= 0)
+    {
+      field.values.row(cut.pointOfPoint[point]) = rows.row(point);
+    }
+  }
+  return field;
+}
+
+/// Values that stitching has changed become the colours plus that change, smoothed within scans.
+/// Where there is no piece they stay.
+SolveReport KeepDetails(const FiniteElementSpace& details, const ScanCut& cut, const Field& colors,
+  const PoissonOptions& solver, const Job& job, MultiVector& values)
+{
+  PoissonOptions poisson = solver;
+  poisson.screeningWeight = DetailWeight;
+  const Field change = OnPieces(cut, colors.association, values - colors.values);
+  const Multigrid multigrid =
+    BuildMultigrid(details, DetailWeight, 1.0, solver.multigrid, job.progress.Part(0.0, 0.3));
+  PoissonSolution solution = SolvePoisson(details, multigrid,
+    details.LoadOfValues(change, job.Part(0.3, 0.5)), {}, poisson, job.progress.Part(0.5, 1.0));
+  MultiVector smoothed = details.ValuesAtPoints(solution.coefficients, job.threads);
+  const bool areOnPoints = colors.association == FieldAssociation::Points;
+  const std::vector<char> isSmoothed = details.PointsWithFunctions();
+  if (!areOnPoints)
+  {
+    smoothed = MeansOnTriangles(cut.pieces.triangles, smoothed);
+  }
+  const std::vector<Index>& pieceOf = areOnPoints ? cut.pointOfPoint : cut.pieceOfTriangle;
+  for (Id row = 0; row < values.rows(); ++row)
+  {
+    const Index piece = pieceOf[row];
+    if (piece >= 0 && (!areOnPoints || isSmoothed[piece]))
+    {
+      values.row(row) = colors.values.row(row) + smoothed.row(piece);
+    }
+  }
+  return std::move(solution.report);
+}
+
+/// The function at the colours' own places: points without a function keep their colour.
+MultiVector AtColors(const FiniteElementSpace& space, const TriangleMesh& mesh, const Field& colors,
+  const MultiVector& coefficients, const Job& job)
+{
+  MultiVector values = space.ValuesAtPoints(coefficients, job);
+  if (colors.association == FieldAssociation::Triangles)
+  {
+    return MeansOnTriangles(mesh.triangles, values);
+  }
+  const std::vector<char> has = space.PointsWithFunctions();
+  for (Id point = 0; point < values.rows(); ++point)
+  {
+    if (!has[point])
+    {
+      values.row(point) = colors.values.row(point);
+    }
+  }
+  return values;
+}
+
+/// Per point of the mesh the component of its functions; -1 where there is none.
+std::vector<Index> ComponentsOfPoints(const FiniteElementSpace& space, Id points, const Job& job)
+{
+  std::vector<Id> all(points);
+  std::iota(all.begin(), all.end(), Id{ 0 });
+  const SparseMatrix rows = space.RowsAtPoints(all);
+  const Components components = space.ComponentsOf(0, job);
+  std::vector<Index> component(points, -1);
+  for (Id point = 0; point < points; ++point)
+  {
+    if (rows.rowBegin[point] < rows.rowBegin[point + 1])
+    {
+      component[point] = components.ofFunction[rows.column[rows.rowBegin[point]]];
+    }
+  }
+  return component;
+}
+
+/// Adds constants, so that on every component the reference has the mean of its own colours.
+void KeepMeanOf(Index reference, const FiniteElementSpace& space, const TriangleMesh& mesh,
+  const ScanCut& cut, const Field& colors, const Job& job, MultiVector& values)
+{
+  const std::vector<Index> component =
+    ComponentsOfPoints(space, static_cast<Id>(mesh.points.size()), job);
+  const Index count = space.ComponentsOf(0, job).count;
+  MultiVector change = MultiVector::Zero(count, values.cols());
+  std::vector<double> area(count, 0.0);
+  for (const std::size_t t : cut.triangleOfPiece)
+  {
+    const auto& corner = mesh.triangles[t];
+    const Index own = component[corner[0]];
+    if (cut.scanOfTriangle[t] == reference && own >= 0)
+    {
+      const double third = AreaOf(mesh, corner) / 3.0;
+      for (const Id row : colors.RowsOf(static_cast<Id>(t), corner))
+      {
+        change.row(own) += third * (colors.values.row(row) - values.row(row));
+        area[own] += third;
+      }
+    }
+  }
+  for (Id row = 0; row < values.rows(); ++row)
+  {
+    const bool isOnPoints = colors.association == FieldAssociation::Points;
+    const Index own = component[isOnPoints ? row : mesh.triangles[row][0]];
+    if (own >= 0 && area[own] > 0.0)
+    {
+      values.row(row) += change.row(own) / area[own];
+    }
+  }
+}
+
+} // namespace
+
+ScanCut CutAtSeams(const TriangleMesh& mesh, const ScanLabels& labels, FieldAssociation colors)
+{
+  RequireLabels(labels, mesh);
+  ScanCut cut;
+  cut.scanOfTriangle = ScansOfTriangles(mesh, labels, colors);
+  cut.pieceOfTriangle.assign(cut.scanOfTriangle.size(), -1);
+  for (std::size_t t = 0; t < cut.scanOfTriangle.size(); ++t)
+  {
+    if (cut.scanOfTriangle[t] != ScanCut::Seam)
+    {
+      cut.pieceOfTriangle[t] = static_cast<Index>(cut.triangleOfPiece.size());
+      cut.triangleOfPiece.push_back(static_cast<Id>(t));
+    }
+  }
+  NumberPoints(mesh, cut);
+  return cut;
+}
+
+StitchedColors StitchColors(const FiniteElementSpace& space, const TriangleMesh& mesh,
+  const ScanCut& cut, const Field& colors, const StitchOptions& options,
+  const FiniteElementSpace* details, const Job& job)
+{
+  RequireField(colors, mesh);
+  PoissonOptions poisson;
+  poisson.screeningWeight = 0.0;
+  poisson.multigrid = options.multigrid;
+  poisson.solve = options.solve;
+  const MultiVector values = space.LoadOfValues(colors, job.Part(0.0, 0.1));
+  const MultiVector gradients = LoadOfKeptGradients(space, cut, colors, job.Part(0.1, 0.2));
+  const Multigrid multigrid =
+    BuildMultigrid(space, 0.0, 1.0, options.multigrid, job.progress.Part(0.2, 0.4));
+  PoissonSolution solution =
+    SolvePoisson(space, multigrid, values, gradients, poisson, job.progress.Part(0.4, 0.7));
+
+  StitchedColors stitched;
+  stitched.values = AtColors(space, mesh, colors, solution.coefficients, job.threads);
+  stitched.report = std::move(solution.report);
+  if (details && !cut.triangleOfPiece.empty())
+  {
+    SolveReport report =
+      KeepDetails(*details, cut, colors, poisson, job.Part(0.7, 1.0), stitched.values);
+    if (stitched.report.converged && !report.converged)
+    {
+      stitched.report = std::move(report);
+    }
+  }
+  if (options.reference)
+  {
+    KeepMeanOf(*options.reference, space, mesh, cut, colors, job.threads, stitched.values);
+  }
+  job.Check(1.0);
+  return stitched;
+}
+
+} // namespace gridfem

@@ -1,0 +1,123 @@
+#include "GivenValues.h"
+
+#include "NearestPoints.h"
+
+#include "Base/Errors.h"
+#include "Problems/PointConstraints.h"
+
+#include "vtkDataArray.h"
+#include "vtkDataSet.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace gridfem
+{
+namespace
+{
+
+bool HasNaN(vtkDataArray* array, vtkIdType tuple)
+{
+  for (int c = 0; c < array->GetNumberOfComponents(); ++c)
+  {
+    if (std::isnan(array->GetComponent(tuple, c)))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+void CopyFinite(const InputArray& input, vtkIdType tuple, MultiVector& values, Id row)
+{
+  for (int c = 0; c < input.array->GetNumberOfComponents(); ++c)
+  {
+    values(row, c) = input.array->GetComponent(tuple, c);
+    if (!std::isfinite(values(row, c)))
+    {
+      throw InvalidInput("Array '" + input.name + "' has a value that is not finite at point " +
+                         std::to_string(tuple) + ".");
+    }
+  }
+}
+
+} // namespace
+
+void RequirePointArray(
+  const InputArray& array, const std::string& property, const std::string& wanted)
+{
+  if (!array.array)
+  {
+    throw InvalidInput("Choose a " + property + ": " + wanted + ".");
+  }
+  if (array.association != FieldAssociation::Points)
+  {
+    throw InvalidInput(property + " '" + array.name +
+                       "' must be a point array. Cell Data to Point Data converts it.");
+  }
+}
+
+GivenValues KnownValues(const InputArray& array, const InputArray& mask, const TriangleMesh& mesh)
+{
+  if (mask.array &&
+      (mask.association != FieldAssociation::Points || mask.array->GetNumberOfComponents() != 1))
+  {
+    throw InvalidInput("MaskArray '" + mask.name + "' must be a point array with one component.");
+  }
+  const std::vector<char> used = UsedPoints(mesh);
+  GivenValues given;
+  for (Id point = 0; point < static_cast<Id>(used.size()); ++point)
+  {
+    const double isKnown = mask.array ? mask.array->GetComponent(point, 0) : 1.0;
+    if (used[point] && isKnown != 0.0 && !std::isnan(isKnown) && !HasNaN(array.array, point))
+    {
+      given.points.push_back(point);
+    }
+  }
+  if (given.points.empty())
+  {
+    throw InvalidInput(
+      "No value of '" + array.name + "' is known at a point of a polygon: all are NaN or masked.");
+  }
+  given.values.resize(static_cast<Id>(given.points.size()), array.array->GetNumberOfComponents());
+  for (Id row = 0; row < given.values.rows(); ++row)
+  {
+    CopyFinite(array, given.points[row], given.values, row);
+  }
+  return given;
+}
+
+GivenValues ValuesOfPlaces(const InputArray& array, const TriangleMesh& mesh, vtkDataSet* places)
+{
+  if (places->GetNumberOfPoints() == 0)
+  {
+    throw InvalidInput("The input Values has no points.");
+  }
+  GivenValues given;
+  given.points = NearestPoints(mesh, places, "Values");
+  given.values.resize(static_cast<Id>(given.points.size()), array.array->GetNumberOfComponents());
+  for (Id row = 0; row < given.values.rows(); ++row)
+  {
+    CopyFinite(array, row, given.values, row);
+  }
+  return given;
+}
+
+std::string WarningOfConstraints(const ConstrainedSolution& solution, const MultiVector& values)
+{
+  constexpr double Visible = 1e-3;
+  if (solution.isExact || values.rows() == 0 ||
+      solution.misfit <=
+        Visible * (values.colwise().maxCoeff() - values.colwise().minCoeff()).maxCoeff())
+  {
+    return {};
+  }
+  std::ostringstream text;
+  text << "The values are not met, by " << solution.misfit
+       << " at worst: they contradict each other, or lie closer together than the functions can "
+          "follow. The result has the least squares of these differences; a larger Depth or hat "
+          "functions come closer.";
+  return text.str();
+}
+
+} // namespace gridfem

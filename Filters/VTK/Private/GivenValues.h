@@ -1,0 +1,42 @@
+// Values that are known at some points of a mesh: from an array with a mask or with NaN, or from
+// another data set.
+#ifndef GridFEM_GivenValues_h
+#define GridFEM_GivenValues_h
+
+#include "InputArray.h"
+
+#include <string>
+#include <vector>
+
+class vtkDataSet;
+
+namespace gridfem
+{
+
+struct ConstrainedSolution;
+
+struct GivenValues
+{
+  std::vector<Id> points; // of the mesh
+  MultiVector values;     // a row for each
+};
+
+/// Throws InvalidInput when no array is chosen, saying what it should hold, or it is cell data.
+void RequirePointArray(
+  const InputArray& array, const std::string& property, const std::string& wanted);
+
+/// Tuples without a NaN, at points that a triangle uses and where the mask, if there is one, is
+/// neither 0 nor NaN. Throws InvalidInput for an infinite value, a mask that does not fit, and when
+/// nothing is known.
+GivenValues KnownValues(const InputArray& array, const InputArray& mask, const TriangleMesh& mesh);
+
+/// The values of all points of a data set, each at the nearest point of the mesh that a triangle
+/// uses. Throws InvalidInput when there are none or one is not finite.
+GivenValues ValuesOfPlaces(const InputArray& array, const TriangleMesh& mesh, vtkDataSet* places);
+
+/// What to say when values are not met; empty when they are to 1e-3 of their range.
+std::string WarningOfConstraints(const ConstrainedSolution& solution, const MultiVector& values);
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,102 @@
+#include "SurfaceConstrainedPoisson.h"
+
+#include "SolverOutput.h"
+
+#include <algorithm>
+
+namespace gridfem
+{
+
+void SurfaceConstrainedPoisson::Update(SurfaceSolverState& state, StageKey fields,
+  const Integrate& integrate, const PoissonRequest& request, const Progress& progress)
+{
+  this->UpdateSystem(state, fields, integrate, progress.Part(0.0, 0.3));
+  progress.Check(0.3);
+  const double weight = state.WeightInGridUnits(request.weight);
+  StageKey key;
+  key.Add(state.stages.Version(RightHandSideStage)).Add(weight);
+  AddMultigrid(key, state.options.multigrid);
+  const ConstraintOptions constraints;
+  state.stages.Run(HierarchyStage, key,
+    [&]
+    {
+      hierarchy_.reset(); // frees its memory first
+      hierarchy_ = std::make_unique<ConstrainedHierarchy>(*weighted_, weight, 1.0,
+        weighted_->RowsAtPoints(load_.held.points), constraints.penalty, state.options.multigrid,
+        progress.Part(0.3, 0.5));
+    });
+  progress.Check(0.5);
+  this->Solve(state, request, progress.Part(0.5, 1.0));
+}
+
+void SurfaceConstrainedPoisson::UpdateSystem(
+  SurfaceSolverState& state, StageKey fields, const Integrate& integrate, const Progress& progress)
+{
+  fields.Add(state.stages.Version(SystemStage)).Add(true); // not that of SurfacePoisson
+  state.stages.Run(RightHandSideStage, fields,
+    [&]
+    {
+      load_ = integrate(*state.space, state.MakeJob(progress.Part(0.0, 0.4)));
+      const Job job = state.MakeJob(progress.Part(0.4, 1.0));
+      values_ = state.space->LoadOfWeightedValues(
+        load_.field.values, load_.field.weight, job.Part(0.0, 0.2));
+      meanOfField_ = MeansOfKnown(*state.space, load_.field, job.Part(0.2, 0.5));
+      weighted_ = state.space->Copy();
+      weighted_->WeighMass(load_.field.weight, job.Part(0.5, 1.0));
+    });
+}
+
+void SurfaceConstrainedPoisson::Solve(
+  SurfaceSolverState& state, const PoissonRequest& request, const Progress& progress)
+{
+  StageKey key;
+  key.Add(state.stages.Version(HierarchyStage)).Add(request.gradientScale);
+  key.Add(state.options.solve.tolerance).Add(state.options.solve.maximumIterations);
+  state.stages.Run(SolveStage, key,
+    [&]
+    {
+      const double weight = state.WeightInGridUnits(request.weight);
+      MultiVector load = weight * values_;
+      if (load_.gradients.rows() > 0)
+      {
+        load += request.gradientScale * load_.gradients;
+      }
+      solution_ = SolveConstrained(*weighted_, weight, *hierarchy_, load, load_.held.values,
+        ConstraintOptions(), state.options.solve, progress);
+      SetMeans(*state.space, solution_.isHeld, meanOfField_, solution_.coefficients,
+        state.options.multigrid.threads);
+    });
+}
+
+MultiVector SurfaceConstrainedPoisson::Values(const SurfaceSolverState& state) const
+{
+  return state.space->ValuesAtPoints(solution_.coefficients, state.options.space.threads);
+}
+
+std::string SurfaceConstrainedPoisson::Warning(double tolerance) const
+{
+  std::string warning;
+  const auto add = [&warning](const std::string& sentence)
+  { warning += (warning.empty() || sentence.empty() ? "" : " ") + sentence; };
+  if (!solution_.report.converged)
+  {
+    add(WarningOf(solution_.report, tolerance));
+  }
+  add(WarningOfConstraints(solution_, load_.held.values));
+  const auto free = std::count(solution_.isHeld.begin(), solution_.isHeld.end(), 0);
+  if (free > 0)
+  {
+    add(std::to_string(free) + " of " + std::to_string(solution_.isHeld.size()) +
+        " connected components have neither a weight nor a constraint: they keep the mean of what "
+        "is known there, or are NaN where nothing is.");
+  }
+  if (load_.field.numberOfIgnoredPoints > 0)
+  {
+    add(std::to_string(load_.field.numberOfIgnoredPoints) +
+        " known points have no triangle with known values at all corners, so that they do not "
+        "count. ConstraintArray can hold them.");
+  }
+  return warning;
+}
+
+} // namespace gridfem

@@ -1,0 +1,61 @@
+// The screened Poisson equation of a filter's surface where not all values are known or count the
+// same, or some are held exactly, with its stages.
+#ifndef GridFEM_SurfaceConstrainedPoisson_h
+#define GridFEM_SurfaceConstrainedPoisson_h
+
+#include "GivenValues.h"
+#include "SurfacePoisson.h"
+
+#include "Problems/PartialField.h"
+#include "Problems/PointConstraints.h"
+
+#include <functional>
+#include <memory>
+
+namespace gridfem
+{
+
+/// What is known, and the gradients.
+struct ConstrainedLoad
+{
+  PartialField field;
+  MultiVector gradients; // may have no rows
+  GivenValues held;      // values at points that the solution has exactly
+};
+
+class SurfaceConstrainedPoisson
+{
+public:
+  using Integrate = std::function<ConstrainedLoad(const FiniteElementSpace&, const Job&)>;
+
+  /// As SurfacePoisson::Update.
+  void Update(SurfaceSolverState& state, StageKey fields, const Integrate& integrate,
+    const PoissonRequest& request, const Progress& progress);
+
+  /// At the points of the mesh; NaN on components of which nothing is known.
+  MultiVector Values(const SurfaceSolverState& state) const;
+
+  /// The largest difference from a value that is to be held.
+  double Misfit() const { return solution_.misfit; }
+
+  const SolveReport& Report() const { return solution_.report; }
+
+  /// What to warn of; empty when there is nothing.
+  std::string Warning(double tolerance) const;
+
+private:
+  void UpdateSystem(SurfaceSolverState& state, StageKey fields, const Integrate& integrate,
+    const Progress& progress);
+  void Solve(SurfaceSolverState& state, const PoissonRequest& request, const Progress& progress);
+
+  ConstrainedLoad load_;
+  MultiVector values_;      // ∫ w f b_i
+  MultiVector meanOfField_; // of components
+  std::unique_ptr<FiniteElementSpace> weighted_;
+  std::unique_ptr<ConstrainedHierarchy> hierarchy_;
+  ConstrainedSolution solution_;
+};
+
+} // namespace gridfem
+
+#endif

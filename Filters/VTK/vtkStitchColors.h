@@ -1,0 +1,114 @@
+/**
+ * @class   vtkStitchColors
+ * @brief   make one colouring of the colours of several scans
+ *
+ * Scans of one surface differ in exposure, so that their colours jump where they meet. The result
+ * has the gradients that the colours have inside the scans, and no jumps: a Poisson equation for
+ * all components at once.
+ *
+ * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
+ * vtkConnectivityAwareBasis. Input port 1 (optional): the output of vtkConnectivityAwareBasis for
+ * the mesh of port 0.
+ *
+ * Arrays, as point or cell data of input port 0, chosen by SetInputArrayToProcess:
+ * - index 0, `ColorArray`: 1 to 4 components of any numeric type
+ * - index 1, `LabelArray`: one component, integers: the scan. Points with one label may be
+ * anywhere.
+ *
+ * Output port 0 (vtkPolyData): the input with
+ * - point or cell data, as ColorArray: `StitchedColors`, same type and components. Integers are
+ *   rounded and stay in the range of their type; numbers with a point that lie in 0..1 stay there.
+ *   Points and cells that no polygon uses keep their colour.
+ * - field data: `Converged`, `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor`
+ *
+ * Colours at points are linear on triangles; triangles that touch two scans are seams, whose
+ * gradients are left out. Scans whose borders coincide without sharing points are stitched as well
+ * (WeldCoincidentPoints); with ConnectivityAware off, a grid stitches across gaps narrower than a
+ * cell, too, but sheets that lie as close then feel each other.
+ *
+ * Tolerance (default 1e-5) is on the energy residual, as in vtkScreenedPoisson;
+ * NormalStabilization is 1e-2 and MaximumIterations 200 by default. All shared properties but
+ * ParameterUnits are used.
+ */
+#ifndef vtkStitchColors_h
+#define vtkStitchColors_h
+
+#include "vtkSurfaceFEMAlgorithm.h"
+
+namespace gridfem
+{
+struct Field;
+struct InputArray;
+class Progress;
+} // namespace gridfem
+
+class VTKGRIDFEMFILTERS_EXPORT vtkStitchColors : public vtkSurfaceFEMAlgorithm
+{
+public:
+  static vtkStitchColors* New();
+  vtkTypeMacro(vtkStitchColors, vtkSurfaceFEMAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum MeanType
+  {
+    WholeSurface = 0,
+    ReferenceScan = 1
+  };
+  ///@{
+  /**
+   * Gradients leave a constant open. WholeSurface (default): every connected component keeps its
+   * mean colour. ReferenceScan: the scan ReferenceLabel keeps its own; components without it as
+   * before.
+   */
+  vtkSetClampMacro(KeptMean, int, WholeSurface, ReferenceScan);
+  vtkGetMacro(KeptMean, int);
+  ///@}
+
+  ///@{
+  /**
+   * The label of the scan whose mean is kept. Default 0.
+   */
+  vtkSetMacro(ReferenceLabel, int);
+  vtkGetMacro(ReferenceLabel, int);
+  ///@}
+
+  ///@{
+  /**
+   * When on (default), details finer than the functions stay as they are: what stitching changes is
+   * added to the colours, smoothed over two cells inside each scan. When off, the result is the
+   * function itself.
+   */
+  vtkSetMacro(KeepDetails, bool);
+  vtkGetMacro(KeepDetails, bool);
+  vtkBooleanMacro(KeepDetails, bool);
+  ///@}
+
+  /**
+   * The input of port 1: the basis.
+   */
+  void SetBasisConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
+
+protected:
+  vtkStitchColors();
+  ~vtkStitchColors() override;
+
+  void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  void FreeStages() override;
+
+  int KeptMean = WholeSurface;
+  int ReferenceLabel = 0;
+  bool KeepDetails = true;
+
+private:
+  vtkStitchColors(const vtkStitchColors&) = delete;
+  void operator=(const vtkStitchColors&) = delete;
+
+  void UpdateCut(const gridfem::InputArray& colors, const gridfem::InputArray& labels,
+    const gridfem::Progress& progress);
+  void Solve(const gridfem::InputArray& colors, const gridfem::Progress& progress);
+
+  struct Internals;
+  std::unique_ptr<Internals> Data;
+};
+
+#endif

@@ -1,0 +1,147 @@
+// Colours of scans with different gains and offsets become one, on both kinds of space.
+#include "Problems/Stitching.h"
+
+#include "Base/Errors.h"
+#include "Spaces.h"
+#include "Spaces/HatSpace.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+constexpr int NumberOfScans = 5;
+
+/// Sectors around the axis z.
+Index ScanAt(const Vec3& p)
+{
+  const double turn = std::atan2(p[1], p[0]) / (2.0 * EIGEN_PI) + 0.5;
+  return std::min(NumberOfScans - 1, static_cast<int>(NumberOfScans * turn));
+}
+
+/// Large shapes and detail of a few triangles.
+Vec3 ColorAt(const Vec3& p)
+{
+  return { 0.5 + 0.3 * std::sin(3 * p[0] + p[1]) + 0.03 * std::sin(40 * p[2]),
+    0.5 + 0.2 * p[2] + 0.03 * std::sin(35 * p[0] + 20 * p[1]), 0.4 + 0.2 * std::cos(4 * p[1]) };
+}
+
+/// What a scanner makes of a colour.
+Vec3 Seen(Index scan, const Vec3& color)
+{
+  const double gain[] = { 1.0, 0.92, 1.07, 0.95, 1.04 };
+  const double offset[] = { 0.0, 0.12, -0.15, 0.2, -0.05 };
+  return gain[scan] * color + Vec3(offset[scan], -offset[scan], 0.5 * offset[scan]);
+}
+
+std::unique_ptr<FiniteElementSpace> Build(const TriangleMesh& mesh, bool isOnHats, int depth,
+  bool isAware = true, bool welds = true, int threads = 0)
+{
+  GridSpaceOptions options;
+  options.functions.depth = depth;
+  options.functions.connectivityAware = isAware;
+  options.functions.weldCoincidentPoints = welds;
+  options.functions.threads = threads;
+  options.normalStabilization = 1e-2;
+  const HatSpace hats = BuildHatSpace(mesh, options);
+  return isOnHats ? hats.Copy() : hats.Grid().Copy();
+}
+
+StitchOptions Options(int threads = 0)
+{
+  StitchOptions options;
+  options.multigrid.threads = threads;
+  options.solve.tolerance = 1e-6;
+  return options;
+}
+
+/// A mesh in five scans with their colours at its points.
+struct Scans
+{
+  explicit Scans(TriangleMesh scanned) : mesh(std::move(scanned))
+  {
+    colors.values.resize(static_cast<Id>(mesh.points.size()), 3);
+    for (Id i = 0; i < colors.values.rows(); ++i)
+    {
+      labels.values.push_back(ScanAt(mesh.points[i]));
+      SetRow(colors.values, i, Seen(labels.values.back(), ColorAt(mesh.points[i])));
+    }
+  }
+
+  TriangleMesh mesh;
+  ScanLabels labels;
+  Field colors;
+};
+
+/// Root mean square over the edges of triangles whose ends are of different scans (or of the same
+/// one), of the difference of a column's values at the ends.
+double EdgeDifference(const Scans& scans, const MultiVector& values, bool isSeam)
+{
+  double sum = 0.0;
+  Id edges = 0;
+  for (const auto& corner : scans.mesh.triangles)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const Id a = corner[k];
+      const Id b = corner[(k + 1) % 3];
+      if ((scans.labels.values[a] != scans.labels.values[b]) == isSeam)
+      {
+        sum += (values.row(a) - values.row(b)).squaredNorm();
+        ++edges;
+      }
+    }
+  }
+  return std::sqrt(sum / double(edges));
+}
+
+StitchedColors Stitch(
+  const Scans& scans, bool isOnHats, int depth, const StitchOptions& options, bool isAware = true)
+{
+  const ScanCut cut = CutAtSeams(scans.mesh, scans.labels, scans.colors.association);
+  const int threads = options.multigrid.threads;
+  const auto space = Build(scans.mesh, isOnHats, depth, isAware, true, threads);
+  const auto details = Build(cut.pieces, false, depth, true, false, threads);
+  return StitchColors(*space, scans.mesh, cut, scans.colors, options, details.get(), Job(threads));
+}
+
+class Stitching : public ::testing::TestWithParam<bool>
+{
+};
+
+} // namespace
+
+TEST_P(Stitching, RemovesJumpsAndKeepsGradients)
+{
+  const Scans scans(Transform(GeodesicSphere(50), { 1, 2, 3 }, 0.3));
+  const StitchedColors stitched = Stitch(scans, GetParam(), 5, Options());
+  EXPECT_TRUE(stitched.report.converged);
+  // What the colours themselves change along an edge is no jump.
+  MultiVector truth = scans.colors.values;
+  for (Id i = 0; i < truth.rows(); ++i)
+  {
+    SetRow(truth, i, ColorAt(scans.mesh.points[i]));
+  }
+  const double before = EdgeDifference(scans, scans.colors.values - truth, true);
+  const double after = EdgeDifference(scans, stitched.values - truth, true);
+  EXPECT_LT(after, 0.1 * before);
+  const double change = EdgeDifference(scans, stitched.values - scans.colors.values, false);
+  EXPECT_LT(change, 0.05 * EdgeDifference(scans, scans.colors.values, false));
+}
+
+TEST_P(Stitching, OfOneScanChangesNothing)
+{
+  Scans scans(GeodesicSphere(12));
+  std::fill(scans.labels.values.begin(), scans.labels.values.end(), 7);
+  const StitchedColors stitched = Stitch(scans, GetParam(), 4, Options());
+  // On the grid the change is what it cannot show, smoothed: 1 % of the details' 0.03.
+  EXPECT_LT(
+    (stitched.values - scans.colors.values).cwiseAbs().maxCoeff(), GetParam() ? 1e-4 : 0.01);
+}
+
+INSTANTIATE_TEST_SUITE_P(BothSpaces, Stitching, ::testing::Bool());

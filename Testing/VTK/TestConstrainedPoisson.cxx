@@ -1,0 +1,194 @@
+// Screened Poisson where values are unknown, weighed or held exactly.
+#include "FilterSupport.h"
+
+#include "vtkScreenedPoisson.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+
+/// In one of 26 caps around the axes, edges and corners of a cube, which cover a fifth of a sphere.
+bool IsInHole(const Vec3& p)
+{
+  const double cosine = 1.0 - 2.0 * 0.2 / 26.0;
+  for (int k = 0; k < 27; ++k)
+  {
+    const Vec3 middle(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+    if (middle.norm() > 0.0 && middle.normalized().dot(p.normalized()) > cosine)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+class ConstrainedPoisson : public ::testing::TestWithParam<int>
+{
+protected:
+  ConstrainedPoisson()
+    : input(ToPolyData(Transform(GeodesicSphere(40), { 1, 2, 3 }, 0.1))), messages(filter)
+  {
+    AddPointArray(input, "f", 2, [](const Vec3& p, int c) { return 5.0 + p[c]; });
+    AddPointArray(
+      input, "holes", 2, [](const Vec3& p, int c) { return IsInHole(p) ? NaN : 5.0 + p[c]; });
+    filter->SetFunctionSpace(this->GetParam());
+    filter->SetDepth(5);
+    filter->SetNormalStabilization(1e-2);
+    filter->SetScreeningWeight(1e4);
+    filter->SetInputData(input);
+    filter->SetInputArrayToProcess(0, 0, 0, Points, "f");
+  }
+
+  std::vector<double> Solution()
+  {
+    filter->Update();
+    return PointValues(filter->GetOutput(), "Solution");
+  }
+
+  void ExpectRefused(const std::string& reason)
+  {
+    messages.errors.clear();
+    filter->Modified();
+    EXPECT_EQ(filter->GetExecutive()->Update(), 0);
+    ASSERT_EQ(messages.errors.size(), 1u) << reason;
+    EXPECT_NE(messages.errors[0].find(reason), std::string::npos) << messages.errors[0];
+  }
+
+  vtkSmartPointer<vtkPolyData> input;
+  vtkNew<vtkScreenedPoisson> filter;
+  Messages messages;
+};
+
+} // namespace
+
+TEST_P(ConstrainedPoisson, FillsHolesOfASmoothField)
+{
+  filter->SetInputArrayToProcess(0, 0, 0, Points, "holes");
+  filter->FillUnknownOn();
+  const auto filled = this->Solution();
+  // Of a range of 2; harmonic in a hole of radius r: r² / 4 of the Laplacian 2 x.
+  EXPECT_LT(Difference(filled, PointValues(input, "f")), 0.02 * 2.0);
+  EXPECT_TRUE(messages.warnings.empty()) << messages.warnings[0];
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 1);
+}
+
+TEST_P(ConstrainedPoisson, UnknownIsAWeightOfZeroOnTheTriangles)
+{
+  filter->SetInputArrayToProcess(0, 0, 0, Points, "holes");
+  filter->FillUnknownOn();
+  const auto filled = this->Solution();
+  vtkNew<vtkDoubleArray> weight;
+  weight->SetName("weight");
+  for (vtkIdType cell = 0; cell < input->GetNumberOfCells(); ++cell)
+  {
+    vtkIdType size;
+    const vtkIdType* corner;
+    input->GetCellPoints(cell, size, corner);
+    weight->InsertNextValue(1.0);
+    for (int k = 0; k < 3; ++k)
+    {
+      if (IsInHole(Vec3(input->GetPoint(corner[k]))))
+      {
+        weight->SetValue(cell, 0.0);
+      }
+    }
+  }
+  input->GetCellData()->AddArray(weight);
+  filter->FillUnknownOff();
+  filter->SetInputArrayToProcess(0, 0, 0, Points, "f");
+  filter->SetInputArrayToProcess(3, 0, 0, Cells, "weight");
+  EXPECT_LT(Difference(this->Solution(), filled), 1e-9);
+}
+
+TEST_P(ConstrainedPoisson, WeightsOfOneChangeNothing)
+{
+  filter->SetTolerance(1e-9);
+  filter->SetScreeningWeight(100.0);
+  const auto plain = this->Solution();
+  AddPointArray(input, "weight", 1, [](const Vec3&, int) { return 1.0; });
+  filter->SetInputArrayToProcess(3, 0, 0, Points, "weight");
+  const auto weighed = this->Solution();
+  EXPECT_LT(Difference(weighed, plain), 1e-7);
+  // The same factor on the weights as on the screening weight.
+  AddPointArray(input, "ten", 1, [](const Vec3&, int) { return 10.0; });
+  filter->SetScreeningWeight(10.0);
+  filter->SetInputArrayToProcess(3, 0, 0, Points, "ten");
+  EXPECT_LT(Difference(this->Solution(), plain), 1e-7);
+}
+
+TEST_P(ConstrainedPoisson, HoldsValuesExactly)
+{
+  filter->SetScreeningWeight(10.0); // smooths much
+  AddPointArray(input, "mask", 1, [](const Vec3& p, int) { return std::abs(p[2]) > 0.98; });
+  const auto free = this->Solution();
+  filter->SetInputArrayToProcess(4, 0, 0, Points, "mask");
+  const auto held = this->Solution();
+  const auto given = PointValues(input, "f");
+  const auto mask = PointValues(input, "mask");
+  double before = 0.0;
+  double after = 0.0;
+  for (std::size_t k = 0; k < given.size(); ++k)
+  {
+    before = std::max(before, mask[k / 2] * std::abs(free[k] - given[k]));
+    after = std::max(after, mask[k / 2] * std::abs(held[k] - given[k]));
+  }
+  EXPECT_GT(before, 0.02);
+  // On the grid there are more points in a cell than functions.
+  EXPECT_LT(after, this->GetParam() == vtkSurfaceFEMAlgorithm::Grid ? 2e-3 : 2e-6);
+  EXPECT_NEAR(FieldValue(filter->GetOutput(), "Misfit"), after, 1e-9);
+}
+
+TEST_P(ConstrainedPoisson, SaysWhereNothingIsKnown)
+{
+  const TriangleMesh one = GeodesicSphere(6);
+  const auto two = ToPolyData(Join(one, Transform(one, { 1, 0, 0 }, 0.0, 1.0, { 5, 0, 0 })));
+  AddPointArray(two, "f", 1, [](const Vec3& p, int) { return p[0] < 2.0 ? p[1] : NaN; });
+  AddPointArray(two, "g", 1, [](const Vec3& p, int) { return p[0] < 2.0 ? p[1] : 3.0; });
+  AddPointArray(two, "weight", 1, [](const Vec3& p, int) { return p[0] < 2.0 ? 1.0 : 0.0; });
+  filter->SetInputData(two);
+  filter->FillUnknownOn();
+  const auto unknown = this->Solution();
+  ASSERT_EQ(messages.warnings.size(), 1u);
+  EXPECT_NE(messages.warnings[0].find("1 of 2 connected"), std::string::npos);
+  filter->SetInputArrayToProcess(0, 0, 0, Points, "g");
+  filter->SetInputArrayToProcess(3, 0, 0, Points, "weight");
+  const auto mean = this->Solution();
+  for (std::size_t k = 0; k < unknown.size(); ++k)
+  {
+    const bool isFirst = k < one.points.size();
+    ASSERT_EQ(std::isnan(unknown[k]), !isFirst);
+    ASSERT_NEAR(mean[k], isFirst ? unknown[k] : 3.0, 1e-9);
+  }
+}
+
+TEST_P(ConstrainedPoisson, RefusesWhatItCannotUse)
+{
+  filter->SetInputArrayToProcess(0, 0, 0, Points, "holes");
+  this->ExpectRefused("NaN"); // FillUnknown is off
+  filter->FillUnknownOn();
+  filter->SetIteration(vtkScreenedPoisson::Cycles);
+  this->ExpectRefused("ConjugateGradients");
+  filter->SetIteration(vtkScreenedPoisson::ConjugateGradients);
+  AddPointArray(input, "negative", 1, [](const Vec3& p, int) { return p[0]; });
+  filter->SetInputArrayToProcess(3, 0, 0, Points, "negative");
+  this->ExpectRefused("0 or more");
+  filter->SetInputArrayToProcess(3, 0, 0, Points, "f");
+  this->ExpectRefused("one component");
+  filter->SetInputArrayToProcess(3, 0, 0, Points, "None");
+  filter->SetInputArrayToProcess(4, 0, 0, Points, "f");
+  this->ExpectRefused("one component");
+  AddPointArray(input, "zero", 1, [](const Vec3&, int) { return 0.0; });
+  filter->SetInputArrayToProcess(4, 0, 0, Points, "zero");
+  this->ExpectRefused("masked");
+}
+
+INSTANTIATE_TEST_SUITE_P(BothSpaces, ConstrainedPoisson,
+  ::testing::Values(int(vtkSurfaceFEMAlgorithm::Grid), int(vtkSurfaceFEMAlgorithm::HatFunctions)));

@@ -1,0 +1,317 @@
+// Harmonic Interpolation as a user of VTK sees it.
+#include "FilterSupport.h"
+
+#include "vtkConnectivityAwareBasis.h"
+#include "vtkHarmonicInterpolation.h"
+
+#include "vtkFloatArray.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+
+vtkSmartPointer<vtkHarmonicInterpolation> Interpolate(vtkPolyData* data, const char* values)
+{
+  auto filter = vtkSmartPointer<vtkHarmonicInterpolation>::New();
+  filter->SetInputData(data);
+  filter->SetInputArrayToProcess(0, 0, 0, Points, values);
+  filter->SetDepth(5);
+  return filter;
+}
+
+/// A ring between the radii 1 and e, flat but turned.
+vtkSmartPointer<vtkPolyData> Ring(int around, int across)
+{
+  TriangleMesh mesh = FlatRectangle(around, across);
+  for (Vec3& p : mesh.points)
+  {
+    const double angle = 2.0 * EIGEN_PI * p[0];
+    p = std::exp(p[1]) * Vec3(std::cos(angle), std::sin(angle), 0.0);
+  }
+  // The ends of the strip meet to rounding.
+  for (int j = 0; j <= across; ++j)
+  {
+    mesh.points[j * (around + 1) + around] = mesh.points[j * (around + 1)];
+  }
+  return ToPolyData(Transform(mesh, { 1, 2, 3 }, 0.3));
+}
+
+class HarmonicInterpolation : public ::testing::TestWithParam<int>
+{
+};
+
+} // namespace
+
+/// Between two circles the harmonic function is the logarithm of the radius.
+TEST_P(HarmonicInterpolation, OfTwoCirclesIsTheLogarithm)
+{
+  const auto ring = Ring(120, 20);
+  AddPointArray(ring, "Known", 1,
+    [](const Vec3& p, int)
+    {
+      const double r = std::log(p.norm());
+      return r < 1e-6 || r > 1.0 - 1e-6 ? 3.0 + 2.0 * r : NaN;
+    });
+  const auto filter = Interpolate(ring, "Known");
+  filter->SetFunctionSpace(this->GetParam());
+  filter->Update();
+  const auto found = PointValues(filter->GetOutput(), "Interpolated");
+  double square = 0.0;
+  for (vtkIdType k = 0; k < ring->GetNumberOfPoints(); ++k)
+  {
+    square += std::pow(found[k] - 3.0 - 2.0 * std::log(Vec3(ring->GetPoint(k)).norm()), 2);
+  }
+  EXPECT_LT(std::sqrt(square / double(found.size())), 0.005); // of a range of 2
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 1);
+}
+
+/// From the poles of a sphere: log tan of half the polar angle, cut off near the poles where the
+/// resolution ends; its level 0 is the equator.
+TEST_P(HarmonicInterpolation, OfTwoPolesIsOddAndMonotonous)
+{
+  const auto sphere = ToPolyData(GeodesicSphere(24));
+  AddPointArray(sphere, "Value", 1, [](const Vec3& p, int) { return p[2]; });
+  AddPointArray(
+    sphere, "Mask", 1, [](const Vec3& p, int) { return std::abs(p[2]) > 0.9999 ? 1.0 : 0.0; });
+  const auto filter = Interpolate(sphere, "Value");
+  filter->SetFunctionSpace(this->GetParam());
+  filter->SetInputArrayToProcess(1, 0, 0, Points, "Mask");
+  filter->Update();
+  const auto found = PointValues(filter->GetOutput(), "Interpolated");
+  const auto known = PointValues(sphere, "Value");
+  double scale = 0.0; // of log((1 + z) / (1 - z)), by least squares
+  double size = 0.0;
+  for (std::size_t k = 0; k < found.size(); ++k)
+  {
+    if (std::abs(known[k]) < 0.8)
+    {
+      const double exact = std::log((1.0 + known[k]) / (1.0 - known[k]));
+      scale += exact * found[k];
+      size += exact * exact;
+    }
+  }
+  scale /= size;
+  for (std::size_t k = 0; k < found.size(); ++k)
+  {
+    EXPECT_LE(std::abs(found[k]), 1.0 + 1e-6);
+    if (std::abs(known[k]) > 0.9999)
+    {
+      EXPECT_NEAR(found[k], known[k], 2e-6);
+    }
+    if (std::abs(known[k]) < 0.8)
+    {
+      EXPECT_NEAR(found[k], scale * std::log((1.0 + known[k]) / (1.0 - known[k])), 0.01);
+    }
+  }
+}
+
+/// On a sphere x, y and z are eigenfunctions: the biharmonic function through samples of one comes
+/// near it, a harmonic one does not.
+TEST_P(HarmonicInterpolation, BiharmonicFunctionsFollowSmoothOnes)
+{
+  const auto sphere = ToPolyData(Transform(GeodesicSphere(24), { 1, 2, 3 }, 0.2));
+  AddPointArray(sphere, "Value", 2, [](const Vec3& p, int c) { return 1.0 + p[c]; });
+  auto* mask = AddPointArray(sphere, "Mask", 1, [](const Vec3&, int) { return 0.0; });
+  for (vtkIdType k = 0; k < sphere->GetNumberOfPoints(); k += 47)
+  {
+    mask->SetValue(k, 1.0);
+  }
+  double error[2];
+  for (const int smoothness : { 0, 1 })
+  {
+    const auto filter = Interpolate(sphere, "Value");
+    filter->SetFunctionSpace(this->GetParam());
+    filter->SetInputArrayToProcess(1, 0, 0, Points, "Mask");
+    filter->SetSmoothness(smoothness);
+    filter->SetTolerance(1e-8);
+    filter->Update();
+    const auto found = PointValues(filter->GetOutput(), "Interpolated");
+    error[smoothness] = Difference(found, PointValues(sphere, "Value"));
+    EXPECT_LT(FieldValue(filter->GetOutput(), "Misfit"), 2e-4);
+  }
+  EXPECT_GT(error[0], 0.1);
+  EXPECT_LT(error[1], 0.05);
+}
+
+TEST_P(HarmonicInterpolation, TakesPointsOfAnotherDataSet)
+{
+  const auto sphere = ToPolyData(GeodesicSphere(12));
+  AddPointArray(sphere, "Value", 3, [](const Vec3& p, int c) { return p[c]; });
+  AddPointArray(
+    sphere, "Mask", 1, [](const Vec3& p, int) { return p.cwiseAbs().maxCoeff() > 0.9999; });
+  const auto by_mask = Interpolate(sphere, "Value");
+  by_mask->SetInputArrayToProcess(1, 0, 0, Points, "Mask");
+  by_mask->SetFunctionSpace(this->GetParam());
+  by_mask->Update();
+
+  vtkNew<vtkPolyData> places; // near the six corners, off the surface
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkFloatArray> color;
+  color->SetName("Color");
+  color->SetNumberOfComponents(3);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (const double sign : { -1.0, 1.0 })
+    {
+      const Vec3 p = sign * Vec3::Unit(axis);
+      points->InsertNextPoint((1.3 * p).eval().data());
+      color->InsertNextTuple(p.data());
+    }
+  }
+  places->SetPoints(points);
+  places->GetPointData()->AddArray(color);
+  const auto by_place = Interpolate(sphere, "None");
+  by_place->SetInputData(2, places);
+  by_place->SetInputArrayToProcess(2, 2, 0, Points, "Color");
+  by_place->SetFunctionSpace(this->GetParam());
+  by_place->Update();
+  EXPECT_LT(Difference(PointValues(by_place->GetOutput(), "Interpolated"),
+              PointValues(by_mask->GetOutput(), "Interpolated")),
+    1e-6); // in single precision
+}
+
+INSTANTIATE_TEST_SUITE_P(BothSpaces, HarmonicInterpolation,
+  ::testing::Values(int(vtkSurfaceFEMAlgorithm::Grid), int(vtkSurfaceFEMAlgorithm::HatFunctions)));
+
+TEST(HarmonicInterpolationFilter, LeavesComponentsWithoutAValueAndSaysSo)
+{
+  const TriangleMesh one = GeodesicSphere(6);
+  const auto data = ToPolyData(Join(one, Transform(one, { 1, 0, 0 }, 0.0, 1.0, { 5.0, 0.0, 0.0 })));
+  AddPointArray(data, "Value", 1, [](const Vec3& p, int) { return p[0] < 2 ? p[1] : NaN; });
+  const auto filter = Interpolate(data, "Value");
+  Messages messages(filter);
+  filter->Update();
+  ASSERT_EQ(messages.warnings.size(), 1u);
+  EXPECT_NE(messages.warnings[0].find("1 of 2 connected"), std::string::npos);
+  const auto found = PointValues(filter->GetOutput(), "Interpolated");
+  for (std::size_t k = 0; k < found.size(); ++k)
+  {
+    ASSERT_EQ(std::isnan(found[k]), k >= one.points.size());
+  }
+}
+
+TEST(HarmonicInterpolationFilter, SaysWhereValuesContradictEachOther)
+{
+  const auto sphere = ToPolyData(GeodesicSphere(8));
+  vtkNew<vtkPolyData> places;
+  vtkNew<vtkPoints> points;
+  const double north[3] = { 0, 0, 1 };
+  const double above[3] = { 0, 0, 1.1 };
+  const double south[3] = { 0, 0, -1 };
+  points->InsertNextPoint(north);
+  points->InsertNextPoint(above);
+  points->InsertNextPoint(south);
+  places->SetPoints(points);
+  auto* value = AddPointArray(places, "Value", 1, [](const Vec3&, int) { return 0.0; });
+  value->SetValue(0, 1.0);
+  value->SetValue(1, 3.0);
+  const auto filter = Interpolate(sphere, "None");
+  filter->SetInputData(2, places);
+  filter->SetInputArrayToProcess(2, 2, 0, Points, "Value");
+  Messages messages(filter);
+  filter->Update();
+  ASSERT_EQ(messages.warnings.size(), 1u);
+  EXPECT_NE(messages.warnings[0].find("contradict"), std::string::npos);
+  EXPECT_NEAR(FieldValue(filter->GetOutput(), "Misfit"), 1.0, 1e-3);
+}
+
+TEST(HarmonicInterpolationFilter, RunsOnlyWhatHasChangedAndTakesASharedBasis)
+{
+  const auto sphere = ToPolyData(GeodesicSphere(12));
+  auto* value =
+    AddPointArray(sphere, "Value", 1, [](const Vec3& p, int) { return p[2] > 0.9 ? p[0] : NaN; });
+  vtkNew<vtkConnectivityAwareBasis> basis;
+  basis->SetInputData(sphere);
+  basis->SetDepth(4);
+  const auto filter = Interpolate(sphere, "Value");
+  filter->SetBasisConnection(basis->GetOutputPort());
+  filter->Update();
+  filter->Modified();
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfRuns("Solve"), 1);
+  value->SetValue(0, 7.0);
+  value->Modified();
+  filter->Modified();
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfRuns("Solve"), 2);
+  EXPECT_EQ(filter->GetNumberOfRuns("Space"), 1);
+}
+
+TEST(HarmonicInterpolationFilter, RefusesWhatItCannotUse)
+{
+  const auto sphere = ToPolyData(GeodesicSphere(8));
+  AddPointArray(sphere, "Value", 1, [](const Vec3& p, int) { return p[2]; });
+  AddPointArray(sphere, "Nothing", 1, [](const Vec3&, int) { return NaN; });
+  AddPointArray(
+    sphere, "Infinite", 1, [](const Vec3& p, int) { return 1.0 / std::max(p[2], 0.0); });
+  AddPointArray(sphere, "Vector", 3, [](const Vec3& p, int c) { return p[c]; });
+  AddPointArray(sphere, "Zero", 1, [](const Vec3&, int) { return 0.0; });
+  const auto expectRefused =
+    [&](const char* values, const char* mask, const char* reason, int smoothness = 0)
+  {
+    const auto filter = Interpolate(sphere, values);
+    filter->SetInputArrayToProcess(1, 0, 0, Points, mask);
+    filter->SetSmoothness(smoothness);
+    Messages messages(filter);
+    EXPECT_EQ(filter->GetExecutive()->Update(), 0) << reason;
+    ASSERT_EQ(messages.errors.size(), 1u) << reason;
+    EXPECT_NE(messages.errors[0].find(reason), std::string::npos) << messages.errors[0];
+    EXPECT_TRUE(IsEmptyData(filter->GetOutput()));
+  };
+  expectRefused("None", "None", "Choose a ValueArray");
+  expectRefused("Nothing", "None", "all are NaN");
+  expectRefused("Infinite", "None", "not finite");
+  expectRefused("Value", "Zero", "masked");
+  expectRefused("Value", "Vector", "one component");
+  expectRefused("Value", "None", "at most", 1); // 258 points
+
+  vtkNew<vtkPolyData> nothing;
+  vtkNew<vtkPoints> points;
+  nothing->SetPoints(points);
+  AddPointArray(nothing, "Value", 1, [](const Vec3&, int) { return 0.0; });
+  const auto filter = Interpolate(sphere, "Value");
+  filter->SetInputData(2, nothing);
+  filter->SetInputArrayToProcess(2, 2, 0, Points, "Value");
+  Messages messages(filter);
+  EXPECT_EQ(filter->GetExecutive()->Update(), 0);
+  ASSERT_EQ(messages.errors.size(), 1u);
+  EXPECT_NE(messages.errors[0].find("no points"), std::string::npos) << messages.errors[0];
+}
+
+TEST(HarmonicInterpolationFilter, EmptyInputAndAbortGiveEmptyOutputs)
+{
+  const auto sphere = ToPolyData(GeodesicSphere(8));
+  AddPointArray(sphere, "Value", 1, [](const Vec3& p, int) { return p[2] > 0.5 ? p[0] : NaN; });
+  const auto filter = Interpolate(sphere, "Value");
+  vtkNew<vtkPolyData> empty;
+  filter->SetInputData(empty);
+  Messages messages(filter);
+  EXPECT_EQ(filter->GetExecutive()->Update(), 1);
+  EXPECT_TRUE(messages.errors.empty() && IsEmptyData(filter->GetOutput()));
+  vtkNew<vtkCallbackCommand> abortLate;
+  abortLate->SetCallback(
+    [](vtkObject* caller, unsigned long, void*, void* progress)
+    {
+      if (*static_cast<double*>(progress) > 0.7)
+      {
+        vtkAlgorithm::SafeDownCast(caller)->AbortExecuteOn();
+        caller->RemoveObservers(vtkCommand::ProgressEvent);
+      }
+    });
+  filter->AddObserver(vtkCommand::ProgressEvent, abortLate);
+  filter->SetInputData(sphere);
+  EXPECT_EQ(filter->GetExecutive()->Update(), 1);
+  EXPECT_TRUE(messages.errors.empty() && IsEmptyData(filter->GetOutput()));
+  filter->Modified();
+  EXPECT_EQ(filter->GetExecutive()->Update(), 1); // nothing half done is left
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), sphere->GetNumberOfPoints());
+}
