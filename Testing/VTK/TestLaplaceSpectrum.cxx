@@ -178,6 +178,29 @@ TEST_F(LaplaceSpectrum, MoreModesThanMemoryHoldsAreRefusedWithTheEstimate)
   EXPECT_NE(messages.errors[0].find("NumberOfModes 100000"), std::string::npos);
 }
 
+TEST_F(LaplaceSpectrum, ManyModesAnnounceWhatTheyCostAndCanBeAborted)
+{
+  filter->SetInputData(ToPolyData(GeodesicSphere(16)));
+  filter->SetDepth(6); // about 20,000 functions
+  filter->SetNumberOfModes(15000);
+  filter->SetNumberOfThreads(1);
+  vtkNew<vtkCallbackCommand> abort;
+  abort->SetCallback(
+    [](vtkObject* caller, unsigned long, void*, void*)
+    {
+      auto* algorithm = static_cast<vtkAlgorithm*>(caller);
+      algorithm->SetAbortExecute(algorithm->GetProgress() > 0.5); // the solve has begun
+    });
+  filter->AddObserver(vtkCommand::ProgressEvent, abort);
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+  ASSERT_EQ(messages.warnings.size(), 1u);
+  EXPECT_NE(messages.warnings[0].find("15000 modes of"), std::string::npos);
+  EXPECT_NE(messages.warnings[0].find("hours"), std::string::npos);
+  ASSERT_TRUE(filter->GetProgressText());
+  EXPECT_NE(std::string(filter->GetProgressText()).find("hours"), std::string::npos);
+}
+
 TEST_F(LaplaceSpectrum, NotConvergedWarnsAndKeepsTheResult)
 {
   filter->SetTolerance(1e-16);

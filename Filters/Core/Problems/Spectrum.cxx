@@ -409,4 +409,11 @@ double EstimateSpectrumMemory(Id functions, Id modes, int threads)
          products;
 }
 
+double EstimateSpectrumSeconds(Id functions, Id modes, int threads)
+{
+  constexpr double secondsOfOneThread = 1e-9; // per function and pair of modes (Testing/Benchmarks)
+  const double columns = double(std::min(functions, modes));
+  return secondsOfOneThread * double(functions) * columns * columns / NumberOfThreads(threads);
+}
+
 } // namespace gridfem

@@ -65,6 +65,10 @@ Spectrum FinishSpectrum(const FiniteElementSpace& space, Spectrum nested,
 /// single precision: within a fifth, from 20 to 1,000 modes.
 double EstimateSpectrumMemory(Id functions, Id modes, int threads = 0);
 
+/// Seconds that it takes from a hundred modes on, on a processor of 2023: what grows with the
+/// square of the number of modes. Within a factor of three.
+double EstimateSpectrumSeconds(Id functions, Id modes, int threads = 0);
+
 } // namespace gridfem
 
 #endif

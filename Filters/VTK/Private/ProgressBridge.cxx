@@ -17,6 +17,17 @@ void ProgressBridge::Restart()
 {
   lastReport_ = Clock::time_point::min();
   furthest_ = 0.0;
+  algorithm_->SetProgressText(nullptr);
+}
+
+void ProgressBridge::Say(const std::string& text)
+{
+  algorithm_->SetProgressText(text.c_str());
+}
+
+void ProgressBridge::Warn(const std::string& text)
+{
+  vtkWarningWithObjectMacro(algorithm_, << text);
 }
 
 Progress ProgressBridge::GetProgress()

@@ -5,6 +5,7 @@
 #include "Base/Progress.h"
 
 #include <chrono>
+#include <string>
 
 class vtkAlgorithm;
 
@@ -21,6 +22,12 @@ public:
 
   /// A new run starts: the next report is passed on at once.
   void Restart();
+
+  /// What is shown beside the progress, until the next run.
+  void Say(const std::string& text);
+
+  /// A warning of the algorithm.
+  void Warn(const std::string& text);
 
   /// Refers to this bridge, which has to live as long.
   Progress GetProgress();

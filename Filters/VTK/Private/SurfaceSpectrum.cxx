@@ -10,6 +10,8 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <iomanip>
+#include <sstream>
 
 namespace gridfem
 {
@@ -54,6 +56,27 @@ Id NumberOfUnknowns(const FiniteElementSpace& space)
   return space.NumberOfFunctions(0) + (space.NestedLevels() ? space.NumberOfFunctions(1) : 0);
 }
 
+/// Says the cost of many modes before anything is computed.
+void AnnounceCost(SurfaceSolverState& state, Id functions, Id modes)
+{
+  constexpr double Minute = 60.0;
+  constexpr double Hour = 3600.0;
+  const double seconds = EstimateSpectrumSeconds(functions, modes, state.options.space.threads);
+  if (seconds < Minute)
+  {
+    return;
+  }
+  std::ostringstream text;
+  text << std::setprecision(2) << modes << " modes of " << functions << " functions: about "
+       << (seconds < Hour ? seconds / Minute : seconds / Hour)
+       << (seconds < Hour ? " minutes" : " hours");
+  state.bridge.Say(text.str());
+  if (seconds >= Hour)
+  {
+    state.bridge.Warn(text.str() + ". An abort ends it at any time.");
+  }
+}
+
 } // namespace
 
 double SurfaceSpectrum::LargestResidual() const
@@ -81,6 +104,7 @@ void SurfaceSpectrum::Solve(
     const FiniteElementSpace& space = *state.space;
     RequireMemoryForModes(
       NumberOfUnknowns(space), request.numberOfModes, state.options.multigrid.threads);
+    AnnounceCost(state, NumberOfUnknowns(space), request.numberOfModes);
     SpectrumOptions options = SolverOptions(state, request.numberOfModes);
     options.completeMultiplets = request.completeMultiplets;
     spectrum = {}; // frees its memory first

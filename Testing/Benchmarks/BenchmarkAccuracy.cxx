@@ -1,0 +1,196 @@
+// Solves to the accuracy of the grid beside solves to a tolerance, on all real meshes: iterations,
+// time, the error that is paid for it, and whether the estimates tell the truth. The error of the
+// space is the difference to a grid two levels finer.
+#include "Measure.h"
+#include "Meshes.h"
+#include "Problems/Poisson.h"
+#include "Spaces/GridSpace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+
+namespace
+{
+
+using namespace gridfem;
+using namespace gridfem::benchmarks;
+
+constexpr int Depth = 7;
+constexpr int LargestPoints = 400000; // a grid two levels finer has to fit
+
+std::vector<std::filesystem::path> MeshFiles()
+{
+  std::vector<std::filesystem::path> files;
+  if (const char* folder = std::getenv("GRIDFEM_DATA_DIR"))
+  {
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+    {
+      const std::string extension = entry.path().extension().string();
+      if (extension == ".ply" || extension == ".stl" || extension == ".STL")
+      {
+        files.push_back(entry.path());
+      }
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// A smooth function, or jumps with fine waves, of the place in the bounding cube.
+MultiVector Values(const TriangleMesh& mesh, bool isSmooth)
+{
+  Vec3 low = mesh.points.front();
+  Vec3 high = low;
+  for (const Vec3& point : mesh.points)
+  {
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  MultiVector f(static_cast<Id>(mesh.points.size()), 1);
+  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+  {
+    const Vec3 p = (mesh.points[i] - low) / (high - low).maxCoeff();
+    const double step = std::sin(40 * p[0] + 30 * p[1] * p[2]) > 0 ? 1.0 : -1.0;
+    f(static_cast<Id>(i), 0) = isSmooth ? std::sin(6 * p[0] + 1) * std::cos(5 * p[1]) + p[2] * p[2]
+                                        : step + std::sin(60 * p[2]);
+  }
+  return f;
+}
+
+Eigen::VectorXd AreasOfPoints(const TriangleMesh& mesh)
+{
+  Eigen::VectorXd area = Eigen::VectorXd::Zero(static_cast<Id>(mesh.points.size()));
+  for (const auto& [a, b, c] : mesh.triangles)
+  {
+    const Vec3 normal = (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]);
+    for (const Index point : { a, b, c })
+    {
+      area[point] += normal.norm() / 6.0;
+    }
+  }
+  return area;
+}
+
+struct Answer
+{
+  PoissonSolution solution;
+  MultiVector atPoints;
+  double seconds = 0.0; // of the solve: start and iterations
+};
+
+/// λ = 100 / area.
+Answer Solve(const GridSpace& space, const Field& f, double area, double accuracy, double tolerance)
+{
+  PoissonOptions options;
+  options.screeningWeight = 100.0 / area * std::pow(space.UnitLength(), 2);
+  options.accuracy = accuracy;
+  options.solve.tolerance = tolerance;
+  options.solve.maximumIterations = 300;
+  const Multigrid multigrid =
+    BuildMultigrid(space, options.screeningWeight, 1.0, options.multigrid);
+  const MultiVector load = space.LoadOfValues(f);
+  Answer answer;
+  answer.seconds = 1e300;
+  for (int run = 0; run < 2; ++run) // the first one touches new memory
+  {
+    const Stopwatch watch;
+    answer.solution = SolvePoisson(space, multigrid, load, {}, options);
+    answer.seconds = std::min(answer.seconds, watch.Seconds());
+  }
+  answer.atPoints = space.ValuesAtPoints(answer.solution.coefficients);
+  return answer;
+}
+
+GridSpace SpaceOf(const TriangleMesh& mesh, int depth, double normalStabilization)
+{
+  GridSpaceOptions options;
+  options.functions.depth = depth;
+  options.normalStabilization = normalStabilization;
+  return BuildGridSpace(mesh, options);
+}
+
+struct Result
+{
+  double iterations;
+  double time;  // over that to a tolerance of 1e-6
+  double error; // over that of the discrete solution
+};
+
+/// A row of the table.
+Result Compare(const std::string& name, const TriangleMesh& mesh, bool isSmooth,
+  const GridSpace& space, const GridSpace& finer, const Table& table)
+{
+  const Field f{ FieldAssociation::Points, Values(mesh, isSmooth) };
+  const Eigen::VectorXd areas = AreasOfPoints(mesh);
+  const double area = areas.sum();
+  const MultiVector truth = Solve(finer, f, area, 0.0, 1e-8).atPoints;
+  const Answer accurate = Solve(space, f, area, 0.1, 1e-9);
+  const Answer tolerant = Solve(space, f, area, 0.0, 1e-6);
+  const Answer discrete = Solve(space, f, area, 0.0, 1e-11);
+  const auto norm = [&](const MultiVector& u)
+  { return std::sqrt(areas.dot(u.col(0).cwiseAbs2())); };
+  const double size = norm(truth.array() - areas.dot(truth.col(0)) / area);
+  const double ofSpace = norm(discrete.atPoints - truth);
+  const double left = norm(accurate.atPoints - discrete.atPoints);
+  const Result result{ double(accurate.solution.report.iterations),
+    accurate.seconds / tolerant.seconds, norm(accurate.atPoints - truth) / ofSpace };
+  const SolutionAccuracy& said = accurate.solution.accuracy;
+  table.Row({ name, isSmooth ? "smooth" : "rough", Text("%.1e", ofSpace / size),
+    Text("%.2f", said.discretization * size / ofSpace) + (said.isTrusted ? "" : " ?"),
+    Text("%.3f", left / ofSpace), Text("%.1f", said.algebraic * size / left),
+    Text("%.3f", result.error), Text("%.0f", result.iterations),
+    std::to_string(tolerant.solution.report.iterations), Text("%.2f", result.time) });
+  return result;
+}
+
+double Quantile(std::vector<double> values, double part)
+{
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(part * double(values.size() - 1))];
+}
+
+} // namespace
+
+int main()
+{
+  const std::vector<std::filesystem::path> files = MeshFiles();
+  if (files.empty())
+  {
+    std::printf("There are no meshes: set GRIDFEM_DATA_DIR\n");
+    return 1;
+  }
+  std::printf(
+    "\nDepth %d, lambda = 100 / area, Accuracy 0.1 beside a tolerance of 1e-6; errors in the "
+    "mean square over the points\n",
+    Depth);
+  const Table table({ "mesh", "data", "error of the space", "said", "left / it", "said", "total",
+    "iterations", "to 1e-6", "time / to 1e-6" });
+  std::vector<double> iterations;
+  std::vector<double> times;
+  std::vector<double> errors;
+  for (const std::filesystem::path& file : files)
+  {
+    const TriangleMesh mesh = testing::ReadMesh(file.string());
+    if (mesh.points.size() > LargestPoints)
+    {
+      continue;
+    }
+    const GridSpace space = SpaceOf(mesh, Depth, DefaultNormalStabilization);
+    const GridSpace finer = SpaceOf(mesh, Depth + 2, 1e-2);
+    for (const bool isSmooth : { true, false })
+    {
+      const Result result = Compare(file.stem().string(), mesh, isSmooth, space, finer, table);
+      iterations.push_back(result.iterations);
+      times.push_back(result.time);
+      errors.push_back(result.error);
+    }
+  }
+  PrintAtMost("accuracy_iterations_nine_in_ten", Quantile(iterations, 0.9), 4.0);
+  PrintAtMost("accuracy_iterations_all", Quantile(iterations, 1.0), 8.0);
+  PrintAtMost("accuracy_time_over_tolerance_median", Quantile(times, 0.5), 0.4);
+  PrintAtMost("accuracy_total_error_over_discrete", Quantile(errors, 1.0), 1.1);
+  return 0;
+}
