@@ -58,22 +58,23 @@ class TestPipeline(unittest.TestCase):
     def test_chain_gives_what_one_filter_gives(self):
         clip = simple.ClipToOctree(Input=self.surface, Depth=DEPTH)
         basis = simple.ConnectivityAwareBasis(Input=clip)
-        chained = simple.ScreenedPoisson(Input=basis)
-        alone = simple.ScreenedPoisson(Input=self.surface, Depth=DEPTH)
+        chained = simple.ScreenedPoisson(Input=basis, Tolerance=1e-8)
+        alone = simple.ScreenedPoisson(Input=self.surface, Depth=DEPTH, Tolerance=1e-8)
         # Other triangles, same surface: equal to the tolerance of the solver, 1e-8, and the float
         # coordinates, 1e-7. A basis of another depth is off by 1e-3.
         self.assertLess(self.largest_difference(alone, chained, "Solution"), 1e-6)
 
     def test_two_solvers_share_a_basis(self):
         basis = simple.ConnectivityAwareBasis(Input=self.surface, Depth=DEPTH)
-        poisson = simple.ScreenedPoisson(Input=self.surface, Basis=basis, Depth=7)
+        poisson = simple.ScreenedPoisson(
+            Input=self.surface, Basis=basis, Depth=7, Tolerance=1e-8)
         spectrum = simple.LaplaceSpectrum(Input=self.surface, Basis=basis, Depth=7)
         self.assertEqual(plugin.data(poisson).GetNumberOfPoints(),
                          plugin.data(self.surface).GetNumberOfPoints())
         plugin.data(spectrum)
         systems = plugin.runs(poisson)["System"] + plugin.runs(spectrum)["System"]
         self.assertEqual(systems, 1)
-        alone = simple.ScreenedPoisson(Input=self.surface, Depth=DEPTH)
+        alone = simple.ScreenedPoisson(Input=self.surface, Depth=DEPTH, Tolerance=1e-8)
         self.assertLess(self.largest_difference(alone, poisson, "Solution"), 1e-6)
 
     def test_a_basis_of_another_mesh_is_refused(self):

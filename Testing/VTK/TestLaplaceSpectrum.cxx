@@ -7,6 +7,7 @@
 #include "vtkConnectivityAwareBasis.h"
 #include "vtkLaplaceSpectrum.h"
 
+#include "vtkCallbackCommand.h"
 #include "vtkInformation.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
