@@ -21,6 +21,31 @@
 
 vtkStandardNewMacro(vtkHarmonicInterpolation);
 
+namespace
+{
+
+/// The array chosen for the second data set, else the one chosen for the first, else the active
+/// scalars.
+gridfem::InputArray FindArrayOf(vtkAlgorithm* algorithm, vtkDataSet* values)
+{
+  gridfem::InputArray array = gridfem::FindInputArray(algorithm, 2, values, "SourceArray");
+  if (!array.array)
+  {
+    array = gridfem::FindInputArray(algorithm, 0, values, "ValueArray, of the input Values,");
+  }
+  vtkDataArray* scalars = values->GetPointData()->GetScalars();
+  if (!array.array && scalars)
+  {
+    array.array = scalars;
+    array.name = scalars->GetName() ? scalars->GetName() : "";
+  }
+  gridfem::RequirePointArray(
+    array, "ValueArray", "the input Values has no active scalars to take instead");
+  return array;
+}
+
+} // namespace
+
 struct vtkHarmonicInterpolation::Internals
 {
   gridfem::InputArray Array; // where the values come from
@@ -56,8 +81,7 @@ void vtkHarmonicInterpolation::FindValues(vtkPolyData* input, vtkDataSet* values
   gridfem::GivenValues given;
   if (values)
   {
-    data.Array = gridfem::FindInputArray(this, 2, values, "SourceArray");
-    gridfem::RequirePointArray(data.Array, "SourceArray", "the values of the input Values");
+    data.Array = FindArrayOf(this, values);
     given = gridfem::ValuesOfPlaces(data.Array, *mesh.triangles, values);
   }
   else

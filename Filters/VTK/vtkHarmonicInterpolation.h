@@ -16,8 +16,9 @@
  * - index 0, `ValueArray`: point data of port 0. A tuple with a NaN is unknown.
  * - index 1, `MaskArray` (optional): point data of port 0, one component; where it is 0 or NaN the
  *   value is unknown.
- * - index 2, `SourceArray`: point data of port 2, where that is connected; ValueArray and MaskArray
- *   are not used then.
+ * - index 2 (optional): point data of port 2, where that is connected. Without it the array there
+ *   with the name of ValueArray, or the active scalars when none is chosen. MaskArray is not used
+ *   then.
  * Several values at one point are met in the mean, and the filter warns when they differ.
  *
  * Output port 0 (vtkPolyData): the input with

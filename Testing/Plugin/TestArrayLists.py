@@ -39,7 +39,6 @@ EXPECTED = {
     ("StitchColors", "LabelArray"): {"None", "p1", "c1"},
     ("HarmonicInterpolation", "ValueArray"): {"None", "Normals", "p1", "p3", "p4", "p9"},
     ("HarmonicInterpolation", "MaskArray"): {"None", "p1"},
-    ("HarmonicInterpolation", "SourceArray"): {"None"},
     ("SurfaceGradient", "Array"): ANY,
     ("SpectralSignatures", "ValueArray"): {"None", "Normals", "p1", "p3", "p4", "p9"}}
 
