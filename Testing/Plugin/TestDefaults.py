@@ -16,7 +16,7 @@ INFORMATION = {"TimestepValues"}
 LISTS = {"SourcePointIds"}
 
 # The class does not clamp these but refuses what is below, with a message.
-REFUSED_BELOW = {"ScreeningWeight": 0, "Mode": -1, "DiffusionTime": 0}
+REFUSED_BELOW = {"ScreeningWeight": 0, "Mode": -1, "DiffusionTime": 0, "SmoothingScale": 0}
 
 
 class TestDefaults(unittest.TestCase):

@@ -37,6 +37,7 @@ class TestPipeline(unittest.TestCase):
             "ScreenedPoisson": ["vtkPolyData", "vtkTable"],
             "LaplaceSpectrum": ["vtkPolyData", "vtkTable"],
             "MeanCurvatureFlow": ["vtkPolyData", "vtkTable"],
+            "PrincipalCurvatures": ["vtkPolyData"],
             "SpectralSignatures": ["vtkPolyData", "vtkTable"],
             "SurfaceGradient": ["vtkPolyData"]}
         for name in plugin.PROXIES:
