@@ -3,9 +3,7 @@
 #include "Private/InputMesh.h"
 #include "Private/InputValidation.h"
 #include "Private/SolverOutput.h"
-#include "Private/SurfaceSolverState.h"
-
-#include "Problems/PrincipalCurvatures.h"
+#include "Private/SurfaceCurvatures.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -14,26 +12,12 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 vtkStandardNewMacro(vtkPrincipalCurvatures);
 
 namespace
 {
-
-/// The triangles around the points, in units of the mesh's longest side.
-gridfem::HatFunctions TrianglesAroundPoints(
-  const gridfem::TriangleMesh& mesh, bool weldCoincidentPoints, int threads)
-{
-  const gridfem::Bounds bounds =
-    gridfem::BoundsOf(mesh.points, gridfem::UsedPoints(mesh, threads), threads);
-  gridfem::HatOptions options;
-  options.weldCoincidentPoints = weldCoincidentPoints;
-  options.unitLength = (bounds.high - bounds.low).maxCoeff();
-  options.threads = threads;
-  return gridfem::NumberHatFunctions(mesh, options);
-}
 
 /// All arrays, but for the directions, in the order of their names below.
 gridfem::MultiVector Numbers(const gridfem::PrincipalCurvatures& curvatures)
@@ -126,23 +110,8 @@ void vtkPrincipalCurvatures::Fit(vtkPolyData* input, const gridfem::Progress& pr
     gridfem::RequireSurface(*own.triangles);
   }
   const gridfem::TriangleMesh& mesh = *(isSmoothed ? state.mesh : own).triangles;
-  const gridfem::HatFunctions around =
-    TrianglesAroundPoints(mesh, this->WeldCoincidentPoints, this->NumberOfThreads);
-  gridfem::MultiVector normals = gridfem::PointNormals(mesh, around, this->NumberOfThreads);
-  progress.Check(0.4);
-  if (isSmoothed)
-  {
-    gridfem::NormalSmoothing smoothing;
-    smoothing.scale =
-      state.space->UnitLength() /
-      std::sqrt(state.WeightInGridUnits(1.0 / this->SmoothingScale / this->SmoothingScale));
-    smoothing.multigrid = state.options.multigrid;
-    smoothing.solve = state.options.solve;
-    normals = gridfem::SmoothNormals(
-      *state.space, normals, smoothing, this->Data->Report, state.MakeJob(progress.Part(0.4, 0.8)));
-  }
-  this->Data->Curvatures =
-    gridfem::ComputeCurvatures(mesh, around, normals, state.MakeJob(progress.Part(0.8, 1.0)));
+  this->Data->Curvatures = gridfem::CurvaturesOfSurface(
+    state, mesh, this->SmoothingScale, this->Data->Report, progress.Part(0.3, 1.0));
 }
 
 void vtkPrincipalCurvatures::WriteArrays(vtkPolyData* input, vtkPolyData* output)

@@ -33,6 +33,8 @@ EXPECTED = {
     ("ScreenedPoisson", "ValueArray"): ANY,
     ("ScreenedPoisson", "GradientArray"): {"None", "Normals", "p3", "p9", "c3", "c9"},
     ("ScreenedPoisson", "GradientScaleArray"): {"None", "p1", "c1"},
+    ("SurfaceDetail", "ValueArray"): {"None", "Normals", "p1", "p3", "p4", "p9"},
+    ("SurfaceDetail", "DetailScaleArray"): {"None", "p1", "c1"},
     ("SurfaceGradient", "Array"): ANY,
     ("SpectralSignatures", "ValueArray"): {"None", "Normals", "p1", "p3", "p4", "p9"}}
 

@@ -39,6 +39,7 @@ class TestPipeline(unittest.TestCase):
             "MeanCurvatureFlow": ["vtkPolyData", "vtkTable"],
             "PrincipalCurvatures": ["vtkPolyData"],
             "SpectralSignatures": ["vtkPolyData", "vtkTable"],
+            "SurfaceDetail": ["vtkPolyData"],
             "SurfaceGradient": ["vtkPolyData"]}
         for name in plugin.PROXIES:
             with self.subTest(proxy=name):

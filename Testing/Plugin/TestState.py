@@ -30,15 +30,21 @@ def build():
     both = simple.LaplaceSpectrum(
         Input=values, Depth=4, NumberOfModes=5, Mode=2, FunctionSpace="Hat Functions",
         CompareFunctionSpaces=1)
+    curvatures = simple.PrincipalCurvatures(Input=values, Depth=4, SmoothingScale=0.05)
+    detail = simple.SurfaceDetail(
+        Input=values, Basis=basis, DetailScaleArray=["POINTS", "f"], DetailScale=0.5,
+        TransferFunction="Custom", TransferPoints=[-1, 3, 0.2, 1, 2, 4], KeepVolume=1)
     for name, proxy in (("clip", clip), ("basis", basis), ("poisson", poisson), ("hats", hats),
-                        ("spectrum", spectrum), ("both", both), ("signatures", signatures)):
+                        ("spectrum", spectrum), ("both", both), ("signatures", signatures),
+                        ("curvatures", curvatures), ("detail", detail)):
         simple.RenameSource(name, proxy)
 
 
 def results():
     """Every setting and the range of every point array, to compare before and after."""
     found = {}
-    for name in ("clip", "basis", "poisson", "hats", "spectrum", "both", "signatures"):
+    for name in ("clip", "basis", "poisson", "hats", "spectrum", "both", "signatures",
+                 "curvatures", "detail"):
         proxy = simple.FindSource(name)
         proxy.UpdatePipeline()
         for key in proxy.ListProperties():
