@@ -39,6 +39,8 @@ EXPECTED = {
     ("StitchColors", "LabelArray"): {"None", "p1", "c1"},
     ("HarmonicInterpolation", "ValueArray"): {"None", "Normals", "p1", "p3", "p4", "p9"},
     ("HarmonicInterpolation", "MaskArray"): {"None", "p1"},
+    ("SurfaceDetail", "ValueArray"): {"None", "Normals", "p1", "p3", "p4", "p9"},
+    ("SurfaceDetail", "DetailScaleArray"): {"None", "p1", "c1"},
     ("SurfaceGradient", "Array"): ANY,
     ("SpectralSignatures", "ValueArray"): {"None", "Normals", "p1", "p3", "p4", "p9"}}
 

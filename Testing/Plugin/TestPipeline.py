@@ -37,9 +37,11 @@ class TestPipeline(unittest.TestCase):
             "ScreenedPoisson": ["vtkPolyData", "vtkTable"],
             "LaplaceSpectrum": ["vtkPolyData", "vtkTable"],
             "MeanCurvatureFlow": ["vtkPolyData", "vtkTable"],
+            "PrincipalCurvatures": ["vtkPolyData"],
             "SpectralSignatures": ["vtkPolyData", "vtkTable"],
             "StitchColors": ["vtkPolyData"],
             "HarmonicInterpolation": ["vtkPolyData"],
+            "SurfaceDetail": ["vtkPolyData"],
             "SurfaceGradient": ["vtkPolyData"]}
         surface = plugin.with_arrays(self.surface)
         for name in plugin.PROXIES:

@@ -36,16 +36,22 @@ def build():
         KeptMean="Reference Scan", ReferenceLabel=-1, KeepDetails=0)
     spread = simple.HarmonicInterpolation(
         Input=labels, Depth=4, ValueArray=["POINTS", "f"], MaskArray=["POINTS", "label"])
-    for name, proxy in (("stitch", stitch), ("spread", spread), ("clip", clip), ("basis", basis), ("poisson", poisson), ("hats", hats),
-                        ("spectrum", spectrum), ("both", both), ("signatures", signatures)):
+    curvatures = simple.PrincipalCurvatures(Input=values, Depth=4, SmoothingScale=0.05)
+    detail = simple.SurfaceDetail(
+        Input=values, Basis=basis, DetailScaleArray=["POINTS", "f"], DetailScale=0.5,
+        TransferFunction="Custom", TransferPoints=[-1, 3, 0.2, 1, 2, 4], KeepVolume=1)
+    for name, proxy in (("clip", clip), ("basis", basis), ("poisson", poisson), ("hats", hats),
+                        ("spectrum", spectrum), ("both", both), ("signatures", signatures),
+                        ("curvatures", curvatures), ("detail", detail), ("stitch", stitch),
+                        ("spread", spread)):
         simple.RenameSource(name, proxy)
 
 
 def results():
     """Every setting and the range of every point array, to compare before and after."""
     found = {}
-    for name in ("clip", "basis", "poisson", "hats", "spectrum", "both", "signatures", "stitch",
-                 "spread"):
+    for name in ("clip", "basis", "poisson", "hats", "spectrum", "both", "signatures",
+                 "curvatures", "detail", "stitch", "spread"):
         proxy = simple.FindSource(name)
         proxy.UpdatePipeline()
         for key in proxy.ListProperties():

@@ -3,6 +3,8 @@
 
 #include "Base/Grouping.h"
 #include "Base/Parallel.h"
+#include "Base/Prefetch.h"
+#include "Integrals/PatchShares.h"
 #include "Integrals/QuadratureSamples.h"
 #include "Integrals/TrilinearBasis.h"
 
@@ -23,30 +25,53 @@ void CheckCoefficients(const GridFunctions& space, const MultiVector& coefficien
   }
 }
 
-MultiVector EvaluateAt(const GridFunctions& space, const Array<Index>& patchOfPoint,
-  const MultiVector& coefficients, int threads)
+/// The values of some columns; 0 where a point has no patch.
+template<int Columns>
+void EvaluateColumns(const GridFunctions& space, const Array<Index>& patchOfPoint,
+  const MultiVector& coefficients, Id first, int threads, MultiVector& result)
 {
-  CheckCoefficients(space, coefficients);
+  constexpr Id Ahead = 8; // the coefficients of a patch may lie anywhere in memory
   const PatchLevel& level = space.Finest();
-  const auto points = static_cast<Id>(patchOfPoint.size());
-  MultiVector result = MultiVector::Zero(points, coefficients.cols());
-  ParallelRanges(points, threads,
+  ParallelRanges(result.rows(), threads,
     [&](Id begin, Id end)
     {
       CornerValues b;
       for (Id point = begin; point < end; ++point)
       {
+        const Id later = point + Ahead < end ? patchOfPoint[point + Ahead] : -1;
+        for (int i = 0; later >= 0 && i < FunctionsPerPatch; ++i)
+        {
+          Fetch(&coefficients(level.dof[later][i], first));
+        }
+        std::array<double, Columns> sum{};
         const Id patch = patchOfPoint[point];
-        if (patch < 0)
+        if (patch >= 0)
         {
-          continue;
+          TrilinearValues(space.clipped.position[point] - CellCorner(level.cell[patch]), b);
+          for (int i = 0; i < FunctionsPerPatch; ++i)
+          {
+            const double* const value = &coefficients(level.dof[patch][i], first);
+            for (int c = 0; c < Columns; ++c)
+            {
+              sum[c] += b[i] * value[c];
+            }
+          }
         }
-        TrilinearValues(space.clipped.position[point] - CellCorner(level.cell[patch]), b);
-        for (int c = 0; c < FunctionsPerPatch; ++c)
-        {
-          result.row(point) += b[c] * coefficients.row(level.dof[patch][c]);
-        }
+        std::copy(sum.begin(), sum.end(), &result(point, first));
       }
+    });
+}
+
+MultiVector EvaluateAt(const GridFunctions& space, const Array<Index>& patchOfPoint,
+  const MultiVector& coefficients, int threads)
+{
+  CheckCoefficients(space, coefficients);
+  MultiVector result(static_cast<Id>(patchOfPoint.size()), coefficients.cols());
+  ForEachPass(coefficients.cols(),
+    [&](auto columns, Id first)
+    {
+      EvaluateColumns<decltype(columns)::value>(
+        space, patchOfPoint, coefficients, first, threads, result);
     });
   return result;
 }

@@ -1,37 +1,17 @@
-// Right-hand sides. Per piece the integrals against the three linear functions of its source
-// triangle are formed first; multiplying them by corner values then serves any number of columns.
+// Right-hand sides, over several triangles at once, one per SIMD lane. Fields are linear on each
+// source triangle, so that four numbers per lane and column say what they are at a sample.
 #include "Integrals/LoadVector.h"
 
-#include "Base/Grouping.h"
-#include "Grid/SourceTriangle.h"
-#include "Integrals/Assembly.h"
-#include "Integrals/QuadratureSamples.h"
-#include "Integrals/TrilinearBasis.h"
+#include "Integrals/PatchIntegrals.h"
+#include "Integrals/PatchShares.h"
 
+#include <algorithm>
 #include <string>
 
 namespace gridfem
 {
 namespace
 {
-
-/// Columns that are integrated in one pass: bounds the memory per patch.
-constexpr Id ColumnsPerPass = 4;
-
-/// weight[k][i]: what corner k of the source triangle contributes to function i of a patch.
-using CornerWeights = std::array<CornerValues, 3>;
-
-/// The same for vectors: weight[k][axis][i].
-using CornerVectors = std::array<std::array<CornerValues, 3>, 3>;
-
-/// sum += factor x values
-void AddScaled(double factor, const CornerValues& values, CornerValues& sum)
-{
-  for (int i = 0; i < FunctionsPerPatch; ++i)
-  {
-    sum[i] += factor * values[i];
-  }
-}
 
 void CheckMesh(const GridFunctions& space, const TriangleMesh& mesh)
 {
@@ -51,162 +31,343 @@ void CheckMesh(const GridFunctions& space, const TriangleMesh& mesh)
   }
 }
 
-/// A pass over the pieces for some of the columns: function and column of a patch's share.
-struct Share
-{
-  Id firstColumn;
-  Id columns;
-  double* value; // 8 x columns
+/// What a row of a field is known by: a corner of a source triangle, or the triangle itself.
+using RowNumbers = std::array<std::array<Id, 3>, LaneCount>;
 
-  double& At(int function, Id column) const { return value[function * columns + column]; }
+/// A function that is linear on the triangle of each lane.
+struct LinearLanes
+{
+  Lanes constant;
+  LaneVector slope;
+
+  EIGEN_ALWAYS_INLINE Lanes At(const Lanes* position) const
+  {
+    return constant + slope.axis[0] * position[0] + slope.axis[1] * position[1] +
+           slope.axis[2] * position[2];
+  }
 };
 
-/// Adds the shares of all patches of each function.
-void GatherShares(const std::vector<double>& shares, const FunctionPlaces& places, Id firstColumn,
-  Id columns, int threads, MultiVector& result)
+/// The source triangles of a batch, in the cell's own coordinates. Those flatter than 1e-10 of a
+/// cell have no direction: fields on them are constant.
+class SourceLanes
 {
-  ParallelRanges(result.rows(), threads,
-    [&](Id begin, Id end)
+public:
+  SourceLanes(const GridFunctions& space, const TriangleMesh& mesh, const TriangleBatch& batch,
+    const Vec3& origin)
+  {
+    LaneVector corner[3];
+    for (int lane = 0; lane < LaneCount; ++lane)
     {
-      for (Id f = begin; f < end; ++f)
+      triangle_[lane] = space.clipped.pieceTriangle[batch.piece[lane]];
+      for (int k = 0; k < 3; ++k)
       {
-        for (Index k = places.begin[f]; k < places.begin[f + 1]; ++k)
+        const Vec3& position = space.clipped.position[mesh.triangles[triangle_[lane]][k]];
+        for (int axis = 0; axis < 3; ++axis)
         {
-          const double* share = shares.data() + places.item[k] * columns;
-          for (Id c = 0; c < columns; ++c)
-          {
-            result(f, firstColumn + c) += share[c];
-          }
+          corner[k].axis[axis][lane] = position[axis] - origin[axis];
         }
       }
-    });
+    }
+    this->SetGeometry(corner);
+    mesh_ = &mesh;
+  }
+
+  const LaneVector& Normal() const { return normal_; }
+
+  /// One number for each of the triangles.
+  template<class OfTriangle>
+  Lanes PerTriangle(const OfTriangle& ofTriangle) const
+  {
+    Lanes value;
+    for (int lane = 0; lane < LaneCount; ++lane)
+    {
+      value[lane] = ofTriangle(triangle_[lane]);
+    }
+    return value;
+  }
+
+  RowNumbers RowsOf(const Field& f) const
+  {
+    RowNumbers rows;
+    for (int lane = 0; lane < LaneCount; ++lane)
+    {
+      rows[lane] = f.RowsOf(triangle_[lane], mesh_->triangles[triangle_[lane]]);
+    }
+    return rows;
+  }
+
+  /// A column of a field.
+  LinearLanes Column(const Field& f, const RowNumbers& rows, Id column) const
+  {
+    Lanes value[3];
+    const double* const values = f.values.data() + column;
+    for (int lane = 0; lane < LaneCount; ++lane)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        value[k][lane] = values[rows[lane][k] * f.values.cols()];
+      }
+    }
+    LinearLanes result;
+    const Lanes first = value[1] - value[0];
+    const Lanes second = value[2] - value[0];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      result.slope.axis[axis] = first * gradient_[0].axis[axis] + second * gradient_[1].axis[axis];
+    }
+    result.constant = value[0] - result.slope.Dot(apex_);
+    return result;
+  }
+
+private:
+  static constexpr double SmallestHeight = 1e-10; // grid units; below is rounding of the clipping
+
+  void SetGeometry(const LaneVector* corner)
+  {
+    LaneVector u;
+    LaneVector v;
+    apex_ = corner[0];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      u.axis[axis] = corner[1].axis[axis] - corner[0].axis[axis];
+      v.axis[axis] = corner[2].axis[axis] - corner[0].axis[axis];
+    }
+    LaneVector area;
+    for (int p = 0; p < 3; ++p)
+    {
+      const int q = (p + 1) % 3;
+      const int r = (p + 2) % 3;
+      area.axis[p] = u.axis[q] * v.axis[r] - u.axis[r] * v.axis[q];
+    }
+    const Lanes square = area.Dot(area);
+    const Lanes longest = u.Dot(u).max(v.Dot(v)).max(u.Dot(u) + v.Dot(v) - 2.0 * u.Dot(v));
+    const Lanes inverse = (square > SmallestHeight * SmallestHeight * longest)
+                            .select(1.0 / square.max(1e-300), Lanes::Zero());
+    const Lanes length = square.max(1e-300).rsqrt();
+    // ∇λ of the second and of the third corner: across the edge to the other one.
+    for (int p = 0; p < 3; ++p)
+    {
+      const int q = (p + 1) % 3;
+      const int r = (p + 2) % 3;
+      gradient_[0].axis[p] = (v.axis[q] * area.axis[r] - v.axis[r] * area.axis[q]) * inverse;
+      gradient_[1].axis[p] = (area.axis[q] * u.axis[r] - area.axis[r] * u.axis[q]) * inverse;
+      normal_.axis[p] = area.axis[p] * length;
+    }
+  }
+
+  Id triangle_[LaneCount];
+  const TriangleMesh* mesh_;
+  LaneVector apex_;
+  LaneVector gradient_[2];
+  LaneVector normal_;
+};
+
+/// A sample on every triangle of a batch: its position and weight, which has the area and the
+/// scale.
+struct Sample
+{
+  Lanes position[3];
+  Lanes weight;
+};
+
+/// Calls body(sample) for the points of the rule.
+template<class Body>
+EIGEN_ALWAYS_INLINE void ForEachSample(
+  const TriangleBatch& batch, const QuadratureRule& rule, const LinearLanes* scale, Body&& body)
+{
+  const Lanes area = TrianglePlanes(batch).area;
+  for (const QuadratureRule::Point& point : rule.points)
+  {
+    Sample sample;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      sample.position[axis] = point.barycentric[0] * batch.corner[0][axis] +
+                              point.barycentric[1] * batch.corner[1][axis] +
+                              point.barycentric[2] * batch.corner[2][axis];
+    }
+    sample.weight = point.weight * area;
+    if (scale)
+    {
+      sample.weight *= scale->At(sample.position);
+    }
+    body(sample);
+  }
 }
 
-/// Sums addPiece(piece, cell corner, Share) over all pieces.
-template<class AddPiece>
-MultiVector IntegratePieces(const GridFunctions& space, Id columns, int threads,
-  const Progress& progress, AddPiece&& addPiece)
+/// The four products of the linear functions 1 - t and t along two axes.
+struct Bilinear
 {
-  const PatchLevel& level = space.Finest();
-  const Groups pieces = GroupItems(space.piecePatch, level.NumberOfPatches(), threads);
-  const FunctionPlaces places = PlacesOfFunctions(level, threads);
-  MultiVector result = MultiVector::Zero(level.numberOfFunctions, columns);
-  std::vector<double> shares;
-  for (Id first = 0; first < columns; first += ColumnsPerPass)
+  Lanes product[4]; // the first axis fastest
+
+  EIGEN_ALWAYS_INLINE Bilinear(const Lanes& first, const Lanes& second)
   {
-    const Id count = std::min(ColumnsPerPass, columns - first);
-    shares.assign(level.NumberOfPatches() * FunctionsPerPatch * count, 0.0);
-    ParallelRanges(
-      level.NumberOfPatches(), threads,
-      [&](Id begin, Id end)
-      {
-        for (Id patch = begin; patch < end; ++patch)
-        {
-          const Vec3 origin = CellCorner(level.cell[patch]);
-          const Share share{ first, count, shares.data() + patch * FunctionsPerPatch * count };
-          for (Id k = pieces.begin[patch]; k < pieces.begin[patch + 1]; ++k)
-          {
-            addPiece(pieces.item[k], origin, share);
-          }
-        }
-      },
-      PatchesPerBlock,
-      progress.Part(double(first) / double(columns), double(first + count) / double(columns)));
-    GatherShares(shares, places, first, count, threads, result);
+    product[3] = first * second;
+    product[2] = second - product[3];
+    product[1] = first - product[3];
+    product[0] = 1.0 - first - product[2];
   }
+};
+
+/// ∫ f b_i over a patch.
+template<int Columns>
+class ValueSums
+{
+public:
+  static constexpr int Count = Columns;
+
+  ValueSums()
+  {
+    for (auto& column : sum_)
+    {
+      column.fill(Lanes::Zero());
+    }
+  }
+
+  EIGEN_ALWAYS_INLINE void Add(const Sample& sample, const Lanes* value)
+  {
+    const Bilinear across(sample.position[0], sample.position[1]);
+    for (int c = 0; c < Columns; ++c)
+    {
+      const Lanes weighted = sample.weight * value[c];
+      const Lanes up = weighted * sample.position[2];
+      const Lanes down = weighted - up;
+      for (int k = 0; k < 4; ++k)
+      {
+        sum_[c][k] += down * across.product[k];
+        sum_[c][4 + k] += up * across.product[k];
+      }
+    }
+  }
+
+  void Write(double* share) const
+  {
+    for (int i = 0; i < FunctionsPerPatch; ++i)
+    {
+      for (int c = 0; c < Columns; ++c)
+      {
+        share[i * Columns + c] = SumOverLanes(sum_[c][i]);
+      }
+    }
+  }
+
+private:
+  std::array<std::array<Lanes, FunctionsPerPatch>, Columns> sum_;
+};
+
+/// ∫ <s, ∇b_i> over a patch. Along an axis the slope of a function is that of the other two, with a
+/// sign; so four sums per axis stand for eight.
+template<int Columns>
+class GradientSums
+{
+public:
+  static constexpr int Count = Columns;
+
+  GradientSums()
+  {
+    for (auto& column : sum_)
+    {
+      column.fill(Lanes::Zero());
+    }
+  }
+
+  EIGEN_ALWAYS_INLINE void Add(const Sample& sample, const LaneVector* vector)
+  {
+    for (int p = 0; p < 3; ++p)
+    {
+      const Bilinear across(sample.position[(p + 1) % 3], sample.position[(p + 2) % 3]);
+      for (int c = 0; c < Columns; ++c)
+      {
+        const Lanes weighted = sample.weight * vector[c].axis[p];
+        for (int k = 0; k < 4; ++k)
+        {
+          sum_[c][4 * p + k] += weighted * across.product[k];
+        }
+      }
+    }
+  }
+
+  void Write(double* share) const
+  {
+    for (int c = 0; c < Columns; ++c)
+    {
+      std::array<double, 12> sum;
+      std::transform(sum_[c].begin(), sum_[c].end(), sum.begin(), SumOverLanes);
+      for (int i = 0; i < FunctionsPerPatch; ++i)
+      {
+        double total = 0.0;
+        for (int p = 0; p < 3; ++p)
+        {
+          const int first = (i >> (p + 1) % 3) & 1;
+          const int second = (i >> (p + 2) % 3) & 1;
+          const double value = sum[4 * p + first + 2 * second];
+          total += (i >> p) & 1 ? value : -value;
+        }
+        share[i * Columns + c] = total;
+      }
+    }
+  }
+
+private:
+  std::array<std::array<Lanes, 12>, Columns> sum_;
+};
+
+/// Sums over the patches: addBatch(batch, source triangles, first column, sums), with sums a
+/// Sums<columns of the pass>.
+template<template<int> class Sums, class AddBatch>
+MultiVector Integrate(const GridFunctions& space, const TriangleMesh& mesh, Id columns,
+  const QuadratureRule& rule, int threads, const Progress& progress, AddBatch&& addBatch)
+{
+  CheckMesh(space, mesh);
+  const PatchLevel& level = space.Finest();
+  const FunctionPlaces places = PlacesOfFunctions(level, threads);
+  MultiVector result(level.numberOfFunctions, columns);
+  std::vector<double> shares;
+  ForEachPass(columns,
+    [&](auto pass, Id first)
+    {
+      constexpr int Columns = decltype(pass)::value;
+      shares.resize(level.NumberOfPatches() * FunctionsPerPatch * Columns);
+      ForEachPatch(space, rule, threads,
+        progress.Part(double(first) / double(columns), double(first + Columns) / double(columns)),
+        [&](Id patch, auto&& forEachBatch)
+        {
+          Sums<Columns> sums;
+          const Vec3 origin = CellCorner(level.cell[patch]);
+          forEachBatch([&](const TriangleBatch& batch)
+            { addBatch(batch, SourceLanes(space, mesh, batch, origin), first, sums); });
+          sums.Write(shares.data() + patch * FunctionsPerPatch * Columns);
+        });
+      SumShares<Columns>(shares, places, first, threads, result);
+    });
   return result;
 }
 
-double ScaleAt(const Field* scale, const std::array<Id, 3>& rows, const Barycentric& lambda)
-{
-  return scale ? lambda[0] * scale->values(rows[0], 0) + lambda[1] * scale->values(rows[1], 0) +
-                   lambda[2] * scale->values(rows[2], 0)
-               : 1.0;
-}
-
-/// Calls body(local position, weight, λ) for the samples of a piece; the weights carry area and
-/// scale, λ are the barycentric coordinates in the source triangle.
+/// The scale on the triangles of a batch; body(null) without one.
 template<class Body>
-void ForEachSample(const GridFunctions& space, Id piece, const Vec3& origin,
-  const SourceTriangle& source, const Field* scale, const QuadratureRule& rule, Body&& body)
+EIGEN_ALWAYS_INLINE void WithScale(const Field* scale, const SourceLanes& source, Body&& body)
 {
-  const ClippedMesh& clipped = space.clipped;
-  const Index* corner = clipped.corners.data() + clipped.pieceBegin[piece];
-  const std::array<Id, 3> scaleRows =
-    scale ? scale->RowsOf(clipped.pieceTriangle[piece], source.Points()) : std::array<Id, 3>{};
-  const Barycentric apex = source.Locate(corner[0]);
-  ForEachFanTriangle(clipped, piece, origin,
-    [&](const FanTriangle& triangle)
-    {
-      const Barycentric second = source.Locate(corner[triangle.k]);
-      const Barycentric third = source.Locate(corner[triangle.k + 1]);
-      for (const QuadratureRule::Point& point : rule.points)
-      {
-        const auto& t = point.barycentric;
-        Barycentric lambda;
-        for (int k = 0; k < 3; ++k)
-        {
-          lambda[k] = t[0] * apex[k] + t[1] * second[k] + t[2] * third[k];
-        }
-        const double weight = point.weight * triangle.area * ScaleAt(scale, scaleRows, lambda);
-        body(triangle.At(t), weight, lambda);
-      }
-    });
-}
-
-/// ∫ ∂b_i / ∂axis over a piece, per axis.
-std::array<CornerValues, 3> SumDerivatives(const GridFunctions& space, Id piece, const Vec3& origin,
-  const SourceTriangle& source, const Field* scale, const QuadratureRule& rule)
-{
-  std::array<CornerValues, 3> sum{};
-  ForEachSample(space, piece, origin, source, scale, rule,
-    [&](const Vec3& local, double weight, const Barycentric&)
-    {
-      std::array<CornerValues, 3> derivative;
-      TrilinearGradients(local, derivative);
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        AddScaled(weight, derivative[axis], sum[axis]);
-      }
-    });
-  return sum;
-}
-
-/// share += weights x corner values
-void AddScalars(
-  const CornerWeights& weights, const Field& f, const std::array<Id, 3>& rows, const Share& share)
-{
-  for (int k = 0; k < 3; ++k)
+  if (scale)
   {
-    const double* value = f.values.data() + rows[k] * f.values.cols() + share.firstColumn;
-    for (int i = 0; i < FunctionsPerPatch; ++i)
-    {
-      for (Id c = 0; c < share.columns; ++c)
-      {
-        share.At(i, c) += weights[k][i] * value[c];
-      }
-    }
+    const LinearLanes lanes = source.Column(*scale, source.RowsOf(*scale), 0);
+    body(&lanes);
+  }
+  else
+  {
+    body(static_cast<const LinearLanes*>(nullptr));
   }
 }
 
-/// share += weights · (corner vectors without their part along the normal)
-void AddVectors(const CornerVectors& weights, const Field& s, const std::array<Id, 3>& rows,
-  const Vec3& normal, double factor, const Share& share)
+/// factor (v - <n, v> n)
+EIGEN_ALWAYS_INLINE LaneVector Tangential(
+  const LaneVector& vector, const LaneVector& normal, double factor)
 {
-  for (int k = 0; k < 3; ++k)
+  const Lanes along = vector.Dot(normal);
+  LaneVector result;
+  for (int axis = 0; axis < 3; ++axis)
   {
-    const double* value = s.values.data() + rows[k] * s.values.cols() + 3 * share.firstColumn;
-    for (Id c = 0; c < share.columns; ++c)
-    {
-      const Vec3 vector(value[3 * c], value[3 * c + 1], value[3 * c + 2]);
-      const Vec3 tangential = factor * (vector - normal.dot(vector) * normal);
-      for (int i = 0; i < FunctionsPerPatch; ++i)
-      {
-        share.At(i, c) += weights[k][0][i] * tangential[0] + weights[k][1][i] * tangential[1] +
-                          weights[k][2][i] * tangential[2];
-      }
-    }
+    result.axis[axis] = factor * (vector.axis[axis] - along * normal.axis[axis]);
   }
+  return result;
 }
 
 /// @param weightOf  a factor for each source triangle
@@ -215,26 +376,28 @@ MultiVector IntegrateValuesTimes(const GridFunctions& space, const TriangleMesh&
   const Field& f, const Weight& weightOf, const QuadratureRule& rule, int threads,
   const Progress& progress)
 {
-  CheckMesh(space, mesh);
   RequireField(f, mesh);
-  return IntegratePieces(space, f.values.cols(), threads, progress,
-    [&](Id piece, const Vec3& origin, const Share& share)
+  return Integrate<ValueSums>(space, mesh, f.values.cols(), rule, threads, progress,
+    [&](const TriangleBatch& batch, const SourceLanes& source, Id first, auto& sums)
     {
-      const Id triangle = space.clipped.pieceTriangle[piece];
-      const SourceTriangle source(space.clipped, mesh, triangle);
-      const double factor = weightOf(triangle);
-      CornerWeights weights{};
-      ForEachSample(space, piece, origin, source, nullptr, rule,
-        [&](const Vec3& local, double weight, const Barycentric& lambda)
+      const Lanes factor = source.PerTriangle(weightOf);
+      constexpr int Columns = std::decay_t<decltype(sums)>::Count;
+      const RowNumbers rows = source.RowsOf(f);
+      std::array<LinearLanes, Columns> column;
+      for (int c = 0; c < Columns; ++c)
+      {
+        column[c] = source.Column(f, rows, first + c);
+      }
+      ForEachSample(batch, rule, nullptr,
+        [&](const Sample& sample)
         {
-          CornerValues b;
-          TrilinearValues(local, b);
-          for (int k = 0; k < 3; ++k)
+          Lanes value[Columns];
+          for (int c = 0; c < Columns; ++c)
           {
-            AddScaled(weight * factor * lambda[k], b, weights[k]);
+            value[c] = factor * column[c].At(sample.position);
           }
+          sums.Add(sample, value);
         });
-      AddScalars(weights, f, f.RowsOf(triangle, source.Points()), share);
     });
 }
 
@@ -259,30 +422,38 @@ MultiVector IntegrateWeightedValues(const GridFunctions& space, const TriangleMe
 MultiVector IntegrateGradients(const GridFunctions& space, const TriangleMesh& mesh, const Field& s,
   const Field* scale, const QuadratureRule& rule, int threads, const Progress& progress)
 {
-  CheckMesh(space, mesh);
   RequireVectors(s, mesh);
   RequireScale(scale, mesh);
-  return IntegratePieces(space, s.values.cols() / 3, threads, progress,
-    [&](Id piece, const Vec3& origin, const Share& share)
+  const double spacing = space.GetGrid().spacing;
+  return Integrate<GradientSums>(space, mesh, s.values.cols() / 3, rule, threads, progress,
+    [&](const TriangleBatch& batch, const SourceLanes& source, Id first, auto& sums)
     {
-      const Id triangle = space.clipped.pieceTriangle[piece];
-      const SourceTriangle source(space.clipped, mesh, triangle);
-      CornerVectors weights{};
-      ForEachSample(space, piece, origin, source, scale, rule,
-        [&](const Vec3& local, double weight, const Barycentric& lambda)
+      constexpr int Columns = std::decay_t<decltype(sums)>::Count;
+      const RowNumbers rows = source.RowsOf(s);
+      std::array<LinearLanes, 3 * Columns> column;
+      for (int c = 0; c < 3 * Columns; ++c)
+      {
+        column[c] = source.Column(s, rows, 3 * first + c);
+      }
+      WithScale(scale, source,
+        [&](const LinearLanes* factor)
         {
-          std::array<CornerValues, 3> derivative;
-          TrilinearGradients(local, derivative);
-          for (int k = 0; k < 3; ++k)
-          {
-            for (int axis = 0; axis < 3; ++axis)
+          ForEachSample(batch, rule, factor,
+            [&](const Sample& sample)
             {
-              AddScaled(weight * lambda[k], derivative[axis], weights[k][axis]);
-            }
-          }
+              LaneVector vector[Columns];
+              for (int c = 0; c < Columns; ++c)
+              {
+                LaneVector given;
+                for (int axis = 0; axis < 3; ++axis)
+                {
+                  given.axis[axis] = column[3 * c + axis].At(sample.position);
+                }
+                vector[c] = Tangential(given, source.Normal(), spacing);
+              }
+              sums.Add(sample, vector);
+            });
         });
-      AddVectors(weights, s, s.RowsOf(triangle, source.Points()), source.Normal(),
-        space.GetGrid().spacing, share);
     });
 }
 
@@ -290,25 +461,23 @@ MultiVector IntegrateGradientsOf(const GridFunctions& space, const TriangleMesh&
   const Field& f, const Field* scale, const QuadratureRule& rule, int threads,
   const Progress& progress)
 {
-  CheckMesh(space, mesh);
   RequireOnPoints(f, mesh);
   RequireScale(scale, mesh);
-  return IntegratePieces(space, f.values.cols(), threads, progress,
-    [&](Id piece, const Vec3& origin, const Share& share)
+  return Integrate<GradientSums>(space, mesh, f.values.cols(), rule, threads, progress,
+    [&](const TriangleBatch& batch, const SourceLanes& source, Id first, auto& sums)
     {
-      const SourceTriangle source(space.clipped, mesh, space.clipped.pieceTriangle[piece]);
-      const std::array<CornerValues, 3> sum =
-        SumDerivatives(space, piece, origin, source, scale, rule);
-      const std::array<Vec3, 3> gradient = source.Gradients();
-      CornerWeights weights{};
-      for (int k = 0; k < 3; ++k)
+      constexpr int Columns = std::decay_t<decltype(sums)>::Count;
+      const RowNumbers rows = source.RowsOf(f);
+      LaneVector slope[Columns];
+      for (int c = 0; c < Columns; ++c)
       {
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          AddScaled(gradient[k][axis], sum[axis], weights[k]);
-        }
+        slope[c] = source.Column(f, rows, first + c).slope;
       }
-      AddScalars(weights, f, source.Points(), share);
+      WithScale(scale, source,
+        [&](const LinearLanes* factor) {
+          ForEachSample(
+            batch, rule, factor, [&](const Sample& sample) { sums.Add(sample, slope); });
+        });
     });
 }
 
@@ -316,25 +485,27 @@ MultiVector IntegrateGradientsOfCoordinates(const GridFunctions& space, const Tr
   const Field* scale, const QuadratureRule& rule, double normalStabilization, int threads,
   const Progress& progress)
 {
-  CheckMesh(space, mesh);
   RequireScale(scale, mesh);
   const double spacing = space.GetGrid().spacing;
-  return IntegratePieces(space, 3, threads, progress,
-    [&](Id piece, const Vec3& origin, const Share& share)
+  return Integrate<GradientSums>(space, mesh, 3, rule, threads, progress,
+    [&](const TriangleBatch& batch, const SourceLanes& source, Id, auto& sums)
     {
-      const SourceTriangle source(space.clipped, mesh, space.clipped.pieceTriangle[piece]);
-      const std::array<CornerValues, 3> sum =
-        SumDerivatives(space, piece, origin, source, scale, rule);
-      const Vec3 normal = source.Normal();
-      for (int i = 0; i < FunctionsPerPatch; ++i)
+      constexpr int Columns = std::decay_t<decltype(sums)>::Count;
+      LaneVector slope[Columns];
+      for (int c = 0; c < std::min(Columns, 3); ++c) // there is no pass of four
       {
-        const Vec3 derivative(sum[0][i], sum[1][i], sum[2][i]);
-        const double less = (1.0 - normalStabilization) * normal.dot(derivative);
-        for (int c = 0; c < 3; ++c)
+        for (int axis = 0; axis < 3; ++axis)
         {
-          share.At(i, c) += spacing * (derivative[c] - less * normal[c]);
+          slope[c].axis[axis] = spacing * ((axis == c ? 1.0 : 0.0) - (1.0 - normalStabilization) *
+                                                                       source.Normal().axis[c] *
+                                                                       source.Normal().axis[axis]);
         }
       }
+      WithScale(scale, source,
+        [&](const LinearLanes* factor) {
+          ForEachSample(
+            batch, rule, factor, [&](const Sample& sample) { sums.Add(sample, slope); });
+        });
     });
 }
 

@@ -2,6 +2,7 @@
 
 #include "Base/Parallel.h"
 #include "Integrals/ElementNorms.h"
+#include "Integrals/ElementProducts.h"
 #include "Integrals/Evaluation.h"
 #include "Integrals/LoadVector.h"
 #include "Spaces/PatchOrdering.h"
@@ -242,6 +243,14 @@ void GridSpace::Weigh(const std::vector<ElementWeights>& weights, const Job& job
   LevelOperators& operators = this->OwnOperators();
   gridfem::Weigh(*split_, weights, operators.elements.front(), job.threads);
   UpdateOperators(*functions_, operators, job.threads);
+}
+
+MultiVector GridSpace::LoadOfFunction(
+  double a, double b, const MultiVector& u, const std::vector<double>& scale, const Job& job) const
+{
+  const LevelOperators& operators = this->Operators();
+  return MultiplyElements(functions_->Finest(), operators.places.front(),
+    operators.elements.front(), a, b, scale, u, job.threads);
 }
 
 GridSpace BuildGridSpace(

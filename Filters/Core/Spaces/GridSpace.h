@@ -60,6 +60,8 @@ public:
   void SplitStiffness(const std::vector<Vec3>& direction, const Job& job = {}) override;
   MultiVector MeansOnElements(const MultiVector& onTriangles, const Job& job = {}) const override;
   void Weigh(const std::vector<ElementWeights>& weights, const Job& job = {}) override;
+  MultiVector LoadOfFunction(double a, double b, const MultiVector& u,
+    const std::vector<double>& scale, const Job& job = {}) const override;
 
   const GridFunctions& Functions() const { return *functions_; }
   const LevelOperators& Operators() const { return own_ ? *own_ : *shared_; }

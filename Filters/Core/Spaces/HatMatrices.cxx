@@ -1,5 +1,6 @@
 #include "Spaces/HatMatrices.h"
 
+#include "Base/Errors.h"
 #include "Base/Parallel.h"
 
 #include <algorithm>
@@ -199,6 +200,40 @@ HatMatrices AssembleHatMatrices(
   matrices.stiffness.rowBegin = matrices.mass.rowBegin;
   matrices.stiffness.column = matrices.mass.column;
   return matrices;
+}
+
+MultiVector MultiplyHats(const TriangleMesh& mesh, const HatFunctions& hats,
+  const HatWeights* weights, double a, double b, const std::vector<double>& scale,
+  const MultiVector& u, int threads)
+{
+  if (u.rows() != hats.Count() || (!scale.empty() && scale.size() != mesh.triangles.size()))
+  {
+    throw InvalidInput(
+      "The coefficients need a row per function, and the scales one per triangle.");
+  }
+  const std::vector<TriangleTerms> terms = ComputeTerms(mesh, hats, weights, threads);
+  MultiVector result = MultiVector::Zero(u.rows(), u.cols());
+  ParallelRanges(u.rows(), threads,
+    [&](Id begin, Id end)
+    {
+      for (Id i = begin; i < end; ++i)
+      {
+        for (Id k = hats.begin[i]; k < hats.begin[i + 1]; ++k)
+        {
+          const Id t = hats.corners[k].Triangle();
+          const int corner = hats.corners[k].Corner();
+          const double factor = scale.empty() ? b : b * scale[t];
+          for (int side = 1; side < 3; ++side)
+          {
+            const Index j = hats.ofPoint[mesh.triangles[t][(corner + side) % 3]];
+            const double mass = a * terms[t].twelfthOfArea;
+            const double stiffness = factor * terms[t].halfCotangent[(corner + 3 - side) % 3];
+            result.row(i) += mass * (u.row(i) + u.row(j)) + stiffness * (u.row(i) - u.row(j));
+          }
+        }
+      }
+    });
+  return result;
 }
 
 void Combine(const HatMatrices& matrices, double a, double b, SparseMatrix& result, int threads)

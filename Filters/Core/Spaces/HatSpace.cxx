@@ -245,7 +245,8 @@ Id HatSpace::SetMetric(const MultiVector& embedding, const Job& job)
   {
     throw InvalidInput("an embedding needs three coefficients for each function of the space");
   }
-  TriangleMesh moved = grid_.Mesh();
+  auto mesh = std::make_shared<TriangleMesh>(grid_.Mesh());
+  TriangleMesh& moved = *mesh;
   const MultiVector position = this->ValuesAtPoints(embedding, job);
   for (Id point = 0; point < position.rows(); ++point)
   {
@@ -255,6 +256,8 @@ Id HatSpace::SetMetric(const MultiVector& embedding, const Job& job)
     AssembleHatMatrices(moved, hats_->functions, nullptr, job.threads));
   job.Check(0.4);
   own_ = std::move(matrices);
+  moved_ = mesh;
+  weights_.reset();
   grid_.SetMetricOfMesh(moved, job.Part(0.4, 1.0));
   return CountFlattened(hats_->functions, moved, job.threads);
 }
@@ -295,6 +298,8 @@ void HatSpace::Weigh(const std::vector<ElementWeights>& weights, const Job& job)
   const HatWeights onTriangles{ *direction_, weights };
   own_ = std::make_shared<const HatMatrices>(
     AssembleHatMatrices(grid_.Mesh(), hats_->functions, &onTriangles, job.threads));
+  moved_.reset();
+  weights_ = std::make_shared<const std::vector<ElementWeights>>(weights);
   MultiVector columns(static_cast<Id>(weights.size()), 3);
   for (Id t = 0; t < columns.rows(); ++t)
   {
@@ -307,6 +312,18 @@ void HatSpace::Weigh(const std::vector<ElementWeights>& weights, const Job& job)
     onPatches[p] = { means(p, 0), { means(p, 1), means(p, 2) } };
   }
   grid_.Weigh(onPatches, job);
+}
+
+MultiVector HatSpace::LoadOfFunction(
+  double a, double b, const MultiVector& u, const std::vector<double>& scale, const Job& job) const
+{
+  const TriangleMesh& mesh = moved_ ? *moved_ : grid_.Mesh();
+  if (!weights_)
+  {
+    return MultiplyHats(mesh, hats_->functions, nullptr, a, b, scale, u, job.threads);
+  }
+  const HatWeights weights{ *direction_, *weights_ };
+  return MultiplyHats(mesh, hats_->functions, &weights, a, b, scale, u, job.threads);
 }
 
 HatSpace BuildHatSpace(TriangleMesh mesh, const GridSpaceOptions& options, HatTransfer transfer,

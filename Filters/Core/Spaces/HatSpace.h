@@ -74,6 +74,8 @@ public:
   void SplitStiffness(const std::vector<Vec3>& direction, const Job& job = {}) override;
   MultiVector MeansOnElements(const MultiVector& onTriangles, const Job& job = {}) const override;
   void Weigh(const std::vector<ElementWeights>& weights, const Job& job = {}) override;
+  MultiVector LoadOfFunction(double a, double b, const MultiVector& u,
+    const std::vector<double>& scale, const Job& job = {}) const override;
 
   const HatLevel& Hats() const { return *hats_; }
   const GridSpace& Grid() const { return grid_; }
@@ -84,6 +86,8 @@ private:
   GridSpace grid_;
   std::shared_ptr<const HatMatrices> own_; // once numbers have changed
   std::shared_ptr<const std::vector<Vec3>> direction_;
+  std::shared_ptr<const TriangleMesh> moved_; // whose metric it is; null: the mesh
+  std::shared_ptr<const std::vector<ElementWeights>> weights_;
 };
 
 /// Both in one go. Throws InvalidInput and Aborted.

@@ -58,9 +58,8 @@ vtkSmartPointer<vtkDataArray> MovedNormals(
   return MakePointArray(name.c_str(), normals, given->GetDataType());
 }
 
-} // namespace
-
-void MoveMesh(const TriangleMesh& mesh, const std::vector<Vec3>& points, int dataType, int threads,
+/// New points, normals and Displacement.
+void Move(const TriangleMesh& mesh, const std::vector<Vec3>& points, int dataType, int threads,
   vtkPolyData* output)
 {
   const vtkSmartPointer<vtkDataArray> normals = MovedNormals(mesh, points, threads, output);
@@ -72,6 +71,28 @@ void MoveMesh(const TriangleMesh& mesh, const std::vector<Vec3>& points, int dat
   }
   output->GetPointData()->AddArray(
     MakePointArray("Displacement", positions - Rows(mesh.points), dataType));
+}
+
+} // namespace
+
+void MoveSurface(const TriangleMesh& mesh, const std::vector<Vec3>& points, int dataType,
+  int threads, vtkPolyData* output)
+{
+  Move(mesh, points, dataType, threads, output);
+  const std::vector<Vec3> normals = NormalsAtPoints(mesh.points, mesh.triangles, threads);
+  std::vector<double> along(points.size());
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    along[k] = normals[k].dot(points[k] - mesh.points[k]);
+  }
+  AddNumbers("NormalDisplacement", along, dataType, output);
+  output->GetPointData()->SetActiveScalars("NormalDisplacement");
+}
+
+void MoveMesh(const TriangleMesh& mesh, const std::vector<Vec3>& points, int dataType, int threads,
+  vtkPolyData* output)
+{
+  Move(mesh, points, dataType, threads, output);
   const MapDistortion map = DistortionOf(mesh, points, threads);
   AddNumbers("ConformalFactor", MeansAtPoints(mesh, map.areaRatio, 1.0, threads), dataType, output);
   AddNumbers(

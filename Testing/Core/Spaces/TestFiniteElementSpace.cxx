@@ -329,6 +329,75 @@ TEST_P(EverySpace, MeansOnElementsKeepConstants)
   EXPECT_LT((means.array() - 7.0).abs().maxCoeff(), 1e-12);
 }
 
+TEST_P(EverySpace, GivesTheLoadOfItsOwnFunctionsFromItsElements)
+{
+  for (const TriangleMesh& mesh : Meshes())
+  {
+    const SpaceOnMesh on = this->Build(mesh);
+    const MultiVector u = RandomValues(on.space->NumberOfFunctions(0), 5);
+    const MultiVector expected = DenseOf(*on.space, 0.3, 2.0) * u;
+    EXPECT_LE(RelativeDifference(on.space->LoadOfFunction(0.3, 2.0, u, {}), expected), 1e-13);
+    EXPECT_EQ(
+      on.space->LoadOfFunction(0.3, 2.0, u, {}, 1), on.space->LoadOfFunction(0.3, 2.0, u, {}, 2));
+
+    // The coordinates as such a function, and as a field that is integrated.
+    const MultiVector world = on.coordinates * on.space->UnitLength();
+    EXPECT_LE(RelativeDifference(on.space->LoadOfFunction(1.0, 0.0, world, {}),
+                on.space->LoadOfValues({ FieldAssociation::Points, PointCoordinates(mesh) })),
+      1e-12);
+    EXPECT_LE(RelativeDifference(on.space->LoadOfFunction(0.0, 1.0, world, {}),
+                on.space->LoadOfGradientsOfCoordinates(nullptr)),
+      1e-12);
+  }
+}
+
+/// A scale that differs from component to component is one number per element.
+TEST_P(EverySpace, ScalesTheGradientsInTheLoadOfAFunction)
+{
+  const TriangleMesh mesh = Join(Box(4), GeodesicSphere(4, 0.1));
+  const auto boxes = static_cast<Id>(Box(4).triangles.size());
+  const SpaceOnMesh on = this->Build(mesh);
+  Field scale{ FieldAssociation::Triangles,
+    MultiVector::Constant(static_cast<Id>(mesh.triangles.size()), 1, 3.0) };
+  scale.values.bottomRows(scale.values.rows() - boxes).setConstant(-0.5);
+  const MultiVector means = on.space->MeansOnElements(scale.values);
+  const std::vector<double> onElements(means.data(), means.data() + means.size());
+  const MultiVector world = on.coordinates * on.space->UnitLength();
+  EXPECT_LE(RelativeDifference(on.space->LoadOfFunction(0.0, 1.0, world, onElements),
+              on.space->LoadOfGradientsOfCoordinates(&scale)),
+    1e-12);
+  EXPECT_THROW(on.space->LoadOfFunction(0.0, 1.0, world, { 1.0, 2.0 }), InvalidInput);
+  EXPECT_THROW(on.space->LoadOfFunction(0.0, 1.0, world.topRows(3), {}), InvalidInput);
+}
+
+TEST_P(EverySpace, GivesTheLoadOfAFunctionInItsOwnMetric)
+{
+  const SpaceOnMesh on = this->Build(Torus(24, 12, 1.0, 0.3));
+  const MultiVector u = RandomValues(on.space->NumberOfFunctions(0), 2);
+  const auto agrees = [&](const FiniteElementSpace& space)
+  {
+    const MultiVector expected = DenseOf(space, 0.7, 1.1) * u;
+    return RelativeDifference(space.LoadOfFunction(0.7, 1.1, u, {}), expected);
+  };
+  const auto weighed = on.space->Copy();
+  const std::vector<Vec3> along(on.mesh.triangles.size(), Vec3(1, 2, 3));
+  weighed->SplitStiffness(along);
+  const Id elements =
+    weighed->MeansOnElements(MultiVector::Ones(static_cast<Id>(along.size()), 1)).rows();
+  std::vector<ElementWeights> weights(elements);
+  const MultiVector random = RandomValues(elements, 3);
+  for (Id e = 0; e < elements; ++e)
+  {
+    weights[e] = { 1.5 + random(e, 0), { 1.5 + random(e, 1), 1.5 + random(e, 2) } };
+  }
+  weighed->Weigh(weights);
+  EXPECT_LE(agrees(*weighed), 1e-13);
+  const auto moved = on.space->Copy();
+  moved->SetMetric(2.0 * on.space->EmbeddingOfMesh());
+  EXPECT_LE(agrees(*moved), 1e-13);
+  EXPECT_LE(agrees(*on.space), 1e-13);
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinds, EverySpace,
   ::testing::Values(Case{ "grid", false }, Case{ "hats", true }),
   [](const auto& kind) { return std::string(kind.param.name); });

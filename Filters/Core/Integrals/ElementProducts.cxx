@@ -1,0 +1,92 @@
+#include "Integrals/ElementProducts.h"
+
+#include "Base/Errors.h"
+#include "Base/SimdLanes.h"
+#include "Integrals/PatchShares.h"
+
+#include <string>
+
+namespace gridfem
+{
+namespace
+{
+
+using PackedEntries = Eigen::Map<const Eigen::Array<double, ElementEntries, 1>>;
+
+/// share = matrix x the coefficients of a patch. Lanes are its functions.
+template<int Columns>
+void Multiply(const ElementMatrix& matrix, const std::array<Index, FunctionsPerPatch>& dof,
+  const MultiVector& u, const PatchShare& share)
+{
+  std::array<Lanes, Columns> sum;
+  sum.fill(Lanes::Zero());
+  for (int j = 0; j < FunctionsPerPatch; ++j)
+  {
+    Lanes column;
+    for (int i = 0; i < FunctionsPerPatch; ++i)
+    {
+      column[i] = matrix[PackedIndex(i, j)];
+    }
+    const double* const value = &u(dof[j], share.firstColumn);
+    for (int c = 0; c < Columns; ++c)
+    {
+      sum[c] += value[c] * column;
+    }
+  }
+  for (int i = 0; i < FunctionsPerPatch; ++i)
+  {
+    for (int c = 0; c < Columns; ++c)
+    {
+      share.value[i * Columns + c] = sum[c][i];
+    }
+  }
+}
+
+void Check(const PatchLevel& level, const std::vector<double>& scale, const MultiVector& u)
+{
+  if (u.rows() != level.numberOfFunctions)
+  {
+    throw InvalidInput("There are " + std::to_string(u.rows()) + " coefficients for " +
+                       std::to_string(level.numberOfFunctions) + " functions.");
+  }
+  if (!scale.empty() && static_cast<Id>(scale.size()) != level.NumberOfPatches())
+  {
+    throw InvalidInput("There are " + std::to_string(scale.size()) + " scales for " +
+                       std::to_string(level.NumberOfPatches()) + " patches.");
+  }
+}
+
+} // namespace
+
+MultiVector MultiplyElements(const PatchLevel& level, const FunctionPlaces& places,
+  const ElementMatrices& elements, double a, double b, const std::vector<double>& scale,
+  const MultiVector& u, int threads)
+{
+  Check(level, scale, u);
+  MultiVector result(u.rows(), u.cols());
+  std::vector<double> shares;
+  ForEachPass(u.cols(),
+    [&](auto columns, Id first)
+    {
+      constexpr int Columns = decltype(columns)::value;
+      shares.resize(level.NumberOfPatches() * FunctionsPerPatch * Columns);
+      ParallelRanges(level.NumberOfPatches(), threads,
+        [&](Id begin, Id end)
+        {
+          ElementMatrix sum;
+          for (Id patch = begin; patch < end; ++patch)
+          {
+            const double factor = scale.empty() ? b : b * scale[patch];
+            Eigen::Map<Eigen::Array<double, ElementEntries, 1>>(sum.data()) =
+              a * PackedEntries(elements.mass[patch].data()) +
+              factor * PackedEntries(elements.stiffness[patch].data());
+            Multiply<Columns>(sum, level.dof[patch], u,
+              { first, shares.data() + patch * FunctionsPerPatch * Columns });
+          }
+        });
+      SumShares<Columns>(shares, places, first, threads, result);
+    });
+  return result;
+}
+
+} // namespace gridfem

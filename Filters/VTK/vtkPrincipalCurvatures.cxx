@@ -1,0 +1,144 @@
+#include "vtkPrincipalCurvatures.h"
+
+#include "Private/InputMesh.h"
+#include "Private/InputValidation.h"
+#include "Private/SolverOutput.h"
+#include "Private/SurfaceCurvatures.h"
+
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <vector>
+
+vtkStandardNewMacro(vtkPrincipalCurvatures);
+
+namespace
+{
+
+/// All arrays, but for the directions, in the order of their names below.
+gridfem::MultiVector Numbers(const gridfem::PrincipalCurvatures& curvatures)
+{
+  gridfem::MultiVector numbers(static_cast<gridfem::Id>(curvatures.minimum.size()), 5);
+  for (gridfem::Id point = 0; point < numbers.rows(); ++point)
+  {
+    const double least = curvatures.minimum[point];
+    const double most = curvatures.maximum[point];
+    numbers.row(point) << least, most, 0.5 * (least + most), least * most,
+      gridfem::ShapeIndex(least, most);
+  }
+  return numbers;
+}
+
+constexpr const char* NumberNames[] = { "MinimumCurvature", "MaximumCurvature", "MeanCurvature",
+  "GaussianCurvature", "ShapeIndex" };
+
+gridfem::MultiVector Rows(const std::vector<gridfem::Vec3>& vectors)
+{
+  gridfem::MultiVector rows(static_cast<gridfem::Id>(vectors.size()), 3);
+  for (gridfem::Id row = 0; row < rows.rows(); ++row)
+  {
+    std::copy(vectors[row].data(), vectors[row].data() + 3, &rows(row, 0));
+  }
+  return rows;
+}
+
+} // namespace
+
+struct vtkPrincipalCurvatures::Internals
+{
+  gridfem::PrincipalCurvatures Curvatures;
+  gridfem::SolveReport Report; // of the smoothing
+};
+
+vtkPrincipalCurvatures::vtkPrincipalCurvatures() : Data(std::make_unique<Internals>())
+{
+  this->Tolerance = 1e-4;
+  this->NormalStabilization = 1e-2;
+  this->MaximumIterations = 200;
+}
+
+vtkPrincipalCurvatures::~vtkPrincipalCurvatures() = default;
+
+void vtkPrincipalCurvatures::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
+  vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
+  gridfem::SurfaceSolverState& state = *this->State;
+  const gridfem::Progress progress = state.bridge.GetProgress();
+  gridfem::RequireAtLeast("SmoothingScale", this->SmoothingScale, 0.0);
+  gridfem::StageKey key;
+  key.Add(this->SmoothingScale).Add(this->WeldCoincidentPoints);
+  const bool isSmoothed = this->SmoothingScale > 0.0;
+  if (isSmoothed)
+  {
+    state.UpdateSpace(input, nullptr, progress.Part(0.0, 0.4));
+    state.UpdateSystem(progress.Part(0.4, 0.6));
+    key.Add(state.stages.Version(gridfem::SystemStage)).Add(this->ParameterUnits);
+    key.Add(this->Tolerance).Add(this->MaximumIterations);
+    gridfem::AddMultigrid(key, state.options.multigrid);
+  }
+  else
+  {
+    gridfem::AddMesh(key, input);
+  }
+  state.stages.Run(gridfem::SolveStage, key, [&] { this->Fit(input, progress.Part(0.6, 0.95)); });
+  this->WriteArrays(input, output);
+  if (isSmoothed)
+  {
+    const gridfem::SolveReport& report = this->Data->Report;
+    gridfem::AddReport(report, output);
+    if (!report.converged)
+    {
+      vtkWarningMacro(<< gridfem::WarningOf(report, this->Tolerance));
+    }
+  }
+  progress.Check(1.0);
+}
+
+void vtkPrincipalCurvatures::Fit(vtkPolyData* input, const gridfem::Progress& progress)
+{
+  const gridfem::SurfaceSolverState& state = *this->State;
+  const bool isSmoothed = this->SmoothingScale > 0.0;
+  gridfem::InputMesh own; // without smoothing there is no function space, which would have read it
+  if (!isSmoothed)
+  {
+    own = gridfem::ReadInputMesh(input, this->NumberOfThreads, progress.Part(0.0, 0.3));
+    gridfem::RequireSurface(*own.triangles);
+  }
+  const gridfem::TriangleMesh& mesh = *(isSmoothed ? state.mesh : own).triangles;
+  this->Data->Curvatures = gridfem::CurvaturesOfSurface(
+    state, mesh, this->SmoothingScale, this->Data->Report, progress.Part(0.3, 1.0));
+}
+
+void vtkPrincipalCurvatures::WriteArrays(vtkPolyData* input, vtkPolyData* output)
+{
+  const gridfem::PrincipalCurvatures& curvatures = this->Data->Curvatures;
+  output->ShallowCopy(input);
+  vtkPointData* points = output->GetPointData();
+  const gridfem::MultiVector numbers = Numbers(curvatures);
+  for (gridfem::Id k = 0; k < numbers.cols(); ++k)
+  {
+    points->AddArray(gridfem::MakePointArray(NumberNames[k], numbers.col(k), VTK_DOUBLE));
+  }
+  points->AddArray(gridfem::MakePointArray(
+    "MinimumCurvatureDirection", Rows(curvatures.minimumDirection), VTK_DOUBLE));
+  points->AddArray(gridfem::MakePointArray(
+    "MaximumCurvatureDirection", Rows(curvatures.maximumDirection), VTK_DOUBLE));
+  points->SetActiveScalars("MeanCurvature");
+}
+
+void vtkPrincipalCurvatures::FreeStages()
+{
+  this->Superclass::FreeStages();
+  *this->Data = Internals();
+}
+
+void vtkPrincipalCurvatures::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "SmoothingScale: " << this->SmoothingScale << "\n";
+}

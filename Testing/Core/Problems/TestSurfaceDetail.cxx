@@ -1,0 +1,244 @@
+// Detail against dense solutions of the equation, and what it must never do, on both kinds of
+// space.
+#include "Problems/SurfaceDetail.h"
+
+#include "Base/Errors.h"
+#include "Spaces.h"
+#include "Spaces/HatSpace.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+
+#include <cmath>
+#include <limits>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+constexpr double Lambda = 0.05; // per squared cell
+
+/// A space with its mesh's curvatures.
+struct DetailCase
+{
+  DetailCase(const TriangleMesh& inputMesh, bool isOnHats) : mesh(inputMesh)
+  {
+    GridSpaceOptions options;
+    options.functions.depth = 4;
+    options.coarsestSize = 32;
+    options.normalStabilization = 1e-2;
+    const HatSpace hats = BuildHatSpace(mesh, options);
+    space = isOnHats ? hats.Copy() : hats.Grid().Copy();
+    const HatFunctions around = NumberHatFunctions(mesh);
+    curvatures =
+      CurvaturesOnTriangles(mesh, ComputeCurvatures(mesh, around, PointNormals(mesh, around)));
+  }
+
+  std::unique_ptr<FiniteElementSpace> Weighed(const TransferFunction& alpha) const
+  {
+    auto weighed = space->Copy();
+    weighed->SplitStiffness(curvatures.direction);
+    weighed->Weigh(WeightsOfMetric(space->MeansOnElements(curvatures.values), alpha));
+    return weighed;
+  }
+
+  TriangleMesh mesh;
+  std::unique_ptr<FiniteElementSpace> space;
+  TriangleCurvatures curvatures;
+};
+
+/// What changes for the shape.
+PoissonSolution Solve(const FiniteElementSpace& space, const std::vector<double>& scaleLessOne)
+{
+  PoissonOptions options;
+  options.screeningWeight = Lambda;
+  options.solve.tolerance = 1e-11;
+  options.solve.maximumIterations = 200;
+  return SolveDetail(space, BuildMultigrid(space, Lambda, 1.0, options.multigrid),
+    LoadOfDetail(space, ShapeInSpace(space).coefficients, scaleLessOne), options);
+}
+
+Id NumberOfElements(const DetailCase& on)
+{
+  return on.space->MeansOnElements(on.curvatures.values).rows();
+}
+
+PoissonSolution Solve(const DetailCase& on, const FiniteElementSpace& space, double scale)
+{
+  return Solve(space, std::vector<double>(NumberOfElements(on), scale - 1.0));
+}
+
+double DirichletEnergy(const FiniteElementSpace& space, const MultiVector& u)
+{
+  return u.cwiseProduct(space.LoadOfFunction(0.0, 1.0, u, {})).sum();
+}
+
+double LengthsOfCurvature(double curvature)
+{
+  return 1.0 + 3.0 * std::abs(std::tanh(curvature));
+}
+
+std::vector<TriangleMesh> Meshes()
+{
+  return { Torus(40, 16, 1.0, 0.3), Transform(GeodesicSphere(8), { 1, 2, 3 }, 0.4, 5.0),
+    Transform(FlatRectangle(12, 8, 2.0, 1.0), { 1, 2, -1 }, 0.6),
+    Unweld(Transform(Box(5), { 1, 1, 1 }, 0.3)) };
+}
+
+class SurfaceDetail : public ::testing::TestWithParam<bool>
+{
+};
+
+} // namespace
+
+TEST_P(SurfaceDetail, SolvesTheEquation)
+{
+  for (const TriangleMesh& mesh : Meshes())
+  {
+    const DetailCase on(mesh, GetParam());
+    const auto space = on.Weighed(LengthsOfCurvature);
+    const MultiVector random = RandomValues(NumberOfElements(on), 1);
+    const std::vector<double> scale(random.data(), random.data() + random.size());
+    const PoissonSolution change = Solve(*space, scale);
+    ASSERT_TRUE(change.report.converged);
+    // Another way to the same: (λM + L) u = λ M f + L σ f.
+    const MultiVector f = ShapeInSpace(*space).coefficients;
+    const MultiVector u = f + change.coefficients;
+    std::vector<double> sigma = scale;
+    for (double& s : sigma)
+    {
+      s += 1.0;
+    }
+    const MultiVector residual =
+      space->LoadOfFunction(Lambda, 1.0, u, {}) - space->LoadOfFunction(Lambda, 1.0, f, sigma);
+    EXPECT_LE(residual.norm(), 1e-8 * space->LoadOfFunction(0.0, 1.0, f, sigma).norm());
+  }
+}
+
+TEST_P(SurfaceDetail, OfScaleOneIsTheInputForEveryMetric)
+{
+  for (const TriangleMesh& mesh : Meshes())
+  {
+    const DetailCase on(mesh, GetParam());
+    for (const double power : { 0.0, 1.0, -1.0 })
+    {
+      const auto space =
+        on.Weighed([=](double k) { return std::pow(LengthsOfCurvature(k), power); });
+      EXPECT_TRUE(Solve(on, *space, 1.0).coefficients.isZero(0.0));
+    }
+  }
+}
+
+TEST_P(SurfaceDetail, LowersTheDirichletEnergyBelowOneAndRaisesItAbove)
+{
+  for (const TriangleMesh& mesh : Meshes())
+  {
+    const DetailCase on(mesh, GetParam());
+    for (const bool isWeighed : { false, true })
+    {
+      const auto space = isWeighed ? on.Weighed(LengthsOfCurvature) : on.space->Copy();
+      const MultiVector f = ShapeInSpace(*space).coefficients;
+      double last = 0.0;
+      for (const double scale : { 0.0, 0.5, 1.0, 1.5, 3.0 })
+      {
+        const double energy = DirichletEnergy(*space, f + Solve(on, *space, scale).coefficients);
+        EXPECT_GT(energy, last) << scale;
+        last = energy;
+      }
+    }
+  }
+}
+
+TEST_P(SurfaceDetail, OfConstantLengthsScalesTheMassOnly)
+{
+  const DetailCase on(Torus(40, 16, 1.0, 0.3), GetParam());
+  for (const double length : { 1.0, 2.5 })
+  {
+    const auto space = on.Weighed([=](double) { return length; });
+    const SparseMatrix M = space->Matrix(0, 1.0, 0.0);
+    const SparseMatrix L = space->Matrix(0, 0.0, 1.0);
+    EXPECT_LE(
+      RelativeDifference(Dense(M), length * length * Dense(on.space->Matrix(0, 1.0, 0.0))), 1e-13);
+    EXPECT_LE(RelativeDifference(Dense(L), Dense(on.space->Matrix(0, 0.0, 1.0))), 1e-13);
+  }
+}
+
+/// On a sphere both curvatures are the same, so no direction matters.
+TEST_P(SurfaceDetail, DoesNotSeeDirectionsAtUmbilics)
+{
+  DetailCase on(GeodesicSphere(8), GetParam());
+  on.curvatures.values.setConstant(1.0);
+  const MultiVector change = Solve(on, *on.Weighed(LengthsOfCurvature), 2.0).coefficients;
+  for (Vec3& direction : on.curvatures.direction)
+  {
+    direction = Vec3(direction[1] + 0.3, -direction[0], 0.1);
+  }
+  const MultiVector other = Solve(on, *on.Weighed(LengthsOfCurvature), 2.0).coefficients;
+  EXPECT_LE(RelativeDifference(other, change), 1e-9);
+}
+
+TEST_P(SurfaceDetail, ProjectsAnArrayAndKeepsWhatNoFunctionHas)
+{
+  const DetailCase on(Torus(80, 32, 1.0, 0.3), GetParam());
+  const Field f{ FieldAssociation::Points,
+    RandomValues(static_cast<Id>(on.mesh.points.size()), 2) };
+  SolveOptions solve;
+  solve.maximumIterations = 200;
+  const SignalInSpace signal = ProjectSignal(*on.space, f, {}, solve);
+  EXPECT_TRUE(signal.report.converged);
+  const MultiVector sum = on.space->ValuesAtPoints(signal.coefficients) + signal.remainder;
+  EXPECT_LE((sum - f.values).cwiseAbs().maxCoeff(), 1e-13);
+
+  const Field smooth{ FieldAssociation::Points, PointCoordinates(on.mesh) };
+  const SignalInSpace shape = ProjectSignal(*on.space, smooth, {}, solve);
+  // A tenth of a squared cell times the curvature of the tube.
+  const double cell = on.space->UnitLength();
+  EXPECT_LE(shape.remainder.cwiseAbs().maxCoeff(), 0.1 * cell * cell / 0.3);
+}
+
+INSTANTIATE_TEST_SUITE_P(BothSpaces, SurfaceDetail, ::testing::Bool());
+
+TEST(TriangleCurvatures, OfATorus)
+{
+  const TriangleMesh mesh = Torus(120, 60, 1.0, 0.25);
+  const HatFunctions around = NumberHatFunctions(mesh);
+  const TriangleCurvatures curvatures =
+    CurvaturesOnTriangles(mesh, ComputeCurvatures(mesh, around, PointNormals(mesh, around)));
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  {
+    const auto row = static_cast<Id>(t);
+    EXPECT_NEAR(curvatures.values(row, 0), 4.0, 0.04);
+    const Vec3 p = mesh.points[mesh.triangles[t][0]];
+    const Vec3 alongTheRing = Vec3(-p[1], p[0], 0.0).normalized();
+    EXPECT_NEAR(curvatures.direction[t].normalized().dot(alongTheRing), 0.0, 0.06);
+  }
+  EXPECT_NEAR(UsualCurvature(mesh, curvatures), 4.0, 0.04);
+}
+
+TEST(TriangleCurvatures, OfAPlaneHaveNoSize)
+{
+  const TriangleMesh mesh = FlatRectangle(4, 4);
+  const HatFunctions around = NumberHatFunctions(mesh);
+  const TriangleCurvatures curvatures =
+    CurvaturesOnTriangles(mesh, ComputeCurvatures(mesh, around, PointNormals(mesh, around)));
+  EXPECT_EQ(UsualCurvature(mesh, curvatures), 0.0);
+}
+
+TEST(WeightsOfMetric, AreThoseOfTheThesis)
+{
+  MultiVector curvatures(1, 2);
+  curvatures << 3.0, -1.0;
+  const std::vector<ElementWeights> weights =
+    WeightsOfMetric(curvatures, [](double k) { return k > 0.0 ? 4.0 : 0.5; });
+  EXPECT_DOUBLE_EQ(weights[0].mass, 2.0);
+  EXPECT_DOUBLE_EQ(weights[0].stiffness[0], 0.125);
+  EXPECT_DOUBLE_EQ(weights[0].stiffness[1], 8.0);
+  for (const double length : { 0.0, -1.0, std::numeric_limits<double>::infinity(),
+         std::numeric_limits<double>::quiet_NaN() })
+  {
+    EXPECT_THROW(WeightsOfMetric(curvatures, [=](double) { return length; }), InvalidInput);
+  }
+}
