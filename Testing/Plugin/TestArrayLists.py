@@ -34,6 +34,9 @@ EXPECTED = {
     ("ScreenedPoisson", "GradientArray"): {"None", "Normals", "p3", "p9", "c3", "c9"},
     ("ScreenedPoisson", "GradientScaleArray"): {"None", "p1", "c1"},
     ("SurfaceGradient", "Array"): ANY,
+    ("HeatDiffusion", "Array"): ANY,
+    ("HeatDiffusion", "HeatSourceArray"): ANY,
+    ("GeodesicDistance", "SourceArray"): {"None", "p1"},
     ("SpectralSignatures", "ValueArray"): {"None", "Normals", "p1", "p3", "p4", "p9"}}
 
 

@@ -11,7 +11,7 @@ UNBOUNDED = {2**31 - 1, 2**63 - 1, 1.7976931348623157e308}
 
 # Properties without a value that a getter of the class could give.
 CONNECTIONS = {"Input", "Basis", "Sources"}
-ARRAYS = {"Array": 0, "ValueArray": 0, "GradientArray": 1, "GradientScaleArray": 2}
+ARRAYS = {"Array": 0, "SourceArray": 0, "HeatSourceArray": 1, "ValueArray": 0, "GradientArray": 1, "GradientScaleArray": 2}
 INFORMATION = {"TimestepValues"}
 LISTS = {"SourcePointIds"}
 

@@ -23,6 +23,9 @@ def build():
     signatures = simple.SpectralSignatures(
         Input=values, Basis=basis, Sources=surface, NumberOfModes=9, NumberOfScales=3,
         SourcePointIds=[3, 4], FilterType="Low Pass", LastMode=4, ValueArray=["POINTS", "f"])
+    distance = simple.GeodesicDistance(
+        Input=values, Depth=4, Sources=surface, SourcePointIds=[3, 4], Smoothing=2.5,
+        SourceArray=["POINTS", "f"], Unreachable="Infinity")
     hats = simple.ScreenedPoisson(
         Input=values, Depth=4, ValueArray=["POINTS", "f"], FunctionSpace="Hat Functions",
         Iteration="Cycles", Smoother="Gauss-Seidel in Slices",
@@ -31,14 +34,16 @@ def build():
         Input=values, Depth=4, NumberOfModes=5, Mode=2, FunctionSpace="Hat Functions",
         CompareFunctionSpaces=1)
     for name, proxy in (("clip", clip), ("basis", basis), ("poisson", poisson), ("hats", hats),
-                        ("spectrum", spectrum), ("both", both), ("signatures", signatures)):
+                        ("spectrum", spectrum), ("both", both), ("signatures", signatures),
+                        ("distance", distance)):
         simple.RenameSource(name, proxy)
 
 
 def results():
     """Every setting and the range of every point array, to compare before and after."""
     found = {}
-    for name in ("clip", "basis", "poisson", "hats", "spectrum", "both", "signatures"):
+    for name in ("clip", "basis", "poisson", "hats", "spectrum", "both", "signatures",
+                 "distance"):
         proxy = simple.FindSource(name)
         proxy.UpdatePipeline()
         for key in proxy.ListProperties():

@@ -189,9 +189,10 @@ void AddScalars(
   }
 }
 
-/// share += weights · (corner vectors without their part along the normal)
+/// share += factor weights · (map of the corner vectors)
+template<class Map>
 void AddVectors(const CornerVectors& weights, const Field& s, const std::array<Id, 3>& rows,
-  const Vec3& normal, double factor, const Share& share)
+  double factor, const Share& share, Map&& map)
 {
   for (int k = 0; k < 3; ++k)
   {
@@ -199,13 +200,73 @@ void AddVectors(const CornerVectors& weights, const Field& s, const std::array<I
     for (Id c = 0; c < share.columns; ++c)
     {
       const Vec3 vector(value[3 * c], value[3 * c + 1], value[3 * c + 2]);
-      const Vec3 tangential = factor * (vector - normal.dot(vector) * normal);
+      const Vec3 tangential = factor * map(vector);
       for (int i = 0; i < FunctionsPerPatch; ++i)
       {
         share.At(i, c) += weights[k][0][i] * tangential[0] + weights[k][1][i] * tangential[1] +
                           weights[k][2][i] * tangential[2];
       }
     }
+  }
+}
+
+/// ∫ <s, ∇b_i> for s = map(normal, vector of the field).
+template<class Map>
+MultiVector IntegrateVectors(const GridFunctions& space, const TriangleMesh& mesh, const Field& s,
+  const Field* scale, const QuadratureRule& rule, int threads, const Progress& progress, Map&& map)
+{
+  CheckMesh(space, mesh);
+  RequireVectors(s, mesh);
+  RequireScale(scale, mesh);
+  return IntegratePieces(space, s.values.cols() / 3, threads, progress,
+    [&](Id piece, const Vec3& origin, const Share& share)
+    {
+      const Id triangle = space.clipped.pieceTriangle[piece];
+      const SourceTriangle source(space.clipped, mesh, triangle);
+      CornerVectors weights{};
+      ForEachSample(space, piece, origin, source, scale, rule,
+        [&](const Vec3& local, double weight, const Barycentric& lambda)
+        {
+          std::array<CornerValues, 3> derivative;
+          TrilinearGradients(local, derivative);
+          for (int k = 0; k < 3; ++k)
+          {
+            for (int axis = 0; axis < 3; ++axis)
+            {
+              AddScaled(weight * lambda[k], derivative[axis], weights[k][axis]);
+            }
+          }
+        });
+      const Vec3 normal = source.Normal();
+      AddVectors(weights, s, s.RowsOf(triangle, source.Points()), space.GetGrid().spacing, share,
+        [&](const Vec3& vector) { return Vec3(map(normal, vector)); });
+    });
+}
+
+/// share += factor <direction, ∇b_i> with the direction of the surface gradient of Σ u_i b_i.
+template<class ValueOf>
+void AddDirection(const std::array<CornerValues, 3>& derivative, const Vec3& normal, double factor,
+  const Share& share, Id column, ValueOf&& u)
+{
+  // Differences alone count: without it rounding of large values would give constants a direction.
+  const double reference = u(0);
+  Vec3 gradient = Vec3::Zero();
+  for (int i = 1; i < FunctionsPerPatch; ++i)
+  {
+    gradient += (u(i) - reference) * Vec3(derivative[0][i], derivative[1][i], derivative[2][i]);
+  }
+  gradient -= normal.dot(gradient) * normal;
+  const double size = gradient.stableNorm();
+  if (!(size > 0.0))
+  {
+    return;
+  }
+  const Vec3 direction = gradient / size;
+  for (int i = 0; i < FunctionsPerPatch; ++i)
+  {
+    share.At(i, column) +=
+      factor * (derivative[0][i] * direction[0] + derivative[1][i] * direction[1] +
+                 derivative[2][i] * direction[2]);
   }
 }
 
@@ -239,30 +300,47 @@ MultiVector IntegrateValues(const GridFunctions& space, const TriangleMesh& mesh
 MultiVector IntegrateGradients(const GridFunctions& space, const TriangleMesh& mesh, const Field& s,
   const Field* scale, const QuadratureRule& rule, int threads, const Progress& progress)
 {
+  return IntegrateVectors(space, mesh, s, scale, rule, threads, progress,
+    [](const Vec3& normal, const Vec3& vector) { return vector - normal.dot(vector) * normal; });
+}
+
+MultiVector IntegrateTurnedGradients(const GridFunctions& space, const TriangleMesh& mesh,
+  const Field& s, const QuadratureRule& rule, int threads, const Progress& progress)
+{
+  return IntegrateVectors(space, mesh, s, nullptr, rule, threads, progress,
+    [](const Vec3& normal, const Vec3& vector) { return normal.cross(vector); });
+}
+
+MultiVector IntegrateDirections(const GridFunctions& space, const TriangleMesh& mesh,
+  const MultiVector& coefficients, const Field* scale, const QuadratureRule& rule, int threads,
+  const Progress& progress)
+{
   CheckMesh(space, mesh);
-  RequireVectors(s, mesh);
   RequireScale(scale, mesh);
-  return IntegratePieces(space, s.values.cols() / 3, threads, progress,
+  const PatchLevel& level = space.Finest();
+  if (coefficients.rows() != level.numberOfFunctions)
+  {
+    throw InvalidInput("There are " + std::to_string(coefficients.rows()) + " coefficients for " +
+                       std::to_string(level.numberOfFunctions) + " functions.");
+  }
+  const double spacing = space.GetGrid().spacing;
+  return IntegratePieces(space, coefficients.cols(), threads, progress,
     [&](Id piece, const Vec3& origin, const Share& share)
     {
-      const Id triangle = space.clipped.pieceTriangle[piece];
-      const SourceTriangle source(space.clipped, mesh, triangle);
-      CornerVectors weights{};
+      const SourceTriangle source(space.clipped, mesh, space.clipped.pieceTriangle[piece]);
+      const Vec3 normal = source.Normal();
+      const auto& dof = level.dof[space.piecePatch[piece]];
       ForEachSample(space, piece, origin, source, scale, rule,
-        [&](const Vec3& local, double weight, const Barycentric& lambda)
+        [&](const Vec3& local, double weight, const Barycentric&)
         {
           std::array<CornerValues, 3> derivative;
           TrilinearGradients(local, derivative);
-          for (int k = 0; k < 3; ++k)
+          for (Id c = 0; c < share.columns; ++c)
           {
-            for (int axis = 0; axis < 3; ++axis)
-            {
-              AddScaled(weight * lambda[k], derivative[axis], weights[k][axis]);
-            }
+            AddDirection(derivative, normal, weight * spacing, share, c,
+              [&](int i) { return coefficients(dof[i], share.firstColumn + c); });
           }
         });
-      AddVectors(weights, s, s.RowsOf(triangle, source.Points()), source.Normal(),
-        space.GetGrid().spacing, share);
     });
 }
 
