@@ -7,6 +7,7 @@
 #include "Private/ModeReader.h"
 #include "Private/MovedPoints.h"
 #include "Private/SolverOutput.h"
+#include "Private/SourcePoints.h"
 #include "Private/SurfaceSolverState.h"
 #include "Private/SurfaceSpectrum.h"
 

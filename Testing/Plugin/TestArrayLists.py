@@ -42,6 +42,9 @@ EXPECTED = {
     ("SurfaceDetail", "ValueArray"): {"None", "Normals", "p1", "p3", "p4", "p9"},
     ("SurfaceDetail", "DetailScaleArray"): {"None", "p1", "c1"},
     ("SurfaceGradient", "Array"): ANY,
+    ("HeatDiffusion", "Array"): ANY,
+    ("HeatDiffusion", "HeatSourceArray"): ANY,
+    ("GeodesicDistance", "SourceArray"): {"None", "p1"},
     ("SpectralSignatures", "ValueArray"): {"None", "Normals", "p1", "p3", "p4", "p9"}}
 
 

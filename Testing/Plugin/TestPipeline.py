@@ -1,4 +1,5 @@
 """The three ways of working: a filter on a mesh, a chain, one basis for several filters."""
+import math
 import unittest
 
 import gridfem.vtkGridFEMFilters  # before the plugin, which makes objects of its classes
@@ -42,7 +43,9 @@ class TestPipeline(unittest.TestCase):
             "StitchColors": ["vtkPolyData"],
             "HarmonicInterpolation": ["vtkPolyData"],
             "SurfaceDetail": ["vtkPolyData"],
-            "SurfaceGradient": ["vtkPolyData"]}
+            "SurfaceGradient": ["vtkPolyData"],
+            "GeodesicDistance": ["vtkPolyData"],
+            "HeatDiffusion": ["vtkPolyData"]}
         surface = plugin.with_arrays(self.surface)
         for name in plugin.PROXIES:
             with self.subTest(proxy=name):
@@ -191,6 +194,19 @@ class TestPipeline(unittest.TestCase):
         by_place = plugin.data(signatures).GetPointData().GetArray("BiharmonicDistance")
         self.assertEqual(by_place.GetRange(), by_id.GetRange())
         self.assertEqual(plugin.runs(signatures)["Solve"], 1)
+
+    def test_other_sources_take_the_solution_alone(self):
+        distance = simple.GeodesicDistance(Input=self.surface, Depth=DEPTH)
+        plugin.data(distance)
+
+        def set_source():
+            distance.SourcePointIds = [1]
+
+        self.assertEqual(plugin.reruns(distance, set_source), ["Solve"])
+        values = plugin.data(distance).GetPointData().GetArray("Distance")
+        self.assertEqual(values.GetValue(1), 0)
+        self.assertAlmostEqual(values.GetValue(0), math.pi, delta=0.15)  # from pole to pole
+        self.assertEqual(plugin.data(distance).GetPointData().GetScalars().GetName(), "Distance")
 
     def test_modes_vibrate_in_animate_modes(self):
         modes = simple.LaplaceSpectrum(

@@ -23,6 +23,9 @@ def build():
     signatures = simple.SpectralSignatures(
         Input=values, Basis=basis, Sources=surface, NumberOfModes=9, NumberOfScales=3,
         SourcePointIds=[3, 4], FilterType="Low Pass", LastMode=4, ValueArray=["POINTS", "f"])
+    distance = simple.GeodesicDistance(
+        Input=values, Depth=4, Sources=surface, SourcePointIds=[3, 4], Smoothing=2.5,
+        SourceArray=["POINTS", "f"], Unreachable="Infinity")
     hats = simple.ScreenedPoisson(
         Input=values, Depth=4, ValueArray=["POINTS", "f"], FunctionSpace="Hat Functions",
         Iteration="Cycles", Smoother="Gauss-Seidel in Slices",
@@ -43,7 +46,7 @@ def build():
     for name, proxy in (("clip", clip), ("basis", basis), ("poisson", poisson), ("hats", hats),
                         ("spectrum", spectrum), ("both", both), ("signatures", signatures),
                         ("curvatures", curvatures), ("detail", detail), ("stitch", stitch),
-                        ("spread", spread)):
+                        ("spread", spread), ("distance", distance)):
         simple.RenameSource(name, proxy)
 
 
@@ -51,7 +54,7 @@ def results():
     """Every setting and the range of every point array, to compare before and after."""
     found = {}
     for name in ("clip", "basis", "poisson", "hats", "spectrum", "both", "signatures",
-                 "curvatures", "detail", "stitch", "spread"):
+                 "curvatures", "detail", "stitch", "spread", "distance"):
         proxy = simple.FindSource(name)
         proxy.UpdatePipeline()
         for key in proxy.ListProperties():

@@ -5,6 +5,8 @@
 
 #include "vtkClipToOctree.h"
 #include "vtkConnectivityAwareBasis.h"
+#include "vtkGeodesicDistance.h"
+#include "vtkHeatDiffusion.h"
 #include "vtkLaplaceSpectrum.h"
 #include "vtkMeanCurvatureFlow.h"
 #include "vtkScreenedPoisson.h"
@@ -518,6 +520,10 @@ INSTANTIATE_TEST_SUITE_P(AllFilters, FailureRule,
     FilterCase{ "LaplaceSpectrum", &Make<vtkLaplaceSpectrum>, "Mode" },
     FilterCase{ "MeanCurvatureFlow", &Make<vtkMeanCurvatureFlow>, "ConformalFactor" },
     FilterCase{ "SpectralSignatures", &Make<vtkSpectralSignatures>, "HeatKernelSignature" },
+    FilterCase{ "GeodesicDistance", &Make<vtkGeodesicDistance>, nullptr },
+    FilterCase{ "GeodesicDistanceOnHats", &MakeOnHats<vtkGeodesicDistance>, nullptr },
+    FilterCase{ "HeatDiffusion", &Make<vtkHeatDiffusion>, "Diffused" },
+    FilterCase{ "HeatDiffusionOnHats", &MakeOnHats<vtkHeatDiffusion>, "Diffused" },
     FilterCase{ "ScreenedPoissonOnHats", &MakeOnHats<vtkScreenedPoisson>, "Solution" },
     FilterCase{ "LaplaceSpectrumOnHats", &MakeOnHats<vtkLaplaceSpectrum>, "Mode" },
     FilterCase{ "MeanCurvatureFlowOnHats", &MakeOnHats<vtkMeanCurvatureFlow>, "ConformalFactor" },

@@ -3,6 +3,8 @@
 
 #include "FilterSupport.h"
 
+#include "vtkGeodesicDistance.h"
+#include "vtkHeatDiffusion.h"
 #include "vtkLaplaceSpectrum.h"
 #include "vtkMeanCurvatureFlow.h"
 #include "vtkScreenedPoisson.h"
@@ -60,6 +62,12 @@ const HostileCase Cases[] = {
     { return With<vtkMeanCurvatureFlow>([=](auto* filter) { filter->SetTimeStep(value); }); } },
   { "Tolerance", [](double value)
     { return With<vtkMeanCurvatureFlow>([=](auto* filter) { filter->SetTolerance(value); }); } },
+  { "Smoothing", [](double value)
+    { return With<vtkGeodesicDistance>([=](auto* filter) { filter->SetSmoothing(value); }); } },
+  { "Tolerance", [](double value)
+    { return With<vtkGeodesicDistance>([=](auto* filter) { filter->SetTolerance(value); }); } },
+  { "DiffusionTime", [](double value)
+    { return With<vtkHeatDiffusion>([=](auto* filter) { filter->SetDiffusionTime(value); }); } },
   { "DiffusionTime",
     [](double value)
     {
@@ -114,8 +122,8 @@ TEST_P(HostileProperties, InfinityIsClampedOrRefused)
       const Messages messages(filter);
       const int result = filter->GetExecutive()->Update();
       EXPECT_EQ(result, messages.errors.empty() ? 1 : 0) << hostile.name;
-      for (const char* name :
-        { "Solution", "Mode", "HeatKernelSignature", "DiffusionDistance", "Displacement" })
+      for (const char* name : { "Solution", "Mode", "HeatKernelSignature", "DiffusionDistance",
+             "Displacement", "Distance", "Diffused" })
       {
         EXPECT_TRUE(AllFinite(PointValues(filter->GetOutputDataObject(0), name)))
           << hostile.name << " " << name;

@@ -401,30 +401,13 @@ MultiVector IntegrateValuesTimes(const GridFunctions& space, const TriangleMesh&
     });
 }
 
-} // namespace
-
-MultiVector IntegrateValues(const GridFunctions& space, const TriangleMesh& mesh, const Field& f,
-  const QuadratureRule& rule, int threads, const Progress& progress)
-{
-  return IntegrateValuesTimes(
-    space, mesh, f, [](Id) { return 1.0; }, rule, threads, progress);
-}
-
-MultiVector IntegrateWeightedValues(const GridFunctions& space, const TriangleMesh& mesh,
-  const Field& f, const std::vector<double>& weight, const QuadratureRule& rule, int threads,
-  const Progress& progress)
-{
-  RequireWeights(weight, mesh);
-  return IntegrateValuesTimes(
-    space, mesh, f, [&weight](Id triangle) { return weight[triangle]; }, rule, threads, progress);
-}
-
-MultiVector IntegrateGradients(const GridFunctions& space, const TriangleMesh& mesh, const Field& s,
-  const Field* scale, const QuadratureRule& rule, int threads, const Progress& progress)
+/// ∫ <s, ∇b_i> for s = map(vector of the field, normal).
+template<class Map>
+MultiVector IntegrateVectors(const GridFunctions& space, const TriangleMesh& mesh, const Field& s,
+  const Field* scale, const QuadratureRule& rule, int threads, const Progress& progress, Map&& map)
 {
   RequireVectors(s, mesh);
   RequireScale(scale, mesh);
-  const double spacing = space.GetGrid().spacing;
   return Integrate<GradientSums>(space, mesh, s.values.cols() / 3, rule, threads, progress,
     [&](const TriangleBatch& batch, const SourceLanes& source, Id first, auto& sums)
     {
@@ -449,7 +432,149 @@ MultiVector IntegrateGradients(const GridFunctions& space, const TriangleMesh& m
                 {
                   given.axis[axis] = column[3 * c + axis].At(sample.position);
                 }
-                vector[c] = Tangential(given, source.Normal(), spacing);
+                vector[c] = map(given, source.Normal());
+              }
+              sums.Add(sample, vector);
+            });
+        });
+    });
+}
+
+/// The trilinear function of a patch's coefficients as its differences along the axes.
+class PatchSlopes
+{
+public:
+  PatchSlopes(
+    const std::array<Index, FunctionsPerPatch>& dof, const MultiVector& coefficients, Id column)
+  {
+    for (int p = 0; p < 3; ++p)
+    {
+      for (int k = 0; k < 4; ++k)
+      {
+        const int low = ((k & 1) << (p + 1) % 3) + ((k >> 1) << (p + 2) % 3);
+        difference_[p][k] =
+          coefficients(dof[low + (1 << p)], column) - coefficients(dof[low], column);
+      }
+    }
+  }
+
+  EIGEN_ALWAYS_INLINE LaneVector At(const Lanes* position) const
+  {
+    LaneVector gradient;
+    for (int p = 0; p < 3; ++p)
+    {
+      const Bilinear across(position[(p + 1) % 3], position[(p + 2) % 3]);
+      gradient.axis[p] = Lanes::Zero();
+      for (int k = 0; k < 4; ++k)
+      {
+        gradient.axis[p] += difference_[p][k] * across.product[k];
+      }
+    }
+    return gradient;
+  }
+
+private:
+  double difference_[3][4];
+};
+
+/// factor v / |v|, 0 where v is; v may be so small that its square is 0.
+EIGEN_ALWAYS_INLINE LaneVector Direction(const LaneVector& vector, double factor)
+{
+  const Lanes largest = vector.axis[0].abs().max(vector.axis[1].abs()).max(vector.axis[2].abs());
+  const Lanes inverse = (largest > 0.0).select(1.0 / largest, Lanes::Zero());
+  LaneVector result;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    result.axis[axis] = vector.axis[axis] * inverse;
+  }
+  const Lanes square = result.Dot(result);
+  const Lanes scale = (square > 0.0).select(factor / square.sqrt(), Lanes::Zero());
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    result.axis[axis] *= scale;
+  }
+  return result;
+}
+
+} // namespace
+
+MultiVector IntegrateValues(const GridFunctions& space, const TriangleMesh& mesh, const Field& f,
+  const QuadratureRule& rule, int threads, const Progress& progress)
+{
+  return IntegrateValuesTimes(
+    space, mesh, f, [](Id) { return 1.0; }, rule, threads, progress);
+}
+
+MultiVector IntegrateWeightedValues(const GridFunctions& space, const TriangleMesh& mesh,
+  const Field& f, const std::vector<double>& weight, const QuadratureRule& rule, int threads,
+  const Progress& progress)
+{
+  RequireWeights(weight, mesh);
+  return IntegrateValuesTimes(
+    space, mesh, f, [&weight](Id triangle) { return weight[triangle]; }, rule, threads, progress);
+}
+
+MultiVector IntegrateGradients(const GridFunctions& space, const TriangleMesh& mesh, const Field& s,
+  const Field* scale, const QuadratureRule& rule, int threads, const Progress& progress)
+{
+  const double spacing = space.GetGrid().spacing;
+  return IntegrateVectors(space, mesh, s, scale, rule, threads, progress,
+    [spacing](const LaneVector& vector, const LaneVector& normal)
+    { return Tangential(vector, normal, spacing); });
+}
+
+MultiVector IntegrateTurnedGradients(const GridFunctions& space, const TriangleMesh& mesh,
+  const Field& s, const QuadratureRule& rule, int threads, const Progress& progress)
+{
+  const double spacing = space.GetGrid().spacing;
+  return IntegrateVectors(space, mesh, s, nullptr, rule, threads, progress,
+    [spacing](const LaneVector& vector, const LaneVector& normal)
+    {
+      LaneVector turned;
+      for (int p = 0; p < 3; ++p)
+      {
+        const int q = (p + 1) % 3;
+        const int r = (p + 2) % 3;
+        turned.axis[p] =
+          spacing * (normal.axis[q] * vector.axis[r] - normal.axis[r] * vector.axis[q]);
+      }
+      return turned;
+    });
+}
+
+MultiVector IntegrateDirections(const GridFunctions& space, const TriangleMesh& mesh,
+  const MultiVector& coefficients, const Field* scale, const QuadratureRule& rule, int threads,
+  const Progress& progress)
+{
+  RequireScale(scale, mesh);
+  const PatchLevel& level = space.Finest();
+  if (coefficients.rows() != level.numberOfFunctions)
+  {
+    throw InvalidInput("There are " + std::to_string(coefficients.rows()) + " coefficients for " +
+                       std::to_string(level.numberOfFunctions) + " functions.");
+  }
+  const double spacing = space.GetGrid().spacing;
+  return Integrate<GradientSums>(space, mesh, coefficients.cols(), rule, threads, progress,
+    [&](const TriangleBatch& batch, const SourceLanes& source, Id first, auto& sums)
+    {
+      constexpr int Columns = std::decay_t<decltype(sums)>::Count;
+      const auto& dof = level.dof[space.piecePatch[batch.piece[0]]];
+      std::vector<PatchSlopes> slopes;
+      for (int c = 0; c < Columns; ++c)
+      {
+        slopes.emplace_back(dof, coefficients, first + c);
+      }
+      WithScale(scale, source,
+        [&](const LinearLanes* factor)
+        {
+          ForEachSample(batch, rule, factor,
+            [&](const Sample& sample)
+            {
+              LaneVector vector[Columns];
+              for (int c = 0; c < Columns; ++c)
+              {
+                vector[c] = Direction(
+                  Tangential(slopes[c].At(sample.position), source.Normal(), 1.0), spacing);
               }
               sums.Add(sample, vector);
             });

@@ -27,6 +27,16 @@ MultiVector IntegrateWeightedValues(const GridFunctions& space, const TriangleMe
 MultiVector IntegrateGradients(const GridFunctions& space, const TriangleMesh& mesh, const Field& s,
   const Field* scale, const QuadratureRule& rule, int threads = 0, const Progress& progress = {});
 
+/// The same with n x s, n the unit normal of each triangle, and without a scale.
+MultiVector IntegrateTurnedGradients(const GridFunctions& space, const TriangleMesh& mesh,
+  const Field& s, const QuadratureRule& rule, int threads = 0, const Progress& progress = {});
+
+/// The same with s = ∇u / |∇u| for functions given by their coefficients, one for each column; 0
+/// where ∇u = 0.
+MultiVector IntegrateDirections(const GridFunctions& space, const TriangleMesh& mesh,
+  const MultiVector& coefficients, const Field* scale, const QuadratureRule& rule, int threads = 0,
+  const Progress& progress = {});
+
 /// The same with s = ∇f, f linear on each triangle (f must live on points).
 MultiVector IntegrateGradientsOf(const GridFunctions& space, const TriangleMesh& mesh,
   const Field& f, const Field* scale, const QuadratureRule& rule, int threads = 0,

@@ -89,6 +89,14 @@ public:
   virtual MultiVector LoadOfGradients(
     const Field& s, const Field* scale, const Job& job = {}) const = 0;
 
+  /// The same with n x s, n along the normal of each triangle.
+  virtual MultiVector LoadOfTurnedGradients(const Field& s, const Job& job = {}) const = 0;
+
+  /// The same with s = ∇u / |∇u| for functions u of the space; 0 where ∇u = 0.
+  /// @return rows = functions, columns as `coefficients`
+  virtual MultiVector LoadOfDirections(
+    const MultiVector& coefficients, const Field* scale, const Job& job = {}) const = 0;
+
   /// The same with s = ∇f, f linear on each triangle (f must live on points).
   virtual MultiVector LoadOfGradientsOf(
     const Field& f, const Field* scale, const Job& job = {}) const = 0;

@@ -110,6 +110,18 @@ MultiVector GridSpace::LoadOfGradients(const Field& s, const Field* scale, const
   return IntegrateGradients(*functions_, *mesh_, s, scale, this->Rule(), job.threads, job.progress);
 }
 
+MultiVector GridSpace::LoadOfTurnedGradients(const Field& s, const Job& job) const
+{
+  return IntegrateTurnedGradients(*functions_, *mesh_, s, this->Rule(), job.threads, job.progress);
+}
+
+MultiVector GridSpace::LoadOfDirections(
+  const MultiVector& coefficients, const Field* scale, const Job& job) const
+{
+  return IntegrateDirections(
+    *functions_, *mesh_, coefficients, scale, this->Rule(), job.threads, job.progress);
+}
+
 MultiVector GridSpace::LoadOfGradientsOf(const Field& f, const Field* scale, const Job& job) const
 {
   return IntegrateGradientsOf(

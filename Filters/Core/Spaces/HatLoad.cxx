@@ -61,6 +61,33 @@ MultiVector IntegrateTriangles(const HatFunctions& hats, const TriangleMesh& mes
   return result;
 }
 
+/// ∫ <s, test(triangle, corner)>, world units.
+template<class Test>
+MultiVector IntegrateVectors(const HatFunctions& hats, const TriangleMesh& mesh, const Field& s,
+  const Field* scale, int threads, Test&& test)
+{
+  CheckMesh(hats, mesh);
+  RequireVectors(s, mesh);
+  RequireScale(scale, mesh);
+  const Id columns = s.values.cols() / 3;
+  return IntegrateTriangles(hats, mesh, columns, threads,
+    [&](const HatTriangle& triangle, Id number, int corner, auto sum)
+    {
+      const std::array<Id, 3> row = s.RowsOf(number, mesh.triangles[number]);
+      const std::array<double, 3> mean = MeansOfProducts(ScaleAtCorners(scale, mesh, number));
+      const Vec3 weight = test(triangle, corner) * triangle.area * hats.unitLength;
+      for (Id c = 0; c < columns; ++c)
+      {
+        for (int k = 0; k < 3; ++k)
+        {
+          const double* vector = &s.values(row[k], 3 * c);
+          sum[c] +=
+            mean[k] * (weight[0] * vector[0] + weight[1] * vector[1] + weight[2] * vector[2]);
+        }
+      }
+    });
+}
+
 /// @param weightOf  a factor for each triangle
 template<class Weight>
 MultiVector IntegrateValuesTimes(const HatFunctions& hats, const TriangleMesh& mesh, const Field& f,
@@ -100,23 +127,46 @@ MultiVector IntegrateWeightedValues(const HatFunctions& hats, const TriangleMesh
 MultiVector IntegrateGradients(const HatFunctions& hats, const TriangleMesh& mesh, const Field& s,
   const Field* scale, int threads)
 {
+  return IntegrateVectors(hats, mesh, s, scale, threads,
+    [](const HatTriangle& triangle, int corner) { return triangle.Gradient(corner); });
+}
+
+/// <n x s, ∇φ> = <s, ∇φ x n>
+MultiVector IntegrateTurnedGradients(
+  const HatFunctions& hats, const TriangleMesh& mesh, const Field& s, int threads)
+{
+  return IntegrateVectors(hats, mesh, s, nullptr, threads,
+    [](const HatTriangle& triangle, int corner)
+    { return triangle.Gradient(corner).cross(triangle.areaVector.normalized()); });
+}
+
+MultiVector IntegrateDirections(const HatFunctions& hats, const TriangleMesh& mesh,
+  const MultiVector& coefficients, const Field* scale, int threads)
+{
   CheckMesh(hats, mesh);
-  RequireVectors(s, mesh);
   RequireScale(scale, mesh);
-  const Id columns = s.values.cols() / 3;
-  return IntegrateTriangles(hats, mesh, columns, threads,
+  if (coefficients.rows() != hats.Count())
+  {
+    throw InvalidInput("There are " + std::to_string(coefficients.rows()) + " coefficients for " +
+                       std::to_string(hats.Count()) + " functions.");
+  }
+  return IntegrateTriangles(hats, mesh, coefficients.cols(), threads,
     [&](const HatTriangle& triangle, Id number, int corner, auto sum)
     {
-      const std::array<Id, 3> row = s.RowsOf(number, mesh.triangles[number]);
-      const std::array<double, 3> mean = MeansOfProducts(ScaleAtCorners(scale, mesh, number));
-      const Vec3 weight = triangle.Gradient(corner) * triangle.area * hats.unitLength;
-      for (Id c = 0; c < columns; ++c)
+      const std::array<double, 3> value = ScaleAtCorners(scale, mesh, number);
+      const double scaledArea =
+        triangle.area * hats.unitLength * (value[0] + value[1] + value[2]) / 3.0;
+      const Vec3 own = triangle.Gradient(corner);
+      const Vec3 along[2] = { triangle.Gradient(1), triangle.Gradient(2) };
+      const auto& points = mesh.triangles[number];
+      for (Id c = 0; c < coefficients.cols(); ++c)
       {
-        for (int k = 0; k < 3; ++k)
+        const auto u = [&](int k) { return coefficients(hats.ofPoint[points[k]], c); };
+        const Vec3 gradient = (u(1) - u(0)) * along[0] + (u(2) - u(0)) * along[1];
+        const double size = gradient.stableNorm();
+        if (size > 0.0)
         {
-          const double* vector = &s.values(row[k], 3 * c);
-          sum[c] +=
-            mean[k] * (weight[0] * vector[0] + weight[1] * vector[1] + weight[2] * vector[2]);
+          sum[c] += scaledArea * own.dot(gradient / size);
         }
       }
     });

@@ -26,6 +26,15 @@ MultiVector IntegrateWeightedValues(const HatFunctions& hats, const TriangleMesh
 MultiVector IntegrateGradients(const HatFunctions& hats, const TriangleMesh& mesh, const Field& s,
   const Field* scale, int threads = 0);
 
+/// The same with n x s, n the unit normal of each triangle, and without a scale.
+MultiVector IntegrateTurnedGradients(
+  const HatFunctions& hats, const TriangleMesh& mesh, const Field& s, int threads = 0);
+
+/// The same with s = ∇u / |∇u| for functions given by their coefficients, one for each column; 0
+/// where ∇u = 0.
+MultiVector IntegrateDirections(const HatFunctions& hats, const TriangleMesh& mesh,
+  const MultiVector& coefficients, const Field* scale, int threads = 0);
+
 /// The same with s = ∇f, f linear on each triangle (f must live on points).
 MultiVector IntegrateGradientsOf(const HatFunctions& hats, const TriangleMesh& mesh, const Field& f,
   const Field* scale, int threads = 0);

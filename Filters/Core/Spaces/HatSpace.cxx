@@ -148,6 +148,17 @@ MultiVector HatSpace::LoadOfGradients(const Field& s, const Field* scale, const 
   return IntegrateGradients(hats_->functions, grid_.Mesh(), s, scale, job.threads);
 }
 
+MultiVector HatSpace::LoadOfTurnedGradients(const Field& s, const Job& job) const
+{
+  return IntegrateTurnedGradients(hats_->functions, grid_.Mesh(), s, job.threads);
+}
+
+MultiVector HatSpace::LoadOfDirections(
+  const MultiVector& coefficients, const Field* scale, const Job& job) const
+{
+  return IntegrateDirections(hats_->functions, grid_.Mesh(), coefficients, scale, job.threads);
+}
+
 MultiVector HatSpace::LoadOfGradientsOf(const Field& f, const Field* scale, const Job& job) const
 {
   return IntegrateGradientsOf(hats_->functions, grid_.Mesh(), f, scale, job.threads);

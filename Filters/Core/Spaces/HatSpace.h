@@ -57,6 +57,9 @@ public:
     const Field& f, const std::vector<double>& weight, const Job& job = {}) const override;
   MultiVector LoadOfGradients(
     const Field& s, const Field* scale, const Job& job = {}) const override;
+  MultiVector LoadOfTurnedGradients(const Field& s, const Job& job = {}) const override;
+  MultiVector LoadOfDirections(
+    const MultiVector& coefficients, const Field* scale, const Job& job = {}) const override;
   MultiVector LoadOfGradientsOf(
     const Field& f, const Field* scale, const Job& job = {}) const override;
   MultiVector LoadOfGradientsOfCoordinates(const Field* scale, const Job& job = {}) const override;

@@ -5,11 +5,8 @@
 #include "Base/Errors.h"
 
 #include "vtkDataArray.h"
-#include "vtkDataSet.h"
 #include "vtkFieldData.h"
-#include "vtkNew.h"
 #include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
@@ -111,29 +108,6 @@ PointModes ReadModes(vtkPolyData* input, const InputMesh& mesh)
     ReadMode(input, mode, used, modes.values);
   }
   return modes;
-}
-
-std::vector<Id> SourcePoints(
-  const TriangleMesh& mesh, const std::vector<Id>& ids, vtkDataSet* places)
-{
-  const std::vector<char> used = UsedPoints(mesh);
-  for (const Id id : ids)
-  {
-    if (id < 0 || id >= static_cast<Id>(used.size()) || !used[id])
-    {
-      throw InvalidInput(
-        "SourcePointIds: " + std::to_string(id) + " is not a point of a polygon of the mesh.");
-    }
-  }
-  std::vector<Id> sources = ids;
-  if (places && places->GetNumberOfPoints() > 0)
-  {
-    const std::vector<Id> nearest = NearestPoints(mesh, places, "Sources");
-    sources.insert(sources.end(), nearest.begin(), nearest.end());
-  }
-  std::sort(sources.begin(), sources.end());
-  sources.erase(std::unique(sources.begin(), sources.end()), sources.end());
-  return sources;
 }
 
 } // namespace gridfem

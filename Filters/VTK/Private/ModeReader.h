@@ -1,4 +1,4 @@
-// The modes that Laplace Spectrum has put on a mesh, and the points that distances start from.
+// The modes that Laplace Spectrum has put on a mesh.
 #ifndef GridFEM_ModeReader_h
 #define GridFEM_ModeReader_h
 
@@ -8,9 +8,7 @@
 #include "Problems/SpectralDescriptors.h"
 
 #include <string>
-#include <vector>
 
-class vtkDataSet;
 class vtkPolyData;
 
 namespace gridfem
@@ -32,12 +30,6 @@ void AddModeArrays(StageKey& key, vtkPolyData* input);
 /// naming an array that is missing or does not fit, or the first point with a NaN or infinite
 /// value.
 PointModes ReadModes(vtkPolyData* input, const InputMesh& mesh);
-
-/// The given point ids, and the points of the mesh nearest to those of `places` (may be null);
-/// ascending, every point once. Points that no polygon uses do not count. Throws InvalidInput
-/// naming an id that is no point of a polygon, or a point of `places` that is not finite.
-std::vector<Id> SourcePoints(
-  const TriangleMesh& mesh, const std::vector<Id>& ids, vtkDataSet* places);
 
 } // namespace gridfem
 

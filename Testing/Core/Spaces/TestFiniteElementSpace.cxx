@@ -93,6 +93,51 @@ TEST_P(EverySpace, HasALoadOfOneThatAddsUpToTheArea)
   }
 }
 
+/// Of a function whose slope is 1 direction and gradient are the same, and those of coordinates on
+/// a plane are known.
+TEST_P(EverySpace, IntegratesDirectionsAsGradientsOverTheirSize)
+{
+  const Eigen::AngleAxisd turn(0.4, Vec3(1, 0.3, 0).normalized());
+  const SpaceOnMesh on = this->Build(Transform(TwoSheets(6, 0.2), { 1, 0.3, 0 }, 0.4));
+  const Vec3 slope = turn * Vec3(0.6, -0.8, 0);
+  const MultiVector u = on.coordinates * (1e-200 * slope); // however small
+  MultiVector s(static_cast<Id>(on.mesh.points.size()), 3);
+  for (Id i = 0; i < s.rows(); ++i)
+  {
+    SetRow(s, i, slope);
+  }
+  const MultiVector expected = on.space->LoadOfGradients({ FieldAssociation::Points, s }, nullptr);
+  EXPECT_LT((on.space->LoadOfDirections(u, nullptr) - expected).norm(), 1e-6 * expected.norm());
+  const Field twice{ FieldAssociation::Triangles,
+    MultiVector::Constant(static_cast<Id>(on.mesh.triangles.size()), 1, 2.0) };
+  EXPECT_LT((on.space->LoadOfDirections(u, &twice) - 2 * expected).norm(), 1e-6 * expected.norm());
+  EXPECT_EQ(on.space->LoadOfDirections(MultiVector::Ones(u.rows(), 1), nullptr).norm(), 0.0);
+  EXPECT_THROW(on.space->LoadOfDirections(MultiVector::Ones(3, 1), nullptr), InvalidInput);
+}
+
+TEST_P(EverySpace, TurnsVectorsAboutTheNormal)
+{
+  for (const TriangleMesh& mesh : Meshes())
+  {
+    const SpaceOnMesh on = this->Build(mesh);
+    const auto triangles = static_cast<Id>(mesh.triangles.size());
+    const MultiVector s = RandomValues(triangles, 3);
+    MultiVector turned(triangles, 3);
+    for (Id t = 0; t < triangles; ++t)
+    {
+      const auto& corner = mesh.triangles[t];
+      const Vec3 normal = (mesh.points[corner[1]] - mesh.points[corner[0]])
+                            .cross(mesh.points[corner[2]] - mesh.points[corner[0]])
+                            .normalized();
+      SetRow(turned, t, normal.cross(Vec3(s(t, 0), s(t, 1), s(t, 2))));
+    }
+    const MultiVector expected =
+      on.space->LoadOfGradients({ FieldAssociation::Triangles, turned }, nullptr);
+    const MultiVector load = on.space->LoadOfTurnedGradients({ FieldAssociation::Triangles, s });
+    EXPECT_LT((load - expected).norm(), 1e-9 * expected.norm());
+  }
+}
+
 TEST_P(EverySpace, IntegratesGradientsAsItsStiffnessDoes)
 {
   for (const TriangleMesh& mesh : Meshes())

@@ -1,0 +1,68 @@
+"""Distances along a surface, in ParaView's Python: isolines from one point and from four.
+
+    PV_PLUGIN_CONFIG_FILE=build/lib/paraview-5.11/plugins/gridfem.plugins.xml \\
+        xvfb-run -a pvpython distance.py MESH DEPTH PICTURE.png
+
+MESH is a file that ParaView reads (.ply, .vtp, ...).
+"""
+
+import pathlib
+import sys
+
+from paraview import servermanager, simple
+from vtkmodules.vtkFiltersCore import vtkContourFilter, vtkTubeFilter
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+
+from sheet import Layer, Tile, view_of, write_sheet
+
+INTERVALS = 24
+
+
+def isolines(mesh, largest):
+    """The lines of equal distance, as thin tubes."""
+    lines = vtkContourFilter()
+    lines.SetInputData(mesh)
+    lines.SetInputArrayToProcess(0, 0, 0, 0, "Distance")
+    for k in range(1, INTERVALS):
+        lines.SetValue(k - 1, k * largest / INTERVALS)
+    tubes = vtkTubeFilter()
+    tubes.SetInputConnection(lines.GetOutputPort())
+    tubes.SetRadius(0.0012 * mesh.GetLength())
+    tubes.Update()
+    return tubes.GetOutput()
+
+
+def farthest(mesh):
+    """The point farthest from the sources, and how far that is."""
+    distance = mesh.GetPointData().GetArray("Distance")
+    reached = (p for p in range(mesh.GetNumberOfPoints()) if distance.GetValue(p) >= 0.0)
+    point = max(reached, key=distance.GetValue)
+    return point, distance.GetValue(point)
+
+
+def main():
+    if len(sys.argv) != 4:
+        sys.exit(__doc__)
+    simple.LoadDistributedPlugin("GridFEM", remote=False, ns=globals())
+    surface = simple.OpenDataFile(sys.argv[1])
+    distance = GeodesicDistance(Input=surface, Depth=int(sys.argv[2]))
+    sources, tiles = [], []
+    for count, label in ((1, "distance from one point"), (4, "from four points")):
+        while len(sources) < count:  # each as far as it can be from those before
+            mesh = servermanager.Fetch(distance)
+            if mesh.GetNumberOfPoints() == 0:
+                sys.exit("The filter could not do its work; the message above says why.")
+            sources.append(farthest(mesh)[0])
+            distance.SourcePointIds = sources
+            distance.UpdatePipeline()
+        mesh = servermanager.Fetch(distance)
+        largest = farthest(mesh)[1]
+        print(f"{label}: at most {largest:.4g}")
+        layers = [Layer(mesh, "Distance", 0.0, largest),
+                  Layer(isolines(mesh, largest), color=(0.1, 0.1, 0.1))]
+        tiles.append(Tile(label, view_of(mesh, 1.2), layers))
+    write_sheet(tiles, sys.argv[3], len(tiles), (480, 400))
+
+
+main()

@@ -1,0 +1,181 @@
+#include "Problems/GeodesicDistance.h"
+
+#include "Problems/DistantHeat.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+
+namespace gridfem
+{
+namespace
+{
+
+constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+
+/// How far functions that overlap are from each other, in units of length of the space: a mean over
+/// pairs, weighted by their overlap ∫ b_i b_j, so that large elements count as the area they have.
+double MeanSpacing(const FiniteElementSpace& space, const Job& job)
+{
+  const SparseMatrix mass = space.Matrix(0, 1.0, 0.0, job);
+  const MultiVector place = space.EmbeddingOfMesh(job);
+  double sum = 0.0;
+  double weights = 0.0;
+  for (Index i = 0; i < mass.rows; ++i)
+  {
+    for (Id k = mass.rowBegin[i]; k < mass.rowBegin[i + 1]; ++k)
+    {
+      const Index j = mass.column[k];
+      const double weight = i == j ? 0.0 : std::abs(mass.value[k]);
+      sum += weight * (place.row(i) - place.row(j)).squaredNorm();
+      weights += weight;
+    }
+  }
+  return std::sqrt(sum / weights);
+}
+
+std::vector<char> MarkSources(const std::vector<Id>& sources, std::size_t points)
+{
+  if (sources.empty())
+  {
+    throw InvalidInput("There are no sources that distances could start from.");
+  }
+  std::vector<char> isSource(points, 0);
+  for (const Id source : sources)
+  {
+    if (source < 0 || source >= static_cast<Id>(points))
+    {
+      throw InvalidInput("The source " + std::to_string(source) + " is not a point of the mesh.");
+    }
+    isSource[source] = 1;
+  }
+  return isSource;
+}
+
+/// Σ b_i(source)
+MultiVector LoadOfPoints(const FiniteElementSpace& space, const std::vector<Id>& points)
+{
+  const SparseMatrix rows = space.RowsAtPoints(points);
+  MultiVector load = MultiVector::Zero(rows.columns, 1);
+  for (std::size_t k = 0; k < rows.column.size(); ++k)
+  {
+    load(rows.column[k], 0) += rows.value[k];
+  }
+  return load;
+}
+
+/// Per point its component; -1 where no function reaches.
+std::vector<Index> ComponentsOfPoints(
+  const FiniteElementSpace& space, const Components& components, const Job& job)
+{
+  MultiVector numbers(static_cast<Id>(components.ofFunction.size()), 1);
+  std::copy(components.ofFunction.begin(), components.ofFunction.end(), numbers.data());
+  const MultiVector atPoints = space.ValuesAtPoints(numbers, job);
+  const std::vector<char> reached = space.PointsWithFunctions();
+  std::vector<Index> component(reached.size(), -1);
+  for (std::size_t point = 0; point < reached.size(); ++point)
+  {
+    if (reached[point])
+    {
+      component[point] = static_cast<Index>(std::lround(atPoints(static_cast<Id>(point), 0)));
+    }
+  }
+  return component;
+}
+
+} // namespace
+
+GeodesicDistance::GeodesicDistance(std::shared_ptr<const FiniteElementSpace> space,
+  std::shared_ptr<const TriangleMesh> mesh, DistanceOptions options, const Job& job)
+  : space_(std::move(space)), mesh_(std::move(mesh)), options_(std::move(options))
+{
+  if (!(options_.smoothing > 0.0) || std::isinf(options_.smoothing))
+  {
+    throw InvalidInput(
+      "The smoothing is " + std::to_string(options_.smoothing) + "; it must be a number above 0.");
+  }
+  time_ = std::pow(options_.smoothing * MeanSpacing(*space_, job.threads), 2);
+  // Heat does not come far: what coarse levels add is little.
+  MultigridOptions ofHeat = options_.multigrid;
+  ofHeat.cycle = CycleType::V;
+  heat_ = std::make_unique<Multigrid>(
+    BuildMultigrid(*space_, 1.0 / time_, 1.0, ofHeat, job.progress.Part(0.0, 0.5)));
+  poisson_ = std::make_unique<Multigrid>(
+    BuildMultigrid(*space_, 0.0, 1.0, options_.multigrid, job.progress.Part(0.5, 1.0)));
+}
+
+/// ∫ <X, ∇b_i>; X = 0 on triangles that belong to sources.
+MultiVector GeodesicDistance::LoadOfDistance(
+  const MultiVector& heat, const std::vector<char>& isSource, const Job& job) const
+{
+  Field away{ FieldAssociation::Triangles,
+    MultiVector::Constant(static_cast<Id>(mesh_->triangles.size()), 1, -1.0) };
+  for (std::size_t t = 0; t < mesh_->triangles.size(); ++t)
+  {
+    const auto& corner = mesh_->triangles[t];
+    if (isSource[corner[0]] && isSource[corner[1]] && isSource[corner[2]])
+    {
+      away.values(static_cast<Id>(t), 0) = 0.0;
+    }
+  }
+  return space_->LoadOfDirections(heat, &away, job);
+}
+
+std::vector<double> GeodesicDistance::ShiftedToSources(
+  const MultiVector& distance, const std::vector<Id>& sources, const Job& job) const
+{
+  const Components components = space_->ComponentsOf(0, job);
+  const std::vector<Index> component = ComponentsOfPoints(*space_, components, job);
+  const MultiVector value = space_->ValuesAtPoints(distance, job);
+  std::vector<double> sum(components.count, 0.0);
+  std::vector<Id> count(components.count, 0);
+  for (const Id source : sources)
+  {
+    if (component[source] >= 0)
+    {
+      sum[component[source]] += value(source, 0);
+      ++count[component[source]];
+    }
+  }
+  std::vector<double> shifted(component.size(), NaN);
+  for (std::size_t point = 0; point < component.size(); ++point)
+  {
+    const Index c = component[point];
+    if (c >= 0 && count[c] > 0)
+    {
+      const double zero = sum[c] / static_cast<double>(count[c]);
+      shifted[point] = std::max(0.0, value(static_cast<Id>(point), 0) - zero);
+    }
+  }
+  for (const Id source : sources)
+  {
+    shifted[source] = component[source] >= 0 ? 0.0 : NaN;
+  }
+  return shifted;
+}
+
+DistanceField GeodesicDistance::From(
+  const std::vector<Id>& sources, const SolveOptions& solve, const Job& job) const
+{
+  const std::vector<char> isSource = MarkSources(sources, mesh_->points.size());
+  DistanceField field;
+  DistantHeat heat = SpreadHeat(*space_, *heat_, time_, LoadOfPoints(*space_, sources),
+    solve.maximumIterations, job.Part(0.0, 0.7));
+  field.heatSolves = heat.solves;
+  field.unreached = heat.unreached;
+
+  const MultiVector load = this->LoadOfDistance(heat.coefficients, isSource, job.Part(0.7, 0.75));
+  PoissonOptions options;
+  options.screeningWeight = 0.0;
+  options.multigrid = options_.multigrid;
+  options.solve = solve;
+  PoissonSolution solution = SolvePoisson(*space_, *poisson_, MultiVector::Zero(load.rows(), 1),
+    load, options, job.progress.Part(0.75, 0.95));
+  field.report = heat.report.converged ? std::move(solution.report) : std::move(heat.report);
+  field.atPoints = this->ShiftedToSources(solution.coefficients, sources, job.Part(0.95, 1.0));
+  return field;
+}
+
+} // namespace gridfem

@@ -1,0 +1,77 @@
+// The distance along the surface from the nearest of some points, by the heat method: heat spreads
+// from the sources for a short time, its gradient gives the directions X, and the distance is the
+// function whose gradient is nearest to them. Crane, Weischedel, Wardetzky: Geodesics in Heat,
+// 2013.
+#ifndef GridFEM_GeodesicDistance_h
+#define GridFEM_GeodesicDistance_h
+
+#include "Grid/TriangleMesh.h"
+#include "Krylov/ConjugateGradients.h"
+#include "Spaces/FiniteElementSpace.h"
+
+#include <memory>
+#include <vector>
+
+namespace gridfem
+{
+
+struct DistanceOptions
+{
+  /// sqrt(t) over the mean distance between functions that overlap: 1.2 cells of a grid, about an
+  /// edge of a mesh. With much less the heat of discrete functions oscillates; more rounds off where
+  /// fronts meet and where sources are near to each other, by about sqrt(t) / 2, and takes less
+  /// time: the heat has fewer sqrt(t) to go.
+  double smoothing = 1.75;
+  MultigridOptions multigrid;
+};
+
+struct DistanceField
+{
+  /// Per point of the mesh, world units: 0 at sources, at least 0 elsewhere; NaN where no function
+  /// reaches or the component has no source.
+  std::vector<double> atPoints;
+  SolveReport report; // of the distance; not converged if the heat was not
+  int heatSolves = 0; // see SpreadHeat
+  Id unreached = 0;   // functions that are too far for numbers: their distances are wrong
+};
+
+/// (M + t L) u = Σ b_i(source), X = -∇u / |∇u|, L φ = ∫ <X, ∇b_i>, and φ is shifted so that its
+/// mean over the sources of a component is 0. Both hierarchies are kept, so that other sources cost
+/// the solves alone. Distances are exact to the size of a few functions where one front comes;
+/// where fronts meet, and within sqrt(t) of boundaries, errors are about sqrt(t) / 2.
+class GeodesicDistance
+{
+public:
+  /// @param mesh  what the space was made from
+  /// Throws InvalidInput when the smoothing is not a positive number, and Aborted.
+  GeodesicDistance(std::shared_ptr<const FiniteElementSpace> space,
+    std::shared_ptr<const TriangleMesh> mesh, DistanceOptions options, const Job& job = {});
+
+  /// @param sources  points of the mesh; one that no function reaches is the source of nothing. A
+  ///   triangle whose corners are all sources belongs to a source as a whole.
+  /// @param solve  of the distance from its gradient; the heat shares the number of iterations
+  /// Throws InvalidInput when there is none or one is no point, and Aborted. Same bits for any
+  /// number of threads.
+  DistanceField From(
+    const std::vector<Id>& sources, const SolveOptions& solve, const Job& job = {}) const;
+
+  /// t, squared units of length of the space.
+  double Time() const { return time_; }
+
+private:
+  MultiVector LoadOfDistance(
+    const MultiVector& heat, const std::vector<char>& isSource, const Job& job) const;
+  std::vector<double> ShiftedToSources(
+    const MultiVector& distance, const std::vector<Id>& sources, const Job& job) const;
+
+  std::shared_ptr<const FiniteElementSpace> space_;
+  std::shared_ptr<const TriangleMesh> mesh_;
+  DistanceOptions options_;
+  double time_ = 0.0;
+  std::unique_ptr<Multigrid> heat_;    // of M / t + L
+  std::unique_ptr<Multigrid> poisson_; // of L
+};
+
+} // namespace gridfem
+
+#endif

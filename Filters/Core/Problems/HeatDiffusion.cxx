@@ -1,0 +1,72 @@
+#include "Problems/HeatDiffusion.h"
+
+#include <cmath>
+#include <string>
+
+namespace gridfem
+{
+namespace
+{
+
+const double Gamma = 1.0 - std::sqrt(0.5);
+
+} // namespace
+
+HeatDiffusion::HeatDiffusion(std::shared_ptr<const FiniteElementSpace> space, MultiVector start,
+  MultiVector sources, const DiffusionOptions& options, const Job& job)
+  : space_(std::move(space)), options_(options), load_(std::move(start)),
+    sources_(std::move(sources))
+{
+  if (!(options_.timeStep > 0.0) || std::isinf(options_.timeStep))
+  {
+    throw InvalidInput(
+      "The time step is " + std::to_string(options_.timeStep) + "; it must be a number above 0.");
+  }
+  if (sources_.rows() == 0)
+  {
+    sources_ = MultiVector::Zero(load_.rows(), load_.cols());
+  }
+  if (load_.rows() != space_->NumberOfFunctions(0) || sources_.rows() != load_.rows() ||
+      sources_.cols() != load_.cols())
+  {
+    throw InvalidInput("The integrals of the start or of the sources do not fit the functions.");
+  }
+  const bool isFirstOrder = options_.scheme == TimeScheme::BackwardEuler;
+  stageStep_ = (isFirstOrder ? 1.0 : Gamma) * options_.timeStep;
+  mass_ = space_->Matrix(0, 1.0, 0.0, job.threads);
+  multigrid_ = std::make_unique<Multigrid>(
+    BuildMultigrid(*space_, 1.0 / stageStep_, 1.0, options_.multigrid, job.progress));
+}
+
+/// (M + γδ L) U = load
+PoissonSolution HeatDiffusion::Solve(const MultiVector& load, const Job& job) const
+{
+  PoissonOptions options;
+  options.screeningWeight = 1.0 / stageStep_;
+  options.multigrid = options_.multigrid;
+  options.solve = options_.solve;
+  return SolvePoisson(*space_, *multigrid_, load, {}, options, job.progress);
+}
+
+SolveReport HeatDiffusion::Advance(const Job& job)
+{
+  const MultiVector added = stageStep_ * sources_;
+  const bool isFirstOrder = options_.scheme == TimeScheme::BackwardEuler;
+  PoissonSolution solution = this->Solve(load_ + added, isFirstOrder ? job : job.Part(0.0, 0.5));
+  MultiVector now;
+  Multiply(mass_, solution.coefficients, now, job.threads);
+  if (!isFirstOrder)
+  {
+    // M U - load is γδ times the slope of the first stage.
+    const MultiVector load = load_ + (1.0 - Gamma) / Gamma * (now - load_) + added;
+    const bool converged = solution.report.converged;
+    solution = this->Solve(load, job.Part(0.5, 1.0));
+    solution.report.converged = solution.report.converged && converged;
+    Multiply(mass_, solution.coefficients, now, job.threads);
+  }
+  load_ = std::move(now);
+  coefficients_ = std::move(solution.coefficients);
+  return std::move(solution.report);
+}
+
+} // namespace gridfem

@@ -1,0 +1,62 @@
+// Heat that spreads over a surface in time: M u' = s - L u, step by step. [DESIGN §3]
+#ifndef GridFEM_HeatDiffusion_h
+#define GridFEM_HeatDiffusion_h
+
+#include "Problems/Poisson.h"
+
+#include <memory>
+
+namespace gridfem
+{
+
+enum class TimeScheme
+{
+  BackwardEuler = 0, // of first order; values stay in the range of the start but for the space
+  SecondOrder = 1    // two stages with one matrix (SDIRK2, γ = 1 - 1/√2), L-stable, too
+};
+
+struct DiffusionOptions
+{
+  double timeStep = 1.0; // δ > 0, squared units of length of the space
+  TimeScheme scheme = TimeScheme::SecondOrder;
+  MultigridOptions multigrid;
+  SolveOptions solve;
+};
+
+/// Steps (M + γδ L) U = ..., all with one matrix. No heat flows over boundaries, so that the
+/// integral over every connected component changes by that of the sources alone. Same bits for any
+/// number of threads.
+/// Alexander: Diagonally Implicit Runge-Kutta Methods for Stiff O.D.E.'s, 1977.
+class HeatDiffusion
+{
+public:
+  /// @param start    ∫ f b_i of the field at time 0 (LoadOfValues)
+  /// @param sources  ∫ s b_i of what is added per unit of time, with as many columns; no rows: none
+  /// Throws InvalidInput when the time step is not a positive number or shapes do not fit, and
+  /// Aborted.
+  HeatDiffusion(std::shared_ptr<const FiniteElementSpace> space, MultiVector start,
+    MultiVector sources, const DiffusionOptions& options, const Job& job = {});
+
+  /// Makes the next step and says how its last solve went. Aborted, which it throws, leaves the
+  /// state as it was.
+  SolveReport Advance(const Job& job = {});
+
+  /// After the last step: rows = functions, columns as the start's. No rows before the first.
+  const MultiVector& Coefficients() const { return coefficients_; }
+
+private:
+  PoissonSolution Solve(const MultiVector& load, const Job& job) const;
+
+  std::shared_ptr<const FiniteElementSpace> space_;
+  DiffusionOptions options_;
+  double stageStep_ = 0.0; // γδ
+  SparseMatrix mass_;
+  std::unique_ptr<Multigrid> multigrid_; // of M / (γδ) + L
+  MultiVector load_;                     // ∫ u b_i now
+  MultiVector sources_;
+  MultiVector coefficients_;
+};
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,22 @@
+// The points of a mesh that distances start from.
+#ifndef GridFEM_SourcePoints_h
+#define GridFEM_SourcePoints_h
+
+#include "Grid/TriangleMesh.h"
+
+#include <vector>
+
+class vtkDataSet;
+
+namespace gridfem
+{
+
+/// The given point ids, and the points of the mesh nearest to those of `places` (may be null);
+/// ascending, every point once. Points that no polygon uses do not count. Throws InvalidInput
+/// naming an id that is no point of a polygon, or a point of `places` that is not finite.
+std::vector<Id> SourcePoints(
+  const TriangleMesh& mesh, const std::vector<Id>& ids, vtkDataSet* places);
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,232 @@
+#include "vtkGeodesicDistance.h"
+
+#include "Private/InputArray.h"
+#include "Private/InputValidation.h"
+#include "Private/SolverOutput.h"
+#include "Private/SourcePoints.h"
+#include "Private/SurfaceSolverState.h"
+
+#include "Base/Errors.h"
+#include "Integrals/QuadratureRule.h"
+#include "Problems/GeodesicDistance.h"
+
+#include "vtkDataSet.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+vtkStandardNewMacro(vtkGeodesicDistance);
+
+namespace
+{
+
+/// The points of polygons where the array is not 0.
+std::vector<gridfem::Id> MaskedPoints(
+  const gridfem::InputArray& mask, const gridfem::InputMesh& mesh)
+{
+  if (mask.association != gridfem::FieldAssociation::Points ||
+      mask.array->GetNumberOfComponents() != 1)
+  {
+    throw gridfem::InvalidInput("SourceArray '" + mask.name +
+                                "' must be a point array with one "
+                                "component: 0 where there is no source.");
+  }
+  const gridfem::Field field = gridfem::ReadField(mask, mesh);
+  std::vector<gridfem::Id> points;
+  for (gridfem::Id point = 0; point < field.values.rows(); ++point)
+  {
+    if (field.values(point, 0) != 0.0)
+    {
+      points.push_back(point);
+    }
+  }
+  return points;
+}
+
+} // namespace
+
+struct vtkGeodesicDistance::Internals
+{
+  std::vector<gridfem::Id> SourceIds;
+  std::unique_ptr<gridfem::GeodesicDistance> Method;
+  gridfem::DistanceField Field;
+
+  std::vector<gridfem::Id> FindSources(
+    const gridfem::InputMesh& mesh, const gridfem::InputArray& mask, vtkDataSet* places) const
+  {
+    std::vector<gridfem::Id> ids = this->SourceIds;
+    if (mask.array)
+    {
+      const std::vector<gridfem::Id> masked = MaskedPoints(mask, mesh);
+      ids.insert(ids.end(), masked.begin(), masked.end());
+    }
+    if (this->SourceIds.empty() && !mask.array && !places)
+    {
+      ids = { mesh.triangles->triangles.front()[0] };
+    }
+    const std::vector<gridfem::Id> sources = gridfem::SourcePoints(*mesh.triangles, ids, places);
+    if (sources.empty())
+    {
+      throw gridfem::InvalidInput(
+        mask.array
+          ? "SourceArray '" + mask.name + "' is 0 at all points of polygons, so no distance starts."
+          : "The input Sources has no points, so no distance starts.");
+    }
+    return sources;
+  }
+};
+
+vtkGeodesicDistance::vtkGeodesicDistance() : Data(std::make_unique<Internals>())
+{
+  this->SetNumberOfInputPorts(3);
+  this->Tolerance = 1e-4;
+  this->NormalStabilization = 0.1;
+  this->MaximumIterations = 200;
+}
+
+vtkGeodesicDistance::~vtkGeodesicDistance() = default;
+
+int vtkGeodesicDistance::FillInputPortInformation(int port, vtkInformation* info)
+{
+  this->Superclass::FillInputPortInformation(port, info);
+  if (port == 2)
+  {
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
+  }
+  return 1;
+}
+
+void vtkGeodesicDistance::AddSourcePointId(vtkIdType id)
+{
+  this->Data->SourceIds.push_back(id);
+  this->Modified();
+}
+
+void vtkGeodesicDistance::ClearSourcePointIds()
+{
+  if (!this->Data->SourceIds.empty())
+  {
+    this->Data->SourceIds.clear();
+    this->Modified();
+  }
+}
+
+vtkIdType vtkGeodesicDistance::GetNumberOfSourcePointIds()
+{
+  return static_cast<vtkIdType>(this->Data->SourceIds.size());
+}
+
+vtkIdType vtkGeodesicDistance::GetSourcePointId(vtkIdType index)
+{
+  return index >= 0 && index < this->GetNumberOfSourcePointIds() ? this->Data->SourceIds[index]
+                                                                 : -1;
+}
+
+void vtkGeodesicDistance::Warn()
+{
+  const gridfem::DistanceField& field = this->Data->Field;
+  if (field.unreached > 0)
+  {
+    vtkWarningMacro("Distances are wrong far from the sources: "
+                    << field.unreached
+                    << " functions are too far for the heat that comes there to be a number. A "
+                       "larger Smoothing or a smaller Depth helps.");
+  }
+  if (!field.report.converged)
+  {
+    vtkWarningMacro(<< gridfem::WarningOf(field.report, this->Tolerance));
+  }
+}
+
+/// Hierarchies, and distances from the sources. The system has to be up to date.
+void vtkGeodesicDistance::UpdateDistance(const std::vector<vtkIdType>& sources)
+{
+  gridfem::SurfaceSolverState& state = *this->State;
+  Internals& data = *this->Data;
+  const gridfem::Progress progress = state.bridge.GetProgress();
+  gridfem::StageKey key;
+  key.Add(state.stages.Version(gridfem::SystemStage)).Add(this->Smoothing);
+  gridfem::AddMultigrid(key, state.options.multigrid);
+  state.stages.Run(gridfem::HierarchyStage, key,
+    [&]
+    {
+      data.Method.reset(); // frees its memory first
+      data.Method = std::make_unique<gridfem::GeodesicDistance>(state.space, state.mesh.triangles,
+        gridfem::DistanceOptions{ this->Smoothing, state.options.multigrid },
+        state.MakeJob(progress.Part(0.3, 0.4)));
+    });
+  key = {};
+  key.Add(state.stages.Version(gridfem::HierarchyStage));
+  key.Add(this->Tolerance).Add(this->MaximumIterations);
+  for (const vtkIdType source : sources)
+  {
+    key.Add(static_cast<std::int64_t>(source));
+  }
+  state.stages.Run(gridfem::SolveStage, key,
+    [&]
+    {
+      data.Field = data.Method->From({ sources.begin(), sources.end() }, state.options.solve,
+        state.MakeJob(progress.Part(0.4, 0.98)));
+    });
+}
+
+void vtkGeodesicDistance::WriteDistance(vtkPolyData* output)
+{
+  const gridfem::DistanceField& field = this->Data->Field;
+  std::vector<double> values = field.atPoints;
+  if (this->Unreachable == Infinity)
+  {
+    std::replace_if(
+      values.begin(), values.end(), [](double value) { return std::isnan(value); },
+      std::numeric_limits<double>::infinity());
+  }
+  const Eigen::Map<const Eigen::VectorXd> column(
+    values.data(), static_cast<Eigen::Index>(values.size()));
+  output->GetPointData()->AddArray(gridfem::MakePointArray("Distance", column, VTK_DOUBLE));
+  output->GetPointData()->SetActiveScalars("Distance");
+  gridfem::AddReport(field.report, output);
+  gridfem::AddFieldInt(output, "HeatSolves", field.heatSolves);
+}
+
+void vtkGeodesicDistance::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
+  vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
+  gridfem::SurfaceSolverState& state = *this->State;
+  const gridfem::Progress progress = state.bridge.GetProgress();
+  gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
+  gridfem::RequireNumber("Smoothing", this->Smoothing);
+  const gridfem::InputArray mask = gridfem::FindInputArray(this, 0, input, "SourceArray");
+  state.UpdateSpace(input, vtkPolyData::GetData(inputs[1]), progress.Part(0.0, 0.2));
+  const std::vector<gridfem::Id> found =
+    this->Data->FindSources(state.mesh, mask, vtkDataSet::GetData(inputs[2]));
+  const std::vector<vtkIdType> sources(found.begin(), found.end());
+  state.UpdateSystem(progress.Part(0.2, 0.3));
+
+  this->UpdateDistance(sources);
+  output->ShallowCopy(input);
+  this->WriteDistance(output);
+  this->Warn();
+  progress.Check(1.0);
+}
+
+void vtkGeodesicDistance::FreeStages()
+{
+  this->Superclass::FreeStages();
+  this->Data->Method.reset();
+  this->Data->Field = {};
+}
+
+void vtkGeodesicDistance::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "SourcePointIds: " << this->GetNumberOfSourcePointIds() << "\n";
+  os << indent << "Smoothing: " << this->Smoothing << "\n";
+  os << indent << "Unreachable: " << this->Unreachable << "\n";
+}

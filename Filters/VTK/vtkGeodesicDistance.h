@@ -1,0 +1,117 @@
+/**
+ * @class   vtkGeodesicDistance
+ * @brief   distance along a surface from the nearest of some points
+ *
+ * The heat method (Crane, Weischedel, Wardetzky 2013): heat spreads from the sources for a short
+ * time t, the direction in which it falls is that in which the distance grows, and the distance is
+ * the function whose gradient is nearest to these directions. Two equations are solved; their
+ * hierarchies are kept, so that other sources cost the solutions alone.
+ *
+ * Sources are the points in SourcePointIds, those where the SourceArray is not 0, and those nearest
+ * to the points of input port 2, all together. When none of the three is given, the first point of
+ * the first polygon is the source. A triangle whose corners are all sources is at distance 0 as a
+ * whole.
+ *
+ * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
+ * vtkConnectivityAwareBasis. Input port 1 (optional): the output of vtkConnectivityAwareBasis for
+ * the mesh of port 0. Input port 2 (optional): vtkDataSet whose points are sources, each at the
+ * nearest point of the mesh. The SourceArray is chosen by SetInputArrayToProcess(0, ...): point
+ * data with one component.
+ *
+ * Output port 0 (vtkPolyData): the input with
+ * - point data, double: `Distance`, in the unit of the points; 0 at sources, never negative. Points
+ *   that cannot be reached have what Unreachable says: those on a component without a source, and
+ *   those that no polygon uses.
+ * - field data: `Converged`, `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor`
+ *   of the solution of the distance, `HeatSolves` (int, 1)
+ *
+ * Errors fall with the size of the functions, in proportion. They are about half of sqrt(t) where
+ * fronts meet, and near boundaries; a small fraction of that elsewhere. Sheets nearer to each other
+ * than a cell do not feel each other as long as ConnectivityAware is on.
+ *
+ * Tolerance (default 1e-4) is that of the distance from its gradient, as in vtkScreenedPoisson; the
+ * heat is always solved to the same relative accuracy everywhere. NormalStabilization is 0.1 by
+ * default: with less, functions that hide in the surface spoil small numbers. All shared properties
+ * but ParameterUnits are used.
+ */
+#ifndef vtkGeodesicDistance_h
+#define vtkGeodesicDistance_h
+
+#include "vtkSurfaceFEMAlgorithm.h"
+
+class VTKGRIDFEMFILTERS_EXPORT vtkGeodesicDistance : public vtkSurfaceFEMAlgorithm
+{
+public:
+  static vtkGeodesicDistance* New();
+  vtkTypeMacro(vtkGeodesicDistance, vtkSurfaceFEMAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * Points that distances start from, besides those of the SourceArray and of port 2. None by
+   * default. An id that is no point of a polygon is refused when the filter runs.
+   */
+  void AddSourcePointId(vtkIdType id);
+  void ClearSourcePointIds();
+  vtkIdType GetNumberOfSourcePointIds();
+  vtkIdType GetSourcePointId(vtkIdType index);
+  ///@}
+
+  ///@{
+  /**
+   * sqrt(t) in mean distances between functions that overlap: 1.2 cells of the grid, about an edge
+   * of the mesh for HatFunctions. More rounds the distance off where fronts meet, and takes less
+   * time; much less makes the heat oscillate. 0.5..1000, default 1.75.
+   */
+  vtkSetClampMacro(Smoothing, double, 0.5, 1000.0);
+  vtkGetMacro(Smoothing, double);
+  ///@}
+
+  enum UnreachableType
+  {
+    NotANumber = 0,
+    Infinity = 1
+  };
+  ///@{
+  /**
+   * The distance of points that cannot be reached. Default NotANumber, which ParaView shows in a
+   * colour of its own.
+   */
+  vtkSetClampMacro(Unreachable, int, NotANumber, Infinity);
+  vtkGetMacro(Unreachable, int);
+  ///@}
+
+  /**
+   * The input of port 1: the basis.
+   */
+  void SetBasisConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
+
+  /**
+   * The input of port 2: sources of distances.
+   */
+  void SetSourcesConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(2, output); }
+
+protected:
+  vtkGeodesicDistance();
+  ~vtkGeodesicDistance() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  void FreeStages() override;
+
+  double Smoothing = 1.75;
+  int Unreachable = NotANumber;
+
+private:
+  vtkGeodesicDistance(const vtkGeodesicDistance&) = delete;
+  void operator=(const vtkGeodesicDistance&) = delete;
+
+  void UpdateDistance(const std::vector<vtkIdType>& sources);
+  void WriteDistance(vtkPolyData* output);
+  void Warn();
+
+  struct Internals;
+  std::unique_ptr<Internals> Data;
+};
+
+#endif

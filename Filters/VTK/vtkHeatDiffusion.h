@@ -1,0 +1,100 @@
+/**
+ * @class   vtkHeatDiffusion
+ * @brief   an array that spreads along a surface as heat does, in time steps
+ *
+ * Solves du/dt = div grad u + s on the surface, from the array at time 0 to the DiffusionTime, in
+ * NumberOfSteps equal steps, each of which is a time step of the output. No heat flows over
+ * boundaries: the integral over every connected component is kept, but for what the source adds.
+ *
+ * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
+ * vtkConnectivityAwareBasis. Input port 1 (optional): the output of vtkConnectivityAwareBasis for
+ * the mesh of port 0. The array at time 0 is chosen by SetInputArrayToProcess(0, ...): point or
+ * cell data with any number of components C; none: the coordinates. The source, what is added per
+ * unit of time, by SetInputArrayToProcess(1, ...): point or cell data with C components; none: 0.
+ *
+ * Output port 0 (vtkPolyData): the input with
+ * - point data, double: `Diffused` (C components); 0 at points that no polygon uses
+ * - field data: `Step` (int, 1), `DiffusionTime` (double, 1; squared world length), `Converged`,
+ *   `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor` of the step that is shown
+ *
+ * Time: the steps are the time steps 1 .. NumberOfSteps. A request without a time gets the last.
+ * Steps are made once and kept; more steps of the same length, DiffusionTime / NumberOfSteps, are
+ * not made again.
+ *
+ * Tolerance (default 1e-6) is that of each step's solves, as in vtkScreenedPoisson.
+ * NormalStabilization is 1e-2 by default. All shared properties are used; DiffusionTime is in the
+ * squared unit of length of ParameterUnits, the source is per squared world length.
+ */
+#ifndef vtkHeatDiffusion_h
+#define vtkHeatDiffusion_h
+
+#include "vtkSurfaceFEMAlgorithm.h"
+
+class VTKGRIDFEMFILTERS_EXPORT vtkHeatDiffusion : public vtkSurfaceFEMAlgorithm
+{
+public:
+  static vtkHeatDiffusion* New();
+  vtkTypeMacro(vtkHeatDiffusion, vtkSurfaceFEMAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * How long heat spreads, in the squared unit of length of ParameterUnits: details smaller than
+   * about its root vanish. Above 0, default 0.001.
+   */
+  vtkSetMacro(DiffusionTime, double);
+  vtkGetMacro(DiffusionTime, double);
+  ///@}
+
+  ///@{
+  /**
+   * Equal steps that the time is cut into. 1..10000, default 1.
+   */
+  vtkSetClampMacro(NumberOfSteps, int, 1, 10000);
+  vtkGetMacro(NumberOfSteps, int);
+  ///@}
+
+  enum SchemeType
+  {
+    BackwardEuler = 0,
+    SecondOrder = 1
+  };
+  ///@{
+  /**
+   * BackwardEuler is of first order in the length of a step, and does not overshoot. SecondOrder
+   * (default) takes two solves per step. Both are stable for any step.
+   */
+  vtkSetClampMacro(Scheme, int, BackwardEuler, SecondOrder);
+  vtkGetMacro(Scheme, int);
+  ///@}
+
+  /**
+   * The input of port 1: the basis.
+   */
+  void SetBasisConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
+
+protected:
+  vtkHeatDiffusion();
+  ~vtkHeatDiffusion() override;
+
+  std::vector<double> OwnTimeSteps() override;
+  void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  void FreeStages() override;
+
+  double DiffusionTime = 0.001;
+  int NumberOfSteps = 1;
+  int Scheme = SecondOrder;
+
+private:
+  vtkHeatDiffusion(const vtkHeatDiffusion&) = delete;
+  void operator=(const vtkHeatDiffusion&) = delete;
+
+  void UpdateLoads(vtkPolyData* input);
+  void UpdateSteps(double step);
+  void WriteStep(int shown, vtkPolyData* output);
+
+  struct Internals;
+  std::unique_ptr<Internals> Data;
+};
+
+#endif

@@ -1,0 +1,366 @@
+// Distances against exact ones on surfaces where those are known, on both kinds of space.
+#include "Problems/GeodesicDistance.h"
+
+#include "Base/Errors.h"
+#include "Problems/DistantHeat.h"
+#include "Spaces.h"
+#include "Spaces/HatSpace.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+constexpr double Pi = 3.14159265358979323846;
+
+std::shared_ptr<const FiniteElementSpace> Build(
+  const TriangleMesh& mesh, bool isOnHats, int depth, int threads = 0)
+{
+  GridSpaceOptions options;
+  options.functions.depth = depth;
+  options.functions.threads = threads;
+  options.normalStabilization = 0.1;
+  const HatSpace hats = BuildHatSpace(mesh, options);
+  return isOnHats ? hats.Copy() : hats.Grid().Copy();
+}
+
+SolveOptions Solve()
+{
+  SolveOptions solve;
+  solve.tolerance = 1e-4;
+  return solve;
+}
+
+DistanceField Distances(
+  const TriangleMesh& mesh, const std::vector<Id>& sources, bool isOnHats, int depth)
+{
+  const GeodesicDistance distance(
+    Build(mesh, isOnHats, depth), std::make_shared<const TriangleMesh>(mesh), {});
+  DistanceField field = distance.From(sources, Solve());
+  EXPECT_TRUE(field.report.converged);
+  EXPECT_EQ(field.unreached, 0);
+  for (const Id source : sources)
+  {
+    EXPECT_EQ(field.atPoints[source], 0.0);
+  }
+  return field;
+}
+
+double LargestError(const DistanceField& field, const std::vector<double>& exact)
+{
+  double largest = 0.0;
+  for (std::size_t i = 0; i < exact.size(); ++i)
+  {
+    const double error = std::abs(field.atPoints[i] - exact[i]);
+    largest = error <= largest ? largest : error; // NaN stays
+  }
+  return largest;
+}
+
+std::vector<double> ExactOf(
+  const TriangleMesh& mesh, const std::function<double(const Vec3&)>& distanceOf)
+{
+  std::vector<double> exact;
+  for (const Vec3& point : mesh.points)
+  {
+    exact.push_back(distanceOf(point));
+  }
+  return exact;
+}
+
+Id NearestPoint(const TriangleMesh& mesh, const Vec3& place)
+{
+  Id nearest = 0;
+  for (Id i = 1; i < static_cast<Id>(mesh.points.size()); ++i)
+  {
+    if ((mesh.points[i] - place).norm() < (mesh.points[nearest] - place).norm())
+    {
+      nearest = i;
+    }
+  }
+  return nearest;
+}
+
+std::vector<double> DistancesInSpace(const TriangleMesh& mesh, const std::vector<Id>& sources)
+{
+  return ExactOf(mesh,
+    [&](const Vec3& point)
+    {
+      double least = 1e300;
+      for (const Id source : sources)
+      {
+        least = std::min(least, (point - mesh.points[source]).norm());
+      }
+      return least;
+    });
+}
+
+/// Largest error over half the great circle, from one point.
+double ErrorOnSphere(bool isOnHats, int depth, int fineness)
+{
+  constexpr double Radius = 2.0;
+  const TriangleMesh mesh = Transform(GeodesicSphere(fineness, Radius), { 1, 2, 3 }, 0.7);
+  const Vec3 pole = mesh.points[17] / Radius;
+  const std::vector<double> exact = ExactOf(mesh,
+    [&](const Vec3& p) { return Radius * std::acos(std::clamp(pole.dot(p) / Radius, -1.0, 1.0)); });
+  return LargestError(Distances(mesh, { 17 }, isOnHats, depth), exact) / (Pi * Radius);
+}
+
+/// Largest error over the diagonal of a square with four sources, two of them near to each other.
+double ErrorOnSquare(bool isOnHats, int depth, int fineness)
+{
+  TriangleMesh mesh = FlatRectangle(fineness, fineness);
+  std::vector<Id> sources;
+  for (const Vec3& place :
+    { Vec3(0.13, 0.22, 0), Vec3(0.71, 0.35, 0), Vec3(0.42, 0.88, 0), Vec3(0.2, 0.3, 0) })
+  {
+    sources.push_back(NearestPoint(mesh, place));
+  }
+  mesh = Transform(mesh, { 1, 2, 3 }, 0.5, 4.0);
+  const std::vector<double> exact = DistancesInSpace(mesh, sources);
+  return LargestError(Distances(mesh, sources, isOnHats, depth), exact) / (4.0 * std::sqrt(2.0));
+}
+
+/// A strip of the given length, bent so that its point at length s comes to (x(s), y, z(s)).
+TriangleMesh BentStrip(
+  int along, int across, double length, double width, const std::function<Vec3(double)>& place)
+{
+  TriangleMesh mesh = FlatRectangle(along, across, length, width);
+  for (Vec3& point : mesh.points)
+  {
+    point = place(point[0]) + Vec3(0, point[1], 0);
+  }
+  return mesh;
+}
+
+/// Exact distances on a strip before it was bent, which keeps them.
+std::vector<double> DistancesOnStrip(int along, int across, double length, double width, Id source)
+{
+  return DistancesInSpace(FlatRectangle(along, across, length, width), { source });
+}
+
+} // namespace
+
+TEST(GeodesicDistance, OnASphereIsTheGreatCircleAndErrorsFallWithDepth)
+{
+  const double coarse = ErrorOnSphere(false, 4, 40);
+  const double fine = ErrorOnSphere(false, 5, 40);
+  EXPECT_LT(fine, 0.02);
+  EXPECT_LT(fine, 0.65 * coarse);
+  const double coarseOnHats = ErrorOnSphere(true, 4, 20);
+  const double fineOnHats = ErrorOnSphere(true, 5, 40);
+  EXPECT_LT(fineOnHats, 0.01);
+  EXPECT_LT(fineOnHats, 0.65 * coarseOnHats);
+}
+
+TEST(GeodesicDistance, OnASphereAtTheDefaultDepthIsWithinOnePercent)
+{
+  EXPECT_LT(ErrorOnSphere(false, 7, 60), 0.01);
+}
+
+TEST(GeodesicDistance, FromSeveralSourcesOnASquareHasErrorsThatFallWithDepth)
+{
+  const double errors[] = { ErrorOnSquare(false, 5, 100), ErrorOnSquare(false, 6, 100),
+    ErrorOnSquare(false, 7, 100) };
+  EXPECT_LT(errors[2], 0.02);
+  EXPECT_LT(errors[2], 0.75 * errors[1]);
+  EXPECT_LT(errors[1], 0.75 * errors[0]);
+  EXPECT_LT(ErrorOnSquare(true, 5, 160), 0.02);
+}
+
+TEST(GeodesicDistance, DoesNotDependOnTheTriangles)
+{
+  const TriangleMesh coarse = Transform(FlatRectangle(5, 5), { 1, 2, 3 }, 0.5);
+  const TriangleMesh needles = Transform(FlatRectangle(5, 400), { 1, 2, 3 }, 0.5);
+  const TriangleMesh soup = Unweld(coarse);
+  const Vec3 place = coarse.points[8];
+  const auto at = [&](const TriangleMesh& mesh)
+  {
+    const DistanceField field = Distances(mesh, { NearestPoint(mesh, place) }, false, 5);
+    std::vector<double> values;
+    for (const Vec3& point : coarse.points)
+    {
+      values.push_back(field.atPoints[NearestPoint(mesh, point)]);
+    }
+    return values;
+  };
+  const std::vector<double> expected = at(coarse);
+  EXPECT_LT(LargestError({ expected, {}, 0, 0 }, DistancesInSpace(coarse, { 8 })), 0.03);
+  EXPECT_LT(LargestError({ expected, {}, 0, 0 }, at(needles)), 2e-3);
+  EXPECT_LT(LargestError({ expected, {}, 0, 0 }, at(soup)), 2e-3);
+}
+
+/// Two sheets a third of a cell apart, joined at one edge: the way leads around it.
+TEST(GeodesicDistance, DoesNotJumpBetweenSheetsThatAreNearerThanACell)
+{
+  const double gap = 0.01;
+  const double width = 0.5;
+  const auto fold = [=](double s)
+  {
+    return s < 1.0         ? Vec3(1.0 - s, 0, 0)
+           : s < 1.0 + gap ? Vec3(0, 0, s - 1.0)
+                           : Vec3(s - 1.0 - gap, 0, gap);
+  };
+  const TriangleMesh mesh = BentStrip(201, 50, 2.0 + gap, width, fold);
+  const Id source = 25 * 202;
+  const std::vector<double> exact = DistancesOnStrip(201, 50, 2.0 + gap, width, source);
+  for (const bool isOnHats : { false, true })
+  {
+    const DistanceField field = Distances(mesh, { source }, isOnHats, 5);
+    EXPECT_LT(LargestError(field, exact), 0.03 * 2.0) << isOnHats;
+  }
+}
+
+/// Sixty widths and five extents long: heat falls by 1e-100 and more.
+TEST(GeodesicDistance, IsRightFarAwayOnALongRoll)
+{
+  constexpr double Length = 8.0;
+  constexpr double Start = 0.15; // radius; 0.05 more in every turn
+  const auto roll = [](double s)
+  {
+    constexpr double Slope = 0.05 / (2.0 * Pi);
+    const double angle = (std::sqrt(Start * Start + 2.0 * Slope * s) - Start) / Slope;
+    const double radius = Start + Slope * angle;
+    return Vec3(radius * std::cos(angle), 0, radius * std::sin(angle));
+  };
+  const TriangleMesh mesh = BentStrip(2000, 20, Length, 0.1, roll);
+  const std::vector<double> exact = DistancesOnStrip(2000, 20, Length, 0.1, 0);
+  const DistanceField field = Distances(mesh, { 0 }, false, 6);
+  EXPECT_GT(field.heatSolves, 5);
+  EXPECT_LT(LargestError(field, exact), 0.005 * Length);
+}
+
+TEST(GeodesicDistance, FromARegionIsThatFromItsRim)
+{
+  constexpr double Radius = 0.25;
+  const TriangleMesh mesh = FlatRectangle(120, 120);
+  const Vec3 centre(0.45, 0.5, 0);
+  std::vector<Id> sources;
+  for (Id i = 0; i < static_cast<Id>(mesh.points.size()); ++i)
+  {
+    if ((mesh.points[i] - centre).norm() <= Radius)
+    {
+      sources.push_back(i);
+    }
+  }
+  const std::vector<double> exact =
+    ExactOf(mesh, [&](const Vec3& p) { return std::max(0.0, (p - centre).norm() - Radius); });
+  for (const bool isOnHats : { false, true })
+  {
+    EXPECT_LT(LargestError(Distances(mesh, sources, isOnHats, 6), exact), 0.02) << isOnHats;
+  }
+}
+
+TEST(GeodesicDistance, IsNaNWhereItsSourcesCannotReach)
+{
+  TriangleMesh mesh = TwoSheets(20, 0.001);
+  mesh.points.push_back({ 0.5, 0.5, 3.0 }); // no triangle uses it
+  const auto points = static_cast<Id>(mesh.points.size());
+  for (const bool isOnHats : { false, true })
+  {
+    const DistanceField field = Distances(mesh, { 5 }, isOnHats, 4);
+    for (Id i = 0; i < points; ++i)
+    {
+      ASSERT_EQ(std::isnan(field.atPoints[i]), i >= (points - 1) / 2) << i;
+    }
+  }
+}
+
+TEST(GeodesicDistance, ScalesWithTheMesh)
+{
+  const TriangleMesh mesh = Torus(40, 20, 1.0, 0.4);
+  const TriangleMesh large = Transform(mesh, { 1, 0, 0 }, 0.0, 10.0);
+  for (const bool isOnHats : { false, true })
+  {
+    const DistanceField one = Distances(mesh, { 3 }, isOnHats, 4);
+    const DistanceField ten = Distances(large, { 3 }, isOnHats, 4);
+    for (std::size_t i = 0; i < one.atPoints.size(); ++i)
+    {
+      ASSERT_NEAR(10.0 * one.atPoints[i], ten.atPoints[i], 1e-2);
+    }
+  }
+}
+
+TEST(GeodesicDistance, DoesNotDependOnThreadsNorOnOtherSourcesBeforeAndStopsWhenAsked)
+{
+  const auto mesh = std::make_shared<const TriangleMesh>(GeodesicSphere(30));
+  DistanceOptions options;
+  options.multigrid.threads = 1;
+  const GeodesicDistance alone(Build(*mesh, false, 5, 1), mesh, options, 1);
+  options.multigrid.threads = 3;
+  const GeodesicDistance distance(Build(*mesh, false, 5, 3), mesh, options, 3);
+  distance.From({ 4, 90 }, Solve(), 3);
+  EXPECT_EQ(alone.From({ 7 }, Solve(), 1).atPoints, distance.From({ 7 }, Solve(), 3).atPoints);
+  const Job stop(0, Progress([](double done) { return done < 0.5; }));
+  EXPECT_THROW(distance.From({ 7 }, Solve(), stop), Aborted);
+}
+
+TEST(GeodesicDistance, RefusesWhatIsNoSourceAndNoSmoothing)
+{
+  const auto mesh = std::make_shared<const TriangleMesh>(GeodesicSphere(4));
+  const auto space = Build(*mesh, false, 3);
+  const GeodesicDistance distance(space, mesh, {});
+  EXPECT_THROW(distance.From({}, Solve()), InvalidInput);
+  EXPECT_THROW(distance.From({ -1 }, Solve()), InvalidInput);
+  EXPECT_THROW(distance.From({ 100000 }, Solve()), InvalidInput);
+  for (const double smoothing : { 0.0, -1.0, std::nan(""), double(INFINITY) })
+  {
+    DistanceOptions options;
+    options.smoothing = smoothing;
+    EXPECT_THROW(GeodesicDistance(space, mesh, options), InvalidInput);
+  }
+}
+
+/// Each equation holds to 5 % of its own terms, where u is 1 and where it is 1e-60.
+TEST(DistantHeat, IsAccurateRelativeToWhatArrives)
+{
+  const TriangleMesh mesh = FlatRectangle(400, 10, 1.0, 0.02);
+  for (const bool isOnHats : { false, true })
+  {
+    const auto space = Build(mesh, isOnHats, 7);
+    constexpr double Time = 3.0;
+    const Multigrid multigrid = BuildMultigrid(*space, 1.0 / Time, 1.0, {});
+    MultiVector load = MultiVector::Zero(space->NumberOfFunctions(0), 1);
+    const SparseMatrix row = space->RowsAtPoints({ 0 });
+    for (std::size_t k = 0; k < row.column.size(); ++k)
+    {
+      load(row.column[k], 0) = row.value[k];
+    }
+    const DistantHeat heat = SpreadHeat(*space, multigrid, Time, load, 100);
+    EXPECT_TRUE(heat.report.converged);
+    EXPECT_EQ(heat.unreached, 0);
+    const MultiVector& u = heat.coefficients;
+    EXPECT_LT(u.cwiseAbs().minCoeff(), 1e-25 * u.maxCoeff());
+    const SparseMatrix& A = multigrid.Matrix();
+    for (Index i = 0; i < A.rows; ++i)
+    {
+      double rest = load(i, 0) / Time;
+      double size = rest;
+      for (Id k = A.rowBegin[i]; k < A.rowBegin[i + 1]; ++k)
+      {
+        rest -= A.value[k] * u(A.column[k], 0);
+        size += std::abs(A.value[k] * u(A.column[k], 0));
+      }
+      ASSERT_LT(std::abs(rest), 0.05 * size) << i << " of " << A.rows;
+    }
+  }
+}
+
+/// Heat that would be less than the smallest number is missed and counted.
+TEST(DistantHeat, SaysWhereItDoesNotArrive)
+{
+  const TriangleMesh mesh = FlatRectangle(400, 10, 1.0, 0.02);
+  const auto space = Build(mesh, false, 7);
+  constexpr double Time = 0.02;
+  const Multigrid multigrid = BuildMultigrid(*space, 1.0 / Time, 1.0, {});
+  MultiVector load = MultiVector::Zero(space->NumberOfFunctions(0), 1);
+  load(0, 0) = 1e-250;
+  EXPECT_GT(SpreadHeat(*space, multigrid, Time, load, 100).unreached, 0);
+}

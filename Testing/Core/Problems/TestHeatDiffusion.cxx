@@ -1,0 +1,174 @@
+// Diffusion against exact decay on a sphere, and what it keeps, on both kinds of space.
+#include "Problems/HeatDiffusion.h"
+
+#include "Base/Errors.h"
+#include "Spaces.h"
+#include "Spaces/HatSpace.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+std::shared_ptr<const FiniteElementSpace> Build(
+  const TriangleMesh& mesh, bool isOnHats, int depth, int threads = 0)
+{
+  GridSpaceOptions options;
+  options.functions.depth = depth;
+  options.functions.threads = threads;
+  options.normalStabilization = 1e-2;
+  const HatSpace hats = BuildHatSpace(mesh, options);
+  return isOnHats ? hats.Copy() : hats.Grid().Copy();
+}
+
+DiffusionOptions Options(double timeStep, TimeScheme scheme, int threads = 0)
+{
+  DiffusionOptions options;
+  options.timeStep = timeStep;
+  options.scheme = scheme;
+  options.multigrid.threads = threads;
+  options.solve.tolerance = 1e-10;
+  return options;
+}
+
+Field OnPoints(MultiVector values)
+{
+  return { FieldAssociation::Points, std::move(values) };
+}
+
+/// How much of f = x y is left on a sphere of radius 1 after a time, in so many steps: exactly
+/// exp(-6 time).
+double LeftOnSphere(bool isOnHats, TimeScheme scheme, double time, int steps)
+{
+  const TriangleMesh mesh = Transform(GeodesicSphere(40), { 1, 2, 3 }, 0.4);
+  const auto space = Build(mesh, isOnHats, 5);
+  const MultiVector points = PointCoordinates(mesh);
+  const MultiVector f = points.col(0).cwiseProduct(points.col(1));
+  const double step = time / steps / std::pow(space->UnitLength(), 2);
+  HeatDiffusion diffusion(space, space->LoadOfValues(OnPoints(f)), {}, Options(step, scheme));
+  for (int k = 0; k < steps; ++k)
+  {
+    EXPECT_TRUE(diffusion.Advance().converged);
+  }
+  const MultiVector values = space->ValuesAtPoints(diffusion.Coefficients());
+  return values.col(0).dot(f.col(0)) / f.squaredNorm();
+}
+
+double Total(const FiniteElementSpace& space, const MultiVector& coefficients)
+{
+  double sum = 0.0;
+  for (Id i = 0; i < coefficients.rows(); ++i)
+  {
+    sum += space.Integrals()[i] * coefficients(i, 0);
+  }
+  return sum;
+}
+
+} // namespace
+
+TEST(HeatDiffusion, LetsHarmonicsOfASphereDecayAsTheyDo)
+{
+  const double exact = std::exp(-6.0 * 0.1);
+  for (const bool isOnHats : { false, true })
+  {
+    EXPECT_NEAR(LeftOnSphere(isOnHats, TimeScheme::SecondOrder, 0.1, 8), exact, 0.005) << isOnHats;
+  }
+}
+
+/// Each step multiplies by a known rational function of z = 6 δ; what is more comes from the space.
+TEST(HeatDiffusion, HasTheOrdersOfItsSchemes)
+{
+  const auto error = [](TimeScheme scheme, int steps)
+  { return std::abs(LeftOnSphere(true, scheme, 0.2, steps) - std::exp(-6.0 * 0.2)); };
+  const double first[] = { error(TimeScheme::BackwardEuler, 2),
+    error(TimeScheme::BackwardEuler, 4) };
+  EXPECT_NEAR(first[0] / first[1], 2.0, 0.3);
+  const double z = 0.6;
+  EXPECT_NEAR(LeftOnSphere(true, TimeScheme::BackwardEuler, 0.2, 2), std::pow(1.0 + z, -2), 0.005);
+  const double gamma = 1.0 - std::sqrt(0.5);
+  const double stage = (1.0 - (1.0 - 2.0 * gamma) * z) / std::pow(1.0 + gamma * z, 2);
+  EXPECT_NEAR(LeftOnSphere(true, TimeScheme::SecondOrder, 0.2, 2), stage * stage, 0.005);
+  EXPECT_LT(std::abs(stage * stage - std::exp(-1.2)), 0.2 * first[0]);
+}
+
+TEST(HeatDiffusion, KeepsTheIntegralOnEveryComponentAndAddsThatOfSources)
+{
+  const TriangleMesh mesh = Transform(TwoSheets(12, 0.02), { 1, 2, 3 }, 0.5);
+  const auto points = static_cast<Id>(mesh.points.size());
+  MultiVector f = RandomValues(points, 1);
+  f.bottomRows(points / 2).setConstant(3.0); // the second sheet
+  for (const bool isOnHats : { false, true })
+  {
+    for (const TimeScheme scheme : { TimeScheme::BackwardEuler, TimeScheme::SecondOrder })
+    {
+      const auto space = Build(mesh, isOnHats, 4);
+      const MultiVector load = space->LoadOfValues(OnPoints(f));
+      HeatDiffusion diffusion(space, load, {}, Options(7.0, scheme));
+      HeatDiffusion heated(space, load, load, Options(7.0, scheme));
+      for (int k = 0; k < 3; ++k)
+      {
+        diffusion.Advance();
+        heated.Advance();
+      }
+      EXPECT_NEAR(Total(*space, diffusion.Coefficients()), load.sum(), 1e-9 * load.sum());
+      EXPECT_NEAR(
+        Total(*space, heated.Coefficients()), (1.0 + 21.0) * load.sum(), 1e-8 * load.sum());
+      const MultiVector values = space->ValuesAtPoints(diffusion.Coefficients());
+      for (Id i = points / 2; i < points; ++i)
+      {
+        ASSERT_NEAR(values(i, 0), 3.0, 1e-6); // constant, and nothing comes from the other sheet
+      }
+    }
+  }
+}
+
+TEST(HeatDiffusion, DampsRoughDataAtOnceHoweverLongTheStep)
+{
+  const TriangleMesh mesh = GeodesicSphere(20);
+  const auto space = Build(mesh, true, 4);
+  const MultiVector f = RandomValues(static_cast<Id>(mesh.points.size()), 1);
+  const MultiVector load = space->LoadOfValues(OnPoints(f));
+  const double mean = load.sum() / Total(*space, MultiVector::Ones(load.rows(), 1));
+  HeatDiffusion diffusion(space, load, {}, Options(1e8, TimeScheme::SecondOrder));
+  diffusion.Advance();
+  EXPECT_LT((diffusion.Coefficients().array() - mean).abs().maxCoeff(), 1e-5);
+}
+
+TEST(HeatDiffusion, DoesNotDependOnThreadsAndStopsWhenAsked)
+{
+  const TriangleMesh mesh = GeodesicSphere(20);
+  const MultiVector f = RandomValues(static_cast<Id>(mesh.points.size()), 2);
+  MultiVector results[2];
+  for (const int k : { 0, 1 })
+  {
+    const int threads = 1 + 2 * k;
+    const auto space = Build(mesh, false, 5, threads);
+    HeatDiffusion diffusion(space, space->LoadOfValues(OnPoints(f), threads), {},
+      Options(2.0, TimeScheme::SecondOrder, threads), threads);
+    diffusion.Advance(threads);
+    results[k] = diffusion.Coefficients();
+    const Job stop(threads, Progress([](double done) { return done < 0.5; }));
+    EXPECT_THROW(diffusion.Advance(stop), Aborted);
+    EXPECT_EQ(diffusion.Coefficients(), results[k]);
+  }
+  EXPECT_EQ(results[0], results[1]);
+}
+
+TEST(HeatDiffusion, RefusesWhatDoesNotFit)
+{
+  const auto space = Build(GeodesicSphere(4), false, 3);
+  const MultiVector load = MultiVector::Ones(space->NumberOfFunctions(0), 2);
+  for (const double step : { 0.0, -1.0, std::nan(""), double(INFINITY) })
+  {
+    EXPECT_THROW(
+      HeatDiffusion(space, load, {}, Options(step, TimeScheme::SecondOrder)), InvalidInput);
+  }
+  const DiffusionOptions options = Options(1.0, TimeScheme::SecondOrder);
+  EXPECT_THROW(HeatDiffusion(space, MultiVector::Ones(3, 1), {}, options), InvalidInput);
+  EXPECT_THROW(HeatDiffusion(space, load, load.leftCols(1), options), InvalidInput);
+}

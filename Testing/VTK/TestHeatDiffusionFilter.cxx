@@ -1,0 +1,94 @@
+// Heat Diffusion as a user of VTK sees it.
+#include "FilterSupport.h"
+
+#include "vtkHeatDiffusion.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+constexpr double Radius = 2.0;
+
+/// z on a sphere, which decays by exp(-2 t / r²), and 1.
+vtkSmartPointer<vtkPolyData> Input()
+{
+  auto data = ToPolyData(GeodesicSphere(24, Radius));
+  AddPointArray(data, "z", 1, [](const Vec3& p, int) { return p[2]; });
+  AddPointArray(data, "one", 1, [](const Vec3&, int) { return 1.0; });
+  return data;
+}
+
+vtkSmartPointer<vtkHeatDiffusion> MakeFilter(double time, int steps)
+{
+  auto filter = vtkSmartPointer<vtkHeatDiffusion>::New();
+  filter->SetDepth(5);
+  filter->SetInputDataObject(Input());
+  filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "z");
+  filter->SetParameterUnits(vtkSurfaceFEMAlgorithm::World);
+  filter->SetDiffusionTime(time);
+  filter->SetNumberOfSteps(steps);
+  return filter;
+}
+
+/// Per point of the sphere, at a step.
+std::vector<double> DiffusedAt(vtkHeatDiffusion* filter, double step)
+{
+  EXPECT_EQ(filter->UpdateTimeStep(step), 1);
+  return PointValues(filter->GetOutputDataObject(0), "Diffused");
+}
+
+double HeightAtPole(const std::vector<double>& values)
+{
+  return *std::max_element(values.begin(), values.end());
+}
+
+} // namespace
+
+TEST(HeatDiffusionFilter, DecaysInTimeStepsAsTheSphereSays)
+{
+  auto filter = MakeFilter(0.8, 4);
+  for (const int step : { 4, 1, 3 })
+  {
+    const double exact = Radius * std::exp(-2.0 * 0.2 * step / (Radius * Radius));
+    EXPECT_NEAR(HeightAtPole(DiffusedAt(filter, step)), exact, 0.01);
+  }
+  EXPECT_EQ(filter->GetNumberOfRuns("Solve"), 4);
+  EXPECT_EQ(filter->GetNumberOfRuns("Hierarchy"), 1);
+}
+
+TEST(HeatDiffusionFilter, AddsItsSourcePerWorldTime)
+{
+  auto filter = MakeFilter(0.8, 2);
+  const std::vector<double> without = DiffusedAt(filter, 2);
+  filter->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "one");
+  const std::vector<double> with = DiffusedAt(filter, 2);
+  ASSERT_EQ(with.size(), without.size());
+  for (std::size_t i = 0; i < with.size(); ++i)
+  {
+    ASSERT_NEAR(with[i] - without[i], 0.8, 1e-4);
+  }
+}
+
+TEST(HeatDiffusionFilter, RefusesASourceOfOtherComponentsAndNoTime)
+{
+  auto filter = MakeFilter(0.1, 1);
+  filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "None");
+  filter->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "one");
+  {
+    const Messages messages(filter);
+    EXPECT_EQ(filter->GetExecutive()->Update(), 0);
+    ASSERT_EQ(messages.errors.size(), 1u);
+    EXPECT_NE(messages.errors[0].find("'one' has 1 components"), std::string::npos);
+  }
+  filter = MakeFilter(0.0, 1);
+  const Messages messages(filter);
+  EXPECT_EQ(filter->GetExecutive()->Update(), 0);
+  ASSERT_EQ(messages.errors.size(), 1u);
+  EXPECT_NE(messages.errors[0].find("DiffusionTime is 0"), std::string::npos);
+}
