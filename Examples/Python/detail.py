@@ -40,7 +40,7 @@ def main():
     upper.Function = f"2.5*(coordsY>{middle})"
     detail = SurfaceDetail(Input=upper, Depth=int(sys.argv[2]), ScreeningWeight=2000, SmoothingScale=0.008)
 
-    height = 1.05 * max(bounds[1] - bounds[0], bounds[3] - bounds[2])
+    height = 1.15 * max(bounds[1] - bounds[0], bounds[3] - bounds[2])
     view = View(input_shape.GetCenter(), (0, 0, -1), (0, 1, 0), height)
 
     def tile(label, **properties):
