@@ -5,6 +5,7 @@
 #include "Base/Grouping.h"
 #include "Grid/SourceTriangle.h"
 #include "Integrals/Assembly.h"
+#include "Integrals/Direction.h"
 #include "Integrals/QuadratureSamples.h"
 #include "Integrals/TrilinearBasis.h"
 
@@ -256,12 +257,7 @@ void AddDirection(const std::array<CornerValues, 3>& derivative, const Vec3& nor
     gradient += (u(i) - reference) * Vec3(derivative[0][i], derivative[1][i], derivative[2][i]);
   }
   gradient -= normal.dot(gradient) * normal;
-  const double size = gradient.stableNorm();
-  if (!(size > 0.0))
-  {
-    return;
-  }
-  const Vec3 direction = gradient / size;
+  const Vec3 direction = DirectionOf(gradient);
   for (int i = 0; i < FunctionsPerPatch; ++i)
   {
     share.At(i, column) +=
