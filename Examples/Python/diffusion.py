@@ -13,10 +13,17 @@ from paraview import servermanager, simple
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
-from sheet import Layer, Tile, view_of, write_sheet
+from sheet import Layer, Tile, View, write_sheet
 
 STRIPES = 8
 SHOWN = (1, 3, 8, 20)
+
+
+def from_the_front(mesh):
+    """The plane of x and y, as scans often stand."""
+    bounds = mesh.GetBounds()
+    height = 1.1 * max(bounds[1] - bounds[0], bounds[3] - bounds[2])
+    return View(mesh.GetCenter(), (0, 0, -1), (0, 1, 0), height)
 
 
 def main():
@@ -40,9 +47,8 @@ def main():
             sys.exit("The filter could not do its work; the message above says why.")
         values = mesh.GetPointData().GetArray("Diffused").GetRange()
         print(f"step {step}: values from {values[0]:.4f} to {values[1]:.4f}")
-        time = mesh.GetFieldData().GetArray("DiffusionTime").GetValue(0)
         layer = Layer(mesh, "Diffused", -1.0, 1.0)
-        tiles.append(Tile(f"after the time {time:.3g}", view_of(mesh), [layer]))
+        tiles.append(Tile(f"step {step} of {max(SHOWN)}", from_the_front(mesh), [layer]))
     write_sheet(tiles, sys.argv[3], len(tiles), (300, 300))
 
 

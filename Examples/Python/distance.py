@@ -14,7 +14,7 @@ from vtkmodules.vtkFiltersCore import vtkContourFilter, vtkTubeFilter
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
-from sheet import Layer, Tile, view_of, write_sheet
+from sheet import Layer, Tile, View, write_sheet
 
 INTERVALS = 24
 
@@ -41,6 +41,13 @@ def farthest(mesh):
     return point, distance.GetValue(point)
 
 
+def from_the_front(mesh):
+    """The plane of x and y, as scans often stand."""
+    bounds = mesh.GetBounds()
+    height = 1.1 * max(bounds[1] - bounds[0], bounds[3] - bounds[2])
+    return View(mesh.GetCenter(), (0, 0, -1), (0, 1, 0), height)
+
+
 def main():
     if len(sys.argv) != 4:
         sys.exit(__doc__)
@@ -61,8 +68,8 @@ def main():
         print(f"{label}: at most {largest:.4g}")
         layers = [Layer(mesh, "Distance", 0.0, largest),
                   Layer(isolines(mesh, largest), color=(0.1, 0.1, 0.1))]
-        tiles.append(Tile(label, view_of(mesh, 1.2), layers))
-    write_sheet(tiles, sys.argv[3], len(tiles), (480, 400))
+        tiles.append(Tile(label, from_the_front(mesh), layers))
+    write_sheet(tiles, sys.argv[3], len(tiles), (420, 440))
 
 
 main()

@@ -25,7 +25,7 @@
  * - field data: `Converged`, `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor`
  *   of the solution of the distance, `HeatSolves` (int, 1)
  *
- * Errors fall with the size of the functions, in proportion. They are about half of sqrt(t) where
+ * Errors fall with the size of the functions, in proportion. They are sqrt(t) / 2 to sqrt(t) where
  * fronts meet, and near boundaries; a small fraction of that elsewhere. Sheets nearer to each other
  * than a cell do not feel each other as long as ConnectivityAware is on.
  *

@@ -481,7 +481,7 @@ private:
 EIGEN_ALWAYS_INLINE LaneVector Direction(const LaneVector& vector, double factor)
 {
   const Lanes largest = vector.axis[0].abs().max(vector.axis[1].abs()).max(vector.axis[2].abs());
-  const Lanes inverse = (largest > 0.0).select(1.0 / largest, Lanes::Zero());
+  const Lanes inverse = (largest > 1e-300).select(1.0 / largest, Lanes::Zero());
   LaneVector result;
   for (int axis = 0; axis < 3; ++axis)
   {

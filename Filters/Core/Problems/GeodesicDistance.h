@@ -18,9 +18,9 @@ namespace gridfem
 struct DistanceOptions
 {
   /// sqrt(t) over the mean distance between functions that overlap: 1.2 cells of a grid, about an
-  /// edge of a mesh. With much less the heat of discrete functions oscillates; more rounds off where
-  /// fronts meet and where sources are near to each other, by about sqrt(t) / 2, and takes less
-  /// time: the heat has fewer sqrt(t) to go.
+  /// edge of a mesh. With much less the heat of discrete functions oscillates; more rounds off
+  /// where fronts meet and where sources are near to each other, by about sqrt(t) / 2, and takes
+  /// less time: the heat has fewer sqrt(t) to go.
   double smoothing = 1.75;
   MultigridOptions multigrid;
 };
@@ -38,7 +38,7 @@ struct DistanceField
 /// (M + t L) u = Σ b_i(source), X = -∇u / |∇u|, L φ = ∫ <X, ∇b_i>, and φ is shifted so that its
 /// mean over the sources of a component is 0. Both hierarchies are kept, so that other sources cost
 /// the solves alone. Distances are exact to the size of a few functions where one front comes;
-/// where fronts meet, and within sqrt(t) of boundaries, errors are about sqrt(t) / 2.
+/// where fronts meet, and within sqrt(t) of boundaries, errors are sqrt(t) / 2 to sqrt(t).
 class GeodesicDistance
 {
 public:

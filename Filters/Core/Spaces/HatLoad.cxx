@@ -2,6 +2,7 @@
 
 #include "Base/Errors.h"
 #include "Base/Parallel.h"
+#include "Integrals/Direction.h"
 
 #include <string>
 
@@ -163,11 +164,7 @@ MultiVector IntegrateDirections(const HatFunctions& hats, const TriangleMesh& me
       {
         const auto u = [&](int k) { return coefficients(hats.ofPoint[points[k]], c); };
         const Vec3 gradient = (u(1) - u(0)) * along[0] + (u(2) - u(0)) * along[1];
-        const double size = gradient.stableNorm();
-        if (size > 0.0)
-        {
-          sum[c] += scaledArea * own.dot(gradient / size);
-        }
+        sum[c] += scaledArea * own.dot(DirectionOf(gradient));
       }
     });
 }

@@ -192,7 +192,7 @@ TEST(GeodesicDistance, DoesNotDependOnTheTriangles)
     return values;
   };
   const std::vector<double> expected = at(coarse);
-  EXPECT_LT(LargestError({ expected, {}, 0, 0 }, DistancesInSpace(coarse, { 8 })), 0.03);
+  EXPECT_LT(LargestError({ expected, {}, 0, 0 }, DistancesInSpace(coarse, { 8 })), 0.07); // sqrt(t)
   EXPECT_LT(LargestError({ expected, {}, 0, 0 }, at(needles)), 2e-3);
   EXPECT_LT(LargestError({ expected, {}, 0, 0 }, at(soup)), 2e-3);
 }
@@ -254,7 +254,8 @@ TEST(GeodesicDistance, FromARegionIsThatFromItsRim)
     ExactOf(mesh, [&](const Vec3& p) { return std::max(0.0, (p - centre).norm() - Radius); });
   for (const bool isOnHats : { false, true })
   {
-    EXPECT_LT(LargestError(Distances(mesh, sources, isOnHats, 6), exact), 0.02) << isOnHats;
+    // sqrt(t) is 0.033 on the grid, 0.016 on the hats, near whose corners fronts end.
+    EXPECT_LT(LargestError(Distances(mesh, sources, isOnHats, 6), exact), 0.033) << isOnHats;
   }
 }
 
