@@ -292,12 +292,13 @@ public:
     SolveOptions step = options_;
     // Each step starts near its solution, whose last digits the misfit asks for.
     step.tolerance = std::max(SmallestTolerance, step.tolerance * std::pow(0.1, solution.steps));
-    Append(SolveWithFallback(IterationType::ConjugateGradients, hierarchy_.GetMultigrid(), load_, x,
-             step, project_, progress),
+    const Multigrid& multigrid = hierarchy_.GetMultigrid();
+    Append(SolveWithFallback(IterationType::ConjugateGradients, OperatorOf(multigrid),
+             CycleWithFallback(multigrid), load_, x, step, project_, progress),
       solution.report);
     ++solution.steps;
     MultiVector atPoints;
-    Multiply(hierarchy_.Rows(), x, atPoints, hierarchy_.GetMultigrid().Options().threads);
+    Multiply(hierarchy_.Rows(), x, atPoints, multigrid.Options().threads);
     const MultiVector rest = this->Misfits(atPoints);
     misfit = this->LargestOf(rest);
     const double before = relative_;
