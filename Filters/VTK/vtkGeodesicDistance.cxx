@@ -203,6 +203,7 @@ void vtkGeodesicDistance::Compute(vtkInformationVector** inputs, vtkInformationV
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
   gridfem::RequireNumber("Smoothing", this->Smoothing);
   const gridfem::InputArray mask = gridfem::FindInputArray(this, 0, input, "SourceArray");
+  state.options.space.joinAtPoints = true; // paths lead through points where sheets touch
   state.UpdateSpace(input, vtkPolyData::GetData(inputs[1]), progress.Part(0.0, 0.2));
   const std::vector<gridfem::Id> found =
     this->Data->FindSources(state.mesh, mask, vtkDataSet::GetData(inputs[2]));

@@ -299,6 +299,19 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
   progress.Check(1.0);
 }
 
+void vtkScreenedPoisson::SetTolerance(double tolerance)
+{
+  if (tolerance > 0.0)
+  {
+    this->Superclass::SetTolerance(tolerance);
+  }
+  else if (this->Tolerance != 0.0)
+  {
+    this->Tolerance = 0.0;
+    this->Modified();
+  }
+}
+
 void vtkScreenedPoisson::FreeStages()
 {
   this->Superclass::FreeStages();

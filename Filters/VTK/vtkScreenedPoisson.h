@@ -133,6 +133,14 @@ public:
   vtkBooleanMacro(FillUnknown, bool);
   ///@}
 
+  ///@{
+  /**
+   * As in every solver, but that 0 (default) is allowed: Accuracy decides then.
+   */
+  void SetTolerance(double tolerance) override;
+  double GetToleranceMinValue() override { return 0.0; }
+  ///@}
+
   enum IterationType
   {
     ConjugateGradients = 0,

@@ -179,9 +179,9 @@ public:
   ///@{
   /**
    * The solver stops when its error measure has fallen by this factor. What is measured is said by
-   * the filter. Below 1; 0 where a filter has an Accuracy in its place: that decides.
+   * the filter. Above 0, below 1.
    */
-  vtkSetClampMacro(Tolerance, double, 0.0, 0.999);
+  vtkSetClampMacro(Tolerance, double, 1e-16, 0.999);
   vtkGetMacro(Tolerance, double);
   ///@}
 

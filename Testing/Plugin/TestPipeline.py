@@ -256,7 +256,7 @@ class TestPipeline(unittest.TestCase):
 
     def test_charts_draw_what_tells(self):
         drawn = {
-            "ScreenedPoisson": ["ConvergenceFactor", "Log10EnergyResidual", "Log10Residual"],
+            "ScreenedPoisson": ["Log10AlgebraicError", "Log10DiscretizationError"],
             "LaplaceSpectrum": ["Eigenvalue"],
             "MeanCurvatureFlow": ["Sphericity"]}
         controller = vtkSMParaViewPipelineControllerWithRendering()

@@ -147,6 +147,7 @@ TEST_F(ScreenedPoisson, SmoothingLowersTheWaveAndSharpeningRaisesIt)
 TEST_F(ScreenedPoisson, UnitsOfTheWeight)
 {
   const double area = SurfaceArea(GeodesicSphere(8));
+  filter->SetTolerance(1e-8);
   filter->SetParameterUnits(Poisson::World);
   filter->SetScreeningWeight(3.0);
   const auto world = this->Solution();
@@ -215,8 +216,48 @@ TEST_F(ScreenedPoisson, PointsWithoutPolygonsKeepTheirValue)
   EXPECT_EQ(this->Solution().back(), Wave({ 9, 9, 9 }, 0));
 }
 
+TEST_F(ScreenedPoisson, EndsByAccuracyAndSaysHowGoodItIs)
+{
+  filter->SetDepth(5);
+  filter->Update();
+  vtkPolyData* output = filter->GetOutput();
+  EXPECT_EQ(FieldValue(output, "Converged"), 1);
+  EXPECT_LE(FieldValue(output, "Iterations"), 5);
+  const double ofSpace = FieldValue(output, "DiscretizationError");
+  EXPECT_GT(ofSpace, 0.0);
+  EXPECT_LE(FieldValue(output, "AlgebraicError"), 0.1 * ofSpace);
+  EXPECT_GT(FieldValue(output, "LargestDiscretizationError"), 0.0);
+  auto* table = vtkTable::SafeDownCast(filter->GetOutputDataObject(1));
+  const auto left = Values(vtkDataArray::SafeDownCast(table->GetColumnByName("AlgebraicError")));
+  const auto logs =
+    Values(vtkDataArray::SafeDownCast(table->GetColumnByName("Log10DiscretizationError")));
+  EXPECT_LT(left.back(), left.front());
+  EXPECT_NEAR(logs.front(), std::log10(ofSpace), 1e-12);
+
+  const double loose = FieldValue(output, "Iterations");
+  filter->SetAccuracy(1e-4);
+  filter->Update();
+  EXPECT_GT(FieldValue(filter->GetOutput(), "Iterations"), 0);
+  EXPECT_LE(FieldValue(filter->GetOutput(), "AlgebraicError"), 1.1e-4 * ofSpace);
+  filter->SetTolerance(1e-10);
+  filter->SetAccuracy(1.0); // does not count then
+  filter->Update();
+  auto* longer = vtkTable::SafeDownCast(filter->GetOutputDataObject(1));
+  EXPECT_GT(longer->GetNumberOfRows(), loose + 1);
+}
+
+TEST_F(ScreenedPoisson, NotAccurateInTimeWarnsWithTheErrors)
+{
+  filter->SetMaximumIterations(1);
+  filter->Update();
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 0);
+  ASSERT_EQ(messages.warnings.size(), 1u);
+  EXPECT_NE(messages.warnings[0].find("function space"), std::string::npos);
+}
+
 TEST_F(ScreenedPoisson, TheTableHasARowPerIteration)
 {
+  filter->SetTolerance(1e-6);
   filter->Update();
   auto* table = vtkTable::SafeDownCast(filter->GetOutputDataObject(1));
   EXPECT_EQ(table->GetNumberOfRows(), FieldValue(filter->GetOutput(), "Iterations") + 1);
@@ -372,6 +413,7 @@ TEST_F(ScreenedPoisson, NumbersOutOfRangeAreRefused)
 
 TEST_F(ScreenedPoisson, ValuesOfAnySizeAreSolved)
 {
+  filter->SetTolerance(1e-8);
   const std::vector<double> expected = this->Solution();
   for (const double size : { 1e-300, 1e-170, 1e170, 1e290 })
   {

@@ -39,8 +39,8 @@ void AddFieldNumber(vtkPolyData* output, const char* name, double value);
 /// the row before; 1 in the first), Log10EnergyResidual, Log10Residual.
 void WriteHistory(const SolveReport& report, vtkTable* table);
 
-/// Adds the columns AlgebraicError, after the correction of each row, DiscretizationError, and their
-/// logarithms.
+/// Adds the columns AlgebraicError, after the correction of each row, DiscretizationError, and
+/// their logarithms.
 void AddErrors(const SolveReport& report, const SolutionAccuracy& accuracy, vtkTable* table);
 
 /// Adds a column of numbers to a table.
