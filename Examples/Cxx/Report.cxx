@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <sstream>
@@ -78,6 +79,16 @@ double PeakMegabytes()
 #endif
 }
 
+/// What the process holds now; 0 where the system does not tell (only Linux does).
+double ResidentMegabytes()
+{
+  long pages = 0;
+  long residentPages = 0;
+  std::ifstream("/proc/self/statm") >> pages >> residentPages;
+  return static_cast<double>(residentPages) * static_cast<double>(sysconf(_SC_PAGESIZE)) /
+         (1024 * 1024);
+}
+
 bool ShowsProgress()
 {
   return isatty(STDERR_FILENO) != 0;
@@ -128,22 +139,23 @@ void StepClock::Run(const std::string& name, vtkAlgorithm* algorithm)
   }
   if (this->steps_.empty() || this->steps_.back().name != name)
   {
-    this->steps_.push_back({ name, 0, 0 });
+    this->steps_.push_back({ name, 0, 0, 0 });
   }
   this->steps_.back().seconds += seconds.count();
   this->steps_.back().megabytes = PeakMegabytes();
+  this->steps_.back().held = ResidentMegabytes();
 }
 
 void StepClock::AddPart(const std::string& name, double seconds)
 {
-  this->steps_.push_back({ "  " + name, seconds, -1 });
+  this->steps_.push_back({ "  " + name, seconds, -1, 0 });
 }
 
 void StepClock::Print(std::ostream& out) const
 {
   out << "\n"
       << std::left << std::setw(30) << "step" << std::right << std::setw(10) << "seconds"
-      << std::setw(20) << "peak memory / MB"
+      << std::setw(20) << "peak memory / MB" << std::setw(12) << "held / MB"
       << "\n";
   double total = 0;
   for (const Step& step : this->steps_)
@@ -153,7 +165,7 @@ void StepClock::Print(std::ostream& out) const
     if (step.megabytes >= 0)
     {
       total += step.seconds;
-      out << std::setprecision(0) << std::setw(20) << step.megabytes;
+      out << std::setprecision(0) << std::setw(20) << step.megabytes << std::setw(12) << step.held;
     }
     out << "\n";
   }
@@ -206,9 +218,10 @@ void PrintConvergence(vtkTable* history, std::ostream& out)
   {
     return;
   }
-  out << history->GetValueByName(last, "Iteration").ToInt() << " iterations, energy residual "
-      << std::setprecision(2) << history->GetValueByName(last, "EnergyResidual").ToDouble()
-      << ", residual " << history->GetValueByName(last, "Residual").ToDouble() << "\n";
+  out << history->GetValueByName(last, "Iteration").ToInt() << " iterations leave "
+      << std::setprecision(2) << history->GetValueByName(last, "AlgebraicError").ToDouble()
+      << " of the solution, the function space "
+      << history->GetValueByName(last, "DiscretizationError").ToDouble() << " (estimates)\n";
 }
 
 void PrintEigenvalues(vtkTable* spectrum, std::ostream& out)

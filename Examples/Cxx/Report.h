@@ -33,7 +33,8 @@ public:
   /// Adds a part of a step that ran already; it has no memory of its own.
   void AddPart(const std::string& name, double seconds);
 
-  /// A table: seconds of every step, and the largest memory the process had used when it ended.
+  /// A table: seconds of every step, the largest memory the process had used when it ended, and
+  /// what it held then: all filters keep what they made, for the next change (KeepStages).
   void Print(std::ostream& out) const;
 
 private:
@@ -42,6 +43,7 @@ private:
     std::string name;
     double seconds;
     double megabytes; // negative for a part
+    double held;
   };
   std::vector<Step> steps_;
 };
