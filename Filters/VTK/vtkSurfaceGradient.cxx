@@ -64,6 +64,13 @@ void vtkSurfaceGradient::Compute(vtkInformationVector** inputs, vtkInformationVe
   add(output->GetPointData(), "Laplacian", derivatives.laplacianAtPoints);
   add(output->GetCellData(), "Gradient", onCells(derivatives.gradientOnTriangles));
   add(output->GetCellData(), "Laplacian", onCells(derivatives.laplacianOnTriangles));
+  if (array.array && derivatives.divergenceAtPoints.cols() == 1)
+  {
+    add(output->GetPointData(), "Divergence", derivatives.divergenceAtPoints);
+    add(output->GetPointData(), "Curl", derivatives.curlAtPoints);
+    add(output->GetCellData(), "Divergence", onCells(derivatives.divergenceOnTriangles));
+    add(output->GetCellData(), "Curl", onCells(derivatives.curlOnTriangles));
+  }
   output->GetPointData()->SetActiveScalars("Laplacian");
   if (derivatives.laplacianAtPoints.cols() == 1)
   {

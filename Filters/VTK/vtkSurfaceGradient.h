@@ -18,6 +18,9 @@
  *   unit of length) and `Laplacian` (C; per unit of length squared, negative at a maximum). Cells
  *   that are no polygons and points that no polygon uses get 0. A polygon has the mean of its
  *   triangles, weighted by area.
+ *   Of an array of vectors (C = 3) also `Divergence` along the surface, where a part along the
+ * normal counts with the curvature, and `Curl` (one component each; per unit of length): the part
+ * of the rotation along the normal, positive counterclockwise seen from outside
  * - field data: `Converged`, `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor`
  *   of the projection that took most iterations
  *

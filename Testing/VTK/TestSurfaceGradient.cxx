@@ -93,6 +93,51 @@ TEST_P(SurfaceGradient, OfALinearArrayIsItsSlopeAtPointsAndOnCells)
   EXPECT_EQ(output->GetFieldData()->GetArray("Converged")->GetComponent(0, 0), 1);
 }
 
+TEST_P(SurfaceGradient, HasDivergenceAndCurlOfVectors)
+{
+  // On the plane a source and a rotation; on the unit sphere ∇z, whose divergence is -2 z, and the
+  // rotation around z, whose curl is 2 z.
+  const auto sheet = MixedSheet(12);
+  const Eigen::AngleAxisd turn(0.2, Vec3(1, 1, 0.5).normalized());
+  AddPointArray(sheet, "v", 3,
+    [&](const Vec3& p, int c)
+    {
+      const Vec3 q = turn.inverse() * p;
+      return (turn * Vec3(3 * q[0] - 5 * q[1], 5 * q[0] + q[1], 0))[c];
+    });
+  const auto sphere = ToPolyData(GeodesicSphere(16));
+  AddPointArray(
+    sphere, "slope", 3, [](const Vec3& p, int c) { return Vec3(Vec3::UnitZ() - p[2] * p)[c]; });
+  AddPointArray(
+    sphere, "rotation", 3, [](const Vec3& p, int c) { return Vec3(Vec3::UnitZ().cross(p))[c]; });
+  const auto check = [&](vtkPolyData* data, const char* name, double tolerance,
+                       const auto& divergence, const auto& curl)
+  {
+    vtkNew<vtkSurfaceGradient> filter;
+    filter->SetInputData(data);
+    filter->SetInputArrayToProcess(0, 0, 0, Points, name);
+    filter->SetDepth(4);
+    filter->SetTolerance(1e-7);
+    filter->SetFunctionSpace(this->GetParam());
+    filter->Update();
+    ASSERT_TRUE(filter->GetOutput()->GetCellData()->GetArray("Curl")) << name;
+    const auto foundDivergence = PointValues(filter->GetOutput(), "Divergence");
+    const auto foundCurl = PointValues(filter->GetOutput(), "Curl");
+    for (vtkIdType point = 0; point < data->GetNumberOfPoints(); ++point)
+    {
+      const Vec3 p(data->GetPoint(point));
+      ASSERT_NEAR(foundDivergence[point], divergence(p), tolerance) << name << " " << point;
+      ASSERT_NEAR(foundCurl[point], curl(p), tolerance) << name << " " << point;
+    }
+  };
+  const auto zero = [](const Vec3&) { return 0.0; };
+  check(
+    sheet, "v", 1e-3, [](const Vec3&) { return 4.0; }, [](const Vec3&) { return 10.0; });
+  check(
+    sphere, "slope", 0.2, [](const Vec3& p) { return -2 * p[2]; }, zero);
+  check(sphere, "rotation", 0.2, zero, [](const Vec3& p) { return 2 * p[2]; });
+}
+
 TEST_P(SurfaceGradient, IsComputedOnceAndAgainForAnotherArray)
 {
   const auto sphere = ToPolyData(GeodesicSphere(8));

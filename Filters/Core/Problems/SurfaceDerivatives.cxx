@@ -1,7 +1,10 @@
 #include "Problems/SurfaceDerivatives.h"
 
 #include "Base/Parallel.h"
+#include "Problems/MovedSurface.h"
 #include "Problems/Poisson.h"
+
+#include <algorithm>
 
 namespace gridfem
 {
@@ -64,6 +67,41 @@ MultiVector Divergence(const MultiVector& gradients)
   return divergence;
 }
 
+/// n · (∇ × v) for the gradients of v in rows of nine numbers, and a unit normal for each.
+MultiVector Curl(const MultiVector& gradients, const std::vector<Vec3>& normals)
+{
+  MultiVector curl(gradients.rows(), 1);
+  for (Id k = 0; k < curl.rows(); ++k)
+  {
+    const auto g = gradients.row(k); // ∂_j v_i is g[3 i + j]
+    curl(k, 0) = normals[k].dot(Vec3(g[7] - g[5], g[2] - g[6], g[3] - g[1]));
+  }
+  return curl;
+}
+
+/// 0 for triangles without an area.
+std::vector<Vec3> NormalsOfTriangles(const TriangleMesh& mesh)
+{
+  std::vector<Vec3> normals(mesh.triangles.size());
+  std::transform(mesh.triangles.begin(), mesh.triangles.end(), normals.begin(),
+    [&](const auto& corner)
+    {
+      const Vec3& apex = mesh.points[corner[0]];
+      return Vec3(
+        (mesh.points[corner[1]] - apex).cross(mesh.points[corner[2]] - apex).stableNormalized());
+    });
+  return normals;
+}
+
+void AddDerivativesOfVectors(const TriangleMesh& mesh, int threads, SurfaceDerivatives& derivatives)
+{
+  derivatives.divergenceOnTriangles = Divergence(derivatives.gradientOnTriangles);
+  derivatives.divergenceAtPoints = Divergence(derivatives.gradientAtPoints);
+  derivatives.curlOnTriangles = Curl(derivatives.gradientOnTriangles, NormalsOfTriangles(mesh));
+  derivatives.curlAtPoints =
+    Curl(derivatives.gradientAtPoints, NormalsAtPoints(mesh.points, mesh.triangles, threads));
+}
+
 } // namespace
 
 SurfaceDerivatives ComputeDerivatives(const FiniteElementSpace& space, const TriangleMesh& mesh,
@@ -89,6 +127,10 @@ SurfaceDerivatives ComputeDerivatives(const FiniteElementSpace& space, const Tri
     { FieldAssociation::Triangles, result.laplacianOnTriangles }, job.Part(0.8, 0.85));
   result.laplacianAtPoints =
     space.ValuesAtPoints(projection.Solve(loadOfLaplacian, {}, job.Part(0.85, 1.0)), job.threads);
+  if (f.values.cols() == 3)
+  {
+    AddDerivativesOfVectors(mesh, job.threads, result);
+  }
   result.report = std::move(projection.report);
   return result;
 }

@@ -21,7 +21,14 @@ struct SurfaceDerivatives
   MultiVector gradientAtPoints;    // 3 C columns; 0 at points that no function reaches
   MultiVector laplacianOnTriangles;
   MultiVector laplacianAtPoints; // div grad f: negative at a maximum
-  SolveReport report;            // of the projection that took most iterations
+  /// Of a field with three components, the vectors v; else without columns. The divergence along
+  /// the surface, where a part of v along the normal counts with the curvature, and n · rot v with
+  /// the normal n, of the triangle or the mean around the point.
+  MultiVector divergenceOnTriangles;
+  MultiVector divergenceAtPoints;
+  MultiVector curlOnTriangles;
+  MultiVector curlAtPoints;
+  SolveReport report; // of the projection that took most iterations
 };
 
 /// The field is projected into the space, its gradient on triangles is projected again, and the
