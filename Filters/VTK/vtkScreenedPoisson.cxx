@@ -92,6 +92,7 @@ void vtkScreenedPoisson::FindArrays(vtkPolyData* input)
     throw gridfem::InvalidInput("UseValueGradient needs values at points, but '" + data.Value.name +
                                 "' is a cell array. Cell Data to Point Data converts it.");
   }
+  gridfem::RequireNumber("Accuracy", this->Accuracy);
   gridfem::RequireAtLeast("ScreeningWeight", this->ScreeningWeight, 0.0);
   if (!std::isfinite(this->GradientScale))
   {
@@ -213,7 +214,7 @@ void vtkScreenedPoisson::Solve(const gridfem::Progress& progress)
   gridfem::PoissonRequest request;
   request.weight = this->ScreeningWeight;
   request.gradientScale = this->GradientScale;
-  request.accuracy = this->Tolerance > 0.0 ? 0.0 : this->Accuracy;
+  request.accuracy = this->Tolerance == 0.0 ? this->Accuracy : 0.0;
   request.iteration = static_cast<gridfem::IterationType>(this->Iteration);
   if (this->IsConstrained())
   {
@@ -301,7 +302,7 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
 
 void vtkScreenedPoisson::SetTolerance(double tolerance)
 {
-  if (tolerance > 0.0)
+  if (!(tolerance <= 0.0)) // NaN is refused when the filter runs
   {
     this->Superclass::SetTolerance(tolerance);
   }

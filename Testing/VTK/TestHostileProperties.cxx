@@ -42,6 +42,8 @@ const HostileCase Cases[] = {
     { return With<vtkScreenedPoisson>([=](auto* filter) { filter->SetTolerance(value); }); } },
   { "Tolerance", [](double value)
     { return With<vtkLaplaceSpectrum>([=](auto* filter) { filter->SetTolerance(value); }); } },
+  { "Accuracy", [](double value)
+    { return With<vtkScreenedPoisson>([=](auto* filter) { filter->SetAccuracy(value); }); } },
   { "ScreeningWeight",
     [](double value) {
       return With<vtkScreenedPoisson>([=](auto* filter) { filter->SetScreeningWeight(value); });
