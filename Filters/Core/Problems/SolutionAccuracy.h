@@ -21,7 +21,8 @@ struct SolutionAccuracy
   double discretization = Unknown; // |u - exact| / |u| on the surface, u without its mean; within
                                    // a factor of two where it can be trusted
   double largest = Unknown;        // the largest error at a point, in units of the solution
-  double algebraic = Unknown;      // |u - the space's own solution| / |u|, within a factor of five
+  double algebraic = Unknown;      // |u - the space's own solution| / |u|; at most five times too
+                                   // low, often too high
   /// Whether the levels are nested and differ as they do where errors fall with the square of the
   /// cell size. On hats above a grid the first two are rather too large, up to fifteen times. Else
   /// the surface or the data are not resolved, or the levels are too coarse, and the error of the
