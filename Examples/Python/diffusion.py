@@ -13,17 +13,10 @@ from paraview import servermanager, simple
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
-from sheet import Layer, Tile, View, write_sheet
+from sheet import Layer, Tile, from_the_front, write_sheet
 
 STRIPES = 8
 SHOWN = (1, 3, 8, 20)
-
-
-def from_the_front(mesh):
-    """The plane of x and y, as scans often stand."""
-    bounds = mesh.GetBounds()
-    height = 1.1 * max(bounds[1] - bounds[0], bounds[3] - bounds[2])
-    return View(mesh.GetCenter(), (0, 0, -1), (0, 1, 0), height)
 
 
 def main():

@@ -14,7 +14,7 @@ from vtkmodules.vtkFiltersCore import vtkContourFilter, vtkTubeFilter
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
-from sheet import Layer, Tile, View, write_sheet
+from sheet import Layer, Tile, from_the_front, write_sheet
 
 INTERVALS = 24
 
@@ -39,13 +39,6 @@ def farthest(mesh):
     reached = (p for p in range(mesh.GetNumberOfPoints()) if distance.GetValue(p) >= 0.0)
     point = max(reached, key=distance.GetValue)
     return point, distance.GetValue(point)
-
-
-def from_the_front(mesh):
-    """The plane of x and y, as scans often stand."""
-    bounds = mesh.GetBounds()
-    height = 1.1 * max(bounds[1] - bounds[0], bounds[3] - bounds[2])
-    return View(mesh.GetCenter(), (0, 0, -1), (0, 1, 0), height)
 
 
 def main():

@@ -58,6 +58,13 @@ class Tile:
     layers: list = field(default_factory=list)
 
 
+def from_the_front(mesh):
+    """The plane of x and y, as scans often stand."""
+    bounds = mesh.GetBounds()
+    height = 1.1 * max(bounds[1] - bounds[0], bounds[3] - bounds[2])
+    return View(mesh.GetCenter(), (0, 0, -1), (0, 1, 0), height)
+
+
 def view_of(data, width_to_height=1.0, tilt=25.0):
     """Looks at the broadest side of a data set, a little from above."""
     corner, longest, middle, shortest = [0.0] * 3, [0.0] * 3, [0.0] * 3, [0.0] * 3

@@ -3,6 +3,7 @@
 // space is the difference to a grid two levels finer.
 #include "Measure.h"
 #include "Meshes.h"
+#include "PointAreas.h"
 #include "Problems/Poisson.h"
 #include "Spaces/GridSpace.h"
 
@@ -60,20 +61,6 @@ MultiVector Values(const TriangleMesh& mesh, bool isSmooth)
   return f;
 }
 
-Eigen::VectorXd AreasOfPoints(const TriangleMesh& mesh)
-{
-  Eigen::VectorXd area = Eigen::VectorXd::Zero(static_cast<Id>(mesh.points.size()));
-  for (const auto& [a, b, c] : mesh.triangles)
-  {
-    const Vec3 normal = (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]);
-    for (const Index point : { a, b, c })
-    {
-      area[point] += normal.norm() / 6.0;
-    }
-  }
-  return area;
-}
-
 struct Answer
 {
   PoissonSolution solution;
@@ -124,7 +111,7 @@ Result Compare(const std::string& name, const TriangleMesh& mesh, bool isSmooth,
   const GridSpace& space, const GridSpace& finer, const Table& table)
 {
   const Field f{ FieldAssociation::Points, Values(mesh, isSmooth) };
-  const Eigen::VectorXd areas = AreasOfPoints(mesh);
+  const Eigen::VectorXd areas = testing::AreasOfPoints(mesh);
   const double area = areas.sum();
   const MultiVector truth = Solve(finer, f, area, 0.0, 1e-8).atPoints;
   const Answer accurate = Solve(space, f, area, 0.1, 1e-9);

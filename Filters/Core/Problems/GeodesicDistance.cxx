@@ -1,6 +1,7 @@
 #include "Problems/GeodesicDistance.h"
 
 #include "Problems/DistantHeat.h"
+#include "Spaces/PointComponents.h"
 
 #include <algorithm>
 #include <cmath>
@@ -64,25 +65,6 @@ MultiVector LoadOfPoints(const FiniteElementSpace& space, const std::vector<Id>&
     load(rows.column[k], 0) += rows.value[k];
   }
   return load;
-}
-
-/// Per point its component; -1 where no function reaches.
-std::vector<Index> ComponentsOfPoints(
-  const FiniteElementSpace& space, const Components& components, const Job& job)
-{
-  MultiVector numbers(static_cast<Id>(components.ofFunction.size()), 1);
-  std::copy(components.ofFunction.begin(), components.ofFunction.end(), numbers.data());
-  const MultiVector atPoints = space.ValuesAtPoints(numbers, job);
-  const std::vector<char> reached = space.PointsWithFunctions();
-  std::vector<Index> component(reached.size(), -1);
-  for (std::size_t point = 0; point < reached.size(); ++point)
-  {
-    if (reached[point])
-    {
-      component[point] = static_cast<Index>(std::lround(atPoints(static_cast<Id>(point), 0)));
-    }
-  }
-  return component;
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "Base/Errors.h"
 #include "Problems/Poisson.h"
+#include "Spaces/PointComponents.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -97,11 +98,12 @@ PointsOfComponents GroupPoints(const SparseMatrix& rows, const Components& compo
   }
   points.ones =
     Eigen::MatrixXd::Zero(rows.rows, static_cast<Eigen::Index>(points.component.size()));
+  const std::vector<Index> component = ComponentsOfRows(rows, components);
   for (Index row = 0; row < rows.rows; ++row)
   {
-    if (rows.rowBegin[row] < rows.rowBegin[row + 1])
+    if (component[row] >= 0)
     {
-      points.ones(row, columnOf[components.ofFunction[rows.column[rows.rowBegin[row]]]]) = 1.0;
+      points.ones(row, columnOf[component[row]]) = 1.0;
     }
   }
   return points;

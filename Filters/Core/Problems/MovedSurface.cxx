@@ -2,6 +2,7 @@
 
 #include "Base/Parallel.h"
 #include "Base/UnionFind.h"
+#include "Grid/TriangleArea.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,12 +14,6 @@ namespace
 {
 
 constexpr double Pi = 3.14159265358979323846;
-
-/// Twice the area, along the normal.
-Vec3 AreaVector(const std::vector<Vec3>& points, const std::array<Id, 3>& corner)
-{
-  return (points[corner[1]] - points[corner[0]]).cross(points[corner[2]] - points[corner[0]]);
-}
 
 std::vector<double> Areas(const TriangleMesh& mesh, int threads)
 {

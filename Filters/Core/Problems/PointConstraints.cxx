@@ -3,6 +3,8 @@
 #include "Algebra/ComponentMeans.h"
 #include "Base/Errors.h"
 #include "Base/Parallel.h"
+#include "Problems/ColumnScales.h"
+#include "Spaces/PointComponents.h"
 
 #include <algorithm>
 #include <cmath>
@@ -132,20 +134,6 @@ std::vector<char> HeldComponents(
   return isHeld;
 }
 
-/// Where each constraint lies: the component of its first function; -1 without one.
-std::vector<Index> ComponentsOfRows(const SparseMatrix& rows, const Components& components)
-{
-  std::vector<Index> component(rows.rows, -1);
-  for (Index row = 0; row < rows.rows; ++row)
-  {
-    if (rows.rowBegin[row] < rows.rowBegin[row + 1])
-    {
-      component[row] = components.ofFunction[rows.column[rows.rowBegin[row]]];
-    }
-  }
-  return component;
-}
-
 /// A constant for each component near what the solution has there: the means of its constraints, or
 /// of the values in the load.
 MultiVector ConstantsOf(const FiniteElementSpace& space, double a, const MultiVector& load,
@@ -174,25 +162,6 @@ MultiVector ConstantsOf(const FiniteElementSpace& space, double a, const MultiVe
     constant.row(c) = (count[c] > 0.0 ? constant : sum).row(c) * (size > 0.0 ? 1.0 / size : 0.0);
   }
   return constant;
-}
-
-/// Powers of two that bring the largest entry of each column to about 1.
-Eigen::RowVectorXd ScalesOf(const MultiVector& load, const MultiVector& values)
-{
-  constexpr int LargestExponent = 1000;
-  Eigen::RowVectorXd scale = Eigen::RowVectorXd::Ones(values.cols());
-  for (Id c = 0; c < values.cols(); ++c)
-  {
-    const double ofLoad = load.rows() > 0 ? load.col(c).cwiseAbs().maxCoeff() : 0.0;
-    const double ofValues = values.rows() > 0 ? values.col(c).cwiseAbs().maxCoeff() : 0.0;
-    const double largest = std::max(ofLoad, ofValues);
-    if (largest > 0.0 && std::isfinite(largest))
-    {
-      scale[c] =
-        std::ldexp(1.0, std::clamp(-std::ilogb(largest), -LargestExponent, LargestExponent));
-    }
-  }
-  return scale;
 }
 
 /// One history for all steps.

@@ -1,6 +1,7 @@
 #include "Problems/Poisson.h"
 
 #include "Algebra/ComponentMeans.h"
+#include "Problems/ColumnScales.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,27 +47,6 @@ void CheckInput(const FiniteElementSpace& space, const MultiVector& values,
                          std::to_string(values.cols()) + " value fields.");
     }
   }
-}
-
-/// Per column the power of two that brings its largest entry to about 1. Squares of all numbers
-/// stay in the range of numbers then; and not one bit of the solution changes. 1 for columns of
-/// zeros and for those that are not finite.
-Eigen::RowVectorXd ScalesOf(const MultiVector& values, const MultiVector& gradients)
-{
-  constexpr int LargestExponent = 1000;
-  Eigen::RowVectorXd scale(values.cols());
-  for (Id c = 0; c < values.cols(); ++c)
-  {
-    double largest = values.rows() > 0 ? values.col(c).cwiseAbs().maxCoeff() : 0.0;
-    if (gradients.rows() > 0)
-    {
-      largest = std::max(largest, gradients.col(c).cwiseAbs().maxCoeff());
-    }
-    const bool isUsable = largest > 0.0 && std::isfinite(largest);
-    const int exponent = isUsable ? -std::ilogb(largest) : 0;
-    scale[c] = std::ldexp(1.0, std::clamp(exponent, -LargestExponent, LargestExponent));
-  }
-  return scale;
 }
 
 /// NaN is let through: it stays in its column and is reported there.

@@ -1,11 +1,12 @@
 #include "Problems/Stitching.h"
 
 #include "Base/Errors.h"
+#include "Grid/TriangleArea.h"
 #include "Problems/Poisson.h"
+#include "Spaces/PointComponents.h"
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <string>
 #include <tuple>
 
@@ -128,13 +129,6 @@ void NumberPoints(const TriangleMesh& mesh, ScanCut& cut)
   }
 }
 
-double AreaOf(const TriangleMesh& mesh, const std::array<Id, 3>& corner)
-{
-  const Vec3 u = mesh.points[corner[1]] - mesh.points[corner[0]];
-  const Vec3 v = mesh.points[corner[2]] - mesh.points[corner[0]];
-  return 0.5 * u.cross(v).norm();
-}
-
 /// Means of values on the triangles around each point of the pieces, weighted by area.
 MultiVector MeansAtPoints(const ScanCut& cut, const MultiVector& onTriangles)
 {
@@ -143,7 +137,7 @@ MultiVector MeansAtPoints(const ScanCut& cut, const MultiVector& onTriangles)
   std::vector<double> area(points, 0.0);
   for (std::size_t piece = 0; piece < cut.triangleOfPiece.size(); ++piece)
   {
-    const double own = AreaOf(cut.pieces, cut.pieces.triangles[piece]);
+    const double own = AreaOf(cut.pieces, static_cast<Id>(piece));
     for (const Id point : cut.pieces.triangles[piece])
     {
       mean.row(point) += own * onTriangles.row(cut.triangleOfPiece[piece]);
@@ -294,31 +288,13 @@ MultiVector AtColors(const FiniteElementSpace& space, const TriangleMesh& mesh, 
   return values;
 }
 
-/// Per point of the mesh the component of its functions; -1 where there is none.
-std::vector<Index> ComponentsOfPoints(const FiniteElementSpace& space, Id points, const Job& job)
-{
-  std::vector<Id> all(points);
-  std::iota(all.begin(), all.end(), Id{ 0 });
-  const SparseMatrix rows = space.RowsAtPoints(all);
-  const Components components = space.ComponentsOf(0, job);
-  std::vector<Index> component(points, -1);
-  for (Id point = 0; point < points; ++point)
-  {
-    if (rows.rowBegin[point] < rows.rowBegin[point + 1])
-    {
-      component[point] = components.ofFunction[rows.column[rows.rowBegin[point]]];
-    }
-  }
-  return component;
-}
-
 /// Adds constants, so that on every component the reference has the mean of its own colours.
 void KeepMeanOf(Index reference, const FiniteElementSpace& space, const TriangleMesh& mesh,
   const ScanCut& cut, const Field& colors, const Job& job, MultiVector& values)
 {
-  const std::vector<Index> component =
-    ComponentsOfPoints(space, static_cast<Id>(mesh.points.size()), job);
-  const Index count = space.ComponentsOf(0, job).count;
+  const Components components = space.ComponentsOf(0, job);
+  const std::vector<Index> component = ComponentsOfPoints(space, components, job);
+  const Index count = components.count;
   MultiVector change = MultiVector::Zero(count, values.cols());
   std::vector<double> area(count, 0.0);
   for (const std::size_t t : cut.triangleOfPiece)
@@ -327,7 +303,7 @@ void KeepMeanOf(Index reference, const FiniteElementSpace& space, const Triangle
     const Index own = component[corner[0]];
     if (cut.scanOfTriangle[t] == reference && own >= 0)
     {
-      const double third = AreaOf(mesh, corner) / 3.0;
+      const double third = AreaOf(mesh, static_cast<Id>(t)) / 3.0;
       for (const Id row : colors.RowsOf(static_cast<Id>(t), corner))
       {
         change.row(own) += third * (colors.values.row(row) - values.row(row));

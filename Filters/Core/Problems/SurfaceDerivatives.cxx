@@ -1,6 +1,7 @@
 #include "Problems/SurfaceDerivatives.h"
 
 #include "Base/Parallel.h"
+#include "Grid/TriangleArea.h"
 #include "Problems/MovedSurface.h"
 #include "Problems/Poisson.h"
 
@@ -84,12 +85,7 @@ std::vector<Vec3> NormalsOfTriangles(const TriangleMesh& mesh)
 {
   std::vector<Vec3> normals(mesh.triangles.size());
   std::transform(mesh.triangles.begin(), mesh.triangles.end(), normals.begin(),
-    [&](const auto& corner)
-    {
-      const Vec3& apex = mesh.points[corner[0]];
-      return Vec3(
-        (mesh.points[corner[1]] - apex).cross(mesh.points[corner[2]] - apex).stableNormalized());
-    });
+    [&](const auto& corner) { return AreaVector(mesh.points, corner).stableNormalized(); });
   return normals;
 }
 

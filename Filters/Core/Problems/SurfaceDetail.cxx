@@ -2,6 +2,7 @@
 
 #include "Base/Errors.h"
 #include "Base/Parallel.h"
+#include "Grid/TriangleArea.h"
 #include "Problems/MovedSurface.h"
 
 #include <Eigen/Geometry>
@@ -32,12 +33,6 @@ Vec3 MeanDirection(const std::array<Id, 3>& corners, const PrincipalCurvatures& 
     sum += (direction.dot(sign) < 0.0 ? -strength(point) : strength(point)) * direction;
   }
   return sum;
-}
-
-double AreaOf(const TriangleMesh& mesh, Id triangle)
-{
-  const auto& [a, b, c] = mesh.triangles[triangle];
-  return 0.5 * (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]).norm();
 }
 
 } // namespace

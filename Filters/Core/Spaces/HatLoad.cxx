@@ -2,7 +2,6 @@
 
 #include "Base/Errors.h"
 #include "Base/Parallel.h"
-#include "Integrals/Direction.h"
 
 #include <string>
 
@@ -60,6 +59,13 @@ MultiVector IntegrateTriangles(const HatFunctions& hats, const TriangleMesh& mes
       }
     });
   return result;
+}
+
+/// v / |v|, also where |v|² is no number any more; 0 for 0.
+Vec3 DirectionOf(const Vec3& v)
+{
+  const double largest = v.cwiseAbs().maxCoeff();
+  return largest > 0.0 ? Vec3((v / largest).normalized()) : Vec3(Vec3::Zero());
 }
 
 /// ∫ <s, test(triangle, corner)>, world units.

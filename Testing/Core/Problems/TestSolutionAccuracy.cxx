@@ -2,6 +2,7 @@
 // from the solution of the discrete equations.
 #include "Problems/Poisson.h"
 
+#include "PointAreas.h"
 #include "Problems/SolutionAccuracy.h"
 #include "Spaces.h"
 #include "Spaces/HatSpace.h"
@@ -43,22 +44,6 @@ MultiVector AtPoints(const TriangleMesh& mesh, const Data& data)
     f(static_cast<Id>(i), 0) = data.at(mesh.points[i]);
   }
   return f;
-}
-
-/// Parts of the area that belong to the points.
-Eigen::VectorXd AreasOfPoints(const TriangleMesh& mesh)
-{
-  Eigen::VectorXd area = Eigen::VectorXd::Zero(static_cast<Id>(mesh.points.size()));
-  for (const auto& [a, b, c] : mesh.triangles)
-  {
-    const double sixth =
-      (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]).norm() / 6.0;
-    for (const Index point : { a, b, c })
-    {
-      area[point] += sixth;
-    }
-  }
-  return area;
 }
 
 /// One equation on one space.

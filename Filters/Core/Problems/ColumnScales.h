@@ -1,0 +1,17 @@
+// Scales that keep the squares of all numbers of a problem in the range of numbers.
+#ifndef GridFEM_ColumnScales_h
+#define GridFEM_ColumnScales_h
+
+#include "Base/Types.h"
+
+namespace gridfem
+{
+
+/// Per column the power of two that brings its largest entry in both blocks to about 1: not one bit
+/// of a solution changes. 1 for columns of zeros and for those that are not finite. A block may
+/// have no rows.
+Eigen::RowVectorXd ScalesOf(const MultiVector& first, const MultiVector& second);
+
+} // namespace gridfem
+
+#endif
