@@ -31,4 +31,8 @@ if (TARGET VTK::WrappingPythonCore)
     /${GRIDFEM_PYTHON_DESTINATION}/gridfem /${CMAKE_INSTALL_LIBDIR})
   set_target_properties(vtkGridFEMFiltersPython PROPERTIES INSTALL_RPATH
     "${GRIDFEM_ORIGIN}/${libraries}")
+  set(GRIDFEM_PYTHON_SOURCE ${PROJECT_SOURCE_DIR}/Filters/Python/__init__.py)
+  configure_file(${GRIDFEM_PYTHON_SOURCE}
+    ${PROJECT_BINARY_DIR}/${GRIDFEM_PYTHON_DESTINATION}/gridfem/__init__.py COPYONLY)
+  install(FILES ${GRIDFEM_PYTHON_SOURCE} DESTINATION ${GRIDFEM_PYTHON_DESTINATION}/gridfem)
 endif ()

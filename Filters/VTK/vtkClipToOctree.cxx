@@ -1,10 +1,12 @@
 #include "vtkClipToOctree.h"
 
+#include "Private/ClippedArrays.h"
 #include "Private/ClippedMeshWriter.h"
 #include "Private/InputValidation.h"
 #include "Private/OctreeOutput.h"
 #include "Private/SurfaceSolverState.h"
 
+#include "vtkCellData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
@@ -13,6 +15,13 @@
 #include "vtkUnstructuredGrid.h"
 
 vtkStandardNewMacro(vtkClipToOctree);
+
+namespace
+{
+
+constexpr double MostAutomaticPoints = 1e6; // some 50 MB
+
+} // namespace
 
 struct vtkClipToOctree::Internals
 {
@@ -63,9 +72,14 @@ void vtkClipToOctree::Compute(vtkInformationVector** inputs, vtkInformationVecto
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
   output->ShallowCopy(this->Data->Frame);
   gridfem::AddInputArrays(input, state.mesh, this->Data->Clipped, options.threads, output);
+  output->GetCellData()->SetActiveScalars(gridfem::OctreeCellColorName);
   progress.Check(0.8);
   const int precision = gridfem::OutputPrecision(input->GetPoints());
-  if (this->GenerateQuadraturePoints)
+  const auto quadraturePoints = static_cast<double>(rule.points.size()) *
+                                static_cast<double>(this->Data->Clipped.NumberOfTriangles());
+  if (this->GenerateQuadraturePoints == QuadraturePointsOn ||
+      (this->GenerateQuadraturePoints == QuadraturePointsAutomatic &&
+        quadraturePoints <= MostAutomaticPoints))
   {
     gridfem::WriteQuadraturePoints(state.mesh, this->Data->Clipped, rule, precision,
       options.threads, vtkPolyData::GetData(outputs, 1));

@@ -15,12 +15,13 @@
  *   or 4) interpolated and rounded, other integers and text from the nearest corner; global and
  *   pedigree ids are left out, because a cut point has none
  * - cell data: the input's arrays; `SourceCellId` (vtkIdType, 1): the input's cell; `OctreeCellId`
- *   (vtkIdType, 1): index into `OctreeCells`
+ *   (vtkIdType, 1): index into `OctreeCells`; `OctreeCellColor` (signed char, 1): 0 to 7, not the
+ *   same for two cells that touch, to tell them apart by eye
  * - field data: the input's arrays; `OctreeCells` (int, 3): (i,j,k) of every cell, in Morton order;
  *   `GridOrigin` (double, 3), `GridSpacing` (double, 1), `GridDepth` (int, 1): the cube's lowest
  *   corner, the side of a cell, Depth; `WeldCoincidentPoints` (int, 1): the property
  *
- * Output port 1 (vtkPolyData), with GenerateQuadraturePoints on: the quadrature points, one vertex
+ * Output port 1 (vtkPolyData), as GenerateQuadraturePoints says: the quadrature points, one vertex
  * each, with the point arrays `Weight` (double, 1), the surface area it stands for, and
  * `SourceCellId` (vtkIdType, 1).
  *
@@ -51,14 +52,21 @@ public:
   vtkGetMacro(Level, int);
   ///@}
 
+  enum QuadraturePointsType
+  {
+    QuadraturePointsOff = 0,
+    QuadraturePointsOn = 1,
+    QuadraturePointsAutomatic = 2
+  };
   ///@{
   /**
-   * When on, output port 1 has the quadrature points: three and more for every clipped triangle,
-   * several times the memory of the clipped mesh. When off (default), it is empty.
+   * Whether output port 1 has the quadrature points: three and more for every clipped triangle,
+   * several times the memory of the clipped mesh. Off: it is empty. Automatic (default): it has
+   * them where they are at most a million.
    */
-  vtkSetMacro(GenerateQuadraturePoints, bool);
-  vtkGetMacro(GenerateQuadraturePoints, bool);
-  vtkBooleanMacro(GenerateQuadraturePoints, bool);
+  vtkSetClampMacro(GenerateQuadraturePoints, int, QuadraturePointsOff, QuadraturePointsAutomatic);
+  vtkGetMacro(GenerateQuadraturePoints, int);
+  vtkBooleanMacro(GenerateQuadraturePoints, int);
   ///@}
 
 protected:
@@ -69,7 +77,7 @@ protected:
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   void FreeStages() override;
 
-  bool GenerateQuadraturePoints = false;
+  int GenerateQuadraturePoints = QuadraturePointsAutomatic;
   int Level = 14;
 
 private:

@@ -148,6 +148,7 @@ void vtkConnectivityAwareBasis::Compute(
     output->ShallowCopy(this->Data->Frame);
     gridfem::AddInputArrays(input, this->State->mesh, space.clipped, this->NumberOfThreads, output);
   }
+  output->GetCellData()->SetActiveScalars(gridfem::PatchIdName);
   if (this->BasisId >= 0)
   {
     this->AddBasisFunction(output);

@@ -1,7 +1,9 @@
 #include "vtkHeatDiffusion.h"
 
+#include "Private/ClippedMeshWriter.h"
 #include "Private/InputArray.h"
 #include "Private/InputValidation.h"
+#include "Private/MovedMeshWriter.h"
 #include "Private/SolverOutput.h"
 #include "Private/SurfaceSolverState.h"
 
@@ -14,6 +16,7 @@
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
@@ -153,11 +156,30 @@ void vtkHeatDiffusion::UpdateSteps(double step)
   }
 }
 
-void vtkHeatDiffusion::WriteStep(int shown, vtkPolyData* output)
+void vtkHeatDiffusion::WriteStep(int shown, vtkPolyData* input, vtkPolyData* output)
 {
   const Step& step = this->Data->Steps[static_cast<std::size_t>(shown) - 1];
-  output->GetPointData()->AddArray(gridfem::MakePointArray("Diffused", step.atPoints, VTK_DOUBLE));
+  const gridfem::SurfaceSolverState& state = *this->State;
+  const gridfem::InputArray array = gridfem::FindInputArray(this, 0, input, "Array");
+  vtkDataArray* given = array.array ? array.array : input->GetPoints()->GetData();
+  gridfem::MultiVector values = step.atPoints;
+  if (array.association == gridfem::FieldAssociation::Points)
+  {
+    gridfem::KeepUnsolved(state.space->PointsWithFunctions(), given, values);
+  }
+  output->ShallowCopy(input);
+  auto diffused = gridfem::MakePointArray("Diffused", values, VTK_DOUBLE);
+  if (array.array)
+  {
+    diffused->CopyComponentNames(array.array);
+  }
+  output->GetPointData()->AddArray(diffused);
   output->GetPointData()->SetActiveScalars("Diffused");
+  if (!array.array && this->MovePoints)
+  {
+    gridfem::MoveSurface(*state.mesh.triangles, values,
+      gridfem::OutputPrecision(input->GetPoints()), this->NumberOfThreads, output);
+  }
   gridfem::AddFieldInt(output, "Step", shown);
   gridfem::AddReport(step.report, output);
   if (!step.report.converged)
@@ -186,8 +208,7 @@ void vtkHeatDiffusion::Compute(vtkInformationVector** inputs, vtkInformationVect
   this->UpdateSteps(step);
 
   const int shown = ShownStep(outputs->GetInformationObject(0), this->NumberOfSteps);
-  output->ShallowCopy(input);
-  this->WriteStep(shown, output);
+  this->WriteStep(shown, input, output);
   gridfem::AddFieldNumber(output, "DiffusionTime", shown * step * worldPerGrid);
   progress.Check(1.0);
 }
@@ -203,5 +224,6 @@ void vtkHeatDiffusion::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "DiffusionTime: " << this->DiffusionTime << "\n";
   os << indent << "NumberOfSteps: " << this->NumberOfSteps << "\n";
+  os << indent << "MovePoints: " << this->MovePoints << "\n";
   os << indent << "Scheme: " << this->Scheme << "\n";
 }

@@ -13,7 +13,8 @@
  * unit of time, by SetInputArrayToProcess(1, ...): point or cell data with C components; none: 0.
  *
  * Output port 0 (vtkPolyData): the input with
- * - point data, double: `Diffused` (C components); 0 at points that no polygon uses
+ * - point data, double: `Diffused` (C components). Points that no polygon uses keep the array if it
+ *   is a point array, else get 0.
  * - field data: `Step` (int, 1), `DiffusionTime` (double, 1; squared world length), `Converged`,
  *   `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor` of the step that is shown
  *
@@ -68,6 +69,17 @@ public:
   vtkGetMacro(Scheme, int);
   ///@}
 
+  ///@{
+  /**
+   * When on (default), and no Array is chosen, the points move to where their coordinates have
+   * spread: point arrays Displacement and NormalDisplacement are added, normals follow, and clip,
+   * basis and modes, which belong to the old shape, are left out.
+   */
+  vtkSetMacro(MovePoints, bool);
+  vtkGetMacro(MovePoints, bool);
+  vtkBooleanMacro(MovePoints, bool);
+  ///@}
+
   /**
    * The input of port 1: the basis.
    */
@@ -84,6 +96,7 @@ protected:
   double DiffusionTime = 0.001;
   int NumberOfSteps = 1;
   int Scheme = SecondOrder;
+  bool MovePoints = true;
 
 private:
   vtkHeatDiffusion(const vtkHeatDiffusion&) = delete;
@@ -91,7 +104,7 @@ private:
 
   void UpdateLoads(vtkPolyData* input);
   void UpdateSteps(double step);
-  void WriteStep(int shown, vtkPolyData* output);
+  void WriteStep(int shown, vtkPolyData* input, vtkPolyData* output);
 
   struct Internals;
   std::unique_ptr<Internals> Data;

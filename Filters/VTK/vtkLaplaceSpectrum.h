@@ -81,8 +81,8 @@ public:
 
   ///@{
   /**
-   * When on, a group of equal eigenvalues that NumberOfModes would cut is put out whole, so that
-   * there may be more modes than were asked for. When off (default), a warning says that a group is
+   * When on (default), a group of equal eigenvalues that NumberOfModes would cut is put out whole,
+   * so that there may be more modes than were asked for. When off, a warning says that a group is
    * cut. Eigenvalues count as equal when they differ by less than 1 % and by less than a quarter of
    * their mean distance: the grid splits groups a little.
    */
@@ -139,7 +139,7 @@ protected:
   int NumberOfModes = 20;
   int Mode = -1;
   bool AllModes = false;
-  bool CompleteMultiplets = false;
+  bool CompleteMultiplets = true;
   bool CompareFunctionSpaces = false;
   bool AccuracyDriven = false;
   double Accuracy = 0.01;

@@ -1,7 +1,9 @@
 #include "vtkScreenedPoisson.h"
 
+#include "Private/ClippedMeshWriter.h"
 #include "Private/InputArray.h"
 #include "Private/InputValidation.h"
+#include "Private/MovedMeshWriter.h"
 #include "Private/SolverOutput.h"
 #include "Private/SurfaceConstrainedPoisson.h"
 #include "Private/SurfacePoisson.h"
@@ -247,14 +249,7 @@ void vtkScreenedPoisson::WriteSolution(vtkPolyData* input, vtkPolyData* output)
   vtkDataArray* given = data.Value.array ? data.Value.array : input->GetPoints()->GetData();
   if (data.Value.association == gridfem::FieldAssociation::Points)
   {
-    const std::vector<char> isSolved = state.space->PointsWithFunctions();
-    for (gridfem::Id point = 0; point < values.rows(); ++point)
-    {
-      for (gridfem::Id c = 0; !isSolved[point] && c < values.cols(); ++c)
-      {
-        values(point, c) = given->GetComponent(point, static_cast<int>(c));
-      }
-    }
+    gridfem::KeepUnsolved(state.space->PointsWithFunctions(), given, values);
   }
   auto solution = gridfem::MakePointArray("Solution", values, given->GetDataType());
   if (data.Value.array)
@@ -264,6 +259,11 @@ void vtkScreenedPoisson::WriteSolution(vtkPolyData* input, vtkPolyData* output)
   output->ShallowCopy(input);
   output->GetPointData()->AddArray(solution);
   output->GetPointData()->SetActiveScalars("Solution");
+  if (!data.Value.array && this->MovePoints)
+  {
+    gridfem::MoveSurface(*state.mesh.triangles, values,
+      gridfem::OutputPrecision(input->GetPoints()), this->NumberOfThreads, output);
+  }
   gridfem::AddReport(this->Report(), output);
   gridfem::AddAccuracy(this->EstimatedErrors(), output);
   if (data.Constraint.array)
@@ -328,5 +328,6 @@ void vtkScreenedPoisson::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Accuracy: " << this->Accuracy << "\n";
   os << indent << "Iteration: " << this->Iteration << "\n";
   os << indent << "FillUnknown: " << this->FillUnknown << "\n";
+  os << indent << "MovePoints: " << this->MovePoints << "\n";
   os << indent << "UseValueGradient: " << this->UseValueGradient << "\n";
 }

@@ -17,7 +17,8 @@
  *
  * Arrays, of any numeric type, as point or cell data of input port 0, chosen by
  * SetInputArrayToProcess:
- * - index 0, `ValueArray`: f, any number of components C; without it the coordinates
+ * - index 0, `ValueArray`: f, any number of components C; without it the coordinates, and with
+ *   MovePoints the output has the points at the solution
  * - index 1, `GradientArray` (optional): g in world units, 3 C components: the three of the first
  *   component of f, then those of the second, ...
  * - index 2, `GradientScaleArray` (optional): one component, multiplies GradientScale
@@ -135,6 +136,17 @@ public:
 
   ///@{
   /**
+   * When on (default), and no ValueArray is chosen, the points move to the solution, which is the
+   * new shape: point arrays Displacement and NormalDisplacement are added, normals follow, and
+   * clip, basis and modes, which belong to the old shape, are left out.
+   */
+  vtkSetMacro(MovePoints, bool);
+  vtkGetMacro(MovePoints, bool);
+  vtkBooleanMacro(MovePoints, bool);
+  ///@}
+
+  ///@{
+  /**
    * As in every solver, but that 0 (default) is allowed: Accuracy decides then.
    */
   void SetTolerance(double tolerance) override;
@@ -173,6 +185,7 @@ protected:
   double GradientScale = 1.0;
   bool UseValueGradient = false;
   bool FillUnknown = false;
+  bool MovePoints = true;
   int Iteration = ConjugateGradients;
 
 private:

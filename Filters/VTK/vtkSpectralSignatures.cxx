@@ -5,7 +5,7 @@
 #include "Private/InputValidation.h"
 #include "Private/ModeCheck.h"
 #include "Private/ModeReader.h"
-#include "Private/MovedPoints.h"
+#include "Private/MovedMeshWriter.h"
 #include "Private/SolverOutput.h"
 #include "Private/SourcePoints.h"
 #include "Private/SurfaceSolverState.h"
@@ -27,6 +27,7 @@
 #include "vtkPolyData.h"
 #include "vtkTable.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -199,8 +200,14 @@ void vtkSpectralSignatures::WriteSignatures(int precision, vtkPolyData* output)
   AddSignature(output, "WaveKernelSignature",
     gridfem::WaveKernelSignature(modes, bands, this->NumberOfThreads), "E", bands.energies,
     precision);
-  AddSignature(output, "HeatKernelSignature",
-    gridfem::HeatKernelSignature(modes, times, this->NumberOfThreads), "t", times, precision);
+  const gridfem::MultiVector heat =
+    gridfem::HeatKernelSignature(modes, times, this->NumberOfThreads);
+  AddSignature(output, "HeatKernelSignature", heat, "t", times, precision);
+  const auto scales = static_cast<gridfem::Id>(times.size());
+  const gridfem::Id shown = this->ShownScale < 0 ? scales / 2 : this->ShownScale;
+  output->GetPointData()->AddArray(
+    gridfem::MakePointArray("Signature", heat.col(std::min(shown, scales - 1)), precision));
+  output->GetPointData()->SetActiveScalars("Signature");
   AddFieldNumbers(output, "HeatTimes", times);
   AddFieldNumbers(output, "WaveEnergies", bands.energies);
 }
@@ -242,6 +249,7 @@ void vtkSpectralSignatures::WriteDistances(vtkDataSet* sources, int precision, v
     precision);
   AddNumbers(output, "BiharmonicDistance",
     gridfem::BiharmonicDistance(data.Modes, points, this->NumberOfThreads), precision);
+  output->GetPointData()->SetActiveScalars("BiharmonicDistance");
 }
 
 void vtkSpectralSignatures::WriteFiltered(vtkPolyData* input, vtkPolyData* output)
@@ -268,25 +276,19 @@ void vtkSpectralSignatures::WriteFiltered(vtkPolyData* input, vtkPolyData* outpu
     filtered = values - filtered;
   }
   vtkDataArray* given = value.array ? value.array : input->GetPoints()->GetData();
-  const std::vector<char> used = gridfem::UsedPoints(mesh);
-  for (gridfem::Id point = 0; point < filtered.rows(); ++point)
-  {
-    for (gridfem::Id c = 0; !used[point] && c < filtered.cols(); ++c)
-    {
-      filtered(point, c) = given->GetComponent(point, static_cast<int>(c));
-    }
-  }
+  gridfem::KeepUnsolved(gridfem::UsedPoints(mesh), given, filtered);
   auto array = gridfem::MakePointArray("Filtered", filtered, given->GetDataType());
   if (value.array)
   {
     array->CopyComponentNames(value.array);
   }
-  else if (this->MovePoints)
-  {
-    gridfem::MovePoints(output, array);
-  }
   output->GetPointData()->AddArray(array);
   output->GetPointData()->SetActiveScalars("Filtered");
+  if (!value.array && this->MovePoints)
+  {
+    gridfem::MoveSurface(
+      mesh, filtered, gridfem::OutputPrecision(input->GetPoints()), this->NumberOfThreads, output);
+  }
 }
 
 void vtkSpectralSignatures::WriteTable(vtkTable* table)
@@ -344,7 +346,6 @@ void vtkSpectralSignatures::Compute(vtkInformationVector** inputs, vtkInformatio
     gridfem::RemoveModes(output);
   }
   this->WriteSignatures(precision, output);
-  output->GetPointData()->SetActiveScalars("HeatKernelSignature");
   this->WriteDistances(vtkDataSet::GetData(inputs[2]), precision, output);
   if (this->FilterType != NoFilter)
   {
@@ -375,6 +376,7 @@ void vtkSpectralSignatures::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "NumberOfModes: " << this->NumberOfModes << "\n";
   os << indent << "NumberOfScales: " << this->NumberOfScales << "\n";
+  os << indent << "ShownScale: " << this->ShownScale << "\n";
   os << indent << "SourcePointIds: " << this->GetNumberOfSourcePointIds() << "\n";
   os << indent << "DiffusionTime: " << this->DiffusionTime << "\n";
   os << indent << "FilterType: " << this->FilterType << "\n";

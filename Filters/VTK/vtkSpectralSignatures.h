@@ -29,7 +29,8 @@
  *
  * Output port 0 (vtkPolyData): the input with
  * - point data, in the precision of the points (double when they are integers):
- *   `HeatKernelSignature` and `WaveKernelSignature` (NumberOfScales components; no unit);
+ *   `HeatKernelSignature` and `WaveKernelSignature` (NumberOfScales components; no unit), and the
+ *   first at ShownScale as `Signature`;
  *   with sources `BiharmonicDistance` (1 component, world length; NaN on components of the surface
  *   without a source) and `DiffusionDistance` (1 component, no unit). Points that no polygon uses
  *   get 0, and NaN for the biharmonic distance.
@@ -75,6 +76,15 @@ public:
    */
   vtkSetClampMacro(NumberOfScales, int, 1, 1000);
   vtkGetMacro(NumberOfScales, int);
+  ///@}
+
+  ///@{
+  /**
+   * The scale, from 0, at which the heat kernel signature is the array `Signature` as well; -1
+   * (default) for the middle one; beyond the last: the last.
+   */
+  vtkSetClampMacro(ShownScale, int, -1, 999);
+  vtkGetMacro(ShownScale, int);
   ///@}
 
   ///@{
@@ -134,9 +144,9 @@ public:
 
   ///@{
   /**
-   * When on, and the coordinates are filtered, the points move to their filtered places; the active
-   * normals and tangents, the arrays of the clip and of the basis, and the modes are left out.
-   * Default off.
+   * When on (default), and the coordinates are filtered, the points move to their filtered places:
+   * point arrays Displacement and NormalDisplacement are added, normals follow, and clip, basis and
+   * modes, which belong to the old shape, are left out.
    */
   vtkSetMacro(MovePoints, bool);
   vtkGetMacro(MovePoints, bool);
@@ -164,11 +174,12 @@ protected:
 
   int NumberOfModes = 100;
   int NumberOfScales = 16;
+  int ShownScale = -1;
   double DiffusionTime = 0.01;
   int FilterType = NoFilter;
   int FirstMode = 1;
   int LastMode = 20;
-  bool MovePoints = false;
+  bool MovePoints = true;
 
 private:
   vtkSpectralSignatures(const vtkSpectralSignatures&) = delete;

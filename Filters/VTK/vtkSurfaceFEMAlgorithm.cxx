@@ -3,6 +3,7 @@
 #include "Private/FailureDump.h"
 #include "Private/InputValidation.h"
 #include "Private/PipelineTime.h"
+#include "Private/SurfaceInput.h"
 #include "Private/SurfaceSolverState.h"
 
 #include "Base/LargeMemory.h"
@@ -35,6 +36,7 @@ void EmptyOutputs(vtkInformationVector* outputs)
 
 vtkSurfaceFEMAlgorithm::vtkSurfaceFEMAlgorithm()
   : State(std::make_unique<gridfem::SurfaceSolverState>(this)),
+    Surface(std::make_unique<gridfem::SurfaceInput>()),
     Time(std::make_unique<gridfem::InputTime>()), Dump(std::make_unique<gridfem::FailureDump>())
 {
 }
@@ -47,7 +49,7 @@ vtkSurfaceFEMAlgorithm::~vtkSurfaceFEMAlgorithm()
 
 int vtkSurfaceFEMAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkDataSet" : "vtkPolyData");
   if (port > 0)
   {
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
@@ -125,7 +127,7 @@ int vtkSurfaceFEMAlgorithm::RequestData(
   this->Dump->Print();
   this->State->bridge.Restart();
   const int result = this->RunCompute(inputs, outputs);
-  if (!this->KeepsStages() || gridfem::IsEmpty(vtkPolyData::GetData(inputs[0])))
+  if (!this->KeepsStages() || gridfem::IsEmpty(vtkDataSet::GetData(inputs[0])))
   {
     this->FreeStages();
     gridfem::ReturnFreedMemory();
@@ -140,9 +142,9 @@ int vtkSurfaceFEMAlgorithm::RunCompute(vtkInformationVector** inputs, vtkInforma
   try
   {
     gridfem::RequireSingleProcess();
-    if (!gridfem::IsEmpty(vtkPolyData::GetData(inputs[0])))
+    if (!gridfem::IsEmpty(vtkDataSet::GetData(inputs[0])))
     {
-      this->Compute(inputs, outputs);
+      this->Compute(this->Surface->Of(inputs, this->GetNumberOfInputPorts()), outputs);
       this->WriteTimes(inputs, outputs);
     }
     return 1;
@@ -174,6 +176,7 @@ bool vtkSurfaceFEMAlgorithm::KeepsStages()
 void vtkSurfaceFEMAlgorithm::FreeStages()
 {
   this->State->Free();
+  this->Surface->Free();
 }
 
 void vtkSurfaceFEMAlgorithm::FinishAbort(vtkInformationVector* outputs)

@@ -16,7 +16,10 @@
  *   (VTK 9.3 and later). The filter switches AbortExecute off again, so that the next run, after a
  *   change, is a full one.
  *
- * Input port 0 takes vtkPolyData with polygons of any size or triangle strips. Vertices,
+ * Input port 0 takes vtkPolyData with polygons of any size or triangle strips. Of any other
+ * vtkDataSet the surface is taken, by vtkDataSetSurfaceFilter: outputs lie on it, with the arrays
+ * `vtkOriginalPointIds` and `vtkOriginalCellIds`. A composite input is taken leaf by leaf, each as
+ * a surface by itself. Vertices,
  * lines, and cells that vtkGhostType marks as hidden or as duplicates take no part; the solvers
  * pass them on, the clip leaves them out. Computation is in double precision. Results do not depend
  * on NumberOfThreads. The filters refuse to run on more than one MPI rank.
@@ -42,6 +45,7 @@ namespace gridfem
 {
 class FailureDump;
 class InputTime;
+class SurfaceInput;
 class SurfaceSolverState;
 } // namespace gridfem
 
@@ -310,6 +314,7 @@ private:
   void FinishAbort(vtkInformationVector* outputs);
   void WriteTimes(vtkInformationVector** inputs, vtkInformationVector* outputs);
 
+  std::unique_ptr<gridfem::SurfaceInput> Surface;
   std::unique_ptr<gridfem::InputTime> Time;
   std::unique_ptr<gridfem::FailureDump> Dump;
 };

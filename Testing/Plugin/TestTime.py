@@ -51,6 +51,7 @@ class TestTime(unittest.TestCase):
 
     def test_every_filter_follows_the_surface(self):
         own = {"LaplaceSpectrum": {"AllModes": 1, "NumberOfModes": 9},
+               "ScreenedPoisson": {"MovePoints": 0},
                "SpectralSignatures": {"NumberOfModes": 9}, **plugin.CHOICES}
         surface = plugin.with_arrays(self.surface)
         for name in plugin.PROXIES:
@@ -111,7 +112,7 @@ class TestTime(unittest.TestCase):
 
     def test_modes_that_complete_a_group_are_time_steps(self):
         modes = simple.LaplaceSpectrum(
-            Input=self.surface, Depth=DEPTH, NumberOfModes=6, CompleteMultiplets=1)
+            Input=self.surface, Depth=DEPTH, NumberOfModes=6)
         modes.UpdatePipeline()
         modes.UpdatePipelineInformation()
         self.assertEqual(list(modes.TimestepValues), [1, 2, 3, 4, 5, 6, 7, 8])

@@ -17,6 +17,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <map>
 #include <numeric>
 
 using namespace gridfem;
@@ -142,17 +144,54 @@ TEST(ClipToOctree, QuadraturePointsCarryTheArea)
   }
 }
 
-TEST(ClipToOctree, QuadraturePointsAreMadeOnRequestAlone)
+TEST(ClipToOctree, QuadraturePointsAreMadeUpToAMillionOrAsAsked)
 {
   vtkNew<vtkClipToOctree> filter;
-  filter->SetDepth(3);
-  filter->SetInputData(ToPolyData(GeodesicSphere(4)));
-  filter->Update();
-  EXPECT_EQ(filter->GetOutput(1)->GetNumberOfPoints(), 0);
+  filter->SetDepth(7);
+  filter->SetInputData(ToPolyData(GeodesicSphere(16)));
+  const auto points = [&]
+  {
+    filter->Update();
+    return filter->GetOutput(1)->GetNumberOfPoints();
+  };
+  const vtkIdType some = points();
+  EXPECT_EQ(some, 3 * filter->GetOutput()->GetNumberOfCells());
+  filter->SetQuadratureDegree(6);
+  EXPECT_EQ(points(), 0) << "four times as many are more than a million";
   filter->GenerateQuadraturePointsOn();
-  filter->Update();
-  EXPECT_GT(filter->GetOutput(1)->GetNumberOfPoints(), 0);
+  EXPECT_EQ(points(), 4 * some);
+  filter->GenerateQuadraturePointsOff();
+  EXPECT_EQ(points(), 0);
   EXPECT_EQ(filter->GetNumberOfRuns("Space"), 1);
+}
+
+TEST(ClipToOctree, CellsThatTouchHaveDifferentColors)
+{
+  vtkNew<vtkClipToOctree> filter;
+  filter->SetDepth(4);
+  filter->SetInputData(ToPolyData(GeodesicSphere(8)));
+  filter->Update();
+  vtkPolyData* output = filter->GetOutput();
+  EXPECT_STREQ(output->GetCellData()->GetScalars()->GetName(), "OctreeCellColor");
+  vtkDataArray* cells = output->GetFieldData()->GetArray("OctreeCells");
+  std::map<std::array<int, 3>, double> colors;
+  for (vtkIdType t = 0; t < output->GetNumberOfCells(); ++t)
+  {
+    const double* cell = cells->GetTuple3(
+      static_cast<vtkIdType>(output->GetCellData()->GetArray("OctreeCellId")->GetTuple1(t)));
+    const std::array<int, 3> key{ int(cell[0]), int(cell[1]), int(cell[2]) };
+    const double color = output->GetCellData()->GetScalars()->GetTuple1(t);
+    EXPECT_EQ(colors.emplace(key, color).first->second, color);
+  }
+  for (const auto& [a, colorA] : colors)
+  {
+    for (const auto& [b, colorB] : colors)
+    {
+      const int apart =
+        std::max({ std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2]) });
+      EXPECT_TRUE(apart != 1 || colorA != colorB);
+    }
+  }
 }
 
 TEST(ClipToOctree, ThreadsDoNotChangeABit)

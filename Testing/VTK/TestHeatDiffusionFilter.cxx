@@ -75,6 +75,34 @@ TEST(HeatDiffusionFilter, AddsItsSourcePerWorldTime)
   }
 }
 
+TEST(HeatDiffusionFilter, WithoutAnArrayThePointsMove)
+{
+  auto filter = MakeFilter(0.8, 4);
+  filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "None");
+  filter->UpdateTimeStep(2.0);
+  const double radius = Radius * std::exp(-2.0 * 0.4 / (Radius * Radius));
+  vtkPolyData* output = filter->GetOutput();
+  for (vtkIdType k = 0; k < output->GetNumberOfPoints(); ++k)
+  {
+    EXPECT_NEAR(Vec3(output->GetPoint(k)).norm(), radius, 0.02);
+  }
+  EXPECT_TRUE(output->GetPointData()->HasArray("Displacement"));
+  filter->MovePointsOff();
+  filter->UpdateTimeStep(2.0);
+  EXPECT_NEAR(Vec3(filter->GetOutput()->GetPoint(0)).norm(), Radius, 1e-12);
+  EXPECT_EQ(filter->GetNumberOfRuns("Solve"), 4);
+}
+
+TEST(HeatDiffusionFilter, PointsWithoutPolygonsKeepTheirValue)
+{
+  auto input = Input();
+  input->GetPoints()->InsertNextPoint(0, 0, 9);
+  AddPointArray(input, "z", 1, [](const Vec3& p, int) { return p[2]; });
+  auto filter = MakeFilter(0.8, 1);
+  filter->SetInputDataObject(input);
+  EXPECT_EQ(DiffusedAt(filter, 1).back(), 9.0);
+}
+
 TEST(HeatDiffusionFilter, RefusesASourceOfOtherComponentsAndNoTime)
 {
   auto filter = MakeFilter(0.1, 1);

@@ -216,6 +216,38 @@ TEST_F(ScreenedPoisson, PointsWithoutPolygonsKeepTheirValue)
   EXPECT_EQ(this->Solution().back(), Wave({ 9, 9, 9 }, 0));
 }
 
+TEST_F(ScreenedPoisson, WithoutValuesThePointsMoveToTheSolution)
+{
+  input->GetPoints()->InsertNextPoint(5, 6, 7); // of no polygon: stays
+  AddPointArray(input, "f", 1, Wave);
+  AddPointArray(input, "normal", 3, [](const Vec3& p, int c) { return p[c]; });
+  input->GetPointData()->SetActiveNormals("normal");
+  filter->SetInputArrayToProcess(0, 0, 0, Points, "None");
+  filter->SetParameterUnits(Poisson::World);
+  filter->SetScreeningWeight(3.0); // w / (w + 2) of a sphere
+  const auto solution = this->Solution();
+  vtkPolyData* output = filter->GetOutput();
+  const vtkIdType last = input->GetNumberOfPoints() - 1;
+  EXPECT_EQ(Vec3(output->GetPoint(last)), Vec3(5, 6, 7));
+  EXPECT_STREQ(output->GetPointData()->GetScalars()->GetName(), "NormalDisplacement");
+  vtkDataArray* displacement = output->GetPointData()->GetArray("Displacement");
+  for (vtkIdType k = 0; k < last; ++k)
+  {
+    const Vec3 before(input->GetPoint(k));
+    const Vec3 after(output->GetPoint(k));
+    EXPECT_EQ(after, Vec3(&solution[3 * k]));
+    EXPECT_LT((after - 0.6 * before).norm(), 0.03);
+    EXPECT_LT((Vec3(displacement->GetTuple3(k)) - (after - before)).norm(), 1e-12);
+    EXPECT_GT(Vec3(output->GetPointData()->GetNormals()->GetTuple3(k)).dot(before), 0.9);
+  }
+
+  filter->MovePointsOff();
+  EXPECT_EQ(this->Solution(), solution);
+  EXPECT_EQ(filter->GetNumberOfRuns("Solve"), 1);
+  EXPECT_EQ(filter->GetOutput()->GetPoints(), input->GetPoints());
+  EXPECT_FALSE(filter->GetOutput()->GetPointData()->HasArray("Displacement"));
+}
+
 TEST_F(ScreenedPoisson, EndsByAccuracyAndSaysHowGoodItIs)
 {
   filter->SetDepth(5);

@@ -218,13 +218,33 @@ TEST_F(SpectralSignaturesFilter, AModeInsideTheBandPassesUnchanged)
   expect(Signatures::BandPass, 8, 1000, nothing);
 }
 
+TEST_F(SpectralSignaturesFilter, OneScaleIsShown)
+{
+  const auto all = this->Run("HeatKernelSignature");
+  const auto expectShown = [&](int property, std::size_t scale)
+  {
+    filter->SetShownScale(property);
+    const auto shown = this->Run("Signature");
+    for (std::size_t k = 0; k < shown.size(); ++k)
+    {
+      ASSERT_EQ(shown[k], all[4 * k + scale]);
+    }
+  };
+  expectShown(-1, 2);
+  expectShown(0, 0);
+  expectShown(999, 3);
+  EXPECT_STREQ(filter->GetOutput()->GetPointData()->GetScalars()->GetName(), "Signature");
+  filter->AddSourcePointId(3);
+  filter->Update();
+  EXPECT_STREQ(filter->GetOutput()->GetPointData()->GetScalars()->GetName(), "BiharmonicDistance");
+}
+
 TEST_F(SpectralSignaturesFilter, TheShapeItselfIsFiltered)
 {
   // The coordinates of a sphere are modes of degree 1: a low pass at 3 leaves it as it is, to the
   // error of the grid and of the facets. The mean alone moves all points into the centre.
   filter->SetFilterType(Signatures::LowPass);
   filter->SetLastMode(3);
-  filter->MovePointsOn();
   filter->Update();
   double largest = 0.0;
   for (std::size_t k = 0; k < sphere.points.size(); ++k)

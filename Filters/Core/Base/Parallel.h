@@ -4,6 +4,7 @@
 #define GridFEM_Parallel_h
 
 #include "Base/Progress.h"
+#include "Base/ShortWaits.h"
 #include "Base/Types.h"
 
 #include <omp.h>
@@ -23,7 +24,12 @@ namespace gridfem
 inline int NumberOfThreads(int wanted)
 {
   const int processors = std::max(1, omp_get_num_procs());
-  return wanted > 0 ? std::min(wanted, 2 * processors) : processors;
+  const int threads = wanted > 0 ? std::min(wanted, 2 * processors) : processors;
+  if (threads > 1)
+  {
+    KeepWaitsShort();
+  }
+  return threads;
 }
 
 /// Items per block where nothing else suggests a size.

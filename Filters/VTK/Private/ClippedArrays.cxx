@@ -13,7 +13,8 @@ namespace gridfem
 namespace
 {
 
-constexpr const char* CellArrays[] = { SourceCellIdName, OctreeCellIdName, PatchIdName };
+constexpr const char* CellArrays[] = { SourceCellIdName, OctreeCellIdName, OctreeCellColorName,
+  PatchIdName };
 
 constexpr const char* FieldArrays[] = { OctreeCellsName, GridOriginName, GridSpacingName,
   GridDepthName, WeldCoincidentPointsName, PatchCellIdName, PatchBasisIdsName,

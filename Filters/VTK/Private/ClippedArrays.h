@@ -12,6 +12,7 @@ namespace gridfem
 
 constexpr const char* SourceCellIdName = "SourceCellId"; // cell data
 constexpr const char* OctreeCellIdName = "OctreeCellId";
+constexpr const char* OctreeCellColorName = "OctreeCellColor"; // for the eye
 constexpr const char* PatchIdName = "PatchId";
 
 constexpr const char* OctreeCellsName = "OctreeCells"; // field data

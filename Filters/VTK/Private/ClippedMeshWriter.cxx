@@ -17,6 +17,7 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkSignedCharArray.h"
 #include "vtkTypeInt32Array.h"
 #include "vtkTypeInt64Array.h"
 
@@ -134,6 +135,10 @@ void AddCellIds(const InputMesh& mesh, const ClippedMesh& clipped, int threads, 
 {
   auto source = NewIds(SourceCellIdName, clipped.NumberOfTriangles());
   auto octree = NewIds(OctreeCellIdName, clipped.NumberOfTriangles());
+  vtkNew<vtkSignedCharArray> color;
+  color->SetName(OctreeCellColorName);
+  color->SetNumberOfTuples(clipped.NumberOfTriangles());
+  signed char* colors = color->GetPointer(0);
   vtkIdType* sources = source->GetPointer(0);
   vtkIdType* octreeCells = octree->GetPointer(0);
   const Array<Index> pieceCell = PieceCells(clipped, threads);
@@ -142,9 +147,12 @@ void AddCellIds(const InputMesh& mesh, const ClippedMesh& clipped, int threads, 
     {
       std::fill(sources + begin, sources + end, mesh.sourceCell[clipped.pieceTriangle[piece]]);
       std::fill(octreeCells + begin, octreeCells + end, pieceCell[piece]);
+      const MortonKey parities = clipped.cells[pieceCell[piece]] & 7;
+      std::fill(colors + begin, colors + end, static_cast<signed char>(parities));
     });
   output->GetCellData()->AddArray(source);
   output->GetCellData()->AddArray(octree);
+  output->GetCellData()->AddArray(color);
 }
 
 void AddGrid(const ClippedMesh& clipped, vtkPolyData* output)

@@ -4,8 +4,8 @@
 #include "Problems/MemoryEstimate.h"
 #include "Problems/Spectrum.h"
 
+#include "vtkDataSet.h"
 #include "vtkMultiProcessController.h"
-#include "vtkPolyData.h"
 
 #include <cmath>
 #include <iomanip>
@@ -33,7 +33,7 @@ void RequireBytes(double bytes, const std::string& subject, const std::string& a
 
 } // namespace
 
-bool IsEmpty(vtkPolyData* input)
+bool IsEmpty(vtkDataSet* input)
 {
   return !input || input->GetNumberOfPoints() == 0;
 }

@@ -4,13 +4,13 @@
 
 #include "Grid/TriangleMesh.h"
 
-class vtkPolyData;
+class vtkDataSet;
 
 namespace gridfem
 {
 
 /// No points at all: gives empty outputs without a word.
-bool IsEmpty(vtkPolyData* input);
+bool IsEmpty(vtkDataSet* input);
 
 /// Throws InvalidInput, naming the property, when its value is NaN, which passes every clamp.
 void RequireNumber(const char* property, double value);

@@ -89,6 +89,17 @@ void MoveSurface(const TriangleMesh& mesh, const std::vector<Vec3>& points, int 
   output->GetPointData()->SetActiveScalars("NormalDisplacement");
 }
 
+void MoveSurface(const TriangleMesh& mesh, const MultiVector& places, int dataType, int threads,
+  vtkPolyData* output)
+{
+  std::vector<Vec3> points(static_cast<std::size_t>(places.rows()));
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    points[k] = places.row(static_cast<Id>(k)).transpose();
+  }
+  MoveSurface(mesh, points, dataType, threads, output);
+}
+
 void MoveMesh(const TriangleMesh& mesh, const std::vector<Vec3>& points, int dataType, int threads,
   vtkPolyData* output)
 {

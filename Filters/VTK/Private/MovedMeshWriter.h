@@ -20,6 +20,10 @@ namespace gridfem
 void MoveSurface(const TriangleMesh& mesh, const std::vector<Vec3>& points, int dataType,
   int threads, vtkPolyData* output);
 
+/// The same for places in rows of three.
+void MoveSurface(const TriangleMesh& mesh, const MultiVector& places, int dataType, int threads,
+  vtkPolyData* output);
+
 /// The same for points of a flow, with ConformalFactor and QuasiConformalError in place of
 /// NormalDisplacement.
 void MoveMesh(const TriangleMesh& mesh, const std::vector<Vec3>& points, int dataType, int threads,

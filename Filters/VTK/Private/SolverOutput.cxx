@@ -61,6 +61,17 @@ void AddFieldNumber(vtkPolyData* output, const char* name, double value)
   output->GetFieldData()->AddArray(array);
 }
 
+void KeepUnsolved(const std::vector<char>& isSolved, vtkDataArray* given, MultiVector& values)
+{
+  for (Id point = 0; point < values.rows(); ++point)
+  {
+    for (Id c = 0; !isSolved[point] && c < values.cols(); ++c)
+    {
+      values(point, c) = given->GetComponent(point, static_cast<int>(c));
+    }
+  }
+}
+
 void AddReport(const SolveReport& report, vtkPolyData* output)
 {
   AddFieldInt(output, "Converged", report.converged ? 1 : 0);

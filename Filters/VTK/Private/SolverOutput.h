@@ -9,6 +9,7 @@
 #include "vtkSmartPointer.h"
 
 #include <string>
+#include <vector>
 
 class vtkDataArray;
 class vtkPolyData;
@@ -20,6 +21,11 @@ namespace gridfem
 /// An array with one tuple per row: float when `dataType` is VTK_FLOAT, else double.
 vtkSmartPointer<vtkDataArray> MakePointArray(
   const char* name, const MultiVector& values, int dataType);
+
+/// Gives the rows of points that no function reaches the values they came with.
+/// @param isSolved  per point
+/// @param given     as many components as `values` has columns
+void KeepUnsolved(const std::vector<char>& isSolved, vtkDataArray* given, MultiVector& values);
 
 /// Adds the field arrays Converged, Iterations, DoublePrecisionSince (iteration of the fall-back;
 /// -1: none), Residual and ConvergenceFactor (mean per iteration).

@@ -1,0 +1,69 @@
+#include "Base/ShortWaits.h"
+
+#include <omp.h>
+
+#include <cstdlib>
+#include <system_error>
+#include <thread>
+
+#if defined(__linux__) && defined(__GNUC__) && !defined(__clang__)
+#define GRIDFEM_GNU_OPENMP
+#include <csignal>
+#include <unistd.h>
+#endif
+
+namespace gridfem
+{
+namespace
+{
+
+#ifdef GRIDFEM_GNU_OPENMP
+/// GNU's OpenMP waits for a short time only as long as the process has more of its threads than
+/// there are processors; the environment is read when it is loaded, which is before us. So one team
+/// of so many threads exists for good, and sleeps.
+void HoldManyThreads()
+{
+  sigset_t all;
+  sigfillset(&all);
+  pthread_sigmask(SIG_BLOCK, &all, nullptr); // so that the threads never wake
+#pragma omp parallel num_threads(omp_get_num_procs() + 1)
+  {
+  }
+  while (true)
+  {
+    pause();
+  }
+}
+
+bool SaysHowToWait()
+{
+  return std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT");
+}
+#endif
+
+bool Begin()
+{
+#ifdef GRIDFEM_GNU_OPENMP
+  if (!SaysHowToWait())
+  {
+    try
+    {
+      std::thread(HoldManyThreads).detach();
+    }
+    catch (const std::system_error&)
+    {
+      return false; // no more threads can be had: waits stay long
+    }
+  }
+#endif
+  return true;
+}
+
+} // namespace
+
+void KeepWaitsShort()
+{
+  [[maybe_unused]] static const bool hasBegun = Begin();
+}
+
+} // namespace gridfem

@@ -1,0 +1,65 @@
+#include "SurfaceInput.h"
+
+#include "Base/Errors.h"
+
+#include "vtkDataSet.h"
+#include "vtkDataSetSurfaceFilter.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+
+namespace gridfem
+{
+
+SurfaceInput::SurfaceInput() = default;
+SurfaceInput::~SurfaceInput() = default;
+
+vtkInformationVector** SurfaceInput::Of(vtkInformationVector** inputs, int numberOfPorts)
+{
+  vtkDataSet* data = vtkDataSet::GetData(inputs[0]);
+  if (!data || vtkPolyData::SafeDownCast(data))
+  {
+    this->Free();
+    return inputs;
+  }
+  this->Extract(data);
+  if (surface_->GetNumberOfPoints() == 0)
+  {
+    throw InvalidInput("The input has no surface: neither polygons nor volume cells.");
+  }
+  vtkNew<vtkInformation> information;
+  information->Copy(inputs[0]->GetInformationObject(0));
+  information->Set(vtkDataObject::DATA_OBJECT(), surface_);
+  first_->SetInformationObject(0, information);
+  ports_.assign(inputs, inputs + numberOfPorts);
+  ports_[0] = first_;
+  return ports_.data();
+}
+
+/// Only where the data set is not that of last time: no two have the same time of change.
+void SurfaceInput::Extract(vtkDataSet* data)
+{
+  if (extracted_ == data->GetMTime())
+  {
+    return;
+  }
+  auto copy = vtkSmartPointer<vtkDataSet>::Take(data->NewInstance());
+  copy->ShallowCopy(data); // the data set stays that of its own pipeline
+  vtkNew<vtkDataSetSurfaceFilter> filter;
+  filter->SetInputData(copy);
+  filter->PassThroughPointIdsOn();
+  filter->PassThroughCellIdsOn();
+  filter->Update();
+  surface_->ShallowCopy(filter->GetOutput());
+  extracted_ = data->GetMTime();
+}
+
+void SurfaceInput::Free()
+{
+  surface_->Initialize();
+  first_->SetNumberOfInformationObjects(0);
+  extracted_ = 0;
+}
+
+} // namespace gridfem

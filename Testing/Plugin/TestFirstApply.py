@@ -1,0 +1,104 @@
+"""What a filter shows when it is dropped on a mesh and nothing is touched but Apply."""
+import unittest
+
+from paraview import servermanager, simple
+from paraview.modules.vtkRemotingViews import vtkSMParaViewPipelineControllerWithRendering
+
+import plugin
+
+DEPTH = 4
+
+COLORED_BY = {
+    "ClipToOctree": ("CELLS", "OctreeCellColor"),
+    "ConnectivityAwareBasis": ("CELLS", "PatchId"),
+    "GeodesicDistance": ("POINTS", "Distance"),
+    "HarmonicInterpolation": ("POINTS", "Interpolated"),
+    "HeatDiffusion": ("POINTS", "NormalDisplacement"),
+    "LaplaceSpectrum": ("POINTS", "Mode"),
+    "MeanCurvatureFlow": (None, ""),  # the shape itself moves
+    "PrincipalCurvatures": ("POINTS", "MeanCurvature"),
+    "ScreenedPoisson": ("POINTS", "NormalDisplacement"),
+    "SpectralSignatures": ("POINTS", "Signature"),
+    "StitchColors": ("POINTS", "StitchedColors"),
+    "SurfaceDetail": ("POINTS", "NormalDisplacement"),
+    "SurfaceGradient": ("POINTS", "Laplacian")}
+
+SHOWN_PORTS = {"LaplaceSpectrum": {0, 1}, "MeanCurvatureFlow": {0, 1}}
+
+
+class FirstApply(unittest.TestCase):
+
+    def setUp(self):
+        self.surface = plugin.sphere()
+
+    def tearDown(self):
+        simple.ResetSession()
+
+    def apply(self, name):
+        surface = plugin.with_arrays(self.surface) if name in plugin.CHOICES else self.surface
+        proxy = getattr(simple, name)(Input=surface, **plugin.CHOICES.get(name, {}))
+        for prop, value in (("Depth", DEPTH), ("NumberOfModes", 16)):
+            if prop in proxy.ListProperties():
+                proxy.SetPropertyWithName(prop, value)
+        proxy.UpdatePipeline()
+        return proxy
+
+    def test_every_filter_colors_by_what_it_is_for(self):
+        view = simple.CreateRenderView()
+        for name in plugin.PROXIES:
+            with self.subTest(proxy=name):
+                shown = simple.Show(self.apply(name), view)
+                self.assertEqual(tuple(shown.ColorArrayName), COLORED_BY[name])
+
+    def test_only_what_helps_is_opened(self):
+        controller = vtkSMParaViewPipelineControllerWithRendering()
+        for name in plugin.PROXIES:
+            with self.subTest(proxy=name):
+                proxy = self.apply(name)
+                opened = {port for port in range(proxy.SMProxy.GetNumberOfOutputPorts())
+                          if controller.GetPreferredViewType(proxy.SMProxy, port) != "None"}
+                self.assertEqual(opened, SHOWN_PORTS.get(name, {0}))
+
+    def test_the_spectrum_cuts_no_group_and_does_not_warn(self):
+        spectrum = simple.LaplaceSpectrum(Input=self.surface, Depth=DEPTH)
+        self.assertEqual(plugin.data(spectrum, 1).GetNumberOfRows(), 25)  # 20 would cut the fifth
+        chart = simple.Show(simple.OutputPort(spectrum, 1), simple.CreateView("XYChartView"))
+        styles = list(chart.SeriesLineStyle)
+        marks = list(chart.SeriesMarkerStyle)
+        self.assertEqual(styles[styles.index("Eigenvalue") + 1], "0")
+        self.assertEqual(marks[marks.index("Eigenvalue") + 1], "4")
+
+    def test_components_of_signatures_bear_their_times(self):
+        array = plugin.data(self.apply("SpectralSignatures")).GetPointData().GetArray(
+            "HeatKernelSignature")
+        self.assertRegex(array.GetComponentName(0), r"^t = [0-9.e+-]+$")
+
+    def test_other_data_sets_and_blocks(self):
+        other = simple.Sphere(Center=[5, 0, 0], ThetaResolution=40, PhiResolution=20)
+        grid = simple.AppendDatasets(Input=[self.surface])
+        blocks = simple.GroupDatasets(Input=[grid, other])
+        for name in plugin.PROXIES:
+            if name in plugin.CHOICES:
+                continue
+            with self.subTest(proxy=name):
+                self.surface, whole = grid, self.surface
+                self.assertGreater(plugin.data(self.apply(name)).GetNumberOfPoints(), 700)
+                self.surface = blocks
+                data = plugin.data(self.apply(name))
+                self.assertEqual(data.GetNumberOfBlocks(), 2)
+                sizes = [data.GetBlock(block).GetNumberOfPoints() for block in (0, 1)]
+                self.assertGreater(min(sizes), 700)
+                self.surface = whole
+
+    def test_a_block_without_the_array_stays_empty_and_the_others_are_solved(self):
+        values = simple.Calculator(Input=self.surface, ResultArrayName="f", Function="coordsX")
+        blocks = simple.GroupDatasets(Input=[simple.Sphere(Center=[5, 0, 0]), values])
+        poisson = simple.ScreenedPoisson(Input=blocks, ValueArray=["POINTS", "f"], Depth=DEPTH)
+        data = plugin.data(poisson)
+        self.assertEqual(data.GetBlock(0).GetNumberOfPoints(), 0)
+        self.assertTrue(data.GetBlock(1).GetPointData().HasArray("Solution"))
+
+
+if __name__ == "__main__":
+    plugin.load()
+    unittest.main()

@@ -1,0 +1,131 @@
+"""The functions of the Python package: numpy arrays in, numpy arrays out, exceptions for misuse."""
+import unittest
+import warnings
+
+import numpy
+
+import gridfem
+
+OPTIONS = {"Depth": 5}
+
+
+def unit_sphere(rings=30, sectors=60):
+    """Points and triangles; the first point is the north pole, the last one the south pole."""
+    polar = numpy.linspace(0, numpy.pi, rings + 1)[1:-1]
+    around = numpy.linspace(0, 2 * numpy.pi, sectors, endpoint=False)
+    theta, phi = numpy.meshgrid(polar, around, indexing="ij")
+    belt = numpy.stack([numpy.sin(theta) * numpy.cos(phi), numpy.sin(theta) * numpy.sin(phi),
+                        numpy.cos(theta)], axis=-1).reshape(-1, 3)
+    points = numpy.vstack([[0, 0, 1], belt, [0, 0, -1]])
+    triangles = []
+    for j in range(sectors):
+        k = (j + 1) % sectors
+        triangles.append([0, 1 + j, 1 + k])
+        for row in range(rings - 2):
+            a, b = 1 + row * sectors + j, 1 + row * sectors + k
+            triangles += [[a, a + sectors, b + sectors], [a, b + sectors, b]]
+        last = 1 + (rings - 2) * sectors
+        triangles.append([len(points) - 1, last + k, last + j])
+    return points, numpy.array(triangles)
+
+
+class Numpy(unittest.TestCase):
+
+    def setUp(self):
+        self.points, self.triangles = unit_sphere()
+        self.mesh = (self.points, self.triangles)
+
+    def test_spectrum_of_the_sphere(self):
+        eigenvalues, modes = gridfem.spectrum(*self.mesh, 8, **OPTIONS)
+        numpy.testing.assert_allclose(eigenvalues, [0] + 3 * [2] + 5 * [6], rtol=0.01, atol=1e-9)
+        self.assertEqual(modes.shape, (len(self.points), 9))  # the group of five is not cut
+        numpy.testing.assert_allclose(modes[:, 0] ** 2, 1 / (4 * numpy.pi), rtol=0.01)
+
+    def test_poisson_of_a_harmonic(self):
+        # w (u - f) = Laplace u with Laplace z = -2 z: u = w / (w + 2) f.
+        solution = gridfem.poisson(*self.mesh, self.points[:, 2], ScreeningWeight=3.0,
+                                   ParameterUnits=0, **OPTIONS)
+        numpy.testing.assert_allclose(solution, 0.6 * self.points[:, 2], atol=0.005)
+        gradients = numpy.array([0, 0, 1]) - self.points[:, 2:] * self.points
+        solution = gridfem.poisson(*self.mesh, 0 * self.points[:, 2], gradients, ScreeningWeight=0.0,
+                                   **OPTIONS)
+        numpy.testing.assert_allclose(solution, self.points[:, 2], atol=0.01)
+
+    def test_without_values_the_shape_is_smoothed(self):
+        solution = gridfem.poisson(*self.mesh, ScreeningWeight=3.0, ParameterUnits=0, **OPTIONS)
+        numpy.testing.assert_allclose(solution, 0.6 * self.points, atol=0.005)
+
+    def test_distances_from_both_poles(self):
+        distances = gridfem.distance(*self.mesh, [0, len(self.points) - 1], **OPTIONS)
+        latitude = numpy.arccos(numpy.clip(self.points[:, 2], -1, 1))
+        exact = numpy.minimum(latitude, numpy.pi - latitude)
+        self.assertEqual(distances[0], 0)
+        self.assertLess(numpy.abs(distances - exact).max(), 0.06)
+
+    def test_heat_of_a_harmonic(self):
+        diffused = gridfem.diffuse(*self.mesh, self.points[:, 2], 0.5, ParameterUnits=0, **OPTIONS)
+        numpy.testing.assert_allclose(
+            diffused, numpy.exp(-1.0) * self.points[:, 2], atol=0.005)
+
+    def test_interpolation_between_two_circles(self):
+        # Harmonic functions of the latitude are those of log tan(theta / 2).
+        theta = numpy.arccos(numpy.clip(self.points[:, 2], -1, 1))
+        inner = 8 * numpy.pi / 30  # a ring of points
+        known = numpy.flatnonzero(numpy.abs(theta - numpy.pi / 2) > numpy.pi / 2 - inner - 1e-9)
+        exact = numpy.log(numpy.tan(numpy.clip(theta, inner, numpy.pi - inner) / 2))
+        values = gridfem.interpolate(*self.mesh, known, exact[known], **OPTIONS, FunctionSpace=1)
+        self.assertLess(numpy.abs(values - exact).max(), 0.005)
+
+    def test_curvatures_of_the_sphere(self):
+        lowest, highest, first, second = gridfem.curvatures(*self.mesh)
+        numpy.testing.assert_allclose(lowest, 1, atol=0.02)
+        numpy.testing.assert_allclose(highest, 1, atol=0.02)
+        numpy.testing.assert_allclose(numpy.sum(first * second, axis=1), 0, atol=1e-9)
+
+    def test_scans_of_one_colour(self):
+        labels = (self.points[:, 2] > 0.01).astype(int)
+        colors = numpy.where(labels[:, None] == 1, [200.0, 100.0, 50.0], [100.0, 50.0, 100.0])
+        stitched = gridfem.stitch(*self.mesh, colors, labels, **OPTIONS)
+        self.assertLess(numpy.ptp(stitched, axis=0).max(), 2.0)
+
+    def test_surfaces_that_move(self):
+        smooth = gridfem.detail(*self.mesh, 0.0, ScreeningWeight=3.0, ParameterUnits=0, **OPTIONS)
+        numpy.testing.assert_allclose(
+            numpy.linalg.norm(smooth, axis=1), 0.6, atol=0.005)
+        flowing = gridfem.flow(*self.mesh, 10, TimeStep=0.01, ParameterUnits=0, **OPTIONS)
+        numpy.testing.assert_allclose(
+            numpy.linalg.norm(flowing, axis=1), numpy.sqrt(1 - 4 * 0.1), atol=0.02)
+
+    def test_polygons_and_values_on_cells(self):
+        points = numpy.array([[i, j, 0] for i in range(9) for j in range(9)], dtype=float)
+        corner = numpy.array([9 * i + j for i in range(8) for j in range(8)])
+        squares = corner[:, None] + [0, 9, 10, 1]
+        solution = gridfem.poisson(points, squares, numpy.arange(64) // 8 + 0.5, **OPTIONS)
+        self.assertEqual(solution.shape, (81,))
+        self.assertAlmostEqual(solution.mean(), 4.0, delta=0.01)
+
+    def test_misuse_raises(self):
+        points, triangles = self.mesh
+        cases = {
+            "three columns": lambda: gridfem.spectrum(points[:, :2], triangles),
+            "ids of the": lambda: gridfem.spectrum(points, triangles + len(points)),
+            "no property Dept": lambda: gridfem.spectrum(points, triangles, Dept=5),
+            "not a finite number": lambda: gridfem.spectrum(points * numpy.nan, triangles),
+            "has 7 rows": lambda: gridfem.poisson(points, triangles, numpy.ones(7)),
+            "not a point": lambda: gridfem.distance(points, triangles, len(points)),
+            "no sources": lambda: gridfem.distance(points, triangles, []),
+            "2 ids and 3 values": lambda: gridfem.interpolate(points, triangles, [0, 1], [1, 2, 3])}
+        for message, call in cases.items():
+            with self.subTest(message=message), self.assertRaisesRegex(gridfem.Error, message):
+                call()
+
+    def test_what_has_not_converged_warns(self):
+        with self.assertWarnsRegex(RuntimeWarning, "Not converged"):
+            gridfem.spectrum(*self.mesh, 20, **OPTIONS, MaximumIterations=1, Tolerance=1e-14)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            gridfem.spectrum(*self.mesh, 5, **OPTIONS)
+
+
+if __name__ == "__main__":
+    unittest.main()

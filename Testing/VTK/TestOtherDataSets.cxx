@@ -1,0 +1,133 @@
+// Data sets that are not vtkPolyData: their surface is taken, once.
+
+#include "FilterSupport.h"
+
+#include "vtkLaplaceSpectrum.h"
+#include "vtkScreenedPoisson.h"
+
+#include "vtkAppendFilter.h"
+#include "vtkImageData.h"
+#include "vtkTable.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <gtest/gtest.h>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+/// The same triangles as an unstructured grid, points and cells in the same order.
+vtkSmartPointer<vtkUnstructuredGrid> AsGrid(vtkPolyData* surface)
+{
+  vtkNew<vtkAppendFilter> append;
+  append->SetInputData(surface);
+  append->Update();
+  return append->GetOutput();
+}
+
+class OtherDataSets : public ::testing::Test
+{
+protected:
+  OtherDataSets() : messages(filter)
+  {
+    AddPointArray(sphere, "f", 1, Wave);
+    filter->SetDepth(4);
+    filter->SetTolerance(1e-10);
+    filter->SetInputArrayToProcess(0, 0, 0, Points, "f");
+  }
+
+  std::vector<double> Solution(vtkDataSet* input)
+  {
+    filter->SetInputDataObject(input);
+    filter->Update();
+    return PointValues(filter->GetOutput(), "Solution");
+  }
+
+  vtkSmartPointer<vtkPolyData> sphere = ToPolyData(GeodesicSphere(8));
+  vtkNew<vtkScreenedPoisson> filter;
+  Messages messages;
+};
+
+} // namespace
+
+TEST_F(OtherDataSets, AnUnstructuredGridGivesWhatItsTrianglesGive)
+{
+  const auto expected = this->Solution(sphere);
+  const auto grid = AsGrid(sphere);
+  const auto solution = this->Solution(grid);
+  ASSERT_EQ(solution.size(), expected.size());
+  const auto original =
+    Values(filter->GetOutput()->GetPointData()->GetArray("vtkOriginalPointIds"));
+  for (std::size_t k = 0; k < solution.size(); ++k)
+  {
+    EXPECT_NEAR(solution[k], expected[static_cast<std::size_t>(original[k])], 1e-7);
+  }
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), sphere->GetNumberOfCells());
+}
+
+TEST_F(OtherDataSets, OnlyWhatDependsOnAChangeIsComputedAgain)
+{
+  const auto grid = AsGrid(sphere);
+  this->Solution(grid);
+  filter->SetScreeningWeight(7.0);
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfRuns("System"), 1);
+  // Other values on the same cells, as a calculator in front gives them.
+  vtkNew<vtkUnstructuredGrid> other;
+  other->ShallowCopy(grid);
+  other->GetPointData()->RemoveArray("f");
+  vtkNew<vtkDoubleArray> values;
+  values->SetName("f");
+  values->SetNumberOfTuples(grid->GetNumberOfPoints());
+  values->FillComponent(0, 3.0);
+  other->GetPointData()->AddArray(values);
+  for (const double value : this->Solution(other))
+  {
+    EXPECT_NEAR(value, 3.0, 1e-7);
+  }
+  EXPECT_EQ(filter->GetNumberOfRuns("System"), 1);
+  EXPECT_EQ(filter->GetNumberOfRuns("RightHandSide"), 2);
+}
+
+TEST_F(OtherDataSets, AVolumeIsItsBoundary)
+{
+  vtkNew<vtkImageData> box;
+  box->SetDimensions(9, 9, 9); // a cube of side 8
+  vtkNew<vtkLaplaceSpectrum> spectrum;
+  spectrum->SetInputDataObject(box);
+  spectrum->SetDepth(5);
+  spectrum->SetNumberOfModes(4);
+  spectrum->Update();
+  EXPECT_EQ(spectrum->GetOutput()->GetNumberOfPoints(), 386); // 9³ - 7³
+  auto* table = vtkTable::SafeDownCast(spectrum->GetOutputDataObject(1));
+  const auto eigenvalues = Values(vtkDataArray::SafeDownCast(table->GetColumnByName("Eigenvalue")));
+  vtkNew<vtkLaplaceSpectrum> hats;
+  hats->SetInputDataObject(box);
+  hats->SetFunctionSpace(vtkSurfaceFEMAlgorithm::HatFunctions);
+  hats->SetNumberOfModes(4);
+  hats->Update();
+  auto* other = vtkTable::SafeDownCast(hats->GetOutputDataObject(1));
+  const auto onHats = Values(vtkDataArray::SafeDownCast(other->GetColumnByName("Eigenvalue")));
+  for (int k = 1; k < 4; ++k)
+  {
+    EXPECT_NEAR(eigenvalues[k] / onHats[k], 1.0, 0.03);
+  }
+}
+
+TEST_F(OtherDataSets, CellsWithoutASurfaceAreRefused)
+{
+  vtkNew<vtkUnstructuredGrid> empty;
+  this->filter->SetInputDataObject(empty);
+  filter->Update();
+  EXPECT_TRUE(messages.errors.empty());
+  EXPECT_TRUE(IsEmptyData(filter->GetOutput()));
+
+  vtkNew<vtkUnstructuredGrid> points;
+  points->SetPoints(sphere->GetPoints());
+  filter->SetInputDataObject(points);
+  filter->Update();
+  ASSERT_EQ(messages.errors.size(), 1u);
+  EXPECT_NE(messages.errors[0].find("no surface"), std::string::npos) << messages.errors[0];
+}
