@@ -2,6 +2,7 @@
 
 #include <omp.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <system_error>
 #include <thread>
@@ -26,8 +27,10 @@ void HoldManyThreads()
   sigset_t all;
   sigfillset(&all);
   pthread_sigmask(SIG_BLOCK, &all, nullptr); // so that the threads never wake
+  std::atomic<int> started{ 0 };             // a region without work would be left out
 #pragma omp parallel num_threads(omp_get_num_procs() + 1)
   {
+    ++started;
   }
   while (true)
   {
