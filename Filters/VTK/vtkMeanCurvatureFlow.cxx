@@ -67,6 +67,7 @@ vtkMeanCurvatureFlow::vtkMeanCurvatureFlow() : Data(std::make_unique<Internals>(
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
   this->Tolerance = 5e-4;
+  this->Cycle = VCycle;
 }
 
 vtkMeanCurvatureFlow::~vtkMeanCurvatureFlow() = default;

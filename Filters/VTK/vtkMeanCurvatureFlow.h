@@ -46,8 +46,8 @@
  *
  * A step that cannot be made (the surface has vanished, a matrix is not positive) ends the flow
  * with a warning; later times show the last step. Tolerance (default 5e-4) is on the energy of a
- * step's error, relative to the shape's. All shared properties are used; TimeStep is in the squared
- * unit of length of ParameterUnits.
+ * step's error, relative to the shape's; Cycle is VCycle. All shared properties are used; TimeStep
+ * is in the squared unit of length of ParameterUnits.
  */
 #ifndef vtkMeanCurvatureFlow_h
 #define vtkMeanCurvatureFlow_h

@@ -101,6 +101,15 @@ bool IsBroken(const StepSolution& solution)
          !solution.embedding.allFinite();
 }
 
+FlowStep Describe(const SurfaceSize& size)
+{
+  FlowStep step;
+  step.area = size.area;
+  step.volume = size.volume;
+  step.sphericity = size.Sphericity();
+  return step;
+}
+
 } // namespace
 
 MeanCurvatureFlow::MeanCurvatureFlow(std::shared_ptr<const FiniteElementSpace> space,
@@ -307,19 +316,9 @@ std::optional<double> MeanCurvatureFlow::ScaleOf(double area, double volume) con
   return 1.0;
 }
 
-FlowStep MeanCurvatureFlow::Describe(const std::vector<Vec3>& points, const Job& job) const
-{
-  const SurfaceSize size = SizeOf(points, mesh_->triangles, job.threads);
-  FlowStep step;
-  step.area = size.area;
-  step.volume = size.volume;
-  step.sphericity = size.Sphericity();
-  return step;
-}
-
 FlowStep MeanCurvatureFlow::Start(const Job& job) const
 {
-  return this->Describe(mesh_->points, job);
+  return Describe(SizeOf(mesh_->points, mesh_->triangles, job.threads));
 }
 
 FlowStep MeanCurvatureFlow::Advance(const Job& job)
@@ -343,7 +342,7 @@ FlowStep MeanCurvatureFlow::Advance(const Job& job)
     return stopped;
   }
   std::vector<Vec3> points = this->WorldPoints(*moving_, solution.embedding, job.threads);
-  const SurfaceSize size = SizeOf(points, mesh_->triangles, job.threads);
+  SurfaceSize size = SizeOf(points, mesh_->triangles, job.threads);
   if (!(size.area > VanishedArea * startArea_))
   {
     stopped.end = FlowEnd::Vanished;
@@ -371,8 +370,9 @@ FlowStep MeanCurvatureFlow::Advance(const Job& job)
   {
     ScaleAbout((size.centroid - moving_->Origin()) / unit, *scale, solution.embedding, job.threads);
     points = this->WorldPoints(*moving_, solution.embedding, job.threads);
+    size = SizeOf(points, mesh_->triangles, job.threads);
   }
-  FlowStep done = this->Describe(points, job.threads);
+  FlowStep done = Describe(size);
   job.Check(1.0);
 
   if (options_.rebuild)

@@ -43,7 +43,8 @@ struct FlowOptions
 
   FlowOptions()
   {
-    solve.tolerance = 5e-4; // of the thesis
+    solve.tolerance = 5e-4;         // of the thesis
+    multigrid.cycle = CycleType::V; // a step takes one or two of either, and these take less time
   }
 };
 
@@ -126,7 +127,6 @@ private:
   std::vector<Vec3> WorldPoints(
     const FiniteElementSpace& space, const MultiVector& embedding, const Job& job) const;
   std::optional<double> ScaleOf(double area, double volume) const;
-  FlowStep Describe(const std::vector<Vec3>& points, const Job& job) const;
 
   std::shared_ptr<const FiniteElementSpace> start_;
   std::shared_ptr<const TriangleMesh> mesh_;
