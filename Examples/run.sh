@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The main job: octree, basis, Poisson solution and Laplace spectrum of a mesh.
+# The main job: octree, basis, Poisson solution, Laplace spectrum and flow of a mesh.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../Testing/build.sh"
 

@@ -1,4 +1,5 @@
-// The main job: a mesh goes in; its octree, basis, Poisson solution and Laplace spectrum come out.
+// The main job: a mesh goes in; its octree, basis, Poisson solution, Laplace spectrum and five steps
+// of its mean-curvature flow come out.
 // Examples/run.sh builds it, runs it and renders what it writes.
 //
 // What the Poisson solution shows: noise is taken off a striped (or coloured) surface. Minimising
@@ -14,6 +15,7 @@
 #include <vtkClipToOctree.h>
 #include <vtkConnectivityAwareBasis.h>
 #include <vtkLaplaceSpectrum.h>
+#include <vtkMeanCurvatureFlow.h>
 #include <vtkScreenedPoisson.h>
 
 #include <vtkDataArray.h>
@@ -52,12 +54,17 @@ struct Options
 /// 1 / √λ is a fiftieth of the side of a square with the surface's area (units: UnitArea).
 constexpr double ScreeningWeight = 2500;
 
+/// Of the flow, which takes the noise of a scan away and rounds what is sharp.
+constexpr int FlowSteps = 5;
+constexpr double FlowTimeStep = 2e-4; // of the surface's area
+
 struct Pipeline
 {
   vtkNew<vtkClipToOctree> clip;
   vtkNew<vtkConnectivityAwareBasis> basis;
   vtkNew<vtkScreenedPoisson> poisson;
   vtkNew<vtkLaplaceSpectrum> spectrum;
+  vtkNew<vtkMeanCurvatureFlow> flow;
 };
 
 vtkSmartPointer<vtkPolyData> ReadMesh(const Options& options, StepClock& clock)
@@ -98,6 +105,11 @@ void Connect(vtkPolyData* mesh, const std::string& array, const Options& options
   p.spectrum->SetInputConnection(1, p.basis->GetOutputPort());
   p.spectrum->SetNumberOfModes(options.modes);
   p.spectrum->SetAllModes(true);
+
+  p.flow->SetInputData(0, mesh);
+  p.flow->SetInputConnection(1, p.basis->GetOutputPort());
+  p.flow->SetTimeStep(FlowTimeStep);
+  p.flow->SetNumberOfSteps(FlowSteps);
 }
 
 void Run(Pipeline& p, StepClock& clock)
@@ -110,6 +122,7 @@ void Run(Pipeline& p, StepClock& clock)
   clock.AddPart("right-hand side", p.poisson->GetStageSeconds("RightHandSide"));
   clock.AddPart("solve", p.poisson->GetStageSeconds("Solve"));
   clock.Run("Laplace Spectrum", p.spectrum);
+  clock.Run("Mean Curvature Flow", p.flow);
 }
 
 template<class Writer>
@@ -119,6 +132,19 @@ void Write(const fs::path& path, vtkAlgorithmOutput* port, StepClock& clock)
   writer->SetFileName(path.c_str());
   writer->SetInputConnection(port);
   clock.Run("Write", writer);
+}
+
+/// Every step as a file; ParaView opens them as one surface that moves.
+void WriteFlow(const fs::path& folder, vtkMeanCurvatureFlow* flow, StepClock& clock)
+{
+  for (int step = 0; step <= FlowSteps; ++step)
+  {
+    flow->UpdateTimeStep(step);
+    vtkNew<vtkXMLPolyDataWriter> writer;
+    writer->SetFileName((folder / ("flow_" + std::to_string(step) + ".vtp")).c_str());
+    writer->SetInputData(flow->GetOutputDataObject(0));
+    clock.Run("Write", writer);
+  }
 }
 
 void WriteAll(const fs::path& folder, Pipeline& p, StepClock& clock)
@@ -132,6 +158,8 @@ void WriteAll(const fs::path& folder, Pipeline& p, StepClock& clock)
   Write<MeshWriter>(folder / "poisson.vtp", p.poisson->GetOutputPort(0), clock);
   Write<MeshWriter>(folder / "modes.vtp", p.spectrum->GetOutputPort(0), clock);
   Write<vtkDelimitedTextWriter>(folder / "eigenvalues.csv", p.spectrum->GetOutputPort(1), clock);
+  Write<vtkDelimitedTextWriter>(folder / "flow.csv", p.flow->GetOutputPort(1), clock);
+  WriteFlow(folder, p.flow, clock);
 }
 
 std::vector<LevelSummary> SummarizeLevels(int depth, vtkConnectivityAwareBasis* basis)
@@ -189,7 +217,8 @@ ExitCode DoMainJob(const Options& options)
   WriteAll(options.output, pipeline, clock);
   PrintResults(mesh, array, pipeline, clock);
   std::cout << "\nwritten to " << options.output << std::endl;
-  const bool converged = Converged(pipeline.poisson) && Converged(pipeline.spectrum);
+  const bool converged =
+    Converged(pipeline.poisson) && Converged(pipeline.spectrum) && Converged(pipeline.flow);
   return converged ? Done : NotConverged;
 }
 
@@ -198,7 +227,7 @@ ExitCode DoMainJob(const Options& options)
 int main(int argc, char* argv[])
 {
   Options options;
-  CLI::App app("Octree, basis, Poisson solution and Laplace spectrum of a triangle mesh.");
+  CLI::App app("Octree, basis, Poisson solution, Laplace spectrum and flow of a triangle mesh.");
   app
     .add_option("MESH", options.mesh,
       std::string("a mesh to work on (") + MeshFileEndings +

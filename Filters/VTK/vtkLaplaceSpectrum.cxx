@@ -1,6 +1,7 @@
 #include "vtkLaplaceSpectrum.h"
 
 #include "Private/ClippedMeshWriter.h"
+#include "Private/InputArray.h"
 #include "Private/InputValidation.h"
 #include "Private/ModeReader.h"
 #include "Private/SolverOutput.h"
@@ -250,6 +251,7 @@ void vtkLaplaceSpectrum::Compute(vtkInformationVector** inputs, vtkInformationVe
   request.completeMultiplets = this->CompleteMultiplets;
   request.compare = this->CompareFunctionSpaces;
   request.accuracy = this->AccuracyDriven ? this->Accuracy : 0.0;
+  this->State->metricArray = gridfem::FindInputArray(this, 5, input, "MetricArray");
   this->Data->SolvedModes = 0;
   this->Data->Update(*this->State, input, vtkPolyData::GetData(inputs[1]), request);
   this->Data->SolvedModes = this->NumberOfModes;

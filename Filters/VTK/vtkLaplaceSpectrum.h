@@ -10,6 +10,12 @@
  * vtkConnectivityAwareBasis. Input port 1 (optional): the output of vtkConnectivityAwareBasis for
  * the mesh of port 0.
  *
+ * SetInputArrayToProcess(5, ...), as in vtkScreenedPoisson, chooses the `MetricArray` (optional),
+ * point or cell data: a symmetric tensor of six components (XX, YY, ZZ, XY, YZ, XZ) or nine, the
+ * metric in place of the surface's own; J^T J for the surface that a map with the Jacobian J would
+ * move it to. Only its part in the plane of each triangle counts, which must be positive definite;
+ * on points its mean over a triangle. The integral of a squared mode is taken in it as well.
+ *
  * Output port 0 (vtkPolyData): the input with
  * - point data, in the precision of the points (double when they are integers): `Mode` (1
  *   component), the mode that is shown; or, with AllModes on, `Mode000`, `Mode001`, ... The

@@ -67,6 +67,7 @@ vtkMeanCurvatureFlow::vtkMeanCurvatureFlow() : Data(std::make_unique<Internals>(
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
   this->Tolerance = 5e-4;
+  this->Cycle = VCycle;
 }
 
 vtkMeanCurvatureFlow::~vtkMeanCurvatureFlow() = default;
@@ -136,6 +137,18 @@ void vtkMeanCurvatureFlow::Compute(vtkInformationVector** inputs, vtkInformation
     throw gridfem::InvalidInput("Conformalized keeps the stiffness of the input on its functions, "
                                 "so TrackMetric has to be on.");
   }
+  const gridfem::Rescaling rescaling = RescalingOf(this->Rescale, this->Conformalized);
+  if (this->FixedBoundary && (this->Conformalized || rescaling != gridfem::Rescaling::None))
+  {
+    throw gridfem::InvalidInput("FixedBoundary holds the boundary where it is, but Conformalized "
+                                "and Rescale move all of the surface.");
+  }
+  if (this->FixedBoundary && this->FunctionSpace != HatFunctions)
+  {
+    throw gridfem::InvalidInput(
+      "FixedBoundary needs FunctionSpace to be HatFunctions: the functions "
+      "of a grid cannot be held along a boundary.");
+  }
   state.UpdateSpace(input, vtkPolyData::GetData(inputs[1]), progress.Part(0.0, 0.1));
   state.UpdateSystem(progress.Part(0.1, 0.2));
 
@@ -144,7 +157,8 @@ void vtkMeanCurvatureFlow::Compute(vtkInformationVector** inputs, vtkInformation
   request.numberOfSteps = this->NumberOfSteps;
   request.conformalized = this->Conformalized;
   request.trackMetric = this->TrackMetric;
-  request.rescaling = RescalingOf(this->Rescale, this->Conformalized);
+  request.fixedBoundary = this->FixedBoundary;
+  request.rescaling = rescaling;
   request.cacheBytes = 1e6 * this->CacheMegabytes;
   const bool isNew = this->Data->Update(state, request, progress.Part(0.2, 0.9));
 
@@ -179,6 +193,7 @@ void vtkMeanCurvatureFlow::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfSteps: " << this->NumberOfSteps << "\n";
   os << indent << "Conformalized: " << this->Conformalized << "\n";
   os << indent << "TrackMetric: " << this->TrackMetric << "\n";
+  os << indent << "FixedBoundary: " << this->FixedBoundary << "\n";
   os << indent << "Rescale: " << this->Rescale << "\n";
   os << indent << "CacheMegabytes: " << this->CacheMegabytes << "\n";
 }

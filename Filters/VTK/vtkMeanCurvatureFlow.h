@@ -13,7 +13,7 @@
  * The ordinary flow forms necks that become infinitely thin in finite time; there its samples lock,
  * and it may end with a warning. The conformalised flow of a closed surface without handles ends as
  * a sphere, in practice; other surfaces do not, and a warning says so. Boundaries move freely, and
- * open surfaces shrink.
+ * open surfaces shrink, unless FixedBoundary makes a soap film of them.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
  * vtkConnectivityAwareBasis. Input port 1 (optional): the output of vtkConnectivityAwareBasis for
@@ -46,8 +46,8 @@
  *
  * A step that cannot be made (the surface has vanished, a matrix is not positive) ends the flow
  * with a warning; later times show the last step. Tolerance (default 5e-4) is on the energy of a
- * step's error, relative to the shape's. All shared properties are used; TimeStep is in the squared
- * unit of length of ParameterUnits.
+ * step's error, relative to the shape's; Cycle is VCycle. All shared properties are used; TimeStep
+ * is in the squared unit of length of ParameterUnits.
  */
 #ifndef vtkMeanCurvatureFlow_h
 #define vtkMeanCurvatureFlow_h
@@ -100,6 +100,18 @@ public:
   vtkBooleanMacro(TrackMetric, bool);
   ///@}
 
+  ///@{
+  /**
+   * When on, points of edges with one polygon stay, so that the surface tends to the soap film
+   * between its boundaries. Needs HatFunctions as FunctionSpace, since the functions of a grid
+   * cannot be held along a boundary; not with Conformalized or Rescale. Default off: boundaries
+   * move freely.
+   */
+  vtkSetMacro(FixedBoundary, bool);
+  vtkGetMacro(FixedBoundary, bool);
+  vtkBooleanMacro(FixedBoundary, bool);
+  ///@}
+
   enum RescaleType
   {
     Automatic = 0,
@@ -144,6 +156,7 @@ protected:
   int NumberOfSteps = 10;
   bool Conformalized = false;
   bool TrackMetric = true;
+  bool FixedBoundary = false;
   int Rescale = Automatic;
   int CacheMegabytes = 1000;
 

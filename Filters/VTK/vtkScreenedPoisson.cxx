@@ -74,6 +74,7 @@ void vtkScreenedPoisson::FindArrays(vtkPolyData* input)
   data.Value = gridfem::FindInputArray(this, 0, input, "ValueArray");
   data.Gradient = gridfem::FindInputArray(this, 1, input, "GradientArray");
   data.Scale = gridfem::FindInputArray(this, 2, input, "GradientScaleArray");
+  this->State->metricArray = gridfem::FindInputArray(this, 5, input, "MetricArray");
   const int components = data.Value.array ? data.Value.array->GetNumberOfComponents() : 3;
   if (data.Gradient.array && data.Gradient.array->GetNumberOfComponents() != 3 * components)
   {

@@ -26,9 +26,15 @@
  * on points its mean over a triangle counts
  * - index 4, `ConstraintArray` (optional): point data, one component; where it is neither 0 nor NaN
  *   the solution has the value exactly, which must be point data then
+ * - index 5, `MetricArray` (optional): a symmetric tensor, six components (XX, YY, ZZ, XY, YZ, XZ)
+ *   or nine: the metric that all integrals, gradients and the area of ParameterUnits are taken in,
+ *   as if the surface had been moved to where it has that metric; J^T J for a map with the Jacobian
+ *   J. Only its part in the plane of each triangle counts, which must be positive definite; on
+ *   points its mean over a triangle. g is the derivative of a function of the input then, as
+ *   Surface Gradient gives it.
  *
- * With one of the last two, or with FillUnknown, the mean is kept only on connected components that
- * neither a weight nor a constraint holds; the filter warns of those, once.
+ * With ValueWeightArray, ConstraintArray or FillUnknown, the mean is kept only on connected
+ * components that neither a weight nor a constraint holds; the filter warns of those, once.
  *
  * Output port 0 (vtkPolyData): the input with
  * - point data: `Solution` (C components, named as those of f; float if f or the coordinates that

@@ -19,7 +19,7 @@ def add(attributes, name, components, tuples):
     array.SetNumberOfTuples(tuples)
     array.Fill(1)
     attributes.AddArray(array)
-for components in (1, 3, 4, 9):
+for components in (1, 3, 4, 6, 9):
     add(output.GetPointData(), "p%d" % components, components, output.GetNumberOfPoints())
     add(output.GetCellData(), "c%d" % components, components, output.GetNumberOfCells())
 names = vtkStringArray()
@@ -28,24 +28,27 @@ names.SetNumberOfTuples(output.GetNumberOfPoints())
 output.GetPointData().AddArray(names)
 """
 
-ANY = {"None", "Normals", "p1", "p3", "p4", "p9", "c1", "c3", "c4", "c9"}
+ANY = {"None", "Normals", "p1", "p3", "p4", "p6", "p9", "c1", "c3", "c4", "c6",
+       "c9"}
 EXPECTED = {
     ("ScreenedPoisson", "ValueArray"): ANY,
-    ("ScreenedPoisson", "GradientArray"): {"None", "Normals", "p3", "p9", "c3", "c9"},
+    ("ScreenedPoisson", "GradientArray"): {"None", "Normals", "p3", "p6", "p9", "c3", "c6", "c9"},
     ("ScreenedPoisson", "GradientScaleArray"): {"None", "p1", "c1"},
     ("ScreenedPoisson", "ValueWeightArray"): {"None", "p1", "c1"},
     ("ScreenedPoisson", "ConstraintArray"): {"None", "p1"},
+    ("ScreenedPoisson", "MetricArray"): {"None", "p6", "p9", "c6", "c9"},
+    ("LaplaceSpectrum", "MetricArray"): {"None", "p6", "p9", "c6", "c9"},
     ("StitchColors", "ColorArray"): {"None", "Normals", "p1", "p3", "p4", "c1", "c3", "c4"},
     ("StitchColors", "LabelArray"): {"None", "p1", "c1"},
-    ("HarmonicInterpolation", "ValueArray"): {"None", "Normals", "p1", "p3", "p4", "p9"},
+    ("HarmonicInterpolation", "ValueArray"): {"None", "Normals", "p1", "p3", "p4", "p6", "p9"},
     ("HarmonicInterpolation", "MaskArray"): {"None", "p1"},
-    ("SurfaceDetail", "ValueArray"): {"None", "Normals", "p1", "p3", "p4", "p9"},
+    ("SurfaceDetail", "ValueArray"): {"None", "Normals", "p1", "p3", "p4", "p6", "p9"},
     ("SurfaceDetail", "DetailScaleArray"): {"None", "p1", "c1"},
     ("SurfaceGradient", "Array"): ANY,
     ("HeatDiffusion", "Array"): ANY,
     ("HeatDiffusion", "HeatSourceArray"): ANY,
     ("GeodesicDistance", "SourceArray"): {"None", "p1"},
-    ("SpectralSignatures", "ValueArray"): {"None", "Normals", "p1", "p3", "p4", "p9"}}
+    ("SpectralSignatures", "ValueArray"): {"None", "Normals", "p1", "p3", "p4", "p6", "p9"}}
 
 
 class TestArrayLists(unittest.TestCase):

@@ -265,6 +265,53 @@ TEST_P(MeanCurvatureFlowFilter, AnAbortKeepsTheStepsSoFar)
   EXPECT_EQ(other->GetNumberOfRuns("Step"), 5);
 }
 
+TEST_P(MeanCurvatureFlowFilter, AFixedBoundaryStaysInEveryStepAndAllElseMoves)
+{
+  if (GetParam() == Flow::Grid)
+  {
+    filter->FixedBoundaryOn();
+    EXPECT_EQ(filter->GetExecutive()->Update(), 0);
+    ASSERT_EQ(messages.errors.size(), 1u);
+    EXPECT_NE(messages.errors[0].find("HatFunctions"), std::string::npos);
+    return;
+  }
+  TriangleMesh mesh = FlatRectangle(16, 16);
+  for (Vec3& p : mesh.points)
+  {
+    p[2] = 0.3 * std::sin(5.0 * p[0]) * std::cos(4.0 * p[1]);
+  }
+  filter->SetInputData(ToPolyData(mesh));
+  for (const bool track : { true, false })
+  {
+    filter->SetTrackMetric(track);
+    filter->FixedBoundaryOn();
+    const std::vector<double> start = this->PointsAt(0);
+    const std::vector<double> end = this->PointsAt(5);
+    for (int k = 0; k < 17 * 17; ++k)
+    {
+      const bool isFixed = k % 17 == 0 || k % 17 == 16 || k / 17 == 0 || k / 17 == 16;
+      double moved = 0.0;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        moved = std::max(moved, std::abs(end[3 * k + axis] - start[3 * k + axis]));
+      }
+      EXPECT_EQ(moved == 0.0, isFixed) << k;
+    }
+    const std::vector<double> area = this->Column("Area");
+    EXPECT_TRUE(std::is_sorted(area.rbegin(), area.rend()));
+    filter->FixedBoundaryOff();
+    EXPECT_NE(this->PointsAt(5), end);
+  }
+  EXPECT_TRUE(messages.errors.empty());
+  EXPECT_TRUE(messages.warnings.empty());
+  filter->FixedBoundaryOn();
+  filter->TrackMetricOn();
+  filter->ConformalizedOn();
+  EXPECT_EQ(filter->GetExecutive()->Update(), 0);
+  ASSERT_EQ(messages.errors.size(), 1u);
+  EXPECT_NE(messages.errors[0].find("FixedBoundary"), std::string::npos);
+}
+
 TEST_P(MeanCurvatureFlowFilter, UnusableValuesAreRefusedAndEmptyInputsAreNot)
 {
   for (const double step : { 0.0, -1.0, std::nan(""), double(HUGE_VAL) })

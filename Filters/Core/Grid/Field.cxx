@@ -4,19 +4,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 
 namespace gridfem
 {
 
+Field CoordinatesOf(const TriangleMesh& mesh)
+{
+  Field coordinates;
+  coordinates.values.resize(static_cast<Id>(mesh.points.size()), 3);
+  for (std::size_t point = 0; point < mesh.points.size(); ++point)
+  {
+    coordinates.values.row(static_cast<Id>(point)) = mesh.points[point].transpose();
+  }
+  return coordinates;
+}
+
 void RequireField(const Field& field, const TriangleMesh& mesh)
 {
   const bool onPoints = field.association == FieldAssociation::Points;
-  const std::size_t rows = onPoints ? mesh.points.size() : mesh.triangles.size();
+  const std::size_t items = onPoints ? mesh.points.size() : mesh.triangles.size();
+  const std::size_t rows = field.association == FieldAssociation::Corners ? 3 * items : items;
   if (static_cast<std::size_t>(field.values.rows()) != rows)
   {
     throw InvalidInput("The field has " + std::to_string(field.values.rows()) +
-                       " rows; the mesh has " + std::to_string(rows) +
+                       " rows; the mesh has " + std::to_string(items) +
                        (onPoints ? " points." : " triangles."));
   }
 }
@@ -53,6 +66,13 @@ void RequireWeights(const std::vector<double>& weight, const TriangleMesh& mesh)
   {
     throw InvalidInput("every triangle needs a finite weight that is not negative");
   }
+}
+
+std::vector<double> ProductOf(const std::vector<double>& a, const std::vector<double>& b)
+{
+  std::vector<double> product(a.size());
+  std::transform(a.begin(), a.end(), b.begin(), product.begin(), std::multiplies<>());
+  return product;
 }
 
 void RequireOnPoints(const Field& field, const TriangleMesh& mesh)

@@ -6,6 +6,32 @@
 
 namespace gridfem
 {
+namespace
+{
+
+/// The tensors of the source triangles of a batch, plus normalWeight n nᵀ.
+LaneTensor TensorOfTriangles(const ClippedMesh& clipped, const TriangleBatch& batch,
+  const std::vector<Eigen::Matrix3d>& tensor, const LaneVector& normal, double normalWeight)
+{
+  LaneTensor result;
+  for (int lane = 0; lane < LaneCount; ++lane)
+  {
+    const Eigen::Matrix3d& own = tensor[clipped.pieceTriangle[batch.piece[lane]]];
+    for (int p = 0; p < 3; ++p)
+    {
+      result.same[p][lane] = own(p, p);
+      result.mixed[p][lane] = own(p, (p + 1) % 3);
+    }
+  }
+  for (int p = 0; p < 3; ++p)
+  {
+    result.same[p] += normalWeight * normal.axis[p] * normal.axis[p];
+    result.mixed[p] += normalWeight * normal.axis[p] * normal.axis[(p + 1) % 3];
+  }
+  return result;
+}
+
+} // namespace
 
 void EvaluateTrilinear(const Vec3& local, std::array<double, FunctionsPerPatch>& value)
 {
@@ -42,8 +68,8 @@ ElementMatrices IntegrateElements(const GridFunctions& space, const QuadratureRu
 }
 
 ElementMatrices IntegrateWeightedElements(const GridFunctions& space, const QuadratureRule& rule,
-  const std::vector<double>& weight, int threads, const Progress& progress,
-  double normalStabilization)
+  const std::vector<double>& weight, const std::vector<Eigen::Matrix3d>* tensor, int threads,
+  const Progress& progress, double normalStabilization)
 {
   ElementMatrices elements;
   IntegratePatches(space, rule, threads, progress, elements,
@@ -54,12 +80,15 @@ ElementMatrices IntegrateWeightedElements(const GridFunctions& space, const Quad
       {
         ofTriangle[lane] = weight[space.clipped.pieceTriangle[batch.piece[lane]]];
       }
-      return [ofTriangle, tensor = TangentialProjection(planes.normal, normalStabilization)](
-               Id, int count, SampleBatch* samples)
+      const LaneTensor ofStiffness =
+        tensor
+          ? TensorOfTriangles(space.clipped, batch, *tensor, planes.normal, normalStabilization)
+          : TangentialProjection(planes.normal, normalStabilization);
+      return [ofTriangle, ofStiffness](Id, int count, SampleBatch* samples)
       {
         for (int k = 0; k < count; ++k)
         {
-          samples[k].tensor = tensor.Times(samples[k].mass);
+          samples[k].tensor = ofStiffness.Times(samples[k].mass);
           samples[k].mass *= ofTriangle;
         }
       };

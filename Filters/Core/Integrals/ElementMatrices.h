@@ -42,9 +42,12 @@ ElementMatrices IntegrateElements(const GridFunctions& space, const QuadratureRu
   int threads = 0, const Progress& progress = {},
   double normalStabilization = DefaultNormalStabilization);
 
-/// The same with a weight of the mass on each source triangle: ∫ w b_i b_j.
+/// The same with a weight of the mass on each source triangle, ∫ w b_i b_j, and a symmetric tensor
+/// in its plane, ∫ <∇b_i, T ∇b_j>.
+/// @param tensor  null: the projection to the plane
 ElementMatrices IntegrateWeightedElements(const GridFunctions& space, const QuadratureRule& rule,
-  const std::vector<double>& weight, int threads = 0, const Progress& progress = {},
+  const std::vector<double>& weight, const std::vector<Eigen::Matrix3d>* tensor = nullptr,
+  int threads = 0, const Progress& progress = {},
   double normalStabilization = DefaultNormalStabilization);
 
 /// Galerkin coarsening: adds every patch's matrix, interpolated, to its parent's. [T (4.6)]

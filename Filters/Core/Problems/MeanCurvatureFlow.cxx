@@ -5,6 +5,7 @@
 #include "Base/Parallel.h"
 #include "Krylov/PrecisionFallback.h"
 #include "Problems/MovedSurface.h"
+#include "Problems/PointConstraints.h"
 
 #include <cmath>
 #include <string>
@@ -28,6 +29,16 @@ void CheckOptions(const FlowOptions& options)
   {
     throw InvalidInput("The conformalised flow keeps the stiffness of the start, so its metric has "
                        "to be tracked: the functions cannot be made anew in every step.");
+  }
+}
+
+void CheckFixedPoints(const FlowOptions& options)
+{
+  if (!options.fixedPoints.empty() &&
+      (options.conformalized || options.rescaling != Rescaling::None))
+  {
+    throw InvalidInput("The boundary is to stay, but the conformalised flow and a rescaling move "
+                       "all of the surface.");
   }
 }
 
@@ -57,12 +68,6 @@ void ScaleAbout(const Vec3& centre, double scale, MultiVector& positions, int th
       }
     });
 }
-
-struct StepSolution
-{
-  MultiVector embedding;
-  SolveReport report;
-};
 
 /// (M + δL) X⁺ = M X. Constants keep their means and are left out, so that the tolerance is on the
 /// shape and not on its distance from the origin.
@@ -96,14 +101,28 @@ bool IsBroken(const StepSolution& solution)
          !solution.embedding.allFinite();
 }
 
+FlowStep Describe(const SurfaceSize& size)
+{
+  FlowStep step;
+  step.area = size.area;
+  step.volume = size.volume;
+  step.sphericity = size.Sphericity();
+  return step;
+}
+
 } // namespace
 
 MeanCurvatureFlow::MeanCurvatureFlow(std::shared_ptr<const FiniteElementSpace> space,
   std::shared_ptr<const TriangleMesh> mesh, FlowOptions options)
   : start_(std::move(space)), mesh_(std::move(mesh)), options_(std::move(options)),
-    reached_(start_->PointsWithFunctions())
+    moves_(start_->PointsWithFunctions())
 {
   CheckOptions(options_);
+  CheckFixedPoints(options_);
+  for (const Id point : options_.fixedPoints)
+  {
+    moves_.at(point) = 0;
+  }
   const SurfaceSize size = SizeOf(mesh_->points, mesh_->triangles, options_.multigrid.threads);
   startArea_ = size.area;
   startVolume_ = size.volume;
@@ -137,8 +156,8 @@ std::vector<Vec3> MeanCurvatureFlow::WorldPoints(
     {
       for (Id k = begin; k < end; ++k)
       {
-        points[k] = reached_[k] ? Vec3(space.Origin() + space.UnitLength() * RowOf(position, k))
-                                : mesh_->points[k];
+        points[k] = moves_[k] ? Vec3(space.Origin() + space.UnitLength() * RowOf(position, k))
+                              : mesh_->points[k];
       }
     });
   return points;
@@ -157,7 +176,8 @@ std::vector<Vec3> MeanCurvatureFlow::Points(const Job& job) const
   std::vector<Vec3> points(mesh_->points.size());
   for (Id k = 0; k < shape_.rows(); ++k)
   {
-    points[k] = start_->Origin() + start_->UnitLength() * RowOf(shape_, k);
+    points[k] = moves_[k] ? Vec3(start_->Origin() + start_->UnitLength() * RowOf(shape_, k))
+                          : mesh_->points[k];
   }
   return points;
 }
@@ -246,6 +266,40 @@ void MeanCurvatureFlow::UpdateHierarchy(double timeStep, const Job& job)
   }
 }
 
+StepSolution MeanCurvatureFlow::Solve(const MultiVector& embedding, double timeStep, const Job& job)
+{
+  if (!options_.fixedPoints.empty())
+  {
+    return this->SolveFixed(embedding, timeStep, job);
+  }
+  this->UpdateHierarchy(timeStep, job.Part(0.0, 0.4));
+  job.Check(0.4);
+  return SolveStep(*moving_, mass_, *multigrid_, embedding, options_.solve, job.Part(0.4, 1.0));
+}
+
+/// The same among the embeddings that have the fixed points where they are.
+StepSolution MeanCurvatureFlow::SolveFixed(
+  const MultiVector& embedding, double timeStep, const Job& job) const
+{
+  constexpr double LargestMisfit = 0.01; // units of length: the step counts as converged
+  const ConstraintOptions constraints;
+  const std::vector<Id>& held = options_.fixedPoints;
+  const ConstrainedHierarchy hierarchy(*moving_, 1.0, timeStep, moving_->RowsAtPoints(held),
+    constraints.penalty, options_.multigrid, job.progress.Part(0.0, 0.4));
+  job.Check(0.4);
+  MultiVector values(static_cast<Id>(held.size()), 3);
+  for (Id row = 0; row < values.rows(); ++row)
+  {
+    SetRow(values, row, (mesh_->points[held[row]] - moving_->Origin()) / moving_->UnitLength());
+  }
+  MultiVector load;
+  Multiply(mass_, embedding, load, job.threads);
+  ConstrainedSolution solution = SolveConstrained(*moving_, 1.0, hierarchy, load, values,
+    constraints, options_.solve, job.progress.Part(0.4, 1.0));
+  solution.report.converged &= solution.misfit < LargestMisfit;
+  return { std::move(solution.coefficients), std::move(solution.report) };
+}
+
 /// The factor that keeps what is to be kept; none where it is lost.
 std::optional<double> MeanCurvatureFlow::ScaleOf(double area, double volume) const
 {
@@ -262,19 +316,9 @@ std::optional<double> MeanCurvatureFlow::ScaleOf(double area, double volume) con
   return 1.0;
 }
 
-FlowStep MeanCurvatureFlow::Describe(const std::vector<Vec3>& points, const Job& job) const
-{
-  const SurfaceSize size = SizeOf(points, mesh_->triangles, job.threads);
-  FlowStep step;
-  step.area = size.area;
-  step.volume = size.volume;
-  step.sphericity = size.Sphericity();
-  return step;
-}
-
 FlowStep MeanCurvatureFlow::Start(const Job& job) const
 {
-  return this->Describe(mesh_->points, job);
+  return Describe(SizeOf(mesh_->points, mesh_->triangles, job.threads));
 }
 
 FlowStep MeanCurvatureFlow::Advance(const Job& job)
@@ -290,19 +334,15 @@ FlowStep MeanCurvatureFlow::Advance(const Job& job)
   }
   const double unit = moving_->UnitLength();
   const double timeStep = options_.timeStep * std::pow(start_->UnitLength() / unit, 2);
-  this->UpdateHierarchy(timeStep, job.Part(0.3, 0.6));
   moving_->FillMatrix(0, 1.0, 0.0, mass_, job.threads);
-  job.Check(0.6);
-
-  StepSolution solution =
-    SolveStep(*moving_, mass_, *multigrid_, embedding, options_.solve, job.Part(0.6, 1.0));
+  StepSolution solution = this->Solve(embedding, timeStep, job.Part(0.3, 1.0));
   if (IsBroken(solution))
   {
     stopped.end = FlowEnd::Breakdown;
     return stopped;
   }
   std::vector<Vec3> points = this->WorldPoints(*moving_, solution.embedding, job.threads);
-  const SurfaceSize size = SizeOf(points, mesh_->triangles, job.threads);
+  SurfaceSize size = SizeOf(points, mesh_->triangles, job.threads);
   if (!(size.area > VanishedArea * startArea_))
   {
     stopped.end = FlowEnd::Vanished;
@@ -330,8 +370,9 @@ FlowStep MeanCurvatureFlow::Advance(const Job& job)
   {
     ScaleAbout((size.centroid - moving_->Origin()) / unit, *scale, solution.embedding, job.threads);
     points = this->WorldPoints(*moving_, solution.embedding, job.threads);
+    size = SizeOf(points, mesh_->triangles, job.threads);
   }
-  FlowStep done = this->Describe(points, job.threads);
+  FlowStep done = Describe(size);
   job.Check(1.0);
 
   if (options_.rebuild)

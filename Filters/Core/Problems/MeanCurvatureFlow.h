@@ -29,6 +29,10 @@ struct FlowOptions
   /// from the start tends to a conformal one.
   bool conformalized = false;
   Rescaling rescaling = Rescaling::None;
+  /// Points of the mesh that stay where they are (BoundaryPoints). Not for the conformalised flow,
+  /// nor with a rescaling. For hats: the functions of a grid cannot be held along a curve without
+  /// being held beside it, which takes many iterations and bends the surface there.
+  std::vector<Id> fixedPoints;
   MultigridOptions multigrid;
   SolveOptions solve;
 
@@ -39,7 +43,8 @@ struct FlowOptions
 
   FlowOptions()
   {
-    solve.tolerance = 5e-4; // of the thesis
+    solve.tolerance = 5e-4;         // of the thesis
+    multigrid.cycle = CycleType::V; // a step takes one or two of either, and these take less time
   }
 };
 
@@ -67,16 +72,24 @@ struct FlowStep
   bool converged = true;
 };
 
+struct StepSolution
+{
+  MultiVector embedding;
+  SolveReport report;
+};
+
 /// One step solves (M_t + δ L_t) X⁺ = M_t X for the three coordinates at once, from the last X.
 /// From the second step on patterns, prolongations and orders are those of the first, unless
-/// the functions are made anew. Same bits for any number of threads, and for any way to a step.
+/// the functions are made anew. Points that are fixed take part as constraints, for which the
+/// hierarchy is made anew. Same bits for any number of threads, and for any way to a step.
 /// Hold a MemoryReuse over several steps.
 class MeanCurvatureFlow
 {
 public:
   /// @param mesh  what the space was made from
   /// Throws InvalidInput for a time step that is not positive, a conformalised flow with functions
-  /// that are made anew, and where there is no volume to be kept.
+  /// that are made anew, fixed points that something else moves, and where there is no volume to be
+  /// kept.
   MeanCurvatureFlow(std::shared_ptr<const FiniteElementSpace> space,
     std::shared_ptr<const TriangleMesh> mesh, FlowOptions options);
 
@@ -95,7 +108,8 @@ public:
   void GoTo(int step, MultiVector shape);
   void GoToStart();
 
-  /// The points of the moved mesh, world units; those that no function reaches stay.
+  /// The points of the moved mesh, world units; those that are fixed and those that no function
+  /// reaches stay.
   std::vector<Vec3> Points(const Job& job = {}) const;
 
   /// The start as a step.
@@ -106,18 +120,19 @@ public:
 
 private:
   Id Prepare(MultiVector& embedding, const Job& job);
+  StepSolution Solve(const MultiVector& embedding, double timeStep, const Job& job);
+  StepSolution SolveFixed(const MultiVector& embedding, double timeStep, const Job& job) const;
   void UpdateHierarchy(double timeStep, const Job& job);
   void FillMatrix(std::size_t level, double timeStep, SparseMatrix& matrix, const Job& job);
   std::vector<Vec3> WorldPoints(
     const FiniteElementSpace& space, const MultiVector& embedding, const Job& job) const;
   std::optional<double> ScaleOf(double area, double volume) const;
-  FlowStep Describe(const std::vector<Vec3>& points, const Job& job) const;
 
   std::shared_ptr<const FiniteElementSpace> start_;
   std::shared_ptr<const TriangleMesh> mesh_;
   FlowOptions options_;
-  std::vector<char> reached_; // per point
-  double startArea_ = 0.0;    // world units
+  std::vector<char> moves_; // per point: a function reaches it, and it is not fixed
+  double startArea_ = 0.0;  // world units
   double startVolume_ = 0.0;
 
   int step_ = 0;

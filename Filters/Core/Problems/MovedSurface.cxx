@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace gridfem
@@ -81,6 +82,42 @@ double StretchRatio(const Vec3& u, const Vec3& v, double ratio, const Vec3& a, c
   const double quotient = larger * larger / ratio;
   return quotient < MapDistortion::LargestRatio ? std::max(quotient, 1.0)
                                                 : MapDistortion::LargestRatio;
+}
+
+/// Of a triangle, its lower point first.
+using Side = std::pair<Index, Index>;
+
+/// Sides of the triangles with three different points.
+std::vector<Side> SortedSides(const TriangleMesh& mesh, const Array<Index>& pointClass)
+{
+  std::vector<Side> sides;
+  for (const std::array<Id, 3>& corner : mesh.triangles)
+  {
+    const std::array<Index, 3> point = { pointClass[corner[0]], pointClass[corner[1]],
+      pointClass[corner[2]] };
+    if (point[0] == point[1] || point[1] == point[2] || point[2] == point[0])
+    {
+      continue;
+    }
+    for (int k = 0; k < 3; ++k)
+    {
+      sides.push_back(std::minmax({ point[k], point[(k + 1) % 3] }));
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  return sides;
+}
+
+/// Calls body(side, number of its triangles) for each edge.
+template<class Body>
+void ForEachEdge(const std::vector<Side>& sortedSides, Body&& body)
+{
+  for (auto first = sortedSides.begin(); first != sortedSides.end();)
+  {
+    const auto next = std::upper_bound(first, sortedSides.end(), *first);
+    body(*first, static_cast<Id>(next - first));
+    first = next;
+  }
 }
 
 } // namespace
@@ -203,40 +240,22 @@ std::vector<Vec3> NormalsAtPoints(
 
 bool IsLikeASphere(const TriangleMesh& mesh, int threads)
 {
-  const Array<Index> pointClass = WeldCoincidentPoints(mesh.points, {}, threads);
+  const std::vector<Side> sides = SortedSides(mesh, WeldCoincidentPoints(mesh.points, {}, threads));
   UnionFind pieces(static_cast<Id>(mesh.points.size()));
-  std::vector<std::pair<Index, Index>> sides;
   std::vector<char> isUsed(mesh.points.size(), 0);
-  Id triangles = 0;
-  for (const std::array<Id, 3>& corner : mesh.triangles)
+  for (const auto& [first, second] : sides)
   {
-    const std::array<Index, 3> point = { pointClass[corner[0]], pointClass[corner[1]],
-      pointClass[corner[2]] };
-    if (point[0] == point[1] || point[1] == point[2] || point[2] == point[0])
-    {
-      continue;
-    }
-    ++triangles;
-    for (int k = 0; k < 3; ++k)
-    {
-      sides.push_back(std::minmax({ point[k], point[(k + 1) % 3] }));
-      pieces.Unite(point[k], point[(k + 1) % 3]);
-      isUsed[point[k]] = 1;
-    }
+    pieces.Unite(first, second);
+    isUsed[first] = isUsed[second] = 1;
   }
-  std::sort(sides.begin(), sides.end());
+  bool isClosed = true;
   Id edges = 0;
-  for (std::size_t first = 0; first < sides.size(); ++edges)
-  {
-    const auto last =
-      std::upper_bound(sides.begin() + static_cast<Id>(first), sides.end(), sides[first]);
-    const std::size_t next = static_cast<std::size_t>(last - sides.begin());
-    if (next - first != 2)
+  ForEachEdge(sides,
+    [&](const Side&, Id triangles)
     {
-      return false;
-    }
-    first = next;
-  }
+      isClosed &= triangles == 2;
+      ++edges;
+    });
   Id points = 0;
   Id components = 0;
   for (std::size_t k = 0; k < isUsed.size(); ++k)
@@ -244,7 +263,34 @@ bool IsLikeASphere(const TriangleMesh& mesh, int threads)
     points += isUsed[k];
     components += isUsed[k] && pieces.IsRoot(static_cast<Index>(k));
   }
-  return components == 1 && points - edges + triangles == 2;
+  const Id triangles = static_cast<Id>(sides.size()) / 3;
+  return isClosed && components == 1 && points - edges + triangles == 2;
+}
+
+std::vector<Id> BoundaryPoints(const TriangleMesh& mesh, bool weldCoincidentPoints, int threads)
+{
+  Array<Index> pointClass(mesh.points.size());
+  std::iota(pointClass.begin(), pointClass.end(), 0);
+  if (weldCoincidentPoints)
+  {
+    pointClass = WeldCoincidentPoints(mesh.points, {}, threads);
+  }
+  std::vector<char> isEnd(mesh.points.size(), 0);
+  ForEachEdge(SortedSides(mesh, pointClass),
+    [&](const Side& side, Id triangles)
+    {
+      isEnd[side.first] |= triangles == 1;
+      isEnd[side.second] |= triangles == 1;
+    });
+  std::vector<Id> points;
+  for (std::size_t k = 0; k < pointClass.size(); ++k)
+  {
+    if (isEnd[pointClass[k]])
+    {
+      points.push_back(static_cast<Id>(k));
+    }
+  }
+  return points;
 }
 
 } // namespace gridfem

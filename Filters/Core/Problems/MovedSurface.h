@@ -57,6 +57,11 @@ std::vector<Vec3> NormalsAtPoints(const std::vector<Vec3>& points,
 /// one: what the conformalised flow makes a sphere of.
 bool IsLikeASphere(const TriangleMesh& mesh, int threads = 0);
 
+/// The points of edges with one triangle, ascending.
+/// @param weldCoincidentPoints  coincident points count as one
+std::vector<Id> BoundaryPoints(
+  const TriangleMesh& mesh, bool weldCoincidentPoints, int threads = 0);
+
 } // namespace gridfem
 
 #endif

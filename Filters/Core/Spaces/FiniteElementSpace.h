@@ -16,6 +16,8 @@
 namespace gridfem
 {
 
+struct TriangleMetric;
+
 /// The connected components of the functions of one level.
 struct Components
 {
@@ -139,9 +141,14 @@ public:
   /// @return  number of samples whose metric is singular: they contribute nothing
   virtual Id SetMetric(const MultiVector& embedding, const Job& job = {}) = 0;
 
+  /// All integrals in a metric that is constant on every triangle, loads as well, but for those of
+  /// directions. Values and gradients on the mesh stay what they are in space.
+  virtual void SetMetricOnTriangles(
+    std::shared_ptr<const TriangleMetric> metric, const Job& job = {}) = 0;
+
   /// The mass becomes ∫ w b_i b_j with a weight w >= 0 on each triangle, and Integrals() ∫ w b_i;
-  /// the stiffness and all loads stay. In the metric of the mesh. Throws InvalidInput when there is
-  /// not one finite weight per triangle.
+  /// the stiffness and all loads stay. In the metric of SetMetricOnTriangles, else of the mesh.
+  /// Throws InvalidInput when there is not one finite weight per triangle.
   virtual void WeighMass(const std::vector<double>& weight, const Job& job = {}) = 0;
 
   /// Makes ready for Weigh: splits the stiffness along and across a direction on each triangle.

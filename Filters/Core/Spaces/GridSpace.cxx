@@ -95,19 +95,23 @@ const QuadratureRule& GridSpace::Rule() const
 
 MultiVector GridSpace::LoadOfValues(const Field& f, const Job& job) const
 {
-  return IntegrateValues(*functions_, *mesh_, f, this->Rule(), job.threads, job.progress);
+  return metric_ ? IntegrateWeightedValues(
+                     *functions_, *mesh_, f, metric_->area, this->Rule(), job.threads, job.progress)
+                 : IntegrateValues(*functions_, *mesh_, f, this->Rule(), job.threads, job.progress);
 }
 
 MultiVector GridSpace::LoadOfWeightedValues(
   const Field& f, const std::vector<double>& weight, const Job& job) const
 {
-  return IntegrateWeightedValues(
-    *functions_, *mesh_, f, weight, this->Rule(), job.threads, job.progress);
+  RequireWeights(weight, *mesh_);
+  return IntegrateWeightedValues(*functions_, *mesh_, f,
+    metric_ ? ProductOf(weight, metric_->area) : weight, this->Rule(), job.threads, job.progress);
 }
 
 MultiVector GridSpace::LoadOfGradients(const Field& s, const Field* scale, const Job& job) const
 {
-  return IntegrateGradients(*functions_, *mesh_, s, scale, this->Rule(), job.threads, job.progress);
+  return IntegrateGradients(*functions_, *mesh_, metric_ ? metric_->Transform(*mesh_, s) : s, scale,
+    this->Rule(), job.threads, job.progress);
 }
 
 MultiVector GridSpace::LoadOfTurnedGradients(const Field& s, const Job& job) const
@@ -124,12 +128,19 @@ MultiVector GridSpace::LoadOfDirections(
 
 MultiVector GridSpace::LoadOfGradientsOf(const Field& f, const Field* scale, const Job& job) const
 {
-  return IntegrateGradientsOf(
-    *functions_, *mesh_, f, scale, this->Rule(), job.threads, job.progress);
+  return metric_ ? this->LoadOfGradients(GradientsOf(*mesh_, f), scale, job)
+                 : IntegrateGradientsOf(
+                     *functions_, *mesh_, f, scale, this->Rule(), job.threads, job.progress);
 }
 
 MultiVector GridSpace::LoadOfGradientsOfCoordinates(const Field* scale, const Job& job) const
 {
+  if (metric_)
+  {
+    return scale ? this->LoadOfGradientsOf(CoordinatesOf(*mesh_), scale, job)
+                 : this->LoadOfFunction(
+                     0.0, 1.0, this->UnitLength() * this->EmbeddingOfMesh(job), {}, job);
+  }
   return IntegrateGradientsOfCoordinates(*functions_, *mesh_, scale, this->Rule(),
     shared_->normalStabilization, job.threads, job.progress);
 }
@@ -216,6 +227,7 @@ Id GridSpace::SetMetricOfMesh(const TriangleMesh& moved, const Job& job)
 
 Id GridSpace::Integrate(const SampleMetric& metric, const Job& job)
 {
+  metric_.reset();
   LevelOperators& operators = this->OwnOperators();
   const Id singular =
     IntegrateElements(*functions_, this->Rule(), metric, operators.elements.front(), job.threads,
@@ -225,12 +237,26 @@ Id GridSpace::Integrate(const SampleMetric& metric, const Job& job)
   return singular;
 }
 
+void GridSpace::SetMetricOnTriangles(std::shared_ptr<const TriangleMetric> metric, const Job& job)
+{
+  RequireMetric(*metric, *mesh_);
+  metric_ = std::move(metric);
+  this->IntegrateTriangles(metric_->area, job);
+}
+
 void GridSpace::WeighMass(const std::vector<double>& weight, const Job& job)
 {
   RequireWeights(weight, *mesh_);
+  this->IntegrateTriangles(metric_ ? ProductOf(weight, metric_->area) : weight, job);
+}
+
+/// @param weight  of the mass
+void GridSpace::IntegrateTriangles(const std::vector<double>& weight, const Job& job)
+{
   LevelOperators& operators = this->OwnOperators();
   operators.elements.front() = IntegrateWeightedElements(*functions_, this->Rule(), weight,
-    job.threads, job.progress.Part(0.0, 0.7), operators.normalStabilization);
+    metric_ ? &metric_->tensor : nullptr, job.threads, job.progress.Part(0.0, 0.7),
+    operators.normalStabilization);
   UpdateOperators(*functions_, operators, job.threads);
   job.Check(1.0);
 }
@@ -252,6 +278,7 @@ void GridSpace::Weigh(const std::vector<ElementWeights>& weights, const Job& job
   {
     throw InvalidInput("Weights need a stiffness that is split by direction.");
   }
+  metric_.reset();
   LevelOperators& operators = this->OwnOperators();
   gridfem::Weigh(*split_, weights, operators.elements.front(), job.threads);
   UpdateOperators(*functions_, operators, job.threads);

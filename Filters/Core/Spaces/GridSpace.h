@@ -4,6 +4,7 @@
 #define GridFEM_GridSpace_h
 
 #include "Integrals/SurfaceMetric.h"
+#include "Integrals/TriangleMetric.h"
 #include "Spaces/FiniteElementSpace.h"
 #include "Spaces/LevelOperators.h"
 
@@ -59,6 +60,8 @@ public:
   Id SetMetric(const MultiVector& embedding, const Job& job = {}) override;
   /// The same for the mesh with moved points.
   Id SetMetricOfMesh(const TriangleMesh& moved, const Job& job = {});
+  void SetMetricOnTriangles(
+    std::shared_ptr<const TriangleMetric> metric, const Job& job = {}) override;
   void WeighMass(const std::vector<double>& weight, const Job& job = {}) override;
   void SplitStiffness(const std::vector<Vec3>& direction, const Job& job = {}) override;
   MultiVector MeansOnElements(const MultiVector& onTriangles, const Job& job = {}) const override;
@@ -72,6 +75,7 @@ public:
 
 private:
   Id Integrate(const SampleMetric& metric, const Job& job);
+  void IntegrateTriangles(const std::vector<double>& weight, const Job& job);
   LevelOperators& OwnOperators();
   const QuadratureRule& Rule() const;
 
@@ -80,6 +84,7 @@ private:
   std::shared_ptr<const LevelOperators> shared_;
   std::optional<LevelOperators> own_; // once numbers have changed
   std::shared_ptr<const DirectionalElements> split_;
+  std::shared_ptr<const TriangleMetric> metric_; // null: that of the mesh, or of an embedding
 };
 
 struct GridSpaceOptions

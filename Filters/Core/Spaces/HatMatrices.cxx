@@ -29,14 +29,12 @@ TriangleTerms TermsOf(const HatTriangle& triangle)
   return terms;
 }
 
-/// The same with weights along and across a direction. Where that has no part in the plane, both
-/// ways share the stiffness equally, as in DirectionalElements.
-TriangleTerms WeightedTermsOf(
-  const HatTriangle& triangle, const Vec3& direction, const ElementWeights& weights)
+/// The stiffness with weights along and across a direction. Where that has no part in the plane,
+/// both ways share the stiffness equally, as in DirectionalElements.
+void SplitStiffness(const HatTriangle& triangle, const Vec3& direction,
+  const std::array<double, 2>& weight, TriangleTerms& terms)
 {
   constexpr double SmallestPart = 1e-10;
-  TriangleTerms terms = TermsOf(triangle);
-  terms.twelfthOfArea *= weights.mass;
   const Vec3 normal = triangle.areaVector.normalized();
   const Vec3 unit = direction.stableNormalized();
   Vec3 along = unit - normal.dot(unit) * normal;
@@ -50,14 +48,42 @@ TriangleTerms WeightedTermsOf(
     // Gradients are edges, turned by a right angle: along takes the part of the edges across.
     const double ofAlong = isThere ? across.dot(u) * across.dot(v) : 0.5 * u.dot(v);
     const double ofAcross = isThere ? along.dot(u) * along.dot(v) : 0.5 * u.dot(v);
+    terms.halfCotangent[k] = -(weight[0] * ofAlong + weight[1] * ofAcross) / (4.0 * triangle.area);
+  }
+}
+
+void SetMetric(
+  const HatTriangle& triangle, double area, const Eigen::Matrix3d& tensor, TriangleTerms& terms)
+{
+  terms.twelfthOfArea *= area;
+  for (int k = 0; k < 3; ++k)
+  {
     terms.halfCotangent[k] =
-      -(weights.stiffness[0] * ofAlong + weights.stiffness[1] * ofAcross) / (4.0 * triangle.area);
+      -triangle.area * triangle.Gradient((k + 1) % 3).dot(tensor * triangle.Gradient((k + 2) % 3));
+  }
+}
+
+TriangleTerms WeightedTermsOf(const HatTriangle& triangle, Id t, const HatWeights& weights)
+{
+  TriangleTerms terms = TermsOf(triangle);
+  if (weights.metric)
+  {
+    SetMetric(triangle, weights.metric->area[t], weights.metric->tensor[t], terms);
+  }
+  if (weights.weights)
+  {
+    const ElementWeights& own = (*weights.weights)[t];
+    terms.twelfthOfArea *= own.mass;
+    if (weights.direction && !weights.metric)
+    {
+      SplitStiffness(triangle, (*weights.direction)[t], own.stiffness, terms);
+    }
   }
   return terms;
 }
 
 std::vector<TriangleTerms> ComputeTerms(
-  const TriangleMesh& mesh, const HatFunctions& hats, const HatWeights* weights, int threads)
+  const TriangleMesh& mesh, const HatFunctions& hats, const HatWeights& weights, int threads)
 {
   std::vector<TriangleTerms> terms(mesh.triangles.size());
   ParallelRanges(static_cast<Id>(terms.size()), threads,
@@ -68,8 +94,7 @@ std::vector<TriangleTerms> ComputeTerms(
         const HatTriangle triangle(mesh, t, hats.unitLength);
         if (!triangle.IsFlat()) // else no function lists it, or it adds nothing after a move
         {
-          terms[t] = weights ? WeightedTermsOf(triangle, weights->direction[t], weights->weights[t])
-                             : TermsOf(triangle);
+          terms[t] = WeightedTermsOf(triangle, t, weights);
         }
       }
     });
@@ -159,7 +184,7 @@ double AppendRow(Index row, const std::vector<Contribution>& contributions, RowB
 } // namespace
 
 HatMatrices AssembleHatMatrices(
-  const TriangleMesh& mesh, const HatFunctions& hats, const HatWeights* weights, int threads)
+  const TriangleMesh& mesh, const HatFunctions& hats, const HatWeights& weights, int threads)
 {
   const std::vector<TriangleTerms> terms = ComputeTerms(mesh, hats, weights, threads);
   const Index rows = hats.Count();
@@ -203,7 +228,7 @@ HatMatrices AssembleHatMatrices(
 }
 
 MultiVector MultiplyHats(const TriangleMesh& mesh, const HatFunctions& hats,
-  const HatWeights* weights, double a, double b, const std::vector<double>& scale,
+  const HatWeights& weights, double a, double b, const std::vector<double>& scale,
   const MultiVector& u, int threads)
 {
   if (u.rows() != hats.Count() || (!scale.empty() && scale.size() != mesh.triangles.size()))

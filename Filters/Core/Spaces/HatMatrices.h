@@ -4,6 +4,7 @@
 
 #include "Algebra/SparseMatrix.h"
 #include "Integrals/DirectionalElements.h"
+#include "Integrals/TriangleMetric.h"
 #include "Spaces/HatFunctions.h"
 
 namespace gridfem
@@ -19,24 +20,26 @@ struct HatMatrices
   std::vector<double> integral; // ∫ φ_i, the lumped mass
 };
 
-/// Weights of every triangle: of its mass, and of its stiffness along and across a direction.
+/// What changes the integrals over every triangle.
 struct HatWeights
 {
-  const std::vector<Vec3>& direction;
-  const std::vector<ElementWeights>& weights;
+  const TriangleMetric* metric = nullptr; // null: that of the mesh
+  /// Of its mass, and of its stiffness along and across a direction; null: 1. In a metric those of
+  /// the stiffness do not count, nor without directions.
+  const std::vector<ElementWeights>* weights = nullptr;
+  const std::vector<Vec3>* direction = nullptr;
 };
 
 /// Cost O(triangles); same bits for any number of threads, and bitwise symmetric.
-/// @param weights  null: 1
 HatMatrices AssembleHatMatrices(const TriangleMesh& mesh, const HatFunctions& hats,
-  const HatWeights* weights = nullptr, int threads = 0);
+  const HatWeights& weights = {}, int threads = 0);
 
 /// Σ over the triangles of (a mass + b scale stiffness) u, with the same weights.
 /// @param scale  one number per triangle; empty: 1
 /// @param u      rows = functions; the result has its size
 /// Throws InvalidInput when a number of rows does not fit. Same bits for any number of threads.
 MultiVector MultiplyHats(const TriangleMesh& mesh, const HatFunctions& hats,
-  const HatWeights* weights, double a, double b, const std::vector<double>& scale,
+  const HatWeights& weights, double a, double b, const std::vector<double>& scale,
   const MultiVector& u, int threads = 0);
 
 /// a M + b L, in place where `result` has the pattern.

@@ -41,7 +41,7 @@ HatLevel BuildHatLevel(const TriangleMesh& mesh, const GridFunctions& grid,
     throw InvalidInput("No triangle has an area, so there are no hat functions.");
   }
   job.Check(0.3);
-  hats.matrices = AssembleHatMatrices(mesh, hats.functions, nullptr, job.threads);
+  hats.matrices = AssembleHatMatrices(mesh, hats.functions, {}, job.threads);
   hats.order = OrderInBlocks(hats.matrices.stiffness);
   hats.groups = GroupByCoupling(hats.matrices.stiffness, job.threads);
   job.Check(0.5);
@@ -134,18 +134,23 @@ const std::vector<double>& HatSpace::Integrals() const
 
 MultiVector HatSpace::LoadOfValues(const Field& f, const Job& job) const
 {
-  return IntegrateValues(hats_->functions, grid_.Mesh(), f, job.threads);
+  return metric_
+           ? IntegrateWeightedValues(hats_->functions, grid_.Mesh(), f, metric_->area, job.threads)
+           : IntegrateValues(hats_->functions, grid_.Mesh(), f, job.threads);
 }
 
 MultiVector HatSpace::LoadOfWeightedValues(
   const Field& f, const std::vector<double>& weight, const Job& job) const
 {
-  return IntegrateWeightedValues(hats_->functions, grid_.Mesh(), f, weight, job.threads);
+  RequireWeights(weight, grid_.Mesh());
+  return IntegrateWeightedValues(hats_->functions, grid_.Mesh(), f,
+    metric_ ? ProductOf(weight, metric_->area) : weight, job.threads);
 }
 
 MultiVector HatSpace::LoadOfGradients(const Field& s, const Field* scale, const Job& job) const
 {
-  return IntegrateGradients(hats_->functions, grid_.Mesh(), s, scale, job.threads);
+  return IntegrateGradients(hats_->functions, grid_.Mesh(),
+    metric_ ? metric_->Transform(grid_.Mesh(), s) : s, scale, job.threads);
 }
 
 MultiVector HatSpace::LoadOfTurnedGradients(const Field& s, const Job& job) const
@@ -161,19 +166,13 @@ MultiVector HatSpace::LoadOfDirections(
 
 MultiVector HatSpace::LoadOfGradientsOf(const Field& f, const Field* scale, const Job& job) const
 {
-  return IntegrateGradientsOf(hats_->functions, grid_.Mesh(), f, scale, job.threads);
+  return metric_ ? this->LoadOfGradients(GradientsOf(grid_.Mesh(), f), scale, job)
+                 : IntegrateGradientsOf(hats_->functions, grid_.Mesh(), f, scale, job.threads);
 }
 
 MultiVector HatSpace::LoadOfGradientsOfCoordinates(const Field* scale, const Job& job) const
 {
-  Field coordinates;
-  const std::vector<Vec3>& points = grid_.Mesh().points;
-  coordinates.values.resize(static_cast<Id>(points.size()), 3);
-  for (std::size_t point = 0; point < points.size(); ++point)
-  {
-    coordinates.values.row(static_cast<Id>(point)) = points[point].transpose();
-  }
-  return this->LoadOfGradientsOf(coordinates, scale, job);
+  return this->LoadOfGradientsOf(CoordinatesOf(grid_.Mesh()), scale, job);
 }
 
 MultiVector HatSpace::ValuesAtPoints(const MultiVector& coefficients, const Job& job) const
@@ -263,29 +262,50 @@ Id HatSpace::SetMetric(const MultiVector& embedding, const Job& job)
   {
     moved.points[point] = position.row(point).transpose() * this->UnitLength();
   }
-  auto matrices = std::make_shared<HatMatrices>(
-    AssembleHatMatrices(moved, hats_->functions, nullptr, job.threads));
+  auto matrices =
+    std::make_shared<HatMatrices>(AssembleHatMatrices(moved, hats_->functions, {}, job.threads));
   job.Check(0.4);
   own_ = std::move(matrices);
   moved_ = mesh;
   weights_.reset();
+  metric_.reset();
   grid_.SetMetricOfMesh(moved, job.Part(0.4, 1.0));
   return CountFlattened(hats_->functions, moved, job.threads);
+}
+
+HatWeights HatSpace::Weights() const
+{
+  return { metric_.get(), weights_.get(), direction_.get() };
+}
+
+/// On the mesh itself.
+void HatSpace::Assemble(const Job& job)
+{
+  moved_.reset();
+  own_ = std::make_shared<const HatMatrices>(
+    AssembleHatMatrices(grid_.Mesh(), hats_->functions, this->Weights(), job.threads));
+  job.Check(1.0);
+}
+
+void HatSpace::SetMetricOnTriangles(std::shared_ptr<const TriangleMetric> metric, const Job& job)
+{
+  RequireMetric(*metric, grid_.Mesh());
+  weights_.reset();
+  metric_ = std::move(metric);
+  this->Assemble(job.Part(0.0, 0.4));
+  grid_.SetMetricOnTriangles(metric_, job.Part(0.4, 1.0));
 }
 
 void HatSpace::WeighMass(const std::vector<double>& weight, const Job& job)
 {
   RequireWeights(weight, grid_.Mesh());
-  const std::vector<Vec3> none(weight.size(), Vec3::Zero()); // the stiffness is not split
-  std::vector<ElementWeights> weights(weight.size());
+  auto weights = std::make_shared<std::vector<ElementWeights>>(weight.size());
   for (std::size_t t = 0; t < weight.size(); ++t)
   {
-    weights[t].mass = weight[t];
+    (*weights)[t].mass = weight[t];
   }
-  const HatWeights onTriangles{ none, weights };
-  own_ = std::make_shared<const HatMatrices>(
-    AssembleHatMatrices(grid_.Mesh(), hats_->functions, &onTriangles, job.threads));
-  job.Check(0.4);
+  weights_ = std::move(weights);
+  this->Assemble(job.Part(0.0, 0.4));
   grid_.WeighMass(weight, job.Part(0.4, 1.0));
 }
 
@@ -306,11 +326,9 @@ void HatSpace::Weigh(const std::vector<ElementWeights>& weights, const Job& job)
   {
     throw InvalidInput("Weights need a split stiffness, and there has to be one per triangle.");
   }
-  const HatWeights onTriangles{ *direction_, weights };
-  own_ = std::make_shared<const HatMatrices>(
-    AssembleHatMatrices(grid_.Mesh(), hats_->functions, &onTriangles, job.threads));
-  moved_.reset();
+  metric_.reset();
   weights_ = std::make_shared<const std::vector<ElementWeights>>(weights);
+  this->Assemble(job.Part(0.0, 0.4));
   MultiVector columns(static_cast<Id>(weights.size()), 3);
   for (Id t = 0; t < columns.rows(); ++t)
   {
@@ -329,12 +347,7 @@ MultiVector HatSpace::LoadOfFunction(
   double a, double b, const MultiVector& u, const std::vector<double>& scale, const Job& job) const
 {
   const TriangleMesh& mesh = moved_ ? *moved_ : grid_.Mesh();
-  if (!weights_)
-  {
-    return MultiplyHats(mesh, hats_->functions, nullptr, a, b, scale, u, job.threads);
-  }
-  const HatWeights weights{ *direction_, *weights_ };
-  return MultiplyHats(mesh, hats_->functions, &weights, a, b, scale, u, job.threads);
+  return MultiplyHats(mesh, hats_->functions, this->Weights(), a, b, scale, u, job.threads);
 }
 
 HatSpace BuildHatSpace(TriangleMesh mesh, const GridSpaceOptions& options, HatTransfer transfer,

@@ -73,6 +73,8 @@ public:
 
   std::unique_ptr<FiniteElementSpace> Copy() const override;
   Id SetMetric(const MultiVector& embedding, const Job& job = {}) override;
+  void SetMetricOnTriangles(
+    std::shared_ptr<const TriangleMetric> metric, const Job& job = {}) override;
   void WeighMass(const std::vector<double>& weight, const Job& job = {}) override;
   void SplitStiffness(const std::vector<Vec3>& direction, const Job& job = {}) override;
   MultiVector MeansOnElements(const MultiVector& onTriangles, const Job& job = {}) const override;
@@ -85,12 +87,16 @@ public:
   const HatMatrices& Matrices() const { return own_ ? *own_ : hats_->matrices; }
 
 private:
+  HatWeights Weights() const;
+  void Assemble(const Job& job);
+
   std::shared_ptr<const HatLevel> hats_;
   GridSpace grid_;
   std::shared_ptr<const HatMatrices> own_; // once numbers have changed
   std::shared_ptr<const std::vector<Vec3>> direction_;
   std::shared_ptr<const TriangleMesh> moved_; // whose metric it is; null: the mesh
   std::shared_ptr<const std::vector<ElementWeights>> weights_;
+  std::shared_ptr<const TriangleMetric> metric_; // null: that of the mesh, or of moved points
 };
 
 /// Both in one go. Throws InvalidInput and Aborted.

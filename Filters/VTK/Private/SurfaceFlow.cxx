@@ -37,6 +37,11 @@ void SurfaceFlow::Restart(SurfaceSolverState& state)
   options.timeStep = request_.timeStep / state.WeightInGridUnits(1.0);
   options.conformalized = request_.conformalized;
   options.rescaling = request_.rescaling;
+  if (request_.fixedBoundary)
+  {
+    options.fixedPoints = BoundaryPoints(
+      *state.mesh.triangles, state.basis.weldCoincidentPoints, state.options.space.threads);
+  }
   options.multigrid = state.options.multigrid;
   options.solve = state.options.solve;
   if (!request_.trackMetric)
@@ -113,6 +118,7 @@ bool SurfaceFlow::Update(
   StageKey key;
   key.Add(state.stages.Version(SystemStage)).Add(state.WeightInGridUnits(1.0));
   key.Add(request.timeStep).Add(request.conformalized).Add(request.trackMetric);
+  key.Add(request.fixedBoundary);
   key.Add(static_cast<int>(request.rescaling));
   key.Add(state.options.solve.tolerance).Add(state.options.solve.maximumIterations);
   AddMultigrid(key, state.options.multigrid);

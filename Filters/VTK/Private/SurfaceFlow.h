@@ -24,6 +24,7 @@ struct FlowRequest
   int numberOfSteps = 10;
   bool conformalized = false;
   bool trackMetric = true;
+  bool fixedBoundary = false;
   Rescaling rescaling = Rescaling::None;
   double cacheBytes = 1e9; // for steps that are kept
 };

@@ -3,6 +3,7 @@
 #include "Base/Errors.h"
 #include "BasisReader.h"
 #include "InputValidation.h"
+#include "MetricArray.h"
 #include "vtkSurfaceFEMAlgorithm.h"
 
 #include "vtkCellArray.h"
@@ -121,18 +122,41 @@ void SurfaceSolverState::UpdateSystem(const Progress& progress)
   key.Add(stages.Version(SpaceStage)).Add(options.choice.quadratureDegree);
   key.Add(options.choice.coarsestSize).Add(options.choice.normalStabilization);
   key.Add(static_cast<int>(options.choice.kind));
+  key.Add(metricArray.array).Add(static_cast<int>(metricArray.association));
   if (stages.IsCurrent(SystemStage, key))
   {
     return;
   }
-  space = FindSpace(basis, options.choice);
+  metric_.reset();
+  space = metricArray.array ? nullptr : FindSpace(basis, options.choice);
   if (space)
   {
     stages.Adopt(SystemStage, key);
     return;
   }
-  stages.Run(
-    SystemStage, key, [&] { space = MakeSpace(basis, options.choice, this->MakeJob(progress)); });
+  stages.Run(SystemStage, key,
+    [&]
+    {
+      if (metricArray.array)
+      {
+        metric_ = std::make_shared<const TriangleMetric>(ReadMetric(metricArray, mesh));
+      }
+      space =
+        this->InMetric(MakeSpace(basis, options.choice, this->MakeJob(progress.Part(0.0, 0.6))),
+          progress.Part(0.6, 1.0));
+    });
+}
+
+std::shared_ptr<const FiniteElementSpace> SurfaceSolverState::InMetric(
+  std::shared_ptr<const FiniteElementSpace> ofMesh, const Progress& progress) const
+{
+  if (!metric_)
+  {
+    return ofMesh;
+  }
+  std::shared_ptr<FiniteElementSpace> own = ofMesh->Copy();
+  own->SetMetricOnTriangles(metric_, this->MakeJob(progress));
+  return own;
 }
 
 void SurfaceSolverState::Free()
@@ -140,6 +164,7 @@ void SurfaceSolverState::Free()
   mesh = {};
   basis = {};
   space = {};
+  metric_ = {};
   stages.Forget();
 }
 
@@ -148,7 +173,8 @@ std::shared_ptr<const FiniteElementSpace> SurfaceSolverState::OtherSpace(
 {
   SpaceChoice other = options.choice;
   other.kind = other.kind == FunctionKind::Grid ? FunctionKind::Hats : FunctionKind::Grid;
-  return MakeSpace(basis, other, this->MakeJob(progress));
+  return this->InMetric(
+    MakeSpace(basis, other, this->MakeJob(progress.Part(0.0, 0.6))), progress.Part(0.6, 1.0));
 }
 
 double SurfaceSolverState::WeightInGridUnits(double weight) const
@@ -157,7 +183,7 @@ double SurfaceSolverState::WeightInGridUnits(double weight) const
   double length2 = 1.0; // the squared unit of length, world units
   if (options.parameterUnits == vtkSurfaceFEMAlgorithm::UnitArea)
   {
-    length2 = SurfaceArea(*mesh.triangles);
+    length2 = metric_ ? metric_->AreaOf(*mesh.triangles) : SurfaceArea(*mesh.triangles);
   }
   else if (options.parameterUnits == vtkSurfaceFEMAlgorithm::UnitCube)
   {

@@ -3,6 +3,7 @@
 #ifndef GridFEM_SurfaceSolverState_h
 #define GridFEM_SurfaceSolverState_h
 
+#include "InputArray.h"
 #include "InputMesh.h"
 #include "Krylov/ConjugateGradients.h"
 #include "MeshVersion.h"
@@ -58,8 +59,8 @@ public:
   /// Builds the function space of a mesh and clips it before. Validates the mesh.
   void BuildSpace(vtkPolyData* input, const Progress& progress);
 
-  /// Brings the finite element space up to date. One that another filter has built on the same
-  /// basis is taken over without a run.
+  /// Brings the finite element space up to date, in the metric of `metricArray`. One in that of the
+  /// mesh that another filter has built on the same basis is taken over without a run.
   void UpdateSystem(const Progress& progress);
 
   /// The space on the same basis whose functions were not chosen.
@@ -77,12 +78,19 @@ public:
   double WeightInGridUnits(double weight) const;
 
   SurfaceOptions options;
+  InputArray metricArray; // of the input; none: the metric of the mesh
   StageCache stages;
   InputMesh mesh;
   MeshVersion meshVersion; // of `mesh`
   SurfaceBasis basis;
   std::shared_ptr<const FiniteElementSpace> space;
   ProgressBridge bridge;
+
+private:
+  std::shared_ptr<const FiniteElementSpace> InMetric(
+    std::shared_ptr<const FiniteElementSpace> ofMesh, const Progress& progress) const;
+
+  std::shared_ptr<const TriangleMetric> metric_; // of `space`; null: that of the mesh
 };
 
 } // namespace gridfem

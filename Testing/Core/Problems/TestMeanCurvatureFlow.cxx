@@ -17,6 +17,25 @@ using namespace gridfem::testing;
 namespace
 {
 
+/// The side of the cylinder x² + y² = 1, |z| < halfHeight.
+TriangleMesh OpenCylinder(int around, int along, double halfHeight)
+{
+  TriangleMesh mesh = FlatRectangle(around, along, 2.0 * M_PI, 2.0 * halfHeight);
+  for (Vec3& p : mesh.points)
+  {
+    p = Vec3(std::cos(p[0]), std::sin(p[0]), p[1] - halfHeight);
+  }
+  const auto column = static_cast<Id>(around) + 1; // the last one is the first
+  for (auto& triangle : mesh.triangles)
+  {
+    for (Id& point : triangle)
+    {
+      point -= point % column == around ? around : 0;
+    }
+  }
+  return mesh;
+}
+
 /// A flow on a mesh; times in squared world units.
 class FlowOnMesh
 {
@@ -363,6 +382,60 @@ TEST_P(MeanCurvatureFlows, ASoupOfOpenPiecesStaysFinite)
 INSTANTIATE_TEST_SUITE_P(Kinds, MeanCurvatureFlows, ::testing::Values(false, true),
   [](const auto& kind) { return std::string(kind.param ? "hats" : "grid"); });
 
+/// The soap film between two circles is a catenoid.
+TEST(MeanCurvatureFlow, AFixedBoundaryHoldsACatenoid)
+{
+  constexpr double HalfHeight = 0.5;
+  constexpr double Neck = 0.848338; // Neck cosh(HalfHeight / Neck) = 1, the radius of the circles
+  const double area =
+    2.0 * M_PI * Neck * (HalfHeight + 0.5 * Neck * std::sinh(2.0 * HalfHeight / Neck));
+  FlowOnMesh on(OpenCylinder(64, 24, HalfHeight), true, 4);
+  on.SetTimeStep(0.1);
+  on.options.solve.tolerance = 1e-5;
+  on.options.fixedPoints = BoundaryPoints(*on.mesh, true);
+  ASSERT_EQ(on.options.fixedPoints.size(), 128u);
+  MeanCurvatureFlow flow = on.Make();
+  double before = flow.Start().area;
+  for (int step = 0; step < 12; ++step)
+  {
+    const FlowStep done = flow.Advance({});
+    ASSERT_EQ(done.end, FlowEnd::None);
+    EXPECT_TRUE(done.converged);
+    EXPECT_LE(done.area, before * (1.0 + 1e-6));
+    before = done.area;
+  }
+  EXPECT_NEAR(before, area, 4e-3 * area); // of the cylinder: 2 π, 5 % more
+  const std::vector<Vec3> points = flow.Points();
+  for (const Id point : on.options.fixedPoints)
+  {
+    EXPECT_EQ(points[point], on.mesh->points[point]);
+  }
+  const std::vector<char> isUsed = UsedPoints(*on.mesh);
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    const double radius = std::hypot(points[k][0], points[k][1]);
+    EXPECT_TRUE(!isUsed[k] || std::abs(radius - Neck * std::cosh(points[k][2] / Neck)) < 0.01);
+  }
+}
+
+TEST(MeanCurvatureFlow, AFlatSurfaceWithAFixedBoundaryStays)
+{
+  FlowOnMesh on(Transform(FlatRectangle(32, 24, 2.0, 1.5), { 1, 0.4, 0 }, 0.5), true, 4);
+  on.SetTimeStep(0.05);
+  on.options.solve.tolerance = 1e-5;
+  on.options.fixedPoints = BoundaryPoints(*on.mesh, true);
+  MeanCurvatureFlow flow = on.Make();
+  for (int step = 0; step < 3; ++step)
+  {
+    ASSERT_EQ(flow.Advance({}).end, FlowEnd::None);
+  }
+  const std::vector<Vec3> points = flow.Points();
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    EXPECT_LT((points[k] - on.mesh->points[k]).norm(), 1e-5);
+  }
+}
+
 TEST(MeanCurvatureFlow, RefusesWhatMakesNoSense)
 {
   FlowOnMesh on(FlatRectangle(6, 6), false, 3);
@@ -375,6 +448,11 @@ TEST(MeanCurvatureFlow, RefusesWhatMakesNoSense)
     EXPECT_THROW(on.Make(), InvalidInput);
   }
   on.options.timeStep = 1.0;
+  on.options.fixedPoints = { 0 };
+  on.options.rescaling = Rescaling::ConstantArea;
+  EXPECT_THROW(on.Make(), InvalidInput);
+  on.options.rescaling = Rescaling::None;
+  on.options.fixedPoints.clear();
   on.ClipAgain();
   on.options.conformalized = true;
   EXPECT_THROW(on.Make(), InvalidInput);
@@ -409,6 +487,22 @@ TEST(MovedSurface, MeasuresAreExactForLinearMaps)
     DistortionOf(flat, std::vector<Vec3>(flat.points.size(), Vec3(1, 2, 3)));
   EXPECT_EQ(collapsed.areaRatio[0], 0.0);
   EXPECT_EQ(collapsed.stretchRatio[0], MapDistortion::LargestRatio);
+}
+
+TEST(MovedSurface, KnowsItsBoundary)
+{
+  EXPECT_TRUE(BoundaryPoints(GeodesicSphere(4), true).empty());
+  EXPECT_EQ(BoundaryPoints(FlatRectangle(4, 3), true).size(), 14u);
+  const TriangleMesh soup = Unweld(GeodesicSphere(2));
+  EXPECT_TRUE(BoundaryPoints(soup, true).empty());
+  EXPECT_EQ(BoundaryPoints(soup, false).size(), soup.points.size());
+  const TriangleMesh cut = Unweld(FlatRectangle(2, 2));
+  const std::vector<Id> points = BoundaryPoints(cut, true);
+  for (std::size_t k = 0; k < cut.points.size(); ++k)
+  {
+    const bool isInside = cut.points[k] == Vec3(0.5, 0.5, 0);
+    EXPECT_EQ(std::count(points.begin(), points.end(), Id(k)), isInside ? 0 : 1);
+  }
 }
 
 TEST(MovedSurface, KnowsWhatIsLikeASphere)

@@ -140,10 +140,9 @@ TEST_P(HatMatricesOf, DoNotDependOnThreads)
   const TriangleMesh& mesh = GetParam().mesh;
   HatOptions options;
   options.threads = 1;
-  const HatMatrices one = AssembleHatMatrices(mesh, NumberHatFunctions(mesh, options), nullptr, 1);
+  const HatMatrices one = AssembleHatMatrices(mesh, NumberHatFunctions(mesh, options), {}, 1);
   options.threads = 3;
-  const HatMatrices three =
-    AssembleHatMatrices(mesh, NumberHatFunctions(mesh, options), nullptr, 3);
+  const HatMatrices three = AssembleHatMatrices(mesh, NumberHatFunctions(mesh, options), {}, 3);
   EXPECT_EQ(one.mass.value, three.mass.value);
   EXPECT_EQ(one.stiffness.value, three.stiffness.value);
   EXPECT_EQ(one.stiffness.column, three.stiffness.column);
