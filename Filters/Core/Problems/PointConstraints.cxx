@@ -1,6 +1,7 @@
 #include "Problems/PointConstraints.h"
 
 #include "Algebra/ComponentMeans.h"
+#include "Algebra/RowBuilder.h"
 #include "Base/Errors.h"
 #include "Base/Parallel.h"
 #include "Problems/ColumnScales.h"
@@ -19,10 +20,8 @@ namespace
 SparseMatrix RowsOnCoarser(const SparseMatrix& rows, const SparseMatrix& prolongation)
 {
   constexpr double Rounding = 1e-13;
-  SparseMatrix coarse;
-  Array<Id> rowBegin{ 0 };
-  Array<Index> column;
-  std::vector<std::pair<Index, double>> entries;
+  RowBuilder coarse;
+  RowBuilder::Entries entries;
   for (Index row = 0; row < rows.rows; ++row)
   {
     entries.clear();
@@ -34,29 +33,9 @@ SparseMatrix RowsOnCoarser(const SparseMatrix& rows, const SparseMatrix& prolong
         entries.emplace_back(prolongation.column[p], rows.value[k] * prolongation.value[p]);
       }
     }
-    std::sort(entries.begin(), entries.end(),
-      [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (std::size_t k = 0; k < entries.size();)
-    {
-      const Index own = entries[k].first;
-      double sum = 0.0;
-      for (; k < entries.size() && entries[k].first == own; ++k)
-      {
-        sum += entries[k].second;
-      }
-      if (std::abs(sum) > Rounding)
-      {
-        column.push_back(own);
-        coarse.value.push_back(sum);
-      }
-    }
-    rowBegin.push_back(static_cast<Id>(column.size()));
+    coarse.Append(entries, Rounding);
   }
-  coarse.rows = rows.rows;
-  coarse.columns = prolongation.columns;
-  coarse.rowBegin = std::move(rowBegin);
-  coarse.column = std::move(column);
-  return coarse;
+  return coarse.Finish(prolongation.columns);
 }
 
 /// Place of an entry, or -1.
@@ -259,8 +238,7 @@ public:
     const ConstraintOptions& constraints, const Progress& progress, ConstrainedSolution& solution)
   {
     SolveOptions step = options_;
-    // Each step starts near its solution, whose last digits the misfit asks for.
-    step.tolerance = std::max(SmallestTolerance, step.tolerance * std::pow(0.1, solution.steps));
+    step.tolerance = std::max(SmallestTolerance, step.tolerance * share_);
     const Multigrid& multigrid = hierarchy_.GetMultigrid();
     Append(SolveWithFallback(IterationType::ConjugateGradients, OperatorOf(multigrid),
              CycleWithFallback(multigrid), load_, x, step, project_, progress),
@@ -283,6 +261,9 @@ public:
       return false;
     }
     load_ += hierarchy_.LoadOf(rest);
+    // The next step starts near its solution, whose last digits the misfit asks for. A misfit that
+    // falls slowly, because constraints are more than functions can meet, asks for no more.
+    share_ *= solution.steps == 1 || relative_ < 0.1 * before ? 0.1 : 1.0;
     return true;
   }
 
@@ -319,6 +300,7 @@ private:
   const Projection& project_;
   MultiVector load_;
   Eigen::RowVectorXd range_;
+  double share_ = 1.0;    // of the tolerance, for a step
   double relative_ = 0.0; // the largest misfit of the last step, in the range of its column
 };
 
