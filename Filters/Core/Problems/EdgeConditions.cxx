@@ -43,13 +43,60 @@ void AppendRow(const SparseMatrix& matrix, Index row, RowBuilder& rows)
   rows.Append(entries);
 }
 
+/// In the middle of each stretch.
+HeldValues HoldBetween(const FiniteElementSpace& space, const TriangleMesh& mesh,
+  const std::vector<TriangleEdge>& edges, const MultiVector& values)
+{
+  constexpr Index PerStretch = 3; // samples, of which one is held
+  const EdgeSamples samples = space.SamplesOfEdges(edges);
+  const MultiVector atSamples = AtSamples(samples, mesh, edges, values);
+  HeldValues held;
+  held.values.resize(samples.rows.rows / PerStretch, values.cols());
+  RowBuilder rows;
+  for (Index row = 0; row < held.values.rows(); ++row)
+  {
+    AppendRow(samples.rows, PerStretch * row + 1, rows);
+    held.values.row(row) = atSamples.row(PerStretch * row + 1);
+  }
+  held.rows = rows.Finish(samples.rows.columns);
+  return held;
+}
+
 } // namespace
 
-HeldEdges HoldEdges(const FiniteElementSpace& space, const TriangleMesh& mesh,
+HeldValues HoldPoints(
+  const FiniteElementSpace& space, const std::vector<Id>& points, MultiVector values)
+{
+  return { space.RowsAtPoints(points), std::move(values) };
+}
+
+HeldValues Join(const HeldValues& first, const HeldValues& second)
+{
+  HeldValues both;
+  both.values.resize(first.values.rows() + second.values.rows(), first.values.cols());
+  both.values << first.values, second.values;
+  RowBuilder rows;
+  for (const HeldValues* part : { &first, &second })
+  {
+    for (Index row = 0; row < part->rows.rows; ++row)
+    {
+      AppendRow(part->rows, row, rows);
+    }
+  }
+  both.rows = rows.Finish(first.rows.columns);
+  return both;
+}
+
+HeldValues HoldEdges(const FiniteElementSpace& space, const TriangleMesh& mesh,
   const std::vector<TriangleEdge>& edges, const MultiVector& values)
 {
   CheckValues(mesh, values);
   const std::vector<Id> ends = EndsOf(edges, mesh);
+  MultiVector atEnds(static_cast<Id>(ends.size()), values.cols());
+  for (Id k = 0; k < atEnds.rows(); ++k)
+  {
+    atEnds.row(k) = values.row(ends[k]);
+  }
   std::vector<TriangleEdge> longEdges;
   for (const TriangleEdge& edge : edges)
   {
@@ -59,25 +106,8 @@ HeldEdges HoldEdges(const FiniteElementSpace& space, const TriangleMesh& mesh,
       longEdges.push_back(edge);
     }
   }
-  const EdgeSamples samples = space.SamplesOfEdges(longEdges);
-  const MultiVector between = AtSamples(samples, mesh, longEdges, values);
-  const SparseMatrix atEnds = space.RowsAtPoints(ends);
-  constexpr Index PerStretch = 3; // samples, of which one is held
-  HeldEdges held;
-  held.values.resize(atEnds.rows + samples.rows.rows / PerStretch, values.cols());
-  RowBuilder rows;
-  for (Index row = 0; row < atEnds.rows; ++row)
-  {
-    AppendRow(atEnds, row, rows);
-    held.values.row(row) = values.row(ends[row]);
-  }
-  for (Index row = 0; row < samples.rows.rows / PerStretch; ++row)
-  {
-    AppendRow(samples.rows, PerStretch * row + 1, rows);
-    held.values.row(atEnds.rows + row) = between.row(PerStretch * row + 1);
-  }
-  held.rows = rows.Finish(atEnds.columns);
-  return held;
+  return Join(
+    HoldPoints(space, ends, std::move(atEnds)), HoldBetween(space, mesh, longEdges, values));
 }
 
 MultiVector LoadOnEdges(const FiniteElementSpace& space, const TriangleMesh& mesh,

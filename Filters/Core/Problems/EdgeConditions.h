@@ -8,16 +8,23 @@ namespace gridfem
 {
 
 /// What ConstrainedHierarchy and SolveConstrained take.
-struct HeldEdges
+struct HeldValues
 {
   SparseMatrix rows;
   MultiVector values; // a row for each
 };
 
+/// @param values  a row for each of the points
+HeldValues HoldPoints(
+  const FiniteElementSpace& space, const std::vector<Id>& points, MultiVector values);
+
+/// Both, those of `first` first.
+HeldValues Join(const HeldValues& first, const HeldValues& second);
+
 /// The values at the ends of the edges; and on edges longer than a unit of length in the middle of
 /// every stretch as well, linear in between, because functions are not linear there.
 /// @param values  rows = points of the mesh
-HeldEdges HoldEdges(const FiniteElementSpace& space, const TriangleMesh& mesh,
+HeldValues HoldEdges(const FiniteElementSpace& space, const TriangleMesh& mesh,
   const std::vector<TriangleEdge>& edges, const MultiVector& values);
 
 /// ∫ f b_i over edges in world units of length: rows = functions, columns as `values`.

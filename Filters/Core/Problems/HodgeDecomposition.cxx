@@ -109,7 +109,7 @@ MultiVector SolvePotentials(const FiniteElementSpace& space, const TriangleMesh&
   {
     return SolveFree(space, load, options, report, job);
   }
-  HeldEdges held =
+  HeldValues held =
     HoldEdges(space, mesh, ends, MultiVector::Zero(static_cast<Id>(mesh.points.size()), 1));
   MultiVector potentials(load.rows(), 2);
   potentials.col(0) = SolveFree(space, load.col(0), options, report, job.Part(0.0, 0.5));
