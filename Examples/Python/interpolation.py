@@ -17,6 +17,8 @@ from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkIOPLY import vtkPLYReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
+from sheet import Layer, Tile, View, write_sheet
+
 COLOURS = 12
 
 
@@ -92,17 +94,20 @@ def dots(places, size):
     return glyphs.GetOutput()
 
 
+def upright(mesh, size):
+    """With y upwards, as scans often stand, a little from above."""
+    return View(mesh.GetCenter(), (0.0, 0.3, 0.95), (0.0, 1.0, 0.0), 1.1 * size)
+
+
 def main():
     if len(sys.argv) != 4:
         sys.exit(__doc__)
-    from sheet import Layer, Tile, view_of, write_sheet
-
     mesh, depth = read(sys.argv[1]), int(sys.argv[2])
     places = coloured_points(far_apart(mesh, COLOURS))
     bounds = mesh.GetBounds()
     size = max(bounds[2 * k + 1] - bounds[2 * k] for k in range(3))
     balls = Layer(dots(places, size), "Colour", direct=True)
-    view = view_of(mesh)
+    view = upright(mesh, size)
     tiles = [Tile("given at twelve points", view, [Layer(mesh), balls])]
     for smoothness, name in ((vtkHarmonicInterpolation.Harmonic, "harmonic"),
                              (vtkHarmonicInterpolation.Biharmonic, "biharmonic")):

@@ -158,7 +158,7 @@ void vtkHarmonicInterpolation::Compute(vtkInformationVector** inputs, vtkInforma
   {
     vtkWarningMacro(<< gridfem::WarningOf(solution.report, this->Tolerance));
   }
-  const std::string warning = gridfem::WarningOfConstraints(solution, this->Data->Given.values);
+  const std::string warning = gridfem::WarningOfConstraints(solution);
   if (!warning.empty())
   {
     vtkWarningMacro(<< warning);

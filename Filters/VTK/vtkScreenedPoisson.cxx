@@ -10,6 +10,7 @@
 
 #include "Base/Errors.h"
 
+#include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -19,7 +20,9 @@
 #include "vtkPolyData.h"
 #include "vtkTable.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 vtkStandardNewMacro(vtkScreenedPoisson);
@@ -39,6 +42,7 @@ struct vtkScreenedPoisson::Internals
   gridfem::InputArray Scale;
   gridfem::InputArray Weight;
   gridfem::InputArray Constraint;
+  gridfem::InputArray Flux;
   gridfem::InputArray Coordinates; // stand in for Value
 
   /// The factor on the gradients at points or cells, if one is chosen.
@@ -115,11 +119,14 @@ void vtkScreenedPoisson::FindConstraints(vtkPolyData* input)
     throw gridfem::InvalidInput(
       "ValueWeightArray '" + data.Weight.name + "' must have one component.");
   }
-  if (data.Constraint.array && data.Value.association != gridfem::FieldAssociation::Points)
+  if (this->HoldsValues() && data.Value.association != gridfem::FieldAssociation::Points)
   {
-    throw gridfem::InvalidInput("ConstraintArray needs values at points, but '" + data.Value.name +
-                                "' is a cell array. Cell Data to Point Data converts it.");
+    throw gridfem::InvalidInput(
+      std::string(data.Constraint.array ? "ConstraintArray" : "BoundaryValues") +
+      " needs values at points, but '" + data.Value.name +
+      "' is a cell array. Cell Data to Point Data converts it.");
   }
+  this->FindFlux(input);
   if (this->IsConstrained() && this->Iteration != ConjugateGradients)
   {
     throw gridfem::InvalidInput("Constraints, weights and unknown values need Iteration to be "
@@ -127,9 +134,35 @@ void vtkScreenedPoisson::FindConstraints(vtkPolyData* input)
   }
 }
 
+void vtkScreenedPoisson::FindFlux(vtkPolyData* input)
+{
+  Internals& data = *this->Data;
+  data.Flux = gridfem::FindInputArray(this, 6, input, "BoundaryFluxArray");
+  const int components = data.Value.array ? data.Value.array->GetNumberOfComponents() : 3;
+  if (data.Flux.array && (data.Flux.association != gridfem::FieldAssociation::Points ||
+                           data.Flux.array->GetNumberOfComponents() != components))
+  {
+    throw gridfem::InvalidInput("BoundaryFluxArray '" + data.Flux.name +
+                                "' must be a point array with as many components as the values, " +
+                                std::to_string(components) + ".");
+  }
+  if (data.Flux.array && this->State->metricArray.array)
+  {
+    throw gridfem::InvalidInput(
+      "BoundaryFluxArray and MetricArray do not go together: a flux is per "
+      "length of the surface's own boundary.");
+  }
+}
+
+bool vtkScreenedPoisson::HoldsValues() const
+{
+  return this->BoundaryValues || this->Data->Constraint.array;
+}
+
 bool vtkScreenedPoisson::IsConstrained() const
 {
-  return this->FillUnknown || this->Data->Weight.array || this->Data->Constraint.array;
+  return this->FillUnknown || this->Data->Weight.array || this->Data->Flux.array ||
+         this->HoldsValues();
 }
 
 const gridfem::SolveReport& vtkScreenedPoisson::Report() const
@@ -150,19 +183,21 @@ gridfem::ConstrainedLoad vtkScreenedPoisson::IntegrateConstrained(
   const gridfem::TriangleMesh& triangles = *mesh.triangles;
   const auto weight =
     data.Weight.array ? std::make_optional(gridfem::ReadField(data.Weight, mesh)) : std::nullopt;
-  const gridfem::InputArray& value = data.Value.array ? data.Value : data.Coordinates;
+  const gridfem::InputArray& array = data.Value.array ? data.Value : data.Coordinates;
+  const gridfem::Field value = gridfem::ReadField(
+    array, mesh, this->FillUnknown ? gridfem::NaNs::Kept : gridfem::NaNs::Refused);
   gridfem::ConstrainedLoad load;
-  load.field =
-    gridfem::SplitField(gridfem::ReadField(value, mesh,
-                          this->FillUnknown ? gridfem::NaNs::Kept : gridfem::NaNs::Refused),
-      weight ? &*weight : nullptr, triangles);
+  load.field = gridfem::SplitField(value, weight ? &*weight : nullptr, triangles);
+  gridfem::GivenValues given;
+  given.values.resize(0, value.values.cols());
   if (data.Constraint.array)
   {
-    load.held = gridfem::KnownValues(value, data.Constraint, triangles);
+    given = gridfem::KnownValues(array, data.Constraint, triangles);
   }
-  else
+  load.held = gridfem::HoldPoints(space, given.points, std::move(given.values));
+  if (this->BoundaryValues || data.Flux.array)
   {
-    load.held.values.resize(0, load.field.values.values.cols());
+    this->AddBoundary(space, value, load);
   }
   const auto factor = data.ReadScale(mesh);
   if (data.Gradient.array)
@@ -178,6 +213,37 @@ gridfem::ConstrainedLoad vtkScreenedPoisson::IntegrateConstrained(
     load.gradients = space.LoadOfGradientsOf(load.field.values, &known, job);
   }
   return load;
+}
+
+void vtkScreenedPoisson::AddBoundary(const gridfem::FiniteElementSpace& space,
+  const gridfem::Field& value, gridfem::ConstrainedLoad& load)
+{
+  const Internals& data = *this->Data;
+  const gridfem::InputMesh& mesh = this->State->mesh;
+  const gridfem::TriangleMesh& triangles = *mesh.triangles;
+  const std::vector<gridfem::TriangleEdge> edges =
+    gridfem::FindSurfaceEdges(triangles, this->State->basis.weldCoincidentPoints).boundary;
+  if (edges.empty())
+  {
+    load.warning = "The surface has no boundary for BoundaryValues or a BoundaryFluxArray.";
+    return;
+  }
+  if (data.Flux.array)
+  {
+    load.flux =
+      gridfem::LoadOnEdges(space, triangles, edges, gridfem::ReadField(data.Flux, mesh).values);
+  }
+  if (this->BoundaryValues)
+  {
+    std::vector<gridfem::TriangleEdge> known;
+    std::copy_if(edges.begin(), edges.end(), std::back_inserter(known),
+      [&](const gridfem::TriangleEdge& edge)
+      {
+        const auto ends = edge.Ends(triangles);
+        return !value.values.row(ends[0]).hasNaN() && !value.values.row(ends[1]).hasNaN();
+      });
+    load.held = gridfem::Join(load.held, gridfem::HoldEdges(space, triangles, known, value.values));
+  }
 }
 
 gridfem::PoissonLoad vtkScreenedPoisson::Integrate(
@@ -227,6 +293,7 @@ void vtkScreenedPoisson::Solve(const gridfem::Progress& progress)
     }
     fields.Add(data.Weight.array).Add(static_cast<int>(data.Weight.association));
     fields.Add(data.Constraint.array).Add(this->FillUnknown);
+    fields.Add(data.Flux.array).Add(this->BoundaryValues);
     data.Constrained.Update(
       *this->State, fields,
       [this](const gridfem::FiniteElementSpace& space, const gridfem::Job& job)
@@ -267,7 +334,15 @@ void vtkScreenedPoisson::WriteSolution(vtkPolyData* input, vtkPolyData* output)
   }
   gridfem::AddReport(this->Report(), output);
   gridfem::AddAccuracy(this->EstimatedErrors(), output);
-  if (data.Constraint.array)
+  if (this->SolutionGradient)
+  {
+    output->GetCellData()->AddArray(gridfem::MakePointArray("SolutionGradient",
+      gridfem::MeansOnCells(state.mesh,
+        this->IsConstrained() ? data.Constrained.Gradients(state) : data.Equation.Gradients(state),
+        input->GetNumberOfCells()),
+      VTK_DOUBLE));
+  }
+  if (this->HoldsValues())
   {
     gridfem::AddFieldNumber(output, "Misfit", data.Constrained.Misfit());
   }
@@ -330,5 +405,7 @@ void vtkScreenedPoisson::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Iteration: " << this->Iteration << "\n";
   os << indent << "FillUnknown: " << this->FillUnknown << "\n";
   os << indent << "MovePoints: " << this->MovePoints << "\n";
+  os << indent << "BoundaryValues: " << this->BoundaryValues << "\n";
+  os << indent << "SolutionGradient: " << this->SolutionGradient << "\n";
   os << indent << "UseValueGradient: " << this->UseValueGradient << "\n";
 }

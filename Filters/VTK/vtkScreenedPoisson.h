@@ -9,7 +9,8 @@
  * with the values f, the gradients g, the ScreeningWeight w and the gradient scale s. Without
  * gradients it smooths f; with amplified gradients it sharpens f; with gradients from elsewhere it
  * stitches and fills. The gradients' part normal to the surface does not count. Nothing flows
- * across boundaries. The solution keeps the mean of f on every connected component, for every w.
+ * across boundaries, unless a flux is given or values are held there. The solution keeps the mean
+ * of f on every connected component, for every w.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
  * vtkConnectivityAwareBasis. Input port 1 (optional): the output of vtkConnectivityAwareBasis for
@@ -32,14 +33,20 @@
  *   J. Only its part in the plane of each triangle counts, which must be positive definite; on
  *   points its mean over a triangle. g is the derivative of a function of the input then, as
  *   Surface Gradient gives it.
+ * - index 6, `BoundaryFluxArray` (optional): point data, C components, in units of f over length:
+ *   the slope of u out of the surface, less that of s g, at points of the boundary;
+ *   not with a MetricArray
  *
- * With ValueWeightArray, ConstraintArray or FillUnknown, the mean is kept only on connected
- * components that neither a weight nor a constraint holds; the filter warns of those, once.
+ * With weights, constraints, a flux, BoundaryValues or FillUnknown, the mean is kept only on
+ * connected components that neither a weight nor a constraint holds; the filter warns of those,
+ * once.
  *
  * Output port 0 (vtkPolyData): the input with
  * - point data: `Solution` (C components, named as those of f; float if f or the coordinates that
  *   stand in for it are float, else double). Points that no polygon uses (with HatFunctions: none
  * with an area) keep f if that is a point array, else get 0.
+ * - cell data, with SolutionGradient: `SolutionGradient` (double, 3 C components, the three of
+ *   component 0 first; per unit of length), of a polygon the mean over its triangles
  * - field data: `Converged` (int, 1), `Iterations` (int, 1), `Residual` (double, 1): the norm of
  *   the residual vector relative to the right-hand side, which is not the measure that Tolerance is
  *   on; `ConvergenceFactor` (double, 1): mean reduction of the energy residual per iteration;
@@ -51,7 +58,8 @@
  *   what the iteration has left, relative as the first. Of several components the worst; not a
  *   number where nothing is known, as without coarser levels. `TrustedEstimate` (int, 1): 0 where
  *   levels do not differ as they do on a resolved surface: the first may be too small then; with
- * ConstraintArray also `Misfit` (double, 1): the largest difference from a value that is to be held
+ * ConstraintArray or BoundaryValues also `Misfit` (double, 1): the largest difference from a value
+ * that is to be held
  *
  * Output port 1 (vtkTable): a row per iteration with `Iteration` (int), 0 being the start by nested
  * iteration; `EnergyResidual` (double): an estimate of the error in the energy norm, relative to
@@ -153,6 +161,25 @@ public:
 
   ///@{
   /**
+   * When on, the solution has the values f where the surface ends: along the edges of one triangle,
+   * but for those with an unknown value. f must be point data then. Default off.
+   */
+  vtkSetMacro(BoundaryValues, bool);
+  vtkGetMacro(BoundaryValues, bool);
+  vtkBooleanMacro(BoundaryValues, bool);
+  ///@}
+
+  ///@{
+  /**
+   * When on, the gradient of the solution is put out on cells. Default off.
+   */
+  vtkSetMacro(SolutionGradient, bool);
+  vtkGetMacro(SolutionGradient, bool);
+  vtkBooleanMacro(SolutionGradient, bool);
+  ///@}
+
+  ///@{
+  /**
    * As in every solver, but that 0 (default) is allowed: Accuracy decides then.
    */
   void SetTolerance(double tolerance) override;
@@ -192,6 +219,8 @@ protected:
   bool UseValueGradient = false;
   bool FillUnknown = false;
   bool MovePoints = true;
+  bool BoundaryValues = false;
+  bool SolutionGradient = false;
   int Iteration = ConjugateGradients;
 
 private:
@@ -202,10 +231,14 @@ private:
   gridfem::PoissonLoad Integrate(const gridfem::FiniteElementSpace& space, const gridfem::Job& job);
   gridfem::ConstrainedLoad IntegrateConstrained(
     const gridfem::FiniteElementSpace& space, const gridfem::Job& job);
+  void AddBoundary(const gridfem::FiniteElementSpace& space, const gridfem::Field& value,
+    gridfem::ConstrainedLoad& load);
   bool IsConstrained() const;
+  bool HoldsValues() const;
   const gridfem::SolveReport& Report() const;
   gridfem::SolutionAccuracy EstimatedErrors() const;
   void FindConstraints(vtkPolyData* input);
+  void FindFlux(vtkPolyData* input);
   void Solve(const gridfem::Progress& progress);
   void WriteSolution(vtkPolyData* input, vtkPolyData* output);
 

@@ -5,6 +5,7 @@
 #include "Private/SurfaceSolverState.h"
 
 #include "Base/Errors.h"
+#include "Problems/HodgeDecomposition.h"
 #include "Problems/SurfaceDerivatives.h"
 
 #include "vtkCellData.h"
@@ -20,7 +21,30 @@ vtkStandardNewMacro(vtkSurfaceGradient);
 struct vtkSurfaceGradient::Internals
 {
   gridfem::SurfaceDerivatives Derivatives;
+  gridfem::HodgeDecomposition Parts;
 };
+
+namespace
+{
+
+constexpr const char* HodgeStage = "HodgeDecomposition";
+
+void AddArray(vtkDataSetAttributes* data, const char* name, const gridfem::MultiVector& values)
+{
+  data->AddArray(gridfem::MakePointArray(name, values, VTK_DOUBLE));
+}
+
+/// The same on points and cells.
+void AddArrays(const gridfem::InputMesh& mesh, const char* name,
+  const gridfem::MultiVector& atPoints, const gridfem::MultiVector& onTriangles,
+  vtkPolyData* output)
+{
+  AddArray(output->GetPointData(), name, atPoints);
+  AddArray(output->GetCellData(), name,
+    gridfem::MeansOnCells(mesh, onTriangles, output->GetNumberOfCells()));
+}
+
+} // namespace
 
 vtkSurfaceGradient::vtkSurfaceGradient() : Data(std::make_unique<Internals>())
 {
@@ -32,6 +56,42 @@ vtkSurfaceGradient::vtkSurfaceGradient() : Data(std::make_unique<Internals>())
 
 vtkSurfaceGradient::~vtkSurfaceGradient() = default;
 
+void vtkSurfaceGradient::Decompose(
+  const gridfem::InputArray& array, const gridfem::Progress& progress)
+{
+  gridfem::SurfaceSolverState& state = *this->State;
+  gridfem::StageKey key;
+  key.Add(state.stages.Version(gridfem::SystemStage)).Add(array.array);
+  key.Add(static_cast<int>(array.association)).Add(this->Tolerance).Add(this->MaximumIterations);
+  gridfem::AddMultigrid(key, state.options.multigrid);
+  gridfem::HodgeDecomposition& parts = this->Data->Parts;
+  state.stages.Run(HodgeStage, key,
+    [&]
+    {
+      parts = gridfem::DecomposeField(*state.space, *state.mesh.triangles,
+        gridfem::ReadField(array, state.mesh),
+        { state.options.multigrid, state.options.solve, state.basis.weldCoincidentPoints },
+        state.MakeJob(progress));
+    });
+  if (parts.numberOfOneSided > 0)
+  {
+    vtkWarningMacro(<< parts.numberOfOneSided << " of " << parts.numberOfComponents
+                    << " connected components have only one side, so that no rotation can be told "
+                       "there: what turns is in the HarmonicPart.");
+  }
+}
+
+void vtkSurfaceGradient::WriteParts(vtkPolyData* output)
+{
+  const gridfem::InputMesh& mesh = this->State->mesh;
+  const gridfem::HodgeDecomposition& parts = this->Data->Parts;
+  AddArrays(mesh, "GradientPart", parts.gradientAtPoints, parts.gradientOnTriangles, output);
+  AddArrays(mesh, "RotationPart", parts.rotationAtPoints, parts.rotationOnTriangles, output);
+  AddArrays(mesh, "HarmonicPart", parts.restAtPoints, parts.restOnTriangles, output);
+  AddArray(output->GetPointData(), "Potential", parts.potentialAtPoints);
+  AddArray(output->GetPointData(), "StreamFunction", parts.streamAtPoints);
+}
+
 void vtkSurfaceGradient::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
@@ -39,6 +99,11 @@ void vtkSurfaceGradient::Compute(vtkInformationVector** inputs, vtkInformationVe
   gridfem::SurfaceSolverState& state = *this->State;
   const gridfem::Progress progress = state.bridge.GetProgress();
   const gridfem::InputArray array = gridfem::FindInputArray(this, 0, input, "Array");
+  if (this->HodgeDecomposition && (!array.array || array.array->GetNumberOfComponents() != 3))
+  {
+    throw gridfem::InvalidInput("HodgeDecomposition needs an Array with three components: "
+                                "vectors. Without one it has to be off.");
+  }
   state.UpdateSpace(input, vtkPolyData::GetData(inputs[1]), progress.Part(0.0, 0.3));
   state.UpdateSystem(progress.Part(0.3, 0.5));
 
@@ -52,34 +117,36 @@ void vtkSurfaceGradient::Compute(vtkInformationVector** inputs, vtkInformationVe
     {
       derivatives = gridfem::ComputeDerivatives(*state.space, *state.mesh.triangles,
         array.array ? gridfem::ReadField(array, state.mesh) : gridfem::CoordinatesField(state.mesh),
-        { state.options.multigrid, state.options.solve }, state.MakeJob(progress.Part(0.5, 0.95)));
+        { state.options.multigrid, state.options.solve }, state.MakeJob(progress.Part(0.5, 0.7)));
     });
 
   output->ShallowCopy(input);
-  const auto add = [](vtkDataSetAttributes* data, const char* name, const gridfem::MultiVector& v)
-  { data->AddArray(gridfem::MakePointArray(name, v, VTK_DOUBLE)); };
-  const auto onCells = [&](const gridfem::MultiVector& onTriangles)
-  { return gridfem::MeansOnCells(state.mesh, onTriangles, input->GetNumberOfCells()); };
-  add(output->GetPointData(), "Gradient", derivatives.gradientAtPoints);
-  add(output->GetPointData(), "Laplacian", derivatives.laplacianAtPoints);
-  add(output->GetCellData(), "Gradient", onCells(derivatives.gradientOnTriangles));
-  add(output->GetCellData(), "Laplacian", onCells(derivatives.laplacianOnTriangles));
+  AddArrays(
+    state.mesh, "Gradient", derivatives.gradientAtPoints, derivatives.gradientOnTriangles, output);
+  AddArrays(state.mesh, "Laplacian", derivatives.laplacianAtPoints,
+    derivatives.laplacianOnTriangles, output);
   if (array.array && derivatives.divergenceAtPoints.cols() == 1)
   {
-    add(output->GetPointData(), "Divergence", derivatives.divergenceAtPoints);
-    add(output->GetPointData(), "Curl", derivatives.curlAtPoints);
-    add(output->GetCellData(), "Divergence", onCells(derivatives.divergenceOnTriangles));
-    add(output->GetCellData(), "Curl", onCells(derivatives.curlOnTriangles));
+    AddArrays(state.mesh, "Divergence", derivatives.divergenceAtPoints,
+      derivatives.divergenceOnTriangles, output);
+    AddArrays(state.mesh, "Curl", derivatives.curlAtPoints, derivatives.curlOnTriangles, output);
   }
   output->GetPointData()->SetActiveScalars("Laplacian");
   if (derivatives.laplacianAtPoints.cols() == 1)
   {
     output->GetPointData()->SetActiveVectors("Gradient");
   }
-  gridfem::AddReport(derivatives.report, output);
-  if (!derivatives.report.converged)
+  gridfem::SolveReport report = derivatives.report;
+  if (this->HodgeDecomposition)
   {
-    vtkWarningMacro(<< gridfem::WarningOf(derivatives.report, this->Tolerance));
+    this->Decompose(array, progress.Part(0.7, 0.95));
+    this->WriteParts(output);
+    gridfem::KeepWorse(this->Data->Parts.report, report);
+  }
+  gridfem::AddReport(report, output);
+  if (!report.converged)
+  {
+    vtkWarningMacro(<< gridfem::WarningOf(report, this->Tolerance));
   }
   progress.Check(1.0);
 }
@@ -88,4 +155,11 @@ void vtkSurfaceGradient::FreeStages()
 {
   this->Superclass::FreeStages();
   this->Data->Derivatives = {};
+  this->Data->Parts = {};
+}
+
+void vtkSurfaceGradient::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "HodgeDecomposition: " << this->HodgeDecomposition << "\n";
 }

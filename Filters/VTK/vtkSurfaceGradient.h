@@ -21,8 +21,21 @@
  *   Of an array of vectors (C = 3) also `Divergence` along the surface, where a part along the
  * normal counts with the curvature, and `Curl` (one component each; per unit of length): the part
  * of the rotation along the normal, positive counterclockwise seen from outside
+ * - with HodgeDecomposition, of an array of vectors, point and cell data, double: `GradientPart`,
+ *   `RotationPart` and `HarmonicPart` (three components each, in the unit of the array), and point
+ *   data `Potential` and `StreamFunction` (one component, times a length), see below
  * - field data: `Converged`, `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor`
  *   of the projection that took most iterations
+ *
+ * The Hodge decomposition: the part v of the vectors along the surface is grad u + n x grad w + h
+ * with the normal n, the Potential u, the StreamFunction w, and the rest h, which has neither
+ * sources nor eddies: it goes around handles and holes, and holds what the functions cannot follow.
+ * The three are orthogonal: their squares integrate to that of v. On cells they add up to v, at
+ * points they are projected like the gradient. Where the surface ends w is 0, so h does not cross
+ * the boundary, and what does is in the gradient. Triangles that face this way and that are taken
+ * to face as most of their component's area does; on components without two sides, as a Moebius
+ * strip, there is no rotation part, and the filter warns. Edges of more than two triangles count
+ * as a boundary for w.
  *
  * Tolerance (default 1e-4) is that of the projections, as in vtkScreenedPoisson: the errors of the
  * space are larger. NormalStabilization is 1e-2 by default. All shared
@@ -33,11 +46,28 @@
 
 #include "vtkSurfaceFEMAlgorithm.h"
 
+namespace gridfem
+{
+struct InputArray;
+class Progress;
+} // namespace gridfem
+
 class VTKGRIDFEMFILTERS_EXPORT vtkSurfaceGradient : public vtkSurfaceFEMAlgorithm
 {
 public:
   static vtkSurfaceGradient* New();
   vtkTypeMacro(vtkSurfaceGradient, vtkSurfaceFEMAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * When on, an array of vectors is taken apart: gradient, rotation, rest. Any other array is
+   * refused then. Default off.
+   */
+  vtkSetMacro(HodgeDecomposition, bool);
+  vtkGetMacro(HodgeDecomposition, bool);
+  vtkBooleanMacro(HodgeDecomposition, bool);
+  ///@}
 
   /**
    * The input of port 1: the basis.
@@ -51,9 +81,14 @@ protected:
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   void FreeStages() override;
 
+  bool HodgeDecomposition = false;
+
 private:
   vtkSurfaceGradient(const vtkSurfaceGradient&) = delete;
   void operator=(const vtkSurfaceGradient&) = delete;
+
+  void Decompose(const gridfem::InputArray& array, const gridfem::Progress& progress);
+  void WriteParts(vtkPolyData* output);
 
   struct Internals;
   std::unique_ptr<Internals> Data;

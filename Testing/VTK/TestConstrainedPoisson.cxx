@@ -1,6 +1,7 @@
 // Screened Poisson where values are unknown, weighed or held exactly.
 #include "FilterSupport.h"
 
+#include "Grid/TriangleArea.h"
 #include "vtkScreenedPoisson.h"
 
 #include <gtest/gtest.h>
@@ -144,6 +145,107 @@ TEST_P(ConstrainedPoisson, HoldsValuesExactly)
   // On the grid there are more points in a cell than functions.
   EXPECT_LT(after, this->GetParam() == vtkSurfaceFEMAlgorithm::Grid ? 2e-3 : 2e-6);
   EXPECT_NEAR(FieldValue(filter->GetOutput(), "Misfit"), after, 1e-9);
+}
+
+/// Laplace's equation on a disc: x² - y² from its values at the boundary alone.
+TEST_P(ConstrainedPoisson, SolvesForValuesHeldAtTheBoundary)
+{
+  for (const int fineness : { 8, 40 }) // edges longer than a cell, and shorter
+  {
+    TriangleMesh disc = FlatRectangle(fineness, fineness, 2.0, 2.0);
+    for (Vec3& p : disc.points) // every square ring becomes a round one
+    {
+      const Vec3 q = p - Vec3(1, 1, 0);
+      p = q.norm() > 0.0 ? Vec3(q * (q.cwiseAbs().maxCoeff() / q.norm())) : q;
+    }
+    const auto data = ToPolyData(Transform(disc, { 1, 2, 3 }, 0.0, 1.5));
+    const auto exact = [](const Vec3& p) { return 4.0 + p[0] * p[0] - p[1] * p[1]; };
+    AddPointArray(
+      data, "f", 1, [&](const Vec3& p, int) { return p.norm() > 1.5 - 1e-9 ? exact(p) : 100.0; });
+    AddPointArray(data, "exact", 1, [&](const Vec3& p, int) { return exact(p); });
+    filter->SetInputData(data);
+    filter->SetInputArrayToProcess(0, 0, 0, Points, "f");
+    filter->SetScreeningWeight(0.0);
+    filter->SetTolerance(1e-8);
+    filter->BoundaryValuesOn();
+    filter->SolutionGradientOn();
+    messages.warnings.clear();
+    const auto found = this->Solution();
+    EXPECT_TRUE(messages.warnings.empty()) << messages.warnings[0];
+    EXPECT_LT(Difference(found, PointValues(data, "exact")), fineness == 8 ? 0.04 : 0.025);
+    vtkDataArray* gradient = filter->GetOutput()->GetCellData()->GetArray("SolutionGradient");
+    ASSERT_TRUE(gradient);
+    double square = 0.0; // ∫ |∇u|² over the disc: 2 π r⁴
+    for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell)
+    {
+      square += AreaOf(disc, cell) * 1.5 * 1.5 * Vec3(gradient->GetTuple3(cell)).squaredNorm();
+    }
+    EXPECT_NEAR(square / (2 * M_PI * std::pow(1.5, 4)), 1.0, fineness == 8 ? 0.1 : 0.02);
+  }
+}
+
+/// A tube along z: what flows in at the bottom leaves at the top. With screening λ u = Δu instead:
+/// the flux is that of cosh.
+TEST_P(ConstrainedPoisson, TakesAFluxAcrossTheBoundary)
+{
+  TriangleMesh tube = FlatRectangle(80, 20);
+  for (Vec3& p : tube.points)
+  {
+    const double angle = 2 * M_PI * p[0];
+    p = Vec3(std::cos(angle), std::sin(angle), 2.0 * p[1]);
+  }
+  for (Id row = 0; row <= 20; ++row)
+  {
+    tube.points[81 * row + 80] = tube.points[81 * row]; // welded
+  }
+  const auto data = ToPolyData(Transform(tube, { 1, 2, 0 }, 0.4));
+  const Eigen::AngleAxisd turn(0.4, Vec3(1, 2, 0).normalized());
+  const auto height = [&](const Vec3& p) { return (turn.inverse() * p)[2]; };
+  const auto isEnd = [&](const Vec3& p, double z) { return std::abs(height(p) - z) < 1e-9; };
+  AddPointArray(data, "flux", 1,
+    [&](const Vec3& p, int) { return isEnd(p, 0.0)   ? -3.0
+                                     : isEnd(p, 2.0) ? 3.0
+                                                     : 77.0; });
+  AddPointArray(data, "slope", 1,
+    [&](const Vec3& p, int) { return isEnd(p, 2.0) ? 2.0 * std::sinh(4.0) : 0.0; });
+  AddPointArray(data, "ten", 1, [&](const Vec3&, int) { return 10.0; });
+  AddPointArray(data, "zero", 1, [&](const Vec3&, int) { return 0.0; });
+  AddPointArray(data, "linear", 1, [&](const Vec3& p, int) { return 7.0 + 3.0 * height(p); });
+  AddPointArray(data, "cosh", 1, [&](const Vec3& p, int) { return std::cosh(2.0 * height(p)); });
+  filter->SetInputData(data);
+  filter->SetTolerance(1e-8);
+  filter->SetParameterUnits(vtkSurfaceFEMAlgorithm::World);
+  filter->SetScreeningWeight(0.0);
+  filter->SetInputArrayToProcess(0, 0, 0, Points, "ten");
+  filter->SetInputArrayToProcess(6, 0, 0, Points, "flux");
+  EXPECT_LT(Difference(this->Solution(), PointValues(data, "linear")), 0.02);
+  ASSERT_EQ(messages.warnings.size(), 1u); // nothing holds it, and the flux is balanced
+  EXPECT_EQ(messages.warnings[0].find("flux"), std::string::npos) << messages.warnings[0];
+
+  filter->SetScreeningWeight(4.0);
+  filter->SetInputArrayToProcess(0, 0, 0, Points, "zero");
+  filter->SetInputArrayToProcess(6, 0, 0, Points, "slope");
+  messages.warnings.clear();
+  EXPECT_LT(Difference(this->Solution(), PointValues(data, "cosh")), 0.02 * std::cosh(4.0));
+  EXPECT_TRUE(messages.warnings.empty()) << messages.warnings[0];
+
+  filter->SetScreeningWeight(0.0);
+  this->Solution();
+  ASSERT_EQ(messages.warnings.size(), 1u);
+  EXPECT_NE(messages.warnings[0].find("does not add up to 0"), std::string::npos);
+}
+
+TEST_P(ConstrainedPoisson, SaysThatAClosedSurfaceHasNoBoundary)
+{
+  filter->SetTolerance(1e-9);
+  const auto plain = this->Solution();
+  filter->BoundaryValuesOn();
+  EXPECT_LT(Difference(this->Solution(), plain), 1e-7);
+  ASSERT_EQ(messages.warnings.size(), 1u);
+  EXPECT_NE(messages.warnings[0].find("no boundary"), std::string::npos);
+  AddPointArray(input, "one", 1, [](const Vec3&, int) { return 1.0; });
+  filter->SetInputArrayToProcess(6, 0, 0, Points, "one");
+  this->ExpectRefused("as many components as the values");
 }
 
 TEST_P(ConstrainedPoisson, SaysWhereNothingIsKnown)

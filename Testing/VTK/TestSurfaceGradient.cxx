@@ -138,6 +138,93 @@ TEST_P(SurfaceGradient, HasDivergenceAndCurlOfVectors)
   check(sphere, "rotation", 0.2, zero, [](const Vec3& p) { return 2 * p[2]; });
 }
 
+/// Of a source, an eddy and a stream around the axis on a torus, at points and on cells.
+TEST_P(SurfaceGradient, TakesVectorsApart)
+{
+  const auto torus = ToPolyData(Torus(80, 40, 1.0, 0.4));
+  const auto normal = [](const Vec3& p)
+  { return Vec3((p - Vec3(p[0], p[1], 0.0).normalized()).normalized()); };
+  const auto slope = [&](const Vec3& p) { return Vec3(Vec3::UnitX() - normal(p)[0] * normal(p)); };
+  const auto eddy = [&](const Vec3& p) { return Vec3(normal(p).cross(Vec3::UnitZ())); };
+  const auto stream = [](const Vec3& p)
+  { return Vec3(Vec3(-p[1], p[0], 0.0) / (p[0] * p[0] + p[1] * p[1])); };
+  AddPointArray(torus, "v", 3,
+    [&](const Vec3& p, int c) // with a part along the normal that does not count
+    { return (slope(p) + 2.0 * eddy(p) + 3.0 * stream(p) + p[1] * normal(p))[c]; });
+  AddPointArray(torus, "f", 1, Wave);
+  vtkNew<vtkSurfaceGradient> filter;
+  Messages messages(filter);
+  filter->SetInputData(torus);
+  filter->SetInputArrayToProcess(0, 0, 0, Points, "v");
+  filter->SetDepth(5);
+  filter->SetFunctionSpace(this->GetParam());
+  filter->Update();
+  EXPECT_FALSE(filter->GetOutput()->GetPointData()->GetArray("GradientPart"));
+  filter->HodgeDecompositionOn();
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfRuns("Solve"), 1);
+  EXPECT_EQ(filter->GetNumberOfRuns("HodgeDecomposition"), 1);
+  EXPECT_TRUE(messages.warnings.empty());
+  const auto check = [&](const char* name, const auto& expected)
+  {
+    const auto found = PointValues(filter->GetOutput(), name);
+    for (vtkIdType point = 0; point < torus->GetNumberOfPoints(); ++point)
+    {
+      const Vec3 v(found[3 * point], found[3 * point + 1], found[3 * point + 2]);
+      ASSERT_LT((v - expected(Vec3(torus->GetPoint(point)))).norm(), 0.2) << name << " " << point;
+    }
+  };
+  check("GradientPart", slope);
+  check("RotationPart", [&](const Vec3& p) { return Vec3(2.0 * eddy(p)); });
+  check("HarmonicPart", [&](const Vec3& p) { return Vec3(3.0 * stream(p)); });
+  for (const char* name : { "GradientPart", "RotationPart", "HarmonicPart" })
+  {
+    vtkDataArray* onCells = filter->GetOutput()->GetCellData()->GetArray(name);
+    ASSERT_TRUE(onCells) << name;
+    EXPECT_EQ(onCells->GetNumberOfComponents(), 3);
+  }
+  EXPECT_TRUE(filter->GetOutput()->GetPointData()->GetArray("Potential"));
+  EXPECT_TRUE(filter->GetOutput()->GetPointData()->GetArray("StreamFunction"));
+  filter->SetInputArrayToProcess(0, 0, 0, Points, "f");
+  EXPECT_EQ(filter->GetExecutive()->Update(), 0);
+  ASSERT_EQ(messages.errors.size(), 1u);
+  EXPECT_NE(messages.errors[0].find("three components"), std::string::npos);
+}
+
+/// A Möbius strip, where nobody can say which way something turns.
+TEST_P(SurfaceGradient, WarnsOfSurfacesWithOneSide)
+{
+  TriangleMesh mesh = FlatRectangle(60, 6);
+  for (Vec3& p : mesh.points)
+  {
+    const double angle = 2 * M_PI * p[0];
+    const double across = 0.6 * (p[1] - 0.5);
+    const double radius = 1.0 + across * std::sin(0.5 * angle);
+    p = Vec3(radius * std::cos(angle), radius * std::sin(angle), across * std::cos(0.5 * angle));
+  }
+  for (Id k = 0; k <= 6; ++k) // the last column is the first one upside down
+  {
+    mesh.points[61 * k + 60] = mesh.points[61 * (6 - k)];
+  }
+  const auto strip = ToPolyData(mesh);
+  AddPointArray(strip, "v", 3, [](const Vec3& p, int c) { return Vec3(-p[1], p[0], 0.0)[c]; });
+  vtkNew<vtkSurfaceGradient> filter;
+  Messages messages(filter);
+  filter->SetInputData(strip);
+  filter->SetInputArrayToProcess(0, 0, 0, Points, "v");
+  filter->SetDepth(4);
+  filter->SetFunctionSpace(this->GetParam());
+  filter->HodgeDecompositionOn();
+  filter->Update();
+  ASSERT_EQ(messages.warnings.size(), 1u);
+  EXPECT_NE(
+    messages.warnings[0].find("1 of 1 connected components have only one side"), std::string::npos);
+  for (const double value : PointValues(filter->GetOutput(), "RotationPart"))
+  {
+    ASSERT_EQ(value, 0.0);
+  }
+}
+
 TEST_P(SurfaceGradient, IsComputedOnceAndAgainForAnotherArray)
 {
   const auto sphere = ToPolyData(GeodesicSphere(8));

@@ -1,6 +1,7 @@
 // Evaluation of functions: every point lies in a patch, and a patch has eight coefficients.
 #include "Integrals/Evaluation.h"
 
+#include "Algebra/RowBuilder.h"
 #include "Base/Grouping.h"
 #include "Base/Parallel.h"
 #include "Base/Prefetch.h"
@@ -198,39 +199,28 @@ MultiVector MeanGradients(
 SparseMatrix EvaluationRows(const GridFunctions& space, const std::vector<Id>& points)
 {
   const PatchLevel& level = space.Finest();
-  Array<Id> rowBegin{ 0 };
-  Array<Index> column;
-  SparseMatrix rows;
+  RowBuilder rows;
+  RowBuilder::Entries entries;
   for (const Id point : points)
   {
     if (point < 0 || point >= static_cast<Id>(space.pointPatch.size()))
     {
       throw InvalidInput("There is no point " + std::to_string(point) + ".");
     }
+    entries.clear();
     const Index patch = space.pointPatch[point];
     if (patch >= 0)
     {
       CornerValues b;
       TrilinearValues(space.clipped.position[point] - CellCorner(level.cell[patch]), b);
-      std::array<std::pair<Index, double>, FunctionsPerPatch> entries;
       for (int i = 0; i < FunctionsPerPatch; ++i)
       {
-        entries[i] = { level.dof[patch][i], b[i] };
-      }
-      std::sort(entries.begin(), entries.end());
-      for (const auto& [function, value] : entries)
-      {
-        column.push_back(function);
-        rows.value.push_back(value);
+        entries.emplace_back(level.dof[patch][i], b[i]);
       }
     }
-    rowBegin.push_back(static_cast<Id>(column.size()));
+    rows.Append(entries);
   }
-  rows.rows = static_cast<Index>(points.size());
-  rows.columns = level.numberOfFunctions;
-  rows.rowBegin = std::move(rowBegin);
-  rows.column = std::move(column);
-  return rows;
+  return rows.Finish(level.numberOfFunctions);
 }
 
 MultiVector MeansOnPatches(const GridFunctions& space, const MultiVector& onTriangles, int threads)

@@ -3,6 +3,7 @@
 #include "Krylov/SolverIteration.h"
 
 #include <cmath>
+#include <utility>
 
 namespace gridfem
 {
@@ -46,6 +47,14 @@ double MeanFactor(const SolveReport& report)
   const double last = report.history.back().energy;
   return report.iterations > 0 && first > 0.0 ? std::pow(last / first, 1.0 / report.iterations)
                                               : 0.0;
+}
+
+void KeepWorse(SolveReport report, SolveReport& kept)
+{
+  if (report.converged != kept.converged ? kept.converged : report.iterations >= kept.iterations)
+  {
+    kept = std::move(report);
+  }
 }
 
 SolveReport SolveConjugateGradients(const LinearOperator& A, const Preconditioner& B,

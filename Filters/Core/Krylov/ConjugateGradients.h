@@ -78,6 +78,9 @@ struct SolveReport
 /// What `convergenceFactor` is.
 double MeanFactor(const SolveReport& report);
 
+/// Of several solves: what has not converged, or else has taken more iterations, replaces `kept`.
+void KeepWorse(SolveReport report, SolveReport& kept);
+
 /// Keeps an iteration out of directions that are solved otherwise, such as the constants of each
 /// component. A must map what `solution` keeps to what `residual` keeps; the two are each other's
 /// transposes. Both empty: no projection.

@@ -148,11 +148,6 @@ private:
   Eigen::VectorXd size_;
 };
 
-bool IsWorse(const SolveReport& a, const SolveReport& b)
-{
-  return a.converged != b.converged ? b.converged : a.iterations > b.iterations;
-}
-
 } // namespace
 
 DistantHeat SpreadHeat(const FiniteElementSpace& space, const Multigrid& multigrid, double t,
@@ -178,10 +173,7 @@ DistantHeat SpreadHeat(const FiniteElementSpace& space, const Multigrid& multigr
       SolvePoisson(space, multigrid, rest, {}, options, job.progress.Part(done, next));
     done = next;
     ++heat.solves;
-    if (IsWorse(solution.report, heat.report))
-    {
-      heat.report = std::move(solution.report);
-    }
+    KeepWorse(std::move(solution.report), heat.report);
     if (!heat.report.converged || !front.Advance(solution.coefficients))
     {
       break;

@@ -168,7 +168,8 @@ void MeasureMisfit(const SparseMatrix& rows, const MultiVector& values, double t
       range = std::max(range, (values.row(row) - values.row(0)).cwiseAbs().maxCoeff());
     }
   }
-  solution.isExact = solution.misfit <= tolerance * range;
+  solution.relativeMisfit = range > 0.0 ? solution.misfit / range : solution.misfit;
+  solution.isExact = solution.relativeMisfit <= tolerance;
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "Problems/PointConstraints.h"
 
 #include "Algebra/ComponentMeans.h"
+#include "Algebra/RowBuilder.h"
 #include "Base/Errors.h"
 #include "Base/Parallel.h"
 #include "Problems/ColumnScales.h"
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 namespace gridfem
@@ -19,10 +21,8 @@ namespace
 SparseMatrix RowsOnCoarser(const SparseMatrix& rows, const SparseMatrix& prolongation)
 {
   constexpr double Rounding = 1e-13;
-  SparseMatrix coarse;
-  Array<Id> rowBegin{ 0 };
-  Array<Index> column;
-  std::vector<std::pair<Index, double>> entries;
+  RowBuilder coarse;
+  RowBuilder::Entries entries;
   for (Index row = 0; row < rows.rows; ++row)
   {
     entries.clear();
@@ -34,29 +34,9 @@ SparseMatrix RowsOnCoarser(const SparseMatrix& rows, const SparseMatrix& prolong
         entries.emplace_back(prolongation.column[p], rows.value[k] * prolongation.value[p]);
       }
     }
-    std::sort(entries.begin(), entries.end(),
-      [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (std::size_t k = 0; k < entries.size();)
-    {
-      const Index own = entries[k].first;
-      double sum = 0.0;
-      for (; k < entries.size() && entries[k].first == own; ++k)
-      {
-        sum += entries[k].second;
-      }
-      if (std::abs(sum) > Rounding)
-      {
-        column.push_back(own);
-        coarse.value.push_back(sum);
-      }
-    }
-    rowBegin.push_back(static_cast<Id>(column.size()));
+    coarse.Append(entries, Rounding);
   }
-  coarse.rows = rows.rows;
-  coarse.columns = prolongation.columns;
-  coarse.rowBegin = std::move(rowBegin);
-  coarse.column = std::move(column);
-  return coarse;
+  return coarse.Finish(prolongation.columns);
 }
 
 /// Place of an entry, or -1.
@@ -116,22 +96,6 @@ std::vector<double> WeightsOfRows(const SparseMatrix& rows, const SparseMatrix& 
     weight[row] = penalty * own / std::max(1.0, shared);
   }
   return weight;
-}
-
-/// Which components a constraint or mass holds.
-std::vector<char> HeldComponents(
-  const FiniteElementSpace& space, double a, const SparseMatrix& rows, const Components& components)
-{
-  std::vector<char> isHeld(components.count, 0);
-  for (const Index function : rows.column)
-  {
-    isHeld[components.ofFunction[function]] = 1;
-  }
-  for (std::size_t i = 0; a > 0.0 && i < components.ofFunction.size(); ++i)
-  {
-    isHeld[components.ofFunction[i]] |= space.Integrals()[i] > 0.0;
-  }
-  return isHeld;
 }
 
 /// A constant for each component near what the solution has there: the means of its constraints, or
@@ -237,9 +201,11 @@ private:
 class ConstrainedIteration
 {
 public:
-  ConstrainedIteration(const ConstrainedHierarchy& hierarchy, const MultiVector& load,
-    const MultiVector& values, const SolveOptions& options, const Projection& project)
-    : hierarchy_(hierarchy), values_(values), options_(options), project_(project), load_(load)
+  ConstrainedIteration(const FiniteElementSpace& space, const ConstrainedHierarchy& hierarchy,
+    const MultiVector& load, const MultiVector& values, const SolveOptions& options,
+    const Projection& project)
+    : space_(space), hierarchy_(hierarchy), values_(values), options_(options), project_(project),
+      load_(load)
   {
     load_ += hierarchy_.LoadOf(values_);
     hierarchy_.GetMultigrid().NestedIteration(load_, x);
@@ -259,8 +225,7 @@ public:
     const ConstraintOptions& constraints, const Progress& progress, ConstrainedSolution& solution)
   {
     SolveOptions step = options_;
-    // Each step starts near its solution, whose last digits the misfit asks for.
-    step.tolerance = std::max(SmallestTolerance, step.tolerance * std::pow(0.1, solution.steps));
+    step.tolerance = std::max(SmallestTolerance, step.tolerance * share_);
     const Multigrid& multigrid = hierarchy_.GetMultigrid();
     Append(SolveWithFallback(IterationType::ConjugateGradients, OperatorOf(multigrid),
              CycleWithFallback(multigrid), load_, x, step, project_, progress),
@@ -270,19 +235,18 @@ public:
     Multiply(hierarchy_.Rows(), x, atPoints, multigrid.Options().threads);
     const MultiVector rest = this->Misfits(atPoints);
     misfit = this->LargestOf(rest);
-    const double before = relative_;
-    relative_ = 0.0;
-    for (Id c = 0; c < misfit.size(); ++c)
-    {
-      relative_ = std::max(relative_, range_[c] > 0.0 ? misfit[c] / range_[c] : misfit[c]);
-    }
-    solution.isExact = relative_ <= constraints.tolerance;
-    const bool isBetter = solution.steps < 3 || relative_ < 0.7 * before;
+    const double before = solution.relativeMisfit;
+    solution.relativeMisfit = this->Relative(misfit);
+    solution.isExact = solution.relativeMisfit <= constraints.tolerance;
+    const bool isBetter = solution.steps < 3 || solution.relativeMisfit < 0.7 * before;
     if (!solution.report.converged || solution.isExact || !isBetter)
     {
       return false;
     }
     load_ += hierarchy_.LoadOf(rest);
+    // The next step starts near its solution, whose last digits the misfit asks for. A misfit that
+    // falls slowly, because constraints are more than functions can meet, asks for no more.
+    share_ *= solution.steps == 1 || solution.relativeMisfit < 0.1 * before ? 0.1 : 1.0;
     return true;
   }
 
@@ -296,6 +260,21 @@ private:
   {
     return rows.rows() > 0 ? Eigen::RowVectorXd(rows.cwiseAbs().colwise().maxCoeff())
                            : Eigen::RowVectorXd(Eigen::RowVectorXd::Zero(rows.cols()));
+  }
+
+  double Relative(const Eigen::RowVectorXd& misfits) const
+  {
+    const auto& integrals = space_.Integrals();
+    const double area = std::accumulate(integrals.begin(), integrals.end(), 0.0);
+    const Columns squares = space_.SquaredNorms(x, hierarchy_.GetMultigrid().Options().threads);
+    double relative = 0.0;
+    for (Id c = 0; c < misfits.size(); ++c)
+    {
+      const double size = area > 0.0 ? std::sqrt(std::max(0.0, squares[c]) / area) : 0.0;
+      const double range = std::max(range_[c], size);
+      relative = std::max(relative, range > 0.0 ? misfits[c] / range : misfits[c]);
+    }
+    return relative;
   }
 
   /// Of points that functions reach.
@@ -313,13 +292,14 @@ private:
     return rest;
   }
 
+  const FiniteElementSpace& space_;
   const ConstrainedHierarchy& hierarchy_;
   const MultiVector& values_;
   const SolveOptions& options_;
   const Projection& project_;
   MultiVector load_;
   Eigen::RowVectorXd range_;
-  double relative_ = 0.0; // the largest misfit of the last step, in the range of its column
+  double share_ = 1.0; // of the tolerance, for a step
 };
 
 } // namespace
@@ -364,6 +344,21 @@ MultiVector ConstrainedHierarchy::LoadOf(const MultiVector& values) const
   return load;
 }
 
+std::vector<char> HeldComponents(
+  const FiniteElementSpace& space, double a, const SparseMatrix& rows, const Components& components)
+{
+  std::vector<char> isHeld(components.count, 0);
+  for (const Index function : rows.column)
+  {
+    isHeld[components.ofFunction[function]] = 1;
+  }
+  for (std::size_t i = 0; a > 0.0 && i < components.ofFunction.size(); ++i)
+  {
+    isHeld[components.ofFunction[i]] |= space.Integrals()[i] > 0.0;
+  }
+  return isHeld;
+}
+
 ConstrainedSolution SolveConstrained(const FiniteElementSpace& space, double a,
   const ConstrainedHierarchy& hierarchy, const MultiVector& load, const MultiVector& values,
   const ConstraintOptions& constraints, const SolveOptions& options, const Progress& progress)
@@ -406,7 +401,7 @@ ConstrainedSolution SolveConstrained(const FiniteElementSpace& space, double a,
     project.residual(rest);
   }
 
-  ConstrainedIteration iteration(hierarchy, rest, wanted, options, project);
+  ConstrainedIteration iteration(space, hierarchy, rest, wanted, options, project);
   while (
     iteration.Step(constraints, progress, solution) && solution.steps < constraints.maximumSteps)
   {

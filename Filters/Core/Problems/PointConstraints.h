@@ -13,7 +13,8 @@ struct ConstraintOptions
   /// How strongly a misfit counts, relative to the diagonal of the matrix: what is left of it falls
   /// by about this factor in a step, and the iterations of a step grow with it slowly. > 0
   double penalty = 1e3;
-  /// Steps end when the largest misfit is this part of the range of the values. > 0
+  /// Steps end when the largest misfit is this part of the range of the values, or of the root mean
+  /// square of the solution where that is more. > 0
   double tolerance = 1e-7;
   int maximumSteps = 12; // >= 1
 };
@@ -51,11 +52,16 @@ struct ConstrainedSolution
   int steps = 0;
   /// Largest difference from the given values, over all points and columns.
   double misfit = 0.0;
+  double relativeMisfit = 0.0; // as ConstraintOptions::tolerance has it, of the worst column
   /// All constraints are met. Else they contradict each other, or are more than the functions can
   /// meet, and the solution is the one with the least (weighted) squares of the misfits.
   bool isExact = true;
   std::vector<char> isHeld; // per component of the functions
 };
+
+/// Per component of the functions: whether a constraint or mass holds it.
+std::vector<char> HeldComponents(const FiniteElementSpace& space, double a,
+  const SparseMatrix& rows, const Components& components);
 
 /// Minimises ½ uᵀ (a M + b L) u - loadᵀ u among the functions with these values at the points, by
 /// an augmented Lagrangian: each step solves with the misfit's penalty and adds the misfit that is

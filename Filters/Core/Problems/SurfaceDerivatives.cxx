@@ -2,8 +2,8 @@
 
 #include "Base/Parallel.h"
 #include "Grid/TriangleArea.h"
+#include "Problems/L2Projection.h"
 #include "Problems/MovedSurface.h"
-#include "Problems/Poisson.h"
 
 #include <algorithm>
 
@@ -11,50 +11,6 @@ namespace gridfem
 {
 namespace
 {
-
-/// δ. Without it functions that hide in a flat surface are not known. Waves ten cells long lose 4
-/// %, about what the space itself has as error in their gradients.
-constexpr double Smoothing = 0.1;
-
-/// Solves (M + δL) u = load for any number of columns, and keeps the worst report.
-class L2Projection
-{
-public:
-  L2Projection(const FiniteElementSpace& space, const DerivativeOptions& options, const Job& job)
-    : space_(space),
-      multigrid_(BuildMultigrid(space, 1.0 / Smoothing, 1.0, options.multigrid, job.progress))
-  {
-    poisson_.screeningWeight = 1.0 / Smoothing;
-    poisson_.multigrid = options.multigrid;
-    poisson_.solve = options.solve;
-  }
-
-  /// @param values, gradients  integrals of a field and of its gradient, which may have no rows
-  MultiVector Solve(const MultiVector& values, const MultiVector& gradients, const Job& job)
-  {
-    PoissonSolution solution =
-      SolvePoisson(space_, multigrid_, values, gradients, poisson_, job.progress);
-    const bool isWorse = !solution.report.converged && report.converged;
-    if (isWorse || (report.converged == solution.report.converged &&
-                     solution.report.iterations >= report.iterations))
-    {
-      report = std::move(solution.report);
-    }
-    return std::move(solution.coefficients);
-  }
-
-  SolveReport report = []
-  {
-    SolveReport none;
-    none.converged = true;
-    return none;
-  }();
-
-private:
-  const FiniteElementSpace& space_;
-  Multigrid multigrid_;
-  PoissonOptions poisson_;
-};
 
 /// Σ ∂_k of component k, for each vector: rows of nine numbers become one.
 MultiVector Divergence(const MultiVector& gradients)
@@ -105,7 +61,7 @@ SurfaceDerivatives ComputeDerivatives(const FiniteElementSpace& space, const Tri
 {
   RequireField(f, mesh);
   SurfaceDerivatives result;
-  L2Projection projection(space, options, job.Part(0.0, 0.2));
+  L2Projection projection(space, options.multigrid, options.solve, job.Part(0.0, 0.2));
   const bool isOnPoints = f.association == FieldAssociation::Points;
   const MultiVector values = space.LoadOfValues(f, job.Part(0.2, 0.25));
   const MultiVector gradients =

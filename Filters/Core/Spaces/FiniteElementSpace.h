@@ -8,6 +8,7 @@
 #include "Base/Job.h"
 #include "Grid/Field.h"
 #include "Integrals/DirectionalElements.h"
+#include "Integrals/EdgeSamples.h"
 #include "Multigrid/Multigrid.h"
 
 #include <memory>
@@ -123,6 +124,10 @@ public:
   /// The values of all functions at some points: rows = points, columns = functions. Throws
   /// InvalidInput for a point that the mesh does not have.
   virtual SparseMatrix RowsAtPoints(const std::vector<Id>& points) const = 0;
+
+  /// The values of all functions along edges of the mesh, for integrals over them. Throws
+  /// InvalidInput for a triangle that the mesh does not have.
+  virtual EdgeSamples SamplesOfEdges(const std::vector<TriangleEdge>& edges) const = 0;
 
   /// Per point of the mesh: 1 where a function reaches it.
   virtual std::vector<char> PointsWithFunctions() const = 0;

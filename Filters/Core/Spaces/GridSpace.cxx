@@ -167,6 +167,11 @@ SparseMatrix GridSpace::RowsAtPoints(const std::vector<Id>& points) const
   return EvaluationRows(*functions_, points);
 }
 
+EdgeSamples GridSpace::SamplesOfEdges(const std::vector<TriangleEdge>& edges) const
+{
+  return SampleEdges(*functions_, *mesh_, edges);
+}
+
 std::vector<char> GridSpace::PointsWithFunctions() const
 {
   std::vector<char> has(functions_->pointPatch.size());

@@ -1,5 +1,6 @@
 #include "Spaces/HatLoad.h"
 
+#include "Algebra/RowBuilder.h"
 #include "Base/Errors.h"
 #include "Base/Parallel.h"
 
@@ -192,6 +193,41 @@ MultiVector IntegrateGradientsOf(const HatFunctions& hats, const TriangleMesh& m
         sum += scaledArea * own.dot(triangle.Gradient(k)) * f.values.row(mesh.triangles[number][k]);
       }
     });
+}
+
+EdgeSamples SampleEdges(
+  const HatFunctions& hats, const TriangleMesh& mesh, const std::vector<TriangleEdge>& edges)
+{
+  EdgeSamples samples;
+  RowBuilder rows;
+  RowBuilder::Entries entries;
+  for (std::size_t e = 0; e < edges.size(); ++e)
+  {
+    if (edges[e].triangle < 0 || edges[e].triangle >= static_cast<Id>(mesh.triangles.size()))
+    {
+      throw InvalidInput("There is no triangle " + std::to_string(edges[e].triangle) + ".");
+    }
+    const auto ends = edges[e].Ends(mesh);
+    const double length = (mesh.points[ends[1]] - mesh.points[ends[0]]).norm();
+    for (const GaussPoint& gauss : GaussPoints)
+    {
+      entries.clear();
+      for (int k = 0; k < 2; ++k)
+      {
+        if (hats.ofPoint[ends[k]] >= 0)
+        {
+          entries.emplace_back(
+            hats.ofPoint[ends[k]], k == 0 ? 1.0 - gauss.position : gauss.position);
+        }
+      }
+      rows.Append(entries);
+      samples.edge.push_back(static_cast<Index>(e));
+      samples.position.push_back(gauss.position);
+      samples.length.push_back(gauss.weight * length);
+    }
+  }
+  samples.rows = rows.Finish(hats.Count());
+  return samples;
 }
 
 } // namespace gridfem

@@ -3,6 +3,7 @@
 #define GridFEM_HatLoad_h
 
 #include "Grid/Field.h"
+#include "Integrals/EdgeSamples.h"
 #include "Spaces/HatFunctions.h"
 
 namespace gridfem
@@ -38,6 +39,10 @@ MultiVector IntegrateDirections(const HatFunctions& hats, const TriangleMesh& me
 /// The same with s = ∇f, f linear on each triangle (f must live on points).
 MultiVector IntegrateGradientsOf(const HatFunctions& hats, const TriangleMesh& mesh, const Field& f,
   const Field* scale, int threads = 0);
+
+/// The same samples as of a grid (EdgeSamples.h), three on each edge.
+EdgeSamples SampleEdges(
+  const HatFunctions& hats, const TriangleMesh& mesh, const std::vector<TriangleEdge>& edges);
 
 } // namespace gridfem
 

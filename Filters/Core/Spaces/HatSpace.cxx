@@ -1,5 +1,6 @@
 #include "Spaces/HatSpace.h"
 
+#include "Algebra/RowBuilder.h"
 #include "Base/Errors.h"
 #include "Multigrid/MatrixOrdering.h"
 #include "Spaces/HatLoad.h"
@@ -195,27 +196,27 @@ Columns HatSpace::SquaredNorms(const MultiVector& u, const Job& job) const
 SparseMatrix HatSpace::RowsAtPoints(const std::vector<Id>& points) const
 {
   const std::vector<Index>& functionOf = hats_->functions.ofPoint;
-  Array<Id> rowBegin{ 0 };
-  Array<Index> column;
+  RowBuilder rows;
+  RowBuilder::Entries entries;
   for (const Id point : points)
   {
     if (point < 0 || point >= static_cast<Id>(functionOf.size()))
     {
       throw InvalidInput("There is no point " + std::to_string(point) + ".");
     }
+    entries.clear();
     if (functionOf[point] >= 0)
     {
-      column.push_back(functionOf[point]);
+      entries.emplace_back(functionOf[point], 1.0);
     }
-    rowBegin.push_back(static_cast<Id>(column.size()));
+    rows.Append(entries);
   }
-  SparseMatrix rows;
-  rows.rows = static_cast<Index>(points.size());
-  rows.columns = hats_->functions.Count();
-  rows.value.assign(column.size(), 1.0);
-  rows.rowBegin = std::move(rowBegin);
-  rows.column = std::move(column);
-  return rows;
+  return rows.Finish(hats_->functions.Count());
+}
+
+EdgeSamples HatSpace::SamplesOfEdges(const std::vector<TriangleEdge>& edges) const
+{
+  return SampleEdges(hats_->functions, grid_.Mesh(), edges);
 }
 
 std::vector<char> HatSpace::PointsWithFunctions() const

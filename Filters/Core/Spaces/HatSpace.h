@@ -68,6 +68,7 @@ public:
     const MultiVector& coefficients, const Job& job = {}) const override;
   Columns SquaredNorms(const MultiVector& u, const Job& job = {}) const override;
   SparseMatrix RowsAtPoints(const std::vector<Id>& points) const override;
+  EdgeSamples SamplesOfEdges(const std::vector<TriangleEdge>& edges) const override;
   std::vector<char> PointsWithFunctions() const override;
   MultiVector EmbeddingOfMesh(const Job& job = {}) const override;
 

@@ -103,12 +103,10 @@ GivenValues ValuesOfPlaces(const InputArray& array, const TriangleMesh& mesh, vt
   return given;
 }
 
-std::string WarningOfConstraints(const ConstrainedSolution& solution, const MultiVector& values)
+std::string WarningOfConstraints(const ConstrainedSolution& solution)
 {
   constexpr double Visible = 1e-3;
-  if (solution.isExact || values.rows() == 0 ||
-      solution.misfit <=
-        Visible * (values.colwise().maxCoeff() - values.colwise().minCoeff()).maxCoeff())
+  if (solution.relativeMisfit <= Visible)
   {
     return {};
   }

@@ -34,8 +34,9 @@ GivenValues KnownValues(const InputArray& array, const InputArray& mask, const T
 /// uses. Throws InvalidInput when there are none or one is not finite.
 GivenValues ValuesOfPlaces(const InputArray& array, const TriangleMesh& mesh, vtkDataSet* places);
 
-/// What to say when values are not met; empty when they are to 1e-3 of their range.
-std::string WarningOfConstraints(const ConstrainedSolution& solution, const MultiVector& values);
+/// What to say when values are not met; empty when they are to 1e-3 of their range or of the
+/// solution's size.
+std::string WarningOfConstraints(const ConstrainedSolution& solution);
 
 } // namespace gridfem
 

@@ -21,9 +21,8 @@ void SurfaceConstrainedPoisson::Update(SurfaceSolverState& state, StageKey field
     [&]
     {
       hierarchy_.reset(); // frees its memory first
-      hierarchy_ = std::make_unique<ConstrainedHierarchy>(*weighted_, weight, 1.0,
-        weighted_->RowsAtPoints(load_.held.points), constraints.penalty, state.options.multigrid,
-        progress.Part(0.3, 0.5));
+      hierarchy_ = std::make_unique<ConstrainedHierarchy>(*weighted_, weight, 1.0, load_.held.rows,
+        constraints.penalty, state.options.multigrid, progress.Part(0.3, 0.5));
     });
   progress.Check(0.5);
   this->Solve(state, request, progress.Part(0.5, 1.0));
@@ -61,11 +60,55 @@ void SurfaceConstrainedPoisson::Solve(
       {
         load += request.gradientScale * load_.gradients;
       }
+      if (load_.flux.rows() > 0)
+      {
+        load += this->BalancedFlux(state, weight);
+      }
       solution_ = SolveConstrained(*weighted_, weight, *hierarchy_, load, load_.held.values,
         ConstraintOptions(), state.options.solve, progress);
       SetMeans(*state.space, solution_.isHeld, meanOfField_, solution_.coefficients,
         state.options.multigrid.threads);
     });
+}
+
+/// Where nothing holds the solution, what flows in has to flow out: the rest does so evenly.
+MultiVector SurfaceConstrainedPoisson::BalancedFlux(const SurfaceSolverState& state, double weight)
+{
+  constexpr double Visible = 1e-3;
+  const FiniteElementSpace& space = *state.space;
+  const Components components = space.ComponentsOf(0, state.options.space.threads);
+  const std::vector<char> isHeld = HeldComponents(*weighted_, weight, load_.held.rows, components);
+  MultiVector sum = MultiVector::Zero(components.count, load_.flux.cols());
+  MultiVector size = sum;
+  std::vector<double> area(components.count, 0.0);
+  for (Id i = 0; i < load_.flux.rows(); ++i)
+  {
+    const Index own = components.ofFunction[i];
+    sum.row(own) += load_.flux.row(i);
+    size.row(own) += load_.flux.row(i).cwiseAbs();
+    area[own] += space.Integrals()[i];
+  }
+  MultiVector balanced = load_.flux;
+  for (Id i = 0; i < balanced.rows(); ++i)
+  {
+    const Index own = components.ofFunction[i];
+    if (!isHeld[own] && area[own] > 0.0)
+    {
+      balanced.row(i) -= space.Integrals()[i] / area[own] * sum.row(own);
+    }
+  }
+  unbalanced_ = 0;
+  for (Index c = 0; c < components.count; ++c)
+  {
+    const bool isOff = (sum.row(c).cwiseAbs().array() > Visible * size.row(c).array()).any();
+    unbalanced_ += !isHeld[c] && isOff ? 1 : 0;
+  }
+  return balanced;
+}
+
+MultiVector SurfaceConstrainedPoisson::Gradients(const SurfaceSolverState& state) const
+{
+  return state.space->GradientsOnTriangles(solution_.coefficients, state.options.space.threads);
 }
 
 MultiVector SurfaceConstrainedPoisson::Values(const SurfaceSolverState& state) const
@@ -82,7 +125,7 @@ std::string SurfaceConstrainedPoisson::Warning(double tolerance) const
   {
     add(WarningOf(solution_.report, tolerance));
   }
-  add(WarningOfConstraints(solution_, load_.held.values));
+  add(WarningOfConstraints(solution_));
   const auto free = std::count(solution_.isHeld.begin(), solution_.isHeld.end(), 0);
   if (free > 0)
   {
@@ -90,6 +133,13 @@ std::string SurfaceConstrainedPoisson::Warning(double tolerance) const
         " connected components have neither a weight nor a constraint: they keep the mean of what "
         "is known there, or are NaN where nothing is.");
   }
+  if (unbalanced_ > 0)
+  {
+    add("On " + std::to_string(unbalanced_) +
+        " of them the flux across the boundary does not add up to 0: what is too much leaves the "
+        "surface evenly.");
+  }
+  add(load_.warning);
   if (load_.field.numberOfIgnoredPoints > 0)
   {
     add(std::to_string(load_.field.numberOfIgnoredPoints) +

@@ -6,6 +6,7 @@
 #include "GivenValues.h"
 #include "SurfacePoisson.h"
 
+#include "Problems/EdgeConditions.h"
 #include "Problems/PartialField.h"
 #include "Problems/PointConstraints.h"
 
@@ -20,7 +21,9 @@ struct ConstrainedLoad
 {
   PartialField field;
   MultiVector gradients; // may have no rows
-  GivenValues held;      // values at points that the solution has exactly
+  MultiVector flux;      // integrals over the boundary; may have no rows
+  HeldValues held;       // what the solution has exactly
+  std::string warning;   // of what was given
 };
 
 class SurfaceConstrainedPoisson
@@ -35,6 +38,9 @@ public:
   /// At the points of the mesh; NaN on components of which nothing is known.
   MultiVector Values(const SurfaceSolverState& state) const;
 
+  /// On the triangles of the mesh, per world length.
+  MultiVector Gradients(const SurfaceSolverState& state) const;
+
   /// The largest difference from a value that is to be held.
   double Misfit() const { return solution_.misfit; }
 
@@ -44,6 +50,7 @@ public:
   std::string Warning(double tolerance) const;
 
 private:
+  MultiVector BalancedFlux(const SurfaceSolverState& state, double weight);
   void UpdateSystem(SurfaceSolverState& state, StageKey fields, const Integrate& integrate,
     const Progress& progress);
   void Solve(SurfaceSolverState& state, const PoissonRequest& request, const Progress& progress);
@@ -54,6 +61,7 @@ private:
   std::unique_ptr<FiniteElementSpace> weighted_;
   std::unique_ptr<ConstrainedHierarchy> hierarchy_;
   ConstrainedSolution solution_;
+  Id unbalanced_ = 0; // components that nothing holds with a flux that does not add up to 0
 };
 
 } // namespace gridfem

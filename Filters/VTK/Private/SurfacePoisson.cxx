@@ -85,6 +85,11 @@ void SurfacePoisson::Solve(
     });
 }
 
+MultiVector SurfacePoisson::Gradients(const SurfaceSolverState& state) const
+{
+  return state.space->GradientsOnTriangles(solution_.coefficients, state.options.space.threads);
+}
+
 MultiVector SurfacePoisson::Values(const SurfaceSolverState& state) const
 {
   return state.space->ValuesAtPoints(solution_.coefficients, state.options.space.threads);

@@ -46,6 +46,9 @@ public:
   /// At the points of the mesh.
   MultiVector Values(const SurfaceSolverState& state) const;
 
+  /// On the triangles of the mesh, per world length.
+  MultiVector Gradients(const SurfaceSolverState& state) const;
+
   const SolveReport& Report() const { return solution_.report; }
   const SolutionAccuracy& Accuracy() const { return solution_.accuracy; }
 

@@ -115,6 +115,46 @@ TEST_P(EverySpace, IntegratesDirectionsAsGradientsOverTheirSize)
   EXPECT_THROW(on.space->LoadOfDirections(MultiVector::Ones(3, 1), nullptr), InvalidInput);
 }
 
+/// ∫ (a + b p) x_i over the boundary, for coordinates as functions of the space.
+TEST_P(EverySpace, IntegratesAlongBoundaries)
+{
+  const TriangleMesh coarse = Transform(FlatRectangle(1, 2, 2.0, 3.0), { 1, 2, 3 }, 0.4, 5.0);
+  for (const TriangleMesh& mesh : { coarse, FlatRectangle(1, 1), Meshes()[2] })
+  {
+    const SpaceOnMesh on = this->Build(mesh);
+    const std::vector<TriangleEdge> edges = FindSurfaceEdges(mesh, true).boundary;
+    const EdgeSamples samples = on.space->SamplesOfEdges(edges);
+    Vec3 expected = Vec3::Zero();
+    double length = 0.0;
+    for (const TriangleEdge& edge : edges)
+    {
+      const auto ends = edge.Ends(mesh);
+      const Vec3& a = mesh.points[ends[0]];
+      const Vec3& b = mesh.points[ends[1]];
+      length += (b - a).norm();
+      expected += (b - a).norm() / 6.0 *
+                  ((2 + 3 * a[0]) * (2 * a + b) + (2 + 3 * b[0]) * (a + 2 * b)); // linear . linear
+    }
+    MultiVector values;
+    Multiply(samples.rows, on.coordinates * on.space->UnitLength(), values);
+    Vec3 sum = Vec3::Zero();
+    double total = 0.0;
+    for (Id k = 0; k < values.rows(); ++k)
+    {
+      const auto ends = edges[samples.edge[k]].Ends(mesh);
+      const double t = samples.position[k];
+      const Vec3 place = (1.0 - t) * mesh.points[ends[0]] + t * mesh.points[ends[1]];
+      const Vec3 value = values.row(k).transpose();
+      ASSERT_LT((value - place).norm(), 1e-9);
+      sum += samples.length[k] * (2 + 3 * place[0]) * value;
+      total += samples.length[k];
+    }
+    EXPECT_NEAR(total, length, 1e-9 * length);
+    EXPECT_LT((sum - expected).norm(), 1e-9 * expected.norm());
+    EXPECT_THROW(on.space->SamplesOfEdges({ { Id(1000000), 0 } }), InvalidInput);
+  }
+}
+
 TEST_P(EverySpace, TurnsVectorsAboutTheNormal)
 {
   for (const TriangleMesh& mesh : Meshes())

@@ -1,0 +1,189 @@
+#include "Grid/SurfaceEdges.h"
+
+#include "Grid/TriangleArea.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace gridfem
+{
+namespace
+{
+
+/// A triangle's side of an edge, which is named by its two ends.
+struct Side
+{
+  Index low;
+  Index high;
+  TriangleEdge edge;
+  bool isUpwards; // from the low to the high end
+
+  bool IsOfSameEdge(const Side& other) const { return low == other.low && high == other.high; }
+};
+
+std::vector<Side> SortedSides(const TriangleMesh& mesh, const Array<Index>& pointClass)
+{
+  std::vector<Side> sides;
+  sides.reserve(3 * mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  {
+    std::array<Index, 3> point;
+    for (int k = 0; k < 3; ++k)
+    {
+      const Id own = mesh.triangles[t][k];
+      point[k] = pointClass.empty() ? static_cast<Index>(own) : pointClass[own];
+    }
+    if (point[0] == point[1] || point[1] == point[2] || point[2] == point[0])
+    {
+      continue;
+    }
+    for (int k = 0; k < 3; ++k)
+    {
+      const Index a = point[k];
+      const Index b = point[(k + 1) % 3];
+      sides.push_back({ std::min(a, b), std::max(a, b), { static_cast<Id>(t), k }, a < b });
+    }
+  }
+  std::sort(sides.begin(), sides.end(),
+    [](const Side& a, const Side& b)
+    {
+      return a.low != b.low                       ? a.low < b.low
+             : a.high != b.high                   ? a.high < b.high
+             : a.edge.triangle != b.edge.triangle ? a.edge.triangle < b.edge.triangle
+                                                  : a.edge.corner < b.edge.corner;
+    });
+  return sides;
+}
+
+constexpr Id None = -1;
+
+/// Across an edge of two triangles; None across others.
+struct Neighbour
+{
+  Id triangle = None;
+  bool facesAlike = true; // the two run along the edge in opposite directions
+};
+
+using Neighbours = std::vector<std::array<Neighbour, 3>>;
+
+void SortByTriangle(std::vector<TriangleEdge>& edges)
+{
+  std::sort(edges.begin(), edges.end(),
+    [](const TriangleEdge& a, const TriangleEdge& b)
+    { return a.triangle != b.triangle ? a.triangle < b.triangle : a.corner < b.corner; });
+}
+
+Neighbours Classify(const std::vector<Side>& sides, std::size_t triangles, SurfaceEdges& edges)
+{
+  Neighbours neighbours(triangles);
+  for (std::size_t first = 0, next = 0; first < sides.size(); first = next)
+  {
+    for (next = first; next < sides.size() && sides[next].IsOfSameEdge(sides[first]); ++next)
+    {
+    }
+    if (next - first == 2)
+    {
+      const Side& a = sides[first];
+      const Side& b = sides[first + 1];
+      const bool facesAlike = a.isUpwards != b.isUpwards;
+      neighbours[a.edge.triangle][a.edge.corner] = { b.edge.triangle, facesAlike };
+      neighbours[b.edge.triangle][b.edge.corner] = { a.edge.triangle, facesAlike };
+    }
+    else
+    {
+      (next - first == 1 ? edges.boundary : edges.branching).push_back(sides[first].edge);
+    }
+  }
+  SortByTriangle(edges.boundary);
+  SortByTriangle(edges.branching);
+  return neighbours;
+}
+
+/// Spreads the side of the first triangle over its component.
+/// @param members  gets its triangles
+/// @return whether it has two sides
+bool SpreadSide(
+  const Neighbours& neighbours, std::vector<signed char>& side, std::vector<Id>& members)
+{
+  bool hasTwoSides = true;
+  for (std::size_t k = 0; k < members.size(); ++k)
+  {
+    const Id triangle = members[k];
+    for (const Neighbour& neighbour : neighbours[triangle])
+    {
+      if (neighbour.triangle == None)
+      {
+        continue;
+      }
+      const auto wanted =
+        static_cast<signed char>(neighbour.facesAlike ? side[triangle] : -side[triangle]);
+      if (side[neighbour.triangle] == 0)
+      {
+        side[neighbour.triangle] = wanted;
+        members.push_back(neighbour.triangle);
+      }
+      hasTwoSides = hasTwoSides && side[neighbour.triangle] == wanted;
+    }
+  }
+  return hasTwoSides;
+}
+
+void FindSides(const TriangleMesh& mesh, const Neighbours& neighbours, SurfaceEdges& edges)
+{
+  edges.side.assign(mesh.triangles.size(), 0);
+  std::vector<char> isSeen(mesh.triangles.size(), 0);
+  std::vector<Id> members;
+  for (Id first = 0; first < static_cast<Id>(mesh.triangles.size()); ++first)
+  {
+    if (isSeen[first])
+    {
+      continue;
+    }
+    members.assign(1, first);
+    edges.side[first] = 1;
+    const bool hasTwoSides = SpreadSide(neighbours, edges.side, members);
+    const double area = std::accumulate(members.begin(), members.end(), 0.0,
+      [&](double sum, Id t) { return sum + edges.side[t] * AreaOf(mesh, t); });
+    const int factor = !hasTwoSides ? 0 : area < 0.0 ? -1 : 1;
+    for (const Id t : members)
+    {
+      edges.side[t] = static_cast<signed char>(factor * edges.side[t]);
+      isSeen[t] = 1;
+    }
+    ++edges.numberOfComponents;
+    edges.numberOfOneSided += hasTwoSides ? 0 : 1;
+  }
+}
+
+} // namespace
+
+bool SurfaceEdges::IsOriented() const
+{
+  return std::all_of(side.begin(), side.end(), [](signed char own) { return own == 1; });
+}
+
+SurfaceEdges FindSurfaceEdges(const TriangleMesh& mesh, bool weldCoincidentPoints, int threads)
+{
+  const Array<Index> pointClass =
+    weldCoincidentPoints ? WeldCoincidentPoints(mesh.points, {}, threads) : Array<Index>();
+  SurfaceEdges edges;
+  const Neighbours neighbours =
+    Classify(SortedSides(mesh, pointClass), mesh.triangles.size(), edges);
+  FindSides(mesh, neighbours, edges);
+  return edges;
+}
+
+std::vector<Id> EndsOf(const std::vector<TriangleEdge>& edges, const TriangleMesh& mesh)
+{
+  std::vector<Id> ends;
+  for (const TriangleEdge& edge : edges)
+  {
+    const auto own = edge.Ends(mesh);
+    ends.insert(ends.end(), own.begin(), own.end());
+  }
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  return ends;
+}
+
+} // namespace gridfem

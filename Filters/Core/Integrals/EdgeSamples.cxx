@@ -1,0 +1,184 @@
+#include "Integrals/EdgeSamples.h"
+
+#include "Algebra/RowBuilder.h"
+#include "Base/Errors.h"
+#include "Grid/MeshEdges.h"
+#include "Integrals/QuadratureSamples.h"
+#include "Integrals/TrilinearBasis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace gridfem
+{
+namespace
+{
+
+struct CellPiece
+{
+  MortonKey cell;
+  Index piece;
+  bool operator<(const CellPiece& other) const { return cell < other.cell; }
+};
+
+/// The pieces of triangles that some edges belong to, by their cell.
+class PiecesOfEdges
+{
+public:
+  PiecesOfEdges(
+    const GridFunctions& space, const TriangleMesh& mesh, const std::vector<TriangleEdge>& edges)
+    : space_(space), mesh_(mesh), list_(mesh.triangles.size(), -1)
+  {
+    for (const TriangleEdge& edge : edges)
+    {
+      if (edge.triangle < 0 || edge.triangle >= static_cast<Id>(list_.size()))
+      {
+        throw InvalidInput("There is no triangle " + std::to_string(edge.triangle) + ".");
+      }
+      if (list_[edge.triangle] < 0)
+      {
+        list_[edge.triangle] = static_cast<Index>(pieces_.size());
+        pieces_.emplace_back();
+      }
+    }
+    const ClippedMesh& clipped = space.clipped;
+    for (std::size_t c = 0; c < clipped.cells.size(); ++c)
+    {
+      for (Index piece = clipped.cellBegin[c]; piece < clipped.cellBegin[c + 1]; ++piece)
+      {
+        const Index list = list_[clipped.pieceTriangle[piece]];
+        if (list >= 0)
+        {
+          pieces_[list].push_back({ clipped.cells[c], piece }); // cells ascend
+        }
+      }
+    }
+  }
+
+  /// The patch of a triangle at a point of it; -1 where the triangle has no piece. Where cells
+  /// share a face the triangle's functions agree, so that any of them will do.
+  Index PatchAt(Id triangle, const Vec3& position) const
+  {
+    const std::vector<CellPiece>& pieces = pieces_[list_[triangle]];
+    if (pieces.empty())
+    {
+      return -1;
+    }
+    const Index piece = this->PieceInCell(pieces, this->Inwards(triangle, position));
+    return space_.piecePatch[piece >= 0 ? piece : NearestPiece(pieces, position)];
+  }
+
+private:
+  /// A little off the faces of cells that an edge may lie in.
+  Vec3 Inwards(Id triangle, const Vec3& position) const
+  {
+    constexpr double Step = 1e-6;
+    const auto& corner = mesh_.triangles[triangle];
+    const Array<Vec3>& point = space_.clipped.position;
+    const Vec3 inwards = (point[corner[0]] + point[corner[1]] + point[corner[2]]) / 3.0 - position;
+    return position + Step / std::max(1.0, inwards.norm()) * inwards;
+  }
+
+  Index PieceInCell(const std::vector<CellPiece>& pieces, const Vec3& position) const
+  {
+    CellIndex cell;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      cell[axis] = std::clamp(
+        static_cast<int>(std::floor(position[axis])), 0, space_.GetGrid().CellsPerSide() - 1);
+    }
+    const CellPiece wanted{ MortonEncode(cell), 0 };
+    const auto found = std::lower_bound(pieces.begin(), pieces.end(), wanted);
+    return found != pieces.end() && found->cell == wanted.cell ? found->piece : -1;
+  }
+
+  static Index NearestPiece(const std::vector<CellPiece>& pieces, const Vec3& position)
+  {
+    double least = std::numeric_limits<double>::infinity();
+    Index nearest = pieces.front().piece;
+    for (const CellPiece& own : pieces)
+    {
+      const CellIndex cell = MortonDecode(own.cell);
+      const Vec3 local = position - Vec3(cell[0], cell[1], cell[2]);
+      const double distance = (local - local.cwiseMax(0.0).cwiseMin(1.0)).norm();
+      if (distance < least)
+      {
+        least = distance;
+        nearest = own.piece;
+      }
+    }
+    return nearest;
+  }
+
+  const GridFunctions& space_;
+  const TriangleMesh& mesh_;
+  std::vector<Index> list_; // of a triangle; -1: none
+  std::vector<std::vector<CellPiece>> pieces_;
+};
+
+/// Where the line from a to b crosses faces of cells: parameters from 0 to 1, ends included.
+std::vector<double> Crossings(const Vec3& a, const Vec3& b)
+{
+  std::vector<double> at{ 0.0, 1.0 };
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const PlaneRange planes = PlanesBetween(a[axis], b[axis]);
+    for (int k = 0; k < planes.count; ++k)
+    {
+      at.push_back((planes.first + k - a[axis]) / (b[axis] - a[axis]));
+    }
+  }
+  std::sort(at.begin(), at.end());
+  return at;
+}
+
+} // namespace
+
+EdgeSamples SampleEdges(
+  const GridFunctions& space, const TriangleMesh& mesh, const std::vector<TriangleEdge>& edges)
+{
+  const PiecesOfEdges pieces(space, mesh, edges);
+  const PatchLevel& level = space.Finest();
+  EdgeSamples samples;
+  RowBuilder rows;
+  RowBuilder::Entries entries;
+  for (std::size_t e = 0; e < edges.size(); ++e)
+  {
+    const auto ends = edges[e].Ends(mesh);
+    const Vec3& a = space.clipped.position[ends[0]];
+    const Vec3& b = space.clipped.position[ends[1]];
+    const double length = (mesh.points[ends[1]] - mesh.points[ends[0]]).norm();
+    const std::vector<double> at = Crossings(a, b);
+    for (std::size_t k = 0; k + 1 < at.size(); ++k)
+    {
+      const double stretch = at[k + 1] - at[k];
+      for (const GaussPoint& gauss : GaussPoints)
+      {
+        const double t = at[k] + gauss.position * stretch;
+        const Vec3 position = a + t * (b - a);
+        const Index patch = pieces.PatchAt(edges[e].triangle, position);
+        if (patch < 0 || !(stretch > 0.0))
+        {
+          continue;
+        }
+        CornerValues value;
+        TrilinearValues(position - CellCorner(level.cell[patch]), value);
+        entries.clear();
+        for (int i = 0; i < FunctionsPerPatch; ++i)
+        {
+          entries.emplace_back(level.dof[patch][i], value[i]);
+        }
+        rows.Append(entries);
+        samples.edge.push_back(static_cast<Index>(e));
+        samples.position.push_back(t);
+        samples.length.push_back(gauss.weight * stretch * length);
+      }
+    }
+  }
+  samples.rows = rows.Finish(level.numberOfFunctions);
+  return samples;
+}
+
+} // namespace gridfem

@@ -1,0 +1,40 @@
+// Samples along edges of triangles: what integrals over boundaries are sums of.
+#ifndef GridFEM_EdgeSamples_h
+#define GridFEM_EdgeSamples_h
+
+#include "Algebra/SparseMatrix.h"
+#include "Grid/GridFunctions.h"
+#include "Grid/SurfaceEdges.h"
+
+#include <vector>
+
+namespace gridfem
+{
+
+/// Of a rule on [0, 1] that is exact up to degree 5: functions of a grid are cubic along a line.
+struct GaussPoint
+{
+  double position;
+  double weight;
+};
+constexpr GaussPoint GaussPoints[3] = { { 0.1127016653792583, 5.0 / 18.0 }, { 0.5, 8.0 / 18.0 },
+  { 0.8872983346207417, 5.0 / 18.0 } };
+
+/// Integrals over the edges of a function of the space times a linear one are exact.
+struct EdgeSamples
+{
+  std::vector<Index> edge;      // of each sample: which of the given edges it is on, ascending
+  std::vector<double> position; // 0 at the first end of the edge, 1 at the other
+  std::vector<double> length;   // that the sample stands for, world units
+  SparseMatrix rows;            // the values of all functions: rows = samples
+};
+
+/// Edges fall into stretches at the faces of the cells, each with three Gauss points. Triangles
+/// without a piece, which have no area, have no samples.
+/// Cost O(pieces + samples log pieces).
+EdgeSamples SampleEdges(
+  const GridFunctions& space, const TriangleMesh& mesh, const std::vector<TriangleEdge>& edges);
+
+} // namespace gridfem
+
+#endif

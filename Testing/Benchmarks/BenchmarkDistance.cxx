@@ -1,0 +1,356 @@
+// Distances along a surface from ten points, one after the other, and what values that are held
+// cost.
+//
+// "from the mesh on" is clip, functions, both hierarchies and ten distances. The peer is the heat
+// method on hat functions with t = (mean edge)², as Crane, Weischedel and Wardetzky give it, by
+// CHOLMOD: both matrices are factorised once, and a further source costs two substitutions with a
+// gradient and a divergence between them. Errors are those of one distance on surfaces where it is
+// known: the largest over the points, and the root mean square, in the longest distance.
+#include "Cholmod.h"
+#include "Measure.h"
+#include "Meshes.h"
+#include "SetupCost.h"
+
+#include "Problems/GeodesicDistance.h"
+#include "Problems/PointConstraints.h"
+#include "Problems/Poisson.h"
+#include "Spaces/GridSpace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+
+namespace
+{
+
+using namespace gridfem;
+using namespace gridfem::benchmarks;
+
+constexpr int Threads = 2;
+constexpr int Sources = 10;
+
+/// Spread over the numbers of the points.
+Id SourceOf(const TriangleMesh& mesh, int k)
+{
+  return static_cast<Id>((k + 0.5) / Sources * static_cast<double>(mesh.points.size()));
+}
+
+struct DistanceTimes
+{
+  double setup = 0.0;
+  double firstSource = 0.0;
+  double furtherSource = 0.0; // mean
+  double substitutions = 0.0; // of a further source, for the peer
+  double largest = 0.0;       // errors, where the distance is known
+  double mean = 0.0;
+
+  double Total() const { return setup + firstSource + (Sources - 1) * furtherSource; }
+};
+
+using Exact = std::function<double(const Vec3& source, const Vec3& point)>;
+
+void MeasureErrors(const TriangleMesh& mesh, Id source, const std::vector<double>& found,
+  const Exact& exact, DistanceTimes& times)
+{
+  double longest = 0.0;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    const double expected = exact(mesh.points[source], mesh.points[i]);
+    longest = std::max(longest, expected);
+    times.largest = std::max(times.largest, std::abs(found[i] - expected));
+    squares += std::pow(found[i] - expected, 2);
+  }
+  times.largest /= longest;
+  times.mean = std::sqrt(squares / static_cast<double>(found.size())) / longest;
+}
+
+DistanceTimes MeasureGrid(const TriangleMesh& mesh, int depth, int sources, const Exact& exact)
+{
+  DistanceTimes times;
+  const Stopwatch setup;
+  GridSpaceOptions options;
+  options.functions.depth = depth;
+  options.functions.threads = Threads;
+  options.functions.joinAtPoints = true;
+  options.normalStabilization = 0.1;
+  auto space = std::make_shared<const GridSpace>(BuildGridSpace(mesh, options));
+  DistanceOptions distances;
+  distances.multigrid.threads = Threads;
+  distances.multigrid.cycle = CycleType::V;
+  const GeodesicDistance distance(
+    std::move(space), std::make_shared<const TriangleMesh>(mesh), distances, Threads);
+  times.setup = setup.Seconds();
+  SolveOptions solve;
+  solve.tolerance = 1e-4;
+  for (int k = 0; k < sources; ++k)
+  {
+    const Stopwatch watch;
+    const DistanceField field = distance.From({ SourceOf(mesh, k) }, solve, Threads);
+    (k == 0 ? times.firstSource : times.furtherSource) += watch.Seconds();
+    if (exact)
+    {
+      MeasureErrors(mesh, SourceOf(mesh, k), field.atPoints, exact, times);
+    }
+  }
+  times.furtherSource /= std::max(1, sources - 1);
+  return times;
+}
+
+/// The heat method on hat functions.
+class HatHeat
+{
+public:
+  explicit HatHeat(const TriangleMesh& mesh) : mesh_(mesh), hats_(AssembleCotangents(mesh))
+  {
+    double edges = 0.0;
+    for (const auto& corner : mesh.triangles)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        edges += (mesh.points[corner[k]] - mesh.points[corner[(k + 1) % 3]]).norm();
+      }
+    }
+    const double edge = edges / static_cast<double>(3 * mesh.triangles.size());
+    const SymmetricMatrix heat = hats_.mass + edge * edge * hats_.stiffness;
+    heat_.Analyse(heat);
+    heat_.Factor(heat);
+    // The stiffness alone has the constants in its null space.
+    const double shift = 1e-9 / SurfaceArea(mesh);
+    const SymmetricMatrix poisson = shift * hats_.mass + hats_.stiffness;
+    poisson_.Analyse(poisson);
+    poisson_.Factor(poisson);
+  }
+
+  std::vector<double> From(Id source, double& substitutions) const
+  {
+    Eigen::MatrixXd b = Eigen::MatrixXd::Zero(hats_.mass.rows(), 1);
+    b(hats_.row[source], 0) = 1.0;
+    const Stopwatch first;
+    const Eigen::MatrixXd u = heat_.Solve(b);
+    substitutions += first.Seconds();
+    const Eigen::MatrixXd load = this->LoadOfDistance(u);
+    const Stopwatch second;
+    const Eigen::MatrixXd phi = poisson_.Solve(load);
+    substitutions += second.Seconds();
+    std::vector<double> distance(mesh_.points.size());
+    for (std::size_t i = 0; i < distance.size(); ++i)
+    {
+      distance[i] = phi(hats_.row[i], 0) - phi(hats_.row[source], 0);
+    }
+    return distance;
+  }
+
+private:
+  /// ∫ <X, ∇φ_i> with X = -∇u / |∇u|.
+  Eigen::MatrixXd LoadOfDistance(const Eigen::MatrixXd& u) const
+  {
+    Eigen::MatrixXd load = Eigen::MatrixXd::Zero(u.rows(), 1);
+    for (const auto& corner : mesh_.triangles)
+    {
+      const Vec3 normal = (mesh_.points[corner[1]] - mesh_.points[corner[0]])
+                            .cross(mesh_.points[corner[2]] - mesh_.points[corner[0]]);
+      const double square = normal.squaredNorm();
+      if (!(square > 0.0))
+      {
+        continue;
+      }
+      std::array<Vec3, 3> gradient;
+      Vec3 sum = Vec3::Zero();
+      for (int k = 0; k < 3; ++k)
+      {
+        const Vec3 edge = mesh_.points[corner[(k + 2) % 3]] - mesh_.points[corner[(k + 1) % 3]];
+        gradient[k] = normal.cross(edge) / square;
+        sum += u(hats_.row[corner[k]], 0) * gradient[k];
+      }
+      const Vec3 away = -sum.stableNormalized();
+      for (int k = 0; k < 3; ++k)
+      {
+        load(hats_.row[corner[k]], 0) += 0.5 * std::sqrt(square) * away.dot(gradient[k]);
+      }
+    }
+    return load;
+  }
+
+  const TriangleMesh& mesh_;
+  CotangentSystem hats_;
+  Cholmod heat_;
+  Cholmod poisson_;
+};
+
+DistanceTimes MeasureHats(const TriangleMesh& mesh, int sources, const Exact& exact)
+{
+  SetBlasThreads(Threads);
+  DistanceTimes times;
+  const Stopwatch setup;
+  const HatHeat heat(mesh);
+  times.setup = setup.Seconds();
+  for (int k = 0; k < sources; ++k)
+  {
+    double substitutions = 0.0;
+    const Stopwatch watch;
+    const std::vector<double> found = heat.From(SourceOf(mesh, k), substitutions);
+    (k == 0 ? times.firstSource : times.furtherSource) += watch.Seconds();
+    times.substitutions += k == 0 ? 0.0 : substitutions;
+    if (exact)
+    {
+      MeasureErrors(mesh, SourceOf(mesh, k), found, exact, times);
+    }
+  }
+  times.furtherSource /= std::max(1, sources - 1);
+  times.substitutions /= std::max(1, sources - 1);
+  return times;
+}
+
+void PrintTimes()
+{
+  TriangleMesh mesh = RealMesh("rocker arm", "rocker_arm.ply").mesh;
+  if (mesh.points.empty())
+  {
+    return;
+  }
+  while (mesh.points.size() < 500000)
+  {
+    mesh = testing::SubdivideInPlane(mesh);
+  }
+  std::printf("\nDistances from ten points of a rocker arm, %zu vertices, %d threads\n",
+    mesh.points.size(), Threads);
+  constexpr int Depth = 8;
+  const auto ours =
+    MeasureInOwnProcess<DistanceTimes>([&] { return MeasureGrid(mesh, Depth, Sources, {}); });
+  const auto peer =
+    MeasureInOwnProcess<DistanceTimes>([&] { return MeasureHats(mesh, Sources, {}); });
+  const Table table(
+    { "by", "set-up s", "first source s", "a further source s", "substitutions s", "all ten s" });
+  const auto row = [&](const char* name, const DistanceTimes& times)
+  {
+    table.Row({ name, Text("%.2f", times.setup), Text("%.2f", times.firstSource),
+      Text("%.2f", times.furtherSource),
+      times.substitutions > 0.0 ? Text("%.2f", times.substitutions) : "",
+      Text("%.1f", times.Total()) });
+  };
+  row("grid, depth 8", ours);
+  row("hats, CHOLMOD", peer);
+  PrintAtLeast("distance/all-ten-faster", peer.Total() / ours.Total(), 2.0);
+  PrintAtMost("distance/further-source", ours.furtherSource / peer.substitutions, 2.0);
+}
+
+void PrintErrors()
+{
+  std::printf("\nErrors of one distance, over the longest\n");
+  const Table table({ "on", "vertices", "largest, grid depth 8", "hats, CHOLMOD",
+    "root mean square, grid", "hats" });
+  const Exact onSphere = [](const Vec3& a, const Vec3& b)
+  { return std::acos(std::clamp(a.dot(b), -1.0, 1.0)); };
+  const Exact onPlane = [](const Vec3& a, const Vec3& b) { return (a - b).norm(); };
+  const auto row = [&](const char* name, const TriangleMesh& mesh, const Exact& exact)
+  {
+    const auto ours =
+      MeasureInOwnProcess<DistanceTimes>([&] { return MeasureGrid(mesh, 8, 1, exact); });
+    const auto peer =
+      MeasureInOwnProcess<DistanceTimes>([&] { return MeasureHats(mesh, 1, exact); });
+    table.Row(
+      { name, Text("%.0f", static_cast<double>(mesh.points.size())), Text("%.2e", ours.largest),
+        Text("%.2e", peer.largest), Text("%.2e", ours.mean), Text("%.2e", peer.mean) });
+    PrintAtMost(std::string("distance/error-") + name, ours.largest / peer.largest, 1.0);
+  };
+  row("sphere", testing::Transform(testing::GeodesicSphere(200), { 1, 2, 3 }, 0.7), onSphere);
+  row("square", testing::Transform(testing::FlatRectangle(400, 400), { 1, 2, 3 }, 0.7), onPlane);
+}
+
+struct HeldTimes
+{
+  double hierarchy = 0.0;
+  double solve = 0.0;
+  double iterations = 0.0;
+  double misfit = 0.0;
+};
+
+/// λ = 0 but for the start: as smooth as it can be, with values held at every so many-th point.
+HeldTimes MeasureHeld(const TriangleMesh& mesh, int count)
+{
+  GridSpaceOptions options;
+  options.functions.depth = 7;
+  options.functions.threads = Threads;
+  options.normalStabilization = 1e-2;
+  const GridSpace space = BuildGridSpace(mesh, options);
+  MultigridOptions multigrid;
+  multigrid.threads = Threads;
+  SolveOptions solve;
+  solve.tolerance = 1e-6;
+  Field field{ FieldAssociation::Points, MultiVector(static_cast<Id>(mesh.points.size()), 1) };
+  for (Id i = 0; i < field.values.rows(); ++i)
+  {
+    field.values(i, 0) = std::sin(20.0 * mesh.points[i][0] / (space.UnitLength() * 128.0));
+  }
+  const double lambda = 1e-3; // per squared cell
+  const MultiVector load = space.LoadOfValues(field, Threads);
+  std::vector<Id> points;
+  for (int k = 0; k < count; ++k)
+  {
+    points.push_back(static_cast<Id>((k + 0.5) / count * double(mesh.points.size())));
+  }
+  MultiVector values(count, 1);
+  for (int k = 0; k < count; ++k)
+  {
+    values(k, 0) = field.values(points[k], 0);
+  }
+  HeldTimes times;
+  const Stopwatch build;
+  const ConstraintOptions constraints;
+  const ConstrainedHierarchy hierarchy(
+    space, lambda, 1.0, space.RowsAtPoints(points), constraints.penalty, multigrid);
+  times.hierarchy = build.Seconds();
+  const Stopwatch watch;
+  const ConstrainedSolution solution =
+    SolveConstrained(space, lambda, hierarchy, lambda * load, values, constraints, solve);
+  times.solve = watch.Seconds();
+  times.iterations = solution.report.iterations;
+  times.misfit = solution.misfit;
+  return times;
+}
+
+void PrintHeld()
+{
+  const TriangleMesh mesh = RealMesh("bunny", "stanford_bunny.ply").mesh;
+  if (mesh.points.empty())
+  {
+    return;
+  }
+  std::printf("\nSmoothing with values held at some points, depth 7, tolerance 1e-6\n");
+  const Table table({ "points", "hierarchy s", "solve s", "iterations", "largest misfit" });
+  double free = 1.0;
+  for (const int count : { 0, 1, 10, 1000, 10000 })
+  {
+    const auto times = MeasureInOwnProcess<HeldTimes>([&] { return MeasureHeld(mesh, count); });
+    table.Row({ Text("%.0f", count), Text("%.2f", times.hierarchy), Text("%.2f", times.solve),
+      Text("%.0f", times.iterations), Text("%.1e", times.misfit) });
+    free = count == 0 ? times.iterations : free;
+    if (count == 1000)
+    {
+      PrintAtMost("distance/iterations-of-1000-held", times.iterations / free, 4.0);
+    }
+  }
+}
+
+} // namespace
+
+/// Parts: times, errors, held.
+int main(int argc, char** argv)
+{
+  const Parts parts(argc, argv);
+  if (parts.Want("times"))
+  {
+    PrintTimes();
+  }
+  if (parts.Want("errors"))
+  {
+    PrintErrors();
+  }
+  if (parts.Want("held"))
+  {
+    PrintHeld();
+  }
+  return 0;
+}
