@@ -1,6 +1,8 @@
 #include "vtkScreenedPoisson.h"
 
+#include "Private/ClippedArrays.h"
 #include "Private/ClippedMeshWriter.h"
+#include "Private/DepthSearch.h"
 #include "Private/InputArray.h"
 #include "Private/InputValidation.h"
 #include "Private/MovedMeshWriter.h"
@@ -52,6 +54,7 @@ struct vtkScreenedPoisson::Internals
                              : std::nullopt;
   }
 
+  gridfem::DepthSearch Search; // of AccuracyDriven
   gridfem::SurfacePoisson Equation;
   gridfem::SurfaceConstrainedPoisson Constrained;
 };
@@ -100,6 +103,7 @@ void vtkScreenedPoisson::FindArrays(vtkPolyData* input)
                                 "' is a cell array. Cell Data to Point Data converts it.");
   }
   gridfem::RequireNumber("Accuracy", this->Accuracy);
+  gridfem::RequireNumber("WantedError", this->WantedError);
   gridfem::RequireAtLeast("ScreeningWeight", this->ScreeningWeight, 0.0);
   if (!std::isfinite(this->GradientScale))
   {
@@ -127,6 +131,11 @@ void vtkScreenedPoisson::FindConstraints(vtkPolyData* input)
       "' is a cell array. Cell Data to Point Data converts it.");
   }
   this->FindFlux(input);
+  if (this->IsConstrained() && this->AccuracyDriven)
+  {
+    throw gridfem::InvalidInput("AccuracyDriven does not go with constraints, weights, a flux or "
+                                "unknown values: no error is estimated for them.");
+  }
   if (this->IsConstrained() && this->Iteration != ConjugateGradients)
   {
     throw gridfem::InvalidInput("Constraints, weights and unknown values need Iteration to be "
@@ -348,31 +357,101 @@ void vtkScreenedPoisson::WriteSolution(vtkPolyData* input, vtkPolyData* output)
   }
 }
 
-void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
+void vtkScreenedPoisson::SolveAtDepth(
+  vtkPolyData* input, vtkPolyData* basis, const gridfem::Progress& progress)
 {
-  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   gridfem::SurfaceSolverState& state = *this->State;
-  const gridfem::Progress progress = state.bridge.GetProgress();
-  gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
-  this->FindArrays(input);
-  this->FindConstraints(input);
-  state.UpdateSpace(input, vtkPolyData::GetData(inputs[1]), progress.Part(0.0, 0.3));
+  state.UpdateSpace(input, basis, progress.Part(0.0, 0.3));
   progress.Check(0.3);
   state.UpdateSystem(progress.Part(0.3, 0.5));
   progress.Check(0.5);
-  this->Solve(progress.Part(0.5, 0.95));
-  this->WriteSolution(input, vtkPolyData::GetData(outputs, 0));
-  vtkTable* table = vtkTable::GetData(outputs, 1);
-  gridfem::WriteHistory(this->Report(), table);
-  gridfem::AddErrors(this->Report(), this->EstimatedErrors(), table);
+  this->Solve(progress.Part(0.5, 1.0));
+}
+
+void vtkScreenedPoisson::SolveAccurately(vtkPolyData* input, const gridfem::Progress& progress)
+{
+  Internals& data = *this->Data;
+  gridfem::SurfaceSolverState& state = *this->State;
+  gridfem::StageKey asked;
+  gridfem::AddMesh(asked, input);
+  asked.Add(static_cast<std::int64_t>(this->GetMTime()));
+  for (const gridfem::InputArray* array :
+    { &data.Value, &data.Gradient, &data.Scale, &state.metricArray })
+  {
+    asked.Add(array->array).Add(static_cast<int>(array->association));
+  }
+  double done = 0.0;
+  for (int depth = 0, next = data.Search.Begin(asked); next != depth;)
+  {
+    depth = next;
+    state.options.space.depth = depth;
+    const double part = 0.5 + 0.5 * done;
+    this->SolveAtDepth(input, nullptr, progress.Part(done, part));
+    done = part;
+    const gridfem::SolutionAccuracy errors = this->EstimatedErrors();
+    next = data.Search.Next(
+      *state.mesh.triangles, depth, errors.discretization, errors.isTrusted, this->WantedError);
+  }
+}
+
+bool vtkScreenedPoisson::IsAccurate() const
+{
+  return !this->AccuracyDriven || this->EstimatedErrors().discretization <= this->WantedError;
+}
+
+void vtkScreenedPoisson::Warn()
+{
   const Internals& data = *this->Data;
   const std::string warning = this->IsConstrained()
-                                ? data.Constrained.Warning(state.options.solve.tolerance)
+                                ? data.Constrained.Warning(this->State->options.solve.tolerance)
                                 : data.Equation.Warning(this->Tolerance);
   if (!warning.empty())
   {
     vtkWarningMacro(<< warning);
   }
+  if (!this->IsAccurate())
+  {
+    const char* reason =
+      this->FunctionSpace == HatFunctions
+        ? " No Depth changes the error of hat functions: subdivide the mesh, or "
+          "take FunctionSpace = Grid."
+        : " A given basis has a fixed Depth; else the next one does not fit into "
+          "memory.";
+    vtkWarningMacro("The WantedError of " << this->WantedError
+                                          << " is not reached: the estimated error is "
+                                          << this->EstimatedErrors().discretization << "." << reason
+                                          << " The result is kept.");
+  }
+}
+
+void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
+  vtkPolyData* basis = vtkPolyData::GetData(inputs[1]);
+  vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
+  const gridfem::Progress progress = this->State->bridge.GetProgress();
+  gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
+  this->FindArrays(input);
+  this->FindConstraints(input);
+  const bool hasBasis = basis || gridfem::CarriesBasis(input);
+  if (this->AccuracyDriven && !hasBasis && this->FunctionSpace != HatFunctions)
+  {
+    this->SolveAccurately(input, progress.Part(0.0, 0.95));
+  }
+  else
+  {
+    this->SolveAtDepth(input, basis, progress.Part(0.0, 0.95));
+  }
+  this->WriteSolution(input, output);
+  gridfem::AddFieldInt(output, "UsedDepth", this->State->Functions().GetGrid().depth);
+  if (!this->IsAccurate())
+  {
+    gridfem::AddFieldInt(output, "Converged", 0);
+  }
+  vtkTable* table = vtkTable::GetData(outputs, 1);
+  gridfem::WriteHistory(this->Report(), table);
+  gridfem::AddErrors(this->Report(), this->EstimatedErrors(), table);
+  this->Warn();
   progress.Check(1.0);
 }
 
@@ -392,6 +471,7 @@ void vtkScreenedPoisson::SetTolerance(double tolerance)
 void vtkScreenedPoisson::FreeStages()
 {
   this->Superclass::FreeStages();
+  this->Data->Search = {};
   this->Data->Equation = {};
   this->Data->Constrained = {};
 }
@@ -402,6 +482,8 @@ void vtkScreenedPoisson::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ScreeningWeight: " << this->ScreeningWeight << "\n";
   os << indent << "GradientScale: " << this->GradientScale << "\n";
   os << indent << "Accuracy: " << this->Accuracy << "\n";
+  os << indent << "AccuracyDriven: " << this->AccuracyDriven << "\n";
+  os << indent << "WantedError: " << this->WantedError << "\n";
   os << indent << "Iteration: " << this->Iteration << "\n";
   os << indent << "FillUnknown: " << this->FillUnknown << "\n";
   os << indent << "MovePoints: " << this->MovePoints << "\n";

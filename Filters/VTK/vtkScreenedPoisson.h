@@ -47,7 +47,7 @@
  * with an area) keep f if that is a point array, else get 0.
  * - cell data, with SolutionGradient: `SolutionGradient` (double, 3 C components, the three of
  *   component 0 first; per unit of length), of a polygon the mean over its triangles
- * - field data: `Converged` (int, 1), `Iterations` (int, 1), `Residual` (double, 1): the norm of
+ * - field data: `Converged` (int, 1), `Iterations` (int, 1), `UsedDepth` (int, 1), `Residual` (double, 1): the norm of
  *   the residual vector relative to the right-hand side, which is not the measure that Tolerance is
  *   on; `ConvergenceFactor` (double, 1): mean reduction of the energy residual per iteration;
  *   `DoublePrecisionSince` (int, 1): the iteration after which the smoother went on in double
@@ -140,6 +140,28 @@ public:
 
   ///@{
   /**
+   * When on, Depth is chosen such that the estimated error of the function space, relative to the
+   * solution without its mean, is at most WantedError; the field array `UsedDepth` says which. Not
+   * with unknown, weighed or held values or a flux, where nothing is estimated, and not used with a
+   * given basis. The error of HatFunctions is that of the mesh: where it is too large, a warning
+   * says so, as it does where the next depth does not fit into memory; `Converged` is 0 then.
+   * Default off.
+   */
+  vtkSetMacro(AccuracyDriven, bool);
+  vtkGetMacro(AccuracyDriven, bool);
+  vtkBooleanMacro(AccuracyDriven, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Of AccuracyDriven. 1e-6..0.5, default 0.01.
+   */
+  vtkSetClampMacro(WantedError, double, 1e-6, 0.5);
+  vtkGetMacro(WantedError, double);
+  ///@}
+
+  ///@{
+  /**
    * When on, a tuple of values with a NaN is unknown, and so is a triangle with such a corner: the
    * solution fills it in, from the gradients and from around. When off (default), NaN is refused.
    */
@@ -215,6 +237,8 @@ protected:
 
   double ScreeningWeight = 100.0;
   double Accuracy = 0.1;
+  bool AccuracyDriven = false;
+  double WantedError = 0.01;
   double GradientScale = 1.0;
   bool UseValueGradient = false;
   bool FillUnknown = false;
@@ -240,6 +264,10 @@ private:
   void FindConstraints(vtkPolyData* input);
   void FindFlux(vtkPolyData* input);
   void Solve(const gridfem::Progress& progress);
+  void SolveAtDepth(vtkPolyData* input, vtkPolyData* basis, const gridfem::Progress& progress);
+  void SolveAccurately(vtkPolyData* input, const gridfem::Progress& progress);
+  bool IsAccurate() const;
+  void Warn();
   void WriteSolution(vtkPolyData* input, vtkPolyData* output);
 
   struct Internals;

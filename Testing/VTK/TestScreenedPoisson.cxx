@@ -278,6 +278,58 @@ TEST_F(ScreenedPoisson, EndsByAccuracyAndSaysHowGoodItIs)
   EXPECT_GT(longer->GetNumberOfRows(), loose + 1);
 }
 
+TEST_F(ScreenedPoisson, TheDepthFollowsFromTheWantedError)
+{
+  const TriangleMesh sphere = GeodesicSphere(48);
+  input = ToPolyData(sphere);
+  AddPointArray(input, "f", 1, [](const Vec3& p, int) { return p[0] * p[1] * p[2]; });
+  filter->SetInputData(input);
+  filter->SetParameterUnits(Poisson::World);
+  filter->SetScreeningWeight(12.0); // of degree 3: half of it is left
+  filter->AccuracyDrivenOn();
+  const auto solve = [&](double wanted)
+  {
+    filter->SetWantedError(wanted);
+    const auto solution = this->Solution();
+    double difference = 0.0;
+    double size = 0.0;
+    for (std::size_t k = 0; k < solution.size(); ++k)
+    {
+      const Vec3& p = sphere.points[k];
+      difference += std::pow(solution[k] - 0.5 * p[0] * p[1] * p[2], 2);
+      size += std::pow(0.5 * p[0] * p[1] * p[2], 2);
+    }
+    EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 1);
+    EXPECT_LE(FieldValue(filter->GetOutput(), "DiscretizationError"), wanted);
+    EXPECT_LT(std::sqrt(difference / size), 2.0 * wanted);
+    return FieldValue(filter->GetOutput(), "UsedDepth");
+  };
+  const double coarse = solve(0.2);
+  EXPECT_LT(coarse, solve(0.003));
+  EXPECT_EQ(solve(0.2), coarse);
+  EXPECT_TRUE(messages.warnings.empty());
+
+  const auto runs = this->Runs();
+  input->Modified();
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfRuns("Hierarchy"), runs[2]) << "what was found is kept";
+}
+
+TEST_F(ScreenedPoisson, AWantedErrorThatNoDepthGivesWarns)
+{
+  filter->AccuracyDrivenOn();
+  filter->SetWantedError(1e-6);
+  filter->SetFunctionSpace(Poisson::HatFunctions);
+  this->Solution();
+  ASSERT_EQ(messages.warnings.size(), 1u);
+  EXPECT_NE(messages.warnings[0].find("subdivide"), std::string::npos);
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 0);
+  filter->FillUnknownOn();
+  filter->Update();
+  ASSERT_EQ(messages.errors.size(), 1u);
+  EXPECT_NE(messages.errors[0].find("AccuracyDriven"), std::string::npos);
+}
+
 TEST_F(ScreenedPoisson, NotAccurateInTimeWarnsWithTheErrors)
 {
   filter->SetMaximumIterations(1);

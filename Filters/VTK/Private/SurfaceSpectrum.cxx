@@ -1,6 +1,7 @@
 #include "SurfaceSpectrum.h"
 
 #include "ClippedArrays.h"
+#include "DepthSearch.h"
 #include "InputValidation.h"
 #include "vtkSurfaceFEMAlgorithm.h"
 
@@ -21,14 +22,6 @@ namespace
 double Largest(const std::vector<double>& values)
 {
   return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
-}
-
-bool FitsMemory(const TriangleMesh& mesh, int depth, bool hatFunctions)
-{
-  const double available = AvailableMemory();
-  const MemoryEstimate estimate = EstimateMemory(mesh, depth);
-  const double hats = hatFunctions ? EstimateHatMemory(mesh, estimate.functions) : 0.0;
-  return available <= 0.0 || estimate.bytes + hats <= available;
 }
 
 SpectrumOptions SolverOptions(const SurfaceSolverState& state, int numberOfModes)
