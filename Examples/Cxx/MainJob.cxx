@@ -1,6 +1,6 @@
-// The main job: a mesh goes in; its octree, basis, Poisson solution, Laplace spectrum and five steps
-// of its mean-curvature flow come out.
-// Examples/run.sh builds it, runs it and renders what it writes.
+// The main job: a mesh goes in; its octree, basis, Poisson solution, Laplace spectrum and five
+// steps of its mean-curvature flow come out. Examples/run.sh builds it, runs it and renders what it
+// writes.
 //
 // What the Poisson solution shows: noise is taken off a striped (or coloured) surface. Minimising
 // ∫ λ (u - f)² + |∇u|² keeps u near the noisy f over lengths above 1 / √λ and smooths below.

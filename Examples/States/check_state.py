@@ -1,6 +1,7 @@
-"""Loads modes.py (or another state with a source `modes`); ends with 1 unless modes 1 to 19, at least, can be shown.
+"""Loads a state of this folder; ends with 1 unless its source of this name has so many time steps or more, and
+the point array there differs from point to point.
 
-    pvpython check_state.py STATE.py
+    pvpython check_state.py STATE.py SOURCE ARRAY STEPS
 """
 
 import runpy
@@ -8,9 +9,10 @@ import sys
 
 from paraview.simple import Disconnect
 
-state = runpy.run_path(sys.argv[1])
-low, high = state["modes"].PointData["Mode"].GetRange()
-steps = len(state["modes"].TimestepValues)
-print(f"{steps} time steps; the shown mode lies between {low:.3g} and {high:.3g}")
+path, source, array, expected = sys.argv[1:]
+state = runpy.run_path(path)
+low, high = state[source].PointData[array].GetRange()
+steps = len(state[source].TimestepValues)
+print(f"{steps} time steps; {array} lies between {low:.3g} and {high:.3g}")
 Disconnect()  # closes the view while its display is still there
-sys.exit(0 if steps >= 19 and low < 0 < high else 1)
+sys.exit(0 if steps >= int(expected) and low < high else 1)

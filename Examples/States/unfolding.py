@@ -1,12 +1,66 @@
-"""A ParaView state: a trefoil whose strands nearly touch flows to a sphere of its area, with plain
-functions on the left and connectivity-aware ones on the right.
+"""A ParaView state: folds that nearly touch unfold, with plain functions in the left view and
+connectivity-aware ones in the right.
 
-In ParaView: File > Load State (with the plugin loaded), or with a mesh of your own
+In ParaView: File > Load State (with the plugin loaded), for example with the main job's knot
 
     GRIDFEM_MESH=output/modes.vtp paraview --script=unfolding.py
 
-GRIDFEM_MESH names a .vtp file. Play the animation: plain functions feel both strands where they
-share a cell, so that the strands stay together; connectivity-aware ones let them part.
-
-With UNFOLDING_PICTURE=FILE.png the frames are drawn side by side into a picture.
+GRIDFEM_MESH names a .vtp file; without it a ring is shown, which has no folds. Play the animation:
+plain functions feel both strands where they share a cell and pull them along together;
+connectivity-aware ones let them part.
 """
+
+import os
+
+from paraview.simple import (
+    ColorBy,
+    CreateLayout,
+    CreateRenderView,
+    GetAnimationScene,
+    GetColorTransferFunction,
+    LoadDistributedPlugin,
+    RenameSource,
+    Render,
+    ResetCamera,
+    Show,
+    Superquadric,
+    XMLPolyDataReader,
+)
+
+LoadDistributedPlugin("GridFEM", remote=False, ns=globals())
+
+if "GRIDFEM_MESH" in os.environ:
+    mesh = XMLPolyDataReader(FileName=[os.environ["GRIDFEM_MESH"]])
+else:
+    mesh = Superquadric(Toroidal=1, ThetaResolution=192, PhiResolution=96)
+RenameSource("Mesh", mesh)
+
+
+def unfold(connectivity_aware, name):
+    flow = MeanCurvatureFlow(  # noqa: F821, from the plugin
+        Input=mesh, Depth=5, ConnectivityAware=connectivity_aware, Conformalized=1, TimeStep=1e-3,
+        NumberOfSteps=8)
+    RenameSource(name, flow)
+    return flow
+
+
+plain = unfold(0, "Plain")
+aware = unfold(1, "Connectivity-Aware")
+
+layout = CreateLayout("Unfolding")
+views = [CreateRenderView(), CreateRenderView()]
+layout.SplitHorizontal(0, 0.5)
+colors = GetColorTransferFunction("ConformalFactor")
+colors.RescaleTransferFunction(0.2, 2.0)
+for cell, view, flow in zip((1, 2), views, (plain, aware)):
+    layout.AssignView(cell, view)
+    display = Show(flow, view)
+    ColorBy(display, ("POINTS", "ConformalFactor"))
+    display.SetScalarBarVisibility(view, flow is aware)
+scene = GetAnimationScene()
+scene.UpdateAnimationUsingDataTimeSteps()
+scene.AnimationTime = 8  # the largest surface, for the camera
+for view in views:
+    ResetCamera(view)
+    Render(view)
+scene.AnimationTime = 4
