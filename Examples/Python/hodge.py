@@ -4,34 +4,40 @@
         xvfb-run -a pvpython hodge.py DEPTH PICTURE.png
 """
 
+import math
 import sys
 
 from gridfem.vtkGridFEMFilters import vtkSurfaceGradient
-from vtkmodules.vtkCommonComputationalGeometry import vtkParametricTorus
-from vtkmodules.vtkCommonCore import vtkDoubleArray
-from vtkmodules.vtkCommonDataModel import vtkDataObject
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataObject, vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkGlyph3D, vtkMaskPoints
-from vtkmodules.vtkFiltersSources import vtkArrowSource, vtkParametricFunctionSource
+from vtkmodules.vtkFiltersSources import vtkArrowSource
 
 from sheet import Layer, Tile, View, write_sheet
 
 RING, TUBE = 1.0, 0.45
 
 
-def torus():
-    shape = vtkParametricTorus()
-    shape.SetRingRadius(RING)
-    shape.SetCrossSectionRadius(TUBE)
-    source = vtkParametricFunctionSource()
-    source.SetParametricFunction(shape)
-    source.SetUResolution(160)
-    source.SetVResolution(80)
-    source.Update()
-    return source.GetOutput()
+def torus(around=160, across=80):
+    points, triangles = vtkPoints(), vtkCellArray()
+    for i in range(around):
+        for j in range(across):
+            u, v = 2 * math.pi * i / around, 2 * math.pi * j / across
+            radius = RING + TUBE * math.cos(v)
+            points.InsertNextPoint(
+                radius * math.cos(u), radius * math.sin(u), TUBE * math.sin(v))
+            a, b, c, d = (k % around * across + m % across
+                          for k, m in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)))
+            for corners in ((a, b, c), (a, c, d)):
+                triangles.InsertNextCell(3, corners)
+    mesh = vtkPolyData()
+    mesh.SetPoints(points)
+    mesh.SetPolys(triangles)
+    return mesh
 
 
 def add_field(mesh):
-    """Away from one side, in two eddies, and around the hole."""
+    """Away from one side, in eddies, and around the hole."""
     vectors = vtkDoubleArray()
     vectors.SetName("Field")
     vectors.SetNumberOfComponents(3)
@@ -40,8 +46,9 @@ def add_field(mesh):
         to_axis = x * x + y * y
         middle = [x - RING * x / to_axis ** 0.5, y - RING * y / to_axis ** 0.5, z]
         normal = [c / TUBE for c in middle]
-        pull = [0.9, 0.0, 0.0]
-        eddies = [-normal[2] * 0.9, 0.0, normal[0] * 0.9]  # normal x y axis
+        pull = [0.8, 0.0, 0.0]
+        slope = [2.0 * z * y, 2.0 * z * x, 2.0 * x * y]  # of 2 x y z: four eddies on each side
+        eddies = [normal[k - 2] * slope[k - 1] - normal[k - 1] * slope[k - 2] for k in range(3)]
         around = [-0.8 * y / to_axis, 0.8 * x / to_axis, 0.0]
         vectors.InsertNextTuple([sum(c) for c in zip(pull, eddies, around)])
     mesh.GetPointData().AddArray(vectors)

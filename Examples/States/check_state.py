@@ -1,5 +1,5 @@
-"""Loads a state of this folder; ends with 1 unless its source of this name has so many time steps or more, and
-the point array there differs from point to point.
+"""Loads a state of this folder; ends with 1 unless its source of this name has at least so many time
+steps, and the point array there differs from point to point.
 
     pvpython check_state.py STATE.py SOURCE ARRAY STEPS
 """
