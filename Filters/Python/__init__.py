@@ -6,7 +6,7 @@
 `points` is an array of N rows with three coordinates, `cells` one of M rows with the point ids of a
 polygon each: triangles, or any other number of corners. Values belong to points when they have N
 rows, else to cells when they have M. Names in capitals are properties of the filter that does the
-work, which the README describes: `Depth=8`, `FunctionSpace=1`.
+work, which the pages in Plugin/Documentation describe: `Depth=8`, `FunctionSpace=1`.
 
 The filters themselves, for pipelines of VTK, are in gridfem.vtkGridFEMFilters.
 """

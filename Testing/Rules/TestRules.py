@@ -13,6 +13,7 @@ import sys
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+DOCUMENTATION = ROOT / "Plugin/Documentation"
 FOLDERS = ("Filters", "Plugin", "Testing", "Examples", "CMake")
 SOURCE_SUFFIXES = (".h", ".cxx")
 
@@ -178,11 +179,23 @@ class Readme(Rule):
 
     def test_linked_files_exist(self):
         offences = []
-        for page in ROOT.glob("*.md"):
+        for page in [*ROOT.glob("*.md"), *DOCUMENTATION.glob("*.md")]:
             for target in re.findall(r"\]\(([^)#\s]+)[^)]*\)", page.read_text()):
-                if "://" not in target and not (ROOT / target).exists():
-                    offences.append(f"{page.name} links to {target}")
+                if "://" not in target and not (page.parent / target).exists():
+                    offences.append(f"{relative(page)} links to {target}")
         self.assertNothing(offences, "A link leads nowhere.")
+
+    def test_every_property_is_on_the_page_of_its_filter(self):
+        shared = (DOCUMENTATION / "SharedProperties.md").read_text()
+        offences = []
+        for panel in (ROOT / "Plugin").glob("*.xml"):
+            page = DOCUMENTATION / f"{panel.stem}.md"
+            text = shared + (page.read_text() if page.exists() else "")
+            proxy = panel.read_text().split("</SourceProxy>")[0]
+            for tag, name in re.findall(r'<(\w+VectorProperty) name="(\w+)"', proxy):
+                if name != "TimestepValues" and f"`{name}`" not in text:
+                    offences.append(f"{relative(page)}: {name}")
+        self.assertNothing(offences, "Properties that are not described:")
 
 
 def main():
