@@ -35,6 +35,7 @@ EXPECTED = {
     ("ScreenedPoisson", "GradientScaleArray"): {"None", "p1", "c1"},
     ("ScreenedPoisson", "ValueWeightArray"): {"None", "p1", "c1"},
     ("ScreenedPoisson", "ConstraintArray"): {"None", "p1"},
+    ("ScreenedPoisson", "BoundaryFluxArray"): {"None", "Normals", "p1", "p3", "p4", "p9"},
     ("StitchColors", "ColorArray"): {"None", "Normals", "p1", "p3", "p4", "c1", "c3", "c4"},
     ("StitchColors", "LabelArray"): {"None", "p1", "c1"},
     ("HarmonicInterpolation", "ValueArray"): {"None", "Normals", "p1", "p3", "p4", "p9"},
