@@ -38,6 +38,7 @@ EXPECTED = {
     ("ScreenedPoisson", "ConstraintArray"): {"None", "p1"},
     ("ScreenedPoisson", "MetricArray"): {"None", "p6", "p9", "c6", "c9"},
     ("LaplaceSpectrum", "MetricArray"): {"None", "p6", "p9", "c6", "c9"},
+    ("ScreenedPoisson", "BoundaryFluxArray"): {"None", "Normals", "p1", "p3", "p4", "p6", "p9"},
     ("StitchColors", "ColorArray"): {"None", "Normals", "p1", "p3", "p4", "c1", "c3", "c4"},
     ("StitchColors", "LabelArray"): {"None", "p1", "c1"},
     ("HarmonicInterpolation", "ValueArray"): {"None", "Normals", "p1", "p3", "p4", "p6", "p9"},

@@ -12,8 +12,9 @@ UNBOUNDED = {2**31 - 1, 2**63 - 1, 1.7976931348623157e308}
 # Properties without a value that a getter of the class could give.
 CONNECTIONS = {"Input", "Basis", "Sources", "Values"}
 ARRAYS = {"Array": 0, "SourceArray": 0, "HeatSourceArray": 1, "ValueArray": 0, "GradientArray": 1,
-          "GradientScaleArray": 2, "ValueWeightArray": 3, "ConstraintArray": 4, "ColorArray": 0,
-          "LabelArray": 1, "MaskArray": 1, "DetailScaleArray": 1, "MetricArray": 5}
+          "GradientScaleArray": 2, "ValueWeightArray": 3, "ConstraintArray": 4, "MetricArray": 5,
+          "BoundaryFluxArray": 6, "ColorArray": 0, "LabelArray": 1, "MaskArray": 1,
+          "DetailScaleArray": 1}
 INFORMATION = {"TimestepValues"}
 LISTS = {"SourcePointIds", "TransferPoints"}
 

@@ -1,5 +1,6 @@
 #include "DepthSearch.h"
 
+#include "Grid/Grid.h"
 #include "Problems/MemoryEstimate.h"
 #include "Problems/SpectrumAccuracy.h"
 
