@@ -47,11 +47,11 @@
  * with an area) keep f if that is a point array, else get 0.
  * - cell data, with SolutionGradient: `SolutionGradient` (double, 3 C components, the three of
  *   component 0 first; per unit of length), of a polygon the mean over its triangles
- * - field data: `Converged` (int, 1), `Iterations` (int, 1), `UsedDepth` (int, 1), `Residual` (double, 1): the norm of
- *   the residual vector relative to the right-hand side, which is not the measure that Tolerance is
- *   on; `ConvergenceFactor` (double, 1): mean reduction of the energy residual per iteration;
- *   `DoublePrecisionSince` (int, 1): the iteration after which the smoother went on in double
- *   precision, because single precision was too slow or broke down; -1: never;
+ * - field data: `Converged` (int, 1), `Iterations` (int, 1), `UsedDepth` (int, 1), `Residual`
+ * (double, 1): the norm of the residual vector relative to the right-hand side, which is not the
+ * measure that Tolerance is on; `ConvergenceFactor` (double, 1): mean reduction of the energy
+ * residual per iteration; `DoublePrecisionSince` (int, 1): the iteration after which the smoother
+ * went on in double precision, because single precision was too slow or broke down; -1: never;
  *   `DiscretizationError` (double, 1): the estimated error of the function space, relative to the
  *   solution without its mean, in the mean square over the surface; `LargestDiscretizationError`
  *   (double, 1): the largest at a point, in units of the solution; `AlgebraicError` (double, 1):

@@ -60,6 +60,22 @@ double LowestValue(const Spectrum& start)
   return first == start.eigenvalues.end() ? 1.0 : *first;
 }
 
+/// Of constants among the columns rounding is left, which may be constant again, and scaled would
+/// count as one more mode: it becomes zero.
+void RemoveConstants(const Constants& constants, Block<double> columns)
+{
+  constexpr double Rounding = 1e-10;
+  const Eigen::RowVectorXd before = columns.colwise().norm();
+  constants.Remove<double>(columns);
+  for (Id c = 0; c < columns.cols(); ++c)
+  {
+    if (columns.col(c).norm() <= Rounding * before[c])
+    {
+      columns.col(c).setZero();
+    }
+  }
+}
+
 /// The wanted pairs, at most `all`; more until the multiplet at their end is whole, if that is
 /// asked for.
 BlockReport FindPairs(const SpectralProblem<double>& problem, const SpectrumOptions& options,
@@ -139,7 +155,7 @@ Spectrum ImproveSpectrum(const FiniteElementSpace& space, const Spectrum& start,
     pairs.vectors.Reserve(problem.mass.rows, start.vectors.cols());
     pairs.vectors.Show(start.vectors.cols());
     MultiplyBlock<double>(space.Prolongation(0), start.vectors, pairs.vectors.View(), threads);
-    constants.Remove<double>(pairs.vectors.View());
+    RemoveConstants(constants, pairs.vectors.View());
     report = FindPairs(
       problem, options, ListLength(start, options) - zeros, all, pairs, progress.Part(0.1, 1.0));
   }

@@ -75,6 +75,24 @@ TEST(UnnestedSpectrum, IsThatOfADenseSolver)
   }
 }
 
+TEST(UnnestedSpectrum, ABoxOfWholeNumbersHasOneConstantOnly)
+{
+  // Nothing is rounded there: what is left of the constant is constant to the last bit.
+  for (const int n : { 4, 8 })
+  {
+    const TriangleMesh mesh = Box(n, { 0, 0, 0 }, Vec3::Constant(n));
+    const std::vector<double> expected = DenseEigenvalues(mesh);
+    for (const int depth : { 3, 4, 5, 6 })
+    {
+      const Modes modes(mesh, depth, Options(5));
+      for (int k = 0; k < 5; ++k)
+      {
+        EXPECT_NEAR(modes.Value(k), expected[k], 1e-8 * expected[4]) << n << " " << depth;
+      }
+    }
+  }
+}
+
 TEST(UnnestedSpectrum, VectorsAreEigenvectors)
 {
   const Modes modes(Transform(Torus(30, 20, 1.0, 0.4), { 1, 2, 3 }, 0.4), 4, Options(15));
