@@ -8,10 +8,12 @@
 
 #include "Base/LargeMemory.h"
 
+#include "vtkCallbackCommand.h"
 #include "vtkErrorCode.h"
 #include "vtkExecutive.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkVersionMacros.h"
 
@@ -39,6 +41,20 @@ vtkSurfaceFEMAlgorithm::vtkSurfaceFEMAlgorithm()
     Surface(std::make_unique<gridfem::SurfaceInput>()),
     Time(std::make_unique<gridfem::InputTime>()), Dump(std::make_unique<gridfem::FailureDump>())
 {
+  // Of composite data the pipeline hands the input's times on once more when all blocks are done.
+  vtkNew<vtkCallbackCommand> keepTimes;
+  keepTimes->SetClientData(this);
+  keepTimes->SetCallback(
+    [](vtkObject*, unsigned long, void* self, void*)
+    {
+      auto* filter = static_cast<vtkSurfaceFEMAlgorithm*>(self);
+      const std::vector<double> steps = filter->OwnTimeSteps();
+      if (!steps.empty())
+      {
+        gridfem::SetTimeSteps(steps, filter->GetExecutive()->GetOutputInformation());
+      }
+    });
+  this->AddObserver(vtkCommand::EndEvent, keepTimes);
 }
 
 vtkSurfaceFEMAlgorithm::~vtkSurfaceFEMAlgorithm()

@@ -90,6 +90,30 @@ class FirstApply(unittest.TestCase):
                 self.assertGreater(min(sizes), 700)
                 self.surface = whole
 
+    def test_blocks_have_the_steps_of_the_filter(self):
+        blocks = simple.GroupDatasets(
+            Input=[self.surface, simple.Sphere(Center=[5, 0, 0], ThetaResolution=40,
+                                               PhiResolution=20)])
+        flow = simple.MeanCurvatureFlow(Input=blocks, Depth=DEPTH, NumberOfSteps=3, TimeStep=2e-3)
+        sizes = []
+        for step in (0, 3, 1):
+            flow.UpdatePipeline(float(step))
+            data = servermanager.Fetch(flow)
+            bounds = [data.GetBlock(block).GetBounds() for block in (0, 1)]
+            sizes.append([box[1] - box[0] for box in bounds])
+        flow.UpdatePipelineInformation()
+        self.assertEqual(list(flow.TimestepValues), [0, 1, 2, 3])
+        for start, last, first in zip(*sizes):
+            self.assertLess(last, first)
+            self.assertLess(first, start)
+        modes = simple.LaplaceSpectrum(Input=blocks, Depth=DEPTH, NumberOfModes=9)
+        ranges = set()
+        for mode in (1, 4, 8):
+            modes.UpdatePipeline(float(mode))
+            ranges.add(servermanager.Fetch(modes).GetBlock(1).GetPointData().GetArray(
+                "Mode").GetRange())
+        self.assertEqual(len(ranges), 3)
+
     def test_a_block_without_the_array_stays_empty_and_the_others_are_solved(self):
         values = simple.Calculator(Input=self.surface, ResultArrayName="f", Function="coordsX")
         blocks = simple.GroupDatasets(Input=[simple.Sphere(Center=[5, 0, 0]), values])
