@@ -13,16 +13,14 @@ from paraview import servermanager, simple
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
-from sheet import Layer, Tile, View, write_sheet
+from sheet import Layer, Tile, from_the_front, required, write_sheet
 
 KEPT = ((1, "valleys kept"), (2, "ridges kept"), (3, "both kept"))
 
 
 def shape_of(proxy):
     proxy.UpdatePipeline()
-    shape = servermanager.Fetch(proxy)
-    if shape.GetNumberOfPoints() == 0:
-        sys.exit("The filter could not do its work; the message above says why.")
+    shape = required(servermanager.Fetch(proxy))
     for name in ("NormalDisplacement", "Displacement"):
         shape.GetPointData().RemoveArray(name)
     return shape
@@ -40,8 +38,7 @@ def main():
     upper.Function = f"2.5*(coordsY>{middle})"
     detail = SurfaceDetail(Input=upper, Depth=int(sys.argv[2]), ScreeningWeight=2000, SmoothingScale=0.008)
 
-    height = 1.15 * max(bounds[1] - bounds[0], bounds[3] - bounds[2])
-    view = View(input_shape.GetCenter(), (0, 0, -1), (0, 1, 0), height)
+    view = from_the_front(input_shape, 1.15)
 
     def tile(label, **properties):
         simple.SetProperties(detail, **properties)

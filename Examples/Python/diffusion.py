@@ -13,7 +13,7 @@ from paraview import servermanager, simple
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
-from sheet import Layer, Tile, from_the_front, write_sheet
+from sheet import Layer, Tile, from_the_front, required, write_sheet
 
 STRIPES = 8
 SHOWN = (1, 3, 8, 20)
@@ -35,9 +35,7 @@ def main():
     tiles = []
     for step in SHOWN:
         diffusion.UpdatePipeline(float(step))
-        mesh = servermanager.Fetch(diffusion)
-        if mesh.GetNumberOfPoints() == 0:
-            sys.exit("The filter could not do its work; the message above says why.")
+        mesh = required(servermanager.Fetch(diffusion))
         values = mesh.GetPointData().GetArray("Diffused").GetRange()
         print(f"step {step}: values from {values[0]:.4f} to {values[1]:.4f}")
         layer = Layer(mesh, "Diffused", -1.0, 1.0)

@@ -14,7 +14,7 @@ from vtkmodules.vtkFiltersCore import vtkContourFilter, vtkTubeFilter
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
-from sheet import Layer, Tile, from_the_front, write_sheet
+from sheet import Layer, Tile, from_the_front, required, write_sheet
 
 INTERVALS = 24
 
@@ -50,9 +50,7 @@ def main():
     sources, tiles = [], []
     for count, label in ((1, "distance from one point"), (4, "from four points")):
         while len(sources) < count:  # each as far as it can be from those before
-            mesh = servermanager.Fetch(distance)
-            if mesh.GetNumberOfPoints() == 0:
-                sys.exit("The filter could not do its work; the message above says why.")
+            mesh = required(servermanager.Fetch(distance))
             sources.append(farthest(mesh)[0])
             distance.SourcePointIds = sources
             distance.UpdatePipeline()

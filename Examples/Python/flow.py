@@ -13,17 +13,14 @@ from paraview import servermanager, simple
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
-from sheet import Layer, Tile, View, write_sheet
+from sheet import Layer, Tile, View, required, write_sheet
 
 SHOWN = (0, 2, 6, 30)
 
 
 def shape_at(flow, step):
     flow.UpdatePipeline(float(step))
-    shape = servermanager.Fetch(flow)
-    if shape.GetNumberOfPoints() == 0:
-        sys.exit("The filter could not do its work; the message above says why.")
-    return shape
+    return required(servermanager.Fetch(flow))
 
 
 def extents(shape):

@@ -13,7 +13,7 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataObject, vtkPolyDa
 from vtkmodules.vtkFiltersCore import vtkGlyph3D, vtkMaskPoints
 from vtkmodules.vtkFiltersSources import vtkArrowSource
 
-from sheet import Layer, Tile, View, write_sheet
+from sheet import Layer, Tile, View, required, write_sheet
 
 RING, TUBE = 1.0, 0.45
 
@@ -87,9 +87,7 @@ def main():
     gradient.SetHodgeDecomposition(True)
     gradient.SetDepth(int(sys.argv[1]))
     gradient.Update()
-    parts = gradient.GetOutput()
-    if parts.GetNumberOfPoints() == 0:
-        sys.exit("The filter could not do its work; the message above says why.")
+    parts = required(gradient.GetOutput())
     view = View((0.0, 0.0, 0.0), (0.0, -0.5, 1.0), (0.0, 1.0, 0.0), 2.9)
     tiles = []
     for array, label, color, background in (

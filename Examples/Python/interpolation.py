@@ -17,7 +17,7 @@ from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkIOPLY import vtkPLYReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
-from sheet import Layer, Tile, View, write_sheet
+from sheet import Layer, Tile, View, required, write_sheet
 
 COLOURS = 12
 
@@ -111,9 +111,7 @@ def main():
     tiles = [Tile("given at twelve points", view, [Layer(mesh), balls])]
     for smoothness, name in ((vtkHarmonicInterpolation.Harmonic, "harmonic"),
                              (vtkHarmonicInterpolation.Biharmonic, "biharmonic")):
-        result = spread(mesh, places, depth, smoothness)
-        if result.GetNumberOfPoints() == 0:
-            sys.exit("The filter could not do its work; the message above says why.")
+        result = required(spread(mesh, places, depth, smoothness))
         tiles.append(Tile(name, view, [Layer(as_bytes(result), "Colour", direct=True), balls]))
     write_sheet(tiles, sys.argv[3], 3, (320, 290))
 

@@ -1,9 +1,9 @@
-"""Draws pictures side by side on one white sheet, with VTK's own classes.
-
-Used by contact_sheet.py and readme_pictures.py.
+"""What the examples with pictures share: draws them side by side on one white sheet, with VTK's own
+classes.
 """
 
 import math
+import sys
 from dataclasses import dataclass, field
 
 import vtkmodules.vtkRenderingFreeType  # noqa: F401, draws text
@@ -58,10 +58,17 @@ class Tile:
     layers: list = field(default_factory=list)
 
 
-def from_the_front(mesh):
-    """The plane of x and y, as scans often stand."""
+def required(data):
+    """The output of a filter, which is empty when the filter could not do its work."""
+    if data.GetNumberOfPoints() == 0:
+        sys.exit("The filter could not do its work; the message above says why.")
+    return data
+
+
+def from_the_front(mesh, room=1.1):
+    """The plane of x and y, as scans often stand; room times what the mesh takes."""
     bounds = mesh.GetBounds()
-    height = 1.1 * max(bounds[1] - bounds[0], bounds[3] - bounds[2])
+    height = room * max(bounds[1] - bounds[0], bounds[3] - bounds[2])
     return View(mesh.GetCenter(), (0, 0, -1), (0, 1, 0), height)
 
 

@@ -14,7 +14,7 @@ from paraview import servermanager, simple
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
-from sheet import Layer, Tile, View, write_sheet
+from sheet import Layer, Tile, from_the_front, required, write_sheet
 
 SHOWN = (0, 2, 4, 8)
 NAMES = ("plain", "connectivity-aware")
@@ -22,10 +22,7 @@ NAMES = ("plain", "connectivity-aware")
 
 def shape_at(flow, step):
     flow.UpdatePipeline(float(step))
-    shape = servermanager.Fetch(flow)
-    if shape.GetNumberOfPoints() == 0:
-        sys.exit("The filter could not do its work; the message above says why.")
-    return shape
+    return required(servermanager.Fetch(flow))
 
 
 def main():
@@ -41,10 +38,8 @@ def main():
         table = servermanager.Fetch(flow, idx=1)
         error = table.GetColumnByName("QuasiConformalError")
         for step, shape in zip(SHOWN, shapes):
-            bounds = shape.GetBounds()
-            height = 1.15 * max(bounds[1] - bounds[0], bounds[3] - bounds[2])
             print(f"{name}, step {step}: quasi-conformal error {error.GetValue(step):.3f}")
-            seen = View(shape.GetCenter(), (0, 0, -1), (0, 1, 0), height)
+            seen = from_the_front(shape, 1.15)
             tiles.append(Tile(f"{name}, step {step}", seen, [Layer(shape)]))
     write_sheet(tiles, sys.argv[3], len(SHOWN), (300, 300))
 

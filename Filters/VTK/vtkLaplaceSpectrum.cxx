@@ -226,15 +226,11 @@ void vtkLaplaceSpectrum::Warn()
 
 void vtkLaplaceSpectrum::WarnOfAccuracy()
 {
-  const char* reason = this->FunctionSpace == HatFunctions
-                         ? " No Depth changes the error of hat functions: subdivide the mesh, or "
-                           "take FunctionSpace = Grid."
-                         : " A given basis has a fixed Depth; else the next one does not fit into "
-                           "memory.";
-  vtkWarningMacro("The wanted Accuracy of " << this->Accuracy << " is not reached: at Depth "
-                                            << this->Data->depth << " the estimated error is up to "
-                                            << this->Data->LargestEstimatedError() << "." << reason
-                                            << " The result is kept.");
+  vtkWarningMacro("The wanted Accuracy of "
+                  << this->Accuracy << " is not reached: at Depth " << this->Data->depth
+                  << " the estimated error is up to " << this->Data->LargestEstimatedError() << ". "
+                  << gridfem::ReasonOfError(this->FunctionSpace == HatFunctions)
+                  << " The result is kept.");
 }
 
 void vtkLaplaceSpectrum::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)

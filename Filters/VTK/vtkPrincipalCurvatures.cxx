@@ -5,13 +5,14 @@
 #include "Private/SolverOutput.h"
 #include "Private/SurfaceCurvatures.h"
 
+#include "Base/VectorRows.h"
+
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 
-#include <algorithm>
 #include <vector>
 
 vtkStandardNewMacro(vtkPrincipalCurvatures);
@@ -35,16 +36,6 @@ gridfem::MultiVector Numbers(const gridfem::PrincipalCurvatures& curvatures)
 
 constexpr const char* NumberNames[] = { "MinimumCurvature", "MaximumCurvature", "MeanCurvature",
   "GaussianCurvature", "ShapeIndex" };
-
-gridfem::MultiVector Rows(const std::vector<gridfem::Vec3>& vectors)
-{
-  gridfem::MultiVector rows(static_cast<gridfem::Id>(vectors.size()), 3);
-  for (gridfem::Id row = 0; row < rows.rows(); ++row)
-  {
-    std::copy(vectors[row].data(), vectors[row].data() + 3, &rows(row, 0));
-  }
-  return rows;
-}
 
 } // namespace
 
@@ -125,9 +116,9 @@ void vtkPrincipalCurvatures::WriteArrays(vtkPolyData* input, vtkPolyData* output
     points->AddArray(gridfem::MakePointArray(NumberNames[k], numbers.col(k), VTK_DOUBLE));
   }
   points->AddArray(gridfem::MakePointArray(
-    "MinimumCurvatureDirection", Rows(curvatures.minimumDirection), VTK_DOUBLE));
+    "MinimumCurvatureDirection", gridfem::RowsOf(curvatures.minimumDirection), VTK_DOUBLE));
   points->AddArray(gridfem::MakePointArray(
-    "MaximumCurvatureDirection", Rows(curvatures.maximumDirection), VTK_DOUBLE));
+    "MaximumCurvatureDirection", gridfem::RowsOf(curvatures.maximumDirection), VTK_DOUBLE));
   points->SetActiveScalars("MeanCurvature");
 }
 

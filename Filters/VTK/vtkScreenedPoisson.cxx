@@ -411,16 +411,11 @@ void vtkScreenedPoisson::Warn()
   }
   if (!this->IsAccurate())
   {
-    const char* reason =
-      this->FunctionSpace == HatFunctions
-        ? " No Depth changes the error of hat functions: subdivide the mesh, or "
-          "take FunctionSpace = Grid."
-        : " A given basis has a fixed Depth; else the next one does not fit into "
-          "memory.";
-    vtkWarningMacro("The WantedError of " << this->WantedError
-                                          << " is not reached: the estimated error is "
-                                          << this->EstimatedErrors().discretization << "." << reason
-                                          << " The result is kept.");
+    vtkWarningMacro("The WantedError of "
+                    << this->WantedError << " is not reached: the estimated error is "
+                    << this->EstimatedErrors().discretization << ". "
+                    << gridfem::ReasonOfError(this->FunctionSpace == HatFunctions)
+                    << " The result is kept.");
   }
 }
 

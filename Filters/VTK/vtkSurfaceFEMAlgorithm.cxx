@@ -41,7 +41,8 @@ vtkSurfaceFEMAlgorithm::vtkSurfaceFEMAlgorithm()
     Surface(std::make_unique<gridfem::SurfaceInput>()),
     Time(std::make_unique<gridfem::InputTime>()), Dump(std::make_unique<gridfem::FailureDump>())
 {
-  // Of composite data the pipeline hands the input's times on once more when all blocks are done.
+  // A run may find other steps; and of composite data the pipeline hands the input's times on once
+  // more when all blocks are done.
   vtkNew<vtkCallbackCommand> keepTimes;
   keepTimes->SetClientData(this);
   keepTimes->SetCallback(
@@ -104,17 +105,6 @@ int vtkSurfaceFEMAlgorithm::RequestUpdateExtent(
   return this->Superclass::RequestUpdateExtent(request, inputs, outputs);
 }
 
-void vtkSurfaceFEMAlgorithm::WriteTimes(
-  vtkInformationVector** inputs, vtkInformationVector* outputs)
-{
-  const std::vector<double> steps = this->OwnTimeSteps();
-  if (!steps.empty())
-  {
-    gridfem::SetTimeSteps(steps, outputs);
-  }
-  gridfem::StampTime(!steps.empty(), inputs[0], outputs);
-}
-
 int vtkSurfaceFEMAlgorithm::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
@@ -161,7 +151,7 @@ int vtkSurfaceFEMAlgorithm::RunCompute(vtkInformationVector** inputs, vtkInforma
     if (!gridfem::IsEmpty(vtkDataSet::GetData(inputs[0])))
     {
       this->Compute(this->Surface->Of(inputs, this->GetNumberOfInputPorts()), outputs);
-      this->WriteTimes(inputs, outputs);
+      gridfem::StampTime(!this->OwnTimeSteps().empty(), inputs[0], outputs);
     }
     return 1;
   }

@@ -312,7 +312,6 @@ private:
 
   int RunCompute(vtkInformationVector** inputs, vtkInformationVector* outputs);
   void FinishAbort(vtkInformationVector* outputs);
-  void WriteTimes(vtkInformationVector** inputs, vtkInformationVector* outputs);
 
   std::unique_ptr<gridfem::SurfaceInput> Surface;
   std::unique_ptr<gridfem::InputTime> Time;

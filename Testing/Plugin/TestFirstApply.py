@@ -34,8 +34,10 @@ class FirstApply(unittest.TestCase):
     def tearDown(self):
         simple.ResetSession()
 
-    def apply(self, name):
-        surface = plugin.with_arrays(self.surface) if name in plugin.CHOICES else self.surface
+    def apply(self, name, surface=None):
+        surface = surface or self.surface
+        if name in plugin.CHOICES:
+            surface = plugin.with_arrays(surface)
         proxy = getattr(simple, name)(Input=surface, **plugin.CHOICES.get(name, {}))
         for prop, value in (("Depth", DEPTH), ("NumberOfModes", 16)):
             if prop in proxy.ListProperties():
@@ -81,14 +83,11 @@ class FirstApply(unittest.TestCase):
             if name in plugin.CHOICES:
                 continue
             with self.subTest(proxy=name):
-                self.surface, whole = grid, self.surface
-                self.assertGreater(plugin.data(self.apply(name)).GetNumberOfPoints(), 700)
-                self.surface = blocks
-                data = plugin.data(self.apply(name))
+                self.assertGreater(plugin.data(self.apply(name, grid)).GetNumberOfPoints(), 700)
+                data = plugin.data(self.apply(name, blocks))
                 self.assertEqual(data.GetNumberOfBlocks(), 2)
                 sizes = [data.GetBlock(block).GetNumberOfPoints() for block in (0, 1)]
                 self.assertGreater(min(sizes), 700)
-                self.surface = whole
 
     def test_blocks_have_the_steps_of_the_filter(self):
         blocks = simple.GroupDatasets(

@@ -1,6 +1,7 @@
 #include "Grid/Field.h"
 
 #include "Base/Errors.h"
+#include "Base/VectorRows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,13 +13,7 @@ namespace gridfem
 
 Field CoordinatesOf(const TriangleMesh& mesh)
 {
-  Field coordinates;
-  coordinates.values.resize(static_cast<Id>(mesh.points.size()), 3);
-  for (std::size_t point = 0; point < mesh.points.size(); ++point)
-  {
-    coordinates.values.row(static_cast<Id>(point)) = mesh.points[point].transpose();
-  }
-  return coordinates;
+  return { FieldAssociation::Points, RowsOf(mesh.points) };
 }
 
 void RequireField(const Field& field, const TriangleMesh& mesh)

@@ -1,59 +1,17 @@
 #include "Grid/SurfaceEdges.h"
 
+#include "Base/Errors.h"
 #include "Grid/TriangleArea.h"
+#include "Grid/TriangleSides.h"
 
 #include <algorithm>
 #include <numeric>
+#include <string>
 
 namespace gridfem
 {
 namespace
 {
-
-/// A triangle's side of an edge, which is named by its two ends.
-struct Side
-{
-  Index low;
-  Index high;
-  TriangleEdge edge;
-  bool isUpwards; // from the low to the high end
-
-  bool IsOfSameEdge(const Side& other) const { return low == other.low && high == other.high; }
-};
-
-std::vector<Side> SortedSides(const TriangleMesh& mesh, const Array<Index>& pointClass)
-{
-  std::vector<Side> sides;
-  sides.reserve(3 * mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-  {
-    std::array<Index, 3> point;
-    for (int k = 0; k < 3; ++k)
-    {
-      const Id own = mesh.triangles[t][k];
-      point[k] = pointClass.empty() ? static_cast<Index>(own) : pointClass[own];
-    }
-    if (point[0] == point[1] || point[1] == point[2] || point[2] == point[0])
-    {
-      continue;
-    }
-    for (int k = 0; k < 3; ++k)
-    {
-      const Index a = point[k];
-      const Index b = point[(k + 1) % 3];
-      sides.push_back({ std::min(a, b), std::max(a, b), { static_cast<Id>(t), k }, a < b });
-    }
-  }
-  std::sort(sides.begin(), sides.end(),
-    [](const Side& a, const Side& b)
-    {
-      return a.low != b.low                       ? a.low < b.low
-             : a.high != b.high                   ? a.high < b.high
-             : a.edge.triangle != b.edge.triangle ? a.edge.triangle < b.edge.triangle
-                                                  : a.edge.corner < b.edge.corner;
-    });
-  return sides;
-}
 
 constexpr Id None = -1;
 
@@ -73,27 +31,26 @@ void SortByTriangle(std::vector<TriangleEdge>& edges)
     { return a.triangle != b.triangle ? a.triangle < b.triangle : a.corner < b.corner; });
 }
 
-Neighbours Classify(const std::vector<Side>& sides, std::size_t triangles, SurfaceEdges& edges)
+Neighbours Classify(
+  const std::vector<TriangleSide>& sides, std::size_t triangles, SurfaceEdges& edges)
 {
   Neighbours neighbours(triangles);
-  for (std::size_t first = 0, next = 0; first < sides.size(); first = next)
-  {
-    for (next = first; next < sides.size() && sides[next].IsOfSameEdge(sides[first]); ++next)
+  ForEachEdge(sides,
+    [&](const TriangleSide* side, Id count)
     {
-    }
-    if (next - first == 2)
-    {
-      const Side& a = sides[first];
-      const Side& b = sides[first + 1];
-      const bool facesAlike = a.isUpwards != b.isUpwards;
-      neighbours[a.edge.triangle][a.edge.corner] = { b.edge.triangle, facesAlike };
-      neighbours[b.edge.triangle][b.edge.corner] = { a.edge.triangle, facesAlike };
-    }
-    else
-    {
-      (next - first == 1 ? edges.boundary : edges.branching).push_back(sides[first].edge);
-    }
-  }
+      if (count == 2)
+      {
+        const TriangleEdge& a = side[0].edge;
+        const TriangleEdge& b = side[1].edge;
+        const bool facesAlike = side[0].isUpwards != side[1].isUpwards;
+        neighbours[a.triangle][a.corner] = { b.triangle, facesAlike };
+        neighbours[b.triangle][b.corner] = { a.triangle, facesAlike };
+      }
+      else
+      {
+        (count == 1 ? edges.boundary : edges.branching).push_back(side->edge);
+      }
+    });
   SortByTriangle(edges.boundary);
   SortByTriangle(edges.branching);
   return neighbours;
@@ -156,6 +113,51 @@ void FindSides(const TriangleMesh& mesh, const Neighbours& neighbours, SurfaceEd
 }
 
 } // namespace
+
+void RequireEdges(const std::vector<TriangleEdge>& edges, const TriangleMesh& mesh)
+{
+  for (const TriangleEdge& edge : edges)
+  {
+    if (edge.triangle < 0 || edge.triangle >= static_cast<Id>(mesh.triangles.size()))
+    {
+      throw InvalidInput("There is no triangle " + std::to_string(edge.triangle) + ".");
+    }
+  }
+}
+
+std::vector<TriangleSide> SortedSides(const TriangleMesh& mesh, const Array<Index>& pointClass)
+{
+  std::vector<TriangleSide> sides;
+  sides.reserve(3 * mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  {
+    std::array<Index, 3> point;
+    for (int k = 0; k < 3; ++k)
+    {
+      const Id own = mesh.triangles[t][k];
+      point[k] = pointClass.empty() ? static_cast<Index>(own) : pointClass[own];
+    }
+    if (point[0] == point[1] || point[1] == point[2] || point[2] == point[0])
+    {
+      continue;
+    }
+    for (int k = 0; k < 3; ++k)
+    {
+      const Index a = point[k];
+      const Index b = point[(k + 1) % 3];
+      sides.push_back({ std::min(a, b), std::max(a, b), { static_cast<Id>(t), k }, a < b });
+    }
+  }
+  std::sort(sides.begin(), sides.end(),
+    [](const TriangleSide& a, const TriangleSide& b)
+    {
+      return a.low != b.low                       ? a.low < b.low
+             : a.high != b.high                   ? a.high < b.high
+             : a.edge.triangle != b.edge.triangle ? a.edge.triangle < b.edge.triangle
+                                                  : a.edge.corner < b.edge.corner;
+    });
+  return sides;
+}
 
 bool SurfaceEdges::IsOriented() const
 {

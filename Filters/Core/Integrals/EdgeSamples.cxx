@@ -1,15 +1,14 @@
 #include "Integrals/EdgeSamples.h"
 
 #include "Algebra/RowBuilder.h"
-#include "Base/Errors.h"
 #include "Grid/MeshEdges.h"
+#include "Grid/TriangleSides.h"
 #include "Integrals/QuadratureSamples.h"
 #include "Integrals/TrilinearBasis.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 
 namespace gridfem
 {
@@ -31,12 +30,9 @@ public:
     const GridFunctions& space, const TriangleMesh& mesh, const std::vector<TriangleEdge>& edges)
     : space_(space), mesh_(mesh), list_(mesh.triangles.size(), -1)
   {
+    RequireEdges(edges, mesh);
     for (const TriangleEdge& edge : edges)
     {
-      if (edge.triangle < 0 || edge.triangle >= static_cast<Id>(list_.size()))
-      {
-        throw InvalidInput("There is no triangle " + std::to_string(edge.triangle) + ".");
-      }
       if (list_[edge.triangle] < 0)
       {
         list_[edge.triangle] = static_cast<Index>(pieces_.size());

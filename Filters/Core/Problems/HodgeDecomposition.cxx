@@ -1,36 +1,17 @@
 #include "Problems/HodgeDecomposition.h"
 
 #include "Base/Errors.h"
+#include "Base/VectorRows.h"
 #include "Grid/SurfaceEdges.h"
-#include "Grid/TriangleArea.h"
 #include "Problems/EdgeConditions.h"
 #include "Problems/L2Projection.h"
+#include "Problems/MovedSurface.h"
 #include "Problems/PointConstraints.h"
-
-#include <algorithm>
 
 namespace gridfem
 {
 namespace
 {
-
-/// Unit normals; 0 for triangles without an area.
-std::vector<Vec3> NormalsOfTriangles(const TriangleMesh& mesh)
-{
-  std::vector<Vec3> normals(mesh.triangles.size());
-  std::transform(mesh.triangles.begin(), mesh.triangles.end(), normals.begin(),
-    [&](const auto& corner) { return AreaVector(mesh.points, corner).stableNormalized(); });
-  return normals;
-}
-
-/// One number at a time: a fixed-size vector in a dynamic row makes GCC warn about its bounds.
-void SetRow(const Vec3& vector, Id row, MultiVector& values)
-{
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    values(row, axis) = vector[axis];
-  }
-}
 
 /// Means over the triangles of the part along them.
 MultiVector TangentialMeans(
@@ -42,7 +23,7 @@ MultiVector TangentialMeans(
     const auto row = v.RowsOf(t, mesh.triangles[t]);
     const Vec3 mean =
       (v.values.row(row[0]) + v.values.row(row[1]) + v.values.row(row[2])).transpose() / 3.0;
-    SetRow(mean - normals[t].dot(mean) * normals[t], t, means);
+    SetRow(means, t, mean - normals[t].dot(mean) * normals[t]);
   }
   return means;
 }
@@ -126,7 +107,7 @@ MultiVector Turned(const MultiVector& gradients, const std::vector<Vec3>& normal
   for (Id t = 0; t < turned.rows(); ++t)
   {
     const Vec3 gradient = gradients.row(t).transpose();
-    SetRow(side[t] * normals[t].cross(gradient), t, turned);
+    SetRow(turned, t, side[t] * normals[t].cross(gradient));
   }
   return turned;
 }

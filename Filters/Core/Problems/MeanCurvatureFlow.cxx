@@ -3,6 +3,7 @@
 #include "Algebra/ComponentMeans.h"
 #include "Base/Errors.h"
 #include "Base/Parallel.h"
+#include "Base/VectorRows.h"
 #include "Krylov/PrecisionFallback.h"
 #include "Problems/MovedSurface.h"
 #include "Problems/PointConstraints.h"
@@ -39,20 +40,6 @@ void CheckFixedPoints(const FlowOptions& options)
   {
     throw InvalidInput("The boundary is to stay, but the conformalised flow and a rescaling move "
                        "all of the surface.");
-  }
-}
-
-/// One number at a time: a fixed-size vector in a dynamic row makes GCC warn about its bounds.
-Vec3 RowOf(const MultiVector& rows, Id row)
-{
-  return { rows(row, 0), rows(row, 1), rows(row, 2) };
-}
-
-void SetRow(MultiVector& rows, Id row, const Vec3& vector)
-{
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    rows(row, axis) = vector[axis];
   }
 }
 

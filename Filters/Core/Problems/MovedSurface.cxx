@@ -3,11 +3,11 @@
 #include "Base/Parallel.h"
 #include "Base/UnionFind.h"
 #include "Grid/TriangleArea.h"
+#include "Grid/TriangleSides.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <utility>
 
 namespace gridfem
 {
@@ -82,42 +82,6 @@ double StretchRatio(const Vec3& u, const Vec3& v, double ratio, const Vec3& a, c
   const double quotient = larger * larger / ratio;
   return quotient < MapDistortion::LargestRatio ? std::max(quotient, 1.0)
                                                 : MapDistortion::LargestRatio;
-}
-
-/// Of a triangle, its lower point first.
-using Side = std::pair<Index, Index>;
-
-/// Sides of the triangles with three different points.
-std::vector<Side> SortedSides(const TriangleMesh& mesh, const Array<Index>& pointClass)
-{
-  std::vector<Side> sides;
-  for (const std::array<Id, 3>& corner : mesh.triangles)
-  {
-    const std::array<Index, 3> point = { pointClass[corner[0]], pointClass[corner[1]],
-      pointClass[corner[2]] };
-    if (point[0] == point[1] || point[1] == point[2] || point[2] == point[0])
-    {
-      continue;
-    }
-    for (int k = 0; k < 3; ++k)
-    {
-      sides.push_back(std::minmax({ point[k], point[(k + 1) % 3] }));
-    }
-  }
-  std::sort(sides.begin(), sides.end());
-  return sides;
-}
-
-/// Calls body(side, number of its triangles) for each edge.
-template<class Body>
-void ForEachEdge(const std::vector<Side>& sortedSides, Body&& body)
-{
-  for (auto first = sortedSides.begin(); first != sortedSides.end();)
-  {
-    const auto next = std::upper_bound(first, sortedSides.end(), *first);
-    body(*first, static_cast<Id>(next - first));
-    first = next;
-  }
 }
 
 } // namespace
@@ -214,6 +178,14 @@ double MeanOverSurface(
   return sums[0] > 0.0 ? sums[1] / sums[0] : 0.0;
 }
 
+std::vector<Vec3> NormalsOfTriangles(const TriangleMesh& mesh)
+{
+  std::vector<Vec3> normals(mesh.triangles.size());
+  std::transform(mesh.triangles.begin(), mesh.triangles.end(), normals.begin(),
+    [&](const auto& corner) { return AreaVector(mesh.points, corner).stableNormalized(); });
+  return normals;
+}
+
 std::vector<Vec3> NormalsAtPoints(
   const std::vector<Vec3>& points, const std::vector<std::array<Id, 3>>& triangles, int threads)
 {
@@ -240,18 +212,19 @@ std::vector<Vec3> NormalsAtPoints(
 
 bool IsLikeASphere(const TriangleMesh& mesh, int threads)
 {
-  const std::vector<Side> sides = SortedSides(mesh, WeldCoincidentPoints(mesh.points, {}, threads));
+  const std::vector<TriangleSide> sides =
+    SortedSides(mesh, WeldCoincidentPoints(mesh.points, {}, threads));
   UnionFind pieces(static_cast<Id>(mesh.points.size()));
   std::vector<char> isUsed(mesh.points.size(), 0);
-  for (const auto& [first, second] : sides)
+  for (const TriangleSide& side : sides)
   {
-    pieces.Unite(first, second);
-    isUsed[first] = isUsed[second] = 1;
+    pieces.Unite(side.low, side.high);
+    isUsed[side.low] = isUsed[side.high] = 1;
   }
   bool isClosed = true;
   Id edges = 0;
   ForEachEdge(sides,
-    [&](const Side&, Id triangles)
+    [&](const TriangleSide*, Id triangles)
     {
       isClosed &= triangles == 2;
       ++edges;
@@ -277,10 +250,10 @@ std::vector<Id> BoundaryPoints(const TriangleMesh& mesh, bool weldCoincidentPoin
   }
   std::vector<char> isEnd(mesh.points.size(), 0);
   ForEachEdge(SortedSides(mesh, pointClass),
-    [&](const Side& side, Id triangles)
+    [&](const TriangleSide* side, Id triangles)
     {
-      isEnd[side.first] |= triangles == 1;
-      isEnd[side.second] |= triangles == 1;
+      isEnd[side->low] |= triangles == 1;
+      isEnd[side->high] |= triangles == 1;
     });
   std::vector<Id> points;
   for (std::size_t k = 0; k < pointClass.size(); ++k)

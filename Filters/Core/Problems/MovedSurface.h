@@ -49,6 +49,9 @@ std::vector<double> MeansAtPoints(
 double MeanOverSurface(
   const TriangleMesh& mesh, const std::vector<double>& onTriangles, int threads = 0);
 
+/// Unit normals; 0 for triangles without an area.
+std::vector<Vec3> NormalsOfTriangles(const TriangleMesh& mesh);
+
 /// Unit normals at the points, of the triangles around them weighted by area; 0 where they cancel.
 std::vector<Vec3> NormalsAtPoints(const std::vector<Vec3>& points,
   const std::vector<std::array<Id, 3>>& triangles, int threads = 0);

@@ -1,11 +1,8 @@
 #include "Problems/SurfaceDerivatives.h"
 
 #include "Base/Parallel.h"
-#include "Grid/TriangleArea.h"
 #include "Problems/L2Projection.h"
 #include "Problems/MovedSurface.h"
-
-#include <algorithm>
 
 namespace gridfem
 {
@@ -34,15 +31,6 @@ MultiVector Curl(const MultiVector& gradients, const std::vector<Vec3>& normals)
     curl(k, 0) = normals[k].dot(Vec3(g[7] - g[5], g[2] - g[6], g[3] - g[1]));
   }
   return curl;
-}
-
-/// 0 for triangles without an area.
-std::vector<Vec3> NormalsOfTriangles(const TriangleMesh& mesh)
-{
-  std::vector<Vec3> normals(mesh.triangles.size());
-  std::transform(mesh.triangles.begin(), mesh.triangles.end(), normals.begin(),
-    [&](const auto& corner) { return AreaVector(mesh.points, corner).stableNormalized(); });
-  return normals;
 }
 
 void AddDerivativesOfVectors(const TriangleMesh& mesh, int threads, SurfaceDerivatives& derivatives)

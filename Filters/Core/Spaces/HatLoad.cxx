@@ -3,6 +3,7 @@
 #include "Algebra/RowBuilder.h"
 #include "Base/Errors.h"
 #include "Base/Parallel.h"
+#include "Grid/TriangleSides.h"
 
 #include <string>
 
@@ -198,15 +199,12 @@ MultiVector IntegrateGradientsOf(const HatFunctions& hats, const TriangleMesh& m
 EdgeSamples SampleEdges(
   const HatFunctions& hats, const TriangleMesh& mesh, const std::vector<TriangleEdge>& edges)
 {
+  RequireEdges(edges, mesh);
   EdgeSamples samples;
   RowBuilder rows;
   RowBuilder::Entries entries;
   for (std::size_t e = 0; e < edges.size(); ++e)
   {
-    if (edges[e].triangle < 0 || edges[e].triangle >= static_cast<Id>(mesh.triangles.size()))
-    {
-      throw InvalidInput("There is no triangle " + std::to_string(edges[e].triangle) + ".");
-    }
     const auto ends = edges[e].Ends(mesh);
     const double length = (mesh.points[ends[1]] - mesh.points[ends[0]]).norm();
     for (const GaussPoint& gauss : GaussPoints)

@@ -1,7 +1,7 @@
 #include "DepthSearch.h"
 
 #include "Grid/Grid.h"
-#include "Problems/MemoryEstimate.h"
+#include "InputValidation.h"
 #include "Problems/SpectrumAccuracy.h"
 
 #include <algorithm>
@@ -45,14 +45,6 @@ int DepthSearch::Next(
   isFound_ = next == depth;
   depth_ = next;
   return next;
-}
-
-bool FitsMemory(const TriangleMesh& mesh, int depth, bool hatFunctions)
-{
-  const double available = AvailableMemory();
-  const MemoryEstimate estimate = EstimateMemory(mesh, depth);
-  const double hats = hatFunctions ? EstimateHatMemory(mesh, estimate.functions) : 0.0;
-  return available <= 0.0 || estimate.bytes + hats <= available;
 }
 
 } // namespace gridfem

@@ -29,9 +29,6 @@ private:
   bool wasAccurate_ = false;
 };
 
-/// Whether all that a filter makes at this depth should fit into memory.
-bool FitsMemory(const TriangleMesh& mesh, int depth, bool hatFunctions = false);
-
 } // namespace gridfem
 
 #endif

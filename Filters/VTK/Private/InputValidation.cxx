@@ -31,6 +31,12 @@ void RequireBytes(double bytes, const std::string& subject, const std::string& a
   }
 }
 
+/// Of all that a filter makes on the grid.
+double BytesOf(const TriangleMesh& mesh, const MemoryEstimate& grid, bool hatFunctions)
+{
+  return grid.bytes + (hatFunctions ? EstimateHatMemory(mesh, grid.functions) : 0.0);
+}
+
 } // namespace
 
 bool IsEmpty(vtkDataSet* input)
@@ -88,19 +94,24 @@ void RequireSurface(const TriangleMesh& mesh)
   }
 }
 
+bool FitsMemory(const TriangleMesh& mesh, int depth, bool hatFunctions)
+{
+  const double available = AvailableMemory();
+  return available <= 0.0 || BytesOf(mesh, EstimateMemory(mesh, depth), hatFunctions) <= available;
+}
+
 void RequireMemory(const TriangleMesh& mesh, int depth, bool hatFunctions)
 {
   const MemoryEstimate estimate = EstimateMemory(mesh, depth);
   std::ostringstream subject;
   subject << "Depth " << depth << " (about " << std::setprecision(3) << estimate.functions
           << " basis functions)";
-  double bytes = estimate.bytes;
   if (hatFunctions)
   {
-    bytes += EstimateHatMemory(mesh, estimate.functions);
     subject << " with the hat functions of " << mesh.points.size() << " points";
   }
-  RequireBytes(bytes, subject.str(), "Every step down in Depth takes a quarter of the memory.");
+  RequireBytes(BytesOf(mesh, estimate, hatFunctions), subject.str(),
+    "Every step down in Depth takes a quarter of the memory.");
 }
 
 void RequireMemoryForHats(const TriangleMesh& mesh, Id functions)

@@ -25,6 +25,9 @@ void RequireSingleProcess();
 /// Throws InvalidInput for NaN or infinite coordinates, and for a surface without area.
 void RequireSurface(const TriangleMesh& mesh);
 
+/// Whether all that a filter makes at this depth should fit into memory.
+bool FitsMemory(const TriangleMesh& mesh, int depth, bool hatFunctions = false);
+
 /// Throws InvalidInput, with the estimate, when this depth needs more memory than there is.
 void RequireMemory(const TriangleMesh& mesh, int depth, bool hatFunctions = false);
 

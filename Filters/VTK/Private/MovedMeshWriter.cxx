@@ -1,5 +1,6 @@
 #include "MovedMeshWriter.h"
 
+#include "Base/VectorRows.h"
 #include "MovedPoints.h"
 #include "Problems/MovedSurface.h"
 #include "SolverOutput.h"
@@ -14,19 +15,6 @@ namespace gridfem
 {
 namespace
 {
-
-MultiVector Rows(const std::vector<Vec3>& vectors)
-{
-  MultiVector rows(static_cast<Id>(vectors.size()), 3);
-  for (std::size_t k = 0; k < vectors.size(); ++k)
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      rows(static_cast<Id>(k), axis) = vectors[k][axis];
-    }
-  }
-  return rows;
-}
 
 void AddNumbers(
   const char* name, const std::vector<double>& values, int dataType, vtkPolyData* output)
@@ -54,7 +42,7 @@ vtkSmartPointer<vtkDataArray> MovedNormals(
   }
   const double sign = agreement < 0.0 ? -1.0 : 1.0;
   const std::string name = given->GetName() ? given->GetName() : "Normals";
-  const MultiVector normals = sign * Rows(NormalsAtPoints(points, mesh.triangles, threads));
+  const MultiVector normals = sign * RowsOf(NormalsAtPoints(points, mesh.triangles, threads));
   return MakePointArray(name.c_str(), normals, given->GetDataType());
 }
 
@@ -63,14 +51,14 @@ void Move(const TriangleMesh& mesh, const std::vector<Vec3>& points, int dataTyp
   vtkPolyData* output)
 {
   const vtkSmartPointer<vtkDataArray> normals = MovedNormals(mesh, points, threads, output);
-  const MultiVector positions = Rows(points);
+  const MultiVector positions = RowsOf(points);
   MovePoints(output, MakePointArray("Points", positions, dataType));
   if (normals)
   {
     output->GetPointData()->SetNormals(normals);
   }
   output->GetPointData()->AddArray(
-    MakePointArray("Displacement", positions - Rows(mesh.points), dataType));
+    MakePointArray("Displacement", positions - RowsOf(mesh.points), dataType));
 }
 
 } // namespace
@@ -92,12 +80,7 @@ void MoveSurface(const TriangleMesh& mesh, const std::vector<Vec3>& points, int 
 void MoveSurface(const TriangleMesh& mesh, const MultiVector& places, int dataType, int threads,
   vtkPolyData* output)
 {
-  std::vector<Vec3> points(static_cast<std::size_t>(places.rows()));
-  for (std::size_t k = 0; k < points.size(); ++k)
-  {
-    points[k] = places.row(static_cast<Id>(k)).transpose();
-  }
-  MoveSurface(mesh, points, dataType, threads, output);
+  MoveSurface(mesh, VectorsOf(places), dataType, threads, output);
 }
 
 void MoveMesh(const TriangleMesh& mesh, const std::vector<Vec3>& points, int dataType, int threads,

@@ -167,6 +167,14 @@ const char* ReasonOf(const SolveReport& report)
   return "it broke down: the system has no solution, or numbers are out of range";
 }
 
+const char* ReasonOfError(bool hatFunctions)
+{
+  return hatFunctions ? "No Depth changes the error of hat functions: subdivide the mesh, or take "
+                        "FunctionSpace = Grid."
+                      : "A given basis has a fixed Depth; else the next one does not fit into "
+                        "memory.";
+}
+
 IterationRecord LastRecord(const SolveReport& report)
 {
   return report.history.empty() ? IterationRecord{ 0, 0.0, 0.0 } : report.history.back();

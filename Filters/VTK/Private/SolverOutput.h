@@ -62,6 +62,9 @@ const char* ReasonOf(const SolveReport& report);
 std::string WarningOf(const SolveReport& report, double tolerance);
 std::string WarningOf(const SolveReport& report, const SolutionAccuracy& accuracy);
 
+/// Why a wanted error is not reached by a choice of the depth, in words.
+const char* ReasonOfError(bool hatFunctions);
+
 /// The last iteration, or zeros when nothing had to be iterated.
 IterationRecord LastRecord(const SolveReport& report);
 

@@ -1,7 +1,6 @@
 #include "SurfaceSpectrum.h"
 
 #include "ClippedArrays.h"
-#include "DepthSearch.h"
 #include "InputValidation.h"
 #include "vtkSurfaceFEMAlgorithm.h"
 

@@ -2,9 +2,9 @@
 #include "Problems/GeodesicDistance.h"
 
 #include "Base/Errors.h"
+#include "EitherSpace.h"
 #include "Problems/DistantHeat.h"
 #include "Spaces.h"
-#include "Spaces/HatSpace.h"
 
 #include <gtest/gtest.h>
 
@@ -23,12 +23,7 @@ constexpr double Pi = 3.14159265358979323846;
 std::shared_ptr<const FiniteElementSpace> Build(
   const TriangleMesh& mesh, bool isOnHats, int depth, int threads = 0)
 {
-  GridSpaceOptions options;
-  options.functions.depth = depth;
-  options.functions.threads = threads;
-  options.normalStabilization = 0.1;
-  const HatSpace hats = BuildHatSpace(mesh, options);
-  return isOnHats ? hats.Copy() : hats.Grid().Copy();
+  return BuildEither(mesh, isOnHats, depth, 0.1, threads);
 }
 
 SolveOptions Solve()

@@ -2,8 +2,8 @@
 #include "Problems/HeatDiffusion.h"
 
 #include "Base/Errors.h"
+#include "EitherSpace.h"
 #include "Spaces.h"
-#include "Spaces/HatSpace.h"
 
 #include <gtest/gtest.h>
 
@@ -18,12 +18,7 @@ namespace
 std::shared_ptr<const FiniteElementSpace> Build(
   const TriangleMesh& mesh, bool isOnHats, int depth, int threads = 0)
 {
-  GridSpaceOptions options;
-  options.functions.depth = depth;
-  options.functions.threads = threads;
-  options.normalStabilization = 1e-2;
-  const HatSpace hats = BuildHatSpace(mesh, options);
-  return isOnHats ? hats.Copy() : hats.Grid().Copy();
+  return BuildEither(mesh, isOnHats, depth, 1e-2, threads);
 }
 
 DiffusionOptions Options(double timeStep, TimeScheme scheme, int threads = 0)

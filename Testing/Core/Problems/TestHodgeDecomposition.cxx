@@ -2,10 +2,10 @@
 #include "Problems/HodgeDecomposition.h"
 
 #include "Base/Errors.h"
+#include "EitherSpace.h"
 #include "Grid/SurfaceEdges.h"
 #include "Grid/TriangleArea.h"
 #include "Spaces.h"
-#include "Spaces/HatSpace.h"
 
 #include <gtest/gtest.h>
 
@@ -23,12 +23,7 @@ using VectorField = std::function<Vec3(const Vec3& point)>;
 std::unique_ptr<FiniteElementSpace> Build(
   const TriangleMesh& mesh, bool isOnHats, int depth, int threads = 0)
 {
-  GridSpaceOptions options;
-  options.functions.depth = depth;
-  options.functions.threads = threads;
-  options.normalStabilization = 1e-2;
-  const HatSpace hats = BuildHatSpace(mesh, options);
-  return isOnHats ? hats.Copy() : hats.Grid().Copy();
+  return BuildEither(mesh, isOnHats, depth, 1e-2, threads);
 }
 
 HodgeOptions Options(int threads = 0)

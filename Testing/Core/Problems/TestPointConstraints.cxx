@@ -2,9 +2,9 @@
 #include "Problems/PointConstraints.h"
 
 #include "Base/Errors.h"
+#include "EitherSpace.h"
 #include "Problems/Poisson.h"
 #include "Spaces.h"
-#include "Spaces/HatSpace.h"
 
 #include <gtest/gtest.h>
 
@@ -26,8 +26,7 @@ std::unique_ptr<FiniteElementSpace> Build(
   options.functions.threads = threads;
   options.coarsestSize = 32;
   options.normalStabilization = 1e-2; // so that a dense solver knows all functions
-  const HatSpace hats = BuildHatSpace(mesh, options);
-  return isOnHats ? hats.Copy() : hats.Grid().Copy();
+  return BuildEither(mesh, isOnHats, options);
 }
 
 SolveOptions Solver(double tolerance = 1e-8)

@@ -2,8 +2,8 @@
 #include "Problems/Stitching.h"
 
 #include "Base/Errors.h"
+#include "EitherSpace.h"
 #include "Spaces.h"
-#include "Spaces/HatSpace.h"
 
 #include <gtest/gtest.h>
 
@@ -48,8 +48,7 @@ std::unique_ptr<FiniteElementSpace> Build(const TriangleMesh& mesh, bool isOnHat
   options.functions.weldCoincidentPoints = welds;
   options.functions.threads = threads;
   options.normalStabilization = 1e-2;
-  const HatSpace hats = BuildHatSpace(mesh, options);
-  return isOnHats ? hats.Copy() : hats.Grid().Copy();
+  return BuildEither(mesh, isOnHats, options);
 }
 
 StitchOptions Options(int threads = 0)

@@ -2,8 +2,8 @@
 #include "Problems/SurfaceDerivatives.h"
 
 #include "Base/Errors.h"
+#include "EitherSpace.h"
 #include "Spaces.h"
-#include "Spaces/HatSpace.h"
 
 #include <gtest/gtest.h>
 
@@ -29,8 +29,7 @@ std::unique_ptr<FiniteElementSpace> Build(
   GridSpaceOptions options;
   options.functions.depth = depth;
   options.functions.threads = threads;
-  const HatSpace hats = BuildHatSpace(mesh, options);
-  return isOnHats ? hats.Copy() : hats.Grid().Copy();
+  return BuildEither(mesh, isOnHats, options);
 }
 
 /// Relative root mean squares of the errors for f = x y on a sphere of radius 2, whose gradient is

@@ -3,8 +3,8 @@
 #include "Problems/SurfaceDetail.h"
 
 #include "Base/Errors.h"
+#include "EitherSpace.h"
 #include "Spaces.h"
-#include "Spaces/HatSpace.h"
 
 #include <gtest/gtest.h>
 
@@ -30,8 +30,7 @@ struct DetailCase
     options.functions.depth = 4;
     options.coarsestSize = 32;
     options.normalStabilization = 1e-2;
-    const HatSpace hats = BuildHatSpace(mesh, options);
-    space = isOnHats ? hats.Copy() : hats.Grid().Copy();
+    space = BuildEither(mesh, isOnHats, options);
     const HatFunctions around = NumberHatFunctions(mesh);
     curvatures =
       CurvaturesOnTriangles(mesh, ComputeCurvatures(mesh, around, PointNormals(mesh, around)));

@@ -2,8 +2,8 @@
 #include "Spaces/FiniteElementSpace.h"
 
 #include "Base/Errors.h"
+#include "EitherSpace.h"
 #include "Spaces.h"
-#include "Spaces/HatSpace.h"
 
 #include <gtest/gtest.h>
 
@@ -37,8 +37,7 @@ struct SpaceOnMesh
     options.functions.depth = Depth;
     options.quadratureDegree = degree;
     options.coarsestSize = 32;
-    HatSpace hats = BuildHatSpace(mesh, options);
-    space = isOnHats ? hats.Copy() : hats.Grid().Copy();
+    space = BuildEither(mesh, isOnHats, options);
     coordinates = space->EmbeddingOfMesh();
     for (Id i = 0; i < coordinates.rows(); ++i)
     {

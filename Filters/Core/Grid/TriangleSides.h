@@ -1,0 +1,47 @@
+// The sides of triangles, sorted such that those of one edge follow each other.
+#ifndef GridFEM_TriangleSides_h
+#define GridFEM_TriangleSides_h
+
+#include "Grid/SurfaceEdges.h"
+
+namespace gridfem
+{
+
+/// A triangle's side of an edge, which is named by its two ends.
+struct TriangleSide
+{
+  Index low;
+  Index high;
+  TriangleEdge edge;
+  bool isUpwards; // from the low to the high end
+
+  bool IsOfSameEdge(const TriangleSide& other) const
+  {
+    return low == other.low && high == other.high;
+  }
+};
+
+/// Throws InvalidInput for an edge of a triangle that the mesh does not have.
+void RequireEdges(const std::vector<TriangleEdge>& edges, const TriangleMesh& mesh);
+
+/// Sides of the triangles with three different points.
+/// @param pointClass  welded id of each point; empty: points are themselves
+std::vector<TriangleSide> SortedSides(const TriangleMesh& mesh, const Array<Index>& pointClass);
+
+/// Calls body(first side, number of sides) for each edge.
+template<class Body>
+void ForEachEdge(const std::vector<TriangleSide>& sortedSides, Body&& body)
+{
+  for (std::size_t first = 0, next = 0; first < sortedSides.size(); first = next)
+  {
+    for (next = first + 1;
+         next < sortedSides.size() && sortedSides[next].IsOfSameEdge(sortedSides[first]); ++next)
+    {
+    }
+    body(&sortedSides[first], static_cast<Id>(next - first));
+  }
+}
+
+} // namespace gridfem
+
+#endif
