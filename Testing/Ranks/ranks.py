@@ -6,11 +6,13 @@ so that no rank goes on alone and waits for the others.
 import os
 import pathlib
 import re
+import sys
+import unittest
 
 import numpy
 from vtkmodules.numpy_interface import dataset_adapter
 from vtkmodules.util import numpy_support
-from vtkmodules.vtkCommonCore import vtkIntArray, vtkPoints
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkIntArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import (
     vtkCellArray, vtkDataObject, vtkDataSetAttributes, vtkPolyData)
 from vtkmodules.vtkParallelCore import (
@@ -41,11 +43,27 @@ def total(number):
     return result.GetValue(0)
 
 
+def gathered(numbers):
+    """The numbers of all ranks, one after the other."""
+    own, result = vtkDoubleArray(), vtkDoubleArray()
+    for number in numbers:
+        own.InsertNextValue(number)
+    CONTROLLER.AllGatherV(own, result)
+    return numpy_support.vtk_to_numpy(result)
+
+
 def check(test, problems):
     """Fails on all ranks when there is a problem on one."""
     for problem in problems[:10]:
         print(f"rank {RANK} of {RANKS}: {problem}", flush=True)
     test.assertEqual(total(len(problems)), 0, "see above")
+
+
+def main():
+    """Runs the tests of the script. A script that has gone well has to end by itself: MPI wants to
+    finish, too."""
+    if not unittest.main(exit=False).result.wasSuccessful():
+        sys.exit(1)
 
 
 # --- surfaces: points, triangles ---------------------------------------------------------------
@@ -231,8 +249,10 @@ def prepare(data):
 
 
 def run(filter_, data):
-    """Runs a filter and returns its outputs."""
+    """Runs a filter and returns its outputs. All ranks have to, also those whose piece is as it
+    was."""
     filter_.SetInputDataObject(0, data)
+    filter_.Modified()
     filter_.Update()
     return [filter_.GetOutputDataObject(port) for port in range(filter_.GetNumberOfOutputPorts())]
 

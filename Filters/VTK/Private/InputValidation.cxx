@@ -4,7 +4,6 @@
 #include "Problems/MemoryEstimate.h"
 #include "Problems/Spectrum.h"
 
-#include "vtkCellTypes.h"
 #include "vtkDataSet.h"
 #include "vtkGenericCell.h"
 #include "vtkNew.h"
@@ -71,12 +70,14 @@ void RequireNoVolume(vtkDataSet* piece)
   {
     return;
   }
-  vtkNew<vtkCellTypes> types;
-  piece->GetCellTypes(types);
   vtkNew<vtkGenericCell> cell;
-  for (vtkIdType k = 0; k < types->GetNumberOfTypes(); ++k)
+  for (vtkIdType k = 0; k < piece->GetNumberOfCells(); ++k)
   {
-    cell->SetCellType(types->GetCellType(static_cast<int>(k)));
+    if (piece->GetCellType(k) == cell->GetCellType())
+    {
+      continue; // as the last one, which is no volume
+    }
+    cell->SetCellType(piece->GetCellType(k));
     if (cell->GetCellDimension() == 3)
     {
       throw InvalidInput("The input is a volume mesh in pieces on several ranks, where the faces "
