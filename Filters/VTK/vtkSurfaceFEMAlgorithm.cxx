@@ -45,19 +45,16 @@ vtkSurfaceFEMAlgorithm::vtkSurfaceFEMAlgorithm()
     Ranked(std::make_unique<gridfem::RankedSurface>()),
     Blocks(std::make_unique<gridfem::RankedBlocks>())
 {
-  vtkNew<vtkCallbackCommand> alignBlocks;
-  alignBlocks->SetClientData(this);
-  alignBlocks->SetCallback(
+  vtkNew<vtkCallbackCommand> beginBlocks;
+  beginBlocks->SetClientData(this);
+  beginBlocks->SetCallback(
     [](vtkObject*, unsigned long, void* self, void*)
     {
       auto* filter = static_cast<vtkSurfaceFEMAlgorithm*>(self);
-      if (gridfem::Ranks::AreSeveral())
-      {
-        filter->Blocks->Align(
-          filter->GetExecutive()->GetInputInformation(), filter->GetNumberOfInputPorts());
-      }
+      filter->Blocks->Begin(
+        filter->GetExecutive()->GetInputInformation(), filter->GetNumberOfInputPorts());
     });
-  this->AddObserver(vtkCommand::StartEvent, alignBlocks);
+  this->AddObserver(vtkCommand::StartEvent, beginBlocks);
 
   // A run may find other steps; and of composite data the pipeline hands the input's times on once
   // more when all blocks are done.
@@ -67,7 +64,7 @@ vtkSurfaceFEMAlgorithm::vtkSurfaceFEMAlgorithm()
     [](vtkObject*, unsigned long, void* self, void*)
     {
       auto* filter = static_cast<vtkSurfaceFEMAlgorithm*>(self);
-      filter->Blocks->Restore();
+      filter->Blocks->End();
       const std::vector<double> steps = filter->TimeSteps();
       if (!steps.empty())
       {

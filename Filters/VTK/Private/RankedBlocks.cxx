@@ -185,6 +185,27 @@ vtkSmartPointer<vtkDataObjectTree> CopyOf(vtkDataObjectTree* tree)
 
 } // namespace
 
+void RankedBlocks::Begin(vtkInformationVector** inputs, int ports)
+{
+  if (depth_++ == 0 && Ranks::AreSeveral())
+  {
+    this->Align(inputs, ports);
+  }
+}
+
+void RankedBlocks::End()
+{
+  if (--depth_ > 0)
+  {
+    return;
+  }
+  for (const auto& [information, data] : given_)
+  {
+    information->Set(vtkDataObject::DATA_OBJECT(), data);
+  }
+  given_.clear();
+}
+
 void RankedBlocks::Align(vtkInformationVector** inputs, int ports)
 {
   failure_ = nullptr;
@@ -241,15 +262,6 @@ void RankedBlocks::AlignPort(vtkInformation* information, const std::vector<std:
   }
   given_.emplace_back(information, tree);
   information->Set(vtkDataObject::DATA_OBJECT(), copy);
-}
-
-void RankedBlocks::Restore()
-{
-  for (const auto& [information, data] : given_)
-  {
-    information->Set(vtkDataObject::DATA_OBJECT(), data);
-  }
-  given_.clear();
 }
 
 void RankedBlocks::RequireAligned() const

@@ -21,21 +21,24 @@ namespace gridfem
 class RankedBlocks
 {
 public:
-  /// Collective, before the pipeline goes through the blocks: puts aligned inputs in the place of
-  /// composite ones. Throws nothing.
-  void Align(vtkInformationVector** inputs, int ports);
+  /// At the start of an execution. The pipeline tells of one of its own for every block, too.
+  /// Collective at the outermost one: puts aligned inputs in the place of composite ones. Throws
+  /// nothing.
+  void Begin(vtkInformationVector** inputs, int ports);
 
-  /// Puts the inputs back.
-  void Restore();
+  /// At its end: at the outermost one puts the inputs back.
+  void End();
 
   /// Throws on all ranks when the inputs cannot be aligned.
   void RequireAligned() const;
 
 private:
+  void Align(vtkInformationVector** inputs, int ports);
   void AlignPort(vtkInformation* information, const std::vector<std::string>& blocks);
 
   std::vector<std::pair<vtkSmartPointer<vtkInformation>, vtkSmartPointer<vtkDataObject>>> given_;
   std::exception_ptr failure_;
+  int depth_ = 0; // of executions
 };
 
 } // namespace gridfem
