@@ -155,7 +155,8 @@ class Tests(Rule):
     def is_used(self, module):
         """Whether another file of the folder imports or runs this one."""
         return any(re.search(rf"\b{module.stem}\b", other.read_text())
-                   for other in sources(relative(module.parent), (".py", ".sh", ".txt"))
+                   for folder in ("Plugin", "Ranks")
+                   for other in sources("Testing/" + folder, (".py", ".sh", ".txt"))
                    if other != module)
 
     def test_every_filter_has_a_panel_and_every_fragment_is_used(self):
