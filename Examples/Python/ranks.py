@@ -22,12 +22,12 @@ MODE = 9
 def main():
     if len(sys.argv) != 5:
         sys.exit(__doc__)
-    simple.LoadDistributedPlugin("GridFEM", remote=True, ns=globals())
-    # One rank reads the file, then each gets a piece. Files in pieces (.pvtp) come divided.
+    # PV_PLUGIN_CONFIG_FILE has loaded the plugin on every rank. One rank reads the file, then each
+    # gets a piece. Files in pieces (.pvtp) come divided.
     pieces = simple.RedistributeDataSet(Input=simple.OpenDataFile(sys.argv[1]))
 
     # The first rank gathers the surface and computes; each rank gets its piece back, with arrays.
-    modes = LaplaceSpectrum(
+    modes = simple.LaplaceSpectrum(
         Input=pieces, Depth=int(sys.argv[2]), NumberOfModes=MODE + 1, AllModes=1)
     simple.SaveData(sys.argv[3], proxy=modes)
 
