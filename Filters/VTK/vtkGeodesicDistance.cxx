@@ -138,7 +138,13 @@ void vtkGeodesicDistance::Warn()
                     << " functions are too far for the heat that comes there to be a number. A "
                        "larger Smoothing or a smaller Depth helps.");
   }
-  if (!field.report.converged)
+  if (!field.heatConverged)
+  {
+    vtkWarningMacro(
+      "The heat has not settled everywhere: the direction of the distance may be wrong "
+      "in places. Another Depth or Smoothing may help. The result is kept.");
+  }
+  else if (!field.report.converged)
   {
     vtkWarningMacro(<< gridfem::WarningOf(field.report, this->Tolerance));
   }
@@ -191,7 +197,7 @@ void vtkGeodesicDistance::WriteDistance(vtkPolyData* output)
   output->GetPointData()->AddArray(gridfem::MakePointArray("Distance", column, VTK_DOUBLE));
   output->GetPointData()->SetActiveScalars("Distance");
   gridfem::AddReport(field.report, output);
-  gridfem::AddFieldInt(output, "HeatSolves", field.heatSolves);
+  gridfem::AddFieldNumber(output, "HeatSweeps", field.heatSweeps);
 }
 
 void vtkGeodesicDistance::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)

@@ -23,7 +23,7 @@
  *   that cannot be reached have what Unreachable says: those on a component without a source, and
  *   those that no polygon uses.
  * - field data: `Converged`, `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor`
- *   of the solution of the distance, `HeatSolves` (int, 1)
+ *   of the solution of the distance, `HeatSweeps` (double, 1)
  *
  * Errors fall with the size of the functions, in proportion. They are sqrt(t) / 2 to sqrt(t) where
  * fronts meet, and near boundaries; a small fraction of that elsewhere. Sheets nearer to each other
