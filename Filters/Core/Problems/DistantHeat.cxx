@@ -42,6 +42,19 @@ constexpr int MostSweepsPerStep = 100;
 
 } // namespace
 
+/// Of a patch that is relaxed soon: it may lie anywhere in memory.
+EIGEN_ALWAYS_INLINE void DistantHeat::FetchPatch(const Layers& layers, Id k) const
+{
+  if (k + 3 < static_cast<Id>(layers.patch.size()))
+  {
+    Fetch<9>(&patches_[layers.patch[k + 3]]);
+    for (const Index i : patches_[layers.patch[k]].dof)
+    {
+      FetchRow(RowView(A_), i);
+    }
+  }
+}
+
 DistantHeat::DistantHeat(
   const FiniteElementSpace& space, std::size_t level, double t, const Job& job)
   : t_(t)
@@ -221,6 +234,7 @@ Id DistantHeat::March(
         double largest = 0.0;
         for (Id k = layers.begin[layer]; k < layers.begin[layer + 1]; ++k)
         {
+          this->FetchPatch(layers, k + 3);
           largest = std::max(largest, this->Relax(patches_[layers.patch[k]], b, u));
         }
         settled += settled == layer && largest <= change ? 1 : 0;
