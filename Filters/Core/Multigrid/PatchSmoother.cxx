@@ -1,10 +1,10 @@
 #include "Base/Parallel.h"
 #include "Multigrid/BlockSweep.h"
 #include "Multigrid/PatchFactor.h"
+#include "Multigrid/RelaxPatch.h"
 #include "Multigrid/Smoother.h"
 
 #include <algorithm>
-#include <type_traits>
 
 namespace gridfem
 {
@@ -19,77 +19,6 @@ constexpr double SmallestPivot = 1e-14;
 /// Rounding V to single precision changes V S Vᵀ = I by some 6e-8 / sqrt(pivot). From this pivot on
 /// that is 2 %, which a smoother does not feel; below it, as on flat faces, V is kept in double.
 constexpr double SmallestSinglePivot = 1e-11;
-
-/// r = Vᵀ V r for one column: vectors run along the patch.
-/// @param V  lower triangle, mirrored to the upper one, so that both products run along columns
-template<class Real>
-inline void ApplyInverse(const Real* V, double (&r)[N])
-{
-  double y[N] = {};
-  for (int j = 0; j < N; ++j)
-  {
-    for (int i = 0; i < N; ++i)
-    {
-      y[i] += V[N * j + i] * (i >= j ? r[j] : 0.0);
-    }
-  }
-  std::fill(r, r + N, 0.0);
-  for (int j = 0; j < N; ++j)
-  {
-    for (int i = 0; i < N; ++i)
-    {
-      r[i] += V[N * j + i] * (i <= j ? y[j] : 0.0);
-    }
-  }
-}
-
-/// The same for several columns: vectors run along them.
-template<class Real, class Lanes>
-inline void ApplyInverse(const Real* V, Lanes (&r)[N])
-{
-  for (int i = N - 1; i >= 0; --i)
-  {
-    r[i] *= double(V[N * i + i]);
-    for (int j = 0; j < i; ++j)
-    {
-      r[i] += double(V[N * i + j]) * r[j];
-    }
-  }
-  for (int i = 0; i < N; ++i)
-  {
-    r[i] *= double(V[N * i + i]);
-    for (int j = i + 1; j < N; ++j)
-    {
-      r[i] += double(V[N * i + j]) * r[j];
-    }
-  }
-}
-
-/// x += Vᵀ V (b - A x) on the patch.
-template<class Chunk, class Real>
-inline void Relax(const RowView& A, const std::array<Index, N>& dof, const Real* V, const double* b,
-  double* x, Chunk chunk)
-{
-  using ColumnLanes = typename Chunk::ColumnLanes;
-  std::conditional_t<Chunk::Width == 1, double, ColumnLanes> r[N];
-  for (int i = 0; i < N; ++i)
-  {
-    const ColumnLanes residual = chunk.Row(b, dof[i]) - RowProduct(A, dof[i], x, chunk);
-    if constexpr (Chunk::Width == 1)
-    {
-      r[i] = residual[0];
-    }
-    else
-    {
-      r[i] = residual;
-    }
-  }
-  ApplyInverse(V, r);
-  for (int i = 0; i < N; ++i)
-  {
-    chunk.Row(x, dof[i]) += r[i];
-  }
-}
 
 class PatchSmoother : public Smoother
 {
@@ -220,11 +149,11 @@ void PatchSmoother::Sweep(const SparseMatrix& A, const MultiVector& b, MultiVect
       const Place& patch = patches_[p];
       if (patch.precision == Single)
       {
-        Relax(rows, patch.dof, single_[p].data(), b.data(), x.data(), chunk);
+        RelaxPatch(rows, patch.dof, single_[p].data(), b.data(), x.data(), chunk);
       }
       else if (patch.precision == Double)
       {
-        Relax(rows, patch.dof, double_[p].data(), b.data(), x.data(), chunk);
+        RelaxPatch(rows, patch.dof, double_[p].data(), b.data(), x.data(), chunk);
       }
     });
 }
