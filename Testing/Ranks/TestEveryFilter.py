@@ -3,6 +3,7 @@ import unittest
 
 import numpy
 from vtkmodules.util import numpy_support
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataSetAttributes
 
 import ranks
 
@@ -155,27 +156,72 @@ class EveryFilter(unittest.TestCase):
                     self.compare("ScreenedPoisson", mesh, kind)
                     self.compare("GeodesicDistance", mesh, kind, hats=True)
 
+    def border_problems(self, data, filter_, name):
+        """What differs between the two sides of a border, bit for bit."""
+        output = ranks.run(filter_, data)[0]
+        values = numpy_support.vtk_to_numpy(output.GetPointData().GetArray(name))
+        pairs = numpy.column_stack([origin(output, "origin", of_points), values])
+        everywhere = ranks.gathered(pairs.ravel()).reshape(-1, 2)
+        order = everywhere[numpy.argsort(everywhere[:, 0], kind="stable")]
+        again = order[1:, 0] == order[:-1, 0]
+        problems = [] if again.sum() > 20 else ["there are no borders"]
+        apart = ranks.apart(order[1:, 1][again], order[:-1, 1][again])
+        return problems + ([f"{apart} between two sides of a border"] if apart > 0.0 else [])
+
     def test_values_on_borders_are_the_same_on_both_sides(self):
-        for kind in ("contiguous", "ghosts"):
-            data = ranks.piece(ranks.ellipsoid(), kind)
-            solution = ranks.run(ranks.make("ScreenedPoisson"), data)[0]
-            values = numpy_support.vtk_to_numpy(solution.GetPointData().GetArray("Solution"))
-            pairs = numpy.column_stack([origin(solution, "origin", of_points), values])
-            everywhere = ranks.gathered(pairs.ravel()).reshape(-1, 2)
-            order = everywhere[numpy.argsort(everywhere[:, 0], kind="stable")]
-            again = order[1:, 0] == order[:-1, 0]
-            problems = []
-            if ranks.RANKS > 1 and again.sum() < 20:
-                problems.append("there are no borders")
-            if (order[1:, 1] != order[:-1, 1])[again].any():
-                problems.append("values differ on a border")
-            ranks.check(self, problems)
+        for kind in ("contiguous", "ghosts", "scattered"):
+            for hats in (False, True):
+                data = ranks.piece(ranks.ellipsoid(), kind)
+                ranks.check(self, self.border_problems(
+                    data, ranks.make("ScreenedPoisson", hats=hats), "Solution"))
+
+    def test_arrays_of_one_side_keep_border_points_apart_and_make_no_slit(self):
+        """As normals do that a filter made on every rank alone."""
+        for hats in (False, True):
+            data = ranks.piece(ranks.ellipsoid(), "contiguous")
+            ranks.add(data.GetPointData(), "side", numpy.full(data.GetNumberOfPoints(),
+                                                              float(ranks.RANK)))
+            filter_ = ranks.make("ScreenedPoisson", hats=hats)
+            problems = self.border_problems(data, filter_, "Solution")
+            reference = ranks.make("ScreenedPoisson", hats=hats)
+            references = ranks.alone(lambda: ranks.run(reference, ranks.whole(ranks.ellipsoid())))
+            ranks.check(self, problems + compare(
+                "ScreenedPoisson", [filter_.GetOutputDataObject(0)], references[:1], data, ROUNDING))
+
+    def test_vertices_come_before_polygons(self):
+        data = ranks.piece(ranks.ellipsoid(), "ghosts")
+        vertices = vtkCellArray()
+        vertices.InsertNextCell(1, [0])
+        data.SetVerts(vertices)
+        arrays = data.GetCellData()
+        for name in ("c", "originCell", vtkDataSetAttributes.GhostArrayName()):
+            values = numpy_support.vtk_to_numpy(arrays.GetArray(name))
+            ranks.add(arrays, name, numpy.concatenate([[0], values]).astype(values.dtype))
+        output = ranks.run(ranks.make("SurfaceGradient"), data)[0]
+        alone = ranks.alone(
+            lambda: ranks.run(ranks.make("SurfaceGradient"), ranks.whole(ranks.ellipsoid()))[0])
+        ours, theirs = (numpy_support.vtk_to_numpy(surface.GetCellData().GetArray("Gradient"))
+                        for surface in (output, alone))
+        off = ranks.apart(ours[1:], theirs[origin(data, "originCell", of_cells)[1:]])
+        ranks.check(self, [f"{off} off"] if ours[0].any() or off > ROUNDING * abs(theirs).max()
+                    else [])
 
     def test_more_ranks_than_cells(self):
         def triangle():
             return numpy.array([(0, 0, 0), (1, 0, 0), (0, 1, 0.2)]), numpy.array([(0, 1, 2)])
         for kind in ("scattered", "ghosts", "last"):
             self.compare("ScreenedPoisson", triangle, kind)
+
+    def test_ids_beyond_32_bits(self):
+        data = ranks.prepare(ranks.piece(ranks.ellipsoid(), "scattered", global_ids=True))
+        large = 1 << 40
+        for attributes in (data.GetPointData(), data.GetCellData()):
+            if attributes.GetGlobalIds():
+                numpy_support.vtk_to_numpy(attributes.GetGlobalIds())[:] += large
+        output = ranks.run(ranks.make("ScreenedPoisson"), data)[0]
+        reference = ranks.alone(
+            lambda: ranks.run(ranks.make("ScreenedPoisson"), ranks.whole(ranks.ellipsoid())))
+        ranks.check(self, compare("ScreenedPoisson", [output], reference[:1], data, 0.0))
 
 
 if __name__ == "__main__":

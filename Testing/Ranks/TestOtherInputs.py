@@ -8,6 +8,7 @@ from vtkmodules.vtkCommonDataModel import (
     VTK_VERTEX, vtkMultiBlockDataSet, vtkPartitionedDataSet, vtkPartitionedDataSetCollection,
     vtkPolyData, vtkUnstructuredGrid)
 
+import gridfem
 import ranks
 
 LAST = ranks.RANKS - 1
@@ -144,6 +145,23 @@ class OtherPorts(unittest.TestCase):
             return ranks.run(filter_, data)[0]
         reference = ranks.alone(lambda: interpolated(ranks.whole(mesh)))
         ranks.check(self, expect(interpolated(data), reference, "Interpolated", data))
+
+
+class Arrays(unittest.TestCase):
+    def test_arrays_of_numpy_are_those_of_one_rank(self):
+        problems = []
+        for rank in range(ranks.RANKS):
+            if ranks.RANK == rank:  # the others do not even know
+                points, triangles = ranks.ellipsoid()
+                eigenvalues, modes = gridfem.spectrum((1 + rank) * points, triangles, 4, Depth=4)
+                shape = gridfem.flow(points, triangles, 2, Depth=4)
+                if modes.shape[0] != len(points) or shape.shape != points.shape:
+                    problems.append("arrays of another surface")
+                scaled = (1 + rank) ** 2 * eigenvalues[1:]
+                if not numpy.allclose(scaled, gridfem.spectrum(points, triangles, 4, Depth=4)[0][1:],
+                                      rtol=1e-4):
+                    problems.append(f"eigenvalues {eigenvalues}")
+        ranks.check(self, problems)
 
 
 class Composite(unittest.TestCase):

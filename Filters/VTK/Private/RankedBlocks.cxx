@@ -124,14 +124,13 @@ std::string BlocksOf(vtkDataObject* data)
     ListBlocks(composite, "", lines);
     return lines;
   }
-  // Blocks of another kind, those of AMR, cannot be added: they have to be there.
+  // Blocks of another kind, those of AMR, cannot be added: all ranks have to have the same.
   auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
-  int count = 0;
   for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
   {
-    ++count;
+    lines += std::to_string(iterator->GetCurrentFlatIndex()) + "\n";
   }
-  return lines + std::to_string(count);
+  return lines;
 }
 
 /// Adds an empty surface at the end of a path where there is nothing.
