@@ -41,6 +41,10 @@ std::string TextOf(const std::exception_ptr& failure)
   {
     return error.what();
   }
+  catch (...)
+  {
+    return "an unknown error.";
+  }
 }
 
 bool IsAbort(const std::exception_ptr& failure)
