@@ -80,9 +80,10 @@ void RequireNoVolume(vtkDataSet* piece)
     cell->SetCellType(piece->GetCellType(k));
     if (cell->GetCellDimension() == 3)
     {
-      throw InvalidInput("The input is a volume mesh in pieces on several ranks, where the faces "
-                         "between pieces would count as surface. Extract Surface in front of this "
-                         "filter leaves them out.");
+      throw InvalidInput(
+        "The input is a volume mesh in pieces on several ranks, where the faces "
+        "between pieces would count as surface. Ghost Cells and Extract Surface in "
+        "front of this filter leave them out.");
     }
   }
 }
