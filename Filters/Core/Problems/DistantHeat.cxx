@@ -1,8 +1,6 @@
 #include "Problems/DistantHeat.h"
 
 #include "Base/Errors.h"
-#include "Base/Parallel.h"
-#include "Multigrid/RelaxPatch.h"
 #include "Spaces/FiniteElementSpace.h"
 
 #include <algorithm>
@@ -16,9 +14,6 @@ namespace
 {
 
 constexpr double Infinite = std::numeric_limits<double>::infinity();
-
-/// Pivots of the scaled block below this are rounding, as for the patch smoother.
-constexpr double SmallestPivot = 1e-14;
 
 /// Less is lost among numbers that are no longer held to all digits, and is taken for 0.
 constexpr double SmallestHeat = 1e-290;
@@ -47,11 +42,8 @@ EIGEN_ALWAYS_INLINE void DistantHeat::FetchPatch(const Layers& layers, Id k) con
 {
   if (k + 3 < static_cast<Id>(layers.patch.size()))
   {
-    Fetch<9>(&patches_[layers.patch[k + 3]]);
-    for (const Index i : patches_[layers.patch[k]].dof)
-    {
-      FetchRow(RowView(A_), i);
-    }
+    patches_->FetchInverse(layers.patch[k + 3]);
+    patches_->FetchRows(RowView(A_), layers.patch[k]);
   }
 }
 
@@ -78,22 +70,7 @@ DistantHeat::DistantHeat(
   {
     size = std::sqrt(std::max(0.0, size));
   }
-  const PatchOrder order = space.Relaxation(level, {}).order;
-  patches_.resize(order.dof.size());
-  const BlockSource source(A_, job.threads);
-  ParallelRanges(
-    static_cast<Id>(patches_.size()), job.threads,
-    [&](Id begin, Id end)
-    {
-      ForEachFactor(source, order.dof.data(), begin, end, SmallestPivot,
-        [&](Id p, const PatchFactor& factor)
-        {
-          patches_[p].dof = factor.dof;
-          Eigen::Map<PatchMatrix>(patches_[p].inverse.data()) =
-            factor.count > 0 ? factor.V : PatchMatrix::Zero();
-        });
-    },
-    PatchesPerBlock);
+  patches_.emplace(A_, space.Relaxation(level, {}).order.dof, job.threads, FactorPrecision::Mixed);
 }
 
 /// Per function, over how many others heat comes to it; -1 on components without a source.
@@ -153,14 +130,14 @@ DistantHeat::Layers DistantHeat::LayersByRank(const std::vector<double>& rank) c
 
 DistantHeat::Layers DistantHeat::LayersBySteps(const std::vector<Index>& steps) const
 {
-  std::vector<double> rank(patches_.size());
-  std::transform(patches_.begin(), patches_.end(), rank.begin(),
-    [&](const Patch& patch)
-    {
-      const double sum = std::accumulate(patch.dof.begin(), patch.dof.end(), 0.0,
-        [&](double before, Index i) { return before + steps[i]; });
-      return steps[patch.dof[0]] < 0 ? Infinite : sum / FunctionsPerPatch;
-    });
+  std::vector<double> rank(patches_->Count());
+  for (std::size_t p = 0; p < rank.size(); ++p)
+  {
+    const auto& unknowns = patches_->Unknowns(static_cast<Id>(p));
+    const double sum = std::accumulate(unknowns.begin(), unknowns.end(), 0.0,
+      [&](double before, Index i) { return before + steps[i]; });
+    rank[p] = steps[unknowns[0]] < 0 ? Infinite : sum / FunctionsPerPatch;
+  }
   return this->LayersByRank(rank);
 }
 
@@ -168,12 +145,12 @@ DistantHeat::Layers DistantHeat::LayersBySteps(const std::vector<Index>& steps) 
 DistantHeat::Layers DistantHeat::LayersByHeat(
   const MultiVector& u, Id count, const std::vector<Index>& patches) const
 {
-  std::vector<double> rank(patches_.size(), Infinite);
+  std::vector<double> rank(patches_->Count(), Infinite);
   double least = Infinite;
   double most = -Infinite;
   for (const Index p : patches)
   {
-    rank[p] = -std::log(std::max(SmallestHeat, this->HeatOf(patches_[p], u)));
+    rank[p] = -std::log(std::max(SmallestHeat, this->HeatOf(p, u)));
     least = std::min(least, rank[p]);
     most = std::max(most, rank[p]);
   }
@@ -185,10 +162,10 @@ DistantHeat::Layers DistantHeat::LayersByHeat(
   return this->LayersByRank(rank);
 }
 
-double DistantHeat::HeatOf(const Patch& patch, const MultiVector& u) const
+double DistantHeat::HeatOf(Index patch, const MultiVector& u) const
 {
   double heat = 0.0;
-  for (const Index i : patch.dof)
+  for (const Index i : patches_->Unknowns(patch))
   {
     heat = std::max(heat, std::abs(u(i, 0)) * size_[i]);
   }
@@ -196,19 +173,20 @@ double DistantHeat::HeatOf(const Patch& patch, const MultiVector& u) const
 }
 
 /// @return  the largest change over the heat of the patch
-double DistantHeat::Relax(const Patch& patch, const MultiVector& b, MultiVector& u) const
+double DistantHeat::Relax(Index patch, const MultiVector& b, MultiVector& u) const
 {
+  const auto& unknowns = patches_->Unknowns(patch);
   std::array<double, FunctionsPerPatch> before;
   for (int k = 0; k < FunctionsPerPatch; ++k)
   {
-    before[k] = u(patch.dof[k], 0);
+    before[k] = u(unknowns[k], 0);
   }
-  RelaxPatch(RowView(A_), patch.dof, patch.inverse.data(), b.data(), u.data(), ColumnChunk<1, 1>());
+  patches_->Relax(patch, RowView(A_), b.data(), u.data(), ColumnChunk<1, 1>());
   double heat = SmallestHeat;
   double change = 0.0;
   for (int k = 0; k < FunctionsPerPatch; ++k)
   {
-    const Index i = patch.dof[k];
+    const Index i = unknowns[k];
     double& value = u(i, 0);
     value = std::abs(value) * size_[i] < SmallestHeat ? 0.0 : value;
     heat = std::max(heat, std::abs(value) * size_[i]);
@@ -235,7 +213,7 @@ Id DistantHeat::March(
         for (Id k = layers.begin[layer]; k < layers.begin[layer + 1]; ++k)
         {
           this->FetchPatch(layers, k + 3);
-          largest = std::max(largest, this->Relax(patches_[layers.patch[k]], b, u));
+          largest = std::max(largest, this->Relax(layers.patch[k], b, u));
         }
         settled += settled == layer && largest <= change ? 1 : 0;
       }
@@ -251,16 +229,16 @@ Id DistantHeat::CountUnreached(const Layers& layers, const MultiVector& u) const
   std::vector<char> isUnreached(A_.rows, 0);
   for (const Index p : layers.patch)
   {
-    for (const Index i : patches_[p].dof)
+    for (const Index i : patches_->Unknowns(p))
     {
       isUnreached[i] = 1;
     }
   }
   for (const Index p : layers.patch)
   {
-    if (this->HeatOf(patches_[p], u) > SmallestHeat)
+    if (this->HeatOf(p, u) > SmallestHeat)
     {
-      for (const Index i : patches_[p].dof)
+      for (const Index i : patches_->Unknowns(p))
       {
         isUnreached[i] = 0;
       }
@@ -295,7 +273,7 @@ HeatField DistantHeat::OnLevel(const MultiVector& load, const Job& job) const
     double change = 0.0;
     for (const Index p : byHeat.patch)
     {
-      change = std::max(change, this->Relax(patches_[p], b, u));
+      change = std::max(change, this->Relax(p, b, u));
     }
     relaxed += static_cast<Id>(byHeat.patch.size());
     heat.converged = change <= LastChange;

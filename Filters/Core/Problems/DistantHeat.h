@@ -11,7 +11,7 @@
 #include "Algebra/SparseMatrix.h"
 #include "Base/Job.h"
 #include "Multigrid/CoarseSolver.h"
-#include "Multigrid/PatchFactor.h"
+#include "Multigrid/PatchInverses.h"
 
 #include <optional>
 #include <vector>
@@ -54,12 +54,6 @@ public:
   const SparseMatrix& Matrix() const { return A_; }
 
 private:
-  struct Patch
-  {
-    std::array<Index, FunctionsPerPatch> dof;
-    std::array<double, FunctionsPerPatch * FunctionsPerPatch> inverse; // V, as in PatchFactor
-  };
-
   /// Patches in the order in which heat comes to them, cut into layers.
   struct Layers
   {
@@ -74,9 +68,9 @@ private:
   Layers LayersByRank(const std::vector<double>& rank) const;
   Layers LayersBySteps(const std::vector<Index>& steps) const;
   Layers LayersByHeat(const MultiVector& u, Id count, const std::vector<Index>& patches) const;
-  double HeatOf(const Patch& patch, const MultiVector& u) const;
+  double HeatOf(Index patch, const MultiVector& u) const;
   void FetchPatch(const Layers& layers, Id k) const;
-  double Relax(const Patch& patch, const MultiVector& b, MultiVector& u) const;
+  double Relax(Index patch, const MultiVector& b, MultiVector& u) const;
   Id March(const Layers& layers, double change, const MultiVector& b, MultiVector& u,
     const Job& job) const;
   Id CountUnreached(const Layers& layers, const MultiVector& u) const;
@@ -86,7 +80,7 @@ private:
   SparseMatrix A_;
   std::vector<double> size_; // sqrt(A_ii), what a coefficient counts: one whose function has hardly
                              // any surface may be large and says nothing
-  std::vector<Patch> patches_;
+  std::optional<PatchInverses> patches_;
   std::optional<CoarseSolver> direct_; // a start on the coarsest level, where t may be very large
   double t_;
 };
