@@ -45,6 +45,7 @@ vtkSurfaceFEMAlgorithm::vtkSurfaceFEMAlgorithm()
     Ranked(std::make_unique<gridfem::RankedSurface>()),
     Blocks(std::make_unique<gridfem::RankedBlocks>())
 {
+  // On several ranks blocks that only some of them have would leave the others waiting.
   vtkNew<vtkCallbackCommand> beginBlocks;
   beginBlocks->SetClientData(this);
   beginBlocks->SetCallback(
