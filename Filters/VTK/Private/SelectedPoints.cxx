@@ -16,10 +16,16 @@
 #include "vtkInformation.h"
 #include "vtkMultiProcessController.h"
 #include "vtkNew.h"
+#include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkSelection.h"
 #include "vtkSelectionNode.h"
+#include "vtkSelector.h"
+
+#if VTK_MODULE_ENABLE_ParaView_VTKExtensionsExtractionPython
+#include "vtkPythonSelector.h"
+#endif
 
 #include <string>
 
@@ -27,6 +33,31 @@ namespace gridfem
 {
 namespace
 {
+
+/// Find Data of ParaView makes queries, which its own selector evaluates.
+class Extraction : public vtkExtractSelection
+{
+public:
+  static Extraction* New();
+  vtkTypeMacro(Extraction, vtkExtractSelection);
+
+protected:
+  vtkSmartPointer<vtkSelector> NewSelectionOperator(
+    vtkSelectionNode::SelectionContent content) override
+  {
+#if VTK_MODULE_ENABLE_ParaView_VTKExtensionsExtractionPython
+    if (content == vtkSelectionNode::QUERY)
+    {
+      return vtkSmartPointer<vtkPythonSelector>::New();
+    }
+#endif
+    return this->Superclass::NewSelectionOperator(content);
+  }
+};
+
+vtkStandardNewMacro(Extraction);
+
+constexpr bool HasQueries = VTK_MODULE_ENABLE_ParaView_VTKExtensionsExtractionPython;
 
 constexpr const char* Insidedness = "vtkInsidedness"; // of vtkExtractSelection
 
@@ -91,7 +122,7 @@ void Validate(vtkSelection* selection)
       throw InvalidInput("The Selection has both points and cells. Choose one of them.");
     }
     const int content = node->GetContentType();
-    if (content == vtkSelectionNode::QUERY || content == vtkSelectionNode::USER)
+    if (content == vtkSelectionNode::USER || (content == vtkSelectionNode::QUERY && !HasQueries))
     {
       throw InvalidInput("The Selection is one by " +
                          std::string(vtkSelectionNode::GetContentTypeAsString(content)) +
@@ -219,7 +250,7 @@ void SelectedPoints::ExtractFrom(vtkDataObject* data, vtkSelection* selection)
   listen->SetClientData(&error);
   listen->SetCallback([](vtkObject*, unsigned long, void* text, void* message)
     { *static_cast<std::string*>(text) = static_cast<const char*>(message); });
-  vtkNew<vtkExtractSelection> filter;
+  vtkNew<Extraction> filter;
   filter->AddObserver(vtkCommand::ErrorEvent, listen);
   filter->AddObserver(vtkCommand::WarningEvent, listen); // an unknown kind of selection
   filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, listen);
