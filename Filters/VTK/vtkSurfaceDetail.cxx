@@ -436,8 +436,8 @@ void vtkSurfaceDetail::UpdateSolution(const gridfem::Progress& progress)
   state.stages.Run(gridfem::SolveStage, solve,
     [&]
     {
-      const gridfem::MultiVector last =
-        StartFor(std::move(data.Solution.coefficients), data.Load.cols());
+      gridfem::MultiVector& last = data.Solution.coefficients; // stays where this is aborted
+      last = StartFor(std::move(last), data.Load.cols());
       options.start = &last;
       data.Solution =
         gridfem::SolveDetail(space, *data.Hierarchy, data.Load, options, progress.Part(0.3, 1.0));

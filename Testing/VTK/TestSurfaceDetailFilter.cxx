@@ -399,6 +399,36 @@ TEST_P(SurfaceDetailFilter, OneCycleAfterTheOtherComesToTheSolution)
   EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 1);
 }
 
+/// A run that is aborted leaves nothing behind but the last solution, from which the next one
+/// starts.
+TEST_P(SurfaceDetailFilter, GoesOnAfterAnAbort)
+{
+  const auto sphere = WavySphere();
+  const auto filter = DetailOf(sphere, GetParam());
+  filter->SetTolerance(1e-10);
+  filter->Update();
+  const double iterations = FieldValue(filter->GetOutput(), "Iterations");
+  vtkNew<vtkCallbackCommand> abort;
+  abort->SetCallback(
+    [](vtkObject* caller, unsigned long, void*, void*)
+    {
+      auto* algorithm = vtkAlgorithm::SafeDownCast(caller);
+      algorithm->SetAbortExecute(algorithm->GetProgress() > 0.7); // in the solve
+    });
+  const auto observer = filter->AddObserver(vtkCommand::ProgressEvent, abort);
+  filter->SetScreeningWeight(501.0);
+  filter->Update();
+  EXPECT_TRUE(IsEmptyData(filter->GetOutput()));
+  filter->RemoveObserver(observer);
+  filter->Modified();
+  filter->Update();
+  EXPECT_LT(FieldValue(filter->GetOutput(), "Iterations"), iterations);
+  const auto fresh = DetailOf(sphere, GetParam());
+  fresh->SetTolerance(1e-10);
+  fresh->SetScreeningWeight(501.0);
+  EXPECT_LE(Difference(Positions(filter->GetOutput()), PositionsFrom(fresh)), 1e-9);
+}
+
 /// Points of the curve, by hand: nothing counts more, or as much as a preset where that has no
 /// bend.
 TEST_P(SurfaceDetailFilter, TakesATransferFunctionOfOnesOwn)
