@@ -2,6 +2,7 @@
 
 #include "Private/InputArray.h"
 #include "Private/InputValidation.h"
+#include "Private/SelectedPoints.h"
 #include "Private/SolverOutput.h"
 #include "Private/SourcePoints.h"
 #include "Private/SurfaceSolverState.h"
@@ -19,6 +20,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkSelection.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,8 +62,9 @@ struct vtkGeodesicDistance::Internals
   std::unique_ptr<gridfem::GeodesicDistance> Method;
   gridfem::DistanceField Field;
 
-  std::vector<gridfem::Id> FindSources(
-    const gridfem::InputMesh& mesh, const gridfem::InputArray& mask, vtkDataSet* places) const
+  std::vector<gridfem::Id> FindSources(const gridfem::InputMesh& mesh,
+    const gridfem::InputArray& mask, vtkDataSet* places,
+    const gridfem::SelectedPoints& selection) const
   {
     std::vector<gridfem::Id> ids = this->SourceIds;
     if (mask.array)
@@ -69,25 +72,35 @@ struct vtkGeodesicDistance::Internals
       const std::vector<gridfem::Id> masked = MaskedPoints(mask, mesh);
       ids.insert(ids.end(), masked.begin(), masked.end());
     }
-    if (this->SourceIds.empty() && !mask.array && !places)
+    const std::vector<gridfem::Id> selected = selection.Ids(*mesh.triangles);
+    ids.insert(ids.end(), selected.begin(), selected.end());
+    if (this->SourceIds.empty() && !mask.array && !places && !selection.IsGiven())
     {
       ids = { mesh.triangles->triangles.front()[0] };
     }
     const std::vector<gridfem::Id> sources = gridfem::SourcePoints(*mesh.triangles, ids, places);
     if (sources.empty())
     {
-      throw gridfem::InvalidInput(
-        mask.array
-          ? "SourceArray '" + mask.name + "' is 0 at all points of polygons, so no distance starts."
-          : "The input Sources has no points, so no distance starts.");
+      throw gridfem::InvalidInput(WhyNoSource(mask, selection));
     }
     return sources;
   }
+
+  static std::string WhyNoSource(
+    const gridfem::InputArray& mask, const gridfem::SelectedPoints& selection)
+  {
+    const std::string reason = mask.array
+                                 ? "SourceArray '" + mask.name + "' is 0 at all points of polygons"
+                               : selection.IsGiven() ? "The Selection takes no point of a polygon"
+                                                     : "The input Sources has no points";
+    return reason + ", so no distance starts.";
+  }
 };
 
-vtkGeodesicDistance::vtkGeodesicDistance() : Data(std::make_unique<Internals>())
+vtkGeodesicDistance::vtkGeodesicDistance()
+  : Data(std::make_unique<Internals>()), Selection(std::make_unique<gridfem::SelectedPoints>(this))
 {
-  this->SetNumberOfInputPorts(3);
+  this->SetNumberOfInputPorts(4);
   this->Tolerance = 1e-4;
   this->NormalStabilization = 0.1;
   this->MaximumIterations = 200;
@@ -98,9 +111,9 @@ vtkGeodesicDistance::~vtkGeodesicDistance() = default;
 int vtkGeodesicDistance::FillInputPortInformation(int port, vtkInformation* info)
 {
   this->Superclass::FillInputPortInformation(port, info);
-  if (port == 2)
+  if (port >= 2)
   {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 2 ? "vtkDataSet" : "vtkSelection");
   }
   return 1;
 }
@@ -228,8 +241,9 @@ void vtkGeodesicDistance::Compute(vtkInformationVector** inputs, vtkInformationV
   const gridfem::InputArray mask = gridfem::FindInputArray(this, 0, input, "SourceArray");
   state.options.space.joinAtPoints = true; // paths lead through points where sheets touch
   state.UpdateSpace(input, vtkPolyData::GetData(inputs[1]), progress.Part(0.0, 0.2));
+  this->Selection->Update(vtkSelection::GetData(inputs[3]), input);
   const std::vector<gridfem::Id> found =
-    this->Data->FindSources(state.mesh, mask, vtkDataSet::GetData(inputs[2]));
+    this->Data->FindSources(state.mesh, mask, vtkDataSet::GetData(inputs[2]), *this->Selection);
   const std::vector<vtkIdType> sources(found.begin(), found.end());
   state.UpdateSystem(progress.Part(0.2, 0.3));
 
@@ -247,6 +261,7 @@ void vtkGeodesicDistance::Compute(vtkInformationVector** inputs, vtkInformationV
 void vtkGeodesicDistance::FreeStages()
 {
   this->Superclass::FreeStages();
+  this->Selection->Free();
   this->Data->Method.reset();
   this->Data->Field = {};
 }

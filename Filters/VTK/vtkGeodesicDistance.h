@@ -7,15 +7,16 @@
  * the function whose gradient is nearest to these directions. Two equations are solved; all but the
  * sources is kept, so that other sources cost the solutions alone.
  *
- * Sources are the points in SourcePointIds, those where the SourceArray is not 0, and those nearest
- * to the points of input port 2, all together. When none of the three is given, the first point of
- * the first polygon is the source. A triangle whose corners are all sources is at distance 0 as a
- * whole.
+ * Sources are the points in SourcePointIds, those where the SourceArray is not 0, those nearest to
+ * the points of input port 2, and those that the selection of port 3 takes, all together. When none
+ * of the four is given, the first point of the first polygon is the source. A triangle whose
+ * corners are all sources is at distance 0 as a whole.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
  * vtkConnectivityAwareBasis. Input port 1 (optional): the output of vtkConnectivityAwareBasis for
  * the mesh of port 0. Input port 2 (optional): vtkDataSet whose points are sources, each at the
- * nearest point of the mesh. The SourceArray is chosen by SetInputArrayToProcess(0, ...): point
+ * nearest point of the mesh. Input port 3 (optional): vtkSelection of points or cells of port 0; a
+ * cell takes its points. The SourceArray is chosen by SetInputArrayToProcess(0, ...): point
  * data with one component.
  *
  * Output port 0 (vtkPolyData): the input with
@@ -40,6 +41,11 @@
 #define vtkGeodesicDistance_h
 
 #include "vtkSurfaceFEMAlgorithm.h"
+
+namespace gridfem
+{
+class SelectedPoints;
+} // namespace gridfem
 
 class VTKGRIDFEMFILTERS_EXPORT vtkGeodesicDistance : public vtkSurfaceFEMAlgorithm
 {
@@ -103,6 +109,11 @@ public:
    */
   void SetSourcesConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(2, output); }
 
+  /**
+   * The input of port 3: a selection of sources.
+   */
+  void SetSelectionConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(3, output); }
+
 protected:
   vtkGeodesicDistance();
   ~vtkGeodesicDistance() override;
@@ -126,6 +137,7 @@ private:
 
   struct Internals;
   std::unique_ptr<Internals> Data;
+  std::unique_ptr<gridfem::SelectedPoints> Selection;
 };
 
 #endif

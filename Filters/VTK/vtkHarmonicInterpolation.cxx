@@ -2,6 +2,7 @@
 
 #include "Private/GivenValues.h"
 #include "Private/InputArray.h"
+#include "Private/SelectedPoints.h"
 #include "Private/SolverOutput.h"
 #include "Private/SurfaceSolverState.h"
 
@@ -15,6 +16,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkSelection.h"
 
 #include <algorithm>
 #include <limits>
@@ -54,9 +56,10 @@ struct vtkHarmonicInterpolation::Internals
   gridfem::ConstrainedSolution Solution;
 };
 
-vtkHarmonicInterpolation::vtkHarmonicInterpolation() : Data(std::make_unique<Internals>())
+vtkHarmonicInterpolation::vtkHarmonicInterpolation()
+  : Data(std::make_unique<Internals>()), Selection(std::make_unique<gridfem::SelectedPoints>(this))
 {
-  this->SetNumberOfInputPorts(3);
+  this->SetNumberOfInputPorts(4);
   this->Tolerance = 1e-6;
   this->MaximumIterations = 200;
   this->NormalStabilization = 1e-2;
@@ -67,9 +70,9 @@ vtkHarmonicInterpolation::~vtkHarmonicInterpolation() = default;
 int vtkHarmonicInterpolation::FillInputPortInformation(int port, vtkInformation* info)
 {
   this->Superclass::FillInputPortInformation(port, info);
-  if (port == 2)
+  if (port >= 2)
   {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 2 ? "vtkDataSet" : "vtkSelection");
   }
   return 1;
 }
@@ -87,10 +90,10 @@ void vtkHarmonicInterpolation::FindValues(vtkPolyData* input, vtkDataSet* values
   else
   {
     data.Array = gridfem::FindInputArray(this, 0, input, "ValueArray");
-    gridfem::RequirePointArray(
-      data.Array, "ValueArray", "values at some points, with NaN or a MaskArray for the others");
+    gridfem::RequirePointArray(data.Array, "ValueArray",
+      "values at some points, with NaN, a MaskArray or a Selection for the others");
     const gridfem::InputArray mask = gridfem::FindInputArray(this, 1, input, "MaskArray");
-    given = gridfem::KnownValues(data.Array, mask, *mesh.triangles);
+    given = gridfem::KnownValues(data.Array, mask, *this->Selection, *mesh.triangles);
   }
   const bool isSame = given.points == data.Given.points &&
                       given.values.cols() == data.Given.values.cols() &&
@@ -149,6 +152,7 @@ void vtkHarmonicInterpolation::Compute(vtkInformationVector** inputs, vtkInforma
   const gridfem::Progress progress = state.bridge.GetProgress();
   state.UpdateSpace(input, vtkPolyData::GetData(inputs[1]), progress.Part(0.0, 0.3));
   state.UpdateSystem(progress.Part(0.3, 0.5));
+  this->Selection->Update(vtkSelection::GetData(inputs[3]), input);
   this->FindValues(input, vtkDataSet::GetData(inputs[2]));
   this->Solve(progress.Part(0.5, 0.95));
   this->Write(input, vtkPolyData::GetData(outputs, 0));
@@ -175,6 +179,7 @@ void vtkHarmonicInterpolation::Compute(vtkInformationVector** inputs, vtkInforma
 void vtkHarmonicInterpolation::FreeStages()
 {
   this->Superclass::FreeStages();
+  this->Selection->Free();
   *this->Data = {};
 }
 

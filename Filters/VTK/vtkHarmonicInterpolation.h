@@ -10,15 +10,16 @@
  * vtkConnectivityAwareBasis. Input port 1 (optional): the output of vtkConnectivityAwareBasis for
  * the mesh of port 0. Input port 2 (optional, `Values`): any data set with points, such as
  * extracted selections or probes, whose values count at the nearest point of the surface that a
- * polygon uses.
+ * polygon uses. Input port 3 (optional): vtkSelection of points or cells of port 0; a cell takes
+ * its points.
  *
  * Arrays, chosen by SetInputArrayToProcess, with any number of components:
  * - index 0, `ValueArray`: point data of port 0. A tuple with a NaN is unknown.
- * - index 1, `MaskArray` (optional): point data of port 0, one component; where it is 0 or NaN the
- *   value is unknown.
+ * - index 1, `MaskArray` (optional): point data of port 0, one component. With it or a selection,
+ *   values are known where it is neither 0 nor NaN and at selected points, and nowhere else.
  * - index 2 (optional): point data of port 2, where that is connected. Without it the array there
- *   with the name of ValueArray, or the active scalars when none is chosen. MaskArray is not used
- *   then.
+ *   with the name of ValueArray, or the active scalars when none is chosen. MaskArray and
+ *   the selection are not used then.
  * Several values at one point are met in the mean, and the filter warns when they differ.
  *
  * Output port 0 (vtkPolyData): the input with
@@ -42,6 +43,7 @@ class vtkDataSet;
 namespace gridfem
 {
 class Progress;
+class SelectedPoints;
 } // namespace gridfem
 
 class VTKGRIDFEMFILTERS_EXPORT vtkHarmonicInterpolation : public vtkSurfaceFEMAlgorithm
@@ -76,6 +78,11 @@ public:
    */
   void SetValuesConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(2, output); }
 
+  /**
+   * The input of port 3: a selection of the points whose values are known.
+   */
+  void SetSelectionConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(3, output); }
+
 protected:
   vtkHarmonicInterpolation();
   ~vtkHarmonicInterpolation() override;
@@ -96,6 +103,7 @@ private:
 
   struct Internals;
   std::unique_ptr<Internals> Data;
+  std::unique_ptr<gridfem::SelectedPoints> Selection;
 };
 
 #endif

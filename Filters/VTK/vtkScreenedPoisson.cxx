@@ -6,6 +6,7 @@
 #include "Private/InputArray.h"
 #include "Private/InputValidation.h"
 #include "Private/MovedMeshWriter.h"
+#include "Private/SelectedPoints.h"
 #include "Private/SolverOutput.h"
 #include "Private/SurfaceConstrainedPoisson.h"
 #include "Private/SurfacePoisson.h"
@@ -20,6 +21,7 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkSelection.h"
 #include "vtkTable.h"
 
 #include <algorithm>
@@ -59,15 +61,26 @@ struct vtkScreenedPoisson::Internals
   gridfem::SurfaceConstrainedPoisson Constrained;
 };
 
-vtkScreenedPoisson::vtkScreenedPoisson() : Data(std::make_unique<Internals>())
+vtkScreenedPoisson::vtkScreenedPoisson()
+  : Data(std::make_unique<Internals>()), Selection(std::make_unique<gridfem::SelectedPoints>(this))
 {
-  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfInputPorts(3);
   this->SetNumberOfOutputPorts(2);
   this->Tolerance = 0.0;
   this->MaximumIterations = 200;
 }
 
 vtkScreenedPoisson::~vtkScreenedPoisson() = default;
+
+int vtkScreenedPoisson::FillInputPortInformation(int port, vtkInformation* info)
+{
+  this->Superclass::FillInputPortInformation(port, info);
+  if (port == 2)
+  {
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkSelection");
+  }
+  return 1;
+}
 
 int vtkScreenedPoisson::FillOutputPortInformation(int port, vtkInformation* info)
 {
@@ -125,10 +138,11 @@ void vtkScreenedPoisson::FindConstraints(vtkPolyData* input)
   }
   if (this->HoldsValues() && data.Value.association != gridfem::FieldAssociation::Points)
   {
-    throw gridfem::InvalidInput(
-      std::string(data.Constraint.array ? "ConstraintArray" : "BoundaryValues") +
-      " needs values at points, but '" + data.Value.name +
-      "' is a cell array. Cell Data to Point Data converts it.");
+    throw gridfem::InvalidInput(std::string(data.Constraint.array        ? "ConstraintArray"
+                                            : this->Selection->IsGiven() ? "A Selection"
+                                                                         : "BoundaryValues") +
+                                " needs values at points, but '" + data.Value.name +
+                                "' is a cell array. Cell Data to Point Data converts it.");
   }
   this->FindFlux(input);
   if (this->IsConstrained() && this->AccuracyDriven)
@@ -163,9 +177,14 @@ void vtkScreenedPoisson::FindFlux(vtkPolyData* input)
   }
 }
 
+bool vtkScreenedPoisson::HoldsPoints() const
+{
+  return this->Data->Constraint.array || this->Selection->IsGiven();
+}
+
 bool vtkScreenedPoisson::HoldsValues() const
 {
-  return this->BoundaryValues || this->Data->Constraint.array;
+  return this->BoundaryValues || this->HoldsPoints();
 }
 
 bool vtkScreenedPoisson::IsConstrained() const
@@ -199,9 +218,9 @@ gridfem::ConstrainedLoad vtkScreenedPoisson::IntegrateConstrained(
   load.field = gridfem::SplitField(value, weight ? &*weight : nullptr, triangles);
   gridfem::GivenValues given;
   given.values.resize(0, value.values.cols());
-  if (data.Constraint.array)
+  if (this->HoldsPoints())
   {
-    given = gridfem::KnownValues(array, data.Constraint, triangles);
+    given = gridfem::KnownValues(array, data.Constraint, *this->Selection, triangles);
   }
   load.held = gridfem::HoldPoints(space, given.points, std::move(given.values));
   if (this->BoundaryValues || data.Flux.array)
@@ -302,7 +321,7 @@ void vtkScreenedPoisson::Solve(const gridfem::Progress& progress)
     }
     fields.Add(data.Weight.array).Add(static_cast<int>(data.Weight.association));
     fields.Add(data.Constraint.array).Add(this->FillUnknown);
-    fields.Add(data.Flux.array).Add(this->BoundaryValues);
+    fields.Add(data.Flux.array).Add(this->BoundaryValues).Add(this->Selection->Version());
     data.Constrained.Update(
       *this->State, fields,
       [this](const gridfem::FiniteElementSpace& space, const gridfem::Job& job)
@@ -427,6 +446,7 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
   const gridfem::Progress progress = this->State->bridge.GetProgress();
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
   this->FindArrays(input);
+  this->Selection->Update(vtkSelection::GetData(inputs[2]), input);
   this->FindConstraints(input);
   const bool hasBasis = basis || gridfem::CarriesBasis(input);
   if (this->AccuracyDriven && !hasBasis && this->FunctionSpace != HatFunctions)
@@ -466,6 +486,7 @@ void vtkScreenedPoisson::SetTolerance(double tolerance)
 void vtkScreenedPoisson::FreeStages()
 {
   this->Superclass::FreeStages();
+  this->Selection->Free();
   this->Data->Search = {};
   this->Data->Equation = {};
   this->Data->Constrained = {};

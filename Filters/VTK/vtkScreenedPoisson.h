@@ -14,7 +14,8 @@
  *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
  * vtkConnectivityAwareBasis. Input port 1 (optional): the output of vtkConnectivityAwareBasis for
- * the mesh of port 0.
+ * the mesh of port 0. Input port 2 (optional): vtkSelection of points or cells of port 0, where the
+ * solution has the values exactly, as where the ConstraintArray is not 0; a cell takes its points.
  *
  * Arrays, of any numeric type, as point or cell data of input port 0, chosen by
  * SetInputArrayToProcess:
@@ -58,8 +59,8 @@
  *   what the iteration has left, relative as the first. Of several components the worst; not a
  *   number where nothing is known, as without coarser levels. `TrustedEstimate` (int, 1): 0 where
  *   levels do not differ as they do on a resolved surface: the first may be too small then; with
- * ConstraintArray or BoundaryValues also `Misfit` (double, 1): the largest difference from a value
- * that is to be held
+ * ConstraintArray, a selection or BoundaryValues also `Misfit` (double, 1): the largest difference
+ * from a value that is to be held
  *
  * Output port 1 (vtkTable): a row per iteration with `Iteration` (int), 0 being the start by nested
  * iteration; `EnergyResidual` (double): an estimate of the error in the energy norm, relative to
@@ -91,6 +92,7 @@ struct SolutionAccuracy;
 struct SolveReport;
 class FiniteElementSpace;
 class Progress;
+class SelectedPoints;
 } // namespace gridfem
 
 class VTKGRIDFEMFILTERS_EXPORT vtkScreenedPoisson : public vtkSurfaceFEMAlgorithm
@@ -227,10 +229,16 @@ public:
    */
   void SetBasisConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
 
+  /**
+   * The input of port 2: a selection of points that are held.
+   */
+  void SetSelectionConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(2, output); }
+
 protected:
   vtkScreenedPoisson();
   ~vtkScreenedPoisson() override;
 
+  int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   void FreeStages() override;
@@ -258,6 +266,7 @@ private:
   void AddBoundary(const gridfem::FiniteElementSpace& space, const gridfem::Field& value,
     gridfem::ConstrainedLoad& load);
   bool IsConstrained() const;
+  bool HoldsPoints() const;
   bool HoldsValues() const;
   const gridfem::SolveReport& Report() const;
   gridfem::SolutionAccuracy EstimatedErrors() const;
@@ -272,6 +281,7 @@ private:
 
   struct Internals;
   std::unique_ptr<Internals> Data;
+  std::unique_ptr<gridfem::SelectedPoints> Selection;
 };
 
 #endif

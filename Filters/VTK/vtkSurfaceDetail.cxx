@@ -4,11 +4,13 @@
 #include "Private/InputArray.h"
 #include "Private/InputValidation.h"
 #include "Private/MovedMeshWriter.h"
+#include "Private/SelectedPoints.h"
 #include "Private/SolverOutput.h"
 #include "Private/SurfaceCurvatures.h"
 #include "Private/SurfaceSolverState.h"
 
 #include "Base/Errors.h"
+#include "Problems/MarchedDistance.h"
 #include "Problems/MovedSurface.h"
 #include "Problems/SurfaceDetail.h"
 
@@ -16,13 +18,16 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
+#include "vtkPiecewiseFunction.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkSelection.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 vtkStandardNewMacro(vtkSurfaceDetail);
 
@@ -54,18 +59,56 @@ gridfem::MultiVector AtPoints(
   return Eigen::Map<const Eigen::VectorXd>(means.data(), static_cast<Eigen::Index>(means.size()));
 }
 
-std::vector<double> OnElements(const gridfem::FiniteElementSpace& space,
-  const gridfem::Field& field, const gridfem::TriangleMesh& mesh, const gridfem::Job& job)
+/// Means over the corners; a field of triangles as it is.
+gridfem::MultiVector OnTriangles(const gridfem::Field& field, const gridfem::TriangleMesh& mesh)
 {
-  gridfem::MultiVector onTriangles(static_cast<gridfem::Id>(mesh.triangles.size()), 1);
-  for (gridfem::Id t = 0; t < onTriangles.rows(); ++t)
+  gridfem::MultiVector means(static_cast<gridfem::Id>(mesh.triangles.size()), 1);
+  for (gridfem::Id t = 0; t < means.rows(); ++t)
   {
     const auto rows = field.RowsOf(t, mesh.triangles[t]);
-    onTriangles(t, 0) =
+    means(t, 0) =
       (field.values(rows[0], 0) + field.values(rows[1], 0) + field.values(rows[2], 0)) / 3.0;
   }
+  return means;
+}
+
+std::vector<double> OnElements(const gridfem::FiniteElementSpace& space,
+  const gridfem::MultiVector& onTriangles, const gridfem::Job& job)
+{
   const gridfem::MultiVector means = space.MeansOnElements(onTriangles, job);
   return { means.data(), means.data() + means.size() };
+}
+
+/// 1 at selected points, falling to 0 within the width.
+gridfem::Field FadeOut(
+  const gridfem::SurfaceSolverState& state, const gridfem::SelectedPoints& selection, double width)
+{
+  const gridfem::TriangleMesh& mesh = *state.mesh.triangles;
+  gridfem::HatOptions options;
+  options.weldCoincidentPoints = state.options.space.weldCoincidentPoints;
+  options.threads = state.options.space.threads;
+  const std::vector<double> distance = gridfem::MarchDistance(
+    mesh, gridfem::NumberHatFunctions(mesh, options), selection.Points(), width);
+  gridfem::Field fade;
+  fade.values.resize(static_cast<gridfem::Id>(distance.size()), 1);
+  for (gridfem::Id point = 0; point < fade.values.rows(); ++point)
+  {
+    const double way = distance[point];
+    fade.values(point, 0) = way == 0.0 ? 1.0 : way < width ? SmoothStep(1.0 - way / width) : 0.0;
+  }
+  return fade;
+}
+
+/// Of a solution for other columns the first, which are those for the scale 1, are still good.
+gridfem::MultiVector StartFor(gridfem::MultiVector last, gridfem::Id columns)
+{
+  if (last.cols() > 0 && last.cols() != columns)
+  {
+    const gridfem::Id kept = last.cols();
+    last.conservativeResize(Eigen::NoChange, columns);
+    last.rightCols(std::max<gridfem::Id>(columns - kept, 0)).setZero();
+  }
+  return last;
 }
 
 } // namespace
@@ -83,10 +126,13 @@ struct vtkSurfaceDetail::Internals
 
   gridfem::SignalInSpace Signal;
   std::optional<gridfem::Field> ScaleField;
-  gridfem::MultiVector Load; // for scale 1, and beside it for the scale array
+  std::optional<gridfem::Field> Fade; // of the selection
+  /// Blocks of columns, one for each of: the scale 1; the scale array; the same times the fade.
+  gridfem::MultiVector Load;
   std::unique_ptr<gridfem::Multigrid> Hierarchy;
   gridfem::StageKey HierarchyShape;  // what it depends on but for its numbers
   gridfem::PoissonSolution Solution; // for the columns of Load
+  std::int64_t Continuations = 0;    // runs that went on from an unfinished solution
 
   const gridfem::FiniteElementSpace& Space(const gridfem::SurfaceSolverState& state) const
   {
@@ -102,18 +148,48 @@ struct vtkSurfaceDetail::Internals
     return key;
   }
 
-  /// The change for a DetailScale, as coefficients: linear in it.
-  gridfem::MultiVector Change(double scale) const
+  /// The change for the scales inside and outside of the selection, as coefficients: linear in
+  /// them.
+  gridfem::MultiVector Change(double inside, double outside) const
   {
     const gridfem::MultiVector& solved = this->Solution.coefficients;
     const gridfem::Id columns = this->Signal.coefficients.cols();
-    return scale * solved.rightCols(columns) - solved.leftCols(columns);
+    const double everywhere = this->Fade ? outside : inside;
+    gridfem::MultiVector change =
+      everywhere * solved.middleCols(this->ScaleField ? columns : 0, columns) -
+      solved.leftCols(columns);
+    if (this->Fade)
+    {
+      change += (inside - outside) * solved.rightCols(columns);
+    }
+    return change;
+  }
+
+  /// The scale at the points.
+  gridfem::MultiVector ScaleAtPoints(
+    double inside, double outside, const gridfem::TriangleMesh& mesh, int threads) const
+  {
+    const auto points = static_cast<gridfem::Id>(mesh.points.size());
+    gridfem::MultiVector scale =
+      gridfem::MultiVector::Constant(points, 1, this->Fade ? outside : inside);
+    if (this->Fade)
+    {
+      scale += (inside - outside) * this->Fade->values;
+    }
+    return this->ScaleField
+             ? gridfem::MultiVector(scale.cwiseProduct(AtPoints(*this->ScaleField, mesh, threads)))
+             : scale;
   }
 };
 
-vtkSurfaceDetail::vtkSurfaceDetail() : Data(std::make_unique<Internals>())
+vtkSurfaceDetail::vtkSurfaceDetail()
+  : Data(std::make_unique<Internals>()), Selection(std::make_unique<gridfem::SelectedPoints>(this))
 {
-  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfInputPorts(3);
+  this->CustomTransferFunction = vtkSmartPointer<vtkPiecewiseFunction>::New();
+  this->CustomTransferFunction->AddPoint(-1.0, 1.0);
+  this->CustomTransferFunction->AddPoint(0.0, 0.0);
+  this->CustomTransferFunction->AddPoint(1.0, 1.0);
   this->Tolerance = 1e-4;
   this->NormalStabilization = 1e-2;
   this->MaximumIterations = 200;
@@ -121,53 +197,57 @@ vtkSurfaceDetail::vtkSurfaceDetail() : Data(std::make_unique<Internals>())
 
 vtkSurfaceDetail::~vtkSurfaceDetail() = default;
 
-void vtkSurfaceDetail::AddTransferPoint(double curvature, double length)
+int vtkSurfaceDetail::FillInputPortInformation(int port, vtkInformation* info)
 {
-  this->TransferPoints.emplace_back(curvature, length);
-  this->Modified();
+  this->Superclass::FillInputPortInformation(port, info);
+  if (port == 2)
+  {
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkSelection");
+  }
+  return 1;
 }
 
-void vtkSurfaceDetail::ClearTransferPoints()
+void vtkSurfaceDetail::SetCustomTransferFunction(vtkPiecewiseFunction* function)
 {
-  this->TransferPoints.clear();
-  this->Modified();
+  if (this->CustomTransferFunction != function)
+  {
+    this->CustomTransferFunction = function;
+    this->Modified();
+  }
 }
 
-int vtkSurfaceDetail::GetNumberOfTransferPoints()
+vtkPiecewiseFunction* vtkSurfaceDetail::GetCustomTransferFunction()
 {
-  return static_cast<int>(this->TransferPoints.size());
+  return this->CustomTransferFunction;
+}
+
+vtkMTimeType vtkSurfaceDetail::GetMTime()
+{
+  const vtkMTimeType own = this->Superclass::GetMTime();
+  return this->TransferFunction == Custom && this->CustomTransferFunction
+           ? std::max(own, this->CustomTransferFunction->GetMTime())
+           : own;
 }
 
 double vtkSurfaceDetail::LengthOf(double curvature) const
 {
-  switch (this->TransferFunction)
+  const auto partOfTheWay = [&]
   {
-    case LargeNegative:
-      return 1.0 + (this->Anisotropy - 1.0) * SmoothStep(-curvature);
-    case LargePositive:
-      return 1.0 + (this->Anisotropy - 1.0) * SmoothStep(curvature);
-    case LargeAbsolute:
-      return 1.0 + (this->Anisotropy - 1.0) * SmoothStep(std::abs(curvature));
-    case Custom:
-      break;
-    default:
-      return 1.0;
-  }
-  if (this->TransferPoints.empty())
-  {
-    return 1.0;
-  }
-  std::vector<std::pair<double, double>> points = this->TransferPoints;
-  std::stable_sort(points.begin(), points.end());
-  const auto next = std::upper_bound(points.begin(), points.end(), curvature,
-    [](double x, const std::pair<double, double>& point) { return x < point.first; });
-  if (next == points.begin() || next == points.end())
-  {
-    return next == points.begin() ? next->second : points.back().second;
-  }
-  const auto& [low, first] = *std::prev(next);
-  const auto& [high, last] = *next;
-  return first + (last - first) * (curvature - low) / (high - low);
+    switch (this->TransferFunction)
+    {
+      case LargeNegative:
+        return SmoothStep(-curvature);
+      case LargePositive:
+        return SmoothStep(curvature);
+      case LargeAbsolute:
+        return SmoothStep(std::abs(curvature));
+      case Custom:
+        return this->CustomTransferFunction->GetValue(curvature);
+      default:
+        return 0.0;
+    }
+  };
+  return 1.0 + (this->Anisotropy - 1.0) * partOfTheWay();
 }
 
 void vtkSurfaceDetail::CheckProperties() const
@@ -176,17 +256,19 @@ void vtkSurfaceDetail::CheckProperties() const
   gridfem::RequireAtLeast("ScreeningWeight", this->ScreeningWeight, 0.0);
   gridfem::RequireAtLeast("SmoothingScale", this->SmoothingScale, 0.0);
   gridfem::RequireNumber("Anisotropy", this->Anisotropy);
-  if (!std::isfinite(this->DetailScale))
+  gridfem::RequireAtLeast("TransitionWidth", this->TransitionWidth, 0.0);
+  for (const auto& [name, scale] :
+    { std::pair("DetailScale", this->DetailScale), std::pair("OutsideScale", this->OutsideScale) })
   {
-    throw gridfem::InvalidInput("DetailScale must be a finite number.");
-  }
-  for (const auto& [curvature, length] : this->TransferPoints)
-  {
-    if (!std::isfinite(curvature) || !(length > 0.0) || !std::isfinite(length))
+    if (!std::isfinite(scale))
     {
-      throw gridfem::InvalidInput("TransferPoints must be finite, and their second numbers, what a "
-                                  "length counts, above 0.");
+      throw gridfem::InvalidInput(std::string(name) + " must be a finite number.");
     }
+  }
+  if (this->TransferFunction == Custom &&
+      (!this->CustomTransferFunction || this->CustomTransferFunction->GetSize() == 0))
+  {
+    throw gridfem::InvalidInput("CustomTransferFunction has no points.");
   }
 }
 
@@ -237,9 +319,9 @@ void vtkSurfaceDetail::UpdateMetric(const gridfem::Progress& progress)
   gridfem::StageKey weights;
   weights.Add(state.stages.Version(MetricStage)).Add(this->TransferFunction);
   weights.Add(this->Anisotropy);
-  for (const auto& [curvature, length] : this->TransferPoints)
+  if (this->TransferFunction == Custom)
   {
-    weights.Add(curvature).Add(length);
+    weights.Add(this->CustomTransferFunction.GetPointer());
   }
   state.stages.Run(WeightsStage, weights,
     [&]
@@ -251,39 +333,63 @@ void vtkSurfaceDetail::UpdateMetric(const gridfem::Progress& progress)
     });
 }
 
-void vtkSurfaceDetail::UpdateLoad(const gridfem::Progress& progress)
+void vtkSurfaceDetail::UpdateSignal(const gridfem::Progress& progress)
 {
   Internals& data = *this->Data;
   gridfem::SurfaceSolverState& state = *this->State;
-  gridfem::StageKey signal;
-  signal.Add(state.stages.Version(gridfem::SystemStage)).Add(data.Value.array);
-  state.stages.Run(SignalStage, signal,
+  gridfem::StageKey key;
+  key.Add(state.stages.Version(gridfem::SystemStage)).Add(data.Value.array);
+  state.stages.Run(SignalStage, key,
     [&]
     {
-      const gridfem::Job job = state.MakeJob(progress.Part(0.0, 0.6));
+      const gridfem::Job job = state.MakeJob(progress);
       data.Signal = data.Value.array ? gridfem::ProjectSignal(*state.space,
                                          gridfem::ReadField(data.Value, state.mesh),
                                          state.options.multigrid, state.options.solve, job)
                                      : gridfem::ShapeInSpace(*state.space, job);
     });
-  gridfem::StageKey load = data.SpaceKey(state);
-  load.Add(state.stages.Version(SignalStage)).Add(data.Scale.array);
-  load.Add(static_cast<int>(data.Scale.association));
-  state.stages.Run(gridfem::RightHandSideStage, load,
+}
+
+void vtkSurfaceDetail::UpdateLoad(const gridfem::Progress& progress)
+{
+  Internals& data = *this->Data;
+  gridfem::SurfaceSolverState& state = *this->State;
+  gridfem::StageKey key = data.SpaceKey(state);
+  key.Add(state.stages.Version(SignalStage)).Add(data.Scale.array);
+  key.Add(static_cast<int>(data.Scale.association)).Add(this->Selection->Version());
+  if (this->Selection->IsGiven())
+  {
+    key.Add(this->TransitionWidth).Add(this->ParameterUnits);
+  }
+  state.stages.Run(gridfem::RightHandSideStage, key,
     [&]
     {
       const gridfem::FiniteElementSpace& space = data.Space(state);
-      const gridfem::Job job = state.MakeJob(progress.Part(0.6, 1.0));
+      const gridfem::TriangleMesh& mesh = *state.mesh.triangles;
+      const gridfem::Job job = state.MakeJob(progress);
       data.ScaleField.reset();
+      data.Fade.reset();
       data.Load = gridfem::LoadOfDetail(space, data.Signal.coefficients, {}, job);
+      const auto append = [&](const gridfem::MultiVector& scale)
+      {
+        const gridfem::Id columns = data.Signal.coefficients.cols();
+        data.Load.conservativeResize(Eigen::NoChange, data.Load.cols() + columns);
+        data.Load.rightCols(columns) = gridfem::LoadOfDetail(
+          space, data.Signal.coefficients, OnElements(space, scale, job), job);
+      };
+      gridfem::MultiVector scale;
       if (data.Scale.array)
       {
         data.ScaleField = gridfem::ReadField(data.Scale, state.mesh);
-        const gridfem::MultiVector scaled = gridfem::LoadOfDetail(space, data.Signal.coefficients,
-          OnElements(space, *data.ScaleField, *state.mesh.triangles, job), job);
-        const gridfem::Id columns = data.Load.cols();
-        data.Load.conservativeResize(Eigen::NoChange, 2 * columns);
-        data.Load.rightCols(columns) = scaled;
+        scale = OnTriangles(*data.ScaleField, mesh);
+        append(scale);
+      }
+      if (this->Selection->IsGiven())
+      {
+        data.Fade =
+          FadeOut(state, *this->Selection, state.LengthInWorldUnits(this->TransitionWidth));
+        const gridfem::MultiVector fade = OnTriangles(*data.Fade, mesh);
+        append(data.ScaleField ? gridfem::MultiVector(scale.cwiseProduct(fade)) : fade);
       }
     });
 }
@@ -297,6 +403,11 @@ void vtkSurfaceDetail::UpdateSolution(const gridfem::Progress& progress)
   options.screeningWeight = state.WeightInGridUnits(this->ScreeningWeight);
   options.multigrid = state.options.multigrid;
   options.solve = state.options.solve;
+  if (this->CyclesPerApply > 0)
+  {
+    options.solve.maximumIterations = this->CyclesPerApply;
+    data.Continuations += data.Solution.report.converged ? 0 : 1;
+  }
   gridfem::StageKey shape;
   shape.Add(state.stages.Version(gridfem::SystemStage));
   gridfem::AddMultigrid(shape, options.multigrid);
@@ -321,10 +432,12 @@ void vtkSurfaceDetail::UpdateSolution(const gridfem::Progress& progress)
   solve.Add(state.stages.Version(gridfem::HierarchyStage));
   solve.Add(state.stages.Version(gridfem::RightHandSideStage));
   solve.Add(options.solve.tolerance).Add(options.solve.maximumIterations);
+  solve.Add(data.Continuations);
   state.stages.Run(gridfem::SolveStage, solve,
     [&]
     {
-      const gridfem::MultiVector last = std::move(data.Solution.coefficients);
+      gridfem::MultiVector& last = data.Solution.coefficients; // stays where this is aborted
+      last = StartFor(std::move(last), data.Load.cols());
       options.start = &last;
       data.Solution =
         gridfem::SolveDetail(space, *data.Hierarchy, data.Load, options, progress.Part(0.3, 1.0));
@@ -336,8 +449,8 @@ void vtkSurfaceDetail::WriteShape(vtkPolyData* input, vtkPolyData* output)
   const Internals& data = *this->Data;
   const gridfem::SurfaceSolverState& state = *this->State;
   const gridfem::TriangleMesh& mesh = *state.mesh.triangles;
-  const gridfem::MultiVector change =
-    data.Space(state).ValuesAtPoints(data.Change(this->DetailScale), this->NumberOfThreads);
+  const gridfem::MultiVector change = data.Space(state).ValuesAtPoints(
+    data.Change(this->DetailScale, this->OutsideScale), this->NumberOfThreads);
   std::vector<gridfem::Vec3> points = mesh.points;
   for (gridfem::Id point = 0; point < change.rows(); ++point)
   {
@@ -355,15 +468,14 @@ void vtkSurfaceDetail::WriteArray(vtkPolyData* input, vtkPolyData* output)
 {
   const Internals& data = *this->Data;
   const gridfem::SurfaceSolverState& state = *this->State;
-  gridfem::MultiVector values =
-    data.Space(state).ValuesAtPoints(data.Change(this->DetailScale), this->NumberOfThreads);
-  const gridfem::MultiVector scale =
-    data.ScaleField ? AtPoints(*data.ScaleField, *state.mesh.triangles, this->NumberOfThreads)
-                    : gridfem::MultiVector::Ones(values.rows(), 1);
+  gridfem::MultiVector values = data.Space(state).ValuesAtPoints(
+    data.Change(this->DetailScale, this->OutsideScale), this->NumberOfThreads);
+  const gridfem::MultiVector scale = data.ScaleAtPoints(
+    this->DetailScale, this->OutsideScale, *state.mesh.triangles, this->NumberOfThreads);
   const std::vector<char> isSolved = state.space->PointsWithFunctions();
   for (gridfem::Id point = 0; point < values.rows(); ++point)
   {
-    const double own = isSolved[point] ? this->DetailScale * scale(point, 0) - 1.0 : 0.0;
+    const double own = isSolved[point] ? scale(point, 0) - 1.0 : 0.0;
     for (gridfem::Id c = 0; c < values.cols(); ++c)
     {
       values(point, c) += data.Value.array->GetComponent(point, static_cast<int>(c)) +
@@ -377,6 +489,27 @@ void vtkSurfaceDetail::WriteArray(vtkPolyData* input, vtkPolyData* output)
   output->GetPointData()->SetActiveScalars("Filtered");
 }
 
+void vtkSurfaceDetail::WriteReport(vtkPolyData* output)
+{
+  const Internals& data = *this->Data;
+  const gridfem::SolveReport& report = data.Solution.report;
+  if (data.Fade)
+  {
+    output->GetPointData()->AddArray(
+      gridfem::MakePointArray("Selected", data.Fade->values, VTK_DOUBLE));
+  }
+  gridfem::AddReport(report, output);
+  if (data.IsWeighed)
+  {
+    gridfem::AddFieldNumber(output, "UsualCurvature", data.UsualCurvature);
+  }
+  const bool isToGoOn = this->CyclesPerApply > 0 && report.end == gridfem::SolveEnd::IterationLimit;
+  if (!report.converged && !isToGoOn)
+  {
+    vtkWarningMacro(<< gridfem::WarningOf(report, this->Tolerance));
+  }
+}
+
 void vtkSurfaceDetail::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
@@ -385,10 +518,12 @@ void vtkSurfaceDetail::Compute(vtkInformationVector** inputs, vtkInformationVect
   const gridfem::Progress progress = state.bridge.GetProgress();
   this->CheckProperties();
   this->FindArrays(input);
+  this->Selection->Update(vtkSelection::GetData(inputs[2]), input);
   state.UpdateSpace(input, vtkPolyData::GetData(inputs[1]), progress.Part(0.0, 0.3));
   state.UpdateSystem(progress.Part(0.3, 0.4));
   this->UpdateMetric(progress.Part(0.4, 0.5));
-  this->UpdateLoad(progress.Part(0.5, 0.6));
+  this->UpdateSignal(progress.Part(0.5, 0.55));
+  this->UpdateLoad(progress.Part(0.55, 0.6));
   this->UpdateSolution(progress.Part(0.6, 0.95));
   if (this->Data->Value.array)
   {
@@ -399,22 +534,14 @@ void vtkSurfaceDetail::Compute(vtkInformationVector** inputs, vtkInformationVect
     output->ShallowCopy(input);
     this->WriteShape(input, output);
   }
-  const gridfem::SolveReport& report = this->Data->Solution.report;
-  gridfem::AddReport(report, output);
-  if (this->Data->IsWeighed)
-  {
-    gridfem::AddFieldNumber(output, "UsualCurvature", this->Data->UsualCurvature);
-  }
-  if (!report.converged)
-  {
-    vtkWarningMacro(<< gridfem::WarningOf(report, this->Tolerance));
-  }
+  this->WriteReport(output);
   progress.Check(1.0);
 }
 
 void vtkSurfaceDetail::FreeStages()
 {
   this->Superclass::FreeStages();
+  this->Selection->Free();
   *this->Data = Internals();
 }
 
@@ -422,15 +549,13 @@ void vtkSurfaceDetail::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "DetailScale: " << this->DetailScale << "\n";
+  os << indent << "OutsideScale: " << this->OutsideScale << "\n";
+  os << indent << "TransitionWidth: " << this->TransitionWidth << "\n";
   os << indent << "ScreeningWeight: " << this->ScreeningWeight << "\n";
   os << indent << "TransferFunction: " << this->TransferFunction << "\n";
   os << indent << "Anisotropy: " << this->Anisotropy << "\n";
-  os << indent << "TransferPoints:";
-  for (const auto& [curvature, length] : this->TransferPoints)
-  {
-    os << " (" << curvature << ", " << length << ")";
-  }
-  os << "\n";
+  os << indent << "CustomTransferFunction: " << this->CustomTransferFunction.GetPointer() << "\n";
   os << indent << "SmoothingScale: " << this->SmoothingScale << "\n";
   os << indent << "KeepVolume: " << this->KeepVolume << "\n";
+  os << indent << "CyclesPerApply: " << this->CyclesPerApply << "\n";
 }

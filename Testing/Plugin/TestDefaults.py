@@ -10,16 +10,17 @@ import plugin
 UNBOUNDED = {2**31 - 1, 2**63 - 1, 1.7976931348623157e308}
 
 # Properties without a value that a getter of the class could give.
-CONNECTIONS = {"Input", "Basis", "Sources", "Values"}
+CONNECTIONS = {"Input", "Basis", "Sources", "Values", "Selection", "CustomTransferFunction"}
 ARRAYS = {"Array": 0, "SourceArray": 0, "HeatSourceArray": 1, "ValueArray": 0, "GradientArray": 1,
           "GradientScaleArray": 2, "ValueWeightArray": 3, "ConstraintArray": 4, "MetricArray": 5,
           "BoundaryFluxArray": 6, "ColorArray": 0, "LabelArray": 1, "MaskArray": 1,
           "DetailScaleArray": 1}
 INFORMATION = {"TimestepValues"}
-LISTS = {"SourcePointIds", "TransferPoints"}
+LISTS = {"SourcePointIds"}
 
 # The class does not clamp these but refuses what is below, with a message.
-REFUSED_BELOW = {"ScreeningWeight": 0, "Mode": -1, "DiffusionTime": 0, "SmoothingScale": 0}
+REFUSED_BELOW = {"ScreeningWeight": 0, "Mode": -1, "DiffusionTime": 0, "SmoothingScale": 0,
+                 "TransitionWidth": 0}
 
 
 class TestDefaults(unittest.TestCase):
@@ -53,6 +54,19 @@ class TestDefaults(unittest.TestCase):
                 self.assertEqual(prop.GetElement(0), getattr(instance, "Get" + key)())
                 compared += 1
         self.assertGreaterEqual(compared, 7 * len(plugin.PROXIES))  # the loop has seen every filter
+
+    def test_the_curve_of_the_panel_is_that_of_the_class(self):
+        curve = self.proxies["SurfaceDetail"].CustomTransferFunction
+        of_class = filters.vtkSurfaceDetail().GetCustomTransferFunction()
+        points = []
+        for k in range(of_class.GetSize()):
+            node = [0.0] * 4
+            of_class.GetNodeValue(k, node)
+            points += node
+        self.assertEqual(list(curve.Points), points)
+        self.assertEqual(
+            self.proxies["SurfaceDetail"].GetClientSideObject().GetCustomTransferFunction(),
+            curve.GetClientSideObject())
 
     def test_the_object_gets_the_default(self):
         for name, instance, key, _ in self.values():

@@ -25,7 +25,8 @@ def build():
         SourcePointIds=[3, 4], FilterType="Low Pass", LastMode=4, ValueArray=["POINTS", "f"])
     distance = simple.GeodesicDistance(
         Input=values, Depth=4, Sources=surface, SourcePointIds=[3, 4], Smoothing=2.5,
-        SourceArray=["POINTS", "f"], Unreachable="Infinity")
+        SourceArray=["POINTS", "f"], Unreachable="Infinity",
+        Selection=plugin.selected_points(7))
     hats = simple.ScreenedPoisson(
         Input=values, Depth=4, ValueArray=["POINTS", "f"], FunctionSpace="Hat Functions",
         Iteration="Cycles", Smoother="Gauss-Seidel in Slices",
@@ -42,7 +43,9 @@ def build():
     curvatures = simple.PrincipalCurvatures(Input=values, Depth=4, SmoothingScale=0.05)
     detail = simple.SurfaceDetail(
         Input=values, Basis=basis, DetailScaleArray=["POINTS", "f"], DetailScale=0.5,
-        TransferFunction="Custom", TransferPoints=[-1, 3, 0.2, 1, 2, 4], KeepVolume=1)
+        TransferFunction="Custom", KeepVolume=1, OutsideScale=0.9, TransitionWidth=0.1,
+        CyclesPerApply=2, Selection=plugin.selected_points(3, 4, 5))
+    detail.CustomTransferFunction.Points = [-1, 0.3, 0.5, 0, 0.2, 0, 0.5, 0, 2, 0.8, 0.5, 0]
     for name, proxy in (("clip", clip), ("basis", basis), ("poisson", poisson), ("hats", hats),
                         ("spectrum", spectrum), ("both", both), ("signatures", signatures),
                         ("curvatures", curvatures), ("detail", detail), ("stitch", stitch),
@@ -58,8 +61,11 @@ def results():
         proxy = simple.FindSource(name)
         proxy.UpdatePipeline()
         for key in proxy.ListProperties():
-            if key not in ("Input", "Basis", "Sources", "Values", "TimestepValues"):
+            if key not in ("Input", "Basis", "Sources", "Values", "Selection",
+                           "CustomTransferFunction", "TimestepValues"):
                 found[name, key] = str(proxy.GetPropertyValue(key))
+        if name == "detail":
+            found[name, "curve"] = list(proxy.CustomTransferFunction.Points)
         arrays = proxy.PointData
         for array in arrays.keys():
             found[name, "array", array] = arrays[array].GetRange()

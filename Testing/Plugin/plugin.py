@@ -43,6 +43,12 @@ def with_arrays(surface):
     return simple.Calculator(Input=values, ResultArrayName="label", Function="floor(coordsZ)")
 
 
+def selected_points(*ids):
+    """A selection of points, as the mouse makes it."""
+    return simple.IDSelectionSource(
+        FieldType="POINT", IDs=[number for point in ids for number in (0, point)])
+
+
 def data(proxy, port=0):
     """The data object of an output port, brought up to date."""
     proxy.UpdatePipeline()

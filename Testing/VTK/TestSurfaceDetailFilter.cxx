@@ -4,6 +4,11 @@
 #include "vtkConnectivityAwareBasis.h"
 #include "vtkSurfaceDetail.h"
 
+#include "vtkIdTypeArray.h"
+#include "vtkPiecewiseFunction.h"
+#include "vtkSelection.h"
+#include "vtkSelectionNode.h"
+
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -84,6 +89,39 @@ std::vector<double> Positions(vtkPolyData* data)
   return Values(data->GetPoints()->GetData());
 }
 
+std::vector<double> PositionsFrom(vtkSurfaceDetail* filter)
+{
+  filter->Update();
+  return Positions(filter->GetOutput());
+}
+
+/// The points of which this is true.
+vtkSmartPointer<vtkSelection> Select(
+  vtkPolyData* data, const std::function<bool(const Vec3&)>& isSelected)
+{
+  vtkNew<vtkIdTypeArray> ids;
+  for (vtkIdType p = 0; p < data->GetNumberOfPoints(); ++p)
+  {
+    if (isSelected(Vec3(data->GetPoint(p))))
+    {
+      ids->InsertNextValue(p);
+    }
+  }
+  vtkNew<vtkSelectionNode> node;
+  node->SetFieldType(vtkSelectionNode::POINT);
+  node->SetContentType(vtkSelectionNode::INDICES);
+  node->SetSelectionList(ids);
+  auto selection = vtkSmartPointer<vtkSelection>::New();
+  selection->AddNode(node);
+  return selection;
+}
+
+/// What is above the height.
+vtkSmartPointer<vtkSelection> Above(vtkPolyData* data, double height)
+{
+  return Select(data, [height](const Vec3& p) { return p[2] > height; });
+}
+
 class SurfaceDetailFilter : public ::testing::TestWithParam<int>
 {
 };
@@ -129,6 +167,23 @@ TEST_P(SurfaceDetailFilter, RepeatsOnlyWhatDependsOnAChange)
     Names({ "Weights", "Hierarchy", "RightHandSide", "Solve" }));
   EXPECT_EQ(Reruns(filter, [&] { filter->SetInputArrayToProcess(0, 0, 0, Points, "f"); }),
     Names({ "Signal", "RightHandSide", "Solve" }));
+  const Names rightHandSide = { "RightHandSide", "Solve" };
+  auto* sphere = vtkPolyData::SafeDownCast(filter->GetInputDataObject(0, 0));
+  EXPECT_EQ(
+    Reruns(filter, [&] { filter->SetInputDataObject(2, Above(sphere, 0.5)); }), rightHandSide);
+  EXPECT_EQ(
+    Reruns(filter, [&] { filter->SetInputDataObject(2, Above(sphere, 0.2)); }), rightHandSide);
+  EXPECT_EQ(Reruns(filter, [&] { filter->SetInputDataObject(2, Above(sphere, 0.2)); }),
+    Names()); // the same points
+  EXPECT_EQ(Reruns(filter, [&] { filter->SetTransitionWidth(0.1); }), rightHandSide);
+  EXPECT_EQ(Reruns(filter, [&] { filter->SetOutsideScale(0.0); }), Names());
+  EXPECT_EQ(Reruns(filter, [&] { filter->SetDetailScale(3.0); }), Names());
+  EXPECT_EQ(Reruns(filter, [&] { filter->SetInputDataObject(2, nullptr); }), rightHandSide);
+  EXPECT_EQ(Reruns(filter, [&] { filter->SetTransitionWidth(0.2); }), Names());
+  EXPECT_EQ(Reruns(filter, [&] { filter->SetTransferFunction(vtkSurfaceDetail::Custom); }),
+    Names({ "Weights", "Hierarchy", "RightHandSide", "Solve" }));
+  EXPECT_EQ(Reruns(filter, [&] { filter->GetCustomTransferFunction()->AddPoint(0.5, 0.1); }),
+    Names({ "Weights", "Hierarchy", "RightHandSide", "Solve" }));
   EXPECT_EQ(Reruns(filter, [&] { filter->SetNumberOfThreads(1); }), Names());
 }
 
@@ -182,6 +237,230 @@ TEST_P(SurfaceDetailFilter, ChangesWhereTheArraySays)
   }
   EXPECT_GT(above, 5e-3);
   EXPECT_LT(farBelow, 0.05 * above);
+}
+
+/// Of selected points 1, 0 farther from them than the width, and in between the less the farther.
+TEST_P(SurfaceDetailFilter, FadesOutWithinTheWidthOfTheTransition)
+{
+  const auto plane = ToPolyData(FlatRectangle(40, 40));
+  const auto filter = DetailOf(plane, GetParam());
+  filter->SetInputDataObject(2, Select(plane, [](const Vec3& p) { return p[0] < 0.3001; }));
+  filter->SetTransitionWidth(0.24); // of the area 1
+  filter->Update();
+  const std::vector<double> selected = PointValues(filter->GetOutput(), "Selected");
+  ASSERT_EQ(vtkIdType(selected.size()), plane->GetNumberOfPoints());
+  for (vtkIdType p = 0; p < plane->GetNumberOfPoints(); ++p)
+  {
+    const double t = std::clamp((plane->GetPoint(p)[0] - 0.3) / 0.24, 0.0, 1.0);
+    EXPECT_NEAR(selected[p], 1.0 - t * t * (3.0 - 2.0 * t), 1e-9);
+    EXPECT_EQ(selected[p] == 1.0, plane->GetPoint(p)[0] < 0.3001);
+    EXPECT_EQ(selected[p] == 0.0, plane->GetPoint(p)[0] > 0.54);
+  }
+  filter->SetParameterUnits(vtkSurfaceFEMAlgorithm::World);
+  filter->SetTransitionWidth(0.11);
+  filter->Update();
+  const std::vector<double> steeper = PointValues(filter->GetOutput(), "Selected");
+  for (vtkIdType p = 0; p < plane->GetNumberOfPoints(); ++p)
+  {
+    EXPECT_EQ(steeper[p] == 0.0, plane->GetPoint(p)[0] > 0.41);
+  }
+}
+
+TEST_P(SurfaceDetailFilter, ChangesWhereTheSelectionIs)
+{
+  const auto sphere = WavySphere();
+  const auto everywhere = DetailOf(sphere, GetParam());
+  everywhere->SetScreeningWeight(3000.0);
+  const auto filter = DetailOf(sphere, GetParam());
+  filter->SetScreeningWeight(3000.0);
+  filter->SetInputDataObject(2, Above(sphere, 0.0));
+  const std::vector<double> whole = PositionsFrom(everywhere);
+  const std::vector<double> half = PositionsFrom(filter);
+  const std::vector<double> before = Positions(sphere);
+  double moved = 0.0;
+  double differenceInside = 0.0;
+  double movedOutside = 0.0;
+  for (std::size_t k = 0; k < half.size(); ++k)
+  {
+    const double z = before[k - k % 3 + 2];
+    moved = std::max(moved, std::abs(whole[k] - before[k]));
+    differenceInside =
+      z > 0.3 ? std::max(differenceInside, std::abs(half[k] - whole[k])) : differenceInside;
+    movedOutside = z < -0.5 ? std::max(movedOutside, std::abs(half[k] - before[k])) : movedOutside;
+  }
+  EXPECT_GT(moved, 5e-3);
+  EXPECT_LT(differenceInside, 0.1 * moved);
+  EXPECT_LT(movedOutside, 0.05 * moved);
+}
+
+/// As if there were none where the scales are the same, where it takes all, and where it takes
+/// nothing.
+TEST_P(SurfaceDetailFilter, WithoutADifferenceTheSelectionDoesNotCount)
+{
+  const auto sphere = WavySphere();
+  const auto plain = DetailOf(sphere, GetParam());
+  plain->SetInputArrayToProcess(1, 0, 0, Points, "upper");
+  plain->SetTolerance(1e-10);
+  const auto filter = DetailOf(sphere, GetParam());
+  filter->SetInputArrayToProcess(1, 0, 0, Points, "upper");
+  filter->SetTolerance(1e-10);
+  for (const char* array : { "", "f" })
+  {
+    const auto compare = [&](vtkSelection* selection, double inside, double outside, double same)
+    {
+      filter->SetInputDataObject(2, selection);
+      filter->SetDetailScale(inside);
+      filter->SetOutsideScale(outside);
+      plain->SetDetailScale(same);
+      for (const auto& each : { plain, filter })
+      {
+        each->SetInputArrayToProcess(0, 0, 0, Points, array);
+        each->Update();
+      }
+      EXPECT_LE(Difference(Positions(filter->GetOutput()), Positions(plain->GetOutput())), 1e-9);
+      EXPECT_LE(Difference(PointValues(filter->GetOutput(), "Filtered"),
+                  PointValues(plain->GetOutput(), "Filtered")),
+        1e-8);
+    };
+    compare(Above(sphere, 0.3), 0.4, 0.4, 0.4);
+    compare(Above(sphere, -2.0), 0.4, 2.0, 0.4);
+    compare(Above(sphere, 2.0), 0.4, 2.0, 2.0);
+  }
+}
+
+/// The two halves add up: what each of them changes is what both together do.
+TEST_P(SurfaceDetailFilter, InsideAndOutsideAddUp)
+{
+  const auto sphere = WavySphere();
+  const auto filter = DetailOf(sphere, GetParam());
+  filter->SetTolerance(1e-10);
+  filter->SetInputDataObject(2, Above(sphere, 0.1));
+  const auto change = [&](double inside, double outside)
+  {
+    filter->SetDetailScale(inside);
+    filter->SetOutsideScale(outside);
+    std::vector<double> moved = PositionsFrom(filter);
+    const std::vector<double> before = Positions(sphere);
+    for (std::size_t k = 0; k < moved.size(); ++k)
+    {
+      moved[k] -= before[k];
+    }
+    return moved;
+  };
+  const std::vector<double> inside = change(3.0, 1.0);
+  const std::vector<double> outside = change(1.0, 0.0);
+  std::vector<double> both = change(3.0, 0.0);
+  EXPECT_GT(Difference(both, std::vector<double>(both.size(), 0.0)), 0.01);
+  for (std::size_t k = 0; k < both.size(); ++k)
+  {
+    both[k] -= inside[k] + outside[k];
+  }
+  EXPECT_LE(Difference(both, std::vector<double>(both.size(), 0.0)), 1e-12);
+  EXPECT_EQ(filter->GetNumberOfRuns("Solve"), 1);
+}
+
+/// A cycle each time that something is asked for, from where the last one has come to.
+TEST_P(SurfaceDetailFilter, OneCycleAfterTheOtherComesToTheSolution)
+{
+  const auto sphere = WavySphere();
+  const auto exact = DetailOf(sphere, GetParam());
+  exact->SetTolerance(1e-10);
+  const std::vector<double> solution = PositionsFrom(exact);
+  const auto filter = DetailOf(sphere, GetParam());
+  filter->SetTolerance(1e-8);
+  filter->SetCyclesPerApply(1);
+  const Messages messages(filter);
+  std::vector<double> errors;
+  int converged = 0;
+  for (int run = 0; run < 60 && !converged; ++run)
+  {
+    filter->Modified();
+    errors.push_back(Difference(PositionsFrom(filter), solution));
+    converged = int(FieldValue(filter->GetOutput(), "Converged"));
+    EXPECT_LE(FieldValue(filter->GetOutput(), "Iterations"), 1.0);
+    EXPECT_EQ(filter->GetNumberOfRuns("Hierarchy"), 1);
+  }
+  EXPECT_EQ(converged, 1);
+  EXPECT_GT(errors.size(), 2u); // one cycle is not enough, and that is said
+  EXPECT_LT(errors[errors.size() / 2], 0.2 * errors[0]);
+  EXPECT_LT(errors.back(), 1e-6);
+  EXPECT_TRUE(messages.warnings.empty());
+
+  // What is solved stays so, and a new right-hand side starts from it.
+  const vtkIdType solves = filter->GetNumberOfRuns("Solve");
+  filter->Modified();
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfRuns("Solve"), solves);
+  filter->SetInputDataObject(2, Above(sphere, 0.0));
+  filter->Update();
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 0);
+  filter->SetCyclesPerApply(0);
+  filter->Update();
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 1);
+}
+
+/// A run that is aborted leaves nothing behind but the last solution, from which the next one
+/// starts.
+TEST_P(SurfaceDetailFilter, GoesOnAfterAnAbort)
+{
+  const auto sphere = WavySphere();
+  const auto filter = DetailOf(sphere, GetParam());
+  filter->SetTolerance(1e-10);
+  filter->Update();
+  const double iterations = FieldValue(filter->GetOutput(), "Iterations");
+  vtkNew<vtkCallbackCommand> abort;
+  abort->SetCallback(
+    [](vtkObject* caller, unsigned long, void*, void*)
+    {
+      auto* algorithm = vtkAlgorithm::SafeDownCast(caller);
+      const double progress = algorithm->GetProgress();
+      algorithm->SetAbortExecute(progress > 0.7 && progress < 0.9); // in the solve
+    });
+  const auto observer = filter->AddObserver(vtkCommand::ProgressEvent, abort);
+  filter->SetScreeningWeight(501.0);
+  filter->Update();
+  EXPECT_TRUE(IsEmptyData(filter->GetOutput()));
+  filter->RemoveObserver(observer);
+  filter->Modified();
+  filter->Update();
+  EXPECT_LT(FieldValue(filter->GetOutput(), "Iterations"), iterations);
+  const auto fresh = DetailOf(sphere, GetParam());
+  fresh->SetTolerance(1e-10);
+  fresh->SetScreeningWeight(501.0);
+  EXPECT_LE(Difference(Positions(filter->GetOutput()), PositionsFrom(fresh)), 1e-9);
+}
+
+/// Points of the curve, by hand: nothing counts more, or as much as a preset where that has no
+/// bend.
+TEST_P(SurfaceDetailFilter, TakesATransferFunctionOfOnesOwn)
+{
+  const auto sphere = WavySphere();
+  const auto with = [&](int transfer, vtkPiecewiseFunction* function)
+  {
+    const auto filter = DetailOf(sphere, GetParam());
+    filter->SetTolerance(1e-10);
+    filter->SetTransferFunction(transfer);
+    if (function)
+    {
+      filter->SetCustomTransferFunction(function);
+    }
+    return PositionsFrom(filter);
+  };
+  vtkNew<vtkPiecewiseFunction> nothing;
+  nothing->AddPoint(0.0, 0.0);
+  EXPECT_LE(
+    Difference(with(vtkSurfaceDetail::Custom, nothing), with(vtkSurfaceDetail::Isotropic, nullptr)),
+    1e-9);
+  vtkNew<vtkPiecewiseFunction> smooth; // as LargeAbsolute has it
+  for (int k = -100; k <= 100; ++k)
+  {
+    const double t = std::abs(k) / 100.0;
+    smooth->AddPoint(k / 100.0, t * t * (3.0 - 2.0 * t));
+  }
+  const std::vector<double> custom = with(vtkSurfaceDetail::Custom, smooth);
+  const std::vector<double> preset = with(vtkSurfaceDetail::LargeAbsolute, nullptr);
+  EXPECT_LE(Difference(custom, preset), 1e-4);
+  EXPECT_GT(Difference(with(vtkSurfaceDetail::LargePositive, nullptr), preset), 1e-3);
 }
 
 TEST_P(SurfaceDetailFilter, FiltersAnArrayAndKeepsTheShape)
@@ -257,7 +536,19 @@ TEST(SurfaceDetailOfVTK, RefusesWhatItCannotUse)
   refuses("ScreeningWeight", [](auto* filter) { filter->SetScreeningWeight(-1.0); });
   refuses("SmoothingScale", [](auto* filter) { filter->SetSmoothingScale(NaN); });
   refuses("Anisotropy", [](auto* filter) { filter->SetAnisotropy(NaN); });
-  refuses("TransferPoints", [](auto* filter) { filter->AddTransferPoint(0.0, 0.0); });
+  refuses("OutsideScale", [](auto* filter) { filter->SetOutsideScale(NaN); });
+  refuses("TransitionWidth", [](auto* filter) { filter->SetTransitionWidth(-0.1); });
+  const auto setCustom = [](vtkSurfaceDetail* filter, vtkPiecewiseFunction* function)
+  {
+    filter->SetTransferFunction(vtkSurfaceDetail::Custom);
+    filter->SetCustomTransferFunction(function);
+  };
+  vtkNew<vtkPiecewiseFunction> empty;
+  refuses("CustomTransferFunction", [&](auto* filter) { setCustom(filter, empty); });
+  refuses("CustomTransferFunction", [&](auto* filter) { setCustom(filter, nullptr); });
+  vtkNew<vtkPiecewiseFunction> negative; // lengths of 1 - 4 = -3
+  negative->AddPoint(0.0, -1.0);
+  refuses("must be above 0", [&](auto* filter) { setCustom(filter, negative); });
   refuses(
     "DetailScaleArray", [](auto* filter) { filter->SetInputArrayToProcess(1, 0, 0, Points, "f"); });
   refuses(

@@ -24,7 +24,8 @@ double CrossTriangle(const Vec3& a, double distanceA, const Vec3& b, double dist
   {
     return alongEdges;
   }
-  // The gradient Σ w_k (d_k - d) of the front, w dual to the edges, is of length 1: a quadratic in d.
+  // The gradient Σ w_k (d_k - d) of the front, w dual to the edges, is of length 1: a quadratic in
+  // d.
   Eigen::Matrix2d products;
   products << a.dot(a), a.dot(b), a.dot(b), b.dot(b);
   const Eigen::Matrix2d dual = products.inverse();
@@ -97,9 +98,9 @@ private:
         const Id to = triangle[(here.Corner() + step) % 3];
         const Id other = triangle[(here.Corner() + 3 - step) % 3];
         const Vec3& origin = mesh_.points[to];
-        this->Reach(hats_.ofPoint[to],
-          CrossTriangle(mesh_.points[from] - origin, distance_[function],
-            mesh_.points[other] - origin, this->FinalAt(hats_.ofPoint[other])));
+        this->Reach(
+          hats_.ofPoint[to], CrossTriangle(mesh_.points[from] - origin, distance_[function],
+                               mesh_.points[other] - origin, this->FinalAt(hats_.ofPoint[other])));
       }
     }
   }

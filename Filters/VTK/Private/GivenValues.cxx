@@ -1,6 +1,7 @@
 #include "GivenValues.h"
 
 #include "NearestPoints.h"
+#include "SelectedPoints.h"
 
 #include "Base/Errors.h"
 #include "Problems/PointConstraints.h"
@@ -41,6 +42,20 @@ void CopyFinite(const InputArray& input, vtkIdType tuple, MultiVector& values, I
   }
 }
 
+bool IsChosen(Id point, const InputArray& mask, const SelectedPoints& selection)
+{
+  if (selection.IsGiven() && selection.Points()[point])
+  {
+    return true;
+  }
+  if (!mask.array)
+  {
+    return !selection.IsGiven();
+  }
+  const double value = mask.array->GetComponent(point, 0);
+  return value != 0.0 && !std::isnan(value);
+}
+
 } // namespace
 
 void RequirePointArray(
@@ -57,7 +72,8 @@ void RequirePointArray(
   }
 }
 
-GivenValues KnownValues(const InputArray& array, const InputArray& mask, const TriangleMesh& mesh)
+GivenValues KnownValues(const InputArray& array, const InputArray& mask,
+  const SelectedPoints& selection, const TriangleMesh& mesh)
 {
   if (mask.array &&
       (mask.association != FieldAssociation::Points || mask.array->GetNumberOfComponents() != 1))
@@ -68,16 +84,15 @@ GivenValues KnownValues(const InputArray& array, const InputArray& mask, const T
   GivenValues given;
   for (Id point = 0; point < static_cast<Id>(used.size()); ++point)
   {
-    const double isKnown = mask.array ? mask.array->GetComponent(point, 0) : 1.0;
-    if (used[point] && isKnown != 0.0 && !std::isnan(isKnown) && !HasNaN(array.array, point))
+    if (used[point] && IsChosen(point, mask, selection) && !HasNaN(array.array, point))
     {
       given.points.push_back(point);
     }
   }
   if (given.points.empty())
   {
-    throw InvalidInput(
-      "No value of '" + array.name + "' is known at a point of a polygon: all are NaN or masked.");
+    throw InvalidInput("No value of '" + array.name +
+                       "' is known at a point of a polygon: all are NaN, masked, or not selected.");
   }
   given.values.resize(static_cast<Id>(given.points.size()), array.array->GetNumberOfComponents());
   for (Id row = 0; row < given.values.rows(); ++row)

@@ -14,6 +14,7 @@ namespace gridfem
 {
 
 struct ConstrainedSolution;
+class SelectedPoints;
 
 struct GivenValues
 {
@@ -25,10 +26,11 @@ struct GivenValues
 void RequirePointArray(
   const InputArray& array, const std::string& property, const std::string& wanted);
 
-/// Tuples without a NaN, at points that a triangle uses and where the mask, if there is one, is
-/// neither 0 nor NaN. Throws InvalidInput for an infinite value, a mask that does not fit, and when
-/// nothing is known.
-GivenValues KnownValues(const InputArray& array, const InputArray& mask, const TriangleMesh& mesh);
+/// Tuples without a NaN, at points that a triangle uses and where the mask is neither 0 nor NaN, or
+/// that are selected; at all points without mask and selection. Throws InvalidInput for an infinite
+/// value, a mask that does not fit, and when nothing is known.
+GivenValues KnownValues(const InputArray& array, const InputArray& mask,
+  const SelectedPoints& selection, const TriangleMesh& mesh);
 
 /// The values of all points of a data set, each at the nearest point of the mesh that a triangle
 /// uses. Throws InvalidInput when there are none or one is not finite.

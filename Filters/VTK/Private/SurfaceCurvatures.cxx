@@ -1,7 +1,5 @@
 #include "SurfaceCurvatures.h"
 
-#include <cmath>
-
 namespace gridfem
 {
 namespace
@@ -31,8 +29,7 @@ PrincipalCurvatures CurvaturesOfSurface(const SurfaceSolverState& state, const T
   if (scale > 0.0)
   {
     NormalSmoothing smoothing;
-    smoothing.scale =
-      state.space->UnitLength() / std::sqrt(state.WeightInGridUnits(1.0 / scale / scale));
+    smoothing.scale = state.LengthInWorldUnits(scale);
     smoothing.multigrid = state.options.multigrid;
     smoothing.solve = state.options.solve;
     normals = SmoothNormals(

@@ -13,6 +13,8 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 
+#include <cmath>
+
 namespace gridfem
 {
 
@@ -191,6 +193,11 @@ double SurfaceSolverState::WeightInGridUnits(double weight) const
     length2 = side * side;
   }
   return weight / length2 * grid.spacing * grid.spacing;
+}
+
+double SurfaceSolverState::LengthInWorldUnits(double length) const
+{
+  return length * basis.space->GetGrid().spacing / std::sqrt(this->WeightInGridUnits(1.0));
 }
 
 } // namespace gridfem

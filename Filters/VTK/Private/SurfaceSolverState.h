@@ -77,6 +77,9 @@ public:
   /// A weight per squared length of the parameter units, per squared grid unit.
   double WeightInGridUnits(double weight) const;
 
+  /// A length in the parameter units, in the world's.
+  double LengthInWorldUnits(double length) const;
+
   SurfaceOptions options;
   InputArray metricArray; // of the input; none: the metric of the mesh
   StageCache stages;

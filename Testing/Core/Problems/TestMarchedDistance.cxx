@@ -36,8 +36,8 @@ TEST(MarchedDistance, FromAnEdgeOfAPlaneIsExact)
   {
     const Vec3 corner = mesh.points.front();
     const Vec3 across = (mesh.points[mesh.triangles[0][1]] - corner).normalized();
-    const std::vector<double> distance = DistanceFrom(
-      mesh, [&](const Vec3& p) { return std::abs((p - corner).dot(across)) < 1e-12; });
+    const std::vector<double> distance =
+      DistanceFrom(mesh, [&](const Vec3& p) { return std::abs((p - corner).dot(across)) < 1e-12; });
     for (std::size_t i = 0; i < distance.size(); ++i)
     {
       ASSERT_NEAR(distance[i], (mesh.points[i] - corner).dot(across), 1e-12) << i;
@@ -60,8 +60,8 @@ TEST(MarchedDistance, FromAPointOfASphereConverges)
     {
       const Vec3& p = mesh.points[i];
       ASSERT_GE(distance[i], (p - source).norm() - 1e-12);
-      worst = std::max(
-        worst, std::abs(distance[i] - std::acos(std::clamp(p.dot(source), -1.0, 1.0))));
+      worst =
+        std::max(worst, std::abs(distance[i] - std::acos(std::clamp(p.dot(source), -1.0, 1.0))));
     }
     EXPECT_LT(worst, 0.75 * last);
     last = worst;
@@ -106,6 +106,6 @@ TEST(MarchedDistance, StaysOnTheSurface)
   first[0] = 1;
   const std::vector<double> triangle =
     MarchDistance(soup, NumberHatFunctions(soup, apart), first, Far);
-  EXPECT_EQ(std::count(triangle.begin(), triangle.end(), INFINITY),
-    std::ptrdiff_t(soup.points.size() - 3));
+  EXPECT_EQ(
+    std::count(triangle.begin(), triangle.end(), INFINITY), std::ptrdiff_t(soup.points.size() - 3));
 }

@@ -1,0 +1,340 @@
+#include "SelectedPoints.h"
+
+#include "Base/Errors.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkCallbackCommand.h"
+#include "vtkCellData.h"
+#include "vtkCommand.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDataArray.h"
+#include "vtkDataSet.h"
+#include "vtkExecutive.h"
+#include "vtkExtractSelection.h"
+#include "vtkIdList.h"
+#include "vtkInformation.h"
+#include "vtkMultiProcessController.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkSelection.h"
+#include "vtkSelectionNode.h"
+#include "vtkSelector.h"
+
+#if VTK_MODULE_ENABLE_ParaView_VTKExtensionsExtractionPython
+#include "vtkPythonSelector.h"
+#endif
+
+#include <string>
+
+namespace gridfem
+{
+namespace
+{
+
+/// Find Data of ParaView makes queries, which its own selector evaluates.
+class Extraction : public vtkExtractSelection
+{
+public:
+  static Extraction* New();
+  vtkTypeMacro(Extraction, vtkExtractSelection);
+
+protected:
+  vtkSmartPointer<vtkSelector> NewSelectionOperator(
+    vtkSelectionNode::SelectionContent content) override
+  {
+#if VTK_MODULE_ENABLE_ParaView_VTKExtensionsExtractionPython
+    if (content == vtkSelectionNode::QUERY)
+    {
+      return vtkSmartPointer<vtkPythonSelector>::New();
+    }
+#endif
+    return this->Superclass::NewSelectionOperator(content);
+  }
+};
+
+vtkStandardNewMacro(Extraction);
+
+constexpr bool HasQueries = VTK_MODULE_ENABLE_ParaView_VTKExtensionsExtractionPython;
+
+constexpr const char* Insidedness = "vtkInsidedness"; // of vtkExtractSelection
+
+vtkSmartPointer<vtkCompositeDataIterator> LeavesOf(vtkCompositeDataSet* data)
+{
+  return vtkSmartPointer<vtkCompositeDataIterator>::Take(data->NewIterator());
+}
+
+/// Of an earlier extraction, which would be mixed up with the new one.
+void RemoveInsidedness(vtkDataObject* data)
+{
+  if (auto* dataSet = vtkDataSet::SafeDownCast(data))
+  {
+    dataSet->GetPointData()->RemoveArray(Insidedness);
+    dataSet->GetCellData()->RemoveArray(Insidedness);
+  }
+}
+
+vtkSmartPointer<vtkDataObject> CopyOf(vtkDataObject* data)
+{
+  auto copy = vtkSmartPointer<vtkDataObject>::Take(data->NewInstance());
+  auto* from = vtkCompositeDataSet::SafeDownCast(data);
+  if (!from)
+  {
+    copy->ShallowCopy(data);
+    RemoveInsidedness(copy);
+    return copy;
+  }
+  auto* to = vtkCompositeDataSet::SafeDownCast(copy);
+  to->CopyStructure(from);
+  const auto leaf = LeavesOf(from);
+  for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
+  {
+    to->SetDataSet(leaf, CopyOf(leaf->GetCurrentDataObject()));
+  }
+  return copy;
+}
+
+/// Whether points or cells come out; POINT or CELL.
+int KindOf(vtkSelectionNode* node)
+{
+  const int kind = node->GetFieldType();
+  if (kind != vtkSelectionNode::POINT && kind != vtkSelectionNode::CELL)
+  {
+    throw InvalidInput("The Selection must be one of points or of cells, but is one of " +
+                       std::string(vtkSelectionNode::GetFieldTypeAsString(kind)) + ".");
+  }
+  vtkInformation* properties = node->GetProperties();
+  const bool takesCells = properties->Has(vtkSelectionNode::CONTAINING_CELLS()) &&
+                          properties->Get(vtkSelectionNode::CONTAINING_CELLS());
+  return takesCells ? static_cast<int>(vtkSelectionNode::CELL) : kind;
+}
+
+/// What vtkExtractSelection stumbles over.
+void Validate(vtkSelection* selection)
+{
+  for (unsigned int k = 0; k < selection->GetNumberOfNodes(); ++k)
+  {
+    vtkSelectionNode* node = selection->GetNode(k);
+    if (KindOf(node) != KindOf(selection->GetNode(0)))
+    {
+      throw InvalidInput("The Selection has both points and cells. Choose one of them.");
+    }
+    const int content = node->GetContentType();
+    if (content == vtkSelectionNode::USER || (content == vtkSelectionNode::QUERY && !HasQueries))
+    {
+      throw InvalidInput("The Selection is one by " +
+                         std::string(vtkSelectionNode::GetContentTypeAsString(content)) +
+                         ", which cannot be evaluated here.");
+    }
+  }
+}
+
+/// A rank evaluates only what of the data it has, while the surface is that of all ranks.
+void RequireOneProcess()
+{
+  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
+  if (controller && controller->GetNumberOfProcesses() > 1)
+  {
+    throw InvalidInput("A Selection is evaluated on one MPI rank only. Extract Selection with "
+                       "Preserve Topology makes an array of it, which can be chosen instead.");
+  }
+}
+
+/// The part of extracted data that stands where the block stands in the whole; null: nowhere.
+vtkDataObject* PartOf(
+  vtkCompositeDataSet* extracted, vtkCompositeDataSet* whole, vtkDataObject* block)
+{
+  const auto leaf = LeavesOf(whole);
+  for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
+  {
+    if (leaf->GetCurrentDataObject() == block)
+    {
+      return extracted->GetDataSet(leaf);
+    }
+  }
+  return nullptr;
+}
+
+/// Ids of the surface's points or cells in the data set that it is the surface of; null: the same.
+vtkDataArray* OriginalIds(
+  vtkDataSetAttributes* attributes, const char* name, vtkIdType surface, vtkIdType original)
+{
+  vtkDataArray* ids = attributes->GetArray(name);
+  if (!ids && surface != original)
+  {
+    throw InvalidInput("A Selection needs the data set that it was made on: the input has " +
+                       std::to_string(original) + " points or cells, and its surface, which has " +
+                       std::to_string(surface) + ", has no array '" + name + "'.");
+  }
+  return ids;
+}
+
+std::vector<char> SelectedOf(vtkDataArray* inside, vtkDataArray* originalIds, vtkIdType count)
+{
+  std::vector<char> isSelected(count, 0);
+  for (vtkIdType k = 0; k < count; ++k)
+  {
+    const vtkIdType id = originalIds ? static_cast<vtkIdType>(originalIds->GetComponent(k, 0)) : k;
+    isSelected[k] = inside->GetComponent(id, 0) > 0.0;
+  }
+  return isSelected;
+}
+
+/// @param part  the data set that the surface is of, with `vtkInsidedness`
+std::vector<char> PointsOf(vtkDataSet* part, vtkPolyData* surface)
+{
+  const bool isSurfaceItself = vtkPolyData::SafeDownCast(part) != nullptr;
+  const auto idsOf =
+    [&](vtkDataSetAttributes* attributes, const char* name, vtkIdType count, vtkIdType original)
+  { return isSurfaceItself ? nullptr : OriginalIds(attributes, name, count, original); };
+  if (vtkDataArray* inside = part->GetPointData()->GetArray(Insidedness))
+  {
+    return SelectedOf(inside,
+      idsOf(surface->GetPointData(), "vtkOriginalPointIds", surface->GetNumberOfPoints(),
+        part->GetNumberOfPoints()),
+      surface->GetNumberOfPoints());
+  }
+  std::vector<char> isSelected(surface->GetNumberOfPoints(), 0);
+  if (vtkDataArray* inside = part->GetCellData()->GetArray(Insidedness))
+  {
+    const std::vector<char> cells = SelectedOf(inside,
+      idsOf(surface->GetCellData(), "vtkOriginalCellIds", surface->GetNumberOfCells(),
+        part->GetNumberOfCells()),
+      surface->GetNumberOfCells());
+    vtkNew<vtkIdList> points;
+    for (vtkIdType cell = 0; cell < surface->GetNumberOfCells(); ++cell)
+    {
+      if (cells[cell])
+      {
+        surface->GetCellPoints(cell, points);
+        for (vtkIdType k = 0; k < points->GetNumberOfIds(); ++k)
+        {
+          isSelected[points->GetId(k)] = 1;
+        }
+      }
+    }
+  }
+  return isSelected;
+}
+
+} // namespace
+
+/// The data set that is computed on now, with `vtkInsidedness`; null where nothing of it is
+/// selected.
+vtkDataSet* SelectedPoints::Extract(vtkSelection* selection)
+{
+  vtkDataObject* block = filter_->GetInputDataObject(0, 0);
+  auto* whole = vtkCompositeDataSet::SafeDownCast(whole_);
+  this->ExtractFrom(whole ? whole : block, selection);
+  return vtkDataSet::SafeDownCast(
+    whole ? PartOf(vtkCompositeDataSet::SafeDownCast(extracted_), whole, block)
+          : extracted_.GetPointer());
+}
+
+/// Only where data or selection are not those of last time.
+void SelectedPoints::ExtractFrom(vtkDataObject* data, vtkSelection* selection)
+{
+  const auto dataTime = static_cast<std::int64_t>(data->GetMTime());
+  const auto selectionTime = static_cast<std::int64_t>(selection->GetMTime());
+  if (extracted_ && dataTime_ == dataTime && selectionTime_ == selectionTime)
+  {
+    return;
+  }
+  extracted_ = nullptr;
+  auto own = vtkSmartPointer<vtkSelection>::New(); // it stays that of its own pipeline
+  own->ShallowCopy(selection);
+  std::string error;
+  vtkNew<vtkCallbackCommand> listen;
+  listen->SetClientData(&error);
+  listen->SetCallback([](vtkObject*, unsigned long, void* text, void* message)
+    { *static_cast<std::string*>(text) = static_cast<const char*>(message); });
+  vtkNew<Extraction> filter;
+  filter->AddObserver(vtkCommand::ErrorEvent, listen);
+  filter->AddObserver(vtkCommand::WarningEvent, listen); // an unknown kind of selection
+  filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, listen);
+  filter->PreserveTopologyOn();
+  filter->SetInputDataObject(0, CopyOf(data));
+  filter->SetInputDataObject(1, own);
+  filter->Update();
+  if (!error.empty())
+  {
+    throw InvalidInput("The Selection cannot be evaluated: " + error);
+  }
+  extracted_ = filter->GetOutputDataObject(0);
+  dataTime_ = dataTime;
+  selectionTime_ = selectionTime;
+}
+
+SelectedPoints::SelectedPoints(vtkAlgorithm* filter) : filter_(filter)
+{
+  // Before and after all blocks the input is the whole of them, and in between one after the other.
+  const auto noteWhole = [](vtkObject* caller, unsigned long event, void* client, void*)
+  {
+    vtkDataObject* data = static_cast<vtkAlgorithm*>(caller)->GetInputDataObject(0, 0);
+    if (vtkCompositeDataSet::SafeDownCast(data))
+    {
+      static_cast<SelectedPoints*>(client)->whole_ =
+        event == vtkCommand::StartEvent ? data : nullptr;
+    }
+  };
+  vtkNew<vtkCallbackCommand> listen;
+  listen->SetClientData(this);
+  listen->SetCallback(noteWhole);
+  observers_[0] = filter->AddObserver(vtkCommand::StartEvent, listen);
+  observers_[1] = filter->AddObserver(vtkCommand::EndEvent, listen);
+}
+
+SelectedPoints::~SelectedPoints()
+{
+  filter_->RemoveObserver(observers_[0]);
+  filter_->RemoveObserver(observers_[1]);
+}
+
+void SelectedPoints::Free()
+{
+  extracted_ = nullptr;
+}
+
+void SelectedPoints::Update(vtkSelection* selection, vtkPolyData* surface)
+{
+  std::vector<char> isSelected;
+  if (selection)
+  {
+    RequireOneProcess();
+    Validate(selection);
+    vtkDataSet* part = this->Extract(selection);
+    isSelected =
+      part ? PointsOf(part, surface) : std::vector<char>(surface->GetNumberOfPoints(), 0);
+  }
+  else
+  {
+    this->Free();
+  }
+  if (isGiven_ != (selection != nullptr) || isSelected_ != isSelected)
+  {
+    ++version_;
+  }
+  isGiven_ = selection != nullptr;
+  isSelected_ = std::move(isSelected);
+}
+
+std::vector<Id> SelectedPoints::Ids(const TriangleMesh& mesh) const
+{
+  std::vector<Id> ids;
+  if (isGiven_)
+  {
+    const std::vector<char> used = UsedPoints(mesh);
+    for (Id point = 0; point < static_cast<Id>(used.size()); ++point)
+    {
+      if (isSelected_[point] && used[point])
+      {
+        ids.push_back(point);
+      }
+    }
+  }
+  return ids;
+}
+
+} // namespace gridfem
