@@ -1,4 +1,5 @@
-"""Distances along a surface, in ParaView's Python: isolines from one point and from four.
+"""Distances along a surface, in ParaView's Python: isolines from one point and from four, and the
+regions of eight.
 
     PV_PLUGIN_CONFIG_FILE=build/lib/paraview-5.11/plugins/gridfem.plugins.xml \\
         xvfb-run -a pvpython distance.py MESH DEPTH PICTURE.png
@@ -48,16 +49,21 @@ def main():
     surface = simple.OpenDataFile(sys.argv[1])
     distance = GeodesicDistance(Input=surface, Depth=int(sys.argv[2]))
     sources, tiles = [], []
-    for count, label in ((1, "distance from one point"), (4, "from four points")):
+    for count, label in ((1, "distance from one point"), (4, "from four points"),
+                         (8, "nearest of eight points")):
         while len(sources) < count:  # each as far as it can be from those before
             mesh = required(servermanager.Fetch(distance))
             sources.append(farthest(mesh)[0])
             distance.SourcePointIds = sources
+            distance.NearestSource = count == 8
             distance.UpdatePipeline()
         mesh = servermanager.Fetch(distance)
         largest = farthest(mesh)[1]
         print(f"{label}: at most {largest:.4g}")
-        layers = [Layer(mesh, "Distance", 0.0, largest),
+        colors = Layer(mesh, "Distance", 0.0, largest)
+        if distance.NearestSource:
+            colors = Layer(mesh, "NearestSource", shuffled=True)
+        layers = [colors,
                   Layer(isolines(mesh, largest), color=(0.1, 0.1, 0.1))]
         tiles.append(Tile(label, from_the_front(mesh), layers))
     write_sheet(tiles, sys.argv[3], len(tiles), (420, 440))

@@ -8,9 +8,11 @@ polygon each: triangles, or any other number of corners. Values belong to points
 rows, else to cells when they have M. Names in capitals are properties of the filter that does the
 work, which the pages in Plugin/Documentation describe: `Depth=8`, `FunctionSpace=1`.
 
-The filters themselves, for pipelines of VTK, are in gridfem.vtkGridFEMFilters.
+On several MPI ranks each one computes alone, on the arrays that it gives. The filters themselves, for
+pipelines of VTK, are in gridfem.vtkGridFEMFilters; they work on the pieces of all ranks together.
 """
 
+import contextlib
 import warnings
 
 import numpy
@@ -18,6 +20,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray,
 from vtkmodules.util.vtkConstants import VTK_STRING
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataObject, vtkPolyData
+from vtkmodules.vtkParallelCore import vtkDummyController, vtkMultiProcessController
 
 from gridfem import vtkGridFEMFilters
 
@@ -69,6 +72,17 @@ def _add(data, name, values):
                 f"{data.GetNumberOfCells()} cells")
 
 
+@contextlib.contextmanager
+def _alone():
+    """Without the other MPI ranks."""
+    everybody = vtkMultiProcessController.GetGlobalController()
+    vtkMultiProcessController.SetGlobalController(vtkDummyController())
+    try:
+        yield
+    finally:
+        vtkMultiProcessController.SetGlobalController(everybody)
+
+
 def _run(name, points, cells, arrays, properties, sources=()):
     """The filter after its run.
 
@@ -90,7 +104,8 @@ def _run(name, points, cells, arrays, properties, sources=()):
     for point in sources:
         algorithm.AddSourcePointId(int(point))
     algorithm.SetInputData(data)
-    algorithm.Update()
+    with _alone():
+        algorithm.Update()
     texts = [text for kind, text in messages if kind == "ErrorEvent"]
     if texts:
         raise Error(texts[0])
@@ -207,5 +222,6 @@ def detail(points, cells, scale=2.0, **properties):
 def flow(points, cells, steps=10, **properties):
     """The points of the surface after steps of mean-curvature flow, each of length TimeStep."""
     algorithm = _run("MeanCurvatureFlow", points, cells, [], {"NumberOfSteps": steps, **properties})
-    algorithm.UpdateTimeStep(float(steps))
+    with _alone():
+        algorithm.UpdateTimeStep(float(steps))
     return _moved_points(algorithm)

@@ -10,10 +10,13 @@
 #include "Base/Errors.h"
 #include "Integrals/QuadratureRule.h"
 #include "Problems/GeodesicDistance.h"
+#include "Problems/NearestSource.h"
 
 #include "vtkDataSet.h"
+#include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
@@ -151,7 +154,13 @@ void vtkGeodesicDistance::Warn()
                     << " functions are too far for the heat that comes there to be a number. A "
                        "larger Smoothing or a smaller Depth helps.");
   }
-  if (!field.report.converged)
+  if (!field.heatConverged)
+  {
+    vtkWarningMacro(
+      "The heat has not settled everywhere: the direction of the distance may be wrong "
+      "in places. Another Depth or Smoothing may help. The result is kept.");
+  }
+  else if (!field.report.converged)
   {
     vtkWarningMacro(<< gridfem::WarningOf(field.report, this->Tolerance));
   }
@@ -204,7 +213,21 @@ void vtkGeodesicDistance::WriteDistance(vtkPolyData* output)
   output->GetPointData()->AddArray(gridfem::MakePointArray("Distance", column, VTK_DOUBLE));
   output->GetPointData()->SetActiveScalars("Distance");
   gridfem::AddReport(field.report, output);
-  gridfem::AddFieldInt(output, "HeatSolves", field.heatSolves);
+  gridfem::AddFieldNumber(output, "HeatSweeps", field.heatSweeps);
+}
+
+void vtkGeodesicDistance::WriteNearestSource(
+  const std::vector<vtkIdType>& sources, vtkPolyData* output)
+{
+  gridfem::SurfaceSolverState& state = *this->State;
+  const std::vector<gridfem::Id> nearest = gridfem::NearestSources(*state.mesh.triangles,
+    this->Data->Field.atPoints, { sources.begin(), sources.end() }, this->WeldCoincidentPoints,
+    state.MakeJob(state.bridge.GetProgress().Part(0.98, 1.0)));
+  vtkNew<vtkIdTypeArray> array;
+  array->SetName("NearestSource");
+  array->SetNumberOfValues(static_cast<vtkIdType>(nearest.size()));
+  std::copy(nearest.begin(), nearest.end(), array->GetPointer(0));
+  output->GetPointData()->AddArray(array);
 }
 
 void vtkGeodesicDistance::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
@@ -227,6 +250,10 @@ void vtkGeodesicDistance::Compute(vtkInformationVector** inputs, vtkInformationV
   this->UpdateDistance(sources);
   output->ShallowCopy(input);
   this->WriteDistance(output);
+  if (this->NearestSource)
+  {
+    this->WriteNearestSource(sources, output);
+  }
   this->Warn();
   progress.Check(1.0);
 }
@@ -245,4 +272,5 @@ void vtkGeodesicDistance::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SourcePointIds: " << this->GetNumberOfSourcePointIds() << "\n";
   os << indent << "Smoothing: " << this->Smoothing << "\n";
   os << indent << "Unreachable: " << this->Unreachable << "\n";
+  os << indent << "NearestSource: " << this->NearestSource << "\n";
 }

@@ -4,8 +4,8 @@
  *
  * The heat method (Crane, Weischedel, Wardetzky 2013): heat spreads from the sources for a short
  * time t, the direction in which it falls is that in which the distance grows, and the distance is
- * the function whose gradient is nearest to these directions. Two equations are solved; their
- * hierarchies are kept, so that other sources cost the solutions alone.
+ * the function whose gradient is nearest to these directions. Two equations are solved; all but the
+ * sources is kept, so that other sources cost the solutions alone.
  *
  * Sources are the points in SourcePointIds, those where the SourceArray is not 0, those nearest to
  * the points of input port 2, and those that the selection of port 3 takes, all together. When none
@@ -23,8 +23,10 @@
  * - point data, double: `Distance`, in the unit of the points; 0 at sources, never negative. Points
  *   that cannot be reached have what Unreachable says: those on a component without a source, and
  *   those that no polygon uses.
+ * - point data, vtkIdType, with NearestSource on: `NearestSource`, the id of the source that the
+ *   distance is from; -1 where there is none
  * - field data: `Converged`, `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor`
- *   of the solution of the distance, `HeatSolves` (int, 1)
+ *   of the solution of the distance, `HeatSweeps` (double, 1)
  *
  * Errors fall with the size of the functions, in proportion. They are sqrt(t) / 2 to sqrt(t) where
  * fronts meet, and near boundaries; a small fraction of that elsewhere. Sheets nearer to each other
@@ -65,9 +67,9 @@ public:
 
   ///@{
   /**
-   * sqrt(t) in mean distances between functions that overlap: 1.2 cells of the grid, about an edge
-   * of the mesh for HatFunctions. More rounds the distance off where fronts meet, and takes less
-   * time; much less makes the heat oscillate. 0.5..1000, default 1.75.
+   * sqrt(t) in mean distances between functions of the grid that overlap, which is 1.2 cells. More
+   * rounds the distance off where fronts meet, and takes somewhat longer; much less makes the heat
+   * oscillate. 0.5..1000, default 1.75.
    */
   vtkSetClampMacro(Smoothing, double, 0.5, 1000.0);
   vtkGetMacro(Smoothing, double);
@@ -85,6 +87,16 @@ public:
    */
   vtkSetClampMacro(Unreachable, int, NotANumber, Infinity);
   vtkGetMacro(Unreachable, int);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the point array `NearestSource` is put out: regions whose points have the same nearest
+   * source. Their borders are right to some cells. Off by default.
+   */
+  vtkSetMacro(NearestSource, bool);
+  vtkGetMacro(NearestSource, bool);
+  vtkBooleanMacro(NearestSource, bool);
   ///@}
 
   /**
@@ -112,6 +124,7 @@ protected:
 
   double Smoothing = 1.75;
   int Unreachable = NotANumber;
+  bool NearestSource = false;
 
 private:
   vtkGeodesicDistance(const vtkGeodesicDistance&) = delete;
@@ -119,6 +132,7 @@ private:
 
   void UpdateDistance(const std::vector<vtkIdType>& sources);
   void WriteDistance(vtkPolyData* output);
+  void WriteNearestSource(const std::vector<vtkIdType>& sources, vtkPolyData* output);
   void Warn();
 
   struct Internals;

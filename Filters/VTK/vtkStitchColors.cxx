@@ -186,6 +186,7 @@ void vtkStitchColors::Solve(const gridfem::InputArray& colors, const gridfem::Pr
   gridfem::StitchOptions options;
   options.multigrid = state.options.multigrid;
   options.solve = state.options.solve;
+  options.blendWidth = this->BlendWidth * state.space->Extent() * state.space->UnitLength();
   if (this->KeptMean == ReferenceScan)
   {
     options.reference = NumberOf(data.Labels, this->ReferenceLabel);
@@ -197,7 +198,7 @@ void vtkStitchColors::Solve(const gridfem::InputArray& colors, const gridfem::Pr
   }
   gridfem::StageKey key;
   key.Add(state.stages.Version(CutStage)).Add(colors.array);
-  key.Add(this->KeptMean).Add(options.reference.value_or(-1));
+  key.Add(this->BlendWidth).Add(this->KeptMean).Add(options.reference.value_or(-1));
   key.Add(this->Tolerance).Add(this->MaximumIterations);
   gridfem::AddMultigrid(key, state.options.multigrid);
   state.stages.Run(gridfem::SolveStage, key,
@@ -262,4 +263,5 @@ void vtkStitchColors::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "KeptMean: " << this->KeptMean << "\n";
   os << indent << "ReferenceLabel: " << this->ReferenceLabel << "\n";
   os << indent << "KeepDetails: " << this->KeepDetails << "\n";
+  os << indent << "BlendWidth: " << this->BlendWidth << "\n";
 }

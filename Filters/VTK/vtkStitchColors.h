@@ -83,6 +83,16 @@ public:
   vtkBooleanMacro(KeepDetails, bool);
   ///@}
 
+  ///@{
+  /**
+   * How far along the surface from a seam gradients are kept in part: none at the seam, all from
+   * here on. For scans whose colours are poor near their borders. A part of the longest side of the
+   * surface, 0..1; 0 (default): all up to the seam.
+   */
+  vtkSetClampMacro(BlendWidth, double, 0.0, 1.0);
+  vtkGetMacro(BlendWidth, double);
+  ///@}
+
   /**
    * The input of port 1: the basis.
    */
@@ -98,6 +108,7 @@ protected:
   int KeptMean = WholeSurface;
   int ReferenceLabel = 0;
   bool KeepDetails = true;
+  double BlendWidth = 0.0;
 
 private:
   vtkStitchColors(const vtkStitchColors&) = delete;

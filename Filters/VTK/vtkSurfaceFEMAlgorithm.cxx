@@ -3,6 +3,8 @@
 #include "Private/FailureDump.h"
 #include "Private/InputValidation.h"
 #include "Private/PipelineTime.h"
+#include "Private/RankedBlocks.h"
+#include "Private/RankedSurface.h"
 #include "Private/SurfaceInput.h"
 #include "Private/SurfaceSolverState.h"
 
@@ -39,8 +41,22 @@ void EmptyOutputs(vtkInformationVector* outputs)
 vtkSurfaceFEMAlgorithm::vtkSurfaceFEMAlgorithm()
   : State(std::make_unique<gridfem::SurfaceSolverState>(this)),
     Surface(std::make_unique<gridfem::SurfaceInput>()),
-    Time(std::make_unique<gridfem::InputTime>()), Dump(std::make_unique<gridfem::FailureDump>())
+    Time(std::make_unique<gridfem::InputTime>()), Dump(std::make_unique<gridfem::FailureDump>()),
+    Ranked(std::make_unique<gridfem::RankedSurface>()),
+    Blocks(std::make_unique<gridfem::RankedBlocks>())
 {
+  // On several ranks blocks that only some of them have would leave the others waiting.
+  vtkNew<vtkCallbackCommand> beginBlocks;
+  beginBlocks->SetClientData(this);
+  beginBlocks->SetCallback(
+    [](vtkObject*, unsigned long, void* self, void*)
+    {
+      auto* filter = static_cast<vtkSurfaceFEMAlgorithm*>(self);
+      filter->Blocks->Begin(
+        filter->GetExecutive()->GetInputInformation(), filter->GetNumberOfInputPorts());
+    });
+  this->AddObserver(vtkCommand::StartEvent, beginBlocks);
+
   // A run may find other steps; and of composite data the pipeline hands the input's times on once
   // more when all blocks are done.
   vtkNew<vtkCallbackCommand> keepTimes;
@@ -49,7 +65,8 @@ vtkSurfaceFEMAlgorithm::vtkSurfaceFEMAlgorithm()
     [](vtkObject*, unsigned long, void* self, void*)
     {
       auto* filter = static_cast<vtkSurfaceFEMAlgorithm*>(self);
-      const std::vector<double> steps = filter->OwnTimeSteps();
+      filter->Blocks->End();
+      const std::vector<double> steps = filter->TimeSteps();
       if (!steps.empty())
       {
         gridfem::SetTimeSteps(steps, filter->GetExecutive()->GetOutputInformation());
@@ -79,11 +96,16 @@ std::vector<double> vtkSurfaceFEMAlgorithm::OwnTimeSteps()
   return {};
 }
 
+std::vector<double> vtkSurfaceFEMAlgorithm::TimeSteps()
+{
+  return this->Ranked->StepsOf(this->OwnTimeSteps());
+}
+
 /// The pipeline has handed the input's time steps on already.
 int vtkSurfaceFEMAlgorithm::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
-  const std::vector<double> steps = this->OwnTimeSteps();
+  const std::vector<double> steps = this->TimeSteps();
   if (!steps.empty())
   {
     gridfem::SetTimeSteps(steps, outputs);
@@ -133,7 +155,10 @@ int vtkSurfaceFEMAlgorithm::RequestData(
   this->Dump->Print();
   this->State->bridge.Restart();
   const int result = this->RunCompute(inputs, outputs);
-  if (!this->KeepsStages() || gridfem::IsEmpty(vtkDataSet::GetData(inputs[0])))
+  const bool isEmpty = gridfem::Ranks::AreSeveral()
+                         ? this->Ranked->IsEmpty()
+                         : gridfem::IsEmpty(vtkDataSet::GetData(inputs[0]));
+  if (!this->KeepsStages() || isEmpty)
   {
     this->FreeStages();
     gridfem::ReturnFreedMemory();
@@ -147,13 +172,20 @@ int vtkSurfaceFEMAlgorithm::RunCompute(vtkInformationVector** inputs, vtkInforma
   const gridfem::MemoryReuse reuse;
   try
   {
-    gridfem::RequireSingleProcess();
-    if (!gridfem::IsEmpty(vtkDataSet::GetData(inputs[0])))
+    if (gridfem::Ranks::AreSeveral())
+    {
+      this->ComputeOnRanks(inputs, outputs);
+    }
+    else if (!gridfem::IsEmpty(vtkDataSet::GetData(inputs[0])))
     {
       this->Compute(this->Surface->Of(inputs, this->GetNumberOfInputPorts()), outputs);
       gridfem::StampTime(!this->OwnTimeSteps().empty(), inputs[0], outputs);
     }
     return 1;
+  }
+  catch (const gridfem::FailedElsewhere&)
+  {
+    // The first rank says why.
   }
   catch (const gridfem::Aborted&)
   {
@@ -174,6 +206,41 @@ int vtkSurfaceFEMAlgorithm::RunCompute(vtkInformationVector** inputs, vtkInforma
   return 0;
 }
 
+/// The same on several MPI ranks: all of them come here, also those without a piece of the surface.
+void vtkSurfaceFEMAlgorithm::ComputeOnRanks(
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  this->Blocks->RequireAligned();
+  const gridfem::Ranks ranks;
+  if (ranks.Any(this->GetAbortExecute() != 0))
+  {
+    throw gridfem::Aborted();
+  }
+  vtkInformationVector** surfaces = inputs;
+  vtkDataSet* piece = vtkDataSet::GetData(inputs[0]);
+  const bool isShared = ranks.Number(!gridfem::IsEmpty(piece)) > 1;
+  ranks.Together(
+    [&]
+    {
+      if (isShared)
+      {
+        gridfem::RequireNoVolume(piece);
+      }
+      if (piece && piece->GetNumberOfCells() > 0)
+      {
+        surfaces = this->Surface->Of(inputs, this->GetNumberOfInputPorts());
+      }
+    });
+  this->Ranked->Run(surfaces, this->GetNumberOfInputPorts(), outputs, this->WeldCoincidentPoints,
+    this->OwnTimeSteps(),
+    [this](vtkInformationVector** gathered, vtkInformationVector* results)
+    {
+      this->Compute(gathered, results);
+      gridfem::StampTime(!this->OwnTimeSteps().empty(), gathered[0], results);
+      return this->OwnTimeSteps();
+    });
+}
+
 bool vtkSurfaceFEMAlgorithm::KeepsStages()
 {
   return this->KeepStages && !this->GetReleaseDataFlag();
@@ -183,6 +250,7 @@ void vtkSurfaceFEMAlgorithm::FreeStages()
 {
   this->State->Free();
   this->Surface->Free();
+  this->Ranked->Free();
 }
 
 void vtkSurfaceFEMAlgorithm::FinishAbort(vtkInformationVector* outputs)

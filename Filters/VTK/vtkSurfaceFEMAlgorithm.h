@@ -22,7 +22,14 @@
  * a surface by itself. Vertices,
  * lines, and cells that vtkGhostType marks as hidden or as duplicates take no part; the solvers
  * pass them on, the clip leaves them out. Computation is in double precision. Results do not depend
- * on NumberOfThreads. The filters refuse to run on more than one MPI rank.
+ * on NumberOfThreads.
+ *
+ * On several MPI ranks the surface is gathered on rank 0, which computes with its threads and has
+ * to hold all of it; the others sleep. Ghost cells count once, and points on borders are joined by
+ * global point ids, or else by their coordinates with WeldCoincidentPoints. Port 0 is each rank's
+ * own input plus arrays, borders and ghosts included; outputs with cells of their own, and tables,
+ * are on rank 0. Ids, such as those of sources and in messages, count through the gathered surface.
+ * The same ranks have to run the filter together. When one fails, all do, with one message.
  *
  * A solver filter finds its function space in this order: on input port 0, when that is the output
  * of vtkConnectivityAwareBasis; on the optional input port 1, when that is connected, which must be
@@ -45,6 +52,8 @@ namespace gridfem
 {
 class FailureDump;
 class InputTime;
+class RankedBlocks;
+class RankedSurface;
 class SurfaceInput;
 class SurfaceSolverState;
 } // namespace gridfem
@@ -311,11 +320,15 @@ private:
   void operator=(const vtkSurfaceFEMAlgorithm&) = delete;
 
   int RunCompute(vtkInformationVector** inputs, vtkInformationVector* outputs);
+  void ComputeOnRanks(vtkInformationVector** inputs, vtkInformationVector* outputs);
+  std::vector<double> TimeSteps();
   void FinishAbort(vtkInformationVector* outputs);
 
   std::unique_ptr<gridfem::SurfaceInput> Surface;
   std::unique_ptr<gridfem::InputTime> Time;
   std::unique_ptr<gridfem::FailureDump> Dump;
+  std::unique_ptr<gridfem::RankedSurface> Ranked;
+  std::unique_ptr<gridfem::RankedBlocks> Blocks;
 };
 
 #endif

@@ -147,14 +147,16 @@ class Tests(Rule):
                     if re.search(r"\bTEST(?:_F|_P)?\s*\(", p.read_text())
                     and not (p.name.startswith("Test")
                              and (p.parent.name == "VTK" or p.parent.parent.name == "Core"))]
-        offences += [relative(p) for p in sources("Testing/Plugin", (".py", ".sh"))
+        offences += [relative(p) for folder in ("Plugin", "Ranks")
+                     for p in sources("Testing/" + folder, (".py", ".sh"))
                      if not p.name.startswith("Test") and not self.is_used(p)]
         self.assertNothing(offences, "These are not found by the build (Test<Concept>.cxx):")
 
     def is_used(self, module):
         """Whether another file of the folder imports or runs this one."""
         return any(re.search(rf"\b{module.stem}\b", other.read_text())
-                   for other in sources("Testing/Plugin", (".py", ".sh", ".txt"))
+                   for folder in ("Plugin", "Ranks")
+                   for other in sources("Testing/" + folder, (".py", ".sh", ".txt"))
                    if other != module)
 
     def test_every_filter_has_a_panel_and_every_fragment_is_used(self):

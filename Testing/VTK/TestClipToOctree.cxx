@@ -76,6 +76,45 @@ vtkSmartPointer<vtkPolyData> ConcavePolygon(double scale, double shift)
   return data;
 }
 
+/// A regular polygon whose every second corner is drawn in by a part of the radius.
+vtkSmartPointer<vtkPolyData> Star(int size, double depth)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkCellArray> polys;
+  polys->InsertNextCell(size);
+  for (int k = 0; k < size; ++k)
+  {
+    const double angle = 2.0 * M_PI * k / size;
+    const double radius = 1.0 - depth * (k % 2);
+    polys->InsertCellPoint(
+      points->InsertNextPoint(radius * std::cos(angle), radius * std::sin(angle), 0.0));
+  }
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points);
+  data->SetPolys(polys);
+  return data;
+}
+
+/// Nothing could stop the triangulation of a polygon that takes hours.
+TEST(ClipToOctree, PolygonsWithManyCornersAreCutInSecondsOrRefused)
+{
+  vtkNew<vtkClipToOctree> filter;
+  filter->SetDepth(3);
+  for (const auto& [size, depth] : { std::pair(100000, 0.0), std::pair(4000, 0.2) })
+  {
+    const double area =
+      0.5 * size * (1.0 - depth) * std::sin(2.0 * M_PI / size); // of triangles to the centre
+    filter->SetInputData(Star(size, depth));
+    EXPECT_NEAR(AreaBySource(Clipped(filter), 1)[0], area, 1e-9);
+  }
+  const Messages messages(filter);
+  filter->SetInputData(Star(100000, 0.2));
+  EXPECT_EQ(filter->GetExecutive()->Update(), 0);
+  ASSERT_EQ(messages.errors.size(), 1u);
+  EXPECT_NE(messages.errors[0].find("Split it into smaller polygons"), std::string::npos);
+}
+
 TEST(ClipToOctree, InputPointsComeFirstAndAreasAddUp)
 {
   const TriangleMesh mesh = GeodesicSphere(6);

@@ -12,8 +12,6 @@
 #include "vtkScreenedPoisson.h"
 #include "vtkSpectralSignatures.h"
 
-#include "vtkDummyCommunicator.h"
-#include "vtkDummyController.h"
 #include "vtkErrorCode.h"
 #include "vtkFloatArray.h"
 #include "vtkInformation.h"
@@ -64,18 +62,6 @@ void PrintTo(const FilterCase& filter, std::ostream* stream)
 {
   *stream << filter.name;
 }
-
-/// Two ranks without MPI.
-class TwoRanks : public vtkDummyCommunicator
-{
-public:
-  static TwoRanks* New();
-  vtkTypeMacro(TwoRanks, vtkDummyCommunicator);
-
-protected:
-  TwoRanks() { this->NumberOfProcesses = this->MaximumNumberOfProcesses = 2; }
-};
-vtkStandardNewMacro(TwoRanks);
 
 class FailureRule : public ::testing::TestWithParam<FilterCase>
 {
@@ -263,16 +249,6 @@ TEST_P(FailureRule, AnUnknownQuadratureDegreeIsRefused)
     return;
   }
   this->ExpectRefused(ToPolyData(GeodesicSphere(4)), "3");
-}
-
-TEST_P(FailureRule, MoreThanOneRankIsRefused)
-{
-  vtkNew<vtkDummyController> controller;
-  controller->SetCommunicator(vtkNew<TwoRanks>());
-  vtkMultiProcessController* former = vtkMultiProcessController::GetGlobalController();
-  vtkMultiProcessController::SetGlobalController(controller);
-  this->ExpectRefused(ToPolyData(GeodesicSphere(4)), "2 MPI ranks");
-  vtkMultiProcessController::SetGlobalController(former);
 }
 
 TEST_P(FailureRule, AnAbortGivesEmptyOutputs)

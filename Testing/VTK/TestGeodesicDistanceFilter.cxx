@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace gridfem;
@@ -77,6 +78,45 @@ TEST(GeodesicDistanceFilter, StartsAtTheFirstPointWhereNothingIsChosen)
   const TriangleMesh mesh = GeodesicSphere(8);
   auto filter = MakeFilter(ToPolyData(mesh), 4);
   EXPECT_EQ(DistancesOf(filter)[mesh.triangles[0][0]], 0.0);
+}
+
+TEST(GeodesicDistanceFilter, NamesTheNearestSource)
+{
+  const TriangleMesh mesh =
+    Join(GeodesicSphere(12), Transform(GeodesicSphere(4), { 1, 0, 0 }, 0.0, 1.0, { 5, 0, 0 }));
+  auto filter = MakeFilter(ToPolyData(mesh), 6);
+  const std::vector<Id> sources = { 3, 300, 500 };
+  for (const Id source : sources)
+  {
+    filter->AddSourcePointId(source);
+  }
+  DistancesOf(filter);
+  EXPECT_EQ(filter->GetOutput()->GetPointData()->GetArray("NearestSource"), nullptr);
+  filter->NearestSourceOn();
+  DistancesOf(filter);
+  EXPECT_EQ(filter->GetNumberOfRuns("Solve"), 1);
+  const std::vector<double> nearest = PointValues(filter->GetOutputDataObject(0), "NearestSource");
+  ASSERT_EQ(nearest.size(), mesh.points.size());
+  for (std::size_t i = 0; i < nearest.size(); ++i)
+  {
+    if (mesh.points[i][0] > 3.0)
+    {
+      ASSERT_EQ(nearest[i], -1) << i;
+      continue;
+    }
+    std::vector<double> length;
+    for (const Id source : sources)
+    {
+      length.push_back((mesh.points[source] - mesh.points[i]).norm());
+    }
+    const auto expected = std::min_element(length.begin(), length.end());
+    std::vector<double> sorted = length;
+    std::sort(sorted.begin(), sorted.end());
+    if (sorted[1] - sorted[0] > 0.15)
+    {
+      ASSERT_EQ(nearest[i], double(sources[expected - length.begin()])) << i;
+    }
+  }
 }
 
 TEST(GeodesicDistanceFilter, KeepsHierarchiesForOtherSources)

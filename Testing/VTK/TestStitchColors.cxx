@@ -266,6 +266,12 @@ TEST(StitchColorsFilter, TakesASharedBasisAndRunsOnlyWhatHasChanged)
   EXPECT_EQ(alone->GetNumberOfRuns("Space"), 1);
   EXPECT_EQ(alone->GetNumberOfRuns("Cut"), 1);
   EXPECT_EQ(alone->GetNumberOfRuns("Solve"), 2);
+  const auto sharp = PointValues(alone->GetOutputDataObject(0), "StitchedColors");
+  alone->SetBlendWidth(0.1);
+  alone->Update();
+  EXPECT_EQ(alone->GetNumberOfRuns("Cut"), 1);
+  EXPECT_EQ(alone->GetNumberOfRuns("Solve"), 3);
+  EXPECT_NE(PointValues(alone->GetOutputDataObject(0), "StitchedColors"), sharp);
 }
 
 TEST(StitchColorsFilter, RefusesWhatIsNoColorOrNoLabel)

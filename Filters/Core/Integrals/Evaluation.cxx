@@ -96,7 +96,10 @@ void IntegrateGradient(const GridFunctions& space, Id piece, const MultiVector& 
         const Vec3 tangential = weight * (gradient - normal.dot(gradient) * normal);
         for (Id c = 0; c < coefficients.cols(); ++c)
         {
-          sum.segment<3>(3 * c) += coefficients(level.dof[patch][i], c) * tangential.transpose();
+          // Differences, so that a constant has no gradient at all.
+          const double slope =
+            coefficients(level.dof[patch][i], c) - coefficients(level.dof[patch][0], c);
+          sum.segment<3>(3 * c) += slope * tangential.transpose();
         }
       }
     });
@@ -119,6 +122,43 @@ void ForEachPieceOfTriangles(const ClippedMesh& clipped, Id triangles, int threa
         }
       }
     });
+}
+
+/// v / |v|, also where |v|² is no number any more; 0 for 0.
+Vec3 DirectionOf(const Vec3& v)
+{
+  const double largest = v.cwiseAbs().maxCoeff();
+  return largest > 0.0 ? Vec3((v / largest).normalized()) : Vec3(Vec3::Zero());
+}
+
+/// Sums, over the pieces of each triangle, what share(∫ ∇u, area) makes of a piece's gradient in
+/// grid units, divided by the triangle's area.
+template<class Share>
+MultiVector MeansOfPieces(const GridFunctions& space, Id triangles, const MultiVector& coefficients,
+  int threads, Share&& share)
+{
+  CheckCoefficients(space, coefficients);
+  MultiVector mean = MultiVector::Zero(triangles, 3 * coefficients.cols());
+  std::vector<double> area(triangles, 0.0);
+  ForEachPieceOfTriangles(space.clipped, triangles, threads,
+    [&](Id triangle, Id piece)
+    {
+      Eigen::RowVectorXd integral(mean.cols());
+      IntegrateGradient(space, piece, coefficients, integral);
+      const double ofPiece = PieceArea(space.clipped, piece);
+      for (Id c = 0; c < mean.cols(); c += 3)
+      {
+        const Vec3 sum = integral.segment<3>(c).transpose();
+        const Vec3 added = share(sum, ofPiece);
+        mean.row(triangle).segment<3>(c) += added.transpose();
+      }
+      area[triangle] += ofPiece;
+    });
+  for (Id t = 0; t < triangles; ++t)
+  {
+    mean.row(t) *= area[t] > 0.0 ? 1.0 / area[t] : 0.0;
+  }
+  return mean;
 }
 
 } // namespace
@@ -178,22 +218,17 @@ Eigen::Matrix3Xd EvaluateGradientInPiece(
 MultiVector MeanGradients(
   const GridFunctions& space, Id triangles, const MultiVector& coefficients, int threads)
 {
-  CheckCoefficients(space, coefficients);
-  MultiVector mean = MultiVector::Zero(triangles, 3 * coefficients.cols());
-  std::vector<double> area(triangles, 0.0);
-  ForEachPieceOfTriangles(space.clipped, triangles, threads,
-    [&](Id triangle, Id piece)
-    {
-      Eigen::RowVectorXd integral(mean.cols());
-      IntegrateGradient(space, piece, coefficients, integral);
-      mean.row(triangle) += integral;
-      area[triangle] += PieceArea(space.clipped, piece);
-    });
-  for (Id t = 0; t < triangles; ++t)
-  {
-    mean.row(t) *= area[t] > 0.0 ? 1.0 / (area[t] * space.GetGrid().spacing) : 0.0;
-  }
+  MultiVector mean = MeansOfPieces(
+    space, triangles, coefficients, threads, [](const Vec3& integral, double) { return integral; });
+  mean /= space.GetGrid().spacing;
   return mean;
+}
+
+MultiVector MeanDirections(
+  const GridFunctions& space, Id triangles, const MultiVector& coefficients, int threads)
+{
+  return MeansOfPieces(space, triangles, coefficients, threads,
+    [](const Vec3& integral, double area) { return Vec3(area * DirectionOf(integral)); });
 }
 
 SparseMatrix EvaluationRows(const GridFunctions& space, const std::vector<Id>& points)

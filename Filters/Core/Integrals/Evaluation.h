@@ -32,6 +32,10 @@ Eigen::Matrix3Xd EvaluateGradientInPiece(
 MultiVector MeanGradients(
   const GridFunctions& space, Id triangles, const MultiVector& coefficients, int threads = 0);
 
+/// The mean of ∇u / |∇u| instead, one direction for each piece; 0 where ∇u = 0.
+MultiVector MeanDirections(
+  const GridFunctions& space, Id triangles, const MultiVector& coefficients, int threads = 0);
+
 /// The values of all functions at input points: a row for each, empty for points that no triangle
 /// uses. Throws InvalidInput for a point that does not exist.
 SparseMatrix EvaluationRows(const GridFunctions& space, const std::vector<Id>& points);

@@ -1,233 +1,53 @@
-#include "Base/Parallel.h"
 #include "Multigrid/BlockSweep.h"
-#include "Multigrid/PatchFactor.h"
+#include "Multigrid/PatchInverses.h"
 #include "Multigrid/Smoother.h"
-
-#include <algorithm>
-#include <type_traits>
 
 namespace gridfem
 {
 namespace
 {
 
-constexpr int N = FunctionsPerPatch;
-
-/// Pivots of the scaled block below this are rounding: the direction is left out.
-constexpr double SmallestPivot = 1e-14;
-
-/// Rounding V to single precision changes V S Vᵀ = I by some 6e-8 / sqrt(pivot). From this pivot on
-/// that is 2 %, which a smoother does not feel; below it, as on flat faces, V is kept in double.
-constexpr double SmallestSinglePivot = 1e-11;
-
-/// r = Vᵀ V r for one column: vectors run along the patch.
-/// @param V  lower triangle, mirrored to the upper one, so that both products run along columns
-template<class Real>
-inline void ApplyInverse(const Real* V, double (&r)[N])
-{
-  double y[N] = {};
-  for (int j = 0; j < N; ++j)
-  {
-    for (int i = 0; i < N; ++i)
-    {
-      y[i] += V[N * j + i] * (i >= j ? r[j] : 0.0);
-    }
-  }
-  std::fill(r, r + N, 0.0);
-  for (int j = 0; j < N; ++j)
-  {
-    for (int i = 0; i < N; ++i)
-    {
-      r[i] += V[N * j + i] * (i <= j ? y[j] : 0.0);
-    }
-  }
-}
-
-/// The same for several columns: vectors run along them.
-template<class Real, class Lanes>
-inline void ApplyInverse(const Real* V, Lanes (&r)[N])
-{
-  for (int i = N - 1; i >= 0; --i)
-  {
-    r[i] *= double(V[N * i + i]);
-    for (int j = 0; j < i; ++j)
-    {
-      r[i] += double(V[N * i + j]) * r[j];
-    }
-  }
-  for (int i = 0; i < N; ++i)
-  {
-    r[i] *= double(V[N * i + i]);
-    for (int j = i + 1; j < N; ++j)
-    {
-      r[i] += double(V[N * i + j]) * r[j];
-    }
-  }
-}
-
-/// x += Vᵀ V (b - A x) on the patch.
-template<class Chunk, class Real>
-inline void Relax(const RowView& A, const std::array<Index, N>& dof, const Real* V, const double* b,
-  double* x, Chunk chunk)
-{
-  using ColumnLanes = typename Chunk::ColumnLanes;
-  std::conditional_t<Chunk::Width == 1, double, ColumnLanes> r[N];
-  for (int i = 0; i < N; ++i)
-  {
-    const ColumnLanes residual = chunk.Row(b, dof[i]) - RowProduct(A, dof[i], x, chunk);
-    if constexpr (Chunk::Width == 1)
-    {
-      r[i] = residual[0];
-    }
-    else
-    {
-      r[i] = residual;
-    }
-  }
-  ApplyInverse(V, r);
-  for (int i = 0; i < N; ++i)
-  {
-    chunk.Row(x, dof[i]) += r[i];
-  }
-}
-
+/// Patches in visiting order.
 class PatchSmoother : public Smoother
 {
 public:
   PatchSmoother(
-    const SparseMatrix& A, const PatchOrder& order, int threads, FactorPrecision precision);
-
-  void Sweep(const SparseMatrix& A, const MultiVector& b, MultiVector& x, SweepDirection direction,
-    int threads) const override;
-
-  bool HasSingleFactors() const override;
-
-  std::size_t Memory() const override;
-
-private:
-  /// A patch, in visiting order.
-  struct Place
+    const SparseMatrix& A, const PatchOrder& order, int threads, FactorPrecision precision)
+    : rows_(A.rows), ranges_(RangesOf(A, order, threads)),
+      inverses_(A, order.dof, threads, precision)
   {
-    std::array<Index, N> dof;
-    Index precision; // of its factor
-  };
-  enum Precision : Index
-  {
-    None, // no unknown can be solved for
-    Single,
-    Double
-  };
-
-  /// Of a patch that is visited soon; there may be none.
-  EIGEN_ALWAYS_INLINE void FetchRows(const RowView& A, Id p) const
-  {
-    if (p >= 0 && p < static_cast<Id>(patches_.size()))
-    {
-      for (const Index row : patches_[p].dof)
-      {
-        FetchRow(A, row);
-      }
-    }
   }
 
-  void SetPatch(Id p, const PatchFactor& factor, FactorPrecision precision);
+  void Sweep(const SparseMatrix& A, const MultiVector& b, MultiVector& x, SweepDirection direction,
+    int threads) const override
+  {
+    CheckSweep(A, rows_, b, x);
+    const RowView rows(A);
+    const Id ahead = direction == SweepDirection::Forward ? 2 : -2;
+    SweepBlocks(ranges_, x.cols(), direction, 128 * inverses_.Count(), threads,
+      [&](Id p, auto chunk)
+      {
+        inverses_.FetchRows(rows, p + ahead);
+        inverses_.Relax(p, rows, b.data(), x.data(), chunk);
+      });
+  }
+
+  bool HasSingleFactors() const override { return inverses_.HasSingle(); }
+
+  std::size_t Memory() const override { return inverses_.Memory() + ranges_.Memory(); }
+
+private:
+  static BlockRanges RangesOf(const SparseMatrix& A, const PatchOrder& order, int threads)
+  {
+    CheckOrder(A, order, threads);
+    return { order.blockBegin.empty() ? std::vector<Id>{ 0 } : order.blockBegin,
+      order.colourBegin };
+  }
 
   Index rows_;
   BlockRanges ranges_;
-  Array<Place> patches_;
-  // The factor of patch p is entry p of one of them. What is not used is never touched, and so
-  // takes no memory.
-  Array<std::array<float, N * N>> single_;
-  Array<std::array<double, N * N>> double_;
+  PatchInverses inverses_;
 };
-
-PatchSmoother::PatchSmoother(
-  const SparseMatrix& A, const PatchOrder& order, int threads, FactorPrecision precision)
-  : rows_(A.rows)
-{
-  CheckOrder(A, order, threads);
-  ranges_.colourBegin = order.colourBegin;
-  ranges_.blockBegin = order.blockBegin.empty() ? std::vector<Id>{ 0 } : order.blockBegin;
-  patches_.resize(order.dof.size());
-  single_.resize(order.dof.size());
-  double_.resize(order.dof.size());
-  const BlockSource source(A, threads);
-  ParallelRanges(
-    static_cast<Id>(order.dof.size()), threads,
-    [&](Id begin, Id end)
-    {
-      ForEachFactor(source, order.dof.data(), begin, end, SmallestPivot,
-        [&](Id p, const PatchFactor& factor) { this->SetPatch(p, factor, precision); });
-    },
-    PatchesPerBlock);
-}
-
-/// Numbers that single precision does not hold would be zero or infinite.
-bool IsSingle(const PatchFactor& factor, FactorPrecision precision)
-{
-  return !factor.hasLargeScales &&
-         (precision == FactorPrecision::Single ||
-           (precision == FactorPrecision::Mixed && factor.smallestPivot >= SmallestSinglePivot));
-}
-
-void PatchSmoother::SetPatch(Id p, const PatchFactor& factor, FactorPrecision precision)
-{
-  if (factor.count == 0)
-  {
-    patches_[p] = { factor.dof, None };
-    return;
-  }
-  const bool isSingle = IsSingle(factor, precision);
-  patches_[p] = { factor.dof, isSingle ? Single : Double };
-  if (isSingle)
-  {
-    Eigen::Map<Eigen::Matrix<float, N, N>>(single_[p].data()) = factor.V.cast<float>();
-  }
-  else
-  {
-    Eigen::Map<PatchMatrix>(double_[p].data()) = factor.V;
-  }
-}
-
-bool PatchSmoother::HasSingleFactors() const
-{
-  return std::any_of(
-    patches_.begin(), patches_.end(), [](const Place& patch) { return patch.precision == Single; });
-}
-
-std::size_t PatchSmoother::Memory() const
-{
-  std::size_t bytes = patches_.size() * sizeof(patches_.front()) + ranges_.Memory();
-  for (const Place& patch : patches_)
-  {
-    bytes += patch.precision == Single   ? sizeof(single_.front())
-             : patch.precision == Double ? sizeof(double_.front())
-                                         : 0;
-  }
-  return bytes;
-}
-
-void PatchSmoother::Sweep(const SparseMatrix& A, const MultiVector& b, MultiVector& x,
-  SweepDirection direction, int threads) const
-{
-  CheckSweep(A, rows_, b, x);
-  const RowView rows(A);
-  const Id ahead = direction == SweepDirection::Forward ? 2 : -2;
-  SweepBlocks(ranges_, x.cols(), direction, 128 * static_cast<Id>(patches_.size()), threads,
-    [&](Id p, auto chunk)
-    {
-      this->FetchRows(rows, p + ahead);
-      const Place& patch = patches_[p];
-      if (patch.precision == Single)
-      {
-        Relax(rows, patch.dof, single_[p].data(), b.data(), x.data(), chunk);
-      }
-      else if (patch.precision == Double)
-      {
-        Relax(rows, patch.dof, double_[p].data(), b.data(), x.data(), chunk);
-      }
-    });
-}
 
 } // namespace
 

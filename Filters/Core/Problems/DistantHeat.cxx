@@ -1,190 +1,310 @@
 #include "Problems/DistantHeat.h"
 
-#include "Base/Parallel.h"
+#include "Base/Errors.h"
+#include "Spaces/FiniteElementSpace.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 namespace gridfem
 {
 namespace
 {
 
-/// Of every solve.
-constexpr double Tolerance = 1e-12;
+constexpr double Infinite = std::numeric_limits<double>::infinity();
 
-/// What is above this share of the largest value of a solve is known well enough to follow its
-/// slope.
-constexpr double KnownShare = 1e4 * Tolerance;
-
-/// Less is lost among numbers that are no longer held to all digits.
+/// Less is lost among numbers that are no longer held to all digits, and is taken for 0.
 constexpr double SmallestHeat = 1e-290;
 
-/// How far the heat has come.
-class Front
-{
-public:
-  Front(const FiniteElementSpace& space, const SparseMatrix& A, double t, const MultiVector& load,
-    int threads)
-    : A_(A), load_(load / t), threads_(threads), state_(load.rows(), State::Cold),
-      u_(MultiVector::Zero(load.rows(), 1))
-  {
-    const std::vector<double> diagonal = A.Diagonal(threads);
-    size_ = Eigen::Map<const Eigen::VectorXd>(diagonal.data(), load.rows()).cwiseSqrt();
-    const Components components = space.ComponentsOf(0, threads);
-    std::vector<char> hasSource(components.count, 0);
-    for (Id i = 0; i < load.rows(); ++i)
-    {
-      hasSource[components.ofFunction[i]] |= load(i, 0) != 0.0;
-    }
-    for (Id i = 0; i < load.rows(); ++i)
-    {
-      state_[i] = hasSource[components.ofFunction[i]] ? State::Unknown : State::Cold;
-    }
-  }
+/// So many layers are relaxed together: heat from farther off is less than rounding of a direction.
+constexpr Id LayersAtOnce = 16;
 
-  /// Takes over what a solve says of the unknown part, as far as it says something: where it or a
-  /// neighbour has a value that is not small. So no function stays behind because it happens to be
-  /// near 0. False when the solve brought no heat at all.
-  bool Advance(const MultiVector& solution)
-  {
-    const double largest = solution.col(0).cwiseProduct(size_).cwiseAbs().maxCoeff();
-    if (!(largest > SmallestHeat))
-    {
-      return false;
-    }
-    for (Id i = 0; i < u_.rows(); ++i)
-    {
-      u_(i, 0) = state_[i] == State::Unknown ? solution(i, 0) : u_(i, 0);
-    }
-    const double least = KnownShare * largest;
-    ParallelRanges(static_cast<Id>(u_.rows()), threads_,
-      [&](Id begin, Id end)
-      {
-        for (Id i = begin; i < end; ++i)
-        {
-          if (state_[i] == State::Unknown &&
-              this->AnyNeighbour(i, [&](Index j) { return std::abs(u_(j, 0)) * size_[j] > least; }))
-          {
-            state_[i] = State::Known;
-          }
-        }
-      });
-    return true;
-  }
+/// A layer is left when no patch of it changes by more of its heat. Changes halve from sweep to
+/// sweep, so that errors are of the same size; they give distances that are off by some 1e-4 of
+/// their range.
+constexpr double SmallChange = 3e-3;
 
-  /// Unknown functions that touch none that is known.
-  Id CountBeyond() const
-  {
-    return ParallelSum(static_cast<Id>(u_.rows()), threads_, Id{ 0 },
-      [this](Id begin, Id end)
-      {
-        Id beyond = 0;
-        for (Id i = begin; i < end; ++i)
-        {
-          beyond += state_[i] == State::Unknown && !this->Touches(i, State::Known) ? 1 : 0;
-        }
-        return beyond;
-      });
-  }
+/// The first march is there for the order of the next.
+constexpr double RoughChange = 0.5;
 
-  /// The load that the known part alone leaves: at its rim. Inside its values are good, and what
-  /// their errors would leave there is more than what is still to come.
-  MultiVector Remainder()
-  {
-    for (Id i = 0; i < u_.rows(); ++i)
-    {
-      if (state_[i] == State::Unknown)
-      {
-        u_(i, 0) = 0.0;
-      }
-    }
-    MultiVector rest;
-    Residual(A_, u_, load_, rest, threads_);
-    ParallelRanges(static_cast<Id>(u_.rows()), threads_,
-      [&](Id begin, Id end)
-      {
-        for (Id i = begin; i < end; ++i)
-        {
-          if (state_[i] == State::Known && !this->Touches(i, State::Unknown))
-          {
-            rest(i, 0) = 0.0;
-          }
-        }
-      });
-    return rest;
-  }
+/// What a last sweep over all may change when nothing is wrong: layers that were left early.
+constexpr double LastChange = 10.0 * SmallChange;
 
-  MultiVector TakeHeat() { return std::move(u_); }
-
-private:
-  enum class State : char
-  {
-    Cold, // on a component without a source
-    Unknown,
-    Known
-  };
-
-  /// Of a function and those it is coupled to.
-  template<class Is>
-  bool AnyNeighbour(Id i, Is&& is) const
-  {
-    return std::any_of(
-      A_.column.data() + A_.rowBegin[i], A_.column.data() + A_.rowBegin[i + 1], is);
-  }
-
-  bool Touches(Id i, State state) const
-  {
-    return this->AnyNeighbour(i, [&](Index j) { return state_[j] == state; });
-  }
-
-  const SparseMatrix& A_;
-  MultiVector load_;
-  int threads_;
-  std::vector<State> state_;
-  MultiVector u_;
-  /// What a coefficient counts, sqrt(A_ii): one whose function has hardly any surface may be large
-  /// and says nothing.
-  Eigen::VectorXd size_;
-};
+constexpr int MostMarches = 12;
+constexpr int MostSweepsPerStep = 100;
 
 } // namespace
 
-DistantHeat SpreadHeat(const FiniteElementSpace& space, const Multigrid& multigrid, double t,
-  const MultiVector& load, int maximumIterations, const Job& job)
+/// Of a patch that is relaxed soon: it may lie anywhere in memory.
+EIGEN_ALWAYS_INLINE void DistantHeat::FetchPatch(const Layers& layers, Id k) const
 {
-  Front front(space, multigrid.Matrix(), t, load, job.threads);
-  const MultiVector cold = MultiVector::Zero(load.rows(), 1);
-  PoissonOptions options;
-  options.screeningWeight = 1.0 / t;
-  options.multigrid = multigrid.Options();
-  options.solve.tolerance = Tolerance;
-  options.solve.maximumIterations = maximumIterations;
-  options.start = &cold; // coarse levels know nothing of a front
-  DistantHeat heat;
-  heat.report.converged = true;
-  heat.unreached = front.CountBeyond();
-  MultiVector rest = load;
-  double done = 0.0;
-  while (heat.unreached > 0)
+  if (k + 3 < static_cast<Id>(layers.patch.size()))
   {
-    const double next = done + 0.2 * (1.0 - done); // how many solves follow is not known
-    PoissonSolution solution =
-      SolvePoisson(space, multigrid, rest, {}, options, job.progress.Part(done, next));
-    done = next;
-    ++heat.solves;
-    KeepWorse(std::move(solution.report), heat.report);
-    if (!heat.report.converged || !front.Advance(solution.coefficients))
+    patches_->FetchInverse(layers.patch[k + 3]);
+    patches_->FetchRows(RowView(A_), layers.patch[k]);
+  }
+}
+
+DistantHeat::DistantHeat(
+  const FiniteElementSpace& space, std::size_t level, double t, const Job& job)
+  : t_(t)
+{
+  if (level >= space.NumberOfLevels())
+  {
+    throw InvalidInput("There is no level " + std::to_string(level) + ".");
+  }
+  for (std::size_t l = 0; l < level; ++l)
+  {
+    prolongations_.push_back(space.Prolongation(l));
+    restrictions_.push_back(space.Restriction(l));
+  }
+  A_ = space.Matrix(level, 1.0 / t, 1.0, job);
+  if (level > 0 && level + 1 == space.NumberOfLevels())
+  {
+    direct_.emplace(A_, job.threads);
+  }
+  size_ = A_.Diagonal(job.threads);
+  for (double& size : size_)
+  {
+    size = std::sqrt(std::max(0.0, size));
+  }
+  patches_.emplace(A_, space.Relaxation(level, {}).order.dof, job.threads, FactorPrecision::Mixed);
+}
+
+/// Per function, over how many others heat comes to it; -1 on components without a source.
+std::vector<Index> DistantHeat::StepsFromSources(const MultiVector& load) const
+{
+  std::vector<Index> steps(A_.rows, -1);
+  std::vector<Index> reached;
+  for (Index i = 0; i < A_.rows; ++i)
+  {
+    if (load(i, 0) != 0.0)
     {
-      break;
-    }
-    heat.unreached = front.CountBeyond();
-    if (heat.unreached > 0)
-    {
-      rest = t * front.Remainder(); // SolvePoisson multiplies by the weight
+      steps[i] = 0;
+      reached.push_back(i);
     }
   }
-  heat.coefficients = front.TakeHeat();
+  for (std::size_t next = 0; next < reached.size(); ++next)
+  {
+    const Index i = reached[next];
+    for (Id k = A_.rowBegin[i]; k < A_.rowBegin[i + 1]; ++k)
+    {
+      const Index j = A_.column[k];
+      if (steps[j] < 0)
+      {
+        steps[j] = steps[i] + 1;
+        reached.push_back(j);
+      }
+    }
+  }
+  return steps;
+}
+
+/// A layer is what has a rank between two whole numbers; patches with an infinite rank have none.
+DistantHeat::Layers DistantHeat::LayersByRank(const std::vector<double>& rank) const
+{
+  Layers layers;
+  for (Index p = 0; p < static_cast<Index>(rank.size()); ++p)
+  {
+    if (rank[p] < Infinite)
+    {
+      layers.patch.push_back(p);
+    }
+  }
+  std::sort(layers.patch.begin(), layers.patch.end(),
+    [&](Index a, Index b) { return rank[a] != rank[b] ? rank[a] < rank[b] : a < b; });
+  double next = -Infinite;
+  for (std::size_t k = 0; k < layers.patch.size(); ++k)
+  {
+    if (rank[layers.patch[k]] >= next)
+    {
+      layers.begin.push_back(static_cast<Id>(k));
+      next = std::floor(rank[layers.patch[k]]) + 1.0;
+    }
+  }
+  layers.begin.push_back(static_cast<Id>(layers.patch.size()));
+  return layers;
+}
+
+DistantHeat::Layers DistantHeat::LayersBySteps(const std::vector<Index>& steps) const
+{
+  std::vector<double> rank(patches_->Count());
+  for (std::size_t p = 0; p < rank.size(); ++p)
+  {
+    const auto& unknowns = patches_->Unknowns(static_cast<Id>(p));
+    const double sum = std::accumulate(unknowns.begin(), unknowns.end(), 0.0,
+      [&](double before, Index i) { return before + steps[i]; });
+    rank[p] = steps[unknowns[0]] < 0 ? Infinite : sum / FunctionsPerPatch;
+  }
+  return this->LayersByRank(rank);
+}
+
+/// From the most heat to the least, in about `count` layers.
+DistantHeat::Layers DistantHeat::LayersByHeat(
+  const MultiVector& u, Id count, const std::vector<Index>& patches) const
+{
+  std::vector<double> rank(patches_->Count(), Infinite);
+  double least = Infinite;
+  double most = -Infinite;
+  for (const Index p : patches)
+  {
+    rank[p] = -std::log(std::max(SmallestHeat, this->HeatOf(p, u)));
+    least = std::min(least, rank[p]);
+    most = std::max(most, rank[p]);
+  }
+  const double scale = most > least ? static_cast<double>(count) / (most - least) : 0.0;
+  for (const Index p : patches)
+  {
+    rank[p] = scale * (rank[p] - least);
+  }
+  return this->LayersByRank(rank);
+}
+
+double DistantHeat::HeatOf(Index patch, const MultiVector& u) const
+{
+  double heat = 0.0;
+  for (const Index i : patches_->Unknowns(patch))
+  {
+    heat = std::max(heat, std::abs(u(i, 0)) * size_[i]);
+  }
+  return heat;
+}
+
+/// @return  the largest change over the heat of the patch
+double DistantHeat::Relax(Index patch, const MultiVector& b, MultiVector& u) const
+{
+  const auto& unknowns = patches_->Unknowns(patch);
+  std::array<double, FunctionsPerPatch> before;
+  for (int k = 0; k < FunctionsPerPatch; ++k)
+  {
+    before[k] = u(unknowns[k], 0);
+  }
+  patches_->Relax(patch, RowView(A_), b.data(), u.data(), ColumnChunk<1, 1>());
+  double heat = SmallestHeat;
+  double change = 0.0;
+  for (int k = 0; k < FunctionsPerPatch; ++k)
+  {
+    const Index i = unknowns[k];
+    double& value = u(i, 0);
+    value = std::abs(value) * size_[i] < SmallestHeat ? 0.0 : value;
+    heat = std::max(heat, std::abs(value) * size_[i]);
+    change = std::max(change, std::abs(value - before[k]) * size_[i]);
+  }
+  return change / heat;
+}
+
+/// @return  how many patches were relaxed
+Id DistantHeat::March(
+  const Layers& layers, double change, const MultiVector& b, MultiVector& u, const Job& job) const
+{
+  Id relaxed = 0;
+  for (Id first = 0; first < layers.Count();)
+  {
+    job.Check(static_cast<double>(first) / static_cast<double>(layers.Count()));
+    const Id last = std::min(layers.Count(), first + LayersAtOnce);
+    Id settled = first;
+    for (int sweep = 0; settled == first && sweep < MostSweepsPerStep; ++sweep)
+    {
+      for (Id layer = first; layer < last; ++layer)
+      {
+        double largest = 0.0;
+        for (Id k = layers.begin[layer]; k < layers.begin[layer + 1]; ++k)
+        {
+          this->FetchPatch(layers, k + 3);
+          largest = std::max(largest, this->Relax(layers.patch[k], b, u));
+        }
+        settled += settled == layer && largest <= change ? 1 : 0;
+      }
+      relaxed += layers.begin[last] - layers.begin[first];
+    }
+    first = std::max(settled, first + 1);
+  }
+  return relaxed;
+}
+
+Id DistantHeat::CountUnreached(const Layers& layers, const MultiVector& u) const
+{
+  std::vector<char> isUnreached(A_.rows, 0);
+  for (const Index p : layers.patch)
+  {
+    for (const Index i : patches_->Unknowns(p))
+    {
+      isUnreached[i] = 1;
+    }
+  }
+  for (const Index p : layers.patch)
+  {
+    if (this->HeatOf(p, u) > SmallestHeat)
+    {
+      for (const Index i : patches_->Unknowns(p))
+      {
+        isUnreached[i] = 0;
+      }
+    }
+  }
+  return std::count(isUnreached.begin(), isUnreached.end(), 1);
+}
+
+HeatField DistantHeat::OnLevel(const MultiVector& load, const Job& job) const
+{
+  const MultiVector b = load / t_;
+  HeatField heat;
+  heat.coefficients = MultiVector::Zero(A_.rows, 1);
+  MultiVector& u = heat.coefficients;
+  const Layers bySteps = this->LayersBySteps(this->StepsFromSources(load));
+  Id relaxed = 0;
+  if (direct_)
+  {
+    direct_->Solve(b, u, job.threads);
+  }
+  else
+  {
+    relaxed = this->March(bySteps, RoughChange, b, u, job.Part(0.0, 0.2));
+  }
+  double done = 0.2;
+  for (int march = 0; march < MostMarches && !heat.converged; ++march)
+  {
+    // Most often one is enough; heat that came from behind its front needs another order.
+    const double next = 1.0 - 0.2 * (1.0 - done);
+    const Layers byHeat = this->LayersByHeat(u, bySteps.Count(), bySteps.patch);
+    relaxed += this->March(byHeat, SmallChange, b, u, job.Part(done, next));
+    double change = 0.0;
+    for (const Index p : byHeat.patch)
+    {
+      change = std::max(change, this->Relax(p, b, u));
+    }
+    relaxed += static_cast<Id>(byHeat.patch.size());
+    heat.converged = change <= LastChange;
+    done = next;
+  }
+  heat.sweeps = double(relaxed) / std::max(1.0, double(bySteps.patch.size()));
+  heat.unreached = this->CountUnreached(bySteps, u);
+  return heat;
+}
+
+HeatField DistantHeat::From(const MultiVector& load, const Job& job) const
+{
+  const Index rows = prolongations_.empty() ? A_.rows : prolongations_.front()->rows;
+  if (load.rows() != rows || load.cols() != 1)
+  {
+    throw InvalidInput("The load has " + std::to_string(load.rows()) + " rows for " +
+                       std::to_string(rows) + " functions.");
+  }
+  MultiVector b = load;
+  MultiVector taken;
+  for (const SharedMatrix& restriction : restrictions_)
+  {
+    Multiply(restriction, b, taken, job.threads);
+    b.swap(taken);
+  }
+  HeatField heat = this->OnLevel(b, job);
+  for (auto p = prolongations_.rbegin(); p != prolongations_.rend(); ++p)
+  {
+    Multiply(*p, heat.coefficients, taken, job.threads);
+    heat.coefficients.swap(taken);
+  }
   return heat;
 }
 

@@ -1,6 +1,6 @@
 #include "Problems/GeodesicDistance.h"
 
-#include "Problems/DistantHeat.h"
+#include "Problems/Poisson.h"
 #include "Spaces/PointComponents.h"
 
 #include <algorithm>
@@ -35,6 +35,21 @@ double MeanSpacing(const FiniteElementSpace& space, const Job& job)
     }
   }
   return std::sqrt(sum / weights);
+}
+
+const FiniteElementSpace& HeatSpace(const FiniteElementSpace& space)
+{
+  const FiniteElementSpace* nested = space.NestedLevels();
+  return nested ? *nested : space;
+}
+
+/// Functions of the next level are twice as far from each other: the coarsest level on which √t is
+/// as long as by default on the finest.
+std::size_t LevelFor(double smoothing, const FiniteElementSpace& space)
+{
+  const double coarser = std::floor(std::log2(smoothing / DistanceOptions().smoothing));
+  return static_cast<std::size_t>(
+    std::clamp(coarser, 0.0, static_cast<double>(space.NumberOfLevels() - 1)));
 }
 
 std::vector<char> MarkSources(const std::vector<Id>& sources, std::size_t points)
@@ -78,14 +93,14 @@ GeodesicDistance::GeodesicDistance(std::shared_ptr<const FiniteElementSpace> spa
     throw InvalidInput(
       "The smoothing is " + std::to_string(options_.smoothing) + "; it must be a number above 0.");
   }
-  time_ = std::pow(options_.smoothing * MeanSpacing(*space_, job.threads), 2);
-  // Heat does not come far: what coarse levels add is little.
-  MultigridOptions ofHeat = options_.multigrid;
-  ofHeat.cycle = CycleType::V;
-  heat_ = std::make_unique<Multigrid>(
-    BuildMultigrid(*space_, 1.0 / time_, 1.0, ofHeat, job.progress.Part(0.0, 0.5)));
+  const FiniteElementSpace& heatSpace = HeatSpace(*space_);
+  time_ = std::pow(options_.smoothing * MeanSpacing(heatSpace, job.threads), 2);
+  heat_ = std::make_unique<DistantHeat>(
+    heatSpace, LevelFor(options_.smoothing, heatSpace), time_, job.Part(0.0, 0.4));
   poisson_ = std::make_unique<Multigrid>(
-    BuildMultigrid(*space_, 0.0, 1.0, options_.multigrid, job.progress.Part(0.5, 1.0)));
+    BuildMultigrid(*space_, 0.0, 1.0, options_.multigrid, job.progress.Part(0.4, 0.9)));
+  component_ =
+    ComponentsOfPoints(*space_, space_->ComponentsOf(0, job.Part(0.9, 0.95)), job.Part(0.95, 1.0));
 }
 
 /// ∫ <X, ∇b_i>; X = 0 on triangles that belong to sources.
@@ -108,23 +123,23 @@ MultiVector GeodesicDistance::LoadOfDistance(
 std::vector<double> GeodesicDistance::ShiftedToSources(
   const MultiVector& distance, const std::vector<Id>& sources, const Job& job) const
 {
-  const Components components = space_->ComponentsOf(0, job);
-  const std::vector<Index> component = ComponentsOfPoints(*space_, components, job);
   const MultiVector value = space_->ValuesAtPoints(distance, job);
-  std::vector<double> sum(components.count, 0.0);
-  std::vector<Id> count(components.count, 0);
+  const Index components = 1 + std::accumulate(component_.begin(), component_.end(), Index{ -1 },
+                                 [](Index a, Index b) { return std::max(a, b); });
+  std::vector<double> sum(components, 0.0);
+  std::vector<Id> count(components, 0);
   for (const Id source : sources)
   {
-    if (component[source] >= 0)
+    if (component_[source] >= 0)
     {
-      sum[component[source]] += value(source, 0);
-      ++count[component[source]];
+      sum[component_[source]] += value(source, 0);
+      ++count[component_[source]];
     }
   }
-  std::vector<double> shifted(component.size(), NaN);
-  for (std::size_t point = 0; point < component.size(); ++point)
+  std::vector<double> shifted(component_.size(), NaN);
+  for (std::size_t point = 0; point < component_.size(); ++point)
   {
-    const Index c = component[point];
+    const Index c = component_[point];
     if (c >= 0 && count[c] > 0)
     {
       const double zero = sum[c] / static_cast<double>(count[c]);
@@ -133,7 +148,7 @@ std::vector<double> GeodesicDistance::ShiftedToSources(
   }
   for (const Id source : sources)
   {
-    shifted[source] = component[source] >= 0 ? 0.0 : NaN;
+    shifted[source] = component_[source] >= 0 ? 0.0 : NaN;
   }
   return shifted;
 }
@@ -143,19 +158,20 @@ DistanceField GeodesicDistance::From(
 {
   const std::vector<char> isSource = MarkSources(sources, mesh_->points.size());
   DistanceField field;
-  DistantHeat heat = SpreadHeat(*space_, *heat_, time_, LoadOfPoints(*space_, sources),
-    solve.maximumIterations, job.Part(0.0, 0.7));
-  field.heatSolves = heat.solves;
+  const HeatField heat = heat_->From(LoadOfPoints(HeatSpace(*space_), sources), job.Part(0.0, 0.5));
+  field.heatConverged = heat.converged;
+  field.heatSweeps = heat.sweeps;
   field.unreached = heat.unreached;
 
-  const MultiVector load = this->LoadOfDistance(heat.coefficients, isSource, job.Part(0.7, 0.75));
+  const MultiVector load = this->LoadOfDistance(heat.coefficients, isSource, job.Part(0.5, 0.65));
   PoissonOptions options;
   options.screeningWeight = 0.0;
   options.multigrid = options_.multigrid;
   options.solve = solve;
   PoissonSolution solution = SolvePoisson(*space_, *poisson_, MultiVector::Zero(load.rows(), 1),
-    load, options, job.progress.Part(0.75, 0.95));
-  field.report = heat.report.converged ? std::move(solution.report) : std::move(heat.report);
+    load, options, job.progress.Part(0.65, 0.95));
+  field.report = std::move(solution.report);
+  field.report.converged = field.report.converged && heat.converged;
   field.atPoints = this->ShiftedToSources(solution.coefficients, sources, job.Part(0.95, 1.0));
   return field;
 }

@@ -7,6 +7,7 @@
 
 #include "Grid/TriangleMesh.h"
 #include "Krylov/ConjugateGradients.h"
+#include "Problems/DistantHeat.h"
 #include "Spaces/FiniteElementSpace.h"
 
 #include <memory>
@@ -17,10 +18,9 @@ namespace gridfem
 
 struct DistanceOptions
 {
-  /// sqrt(t) over the mean distance between functions that overlap: 1.2 cells of a grid, about an
-  /// edge of a mesh. With much less the heat of discrete functions oscillates; more rounds off
-  /// where fronts meet and where sources are near to each other, by about sqrt(t) / 2, and takes
-  /// less time: the heat has fewer sqrt(t) to go.
+  /// sqrt(t) over the mean distance between functions that overlap, which is 1.2 cells. With much
+  /// less the heat of discrete functions oscillates; more rounds off where fronts meet and where
+  /// sources are near to each other, by about sqrt(t) / 2, and takes more time.
   double smoothing = 1.75;
   MultigridOptions multigrid;
 };
@@ -31,14 +31,17 @@ struct DistanceField
   /// reaches or the component has no source.
   std::vector<double> atPoints;
   SolveReport report; // of the distance; not converged if the heat was not
-  int heatSolves = 0; // see SpreadHeat
-  Id unreached = 0;   // functions that are too far for numbers: their distances are wrong
+  bool heatConverged = false;
+  double heatSweeps = 0.0; // see HeatField
+  Id unreached = 0;        // functions that are too far for numbers: their distances are wrong
 };
 
 /// (M + t L) u = Σ b_i(source), X = -∇u / |∇u|, L φ = ∫ <X, ∇b_i>, and φ is shifted so that its
-/// mean over the sources of a component is 0. Both hierarchies are kept, so that other sources cost
-/// the solves alone. Distances are exact to the size of a few functions where one front comes;
-/// where fronts meet, and within sqrt(t) of boundaries, errors are sqrt(t) / 2 to sqrt(t).
+/// mean over the sources of a component is 0. All but the sources is kept, so that other sources
+/// cost the solves alone. The heat flows on the nested levels of a space that has such: hats on
+/// them may be slivers, or much farther from each other than t allows. Distances are exact to the
+/// size of a few functions where one front comes; where fronts meet, and within sqrt(t) of
+/// boundaries, errors are sqrt(t) / 2 to sqrt(t).
 class GeodesicDistance
 {
 public:
@@ -49,7 +52,7 @@ public:
 
   /// @param sources  points of the mesh; one that no function reaches is the source of nothing. A
   ///   triangle whose corners are all sources belongs to a source as a whole.
-  /// @param solve  of the distance from its gradient; the heat shares the number of iterations
+  /// @param solve  of the distance from its gradient
   /// Throws InvalidInput when there is none or one is no point, and Aborted. Same bits for any
   /// number of threads.
   DistanceField From(
@@ -67,8 +70,9 @@ private:
   std::shared_ptr<const FiniteElementSpace> space_;
   std::shared_ptr<const TriangleMesh> mesh_;
   DistanceOptions options_;
+  std::vector<Index> component_; // of every point; -1 where no function reaches
   double time_ = 0.0;
-  std::unique_ptr<Multigrid> heat_;    // of M / t + L
+  std::unique_ptr<DistantHeat> heat_;
   std::unique_ptr<Multigrid> poisson_; // of L
 };
 

@@ -2,10 +2,12 @@
 
 #include "Base/Errors.h"
 #include "Grid/TriangleArea.h"
+#include "Problems/MarchedDistance.h"
 #include "Problems/Poisson.h"
 #include "Spaces/PointComponents.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <tuple>
@@ -195,22 +197,41 @@ MultiVector GradientsOnTriangles(const ScanCut& cut, const MultiVector& atPoints
 }
 
 /// ∫ <s, ∇b_i> with the gradients that are to be kept.
-MultiVector LoadOfKeptGradients(
-  const FiniteElementSpace& space, const ScanCut& cut, const Field& colors, const Job& job)
+MultiVector LoadOfKeptGradients(const FiniteElementSpace& space, const ScanCut& cut,
+  const std::vector<double>& share, const Field& colors, const Job& job)
 {
+  const Field kept{ FieldAssociation::Triangles,
+    Eigen::Map<const Eigen::VectorXd>(share.data(), static_cast<Eigen::Index>(share.size())) };
   if (colors.association == FieldAssociation::Triangles)
   {
     const Field gradients{ FieldAssociation::Triangles,
       GradientsOnTriangles(cut, MeansAtPoints(cut, colors.values)) };
-    return space.LoadOfGradients(gradients, nullptr, job);
-  }
-  Field kept{ FieldAssociation::Triangles,
-    MultiVector(static_cast<Id>(cut.scanOfTriangle.size()), 1) };
-  for (Id t = 0; t < kept.values.rows(); ++t)
-  {
-    kept.values(t, 0) = cut.scanOfTriangle[t] == ScanCut::Seam ? 0.0 : 1.0;
+    return space.LoadOfGradients(gradients, &kept, job);
   }
   return space.LoadOfGradientsOf(colors, &kept, job);
+}
+
+/// Per point of the mesh: whether it is a corner of a seam, or of triangles of two scans.
+std::vector<char> PointsOnSeams(const TriangleMesh& mesh, const ScanCut& cut)
+{
+  constexpr Index None = -2; // no triangle yet
+  const Array<Index> place = WeldCoincidentPoints(mesh.points, UsedPoints(mesh));
+  std::vector<Index> scan(mesh.points.size(), None);
+  std::vector<char> isOnSeam(mesh.points.size(), 0);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  {
+    for (const Id point : mesh.triangles[t])
+    {
+      Index& known = scan[place[point]];
+      known =
+        known == None || known == cut.scanOfTriangle[t] ? cut.scanOfTriangle[t] : ScanCut::Seam;
+    }
+  }
+  for (std::size_t point = 0; point < isOnSeam.size(); ++point)
+  {
+    isOnSeam[point] = scan[place[point]] == ScanCut::Seam;
+  }
+  return isOnSeam;
 }
 
 /// Rows at the colours' places as rows of the pieces.
@@ -237,10 +258,29 @@ Field OnPieces(const ScanCut& cut, FieldAssociation association, const MultiVect
   return field;
 }
 
-/// Values that stitching has changed become the colours plus that change, smoothed within scans.
-/// Where there is no piece they stay.
-SolveReport KeepDetails(const FiniteElementSpace& details, const ScanCut& cut, const Field& colors,
-  const PoissonOptions& solver, const Job& job, MultiVector& values)
+/// Per row of the colours how much of its details is kept: as much as of the gradients around it.
+std::vector<double> SharesOfRows(
+  const ScanCut& cut, FieldAssociation association, const std::vector<double>& share)
+{
+  if (association == FieldAssociation::Triangles)
+  {
+    return share;
+  }
+  const MultiVector mean = MeansAtPoints(
+    cut, Eigen::Map<const Eigen::VectorXd>(share.data(), static_cast<Eigen::Index>(share.size())));
+  std::vector<double> ofRow(cut.pointOfPoint.size(), 1.0);
+  for (std::size_t row = 0; row < ofRow.size(); ++row)
+  {
+    ofRow[row] = cut.pointOfPoint[row] >= 0 ? mean(cut.pointOfPoint[row], 0) : 1.0;
+  }
+  return ofRow;
+}
+
+/// Values that stitching has changed become the colours plus that change, smoothed within scans, as
+/// far as details are kept. Where there is no piece they stay.
+SolveReport KeepDetails(const FiniteElementSpace& details, const ScanCut& cut,
+  const std::vector<double>& shareOfRow, const Field& colors, const PoissonOptions& solver,
+  const Job& job, MultiVector& values)
 {
   PoissonOptions poisson = solver;
   poisson.screeningWeight = DetailWeight;
@@ -262,7 +302,8 @@ SolveReport KeepDetails(const FiniteElementSpace& details, const ScanCut& cut, c
     const Index piece = pieceOf[row];
     if (piece >= 0 && (!areOnPoints || isSmoothed[piece]))
     {
-      values.row(row) = colors.values.row(row) + smoothed.row(piece);
+      values.row(row) +=
+        shareOfRow[row] * (colors.values.row(row) + smoothed.row(piece) - values.row(row));
     }
   }
   return std::move(solution.report);
@@ -342,6 +383,35 @@ ScanCut CutAtSeams(const TriangleMesh& mesh, const ScanLabels& labels, FieldAsso
   return cut;
 }
 
+std::vector<double> KeptShares(const TriangleMesh& mesh, const ScanCut& cut, double width)
+{
+  if (!(width >= 0.0) || std::isinf(width))
+  {
+    throw InvalidInput(
+      "The blend width is " + std::to_string(width) + "; it must be a number from 0 on.");
+  }
+  std::vector<double> share(mesh.triangles.size(), 1.0);
+  if (width > 0.0)
+  {
+    const std::vector<double> distance =
+      MarchDistance(mesh, NumberHatFunctions(mesh), PointsOnSeams(mesh, cut), width);
+    for (std::size_t t = 0; t < share.size(); ++t)
+    {
+      double mean = 0.0;
+      for (const Id point : mesh.triangles[t])
+      {
+        mean += std::min(distance[point], width) / (3.0 * width);
+      }
+      share[t] = mean * mean * (3.0 - 2.0 * mean);
+    }
+  }
+  for (std::size_t t = 0; t < share.size(); ++t)
+  {
+    share[t] = cut.scanOfTriangle[t] == ScanCut::Seam ? 0.0 : share[t];
+  }
+  return share;
+}
+
 StitchedColors StitchColors(const FiniteElementSpace& space, const TriangleMesh& mesh,
   const ScanCut& cut, const Field& colors, const StitchOptions& options,
   const FiniteElementSpace* details, const Job& job)
@@ -352,7 +422,8 @@ StitchedColors StitchColors(const FiniteElementSpace& space, const TriangleMesh&
   poisson.multigrid = options.multigrid;
   poisson.solve = options.solve;
   const MultiVector values = space.LoadOfValues(colors, job.Part(0.0, 0.1));
-  const MultiVector gradients = LoadOfKeptGradients(space, cut, colors, job.Part(0.1, 0.2));
+  const std::vector<double> share = KeptShares(mesh, cut, options.blendWidth);
+  const MultiVector gradients = LoadOfKeptGradients(space, cut, share, colors, job.Part(0.1, 0.2));
   const Multigrid multigrid =
     BuildMultigrid(space, 0.0, 1.0, options.multigrid, job.progress.Part(0.2, 0.4));
   PoissonSolution solution =
@@ -363,8 +434,8 @@ StitchedColors StitchColors(const FiniteElementSpace& space, const TriangleMesh&
   stitched.report = std::move(solution.report);
   if (details && !cut.triangleOfPiece.empty())
   {
-    SolveReport report =
-      KeepDetails(*details, cut, colors, poisson, job.Part(0.7, 1.0), stitched.values);
+    SolveReport report = KeepDetails(*details, cut, SharesOfRows(cut, colors.association, share),
+      colors, poisson, job.Part(0.7, 1.0), stitched.values);
     if (stitched.report.converged && !report.converged)
     {
       stitched.report = std::move(report);

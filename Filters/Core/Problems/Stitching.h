@@ -39,8 +39,15 @@ struct ScanCut
 /// Throws InvalidInput when the labels do not fit the mesh or one is negative.
 ScanCut CutAtSeams(const TriangleMesh& mesh, const ScanLabels& labels, FieldAssociation colors);
 
+/// How much of the gradient of each triangle is kept: 0 on seams and where triangles of two scans
+/// meet, 1 from a distance along the surface on, rising smoothly between.
+/// @param width  the distance, world units; 0: 1 on all triangles but seams
+/// Throws InvalidInput when it is not a number from 0 on.
+std::vector<double> KeptShares(const TriangleMesh& mesh, const ScanCut& cut, double width);
+
 struct StitchOptions
 {
+  double blendWidth = 0.0; // of KeptShares: margins of scans, where colours are poor, count less
   MultigridOptions multigrid;
   SolveOptions solve;
   std::optional<Index> reference; // the scan that keeps its mean; none: the whole surface

@@ -95,8 +95,10 @@ public:
   /// The same with n x s, n along the normal of each triangle.
   virtual MultiVector LoadOfTurnedGradients(const Field& s, const Job& job = {}) const = 0;
 
-  /// The same with s = ∇u / |∇u| for functions u of the space; 0 where ∇u = 0.
-  /// @return rows = functions, columns as `coefficients`
+  /// The same with s = ∇u / |∇u|; 0 where ∇u = 0.
+  /// @param coefficients  functions u of the nested levels, where the space has such below it, else
+  ///   of the space itself
+  /// @return rows = functions of the space, columns as `coefficients`
   virtual MultiVector LoadOfDirections(
     const MultiVector& coefficients, const Field* scale, const Job& job = {}) const = 0;
 

@@ -63,13 +63,6 @@ MultiVector IntegrateTriangles(const HatFunctions& hats, const TriangleMesh& mes
   return result;
 }
 
-/// v / |v|, also where |v|² is no number any more; 0 for 0.
-Vec3 DirectionOf(const Vec3& v)
-{
-  const double largest = v.cwiseAbs().maxCoeff();
-  return largest > 0.0 ? Vec3((v / largest).normalized()) : Vec3(Vec3::Zero());
-}
-
 /// ∫ <s, test(triangle, corner)>, world units.
 template<class Test>
 MultiVector IntegrateVectors(const HatFunctions& hats, const TriangleMesh& mesh, const Field& s,
@@ -147,34 +140,6 @@ MultiVector IntegrateTurnedGradients(
   return IntegrateVectors(hats, mesh, s, nullptr, threads,
     [](const HatTriangle& triangle, int corner)
     { return triangle.Gradient(corner).cross(triangle.areaVector.normalized()); });
-}
-
-MultiVector IntegrateDirections(const HatFunctions& hats, const TriangleMesh& mesh,
-  const MultiVector& coefficients, const Field* scale, int threads)
-{
-  CheckMesh(hats, mesh);
-  RequireScale(scale, mesh);
-  if (coefficients.rows() != hats.Count())
-  {
-    throw InvalidInput("There are " + std::to_string(coefficients.rows()) + " coefficients for " +
-                       std::to_string(hats.Count()) + " functions.");
-  }
-  return IntegrateTriangles(hats, mesh, coefficients.cols(), threads,
-    [&](const HatTriangle& triangle, Id number, int corner, auto sum)
-    {
-      const std::array<double, 3> value = ScaleAtCorners(scale, mesh, number);
-      const double scaledArea =
-        triangle.area * hats.unitLength * (value[0] + value[1] + value[2]) / 3.0;
-      const Vec3 own = triangle.Gradient(corner);
-      const Vec3 along[2] = { triangle.Gradient(1), triangle.Gradient(2) };
-      const auto& points = mesh.triangles[number];
-      for (Id c = 0; c < coefficients.cols(); ++c)
-      {
-        const auto u = [&](int k) { return coefficients(hats.ofPoint[points[k]], c); };
-        const Vec3 gradient = (u(1) - u(0)) * along[0] + (u(2) - u(0)) * along[1];
-        sum[c] += scaledArea * own.dot(DirectionOf(gradient));
-      }
-    });
 }
 
 MultiVector IntegrateGradientsOf(const HatFunctions& hats, const TriangleMesh& mesh, const Field& f,

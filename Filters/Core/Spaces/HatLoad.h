@@ -31,11 +31,6 @@ MultiVector IntegrateGradients(const HatFunctions& hats, const TriangleMesh& mes
 MultiVector IntegrateTurnedGradients(
   const HatFunctions& hats, const TriangleMesh& mesh, const Field& s, int threads = 0);
 
-/// The same with s = ∇u / |∇u| for functions given by their coefficients, one for each column; 0
-/// where ∇u = 0.
-MultiVector IntegrateDirections(const HatFunctions& hats, const TriangleMesh& mesh,
-  const MultiVector& coefficients, const Field* scale, int threads = 0);
-
 /// The same with s = ∇f, f linear on each triangle (f must live on points).
 MultiVector IntegrateGradientsOf(const HatFunctions& hats, const TriangleMesh& mesh, const Field& f,
   const Field* scale, int threads = 0);

@@ -2,6 +2,7 @@
 
 #include "Algebra/RowBuilder.h"
 #include "Base/Errors.h"
+#include "Integrals/Evaluation.h"
 #include "Multigrid/MatrixOrdering.h"
 #include "Spaces/HatLoad.h"
 
@@ -162,7 +163,10 @@ MultiVector HatSpace::LoadOfTurnedGradients(const Field& s, const Job& job) cons
 MultiVector HatSpace::LoadOfDirections(
   const MultiVector& coefficients, const Field* scale, const Job& job) const
 {
-  return IntegrateDirections(hats_->functions, grid_.Mesh(), coefficients, scale, job.threads);
+  const auto triangles = static_cast<Id>(grid_.Mesh().triangles.size());
+  const Field directions{ FieldAssociation::Triangles,
+    MeanDirections(grid_.Functions(), triangles, coefficients, job.threads) };
+  return IntegrateGradients(hats_->functions, grid_.Mesh(), directions, scale, job.threads);
 }
 
 MultiVector HatSpace::LoadOfGradientsOf(const Field& f, const Field* scale, const Job& job) const

@@ -110,10 +110,43 @@ private:
     }
   }
 
+  /// Corners at which a polygon turns against its mean normal.
+  vtkIdType CountInwardCorners(vtkIdType size, const vtkIdType* ids) const
+  {
+    Vec3 mean = Vec3::Zero();
+    for (vtkIdType k = 1; k + 1 < size; ++k)
+    {
+      mean += this->Normal(ids[0], ids[k], ids[k + 1]);
+    }
+    vtkIdType inward = 0;
+    for (vtkIdType k = 0; k < size; ++k)
+    {
+      const Vec3 turn = this->Normal(ids[k], ids[(k + 1) % size], ids[(k + 2) % size]);
+      inward += turn.dot(mean) < 0.0 ? 1 : 0;
+    }
+    return inward;
+  }
+
+  /// Every ear looks at every inward corner, and nothing can stop it on the way.
+  void RequireEarsInTime(Id cell, vtkIdType size, const vtkIdType* ids) const
+  {
+    constexpr double Most = 5e7; // a few seconds
+    const vtkIdType inward =
+      static_cast<double>(size) * size > Most ? this->CountInwardCorners(size, ids) : 0;
+    if (static_cast<double>(size) * inward > Most)
+    {
+      throw InvalidInput("Cell " + std::to_string(cell) + " is a polygon with " +
+                         std::to_string(size) + " corners, " + std::to_string(inward) +
+                         " of which point inward: to cut it into triangles would take too long. "
+                         "Split it into smaller polygons first.");
+    }
+  }
+
   /// Ear clipping; a fan where the polygon is too degenerate for it. The corners are shifted and
   /// scaled to unit size, because the tolerances of vtkPolygon are absolute.
   void AddLargePolygon(Id cell, vtkIdType size, const vtkIdType* ids)
   {
+    this->RequireEarsInTime(cell, size, ids);
     double extent = 0.0;
     for (vtkIdType k = 1; k < size; ++k)
     {

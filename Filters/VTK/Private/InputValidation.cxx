@@ -5,7 +5,9 @@
 #include "Problems/Spectrum.h"
 
 #include "vtkDataSet.h"
-#include "vtkMultiProcessController.h"
+#include "vtkGenericCell.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
 
 #include <cmath>
 #include <iomanip>
@@ -62,14 +64,27 @@ void RequireAtLeast(const char* property, double value, double least)
   }
 }
 
-void RequireSingleProcess()
+void RequireNoVolume(vtkDataSet* piece)
 {
-  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
-  if (controller && controller->GetNumberOfProcesses() > 1)
+  if (!piece || vtkPolyData::SafeDownCast(piece) || piece->GetNumberOfCells() == 0)
   {
-    throw InvalidInput("This filter solves on the whole surface and cannot yet run on " +
-                       std::to_string(controller->GetNumberOfProcesses()) +
-                       " MPI ranks. Run it with one rank, which uses all processors.");
+    return;
+  }
+  vtkNew<vtkGenericCell> cell;
+  for (vtkIdType k = 0; k < piece->GetNumberOfCells(); ++k)
+  {
+    if (piece->GetCellType(k) == cell->GetCellType())
+    {
+      continue; // as the last one, which is no volume
+    }
+    cell->SetCellType(piece->GetCellType(k));
+    if (cell->GetCellDimension() == 3)
+    {
+      throw InvalidInput(
+        "The input is a volume mesh in pieces on several ranks, where the faces "
+        "between pieces would count as surface. Ghost Cells and Extract Surface in "
+        "front of this filter leave them out.");
+    }
   }
 }
 

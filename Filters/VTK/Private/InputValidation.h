@@ -18,9 +18,9 @@ void RequireNumber(const char* property, double value);
 /// The same for a value that is not finite or below `least`.
 void RequireAtLeast(const char* property, double value, double least);
 
-/// Throws InvalidInput on more than one MPI rank, because every rank would solve on its own piece
-/// as if that were the whole surface.
-void RequireSingleProcess();
+/// Throws InvalidInput for a data set with volume cells, which has a surface of its own on every
+/// rank that holds a piece of it. The data set may be null.
+void RequireNoVolume(vtkDataSet* piece);
 
 /// Throws InvalidInput for NaN or infinite coordinates, and for a surface without area.
 void RequireSurface(const TriangleMesh& mesh);

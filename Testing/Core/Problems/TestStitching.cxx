@@ -133,6 +133,68 @@ TEST_P(Stitching, RemovesJumpsAndKeepsGradients)
   EXPECT_LT(change, 0.05 * EdgeDifference(scans, scans.colors.values, false));
 }
 
+/// Scans that darken towards their borders: what the margins show is left out.
+TEST_P(Stitching, BlendsOverMarginsThatAreWrong)
+{
+  constexpr double Margin = 0.12;
+  Scans scans(GeodesicSphere(40));
+  const ScanCut cut = CutAtSeams(scans.mesh, scans.labels, FieldAssociation::Points);
+  const std::vector<double> near = KeptShares(scans.mesh, cut, 2.0 * Margin);
+  MultiVector share = MultiVector::Zero(scans.colors.values.rows(), 1);
+  for (std::size_t t = 0; t < near.size(); ++t)
+  {
+    for (const Id point : scans.mesh.triangles[t])
+    {
+      share(point, 0) = std::max(share(point, 0), near[t]);
+    }
+  }
+  for (Id i = 0; i < share.rows(); ++i) // the same colour everywhere, seen darker at the rim
+  {
+    const double dark = 0.2 * std::max(0.0, 1.0 - 2.0 * share(i, 0));
+    SetRow(scans.colors.values, i,
+      Seen(scans.labels.values[i], Vec3(0.5, 0.5, 0.5)) - Vec3(dark, dark, dark));
+  }
+  const auto spread = [&](double width)
+  {
+    StitchOptions options = Options();
+    options.blendWidth = width;
+    const StitchedColors stitched = Stitch(scans, this->GetParam(), 5, options);
+    EXPECT_TRUE(stitched.report.converged);
+    return (stitched.values.colwise().maxCoeff() - stitched.values.colwise().minCoeff()).maxCoeff();
+  };
+  const double sharp = spread(0.0);
+  const double blended = spread(2.0 * Margin);
+  EXPECT_GT(sharp, 0.15);
+  EXPECT_LT(blended, 0.6 * sharp);
+}
+
+TEST(KeptShares, RiseFromNothingAtTheSeamToAllBeyondTheWidth)
+{
+  const Scans scans(GeodesicSphere(30));
+  const ScanCut cut = CutAtSeams(scans.mesh, scans.labels, FieldAssociation::Points);
+  const std::vector<double> sharp = KeptShares(scans.mesh, cut, 0.0);
+  const std::vector<double> narrow = KeptShares(scans.mesh, cut, 0.1);
+  const std::vector<double> wide = KeptShares(scans.mesh, cut, 0.3);
+  Id between = 0;
+  for (std::size_t t = 0; t < sharp.size(); ++t)
+  {
+    ASSERT_EQ(sharp[t], cut.scanOfTriangle[t] == ScanCut::Seam ? 0.0 : 1.0);
+    ASSERT_LE(narrow[t], sharp[t]);
+    ASSERT_LE(wide[t], narrow[t] + 1e-12);
+    ASSERT_GE(wide[t], 0.0);
+    between += wide[t] > 0.1 && wide[t] < 0.9 ? 1 : 0;
+  }
+  EXPECT_GT(between, 500);
+  // Triangles with colours of their own jump on edges, which have no triangles.
+  const ScanCut onTriangles = CutAtSeams(scans.mesh, scans.labels, FieldAssociation::Triangles);
+  const std::vector<double> atEdges = KeptShares(scans.mesh, onTriangles, 0.3);
+  EXPECT_LT(*std::min_element(atEdges.begin(), atEdges.end()), 0.1);
+  for (const double wrong : { -1.0, std::nan(""), double(INFINITY) })
+  {
+    EXPECT_THROW(KeptShares(scans.mesh, cut, wrong), InvalidInput);
+  }
+}
+
 TEST_P(Stitching, OfOneScanChangesNothing)
 {
   Scans scans(GeodesicSphere(12));

@@ -99,7 +99,9 @@ TEST_P(EverySpace, IntegratesDirectionsAsGradientsOverTheirSize)
   const Eigen::AngleAxisd turn(0.4, Vec3(1, 0.3, 0).normalized());
   const SpaceOnMesh on = this->Build(Transform(TwoSheets(6, 0.2), { 1, 0.3, 0 }, 0.4));
   const Vec3 slope = turn * Vec3(0.6, -0.8, 0);
-  const MultiVector u = on.coordinates * (1e-200 * slope); // however small
+  const FiniteElementSpace* nested = on.space->NestedLevels();
+  const MultiVector coordinates = nested ? nested->EmbeddingOfMesh() : on.coordinates;
+  const MultiVector u = coordinates * (1e-200 * slope); // however small
   MultiVector s(static_cast<Id>(on.mesh.points.size()), 3);
   for (Id i = 0; i < s.rows(); ++i)
   {

@@ -1,0 +1,164 @@
+// The inverses of all patches of a level, and the relaxation of one of them: what a patch smoother
+// does in an order of its own, and a march of heat in that of the heat.
+#ifndef GridFEM_PatchInverses_h
+#define GridFEM_PatchInverses_h
+
+#include "Algebra/RowKernels.h"
+#include "Multigrid/PatchFactor.h"
+#include "Multigrid/Smoother.h"
+
+#include <algorithm>
+#include <array>
+#include <type_traits>
+#include <vector>
+
+namespace gridfem
+{
+
+/// r = Vᵀ V r for one column: vectors run along the patch.
+/// @param V  lower triangle, mirrored to the upper one, so that both products run along columns
+template<class Real>
+inline void ApplyInverse(const Real* V, double (&r)[FunctionsPerPatch])
+{
+  double y[FunctionsPerPatch] = {};
+  for (int j = 0; j < FunctionsPerPatch; ++j)
+  {
+    for (int i = 0; i < FunctionsPerPatch; ++i)
+    {
+      y[i] += V[FunctionsPerPatch * j + i] * (i >= j ? r[j] : 0.0);
+    }
+  }
+  std::fill(r, r + FunctionsPerPatch, 0.0);
+  for (int j = 0; j < FunctionsPerPatch; ++j)
+  {
+    for (int i = 0; i < FunctionsPerPatch; ++i)
+    {
+      r[i] += V[FunctionsPerPatch * j + i] * (i <= j ? y[j] : 0.0);
+    }
+  }
+}
+
+/// The same for several columns: vectors run along them.
+template<class Real, class Lanes>
+inline void ApplyInverse(const Real* V, Lanes (&r)[FunctionsPerPatch])
+{
+  for (int i = FunctionsPerPatch - 1; i >= 0; --i)
+  {
+    r[i] *= double(V[FunctionsPerPatch * i + i]);
+    for (int j = 0; j < i; ++j)
+    {
+      r[i] += double(V[FunctionsPerPatch * i + j]) * r[j];
+    }
+  }
+  for (int i = 0; i < FunctionsPerPatch; ++i)
+  {
+    r[i] *= double(V[FunctionsPerPatch * i + i]);
+    for (int j = i + 1; j < FunctionsPerPatch; ++j)
+    {
+      r[i] += double(V[FunctionsPerPatch * i + j]) * r[j];
+    }
+  }
+}
+
+/// x += Vᵀ V (b - A x) on the patch.
+template<class Chunk, class Real>
+inline void RelaxPatch(const RowView& A, const std::array<Index, FunctionsPerPatch>& dof,
+  const Real* V, const double* b, double* x, Chunk chunk)
+{
+  using ColumnLanes = typename Chunk::ColumnLanes;
+  std::conditional_t<Chunk::Width == 1, double, ColumnLanes> r[FunctionsPerPatch];
+  for (int i = 0; i < FunctionsPerPatch; ++i)
+  {
+    const ColumnLanes residual = chunk.Row(b, dof[i]) - RowProduct(A, dof[i], x, chunk);
+    if constexpr (Chunk::Width == 1)
+    {
+      r[i] = residual[0];
+    }
+    else
+    {
+      r[i] = residual;
+    }
+  }
+  ApplyInverse(V, r);
+  for (int i = 0; i < FunctionsPerPatch; ++i)
+  {
+    chunk.Row(x, dof[i]) += r[i];
+  }
+}
+
+/// Vᵀ V of every patch, in single precision where the options and the numbers allow it.
+class PatchInverses
+{
+public:
+  /// @param dof  unknowns of each patch, -1 for an unused place
+  PatchInverses(const SparseMatrix& A, const std::vector<std::array<Index, FunctionsPerPatch>>& dof,
+    int threads, FactorPrecision precision);
+
+  Id Count() const { return static_cast<Id>(patches_.size()); }
+
+  /// Unknowns in the order of the factor. Unused places repeat one that is used.
+  const std::array<Index, FunctionsPerPatch>& Unknowns(Id p) const { return patches_[p].dof; }
+
+  /// x += Vᵀ V (b - A x) on the patch, for a chunk of columns.
+  template<class Chunk>
+  EIGEN_ALWAYS_INLINE void Relax(
+    Id p, const RowView& A, const double* b, double* x, Chunk chunk) const
+  {
+    const Patch& patch = patches_[p];
+    if (patch.precision == Single)
+    {
+      RelaxPatch(A, patch.dof, single_[p].data(), b, x, chunk);
+    }
+    else if (patch.precision == Double)
+    {
+      RelaxPatch(A, patch.dof, double_[p].data(), b, x, chunk);
+    }
+  }
+
+  /// Asks for the rows of a patch that is visited soon; there may be none.
+  EIGEN_ALWAYS_INLINE void FetchRows(const RowView& A, Id p) const
+  {
+    if (p >= 0 && p < this->Count())
+    {
+      for (const Index row : patches_[p].dof)
+      {
+        FetchRow(A, row);
+      }
+    }
+  }
+
+  /// Asks for the patch itself, for orders that are not that of memory.
+  EIGEN_ALWAYS_INLINE void FetchInverse(Id p) const
+  {
+    Fetch(&patches_[p]);
+    Fetch<4>(single_[p].data());
+  }
+
+  bool HasSingle() const;
+  std::size_t Memory() const;
+
+private:
+  struct Patch
+  {
+    std::array<Index, FunctionsPerPatch> dof;
+    Index precision; // of its factor
+  };
+  enum Precision : Index
+  {
+    None, // no unknown can be solved for
+    Single,
+    Double
+  };
+
+  void Set(Id p, const PatchFactor& factor, FactorPrecision precision);
+
+  Array<Patch> patches_;
+  // The factor of patch p is entry p of one of them. What is not used is never touched, and so
+  // takes no memory.
+  Array<std::array<float, FunctionsPerPatch * FunctionsPerPatch>> single_;
+  Array<std::array<double, FunctionsPerPatch * FunctionsPerPatch>> double_;
+};
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,89 @@
+// Surfaces and arrays of VTK as bytes that travel between ranks, with all their digits. VTK's own
+// messages are files in its legacy format, which cut ids to 32 bits.
+#ifndef GridFEM_DataMessage_h
+#define GridFEM_DataMessage_h
+
+#include "Ranks.h"
+
+#include "vtkSmartPointer.h"
+
+#include <cstring>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+class vtkAbstractArray;
+class vtkCellArray;
+class vtkDataSetAttributes;
+class vtkFieldData;
+class vtkPolyData;
+
+namespace gridfem
+{
+
+/// Things are taken out in the order in which they were put in.
+class DataMessage
+{
+public:
+  DataMessage() = default;
+  explicit DataMessage(Bytes bytes) : bytes_(std::move(bytes)) {}
+
+  /// All that was put in; nothing is left.
+  Bytes Release() { return std::move(bytes_); }
+
+  template<class Number>
+  void Put(Number number)
+  {
+    static_assert(std::is_arithmetic_v<Number>);
+    this->PutBytes(&number, sizeof(number));
+  }
+
+  template<class Number>
+  Number Take()
+  {
+    Number number{};
+    this->TakeBytes(&number, sizeof(number));
+    return number;
+  }
+
+  void PutText(const std::string& text);
+  std::string TakeText();
+
+  void PutTexts(const std::vector<std::string>& texts);
+  std::vector<std::string> TakeTexts();
+
+  void PutNumbers(const std::vector<double>& numbers);
+  std::vector<double> TakeNumbers();
+
+  /// An array that CanTravel, or null.
+  void PutArray(vtkAbstractArray* array);
+  vtkSmartPointer<vtkAbstractArray> TakeArray();
+
+  /// Arrays that can travel and have so many tuples, any number for -1, and which are active.
+  void PutArrays(vtkFieldData* arrays, vtkIdType tuples);
+  /// Added to those that are there.
+  void TakeArrays(vtkFieldData* arrays);
+
+  /// Points, cells and arrays.
+  void PutSurface(vtkPolyData* surface);
+  vtkSmartPointer<vtkPolyData> TakeSurface();
+
+private:
+  void PutBytes(const void* bytes, std::size_t count);
+  void TakeBytes(void* bytes, std::size_t count);
+  void PutCells(vtkCellArray* cells);
+  vtkSmartPointer<vtkCellArray> TakeCells();
+
+  Bytes bytes_;
+  std::size_t taken_ = 0;
+};
+
+/// Numbers and strings; arrays of variants do not.
+bool CanTravel(vtkAbstractArray* array);
+
+/// Whether two arrays (either may be null) have the same type, name, shape and bits.
+bool HaveSameContents(vtkAbstractArray* a, vtkAbstractArray* b);
+
+} // namespace gridfem
+
+#endif

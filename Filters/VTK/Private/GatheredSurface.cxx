@@ -1,0 +1,178 @@
+#include "GatheredSurface.h"
+
+#include "DataMessage.h"
+#include "PieceJoiner.h"
+
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace gridfem
+{
+namespace
+{
+
+bool HaveSameArrays(vtkFieldData* a, vtkFieldData* b)
+{
+  bool areSame = a->GetNumberOfArrays() == b->GetNumberOfArrays();
+  for (int k = 0; areSame && k < a->GetNumberOfArrays(); ++k)
+  {
+    areSame = HaveSameContents(a->GetAbstractArray(k), b->GetAbstractArray(k));
+  }
+  return areSame;
+}
+
+bool HaveSameCells(vtkCellArray* a, vtkCellArray* b)
+{
+  const vtkIdType ours = a ? a->GetNumberOfCells() : 0;
+  const vtkIdType theirs = b ? b->GetNumberOfCells() : 0;
+  return ours == theirs &&
+         (ours == 0 || (HaveSameContents(a->GetOffsetsArray(), b->GetOffsetsArray()) &&
+                         HaveSameContents(a->GetConnectivityArray(), b->GetConnectivityArray())));
+}
+
+bool AreSamePiece(vtkPolyData* a, vtkPolyData* b)
+{
+  const auto ours = CellsOf(a);
+  const auto theirs = CellsOf(b);
+  for (int kind = 0; kind < CellKinds; ++kind)
+  {
+    if (!HaveSameCells(ours[kind], theirs[kind]))
+    {
+      return false;
+    }
+  }
+  return HaveSameContents(a->GetPoints()->GetData(), b->GetPoints()->GetData()) &&
+         HaveSameArrays(a->GetPointData(), b->GetPointData()) &&
+         HaveSameArrays(a->GetCellData(), b->GetCellData());
+}
+
+std::vector<vtkIdType> Ascending(vtkIdType count)
+{
+  std::vector<vtkIdType> places(count);
+  std::iota(places.begin(), places.end(), 0);
+  return places;
+}
+
+GatheredSurface OnlyPiece(vtkPolyData* piece)
+{
+  GatheredSurface result;
+  result.whole = vtkSmartPointer<vtkPolyData>::New();
+  result.whole->ShallowCopy(piece);
+  result.pieces.push_back(
+    { Ascending(piece->GetNumberOfPoints()), Ascending(piece->GetNumberOfCells()) });
+  return result;
+}
+
+/// Adds field arrays whose names are not there yet.
+void AddMissing(vtkFieldData* from, vtkFieldData* to)
+{
+  for (int k = 0; k < from->GetNumberOfArrays(); ++k)
+  {
+    vtkAbstractArray* array = from->GetAbstractArray(k);
+    if (array->GetName() && !to->HasArray(array->GetName()))
+    {
+      to->AddArray(array);
+    }
+  }
+}
+
+void KeepUnchanged(vtkFieldData* last, vtkFieldData* data)
+{
+  for (int k = 0; k < data->GetNumberOfArrays(); ++k)
+  {
+    vtkAbstractArray* array = data->GetAbstractArray(k);
+    vtkAbstractArray* before =
+      array->GetName() ? last->GetAbstractArray(array->GetName()) : nullptr;
+    if (before && HaveSameContents(before, array))
+    {
+      data->AddArray(before);
+    }
+  }
+}
+
+} // namespace
+
+GatheredSurface JoinPieces(const Pieces& pieces, bool weldCoincidentPoints)
+{
+  const auto count = static_cast<int>(pieces.size());
+  Pieces distinct;
+  std::vector<int> ranks;            // of the distinct pieces
+  std::vector<int> which(count, -1); // of the distinct pieces, per rank
+  for (int rank = 0; rank < count; ++rank)
+  {
+    if (pieces[rank]->GetNumberOfPoints() == 0)
+    {
+      continue;
+    }
+    const auto same = std::find_if(distinct.begin(), distinct.end(),
+      [&](vtkPolyData* other) { return AreSamePiece(other, pieces[rank]); });
+    which[rank] = static_cast<int>(same - distinct.begin());
+    if (same == distinct.end())
+    {
+      distinct.push_back(pieces[rank]);
+      ranks.push_back(rank);
+    }
+  }
+  GatheredSurface joined;
+  if (distinct.size() < 2)
+  {
+    joined = OnlyPiece(distinct.empty() ? pieces.front() : distinct.front());
+  }
+  else
+  {
+    joined = PieceJoiner(distinct, ranks, weldCoincidentPoints).Result();
+  }
+  std::vector<PiecePlaces> places(count);
+  for (int rank = 0; rank < count; ++rank)
+  {
+    if (which[rank] >= 0)
+    {
+      places[rank] = joined.pieces[which[rank]];
+    }
+  }
+  joined.pieces = std::move(places);
+  for (vtkPolyData* piece : distinct)
+  {
+    AddMissing(piece->GetFieldData(), joined.whole->GetFieldData());
+  }
+  for (vtkPolyData* piece : pieces)
+  {
+    AddMissing(piece->GetFieldData(), joined.whole->GetFieldData());
+  }
+  return joined;
+}
+
+void KeepUnchanged(vtkPolyData* last, vtkPolyData* surface)
+{
+  if (last->GetPoints() && surface->GetPoints() &&
+      HaveSameContents(last->GetPoints()->GetData(), surface->GetPoints()->GetData()))
+  {
+    surface->SetPoints(last->GetPoints());
+  }
+  if (HaveSameCells(last->GetVerts(), surface->GetVerts()))
+  {
+    surface->SetVerts(last->GetVerts());
+  }
+  if (HaveSameCells(last->GetLines(), surface->GetLines()))
+  {
+    surface->SetLines(last->GetLines());
+  }
+  if (HaveSameCells(last->GetPolys(), surface->GetPolys()))
+  {
+    surface->SetPolys(last->GetPolys());
+  }
+  if (HaveSameCells(last->GetStrips(), surface->GetStrips()))
+  {
+    surface->SetStrips(last->GetStrips());
+  }
+  KeepUnchanged(last->GetPointData(), surface->GetPointData());
+  KeepUnchanged(last->GetCellData(), surface->GetCellData());
+  KeepUnchanged(last->GetFieldData(), surface->GetFieldData());
+}
+
+} // namespace gridfem

@@ -1,0 +1,52 @@
+// One surface from the pieces that ranks hold of it.
+#ifndef GridFEM_GatheredSurface_h
+#define GridFEM_GatheredSurface_h
+
+#include "vtkSmartPointer.h"
+#include "vtkType.h"
+
+#include <string>
+#include <vector>
+
+class vtkPolyData;
+
+namespace gridfem
+{
+
+/// Where the points and cells of a piece are in the whole; -1 for those that are not there.
+struct PiecePlaces
+{
+  std::vector<vtkIdType> points;
+  std::vector<vtkIdType> cells;
+};
+
+struct GatheredSurface
+{
+  vtkSmartPointer<vtkPolyData> whole;
+  std::vector<PiecePlaces> pieces;        // of every rank
+  std::vector<std::string> partialArrays; // "'name' (rank 3)": left out, because a rank lacks it
+};
+
+/// Joins pieces, one for each rank, empty ones as well:
+/// - Cells that vtkGhostType marks as duplicates are left out, and their points; they are found
+///   again among the others, so that they get the values of those.
+/// - Points with the same global id are one. Without global ids on every piece and when
+///   `weldCoincidentPoints`, a point of one rank and one of another are one when they have the same
+///   coordinates and the same values in all arrays. Points of the same rank stay apart.
+/// - Points and cells are sorted by their global ids, so that the bits of a result do not depend on
+///   the distribution; without such ids they follow each other as the ranks do.
+/// - Arrays are those that all pieces with points have; of different types, they become double.
+///   Field arrays are those of the first rank that has them.
+/// - A piece that is the same as that of an earlier rank, bit by bit, counts once.
+/// - The only piece with points is taken as it is, with its arrays.
+/// Throws InvalidInput when two points with the same global id have different coordinates.
+GatheredSurface JoinPieces(
+  const std::vector<vtkSmartPointer<vtkPolyData>>& pieces, bool weldCoincidentPoints);
+
+/// Takes over the points, cells and arrays of the last surface that are the same in the new one, so
+/// that stages made from them need not run again.
+void KeepUnchanged(vtkPolyData* last, vtkPolyData* surface);
+
+} // namespace gridfem
+
+#endif

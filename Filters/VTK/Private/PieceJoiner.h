@@ -1,0 +1,78 @@
+// Joins pieces of a surface: which points and cells of them are one.
+#ifndef GridFEM_PieceJoiner_h
+#define GridFEM_PieceJoiner_h
+
+#include "GatheredSurface.h"
+#include "PieceArrays.h"
+
+#include "Base/Types.h"
+
+#include <array>
+#include <utility>
+
+namespace gridfem
+{
+
+/// One use: the constructor joins, Result tells. All pieces have points. What is joined is said by
+/// JoinPieces.
+class PieceJoiner
+{
+public:
+  /// @param ranks  of the pieces, for messages
+  PieceJoiner(Pieces pieces, std::vector<int> ranks, bool weldCoincidentPoints);
+
+  /// Places are those of the pieces given.
+  GatheredSurface Result();
+
+private:
+  using IdsAndThings = std::vector<std::pair<vtkIdType, vtkIdType>>;
+
+  void FindCopies();
+  bool IsCopiedPoint(vtkIdType point) const;
+  Vec3 PositionOf(vtkIdType point) const;
+  vtkIdType AddPoint(vtkIdType point);
+  void JoinPoint(vtkIdType point, vtkIdType place);
+
+  void JoinPointsById(const ArraysOfPieces& ids);
+  void RequireSamePlace(vtkIdType point, vtkIdType other, vtkIdType id) const;
+
+  void FindCoincident(bool weldCoincidentPoints);
+  vtkIdType LowestAt(vtkIdType point) const;
+  vtkIdType FindPlace(vtkIdType point, const std::vector<ArraysOfPieces>& arrays) const;
+  vtkIdType FindPlaceOfCopy(vtkIdType point, const std::vector<ArraysOfPieces>& arrays) const;
+  void JoinPointsByPlace(const std::vector<ArraysOfPieces>& arrays);
+
+  void JoinCells();
+  IdsAndThings CellsOfKind(int kind, const ArraysOfPieces& ids) const;
+  template<class Body>
+  void ForEachCellThat(bool isCopied, Body&& body) const;
+  void FindCopiedCells();
+
+  void WriteCells();
+  void WriteHiddenCells();
+  void WriteArrays(const std::vector<ArraysOfPieces>& arrays, const Numbering& numbering,
+    const std::vector<vtkIdType>& sources, AttributesOf attributesOf);
+
+  Pieces pieces_;
+  std::vector<int> ranks_;
+  Numbering points_;
+  Numbering cells_;
+  std::vector<char> isCopiedCell_; // is there only as a ghost
+  std::vector<char> isOwnPoint_;   // of a cell that is no copy, or of no cell
+  std::vector<vtkIdType> lowest_;  // point with the same coordinates, per point; may be empty
+  bool isWelded_ = false;
+  std::vector<vtkIdType> pointPlace_; // in the whole, per point
+  std::vector<vtkIdType> cellPlace_;
+  std::vector<vtkIdType> pointSource_; // the point, per place
+  std::vector<vtkIdType> cellSource_;
+  std::vector<vtkIdType> firstPlace_;  // of those with the same coordinates, by the lowest point
+  std::vector<vtkIdType> nextPlace_;   // with the same coordinates, per place
+  std::vector<std::size_t> lastPiece_; // that has the point, per place
+  std::array<vtkIdType, CellKinds> kindEnd_{};
+  std::vector<std::string> partial_;
+  vtkNew<vtkPolyData> whole_;
+};
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,301 @@
+#include "RankedOutput.h"
+
+#include "ClippedArrays.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkDataObject.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkFieldData.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <limits>
+
+namespace gridfem
+{
+namespace
+{
+
+/// Whether the first rank has all of a surface that nobody else has any of.
+bool IsOnFirst(const GatheredSurface& input)
+{
+  for (std::size_t rank = 1; rank < input.pieces.size(); ++rank)
+  {
+    if (!input.pieces[rank].points.empty())
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool HasCellsOf(vtkPolyData* output, vtkPolyData* input)
+{
+  const auto are = [](vtkCellArray* a, vtkCellArray* b)
+  {
+    const vtkIdType count = b ? b->GetNumberOfCells() : 0;
+    return a == b || (count == 0 && (!a || a->GetNumberOfCells() == 0));
+  };
+  return output && output->GetNumberOfPoints() == input->GetNumberOfPoints() &&
+         are(output->GetVerts(), input->GetVerts()) && are(output->GetLines(), input->GetLines()) &&
+         are(output->GetPolys(), input->GetPolys()) && are(output->GetStrips(), input->GetStrips());
+}
+
+bool IsReal(vtkAbstractArray* array)
+{
+  return array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
+}
+
+vtkSmartPointer<vtkAbstractArray> NewLike(vtkAbstractArray* array)
+{
+  vtkSmartPointer<vtkAbstractArray> made;
+  made.TakeReference(vtkAbstractArray::CreateArray(array->GetDataType()));
+  made->SetName(array->GetName());
+  made->SetNumberOfComponents(array->GetNumberOfComponents());
+  made->CopyComponentNames(array);
+  return made;
+}
+
+/// The tuples at some places; what is nowhere is NaN or 0.
+vtkSmartPointer<vtkAbstractArray> TuplesAt(
+  vtkAbstractArray* array, const std::vector<vtkIdType>& places)
+{
+  vtkSmartPointer<vtkAbstractArray> picked = NewLike(array);
+  picked->SetNumberOfTuples(static_cast<vtkIdType>(places.size()));
+  auto* numbers = vtkDataArray::SafeDownCast(picked);
+  const double nothing = IsReal(array) ? std::numeric_limits<double>::quiet_NaN() : 0.0;
+  for (std::size_t k = 0; k < places.size(); ++k)
+  {
+    const auto tuple = static_cast<vtkIdType>(k);
+    if (places[k] >= 0)
+    {
+      picked->SetTuple(tuple, places[k], array);
+    }
+    else if (numbers)
+    {
+      for (int c = 0; c < numbers->GetNumberOfComponents(); ++c)
+      {
+        numbers->SetComponent(tuple, c, nothing);
+      }
+    }
+  }
+  return picked;
+}
+
+void PutActive(vtkDataSetAttributes* data, DataMessage& message)
+{
+  std::vector<std::string> names;
+  for (int type = 0; type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)
+  {
+    vtkAbstractArray* active = data->GetAbstractAttribute(type);
+    names.emplace_back(active && active->GetName() ? active->GetName() : "");
+  }
+  message.PutTexts(names);
+}
+
+void TakeActive(DataMessage& message, vtkDataSetAttributes* data)
+{
+  const std::vector<std::string> names = message.TakeTexts();
+  for (std::size_t type = 0; type < names.size(); ++type)
+  {
+    if (!names[type].empty() && data->HasArray(names[type].c_str()))
+    {
+      data->SetActiveAttribute(names[type].c_str(), static_cast<int>(type));
+    }
+  }
+}
+
+/// Calls body for every array that has a name.
+template<class Body>
+void ForEachArray(vtkFieldData* data, Body&& body)
+{
+  for (int k = 0; k < data->GetNumberOfArrays(); ++k)
+  {
+    vtkAbstractArray* array = data->GetAbstractArray(k);
+    if (array->GetName() && CanTravel(array))
+    {
+      body(array);
+    }
+  }
+}
+
+bool IsNew(vtkAbstractArray* array, vtkFieldData* input)
+{
+  return input->GetAbstractArray(array->GetName()) != array;
+}
+
+/// Arrays at a rank's own points or cells, and the names of those that the filter took away.
+void PutAttributes(vtkDataSetAttributes* output, vtkDataSetAttributes* input,
+  const std::vector<vtkIdType>& places, DataMessage& message)
+{
+  std::vector<std::string> removed;
+  ForEachArray(input,
+    [&](vtkAbstractArray* array)
+    {
+      if (!output->HasArray(array->GetName()))
+      {
+        removed.emplace_back(array->GetName());
+      }
+    });
+  message.PutTexts(removed);
+  vtkNew<vtkFieldData> fresh;
+  ForEachArray(output,
+    [&](vtkAbstractArray* array)
+    {
+      if (IsNew(array, input))
+      {
+        fresh->AddArray(TuplesAt(array, places));
+      }
+    });
+  message.PutArrays(fresh, -1);
+  PutActive(output, message);
+}
+
+void TakeAttributes(DataMessage& message, vtkDataSetAttributes* data)
+{
+  for (const std::string& name : message.TakeTexts())
+  {
+    data->RemoveArray(name.c_str());
+  }
+  message.TakeArrays(data);
+  TakeActive(message, data);
+}
+
+/// Those of the input only help ranks that have none themselves.
+void PutFieldArrays(vtkFieldData* output, vtkFieldData* input, bool hasCells, DataMessage& message)
+{
+  vtkNew<vtkFieldData> given;
+  vtkNew<vtkFieldData> fresh;
+  ForEachArray(output,
+    [&](vtkAbstractArray* array)
+    {
+      if (hasCells || !IsClipFieldArray(array->GetName()))
+      {
+        (IsNew(array, input) ? fresh : given)->AddArray(array);
+      }
+    });
+  message.PutArrays(given, -1);
+  message.PutArrays(fresh, -1);
+}
+
+void TakeFieldArrays(DataMessage& message, vtkFieldData* fields)
+{
+  vtkNew<vtkFieldData> given;
+  message.TakeArrays(given);
+  for (int k = 0; k < given->GetNumberOfArrays(); ++k)
+  {
+    if (!fields->HasArray(given->GetArrayName(k)))
+    {
+      fields->AddArray(given->GetAbstractArray(k));
+    }
+  }
+  message.TakeArrays(fields);
+}
+
+/// Of points, cells or rows, whichever the data object has.
+std::vector<vtkDataSetAttributes*> AttributesOf(vtkDataObject* data)
+{
+  std::vector<vtkDataSetAttributes*> all;
+  for (const int type : { vtkDataObject::POINT, vtkDataObject::CELL, vtkDataObject::ROW })
+  {
+    if (vtkDataSetAttributes* attributes = data->GetAttributes(type))
+    {
+      all.push_back(attributes);
+    }
+  }
+  return all;
+}
+
+/// The names of the arrays, without a tuple; nothing for the first rank, which has the arrays.
+void PutNames(vtkDataObject* output, const GatheredSurface& input, int rank, DataMessage& message)
+{
+  if (rank == 0)
+  {
+    return;
+  }
+  for (vtkDataSetAttributes* data : AttributesOf(output))
+  {
+    vtkNew<vtkFieldData> none;
+    ForEachArray(data, [&](vtkAbstractArray* array) { none->AddArray(NewLike(array)); });
+    message.PutArrays(none, -1);
+    PutActive(data, message);
+  }
+  PutFieldArrays(output->GetFieldData(), input.whole->GetFieldData(), false, message);
+}
+
+void TakeNames(DataMessage& message, vtkDataObject* output)
+{
+  if (Ranks().IsFirst())
+  {
+    return;
+  }
+  output->Initialize();
+  for (vtkDataSetAttributes* data : AttributesOf(output))
+  {
+    message.TakeArrays(data);
+    TakeActive(message, data);
+  }
+  TakeFieldArrays(message, output->GetFieldData());
+}
+
+/// Points that are nowhere in the whole stay where they are.
+vtkSmartPointer<vtkPoints> MovedPoints(vtkDataArray* coordinates, vtkPoints* own)
+{
+  for (vtkIdType point = 0; point < coordinates->GetNumberOfTuples(); ++point)
+  {
+    if (coordinates->GetComponent(point, 0) != coordinates->GetComponent(point, 0))
+    {
+      coordinates->SetTuple(point, own->GetPoint(point));
+    }
+  }
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetData(coordinates);
+  return points;
+}
+
+} // namespace
+
+void PutPart(vtkDataObject* output, const GatheredSurface& input, int rank, DataMessage& message)
+{
+  auto* surface = vtkPolyData::SafeDownCast(output);
+  const bool isDivided = HasCellsOf(surface, input.whole) && !IsOnFirst(input);
+  message.Put(isDivided);
+  if (!isDivided)
+  {
+    PutNames(output, input, rank, message);
+    return;
+  }
+  const PiecePlaces& places = input.pieces[rank];
+  vtkPoints* points = surface->GetPoints();
+  const bool isMoved = points->GetData() != input.whole->GetPoints()->GetData();
+  message.PutArray(isMoved ? TuplesAt(points->GetData(), places.points) : nullptr);
+  PutAttributes(surface->GetPointData(), input.whole->GetPointData(), places.points, message);
+  PutAttributes(surface->GetCellData(), input.whole->GetCellData(), places.cells, message);
+  PutFieldArrays(
+    surface->GetFieldData(), input.whole->GetFieldData(), !places.cells.empty(), message);
+}
+
+void TakePart(DataMessage& message, vtkPolyData* own, vtkDataObject* output)
+{
+  const bool isDivided = message.Take<bool>();
+  if (!isDivided)
+  {
+    TakeNames(message, output);
+    return;
+  }
+  auto* surface = vtkPolyData::SafeDownCast(output);
+  surface->ShallowCopy(own);
+  if (const auto coordinates = message.TakeArray())
+  {
+    surface->SetPoints(MovedPoints(vtkDataArray::SafeDownCast(coordinates), own->GetPoints()));
+  }
+  TakeAttributes(message, surface->GetPointData());
+  TakeAttributes(message, surface->GetCellData());
+  TakeFieldArrays(message, surface->GetFieldData());
+}
+
+} // namespace gridfem

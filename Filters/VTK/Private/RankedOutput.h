@@ -1,0 +1,30 @@
+// The outputs that the first rank has computed, handed to all ranks.
+#ifndef GridFEM_RankedOutput_h
+#define GridFEM_RankedOutput_h
+
+#include "DataMessage.h"
+#include "GatheredSurface.h"
+
+class vtkDataObject;
+class vtkPolyData;
+
+namespace gridfem
+{
+
+/// Puts into the message what a rank gets of an output of the first rank. Where the output has the
+/// cells of the gathered surface, that is what is new of it: arrays at the rank's own points and
+/// cells, copies of other ranks' ones as well, and the places of points that have moved. Real
+/// numbers of points and cells that are nowhere in the whole are NaN, others 0. Of an output with
+/// cells of its own, and where the first rank has all of the surface, it is the names of arrays
+/// alone. Field arrays go to every rank, but for the tables of a clip and of a basis, which go
+/// where its cells are.
+void PutPart(vtkDataObject* output, const GatheredSurface& input, int rank, DataMessage& message);
+
+/// Makes an output of a rank from its part.
+/// @param own     the rank's own surface
+/// @param output  on the first rank that of all ranks
+void TakePart(DataMessage& message, vtkPolyData* own, vtkDataObject* output);
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,147 @@
+"""Run by TestServer.sh: the filters on the two ranks of a server, seen from a client.
+
+    pvpython client.py PORT FOLDER
+"""
+import os
+import re
+import sys
+import unittest
+
+import numpy
+from paraview import servermanager, simple
+from vtkmodules.util import numpy_support
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkFiltersSources import vtkSphereSource
+from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+
+DEPTH = 4
+
+CHOICES = {
+    "StitchColors": {"ColorArray": ["POINTS", "f"], "LabelArray": ["POINTS", "label"]},
+    "HarmonicInterpolation": {"ValueArray": ["POINTS", "f"]}}
+
+
+def array_of(data, name):
+    return numpy_support.vtk_to_numpy(data.GetPointData().GetArray(name))
+
+
+class Client(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        """A sphere from a file, which one rank reads, divided between the two. ParaView's source of
+        spheres would make a slit: each rank rounds the points of the seam in its own way."""
+        source = vtkSphereSource()
+        source.SetRadius(1.0)
+        source.SetThetaResolution(40)
+        source.SetPhiResolution(20)
+        writer = vtkXMLPolyDataWriter()
+        writer.SetInputConnection(source.GetOutputPort())
+        writer.SetFileName(os.path.join(sys.argv[-1], "sphere.vtp"))
+        writer.Write()
+        cls.alone = source.GetOutput()
+        file = simple.XMLPolyDataReader(FileName=[writer.GetFileName()])
+        pieces = simple.RedistributeDataSet(Input=file)
+        values = simple.Calculator(Input=pieces, ResultArrayName="f",
+                                   Function="coordsX*coordsY+0.3*coordsZ")
+        cls.surface = simple.Calculator(Input=values, ResultArrayName="label",
+                                        Function="floor(coordsZ)")
+        cls.surface.UpdatePipeline()
+        cls.points = cls.surface.GetDataInformation().GetNumberOfPoints()
+
+    def test_the_surface_is_on_two_ranks(self):
+        self.assertEqual(servermanager.ActiveConnection.GetNumberOfDataPartitions(), 2)
+        self.assertGreater(self.points, self.alone.GetNumberOfPoints())  # borders are there twice
+
+    def test_every_filter_runs(self):
+        folder = os.path.join(os.environ["GRIDFEM_SOURCE_DIR"], "Plugin")
+        for panel in sorted(os.listdir(folder)):
+            if not panel.endswith(".xml"):
+                continue
+            with open(os.path.join(folder, panel)) as text:
+                name = re.search(r'<SourceProxy name="(\w+)"', text.read()).group(1)
+            with self.subTest(proxy=name):
+                proxy = getattr(simple, name)(Input=self.surface, **CHOICES.get(name, {}))
+                for prop, value in (("Depth", DEPTH), ("NumberOfModes", 9)):
+                    if prop in proxy.ListProperties():
+                        proxy.SetPropertyWithName(prop, value)
+                proxy.UpdatePipeline()
+                data = servermanager.Fetch(proxy)
+                self.assertGreater(data.GetNumberOfPoints(), 700)
+                self.assertTrue(numpy.isfinite(
+                    numpy_support.vtk_to_numpy(data.GetPoints().GetData())).all())
+                kept = data.GetNumberOfPoints() == self.points
+                self.assertEqual(kept, name not in ("ClipToOctree", "ConnectivityAwareBasis"))
+
+    def solution_of_one_rank(self):
+        """Points, and the solution at them."""
+        from gridfem.vtkGridFEMFilters import vtkScreenedPoisson
+        alone = vtkPolyData()
+        alone.ShallowCopy(self.alone)
+        places = numpy_support.vtk_to_numpy(alone.GetPoints().GetData())
+        x, y, z = places.astype(float).T
+        values = numpy_support.numpy_to_vtk(x * y + 0.3 * z, deep=1)
+        values.SetName("f")
+        alone.GetPointData().AddArray(values)
+        solver = vtkScreenedPoisson()
+        solver.SetInputDataObject(alone)
+        solver.SetDepth(DEPTH)
+        solver.SetTolerance(1e-12)
+        solver.SetInputArrayToProcess(0, 0, 0, 0, "f")
+        solver.Update()
+        return places, array_of(solver.GetOutput(), "Solution")
+
+    def test_the_solution_is_that_of_one_rank(self):
+        places, expected = self.solution_of_one_rank()
+        ghosts = simple.GhostCells if hasattr(simple, "GhostCells") else simple.GhostCellsGenerator
+        for surface in (self.surface, ghosts(Input=self.surface)):
+            solver = simple.ScreenedPoisson(
+                Input=surface, ValueArray=["POINTS", "f"], Depth=DEPTH, Tolerance=1e-12)
+            data = servermanager.Fetch(solver)
+            self.assertEqual(data.GetFieldData().GetArray("Converged").GetValue(0), 1)
+            self.assertGreaterEqual(data.GetNumberOfPoints(), self.points)
+            points = numpy_support.vtk_to_numpy(data.GetPoints().GetData())
+            for point, value in zip(points, array_of(data, "Solution")):
+                nearest = numpy.abs(places - point).max(axis=1).argmin()
+                self.assertLess(abs(value - expected[nearest]), 1e-10)  # the solver's tolerance
+
+    def test_modes_play(self):
+        modes = simple.LaplaceSpectrum(Input=self.surface, Depth=DEPTH, NumberOfModes=6)
+        modes.UpdatePipeline()
+        modes.UpdatePipelineInformation()
+        self.assertEqual(list(modes.TimestepValues), [1, 2, 3, 4, 5, 6, 7, 8])
+        ranges = set()
+        for mode in (1.0, 4.0, 7.0):
+            modes.UpdatePipeline(mode)
+            ranges.add(servermanager.Fetch(modes).GetPointData().GetArray("Mode").GetRange())
+        self.assertEqual(len(ranges), 3)
+        self.assertEqual(servermanager.Fetch(modes, idx=1).GetNumberOfRows(), 9)
+
+    def test_a_chain_with_a_basis(self):
+        basis = simple.ConnectivityAwareBasis(Input=self.surface, Depth=DEPTH)
+        solver = simple.ScreenedPoisson(Input=self.surface, Basis=basis, ValueArray=["POINTS", "f"])
+        solver.UpdatePipeline()
+        self.assertEqual(solver.GetDataInformation().GetNumberOfPoints(), self.points)
+        on_clip = simple.ScreenedPoisson(Input=basis, ValueArray=["POINTS", "f"])
+        on_clip.UpdatePipeline()
+        self.assertGreater(on_clip.GetDataInformation().GetNumberOfPoints(), self.points)
+
+    def test_a_refusal_leaves_the_server_alive(self):
+        solver = simple.ScreenedPoisson(Input=self.surface, ValueArray=["POINTS", "f"], Depth=DEPTH,
+                                        QuadratureDegree=2)
+        solver.ValueArray = ["POINTS", "nothing"]
+        solver.UpdatePipeline()
+        self.assertEqual(solver.GetDataInformation().GetNumberOfPoints(), 0)
+        solver.ValueArray = ["POINTS", "f"]
+        solver.UpdatePipeline()
+        self.assertEqual(solver.GetDataInformation().GetNumberOfPoints(), self.points)
+
+
+if __name__ == "__main__":
+    import gridfem.vtkGridFEMFilters  # before the plugin, which makes objects of its classes
+    simple.Connect("localhost", int(sys.argv[1]))
+    for remote in (True, False):  # where it runs, and where its properties are known
+        simple.LoadPlugin(os.environ["GRIDFEM_PLUGIN"], remote=remote, ns=vars(simple))
+    done = unittest.main(argv=sys.argv[:1], exit=False)
+    simple.Disconnect()
+    if not done.result.wasSuccessful():
+        sys.exit(1)
