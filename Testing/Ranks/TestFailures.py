@@ -3,8 +3,9 @@ import unittest
 
 import numpy
 from vtkmodules.util import numpy_support
-from vtkmodules.vtkCommonCore import vtkCommand, vtkPoints
-from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkPolyData, vtkUnstructuredGrid
+from vtkmodules.vtkCommonCore import vtkCommand, vtkIdTypeArray, vtkPoints
+from vtkmodules.vtkCommonDataModel import (
+    VTK_TETRA, vtkPolyData, vtkSelection, vtkSelectionNode, vtkUnstructuredGrid)
 
 import ranks
 
@@ -53,6 +54,23 @@ class Failures(unittest.TestCase):
             numpy_support.vtk_to_numpy(data.GetPointData().GetArray("f"))[9] = numpy.nan
         self.refused(filter_, data, "'f' has a NaN")
         self.computed(filter_, self.good())
+
+    def test_a_selection(self):
+        """It would be evaluated on what of the surface a rank has."""
+        ids = vtkIdTypeArray()
+        ids.InsertNextValue(3)
+        node = vtkSelectionNode()
+        node.SetFieldType(vtkSelectionNode.POINT)
+        node.SetContentType(vtkSelectionNode.INDICES)
+        node.SetSelectionList(ids)
+        selection = vtkSelection()
+        selection.AddNode(node)
+        for name, port in (("SurfaceDetail", 2), ("GeodesicDistance", 3)):
+            filter_ = ranks.make(name)
+            filter_.SetInputDataObject(port, selection)
+            self.refused(filter_, self.good(), "one MPI rank only")
+            filter_.SetInputDataObject(port, None)
+            self.computed(filter_, self.good())
 
     def test_an_array_that_one_rank_lacks(self):
         filter_ = ranks.make("ScreenedPoisson")

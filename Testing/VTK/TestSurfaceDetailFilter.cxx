@@ -399,6 +399,33 @@ TEST_P(SurfaceDetailFilter, OneCycleAfterTheOtherComesToTheSolution)
   EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 1);
 }
 
+/// What a new selection leaves as it is, is not solved again; the result is as if it were.
+TEST_P(SurfaceDetailFilter, OneSelectionAfterTheOtherGivesWhatEachGives)
+{
+  const auto sphere = WavySphere();
+  const auto changed = DetailOf(sphere, GetParam());
+  changed->SetTolerance(1e-10);
+  const auto none = vtkSmartPointer<vtkSelection>();
+  for (const auto& selection :
+    { none, Above(sphere, 0.0), Above(sphere, 0.5), none, Above(sphere, 0.5) })
+  {
+    changed->SetInputDataObject(2, selection);
+    const auto fresh = DetailOf(sphere, GetParam());
+    fresh->SetTolerance(1e-10);
+    fresh->SetInputDataObject(2, selection);
+    EXPECT_LE(Difference(PositionsFrom(changed), PositionsFrom(fresh)), 1e-9);
+    EXPECT_EQ(FieldValue(changed->GetOutput(), "Converged"), 1);
+  }
+  changed->SetInputArrayToProcess(1, 0, 0, Points, "upper");
+  changed->SetScreeningWeight(50.0);
+  const auto fresh = DetailOf(sphere, GetParam());
+  fresh->SetTolerance(1e-10);
+  fresh->SetInputDataObject(2, Above(sphere, 0.5));
+  fresh->SetInputArrayToProcess(1, 0, 0, Points, "upper");
+  fresh->SetScreeningWeight(50.0);
+  EXPECT_LE(Difference(PositionsFrom(changed), PositionsFrom(fresh)), 1e-9);
+}
+
 /// A run that is aborted leaves nothing behind but the last solution, from which the next one
 /// starts.
 TEST_P(SurfaceDetailFilter, GoesOnAfterAnAbort)
