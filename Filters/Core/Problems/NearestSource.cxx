@@ -62,7 +62,9 @@ public:
     }
   }
 
-  /// All points from the nearest to the farthest; those without a nearer neighbour are left out.
+  /// All points from the nearest to the farthest. One that is nearer than all around it, though no
+  /// source, as where distances are 0 because they came out below it, waits for a neighbour that
+  /// knows.
   void Run(const Job& job)
   {
     const std::vector<Index> order = this->PlacesByDistance();
@@ -81,8 +83,11 @@ public:
       {
         this->Take(order[k], this->OriginOf(order[k]));
       }
+      if (number_[order[k]] != None)
+      {
+        this->HandBack(order[k]);
+      }
     }
-    this->FillGaps(order);
   }
 
   Id SourceOf(Id point) const
@@ -104,6 +109,7 @@ private:
     return place;
   }
 
+  /// Sources first.
   std::vector<Index> PlacesByDistance() const
   {
     std::vector<Index> order;
@@ -114,9 +120,15 @@ private:
         order.push_back(point);
       }
     }
-    std::sort(order.begin(), order.end(),
-      [this](Index a, Index b)
-      { return distance_[a] != distance_[b] ? distance_[a] < distance_[b] : a < b; });
+    const auto before = [this](Index a, Index b)
+    {
+      const bool aIsSource = number_[a] != None;
+      const bool bIsSource = number_[b] != None;
+      return aIsSource != bIsSource         ? aIsSource
+             : distance_[a] != distance_[b] ? distance_[a] < distance_[b]
+                                            : a < b;
+    };
+    std::sort(order.begin(), order.end(), before);
     return order;
   }
 
@@ -201,28 +213,23 @@ private:
                                            : number_[origin.second];
   }
 
-  /// A point that is nearer than all around it, though no source, belongs where its neighbours do.
-  void FillGaps(const std::vector<Index>& order)
+  /// To neighbours that wait, and to theirs.
+  void HandBack(Index from)
   {
-    std::vector<Index> reached;
-    for (const Index place : order)
+    std::vector<Index> reached = { from };
+    while (!reached.empty())
     {
-      if (number_[place] != None)
-      {
-        reached.push_back(place);
-      }
-    }
-    for (std::size_t next = 0; next < reached.size(); ++next)
-    {
-      const Index place = reached[next];
+      const Index place = reached.back();
+      reached.pop_back();
       for (Index k = corners_.begin[place]; k < corners_.begin[place + 1]; ++k)
       {
         for (const Id point : mesh_.triangles[corners_.item[k] / 3])
         {
           const Index other = place_[point];
-          if (number_[other] == None && !std::isnan(distance_[other]))
+          if (number_[other] == None && rank_[other] < rank_[from])
           {
             number_[other] = number_[place];
+            share_.row(other) = share_.row(place);
             reached.push_back(other);
           }
         }

@@ -108,6 +108,21 @@ TEST(NearestSource, OfComputedDistancesIsRightToThreeCells)
   }
 }
 
+/// Distances beside the second source have come out below 0, and are 0; no point there comes after
+/// it.
+TEST(NearestSource, KnowsASourceWhoseSurroundingsAreAsNear)
+{
+  const TriangleMesh mesh = FlatRectangle(40, 1, 1.0, 0.025);
+  const std::vector<Id> sources = { 12, 41 + 36 }; // at 0.3 and 0.9
+  std::vector<double> distance = ExactDistances(mesh, sources, InSpace);
+  for (std::size_t i = 0; i < distance.size(); ++i)
+  {
+    distance[i] *= mesh.points[i][0] > 0.74 && mesh.points[i][0] < 0.91 ? 0.0 : 1.0;
+  }
+  const std::vector<Id> nearest = NearestSources(mesh, distance, sources, true);
+  EXPECT_LT(LargestDetour(mesh, nearest, sources, InSpace), 0.05);
+}
+
 /// Neither the order of points nor edges that are no edges of the surface matter.
 TEST(NearestSource, GoesAcrossUnweldedEdgesWhereTheyAreWelded)
 {
