@@ -99,16 +99,16 @@ gridfem::Field FadeOut(
   return fade;
 }
 
-/// How many columns are the same, from the first on.
-gridfem::Id EqualColumns(const gridfem::MultiVector& a, const gridfem::MultiVector& b)
+/// Of a solution for other columns the first, which are those for the scale 1, are still good.
+gridfem::MultiVector StartFor(gridfem::MultiVector last, gridfem::Id columns)
 {
-  gridfem::Id equal = 0;
-  while (
-    a.rows() == b.rows() && equal < std::min(a.cols(), b.cols()) && a.col(equal) == b.col(equal))
+  if (last.cols() > 0 && last.cols() != columns)
   {
-    ++equal;
+    const gridfem::Id kept = last.cols();
+    last.conservativeResize(Eigen::NoChange, columns);
+    last.rightCols(std::max<gridfem::Id>(columns - kept, 0)).setZero();
   }
-  return equal;
+  return last;
 }
 
 } // namespace
@@ -132,8 +132,6 @@ struct vtkSurfaceDetail::Internals
   std::unique_ptr<gridfem::Multigrid> Hierarchy;
   gridfem::StageKey HierarchyShape;  // what it depends on but for its numbers
   gridfem::PoissonSolution Solution; // for the columns of Load
-  gridfem::MultiVector SolvedLoad;   // what it is the solution for
-  gridfem::StageKey SolvedEquation;  // and of which equation
   std::int64_t Continuations = 0;    // runs that went on from an unfinished solution
 
   const gridfem::FiniteElementSpace& Space(const gridfem::SurfaceSolverState& state) const
@@ -148,34 +146,6 @@ struct vtkSurfaceDetail::Internals
     key.Add(state.stages.Version(gridfem::SystemStage)).Add(this->IsWeighed);
     key.Add(this->IsWeighed ? state.stages.Version(WeightsStage) : 0);
     return key;
-  }
-
-  /// Solves for the columns of Load from those that are not those of the last solution on: another
-  /// selection leaves the columns for the scale 1 as they are. An abort leaves the last solution.
-  /// @param equation  what a solution depends on besides its load
-  void SolveColumns(const gridfem::FiniteElementSpace& space, const gridfem::StageKey& equation,
-    gridfem::PoissonOptions options, const gridfem::Progress& progress)
-  {
-    const bool isSame = this->Solution.report.converged && this->SolvedEquation == equation;
-    const gridfem::Id kept = isSame ? EqualColumns(this->Load, this->SolvedLoad) : 0;
-    const gridfem::Id columns = this->Load.cols() - kept;
-    gridfem::MultiVector next = this->Solution.coefficients;
-    if (columns > 0)
-    {
-      const gridfem::MultiVector start = next.cols() == this->Load.cols()
-                                           ? gridfem::MultiVector(next.rightCols(columns))
-                                           : gridfem::MultiVector(); // does not fit
-      options.start = &start;
-      gridfem::PoissonSolution solution = gridfem::SolveDetail(
-        space, *this->Hierarchy, this->Load.rightCols(columns), options, progress);
-      this->Solution.report = std::move(solution.report);
-      next.conservativeResize(this->Load.rows(), this->Load.cols());
-      next.rightCols(columns) = solution.coefficients;
-    }
-    next.conservativeResize(Eigen::NoChange, this->Load.cols());
-    this->Solution.coefficients = std::move(next);
-    this->SolvedLoad = this->Load;
-    this->SolvedEquation = equation;
   }
 
   /// The change for the scales inside and outside of the selection, as coefficients: linear in
@@ -466,9 +436,11 @@ void vtkSurfaceDetail::UpdateSolution(const gridfem::Progress& progress)
   state.stages.Run(gridfem::SolveStage, solve,
     [&]
     {
-      gridfem::StageKey equation;
-      equation.Add(state.stages.Version(gridfem::HierarchyStage)).Add(options.solve.tolerance);
-      data.SolveColumns(space, equation, options, progress.Part(0.3, 1.0));
+      gridfem::MultiVector& last = data.Solution.coefficients; // stays where this is aborted
+      last = StartFor(std::move(last), data.Load.cols());
+      options.start = &last;
+      data.Solution =
+        gridfem::SolveDetail(space, *data.Hierarchy, data.Load, options, progress.Part(0.3, 1.0));
     });
 }
 

@@ -366,6 +366,10 @@ TEST(Selection, ThatCannotBeEvaluatedIsRefused)
   const auto mixed = SelectPoints({ 1 });
   mixed->AddNode(NodeOf(vtkSelectionNode::CELL, vtkSelectionNode::INDICES, IdArray({ 1 })));
   ExpectRefused(DetailOf(Sphere(), mixed), "both points and cells");
+  const auto frustum = [](vtkAbstractArray* list)
+  { return SelectionOf(NodeOf(vtkSelectionNode::POINT, vtkSelectionNode::FRUSTUM, list)); };
+  ExpectRefused(DetailOf(Sphere(), frustum(IdArray({ 1 }))), "eight corners");
+  ExpectRefused(DetailOf(Sphere(), frustum(nullptr)), "eight corners");
 }
 
 TEST(Selection, OfNothingIsNoPoint)

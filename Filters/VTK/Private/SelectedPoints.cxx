@@ -10,6 +10,7 @@
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
+#include "vtkDoubleArray.h"
 #include "vtkExecutive.h"
 #include "vtkExtractSelection.h"
 #include "vtkIdList.h"
@@ -127,6 +128,13 @@ void Validate(vtkSelection* selection)
       throw InvalidInput("The Selection is one by " +
                          std::string(vtkSelectionNode::GetContentTypeAsString(content)) +
                          ", which cannot be evaluated here.");
+    }
+    vtkAbstractArray* list = node->GetSelectionList();
+    constexpr vtkIdType FrustumNumbers = 8 * 4; // corners, homogeneous
+    if (content == vtkSelectionNode::FRUSTUM &&
+        !(vtkDoubleArray::SafeDownCast(list) && list->GetNumberOfValues() == FrustumNumbers))
+    {
+      throw InvalidInput("The Selection by a frustum needs the eight corners of it.");
     }
   }
 }
