@@ -11,6 +11,7 @@ import pathlib
 import sys
 
 from paraview import servermanager, simple
+from vtkmodules.vtkCommonCore import vtkIntArray
 from vtkmodules.vtkFiltersCore import vtkContourFilter, vtkTubeFilter
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
@@ -42,6 +43,17 @@ def farthest(mesh):
     return point, distance.GetValue(point)
 
 
+def add_regions(mesh, sources):
+    """The point array Region: the number of the nearest source in the list, for few colours."""
+    nearest = mesh.GetPointData().GetArray("NearestSource")
+    number = {source: k for k, source in enumerate(sources)}
+    region = vtkIntArray()
+    region.SetName("Region")
+    for p in range(mesh.GetNumberOfPoints()):
+        region.InsertNextValue(number.get(nearest.GetValue(p), -1))
+    mesh.GetPointData().AddArray(region)
+
+
 def main():
     if len(sys.argv) != 4:
         sys.exit(__doc__)
@@ -62,7 +74,8 @@ def main():
         print(f"{label}: at most {largest:.4g}")
         colors = Layer(mesh, "Distance", 0.0, largest)
         if distance.NearestSource:
-            colors = Layer(mesh, "NearestSource", shuffled=True)
+            add_regions(mesh, sources)
+            colors = Layer(mesh, "Region", shuffled=True)
         layers = [colors,
                   Layer(isolines(mesh, largest), color=(0.1, 0.1, 0.1))]
         tiles.append(Tile(label, from_the_front(mesh), layers))
