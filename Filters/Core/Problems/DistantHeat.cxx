@@ -37,13 +37,15 @@ constexpr int MostSweepsPerStep = 100;
 
 } // namespace
 
-/// Of a patch that is relaxed soon: it may lie anywhere in memory.
-EIGEN_ALWAYS_INLINE void DistantHeat::FetchPatch(const Layers& layers, Id k) const
+/// Of patches that are relaxed soon after patch k of the order: they may lie anywhere in memory,
+/// and which rows a patch has is known only when it is there.
+EIGEN_ALWAYS_INLINE void DistantHeat::FetchAfter(const Layers& layers, Id k) const
 {
-  if (k + 3 < static_cast<Id>(layers.patch.size()))
+  constexpr Id Ahead = 3;
+  if (k + 2 * Ahead < static_cast<Id>(layers.patch.size()))
   {
-    patches_->FetchInverse(layers.patch[k + 3]);
-    patches_->FetchRows(RowView(A_), layers.patch[k]);
+    patches_->FetchInverse(layers.patch[k + 2 * Ahead]);
+    patches_->FetchRows(RowView(A_), layers.patch[k + Ahead]);
   }
 }
 
@@ -212,7 +214,7 @@ Id DistantHeat::March(
         double largest = 0.0;
         for (Id k = layers.begin[layer]; k < layers.begin[layer + 1]; ++k)
         {
-          this->FetchPatch(layers, k + 3);
+          this->FetchAfter(layers, k);
           largest = std::max(largest, this->Relax(layers.patch[k], b, u));
         }
         settled += settled == layer && largest <= change ? 1 : 0;

@@ -69,7 +69,7 @@ private:
   Layers LayersBySteps(const std::vector<Index>& steps) const;
   Layers LayersByHeat(const MultiVector& u, Id count, const std::vector<Index>& patches) const;
   double HeatOf(Index patch, const MultiVector& u) const;
-  void FetchPatch(const Layers& layers, Id k) const;
+  void FetchAfter(const Layers& layers, Id k) const;
   double Relax(Index patch, const MultiVector& b, MultiVector& u) const;
   Id March(const Layers& layers, double change, const MultiVector& b, MultiVector& u,
     const Job& job) const;

@@ -1,5 +1,6 @@
 #include "Problems/GeodesicDistance.h"
 
+#include "Problems/NearestSource.h"
 #include "Problems/Poisson.h"
 #include "Spaces/PointComponents.h"
 
@@ -58,13 +59,10 @@ std::vector<char> MarkSources(const std::vector<Id>& sources, std::size_t points
   {
     throw InvalidInput("There are no sources that distances could start from.");
   }
+  RequireSources(sources, points);
   std::vector<char> isSource(points, 0);
   for (const Id source : sources)
   {
-    if (source < 0 || source >= static_cast<Id>(points))
-    {
-      throw InvalidInput("The source " + std::to_string(source) + " is not a point of the mesh.");
-    }
     isSource[source] = 1;
   }
   return isSource;
@@ -124,8 +122,8 @@ std::vector<double> GeodesicDistance::ShiftedToSources(
   const MultiVector& distance, const std::vector<Id>& sources, const Job& job) const
 {
   const MultiVector value = space_->ValuesAtPoints(distance, job);
-  const Index components = 1 + std::accumulate(component_.begin(), component_.end(), Index{ -1 },
-                                 [](Index a, Index b) { return std::max(a, b); });
+  const auto last = std::max_element(component_.begin(), component_.end());
+  const Index components = last == component_.end() ? 0 : *last + 1;
   std::vector<double> sum(components, 0.0);
   std::vector<Id> count(components, 0);
   for (const Id source : sources)

@@ -258,6 +258,17 @@ private:
 
 } // namespace
 
+void RequireSources(const std::vector<Id>& sources, std::size_t points)
+{
+  for (const Id source : sources)
+  {
+    if (source < 0 || source >= static_cast<Id>(points))
+    {
+      throw InvalidInput("The source " + std::to_string(source) + " is not a point of the mesh.");
+    }
+  }
+}
+
 std::vector<Id> NearestSources(const TriangleMesh& mesh, const std::vector<double>& distance,
   const std::vector<Id>& sources, bool weldCoincidentPoints, const Job& job)
 {
@@ -266,13 +277,7 @@ std::vector<Id> NearestSources(const TriangleMesh& mesh, const std::vector<doubl
     throw InvalidInput("There are " + std::to_string(distance.size()) + " distances for " +
                        std::to_string(mesh.points.size()) + " points.");
   }
-  for (const Id source : sources)
-  {
-    if (source < 0 || source >= static_cast<Id>(mesh.points.size()))
-    {
-      throw InvalidInput("The source " + std::to_string(source) + " is not a point of the mesh.");
-    }
-  }
+  RequireSources(sources, mesh.points.size());
   Descent descent(mesh, distance, sources, weldCoincidentPoints, job.threads);
   descent.Run(job);
   std::vector<Id> nearest(mesh.points.size());

@@ -10,6 +10,9 @@
 namespace gridfem
 {
 
+/// Throws InvalidInput naming the first source that is no point of a mesh with so many of them.
+void RequireSources(const std::vector<Id>& sources, std::size_t points);
+
 /// Every point asks where its distance comes from: the steepest descent on the triangles around it
 /// leads to a place between two points that are nearer, and what these know is mixed in its
 /// proportion. What is handed on are the binary digits of the sources' numbers, as shares between 0

@@ -212,24 +212,30 @@ MultiVector LoadOfKeptGradients(const FiniteElementSpace& space, const ScanCut& 
 }
 
 /// Per point of the mesh: whether it is a corner of a seam, or of triangles of two scans.
-std::vector<char> PointsOnSeams(const TriangleMesh& mesh, const ScanCut& cut)
+/// @param hats  coincident points have the same one
+std::vector<char> PointsOnSeams(
+  const TriangleMesh& mesh, const HatFunctions& hats, const ScanCut& cut)
 {
   constexpr Index None = -2; // no triangle yet
-  const Array<Index> place = WeldCoincidentPoints(mesh.points, UsedPoints(mesh));
-  std::vector<Index> scan(mesh.points.size(), None);
+  std::vector<Index> scan(hats.Count(), None);
   std::vector<char> isOnSeam(mesh.points.size(), 0);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
   {
     for (const Id point : mesh.triangles[t])
     {
-      Index& known = scan[place[point]];
+      if (hats.ofPoint[point] < 0)
+      {
+        continue; // of flat triangles alone
+      }
+      Index& known = scan[hats.ofPoint[point]];
       known =
         known == None || known == cut.scanOfTriangle[t] ? cut.scanOfTriangle[t] : ScanCut::Seam;
     }
   }
   for (std::size_t point = 0; point < isOnSeam.size(); ++point)
   {
-    isOnSeam[point] = scan[place[point]] == ScanCut::Seam;
+    const Index function = hats.ofPoint[point];
+    isOnSeam[point] = function >= 0 && scan[function] == ScanCut::Seam;
   }
   return isOnSeam;
 }
@@ -393,8 +399,9 @@ std::vector<double> KeptShares(const TriangleMesh& mesh, const ScanCut& cut, dou
   std::vector<double> share(mesh.triangles.size(), 1.0);
   if (width > 0.0)
   {
+    const HatFunctions hats = NumberHatFunctions(mesh);
     const std::vector<double> distance =
-      MarchDistance(mesh, NumberHatFunctions(mesh), PointsOnSeams(mesh, cut), width);
+      MarchDistance(mesh, hats, PointsOnSeams(mesh, hats, cut), width);
     for (std::size_t t = 0; t < share.size(); ++t)
     {
       double mean = 0.0;

@@ -1,5 +1,7 @@
 #include "SelectedPoints.h"
 
+#include "Ranks.h"
+
 #include "Base/Errors.h"
 
 #include "vtkAlgorithm.h"
@@ -15,7 +17,6 @@
 #include "vtkExtractSelection.h"
 #include "vtkIdList.h"
 #include "vtkInformation.h"
-#include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -142,8 +143,7 @@ void Validate(vtkSelection* selection)
 /// A rank evaluates only what of the data it has, while the surface is that of all ranks.
 void RequireOneProcess()
 {
-  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
-  if (controller && controller->GetNumberOfProcesses() > 1)
+  if (Ranks::AreSeveral())
   {
     throw InvalidInput("A Selection is evaluated on one MPI rank only. Extract Selection with "
                        "Preserve Topology makes an array of it, which can be chosen instead.");

@@ -1,0 +1,17 @@
+# Sourced by the tests that drive the real program: plays events in it and looks at the state that they
+# have saved.
+set -eu
+here=$(dirname "$(readlink -f "$0")")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+command -v paraview > /dev/null || { echo "skipped: no paraview program"; exit 77; }
+
+# Drive EVENTS.xml CHECK.py [OPTION OF PARAVIEW...]
+Drive() {
+  sed "s|@STATE@|$work/gui.pvsm|" "$here/Gui/$1" > "$work/events.xml"
+  XDG_CONFIG_HOME="$work" timeout 400 paraview --dr "${@:3}" \
+    --plugins GridFEM --plugin-search-paths "$(dirname "$GRIDFEM_PLUGIN")" \
+    --test-directory="$work" --test-script="$work/events.xml" --exit
+  pvpython "$here/Gui/$2" "$work/gui.pvsm"
+}
