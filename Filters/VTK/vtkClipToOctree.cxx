@@ -58,6 +58,7 @@ void vtkClipToOctree::Compute(vtkInformationVector** inputs, vtkInformationVecto
   {
     state.mesh = gridfem::ReadInputMesh(input, options.threads, progress.Part(0.0, 0.1));
     gridfem::RequireSurface(*state.mesh.triangles);
+    state.ChooseDepth();
     gridfem::RequireMemory(*state.mesh.triangles, options.depth);
     const gridfem::ClipOptions clipOptions{ options.depth, options.weldCoincidentPoints,
       options.threads };

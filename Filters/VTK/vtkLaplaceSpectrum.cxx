@@ -141,7 +141,6 @@ void vtkLaplaceSpectrum::WriteModes(vtkPolyData* input, vtkInformation* info, vt
   output->GetFieldData()->AddArray(eigenvalues);
   const bool converged = this->Data->spectrum.converged && this->IsAccurate();
   gridfem::AddFieldInt(output, "Converged", converged ? 1 : 0);
-  gridfem::AddFieldInt(output, "UsedDepth", this->Data->depth);
 }
 
 void vtkLaplaceSpectrum::WriteTable(vtkTable* table)

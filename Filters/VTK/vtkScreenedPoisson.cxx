@@ -458,7 +458,6 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
     this->SolveAtDepth(input, basis, progress.Part(0.0, 0.95));
   }
   this->WriteSolution(input, output);
-  gridfem::AddFieldInt(output, "UsedDepth", this->State->Functions().GetGrid().depth);
   if (!this->IsAccurate())
   {
     gridfem::AddFieldInt(output, "Converged", 0);

@@ -5,6 +5,7 @@
 #include "Private/PipelineTime.h"
 #include "Private/RankedBlocks.h"
 #include "Private/RankedSurface.h"
+#include "Private/SolverOutput.h"
 #include "Private/SurfaceInput.h"
 #include "Private/SurfaceSolverState.h"
 
@@ -178,7 +179,7 @@ int vtkSurfaceFEMAlgorithm::RunCompute(vtkInformationVector** inputs, vtkInforma
     }
     else if (!gridfem::IsEmpty(vtkDataSet::GetData(inputs[0])))
     {
-      this->Compute(this->Surface->Of(inputs, this->GetNumberOfInputPorts()), outputs);
+      this->ComputeSurface(this->Surface->Of(inputs, this->GetNumberOfInputPorts()), outputs);
       gridfem::StampTime(!this->OwnTimeSteps().empty(), inputs[0], outputs);
     }
     return 1;
@@ -194,7 +195,8 @@ int vtkSurfaceFEMAlgorithm::RunCompute(vtkInformationVector** inputs, vtkInforma
   }
   catch (const std::bad_alloc&)
   {
-    vtkErrorMacro("Out of memory at Depth " << this->Depth << ": choose a smaller Depth.");
+    vtkErrorMacro(
+      "Out of memory at Depth " << this->State->options.space.depth << ": choose a smaller Depth.");
   }
   catch (const std::exception& error)
   {
@@ -204,6 +206,18 @@ int vtkSurfaceFEMAlgorithm::RunCompute(vtkInformationVector** inputs, vtkInforma
   this->SetErrorCode(vtkErrorCode::UnknownError);
   this->Dump->Swallow(this->GetExecutive());
   return 0;
+}
+
+/// Compute, and what all outputs say: the depth of the grid, where there is one.
+void vtkSurfaceFEMAlgorithm::ComputeSurface(
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  this->Compute(inputs, outputs);
+  if (this->State->basis.space)
+  {
+    gridfem::AddFieldInt(
+      vtkPolyData::GetData(outputs), "UsedDepth", this->State->Functions().GetGrid().depth);
+  }
 }
 
 /// The same on several MPI ranks: all of them come here, also those without a piece of the surface.
@@ -235,7 +249,7 @@ void vtkSurfaceFEMAlgorithm::ComputeOnRanks(
     this->OwnTimeSteps(),
     [this](vtkInformationVector** gathered, vtkInformationVector* results)
     {
-      this->Compute(gathered, results);
+      this->ComputeSurface(gathered, results);
       gridfem::StampTime(!this->OwnTimeSteps().empty(), gathered[0], results);
       return this->OwnTimeSteps();
     });

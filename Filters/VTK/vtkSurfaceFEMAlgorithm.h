@@ -66,9 +66,11 @@ public:
 
   ///@{
   /**
-   * 2^Depth cells lie along the longest side of the bounding box. 2..14, default 7.
+   * 2^Depth cells lie along the longest side of the bounding box. 2..14, default 7; 0: automatic,
+   * the finest grid with no more functions than the surface has points, from 6 on, that fits into
+   * memory. 1 is refused when the filter runs. The field array `UsedDepth` says which.
    */
-  vtkSetClampMacro(Depth, int, 2, 14);
+  vtkSetClampMacro(Depth, int, 0, 14);
   vtkGetMacro(Depth, int);
   ///@}
 
@@ -320,6 +322,7 @@ private:
   void operator=(const vtkSurfaceFEMAlgorithm&) = delete;
 
   int RunCompute(vtkInformationVector** inputs, vtkInformationVector* outputs);
+  void ComputeSurface(vtkInformationVector** inputs, vtkInformationVector* outputs);
   void ComputeOnRanks(vtkInformationVector** inputs, vtkInformationVector* outputs);
   std::vector<double> TimeSteps();
   void FinishAbort(vtkInformationVector* outputs);

@@ -187,6 +187,43 @@ INSTANTIATE_TEST_SUITE_P(BothSpaces, SolverProperties,
   [](const auto& space)
   { return std::string(space.param == Poisson::Grid ? "Grid" : "HatFunctions"); });
 
+TEST_P(SolverProperties, AnAutomaticDepthIsThatOfTheMesh)
+{
+  filter->SetTolerance(1e-4);
+  const auto run = [&](int depth, const TriangleMesh& mesh)
+  {
+    auto surface = ToPolyData(mesh);
+    AddPointArray(surface, "f", 1, Wave);
+    filter->SetDepth(depth);
+    filter->SetInputData(surface);
+    filter->Update();
+    EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 1);
+    return PointValues(filter->GetOutput(), "Solution");
+  };
+  const TriangleMesh coarse = Transform(GeodesicSphere(10), { 1, 2, 0 }, 0.5);
+  const TriangleMesh fine = Transform(GeodesicSphere(210), { 1, 2, 0 }, 0.5);
+  const auto automatic = run(0, fine);
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "UsedDepth"), 7);
+  const Counts runs = Runs(filter);
+  filter->Modified();
+  filter->Update();
+  EXPECT_EQ(Runs(filter), runs) << "chosen once";
+  EXPECT_EQ(run(7, fine), automatic);
+  run(0, coarse);
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "UsedDepth"), 6);
+}
+
+TEST(SolverProperty, DepthOneIsRefused)
+{
+  vtkNew<Poisson> filter;
+  Messages messages(filter);
+  filter->SetInputData(Surface());
+  filter->SetDepth(1);
+  filter->Update();
+  ASSERT_EQ(messages.errors.size(), 1u);
+  EXPECT_NE(messages.errors[0].find("between 2 and 14"), std::string::npos);
+}
+
 TEST(SolverProperty, FiltersOnOneBasisMayDifferInTheirSystems)
 {
   vtkNew<vtkConnectivityAwareBasis> basis;

@@ -39,6 +39,15 @@ constexpr double HeldPerFunction = 80.0;
 constexpr double HatsPerPoint = 680.0;
 constexpr double HatsPerFunction = 10.0;
 
+constexpr int CoarsestSuggestion = 6;
+
+/// A mesh whose triangles share no points is welded: two triangles to a point, whatever it has.
+double WeldedPoints(const TriangleMesh& mesh)
+{
+  const double welded = 0.5 * static_cast<double>(mesh.triangles.size()) + 3.0;
+  return std::min(static_cast<double>(mesh.points.size()), welded);
+}
+
 } // namespace
 
 MemoryEstimate EstimateMemory(const TriangleMesh& mesh, int depth)
@@ -78,12 +87,19 @@ MemoryEstimate EstimateMemory(const TriangleMesh& mesh, int depth)
   return estimate;
 }
 
+int SuggestedDepth(const TriangleMesh& mesh)
+{
+  int depth = CoarsestSuggestion;
+  while (depth < MaximumDepth && EstimateMemory(mesh, depth + 1).functions <= WeldedPoints(mesh))
+  {
+    ++depth;
+  }
+  return depth;
+}
+
 double EstimateHatMemory(const TriangleMesh& mesh, double functions)
 {
-  // A mesh whose triangles share no points is welded: two triangles to a point, whatever it has.
-  const double welded = 0.5 * static_cast<double>(mesh.triangles.size()) + 3.0;
-  const double points = std::min(static_cast<double>(mesh.points.size()), welded);
-  return HatsPerPoint * points + HatsPerFunction * functions;
+  return HatsPerPoint * WeldedPoints(mesh) + HatsPerFunction * functions;
 }
 
 double AvailableMemory()

@@ -21,6 +21,11 @@ struct MemoryEstimate
 /// O(triangles).
 MemoryEstimate EstimateMemory(const TriangleMesh& mesh, int depth);
 
+/// The finest depth at which the grid is expected to have no more functions than the surface has
+/// points, coincident ones counted once: what the mesh can tell, at the cost of the mesh. At least
+/// 6, which costs next to nothing and serves the faces of coarse meshes.
+int SuggestedDepth(const TriangleMesh& mesh);
+
 /// Bytes that the hat functions of a mesh take on top: their matrices, the transfer to the grid and
 /// their part of the hierarchy, with one right-hand side. Within a third on meshes whose triangles
 /// share their points. Cost O(1).

@@ -4,6 +4,7 @@
 #include "BasisReader.h"
 #include "InputValidation.h"
 #include "MetricArray.h"
+#include "Problems/MemoryEstimate.h"
 #include "vtkSurfaceFEMAlgorithm.h"
 
 #include "vtkCellArray.h"
@@ -106,12 +107,28 @@ void SurfaceSolverState::UpdateSpace(
   stages.Run(SpaceStage, key, update);
 }
 
+void SurfaceSolverState::ChooseDepth()
+{
+  if (options.space.depth != AutomaticDepth)
+  {
+    return;
+  }
+  int depth = SuggestedDepth(*mesh.triangles);
+  while (depth > MinimumDepth &&
+         !FitsMemory(*mesh.triangles, depth, options.choice.kind == FunctionKind::Hats))
+  {
+    --depth;
+  }
+  options.space.depth = depth;
+}
+
 void SurfaceSolverState::BuildSpace(vtkPolyData* input, const Progress& progress)
 {
   basis = {}; // frees the memory of the last one first
   space = {};
   mesh = ReadInputMesh(input, options.space.threads, progress.Part(0.0, 0.1));
   RequireSurface(*mesh.triangles);
+  this->ChooseDepth();
   RequireMemory(*mesh.triangles, options.space.depth, options.choice.kind == FunctionKind::Hats);
   basis = MakeSurfaceBasis(mesh.triangles,
     BuildGridFunctions(*mesh.triangles, options.space, progress.Part(0.1, 1.0)),

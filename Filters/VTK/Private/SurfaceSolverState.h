@@ -26,6 +26,9 @@ struct SurfaceOptions
   int parameterUnits = 1; // vtkSurfaceFEMAlgorithm::ParameterUnitsType
 };
 
+/// In the place of a depth: the one that suits the mesh and fits into memory.
+inline constexpr int AutomaticDepth = 0;
+
 /// The stages that filters have in common.
 inline constexpr const char* SpaceStage = "Space";   // mesh, clipping, patches, levels
 inline constexpr const char* SystemStage = "System"; // element matrices, patterns, prolongations
@@ -55,6 +58,9 @@ public:
   /// from `basisData` where it is not null, else built.
   /// Throws InvalidInput and Aborted.
   void UpdateSpace(vtkPolyData* input, vtkPolyData* basisData, const Progress& progress);
+
+  /// Replaces an automatic depth by the one for `mesh`.
+  void ChooseDepth();
 
   /// Builds the function space of a mesh and clips it before. Validates the mesh.
   void BuildSpace(vtkPolyData* input, const Progress& progress);

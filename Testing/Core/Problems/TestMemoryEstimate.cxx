@@ -158,6 +158,28 @@ TEST(MemoryEstimate, HoldsTheHatFunctions)
   }
 }
 
+TEST(MemoryEstimate, TheSuggestedDepthIsTheFinestThatThePointsFill)
+{
+  for (const TriangleMesh& mesh : { testing::GeodesicSphere(120),
+         testing::Torus(500, 200, 1.0, 0.4), testing::TrefoilTube(2000, 60) })
+  {
+    SCOPED_TRACE(mesh.points.size());
+    const auto functionsAt = [&](int depth) {
+      return BuildSpace({ "", mesh, depth }).Finest().numberOfFunctions;
+    };
+    const int depth = SuggestedDepth(mesh);
+    const auto points = static_cast<double>(mesh.points.size());
+    EXPECT_LT(functionsAt(depth), 1.05 * points);
+    EXPECT_GT(functionsAt(depth + 1), 0.95 * points);
+    EXPECT_EQ(SuggestedDepth(testing::Unweld(mesh)), depth);
+  }
+}
+
+TEST(MemoryEstimate, TheSuggestedDepthOfACoarseMeshIsSix)
+{
+  EXPECT_EQ(SuggestedDepth(testing::Box(1)), 6);
+}
+
 TEST(MemoryEstimate, GrowsWithDepth)
 {
   for (const Case& item : Cases())
