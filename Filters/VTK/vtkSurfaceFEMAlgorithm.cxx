@@ -1,9 +1,10 @@
 #include "vtkSurfaceFEMAlgorithm.h"
 
 #include "Private/FailureDump.h"
+#include "Private/InputArray.h"
+#include "Private/InputBlocks.h"
 #include "Private/InputValidation.h"
 #include "Private/PipelineTime.h"
-#include "Private/RankedBlocks.h"
 #include "Private/RankedSurface.h"
 #include "Private/SolverOutput.h"
 #include "Private/SurfaceInput.h"
@@ -44,7 +45,7 @@ vtkSurfaceFEMAlgorithm::vtkSurfaceFEMAlgorithm()
     Surface(std::make_unique<gridfem::SurfaceInput>()),
     Time(std::make_unique<gridfem::InputTime>()), Dump(std::make_unique<gridfem::FailureDump>()),
     Ranked(std::make_unique<gridfem::RankedSurface>()),
-    Blocks(std::make_unique<gridfem::RankedBlocks>())
+    Blocks(std::make_unique<gridfem::InputBlocks>())
 {
   // On several ranks blocks that only some of them have would leave the others waiting.
   vtkNew<vtkCallbackCommand> beginBlocks;
@@ -179,8 +180,7 @@ int vtkSurfaceFEMAlgorithm::RunCompute(vtkInformationVector** inputs, vtkInforma
     }
     else if (!gridfem::IsEmpty(vtkDataSet::GetData(inputs[0])))
     {
-      this->ComputeSurface(this->Surface->Of(inputs, this->GetNumberOfInputPorts()), outputs);
-      gridfem::StampTime(!this->OwnTimeSteps().empty(), inputs[0], outputs);
+      this->ComputeAlone(inputs, outputs);
     }
     return 1;
   }
@@ -206,6 +206,27 @@ int vtkSurfaceFEMAlgorithm::RunCompute(vtkInformationVector** inputs, vtkInforma
   this->SetErrorCode(vtkErrorCode::UnknownError);
   this->Dump->Swallow(this->GetExecutive());
   return 0;
+}
+
+void vtkSurfaceFEMAlgorithm::ComputeAlone(
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkInformationVector** surfaces = this->Surface->Of(inputs, this->GetNumberOfInputPorts());
+  try
+  {
+    this->ComputeSurface(surfaces, outputs);
+  }
+  catch (const gridfem::MissingArray& error)
+  {
+    if (!this->Blocks->AnyHas(error.array))
+    {
+      throw;
+    }
+    EmptyOutputs(outputs);
+    vtkPolyData::GetData(outputs)->ShallowCopy(vtkPolyData::GetData(surfaces[0]));
+    vtkWarningMacro("A block has no array '" << error.array << "'; it is passed on as it is.");
+  }
+  gridfem::StampTime(!this->OwnTimeSteps().empty(), inputs[0], outputs);
 }
 
 /// Compute, and what all outputs say: the depth of the grid, where there is one.

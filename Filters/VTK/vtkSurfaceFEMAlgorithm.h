@@ -19,10 +19,10 @@
  * Input port 0 takes vtkPolyData with polygons of any size or triangle strips. Of any other
  * vtkDataSet the surface is taken, by vtkDataSetSurfaceFilter: outputs lie on it, with the arrays
  * `vtkOriginalPointIds` and `vtkOriginalCellIds`. A composite input is taken leaf by leaf, each as
- * a surface by itself. Vertices,
- * lines, and cells that vtkGhostType marks as hidden or as duplicates take no part; the solvers
- * pass them on, the clip leaves them out. Computation is in double precision. Results do not depend
- * on NumberOfThreads.
+ * a surface by itself; a leaf that lacks an array which another one has is passed on as it is, with
+ * a warning. Vertices, lines, and cells that vtkGhostType marks as hidden or as duplicates take no
+ * part; the solvers pass them on, the clip leaves them out. Computation is in double precision.
+ * Results do not depend on NumberOfThreads.
  *
  * On several MPI ranks the surface is gathered on rank 0, which computes with its threads and has
  * to hold all of it; the others sleep. Ghost cells count once, and points on borders are joined by
@@ -51,8 +51,8 @@
 namespace gridfem
 {
 class FailureDump;
+class InputBlocks;
 class InputTime;
-class RankedBlocks;
 class RankedSurface;
 class SurfaceInput;
 class SurfaceSolverState;
@@ -322,6 +322,7 @@ private:
   void operator=(const vtkSurfaceFEMAlgorithm&) = delete;
 
   int RunCompute(vtkInformationVector** inputs, vtkInformationVector* outputs);
+  void ComputeAlone(vtkInformationVector** inputs, vtkInformationVector* outputs);
   void ComputeSurface(vtkInformationVector** inputs, vtkInformationVector* outputs);
   void ComputeOnRanks(vtkInformationVector** inputs, vtkInformationVector* outputs);
   std::vector<double> TimeSteps();
@@ -331,7 +332,7 @@ private:
   std::unique_ptr<gridfem::InputTime> Time;
   std::unique_ptr<gridfem::FailureDump> Dump;
   std::unique_ptr<gridfem::RankedSurface> Ranked;
-  std::unique_ptr<gridfem::RankedBlocks> Blocks;
+  std::unique_ptr<gridfem::InputBlocks> Blocks;
 };
 
 #endif

@@ -324,8 +324,11 @@ TEST_P(FailureRule, AnAbortAtAnyProgressGivesEmptyOutputs)
   this->ExpectComputed(data);
   const std::vector<double> course = record.progress; // the last is the pipeline's own
   ASSERT_GE(course.size(), 3u);
-  for (const double at : { course.front(), course[course.size() / 2], course[course.size() - 2] })
+  // A slower run may tell of a little less instead, and pass over what comes within this of it.
+  constexpr double leastStep = 0.02;
+  for (const double point : { course.front(), course[course.size() / 2], course[course.size() - 2] })
   {
+    const double at = std::max(course.front(), point - leastStep);
     record = {};
     record.abortAt = at;
     filter->Modified();

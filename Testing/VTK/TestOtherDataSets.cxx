@@ -7,6 +7,7 @@
 
 #include "vtkAppendFilter.h"
 #include "vtkImageData.h"
+#include "vtkMultiBlockDataSet.h"
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -130,4 +131,48 @@ TEST_F(OtherDataSets, CellsWithoutASurfaceAreRefused)
   filter->Update();
   ASSERT_EQ(messages.errors.size(), 1u);
   EXPECT_NE(messages.errors[0].find("no surface"), std::string::npos) << messages.errors[0];
+}
+
+/// The filter's input as blocks, of which only some have the array.
+vtkSmartPointer<vtkMultiBlockDataSet> Blocks(vtkPolyData* block, std::initializer_list<bool> have)
+{
+  auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  unsigned int index = 0;
+  for (const bool has : have)
+  {
+    vtkNew<vtkPolyData> copy;
+    copy->ShallowCopy(block);
+    if (!has)
+    {
+      copy->GetPointData()->RemoveArray("f");
+    }
+    blocks->SetBlock(index++, copy);
+  }
+  return blocks;
+}
+
+TEST_F(OtherDataSets, ABlockWithoutTheArrayIsPassedOn)
+{
+  filter->SetInputDataObject(Blocks(sphere, { true, false, true }));
+  filter->Update();
+  EXPECT_TRUE(messages.errors.empty());
+  ASSERT_EQ(messages.warnings.size(), 1u);
+  EXPECT_NE(messages.warnings[0].find("no array 'f'"), std::string::npos);
+  auto* output = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0));
+  ASSERT_TRUE(output);
+  for (unsigned int block = 0; block < 3; ++block)
+  {
+    auto* surface = vtkPolyData::SafeDownCast(output->GetBlock(block));
+    ASSERT_TRUE(surface);
+    EXPECT_EQ(surface->GetNumberOfCells(), sphere->GetNumberOfCells());
+    EXPECT_EQ(surface->GetPointData()->HasArray("Solution"), block != 1);
+  }
+}
+
+TEST_F(OtherDataSets, AnArrayThatNoBlockHasIsAnError)
+{
+  filter->SetInputDataObject(Blocks(sphere, { false, false }));
+  filter->Update();
+  EXPECT_EQ(messages.errors.size(), 2u); // of each block
+  EXPECT_TRUE(messages.warnings.empty());
 }

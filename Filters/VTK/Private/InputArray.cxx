@@ -83,9 +83,10 @@ void RequireFound(
   const std::string subject = property + " '" + result.name + "'";
   if (!found)
   {
-    throw InvalidInput(subject +
-                       " does not exist. Point arrays: " + ArrayNames(input->GetPointData()) +
-                       ". Cell arrays: " + ArrayNames(input->GetCellData()) + ".");
+    throw MissingArray(subject +
+                         " does not exist. Point arrays: " + ArrayNames(input->GetPointData()) +
+                         ". Cell arrays: " + ArrayNames(input->GetCellData()) + ".",
+      result.name);
   }
   if (!result.array)
   {

@@ -2,10 +2,12 @@
 #ifndef GridFEM_InputArray_h
 #define GridFEM_InputArray_h
 
+#include "Base/Errors.h"
 #include "InputMesh.h"
 #include "Integrals/LoadVector.h"
 
 #include <string>
+#include <utility>
 
 class vtkAlgorithm;
 class vtkDataArray;
@@ -22,10 +24,20 @@ struct InputArray
   std::string name;
 };
 
+/// The input lacks the chosen array.
+struct MissingArray : InvalidInput
+{
+  MissingArray(const std::string& message, std::string name)
+    : InvalidInput(message), array(std::move(name))
+  {
+  }
+  std::string array;
+};
+
 /// The array that SetInputArrayToProcess(index, ...) names, null array when none is chosen (an
-/// empty name or "None", unless an array has that name). Throws InvalidInput when the chosen array
-/// does not exist, is not numeric, is neither point nor cell data, or has the wrong length;
-/// `property` is the name the message gives.
+/// empty name or "None", unless an array has that name). Throws MissingArray when the chosen array
+/// does not exist, InvalidInput when it is not numeric, is neither point nor cell data, or has the
+/// wrong length; `property` is the name the message gives.
 InputArray FindInputArray(
   vtkAlgorithm* algorithm, int index, vtkDataSet* input, const std::string& property);
 

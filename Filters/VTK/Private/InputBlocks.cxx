@@ -1,9 +1,10 @@
-#include "RankedBlocks.h"
+#include "InputBlocks.h"
 
 #include "Ranks.h"
 
 #include "Base/Errors.h"
 
+#include "vtkCellData.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataObjectTree.h"
@@ -14,6 +15,7 @@
 #include "vtkMultiPieceDataSet.h"
 #include "vtkPartitionedDataSet.h"
 #include "vtkPartitionedDataSetCollection.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
@@ -184,20 +186,26 @@ vtkSmartPointer<vtkDataObjectTree> CopyOf(vtkDataObjectTree* tree)
 
 } // namespace
 
-void RankedBlocks::Begin(vtkInformationVector** inputs, int ports)
+void InputBlocks::Begin(vtkInformationVector** inputs, int ports)
 {
-  if (depth_++ == 0 && Ranks::AreSeveral())
+  if (depth_++ > 0)
+  {
+    return;
+  }
+  if (Ranks::AreSeveral())
   {
     this->Align(inputs, ports);
   }
+  whole_ = vtkCompositeDataSet::GetData(inputs[0]);
 }
 
-void RankedBlocks::End()
+void InputBlocks::End()
 {
   if (--depth_ > 0)
   {
     return;
   }
+  whole_ = nullptr;
   for (const auto& [information, data] : given_)
   {
     information->Set(vtkDataObject::DATA_OBJECT(), data);
@@ -205,7 +213,7 @@ void RankedBlocks::End()
   given_.clear();
 }
 
-void RankedBlocks::Align(vtkInformationVector** inputs, int ports)
+void InputBlocks::Align(vtkInformationVector** inputs, int ports)
 {
   failure_ = nullptr;
   const Ranks ranks;
@@ -225,7 +233,7 @@ void RankedBlocks::Align(vtkInformationVector** inputs, int ports)
   }
 }
 
-void RankedBlocks::AlignPort(vtkInformation* information, const std::vector<std::string>& blocks)
+void InputBlocks::AlignPort(vtkInformation* information, const std::vector<std::string>& blocks)
 {
   if (std::all_of(blocks.begin(), blocks.end(),
         [&](const std::string& others) { return others == blocks.front(); }))
@@ -263,7 +271,26 @@ void RankedBlocks::AlignPort(vtkInformation* information, const std::vector<std:
   information->Set(vtkDataObject::DATA_OBJECT(), copy);
 }
 
-void RankedBlocks::RequireAligned() const
+bool InputBlocks::AnyHas(const std::string& array) const
+{
+  if (!whole_)
+  {
+    return false;
+  }
+  auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(whole_->NewIterator());
+  for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+  {
+    auto* block = vtkDataSet::SafeDownCast(iterator->GetCurrentDataObject());
+    if (block && (block->GetPointData()->HasArray(array.c_str()) ||
+                   block->GetCellData()->HasArray(array.c_str())))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+void InputBlocks::RequireAligned() const
 {
   if (failure_)
   {
