@@ -326,7 +326,8 @@ TEST_P(FailureRule, AnAbortAtAnyProgressGivesEmptyOutputs)
   ASSERT_GE(course.size(), 3u);
   // A slower run may tell of a little less instead, and pass over what comes within this of it.
   constexpr double leastStep = 0.02;
-  for (const double point : { course.front(), course[course.size() / 2], course[course.size() - 2] })
+  for (const double point :
+    { course.front(), course[course.size() / 2], course[course.size() - 2] })
   {
     const double at = std::max(course.front(), point - leastStep);
     record = {};
