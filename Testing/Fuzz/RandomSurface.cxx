@@ -1,5 +1,7 @@
 #include "RandomSurface.h"
 
+#include "Grid/RequireSurface.h"
+
 #include <limits>
 #include <sstream>
 
@@ -40,6 +42,10 @@ void FillColumn(Choice& choice, MultiVector& values, Id column)
 
 void RandomSurface::Build()
 {
+  if (isChecked)
+  {
+    RequireSurface(*mesh);
+  }
   if (isOnHats)
   {
     const auto hats = std::make_shared<HatSpace>(BuildHatSpace(*mesh, options));
@@ -61,7 +67,8 @@ std::string RandomSurface::Describe() const
        << (isOnHats ? "hats, depth " : "depth ") << options.functions.depth
        << (options.functions.connectivityAware ? "" : ", plain")
        << (options.functions.weldCoincidentPoints ? "" : ", not welded")
-       << (options.functions.joinAtPoints ? ", joined at points" : "");
+       << (options.functions.joinAtPoints ? ", joined at points" : "")
+       << (isChecked ? "" : ", unchecked");
   return text.str();
 }
 
@@ -72,12 +79,13 @@ RandomSurface MakeRandomSurface(Choice& choice, bool isDefault)
   surface.name = made.name;
   surface.mesh = std::make_shared<const TriangleMesh>(std::move(made.mesh));
   SpaceOptions& functions = surface.options.functions;
-  functions.depth = choice.Of({ 2, 3, 3, 4, 4, 5 });
+  functions.depth = choice.Of({ 2, 2, 2, 3, 3, 3, 3, 3, 4, 4, 4, 5 });
   functions.connectivityAware = !choice.OneIn(3);
   functions.weldCoincidentPoints = !choice.OneIn(4);
   functions.joinAtPoints = choice.OneIn(8);
   functions.threads = static_cast<int>(choice.Of({ 1, 1, 1, 2 }));
   surface.isOnHats = choice.OneIn(3);
+  surface.isChecked = isDefault || !choice.OneIn(10);
   if (!isDefault)
   {
     ChooseIntegrals(choice, surface.options);

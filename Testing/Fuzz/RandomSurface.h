@@ -21,6 +21,8 @@ struct RandomSurface
   Id NumberOfPoints() const { return static_cast<Id>(mesh->points.size()); }
   Id NumberOfTriangles() const { return static_cast<Id>(mesh->triangles.size()); }
 
+  bool isChecked = true; // RequireSurface has the first word
+
   /// Throws InvalidInput.
   void Build();
 
