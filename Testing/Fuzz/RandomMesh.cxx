@@ -29,7 +29,7 @@ TriangleMesh Empty(Choice& choice)
 TriangleMesh Soup(Choice& choice)
 {
   TriangleMesh mesh;
-  for (Id k = choice.Integer(1, 30); k > 0; --k)
+  for (Id k = choice.Integer(1, 15); k > 0; --k)
   {
     const Vec3 a = choice.Vector();
     const Vec3 b = choice.Vector();
@@ -42,7 +42,7 @@ TriangleMesh SeparateTriangles(Choice& choice)
 {
   TriangleMesh mesh;
   const double size = choice.PowerOfTen(-4.0, 0.0);
-  for (Id k = choice.Integer(1, 20); k > 0; --k)
+  for (Id k = choice.Integer(1, 10); k > 0; --k)
   {
     const Vec3 a = choice.Vector();
     const Vec3 b = a + size * choice.Vector();
@@ -61,7 +61,7 @@ TriangleMesh OnLattice(Choice& choice)
     const double y = double(choice.Integer(0, 4));
     return Vec3(x, y, double(choice.Integer(0, 4)));
   };
-  for (Id k = choice.Integer(1, 20); k > 0; --k)
+  for (Id k = choice.Integer(1, 10); k > 0; --k)
   {
     const Vec3 a = corner();
     const Vec3 b = corner();
@@ -79,7 +79,7 @@ TriangleMesh Tangle(Choice& choice)
     mesh.points.push_back(choice.Vector());
   }
   const Id last = static_cast<Id>(mesh.points.size()) - 1;
-  for (Id k = choice.Integer(1, 30); k > 0; --k)
+  for (Id k = choice.Integer(1, 15); k > 0; --k)
   {
     const Id a = choice.Integer(0, last);
     const Id b = choice.Integer(0, last);
@@ -105,7 +105,7 @@ TriangleMesh Slivers(Choice& choice)
 {
   TriangleMesh mesh;
   const double height = choice.PowerOfTen(-14.0, -1.0);
-  for (Id k = choice.Integer(1, 20); k > 0; --k)
+  for (Id k = choice.Integer(1, 10); k > 0; --k)
   {
     const Vec3 a = choice.Vector();
     const Vec3 b = choice.Vector();
@@ -155,27 +155,27 @@ TriangleMesh Sheets(Choice& choice)
 
 TriangleMesh Plane(Choice& choice)
 {
-  const int columns = static_cast<int>(choice.Integer(1, 8));
+  const int columns = static_cast<int>(choice.Integer(1, 5));
   return FlatRectangle(
-    columns, static_cast<int>(choice.Integer(1, 8)), choice.PowerOfTen(-3.0, 3.0), 1.0);
+    columns, static_cast<int>(choice.Integer(1, 5)), choice.PowerOfTen(-3.0, 3.0), 1.0);
 }
 
 TriangleMesh Sphere(Choice& choice)
 {
-  return GeodesicSphere(static_cast<int>(choice.Integer(1, 6)));
+  return GeodesicSphere(static_cast<int>(choice.Integer(1, 4)));
 }
 
 TriangleMesh Ring(Choice& choice)
 {
-  const int along = static_cast<int>(choice.Integer(3, 20));
-  return Torus(along, static_cast<int>(choice.Integer(3, 9)), 1.0, choice.PowerOfTen(-4.0, -0.1));
+  const int along = static_cast<int>(choice.Integer(3, 12));
+  return Torus(along, static_cast<int>(choice.Integer(3, 6)), 1.0, choice.PowerOfTen(-4.0, -0.1));
 }
 
 /// A strip that is closed after half a turn.
 TriangleMesh MoebiusStrip(Choice& choice)
 {
   TriangleMesh mesh;
-  const Id count = choice.Integer(3, 20);
+  const Id count = choice.Integer(3, 12);
   for (Id k = 0; k < count; ++k)
   {
     const double angle = 2.0 * 3.14159265358979 * double(k) / double(count);

@@ -79,7 +79,7 @@ RandomSurface MakeRandomSurface(Choice& choice, bool isDefault)
   surface.name = made.name;
   surface.mesh = std::make_shared<const TriangleMesh>(std::move(made.mesh));
   SpaceOptions& functions = surface.options.functions;
-  functions.depth = choice.Of({ 2, 2, 2, 3, 3, 3, 3, 3, 4, 4, 4, 5 });
+  functions.depth = choice.OneIn(80) ? 5 : choice.Of({ 2, 2, 2, 2, 3, 3, 3, 3, 4 });
   functions.connectivityAware = !choice.OneIn(3);
   functions.weldCoincidentPoints = !choice.OneIn(4);
   functions.joinAtPoints = choice.OneIn(8);
@@ -111,7 +111,7 @@ SolveOptions RandomSolve(Choice& choice)
 {
   SolveOptions options;
   options.tolerance = choice.PowerOfTen(-14.0, 1.0);
-  options.maximumIterations = static_cast<int>(choice.Of({ 1, 5, 30, 100 }));
+  options.maximumIterations = static_cast<int>(choice.Of({ 1, 5, 20, 60 }));
   options.measure = choice.Of({ SolveOptions::Measure::Energy, SolveOptions::Measure::Residual });
   options.giveUp = choice.Of({ SolveOptions::GiveUp::Never, SolveOptions::GiveUp::AtStandstill,
     SolveOptions::GiveUp::WhenTooSlow });

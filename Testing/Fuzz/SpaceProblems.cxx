@@ -164,7 +164,7 @@ void CheckClip(Choice& choice, RandomSurface& surface, Outcome& outcome)
 {
   ClipOptions options;
   options.depth = choice.OneIn(50) ? static_cast<int>(choice.Of({ -1, 15 }))
-                                   : static_cast<int>(choice.Integer(2, 6));
+                                   : static_cast<int>(choice.Integer(2, 5));
   options.weldCoincidentPoints = surface.options.functions.weldCoincidentPoints;
   options.threads = surface.options.functions.threads;
   options.joinAtPoints = surface.options.functions.joinAtPoints;

@@ -194,6 +194,11 @@ PoissonSolution SolvePoisson(const FiniteElementSpace& space, const Multigrid& m
     space, multigrid, rest, scale, options, { removeMeans, removeSums }, progress);
   means.AddConstants(meanOfField, solution.coefficients);
   solution.coefficients *= scale.cwiseInverse().asDiagonal();
+  if (solution.report.converged && !solution.coefficients.allFinite())
+  {
+    solution.report.converged = false; // values near the largest number, and coefficients above it
+    solution.report.end = SolveEnd::Breakdown;
+  }
   return solution;
 }
 
