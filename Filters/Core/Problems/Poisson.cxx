@@ -193,12 +193,7 @@ PoissonSolution SolvePoisson(const FiniteElementSpace& space, const Multigrid& m
   PoissonSolution solution = SolveWithoutMeans(
     space, multigrid, rest, scale, options, { removeMeans, removeSums }, progress);
   means.AddConstants(meanOfField, solution.coefficients);
-  solution.coefficients *= scale.cwiseInverse().asDiagonal();
-  if (solution.report.converged && !solution.coefficients.allFinite())
-  {
-    solution.report.converged = false; // values near the largest number, and coefficients above it
-    solution.report.end = SolveEnd::Breakdown;
-  }
+  RemoveScales(scale, solution.coefficients, solution.report);
   return solution;
 }
 
