@@ -190,21 +190,27 @@ void TriangleClipper::Split(
     const int there = sideOf(next);
     hasBelow |= here < 0;
     hasAbove |= here > 0;
-    // Of corners on the plane that follow each other, as in a triangle that is nearly in it, both
-    // sides get the first; the others go where the polygon goes on, or the two would overlap.
-    int after = there;
-    for (int k = i + 2; here == 0 && after == 0 && k < i + polygon.size; ++k)
+    if (here != 0)
     {
-      after = sideOf(polygon.corner[k % polygon.size]);
+      (here < 0 ? below : above).Push(corner.vertex, corner.tag);
     }
-    const bool isShared = here == 0 && before != 0;
-    if (here < 0 || isShared || (here == 0 && after <= 0))
+    else
     {
-      below.Push(corner.vertex, here == 0 && after > 0 ? planeTag : corner.tag);
-    }
-    if (here > 0 || isShared || (here == 0 && after >= 0))
-    {
-      above.Push(corner.vertex, here == 0 && after < 0 ? planeTag : corner.tag);
+      // Of corners on the plane that follow each other, as in a triangle that is nearly in it, both
+      // sides get the first; the others go where the polygon goes on, or the two would overlap.
+      int after = there;
+      for (int k = i + 2; after == 0 && k < i + polygon.size; ++k)
+      {
+        after = sideOf(polygon.corner[k % polygon.size]);
+      }
+      if (before != 0 || after <= 0)
+      {
+        below.Push(corner.vertex, after > 0 ? planeTag : corner.tag);
+      }
+      if (before != 0 || after >= 0)
+      {
+        above.Push(corner.vertex, after < 0 ? planeTag : corner.tag);
+      }
     }
     if (here * there < 0)
     {
