@@ -181,22 +181,36 @@ void TriangleClipper::Split(
     return (value > plane) - (value < plane);
   };
   const int planeTag = PlaneTag + axis;
-  int there = sideOf(polygon.corner[0]);
+  int before = sideOf(polygon.corner[polygon.size - 1]);
+  int here = sideOf(polygon.corner[0]);
   for (int i = 0; i < polygon.size; ++i)
   {
     const Corner& corner = polygon.corner[i];
     const Corner& next = polygon.corner[i + 1 == polygon.size ? 0 : i + 1];
-    const int here = there;
-    there = sideOf(next);
+    const int there = sideOf(next);
     hasBelow |= here < 0;
     hasAbove |= here > 0;
-    if (here <= 0)
+    if (here != 0)
     {
-      below.Push(corner.vertex, here == 0 && there > 0 ? planeTag : corner.tag);
+      (here < 0 ? below : above).Push(corner.vertex, corner.tag);
     }
-    if (here >= 0)
+    else
     {
-      above.Push(corner.vertex, here == 0 && there < 0 ? planeTag : corner.tag);
+      // Of corners on the plane that follow each other, as in a triangle that is nearly in it, both
+      // sides get the first; the others go where the polygon goes on, or the two would overlap.
+      int after = there;
+      for (int k = i + 2; after == 0 && k < i + polygon.size; ++k)
+      {
+        after = sideOf(polygon.corner[k % polygon.size]);
+      }
+      if (before != 0 || after <= 0)
+      {
+        below.Push(corner.vertex, after > 0 ? planeTag : corner.tag);
+      }
+      if (before != 0 || after >= 0)
+      {
+        above.Push(corner.vertex, after < 0 ? planeTag : corner.tag);
+      }
     }
     if (here * there < 0)
     {
@@ -206,6 +220,8 @@ void TriangleClipper::Split(
       below.Push(cut, here < 0 ? planeTag : corner.tag);
       above.Push(cut, here < 0 ? corner.tag : planeTag);
     }
+    before = here;
+    here = there;
   }
   below.size = hasBelow ? below.size : 0;
   above.size = hasAbove ? above.size : 0;

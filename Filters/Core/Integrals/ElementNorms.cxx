@@ -39,7 +39,7 @@ Columns SquaredNorms(
         PatchRows row;
         for (int i = 0; i < FunctionsPerPatch; ++i)
         {
-          row[i] = &u(level.dof[patch][i], 0);
+          row[i] = u.data() + level.dof[patch][i] * u.cols(); // of no columns, too
         }
         for (Id c = 0; c < u.cols(); ++c)
         {

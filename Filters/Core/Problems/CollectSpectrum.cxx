@@ -161,9 +161,12 @@ Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs<Rea
   Spectrum spectrum;
   spectrum.vectors = SideBySide(constants.Vectors(zeros), pairs.vectors, others, problem.threads);
   pairs.vectors = {};
-  if (std::is_same_v<Real, float> && others > 0)
+  if (others > 0) // what remains of a constant that has come back, as on a sliver, has no mass
   {
     constants.Remove<double>(spectrum.vectors.rightCols(others));
+  }
+  if (std::is_same_v<Real, float> && others > 0)
+  {
     Orthonormalize(problem.mass, spectrum.vectors.rightCols(others), problem.threads, progress);
   }
 

@@ -24,4 +24,14 @@ Eigen::RowVectorXd ScalesOf(const MultiVector& first, const MultiVector& second)
   return scale;
 }
 
+void RemoveScales(const Eigen::RowVectorXd& scale, MultiVector& solution, SolveReport& report)
+{
+  solution *= scale.cwiseInverse().asDiagonal();
+  if (report.converged && !solution.allFinite())
+  {
+    report.converged = false;
+    report.end = SolveEnd::Breakdown;
+  }
+}
+
 } // namespace gridfem

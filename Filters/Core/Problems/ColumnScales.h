@@ -2,7 +2,7 @@
 #ifndef GridFEM_ColumnScales_h
 #define GridFEM_ColumnScales_h
 
-#include "Base/Types.h"
+#include "Krylov/ConjugateGradients.h"
 
 namespace gridfem
 {
@@ -11,6 +11,10 @@ namespace gridfem
 /// of a solution changes. 1 for columns of zeros and for those that are not finite. A block may
 /// have no rows.
 Eigen::RowVectorXd ScalesOf(const MultiVector& first, const MultiVector& second);
+
+/// Takes the scales out of a solution. Where that leaves the range of numbers, because its data are
+/// near the largest one, it has not converged: SolveEnd::Breakdown.
+void RemoveScales(const Eigen::RowVectorXd& scale, MultiVector& solution, SolveReport& report);
 
 } // namespace gridfem
 

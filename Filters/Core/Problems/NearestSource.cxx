@@ -30,7 +30,7 @@ class Descent
 public:
   Descent(const TriangleMesh& mesh, const std::vector<double>& distance,
     const std::vector<Id>& sources, bool weld, int threads)
-    : mesh_(mesh), distance_(distance), place_(PlacesOf(mesh, weld)),
+    : mesh_(mesh), place_(PlacesOf(mesh, weld)), distance_(DistancesOf(place_, distance)),
       number_(mesh.points.size(), None)
   {
     std::vector<Index> cornerPlace;
@@ -93,7 +93,7 @@ public:
   Id SourceOf(Id point) const
   {
     const Index number = number_[place_[point]];
-    return number == None || std::isnan(distance_[point]) ? -1 : sources_[number];
+    return number == None ? -1 : sources_[number];
   }
 
 private:
@@ -107,6 +107,18 @@ private:
       std::copy(welded.begin(), welded.end(), place.begin());
     }
     return place;
+  }
+
+  /// Of places the least of their points': sheets that touch in a point alone have each their own.
+  static std::vector<double> DistancesOf(
+    const std::vector<Index>& place, const std::vector<double>& atPoints)
+  {
+    std::vector<double> distance = atPoints;
+    for (std::size_t point = 0; point < place.size(); ++point)
+    {
+      distance[place[point]] = std::fmin(distance[place[point]], atPoints[point]);
+    }
+    return distance;
   }
 
   /// Sources first.
@@ -246,13 +258,13 @@ private:
   }
 
   const TriangleMesh& mesh_;
-  const std::vector<double>& distance_;
-  std::vector<Index> place_;  // per point the first one in its place
-  Groups corners_;            // per place: 3 triangle + corner
-  std::vector<Index> rank_;   // in the order of the distance
-  std::vector<Id> sources_;   // without repeats
-  std::vector<Index> number_; // per place, of its source
-  MultiVector share_;         // per place, of the digits of numbers
+  std::vector<Index> place_;     // per point the first one in its place
+  std::vector<double> distance_; // per place
+  Groups corners_;               // per place: 3 triangle + corner
+  std::vector<Index> rank_;      // in the order of the distance
+  std::vector<Id> sources_;      // without repeats
+  std::vector<Index> number_;    // per place, of its source
+  MultiVector share_;            // per place, of the digits of numbers
   int digits_ = 0;
 };
 
@@ -283,7 +295,7 @@ std::vector<Id> NearestSources(const TriangleMesh& mesh, const std::vector<doubl
   std::vector<Id> nearest(mesh.points.size());
   for (Id point = 0; point < static_cast<Id>(nearest.size()); ++point)
   {
-    nearest[point] = descent.SourceOf(point);
+    nearest[point] = std::isnan(distance[point]) ? -1 : descent.SourceOf(point);
   }
   return nearest;
 }

@@ -22,7 +22,8 @@ void RequireSources(const std::vector<Id>& sources, std::size_t points);
 /// @param sources   points of the mesh, whose distance is 0
 /// @param weldCoincidentPoints  whether points in one place are one
 /// @return  per point of the mesh a source, the first in the list of those in its place; -1 where
-///   the distance is NaN. Borders are right to about an edge of the mesh.
+///   the distance is NaN, and where triangles lead to no source: functions that are not aware of
+///   connectivity have distances across gaps, too. Borders are right to about an edge of the mesh.
 /// Throws InvalidInput when there is not one distance per point or a source is no point, and
 /// Aborted.
 std::vector<Id> NearestSources(const TriangleMesh& mesh, const std::vector<double>& distance,

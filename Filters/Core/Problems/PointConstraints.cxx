@@ -408,7 +408,8 @@ ConstrainedSolution SolveConstrained(const FiniteElementSpace& space, double a,
   }
   solution.misfit =
     iteration.misfit.size() > 0 ? (iteration.misfit.array() / scale.array()).maxCoeff() : 0.0;
-  solution.coefficients = iteration.x * scale.cwiseInverse().asDiagonal();
+  solution.coefficients = std::move(iteration.x);
+  RemoveScales(scale, solution.coefficients, solution.report);
   for (Id i = 0; i < solution.coefficients.rows(); ++i)
   {
     const Index own = components.ofFunction[i];

@@ -110,6 +110,25 @@ MultiVector GivenStart(
   return {};
 }
 
+/// Whether every column of the residual is what rounding makes of its own terms, |r| <= ε | |A||x|
+/// | with a small factor: then x solves a system whose numbers differ from these by rounding alone.
+bool IsRounding(
+  const SparseMatrix& A, const MultiVector& b, const MultiVector& x, const Projection& project)
+{
+  constexpr double Relative = 16.0 * std::numeric_limits<double>::epsilon();
+  MultiVector r;
+  Residual(A, x, b, r);
+  project.residual(r);
+  SparseMatrix positive = A;
+  for (double& value : positive.value)
+  {
+    value = std::abs(value);
+  }
+  MultiVector terms;
+  Multiply(positive, x.cwiseAbs(), terms);
+  return (r.colwise().norm().array() <= Relative * terms.colwise().norm().array()).all();
+}
+
 /// The part of the solution without means, and what is known of its errors.
 /// @param scale  of the columns of the load
 PoissonSolution SolveWithoutMeans(const FiniteElementSpace& space, const Multigrid& multigrid,
@@ -141,6 +160,12 @@ PoissonSolution SolveWithoutMeans(const FiniteElementSpace& space, const Multigr
   project.solution(solution.coefficients);
   solution.report = SolveWithFallback(options.iteration, OperatorOf(multigrid),
     CycleWithFallback(multigrid), load, solution.coefficients, solve, project, progress);
+  if (!solution.report.converged &&
+      IsRounding(multigrid.Matrix(), load, solution.coefficients, project))
+  {
+    solution.isAtRounding = true;
+    solution.report.end = SolveEnd::Stagnation;
+  }
   if (watch)
   {
     solution.accuracy = watch->Result(solution.coefficients, scale);
@@ -193,7 +218,7 @@ PoissonSolution SolvePoisson(const FiniteElementSpace& space, const Multigrid& m
   PoissonSolution solution = SolveWithoutMeans(
     space, multigrid, rest, scale, options, { removeMeans, removeSums }, progress);
   means.AddConstants(meanOfField, solution.coefficients);
-  solution.coefficients *= scale.cwiseInverse().asDiagonal();
+  RemoveScales(scale, solution.coefficients, solution.report);
   return solution;
 }
 

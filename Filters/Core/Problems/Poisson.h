@@ -28,6 +28,10 @@ struct PoissonSolution
   MultiVector coefficients; // rows = functions, one column per component
   SolveReport report;
   SolutionAccuracy accuracy; // unknown unless asked for
+  /// It has not converged, and no iteration would: the residual is rounding. The numbers of the
+  /// equation do not determine the solution better than the report says, as where all triangles
+  /// are narrow or far smaller than the functions. A larger weight of the normal derivative does.
+  bool isAtRounding = false;
 };
 
 /// Solves for all columns. The solution has the mean of f on every connected component, for every

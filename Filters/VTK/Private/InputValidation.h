@@ -1,8 +1,8 @@
-// The one place that decides whether an input can be computed on, and says why not.
+// What decides, with RequireSurface, whether an input can be computed on, and says why not.
 #ifndef GridFEM_InputValidation_h
 #define GridFEM_InputValidation_h
 
-#include "Grid/TriangleMesh.h"
+#include "Grid/RequireSurface.h"
 
 class vtkDataSet;
 
@@ -21,9 +21,6 @@ void RequireAtLeast(const char* property, double value, double least);
 /// Throws InvalidInput for a data set with volume cells, which has a surface of its own on every
 /// rank that holds a piece of it. The data set may be null.
 void RequireNoVolume(vtkDataSet* piece);
-
-/// Throws InvalidInput for NaN or infinite coordinates, and for a surface without area.
-void RequireSurface(const TriangleMesh& mesh);
 
 /// Whether all that a filter makes at this depth should fit into memory.
 bool FitsMemory(const TriangleMesh& mesh, int depth, bool hatFunctions = false);

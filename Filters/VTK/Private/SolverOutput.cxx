@@ -160,11 +160,13 @@ const char* ReasonOf(const SolveReport& report)
     case SolveEnd::NotFinite:
       return "the values or gradients contain numbers that are not finite";
     case SolveEnd::Stagnation:
-      return "it stagnated: more would bring nothing";
+      return "it stagnated: more would bring nothing. Where triangles are narrow, or pieces far "
+             "smaller than the cells, NormalStabilization = 1e-2 or the filter Clean helps";
     case SolveEnd::Breakdown:
       break;
   }
-  return "it broke down: the system has no solution, or numbers are out of range";
+  return "it broke down: the system has no solution, or its numbers span more digits than there "
+         "are, as those of hat functions on triangles narrower than 1e-7 of their length";
 }
 
 const char* ReasonOfError(bool hatFunctions)

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <random>
 #include <set>
 
 using namespace gridfem;
@@ -92,6 +93,24 @@ TEST(Clip, AreasOfEveryTriangleAddUp)
       0.5 *
       (mesh.points[mesh.triangles[t][1]] - a).cross(mesh.points[mesh.triangles[t][2]] - a).norm();
     EXPECT_NEAR(area[t] * std::pow(clipped.grid.spacing, 2), whole, 1e-12 * whole) << t;
+  }
+}
+
+TEST(Clip, AreasAddUpNearAGridPlane)
+{
+  // Heights of some 1e-10 of a cell, of which points and cuts are taken onto the plane one by one.
+  const double cell = 1.0 / 16.0;
+  for (unsigned seed = 1; seed <= 100; ++seed)
+  {
+    std::mt19937 generator(seed);
+    TriangleMesh mesh = FlatRectangle(3, 2, 1.0, 0.3);
+    for (Vec3& point : mesh.points)
+    {
+      point[2] = cell * (4.0 + 6e-10 * (double(generator()) / double(std::mt19937::max()) - 0.5));
+    }
+    mesh = Join(mesh, Transform(FlatRectangle(1, 1), { 1, 0, 0 }, std::acos(-1.0) / 2)); // heights
+    const double area = SurfaceArea(mesh);
+    ASSERT_NEAR(ClippedArea(ClipAt(mesh, 4)), area, 1e-9 * area) << seed;
   }
 }
 

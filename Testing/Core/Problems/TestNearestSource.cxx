@@ -136,6 +136,24 @@ TEST(NearestSource, GoesAcrossUnweldedEdgesWhereTheyAreWelded)
   EXPECT_GT(std::count(torn.begin(), torn.end(), -1), 1000); // no triangle knows of another
 }
 
+TEST(NearestSource, GoesThroughAPointThatLiesOnAnotherSheet)
+{
+  // The first of two points in one place belongs to a surface without a source.
+  const TriangleMesh mesh =
+    Join(FlatRectangle(2, 2), Transform(FlatRectangle(2, 2), { 0, 0, 1 }, std::acos(-1.0)));
+  std::vector<double> distance(9, std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t point = 9; point < mesh.points.size(); ++point)
+  {
+    distance.push_back((mesh.points[point] - mesh.points[17]).norm());
+  }
+  ASSERT_EQ(mesh.points[0], mesh.points[9]);
+  const std::vector<Id> nearest = NearestSources(mesh, distance, { 17 }, true);
+  for (std::size_t point = 0; point < nearest.size(); ++point)
+  {
+    EXPECT_EQ(nearest[point], point < 9 ? -1 : 17) << point;
+  }
+}
+
 TEST(NearestSource, IsNoneWhereNoDistanceIs)
 {
   const TriangleMesh mesh = TwoSheets(8, 0.1);

@@ -381,6 +381,42 @@ TEST(Poisson, DoesNotDependOnTheSizeOfNumbers)
     RelativeDifference(1e170 * small.coefficients, problem.Solve(load, {}).coefficients), 1e-9);
 }
 
+TEST(Poisson, SolutionsBeyondTheLargestNumberHaveNotConverged)
+{
+  const TriangleMesh mesh = GeodesicSphere(8);
+  const Problem problem(mesh, AtDepth(4), 1e-6);
+  const MultiVector load = 1e305 * problem.Values(RandomValues(mesh.points.size(), 1));
+  const PoissonSolution solution = problem.Solve(load, 1e3 * load);
+  EXPECT_FALSE(solution.report.converged);
+  EXPECT_EQ(solution.report.end, SolveEnd::Breakdown);
+}
+
+TEST(Poisson, SaysWhereRoundingIsTheEnd)
+{
+  // A triangle of 1 % of a cell: functions that differ in it are known by their normal derivative
+  // alone, whose weight is 1e-12.
+  TriangleMesh mesh;
+  for (const Vec3& corner : { Vec3(0.1, 0.2, 0.3), Vec3(1.1, 0.7, 0.4), Vec3(0.3, 1.2, 0.9) })
+  {
+    const Id first = static_cast<Id>(mesh.points.size());
+    mesh.points.insert(mesh.points.end(),
+      { corner, corner + Vec3(0.003, 0.001, 0.0), corner + Vec3(0.0, 0.002, 0.001) });
+    mesh.triangles.push_back({ first, first + 1, first + 2 });
+  }
+  Problem problem(mesh, AtDepth(2), 1e-9);
+  problem.options.solve.tolerance = 1e-14;
+  const PoissonSolution solution = problem.Solve(problem.Values(RandomValues(9, 1)), {});
+  EXPECT_FALSE(solution.report.converged);
+  EXPECT_TRUE(solution.isAtRounding);
+  EXPECT_EQ(solution.report.end, SolveEnd::Stagnation);
+
+  const TriangleMesh sphere = GeodesicSphere(8);
+  Problem unfinished(sphere, AtDepth(4), 1.0);
+  unfinished.options.solve.maximumIterations = 1;
+  const MultiVector f = RandomValues(sphere.points.size(), 1);
+  EXPECT_FALSE(unfinished.Solve(unfinished.Values(f), {}).isAtRounding);
+}
+
 TEST(Poisson, ProgressIsAlwaysANumber)
 {
   const TriangleMesh mesh = GeodesicSphere(8);

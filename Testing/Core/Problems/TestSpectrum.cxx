@@ -187,6 +187,25 @@ TEST(Spectrum, ScalesWithTheInverseSquareOfLength)
   }
 }
 
+TEST(Spectrum, HasEveryConstantOnceOnTrianglesMuchSmallerThanCells)
+{
+  // Three triangles, each 2 % of a cell long: no more than a few functions can be told apart.
+  TriangleMesh mesh;
+  for (const Vec3& corner :
+    { Vec3(0.97, -0.54, 0.33), Vec3(-0.71, -0.14, -0.04), Vec3(-0.2, -0.8, -0.8) })
+  {
+    const Id first = static_cast<Id>(mesh.points.size());
+    mesh.points.insert(mesh.points.end(),
+      { corner, corner + Vec3(-0.003, 0.0034, 0.0024), corner + Vec3(-0.0029, 0.0033, 0.0002) });
+    mesh.triangles.push_back({ first, first + 1, first + 2 });
+  }
+  const Discretisation on = DiscretiseExactly(mesh, 3);
+  const Spectrum spectrum = Solve(on, 10, 1e-6);
+  EXPECT_EQ(std::count_if(spectrum.eigenvalues.begin(), spectrum.eigenvalues.end(),
+              [](double value) { return value < 1e-6; }),
+    3);
+}
+
 TEST(Spectrum, ReportsWhatHasNotConverged)
 {
   const Discretisation on = DiscretiseExactly(GeodesicSphere(16), 4);

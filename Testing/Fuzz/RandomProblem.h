@@ -1,0 +1,42 @@
+// Random problems on random surfaces, and what has to hold for each of them.
+#ifndef GridFEM_Testing_RandomProblem_h
+#define GridFEM_Testing_RandomProblem_h
+
+#include "Outcome.h"
+#include "RandomSurface.h"
+
+namespace gridfem::testing
+{
+
+/// The case of a seed. What Core throws, but for InvalidInput, is among what is broken.
+Outcome RunCase(std::uint64_t seed);
+
+///@{ Each adds what is broken, and may throw whatever Core throws.
+using RandomProblem = void (*)(Choice& choice, RandomSurface& surface, Outcome& outcome);
+
+// Meshes, levels and matrices.
+void CheckClip(Choice& choice, RandomSurface& surface, Outcome& outcome);
+void CheckSpaces(Choice& choice, RandomSurface& surface, Outcome& outcome);
+void CheckMetric(Choice& choice, RandomSurface& surface, Outcome& outcome);
+
+// Equations.
+void SolveDefaultPoisson(Choice& choice, RandomSurface& surface, Outcome& outcome);
+void SolveAnyPoisson(Choice& choice, RandomSurface& surface, Outcome& outcome);
+void SolveWithConstraints(Choice& choice, RandomSurface& surface, Outcome& outcome);
+void FindSpectrum(Choice& choice, RandomSurface& surface, Outcome& outcome);
+void FindDistance(Choice& choice, RandomSurface& surface, Outcome& outcome);
+void Diffuse(Choice& choice, RandomSurface& surface, Outcome& outcome);
+void Interpolate(Choice& choice, RandomSurface& surface, Outcome& outcome);
+
+// Shapes and fields.
+void Stitch(Choice& choice, RandomSurface& surface, Outcome& outcome);
+void Flow(Choice& choice, RandomSurface& surface, Outcome& outcome);
+void ChangeDetail(Choice& choice, RandomSurface& surface, Outcome& outcome);
+void FindCurvatures(Choice& choice, RandomSurface& surface, Outcome& outcome);
+void Decompose(Choice& choice, RandomSurface& surface, Outcome& outcome);
+void Derive(Choice& choice, RandomSurface& surface, Outcome& outcome);
+///@}
+
+} // namespace gridfem::testing
+
+#endif
