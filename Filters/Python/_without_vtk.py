@@ -1,11 +1,37 @@
 """The numerics do the work, compiled into the module _core; VTK is not needed."""
 
+import importlib
 import warnings
 
 import numpy
 
-from . import _core
 from ._inputs import Error, checked, placed
+
+
+def _levels():
+    """Of x86-64, what this processor has, the best first."""
+    try:
+        from numpy._core._multiarray_umath import __cpu_features__ as features
+    except ImportError:
+        from numpy.core._multiarray_umath import __cpu_features__ as features
+    if features.get("X86_V4") or features.get("AVX512_SKX"):
+        yield "v4"
+    if features.get("X86_V3") or (features.get("AVX2") and features.get("FMA3")):
+        yield "v3"
+    yield "v2"
+
+
+def _load():
+    """The module for this machine, or the best of those for kinds of processors."""
+    for folder in ("", *(level + "." for level in _levels())):
+        try:
+            return importlib.import_module(f".{folder}_core", __package__)
+        except ModuleNotFoundError:
+            pass
+    raise ImportError("This package has no module _core for this processor.")
+
+
+_core = _load()
 
 
 def _matrix(values):

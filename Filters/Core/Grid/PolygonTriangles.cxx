@@ -140,6 +140,22 @@ private:
   Id first_ = 0; // a corner that is left
 };
 
+std::vector<Triangle> TrianglesOfQuad(const std::vector<Vec3>& points, const std::vector<Id>& q)
+{
+  const auto normal = [&](int a, int b, int c)
+  { return NormalOf(points[q[a]], points[q[b]], points[q[c]]); };
+  const bool firstInside = normal(0, 1, 2).dot(normal(0, 2, 3)) >= 0.0;
+  const bool secondInside = normal(1, 2, 3).dot(normal(1, 3, 0)) >= 0.0;
+  const bool firstShorter =
+    (points[q[0]] - points[q[2]]).squaredNorm() <= (points[q[1]] - points[q[3]]).squaredNorm();
+  const bool useFirst = firstInside == secondInside ? firstShorter : firstInside;
+  if (useFirst)
+  {
+    return { { q[0], q[1], q[2] }, { q[0], q[2], q[3] } };
+  }
+  return { { q[0], q[1], q[3] }, { q[1], q[2], q[3] } };
+}
+
 /// Every ear looks at every inward corner, and nothing can stop it on the way.
 void RequireEarsInTime(Id cell, std::size_t size, Id inward)
 {
@@ -155,23 +171,13 @@ void RequireEarsInTime(Id cell, std::size_t size, Id inward)
 
 } // namespace
 
-std::array<Triangle, 2> TrianglesOfQuad(const std::vector<Vec3>& points, const Id* q)
-{
-  const auto normal = [&](int a, int b, int c)
-  { return NormalOf(points[q[a]], points[q[b]], points[q[c]]); };
-  const bool firstInside = normal(0, 1, 2).dot(normal(0, 2, 3)) >= 0.0;
-  const bool secondInside = normal(1, 2, 3).dot(normal(1, 3, 0)) >= 0.0;
-  const bool firstShorter =
-    (points[q[0]] - points[q[2]]).squaredNorm() <= (points[q[1]] - points[q[3]]).squaredNorm();
-  const bool useFirst = firstInside == secondInside ? firstShorter : firstInside;
-  return useFirst
-           ? std::array<Triangle, 2>{ Triangle{ q[0], q[1], q[2] }, Triangle{ q[0], q[2], q[3] } }
-           : std::array<Triangle, 2>{ Triangle{ q[0], q[1], q[3] }, Triangle{ q[1], q[2], q[3] } };
-}
-
 std::vector<Triangle> TrianglesOfPolygon(
   const std::vector<Vec3>& points, Id cell, const std::vector<Id>& corners)
 {
+  if (corners.size() == 4)
+  {
+    return TrianglesOfQuad(points, corners);
+  }
   std::vector<Triangle> triangles;
   const bool isFinite = std::all_of(
     corners.begin(), corners.end(), [&](Id corner) { return points[corner].allFinite(); });

@@ -11,12 +11,9 @@ namespace gridfem
 
 using Triangle = std::array<Id, 3>;
 
-/// Along the shorter diagonal, unless only the other one lies inside.
-/// @param q  ids of the four corners, in order
-std::array<Triangle, 2> TrianglesOfQuad(const std::vector<Vec3>& points, const Id* q);
-
-/// Cuts off the ear of the best shape until a triangle is left, and a fan where the polygon is too
-/// degenerate for it.
+/// A quadrilateral along the shorter diagonal, unless only the other one lies inside. Of larger
+/// polygons the ear of the best shape is cut off until a triangle is left; one that is too
+/// degenerate for it becomes a fan.
 /// @param cell     the number of the polygon, for messages
 /// @param corners  ids of three or more points, in order
 /// @return  as many triangles as there are corners, less two

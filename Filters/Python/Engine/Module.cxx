@@ -26,8 +26,14 @@ using Numbers = std::map<std::string, double>;
 
 const std::map<std::string, MakeProblem> Problems = {
   { "GeodesicDistance", &MakeDistance },
+  { "HarmonicInterpolation", &MakeInterpolation },
+  { "HeatDiffusion", &MakeDiffusion },
   { "LaplaceSpectrum", &MakeSpectrum },
+  { "MeanCurvatureFlow", &MakeFlow },
+  { "PrincipalCurvatures", &MakeCurvatures },
   { "ScreenedPoisson", &MakePoisson },
+  { "StitchColors", &MakeStitching },
+  { "SurfaceDetail", &MakeDetail },
 };
 
 /// Looks for Ctrl-C every tenth of a second.

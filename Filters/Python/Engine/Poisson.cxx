@@ -40,18 +40,7 @@ public:
       this->IsConstrained(given)
         ? this->SolveConstrainedEquation(given, surface, results, progress.Part(0.5, 0.95))
         : this->SolveEquation(given, surface, results, progress.Part(0.5, 0.95));
-    const GivenArray* values = given.Find("values");
-    MultiVector kept; // where no function reaches
-    if (!values)
-    {
-      kept = CoordinatesOf(*given.mesh).values;
-    }
-    else if (!values->isOnPoints)
-    {
-      kept = MultiVector::Zero(static_cast<Id>(given.mesh->points.size()), values->values.cols());
-    }
-    results.arrays["Solution"] =
-      surface.AtPoints(coefficients, kept.size() > 0 ? kept : values->values);
+    results.arrays["Solution"] = surface.AtPoints(coefficients, given.RowsAtPoints("values"));
     return results;
   }
 
@@ -177,30 +166,13 @@ HeldValues PoissonProblem::Held(
   const Given& given, const Surface& surface, const Field& value, Results& results) const
 {
   const TriangleMesh& mesh = surface.Mesh();
-  std::vector<Id> points;
+  KnownRows known;
+  known.values.resize(0, value.values.cols());
   if (const GivenArray* mask = given.Find("held"))
   {
-    const std::vector<char> used = UsedPoints(mesh);
-    for (Id point = 0; point < mask->values.rows(); ++point)
-    {
-      const double chosen = mask->values(point, 0);
-      if (used[point] && chosen != 0.0 && !std::isnan(chosen) && !value.values.row(point).hasNaN())
-      {
-        points.push_back(point);
-      }
-    }
-    if (points.empty())
-    {
-      throw InvalidInput("No value of 'values' is known at a point of a polygon: all are NaN, "
-                         "masked, or not selected.");
-    }
+    known = given.KnownValues(mask);
   }
-  MultiVector values(static_cast<Id>(points.size()), value.values.cols());
-  for (Id row = 0; row < values.rows(); ++row)
-  {
-    values.row(row) = value.values.row(points[row]);
-  }
-  HeldValues held = HoldPoints(surface.Space(), points, std::move(values));
+  HeldValues held = HoldPoints(surface.Space(), known.points, std::move(known.values));
   if (!holdsBoundary_)
   {
     return held;

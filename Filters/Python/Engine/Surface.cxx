@@ -1,6 +1,7 @@
 #include "Surface.h"
 
 #include "Base/Errors.h"
+#include "Base/VectorRows.h"
 #include "Grid/Grid.h"
 #include "Grid/PolygonTriangles.h"
 #include "Integrals/QuadratureRule.h"
@@ -31,13 +32,6 @@ void Given::SetCells(std::vector<Vec3> points, const Id* cells, Id count, Id cor
     {
       add(cell, { ids[0], ids[1], ids[2] });
     }
-    else if (corners == 4)
-    {
-      for (const Triangle& triangle : TrianglesOfQuad(triangles->points, ids))
-      {
-        add(cell, triangle);
-      }
-    }
     else
     {
       for (const Triangle& triangle :
@@ -54,6 +48,49 @@ const GivenArray* Given::Find(const std::string& name) const
 {
   const auto found = arrays.find(name);
   return found == arrays.end() ? nullptr : &found->second;
+}
+
+MultiVector Given::RowsAtPoints(const std::string& name) const
+{
+  const GivenArray* array = this->Find(name);
+  if (!array)
+  {
+    return RowsOf(mesh->points);
+  }
+  return array->isOnPoints
+           ? array->values
+           : MultiVector::Zero(static_cast<Id>(mesh->points.size()), array->values.cols());
+}
+
+KnownRows Given::KnownValues(const GivenArray* mask) const
+{
+  const MultiVector& given = arrays.at("values").values;
+  const std::vector<char> used = UsedPoints(*mesh);
+  KnownRows known;
+  for (Id point = 0; point < given.rows(); ++point)
+  {
+    const double chosen = mask ? mask->values(point, 0) : 1.0;
+    if (used[point] && chosen != 0.0 && !std::isnan(chosen) && !given.row(point).hasNaN())
+    {
+      known.points.push_back(point);
+    }
+  }
+  if (known.points.empty())
+  {
+    throw InvalidInput("No value of 'values' is known at a point of a polygon: all are NaN, "
+                       "masked, or not selected.");
+  }
+  known.values.resize(static_cast<Id>(known.points.size()), given.cols());
+  for (Id row = 0; row < known.values.rows(); ++row)
+  {
+    known.values.row(row) = given.row(known.points[row]);
+    if (!known.values.row(row).allFinite())
+    {
+      throw InvalidInput("Array 'values' has a value that is not finite at point " +
+                         std::to_string(known.points[row]) + ".");
+    }
+  }
+  return known;
 }
 
 Field Given::FieldOf(const std::string& name, bool keepsNaN) const
@@ -159,9 +196,8 @@ double Surface::LengthInWorldUnits(double length) const
   return length * space->UnitLength() / std::sqrt(this->WeightInSpaceUnits(1.0));
 }
 
-MultiVector Surface::AtPoints(const MultiVector& coefficients, const MultiVector& given) const
+void Surface::KeepUnsolved(const MultiVector& given, MultiVector& values) const
 {
-  MultiVector values = space->ValuesAtPoints(coefficients, options.functions.threads);
   const std::vector<char> isSolved = space->PointsWithFunctions();
   for (Id point = 0; point < values.rows(); ++point)
   {
@@ -170,6 +206,12 @@ MultiVector Surface::AtPoints(const MultiVector& coefficients, const MultiVector
       values.row(point) = given.row(point);
     }
   }
+}
+
+MultiVector Surface::AtPoints(const MultiVector& coefficients, const MultiVector& given) const
+{
+  MultiVector values = space->ValuesAtPoints(coefficients, options.functions.threads);
+  this->KeepUnsolved(given, values);
   return values;
 }
 

@@ -22,6 +22,12 @@ struct GivenArray
   bool isOnPoints = true;
 };
 
+struct KnownRows
+{
+  std::vector<Id> points;
+  MultiVector values; // a row for each
+};
+
 /// Polygons with the same number of corners each, as triangles, and arrays on them.
 struct Given
 {
@@ -33,6 +39,15 @@ struct Given
 
   /// @param cells  a row of ids of points for each cell, `corners` in each
   void SetCells(std::vector<Vec3> points, const Id* cells, Id numberOfCells, Id corners);
+
+  /// Rows for all points, what they are given, of an array; the coordinates where it is not given,
+  /// and 0 where it is on cells.
+  MultiVector RowsAtPoints(const std::string& name) const;
+
+  /// Of the array `values`, which is on points: rows without a NaN, at points that a cell uses and
+  /// where the mask is neither 0 nor NaN. Throws InvalidInput for an infinite value, and when
+  /// nothing is known.
+  KnownRows KnownValues(const GivenArray* mask) const;
 
   /// Null when it is not given.
   const GivenArray* Find(const std::string& name) const;
@@ -85,6 +100,9 @@ public:
 
   /// A length in the parameter units, in the world's.
   double LengthInWorldUnits(double length) const;
+
+  /// Gives the rows of points that no function reaches what they were given.
+  void KeepUnsolved(const MultiVector& given, MultiVector& values) const;
 
   /// The function at the points. Points that no function reaches keep what they were given.
   MultiVector AtPoints(const MultiVector& coefficients, const MultiVector& given) const;
