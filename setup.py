@@ -40,7 +40,7 @@ class Build(build_ext):
               f"-DGRIDFEM_NATIVE={'ON' if native else 'OFF'}",
               f"-DCMAKE_CXX_FLAGS={'' if native else '-march=x86-64-' + level}",
               f"-DGRIDFEM_PYTHON_FOLDER={'.' if native else level}",
-              f"-DPython_EXECUTABLE={sys.executable}",
+              f"-DPython3_EXECUTABLE={sys.executable}",
               f"-Dpybind11_DIR={pybind11.get_cmake_dir()}")
         cmake("--build", build, "--target", "gridfem_python")
         return build

@@ -56,7 +56,7 @@ class Engines(unittest.TestCase):
             for space in (0, 1):
                 with self.subTest(mesh=name, FunctionSpace=space), warnings.catch_warnings():
                     warnings.simplefilter("ignore")
-                    options = {"Depth": 5, "FunctionSpace": space}
+                    options = {"Depth": 4, "FunctionSpace": space}
                     theirs = call(gridfem, points, cells, **options)
                     ours = call(self.core, points, cells, **options)
                     if not isinstance(ours, tuple):
