@@ -31,8 +31,10 @@ if (TARGET VTK::WrappingPythonCore)
     /${GRIDFEM_PYTHON_DESTINATION}/gridfem /${CMAKE_INSTALL_LIBDIR})
   set_target_properties(vtkGridFEMFiltersPython PROPERTIES INSTALL_RPATH
     "${GRIDFEM_ORIGIN}/${libraries}")
-  set(GRIDFEM_PYTHON_SOURCE ${PROJECT_SOURCE_DIR}/Filters/Python/__init__.py)
-  configure_file(${GRIDFEM_PYTHON_SOURCE}
-    ${PROJECT_BINARY_DIR}/${GRIDFEM_PYTHON_DESTINATION}/gridfem/__init__.py COPYONLY)
-  install(FILES ${GRIDFEM_PYTHON_SOURCE} DESTINATION ${GRIDFEM_PYTHON_DESTINATION}/gridfem)
+  foreach (file IN ITEMS __init__ _inputs _with_vtk)
+    set(source ${PROJECT_SOURCE_DIR}/Filters/Python/${file}.py)
+    configure_file(${source}
+      ${PROJECT_BINARY_DIR}/${GRIDFEM_PYTHON_DESTINATION}/gridfem/${file}.py COPYONLY)
+    install(FILES ${source} DESTINATION ${GRIDFEM_PYTHON_DESTINATION}/gridfem)
+  endforeach ()
 endif ()

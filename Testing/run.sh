@@ -20,7 +20,7 @@ HELP
 fi
 
 InstallMissing "${BUILD_PACKAGES[@]}" "${TEST_PACKAGES[@]}"
-BuildTree all
+BuildTree all -DGRIDFEM_BUILD_PYTHON=ON
 if [ $# -eq 0 ] && command -v clang++ > /dev/null; then
   Say "Compiling Core with clang"
   # Not optimised: warnings are what is looked for.

@@ -146,23 +146,9 @@ vtkIdType vtkGeodesicDistance::GetSourcePointId(vtkIdType index)
 
 void vtkGeodesicDistance::Warn()
 {
-  const gridfem::DistanceField& field = this->Data->Field;
-  if (field.unreached > 0)
+  for (const std::string& warning : gridfem::WarningsOf(this->Data->Field, this->Tolerance))
   {
-    vtkWarningMacro("Distances are wrong far from the sources: "
-                    << field.unreached
-                    << " functions are too far for the heat that comes there to be a number. A "
-                       "larger Smoothing or a smaller Depth helps.");
-  }
-  if (!field.heatConverged)
-  {
-    vtkWarningMacro(
-      "The heat has not settled everywhere: the direction of the distance may be wrong "
-      "in places. Another Depth or Smoothing may help. The result is kept.");
-  }
-  else if (!field.report.converged)
-  {
-    vtkWarningMacro(<< gridfem::WarningOf(field.report, this->Tolerance));
+    vtkWarningMacro(<< warning);
   }
 }
 

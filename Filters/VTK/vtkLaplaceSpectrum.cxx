@@ -188,30 +188,16 @@ bool vtkLaplaceSpectrum::IsAccurate() const
 
 void vtkLaplaceSpectrum::Warn()
 {
-  const gridfem::Spectrum& spectrum = this->Data->spectrum;
-  if (spectrum.truncated)
-  {
-    const std::string where = this->FunctionSpace == HatFunctions
-                                ? "with the hat functions of this mesh"
-                                : "at Depth " + std::to_string(this->Data->depth);
-    vtkWarningMacro("Only " << this->Data->NumberOfModes() << " of the " << this->NumberOfModes
-                            << " modes exist " << where << ".");
-  }
+  const std::string where = this->FunctionSpace == HatFunctions
+                              ? "with the hat functions of this mesh"
+                              : "at Depth " + std::to_string(this->Data->depth);
   const std::int64_t run = this->State->stages.Runs(gridfem::SolveStage);
-  if (spectrum.cutsMultiplet && run != this->Data->WarnedRun)
+  for (const std::string& warning : gridfem::WarningsOf(
+         this->Data->spectrum, this->NumberOfModes, where, run != this->Data->WarnedRun))
   {
-    this->Data->WarnedRun = run;
-    vtkWarningMacro("The list ends inside a group of equal eigenvalues: the last of its "
-                    "eigenfunctions are missing. CompleteMultiplets adds them.");
+    vtkWarningMacro(<< warning);
   }
-  if (!spectrum.converged)
-  {
-    vtkWarningMacro("Not converged after "
-                    << spectrum.iterations << " iterations: " << spectrum.numberOfConverged
-                    << " of " << this->Data->NumberOfModes()
-                    << " modes reached the tolerance, the largest residual is "
-                    << this->Data->LargestResidual() << ". The result is kept.");
-  }
+  this->Data->WarnedRun = run;
   if (this->CompareFunctionSpaces && !this->Data->otherConverged)
   {
     vtkWarningMacro("The eigenvalues in the function space that they are compared with have not "

@@ -38,13 +38,6 @@ constexpr const char* MetricStage = "Metric";   // curvatures, stiffness split b
 constexpr const char* WeightsStage = "Weights"; // of the elements
 constexpr const char* SignalStage = "Signal";   // the input as a function of the space
 
-/// From 0 to 1 as x does, without a kink at its ends.
-double SmoothStep(double x)
-{
-  const double t = std::clamp(x, 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
-
 /// Means over the triangles around the points.
 gridfem::MultiVector AtPoints(
   const gridfem::Field& field, const gridfem::TriangleMesh& mesh, int threads)
@@ -94,7 +87,9 @@ gridfem::Field FadeOut(
   for (gridfem::Id point = 0; point < fade.values.rows(); ++point)
   {
     const double way = distance[point];
-    fade.values(point, 0) = way == 0.0 ? 1.0 : way < width ? SmoothStep(1.0 - way / width) : 0.0;
+    fade.values(point, 0) = way == 0.0    ? 1.0
+                            : way < width ? gridfem::SmoothStep(1.0 - way / width)
+                                          : 0.0;
   }
   return fade;
 }
@@ -231,23 +226,12 @@ vtkMTimeType vtkSurfaceDetail::GetMTime()
 
 double vtkSurfaceDetail::LengthOf(double curvature) const
 {
-  const auto partOfTheWay = [&]
+  if (this->TransferFunction == Custom)
   {
-    switch (this->TransferFunction)
-    {
-      case LargeNegative:
-        return SmoothStep(-curvature);
-      case LargePositive:
-        return SmoothStep(curvature);
-      case LargeAbsolute:
-        return SmoothStep(std::abs(curvature));
-      case Custom:
-        return this->CustomTransferFunction->GetValue(curvature);
-      default:
-        return 0.0;
-    }
-  };
-  return 1.0 + (this->Anisotropy - 1.0) * partOfTheWay();
+    return 1.0 + (this->Anisotropy - 1.0) * this->CustomTransferFunction->GetValue(curvature);
+  }
+  return gridfem::LengthOf(
+    static_cast<gridfem::CurvatureTransfer>(this->TransferFunction), curvature, this->Anisotropy);
 }
 
 void vtkSurfaceDetail::CheckProperties() const

@@ -1,4 +1,5 @@
 """The functions of the Python package: numpy arrays in, numpy arrays out, exceptions for misuse."""
+import types
 import unittest
 import warnings
 
@@ -103,6 +104,28 @@ class Numpy(unittest.TestCase):
         solution = gridfem.poisson(points, squares, numpy.arange(64) // 8 + 0.5, **OPTIONS)
         self.assertEqual(solution.shape, (81,))
         self.assertAlmostEqual(solution.mean(), 4.0, delta=0.01)
+
+    def test_meshes_of_other_libraries(self):
+        points, triangles = self.mesh
+        counted = numpy.column_stack([numpy.full(len(triangles), 3), triangles]).ravel()
+        block = types.SimpleNamespace
+        meshes = {
+            "trimesh": block(vertices=points, faces=triangles),
+            "pyvista": block(points=points, faces=counted),
+            "meshio": block(points=points, cells=[block(type="vertex", data=[[0]]),
+                                                  block(type="triangle", data=triangles)])}
+        for name, mesh in meshes.items():
+            with self.subTest(name):
+                given = gridfem.arrays(mesh)
+                numpy.testing.assert_array_equal(given[0], points)
+                numpy.testing.assert_array_equal(given[1], triangles)
+        mixed = block(points=points, faces=[3, 0, 1, 2, 4, 0, 1, 2, 3])
+        self.assertEqual(gridfem.arrays(mixed)[1].tolist(), [[0, 1, 2], [0, 1, 2], [0, 2, 3]])
+        quads = block(points=points, faces=[4, 0, 1, 2, 3, 4, 3, 2, 1, 0])
+        self.assertEqual(gridfem.arrays(quads)[1].tolist(), [[0, 1, 2, 3], [3, 2, 1, 0]])
+        for wrong in (points, block(points=points, cells=[])):
+            with self.assertRaises(gridfem.Error):
+                gridfem.arrays(wrong)
 
     def test_misuse_raises(self):
         points, triangles = self.mesh

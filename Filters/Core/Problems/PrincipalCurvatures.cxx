@@ -426,6 +426,36 @@ PrincipalCurvatures ComputeCurvatures(
   return result;
 }
 
+namespace
+{
+
+/// The triangles around the points, in units of the mesh's longest side.
+HatFunctions TrianglesAroundPoints(const TriangleMesh& mesh, bool weldCoincidentPoints, int threads)
+{
+  const Bounds bounds = BoundsOf(mesh.points, UsedPoints(mesh, threads), threads);
+  HatOptions options;
+  options.weldCoincidentPoints = weldCoincidentPoints;
+  options.unitLength = (bounds.high - bounds.low).maxCoeff();
+  options.threads = threads;
+  return NumberHatFunctions(mesh, options);
+}
+
+} // namespace
+
+PrincipalCurvatures CurvaturesOfSurface(const TriangleMesh& mesh, bool weldCoincidentPoints,
+  const FiniteElementSpace* space, const NormalSmoothing& smoothing, SolveReport& report,
+  const Job& job)
+{
+  const HatFunctions around = TrianglesAroundPoints(mesh, weldCoincidentPoints, job.threads);
+  MultiVector normals = PointNormals(mesh, around, job.threads);
+  job.Check(0.2);
+  if (smoothing.scale > 0.0)
+  {
+    normals = SmoothNormals(*space, normals, smoothing, report, job.Part(0.2, 0.7));
+  }
+  return ComputeCurvatures(mesh, around, normals, job.Part(0.7, 1.0));
+}
+
 double ShapeIndex(double minimum, double maximum)
 {
   constexpr double HalfTurn = 3.14159265358979323846;

@@ -54,6 +54,15 @@ MultiVector SmoothNormals(const FiniteElementSpace& space, const MultiVector& no
 PrincipalCurvatures ComputeCurvatures(const TriangleMesh& mesh, const HatFunctions& hats,
   const MultiVector& normals, const Job& job = {});
 
+/// All of this in one go, also without smoothing.
+/// @param weldCoincidentPoints  triangles around coincident points are around one
+/// @param space      of the mesh; null where nothing is smoothed
+/// @param smoothing  of scale 0: none
+/// @param report     of the smoothing
+PrincipalCurvatures CurvaturesOfSurface(const TriangleMesh& mesh, bool weldCoincidentPoints,
+  const FiniteElementSpace* space, const NormalSmoothing& smoothing, SolveReport& report,
+  const Job& job = {});
+
 /// Koenderink's shape index in [-1, 1]: -1 cup, -0.5 rut, 0 saddle, 0.5 ridge, 1 cap; 0 where both
 /// curvatures are.
 double ShapeIndex(double minimum, double maximum);

@@ -86,6 +86,34 @@ double UsualCurvature(const TriangleMesh& mesh, const TriangleCurvatures& curvat
   return 0.0;
 }
 
+double SmoothStep(double x)
+{
+  const double t = std::clamp(x, 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
+double LengthOf(CurvatureTransfer transfer, double curvature, double largest)
+{
+  const auto partOfTheWay = [&]
+  {
+    switch (transfer)
+    {
+      case CurvatureTransfer::LargeNegative:
+        return SmoothStep(-curvature);
+      case CurvatureTransfer::LargePositive:
+        return SmoothStep(curvature);
+      case CurvatureTransfer::LargeAbsolute:
+        return SmoothStep(std::abs(curvature));
+      case CurvatureTransfer::Custom:
+        return std::min(std::abs(curvature), 1.0);
+      case CurvatureTransfer::Isotropic:
+        break;
+    }
+    return 0.0;
+  };
+  return 1.0 + (largest - 1.0) * partOfTheWay();
+}
+
 std::vector<ElementWeights> WeightsOfMetric(
   const MultiVector& curvatures, const TransferFunction& alpha)
 {

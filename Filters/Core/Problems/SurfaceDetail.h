@@ -29,6 +29,24 @@ double UsualCurvature(const TriangleMesh& mesh, const TriangleCurvatures& curvat
 /// metric of the surface.
 using TransferFunction = std::function<double(double curvature)>;
 
+/// Which curvatures are enlarged.
+enum class CurvatureTransfer
+{
+  Isotropic,
+  LargeNegative,
+  LargePositive,
+  LargeAbsolute,
+  Custom // what part of the way is the caller's; here the absolute, in a straight line
+};
+
+/// How a length along a curvature counts: 1 for small ones, `largest` from 1 and -1 on, as far as
+/// they are enlarged.
+/// @param curvature  in units of the usual one
+double LengthOf(CurvatureTransfer transfer, double curvature, double largest);
+
+/// From 0 to 1 as x does, without a kink at its ends.
+double SmoothStep(double x);
+
 /// The weights of the elements in the metric diag(α(κ₁)², α(κ₂)²). [T (5.16), (5.17)]
 /// @param curvatures  elements x 2 (MeansOnElements of TriangleCurvatures::values)
 /// Throws InvalidInput where α is not above 0 and finite.

@@ -4,13 +4,11 @@
 #include "SelectedPoints.h"
 
 #include "Base/Errors.h"
-#include "Problems/PointConstraints.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
 
 #include <cmath>
-#include <sstream>
 
 namespace gridfem
 {
@@ -116,21 +114,6 @@ GivenValues ValuesOfPlaces(const InputArray& array, const TriangleMesh& mesh, vt
     CopyFinite(array, row, given.values, row);
   }
   return given;
-}
-
-std::string WarningOfConstraints(const ConstrainedSolution& solution)
-{
-  constexpr double Visible = 1e-3;
-  if (solution.relativeMisfit <= Visible)
-  {
-    return {};
-  }
-  std::ostringstream text;
-  text << "The values are not met, by " << solution.misfit
-       << " at worst: they contradict each other, or lie closer together than the functions can "
-          "follow. The result has the least squares of these differences; a larger Depth or hat "
-          "functions come closer.";
-  return text.str();
 }
 
 } // namespace gridfem

@@ -13,7 +13,6 @@ class vtkDataSet;
 namespace gridfem
 {
 
-struct ConstrainedSolution;
 class SelectedPoints;
 
 struct GivenValues
@@ -35,10 +34,6 @@ GivenValues KnownValues(const InputArray& array, const InputArray& mask,
 /// The values of all points of a data set, each at the nearest point of the mesh that a triangle
 /// uses. Throws InvalidInput when there are none or one is not finite.
 GivenValues ValuesOfPlaces(const InputArray& array, const TriangleMesh& mesh, vtkDataSet* places);
-
-/// What to say when values are not met; empty when they are to 1e-3 of their range or of the
-/// solution's size.
-std::string WarningOfConstraints(const ConstrainedSolution& solution);
 
 } // namespace gridfem
 

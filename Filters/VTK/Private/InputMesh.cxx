@@ -3,6 +3,7 @@
 #include "PointCoordinates.h"
 
 #include "Base/Parallel.h"
+#include "Grid/PolygonTriangles.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -10,12 +11,9 @@
 #include "vtkNew.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkPolygon.h"
 #include "vtkTypeInt32Array.h"
 #include "vtkTypeInt64Array.h"
 #include "vtkUnsignedCharArray.h"
-
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -45,13 +43,12 @@ public:
     {
       this->Add(cell, ids[0], ids[1], ids[2]);
     }
-    else if (size == 4)
+    else if (size > 3)
     {
-      this->AddQuad(cell, ids);
-    }
-    else if (size > 4)
-    {
-      this->AddLargePolygon(cell, size, ids);
+      for (const Triangle& triangle : TrianglesOfPolygon(points_, cell, { ids, ids + size }))
+      {
+        this->Add(cell, triangle[0], triangle[1], triangle[2]);
+      }
     }
   }
 
@@ -85,106 +82,9 @@ private:
     }
   }
 
-  Vec3 Normal(Id a, Id b, Id c) const
-  {
-    return (points_[b] - points_[a]).cross(points_[c] - points_[a]);
-  }
-
-  /// Along the shorter diagonal, unless only the other one lies inside.
-  void AddQuad(Id cell, const vtkIdType* q)
-  {
-    const bool firstInside = Normal(q[0], q[1], q[2]).dot(Normal(q[0], q[2], q[3])) >= 0.0;
-    const bool secondInside = Normal(q[1], q[2], q[3]).dot(Normal(q[1], q[3], q[0])) >= 0.0;
-    const bool firstShorter = (points_[q[0]] - points_[q[2]]).squaredNorm() <=
-                              (points_[q[1]] - points_[q[3]]).squaredNorm();
-    const bool useFirst = firstInside == secondInside ? firstShorter : firstInside;
-    if (useFirst)
-    {
-      this->Add(cell, q[0], q[1], q[2]);
-      this->Add(cell, q[0], q[2], q[3]);
-    }
-    else
-    {
-      this->Add(cell, q[0], q[1], q[3]);
-      this->Add(cell, q[1], q[2], q[3]);
-    }
-  }
-
-  /// Corners at which a polygon turns against its mean normal.
-  vtkIdType CountInwardCorners(vtkIdType size, const vtkIdType* ids) const
-  {
-    Vec3 mean = Vec3::Zero();
-    for (vtkIdType k = 1; k + 1 < size; ++k)
-    {
-      mean += this->Normal(ids[0], ids[k], ids[k + 1]);
-    }
-    vtkIdType inward = 0;
-    for (vtkIdType k = 0; k < size; ++k)
-    {
-      const Vec3 turn = this->Normal(ids[k], ids[(k + 1) % size], ids[(k + 2) % size]);
-      inward += turn.dot(mean) < 0.0 ? 1 : 0;
-    }
-    return inward;
-  }
-
-  /// Every ear looks at every inward corner, and nothing can stop it on the way.
-  void RequireEarsInTime(Id cell, vtkIdType size, const vtkIdType* ids) const
-  {
-    constexpr double Most = 5e7; // a few seconds
-    const vtkIdType inward =
-      static_cast<double>(size) * size > Most ? this->CountInwardCorners(size, ids) : 0;
-    if (static_cast<double>(size) * inward > Most)
-    {
-      throw InvalidInput("Cell " + std::to_string(cell) + " is a polygon with " +
-                         std::to_string(size) + " corners, " + std::to_string(inward) +
-                         " of which point inward: to cut it into triangles would take too long. "
-                         "Split it into smaller polygons first.");
-    }
-  }
-
-  /// Ear clipping; a fan where the polygon is too degenerate for it. The corners are shifted and
-  /// scaled to unit size, because the tolerances of vtkPolygon are absolute.
-  void AddLargePolygon(Id cell, vtkIdType size, const vtkIdType* ids)
-  {
-    this->RequireEarsInTime(cell, size, ids);
-    double extent = 0.0;
-    for (vtkIdType k = 1; k < size; ++k)
-    {
-      extent = std::max(extent, (points_[ids[k]] - points_[ids[0]]).cwiseAbs().maxCoeff());
-    }
-    const double scale = extent > 0.0 ? 1.0 / extent : 1.0;
-    polygon_->PointIds->SetNumberOfIds(size);
-    polygon_->Points->SetDataTypeToDouble();
-    polygon_->Points->SetNumberOfPoints(size);
-    for (vtkIdType k = 0; k < size; ++k)
-    {
-      const Vec3 corner = scale * (points_[ids[k]] - points_[ids[0]]);
-      polygon_->PointIds->SetId(k, k);
-      polygon_->Points->SetPoint(k, corner.data());
-    }
-    corners_->Reset();
-    const bool finite = std::isfinite(extent);
-    if (finite && polygon_->EarCutTriangulation(corners_.Get()) &&
-        corners_->GetNumberOfIds() == 3 * (size - 2))
-    {
-      for (vtkIdType k = 0; k < corners_->GetNumberOfIds(); k += 3)
-      {
-        this->Add(
-          cell, ids[corners_->GetId(k)], ids[corners_->GetId(k + 1)], ids[corners_->GetId(k + 2)]);
-      }
-      return;
-    }
-    for (vtkIdType k = 1; k + 1 < size; ++k)
-    {
-      this->Add(cell, ids[0], ids[k], ids[k + 1]);
-    }
-  }
-
   const std::vector<Vec3>& points_;
   InputMesh& mesh_;
   TriangleMesh& triangles_;
-  vtkNew<vtkPolygon> polygon_;
-  vtkNew<vtkIdList> corners_;
 };
 
 std::vector<Vec3> ReadPoints(vtkPolyData* input, int threads)

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 namespace gridfem
 {
@@ -147,68 +146,6 @@ void WriteHistory(const SolveReport& report, vtkTable* table)
   AddColumn(table, "ConvergenceFactor", factor);
   AddColumn(table, "Log10EnergyResidual", logEnergy);
   AddColumn(table, "Log10Residual", logResidual);
-}
-
-const char* ReasonOf(const SolveReport& report)
-{
-  switch (report.end)
-  {
-    case SolveEnd::Converged:
-      return "it has converged";
-    case SolveEnd::IterationLimit:
-      return "more are not allowed";
-    case SolveEnd::NotFinite:
-      return "the values or gradients contain numbers that are not finite";
-    case SolveEnd::Stagnation:
-      return "it stagnated: more would bring nothing. Where triangles are narrow, or pieces far "
-             "smaller than the cells, NormalStabilization = 1e-2 or the filter Clean helps";
-    case SolveEnd::Breakdown:
-      break;
-  }
-  return "it broke down: the system has no solution, or its numbers span more digits than there "
-         "are, as those of hat functions on triangles narrower than 1e-7 of their length";
-}
-
-const char* ReasonOfError(bool hatFunctions)
-{
-  return hatFunctions ? "No Depth changes the error of hat functions: subdivide the mesh, or take "
-                        "FunctionSpace = Grid."
-                      : "A given basis has a fixed Depth; else the next one does not fit into "
-                        "memory.";
-}
-
-IterationRecord LastRecord(const SolveReport& report)
-{
-  return report.history.empty() ? IterationRecord{ 0, 0.0, 0.0 } : report.history.back();
-}
-
-namespace
-{
-
-std::string HowItEnded(const SolveReport& report)
-{
-  return "Not converged after " + std::to_string(report.iterations) + " iterations, because " +
-         ReasonOf(report) + ".";
-}
-
-} // namespace
-
-std::string WarningOf(const SolveReport& report, double tolerance)
-{
-  const IterationRecord last = LastRecord(report);
-  std::ostringstream text;
-  text << HowItEnded(report) << " The energy residual is " << last.energy << ", the residual "
-       << last.residual << ", wanted is " << tolerance << ". The result is kept.";
-  return text.str();
-}
-
-std::string WarningOf(const SolveReport& report, const SolutionAccuracy& accuracy)
-{
-  std::ostringstream text;
-  text << HowItEnded(report) << " What the iteration has left is estimated to be "
-       << accuracy.algebraic << " of the solution, the error of the function space "
-       << accuracy.discretization << ". The result is kept.";
-  return text.str();
 }
 
 } // namespace gridfem

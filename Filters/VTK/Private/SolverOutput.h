@@ -4,11 +4,10 @@
 
 #include "Base/Types.h"
 #include "Krylov/ConjugateGradients.h"
-#include "Problems/SolutionAccuracy.h"
+#include "Problems/SolveWarnings.h"
 
 #include "vtkSmartPointer.h"
 
-#include <string>
 #include <vector>
 
 class vtkDataArray;
@@ -54,19 +53,6 @@ void AddColumn(vtkTable* table, const char* name, const std::vector<double>& val
 
 /// Adds a column of integers to a table.
 void AddColumn(vtkTable* table, const char* name, const std::vector<int>& values);
-
-/// Why the iteration ended, in words.
-const char* ReasonOf(const SolveReport& report);
-
-/// What to warn of when a solve has not converged.
-std::string WarningOf(const SolveReport& report, double tolerance);
-std::string WarningOf(const SolveReport& report, const SolutionAccuracy& accuracy);
-
-/// Why a wanted error is not reached by a choice of the depth, in words.
-const char* ReasonOfError(bool hatFunctions);
-
-/// The last iteration, or zeros when nothing had to be iterated.
-IterationRecord LastRecord(const SolveReport& report);
 
 } // namespace gridfem
 

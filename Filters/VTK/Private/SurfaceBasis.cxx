@@ -75,20 +75,4 @@ std::shared_ptr<const FiniteElementSpace> MakeSpace(
   return Compose(basis, std::move(operators), choice.kind, std::move(hats));
 }
 
-std::unique_ptr<FiniteElementSpace> BuildSpace(const TriangleMesh& mesh,
-  const SpaceOptions& functions, const SpaceChoice& choice, const Progress& progress)
-{
-  GridSpaceOptions options;
-  options.functions = functions;
-  options.quadratureDegree = choice.quadratureDegree;
-  options.coarsestSize = choice.coarsestSize;
-  options.normalStabilization = choice.normalStabilization;
-  if (choice.kind == FunctionKind::Grid)
-  {
-    return std::make_unique<GridSpace>(BuildGridSpace(mesh, options, progress));
-  }
-  return std::make_unique<HatSpace>(
-    BuildHatSpace(mesh, options, HatTransfer::Evaluation, progress));
-}
-
 } // namespace gridfem

@@ -6,28 +6,13 @@
 #include "InputMesh.h"
 #include "SharedStore.h"
 #include "Spaces/HatSpace.h"
+#include "Spaces/SpaceChoice.h"
 
 #include <memory>
 #include <tuple>
 
 namespace gridfem
 {
-
-/// Which functions solutions are made of.
-enum class FunctionKind
-{
-  Grid,
-  Hats
-};
-
-/// Which space is wanted on a basis.
-struct SpaceChoice
-{
-  FunctionKind kind = FunctionKind::Grid;
-  int quadratureDegree = 2;
-  Index coarsestSize = 256; // functions of the largest component on the coarsest level, at most
-  double normalStabilization = DefaultNormalStabilization;
-};
 
 using OperatorStore = SharedStore<std::tuple<int, Index, double>, LevelOperators>;
 using HatStore = SharedStore<bool, HatLevel>;
@@ -56,10 +41,6 @@ std::shared_ptr<const FiniteElementSpace> FindSpace(
 /// Builds what is missing. Throws InvalidInput and Aborted.
 std::shared_ptr<const FiniteElementSpace> MakeSpace(
   const SurfaceBasis& basis, const SpaceChoice& choice, const Job& job);
-
-/// The same on a mesh without a basis, all of it new. Throws InvalidInput and Aborted.
-std::unique_ptr<FiniteElementSpace> BuildSpace(const TriangleMesh& mesh,
-  const SpaceOptions& functions, const SpaceChoice& choice, const Progress& progress);
 
 } // namespace gridfem
 

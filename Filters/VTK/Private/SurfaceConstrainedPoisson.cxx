@@ -118,35 +118,16 @@ MultiVector SurfaceConstrainedPoisson::Values(const SurfaceSolverState& state) c
 
 std::string SurfaceConstrainedPoisson::Warning(double tolerance) const
 {
-  std::string warning;
-  const auto add = [&warning](const std::string& sentence)
-  { warning += (warning.empty() || sentence.empty() ? "" : " ") + sentence; };
-  if (!solution_.report.converged)
-  {
-    add(WarningOf(solution_.report, tolerance));
-  }
-  add(WarningOfConstraints(solution_));
-  const auto free = std::count(solution_.isHeld.begin(), solution_.isHeld.end(), 0);
-  if (free > 0)
-  {
-    add(std::to_string(free) + " of " + std::to_string(solution_.isHeld.size()) +
-        " connected components have neither a weight nor a constraint: they keep the mean of what "
-        "is known there, or are NaN where nothing is.");
-  }
+  std::vector<std::string> sentences = WarningsOf(solution_, tolerance);
   if (unbalanced_ > 0)
   {
-    add("On " + std::to_string(unbalanced_) +
-        " of them the flux across the boundary does not add up to 0: what is too much leaves the "
-        "surface evenly.");
+    sentences.push_back("On " + std::to_string(unbalanced_) +
+                        " of them the flux across the boundary does not add up to 0: what is too "
+                        "much leaves the surface evenly.");
   }
-  add(load_.warning);
-  if (load_.field.numberOfIgnoredPoints > 0)
-  {
-    add(std::to_string(load_.field.numberOfIgnoredPoints) +
-        " known points have no triangle with known values at all corners, so that they do not "
-        "count. ConstraintArray can hold them.");
-  }
-  return warning;
+  sentences.push_back(load_.warning);
+  sentences.push_back(WarningOf(load_.field));
+  return Joined(sentences);
 }
 
 } // namespace gridfem

@@ -2,35 +2,12 @@
 
 #include "Base/Errors.h"
 #include "Problems/MovedSurface.h"
+#include "Problems/SolveWarnings.h"
 
 #include <algorithm>
-#include <sstream>
 
 namespace gridfem
 {
-namespace
-{
-
-const char* ReasonOf(FlowEnd end)
-{
-  switch (end)
-  {
-    case FlowEnd::Vanished:
-      return "the surface has shrunk to nothing. Rescale keeps its size";
-    case FlowEnd::VolumeLost:
-      return "the surface has lost the volume that was to be kept constant";
-    case FlowEnd::Unfit:
-      return "the moved surface cannot be clipped again";
-    case FlowEnd::Breakdown:
-    case FlowEnd::None:
-      break;
-  }
-  return "its equations cannot be solved: the matrix is not positive, or numbers leave their "
-         "range. A smaller TimeStep may help";
-}
-
-} // namespace
-
 void SurfaceFlow::Restart(SurfaceSolverState& state)
 {
   FlowOptions options;
@@ -180,25 +157,14 @@ std::vector<Vec3> SurfaceFlow::PointsAt(
 
 std::string SurfaceFlow::Warning(const SurfaceSolverState& state) const
 {
-  std::ostringstream text;
   const std::vector<FlowRow> rows = this->Rows();
-  if (end_ != FlowEnd::None && static_cast<int>(rows.size()) <= request_.numberOfSteps)
-  {
-    text << "The flow ends after " << rows.size() - 1 << " of " << request_.numberOfSteps
-         << " steps, because " << ReasonOf(end_) << ". The steps so far are kept. ";
-  }
-  const auto open =
-    std::count_if(rows.begin(), rows.end(), [](const FlowRow& row) { return !row.converged; });
-  if (open > 0)
-  {
-    text << open << " steps have not converged to the Tolerance; their results are kept. ";
-  }
-  if (request_.conformalized && !IsLikeASphere(*state.mesh.triangles))
-  {
-    text << "The surface has a boundary, a handle, or more than one component: the conformalised "
-            "flow goes on, but will not end as a sphere. ";
-  }
-  return text.str();
+  FlowSummary flow;
+  flow.steps = static_cast<int>(rows.size()) - 1;
+  flow.wanted = request_.numberOfSteps;
+  flow.end = end_;
+  flow.unconverged = static_cast<int>(
+    std::count_if(rows.begin(), rows.end(), [](const FlowRow& row) { return !row.converged; }));
+  return WarningOf(flow, request_.conformalized, *state.mesh.triangles);
 }
 
 } // namespace gridfem

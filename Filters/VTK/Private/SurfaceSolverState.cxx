@@ -4,7 +4,6 @@
 #include "BasisReader.h"
 #include "InputValidation.h"
 #include "MetricArray.h"
-#include "Problems/MemoryEstimate.h"
 #include "vtkSurfaceFEMAlgorithm.h"
 
 #include "vtkCellArray.h"
@@ -109,17 +108,11 @@ void SurfaceSolverState::UpdateSpace(
 
 void SurfaceSolverState::ChooseDepth()
 {
-  if (options.space.depth != AutomaticDepth)
+  if (options.space.depth == AutomaticDepth)
   {
-    return;
+    options.space.depth =
+      AffordableDepth(*mesh.triangles, options.choice.kind == FunctionKind::Hats);
   }
-  int depth = SuggestedDepth(*mesh.triangles);
-  while (depth > MinimumDepth &&
-         !FitsMemory(*mesh.triangles, depth, options.choice.kind == FunctionKind::Hats))
-  {
-    --depth;
-  }
-  options.space.depth = depth;
 }
 
 void SurfaceSolverState::BuildSpace(vtkPolyData* input, const Progress& progress)

@@ -1,0 +1,201 @@
+#include "Grid/PolygonTriangles.h"
+
+#include "Base/Errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace gridfem
+{
+namespace
+{
+
+Vec3 NormalOf(const Vec3& a, const Vec3& b, const Vec3& c)
+{
+  return (b - a).cross(c - a);
+}
+
+/// The corners of a polygon that are left, in a ring. Corners are numbers from 0.
+class EarCutter
+{
+public:
+  EarCutter(const std::vector<Vec3>& points, const std::vector<Id>& corners)
+    : points_(points), corners_(corners), before_(corners.size()), after_(corners.size()),
+      ear_(corners.size(), 0.0)
+  {
+    const Id count = static_cast<Id>(corners.size());
+    for (Id k = 0; k < count; ++k)
+    {
+      before_[k] = (k + count - 1) % count;
+      after_[k] = (k + 1) % count;
+      normal_ += NormalOf(this->Place(0), this->Place(k), this->Place(after_[k]));
+    }
+    for (Id k = 0; k < count; ++k)
+    {
+      this->Judge(k);
+    }
+  }
+
+  Id NumberOfInward() const { return static_cast<Id>(inward_.size()); }
+
+  /// False when no corner can be cut off any more.
+  bool Cut(std::vector<Triangle>& triangles)
+  {
+    for (std::size_t left = corners_.size(); left > 3; --left)
+    {
+      const auto ear = std::find_if(ears_.begin(), ears_.end(),
+        [this](const std::pair<double, Id>& candidate) { return this->IsFree(candidate.second); });
+      if (ear == ears_.end())
+      {
+        return false;
+      }
+      const Id corner = ear->second;
+      triangles.push_back(this->TriangleAt(corner));
+      this->Remove(corner);
+    }
+    triangles.push_back(this->TriangleAt(first_));
+    return true;
+  }
+
+private:
+  const Vec3& Place(Id corner) const { return points_[corners_[corner]]; }
+
+  Triangle TriangleAt(Id corner) const
+  {
+    return { corners_[before_[corner]], corners_[corner], corners_[after_[corner]] };
+  }
+
+  double AreaOf(Id a, Id b, Id c) const
+  {
+    return NormalOf(this->Place(a), this->Place(b), this->Place(c)).dot(normal_);
+  }
+
+  /// Sorts a corner among the ears, by how far from equilateral they are, or those that point
+  /// inward.
+  void Judge(Id corner)
+  {
+    this->Forget(corner);
+    const Id a = before_[corner];
+    const Id c = after_[corner];
+    const double area = this->AreaOf(a, corner, c);
+    if (!(area > 0.0))
+    {
+      inward_.insert(corner);
+      return;
+    }
+    const double perimeter = (this->Place(corner) - this->Place(a)).norm() +
+                             (this->Place(c) - this->Place(corner)).norm() +
+                             (this->Place(a) - this->Place(c)).norm();
+    ear_[corner] = perimeter * perimeter / area;
+    ears_.insert({ ear_[corner], corner });
+  }
+
+  void Forget(Id corner)
+  {
+    inward_.erase(corner);
+    ears_.erase({ ear_[corner], corner });
+  }
+
+  /// Whether no corner that points inward lies in the triangle that would be cut off.
+  bool IsFree(Id corner) const
+  {
+    const Id a = before_[corner];
+    const Id c = after_[corner];
+    return std::none_of(inward_.begin(), inward_.end(),
+      [&](Id other)
+      {
+        if (other == a || other == c || this->Place(other) == this->Place(a) ||
+            this->Place(other) == this->Place(c))
+        {
+          return false;
+        }
+        return this->AreaOf(a, corner, other) >= 0.0 && this->AreaOf(corner, c, other) >= 0.0 &&
+               this->AreaOf(c, a, other) >= 0.0;
+      });
+  }
+
+  void Remove(Id corner)
+  {
+    const Id a = before_[corner];
+    const Id c = after_[corner];
+    this->Forget(corner);
+    after_[a] = c;
+    before_[c] = a;
+    first_ = a;
+    this->Judge(a);
+    this->Judge(c);
+  }
+
+  const std::vector<Vec3>& points_;
+  const std::vector<Id>& corners_;
+  std::vector<Id> before_;
+  std::vector<Id> after_;
+  std::vector<double> ear_; // what each corner is sorted by in ears_
+  Vec3 normal_ = Vec3::Zero();
+  std::set<std::pair<double, Id>> ears_;
+  std::set<Id> inward_;
+  Id first_ = 0; // a corner that is left
+};
+
+std::vector<Triangle> TrianglesOfQuad(const std::vector<Vec3>& points, const std::vector<Id>& q)
+{
+  const auto normal = [&](int a, int b, int c)
+  { return NormalOf(points[q[a]], points[q[b]], points[q[c]]); };
+  const bool firstInside = normal(0, 1, 2).dot(normal(0, 2, 3)) >= 0.0;
+  const bool secondInside = normal(1, 2, 3).dot(normal(1, 3, 0)) >= 0.0;
+  const bool firstShorter =
+    (points[q[0]] - points[q[2]]).squaredNorm() <= (points[q[1]] - points[q[3]]).squaredNorm();
+  const bool useFirst = firstInside == secondInside ? firstShorter : firstInside;
+  if (useFirst)
+  {
+    return { { q[0], q[1], q[2] }, { q[0], q[2], q[3] } };
+  }
+  return { { q[0], q[1], q[3] }, { q[1], q[2], q[3] } };
+}
+
+/// Every ear looks at every inward corner, and nothing can stop it on the way.
+void RequireEarsInTime(Id cell, std::size_t size, Id inward)
+{
+  constexpr double Most = 5e7; // a few seconds
+  if (static_cast<double>(size) * static_cast<double>(inward) > Most)
+  {
+    throw InvalidInput("Cell " + std::to_string(cell) + " is a polygon with " +
+                       std::to_string(size) + " corners, " + std::to_string(inward) +
+                       " of which point inward: to cut it into triangles would take too long. "
+                       "Split it into smaller polygons first.");
+  }
+}
+
+} // namespace
+
+std::vector<Triangle> TrianglesOfPolygon(
+  const std::vector<Vec3>& points, Id cell, const std::vector<Id>& corners)
+{
+  if (corners.size() == 4)
+  {
+    return TrianglesOfQuad(points, corners);
+  }
+  std::vector<Triangle> triangles;
+  const bool isFinite = std::all_of(
+    corners.begin(), corners.end(), [&](Id corner) { return points[corner].allFinite(); });
+  if (isFinite)
+  {
+    EarCutter cutter(points, corners);
+    RequireEarsInTime(cell, corners.size(), cutter.NumberOfInward());
+    if (cutter.Cut(triangles))
+    {
+      return triangles;
+    }
+  }
+  triangles.clear();
+  for (std::size_t k = 1; k + 1 < corners.size(); ++k)
+  {
+    triangles.push_back({ corners[0], corners[k], corners[k + 1] });
+  }
+  return triangles;
+}
+
+} // namespace gridfem

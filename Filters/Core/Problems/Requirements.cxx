@@ -1,0 +1,103 @@
+#include "Problems/Requirements.h"
+
+#include "Base/Errors.h"
+#include "Grid/Grid.h"
+#include "Problems/MemoryEstimate.h"
+#include "Problems/Spectrum.h"
+
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+#include <string>
+
+namespace gridfem
+{
+namespace
+{
+
+/// Throws when a job needs more memory than there is; unknown memory is taken as enough.
+void RequireBytes(double bytes, const std::string& subject, const std::string& advice)
+{
+  constexpr double GB = 1e9;
+  const double available = AvailableMemory();
+  if (available > 0.0 && bytes > available)
+  {
+    std::ostringstream message;
+    message << std::setprecision(3) << subject << " needs about " << bytes / GB
+            << " GB of memory, but only " << available / GB << " GB are free. " << advice;
+    throw InvalidInput(message.str());
+  }
+}
+
+/// Of all that a filter makes on the grid.
+double BytesOf(const TriangleMesh& mesh, const MemoryEstimate& grid, bool hatFunctions)
+{
+  return grid.bytes + (hatFunctions ? EstimateHatMemory(mesh, grid.functions) : 0.0);
+}
+
+} // namespace
+
+void RequireNumber(const char* property, double value)
+{
+  if (std::isnan(value))
+  {
+    throw InvalidInput(std::string(property) + " is not a number.");
+  }
+}
+
+void RequireAtLeast(const char* property, double value, double least)
+{
+  if (!std::isfinite(value) || value < least)
+  {
+    std::ostringstream message;
+    message << property << " is " << value << "; it must be " << least << " or more.";
+    throw InvalidInput(message.str());
+  }
+}
+
+bool FitsMemory(const TriangleMesh& mesh, int depth, bool hatFunctions)
+{
+  const double available = AvailableMemory();
+  return available <= 0.0 || BytesOf(mesh, EstimateMemory(mesh, depth), hatFunctions) <= available;
+}
+
+int AffordableDepth(const TriangleMesh& mesh, bool hatFunctions)
+{
+  int depth = SuggestedDepth(mesh);
+  while (depth > MinimumDepth && !FitsMemory(mesh, depth, hatFunctions))
+  {
+    --depth;
+  }
+  return depth;
+}
+
+void RequireMemory(const TriangleMesh& mesh, int depth, bool hatFunctions)
+{
+  const MemoryEstimate estimate = EstimateMemory(mesh, depth);
+  std::ostringstream subject;
+  subject << "Depth " << depth << " (about " << std::setprecision(3) << estimate.functions
+          << " basis functions)";
+  if (hatFunctions)
+  {
+    subject << " with the hat functions of " << mesh.points.size() << " points";
+  }
+  RequireBytes(BytesOf(mesh, estimate, hatFunctions), subject.str(),
+    "Every step down in Depth takes a quarter of the memory.");
+}
+
+void RequireMemoryForHats(const TriangleMesh& mesh, Id functions)
+{
+  RequireBytes(EstimateHatMemory(mesh, static_cast<double>(functions)),
+    "Hat functions on " + std::to_string(mesh.points.size()) + " points",
+    "Choose the functions of the grid, or fewer points.");
+}
+
+void RequireMemoryForModes(Id functions, Id modes, int threads)
+{
+  RequireBytes(EstimateSpectrumMemory(functions, modes, threads),
+    "NumberOfModes " + std::to_string(modes) + " with " + std::to_string(functions) +
+      " basis functions",
+    "Choose fewer modes or a smaller Depth.");
+}
+
+} // namespace gridfem

@@ -1,0 +1,215 @@
+#include "Problems/SolveWarnings.h"
+
+#include "Problems/MovedSurface.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace gridfem
+{
+namespace
+{
+
+std::string HowItEnded(const SolveReport& report)
+{
+  return "Not converged after " + std::to_string(report.iterations) + " iterations, because " +
+         ReasonOf(report) + ".";
+}
+
+const char* ReasonOf(FlowEnd end)
+{
+  switch (end)
+  {
+    case FlowEnd::Vanished:
+      return "the surface has shrunk to nothing. Rescale keeps its size";
+    case FlowEnd::VolumeLost:
+      return "the surface has lost the volume that was to be kept constant";
+    case FlowEnd::Unfit:
+      return "the moved surface cannot be clipped again";
+    case FlowEnd::Breakdown:
+    case FlowEnd::None:
+      break;
+  }
+  return "its equations cannot be solved: the matrix is not positive, or numbers leave their "
+         "range. A smaller TimeStep may help";
+}
+
+} // namespace
+
+const char* ReasonOf(const SolveReport& report)
+{
+  switch (report.end)
+  {
+    case SolveEnd::Converged:
+      return "it has converged";
+    case SolveEnd::IterationLimit:
+      return "more are not allowed";
+    case SolveEnd::NotFinite:
+      return "the values or gradients contain numbers that are not finite";
+    case SolveEnd::Stagnation:
+      return "it stagnated: more would bring nothing. Where triangles are narrow, or pieces far "
+             "smaller than the cells, NormalStabilization = 1e-2 or the filter Clean helps";
+    case SolveEnd::Breakdown:
+      break;
+  }
+  return "it broke down: the system has no solution, or its numbers span more digits than there "
+         "are, as those of hat functions on triangles narrower than 1e-7 of their length";
+}
+
+const char* ReasonOfError(bool hatFunctions)
+{
+  return hatFunctions ? "No Depth changes the error of hat functions: subdivide the mesh, or take "
+                        "FunctionSpace = Grid."
+                      : "A given basis has a fixed Depth; else the next one does not fit into "
+                        "memory.";
+}
+
+IterationRecord LastRecord(const SolveReport& report)
+{
+  return report.history.empty() ? IterationRecord{ 0, 0.0, 0.0 } : report.history.back();
+}
+
+std::string Joined(const std::vector<std::string>& sentences)
+{
+  std::string text;
+  for (const std::string& sentence : sentences)
+  {
+    text += (text.empty() || sentence.empty() ? "" : " ") + sentence;
+  }
+  return text;
+}
+
+std::string WarningOf(const SolveReport& report, double tolerance)
+{
+  const IterationRecord last = LastRecord(report);
+  std::ostringstream text;
+  text << HowItEnded(report) << " The energy residual is " << last.energy << ", the residual "
+       << last.residual << ", wanted is " << tolerance << ". The result is kept.";
+  return text.str();
+}
+
+std::string WarningOf(const SolveReport& report, const SolutionAccuracy& accuracy)
+{
+  std::ostringstream text;
+  text << HowItEnded(report) << " What the iteration has left is estimated to be "
+       << accuracy.algebraic << " of the solution, the error of the function space "
+       << accuracy.discretization << ". The result is kept.";
+  return text.str();
+}
+
+std::string WarningOfConstraints(const ConstrainedSolution& solution)
+{
+  constexpr double Visible = 1e-3;
+  if (solution.relativeMisfit <= Visible)
+  {
+    return {};
+  }
+  std::ostringstream text;
+  text << "The values are not met, by " << solution.misfit
+       << " at worst: they contradict each other, or lie closer together than the functions can "
+          "follow. The result has the least squares of these differences; a larger Depth or hat "
+          "functions come closer.";
+  return text.str();
+}
+
+std::vector<std::string> WarningsOf(const ConstrainedSolution& solution, double tolerance)
+{
+  std::vector<std::string> sentences;
+  if (!solution.report.converged)
+  {
+    sentences.push_back(WarningOf(solution.report, tolerance));
+  }
+  sentences.push_back(WarningOfConstraints(solution));
+  const auto free = std::count(solution.isHeld.begin(), solution.isHeld.end(), 0);
+  if (free > 0)
+  {
+    sentences.push_back(std::to_string(free) + " of " + std::to_string(solution.isHeld.size()) +
+                        " connected components have neither a weight nor a constraint: they keep "
+                        "the mean of what is known there, or are NaN where nothing is.");
+  }
+  return sentences;
+}
+
+std::string WarningOf(const PartialField& field)
+{
+  return field.numberOfIgnoredPoints == 0
+           ? std::string()
+           : std::to_string(field.numberOfIgnoredPoints) +
+               " known points have no triangle with known values at all corners, so that they do "
+               "not count. ConstraintArray can hold them.";
+}
+
+std::vector<std::string> WarningsOf(
+  const Spectrum& spectrum, int wanted, const std::string& where, bool tellOfGroup)
+{
+  std::vector<std::string> sentences;
+  const std::size_t modes = spectrum.eigenvalues.size();
+  if (spectrum.truncated)
+  {
+    sentences.push_back("Only " + std::to_string(modes) + " of the " + std::to_string(wanted) +
+                        " modes exist " + where + ".");
+  }
+  if (spectrum.cutsMultiplet && tellOfGroup)
+  {
+    sentences.push_back("The list ends inside a group of equal eigenvalues: the last of its "
+                        "eigenfunctions are missing. CompleteMultiplets adds them.");
+  }
+  if (!spectrum.converged)
+  {
+    const std::vector<double>& residuals = spectrum.residuals;
+    std::ostringstream text;
+    text << "Not converged after " << spectrum.iterations
+         << " iterations: " << spectrum.numberOfConverged << " of " << modes
+         << " modes reached the tolerance, the largest residual is "
+         << (residuals.empty() ? 0.0 : *std::max_element(residuals.begin(), residuals.end()))
+         << ". The result is kept.";
+    sentences.push_back(text.str());
+  }
+  return sentences;
+}
+
+std::vector<std::string> WarningsOf(const DistanceField& field, double tolerance)
+{
+  std::vector<std::string> sentences;
+  if (field.unreached > 0)
+  {
+    sentences.push_back(
+      "Distances are wrong far from the sources: " + std::to_string(field.unreached) +
+      " functions are too far for the heat that comes there to be a number. A "
+      "larger Smoothing or a smaller Depth helps.");
+  }
+  if (!field.heatConverged)
+  {
+    sentences.push_back(
+      "The heat has not settled everywhere: the direction of the distance may be wrong in places. "
+      "Another Depth or Smoothing may help. The result is kept.");
+  }
+  else if (!field.report.converged)
+  {
+    sentences.push_back(WarningOf(field.report, tolerance));
+  }
+  return sentences;
+}
+
+std::string WarningOf(const FlowSummary& flow, bool conformalized, const TriangleMesh& mesh)
+{
+  std::ostringstream text;
+  if (flow.end != FlowEnd::None && flow.steps < flow.wanted)
+  {
+    text << "The flow ends after " << flow.steps << " of " << flow.wanted << " steps, because "
+         << ReasonOf(flow.end) << ". The steps so far are kept. ";
+  }
+  if (flow.unconverged > 0)
+  {
+    text << flow.unconverged
+         << " steps have not converged to the Tolerance; their results are kept. ";
+  }
+  if (conformalized && !IsLikeASphere(mesh))
+  {
+    text << "The surface has a boundary, a handle, or more than one component: the conformalised "
+            "flow goes on, but will not end as a sphere. ";
+  }
+  return text.str();
+}
+
+} // namespace gridfem

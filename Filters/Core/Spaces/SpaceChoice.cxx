@@ -1,0 +1,24 @@
+#include "Spaces/SpaceChoice.h"
+
+#include "Spaces/HatSpace.h"
+
+namespace gridfem
+{
+
+std::unique_ptr<FiniteElementSpace> BuildSpace(const TriangleMesh& mesh,
+  const SpaceOptions& functions, const SpaceChoice& choice, const Progress& progress)
+{
+  GridSpaceOptions options;
+  options.functions = functions;
+  options.quadratureDegree = choice.quadratureDegree;
+  options.coarsestSize = choice.coarsestSize;
+  options.normalStabilization = choice.normalStabilization;
+  if (choice.kind == FunctionKind::Grid)
+  {
+    return std::make_unique<GridSpace>(BuildGridSpace(mesh, options, progress));
+  }
+  return std::make_unique<HatSpace>(
+    BuildHatSpace(mesh, options, HatTransfer::Evaluation, progress));
+}
+
+} // namespace gridfem

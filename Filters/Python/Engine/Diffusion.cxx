@@ -1,0 +1,70 @@
+#include "Problem.h"
+
+#include "Base/Errors.h"
+#include "Problems/HeatDiffusion.h"
+#include "Problems/SolveWarnings.h"
+
+namespace gridfem
+{
+namespace
+{
+
+class DiffusionProblem : public Problem
+{
+public:
+  explicit DiffusionProblem(Properties& properties)
+    : options_(properties, { 1e-6, 200, 1e-2 }),
+      time_(properties.NumberFrom("DiffusionTime", 0.001, 0.0)),
+      steps_(properties.Integer("NumberOfSteps", 1, 1, 10000)),
+      scheme_(static_cast<TimeScheme>(properties.Integer("Scheme", 1, 0, 1)))
+  {
+    if (time_ == 0.0)
+    {
+      throw InvalidInput("DiffusionTime is 0: nothing spreads. It must be above 0.");
+    }
+  }
+
+  Results Solve(const Given& given, const Progress& progress) const override
+  {
+    const Surface surface(given, options_, progress.Part(0.0, 0.3));
+    const Field start = given.FieldOf("values");
+    DiffusionOptions options;
+    options.timeStep = time_ / steps_ / surface.WeightInSpaceUnits(1.0);
+    options.scheme = scheme_;
+    options.multigrid = options_.multigrid;
+    options.solve = options_.solve;
+    HeatDiffusion diffusion(surface.space,
+      surface.space->LoadOfValues(start, surface.MakeJob(progress.Part(0.3, 0.4))), {}, options,
+      surface.MakeJob(progress.Part(0.4, 0.5)));
+    SolveReport last;
+    for (int step = 0; step < steps_; ++step)
+    {
+      const double share = 0.45 / steps_;
+      last = diffusion.Advance(
+        surface.MakeJob(progress.Part(0.5 + step * share, 0.5 + (step + 1) * share)));
+    }
+    Results results;
+    results.arrays["Diffused"] =
+      surface.AtPoints(diffusion.Coefficients(), given.RowsAtPoints("values"));
+    if (!last.converged)
+    {
+      results.Warn(WarningOf(last, options_.solve.tolerance));
+    }
+    return results;
+  }
+
+private:
+  SurfaceOptions options_;
+  double time_;
+  int steps_;
+  TimeScheme scheme_;
+};
+
+} // namespace
+
+std::unique_ptr<Problem> MakeDiffusion(Properties& properties)
+{
+  return std::make_unique<DiffusionProblem>(properties);
+}
+
+} // namespace gridfem

@@ -1,0 +1,75 @@
+#include "Problem.h"
+
+#include "Base/Errors.h"
+#include "Problems/GeodesicDistance.h"
+#include "Problems/SolveWarnings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gridfem
+{
+namespace
+{
+
+class DistanceProblem : public Problem
+{
+public:
+  explicit DistanceProblem(Properties& properties)
+    : options_(properties, { 1e-4, 200, 0.1 }),
+      smoothing_(properties.Number("Smoothing", 1.75, 0.5, 1000.0)),
+      toInfinity_(properties.Integer("Unreachable", 0, 0, 1) == 1)
+  {
+    options_.functions.joinAtPoints = true; // paths lead through points where sheets touch
+  }
+
+  Results Solve(const Given& given, const Progress& progress) const override
+  {
+    const Surface surface(given, options_, progress.Part(0.0, 0.3));
+    const GeodesicDistance method(surface.space, surface.mesh,
+      DistanceOptions{ smoothing_, options_.multigrid }, surface.MakeJob(progress.Part(0.3, 0.4)));
+    const DistanceField field =
+      method.From(SourcesOf(given), options_.solve, surface.MakeJob(progress.Part(0.4, 0.98)));
+    Results results;
+    MultiVector& distance = results.arrays["Distance"];
+    distance.resize(static_cast<Id>(field.atPoints.size()), 1);
+    std::transform(field.atPoints.begin(), field.atPoints.end(), distance.data(),
+      [this](double value) {
+        return toInfinity_ && std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
+      });
+    results.warnings = WarningsOf(field, options_.solve.tolerance);
+    return results;
+  }
+
+private:
+  static std::vector<Id> SourcesOf(const Given& given)
+  {
+    const std::vector<char> used = UsedPoints(*given.mesh);
+    std::vector<Id> sources = given.sources;
+    for (const Id id : sources)
+    {
+      if (id < 0 || id >= static_cast<Id>(used.size()) || !used[id])
+      {
+        throw InvalidInput(
+          "SourcePointIds: " + std::to_string(id) + " is not a point of a polygon of the mesh.");
+      }
+    }
+    std::sort(sources.begin(), sources.end());
+    sources.erase(std::unique(sources.begin(), sources.end()), sources.end());
+    return sources;
+  }
+
+  SurfaceOptions options_;
+  double smoothing_;
+  bool toInfinity_;
+};
+
+} // namespace
+
+std::unique_ptr<Problem> MakeDistance(Properties& properties)
+{
+  return std::make_unique<DistanceProblem>(properties);
+}
+
+} // namespace gridfem

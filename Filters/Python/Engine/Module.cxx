@@ -1,0 +1,130 @@
+// The Python module gridfem._core: arrays of numpy in and out, without VTK.
+#include "Problem.h"
+
+#include "Base/Errors.h"
+#include "Base/LargeMemory.h"
+#include "Base/ShortWaits.h"
+
+#include <pybind11/eigen.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <chrono>
+
+namespace py = pybind11;
+
+namespace gridfem
+{
+namespace
+{
+
+using Points = py::array_t<double, py::array::c_style>;
+using Cells = py::array_t<Id, py::array::c_style>;
+using Arrays = std::map<std::string, std::pair<MultiVector, bool>>;
+using Numbers = std::map<std::string, double>;
+
+const std::map<std::string, MakeProblem> Problems = {
+  { "GeodesicDistance", &MakeDistance },
+  { "HarmonicInterpolation", &MakeInterpolation },
+  { "HeatDiffusion", &MakeDiffusion },
+  { "LaplaceSpectrum", &MakeSpectrum },
+  { "MeanCurvatureFlow", &MakeFlow },
+  { "PrincipalCurvatures", &MakeCurvatures },
+  { "ScreenedPoisson", &MakePoisson },
+  { "StitchColors", &MakeStitching },
+  { "SurfaceDetail", &MakeDetail },
+};
+
+/// Looks for Ctrl-C every tenth of a second.
+class Signals
+{
+public:
+  bool GoOn()
+  {
+    const auto now = Clock::now();
+    if (now - lastLook_ < std::chrono::milliseconds(100))
+    {
+      return true;
+    }
+    lastLook_ = now;
+    const py::gil_scoped_acquire python;
+    return PyErr_CheckSignals() == 0;
+  }
+
+private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point lastLook_ = Clock::now();
+};
+
+std::vector<Vec3> VectorsOf(const Points& points)
+{
+  const auto rows = points.unchecked<2>();
+  std::vector<Vec3> vectors(static_cast<std::size_t>(rows.shape(0)));
+  for (py::ssize_t k = 0; k < rows.shape(0); ++k)
+  {
+    vectors[k] = { rows(k, 0), rows(k, 1), rows(k, 2) };
+  }
+  return vectors;
+}
+
+Results SolveAlone(const Problem& problem, const Given& given)
+{
+  const py::gil_scoped_release others;
+  KeepWaitsShort();
+  const MemoryReuse reuse;
+  Signals signals;
+  return problem.Solve(given, Progress([&](double) { return signals.GoOn(); }));
+}
+
+py::tuple Solve(const std::string& name, const Points& points, const Cells& cells,
+  const Arrays& arrays, const Numbers& numbers, const std::vector<Id>& sources)
+{
+  Properties properties(name, numbers);
+  const std::unique_ptr<Problem> problem = Problems.at(name)(properties);
+  properties.RequireNoOther();
+  Given given;
+  given.SetCells(VectorsOf(points), cells.data(), cells.shape(0), cells.shape(1));
+  for (const auto& [array, values] : arrays)
+  {
+    given.arrays[array] = { values.first, values.second };
+  }
+  given.sources = sources;
+  try
+  {
+    const Results results = SolveAlone(*problem, given);
+    return py::make_tuple(results.arrays, results.warnings);
+  }
+  catch (const Aborted&)
+  {
+    throw py::error_already_set(); // what the signal has raised
+  }
+}
+
+/// Per name the default and the range.
+std::map<std::string, std::array<double, 3>> KnownProperties(const std::string& name)
+{
+  Properties properties(name, {});
+  Problems.at(name)(properties);
+  std::map<std::string, std::array<double, 3>> known;
+  for (const auto& [property, range] : properties.Known())
+  {
+    known[property] = { range.standard, range.least, range.most };
+  }
+  return known;
+}
+
+} // namespace
+
+PYBIND11_MODULE(_core, module)
+{
+  module.doc() = "GridFEM's numerics, for the package gridfem.";
+  module.def("solve", &Solve,
+    "Solves the problem of a filter's name: arrays and warnings.\n\n"
+    "arrays: per name a matrix and whether its rows are points, else they are cells.",
+    py::arg("name"), py::arg("points"), py::arg("cells"), py::arg("arrays"), py::arg("properties"),
+    py::arg("sources"));
+  module.def("properties", &KnownProperties, "Per property its default and its range.");
+}
+
+} // namespace gridfem

@@ -1,0 +1,244 @@
+#include "Problem.h"
+
+#include "Base/Errors.h"
+#include "Grid/SurfaceEdges.h"
+#include "Problems/EdgeConditions.h"
+#include "Problems/PartialField.h"
+#include "Problems/SolveWarnings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+
+namespace gridfem
+{
+namespace
+{
+
+class PoissonProblem : public Problem
+{
+public:
+  explicit PoissonProblem(Properties& properties)
+    : options_(properties, { 0.0, 200, 1e-12, CycleType::W, 0.0 }),
+      weight_(properties.NumberFrom("ScreeningWeight", 100.0, 0.0)),
+      gradientScale_(properties.FiniteNumber("GradientScale", 1.0)),
+      accuracy_(properties.Number("Accuracy", 0.1, 1e-6, 1.0)),
+      iteration_(static_cast<IterationType>(properties.Integer("Iteration", 0, 0, 1))),
+      usesValueGradient_(properties.Switch("UseValueGradient", false)),
+      fillsUnknown_(properties.Switch("FillUnknown", false)),
+      holdsBoundary_(properties.Switch("BoundaryValues", false))
+  {
+  }
+
+  Results Solve(const Given& given, const Progress& progress) const override
+  {
+    this->Check(given);
+    const Surface surface(given, options_, progress.Part(0.0, 0.5));
+    Results results;
+    const MultiVector coefficients =
+      this->IsConstrained(given)
+        ? this->SolveConstrainedEquation(given, surface, results, progress.Part(0.5, 0.95))
+        : this->SolveEquation(given, surface, results, progress.Part(0.5, 0.95));
+    results.arrays["Solution"] = surface.AtPoints(coefficients, given.RowsAtPoints("values"));
+    return results;
+  }
+
+private:
+  bool IsConstrained(const Given& given) const
+  {
+    return fillsUnknown_ || holdsBoundary_ || given.Find("weights") || given.Find("held");
+  }
+
+  void Check(const Given& given) const;
+  Field ValuesOf(const Given& given) const;
+  MultiVector Gradients(
+    const Given& given, const Surface& surface, const Field& value, const Job& job) const;
+  MultiVector SolveEquation(
+    const Given& given, const Surface& surface, Results& results, const Progress& progress) const;
+  HeldValues Held(
+    const Given& given, const Surface& surface, const Field& value, Results& results) const;
+  MultiVector SolveConstrainedEquation(
+    const Given& given, const Surface& surface, Results& results, const Progress& progress) const;
+
+  SurfaceOptions options_;
+  double weight_;
+  double gradientScale_;
+  double accuracy_;
+  IterationType iteration_;
+  bool usesValueGradient_;
+  bool fillsUnknown_;
+  bool holdsBoundary_;
+};
+
+void RequirePointValues(const std::string& who, const GivenArray* values)
+{
+  if (values && !values->isOnPoints)
+  {
+    throw InvalidInput(who + " needs values at points, but 'values' is a cell array.");
+  }
+}
+
+void PoissonProblem::Check(const Given& given) const
+{
+  const GivenArray* values = given.Find("values");
+  const GivenArray* gradients = given.Find("gradients");
+  const GivenArray* weights = given.Find("weights");
+  const GivenArray* held = given.Find("held");
+  const Id components = values ? values->values.cols() : 3;
+  if (gradients && gradients->values.cols() != 3 * components)
+  {
+    throw InvalidInput("GradientArray 'gradients' has " + std::to_string(gradients->values.cols()) +
+                       " components. The values have " + std::to_string(components) + ", so " +
+                       std::to_string(3 * components) + " are needed: a vector for each.");
+  }
+  if (weights && weights->values.cols() != 1)
+  {
+    throw InvalidInput("ValueWeightArray 'weights' must have one component.");
+  }
+  if (held && (!held->isOnPoints || held->values.cols() != 1))
+  {
+    throw InvalidInput("MaskArray 'held' must be a point array with one component.");
+  }
+  if (usesValueGradient_ && !gradients)
+  {
+    RequirePointValues("UseValueGradient", values);
+  }
+  if (held || holdsBoundary_)
+  {
+    RequirePointValues(held ? "ConstraintArray" : "BoundaryValues", values);
+  }
+  if (this->IsConstrained(given) && iteration_ != IterationType::ConjugateGradients)
+  {
+    throw InvalidInput("Constraints, weights and unknown values need Iteration to be "
+                       "ConjugateGradients.");
+  }
+}
+
+Field PoissonProblem::ValuesOf(const Given& given) const
+{
+  return given.Find("values") ? given.FieldOf("values", fillsUnknown_) : CoordinatesOf(*given.mesh);
+}
+
+MultiVector PoissonProblem::SolveEquation(
+  const Given& given, const Surface& surface, Results& results, const Progress& progress) const
+{
+  constexpr double RoundingTolerance = 1e-9; // for solutions that coarser levels have already
+  const FiniteElementSpace& space = surface.Space();
+  const Job job = surface.MakeJob(progress.Part(0.0, 0.2));
+  const Field value = this->ValuesOf(given);
+  const MultiVector load = space.LoadOfValues(value, job);
+  MultiVector gradients;
+  if (given.Find("gradients"))
+  {
+    gradients = space.LoadOfGradients(given.FieldOf("gradients"), nullptr, job);
+  }
+  else if (usesValueGradient_)
+  {
+    gradients = given.Find("values") ? space.LoadOfGradientsOf(value, nullptr, job)
+                                     : space.LoadOfGradientsOfCoordinates(nullptr, job);
+  }
+  PoissonOptions options;
+  options.screeningWeight = surface.WeightInSpaceUnits(weight_);
+  options.multigrid = options_.multigrid;
+  options.iteration = iteration_;
+  options.solve = options_.solve;
+  options.estimateErrors = true;
+  const bool isByTolerance = options_.solve.tolerance > 0.0;
+  if (!isByTolerance)
+  {
+    options.accuracy = accuracy_;
+    options.solve.tolerance = RoundingTolerance;
+  }
+  const Multigrid multigrid =
+    BuildMultigrid(space, options.screeningWeight, 1.0, options.multigrid, progress.Part(0.2, 0.4));
+  PoissonSolution solution = SolvePoisson(
+    space, multigrid, load, gradientScale_ * gradients, options, progress.Part(0.4, 1.0));
+  if (!solution.report.converged)
+  {
+    results.Warn(isByTolerance ? WarningOf(solution.report, options.solve.tolerance)
+                               : WarningOf(solution.report, solution.accuracy));
+  }
+  return std::move(solution.coefficients);
+}
+
+HeldValues PoissonProblem::Held(
+  const Given& given, const Surface& surface, const Field& value, Results& results) const
+{
+  const TriangleMesh& mesh = surface.Mesh();
+  KnownRows known;
+  known.values.resize(0, value.values.cols());
+  if (const GivenArray* mask = given.Find("held"))
+  {
+    known = given.KnownValues(mask);
+  }
+  HeldValues held = HoldPoints(surface.Space(), known.points, std::move(known.values));
+  if (!holdsBoundary_)
+  {
+    return held;
+  }
+  std::vector<TriangleEdge> edges =
+    FindSurfaceEdges(mesh, options_.functions.weldCoincidentPoints).boundary;
+  if (edges.empty())
+  {
+    results.Warn("The surface has no boundary for BoundaryValues or a BoundaryFluxArray.");
+    return held;
+  }
+  const auto isUnknown = [&](const TriangleEdge& edge)
+  {
+    const auto ends = edge.Ends(mesh);
+    return value.values.row(ends[0]).hasNaN() || value.values.row(ends[1]).hasNaN();
+  };
+  edges.erase(std::remove_if(edges.begin(), edges.end(), isUnknown), edges.end());
+  return Join(held, HoldEdges(surface.Space(), mesh, edges, value.values));
+}
+
+MultiVector PoissonProblem::SolveConstrainedEquation(
+  const Given& given, const Surface& surface, Results& results, const Progress& progress) const
+{
+  constexpr double ConstrainedTolerance = 1e-6; // where no Tolerance is given
+  const FiniteElementSpace& space = surface.Space();
+  const TriangleMesh& mesh = surface.Mesh();
+  const Job job = surface.MakeJob(progress.Part(0.0, 0.3));
+  const Field value = this->ValuesOf(given);
+  const auto weight =
+    given.Find("weights") ? std::make_optional(given.FieldOf("weights")) : std::nullopt;
+  const PartialField field = SplitField(value, weight ? &*weight : nullptr, mesh);
+  const HeldValues held = this->Held(given, surface, value, results);
+  const double screening = surface.WeightInSpaceUnits(weight_);
+  MultiVector load = screening * space.LoadOfWeightedValues(field.values, field.weight, job);
+  if (given.Find("gradients"))
+  {
+    load += gradientScale_ * space.LoadOfGradients(given.FieldOf("gradients"), nullptr, job);
+  }
+  else if (usesValueGradient_)
+  {
+    // Where a corner is unknown there is no gradient.
+    const Field known = ScaleOfKnown(field, nullptr, mesh);
+    load += gradientScale_ * space.LoadOfGradientsOf(field.values, &known, job);
+  }
+  const MultiVector means = MeansOfKnown(space, field, job);
+  const std::unique_ptr<FiniteElementSpace> weighted = space.Copy();
+  weighted->WeighMass(field.weight, job);
+  const ConstraintOptions constraints;
+  const ConstrainedHierarchy hierarchy(*weighted, screening, 1.0, held.rows, constraints.penalty,
+    options_.multigrid, progress.Part(0.3, 0.5));
+  SolveOptions solve = options_.solve;
+  solve.tolerance = solve.tolerance > 0.0 ? solve.tolerance : ConstrainedTolerance;
+  ConstrainedSolution solution = SolveConstrained(*weighted, screening, hierarchy, load,
+    held.values, constraints, solve, progress.Part(0.5, 1.0));
+  SetMeans(space, solution.isHeld, means, solution.coefficients, options_.functions.threads);
+  std::vector<std::string> sentences = WarningsOf(solution, solve.tolerance);
+  sentences.push_back(WarningOf(field));
+  results.Warn(Joined(sentences));
+  return std::move(solution.coefficients);
+}
+
+} // namespace
+
+std::unique_ptr<Problem> MakePoisson(Properties& properties)
+{
+  return std::make_unique<PoissonProblem>(properties);
+}
+
+} // namespace gridfem

@@ -1,0 +1,50 @@
+// The problems that Python can ask for, each with the properties, the defaults and the arrays of
+// the filter of its name.
+#ifndef GridFEM_Problem_h
+#define GridFEM_Problem_h
+
+#include "Surface.h"
+
+namespace gridfem
+{
+
+struct Results
+{
+  std::map<std::string, MultiVector> arrays; // by the names that the filter gives them
+  std::vector<std::string> warnings;
+
+  /// An empty text is no warning.
+  void Warn(const std::string& text)
+  {
+    if (!text.empty())
+    {
+      warnings.push_back(text);
+    }
+  }
+};
+
+class Problem
+{
+public:
+  virtual ~Problem() = default;
+
+  /// Throws InvalidInput for an input that cannot be computed on, and Aborted.
+  virtual Results Solve(const Given& given, const Progress& progress) const = 0;
+};
+
+/// Takes the properties that the problem has. Throws InvalidInput for one that is out of range.
+using MakeProblem = std::unique_ptr<Problem> (*)(Properties& properties);
+
+std::unique_ptr<Problem> MakeCurvatures(Properties& properties);
+std::unique_ptr<Problem> MakeDetail(Properties& properties);
+std::unique_ptr<Problem> MakeDiffusion(Properties& properties);
+std::unique_ptr<Problem> MakeDistance(Properties& properties);
+std::unique_ptr<Problem> MakeFlow(Properties& properties);
+std::unique_ptr<Problem> MakeInterpolation(Properties& properties);
+std::unique_ptr<Problem> MakePoisson(Properties& properties);
+std::unique_ptr<Problem> MakeSpectrum(Properties& properties);
+std::unique_ptr<Problem> MakeStitching(Properties& properties);
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,79 @@
+#include "Properties.h"
+
+#include "Base/Errors.h"
+#include "Problems/Requirements.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gridfem
+{
+namespace
+{
+
+constexpr double Infinity = std::numeric_limits<double>::infinity();
+
+} // namespace
+
+double Properties::Take(const std::string& name, const Property& property)
+{
+  known_[name] = property;
+  const auto given = given_.find(name);
+  if (given == given_.end())
+  {
+    return property.standard;
+  }
+  RequireNumber(name.c_str(), given->second);
+  return std::clamp(given->second, property.least, property.most);
+}
+
+double Properties::Number(const std::string& name, double standard, double least, double most)
+{
+  return this->Take(name, { standard, least, most });
+}
+
+int Properties::Integer(const std::string& name, int standard, int least, int most)
+{
+  const double value = this->Take(name, { double(standard), double(least), double(most) });
+  if (value != std::floor(value))
+  {
+    throw InvalidInput(name + " must be an integer.");
+  }
+  return static_cast<int>(value);
+}
+
+bool Properties::Switch(const std::string& name, bool standard)
+{
+  return this->Take(name, { standard ? 1.0 : 0.0, -Infinity, Infinity }) != 0.0;
+}
+
+double Properties::NumberFrom(const std::string& name, double standard, double least)
+{
+  const double value = this->Take(name, { standard, -Infinity, Infinity });
+  RequireAtLeast(name.c_str(), value, least);
+  return value;
+}
+
+double Properties::FiniteNumber(const std::string& name, double standard)
+{
+  const double value = this->Take(name, { standard, -Infinity, Infinity });
+  if (!std::isfinite(value))
+  {
+    throw InvalidInput(name + " must be a finite number.");
+  }
+  return value;
+}
+
+void Properties::RequireNoOther() const
+{
+  for (const auto& [name, value] : given_)
+  {
+    if (known_.count(name) == 0)
+    {
+      throw InvalidInput(owner_ + " has no property " + name);
+    }
+  }
+}
+
+} // namespace gridfem

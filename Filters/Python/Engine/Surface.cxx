@@ -1,0 +1,228 @@
+#include "Surface.h"
+
+#include "Base/Errors.h"
+#include "Base/VectorRows.h"
+#include "Grid/Grid.h"
+#include "Grid/PolygonTriangles.h"
+#include "Integrals/QuadratureRule.h"
+#include "Problems/Requirements.h"
+
+#include <cmath>
+#include <limits>
+
+namespace gridfem
+{
+
+void Given::SetCells(std::vector<Vec3> points, const Id* cells, Id count, Id corners)
+{
+  auto triangles = std::make_shared<TriangleMesh>();
+  triangles->points = std::move(points);
+  triangles->triangles.reserve(count * (corners - 2));
+  sourceCell.reserve(count * (corners - 2));
+  numberOfCells = count;
+  const auto add = [&](Id cell, const Triangle& triangle)
+  {
+    triangles->triangles.push_back(triangle);
+    sourceCell.push_back(cell);
+  };
+  for (Id cell = 0; cell < count; ++cell)
+  {
+    const Id* ids = cells + cell * corners;
+    if (corners == 3)
+    {
+      add(cell, { ids[0], ids[1], ids[2] });
+    }
+    else
+    {
+      for (const Triangle& triangle :
+        TrianglesOfPolygon(triangles->points, cell, { ids, ids + corners }))
+      {
+        add(cell, triangle);
+      }
+    }
+  }
+  mesh = std::move(triangles);
+}
+
+const GivenArray* Given::Find(const std::string& name) const
+{
+  const auto found = arrays.find(name);
+  return found == arrays.end() ? nullptr : &found->second;
+}
+
+MultiVector Given::RowsAtPoints(const std::string& name) const
+{
+  const GivenArray* array = this->Find(name);
+  if (!array)
+  {
+    return RowsOf(mesh->points);
+  }
+  return array->isOnPoints
+           ? array->values
+           : MultiVector::Zero(static_cast<Id>(mesh->points.size()), array->values.cols());
+}
+
+KnownRows Given::KnownValues(const GivenArray* mask) const
+{
+  const MultiVector& given = arrays.at("values").values;
+  const std::vector<char> used = UsedPoints(*mesh);
+  KnownRows known;
+  for (Id point = 0; point < given.rows(); ++point)
+  {
+    const double chosen = mask ? mask->values(point, 0) : 1.0;
+    if (used[point] && chosen != 0.0 && !std::isnan(chosen) && !given.row(point).hasNaN())
+    {
+      known.points.push_back(point);
+    }
+  }
+  if (known.points.empty())
+  {
+    throw InvalidInput("No value of 'values' is known at a point of a polygon: all are NaN, "
+                       "masked, or not selected.");
+  }
+  known.values.resize(static_cast<Id>(known.points.size()), given.cols());
+  for (Id row = 0; row < known.values.rows(); ++row)
+  {
+    known.values.row(row) = given.row(known.points[row]);
+    if (!known.values.row(row).allFinite())
+    {
+      throw InvalidInput("Array 'values' has a value that is not finite at point " +
+                         std::to_string(known.points[row]) + ".");
+    }
+  }
+  return known;
+}
+
+Field Given::FieldOf(const std::string& name, bool keepsNaN) const
+{
+  const GivenArray& array = arrays.at(name);
+  Field field;
+  field.association = array.isOnPoints ? FieldAssociation::Points : FieldAssociation::Triangles;
+  const Id rows =
+    array.isOnPoints ? static_cast<Id>(mesh->points.size()) : static_cast<Id>(sourceCell.size());
+  field.values = MultiVector::Zero(rows, array.values.cols());
+  const std::vector<char> used = array.isOnPoints ? UsedPoints(*mesh) : std::vector<char>{};
+  for (Id row = 0; row < rows; ++row)
+  {
+    const Id source = array.isOnPoints ? row : sourceCell[row];
+    for (Id c = 0; (!array.isOnPoints || used[row]) && c < array.values.cols(); ++c)
+    {
+      const double value = array.values(source, c);
+      if (!std::isfinite(value) && !(keepsNaN && std::isnan(value)))
+      {
+        throw InvalidInput("Array '" + name + "' has a NaN or infinite value at " +
+                           (array.isOnPoints ? "point " : "cell ") + std::to_string(source) +
+                           ". Replace such values first.");
+      }
+      field.values(row, c) = value;
+    }
+  }
+  return field;
+}
+
+MultiVector Given::MeansOnCells(const MultiVector& onTriangles) const
+{
+  MultiVector mean = MultiVector::Zero(numberOfCells, onTriangles.cols());
+  std::vector<double> area(numberOfCells, 0.0);
+  for (Id t = 0; t < onTriangles.rows(); ++t)
+  {
+    const Triangle& corner = mesh->triangles[t];
+    const Vec3& origin = mesh->points[corner[0]];
+    const double ofTriangle =
+      0.5 * (mesh->points[corner[1]] - origin).cross(mesh->points[corner[2]] - origin).norm();
+    mean.row(sourceCell[t]) += ofTriangle * onTriangles.row(t);
+    area[sourceCell[t]] += ofTriangle;
+  }
+  for (Id cell = 0; cell < numberOfCells; ++cell)
+  {
+    mean.row(cell) *= area[cell] > 0.0 ? 1.0 / area[cell] : 0.0;
+  }
+  return mean;
+}
+
+SurfaceOptions::SurfaceOptions(Properties& properties, const SharedDefaults& defaults)
+{
+  constexpr int Largest = std::numeric_limits<int>::max();
+  functions.depth = properties.Integer("Depth", 7, 0, MaximumDepth);
+  functions.connectivityAware = properties.Switch("ConnectivityAware", true);
+  functions.weldCoincidentPoints = properties.Switch("WeldCoincidentPoints", true);
+  functions.threads = properties.Integer("NumberOfThreads", 0, 0, 1024);
+  choice.kind = static_cast<FunctionKind>(properties.Integer("FunctionSpace", 0, 0, 1));
+  choice.quadratureDegree = properties.Integer("QuadratureDegree", 2, -Largest, Largest);
+  TriangleRule(choice.quadratureDegree); // refuses a wrong degree before the long work
+  choice.coarsestSize = properties.Integer("CoarsestSize", 256, 1, 4096);
+  choice.normalStabilization =
+    properties.Number("NormalStabilization", defaults.normalStabilization, 1e-14, 1.0);
+  multigrid.cycle =
+    static_cast<CycleType>(properties.Integer("Cycle", static_cast<int>(defaults.cycle), 0, 1));
+  multigrid.smoother = static_cast<SmootherType>(properties.Integer("Smoother", 0, 0, 2));
+  multigrid.preSweeps = properties.Integer("NumberOfSweeps", 1, 1, 100);
+  multigrid.postSweeps = multigrid.preSweeps;
+  multigrid.sweepsPerSynchronisation = properties.Integer("SweepsPerSynchronisation", 1, 1, 100);
+  multigrid.threads = functions.threads;
+  solve.tolerance =
+    properties.Number("Tolerance", defaults.tolerance, defaults.leastTolerance, 0.999);
+  solve.maximumIterations =
+    properties.Integer("MaximumIterations", defaults.maximumIterations, 1, Largest);
+  parameterUnits = properties.Integer("ParameterUnits", 1, 0, 2);
+}
+
+/// With a depth in the place of an automatic one, which is 0.
+SurfaceOptions WithDepth(SurfaceOptions options, const TriangleMesh& mesh)
+{
+  RequireSurface(mesh);
+  if (options.functions.depth == 0)
+  {
+    options.functions.depth = AffordableDepth(mesh, options.IsOnHats());
+  }
+  return options;
+}
+
+Surface::Surface(const Given& given, const SurfaceOptions& own, const Progress& progress)
+  : options(WithDepth(own, *given.mesh)), mesh(given.mesh)
+{
+  RequireMemory(*mesh, options.functions.depth, options.IsOnHats());
+  space = BuildSpace(*mesh, options.functions, options.choice, progress);
+}
+
+double Surface::WeightInSpaceUnits(double weight) const
+{
+  const double unit = space->UnitLength();
+  double length2 = 1.0; // the squared unit of length, world units
+  if (options.parameterUnits == 1)
+  {
+    length2 = SurfaceArea(*mesh);
+  }
+  else if (options.parameterUnits == 2)
+  {
+    const double side = unit * (1 << options.functions.depth);
+    length2 = side * side;
+  }
+  return weight / length2 * unit * unit;
+}
+
+double Surface::LengthInWorldUnits(double length) const
+{
+  return length * space->UnitLength() / std::sqrt(this->WeightInSpaceUnits(1.0));
+}
+
+void Surface::KeepUnsolved(const MultiVector& given, MultiVector& values) const
+{
+  const std::vector<char> isSolved = space->PointsWithFunctions();
+  for (Id point = 0; point < values.rows(); ++point)
+  {
+    if (!isSolved[point])
+    {
+      values.row(point) = given.row(point);
+    }
+  }
+}
+
+MultiVector Surface::AtPoints(const MultiVector& coefficients, const MultiVector& given) const
+{
+  MultiVector values = space->ValuesAtPoints(coefficients, options.functions.threads);
+  this->KeepUnsolved(given, values);
+  return values;
+}
+
+} // namespace gridfem

@@ -1,0 +1,82 @@
+"""What the functions take: meshes of other libraries, and checks of arrays."""
+
+import numpy
+
+
+class Error(ValueError):
+    """An input that cannot be computed on; the message says why."""
+
+
+def checked(points, cells):
+    """Both as arrays of the right kind and shape."""
+    points = numpy.ascontiguousarray(points, dtype=float)
+    cells = numpy.ascontiguousarray(cells, dtype=numpy.int64)
+    if points.ndim != 2 or points.shape[1] != 3:
+        raise Error(f"points must have three columns; their shape is {points.shape}")
+    if cells.ndim != 2 or cells.shape[1] < 3:
+        raise Error(f"cells must have three or more columns; their shape is {cells.shape}")
+    if cells.size and not (0 <= cells.min() and cells.max() < len(points)):
+        raise Error(f"cells must be ids of the {len(points)} points, from 0")
+    return points, cells
+
+
+def placed(name, values, points, cells):
+    """Values as an array, and whether they belong to the points; else they do to the cells."""
+    values = numpy.ascontiguousarray(values)
+    if values.dtype == bool:
+        values = values.astype(numpy.uint8)
+    if len(values) not in (len(points), len(cells)):
+        raise Error(f"{name} has {len(values)} rows; there are {len(points)} points and "
+                    f"{len(cells)} cells")
+    return values, len(values) == len(points)
+
+
+def _from_counted(faces):
+    """Rows of ids from a list in which the number of corners stands before the ids of each face."""
+    faces = numpy.asarray(faces).ravel()
+    polygons = []
+    place = 0
+    while place < len(faces):
+        polygons.append(faces[place + 1:place + 1 + faces[place]])
+        place += 1 + faces[place]
+    return polygons
+
+
+def _rows(polygons):
+    """One array of the polygons; of different ones, their triangles as fans."""
+    polygons = [numpy.asarray(polygon) for polygon in polygons]
+    if len({len(polygon) for polygon in polygons}) > 1:
+        polygons = [polygon[[0, k, k + 1]] for polygon in polygons
+                    for k in range(1, len(polygon) - 1)]
+    return numpy.array(polygons, dtype=numpy.int64)
+
+
+def arrays(mesh):
+    """The points and cells of a mesh of PyVista, trimesh or meshio, or of a vtkPolyData.
+
+    Polygons of different numbers of corners become triangles.
+    """
+    if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):  # trimesh.Trimesh
+        points, cells = mesh.vertices, mesh.faces
+    elif hasattr(mesh, "points") and hasattr(mesh, "faces"):  # pyvista.PolyData
+        points, cells = mesh.points, _rows(_from_counted(mesh.faces))
+    elif hasattr(mesh, "points") and hasattr(mesh, "cells"):  # meshio.Mesh
+        points = mesh.points
+        cells = _rows([polygon for block in mesh.cells
+                       if block.type in ("triangle", "quad", "polygon") for polygon in block.data])
+    elif hasattr(mesh, "GetPolys"):  # vtkPolyData
+        from vtkmodules.util.numpy_support import vtk_to_numpy
+        points = vtk_to_numpy(mesh.GetPoints().GetData())
+        offsets = vtk_to_numpy(mesh.GetPolys().GetOffsetsArray())
+        ids = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray())
+        cells = _rows(numpy.split(ids, offsets[1:-1]))
+    else:
+        raise Error(f"{type(mesh).__name__} is no mesh with points and faces, vertices and faces, "
+                    "or points and cells")
+    points = numpy.asarray(points, dtype=float)
+    if points.ndim == 2 and points.shape[1] == 2:  # as meshio has them in the plane
+        points = numpy.column_stack([points, numpy.zeros(len(points))])
+    cells = numpy.asarray(cells, dtype=numpy.int64)
+    if cells.size == 0:
+        raise Error("The mesh has no polygons.")
+    return points, cells

@@ -1,0 +1,114 @@
+"""The filters do the work, in the VTK that they were built with."""
+
+import contextlib
+import warnings
+
+import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.util.vtkConstants import VTK_STRING
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataObject, vtkPolyData
+from vtkmodules.vtkParallelCore import vtkDummyController, vtkMultiProcessController
+
+from . import vtkGridFEMFilters
+from ._inputs import Error, checked, placed
+
+_POINTS = vtkDataObject.FIELD_ASSOCIATION_POINTS
+_CELLS = vtkDataObject.FIELD_ASSOCIATION_CELLS
+
+# Of SetInputArrayToProcess.
+_INDICES = {"values": 0, "gradients": 1, "weights": 3, "held": 4, "colors": 0, "labels": 1}
+
+
+def surface(points, cells):
+    """A vtkPolyData of polygons."""
+    points, cells = checked(points, cells)
+    coordinates = vtkPoints()
+    coordinates.SetData(numpy_to_vtk(points, deep=True))
+    polygons = vtkCellArray()
+    polygons.SetData(cells.shape[1], numpy_to_vtkIdTypeArray(cells.ravel(), deep=True))
+    data = vtkPolyData()
+    data.SetPoints(coordinates)
+    data.SetPolys(polygons)
+    return data
+
+
+@contextlib.contextmanager
+def _alone():
+    """Without the other MPI ranks."""
+    everybody = vtkMultiProcessController.GetGlobalController()
+    vtkMultiProcessController.SetGlobalController(vtkDummyController())
+    try:
+        yield
+    finally:
+        vtkMultiProcessController.SetGlobalController(everybody)
+
+
+class _Collector:
+    """Takes the messages of a filter instead of printing them."""
+
+    CallDataType = VTK_STRING
+
+    def __init__(self, messages):
+        self.messages = messages
+
+    def __call__(self, caller, event, text):
+        # VTK puts file, line and object in front of the message.
+        self.messages.append((event, text.rsplit("): ", 1)[-1].strip()))
+
+
+class _Results:
+    """The arrays of an output by their names."""
+
+    def __init__(self, output):
+        self.output = output
+
+    def __getitem__(self, name):
+        if name == "Points":
+            return vtk_to_numpy(self.output.GetPoints().GetData()).copy()
+        if name == "Modes":
+            count = self.output.GetFieldData().GetArray("Eigenvalues").GetNumberOfTuples()
+            return numpy.column_stack([self[f"Mode{mode:03}"] for mode in range(count)])
+        attributes = (self.output.GetPointData(), self.output.GetCellData(),
+                      self.output.GetFieldData())
+        found = next(a for a in attributes if a.HasArray(name))
+        return vtk_to_numpy(found.GetArray(name)).copy()
+
+
+def solve(name, points, cells, arrays, properties, sources=()):
+    """The arrays that the filter gives, by their names.
+
+    arrays: per name the values, which may be None.
+    """
+    algorithm = getattr(vtkGridFEMFilters, "vtk" + name)()
+    messages = []
+    observe = _Collector(messages)
+    algorithm.AddObserver("ErrorEvent", observe)
+    algorithm.AddObserver("WarningEvent", observe)
+    data = surface(points, cells)
+    for array, values in arrays.items():
+        if values is None:
+            continue
+        values, on_points = placed(array, values, points, cells)
+        column = numpy_to_vtk(values, deep=True)
+        column.SetName(array)
+        (data.GetPointData() if on_points else data.GetCellData()).AddArray(column)
+        algorithm.SetInputArrayToProcess(
+            _INDICES[array], 0, 0, _POINTS if on_points else _CELLS, array)
+    if name == "LaplaceSpectrum":
+        algorithm.AllModesOn()
+    for key, value in properties.items():
+        if not hasattr(algorithm, "Set" + key):
+            raise Error(f"{name} has no property {key}")
+        getattr(algorithm, "Set" + key)(value)
+    for point in sources:
+        algorithm.AddSourcePointId(int(point))
+    algorithm.SetInputData(data)
+    with _alone():
+        algorithm.Update()
+    texts = [text for kind, text in messages if kind == "ErrorEvent"]
+    if texts:
+        raise Error(texts[0])
+    for _, text in messages:
+        warnings.warn(text, RuntimeWarning, stacklevel=3)
+    return _Results(algorithm.GetOutput())

@@ -1,0 +1,79 @@
+"""The numerics do the work, compiled into the module _core; VTK is not needed."""
+
+import importlib
+import warnings
+
+import numpy
+
+from ._inputs import Error, checked, placed
+
+
+def _levels():
+    """Of x86-64, what this processor has, the best first."""
+    try:
+        from numpy._core._multiarray_umath import __cpu_features__ as features
+    except ImportError:
+        from numpy.core._multiarray_umath import __cpu_features__ as features
+    if features.get("X86_V4") or features.get("AVX512_SKX"):
+        yield "v4"
+    if features.get("X86_V3") or (features.get("AVX2") and features.get("FMA3")):
+        yield "v3"
+    yield "v2"
+
+
+def _load():
+    """The module for this machine, or the best of those for kinds of processors."""
+    for folder in ("", *(level + "." for level in _levels())):
+        try:
+            return importlib.import_module(f".{folder}_core", __package__)
+        except ModuleNotFoundError:
+            pass
+    raise ImportError("This package has no module _core for this processor.")
+
+
+_core = _load()
+
+
+def _matrix(values):
+    return numpy.asarray(values, dtype=float).reshape(len(values), -1)
+
+
+def _colors(stitched, given):
+    """Of the type and in the range of the given ones."""
+    if numpy.issubdtype(given.dtype, numpy.integer):
+        limits = numpy.iinfo(given.dtype)
+        stitched = numpy.round(numpy.clip(stitched, limits.min, limits.max))
+    elif given.size and 0 <= given.min() and given.max() <= 1:
+        stitched = numpy.clip(stitched, 0, 1)
+    return stitched.astype(given.dtype)
+
+
+def solve(name, points, cells, arrays, properties, sources=()):
+    """The arrays that the filter of this name would give, by their names.
+
+    arrays: per name the values, which may be None.
+    """
+    points, cells = checked(points, cells)
+    given = {array: placed(array, values, points, cells)
+             for array, values in arrays.items() if values is not None}
+    try:
+        results, messages = _core.solve(
+            name, points, cells,
+            {array: (_matrix(values), on_points) for array, (values, on_points) in given.items()},
+            {key: float(value) for key, value in properties.items()},
+            [int(source) for source in sources])
+    except MemoryError:
+        depth = properties.get("Depth", _core.properties(name)["Depth"][0])
+        raise Error(f"Out of memory at Depth {depth:g}: choose a smaller Depth.") from None
+    except ValueError as error:
+        raise Error(str(error)) from None
+    for text in messages:
+        warnings.warn(text, RuntimeWarning, stacklevel=3)
+    results = {array: values[:, 0] if values.shape[1] == 1 and array != "Modes" else values
+               for array, values in results.items()}
+    for array in ("Solution", "Interpolated"):  # of the type of the given values
+        if array in results and "values" in given and given["values"][0].dtype == numpy.float32:
+            results[array] = results[array].astype(numpy.float32)
+    if "StitchedColors" in results:
+        results["StitchedColors"] = _colors(results["StitchedColors"], given["colors"][0])
+    return results

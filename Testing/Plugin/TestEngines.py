@@ -1,0 +1,177 @@
+"""The package without VTK gives what the filters give, for the same calls."""
+import importlib.util
+import os
+import sys
+import unittest
+import warnings
+
+import numpy
+
+import gridfem
+from gridfem import vtkGridFEMFilters
+from TestNumpy import unit_sphere
+
+
+def load(name, folder):
+    """The package in a folder, under a name of its own."""
+    spec = importlib.util.spec_from_file_location(
+        name, os.path.join(folder, "__init__.py"), submodule_search_locations=[folder])
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+def open_torus(around=40, across=20):
+    """Points and quads of a torus that lacks a piece, so that it has a boundary."""
+    u = numpy.linspace(0, 1.7 * numpy.pi, around)
+    v = numpy.linspace(0, 2 * numpy.pi, across, endpoint=False)
+    u, v = numpy.meshgrid(u, v, indexing="ij")
+    radius = 2 + 0.6 * numpy.cos(v)
+    points = numpy.stack([radius * numpy.cos(u), radius * numpy.sin(u), 0.6 * numpy.sin(v)], -1)
+    row, column = numpy.meshgrid(numpy.arange(around - 1), numpy.arange(across), indexing="ij")
+    corner = row * across + column
+    right = row * across + (column + 1) % across
+    quads = numpy.stack([corner, corner + across, right + across, right], axis=-1)
+    return points.reshape(-1, 3), quads.reshape(-1, 4)
+
+
+def soup(points, cells):
+    """The same surface with points of its own for each cell, as in an STL file."""
+    return points[cells].reshape(-1, 3), numpy.arange(cells.size).reshape(cells.shape)
+
+
+class Engines(unittest.TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.core = load("gridfem_core", os.environ["GRIDFEM_PYTHON_DIR"])
+        points, triangles = unit_sphere()
+        cls.meshes = {"ellipsoid": (points * [1.0, 1.3, 0.7], triangles), "torus": open_torus(),
+                      "soup": soup(*open_torus(30, 16))}
+
+    def compare(self, call):
+        """call: of a package, a mesh, and options. Both round in the same way."""
+        for name, (points, cells) in self.meshes.items():
+            for space in (0, 1):
+                with self.subTest(mesh=name, FunctionSpace=space), warnings.catch_warnings():
+                    warnings.simplefilter("ignore")
+                    options = {"Depth": 4, "FunctionSpace": space}
+                    theirs = call(gridfem, points, cells, **options)
+                    ours = call(self.core, points, cells, **options)
+                    if not isinstance(ours, tuple):
+                        theirs, ours = (theirs,), (ours,)
+                    for a, b in zip(theirs, ours):
+                        self.assertEqual(a.dtype, b.dtype)
+                        self.assertEqual(a.shape, b.shape)
+                        numpy.testing.assert_allclose(
+                            b, a, rtol=1e-12, atol=1e-12 * max(1.0, numpy.nanmax(numpy.abs(a))))
+
+    def test_spectrum(self):
+        self.compare(lambda g, p, c, **o: g.spectrum(p, c, 8, **o)[0])
+        self.compare(lambda g, p, c, **o: g.spectrum(p, c, 8, CompleteMultiplets=False, **o)[1])
+
+    def test_poisson(self):
+        self.compare(lambda g, p, c, **o: g.poisson(p, c, p[:, 2], **o))
+        self.compare(lambda g, p, c, **o: g.poisson(p, c, p[:, :2].astype("f"), Tolerance=1e-6, **o))
+        self.compare(lambda g, p, c, **o: g.poisson(p, c, p, UseValueGradient=True, **o))
+        self.compare(lambda g, p, c, **o: g.poisson(p, c, UseValueGradient=True, **o))
+        self.compare(lambda g, p, c, **o: g.poisson(p, c, p[c].mean(axis=1)[:, 0], p[c[:, 0]], **o))
+
+    def test_poisson_with_conditions(self):
+        self.compare(lambda g, p, c, **o: g.poisson(p, c, p[:, 0], weights=p[:, 1] ** 2, **o))
+        self.compare(lambda g, p, c, **o: g.poisson(p, c, p, held=p[:, 0] > 0.9, ScreeningWeight=1, **o))
+        self.compare(lambda g, p, c, **o: g.poisson(p, c, p[:, 2], BoundaryValues=True, **o))
+        self.compare(lambda g, p, c, **o: g.poisson(
+            p, c, numpy.where(p[:, 0] > 0, p[:, 1], numpy.nan), FillUnknown=True, **o))
+
+    def test_distance(self):
+        self.compare(lambda g, p, c, **o: g.distance(p, c, [0, len(p) // 2], **o))
+        self.compare(lambda g, p, c, **o: g.distance(p, c, 5, Smoothing=3.0, Unreachable=1, **o))
+
+    def test_diffuse(self):
+        self.compare(lambda g, p, c, **o: g.diffuse(p, c, p[:, 2], 0.01, **o))
+
+    def test_interpolate(self):
+        for smoothness in (0, 1):
+            self.compare(lambda g, p, c, **o: g.interpolate(
+                p, c, [0, 7, len(p) // 2], [1.0, 2.0, 5.0], Smoothness=smoothness, **o))
+
+    def test_stitch(self):
+        def colors(values):
+            return (100 + 90 * numpy.sin(3 * values)).astype(numpy.uint8)
+
+        self.compare(lambda g, p, c, **o: g.stitch(p, c, colors(p), p[:, 1] > 0, **o))
+        self.compare(lambda g, p, c, **o: g.stitch(
+            p, c, 0.1 + 0.001 * numpy.arange(len(c)), p[c[:, 0], 1] > 0, BlendWidth=0.1, **o))
+
+    def test_curvatures(self):
+        self.compare(lambda g, p, c, **o: g.curvatures(p, c, **o)[:2])
+        self.compare(lambda g, p, c, **o: g.curvatures(p, c, SmoothingScale=0.02, **o)[:2])
+
+    def test_detail(self):
+        self.compare(lambda g, p, c, **o: g.detail(p, c, 1.5, **o))
+        for transfer in range(1, 5):
+            self.compare(lambda g, p, c, **o: g.detail(
+                p, c, TransferFunction=transfer, KeepVolume=True, **o))
+
+    def test_flow(self):
+        self.compare(lambda g, p, c, **o: g.flow(p, c, 3, **o))
+        self.compare(lambda g, p, c, **o: g.flow(p, c, 3, Conformalized=True, **o))
+        self.compare(lambda g, p, c, **o: g.flow(p, c, 2, TrackMetric=False, **o))
+
+    def test_polygons(self):
+        angles = numpy.linspace(0, 2 * numpy.pi, 10, endpoint=False)
+        radius = numpy.where(numpy.arange(10) % 2, 1.0, 0.4)  # a star
+        star = numpy.stack([radius * numpy.cos(angles), radius * numpy.sin(angles), 0 * angles], -1)
+        cells = [numpy.arange(10)]
+        for space in (0, 1):
+            theirs, ours = (g.spectrum(star, cells, 3, Depth=4, FunctionSpace=space)[0]
+                            for g in (gridfem, self.core))
+            numpy.testing.assert_allclose(ours, theirs, rtol=1e-12, atol=1e-12)
+
+    def test_properties_have_the_defaults_and_ranges_of_the_filters(self):
+        module = sys.modules["gridfem_core._without_vtk"]._core
+        for name in ("GeodesicDistance", "HarmonicInterpolation", "HeatDiffusion",
+                     "LaplaceSpectrum", "MeanCurvatureFlow", "PrincipalCurvatures",
+                     "ScreenedPoisson", "StitchColors", "SurfaceDetail"):
+            algorithm = getattr(vtkGridFEMFilters, "vtk" + name)()
+            for key, (standard, least, most) in module.properties(name).items():
+                with self.subTest(filter=name, property=key):
+                    self.assertEqual(standard, getattr(algorithm, "Get" + key)())
+                    if hasattr(algorithm, f"Get{key}MinValue"):
+                        self.assertEqual(least, getattr(algorithm, f"Get{key}MinValue")())
+                        self.assertEqual(most, getattr(algorithm, f"Get{key}MaxValue")())
+
+    def test_messages(self):
+        points, triangles = unit_sphere()
+        calls = {
+            "refused values": lambda g: g.poisson(points, triangles, points[:, 0] / 0 * 0),
+            "no values": lambda g: g.interpolate(points, triangles, [0], [numpy.nan]),
+            "source": lambda g: g.distance(points, triangles, len(points)),
+            "property": lambda g: g.detail(points, triangles, Dept=3),
+            "range": lambda g: g.detail(points, triangles, SmoothingScale=-1.0),
+            "degree": lambda g: g.flow(points, triangles, QuadratureDegree=3),
+            "gradients": lambda g: g.poisson(points, triangles, points, points),
+            "plane": lambda g: g.spectrum(points * [1, 1, 0] * 0, triangles),
+            "iterations": lambda g: g.spectrum(
+                points, triangles, 9, Depth=4, MaximumIterations=1, Tolerance=1e-14)}
+        for name, call in calls.items():
+            with self.subTest(name), numpy.errstate(all="ignore"):
+                self.assertEqual(self.message(gridfem, call), self.message(self.core, call))
+
+    def message(self, package, call):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            try:
+                call(package)
+            except package.Error as error:
+                # What names the place for the user of ParaView's window is left out.
+                return str(error).split(", for example with the Calculator")[0].rstrip(".")
+        return [str(warning.message) for warning in caught]
+
+
+if __name__ == "__main__":
+    if "GRIDFEM_PYTHON_DIR" not in os.environ:
+        sys.exit(77)
+    unittest.main()
