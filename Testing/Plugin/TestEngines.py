@@ -105,6 +105,12 @@ class Engines(unittest.TestCase):
         self.compare(lambda g, p, c, **o: g.stitch(
             p, c, 0.1 + 0.001 * numpy.arange(len(c)), p[c[:, 0], 1] > 0, BlendWidth=0.1, **o))
 
+    def test_automatic_depth(self):
+        for points, cells in self.meshes.values():
+            theirs, ours = (g.poisson(points, cells, points[:, 0], Depth=0)
+                            for g in (gridfem, self.core))
+            numpy.testing.assert_allclose(ours, theirs, rtol=1e-9, atol=1e-9)
+
     def test_curvatures(self):
         self.compare(lambda g, p, c, **o: g.curvatures(p, c, **o)[:2])
         self.compare(lambda g, p, c, **o: g.curvatures(p, c, SmoothingScale=0.02, **o)[:2])

@@ -167,6 +167,9 @@ SurfaceOptions::SurfaceOptions(Properties& properties, const SharedDefaults& def
   parameterUnits = properties.Integer("ParameterUnits", 1, 0, 2);
 }
 
+namespace
+{
+
 /// With a depth in the place of an automatic one, which is 0.
 SurfaceOptions WithDepth(SurfaceOptions options, const TriangleMesh& mesh)
 {
@@ -177,6 +180,8 @@ SurfaceOptions WithDepth(SurfaceOptions options, const TriangleMesh& mesh)
   }
   return options;
 }
+
+} // namespace
 
 Surface::Surface(const Given& given, const SurfaceOptions& own, const Progress& progress)
   : options(WithDepth(own, *given.mesh)), mesh(given.mesh)
