@@ -149,6 +149,12 @@ class Engines(unittest.TestCase):
                         self.assertEqual(least, getattr(algorithm, f"Get{key}MinValue")())
                         self.assertEqual(most, getattr(algorithm, f"Get{key}MaxValue")())
 
+    def test_arrays_of_a_surface_are_those_it_was_made_of(self):
+        for points, cells in self.meshes.values():
+            for given, expected in zip(self.core.arrays(gridfem.surface(points, cells)),
+                                       (points, cells)):
+                numpy.testing.assert_array_equal(given, expected)
+
     def test_messages(self):
         points, triangles = unit_sphere()
         calls = {

@@ -8,6 +8,7 @@
 
 namespace gridfem
 {
+
 void SurfaceFlow::Restart(SurfaceSolverState& state)
 {
   FlowOptions options;
