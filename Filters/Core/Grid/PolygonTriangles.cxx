@@ -22,9 +22,9 @@ Vec3 NormalOf(const Vec3& a, const Vec3& b, const Vec3& c)
 class EarCutter
 {
 public:
-  EarCutter(const std::vector<Vec3>& points, const std::vector<Id>& corners)
-    : points_(points), corners_(corners), before_(corners.size()), after_(corners.size()),
-      ear_(corners.size(), 0.0)
+  EarCutter(const std::vector<Vec3>& points, Id cell, const std::vector<Id>& corners)
+    : points_(points), cell_(cell), corners_(corners), before_(corners.size()),
+      after_(corners.size()), ear_(corners.size(), 0.0), blocker_(corners.size(), None)
   {
     const Id count = static_cast<Id>(corners.size());
     for (Id k = 0; k < count; ++k)
@@ -39,15 +39,14 @@ public:
     }
   }
 
-  Id NumberOfInward() const { return static_cast<Id>(inward_.size()); }
-
-  /// False when no corner can be cut off any more.
+  /// False when no corner can be cut off any more. Throws InvalidInput when it takes too long.
   bool Cut(std::vector<Triangle>& triangles)
   {
     for (std::size_t left = corners_.size(); left > 3; --left)
     {
       const auto ear = std::find_if(ears_.begin(), ears_.end(),
         [this](const std::pair<double, Id>& candidate) { return this->IsFree(candidate.second); });
+      this->RequireTime();
       if (ear == ears_.end())
       {
         return false;
@@ -61,6 +60,8 @@ public:
   }
 
 private:
+  static constexpr Id None = -1;
+
   const Vec3& Place(Id corner) const { return points_[corners_[corner]]; }
 
   Triangle TriangleAt(Id corner) const
@@ -78,6 +79,7 @@ private:
   void Judge(Id corner)
   {
     this->Forget(corner);
+    blocker_[corner] = None;
     const Id a = before_[corner];
     const Id c = after_[corner];
     const double area = this->AreaOf(a, corner, c);
@@ -99,22 +101,45 @@ private:
     ears_.erase({ ear_[corner], corner });
   }
 
-  /// Whether no corner that points inward lies in the triangle that would be cut off.
-  bool IsFree(Id corner) const
+  /// Whether no corner that points inward lies in the triangle that would be cut off. One that was
+  /// found to lie there does as long as it is left.
+  bool IsFree(Id corner)
   {
+    if (blocker_[corner] != None && inward_.count(blocker_[corner]) > 0)
+    {
+      return false;
+    }
+    const auto blocker = std::find_if(
+      inward_.begin(), inward_.end(), [&](Id other) { return this->Blocks(other, corner); });
+    blocker_[corner] = blocker == inward_.end() ? None : *blocker;
+    return blocker_[corner] == None;
+  }
+
+  bool Blocks(Id other, Id corner)
+  {
+    ++looks_;
     const Id a = before_[corner];
     const Id c = after_[corner];
-    return std::none_of(inward_.begin(), inward_.end(),
-      [&](Id other)
-      {
-        if (other == a || other == c || this->Place(other) == this->Place(a) ||
-            this->Place(other) == this->Place(c))
-        {
-          return false;
-        }
-        return this->AreaOf(a, corner, other) >= 0.0 && this->AreaOf(corner, c, other) >= 0.0 &&
-               this->AreaOf(c, a, other) >= 0.0;
-      });
+    if (other == a || other == c || this->Place(other) == this->Place(a) ||
+        this->Place(other) == this->Place(c))
+    {
+      return false;
+    }
+    return this->AreaOf(a, corner, other) >= 0.0 && this->AreaOf(corner, c, other) >= 0.0 &&
+           this->AreaOf(c, a, other) >= 0.0;
+  }
+
+  /// Ears look at inward corners, and nothing else can stop them on the way.
+  void RequireTime() const
+  {
+    constexpr double Most = 2e8; // a few seconds
+    if (looks_ > Most)
+    {
+      throw InvalidInput("Cell " + std::to_string(cell_) + " is a polygon with " +
+                         std::to_string(corners_.size()) +
+                         " corners, so many of which point inward that to cut it into triangles "
+                         "would take too long. Split it into smaller polygons first.");
+    }
   }
 
   void Remove(Id corner)
@@ -130,10 +155,13 @@ private:
   }
 
   const std::vector<Vec3>& points_;
+  Id cell_;
   const std::vector<Id>& corners_;
   std::vector<Id> before_;
   std::vector<Id> after_;
   std::vector<double> ear_; // what each corner is sorted by in ears_
+  std::vector<Id> blocker_; // of each ear that was found not to be free
+  double looks_ = 0.0;
   Vec3 normal_ = Vec3::Zero();
   std::set<std::pair<double, Id>> ears_;
   std::set<Id> inward_;
@@ -156,19 +184,6 @@ std::vector<Triangle> TrianglesOfQuad(const std::vector<Vec3>& points, const std
   return { { q[0], q[1], q[3] }, { q[1], q[2], q[3] } };
 }
 
-/// Every ear looks at every inward corner, and nothing can stop it on the way.
-void RequireEarsInTime(Id cell, std::size_t size, Id inward)
-{
-  constexpr double Most = 5e7; // a few seconds
-  if (static_cast<double>(size) * static_cast<double>(inward) > Most)
-  {
-    throw InvalidInput("Cell " + std::to_string(cell) + " is a polygon with " +
-                       std::to_string(size) + " corners, " + std::to_string(inward) +
-                       " of which point inward: to cut it into triangles would take too long. "
-                       "Split it into smaller polygons first.");
-  }
-}
-
 } // namespace
 
 std::vector<Triangle> TrianglesOfPolygon(
@@ -183,9 +198,7 @@ std::vector<Triangle> TrianglesOfPolygon(
     corners.begin(), corners.end(), [&](Id corner) { return points[corner].allFinite(); });
   if (isFinite)
   {
-    EarCutter cutter(points, corners);
-    RequireEarsInTime(cell, corners.size(), cutter.NumberOfInward());
-    if (cutter.Cut(triangles))
+    if (EarCutter(points, cell, corners).Cut(triangles))
     {
       return triangles;
     }

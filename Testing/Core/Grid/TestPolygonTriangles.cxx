@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -59,6 +60,23 @@ TEST(PolygonTriangles, FillThePolygonWithoutOverlap)
       EXPECT_NEAR(sum, 0.5 * size * (1.0 - depth) * std::sin(2.0 * M_PI / size), 1e-12);
     }
   }
+}
+
+TEST(PolygonTriangles, FillANarrowZigzag)
+{
+  constexpr int Size = 4000; // nearly every ear is blocked
+  std::vector<Vec3> corners(2 * Size);
+  for (int k = 0; k < Size; ++k)
+  {
+    const double x = static_cast<double>(k) / (Size - 1);
+    const double y = 0.5 * std::cos(40.0 * x) + 0.3 * (k % 2);
+    corners[k] = { x, y - 0.01, 0.0 };
+    corners[2 * Size - 1 - k] = { x, y, 0.0 };
+  }
+  const std::vector<double> areas = AreasOf(corners, TrianglesOf(corners));
+  ASSERT_EQ(areas.size(), corners.size() - 2);
+  EXPECT_GT(*std::min_element(areas.begin(), areas.end()), 0.0);
+  EXPECT_NEAR(std::accumulate(areas.begin(), areas.end(), 0.0), 0.01, 1e-12);
 }
 
 TEST(PolygonTriangles, QuadrilateralsAreCutAlongTheShorterDiagonalInside)
