@@ -104,7 +104,7 @@ public:
   void ReturnSome(std::size_t bytes) noexcept
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    this->Return(bytes);
+    this->Return(RoundUp(bytes, Page)); // parts of pages would take those of the next block along
   }
 
   void Give(char* memory, std::size_t bytes) noexcept
@@ -149,7 +149,7 @@ private:
     return false;
   }
 
-  /// Gives that much, or all there is, back to the system.
+  /// Gives that much, a multiple of Page, or all there is, back to the system.
   void Return(std::size_t bytes) noexcept
   {
     while (bytes > 0 && !blocks_.empty())

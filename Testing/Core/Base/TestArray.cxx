@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -133,6 +134,25 @@ TEST(LargeMemory, ThatIsKeptGoesBackWhenAskedFor)
   EXPECT_GT(ResidentBytes(), before + 7.0 * Block);
   ReturnLargeMemory(6 * Block);
   EXPECT_LT(ResidentBytes(), before + 3.0 * Block);
+}
+
+// Parts of pages were: what was left of a block began off a page, and giving it back took the
+// beginning of the next block along, which was in use.
+TEST(LargeMemory, GoesBackInWholePages)
+{
+  const MemoryReuse reuse;
+  char* const whole = AllocateAndTouch(Block);
+  FreeLargeMemory(whole, Block);
+  char* const used = AllocateAndTouch(Block / 2); // the end of it
+  ASSERT_EQ(used, whole + Block / 2);
+  ReturnLargeMemory(12345);
+  char* const other = AllocateAndTouch(LargeMemorySize);
+  EXPECT_EQ(
+    reinterpret_cast<std::uintptr_t>(other) % static_cast<std::size_t>(sysconf(_SC_PAGESIZE)), 0u);
+  FreeLargeMemory(other, LargeMemorySize);
+  ReturnLargeMemory(Block);
+  EXPECT_EQ(std::count(used, used + Block / 2, char{ 1 }), std::ptrdiff_t(Block / 2));
+  FreeLargeMemory(used, Block / 2);
 }
 
 TEST(LargeMemory, IsSharedByThreads)
