@@ -44,6 +44,7 @@ struct Step
 {
   gridfem::MultiVector atPoints;
   gridfem::SolveReport report;
+  gridfem::SolutionAccuracy accuracy;
 };
 
 } // namespace
@@ -59,9 +60,7 @@ struct vtkHeatDiffusion::Internals
 vtkHeatDiffusion::vtkHeatDiffusion() : Data(std::make_unique<Internals>())
 {
   this->SetNumberOfInputPorts(2);
-  this->Tolerance = 1e-6;
   this->NormalStabilization = 1e-2;
-  this->MaximumIterations = 200;
 }
 
 vtkHeatDiffusion::~vtkHeatDiffusion() = default;
@@ -120,8 +119,7 @@ void vtkHeatDiffusion::UpdateSteps(double step)
   const gridfem::Progress progress = state.bridge.GetProgress();
   gridfem::StageKey key;
   key.Add(state.stages.Version(gridfem::RightHandSideStage)).Add(step).Add(this->Scheme);
-  key.Add(this->Tolerance).Add(this->MaximumIterations);
-  gridfem::AddMultigrid(key, state.options.multigrid);
+  gridfem::AddSolver(key, state.options);
   state.stages.Run(gridfem::HierarchyStage, key,
     [&]
     {
@@ -130,6 +128,7 @@ void vtkHeatDiffusion::UpdateSteps(double step)
       options.scheme = static_cast<gridfem::TimeScheme>(this->Scheme);
       options.multigrid = state.options.multigrid;
       options.solve = state.options.solve;
+      options.accuracy = state.options.accuracy;
       data.Steps.clear();
       data.Diffusion.reset(); // frees its memory first
       data.Diffusion = std::make_unique<gridfem::HeatDiffusion>(
@@ -151,7 +150,7 @@ void vtkHeatDiffusion::UpdateSteps(double step)
           data.Diffusion->Advance(state.MakeJob(progress.Part(done, done + share)));
         data.Steps.push_back(
           { state.space->ValuesAtPoints(data.Diffusion->Coefficients(), this->NumberOfThreads),
-            std::move(report) });
+            std::move(report), data.Diffusion->Accuracy() });
       });
   }
 }
@@ -181,11 +180,7 @@ void vtkHeatDiffusion::WriteStep(int shown, vtkPolyData* input, vtkPolyData* out
       gridfem::OutputPrecision(input->GetPoints()), this->NumberOfThreads, output);
   }
   gridfem::AddFieldInt(output, "Step", shown);
-  gridfem::AddReport(step.report, output);
-  if (!step.report.converged)
-  {
-    vtkWarningMacro(<< gridfem::WarningOf(step.report, this->Tolerance));
-  }
+  this->WriteReport(step.report, step.accuracy, output);
 }
 
 void vtkHeatDiffusion::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
@@ -199,6 +194,11 @@ void vtkHeatDiffusion::Compute(vtkInformationVector** inputs, vtkInformationVect
   if (this->DiffusionTime == 0.0)
   {
     throw gridfem::InvalidInput("DiffusionTime is 0: nothing spreads. It must be above 0.");
+  }
+  if (this->NumberOfSteps > 1 && this->Tolerance == 0.0)
+  {
+    state.options.accuracy = 0.0;
+    state.options.solve.tolerance = gridfem::ToleranceOfSteps;
   }
   state.UpdateSpace(input, vtkPolyData::GetData(inputs[1]), progress.Part(0.0, 0.2));
   state.UpdateSystem(progress.Part(0.2, 0.3));

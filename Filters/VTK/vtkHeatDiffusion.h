@@ -16,26 +16,28 @@
  * - point data, double: `Diffused` (C components). Points that no polygon uses keep the array if it
  *   is a point array, else get 0.
  * - field data: `Step` (int, 1), `DiffusionTime` (double, 1; squared world length), `Converged`,
- *   `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor` of the step that is shown
+ *   `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor` and the estimated errors
+ *   of vtkPoissonAlgorithm, all of the solves of the step that is shown
  *
  * Time: the steps are the time steps 1 .. NumberOfSteps. A request without a time gets the last.
  * Steps are made once and kept; more steps of the same length, DiffusionTime / NumberOfSteps, are
  * not made again.
  *
- * Tolerance (default 1e-6) is that of each step's solves, as in vtkScreenedPoisson.
- * NormalStabilization is 1e-2 by default. All shared properties are used; DiffusionTime is in the
- * squared unit of length of ParameterUnits, the source is per squared world length.
+ * Accuracy ends the solves of a single step. The errors of several add up: they are solved to a
+ * Tolerance, 1e-6 where it is 0, and have no estimates. NormalStabilization is 1e-2 by default.
+ * All shared properties are used; DiffusionTime is in the squared unit of length of ParameterUnits,
+ * the source is per squared world length.
  */
 #ifndef vtkHeatDiffusion_h
 #define vtkHeatDiffusion_h
 
-#include "vtkSurfaceFEMAlgorithm.h"
+#include "vtkPoissonAlgorithm.h"
 
-class VTKGRIDFEMFILTERS_EXPORT vtkHeatDiffusion : public vtkSurfaceFEMAlgorithm
+class VTKGRIDFEMFILTERS_EXPORT vtkHeatDiffusion : public vtkPoissonAlgorithm
 {
 public:
   static vtkHeatDiffusion* New();
-  vtkTypeMacro(vtkHeatDiffusion, vtkSurfaceFEMAlgorithm);
+  vtkTypeMacro(vtkHeatDiffusion, vtkPoissonAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{

@@ -66,8 +66,6 @@ vtkScreenedPoisson::vtkScreenedPoisson()
 {
   this->SetNumberOfInputPorts(3);
   this->SetNumberOfOutputPorts(2);
-  this->Tolerance = 0.0;
-  this->MaximumIterations = 200;
 }
 
 vtkScreenedPoisson::~vtkScreenedPoisson() = default;
@@ -115,7 +113,6 @@ void vtkScreenedPoisson::FindArrays(vtkPolyData* input)
     throw gridfem::InvalidInput("UseValueGradient needs values at points, but '" + data.Value.name +
                                 "' is a cell array. Cell Data to Point Data converts it.");
   }
-  gridfem::RequireNumber("Accuracy", this->Accuracy);
   gridfem::RequireNumber("WantedError", this->WantedError);
   gridfem::RequireAtLeast("ScreeningWeight", this->ScreeningWeight, 0.0);
   if (!std::isfinite(this->GradientScale))
@@ -311,7 +308,6 @@ void vtkScreenedPoisson::Solve(const gridfem::Progress& progress)
   gridfem::PoissonRequest request;
   request.weight = this->ScreeningWeight;
   request.gradientScale = this->GradientScale;
-  request.accuracy = this->Tolerance == 0.0 ? this->Accuracy : 0.0;
   request.iteration = static_cast<gridfem::IterationType>(this->Iteration);
   if (this->IsConstrained())
   {
@@ -421,9 +417,10 @@ bool vtkScreenedPoisson::IsAccurate() const
 void vtkScreenedPoisson::Warn()
 {
   const Internals& data = *this->Data;
-  const std::string warning = this->IsConstrained()
-                                ? data.Constrained.Warning(this->State->options.solve.tolerance)
-                                : data.Equation.Warning(this->Tolerance);
+  const std::string warning =
+    this->IsConstrained()
+      ? data.Constrained.Warning(this->State->options.solve.tolerance)
+      : gridfem::WarningOf(data.Equation.Report(), data.Equation.Accuracy(), this->Tolerance);
   if (!warning.empty())
   {
     vtkWarningMacro(<< warning);
@@ -469,19 +466,6 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
   progress.Check(1.0);
 }
 
-void vtkScreenedPoisson::SetTolerance(double tolerance)
-{
-  if (!(tolerance <= 0.0)) // NaN is refused when the filter runs
-  {
-    this->Superclass::SetTolerance(tolerance);
-  }
-  else if (this->Tolerance != 0.0)
-  {
-    this->Tolerance = 0.0;
-    this->Modified();
-  }
-}
-
 void vtkScreenedPoisson::FreeStages()
 {
   this->Superclass::FreeStages();
@@ -496,7 +480,6 @@ void vtkScreenedPoisson::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "ScreeningWeight: " << this->ScreeningWeight << "\n";
   os << indent << "GradientScale: " << this->GradientScale << "\n";
-  os << indent << "Accuracy: " << this->Accuracy << "\n";
   os << indent << "AccuracyDriven: " << this->AccuracyDriven << "\n";
   os << indent << "WantedError: " << this->WantedError << "\n";
   os << indent << "Iteration: " << this->Iteration << "\n";

@@ -53,12 +53,7 @@
  * measure that Tolerance is on; `ConvergenceFactor` (double, 1): mean reduction of the energy
  * residual per iteration; `DoublePrecisionSince` (int, 1): the iteration after which the smoother
  * went on in double precision, because single precision was too slow or broke down; -1: never;
- *   `DiscretizationError` (double, 1): the estimated error of the function space, relative to the
- *   solution without its mean, in the mean square over the surface; `LargestDiscretizationError`
- *   (double, 1): the largest at a point, in units of the solution; `AlgebraicError` (double, 1):
- *   what the iteration has left, relative as the first. Of several components the worst; not a
- *   number where nothing is known, as without coarser levels. `TrustedEstimate` (int, 1): 0 where
- *   levels do not differ as they do on a resolved surface: the first may be too small then; with
+ *   the estimated errors of vtkPoissonAlgorithm, also with a Tolerance; with
  * ConstraintArray, a selection or BoundaryValues also `Misfit` (double, 1): the largest difference
  * from a value that is to be held
  *
@@ -80,7 +75,7 @@
 #ifndef vtkScreenedPoisson_h
 #define vtkScreenedPoisson_h
 
-#include "vtkSurfaceFEMAlgorithm.h"
+#include "vtkPoissonAlgorithm.h"
 
 namespace gridfem
 {
@@ -88,18 +83,16 @@ struct ConstrainedLoad;
 struct Field;
 struct Job;
 struct PoissonLoad;
-struct SolutionAccuracy;
-struct SolveReport;
 class FiniteElementSpace;
 class Progress;
 class SelectedPoints;
 } // namespace gridfem
 
-class VTKGRIDFEMFILTERS_EXPORT vtkScreenedPoisson : public vtkSurfaceFEMAlgorithm
+class VTKGRIDFEMFILTERS_EXPORT vtkScreenedPoisson : public vtkPoissonAlgorithm
 {
 public:
   static vtkScreenedPoisson* New();
-  vtkTypeMacro(vtkScreenedPoisson, vtkSurfaceFEMAlgorithm);
+  vtkTypeMacro(vtkScreenedPoisson, vtkPoissonAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
@@ -128,16 +121,6 @@ public:
   vtkSetMacro(UseValueGradient, bool);
   vtkGetMacro(UseValueGradient, bool);
   vtkBooleanMacro(UseValueGradient, bool);
-  ///@}
-
-  ///@{
-  /**
-   * How good the solution is to be as that of the discrete equations: the iteration ends when its
-   * own error is estimated to be this part of the error that the function space has anyway. Above
-   * 0, at most 1, default 0.1; used where Tolerance is 0. The estimates are in the field data.
-   */
-  vtkSetClampMacro(Accuracy, double, 1e-6, 1.0);
-  vtkGetMacro(Accuracy, double);
   ///@}
 
   ///@{
@@ -202,14 +185,6 @@ public:
   vtkBooleanMacro(SolutionGradient, bool);
   ///@}
 
-  ///@{
-  /**
-   * As in every solver, but that 0 (default) is allowed: Accuracy decides then.
-   */
-  void SetTolerance(double tolerance) override;
-  double GetToleranceMinValue() override { return 0.0; }
-  ///@}
-
   enum IterationType
   {
     ConjugateGradients = 0,
@@ -244,7 +219,6 @@ protected:
   void FreeStages() override;
 
   double ScreeningWeight = 100.0;
-  double Accuracy = 0.1;
   bool AccuracyDriven = false;
   double WantedError = 0.01;
   double GradientScale = 1.0;

@@ -136,8 +136,6 @@ struct vtkStitchColors::Internals
 vtkStitchColors::vtkStitchColors() : Data(std::make_unique<Internals>())
 {
   this->SetNumberOfInputPorts(2);
-  this->Tolerance = 1e-5;
-  this->MaximumIterations = 200;
   this->NormalStabilization = 1e-2;
 }
 
@@ -186,6 +184,7 @@ void vtkStitchColors::Solve(const gridfem::InputArray& colors, const gridfem::Pr
   gridfem::StitchOptions options;
   options.multigrid = state.options.multigrid;
   options.solve = state.options.solve;
+  options.accuracy = state.options.accuracy;
   options.blendWidth = this->BlendWidth * state.space->Extent() * state.space->UnitLength();
   if (this->KeptMean == ReferenceScan)
   {
@@ -199,8 +198,7 @@ void vtkStitchColors::Solve(const gridfem::InputArray& colors, const gridfem::Pr
   gridfem::StageKey key;
   key.Add(state.stages.Version(CutStage)).Add(colors.array);
   key.Add(this->BlendWidth).Add(this->KeptMean).Add(options.reference.value_or(-1));
-  key.Add(this->Tolerance).Add(this->MaximumIterations);
-  gridfem::AddMultigrid(key, state.options.multigrid);
+  gridfem::AddSolver(key, state.options);
   state.stages.Run(gridfem::SolveStage, key,
     [&]
     {
@@ -243,11 +241,7 @@ void vtkStitchColors::Compute(vtkInformationVector** inputs, vtkInformationVecto
       gridfem::MeansOnCells(state.mesh, stitched.values, input->GetNumberOfCells()), hasTriangles));
   }
   attributes->SetActiveScalars("StitchedColors");
-  gridfem::AddReport(stitched.report, output);
-  if (!stitched.report.converged)
-  {
-    vtkWarningMacro(<< gridfem::WarningOf(stitched.report, this->Tolerance));
-  }
+  this->WriteReport(stitched.report, stitched.accuracy, output);
   progress.Check(1.0);
 }
 

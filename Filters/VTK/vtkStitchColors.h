@@ -20,20 +20,20 @@
  *   rounded and stay in the range of their type; numbers with a point that lie in 0..1 stay there.
  *   Points and cells that no polygon uses keep their colour.
  * - field data: `Converged`, `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor`
+ *   and the estimated errors of vtkPoissonAlgorithm: those of the function that KeepDetails adds
+ *   details to
  *
  * Colours at points are linear on triangles; triangles that touch two scans are seams, whose
  * gradients are left out. Scans whose borders coincide without sharing points are stitched as well
  * (WeldCoincidentPoints); with ConnectivityAware off, a grid stitches across gaps narrower than a
  * cell, too, but sheets that lie as close then feel each other.
  *
- * Tolerance (default 1e-5) is on the energy residual, as in vtkScreenedPoisson;
- * NormalStabilization is 1e-2 and MaximumIterations 200 by default. All shared properties but
- * ParameterUnits are used.
+ * NormalStabilization is 1e-2 by default. All shared properties but ParameterUnits are used.
  */
 #ifndef vtkStitchColors_h
 #define vtkStitchColors_h
 
-#include "vtkSurfaceFEMAlgorithm.h"
+#include "vtkPoissonAlgorithm.h"
 
 namespace gridfem
 {
@@ -42,11 +42,11 @@ struct InputArray;
 class Progress;
 } // namespace gridfem
 
-class VTKGRIDFEMFILTERS_EXPORT vtkStitchColors : public vtkSurfaceFEMAlgorithm
+class VTKGRIDFEMFILTERS_EXPORT vtkStitchColors : public vtkPoissonAlgorithm
 {
 public:
   static vtkStitchColors* New();
-  vtkTypeMacro(vtkStitchColors, vtkSurfaceFEMAlgorithm);
+  vtkTypeMacro(vtkStitchColors, vtkPoissonAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   enum MeanType

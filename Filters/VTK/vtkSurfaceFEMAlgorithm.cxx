@@ -148,8 +148,9 @@ int vtkSurfaceFEMAlgorithm::RequestData(
   options.multigrid.postSweeps = this->NumberOfSweeps;
   options.multigrid.sweepsPerSynchronisation = this->SweepsPerSynchronisation;
   options.multigrid.threads = this->NumberOfThreads;
-  options.solve.tolerance = std::max(this->Tolerance, 1e-16);
+  options.solve.tolerance = this->Tolerance;
   options.solve.maximumIterations = this->MaximumIterations;
+  options.accuracy = this->WantedAccuracy();
   options.parameterUnits = this->ParameterUnits;
 
   EmptyOutputs(outputs);

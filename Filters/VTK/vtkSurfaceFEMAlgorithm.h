@@ -277,6 +277,9 @@ protected:
    */
   virtual std::vector<double> OwnTimeSteps();
 
+  /// The part of the error of the function space that the solver may leave; 0: to the Tolerance.
+  virtual double WantedAccuracy() const { return 0.0; }
+
   /**
    * Applies the failure rule around Compute.
    */

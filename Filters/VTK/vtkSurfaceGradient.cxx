@@ -49,9 +49,7 @@ void AddArrays(const gridfem::InputMesh& mesh, const char* name,
 vtkSurfaceGradient::vtkSurfaceGradient() : Data(std::make_unique<Internals>())
 {
   this->SetNumberOfInputPorts(2);
-  this->Tolerance = 1e-4;
   this->NormalStabilization = 1e-2;
-  this->MaximumIterations = 200;
 }
 
 vtkSurfaceGradient::~vtkSurfaceGradient() = default;
@@ -62,15 +60,16 @@ void vtkSurfaceGradient::Decompose(
   gridfem::SurfaceSolverState& state = *this->State;
   gridfem::StageKey key;
   key.Add(state.stages.Version(gridfem::SystemStage)).Add(array.array);
-  key.Add(static_cast<int>(array.association)).Add(this->Tolerance).Add(this->MaximumIterations);
-  gridfem::AddMultigrid(key, state.options.multigrid);
+  key.Add(static_cast<int>(array.association));
+  gridfem::AddSolver(key, state.options);
   gridfem::HodgeDecomposition& parts = this->Data->Parts;
   state.stages.Run(HodgeStage, key,
     [&]
     {
       parts = gridfem::DecomposeField(*state.space, *state.mesh.triangles,
         gridfem::ReadField(array, state.mesh),
-        { state.options.multigrid, state.options.solve, state.basis.weldCoincidentPoints },
+        { state.options.multigrid, state.options.solve, state.options.accuracy,
+          state.basis.weldCoincidentPoints },
         state.MakeJob(progress));
     });
   if (parts.numberOfOneSided > 0)
@@ -109,15 +108,16 @@ void vtkSurfaceGradient::Compute(vtkInformationVector** inputs, vtkInformationVe
 
   gridfem::StageKey key;
   key.Add(state.stages.Version(gridfem::SystemStage)).Add(array.array);
-  key.Add(static_cast<int>(array.association)).Add(this->Tolerance).Add(this->MaximumIterations);
-  gridfem::AddMultigrid(key, state.options.multigrid);
+  key.Add(static_cast<int>(array.association));
+  gridfem::AddSolver(key, state.options);
   gridfem::SurfaceDerivatives& derivatives = this->Data->Derivatives;
   state.stages.Run(gridfem::SolveStage, key,
     [&]
     {
       derivatives = gridfem::ComputeDerivatives(*state.space, *state.mesh.triangles,
         array.array ? gridfem::ReadField(array, state.mesh) : gridfem::CoordinatesField(state.mesh),
-        { state.options.multigrid, state.options.solve }, state.MakeJob(progress.Part(0.5, 0.7)));
+        { state.options.multigrid, state.options.solve, state.options.accuracy },
+        state.MakeJob(progress.Part(0.5, 0.7)));
     });
 
   output->ShallowCopy(input);
@@ -137,17 +137,15 @@ void vtkSurfaceGradient::Compute(vtkInformationVector** inputs, vtkInformationVe
     output->GetPointData()->SetActiveVectors("Gradient");
   }
   gridfem::SolveReport report = derivatives.report;
+  gridfem::SolutionAccuracy accuracy = derivatives.accuracy;
   if (this->HodgeDecomposition)
   {
     this->Decompose(array, progress.Part(0.7, 0.95));
     this->WriteParts(output);
     gridfem::KeepWorse(this->Data->Parts.report, report);
+    gridfem::KeepWorse(this->Data->Parts.accuracy, accuracy);
   }
-  gridfem::AddReport(report, output);
-  if (!report.converged)
-  {
-    vtkWarningMacro(<< gridfem::WarningOf(report, this->Tolerance));
-  }
+  this->WriteReport(report, accuracy, output);
   progress.Check(1.0);
 }
 

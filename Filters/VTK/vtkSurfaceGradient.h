@@ -25,7 +25,8 @@
  *   `RotationPart` and `HarmonicPart` (three components each, in the unit of the array), and point
  *   data `Potential` and `StreamFunction` (one component, times a length), see below
  * - field data: `Converged`, `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor`
- *   of the projection that took most iterations
+ *   of the solve that took most iterations, and the estimated errors of vtkPoissonAlgorithm: how
+ *   well the functions follow the array, its gradient and its Laplacian, the worst of them
  *
  * The Hodge decomposition: the part v of the vectors along the surface is grad u + n x grad w + h
  * with the normal n, the Potential u, the StreamFunction w, and the rest h, which has neither
@@ -37,14 +38,14 @@
  * strip, there is no rotation part, and the filter warns. Edges of more than two triangles count
  * as a boundary for w.
  *
- * Tolerance (default 1e-4) is that of the projections, as in vtkScreenedPoisson: the errors of the
- * space are larger. NormalStabilization is 1e-2 by default. All shared
- * properties but ParameterUnits are used.
+ * Accuracy, or a Tolerance, is that of the projections and potentials; a StreamFunction that is
+ * held at boundaries is solved for to a Tolerance, 1e-4 where it is 0. NormalStabilization is 1e-2
+ * by default. All shared properties but ParameterUnits are used.
  */
 #ifndef vtkSurfaceGradient_h
 #define vtkSurfaceGradient_h
 
-#include "vtkSurfaceFEMAlgorithm.h"
+#include "vtkPoissonAlgorithm.h"
 
 namespace gridfem
 {
@@ -52,11 +53,11 @@ struct InputArray;
 class Progress;
 } // namespace gridfem
 
-class VTKGRIDFEMFILTERS_EXPORT vtkSurfaceGradient : public vtkSurfaceFEMAlgorithm
+class VTKGRIDFEMFILTERS_EXPORT vtkSurfaceGradient : public vtkPoissonAlgorithm
 {
 public:
   static vtkSurfaceGradient* New();
-  vtkTypeMacro(vtkSurfaceGradient, vtkSurfaceFEMAlgorithm);
+  vtkTypeMacro(vtkSurfaceGradient, vtkPoissonAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{

@@ -29,7 +29,7 @@ NEVER_SET = {"Depth", "NumberOfModes", "NumberOfSteps", "NumberOfThreads", "Maxi
 MAY_BE_NAN = {"Distance", "BiharmonicDistance", "Interpolated"}
 NUMBERS = (0.0, 1.0, -1.0, 1e-3, 1e3, 1e-12, 1e12, float("nan"), float("inf"))
 FILTERS = sorted(name for name in dir(vtkGridFEMFilters)
-                 if name.startswith("vtk") and name != "vtkSurfaceFEMAlgorithm"
+                 if name.startswith("vtk") and not name.endswith("Algorithm")
                  and hasattr(getattr(vtkGridFEMFilters, name), "SetDepth"))
 
 

@@ -44,6 +44,8 @@ const HostileCase Cases[] = {
     { return With<vtkLaplaceSpectrum>([=](auto* filter) { filter->SetTolerance(value); }); } },
   { "Accuracy", [](double value)
     { return With<vtkScreenedPoisson>([=](auto* filter) { filter->SetAccuracy(value); }); } },
+  { "Accuracy", [](double value)
+    { return With<vtkHeatDiffusion>([=](auto* filter) { filter->SetAccuracy(value); }); } },
   { "ScreeningWeight",
     [](double value) {
       return With<vtkScreenedPoisson>([=](auto* filter) { filter->SetScreeningWeight(value); });

@@ -45,6 +45,7 @@ PoissonSolution HeatDiffusion::Solve(const MultiVector& load, const Job& job) co
   options.screeningWeight = 1.0 / stageStep_;
   options.multigrid = options_.multigrid;
   options.solve = options_.solve;
+  options.accuracy = options_.accuracy;
   return SolvePoisson(*space_, *multigrid_, load, {}, options, job.progress);
 }
 
@@ -53,6 +54,7 @@ SolveReport HeatDiffusion::Advance(const Job& job)
   const MultiVector added = stageStep_ * sources_;
   const bool isFirstOrder = options_.scheme == TimeScheme::BackwardEuler;
   PoissonSolution solution = this->Solve(load_ + added, isFirstOrder ? job : job.Part(0.0, 0.5));
+  SolutionAccuracy accuracy = solution.accuracy;
   MultiVector now;
   Multiply(mass_, solution.coefficients, now, job.threads);
   if (!isFirstOrder)
@@ -62,10 +64,12 @@ SolveReport HeatDiffusion::Advance(const Job& job)
     const bool converged = solution.report.converged;
     solution = this->Solve(load, job.Part(0.5, 1.0));
     solution.report.converged = solution.report.converged && converged;
+    KeepWorse(solution.accuracy, accuracy);
     Multiply(mass_, solution.coefficients, now, job.threads);
   }
   load_ = std::move(now);
   coefficients_ = std::move(solution.coefficients);
+  accuracy_ = accuracy;
   return std::move(solution.report);
 }
 

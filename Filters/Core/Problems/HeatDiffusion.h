@@ -15,12 +15,18 @@ enum class TimeScheme
   SecondOrder = 1    // two stages with one matrix (SDIRK2, γ = 1 - 1/√2), L-stable, too
 };
 
+/// What each of several steps is solved to. Their errors add up, so that an accuracy is for one
+/// step alone: after a hundred, each of which left a thirtieth of the error of the space at most,
+/// as much was left as the space itself leaves (raptor, depth 7).
+inline constexpr double ToleranceOfSteps = 1e-6;
+
 struct DiffusionOptions
 {
   double timeStep = 1.0; // δ > 0, squared units of length of the space
   TimeScheme scheme = TimeScheme::SecondOrder;
   MultigridOptions multigrid;
   SolveOptions solve;
+  double accuracy = 0.0; // as in PoissonOptions
 };
 
 /// Steps (M + γδ L) U = ..., all with one matrix. No heat flows over boundaries, so that the
@@ -37,9 +43,12 @@ public:
   HeatDiffusion(std::shared_ptr<const FiniteElementSpace> space, MultiVector start,
     MultiVector sources, const DiffusionOptions& options, const Job& job = {});
 
-  /// Makes the next step and says how its last solve went. Aborted, which it throws, leaves the
-  /// state as it was.
+  /// Makes the next step and says how its solves went. Aborted, which it throws, leaves the state
+  /// as it was.
   SolveReport Advance(const Job& job = {});
+
+  /// Errors of the solves of the last step, the worst of them; unknown unless accuracy was wanted.
+  const SolutionAccuracy& Accuracy() const { return accuracy_; }
 
   /// After the last step: rows = functions, columns as the start's. No rows before the first.
   const MultiVector& Coefficients() const { return coefficients_; }
@@ -55,6 +64,7 @@ private:
   MultiVector load_;                     // ∫ u b_i now
   MultiVector sources_;
   MultiVector coefficients_;
+  SolutionAccuracy accuracy_;
 };
 
 } // namespace gridfem

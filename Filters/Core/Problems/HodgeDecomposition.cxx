@@ -46,7 +46,7 @@ MultiVector LoadOfRotation(const FiniteElementSpace& space, const Field& v,
 
 /// L x = load without a condition at boundaries; each column has the mean 0.
 MultiVector SolveFree(const FiniteElementSpace& space, const MultiVector& load,
-  const HodgeOptions& options, SolveReport& report, const Job& job)
+  const HodgeOptions& options, HodgeDecomposition& parts, const Job& job)
 {
   const Multigrid multigrid =
     BuildMultigrid(space, 0.0, 1.0, options.multigrid, job.progress.Part(0.0, 0.3));
@@ -54,48 +54,55 @@ MultiVector SolveFree(const FiniteElementSpace& space, const MultiVector& load,
   poisson.screeningWeight = 0.0;
   poisson.multigrid = options.multigrid;
   poisson.solve = options.solve;
+  poisson.accuracy = options.accuracy;
   PoissonSolution solution = SolvePoisson(space, multigrid,
     MultiVector::Zero(load.rows(), load.cols()), load, poisson, job.progress.Part(0.3, 1.0));
-  KeepWorse(std::move(solution.report), report);
+  KeepWorse(solution.accuracy, parts.accuracy);
+  KeepWorse(std::move(solution.report), parts.report);
   return std::move(solution.coefficients);
 }
 
+/// Of the energy residual, where the tolerance is 0.
+constexpr double HeldTolerance = 1e-4;
+
 /// The same with the value 0 on some edges.
 MultiVector SolveHeld(const FiniteElementSpace& space, SparseMatrix rows, const MultiVector& load,
-  const HodgeOptions& options, SolveReport& report, const Job& job)
+  const HodgeOptions& options, HodgeDecomposition& parts, const Job& job)
 {
+  SolveOptions solve = options.solve;
+  solve.tolerance = solve.tolerance > 0.0 ? solve.tolerance : HeldTolerance;
   ConstraintOptions constraints;
-  constraints.tolerance = std::max(constraints.tolerance, options.solve.tolerance);
+  constraints.tolerance = std::max(constraints.tolerance, solve.tolerance);
   constraints.maximumSteps = 3; // what is left then, functions cannot meet
   const MultiVector zero = MultiVector::Zero(rows.rows, load.cols());
   const ConstrainedHierarchy hierarchy(space, 0.0, 1.0, std::move(rows), constraints.penalty,
     options.multigrid, job.progress.Part(0.0, 0.3));
   ConstrainedSolution solution = SolveConstrained(
-    space, 0.0, hierarchy, load, zero, constraints, options.solve, job.progress.Part(0.3, 1.0));
+    space, 0.0, hierarchy, load, zero, constraints, solve, job.progress.Part(0.3, 1.0));
   SetMeans(space, solution.isHeld,
     MultiVector::Zero(static_cast<Id>(solution.isHeld.size()), load.cols()), solution.coefficients,
     job.threads);
-  KeepWorse(std::move(solution.report), report);
+  KeepWorse(std::move(solution.report), parts.report);
   return std::move(solution.coefficients);
 }
 
 /// Coefficients of u and of w, which is 0 where the surface ends.
 MultiVector SolvePotentials(const FiniteElementSpace& space, const TriangleMesh& mesh,
   const SurfaceEdges& edges, const MultiVector& load, const HodgeOptions& options,
-  SolveReport& report, const Job& job)
+  HodgeDecomposition& parts, const Job& job)
 {
   std::vector<TriangleEdge> ends = edges.boundary;
   ends.insert(ends.end(), edges.branching.begin(), edges.branching.end());
   if (ends.empty())
   {
-    return SolveFree(space, load, options, report, job);
+    return SolveFree(space, load, options, parts, job);
   }
   HeldValues held =
     HoldEdges(space, mesh, ends, MultiVector::Zero(static_cast<Id>(mesh.points.size()), 1));
   MultiVector potentials(load.rows(), 2);
-  potentials.col(0) = SolveFree(space, load.col(0), options, report, job.Part(0.0, 0.5));
+  potentials.col(0) = SolveFree(space, load.col(0), options, parts, job.Part(0.0, 0.5));
   potentials.col(1) =
-    SolveHeld(space, std::move(held.rows), load.col(1), options, report, job.Part(0.5, 1.0));
+    SolveHeld(space, std::move(held.rows), load.col(1), options, parts, job.Part(0.5, 1.0));
   return potentials;
 }
 
@@ -117,13 +124,15 @@ void ProjectToPoints(const FiniteElementSpace& space, const HodgeOptions& option
 {
   Field all{ FieldAssociation::Triangles, MultiVector(parts.restOnTriangles.rows(), 9) };
   all.values << parts.gradientOnTriangles, parts.rotationOnTriangles, parts.restOnTriangles;
-  L2Projection projection(space, options.multigrid, options.solve, job.Part(0.0, 0.3));
+  L2Projection projection(
+    space, options.multigrid, options.solve, options.accuracy, job.Part(0.0, 0.3));
   const MultiVector atPoints = space.ValuesAtPoints(
     projection.Solve(space.LoadOfValues(all, job.Part(0.3, 0.5)), {}, job.Part(0.5, 1.0)),
     job.threads);
   parts.gradientAtPoints = atPoints.leftCols(3);
   parts.rotationAtPoints = atPoints.middleCols(3, 3);
   parts.restAtPoints = atPoints.rightCols(3);
+  KeepWorse(projection.accuracy, parts.accuracy);
   KeepWorse(std::move(projection.report), parts.report);
 }
 
@@ -150,7 +159,7 @@ HodgeDecomposition DecomposeField(const FiniteElementSpace& space, const Triangl
   parts.numberOfComponents = edges.numberOfComponents;
   parts.numberOfOneSided = edges.numberOfOneSided;
   const MultiVector potentials =
-    SolvePotentials(space, mesh, edges, load, options, parts.report, job.Part(0.2, 0.7));
+    SolvePotentials(space, mesh, edges, load, options, parts, job.Part(0.2, 0.7));
   const MultiVector gradients = space.GradientsOnTriangles(potentials, job.threads);
   parts.gradientOnTriangles = gradients.leftCols(3);
   parts.rotationOnTriangles = Turned(gradients.rightCols(3), normals, edges.side);

@@ -3,8 +3,7 @@
 #ifndef GridFEM_HodgeDecomposition_h
 #define GridFEM_HodgeDecomposition_h
 
-#include "Krylov/ConjugateGradients.h"
-#include "Spaces/FiniteElementSpace.h"
+#include "Problems/SolutionAccuracy.h"
 
 namespace gridfem
 {
@@ -13,6 +12,8 @@ struct HodgeOptions
 {
   MultigridOptions multigrid;
   SolveOptions solve;
+  double accuracy = 0.0; // as in PoissonOptions; what is held is solved for to the tolerance, or to
+                         // 1e-4 where that is 0
   bool weldCoincidentPoints = true; // coincident points count as one where triangles meet
 };
 
@@ -32,6 +33,7 @@ struct HodgeDecomposition
   Index numberOfComponents = 0;
   Index numberOfOneSided = 0; // components without two sides: w is 0 there
   SolveReport report;         // of the solve that took most iterations
+  SolutionAccuracy accuracy;  // of the worst solve without held values; unknown unless wanted
 };
 
 /// v = ∇u + n x ∇w + h, each part orthogonal to the others: ∫ <∇u, ∇b> = ∫ <v, ∇b> for all b, and

@@ -9,20 +9,22 @@
 namespace gridfem
 {
 
-/// Solves (M + δL) u = load for any number of columns, and keeps the worst report. Without δ
-/// functions that hide in a flat surface are not known. Waves ten cells long lose 4 %, about what
-/// the space itself has as error in their gradients.
+/// Solves (M + δL) u = load for any number of columns, and keeps the worst report and the worst
+/// errors. Without δ functions that hide in a flat surface are not known. Waves ten cells long lose
+/// 4 %, about what the space itself has as error in their gradients.
 class L2Projection
 {
 public:
+  /// @param wanted  accuracy, as in PoissonOptions
   L2Projection(const FiniteElementSpace& space, const MultigridOptions& multigrid,
-    const SolveOptions& solve, const Job& job)
+    const SolveOptions& solve, double wanted, const Job& job)
     : space_(space),
       multigrid_(BuildMultigrid(space, 1.0 / Smoothing, 1.0, multigrid, job.progress))
   {
     poisson_.screeningWeight = 1.0 / Smoothing;
     poisson_.multigrid = multigrid;
     poisson_.solve = solve;
+    poisson_.accuracy = wanted;
     report.converged = true;
   }
 
@@ -31,11 +33,13 @@ public:
   {
     PoissonSolution solution =
       SolvePoisson(space_, multigrid_, values, gradients, poisson_, job.progress);
+    KeepWorse(solution.accuracy, accuracy);
     KeepWorse(std::move(solution.report), report);
     return std::move(solution.coefficients);
   }
 
   SolveReport report;
+  SolutionAccuracy accuracy; // unknown unless it was wanted
 
 private:
   static constexpr double Smoothing = 0.1; // δ, in squared units of length

@@ -49,6 +49,9 @@ void CheckInput(const FiniteElementSpace& space, const MultiVector& values,
   }
 }
 
+/// Of the energy residual, for solutions that coarser levels contain.
+constexpr double RoundingTolerance = 1e-9;
+
 /// NaN is let through: it stays in its column and is reported there.
 void RequireInRange(const Eigen::RowVectorXd& size)
 {
@@ -136,6 +139,10 @@ PoissonSolution SolveWithoutMeans(const FiniteElementSpace& space, const Multigr
   const Projection& project, const Progress& progress)
 {
   SolveOptions solve = options.solve;
+  if (options.accuracy > 0.0 && solve.tolerance == 0.0)
+  {
+    solve.tolerance = RoundingTolerance;
+  }
   std::optional<AccuracyWatch> watch;
   PoissonSolution solution;
   solution.coefficients = GivenStart(load, options.start, scale);

@@ -15,7 +15,8 @@ struct PoissonOptions
   IterationType iteration = IterationType::ConjugateGradients;
   SolveOptions solve;
   /// In (0, 1]: iterate until the algebraic error is estimated to be this part of the error of the
-  /// space, and solve.tolerance is an end as well, if it comes first. 0: to the tolerance alone.
+  /// space, and solve.tolerance is an end as well, if it comes first; 0 stands for 1e-9 then, which
+  /// solutions reach that coarser levels contain. 0: to the tolerance alone.
   double accuracy = 0.0;
   bool estimateErrors = false; // also where nothing ends by them
   /// Coefficients to start from, as of a similar equation on the same space; null: nested

@@ -47,6 +47,18 @@ Columns Relative(const Columns& error, const Columns& size)
 
 } // namespace
 
+void KeepWorse(const SolutionAccuracy& accuracy, SolutionAccuracy& kept)
+{
+  const bool isFirst = std::isnan(kept.discretization);
+  if (!std::isnan(accuracy.discretization))
+  {
+    kept.isTrusted = accuracy.isTrusted && (isFirst || kept.isTrusted);
+  }
+  kept.discretization = std::fmax(kept.discretization, accuracy.discretization);
+  kept.largest = std::fmax(kept.largest, accuracy.largest);
+  kept.algebraic = std::fmax(kept.algebraic, accuracy.algebraic);
+}
+
 AccuracyWatch::AccuracyWatch(const FiniteElementSpace& space, MultiVector nested,
   const MultiVector& coarser, double accuracy, int threads)
   : space_(space), nested_(std::move(nested)), accuracy_(accuracy), threads_(threads)

@@ -30,6 +30,9 @@ struct SolutionAccuracy
   bool isTrusted = false;
 };
 
+/// Of several solves: the worst of each; `kept` where the other knows nothing.
+void KeepWorse(const SolutionAccuracy& accuracy, SolutionAccuracy& kept);
+
 /// Watches an iteration that starts near the solution of the next coarser level, in the sense of
 /// SolveOptions::measureBy. Keeps references.
 class AccuracyWatch

@@ -88,8 +88,16 @@ std::string WarningOf(const SolveReport& report, double tolerance)
   return text.str();
 }
 
-std::string WarningOf(const SolveReport& report, const SolutionAccuracy& accuracy)
+std::string WarningOf(const SolveReport& report, const SolutionAccuracy& accuracy, double tolerance)
 {
+  if (report.converged)
+  {
+    return {};
+  }
+  if (tolerance > 0.0)
+  {
+    return WarningOf(report, tolerance);
+  }
   std::ostringstream text;
   text << HowItEnded(report) << " What the iteration has left is estimated to be "
        << accuracy.algebraic << " of the solution, the error of the function space "

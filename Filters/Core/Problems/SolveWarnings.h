@@ -28,10 +28,12 @@ IterationRecord LastRecord(const SolveReport& report);
 /// Those that are not empty, with spaces between them.
 std::string Joined(const std::vector<std::string>& sentences);
 
-///@{ What to warn of when a solve has not converged, to a tolerance or to an estimated error.
+/// What to warn of when a solve has not converged to a tolerance.
 std::string WarningOf(const SolveReport& report, double tolerance);
-std::string WarningOf(const SolveReport& report, const SolutionAccuracy& accuracy);
-///@}
+
+/// The same where a tolerance of 0 stands for an estimated error. Empty when it has converged.
+std::string WarningOf(
+  const SolveReport& report, const SolutionAccuracy& accuracy, double tolerance);
 
 /// What to say when values are not met; empty when they are to 1e-3 of their range or of the
 /// solution's size.

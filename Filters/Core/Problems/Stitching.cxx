@@ -428,6 +428,7 @@ StitchedColors StitchColors(const FiniteElementSpace& space, const TriangleMesh&
   poisson.screeningWeight = 0.0;
   poisson.multigrid = options.multigrid;
   poisson.solve = options.solve;
+  poisson.accuracy = options.accuracy;
   const MultiVector values = space.LoadOfValues(colors, job.Part(0.0, 0.1));
   const std::vector<double> share = KeptShares(mesh, cut, options.blendWidth);
   const MultiVector gradients = LoadOfKeptGradients(space, cut, share, colors, job.Part(0.1, 0.2));
@@ -439,6 +440,7 @@ StitchedColors StitchColors(const FiniteElementSpace& space, const TriangleMesh&
   StitchedColors stitched;
   stitched.values = AtColors(space, mesh, colors, solution.coefficients, job.threads);
   stitched.report = std::move(solution.report);
+  stitched.accuracy = solution.accuracy;
   if (details && !cut.triangleOfPiece.empty())
   {
     SolveReport report = KeepDetails(*details, cut, SharesOfRows(cut, colors.association, share),

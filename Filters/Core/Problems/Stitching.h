@@ -3,8 +3,7 @@
 #ifndef GridFEM_Stitching_h
 #define GridFEM_Stitching_h
 
-#include "Krylov/ConjugateGradients.h"
-#include "Spaces/FiniteElementSpace.h"
+#include "Problems/SolutionAccuracy.h"
 
 #include <optional>
 
@@ -50,6 +49,7 @@ struct StitchOptions
   double blendWidth = 0.0; // of KeptShares: margins of scans, where colours are poor, count less
   MultigridOptions multigrid;
   SolveOptions solve;
+  double accuracy = 0.0;          // as in PoissonOptions
   std::optional<Index> reference; // the scan that keeps its mean; none: the whole surface
 };
 
@@ -57,6 +57,7 @@ struct StitchedColors
 {
   MultiVector values; // rows and columns as the colours
   SolveReport report;
+  SolutionAccuracy accuracy; // of the function; unknown unless it was wanted
 };
 
 /// The function whose gradients are those of the colours, and zero on seams, with the mean of the

@@ -49,7 +49,8 @@ SurfaceDerivatives ComputeDerivatives(const FiniteElementSpace& space, const Tri
 {
   RequireField(f, mesh);
   SurfaceDerivatives result;
-  L2Projection projection(space, options.multigrid, options.solve, job.Part(0.0, 0.2));
+  L2Projection projection(
+    space, options.multigrid, options.solve, options.accuracy, job.Part(0.0, 0.2));
   const bool isOnPoints = f.association == FieldAssociation::Points;
   const MultiVector values = space.LoadOfValues(f, job.Part(0.2, 0.25));
   const MultiVector gradients =
@@ -72,6 +73,7 @@ SurfaceDerivatives ComputeDerivatives(const FiniteElementSpace& space, const Tri
     AddDerivativesOfVectors(mesh, job.threads, result);
   }
   result.report = std::move(projection.report);
+  result.accuracy = projection.accuracy;
   return result;
 }
 

@@ -2,8 +2,7 @@
 #ifndef GridFEM_SurfaceDerivatives_h
 #define GridFEM_SurfaceDerivatives_h
 
-#include "Krylov/ConjugateGradients.h"
-#include "Spaces/FiniteElementSpace.h"
+#include "Problems/SolutionAccuracy.h"
 
 namespace gridfem
 {
@@ -12,6 +11,7 @@ struct DerivativeOptions
 {
   MultigridOptions multigrid;
   SolveOptions solve;
+  double accuracy = 0.0; // as in PoissonOptions
 };
 
 /// World units. C components of the field; vectors in columns 3c .. 3c+2.
@@ -28,7 +28,8 @@ struct SurfaceDerivatives
   MultiVector divergenceAtPoints;
   MultiVector curlOnTriangles;
   MultiVector curlAtPoints;
-  SolveReport report; // of the projection that took most iterations
+  SolveReport report;        // of the projection that took most iterations
+  SolutionAccuracy accuracy; // of the worst one; unknown unless it was wanted
 };
 
 /// The field is projected into the space, its gradient on triangles is projected again, and the

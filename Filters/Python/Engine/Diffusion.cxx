@@ -13,11 +13,16 @@ class DiffusionProblem : public Problem
 {
 public:
   explicit DiffusionProblem(Properties& properties)
-    : options_(properties, { 1e-6, 200, 1e-2 }),
+    : options_(properties, { 0.0, 200, 1e-2 }),
       time_(properties.NumberFrom("DiffusionTime", 0.001, 0.0)),
       steps_(properties.Integer("NumberOfSteps", 1, 1, 10000)),
       scheme_(static_cast<TimeScheme>(properties.Integer("Scheme", 1, 0, 1)))
   {
+    if (steps_ > 1 && options_.solve.tolerance == 0.0)
+    {
+      options_.accuracy = 0.0;
+      options_.solve.tolerance = ToleranceOfSteps;
+    }
     if (time_ == 0.0)
     {
       throw InvalidInput("DiffusionTime is 0: nothing spreads. It must be above 0.");
@@ -33,6 +38,7 @@ public:
     options.scheme = scheme_;
     options.multigrid = options_.multigrid;
     options.solve = options_.solve;
+    options.accuracy = options_.accuracy;
     HeatDiffusion diffusion(surface.space,
       surface.space->LoadOfValues(start, surface.MakeJob(progress.Part(0.3, 0.4))), {}, options,
       surface.MakeJob(progress.Part(0.4, 0.5)));
@@ -46,10 +52,7 @@ public:
     Results results;
     results.arrays["Diffused"] =
       surface.AtPoints(diffusion.Coefficients(), given.RowsAtPoints("values"));
-    if (!last.converged)
-    {
-      results.Warn(WarningOf(last, options_.solve.tolerance));
-    }
+    results.Warn(WarningOf(last, diffusion.Accuracy(), options_.solve.tolerance));
     return results;
   }
 

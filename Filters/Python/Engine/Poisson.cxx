@@ -20,10 +20,9 @@ class PoissonProblem : public Problem
 {
 public:
   explicit PoissonProblem(Properties& properties)
-    : options_(properties, { 0.0, 200, 1e-12, CycleType::W, 0.0 }),
+    : options_(properties, { 0.0, 200 }),
       weight_(properties.NumberFrom("ScreeningWeight", 100.0, 0.0)),
       gradientScale_(properties.FiniteNumber("GradientScale", 1.0)),
-      accuracy_(properties.Number("Accuracy", 0.1, 1e-6, 1.0)),
       iteration_(static_cast<IterationType>(properties.Integer("Iteration", 0, 0, 1))),
       usesValueGradient_(properties.Switch("UseValueGradient", false)),
       fillsUnknown_(properties.Switch("FillUnknown", false)),
@@ -64,7 +63,6 @@ private:
   SurfaceOptions options_;
   double weight_;
   double gradientScale_;
-  double accuracy_;
   IterationType iteration_;
   bool usesValueGradient_;
   bool fillsUnknown_;
@@ -123,7 +121,6 @@ Field PoissonProblem::ValuesOf(const Given& given) const
 MultiVector PoissonProblem::SolveEquation(
   const Given& given, const Surface& surface, Results& results, const Progress& progress) const
 {
-  constexpr double RoundingTolerance = 1e-9; // for solutions that coarser levels have already
   const FiniteElementSpace& space = surface.Space();
   const Job job = surface.MakeJob(progress.Part(0.0, 0.2));
   const Field value = this->ValuesOf(given);
@@ -144,21 +141,12 @@ MultiVector PoissonProblem::SolveEquation(
   options.iteration = iteration_;
   options.solve = options_.solve;
   options.estimateErrors = true;
-  const bool isByTolerance = options_.solve.tolerance > 0.0;
-  if (!isByTolerance)
-  {
-    options.accuracy = accuracy_;
-    options.solve.tolerance = RoundingTolerance;
-  }
+  options.accuracy = options_.accuracy;
   const Multigrid multigrid =
     BuildMultigrid(space, options.screeningWeight, 1.0, options.multigrid, progress.Part(0.2, 0.4));
   PoissonSolution solution = SolvePoisson(
     space, multigrid, load, gradientScale_ * gradients, options, progress.Part(0.4, 1.0));
-  if (!solution.report.converged)
-  {
-    results.Warn(isByTolerance ? WarningOf(solution.report, options.solve.tolerance)
-                               : WarningOf(solution.report, solution.accuracy));
-  }
+  results.Warn(WarningOf(solution.report, solution.accuracy, options.solve.tolerance));
   return std::move(solution.coefficients);
 }
 

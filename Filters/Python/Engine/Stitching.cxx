@@ -51,7 +51,7 @@ class StitchingProblem : public Problem
 {
 public:
   explicit StitchingProblem(Properties& properties)
-    : options_(properties, { 1e-5, 200, 1e-2 }),
+    : options_(properties, { 0.0, 200, 1e-2 }),
       keepsReference_(properties.Integer("KeptMean", 0, 0, 1) == 1),
       referenceLabel_(properties.Integer("ReferenceLabel", 0, -Largest, Largest)),
       keepsDetails_(properties.Switch("KeepDetails", true)),
@@ -71,6 +71,7 @@ public:
     StitchOptions options;
     options.multigrid = options_.multigrid;
     options.solve = options_.solve;
+    options.accuracy = options_.accuracy;
     options.blendWidth = blendWidth_ * surface.space->Extent() * surface.space->UnitLength();
     if (keepsReference_)
     {
@@ -87,10 +88,7 @@ public:
     results.arrays["StitchedColors"] = colors.association == FieldAssociation::Points
                                          ? KeepUnsolved(surface, given, stitched.values)
                                          : given.MeansOnCells(stitched.values);
-    if (!stitched.report.converged)
-    {
-      results.Warn(WarningOf(stitched.report, options_.solve.tolerance));
-    }
+    results.Warn(WarningOf(stitched.report, stitched.accuracy, options_.solve.tolerance));
     return results;
   }
 

@@ -160,8 +160,14 @@ SurfaceOptions::SurfaceOptions(Properties& properties, const SharedDefaults& def
   multigrid.postSweeps = multigrid.preSweeps;
   multigrid.sweepsPerSynchronisation = properties.Integer("SweepsPerSynchronisation", 1, 1, 100);
   multigrid.threads = functions.threads;
+  const bool hasAccuracy = defaults.tolerance == 0.0;
   solve.tolerance =
-    properties.Number("Tolerance", defaults.tolerance, defaults.leastTolerance, 0.999);
+    properties.Number("Tolerance", defaults.tolerance, hasAccuracy ? 0.0 : 1e-16, 0.999);
+  if (hasAccuracy)
+  {
+    const double wanted = properties.Number("Accuracy", 0.1, 1e-6, 1.0);
+    accuracy = solve.tolerance == 0.0 ? wanted : 0.0;
+  }
   solve.maximumIterations =
     properties.Integer("MaximumIterations", defaults.maximumIterations, 1, Largest);
   parameterUnits = properties.Integer("ParameterUnits", 1, 0, 2);

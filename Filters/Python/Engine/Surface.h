@@ -63,11 +63,10 @@ struct Given
 /// What differs from filter to filter.
 struct SharedDefaults
 {
-  double tolerance = 1e-8;
+  double tolerance = 1e-8; // 0: there is an Accuracy, which decides where it is 0
   int maximumIterations = 100;
   double normalStabilization = 1e-12;
   CycleType cycle = CycleType::W;
-  double leastTolerance = 1e-16;
 };
 
 /// The properties that all problems have.
@@ -81,7 +80,8 @@ struct SurfaceOptions
   SpaceChoice choice;
   MultigridOptions multigrid;
   SolveOptions solve;
-  int parameterUnits; // 0: world, 1: those of area 1, 2: those of a longest side of 1
+  double accuracy = 0.0; // as in PoissonOptions
+  int parameterUnits;    // 0: world, 1: those of area 1, 2: those of a longest side of 1
 };
 
 /// A mesh with its function space.

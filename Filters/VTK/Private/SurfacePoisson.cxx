@@ -1,17 +1,7 @@
 #include "SurfacePoisson.h"
 
-#include "SolverOutput.h"
-
 namespace gridfem
 {
-namespace
-{
-
-/// Of the energy residual, for solutions that are exact on coarser levels already.
-constexpr double RoundingTolerance = 1e-9;
-
-} // namespace
-
 void SurfacePoisson::Update(SurfaceSolverState& state, StageKey fields, const Integrate& integrate,
   const PoissonRequest& request, const Progress& progress)
 {
@@ -55,8 +45,8 @@ void SurfacePoisson::Solve(
 {
   StageKey key;
   key.Add(state.stages.Version(HierarchyStage)).Add(state.stages.Version(RightHandSideStage));
-  key.Add(request.gradientScale).Add(static_cast<int>(request.iteration)).Add(request.accuracy);
-  key.Add(state.options.solve.tolerance).Add(state.options.solve.maximumIterations);
+  key.Add(request.gradientScale).Add(static_cast<int>(request.iteration));
+  AddSolver(key, state.options);
   state.stages.Run(SolveStage, key,
     [&]
     {
@@ -65,15 +55,11 @@ void SurfacePoisson::Solve(
       options.multigrid = state.options.multigrid;
       options.iteration = request.iteration;
       options.solve = state.options.solve;
-      options.accuracy = request.accuracy;
-      if (request.accuracy > 0.0)
-      {
-        options.solve.tolerance = RoundingTolerance;
-      }
+      options.accuracy = state.options.accuracy;
       options.estimateErrors = true;
       StageKey solver = shape_; // other options show their own iterations, from the usual start
-      solver.Add(options.solve.tolerance).Add(options.solve.maximumIterations);
-      solver.Add(static_cast<int>(request.iteration)).Add(request.accuracy);
+      solver.Add(static_cast<int>(request.iteration));
+      AddSolver(solver, state.options);
       const bool hasStart = solvedWith_ == solver;
       const MultiVector last = hasStart ? std::move(solution_.coefficients) : MultiVector();
       options.start = hasStart ? &last : nullptr;
@@ -93,16 +79,6 @@ MultiVector SurfacePoisson::Gradients(const SurfaceSolverState& state) const
 MultiVector SurfacePoisson::Values(const SurfaceSolverState& state) const
 {
   return state.space->ValuesAtPoints(solution_.coefficients, state.options.space.threads);
-}
-
-std::string SurfacePoisson::Warning(double tolerance) const
-{
-  if (solution_.report.converged)
-  {
-    return {};
-  }
-  return tolerance > 0.0 ? WarningOf(solution_.report, tolerance)
-                         : WarningOf(solution_.report, solution_.accuracy);
 }
 
 } // namespace gridfem

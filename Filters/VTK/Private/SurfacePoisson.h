@@ -28,7 +28,6 @@ struct PoissonRequest
   double weight = 1.0;        // λ in parameter units
   double gradientScale = 1.0; // σ: a factor on the gradients, which are not integrated again
   IterationType iteration = IterationType::ConjugateGradients;
-  double accuracy = 0.0; // as in PoissonOptions
 };
 
 /// Every stage is repeated only when something it depends on has changed. A change of the weight or
@@ -51,10 +50,6 @@ public:
 
   const SolveReport& Report() const { return solution_.report; }
   const SolutionAccuracy& Accuracy() const { return solution_.accuracy; }
-
-  /// What to warn of when the solve has not converged; empty when it has.
-  /// @param tolerance  0: the accuracy was wanted
-  std::string Warning(double tolerance) const;
 
 private:
   void UpdateHierarchy(SurfaceSolverState& state, double weight, const Progress& progress);

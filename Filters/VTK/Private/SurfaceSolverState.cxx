@@ -40,6 +40,12 @@ void AddMultigrid(StageKey& key, const MultigridOptions& options)
     .Add(options.sweepsPerSynchronisation); // the number of threads changes no bit
 }
 
+void AddSolver(StageKey& key, const SurfaceOptions& options)
+{
+  AddMultigrid(key, options.multigrid);
+  key.Add(options.solve.tolerance).Add(options.solve.maximumIterations).Add(options.accuracy);
+}
+
 void AddClipArrays(StageKey& key, vtkPolyData* data)
 {
   for (const char* name : { SourceCellIdName, OctreeCellIdName })
@@ -67,6 +73,7 @@ void SurfaceSolverState::UpdateSpace(
   vtkPolyData* input, vtkPolyData* basisData, const Progress& progress)
 {
   RequireNumber("Tolerance", options.solve.tolerance);
+  RequireNumber("Accuracy", options.accuracy);
   StageKey key;
   key.Add(meshVersion.Of(input, mesh, options.space.threads));
   const bool carries = CarriesBasis(input);

@@ -23,6 +23,7 @@ struct SurfaceOptions
   SpaceChoice choice; // on the basis
   MultigridOptions multigrid;
   SolveOptions solve;
+  double accuracy = 0.0;  // as in PoissonOptions; 0: to the tolerance alone
   int parameterUnits = 1; // vtkSurfaceFEMAlgorithm::ParameterUnitsType
 };
 
@@ -42,6 +43,9 @@ void AddMesh(StageKey& key, vtkPolyData* data);
 
 /// Adds what a hierarchy depends on besides its matrices.
 void AddMultigrid(StageKey& key, const MultigridOptions& options);
+
+/// Adds what a solution depends on besides its equation.
+void AddSolver(StageKey& key, const SurfaceOptions& options);
 
 /// Adds the arrays of the clip.
 void AddClipArrays(StageKey& key, vtkPolyData* data);
