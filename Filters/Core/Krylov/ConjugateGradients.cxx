@@ -1,5 +1,6 @@
 #include "Krylov/ConjugateGradients.h"
 
+#include "Krylov/RitzValues.h"
 #include "Krylov/SolverIteration.h"
 
 #include <cmath>
@@ -62,6 +63,7 @@ SolveReport SolveConjugateGradients(const LinearOperator& A, const Preconditione
   const Progress& progress)
 {
   SolverIteration iteration(A, B, b, x, options, project);
+  RitzValues ritz(b.cols());
   MultiVector p = iteration.z;
   MultiVector q;
   while (iteration.CanGoOn())
@@ -71,6 +73,11 @@ SolveReport SolveConjugateGradients(const LinearOperator& A, const Preconditione
     const Columns step = StepLengths(A, iteration, p, q);
     AddScaled(p, step, x, A.threads);
     AddScaled(q, -step, iteration.r, A.threads);
+    ritz.AddStep(step);
+    if (options.measureBy)
+    {
+      iteration.slowest = ritz.Smallest();
+    }
     const Columns before = iteration.rz;
     iteration.Measure();
     Columns factor = Columns::Zero(b.cols());
@@ -78,6 +85,7 @@ SolveReport SolveConjugateGradients(const LinearOperator& A, const Preconditione
     {
       factor[c] = iteration.IsActive(c) ? iteration.rz[c] / before[c] : 0.0;
     }
+    ritz.AddFactor(factor);
     if (!iteration.IsActive())
     {
       iteration.Confirm();

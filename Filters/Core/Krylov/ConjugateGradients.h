@@ -11,6 +11,17 @@
 namespace gridfem
 {
 
+/// An iteration where it is looked at.
+struct Iterate
+{
+  const MultiVector& x;
+  const MultiVector& correction; // B r, which x takes when the iteration ends
+  /// Per right-hand side the smallest Ritz value of B A that conjugate gradients have found: what
+  /// is slowest to converge is reduced by 1 - this at each cycle. Not a number before the first
+  /// step and for cycles alone.
+  const Columns& slowest;
+};
+
 /// Per right-hand side, and what it has to fall to.
 struct ColumnMeasures
 {
@@ -35,10 +46,10 @@ struct SolveOptions
     AtStandstill, // Stagnation::IsAtStandstill
     WhenTooSlow   // Stagnation::IsTooSlow: for those who can go on with a better cycle
   } giveUp = GiveUp::Never;
-  /// A measure of its own, where it is set: of x and the correction B r that x takes when it ends.
-  /// A column is done when this or the tolerance says so. Called once before each iteration and at
-  /// the end; columns that are done already come with a correction of 0.
-  std::function<ColumnMeasures(const MultiVector& x, const MultiVector& correction)> measureBy;
+  /// A measure of its own, where it is set. A column is done when this or the tolerance says so.
+  /// Called once before each iteration and at the end; columns that are done already come with a
+  /// correction of 0.
+  std::function<ColumnMeasures(const Iterate&)> measureBy;
 };
 
 /// The state of x before the correction B r of that iteration; the largest over the right-hand

@@ -58,6 +58,7 @@ SolverIteration::SolverIteration(const LinearOperator& A, const Preconditioner& 
 {
   CheckProblem(A, b, x, options);
   isActive_.setConstant(b.cols(), true);
+  slowest.setConstant(b.cols(), std::numeric_limits<double>::quiet_NaN());
   end_.assign(b.cols(), SolveEnd::IterationLimit);
   energy_.setOnes(b.cols());
   residual_.setOnes(b.cols());
@@ -161,7 +162,7 @@ void SolverIteration::Judge()
   const Columns rr = A_.products(r, r);
   if (options_.measureBy && this->IsActive())
   {
-    own_ = options_.measureBy(x_, z);
+    own_ = options_.measureBy({ x_, z, slowest });
   }
   for (Id c = 0; c < r.cols(); ++c)
   {

@@ -45,7 +45,8 @@ public:
 
   MultiVector r;
   MultiVector z;
-  Columns rz; // rᵀz of the columns that iterate
+  Columns rz;      // rᵀz of the columns that iterate
+  Columns slowest; // see Iterate
 
 private:
   void MeasureZero();

@@ -160,8 +160,7 @@ PoissonSolution SolveWithoutMeans(const FiniteElementSpace& space, const Multigr
     {
       watch.emplace(
         space, std::move(nested), lastStep, options.accuracy, multigrid.Options().threads);
-      solve.measureBy = [&watch](const MultiVector& x, const MultiVector& correction)
-      { return (*watch)(x, correction); };
+      solve.measureBy = [&watch](const Iterate& iterate) { return (*watch)(iterate); };
     }
   }
   project.solution(solution.coefficients);

@@ -8,10 +8,8 @@ namespace gridfem
 namespace
 {
 
-/// The error that is left, over the larger one of the last two corrections. Steps of conjugate
-/// gradients come and go: what was left lay between 0.1 and 1 of it on scans and parts, and up to 4
-/// on spheres at large weights (Testing/Benchmarks/README.md).
-constexpr double LeftByCorrections = 0.75;
+/// No cycle is better than this.
+constexpr double LeastReduction = 0.05;
 
 /// Corrections before anything ends: the first one leads from the coarser level to this one and
 /// says nothing about what is slow.
@@ -43,6 +41,21 @@ double Worst(const Columns& values)
 Columns Relative(const Columns& error, const Columns& size)
 {
   return (size > 0.0).select(error / size, 0.0);
+}
+
+/// What the last correction leaves, as a part of it: of what is slowest a cycle leaves 1 - θ, with
+/// the smallest Ritz value θ, and corrections shrink by as much as the error does. Both may be too
+/// small after few iterations, so the larger counts (Testing/Benchmarks/README.md).
+Columns Reductions(const Columns& step, const Columns& lastStep, const Columns& slowest)
+{
+  Columns reduction(step.size());
+  for (Id c = 0; c < reduction.size(); ++c)
+  {
+    const double seen = step[c] < lastStep[c] ? step[c] / lastStep[c] : 1.0;
+    const double ofSlowest = std::isnan(slowest[c]) ? 0.0 : 1.0 - slowest[c];
+    reduction[c] = std::max({ seen, ofSlowest, LeastReduction });
+  }
+  return reduction;
 }
 
 } // namespace
@@ -81,17 +94,17 @@ Columns AccuracyWatch::Norms(const MultiVector& u) const
   return space_.SquaredNorms(u, threads_).max(0.0).sqrt();
 }
 
-ColumnMeasures AccuracyWatch::operator()(const MultiVector& x, const MultiVector& correction)
+ColumnMeasures AccuracyWatch::operator()(const Iterate& iterate)
 {
   ++calls_;
   if (calls_ <= FirstJudgement) // what comes later adds less to the difference than is known of it
   {
-    const MultiVector corrected = x + correction;
+    const MultiVector corrected = iterate.x + iterate.correction;
     size_ = this->Norms(corrected);
     discretization_ = this->Norms(corrected - nested_) / steps_;
   }
-  const Columns step = this->Norms(correction);
-  const Columns left = LeftByCorrections * step.max(lastStep_);
+  const Columns step = this->Norms(iterate.correction);
+  const Columns left = step * Reductions(step, lastStep_, iterate.slowest);
   algebraic_ = (step > 0.0).select(left, algebraic_); // columns that are done have no correction
   lastStep_ = step;
   const double wanted = calls_ < FirstJudgement ? -1.0 : accuracy_;

@@ -21,8 +21,8 @@ struct SolutionAccuracy
   double discretization = Unknown; // |u - exact| / |u| on the surface, u without its mean; within
                                    // a factor of two where it can be trusted
   double largest = Unknown;        // the largest error at a point, in units of the solution
-  double algebraic = Unknown;      // |u - the space's own solution| / |u|; at most five times too
-                                   // low, often too high
+  double algebraic = Unknown;      // |u - the space's own solution| / |u|; in four of five cases
+                                   // within a factor of three
   /// Whether the levels are nested and differ as they do where errors fall with the square of the
   /// cell size. On hats above a grid the first two are rather too large, up to fifteen times. Else
   /// the surface or the data are not resolved, or the levels are too coarse, and the error of the
@@ -44,7 +44,7 @@ public:
   AccuracyWatch(const FiniteElementSpace& space, MultiVector nested, const MultiVector& coarser,
     double accuracy, int threads);
 
-  ColumnMeasures operator()(const MultiVector& x, const MultiVector& correction);
+  ColumnMeasures operator()(const Iterate& iterate);
 
   /// Of the solution. Before it is scaled and gets its mean back.
   SolutionAccuracy Result(const MultiVector& solution, const Eigen::RowVectorXd& scale) const;

@@ -117,13 +117,13 @@ void ExpectRightEstimates(const Comparison& c, bool isSmooth)
 {
   EXPECT_TRUE(c.report.converged);
   EXPECT_LE(c.report.iterations, 5);
-  EXPECT_LT(c.total, 1.2 * c.discretization);
+  EXPECT_LT(c.total, 1.1 * c.discretization);
   const double errors = c.said.discretization / c.discretization;
   EXPECT_GT(errors, isSmooth ? 0.5 : 0.33);
   EXPECT_LT(errors, isSmooth ? 2.0 : 3.0);
   const double left = c.said.algebraic / c.algebraic;
-  EXPECT_GT(left, 0.2);
-  EXPECT_LT(left, 30.0); // the safe side; 21 was measured
+  EXPECT_GT(left, 0.1);
+  EXPECT_LT(left, 12.0);
 }
 
 } // namespace
