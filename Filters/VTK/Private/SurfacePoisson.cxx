@@ -29,10 +29,10 @@ void SurfacePoisson::UpdateHierarchy(
   SurfaceSolverState& state, double weight, const Progress& progress)
 {
   StageKey shape;
-  shape.Add(state.stages.Version(SystemStage));
+  shape.Add(state.StructureVersion());
   AddMultigrid(shape, state.options.multigrid);
   StageKey key = shape;
-  key.Add(weight);
+  key.Add(state.stages.Version(SystemStage)).Add(weight);
   state.stages.Run(HierarchyStage, key,
     [&]
     {
@@ -72,6 +72,7 @@ void SurfacePoisson::Solve(
       }
       options.estimateErrors = true;
       StageKey solver = shape_; // other options show their own iterations, from the usual start
+      solver.Add(state.stages.Version(SystemStage));
       solver.Add(options.solve.tolerance).Add(options.solve.maximumIterations);
       solver.Add(static_cast<int>(request.iteration)).Add(request.accuracy);
       const bool hasStart = solvedWith_ == solver;
@@ -87,7 +88,8 @@ void SurfacePoisson::Solve(
 
 MultiVector SurfacePoisson::Gradients(const SurfaceSolverState& state) const
 {
-  return state.space->GradientsOnTriangles(solution_.coefficients, state.options.space.threads);
+  return state.OnCurrent(
+    state.space->GradientsOnTriangles(solution_.coefficients, state.options.space.threads));
 }
 
 MultiVector SurfacePoisson::Values(const SurfaceSolverState& state) const
