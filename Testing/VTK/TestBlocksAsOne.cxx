@@ -560,6 +560,7 @@ TEST_F(BlocksAsOne, FollowTheTimesOfTheInput)
   spectrum->SetTolerance(1e-8);
   spectrum->SetNumberOfModes(4);
   spectrum->AllModesOn();
+  spectrum->TrackMetricOn();
   spectrum->SetInputConnection(group->GetOutputPort());
   for (const double time : { 1.0, 3.0, 2.0 })
   {
@@ -569,9 +570,11 @@ TEST_F(BlocksAsOne, FollowTheTimesOfTheInput)
       const auto eigenvalues = Values(leaf->GetFieldData()->GetArray("Eigenvalues"));
       ASSERT_EQ(eigenvalues.size(), 4u);
       EXPECT_NEAR(eigenvalues[1] * time * time, 2.0, 0.1);
+      EXPECT_EQ(FieldValue(leaf, "ReferenceTime"), 1.0);
     }
   }
   EXPECT_EQ(spectrum->GetNumberOfRuns("Solve"), 3);
+  EXPECT_EQ(spectrum->GetNumberOfRuns("Space"), 1);
 }
 
 } // namespace

@@ -47,6 +47,19 @@ bool HasArray(vtkPolyData* surface, const std::string& name)
          surface->GetCellData()->HasArray(name.c_str());
 }
 
+/// The whole has the time of its blocks.
+void CopyTime(vtkInformation* from, vtkInformation* to)
+{
+  if (from->Has(vtkDataObject::DATA_TIME_STEP()))
+  {
+    to->Set(vtkDataObject::DATA_TIME_STEP(), from->Get(vtkDataObject::DATA_TIME_STEP()));
+  }
+  else
+  {
+    to->Remove(vtkDataObject::DATA_TIME_STEP());
+  }
+}
+
 /// A vector of one information: a copy of that given, with another data object.
 void CopyWith(vtkDataObject* data, vtkInformation* given, vtkInformationVector* vector, int port)
 {
@@ -172,6 +185,10 @@ vtkInformationVector** JoinedBlocks::Inputs(
       KeepUnchanged(last, entry_->surface.whole);
     }
     entry_->key = key;
+  }
+  if (!blocks_.empty())
+  {
+    CopyTime(blocks_.front().data->GetInformation(), entry_->surface.whole->GetInformation());
   }
   CopyWith(entry_->surface.whole, inputs[0]->GetInformationObject(0), first_, 0);
   ports_.assign(inputs, inputs + ports);
