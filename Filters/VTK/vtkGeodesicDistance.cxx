@@ -227,7 +227,7 @@ void vtkGeodesicDistance::Compute(vtkInformationVector** inputs, vtkInformationV
   const gridfem::InputArray mask = gridfem::FindInputArray(this, 0, input, "SourceArray");
   state.options.space.joinAtPoints = true; // paths lead through points where sheets touch
   state.UpdateSpace(input, vtkPolyData::GetData(inputs[1]), progress.Part(0.0, 0.2));
-  this->Selection->Update(vtkSelection::GetData(inputs[3]), input);
+  this->Selection->Update(vtkSelection::GetData(inputs[3]), input, this->JoinedInput());
   const std::vector<gridfem::Id> found =
     this->Data->FindSources(state.mesh, mask, vtkDataSet::GetData(inputs[2]), *this->Selection);
   const std::vector<vtkIdType> sources(found.begin(), found.end());

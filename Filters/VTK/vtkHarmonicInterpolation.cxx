@@ -150,9 +150,14 @@ void vtkHarmonicInterpolation::Compute(vtkInformationVector** inputs, vtkInforma
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   gridfem::SurfaceSolverState& state = *this->State;
   const gridfem::Progress progress = state.bridge.GetProgress();
+  if (!vtkDataSet::GetData(inputs[2]))
+  {
+    gridfem::FindInputArray(this, 0, input, "ValueArray"); // before the long work
+    gridfem::FindInputArray(this, 1, input, "MaskArray");
+  }
   state.UpdateSpace(input, vtkPolyData::GetData(inputs[1]), progress.Part(0.0, 0.3));
   state.UpdateSystem(progress.Part(0.3, 0.5));
-  this->Selection->Update(vtkSelection::GetData(inputs[3]), input);
+  this->Selection->Update(vtkSelection::GetData(inputs[3]), input, this->JoinedInput());
   this->FindValues(input, vtkDataSet::GetData(inputs[2]));
   this->Solve(progress.Part(0.5, 0.95));
   this->Write(input, vtkPolyData::GetData(outputs, 0));

@@ -141,6 +141,7 @@ void vtkLaplaceSpectrum::WriteModes(vtkPolyData* input, vtkInformation* info, vt
   output->GetFieldData()->AddArray(eigenvalues);
   const bool converged = this->Data->spectrum.converged && this->IsAccurate();
   gridfem::AddFieldInt(output, "Converged", converged ? 1 : 0);
+  state.WriteTracking(output);
 }
 
 void vtkLaplaceSpectrum::WriteTable(vtkTable* table)
@@ -233,6 +234,7 @@ void vtkLaplaceSpectrum::Compute(vtkInformationVector** inputs, vtkInformationVe
   request.compare = this->CompareFunctionSpaces;
   request.accuracy = this->AccuracyDriven ? this->Accuracy : 0.0;
   this->State->metricArray = gridfem::FindInputArray(this, 5, input, "MetricArray");
+  this->State->options.trackMetric = this->TrackMetric && !this->AccuracyDriven;
   this->Data->SolvedModes = 0;
   this->Data->Update(*this->State, input, vtkPolyData::GetData(inputs[1]), request);
   this->Data->SolvedModes = this->NumberOfModes;
@@ -258,5 +260,6 @@ void vtkLaplaceSpectrum::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "CompleteMultiplets: " << this->CompleteMultiplets << "\n";
   os << indent << "CompareFunctionSpaces: " << this->CompareFunctionSpaces << "\n";
   os << indent << "AccuracyDriven: " << this->AccuracyDriven << "\n";
+  os << indent << "TrackMetric: " << this->TrackMetric << "\n";
   os << indent << "Accuracy: " << this->Accuracy << "\n";
 }

@@ -109,6 +109,25 @@ public:
 
   ///@{
   /**
+   * When on, and only points of the surface have moved since its functions were made, as in the
+   * next time step of an animation, the functions stay: the grid, the clip and the patterns are
+   * those of the surface seen first, and integrals are in the metric of where it is now. Faster
+   * than to start again, as when cells have changed or a triangle has lost its area. The functions
+   * move with the surface: they are as good as on the surface seen first where the motion bends,
+   * and become poorer where it stretches one direction more than another; parts that come near to
+   * each other later do not feel each other. So results depend, within the error of the space, on
+   * the time step that was computed first, or at the last change of Depth and the like: the field
+   * array `ReferenceTime` says which, where the input has times, and `LargestStretchRatio` how far
+   * the map from there is from keeping angles, which is 1. Needs KeepStages, and does not go with
+   * MetricArray. Without effect with AccuracyDriven. Default off.
+   */
+  vtkSetMacro(TrackMetric, bool);
+  vtkGetMacro(TrackMetric, bool);
+  vtkBooleanMacro(TrackMetric, bool);
+  ///@}
+
+  ///@{
+  /**
    * When on, the depth is chosen such that the estimated error of every eigenvalue is at most
    * Accuracy; Depth is not used. When off (default), Depth is used. The warning, and `Converged` =
    * 0, say when the accuracy is not reached: with a basis that is given, for want of memory, or
@@ -148,6 +167,7 @@ protected:
   bool CompleteMultiplets = true;
   bool CompareFunctionSpaces = false;
   bool AccuracyDriven = false;
+  bool TrackMetric = false;
   double Accuracy = 0.01;
 
 private:

@@ -166,6 +166,12 @@ void vtkScreenedPoisson::FindFlux(vtkPolyData* input)
                                 "' must be a point array with as many components as the values, " +
                                 std::to_string(components) + ".");
   }
+  if (data.Flux.array && this->State->options.trackMetric)
+  {
+    throw gridfem::InvalidInput(
+      "BoundaryFluxArray and TrackMetric do not go together: a flux is per "
+      "length of the boundary as it was when the functions were made.");
+  }
   if (data.Flux.array && this->State->metricArray.array)
   {
     throw gridfem::InvalidInput(
@@ -227,8 +233,9 @@ gridfem::ConstrainedLoad vtkScreenedPoisson::IntegrateConstrained(
   const auto factor = data.ReadScale(mesh);
   if (data.Gradient.array)
   {
-    load.gradients = space.LoadOfGradients(
-      gridfem::ReadField(data.Gradient, mesh), factor ? &*factor : nullptr, job);
+    load.gradients =
+      space.LoadOfGradients(this->State->OnReference(gridfem::ReadField(data.Gradient, mesh)),
+        factor ? &*factor : nullptr, job);
   }
   else if (this->UseValueGradient)
   {
@@ -276,22 +283,23 @@ gridfem::PoissonLoad vtkScreenedPoisson::Integrate(
 {
   const Internals& data = *this->Data;
   const gridfem::InputMesh& mesh = this->State->mesh;
-  const gridfem::Field value =
-    data.Value.array ? gridfem::ReadField(data.Value, mesh) : gridfem::CoordinatesField(mesh);
+  const gridfem::Field value = data.Value.array
+                                 ? gridfem::ReadField(data.Value, mesh)
+                                 : gridfem::CoordinatesField(this->State->CurrentMesh());
   const std::optional<gridfem::Field> factor = data.ReadScale(mesh);
   const gridfem::Field* scale = factor ? &*factor : nullptr;
   gridfem::PoissonLoad load;
   load.values = space.LoadOfValues(value, job.Part(0.0, 0.5));
   if (data.Gradient.array)
   {
-    load.gradients =
-      space.LoadOfGradients(gridfem::ReadField(data.Gradient, mesh), scale, job.Part(0.5, 1.0));
+    load.gradients = space.LoadOfGradients(
+      this->State->OnReference(gridfem::ReadField(data.Gradient, mesh)), scale, job.Part(0.5, 1.0));
   }
   else if (this->UseValueGradient)
   {
-    load.gradients = data.Value.array
-                       ? space.LoadOfGradientsOf(value, scale, job.Part(0.5, 1.0))
-                       : space.LoadOfGradientsOfCoordinates(scale, job.Part(0.5, 1.0));
+    const bool isValue = data.Value.array || &this->State->CurrentMesh() != &mesh;
+    load.gradients = isValue ? space.LoadOfGradientsOf(value, scale, job.Part(0.5, 1.0))
+                             : space.LoadOfGradientsOfCoordinates(scale, job.Part(0.5, 1.0));
   }
   return load;
 }
@@ -353,7 +361,7 @@ void vtkScreenedPoisson::WriteSolution(vtkPolyData* input, vtkPolyData* output)
   output->GetPointData()->SetActiveScalars("Solution");
   if (!data.Value.array && this->MovePoints)
   {
-    gridfem::MoveSurface(*state.mesh.triangles, values,
+    gridfem::MoveSurface(*state.CurrentMesh().triangles, values,
       gridfem::OutputPrecision(input->GetPoints()), this->NumberOfThreads, output);
   }
   gridfem::AddReport(this->Report(), output);
@@ -361,11 +369,12 @@ void vtkScreenedPoisson::WriteSolution(vtkPolyData* input, vtkPolyData* output)
   if (this->SolutionGradient)
   {
     output->GetCellData()->AddArray(gridfem::MakePointArray("SolutionGradient",
-      gridfem::MeansOnCells(state.mesh,
+      gridfem::MeansOnCells(state.CurrentMesh(),
         this->IsConstrained() ? data.Constrained.Gradients(state) : data.Equation.Gradients(state),
         input->GetNumberOfCells()),
       VTK_DOUBLE));
   }
+  state.WriteTracking(output);
   if (this->HoldsValues())
   {
     gridfem::AddFieldNumber(output, "Misfit", data.Constrained.Misfit());
@@ -442,6 +451,7 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
   const gridfem::Progress progress = this->State->bridge.GetProgress();
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
+  this->State->options.trackMetric = this->TrackMetric && !this->AccuracyDriven;
   this->FindArrays(input);
   this->Selection->Update(vtkSelection::GetData(inputs[2]), input);
   this->FindConstraints(input);
@@ -481,6 +491,7 @@ void vtkScreenedPoisson::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ScreeningWeight: " << this->ScreeningWeight << "\n";
   os << indent << "GradientScale: " << this->GradientScale << "\n";
   os << indent << "AccuracyDriven: " << this->AccuracyDriven << "\n";
+  os << indent << "TrackMetric: " << this->TrackMetric << "\n";
   os << indent << "WantedError: " << this->WantedError << "\n";
   os << indent << "Iteration: " << this->Iteration << "\n";
   os << indent << "FillUnknown: " << this->FillUnknown << "\n";

@@ -125,6 +125,25 @@ public:
 
   ///@{
   /**
+   * When on, and only points of the surface have moved since its functions were made, as in the
+   * next time step of an animation, the functions stay: the grid, the clip and the patterns are
+   * those of the surface seen first, and integrals are in the metric of where it is now. Faster
+   * than to start again, as when cells have changed or a triangle has lost its area. The functions
+   * move with the surface: they are as good as on the surface seen first where the motion bends,
+   * and become poorer where it stretches one direction more than another; parts that come near to
+   * each other later do not feel each other. So results depend, within the error of the space, on
+   * the time step that was computed first, or at the last change of Depth and the like: the field
+   * array `ReferenceTime` says which, where the input has times, and `LargestStretchRatio` how far
+   * the map from there is from keeping angles, which is 1. Needs KeepStages, and does not go with
+   * MetricArray or BoundaryFluxArray. Without effect with AccuracyDriven. Default off.
+   */
+  vtkSetMacro(TrackMetric, bool);
+  vtkGetMacro(TrackMetric, bool);
+  vtkBooleanMacro(TrackMetric, bool);
+  ///@}
+
+  ///@{
+  /**
    * When on, Depth is chosen such that the estimated error of the function space, relative to the
    * solution without its mean, is at most WantedError; the field array `UsedDepth` says which. Not
    * with unknown, weighed or held values or a flux, where nothing is estimated, and not used with a
@@ -220,6 +239,7 @@ protected:
 
   double ScreeningWeight = 100.0;
   bool AccuracyDriven = false;
+  bool TrackMetric = false;
   double WantedError = 0.01;
   double GradientScale = 1.0;
   bool UseValueGradient = false;

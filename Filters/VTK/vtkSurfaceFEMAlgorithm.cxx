@@ -4,6 +4,7 @@
 #include "Private/InputArray.h"
 #include "Private/InputBlocks.h"
 #include "Private/InputValidation.h"
+#include "Private/JoinedBlocks.h"
 #include "Private/PipelineTime.h"
 #include "Private/RankedSurface.h"
 #include "Private/SolverOutput.h"
@@ -13,6 +14,7 @@
 #include "Base/LargeMemory.h"
 
 #include "vtkCallbackCommand.h"
+#include "vtkCompositeDataSet.h"
 #include "vtkErrorCode.h"
 #include "vtkExecutive.h"
 #include "vtkInformation.h"
@@ -45,7 +47,8 @@ vtkSurfaceFEMAlgorithm::vtkSurfaceFEMAlgorithm()
     Surface(std::make_unique<gridfem::SurfaceInput>()),
     Time(std::make_unique<gridfem::InputTime>()), Dump(std::make_unique<gridfem::FailureDump>()),
     Ranked(std::make_unique<gridfem::RankedSurface>()),
-    Blocks(std::make_unique<gridfem::InputBlocks>())
+    Blocks(std::make_unique<gridfem::InputBlocks>()),
+    Joined(std::make_unique<gridfem::JoinedBlocks>())
 {
   // On several ranks blocks that only some of them have would leave the others waiting.
   vtkNew<vtkCallbackCommand> beginBlocks;
@@ -68,6 +71,10 @@ vtkSurfaceFEMAlgorithm::vtkSurfaceFEMAlgorithm()
     {
       auto* filter = static_cast<vtkSurfaceFEMAlgorithm*>(self);
       filter->Blocks->End();
+      if (!filter->Blocks->Whole())
+      {
+        filter->Joined->Finish(filter->KeepsStages());
+      }
       const std::vector<double> steps = filter->TimeSteps();
       if (!steps.empty())
       {
@@ -158,15 +165,22 @@ int vtkSurfaceFEMAlgorithm::RequestData(
   this->Dump->Print();
   this->State->bridge.Restart();
   const int result = this->RunCompute(inputs, outputs);
-  const bool isEmpty = gridfem::Ranks::AreSeveral()
-                         ? this->Ranked->IsEmpty()
-                         : gridfem::IsEmpty(vtkDataSet::GetData(inputs[0]));
-  if (!this->KeepsStages() || isEmpty)
+  if (!this->KeepsStages() || this->HasNoPoints(inputs))
   {
     this->FreeStages();
     gridfem::ReturnFreedMemory();
   }
   return result;
+}
+
+bool vtkSurfaceFEMAlgorithm::HasNoPoints(vtkInformationVector** inputs) const
+{
+  if (gridfem::Ranks::AreSeveral())
+  {
+    return this->Ranked->IsEmpty();
+  }
+  return this->JoinedInput() ? this->Joined->IsEmpty()
+                             : gridfem::IsEmpty(vtkDataSet::GetData(inputs[0]));
 }
 
 /// What RequestData returns.
@@ -175,7 +189,11 @@ int vtkSurfaceFEMAlgorithm::RunCompute(vtkInformationVector** inputs, vtkInforma
   const gridfem::MemoryReuse reuse;
   try
   {
-    if (gridfem::Ranks::AreSeveral())
+    if (this->JoinedInput())
+    {
+      this->ComputeBlock(inputs, outputs);
+    }
+    else if (gridfem::Ranks::AreSeveral())
     {
       this->ComputeOnRanks(inputs, outputs);
     }
@@ -228,6 +246,78 @@ void vtkSurfaceFEMAlgorithm::ComputeAlone(
     vtkWarningMacro("A block has no array '" << error.array << "'; it is passed on as it is.");
   }
   gridfem::StampTime(!this->OwnTimeSteps().empty(), inputs[0], outputs);
+}
+
+const gridfem::JoinedBlocks* vtkSurfaceFEMAlgorithm::JoinedInput() const
+{
+  return this->BlocksAsOne && this->Blocks->Whole() ? this->Joined.get() : nullptr;
+}
+
+/// One block of those that are one surface: the first one computes for all.
+void vtkSurfaceFEMAlgorithm::ComputeBlock(
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  if (!this->Joined->HasStarted())
+  {
+    this->Joined->Start(outputs);
+    try
+    {
+      this->ComputeJoinedBlocks(inputs);
+    }
+    catch (...)
+    {
+      this->Joined->Fail(std::current_exception());
+      throw;
+    }
+  }
+  this->Joined->HandBack(vtkDataSet::GetData(inputs[0]), outputs);
+  gridfem::StampTime(!this->OwnTimeSteps().empty(), inputs[0], outputs);
+}
+
+void vtkSurfaceFEMAlgorithm::ComputeJoinedBlocks(vtkInformationVector** inputs)
+{
+  gridfem::JoinedBlocks& joined = *this->Joined;
+  vtkCompositeDataSet* whole = this->Blocks->Whole();
+  const int ports = this->GetNumberOfInputPorts();
+  const int count = gridfem::JoinedBlocks::CountBlocks(whole);
+  if (gridfem::Ranks::AreSeveral())
+  {
+    this->Blocks->RequireAligned();
+    const gridfem::Ranks ranks;
+    const bool isShared = ranks.Number(count > 0) > 1 || count > 1;
+    vtkInformationVector** surfaces = nullptr;
+    ranks.Together(
+      [&]
+      {
+        joined.Read(whole, isShared);
+        surfaces = joined.Inputs(inputs, ports, this->WeldCoincidentPoints);
+      });
+    this->ComputeOnRanks(surfaces, joined.Results());
+    return;
+  }
+  joined.Read(whole, count > 1);
+  while (!joined.IsEmpty())
+  {
+    vtkInformationVector** surfaces = joined.Inputs(inputs, ports, this->WeldCoincidentPoints);
+    try
+    {
+      this->ComputeSurface(surfaces, joined.Results());
+      return;
+    }
+    catch (const gridfem::MissingArray& error)
+    {
+      const std::vector<std::string> without = joined.LeaveOut(error.array);
+      if (without.empty())
+      {
+        gridfem::ThrowWithPartialArrays(error, joined.Surface());
+      }
+      for (const std::string& block : without)
+      {
+        vtkWarningMacro("The surface is without " << block << ", which has no array '"
+                                                  << error.array << "' and is passed on as it is.");
+      }
+    }
+  }
 }
 
 /// Compute, and what all outputs say: the depth of the grid, where there is one.
@@ -326,5 +416,6 @@ void vtkSurfaceFEMAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "ParameterUnits: " << this->ParameterUnits << "\n";
+  os << indent << "BlocksAsOne: " << this->BlocksAsOne << "\n";
   os << indent << "KeepStages: " << this->KeepStages << "\n";
 }

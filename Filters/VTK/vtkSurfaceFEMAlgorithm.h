@@ -19,10 +19,10 @@
  * Input port 0 takes vtkPolyData with polygons of any size or triangle strips. Of any other
  * vtkDataSet the surface is taken, by vtkDataSetSurfaceFilter: outputs lie on it, with the arrays
  * `vtkOriginalPointIds` and `vtkOriginalCellIds`. A composite input is taken leaf by leaf, each as
- * a surface by itself; a leaf that lacks an array which another one has is passed on as it is, with
- * a warning. Vertices, lines, and cells that vtkGhostType marks as hidden or as duplicates take no
- * part; the solvers pass them on, the clip leaves them out. Computation is in double precision.
- * Results do not depend on NumberOfThreads.
+ * a surface by itself, or all leaves as one surface with BlocksAsOne; a leaf that lacks an array
+ * which another one has is passed on as it is, with a warning. Vertices, lines, and cells that
+ * vtkGhostType marks as hidden or as duplicates take no part; the solvers pass them on, the clip
+ * leaves them out. Computation is in double precision. Results do not depend on NumberOfThreads.
  *
  * On several MPI ranks the surface is gathered on rank 0, which computes with its threads and has
  * to hold all of it; the others sleep. Ghost cells count once, and points on borders are joined by
@@ -53,6 +53,7 @@ namespace gridfem
 class FailureDump;
 class InputBlocks;
 class InputTime;
+class JoinedBlocks;
 class RankedSurface;
 class SurfaceInput;
 class SurfaceSolverState;
@@ -219,6 +220,22 @@ public:
 
   ///@{
   /**
+   * When on, the leaves of a composite input are one surface, joined at points with the same
+   * coordinates as WeldCoincidentPoints says, or the same global ids. It is computed on once, and
+   * every leaf gets its points, cells and results back; points of several leaves have one result.
+   * Field arrays are those of the one surface; outputs with cells of their own, and tables, are in
+   * the first leaf. Ids, such as those of sources and in messages, count through all leaves, points
+   * that are joined once. Only arrays that all leaves have can be chosen; leaves without a chosen
+   * one that others have are passed on as they are, with a warning. When off (default), every leaf
+   * is a surface by itself. Without effect on other inputs.
+   */
+  vtkSetMacro(BlocksAsOne, bool);
+  vtkGetMacro(BlocksAsOne, bool);
+  vtkBooleanMacro(BlocksAsOne, bool);
+  ///@}
+
+  ///@{
+  /**
    * When on (default), what a run has made is kept, so that a change repeats only the steps that
    * depend on it. When off, it is freed after every run: least memory, but every change, of the
    * time step as well, repeats all steps. Filters that share a basis then read it from its arrays.
@@ -297,6 +314,11 @@ protected:
   bool KeepsStages();
 
   /**
+   * The blocks that the surface is joined of; null when it is not.
+   */
+  const gridfem::JoinedBlocks* JoinedInput() const;
+
+  /**
    * Frees all that was made for the next runs. A filter adds what it keeps itself.
    */
   virtual void FreeStages();
@@ -316,6 +338,7 @@ protected:
   int MaximumIterations = 100;
   int NumberOfThreads = 0;
   int ParameterUnits = UnitArea;
+  bool BlocksAsOne = false;
   bool KeepStages = true;
 
   std::unique_ptr<gridfem::SurfaceSolverState> State;
@@ -326,8 +349,11 @@ private:
 
   int RunCompute(vtkInformationVector** inputs, vtkInformationVector* outputs);
   void ComputeAlone(vtkInformationVector** inputs, vtkInformationVector* outputs);
+  void ComputeBlock(vtkInformationVector** inputs, vtkInformationVector* outputs);
+  void ComputeJoinedBlocks(vtkInformationVector** inputs);
   void ComputeSurface(vtkInformationVector** inputs, vtkInformationVector* outputs);
   void ComputeOnRanks(vtkInformationVector** inputs, vtkInformationVector* outputs);
+  bool HasNoPoints(vtkInformationVector** inputs) const;
   std::vector<double> TimeSteps();
   void FinishAbort(vtkInformationVector* outputs);
 
@@ -336,6 +362,7 @@ private:
   std::unique_ptr<gridfem::FailureDump> Dump;
   std::unique_ptr<gridfem::RankedSurface> Ranked;
   std::unique_ptr<gridfem::InputBlocks> Blocks;
+  std::unique_ptr<gridfem::JoinedBlocks> Joined;
 };
 
 #endif

@@ -34,11 +34,12 @@ class FirstApply(unittest.TestCase):
     def tearDown(self):
         simple.ResetSession()
 
-    def apply(self, name, surface=None):
+    def apply(self, name, surface=None, **properties):
         surface = surface or self.surface
         if name in plugin.CHOICES:
             surface = plugin.with_arrays(surface)
-        proxy = getattr(simple, name)(Input=surface, **plugin.CHOICES.get(name, {}))
+        proxy = getattr(simple, name)(
+            Input=surface, **plugin.CHOICES.get(name, {}), **properties)
         for prop, value in (("Depth", DEPTH), ("NumberOfModes", 16)):
             if prop in proxy.ListProperties():
                 proxy.SetPropertyWithName(prop, value)
@@ -112,6 +113,30 @@ class FirstApply(unittest.TestCase):
             ranges.add(servermanager.Fetch(modes).GetBlock(1).GetPointData().GetArray(
                 "Mode").GetRange())
         self.assertEqual(len(ranges), 3)
+
+    def test_blocks_as_one_surface(self):
+        """Halves of a sphere: every filter gives each half back, and distances go across."""
+        middle = simple.PointDatatoCellData(Input=simple.Calculator(
+            Input=self.surface, ResultArrayName="z", Function="coordsZ"))
+        blocks = simple.GroupDatasets(Input=[
+            simple.Threshold(Input=middle, Scalars=["CELLS", "z"], LowerThreshold=low,
+                             UpperThreshold=low + 2) for low in (-2, 0)])
+        for name in plugin.PROXIES:
+            if name in plugin.CHOICES:
+                continue
+            with self.subTest(proxy=name):
+                proxy = self.apply(name, blocks, BlocksAsOne=1)
+                data = plugin.data(proxy)
+                sizes = [data.GetBlock(block).GetNumberOfPoints() for block in (0, 1)]
+                if name in ("ClipToOctree", "ConnectivityAwareBasis"):
+                    self.assertGreater(sizes[0], 700)
+                    self.assertEqual(sizes[1], 0)
+                else:
+                    self.assertGreater(min(sizes), 300)
+        distance = plugin.data(self.apply("GeodesicDistance", blocks, BlocksAsOne=1))
+        farthest = [distance.GetBlock(block).GetPointData().GetArray("Distance").GetRange()[1]
+                    for block in (0, 1)]
+        self.assertAlmostEqual(max(farthest), 3.14, delta=0.1)
 
     def test_a_block_without_the_array_is_passed_on_and_the_others_are_solved(self):
         values = simple.Calculator(Input=self.surface, ResultArrayName="f", Function="coordsX")

@@ -2,9 +2,14 @@
 
 #include "DataMessage.h"
 #include "PieceJoiner.h"
+#include "SurfaceSolverState.h"
 
+#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
+#include "vtkFieldData.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 
@@ -95,27 +100,78 @@ void KeepUnchanged(vtkFieldData* last, vtkFieldData* data)
   }
 }
 
+void AddArrays(StageKey& key, vtkFieldData* data)
+{
+  for (int k = 0; k < data->GetNumberOfArrays(); ++k)
+  {
+    key.Add(data->GetAbstractArray(k));
+  }
+  auto* attributes = vtkDataSetAttributes::SafeDownCast(data);
+  for (int type = 0; attributes && type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)
+  {
+    key.Add(attributes->GetAbstractAttribute(type));
+  }
+}
+
 } // namespace
 
-GatheredSurface JoinPieces(const Pieces& pieces, bool weldCoincidentPoints)
+void AddSurface(StageKey& key, vtkPolyData* surface)
+{
+  AddMesh(key, surface);
+  key.Add(surface->GetVerts()).Add(surface->GetLines());
+  AddArrays(key, surface->GetPointData());
+  AddArrays(key, surface->GetCellData());
+  AddArrays(key, surface->GetFieldData());
+}
+
+void RequireGoodCells(vtkPolyData* surface)
+{
+  const vtkIdType points = surface->GetNumberOfPoints();
+  vtkIdType first = 0;
+  vtkNew<vtkIdList> storage;
+  for (vtkCellArray* cells :
+    { surface->GetVerts(), surface->GetLines(), surface->GetPolys(), surface->GetStrips() })
+  {
+    const vtkIdType count = cells ? cells->GetNumberOfCells() : 0;
+    for (vtkIdType cell = 0; cell < count; ++cell)
+    {
+      vtkIdType size = 0;
+      const vtkIdType* ids = nullptr;
+      cells->GetCellAtId(cell, size, ids, storage);
+      for (vtkIdType k = 0; k < size; ++k)
+      {
+        if (ids[k] < 0 || ids[k] >= points)
+        {
+          throw InvalidInput("Cell " + std::to_string(first + cell) + " uses point " +
+                             std::to_string(ids[k]) + ", but the piece has " +
+                             std::to_string(points) + " points. Clean the mesh first.");
+        }
+      }
+    }
+    first += count;
+  }
+}
+
+GatheredSurface JoinPieces(
+  const Pieces& pieces, const std::vector<std::string>& owners, bool weldCoincidentPoints)
 {
   const auto count = static_cast<int>(pieces.size());
   Pieces distinct;
-  std::vector<int> ranks;            // of the distinct pieces
-  std::vector<int> which(count, -1); // of the distinct pieces, per rank
-  for (int rank = 0; rank < count; ++rank)
+  std::vector<std::string> owned;    // of the distinct pieces, by whom
+  std::vector<int> which(count, -1); // of the distinct pieces, per owner
+  for (int owner = 0; owner < count; ++owner)
   {
-    if (pieces[rank]->GetNumberOfPoints() == 0)
+    if (pieces[owner]->GetNumberOfPoints() == 0)
     {
       continue;
     }
     const auto same = std::find_if(distinct.begin(), distinct.end(),
-      [&](vtkPolyData* other) { return AreSamePiece(other, pieces[rank]); });
-    which[rank] = static_cast<int>(same - distinct.begin());
+      [&](vtkPolyData* other) { return AreSamePiece(other, pieces[owner]); });
+    which[owner] = static_cast<int>(same - distinct.begin());
     if (same == distinct.end())
     {
-      distinct.push_back(pieces[rank]);
-      ranks.push_back(rank);
+      distinct.push_back(pieces[owner]);
+      owned.push_back(owners[owner]);
     }
   }
   GatheredSurface joined;
@@ -125,14 +181,14 @@ GatheredSurface JoinPieces(const Pieces& pieces, bool weldCoincidentPoints)
   }
   else
   {
-    joined = PieceJoiner(distinct, ranks, weldCoincidentPoints).Result();
+    joined = PieceJoiner(distinct, owned, weldCoincidentPoints).Result();
   }
   std::vector<PiecePlaces> places(count);
-  for (int rank = 0; rank < count; ++rank)
+  for (int owner = 0; owner < count; ++owner)
   {
-    if (which[rank] >= 0)
+    if (which[owner] >= 0)
     {
-      places[rank] = joined.pieces[which[rank]];
+      places[owner] = joined.pieces[which[owner]];
     }
   }
   joined.pieces = std::move(places);
@@ -145,6 +201,19 @@ GatheredSurface JoinPieces(const Pieces& pieces, bool weldCoincidentPoints)
     AddMissing(piece->GetFieldData(), joined.whole->GetFieldData());
   }
   return joined;
+}
+
+void ThrowWithPartialArrays(const InvalidInput& error, const GatheredSurface& surface)
+{
+  const std::string text = error.what();
+  std::string names;
+  for (const std::string& name : surface.partialArrays)
+  {
+    const std::string array = name.substr(0, name.find("' (") + 1);
+    names += text.find(array) == std::string::npos ? "" : (names.empty() ? "" : ", ") + name;
+  }
+  throw InvalidInput(
+    names.empty() ? text : text + " A piece of the surface lacks this array: " + names + ".");
 }
 
 void KeepUnchanged(vtkPolyData* last, vtkPolyData* surface)

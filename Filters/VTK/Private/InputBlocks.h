@@ -35,6 +35,9 @@ public:
   /// inputs.
   bool AnyHas(const std::string& array) const;
 
+  /// The whole input of port 0; null outside of composite inputs.
+  vtkCompositeDataSet* Whole() const { return whole_; }
+
   /// Throws on all ranks when the inputs cannot be aligned.
   void RequireAligned() const;
 

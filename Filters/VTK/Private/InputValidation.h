@@ -12,8 +12,8 @@ namespace gridfem
 /// No points at all: gives empty outputs without a word.
 bool IsEmpty(vtkDataSet* input);
 
-/// Throws InvalidInput for a data set with volume cells, which has a surface of its own on every
-/// rank that holds a piece of it. The data set may be null.
+/// Throws InvalidInput for a data set with volume cells, which has a surface of its own in every
+/// piece of it. The data set may be null.
 void RequireNoVolume(vtkDataSet* piece);
 
 } // namespace gridfem

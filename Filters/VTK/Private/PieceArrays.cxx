@@ -144,7 +144,8 @@ ArraysOfPieces GlobalIds(const Pieces& pieces, AttributesOf attributesOf)
 }
 
 std::vector<ArraysOfPieces> CommonArrays(const Pieces& pieces, AttributesOf attributesOf,
-  const Numbering& numbering, const std::vector<int>& ranks, std::vector<std::string>& partial)
+  const Numbering& numbering, const std::vector<std::string>& owners,
+  std::vector<std::string>& partial)
 {
   std::vector<ArraysOfPieces> common;
   for (const std::string& name : NamesOf(pieces, attributesOf))
@@ -161,7 +162,7 @@ std::vector<ArraysOfPieces> CommonArrays(const Pieces& pieces, AttributesOf attr
       }
       else
       {
-        partial.push_back("'" + name + "' (rank " + std::to_string(ranks[p]) + ")");
+        partial.push_back("'" + name + "' (" + owners[p] + ")");
       }
     }
     if (arrays.size() == pieces.size())

@@ -1,5 +1,5 @@
-// The pieces of a surface that ranks hold, seen as one list of points, one of cells, and the arrays
-// that all of them have.
+// The pieces of a surface that ranks or blocks hold, seen as one list of points, one of cells, and
+// the arrays that all of them have.
 #ifndef GridFEM_PieceArrays_h
 #define GridFEM_PieceArrays_h
 
@@ -73,10 +73,11 @@ ArraysOfPieces GlobalIds(const Pieces& pieces, AttributesOf attributesOf);
 
 /// The arrays that all pieces have with as many components and with a tuple for each thing; none
 /// are ghost flags.
-/// @param ranks    of the pieces
+/// @param owners   of the pieces, such as "rank 3"
 /// @param partial  gets "'name' (rank 3)" for each of the others
 std::vector<ArraysOfPieces> CommonArrays(const Pieces& pieces, AttributesOf attributesOf,
-  const Numbering& numbering, const std::vector<int>& ranks, std::vector<std::string>& partial);
+  const Numbering& numbering, const std::vector<std::string>& owners,
+  std::vector<std::string>& partial);
 
 /// Whether two things have the same values in all arrays. Ids that tell where something was before
 /// are not compared: they differ between ranks for the same point.

@@ -29,8 +29,8 @@ vtkIdType IdAt(vtkAbstractArray* ids, vtkIdType tuple)
 
 } // namespace
 
-PieceJoiner::PieceJoiner(Pieces pieces, std::vector<int> ranks, bool weldCoincidentPoints)
-  : pieces_(std::move(pieces)), ranks_(std::move(ranks))
+PieceJoiner::PieceJoiner(Pieces pieces, std::vector<std::string> owners, bool weldCoincidentPoints)
+  : pieces_(std::move(pieces)), owners_(std::move(owners))
 {
   ArraysOfPieces coordinates;
   for (vtkPolyData* piece : pieces_)
@@ -40,8 +40,8 @@ PieceJoiner::PieceJoiner(Pieces pieces, std::vector<int> ranks, bool weldCoincid
     coordinates.push_back(piece->GetPoints()->GetData());
   }
   this->FindCopies();
-  const auto ofPoints = CommonArrays(pieces_, &PointDataOf, points_, ranks_, partial_);
-  const auto ofCells = CommonArrays(pieces_, &CellDataOf, cells_, ranks_, partial_);
+  const auto ofPoints = CommonArrays(pieces_, &PointDataOf, points_, owners_, partial_);
+  const auto ofCells = CommonArrays(pieces_, &CellDataOf, cells_, owners_, partial_);
   pointPlace_.assign(points_.Count(), -1);
   cellPlace_.assign(cells_.Count(), -1);
   const ArraysOfPieces ids = GlobalIds(pieces_, &PointDataOf);
@@ -180,11 +180,10 @@ void PieceJoiner::RequireSamePlace(vtkIdType point, vtkIdType other, vtkIdType i
   const Vec3 there = this->PositionOf(other);
   if (here != there && !here.hasNaN())
   {
-    throw InvalidInput(
-      "The global point id " + std::to_string(id) + " stands for a point on rank " +
-      std::to_string(ranks_[points_.PieceOf(point)]) + " and for one at another place on rank " +
-      std::to_string(ranks_[points_.PieceOf(other)]) +
-      ". Remove the wrong ids, for example with Pass Arrays.");
+    throw InvalidInput("The global point id " + std::to_string(id) + " stands for a point of " +
+                       owners_[points_.PieceOf(point)] + " and for one at another place of " +
+                       owners_[points_.PieceOf(other)] +
+                       ". Remove the wrong ids, for example with Pass Arrays.");
   }
 }
 

@@ -18,8 +18,8 @@ namespace gridfem
 class PieceJoiner
 {
 public:
-  /// @param ranks  of the pieces, for messages
-  PieceJoiner(Pieces pieces, std::vector<int> ranks, bool weldCoincidentPoints);
+  /// @param owners  of the pieces, for messages
+  PieceJoiner(Pieces pieces, std::vector<std::string> owners, bool weldCoincidentPoints);
 
   /// Places are those of the pieces given.
   GatheredSurface Result();
@@ -54,7 +54,7 @@ private:
     const std::vector<vtkIdType>& sources, AttributesOf attributesOf);
 
   Pieces pieces_;
-  std::vector<int> ranks_;
+  std::vector<std::string> owners_;
   Numbering points_;
   Numbering cells_;
   std::vector<char> isCopiedCell_; // is there only as a ghost

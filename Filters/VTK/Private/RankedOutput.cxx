@@ -166,16 +166,19 @@ void TakeAttributes(DataMessage& message, vtkDataSetAttributes* data)
 }
 
 /// Those of the input only help ranks that have none themselves.
-void PutFieldArrays(vtkFieldData* output, vtkFieldData* input, bool hasCells, DataMessage& message)
+void PutFieldArrays(vtkFieldData* output, vtkFieldData* input, bool hasCells,
+  GivenFieldArrays sharing, DataMessage& message)
 {
   vtkNew<vtkFieldData> given;
   vtkNew<vtkFieldData> fresh;
   ForEachArray(output,
     [&](vtkAbstractArray* array)
     {
-      if (hasCells || !IsClipFieldArray(array->GetName()))
+      const bool isFresh = IsNew(array, input);
+      if ((hasCells || !IsClipFieldArray(array->GetName())) &&
+          (isFresh || sharing == GivenFieldArrays::Shared))
       {
-        (IsNew(array, input) ? fresh : given)->AddArray(array);
+        (isFresh ? fresh : given)->AddArray(array);
       }
     });
   message.PutArrays(given, -1);
@@ -211,8 +214,10 @@ std::vector<vtkDataSetAttributes*> AttributesOf(vtkDataObject* data)
 }
 
 /// The names of the arrays, without a tuple; nothing for the first rank, which has the arrays.
-void PutNames(vtkDataObject* output, const GatheredSurface& input, int rank, DataMessage& message)
+void PutNames(vtkDataObject* output, const GatheredSurface& input, int rank,
+  GivenFieldArrays sharing, DataMessage& message)
 {
+  message.Put(rank == 0);
   if (rank == 0)
   {
     return;
@@ -224,12 +229,13 @@ void PutNames(vtkDataObject* output, const GatheredSurface& input, int rank, Dat
     message.PutArrays(none, -1);
     PutActive(data, message);
   }
-  PutFieldArrays(output->GetFieldData(), input.whole->GetFieldData(), false, message);
+  PutFieldArrays(output->GetFieldData(), input.whole->GetFieldData(), false, sharing, message);
 }
 
 void TakeNames(DataMessage& message, vtkDataObject* output)
 {
-  if (Ranks().IsFirst())
+  const bool hasArrays = message.Take<bool>();
+  if (hasArrays)
   {
     return;
   }
@@ -259,14 +265,15 @@ vtkSmartPointer<vtkPoints> MovedPoints(vtkDataArray* coordinates, vtkPoints* own
 
 } // namespace
 
-void PutPart(vtkDataObject* output, const GatheredSurface& input, int rank, DataMessage& message)
+void PutPart(vtkDataObject* output, const GatheredSurface& input, int rank, DataMessage& message,
+  GivenFieldArrays given)
 {
   auto* surface = vtkPolyData::SafeDownCast(output);
   const bool isDivided = HasCellsOf(surface, input.whole) && !IsOnFirst(input);
   message.Put(isDivided);
   if (!isDivided)
   {
-    PutNames(output, input, rank, message);
+    PutNames(output, input, rank, given, message);
     return;
   }
   const PiecePlaces& places = input.pieces[rank];
@@ -276,7 +283,7 @@ void PutPart(vtkDataObject* output, const GatheredSurface& input, int rank, Data
   PutAttributes(surface->GetPointData(), input.whole->GetPointData(), places.points, message);
   PutAttributes(surface->GetCellData(), input.whole->GetCellData(), places.cells, message);
   PutFieldArrays(
-    surface->GetFieldData(), input.whole->GetFieldData(), !places.cells.empty(), message);
+    surface->GetFieldData(), input.whole->GetFieldData(), !places.cells.empty(), given, message);
 }
 
 void TakePart(DataMessage& message, vtkPolyData* own, vtkDataObject* output)

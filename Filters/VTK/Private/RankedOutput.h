@@ -11,14 +11,22 @@ class vtkPolyData;
 namespace gridfem
 {
 
-/// Puts into the message what a rank gets of an output of the first rank. Where the output has the
-/// cells of the gathered surface, that is what is new of it: arrays at the rank's own points and
-/// cells, copies of other ranks' ones as well, and the places of points that have moved. Real
-/// numbers of points and cells that are nowhere in the whole are NaN, others 0. Of an output with
-/// cells of its own, and where the first rank has all of the surface, it is the names of arrays
-/// alone. Field arrays go to every rank, but for the tables of a clip and of a basis, which go
-/// where its cells are.
-void PutPart(vtkDataObject* output, const GatheredSurface& input, int rank, DataMessage& message);
+/// What the owners of pieces get of the field arrays that the surface had before.
+enum class GivenFieldArrays
+{
+  Shared,  // those that the owner lacks
+  Withheld // none
+};
+
+/// Puts into the message what a rank gets of an output of the first rank, or a block of one that
+/// the first block has. Where the output has the cells of the gathered surface, that is what is new
+/// of it: arrays at the rank's own points and cells, copies of other ranks' ones as well, and the
+/// places of points that have moved. Real numbers of points and cells that are nowhere in the whole
+/// are NaN, others 0. Of an output with cells of its own, and where the first rank has all of the
+/// surface, it is the names of arrays alone. Field arrays go to every rank, but for the tables of a
+/// clip and of a basis, which go where its cells are.
+void PutPart(vtkDataObject* output, const GatheredSurface& input, int rank, DataMessage& message,
+  GivenFieldArrays given = GivenFieldArrays::Shared);
 
 /// Makes an output of a rank from its part.
 /// @param own     the rank's own surface

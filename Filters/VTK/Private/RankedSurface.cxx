@@ -23,19 +23,6 @@ namespace gridfem
 namespace
 {
 
-void AddArrays(StageKey& key, vtkFieldData* data)
-{
-  for (int k = 0; k < data->GetNumberOfArrays(); ++k)
-  {
-    key.Add(data->GetAbstractArray(k));
-  }
-  auto* attributes = vtkDataSetAttributes::SafeDownCast(data);
-  for (int type = 0; attributes && type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)
-  {
-    key.Add(attributes->GetAbstractAttribute(type));
-  }
-}
-
 /// All that is gathered of a data object.
 void AddData(StageKey& key, vtkDataObject* data)
 {
@@ -45,11 +32,7 @@ void AddData(StageKey& key, vtkDataObject* data)
     key.Add(data);
     return;
   }
-  AddMesh(key, surface);
-  key.Add(surface->GetVerts()).Add(surface->GetLines());
-  AddArrays(key, surface->GetPointData());
-  AddArrays(key, surface->GetCellData());
-  AddArrays(key, surface->GetFieldData());
+  AddSurface(key, surface);
 }
 
 StageKey KeyOf(vtkInformationVector** inputs, int ports, bool weldCoincidentPoints)
@@ -61,34 +44,6 @@ StageKey KeyOf(vtkInformationVector** inputs, int ports, bool weldCoincidentPoin
     AddData(key, vtkDataObject::GetData(inputs[port]));
   }
   return key;
-}
-
-void RequireGoodCells(vtkPolyData* surface)
-{
-  const vtkIdType points = surface->GetNumberOfPoints();
-  vtkIdType first = 0;
-  vtkNew<vtkIdList> storage;
-  for (vtkCellArray* cells :
-    { surface->GetVerts(), surface->GetLines(), surface->GetPolys(), surface->GetStrips() })
-  {
-    const vtkIdType count = cells ? cells->GetNumberOfCells() : 0;
-    for (vtkIdType cell = 0; cell < count; ++cell)
-    {
-      vtkIdType size = 0;
-      const vtkIdType* ids = nullptr;
-      cells->GetCellAtId(cell, size, ids, storage);
-      for (vtkIdType k = 0; k < size; ++k)
-      {
-        if (ids[k] < 0 || ids[k] >= points)
-        {
-          throw InvalidInput("Cell " + std::to_string(first + cell) + " uses point " +
-                             std::to_string(ids[k]) + ", but the piece has " +
-                             std::to_string(points) + " points. Clean the mesh first.");
-        }
-      }
-    }
-    first += count;
-  }
 }
 
 /// Of any data set on the other ports filters see the points alone.
@@ -148,19 +103,14 @@ bool HasPointsBehindFirst(const std::vector<vtkSmartPointer<vtkPolyData>>& piece
   return false;
 }
 
-/// Arrays that some ranks lack are the likely reason for one that does not exist.
-[[noreturn]] void ThrowWithPartialArrays(
-  const InvalidInput& error, const std::vector<std::string>& partial)
+std::vector<std::string> NamesOfRanks(std::size_t count)
 {
-  const std::string text = error.what();
-  std::string names;
-  for (const std::string& name : partial)
+  std::vector<std::string> names;
+  for (std::size_t rank = 0; rank < count; ++rank)
   {
-    const std::string array = name.substr(0, name.find(" (rank"));
-    names += text.find(array) == std::string::npos ? "" : (names.empty() ? "" : ", ") + name;
+    names.push_back("rank " + std::to_string(rank));
   }
-  throw InvalidInput(
-    names.empty() ? text : text + " A piece of the surface lacks this array: " + names + ".");
+  return names;
 }
 
 } // namespace
@@ -208,7 +158,7 @@ void RankedSurface::Run(vtkInformationVector** inputs, int ports, vtkInformation
       }
       catch (const InvalidInput& error)
       {
-        ThrowWithPartialArrays(error, surface_.partialArrays);
+        ThrowWithPartialArrays(error, surface_);
       }
     });
   Bytes part = ranks.Scatter(parts);
@@ -261,7 +211,8 @@ void RankedSurface::Join(
     }
   }
   const vtkSmartPointer<vtkPolyData> last = surface_.whole;
-  surface_ = JoinPieces(pieces[0], weldCoincidentPoints);
+  const std::vector<std::string> owners = NamesOfRanks(messages.size());
+  surface_ = JoinPieces(pieces[0], owners, weldCoincidentPoints);
   if (last && HasPointsBehindFirst(pieces[0]))
   {
     KeepUnchanged(last, surface_.whole);
@@ -273,7 +224,7 @@ void RankedSurface::Join(
     others_[port] = nullptr;
     if (HasPointsBehindFirst(pieces[port]))
     {
-      const vtkSmartPointer<vtkPolyData> whole = JoinPieces(pieces[port], false).whole;
+      const vtkSmartPointer<vtkPolyData> whole = JoinPieces(pieces[port], owners, false).whole;
       others_[port] = whole;
       if (before)
       {

@@ -1,5 +1,6 @@
 #include "SelectedPoints.h"
 
+#include "JoinedBlocks.h"
 #include "Ranks.h"
 
 #include "Base/Errors.h"
@@ -151,7 +152,7 @@ void RequireOneProcess()
 }
 
 /// The part of extracted data that stands where the block stands in the whole; null: nowhere.
-vtkDataObject* PartOf(
+vtkDataObject* BlockOf(
   vtkCompositeDataSet* extracted, vtkCompositeDataSet* whole, vtkDataObject* block)
 {
   const auto leaf = LeavesOf(whole);
@@ -229,16 +230,41 @@ std::vector<char> PointsOf(vtkDataSet* part, vtkPolyData* surface)
 
 } // namespace
 
-/// The data set that is computed on now, with `vtkInsidedness`; null where nothing of it is
-/// selected.
-vtkDataSet* SelectedPoints::Extract(vtkSelection* selection)
+void SelectedPoints::Extract(vtkSelection* selection)
 {
-  vtkDataObject* block = filter_->GetInputDataObject(0, 0);
+  this->ExtractFrom(whole_ ? whole_.GetPointer() : filter_->GetInputDataObject(0, 0), selection);
+}
+
+/// A data set of the input, with `vtkInsidedness`; null where nothing of it is selected.
+vtkDataSet* SelectedPoints::PartOf(vtkDataObject* block) const
+{
   auto* whole = vtkCompositeDataSet::SafeDownCast(whole_);
-  this->ExtractFrom(whole ? whole : block, selection);
   return vtkDataSet::SafeDownCast(
-    whole ? PartOf(vtkCompositeDataSet::SafeDownCast(extracted_), whole, block)
+    whole ? BlockOf(vtkCompositeDataSet::SafeDownCast(extracted_), whole, block)
           : extracted_.GetPointer());
+}
+
+std::vector<char> SelectedPoints::PointsOfBlocks(const JoinedBlocks& joined) const
+{
+  std::vector<char> isSelected(joined.Surface().whole->GetNumberOfPoints(), 0);
+  for (const JoinedBlocks::Block& block : joined.Blocks())
+  {
+    vtkDataSet* part = block.piece >= 0 ? this->PartOf(block.data) : nullptr;
+    if (!part)
+    {
+      continue;
+    }
+    const std::vector<char> points = PointsOf(part, block.surface);
+    const std::vector<vtkIdType>& places = joined.Surface().pieces[block.piece].points;
+    for (std::size_t point = 0; point < points.size(); ++point)
+    {
+      if (points[point] && places[point] >= 0)
+      {
+        isSelected[places[point]] = 1;
+      }
+    }
+  }
+  return isSelected;
 }
 
 /// Only where data or selection are not those of last time.
@@ -305,16 +331,19 @@ void SelectedPoints::Free()
   extracted_ = nullptr;
 }
 
-void SelectedPoints::Update(vtkSelection* selection, vtkPolyData* surface)
+void SelectedPoints::Update(
+  vtkSelection* selection, vtkPolyData* surface, const JoinedBlocks* joined)
 {
   std::vector<char> isSelected;
   if (selection)
   {
     RequireOneProcess();
     Validate(selection);
-    vtkDataSet* part = this->Extract(selection);
-    isSelected =
-      part ? PointsOf(part, surface) : std::vector<char>(surface->GetNumberOfPoints(), 0);
+    this->Extract(selection);
+    vtkDataSet* part = joined ? nullptr : this->PartOf(filter_->GetInputDataObject(0, 0));
+    isSelected = joined ? this->PointsOfBlocks(*joined)
+                 : part ? PointsOf(part, surface)
+                        : std::vector<char>(surface->GetNumberOfPoints(), 0);
   }
   else
   {

@@ -20,6 +20,8 @@ class vtkSelection;
 namespace gridfem
 {
 
+class JoinedBlocks;
+
 /// Evaluated by vtkExtractSelection on the data set of the filter's input port 0, of composite data
 /// on the whole of it, so that ids count in the block that they are of. A selected cell takes its
 /// points.
@@ -34,9 +36,10 @@ public:
   /// @param selection  null: there is none
   /// @param surface    what the filter computes on: its input, or the surface of it with
   ///                   `vtkOriginalPointIds` and `vtkOriginalCellIds`
+  /// @param joined     the blocks that the surface is joined of; null: it is of one block
   /// Throws InvalidInput for a selection of something else than points or cells, or of a kind that
   /// cannot be evaluated.
-  void Update(vtkSelection* selection, vtkPolyData* surface);
+  void Update(vtkSelection* selection, vtkPolyData* surface, const JoinedBlocks* joined = nullptr);
 
   /// Frees what the next update could take over.
   void Free();
@@ -55,7 +58,9 @@ public:
   std::int64_t Version() const { return version_; }
 
 private:
-  vtkDataSet* Extract(vtkSelection* selection);
+  void Extract(vtkSelection* selection);
+  vtkDataSet* PartOf(vtkDataObject* block) const;
+  std::vector<char> PointsOfBlocks(const JoinedBlocks& joined) const;
   void ExtractFrom(vtkDataObject* data, vtkSelection* selection);
 
   vtkAlgorithm* filter_;

@@ -108,7 +108,8 @@ MultiVector SurfaceConstrainedPoisson::BalancedFlux(const SurfaceSolverState& st
 
 MultiVector SurfaceConstrainedPoisson::Gradients(const SurfaceSolverState& state) const
 {
-  return state.space->GradientsOnTriangles(solution_.coefficients, state.options.space.threads);
+  return state.OnCurrent(
+    state.space->GradientsOnTriangles(solution_.coefficients, state.options.space.threads));
 }
 
 MultiVector SurfaceConstrainedPoisson::Values(const SurfaceSolverState& state) const

@@ -18,12 +18,11 @@ SurfaceInput::~SurfaceInput() = default;
 vtkInformationVector** SurfaceInput::Of(vtkInformationVector** inputs, int numberOfPorts)
 {
   vtkDataSet* data = vtkDataSet::GetData(inputs[0]);
-  if (!data || vtkPolyData::SafeDownCast(data))
+  if (!data || this->Of(data) == data)
   {
     this->Free();
     return inputs;
   }
-  this->Extract(data);
   if (surface_->GetNumberOfPoints() == 0)
   {
     throw InvalidInput("The input has no surface: neither polygons nor volume cells.");
@@ -35,6 +34,16 @@ vtkInformationVector** SurfaceInput::Of(vtkInformationVector** inputs, int numbe
   ports_.assign(inputs, inputs + numberOfPorts);
   ports_[0] = first_;
   return ports_.data();
+}
+
+vtkPolyData* SurfaceInput::Of(vtkDataSet* data)
+{
+  if (auto* surface = vtkPolyData::SafeDownCast(data))
+  {
+    return surface;
+  }
+  this->Extract(data);
+  return surface_;
 }
 
 /// Only where the data set is not that of last time: no two have the same time of change.

@@ -28,6 +28,9 @@ public:
   /// Throws InvalidInput for a data set without a surface.
   vtkInformationVector** Of(vtkInformationVector** inputs, int numberOfPorts);
 
+  /// The surface of a data set; that itself, where it is one. Empty for one without a surface.
+  vtkPolyData* Of(vtkDataSet* data);
+
   /// Frees the surface.
   void Free();
 

@@ -19,10 +19,10 @@ void SurfacePoisson::UpdateHierarchy(
   SurfaceSolverState& state, double weight, const Progress& progress)
 {
   StageKey shape;
-  shape.Add(state.stages.Version(SystemStage));
+  shape.Add(state.StructureVersion());
   AddMultigrid(shape, state.options.multigrid);
   StageKey key = shape;
-  key.Add(weight);
+  key.Add(state.stages.Version(SystemStage)).Add(weight);
   state.stages.Run(HierarchyStage, key,
     [&]
     {
@@ -58,7 +58,7 @@ void SurfacePoisson::Solve(
       options.accuracy = state.options.accuracy;
       options.estimateErrors = true;
       StageKey solver = shape_; // other options show their own iterations, from the usual start
-      solver.Add(static_cast<int>(request.iteration));
+      solver.Add(state.stages.Version(SystemStage)).Add(static_cast<int>(request.iteration));
       AddSolver(solver, state.options);
       const bool hasStart = solvedWith_ == solver;
       const MultiVector last = hasStart ? std::move(solution_.coefficients) : MultiVector();
@@ -73,7 +73,8 @@ void SurfacePoisson::Solve(
 
 MultiVector SurfacePoisson::Gradients(const SurfaceSolverState& state) const
 {
-  return state.space->GradientsOnTriangles(solution_.coefficients, state.options.space.threads);
+  return state.OnCurrent(
+    state.space->GradientsOnTriangles(solution_.coefficients, state.options.space.threads));
 }
 
 MultiVector SurfacePoisson::Values(const SurfaceSolverState& state) const

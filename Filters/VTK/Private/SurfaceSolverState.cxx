@@ -4,6 +4,8 @@
 #include "BasisReader.h"
 #include "InputValidation.h"
 #include "MetricArray.h"
+#include "Problems/MovedSurface.h"
+#include "SolverOutput.h"
 #include "vtkSurfaceFEMAlgorithm.h"
 
 #include "vtkCellArray.h"
@@ -13,6 +15,7 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace gridfem
@@ -69,13 +72,11 @@ void AddBasisArrays(StageKey& key, vtkPolyData* data)
   }
 }
 
-void SurfaceSolverState::UpdateSpace(
-  vtkPolyData* input, vtkPolyData* basisData, const Progress& progress)
+StageKey SurfaceSolverState::SpaceKey(
+  vtkPolyData* input, vtkPolyData* basisData, std::int64_t meshNumber) const
 {
-  RequireNumber("Tolerance", options.solve.tolerance);
-  RequireNumber("Accuracy", options.accuracy);
   StageKey key;
-  key.Add(meshVersion.Of(input, mesh, options.space.threads));
+  key.Add(meshNumber);
   const bool carries = CarriesBasis(input);
   if (carries || basisData)
   {
@@ -89,6 +90,23 @@ void SurfaceSolverState::UpdateSpace(
     key.Add(options.space.connectivityAware);
     key.Add(options.space.weldCoincidentPoints);
   }
+  return key;
+}
+
+void SurfaceSolverState::UpdateSpace(
+  vtkPolyData* input, vtkPolyData* basisData, const Progress& progress)
+{
+  RequireNumber("Tolerance", options.solve.tolerance);
+  RequireNumber("Accuracy", options.accuracy);
+  const std::int64_t meshNumber = meshVersion.Of(input, mesh, options.space.threads);
+  if (options.trackMetric &&
+      stages.IsCurrent(SpaceStage, this->SpaceKey(input, basisData, tracked_.ReferenceVersion())) &&
+      tracked_.Follow(input, mesh))
+  {
+    return;
+  }
+  tracked_.Stop();
+  const bool carries = CarriesBasis(input);
   const auto update = [&]
   {
     if (!carries && !basisData)
@@ -110,7 +128,11 @@ void SurfaceSolverState::UpdateSpace(
     RequireMemory(
       *mesh.triangles, basis.space->GetGrid().depth, options.choice.kind == FunctionKind::Hats);
   };
-  stages.Run(SpaceStage, key, update);
+  stages.Run(SpaceStage, this->SpaceKey(input, basisData, meshNumber), update);
+  if (tracked_.ReferenceVersion() != meshNumber)
+  {
+    tracked_.Refer(input, meshNumber);
+  }
 }
 
 void SurfaceSolverState::ChooseDepth()
@@ -142,12 +164,23 @@ void SurfaceSolverState::UpdateSystem(const Progress& progress)
   key.Add(options.choice.coarsestSize).Add(options.choice.normalStabilization);
   key.Add(static_cast<int>(options.choice.kind));
   key.Add(metricArray.array).Add(static_cast<int>(metricArray.association));
+  if (!(key == structureKey_))
+  {
+    structureKey_ = key;
+    ++structure_;
+  }
+  key.Add(tracked_.Motion());
+  if (metricArray.array && options.trackMetric)
+  {
+    throw InvalidInput("MetricArray and TrackMetric do not go together: each is a metric.");
+  }
   if (stages.IsCurrent(SystemStage, key))
   {
     return;
   }
   metric_.reset();
-  space = metricArray.array ? nullptr : FindSpace(basis, options.choice);
+  const bool hasMetric = metricArray.array || tracked_.Metric();
+  space = hasMetric ? nullptr : FindSpace(basis, options.choice);
   if (space)
   {
     stages.Adopt(SystemStage, key);
@@ -156,6 +189,7 @@ void SurfaceSolverState::UpdateSystem(const Progress& progress)
   stages.Run(SystemStage, key,
     [&]
     {
+      metric_ = tracked_.Metric();
       if (metricArray.array)
       {
         metric_ = std::make_shared<const TriangleMetric>(ReadMetric(metricArray, mesh));
@@ -178,9 +212,48 @@ std::shared_ptr<const FiniteElementSpace> SurfaceSolverState::InMetric(
   return own;
 }
 
+const InputMesh& SurfaceSolverState::CurrentMesh() const
+{
+  return tracked_.Metric() ? tracked_.Moved() : mesh;
+}
+
+Field SurfaceSolverState::OnReference(Field gradients) const
+{
+  return tracked_.Metric() ? PullBack(*mesh.triangles, *tracked_.Moved().triangles, gradients)
+                           : std::move(gradients);
+}
+
+MultiVector SurfaceSolverState::OnCurrent(MultiVector gradients) const
+{
+  return tracked_.Metric() ? PushForward(*mesh.triangles, *tracked_.Moved().triangles, gradients)
+                           : std::move(gradients);
+}
+
+void SurfaceSolverState::WriteTracking(vtkPolyData* output) const
+{
+  if (!options.trackMetric)
+  {
+    return;
+  }
+  double largest = 1.0;
+  if (tracked_.Metric())
+  {
+    const std::vector<double> ratio =
+      DistortionOf(*mesh.triangles, tracked_.Moved().triangles->points, options.space.threads)
+        .stretchRatio;
+    largest = *std::max_element(ratio.begin(), ratio.end());
+  }
+  AddFieldNumber(output, "LargestStretchRatio", largest);
+  if (const std::optional<double> time = tracked_.ReferenceTime())
+  {
+    AddFieldNumber(output, "ReferenceTime", *time);
+  }
+}
+
 void SurfaceSolverState::Free()
 {
   mesh = {};
+  tracked_ = {};
   basis = {};
   space = {};
   metric_ = {};
@@ -206,7 +279,13 @@ double SurfaceSolverState::WeightInGridUnits(double weight) const
   }
   else if (options.parameterUnits == vtkSurfaceFEMAlgorithm::UnitCube)
   {
-    const double side = grid.spacing * grid.CellsPerSide();
+    double side = grid.spacing * grid.CellsPerSide();
+    if (tracked_.Metric())
+    {
+      const TriangleMesh& moved = *this->CurrentMesh().triangles;
+      const Bounds bounds = BoundsOf(moved.points, UsedPoints(moved), options.space.threads);
+      side = (bounds.high - bounds.low).maxCoeff();
+    }
     length2 = side * side;
   }
   return weight / length2 * grid.spacing * grid.spacing;

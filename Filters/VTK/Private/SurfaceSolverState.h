@@ -10,6 +10,7 @@
 #include "ProgressBridge.h"
 #include "StageCache.h"
 #include "SurfaceBasis.h"
+#include "TrackedMesh.h"
 
 class vtkPolyData;
 
@@ -23,8 +24,9 @@ struct SurfaceOptions
   SpaceChoice choice; // on the basis
   MultigridOptions multigrid;
   SolveOptions solve;
-  double accuracy = 0.0;  // as in PoissonOptions; 0: to the tolerance alone
-  int parameterUnits = 1; // vtkSurfaceFEMAlgorithm::ParameterUnitsType
+  double accuracy = 0.0;    // as in PoissonOptions; 0: to the tolerance alone
+  int parameterUnits = 1;   // vtkSurfaceFEMAlgorithm::ParameterUnitsType
+  bool trackMetric = false; // of a mesh that has only moved since its functions were made
 };
 
 /// In the place of a depth: the one that suits the mesh and fits into memory.
@@ -59,8 +61,9 @@ public:
   explicit SurfaceSolverState(vtkAlgorithm* algorithm) : bridge(algorithm) {}
 
   /// Brings the mesh and the function space up to date: from `input` where it carries a basis, else
-  /// from `basisData` where it is not null, else built.
-  /// Throws InvalidInput and Aborted.
+  /// from `basisData` where it is not null, else built. With trackMetric they stay where only
+  /// points have moved, and UpdateSystem gives them the metric of the moved surface. Throws
+  /// InvalidInput and Aborted.
   void UpdateSpace(vtkPolyData* input, vtkPolyData* basisData, const Progress& progress);
 
   /// Replaces an automatic depth by the one for `mesh`.
@@ -72,6 +75,22 @@ public:
   /// Brings the finite element space up to date, in the metric of `metricArray`. One in that of the
   /// mesh that another filter has built on the same basis is taken over without a run.
   void UpdateSystem(const Progress& progress);
+
+  /// Changes when more of the space does than its numbers: a hierarchy of another one cannot be
+  /// updated.
+  std::int64_t StructureVersion() const { return structure_; }
+
+  /// The mesh of the input: `mesh`, or where that has moved to.
+  const InputMesh& CurrentMesh() const;
+
+  /// A gradient that is given on the current mesh, for integrals over `mesh`.
+  Field OnReference(Field gradients) const;
+
+  /// Gradients on the triangles of `mesh`, on those of the current one.
+  MultiVector OnCurrent(MultiVector gradients) const;
+
+  /// Adds what trackMetric has done to the field arrays of an output.
+  void WriteTracking(vtkPolyData* output) const;
 
   /// The space on the same basis whose functions were not chosen.
   std::shared_ptr<const FiniteElementSpace> OtherSpace(const Progress& progress) const;
@@ -103,6 +122,11 @@ private:
   std::shared_ptr<const FiniteElementSpace> InMetric(
     std::shared_ptr<const FiniteElementSpace> ofMesh, const Progress& progress) const;
 
+  StageKey SpaceKey(vtkPolyData* input, vtkPolyData* basisData, std::int64_t meshNumber) const;
+
+  TrackedMesh tracked_;
+  StageKey structureKey_;
+  std::int64_t structure_ = 0;
   std::shared_ptr<const TriangleMetric> metric_; // of `space`; null: that of the mesh
 };
 

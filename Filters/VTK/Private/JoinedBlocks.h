@@ -1,0 +1,105 @@
+// All blocks of a composite input as one surface, which is computed on once, at the first block
+// that the pipeline comes to; every block gets its part of the outputs.
+#ifndef GridFEM_JoinedBlocks_h
+#define GridFEM_JoinedBlocks_h
+
+#include "GatheredSurface.h"
+#include "StageCache.h"
+#include "SurfaceInput.h"
+
+#include "vtkNew.h"
+#include "vtkSmartPointer.h"
+
+#include <exception>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkCompositeDataSet;
+class vtkDataSet;
+class vtkInformationVector;
+class vtkPolyData;
+
+namespace gridfem
+{
+
+/// Blocks are joined as the pieces of several ranks are. On several ranks every one joins its own,
+/// and what it has joined is its piece. The surface stays for the next execution, until a block
+/// changes.
+class JoinedBlocks
+{
+public:
+  /// A block that has points, and where they are in the whole.
+  struct Block
+  {
+    vtkDataSet* data = nullptr;
+    vtkSmartPointer<vtkPolyData> surface;
+    std::string name; // for messages: "block 'wing'", "block 3" with the composite index
+    int piece = -1;   // of the joined surface; -1: left out
+  };
+
+  JoinedBlocks();
+  ~JoinedBlocks();
+
+  /// Whether a block of this execution has been computed on, with success or without.
+  bool HasStarted() const { return hasStarted_; }
+
+  /// @param outputs  of the filter: the results have the same types
+  void Start(vtkInformationVector* outputs);
+
+  /// Takes the surfaces of all blocks.
+  /// @param isShared  whether there are blocks elsewhere: no volume can be one of several
+  void Read(vtkCompositeDataSet* whole, bool isShared);
+
+  /// How many blocks have points.
+  static int CountBlocks(vtkCompositeDataSet* whole);
+
+  /// Leaves out the blocks without an array of this name. Returns their names; nothing when all
+  /// have it, or none.
+  std::vector<std::string> LeaveOut(const std::string& array);
+
+  /// Joins the blocks that are not left out. Returns the inputs with the surface on port 0.
+  vtkInformationVector** Inputs(
+    vtkInformationVector** inputs, int ports, bool weldCoincidentPoints);
+
+  /// Where the outputs of the whole belong.
+  vtkInformationVector* Results() { return results_; }
+
+  /// Says to the blocks that are still to come why there is nothing.
+  void Fail(const std::exception_ptr& failure) { failure_ = failure; }
+
+  /// Fills the outputs of one block. Throws Aborted or FailedElsewhere when the whole has failed.
+  void HandBack(vtkDataSet* data, vtkInformationVector* outputs) const;
+
+  const GatheredSurface& Surface() const { return entry_->surface; }
+  const std::vector<Block>& Blocks() const { return blocks_; }
+  bool IsEmpty() const { return blocks_.empty(); }
+
+  /// After all blocks: frees the results, and the surface, too, unless it is kept.
+  void Finish(bool isKept);
+
+private:
+  struct Entry
+  {
+    StageKey key;
+    GatheredSurface surface;
+    bool isUsed = false; // in this execution
+  };
+
+  void ReadBlock(vtkDataSet* data, const std::string& name, std::size_t index);
+
+  std::vector<Block> blocks_;
+  std::vector<std::unique_ptr<SurfaceInput>> surfaces_; // of blocks that are none themselves
+  std::map<std::vector<bool>, Entry> entries_;          // by which blocks are left out
+  Entry* entry_ = nullptr;
+  vtkNew<vtkInformationVector> first_;
+  std::vector<vtkInformationVector*> ports_;
+  vtkNew<vtkInformationVector> results_;
+  std::exception_ptr failure_;
+  bool hasStarted_ = false;
+};
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,70 @@
+// Tells a mesh that has only moved from one with other cells.
+#ifndef GridFEM_TrackedMesh_h
+#define GridFEM_TrackedMesh_h
+
+#include "InputMesh.h"
+
+#include "Integrals/MotionMetric.h"
+
+#include "vtkSmartPointer.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+class vtkAbstractArray;
+class vtkCellArray;
+
+namespace gridfem
+{
+
+/// The mesh that functions were made on, and one with the same cells at other places.
+class TrackedMesh
+{
+public:
+  TrackedMesh();
+  ~TrackedMesh();
+
+  /// Takes a mesh as the one that functions are made on; nothing has moved.
+  /// @param version  MeshVersion's number of it
+  void Refer(vtkPolyData* data, std::int64_t version);
+
+  /// What Refer was told; -1 without.
+  std::int64_t ReferenceVersion() const { return version_; }
+
+  /// Takes a mesh as the reference after a motion. False, and nothing has moved, when its cells are
+  /// others or a triangle has gained or lost its area.
+  /// @param reference  what was read from the mesh of Refer
+  bool Follow(vtkPolyData* data, const InputMesh& reference);
+
+  /// Null where nothing has moved.
+  const std::shared_ptr<const TriangleMetric>& Metric() const { return metric_; }
+
+  /// The triangles of the reference where they are now.
+  const InputMesh& Moved() const { return moved_; }
+
+  /// Another one for each motion; 0 where nothing has moved.
+  std::int64_t Motion() const { return metric_ ? motion_ : 0; }
+
+  /// The time of the mesh that functions are made on, where its data say one.
+  std::optional<double> ReferenceTime() const { return time_; }
+
+  /// Nothing has moved.
+  void Stop();
+
+private:
+  bool HasCellsOf(vtkPolyData* data) const;
+
+  std::int64_t version_ = -1;
+  std::array<vtkSmartPointer<vtkCellArray>, 2> cells_;
+  vtkSmartPointer<vtkAbstractArray> ghosts_;
+  std::array<vtkIdType, 3> counts_{}; // of points, vertices, lines
+  std::optional<double> time_;
+  InputMesh moved_;
+  std::shared_ptr<const TriangleMetric> metric_;
+  std::int64_t motion_ = 0;
+};
+
+} // namespace gridfem
+
+#endif
