@@ -1,5 +1,7 @@
 #include "RankedSurface.h"
 
+#include "Allocation.h"
+#include "CellCorners.h"
 #include "RankedOutput.h"
 #include "SurfaceSolverState.h"
 
@@ -76,7 +78,7 @@ void RequireGoodCells(vtkPolyData* surface)
     {
       vtkIdType size = 0;
       const vtkIdType* ids = nullptr;
-      cells->GetCellAtId(cell, size, ids, storage);
+      GetCorners(cells, cell, size, ids, storage);
       for (vtkIdType k = 0; k < size; ++k)
       {
         if (ids[k] < 0 || ids[k] >= points)
@@ -105,7 +107,7 @@ vtkSmartPointer<vtkPolyData> AsSurface(vtkDataObject* data)
     surface = vtkSmartPointer<vtkPolyData>::New();
     vtkNew<vtkPoints> points;
     points->SetDataTypeToDouble();
-    points->SetNumberOfPoints(set->GetNumberOfPoints());
+    SetTuples(points->GetData(), set->GetNumberOfPoints());
     for (vtkIdType point = 0; point < set->GetNumberOfPoints(); ++point)
     {
       points->SetPoint(point, set->GetPoint(point));
