@@ -20,14 +20,26 @@ export(EXPORT GridFEMCore
   NAMESPACE GridFEM::
   FILE ${PROJECT_BINARY_DIR}/${GRIDFEM_CMAKE_DESTINATION}/GridFEMCore-targets.cmake)
 
+set(GRIDFEM_DOC_DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/gridfem) # of the name of Debian's package
+install(FILES LICENSE DESTINATION ${GRIDFEM_DOC_DESTINATION} RENAME copyright)
+install(FILES README.md CHANGELOG.md DESTINATION ${GRIDFEM_DOC_DESTINATION})
+
 set(CPACK_GENERATOR DEB)
+set(CPACK_STRIP_FILES ON)
 set(CPACK_PACKAGE_NAME gridfem)
 set(CPACK_PACKAGE_VENDOR "GridFEM developers")
 set(CPACK_PACKAGE_CONTACT "GridFEM developers <gridfem@example.org>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Laplace-Beltrami problems on triangle meshes for ParaView")
+set(CPACK_PACKAGE_DESCRIPTION
+"Filters that solve equations on the surface of a mesh: they smooth, sharpen,
+stitch, fill in and interpolate functions given there, measure distances along
+the surface, let heat and the surface itself flow, and compute its eigenfunctions.
+A plugin for ParaView, a Python package, and C++ libraries with their headers.")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-paraview, python3-numpy") # of the Python package
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "paraview-dev, libeigen3-dev") # of who compiles with the headers
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON) # pins the ParaView that the plugin was built for
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
 include(CPack)

@@ -14,6 +14,8 @@ TEST_PACKAGES=(clang-format clang libomp-dev openmpi-bin python3-pybind11 python
   python3-setuptools python3-wheel python3-meshio)
 BENCHMARK_PACKAGES=(libbenchmark-dev pkg-config libsuitesparse-dev libhypre-dev libpetsc-real-dev
   libspectra-dev libopenblas-dev libopenmpi-dev slepc-dev)
+PLAIN_VTK_PACKAGES=(ca-certificates ccache libvtk9-dev python3-vtk9 python3-dev python3-numpy
+  libopenmpi-dev libcli11-dev libgtest-dev)
 FIGURE_PACKAGES=(paraview python3-paraview xvfb xauth)
 
 Say() { printf '%s\n' "-- $*" >&2; }

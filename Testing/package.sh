@@ -39,5 +39,6 @@ mmdebstrap --quiet --variant=minbase \
   --customize-hook="copy-in $BUILD/gridfem.deb $SOURCE/Testing/Package/try_package.py /srv" \
   --customize-hook='chroot "$1" apt-get install -y -qq --no-install-recommends /srv/gridfem.deb \
     paraview python3-paraview python3-numpy xvfb xauth > /dev/null 2>&1' \
-  --customize-hook='chroot "$1" xvfb-run -a pvpython /srv/try_package.py' \
+  --customize-hook='chroot "$1" sh -c "PV_PLUGIN_CONFIG_FILE=\$(dpkg -L gridfem | grep plugins.xml) \
+    xvfb-run -a pvpython /srv/try_package.py"' \
   "$SUITE" "$ROOT/root.tar"

@@ -20,6 +20,7 @@
 
 #include <vtkDataArray.h>
 #include <vtkDelimitedTextWriter.h>
+#include <vtkErrorCode.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkXMLPolyDataWriter.h>
@@ -27,8 +28,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <iterator>
 
 namespace
 {
@@ -125,13 +129,41 @@ void Run(Pipeline& p, StepClock& clock)
   clock.Run("Mean Curvature Flow", p.flow);
 }
 
+/// Tables have a line per row and one for the names; VTK's files end with their outermost tag.
+bool IsWhole(const fs::path& path, vtkDataObject* data)
+{
+  std::ifstream file(path, std::ios::binary);
+  if (auto* table = vtkTable::SafeDownCast(data))
+  {
+    const std::istreambuf_iterator<char> begin(file), end;
+    return std::count(begin, end, '\n') == table->GetNumberOfRows() + 1;
+  }
+  constexpr int Tail = 32;
+  file.seekg(-Tail, std::ios::end);
+  std::string tail(Tail, ' ');
+  file.read(tail.data(), Tail);
+  return tail.find("</VTKFile>") != std::string::npos;
+}
+
+/// On a full disk VTK's writers may say nothing: what they wrote does.
+template<class Writer>
+void Run(Writer* writer, const fs::path& path, StepClock& clock)
+{
+  writer->SetFileName(path.c_str());
+  clock.Run("Write", writer);
+  if (writer->GetErrorCode() != vtkErrorCode::NoError ||
+      !IsWhole(path, writer->GetInputDataObject(0, 0)))
+  {
+    throw StepFailed("Not all of " + path.string() + " could be written. Is the disk full?");
+  }
+}
+
 template<class Writer>
 void Write(const fs::path& path, vtkAlgorithmOutput* port, StepClock& clock)
 {
   vtkNew<Writer> writer;
-  writer->SetFileName(path.c_str());
   writer->SetInputConnection(port);
-  clock.Run("Write", writer);
+  Run(writer.Get(), path, clock);
 }
 
 /// Every step as a file; ParaView opens them as one surface that moves.
@@ -141,9 +173,8 @@ void WriteFlow(const fs::path& folder, vtkMeanCurvatureFlow* flow, StepClock& cl
   {
     flow->UpdateTimeStep(step);
     vtkNew<vtkXMLPolyDataWriter> writer;
-    writer->SetFileName((folder / ("flow_" + std::to_string(step) + ".vtp")).c_str());
     writer->SetInputData(flow->GetOutputDataObject(0));
-    clock.Run("Write", writer);
+    Run(writer.Get(), folder / ("flow_" + std::to_string(step) + ".vtp"), clock);
   }
 }
 

@@ -1,5 +1,6 @@
 #include "vtkConnectivityAwareBasis.h"
 
+#include "Private/Allocation.h"
 #include "Private/BasisReader.h"
 #include "Private/ClippedMeshWriter.h"
 #include "Private/InputValidation.h"
@@ -122,7 +123,7 @@ void vtkConnectivityAwareBasis::AddBasisFunction(vtkPolyData* output)
     gridfem::BasisFunctionCoefficients(space, this->Level, this->BasisId), this->NumberOfThreads);
   vtkNew<vtkDoubleArray> array;
   array->SetName("BasisFunction");
-  array->SetNumberOfTuples(values.rows());
+  gridfem::SetTuples(array, values.rows());
   std::copy(values.data(), values.data() + values.size(), array->GetPointer(0));
   output->GetPointData()->AddArray(array);
   output->GetPointData()->SetActiveScalars("BasisFunction");

@@ -1,5 +1,6 @@
 #include "vtkGeodesicDistance.h"
 
+#include "Private/Allocation.h"
 #include "Private/InputArray.h"
 #include "Private/InputValidation.h"
 #include "Private/SelectedPoints.h"
@@ -211,7 +212,7 @@ void vtkGeodesicDistance::WriteNearestSource(
     state.MakeJob(state.bridge.GetProgress().Part(0.98, 1.0)));
   vtkNew<vtkIdTypeArray> array;
   array->SetName("NearestSource");
-  array->SetNumberOfValues(static_cast<vtkIdType>(nearest.size()));
+  gridfem::SetTuples(array, static_cast<vtkIdType>(nearest.size()));
   std::copy(nearest.begin(), nearest.end(), array->GetPointer(0));
   output->GetPointData()->AddArray(array);
 }

@@ -1,5 +1,6 @@
 #include "vtkSpectralSignatures.h"
 
+#include "Private/Allocation.h"
 #include "Private/ClippedMeshWriter.h"
 #include "Private/InputArray.h"
 #include "Private/InputValidation.h"
@@ -40,7 +41,7 @@ void AddFieldNumbers(vtkPolyData* output, const char* name, const std::vector<do
 {
   vtkNew<vtkDoubleArray> array;
   array->SetName(name);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
+  gridfem::SetTuples(array, static_cast<vtkIdType>(values.size()));
   std::copy(values.begin(), values.end(), array->GetPointer(0));
   output->GetFieldData()->AddArray(array);
 }

@@ -1,5 +1,6 @@
 #include "vtkStitchColors.h"
 
+#include "Private/Allocation.h"
 #include "Private/InputArray.h"
 #include "Private/InputValidation.h"
 #include "Private/SolverOutput.h"
@@ -108,6 +109,8 @@ vtkSmartPointer<vtkDataArray> WithValues(
 {
   vtkSmartPointer<vtkDataArray> result;
   result.TakeReference(vtkDataArray::CreateDataArray(colors->GetDataType()));
+  gridfem::RequireRoom(
+    static_cast<std::size_t>(colors->GetNumberOfValues()) * colors->GetDataTypeSize());
   result->DeepCopy(colors);
   result->SetName("StitchedColors");
   const bool isReal = colors->GetDataType() == VTK_FLOAT || colors->GetDataType() == VTK_DOUBLE;

@@ -214,6 +214,7 @@ int vtkSurfaceFEMAlgorithm::RunCompute(vtkInformationVector** inputs, vtkInforma
   }
   catch (const std::bad_alloc&)
   {
+    this->FreeStages(); // of which the next run, and the message, may need the memory
     vtkErrorMacro(
       "Out of memory at Depth " << this->State->options.space.depth << ": choose a smaller Depth.");
   }

@@ -23,6 +23,12 @@ struct Aborted : std::runtime_error
   Aborted() : std::runtime_error("aborted") {}
 };
 
+/// The system gives no more threads, or no memory for them.
+struct OutOfThreads : std::runtime_error
+{
+  using std::runtime_error::runtime_error;
+};
+
 /// Throws InvalidInput when `count` things cannot be numbered by Index.
 inline void RequireIndices(double count, const char* what)
 {

@@ -5,6 +5,7 @@
 
 #include "Base/Progress.h"
 #include "Base/ShortWaits.h"
+#include "Base/Teams.h"
 #include "Base/Types.h"
 
 #include <omp.h>
@@ -20,14 +21,15 @@ namespace gridfem
 
 /// The number of threads to use when `wanted` are asked for; 0 asks for all processors. More than
 /// two per processor are never used: they wait for each other at every barrier, a thousand on two
-/// processors 80 times as long as the work takes.
+/// processors 80 times as long as the work takes. Throws OutOfThreads where they cannot be had.
 inline int NumberOfThreads(int wanted)
 {
   const int processors = std::max(1, omp_get_num_procs());
   const int threads = wanted > 0 ? std::min(wanted, 2 * processors) : processors;
-  if (threads > 1)
+  if (threads > 1 && !omp_in_parallel())
   {
     KeepWaitsShort();
+    RequireTeam(threads);
   }
   return threads;
 }

@@ -1,11 +1,14 @@
 #include "Base/ShortWaits.h"
 
+#include "Base/Teams.h"
+
 #include <omp.h>
 
 #include <atomic>
 #include <cstdlib>
-#include <system_error>
+#include <future>
 #include <thread>
+#include <utility>
 
 #if defined(__linux__) && defined(__GNUC__) && !defined(__clang__)
 #define GRIDFEM_GNU_OPENMP
@@ -22,7 +25,7 @@ namespace
 /// GNU's OpenMP waits for a short time only as long as the process has more of its threads than
 /// there are processors; the environment is read when it is loaded, which is before us. So one team
 /// of so many threads exists for good, and sleeps.
-void HoldManyThreads()
+void HoldManyThreads(std::promise<void> areHeld)
 {
   sigset_t all;
   sigfillset(&all);
@@ -32,6 +35,7 @@ void HoldManyThreads()
   {
     ++started;
   }
+  areHeld.set_value();
   while (true)
   {
     pause();
@@ -49,14 +53,14 @@ bool Begin()
 #ifdef GRIDFEM_GNU_OPENMP
   if (!SaysHowToWait())
   {
-    try
+    if (!CanStart(omp_get_num_procs() + 1))
     {
-      std::thread(HoldManyThreads).detach();
+      return false; // waits stay long
     }
-    catch (const std::system_error&)
-    {
-      return false; // no more threads can be had: waits stay long
-    }
+    std::promise<void> areHeld;
+    std::future<void> held = areHeld.get_future();
+    std::thread(HoldManyThreads, std::move(areHeld)).detach();
+    held.wait(); // lest somebody takes the memory for them meanwhile
   }
 #endif
   return true;

@@ -1,5 +1,6 @@
 #include "ClippedMeshWriter.h"
 
+#include "Allocation.h"
 #include "ClippedFans.h"
 #include "InterpolatedArrays.h"
 #include "PointCoordinates.h"
@@ -34,7 +35,7 @@ vtkSmartPointer<vtkIdTypeArray> NewIds(const char* name, Id tuples, int componen
   auto array = vtkSmartPointer<vtkIdTypeArray>::New();
   array->SetName(name);
   array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(tuples);
+  SetTuples(array, tuples);
   return array;
 }
 
@@ -43,7 +44,7 @@ vtkSmartPointer<vtkIntArray> NewInts(const char* name, Id tuples, int components
   auto array = vtkSmartPointer<vtkIntArray>::New();
   array->SetName(name);
   array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(tuples);
+  SetTuples(array, tuples);
   return array;
 }
 
@@ -85,7 +86,7 @@ vtkSmartPointer<vtkPoints> MakePoints(vtkPolyData* input, const ClippedMesh& cli
 {
   auto points = vtkSmartPointer<vtkPoints>::New();
   points->SetDataType(OutputPrecision(input->GetPoints()));
-  points->SetNumberOfPoints(static_cast<vtkIdType>(clipped.position.size()));
+  SetTuples(points->GetData(), static_cast<vtkIdType>(clipped.position.size()));
   VisitCoordinates(points,
     [&](auto* coordinates) { FillPoints(input->GetPoints(), clipped, threads, coordinates); });
   return points;
@@ -99,8 +100,8 @@ vtkSmartPointer<vtkCellArray> MakeTriangles(const ClippedMesh& clipped, int thre
   const Id count = clipped.NumberOfTriangles();
   vtkNew<Ids> offsets;
   vtkNew<Ids> connectivity;
-  offsets->SetNumberOfValues(count + 1);
-  connectivity->SetNumberOfValues(3 * count);
+  SetTuples(offsets, count + 1);
+  SetTuples(connectivity, 3 * count);
   using Value = typename Ids::ValueType;
   Value* offset = offsets->GetPointer(0);
   Value* corner = connectivity->GetPointer(0);
@@ -137,7 +138,7 @@ void AddCellIds(const InputMesh& mesh, const ClippedMesh& clipped, int threads, 
   auto octree = NewIds(OctreeCellIdName, clipped.NumberOfTriangles());
   vtkNew<vtkSignedCharArray> color;
   color->SetName(OctreeCellColorName);
-  color->SetNumberOfTuples(clipped.NumberOfTriangles());
+  SetTuples(color, clipped.NumberOfTriangles());
   signed char* colors = color->GetPointer(0);
   vtkIdType* sources = source->GetPointer(0);
   vtkIdType* octreeCells = octree->GetPointer(0);

@@ -1,5 +1,7 @@
 #include "DataMessage.h"
 
+#include "Allocation.h"
+
 #include "vtkBitArray.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -32,6 +34,7 @@ vtkSmartPointer<vtkDataArray> Contiguous(vtkDataArray* array)
   vtkSmartPointer<vtkDataArray> copy;
   copy.TakeReference(
     vtkDataArray::CreateDataArray(isBits ? VTK_UNSIGNED_CHAR : array->GetDataType()));
+  RequireRoom(static_cast<std::size_t>(array->GetNumberOfValues()) * copy->GetDataTypeSize());
   copy->DeepCopy(array);
   copy->SetName(array->GetName());
   return copy;
@@ -72,7 +75,7 @@ template<class Ids>
 vtkSmartPointer<Ids> NewIds(vtkIdType count)
 {
   auto ids = vtkSmartPointer<Ids>::New();
-  ids->SetNumberOfValues(count);
+  SetTuples(ids, count);
   return ids;
 }
 
@@ -205,7 +208,7 @@ vtkSmartPointer<vtkAbstractArray> DataMessage::TakeArray()
   array->SetName(name.empty() ? nullptr : name.c_str());
   const int components = this->Take<int>();
   array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(this->Take<vtkIdType>());
+  SetTuples(array, this->Take<vtkIdType>());
   if (this->Take<bool>())
   {
     for (int c = 0; c < components; ++c)

@@ -1,5 +1,6 @@
 #include "GatheredSurface.h"
 
+#include "CellCorners.h"
 #include "DataMessage.h"
 #include "PieceJoiner.h"
 #include "SurfaceSolverState.h"
@@ -137,7 +138,7 @@ void RequireGoodCells(vtkPolyData* surface)
     {
       vtkIdType size = 0;
       const vtkIdType* ids = nullptr;
-      cells->GetCellAtId(cell, size, ids, storage);
+      GetCorners(cells, cell, size, ids, storage);
       for (vtkIdType k = 0; k < size; ++k)
       {
         if (ids[k] < 0 || ids[k] >= points)

@@ -1,5 +1,6 @@
 #include "InputMesh.h"
 
+#include "CellCorners.h"
 #include "PointCoordinates.h"
 
 #include "Base/Parallel.h"
@@ -171,7 +172,7 @@ void ForEachCell(vtkCellArray* cells, Id firstCell, const Progress& progress, Ad
     }
     vtkIdType size = 0;
     const vtkIdType* ids = nullptr;
-    cells->GetCellAtId(k, size, ids, storage);
+    GetCorners(cells, k, size, ids, storage);
     add(firstCell + k, size, ids);
   }
 }

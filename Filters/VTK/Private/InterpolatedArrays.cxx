@@ -1,5 +1,6 @@
 #include "InterpolatedArrays.h"
 
+#include "Allocation.h"
 #include "Base/Errors.h"
 #include "Base/Parallel.h"
 #include "ClippedArrays.h"
@@ -56,7 +57,7 @@ vtkSmartPointer<vtkDataArray> Interpolate(
 {
   auto output = vtkSmartPointer<vtkDoubleArray>::New();
   CopyNames(input, output);
-  output->SetNumberOfTuples(static_cast<vtkIdType>(clipped.position.size()));
+  SetTuples(output, static_cast<vtkIdType>(clipped.position.size()));
   const int components = input->GetNumberOfComponents();
   double* values = output->GetPointer(0);
   // What an array computes by itself may not be asked for by several threads.
@@ -98,7 +99,7 @@ vtkSmartPointer<vtkDataArray> ToColor(vtkDataArray* values)
 {
   auto color = vtkSmartPointer<vtkUnsignedCharArray>::New();
   CopyNames(values, color);
-  color->SetNumberOfTuples(values->GetNumberOfTuples());
+  SetTuples(color, values->GetNumberOfTuples());
   for (vtkIdType tuple = 0; tuple < values->GetNumberOfTuples(); ++tuple)
   {
     for (int c = 0; c < values->GetNumberOfComponents(); ++c)
@@ -127,7 +128,7 @@ vtkSmartPointer<vtkAbstractArray> TakeNearest(
   }
   auto output = vtk::TakeSmartPointer(input->NewInstance());
   CopyNames(input, output);
-  output->SetNumberOfTuples(from->GetNumberOfIds());
+  SetTuples(output, from->GetNumberOfIds());
   input->GetTuples(from, output);
   return output;
 }
@@ -201,7 +202,7 @@ void CopyCellArrays(
     RequireLength(array, numberOfCells, "cells");
     auto copy = vtk::TakeSmartPointer(array->NewInstance());
     CopyNames(array, copy);
-    copy->SetNumberOfTuples(count);
+    SetTuples(copy, count);
     array->GetTuples(from, copy);
     output->AddArray(copy);
   }

@@ -1,5 +1,6 @@
 #include "NearestPoints.h"
 
+#include "Allocation.h"
 #include "Base/Errors.h"
 
 #include "vtkDataSet.h"
@@ -43,9 +44,13 @@ std::vector<Id> NearestPoints(
   {
     if (used[point])
     {
-      points->InsertNextPoint(mesh.points[point].data());
       idOf.push_back(point);
     }
+  }
+  SetTuples(points->GetData(), static_cast<vtkIdType>(idOf.size()));
+  for (std::size_t k = 0; k < idOf.size(); ++k)
+  {
+    points->SetPoint(static_cast<vtkIdType>(k), mesh.points[idOf[k]].data());
   }
   vtkNew<vtkPolyData> candidates;
   candidates->SetPoints(points);

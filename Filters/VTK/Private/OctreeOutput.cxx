@@ -1,5 +1,6 @@
 #include "OctreeOutput.h"
 
+#include "Allocation.h"
 #include "ClippedFans.h"
 #include "PointCoordinates.h"
 
@@ -36,7 +37,7 @@ vtkSmartPointer<vtkPoints> NewPoints(int precision, Id count)
 {
   auto points = vtkSmartPointer<vtkPoints>::New();
   points->SetDataType(precision);
-  points->SetNumberOfPoints(count);
+  SetTuples(points->GetData(), count);
   return points;
 }
 
@@ -45,23 +46,30 @@ vtkSmartPointer<Array> NewArray(const char* name, Id count)
 {
   auto array = vtkSmartPointer<Array>::New();
   array->SetName(name);
-  array->SetNumberOfTuples(count);
+  SetTuples(array, count);
   return array;
+}
+
+/// Cells of `size` points each, whose ids follow each other in `connectivity`.
+vtkSmartPointer<vtkCellArray> CellsOfSize(vtkIdTypeArray* connectivity, int size)
+{
+  const Id cells = connectivity->GetNumberOfValues() / size;
+  auto offsets = NewArray<vtkIdTypeArray>("", cells + 1);
+  for (Id cell = 0; cell <= cells; ++cell)
+  {
+    offsets->SetValue(cell, cell * size);
+  }
+  auto result = vtkSmartPointer<vtkCellArray>::New();
+  result->SetData(offsets, connectivity);
+  return result;
 }
 
 /// Cells of `size` points each, that no other cell has.
 vtkSmartPointer<vtkCellArray> CellsOfConsecutivePoints(Id cells, int size)
 {
-  auto offsets = NewArray<vtkIdTypeArray>("", cells + 1);
   auto connectivity = NewArray<vtkIdTypeArray>("", cells * size);
-  for (Id cell = 0; cell <= cells; ++cell)
-  {
-    offsets->SetValue(cell, cell * size);
-  }
   std::iota(connectivity->GetPointer(0), connectivity->GetPointer(0) + cells * size, vtkIdType(0));
-  auto result = vtkSmartPointer<vtkCellArray>::New();
-  result->SetData(offsets, connectivity);
-  return result;
+  return CellsOfSize(connectivity, size);
 }
 
 /// World position of a cell's corner on a level.
@@ -261,21 +269,22 @@ void WriteBasisFunctions(
   }
   auto patchId = NewArray<vtkIdTypeArray>("PatchId", level.NumberOfPatches());
   auto levels = NewArray<vtkIntArray>("Level", level.NumberOfPatches());
-  output->Allocate(level.NumberOfPatches());
+  auto corners =
+    NewArray<vtkIdTypeArray>("", static_cast<Id>(FunctionsPerPatch) * level.NumberOfPatches());
   for (Id patch = 0; patch < level.NumberOfPatches(); ++patch)
   {
-    vtkIdType ids[FunctionsPerPatch];
+    vtkIdType* const ids = corners->GetPointer(FunctionsPerPatch * patch);
     for (int corner = 0; corner < FunctionsPerPatch; ++corner)
     {
       ids[corner] = level.dof[patch][corner];
       const Vec3 position = CornerPosition(space.GetGrid(), level.depth, level.cell[patch], corner);
       points->SetPoint(ids[corner], position.data());
     }
-    output->InsertNextCell(VTK_VOXEL, FunctionsPerPatch, ids);
     patchId->SetValue(patch, patch);
     levels->SetValue(patch, level.depth);
   }
   output->SetPoints(points);
+  output->SetCells(VTK_VOXEL, CellsOfSize(corners, FunctionsPerPatch));
   output->GetCellData()->AddArray(patchId);
   output->GetCellData()->AddArray(levels);
   AddFunctionArrays(space, &level - space.levels.data(), output);

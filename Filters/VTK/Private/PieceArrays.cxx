@@ -1,5 +1,6 @@
 #include "PieceArrays.h"
 
+#include "Allocation.h"
 #include "DataMessage.h"
 
 #include "vtkCellData.h"
@@ -191,7 +192,7 @@ vtkSmartPointer<vtkAbstractArray> Pick(
   const ArraysOfPieces& arrays, const Numbering& numbering, const std::vector<vtkIdType>& things)
 {
   vtkSmartPointer<vtkAbstractArray> picked = NewArrayLike(arrays);
-  picked->SetNumberOfTuples(static_cast<vtkIdType>(things.size()));
+  SetTuples(picked, static_cast<vtkIdType>(things.size()));
   for (std::size_t k = 0; k < things.size(); ++k)
   {
     const std::size_t piece = numbering.PieceOf(things[k]);

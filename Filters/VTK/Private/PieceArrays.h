@@ -3,6 +3,8 @@
 #ifndef GridFEM_PieceArrays_h
 #define GridFEM_PieceArrays_h
 
+#include "CellCorners.h"
+
 #include "vtkCellArray.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
@@ -41,7 +43,7 @@ void ForEachCell(vtkPolyData* piece, Body&& body)
     {
       vtkIdType size = 0;
       const vtkIdType* ids = nullptr;
-      cells->GetCellAtId(k, size, ids, storage);
+      GetCorners(cells, k, size, ids, storage);
       body(cell, ids, size);
     }
   }

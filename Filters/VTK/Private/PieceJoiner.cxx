@@ -1,5 +1,6 @@
 #include "PieceJoiner.h"
 
+#include "Allocation.h"
 #include "Base/Errors.h"
 #include "Grid/TriangleMesh.h"
 
@@ -399,6 +400,12 @@ void PieceJoiner::WriteCells()
   for (int kind = 0; kind < CellKinds; ++kind)
   {
     kinds[kind] = vtkSmartPointer<vtkCellArray>::New();
+    vtkIdType size = 0;
+    for (vtkIdType k = place; k < kindEnd_[kind]; ++k)
+    {
+      size += begin[cellSource_[k] + 1] - begin[cellSource_[k]];
+    }
+    ReserveCells(kinds[kind], kindEnd_[kind] - place, size);
     for (; place < kindEnd_[kind]; ++place)
     {
       const vtkIdType cell = cellSource_[place];
@@ -435,13 +442,15 @@ void PieceJoiner::WriteHiddenCells()
 {
   vtkNew<vtkUnsignedCharArray> hidden;
   hidden->SetName(vtkDataSetAttributes::GhostArrayName());
+  SetTuples(hidden, static_cast<vtkIdType>(cellSource_.size()));
+  unsigned char* next = hidden->GetPointer(0);
   bool isAny = false;
   for (const vtkIdType cell : cellSource_)
   {
     const std::size_t p = cells_.PieceOf(cell);
     auto* ghosts = GhostsOf(pieces_[p]->GetCellData(), cells_.first[p + 1] - cells_.first[p]);
     const unsigned char flag = ghosts ? ghosts->GetValue(cell - cells_.first[p]) : 0;
-    hidden->InsertNextValue(flag);
+    *next++ = flag;
     isAny = isAny || flag != 0;
   }
   if (isAny)

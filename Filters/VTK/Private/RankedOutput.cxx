@@ -1,5 +1,6 @@
 #include "RankedOutput.h"
 
+#include "Allocation.h"
 #include "ClippedArrays.h"
 
 #include "vtkCellArray.h"
@@ -65,7 +66,7 @@ vtkSmartPointer<vtkAbstractArray> TuplesAt(
   vtkAbstractArray* array, const std::vector<vtkIdType>& places)
 {
   vtkSmartPointer<vtkAbstractArray> picked = NewLike(array);
-  picked->SetNumberOfTuples(static_cast<vtkIdType>(places.size()));
+  SetTuples(picked, static_cast<vtkIdType>(places.size()));
   auto* numbers = vtkDataArray::SafeDownCast(picked);
   const double nothing = IsReal(array) ? std::numeric_limits<double>::quiet_NaN() : 0.0;
   for (std::size_t k = 0; k < places.size(); ++k)

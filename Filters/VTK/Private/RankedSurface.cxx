@@ -1,15 +1,14 @@
 #include "RankedSurface.h"
 
+#include "Allocation.h"
 #include "RankedOutput.h"
 #include "SurfaceSolverState.h"
 
 #include "Base/Errors.h"
 
-#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataSet.h"
 #include "vtkFieldData.h"
-#include "vtkIdList.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkPointData.h"
@@ -60,7 +59,7 @@ vtkSmartPointer<vtkPolyData> AsSurface(vtkDataObject* data)
     surface = vtkSmartPointer<vtkPolyData>::New();
     vtkNew<vtkPoints> points;
     points->SetDataTypeToDouble();
-    points->SetNumberOfPoints(set->GetNumberOfPoints());
+    SetTuples(points->GetData(), set->GetNumberOfPoints());
     for (vtkIdType point = 0; point < set->GetNumberOfPoints(); ++point)
     {
       points->SetPoint(point, set->GetPoint(point));

@@ -1,5 +1,7 @@
 #include "SolverOutput.h"
 
+#include "Allocation.h"
+
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
@@ -23,7 +25,7 @@ vtkSmartPointer<vtkDataArray> CopyRows(const char* name, const MultiVector& valu
   auto array = vtkSmartPointer<Array>::New();
   array->SetName(name);
   array->SetNumberOfComponents(static_cast<int>(values.cols()));
-  array->SetNumberOfTuples(values.rows());
+  SetTuples(array, values.rows());
   std::transform(values.data(), values.data() + values.size(), array->GetPointer(0),
     [](double value) { return static_cast<typename Array::ValueType>(value); });
   return array;
@@ -109,7 +111,7 @@ void AddColumn(vtkTable* table, const char* name, const std::vector<double>& val
 {
   vtkNew<vtkDoubleArray> column;
   column->SetName(name);
-  column->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
+  SetTuples(column, static_cast<vtkIdType>(values.size()));
   std::copy(values.begin(), values.end(), column->GetPointer(0));
   table->AddColumn(column);
 }
@@ -118,7 +120,7 @@ void AddColumn(vtkTable* table, const char* name, const std::vector<int>& values
 {
   vtkNew<vtkIntArray> column;
   column->SetName(name);
-  column->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
+  SetTuples(column, static_cast<vtkIdType>(values.size()));
   std::copy(values.begin(), values.end(), column->GetPointer(0));
   table->AddColumn(column);
 }

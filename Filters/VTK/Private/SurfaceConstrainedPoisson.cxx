@@ -7,7 +7,7 @@
 namespace gridfem
 {
 
-void SurfaceConstrainedPoisson::Update(SurfaceSolverState& state, StageKey fields,
+void SurfaceConstrainedPoisson::Update(SurfaceSolverState& state, const StageKey& fields,
   const Integrate& integrate, const PoissonRequest& request, const Progress& progress)
 {
   this->UpdateSystem(state, fields, integrate, progress.Part(0.0, 0.3));

@@ -32,7 +32,7 @@ public:
   using Integrate = std::function<ConstrainedLoad(const FiniteElementSpace&, const Job&)>;
 
   /// As SurfacePoisson::Update.
-  void Update(SurfaceSolverState& state, StageKey fields, const Integrate& integrate,
+  void Update(SurfaceSolverState& state, const StageKey& fields, const Integrate& integrate,
     const PoissonRequest& request, const Progress& progress);
 
   /// At the points of the mesh; NaN on components of which nothing is known.

@@ -1,0 +1,105 @@
+#include "Base/Teams.h"
+
+#include "Base/Errors.h"
+
+#include <atomic>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace gridfem
+{
+namespace
+{
+
+/// Threads that exist at the same time, and end together.
+class Trial
+{
+public:
+  explicit Trial(int threads)
+  {
+    threads_.reserve(threads);
+    try
+    {
+      for (int k = 0; k < threads; ++k)
+      {
+        threads_.emplace_back([this] { this->Wait(); });
+      }
+    }
+    catch (...)
+    {
+      this->End();
+      throw;
+    }
+  }
+  ~Trial() { this->End(); }
+  Trial(const Trial&) = delete;
+  Trial& operator=(const Trial&) = delete;
+
+private:
+  void Wait()
+  {
+    std::unique_lock<std::mutex> lock(mutex_);
+    end_.wait(lock, [this] { return isOver_; });
+  }
+
+  void End()
+  {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      isOver_ = true;
+    }
+    end_.notify_all();
+    for (std::thread& thread : threads_)
+    {
+      thread.join();
+    }
+    threads_.clear();
+  }
+
+  std::mutex mutex_;
+  std::condition_variable end_;
+  bool isOver_ = false;
+  std::vector<std::thread> threads_;
+};
+
+} // namespace
+
+bool CanStart(int threads) noexcept
+{
+  try
+  {
+    const Trial trial(threads);
+    return true;
+  }
+  catch (const std::exception&)
+  {
+    return false;
+  }
+}
+
+void RequireTeam(int threads)
+{
+  thread_local int most = 1; // OpenMP keeps a team for each thread that asks for one
+  if (threads <= most)
+  {
+    return;
+  }
+  if (!CanStart(threads - 1))
+  {
+    throw OutOfThreads(std::to_string(threads) +
+                       " threads cannot be started: the limit of memory or of processes is "
+                       "reached. Try with one thread.");
+  }
+  std::atomic<int> started{ 0 }; // a region without work would be left out
+#pragma omp parallel num_threads(threads)
+  {
+    ++started;
+  }
+  most = threads;
+}
+
+} // namespace gridfem

@@ -1,0 +1,197 @@
+// An abort is served within half a second at any stage, on a mesh of a million triangles, and
+// leaves a filter that works. Seconds are those that the process computes on one thread, so that
+// other work on the machine does not count; with more threads it takes less time.
+
+#include "FilterSupport.h"
+
+#include "vtkClipToOctree.h"
+#include "vtkConnectivityAwareBasis.h"
+#include "vtkGeodesicDistance.h"
+#include "vtkHarmonicInterpolation.h"
+#include "vtkHeatDiffusion.h"
+#include "vtkLaplaceSpectrum.h"
+#include "vtkMeanCurvatureFlow.h"
+#include "vtkPrincipalCurvatures.h"
+#include "vtkScreenedPoisson.h"
+#include "vtkSpectralSignatures.h"
+#include "vtkStitchColors.h"
+#include "vtkSurfaceDetail.h"
+#include "vtkSurfaceGradient.h"
+
+#include "vtkSphereSource.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <ctime>
+#include <thread>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+constexpr double Longest = 0.5;
+
+/// Of the whole process.
+double SecondsComputed()
+{
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+/// Sets a filter's abort flag from another thread when the process has computed for so long.
+class Aborter
+{
+public:
+  Aborter(vtkAlgorithm* filter, double seconds)
+    : end_(SecondsComputed() + seconds), thread_([this, filter] { this->Watch(filter); })
+  {
+  }
+  ~Aborter()
+  {
+    isOver_ = true;
+    thread_.join();
+  }
+
+  /// How long ago that was; negative where the filter was faster.
+  double SecondsSince() const { return at_ < 0.0 ? -1.0 : SecondsComputed() - at_; }
+
+private:
+  void Watch(vtkAlgorithm* filter)
+  {
+    while (!isOver_)
+    {
+      if (SecondsComputed() >= end_)
+      {
+        at_ = SecondsComputed();
+        filter->SetAbortExecute(1);
+        return;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+  }
+
+  double end_;
+  std::atomic<double> at_{ -1.0 };
+  std::atomic<bool> isOver_{ false };
+  std::thread thread_;
+};
+
+template<class Filter>
+vtkSmartPointer<vtkSurfaceFEMAlgorithm> Make()
+{
+  return vtkSmartPointer<Filter>::New();
+}
+
+template<class Filter>
+vtkSmartPointer<vtkSurfaceFEMAlgorithm> MakeWithArray(const char* name)
+{
+  auto filter = Make<Filter>();
+  filter->SetInputArrayToProcess(0, 0, 0, Points, name);
+  return filter;
+}
+
+vtkSmartPointer<vtkSurfaceFEMAlgorithm> MakeInterpolation()
+{
+  return MakeWithArray<vtkHarmonicInterpolation>("few");
+}
+
+vtkSmartPointer<vtkSurfaceFEMAlgorithm> MakeGradient()
+{
+  return MakeWithArray<vtkSurfaceGradient>("f");
+}
+
+vtkSmartPointer<vtkSurfaceFEMAlgorithm> MakeStitching()
+{
+  auto filter = MakeWithArray<vtkStitchColors>("f");
+  filter->SetInputArrayToProcess(1, 0, 0, Points, "label");
+  return filter;
+}
+
+struct FilterCase
+{
+  const char* name;
+  vtkSmartPointer<vtkSurfaceFEMAlgorithm> (*make)();
+};
+
+void PrintTo(const FilterCase& filter, std::ostream* stream)
+{
+  *stream << filter.name;
+}
+
+vtkSmartPointer<vtkPolyData> MillionTriangles()
+{
+  vtkNew<vtkSphereSource> source;
+  source->SetThetaResolution(1000);
+  source->SetPhiResolution(502);
+  source->Update();
+  vtkSmartPointer<vtkPolyData> sphere = source->GetOutput();
+  AddPointArray(sphere, "f", 1, Wave);
+  AddPointArray(sphere, "label", 1, [](const Vec3& p, int) { return p[0] > 0.0 ? 1.0 : 0.0; });
+  auto* few = AddPointArray(sphere, "few", 1, Wave);
+  for (vtkIdType point = 0; point < sphere->GetNumberOfPoints(); ++point)
+  {
+    few->SetValue(point, point % 1000 == 0 ? few->GetValue(point) : std::nan(""));
+  }
+  return sphere;
+}
+
+class Abort : public ::testing::TestWithParam<FilterCase>
+{
+};
+
+TEST_P(Abort, IsServedAtOnceAtAnyStage)
+{
+  auto sphere = MillionTriangles();
+  ASSERT_GE(sphere->GetNumberOfPolys(), 1000000);
+  auto filter = GetParam().make();
+  filter->SetInputData(sphere);
+  filter->SetNumberOfThreads(1);
+  filter->KeepStagesOff(); // so that every run is the same
+  filter->SetDepth(6);
+  const Messages messages(filter);
+  int aborts = 0;
+  for (double wait = 0.05;; wait *= 1.7)
+  {
+    filter->Modified();
+    double late = 0.0;
+    {
+      const Aborter aborter(filter, wait);
+      EXPECT_EQ(filter->GetExecutive()->Update(), 1);
+      late = aborter.SecondsSince();
+    }
+    if (late < 0.0 || !IsEmptyData(filter->GetOutputDataObject(0)))
+    {
+      break; // done before, or on its last steps
+    }
+    ++aborts;
+    std::cout << "after " << wait << " s: " << late << " s, at " << filter->GetProgress() << "\n";
+    EXPECT_LT(late, Longest) << "after " << wait << " s";
+  }
+  EXPECT_GE(aborts, 3);
+  filter->SetAbortExecute(0);
+  filter->Modified();
+  EXPECT_EQ(filter->GetExecutive()->Update(), 1);
+  EXPECT_FALSE(IsEmptyData(filter->GetOutputDataObject(0)));
+  EXPECT_TRUE(messages.errors.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(AllFilters, Abort,
+  ::testing::Values(FilterCase{ "ClipToOctree", &Make<vtkClipToOctree> },
+    FilterCase{ "ConnectivityAwareBasis", &Make<vtkConnectivityAwareBasis> },
+    FilterCase{ "GeodesicDistance", &Make<vtkGeodesicDistance> },
+    FilterCase{ "HarmonicInterpolation", &MakeInterpolation },
+    FilterCase{ "HeatDiffusion", &Make<vtkHeatDiffusion> },
+    FilterCase{ "LaplaceSpectrum", &Make<vtkLaplaceSpectrum> },
+    FilterCase{ "MeanCurvatureFlow", &Make<vtkMeanCurvatureFlow> },
+    FilterCase{ "PrincipalCurvatures", &Make<vtkPrincipalCurvatures> },
+    FilterCase{ "ScreenedPoisson", &Make<vtkScreenedPoisson> },
+    FilterCase{ "SpectralSignatures", &Make<vtkSpectralSignatures> },
+    FilterCase{ "StitchColors", &MakeStitching },
+    FilterCase{ "SurfaceDetail", &Make<vtkSurfaceDetail> },
+    FilterCase{ "SurfaceGradient", &MakeGradient }),
+  [](const auto& filter) { return std::string(filter.param.name); });
+
+} // namespace
