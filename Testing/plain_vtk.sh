@@ -29,8 +29,11 @@ fi
 mkdir -p "$BUILD"
 if [ ! -f "$ROOT/made" ]; then
   InstallMissing mmdebstrap
-  rm -rf "$ROOT"
   mkdir -p "$ROOT"
+  if [ -n "$(ls -A "$ROOT")" ]; then
+    Say "$ROOT is not empty, and no root that was finished here. Delete it, or take another folder."
+    exit 1
+  fi
   packages=("${CORE_PACKAGES[@]}" "${PLAIN_VTK_PACKAGES[@]}")
   suite="$(. /etc/os-release && echo "$VERSION_CODENAME")"
   Say "Making a root of $suite with VTK in $ROOT"
