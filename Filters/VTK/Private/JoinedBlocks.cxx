@@ -131,9 +131,13 @@ std::vector<std::string> JoinedBlocks::LeaveOut(const std::string& array)
   bool anyHas = false;
   for (Block& block : blocks_)
   {
-    if (block.piece >= 0)
+    if (block.piece >= 0 && HasArray(block.surface, array))
     {
-      HasArray(block.surface, array) ? void(anyHas = true) : lacking.push_back(&block);
+      anyHas = true;
+    }
+    else if (block.piece >= 0)
+    {
+      lacking.push_back(&block);
     }
   }
   std::vector<std::string> names;
