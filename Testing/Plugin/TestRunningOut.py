@@ -20,7 +20,7 @@ from vtkmodules.vtkFiltersSources import vtkSphereSource
 import plugin
 
 MEGABYTE = 1 << 20
-STEPS = 10  # limits below what the filter needs
+STEPS = 6  # limits below what the filter needs
 OPTIONS = {
     "LaplaceSpectrum": {"NumberOfModes": 8},
     "MeanCurvatureFlow": {"NumberOfSteps": 2},

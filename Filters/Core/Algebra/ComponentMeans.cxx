@@ -89,4 +89,17 @@ void ComponentMeans::SubtractIntegrals(const MultiVector& mean, MultiVector& loa
   this->AddWeighted(mean, load, [this](Index i) { return -integral_[i]; });
 }
 
+Columns ComponentMeans::SquaredSpread(const MultiVector& mean) const
+{
+  const Eigen::Map<const Eigen::VectorXd> area(area_.data(), static_cast<Id>(area_.size()));
+  const double total = area.sum();
+  if (!(total > 0.0))
+  {
+    return Columns::Zero(mean.cols());
+  }
+  const Eigen::RowVectorXd ofAll = area.transpose() * mean / total;
+  const Eigen::VectorXd spread = (mean.rowwise() - ofAll).cwiseAbs2().transpose() * area;
+  return spread.array();
+}
+
 } // namespace gridfem

@@ -2,6 +2,7 @@
 #ifndef GridFEM_ComponentMeans_h
 #define GridFEM_ComponentMeans_h
 
+#include "Algebra/ColumnAlgebra.h"
 #include "Base/Types.h"
 
 #include <vector>
@@ -31,6 +32,9 @@ public:
 
   /// load -= the integrals of the constants `mean`.
   void SubtractIntegrals(const MultiVector& mean, MultiVector& load) const;
+
+  /// ∫ (mean - mean of all)² over the surface, per column.
+  Columns SquaredSpread(const MultiVector& mean) const;
 
 private:
   template<class Weight>

@@ -133,10 +133,11 @@ bool IsRounding(
 }
 
 /// The part of the solution without means, and what is known of its errors.
-/// @param scale  of the columns of the load
+/// @param squaredSpread  of the means that are left out
+/// @param scale          of the columns of the load
 PoissonSolution SolveWithoutMeans(const FiniteElementSpace& space, const Multigrid& multigrid,
-  const MultiVector& load, const Eigen::RowVectorXd& scale, const PoissonOptions& options,
-  const Projection& project, const Progress& progress)
+  const MultiVector& load, const Columns& squaredSpread, const Eigen::RowVectorXd& scale,
+  const PoissonOptions& options, const Projection& project, const Progress& progress)
 {
   SolveOptions solve = options.solve;
   if (options.accuracy > 0.0 && solve.tolerance == 0.0)
@@ -174,7 +175,7 @@ PoissonSolution SolveWithoutMeans(const FiniteElementSpace& space, const Multigr
   }
   if (watch)
   {
-    solution.accuracy = watch->Result(solution.coefficients, scale);
+    solution.accuracy = watch->Result(solution.coefficients, squaredSpread, scale);
   }
   return solution;
 }
@@ -221,8 +222,8 @@ PoissonSolution SolvePoisson(const FiniteElementSpace& space, const Multigrid& m
   removeSums(rest);
   DropRounding(size, rest);
 
-  PoissonSolution solution = SolveWithoutMeans(
-    space, multigrid, rest, scale, options, { removeMeans, removeSums }, progress);
+  PoissonSolution solution = SolveWithoutMeans(space, multigrid, rest,
+    means.SquaredSpread(meanOfField), scale, options, { removeMeans, removeSums }, progress);
   means.AddConstants(meanOfField, solution.coefficients);
   RemoveScales(scale, solution.coefficients, solution.report);
   return solution;

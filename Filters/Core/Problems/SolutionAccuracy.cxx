@@ -112,7 +112,7 @@ ColumnMeasures AccuracyWatch::operator()(const Iterate& iterate)
 }
 
 SolutionAccuracy AccuracyWatch::Result(
-  const MultiVector& solution, const Eigen::RowVectorXd& scale) const
+  const MultiVector& solution, const Columns& squaredSpread, const Eigen::RowVectorXd& scale) const
 {
   SolutionAccuracy result;
   if (calls_ == 0 || space_.NumberOfLevels() < 2)
@@ -121,7 +121,7 @@ SolutionAccuracy AccuracyWatch::Result(
   }
   const MultiVector difference = solution - nested_;
   const Columns error = this->Norms(difference) / steps_;
-  const Columns size = this->Norms(solution);
+  const Columns size = (this->Norms(solution).square() + squaredSpread).sqrt();
   result.discretization = Worst(Relative(error, size));
   result.algebraic = Worst(Relative(algebraic_, size));
   const MultiVector atPoints =

@@ -18,15 +18,16 @@ struct SolutionAccuracy
 {
   static constexpr double Unknown = std::numeric_limits<double>::quiet_NaN();
 
-  double discretization = Unknown; // |u - exact| / |u| on the surface, u without its mean; within
-                                   // a factor of two where it can be trusted
+  double discretization = Unknown; // |u - exact| / |u| on the surface, u without its mean over the
+                                   // surface; within a factor of two where it can be trusted
   double largest = Unknown;        // the largest error at a point, in units of the solution
   double algebraic = Unknown;      // |u - the space's own solution| / |u|; in four of five cases
                                    // within a factor of three
   /// Whether the levels are nested and differ as they do where errors fall with the square of the
-  /// cell size. On hats above a grid the first two are rather too large, up to fifteen times. Else
-  /// the surface or the data are not resolved, or the levels are too coarse, and the error of the
-  /// space may be several times as large.
+  /// cell size. On hats above a grid the first two are within a factor of three on most surfaces,
+  /// and ten to twenty times too large on some of very unequal triangles. Else the surface or the
+  /// data are not resolved, or the levels are too coarse, and the error of the space may be several
+  /// times as large.
   bool isTrusted = false;
 };
 
@@ -46,8 +47,10 @@ public:
 
   ColumnMeasures operator()(const Iterate& iterate);
 
-  /// Of the solution. Before it is scaled and gets its mean back.
-  SolutionAccuracy Result(const MultiVector& solution, const Eigen::RowVectorXd& scale) const;
+  /// Of the solution, before it is scaled and gets the means of its components back.
+  /// @param squaredSpread  of those means, see ComponentMeans
+  SolutionAccuracy Result(const MultiVector& solution, const Columns& squaredSpread,
+    const Eigen::RowVectorXd& scale) const;
 
 private:
   Columns Norms(const MultiVector& u) const;

@@ -187,6 +187,27 @@ TEST(SolutionAccuracy, IsKnownOnHats)
   }
 }
 
+TEST(SolutionAccuracy, IsRelativeToTheWholeSurface)
+{
+  // Two spheres apart, on which a linear function has two means: between them it varies more than
+  // on them.
+  const TriangleMesh mesh =
+    Join(GeodesicSphere(20), Transform(GeodesicSphere(20), { 0, 0, 1 }, 0.0, 1.0, { 6, 1, 0 }));
+  const Data data{ "drifting", true,
+    [](const Vec3& p) { return std::sin(2 * p[0] + 1) * std::cos(p[1]) + 2 * p[0]; } };
+  const MultiVector f = AtPoints(mesh, data);
+  const GridSpace space = GridOf(mesh, 5);
+  const GridSpace finer = GridOf(mesh, 7, 1e-2);
+  for (const double lambda : { 1.0, 100.0 })
+  {
+    SCOPED_TRACE(lambda);
+    const MultiVector truth = finer.ValuesAtPoints(
+      Equation(finer, lambda).Solve({ FieldAssociation::Points, f }, 0.0, 1e-9).coefficients);
+    // Errors of 1e-4 are seen on the finer grid with some of its own.
+    ExpectRightEstimates(Comparison(mesh, space, f, lambda, truth), false);
+  }
+}
+
 TEST(SolutionAccuracy, DoesNotDependOnThreads)
 {
   const TriangleMesh mesh = Transform(Torus(120, 50, 1.0, 0.4), { 1, 0, 1 }, 0.3);
