@@ -13,7 +13,7 @@ The package comes in two forms with the same functions and results. Beside ParaV
 the filters; on several MPI ranks each rank computes alone, on the arrays that it gives. The filters
 themselves, for pipelines of VTK, are in gridfem.vtkGridFEMFilters; they work on the pieces of all
 ranks together. The form that pip installs has the numerics compiled in, and needs numpy alone. It
-takes the properties that change what a function returns, but for AccuracyDriven and WantedError.
+takes the properties that change what a function returns.
 """
 
 import numpy

@@ -206,17 +206,10 @@ void vtkLaplaceSpectrum::Warn()
   }
   if (!this->IsAccurate())
   {
-    this->WarnOfAccuracy();
+    vtkWarningMacro(<< gridfem::WarningOfAccuracy(this->Accuracy,
+                      this->Data->LargestEstimatedError(), this->FunctionSpace == HatFunctions,
+                      this->Data->depth));
   }
-}
-
-void vtkLaplaceSpectrum::WarnOfAccuracy()
-{
-  vtkWarningMacro("The wanted Accuracy of "
-                  << this->Accuracy << " is not reached: at Depth " << this->Data->depth
-                  << " the estimated error is up to " << this->Data->LargestEstimatedError() << ". "
-                  << gridfem::ReasonOfError(this->FunctionSpace == HatFunctions)
-                  << " The result is kept.");
 }
 
 void vtkLaplaceSpectrum::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)

@@ -180,7 +180,6 @@ private:
   void WriteTable(vtkTable* table);
   void WriteComparison(vtkTable* table);
   void Warn();
-  void WarnOfAccuracy();
 
   struct Internals;
   std::unique_ptr<Internals> Data;

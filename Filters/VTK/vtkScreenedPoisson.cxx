@@ -2,7 +2,6 @@
 
 #include "Private/ClippedArrays.h"
 #include "Private/ClippedMeshWriter.h"
-#include "Private/DepthSearch.h"
 #include "Private/InputArray.h"
 #include "Private/InputValidation.h"
 #include "Private/MovedMeshWriter.h"
@@ -12,6 +11,7 @@
 #include "Private/SurfacePoisson.h"
 
 #include "Base/Errors.h"
+#include "Problems/DepthSearch.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -57,6 +57,7 @@ struct vtkScreenedPoisson::Internals
   }
 
   gridfem::DepthSearch Search; // of AccuracyDriven
+  gridfem::StageKey Searched;  // all that its answer depends on
   gridfem::SurfacePoisson Equation;
   gridfem::SurfaceConstrainedPoisson Constrained;
 };
@@ -404,17 +405,18 @@ void vtkScreenedPoisson::SolveAccurately(vtkPolyData* input, const gridfem::Prog
   {
     asked.Add(array->array).Add(static_cast<int>(array->association));
   }
-  double done = 0.0;
-  for (int depth = 0, next = data.Search.Begin(asked); next != depth;)
+  if (!(data.Search.IsFound() && asked == data.Searched))
   {
-    depth = next;
-    state.options.space.depth = depth;
-    const double part = 0.5 + 0.5 * done;
-    this->SolveAtDepth(input, nullptr, progress.Part(done, part));
-    done = part;
-    const gridfem::SolutionAccuracy errors = this->EstimatedErrors();
-    next = data.Search.Next(
-      *state.mesh.triangles, depth, errors.discretization, errors.isTrusted, this->WantedError);
+    data.Search = {};
+    data.Searched = asked;
+  }
+  int solved = 0;
+  for (double done = 0.0; solved != data.Search.Depth(); done = 0.5 + 0.5 * done)
+  {
+    solved = data.Search.Depth();
+    state.options.space.depth = solved;
+    this->SolveAtDepth(input, nullptr, progress.Part(done, 0.5 + 0.5 * done));
+    data.Search.Judge(*state.mesh.triangles, this->EstimatedErrors(), this->WantedError);
   }
 }
 
@@ -436,11 +438,8 @@ void vtkScreenedPoisson::Warn()
   }
   if (!this->IsAccurate())
   {
-    vtkWarningMacro("The WantedError of "
-                    << this->WantedError << " is not reached: the estimated error is "
-                    << this->EstimatedErrors().discretization << ". "
-                    << gridfem::ReasonOfError(this->FunctionSpace == HatFunctions)
-                    << " The result is kept.");
+    vtkWarningMacro(<< gridfem::WarningOfWantedError(this->WantedError,
+                      this->EstimatedErrors().discretization, this->FunctionSpace == HatFunctions));
   }
 }
 

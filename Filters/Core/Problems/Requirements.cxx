@@ -61,14 +61,19 @@ bool FitsMemory(const TriangleMesh& mesh, int depth, bool hatFunctions)
   return available <= 0.0 || BytesOf(mesh, EstimateMemory(mesh, depth), hatFunctions) <= available;
 }
 
-int AffordableDepth(const TriangleMesh& mesh, bool hatFunctions)
+int FittingDepth(const TriangleMesh& mesh, int most, int least, bool hatFunctions)
 {
-  int depth = SuggestedDepth(mesh);
-  while (depth > MinimumDepth && !FitsMemory(mesh, depth, hatFunctions))
+  int depth = most;
+  while (depth > least && !FitsMemory(mesh, depth, hatFunctions))
   {
     --depth;
   }
   return depth;
+}
+
+int AffordableDepth(const TriangleMesh& mesh, bool hatFunctions)
+{
+  return FittingDepth(mesh, SuggestedDepth(mesh), MinimumDepth, hatFunctions);
 }
 
 void RequireMemory(const TriangleMesh& mesh, int depth, bool hatFunctions)

@@ -16,6 +16,9 @@ void RequireAtLeast(const char* property, double value, double least);
 /// Whether all that a solver makes at this depth should fit into memory.
 bool FitsMemory(const TriangleMesh& mesh, int depth, bool hatFunctions = false);
 
+/// The finest depth from `most` down that fits into memory, or `least`.
+int FittingDepth(const TriangleMesh& mesh, int most, int least, bool hatFunctions = false);
+
 /// The suggested depth, or a smaller one that fits into memory.
 int AffordableDepth(const TriangleMesh& mesh, bool hatFunctions = false);
 

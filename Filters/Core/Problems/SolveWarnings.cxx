@@ -34,6 +34,15 @@ const char* ReasonOf(FlowEnd end)
          "range. A smaller TimeStep may help";
 }
 
+/// Why a wanted error is not reached by a choice of the depth.
+const char* ReasonOfError(bool hatFunctions)
+{
+  return hatFunctions ? "No Depth changes the error of hat functions: subdivide the mesh, or take "
+                        "FunctionSpace = Grid."
+                      : "A given basis has a fixed Depth; else the next one does not fit into "
+                        "memory.";
+}
+
 } // namespace
 
 const char* ReasonOf(const SolveReport& report)
@@ -54,14 +63,6 @@ const char* ReasonOf(const SolveReport& report)
   }
   return "it broke down: the system has no solution, or its numbers span more digits than there "
          "are, as those of hat functions on triangles narrower than 1e-7 of their length";
-}
-
-const char* ReasonOfError(bool hatFunctions)
-{
-  return hatFunctions ? "No Depth changes the error of hat functions: subdivide the mesh, or take "
-                        "FunctionSpace = Grid."
-                      : "A given basis has a fixed Depth; else the next one does not fit into "
-                        "memory.";
 }
 
 IterationRecord LastRecord(const SolveReport& report)
@@ -102,6 +103,23 @@ std::string WarningOf(const SolveReport& report, const SolutionAccuracy& accurac
   text << HowItEnded(report) << " What the iteration has left is estimated to be "
        << accuracy.algebraic << " of the solution, the error of the function space "
        << accuracy.discretization << ". The result is kept.";
+  return text.str();
+}
+
+std::string WarningOfWantedError(double wanted, double estimated, bool hatFunctions)
+{
+  std::ostringstream text;
+  text << "The WantedError of " << wanted << " is not reached: the estimated error is " << estimated
+       << ". " << ReasonOfError(hatFunctions) << " The result is kept.";
+  return text.str();
+}
+
+std::string WarningOfAccuracy(double wanted, double estimated, bool hatFunctions, int depth)
+{
+  std::ostringstream text;
+  text << "The wanted Accuracy of " << wanted << " is not reached: at Depth " << depth
+       << " the estimated error is up to " << estimated << ". " << ReasonOfError(hatFunctions)
+       << " The result is kept.";
   return text.str();
 }
 

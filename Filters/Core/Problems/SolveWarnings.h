@@ -19,9 +19,6 @@ namespace gridfem
 /// Why the iteration ended, in words.
 const char* ReasonOf(const SolveReport& report);
 
-/// Why a wanted error is not reached by a choice of the depth, in words.
-const char* ReasonOfError(bool hatFunctions);
-
 /// The last iteration, or zeros when nothing had to be iterated.
 IterationRecord LastRecord(const SolveReport& report);
 
@@ -34,6 +31,11 @@ std::string WarningOf(const SolveReport& report, double tolerance);
 /// The same where a tolerance of 0 stands for an estimated error. Empty when it has converged.
 std::string WarningOf(
   const SolveReport& report, const SolutionAccuracy& accuracy, double tolerance);
+
+///@{ What to warn of when no depth gives the wanted error: of a solution, of eigenvalues.
+std::string WarningOfWantedError(double wanted, double estimated, bool hatFunctions);
+std::string WarningOfAccuracy(double wanted, double estimated, bool hatFunctions, int depth);
+///@}
 
 /// What to say when values are not met; empty when they are to 1e-3 of their range or of the
 /// solution's size.

@@ -2,6 +2,7 @@
 
 #include "Base/Errors.h"
 #include "Grid/SurfaceEdges.h"
+#include "Problems/DepthSearch.h"
 #include "Problems/EdgeConditions.h"
 #include "Problems/PartialField.h"
 #include "Problems/SolveWarnings.h"
@@ -26,24 +27,32 @@ public:
       iteration_(static_cast<IterationType>(properties.Integer("Iteration", 0, 0, 1))),
       usesValueGradient_(properties.Switch("UseValueGradient", false)),
       fillsUnknown_(properties.Switch("FillUnknown", false)),
-      holdsBoundary_(properties.Switch("BoundaryValues", false))
+      holdsBoundary_(properties.Switch("BoundaryValues", false)),
+      isAccuracyDriven_(properties.Switch("AccuracyDriven", false)),
+      wantedError_(properties.Number("WantedError", 0.01, 1e-6, 0.5))
   {
   }
 
   Results Solve(const Given& given, const Progress& progress) const override
   {
     this->Check(given);
-    const Surface surface(given, options_, progress.Part(0.0, 0.5));
     Results results;
-    const MultiVector coefficients =
-      this->IsConstrained(given)
-        ? this->SolveConstrainedEquation(given, surface, results, progress.Part(0.5, 0.95))
-        : this->SolveEquation(given, surface, results, progress.Part(0.5, 0.95));
-    results.arrays["Solution"] = surface.AtPoints(coefficients, given.RowsAtPoints("values"));
+    if (isAccuracyDriven_ && !options_.IsOnHats())
+    {
+      this->SolveAccurately(given, results, progress);
+    }
+    else
+    {
+      this->SolveOn(
+        Surface(given, options_, progress.Part(0.0, 0.5)), given, results, progress.Part(0.5, 1.0));
+    }
     return results;
   }
 
 private:
+  void SolveAccurately(const Given& given, Results& results, const Progress& progress) const;
+  SolutionAccuracy SolveOn(
+    const Surface& surface, const Given& given, Results& results, const Progress& progress) const;
   bool IsConstrained(const Given& given) const
   {
     return fillsUnknown_ || holdsBoundary_ || given.Find("weights") || given.Find("held");
@@ -53,7 +62,7 @@ private:
   Field ValuesOf(const Given& given) const;
   MultiVector Gradients(
     const Given& given, const Surface& surface, const Field& value, const Job& job) const;
-  MultiVector SolveEquation(
+  PoissonSolution SolveEquation(
     const Given& given, const Surface& surface, Results& results, const Progress& progress) const;
   HeldValues Held(
     const Given& given, const Surface& surface, const Field& value, Results& results) const;
@@ -67,6 +76,8 @@ private:
   bool usesValueGradient_;
   bool fillsUnknown_;
   bool holdsBoundary_;
+  bool isAccuracyDriven_;
+  double wantedError_;
 };
 
 void RequirePointValues(const std::string& who, const GivenArray* values)
@@ -106,6 +117,11 @@ void PoissonProblem::Check(const Given& given) const
   {
     RequirePointValues(held ? "ConstraintArray" : "BoundaryValues", values);
   }
+  if (this->IsConstrained(given) && isAccuracyDriven_)
+  {
+    throw InvalidInput("AccuracyDriven does not go with constraints, weights, a flux or unknown "
+                       "values: no error is estimated for them.");
+  }
   if (this->IsConstrained(given) && iteration_ != IterationType::ConjugateGradients)
   {
     throw InvalidInput("Constraints, weights and unknown values need Iteration to be "
@@ -113,12 +129,52 @@ void PoissonProblem::Check(const Given& given) const
   }
 }
 
+/// Results at one depth replace those of the one before.
+void PoissonProblem::SolveAccurately(
+  const Given& given, Results& results, const Progress& progress) const
+{
+  DepthSearch search;
+  int solved = 0;
+  for (double done = 0.0; solved != search.Depth(); done = 0.5 + 0.5 * done)
+  {
+    solved = search.Depth();
+    results = {};
+    const Progress part = progress.Part(done, 0.5 + 0.5 * done);
+    const Surface surface(given, options_.AtDepth(solved), part.Part(0.0, 0.5));
+    search.Judge(
+      *given.mesh, this->SolveOn(surface, given, results, part.Part(0.5, 1.0)), wantedError_);
+  }
+}
+
+SolutionAccuracy PoissonProblem::SolveOn(
+  const Surface& surface, const Given& given, Results& results, const Progress& progress) const
+{
+  PoissonSolution solution;
+  if (this->IsConstrained(given))
+  {
+    solution.coefficients =
+      this->SolveConstrainedEquation(given, surface, results, progress.Part(0.0, 0.9));
+  }
+  else
+  {
+    solution = this->SolveEquation(given, surface, results, progress.Part(0.0, 0.9));
+  }
+  const double error = solution.accuracy.discretization;
+  if (isAccuracyDriven_ && !(error <= wantedError_))
+  {
+    results.Warn(WarningOfWantedError(wantedError_, error, options_.IsOnHats()));
+  }
+  results.arrays["Solution"] =
+    surface.AtPoints(solution.coefficients, given.RowsAtPoints("values"));
+  return solution.accuracy;
+}
+
 Field PoissonProblem::ValuesOf(const Given& given) const
 {
   return given.Find("values") ? given.FieldOf("values", fillsUnknown_) : CoordinatesOf(*given.mesh);
 }
 
-MultiVector PoissonProblem::SolveEquation(
+PoissonSolution PoissonProblem::SolveEquation(
   const Given& given, const Surface& surface, Results& results, const Progress& progress) const
 {
   const FiniteElementSpace& space = surface.Space();
@@ -147,7 +203,7 @@ MultiVector PoissonProblem::SolveEquation(
   PoissonSolution solution = SolvePoisson(
     space, multigrid, load, gradientScale_ * gradients, options, progress.Part(0.4, 1.0));
   results.Warn(WarningOf(solution.report, solution.accuracy, options.solve.tolerance));
-  return std::move(solution.coefficients);
+  return solution;
 }
 
 HeldValues PoissonProblem::Held(

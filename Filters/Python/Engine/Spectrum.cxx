@@ -1,8 +1,11 @@
 #include "Problem.h"
 
+#include "Problems/DepthSearch.h"
 #include "Problems/Requirements.h"
 #include "Problems/SolveWarnings.h"
 #include "Problems/Spectrum.h"
+
+#include <algorithm>
 
 namespace gridfem
 {
@@ -15,43 +18,93 @@ public:
   explicit SpectrumProblem(Properties& properties)
     : options_(properties, { 1e-6, 100, 1e-12, CycleType::V }),
       modes_(properties.Integer("NumberOfModes", 20, 1, 100000)),
-      completes_(properties.Switch("CompleteMultiplets", true))
+      completes_(properties.Switch("CompleteMultiplets", true)),
+      isAccuracyDriven_(properties.Switch("AccuracyDriven", false)),
+      accuracy_(properties.Number("Accuracy", 0.01, 1e-6, 0.5))
   {
   }
 
   Results Solve(const Given& given, const Progress& progress) const override
   {
-    const Surface surface(given, options_, progress.Part(0.0, 0.5));
-    const FiniteElementSpace& space = surface.Space();
-    const int threads = options_.functions.threads;
+    SurfaceOptions options = options_;
+    if (isAccuracyDriven_)
+    {
+      RequireSurface(*given.mesh);
+      options =
+        options_.AtDepth(FirstDepthForModes(*given.mesh, modes_, accuracy_, options_.IsOnHats()));
+    }
+    for (double done = 0.0;; done = 0.5 + 0.5 * done)
+    {
+      const Progress part = progress.Part(done, isAccuracyDriven_ ? 0.5 + 0.5 * done : 1.0);
+      const Surface surface(given, options, part.Part(0.0, 0.5));
+      const SpectrumOptions solver = this->SolverOptions(surface.Space());
+      Spectrum nested = ComputeNestedSpectrum(surface.Space(), solver, part.Part(0.5, 0.7));
+      const int next = this->NextDepth(surface, nested);
+      if (next == surface.options.functions.depth)
+      {
+        return this->ResultsOf(surface,
+          FinishSpectrum(surface.Space(), std::move(nested), solver, part.Part(0.7, 0.95)));
+      }
+      options = options_.AtDepth(next);
+    }
+  }
+
+private:
+  SpectrumOptions SolverOptions(const FiniteElementSpace& space) const
+  {
     const Index nested = space.NestedLevels() ? space.NumberOfFunctions(1) : 0;
-    RequireMemoryForModes(space.NumberOfFunctions(0) + nested, modes_, threads);
+    RequireMemoryForModes(space.NumberOfFunctions(0) + nested, modes_, options_.functions.threads);
     SpectrumOptions options;
     options.numberOfModes = modes_;
     options.tolerance = options_.solve.tolerance;
     options.maximumIterations = options_.solve.maximumIterations;
     options.multigrid = options_.multigrid;
     options.completeMultiplets = completes_;
-    const Spectrum spectrum = ComputeSpectrum(space, options, progress.Part(0.5, 0.95));
+    return options;
+  }
 
+  int NextDepth(const Surface& surface, const Spectrum& nested) const
+  {
+    const int depth = surface.options.functions.depth;
+    std::vector<double> errors = nested.estimatedErrors;
+    if (surface.Space().NestedLevels()) // guards have been computed, too
+    {
+      errors.resize(std::min<std::size_t>(errors.size(), modes_));
+    }
+    return isAccuracyDriven_
+             ? NextDepthForModes(surface.Mesh(), errors, depth, accuracy_, options_.IsOnHats())
+             : depth;
+  }
+
+  Results ResultsOf(const Surface& surface, const Spectrum& spectrum) const
+  {
     // The integral over the space's units is UnitLength² times smaller than that over the world's.
+    const FiniteElementSpace& space = surface.Space();
     const double unit = space.UnitLength();
     Results results;
-    results.arrays["Modes"] = space.ValuesAtPoints(spectrum.vectors / unit, threads);
+    results.arrays["Modes"] =
+      space.ValuesAtPoints(spectrum.vectors / unit, options_.functions.threads);
     results.arrays["Eigenvalues"] = Eigen::Map<const Eigen::VectorXd>(spectrum.eigenvalues.data(),
                                       static_cast<Id>(spectrum.eigenvalues.size())) /
                                     (unit * unit);
-    const std::string where = options_.IsOnHats()
-                                ? "with the hat functions of this mesh"
-                                : "at Depth " + std::to_string(surface.options.functions.depth);
+    const int depth = surface.options.functions.depth;
+    const std::string where = options_.IsOnHats() ? "with the hat functions of this mesh"
+                                                  : "at Depth " + std::to_string(depth);
     results.warnings = WarningsOf(spectrum, modes_, where, true);
+    const std::vector<double>& errors = spectrum.estimatedErrors;
+    const double error = errors.empty() ? 0.0 : *std::max_element(errors.begin(), errors.end());
+    if (isAccuracyDriven_ && !(error <= accuracy_))
+    {
+      results.Warn(WarningOfAccuracy(accuracy_, error, options_.IsOnHats(), depth));
+    }
     return results;
   }
 
-private:
   SurfaceOptions options_;
   int modes_;
   bool completes_;
+  bool isAccuracyDriven_;
+  double accuracy_;
 };
 
 } // namespace

@@ -173,18 +173,22 @@ SurfaceOptions::SurfaceOptions(Properties& properties, const SharedDefaults& def
   parameterUnits = properties.Integer("ParameterUnits", 1, 0, 2);
 }
 
+SurfaceOptions SurfaceOptions::AtDepth(int depth) const
+{
+  SurfaceOptions options = *this;
+  options.functions.depth = depth;
+  return options;
+}
+
 namespace
 {
 
 /// With a depth in the place of an automatic one, which is 0.
-SurfaceOptions WithDepth(SurfaceOptions options, const TriangleMesh& mesh)
+SurfaceOptions WithDepth(const SurfaceOptions& options, const TriangleMesh& mesh)
 {
   RequireSurface(mesh);
-  if (options.functions.depth == 0)
-  {
-    options.functions.depth = AffordableDepth(mesh, options.IsOnHats());
-  }
-  return options;
+  return options.functions.depth == 0 ? options.AtDepth(AffordableDepth(mesh, options.IsOnHats()))
+                                      : options;
 }
 
 } // namespace

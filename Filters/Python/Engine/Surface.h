@@ -75,6 +75,7 @@ struct SurfaceOptions
   SurfaceOptions(Properties& properties, const SharedDefaults& defaults);
 
   bool IsOnHats() const { return choice.kind == FunctionKind::Hats; }
+  SurfaceOptions AtDepth(int depth) const;
 
   SpaceOptions functions;
   SpaceChoice choice;

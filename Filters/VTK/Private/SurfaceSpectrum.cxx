@@ -4,8 +4,7 @@
 #include "InputValidation.h"
 #include "vtkSurfaceFEMAlgorithm.h"
 
-#include "Problems/MemoryEstimate.h"
-#include "Problems/SpectrumAccuracy.h"
+#include "Problems/DepthSearch.h"
 
 #include "vtkPolyData.h"
 
@@ -123,11 +122,9 @@ void SurfaceSpectrum::Solve(
 int SurfaceSpectrum::NextDepth(const SurfaceSolverState& state, double accuracy) const
 {
   const int now = state.Functions().GetGrid().depth;
-  const int next = accuracy > 0.0 ? DepthForAccuracy(gridErrors_, now, accuracy) : now;
-  return next == now || FitsMemory(*state.mesh.triangles, next,
-                          state.options.choice.kind == FunctionKind::Hats)
-           ? next
-           : now;
+  return accuracy > 0.0 ? NextDepthForModes(*state.mesh.triangles, gridErrors_, now, accuracy,
+                            state.options.choice.kind == FunctionKind::Hats)
+                        : now;
 }
 
 /// As many eigenvalues as there are modes, in the function space that was not chosen.
@@ -162,13 +159,8 @@ void SurfaceSpectrum::ChooseDepth(
     asked_ = asked;
     const InputMesh mesh = ReadInputMesh(input, state.options.space.threads);
     RequireSurface(*mesh.triangles);
-    depth = FirstDepthForAccuracy(
-      EstimateMemory(*mesh.triangles, 5).functions, request.numberOfModes, request.accuracy);
-    while (depth > MinimumDepth &&
-           !FitsMemory(*mesh.triangles, depth, state.options.choice.kind == FunctionKind::Hats))
-    {
-      --depth;
-    }
+    depth = FirstDepthForModes(*mesh.triangles, request.numberOfModes, request.accuracy,
+      state.options.choice.kind == FunctionKind::Hats);
   }
   state.options.space.depth = depth;
 }

@@ -1,0 +1,53 @@
+#include "Problems/DepthSearch.h"
+
+#include "Grid/Grid.h"
+#include "Problems/MemoryEstimate.h"
+#include "Problems/Requirements.h"
+#include "Problems/SpectrumAccuracy.h"
+
+#include <algorithm>
+
+namespace gridfem
+{
+namespace
+{
+
+/// Estimates on coarse grids may be too large by far, and a depth less on the way costs a
+/// sixteenth.
+constexpr int LongestStep = 2;
+
+} // namespace
+
+void DepthSearch::Judge(const TriangleMesh& mesh, const SolutionAccuracy& errors, double wanted)
+{
+  if (isFound_)
+  {
+    return;
+  }
+  const double error = errors.discretization;
+  const bool isAccurate = error <= wanted;
+  int next = depth_;
+  if (!isAccurate || !(errors.isTrusted || wasAccurate_))
+  {
+    next = error > wanted ? DepthForAccuracy({ error }, depth_, wanted) : depth_ + 1;
+    next = FittingDepth(mesh, std::min({ next, depth_ + LongestStep, MaximumDepth }), depth_);
+  }
+  wasAccurate_ = isAccurate;
+  isFound_ = next == depth_;
+  depth_ = next;
+}
+
+int FirstDepthForModes(const TriangleMesh& mesh, Id modes, double accuracy, bool hatFunctions)
+{
+  const int depth = FirstDepthForAccuracy(EstimateMemory(mesh, 5).functions, modes, accuracy);
+  return FittingDepth(mesh, depth, MinimumDepth, hatFunctions);
+}
+
+int NextDepthForModes(const TriangleMesh& mesh, const std::vector<double>& errors, int depth,
+  double accuracy, bool hatFunctions)
+{
+  const int next = DepthForAccuracy(errors, depth, accuracy);
+  return next == depth || FitsMemory(mesh, next, hatFunctions) ? next : depth;
+}
+
+} // namespace gridfem
