@@ -29,6 +29,7 @@ std::vector<Index> BlockOffsets(
 {
   RequireTotal(blocks, count, what);
   std::vector<Index> begin;
+  begin.reserve(blocks.size() + 1);
   for (const ClipBlock& block : blocks)
   {
     begin.push_back(block.*count);

@@ -560,6 +560,7 @@ MultiVector IntegrateDirections(const GridFunctions& space, const TriangleMesh& 
       constexpr int Columns = std::decay_t<decltype(sums)>::Count;
       const auto& dof = level.dof[space.piecePatch[batch.piece[0]]];
       std::vector<PatchSlopes> slopes;
+      slopes.reserve(Columns);
       for (int c = 0; c < Columns; ++c)
       {
         slopes.emplace_back(dof, coefficients, first + c);
