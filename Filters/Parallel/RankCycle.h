@@ -1,0 +1,108 @@
+// The multigrid cycle on several ranks: PETSc's on the divided levels, with the patch smoother of
+// each rank on its own patches, and Core's on the levels that all ranks share.
+#ifndef GridFEM_RankCycle_h
+#define GridFEM_RankCycle_h
+
+#include "Krylov/ConjugateGradients.h"
+#include "Multigrid/Multigrid.h"
+#include "Parallel/RankMatrices.h"
+#include "Parallel/RankSpace.h"
+
+#include <exception>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace gridfem
+{
+
+/// The patches of a rank's cells, relaxed one after the other on all functions that touch these
+/// cells. Where cells of several ranks touch a function each takes the root of its part of the
+/// residual and gives the root of its part of the correction, so that a backward sweep is the
+/// adjoint of a forward one over all ranks, too.
+class RankSmoother
+{
+public:
+  /// Collective.
+  RankSmoother(Mat matrix, const LevelNumbering& numbering, const PatchLevel& level,
+    const LevelVectors& vectors, const MultigridOptions& options);
+
+  /// Collective. z = one sweep from zero for the residual r.
+  void Sweep(Vec r, Vec z, SweepDirection direction);
+
+private:
+  SparseMatrix matrix_;
+  std::unique_ptr<Smoother> smoother_;
+  std::vector<double> weight_;
+  const LevelVectors& vectors_;
+  int threads_;
+  std::vector<double> entries_;
+  MultiVector b_;
+  MultiVector x_;
+};
+
+/// A symmetric preconditioner for a M + b L on the finest level, and conjugate gradients with it.
+class RankCycle
+{
+public:
+  /// Collective.
+  RankCycle(const RankSpace& space, double a, double b, const MultigridOptions& options);
+  ~RankCycle();
+  RankCycle(const RankCycle&) = delete;
+  RankCycle& operator=(const RankCycle&) = delete;
+
+  /// Of the finest level.
+  const LevelVectors& Vectors() const { return levels_.front().vectors; }
+
+  /// Takes what is solved otherwise out of vectors, as Projection does; collective.
+  using Projection = std::function<void(Vec)>;
+
+  /// Collective. Conjugate gradients for one right-hand side, from zero; `x` gets the solution.
+  /// The tolerance is one of the energy residual. Throws Aborted on all ranks when the progress of
+  /// one asks for it.
+  SolveReport Solve(Vec b, Vec x, const SolveOptions& options, const Projection& ofSolution,
+    const Projection& ofResidual, const Progress& progress);
+
+private:
+  struct Level
+  {
+    PetscMatrix matrix;
+    PetscMatrix prolongation; // from the next level
+    LevelVectors vectors;
+    std::unique_ptr<RankSmoother> smoother;
+  };
+  /// What a sweep of PETSc's cycle is told.
+  struct Sweep
+  {
+    RankCycle* cycle;
+    RankSmoother* smoother;
+    SweepDirection direction;
+  };
+  struct Coarse;
+  struct Watch;
+
+  void BuildLevels(const RankSpace& space, double a, double b, const MultigridOptions& options);
+  void BuildCycle(const MultigridOptions& options);
+  void SetSmoother(KSP solver, Mat matrix, int sweeps, Sweep& sweep);
+  template<class Body>
+  PetscErrorCode Keep(Vec result, Body&& body);
+
+  static PetscErrorCode RunSweep(PC pc, Vec r, Vec z);
+  static PetscErrorCode RunCoarse(PC pc, Vec r, Vec z);
+  static PetscErrorCode Precondition(PC pc, Vec r, Vec z);
+  static PetscErrorCode IsDone(
+    KSP solver, PetscInt iteration, PetscReal norm, KSPConvergedReason* reason, void* context);
+
+  Communicator ranks_;
+  std::vector<Level> levels_; // divided ones, finest first
+  std::vector<Sweep> sweeps_;
+  std::unique_ptr<Coarse> coarse_;
+  PetscCycle cycle_;
+  const Projection* ofSolution_ = nullptr;
+  const Projection* ofResidual_ = nullptr;
+  std::exception_ptr failure_; // of this rank, within PETSc
+};
+
+} // namespace gridfem
+
+#endif
