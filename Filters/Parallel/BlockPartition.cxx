@@ -31,16 +31,15 @@ double ExpectedPieces(const std::array<Vec3, 3>& corner)
 {
   const Vec3 extent = corner[0].cwiseMax(corner[1]).cwiseMax(corner[2]) -
                       corner[0].cwiseMin(corner[1]).cwiseMin(corner[2]);
-  return 1.0 + extent.sum() +
-         0.5 * (corner[1] - corner[0]).cross(corner[2] - corner[0]).norm();
+  return 1.0 + extent.sum() + 0.5 * (corner[1] - corner[0]).cross(corner[2] - corner[0]).norm();
 }
 
 /// Adds up the pieces of blocks with the same key, which become sorted.
 template<class Block>
 void SortAndMerge(std::vector<Block>& blocks)
 {
-  std::stable_sort(blocks.begin(), blocks.end(),
-    [](const Block& a, const Block& b) { return a.key < b.key; });
+  std::stable_sort(
+    blocks.begin(), blocks.end(), [](const Block& a, const Block& b) { return a.key < b.key; });
   std::vector<Block> merged;
   for (const Block& block : blocks)
   {
@@ -79,8 +78,7 @@ BlockPartition::BlockPartition(
       {
         const auto corner = CornersOf(mesh, t, frame.grid);
         met.clear();
-        ForBlocksNear(
-          corner, side, 1 << depth_, Slack, [&](MortonKey key) { met.push_back(key); });
+        ForBlocksNear(corner, side, 1 << depth_, Slack, [&](MortonKey key) { met.push_back(key); });
         for (const MortonKey key : met)
         {
           pieces[key] += ExpectedPieces(corner) / static_cast<double>(met.size());

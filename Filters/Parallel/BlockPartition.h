@@ -22,8 +22,8 @@ public:
   /// @param granularity  the level of the blocks, 1 .. grid.depth - 1; 0: the finest with at most
   ///                     MostBlocks of them
   /// Throws InvalidInput for a granularity outside this range.
-  BlockPartition(const Communicator& ranks, const TriangleMesh& mesh, const ClipFrame& frame,
-    int granularity);
+  BlockPartition(
+    const Communicator& ranks, const TriangleMesh& mesh, const ClipFrame& frame, int granularity);
 
   /// Each of their functions is held by all ranks, on that level and those above it.
   static constexpr Id MostBlocks = 4096;
@@ -42,8 +42,7 @@ public:
 
   /// The ranks whose regions a triangle may meet, ascending.
   /// @param a, b, c  its corners, grid units
-  void FindRanksNear(
-    const Vec3& a, const Vec3& b, const Vec3& c, std::vector<int>& ranks) const;
+  void FindRanksNear(const Vec3& a, const Vec3& b, const Vec3& c, std::vector<int>& ranks) const;
 
   /// How many cells a region reaches beyond its blocks.
   static constexpr int Margin = 2;
@@ -60,9 +59,9 @@ private:
   void ForNeighbours(MortonKey block, Body&& body) const;
 
   int depth_ = 0;
-  int shift_ = 0;                       // cells per side of a block: 2^shift
-  std::vector<MortonKey> blocks_;       // that the surface meets, ascending
-  std::vector<MortonKey> begin_;        // of each rank's range, and one more
+  int shift_ = 0;                 // cells per side of a block: 2^shift
+  std::vector<MortonKey> blocks_; // that the surface meets, ascending
+  std::vector<MortonKey> begin_;  // of each rank's range, and one more
   /// Blocks, and the ranks that own them or a block next to them; ascending.
   std::vector<std::pair<MortonKey, int>> near_;
 };

@@ -109,6 +109,16 @@ void Communicator::ThrowTogether(const std::exception_ptr& failure) const
   throw RankFailure(worst[1], reason);
 }
 
+int Communicator::RanksOfMachine() const
+{
+  MPI_Comm machine = MPI_COMM_NULL;
+  MPI_Comm_split_type(handle_, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &machine);
+  int count = 1;
+  MPI_Comm_size(machine, &count);
+  MPI_Comm_free(&machine);
+  return count;
+}
+
 void Communicator::Sum(double* values, Id count) const
 {
   MPI_Allreduce(MPI_IN_PLACE, values, CountOf(count), MPI_DOUBLE, MPI_SUM, handle_);
@@ -162,8 +172,7 @@ void Communicator::GatherBytes(
     throw InvalidInput("The ranks hold more than 2^31 - 1 items that all of them need.");
   }
   const ItemType type(itemSize);
-  MPI_Allgatherv(
-    own, count[rank_], type, all, count.data(), begin.data(), type, handle_);
+  MPI_Allgatherv(own, count[rank_], type, all, count.data(), begin.data(), type, handle_);
 }
 
 /// From one rank to the next, in parts that MPI can count; only between ranks that have something
@@ -185,10 +194,9 @@ void Communicator::ExchangeBytes(const std::vector<const void*>& out, const std:
   for (int r = 0; r < size_; ++r)
   {
     inParts(received[r],
-      [&](std::size_t offset, int count)
-      {
-        MPI_Irecv(static_cast<char*>(in[r]) + offset, count, type, r, Tag, handle_,
-          &requests.back());
+      [&](std::size_t offset, int count) {
+        MPI_Irecv(
+          static_cast<char*>(in[r]) + offset, count, type, r, Tag, handle_, &requests.back());
       });
   }
   for (int r = 0; r < size_; ++r)

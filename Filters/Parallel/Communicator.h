@@ -18,10 +18,7 @@ namespace gridfem
 /// Thrown on every rank when one has failed; says which, and why.
 struct RankFailure : std::runtime_error
 {
-  RankFailure(int failed, const std::string& reason)
-    : std::runtime_error(reason), rank(failed)
-  {
-  }
+  RankFailure(int failed, const std::string& reason) : std::runtime_error(reason), rank(failed) {}
   int rank;
 };
 
@@ -52,6 +49,9 @@ public:
     }
     this->ThrowTogether(failure);
   }
+
+  /// How many of the ranks run on this machine.
+  int RanksOfMachine() const;
 
   /// Entry by entry over the ranks, in place. The same bits on all ranks.
   void Sum(double* values, Id count) const;

@@ -189,8 +189,8 @@ LevelNumbering NumberLevel(const Communicator& ranks, const BlockPartition& part
     }
   }
   numbering.foreign = static_cast<Index>(functions.size());
-  std::sort(functions.begin(), functions.end(),
-    [&](Index a, Index b) { return number[a] < number[b]; });
+  std::sort(
+    functions.begin(), functions.end(), [&](Index a, Index b) { return number[a] < number[b]; });
   functions.insert(functions.end(), own.begin(), own.end());
   place.assign(level.numberOfFunctions, -1);
   for (std::size_t k = 0; k < functions.size(); ++k)

@@ -21,8 +21,8 @@ int EndPetsc(MPI_Comm, int, void*, void*)
 }
 
 /// Errors are thrown where Check sees them; nothing is printed on the way.
-PetscErrorCode KeepSilent(MPI_Comm, int, const char*, const char*, PetscErrorCode code,
-  PetscErrorType, const char*, void*)
+PetscErrorCode KeepSilent(
+  MPI_Comm, int, const char*, const char*, PetscErrorCode code, PetscErrorType, const char*, void*)
 {
   return code;
 }

@@ -13,9 +13,6 @@ namespace gridfem
 namespace
 {
 
-/// Shared levels below this many functions are solved directly.
-constexpr Index CoarsestSize = 256;
-
 Index LargestComponent(const PatchLevel& level)
 {
   std::vector<Index> size;
@@ -41,7 +38,7 @@ std::vector<MultigridLevel> SharedHierarchy(
     next.A = BuildPattern(level, places, threads);
     AssembleValues(level, places, elements.mass, a, elements.stiffness, b, next.A, threads);
     next.order = OrderPatches(level);
-    if (l + 1 == shared.levels.size() || LargestComponent(level) <= CoarsestSize)
+    if (l + 1 == shared.levels.size() || LargestComponent(level) <= shared.coarsestSize)
     {
       return levels;
     }
@@ -52,38 +49,77 @@ std::vector<MultigridLevel> SharedHierarchy(
   }
 }
 
+/// A level with the same functions.
+PatchLevel WithoutPatches(const PatchLevel& level)
+{
+  PatchLevel none;
+  none.depth = level.depth;
+  none.numberOfFunctions = level.numberOfFunctions;
+  return none;
+}
+
 } // namespace
 
-RankSmoother::RankSmoother(Mat matrix, const LevelNumbering& numbering, const PatchLevel& level,
-  const LevelVectors& vectors, const MultigridOptions& options)
-  : matrix_(RowsOfFunctions(matrix, numbering)), vectors_(vectors), threads_(options.threads)
+RankSmoother::RankSmoother(const Communicator& ranks, Mat matrix, const LevelNumbering& numbering,
+  const PatchLevel& level, const LevelVectors& vectors, const MultigridOptions& options)
+  : whole_(matrix), matrix_(RowsOfFunctions(matrix, numbering)), vectors_(vectors),
+    threads_(options.threads), residual_(vectors.Make()), first_(vectors.Make())
 {
-  smoother_ =
-    options.smoother == SmootherType::GaussSeidel
-      ? MakeGaussSeidel(matrix_, OrderPatches(level))
-      : MakePatchSmoother(matrix_, OrderPatches(level), threads_, options.precision);
-  for (const Index touching : numbering.touching)
-  {
-    weight_.push_back(1.0 / std::sqrt(touching));
-  }
+  double most = 1.0; // ranks that touch one function
+  ranks.Together(
+    [&]
+    {
+      PatchLevel inner = WithoutPatches(level);
+      PatchLevel border = WithoutPatches(level);
+      for (Id patch = 0; patch < level.NumberOfPatches(); ++patch)
+      {
+        Index touching = 1;
+        for (const Index function : level.dof[patch])
+        {
+          touching = std::max(touching, numbering.touching[function]);
+        }
+        most = std::max(most, double(touching));
+        PatchLevel& part = touching > 1 ? border : inner;
+        part.cell.push_back(level.cell[patch]);
+        part.dof.push_back(level.dof[patch]);
+      }
+      inner_ = MakePatchSmoother(matrix_, OrderPatches(inner), threads_, options.precision);
+      border_ = MakePatchSmoother(matrix_, OrderPatches(border), threads_, options.precision);
+    });
+  ranks.Maximum(&most, 1);
+  damping_ = 1.0 / most;
+}
+
+void RankSmoother::Relax(
+  const Smoother& smoother, double damping, Vec r, Vec z, SweepDirection direction)
+{
+  vectors_.Spread(r, entries_);
+  const auto functions = static_cast<Id>(entries_.size());
+  b_ = Eigen::Map<const Eigen::VectorXd>(entries_.data(), functions);
+  x_.setZero(functions, 1);
+  smoother.Sweep(matrix_, b_, x_, direction, threads_);
+  Eigen::Map<Eigen::VectorXd>(entries_.data(), functions) = damping * x_.col(0);
+  vectors_.Add(entries_, z);
 }
 
 void RankSmoother::Sweep(Vec r, Vec z, SweepDirection direction)
 {
-  vectors_.Spread(r, entries_);
-  const auto functions = static_cast<Id>(weight_.size());
-  b_.resize(functions, 1);
-  x_.setZero(functions, 1);
-  for (Id k = 0; k < functions; ++k)
+  const bool isForward = direction == SweepDirection::Forward;
+  const auto relax = [&](bool isInner, Vec residual, Vec result)
   {
-    b_(k, 0) = weight_[k] * entries_[k];
-  }
-  smoother_->Sweep(matrix_, b_, x_, direction, threads_);
-  for (Id k = 0; k < functions; ++k)
+    this->Relax(
+      isInner ? *inner_ : *border_, isInner ? 1.0 : damping_, residual, result, direction);
+  };
+  if (damping_ == 1.0)
   {
-    entries_[k] = weight_[k] * x_(k, 0);
+    relax(true, r, z); // one rank has all
+    return;
   }
-  vectors_.Add(entries_, z);
+  relax(isForward, r, first_);
+  Check(MatMult(whole_, first_, residual_));
+  Check(VecAYPX(residual_, -1.0, r));
+  relax(!isForward, residual_, z);
+  Check(VecAXPY(z, 1.0, first_));
 }
 
 /// The first shared level, solved by one cycle on every rank.
@@ -91,7 +127,8 @@ struct RankCycle::Coarse
 {
   Coarse(const SharedLevels& shared, double a, double b, const MultigridOptions& options)
     : cycle(SharedHierarchy(shared, a, b, options.threads), options),
-      times(options.cycle == CycleType::W ? 2 : 1), functions(shared.levels.front().numberOfFunctions)
+      times(options.cycle == CycleType::W ? 2 : 1),
+      functions(shared.levels.front().numberOfFunctions)
   {
   }
 
@@ -134,8 +171,7 @@ void RankCycle::Coarse::Apply(Vec r, Vec z)
   }
 }
 
-RankCycle::RankCycle(
-  const RankSpace& space, double a, double b, const MultigridOptions& options)
+RankCycle::RankCycle(const RankSpace& space, double a, double b, const MultigridOptions& options)
   : ranks_(space.Ranks())
 {
   StartPetsc(ranks_);
@@ -151,8 +187,7 @@ void RankCycle::BuildLevels(
   const auto& numberings = space.Numberings();
   const Index shared = space.Shared().levels.front().numberOfFunctions;
   const Id ownShared = shared / ranks_.Size() + (ranks_.Rank() < shared % ranks_.Size() ? 1 : 0);
-  ranks_.Together(
-    [&] { coarse_ = std::make_unique<Coarse>(space.Shared(), a, b, options); });
+  ranks_.Together([&] { coarse_ = std::make_unique<Coarse>(space.Shared(), a, b, options); });
   Check(MatCreateShell(ranks_.Handle(), static_cast<PetscInt>(ownShared),
     static_cast<PetscInt>(ownShared), shared, shared, nullptr, coarse_->matrix.Receive()));
   Check(MatSetUp(coarse_->matrix));
@@ -169,7 +204,7 @@ void RankCycle::BuildLevels(
   }
   for (std::size_t l = 0; l < numberings.size(); ++l)
   {
-    levels_[l].smoother = std::make_unique<RankSmoother>(levels_[l].matrix, numberings[l],
+    levels_[l].smoother = std::make_unique<RankSmoother>(ranks_, levels_[l].matrix, numberings[l],
       space.Own().Functions().levels[l], levels_[l].vectors, options);
   }
 }
@@ -182,8 +217,7 @@ void RankCycle::BuildCycle(const MultigridOptions& options)
   Check(PCMGSetLevels(cycle_, levels, nullptr));
   Check(PCMGSetDistinctSmoothUp(cycle_));
   Check(PCMGSetGalerkin(cycle_, PC_MG_GALERKIN_NONE));
-  Check(PCMGSetCycleType(
-    cycle_, options.cycle == CycleType::W ? PC_MG_CYCLE_W : PC_MG_CYCLE_V));
+  Check(PCMGSetCycleType(cycle_, options.cycle == CycleType::W ? PC_MG_CYCLE_W : PC_MG_CYCLE_V));
   Check(PCSetOperators(cycle_, levels_.front().matrix, levels_.front().matrix));
   sweeps_.reserve(2 * levels_.size());
   for (std::size_t l = 0; l < levels_.size(); ++l)
@@ -296,8 +330,8 @@ struct RankCycle::Watch
   const Communicator& ranks;
   const SolveOptions& options;
   const Progress& progress;
+  double size; // of the solution in the energy norm, a lower bound
   SolveReport report;
-  double first = 0.0;
   bool isAborted = false;
 };
 
@@ -306,8 +340,8 @@ PetscErrorCode RankCycle::IsDone(
 {
   Watch& watch = *static_cast<Watch*>(context);
   SolveReport& report = watch.report;
-  watch.first = iteration == 0 ? norm : watch.first;
-  const double energy = watch.first > 0.0 ? norm / watch.first : norm;
+  watch.size = iteration == 0 ? std::max(watch.size, norm) : watch.size;
+  const double energy = watch.size > 0.0 ? norm / watch.size : norm;
   report.iterations = static_cast<int>(iteration);
   report.history.push_back(
     { static_cast<int>(iteration), energy, std::numeric_limits<double>::quiet_NaN() });
@@ -337,12 +371,44 @@ PetscErrorCode RankCycle::IsDone(
   return 0;
 }
 
+/// A start from the coarsest level up, a cycle on each. [T §3.3]
+/// @return a lower bound of the solution's energy norm: bᵀx / |x|_A
+double RankCycle::Start(Vec b, Vec x)
+{
+  Check(PCMGSetType(cycle_, PC_MG_FULL));
+  Check(PCApply(cycle_, b, x));
+  Check(PCMGSetType(cycle_, PC_MG_MULTIPLICATIVE));
+  (*ofSolution_)(x);
+  PetscVector product;
+  Check(VecDuplicate(b, product.Receive()));
+  Check(MatMult(levels_.front().matrix, x, product));
+  double load = 0.0;
+  double energy = 0.0;
+  Check(VecDot(b, x, &load));
+  Check(VecDot(product, x, &energy));
+  return load > 0.0 && energy > 0.0 ? load / std::sqrt(energy) : 0.0;
+}
+
+/// |b - A x| / |b|
+double RankCycle::RelativeResidual(Vec b, Vec x) const
+{
+  PetscVector residual;
+  double size = 0.0;
+  double left = 0.0;
+  Check(VecDuplicate(b, residual.Receive()));
+  Check(MatMult(levels_.front().matrix, x, residual));
+  Check(VecAYPX(residual, -1.0, b));
+  Check(VecNorm(residual, NORM_2, &left));
+  Check(VecNorm(b, NORM_2, &size));
+  return size > 0.0 ? left / size : left;
+}
+
 SolveReport RankCycle::Solve(Vec b, Vec x, const SolveOptions& options,
   const Projection& ofSolution, const Projection& ofResidual, const Progress& progress)
 {
   ofSolution_ = &ofSolution;
   ofResidual_ = &ofResidual;
-  Watch watch{ ranks_, options, progress, {}, 0.0, false };
+  Watch watch{ ranks_, options, progress, this->Start(b, x), {}, false };
   watch.report.end = SolveEnd::Breakdown; // unless the test of convergence says otherwise
   PetscSolver solver;
   PC pc = nullptr;
@@ -350,6 +416,7 @@ SolveReport RankCycle::Solve(Vec b, Vec x, const SolveOptions& options,
   Check(KSPSetType(solver, KSPCG));
   Check(KSPSetNormType(solver, KSP_NORM_NATURAL));
   Check(KSPSetOperators(solver, levels_.front().matrix, levels_.front().matrix));
+  Check(KSPSetInitialGuessNonzero(solver, PETSC_TRUE));
   Check(KSPSetConvergenceTest(solver, IsDone, &watch, nullptr));
   Check(KSPSetTolerances(
     solver, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT, options.maximumIterations));
@@ -376,6 +443,7 @@ SolveReport RankCycle::Solve(Vec b, Vec x, const SolveOptions& options,
   {
     watch.report.end = SolveEnd::Breakdown;
   }
+  watch.report.history.back().residual = this->RelativeResidual(b, x);
   watch.report.converged = watch.report.end == SolveEnd::Converged;
   watch.report.convergenceFactor = MeanFactor(watch.report);
   return watch.report;

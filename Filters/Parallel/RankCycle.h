@@ -16,26 +16,34 @@
 namespace gridfem
 {
 
-/// The patches of a rank's cells, relaxed one after the other on all functions that touch these
-/// cells. Where cells of several ranks touch a function each takes the root of its part of the
-/// residual and gives the root of its part of the correction, so that a backward sweep is the
-/// adjoint of a forward one over all ranks, too.
+/// The patches of a rank's cells, relaxed one after the other, in two steps. Patches without a
+/// function of another rank do not meet those of other ranks: all ranks relax them at once, as one
+/// rank would. Then all ranks relax their other patches from the same residual, and corrections of
+/// functions that several ranks touch are damped so that together they do not overshoot. A backward
+/// sweep is the adjoint of a forward one. Residuals are not weighted: a part of a residual would
+/// not be consistent where the matrix is singular on a few functions, as on small flat pieces.
 class RankSmoother
 {
 public:
-  /// Collective.
-  RankSmoother(Mat matrix, const LevelNumbering& numbering, const PatchLevel& level,
-    const LevelVectors& vectors, const MultigridOptions& options);
+  /// Collective. Keeps a reference to the matrix and the vectors.
+  RankSmoother(const Communicator& ranks, Mat matrix, const LevelNumbering& numbering,
+    const PatchLevel& level, const LevelVectors& vectors, const MultigridOptions& options);
 
   /// Collective. z = one sweep from zero for the residual r.
   void Sweep(Vec r, Vec z, SweepDirection direction);
 
 private:
-  SparseMatrix matrix_;
-  std::unique_ptr<Smoother> smoother_;
-  std::vector<double> weight_;
+  void Relax(const Smoother& smoother, double damping, Vec r, Vec z, SweepDirection direction);
+
+  Mat whole_;
+  SparseMatrix matrix_; // all functions that touch this rank's cells
+  std::unique_ptr<Smoother> inner_;
+  std::unique_ptr<Smoother> border_;
+  double damping_ = 1.0;
   const LevelVectors& vectors_;
   int threads_;
+  PetscVector residual_;
+  PetscVector first_; // what the first step has corrected
   std::vector<double> entries_;
   MultiVector b_;
   MultiVector x_;
@@ -57,7 +65,7 @@ public:
   /// Takes what is solved otherwise out of vectors, as Projection does; collective.
   using Projection = std::function<void(Vec)>;
 
-  /// Collective. Conjugate gradients for one right-hand side, from zero; `x` gets the solution.
+  /// Collective. Conjugate gradients for one right-hand side; `x` gets the solution.
   /// The tolerance is one of the energy residual. Throws Aborted on all ranks when the progress of
   /// one asks for it.
   SolveReport Solve(Vec b, Vec x, const SolveOptions& options, const Projection& ofSolution,
@@ -83,6 +91,8 @@ private:
 
   void BuildLevels(const RankSpace& space, double a, double b, const MultigridOptions& options);
   void BuildCycle(const MultigridOptions& options);
+  double Start(Vec b, Vec x);
+  double RelativeResidual(Vec b, Vec x) const;
   void SetSmoother(KSP solver, Mat matrix, int sweeps, Sweep& sweep);
   template<class Body>
   PetscErrorCode Keep(Vec result, Body&& body);

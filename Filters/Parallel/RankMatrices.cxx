@@ -65,8 +65,7 @@ std::vector<Entry> ExchangeRows(
         const auto owner = std::upper_bound(begins.begin(), begins.end(), number) - begins.begin();
         for (Id k = own.rowBegin[row]; k < own.rowBegin[row + 1]; ++k)
         {
-          messages[owner - 1].push_back(
-            { number, numbering.number[own.column[k]], own.value[k] });
+          messages[owner - 1].push_back({ number, numbering.number[own.column[k]], own.value[k] });
         }
       }
     });
@@ -148,8 +147,8 @@ PetscMatrix RowsOfOwners(const Communicator& ranks, const LevelNumbering& number
       {
         for (Id k = own.rowBegin[row]; k < own.rowBegin[row + 1]; ++k)
         {
-          rows.Add(columnNumber.empty() ? Id{ own.column[k] } : columnNumber[own.column[k]],
-            own.value[k]);
+          rows.Add(
+            columnNumber.empty() ? Id{ own.column[k] } : columnNumber[own.column[k]], own.value[k]);
         }
         rows.EndRow();
       }
@@ -200,8 +199,7 @@ LevelVectors::LevelVectors(const Communicator& ranks, const LevelNumbering& numb
 PetscVector LevelVectors::Make() const
 {
   PetscVector vector;
-  Check(VecCreateMPI(
-    comm_, static_cast<PetscInt>(own_), PETSC_DETERMINE, vector.Receive()));
+  Check(VecCreateMPI(comm_, static_cast<PetscInt>(own_), PETSC_DETERMINE, vector.Receive()));
   return vector;
 }
 

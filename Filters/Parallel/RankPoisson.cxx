@@ -101,9 +101,9 @@ PoissonSolution SolvePoisson(const RankSpace& space, const MultiVector& values,
   }
   RankCycle cycle(space, lambda, 1.0, options.multigrid);
   const LevelVectors& vectors = cycle.Vectors();
-  const RankComponents components(ranks, numbering, vectors, space.Own().Functions().Finest(),
-    space.Own().Operators().integral);
-  progress.Check(0.3);
+  const RankComponents components(
+    ranks, numbering, vectors, space.Own().Functions().Finest(), space.Own().Operators().integral);
+  ranks.Together([&] { progress.Check(0.3); });
 
   const Id own = numbering.OwnFunctions();
   MultiVector rest = SumAtOwners(vectors, values, own);
@@ -122,8 +122,8 @@ PoissonSolution SolvePoisson(const RankSpace& space, const MultiVector& values,
   components.SubtractIntegrals(components.OfIntegrals(rest), rest);
   const Eigen::RowVectorXd left = LargestOf(ranks, rest);
 
-  const auto ofSolution = OnVectors(own,
-    [&](MultiVector& x) { components.AddConstants(-components.OfFunction(x), x); });
+  const auto ofSolution =
+    OnVectors(own, [&](MultiVector& x) { components.AddConstants(-components.OfFunction(x), x); });
   const auto ofResidual = OnVectors(
     own, [&](MultiVector& r) { components.SubtractIntegrals(components.OfIntegrals(r), r); });
   const PetscVector b = vectors.Make();

@@ -23,8 +23,7 @@ ClipFrame FrameOf(const Communicator& ranks, const TriangleMesh& own, const Spac
     {
       Validate(own, options.threads);
       EmbedInGrid({}, {}, options.depth); // refuses a wrong depth
-      const Bounds bounds =
-        BoundsOf(own.points, UsedPoints(own, options.threads), options.threads);
+      const Bounds bounds = BoundsOf(own.points, UsedPoints(own, options.threads), options.threads);
       for (int axis = 0; axis < 3; ++axis)
       {
         extremes[axis] = -bounds.low[axis];
@@ -118,8 +117,8 @@ PatchLevel CellsOfRange(const PatchLevel& level, const PatchRange& range)
   return own;
 }
 
-void SetParents(const PatchLevel& level, const PatchRange& range, Index firstParent,
-  PatchLevel& own)
+void SetParents(
+  const PatchLevel& level, const PatchRange& range, Index firstParent, PatchLevel& own)
 {
   own.parent.resize(own.cell.size());
   for (Index patch = range.first; patch < range.last; ++patch)
@@ -171,8 +170,7 @@ RankSpace::RankSpace(const Communicator& ranks, const TriangleMesh& own,
       all.pointPatch = FindPointPatches(all.clipped, all.piecePatch,
         static_cast<Id>(patches.cell.size()), all.clipped.numberOfInputPoints, functions.threads);
       progress.Check(0.45);
-      PatchLevel finest =
-        BuildFinestLevel(functions.depth, patches, support, functions.threads);
+      PatchLevel finest = BuildFinestLevel(functions.depth, patches, support, functions.threads);
       links = patches.links;
       all.levels = BuildLevels(std::move(finest), std::move(patches.links), support,
         functions.threads, progress.Part(0.45, 0.6));
@@ -188,9 +186,9 @@ RankSpace::RankSpace(const Communicator& ranks, const TriangleMesh& own,
     {
       auto divided = std::make_shared<const GridFunctions>(std::move(all));
       // All levels of this rank, none of which is the coarsest of the whole.
-      auto operators = std::make_shared<const LevelOperators>(BuildLevelOperators(*divided,
-        TriangleRule(options.space.quadratureDegree), functions.threads, -1,
-        progress.Part(0.6, 1.0), options.space.normalStabilization));
+      auto operators = std::make_shared<const LevelOperators>(
+        BuildLevelOperators(*divided, TriangleRule(options.space.quadratureDegree),
+          functions.threads, -1, progress.Part(0.6, 1.0), options.space.normalStabilization));
       own_ = std::make_unique<GridSpace>(std::move(mesh), std::move(divided), std::move(operators));
     });
   const ElementMatrices& coarsest = own_->Operators().elements.back();
@@ -200,6 +198,7 @@ RankSpace::RankSpace(const Communicator& ranks, const TriangleMesh& own,
       ranks_.Gather(std::vector<ElementMatrix>(matrices.begin(), matrices.end()));
     return Array<ElementMatrix>(of.begin(), of.end());
   };
+  shared_.coarsestSize = options.space.coarsestSize;
   shared_.elements.mass = gather(coarsest.mass);
   shared_.elements.stiffness = gather(coarsest.stiffness);
 }
@@ -258,8 +257,8 @@ void RankSpace::Share(const PatchLevel& level, const Array<Link>& links,
   }
   PatchLevel whole;
   whole.depth = level.depth;
-  whole.cell = ranks_.Gather(std::vector<MortonKey>(
-    level.cell.begin() + own.first, level.cell.begin() + own.last));
+  whole.cell = ranks_.Gather(
+    std::vector<MortonKey>(level.cell.begin() + own.first, level.cell.begin() + own.last));
   told = ranks_.Gather(told);
   PatchPartition patches;
   Array<Link> all;

@@ -1,5 +1,5 @@
-// The grid space of a surface that lies on several ranks, as one of them sees it: the functions that
-// touch its cells, and the patches in them. Nobody has the whole but for the coarse levels.
+// The grid space of a surface that lies on several ranks, as one of them sees it: the functions
+// that touch its cells, and the patches in them. Nobody has the whole but for the coarse levels.
 #ifndef GridFEM_RankSpace_h
 #define GridFEM_RankSpace_h
 
@@ -24,6 +24,7 @@ struct SharedLevels
 {
   std::vector<PatchLevel> levels; // finest first, down to depth 0
   ElementMatrices elements;       // of the first
+  Index coarsestSize = 256;       // functions of the largest component that are solved for directly
 };
 
 class RankSpace
@@ -52,8 +53,8 @@ public:
   /// Points at the same place of one sheet have values that are equal bit for bit.
   const Array<Index>& PointPatches() const { return own_->Functions().pointPatch; }
 
-  /// Collective. Values at this rank's own points, from the coefficients of the functions that touch
-  /// its cells.
+  /// Collective. Values at this rank's own points, from the coefficients of the functions that
+  /// touch its cells.
   /// @return per own point; 0 where no rank has a patch with it
   MultiVector ValuesAtPoints(
     const MultiVector& coefficients, Id ownPoints, std::vector<char>* hasValue = nullptr) const;

@@ -28,8 +28,8 @@ std::vector<Id> SizesOf(const std::vector<std::vector<Point>>& lists)
 
 } // namespace
 
-Redistribution::Redistribution(const Communicator& ranks, const TriangleMesh& own,
-  const Grid& grid, const BlockPartition& partition)
+Redistribution::Redistribution(const Communicator& ranks, const TriangleMesh& own, const Grid& grid,
+  const BlockPartition& partition)
   : ranks_(ranks), sentTriangles_(ranks.Size()), sentPoints_(ranks.Size()),
     numberOfOwnPoints_(static_cast<Id>(own.points.size()))
 {
@@ -156,8 +156,7 @@ MultiVector Redistribution::Send(
       {
         for (const Index row : sent[rank])
         {
-          rows[rank].insert(
-            rows[rank].end(), own.row(row).data(), own.row(row).data() + columns);
+          rows[rank].insert(rows[rank].end(), own.row(row).data(), own.row(row).data() + columns);
         }
       }
     });

@@ -45,8 +45,8 @@ inline bool MeetsBox(const std::array<Vec3, 3>& corner, double halfSide)
 /// @param side           of a block
 /// @param blocksPerSide  of the grid
 template<class Body>
-void ForBlocksNear(const std::array<Vec3, 3>& corner, double side, int blocksPerSide, double margin,
-  Body&& body)
+void ForBlocksNear(
+  const std::array<Vec3, 3>& corner, double side, int blocksPerSide, double margin, Body&& body)
 {
   const Vec3 low = corner[0].cwiseMin(corner[1]).cwiseMin(corner[2]);
   const Vec3 high = corner[0].cwiseMax(corner[1]).cwiseMax(corner[2]);
@@ -71,8 +71,8 @@ void ForBlocksNear(const std::array<Vec3, 3>& corner, double side, int blocksPer
       for (int i = first[0]; i <= last[0]; ++i)
       {
         const Vec3 centre = side * (Vec3(i, j, k) + Vec3::Constant(0.5));
-        if (MeetsBox({ corner[0] - centre, corner[1] - centre, corner[2] - centre },
-              0.5 * side + margin))
+        if (MeetsBox(
+              { corner[0] - centre, corner[1] - centre, corner[2] - centre }, 0.5 * side + margin))
         {
           body(MortonEncode({ i, j, k }));
         }

@@ -70,8 +70,8 @@ std::vector<int> Deal(const TriangleMesh& mesh, Dealing dealing, int ranks)
   return rankOf;
 }
 
-TriangleMesh PartOf(const TriangleMesh& mesh, const std::vector<int>& rankOf, int rank,
-  std::vector<Id>* points)
+TriangleMesh PartOf(
+  const TriangleMesh& mesh, const std::vector<int>& rankOf, int rank, std::vector<Id>* points)
 {
   TriangleMesh part;
   std::vector<Id> place(mesh.points.size(), -1);

@@ -16,8 +16,9 @@ struct NamedSurface
   TriangleMesh mesh;
 };
 
-/// A sphere, a torus, many components, a non-manifold soup, an open surface, a plate whose faces lie
-/// on planes of the grid, a few triangles that are longer than the cells, sheets with a thin gap.
+/// A sphere, a torus, many components, a non-manifold soup, an open surface, a plate whose faces
+/// lie on planes of the grid, a few triangles that are longer than the cells, sheets with a thin
+/// gap.
 std::vector<NamedSurface> Surfaces();
 
 enum class Dealing

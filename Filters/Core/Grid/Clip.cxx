@@ -37,7 +37,8 @@ double LargestCoordinate(const TriangleMesh& mesh, const std::vector<char>& used
           used[i] ? std::max(part.value, mesh.points[i].cwiseAbs().maxCoeff()) : part.value;
       }
       return part;
-    }).value;
+    })
+    .value;
 }
 
 Array<Vec3> SnapToPlanes(const Array<Vec3>& points, double side, double tolerance, int threads)

@@ -37,8 +37,8 @@ private:
 /// What a part knows of the whole surface.
 struct ClipFrame
 {
-  Grid grid;                         // of the whole; its depth counts
-  double tolerance = 0.0;            // SnapTolerance of the whole
+  Grid grid;                          // of the whole; its depth counts
+  double tolerance = 0.0;             // SnapTolerance of the whole
   const CellRegion* region = nullptr; // null: all cells
 };
 
