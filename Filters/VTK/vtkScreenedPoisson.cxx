@@ -2,9 +2,11 @@
 
 #include "Private/ClippedArrays.h"
 #include "Private/ClippedMeshWriter.h"
+#include "Private/DistributedPoisson.h"
 #include "Private/InputArray.h"
 #include "Private/InputValidation.h"
 #include "Private/MovedMeshWriter.h"
+#include "Private/Ranks.h"
 #include "Private/SelectedPoints.h"
 #include "Private/SolverOutput.h"
 #include "Private/SurfaceConstrainedPoisson.h"
@@ -13,6 +15,7 @@
 #include "Base/Errors.h"
 #include "Problems/DepthSearch.h"
 
+#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkInformation.h"
@@ -475,6 +478,119 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
   progress.Check(1.0);
 }
 
+/// Whether this rank can take part where all compute together.
+bool vtkScreenedPoisson::CanCompute(vtkInformationVector** inputs, vtkPolyData* input)
+{
+  const gridfem::SurfaceOptions& options = this->State->options;
+  const auto isChosen = [this](int array)
+  {
+    vtkInformation* info = this->GetInputArrayInformation(array);
+    const char* name = info->Get(vtkDataObject::FIELD_NAME());
+    return name && *name && std::string(name) != "None";
+  };
+  const bool isPlain =
+    this->FunctionSpace == Grid && options.space.depth >= gridfem::MinimumDepth &&
+    this->Smoother == PatchSmoother && this->Iteration == ConjugateGradients &&
+    !this->BlocksAsOne && !this->AccuracyDriven && !this->TrackMetric && !this->FillUnknown &&
+    !this->BoundaryValues && !this->SolutionGradient && (isChosen(0) || !this->MovePoints);
+  // Weight, constraints, metric and flux.
+  const bool hasOthers = isChosen(3) || isChosen(4) || isChosen(5) || isChosen(6) ||
+                         vtkDataObject::GetData(inputs[1]) || vtkDataObject::GetData(inputs[2]);
+  const bool isMarked =
+    input && (gridfem::CarriesBasis(input) ||
+               input->GetCellData()->HasArray(vtkDataSetAttributes::GhostArrayName()));
+  return isPlain && !hasOthers && !isMarked;
+}
+
+bool vtkScreenedPoisson::ComputeTogether(
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  const gridfem::Ranks ranks;
+  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
+  const bool hasPolygons = input && input->GetNumberOfPolys() + input->GetNumberOfStrips() > 0;
+  if (!this->Distributed || !gridfem::CanDistribute() ||
+      ranks.Any(!this->CanCompute(inputs, input)) || !ranks.Any(hasPolygons))
+  {
+    return false;
+  }
+  Internals& data = *this->Data;
+  gridfem::InputMesh mesh;
+  gridfem::DistributedRequest request;
+  request.useValueGradient = this->UseValueGradient;
+  request.weight = this->ScreeningWeight;
+  request.gradientScale = this->GradientScale;
+  const gridfem::Progress progress = this->State->bridge.GetProgress();
+  ranks.Together(
+    [&]
+    {
+      gridfem::TriangleRule(this->QuadratureDegree);
+      gridfem::RequireNumber("Tolerance", this->Tolerance);
+      mesh.triangles = std::make_shared<const gridfem::TriangleMesh>();
+      if (hasPolygons)
+      {
+        this->FindArrays(input);
+        request.value = data.Value;
+        request.gradient = data.Gradient;
+        request.scale = data.Scale;
+        mesh = gridfem::ReadInputMesh(input, this->NumberOfThreads);
+      }
+    });
+  gridfem::DistributedSolution solution =
+    gridfem::SolveDistributed(mesh, request, this->State->options, progress);
+  ranks.Together([&] { this->WriteDistributed(input, mesh, solution, outputs); });
+  return true;
+}
+
+/// Port 0 is the rank's own piece with the solution; the table is on the first rank.
+void vtkScreenedPoisson::WriteDistributed(vtkPolyData* input, const gridfem::InputMesh& mesh,
+  gridfem::DistributedSolution& solution, vtkInformationVector* outputs)
+{
+  vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
+  if (input)
+  {
+    output->ShallowCopy(input);
+    vtkDataArray* given = this->Data->Value.array ? this->Data->Value.array
+                          : input->GetPoints()    ? input->GetPoints()->GetData()
+                                                  : nullptr;
+    const bool isOnPoints = this->Data->Value.association == gridfem::FieldAssociation::Points;
+    if (mesh.triangles->points.empty())
+    {
+      solution.values.setZero(input->GetNumberOfPoints(), solution.values.cols());
+    }
+    else if (given && isOnPoints)
+    {
+      gridfem::KeepUnsolved(solution.isSolved, given, solution.values);
+    }
+    auto array = gridfem::MakePointArray("Solution", solution.values,
+      solution.dataType ? solution.dataType
+      : given           ? given->GetDataType()
+                        : VTK_DOUBLE);
+    if (this->Data->Value.array)
+    {
+      array->CopyComponentNames(this->Data->Value.array);
+    }
+    output->GetPointData()->AddArray(array);
+    output->GetPointData()->SetActiveScalars("Solution");
+  }
+  gridfem::AddReport(solution.report, output);
+  gridfem::AddAccuracy({}, output);
+  gridfem::AddFieldInt(output, "UsedDepth", this->Depth);
+  gridfem::AddFieldInt(output, "Distributed", 1);
+  if (!gridfem::Ranks().IsFirst())
+  {
+    return;
+  }
+  vtkTable* table = vtkTable::GetData(outputs, 1);
+  gridfem::WriteHistory(solution.report, table);
+  gridfem::AddErrors(solution.report, {}, table);
+  const std::string warning =
+    gridfem::WarningOf(solution.report, gridfem::DistributedTolerance(this->State->options));
+  if (!warning.empty())
+  {
+    vtkWarningMacro(<< warning);
+  }
+}
+
 void vtkScreenedPoisson::FreeStages()
 {
   this->Superclass::FreeStages();
@@ -497,5 +613,6 @@ void vtkScreenedPoisson::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MovePoints: " << this->MovePoints << "\n";
   os << indent << "BoundaryValues: " << this->BoundaryValues << "\n";
   os << indent << "SolutionGradient: " << this->SolutionGradient << "\n";
+  os << indent << "Distributed: " << this->Distributed << "\n";
   os << indent << "UseValueGradient: " << this->UseValueGradient << "\n";
 }

@@ -80,7 +80,9 @@
 namespace gridfem
 {
 struct ConstrainedLoad;
+struct DistributedSolution;
 struct Field;
+struct InputMesh;
 struct Job;
 struct PoissonLoad;
 class FiniteElementSpace;
@@ -204,6 +206,22 @@ public:
   vtkBooleanMacro(SolutionGradient, bool);
   ///@}
 
+  ///@{
+  /**
+   * On several MPI ranks: when on, all ranks compute, and none gathers the surface, which may be
+   * larger than one machine. The parts of space are divided among them, whatever piece each was
+   * given. That is possible for values and gradients at points or cells on the functions of a grid
+   * of a given Depth, with conjugate gradients and the patch smoother; not with constraints,
+   * weights, unknown values, a flux, a metric, AccuracyDriven, SolutionGradient, moved points, a
+   * given basis, BlocksAsOne, or ghost cells. Where it is not, rank 0 gathers as ever. The field
+   * array `Distributed` says which. A Tolerance of 0 stands for 1e-8 then; errors are not
+   * estimated, and nothing is kept for the next run. Needs a build with PETSc. Default off.
+   */
+  vtkSetMacro(Distributed, bool);
+  vtkGetMacro(Distributed, bool);
+  vtkBooleanMacro(Distributed, bool);
+  ///@}
+
   enum IterationType
   {
     ConjugateGradients = 0,
@@ -235,6 +253,7 @@ protected:
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  bool ComputeTogether(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   void FreeStages() override;
 
   double ScreeningWeight = 100.0;
@@ -247,6 +266,7 @@ protected:
   bool MovePoints = true;
   bool BoundaryValues = false;
   bool SolutionGradient = false;
+  bool Distributed = false;
   int Iteration = ConjugateGradients;
 
 private:
@@ -270,6 +290,9 @@ private:
   void SolveAtDepth(vtkPolyData* input, vtkPolyData* basis, const gridfem::Progress& progress);
   void SolveAccurately(vtkPolyData* input, const gridfem::Progress& progress);
   bool IsAccurate() const;
+  void WriteDistributed(vtkPolyData* input, const gridfem::InputMesh& mesh,
+    gridfem::DistributedSolution& solution, vtkInformationVector* outputs);
+  bool CanCompute(vtkInformationVector** inputs, vtkPolyData* input);
   void Warn();
   void WriteSolution(vtkPolyData* input, vtkPolyData* output);
 

@@ -358,6 +358,10 @@ void vtkSurfaceFEMAlgorithm::ComputeOnRanks(
         surfaces = this->Surface->Of(inputs, this->GetNumberOfInputPorts());
       }
     });
+  if (this->ComputeTogether(surfaces, outputs))
+  {
+    return;
+  }
   this->Ranked->Run(surfaces, this->GetNumberOfInputPorts(), outputs, this->WeldCoincidentPoints,
     this->OwnTimeSteps(),
     [this](vtkInformationVector** gathered, vtkInformationVector* results)
@@ -366,6 +370,11 @@ void vtkSurfaceFEMAlgorithm::ComputeOnRanks(
       gridfem::StampTime(!this->OwnTimeSteps().empty(), gathered[0], results);
       return this->OwnTimeSteps();
     });
+}
+
+bool vtkSurfaceFEMAlgorithm::ComputeTogether(vtkInformationVector**, vtkInformationVector*)
+{
+  return false;
 }
 
 bool vtkSurfaceFEMAlgorithm::KeepsStages()

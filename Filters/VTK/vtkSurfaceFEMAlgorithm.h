@@ -309,6 +309,13 @@ protected:
   virtual void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) = 0;
 
   /**
+   * Called on every one of several MPI ranks, with its own piece, before the surface is gathered.
+   * Returns, the same on all, whether they have filled their outputs together, so that nothing is
+   * gathered. Collective. By default there is no such way.
+   */
+  virtual bool ComputeTogether(vtkInformationVector** inputs, vtkInformationVector* outputs);
+
+  /**
    * Whether what a run has made stays for the next one: KeepStages, and no ReleaseDataFlag.
    */
   bool KeepsStages();

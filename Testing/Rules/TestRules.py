@@ -70,6 +70,15 @@ class Layers(Rule):
                      if p.parent.name not in CORE_LAYERS]
         self.assertNothing(offences, "Not in the folder of a layer " + str(CORE_LAYERS))
 
+    def test_parallel_knows_core_alone(self):
+        allowed = CORE_LAYERS + ("Parallel",)
+        offences = [f"{relative(p)} includes {name}" for p in sources("Filters/Parallel")
+                    for name in re.findall(r'^\s*#\s*include\s*"([^"]+)"', p.read_text(), re.MULTILINE)
+                    if pathlib.PurePath(name).parts[0] not in allowed]
+        offences += [f"{relative(p)} includes {name}" for p in sources("Filters/Core")
+                     for name in included(p) if name.startswith(("Parallel/", "petsc", "mpi"))]
+        self.assertNothing(offences, "Parallel stands on Core, and Core on nothing.")
+
     def test_core_includes_go_one_way(self):
         offences = []
         for path in sources("Filters/Core"):
@@ -100,7 +109,7 @@ class Core(Rule):
         r"|(?<![\w.>])f?(?:printf|puts)\s*\(|(?<![\w:.>])(?:exit|abort|_Exit)\s*\(")
 
     def test_core_neither_prints_nor_ends_the_program(self):
-        offences = [f"{relative(p)}: {match.group().strip()}" for p in sources("Filters/Core")
+        offences = [f"{relative(p)}: {match.group().strip()}" for p in sources("Filters/Core") + sources("Filters/Parallel")
                     for match in self.FORBIDDEN.finditer(without_comments(p.read_text()))]
         self.assertNothing(offences, "Core returns or throws; it never prints, exits or aborts.")
 
@@ -147,7 +156,7 @@ class Tests(Rule):
         offences = [relative(p) for p in sources("Testing", (".cxx",))
                     if re.search(r"\bTEST(?:_F|_P)?\s*\(", p.read_text())
                     and not (p.name.startswith("Test")
-                             and (p.parent.name == "VTK" or p.parent.parent.name == "Core"))]
+                             and (p.parent.name in ("VTK", "Parallel") or p.parent.parent.name == "Core"))]
         offences += [relative(p) for folder in ("Plugin", "Ranks")
                      for p in sources("Testing/" + folder, (".py", ".sh"))
                      if not p.name.startswith("Test") and not self.is_used(p)]

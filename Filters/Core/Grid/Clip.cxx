@@ -1,4 +1,4 @@
-#include "Grid/Clip.h"
+#include "Grid/ClipPart.h"
 
 #include "Base/Errors.h"
 #include "Base/Parallel.h"
@@ -19,16 +19,15 @@ namespace gridfem
 namespace
 {
 
-/// A coordinate this near to a grid plane (in cells) lies on it.
-double SnapTolerance(
-  const TriangleMesh& mesh, const std::vector<char>& used, const Grid& grid, int threads)
+/// Of the used points' coordinates, by absolute value.
+double LargestCoordinate(const TriangleMesh& mesh, const std::vector<char>& used, int threads)
 {
   struct Largest
   {
     double value = 0.0;
     void operator+=(const Largest& other) { value = std::max(value, other.value); }
   };
-  const double largest = ParallelSum(static_cast<Id>(mesh.points.size()), threads, Largest(),
+  return ParallelSum(static_cast<Id>(mesh.points.size()), threads, Largest(),
     [&](Id begin, Id end)
     {
       Largest part;
@@ -38,9 +37,8 @@ double SnapTolerance(
           used[i] ? std::max(part.value, mesh.points[i].cwiseAbs().maxCoeff()) : part.value;
       }
       return part;
-    }).value;
-  const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * largest / grid.spacing;
-  return std::clamp(rounding, 1e-10, 1e-3);
+    })
+    .value;
 }
 
 Array<Vec3> SnapToPlanes(const Array<Vec3>& points, double side, double tolerance, int threads)
@@ -190,18 +188,14 @@ void ClipAndJoin(
   LinkAlongEdges(input.edges, stretches, place, threads, progress.Part(0.9, 1.0), clipped);
 }
 
-} // namespace
-
-ClippedMesh Clip(const TriangleMesh& mesh, const ClipOptions& options, const Progress& progress)
+/// Clips a mesh of valid triangles.
+ClippedMesh ClipInFrame(const TriangleMesh& mesh, const std::vector<char>& used,
+  const ClipFrame& frame, const ClipOptions& options, const Progress& progress)
 {
-  Validate(mesh, options.threads);
   const int threads = NumberOfThreads(options.threads);
-  const std::vector<char> used = UsedPoints(mesh, threads);
   ClippedMesh clipped;
-  clipped.grid = EmbedInGrid(mesh.points, used, options.depth, threads);
+  clipped.grid = frame.grid;
   clipped.numberOfInputPoints = static_cast<Id>(mesh.points.size());
-  progress.Check(0.05);
-
   clipped.position.resize(mesh.points.size());
   ParallelRanges(static_cast<Id>(mesh.points.size()), threads,
     [&](Id begin, Id end)
@@ -211,9 +205,8 @@ ClippedMesh Clip(const TriangleMesh& mesh, const ClipOptions& options, const Pro
         clipped.position[i] = used[i] ? clipped.grid.ToGrid(mesh.points[i]) : Vec3::Zero();
       }
     });
-  const double tolerance = SnapTolerance(mesh, used, clipped.grid, threads);
   const Array<Vec3> snapped =
-    SnapToPlanes(clipped.position, clipped.grid.CellsPerSide(), tolerance, threads);
+    SnapToPlanes(clipped.position, clipped.grid.CellsPerSide(), frame.tolerance, threads);
   Array<Index> pointClass;
   if (options.weldCoincidentPoints)
   {
@@ -225,18 +218,45 @@ ClippedMesh Clip(const TriangleMesh& mesh, const ClipOptions& options, const Pro
     pointClass.resize(mesh.points.size());
     std::iota(pointClass.begin(), pointClass.end(), Index{ 0 });
   }
-  progress.Check(0.15);
+  progress.Check(0.1);
   const MeshEdges edges = BuildMeshEdges(mesh.triangles, pointClass, snapped, threads);
-  progress.Check(0.25);
-  ClipAndJoin(
-    { mesh.triangles, pointClass, snapped, edges, clipped.grid.CellsPerSide(), tolerance }, threads,
-    progress.Part(0.25, 1.0), clipped);
+  progress.Check(0.2);
+  ClipAndJoin({ mesh.triangles, pointClass, snapped, edges, clipped.grid.CellsPerSide(),
+                frame.tolerance, frame.region },
+    threads, progress.Part(0.2, 1.0), clipped);
   if (options.joinAtPoints)
   {
     LinkAtPoints(pointClass, clipped);
   }
   progress.Check(1.0);
   return clipped;
+}
+
+} // namespace
+
+double SnapTolerance(double largest, const Grid& grid)
+{
+  const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * largest / grid.spacing;
+  return std::clamp(rounding, 1e-10, 1e-3);
+}
+
+ClippedMesh Clip(const TriangleMesh& mesh, const ClipOptions& options, const Progress& progress)
+{
+  Validate(mesh, options.threads);
+  const int threads = NumberOfThreads(options.threads);
+  const std::vector<char> used = UsedPoints(mesh, threads);
+  ClipFrame frame;
+  frame.grid = EmbedInGrid(mesh.points, used, options.depth, threads);
+  frame.tolerance = SnapTolerance(LargestCoordinate(mesh, used, threads), frame.grid);
+  progress.Check(0.05);
+  return ClipInFrame(mesh, used, frame, options, progress.Part(0.05, 1.0));
+}
+
+ClippedMesh ClipPart(const TriangleMesh& mesh, const ClipFrame& frame, const ClipOptions& options,
+  const Progress& progress)
+{
+  Validate(mesh, options.threads);
+  return ClipInFrame(mesh, UsedPoints(mesh, options.threads), frame, options, progress);
 }
 
 Index ClippedMesh::CellOf(Id piece) const

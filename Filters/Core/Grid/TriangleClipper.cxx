@@ -37,7 +37,10 @@ void TriangleClipper::Clip(Id triangle, ClipBuffer& store)
   CellIndex cell;
   if (this->IsInOneCell(cell))
   {
-    this->EmitWhole(cell, store);
+    if (!input_.region || input_.region->Contains(cell))
+    {
+      this->EmitWhole(cell, store);
+    }
     return;
   }
   vertices_.clear();
@@ -157,13 +160,13 @@ void TriangleClipper::ClipAxis(const Polygon& polygon, int axis, ClipBuffer& sto
   {
     Polygon& next = above[k % 2];
     this->Split(*rest, axis, planes.first + k, below, next, store);
-    if (below.size > 0)
+    if (below.size > 0 && this->IsNearRegion(axis, planes.first + k - 1))
     {
       this->ClipAxis(below, axis + 1, store);
     }
     rest = &next;
   }
-  if (rest->size > 0)
+  if (rest->size > 0 && this->IsNearRegion(axis, planes.first + planes.count - 1))
   {
     this->ClipAxis(*rest, axis + 1, store);
   }
@@ -318,6 +321,10 @@ void TriangleClipper::Emit(const Polygon& polygon, ClipBuffer& store)
   for (int axis = 0; axis < 3; ++axis)
   {
     cell[axis] = std::clamp(static_cast<int>(low[axis]), 0, input_.cellsPerSide - 1);
+  }
+  if (input_.region && !input_.region->Contains(cell))
+  {
+    return;
   }
   const Index piece = store.Append(MortonEncode(cell), static_cast<Index>(triangle_), nextChunk_);
   const CellCode code = (CellCode{ cell[0] } << ShiftOf(0)) + (CellCode{ cell[1] } << ShiftOf(1)) +

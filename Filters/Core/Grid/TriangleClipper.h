@@ -4,6 +4,7 @@
 #define GridFEM_TriangleClipper_h
 
 #include "Grid/ClipBuffer.h"
+#include "Grid/ClipPart.h"
 #include "Grid/MeshEdges.h"
 
 #include <unordered_map>
@@ -20,7 +21,8 @@ struct ClipInput
   const Array<Vec3>& position;    // of the input points, grid units, snapped to the planes
   const MeshEdges& edges;
   int cellsPerSide;
-  double tolerance; // of snapping
+  double tolerance;         // of snapping
+  const CellRegion* region; // where pieces are wanted; null: everywhere
 };
 
 /// In cache lines of its own, because threads write to theirs all the time.
@@ -106,6 +108,10 @@ private:
   };
 
   bool IsInOneCell(CellIndex& cell);
+  bool IsNearRegion(int axis, int index) const
+  {
+    return !input_.region || input_.region->IsNear(axis, index);
+  }
   void EmitWhole(const CellIndex& cell, ClipBuffer& store);
   void Start();
   void ClipAxis(const Polygon& polygon, int axis, ClipBuffer& store);

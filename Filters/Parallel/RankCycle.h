@@ -1,0 +1,118 @@
+// The multigrid cycle on several ranks: PETSc's on the divided levels, with the patch smoother of
+// each rank on its own patches, and Core's on the levels that all ranks share.
+#ifndef GridFEM_RankCycle_h
+#define GridFEM_RankCycle_h
+
+#include "Krylov/ConjugateGradients.h"
+#include "Multigrid/Multigrid.h"
+#include "Parallel/RankMatrices.h"
+#include "Parallel/RankSpace.h"
+
+#include <exception>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace gridfem
+{
+
+/// The patches of a rank's cells, relaxed one after the other, in two steps. Patches without a
+/// function of another rank do not meet those of other ranks: all ranks relax them at once, as one
+/// rank would. Then all ranks relax their other patches from the same residual, and corrections of
+/// functions that several ranks touch are damped so that together they do not overshoot. A backward
+/// sweep is the adjoint of a forward one. Residuals are not weighted: a part of a residual would
+/// not be consistent where the matrix is singular on a few functions, as on small flat pieces.
+class RankSmoother
+{
+public:
+  /// Collective. Keeps a reference to the matrix and the vectors.
+  RankSmoother(const Communicator& ranks, Mat matrix, const LevelNumbering& numbering,
+    const PatchLevel& level, const LevelVectors& vectors, const MultigridOptions& options);
+
+  /// Collective. z = one sweep from zero for the residual r.
+  void Sweep(Vec r, Vec z, SweepDirection direction);
+
+private:
+  void Relax(const Smoother& smoother, double damping, Vec r, Vec z, SweepDirection direction);
+
+  Mat whole_;
+  SparseMatrix matrix_; // all functions that touch this rank's cells
+  std::unique_ptr<Smoother> inner_;
+  std::unique_ptr<Smoother> border_;
+  double damping_ = 1.0;
+  const LevelVectors& vectors_;
+  int threads_;
+  PetscVector residual_;
+  PetscVector first_; // what the first step has corrected
+  std::vector<double> entries_;
+  MultiVector b_;
+  MultiVector x_;
+};
+
+/// A symmetric preconditioner for a M + b L on the finest level, and conjugate gradients with it.
+class RankCycle
+{
+public:
+  /// Collective.
+  RankCycle(const RankSpace& space, double a, double b, const MultigridOptions& options);
+  ~RankCycle();
+  RankCycle(const RankCycle&) = delete;
+  RankCycle& operator=(const RankCycle&) = delete;
+
+  /// Of the finest level.
+  const LevelVectors& Vectors() const { return levels_.front().vectors; }
+
+  /// Takes what is solved otherwise out of vectors, as Projection does; collective.
+  using Projection = std::function<void(Vec)>;
+
+  /// Collective. Conjugate gradients for one right-hand side; `x` gets the solution.
+  /// The tolerance is one of the energy residual. Throws Aborted on all ranks when the progress of
+  /// one asks for it.
+  SolveReport Solve(Vec b, Vec x, const SolveOptions& options, const Projection& ofSolution,
+    const Projection& ofResidual, const Progress& progress);
+
+private:
+  struct Level
+  {
+    PetscMatrix matrix;
+    PetscMatrix prolongation; // from the next level
+    LevelVectors vectors;
+    std::unique_ptr<RankSmoother> smoother;
+  };
+  /// What a sweep of PETSc's cycle is told.
+  struct Sweep
+  {
+    RankCycle* cycle;
+    RankSmoother* smoother;
+    SweepDirection direction;
+  };
+  struct Coarse;
+  struct Watch;
+
+  void BuildLevels(const RankSpace& space, double a, double b, const MultigridOptions& options);
+  void BuildCycle(const MultigridOptions& options);
+  double Start(Vec b, Vec x);
+  double RelativeResidual(Vec b, Vec x) const;
+  void SetSmoother(KSP solver, Mat matrix, int sweeps, Sweep& sweep);
+  template<class Body>
+  PetscErrorCode Keep(Vec result, Body&& body);
+
+  static PetscErrorCode RunSweep(PC pc, Vec r, Vec z);
+  static PetscErrorCode RunCoarse(PC pc, Vec r, Vec z);
+  static PetscErrorCode Precondition(PC pc, Vec r, Vec z);
+  static PetscErrorCode IsDone(
+    KSP solver, PetscInt iteration, PetscReal norm, KSPConvergedReason* reason, void* context);
+
+  Communicator ranks_;
+  std::vector<Level> levels_; // divided ones, finest first
+  std::vector<Sweep> sweeps_;
+  std::unique_ptr<Coarse> coarse_;
+  PetscCycle cycle_;
+  const Projection* ofSolution_ = nullptr;
+  const Projection* ofResidual_ = nullptr;
+  std::exception_ptr failure_; // of this rank, within PETSc
+};
+
+} // namespace gridfem
+
+#endif

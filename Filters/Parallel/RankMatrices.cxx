@@ -1,0 +1,243 @@
+#include "Parallel/RankMatrices.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace gridfem
+{
+
+namespace
+{
+
+struct Entry
+{
+  Id row;
+  Id column;
+  double value;
+};
+
+/// Rows one after the other, columns with their numbers over all ranks, as PETSc takes them.
+struct Rows
+{
+  std::vector<PetscInt> begin{ 0 };
+  std::vector<PetscInt> column;
+  std::vector<PetscScalar> value;
+
+  void Add(Id columnNumber, double entry)
+  {
+    column.push_back(static_cast<PetscInt>(columnNumber));
+    value.push_back(entry);
+  }
+
+  void EndRow()
+  {
+    RequireIndices(static_cast<double>(column.size()), "entries of a matrix");
+    begin.push_back(static_cast<PetscInt>(column.size()));
+  }
+
+  Id Count() const { return static_cast<Id>(begin.size()) - 1; }
+};
+
+/// Collective.
+PetscMatrix MakeMatrix(const Communicator& ranks, const Rows& rows, Id ownColumns)
+{
+  PetscMatrix matrix;
+  Check(MatCreateMPIAIJWithArrays(ranks.Handle(), static_cast<PetscInt>(rows.Count()),
+    static_cast<PetscInt>(ownColumns), PETSC_DETERMINE, PETSC_DETERMINE, rows.begin.data(),
+    rows.column.data(), rows.value.data(), matrix.Receive()));
+  return matrix;
+}
+
+/// Collective. Entries of rows that belong to other ranks are sent there; those that come here are
+/// sorted by row and column, those of one place in the order of the ranks.
+std::vector<Entry> ExchangeRows(
+  const Communicator& ranks, const LevelNumbering& numbering, const SparseMatrix& own)
+{
+  const std::vector<Id> begins = ranks.Gather(std::vector<Id>{ numbering.begin });
+  std::vector<std::vector<Entry>> messages(ranks.Size());
+  ranks.Together(
+    [&]
+    {
+      for (Index row = 0; row < numbering.foreign; ++row)
+      {
+        const Id number = numbering.number[row];
+        // Ranks without functions begin where the next one does.
+        const auto owner = std::upper_bound(begins.begin(), begins.end(), number) - begins.begin();
+        for (Id k = own.rowBegin[row]; k < own.rowBegin[row + 1]; ++k)
+        {
+          messages[owner - 1].push_back({ number, numbering.number[own.column[k]], own.value[k] });
+        }
+      }
+    });
+  messages = ranks.Exchange(messages);
+  std::vector<Entry> received;
+  ranks.Together(
+    [&]
+    {
+      for (const auto& message : messages)
+      {
+        received.insert(received.end(), message.begin(), message.end());
+      }
+      std::stable_sort(received.begin(), received.end(),
+        [](const Entry& a, const Entry& b)
+        { return a.row != b.row ? a.row < b.row : a.column < b.column; });
+    });
+  return received;
+}
+
+/// The sum of the own entries of a row and of those received, both ascending by column.
+template<class OwnColumn>
+void MergeRow(const SparseMatrix& own, Index row, OwnColumn&& columnOf,
+  std::vector<Entry>::const_iterator first, std::vector<Entry>::const_iterator last, Rows& rows)
+{
+  Id k = own.rowBegin[row];
+  const Id end = own.rowBegin[row + 1];
+  while (k < end || first != last)
+  {
+    constexpr Id None = std::numeric_limits<Id>::max();
+    const Id ownColumn = k < end ? columnOf(own.column[k]) : None;
+    const Id column = std::min(ownColumn, first != last ? first->column : None);
+    double sum = 0.0;
+    if (ownColumn == column)
+    {
+      sum += own.value[k++];
+    }
+    for (; first != last && first->column == column; ++first)
+    {
+      sum += first->value;
+    }
+    rows.Add(column, sum);
+  }
+  rows.EndRow();
+}
+
+} // namespace
+
+PetscMatrix SumOverRanks(
+  const Communicator& ranks, const LevelNumbering& numbering, const SparseMatrix& own)
+{
+  const std::vector<Entry> received = ExchangeRows(ranks, numbering, own);
+  Rows rows;
+  ranks.Together(
+    [&]
+    {
+      auto next = received.begin();
+      for (Index row = numbering.foreign; row < own.rows; ++row)
+      {
+        const auto first = next;
+        while (next != received.end() && next->row == numbering.number[row])
+        {
+          ++next;
+        }
+        MergeRow(
+          own, row, [&](Index column) { return numbering.number[column]; }, first, next, rows);
+      }
+    });
+  return MakeMatrix(ranks, rows, numbering.OwnFunctions());
+}
+
+PetscMatrix RowsOfOwners(const Communicator& ranks, const LevelNumbering& numbering,
+  const SparseMatrix& own, const std::vector<Id>& columnNumber, Id ownColumns)
+{
+  Rows rows;
+  ranks.Together(
+    [&]
+    {
+      for (Index row = numbering.foreign; row < own.rows; ++row)
+      {
+        for (Id k = own.rowBegin[row]; k < own.rowBegin[row + 1]; ++k)
+        {
+          rows.Add(
+            columnNumber.empty() ? Id{ own.column[k] } : columnNumber[own.column[k]], own.value[k]);
+        }
+        rows.EndRow();
+      }
+    });
+  return MakeMatrix(ranks, rows, ownColumns);
+}
+
+SparseMatrix RowsOfFunctions(Mat matrix, const LevelNumbering& numbering)
+{
+  const std::vector<PetscInt> number(numbering.number.begin(), numbering.number.end());
+  PetscIndices functions;
+  Check(ISCreateGeneral(PETSC_COMM_SELF, static_cast<PetscInt>(number.size()), number.data(),
+    PETSC_COPY_VALUES, functions.Receive()));
+  Check(ISSetInfo(functions, IS_SORTED, IS_LOCAL, PETSC_TRUE, PETSC_TRUE));
+  const IS wanted = functions;
+  Mat* parts = nullptr;
+  Check(MatCreateSubMatrices(matrix, 1, &wanted, &wanted, MAT_INITIAL_MATRIX, &parts));
+  PetscInt count = 0;
+  const PetscInt* begin = nullptr;
+  const PetscInt* column = nullptr;
+  PetscBool isDone = PETSC_FALSE;
+  const PetscScalar* value = nullptr;
+  Check(MatGetRowIJ(parts[0], 0, PETSC_FALSE, PETSC_FALSE, &count, &begin, &column, &isDone));
+  Check(MatSeqAIJGetArrayRead(parts[0], &value));
+  SparseMatrix rows;
+  rows.rows = rows.columns = numbering.Functions();
+  rows.rowBegin = Array<Id>(begin, begin + count + 1);
+  rows.column = Array<Index>(column, column + begin[count]);
+  rows.value = Array<double>(value, value + begin[count]);
+  Check(MatSeqAIJRestoreArrayRead(parts[0], &value));
+  Check(MatRestoreRowIJ(parts[0], 0, PETSC_FALSE, PETSC_FALSE, &count, &begin, &column, &isDone));
+  Check(MatDestroySubMatrices(1, &parts));
+  return rows;
+}
+
+LevelVectors::LevelVectors(const Communicator& ranks, const LevelNumbering& numbering)
+  : comm_(ranks.Handle()), own_(numbering.OwnFunctions()), touching_(numbering.Functions())
+{
+  const std::vector<PetscInt> number(numbering.number.begin(), numbering.number.end());
+  PetscIndices functions;
+  Check(ISCreateGeneral(PETSC_COMM_SELF, static_cast<PetscInt>(number.size()), number.data(),
+    PETSC_COPY_VALUES, functions.Receive()));
+  Check(VecCreateSeq(PETSC_COMM_SELF, static_cast<PetscInt>(number.size()), room_.Receive()));
+  const PetscVector whole = this->Make();
+  Check(VecScatterCreate(whole, functions, room_, nullptr, spread_.Receive()));
+}
+
+PetscVector LevelVectors::Make() const
+{
+  PetscVector vector;
+  Check(VecCreateMPI(comm_, static_cast<PetscInt>(own_), PETSC_DETERMINE, vector.Receive()));
+  return vector;
+}
+
+void LevelVectors::Spread(Vec vector, std::vector<double>& entries) const
+{
+  Check(VecScatterBegin(spread_, vector, room_, INSERT_VALUES, SCATTER_FORWARD));
+  Check(VecScatterEnd(spread_, vector, room_, INSERT_VALUES, SCATTER_FORWARD));
+  entries.resize(touching_);
+  VectorEntries room(room_);
+  for (Id k = 0; k < touching_; ++k)
+  {
+    entries[k] = room[k];
+  }
+}
+
+void LevelVectors::Add(const std::vector<double>& entries, Vec sum) const
+{
+  Check(VecZeroEntries(sum));
+  this->Collect(entries, ADD_VALUES, sum);
+}
+
+void LevelVectors::TakeLeast(const std::vector<double>& entries, Vec least) const
+{
+  Check(VecSet(least, std::numeric_limits<double>::max()));
+  this->Collect(entries, MIN_VALUES, least);
+}
+
+void LevelVectors::Collect(const std::vector<double>& entries, InsertMode mode, Vec vector) const
+{
+  {
+    VectorEntries room(room_);
+    for (Id k = 0; k < touching_; ++k)
+    {
+      room[k] = entries[k];
+    }
+  }
+  Check(VecScatterBegin(spread_, room_, vector, mode, SCATTER_REVERSE));
+  Check(VecScatterEnd(spread_, room_, vector, mode, SCATTER_REVERSE));
+}
+
+} // namespace gridfem

@@ -1,0 +1,298 @@
+#include "Parallel/RankSpace.h"
+
+#include "Base/Parallel.h"
+#include "Parallel/OwnPieces.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace gridfem
+{
+
+namespace
+{
+
+/// Collective.
+ClipFrame FrameOf(const Communicator& ranks, const TriangleMesh& own, const SpaceOptions& options)
+{
+  constexpr double Infinity = std::numeric_limits<double>::infinity();
+  std::array<double, 7> extremes; // largest of -x, -y, -z, x, y, z, and of their absolute values
+  ranks.Together(
+    [&]
+    {
+      Validate(own, options.threads);
+      EmbedInGrid({}, {}, options.depth); // refuses a wrong depth
+      const Bounds bounds = BoundsOf(own.points, UsedPoints(own, options.threads), options.threads);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        extremes[axis] = -bounds.low[axis];
+        extremes[3 + axis] = bounds.high[axis];
+      }
+      extremes[6] = 0.0;
+    });
+  ranks.Maximum(extremes.data(), 6);
+  ClipFrame frame;
+  if (extremes[0] == -Infinity)
+  {
+    frame.grid = EmbedInGrid({}, {}, options.depth); // nobody has a triangle
+  }
+  else
+  {
+    const Vec3 low(-extremes[0], -extremes[1], -extremes[2]);
+    const Vec3 high(extremes[3], extremes[4], extremes[5]);
+    frame.grid = EmbedInGrid({ low, high }, {}, options.depth);
+    extremes[6] = low.cwiseAbs().cwiseMax(high.cwiseAbs()).maxCoeff();
+  }
+  frame.tolerance = SnapTolerance(extremes[6], frame.grid);
+  return frame;
+}
+
+/// Of a level's patches, those of the finer one's being given; `links` are replaced.
+void CoarsenLinks(const PatchLevel& fine, int threads, Array<Link>& links)
+{
+  links = LinksOfGroups(links, fine.parent, threads);
+}
+
+/// Whether two patches have the same functions wherever their cells share a corner: then what they
+/// say of a point that both contain is the same.
+bool AgreeOnSharedCorners(const PatchLevel& level, Index a, Index b)
+{
+  const CellIndex cellA = MortonDecode(level.cell[a]);
+  const CellIndex cellB = MortonDecode(level.cell[b]);
+  for (int corner = 0; corner < FunctionsPerPatch; ++corner)
+  {
+    int other = 0;
+    bool isShared = true;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const int offset = cellA[axis] + (corner >> axis & 1) - cellB[axis];
+      isShared &= offset == 0 || offset == 1;
+      other |= (offset & 1) << axis;
+    }
+    if (isShared && level.dof[a][corner] != level.dof[b][other])
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Gives points at the same place of one sheet to one patch, so that their values are equal bit for
+/// bit. Points are in the order of their coordinates.
+void UnitePointPatches(
+  const std::vector<Vec3>& points, const PatchLevel& level, Array<Index>& pointPatch)
+{
+  std::vector<Index> chosen; // of the points at one place
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    if (k > 0 && points[k] != points[k - 1])
+    {
+      chosen.clear();
+    }
+    if (pointPatch[k] < 0)
+    {
+      continue;
+    }
+    const auto same = std::find_if(chosen.begin(), chosen.end(),
+      [&](Index patch) { return AgreeOnSharedCorners(level, patch, pointPatch[k]); });
+    if (same == chosen.end())
+    {
+      chosen.push_back(pointPatch[k]);
+    }
+    else
+    {
+      pointPatch[k] = *same;
+    }
+  }
+}
+
+/// The patches in a range as a level of their own, without functions and parents.
+PatchLevel CellsOfRange(const PatchLevel& level, const PatchRange& range)
+{
+  PatchLevel own;
+  own.depth = level.depth;
+  own.cell.assign(level.cell.begin() + range.first, level.cell.begin() + range.last);
+  own.dof.resize(own.cell.size());
+  return own;
+}
+
+void SetParents(
+  const PatchLevel& level, const PatchRange& range, Index firstParent, PatchLevel& own)
+{
+  own.parent.resize(own.cell.size());
+  for (Index patch = range.first; patch < range.last; ++patch)
+  {
+    own.parent[patch - range.first] = level.parent[patch] - firstParent;
+  }
+}
+
+/// A link of a patch of this rank to a patch that may be another's.
+struct LinkToCell
+{
+  Id patch; // numbered over all ranks
+  MortonKey cell;
+  Index placeInCell;
+};
+
+} // namespace
+
+RankSpace::RankSpace(const Communicator& ranks, const TriangleMesh& own,
+  const RankSpaceOptions& options, const Progress& progress)
+  : ranks_(ranks)
+{
+  const SpaceOptions& functions = options.space.functions;
+  const FunctionSupport support =
+    functions.connectivityAware ? FunctionSupport::ConnectivityAware : FunctionSupport::Plain;
+  ClipFrame frame = FrameOf(ranks_, own, functions);
+  const BlockPartition partition(ranks_, own, frame, options.granularity);
+  distribution_ = std::make_unique<Redistribution>(ranks_, own, frame.grid, partition);
+
+  GridFunctions all; // in and around the cells of this rank
+  Array<Link> links;
+  auto mesh = std::make_shared<TriangleMesh>(distribution_->TakeMesh());
+  ranks_.Together(
+    [&]
+    {
+      progress.Check(0.1);
+      const CellRegion region = partition.RegionOf(ranks_.Rank());
+      frame.region = &region;
+      ClipOptions clip;
+      clip.depth = functions.depth;
+      clip.weldCoincidentPoints = functions.weldCoincidentPoints;
+      clip.joinAtPoints = functions.joinAtPoints;
+      clip.threads = functions.threads;
+      all.support = support;
+      all.clipped = ClipPart(*mesh, frame, clip, progress.Part(0.1, 0.4));
+      PatchPartition patches = BuildPatches(all.clipped, support, functions.threads);
+      Release(all.clipped.links);
+      all.piecePatch = std::move(patches.piecePatch);
+      all.pointPatch = FindPointPatches(all.clipped, all.piecePatch,
+        static_cast<Id>(patches.cell.size()), all.clipped.numberOfInputPoints, functions.threads);
+      progress.Check(0.45);
+      PatchLevel finest = BuildFinestLevel(functions.depth, patches, support, functions.threads);
+      links = patches.links;
+      all.levels = BuildLevels(std::move(finest), std::move(patches.links), support,
+        functions.threads, progress.Part(0.45, 0.6));
+      for (int depth = functions.depth; depth > partition.Depth(); --depth)
+      {
+        CoarsenLinks(all.levels[functions.depth - depth], functions.threads, links);
+      }
+      UnitePointPatches(mesh->points, all.Finest(), all.pointPatch);
+    });
+  this->Divide(all, std::move(links), partition);
+  ranks_.Together(
+    [&]
+    {
+      auto divided = std::make_shared<const GridFunctions>(std::move(all));
+      // All levels of this rank, none of which is the coarsest of the whole.
+      auto operators = std::make_shared<const LevelOperators>(
+        BuildLevelOperators(*divided, TriangleRule(options.space.quadratureDegree),
+          functions.threads, -1, progress.Part(0.6, 1.0), options.space.normalStabilization));
+      own_ = std::make_unique<GridSpace>(std::move(mesh), std::move(divided), std::move(operators));
+    });
+  const ElementMatrices& coarsest = own_->Operators().elements.back();
+  const auto gather = [&](const Array<ElementMatrix>& matrices)
+  {
+    const std::vector<ElementMatrix> of =
+      ranks_.Gather(std::vector<ElementMatrix>(matrices.begin(), matrices.end()));
+    return Array<ElementMatrix>(of.begin(), of.end());
+  };
+  shared_.coarsestSize = options.space.coarsestSize;
+  shared_.elements.mass = gather(coarsest.mass);
+  shared_.elements.stiffness = gather(coarsest.stiffness);
+}
+
+/// Leaves in `all` what this rank owns, with the functions numbered by the places in numberings_.
+void RankSpace::Divide(GridFunctions& all, Array<Link> links, const BlockPartition& partition)
+{
+  const std::size_t divided = all.GetGrid().depth - partition.Depth();
+  std::vector<PatchLevel> levels;
+  std::vector<PatchRange> ranges;
+  for (std::size_t l = 0; l <= divided; ++l)
+  {
+    ranges.push_back(OwnPatches(all.levels[l], partition, ranks_.Rank()));
+    levels.push_back(CellsOfRange(all.levels[l], ranges[l]));
+  }
+  for (std::size_t l = 0; l < divided; ++l)
+  {
+    std::vector<Index> place;
+    numberings_.push_back(NumberLevel(ranks_, partition, all.levels[l], place));
+    levels[l].numberOfFunctions = numberings_[l].Functions();
+    for (Index patch = ranges[l].first; patch < ranges[l].last; ++patch)
+    {
+      for (int corner = 0; corner < FunctionsPerPatch; ++corner)
+      {
+        levels[l].dof[patch - ranges[l].first][corner] = place[all.levels[l].dof[patch][corner]];
+      }
+    }
+    SetParents(all.levels[l], ranges[l], ranges[l + 1].first, levels[l]);
+  }
+  this->Share(all.levels[divided], links, partition, all.support);
+  const Communicator::Share patches = ranks_.ShareOf(levels.back().NumberOfPatches());
+  const auto first = shared_.levels.front().dof.begin() + patches.before;
+  std::copy_n(first, levels.back().dof.size(), levels.back().dof.begin());
+  levels.back().numberOfFunctions = shared_.levels.front().numberOfFunctions;
+  all.levels = std::move(levels);
+  KeepPieces(ranges.front().first, ranges.front().last, all);
+}
+
+void RankSpace::Share(const PatchLevel& level, const Array<Link>& links,
+  const BlockPartition& partition, FunctionSupport support)
+{
+  const PatchRange own = OwnPatches(level, partition, ranks_.Rank());
+  const Communicator::Share share = ranks_.ShareOf(own.last - own.first);
+  std::vector<LinkToCell> told;
+  const auto tell = [&](Index from, Index to)
+  {
+    if (from >= own.first && from < own.last)
+    {
+      told.push_back({ share.before + from - own.first, level.cell[to], PlaceInCell(level, to) });
+    }
+  };
+  for (const Link& link : links)
+  {
+    tell(link.first, link.second);
+    tell(link.second, link.first);
+  }
+  PatchLevel whole;
+  whole.depth = level.depth;
+  whole.cell = ranks_.Gather(
+    std::vector<MortonKey>(level.cell.begin() + own.first, level.cell.begin() + own.last));
+  told = ranks_.Gather(told);
+  PatchPartition patches;
+  Array<Link> all;
+  for (const LinkToCell& link : told)
+  {
+    const auto other = FirstInCell(whole, link.cell) + link.placeInCell;
+    all.emplace_back(static_cast<Index>(link.patch), other);
+  }
+  Array<Index> itself(whole.cell.size());
+  std::iota(itself.begin(), itself.end(), Index{ 0 });
+  patches.links = LinksOfGroups(all, itself); // sorted, each once
+  patches.cell = std::move(whole.cell);
+  PatchLevel finest = BuildFinestLevel(level.depth, patches, support);
+  shared_.levels = BuildLevels(std::move(finest), std::move(patches.links), support);
+}
+
+MultiVector RankSpace::ValuesAtPoints(
+  const MultiVector& coefficients, Id ownPoints, std::vector<char>* hasValue) const
+{
+  MultiVector values;
+  std::vector<char> isHere;
+  ranks_.Together(
+    [&]
+    {
+      values = own_->ValuesAtPoints(coefficients);
+      isHere = own_->PointsWithFunctions();
+    });
+  MultiVector own = MultiVector::Zero(ownPoints, coefficients.cols());
+  std::vector<char> isReturned = distribution_->ReturnPoints(values, isHere, own);
+  if (hasValue)
+  {
+    *hasValue = std::move(isReturned);
+  }
+  return own;
+}
+
+} // namespace gridfem

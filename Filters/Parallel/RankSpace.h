@@ -1,0 +1,76 @@
+// The grid space of a surface that lies on several ranks, as one of them sees it: the functions
+// that touch its cells, and the patches in them. Nobody has the whole but for the coarse levels.
+#ifndef GridFEM_RankSpace_h
+#define GridFEM_RankSpace_h
+
+#include "Parallel/LevelNumbering.h"
+#include "Parallel/Redistribution.h"
+#include "Spaces/GridSpace.h"
+
+#include <memory>
+#include <vector>
+
+namespace gridfem
+{
+
+struct RankSpaceOptions
+{
+  GridSpaceOptions space;
+  int granularity = 0; // level of the blocks that are divided among the ranks; BlockPartition
+};
+
+/// The level of the blocks and those below it, which every rank holds whole.
+struct SharedLevels
+{
+  std::vector<PatchLevel> levels; // finest first, down to depth 0
+  ElementMatrices elements;       // of the first
+  Index coarsestSize = 256;       // functions of the largest component that are solved for directly
+};
+
+class RankSpace
+{
+public:
+  /// Collective. Clips and integrates what the cells of this rank hold.
+  /// @param own  this rank's triangles, world units
+  /// Throws RankFailure, on all ranks, with what went wrong on one, and Aborted.
+  RankSpace(const Communicator& ranks, const TriangleMesh& own, const RankSpaceOptions& options,
+    const Progress& progress = {});
+
+  const Communicator& Ranks() const { return ranks_; }
+  const Redistribution& Distribution() const { return *distribution_; }
+
+  /// The patches of this rank's cells as a space of their own. Its levels are the divided ones and
+  /// the first of the shared ones. Functions of divided levels are those of Numberings(), so that
+  /// matrices and integrals are what the rank's patches add to the whole. Its mesh is the one that
+  /// the rank has received.
+  const GridSpace& Own() const { return *own_; }
+
+  /// Of the divided levels, finest first.
+  const std::vector<LevelNumbering>& Numberings() const { return numberings_; }
+  const SharedLevels& Shared() const { return shared_; }
+
+  /// Places of the received points' patches in this rank's cells; -1 where another rank evaluates.
+  /// Points at the same place of one sheet have values that are equal bit for bit.
+  const Array<Index>& PointPatches() const { return own_->Functions().pointPatch; }
+
+  /// Collective. Values at this rank's own points, from the coefficients of the functions that
+  /// touch its cells.
+  /// @return per own point; 0 where no rank has a patch with it
+  MultiVector ValuesAtPoints(
+    const MultiVector& coefficients, Id ownPoints, std::vector<char>* hasValue = nullptr) const;
+
+private:
+  void Divide(GridFunctions& all, Array<Link> links, const BlockPartition& partition);
+  void Share(const PatchLevel& level, const Array<Link>& links, const BlockPartition& partition,
+    FunctionSupport support);
+
+  Communicator ranks_;
+  std::unique_ptr<Redistribution> distribution_;
+  std::unique_ptr<GridSpace> own_;
+  std::vector<LevelNumbering> numberings_;
+  SharedLevels shared_;
+};
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,225 @@
+#include "Parallel/Redistribution.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace gridfem
+{
+
+namespace
+{
+
+using Point = std::array<double, 3>;
+
+bool IsBefore(const Vec3& a, const Vec3& b)
+{
+  return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+}
+
+std::vector<Id> SizesOf(const std::vector<std::vector<Point>>& lists)
+{
+  std::vector<Id> sizes;
+  for (const auto& list : lists)
+  {
+    sizes.push_back(static_cast<Id>(list.size()));
+  }
+  return sizes;
+}
+
+} // namespace
+
+Redistribution::Redistribution(const Communicator& ranks, const TriangleMesh& own, const Grid& grid,
+  const BlockPartition& partition)
+  : ranks_(ranks), sentTriangles_(ranks.Size()), sentPoints_(ranks.Size()),
+    numberOfOwnPoints_(static_cast<Id>(own.points.size()))
+{
+  ranks_.Together(
+    [&]
+    {
+      RequireIndices(3.0 * static_cast<double>(own.triangles.size()), "corners of triangles");
+      RequireIndices(static_cast<double>(own.points.size()), "points");
+      this->Route(own, grid, partition);
+    });
+  this->Receive(own);
+}
+
+void Redistribution::Route(
+  const TriangleMesh& own, const Grid& grid, const BlockPartition& partition)
+{
+  std::vector<int> near;
+  for (std::size_t t = 0; t < own.triangles.size(); ++t)
+  {
+    const auto& corner = own.triangles[t];
+    partition.FindRanksNear(grid.ToGrid(own.points[corner[0]]), grid.ToGrid(own.points[corner[1]]),
+      grid.ToGrid(own.points[corner[2]]), near);
+    for (const int rank : near)
+    {
+      sentTriangles_[rank].push_back(static_cast<Index>(t));
+    }
+  }
+  std::vector<int> sentTo(own.points.size(), -1);
+  for (int rank = 0; rank < ranks_.Size(); ++rank)
+  {
+    for (const Index t : sentTriangles_[rank])
+    {
+      for (const Id point : own.triangles[t])
+      {
+        if (sentTo[point] != rank)
+        {
+          sentTo[point] = rank;
+          sentPoints_[rank].push_back(static_cast<Index>(point));
+        }
+      }
+    }
+    std::sort(sentPoints_[rank].begin(), sentPoints_[rank].end());
+  }
+}
+
+void Redistribution::Receive(const TriangleMesh& own)
+{
+  using Corners = std::array<Index, 3>; // places among the points sent to the same rank
+  std::vector<std::vector<Point>> points(ranks_.Size());
+  std::vector<std::vector<Corners>> corners(ranks_.Size());
+  ranks_.Together(
+    [&]
+    {
+      std::vector<Index> place(own.points.size());
+      for (int rank = 0; rank < ranks_.Size(); ++rank)
+      {
+        for (const Index point : sentPoints_[rank])
+        {
+          place[point] = static_cast<Index>(points[rank].size());
+          const Vec3& x = own.points[point];
+          // Zeros without a sign: coincident points are equal.
+          points[rank].push_back({ x[0] + 0.0, x[1] + 0.0, x[2] + 0.0 });
+        }
+        for (const Index t : sentTriangles_[rank])
+        {
+          const auto& corner = own.triangles[t];
+          corners[rank].push_back({ place[corner[0]], place[corner[1]], place[corner[2]] });
+        }
+      }
+    });
+  points = ranks_.Exchange(points);
+  corners = ranks_.Exchange(corners);
+  receivedPoints_ = SizesOf(points);
+  ranks_.Together(
+    [&]
+    {
+      std::vector<Vec3> received;
+      std::vector<std::array<Id, 3>> triangles;
+      for (int rank = 0; rank < ranks_.Size(); ++rank)
+      {
+        const auto first = static_cast<Id>(received.size());
+        for (const Point& point : points[rank])
+        {
+          received.emplace_back(point[0], point[1], point[2]);
+        }
+        for (const Corners& corner : corners[rank])
+        {
+          triangles.push_back({ first + corner[0], first + corner[1], first + corner[2] });
+        }
+        points[rank] = {};
+        corners[rank] = {};
+      }
+      RequireIndices(static_cast<double>(received.size()), "points");
+      std::vector<Index> order(received.size());
+      std::iota(order.begin(), order.end(), Index{ 0 });
+      std::stable_sort(order.begin(), order.end(),
+        [&](Index a, Index b) { return IsBefore(received[a], received[b]); });
+      pointPlace_.resize(received.size());
+      mesh_.points.resize(received.size());
+      for (std::size_t k = 0; k < order.size(); ++k)
+      {
+        pointPlace_[order[k]] = static_cast<Index>(k);
+        mesh_.points[k] = received[order[k]];
+      }
+      for (auto& corner : triangles)
+      {
+        corner = { pointPlace_[corner[0]], pointPlace_[corner[1]], pointPlace_[corner[2]] };
+      }
+      mesh_.triangles = std::move(triangles);
+      trianglePlace_.resize(mesh_.triangles.size());
+      std::iota(trianglePlace_.begin(), trianglePlace_.end(), Index{ 0 });
+    });
+}
+
+MultiVector Redistribution::Send(
+  const MultiVector& own, const Lists& sent, const std::vector<Index>& place) const
+{
+  const Id columns = own.cols();
+  std::vector<std::vector<double>> rows(ranks_.Size());
+  ranks_.Together(
+    [&]
+    {
+      for (int rank = 0; rank < ranks_.Size(); ++rank)
+      {
+        for (const Index row : sent[rank])
+        {
+          rows[rank].insert(rows[rank].end(), own.row(row).data(), own.row(row).data() + columns);
+        }
+      }
+    });
+  rows = ranks_.Exchange(rows);
+  MultiVector received(static_cast<Id>(place.size()), columns);
+  std::size_t k = 0;
+  for (const auto& ofRank : rows)
+  {
+    for (std::size_t begin = 0; begin < ofRank.size(); begin += columns)
+    {
+      std::copy_n(ofRank.data() + begin, columns, received.row(place[k++]).data());
+    }
+  }
+  return received;
+}
+
+MultiVector Redistribution::SendPoints(const MultiVector& own) const
+{
+  return this->Send(own, sentPoints_, pointPlace_);
+}
+
+MultiVector Redistribution::SendTriangles(const MultiVector& own) const
+{
+  return this->Send(own, sentTriangles_, trianglePlace_);
+}
+
+std::vector<char> Redistribution::ReturnPoints(
+  const MultiVector& rows, const std::vector<char>& isKnown, MultiVector& own) const
+{
+  const Id columns = rows.cols();
+  std::vector<std::vector<Index>> which(ranks_.Size()); // of the points that a rank has sent here
+  std::vector<std::vector<double>> values(ranks_.Size());
+  ranks_.Together(
+    [&]
+    {
+      std::size_t k = 0;
+      for (int rank = 0; rank < ranks_.Size(); ++rank)
+      {
+        for (Index point = 0; point < receivedPoints_[rank]; ++point, ++k)
+        {
+          const Index place = pointPlace_[k];
+          if (isKnown[place])
+          {
+            which[rank].push_back(point);
+            values[rank].insert(
+              values[rank].end(), rows.row(place).data(), rows.row(place).data() + columns);
+          }
+        }
+      }
+    });
+  which = ranks_.Exchange(which);
+  values = ranks_.Exchange(values);
+  std::vector<char> isReturned(numberOfOwnPoints_, 0);
+  for (int rank = 0; rank < ranks_.Size(); ++rank)
+  {
+    for (std::size_t k = 0; k < which[rank].size(); ++k)
+    {
+      const Index point = sentPoints_[rank][which[rank][k]];
+      std::copy_n(values[rank].data() + k * columns, columns, own.row(point).data());
+      isReturned[point] = 1;
+    }
+  }
+  return isReturned;
+}
+
+} // namespace gridfem

@@ -1,0 +1,60 @@
+// The way of a surface from the ranks that were given it to those that compute with it, and back:
+// every triangle goes to all ranks whose region it may meet. [BlockPartition.h]
+#ifndef GridFEM_Redistribution_h
+#define GridFEM_Redistribution_h
+
+#include "Grid/TriangleMesh.h"
+#include "Parallel/BlockPartition.h"
+
+#include <vector>
+
+namespace gridfem
+{
+
+class Redistribution
+{
+public:
+  /// Collective. Triangles are numbered rank after rank, points as well.
+  /// @param own  the triangles that this rank was given; a border's points are repeated
+  Redistribution(const Communicator& ranks, const TriangleMesh& own, const Grid& grid,
+    const BlockPartition& partition);
+
+  /// What this rank has received: triangles in the order of their numbers; points in the order of
+  /// their coordinates, coincident ones in the order of their numbers. The order is part of what
+  /// makes clipping the same on all ranks. Gives up the mesh.
+  TriangleMesh TakeMesh() { return std::move(mesh_); }
+
+  /// Collective. Rows of a field at the points, or on the triangles, of the received mesh.
+  /// @param own  rows of this rank's own points or triangles; the same columns on all ranks
+  MultiVector SendPoints(const MultiVector& own) const;
+  MultiVector SendTriangles(const MultiVector& own) const;
+
+  /// Collective. The way back: rows at received points, of which one rank has each.
+  /// @param rows   at the received points
+  /// @param isKnown  which of them are returned
+  /// @param own    gets the rows; those that no rank returns are left as they are
+  /// @return  per own point whether a rank has returned it
+  std::vector<char> ReturnPoints(
+    const MultiVector& rows, const std::vector<char>& isKnown, MultiVector& own) const;
+
+private:
+  using Lists = std::vector<std::vector<Index>>; // one per rank
+
+  void Route(const TriangleMesh& own, const Grid& grid, const BlockPartition& partition);
+  void Receive(const TriangleMesh& own);
+  MultiVector Send(
+    const MultiVector& own, const Lists& sent, const std::vector<Index>& place) const;
+
+  Communicator ranks_;
+  Lists sentTriangles_; // own triangles that go to each rank, ascending
+  Lists sentPoints_;    // own points of these, ascending
+  Id numberOfOwnPoints_ = 0;
+  std::vector<Index> pointPlace_;    // in the received mesh, of received points rank after rank
+  std::vector<Index> trianglePlace_; // the same for triangles
+  std::vector<Id> receivedPoints_;   // from each rank
+  TriangleMesh mesh_;
+};
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,227 @@
+#include "DistributedPoisson.h"
+
+namespace gridfem
+{
+
+double DistributedTolerance(const SurfaceOptions& options)
+{
+  return options.solve.tolerance > 0.0 ? options.solve.tolerance : 1e-8;
+}
+
+} // namespace gridfem
+
+#if GRIDFEM_HAS_PARALLEL
+
+#include "Ranks.h"
+
+#include "Base/Parallel.h"
+#include "Parallel/RankPoisson.h"
+#include "vtkSurfaceFEMAlgorithm.h"
+
+#include "vtkDataArray.h"
+#include "vtkMPI.h"
+#include "vtkMPICommunicator.h"
+#include "vtkMPIController.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace gridfem
+{
+namespace
+{
+
+vtkMPICommunicator* MpiOfVtk()
+{
+  auto* controller =
+    vtkMPIController::SafeDownCast(vtkMultiProcessController::GetGlobalController());
+  return controller ? vtkMPICommunicator::SafeDownCast(controller->GetCommunicator()) : nullptr;
+}
+
+/// A chosen array as all ranks see it, also those whose piece is empty.
+struct Shape
+{
+  int columns = 0; // 0: no array
+  int isOnCells = 0;
+  int dataType = 0;
+};
+
+/// Collective.
+Shape ShapeOf(const Communicator& ranks, const InputArray& array)
+{
+  Shape own;
+  if (array.array)
+  {
+    own = { array.array->GetNumberOfComponents(),
+      array.association == FieldAssociation::Triangles ? 1 : 0, array.array->GetDataType() };
+  }
+  Shape whole;
+  std::vector<Shape> all = ranks.Gather(std::vector<Shape>{ own });
+  for (const Shape& shape : all)
+  {
+    whole = whole.columns == 0 ? shape : whole;
+  }
+  ranks.Together(
+    [&]
+    {
+      if (own.columns > 0 && (own.columns != whole.columns || own.isOnCells != whole.isOnCells))
+      {
+        throw InvalidInput("Array '" + array.name +
+                           "' has other components here than on another rank, or is of cells here "
+                           "and of points there.");
+      }
+    });
+  return whole;
+}
+
+/// Collective. A field on the mesh that this rank has received.
+std::optional<Field> SendField(
+  const RankSpace& space, const InputMesh& mesh, const InputArray& array, const Shape& shape)
+{
+  if (shape.columns == 0)
+  {
+    return std::nullopt;
+  }
+  Field field;
+  field.association = shape.isOnCells ? FieldAssociation::Triangles : FieldAssociation::Points;
+  MultiVector own(0, shape.columns);
+  space.Ranks().Together(
+    [&]
+    {
+      if (array.array)
+      {
+        own = ReadField(array, mesh).values;
+      }
+    });
+  field.values = shape.isOnCells ? space.Distribution().SendTriangles(own)
+                                 : space.Distribution().SendPoints(own);
+  return field;
+}
+
+/// Collective. λ per squared side of a cell.
+double WeightInCells(const RankSpace& space, const InputMesh& mesh, double weight, int units)
+{
+  const double side = space.Own().UnitLength();
+  double area = SurfaceArea(*mesh.triangles);
+  space.Ranks().Sum(&area, 1);
+  if (!(area > 0.0))
+  {
+    throw InvalidInput("The surface has no area: all polygons are degenerate.");
+  }
+  const double cube = side * space.Own().Extent();
+  const double length2 = units == vtkSurfaceFEMAlgorithm::UnitArea   ? area
+                         : units == vtkSurfaceFEMAlgorithm::UnitCube ? cube * cube
+                                                                     : 1.0;
+  return weight / length2 * side * side;
+}
+
+DistributedSolution Solve(const Communicator& ranks, const InputMesh& mesh,
+  const DistributedRequest& request, const SurfaceOptions& options, const Progress& progress)
+{
+  const Shape value = ShapeOf(ranks, request.value);
+  const Shape gradient = ShapeOf(ranks, request.gradient);
+  const Shape scale = ShapeOf(ranks, request.scale);
+  RankSpaceOptions spaceOptions;
+  spaceOptions.space.functions = options.space;
+  // Ranks of one machine share its processors.
+  spaceOptions.space.functions.threads =
+    options.space.threads > 0 ? options.space.threads
+                              : std::max(1, NumberOfThreads(0) / ranks.RanksOfMachine());
+  spaceOptions.space.quadratureDegree = options.choice.quadratureDegree;
+  spaceOptions.space.coarsestSize = options.choice.coarsestSize;
+  spaceOptions.space.normalStabilization = options.choice.normalStabilization;
+  const RankSpace space(ranks, *mesh.triangles, spaceOptions, progress.Part(0.0, 0.4));
+
+  const std::optional<Field> given = SendField(space, mesh, request.value, value);
+  const std::optional<Field> vectors = SendField(space, mesh, request.gradient, gradient);
+  const std::optional<Field> factor = SendField(space, mesh, request.scale, scale);
+  MultiVector values;
+  MultiVector gradients;
+  ranks.Together(
+    [&]
+    {
+      const GridSpace& own = space.Own();
+      const Job job(spaceOptions.space.functions.threads, progress.Part(0.4, 0.5));
+      const Field* const factors = factor ? &*factor : nullptr;
+      values = own.LoadOfValues(given ? *given : CoordinatesOf(own.Mesh()), job);
+      if (vectors)
+      {
+        gradients = own.LoadOfGradients(*vectors, factors, job);
+      }
+      else if (request.useValueGradient)
+      {
+        gradients = given ? own.LoadOfGradientsOf(*given, factors, job)
+                          : own.LoadOfGradientsOfCoordinates(factors, job);
+      }
+      gradients *= request.gradientScale;
+    });
+
+  RankPoissonOptions poisson;
+  poisson.screeningWeight = WeightInCells(space, mesh, request.weight, options.parameterUnits);
+  poisson.multigrid = options.multigrid;
+  poisson.multigrid.threads = spaceOptions.space.functions.threads;
+  poisson.solve = options.solve;
+  poisson.solve.tolerance = DistributedTolerance(options);
+  PoissonSolution found = SolvePoisson(space, values, gradients, poisson, progress.Part(0.5, 1.0));
+  DistributedSolution solution;
+  solution.values = space.ValuesAtPoints(
+    found.coefficients, static_cast<Id>(mesh.triangles->points.size()), &solution.isSolved);
+  solution.dataType = request.value.array || value.columns > 0 ? value.dataType : 0;
+  solution.report = std::move(found.report);
+  return solution;
+}
+
+} // namespace
+
+bool CanDistribute()
+{
+  return MpiOfVtk() != nullptr;
+}
+
+DistributedSolution SolveDistributed(const InputMesh& mesh, const DistributedRequest& request,
+  const SurfaceOptions& options, const Progress& progress)
+{
+  const Communicator ranks(*MpiOfVtk()->GetMPIComm()->GetHandle());
+  try
+  {
+    return Solve(ranks, mesh, request, options, progress);
+  }
+  catch (const RankFailure& failure)
+  {
+    if (ranks.Rank() > 0)
+    {
+      throw FailedElsewhere();
+    }
+    throw InvalidInput("Rank " + std::to_string(failure.rank) + ": " + failure.what());
+  }
+  catch (const InvalidInput&) // of what is the same on all ranks
+  {
+    if (ranks.Rank() > 0)
+    {
+      throw FailedElsewhere();
+    }
+    throw;
+  }
+}
+
+} // namespace gridfem
+
+#else
+
+namespace gridfem
+{
+
+bool CanDistribute()
+{
+  return false;
+}
+
+DistributedSolution SolveDistributed(
+  const InputMesh&, const DistributedRequest&, const SurfaceOptions&, const Progress&)
+{
+  throw InvalidInput("This build has no PETSc.");
+}
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,200 @@
+// One screened Poisson equation on the ranks that the program runs on, and on one process by Core
+// alone. Prints one row of a table: run it once for each number of ranks.
+//
+//   mpiexec -n N BenchmarkRanks MESH DEPTH [core]
+//
+// MESH is a file, which the first rank reads and the others get their part of, or torus:N, of which
+// every rank makes its own N x N / 4 quadrilaterals' share, so that none ever holds the whole.
+#include "Base/Parallel.h"
+#include "Parallel/RankPoisson.h"
+#include "Problems/Poisson.h"
+#include "Support/Meshes.h"
+
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+using namespace gridfem;
+
+namespace
+{
+
+constexpr double Weight = 0.01; // for a surface whose longest side is 1
+constexpr double Tolerance = 1e-8;
+
+/// Rows first .. last of a torus of `along` rows.
+TriangleMesh TorusRows(Id along, Id first, Id last)
+{
+  constexpr double Turn = 6.283185307179586;
+  const Id around = along / 4;
+  TriangleMesh mesh;
+  const auto point = [&](Id row, Id k)
+  {
+    const double u = Turn * double(row % along) / double(along);
+    const double v = Turn * double(k) / double(around);
+    const double radius = 1.0 + 0.4 * std::cos(v) * (1.0 + 0.1 * std::sin(40.0 * u));
+    return Vec3(radius * std::cos(u), radius * std::sin(u), 0.4 * std::sin(v));
+  };
+  for (Id row = first; row <= last; ++row)
+  {
+    for (Id k = 0; k < around; ++k)
+    {
+      mesh.points.push_back(point(row, k));
+    }
+  }
+  for (Id row = 0; row < last - first; ++row)
+  {
+    for (Id k = 0; k < around; ++k)
+    {
+      const Id next = (k + 1) % around;
+      const Id a = row * around;
+      const Id b = (row + 1) * around;
+      mesh.triangles.push_back({ a + k, b + k, b + next });
+      mesh.triangles.push_back({ a + k, b + next, a + next });
+    }
+  }
+  return mesh;
+}
+
+TriangleMesh OwnPart(const Communicator& ranks, const std::string& name)
+{
+  if (name.rfind("torus:", 0) == 0)
+  {
+    const Id along = std::atoll(name.c_str() + 6);
+    return TorusRows(
+      along, along * ranks.Rank() / ranks.Size(), along * (ranks.Rank() + 1) / ranks.Size());
+  }
+  return ranks.Rank() == 0 ? testing::ReadMesh(name) : TriangleMesh();
+}
+
+MultiVector WaveAt(const std::vector<Vec3>& points)
+{
+  MultiVector values(static_cast<Id>(points.size()), 1);
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    values(static_cast<Id>(k), 0) = std::sin(9.0 * points[k][0]) * std::cos(7.0 * points[k][1]);
+  }
+  return values;
+}
+
+double PeakMegabytes()
+{
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return double(usage.ru_maxrss) / 1024.0;
+}
+
+class Stopwatch
+{
+public:
+  double Seconds() const
+  {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  }
+
+private:
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+struct Measured
+{
+  double before; // memory with the mesh alone
+  double setUp;
+  double solve;
+  Id functions;
+  SolveReport report;
+};
+
+Measured OnRanks(const Communicator& ranks, const std::string& name, int depth)
+{
+  const TriangleMesh own = OwnPart(ranks, name);
+  Measured measured{ PeakMegabytes(), 0.0, 0.0, 0, {} };
+  const Stopwatch setUp;
+  RankSpaceOptions options;
+  options.space.functions.depth = depth;
+  options.space.functions.threads = std::max(1, NumberOfThreads(0) / ranks.RanksOfMachine());
+  const RankSpace space(ranks, own, options);
+  Field f;
+  f.values = space.Distribution().SendPoints(WaveAt(own.points));
+  const MultiVector values = space.Own().LoadOfValues(f);
+  measured.setUp = setUp.Seconds();
+  const Stopwatch solve;
+  RankPoissonOptions poisson;
+  const double cell = 1.0 / space.Own().Extent();
+  poisson.screeningWeight = Weight * cell * cell;
+  poisson.solve.tolerance = Tolerance;
+  poisson.multigrid.threads = options.space.functions.threads;
+  const PoissonSolution solution = SolvePoisson(space, values, MultiVector(), poisson);
+  space.ValuesAtPoints(solution.coefficients, static_cast<Id>(own.points.size()));
+  measured.solve = solve.Seconds();
+  measured.functions = space.Numberings().front().total;
+  measured.report = solution.report;
+  return measured;
+}
+
+Measured OnCore(const std::string& name, int depth)
+{
+  TriangleMesh mesh = OwnPart(Communicator(MPI_COMM_SELF), name);
+  Measured measured{ PeakMegabytes(), 0.0, 0.0, 0, {} };
+  const Field f{ FieldAssociation::Points, WaveAt(mesh.points) };
+  const Stopwatch setUp;
+  GridSpaceOptions options;
+  options.functions.depth = depth;
+  const GridSpace space = BuildGridSpace(std::move(mesh), options);
+  const MultiVector values = space.LoadOfValues(f);
+  measured.setUp = setUp.Seconds();
+  const Stopwatch solve;
+  PoissonOptions poisson;
+  const double cell = 1.0 / space.Extent();
+  poisson.screeningWeight = Weight * cell * cell;
+  poisson.solve.tolerance = Tolerance;
+  const Multigrid multigrid =
+    BuildMultigrid(space, poisson.screeningWeight, 1.0, poisson.multigrid);
+  const PoissonSolution solution = SolvePoisson(space, multigrid, values, MultiVector(), poisson);
+  space.ValuesAtPoints(solution.coefficients);
+  measured.solve = solve.Seconds();
+  measured.functions = space.NumberOfFunctions(0);
+  measured.report = solution.report;
+  return measured;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  if (argc < 3)
+  {
+    std::fprintf(stderr, "Usage: mpiexec -n N BenchmarkRanks MESH|torus:N DEPTH [core]\n");
+    return 2;
+  }
+  MPI_Init(&argc, &argv);
+  int failed = 0;
+  try
+  {
+    const Communicator ranks(MPI_COMM_WORLD);
+    const bool isCore = argc > 3;
+    const Measured measured =
+      isCore ? OnCore(argv[1], std::atoi(argv[2])) : OnRanks(ranks, argv[1], std::atoi(argv[2]));
+    double peak = PeakMegabytes();
+    ranks.Maximum(&peak, 1);
+    if (ranks.Rank() == 0)
+    {
+      std::printf("| %s | %d | %s | %lld | %d%s | %.1f | %.1f | %.0f | %.0f |\n", argv[1],
+        std::atoi(argv[2]), isCore ? "Core" : std::to_string(ranks.Size()).c_str(),
+        static_cast<long long>(measured.functions), measured.report.iterations,
+        measured.report.converged ? "" : " (not converged)", measured.setUp, measured.solve,
+        measured.before, peak);
+    }
+  }
+  catch (const std::exception& error)
+  {
+    std::fprintf(stderr, "%s\n", error.what());
+    failed = 1;
+  }
+  MPI_Finalize();
+  return failed;
+}

@@ -1,0 +1,242 @@
+// The space on several ranks is that of one rank: the same patches and functions on every level,
+// the same entries of M, L and the prolongations.
+#include "Parallel/RankSpace.h"
+#include "Surfaces.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+constexpr int Depth = 5;
+
+RankSpaceOptions Options(bool connectivityAware, int granularity)
+{
+  RankSpaceOptions options;
+  options.space.functions.depth = Depth;
+  options.space.functions.connectivityAware = connectivityAware;
+  options.space.functions.threads = 1;
+  options.space.coarsestSize = 0;
+  options.granularity = granularity;
+  return options;
+}
+
+struct Entry
+{
+  Id row;
+  Id column;
+  double value;
+};
+
+/// A level as all ranks have it together; collective to make.
+struct GatheredLevel
+{
+  std::vector<MortonKey> cells;
+  std::vector<Id> numbers; // of the functions, eight for each patch
+  Id total = 0;
+  std::vector<Entry> mass;
+  std::vector<Entry> stiffness;
+  std::vector<Entry> prolongation;
+};
+
+Id NumberOf(const RankSpace& space, std::size_t level, Index function)
+{
+  return level < space.Numberings().size() ? space.Numberings()[level].number[function] : function;
+}
+
+std::vector<Entry> EntriesOf(const RankSpace& space, const SparseMatrix& own, Index firstRow,
+  std::size_t rowLevel, std::size_t columnLevel)
+{
+  std::vector<Entry> entries;
+  for (Index row = firstRow; row < own.rows; ++row)
+  {
+    for (Id k = own.rowBegin[row]; k < own.rowBegin[row + 1]; ++k)
+    {
+      entries.push_back({ NumberOf(space, rowLevel, row),
+        NumberOf(space, columnLevel, own.column[k]), own.value[k] });
+    }
+  }
+  return space.Ranks().Gather(entries);
+}
+
+std::vector<GatheredLevel> GatherLevels(const RankSpace& space)
+{
+  const std::size_t divided = space.Numberings().size();
+  std::vector<GatheredLevel> levels(divided + 1);
+  for (std::size_t l = 0; l <= divided; ++l)
+  {
+    const PatchLevel& own = space.Own().Functions().levels[l];
+    levels[l].cells = space.Ranks().Gather(own.cell);
+    std::vector<Id> numbers;
+    for (const auto& dof : own.dof)
+    {
+      for (const Index function : dof)
+      {
+        numbers.push_back(NumberOf(space, l, function));
+      }
+    }
+    levels[l].numbers = space.Ranks().Gather(numbers);
+    levels[l].total =
+      l < divided ? space.Numberings()[l].total : space.Shared().levels.front().numberOfFunctions;
+    if (l < divided)
+    {
+      SparseMatrix matrix;
+      space.Own().FillMatrix(l, 1.0, 0.0, matrix, 1);
+      levels[l].mass = EntriesOf(space, matrix, 0, l, l);
+      space.Own().FillMatrix(l, 0.0, 1.0, matrix, 1);
+      levels[l].stiffness = EntriesOf(space, matrix, 0, l, l);
+      levels[l].prolongation =
+        EntriesOf(space, space.Own().Prolongation(l), space.Numberings()[l].foreign, l, l + 1);
+    }
+  }
+  return levels;
+}
+
+using Numbers = std::vector<Index>; // per number, the function of the whole
+
+/// Patches are in the same order everywhere, so that functions are matched by their corners.
+void MatchFunctions(const GatheredLevel& level, const PatchLevel& whole, Numbers& functionOf)
+{
+  ASSERT_EQ(level.cells, whole.cell);
+  ASSERT_EQ(level.total, whole.numberOfFunctions);
+  functionOf.assign(level.total, -1);
+  for (std::size_t k = 0; k < level.numbers.size(); ++k)
+  {
+    const Index function = whole.dof[k / FunctionsPerPatch][k % FunctionsPerPatch];
+    Index& known = functionOf[level.numbers[k]];
+    ASSERT_TRUE(known < 0 || known == function) << "function " << function;
+    known = function;
+  }
+  Numbers sorted = functionOf;
+  std::sort(sorted.begin(), sorted.end());
+  for (Index k = 0; k < whole.numberOfFunctions; ++k)
+  {
+    ASSERT_EQ(sorted[k], k);
+  }
+}
+
+/// Entries at one place are added up; to 1e-12 of the largest.
+void CompareEntries(std::vector<Entry> entries, const SparseMatrix& whole, const Numbers& rows,
+  const Numbers& columns)
+{
+  double largest = 0.0;
+  for (const double value : whole.value)
+  {
+    largest = std::max(largest, std::abs(value));
+  }
+  for (Entry& entry : entries)
+  {
+    entry = { rows[entry.row], columns[entry.column], entry.value };
+  }
+  std::sort(entries.begin(), entries.end(),
+    [](const Entry& a, const Entry& b)
+    { return a.row != b.row ? a.row < b.row : a.column < b.column; });
+  std::size_t next = 0;
+  for (Index row = 0; row < whole.rows; ++row)
+  {
+    for (Id k = whole.rowBegin[row]; k < whole.rowBegin[row + 1]; ++k)
+    {
+      double sum = 0.0;
+      const std::size_t first = next;
+      while (next < entries.size() && entries[next].row == row &&
+             entries[next].column == whole.column[k])
+      {
+        sum += entries[next++].value;
+      }
+      ASSERT_GT(next, first) << "row " << row;
+      ASSERT_NEAR(sum, whole.value[k], 1e-12 * largest) << "row " << row;
+    }
+  }
+  ASSERT_EQ(next, entries.size());
+}
+
+void Compare(const std::vector<GatheredLevel>& levels, const GridSpace& whole)
+{
+  std::vector<Numbers> functionOf(levels.size());
+  for (std::size_t l = 0; l < levels.size(); ++l)
+  {
+    SCOPED_TRACE("level " + std::to_string(l));
+    ASSERT_NO_FATAL_FAILURE(MatchFunctions(levels[l], whole.Functions().levels[l], functionOf[l]));
+  }
+  for (std::size_t l = 0; l + 1 < levels.size(); ++l)
+  {
+    SCOPED_TRACE("level " + std::to_string(l));
+    SparseMatrix matrix;
+    whole.FillMatrix(l, 1.0, 0.0, matrix, 1);
+    CompareEntries(levels[l].mass, matrix, functionOf[l], functionOf[l]);
+    whole.FillMatrix(l, 0.0, 1.0, matrix, 1);
+    CompareEntries(levels[l].stiffness, matrix, functionOf[l], functionOf[l]);
+    CompareEntries(levels[l].prolongation, whole.Prolongation(l), functionOf[l], functionOf[l + 1]);
+  }
+}
+
+/// What all ranks hold together, in the order of their triangles.
+TriangleMesh WholeOf(const TriangleMesh& mesh, const std::vector<int>& rankOf, int ranks)
+{
+  TriangleMesh whole;
+  for (int rank = 0; rank < ranks; ++rank)
+  {
+    const TriangleMesh part = PartOf(mesh, rankOf, rank);
+    const auto first = static_cast<Id>(whole.points.size());
+    whole.points.insert(whole.points.end(), part.points.begin(), part.points.end());
+    for (const auto& t : part.triangles)
+    {
+      whole.triangles.push_back({ first + t[0], first + t[1], first + t[2] });
+    }
+  }
+  return whole;
+}
+
+/// The first rank compares.
+void CompareWithOneRank(const TriangleMesh& mesh, Dealing dealing, const RankSpaceOptions& options)
+{
+  const Communicator ranks(MPI_COMM_WORLD);
+  const std::vector<int> rankOf = Deal(mesh, dealing, ranks.Size());
+  const RankSpace space(ranks, PartOf(mesh, rankOf, ranks.Rank()), options);
+  const std::vector<GatheredLevel> levels = GatherLevels(space);
+  if (ranks.Rank() == 0)
+  {
+    Compare(levels, BuildGridSpace(WholeOf(mesh, rankOf, ranks.Size()), options.space));
+  }
+}
+
+} // namespace
+
+TEST(RankSpace, IsThatOfOneRankHoweverTrianglesAreDealt)
+{
+  for (const NamedSurface& surface : Surfaces())
+  {
+    for (const Dealing dealing : Dealings)
+    {
+      SCOPED_TRACE(surface.name + ", dealing " + std::to_string(static_cast<int>(dealing)));
+      CompareWithOneRank(surface.mesh, dealing, Options(true, 3));
+    }
+  }
+}
+
+TEST(RankSpace, IsThatOfOneRankWhateverTheBlocks)
+{
+  for (const NamedSurface& surface : Surfaces())
+  {
+    for (const int granularity : { 0, 4 })
+    {
+      SCOPED_TRACE(surface.name + ", granularity " + std::to_string(granularity));
+      CompareWithOneRank(surface.mesh, Dealing::Contiguous, Options(true, granularity));
+    }
+  }
+}
+
+TEST(RankSpace, PlainFunctionsAreThoseOfOneRank)
+{
+  for (const NamedSurface& surface : Surfaces())
+  {
+    SCOPED_TRACE(surface.name);
+    CompareWithOneRank(surface.mesh, Dealing::Contiguous, Options(false, 3));
+  }
+}

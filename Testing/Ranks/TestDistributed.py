@@ -1,0 +1,102 @@
+"""Screened Poisson by all ranks together: the solution of one rank on every rank's own piece, where it
+can be had so; else rank 0 gathers, as without the property."""
+import unittest
+
+import numpy
+from vtkmodules.util import numpy_support
+
+import ranks
+
+
+def made(**properties):
+    return ranks.make("ScreenedPoisson", 5, Distributed=True, Tolerance=1e-11, **properties)
+
+
+def number(output, name):
+    array = output.GetFieldData().GetArray(name)
+    return array.GetValue(0) if array else None
+
+
+class Distributed(unittest.TestCase):
+    def same_as_alone(self, mesh, kind, **properties):
+        mine = ranks.piece(mesh, kind)
+        output, table = ranks.run(made(**properties), mine)
+        whole = ranks.alone(lambda: ranks.run(ranks.make(
+            "ScreenedPoisson", 5, Tolerance=1e-11, **properties), ranks.whole(mesh))[0])
+        problems = []
+        if number(output, "Distributed") != 1:
+            problems.append("rank 0 has gathered")
+        if mine.GetNumberOfPoints():
+            origin = numpy_support.vtk_to_numpy(mine.GetPointData().GetArray("origin"))
+            expected = ranks.arrays(whole.GetPointData())["Solution"]
+            solution = ranks.arrays(output.GetPointData())["Solution"]
+            problems += ranks.compare(
+                {"Solution": solution}, {"Solution": expected}, origin, 1e-8, kind)
+            problems += [] if output.GetNumberOfCells() == mine.GetNumberOfCells() else ["cells"]
+        rows = table.GetNumberOfRows()
+        if (rows > 0) != (ranks.RANK == 0):
+            problems.append(f"the table has {rows} rows")
+        ranks.check(self, problems)
+
+    def test_any_pieces(self):
+        for kind in ("first", "last", "contiguous", "scattered", "one rank is empty"):
+            with self.subTest(kind=kind):
+                self.same_as_alone(ranks.ellipsoid(), kind)
+
+    def test_other_surfaces(self):
+        for mesh in (ranks.two(), ranks.bowl(), ranks.soup()):
+            self.same_as_alone(mesh, "scattered", ScreeningWeight=0.0)
+
+    def test_gradients_and_units(self):
+        for units in (0, 1, 2):
+            self.same_as_alone(ranks.ellipsoid(), "contiguous", UseValueGradient=True,
+                               GradientScale=2.0, ParameterUnits=units, ConnectivityAware=False)
+
+    def test_points_of_two_pieces_have_one_value(self):
+        mine = ranks.piece(ranks.ellipsoid(), "scattered")
+        output = ranks.run(made(), mine)[0]
+        origin = numpy_support.vtk_to_numpy(mine.GetPointData().GetArray("origin"))
+        solution = ranks.arrays(output.GetPointData())["Solution"]
+        places = ranks.gathered(origin)
+        values = ranks.gathered(solution)
+        first = dict(zip(places[::-1], values[::-1]))
+        differ = [p for p, v in zip(places, values) if first[p] != v]
+        ranks.check(self, [f"point {p}" for p in differ])
+
+    def test_rank_0_gathers_what_is_left_to_it(self):
+        for properties in ({"FunctionSpace": 1}, {"Smoother": 1}, {"Iteration": 1},
+                           {"BoundaryValues": True}, {"SolutionGradient": True}):
+            output = ranks.run(made(**properties), ranks.piece(ranks.bowl(), "contiguous"))[0]
+            ranks.check(self, [] if number(output, "Distributed") is None and
+                        number(output, "Converged") == 1 else [str(properties)])
+        output = ranks.run(made(), ranks.piece(ranks.bowl(), "ghosts"))[0]
+        ranks.check(self, [] if number(output, "Distributed") is None else ["ghost cells"])
+
+    def test_what_fails_on_one_rank_fails_on_all(self):
+        filter_ = made()
+        for damage in ("value", "place", "array"):
+            mine = ranks.piece(ranks.ellipsoid(), "contiguous")
+            if ranks.RANK == ranks.RANKS - 1 and damage == "array":
+                mine.GetPointData().RemoveArray("f")
+            elif ranks.RANK == ranks.RANKS - 1:
+                array = (mine.GetPointData().GetArray("f") if damage == "value"
+                         else mine.GetPoints().GetData())
+                numpy_support.vtk_to_numpy(array)[3] = numpy.nan
+            messages = []
+
+            def listen(_, __, text=None):
+                messages.append(text)
+            listen.CallDataType = "string0"
+            observer = filter_.AddObserver("ErrorEvent", listen)
+            output = ranks.run(filter_, mine)[0]
+            filter_.RemoveObserver(observer)
+            problems = ["the output is not empty"] if output.GetNumberOfPoints() else []
+            if len(messages) != (1 if ranks.RANK == 0 else 0):
+                problems.append(f"{damage}: {len(messages)} messages: {messages}")
+            ranks.check(self, problems)
+        output = ranks.run(filter_, ranks.piece(ranks.ellipsoid(), "contiguous"))[0]
+        ranks.check(self, [] if number(output, "Distributed") == 1 else ["not computed again"])
+
+
+if __name__ == "__main__":
+    ranks.main()
