@@ -15,8 +15,8 @@ namespace
 constexpr double Penalty = 30.0;
 
 /// Of the solves with K, and of the multipliers.
-constexpr double InnerTolerance = 1e-8;
-constexpr double OuterTolerance = 1e-6;
+constexpr double InnerTolerance = 1e-7;
+constexpr double OuterTolerance = 1e-5;
 
 /// The products with S and their parts.
 class NodalProducts
