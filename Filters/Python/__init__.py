@@ -26,7 +26,7 @@ except ImportError:
     from ._with_vtk import solve as _solve, surface
 
 __all__ = ["Error", "arrays", "curvatures", "detail", "diffuse", "distance", "flow", "interpolate",
-           "poisson", "spectrum", "stitch"]
+           "poisson", "signed_distance", "spectrum", "stitch"]
 
 
 def spectrum(points, cells, number=20, **properties):
@@ -58,6 +58,15 @@ def distance(points, cells, sources, **properties):
     if sources.size == 0:
         raise Error("no sources")
     return _solve("GeodesicDistance", points, cells, {}, properties, sources)["Distance"]
+
+
+def signed_distance(points, cells, labels, inside=1, **properties):
+    """The distance along the surface from the border of a label, negative inside.
+
+    labels: integers on points or cells; `inside` is that of the inside.
+    """
+    return _solve("GeodesicDistance", points, cells, {"labels": labels},
+                  {"Signed": True, "InsideLabel": int(inside), **properties})["Distance"]
 
 
 def diffuse(points, cells, values, time, **properties):

@@ -6,6 +6,7 @@
 #include "Private/SelectedPoints.h"
 #include "Private/SolverOutput.h"
 #include "Private/SourcePoints.h"
+#include "Private/SurfaceCurves.h"
 #include "Private/SurfaceSolverState.h"
 
 #include "Base/Errors.h"
@@ -31,6 +32,8 @@ vtkStandardNewMacro(vtkGeodesicDistance);
 
 namespace
 {
+
+constexpr const char* CurveStage = "Curve";
 
 /// The points of polygons where the array is not 0.
 std::vector<gridfem::Id> MaskedPoints(
@@ -62,6 +65,7 @@ struct vtkGeodesicDistance::Internals
   std::vector<gridfem::Id> SourceIds;
   std::unique_ptr<gridfem::GeodesicDistance> Method;
   gridfem::DistanceField Field;
+  gridfem::SurfaceCurve Curve;
 
   std::vector<gridfem::Id> FindSources(const gridfem::InputMesh& mesh,
     const gridfem::InputArray& mask, vtkDataSet* places,
@@ -153,8 +157,8 @@ void vtkGeodesicDistance::Warn()
   }
 }
 
-/// Hierarchies, and distances from the sources. The system has to be up to date.
-void vtkGeodesicDistance::UpdateDistance(const std::vector<vtkIdType>& sources)
+/// The system has to be up to date.
+void vtkGeodesicDistance::UpdateHierarchies()
 {
   gridfem::SurfaceSolverState& state = *this->State;
   Internals& data = *this->Data;
@@ -170,7 +174,15 @@ void vtkGeodesicDistance::UpdateDistance(const std::vector<vtkIdType>& sources)
         gridfem::DistanceOptions{ this->Smoothing, state.options.multigrid },
         state.MakeJob(progress.Part(0.3, 0.4)));
     });
-  key = {};
+}
+
+void vtkGeodesicDistance::UpdateDistance(const std::vector<vtkIdType>& sources)
+{
+  gridfem::SurfaceSolverState& state = *this->State;
+  Internals& data = *this->Data;
+  const gridfem::Progress progress = state.bridge.GetProgress();
+  gridfem::StageKey key;
+  key.Add(false); // not from a curve
   key.Add(state.stages.Version(gridfem::HierarchyStage));
   key.Add(this->Tolerance).Add(this->MaximumIterations);
   for (const vtkIdType source : sources)
@@ -185,10 +197,65 @@ void vtkGeodesicDistance::UpdateDistance(const std::vector<vtkIdType>& sources)
     });
 }
 
+/// Points have no sides.
+void vtkGeodesicDistance::RefusePoints(const std::string& sourceArray) const
+{
+  const char* given = !this->Data->SourceIds.empty() ? "SourcePointIds"
+                      : !sourceArray.empty()         ? "a SourceArray"
+                      : this->Selection->IsGiven()   ? "a Selection"
+                      : this->NearestSource          ? "NearestSource"
+                                                     : nullptr;
+  if (given)
+  {
+    throw gridfem::InvalidInput(std::string("Signed distances are from curves, which divide the "
+                                            "surface into two sides: clear ") +
+                                given + ", which is about points, or turn Signed off.");
+  }
+}
+
+/// The border of labels, else the lines. The space has to be up to date.
+void vtkGeodesicDistance::UpdateCurve(vtkPolyData* input, vtkDataSet* lines)
+{
+  gridfem::SurfaceSolverState& state = *this->State;
+  const gridfem::InputArray labels = gridfem::FindInputArray(this, 1, input, "LabelArray");
+  const bool weld = this->WeldCoincidentPoints;
+  gridfem::StageKey key;
+  key.Add(state.stages.Version(gridfem::SpaceStage)).Add(weld).Add(labels.array);
+  key.Add(static_cast<int>(labels.association)).Add(this->InsideLabel);
+  key.Add(labels.array ? nullptr : lines);
+  state.stages.Run(CurveStage, key,
+    [&]
+    {
+      this->Data->Curve = labels.array
+                            ? gridfem::BorderOfLabel(labels, this->InsideLabel, state.mesh, weld)
+                            : gridfem::CurveOfLines(lines, *state.mesh.triangles, weld);
+    });
+}
+
+void vtkGeodesicDistance::UpdateSignedDistance()
+{
+  gridfem::SurfaceSolverState& state = *this->State;
+  Internals& data = *this->Data;
+  gridfem::StageKey key;
+  key.Add(true).Add(state.stages.Version(gridfem::HierarchyStage));
+  key.Add(state.stages.Version(CurveStage)).Add(this->Tolerance).Add(this->MaximumIterations);
+  state.stages.Run(gridfem::SolveStage, key,
+    [&]
+    {
+      data.Field = data.Method->FromCurve(
+        data.Curve, state.options.solve, state.MakeJob(state.bridge.GetProgress().Part(0.4, 0.98)));
+    });
+}
+
 void vtkGeodesicDistance::WriteDistance(vtkPolyData* output)
 {
   const gridfem::DistanceField& field = this->Data->Field;
   std::vector<double> values = field.atPoints;
+  if (this->Signed && this->ReverseSign)
+  {
+    std::transform(
+      values.begin(), values.end(), values.begin(), [](double value) { return 0.0 - value; });
+  }
   if (this->Unreachable == Infinity)
   {
     std::replace_if(
@@ -229,12 +296,30 @@ void vtkGeodesicDistance::Compute(vtkInformationVector** inputs, vtkInformationV
   state.options.space.joinAtPoints = true; // paths lead through points where sheets touch
   state.UpdateSpace(input, vtkPolyData::GetData(inputs[1]), progress.Part(0.0, 0.2));
   this->Selection->Update(vtkSelection::GetData(inputs[3]), input, this->JoinedInput());
-  const std::vector<gridfem::Id> found =
-    this->Data->FindSources(state.mesh, mask, vtkDataSet::GetData(inputs[2]), *this->Selection);
-  const std::vector<vtkIdType> sources(found.begin(), found.end());
+  vtkDataSet* const places = vtkDataSet::GetData(inputs[2]);
+  std::vector<vtkIdType> sources;
+  if (this->Signed)
+  {
+    this->RefusePoints(mask.name);
+    this->UpdateCurve(input, places);
+  }
+  else
+  {
+    const std::vector<gridfem::Id> found =
+      this->Data->FindSources(state.mesh, mask, places, *this->Selection);
+    sources.assign(found.begin(), found.end());
+  }
   state.UpdateSystem(progress.Part(0.2, 0.3));
 
-  this->UpdateDistance(sources);
+  this->UpdateHierarchies();
+  if (this->Signed)
+  {
+    this->UpdateSignedDistance();
+  }
+  else
+  {
+    this->UpdateDistance(sources);
+  }
   output->ShallowCopy(input);
   this->WriteDistance(output);
   if (this->NearestSource)
@@ -251,6 +336,7 @@ void vtkGeodesicDistance::FreeStages()
   this->Selection->Free();
   this->Data->Method.reset();
   this->Data->Field = {};
+  this->Data->Curve = {};
 }
 
 void vtkGeodesicDistance::PrintSelf(ostream& os, vtkIndent indent)
@@ -260,4 +346,7 @@ void vtkGeodesicDistance::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Smoothing: " << this->Smoothing << "\n";
   os << indent << "Unreachable: " << this->Unreachable << "\n";
   os << indent << "NearestSource: " << this->NearestSource << "\n";
+  os << indent << "Signed: " << this->Signed << "\n";
+  os << indent << "InsideLabel: " << this->InsideLabel << "\n";
+  os << indent << "ReverseSign: " << this->ReverseSign << "\n";
 }

@@ -12,17 +12,24 @@
  * of the four is given, the first point of the first polygon is the source. A triangle whose
  * corners are all sources is at distance 0 as a whole.
  *
+ * With Signed on, distances are from a curve instead, negative inside: from the border of the
+ * points or cells whose LabelArray is InsideLabel, or, when no LabelArray is chosen, from the lines
+ * of input port 2, moved to the nearest places of the surface. Lines may come in pieces, and have
+ * to divide the surface: closed, or from border to border. On each connected component the smaller
+ * part is inside. Every part of a curve is a source, not its points.
+ *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
  * vtkConnectivityAwareBasis. Input port 1 (optional): the output of vtkConnectivityAwareBasis for
  * the mesh of port 0. Input port 2 (optional): vtkDataSet whose points are sources, each at the
  * nearest point of the mesh. Input port 3 (optional): vtkSelection of points or cells of port 0; a
  * cell takes its points. The SourceArray is chosen by SetInputArrayToProcess(0, ...): point
- * data with one component.
+ * data with one component. The LabelArray is SetInputArrayToProcess(1, ...): integers on points or
+ * cells.
  *
  * Output port 0 (vtkPolyData): the input with
- * - point data, double: `Distance`, in the unit of the points; 0 at sources, never negative. Points
- *   that cannot be reached have what Unreachable says: those on a component without a source, and
- *   those that no polygon uses.
+ * - point data, double: `Distance`, in the unit of the points; 0 at sources, never negative but
+ *   inside a curve. Points that cannot be reached have what Unreachable says: those on a component
+ * without a source, and those that no polygon uses.
  * - point data, vtkIdType, with NearestSource on: `NearestSource`, the id of the source that the
  *   distance is from; -1 where there is none
  * - field data: `Converged`, `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor`
@@ -41,6 +48,10 @@
 #define vtkGeodesicDistance_h
 
 #include "vtkSurfaceFEMAlgorithm.h"
+
+#include <string>
+
+class vtkDataSet;
 
 namespace gridfem
 {
@@ -99,6 +110,33 @@ public:
   vtkBooleanMacro(NearestSource, bool);
   ///@}
 
+  ///@{
+  /**
+   * Whether distances are from curves, negative inside. SourcePointIds, SourceArray, a selection
+   * and NearestSource are of points and are refused then. Off by default.
+   */
+  vtkSetMacro(Signed, bool);
+  vtkGetMacro(Signed, bool);
+  vtkBooleanMacro(Signed, bool);
+  ///@}
+
+  ///@{
+  /**
+   * The label of what is inside, with a LabelArray. Default 1.
+   */
+  vtkSetMacro(InsideLabel, int);
+  vtkGetMacro(InsideLabel, int);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the outside of curves is negative instead of the inside. Off by default.
+   */
+  vtkSetMacro(ReverseSign, bool);
+  vtkGetMacro(ReverseSign, bool);
+  vtkBooleanMacro(ReverseSign, bool);
+  ///@}
+
   /**
    * The input of port 1: the basis.
    */
@@ -125,12 +163,19 @@ protected:
   double Smoothing = 1.75;
   int Unreachable = NotANumber;
   bool NearestSource = false;
+  bool Signed = false;
+  int InsideLabel = 1;
+  bool ReverseSign = false;
 
 private:
   vtkGeodesicDistance(const vtkGeodesicDistance&) = delete;
   void operator=(const vtkGeodesicDistance&) = delete;
 
+  void UpdateHierarchies();
   void UpdateDistance(const std::vector<vtkIdType>& sources);
+  void UpdateCurve(vtkPolyData* input, vtkDataSet* lines);
+  void UpdateSignedDistance();
+  void RefusePoints(const std::string& sourceArray) const;
   void WriteDistance(vtkPolyData* output);
   void WriteNearestSource(const std::vector<vtkIdType>& sources, vtkPolyData* output);
   void Warn();

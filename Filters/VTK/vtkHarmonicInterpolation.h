@@ -60,9 +60,9 @@ public:
   };
   ///@{
   /**
-   * Harmonic (default): the least integral of the squared gradient; any number of points.
-   * Biharmonic: the least integral of the squared Laplacian; up to 256 points, each of which costs
-   * a solve and a vector.
+   * Harmonic (default): the least integral of the squared gradient.
+   * Biharmonic: the least integral of the squared Laplacian. Up to 256 points cost a solve and a
+   * vector each, more of them some fifty to a hundred solves, however many they are.
    */
   vtkSetClampMacro(Smoothness, int, Harmonic, Biharmonic);
   vtkGetMacro(Smoothness, int);

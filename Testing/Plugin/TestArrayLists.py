@@ -49,6 +49,7 @@ EXPECTED = {
     ("HeatDiffusion", "Array"): ANY,
     ("HeatDiffusion", "HeatSourceArray"): ANY,
     ("GeodesicDistance", "SourceArray"): {"None", "p1"},
+    ("GeodesicDistance", "LabelArray"): {"None", "p1", "c1"},
     ("SpectralSignatures", "ValueArray"): {"None", "Normals", "p1", "p3", "p4", "p6", "p9"}}
 
 

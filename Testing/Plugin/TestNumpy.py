@@ -63,6 +63,13 @@ class Numpy(unittest.TestCase):
         self.assertEqual(distances[0], 0)
         self.assertLess(numpy.abs(distances - exact).max(), 0.06)
 
+    def test_latitude_is_signed(self):
+        labels = numpy.where(self.points[:, 2] > -1e-9, 4, 2)  # half a ring below the equator
+        latitude = numpy.arcsin(numpy.clip(self.points[:, 2], -1, 1)) + numpy.pi / 60
+        for inside, sign in ((2, 1), (4, -1)):
+            distances = gridfem.signed_distance(*self.mesh, labels, inside, **OPTIONS)
+            self.assertLess(numpy.abs(distances - sign * latitude).max(), 0.03)
+
     def test_heat_of_a_harmonic(self):
         diffused = gridfem.diffuse(*self.mesh, self.points[:, 2], 0.5, ParameterUnits=0, **OPTIONS)
         numpy.testing.assert_allclose(
@@ -137,6 +144,8 @@ class Numpy(unittest.TestCase):
             "has 7 rows": lambda: gridfem.poisson(points, triangles, numpy.ones(7)),
             "not a point": lambda: gridfem.distance(points, triangles, len(points)),
             "no sources": lambda: gridfem.distance(points, triangles, []),
+            "no border": lambda: gridfem.signed_distance(points, triangles, points[:, 0] * 0),
+            "must be integers": lambda: gridfem.signed_distance(points, triangles, points[:, 0]),
             "2 ids and 3 values": lambda: gridfem.interpolate(points, triangles, [0, 1], [1, 2, 3])}
         for message, call in cases.items():
             with self.subTest(message=message), self.assertRaisesRegex(gridfem.Error, message):

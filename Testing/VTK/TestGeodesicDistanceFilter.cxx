@@ -1,8 +1,11 @@
 // Geodesic Distance as a user of VTK sees it.
 #include "FilterSupport.h"
 
+#include "vtkCellArray.h"
 #include "vtkConnectivityAwareBasis.h"
+#include "vtkCutter.h"
 #include "vtkGeodesicDistance.h"
+#include "vtkPlane.h"
 
 #include <gtest/gtest.h>
 
@@ -180,4 +183,131 @@ TEST(GeodesicDistanceFilter, RefusesSourcesThatAreNone)
   filter = MakeFilter(vectors, 3);
   filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "v");
   ExpectRefused(filter, "one component");
+}
+
+namespace
+{
+
+/// The line where a surface is at this height.
+vtkSmartPointer<vtkPolyData> SliceAt(vtkPolyData* surface, double height)
+{
+  vtkNew<vtkPlane> plane;
+  plane->SetOrigin(0, 0, height);
+  plane->SetNormal(0, 0, 1);
+  vtkNew<vtkCutter> cutter;
+  cutter->SetCutFunction(plane);
+  cutter->SetInputData(surface);
+  cutter->Update();
+  auto lines = vtkSmartPointer<vtkPolyData>::New();
+  lines->ShallowCopy(cutter->GetOutput());
+  return lines;
+}
+
+void ExpectLatitudes(
+  const std::vector<double>& found, const TriangleMesh& mesh, double height, double tolerance)
+{
+  ASSERT_EQ(found.size(), mesh.points.size());
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    const double latitude = std::asin(std::clamp(mesh.points[i][2], -1.0, 1.0));
+    ASSERT_NEAR(found[i], std::asin(height) - latitude, tolerance) << i; // the cap is inside
+  }
+}
+
+} // namespace
+
+TEST(GeodesicDistanceFilter, IsSignedOnBothSidesOfASlice)
+{
+  const TriangleMesh mesh = GeodesicSphere(24);
+  auto data = ToPolyData(mesh);
+  auto filter = MakeFilter(data, 6);
+  filter->SignedOn();
+  filter->SetInputDataObject(2, SliceAt(data, 0.3));
+  const std::vector<double> found = DistancesOf(filter);
+  ExpectLatitudes(found, mesh, 0.3, 0.02);
+  // The slice lies between the points of the mesh, and no point is 0 for being next to it.
+  EXPECT_EQ(std::count(found.begin(), found.end(), 0.0), 0);
+
+  filter->ReverseSignOn();
+  const std::vector<double> reversed = DistancesOf(filter);
+  EXPECT_EQ(filter->GetNumberOfRuns("Solve"), 1);
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    ASSERT_EQ(reversed[i], -found[i]);
+  }
+  filter->ReverseSignOff();
+  filter->SetInputDataObject(2, SliceAt(data, 0.5));
+  ExpectLatitudes(DistancesOf(filter), mesh, 0.5, 0.02);
+  EXPECT_EQ(filter->GetNumberOfRuns("Curve"), 2);
+  EXPECT_EQ(filter->GetNumberOfRuns("Hierarchy"), 1);
+}
+
+TEST(GeodesicDistanceFilter, IsSignedByLabelsOfPointsAndOfCells)
+{
+  const TriangleMesh mesh = GeodesicSphere(24);
+  auto data = ToPolyData(mesh);
+  AddPointArray(
+    data, "points", 1, [](const Vec3& p, int) { return p[2] > 0.3 ? 7.0 : p[2] > 0.0; });
+  vtkNew<vtkDoubleArray> cells;
+  cells->SetName("cells");
+  for (const auto& corner : mesh.triangles)
+  {
+    const double height =
+      (mesh.points[corner[0]] + mesh.points[corner[1]] + mesh.points[corner[2]])[2] / 3.0;
+    cells->InsertNextValue(height > 0.3 ? 7.0 : -2.0);
+  }
+  data->GetCellData()->AddArray(cells);
+  constexpr double Edge = 0.09;
+  auto filter = MakeFilter(data, 6);
+  filter->SignedOn();
+  filter->SetInsideLabel(7);
+  filter->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "points");
+  ExpectLatitudes(DistancesOf(filter), mesh, 0.3, Edge);
+  filter->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "cells");
+  ExpectLatitudes(DistancesOf(filter), mesh, 0.3, Edge);
+  EXPECT_EQ(filter->GetNumberOfRuns("Hierarchy"), 1);
+
+  filter->SetInsideLabel(3);
+  ExpectRefused(filter, "'cells' and InsideLabel 3");
+  AddPointArray(data, "half", 1, [](const Vec3&, int) { return 0.5; });
+  filter = MakeFilter(data, 4);
+  filter->SignedOn();
+  filter->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "half");
+  ExpectRefused(filter, "integers");
+}
+
+TEST(GeodesicDistanceFilter, RefusesSignsWithoutSides)
+{
+  auto data = ToPolyData(GeodesicSphere(8));
+  const auto make = [&]
+  {
+    auto filter = MakeFilter(data, 4);
+    filter->SignedOn();
+    return filter;
+  };
+  ExpectRefused(make(), "LabelArray");
+  auto filter = make();
+  filter->AddSourcePointId(3);
+  ExpectRefused(filter, "SourcePointIds");
+  filter = make();
+  filter->NearestSourceOn();
+  ExpectRefused(filter, "NearestSource");
+
+  auto slice = SliceAt(data, 0.3);
+  const vtkIdType last = slice->GetNumberOfCells() - 5; // a gap within a triangle closes itself
+  vtkNew<vtkCellArray> open;
+  for (vtkIdType cell = 0; cell < last; ++cell)
+  {
+    vtkNew<vtkIdList> ids;
+    slice->GetCellPoints(cell, ids);
+    open->InsertNextCell(ids);
+  }
+  slice->SetLines(open);
+  filter = make();
+  filter->SetInputDataObject(2, slice);
+  ExpectRefused(filter, "A line ends");
+  slice->GetPoints()->SetPoint(0, std::nan(""), 0, 0);
+  filter = make();
+  filter->SetInputDataObject(2, slice);
+  ExpectRefused(filter, "NaN");
 }

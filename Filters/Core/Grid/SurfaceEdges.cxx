@@ -112,17 +112,44 @@ void FindSides(const TriangleMesh& mesh, const Neighbours& neighbours, SurfaceEd
   }
 }
 
+void RequireTriangle(Id triangle, const TriangleMesh& mesh)
+{
+  if (triangle < 0 || triangle >= static_cast<Id>(mesh.triangles.size()))
+  {
+    throw InvalidInput("There is no triangle " + std::to_string(triangle) + ".");
+  }
+}
+
 } // namespace
 
 void RequireEdges(const std::vector<TriangleEdge>& edges, const TriangleMesh& mesh)
 {
   for (const TriangleEdge& edge : edges)
   {
-    if (edge.triangle < 0 || edge.triangle >= static_cast<Id>(mesh.triangles.size()))
-    {
-      throw InvalidInput("There is no triangle " + std::to_string(edge.triangle) + ".");
-    }
+    RequireTriangle(edge.triangle, mesh);
   }
+}
+
+void RequireSegments(const std::vector<TriangleSegment>& segments, const TriangleMesh& mesh)
+{
+  for (const TriangleSegment& segment : segments)
+  {
+    RequireTriangle(segment.triangle, mesh);
+  }
+}
+
+std::vector<TriangleSegment> SegmentsOf(
+  const std::vector<TriangleEdge>& edges, const TriangleMesh& mesh)
+{
+  RequireEdges(edges, mesh);
+  std::vector<TriangleSegment> segments;
+  segments.reserve(edges.size());
+  for (const TriangleEdge& edge : edges)
+  {
+    segments.push_back(
+      { edge.triangle, Vec3::Unit(edge.corner), Vec3::Unit((edge.corner + 1) % 3) });
+  }
+  return segments;
 }
 
 std::vector<TriangleSide> SortedSides(const TriangleMesh& mesh, const Array<Index>& pointClass)

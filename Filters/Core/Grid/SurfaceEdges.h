@@ -21,6 +21,15 @@ struct TriangleEdge
   }
 };
 
+/// A straight piece of a curve within a triangle. Its ends are weights of the three corners, at
+/// least 0 and with the sum 1.
+struct TriangleSegment
+{
+  Id triangle;
+  Vec3 from;
+  Vec3 to;
+};
+
 /// Triangles two of whose corners are one point count as none.
 struct SurfaceEdges
 {
@@ -39,6 +48,10 @@ struct SurfaceEdges
 /// @param weldCoincidentPoints  coincident points count as one
 /// Cost O(n log n).
 SurfaceEdges FindSurfaceEdges(const TriangleMesh& mesh, bool weldCoincidentPoints, int threads = 0);
+
+/// Edges as segments. Throws InvalidInput for a triangle that the mesh does not have.
+std::vector<TriangleSegment> SegmentsOf(
+  const std::vector<TriangleEdge>& edges, const TriangleMesh& mesh);
 
 /// The ends of edges: points of the mesh, ascending, each once.
 std::vector<Id> EndsOf(const std::vector<TriangleEdge>& edges, const TriangleMesh& mesh);

@@ -21,8 +21,9 @@ struct TriangleSide
   }
 };
 
-/// Throws InvalidInput for an edge of a triangle that the mesh does not have.
+/// Throw InvalidInput for an edge or a segment of a triangle that the mesh does not have.
 void RequireEdges(const std::vector<TriangleEdge>& edges, const TriangleMesh& mesh);
+void RequireSegments(const std::vector<TriangleSegment>& segments, const TriangleMesh& mesh);
 
 /// Sides of the triangles with three different points.
 /// @param pointClass  welded id of each point; empty: points are themselves

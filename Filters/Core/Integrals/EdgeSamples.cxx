@@ -22,20 +22,20 @@ struct CellPiece
   bool operator<(const CellPiece& other) const { return cell < other.cell; }
 };
 
-/// The pieces of triangles that some edges belong to, by their cell.
-class PiecesOfEdges
+/// The pieces of triangles that some segments lie in, by their cell.
+class PiecesOfSegments
 {
 public:
-  PiecesOfEdges(
-    const GridFunctions& space, const TriangleMesh& mesh, const std::vector<TriangleEdge>& edges)
+  PiecesOfSegments(const GridFunctions& space, const TriangleMesh& mesh,
+    const std::vector<TriangleSegment>& segments)
     : space_(space), mesh_(mesh), list_(mesh.triangles.size(), -1)
   {
-    RequireEdges(edges, mesh);
-    for (const TriangleEdge& edge : edges)
+    RequireSegments(segments, mesh);
+    for (const TriangleSegment& segment : segments)
     {
-      if (list_[edge.triangle] < 0)
+      if (list_[segment.triangle] < 0)
       {
-        list_[edge.triangle] = static_cast<Index>(pieces_.size());
+        list_[segment.triangle] = static_cast<Index>(pieces_.size());
         pieces_.emplace_back();
       }
     }
@@ -67,7 +67,7 @@ public:
   }
 
 private:
-  /// A little off the faces of cells that an edge may lie in.
+  /// A little off the faces of cells that a segment may lie in.
   Vec3 Inwards(Id triangle, const Vec3& position) const
   {
     constexpr double Step = 1e-6;
@@ -114,6 +114,17 @@ private:
   std::vector<std::vector<CellPiece>> pieces_;
 };
 
+template<class Positions>
+std::array<Vec3, 2> EndsOf(
+  const TriangleSegment& segment, const TriangleMesh& mesh, const Positions& position)
+{
+  const auto& corner = mesh.triangles[segment.triangle];
+  const Vec3& a = position[corner[0]];
+  const Vec3& b = position[corner[1]];
+  const Vec3& c = position[corner[2]];
+  return { PointOfSegment(segment, 0.0, a, b, c), PointOfSegment(segment, 1.0, a, b, c) };
+}
+
 /// Where the line from a to b crosses faces of cells: parameters from 0 to 1, ends included.
 std::vector<double> Crossings(const Vec3& a, const Vec3& b)
 {
@@ -132,20 +143,20 @@ std::vector<double> Crossings(const Vec3& a, const Vec3& b)
 
 } // namespace
 
-EdgeSamples SampleEdges(
-  const GridFunctions& space, const TriangleMesh& mesh, const std::vector<TriangleEdge>& edges)
+EdgeSamples SampleSegments(const GridFunctions& space, const TriangleMesh& mesh,
+  const std::vector<TriangleSegment>& segments)
 {
-  const PiecesOfEdges pieces(space, mesh, edges);
+  const PiecesOfSegments pieces(space, mesh, segments);
   const PatchLevel& level = space.Finest();
   EdgeSamples samples;
   RowBuilder rows;
   RowBuilder::Entries entries;
-  for (std::size_t e = 0; e < edges.size(); ++e)
+  for (std::size_t s = 0; s < segments.size(); ++s)
   {
-    const auto ends = edges[e].Ends(mesh);
-    const Vec3& a = space.clipped.position[ends[0]];
-    const Vec3& b = space.clipped.position[ends[1]];
-    const double length = (mesh.points[ends[1]] - mesh.points[ends[0]]).norm();
+    const TriangleSegment& segment = segments[s];
+    const auto [a, b] = EndsOf(segment, mesh, space.clipped.position);
+    const auto [first, last] = EndsOf(segment, mesh, mesh.points);
+    const double length = (last - first).norm();
     const std::vector<double> at = Crossings(a, b);
     for (std::size_t k = 0; k + 1 < at.size(); ++k)
     {
@@ -154,7 +165,7 @@ EdgeSamples SampleEdges(
       {
         const double t = at[k] + gauss.position * stretch;
         const Vec3 position = a + t * (b - a);
-        const Index patch = pieces.PatchAt(edges[e].triangle, position);
+        const Index patch = pieces.PatchAt(segment.triangle, position);
         if (patch < 0 || !(stretch > 0.0))
         {
           continue;
@@ -167,7 +178,7 @@ EdgeSamples SampleEdges(
           entries.emplace_back(level.dof[patch][i], value[i]);
         }
         rows.Append(entries);
-        samples.edge.push_back(static_cast<Index>(e));
+        samples.edge.push_back(static_cast<Index>(s));
         samples.position.push_back(t);
         samples.length.push_back(gauss.weight * stretch * length);
       }

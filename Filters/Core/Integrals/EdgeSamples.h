@@ -1,4 +1,4 @@
-// Samples along edges of triangles: what integrals over boundaries are sums of.
+// Samples along segments of triangles: what integrals over boundaries and other curves are sums of.
 #ifndef GridFEM_EdgeSamples_h
 #define GridFEM_EdgeSamples_h
 
@@ -20,20 +20,29 @@ struct GaussPoint
 constexpr GaussPoint GaussPoints[3] = { { 0.1127016653792583, 5.0 / 18.0 }, { 0.5, 8.0 / 18.0 },
   { 0.8872983346207417, 5.0 / 18.0 } };
 
-/// Integrals over the edges of a function of the space times a linear one are exact.
+/// Integrals over the segments of a function of the space times a linear one are exact.
 struct EdgeSamples
 {
-  std::vector<Index> edge;      // of each sample: which of the given edges it is on, ascending
-  std::vector<double> position; // 0 at the first end of the edge, 1 at the other
+  std::vector<Index> edge;      // of each sample: which of the given segments it is on, ascending
+  std::vector<double> position; // 0 at the first end of the segment, 1 at the other
   std::vector<double> length;   // that the sample stands for, world units
   SparseMatrix rows;            // the values of all functions: rows = samples
 };
 
-/// Edges fall into stretches at the faces of the cells, each with three Gauss points. Triangles
+/// Segments fall into stretches at the faces of the cells, each with three Gauss points. Triangles
 /// without a piece, which have no area, have no samples.
 /// Cost O(pieces + samples log pieces).
-EdgeSamples SampleEdges(
-  const GridFunctions& space, const TriangleMesh& mesh, const std::vector<TriangleEdge>& edges);
+/// Throws InvalidInput for a triangle that the mesh does not have.
+EdgeSamples SampleSegments(const GridFunctions& space, const TriangleMesh& mesh,
+  const std::vector<TriangleSegment>& segments);
+
+/// The point of a segment at t from 0 to 1, of a triangle with these corners.
+inline Vec3 PointOfSegment(
+  const TriangleSegment& segment, double t, const Vec3& a, const Vec3& b, const Vec3& c)
+{
+  const Vec3 weight = (1.0 - t) * segment.from + t * segment.to;
+  return weight[0] * a + weight[1] * b + weight[2] * c;
+}
 
 } // namespace gridfem
 

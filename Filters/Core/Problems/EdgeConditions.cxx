@@ -48,7 +48,7 @@ HeldValues HoldBetween(const FiniteElementSpace& space, const TriangleMesh& mesh
   const std::vector<TriangleEdge>& edges, const MultiVector& values)
 {
   constexpr Index PerStretch = 3; // samples, of which one is held
-  const EdgeSamples samples = space.SamplesOfEdges(edges);
+  const EdgeSamples samples = space.SamplesOfSegments(SegmentsOf(edges, mesh));
   const MultiVector atSamples = AtSamples(samples, mesh, edges, values);
   HeldValues held;
   held.values.resize(samples.rows.rows / PerStretch, values.cols());
@@ -114,7 +114,7 @@ MultiVector LoadOnEdges(const FiniteElementSpace& space, const TriangleMesh& mes
   const std::vector<TriangleEdge>& edges, const MultiVector& values)
 {
   CheckValues(mesh, values);
-  const EdgeSamples samples = space.SamplesOfEdges(edges);
+  const EdgeSamples samples = space.SamplesOfSegments(SegmentsOf(edges, mesh));
   const MultiVector atSamples = AtSamples(samples, mesh, edges, values);
   MultiVector load = MultiVector::Zero(samples.rows.columns, values.cols());
   for (Index row = 0; row < samples.rows.rows; ++row)

@@ -1,5 +1,7 @@
 #include "Problems/GeodesicDistance.h"
 
+#include "Integrals/TriangleMetric.h"
+#include "Problems/CurveDistance.h"
 #include "Problems/NearestSource.h"
 #include "Problems/Poisson.h"
 #include "Spaces/PointComponents.h"
@@ -14,6 +16,10 @@ namespace gridfem
 {
 namespace
 {
+
+/// How far from a curve the distance through space counts, in √t. Nearer than that, heat on a grid
+/// has no sure direction; much farther, surfaces are not flat.
+constexpr double NearReach = 2.0;
 
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -78,6 +84,46 @@ MultiVector LoadOfPoints(const FiniteElementSpace& space, const std::vector<Id>&
     load(rows.column[k], 0) += rows.value[k];
   }
   return load;
+}
+
+/// ∫ b_i over the curve.
+MultiVector LoadOfCurve(const FiniteElementSpace& space, const SurfaceCurve& curve)
+{
+  const EdgeSamples samples = space.SamplesOfSegments(curve.segments);
+  MultiVector load = MultiVector::Zero(samples.rows.columns, 1);
+  for (Index row = 0; row < samples.rows.rows; ++row)
+  {
+    for (Id k = samples.rows.rowBegin[row]; k < samples.rows.rowBegin[row + 1]; ++k)
+    {
+      load(samples.rows.column[k], 0) += samples.length[row] * samples.rows.value[k];
+    }
+  }
+  return load;
+}
+
+/// 1 on triangles where the distances near a curve are known and grow as distances do, else 0: not
+/// where they come from two parts of the curve, or around a sharp edge. Triangles with a part of
+/// the curve always count.
+Field NearTriangles(
+  const TriangleMesh& mesh, const SurfaceCurve& curve, const std::vector<double>& near)
+{
+  constexpr double Least = 0.8;
+  constexpr double Most = 1.25;
+  Field known{ FieldAssociation::Points,
+    Eigen::Map<const Eigen::VectorXd>(near.data(), static_cast<Eigen::Index>(near.size())) };
+  const Field gradient = GradientsOf(mesh, known);
+  Field isNear{ FieldAssociation::Triangles,
+    MultiVector::Zero(static_cast<Id>(mesh.triangles.size()), 1) };
+  for (Id t = 0; t < isNear.values.rows(); ++t)
+  {
+    const double slope = gradient.values.row(t).norm(); // NaN beyond
+    isNear.values(t, 0) = slope > Least && slope < Most ? 1.0 : 0.0;
+  }
+  for (const TriangleSegment& segment : curve.segments)
+  {
+    isNear.values(segment.triangle, 0) = 1.0;
+  }
+  return isNear;
 }
 
 } // namespace
@@ -151,26 +197,144 @@ std::vector<double> GeodesicDistance::ShiftedToSources(
   return shifted;
 }
 
-DistanceField GeodesicDistance::From(
-  const std::vector<Id>& sources, const SolveOptions& solve, const Job& job) const
+/// Where X points outwards away from the curve and towards it inside: the gradient of the distance
+/// near it, else that of the heat with the sign of the side.
+MultiVector GeodesicDistance::LoadOfSignedDistance(const MultiVector& heat,
+  const SurfaceCurve& curve, const std::vector<double>& near, const Job& job) const
 {
-  const std::vector<char> isSource = MarkSources(sources, mesh_->points.size());
-  DistanceField field;
-  const HeatField heat = heat_->From(LoadOfPoints(HeatSpace(*space_), sources), job.Part(0.0, 0.5));
-  field.heatConverged = heat.converged;
-  field.heatSweeps = heat.sweeps;
-  field.unreached = heat.unreached;
+  const Field isNear = NearTriangles(*mesh_, curve, near);
+  Field away{ FieldAssociation::Triangles, MultiVector::Zero(isNear.values.rows(), 1) };
+  for (Id t = 0; t < away.values.rows(); ++t)
+  {
+    const auto& corner = mesh_->triangles[t];
+    const int sides = curve.side[corner[0]] + curve.side[corner[1]] + curve.side[corner[2]];
+    const int side = sides > 0 ? 1 : sides < 0 ? -1 : 0;
+    away.values(t, 0) = isNear.values(t, 0) > 0.0 ? 0.0 : -side;
+  }
+  Field known{ FieldAssociation::Points, MultiVector(static_cast<Id>(near.size()), 1) };
+  std::transform(near.begin(), near.end(), known.values.data(),
+    [](double distance) { return std::isnan(distance) ? 0.0 : distance; });
+  return space_->LoadOfDirections(heat, &away, job.Part(0.0, 0.5)) +
+         space_->LoadOfGradientsOf(known, &isNear, job.Part(0.5, 1.0));
+}
 
-  const MultiVector load = this->LoadOfDistance(heat.coefficients, isSource, job.Part(0.5, 0.65));
+/// Per component the mean over the curve; NaN where there is none of it.
+std::vector<double> GeodesicDistance::ZeroesOnCurve(
+  const MultiVector& distance, const SurfaceCurve& curve) const
+{
+  const auto last = std::max_element(component_.begin(), component_.end());
+  const Index components = last == component_.end() ? 0 : *last + 1;
+  std::vector<double> sum(components, 0.0);
+  std::vector<double> length(components, 0.0);
+  const EdgeSamples samples = space_->SamplesOfSegments(curve.segments);
+  for (Index row = 0; row < samples.rows.rows; ++row)
+  {
+    const Id triangle = curve.segments[samples.edge[row]].triangle;
+    const Index component = component_[mesh_->triangles[triangle][0]];
+    if (component < 0)
+    {
+      continue;
+    }
+    double value = 0.0;
+    for (Id k = samples.rows.rowBegin[row]; k < samples.rows.rowBegin[row + 1]; ++k)
+    {
+      value += samples.rows.value[k] * distance(samples.rows.column[k], 0);
+    }
+    sum[component] += samples.length[row] * value;
+    length[component] += samples.length[row];
+  }
+  std::transform(sum.begin(), sum.end(), length.begin(), sum.begin(),
+    [](double total, double of) { return of > 0.0 ? total / of : NaN; });
+  return sum;
+}
+
+std::vector<double> GeodesicDistance::ShiftedToCurve(const MultiVector& distance,
+  const SurfaceCurve& curve, const std::vector<double>& near, const Job& job) const
+{
+  const std::vector<double> zero = this->ZeroesOnCurve(distance, curve);
+  const MultiVector value = space_->ValuesAtPoints(distance, job);
+  double reach = 0.0;
+  for (const double known : near)
+  {
+    reach = std::fmax(reach, std::abs(known));
+  }
+  std::vector<double> shifted(component_.size(), NaN);
+  for (std::size_t point = 0; point < component_.size(); ++point)
+  {
+    if (component_[point] < 0)
+    {
+      continue;
+    }
+    const double solved = value(static_cast<Id>(point), 0) - zero[component_[point]];
+    const bool isNear = !std::isnan(near[point]) && reach > 0.0;
+    const double share = isNear ? 1.0 - std::abs(near[point]) / reach : 0.0;
+    const double mixed = isNear ? share * near[point] + (1.0 - share) * solved : solved;
+    const int side = curve.side[point];
+    shifted[point] = std::isnan(solved) ? NaN
+                     : side > 0         ? std::max(0.0, mixed)
+                     : side < 0         ? std::min(0.0, mixed)
+                                        : mixed;
+  }
+  return shifted;
+}
+
+DistanceField GeodesicDistance::FromHeat(
+  const MultiVector& load, const Job& job, MultiVector& heat) const
+{
+  HeatField found = heat_->From(load, job);
+  DistanceField field;
+  field.heatConverged = found.converged;
+  field.heatSweeps = found.sweeps;
+  field.unreached = found.unreached;
+  heat = std::move(found.coefficients);
+  return field;
+}
+
+/// @return  φ of L φ = load, its report into the field
+MultiVector GeodesicDistance::Solve(const MultiVector& load, const SolveOptions& solve,
+  DistanceField& field, const Progress& progress) const
+{
   PoissonOptions options;
   options.screeningWeight = 0.0;
   options.multigrid = options_.multigrid;
   options.solve = solve;
-  PoissonSolution solution = SolvePoisson(*space_, *poisson_, MultiVector::Zero(load.rows(), 1),
-    load, options, job.progress.Part(0.65, 0.95));
+  PoissonSolution solution =
+    SolvePoisson(*space_, *poisson_, MultiVector::Zero(load.rows(), 1), load, options, progress);
   field.report = std::move(solution.report);
-  field.report.converged = field.report.converged && heat.converged;
-  field.atPoints = this->ShiftedToSources(solution.coefficients, sources, job.Part(0.95, 1.0));
+  field.report.converged = field.report.converged && field.heatConverged;
+  return std::move(solution.coefficients);
+}
+
+DistanceField GeodesicDistance::From(
+  const std::vector<Id>& sources, const SolveOptions& solve, const Job& job) const
+{
+  const std::vector<char> isSource = MarkSources(sources, mesh_->points.size());
+  MultiVector heat;
+  DistanceField field =
+    this->FromHeat(LoadOfPoints(HeatSpace(*space_), sources), job.Part(0.0, 0.5), heat);
+  const MultiVector load = this->LoadOfDistance(heat, isSource, job.Part(0.5, 0.65));
+  const MultiVector distance = this->Solve(load, solve, field, job.progress.Part(0.65, 0.95));
+  field.atPoints = this->ShiftedToSources(distance, sources, job.Part(0.95, 1.0));
+  return field;
+}
+
+DistanceField GeodesicDistance::FromCurve(
+  const SurfaceCurve& curve, const SolveOptions& solve, const Job& job) const
+{
+  if (curve.side.size() != mesh_->points.size() || curve.segments.empty())
+  {
+    throw InvalidInput("The curve has sides for " + std::to_string(curve.side.size()) +
+                       " points of " + std::to_string(mesh_->points.size()) + ", and " +
+                       std::to_string(curve.segments.size()) + " segments.");
+  }
+  const double reach = NearReach * std::sqrt(time_) * space_->UnitLength();
+  const std::vector<double> near = DistancesNear(curve, *mesh_, reach, job.threads);
+  MultiVector heat;
+  DistanceField field =
+    this->FromHeat(LoadOfCurve(HeatSpace(*space_), curve), job.Part(0.05, 0.5), heat);
+  const MultiVector load = this->LoadOfSignedDistance(heat, curve, near, job.Part(0.5, 0.65));
+  const MultiVector distance = this->Solve(load, solve, field, job.progress.Part(0.65, 0.95));
+  field.atPoints = this->ShiftedToCurve(distance, curve, near, job.Part(0.95, 1.0));
   return field;
 }
 

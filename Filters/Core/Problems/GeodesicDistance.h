@@ -8,6 +8,7 @@
 #include "Grid/TriangleMesh.h"
 #include "Krylov/ConjugateGradients.h"
 #include "Problems/DistantHeat.h"
+#include "Problems/SurfaceCurve.h"
 #include "Spaces/FiniteElementSpace.h"
 
 #include <memory>
@@ -27,8 +28,8 @@ struct DistanceOptions
 
 struct DistanceField
 {
-  /// Per point of the mesh, world units: 0 at sources, at least 0 elsewhere; NaN where no function
-  /// reaches or the component has no source.
+  /// Per point of the mesh, world units: 0 at sources, at least 0 elsewhere, but for the inside of
+  /// a curve, where it is at most 0; NaN where no function reaches or the component has no source.
   std::vector<double> atPoints;
   SolveReport report; // of the distance; not converged if the heat was not
   bool heatConverged = false;
@@ -58,14 +59,33 @@ public:
   DistanceField From(
     const std::vector<Id>& sources, const SolveOptions& solve, const Job& job = {}) const;
 
+  /// The distance from a curve, negative inside: L φ = ∫ <X, ∇b_i>, where X points away from the
+  /// curve outside and towards it inside, so that φ has no crease there. Near the curve X is the
+  /// gradient of the distance through space (DistancesNear), and so is the result, the more the
+  /// nearer; farther off heat that starts everywhere on the curve gives the direction. φ is shifted
+  /// so that its mean over the curve is 0 on each component. Close to the curve the error is that
+  /// of linear functions on the triangles, farther off that of From.
+  /// Throws InvalidInput when the curve is not of this mesh, and Aborted. Same bits for any number
+  /// of threads.
+  DistanceField FromCurve(
+    const SurfaceCurve& curve, const SolveOptions& solve, const Job& job = {}) const;
+
   /// t, squared units of length of the space.
   double Time() const { return time_; }
 
 private:
+  DistanceField FromHeat(const MultiVector& load, const Job& job, MultiVector& heat) const;
   MultiVector LoadOfDistance(
     const MultiVector& heat, const std::vector<char>& isSource, const Job& job) const;
+  MultiVector LoadOfSignedDistance(const MultiVector& heat, const SurfaceCurve& curve,
+    const std::vector<double>& near, const Job& job) const;
+  MultiVector Solve(const MultiVector& load, const SolveOptions& solve, DistanceField& field,
+    const Progress& progress) const;
   std::vector<double> ShiftedToSources(
     const MultiVector& distance, const std::vector<Id>& sources, const Job& job) const;
+  std::vector<double> ZeroesOnCurve(const MultiVector& distance, const SurfaceCurve& curve) const;
+  std::vector<double> ShiftedToCurve(const MultiVector& distance, const SurfaceCurve& curve,
+    const std::vector<double>& near, const Job& job) const;
 
   std::shared_ptr<const FiniteElementSpace> space_;
   std::shared_ptr<const TriangleMesh> mesh_;

@@ -1,6 +1,7 @@
 #include "Problems/HarmonicInterpolation.h"
 
 #include "Base/Errors.h"
+#include "Problems/BiharmonicIteration.h"
 #include "Problems/Poisson.h"
 #include "Spaces/PointComponents.h"
 
@@ -158,6 +159,7 @@ void MeasureMisfit(const SparseMatrix& rows, const MultiVector& values, double t
 {
   MultiVector reached;
   Multiply(rows, solution.coefficients, reached, threads);
+  solution.misfit = 0.0;
   double range = 0.0;
   for (Index row = 0; row < rows.rows; ++row)
   {
@@ -195,11 +197,15 @@ ConstrainedSolution InterpolateHarmonically(const FiniteElementSpace& space,
     SetMeans(space, solution.isHeld, unknown, solution.coefficients, options.multigrid.threads);
     return solution;
   }
-  if (rows.rows > LargestBiharmonic)
+  if (rows.rows > options.mostAtOnce)
   {
-    throw InvalidInput("A biharmonic function takes values at " +
-                       std::to_string(LargestBiharmonic) + " points at most, not " +
-                       std::to_string(rows.rows) + ". A harmonic one takes any number.");
+    constexpr double Met = 1e-6;
+    ConstrainedSolution solution = IterateBiharmonic(space, rows, values, options, progress);
+    MeasureMisfit(rows, values, Met, options.multigrid.threads, solution);
+    const MultiVector unknown = MultiVector::Constant(static_cast<Id>(solution.isHeld.size()),
+      values.cols(), std::numeric_limits<double>::quiet_NaN());
+    SetMeans(space, solution.isHeld, unknown, solution.coefficients, options.multigrid.threads);
+    return solution;
   }
   constexpr double Tolerance = 1e-4; // dense multipliers carry the tolerance of the solves
   ConstrainedSolution solution = Biharmonic(space, rows, values, options, progress);

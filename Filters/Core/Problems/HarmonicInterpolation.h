@@ -19,19 +19,18 @@ struct InterpolationOptions
   ConstraintOptions constraints; // of the harmonic one
   MultigridOptions multigrid;
   SolveOptions solve;
+  /// Biharmonic functions of up to so many points are found at once, by a solve and a vector for
+  /// each; of more by iteration (BiharmonicIteration.h).
+  Id mostAtOnce = 256;
 };
-
-/// The most points that a biharmonic function is interpolated from: each costs a solve and a
-/// vector.
-constexpr Id LargestBiharmonic = 256;
 
 /// The result is NaN on components without a point.
 /// Biharmonic: u = G μ + c with the Green's function G = L⁺ M L⁺ of the points, c constant on each
 /// connected component; the multipliers μ solve (C G Cᵀ) μ + c = g, Σ μ = 0. Values that
-/// contradict each other are met in the mean.
+/// contradict each other are met in the mean. From many points: see IterateBiharmonic.
 /// @param rows    RowsAtPoints of the points
 /// @param values  rows = points, one column per component
-/// Throws InvalidInput when there is no point, or too many, or shapes do not fit, and Aborted. Same
+/// Throws InvalidInput when there is no point or shapes do not fit, and Aborted. Same
 /// bits for any number of threads.
 ConstrainedSolution InterpolateHarmonically(const FiniteElementSpace& space,
   const SparseMatrix& rows, const MultiVector& values, const InterpolationOptions& options,

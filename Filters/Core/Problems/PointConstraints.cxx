@@ -1,6 +1,5 @@
 #include "Problems/PointConstraints.h"
 
-#include "Algebra/ComponentMeans.h"
 #include "Algebra/RowBuilder.h"
 #include "Base/Errors.h"
 #include "Base/Parallel.h"
@@ -159,44 +158,6 @@ void CheckShapes(const FiniteElementSpace& space, const ConstrainedHierarchy& hi
   }
 }
 
-/// Removes the constants of components that nothing holds; the two are each other's transposes.
-class FreeConstants
-{
-public:
-  FreeConstants(const Components& components, const std::vector<char>& isHeld, int threads)
-    : isHeld_(isHeld), one_(components.ofFunction.size(), 1.0),
-      means_(components.ofFunction, one_, components.count, threads)
-  {
-  }
-
-  Projection AsProjection() const
-  {
-    if (std::all_of(isHeld_.begin(), isHeld_.end(), [](char held) { return held; }))
-    {
-      return {};
-    }
-    return { [this](MultiVector& x) { means_.AddConstants(-this->Of(means_.OfFunction(x)), x); },
-      [this](MultiVector& b) { means_.SubtractIntegrals(this->Of(means_.OfIntegrals(b)), b); } };
-  }
-
-private:
-  MultiVector Of(MultiVector means) const
-  {
-    for (Id c = 0; c < means.rows(); ++c)
-    {
-      if (isHeld_[c])
-      {
-        means.row(c).setZero();
-      }
-    }
-    return means;
-  }
-
-  const std::vector<char>& isHeld_;
-  const std::vector<double> one_;
-  const ComponentMeans means_;
-};
-
 /// The steps of the augmented Lagrangian, for a problem whose values are about 1.
 class ConstrainedIteration
 {
@@ -303,6 +264,35 @@ private:
 };
 
 } // namespace
+
+FreeConstants::FreeConstants(
+  const Components& components, const std::vector<char>& isHeld, int threads)
+  : isHeld_(isHeld), one_(components.ofFunction.size(), 1.0),
+    means_(components.ofFunction, one_, components.count, threads)
+{
+}
+
+Projection FreeConstants::AsProjection() const
+{
+  if (std::all_of(isHeld_.begin(), isHeld_.end(), [](char held) { return held; }))
+  {
+    return {};
+  }
+  return { [this](MultiVector& x) { means_.AddConstants(-this->Of(means_.OfFunction(x)), x); },
+    [this](MultiVector& b) { means_.SubtractIntegrals(this->Of(means_.OfIntegrals(b)), b); } };
+}
+
+MultiVector FreeConstants::Of(MultiVector means) const
+{
+  for (Id c = 0; c < means.rows(); ++c)
+  {
+    if (isHeld_[c])
+    {
+      means.row(c).setZero();
+    }
+  }
+  return means;
+}
 
 ConstrainedHierarchy::ConstrainedHierarchy(const FiniteElementSpace& space, double a, double b,
   SparseMatrix rows, double penalty, const MultigridOptions& options, const Progress& progress)

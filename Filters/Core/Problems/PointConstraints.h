@@ -2,6 +2,7 @@
 #ifndef GridFEM_PointConstraints_h
 #define GridFEM_PointConstraints_h
 
+#include "Algebra/ComponentMeans.h"
 #include "Krylov/PrecisionFallback.h"
 #include "Spaces/FiniteElementSpace.h"
 
@@ -32,6 +33,9 @@ public:
   const Multigrid& GetMultigrid() const { return multigrid_; }
   const SparseMatrix& Rows() const { return rows_; }
 
+  /// W, of each row.
+  const std::vector<double>& Weights() const { return weight_; }
+
   /// Cᵀ W r for values at the points: rows = functions.
   MultiVector LoadOf(const MultiVector& values) const;
 
@@ -57,6 +61,24 @@ struct ConstrainedSolution
   /// meet, and the solution is the one with the least (weighted) squares of the misfits.
   bool isExact = true;
   std::vector<char> isHeld; // per component of the functions
+};
+
+/// Removes the constants of components that nothing holds. Keeps references to what it is made
+/// from.
+class FreeConstants
+{
+public:
+  FreeConstants(const Components& components, const std::vector<char>& isHeld, int threads);
+
+  /// Empty where all are held; else to be used while this lives.
+  Projection AsProjection() const;
+
+private:
+  MultiVector Of(MultiVector means) const;
+
+  const std::vector<char>& isHeld_;
+  const std::vector<double> one_;
+  const ComponentMeans means_;
 };
 
 /// Per component of the functions: whether a constraint or mass holds it.

@@ -127,9 +127,9 @@ public:
   /// InvalidInput for a point that the mesh does not have.
   virtual SparseMatrix RowsAtPoints(const std::vector<Id>& points) const = 0;
 
-  /// The values of all functions along edges of the mesh, for integrals over them. Throws
+  /// The values of all functions along segments of triangles, for integrals over curves. Throws
   /// InvalidInput for a triangle that the mesh does not have.
-  virtual EdgeSamples SamplesOfEdges(const std::vector<TriangleEdge>& edges) const = 0;
+  virtual EdgeSamples SamplesOfSegments(const std::vector<TriangleSegment>& segments) const = 0;
 
   /// Per point of the mesh: 1 where a function reaches it.
   virtual std::vector<char> PointsWithFunctions() const = 0;

@@ -167,9 +167,9 @@ SparseMatrix GridSpace::RowsAtPoints(const std::vector<Id>& points) const
   return EvaluationRows(*functions_, points);
 }
 
-EdgeSamples GridSpace::SamplesOfEdges(const std::vector<TriangleEdge>& edges) const
+EdgeSamples GridSpace::SamplesOfSegments(const std::vector<TriangleSegment>& segments) const
 {
-  return SampleEdges(*functions_, *mesh_, edges);
+  return SampleSegments(*functions_, *mesh_, segments);
 }
 
 std::vector<char> GridSpace::PointsWithFunctions() const

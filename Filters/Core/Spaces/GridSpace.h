@@ -53,7 +53,7 @@ public:
     const MultiVector& coefficients, const Job& job = {}) const override;
   Columns SquaredNorms(const MultiVector& u, const Job& job = {}) const override;
   SparseMatrix RowsAtPoints(const std::vector<Id>& points) const override;
-  EdgeSamples SamplesOfEdges(const std::vector<TriangleEdge>& edges) const override;
+  EdgeSamples SamplesOfSegments(const std::vector<TriangleSegment>& segments) const override;
   std::vector<char> PointsWithFunctions() const override;
   MultiVector EmbeddingOfMesh(const Job& job = {}) const override;
 

@@ -161,30 +161,36 @@ MultiVector IntegrateGradientsOf(const HatFunctions& hats, const TriangleMesh& m
     });
 }
 
-EdgeSamples SampleEdges(
-  const HatFunctions& hats, const TriangleMesh& mesh, const std::vector<TriangleEdge>& edges)
+EdgeSamples SampleSegments(
+  const HatFunctions& hats, const TriangleMesh& mesh, const std::vector<TriangleSegment>& segments)
 {
-  RequireEdges(edges, mesh);
+  RequireSegments(segments, mesh);
   EdgeSamples samples;
   RowBuilder rows;
   RowBuilder::Entries entries;
-  for (std::size_t e = 0; e < edges.size(); ++e)
+  for (std::size_t s = 0; s < segments.size(); ++s)
   {
-    const auto ends = edges[e].Ends(mesh);
-    const double length = (mesh.points[ends[1]] - mesh.points[ends[0]]).norm();
+    const auto& corner = mesh.triangles[segments[s].triangle];
+    const Vec3& a = mesh.points[corner[0]];
+    const Vec3& b = mesh.points[corner[1]];
+    const Vec3& c = mesh.points[corner[2]];
+    const double length =
+      (PointOfSegment(segments[s], 1.0, a, b, c) - PointOfSegment(segments[s], 0.0, a, b, c))
+        .norm();
     for (const GaussPoint& gauss : GaussPoints)
     {
+      const Vec3 weight =
+        (1.0 - gauss.position) * segments[s].from + gauss.position * segments[s].to;
       entries.clear();
-      for (int k = 0; k < 2; ++k)
+      for (int k = 0; k < 3; ++k)
       {
-        if (hats.ofPoint[ends[k]] >= 0)
+        if (hats.ofPoint[corner[k]] >= 0 && weight[k] != 0.0)
         {
-          entries.emplace_back(
-            hats.ofPoint[ends[k]], k == 0 ? 1.0 - gauss.position : gauss.position);
+          entries.emplace_back(hats.ofPoint[corner[k]], weight[k]);
         }
       }
       rows.Append(entries);
-      samples.edge.push_back(static_cast<Index>(e));
+      samples.edge.push_back(static_cast<Index>(s));
       samples.position.push_back(gauss.position);
       samples.length.push_back(gauss.weight * length);
     }

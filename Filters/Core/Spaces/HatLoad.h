@@ -35,9 +35,9 @@ MultiVector IntegrateTurnedGradients(
 MultiVector IntegrateGradientsOf(const HatFunctions& hats, const TriangleMesh& mesh, const Field& f,
   const Field* scale, int threads = 0);
 
-/// The same samples as of a grid (EdgeSamples.h), three on each edge.
-EdgeSamples SampleEdges(
-  const HatFunctions& hats, const TriangleMesh& mesh, const std::vector<TriangleEdge>& edges);
+/// The same samples as of a grid (EdgeSamples.h), three on each segment.
+EdgeSamples SampleSegments(
+  const HatFunctions& hats, const TriangleMesh& mesh, const std::vector<TriangleSegment>& segments);
 
 } // namespace gridfem
 

@@ -220,9 +220,9 @@ SparseMatrix HatSpace::RowsAtPoints(const std::vector<Id>& points) const
   return rows.Finish(hats_->functions.Count());
 }
 
-EdgeSamples HatSpace::SamplesOfEdges(const std::vector<TriangleEdge>& edges) const
+EdgeSamples HatSpace::SamplesOfSegments(const std::vector<TriangleSegment>& segments) const
 {
-  return SampleEdges(hats_->functions, grid_.Mesh(), edges);
+  return SampleSegments(hats_->functions, grid_.Mesh(), segments);
 }
 
 std::vector<char> HatSpace::PointsWithFunctions() const

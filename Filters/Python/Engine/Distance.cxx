@@ -19,7 +19,10 @@ public:
   explicit DistanceProblem(Properties& properties)
     : options_(properties, { 1e-4, 200, 0.1 }),
       smoothing_(properties.Number("Smoothing", 1.75, 0.5, 1000.0)),
-      toInfinity_(properties.Integer("Unreachable", 0, 0, 1) == 1)
+      toInfinity_(properties.Integer("Unreachable", 0, 0, 1) == 1),
+      isSigned_(properties.Switch("Signed", false)),
+      insideLabel_(properties.Integer("InsideLabel", 1, -Largest, Largest)),
+      isReversed_(properties.Switch("ReverseSign", false))
   {
     options_.functions.joinAtPoints = true; // paths lead through points where sheets touch
   }
@@ -30,19 +33,39 @@ public:
     const GeodesicDistance method(surface.space, surface.mesh,
       DistanceOptions{ smoothing_, options_.multigrid }, surface.MakeJob(progress.Part(0.3, 0.4)));
     const DistanceField field =
-      method.From(SourcesOf(given), options_.solve, surface.MakeJob(progress.Part(0.4, 0.98)));
+      this->Measure(given, method, surface.MakeJob(progress.Part(0.4, 0.98)));
     Results results;
     MultiVector& distance = results.arrays["Distance"];
     distance.resize(static_cast<Id>(field.atPoints.size()), 1);
     std::transform(field.atPoints.begin(), field.atPoints.end(), distance.data(),
-      [this](double value) {
-        return toInfinity_ && std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
+      [this](double value)
+      {
+        return toInfinity_ && std::isnan(value) ? std::numeric_limits<double>::infinity()
+               : isSigned_ && isReversed_       ? 0.0 - value
+                                                : value;
       });
     results.warnings = WarningsOf(field, options_.solve.tolerance);
     return results;
   }
 
 private:
+  static constexpr int Largest = std::numeric_limits<int>::max();
+
+  DistanceField Measure(const Given& given, const GeodesicDistance& method, const Job& job) const
+  {
+    if (!isSigned_)
+    {
+      return method.From(SourcesOf(given), options_.solve, job);
+    }
+    if (!given.sources.empty() || !given.Find("labels"))
+    {
+      throw InvalidInput("Signed distances are from the border of labels, not from points.");
+    }
+    const SurfaceCurve curve = BorderOfLabel(
+      *given.mesh, given.FieldOf("labels"), insideLabel_, options_.functions.weldCoincidentPoints);
+    return method.FromCurve(curve, options_.solve, job);
+  }
+
   static std::vector<Id> SourcesOf(const Given& given)
   {
     const std::vector<char> used = UsedPoints(*given.mesh);
@@ -63,6 +86,9 @@ private:
   SurfaceOptions options_;
   double smoothing_;
   bool toInfinity_;
+  bool isSigned_;
+  int insideLabel_;
+  bool isReversed_;
 };
 
 } // namespace

@@ -124,7 +124,7 @@ TEST_P(EverySpace, IntegratesAlongBoundaries)
   {
     const SpaceOnMesh on = this->Build(mesh);
     const std::vector<TriangleEdge> edges = FindSurfaceEdges(mesh, true).boundary;
-    const EdgeSamples samples = on.space->SamplesOfEdges(edges);
+    const EdgeSamples samples = on.space->SamplesOfSegments(SegmentsOf(edges, mesh));
     Vec3 expected = Vec3::Zero();
     double length = 0.0;
     for (const TriangleEdge& edge : edges)
@@ -152,7 +152,8 @@ TEST_P(EverySpace, IntegratesAlongBoundaries)
     }
     EXPECT_NEAR(total, length, 1e-9 * length);
     EXPECT_LT((sum - expected).norm(), 1e-9 * expected.norm());
-    EXPECT_THROW(on.space->SamplesOfEdges({ { Id(1000000), 0 } }), InvalidInput);
+    EXPECT_THROW(
+      on.space->SamplesOfSegments({ { Id(1000000), Vec3::Unit(0), Vec3::Unit(1) } }), InvalidInput);
   }
 }
 

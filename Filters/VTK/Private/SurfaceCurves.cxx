@@ -1,0 +1,140 @@
+#include "SurfaceCurves.h"
+
+#include "Allocation.h"
+#include "Base/Errors.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellType.h"
+#include "vtkDataSet.h"
+#include "vtkGenericCell.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkStaticCellLocator.h"
+
+#include <cmath>
+
+namespace gridfem
+{
+namespace
+{
+
+std::vector<std::vector<Vec3>> ReadLines(vtkDataSet* data)
+{
+  std::vector<std::vector<Vec3>> lines;
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType cell = 0; data && cell < data->GetNumberOfCells(); ++cell)
+  {
+    const int type = data->GetCellType(cell);
+    if (type != VTK_LINE && type != VTK_POLY_LINE)
+    {
+      continue;
+    }
+    data->GetCellPoints(cell, ids);
+    std::vector<Vec3> line;
+    for (vtkIdType k = 0; k < ids->GetNumberOfIds(); ++k)
+    {
+      line.emplace_back();
+      data->GetPoint(ids->GetId(k), line.back().data());
+      if (!line.back().allFinite())
+      {
+        throw InvalidInput("Sources: point " + std::to_string(ids->GetId(k)) +
+                           " of a line has a NaN or infinite coordinate.");
+      }
+    }
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+/// Finds the triangle nearest to a point.
+class TriangleLocator
+{
+public:
+  explicit TriangleLocator(const TriangleMesh& mesh)
+  {
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    SetTuples(points->GetData(), static_cast<vtkIdType>(mesh.points.size()));
+    for (std::size_t k = 0; k < mesh.points.size(); ++k)
+    {
+      // What no triangle uses may be nowhere.
+      const Vec3 position = mesh.points[k].allFinite() ? mesh.points[k] : Vec3::Zero();
+      points->SetPoint(static_cast<vtkIdType>(k), position.data());
+    }
+    vtkNew<vtkCellArray> triangles;
+    for (Id t = 0; t < static_cast<Id>(mesh.triangles.size()); ++t)
+    {
+      const auto& corner = mesh.triangles[t];
+      const auto at = [&](int k) -> const Vec3& { return mesh.points[corner[k]]; };
+      if (at(0) != at(1) && at(1) != at(2) && at(2) != at(0))
+      {
+        const vtkIdType ids[3] = { corner[0], corner[1], corner[2] };
+        triangles->InsertNextCell(3, ids);
+        number_.push_back(t);
+      }
+    }
+    surface_->SetPoints(points);
+    surface_->SetPolys(triangles);
+    locator_->SetDataSet(surface_);
+    locator_->BuildLocator();
+  }
+
+  SurfacePlace Nearest(const Vec3& wanted) const
+  {
+    Vec3 closest;
+    vtkIdType cell = -1;
+    int part = 0;
+    double square = 0.0;
+    locator_->FindClosestPoint(wanted.data(), closest.data(), cell_, cell, part, square);
+    if (cell < 0)
+    {
+      throw InvalidInput("No triangle with an area is near the lines of Sources.");
+    }
+    return { number_[cell], closest };
+  }
+
+private:
+  vtkNew<vtkPolyData> surface_;
+  vtkNew<vtkStaticCellLocator> locator_;
+  vtkNew<vtkGenericCell> cell_;
+  std::vector<Id> number_; // of the mesh's triangles
+};
+
+} // namespace
+
+SurfaceCurve BorderOfLabel(
+  const InputArray& labels, int inside, const InputMesh& mesh, bool weldCoincidentPoints)
+{
+  if (labels.array->GetNumberOfComponents() != 1)
+  {
+    throw InvalidInput("LabelArray '" + labels.name + "' must have one component.");
+  }
+  const Field field = ReadField(labels, mesh);
+  try
+  {
+    return gridfem::BorderOfLabel(*mesh.triangles, field, inside, weldCoincidentPoints);
+  }
+  catch (const InvalidInput& error)
+  {
+    throw InvalidInput("LabelArray '" + labels.name + "' and InsideLabel " +
+                       std::to_string(inside) + ": " + error.what());
+  }
+}
+
+SurfaceCurve CurveOfLines(vtkDataSet* lines, const TriangleMesh& mesh, bool weldCoincidentPoints)
+{
+  const std::vector<std::vector<Vec3>> polylines = ReadLines(lines);
+  if (polylines.empty())
+  {
+    throw InvalidInput("A signed distance is that from a curve: choose a LabelArray, or give lines "
+                       "on the surface as Sources, such as a Slice or a Contour of it.");
+  }
+  const TriangleLocator locator(mesh);
+  return DivideByLines(
+    mesh, polylines, [&](const Vec3& wanted) { return locator.Nearest(wanted); },
+    weldCoincidentPoints);
+}
+
+} // namespace gridfem

@@ -1,0 +1,436 @@
+// Signed distances from curves against exact ones, on both kinds of space.
+#include "Problems/CurveDistance.h"
+#include "Problems/GeodesicDistance.h"
+
+#include "Base/Errors.h"
+#include "EitherSpace.h"
+#include "Spaces.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <utility>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+constexpr double Pi = 3.14159265358979323846;
+using Distance = std::function<double(const Vec3&)>;
+
+/// By looking at every triangle that is near enough.
+class NearestOn
+{
+public:
+  explicit NearestOn(const TriangleMesh& mesh) : mesh_(mesh)
+  {
+    for (const auto& corner : mesh.triangles)
+    {
+      centre_.push_back(
+        (mesh.points[corner[0]] + mesh.points[corner[1]] + mesh.points[corner[2]]) / 3.0);
+      for (const Id point : corner)
+      {
+        radius_ = std::max(radius_, (mesh.points[point] - centre_.back()).norm());
+      }
+    }
+  }
+
+  SurfacePlace operator()(const Vec3& wanted) const
+  {
+    SurfacePlace nearest{ 0, wanted };
+    double least = std::numeric_limits<double>::infinity();
+    for (Id t = 0; t < static_cast<Id>(mesh_.triangles.size()); ++t)
+    {
+      if ((centre_[t] - wanted).norm() - radius_ < least)
+      {
+        for (const Vec3& candidate : this->Candidates(t, wanted))
+        {
+          if ((candidate - wanted).norm() < least)
+          {
+            least = (candidate - wanted).norm();
+            nearest = { t, candidate };
+          }
+        }
+      }
+    }
+    return nearest;
+  }
+
+private:
+  std::vector<Vec3> Candidates(Id t, const Vec3& wanted) const
+  {
+    const auto& corner = mesh_.triangles[t];
+    const Vec3& a = mesh_.points[corner[0]];
+    Eigen::Matrix<double, 3, 2> edges;
+    edges << mesh_.points[corner[1]] - a, mesh_.points[corner[2]] - a;
+    const Eigen::Vector2d share = edges.colPivHouseholderQr().solve(wanted - a);
+    std::vector<Vec3> candidates;
+    if (share.minCoeff() >= 0.0 && share.sum() <= 1.0)
+    {
+      candidates.push_back(a + edges * share);
+    }
+    for (int k = 0; k < 3; ++k)
+    {
+      const Vec3& from = mesh_.points[corner[k]];
+      const Vec3 along = mesh_.points[corner[(k + 1) % 3]] - from;
+      const double t01 = std::clamp((wanted - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
+      candidates.push_back(from + t01 * along);
+    }
+    return candidates;
+  }
+
+  const TriangleMesh& mesh_;
+  std::vector<Vec3> centre_;
+  double radius_ = 0.0; // of the largest
+};
+
+SurfaceCurve DivideBy(const TriangleMesh& mesh, const std::vector<std::vector<Vec3>>& lines)
+{
+  return DivideByLines(mesh, lines, NearestOn(mesh), true);
+}
+
+/// The points where a function is negative.
+Field Inside(const TriangleMesh& mesh, const Distance& distance)
+{
+  Field inside{ FieldAssociation::Points, MultiVector(static_cast<Id>(mesh.points.size()), 1) };
+  for (Id i = 0; i < inside.values.rows(); ++i)
+  {
+    inside.values(i, 0) = distance(mesh.points[i]) < 0.0 ? 1.0 : 0.0;
+  }
+  return inside;
+}
+
+std::vector<double> Distances(
+  const TriangleMesh& mesh, const SurfaceCurve& curve, bool isOnHats, int depth, int threads = 0)
+{
+  const GeodesicDistance method(BuildEither(mesh, isOnHats, depth, 0.1, threads),
+    std::make_shared<const TriangleMesh>(mesh), {}, threads);
+  SolveOptions solve;
+  solve.tolerance = 1e-4;
+  const DistanceField field = method.FromCurve(curve, solve, threads);
+  EXPECT_TRUE(field.report.converged);
+  EXPECT_EQ(field.unreached, 0);
+  return field.atPoints;
+}
+
+/// The largest among points whose exact distance is at most a limit.
+double LargestError(const TriangleMesh& mesh, const std::vector<double>& found,
+  const Distance& exact, double limit = std::numeric_limits<double>::infinity())
+{
+  double largest = 0.0;
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    const double wanted = exact(mesh.points[i]);
+    if (std::abs(wanted) <= limit)
+    {
+      const double error = std::abs(found[i] - wanted);
+      largest = error <= largest ? largest : error; // NaN stays
+    }
+  }
+  return largest;
+}
+
+std::vector<Vec3> Circle(const Vec3& centre, double radius, int count)
+{
+  std::vector<Vec3> line;
+  for (int k = 0; k < count; ++k)
+  {
+    const double angle = 2.0 * Pi * k / count + 0.1;
+    line.push_back(centre + radius * Vec3(std::cos(angle), std::sin(angle), 0));
+  }
+  line.push_back(line.front());
+  return line;
+}
+
+} // namespace
+
+/// A line from border to border: errors are those of heat at the ends, where it leaves obliquely.
+TEST(SignedDistance, FromALineOnASquareIsTheDistanceFromItAndErrorsFallWithDepth)
+{
+  const Distance exact = [](const Vec3& p)
+  { return (p[0] - 0.37 - 0.2 * p[1]) / std::sqrt(1.04); }; // the left part is the smaller one
+  const TriangleMesh mesh = FlatRectangle(100, 100);
+  const SurfaceCurve curve = DivideBy(mesh, { { { 0.37, 0, 0 }, { 0.57, 1, 0 } } });
+  for (const bool isOnHats : { false, true })
+  {
+    const std::vector<double> coarse = Distances(mesh, curve, isOnHats, 5);
+    const std::vector<double> fine = Distances(mesh, curve, isOnHats, 7);
+    EXPECT_LT(LargestError(mesh, coarse, exact), 0.03); // sqrt(t) is 0.066 and 0.016
+    EXPECT_LT(LargestError(mesh, fine, exact), 0.5 * LargestError(mesh, coarse, exact));
+    // Next to the line, also half way between points of the mesh: no dots.
+    EXPECT_LT(LargestError(mesh, fine, exact, 0.015), 0.002) << isOnHats; // a fifth of an edge
+  }
+}
+
+TEST(SignedDistance, FromACircleIsNegativeInside)
+{
+  const TriangleMesh mesh = FlatRectangle(100, 100);
+  const Distance exact = [](const Vec3& p) { return (p - Vec3(0.45, 0.52, 0)).norm() - 0.3; };
+  const SurfaceCurve curve = DivideBy(mesh, { Circle({ 0.45, 0.52, 0 }, 0.3, 200) });
+  for (const bool isOnHats : { false, true })
+  {
+    const std::vector<double> coarse = Distances(mesh, curve, isOnHats, 5);
+    const std::vector<double> fine = Distances(mesh, curve, isOnHats, 7);
+    EXPECT_LT(LargestError(mesh, fine, exact), 0.02); // in the centre, where fronts meet
+    EXPECT_LT(LargestError(mesh, fine, exact), 0.55 * LargestError(mesh, coarse, exact));
+    EXPECT_LT(LargestError(mesh, fine, exact, 0.02), 0.002) << isOnHats;
+    for (std::size_t i = 0; i < fine.size(); ++i)
+    {
+      ASSERT_GE(fine[i] * exact(mesh.points[i]), -1e-6) << i; // the circle is a polygon
+    }
+  }
+}
+
+TEST(SignedDistance, FromTheEquatorIsTheLatitude)
+{
+  constexpr double Radius = 3.0;
+  const auto errorAt = [&](bool isOnHats, int depth, int fineness)
+  {
+    const TriangleMesh mesh =
+      Transform(GeodesicSphere(fineness, Radius), { 1, 2, 3 }, 0.7, 1.0, { 4, 5, 6 });
+    const TriangleMesh axis = Transform(
+      Join(TriangleMesh{ { { 0, 0, 1 }, { 1, 0, 0 }, { 0, 1, 0 } }, { { 0, 1, 2 } } }, {}),
+      { 1, 2, 3 }, 0.7);
+    std::vector<Vec3> equator;
+    for (const Vec3& p : Circle({ 0, 0, 0 }, 1.0, 90))
+    {
+      equator.push_back(Vec3(4, 5, 6) + Radius * (p[0] * axis.points[1] + p[1] * axis.points[2]));
+    }
+    const SurfaceCurve curve = DivideBy(mesh, { equator });
+    std::vector<double> found = Distances(mesh, curve, isOnHats, depth);
+    // Both halves are of the same area: the first point is outside.
+    const double sign = (mesh.points[0] - Vec3(4, 5, 6)).dot(axis.points[0]) > 0.0 ? 1.0 : -1.0;
+    return LargestError(mesh, found,
+      [&](const Vec3& p)
+      {
+        return sign * Radius *
+               std::asin(std::clamp((p - Vec3(4, 5, 6)).dot(axis.points[0]) / Radius, -1.0, 1.0));
+      });
+  };
+  for (const bool isOnHats : { false, true })
+  {
+    const double coarse = errorAt(isOnHats, 4, 20);
+    const double fine = errorAt(isOnHats, 6, 40);
+    EXPECT_LT(fine, 0.01 * 0.5 * Pi * Radius * (isOnHats ? 1.5 : 1.0)) << isOnHats;
+    EXPECT_LT(fine, 0.4 * coarse) << isOnHats;
+  }
+}
+
+/// From the border of a region of points, which lies half an edge beside the circle, and of
+/// triangles, which is jagged by an edge.
+TEST(SignedDistance, FromTheBorderOfARegionIsAsExactAsItsEdges)
+{
+  constexpr double Edge = 0.01;
+  const TriangleMesh mesh = FlatRectangle(100, 100);
+  const Distance exact = [](const Vec3& p) { return (p - Vec3(0.45, 0.52, 0)).norm() - 0.3; };
+  const Field points = Inside(mesh, exact);
+  Field triangles{ FieldAssociation::Triangles,
+    MultiVector::Zero(static_cast<Id>(mesh.triangles.size()), 1) };
+  for (Id t = 0; t < triangles.values.rows(); ++t)
+  {
+    const auto& corner = mesh.triangles[t];
+    const Vec3 centre =
+      (mesh.points[corner[0]] + mesh.points[corner[1]] + mesh.points[corner[2]]) / 3.0;
+    triangles.values(t, 0) = exact(centre) < 0.0 ? 2.0 : 0.0;
+  }
+  for (const Field& inside : { points, triangles })
+  {
+    const SurfaceCurve curve = BorderOfRegion(mesh, inside, true);
+    const std::vector<double> found = Distances(mesh, curve, false, 6);
+    EXPECT_LT(LargestError(mesh, found, exact, 0.05), Edge);
+    EXPECT_LT(LargestError(mesh, found, exact), 0.033); // sqrt(t)
+    for (std::size_t i = 0; i < found.size(); ++i)
+    {
+      ASSERT_GE(found[i] * curve.side[i], 0.0) << i;
+    }
+  }
+}
+
+/// Two rings around a tube divide it into a short and a long part; each component has its own.
+TEST(SignedDistance, TakesSeveralCurvesOnSeveralComponents)
+{
+  constexpr double Tube = 0.2;
+  const auto torus = [](const Vec3& shift) {
+    return Transform(Torus(120, 24, 1.0, Tube), { 1, 0, 0 }, 0.0, 1.0, shift);
+  };
+  const Vec3 shift(0, 0, 1.5);
+  const TriangleMesh mesh = Join(torus(Vec3::Zero()), torus(shift));
+  // Meridians of the torus at two angles: the plane through the axis.
+  const auto meridian = [](double angle, const Vec3& at)
+  {
+    const Vec3 outwards(std::cos(angle), std::sin(angle), 0);
+    std::vector<Vec3> line;
+    for (int k = 0; k <= 48; ++k)
+    {
+      const double turn = 2.0 * Pi * k / 48.0;
+      line.push_back(
+        at + (1.0 + Tube * std::cos(turn)) * outwards + Vec3(0, 0, Tube * std::sin(turn)));
+    }
+    return line;
+  };
+  const Vec3 none = Vec3::Zero();
+  const SurfaceCurve curve = DivideBy(
+    mesh, { meridian(0.5, none), meridian(1.7, none), meridian(0.5, shift), meridian(1.7, shift) });
+  const std::vector<double> found = Distances(mesh, curve, false, 6);
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    const Vec3& p = mesh.points[i];
+    const double angle = std::remainder(std::atan2(p[1], p[0]) - 1.1, 2.0 * Pi); // of the middle
+    if (std::abs(std::abs(angle) - 0.6) > 1e-3)
+    {
+      ASSERT_EQ(found[i] > 0.0, std::abs(angle) > 0.6) << i;
+    }
+    // Around the outside a way is longer than straight on, around the inside shorter.
+    if (std::hypot(p[0], p[1]) > 1.0 + 0.99 * Tube && std::abs(angle) < 0.9)
+    {
+      ASSERT_NEAR(found[i], (1.0 + Tube) * (std::abs(angle) - 0.6), 0.08) << i;
+    }
+  }
+  // One ring divides nothing.
+  try
+  {
+    DivideBy(mesh, { meridian(0.5, none) });
+    FAIL();
+  }
+  catch (const InvalidInput& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("do not divide"), std::string::npos) << error.what();
+  }
+}
+
+TEST(SignedDistance, IsTheSameOnASoupAndWithNeedles)
+{
+  const TriangleMesh coarse = Transform(FlatRectangle(40, 40), { 1, 2, 3 }, 0.5);
+  const TriangleMesh needles = Transform(FlatRectangle(40, 400), { 1, 2, 3 }, 0.5);
+  const TriangleMesh ends = Transform(
+    TriangleMesh{ { { 0.37, 0, 0 }, { 0.57, 1, 0 }, { 0.4, 0.3, 0 } }, {} }, { 1, 2, 3 }, 0.5);
+  const std::vector<std::vector<Vec3>> line = { { ends.points[0], ends.points[1] } };
+  const std::vector<double> expected = Distances(coarse, DivideBy(coarse, line), false, 5);
+  const TriangleMesh soup = Unweld(coarse);
+  const std::vector<double> onSoup = Distances(soup, DivideBy(soup, line), false, 5);
+  for (std::size_t t = 0; t < coarse.triangles.size(); ++t)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      ASSERT_NEAR(onSoup[soup.triangles[t][k]], expected[coarse.triangles[t][k]], 2e-3);
+    }
+  }
+  const std::vector<double> onNeedles = Distances(needles, DivideBy(needles, line), false, 5);
+  for (std::size_t i = 0; i < coarse.points.size(); ++i)
+  {
+    const std::size_t row = i / 41;
+    ASSERT_NEAR(onNeedles[10 * row * 41 + i % 41], expected[i], 4e-3) << i;
+  }
+}
+
+/// Two sheets a third of a cell apart, joined at one edge: the line is on one of them.
+TEST(SignedDistance, DoesNotJumpBetweenSheetsThatAreNearerThanACell)
+{
+  constexpr double Gap = 0.01;
+  constexpr double Length = 2.0 + Gap;
+  TriangleMesh mesh = FlatRectangle(201, 50, Length, 0.5);
+  std::vector<double> exact;
+  for (Vec3& point : mesh.points)
+  {
+    const double s = point[0];
+    exact.push_back(s - 0.6);
+    point = s < 1.0         ? Vec3(1.0 - s, point[1], 0)
+            : s < 1.0 + Gap ? Vec3(0, point[1], s - 1.0)
+                            : Vec3(s - 1.0 - Gap, point[1], Gap);
+  }
+  const SurfaceCurve curve = DivideBy(mesh, { { { 0.4, 0, 0 }, { 0.4, 0.5, 0 } } });
+  for (const bool isOnHats : { false, true })
+  {
+    const std::vector<double> found = Distances(mesh, curve, isOnHats, 5);
+    for (std::size_t i = 0; i < found.size(); ++i)
+    {
+      ASSERT_NEAR(found[i], exact[i], 0.06) << i << " " << isOnHats;
+    }
+  }
+}
+
+TEST(SignedDistance, IsNaNWhereNoCurveIs)
+{
+  const TriangleMesh mesh = Join(
+    FlatRectangle(20, 20), Transform(FlatRectangle(20, 20), { 1, 0, 0 }, 0.0, 1.0, { 0, 0, 3 }));
+  const SurfaceCurve curve = DivideBy(mesh, { { { 0.37, 0, 0 }, { 0.57, 1, 0 } } });
+  const std::vector<double> found = Distances(mesh, curve, false, 5);
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    ASSERT_EQ(std::isnan(found[i]), mesh.points[i][2] > 1.0) << i;
+  }
+}
+
+TEST(SignedDistance, IsTheSameBitForBitWithAnyNumberOfThreads)
+{
+  const TriangleMesh mesh = GeodesicSphere(20);
+  const SurfaceCurve curve = DivideBy(mesh, { Circle({ 0, 0, 0.3 }, 1.0, 90) });
+  for (const bool isOnHats : { false, true })
+  {
+    EXPECT_EQ(Distances(mesh, curve, isOnHats, 5, 1), Distances(mesh, curve, isOnHats, 5, 3));
+  }
+}
+
+/// Lines along edges of the mesh, through its points, in pieces, and twice the same.
+TEST(SignedDistance, FollowsLinesAlongEdgesAndInPieces)
+{
+  const TriangleMesh mesh = FlatRectangle(10, 10);
+  const std::vector<std::vector<Vec3>> pieces = { { { 0.3, 0, 0 }, { 0.3, 0.5, 0 } },
+    { { 0.3, 1, 0 }, { 0.3, 0.8, 0 }, { 0.3, 0.5, 0 } } };
+  const SurfaceCurve curve = DivideBy(mesh, pieces);
+  const std::vector<double> near = DistancesNear(curve, mesh, 10.0);
+  for (std::size_t i = 0; i < near.size(); ++i)
+  {
+    ASSERT_NEAR(near[i], mesh.points[i][0] - 0.3, 1e-6) << i; // the resolution of lines
+  }
+  double length = 0.0;
+  for (const TriangleSegment& segment : curve.segments)
+  {
+    const auto& corner = mesh.triangles[segment.triangle];
+    const auto at = [&](double t)
+    {
+      return PointOfSegment(
+        segment, t, mesh.points[corner[0]], mesh.points[corner[1]], mesh.points[corner[2]]);
+    };
+    length += (at(1.0) - at(0.0)).norm();
+  }
+  EXPECT_NEAR(length, 1.0, 1e-5); // but for the resolution at points of the mesh
+}
+
+TEST(SignedDistance, RefusesLinesThatDivideNothing)
+{
+  const TriangleMesh mesh = FlatRectangle(10, 10);
+  const std::vector<std::pair<std::string, std::vector<std::vector<Vec3>>>> cases = {
+    { "(0.466667, 0.533333, 0)", { { { 0.23, 0, 0 }, { 0.5, 0.51, 0 } } } },
+    { "ends", { { { 0.23, 0, 0 }, { 0.23, 1, 0 } }, { { 0.23, 0.51, 0 }, { 1, 0.51, 0 } } } },
+    { "no length", { { { 0.23, 0.2, 0 } } } },
+    { "no length", {} },
+  };
+  for (const auto& [reason, lines] : cases)
+  {
+    try
+    {
+      DivideBy(mesh, lines);
+      FAIL() << reason;
+    }
+    catch (const InvalidInput& error)
+    {
+      EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
+    }
+  }
+  const TriangleMesh sheets = TwoSheets(4, 0.5);
+  EXPECT_THROW(DivideBy(sheets, { { { 0.2, 0.3, 0.0 }, { 0.2, 0.3, 0.5 } } }), InvalidInput);
+  Field inside{ FieldAssociation::Points,
+    MultiVector::Ones(static_cast<Id>(mesh.points.size()), 1) };
+  EXPECT_THROW(BorderOfRegion(mesh, inside, true), InvalidInput);
+  inside.values.resize(3, 1);
+  EXPECT_THROW(BorderOfRegion(mesh, inside, true), InvalidInput);
+  const GeodesicDistance method(
+    BuildEither(mesh, false, 4, 0.1), std::make_shared<const TriangleMesh>(mesh), {});
+  EXPECT_THROW(method.FromCurve({}, {}), InvalidInput);
+}
