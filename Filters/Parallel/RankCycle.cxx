@@ -254,6 +254,8 @@ void RankCycle::SetSmoother(KSP solver, Mat matrix, int sweeps, Sweep& sweep)
   PC pc = nullptr;
   Check(KSPSetType(solver, KSPRICHARDSON));
   Check(KSPSetNormType(solver, KSP_NORM_NONE));
+  // PETSc would begin anew where a W cycle comes to a level for the second time.
+  Check(KSPSetInitialGuessNonzero(solver, PETSC_TRUE));
   Check(KSPSetConvergenceTest(solver, KSPConvergedSkip, nullptr, nullptr));
   Check(KSPSetTolerances(solver, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT, sweeps));
   Check(KSPSetOperators(solver, matrix, matrix));
