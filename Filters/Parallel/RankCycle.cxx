@@ -63,14 +63,13 @@ PatchLevel WithoutPatches(const PatchLevel& level)
 RankSmoother::RankSmoother(const Communicator& ranks, Mat matrix, const LevelNumbering& numbering,
   const PatchLevel& level, const LevelVectors& vectors, const MultigridOptions& options)
   : whole_(matrix), matrix_(RowsOfFunctions(matrix, numbering)), vectors_(vectors),
-    threads_(options.threads), residual_(vectors.Make()), first_(vectors.Make())
+    threads_(options.threads), residual_(vectors.Make()), correction_(vectors.Make())
 {
-  double most = 1.0; // ranks that touch one function
+  std::vector<PatchLevel> parts(3, WithoutPatches(level)); // by the number of ranks that meet
+  double most = 1.0;
   ranks.Together(
     [&]
     {
-      PatchLevel inner = WithoutPatches(level);
-      PatchLevel border = WithoutPatches(level);
       for (Id patch = 0; patch < level.NumberOfPatches(); ++patch)
       {
         Index touching = 1;
@@ -79,47 +78,49 @@ RankSmoother::RankSmoother(const Communicator& ranks, Mat matrix, const LevelNum
           touching = std::max(touching, numbering.touching[function]);
         }
         most = std::max(most, double(touching));
-        PatchLevel& part = touching > 1 ? border : inner;
+        PatchLevel& part = parts[std::min<Index>(touching, 3) - 1];
         part.cell.push_back(level.cell[patch]);
         part.dof.push_back(level.dof[patch]);
       }
-      inner_ = MakePatchSmoother(matrix_, OrderPatches(inner), threads_, options.precision);
-      border_ = MakePatchSmoother(matrix_, OrderPatches(border), threads_, options.precision);
     });
   ranks.Maximum(&most, 1);
-  damping_ = 1.0 / most;
+  ranks.Together(
+    [&]
+    {
+      for (int step = 0; step < std::min(most, 3.0); ++step)
+      {
+        steps_.push_back(
+          { MakePatchSmoother(matrix_, OrderPatches(parts[step]), threads_, options.precision),
+            1.0 / (step < 2 ? step + 1.0 : most) });
+      }
+    });
 }
 
-void RankSmoother::Relax(
-  const Smoother& smoother, double damping, Vec r, Vec z, SweepDirection direction)
+/// z = the correction of one step for the residual r.
+void RankSmoother::Relax(const Step& step, Vec r, Vec z, SweepDirection direction)
 {
   vectors_.Spread(r, entries_);
   const auto functions = static_cast<Id>(entries_.size());
   b_ = Eigen::Map<const Eigen::VectorXd>(entries_.data(), functions);
   x_.setZero(functions, 1);
-  smoother.Sweep(matrix_, b_, x_, direction, threads_);
-  Eigen::Map<Eigen::VectorXd>(entries_.data(), functions) = damping * x_.col(0);
+  step.smoother->Sweep(matrix_, b_, x_, direction, threads_);
+  Eigen::Map<Eigen::VectorXd>(entries_.data(), functions) = step.damping * x_.col(0);
   vectors_.Add(entries_, z);
 }
 
 void RankSmoother::Sweep(Vec r, Vec z, SweepDirection direction)
 {
-  const bool isForward = direction == SweepDirection::Forward;
-  const auto relax = [&](bool isInner, Vec residual, Vec result)
+  const std::size_t steps = steps_.size();
+  const auto stepAt = [&](std::size_t k) -> const Step&
+  { return steps_[direction == SweepDirection::Forward ? k : steps - 1 - k]; };
+  this->Relax(stepAt(0), r, z, direction);
+  for (std::size_t k = 1; k < steps; ++k)
   {
-    this->Relax(
-      isInner ? *inner_ : *border_, isInner ? 1.0 : damping_, residual, result, direction);
-  };
-  if (damping_ == 1.0)
-  {
-    relax(true, r, z); // one rank has all
-    return;
+    Check(MatMult(whole_, z, residual_));
+    Check(VecAYPX(residual_, -1.0, r));
+    this->Relax(stepAt(k), residual_, correction_, direction);
+    Check(VecAXPY(z, 1.0, correction_));
   }
-  relax(isForward, r, first_);
-  Check(MatMult(whole_, first_, residual_));
-  Check(VecAYPX(residual_, -1.0, r));
-  relax(!isForward, residual_, z);
-  Check(VecAXPY(z, 1.0, first_));
 }
 
 /// The first shared level, solved by one cycle on every rank.
@@ -254,6 +255,8 @@ void RankCycle::SetSmoother(KSP solver, Mat matrix, int sweeps, Sweep& sweep)
   PC pc = nullptr;
   Check(KSPSetType(solver, KSPRICHARDSON));
   Check(KSPSetNormType(solver, KSP_NORM_NONE));
+  // PETSc would begin anew where a W cycle comes to a level for the second time.
+  Check(KSPSetInitialGuessNonzero(solver, PETSC_TRUE));
   Check(KSPSetConvergenceTest(solver, KSPConvergedSkip, nullptr, nullptr));
   Check(KSPSetTolerances(solver, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT, sweeps));
   Check(KSPSetOperators(solver, matrix, matrix));

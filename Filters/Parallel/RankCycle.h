@@ -16,12 +16,13 @@
 namespace gridfem
 {
 
-/// The patches of a rank's cells, relaxed one after the other, in two steps. Patches without a
-/// function of another rank do not meet those of other ranks: all ranks relax them at once, as one
-/// rank would. Then all ranks relax their other patches from the same residual, and corrections of
-/// functions that several ranks touch are damped so that together they do not overshoot. A backward
-/// sweep is the adjoint of a forward one. Residuals are not weighted: a part of a residual would
-/// not be consistent where the matrix is singular on a few functions, as on small flat pieces.
+/// The patches of a rank's cells, relaxed one after the other, in up to three steps. Patches
+/// without a function of another rank do not meet those of other ranks: all ranks relax them at
+/// once, as one rank would. Then, from the residual that is left, those with functions of one other
+/// rank, and last those where more ranks meet; corrections of these are divided by the number of
+/// ranks, so that together they do not overshoot. A backward sweep is the adjoint of a forward one.
+/// Residuals are not weighted: a part of a residual would not be consistent where the matrix is
+/// singular on a few functions, as on small flat pieces.
 class RankSmoother
 {
 public:
@@ -33,17 +34,21 @@ public:
   void Sweep(Vec r, Vec z, SweepDirection direction);
 
 private:
-  void Relax(const Smoother& smoother, double damping, Vec r, Vec z, SweepDirection direction);
+  struct Step
+  {
+    std::unique_ptr<Smoother> smoother;
+    double damping;
+  };
+
+  void Relax(const Step& step, Vec r, Vec z, SweepDirection direction);
 
   Mat whole_;
-  SparseMatrix matrix_; // all functions that touch this rank's cells
-  std::unique_ptr<Smoother> inner_;
-  std::unique_ptr<Smoother> border_;
-  double damping_ = 1.0;
+  SparseMatrix matrix_;     // all functions that touch this rank's cells
+  std::vector<Step> steps_; // the same number on all ranks
   const LevelVectors& vectors_;
   int threads_;
   PetscVector residual_;
-  PetscVector first_; // what the first step has corrected
+  PetscVector correction_; // of one step
   std::vector<double> entries_;
   MultiVector b_;
   MultiVector x_;

@@ -45,7 +45,7 @@ class Distributed(unittest.TestCase):
 
     def test_other_surfaces(self):
         for mesh in (ranks.two(), ranks.bowl(), ranks.soup()):
-            self.same_as_alone(mesh, "scattered", ScreeningWeight=0.0)
+            self.same_as_alone(mesh, "scattered", ScreeningWeight=0.0, UseValueGradient=True)
 
     def test_gradients_and_units(self):
         for units in (0, 1, 2):
