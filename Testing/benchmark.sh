@@ -46,7 +46,21 @@ if [[ " ${groups[*]} " == *" setup "* ]]; then
     -DGRIDFEM_BUILD_BENCHMARKS=ON
 fi
 BUILD="$SOURCE/build-benchmarks"
-BuildTree all -DGRIDFEM_BUILD_VTK=OFF -DGRIDFEM_BUILD_TESTING=OFF -DGRIDFEM_BUILD_BENCHMARKS=ON
+BuildTree all -DGRIDFEM_BUILD_VTK=OFF -DGRIDFEM_MPI=ON -DGRIDFEM_BUILD_TESTING=OFF \
+  -DGRIDFEM_BUILD_BENCHMARKS=ON
+# One row for each number of ranks, and one of Core alone.
+MeasureRanks()
+{
+  export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+  local ranks program="$BUILD/bin/BenchmarkRanks"
+  echo "| surface | depth | ranks | functions | iterations | set-up, s | solve, s | MB before | MB |"
+  echo "|---|---|---|---|---|---|---|---|---|"
+  "$program" "$@" core < /dev/null
+  for ranks in 1 2 4 8; do
+    mpiexec --oversubscribe --bind-to none -n "$ranks" "$program" "$@" < /dev/null
+  done
+}
+
 # Threads that wait must not take processor time from those that work.
 export OMP_WAIT_POLICY="${OMP_WAIT_POLICY:-passive}"
 for group in "${groups[@]}"; do
@@ -55,6 +69,8 @@ for group in "${groups[@]}"; do
     "$BUILD/bin/BenchmarkFigures" "$BUILD/figures" < /dev/null
     xvfb-run -a pvpython "$SOURCE/Testing/Benchmarks/draw_figures.py" "$BUILD/figures" \
       "$SOURCE/Testing/Benchmarks/Figures" < /dev/null
+  elif [ "$group" = ranks ]; then
+    MeasureRanks torus:2400 8
   else
     "$BUILD/bin/Benchmark${group^}" < /dev/null
   fi
