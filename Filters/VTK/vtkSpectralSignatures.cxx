@@ -317,8 +317,11 @@ void vtkSpectralSignatures::Warn()
   }
   if (spectrum.truncated)
   {
-    vtkWarningMacro("Only " << this->Data->Solved.NumberOfModes() << " of the "
-                            << this->NumberOfModes << " modes exist at this Depth.");
+    vtkWarningMacro(
+      "Only " << this->Data->Solved.NumberOfModes() << " of the " << this->NumberOfModes
+              << " modes exist "
+              << (this->FunctionSpace == HatFunctions ? "with the hat functions of this mesh."
+                                                      : "at this Depth."));
   }
   if (!spectrum.converged)
   {

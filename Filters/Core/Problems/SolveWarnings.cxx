@@ -227,8 +227,8 @@ std::string WarningOf(const FlowSummary& flow, bool conformalized, const Triangl
   }
   if (flow.unconverged > 0)
   {
-    text << flow.unconverged
-         << " steps have not converged to the Tolerance; their results are kept. ";
+    text << flow.unconverged << (flow.unconverged == 1 ? " step has" : " steps have")
+         << " not converged to the Tolerance; what came out is kept. ";
   }
   if (conformalized && !IsLikeASphere(mesh))
   {

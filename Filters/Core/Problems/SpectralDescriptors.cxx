@@ -158,7 +158,10 @@ Index CountZeroModes(const PointModes& modes)
   const double last = values.empty() ? 0.0 : values.back();
   if (!(last > 0.0) || !(modes.area > 0.0))
   {
-    throw InvalidInput("all modes are constant: more of them are needed");
+    throw InvalidInput(
+      "All " + std::to_string(values.size()) +
+      " modes are constants, of which every component of the surface has one: more "
+      "modes than components are needed.");
   }
   Index zeros = 0;
   while (values[zeros] <= ZeroFraction * last)
