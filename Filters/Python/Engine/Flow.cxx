@@ -15,7 +15,7 @@ class FlowProblem : public Problem
 public:
   explicit FlowProblem(Properties& properties)
     : options_(properties, { 5e-4, 100, 1e-12, CycleType::V }),
-      timeStep_(properties.FiniteNumber("TimeStep", 5e-4)),
+      timeStep_(properties.FiniteNumber("TimeStep", 5e-5)),
       steps_(properties.Integer("NumberOfSteps", 10, 1, 100000)),
       isConformalized_(properties.Switch("Conformalized", false)),
       tracksMetric_(properties.Switch("TrackMetric", true)),

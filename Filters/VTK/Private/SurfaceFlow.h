@@ -20,7 +20,7 @@ inline constexpr const char* StepStage = "Step";
 
 struct FlowRequest
 {
-  double timeStep = 5e-4; // squared length of the parameter units
+  double timeStep = 5e-5; // squared length of the parameter units
   int numberOfSteps = 10;
   bool conformalized = false;
   bool trackMetric = true;
