@@ -187,7 +187,7 @@ void PreferLargePages(void* begin, std::size_t bytes) noexcept
   const std::uintptr_t last = (address + bytes) / LargePage * LargePage;
   if (last > first)
   {
-    madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
+    madvise(static_cast<char*>(begin) + (first - address), last - first, MADV_HUGEPAGE);
   }
 }
 
