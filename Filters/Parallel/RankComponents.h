@@ -21,6 +21,10 @@ public:
 
   Id Count() const { return static_cast<Id>(area_.size()); }
 
+  /// Per own function: its component, and its integral.
+  const std::vector<Index>& OfFunctions() const { return component_; }
+  const std::vector<double>& Integrals() const { return integral_; }
+
   MultiVector OfIntegrals(const MultiVector& load) const;
   MultiVector OfFunction(const MultiVector& coefficients) const;
   void AddConstants(const MultiVector& mean, MultiVector& coefficients) const;

@@ -13,42 +13,6 @@ namespace gridfem
 namespace
 {
 
-Index LargestComponent(const PatchLevel& level)
-{
-  std::vector<Index> size;
-  for (const Index component : FunctionComponents(level))
-  {
-    size.resize(std::max(size.size(), static_cast<std::size_t>(component) + 1), 0);
-    ++size[component];
-  }
-  return size.empty() ? 0 : *std::max_element(size.begin(), size.end());
-}
-
-/// The levels that every rank holds, as Core's cycle sees them.
-std::vector<MultigridLevel> SharedHierarchy(
-  const SharedLevels& shared, double a, double b, int threads)
-{
-  std::vector<MultigridLevel> levels;
-  ElementMatrices elements = shared.elements;
-  for (std::size_t l = 0;; ++l)
-  {
-    const PatchLevel& level = shared.levels[l];
-    const FunctionPlaces places = PlacesOfFunctions(level, threads);
-    MultigridLevel& next = levels.emplace_back();
-    next.A = BuildPattern(level, places, threads);
-    AssembleValues(level, places, elements.mass, a, elements.stiffness, b, next.A, threads);
-    next.order = OrderPatches(level);
-    if (l + 1 == shared.levels.size() || LargestComponent(level) <= shared.coarsestSize)
-    {
-      return levels;
-    }
-    next.prolongation = BuildProlongation(level, places, shared.levels[l + 1], threads);
-    ElementMatrices coarser;
-    CoarsenElements(level, shared.levels[l + 1], elements, coarser, threads);
-    elements = std::move(coarser);
-  }
-}
-
 /// A level with the same functions.
 PatchLevel WithoutPatches(const PatchLevel& level)
 {
@@ -126,10 +90,9 @@ void RankSmoother::Sweep(Vec r, Vec z, SweepDirection direction)
 /// The first shared level, solved by one cycle on every rank.
 struct RankCycle::Coarse
 {
-  Coarse(const SharedLevels& shared, double a, double b, const MultigridOptions& options)
-    : cycle(SharedHierarchy(shared, a, b, options.threads), options),
-      times(options.cycle == CycleType::W ? 2 : 1),
-      functions(shared.levels.front().numberOfFunctions)
+  Coarse(const GridSpace& shared, double a, double b, const MultigridOptions& options)
+    : cycle(BuildMultigrid(shared, a, b, options)), times(options.cycle == CycleType::W ? 2 : 1),
+      functions(shared.NumberOfFunctions(0))
   {
   }
 
@@ -172,27 +135,28 @@ void RankCycle::Coarse::Apply(Vec r, Vec z)
   }
 }
 
-RankCycle::RankCycle(const RankSpace& space, double a, double b, const MultigridOptions& options)
+RankCycle::RankCycle(
+  const RankSpace& space, double a, double b, const MultigridOptions& options, std::size_t finest)
   : ranks_(space.Ranks())
 {
   StartPetsc(ranks_);
-  this->BuildLevels(space, a, b, options);
+  this->BuildLevels(space, a, b, options, finest);
   this->BuildCycle(options);
 }
 
 RankCycle::~RankCycle() = default;
 
 void RankCycle::BuildLevels(
-  const RankSpace& space, double a, double b, const MultigridOptions& options)
+  const RankSpace& space, double a, double b, const MultigridOptions& options, std::size_t finest)
 {
   const auto& numberings = space.Numberings();
-  const Index shared = space.Shared().levels.front().numberOfFunctions;
+  const Index shared = space.Shared().NumberOfFunctions(0);
   const Id ownShared = shared / ranks_.Size() + (ranks_.Rank() < shared % ranks_.Size() ? 1 : 0);
   ranks_.Together([&] { coarse_ = std::make_unique<Coarse>(space.Shared(), a, b, options); });
   Check(MatCreateShell(ranks_.Handle(), static_cast<PetscInt>(ownShared),
     static_cast<PetscInt>(ownShared), shared, shared, nullptr, coarse_->matrix.Receive()));
   Check(MatSetUp(coarse_->matrix));
-  for (std::size_t l = 0; l < numberings.size(); ++l)
+  for (std::size_t l = finest; l < numberings.size(); ++l)
   {
     SparseMatrix own;
     ranks_.Together([&] { space.Own().FillMatrix(l, a, b, own, options.threads); });
@@ -203,10 +167,11 @@ void RankCycle::BuildLevels(
         isLast ? ownShared : Id{ numberings[l + 1].OwnFunctions() }),
       LevelVectors(ranks_, numberings[l]), nullptr });
   }
-  for (std::size_t l = 0; l < numberings.size(); ++l)
+  for (std::size_t l = finest; l < numberings.size(); ++l)
   {
-    levels_[l].smoother = std::make_unique<RankSmoother>(ranks_, levels_[l].matrix, numberings[l],
-      space.Own().Functions().levels[l], levels_[l].vectors, options);
+    Level& level = levels_[l - finest];
+    level.smoother = std::make_unique<RankSmoother>(ranks_, level.matrix, numberings[l],
+      space.Own().Functions().levels[l], level.vectors, options);
   }
 }
 
@@ -327,6 +292,25 @@ PetscErrorCode RankCycle::Precondition(PC pc, Vec r, Vec z)
     });
 }
 
+/// Collective. What has failed within PETSc on one rank fails on all.
+void RankCycle::ThrowTogether()
+{
+  ranks_.Together(
+    [&]
+    {
+      if (failure_)
+      {
+        std::rethrow_exception(std::exchange(failure_, nullptr));
+      }
+    });
+}
+
+void RankCycle::Apply(Vec r, Vec z)
+{
+  Check(PCApply(cycle_, r, z));
+  this->ThrowTogether();
+}
+
 /// What the iteration is watched with.
 struct RankCycle::Watch
 {
@@ -428,14 +412,7 @@ SolveReport RankCycle::Solve(Vec b, Vec x, const SolveOptions& options,
   Check(PCShellSetContext(pc, this));
   Check(PCShellSetApply(pc, Precondition));
   Check(KSPSolve(solver, b, x));
-  ranks_.Together(
-    [&]
-    {
-      if (failure_)
-      {
-        std::rethrow_exception(std::exchange(failure_, nullptr));
-      }
-    });
+  this->ThrowTogether();
   if (watch.isAborted)
   {
     throw Aborted();

@@ -54,21 +54,27 @@ private:
   MultiVector x_;
 };
 
-/// A symmetric preconditioner for a M + b L on the finest level, and conjugate gradients with it.
+/// A symmetric preconditioner for a M + b L on a divided level, and conjugate gradients with it.
 class RankCycle
 {
 public:
   /// Collective.
-  RankCycle(const RankSpace& space, double a, double b, const MultigridOptions& options);
+  /// @param finest  the divided level that it begins at
+  RankCycle(const RankSpace& space, double a, double b, const MultigridOptions& options,
+    std::size_t finest = 0);
   ~RankCycle();
   RankCycle(const RankCycle&) = delete;
   RankCycle& operator=(const RankCycle&) = delete;
 
-  /// Of the finest level.
+  /// Of the level that it begins at.
   const LevelVectors& Vectors() const { return levels_.front().vectors; }
 
   /// Takes what is solved otherwise out of vectors, as Projection does; collective.
   using Projection = std::function<void(Vec)>;
+
+  /// Collective. z = one cycle from zero for the residual r. Throws on all ranks when it throws on
+  /// one.
+  void Apply(Vec r, Vec z);
 
   /// Collective. Conjugate gradients for one right-hand side; `x` gets the solution.
   /// The tolerance is one of the energy residual. Throws Aborted on all ranks when the progress of
@@ -94,7 +100,9 @@ private:
   struct Coarse;
   struct Watch;
 
-  void BuildLevels(const RankSpace& space, double a, double b, const MultigridOptions& options);
+  void BuildLevels(const RankSpace& space, double a, double b, const MultigridOptions& options,
+    std::size_t finest);
+  void ThrowTogether();
   void BuildCycle(const MultigridOptions& options);
   double Start(Vec b, Vec x);
   double RelativeResidual(Vec b, Vec x) const;

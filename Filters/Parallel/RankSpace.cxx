@@ -180,7 +180,7 @@ RankSpace::RankSpace(const Communicator& ranks, const TriangleMesh& own,
       }
       UnitePointPatches(mesh->points, all.Finest(), all.pointPatch);
     });
-  this->Divide(all, std::move(links), partition);
+  std::vector<PatchLevel> shared = this->Divide(all, std::move(links), partition);
   ranks_.Together(
     [&]
     {
@@ -191,20 +191,45 @@ RankSpace::RankSpace(const Communicator& ranks, const TriangleMesh& own,
           functions.threads, -1, progress.Part(0.6, 1.0), options.space.normalStabilization));
       own_ = std::make_unique<GridSpace>(std::move(mesh), std::move(divided), std::move(operators));
     });
-  const ElementMatrices& coarsest = own_->Operators().elements.back();
+  this->MakeShared(std::move(shared), options.space);
+}
+
+/// Collective. The levels that all ranks hold, with the element matrices of all.
+void RankSpace::MakeShared(std::vector<PatchLevel> levels, const GridSpaceOptions& options)
+{
+  const ElementMatrices& own = own_->Operators().elements.back();
   const auto gather = [&](const Array<ElementMatrix>& matrices)
   {
-    const std::vector<ElementMatrix> of =
+    const std::vector<ElementMatrix> all =
       ranks_.Gather(std::vector<ElementMatrix>(matrices.begin(), matrices.end()));
-    return Array<ElementMatrix>(of.begin(), of.end());
+    return Array<ElementMatrix>(all.begin(), all.end());
   };
-  shared_.coarsestSize = options.space.coarsestSize;
-  shared_.elements.mass = gather(coarsest.mass);
-  shared_.elements.stiffness = gather(coarsest.stiffness);
+  ElementMatrices elements;
+  elements.mass = gather(own.mass);
+  elements.stiffness = gather(own.stiffness);
+  ranks_.Together(
+    [&]
+    {
+      auto functions = std::make_shared<GridFunctions>();
+      functions->support = own_->Functions().support;
+      functions->clipped.grid = own_->Functions().GetGrid();
+      functions->levels = std::move(levels);
+      functions->component = FunctionComponents(functions->Finest());
+      functions->numberOfComponents =
+        functions->component.empty()
+          ? 0
+          : 1 + *std::max_element(functions->component.begin(), functions->component.end());
+      auto operators = std::make_shared<const LevelOperators>(OperatorsOfElements(
+        *functions, std::move(elements), options.functions.threads, options.coarsestSize));
+      shared_ = std::make_unique<GridSpace>(
+        std::make_shared<const TriangleMesh>(), std::move(functions), std::move(operators));
+    });
 }
 
 /// Leaves in `all` what this rank owns, with the functions numbered by the places in numberings_.
-void RankSpace::Divide(GridFunctions& all, Array<Link> links, const BlockPartition& partition)
+/// @return the shared levels
+std::vector<PatchLevel> RankSpace::Divide(
+  GridFunctions& all, Array<Link> links, const BlockPartition& partition)
 {
   const std::size_t divided = all.GetGrid().depth - partition.Depth();
   std::vector<PatchLevel> levels;
@@ -228,17 +253,19 @@ void RankSpace::Divide(GridFunctions& all, Array<Link> links, const BlockPartiti
     }
     SetParents(all.levels[l], ranges[l], ranges[l + 1].first, levels[l]);
   }
-  this->Share(all.levels[divided], links, partition, all.support);
+  std::vector<PatchLevel> shared = this->Share(all.levels[divided], links, partition, all.support);
   const Communicator::Share patches = ranks_.ShareOf(levels.back().NumberOfPatches());
-  const auto first = shared_.levels.front().dof.begin() + patches.before;
+  const auto first = shared.front().dof.begin() + patches.before;
   std::copy_n(first, levels.back().dof.size(), levels.back().dof.begin());
-  levels.back().numberOfFunctions = shared_.levels.front().numberOfFunctions;
+  levels.back().numberOfFunctions = shared.front().numberOfFunctions;
   all.levels = std::move(levels);
   KeepPieces(ranges.front().first, ranges.front().last, all);
+  return shared;
 }
 
-void RankSpace::Share(const PatchLevel& level, const Array<Link>& links,
-  const BlockPartition& partition, FunctionSupport support)
+/// Collective. The level of the blocks with the patches of all ranks, and those below it.
+std::vector<PatchLevel> RankSpace::Share(const PatchLevel& level, const Array<Link>& links,
+  const BlockPartition& partition, FunctionSupport support) const
 {
   const PatchRange own = OwnPatches(level, partition, ranks_.Rank());
   const Communicator::Share share = ranks_.ShareOf(own.last - own.first);
@@ -272,7 +299,7 @@ void RankSpace::Share(const PatchLevel& level, const Array<Link>& links,
   patches.links = LinksOfGroups(all, itself); // sorted, each once
   patches.cell = std::move(whole.cell);
   PatchLevel finest = BuildFinestLevel(level.depth, patches, support);
-  shared_.levels = BuildLevels(std::move(finest), std::move(patches.links), support);
+  return BuildLevels(std::move(finest), std::move(patches.links), support);
 }
 
 MultiVector RankSpace::ValuesAtPoints(

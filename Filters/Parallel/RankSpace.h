@@ -19,14 +19,6 @@ struct RankSpaceOptions
   int granularity = 0; // level of the blocks that are divided among the ranks; BlockPartition
 };
 
-/// The level of the blocks and those below it, which every rank holds whole.
-struct SharedLevels
-{
-  std::vector<PatchLevel> levels; // finest first, down to depth 0
-  ElementMatrices elements;       // of the first
-  Index coarsestSize = 256;       // functions of the largest component that are solved for directly
-};
-
 class RankSpace
 {
 public:
@@ -47,7 +39,10 @@ public:
 
   /// Of the divided levels, finest first.
   const std::vector<LevelNumbering>& Numberings() const { return numberings_; }
-  const SharedLevels& Shared() const { return shared_; }
+
+  /// The level of the blocks and those below it, which every rank holds whole, as a space without a
+  /// mesh.
+  const GridSpace& Shared() const { return *shared_; }
 
   /// Places of the received points' patches in this rank's cells; -1 where another rank evaluates.
   /// Points at the same place of one sheet have values that are equal bit for bit.
@@ -60,15 +55,17 @@ public:
     const MultiVector& coefficients, Id ownPoints, std::vector<char>* hasValue = nullptr) const;
 
 private:
-  void Divide(GridFunctions& all, Array<Link> links, const BlockPartition& partition);
-  void Share(const PatchLevel& level, const Array<Link>& links, const BlockPartition& partition,
-    FunctionSupport support);
+  std::vector<PatchLevel> Divide(
+    GridFunctions& all, Array<Link> links, const BlockPartition& partition);
+  std::vector<PatchLevel> Share(const PatchLevel& level, const Array<Link>& links,
+    const BlockPartition& partition, FunctionSupport support) const;
+  void MakeShared(std::vector<PatchLevel> levels, const GridSpaceOptions& options);
 
   Communicator ranks_;
   std::unique_ptr<Redistribution> distribution_;
   std::unique_ptr<GridSpace> own_;
   std::vector<LevelNumbering> numberings_;
-  SharedLevels shared_;
+  std::unique_ptr<GridSpace> shared_;
 };
 
 } // namespace gridfem

@@ -83,7 +83,7 @@ std::vector<GatheredLevel> GatherLevels(const RankSpace& space)
     }
     levels[l].numbers = space.Ranks().Gather(numbers);
     levels[l].total =
-      l < divided ? space.Numberings()[l].total : space.Shared().levels.front().numberOfFunctions;
+      l < divided ? space.Numberings()[l].total : space.Shared().NumberOfFunctions(0);
     if (l < divided)
     {
       SparseMatrix matrix;

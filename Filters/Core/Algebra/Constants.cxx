@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace gridfem
 {
@@ -22,17 +23,38 @@ Constants::Constants(
 {
   weight_.assign(mass.rows, 0.0);
   mass_.assign(numberOfComponents, 0.0);
-  double total = 0.0;
   for (Index i = 0; i < mass.rows; ++i)
   {
     for (Id k = mass.rowBegin[i]; k < mass.rowBegin[i + 1]; ++k)
     {
       weight_[i] += mass.value[k];
     }
-    mass_[component_[i]] += weight_[i];
-    total += weight_[i];
   }
-  for (Index c = 0; c < numberOfComponents; ++c)
+  this->FindMassive();
+}
+
+Constants::Constants(std::vector<double> weight, std::vector<Index> component,
+  Index numberOfComponents, int threads, Sum sum)
+  : component_(std::move(component)), weight_(std::move(weight)), mass_(numberOfComponents, 0.0),
+    threads_(threads), sum_(std::move(sum))
+{
+  this->FindMassive();
+}
+
+/// The mass of every component, from the weights of its functions.
+void Constants::FindMassive()
+{
+  for (std::size_t i = 0; i < weight_.size(); ++i)
+  {
+    mass_[component_[i]] += weight_[i];
+  }
+  const auto components = static_cast<Index>(mass_.size());
+  if (sum_)
+  {
+    sum_(mass_.data(), components);
+  }
+  const double total = std::accumulate(mass_.begin(), mass_.end(), 0.0);
+  for (Index c = 0; c < components; ++c)
   {
     if (mass_[c] > 1e-14 * total)
     {
@@ -87,6 +109,10 @@ MultiVector Constants::Means(const ConstBlock<Real>& X) const
       return sum;
     },
     X.rows() / sums + 1);
+  if (sum_)
+  {
+    sum_(mean.data(), mean.size());
+  }
   for (Id c = 0; c < components; ++c)
   {
     mean.row(c) *= mass_[c] > 0.0 ? 1.0 / mass_[c] : 0.0;

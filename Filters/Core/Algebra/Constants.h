@@ -6,6 +6,7 @@
 #include "Algebra/BlockVectors.h"
 #include "Algebra/SparseMatrix.h"
 
+#include <functional>
 #include <vector>
 
 namespace gridfem
@@ -18,6 +19,15 @@ public:
   /// @param component  per function, 0 .. numberOfComponents - 1
   Constants(
     const SparseMatrix& mass, std::vector<Index> component, Index numberOfComponents, int threads);
+
+  /// Adds up numbers of all processes, in place.
+  using Sum = std::function<void(double* values, Id count)>;
+
+  /// The same where several processes hold the functions together, each some of them.
+  /// @param weight     ∫ b_i of the functions of this process
+  /// @param component  of each of them, numbered over all processes
+  Constants(std::vector<double> weight, std::vector<Index> component, Index numberOfComponents,
+    int threads, Sum sum);
 
   /// Removes the constants from every column, in the inner product of the mass matrix; components
   /// without mass, as pieces without an area are, become zero.
@@ -35,6 +45,8 @@ public:
   Index Count() const { return static_cast<Index>(massive_.size()); }
 
 private:
+  void FindMassive();
+
   /// Mean of every column on every component.
   template<class Real>
   MultiVector Means(const ConstBlock<Real>& X) const;
@@ -44,6 +56,7 @@ private:
   std::vector<double> mass_;   // per component; 0 when negligible
   std::vector<Index> massive_; // components with mass
   int threads_;
+  Sum sum_; // empty: there is one process
 };
 
 } // namespace gridfem

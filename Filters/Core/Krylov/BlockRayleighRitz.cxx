@@ -69,8 +69,7 @@ void BlockRayleighRitz<Real>::ProjectPart(
   BasisParts<Real> basis = before;
   basis.push_back(part);
   const Id added = part.cols();
-  const Eigen::MatrixXd projected =
-    ProjectPair<Real>(basis, problem_.stiffness, problem_.mass, part, problem_.threads);
+  const Eigen::MatrixXd projected = problem_.ProjectBoth(basis, part);
   const Id old = projected.rows() - added;
   const auto extend = [&](Eigen::MatrixXd& A, auto columns)
   {
@@ -133,7 +132,7 @@ void BlockRayleighRitz<Real>::CombineRows(
   auto newX = pairs_.vectors.View();
   auto newP = directions_.View();
   ParallelRanges(
-    problem_.mass.rows, problem_.threads,
+    problem_.Rows(), problem_.threads,
     [&](Id begin, Id end)
     {
       const Id count = end - begin;

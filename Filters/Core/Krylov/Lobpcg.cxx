@@ -1,7 +1,6 @@
 #include "Krylov/Lobpcg.h"
 
 #include "Krylov/BlockRayleighRitz.h"
-#include "Krylov/ResidualCorrection.h"
 #include "Krylov/SoftLocking.h"
 
 #include <algorithm>
@@ -68,11 +67,11 @@ private:
 template<class Real>
 void BlockIteration<Real>::SetStart()
 {
-  const Id rows = problem_.mass.rows;
+  const Id rows = problem_.Rows();
   const Id missing = options_.blockSize - pairs_.vectors.Columns();
   const MultiVector random =
     RandomColumns(rows, std::max<Id>(MinimumRandomColumns, missing + MinimumRandomColumns));
-  Multiply(problem_.mass, random, randomLoad_, problem_.threads);
+  randomLoad_ = problem_.MassTimes(random);
   const Id vectors = pairs_.values.size() > 0 ? 0 : pairs_.vectors.Columns();
   directions_.Reserve(rows, std::max<Id>(options_.blockSize, vectors + random.cols()));
   directions_.Show(vectors + random.cols());
@@ -99,7 +98,7 @@ void BlockIteration<Real>::RemoveKnown(Block<Real> X, const Progress& progress)
       progress.Check(fraction_);
       const BasisParts<Real> some = { part.middleCols(
         first, std::min(KnownAtOnce, part.cols() - first)) };
-      const Eigen::MatrixXd share = Project<Real>(some, problem_.mass, X, problem_.threads);
+      const Eigen::MatrixXd share = problem_.ProjectMass(some, X);
       SubtractCombination<Real>(some, share, X, problem_.threads);
     }
   }
@@ -127,9 +126,8 @@ bool BlockIteration<Real>::Correct(const Progress& progress)
   const Id columns = static_cast<Id>(locking_.AtWork().size());
   const bool isFirst = randomLoad_.cols() > 0;
   corrections_.Show(columns);
-  const ResidualMeasures measures =
-    CorrectResiduals<Real>(problem_, this->CurrentPreconditioner(), pairs_, locking_,
-      corrections_.View(), randomLoad_, directions_.View().rightCols(randomLoad_.cols()));
+  const ResidualMeasures measures = problem_.Correct(this->CurrentPreconditioner(), pairs_,
+    locking_, corrections_.View(), randomLoad_, directions_.View().rightCols(randomLoad_.cols()));
   randomLoad_.resize(0, 0);
   if (isFirst)
   {
@@ -156,7 +154,7 @@ bool BlockIteration<Real>::Precondition(const Progress& progress)
     return false;
   }
   locking_.StartWanted();
-  locking_.DropUnmoved(SquaredResiduals(problem_, pairs_, locking_.AtWork()));
+  locking_.DropUnmoved(problem_.SquaredResiduals(pairs_, locking_.AtWork()));
   const bool converged = this->Correct(progress);
   return converged && report_.iterations >= options_.minimumIterations &&
          (this->FoundAndWanted() == options_.wanted || report_.iterations > 0);

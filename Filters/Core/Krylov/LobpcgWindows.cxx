@@ -65,7 +65,7 @@ template<class Real>
 void WindowIteration<Real>::MakeRoom()
 {
   const Id columns = std::max<Id>(start_, options_.wanted + WindowGuard);
-  pairs_.vectors.Grow(problem_.mass.rows, columns, problem_.threads);
+  pairs_.vectors.Grow(problem_.Rows(), columns, problem_.threads);
   pairs_.vectors.Show(columns);
 }
 
@@ -77,7 +77,7 @@ void WindowIteration<Real>::SetStartVectors(Index blockSize)
   const Id fresh = std::clamp<Id>(blockSize - guards, 0, start_ - used_);
   window_.values.resize(0);
   window_.isRenewed = false;
-  window_.vectors.Reserve(problem_.mass.rows, std::max<Id>(blockSize, guards + fresh));
+  window_.vectors.Reserve(problem_.Rows(), std::max<Id>(blockSize, guards + fresh));
   window_.vectors.Show(guards + fresh);
   auto window = window_.vectors.View();
   CopyBlock(guards_.View(), window.leftCols(guards), problem_.threads);
@@ -97,7 +97,7 @@ void WindowIteration<Real>::Lock(const BlockReport& report)
   residuals_.insert(residuals_.end(), report.residuals.begin(), report.residuals.end());
   const auto window = window_.vectors.View();
   const Id guards = window.cols() - locked;
-  guards_.Reserve(problem_.mass.rows, std::max<Id>(WindowGuard, guards));
+  guards_.Reserve(problem_.Rows(), std::max<Id>(WindowGuard, guards));
   guards_.Show(guards);
   CopyBlock(
     window.leftCols(locked), pairs_.vectors.View().middleCols(found, locked), problem_.threads);

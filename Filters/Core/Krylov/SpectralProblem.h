@@ -1,31 +1,20 @@
 // The eigenproblem of one level, L x = θ M x, and pairs that solve it. What the block iteration,
 // the dense solve and the collection of results share.
+// Where several processes hold the rows of the vectors together, a class of theirs has other
+// products, and no matrices here.
 #ifndef GridFEM_SpectralProblem_h
 #define GridFEM_SpectralProblem_h
 
+#include "Algebra/BasisProducts.h"
 #include "Algebra/Constants.h"
 #include "Algebra/SparseMatrix.h"
+#include "Krylov/SoftLocking.h"
 #include "Multigrid/BlockPreconditioner.h"
 
 #include <functional>
 
 namespace gridfem
 {
-
-/// One level's eigenproblem, for blocks of vectors of one precision.
-template<class Real>
-struct SpectralProblem
-{
-  SparseMatrix stiffness;
-  SparseMatrix mass;
-  double shift = 1.0;
-  /// Approximate inverse, symmetric positive semi-definite, of stiffness + shift mass.
-  BlockPreconditioner<Real> precondition;
-  /// Makes a better one, where there is: it takes over when convergence is slow.
-  std::function<BlockPreconditioner<Real>()> fallback;
-  const Constants* constants = nullptr; // the pairs found are orthogonal to them
-  int threads = 0;
-};
 
 template<class Real>
 struct EigenPairs
@@ -35,6 +24,77 @@ struct EigenPairs
   /// By Rayleigh-Ritz on these vectors or on those they are prolonged from: XᵀLX = diag(values) and
   /// XᵀMX = 1 up to rounding of Real, not up to that of many steps.
   bool isRenewed = false;
+};
+
+/// Per column x of a block.
+struct ColumnFacts
+{
+  Eigen::RowVectorXd energy;  // xᵀLx
+  Eigen::RowVectorXd mass;    // xᵀMx
+  Eigen::RowVectorXd largest; // the entry of M x of largest magnitude, near ties to the lowest row
+
+  explicit ColumnFacts(Id columns)
+    : energy(Eigen::RowVectorXd::Zero(columns)), mass(energy), largest(energy)
+  {
+  }
+
+  /// @param row  entries of M x in rows behind those before
+  template<class Row>
+  void TakeLargest(const Row& row)
+  {
+    // Symmetric surfaces have many entries that are equal up to rounding.
+    constexpr double NearTie = 1e-6;
+    largest = (row.array().abs() > (1.0 + NearTie) * largest.array().abs()).select(row, largest);
+  }
+};
+
+/// One level's eigenproblem, for blocks of vectors of one precision.
+template<class Real>
+struct SpectralProblem
+{
+  SpectralProblem() = default;
+  SpectralProblem(SpectralProblem&&) noexcept = default;
+  SpectralProblem& operator=(SpectralProblem&&) noexcept = default;
+  virtual ~SpectralProblem() = default;
+
+  /// Of the vectors, in this process.
+  virtual Id Rows() const { return mass.rows; }
+
+  /// M X, in double precision.
+  virtual MultiVector MassTimes(const MultiVector& X) const;
+
+  /// [X₁ X₂ ...]ᵀ [L Y, M Y] over all rows.
+  virtual Eigen::MatrixXd ProjectBoth(
+    const BasisParts<Real>& parts, const ConstBlock<Real>& Y) const;
+
+  /// [X₁ X₂ ...]ᵀ M Y over all rows.
+  virtual Eigen::MatrixXd ProjectMass(
+    const BasisParts<Real>& parts, const ConstBlock<Real>& Y) const;
+
+  /// W = B (L X - M X diag(θ)) for the columns at work, but for panels that have converged as a
+  /// whole, and P = B F for loads F that go with them: a cycle takes as long for a few columns as
+  /// for a panel. Measures are those of the columns at work, as many as W has.
+  /// @param load  F; as many columns as P has
+  virtual ResidualMeasures Correct(const BlockPreconditioner<Real>& B,
+    const EigenPairs<Real>& pairs, const SoftLocking& locking, Block<Real> W,
+    const MultiVector& load, Block<Real> P) const;
+
+  /// What X has, column by column, in double precision.
+  virtual ColumnFacts FactsOf(const MultiVector& X) const;
+
+  /// rᵀr of these columns. A cycle for each would cost far more.
+  virtual Eigen::VectorXd SquaredResiduals(
+    const EigenPairs<Real>& pairs, const std::vector<Index>& columns) const;
+
+  SparseMatrix stiffness;
+  SparseMatrix mass;
+  double shift = 1.0;
+  /// Approximate inverse, symmetric positive semi-definite, of stiffness + shift mass.
+  BlockPreconditioner<Real> precondition;
+  /// Makes a better one, where there is: it takes over when convergence is slow.
+  std::function<BlockPreconditioner<Real>()> fallback;
+  const Constants* constants = nullptr; // the pairs found are orthogonal to them
+  int threads = 0;
 };
 
 } // namespace gridfem

@@ -1,7 +1,6 @@
 #include "Problems/CollectSpectrum.h"
 
 #include "Algebra/BasisProducts.h"
-#include "Algebra/BlockProducts.h"
 #include "Algebra/BlockVectors.h"
 #include "Base/LargeMemory.h"
 #include "Base/Parallel.h"
@@ -16,10 +15,7 @@ namespace gridfem
 namespace
 {
 
-/// Entries that differ by less, relatively, are equal up to rounding: symmetric surfaces have many.
-constexpr double NearTie = 1e-6;
-
-/// Rows whose images are looked at together.
+/// Rows that are combined at a time.
 constexpr Id RowsAtOnce = 512;
 
 /// Orthonormal columns have a mass of 1 up to this. The mass of others is rounding: they are
@@ -29,56 +25,6 @@ constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Columns that are projected together: the partial sums of a thousand would take 200 MB.
 constexpr Id ColumnsAtOnce = 128;
-
-/// Per column x.
-struct ColumnFacts
-{
-  Eigen::RowVectorXd energy;  // xᵀLx
-  Eigen::RowVectorXd mass;    // xᵀMx
-  Eigen::RowVectorXd largest; // the entry of M x of largest magnitude, near ties to the lowest row
-
-  explicit ColumnFacts(Id columns)
-    : energy(Eigen::RowVectorXd::Zero(columns)), mass(energy), largest(energy)
-  {
-  }
-  template<class Row>
-  void TakeLargest(const Row& row)
-  {
-    largest = (row.array().abs() > (1.0 + NearTie) * largest.array().abs()).select(row, largest);
-  }
-};
-
-template<class Real>
-ColumnFacts LookAt(const SpectralProblem<Real>& problem, const MultiVector& X)
-{
-  const Id columns = X.cols();
-  const Id ranges = (X.rows() + RowsAtOnce - 1) / RowsAtOnce;
-  std::vector<ColumnFacts> parts(ranges, ColumnFacts(columns));
-  const BlockProducts<double> product(problem.stiffness, problem.mass, X);
-  ParallelBlocks(ranges, problem.threads,
-    [&](Id range)
-    {
-      const Id begin = range * RowsAtOnce;
-      const Id end = std::min(X.rows(), begin + RowsAtOnce);
-      MultiVector image(RowsAtOnce, 2 * columns);
-      product.Rows(begin, end, image);
-      for (Id row = begin; row < end; ++row)
-      {
-        const auto images = image.row(row - begin);
-        parts[range].energy += X.row(row).cwiseProduct(images.head(columns));
-        parts[range].mass += X.row(row).cwiseProduct(images.tail(columns));
-        parts[range].TakeLargest(images.tail(columns));
-      }
-    });
-  ColumnFacts facts(columns);
-  for (const ColumnFacts& part : parts)
-  {
-    facts.energy += part.energy;
-    facts.mass += part.mass;
-    facts.TakeLargest(part.largest);
-  }
-  return facts;
-}
 
 /// Constants and the first `others` pairs side by side, in double precision.
 template<class Real>
@@ -170,7 +116,7 @@ Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs<Rea
     Orthonormalize(problem.mass, spectrum.vectors.rightCols(others), problem.threads, progress);
   }
 
-  const ColumnFacts facts = LookAt(problem, spectrum.vectors);
+  const ColumnFacts facts = problem.FactsOf(spectrum.vectors);
   Eigen::RowVectorXd values = Eigen::RowVectorXd::Zero(zeros + others);
   Eigen::RowVectorXd factor(zeros + others);
   const auto isNormal = [&](Index j) { return std::abs(facts.mass[j] - 1.0) < LargestMassError; };

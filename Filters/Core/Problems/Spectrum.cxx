@@ -8,6 +8,7 @@
 #include "Problems/CollectSpectrum.h"
 #include "Problems/SpectrumAccuracy.h"
 #include "Problems/SpectrumCycle.h"
+#include "Problems/SpectrumList.h"
 #include "Problems/UnnestedSpectrum.h"
 
 #include <cmath>
@@ -33,22 +34,6 @@ constexpr double SmallestSingleTolerance = 1e-7;
 /// Steps in single precision; where they do not suffice all is done again in double.
 constexpr int SingleIterations = 40;
 
-void Validate(const SpectrumOptions& options)
-{
-  if (options.numberOfModes < 1)
-  {
-    throw InvalidInput("the number of modes must be at least 1");
-  }
-  if (!(options.tolerance > 0.0 && options.tolerance < 1.0))
-  {
-    throw InvalidInput("the tolerance of the spectrum must lie between 0 and 1");
-  }
-  if (options.maximumIterations < 0)
-  {
-    throw InvalidInput("the number of iterations must not be negative");
-  }
-}
-
 /// The level below the finest if the finest is solved densely. Else the coarsest level with enough
 /// functions, or the one above it when that is too large for a dense solve.
 std::size_t StartLevel(const FiniteElementSpace& space, Index blockSize)
@@ -68,14 +53,6 @@ std::size_t StartLevel(const FiniteElementSpace& space, Index blockSize)
   return level;
 }
 
-/// Leaves out all pairs but the first.
-void Shorten(BlockReport& report, Id count, double tolerance)
-{
-  report.residuals.resize(std::min<std::size_t>(count, report.residuals.size()));
-  report.numberOfConverged = static_cast<Index>(std::count_if(report.residuals.begin(),
-    report.residuals.end(), [&](double residual) { return residual * residual <= tolerance; }));
-}
-
 void Append(std::vector<double>& list, const std::vector<double>& more)
 {
   list.insert(list.end(), more.begin(), more.end());
@@ -88,16 +65,6 @@ Progress LevelPart(const Progress& progress, std::size_t level)
   const double begin = std::pow(0.25, static_cast<double>(level) + 1.0);
   const double end = std::pow(0.25, static_cast<double>(level));
   return progress.Part(setUp + (1.0 - setUp) * begin, setUp + (1.0 - setUp) * end);
-}
-
-/// About the size of the lowest value of a connected surface: by area as on a sphere, by length
-/// where it is so thin that the area says nothing. A shift far above the values would cost their
-/// digits.
-double LowestValue(const SparseMatrix& mass, double side)
-{
-  const double pi = 3.14159265358979323846;
-  const double area = std::accumulate(mass.value.begin(), mass.value.end(), 0.0);
-  return std::min(4.0 * pi / area, pi * pi / (side * side));
 }
 
 /// The list ends among the constants.
@@ -133,8 +100,7 @@ private:
     const SpectralProblem<Real>& problem, const Progress& progress);
   void Prolong(std::size_t level, const Constants& constants, BlockOptions& block);
   BlockReport FinishList(
-    const SpectralProblem<Real>& problem, BlockOptions block, const Progress& progress);
-  bool EndsInside(Id count, double error) const;
+    const SpectralProblem<Real>& problem, const BlockOptions& block, const Progress& progress);
 
   const FiniteElementSpace& space_;
   const SpectrumOptions& options_;
@@ -206,68 +172,18 @@ void NestedIteration<Real>::Prolong(
   }
 }
 
-/// The wanted pairs; more of them until the multiplet at their end is whole, if that is asked for.
-/// The pair behind them tells whether it is cut: its value can only fall, by its measure, so that
-/// it has to converge as well only when that is in doubt. Values that come from a dense solve and
-/// are fewer than the block has room for are all there are.
+/// Values that come from a dense solve and are fewer than the block has room for are all there are.
 template<class Real>
 BlockReport NestedIteration<Real>::FinishList(
-  const SpectralProblem<Real>& problem, BlockOptions block, const Progress& progress)
+  const SpectralProblem<Real>& problem, const BlockOptions& block, const Progress& progress)
 {
-  const bool isAll = isDense_ && pairs_.values.size() < block.blockSize;
-  if (isAll) // an iteration would only find rounding
-  {
-    block.maximumIterations = 0;
-    block.blockSize = static_cast<Index>(pairs_.values.size());
-    block.wanted = std::min(block.wanted, block.blockSize);
-    while (options_.completeMultiplets && this->EndsInside(block.wanted, 0.0))
-    {
-      ++block.wanted;
-    }
-    cutsMultiplet_ = this->EndsInside(block.wanted, 0.0);
-    BlockWorkspace<Real> workspace;
-    return ImproveEigenPairs<Real>(problem, block, {}, pairs_, workspace, progress);
-  }
-  Id count = block.wanted;
-  BlockReport report;
-  double done = 0.0;
-  while (true)
-  {
-    block.blockSize = std::max(block.blockSize, GuardedSize(block.wanted));
-    const int before = report.iterations;
-    const Progress part = progress.Part(done, 0.5 + 0.5 * done);
-    report = ImproveManyEigenPairs(problem, block, pairs_, part);
-    report.iterations += before;
-    done = 0.5 + 0.5 * done;
-    const bool converged = report.numberOfConverged == block.wanted;
-    cutsMultiplet_ = this->EndsInside(count, 0.0);
-    if (!converged)
-    {
-      break;
-    }
-    const bool isSure = block.wanted > count || cutsMultiplet_ ||
-                        !this->EndsInside(count, std::pow(report.nextResidual, 2));
-    if (isSure && (!cutsMultiplet_ || !options_.completeMultiplets))
-    {
-      break;
-    }
-    while (isSure && this->EndsInside(count, 0.0))
-    {
-      ++count;
-    }
-    block.wanted = static_cast<Index>(isSure ? count : count + 1);
-  }
-  Shorten(report, count, block.tolerance);
-  return report;
-}
-
-/// Whether the pair behind the first `count` belongs to the multiplet of the last of them, when its
-/// value is too large by the relative error.
-template<class Real>
-bool NestedIteration<Real>::EndsInside(Id count, double error) const
-{
-  return count < pairs_.values.size() && IsMultiplet(pairs_.values[count - 1],
-                                           (1.0 - error) * pairs_.values[count], zeros_ + count);
+  ListEnd end;
+  end.zeros = zeros_;
+  end.isAll = isDense_ && pairs_.values.size() < block.blockSize;
+  end.completeMultiplets = options_.completeMultiplets;
+  const ListReport report = gridfem::FinishList(problem, block, end, pairs_, progress);
+  cutsMultiplet_ = report.cutsMultiplet;
+  return report.block;
 }
 
 /// Pairs of a level from those of the next coarser one, or from nothing on level `start`.
@@ -348,7 +264,8 @@ Spectrum ComputeOnNestedLevels(
     problem.threads = threads;
     return OnlyConstants(zeroModes, problem, options);
   }
-  const double shift = zeroModes.Count() * LowestValue(mass, space.Extent());
+  const double area = std::accumulate(mass.value.begin(), mass.value.end(), 0.0);
+  const double shift = zeroModes.Count() * LowestValue(area, space.Extent());
   SpectrumCycle cycle(space, shift, options.multigrid, progress.Part(0.0, 0.1));
   const bool wasSingle = cycle.IsSingle() && options.tolerance >= SmallestSingleTolerance;
   if (wasSingle)
@@ -369,6 +286,22 @@ Spectrum ComputeOnNestedLevels(
 }
 
 } // namespace
+
+void Validate(const SpectrumOptions& options)
+{
+  if (options.numberOfModes < 1)
+  {
+    throw InvalidInput("the number of modes must be at least 1");
+  }
+  if (!(options.tolerance > 0.0 && options.tolerance < 1.0))
+  {
+    throw InvalidInput("the tolerance of the spectrum must lie between 0 and 1");
+  }
+  if (options.maximumIterations < 0)
+  {
+    throw InvalidInput("the number of iterations must not be negative");
+  }
+}
 
 Spectrum ComputeNestedSpectrum(
   const FiniteElementSpace& space, const SpectrumOptions& options, const Progress& progress)

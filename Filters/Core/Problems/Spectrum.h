@@ -21,6 +21,9 @@ struct SpectrumOptions
   MultigridOptions multigrid{ CycleType::V };
 };
 
+/// Throws InvalidInput for numbers out of range.
+void Validate(const SpectrumOptions& options);
+
 struct Spectrum
 {
   std::vector<double> eigenvalues; // ascending, per squared unit of length of the space

@@ -33,6 +33,12 @@ bool IsMultiplet(double a, double b, Id count)
   return b - a < std::min(0.25 / static_cast<double>(count), 0.01) * b;
 }
 
+double LowestValue(double area, double side)
+{
+  const double pi = 3.14159265358979323846;
+  return std::min(4.0 * pi / area, pi * pi / (side * side));
+}
+
 std::vector<double> EstimateErrors(
   const Eigen::VectorXd& coarse, const Eigen::VectorXd& fine, const std::vector<double>& residuals)
 {

@@ -14,6 +14,11 @@ namespace gridfem
 /// that the grid has split: closer than a quarter of the mean distance b / count, and than 1 %.
 bool IsMultiplet(double a, double b, Id count);
 
+/// About the size of the lowest value of a connected surface: by area as on a sphere, by length
+/// where it is so thin that the area says nothing. A shift far above the values would cost their
+/// digits.
+double LowestValue(double area, double side);
+
 /// Relative errors of eigenvalues as those of the surface. The error is O(h²), so that of the next
 /// coarser level is four times as large, and a third of the difference is the error of `fine`. The
 /// squared residuals, the error of the iteration, are added. At most 1, which stands for unknown:

@@ -100,17 +100,25 @@ LevelOperators BuildLevelOperators(const GridFunctions& space, const QuadratureR
   {
     throw InvalidInput("NormalStabilization must be above 0 and at most 1.");
   }
-  LevelOperators system;
+  LevelOperators system = OperatorsOfElements(space,
+    IntegrateElements(space, rule, threads, progress.Part(0.0, 0.5), normalStabilization), threads,
+    coarsestSize, progress.Part(0.5, 1.0));
   system.quadratureDegree = rule.degree;
   system.normalStabilization = normalStabilization;
-  system.elements.push_back(
-    IntegrateElements(space, rule, threads, progress.Part(0.0, 0.5), normalStabilization));
+  return system;
+}
+
+LevelOperators OperatorsOfElements(const GridFunctions& space, ElementMatrices finest, int threads,
+  Index coarsestSize, const Progress& progress)
+{
+  LevelOperators system;
+  system.elements.push_back(std::move(finest));
   for (std::size_t l = 0;; ++l)
   {
     const PatchLevel& level = space.levels[l];
     system.places.push_back(PlacesOfFunctions(level, threads));
     system.pattern.push_back(BuildPattern(level, system.places.back(), threads));
-    progress.Check(0.5 + 0.4 * double(l + 1) / double(space.levels.size()));
+    progress.Check(0.8 * double(l + 1) / double(space.levels.size()));
     if (IsCoarsest(space, l, coarsestSize))
     {
       break;

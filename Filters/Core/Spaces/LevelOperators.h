@@ -32,6 +32,10 @@ LevelOperators BuildLevelOperators(const GridFunctions& space, const QuadratureR
   int threads = 0, Index coarsestSize = 256, const Progress& progress = {},
   double normalStabilization = DefaultNormalStabilization);
 
+/// From element matrices of the finest level, which may be no integrals over clipped pieces.
+LevelOperators OperatorsOfElements(const GridFunctions& space, ElementMatrices finest,
+  int threads = 0, Index coarsestSize = 256, const Progress& progress = {});
+
 /// Brings a system up to date whose finest element matrices, elements.front(), have new values: in
 /// another metric (SurfaceMetric.h) or with other weights (DirectionalElements.h) on the same
 /// patches. Patterns and prolongations stay.

@@ -1,4 +1,4 @@
-#include "Krylov/ResidualCorrection.h"
+#include "Krylov/SpectralProblem.h"
 
 #include "Algebra/BlockProducts.h"
 #include "Base/Parallel.h"
@@ -9,6 +9,9 @@ namespace gridfem
 {
 namespace
 {
+
+/// Rows whose images are looked at together.
+constexpr Id RowsOfFacts = 512;
 
 /// Calls body(first, count) for panels of columns that a preconditioner takes. Panels know nothing
 /// of each other, so each is the job of one thread where there are enough of them.
@@ -37,22 +40,44 @@ EigenResidual<Real> ResidualOf(const SpectralProblem<Real>& problem, const Eigen
 } // namespace
 
 template<class Real>
-ResidualMeasures CorrectResiduals(const SpectralProblem<Real>& problem,
-  const BlockPreconditioner<Real>& precondition, const EigenPairs<Real>& pairs,
-  const SoftLocking& locking, Block<Real> W, const MultiVector& load, Block<Real> P)
+MultiVector SpectralProblem<Real>::MassTimes(const MultiVector& X) const
+{
+  MultiVector image;
+  Multiply(mass, X, image, threads);
+  return image;
+}
+
+template<class Real>
+Eigen::MatrixXd SpectralProblem<Real>::ProjectBoth(
+  const BasisParts<Real>& parts, const ConstBlock<Real>& Y) const
+{
+  return ProjectPair<Real>(parts, stiffness, mass, Y, threads);
+}
+
+template<class Real>
+Eigen::MatrixXd SpectralProblem<Real>::ProjectMass(
+  const BasisParts<Real>& parts, const ConstBlock<Real>& Y) const
+{
+  return Project<Real>(parts, mass, Y, threads);
+}
+
+template<class Real>
+ResidualMeasures SpectralProblem<Real>::Correct(const BlockPreconditioner<Real>& B,
+  const EigenPairs<Real>& pairs, const SoftLocking& locking, Block<Real> W, const MultiVector& load,
+  Block<Real> P) const
 {
   const std::vector<Index>& columns = locking.AtWork();
   const Id residuals = static_cast<Id>(columns.size());
   ResidualMeasures all{ Eigen::VectorXd(residuals), Eigen::VectorXd(residuals) };
-  ForEachPanel(residuals + load.cols(), problem.threads,
+  ForEachPanel(residuals + load.cols(), threads,
     [&](Id first, Id count)
     {
       const Id firstW = std::min(first, residuals);
       const Id firstP = std::max<Id>(first - residuals, 0);
       const Id ofW = std::min(count, residuals - firstW);
       const Id ofP = count - ofW;
-      const EigenResidual<Real> residual = ResidualOf(problem, pairs, columns, firstW, ofW);
-      const RowSource<Real> source{ problem.mass.rows, count,
+      const EigenResidual<Real> residual = ResidualOf(*this, pairs, columns, firstW, ofW);
+      const RowSource<Real> source{ mass.rows, count,
         [&](Id begin, Id end, Block<Real> part)
         {
           residual.Rows(begin, end, part.leftCols(ofW));
@@ -71,7 +96,7 @@ ResidualMeasures CorrectResiduals(const SpectralProblem<Real>& problem,
         }
         return !isSmall || ofP > 0;
       };
-      const ResidualMeasures measures = precondition(source, isWanted,
+      const ResidualMeasures measures = B(source, isWanted,
         [&](Id begin, Id end, const ConstBlock<Real>& part)
         {
           W.block(begin, firstW, end - begin, ofW) = part.leftCols(ofW);
@@ -84,30 +109,54 @@ ResidualMeasures CorrectResiduals(const SpectralProblem<Real>& problem,
 }
 
 template<class Real>
-Eigen::VectorXd SquaredResiduals(const SpectralProblem<Real>& problem,
-  const EigenPairs<Real>& pairs, const std::vector<Index>& columns)
+Eigen::VectorXd SpectralProblem<Real>::SquaredResiduals(
+  const EigenPairs<Real>& pairs, const std::vector<Index>& columns) const
 {
   Eigen::VectorXd norm(static_cast<Id>(columns.size()));
-  ForEachPanel(norm.size(), problem.threads,
+  ForEachPanel(norm.size(), threads,
     [&](Id first, Id count)
     {
-      const EigenResidual<Real> residual = ResidualOf(problem, pairs, columns, first, count);
-      const RowSource<Real> source{ problem.mass.rows, count,
+      const EigenResidual<Real> residual = ResidualOf(*this, pairs, columns, first, count);
+      const RowSource<Real> source{ mass.rows, count,
         [&](Id begin, Id end, Block<Real> part) { residual.Rows(begin, end, part); } };
-      norm.segment(first, count) = SquaredNorms(source, problem.threads);
+      norm.segment(first, count) = SquaredNorms(source, threads);
     });
   return norm;
 }
 
-template ResidualMeasures CorrectResiduals(const SpectralProblem<float>&,
-  const BlockPreconditioner<float>&, const EigenPairs<float>&, const SoftLocking&, Block<float>,
-  const MultiVector&, Block<float>);
-template ResidualMeasures CorrectResiduals(const SpectralProblem<double>&,
-  const BlockPreconditioner<double>&, const EigenPairs<double>&, const SoftLocking&, Block<double>,
-  const MultiVector&, Block<double>);
-template Eigen::VectorXd SquaredResiduals(
-  const SpectralProblem<float>&, const EigenPairs<float>&, const std::vector<Index>&);
-template Eigen::VectorXd SquaredResiduals(
-  const SpectralProblem<double>&, const EigenPairs<double>&, const std::vector<Index>&);
+template<class Real>
+ColumnFacts SpectralProblem<Real>::FactsOf(const MultiVector& X) const
+{
+  const Id columns = X.cols();
+  const Id ranges = (X.rows() + RowsOfFacts - 1) / RowsOfFacts;
+  std::vector<ColumnFacts> parts(ranges, ColumnFacts(columns));
+  const BlockProducts<double> product(stiffness, mass, X);
+  ParallelBlocks(ranges, threads,
+    [&](Id range)
+    {
+      const Id begin = range * RowsOfFacts;
+      const Id end = std::min(X.rows(), begin + RowsOfFacts);
+      MultiVector image(RowsOfFacts, 2 * columns);
+      product.Rows(begin, end, image);
+      for (Id row = begin; row < end; ++row)
+      {
+        const auto images = image.row(row - begin);
+        parts[range].energy += X.row(row).cwiseProduct(images.head(columns));
+        parts[range].mass += X.row(row).cwiseProduct(images.tail(columns));
+        parts[range].TakeLargest(images.tail(columns));
+      }
+    });
+  ColumnFacts facts(columns);
+  for (const ColumnFacts& part : parts)
+  {
+    facts.energy += part.energy;
+    facts.mass += part.mass;
+    facts.TakeLargest(part.largest);
+  }
+  return facts;
+}
+
+template struct SpectralProblem<float>;
+template struct SpectralProblem<double>;
 
 } // namespace gridfem

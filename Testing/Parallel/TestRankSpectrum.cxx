@@ -1,0 +1,184 @@
+// The spectrum on several ranks is that of one rank: its values, and its vectors at every point.
+#include "Parallel/RankEigenproblem.h"
+#include "Parallel/RankSpectrum.h"
+#include "Spaces/GridSpace.h"
+#include "Surfaces.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+RankSpaceOptions Options(int depth)
+{
+  RankSpaceOptions options;
+  options.space.functions.depth = depth;
+  options.space.functions.threads = 1;
+  options.space.coarsestSize = 16;
+  options.granularity = 2;
+  return options;
+}
+
+SpectrumOptions Modes(int count)
+{
+  SpectrumOptions options;
+  options.numberOfModes = count;
+  options.tolerance = 1e-12;
+  options.maximumIterations = 300;
+  options.multigrid.threads = 1;
+  options.multigrid.precision = FactorPrecision::Double;
+  return options;
+}
+
+struct OnRanks
+{
+  Spectrum spectrum;
+  MultiVector values; // of the modes at this rank's own points
+  std::vector<Id> points;
+};
+
+OnRanks SolveOnRanks(
+  const TriangleMesh& mesh, Dealing dealing, const SpectrumOptions& options, int depth = 4)
+{
+  const Communicator ranks(MPI_COMM_WORLD);
+  OnRanks result;
+  const TriangleMesh own =
+    PartOf(mesh, Deal(mesh, dealing, ranks.Size()), ranks.Rank(), &result.points);
+  const RankSpace space(ranks, own, Options(depth));
+  result.spectrum = ComputeSpectrum(space, options);
+  result.values = space.ValuesAtPoints(result.spectrum.vectors, static_cast<Id>(own.points.size()));
+  return result;
+}
+
+/// Whether a value is so far from its neighbours that its vector is one up to its sign.
+bool IsSimple(const std::vector<double>& values, std::size_t mode)
+{
+  constexpr double Gap = 1e-2;
+  const double own = values[mode];
+  return own > 0.0 && (mode == 0 || own - values[mode - 1] > Gap * own) &&
+         mode + 1 < values.size() && values[mode + 1] - own > Gap * own;
+}
+
+double LargestDifference(
+  const Communicator& ranks, const OnRanks& ours, const MultiVector& theirs, Id mode, double sign)
+{
+  double difference = 0.0;
+  for (std::size_t k = 0; k < ours.points.size(); ++k)
+  {
+    difference = std::max(difference,
+      std::abs(ours.values(static_cast<Id>(k), mode) - sign * theirs(ours.points[k], mode)));
+  }
+  ranks.Maximum(&difference, 1);
+  return difference;
+}
+
+} // namespace
+
+TEST(RankSpectrum, IsThatOfOneRank)
+{
+  const Communicator ranks(MPI_COMM_WORLD);
+  int simple = 0;
+  for (const NamedSurface& surface : Surfaces())
+  {
+    SCOPED_TRACE(surface.name);
+    const GridSpace space = BuildGridSpace(surface.mesh, Options(4).space);
+    const Spectrum expected = ComputeSpectrum(space, Modes(12));
+    const MultiVector values = space.ValuesAtPoints(expected.vectors);
+    const OnRanks found = SolveOnRanks(surface.mesh, Dealing::Shuffled, Modes(12));
+    EXPECT_TRUE(found.spectrum.converged);
+    ASSERT_EQ(found.spectrum.eigenvalues.size(), expected.eigenvalues.size());
+    for (std::size_t mode = 0; mode < expected.eigenvalues.size(); ++mode)
+    {
+      SCOPED_TRACE("mode " + std::to_string(mode));
+      EXPECT_NEAR(found.spectrum.eigenvalues[mode], expected.eigenvalues[mode],
+        1e-8 * expected.eigenvalues[mode]);
+      if (IsSimple(expected.eigenvalues, mode))
+      {
+        const auto column = static_cast<Id>(mode);
+        const double size = values.col(column).cwiseAbs().maxCoeff();
+        const double off = std::min(LargestDifference(ranks, found, values, column, 1.0),
+          LargestDifference(ranks, found, values, column, -1.0));
+        EXPECT_LE(off, 1e-3 * size); // nearly hidden functions show at points
+        ++simple;
+      }
+    }
+  }
+  EXPECT_GE(simple, 8);
+}
+
+TEST(RankSpectrum, IsOrthonormalForAnyDistribution)
+{
+  const Communicator ranks(MPI_COMM_WORLD);
+  const TriangleMesh mesh = Surfaces()[1].mesh;
+  for (const Dealing dealing : Dealings)
+  {
+    const TriangleMesh own = PartOf(mesh, Deal(mesh, dealing, ranks.Size()), ranks.Rank());
+    const RankSpace space(ranks, own, Options(4));
+    const Spectrum spectrum = ComputeSpectrum(space, Modes(12));
+    const RankEigenproblem problem(space, 0, Modes(12).multigrid);
+    const MultiVector X = spectrum.vectors.bottomRows(problem.Rows());
+    EXPECT_TRUE(problem.Spread(X) == spectrum.vectors);
+    const Eigen::MatrixXd products = problem.ProjectBoth({ X }, X);
+    Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(12, 24);
+    for (int mode = 0; mode < 12; ++mode)
+    {
+      expected(mode, mode) = spectrum.eigenvalues[mode];
+      expected(mode, 12 + mode) = 1.0;
+    }
+    EXPECT_LE((products - expected).cwiseAbs().maxCoeff(), 1e-7);
+    for (int mode = 1; mode < 12; ++mode)
+    {
+      EXPECT_GT(spectrum.estimatedErrors[mode], 0.0);
+      EXPECT_LT(spectrum.estimatedErrors[mode], 0.2);
+    }
+  }
+}
+
+TEST(RankSpectrum, EndsWithWholeMultiplets)
+{
+  const TriangleMesh sphere = Surfaces().front().mesh; // values l (l + 1), 2 l + 1 of them
+  SpectrumOptions options = Modes(6);
+  options.tolerance = 1e-6;
+  const Spectrum cut = SolveOnRanks(sphere, Dealing::Contiguous, options).spectrum;
+  EXPECT_EQ(cut.eigenvalues.size(), 6U);
+  EXPECT_TRUE(cut.cutsMultiplet);
+  options.completeMultiplets = true;
+  const Spectrum whole = SolveOnRanks(sphere, Dealing::Contiguous, options).spectrum;
+  EXPECT_EQ(whole.eigenvalues.size(), 9U);
+  EXPECT_FALSE(whole.cutsMultiplet);
+  EXPECT_TRUE(whole.converged);
+}
+
+TEST(RankSpectrum, IsAbortedOnAllRanksByOne)
+{
+  const Communicator ranks(MPI_COMM_WORLD);
+  const TriangleMesh mesh = Surfaces().front().mesh;
+  const RankSpace space(
+    ranks, PartOf(mesh, Deal(mesh, Dealing::Contiguous, ranks.Size()), ranks.Rank()), Options(4));
+  for (const double when : { 0.05, 0.2, 0.6 })
+  {
+    const Progress progress(
+      [&](double done) { return ranks.Rank() != ranks.Size() - 1 || done < when; });
+    EXPECT_THROW(ComputeSpectrum(space, Modes(10), progress), Aborted);
+  }
+}
+
+TEST(RankSpectrum, OfConstantsAloneAndOfNothing)
+{
+  const Communicator ranks(MPI_COMM_WORLD);
+  const OnRanks constant = SolveOnRanks(Surfaces().front().mesh, Dealing::Contiguous, Modes(1));
+  ASSERT_EQ(constant.spectrum.eigenvalues.size(), 1U);
+  EXPECT_EQ(constant.spectrum.eigenvalues.front(), 0.0);
+  for (Id k = 1; k < constant.values.rows(); ++k)
+  {
+    EXPECT_NEAR(constant.values(k, 0), constant.values(0, 0), 1e-12);
+  }
+  const RankSpace nothing(ranks, TriangleMesh(), Options(4));
+  EXPECT_TRUE(ComputeSpectrum(nothing, Modes(5)).eigenvalues.empty());
+}
