@@ -1,9 +1,12 @@
 #include "vtkLaplaceSpectrum.h"
 
+#include "Private/CanDistribute.h"
 #include "Private/ClippedMeshWriter.h"
+#include "Private/DistributedSpectrum.h"
 #include "Private/InputArray.h"
 #include "Private/InputValidation.h"
 #include "Private/ModeReader.h"
+#include "Private/Ranks.h"
 #include "Private/SolverOutput.h"
 #include "Private/SurfaceSolverState.h"
 #include "Private/SurfaceSpectrum.h"
@@ -42,6 +45,9 @@ int FirstTimeStep(int numberOfModes)
 struct vtkLaplaceSpectrum::Internals : gridfem::SurfaceSpectrum
 {
   std::int64_t WarnedRun = 0; // the last solve whose cut multiplet was told of: not every time step
+  gridfem::MultiVector Together; // modes of all ranks at this one's points, a column each
+  gridfem::StageKey TogetherKey;
+  std::int64_t TogetherRuns = 0;
   /// NumberOfModes and CompleteMultiplets of the last solve: how many modes these give is known.
   int SolvedModes = 0;
   bool SolvedWhole = false;
@@ -109,13 +115,17 @@ int vtkLaplaceSpectrum::ShownMode(vtkInformation* output)
 void vtkLaplaceSpectrum::WriteModes(vtkPolyData* input, vtkInformation* info, vtkPolyData* output)
 {
   const gridfem::SurfaceSolverState& state = *this->State;
-  const int precision = gridfem::OutputPrecision(input->GetPoints());
+  const int precision = input->GetPoints() // an empty piece of a surface on several ranks has none
+                          ? gridfem::OutputPrecision(input->GetPoints())
+                          : VTK_DOUBLE;
   output->ShallowCopy(input);
   gridfem::RemoveModes(output); // an earlier run may have had more
   const auto addMode = [&](int mode, const std::string& name)
   {
     const gridfem::MultiVector values =
-      gridfem::EvaluateModes(state, this->Data->spectrum, mode, 1, this->NumberOfThreads);
+      this->Data->Together.cols() > 0
+        ? gridfem::MultiVector(this->Data->Together.col(mode))
+        : gridfem::EvaluateModes(state, this->Data->spectrum, mode, 1, this->NumberOfThreads);
     output->GetPointData()->AddArray(gridfem::MakePointArray(name.c_str(), values, precision));
     return name;
   };
@@ -192,7 +202,7 @@ void vtkLaplaceSpectrum::Warn()
   const std::string where = this->FunctionSpace == HatFunctions
                               ? "with the hat functions of this mesh"
                               : "at Depth " + std::to_string(this->Data->depth);
-  const std::int64_t run = this->State->stages.Runs(gridfem::SolveStage);
+  const std::int64_t run = this->State->stages.Runs(gridfem::SolveStage) + this->Data->TogetherRuns;
   for (const std::string& warning : gridfem::WarningsOf(
          this->Data->spectrum, this->NumberOfModes, where, run != this->Data->WarnedRun))
   {
@@ -229,6 +239,7 @@ void vtkLaplaceSpectrum::Compute(vtkInformationVector** inputs, vtkInformationVe
   this->State->metricArray = gridfem::FindInputArray(this, 5, input, "MetricArray");
   this->State->options.trackMetric = this->TrackMetric && !this->AccuracyDriven;
   this->Data->SolvedModes = 0;
+  this->Data->Together = {};
   this->Data->Update(*this->State, input, vtkPolyData::GetData(inputs[1]), request);
   this->Data->SolvedModes = this->NumberOfModes;
   this->Data->SolvedWhole = this->CompleteMultiplets;
@@ -238,10 +249,99 @@ void vtkLaplaceSpectrum::Compute(vtkInformationVector** inputs, vtkInformationVe
   this->State->bridge.GetProgress().Check(1.0);
 }
 
+/// Whether this rank can take part where all compute together.
+bool vtkLaplaceSpectrum::CanCompute(vtkInformationVector** inputs, vtkPolyData* input)
+{
+  const bool isPlain = this->FunctionSpace == Grid &&
+                       this->State->options.space.depth >= gridfem::MinimumDepth &&
+                       this->Smoother == PatchSmoother && !this->BlocksAsOne &&
+                       !this->AccuracyDriven && !this->CompareFunctionSpaces && !this->TrackMetric;
+  const bool hasOthers = gridfem::IsArrayChosen(this, 5) || vtkDataObject::GetData(inputs[1]);
+  return isPlain && !hasOthers && !gridfem::HasBasisOrGhosts(input);
+}
+
+bool vtkLaplaceSpectrum::ComputeTogether(
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  const gridfem::Ranks ranks;
+  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
+  const bool hasPolygons = input && input->GetNumberOfPolys() + input->GetNumberOfStrips() > 0;
+  if (!this->Distributed || !gridfem::CanDistribute() ||
+      ranks.Any(!this->CanCompute(inputs, input)) || !ranks.Any(hasPolygons))
+  {
+    return false;
+  }
+  Internals& data = *this->Data;
+  const gridfem::SurfaceOptions& options = this->State->options;
+  gridfem::StageKey key;
+  key.Add(this->NumberOfModes).Add(this->CompleteMultiplets).Add(options.space.depth);
+  key.Add(options.space.connectivityAware).Add(options.space.weldCoincidentPoints);
+  key.Add(options.choice.quadratureDegree).Add(options.choice.normalStabilization);
+  gridfem::AddSolver(key, options);
+  if (input)
+  {
+    gridfem::AddMesh(key, input);
+  }
+  if (ranks.Any(data.Together.cols() == 0 || !(key == data.TogetherKey)))
+  {
+    gridfem::InputMesh mesh;
+    ranks.Together(
+      [&]
+      {
+        gridfem::TriangleRule(this->QuadratureDegree);
+        gridfem::RequireNumber("Tolerance", this->Tolerance);
+        mesh.triangles = std::make_shared<const gridfem::TriangleMesh>();
+        if (hasPolygons)
+        {
+          mesh = gridfem::ReadInputMesh(input, this->NumberOfThreads);
+        }
+      });
+    this->FreeStages();
+    gridfem::DistributedModes modes = gridfem::FindModesTogether(mesh, this->NumberOfModes,
+      this->CompleteMultiplets, options, this->State->bridge.GetProgress());
+    data.spectrum = std::move(modes.spectrum);
+    data.depth = options.space.depth;
+    data.eigenvalues.clear();
+    for (const double value : data.spectrum.eigenvalues)
+    {
+      data.eigenvalues.push_back(value / (modes.unitLength * modes.unitLength));
+    }
+    data.SolvedModes = this->NumberOfModes;
+    data.SolvedWhole = this->CompleteMultiplets;
+    data.TogetherKey = key;
+    data.Together = std::move(modes.values);
+    ++data.TogetherRuns;
+  }
+  ranks.Together([&] { this->WriteDistributed(input, outputs); });
+  return true;
+}
+
+/// Port 0 is the rank's own piece with its modes; the table is on the first rank.
+void vtkLaplaceSpectrum::WriteDistributed(vtkPolyData* input, vtkInformationVector* outputs)
+{
+  vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
+  if (input)
+  {
+    if (this->Data->Together.rows() != input->GetNumberOfPoints()) // of a piece without polygons
+    {
+      this->Data->Together.setZero(input->GetNumberOfPoints(), this->Data->Together.cols());
+    }
+    this->WriteModes(input, outputs->GetInformationObject(0), output);
+  }
+  gridfem::AddFieldInt(output, "UsedDepth", this->Depth);
+  gridfem::AddFieldInt(output, "Distributed", 1);
+  if (gridfem::Ranks().IsFirst())
+  {
+    this->WriteTable(vtkTable::GetData(outputs, 1));
+    this->Warn();
+  }
+}
+
 void vtkLaplaceSpectrum::FreeStages()
 {
   this->Superclass::FreeStages();
   this->Data->spectrum = {};
+  this->Data->Together = {};
 }
 
 void vtkLaplaceSpectrum::PrintSelf(ostream& os, vtkIndent indent)
@@ -254,5 +354,6 @@ void vtkLaplaceSpectrum::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "CompareFunctionSpaces: " << this->CompareFunctionSpaces << "\n";
   os << indent << "AccuracyDriven: " << this->AccuracyDriven << "\n";
   os << indent << "TrackMetric: " << this->TrackMetric << "\n";
+  os << indent << "Distributed: " << this->Distributed << "\n";
   os << indent << "Accuracy: " << this->Accuracy << "\n";
 }

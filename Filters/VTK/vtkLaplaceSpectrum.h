@@ -147,6 +147,21 @@ public:
   vtkGetMacro(Accuracy, double);
   ///@}
 
+  ///@{
+  /**
+   * On several MPI ranks: when on, all ranks compute, and none gathers the surface, which may be
+   * larger than one machine. Possible on the functions of a grid of a given Depth with the patch
+   * smoother; not with AccuracyDriven, CompareFunctionSpaces, TrackMetric, a MetricArray, a given
+   * basis, BlocksAsOne, or ghost cells. Where it is not, rank 0 gathers as ever. The field array
+   * `Distributed` says which. The modes stay for other time steps until the surface of a rank
+   * changes; nothing else is kept. Zero modes of several components may come in another order, and
+   * modes with the other sign. Needs a build with PETSc. Default off.
+   */
+  vtkSetMacro(Distributed, bool);
+  vtkGetMacro(Distributed, bool);
+  vtkBooleanMacro(Distributed, bool);
+  ///@}
+
   /**
    * The input of port 1: the basis.
    */
@@ -159,6 +174,7 @@ protected:
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   std::vector<double> OwnTimeSteps() override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  bool ComputeTogether(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   void FreeStages() override;
 
   int NumberOfModes = 20;
@@ -168,12 +184,15 @@ protected:
   bool CompareFunctionSpaces = false;
   bool AccuracyDriven = false;
   bool TrackMetric = false;
+  bool Distributed = false;
   double Accuracy = 0.01;
 
 private:
   vtkLaplaceSpectrum(const vtkLaplaceSpectrum&) = delete;
   void operator=(const vtkLaplaceSpectrum&) = delete;
 
+  bool CanCompute(vtkInformationVector** inputs, vtkPolyData* input);
+  void WriteDistributed(vtkPolyData* input, vtkInformationVector* outputs);
   bool IsAccurate() const;
   int ShownMode(vtkInformation* output);
   void WriteModes(vtkPolyData* input, vtkInformation* info, vtkPolyData* output);

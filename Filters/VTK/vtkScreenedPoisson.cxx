@@ -1,5 +1,6 @@
 #include "vtkScreenedPoisson.h"
 
+#include "Private/CanDistribute.h"
 #include "Private/ClippedArrays.h"
 #include "Private/ClippedMeshWriter.h"
 #include "Private/DistributedPoisson.h"
@@ -482,12 +483,7 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
 bool vtkScreenedPoisson::CanCompute(vtkInformationVector** inputs, vtkPolyData* input)
 {
   const gridfem::SurfaceOptions& options = this->State->options;
-  const auto isChosen = [this](int array)
-  {
-    vtkInformation* info = this->GetInputArrayInformation(array);
-    const char* name = info->Get(vtkDataObject::FIELD_NAME());
-    return name && *name && std::string(name) != "None";
-  };
+  const auto isChosen = [this](int array) { return gridfem::IsArrayChosen(this, array); };
   const bool isPlain =
     this->FunctionSpace == Grid && options.space.depth >= gridfem::MinimumDepth &&
     this->Smoother == PatchSmoother && this->Iteration == ConjugateGradients &&
@@ -496,10 +492,7 @@ bool vtkScreenedPoisson::CanCompute(vtkInformationVector** inputs, vtkPolyData* 
   // Weight, constraints, metric and flux.
   const bool hasOthers = isChosen(3) || isChosen(4) || isChosen(5) || isChosen(6) ||
                          vtkDataObject::GetData(inputs[1]) || vtkDataObject::GetData(inputs[2]);
-  const bool isMarked =
-    input && (gridfem::CarriesBasis(input) ||
-               input->GetCellData()->HasArray(vtkDataSetAttributes::GhostArrayName()));
-  return isPlain && !hasOthers && !isMarked;
+  return isPlain && !hasOthers && !gridfem::HasBasisOrGhosts(input);
 }
 
 bool vtkScreenedPoisson::ComputeTogether(

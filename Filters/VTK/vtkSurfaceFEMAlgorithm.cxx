@@ -360,6 +360,8 @@ void vtkSurfaceFEMAlgorithm::ComputeOnRanks(
     });
   if (this->ComputeTogether(surfaces, outputs))
   {
+    this->Ranked->NoteComputed();
+    gridfem::StampTime(!this->OwnTimeSteps().empty(), surfaces[0], outputs);
     return;
   }
   this->Ranked->Run(surfaces, this->GetNumberOfInputPorts(), outputs, this->WeldCoincidentPoints,

@@ -12,16 +12,12 @@ double DistributedTolerance(const SurfaceOptions& options)
 
 #if GRIDFEM_HAS_PARALLEL
 
-#include "Ranks.h"
+#include "DistributedSpace.h"
 
-#include "Base/Parallel.h"
 #include "Parallel/RankPoisson.h"
 #include "vtkSurfaceFEMAlgorithm.h"
 
 #include "vtkDataArray.h"
-#include "vtkMPI.h"
-#include "vtkMPICommunicator.h"
-#include "vtkMPIController.h"
 
 #include <algorithm>
 #include <optional>
@@ -30,13 +26,6 @@ namespace gridfem
 {
 namespace
 {
-
-vtkMPICommunicator* MpiOfVtk()
-{
-  auto* controller =
-    vtkMPIController::SafeDownCast(vtkMultiProcessController::GetGlobalController());
-  return controller ? vtkMPICommunicator::SafeDownCast(controller->GetCommunicator()) : nullptr;
-}
 
 /// A chosen array as all ranks see it, also those whose piece is empty.
 struct Shape
@@ -121,15 +110,7 @@ DistributedSolution Solve(const Communicator& ranks, const InputMesh& mesh,
   const Shape value = ShapeOf(ranks, request.value);
   const Shape gradient = ShapeOf(ranks, request.gradient);
   const Shape scale = ShapeOf(ranks, request.scale);
-  RankSpaceOptions spaceOptions;
-  spaceOptions.space.functions = options.space;
-  // Ranks of one machine share its processors.
-  spaceOptions.space.functions.threads =
-    options.space.threads > 0 ? options.space.threads
-                              : std::max(1, NumberOfThreads(0) / ranks.RanksOfMachine());
-  spaceOptions.space.quadratureDegree = options.choice.quadratureDegree;
-  spaceOptions.space.coarsestSize = options.choice.coarsestSize;
-  spaceOptions.space.normalStabilization = options.choice.normalStabilization;
+  const RankSpaceOptions spaceOptions = DistributedOptions(ranks, options);
   const RankSpace space(ranks, *mesh.triangles, spaceOptions, progress.Part(0.0, 0.4));
 
   const std::optional<Field> given = SendField(space, mesh, request.value, value);
@@ -173,35 +154,11 @@ DistributedSolution Solve(const Communicator& ranks, const InputMesh& mesh,
 
 } // namespace
 
-bool CanDistribute()
-{
-  return MpiOfVtk() != nullptr;
-}
-
 DistributedSolution SolveDistributed(const InputMesh& mesh, const DistributedRequest& request,
   const SurfaceOptions& options, const Progress& progress)
 {
-  const Communicator ranks(*MpiOfVtk()->GetMPIComm()->GetHandle());
-  try
-  {
-    return Solve(ranks, mesh, request, options, progress);
-  }
-  catch (const RankFailure& failure)
-  {
-    if (ranks.Rank() > 0)
-    {
-      throw FailedElsewhere();
-    }
-    throw InvalidInput("Rank " + std::to_string(failure.rank) + ": " + failure.what());
-  }
-  catch (const InvalidInput&) // of what is the same on all ranks
-  {
-    if (ranks.Rank() > 0)
-    {
-      throw FailedElsewhere();
-    }
-    throw;
-  }
+  return OnRanksOfVtk(
+    [&](const Communicator& ranks) { return Solve(ranks, mesh, request, options, progress); });
 }
 
 } // namespace gridfem
@@ -210,11 +167,6 @@ DistributedSolution SolveDistributed(const InputMesh& mesh, const DistributedReq
 
 namespace gridfem
 {
-
-bool CanDistribute()
-{
-  return false;
-}
 
 DistributedSolution SolveDistributed(
   const InputMesh&, const DistributedRequest&, const SurfaceOptions&, const Progress&)

@@ -34,9 +34,6 @@ struct DistributedSolution
   SolveReport report;
 };
 
-/// Whether this build, and VTK's global controller, can let the ranks compute together.
-bool CanDistribute();
-
 /// Of the energy residual: the one given, or 1e-8 where that is 0.
 double DistributedTolerance(const SurfaceOptions& options);
 

@@ -44,6 +44,9 @@ public:
   /// Whether no rank had a point in the last run.
   bool IsEmpty() const { return isEmpty_; }
 
+  /// That the ranks have computed without a run here.
+  void NoteComputed() { isEmpty_ = false; }
+
   /// The time steps of the first rank, which may know more of them after a run; those of this rank
   /// where its properties have changed since.
   const std::vector<double>& StepsOf(const std::vector<double>& own) const;

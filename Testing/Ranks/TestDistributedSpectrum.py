@@ -1,0 +1,126 @@
+"""Laplace Spectrum by all ranks together: the modes of one rank on every rank's own piece, where they
+can be had so; else rank 0 gathers, as without the property."""
+import unittest
+
+import numpy
+from vtkmodules.util import numpy_support
+
+import ranks
+
+MODES = 8
+
+
+def made(**properties):
+    return ranks.make("LaplaceSpectrum", 4, **{
+        "Distributed": True, "NumberOfModes": MODES, "Tolerance": 1e-11, **properties})
+
+
+def number(output, name):
+    array = output.GetFieldData().GetArray(name)
+    return array.GetValue(0) if array else None
+
+
+def values_of(output):
+    return numpy_support.vtk_to_numpy(output.GetFieldData().GetArray("Eigenvalues"))
+
+
+class DistributedSpectrum(unittest.TestCase):
+    def same_as_alone(self, mesh, kind, **properties):
+        mine = ranks.piece(mesh, kind)
+        output, table = ranks.run(made(**properties), mine)
+        whole = ranks.alone(lambda: ranks.run(made(**properties), ranks.whole(mesh))[0])
+        problems = [] if number(output, "Distributed") == 1 else ["rank 0 has gathered"]
+        problems += [] if number(output, "Converged") == 1 else ["not converged"]
+        expected = values_of(whole)
+        found = values_of(output)
+        if found.shape != expected.shape or ranks.apart(found, expected) > 1e-8 * expected.max():
+            problems.append(f"values {found} instead of {expected}")
+        if mine.GetNumberOfPoints():
+            origin = numpy_support.vtk_to_numpy(mine.GetPointData().GetArray("origin"))
+            theirs = ranks.arrays(whole.GetPointData())
+            simple = {f"Mode{k:03}": theirs[f"Mode{k:03}"] for k in range(MODES)
+                      if self.is_simple(expected, k)}
+            problems += ranks.compare(ranks.arrays(output.GetPointData()), simple, origin, 1e-4,
+                                      kind)
+            problems += [] if output.GetNumberOfCells() == mine.GetNumberOfCells() else ["cells"]
+        rows = table.GetNumberOfRows()
+        if rows != (len(expected) if ranks.RANK == 0 else 0):
+            problems.append(f"the table has {rows} rows")
+        ranks.check(self, problems)
+
+    @staticmethod
+    def is_simple(values, k):
+        """Far from its neighbours, so that the mode is one up to its sign."""
+        gaps = numpy.diff(values)
+        return 0 < k < len(values) - 1 and min(gaps[k - 1], gaps[k]) > 0.05 * values[k]
+
+    def test_any_pieces(self):
+        for kind in ("first", "last", "contiguous", "scattered", "one rank is empty"):
+            with self.subTest(kind=kind):
+                self.same_as_alone(ranks.ellipsoid(), kind)
+
+    def test_other_surfaces(self):
+        for mesh in (ranks.two(), ranks.bowl(), ranks.soup()):
+            self.same_as_alone(mesh, "scattered")
+
+    def test_time_steps_compute_nothing(self):
+        filter_ = made(AllModes=False)
+        mine = ranks.piece(ranks.ellipsoid(), "contiguous")
+        filter_.SetInputDataObject(0, mine)
+        events = []
+        filter_.AddObserver("ProgressEvent", lambda *_: events.append(1))
+        shown = []
+        problems = []
+        for time in (1.0, 3.0, 2.0, 3.0):
+            before = len(events)
+            filter_.UpdateTimeStep(time)
+            output = filter_.GetOutputDataObject(0)
+            shown.append(ranks.arrays(output.GetPointData())["Mode"])
+            if number(output, "Distributed") != 1:
+                problems.append("rank 0 has gathered")
+            if len(shown) > 1 and len(events) - before > 3:
+                problems.append(f"time {time}: {len(events) - before} events")
+            if output.GetInformation().Get(output.DATA_TIME_STEP()) != time:
+                problems.append(f"time {time} is not on the output")
+        if not (shown[1] == shown[3]).all() or (shown[0] == shown[1]).all():
+            problems.append("not the modes of their times")
+        mine.GetPoints().Modified()
+        before = len(events)
+        filter_.UpdateTimeStep(1.0)
+        if len(events) - before <= 3:
+            problems.append("a surface that has changed computes nothing")
+        ranks.check(self, problems)
+
+    def test_rank_0_gathers_what_is_left_to_it(self):
+        for properties in ({"FunctionSpace": 1}, {"Smoother": 1}, {"CompareFunctionSpaces": True}):
+            output = ranks.run(made(**properties), ranks.piece(ranks.bowl(), "contiguous"))[0]
+            ranks.check(self, [] if number(output, "Distributed") is None and
+                        number(output, "Converged") == 1 else [str(properties)])
+        filter_ = made()
+        for kind, expected in (("contiguous", 1), ("ghosts", None), ("contiguous", 1)):
+            output = ranks.run(filter_, ranks.piece(ranks.bowl(), kind))[0]
+            ranks.check(self, [] if number(output, "Distributed") == expected and
+                        number(output, "Converged") == 1 else [kind])
+
+    def test_what_fails_on_one_rank_fails_on_all(self):
+        filter_ = made()
+        mine = ranks.piece(ranks.ellipsoid(), "contiguous")
+        if ranks.RANK == ranks.RANKS - 1:
+            numpy_support.vtk_to_numpy(mine.GetPoints().GetData())[3] = numpy.nan
+        messages = []
+
+        def listen(_, __, text=None):
+            messages.append(text)
+        listen.CallDataType = "string0"
+        filter_.AddObserver("ErrorEvent", listen)
+        output = ranks.run(filter_, mine)[0]
+        problems = ["the output is not empty"] if output.GetNumberOfPoints() else []
+        if len(messages) != (1 if ranks.RANK == 0 else 0):
+            problems.append(f"{len(messages)} messages: {messages}")
+        ranks.check(self, problems)
+        output = ranks.run(filter_, ranks.piece(ranks.ellipsoid(), "contiguous"))[0]
+        ranks.check(self, [] if number(output, "Distributed") == 1 else ["not computed again"])
+
+
+if __name__ == "__main__":
+    ranks.main()
