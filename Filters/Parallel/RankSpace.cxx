@@ -79,7 +79,7 @@ bool AgreeOnSharedCorners(const PatchLevel& level, Index a, Index b)
 }
 
 /// Gives points at the same place of one sheet to one patch, so that their values are equal bit for
-/// bit. Points are in the order of their coordinates.
+/// bit. Coincident points follow each other.
 void UnitePointPatches(
   const std::vector<Vec3>& points, const PatchLevel& level, Array<Index>& pointPatch)
 {
