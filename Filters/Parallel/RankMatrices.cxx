@@ -241,22 +241,29 @@ SparseMatrix WholeRows(const Communicator& ranks, Mat matrix, const LevelNumberi
   ranks.Together(
     [&]
     {
-      Array<Id> begin{ 0 };
-      Array<Index> column;
-      column.reserve(own.column.size() + whole.column.size());
-      rows.value.reserve(own.value.size() + whole.value.size());
-      Index next = 0;
-      for (Index row = 0; row < own.rows; ++row)
+      Array<Id> begin(own.rows + 1);
+      begin[0] = 0;
+      const auto forRows = [&](const auto& body)
       {
-        const bool isShared = next < whole.rows && shared[next] == row;
-        const SparseMatrix& from = isShared ? whole : own;
-        const Index place = isShared ? next++ : row;
-        const Id first = from.rowBegin[place];
-        const Id last = from.rowBegin[place + 1];
-        column.insert(column.end(), from.column.begin() + first, from.column.begin() + last);
-        rows.value.insert(rows.value.end(), from.value.begin() + first, from.value.begin() + last);
-        begin.push_back(static_cast<Id>(column.size()));
-      }
+        Index next = 0;
+        for (Index row = 0; row < own.rows; ++row)
+        {
+          const bool isShared = next < whole.rows && shared[next] == row;
+          body(row, isShared ? whole : own, isShared ? next++ : row);
+        }
+      };
+      forRows([&](Index row, const SparseMatrix& from, Index place)
+        { begin[row + 1] = begin[row] + from.rowBegin[place + 1] - from.rowBegin[place]; });
+      Array<Index> column(begin[own.rows]);
+      rows.value.resize(begin[own.rows]);
+      forRows(
+        [&](Index row, const SparseMatrix& from, Index place)
+        {
+          const Id first = from.rowBegin[place];
+          const Id count = from.rowBegin[place + 1] - first;
+          std::copy_n(from.column.begin() + first, count, column.begin() + begin[row]);
+          std::copy_n(from.value.begin() + first, count, rows.value.begin() + begin[row]);
+        });
       rows.rows = rows.columns = own.rows;
       rows.rowBegin = std::move(begin);
       rows.column = std::move(column);
