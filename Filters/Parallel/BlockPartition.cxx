@@ -92,8 +92,14 @@ BlockPartition::BlockPartition(
       SortAndMerge(blocks);
     });
   blocks = ranks.Gather(blocks);
+  ranks.Together([&] { this->Divide(std::move(blocks), granularity == 0, ranks.Size()); });
+  shift_ = frame.grid.depth - depth_;
+}
+
+void BlockPartition::Divide(std::vector<Block> blocks, bool isCoarsened, int ranks)
+{
   SortAndMerge(blocks);
-  while (granularity == 0 && depth_ > 1 && static_cast<Id>(blocks.size()) > MostBlocks)
+  while (isCoarsened && depth_ > 1 && static_cast<Id>(blocks.size()) > MostBlocks)
   {
     --depth_;
     for (Block& block : blocks)
@@ -102,12 +108,6 @@ BlockPartition::BlockPartition(
     }
     SortAndMerge(blocks);
   }
-  shift_ = frame.grid.depth - depth_;
-  this->Divide(blocks, ranks.Size());
-}
-
-void BlockPartition::Divide(const std::vector<Block>& blocks, int ranks)
-{
   double total = 0.0;
   for (const Block& block : blocks)
   {

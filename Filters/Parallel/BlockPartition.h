@@ -62,7 +62,7 @@ private:
     double pieces; // expected
   };
 
-  void Divide(const std::vector<Block>& blocks, int ranks);
+  void Divide(std::vector<Block> blocks, bool isCoarsened, int ranks);
   void AddRanksNear(MortonKey block, std::vector<int>& ranks) const;
   template<class Body>
   void ForNeighbours(MortonKey block, Body&& body) const;

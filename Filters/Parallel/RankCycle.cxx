@@ -192,13 +192,19 @@ void RankCycle::SetSmoother(KSP solver, Mat matrix, int sweeps, Sweep& sweep)
   Check(PCShellSetApplyRichardson(pc, RunSweeps));
 }
 
-/// Errors do not pass through PETSc: what is not a number ends the iteration on all ranks.
+/// What a rank's own work throws does not pass through PETSc: what is not a number ends the
+/// iteration on all ranks. An error of PETSc itself does, because no more messages can be relied
+/// upon.
 template<class Body>
 PetscErrorCode RankCycle::Keep(Vec result, Body&& body)
 {
   try
   {
     body();
+  }
+  catch (const PetscFailure& error)
+  {
+    return error.code;
   }
   catch (...)
   {
@@ -255,11 +261,9 @@ PetscErrorCode RankCycle::Precondition(PC pc, Vec r, Vec z)
   return cycle.Keep(z,
     [&]
     {
-      PetscVector projected;
-      Check(VecDuplicate(r, projected.Receive()));
-      Check(VecCopy(r, projected));
-      (*cycle.ofResidual_)(projected);
-      Check(PCApply(cycle.cycle_, projected, z));
+      Check(VecCopy(r, cycle.projected_));
+      (*cycle.ofResidual_)(cycle.projected_);
+      Check(PCApply(cycle.cycle_, cycle.projected_, z));
       (*cycle.ofSolution_)(z);
     });
 }
@@ -348,6 +352,10 @@ SolveReport RankCycle::Solve(Vec b, Vec x, const SolveOptions& options,
 {
   ofSolution_ = &ofSolution;
   ofResidual_ = &ofResidual;
+  if (!projected_)
+  {
+    Check(VecDuplicate(b, projected_.Receive()));
+  }
   Watch watch{ ranks_, options, progress, this->Start(b, x), {}, false };
   watch.report.end = SolveEnd::Breakdown; // unless the test of convergence says otherwise
   PetscSolver solver;

@@ -77,6 +77,7 @@ private:
   std::vector<Sweep> sweeps_;
   std::unique_ptr<Coarse> coarse_;
   PetscCycle cycle_;
+  PetscVector projected_; // what the cycle is applied to
   const Projection* ofSolution_ = nullptr;
   const Projection* ofResidual_ = nullptr;
   std::exception_ptr failure_; // of this rank, within PETSc

@@ -2,6 +2,7 @@
 
 #include "Base/Parallel.h"
 #include "Parallel/OwnPieces.h"
+#include "Parallel/RankMemory.h"
 
 #include <algorithm>
 #include <limits>
@@ -151,6 +152,7 @@ RankSpace::RankSpace(const Communicator& ranks, const TriangleMesh& own,
   GridFunctions all; // in and around the cells of this rank
   Array<Link> links;
   auto mesh = std::make_shared<TriangleMesh>(distribution_->TakeMesh());
+  RequireMemory(ranks_, *mesh, frame.grid);
   ranks_.Together(
     [&]
     {
@@ -192,15 +194,16 @@ RankSpace::RankSpace(const Communicator& ranks, const TriangleMesh& own,
       own_ = std::make_unique<GridSpace>(std::move(mesh), std::move(divided), std::move(operators));
     });
   const ElementMatrices& coarsest = own_->Operators().elements.back();
-  const auto gather = [&](const Array<ElementMatrix>& matrices)
+  const auto gather = [&](const Array<ElementMatrix>& matrices, Array<ElementMatrix>& whole)
   {
-    const std::vector<ElementMatrix> of =
-      ranks_.Gather(std::vector<ElementMatrix>(matrices.begin(), matrices.end()));
-    return Array<ElementMatrix>(of.begin(), of.end());
+    std::vector<ElementMatrix> of;
+    ranks_.Together([&] { of.assign(matrices.begin(), matrices.end()); });
+    of = ranks_.Gather(of);
+    ranks_.Together([&] { whole = Array<ElementMatrix>(of.begin(), of.end()); });
   };
   shared_.coarsestSize = options.space.coarsestSize;
-  shared_.elements.mass = gather(coarsest.mass);
-  shared_.elements.stiffness = gather(coarsest.stiffness);
+  gather(coarsest.mass, shared_.elements.mass);
+  gather(coarsest.stiffness, shared_.elements.stiffness);
 }
 
 /// Leaves in `all` what this rank owns, with the functions numbered by the places in numberings_.
@@ -209,11 +212,15 @@ void RankSpace::Divide(GridFunctions& all, Array<Link> links, const BlockPartiti
   const std::size_t divided = all.GetGrid().depth - partition.Depth();
   std::vector<PatchLevel> levels;
   std::vector<PatchRange> ranges;
-  for (std::size_t l = 0; l <= divided; ++l)
-  {
-    ranges.push_back(OwnPatches(all.levels[l], partition, ranks_.Rank()));
-    levels.push_back(CellsOfRange(all.levels[l], ranges[l]));
-  }
+  ranks_.Together(
+    [&]
+    {
+      for (std::size_t l = 0; l <= divided; ++l)
+      {
+        ranges.push_back(OwnPatches(all.levels[l], partition, ranks_.Rank()));
+        levels.push_back(CellsOfRange(all.levels[l], ranges[l]));
+      }
+    });
   for (std::size_t l = 0; l < divided; ++l)
   {
     std::vector<Index> place;
@@ -226,7 +233,7 @@ void RankSpace::Divide(GridFunctions& all, Array<Link> links, const BlockPartiti
         levels[l].dof[patch - ranges[l].first][corner] = place[all.levels[l].dof[patch][corner]];
       }
     }
-    SetParents(all.levels[l], ranges[l], ranges[l + 1].first, levels[l]);
+    ranks_.Together([&] { SetParents(all.levels[l], ranges[l], ranges[l + 1].first, levels[l]); });
   }
   this->Share(all.levels[divided], links, partition, all.support);
   const Communicator::Share patches = ranks_.ShareOf(levels.back().NumberOfPatches());
@@ -234,7 +241,7 @@ void RankSpace::Divide(GridFunctions& all, Array<Link> links, const BlockPartiti
   std::copy_n(first, levels.back().dof.size(), levels.back().dof.begin());
   levels.back().numberOfFunctions = shared_.levels.front().numberOfFunctions;
   all.levels = std::move(levels);
-  KeepPieces(ranges.front().first, ranges.front().last, all);
+  ranks_.Together([&] { KeepPieces(ranges.front().first, ranges.front().last, all); });
 }
 
 void RankSpace::Share(const PatchLevel& level, const Array<Link>& links,
@@ -250,43 +257,52 @@ void RankSpace::Share(const PatchLevel& level, const Array<Link>& links,
       told.push_back({ share.before + from - own.first, level.cell[to], PlaceInCell(level, to) });
     }
   };
-  for (const Link& link : links)
-  {
-    tell(link.first, link.second);
-    tell(link.second, link.first);
-  }
   PatchLevel whole;
   whole.depth = level.depth;
-  whole.cell = ranks_.Gather(
-    std::vector<MortonKey>(level.cell.begin() + own.first, level.cell.begin() + own.last));
+  ranks_.Together(
+    [&]
+    {
+      for (const Link& link : links)
+      {
+        tell(link.first, link.second);
+        tell(link.second, link.first);
+      }
+      whole.cell.assign(level.cell.begin() + own.first, level.cell.begin() + own.last);
+    });
+  whole.cell = ranks_.Gather(whole.cell);
   told = ranks_.Gather(told);
-  PatchPartition patches;
-  Array<Link> all;
-  for (const LinkToCell& link : told)
-  {
-    const auto other = FirstInCell(whole, link.cell) + link.placeInCell;
-    all.emplace_back(static_cast<Index>(link.patch), other);
-  }
-  Array<Index> itself(whole.cell.size());
-  std::iota(itself.begin(), itself.end(), Index{ 0 });
-  patches.links = LinksOfGroups(all, itself); // sorted, each once
-  patches.cell = std::move(whole.cell);
-  PatchLevel finest = BuildFinestLevel(level.depth, patches, support);
-  shared_.levels = BuildLevels(std::move(finest), std::move(patches.links), support);
+  ranks_.Together(
+    [&]
+    {
+      PatchPartition patches;
+      Array<Link> all;
+      for (const LinkToCell& link : told)
+      {
+        const auto other = FirstInCell(whole, link.cell) + link.placeInCell;
+        all.emplace_back(static_cast<Index>(link.patch), other);
+      }
+      Array<Index> itself(whole.cell.size());
+      std::iota(itself.begin(), itself.end(), Index{ 0 });
+      patches.links = LinksOfGroups(all, itself); // sorted, each once
+      patches.cell = std::move(whole.cell);
+      PatchLevel finest = BuildFinestLevel(level.depth, patches, support);
+      shared_.levels = BuildLevels(std::move(finest), std::move(patches.links), support);
+    });
 }
 
 MultiVector RankSpace::ValuesAtPoints(
   const MultiVector& coefficients, Id ownPoints, std::vector<char>* hasValue) const
 {
   MultiVector values;
+  MultiVector own;
   std::vector<char> isHere;
   ranks_.Together(
     [&]
     {
       values = own_->ValuesAtPoints(coefficients);
       isHere = own_->PointsWithFunctions();
+      own = MultiVector::Zero(ownPoints, coefficients.cols());
     });
-  MultiVector own = MultiVector::Zero(ownPoints, coefficients.cols());
   std::vector<char> isReturned = distribution_->ReturnPoints(values, isHere, own);
   if (hasValue)
   {

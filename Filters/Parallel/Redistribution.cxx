@@ -191,15 +191,20 @@ MultiVector Redistribution::Send(
       }
     });
   rows = ranks_.Exchange(rows);
-  MultiVector received(static_cast<Id>(place.size()), columns);
-  std::size_t k = 0;
-  for (const auto& ofRank : rows)
-  {
-    for (std::size_t begin = 0; begin < ofRank.size(); begin += columns)
+  MultiVector received;
+  ranks_.Together(
+    [&]
     {
-      std::copy_n(ofRank.data() + begin, columns, received.row(place[k++]).data());
-    }
-  }
+      received.resize(static_cast<Id>(place.size()), columns);
+      std::size_t k = 0;
+      for (const auto& ofRank : rows)
+      {
+        for (std::size_t begin = 0; begin < ofRank.size(); begin += columns)
+        {
+          std::copy_n(ofRank.data() + begin, columns, received.row(place[k++]).data());
+        }
+      }
+    });
   return received;
 }
 
@@ -239,7 +244,8 @@ std::vector<char> Redistribution::ReturnPoints(
     });
   which = ranks_.Exchange(which);
   values = ranks_.Exchange(values);
-  std::vector<char> isReturned(numberOfOwnPoints_, 0);
+  std::vector<char> isReturned;
+  ranks_.Together([&] { isReturned.assign(numberOfOwnPoints_, 0); });
   for (int rank = 0; rank < ranks_.Size(); ++rank)
   {
     for (std::size_t k = 0; k < which[rank].size(); ++k)

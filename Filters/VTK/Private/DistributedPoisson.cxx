@@ -184,7 +184,9 @@ DistributedSolution SolveDistributed(const InputMesh& mesh, const DistributedReq
   const Communicator ranks(*MpiOfVtk()->GetMPIComm()->GetHandle());
   try
   {
-    return Solve(ranks, mesh, request, options, progress);
+    DistributedSolution solution;
+    ranks.Guard([&] { solution = Solve(ranks, mesh, request, options, progress); });
+    return solution;
   }
   catch (const RankFailure& failure)
   {
