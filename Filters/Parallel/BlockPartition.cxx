@@ -1,7 +1,5 @@
 #include "Parallel/BlockPartition.h"
 
-#include "Parallel/TriangleBlocks.h"
-
 #include <algorithm>
 #include <limits>
 #include <string>
@@ -73,15 +71,18 @@ BlockPartition::BlockPartition(
     {
       std::unordered_map<MortonKey, double> pieces;
       std::vector<MortonKey> met;
+      std::pair<const MortonKey, double>* last = nullptr; // of the triangle before: often the same
       const double side = 1 << (frame.grid.depth - depth_);
       for (Id t = 0; t < static_cast<Id>(mesh.triangles.size()); ++t)
       {
         const auto corner = CornersOf(mesh, t, frame.grid);
         met.clear();
-        ForBlocksNear(corner, side, 1 << depth_, Slack, [&](MortonKey key) { met.push_back(key); });
+        ForBlocksNear(corner, BoxNear(corner, side, 1 << depth_, Slack), side, Slack,
+          [&](MortonKey key) { met.push_back(key); });
         for (const MortonKey key : met)
         {
-          pieces[key] += ExpectedPieces(corner) / static_cast<double>(met.size());
+          last = last && last->first == key ? last : &*pieces.try_emplace(key, 0.0).first;
+          last->second += ExpectedPieces(corner) / static_cast<double>(met.size());
         }
       }
       for (const auto& [key, number] : pieces)
@@ -91,8 +92,14 @@ BlockPartition::BlockPartition(
       SortAndMerge(blocks);
     });
   blocks = ranks.Gather(blocks);
+  ranks.Together([&] { this->Divide(std::move(blocks), granularity == 0, ranks.Size()); });
+  shift_ = frame.grid.depth - depth_;
+}
+
+void BlockPartition::Divide(std::vector<Block> blocks, bool isCoarsened, int ranks)
+{
   SortAndMerge(blocks);
-  while (granularity == 0 && depth_ > 1 && static_cast<Id>(blocks.size()) > MostBlocks)
+  while (isCoarsened && depth_ > 1 && static_cast<Id>(blocks.size()) > MostBlocks)
   {
     --depth_;
     for (Block& block : blocks)
@@ -101,12 +108,6 @@ BlockPartition::BlockPartition(
     }
     SortAndMerge(blocks);
   }
-  shift_ = frame.grid.depth - depth_;
-  this->Divide(blocks, ranks.Size());
-}
-
-void BlockPartition::Divide(const std::vector<Block>& blocks, int ranks)
-{
   double total = 0.0;
   for (const Block& block : blocks)
   {
@@ -181,19 +182,46 @@ CellRegion BlockPartition::RegionOf(int rank) const
   return CellRegion(std::move(region), shift_, std::min(Margin, (1 << shift_) - 1));
 }
 
-void BlockPartition::FindRanksNear(
-  const Vec3& a, const Vec3& b, const Vec3& c, std::vector<int>& ranks) const
+void BlockPartition::AddRanksNear(MortonKey block, std::vector<int>& ranks) const
 {
+  const auto first = std::lower_bound(near_.begin(), near_.end(), std::make_pair(block, 0));
+  for (auto next = first; next != near_.end() && next->first == block; ++next)
+  {
+    ranks.push_back(next->second);
+  }
+}
+
+void BlockPartition::FindRanksNear(
+  const Vec3& a, const Vec3& b, const Vec3& c, RanksNear& near) const
+{
+  constexpr double Reach = Margin + Slack;
+  const double side = 1 << shift_;
+  const std::array<Vec3, 3> corner = { a, b, c };
+  const BlockBox box = BoxNear(corner, side, 1 << depth_, Reach);
+  bool isSmall = true;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    isSmall &= box.last[axis] <= box.first[axis] + 1;
+  }
+  if (isSmall && box == near.box)
+  {
+    return;
+  }
+  std::vector<int>& ranks = near.ranks;
   ranks.clear();
-  ForBlocksNear({ a, b, c }, 1 << shift_, 1 << depth_, Margin + Slack,
-    [&](MortonKey block)
-    {
-      const auto first = std::lower_bound(near_.begin(), near_.end(), std::make_pair(block, 0));
-      for (auto next = first; next != near_.end() && next->first == block; ++next)
-      {
-        ranks.push_back(next->second);
-      }
-    });
+  if (isSmall)
+  {
+    // To look closer would cost more than the few triangles that it saves.
+    near.box = box;
+    ForBlocksOf(
+      box, [&](const CellIndex& block) { this->AddRanksNear(MortonEncode(block), ranks); });
+  }
+  else
+  {
+    near.box = {};
+    ForBlocksNear(
+      corner, box, side, Reach, [&](MortonKey block) { this->AddRanksNear(block, ranks); });
+  }
   std::sort(ranks.begin(), ranks.end());
   ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
 }

@@ -5,6 +5,7 @@
 
 #include "Grid/ClipPart.h"
 #include "Parallel/Communicator.h"
+#include "Parallel/TriangleBlocks.h"
 
 #include <utility>
 #include <vector>
@@ -41,8 +42,15 @@ public:
   CellRegion RegionOf(int rank) const;
 
   /// The ranks whose regions a triangle may meet, ascending.
-  /// @param a, b, c  its corners, grid units
-  void FindRanksNear(const Vec3& a, const Vec3& b, const Vec3& c, std::vector<int>& ranks) const;
+  struct RanksNear
+  {
+    std::vector<int> ranks;
+    BlockBox box; // for which they hold, whatever the triangle in it
+  };
+
+  /// @param a, b, c  the triangle's corners, grid units
+  /// @param near     of the triangle before; near triangles often have the same
+  void FindRanksNear(const Vec3& a, const Vec3& b, const Vec3& c, RanksNear& near) const;
 
   /// How many cells a region reaches beyond its blocks.
   static constexpr int Margin = 2;
@@ -54,7 +62,8 @@ private:
     double pieces; // expected
   };
 
-  void Divide(const std::vector<Block>& blocks, int ranks);
+  void Divide(std::vector<Block> blocks, bool isCoarsened, int ranks);
+  void AddRanksNear(MortonKey block, std::vector<int>& ranks) const;
   template<class Body>
   void ForNeighbours(MortonKey block, Body&& body) const;
 

@@ -1,6 +1,8 @@
 #include "Parallel/Communicator.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <new>
 #include <numeric>
@@ -109,14 +111,29 @@ void Communicator::ThrowTogether(const std::exception_ptr& failure) const
   throw RankFailure(worst[1], reason);
 }
 
+void Communicator::EndRun(const std::exception_ptr& failure) const
+{
+  std::fprintf(stderr,
+    "Rank %d failed where the other ranks wait for it, so that the run ends: %s\n", rank_,
+    Describe(failure).reason.c_str());
+  std::fflush(stderr);
+  MPI_Abort(handle_, EXIT_FAILURE);
+  std::abort();
+}
+
 int Communicator::RanksOfMachine() const
+{
+  return static_cast<int>(this->SumOfMachine(1.0));
+}
+
+double Communicator::SumOfMachine(double own) const
 {
   MPI_Comm machine = MPI_COMM_NULL;
   MPI_Comm_split_type(handle_, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &machine);
-  int count = 1;
-  MPI_Comm_size(machine, &count);
+  double sum = own;
+  MPI_Allreduce(&own, &sum, 1, MPI_DOUBLE, MPI_SUM, machine);
   MPI_Comm_free(&machine);
-  return count;
+  return sum;
 }
 
 void Communicator::Sum(double* values, Id count) const

@@ -50,8 +50,39 @@ public:
     this->ThrowTogether(failure);
   }
 
+  /// Runs a body that calls collective functions. What it throws on this rank alone, outside of
+  /// Together, would leave the others waiting for a message that never comes: then the run ends, on
+  /// all ranks, and says why. InvalidInput is thrown on all ranks or none.
+  template<class Body>
+  void Guard(Body&& body) const
+  {
+    try
+    {
+      body();
+    }
+    catch (const RankFailure&)
+    {
+      throw;
+    }
+    catch (const Aborted&)
+    {
+      throw;
+    }
+    catch (const InvalidInput&)
+    {
+      throw;
+    }
+    catch (...)
+    {
+      this->EndRun(std::current_exception());
+    }
+  }
+
   /// How many of the ranks run on this machine.
   int RanksOfMachine() const;
+
+  /// The sum over the ranks of this machine.
+  double SumOfMachine(double own) const;
 
   /// Entry by entry over the ranks, in place. The same bits on all ranks.
   void Sum(double* values, Id count) const;
@@ -77,7 +108,8 @@ public:
     {
       total += count;
     }
-    std::vector<T> all(total);
+    std::vector<T> all;
+    this->Together([&] { all.resize(total); });
     this->GatherBytes(own.data(), counts, sizeof(T), all.data());
     return all;
   }
@@ -112,6 +144,7 @@ public:
 
 private:
   void ThrowTogether(const std::exception_ptr& failure) const;
+  [[noreturn]] void EndRun(const std::exception_ptr& failure) const;
   std::vector<Id> Counts(Id own) const;
   std::vector<Id> ExchangeCounts(const std::vector<Id>& sent) const;
   void GatherBytes(

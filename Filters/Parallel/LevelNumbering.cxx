@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 namespace gridfem
 {
@@ -133,28 +134,34 @@ LevelNumbering NumberLevel(const Communicator& ranks, const BlockPartition& part
   const PatchLevel& level, std::vector<Index>& place)
 {
   LevelNumbering numbering;
-  std::vector<Id> number(level.numberOfFunctions, -1);
+  std::vector<Id> number;
   std::vector<Index> own;
   std::vector<std::vector<Index>> foreign(ranks.Size());
   std::vector<std::vector<PatchCorner>> wanted(ranks.Size());
-  const Touching touching(partition, level, ranks.Rank());
-  for (Index function = 0; function < level.numberOfFunctions; ++function)
-  {
-    if (!touching.IsHere(function))
+  std::optional<Touching> touching;
+  ranks.Together(
+    [&]
     {
-      continue;
-    }
-    const int owner = touching.OwnerOf(function);
-    if (owner == ranks.Rank())
-    {
-      own.push_back(function);
-    }
-    else
-    {
-      foreign[owner].push_back(function);
-      wanted[owner].push_back(touching.Describe(function));
-    }
-  }
+      number.assign(level.numberOfFunctions, -1);
+      touching.emplace(partition, level, ranks.Rank());
+      for (Index function = 0; function < level.numberOfFunctions; ++function)
+      {
+        if (!touching->IsHere(function))
+        {
+          continue;
+        }
+        const int owner = touching->OwnerOf(function);
+        if (owner == ranks.Rank())
+        {
+          own.push_back(function);
+        }
+        else
+        {
+          foreign[owner].push_back(function);
+          wanted[owner].push_back(touching->Describe(function));
+        }
+      }
+    });
   const Communicator::Share share = ranks.ShareOf(static_cast<Id>(own.size()));
   numbering.begin = share.before;
   numbering.total = share.total;
@@ -179,26 +186,30 @@ LevelNumbering NumberLevel(const Communicator& ranks, const BlockPartition& part
     });
   told = ranks.Exchange(told);
 
-  std::vector<Index> functions;
-  for (int rank = 0; rank < ranks.Size(); ++rank)
-  {
-    for (std::size_t k = 0; k < foreign[rank].size(); ++k)
+  ranks.Together(
+    [&]
     {
-      number[foreign[rank][k]] = told[rank][k];
-      functions.push_back(foreign[rank][k]);
-    }
-  }
-  numbering.foreign = static_cast<Index>(functions.size());
-  std::sort(
-    functions.begin(), functions.end(), [&](Index a, Index b) { return number[a] < number[b]; });
-  functions.insert(functions.end(), own.begin(), own.end());
-  place.assign(level.numberOfFunctions, -1);
-  for (std::size_t k = 0; k < functions.size(); ++k)
-  {
-    place[functions[k]] = static_cast<Index>(k);
-    numbering.number.push_back(number[functions[k]]);
-    numbering.touching.push_back(touching.CountOf(functions[k]));
-  }
+      std::vector<Index> functions;
+      for (int rank = 0; rank < ranks.Size(); ++rank)
+      {
+        for (std::size_t k = 0; k < foreign[rank].size(); ++k)
+        {
+          number[foreign[rank][k]] = told[rank][k];
+          functions.push_back(foreign[rank][k]);
+        }
+      }
+      numbering.foreign = static_cast<Index>(functions.size());
+      std::sort(functions.begin(), functions.end(),
+        [&](Index a, Index b) { return number[a] < number[b]; });
+      functions.insert(functions.end(), own.begin(), own.end());
+      place.assign(level.numberOfFunctions, -1);
+      for (std::size_t k = 0; k < functions.size(); ++k)
+      {
+        place[functions[k]] = static_cast<Index>(k);
+        numbering.number.push_back(number[functions[k]]);
+        numbering.touching.push_back(touching->CountOf(functions[k]));
+      }
+    });
   return numbering;
 }
 

@@ -52,6 +52,11 @@ void KeepPieces(Index first, Index last, GridFunctions& functions)
   clipped.cutPoints = std::move(all.cutPoints);
   clipped.position = std::move(all.position);
   Array<Index> piecePatch;
+  // Room for all costs no memory that is not used.
+  piecePatch.reserve(all.pieceTriangle.size());
+  clipped.pieceTriangle.reserve(all.pieceTriangle.size());
+  clipped.pieceBegin.reserve(all.pieceBegin.size());
+  clipped.corners.reserve(all.corners.size());
   clipped.pieceBegin.push_back(0);
   for (std::size_t cell = 0; cell < all.cells.size(); ++cell)
   {

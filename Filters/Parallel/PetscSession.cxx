@@ -35,8 +35,8 @@ void Check(PetscErrorCode code)
   {
     const char* text = nullptr;
     PetscErrorMessage(code, &text, nullptr);
-    throw std::runtime_error(
-      "PETSc: " + std::string(text ? text : "error") + " (" + std::to_string(code) + ")");
+    throw PetscFailure(
+      code, "PETSc: " + std::string(text ? text : "error") + " (" + std::to_string(code) + ")");
   }
 }
 

@@ -15,7 +15,17 @@ namespace gridfem
 /// and of errors, and without options from the outside. It ends before MPI does.
 void StartPetsc(const Communicator& ranks);
 
-/// Throws std::runtime_error with PETSc's words.
+/// What PETSc has returned.
+struct PetscFailure : std::runtime_error
+{
+  PetscFailure(PetscErrorCode returned, const std::string& words)
+    : std::runtime_error(words), code(returned)
+  {
+  }
+  PetscErrorCode code;
+};
+
+/// Throws PetscFailure with PETSc's words.
 void Check(PetscErrorCode code);
 
 /// Owns an object of PETSc.

@@ -14,18 +14,26 @@ namespace
 std::vector<double> LowestOfComponents(const Communicator& ranks, const LevelNumbering& numbering,
   const LevelVectors& vectors, const PatchLevel& level)
 {
-  const std::vector<Index> part = FunctionComponents(level);
-  const Index parts = part.empty() ? 0 : *std::max_element(part.begin(), part.end()) + 1;
-  std::vector<double> lowest(numbering.number.begin(), numbering.number.end());
+  std::vector<Index> part;
+  std::vector<double> ofPart;
+  std::vector<double> lowest;
+  std::vector<double> next;
+  ranks.Together(
+    [&]
+    {
+      part = FunctionComponents(level);
+      ofPart.resize(part.empty() ? 0 : *std::max_element(part.begin(), part.end()) + 1);
+      lowest.assign(numbering.number.begin(), numbering.number.end());
+      next.resize(part.size());
+    });
   const PetscVector least = vectors.Make();
   for (double change = 1.0; change > 0.0; ranks.Maximum(&change, 1))
   {
-    std::vector<double> ofPart(parts, static_cast<double>(numbering.total));
+    std::fill(ofPart.begin(), ofPart.end(), static_cast<double>(numbering.total));
     for (std::size_t f = 0; f < part.size(); ++f)
     {
       ofPart[part[f]] = std::min(ofPart[part[f]], lowest[f]);
     }
-    std::vector<double> next(part.size());
     for (std::size_t f = 0; f < part.size(); ++f)
     {
       next[f] = ofPart[part[f]];

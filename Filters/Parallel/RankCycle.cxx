@@ -1,91 +1,11 @@
 #include "Parallel/RankCycle.h"
 
-#include "Integrals/Assembly.h"
-#include "Spaces/PatchOrdering.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace gridfem
 {
-
-namespace
-{
-
-/// A level with the same functions.
-PatchLevel WithoutPatches(const PatchLevel& level)
-{
-  PatchLevel none;
-  none.depth = level.depth;
-  none.numberOfFunctions = level.numberOfFunctions;
-  return none;
-}
-
-} // namespace
-
-RankSmoother::RankSmoother(const Communicator& ranks, Mat matrix, const LevelNumbering& numbering,
-  const PatchLevel& level, const LevelVectors& vectors, const MultigridOptions& options)
-  : whole_(matrix), matrix_(RowsOfFunctions(matrix, numbering)), vectors_(vectors),
-    threads_(options.threads), residual_(vectors.Make()), correction_(vectors.Make())
-{
-  std::vector<PatchLevel> parts(3, WithoutPatches(level)); // by the number of ranks that meet
-  double most = 1.0;
-  ranks.Together(
-    [&]
-    {
-      for (Id patch = 0; patch < level.NumberOfPatches(); ++patch)
-      {
-        Index touching = 1;
-        for (const Index function : level.dof[patch])
-        {
-          touching = std::max(touching, numbering.touching[function]);
-        }
-        most = std::max(most, double(touching));
-        PatchLevel& part = parts[std::min<Index>(touching, 3) - 1];
-        part.cell.push_back(level.cell[patch]);
-        part.dof.push_back(level.dof[patch]);
-      }
-    });
-  ranks.Maximum(&most, 1);
-  ranks.Together(
-    [&]
-    {
-      for (int step = 0; step < std::min(most, 3.0); ++step)
-      {
-        steps_.push_back(
-          { MakePatchSmoother(matrix_, OrderPatches(parts[step]), threads_, options.precision),
-            1.0 / (step < 2 ? step + 1.0 : most) });
-      }
-    });
-}
-
-/// z = the correction of one step for the residual r.
-void RankSmoother::Relax(const Step& step, Vec r, Vec z, SweepDirection direction)
-{
-  vectors_.Spread(r, entries_);
-  const auto functions = static_cast<Id>(entries_.size());
-  b_ = Eigen::Map<const Eigen::VectorXd>(entries_.data(), functions);
-  x_.setZero(functions, 1);
-  step.smoother->Sweep(matrix_, b_, x_, direction, threads_);
-  Eigen::Map<Eigen::VectorXd>(entries_.data(), functions) = step.damping * x_.col(0);
-  vectors_.Add(entries_, z);
-}
-
-void RankSmoother::Sweep(Vec r, Vec z, SweepDirection direction)
-{
-  const std::size_t steps = steps_.size();
-  const auto stepAt = [&](std::size_t k) -> const Step&
-  { return steps_[direction == SweepDirection::Forward ? k : steps - 1 - k]; };
-  this->Relax(stepAt(0), r, z, direction);
-  for (std::size_t k = 1; k < steps; ++k)
-  {
-    Check(MatMult(whole_, z, residual_));
-    Check(VecAYPX(residual_, -1.0, r));
-    this->Relax(stepAt(k), residual_, correction_, direction);
-    Check(VecAXPY(z, 1.0, correction_));
-  }
-}
 
 /// The first shared level, solved by one cycle on every rank.
 struct RankCycle::Coarse
@@ -156,6 +76,7 @@ void RankCycle::BuildLevels(
   Check(MatCreateShell(ranks_.Handle(), static_cast<PetscInt>(ownShared),
     static_cast<PetscInt>(ownShared), shared, shared, nullptr, coarse_->matrix.Receive()));
   Check(MatSetUp(coarse_->matrix));
+  levels_.reserve(numberings.size() - finest);
   for (std::size_t l = finest; l < numberings.size(); ++l)
   {
     SparseMatrix own;
@@ -166,12 +87,9 @@ void RankCycle::BuildLevels(
         isLast ? std::vector<Id>() : numberings[l + 1].number,
         isLast ? ownShared : Id{ numberings[l + 1].OwnFunctions() }),
       LevelVectors(ranks_, numberings[l]), nullptr });
-  }
-  for (std::size_t l = finest; l < numberings.size(); ++l)
-  {
-    Level& level = levels_[l - finest];
-    level.smoother = std::make_unique<RankSmoother>(ranks_, level.matrix, numberings[l],
-      space.Own().Functions().levels[l], level.vectors, options);
+    Level& level = levels_.back();
+    level.smoother = std::make_unique<RankSmoother>(
+      ranks_, level.matrix, own, numberings[l], space.Own().Functions().levels[l], options);
   }
 }
 
@@ -228,16 +146,22 @@ void RankCycle::SetSmoother(KSP solver, Mat matrix, int sweeps, Sweep& sweep)
   Check(KSPGetPC(solver, &pc));
   Check(PCSetType(pc, PCSHELL));
   Check(PCShellSetContext(pc, &sweep));
-  Check(PCShellSetApply(pc, RunSweep));
+  Check(PCShellSetApplyRichardson(pc, RunSweeps));
 }
 
-/// Errors do not pass through PETSc: what is not a number ends the iteration on all ranks.
+/// What a rank's own work throws does not pass through PETSc: what is not a number ends the
+/// iteration on all ranks. An error of PETSc itself does, because no more messages can be relied
+/// upon.
 template<class Body>
 PetscErrorCode RankCycle::Keep(Vec result, Body&& body)
 {
   try
   {
     body();
+  }
+  catch (const PetscFailure& error)
+  {
+    return error.code;
   }
   catch (...)
   {
@@ -247,7 +171,9 @@ PetscErrorCode RankCycle::Keep(Vec result, Body&& body)
   return 0;
 }
 
-PetscErrorCode RankCycle::RunSweep(PC pc, Vec r, Vec z)
+/// What PETSc's Richardson iteration is replaced by: it would compute a residual for every sweep.
+PetscErrorCode RankCycle::RunSweeps(PC pc, Vec b, Vec x, Vec, PetscReal, PetscReal, PetscReal,
+  PetscInt sweeps, PetscBool, PetscInt* done, PCRichardsonConvergedReason* reason)
 {
   void* context = nullptr;
   const PetscErrorCode code = PCShellGetContext(pc, &context);
@@ -256,7 +182,16 @@ PetscErrorCode RankCycle::RunSweep(PC pc, Vec r, Vec z)
     return code;
   }
   const Sweep& sweep = *static_cast<Sweep*>(context);
-  return sweep.cycle->Keep(z, [&] { sweep.smoother->Sweep(r, z, sweep.direction); });
+  *done = sweeps;
+  *reason = PCRICHARDSON_CONVERGED_ITS;
+  return sweep.cycle->Keep(x,
+    [&]
+    {
+      for (PetscInt k = 0; k < sweeps; ++k)
+      {
+        sweep.smoother->Sweep(b, x, sweep.direction);
+      }
+    });
 }
 
 PetscErrorCode RankCycle::RunCoarse(PC pc, Vec r, Vec z)
@@ -283,11 +218,9 @@ PetscErrorCode RankCycle::Precondition(PC pc, Vec r, Vec z)
   return cycle.Keep(z,
     [&]
     {
-      PetscVector projected;
-      Check(VecDuplicate(r, projected.Receive()));
-      Check(VecCopy(r, projected));
-      (*cycle.ofResidual_)(projected);
-      Check(PCApply(cycle.cycle_, projected, z));
+      Check(VecCopy(r, cycle.projected_));
+      (*cycle.ofResidual_)(cycle.projected_);
+      Check(PCApply(cycle.cycle_, cycle.projected_, z));
       (*cycle.ofSolution_)(z);
     });
 }
@@ -395,6 +328,10 @@ SolveReport RankCycle::Solve(Vec b, Vec x, const SolveOptions& options,
 {
   ofSolution_ = &ofSolution;
   ofResidual_ = &ofResidual;
+  if (!projected_)
+  {
+    Check(VecDuplicate(b, projected_.Receive()));
+  }
   Watch watch{ ranks_, options, progress, this->Start(b, x), {}, false };
   watch.report.end = SolveEnd::Breakdown; // unless the test of convergence says otherwise
   PetscSolver solver;

@@ -6,6 +6,7 @@
 #include "Krylov/ConjugateGradients.h"
 #include "Multigrid/Multigrid.h"
 #include "Parallel/RankMatrices.h"
+#include "Parallel/RankSmoother.h"
 #include "Parallel/RankSpace.h"
 
 #include <exception>
@@ -15,44 +16,6 @@
 
 namespace gridfem
 {
-
-/// The patches of a rank's cells, relaxed one after the other, in up to three steps. Patches
-/// without a function of another rank do not meet those of other ranks: all ranks relax them at
-/// once, as one rank would. Then, from the residual that is left, those with functions of one other
-/// rank, and last those where more ranks meet; corrections of these are divided by the number of
-/// ranks, so that together they do not overshoot. A backward sweep is the adjoint of a forward one.
-/// Residuals are not weighted: a part of a residual would not be consistent where the matrix is
-/// singular on a few functions, as on small flat pieces.
-class RankSmoother
-{
-public:
-  /// Collective. Keeps a reference to the matrix and the vectors.
-  RankSmoother(const Communicator& ranks, Mat matrix, const LevelNumbering& numbering,
-    const PatchLevel& level, const LevelVectors& vectors, const MultigridOptions& options);
-
-  /// Collective. z = one sweep from zero for the residual r.
-  void Sweep(Vec r, Vec z, SweepDirection direction);
-
-private:
-  struct Step
-  {
-    std::unique_ptr<Smoother> smoother;
-    double damping;
-  };
-
-  void Relax(const Step& step, Vec r, Vec z, SweepDirection direction);
-
-  Mat whole_;
-  SparseMatrix matrix_;     // all functions that touch this rank's cells
-  std::vector<Step> steps_; // the same number on all ranks
-  const LevelVectors& vectors_;
-  int threads_;
-  PetscVector residual_;
-  PetscVector correction_; // of one step
-  std::vector<double> entries_;
-  MultiVector b_;
-  MultiVector x_;
-};
 
 /// A symmetric preconditioner for a M + b L on a divided level, and conjugate gradients with it.
 class RankCycle
@@ -110,7 +73,8 @@ private:
   template<class Body>
   PetscErrorCode Keep(Vec result, Body&& body);
 
-  static PetscErrorCode RunSweep(PC pc, Vec r, Vec z);
+  static PetscErrorCode RunSweeps(PC pc, Vec b, Vec x, Vec, PetscReal, PetscReal, PetscReal,
+    PetscInt sweeps, PetscBool, PetscInt* done, PCRichardsonConvergedReason* reason);
   static PetscErrorCode RunCoarse(PC pc, Vec r, Vec z);
   static PetscErrorCode Precondition(PC pc, Vec r, Vec z);
   static PetscErrorCode IsDone(
@@ -121,6 +85,7 @@ private:
   std::vector<Sweep> sweeps_;
   std::unique_ptr<Coarse> coarse_;
   PetscCycle cycle_;
+  PetscVector projected_; // what the cycle is applied to
   const Projection* ofSolution_ = nullptr;
   const Projection* ofResidual_ = nullptr;
   std::exception_ptr failure_; // of this rank, within PETSc

@@ -38,6 +38,27 @@ struct Rows
   Id Count() const { return static_cast<Id>(begin.size()) - 1; }
 };
 
+std::vector<PetscInt> NumbersOf(
+  const LevelNumbering& numbering, const std::vector<Index>& functions)
+{
+  std::vector<PetscInt> numbers;
+  for (const Index function : functions)
+  {
+    numbers.push_back(static_cast<PetscInt>(numbering.number[function]));
+  }
+  return numbers;
+}
+
+/// @param numbers  ascending
+PetscIndices MakeIndices(const std::vector<PetscInt>& numbers)
+{
+  PetscIndices indices;
+  Check(ISCreateGeneral(PETSC_COMM_SELF, static_cast<PetscInt>(numbers.size()), numbers.data(),
+    PETSC_COPY_VALUES, indices.Receive()));
+  Check(ISSetInfo(indices, IS_SORTED, IS_LOCAL, PETSC_TRUE, PETSC_TRUE));
+  return indices;
+}
+
 /// Collective.
 PetscMatrix MakeMatrix(const Communicator& ranks, const Rows& rows, Id ownColumns)
 {
@@ -156,16 +177,21 @@ PetscMatrix RowsOfOwners(const Communicator& ranks, const LevelNumbering& number
   return MakeMatrix(ranks, rows, ownColumns);
 }
 
-SparseMatrix RowsOfFunctions(Mat matrix, const LevelNumbering& numbering)
+namespace
 {
-  const std::vector<PetscInt> number(numbering.number.begin(), numbering.number.end());
-  PetscIndices functions;
-  Check(ISCreateGeneral(PETSC_COMM_SELF, static_cast<PetscInt>(number.size()), number.data(),
-    PETSC_COPY_VALUES, functions.Receive()));
-  Check(ISSetInfo(functions, IS_SORTED, IS_LOCAL, PETSC_TRUE, PETSC_TRUE));
-  const IS wanted = functions;
+
+/// The rows of some functions, over all ranks, with the columns of all functions of the numbering.
+SparseMatrix RowsOfAll(
+  Mat matrix, const LevelNumbering& numbering, const std::vector<Index>& functions)
+{
+  const std::vector<PetscInt> rowNumber = NumbersOf(numbering, functions);
+  const std::vector<PetscInt> columnNumber(numbering.number.begin(), numbering.number.end());
+  const PetscIndices rows = MakeIndices(rowNumber);
+  const PetscIndices columns = MakeIndices(columnNumber);
+  const IS wantedRows = rows;
+  const IS wantedColumns = columns;
   Mat* parts = nullptr;
-  Check(MatCreateSubMatrices(matrix, 1, &wanted, &wanted, MAT_INITIAL_MATRIX, &parts));
+  Check(MatCreateSubMatrices(matrix, 1, &wantedRows, &wantedColumns, MAT_INITIAL_MATRIX, &parts));
   PetscInt count = 0;
   const PetscInt* begin = nullptr;
   const PetscInt* column = nullptr;
@@ -173,25 +199,95 @@ SparseMatrix RowsOfFunctions(Mat matrix, const LevelNumbering& numbering)
   const PetscScalar* value = nullptr;
   Check(MatGetRowIJ(parts[0], 0, PETSC_FALSE, PETSC_FALSE, &count, &begin, &column, &isDone));
   Check(MatSeqAIJGetArrayRead(parts[0], &value));
-  SparseMatrix rows;
-  rows.rows = rows.columns = numbering.Functions();
-  rows.rowBegin = Array<Id>(begin, begin + count + 1);
-  rows.column = Array<Index>(column, column + begin[count]);
-  rows.value = Array<double>(value, value + begin[count]);
+  SparseMatrix found;
+  found.rows = static_cast<Index>(functions.size());
+  found.columns = numbering.Functions();
+  found.rowBegin = Array<Id>(begin, begin + count + 1);
+  found.column = Array<Index>(column, column + begin[count]);
+  found.value = Array<double>(value, value + begin[count]);
   Check(MatSeqAIJRestoreArrayRead(parts[0], &value));
   Check(MatRestoreRowIJ(parts[0], 0, PETSC_FALSE, PETSC_FALSE, &count, &begin, &column, &isDone));
   Check(MatDestroySubMatrices(1, &parts));
+  return found;
+}
+
+} // namespace
+
+SparseMatrix SomeRows(const SparseMatrix& matrix, const std::vector<Index>& rows)
+{
+  Array<Id> begin{ 0 };
+  Array<Index> column;
+  SparseMatrix some;
+  for (const Index row : rows)
+  {
+    const Id first = matrix.rowBegin[row];
+    const Id last = matrix.rowBegin[row + 1];
+    column.insert(column.end(), matrix.column.begin() + first, matrix.column.begin() + last);
+    some.value.insert(some.value.end(), matrix.value.begin() + first, matrix.value.begin() + last);
+    begin.push_back(static_cast<Id>(column.size()));
+  }
+  some.rows = static_cast<Index>(rows.size());
+  some.columns = matrix.columns;
+  some.rowBegin = std::move(begin);
+  some.column = std::move(column);
+  return some;
+}
+
+SparseMatrix WholeRows(const Communicator& ranks, Mat matrix, const LevelNumbering& numbering,
+  const std::vector<Index>& shared, const SparseMatrix& own)
+{
+  const SparseMatrix whole = RowsOfAll(matrix, numbering, shared);
+  SparseMatrix rows;
+  ranks.Together(
+    [&]
+    {
+      Array<Id> begin(own.rows + 1);
+      begin[0] = 0;
+      const auto forRows = [&](const auto& body)
+      {
+        Index next = 0;
+        for (Index row = 0; row < own.rows; ++row)
+        {
+          const bool isShared = next < whole.rows && shared[next] == row;
+          body(row, isShared ? whole : own, isShared ? next++ : row);
+        }
+      };
+      forRows([&](Index row, const SparseMatrix& from, Index place)
+        { begin[row + 1] = begin[row] + from.rowBegin[place + 1] - from.rowBegin[place]; });
+      Array<Index> column(begin[own.rows]);
+      rows.value.resize(begin[own.rows]);
+      forRows(
+        [&](Index row, const SparseMatrix& from, Index place)
+        {
+          const Id first = from.rowBegin[place];
+          const Id count = from.rowBegin[place + 1] - first;
+          std::copy_n(from.column.begin() + first, count, column.begin() + begin[row]);
+          std::copy_n(from.value.begin() + first, count, rows.value.begin() + begin[row]);
+        });
+      rows.rows = rows.columns = own.rows;
+      rows.rowBegin = std::move(begin);
+      rows.column = std::move(column);
+    });
   return rows;
 }
 
 LevelVectors::LevelVectors(const Communicator& ranks, const LevelNumbering& numbering)
-  : comm_(ranks.Handle()), own_(numbering.OwnFunctions()), touching_(numbering.Functions())
+  : LevelVectors(ranks, numbering.OwnFunctions(),
+      std::vector<PetscInt>(numbering.number.begin(), numbering.number.end()))
 {
-  const std::vector<PetscInt> number(numbering.number.begin(), numbering.number.end());
-  PetscIndices functions;
-  Check(ISCreateGeneral(PETSC_COMM_SELF, static_cast<PetscInt>(number.size()), number.data(),
-    PETSC_COPY_VALUES, functions.Receive()));
-  Check(VecCreateSeq(PETSC_COMM_SELF, static_cast<PetscInt>(number.size()), room_.Receive()));
+}
+
+LevelVectors::LevelVectors(
+  const Communicator& ranks, const LevelNumbering& numbering, const std::vector<Index>& functions)
+  : LevelVectors(ranks, numbering.OwnFunctions(), NumbersOf(numbering, functions))
+{
+}
+
+LevelVectors::LevelVectors(const Communicator& ranks, Id own, const std::vector<PetscInt>& numbers)
+  : comm_(ranks.Handle()), own_(own), count_(static_cast<Id>(numbers.size()))
+{
+  const PetscIndices functions = MakeIndices(numbers);
+  Check(VecCreateSeq(PETSC_COMM_SELF, static_cast<PetscInt>(count_), room_.Receive()));
   const PetscVector whole = this->Make();
   Check(VecScatterCreate(whole, functions, room_, nullptr, spread_.Receive()));
 }
@@ -207,9 +303,9 @@ void LevelVectors::Spread(Vec vector, std::vector<double>& entries) const
 {
   Check(VecScatterBegin(spread_, vector, room_, INSERT_VALUES, SCATTER_FORWARD));
   Check(VecScatterEnd(spread_, vector, room_, INSERT_VALUES, SCATTER_FORWARD));
-  entries.resize(touching_);
+  entries.resize(count_);
   VectorEntries room(room_);
-  for (Id k = 0; k < touching_; ++k)
+  for (Id k = 0; k < count_; ++k)
   {
     entries[k] = room[k];
   }
@@ -231,7 +327,7 @@ void LevelVectors::Collect(const std::vector<double>& entries, InsertMode mode, 
 {
   {
     VectorEntries room(room_);
-    for (Id k = 0; k < touching_; ++k)
+    for (Id k = 0; k < count_; ++k)
     {
       room[k] = entries[k];
     }

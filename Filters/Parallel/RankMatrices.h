@@ -24,21 +24,30 @@ PetscMatrix SumOverRanks(
 PetscMatrix RowsOfOwners(const Communicator& ranks, const LevelNumbering& numbering,
   const SparseMatrix& own, const std::vector<Id>& columnNumber, Id ownColumns);
 
+/// Some rows of a matrix.
+SparseMatrix SomeRows(const SparseMatrix& matrix, const std::vector<Index>& rows);
+
 /// Collective. The rows and columns of all functions of the numbering, which lack nothing.
-SparseMatrix RowsOfFunctions(Mat matrix, const LevelNumbering& numbering);
+/// @param matrix  over all ranks
+/// @param shared  functions that other ranks touch, too, ascending
+/// @param own     what this rank's patches add: all that there is but for rows of shared functions
+SparseMatrix WholeRows(const Communicator& ranks, Mat matrix, const LevelNumbering& numbering,
+  const std::vector<Index>& shared, const SparseMatrix& own);
 
 /// The way between a vector over all ranks, of which each has the entries of its own functions, and
-/// the entries of all functions that touch a rank's cells.
+/// the entries of all functions that touch a rank's cells, or of some of them.
 class LevelVectors
 {
 public:
   /// Collective.
   LevelVectors(const Communicator& ranks, const LevelNumbering& numbering);
+  LevelVectors(const Communicator& ranks, const LevelNumbering& numbering,
+    const std::vector<Index>& functions);
 
   /// Collective. A new vector over all ranks.
   PetscVector Make() const;
 
-  /// Collective. Entries of all functions that touch this rank's cells.
+  /// Collective. Entries of these functions.
   void Spread(Vec vector, std::vector<double>& entries) const;
 
   /// Collective. The way back: adds up what the ranks have, or takes the least of it.
@@ -46,11 +55,12 @@ public:
   void TakeLeast(const std::vector<double>& entries, Vec least) const;
 
 private:
+  LevelVectors(const Communicator& ranks, Id own, const std::vector<PetscInt>& numbers);
   void Collect(const std::vector<double>& entries, InsertMode mode, Vec vector) const;
 
   MPI_Comm comm_;
   Id own_;
-  Id touching_;
+  Id count_;         // of the functions
   PetscVector room_; // of this process alone
   PetscScatter spread_;
 };

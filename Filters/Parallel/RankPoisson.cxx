@@ -15,11 +15,18 @@ namespace
 {
 
 /// Collective. What the ranks add to integrals, at the owners of the functions.
-MultiVector SumAtOwners(const LevelVectors& vectors, const MultiVector& parts, Id own)
+MultiVector SumAtOwners(
+  const Communicator& ranks, const LevelVectors& vectors, const MultiVector& parts, Id own)
 {
-  MultiVector sums(own, parts.cols());
+  MultiVector sums;
+  std::vector<double> column;
+  ranks.Together(
+    [&]
+    {
+      sums.resize(own, parts.cols());
+      column.resize(parts.rows());
+    });
   const PetscVector sum = vectors.Make();
-  std::vector<double> column(parts.rows());
   for (Id c = 0; c < parts.cols(); ++c)
   {
     Eigen::Map<Eigen::VectorXd>(column.data(), parts.rows()) = parts.col(c);
@@ -49,10 +56,9 @@ Eigen::RowVectorXd LargestOf(const Communicator& ranks, const MultiVector& x)
 template<class Project>
 RankCycle::Projection OnVectors(Id own, Project project)
 {
-  return [own, project](Vec vector)
+  return [own, project, x = MultiVector(own, 1)](Vec vector) mutable
   {
     VectorEntries entries(vector);
-    MultiVector x(own, 1);
     for (Id k = 0; k < own; ++k)
     {
       x(k, 0) = entries[k];
@@ -92,7 +98,8 @@ PoissonSolution SolvePoisson(const RankSpace& space, const MultiVector& values,
   RequireFinite(ranks, values, "values");
   RequireFinite(ranks, gradients, "gradients");
   PoissonSolution solution;
-  solution.coefficients = MultiVector::Zero(numbering.Functions(), values.cols());
+  ranks.Together(
+    [&] { solution.coefficients = MultiVector::Zero(numbering.Functions(), values.cols()); });
   solution.report.converged = true;
   solution.report.end = SolveEnd::Converged;
   if (numbering.total == 0)
@@ -106,7 +113,7 @@ PoissonSolution SolvePoisson(const RankSpace& space, const MultiVector& values,
   ranks.Together([&] { progress.Check(0.3); });
 
   const Id own = numbering.OwnFunctions();
-  MultiVector rest = SumAtOwners(vectors, values, own);
+  MultiVector rest = SumAtOwners(ranks, vectors, values, own);
   const Eigen::RowVectorXd size = lambda * LargestOf(ranks, rest);
   const MultiVector mean = components.OfIntegrals(rest);
   components.SubtractIntegrals(mean, rest);
@@ -114,7 +121,7 @@ PoissonSolution SolvePoisson(const RankSpace& space, const MultiVector& values,
   Eigen::RowVectorXd whole = size;
   if (gradients.cols() > 0)
   {
-    const MultiVector given = SumAtOwners(vectors, gradients, own);
+    const MultiVector given = SumAtOwners(ranks, vectors, gradients, own);
     whole += LargestOf(ranks, given);
     rest += given;
   }

@@ -2,6 +2,7 @@
 
 #include "Base/Parallel.h"
 #include "Parallel/OwnPieces.h"
+#include "Parallel/RankMemory.h"
 
 #include <algorithm>
 #include <limits>
@@ -79,7 +80,7 @@ bool AgreeOnSharedCorners(const PatchLevel& level, Index a, Index b)
 }
 
 /// Gives points at the same place of one sheet to one patch, so that their values are equal bit for
-/// bit. Points are in the order of their coordinates.
+/// bit. Coincident points follow each other.
 void UnitePointPatches(
   const std::vector<Vec3>& points, const PatchLevel& level, Array<Index>& pointPatch)
 {
@@ -151,6 +152,7 @@ RankSpace::RankSpace(const Communicator& ranks, const TriangleMesh& own,
   GridFunctions all; // in and around the cells of this rank
   Array<Link> links;
   auto mesh = std::make_shared<TriangleMesh>(distribution_->TakeMesh());
+  RequireMemory(ranks_, *mesh, frame.grid);
   ranks_.Together(
     [&]
     {
@@ -198,18 +200,22 @@ RankSpace::RankSpace(const Communicator& ranks, const TriangleMesh& own,
 void RankSpace::MakeShared(std::vector<PatchLevel> levels, const GridSpaceOptions& options)
 {
   const ElementMatrices& own = own_->Operators().elements.back();
-  const auto gather = [&](const Array<ElementMatrix>& matrices)
-  {
-    const std::vector<ElementMatrix> all =
-      ranks_.Gather(std::vector<ElementMatrix>(matrices.begin(), matrices.end()));
-    return Array<ElementMatrix>(all.begin(), all.end());
-  };
-  ElementMatrices elements;
-  elements.mass = gather(own.mass);
-  elements.stiffness = gather(own.stiffness);
+  std::vector<ElementMatrix> mass;
+  std::vector<ElementMatrix> stiffness;
   ranks_.Together(
     [&]
     {
+      mass.assign(own.mass.begin(), own.mass.end());
+      stiffness.assign(own.stiffness.begin(), own.stiffness.end());
+    });
+  mass = ranks_.Gather(mass);
+  stiffness = ranks_.Gather(stiffness);
+  ranks_.Together(
+    [&]
+    {
+      ElementMatrices elements;
+      elements.mass = Array<ElementMatrix>(mass.begin(), mass.end());
+      elements.stiffness = Array<ElementMatrix>(stiffness.begin(), stiffness.end());
       auto functions = std::make_shared<GridFunctions>();
       functions->support = own_->Functions().support;
       functions->clipped.grid = own_->Functions().GetGrid();
@@ -234,11 +240,15 @@ std::vector<PatchLevel> RankSpace::Divide(
   const std::size_t divided = all.GetGrid().depth - partition.Depth();
   std::vector<PatchLevel> levels;
   std::vector<PatchRange> ranges;
-  for (std::size_t l = 0; l <= divided; ++l)
-  {
-    ranges.push_back(OwnPatches(all.levels[l], partition, ranks_.Rank()));
-    levels.push_back(CellsOfRange(all.levels[l], ranges[l]));
-  }
+  ranks_.Together(
+    [&]
+    {
+      for (std::size_t l = 0; l <= divided; ++l)
+      {
+        ranges.push_back(OwnPatches(all.levels[l], partition, ranks_.Rank()));
+        levels.push_back(CellsOfRange(all.levels[l], ranges[l]));
+      }
+    });
   for (std::size_t l = 0; l < divided; ++l)
   {
     std::vector<Index> place;
@@ -251,7 +261,7 @@ std::vector<PatchLevel> RankSpace::Divide(
         levels[l].dof[patch - ranges[l].first][corner] = place[all.levels[l].dof[patch][corner]];
       }
     }
-    SetParents(all.levels[l], ranges[l], ranges[l + 1].first, levels[l]);
+    ranks_.Together([&] { SetParents(all.levels[l], ranges[l], ranges[l + 1].first, levels[l]); });
   }
   std::vector<PatchLevel> shared = this->Share(all.levels[divided], links, partition, all.support);
   const Communicator::Share patches = ranks_.ShareOf(levels.back().NumberOfPatches());
@@ -259,7 +269,7 @@ std::vector<PatchLevel> RankSpace::Divide(
   std::copy_n(first, levels.back().dof.size(), levels.back().dof.begin());
   levels.back().numberOfFunctions = shared.front().numberOfFunctions;
   all.levels = std::move(levels);
-  KeepPieces(ranges.front().first, ranges.front().last, all);
+  ranks_.Together([&] { KeepPieces(ranges.front().first, ranges.front().last, all); });
   return shared;
 }
 
@@ -277,43 +287,54 @@ std::vector<PatchLevel> RankSpace::Share(const PatchLevel& level, const Array<Li
       told.push_back({ share.before + from - own.first, level.cell[to], PlaceInCell(level, to) });
     }
   };
-  for (const Link& link : links)
-  {
-    tell(link.first, link.second);
-    tell(link.second, link.first);
-  }
   PatchLevel whole;
   whole.depth = level.depth;
-  whole.cell = ranks_.Gather(
-    std::vector<MortonKey>(level.cell.begin() + own.first, level.cell.begin() + own.last));
+  ranks_.Together(
+    [&]
+    {
+      for (const Link& link : links)
+      {
+        tell(link.first, link.second);
+        tell(link.second, link.first);
+      }
+      whole.cell.assign(level.cell.begin() + own.first, level.cell.begin() + own.last);
+    });
+  whole.cell = ranks_.Gather(whole.cell);
   told = ranks_.Gather(told);
-  PatchPartition patches;
-  Array<Link> all;
-  for (const LinkToCell& link : told)
-  {
-    const auto other = FirstInCell(whole, link.cell) + link.placeInCell;
-    all.emplace_back(static_cast<Index>(link.patch), other);
-  }
-  Array<Index> itself(whole.cell.size());
-  std::iota(itself.begin(), itself.end(), Index{ 0 });
-  patches.links = LinksOfGroups(all, itself); // sorted, each once
-  patches.cell = std::move(whole.cell);
-  PatchLevel finest = BuildFinestLevel(level.depth, patches, support);
-  return BuildLevels(std::move(finest), std::move(patches.links), support);
+  std::vector<PatchLevel> levels;
+  ranks_.Together(
+    [&]
+    {
+      PatchPartition patches;
+      Array<Link> all;
+      for (const LinkToCell& link : told)
+      {
+        const auto other = FirstInCell(whole, link.cell) + link.placeInCell;
+        all.emplace_back(static_cast<Index>(link.patch), other);
+      }
+      Array<Index> itself(whole.cell.size());
+      std::iota(itself.begin(), itself.end(), Index{ 0 });
+      patches.links = LinksOfGroups(all, itself); // sorted, each once
+      patches.cell = std::move(whole.cell);
+      PatchLevel finest = BuildFinestLevel(level.depth, patches, support);
+      levels = BuildLevels(std::move(finest), std::move(patches.links), support);
+    });
+  return levels;
 }
 
 MultiVector RankSpace::ValuesAtPoints(
   const MultiVector& coefficients, Id ownPoints, std::vector<char>* hasValue) const
 {
   MultiVector values;
+  MultiVector own;
   std::vector<char> isHere;
   ranks_.Together(
     [&]
     {
       values = own_->ValuesAtPoints(coefficients);
       isHere = own_->PointsWithFunctions();
+      own = MultiVector::Zero(ownPoints, coefficients.cols());
     });
-  MultiVector own = MultiVector::Zero(ownPoints, coefficients.cols());
   std::vector<char> isReturned = distribution_->ReturnPoints(values, isHere, own);
   if (hasValue)
   {

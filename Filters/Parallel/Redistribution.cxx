@@ -16,6 +16,39 @@ bool IsBefore(const Vec3& a, const Vec3& b)
   return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
 }
 
+/// Points sorted by the cells that they lie in, along the Morton curve, so that neighbours are near
+/// each other in memory; those of a cell by their coordinates, coincident ones as they come.
+std::vector<Index> OrderInSpace(const std::vector<Vec3>& points, const Grid& grid)
+{
+  const int side = grid.CellsPerSide();
+  std::vector<std::pair<MortonKey, Index>> order;
+  order.reserve(points.size());
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    const Vec3 place = grid.ToGrid(points[k]);
+    CellIndex cell;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      cell[axis] = std::clamp(static_cast<int>(place[axis]), 0, side - 1);
+    }
+    order.emplace_back(MortonEncode(cell), static_cast<Index>(k));
+  }
+  std::sort(order.begin(), order.end(),
+    [&](const auto& a, const auto& b)
+    {
+      const Vec3& x = points[a.second];
+      const Vec3& y = points[b.second];
+      return a.first != b.first ? a.first < b.first : IsBefore(x, y) || (x == y && a < b);
+    });
+  std::vector<Index> indices;
+  indices.reserve(points.size());
+  for (const auto& [cell, point] : order)
+  {
+    indices.push_back(point);
+  }
+  return indices;
+}
+
 std::vector<Id> SizesOf(const std::vector<std::vector<Point>>& lists)
 {
   std::vector<Id> sizes;
@@ -40,19 +73,19 @@ Redistribution::Redistribution(const Communicator& ranks, const TriangleMesh& ow
       RequireIndices(static_cast<double>(own.points.size()), "points");
       this->Route(own, grid, partition);
     });
-  this->Receive(own);
+  this->Receive(own, grid);
 }
 
 void Redistribution::Route(
   const TriangleMesh& own, const Grid& grid, const BlockPartition& partition)
 {
-  std::vector<int> near;
+  BlockPartition::RanksNear near;
   for (std::size_t t = 0; t < own.triangles.size(); ++t)
   {
     const auto& corner = own.triangles[t];
     partition.FindRanksNear(grid.ToGrid(own.points[corner[0]]), grid.ToGrid(own.points[corner[1]]),
       grid.ToGrid(own.points[corner[2]]), near);
-    for (const int rank : near)
+    for (const int rank : near.ranks)
     {
       sentTriangles_[rank].push_back(static_cast<Index>(t));
     }
@@ -75,7 +108,7 @@ void Redistribution::Route(
   }
 }
 
-void Redistribution::Receive(const TriangleMesh& own)
+void Redistribution::Receive(const TriangleMesh& own, const Grid& grid)
 {
   using Corners = std::array<Index, 3>; // places among the points sent to the same rank
   std::vector<std::vector<Point>> points(ranks_.Size());
@@ -123,10 +156,7 @@ void Redistribution::Receive(const TriangleMesh& own)
         corners[rank] = {};
       }
       RequireIndices(static_cast<double>(received.size()), "points");
-      std::vector<Index> order(received.size());
-      std::iota(order.begin(), order.end(), Index{ 0 });
-      std::stable_sort(order.begin(), order.end(),
-        [&](Index a, Index b) { return IsBefore(received[a], received[b]); });
+      const std::vector<Index> order = OrderInSpace(received, grid);
       pointPlace_.resize(received.size());
       mesh_.points.resize(received.size());
       for (std::size_t k = 0; k < order.size(); ++k)
@@ -161,15 +191,20 @@ MultiVector Redistribution::Send(
       }
     });
   rows = ranks_.Exchange(rows);
-  MultiVector received(static_cast<Id>(place.size()), columns);
-  std::size_t k = 0;
-  for (const auto& ofRank : rows)
-  {
-    for (std::size_t begin = 0; begin < ofRank.size(); begin += columns)
+  MultiVector received;
+  ranks_.Together(
+    [&]
     {
-      std::copy_n(ofRank.data() + begin, columns, received.row(place[k++]).data());
-    }
-  }
+      received.resize(static_cast<Id>(place.size()), columns);
+      std::size_t k = 0;
+      for (const auto& ofRank : rows)
+      {
+        for (std::size_t begin = 0; begin < ofRank.size(); begin += columns)
+        {
+          std::copy_n(ofRank.data() + begin, columns, received.row(place[k++]).data());
+        }
+      }
+    });
   return received;
 }
 
@@ -209,7 +244,8 @@ std::vector<char> Redistribution::ReturnPoints(
     });
   which = ranks_.Exchange(which);
   values = ranks_.Exchange(values);
-  std::vector<char> isReturned(numberOfOwnPoints_, 0);
+  std::vector<char> isReturned;
+  ranks_.Together([&] { isReturned.assign(numberOfOwnPoints_, 0); });
   for (int rank = 0; rank < ranks_.Size(); ++rank)
   {
     for (std::size_t k = 0; k < which[rank].size(); ++k)

@@ -19,9 +19,9 @@ public:
   Redistribution(const Communicator& ranks, const TriangleMesh& own, const Grid& grid,
     const BlockPartition& partition);
 
-  /// What this rank has received: triangles in the order of their numbers; points in the order of
-  /// their coordinates, coincident ones in the order of their numbers. The order is part of what
-  /// makes clipping the same on all ranks. Gives up the mesh.
+  /// What this rank has received: triangles in the order of their numbers; points sorted in
+  /// space by their coordinates alone, coincident ones in the order of their numbers. The order is
+  /// part of what makes clipping the same on all ranks. Gives up the mesh.
   TriangleMesh TakeMesh() { return std::move(mesh_); }
 
   /// Collective. Rows of a field at the points, or on the triangles, of the received mesh.
@@ -41,7 +41,7 @@ private:
   using Lists = std::vector<std::vector<Index>>; // one per rank
 
   void Route(const TriangleMesh& own, const Grid& grid, const BlockPartition& partition);
-  void Receive(const TriangleMesh& own);
+  void Receive(const TriangleMesh& own, const Grid& grid);
   MultiVector Send(
     const MultiVector& own, const Lists& sent, const std::vector<Index>& place) const;
 

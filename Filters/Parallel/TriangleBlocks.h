@@ -41,44 +41,73 @@ inline bool MeetsBox(const std::array<Vec3, 3>& corner, double halfSide)
   return true;
 }
 
-/// Calls body(key) for every block that comes as near to a triangle as `margin` along the axes.
+/// Blocks first .. last along each axis.
+struct BlockBox
+{
+  CellIndex first{ 0, 0, 0 };
+  CellIndex last{ -1, -1, -1 };
+
+  bool operator==(const BlockBox& other) const
+  {
+    return first == other.first && last == other.last;
+  }
+};
+
+/// The blocks that come as near to the box around a triangle as `margin` along the axes.
 /// @param side           of a block
 /// @param blocksPerSide  of the grid
-template<class Body>
-void ForBlocksNear(
-  const std::array<Vec3, 3>& corner, double side, int blocksPerSide, double margin, Body&& body)
+inline BlockBox BoxNear(
+  const std::array<Vec3, 3>& corner, double side, int blocksPerSide, double margin)
 {
   const Vec3 low = corner[0].cwiseMin(corner[1]).cwiseMin(corner[2]);
   const Vec3 high = corner[0].cwiseMax(corner[1]).cwiseMax(corner[2]);
-  CellIndex first;
-  CellIndex last;
+  BlockBox box;
   for (int axis = 0; axis < 3; ++axis)
   {
     const auto blockOf = [&](double x)
     { return std::clamp(static_cast<int>(std::floor(x / side)), 0, blocksPerSide - 1); };
-    first[axis] = blockOf(low[axis] - margin);
-    last[axis] = blockOf(high[axis] + margin);
+    box.first[axis] = blockOf(low[axis] - margin);
+    box.last[axis] = blockOf(high[axis] + margin);
   }
-  if (first == last)
+  return box;
+}
+
+/// Calls body(index) for every block of a box.
+template<class Body>
+void ForBlocksOf(const BlockBox& box, Body&& body)
+{
+  for (int k = box.first[2]; k <= box.last[2]; ++k)
   {
-    body(MortonEncode(first));
-    return;
-  }
-  for (int k = first[2]; k <= last[2]; ++k)
-  {
-    for (int j = first[1]; j <= last[1]; ++j)
+    for (int j = box.first[1]; j <= box.last[1]; ++j)
     {
-      for (int i = first[0]; i <= last[0]; ++i)
+      for (int i = box.first[0]; i <= box.last[0]; ++i)
       {
-        const Vec3 centre = side * (Vec3(i, j, k) + Vec3::Constant(0.5));
-        if (MeetsBox(
-              { corner[0] - centre, corner[1] - centre, corner[2] - centre }, 0.5 * side + margin))
-        {
-          body(MortonEncode({ i, j, k }));
-        }
+        body(CellIndex{ i, j, k });
       }
     }
   }
+}
+
+/// Calls body(key) for every block of BoxNear that comes as near to the triangle itself.
+template<class Body>
+void ForBlocksNear(
+  const std::array<Vec3, 3>& corner, const BlockBox& box, double side, double margin, Body&& body)
+{
+  if (box.first == box.last)
+  {
+    body(MortonEncode(box.first));
+    return;
+  }
+  ForBlocksOf(box,
+    [&](const CellIndex& block)
+    {
+      const Vec3 centre = side * (Vec3(block[0], block[1], block[2]) + Vec3::Constant(0.5));
+      if (MeetsBox(
+            { corner[0] - centre, corner[1] - centre, corner[2] - centre }, 0.5 * side + margin))
+      {
+        body(MortonEncode(block));
+      }
+    });
 }
 
 } // namespace gridfem

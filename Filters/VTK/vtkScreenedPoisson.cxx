@@ -576,11 +576,10 @@ void vtkScreenedPoisson::WriteDistributed(vtkPolyData* input, const gridfem::Inp
   vtkTable* table = vtkTable::GetData(outputs, 1);
   gridfem::WriteHistory(solution.report, table);
   gridfem::AddErrors(solution.report, {}, table);
-  const std::string warning =
-    gridfem::WarningOf(solution.report, gridfem::DistributedTolerance(this->State->options));
-  if (!warning.empty())
+  if (!solution.report.converged)
   {
-    vtkWarningMacro(<< warning);
+    vtkWarningMacro(<< gridfem::WarningOf(
+                      solution.report, gridfem::DistributedTolerance(this->State->options)));
   }
 }
 

@@ -1,6 +1,5 @@
 #include "Problems/MemoryEstimate.h"
 
-#include "Grid/Grid.h"
 #include "Grid/MeshEdges.h"
 
 #include <algorithm>
@@ -52,7 +51,11 @@ double WeldedPoints(const TriangleMesh& mesh)
 
 MemoryEstimate EstimateMemory(const TriangleMesh& mesh, int depth)
 {
-  const Grid grid = EmbedInGrid(mesh.points, UsedPoints(mesh), depth);
+  return EstimateMemory(mesh, EmbedInGrid(mesh.points, UsedPoints(mesh), depth));
+}
+
+MemoryEstimate EstimateMemory(const TriangleMesh& mesh, const Grid& grid)
+{
   // Lines are the stretches along which planes cut a triangle; crossings the points where two
   // planes do. A triangle falls into 1 + lines + crossings pieces and 1 + 2 (lines + crossings)
   // triangles. The number of crossings is the triangle's area projected along each axis, on

@@ -2,6 +2,7 @@
 #ifndef GridFEM_MemoryEstimate_h
 #define GridFEM_MemoryEstimate_h
 
+#include "Grid/Grid.h"
 #include "Grid/TriangleMesh.h"
 
 namespace gridfem
@@ -20,6 +21,9 @@ struct MemoryEstimate
 /// that are welded, are taken to be connected; a soup that is not welded has more patches. Cost
 /// O(triangles).
 MemoryEstimate EstimateMemory(const TriangleMesh& mesh, int depth);
+
+/// The same for a part of a surface, in the grid of the whole.
+MemoryEstimate EstimateMemory(const TriangleMesh& mesh, const Grid& grid);
 
 /// The finest depth at which the grid is expected to have no more functions than the surface has
 /// points, coincident ones counted once: what the mesh can tell, at the cost of the mesh. At least

@@ -24,7 +24,9 @@ auto OnRanksOfVtk(Body&& body)
   const Communicator ranks = RanksOfVtk();
   try
   {
-    return body(ranks);
+    decltype(body(ranks)) result;
+    ranks.Guard([&] { result = body(ranks); });
+    return result;
   }
   catch (const RankFailure& failure)
   {

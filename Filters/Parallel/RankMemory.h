@@ -1,0 +1,23 @@
+// Whether the ranks have the memory that a surface takes, before they take it.
+#ifndef GridFEM_RankMemory_h
+#define GridFEM_RankMemory_h
+
+#include "Parallel/Communicator.h"
+
+#include "Grid/TriangleMesh.h"
+
+namespace gridfem
+{
+
+struct Grid;
+
+/// Collective. Memory that runs out within PETSc cannot be taken back on all ranks, so that a run
+/// which would get there is refused: when the ranks of a machine need more than it has, or one rank
+/// more than the limit of its process (`ulimit -v`) leaves.
+/// @param received  the triangles that this rank clips
+/// Throws RankFailure on all ranks.
+void RequireMemory(const Communicator& ranks, const TriangleMesh& received, const Grid& grid);
+
+} // namespace gridfem
+
+#endif

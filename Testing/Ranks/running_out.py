@@ -1,0 +1,54 @@
+"""Screened Poisson by all ranks together, while the last rank can grow by so many megabytes only:
+
+    mpiexec -n 2 pvbatch --symmetric running_out.py MEGABYTES
+
+prints what came of it: "computed", or the message. Whatever it is, all ranks agree and go on."""
+import resource
+import sys
+
+import ranks
+
+MEGABYTE = 1 << 20
+
+
+def address_space():
+    """Bytes of addresses that the process has, which is what the limit counts."""
+    with open("/proc/self/statm", encoding="ascii") as statm:
+        return int(statm.read().split()[0]) * resource.getpagesize()
+
+
+def run(depth, mesh, room=None):
+    """The messages of a run, and what its output says."""
+    piece = ranks.piece(mesh, "contiguous")
+    filter_ = ranks.make("ScreenedPoisson", depth, Distributed=True, Tolerance=1e-8)
+    messages = []
+
+    def listen(_, __, text=None):
+        messages.append(text)
+    listen.CallDataType = "string0"
+    filter_.AddObserver("ErrorEvent", listen)
+    if room is not None and ranks.RANK == ranks.RANKS - 1:
+        resource.setrlimit(resource.RLIMIT_AS, (address_space() + room, resource.RLIM_INFINITY))
+    output = ranks.run(filter_, piece)[0]
+    resource.setrlimit(resource.RLIMIT_AS, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
+    is_computed = output.GetFieldData().HasArray("Distributed")
+    if is_computed != (output.GetNumberOfPoints() > 0):
+        messages.append("the output is neither empty nor computed")
+    return messages, is_computed
+
+
+def main():
+    if not run(4, ranks.ellipsoid())[1]:  # starts PETSc
+        sys.exit("nothing is computed without a limit")
+    messages, is_computed = run(7, ranks.ellipsoid(300, 150), int(sys.argv[1]) * MEGABYTE)
+    computed = ranks.total(int(is_computed))
+    told = ranks.gathered([len(messages)])
+    if computed not in (0, ranks.RANKS) or list(told) != [computed == 0] + (ranks.RANKS - 1) * [0]:
+        sys.exit(f"rank {ranks.RANK}: {computed} ranks have computed, with {told} messages: {messages}")
+    if not run(4, ranks.ellipsoid())[1]:
+        sys.exit("nothing is computed afterwards")
+    if ranks.RANK == 0:
+        print(messages[0] if messages else "computed", flush=True)
+
+
+main()
