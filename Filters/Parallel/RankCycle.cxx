@@ -121,6 +121,7 @@ void RankCycle::BuildLevels(
     static_cast<PetscInt>(ownShared), shared, shared, nullptr, coarse_->matrix.Receive()));
   Check(MatSetUp(coarse_->matrix));
   levels_.reserve(numberings.size());
+  const std::vector<Id> sameNumbers;
   for (std::size_t l = 0; l < numberings.size(); ++l)
   {
     SparseMatrix own;
@@ -128,7 +129,7 @@ void RankCycle::BuildLevels(
     const bool isLast = l + 1 == numberings.size();
     levels_.push_back({ SumOverRanks(ranks_, numberings[l], own),
       RowsOfOwners(ranks_, numberings[l], space.Own().Prolongation(l),
-        isLast ? std::vector<Id>() : numberings[l + 1].number,
+        isLast ? sameNumbers : numberings[l + 1].number,
         isLast ? ownShared : Id{ numberings[l + 1].OwnFunctions() }),
       LevelVectors(ranks_, numberings[l]), nullptr });
     levels_[l].smoother = std::make_unique<RankSmoother>(
