@@ -50,8 +50,14 @@ std::vector<double> LowestOfComponents(const Communicator& ranks, const LevelNum
 
 RankComponents::RankComponents(const Communicator& ranks, const LevelNumbering& numbering,
   const LevelVectors& vectors, const PatchLevel& level, const std::vector<double>& integral)
-  : ranks_(ranks), component_(numbering.OwnFunctions()), integral_(numbering.OwnFunctions())
+  : ranks_(ranks)
 {
+  ranks.Together(
+    [&]
+    {
+      component_.resize(numbering.OwnFunctions());
+      integral_.resize(numbering.OwnFunctions());
+    });
   const std::vector<double> lowest = LowestOfComponents(ranks, numbering, vectors, level);
   std::vector<double> firsts; // numbers of the first functions of all components, ascending
   for (Index f = numbering.foreign; f < numbering.Functions(); ++f)

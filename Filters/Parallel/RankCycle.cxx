@@ -77,6 +77,7 @@ void RankCycle::BuildLevels(
     static_cast<PetscInt>(ownShared), shared, shared, nullptr, coarse_->matrix.Receive()));
   Check(MatSetUp(coarse_->matrix));
   levels_.reserve(numberings.size() - finest);
+  const std::vector<Id> sameNumbers;
   for (std::size_t l = finest; l < numberings.size(); ++l)
   {
     SparseMatrix own;
@@ -84,7 +85,7 @@ void RankCycle::BuildLevels(
     const bool isLast = l + 1 == numberings.size();
     levels_.push_back({ SumOverRanks(ranks_, numberings[l], own),
       RowsOfOwners(ranks_, numberings[l], space.Own().Prolongation(l),
-        isLast ? std::vector<Id>() : numberings[l + 1].number,
+        isLast ? sameNumbers : numberings[l + 1].number,
         isLast ? ownShared : Id{ numberings[l + 1].OwnFunctions() }),
       LevelVectors(ranks_, numberings[l]), nullptr });
     Level& level = levels_.back();

@@ -38,14 +38,27 @@ struct Rows
   Id Count() const { return static_cast<Id>(begin.size()) - 1; }
 };
 
-std::vector<PetscInt> NumbersOf(
-  const LevelNumbering& numbering, const std::vector<Index>& functions)
+/// Collective. Of all functions of the numbering.
+std::vector<PetscInt> NumbersOf(const Communicator& ranks, const LevelNumbering& numbering)
 {
   std::vector<PetscInt> numbers;
-  for (const Index function : functions)
-  {
-    numbers.push_back(static_cast<PetscInt>(numbering.number[function]));
-  }
+  ranks.Together([&] { numbers.assign(numbering.number.begin(), numbering.number.end()); });
+  return numbers;
+}
+
+/// Collective. Of some functions.
+std::vector<PetscInt> NumbersOf(
+  const Communicator& ranks, const LevelNumbering& numbering, const std::vector<Index>& functions)
+{
+  std::vector<PetscInt> numbers;
+  ranks.Together(
+    [&]
+    {
+      for (const Index function : functions)
+      {
+        numbers.push_back(static_cast<PetscInt>(numbering.number[function]));
+      }
+    });
   return numbers;
 }
 
@@ -180,34 +193,54 @@ PetscMatrix RowsOfOwners(const Communicator& ranks, const LevelNumbering& number
 namespace
 {
 
-/// The rows of some functions, over all ranks, with the columns of all functions of the numbering.
-SparseMatrix RowsOfAll(
-  Mat matrix, const LevelNumbering& numbering, const std::vector<Index>& functions)
+/// Part of a matrix over all ranks.
+struct PartOfMatrix
 {
-  const std::vector<PetscInt> rowNumber = NumbersOf(numbering, functions);
-  const std::vector<PetscInt> columnNumber(numbering.number.begin(), numbering.number.end());
-  const PetscIndices rows = MakeIndices(rowNumber);
-  const PetscIndices columns = MakeIndices(columnNumber);
+  ~PartOfMatrix()
+  {
+    if (parts)
+    {
+      MatDestroySubMatrices(1, &parts);
+    }
+  }
+
+  SparseMatrix Copy(Index columns) const
+  {
+    PetscInt count = 0;
+    const PetscInt* begin = nullptr;
+    const PetscInt* column = nullptr;
+    PetscBool isDone = PETSC_FALSE;
+    const PetscScalar* value = nullptr;
+    Check(MatGetRowIJ(parts[0], 0, PETSC_FALSE, PETSC_FALSE, &count, &begin, &column, &isDone));
+    Check(MatSeqAIJGetArrayRead(parts[0], &value));
+    SparseMatrix rows;
+    rows.rows = static_cast<Index>(count);
+    rows.columns = columns;
+    rows.rowBegin = Array<Id>(begin, begin + count + 1);
+    rows.column = Array<Index>(column, column + begin[count]);
+    rows.value = Array<double>(value, value + begin[count]);
+    Check(MatSeqAIJRestoreArrayRead(parts[0], &value));
+    Check(MatRestoreRowIJ(parts[0], 0, PETSC_FALSE, PETSC_FALSE, &count, &begin, &column, &isDone));
+    return rows;
+  }
+
+  Mat* parts = nullptr;
+};
+
+/// Collective. The rows of some functions, over all ranks, with the columns of all functions of the
+/// numbering.
+SparseMatrix RowsOfAll(const Communicator& ranks, Mat matrix, const LevelNumbering& numbering,
+  const std::vector<Index>& functions)
+{
+  const PetscIndices rows = MakeIndices(NumbersOf(ranks, numbering, functions));
+  const PetscIndices columns = MakeIndices(NumbersOf(ranks, numbering));
   const IS wantedRows = rows;
   const IS wantedColumns = columns;
-  Mat* parts = nullptr;
-  Check(MatCreateSubMatrices(matrix, 1, &wantedRows, &wantedColumns, MAT_INITIAL_MATRIX, &parts));
-  PetscInt count = 0;
-  const PetscInt* begin = nullptr;
-  const PetscInt* column = nullptr;
-  PetscBool isDone = PETSC_FALSE;
-  const PetscScalar* value = nullptr;
-  Check(MatGetRowIJ(parts[0], 0, PETSC_FALSE, PETSC_FALSE, &count, &begin, &column, &isDone));
-  Check(MatSeqAIJGetArrayRead(parts[0], &value));
+  PartOfMatrix part;
+  Check(
+    MatCreateSubMatrices(matrix, 1, &wantedRows, &wantedColumns, MAT_INITIAL_MATRIX, &part.parts));
   SparseMatrix found;
-  found.rows = static_cast<Index>(functions.size());
-  found.columns = numbering.Functions();
-  found.rowBegin = Array<Id>(begin, begin + count + 1);
-  found.column = Array<Index>(column, column + begin[count]);
-  found.value = Array<double>(value, value + begin[count]);
-  Check(MatSeqAIJRestoreArrayRead(parts[0], &value));
-  Check(MatRestoreRowIJ(parts[0], 0, PETSC_FALSE, PETSC_FALSE, &count, &begin, &column, &isDone));
-  Check(MatDestroySubMatrices(1, &parts));
+  ranks.Together([&] { found = part.Copy(numbering.Functions()); });
   return found;
 }
 
@@ -236,7 +269,7 @@ SparseMatrix SomeRows(const SparseMatrix& matrix, const std::vector<Index>& rows
 SparseMatrix WholeRows(const Communicator& ranks, Mat matrix, const LevelNumbering& numbering,
   const std::vector<Index>& shared, const SparseMatrix& own)
 {
-  const SparseMatrix whole = RowsOfAll(matrix, numbering, shared);
+  const SparseMatrix whole = RowsOfAll(ranks, matrix, numbering, shared);
   SparseMatrix rows;
   ranks.Together(
     [&]
@@ -272,14 +305,13 @@ SparseMatrix WholeRows(const Communicator& ranks, Mat matrix, const LevelNumberi
 }
 
 LevelVectors::LevelVectors(const Communicator& ranks, const LevelNumbering& numbering)
-  : LevelVectors(ranks, numbering.OwnFunctions(),
-      std::vector<PetscInt>(numbering.number.begin(), numbering.number.end()))
+  : LevelVectors(ranks, numbering.OwnFunctions(), NumbersOf(ranks, numbering))
 {
 }
 
 LevelVectors::LevelVectors(
   const Communicator& ranks, const LevelNumbering& numbering, const std::vector<Index>& functions)
-  : LevelVectors(ranks, numbering.OwnFunctions(), NumbersOf(numbering, functions))
+  : LevelVectors(ranks, numbering.OwnFunctions(), NumbersOf(ranks, numbering, functions))
 {
 }
 

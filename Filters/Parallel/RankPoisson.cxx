@@ -136,6 +136,7 @@ PoissonSolution SolvePoisson(const RankSpace& space, const MultiVector& values,
   const PetscVector b = vectors.Make();
   const PetscVector x = vectors.Make();
   std::vector<double> entries;
+  ranks.Together([&] { entries.resize(numbering.Functions()); });
   for (Id c = 0; c < rest.cols(); ++c)
   {
     // What is left when the means are taken out can be rounding alone: then it is 0.

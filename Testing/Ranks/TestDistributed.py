@@ -20,10 +20,13 @@ def number(output, name):
 class Distributed(unittest.TestCase):
     def same_as_alone(self, mesh, kind, **properties):
         mine = ranks.piece(mesh, kind)
-        output, table = ranks.run(made(**properties), mine)
+        filter_ = made(**properties)
+        warnings = []
+        filter_.AddObserver("WarningEvent", lambda *_: warnings.append("a warning"))
+        output, table = ranks.run(filter_, mine)
         whole = ranks.alone(lambda: ranks.run(ranks.make(
             "ScreenedPoisson", 5, Tolerance=1e-11, **properties), ranks.whole(mesh))[0])
-        problems = []
+        problems = warnings
         if number(output, "Distributed") != 1:
             problems.append("rank 0 has gathered")
         if mine.GetNumberOfPoints():

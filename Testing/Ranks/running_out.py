@@ -40,7 +40,7 @@ def run(depth, mesh, room=None):
 def main():
     if not run(4, ranks.ellipsoid())[1]:  # starts PETSc
         sys.exit("nothing is computed without a limit")
-    messages, is_computed = run(7, ranks.ellipsoid(300, 150), int(sys.argv[1]) * MEGABYTE)
+    messages, is_computed = run(6, ranks.ellipsoid(150, 75), int(sys.argv[1]) * MEGABYTE)
     computed = ranks.total(int(is_computed))
     told = ranks.gathered([len(messages)])
     if computed not in (0, ranks.RANKS) or list(told) != [computed == 0] + (ranks.RANKS - 1) * [0]:

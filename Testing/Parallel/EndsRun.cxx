@@ -1,0 +1,24 @@
+// The last rank fails while the others wait for its message: the run ends and says why.
+#include "Parallel/Communicator.h"
+
+#include <stdexcept>
+
+using namespace gridfem;
+
+int main(int argc, char** argv)
+{
+  MPI_Init(&argc, &argv);
+  const Communicator ranks(MPI_COMM_WORLD);
+  ranks.Guard(
+    [&]
+    {
+      if (ranks.Rank() == ranks.Size() - 1)
+      {
+        throw std::runtime_error("nothing is left");
+      }
+      double value = 0.0;
+      ranks.Sum(&value, 1);
+    });
+  MPI_Finalize();
+  return 0;
+}

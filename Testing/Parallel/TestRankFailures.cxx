@@ -1,0 +1,123 @@
+// Memory that runs out on one rank alone ends the computation on all ranks: whichever of its
+// allocations fails, no rank waits for ever, and all name the rank.
+#include "Parallel/RankPoisson.h"
+#include "Surfaces.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <new>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+/// Smaller ones are lists with an entry per rank or level, or texts.
+constexpr std::size_t SmallestFailure = 2048;
+
+constexpr long Never = -1;
+
+/// Allocations of this process until one fails.
+long untilFailure = Never;
+long allocations = 0;
+
+} // namespace
+
+/// In place of that of the standard library, also where Core and Parallel allocate.
+void* operator new(std::size_t size)
+{
+  if (size >= SmallestFailure)
+  {
+    ++allocations;
+    if (untilFailure != Never && untilFailure-- == 0)
+    {
+      untilFailure = Never;
+      throw std::bad_alloc();
+    }
+  }
+  if (void* memory = std::malloc(std::max<std::size_t>(size, 1)))
+  {
+    return memory;
+  }
+  throw std::bad_alloc();
+}
+
+void operator delete(void* memory) noexcept
+{
+  std::free(memory);
+}
+
+void operator delete(void* memory, std::size_t) noexcept
+{
+  std::free(memory);
+}
+
+namespace
+{
+
+MultiVector ValuesAt(const std::vector<Vec3>& points)
+{
+  MultiVector values(static_cast<Id>(points.size()), 1);
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    values(static_cast<Id>(k), 0) = std::sin(5.0 * points[k][0]) + points[k][1];
+  }
+  return values;
+}
+
+SolveReport Solve(const Communicator& ranks, const TriangleMesh& own)
+{
+  RankSpaceOptions options;
+  options.space.functions.depth = 4;
+  options.space.functions.threads = 1;
+  options.granularity = 2;
+  const RankSpace space(ranks, own, options);
+  Field f;
+  f.values = space.Distribution().SendPoints(ValuesAt(own.points));
+  MultiVector load;
+  ranks.Together([&] { load = space.Own().LoadOfValues(f); });
+  RankPoissonOptions poisson;
+  poisson.screeningWeight = 0.05;
+  poisson.multigrid.threads = 1;
+  const PoissonSolution solution = SolvePoisson(space, load, MultiVector(), poisson);
+  space.ValuesAtPoints(solution.coefficients, static_cast<Id>(own.points.size()));
+  return solution.report;
+}
+
+} // namespace
+
+TEST(RankFailures, AnyAllocationOfOneRankFailsOnAll)
+{
+  const Communicator ranks(MPI_COMM_WORLD);
+  const int failing = ranks.Size() - 1;
+  const TriangleMesh mesh = Surfaces().front().mesh;
+  const TriangleMesh own =
+    PartOf(mesh, Deal(mesh, Dealing::Contiguous, ranks.Size()), ranks.Rank());
+  Solve(ranks, own); // starts PETSc
+  allocations = 0;
+  ASSERT_TRUE(Solve(ranks, own).converged);
+  auto most = static_cast<double>(ranks.Rank() == failing ? allocations : 0);
+  ranks.Maximum(&most, 1);
+  ASSERT_GT(most, 100.0);
+  for (long k = 0; k < static_cast<long>(most); ++k)
+  {
+    SCOPED_TRACE("allocation " + std::to_string(k) + " of " + std::to_string(long(most)));
+    untilFailure = ranks.Rank() == failing ? k : Never;
+    int failed = -1;
+    try
+    {
+      Solve(ranks, own);
+    }
+    catch (const RankFailure& failure)
+    {
+      failed = failure.rank;
+    }
+    EXPECT_EQ(failed, failing);
+    untilFailure = Never;
+  }
+  EXPECT_TRUE(Solve(ranks, own).converged);
+}
