@@ -39,7 +39,17 @@ class Distributed(unittest.TestCase):
         rows = table.GetNumberOfRows()
         if (rows > 0) != (ranks.RANK == 0):
             problems.append(f"the table has {rows} rows")
+        problems += self.wrong_history(table)
         ranks.check(self, problems)
+
+    def wrong_history(self, table):
+        """Every iteration has residuals, and they fall."""
+        problems = []
+        for name in ("EnergyResidual", "Residual") if table.GetNumberOfRows() else ():
+            values = numpy_support.vtk_to_numpy(table.GetColumnByName(name))
+            if not numpy.isfinite(values).all() or values[-1] > 1e-6 * values[0] or values[0] > 10.0:
+                problems.append(f"{name} is {values}")
+        return problems
 
     def test_any_pieces(self):
         for kind in ("first", "last", "contiguous", "scattered", "one rank is empty"):
