@@ -505,11 +505,22 @@ bool vtkScreenedPoisson::CanCompute(vtkInformationVector** inputs, vtkPolyData* 
 bool vtkScreenedPoisson::ComputeTogether(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
+  if (!this->Distributed)
+  {
+    return false;
+  }
   const gridfem::Ranks ranks;
+  if (!gridfem::CanDistribute())
+  {
+    if (ranks.IsFirst())
+    {
+      vtkWarningMacro("Distributed needs a build with MPI and PETSc: rank 0 gathers the surface.");
+    }
+    return false;
+  }
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   const bool hasPolygons = input && input->GetNumberOfPolys() + input->GetNumberOfStrips() > 0;
-  if (!this->Distributed || !gridfem::CanDistribute() ||
-      ranks.Any(!this->CanCompute(inputs, input)) || !ranks.Any(hasPolygons))
+  if (ranks.Any(!this->CanCompute(inputs, input)) || !ranks.Any(hasPolygons))
   {
     return false;
   }
@@ -583,10 +594,16 @@ void vtkScreenedPoisson::WriteDistributed(vtkPolyData* input, const gridfem::Inp
   vtkTable* table = vtkTable::GetData(outputs, 1);
   gridfem::WriteHistory(solution.report, table);
   gridfem::AddErrors(solution.report, {}, table);
+  const double tolerance = gridfem::DistributedTolerance(this->State->options);
   if (!solution.report.converged)
   {
-    vtkWarningMacro(<< gridfem::WarningOf(
-                      solution.report, gridfem::DistributedTolerance(this->State->options)));
+    vtkWarningMacro(<< gridfem::WarningOf(solution.report, tolerance));
+  }
+  if (this->Tolerance == 0.0)
+  {
+    vtkWarningMacro("Distributed estimates no errors, so that the iteration has not ended by "
+                    "Accuracy but by the Tolerance "
+                    << tolerance << ". To give a Tolerance says the same without this warning.");
   }
 }
 

@@ -85,6 +85,19 @@ class Distributed(unittest.TestCase):
         output = ranks.run(made(), ranks.piece(ranks.bowl(), "ghosts"))[0]
         ranks.check(self, [] if number(output, "Distributed") is None else ["ghost cells"])
 
+    def test_says_that_errors_are_not_estimated(self):
+        for tolerance, expected in ((0.0, 1), (1e-8, 0)):
+            filter_ = ranks.make("ScreenedPoisson", 5, Distributed=True, Tolerance=tolerance)
+            warnings = []
+            filter_.AddObserver("WarningEvent", lambda *_: warnings.append("a warning"))
+            output = ranks.run(filter_, ranks.piece(ranks.ellipsoid(), "contiguous"))[0]
+            wanted = expected if ranks.RANK == 0 else 0
+            problems = [] if len(warnings) == wanted else [f"{len(warnings)} warnings"]
+            if number(output, "Distributed") != 1 or not numpy.isnan(
+                    number(output, "AlgebraicError")):
+                problems.append("an estimate")
+            ranks.check(self, problems)
+
     def test_what_fails_on_one_rank_fails_on_all(self):
         filter_ = made()
         for damage in ("value", "place", "array"):
