@@ -22,6 +22,7 @@ double DistributedTolerance(const SurfaceOptions& options)
 #include "vtkMPI.h"
 #include "vtkMPICommunicator.h"
 #include "vtkMPIController.h"
+#include "vtkSetGet.h"
 
 #include <algorithm>
 #include <optional>
@@ -185,7 +186,8 @@ DistributedSolution SolveDistributed(const InputMesh& mesh, const DistributedReq
   try
   {
     DistributedSolution solution;
-    ranks.Guard([&] { solution = Solve(ranks, mesh, request, options, progress); });
+    ranks.Guard([&] { solution = Solve(ranks, mesh, request, options, progress); },
+      [](const std::string& message) { vtkGenericWarningMacro(<< message); });
     return solution;
   }
   catch (const RankFailure& failure)
