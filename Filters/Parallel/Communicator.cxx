@@ -1,8 +1,6 @@
 #include "Parallel/Communicator.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <new>
 #include <numeric>
@@ -111,14 +109,11 @@ void Communicator::ThrowTogether(const std::exception_ptr& failure) const
   throw RankFailure(worst[1], reason);
 }
 
-void Communicator::EndRun(const std::exception_ptr& failure) const
+std::string Communicator::LoneFailure(const std::exception_ptr& failure) const
 {
-  std::fprintf(stderr,
-    "Rank %d failed where the other ranks wait for it, so that the run ends: %s\n", rank_,
-    Describe(failure).reason.c_str());
-  std::fflush(stderr);
-  MPI_Abort(handle_, EXIT_FAILURE);
-  std::abort();
+  return "Rank " + std::to_string(rank_) +
+         " failed where the other ranks wait for it, so that the run ends: " +
+         Describe(failure).reason;
 }
 
 int Communicator::RanksOfMachine() const

@@ -51,10 +51,10 @@ public:
   }
 
   /// Runs a body that calls collective functions. What it throws on this rank alone, outside of
-  /// Together, would leave the others waiting for a message that never comes: then the run ends, on
-  /// all ranks, and says why. InvalidInput is thrown on all ranks or none.
-  template<class Body>
-  void Guard(Body&& body) const
+  /// Together, would leave the others waiting for a message that never comes: then MPI ends the run
+  /// on all ranks, after tell(message) has said why. InvalidInput is thrown on all ranks or none.
+  template<class Body, class Tell>
+  void Guard(Body&& body, Tell&& tell) const
   {
     try
     {
@@ -74,7 +74,9 @@ public:
     }
     catch (...)
     {
-      this->EndRun(std::current_exception());
+      tell(this->LoneFailure(std::current_exception()));
+      MPI_Abort(handle_, 1);
+      throw;
     }
   }
 
@@ -144,7 +146,7 @@ public:
 
 private:
   void ThrowTogether(const std::exception_ptr& failure) const;
-  [[noreturn]] void EndRun(const std::exception_ptr& failure) const;
+  std::string LoneFailure(const std::exception_ptr& failure) const;
   std::vector<Id> Counts(Id own) const;
   std::vector<Id> ExchangeCounts(const std::vector<Id>& sent) const;
   void GatherBytes(

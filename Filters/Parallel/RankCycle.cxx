@@ -219,6 +219,7 @@ PetscErrorCode RankCycle::Precondition(PC pc, Vec r, Vec z)
   return cycle.Keep(z,
     [&]
     {
+      Check(VecNorm(r, NORM_2, &cycle.residual_));
       Check(VecCopy(r, cycle.projected_));
       (*cycle.ofResidual_)(cycle.projected_);
       Check(PCApply(cycle.cycle_, cycle.projected_, z));
@@ -251,7 +252,9 @@ struct RankCycle::Watch
   const Communicator& ranks;
   const SolveOptions& options;
   const Progress& progress;
-  double size; // of the solution in the energy norm, a lower bound
+  double size;            // of the solution in the energy norm, a lower bound
+  double load;            // |b|
+  const double& residual; // |b - A x| of the iteration that has ended
   SolveReport report;
   bool isAborted = false;
 };
@@ -264,8 +267,8 @@ PetscErrorCode RankCycle::IsDone(
   watch.size = iteration == 0 ? std::max(watch.size, norm) : watch.size;
   const double energy = watch.size > 0.0 ? norm / watch.size : norm;
   report.iterations = static_cast<int>(iteration);
-  report.history.push_back(
-    { static_cast<int>(iteration), energy, std::numeric_limits<double>::quiet_NaN() });
+  report.history.push_back({ static_cast<int>(iteration), energy,
+    watch.load > 0.0 ? watch.residual / watch.load : watch.residual });
   double wish = watch.progress.Report(double(iteration) / watch.options.maximumIterations) ? 0 : 1;
   watch.ranks.Maximum(&wish, 1);
   watch.isAborted = wish > 0.0;
@@ -333,7 +336,9 @@ SolveReport RankCycle::Solve(Vec b, Vec x, const SolveOptions& options,
   {
     Check(VecDuplicate(b, projected_.Receive()));
   }
-  Watch watch{ ranks_, options, progress, this->Start(b, x), {}, false };
+  double load = 0.0;
+  Check(VecNorm(b, NORM_2, &load));
+  Watch watch{ ranks_, options, progress, this->Start(b, x), load, residual_, {}, false };
   watch.report.end = SolveEnd::Breakdown; // unless the test of convergence says otherwise
   PetscSolver solver;
   PC pc = nullptr;

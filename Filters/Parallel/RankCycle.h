@@ -86,6 +86,7 @@ private:
   std::unique_ptr<Coarse> coarse_;
   PetscCycle cycle_;
   PetscVector projected_; // what the cycle is applied to
+  double residual_ = 0.0; // its size
   const Projection* ofSolution_ = nullptr;
   const Projection* ofResidual_ = nullptr;
   std::exception_ptr failure_; // of this rank, within PETSc

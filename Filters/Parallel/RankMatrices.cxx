@@ -23,6 +23,13 @@ struct Rows
   std::vector<PetscInt> column;
   std::vector<PetscScalar> value;
 
+  void Reserve(Id rows, Id entries)
+  {
+    begin.reserve(rows + 1);
+    column.reserve(entries);
+    value.reserve(entries);
+  }
+
   void Add(Id columnNumber, double entry)
   {
     column.push_back(static_cast<PetscInt>(columnNumber));
@@ -155,6 +162,7 @@ PetscMatrix SumOverRanks(
   ranks.Together(
     [&]
     {
+      rows.Reserve(numbering.OwnFunctions(), own.NonZeros() + static_cast<Id>(received.size()));
       auto next = received.begin();
       for (Index row = numbering.foreign; row < own.rows; ++row)
       {
@@ -177,6 +185,7 @@ PetscMatrix RowsOfOwners(const Communicator& ranks, const LevelNumbering& number
   ranks.Together(
     [&]
     {
+      rows.Reserve(numbering.OwnFunctions(), own.NonZeros());
       for (Index row = numbering.foreign; row < own.rows; ++row)
       {
         for (Id k = own.rowBegin[row]; k < own.rowBegin[row + 1]; ++k)

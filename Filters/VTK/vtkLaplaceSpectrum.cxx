@@ -263,11 +263,14 @@ bool vtkLaplaceSpectrum::CanCompute(vtkInformationVector** inputs, vtkPolyData* 
 bool vtkLaplaceSpectrum::ComputeTogether(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
+  if (!this->Distributed || !gridfem::CanDistribute(this))
+  {
+    return false;
+  }
   const gridfem::Ranks ranks;
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   const bool hasPolygons = input && input->GetNumberOfPolys() + input->GetNumberOfStrips() > 0;
-  if (!this->Distributed || !gridfem::CanDistribute() ||
-      ranks.Any(!this->CanCompute(inputs, input)) || !ranks.Any(hasPolygons))
+  if (ranks.Any(!this->CanCompute(inputs, input)) || !ranks.Any(hasPolygons))
   {
     return false;
   }

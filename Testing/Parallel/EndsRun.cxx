@@ -1,6 +1,7 @@
 // The last rank fails while the others wait for its message: the run ends and says why.
 #include "Parallel/Communicator.h"
 
+#include <cstdio>
 #include <stdexcept>
 
 using namespace gridfem;
@@ -18,7 +19,8 @@ int main(int argc, char** argv)
       }
       double value = 0.0;
       ranks.Sum(&value, 1);
-    });
+    },
+    [](const std::string& message) { std::fprintf(stderr, "%s\n", message.c_str()); });
   MPI_Finalize();
   return 0;
 }

@@ -39,7 +39,17 @@ class Distributed(unittest.TestCase):
         rows = table.GetNumberOfRows()
         if (rows > 0) != (ranks.RANK == 0):
             problems.append(f"the table has {rows} rows")
+        problems += self.wrong_history(table)
         ranks.check(self, problems)
+
+    def wrong_history(self, table):
+        """Every iteration has residuals, and they fall."""
+        problems = []
+        for name in ("EnergyResidual", "Residual") if table.GetNumberOfRows() else ():
+            values = numpy_support.vtk_to_numpy(table.GetColumnByName(name))
+            if not numpy.isfinite(values).all() or values[-1] > 1e-6 * values[0] or values[0] > 10.0:
+                problems.append(f"{name} is {values}")
+        return problems
 
     def test_any_pieces(self):
         for kind in ("first", "last", "contiguous", "scattered", "one rank is empty"):
@@ -74,6 +84,19 @@ class Distributed(unittest.TestCase):
                         number(output, "Converged") == 1 else [str(properties)])
         output = ranks.run(made(), ranks.piece(ranks.bowl(), "ghosts"))[0]
         ranks.check(self, [] if number(output, "Distributed") is None else ["ghost cells"])
+
+    def test_estimates_no_errors(self):
+        filter_ = ranks.make("ScreenedPoisson", 5, Distributed=True, Tolerance=0.0)
+        warnings = []
+        filter_.AddObserver("WarningEvent", lambda *_: warnings.append("a warning"))
+        output = ranks.run(filter_, ranks.piece(ranks.ellipsoid(), "contiguous"))[0]
+        problems = list(warnings)
+        for name in ("AlgebraicError", "DiscretizationError"):
+            if not numpy.isnan(number(output, name)):
+                problems.append(f"{name} is a number")
+        if number(output, "Distributed") != 1 or number(output, "Converged") != 1:
+            problems.append("not by all ranks, or not converged")
+        ranks.check(self, problems)
 
     def test_what_fails_on_one_rank_fails_on_all(self):
         filter_ = made()

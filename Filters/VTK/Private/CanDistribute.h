@@ -8,8 +8,9 @@ class vtkPolyData;
 namespace gridfem
 {
 
-/// Whether this build has MPI and PETSc, and VTK's global controller is one of MPI.
-bool CanDistribute();
+/// Whether this build has MPI and PETSc, and VTK's global controller is one of MPI. Where it is not
+/// so, the filter on the first rank warns that rank 0 gathers.
+bool CanDistribute(vtkAlgorithm* filter);
 
 /// Whether SetInputArrayToProcess(index, ...) names an array.
 bool IsArrayChosen(vtkAlgorithm* algorithm, int index);

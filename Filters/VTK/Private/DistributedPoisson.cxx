@@ -121,10 +121,10 @@ DistributedSolution Solve(const Communicator& ranks, const InputMesh& mesh,
   ranks.Together(
     [&]
     {
-      const GridSpace& own = space.Own();
+      const FiniteElementSpace& own = space.Own();
       const Job job(spaceOptions.space.functions.threads, progress.Part(0.4, 0.5));
       const Field* const factors = factor ? &*factor : nullptr;
-      values = own.LoadOfValues(given ? *given : CoordinatesOf(own.Mesh()), job);
+      values = own.LoadOfValues(given ? *given : CoordinatesOf(space.Own().Mesh()), job);
       if (vectors)
       {
         gradients = own.LoadOfGradients(*vectors, factors, job);

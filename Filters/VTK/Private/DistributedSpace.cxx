@@ -1,6 +1,7 @@
 #include "CanDistribute.h"
 
 #include "ClippedArrays.h"
+#include "Ranks.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkCellData.h"
@@ -49,11 +50,6 @@ vtkMPICommunicator* MpiOfVtk()
 
 } // namespace
 
-bool CanDistribute()
-{
-  return MpiOfVtk() != nullptr;
-}
-
 Communicator RanksOfVtk()
 {
   return Communicator(*MpiOfVtk()->GetMPIComm()->GetHandle());
@@ -74,11 +70,19 @@ RankSpaceOptions DistributedOptions(const Communicator& ranks, const SurfaceOpti
 
 } // namespace gridfem
 
-#else
-
-bool gridfem::CanDistribute()
-{
-  return false;
-}
-
 #endif
+
+bool gridfem::CanDistribute(vtkAlgorithm* filter)
+{
+#if GRIDFEM_HAS_PARALLEL
+  const bool isPossible = MpiOfVtk() != nullptr;
+#else
+  const bool isPossible = false;
+#endif
+  if (!isPossible && Ranks().IsFirst())
+  {
+    vtkWarningWithObjectMacro(
+      filter, "Distributed needs a build with MPI and PETSc: rank 0 gathers the surface.");
+  }
+  return isPossible;
+}

@@ -8,6 +8,10 @@
 
 #include "Parallel/RankSpace.h"
 
+#include "vtkObject.h"
+
+#include <string>
+
 namespace gridfem
 {
 
@@ -25,7 +29,8 @@ auto OnRanksOfVtk(Body&& body)
   try
   {
     decltype(body(ranks)) result;
-    ranks.Guard([&] { result = body(ranks); });
+    ranks.Guard([&] { result = body(ranks); },
+      [](const std::string& message) { vtkGenericWarningMacro(<< message); });
     return result;
   }
   catch (const RankFailure& failure)
