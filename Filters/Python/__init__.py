@@ -18,6 +18,7 @@ takes the properties that change what a function returns.
 
 import numpy
 
+from . import _inputs
 from ._inputs import Error, arrays
 
 try:
@@ -54,7 +55,7 @@ def poisson(points, cells, values=None, gradients=None, weights=None, held=None,
 
 def distance(points, cells, sources, **properties):
     """The distance along the surface from the nearest of the points with the ids `sources`."""
-    sources = numpy.atleast_1d(sources)
+    sources = _inputs.ids("sources", sources)
     if sources.size == 0:
         raise Error("no sources")
     return _solve("GeodesicDistance", points, cells, {}, properties, sources)["Distance"]
@@ -66,7 +67,7 @@ def signed_distance(points, cells, labels, inside=1, **properties):
     labels: integers on points or cells; `inside` is that of the inside.
     """
     return _solve("GeodesicDistance", points, cells, {"labels": labels},
-                  {"Signed": True, "InsideLabel": int(inside), **properties})["Distance"]
+                  {"Signed": True, "InsideLabel": int(_inputs.whole("inside", inside)), **properties})["Distance"]
 
 
 def diffuse(points, cells, values, time, **properties):
@@ -77,14 +78,17 @@ def diffuse(points, cells, values, time, **properties):
 
 def interpolate(points, cells, ids, values, **properties):
     """The smoothest function with the given values at the points with the given ids."""
-    ids = numpy.atleast_1d(ids)
-    values = numpy.asarray(values, dtype=float)
+    ids = _inputs.ids("ids", ids)
+    values = numpy.atleast_1d(_inputs.numbers("values", values).astype(float))
     if len(ids) != len(values):
         raise Error(f"there are {len(ids)} ids and {len(values)} values")
+    points, cells = _inputs.checked(points, cells)
     if ids.size and not (0 <= ids.min() and ids.max() < len(points)):
         raise Error(f"ids must be those of the {len(points)} points, from 0")
     known = numpy.full((len(points), *values.shape[1:]), numpy.nan)
-    known[ids] = values
+    known[ids] = 0.0
+    numpy.add.at(known, ids, values)
+    known.T[..., ids] /= numpy.bincount(ids)[ids]  # the mean of several at one point
     return _solve(
         "HarmonicInterpolation", points, cells, {"values": known}, properties)["Interpolated"]
 

@@ -7,10 +7,50 @@ class Error(ValueError):
     """An input that cannot be computed on; the message says why."""
 
 
+def numbers(name, values):
+    """As an array of numbers, without the kinds that VTK or Core do not know. What a mask hides is
+    NaN."""
+    try:
+        array = numpy.ma.asanyarray(values) if numpy.ma.isMaskedArray(values) else numpy.asarray(values)
+        if array.dtype.kind == "O":
+            array = array.astype(float)
+        if numpy.ma.is_masked(array):
+            array = array.astype(float).filled(numpy.nan)
+    except (TypeError, ValueError):
+        raise Error(f"{name} must be an array of numbers") from None
+    if array.dtype.kind not in "biuf":
+        raise Error(f"{name} must be real numbers; they are of the type {array.dtype}")
+    if array.dtype.kind == "f" and array.dtype.itemsize not in (4, 8):
+        array = array.astype(numpy.float32 if array.dtype.itemsize < 4 else float)
+    return array.astype(array.dtype.newbyteorder("="), order="C", copy=False)
+
+
+def whole(name, values):
+    """Whole numbers as 64-bit integers; a mask is none."""
+    array = numbers(name, values)
+    if array.dtype.kind == "b":
+        raise Error(f"{name} must be whole numbers, not true and false; numpy.flatnonzero gives the "
+                    "ids where a mask is true")
+    most = numpy.iinfo(numpy.int64).max
+    if array.size and not (numpy.abs(array.astype(float)) < most).all():
+        raise Error(f"{name} must be whole numbers; there is one that is none, or too large")
+    if array.dtype.kind == "f" and (array != numpy.floor(array)).any():
+        raise Error(f"{name} must be whole numbers; there is {array[array != numpy.floor(array)][0]}")
+    return array.astype(numpy.int64)
+
+
+def ids(name, values):
+    """Ids of points in a row, or one of them."""
+    array = numpy.atleast_1d(whole(name, values))
+    if array.ndim != 1:
+        raise Error(f"{name} must be ids in a row; their shape is {array.shape}")
+    return array
+
+
 def checked(points, cells):
     """Both as arrays of the right kind and shape."""
-    points = numpy.ascontiguousarray(points, dtype=float)
-    cells = numpy.ascontiguousarray(cells, dtype=numpy.int64)
+    points = numbers("points", points).astype(float, copy=False)
+    cells = whole("cells", cells)
     if points.ndim != 2 or points.shape[1] != 3:
         raise Error(f"points must have three columns; their shape is {points.shape}")
     if cells.ndim != 2 or cells.shape[1] < 3:
@@ -22,9 +62,12 @@ def checked(points, cells):
 
 def placed(name, values, points, cells):
     """Values as an array, and whether they belong to the points; else they do to the cells."""
-    values = numpy.ascontiguousarray(values)
+    values = numbers(name, values)
     if values.dtype == bool:
         values = values.astype(numpy.uint8)
+    if values.ndim not in (1, 2) or values.size == 0:
+        raise Error(f"{name} must have a number, or a row of them, for each point or cell; their shape "
+                    f"is {values.shape}")
     if len(values) not in (len(points), len(cells)):
         raise Error(f"{name} has {len(values)} rows; there are {len(points)} points and "
                     f"{len(cells)} cells")

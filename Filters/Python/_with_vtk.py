@@ -100,7 +100,10 @@ def solve(name, points, cells, arrays, properties, sources=()):
     for key, value in properties.items():
         if not hasattr(algorithm, "Set" + key):
             raise Error(f"{name} has no property {key}")
-        getattr(algorithm, "Set" + key)(value)
+        try:
+            getattr(algorithm, "Set" + key)(value)
+        except (TypeError, OverflowError) as error:
+            raise Error(f"{key} = {value!r}: {error}") from None
     for point in sources:
         algorithm.AddSourcePointId(int(point))
     algorithm.SetInputData(data)
@@ -111,4 +114,6 @@ def solve(name, points, cells, arrays, properties, sources=()):
         raise Error(texts[0])
     for _, text in messages:
         warnings.warn(text, RuntimeWarning, stacklevel=3)
+    if algorithm.GetOutput().GetNumberOfPoints() == 0:
+        raise Error("there is no result: the input has no points, or the run was aborted")
     return _Results(algorithm.GetOutput())

@@ -48,6 +48,13 @@ def _colors(stitched, given):
     return stitched.astype(given.dtype)
 
 
+def _number(name, value):
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise Error(f"{name} = {value!r}: must be a number") from None
+
+
 def solve(name, points, cells, arrays, properties, sources=()):
     """The arrays that the filter of this name would give, by their names.
 
@@ -60,7 +67,7 @@ def solve(name, points, cells, arrays, properties, sources=()):
         results, messages = _core.solve(
             name, points, cells,
             {array: (_matrix(values), on_points) for array, (values, on_points) in given.items()},
-            {key: float(value) for key, value in properties.items()},
+            {key: _number(key, value) for key, value in properties.items()},
             [int(source) for source in sources])
     except MemoryError:
         depth = properties.get("Depth", _core.properties(name)["Depth"][0])

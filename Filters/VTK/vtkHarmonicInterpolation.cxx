@@ -165,7 +165,8 @@ void vtkHarmonicInterpolation::Compute(vtkInformationVector** inputs, vtkInforma
   const gridfem::ConstrainedSolution& solution = this->Data->Solution;
   if (!solution.report.converged)
   {
-    vtkWarningMacro(<< gridfem::WarningOf(solution.report, this->Tolerance));
+    vtkWarningMacro(<< gridfem::WarningOf(
+                      solution.report, solution.wanted > 0.0 ? solution.wanted : this->Tolerance));
   }
   const std::string warning = gridfem::WarningOfConstraints(solution);
   if (!warning.empty())

@@ -74,6 +74,10 @@ void vtkPrincipalCurvatures::Compute(vtkInformationVector** inputs, vtkInformati
   }
   else
   {
+    if (state.basis.space)
+    {
+      state.Free(); // of an earlier run: no grid is used, and none is told of
+    }
     gridfem::AddMesh(key, input);
   }
   state.stages.Run(gridfem::SolveStage, key, [&] { this->Fit(input, progress.Part(0.6, 0.95)); });

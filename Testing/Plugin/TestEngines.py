@@ -9,7 +9,7 @@ import numpy
 
 import gridfem
 from gridfem import vtkGridFEMFilters
-from TestNumpy import unit_sphere
+from TestNumpy import misuses, unit_sphere
 
 
 def load(name, folder):
@@ -196,6 +196,11 @@ class Engines(unittest.TestCase):
                 # What names the place for the user of ParaView's window is left out.
                 return str(error).split(", for example with the Calculator")[0].rstrip(".")
         return [str(warning.message) for warning in caught]
+
+    def test_misuse_of_arrays_raises(self):
+        for message, call in misuses(self.core, *unit_sphere()).items():
+            with self.subTest(message=message), self.assertRaisesRegex(self.core.Error, message):
+                call()
 
 
 if __name__ == "__main__":

@@ -30,6 +30,33 @@ def unit_sphere(rings=30, sectors=60):
     return points, numpy.array(triangles)
 
 
+def misuses(package, points, triangles):
+    """Per message a call that has to raise it."""
+    f = points[:, 2]
+    none = numpy.zeros((0, 3))
+    return {
+        "points must be real numbers": lambda: package.spectrum(points * 1j, triangles),
+        "points must be an array of numbers": lambda: package.spectrum([[0, 0, 0], [1]], triangles),
+        "there is 0.5": lambda: package.spectrum(points, triangles + 0.5),
+        "cells must be whole numbers; there is one that": lambda: package.spectrum(
+            points, triangles * numpy.nan),
+        "no result|no area": lambda: package.spectrum(none, none),
+        "values must be real numbers": lambda: package.poisson(points, triangles, f.astype(str)),
+        r"shape is \(1742, 3, 2\)": lambda: package.poisson(
+            points, triangles, numpy.zeros((*points.shape, 2))),
+        r"labels must .* their shape is \(1742, 0\)": lambda: package.signed_distance(
+            points, triangles, numpy.zeros((len(points), 0))),
+        "one component": lambda: package.signed_distance(points, triangles, numpy.sign(points)),
+        "not true and false": lambda: package.distance(points, triangles, f > 0.5),
+        "there is 0.7": lambda: package.distance(points, triangles, [0.7]),
+        "sources must be ids in a row": lambda: package.distance(points, triangles, [[0, 1], [2, 3]]),
+        "ids must be whole numbers, not true": lambda: package.interpolate(
+            points, triangles, f > 0.5, f),
+        "ids must be an array of numbers": lambda: package.interpolate(points, triangles, {0}, [1]),
+        "Depth = None": lambda: package.poisson(points, triangles, f, Depth=None),
+    }
+
+
 class Numpy(unittest.TestCase):
 
     def setUp(self):
@@ -148,6 +175,35 @@ class Numpy(unittest.TestCase):
             "must be integers": lambda: gridfem.signed_distance(points, triangles, points[:, 0]),
             "2 ids and 3 values": lambda: gridfem.interpolate(points, triangles, [0, 1], [1, 2, 3])}
         for message, call in cases.items():
+            with self.subTest(message=message), self.assertRaisesRegex(gridfem.Error, message):
+                call()
+
+    def test_arrays_of_other_kinds(self):
+        """Whatever holds the same numbers gives the same result."""
+        points, triangles = self.mesh
+        values = points[:, 2].astype("f4")
+        expected = gridfem.poisson(points, triangles, values, **OPTIONS)
+        for kind in (">f4", "f8", "f16", "O"):
+            with self.subTest(kind):
+                solution = gridfem.poisson(points, triangles, values.astype(kind), **OPTIONS)
+                numpy.testing.assert_array_equal(solution.astype("f4"), expected)
+        short = values.astype("f2")
+        numpy.testing.assert_array_equal(
+            gridfem.poisson(points, triangles, short, **OPTIONS),
+            gridfem.poisson(points, triangles, short.astype("f4"), **OPTIONS))
+        hidden = numpy.ma.masked_array(numpy.where(points[:, 2] > 0.9, 1e9, points[:, 2]),
+                                       points[:, 2] > 0.9)
+        filled = gridfem.poisson(points, triangles, hidden, FillUnknown=True, **OPTIONS)
+        self.assertLess(numpy.abs(filled).max(), 2)
+
+    def test_several_values_at_a_point_count_as_their_mean(self):
+        ids, values = [0, 40, 0, 900], [[0.0, 1], [5, 2], [2, 3], [7, 8]]
+        numpy.testing.assert_array_equal(
+            gridfem.interpolate(*self.mesh, ids, values, **OPTIONS),
+            gridfem.interpolate(*self.mesh, [0, 40, 900], [[1.0, 2], [5, 2], [7, 8]], **OPTIONS))
+
+    def test_misuse_of_arrays_raises(self):
+        for message, call in misuses(gridfem, *self.mesh).items():
             with self.subTest(message=message), self.assertRaisesRegex(gridfem.Error, message):
                 call()
 

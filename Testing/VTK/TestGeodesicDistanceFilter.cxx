@@ -216,6 +216,25 @@ void ExpectLatitudes(
 
 } // namespace
 
+/// Boxes side by side, whose faces touch: all are cut, each for itself, and from a box as high as a
+/// quarter the smaller part is inside.
+TEST(GeodesicDistanceFilter, IsSignedOnPartsThatTouch)
+{
+  constexpr double Height = 0.26;
+  const TriangleMesh mesh = Join(Join(Box(7), Box(5, { 1, 0.1, -0.1 }, { 2.1, 1.2, 1.3 })),
+    Box(6, { -1, -0.2, 0 }, { 0, 0.7, 1 }));
+  auto data = ToPolyData(mesh);
+  auto filter = MakeFilter(data);
+  filter->SignedOn();
+  filter->SetInputDataObject(2, SliceAt(data, Height));
+  const std::vector<double> found = DistancesOf(filter);
+  ASSERT_EQ(found.size(), mesh.points.size());
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    ASSERT_EQ(found[i] < 0.0, mesh.points[i][2] < Height) << i << ": " << found[i];
+  }
+}
+
 TEST(GeodesicDistanceFilter, IsSignedOnBothSidesOfASlice)
 {
   const TriangleMesh mesh = GeodesicSphere(24);

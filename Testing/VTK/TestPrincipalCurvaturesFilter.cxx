@@ -67,9 +67,11 @@ TEST(PrincipalCurvaturesFilter, FitsAgainOnlyAfterAChange)
   filter->Update();
   EXPECT_EQ(filter->GetNumberOfRuns("Solve"), 3);
   EXPECT_EQ(filter->GetNumberOfRuns("System"), 1);
+  EXPECT_TRUE(filter->GetOutput()->GetFieldData()->HasArray("UsedDepth"));
   filter->SetSmoothingScale(0.0);
   filter->SetInputData(ToPolyData(Box(4)));
   filter->Update();
+  EXPECT_FALSE(filter->GetOutput()->GetFieldData()->HasArray("UsedDepth"));
   filter->SetSmoothingScale(0.2);
   filter->Update();
   EXPECT_EQ(filter->GetNumberOfRuns("System"), 2);

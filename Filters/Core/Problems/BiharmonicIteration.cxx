@@ -14,9 +14,10 @@ namespace
 /// longer to settle.
 constexpr double Penalty = 30.0;
 
-/// Of the solves with K, and of the multipliers.
+/// Of the solves with K, and of the multipliers, where no larger one is wanted.
 constexpr double InnerTolerance = 1e-7;
 constexpr double OuterTolerance = 1e-5;
+constexpr double OuterOverInner = OuterTolerance / InnerTolerance;
 
 /// The products with S and their parts.
 class NodalProducts
@@ -190,13 +191,14 @@ ConstrainedSolution IterateBiharmonic(const FiniteElementSpace& space, const Spa
 
   const FreeConstants free(components, solution.isHeld, threads);
   const Projection project = free.AsProjection();
+  SolveOptions outer = options.solve;
+  outer.tolerance = std::max(OuterTolerance, options.solve.tolerance);
   SolveOptions inner = options.solve;
-  inner.tolerance = InnerTolerance;
+  inner.tolerance = outer.tolerance / OuterOverInner;
   NodalProducts products(space, hierarchy, inner, project, progress.Part(0.1, 0.1));
   const MultiVector penalised = products.Spread(wanted);
   MultiVector multipliers;
-  SolveOptions outer = options.solve;
-  outer.tolerance = OuterTolerance;
+  solution.wanted = outer.tolerance;
   solution.report = SolveForMultipliers(products, rows.rows, threads,
     products.Weighted(wanted - products.AtPoints(penalised)), outer, multipliers,
     progress.Part(0.1, 0.9));

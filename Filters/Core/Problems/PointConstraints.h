@@ -61,6 +61,7 @@ struct ConstrainedSolution
   /// meet, and the solution is the one with the least (weighted) squares of the misfits.
   bool isExact = true;
   std::vector<char> isHeld; // per component of the functions
+  double wanted = 0.0;      // tolerance of the report; 0: that of the options
 };
 
 /// Removes the constants of components that nothing holds. Keeps references to what it is made

@@ -6,8 +6,11 @@
 #include "Grid/TriangleSides.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <optional>
 #include <sstream>
 #include <unordered_map>
 
@@ -148,12 +151,16 @@ public:
   Index High(Index edge) const { return sides_[begin_[edge]].high; }
   bool IsBorder(Index edge) const { return begin_[edge + 1] - begin_[edge] == 1; }
 
+  /// Of all edges.
+  Index NumberOfSides() const { return static_cast<Index>(sides_.size()); }
+
+  /// body(side, triangle)
   template<class Body>
-  void ForTriangles(Index edge, Body&& body) const
+  void ForSides(Index edge, Body&& body) const
   {
-    for (Index k = begin_[edge]; k < begin_[edge + 1]; ++k)
+    for (Index side = begin_[edge]; side < begin_[edge + 1]; ++side)
     {
-      body(sides_[k].edge.triangle);
+      body(side, sides_[side].edge.triangle);
     }
   }
 
@@ -192,30 +199,50 @@ Vec3 WeightsOf(const TriangleMesh& mesh, Id triangle, const Vec3& position)
 class Tracer
 {
 public:
-  Tracer(const TriangleMesh& mesh, const EdgeGraph& graph, const NearestPlace& nearest)
-    : mesh_(mesh), graph_(graph), nearest_(nearest), isCrossed_(graph.Count(), 0)
+  Tracer(const TriangleMesh& mesh, const EdgeGraph& graph, const Array<Index>& place,
+    const NearestPlaces& nearest)
+    : mesh_(mesh), graph_(graph), place_(place), nearest_(nearest),
+      isCrossedFrom_(graph.NumberOfSides(), 0), isOnLine_(mesh.points.size(), 0)
   {
     const Bounds bounds = BoundsOf(mesh.points, UsedPoints(mesh));
     resolution_ = 1e-7 * (bounds.high - bounds.low).norm();
+    reach_ = 100.0 * resolution_;
   }
 
   void Follow(const std::vector<Vec3>& line)
   {
-    SurfacePlace last = nearest_(line.front());
-    ends_.push_back(last);
+    std::optional<SurfacePlace> at;
+    Places last = nearest_(line.front(), reach_);
     for (std::size_t k = 1; k < line.size(); ++k)
     {
-      const SurfacePlace next = nearest_(line[k]);
-      this->Connect(last, line[k - 1], next, line[k]);
-      last = next;
+      Places next = nearest_(line[k], reach_);
+      const std::vector<Piece> choices = this->ChoicesOf(last, next, at);
+      const Id turn = this->TurnOf(line[k - 1], line[k], static_cast<Id>(choices.size()));
+      if (turn >= 0)
+      {
+        const Piece& piece = choices[turn];
+        const SurfacePlace begin = this->MovedToAnchor(piece.begin, last);
+        if (!at || at->triangle != begin.triangle)
+        {
+          ends_.insert(ends_.end(), at ? 1 : 0, at.value_or(begin));
+          ends_.push_back(begin);
+        }
+        this->Connect(piece.begin, line[k - 1], piece.end, line[k]);
+        at = this->MovedToAnchor(piece.end, next);
+      }
+      last = std::move(next);
     }
-    ends_.push_back(last);
+    ends_.insert(ends_.end(), at ? 1 : 0, at.value_or(SurfacePlace{}));
+    ++line_;
   }
 
-  /// Lines that end in triangles at the border of the surface leave it there.
+  /// Lines that end on the border of the surface, or else in triangles at it, leave it there.
   void LeaveAtBorders()
   {
-    for (const SurfacePlace& end : ends_)
+    std::vector<SurfacePlace> within;
+    std::copy_if(ends_.begin(), ends_.end(), std::back_inserter(within),
+      [&](const SurfacePlace& end) { return !this->LeaveOnBorder(end); });
+    for (const SurfacePlace& end : within)
     {
       if (this->IsOdd(end.triangle))
       {
@@ -237,12 +264,55 @@ public:
     }
   }
 
+  /// Where lines are on components that none divides: within a triangle, closed or not.
+  /// @param isDivided  per place
+  void RequireClosed(const std::vector<char>& isDivided) const
+  {
+    std::map<std::array<double, 3>, std::pair<Id, int>> ends; // a triangle, and how many
+    for (const SurfacePlace& end : ends_)
+    {
+      const Vec3& at = end.position;
+      auto& [triangle, count] = ends[{ at[0], at[1], at[2] }];
+      triangle = end.triangle;
+      ++count;
+    }
+    for (const auto& [at, end] : ends)
+    {
+      if (end.second % 2 == 1 && !isDivided[place_[mesh_.triangles[end.first][0]]])
+      {
+        throw InvalidInput("A line is within a triangle near " + TextOf(Vec3(at[0], at[1], at[2])) +
+                           " and not closed: no side of it is inside. Close it, or lead it to the "
+                           "border.");
+      }
+    }
+  }
+
   /// Per edge.
-  const std::vector<char>& Crossed() const { return isCrossed_; }
+  std::vector<char> Crossed() const
+  {
+    std::vector<char> crossed(graph_.Count());
+    for (Index edge = 0; edge < graph_.Count(); ++edge)
+    {
+      crossed[edge] = this->IsCrossed(edge) ? 1 : 0;
+    }
+    return crossed;
+  }
+
+  /// Per place: whether a line leads through it.
+  const std::vector<char>& IsOnLine() const { return isOnLine_; }
 
   std::vector<TriangleSegment> segments;
 
 private:
+  using Places = std::vector<SurfacePlace>;
+
+  /// From point to point of a line.
+  struct Piece
+  {
+    SurfacePlace begin;
+    SurfacePlace end;
+  };
+
   Vec3 CentreOf(Id triangle) const
   {
     const auto& corner = mesh_.triangles[triangle];
@@ -254,12 +324,134 @@ private:
     int crossings = 0;
     for (const Index edge : graph_.EdgesOf(triangle))
     {
-      crossings += edge != EdgeGraph::None ? isCrossed_[edge] : 0;
+      crossings += edge != EdgeGraph::None && this->IsCrossed(edge) ? 1 : 0;
     }
     return crossings % 2 == 1;
   }
 
-  void Cross(Index edge) { isCrossed_[edge] ^= 1; }
+  /// Where more than two triangles meet, a line of each of them may end at the edge: it is crossed
+  /// where it is from any.
+  bool IsCrossed(Index edge) const
+  {
+    bool isCrossed = false;
+    graph_.ForSides(edge, [&](Index side, Id) { isCrossed = isCrossed || isCrossedFrom_[side]; });
+    return isCrossed;
+  }
+
+  void Cross(Index edge, Id from, Id to)
+  {
+    graph_.ForSides(edge, [&](Index side, Id triangle)
+      { isCrossedFrom_[side] ^= triangle == from || triangle == to ? 1 : 0; });
+  }
+
+  /// The pieces between two points of a line: in each triangle from edge to edge of which they
+  /// lead, else in one that has both, else from one to another.
+  /// @param at  where the line is; its part of the surface goes first
+  std::vector<Piece> ChoicesOf(
+    const Places& from, const Places& to, const std::optional<SurfacePlace>& at) const
+  {
+    std::vector<Piece> within;
+    std::vector<Piece> across;
+    for (const SurfacePlace& begin : from)
+    {
+      for (const SurfacePlace& end : to)
+      {
+        if (begin.triangle == end.triangle)
+        {
+          within.push_back({ begin, end });
+          if (this->IsAtEdge(begin.triangle, from) && this->IsAtEdge(end.triangle, to))
+          {
+            across.push_back({ begin, end });
+          }
+        }
+      }
+    }
+    std::vector<Piece>& choices = !across.empty() ? across : within;
+    if (choices.empty())
+    {
+      for (const SurfacePlace& begin : from)
+      {
+        choices.push_back({ begin, to.front() });
+      }
+    }
+    if (choices.size() > 1)
+    {
+      const auto rankOf = [&](const Piece& piece)
+      {
+        const bool isElsewhere = at && this->AnchorOf(piece.begin.triangle, from) != at->triangle;
+        return std::pair(isElsewhere, across.empty() ? 0 : piece.begin.triangle);
+      };
+      std::stable_sort(choices.begin(), choices.end(),
+        [&](const Piece& a, const Piece& b) { return rankOf(a) < rankOf(b); });
+    }
+    if (across.empty())
+    {
+      choices.resize(1);
+    }
+    return choices;
+  }
+
+  /// Which of the choices is that of a piece which may have been there before; -1 where another
+  /// line has taken them all.
+  Id TurnOf(const Vec3& from, const Vec3& to, Id choices)
+  {
+    std::array<double, 6> key = { from[0], from[1], from[2], to[0], to[1], to[2] };
+    const std::array<double, 6> back = { to[0], to[1], to[2], from[0], from[1], from[2] };
+    key = std::min(key, back);
+    const auto [found, isNew] = seen_.try_emplace(key, Repeated{ 0, line_ });
+    Repeated& seen = found->second;
+    const bool isOfOther = !isNew && seen.line != line_;
+    const Id turn = seen.count++;
+    seen.line = line_;
+    return turn < choices ? turn : isOfOther ? -1 : turn % choices;
+  }
+
+  bool IsAtEdge(Id triangle, const Places& places) const
+  {
+    const auto& edges = graph_.EdgesOf(triangle);
+    return std::any_of(edges.begin(), edges.end(),
+      [&](Index edge) { return this->IsNear(edge, places.front().position); });
+  }
+
+  /// Of the triangles of these places that can be reached over edges there, the first one: where
+  /// lines of all of them meet.
+  Id AnchorOf(Id triangle, const Places& places) const
+  {
+    Id first = triangle;
+    this->Explore(
+      triangle, [&](Index edge) { return this->IsNear(edge, places.front().position); },
+      [&](Id reached)
+      {
+        first = std::min(first, reached);
+        return false;
+      });
+    return first;
+  }
+
+  SurfacePlace MovedToAnchor(const SurfacePlace& place, const Places& places)
+  {
+    const Id anchor = this->AnchorOf(place.triangle, places);
+    this->Walk(
+      place.triangle, [&](Index edge) { return this->IsNear(edge, places.front().position); },
+      [&](Id triangle) { return triangle == anchor; });
+    return { anchor, places.front().position };
+  }
+
+  /// Of the places nearest to a point between two others, one that is next to one of them.
+  SurfacePlace PlaceBetween(const Vec3& middle, const SurfacePlace& a, const SurfacePlace& b) const
+  {
+    const Places places = nearest_(middle, reach_);
+    const auto isIn = [&](const SurfacePlace& place)
+    { return place.triangle == a.triangle || place.triangle == b.triangle; };
+    const auto isBeside = [&](const SurfacePlace& place)
+    {
+      return graph_.EdgeBetween(place.triangle, a.triangle) != EdgeGraph::None ||
+             graph_.EdgeBetween(place.triangle, b.triangle) != EdgeGraph::None;
+    };
+    auto found = std::find_if(places.begin(), places.end(), isIn);
+    found = found != places.end() ? found : std::find_if(places.begin(), places.end(), isBeside);
+    return found != places.end() ? *found : places.front();
+  }
 
   /// Halves the way until its ends are in one triangle or in neighbours.
   void Connect(const SurfacePlace& a, const Vec3& fromA, const SurfacePlace& b, const Vec3& fromB)
@@ -273,7 +465,7 @@ private:
     if (edge != EdgeGraph::None)
     {
       const Vec3 crossing = this->CrossingOf(edge, a.position, b.position);
-      this->Cross(edge);
+      this->Cross(edge, a.triangle, b.triangle);
       this->Append(a.triangle, a.position, crossing);
       this->Append(b.triangle, crossing, b.position);
       return;
@@ -284,17 +476,26 @@ private:
       this->WalkAround(a, b);
       return;
     }
-    const SurfacePlace half = nearest_(middle);
+    const SurfacePlace half = this->PlaceBetween(middle, a, b);
     this->Connect(a, fromA, half, middle);
     this->Connect(half, middle, b, fromB);
   }
 
   void Append(Id triangle, const Vec3& from, const Vec3& to)
   {
-    if (from != to)
+    if (from == to)
     {
-      segments.push_back(
-        { triangle, WeightsOf(mesh_, triangle, from), WeightsOf(mesh_, triangle, to) });
+      return;
+    }
+    segments.push_back(
+      { triangle, WeightsOf(mesh_, triangle, from), WeightsOf(mesh_, triangle, to) });
+    for (const Id corner : mesh_.triangles[triangle])
+    {
+      const Vec3& there = mesh_.points[corner];
+      if ((from - there).norm() <= reach_ || (to - there).norm() <= reach_)
+      {
+        isOnLine_[place_[corner]] = 1;
+      }
     }
   }
 
@@ -318,7 +519,8 @@ private:
   void WalkAround(const SurfacePlace& a, const SurfacePlace& b)
   {
     const bool arrives = this->Walk(
-      a.triangle, [&](Index edge) { return this->IsNear(edge, a.position); },
+      a.triangle,
+      [&](Index edge) { return this->IsNear(edge, a.position) || this->IsNear(edge, b.position); },
       [&](Id triangle) { return triangle == b.triangle; });
     if (!arrives)
     {
@@ -329,34 +531,32 @@ private:
     }
   }
 
-  /// Crosses the edges on the shortest way over such edges to such a triangle, if there is one.
-  template<class MayCross, class IsThere>
-  bool Walk(Id start, const MayCross& mayCross, const IsThere& isThere)
+  struct Origin
   {
-    struct Origin
-    {
-      Id from;
-      Index edge;
-    };
-    std::unordered_map<Id, Origin> origins = { { start, { start, EdgeGraph::None } } };
+    Id from;
+    Index edge;
+  };
+  using Origins = std::unordered_map<Id, Origin>;
+
+  /// Where triangles are reached from over such edges, until one is the wanted one.
+  template<class MayCross, class IsThere>
+  std::pair<Id, Origins> Explore(Id start, const MayCross& mayCross, const IsThere& isThere) const
+  {
+    Origins origins = { { start, { start, EdgeGraph::None } } };
     std::vector<Id> reached = { start };
     for (std::size_t k = 0; k < reached.size(); ++k)
     {
       const Id from = reached[k];
       if (isThere(from))
       {
-        for (Id t = from; t != start; t = origins[t].from)
-        {
-          this->Cross(origins[t].edge);
-        }
-        return true;
+        return { from, origins };
       }
       for (const Index edge : graph_.EdgesOf(from))
       {
         if (edge != EdgeGraph::None && mayCross(edge))
         {
-          graph_.ForTriangles(edge,
-            [&](Id next)
+          graph_.ForSides(edge,
+            [&](Index, Id next)
             {
               if (origins.emplace(next, Origin{ from, edge }).second)
               {
@@ -366,7 +566,19 @@ private:
         }
       }
     }
-    return false;
+    return { -1, origins };
+  }
+
+  /// Crosses the edges on the shortest way over such edges to such a triangle, if there is one.
+  template<class MayCross, class IsThere>
+  bool Walk(Id start, const MayCross& mayCross, const IsThere& isThere)
+  {
+    const auto [end, origins] = this->Explore(start, mayCross, isThere);
+    for (Id t = end; t >= 0 && t != start; t = origins.at(t).from)
+    {
+      this->Cross(origins.at(t).edge, origins.at(t).from, t);
+    }
+    return end >= 0;
   }
 
   double DistanceFrom(Index edge, const Vec3& position) const
@@ -377,7 +589,7 @@ private:
   /// An edge of a triangle that a line goes through within its resolution.
   bool IsNear(Index edge, const Vec3& position) const
   {
-    return this->DistanceFrom(edge, position) <= 100.0 * resolution_;
+    return edge != EdgeGraph::None && this->DistanceFrom(edge, position) <= reach_;
   }
 
   /// Over the nearest border edge of its triangle, else around the nearest corner to one.
@@ -397,9 +609,30 @@ private:
           return leaving != EdgeGraph::None;
         });
     }
-    if (leaving != EdgeGraph::None)
+    this->CrossBorder(leaving);
+  }
+
+  /// Whether an end is on the border. Two in one place leave and come back.
+  bool LeaveOnBorder(const SurfacePlace& end)
+  {
+    Index leaving = EdgeGraph::None;
+    const auto isNear = [&](Index edge) { return this->IsNear(edge, end.position); };
+    this->Walk(end.triangle, isNear,
+      [&](Id triangle)
+      {
+        const Index edge = this->NearestBorderEdge(triangle, end.position);
+        leaving = isNear(edge) ? edge : EdgeGraph::None;
+        return leaving != EdgeGraph::None;
+      });
+    this->CrossBorder(leaving);
+    return leaving != EdgeGraph::None;
+  }
+
+  void CrossBorder(Index edge)
+  {
+    if (edge != EdgeGraph::None)
     {
-      this->Cross(leaving);
+      graph_.ForSides(edge, [&](Index side, Id) { isCrossedFrom_[side] ^= 1; });
     }
   }
 
@@ -438,10 +671,21 @@ private:
 
   const TriangleMesh& mesh_;
   const EdgeGraph& graph_;
-  const NearestPlace& nearest_;
-  std::vector<char> isCrossed_;
+  struct Repeated
+  {
+    Id count;
+    Id line; // the last one
+  };
+
+  const Array<Index>& place_;
+  const NearestPlaces& nearest_;
+  std::vector<char> isCrossedFrom_; // per side of an edge, from its triangle
+  std::vector<char> isOnLine_;
+  std::map<std::array<double, 6>, Repeated> seen_;
   std::vector<SurfacePlace> ends_;
+  Id line_ = 0;
   double resolution_;
+  double reach_; // of what is at a place, or an edge
 };
 
 /// Spreads sides over the surface; they change across edges that are crossed.
@@ -449,8 +693,9 @@ class SideFinder
 {
 public:
   SideFinder(const TriangleMesh& mesh, const EdgeGraph& graph, const std::vector<char>& isCrossed,
-    const Array<Index>& place)
-    : graph_(graph), isCrossed_(isCrossed), side_(mesh.points.size(), 0)
+    const std::vector<char>& isOnLine, const Array<Index>& place)
+    : graph_(graph), isCrossed_(isCrossed), side_(mesh.points.size(), 0),
+      isDivided_(mesh.points.size(), 0)
   {
     std::vector<Index> end;
     for (Index edge = 0; edge < graph.Count(); ++edge)
@@ -465,7 +710,8 @@ public:
     {
       for (const Id point : mesh.triangles[t])
       {
-        area_[place[point]] += AreaOf(mesh, static_cast<Id>(t)) / 3.0;
+        const double share = isOnLine[place[point]] ? 0.0 : 1.0 / 3.0; // on neither side
+        area_[place[point]] += share * AreaOf(mesh, static_cast<Id>(t));
       }
     }
   }
@@ -483,11 +729,15 @@ public:
     return side_;
   }
 
+  /// Per place: whether its component has two sides. After Find.
+  const std::vector<char>& IsDivided() const { return isDivided_; }
+
 private:
   void Spread(Index start)
   {
     std::vector<Index> reached = { start };
     side_[start] = 1;
+    bool isDivided = false;
     double difference = 0.0;
     double sum = 0.0;
     for (std::size_t k = 0; k < reached.size(); ++k)
@@ -500,6 +750,7 @@ private:
         const Index edge = ends_.item[e] / 2;
         const Index to = graph_.Low(edge) == from ? graph_.High(edge) : graph_.Low(edge);
         const auto wanted = static_cast<signed char>(isCrossed_[edge] ? -side_[from] : side_[from]);
+        isDivided = isDivided || isCrossed_[edge];
         if (side_[to] == 0)
         {
           side_[to] = wanted;
@@ -512,6 +763,10 @@ private:
                              std::to_string(to) + ".");
         }
       }
+    }
+    for (const Index there : reached)
+    {
+      isDivided_[there] = isDivided ? 1 : 0;
     }
     constexpr double Rounding = 1e-6; // halves of a symmetric surface are equal
     if (difference < -Rounding * sum)
@@ -528,6 +783,7 @@ private:
   Groups ends_; // per place: 2 edge + end
   std::vector<double> area_;
   std::vector<signed char> side_;
+  std::vector<char> isDivided_;
 };
 
 SurfaceCurve CurveOf(std::vector<TriangleSegment> segments,
@@ -578,11 +834,11 @@ SurfaceCurve BorderOfLabel(
 }
 
 SurfaceCurve DivideByLines(const TriangleMesh& mesh, const std::vector<std::vector<Vec3>>& lines,
-  const NearestPlace& nearest, bool weldCoincidentPoints)
+  const NearestPlaces& nearest, bool weldCoincidentPoints)
 {
   const Array<Index> place = PlacesOf(mesh, weldCoincidentPoints);
   const EdgeGraph graph(mesh, place);
-  Tracer tracer(mesh, graph, nearest);
+  Tracer tracer(mesh, graph, place, nearest);
   for (const std::vector<Vec3>& line : lines)
   {
     if (!line.empty())
@@ -596,8 +852,11 @@ SurfaceCurve DivideByLines(const TriangleMesh& mesh, const std::vector<std::vect
   }
   tracer.LeaveAtBorders();
   tracer.RequireNoEnds();
-  SideFinder finder(mesh, graph, tracer.Crossed(), place);
-  return CurveOf(std::move(tracer.segments), finder.Find(), place);
+  const std::vector<char> isCrossed = tracer.Crossed();
+  SideFinder finder(mesh, graph, isCrossed, tracer.IsOnLine(), place);
+  const std::vector<signed char>& side = finder.Find();
+  tracer.RequireClosed(finder.IsDivided());
+  return CurveOf(std::move(tracer.segments), side, place);
 }
 
 } // namespace gridfem

@@ -39,9 +39,10 @@ struct SurfacePlace
   Vec3 position;
 };
 
-/// The place on the surface nearest to a point in space. Not on a triangle two of whose corners are
-/// one point.
-using NearestPlace = std::function<SurfacePlace(const Vec3&)>;
+/// The place on the surface nearest to a point in space, first, and that of every other triangle
+/// which is nearer to it than a tolerance. Not on triangles two of whose corners are one point.
+using NearestPlaces =
+  std::function<std::vector<SurfacePlace>(const Vec3& wanted, double tolerance)>;
 
 /// Lines from point to point, each of which is moved to its nearest place on the surface. They may
 /// cross, come in pieces, and end in triangles at the border of the surface, but nowhere else. On
@@ -50,10 +51,15 @@ using NearestPlace = std::function<SurfacePlace(const Vec3&)>;
 /// Every edge of the mesh that lines cross an odd number of times has two sides: a line that
 /// ends within the surface leaves a triangle with an odd number of such edges, and around lines
 /// that do not divide it, such as a meridian of a torus, one comes back on the other side.
-/// Throws InvalidInput that says where for both, and for a line that jumps between parts of the
-/// surface. Cost O(triangles + crossings), and some calls of `nearest` for each crossing.
+/// A piece from point to point whose ends are in one triangle is in that one, best in one from edge
+/// to edge of which it leads: so the lines of a slice are each on their own part of the surface
+/// where parts touch. The same piece again is in the next such triangle, as where triangles are
+/// double; where there is none, one of another line counts once.
+/// Throws InvalidInput that says where for both, for a line that jumps between parts of the
+/// surface, and for one that is within a triangle and not closed. Cost O(triangles + crossings),
+/// and some calls of `nearest` for each crossing.
 SurfaceCurve DivideByLines(const TriangleMesh& mesh, const std::vector<std::vector<Vec3>>& lines,
-  const NearestPlace& nearest, bool weldCoincidentPoints);
+  const NearestPlaces& nearest, bool weldCoincidentPoints);
 
 } // namespace gridfem
 

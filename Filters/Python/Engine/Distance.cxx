@@ -61,6 +61,10 @@ private:
     {
       throw InvalidInput("Signed distances are from the border of labels, not from points.");
     }
+    if (given.Find("labels")->values.cols() != 1)
+    {
+      throw InvalidInput("LabelArray 'labels' must have one component.");
+    }
     const SurfaceCurve curve = BorderOfLabel(
       *given.mesh, given.FieldOf("labels"), insideLabel_, options_.functions.weldCoincidentPoints);
     return method.FromCurve(curve, options_.solve, job);

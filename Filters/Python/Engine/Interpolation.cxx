@@ -38,7 +38,8 @@ public:
     results.arrays["Interpolated"] = surface.AtPoints(solution.coefficients, unknown);
     if (!solution.report.converged)
     {
-      results.Warn(WarningOf(solution.report, options_.solve.tolerance));
+      results.Warn(WarningOf(
+        solution.report, solution.wanted > 0.0 ? solution.wanted : options_.solve.tolerance));
     }
     results.Warn(WarningOfConstraints(solution));
     const auto free = std::count(solution.isHeld.begin(), solution.isHeld.end(), 0);

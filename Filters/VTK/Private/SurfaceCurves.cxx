@@ -13,6 +13,7 @@
 #include "vtkPolyData.h"
 #include "vtkStaticCellLocator.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace gridfem
@@ -81,7 +82,7 @@ public:
     locator_->BuildLocator();
   }
 
-  SurfacePlace Nearest(const Vec3& wanted) const
+  std::vector<SurfacePlace> Nearest(const Vec3& wanted, double tolerance) const
   {
     Vec3 closest;
     vtkIdType cell = -1;
@@ -92,13 +93,44 @@ public:
     {
       throw InvalidInput("No triangle with an area is near the lines of Sources.");
     }
-    return { number_[cell], closest };
+    std::vector<SurfacePlace> places = { { number_[cell], closest } };
+    this->AppendOthers(cell, closest, tolerance, places);
+    return places;
   }
 
 private:
+  void AppendOthers(
+    vtkIdType found, const Vec3& closest, double tolerance, std::vector<SurfacePlace>& places) const
+  {
+    double box[6];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      box[2 * axis] = closest[axis] - tolerance;
+      box[2 * axis + 1] = closest[axis] + tolerance;
+    }
+    locator_->FindCellsWithinBounds(box, near_);
+    std::sort(near_->GetPointer(0), near_->GetPointer(0) + near_->GetNumberOfIds());
+    for (vtkIdType k = 0; k < near_->GetNumberOfIds(); ++k)
+    {
+      surface_->GetCell(near_->GetId(k), cell_);
+      Vec3 place;
+      double weights[3];
+      double square = 0.0;
+      double parameters[3];
+      int part = 0;
+      const int isFound =
+        cell_->EvaluatePosition(closest.data(), place.data(), part, parameters, square, weights);
+      if (near_->GetId(k) != found && isFound != -1 && square <= tolerance * tolerance)
+      {
+        places.push_back({ number_[near_->GetId(k)], place });
+      }
+    }
+  }
+
   vtkNew<vtkPolyData> surface_;
   vtkNew<vtkStaticCellLocator> locator_;
   vtkNew<vtkGenericCell> cell_;
+  vtkNew<vtkIdList> near_;
   std::vector<Id> number_; // of the mesh's triangles
 };
 
@@ -133,7 +165,8 @@ SurfaceCurve CurveOfLines(vtkDataSet* lines, const TriangleMesh& mesh, bool weld
   }
   const TriangleLocator locator(mesh);
   return DivideByLines(
-    mesh, polylines, [&](const Vec3& wanted) { return locator.Nearest(wanted); },
+    mesh, polylines,
+    [&](const Vec3& wanted, double tolerance) { return locator.Nearest(wanted, tolerance); },
     weldCoincidentPoints);
 }
 

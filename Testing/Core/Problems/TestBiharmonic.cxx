@@ -112,6 +112,27 @@ TEST(Biharmonic, MeetsManyValuesInStepsThatDoNotGrowWithTheirNumber)
   }
 }
 
+TEST(Biharmonic, EndsEarlierForALargerToleranceAndSaysWhichItWanted)
+{
+  const TriangleMesh mesh = GeodesicSphere(20);
+  const auto space = BuildEither(mesh, true, 4, 1e-2);
+  const std::vector<Id> points = EveryPoint(mesh, 6);
+  const SparseMatrix rows = space->RowsAtPoints(points);
+  InterpolationOptions options;
+  options.smoothness = Smoothness::Biharmonic;
+  options.mostAtOnce = 0;
+  options.solve.tolerance = 1e-6;
+  const auto fine = InterpolateHarmonically(*space, rows, ValuesAt(mesh, points), options);
+  options.solve.tolerance = 1e-2;
+  const auto coarse = InterpolateHarmonically(*space, rows, ValuesAt(mesh, points), options);
+  EXPECT_TRUE(fine.report.converged);
+  EXPECT_TRUE(coarse.report.converged);
+  EXPECT_EQ(fine.wanted, 1e-5);
+  EXPECT_EQ(coarse.wanted, 1e-2);
+  EXPECT_LT(coarse.report.iterations, fine.report.iterations);
+  EXPECT_LT(coarse.relativeMisfit, 1e-6);
+}
+
 /// Two values at each of some points: the mean of both, and the flag that says so.
 TEST(Biharmonic, MeetsValuesThatContradictEachOtherInTheMean)
 {

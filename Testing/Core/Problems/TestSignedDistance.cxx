@@ -40,7 +40,26 @@ public:
     }
   }
 
-  SurfacePlace operator()(const Vec3& wanted) const
+  std::vector<SurfacePlace> operator()(const Vec3& wanted, double tolerance) const
+  {
+    std::vector<SurfacePlace> places = { this->Nearest(wanted) };
+    const SurfacePlace nearest = places.front();
+    for (Id t = 0; t < static_cast<Id>(mesh_.triangles.size()); ++t)
+    {
+      if (t != nearest.triangle && (centre_[t] - nearest.position).norm() - radius_ <= tolerance)
+      {
+        const Vec3 place = this->PlaceIn(t, nearest.position);
+        if ((place - nearest.position).norm() <= tolerance)
+        {
+          places.push_back({ t, place });
+        }
+      }
+    }
+    return places;
+  }
+
+private:
+  SurfacePlace Nearest(const Vec3& wanted) const
   {
     SurfacePlace nearest{ 0, wanted };
     double least = std::numeric_limits<double>::infinity();
@@ -48,20 +67,24 @@ public:
     {
       if ((centre_[t] - wanted).norm() - radius_ < least)
       {
-        for (const Vec3& candidate : this->Candidates(t, wanted))
+        const Vec3 place = this->PlaceIn(t, wanted);
+        if ((place - wanted).norm() < least)
         {
-          if ((candidate - wanted).norm() < least)
-          {
-            least = (candidate - wanted).norm();
-            nearest = { t, candidate };
-          }
+          least = (place - wanted).norm();
+          nearest = { t, place };
         }
       }
     }
     return nearest;
   }
 
-private:
+  Vec3 PlaceIn(Id t, const Vec3& wanted) const
+  {
+    const std::vector<Vec3> candidates = this->Candidates(t, wanted);
+    return *std::min_element(candidates.begin(), candidates.end(),
+      [&](const Vec3& a, const Vec3& b) { return (a - wanted).norm() < (b - wanted).norm(); });
+  }
+
   std::vector<Vec3> Candidates(Id t, const Vec3& wanted) const
   {
     const auto& corner = mesh_.triangles[t];
@@ -133,6 +156,48 @@ double LargestError(const TriangleMesh& mesh, const std::vector<double>& found,
     }
   }
   return largest;
+}
+
+/// A line through every triangle that a plane cuts, as vtkCutter makes them.
+std::vector<std::vector<Vec3>> Slice(const TriangleMesh& mesh, const Distance& height)
+{
+  std::vector<std::vector<Vec3>> lines;
+  for (const auto& corner : mesh.triangles)
+  {
+    std::vector<Vec3> line;
+    for (int k = 0; k < 3; ++k)
+    {
+      // From the lower id, so that neighbours have the same point.
+      const Vec3& a = mesh.points[std::min(corner[k], corner[(k + 1) % 3])];
+      const Vec3& b = mesh.points[std::max(corner[k], corner[(k + 1) % 3])];
+      if ((height(a) < 0.0) != (height(b) < 0.0))
+      {
+        line.push_back(a + height(a) / (height(a) - height(b)) * (b - a));
+      }
+    }
+    if (!line.empty())
+    {
+      lines.push_back(line);
+    }
+  }
+  return lines;
+}
+
+/// Whether points are on different sides of a curve just where they are on different sides of a
+/// plane.
+void ExpectSidesOf(const TriangleMesh& mesh, const Distance& height, const SurfaceCurve& curve)
+{
+  for (const auto& corner : mesh.triangles)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const Id a = corner[k];
+      const Id b = corner[(k + 1) % 3];
+      ASSERT_EQ(curve.side[a] == curve.side[b],
+        (height(mesh.points[a]) < 0.0) == (height(mesh.points[b]) < 0.0))
+        << a << " " << b << " at " << height(mesh.points[a]) << " and " << height(mesh.points[b]);
+    }
+  }
 }
 
 std::vector<Vec3> Circle(const Vec3& centre, double radius, int count)
@@ -402,10 +467,96 @@ TEST(SignedDistance, FollowsLinesAlongEdgesAndInPieces)
   EXPECT_NEAR(length, 1.0, 1e-5); // but for the resolution at points of the mesh
 }
 
+/// Boxes that stand on each other, and sheets upon each other: the nearest triangle of a point of a
+/// slice is now of one part, now of the other.
+TEST(SignedDistance, TakesSlicesOfPartsThatTouch)
+{
+  const std::vector<TriangleMesh> meshes = {
+    Join(Box(7), Box(5, { 0.1, 0.3, 1.0 }, { 0.9, 1.2, 1.8 })),
+    Join(FlatRectangle(17, 17),
+      Transform(FlatRectangle(29, 23), { 0, 0, 1 }, 0.7, 0.6, { 0.5, 0.1, 0 })),
+  };
+  for (const TriangleMesh& mesh : meshes)
+  {
+    for (const Vec3& normal : { Vec3(1, 0.2, 0.1), Vec3(0.3, -1, 0.2), Vec3(-0.4, 0.53, 0.3) })
+    {
+      const Distance height = [&](const Vec3& p) { return normal.dot(p - Vec3(0.41, 0.37, 0)); };
+      SCOPED_TRACE(normal.transpose());
+      ExpectSidesOf(mesh, height, DivideBy(mesh, Slice(mesh, height)));
+    }
+  }
+}
+
+/// Triangles that are there twice, turned over, as pockets, and sheets that cross in an edge.
+TEST(SignedDistance, TakesSlicesOfSurfacesThatAreNotManifold)
+{
+  TriangleMesh doubled = GeodesicSphere(12);
+  for (std::size_t t = 0; t < doubled.triangles.size(); t += 5)
+  {
+    auto again = doubled.triangles[t];
+    doubled.triangles.push_back(again);
+    if (t % 2 == 0)
+    {
+      std::swap(doubled.triangles.back()[0], doubled.triangles.back()[1]);
+    }
+  }
+  TriangleMesh pockets = GeodesicSphere(12);
+  for (std::size_t t = 0; t < 400; t += 9)
+  {
+    const auto corner = pockets.triangles[t];
+    const auto tip = static_cast<Id>(pockets.points.size());
+    pockets.points.push_back(1.2 * pockets.points[corner[0]]);
+    pockets.triangles.push_back({ corner[1], corner[2], tip });
+    pockets.triangles.push_back({ tip, corner[2], corner[1] });
+  }
+  const TriangleMesh upright =
+    Transform(FlatRectangle(10, 10), { 1, 0, 0 }, 1.5707963267948966, 1.0, { 0, 0.5, -0.5 });
+  TriangleMesh crossing = Join(FlatRectangle(10, 10), upright);
+  for (Vec3& point : crossing.points)
+  {
+    point = (10.0 * point).array().round() / 10.0; // points of the common edge are the same
+  }
+  for (const TriangleMesh& mesh : { doubled, pockets, crossing })
+  {
+    for (const Vec3& normal : { Vec3(1, 0.2, 0.1), Vec3(0.3, -1, 0.2), Vec3(-0.4, 0.53, 0.3) })
+    {
+      const Distance height = [&](const Vec3& p) { return normal.dot(p - Vec3(0.41, 0.37, 0)); };
+      ExpectSidesOf(mesh, height, DivideBy(mesh, Slice(mesh, height)));
+    }
+  }
+}
+
+TEST(SignedDistance, TakesALineThatIsThereTwiceOnce)
+{
+  const TriangleMesh mesh = FlatRectangle(10, 10);
+  const std::vector<Vec3> line = { { 0.33, 0, 0 }, { 0.46, 0.41, 0 }, { 0.57, 1, 0 } };
+  const std::vector<Vec3> back(line.rbegin(), line.rend());
+  const SurfaceCurve once = DivideBy(mesh, { line });
+  const SurfaceCurve twice = DivideBy(mesh, { line, back });
+  EXPECT_EQ(once.side, twice.side);
+  EXPECT_EQ(once.segments.size(), twice.segments.size());
+}
+
+/// Within one triangle: over the two borders that meet there, around nothing, and open.
+TEST(SignedDistance, TakesLinesWithinATriangle)
+{
+  const TriangleMesh triangle{ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, { { 0, 1, 2 } } };
+  const SurfaceCurve corner = DivideBy(triangle, { { { 0.3, 0, 0 }, { 0, 0.3, 0 } } });
+  EXPECT_EQ(corner.side, (std::vector<signed char>{ -1, 1, 1 }));
+  const TriangleMesh square = FlatRectangle(4, 4);
+  const SurfaceCurve ear = DivideBy(square, { { { 0, 0.8, 0 }, { 0.2, 1, 0 } } });
+  EXPECT_EQ(std::count(ear.side.begin(), ear.side.end(), -1), 1);
+  const std::vector<Vec3> loop = Circle({ 0.1, 0.05, 0 }, 0.02, 7);
+  const SurfaceCurve within = DivideBy(square, { loop });
+  EXPECT_EQ(std::count(within.side.begin(), within.side.end(), 1), 25);
+  EXPECT_THROW(DivideBy(square, { { loop.begin(), loop.begin() + 3 } }), InvalidInput);
+}
+
 TEST(SignedDistance, RefusesLinesThatDivideNothing)
 {
   const TriangleMesh mesh = FlatRectangle(10, 10);
   const std::vector<std::pair<std::string, std::vector<std::vector<Vec3>>>> cases = {
+    { "not closed", { { { 0.23, 0.21, 0 }, { 0.24, 0.22, 0 } } } },
     { "(0.466667, 0.533333, 0)", { { { 0.23, 0, 0 }, { 0.5, 0.51, 0 } } } },
     { "ends", { { { 0.23, 0, 0 }, { 0.23, 1, 0 } }, { { 0.23, 0.51, 0 }, { 1, 0.51, 0 } } } },
     { "no length", { { { 0.23, 0.2, 0 } } } },
