@@ -143,12 +143,6 @@ void vtkMeanCurvatureFlow::Compute(vtkInformationVector** inputs, vtkInformation
     throw gridfem::InvalidInput("FixedBoundary holds the boundary where it is, but Conformalized "
                                 "and Rescale move all of the surface.");
   }
-  if (this->FixedBoundary && this->FunctionSpace != HatFunctions)
-  {
-    throw gridfem::InvalidInput(
-      "FixedBoundary needs FunctionSpace to be HatFunctions: the functions "
-      "of a grid cannot be held along a boundary.");
-  }
   state.UpdateSpace(input, vtkPolyData::GetData(inputs[1]), progress.Part(0.0, 0.1));
   state.UpdateSystem(progress.Part(0.1, 0.2));
 

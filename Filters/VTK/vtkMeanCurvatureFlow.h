@@ -104,9 +104,9 @@ public:
   ///@{
   /**
    * When on, points of edges with one polygon stay, so that the surface tends to the soap film
-   * between its boundaries. Needs HatFunctions as FunctionSpace, since the functions of a grid
-   * cannot be held along a boundary; not with Conformalized or Rescale. Default off: boundaries
-   * move freely.
+   * between its boundaries. The functions themselves are drawn there, after Nitsche; they are off
+   * by some hundredths of a cell at rest, and more in steps that move the surface by many cells.
+   * Not with Conformalized or Rescale. Default off: boundaries move freely.
    */
   vtkSetMacro(FixedBoundary, bool);
   vtkGetMacro(FixedBoundary, bool);

@@ -93,7 +93,7 @@ void Flow(Choice& choice, RandomSurface& surface, Outcome& outcome)
   if (!options.conformalized && choice.OneIn(3))
   {
     options.rescaling = Rescaling::None;
-    options.fixedPoints = BoundaryPoints(mesh, surface.options.functions.weldCoincidentPoints);
+    options.fixed = BoundaryOf(mesh, surface.options.functions.weldCoincidentPoints);
   }
   if (!options.conformalized && choice.OneIn(4))
   {

@@ -51,7 +51,7 @@ public:
   /// K⁻¹ Cᵀ W ν
   MultiVector Spread(const MultiVector& multipliers)
   {
-    return this->Invert(hierarchy_.LoadOf(multipliers));
+    return this->Invert(hierarchy_.Penalty().LoadOf(multipliers, threads_));
   }
 
   MultiVector MassOf(const MultiVector& u) const
@@ -70,7 +70,7 @@ public:
 
   MultiVector Weighted(const MultiVector& values) const
   {
-    const std::vector<double>& weight = hierarchy_.Weights();
+    const std::vector<double>& weight = hierarchy_.Penalty().Weights();
     const Eigen::Map<const Eigen::VectorXd> diagonal(
       weight.data(), static_cast<Eigen::Index>(weight.size()));
     return diagonal.asDiagonal() * values;

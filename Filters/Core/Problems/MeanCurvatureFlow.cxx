@@ -33,9 +33,9 @@ void CheckOptions(const FlowOptions& options)
   }
 }
 
-void CheckFixedPoints(const FlowOptions& options)
+void CheckBoundary(const FlowOptions& options)
 {
-  if (!options.fixedPoints.empty() &&
+  if (!options.fixed.edges.empty() &&
       (options.conformalized || options.rescaling != Rescaling::None))
   {
     throw InvalidInput("The boundary is to stay, but the conformalised flow and a rescaling move "
@@ -54,32 +54,6 @@ void ScaleAbout(const Vec3& centre, double scale, MultiVector& positions, int th
         SetRow(positions, i, centre + scale * (RowOf(positions, i) - centre));
       }
     });
-}
-
-/// (M + δL) X⁺ = M X. Constants keep their means and are left out, so that the tolerance is on the
-/// shape and not on its distance from the origin.
-StepSolution SolveStep(const FiniteElementSpace& space, const SparseMatrix& mass,
-  const Multigrid& multigrid, const MultiVector& embedding, const SolveOptions& options,
-  const Job& job)
-{
-  const Components components = space.ComponentsOf(0, job.threads);
-  const ComponentMeans means(
-    components.ofFunction, space.Integrals(), components.count, job.threads);
-  const Projection project{ [&means](MultiVector& x)
-    { means.AddConstants(-means.OfFunction(x), x); },
-    [&means](MultiVector& b) { means.SubtractIntegrals(means.OfIntegrals(b), b); } };
-
-  const MultiVector mean = means.OfFunction(embedding);
-  StepSolution solution;
-  solution.embedding = embedding;
-  means.AddConstants(-mean, solution.embedding);
-  MultiVector b;
-  Multiply(mass, solution.embedding, b, job.threads);
-  project.residual(b);
-  solution.report = SolveWithFallback(IterationType::ConjugateGradients, OperatorOf(multigrid),
-    CycleWithFallback(multigrid), b, solution.embedding, options, project, job.progress);
-  means.AddConstants(mean, solution.embedding);
-  return solution;
 }
 
 bool IsBroken(const StepSolution& solution)
@@ -105,8 +79,8 @@ MeanCurvatureFlow::MeanCurvatureFlow(std::shared_ptr<const FiniteElementSpace> s
     moves_(start_->PointsWithFunctions())
 {
   CheckOptions(options_);
-  CheckFixedPoints(options_);
-  for (const Id point : options_.fixedPoints)
+  CheckBoundary(options_);
+  for (const Id point : options_.fixed.points)
   {
     moves_.at(point) = 0;
   }
@@ -182,6 +156,7 @@ Id MeanCurvatureFlow::Prepare(MultiVector& embedding, const Job& job)
   if (options_.rebuild)
   {
     multigrid_.reset(); // frees their memory first
+    boundary_.reset();
     moving_.reset();
     mass_ = {};
     try
@@ -209,6 +184,10 @@ void MeanCurvatureFlow::FillMatrix(
   if (startStiffness_.empty())
   {
     moving_->FillMatrix(level, 1.0, timeStep, matrix, job);
+    if (boundary_)
+    {
+      boundary_->Penalty().AddTo(level, matrix, job.threads);
+    }
     return;
   }
   moving_->FillMatrix(level, 1.0, 0.0, matrix, job);
@@ -221,6 +200,15 @@ void MeanCurvatureFlow::FillMatrix(
         matrix.value[k] += stiffness[k];
       }
     });
+}
+
+void MeanCurvatureFlow::UpdateBoundary(double timeStep, int threads)
+{
+  if (!boundary_ && !options_.fixed.edges.empty())
+  {
+    boundary_ =
+      std::make_unique<HeldBoundary>(*moving_, *mesh_, options_.fixed.edges, timeStep, threads);
+  }
 }
 
 void MeanCurvatureFlow::UpdateHierarchy(double timeStep, const Job& job)
@@ -236,7 +224,7 @@ void MeanCurvatureFlow::UpdateHierarchy(double timeStep, const Job& job)
   {
     multigrid_ = std::make_unique<Multigrid>(
       BuildMultigrid(*moving_, 1.0, timeStep, options_.multigrid, job.progress));
-    if (startStiffness_.empty())
+    if (startStiffness_.empty() && !boundary_)
     {
       return;
     }
@@ -253,38 +241,47 @@ void MeanCurvatureFlow::UpdateHierarchy(double timeStep, const Job& job)
   }
 }
 
-StepSolution MeanCurvatureFlow::Solve(const MultiVector& embedding, double timeStep, const Job& job)
+/// (M + δL) X⁺ = M X, and the terms of a boundary that stays. Where none does, constants keep their
+/// means. They are left out either way, so that the tolerance is on the shape and not on its
+/// distance from the origin.
+StepSolution MeanCurvatureFlow::Solve(const MultiVector& embedding, const Job& job) const
 {
-  if (!options_.fixedPoints.empty())
+  const Components components = moving_->ComponentsOf(0, job.threads);
+  const ComponentMeans means(
+    components.ofFunction, moving_->Integrals(), components.count, job.threads);
+  std::vector<char> isHeld(components.count, 0);
+  if (boundary_)
   {
-    return this->SolveFixed(embedding, timeStep, job);
+    isHeld = HeldComponents(*moving_, 0.0, boundary_->Penalty().Rows(), components);
   }
-  this->UpdateHierarchy(timeStep, job.Part(0.0, 0.4));
-  job.Check(0.4);
-  return SolveStep(*moving_, mass_, *multigrid_, embedding, options_.solve, job.Part(0.4, 1.0));
-}
+  const auto ofFree = [&isHeld](MultiVector mean)
+  {
+    for (Id c = 0; c < mean.rows(); ++c)
+    {
+      mean.row(c) *= isHeld[c] ? 0.0 : 1.0;
+    }
+    return mean;
+  };
+  const Projection project{ [&](MultiVector& x)
+    { means.AddConstants(-ofFree(means.OfFunction(x)), x); },
+    [&](MultiVector& b) { means.SubtractIntegrals(ofFree(means.OfIntegrals(b)), b); } };
 
-/// The same among the embeddings that have the fixed points where they are.
-StepSolution MeanCurvatureFlow::SolveFixed(
-  const MultiVector& embedding, double timeStep, const Job& job) const
-{
-  constexpr double LargestMisfit = 0.01; // units of length: the step counts as converged
-  const ConstraintOptions constraints;
-  const std::vector<Id>& held = options_.fixedPoints;
-  const ConstrainedHierarchy hierarchy(*moving_, 1.0, timeStep, moving_->RowsAtPoints(held),
-    constraints.penalty, options_.multigrid, job.progress.Part(0.0, 0.4));
-  job.Check(0.4);
-  MultiVector values(static_cast<Id>(held.size()), 3);
-  for (Id row = 0; row < values.rows(); ++row)
+  const MultiVector mean = means.OfFunction(embedding);
+  StepSolution solution;
+  solution.embedding = embedding;
+  means.AddConstants(-mean, solution.embedding);
+  MultiVector b;
+  Multiply(mass_, solution.embedding, b, job.threads);
+  if (boundary_)
   {
-    SetRow(values, row, (mesh_->points[held[row]] - moving_->Origin()) / moving_->UnitLength());
+    b += boundary_->Load(
+      this->Points(job.threads), mesh_->triangles, embedding - solution.embedding, job.threads);
   }
-  MultiVector load;
-  Multiply(mass_, embedding, load, job.threads);
-  ConstrainedSolution solution = SolveConstrained(*moving_, 1.0, hierarchy, load, values,
-    constraints, options_.solve, job.progress.Part(0.4, 1.0));
-  solution.report.converged &= solution.misfit < LargestMisfit;
-  return { std::move(solution.coefficients), std::move(solution.report) };
+  project.residual(b);
+  solution.report = SolveWithFallback(IterationType::ConjugateGradients, OperatorOf(*multigrid_),
+    CycleWithFallback(*multigrid_), b, solution.embedding, options_.solve, project, job.progress);
+  means.AddConstants(mean, solution.embedding);
+  return solution;
 }
 
 /// The factor that keeps what is to be kept; none where it is lost.
@@ -322,7 +319,10 @@ FlowStep MeanCurvatureFlow::Advance(const Job& job)
   const double unit = moving_->UnitLength();
   const double timeStep = options_.timeStep * std::pow(start_->UnitLength() / unit, 2);
   moving_->FillMatrix(0, 1.0, 0.0, mass_, job.threads);
-  StepSolution solution = this->Solve(embedding, timeStep, job.Part(0.3, 1.0));
+  this->UpdateBoundary(timeStep, job.threads);
+  this->UpdateHierarchy(timeStep, job.Part(0.3, 0.6));
+  job.Check(0.6);
+  StepSolution solution = this->Solve(embedding, job.Part(0.6, 1.0));
   if (IsBroken(solution))
   {
     stopped.end = FlowEnd::Breakdown;

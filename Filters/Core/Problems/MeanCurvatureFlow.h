@@ -5,6 +5,8 @@
 
 #include "Grid/TriangleMesh.h"
 #include "Krylov/ConjugateGradients.h"
+#include "Problems/HeldBoundary.h"
+#include "Problems/MovedSurface.h"
 #include "Spaces/FiniteElementSpace.h"
 
 #include <functional>
@@ -29,10 +31,9 @@ struct FlowOptions
   /// from the start tends to a conformal one.
   bool conformalized = false;
   Rescaling rescaling = Rescaling::None;
-  /// Points of the mesh that stay where they are (BoundaryPoints). Not for the conformalised flow,
-  /// nor with a rescaling. For hats: the functions of a grid cannot be held along a curve without
-  /// being held beside it, which takes many iterations and bends the surface there.
-  std::vector<Id> fixedPoints;
+  /// What stays where it is; empty: the boundary moves freely. Not for the conformalised flow, nor
+  /// with a rescaling.
+  SurfaceBoundary fixed;
   MultigridOptions multigrid;
   SolveOptions solve;
 
@@ -80,9 +81,8 @@ struct StepSolution
 
 /// One step solves (M_t + δ L_t) X⁺ = M_t X for the three coordinates at once, from the last X.
 /// From the second step on patterns, prolongations and orders are those of the first, unless
-/// the functions are made anew. Points that are fixed take part as constraints, for which the
-/// hierarchy is made anew. Same bits for any number of threads, and for any way to a step.
-/// Hold a MemoryReuse over several steps.
+/// the functions are made anew. A boundary that is fixed takes part as HeldBoundary says. Same bits
+/// for any number of threads, and for any way to a step. Hold a MemoryReuse over several steps.
 class MeanCurvatureFlow
 {
 public:
@@ -120,8 +120,8 @@ public:
 
 private:
   Id Prepare(MultiVector& embedding, const Job& job);
-  StepSolution Solve(const MultiVector& embedding, double timeStep, const Job& job);
-  StepSolution SolveFixed(const MultiVector& embedding, double timeStep, const Job& job) const;
+  void UpdateBoundary(double timeStep, int threads);
+  StepSolution Solve(const MultiVector& embedding, const Job& job) const;
   void UpdateHierarchy(double timeStep, const Job& job);
   void FillMatrix(std::size_t level, double timeStep, SparseMatrix& matrix, const Job& job);
   std::vector<Vec3> WorldPoints(
@@ -139,6 +139,7 @@ private:
   MultiVector shape_;
   std::unique_ptr<FiniteElementSpace> moving_;
   std::unique_ptr<Multigrid> multigrid_;
+  std::unique_ptr<HeldBoundary> boundary_;   // of functions as they are; null where nothing is held
   std::vector<SparseMatrix> startStiffness_; // δ L_0 per level; conformalised
   SparseMatrix mass_;                        // M_t
 };

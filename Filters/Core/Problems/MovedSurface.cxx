@@ -240,30 +240,29 @@ bool IsLikeASphere(const TriangleMesh& mesh, int threads)
   return isClosed && components == 1 && points - edges + triangles == 2;
 }
 
-std::vector<Id> BoundaryPoints(const TriangleMesh& mesh, bool weldCoincidentPoints, int threads)
+SurfaceBoundary BoundaryOf(const TriangleMesh& mesh, bool weldCoincidentPoints, int threads)
 {
-  Array<Index> pointClass(mesh.points.size());
-  std::iota(pointClass.begin(), pointClass.end(), 0);
+  SurfaceBoundary boundary;
+  boundary.edges = FindSurfaceEdges(mesh, weldCoincidentPoints, threads).boundary;
+  boundary.points = EndsOf(boundary.edges, mesh);
   if (weldCoincidentPoints)
   {
-    pointClass = WeldCoincidentPoints(mesh.points, {}, threads);
-  }
-  std::vector<char> isEnd(mesh.points.size(), 0);
-  ForEachEdge(SortedSides(mesh, pointClass),
-    [&](const TriangleSide* side, Id triangles)
+    const Array<Index> pointClass = WeldCoincidentPoints(mesh.points, {}, threads);
+    std::vector<char> isEnd(mesh.points.size(), 0);
+    for (const Id point : boundary.points)
     {
-      isEnd[side->low] |= triangles == 1;
-      isEnd[side->high] |= triangles == 1;
-    });
-  std::vector<Id> points;
-  for (std::size_t k = 0; k < pointClass.size(); ++k)
-  {
-    if (isEnd[pointClass[k]])
+      isEnd[pointClass[point]] = 1;
+    }
+    boundary.points.clear();
+    for (std::size_t k = 0; k < pointClass.size(); ++k)
     {
-      points.push_back(static_cast<Id>(k));
+      if (isEnd[pointClass[k]])
+      {
+        boundary.points.push_back(static_cast<Id>(k));
+      }
     }
   }
-  return points;
+  return boundary;
 }
 
 } // namespace gridfem

@@ -3,7 +3,7 @@
 #ifndef GridFEM_MovedSurface_h
 #define GridFEM_MovedSurface_h
 
-#include "Grid/TriangleMesh.h"
+#include "Grid/SurfaceEdges.h"
 
 namespace gridfem
 {
@@ -60,10 +60,14 @@ std::vector<Vec3> NormalsAtPoints(const std::vector<Vec3>& points,
 /// one: what the conformalised flow makes a sphere of.
 bool IsLikeASphere(const TriangleMesh& mesh, int threads = 0);
 
-/// The points of edges with one triangle, ascending.
+struct SurfaceBoundary
+{
+  std::vector<TriangleEdge> edges; // of one triangle, ascending
+  std::vector<Id> points;          // their ends, and what counts as one with these, ascending
+};
+
 /// @param weldCoincidentPoints  coincident points count as one
-std::vector<Id> BoundaryPoints(
-  const TriangleMesh& mesh, bool weldCoincidentPoints, int threads = 0);
+SurfaceBoundary BoundaryOf(const TriangleMesh& mesh, bool weldCoincidentPoints, int threads = 0);
 
 } // namespace gridfem
 

@@ -1,6 +1,5 @@
 #include "Problems/PointConstraints.h"
 
-#include "Algebra/RowBuilder.h"
 #include "Base/Errors.h"
 #include "Base/Parallel.h"
 #include "Problems/ColumnScales.h"
@@ -15,62 +14,6 @@ namespace gridfem
 {
 namespace
 {
-
-/// C P, without entries that are rounding.
-SparseMatrix RowsOnCoarser(const SparseMatrix& rows, const SparseMatrix& prolongation)
-{
-  constexpr double Rounding = 1e-13;
-  RowBuilder coarse;
-  RowBuilder::Entries entries;
-  for (Index row = 0; row < rows.rows; ++row)
-  {
-    entries.clear();
-    for (Id k = rows.rowBegin[row]; k < rows.rowBegin[row + 1]; ++k)
-    {
-      const Index fine = rows.column[k];
-      for (Id p = prolongation.rowBegin[fine]; p < prolongation.rowBegin[fine + 1]; ++p)
-      {
-        entries.emplace_back(prolongation.column[p], rows.value[k] * prolongation.value[p]);
-      }
-    }
-    coarse.Append(entries, Rounding);
-  }
-  return coarse.Finish(prolongation.columns);
-}
-
-/// Place of an entry, or -1.
-Id FindEntry(const SparseMatrix& A, Index row, Index column)
-{
-  const Index* const begin = A.column.data() + A.rowBegin[row];
-  const Index* const end = A.column.data() + A.rowBegin[row + 1];
-  const Index* const found = std::lower_bound(begin, end, column);
-  return found != end && *found == column ? found - A.column.data() : -1;
-}
-
-/// A += Cᵀ W C. What the pattern has no place for goes to the diagonal, so that the sum stays
-/// positive: that happens only below hats, on a level that preconditions.
-void AddPenalty(const SparseMatrix& rows, const SparseMatrix& transposed,
-  const std::vector<double>& weight, SparseMatrix& A, int threads)
-{
-  ParallelRanges(A.rows, threads,
-    [&](Id begin, Id end)
-    {
-      for (Index i = static_cast<Index>(begin); i < end; ++i)
-      {
-        for (Id t = transposed.rowBegin[i]; t < transposed.rowBegin[i + 1]; ++t)
-        {
-          const Index row = transposed.column[t];
-          const double factor = weight[row] * transposed.value[t];
-          for (Id k = rows.rowBegin[row]; k < rows.rowBegin[row + 1]; ++k)
-          {
-            const Id place = FindEntry(A, i, rows.column[k]);
-            const double term = factor * rows.value[k];
-            A.value[place >= 0 ? place : FindEntry(A, i, i)] += place >= 0 ? term : std::abs(term);
-          }
-        }
-      }
-    });
-}
 
 /// Penalties: relative to the diagonal at a point's functions, shared by the constraints that they
 /// have in common.
@@ -168,7 +111,7 @@ public:
     : space_(space), hierarchy_(hierarchy), values_(values), options_(options), project_(project),
       load_(load)
   {
-    load_ += hierarchy_.LoadOf(values_);
+    load_ += this->LoadOf(values_);
     hierarchy_.GetMultigrid().NestedIteration(load_, x);
     if (!x.allFinite())
     {
@@ -204,7 +147,7 @@ public:
     {
       return false;
     }
-    load_ += hierarchy_.LoadOf(rest);
+    load_ += this->LoadOf(rest);
     // The next step starts near its solution, whose last digits the misfit asks for. A misfit that
     // falls slowly, because constraints are more than functions can meet, asks for no more.
     share_ *= solution.steps == 1 || solution.relativeMisfit < 0.1 * before ? 0.1 : 1.0;
@@ -216,6 +159,11 @@ public:
 
 private:
   static constexpr double SmallestTolerance = 1e-13;
+
+  MultiVector LoadOf(const MultiVector& values) const
+  {
+    return hierarchy_.Penalty().LoadOf(values, hierarchy_.GetMultigrid().Options().threads);
+  }
 
   static Eigen::RowVectorXd LargestOf(const MultiVector& rows)
   {
@@ -296,42 +244,25 @@ MultiVector FreeConstants::Of(MultiVector means) const
 
 ConstrainedHierarchy::ConstrainedHierarchy(const FiniteElementSpace& space, double a, double b,
   SparseMatrix rows, double penalty, const MultigridOptions& options, const Progress& progress)
-  : rows_(std::move(rows)), transposed_(Transpose(rows_, options.threads)),
-    multigrid_(this->BuildLevels(space, a, b, penalty, options, progress.Part(0.0, 0.5)), options)
+  : multigrid_(
+      this->BuildLevels(space, a, b, std::move(rows), penalty, options, progress.Part(0.0, 0.5)),
+      options)
 {
   progress.Check(1.0);
 }
 
 std::vector<MultigridLevel> ConstrainedHierarchy::BuildLevels(const FiniteElementSpace& space,
-  double a, double b, double penalty, const MultigridOptions& options, const Progress& progress)
+  double a, double b, SparseMatrix rows, double penalty, const MultigridOptions& options,
+  const Progress& progress)
 {
-  if (rows_.columns != space.NumberOfFunctions(0))
-  {
-    throw InvalidInput("The constraints are rows of " + std::to_string(rows_.columns) +
-                       " values for " + std::to_string(space.NumberOfFunctions(0)) + " functions.");
-  }
   std::vector<MultigridLevel> levels = BuildMultigridLevels(space, a, b, options, progress);
-  weight_ = WeightsOfRows(rows_, levels.front().A, penalty);
-  SparseMatrix rows = rows_;
+  std::vector<double> weight = WeightsOfRows(rows, levels.front().A, penalty);
+  penalty_ = RowPenalty(space, std::move(rows), std::move(weight), options.threads);
   for (std::size_t l = 0; l < levels.size(); ++l)
   {
-    AddPenalty(rows, l == 0 ? transposed_ : Transpose(rows, options.threads), weight_, levels[l].A,
-      options.threads);
-    if (l + 1 < levels.size())
-    {
-      rows = RowsOnCoarser(rows, levels[l].prolongation);
-    }
+    penalty_.AddTo(l, levels[l].A, options.threads);
   }
   return levels;
-}
-
-MultiVector ConstrainedHierarchy::LoadOf(const MultiVector& values) const
-{
-  const Eigen::Map<const Eigen::VectorXd> weight(
-    weight_.data(), static_cast<Eigen::Index>(weight_.size()));
-  MultiVector load;
-  Multiply(transposed_, weight.asDiagonal() * values, load, multigrid_.Options().threads);
-  return load;
 }
 
 std::vector<char> HeldComponents(

@@ -4,7 +4,7 @@
 
 #include "Algebra/ComponentMeans.h"
 #include "Krylov/PrecisionFallback.h"
-#include "Spaces/FiniteElementSpace.h"
+#include "Problems/RowPenalty.h"
 
 namespace gridfem
 {
@@ -20,9 +20,7 @@ struct ConstraintOptions
   int maximumSteps = 12; // >= 1
 };
 
-/// The hierarchy of a M + b L + Cᵀ W C: each row of C holds the values of all functions at a point.
-/// A misfit at a point is a term of rank one on the functions of one patch, which the patch
-/// smoother inverts; on coarser levels C has the rows C P.
+/// The hierarchy of a M + b L + Cᵀ W C for values that are held at points.
 class ConstrainedHierarchy
 {
 public:
@@ -31,21 +29,14 @@ public:
     double penalty, const MultigridOptions& options, const Progress& progress = {});
 
   const Multigrid& GetMultigrid() const { return multigrid_; }
-  const SparseMatrix& Rows() const { return rows_; }
-
-  /// W, of each row.
-  const std::vector<double>& Weights() const { return weight_; }
-
-  /// Cᵀ W r for values at the points: rows = functions.
-  MultiVector LoadOf(const MultiVector& values) const;
+  const RowPenalty& Penalty() const { return penalty_; }
+  const SparseMatrix& Rows() const { return penalty_.Rows(); }
 
 private:
   std::vector<MultigridLevel> BuildLevels(const FiniteElementSpace& space, double a, double b,
-    double penalty, const MultigridOptions& options, const Progress& progress);
+    SparseMatrix rows, double penalty, const MultigridOptions& options, const Progress& progress);
 
-  SparseMatrix rows_;
-  SparseMatrix transposed_;
-  std::vector<double> weight_; // of each row
+  RowPenalty penalty_;
   Multigrid multigrid_;
 };
 

@@ -83,11 +83,6 @@ private:
       throw InvalidInput("FixedBoundary holds the boundary where it is, but Conformalized and "
                          "Rescale move all of the surface.");
     }
-    if (fixesBoundary_ && !options_.IsOnHats())
-    {
-      throw InvalidInput("FixedBoundary needs FunctionSpace to be HatFunctions: the functions of a "
-                         "grid cannot be held along a boundary.");
-    }
   }
 
   FlowOptions OptionsOf(const Surface& surface) const
@@ -98,7 +93,7 @@ private:
     options.rescaling = rescaling_;
     if (fixesBoundary_)
     {
-      options.fixedPoints = BoundaryPoints(
+      options.fixed = BoundaryOf(
         surface.Mesh(), options_.functions.weldCoincidentPoints, options_.functions.threads);
     }
     options.multigrid = options_.multigrid;

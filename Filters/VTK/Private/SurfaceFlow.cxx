@@ -17,7 +17,7 @@ void SurfaceFlow::Restart(SurfaceSolverState& state)
   options.rescaling = request_.rescaling;
   if (request_.fixedBoundary)
   {
-    options.fixedPoints = BoundaryPoints(
+    options.fixed = BoundaryOf(
       *state.mesh.triangles, state.basis.weldCoincidentPoints, state.options.space.threads);
   }
   options.multigrid = state.options.multigrid;

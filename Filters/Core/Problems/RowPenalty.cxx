@@ -1,0 +1,102 @@
+#include "Problems/RowPenalty.h"
+
+#include "Algebra/RowBuilder.h"
+#include "Base/Errors.h"
+#include "Base/Parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace gridfem
+{
+namespace
+{
+
+/// C P, without entries that are rounding.
+SparseMatrix RowsOnCoarser(const SparseMatrix& rows, const SparseMatrix& prolongation)
+{
+  constexpr double Rounding = 1e-13;
+  RowBuilder coarse;
+  RowBuilder::Entries entries;
+  for (Index row = 0; row < rows.rows; ++row)
+  {
+    entries.clear();
+    for (Id k = rows.rowBegin[row]; k < rows.rowBegin[row + 1]; ++k)
+    {
+      const Index fine = rows.column[k];
+      for (Id p = prolongation.rowBegin[fine]; p < prolongation.rowBegin[fine + 1]; ++p)
+      {
+        entries.emplace_back(prolongation.column[p], rows.value[k] * prolongation.value[p]);
+      }
+    }
+    coarse.Append(entries, Rounding);
+  }
+  return coarse.Finish(prolongation.columns);
+}
+
+/// Place of an entry, or -1.
+Id FindEntry(const SparseMatrix& A, Index row, Index column)
+{
+  const Index* const begin = A.column.data() + A.rowBegin[row];
+  const Index* const end = A.column.data() + A.rowBegin[row + 1];
+  const Index* const found = std::lower_bound(begin, end, column);
+  return found != end && *found == column ? found - A.column.data() : -1;
+}
+
+} // namespace
+
+RowPenalty::RowPenalty(
+  const FiniteElementSpace& space, SparseMatrix rows, std::vector<double> weight, int threads)
+  : weight_(std::move(weight))
+{
+  if (rows.columns != space.NumberOfFunctions(0))
+  {
+    throw InvalidInput("The constraints are rows of " + std::to_string(rows.columns) +
+                       " values for " + std::to_string(space.NumberOfFunctions(0)) + " functions.");
+  }
+  for (std::size_t l = 0; l < space.NumberOfLevels(); ++l)
+  {
+    if (l > 0)
+    {
+      rows = RowsOnCoarser(levels_.back().rows, space.Prolongation(l - 1));
+    }
+    SparseMatrix transposed = Transpose(rows, threads);
+    levels_.push_back({ std::move(rows), std::move(transposed) });
+  }
+}
+
+void RowPenalty::AddTo(std::size_t level, SparseMatrix& A, int threads) const
+{
+  const SparseMatrix& rows = levels_[level].rows;
+  const SparseMatrix& transposed = levels_[level].transposed;
+  ParallelRanges(A.rows, threads,
+    [&](Id begin, Id end)
+    {
+      for (Index i = static_cast<Index>(begin); i < end; ++i)
+      {
+        for (Id t = transposed.rowBegin[i]; t < transposed.rowBegin[i + 1]; ++t)
+        {
+          const Index row = transposed.column[t];
+          const double factor = weight_[row] * transposed.value[t];
+          for (Id k = rows.rowBegin[row]; k < rows.rowBegin[row + 1]; ++k)
+          {
+            const Id place = FindEntry(A, i, rows.column[k]);
+            const double term = factor * rows.value[k];
+            A.value[place >= 0 ? place : FindEntry(A, i, i)] += place >= 0 ? term : std::abs(term);
+          }
+        }
+      }
+    });
+}
+
+MultiVector RowPenalty::LoadOf(const MultiVector& values, int threads) const
+{
+  const Eigen::Map<const Eigen::VectorXd> weight(
+    weight_.data(), static_cast<Eigen::Index>(weight_.size()));
+  MultiVector load;
+  Multiply(levels_.front().transposed, weight.asDiagonal() * values, load, threads);
+  return load;
+}
+
+} // namespace gridfem
