@@ -249,31 +249,18 @@ void vtkLaplaceSpectrum::Compute(vtkInformationVector** inputs, vtkInformationVe
   this->State->bridge.GetProgress().Check(1.0);
 }
 
-/// Whether this rank can take part where all compute together.
-bool vtkLaplaceSpectrum::CanCompute(vtkInformationVector** inputs, vtkPolyData* input)
-{
-  const bool isPlain = this->FunctionSpace == Grid &&
-                       this->State->options.space.depth >= gridfem::MinimumDepth &&
-                       this->Smoother == PatchSmoother && !this->BlocksAsOne &&
-                       !this->AccuracyDriven && !this->CompareFunctionSpaces && !this->TrackMetric;
-  const bool hasOthers = gridfem::IsArrayChosen(this, 5) || vtkDataObject::GetData(inputs[1]);
-  return isPlain && !hasOthers && !gridfem::HasBasisOrGhosts(input);
-}
-
 bool vtkLaplaceSpectrum::ComputeTogether(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  if (!this->Distributed || !gridfem::CanDistribute(this))
+  const bool isPlain = !this->AccuracyDriven && !this->CompareFunctionSpaces &&
+                       !this->TrackMetric && !gridfem::IsArrayChosen(this, { 5 });
+  if (!this->Distributed ||
+      !gridfem::CanDistribute(this, inputs, this->State->options.space.depth, isPlain))
   {
     return false;
   }
   const gridfem::Ranks ranks;
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
-  const bool hasPolygons = input && input->GetNumberOfPolys() + input->GetNumberOfStrips() > 0;
-  if (ranks.Any(!this->CanCompute(inputs, input)) || !ranks.Any(hasPolygons))
-  {
-    return false;
-  }
   Internals& data = *this->Data;
   const gridfem::SurfaceOptions& options = this->State->options;
   gridfem::StageKey key;
@@ -288,17 +275,7 @@ bool vtkLaplaceSpectrum::ComputeTogether(
   if (ranks.Any(data.Together.cols() == 0 || !(key == data.TogetherKey)))
   {
     gridfem::InputMesh mesh;
-    ranks.Together(
-      [&]
-      {
-        gridfem::TriangleRule(this->QuadratureDegree);
-        gridfem::RequireNumber("Tolerance", this->Tolerance);
-        mesh.triangles = std::make_shared<const gridfem::TriangleMesh>();
-        if (hasPolygons)
-        {
-          mesh = gridfem::ReadInputMesh(input, this->NumberOfThreads);
-        }
-      });
+    ranks.Together([&] { mesh = gridfem::ReadPiece(this, input); });
     this->FreeStages();
     gridfem::DistributedModes modes = gridfem::FindModesTogether(mesh, this->NumberOfModes,
       this->CompleteMultiplets, options, this->State->bridge.GetProgress());

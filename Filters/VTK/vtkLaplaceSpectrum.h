@@ -191,7 +191,6 @@ private:
   vtkLaplaceSpectrum(const vtkLaplaceSpectrum&) = delete;
   void operator=(const vtkLaplaceSpectrum&) = delete;
 
-  bool CanCompute(vtkInformationVector** inputs, vtkPolyData* input);
   void WriteDistributed(vtkPolyData* input, vtkInformationVector* outputs);
   bool IsAccurate() const;
   int ShownMode(vtkInformation* output);

@@ -479,36 +479,22 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
   progress.Check(1.0);
 }
 
-/// Whether this rank can take part where all compute together.
-bool vtkScreenedPoisson::CanCompute(vtkInformationVector** inputs, vtkPolyData* input)
-{
-  const gridfem::SurfaceOptions& options = this->State->options;
-  const auto isChosen = [this](int array) { return gridfem::IsArrayChosen(this, array); };
-  const bool isPlain =
-    this->FunctionSpace == Grid && options.space.depth >= gridfem::MinimumDepth &&
-    this->Smoother == PatchSmoother && this->Iteration == ConjugateGradients &&
-    !this->BlocksAsOne && !this->AccuracyDriven && !this->TrackMetric && !this->FillUnknown &&
-    !this->BoundaryValues && !this->SolutionGradient && (isChosen(0) || !this->MovePoints);
-  // Weight, constraints, metric and flux.
-  const bool hasOthers = isChosen(3) || isChosen(4) || isChosen(5) || isChosen(6) ||
-                         vtkDataObject::GetData(inputs[1]) || vtkDataObject::GetData(inputs[2]);
-  return isPlain && !hasOthers && !gridfem::HasBasisOrGhosts(input);
-}
-
 bool vtkScreenedPoisson::ComputeTogether(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  if (!this->Distributed || !gridfem::CanDistribute(this))
+  const bool isPlain = this->Iteration == ConjugateGradients && !this->AccuracyDriven &&
+                       !this->TrackMetric && !this->FillUnknown && !this->BoundaryValues &&
+                       !this->SolutionGradient &&
+                       (gridfem::IsArrayChosen(this, { 0 }) || !this->MovePoints);
+  const bool hasOthers =
+    gridfem::IsArrayChosen(this, { 3, 4, 5, 6 }); // weight, constraints, metric, flux
+  if (!this->Distributed || !gridfem::CanDistribute(this, inputs, this->State->options.space.depth,
+                              isPlain && !hasOthers))
   {
     return false;
   }
   const gridfem::Ranks ranks;
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
-  const bool hasPolygons = input && input->GetNumberOfPolys() + input->GetNumberOfStrips() > 0;
-  if (ranks.Any(!this->CanCompute(inputs, input)) || !ranks.Any(hasPolygons))
-  {
-    return false;
-  }
   Internals& data = *this->Data;
   gridfem::InputMesh mesh;
   gridfem::DistributedRequest request;
@@ -519,16 +505,13 @@ bool vtkScreenedPoisson::ComputeTogether(
   ranks.Together(
     [&]
     {
-      gridfem::TriangleRule(this->QuadratureDegree);
-      gridfem::RequireNumber("Tolerance", this->Tolerance);
-      mesh.triangles = std::make_shared<const gridfem::TriangleMesh>();
-      if (hasPolygons)
+      mesh = gridfem::ReadPiece(this, input);
+      if (!mesh.triangles->triangles.empty())
       {
         this->FindArrays(input);
         request.value = data.Value;
         request.gradient = data.Gradient;
         request.scale = data.Scale;
-        mesh = gridfem::ReadInputMesh(input, this->NumberOfThreads);
       }
     });
   gridfem::DistributedSolution solution =

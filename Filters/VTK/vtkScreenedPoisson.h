@@ -292,7 +292,6 @@ private:
   bool IsAccurate() const;
   void WriteDistributed(vtkPolyData* input, const gridfem::InputMesh& mesh,
     gridfem::DistributedSolution& solution, vtkInformationVector* outputs);
-  bool CanCompute(vtkInformationVector** inputs, vtkPolyData* input);
   void Warn();
   void WriteSolution(vtkPolyData* input, vtkPolyData* output);
 

@@ -1,28 +1,73 @@
 #include "CanDistribute.h"
 
 #include "ClippedArrays.h"
+#include "InputValidation.h"
+#include "Integrals/QuadratureRule.h"
 #include "Ranks.h"
+#include "vtkSurfaceFEMAlgorithm.h"
 
-#include "vtkAlgorithm.h"
 #include "vtkCellData.h"
 #include "vtkDataObject.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkInformation.h"
+#include "vtkInformationVector.h"
 #include "vtkPolyData.h"
 
+#include <algorithm>
 #include <string>
 
-bool gridfem::IsArrayChosen(vtkAlgorithm* algorithm, int index)
+namespace gridfem
 {
-  const char* name = algorithm->GetInputArrayInformation(index)->Get(vtkDataObject::FIELD_NAME());
-  return name && *name && std::string(name) != "None";
+namespace
+{
+
+bool HasPolygons(vtkPolyData* piece)
+{
+  return piece && piece->GetNumberOfPolys() + piece->GetNumberOfStrips() > 0;
 }
 
-bool gridfem::HasBasisOrGhosts(vtkPolyData* piece)
+/// Whether this rank can take part.
+bool CanTakePart(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs, int depth)
 {
-  return piece && (CarriesBasis(piece) ||
-                    piece->GetCellData()->HasArray(vtkDataSetAttributes::GhostArrayName()));
+  vtkPolyData* piece = vtkPolyData::GetData(inputs[0]);
+  const bool isOnGrid = filter->GetFunctionSpace() == vtkSurfaceFEMAlgorithm::Grid &&
+                        filter->GetSmoother() == vtkSurfaceFEMAlgorithm::PatchSmoother &&
+                        depth >= MinimumDepth && !filter->GetBlocksAsOne();
+  bool isAlone = !piece || !(CarriesBasis(piece) || piece->GetCellData()->HasArray(
+                                                      vtkDataSetAttributes::GhostArrayName()));
+  for (int port = 1; port < filter->GetNumberOfInputPorts(); ++port)
+  {
+    isAlone = isAlone && !vtkDataObject::GetData(inputs[port]);
+  }
+  return isOnGrid && isAlone;
 }
+
+} // namespace
+
+bool IsArrayChosen(vtkSurfaceFEMAlgorithm* filter, std::initializer_list<int> indices)
+{
+  return std::any_of(indices.begin(), indices.end(),
+    [filter](int index)
+    {
+      const char* name = filter->GetInputArrayInformation(index)->Get(vtkDataObject::FIELD_NAME());
+      return name && *name && std::string(name) != "None";
+    });
+}
+
+InputMesh ReadPiece(vtkSurfaceFEMAlgorithm* filter, vtkPolyData* piece)
+{
+  TriangleRule(filter->GetQuadratureDegree()); // refuses a wrong degree
+  RequireNumber("Tolerance", filter->GetTolerance());
+  if (HasPolygons(piece))
+  {
+    return ReadInputMesh(piece, filter->GetNumberOfThreads());
+  }
+  InputMesh mesh;
+  mesh.triangles = std::make_shared<const TriangleMesh>();
+  return mesh;
+}
+
+} // namespace gridfem
 
 #if GRIDFEM_HAS_PARALLEL
 
@@ -33,8 +78,6 @@ bool gridfem::HasBasisOrGhosts(vtkPolyData* piece)
 #include "vtkMPI.h"
 #include "vtkMPICommunicator.h"
 #include "vtkMPIController.h"
-
-#include <algorithm>
 
 namespace gridfem
 {
@@ -72,17 +115,24 @@ RankSpaceOptions DistributedOptions(const Communicator& ranks, const SurfaceOpti
 
 #endif
 
-bool gridfem::CanDistribute(vtkAlgorithm* filter)
+bool gridfem::CanDistribute(
+  vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs, int depth, bool isPlain)
 {
+  const Ranks ranks;
 #if GRIDFEM_HAS_PARALLEL
   const bool isPossible = MpiOfVtk() != nullptr;
 #else
   const bool isPossible = false;
 #endif
-  if (!isPossible && Ranks().IsFirst())
+  if (!isPossible)
   {
-    vtkWarningWithObjectMacro(
-      filter, "Distributed needs a build with MPI and PETSc: rank 0 gathers the surface.");
+    if (ranks.IsFirst())
+    {
+      vtkWarningWithObjectMacro(
+        filter, "Distributed needs a build with MPI and PETSc: rank 0 gathers the surface.");
+    }
+    return false;
   }
-  return isPossible;
+  return !ranks.Any(!isPlain || !CanTakePart(filter, inputs, depth)) &&
+         ranks.Any(HasPolygons(vtkPolyData::GetData(inputs[0])));
 }
