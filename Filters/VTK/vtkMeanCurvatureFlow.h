@@ -9,11 +9,11 @@
  * conformal one.
  *
  * What the flow guarantees: the area of the surface in its function space never grows, for any
- * TimeStep (without Rescale, up to Tolerance). What it does not: the surface may intersect itself.
- * The ordinary flow forms necks that become infinitely thin in finite time; there its samples lock,
- * and it may end with a warning. The conformalised flow of a closed surface without handles ends as
- * a sphere, in practice; other surfaces do not, and a warning says so. Boundaries move freely, and
- * open surfaces shrink, unless FixedBoundary makes a soap film of them.
+ * TimeStep (without Rescale and FixedBoundary, up to Tolerance). What it does not: the surface may
+ * intersect itself. The ordinary flow forms necks that become infinitely thin in finite time; there
+ * its samples lock, and it may end with a warning. The conformalised flow of a closed surface
+ * without handles ends as a sphere, in practice; other surfaces do not, and a warning says so.
+ * Boundaries move freely, and open surfaces shrink, unless FixedBoundary makes a soap film of them.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
  * vtkConnectivityAwareBasis. Input port 1 (optional): the output of vtkConnectivityAwareBasis for
