@@ -13,16 +13,6 @@ using namespace gridfem::testing;
 namespace
 {
 
-RankSpaceOptions Options(int depth)
-{
-  RankSpaceOptions options;
-  options.space.functions.depth = depth;
-  options.space.functions.threads = 1;
-  options.space.coarsestSize = 16; // as many levels for one rank as for several
-  options.granularity = 2;
-  return options;
-}
-
 /// Two columns, which differ from point to point.
 MultiVector FieldAt(const std::vector<Vec3>& points)
 {
@@ -60,7 +50,7 @@ struct Solved
   SolveReport report;
 };
 
-Solved SolveOnRanks(const TriangleMesh& mesh, Dealing dealing, const RankPoissonOptions& poisson)
+Solved SolveOnRanks(const TriangleMesh& mesh, Dealing dealing, const PoissonOptions& poisson)
 {
   const Communicator ranks(MPI_COMM_WORLD);
   Solved solved;
@@ -78,9 +68,9 @@ Solved SolveOnRanks(const TriangleMesh& mesh, Dealing dealing, const RankPoisson
 }
 
 /// Flat pieces need factors in double precision, to which one rank falls back by itself.
-RankPoissonOptions PoissonOnRanks(double weight)
+PoissonOptions PoissonOnRanks(double weight)
 {
-  RankPoissonOptions options;
+  PoissonOptions options;
   options.multigrid.precision = FactorPrecision::Double;
   options.screeningWeight = weight;
   options.multigrid.threads = 1;

@@ -18,10 +18,8 @@ constexpr int Depth = 5;
 
 RankSpaceOptions Options(bool connectivityAware, int granularity)
 {
-  RankSpaceOptions options;
-  options.space.functions.depth = Depth;
+  RankSpaceOptions options = gridfem::testing::Options(Depth);
   options.space.functions.connectivityAware = connectivityAware;
-  options.space.functions.threads = 1;
   options.space.coarsestSize = 0;
   options.granularity = granularity;
   return options;

@@ -1,5 +1,6 @@
 // The spectrum on several ranks is that of one rank: its values, and its vectors at every point.
-#include "Parallel/RankEigenproblem.h"
+#include "Krylov/SpectralProblem.h"
+#include "Parallel/RankLevels.h"
 #include "Parallel/RankSpectrum.h"
 #include "Spaces/GridSpace.h"
 #include "Surfaces.h"
@@ -14,16 +15,6 @@ using namespace gridfem::testing;
 
 namespace
 {
-
-RankSpaceOptions Options(int depth)
-{
-  RankSpaceOptions options;
-  options.space.functions.depth = depth;
-  options.space.functions.threads = 1;
-  options.space.coarsestSize = 16;
-  options.granularity = 2;
-  return options;
-}
 
 SpectrumOptions Modes(int count)
 {
@@ -121,9 +112,15 @@ TEST(RankSpectrum, IsOrthonormalForAnyDistribution)
     const TriangleMesh own = PartOf(mesh, Deal(mesh, dealing, ranks.Size()), ranks.Rank());
     const RankSpace space(ranks, own, Options(4));
     const Spectrum spectrum = ComputeSpectrum(space, Modes(12));
-    const RankEigenproblem problem(space, 0, Modes(12).multigrid);
-    const MultiVector X = spectrum.vectors.bottomRows(problem.Rows());
-    EXPECT_TRUE(problem.Spread(X) == spectrum.vectors);
+    const RankLevels levels(space);
+    SpectralProblem<double> problem;
+    problem.stiffness = levels.Matrix(0, 0.0, 1.0, 1);
+    problem.mass = levels.Matrix(0, 1.0, 0.0, 1);
+    problem.divided = levels.Divided(0);
+    problem.threads = 1;
+    MultiVector X = spectrum.vectors;
+    problem.Agree(X);
+    EXPECT_TRUE(X == spectrum.vectors);
     const Eigen::MatrixXd products = problem.ProjectBoth({ X }, X);
     Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(12, 24);
     for (int mode = 0; mode < 12; ++mode)
