@@ -83,7 +83,7 @@ void ForEntries(const SparseMatrix& A, const std::vector<Index>& list, Body&& bo
 /// Entries of one place are added up.
 SparseMatrix MatrixOf(std::vector<Entry> entries, Index rows)
 {
-  std::stable_sort(entries.begin(), entries.end(),
+  std::sort(entries.begin(), entries.end(),
     [](const Entry& a, const Entry& b)
     { return a.row != b.row ? a.row < b.row : a.column < b.column; });
   Array<Id> begin(rows + 1);

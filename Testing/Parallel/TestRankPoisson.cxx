@@ -67,24 +67,12 @@ Solved SolveOnRanks(const TriangleMesh& mesh, Dealing dealing, const PoissonOpti
   return solved;
 }
 
-/// Flat pieces need factors in double precision, to which one rank falls back by itself.
-PoissonOptions PoissonOnRanks(double weight)
-{
-  PoissonOptions options;
-  options.multigrid.precision = FactorPrecision::Double;
-  options.screeningWeight = weight;
-  options.multigrid.threads = 1;
-  options.solve.tolerance = 1e-11;
-  options.solve.maximumIterations = 300;
-  return options;
-}
-
-PoissonOptions PoissonOnOne(double weight)
+PoissonOptions PoissonWith(double weight)
 {
   PoissonOptions options;
   options.screeningWeight = weight;
   options.multigrid.threads = 1;
-  options.solve.tolerance = 1e-11;
+  options.solve.tolerance = 1e-10; // residuals of sheets with a thin gap are rounding below
   options.solve.maximumIterations = 300;
   return options;
 }
@@ -104,9 +92,9 @@ TEST(RankPoisson, HasTheSolutionOfOneRank)
       SCOPED_TRACE(surface.name + ", weight " + std::to_string(weight));
       const GridSpace space = BuildGridSpace(surface.mesh, Options(4).space);
       const Field f{ FieldAssociation::Points, FieldAt(surface.mesh.points) };
-      const PoissonSolution expected = SolveOnOne(space, f, PoissonOnOne(weight));
+      const PoissonSolution expected = SolveOnOne(space, f, PoissonWith(weight));
       const MultiVector values = space.ValuesAtPoints(expected.coefficients);
-      const Solved solved = SolveOnRanks(surface.mesh, Dealing::Shuffled, PoissonOnRanks(weight));
+      const Solved solved = SolveOnRanks(surface.mesh, Dealing::Shuffled, PoissonWith(weight));
       EXPECT_TRUE(solved.report.converged);
       // On so small a surface most patches are at borders, where corrections are damped.
       EXPECT_LE(solved.report.iterations, 5 + 2 * expected.report.iterations);
@@ -129,7 +117,7 @@ TEST(RankPoisson, GivesPointsOfTwoRanksOneValue)
   for (const NamedSurface& surface : Surfaces())
   {
     SCOPED_TRACE(surface.name);
-    const Solved solved = SolveOnRanks(surface.mesh, Dealing::Shuffled, PoissonOnRanks(0.05));
+    const Solved solved = SolveOnRanks(surface.mesh, Dealing::Shuffled, PoissonWith(0.05));
     const auto points = static_cast<Id>(surface.mesh.points.size());
     MultiVector low = MultiVector::Constant(points, 2, 1e300);
     MultiVector high = MultiVector::Constant(points, 2, -1e300);
@@ -171,7 +159,7 @@ TEST(RankPoisson, EndsOnAllRanksWhenOneFails)
   {
     load(0, 0) = std::nan("");
   }
-  EXPECT_THROW(SolvePoisson(space, load, MultiVector(), PoissonOnRanks(0.05)), std::runtime_error);
+  EXPECT_THROW(SolvePoisson(space, load, MultiVector(), PoissonWith(0.05)), std::runtime_error);
 }
 
 TEST(RankPoisson, IsAbortedOnAllRanksByOne)
@@ -189,7 +177,7 @@ TEST(RankPoisson, IsAbortedOnAllRanksByOne)
         const RankSpace space(ranks, own, Options(4), progress.Part(0.0, 0.6));
         Field f;
         f.values = space.Distribution().SendPoints(FieldAt(own.points));
-        SolvePoisson(space, space.Own().LoadOfValues(f), MultiVector(), PoissonOnRanks(0.05),
+        SolvePoisson(space, space.Own().LoadOfValues(f), MultiVector(), PoissonWith(0.05),
           progress.Part(0.6, 1.0));
       },
       Aborted);
@@ -201,7 +189,7 @@ TEST(RankPoisson, OfNothingIsNothing)
   const Communicator ranks(MPI_COMM_WORLD);
   const RankSpace space(ranks, TriangleMesh(), Options(4));
   const PoissonSolution solution =
-    SolvePoisson(space, MultiVector(0, 1), MultiVector(), PoissonOnRanks(0.05));
+    SolvePoisson(space, MultiVector(0, 1), MultiVector(), PoissonWith(0.05));
   EXPECT_TRUE(solution.report.converged);
   EXPECT_EQ(solution.coefficients.rows(), 0);
 }

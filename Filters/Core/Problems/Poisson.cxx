@@ -84,9 +84,12 @@ void DropRounding(const LinearOperator& A, const Eigen::RowVectorXd& size, Multi
 
 double NormOfDiagonal(const Multigrid& multigrid, const DividedRows* divided)
 {
-  const std::vector<double> entries = multigrid.Matrix().Diagonal(multigrid.Options().threads);
-  MultiVector diagonal =
-    Eigen::Map<const MultiVector>(entries.data(), static_cast<Id>(entries.size()), 1);
+  const SparseMatrix& A = multigrid.Matrix();
+  MultiVector diagonal(A.rows, 1);
+  for (Index row = 0; row < A.rows; ++row)
+  {
+    diagonal(row, 0) = A.Coefficient(row, row);
+  }
   if (divided)
   {
     divided->Sum(diagonal);
