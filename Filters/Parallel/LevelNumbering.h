@@ -26,8 +26,8 @@ struct LevelNumbering
   Id begin = 0; // number of this rank's first function
   Id total = 0; // functions of all ranks
   std::vector<Id> number;
-  std::vector<Index> touching; // how many ranks each function touches
-  Index foreign = 0;           // functions of other ranks among them
+  std::vector<Index> touching;           // how many ranks each function touches
+  Index foreign = 0;                     // functions of other ranks among them
   std::vector<RankNeighbour> neighbours; // ascending by rank
 
   Index Functions() const { return static_cast<Index>(number.size()); }

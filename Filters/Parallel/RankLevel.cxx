@@ -47,8 +47,8 @@ void Renumber(const std::vector<Index>& list, Functions& functions)
 {
   for (Index& function : functions)
   {
-    function = static_cast<Index>(
-      std::lower_bound(list.begin(), list.end(), function) - list.begin());
+    function =
+      static_cast<Index>(std::lower_bound(list.begin(), list.end(), function) - list.begin());
   }
 }
 
@@ -115,8 +115,8 @@ SparseMatrix MatrixOf(std::vector<Entry> entries, Index rows)
   return matrix;
 }
 
-/// Collective. The rows and columns of a list of functions, which lack nothing: neighbours tell what
-/// their patches add between functions that both hold.
+/// Collective. The rows and columns of a list of functions, which lack nothing: neighbours tell
+/// what their patches add between functions that both hold.
 /// @param inList  per neighbour the functions of both, places in the list
 SparseMatrix WholeMatrix(const Communicator& ranks, const SparseMatrix& A,
   const std::vector<Index>& list, const LevelNumbering& numbering,
@@ -143,8 +143,8 @@ SparseMatrix WholeMatrix(const Communicator& ranks, const SparseMatrix& A,
       {
         for (const Entry& entry : messages[neighbour.rank])
         {
-          entries.push_back({ neighbour.functions[entry.row], neighbour.functions[entry.column],
-            entry.value });
+          entries.push_back(
+            { neighbour.functions[entry.row], neighbour.functions[entry.column], entry.value });
         }
       }
       whole = MatrixOf(std::move(entries), static_cast<Index>(list.size()));
@@ -159,8 +159,8 @@ void SumWhole(const Communicator& ranks, Block<Real> x, MPI_Datatype type)
   constexpr Id Most = std::numeric_limits<int>::max() / 2;
   for (Id first = 0; first < x.size(); first += Most) // rows follow each other without a gap
   {
-    MPI_Allreduce(MPI_IN_PLACE, x.data() + first, static_cast<int>(std::min(Most, x.size() - first)),
-      type, MPI_SUM, ranks.Handle());
+    MPI_Allreduce(MPI_IN_PLACE, x.data() + first,
+      static_cast<int>(std::min(Most, x.size() - first)), type, MPI_SUM, ranks.Handle());
   }
 }
 
@@ -254,8 +254,7 @@ void RankLevel::Relax(Id columns, SweepDirection direction,
   MultiVector correction(rows, columns);
   for (std::size_t k = 0; k < steps_.size(); ++k)
   {
-    const Step& step =
-      steps_[direction == SweepDirection::Forward ? k : steps_.size() - 1 - k];
+    const Step& step = steps_[direction == SweepDirection::Forward ? k : steps_.size() - 1 - k];
     residual(r);
     borderRows_->Sum(r);
     correction.setZero();

@@ -58,7 +58,7 @@ private:
   std::vector<Index> border_; // functions of patches that other ranks meet, ascending
   // Rows and columns of these:
   std::unique_ptr<RankRows> borderRows_;
-  SparseMatrix matrix_; // which lacks nothing
+  SparseMatrix matrix_;     // which lacks nothing
   std::vector<Step> steps_; // the same number on all ranks
 };
 

@@ -59,8 +59,7 @@ SharedMatrix RankLevels::Restriction(std::size_t level) const
                                 : space_.Shared().Restriction(level - rows_.size());
 }
 
-LevelRelaxation RankLevels::Relaxation(
-  std::size_t level, const MultigridOptions& options) const
+LevelRelaxation RankLevels::Relaxation(std::size_t level, const MultigridOptions& options) const
 {
   LevelRelaxation relaxation;
   space_.Ranks().Together(

@@ -11,8 +11,8 @@ namespace
 {
 
 /// Collective. Rows that several ranks hold become whole.
-MultiVector SumOfRanks(const RankSpace& space, const DividedRows& rows, const MultiVector& parts,
-  const char* name)
+MultiVector SumOfRanks(
+  const RankSpace& space, const DividedRows& rows, const MultiVector& parts, const char* name)
 {
   MultiVector whole;
   space.Ranks().Together(
@@ -58,8 +58,8 @@ PoissonSolution SolvePoisson(const RankSpace& space, const MultiVector& values,
   std::vector<MultigridLevel> hierarchy = BuildMultigridLevels(
     levels, options.screeningWeight, 1.0, options.multigrid, together.Part(0.0, 0.3));
   std::unique_ptr<const Multigrid> multigrid;
-  ranks.Together([&]
-    { multigrid = std::make_unique<Multigrid>(std::move(hierarchy), options.multigrid); });
+  ranks.Together(
+    [&] { multigrid = std::make_unique<Multigrid>(std::move(hierarchy), options.multigrid); });
   PoissonOptions own = options;
   own.start = nullptr;
   PoissonSolution solution =

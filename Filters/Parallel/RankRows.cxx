@@ -40,8 +40,7 @@ void ForColumns(Block<Real> x, Body&& body)
 
 } // namespace
 
-RankRows::RankRows(
-  const Communicator& ranks, Index foreign, std::vector<RankNeighbour> neighbours)
+RankRows::RankRows(const Communicator& ranks, Index foreign, std::vector<RankNeighbour> neighbours)
   : ranks_(ranks), foreign_(foreign), neighbours_(std::move(neighbours))
 {
   std::vector<char> hasOwner(foreign_, 0);

@@ -46,11 +46,11 @@ private:
   Communicator ranks_;
   Index foreign_;
   std::vector<RankNeighbour> neighbours_;
-  std::size_t lower_ = 0;     // neighbours of lower rank
-  Rows shared_;               // with each neighbour
-  Rows ownOfShared_;          // those of them that belong to this rank
-  Rows foreignOfShared_;      // to the neighbour
-  std::vector<Index> all_;    // rows that any neighbour holds, ascending
+  std::size_t lower_ = 0;  // neighbours of lower rank
+  Rows shared_;            // with each neighbour
+  Rows ownOfShared_;       // those of them that belong to this rank
+  Rows foreignOfShared_;   // to the neighbour
+  std::vector<Index> all_; // rows that any neighbour holds, ascending
   // Room for the rows of a message, and for what this rank has in them. One call is at work.
   mutable std::vector<double> sent_;
   mutable std::vector<double> received_;

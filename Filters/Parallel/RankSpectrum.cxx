@@ -13,8 +13,7 @@ Spectrum ComputeSpectrum(
   {
     return {};
   }
-  return ComputeOnNestedLevels(
-    RankLevels(space), options, OfAllRanks(space.Ranks(), progress));
+  return ComputeOnNestedLevels(RankLevels(space), options, OfAllRanks(space.Ranks(), progress));
 }
 
 } // namespace gridfem

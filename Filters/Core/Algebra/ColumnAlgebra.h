@@ -11,8 +11,7 @@ namespace gridfem
 using Columns = Eigen::ArrayXd;
 
 /// x_cᵀ y_c of every column c, over the rows from `first` on. Same bits for any number of threads.
-inline Columns ColumnProducts(
-  const MultiVector& x, const MultiVector& y, int threads, Id first = 0)
+inline Columns ColumnProducts(const MultiVector& x, const MultiVector& y, int threads, Id first = 0)
 {
   const auto sumRange = [&](Id begin, Id end)
   {

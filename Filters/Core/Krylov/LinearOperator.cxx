@@ -17,8 +17,8 @@ LinearOperator OperatorOf(const SparseMatrix& A, const DividedRows& divided, int
     Multiply(A, x, y, threads);
     divided.Sum(y);
   };
-  result.residual =
-    [multiply = result.multiply](const MultiVector& x, const MultiVector& b, MultiVector& r)
+  result.residual = [multiply = result.multiply](
+                      const MultiVector& x, const MultiVector& b, MultiVector& r)
   {
     multiply(x, r);
     r = b - r;

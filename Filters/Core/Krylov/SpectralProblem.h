@@ -60,20 +60,17 @@ struct SpectralProblem
   MultiVector MassTimes(const MultiVector& X) const;
 
   /// [X₁ X₂ ...]ᵀ [L Y, M Y] over all rows.
-  Eigen::MatrixXd ProjectBoth(
-    const BasisParts<Real>& parts, const ConstBlock<Real>& Y) const;
+  Eigen::MatrixXd ProjectBoth(const BasisParts<Real>& parts, const ConstBlock<Real>& Y) const;
 
   /// [X₁ X₂ ...]ᵀ M Y over all rows.
-  Eigen::MatrixXd ProjectMass(
-    const BasisParts<Real>& parts, const ConstBlock<Real>& Y) const;
+  Eigen::MatrixXd ProjectMass(const BasisParts<Real>& parts, const ConstBlock<Real>& Y) const;
 
   /// W = B (L X - M X diag(θ)) for the columns at work, but for panels that have converged as a
   /// whole, and P = B F for loads F that go with them: a cycle takes as long for a few columns as
   /// for a panel. Measures are those of the columns at work, as many as W has.
   /// @param load  F; as many columns as P has
-  ResidualMeasures Correct(const BlockPreconditioner<Real>& B,
-    const EigenPairs<Real>& pairs, const SoftLocking& locking, Block<Real> W,
-    const MultiVector& load, Block<Real> P) const;
+  ResidualMeasures Correct(const BlockPreconditioner<Real>& B, const EigenPairs<Real>& pairs,
+    const SoftLocking& locking, Block<Real> W, const MultiVector& load, Block<Real> P) const;
 
   /// What X has, column by column, in double precision.
   ColumnFacts FactsOf(const MultiVector& X) const;

@@ -56,14 +56,14 @@ struct MultigridLevel
   SharedMatrix restriction;  // its transpose; is made where it is empty
   PatchOrder order;
   PatchOrder groups; // of unknowns that are relaxed together after a sweep over all; or empty
-  std::optional<LevelSmoothing> smoothing; // in place of the options of the hierarchy
+  std::optional<LevelSmoothing> smoothing;     // in place of the options of the hierarchy
   std::shared_ptr<const DividedLevel> divided; // null: this process holds the level alone
-  std::unique_ptr<Smoother> smoother;      // none on the coarsest
+  std::unique_ptr<Smoother> smoother;          // none on the coarsest
 };
 
 /// A hierarchy that is ready to cycle. Const methods are safe to call from several threads, but
-/// where processes divide a level: there all of them call each method, in the same order. Vectors of
-/// a divided level have a row for each unknown that this process holds.
+/// where processes divide a level: there all of them call each method, in the same order. Vectors
+/// of a divided level have a row for each unknown that this process holds.
 class Multigrid
 {
 public:

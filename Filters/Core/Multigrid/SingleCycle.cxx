@@ -63,8 +63,8 @@ PanelSums SumParts(const DividedRows& divided, Panel& r, int threads)
   PanelSums norm = ParallelSum(rows - foreign, threads, PanelSums(PanelSums::Zero()),
     [&](Id begin, Id end)
     {
-      return SumOfRows(foreign + begin, foreign + end,
-        [&](Id row) -> PanelRow { return r[row] * r[row]; });
+      return SumOfRows(
+        foreign + begin, foreign + end, [&](Id row) -> PanelRow { return r[row] * r[row]; });
     });
   divided.SumNumbers(norm.data(), norm.size());
   return norm;

@@ -97,8 +97,7 @@ private:
   };
 
   void Relax(const Patch& patch, const PanelRow* b, PanelRow* x) const;
-  void RelaxPatches(
-    const PanelRow* b, PanelRow* x, SweepDirection direction, int threads) const;
+  void RelaxPatches(const PanelRow* b, PanelRow* x, SweepDirection direction, int threads) const;
   void RelaxBorder(const PanelRow* b, PanelRow* x, SweepDirection direction) const;
   PanelRow ResidualRow(Index row, const PanelRow* b, const PanelRow* x) const;
 

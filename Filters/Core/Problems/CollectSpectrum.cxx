@@ -114,8 +114,8 @@ Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs<Rea
   }
   if (std::is_same_v<Real, float> && others > 0)
   {
-    Orthonormalize(problem.mass, problem.divided, spectrum.vectors.rightCols(others),
-      problem.threads, progress);
+    Orthonormalize(
+      problem.mass, problem.divided, spectrum.vectors.rightCols(others), problem.threads, progress);
   }
 
   const ColumnFacts facts = problem.FactsOf(spectrum.vectors);

@@ -12,8 +12,8 @@ namespace gridfem
 /// of a solution changes. 1 for columns of zeros and for those that are not finite. A block may
 /// have no rows.
 /// @param divided  where processes hold the rows together, the same scales in all of them
-Eigen::RowVectorXd ScalesOf(const MultiVector& first, const MultiVector& second,
-  const DividedRows* divided = nullptr);
+Eigen::RowVectorXd ScalesOf(
+  const MultiVector& first, const MultiVector& second, const DividedRows* divided = nullptr);
 
 /// Takes the scales out of a solution. Where that leaves the range of numbers, because its data are
 /// near the largest one, it has not converged: SolveEnd::Breakdown.

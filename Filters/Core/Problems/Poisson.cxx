@@ -25,8 +25,8 @@ void CheckRows(const char* name, const MultiVector& load, std::size_t functions)
   }
 }
 
-void CheckInput(const SpaceLevels& space, const MultiVector& values,
-  const MultiVector& gradients, const PoissonOptions& options)
+void CheckInput(const SpaceLevels& space, const MultiVector& values, const MultiVector& gradients,
+  const PoissonOptions& options)
 {
   if (!(options.screeningWeight >= 0.0) || std::isinf(options.screeningWeight))
   {
@@ -172,7 +172,8 @@ PoissonSolution SolveWithoutMeans(const SpaceLevels& space, const Multigrid& mul
   if (isWatched || solution.coefficients.rows() == 0)
   {
     MultiVector lastStep;
-    MultiVector nested = NestedStart(multigrid, load, space.Divided(0), isWatched ? &lastStep : nullptr);
+    MultiVector nested =
+      NestedStart(multigrid, load, space.Divided(0), isWatched ? &lastStep : nullptr);
     project.solution(nested);
     if (solution.coefficients.rows() == 0)
     {

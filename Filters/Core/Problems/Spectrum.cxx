@@ -50,8 +50,8 @@ std::size_t StartLevel(const SpaceLevels& space, Index blockSize)
     return std::min<std::size_t>(1, levels - 1);
   }
   std::size_t level = 0;
-  while (level + 1 < levels &&
-         (!CanBeDense(space, level, blockSize) || (level > 0 && size(level + 1) >= 1.5 * blockSize)))
+  while (level + 1 < levels && (!CanBeDense(space, level, blockSize) ||
+                                 (level > 0 && size(level + 1) >= 1.5 * blockSize)))
   {
     ++level;
   }
@@ -89,8 +89,8 @@ template<class Real>
 class NestedIteration
 {
 public:
-  NestedIteration(const SpaceLevels& space, const SpectrumOptions& options,
-    SpectrumCycle& cycle, double shift)
+  NestedIteration(
+    const SpaceLevels& space, const SpectrumOptions& options, SpectrumCycle& cycle, double shift)
     : space_(space), options_(options), cycle_(cycle), shift_(shift)
   {
   }

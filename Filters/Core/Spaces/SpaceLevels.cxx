@@ -12,8 +12,8 @@ SparseMatrix SpaceLevels::Matrix(std::size_t level, double a, double b, const Jo
   return matrix;
 }
 
-std::vector<MultigridLevel> BuildMultigridLevels(const SpaceLevels& space, double a,
-  double b, const MultigridOptions& options, const Progress& progress)
+std::vector<MultigridLevel> BuildMultigridLevels(const SpaceLevels& space, double a, double b,
+  const MultigridOptions& options, const Progress& progress)
 {
   std::vector<MultigridLevel> levels(space.NumberOfLevels());
   for (std::size_t l = 0; l < levels.size(); ++l)

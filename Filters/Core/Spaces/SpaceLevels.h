@@ -96,8 +96,8 @@ Multigrid BuildMultigrid(const SpaceLevels& space, double a, double b,
 void UpdateMultigrid(const SpaceLevels& space, double a, double b, Multigrid& multigrid);
 
 /// The levels of a hierarchy, as Multigrid takes them.
-std::vector<MultigridLevel> BuildMultigridLevels(const SpaceLevels& space, double a,
-  double b, const MultigridOptions& options, const Progress& progress = {});
+std::vector<MultigridLevel> BuildMultigridLevels(const SpaceLevels& space, double a, double b,
+  const MultigridOptions& options, const Progress& progress = {});
 
 } // namespace gridfem
 

@@ -8,7 +8,7 @@ class vtkPolyData;
 namespace gridfem
 {
 
-/// Whether this build has MPI and PETSc, and VTK's global controller is one of MPI. Where it is not
+/// Whether this build has MPI, and VTK's global controller is one of MPI. Where it is not
 /// so, the filter on the first rank warns that rank 0 gathers.
 bool CanDistribute(vtkAlgorithm* filter);
 

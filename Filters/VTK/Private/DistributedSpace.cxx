@@ -82,7 +82,7 @@ bool gridfem::CanDistribute(vtkAlgorithm* filter)
   if (!isPossible && Ranks().IsFirst())
   {
     vtkWarningWithObjectMacro(
-      filter, "Distributed needs a build with MPI and PETSc: rank 0 gathers the surface.");
+      filter, "Distributed needs a build with MPI: rank 0 gathers the surface.");
   }
   return isPossible;
 }

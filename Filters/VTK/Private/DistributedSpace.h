@@ -1,5 +1,5 @@
 // What filters have in common that all ranks of VTK's global controller compute together. Only for
-// sources that are built with MPI and PETSc.
+// sources that are built with MPI.
 #ifndef GridFEM_DistributedSpace_h
 #define GridFEM_DistributedSpace_h
 
