@@ -11,7 +11,7 @@ namespace gridfem
 
 struct Grid;
 
-/// Collective. Memory that runs out within PETSc cannot be taken back on all ranks, so that a run
+/// Collective. Memory that runs out on one rank within a solve ends the run of all, so that one
 /// which would get there is refused: when the ranks of a machine need more than it has, or one rank
 /// more than the limit of its process (`ulimit -v`) leaves.
 /// @param received  the triangles that this rank clips

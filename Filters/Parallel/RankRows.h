@@ -10,9 +10,9 @@
 namespace gridfem
 {
 
-/// Rows are those of the functions of a numbering, or of some of them. Ranks that hold a row
-/// together send it to each other, in one message for many columns: each has all that it needs.
-/// The functions are collective; no allocation in them can fail on one rank alone.
+/// Rows are those of the functions of a numbering, or of some of them. Ranks that hold rows together
+/// send them to each other, in one message for up to 32 columns, which has its room from the start.
+/// All functions but Foreign are collective.
 class RankRows : public DividedRows
 {
 public:
@@ -30,8 +30,6 @@ public:
 
   /// Rows become the least of what the ranks have in them. Few columns.
   void TakeLeast(Block<double> x) const;
-
-  const std::vector<RankNeighbour>& Neighbours() const { return neighbours_; }
 
 private:
   using Rows = std::vector<std::vector<Index>>; // per neighbour

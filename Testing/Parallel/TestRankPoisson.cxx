@@ -48,6 +48,7 @@ struct Solved
   std::vector<Id> points;
   std::vector<char> hasValue;
   SolveReport report;
+  SolutionAccuracy accuracy;
 };
 
 Solved SolveOnRanks(const TriangleMesh& mesh, Dealing dealing, const PoissonOptions& poisson)
@@ -64,6 +65,7 @@ Solved SolveOnRanks(const TriangleMesh& mesh, Dealing dealing, const PoissonOpti
   solved.values = space.ValuesAtPoints(
     solution.coefficients, static_cast<Id>(own.points.size()), &solved.hasValue);
   solved.report = solution.report;
+  solved.accuracy = solution.accuracy;
   return solved;
 }
 
@@ -107,6 +109,34 @@ TEST(RankPoisson, HasTheSolutionOfOneRank)
           1e-8)
           << "point " << k;
       }
+    }
+  }
+}
+
+TEST(RankPoisson, EstimatesTheErrorsOfOneRank)
+{
+  for (const double accuracy : { 0.0, 0.1 })
+  {
+    PoissonOptions options = PoissonWith(0.05);
+    options.estimateErrors = true;
+    options.accuracy = accuracy;
+    options.solve.tolerance = accuracy > 0.0 ? 0.0 : options.solve.tolerance;
+    for (const NamedSurface& surface : { Surfaces()[0], Surfaces()[1], Surfaces()[2] })
+    {
+      SCOPED_TRACE(surface.name + ", accuracy " + std::to_string(accuracy));
+      const GridSpace space = BuildGridSpace(surface.mesh, Options(4).space);
+      const Field f{ FieldAssociation::Points, FieldAt(surface.mesh.points) };
+      const PoissonSolution expected = SolveOnOne(space, f, options);
+      const Solved solved = SolveOnRanks(surface.mesh, Dealing::Contiguous, options);
+      EXPECT_TRUE(solved.report.converged);
+      // The coarser solution that they are told from is a cycle's, not the same.
+      const double near = 0.05 * expected.accuracy.discretization;
+      EXPECT_NEAR(solved.accuracy.discretization, expected.accuracy.discretization, near);
+      EXPECT_NEAR(
+        solved.accuracy.largest, expected.accuracy.largest, 0.1 * expected.accuracy.largest);
+      EXPECT_EQ(solved.accuracy.isTrusted, expected.accuracy.isTrusted);
+      EXPECT_LE(solved.accuracy.algebraic, std::max(1e-9, 0.2 * solved.accuracy.discretization));
+      EXPECT_GT(solved.accuracy.algebraic, 0.0);
     }
   }
 }

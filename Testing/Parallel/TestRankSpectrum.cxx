@@ -69,6 +69,25 @@ double LargestDifference(
   return difference;
 }
 
+/// Values of one rank to a part of them, in about as many iterations.
+void CompareWithOneRank(const NamedSurface& surface, const SpectrumOptions& options, double part)
+{
+  SCOPED_TRACE(surface.name);
+  const GridSpace space = BuildGridSpace(surface.mesh, Options(4).space);
+  const Spectrum expected = ComputeSpectrum(space, options);
+  const Spectrum found = SolveOnRanks(surface.mesh, Dealing::Contiguous, options).spectrum;
+  EXPECT_TRUE(found.converged);
+  EXPECT_EQ(found.singlePrecision, expected.singlePrecision);
+  EXPECT_LE(found.iterations, 1 + 1.3 * expected.iterations);
+  ASSERT_EQ(found.eigenvalues.size(), expected.eigenvalues.size());
+  for (std::size_t mode = 0; mode < expected.eigenvalues.size(); ++mode)
+  {
+    EXPECT_NEAR(
+      found.eigenvalues[mode], expected.eigenvalues[mode], part * expected.eigenvalues[mode])
+      << "mode " << mode;
+  }
+}
+
 } // namespace
 
 TEST(RankSpectrum, IsThatOfOneRank)
@@ -101,6 +120,33 @@ TEST(RankSpectrum, IsThatOfOneRank)
     }
   }
   EXPECT_GE(simple, 8);
+}
+
+TEST(RankSpectrum, TakesBlocksInSinglePrecisionAsOneRankDoes)
+{
+  SpectrumOptions options = Modes(12);
+  options.tolerance = 1e-6; // of the values
+  int single = 0;
+  for (const NamedSurface& surface : Surfaces())
+  {
+    CompareWithOneRank(surface, options, 2.0 * options.tolerance);
+    single += SolveOnRanks(surface.mesh, Dealing::OneRank, options).spectrum.singlePrecision;
+  }
+  EXPECT_GE(single, 4); // flat pieces need double precision
+}
+
+TEST(RankSpectrum, TakesCyclesInDoublePrecisionWhereTheyAreAskedFor)
+{
+  SpectrumOptions options = Modes(12);
+  options.multigrid.cycle = CycleType::W;
+  CompareWithOneRank(Surfaces()[1], options, 1e-8);
+}
+
+TEST(RankSpectrum, FindsManyModesWindowByWindow)
+{
+  SpectrumOptions options = Modes(170);
+  options.tolerance = 1e-9;
+  CompareWithOneRank(Surfaces()[1], options, 1e-8);
 }
 
 TEST(RankSpectrum, IsOrthonormalForAnyDistribution)
