@@ -156,6 +156,7 @@ SparseMatrix WholeMatrix(const Communicator& ranks, const SparseMatrix& A,
 template<class Real>
 void SumWhole(const Communicator& ranks, Block<Real> x, MPI_Datatype type)
 {
+  ranks.RequireAll();
   constexpr Id Most = std::numeric_limits<int>::max() / 2;
   for (Id first = 0; first < x.size(); first += Most) // rows follow each other without a gap
   {

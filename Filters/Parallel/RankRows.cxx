@@ -85,6 +85,7 @@ MultiVector RankRows::Gather(const Eigen::RowVectorXd& numbers) const
 template<class Real>
 void RankRows::Exchange(const Rows& out, const Rows& in, Block<Real> x) const
 {
+  ranks_.RequireAll();
   requests_.clear();
   Real* place = reinterpret_cast<Real*>(received_.data()); // room for doubles is room for floats
   for (std::size_t k = 0; k < neighbours_.size(); ++k)

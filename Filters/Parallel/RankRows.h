@@ -10,9 +10,9 @@
 namespace gridfem
 {
 
-/// Rows are those of the functions of a numbering, or of some of them. Ranks that hold rows together
-/// send them to each other, in one message for up to 32 columns, which has its room from the start.
-/// All functions but Foreign are collective.
+/// Rows are those of the functions of a numbering, or of some of them. Ranks that hold rows
+/// together send them to each other, in one message for up to 32 columns, which has its room from
+/// the start. All functions but Foreign are collective.
 class RankRows : public DividedRows
 {
 public:

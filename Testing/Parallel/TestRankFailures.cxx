@@ -106,7 +106,7 @@ TEST(RankFailures, AnyAllocationOfOneRankFailsOnAll)
     int failed = -1;
     try
     {
-      Solve(ranks, own);
+      ranks.Guard([&] { Solve(ranks, own); });
     }
     catch (const RankFailure& failure)
     {

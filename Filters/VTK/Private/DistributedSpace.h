@@ -8,8 +8,6 @@
 
 #include "Parallel/RankSpace.h"
 
-#include "vtkObject.h"
-
 #include <string>
 
 namespace gridfem
@@ -29,8 +27,7 @@ auto OnRanksOfVtk(Body&& body)
   try
   {
     decltype(body(ranks)) result;
-    ranks.Guard([&] { result = body(ranks); },
-      [](const std::string& message) { vtkGenericWarningMacro(<< message); });
+    ranks.Guard([&] { result = body(ranks); });
     return result;
   }
   catch (const RankFailure& failure)
