@@ -152,13 +152,19 @@ SparseMatrix WholeMatrix(const Communicator& ranks, const SparseMatrix& A,
   return whole;
 }
 
-/// Held whole by all ranks: all add up all of it.
+/// Of rows that all ranks hold, all add up all.
+/// @param rows  null: that is so
 template<class Real>
-void SumWhole(const Communicator& ranks, Block<Real> x, MPI_Datatype type)
+void SumRows(const Communicator& ranks, const RankRows* rows, Block<Real> x, MPI_Datatype type)
 {
+  if (rows)
+  {
+    rows->Sum(x);
+    return;
+  }
   ranks.RequireAll();
   constexpr Id Most = std::numeric_limits<int>::max() / 2;
-  for (Id first = 0; first < x.size(); first += Most) // rows follow each other without a gap
+  for (Id first = 0; first < x.size(); first += Most)
   {
     MPI_Allreduce(MPI_IN_PLACE, x.data() + first,
       static_cast<int>(std::min(Most, x.size() - first)), type, MPI_SUM, ranks.Handle());
@@ -228,22 +234,12 @@ RankLevel::RankLevel(const Communicator& ranks, const LevelNumbering& numbering,
 
 void RankLevel::SumCoarse(Block<float> x) const
 {
-  if (coarse_)
-  {
-    coarse_->Sum(x);
-    return;
-  }
-  SumWhole<float>(ranks_, x, MPI_FLOAT);
+  SumRows<float>(ranks_, coarse_, x, MPI_FLOAT);
 }
 
 void RankLevel::SumCoarse(Block<double> x) const
 {
-  if (coarse_)
-  {
-    coarse_->Sum(x);
-    return;
-  }
-  SumWhole<double>(ranks_, x, MPI_DOUBLE);
+  SumRows<double>(ranks_, coarse_, x, MPI_DOUBLE);
 }
 
 void RankLevel::Relax(Id columns, SweepDirection direction,

@@ -68,9 +68,10 @@ RankRows::RankRows(const Communicator& ranks, Index foreign, std::vector<RankNei
   }
   std::sort(all_.begin(), all_.end());
   all_.erase(std::unique(all_.begin(), all_.end()), all_.end());
-  sent_.resize(rows * ColumnsPerMessage);
-  received_.resize(rows * ColumnsPerMessage);
-  own_.resize(all_.size() * ColumnsPerMessage);
+  constexpr std::size_t Bytes = ColumnsPerMessage * sizeof(double);
+  sent_.resize(rows * Bytes);
+  received_.resize(rows * Bytes);
+  own_.resize(all_.size() * Bytes);
   requests_.reserve(2 * neighbours_.size());
 }
 
@@ -87,9 +88,13 @@ void RankRows::Exchange(const Rows& out, const Rows& in, Block<Real> x) const
 {
   ranks_.RequireAll();
   requests_.clear();
-  Real* place = reinterpret_cast<Real*>(received_.data()); // room for doubles is room for floats
+  Real* place = reinterpret_cast<Real*>(received_.data());
   for (std::size_t k = 0; k < neighbours_.size(); ++k)
   {
+    if (in[k].empty())
+    {
+      continue;
+    }
     auto rows = NextRows(place, in[k], x.cols());
     MPI_Irecv(rows.data(), static_cast<int>(rows.size()), TypeOf<Real>(), neighbours_[k].rank, Tag,
       ranks_.Handle(), &requests_.emplace_back());
@@ -97,6 +102,10 @@ void RankRows::Exchange(const Rows& out, const Rows& in, Block<Real> x) const
   place = reinterpret_cast<Real*>(sent_.data());
   for (std::size_t k = 0; k < neighbours_.size(); ++k)
   {
+    if (out[k].empty()) // the neighbour knows
+    {
+      continue;
+    }
     auto rows = NextRows(place, out[k], x.cols());
     for (Id row = 0; row < rows.rows(); ++row)
     {
@@ -180,7 +189,7 @@ void RankRows::TakeForeign(Block<double> x) const
 void RankRows::TakeLeast(Block<double> x) const
 {
   this->Exchange<double>(shared_, shared_, x);
-  double* place = received_.data();
+  auto* place = reinterpret_cast<double*>(received_.data());
   for (const std::vector<Index>& rows : shared_)
   {
     const auto values = NextRows(place, rows, x.cols());

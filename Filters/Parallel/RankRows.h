@@ -50,9 +50,9 @@ private:
   Rows foreignOfShared_;   // to the neighbour
   std::vector<Index> all_; // rows that any neighbour holds, ascending
   // Room for the rows of a message, and for what this rank has in them. One call is at work.
-  mutable std::vector<double> sent_;
-  mutable std::vector<double> received_;
-  mutable std::vector<double> own_;
+  mutable std::vector<unsigned char> sent_;
+  mutable std::vector<unsigned char> received_;
+  mutable std::vector<unsigned char> own_;
   mutable std::vector<MPI_Request> requests_;
 };
 

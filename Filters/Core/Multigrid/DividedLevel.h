@@ -22,7 +22,7 @@ public:
 
   virtual const DividedRows& Rows() const = 0;
 
-  /// As Rows().Sum for vectors of the next coarser level, which may be held whole by all.
+  /// As Rows().Sum for vectors, without a gap, of the next coarser level, which all may hold whole.
   virtual void SumCoarse(Block<float> x) const = 0;
   virtual void SumCoarse(Block<double> x) const = 0;
 
