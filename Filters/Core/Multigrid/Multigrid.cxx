@@ -142,9 +142,16 @@ LevelSmoothing Multigrid::SmoothingOf(std::size_t level) const
 
 bool Multigrid::HasSingleFactors() const
 {
-  return std::any_of(levels_.begin(), levels_.end(),
-    [](const MultigridLevel& level)
-    { return level.smoother && level.smoother->HasSingleFactors(); });
+  double single = std::any_of(levels_.begin(), levels_.end(),
+                    [](const MultigridLevel& level)
+                    { return level.smoother && level.smoother->HasSingleFactors(); })
+                    ? 1.0
+                    : 0.0;
+  if (levels_.front().divided)
+  {
+    levels_.front().divided->Rows().SumNumbers(&single, 1);
+  }
+  return single > 0.0;
 }
 
 Multigrid Multigrid::InDoublePrecision() const

@@ -80,7 +80,7 @@ public:
   /// throws, the hierarchy must not be used any more.
   void Update(const std::function<void(std::size_t, SparseMatrix&)>& refill);
 
-  /// Whether a patch smoother stores factors in single precision.
+  /// Whether a patch smoother, of any process, stores factors in single precision.
   bool HasSingleFactors() const;
 
   /// A copy whose patch smoothers store all factors in double precision; it shares patterns and
