@@ -23,7 +23,7 @@ class Touching
 {
 public:
   Touching(const BlockPartition& partition, const PatchLevel& level, int rank)
-    : level_(level), rank_(rank), own_(OwnPatches(level, partition, rank)),
+    : level_(level), own_(OwnPatches(level, partition, rank)),
       owner_(level.numberOfFunctions, NoRank), patch_(level.numberOfFunctions, -1),
       count_(level.numberOfFunctions, 0)
   {
@@ -108,7 +108,6 @@ private:
   }
 
   const PatchLevel& level_;
-  int rank_;
   PatchRange own_;
   std::vector<int> owner_;
   std::vector<Index> patch_;
