@@ -53,7 +53,7 @@ MeasureRanks()
 {
   export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
   local ranks program="$BUILD/bin/BenchmarkRanks"
-  echo "| surface | depth | ranks | functions | iterations | set-up, s | solve, s | MB before | MB |"
+  echo "| problem | depth | ranks | functions | iterations | set-up, s | solve, s | MB before | MB |"
   echo "|---|---|---|---|---|---|---|---|---|"
   "$program" "$@" core < /dev/null
   for ranks in 1 2 4 8; do
@@ -70,7 +70,8 @@ for group in "${groups[@]}"; do
     xvfb-run -a pvpython "$SOURCE/Testing/Benchmarks/draw_figures.py" "$BUILD/figures" \
       "$SOURCE/Testing/Benchmarks/Figures" < /dev/null
   elif [ "$group" = ranks ]; then
-    MeasureRanks torus:2400 8
+    MeasureRanks poisson torus:2400 8
+    MeasureRanks spectrum torus:1200 7
   else
     "$BUILD/bin/Benchmark${group^}" < /dev/null
   fi

@@ -9,7 +9,7 @@ JOBS="${GRIDFEM_JOBS:-$(nproc)}"
 CORE_PACKAGES=(cmake ninja-build g++ libeigen3-dev)
 BUILD_PACKAGES=("${CORE_PACKAGES[@]}" paraview paraview-dev python3-paraview libopenmpi-dev
   python3-dev libcli11-dev libgtest-dev libqt5svg5 qttools5-dev qttools5-dev-tools
-  qtxmlpatterns5-dev-tools cmark-gfm xvfb xauth pkg-config libpetsc-real-dev)
+  qtxmlpatterns5-dev-tools cmark-gfm xvfb xauth)
 TEST_PACKAGES=(clang-format clang libomp-dev openmpi-bin python3-pybind11 python3-numpy python3-pip
   python3-setuptools python3-wheel python3-meshio)
 BENCHMARK_PACKAGES=(libbenchmark-dev pkg-config libsuitesparse-dev libhypre-dev libpetsc-real-dev

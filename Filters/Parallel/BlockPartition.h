@@ -41,13 +41,13 @@ public:
   /// because what slivers do is decided a little further away.
   CellRegion RegionOf(int rank) const;
 
-  /// The ranks whose regions a triangle may meet, ascending.
   struct RanksNear
   {
     std::vector<int> ranks;
     BlockBox box; // for which they hold, whatever the triangle in it
   };
 
+  /// The ranks whose regions a triangle may meet, ascending.
   /// @param a, b, c  the triangle's corners, grid units
   /// @param near     of the triangle before; near triangles often have the same
   void FindRanksNear(const Vec3& a, const Vec3& b, const Vec3& c, RanksNear& near) const;

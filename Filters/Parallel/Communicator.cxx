@@ -109,13 +109,6 @@ void Communicator::ThrowTogether(const std::exception_ptr& failure) const
   throw RankFailure(worst[1], reason);
 }
 
-std::string Communicator::LoneFailure(const std::exception_ptr& failure) const
-{
-  return "Rank " + std::to_string(rank_) +
-         " failed where the other ranks wait for it, so that the run ends: " +
-         Describe(failure).reason;
-}
-
 int Communicator::RanksOfMachine() const
 {
   return static_cast<int>(this->SumOfMachine(1.0));
@@ -123,6 +116,7 @@ int Communicator::RanksOfMachine() const
 
 double Communicator::SumOfMachine(double own) const
 {
+  this->RequireAll();
   MPI_Comm machine = MPI_COMM_NULL;
   MPI_Comm_split_type(handle_, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &machine);
   double sum = own;
@@ -133,16 +127,19 @@ double Communicator::SumOfMachine(double own) const
 
 void Communicator::Sum(double* values, Id count) const
 {
+  this->RequireAll();
   MPI_Allreduce(MPI_IN_PLACE, values, CountOf(count), MPI_DOUBLE, MPI_SUM, handle_);
 }
 
 void Communicator::Minimum(double* values, Id count) const
 {
+  this->RequireAll();
   MPI_Allreduce(MPI_IN_PLACE, values, CountOf(count), MPI_DOUBLE, MPI_MIN, handle_);
 }
 
 void Communicator::Maximum(double* values, Id count) const
 {
+  this->RequireAll();
   MPI_Allreduce(MPI_IN_PLACE, values, CountOf(count), MPI_DOUBLE, MPI_MAX, handle_);
 }
 
@@ -155,6 +152,7 @@ Communicator::Share Communicator::ShareOf(Id own) const
 
 std::vector<Id> Communicator::Counts(Id own) const
 {
+  this->RequireAll();
   std::vector<Id> counts(size_);
   MPI_Allgather(&own, 1, MPI_INT64_T, counts.data(), 1, MPI_INT64_T, handle_);
   return counts;
@@ -162,6 +160,7 @@ std::vector<Id> Communicator::Counts(Id own) const
 
 std::vector<Id> Communicator::ExchangeCounts(const std::vector<Id>& sent) const
 {
+  this->RequireAll();
   std::vector<Id> received(size_);
   MPI_Alltoall(sent.data(), 1, MPI_INT64_T, received.data(), 1, MPI_INT64_T, handle_);
   return received;
@@ -183,6 +182,7 @@ void Communicator::GatherBytes(
   {
     throw InvalidInput("The ranks hold more than 2^31 - 1 items that all of them need.");
   }
+  this->RequireAll();
   const ItemType type(itemSize);
   MPI_Allgatherv(own, count[rank_], type, all, count.data(), begin.data(), type, handle_);
 }
@@ -193,8 +193,15 @@ void Communicator::ExchangeBytes(const std::vector<const void*>& out, const std:
   const std::vector<void*>& in, const std::vector<Id>& received, std::size_t itemSize) const
 {
   constexpr int Tag = 1907;
-  const ItemType type(itemSize);
+  const auto partsOf = [](const std::vector<Id>& items)
+  {
+    return std::accumulate(items.begin(), items.end(), Id{ 0 },
+      [](Id sum, Id count) { return sum + count / ItemsPerMessage + 1; });
+  };
   std::vector<MPI_Request> requests;
+  requests.reserve(partsOf(sent) + partsOf(received));
+  this->RequireAll();
+  const ItemType type(itemSize);
   const auto inParts = [&](Id items, const auto& transfer)
   {
     for (Id begin = 0; begin < items; begin += ItemsPerMessage)

@@ -50,12 +50,14 @@ public:
     this->ThrowTogether(failure);
   }
 
-  /// Runs a body that calls collective functions. What it throws on this rank alone, outside of
-  /// Together, would leave the others waiting for a message that never comes: then MPI ends the run
-  /// on all ranks, after tell(message) has said why. InvalidInput is thrown on all ranks or none.
-  template<class Body, class Tell>
-  void Guard(Body&& body, Tell&& tell) const
+  /// Runs a body that calls collective functions. What it throws on this rank alone, also outside
+  /// of Together, all throw, as there: every message between ranks begins with the question whether
+  /// one has failed, so that the others learn it where they wait next. InvalidInput is thrown on
+  /// all ranks or none, and stays what it is.
+  template<class Body>
+  void Guard(Body&& body) const
   {
+    std::exception_ptr failure;
     try
     {
       body();
@@ -74,11 +76,13 @@ public:
     }
     catch (...)
     {
-      tell(this->LoneFailure(std::current_exception()));
-      MPI_Abort(handle_, 1);
-      throw;
+      failure = std::current_exception();
     }
+    this->ThrowTogether(failure);
   }
+
+  /// What every message begins with, for those that are not sent here.
+  void RequireAll() const { this->ThrowTogether(nullptr); }
 
   /// How many of the ranks run on this machine.
   int RanksOfMachine() const;
@@ -146,7 +150,6 @@ public:
 
 private:
   void ThrowTogether(const std::exception_ptr& failure) const;
-  std::string LoneFailure(const std::exception_ptr& failure) const;
   std::vector<Id> Counts(Id own) const;
   std::vector<Id> ExchangeCounts(const std::vector<Id>& sent) const;
   void GatherBytes(

@@ -23,7 +23,7 @@ class Touching
 {
 public:
   Touching(const BlockPartition& partition, const PatchLevel& level, int rank)
-    : level_(level), rank_(rank), own_(OwnPatches(level, partition, rank)),
+    : level_(level), own_(OwnPatches(level, partition, rank)),
       owner_(level.numberOfFunctions, NoRank), patch_(level.numberOfFunctions, -1),
       count_(level.numberOfFunctions, 0)
   {
@@ -35,7 +35,6 @@ public:
         count_[function] = 1;
       }
     }
-    std::vector<std::pair<Index, int>> others; // functions of this rank's cells on other ranks
     for (Index patch = 0; patch < static_cast<Index>(level.cell.size()); ++patch)
     {
       if (patch == own_.first)
@@ -46,11 +45,11 @@ public:
           break;
         }
       }
-      this->AddForeign(patch, partition.OwnerOf(level.cell[patch], level.depth), others);
+      this->AddForeign(patch, partition.OwnerOf(level.cell[patch], level.depth));
     }
-    std::sort(others.begin(), others.end());
-    others.erase(std::unique(others.begin(), others.end()), others.end());
-    for (const auto& [function, other] : others)
+    std::sort(others_.begin(), others_.end());
+    others_.erase(std::unique(others_.begin(), others_.end()), others_.end());
+    for (const auto& [other, function] : others_)
     {
       ++count_[function];
     }
@@ -59,6 +58,25 @@ public:
   bool IsHere(Index function) const { return count_[function] > 0; }
   int OwnerOf(Index function) const { return owner_[function]; }
   Index CountOf(Index function) const { return count_[function]; }
+
+  /// @param place  of every function in the numbering
+  std::vector<RankNeighbour> Neighbours(const std::vector<Index>& place) const
+  {
+    std::vector<RankNeighbour> neighbours;
+    for (const auto& [other, function] : others_)
+    {
+      if (neighbours.empty() || neighbours.back().rank != other)
+      {
+        neighbours.push_back({ other, {} });
+      }
+      neighbours.back().functions.push_back(place[function]);
+    }
+    for (RankNeighbour& neighbour : neighbours)
+    {
+      std::sort(neighbour.functions.begin(), neighbour.functions.end());
+    }
+    return neighbours;
+  }
 
   /// Of a function of another rank: a patch in the owner's cells.
   PatchCorner Describe(Index function) const
@@ -72,7 +90,7 @@ public:
 private:
   static constexpr int NoRank = std::numeric_limits<int>::max();
 
-  void AddForeign(Index patch, int owner, std::vector<std::pair<Index, int>>& others)
+  void AddForeign(Index patch, int owner)
   {
     for (const Index function : level_.dof[patch])
     {
@@ -80,7 +98,7 @@ private:
       {
         continue;
       }
-      others.emplace_back(function, owner);
+      others_.emplace_back(owner, function);
       if (owner < owner_[function])
       {
         owner_[function] = owner;
@@ -90,11 +108,11 @@ private:
   }
 
   const PatchLevel& level_;
-  int rank_;
   PatchRange own_;
   std::vector<int> owner_;
   std::vector<Index> patch_;
   std::vector<Index> count_;
+  std::vector<std::pair<int, Index>> others_; // other ranks that functions here touch
 };
 
 /// The number of a function that another rank asks for.
@@ -209,6 +227,7 @@ LevelNumbering NumberLevel(const Communicator& ranks, const BlockPartition& part
         numbering.number.push_back(number[functions[k]]);
         numbering.touching.push_back(touching->CountOf(functions[k]));
       }
+      numbering.neighbours = touching->Neighbours(place);
     });
   return numbering;
 }

@@ -10,6 +10,14 @@
 namespace gridfem
 {
 
+/// Another rank, and functions here that touch its cells, too: in ascending order of their numbers,
+/// so that both ranks list them in the same order.
+struct RankNeighbour
+{
+  int rank;
+  std::vector<Index> functions;
+};
+
 /// The functions that touch a cell of this rank. A function belongs to the lowest rank whose cells
 /// it touches, so that those of others have lower numbers: they come first here, and the numbers
 /// ascend. Numbers of one rank are contiguous.
@@ -18,8 +26,9 @@ struct LevelNumbering
   Id begin = 0; // number of this rank's first function
   Id total = 0; // functions of all ranks
   std::vector<Id> number;
-  std::vector<Index> touching; // how many ranks each function touches
-  Index foreign = 0;           // functions of other ranks among them
+  std::vector<Index> touching;           // how many ranks each function touches
+  Index foreign = 0;                     // functions of other ranks among them
+  std::vector<RankNeighbour> neighbours; // ascending by rank
 
   Index Functions() const { return static_cast<Index>(number.size()); }
   Index OwnFunctions() const { return this->Functions() - foreign; }

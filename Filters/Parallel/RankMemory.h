@@ -11,9 +11,9 @@ namespace gridfem
 
 struct Grid;
 
-/// Collective. Memory that runs out within PETSc cannot be taken back on all ranks, so that a run
-/// which would get there is refused: when the ranks of a machine need more than it has, or one rank
-/// more than the limit of its process (`ulimit -v`) leaves.
+/// Collective. A run that would not have the memory is refused before it takes long: when the ranks
+/// of a machine need more than it has, or one rank more than the limit of its process (`ulimit -v`)
+/// leaves.
 /// @param received  the triangles that this rank clips
 /// Throws RankFailure on all ranks.
 void RequireMemory(const Communicator& ranks, const TriangleMesh& received, const Grid& grid);

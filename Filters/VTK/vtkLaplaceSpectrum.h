@@ -155,7 +155,7 @@ public:
    * basis, BlocksAsOne, or ghost cells. Where it is not, rank 0 gathers as ever. The field array
    * `Distributed` says which. The modes stay for other time steps until the surface of a rank
    * changes; nothing else is kept. Zero modes of several components may come in another order, and
-   * modes with the other sign. Needs a build with PETSc. Default off.
+   * modes with the other sign. Needs a build with MPI. Default off.
    */
   vtkSetMacro(Distributed, bool);
   vtkGetMacro(Distributed, bool);

@@ -552,7 +552,7 @@ void vtkScreenedPoisson::WriteDistributed(vtkPolyData* input, const gridfem::Inp
     output->GetPointData()->SetActiveScalars("Solution");
   }
   gridfem::AddReport(solution.report, output);
-  gridfem::AddAccuracy({}, output);
+  gridfem::AddAccuracy(solution.accuracy, output);
   gridfem::AddFieldInt(output, "UsedDepth", this->Depth);
   gridfem::AddFieldInt(output, "Distributed", 1);
   if (!gridfem::Ranks().IsFirst())
@@ -561,11 +561,12 @@ void vtkScreenedPoisson::WriteDistributed(vtkPolyData* input, const gridfem::Inp
   }
   vtkTable* table = vtkTable::GetData(outputs, 1);
   gridfem::WriteHistory(solution.report, table);
-  gridfem::AddErrors(solution.report, {}, table);
-  if (!solution.report.converged)
+  gridfem::AddErrors(solution.report, solution.accuracy, table);
+  const std::string warning =
+    gridfem::WarningOf(solution.report, solution.accuracy, this->Tolerance);
+  if (!warning.empty())
   {
-    vtkWarningMacro(<< gridfem::WarningOf(
-                      solution.report, gridfem::DistributedTolerance(this->State->options)));
+    vtkWarningMacro(<< warning);
   }
 }
 

@@ -214,8 +214,8 @@ public:
    * of a given Depth, with conjugate gradients and the patch smoother; not with constraints,
    * weights, unknown values, a flux, a metric, AccuracyDriven, SolutionGradient, moved points, a
    * given basis, BlocksAsOne, or ghost cells. Where it is not, rank 0 gathers as ever. The field
-   * array `Distributed` says which. A Tolerance of 0 stands for 1e-8 then; errors are not
-   * estimated, and nothing is kept for the next run. Needs a build with PETSc. Default off.
+   * array `Distributed` says which. Nothing is kept for the next run. Needs a build with MPI.
+   * Default off.
    */
   vtkSetMacro(Distributed, bool);
   vtkGetMacro(Distributed, bool);

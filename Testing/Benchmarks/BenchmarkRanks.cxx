@@ -1,12 +1,13 @@
-// One screened Poisson equation on the ranks that the program runs on, and on one process by Core
-// alone. Prints one row of a table: run it once for each number of ranks.
+// One screened Poisson equation, or the spectrum, on the ranks that the program runs on, and on one
+// process by Core alone. Prints one row of a table: run it once for each number of ranks.
 //
-//   mpiexec -n N BenchmarkRanks MESH DEPTH [core]
+//   mpiexec -n N BenchmarkRanks poisson|spectrum MESH DEPTH [core]
 //
 // MESH is a file, which the first rank reads and the others get their part of, or torus:N, of which
 // every rank makes its own N x N / 4 quadrilaterals' share, so that none ever holds the whole.
 #include "Base/Parallel.h"
 #include "Parallel/RankPoisson.h"
+#include "Parallel/RankSpectrum.h"
 #include "Problems/Poisson.h"
 #include "Support/Meshes.h"
 
@@ -25,6 +26,7 @@ namespace
 
 constexpr double Weight = 0.01; // for a surface whose longest side is 1
 constexpr double Tolerance = 1e-8;
+constexpr int Modes = 20;
 
 /// Rows first .. last of a torus of `along` rows.
 TriangleMesh TorusRows(Id along, Id first, Id last)
@@ -106,13 +108,29 @@ struct Measured
   double setUp;
   double solve;
   Id functions;
-  SolveReport report;
+  int iterations;
+  bool converged;
 };
 
-Measured OnRanks(const Communicator& ranks, const std::string& name, int depth)
+template<class Result>
+void Take(const Result& result, Measured& measured)
+{
+  measured.iterations = result.iterations;
+  measured.converged = result.converged;
+}
+
+SpectrumOptions ModesOptions(int threads)
+{
+  SpectrumOptions options;
+  options.numberOfModes = Modes;
+  options.multigrid.threads = threads;
+  return options;
+}
+
+Measured OnRanks(const Communicator& ranks, const std::string& name, int depth, bool isSpectrum)
 {
   const TriangleMesh own = OwnPart(ranks, name);
-  Measured measured{ PeakMegabytes(), 0.0, 0.0, 0, {} };
+  Measured measured{ PeakMegabytes(), 0.0, 0.0, 0, 0, false };
   const Stopwatch setUp;
   RankSpaceOptions options;
   options.space.functions.depth = depth;
@@ -123,23 +141,30 @@ Measured OnRanks(const Communicator& ranks, const std::string& name, int depth)
   const MultiVector values = space.Own().LoadOfValues(f);
   measured.setUp = setUp.Seconds();
   const Stopwatch solve;
-  RankPoissonOptions poisson;
+  PoissonOptions poisson;
   const double cell = 1.0 / space.Own().Extent();
   poisson.screeningWeight = Weight * cell * cell;
   poisson.solve.tolerance = Tolerance;
   poisson.multigrid.threads = options.space.functions.threads;
-  const PoissonSolution solution = SolvePoisson(space, values, MultiVector(), poisson);
-  space.ValuesAtPoints(solution.coefficients, static_cast<Id>(own.points.size()));
+  if (isSpectrum)
+  {
+    Take(ComputeSpectrum(space, ModesOptions(poisson.multigrid.threads)), measured);
+  }
+  else
+  {
+    const PoissonSolution solution = SolvePoisson(space, values, MultiVector(), poisson);
+    space.ValuesAtPoints(solution.coefficients, static_cast<Id>(own.points.size()));
+    Take(solution.report, measured);
+  }
   measured.solve = solve.Seconds();
   measured.functions = space.Numberings().front().total;
-  measured.report = solution.report;
   return measured;
 }
 
-Measured OnCore(const std::string& name, int depth)
+Measured OnCore(const std::string& name, int depth, bool isSpectrum)
 {
   TriangleMesh mesh = OwnPart(Communicator(MPI_COMM_SELF), name);
-  Measured measured{ PeakMegabytes(), 0.0, 0.0, 0, {} };
+  Measured measured{ PeakMegabytes(), 0.0, 0.0, 0, 0, false };
   const Field f{ FieldAssociation::Points, WaveAt(mesh.points) };
   const Stopwatch setUp;
   GridSpaceOptions options;
@@ -152,13 +177,20 @@ Measured OnCore(const std::string& name, int depth)
   const double cell = 1.0 / space.Extent();
   poisson.screeningWeight = Weight * cell * cell;
   poisson.solve.tolerance = Tolerance;
-  const Multigrid multigrid =
-    BuildMultigrid(space, poisson.screeningWeight, 1.0, poisson.multigrid);
-  const PoissonSolution solution = SolvePoisson(space, multigrid, values, MultiVector(), poisson);
-  space.ValuesAtPoints(solution.coefficients);
+  if (isSpectrum)
+  {
+    Take(ComputeSpectrum(space, ModesOptions(0)), measured);
+  }
+  else
+  {
+    const Multigrid multigrid =
+      BuildMultigrid(space, poisson.screeningWeight, 1.0, poisson.multigrid);
+    const PoissonSolution solution = SolvePoisson(space, multigrid, values, MultiVector(), poisson);
+    space.ValuesAtPoints(solution.coefficients);
+    Take(solution.report, measured);
+  }
   measured.solve = solve.Seconds();
   measured.functions = space.NumberOfFunctions(0);
-  measured.report = solution.report;
   return measured;
 }
 
@@ -166,9 +198,10 @@ Measured OnCore(const std::string& name, int depth)
 
 int main(int argc, char** argv)
 {
-  if (argc < 3)
+  if (argc < 4)
   {
-    std::fprintf(stderr, "Usage: mpiexec -n N BenchmarkRanks MESH|torus:N DEPTH [core]\n");
+    std::fprintf(
+      stderr, "Usage: mpiexec -n N BenchmarkRanks poisson|spectrum MESH|torus:N DEPTH [core]\n");
     return 2;
   }
   MPI_Init(&argc, &argv);
@@ -176,17 +209,19 @@ int main(int argc, char** argv)
   try
   {
     const Communicator ranks(MPI_COMM_WORLD);
-    const bool isCore = argc > 3;
+    const bool isSpectrum = std::string(argv[1]) == "spectrum";
+    const int depth = std::atoi(argv[3]);
+    const bool isCore = argc > 4;
     const Measured measured =
-      isCore ? OnCore(argv[1], std::atoi(argv[2])) : OnRanks(ranks, argv[1], std::atoi(argv[2]));
+      isCore ? OnCore(argv[2], depth, isSpectrum) : OnRanks(ranks, argv[2], depth, isSpectrum);
     double peak = PeakMegabytes();
     ranks.Maximum(&peak, 1);
     if (ranks.Rank() == 0)
     {
-      std::printf("| %s | %d | %s | %lld | %d%s | %.1f | %.1f | %.0f | %.0f |\n", argv[1],
-        std::atoi(argv[2]), isCore ? "Core" : std::to_string(ranks.Size()).c_str(),
-        static_cast<long long>(measured.functions), measured.report.iterations,
-        measured.report.converged ? "" : " (not converged)", measured.setUp, measured.solve,
+      std::printf("| %s of %s | %d | %s | %lld | %d%s | %.2f | %.2f | %.0f | %.0f |\n", argv[1],
+        argv[2], depth, isCore ? "Core" : std::to_string(ranks.Size()).c_str(),
+        static_cast<long long>(measured.functions), measured.iterations,
+        measured.converged ? "" : " (not converged)", measured.setUp, measured.solve,
         measured.before, peak);
     }
   }

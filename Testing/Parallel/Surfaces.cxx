@@ -101,4 +101,14 @@ TriangleMesh PartOf(
   return part;
 }
 
+RankSpaceOptions Options(int depth)
+{
+  RankSpaceOptions options;
+  options.space.functions.depth = depth;
+  options.space.functions.threads = 1;
+  options.space.coarsestSize = 16;
+  options.granularity = 2;
+  return options;
+}
+
 } // namespace gridfem::testing

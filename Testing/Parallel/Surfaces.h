@@ -2,7 +2,7 @@
 #ifndef GridFEM_Testing_Surfaces_h
 #define GridFEM_Testing_Surfaces_h
 
-#include "Grid/TriangleMesh.h"
+#include "Parallel/RankSpace.h"
 
 #include <string>
 #include <vector>
@@ -38,6 +38,9 @@ std::vector<int> Deal(const TriangleMesh& mesh, Dealing dealing, int ranks);
 /// @param points  if not null: which points of the mesh they are
 TriangleMesh PartOf(const TriangleMesh& mesh, const std::vector<int>& rankOf, int rank,
   std::vector<Id>* points = nullptr);
+
+/// A space of one thread with as many levels for one rank as for several, shared from level 2 on.
+RankSpaceOptions Options(int depth);
 
 } // namespace gridfem::testing
 

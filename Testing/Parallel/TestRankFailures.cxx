@@ -71,16 +71,12 @@ MultiVector ValuesAt(const std::vector<Vec3>& points)
 
 SolveReport Solve(const Communicator& ranks, const TriangleMesh& own)
 {
-  RankSpaceOptions options;
-  options.space.functions.depth = 4;
-  options.space.functions.threads = 1;
-  options.granularity = 2;
-  const RankSpace space(ranks, own, options);
+  const RankSpace space(ranks, own, Options(4));
   Field f;
   f.values = space.Distribution().SendPoints(ValuesAt(own.points));
   MultiVector load;
   ranks.Together([&] { load = space.Own().LoadOfValues(f); });
-  RankPoissonOptions poisson;
+  PoissonOptions poisson;
   poisson.screeningWeight = 0.05;
   poisson.multigrid.threads = 1;
   const PoissonSolution solution = SolvePoisson(space, load, MultiVector(), poisson);
@@ -97,7 +93,7 @@ TEST(RankFailures, AnyAllocationOfOneRankFailsOnAll)
   const TriangleMesh mesh = Surfaces().front().mesh;
   const TriangleMesh own =
     PartOf(mesh, Deal(mesh, Dealing::Contiguous, ranks.Size()), ranks.Rank());
-  Solve(ranks, own); // starts PETSc
+  Solve(ranks, own);
   allocations = 0;
   ASSERT_TRUE(Solve(ranks, own).converged);
   auto most = static_cast<double>(ranks.Rank() == failing ? allocations : 0);
@@ -110,7 +106,7 @@ TEST(RankFailures, AnyAllocationOfOneRankFailsOnAll)
     int failed = -1;
     try
     {
-      Solve(ranks, own);
+      ranks.Guard([&] { Solve(ranks, own); });
     }
     catch (const RankFailure& failure)
     {

@@ -1,6 +1,6 @@
 // The space on several ranks is that of one rank: the same patches and functions on every level,
 // the same entries of M, L and the prolongations.
-#include "Parallel/RankSpace.h"
+#include "Parallel/RankLevels.h"
 #include "Surfaces.h"
 
 #include <gtest/gtest.h>
@@ -18,10 +18,8 @@ constexpr int Depth = 5;
 
 RankSpaceOptions Options(bool connectivityAware, int granularity)
 {
-  RankSpaceOptions options;
-  options.space.functions.depth = Depth;
+  RankSpaceOptions options = gridfem::testing::Options(Depth);
   options.space.functions.connectivityAware = connectivityAware;
-  options.space.functions.threads = 1;
   options.space.coarsestSize = 0;
   options.granularity = granularity;
   return options;
@@ -206,6 +204,34 @@ void CompareWithOneRank(const TriangleMesh& mesh, Dealing dealing, const RankSpa
   }
 }
 
+/// Of every function, on all ranks that touch it; in more columns than a message has.
+template<class Real>
+void ExchangeRows(const RankLevels& levels, const LevelNumbering& numbering, std::size_t level)
+{
+  constexpr Id Columns = 40;
+  const DividedRows& rows = *levels.Divided(level);
+  Vectors<Real> parts(numbering.Functions(), Columns);
+  Vectors<Real> numbers(numbering.Functions(), Columns);
+  for (Index f = 0; f < numbering.Functions(); ++f)
+  {
+    const bool isOwn = f >= numbering.foreign;
+    const auto number = static_cast<Real>(numbering.number[f]); // small enough for all digits
+    for (Id c = 0; c < Columns; ++c)
+    {
+      parts(f, c) = Real(c) + number;
+      numbers(f, c) = isOwn ? Real(c) + number : Real(-1);
+    }
+  }
+  const Vectors<Real> own = parts;
+  rows.Sum(parts);
+  rows.TakeForeign(numbers);
+  for (Index f = 0; f < numbering.Functions(); ++f)
+  {
+    ASSERT_TRUE(parts.row(f) == Real(numbering.touching[f]) * own.row(f)) << "function " << f;
+    ASSERT_TRUE(numbers.row(f) == own.row(f)) << "function " << f;
+  }
+}
+
 } // namespace
 
 TEST(RankSpace, IsThatOfOneRankHoweverTrianglesAreDealt)
@@ -216,6 +242,23 @@ TEST(RankSpace, IsThatOfOneRankHoweverTrianglesAreDealt)
     {
       SCOPED_TRACE(surface.name + ", dealing " + std::to_string(static_cast<int>(dealing)));
       CompareWithOneRank(surface.mesh, dealing, Options(true, 3));
+    }
+  }
+}
+
+TEST(RankSpace, RowsOfAllRanksAreAddedUpAndHandedOver)
+{
+  const Communicator ranks(MPI_COMM_WORLD);
+  for (const NamedSurface& surface : Surfaces())
+  {
+    SCOPED_TRACE(surface.name);
+    const std::vector<int> rankOf = Deal(surface.mesh, Dealing::Shuffled, ranks.Size());
+    const RankSpace space(ranks, PartOf(surface.mesh, rankOf, ranks.Rank()), Options(true, 2));
+    const RankLevels levels(space);
+    for (std::size_t l = 0; l < space.Numberings().size(); ++l)
+    {
+      ExchangeRows<float>(levels, space.Numberings()[l], l);
+      ExchangeRows<double>(levels, space.Numberings()[l], l);
     }
   }
 }

@@ -1,5 +1,6 @@
 // The spectrum on several ranks is that of one rank: its values, and its vectors at every point.
-#include "Parallel/RankEigenproblem.h"
+#include "Krylov/SpectralProblem.h"
+#include "Parallel/RankLevels.h"
 #include "Parallel/RankSpectrum.h"
 #include "Spaces/GridSpace.h"
 #include "Surfaces.h"
@@ -14,16 +15,6 @@ using namespace gridfem::testing;
 
 namespace
 {
-
-RankSpaceOptions Options(int depth)
-{
-  RankSpaceOptions options;
-  options.space.functions.depth = depth;
-  options.space.functions.threads = 1;
-  options.space.coarsestSize = 16;
-  options.granularity = 2;
-  return options;
-}
 
 SpectrumOptions Modes(int count)
 {
@@ -78,6 +69,27 @@ double LargestDifference(
   return difference;
 }
 
+/// Values of one rank to a part of them, in about as many iterations.
+void CompareWithOneRank(const NamedSurface& surface, const SpectrumOptions& options, double part)
+{
+  SCOPED_TRACE(surface.name);
+  constexpr int Depth = 5; // one rank solves smaller levels densely, without iterations
+  const GridSpace space = BuildGridSpace(surface.mesh, Options(Depth).space);
+  const Spectrum expected = ComputeSpectrum(space, options);
+  const Spectrum found = SolveOnRanks(surface.mesh, Dealing::Contiguous, options, Depth).spectrum;
+  EXPECT_TRUE(found.converged);
+  // Patches at borders are in double precision, so that flat pieces may need it nowhere else.
+  EXPECT_GE(found.singlePrecision, expected.singlePrecision);
+  EXPECT_LE(found.iterations, 1 + 1.3 * expected.iterations);
+  ASSERT_EQ(found.eigenvalues.size(), expected.eigenvalues.size());
+  for (std::size_t mode = 0; mode < expected.eigenvalues.size(); ++mode)
+  {
+    EXPECT_NEAR(
+      found.eigenvalues[mode], expected.eigenvalues[mode], part * expected.eigenvalues[mode])
+      << "mode " << mode;
+  }
+}
+
 } // namespace
 
 TEST(RankSpectrum, IsThatOfOneRank)
@@ -112,6 +124,34 @@ TEST(RankSpectrum, IsThatOfOneRank)
   EXPECT_GE(simple, 8);
 }
 
+TEST(RankSpectrum, TakesBlocksInSinglePrecisionAsOneRankDoes)
+{
+  SpectrumOptions options = Modes(12);
+  options.tolerance = 1e-6; // of the values
+  int single = 0;
+  for (const NamedSurface& surface : Surfaces())
+  {
+    CompareWithOneRank(
+      surface, options, 1e-5); // values that are near each other miss the tolerance
+    single += SolveOnRanks(surface.mesh, Dealing::OneRank, options).spectrum.singlePrecision;
+  }
+  EXPECT_GE(single, 3); // flat pieces need double precision
+}
+
+TEST(RankSpectrum, TakesCyclesInDoublePrecisionWhereTheyAreAskedFor)
+{
+  SpectrumOptions options = Modes(12);
+  options.multigrid.cycle = CycleType::W;
+  CompareWithOneRank(Surfaces()[1], options, 1e-8);
+}
+
+TEST(RankSpectrum, FindsManyModesWindowByWindow)
+{
+  SpectrumOptions options = Modes(170);
+  options.tolerance = 1e-9;
+  CompareWithOneRank(Surfaces()[1], options, 1e-8);
+}
+
 TEST(RankSpectrum, IsOrthonormalForAnyDistribution)
 {
   const Communicator ranks(MPI_COMM_WORLD);
@@ -121,9 +161,15 @@ TEST(RankSpectrum, IsOrthonormalForAnyDistribution)
     const TriangleMesh own = PartOf(mesh, Deal(mesh, dealing, ranks.Size()), ranks.Rank());
     const RankSpace space(ranks, own, Options(4));
     const Spectrum spectrum = ComputeSpectrum(space, Modes(12));
-    const RankEigenproblem problem(space, 0, Modes(12).multigrid);
-    const MultiVector X = spectrum.vectors.bottomRows(problem.Rows());
-    EXPECT_TRUE(problem.Spread(X) == spectrum.vectors);
+    const RankLevels levels(space);
+    SpectralProblem<double> problem;
+    problem.stiffness = levels.Matrix(0, 0.0, 1.0, 1);
+    problem.mass = levels.Matrix(0, 1.0, 0.0, 1);
+    problem.divided = levels.Divided(0);
+    problem.threads = 1;
+    MultiVector X = spectrum.vectors;
+    problem.Agree(X);
+    EXPECT_TRUE(X == spectrum.vectors);
     const Eigen::MatrixXd products = problem.ProjectBoth({ X }, X);
     Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(12, 24);
     for (int mode = 0; mode < 12; ++mode)

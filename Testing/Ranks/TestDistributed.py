@@ -85,15 +85,23 @@ class Distributed(unittest.TestCase):
         output = ranks.run(made(), ranks.piece(ranks.bowl(), "ghosts"))[0]
         ranks.check(self, [] if number(output, "Distributed") is None else ["ghost cells"])
 
-    def test_estimates_no_errors(self):
-        filter_ = ranks.make("ScreenedPoisson", 5, Distributed=True, Tolerance=0.0)
+    def test_estimates_the_errors_of_one_rank(self):
         warnings = []
-        filter_.AddObserver("WarningEvent", lambda *_: warnings.append("a warning"))
-        output = ranks.run(filter_, ranks.piece(ranks.ellipsoid(), "contiguous"))[0]
+
+        def solve(mesh):
+            filter_ = ranks.make("ScreenedPoisson", 5, Distributed=True, Tolerance=0.0)
+            filter_.AddObserver("WarningEvent", lambda *_: warnings.append("a warning"))
+            return ranks.run(filter_, mesh)[0]
+        output = solve(ranks.piece(ranks.ellipsoid(), "contiguous"))
         problems = list(warnings)
-        for name in ("AlgebraicError", "DiscretizationError"):
-            if not numpy.isnan(number(output, name)):
-                problems.append(f"{name} is a number")
+        whole = ranks.alone(lambda: solve(ranks.whole(ranks.ellipsoid())))
+        for name in ("DiscretizationError", "LargestDiscretizationError", "TrustedEstimate"):
+            found, expected = number(output, name), number(whole, name)
+            if not abs(found - expected) <= 0.1 * expected:
+                problems.append(f"{name} is {found} instead of {expected}")
+        # The iteration ends when this part is what it has left: the default of Accuracy is a tenth.
+        if not 0.0 < number(output, "AlgebraicError") <= 0.2 * number(output, "DiscretizationError"):
+            problems.append(f"AlgebraicError is {number(output, 'AlgebraicError')}")
         if number(output, "Distributed") != 1 or number(output, "Converged") != 1:
             problems.append("not by all ranks, or not converged")
         ranks.check(self, problems)

@@ -38,7 +38,7 @@ def run(depth, mesh, room=None):
 
 
 def main():
-    if not run(4, ranks.ellipsoid())[1]:  # starts PETSc
+    if not run(4, ranks.ellipsoid())[1]:
         sys.exit("nothing is computed without a limit")
     messages, is_computed = run(6, ranks.ellipsoid(150, 75), int(sys.argv[1]) * MEGABYTE)
     computed = ranks.total(int(is_computed))

@@ -168,7 +168,8 @@ TEST_P(FailureRule, ASliverIsComputedUntilItIsRounding)
     return ToPolyData(
       { { { 0, 0, 0 }, { 1, 1, 1 }, { 0.5, 0.5, 0.5 + height } }, { { 0, 1, 2 } } });
   };
-  // On hats the long side is what entries leave that are larger by the squared inverse of the height.
+  // On hats the long side is what entries leave that are larger by the squared inverse of the
+  // height.
   const bool isOnHats = filter->GetFunctionSpace() == vtkSurfaceFEMAlgorithm::HatFunctions;
   this->ExpectComputed(sliver(isOnHats ? 1e-6 : 1e-9));
   this->ExpectRefused(sliver(1e-12), "no area");

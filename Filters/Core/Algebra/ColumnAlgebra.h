@@ -10,8 +10,8 @@ namespace gridfem
 /// One number per column.
 using Columns = Eigen::ArrayXd;
 
-/// x_cᵀ y_c of every column c. Same bits for any number of threads.
-inline Columns ColumnProducts(const MultiVector& x, const MultiVector& y, int threads)
+/// x_cᵀ y_c of every column c, over the rows from `first` on. Same bits for any number of threads.
+inline Columns ColumnProducts(const MultiVector& x, const MultiVector& y, int threads, Id first = 0)
 {
   const auto sumRange = [&](Id begin, Id end)
   {
@@ -22,7 +22,7 @@ inline Columns ColumnProducts(const MultiVector& x, const MultiVector& y, int th
         using ColumnLanes = typename decltype(chunk)::ColumnLanes;
         ColumnLanes part[4] = { ColumnLanes::Zero(), ColumnLanes::Zero(), ColumnLanes::Zero(),
           ColumnLanes::Zero() };
-        for (Index row = static_cast<Index>(begin); row < end; ++row)
+        for (Index row = static_cast<Index>(first + begin); row < first + end; ++row)
         {
           part[row & 3] += chunk.Row(x.data(), row) * chunk.Row(y.data(), row);
         }
@@ -32,7 +32,7 @@ inline Columns ColumnProducts(const MultiVector& x, const MultiVector& y, int th
     return sums;
   };
   return ParallelSum(
-    x.rows(), ThreadsFor(x.size(), threads), Columns(Columns::Zero(x.cols())), sumRange);
+    x.rows() - first, ThreadsFor(x.size(), threads), Columns(Columns::Zero(x.cols())), sumRange);
 }
 
 /// y_c += factor_c x_c.

@@ -6,13 +6,16 @@ namespace gridfem
 {
 
 ComponentMeans::ComponentMeans(const std::vector<Index>& component,
-  const std::vector<double>& integral, Index numberOfComponents, int threads)
-  : component_(component), integral_(integral), area_(numberOfComponents, 0.0), threads_(threads)
+  const std::vector<double>& integral, Index numberOfComponents, int threads,
+  const DividedRows* divided)
+  : component_(component), integral_(integral), area_(numberOfComponents, 0.0), threads_(threads),
+    divided_(divided)
 {
-  for (std::size_t i = 0; i < component_.size(); ++i)
+  for (std::size_t i = ForeignRows(divided); i < component_.size(); ++i)
   {
     area_[component_[i]] += integral_[i];
   }
+  SumOverProcesses(divided_, area_);
 }
 
 /// Σ weight(i) x_i over every component, divided by its area.
@@ -20,13 +23,14 @@ template<class Weight>
 MultiVector ComponentMeans::WeightedMeans(const MultiVector& x, Weight&& weight) const
 {
   const MultiVector zero = MultiVector::Zero(static_cast<Id>(area_.size()), x.cols());
+  const Id foreign = ForeignRows(divided_); // which count elsewhere
   const auto sumRange = [&](Id begin, Id end)
   {
     MultiVector sum = zero;
     ForEachChunk(x.cols(),
       [&](auto chunk)
       {
-        for (Index i = static_cast<Index>(begin); i < end; ++i)
+        for (Index i = static_cast<Index>(foreign + begin); i < foreign + end; ++i)
         {
           chunk.Row(sum.data(), component_[i]) += weight(i) * chunk.Row(x.data(), i);
         }
@@ -35,7 +39,9 @@ MultiVector ComponentMeans::WeightedMeans(const MultiVector& x, Weight&& weight)
   };
   // Sums of ranges that are longer than components are many take less room than x.
   const Id range = std::max(DefaultBlockSize, zero.rows());
-  MultiVector mean = ParallelSum(x.rows(), ThreadsFor(x.size(), threads_), zero, sumRange, range);
+  MultiVector mean =
+    ParallelSum(x.rows() - foreign, ThreadsFor(x.size(), threads_), zero, sumRange, range);
+  SumOverProcesses(divided_, mean);
   for (Id k = 0; k < mean.rows(); ++k)
   {
     if (area_[k] > 0.0)

@@ -3,6 +3,7 @@
 #define GridFEM_ComponentMeans_h
 
 #include "Algebra/ColumnAlgebra.h"
+#include "Algebra/DividedRows.h"
 #include "Base/Types.h"
 
 #include <vector>
@@ -11,14 +12,16 @@ namespace gridfem
 {
 
 /// Blocks have one row per function, means one row per component; any number of columns. Same bits
-/// for any number of threads. Keeps references to the arrays it is made from.
+/// for any number of threads. Keeps references to what it is made from. Where processes hold the
+/// rows together, all of them call every function, and means are those of the whole.
 class ComponentMeans
 {
 public:
   /// @param component  per function, 0 .. numberOfComponents - 1
   /// @param integral   ∫ b_i per function
+  /// @param divided    null: this process holds all functions
   ComponentMeans(const std::vector<Index>& component, const std::vector<double>& integral,
-    Index numberOfComponents, int threads);
+    Index numberOfComponents, int threads, const DividedRows* divided = nullptr);
 
   /// Means of a field over the components, from its integrals against the functions. Components
   /// without area have mean 0.
@@ -46,6 +49,7 @@ private:
   const std::vector<double>& integral_;
   std::vector<double> area_;
   int threads_;
+  const DividedRows* divided_;
 };
 
 } // namespace gridfem

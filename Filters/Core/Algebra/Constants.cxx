@@ -17,9 +17,9 @@ constexpr Id RowsPerComponent = 64;
 
 } // namespace
 
-Constants::Constants(
-  const SparseMatrix& mass, std::vector<Index> component, Index numberOfComponents, int threads)
-  : component_(std::move(component)), threads_(threads)
+Constants::Constants(const SparseMatrix& mass, std::vector<Index> component,
+  Index numberOfComponents, int threads, const DividedRows* divided)
+  : component_(std::move(component)), threads_(threads), divided_(divided)
 {
   weight_.assign(mass.rows, 0.0);
   mass_.assign(numberOfComponents, 0.0);
@@ -30,29 +30,12 @@ Constants::Constants(
       weight_[i] += mass.value[k];
     }
   }
-  this->FindMassive();
-}
-
-Constants::Constants(std::vector<double> weight, std::vector<Index> component,
-  Index numberOfComponents, int threads, Sum sum)
-  : component_(std::move(component)), weight_(std::move(weight)), mass_(numberOfComponents, 0.0),
-    threads_(threads), sum_(std::move(sum))
-{
-  this->FindMassive();
-}
-
-/// The mass of every component, from the weights of its functions.
-void Constants::FindMassive()
-{
   for (std::size_t i = 0; i < weight_.size(); ++i)
   {
     mass_[component_[i]] += weight_[i];
   }
   const auto components = static_cast<Index>(mass_.size());
-  if (sum_)
-  {
-    sum_(mass_.data(), components);
-  }
+  SumOverProcesses(divided_, mass_);
   const double total = std::accumulate(mass_.begin(), mass_.end(), 0.0);
   for (Index c = 0; c < components; ++c)
   {
@@ -109,10 +92,7 @@ MultiVector Constants::Means(const ConstBlock<Real>& X) const
       return sum;
     },
     X.rows() / sums + 1);
-  if (sum_)
-  {
-    sum_(mean.data(), mean.size());
-  }
+  SumOverProcesses(divided_, mean);
   for (Id c = 0; c < components; ++c)
   {
     mean.row(c) *= mass_[c] > 0.0 ? 1.0 / mass_[c] : 0.0;

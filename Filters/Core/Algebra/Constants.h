@@ -3,10 +3,9 @@
 #ifndef GridFEM_Constants_h
 #define GridFEM_Constants_h
 
-#include "Algebra/BlockVectors.h"
+#include "Algebra/DividedRows.h"
 #include "Algebra/SparseMatrix.h"
 
-#include <functional>
 #include <vector>
 
 namespace gridfem
@@ -16,18 +15,12 @@ namespace gridfem
 class Constants
 {
 public:
+  /// @param mass       where processes hold the functions together, what this one adds to it
   /// @param component  per function, 0 .. numberOfComponents - 1
-  Constants(
-    const SparseMatrix& mass, std::vector<Index> component, Index numberOfComponents, int threads);
-
-  /// Adds up numbers of all processes, in place.
-  using Sum = std::function<void(double* values, Id count)>;
-
-  /// The same where several processes hold the functions together, each some of them.
-  /// @param weight     ∫ b_i of the functions of this process
-  /// @param component  of each of them, numbered over all processes
-  Constants(std::vector<double> weight, std::vector<Index> component, Index numberOfComponents,
-    int threads, Sum sum);
+  /// @param divided    null: this process holds all functions; else has to outlive this, and all
+  ///                   processes call the constructor and Remove
+  Constants(const SparseMatrix& mass, std::vector<Index> component, Index numberOfComponents,
+    int threads, const DividedRows* divided = nullptr);
 
   /// Removes the constants from every column, in the inner product of the mass matrix; components
   /// without mass, as pieces without an area are, become zero.
@@ -45,18 +38,16 @@ public:
   Index Count() const { return static_cast<Index>(massive_.size()); }
 
 private:
-  void FindMassive();
-
   /// Mean of every column on every component.
   template<class Real>
   MultiVector Means(const ConstBlock<Real>& X) const;
 
   std::vector<Index> component_;
-  std::vector<double> weight_; // ∫ b_i
+  std::vector<double> weight_; // ∫ b_i, or what this process adds to it
   std::vector<double> mass_;   // per component; 0 when negligible
   std::vector<Index> massive_; // components with mass
   int threads_;
-  Sum sum_; // empty: there is one process
+  const DividedRows* divided_;
 };
 
 } // namespace gridfem

@@ -5,6 +5,35 @@
 namespace gridfem
 {
 
+namespace
+{
+
+/// The same where processes hold the rows together; A is the part of this one.
+LinearOperator OperatorOf(const SparseMatrix& A, const DividedRows& divided, int threads)
+{
+  LinearOperator result = OperatorOf(A, threads);
+  result.multiply = [&A, &divided, threads](const MultiVector& x, MultiVector& y)
+  {
+    Multiply(A, x, y, threads);
+    divided.Sum(y);
+  };
+  result.residual = [multiply = result.multiply](
+                      const MultiVector& x, const MultiVector& b, MultiVector& r)
+  {
+    multiply(x, r);
+    r = b - r;
+  };
+  result.products = [&divided, threads](const MultiVector& x, const MultiVector& y)
+  {
+    Columns products = ColumnProducts(x, y, threads, divided.Foreign());
+    divided.SumNumbers(products.data(), products.size());
+    return products;
+  };
+  return result;
+}
+
+} // namespace
+
 LinearOperator OperatorOf(const SparseMatrix& A, int threads)
 {
   LinearOperator result;
@@ -21,7 +50,10 @@ LinearOperator OperatorOf(const SparseMatrix& A, int threads)
 
 LinearOperator OperatorOf(const Multigrid& multigrid)
 {
-  return OperatorOf(multigrid.Matrix(), multigrid.Options().threads);
+  const auto& divided = multigrid.Levels().front().divided;
+  const int threads = multigrid.Options().threads;
+  return divided ? OperatorOf(multigrid.Matrix(), divided->Rows(), threads)
+                 : OperatorOf(multigrid.Matrix(), threads);
 }
 
 Preconditioner CycleOf(const Multigrid& multigrid)

@@ -167,6 +167,8 @@ void BlockIteration<Real>::NextVectors(const Progress& progress)
   this->RemoveKnown(corrections_.View(), progress);
   progress.Check(fraction_);
   rayleighRitz_.Step(options_.blockSize, locking_.AtWork());
+  problem_.Agree(pairs_.vectors.View());
+  problem_.Agree(directions_.View());
   progress.Check(fraction_);
   ++report_.iterations;
 }

@@ -14,12 +14,13 @@ namespace
 constexpr Id RowsOfFacts = 512;
 
 /// Calls body(first, count) for panels of columns that a preconditioner takes. Panels know nothing
-/// of each other, so each is the job of one thread where there are enough of them.
+/// of each other, so each is the job of one thread where there are enough of them; one thread sends
+/// messages to other processes.
 template<class Body>
-void ForEachPanel(Id columns, int threads, Body&& body)
+void ForEachPanel(Id columns, const DividedRows* divided, int threads, Body&& body)
 {
   const Id panels = (columns + PreconditionedColumns - 1) / PreconditionedColumns;
-  ParallelBlocks(panels, panels >= NumberOfThreads(threads) ? threads : 1,
+  ParallelBlocks(panels, !divided && panels >= NumberOfThreads(threads) ? threads : 1,
     [&](Id panel)
     {
       const Id first = panel * PreconditionedColumns;
@@ -37,6 +38,44 @@ EigenResidual<Real> ResidualOf(const SpectralProblem<Real>& problem, const Eigen
     problem.stiffness, problem.mass, pairs.vectors.View(), pairs.values, { begin, begin + count });
 }
 
+/// As SquaredNorms, of the whole that the processes add up.
+template<class Real>
+Eigen::VectorXd NormsOfParts(const DividedRows& divided, const RowSource<Real>& part, int threads)
+{
+  Vectors<Real> whole(part.rows, part.columns);
+  ParallelRanges(
+    part.rows, threads,
+    [&](Id begin, Id end) { part.fill(begin, end, whole.middleRows(begin, end - begin)); },
+    SourceRows);
+  divided.Sum(whole);
+  const Id foreign = divided.Foreign();
+  const RowSource<Real> own{ part.rows - foreign, part.columns,
+    [&](Id begin, Id end, Block<Real> rows)
+    { rows = whole.middleRows(foreign + begin, end - begin); } };
+  Eigen::VectorXd norm = SquaredNorms(own, threads);
+  divided.SumNumbers(norm.data(), norm.size());
+  return norm;
+}
+
+/// Entries of M x count once, where their rows belong to.
+/// @param image  the parts of M X
+Eigen::RowVectorXd LargestOfAll(const DividedRows& divided, MultiVector image)
+{
+  divided.Sum(image);
+  ColumnFacts own(image.cols());
+  for (Id row = divided.Foreign(); row < image.rows(); ++row)
+  {
+    own.TakeLargest(image.row(row));
+  }
+  const MultiVector ofProcesses = divided.Gather(own.largest);
+  ColumnFacts all(image.cols());
+  for (Id process = 0; process < ofProcesses.rows(); ++process)
+  {
+    all.TakeLargest(ofProcesses.row(process));
+  }
+  return all.largest;
+}
+
 } // namespace
 
 template<class Real>
@@ -51,14 +90,18 @@ template<class Real>
 Eigen::MatrixXd SpectralProblem<Real>::ProjectBoth(
   const BasisParts<Real>& parts, const ConstBlock<Real>& Y) const
 {
-  return ProjectPair<Real>(parts, stiffness, mass, Y, threads);
+  Eigen::MatrixXd projected = ProjectPair<Real>(parts, stiffness, mass, Y, threads);
+  SumOverProcesses(divided, projected);
+  return projected;
 }
 
 template<class Real>
 Eigen::MatrixXd SpectralProblem<Real>::ProjectMass(
   const BasisParts<Real>& parts, const ConstBlock<Real>& Y) const
 {
-  return Project<Real>(parts, mass, Y, threads);
+  Eigen::MatrixXd projected = Project<Real>(parts, mass, Y, threads);
+  SumOverProcesses(divided, projected);
+  return projected;
 }
 
 template<class Real>
@@ -69,7 +112,7 @@ ResidualMeasures SpectralProblem<Real>::Correct(const BlockPreconditioner<Real>&
   const std::vector<Index>& columns = locking.AtWork();
   const Id residuals = static_cast<Id>(columns.size());
   ResidualMeasures all{ Eigen::VectorXd(residuals), Eigen::VectorXd(residuals) };
-  ForEachPanel(residuals + load.cols(), threads,
+  ForEachPanel(residuals + load.cols(), divided, threads,
     [&](Id first, Id count)
     {
       const Id firstW = std::min(first, residuals);
@@ -113,13 +156,14 @@ Eigen::VectorXd SpectralProblem<Real>::SquaredResiduals(
   const EigenPairs<Real>& pairs, const std::vector<Index>& columns) const
 {
   Eigen::VectorXd norm(static_cast<Id>(columns.size()));
-  ForEachPanel(norm.size(), threads,
+  ForEachPanel(norm.size(), divided, threads,
     [&](Id first, Id count)
     {
       const EigenResidual<Real> residual = ResidualOf(*this, pairs, columns, first, count);
       const RowSource<Real> source{ mass.rows, count,
         [&](Id begin, Id end, Block<Real> part) { residual.Rows(begin, end, part); } };
-      norm.segment(first, count) = SquaredNorms(source, threads);
+      norm.segment(first, count) =
+        divided ? NormsOfParts(*divided, source, threads) : SquaredNorms(source, threads);
     });
   return norm;
 }
@@ -153,7 +197,22 @@ ColumnFacts SpectralProblem<Real>::FactsOf(const MultiVector& X) const
     facts.mass += part.mass;
     facts.TakeLargest(part.largest);
   }
+  if (divided)
+  {
+    SumOverProcesses(divided, facts.energy);
+    SumOverProcesses(divided, facts.mass);
+    facts.largest = LargestOfAll(*divided, this->MassTimes(X));
+  }
   return facts;
+}
+
+template<class Real>
+void SpectralProblem<Real>::Agree(Block<Real> X) const
+{
+  if (divided)
+  {
+    divided->TakeForeign(X);
+  }
 }
 
 template struct SpectralProblem<float>;

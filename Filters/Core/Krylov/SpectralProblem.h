@@ -1,7 +1,7 @@
 // The eigenproblem of one level, L x = θ M x, and pairs that solve it. What the block iteration,
 // the dense solve and the collection of results share.
-// Where several processes hold the rows of the vectors together, a class of theirs has other
-// products, and no matrices here.
+// Where several processes hold the rows of the vectors together, matrices are the parts that this
+// one adds.
 #ifndef GridFEM_SpectralProblem_h
 #define GridFEM_SpectralProblem_h
 
@@ -48,43 +48,40 @@ struct ColumnFacts
   }
 };
 
-/// One level's eigenproblem, for blocks of vectors of one precision.
+/// One level's eigenproblem, for blocks of vectors of one precision. Where processes hold it
+/// together, all of them call every function but Rows, in the same order.
 template<class Real>
 struct SpectralProblem
 {
-  SpectralProblem() = default;
-  SpectralProblem(SpectralProblem&&) noexcept = default;
-  SpectralProblem& operator=(SpectralProblem&&) noexcept = default;
-  virtual ~SpectralProblem() = default;
-
   /// Of the vectors, in this process.
-  virtual Id Rows() const { return mass.rows; }
+  Id Rows() const { return mass.rows; }
 
-  /// M X, in double precision.
-  virtual MultiVector MassTimes(const MultiVector& X) const;
+  /// M X, in double precision; of a divided problem the part.
+  MultiVector MassTimes(const MultiVector& X) const;
 
   /// [X₁ X₂ ...]ᵀ [L Y, M Y] over all rows.
-  virtual Eigen::MatrixXd ProjectBoth(
-    const BasisParts<Real>& parts, const ConstBlock<Real>& Y) const;
+  Eigen::MatrixXd ProjectBoth(const BasisParts<Real>& parts, const ConstBlock<Real>& Y) const;
 
   /// [X₁ X₂ ...]ᵀ M Y over all rows.
-  virtual Eigen::MatrixXd ProjectMass(
-    const BasisParts<Real>& parts, const ConstBlock<Real>& Y) const;
+  Eigen::MatrixXd ProjectMass(const BasisParts<Real>& parts, const ConstBlock<Real>& Y) const;
 
   /// W = B (L X - M X diag(θ)) for the columns at work, but for panels that have converged as a
   /// whole, and P = B F for loads F that go with them: a cycle takes as long for a few columns as
   /// for a panel. Measures are those of the columns at work, as many as W has.
   /// @param load  F; as many columns as P has
-  virtual ResidualMeasures Correct(const BlockPreconditioner<Real>& B,
-    const EigenPairs<Real>& pairs, const SoftLocking& locking, Block<Real> W,
-    const MultiVector& load, Block<Real> P) const;
+  ResidualMeasures Correct(const BlockPreconditioner<Real>& B, const EigenPairs<Real>& pairs,
+    const SoftLocking& locking, Block<Real> W, const MultiVector& load, Block<Real> P) const;
 
   /// What X has, column by column, in double precision.
-  virtual ColumnFacts FactsOf(const MultiVector& X) const;
+  ColumnFacts FactsOf(const MultiVector& X) const;
 
   /// rᵀr of these columns. A cycle for each would cost far more.
-  virtual Eigen::VectorXd SquaredResiduals(
+  Eigen::VectorXd SquaredResiduals(
     const EigenPairs<Real>& pairs, const std::vector<Index>& columns) const;
+
+  /// Gives rows that several processes hold the same bits in all of them: products of dense
+  /// matrices may round them differently.
+  void Agree(Block<Real> X) const;
 
   SparseMatrix stiffness;
   SparseMatrix mass;
@@ -94,6 +91,7 @@ struct SpectralProblem
   /// Makes a better one, where there is: it takes over when convergence is slow.
   std::function<BlockPreconditioner<Real>()> fallback;
   const Constants* constants = nullptr; // the pairs found are orthogonal to them
+  const DividedRows* divided = nullptr; // null: this process holds all rows
   int threads = 0;
 };
 

@@ -40,6 +40,12 @@ void HandOver(const MultiVector& z, const RowSink<Real>& sink, int threads)
     SourceRows);
 }
 
+const DividedRows* RowsOf(const Multigrid& multigrid, std::size_t level)
+{
+  const auto& divided = multigrid.Levels()[level].divided;
+  return divided ? &divided->Rows() : nullptr;
+}
+
 } // namespace
 
 template<class Real>
@@ -78,19 +84,29 @@ BlockPreconditioner<Real> CyclePreconditioner(const Multigrid& multigrid, std::s
   {
     const int threads = multigrid.Options().threads;
     MultiVector block = AllRows(r, threads); // corrections take the place of residuals
+    const DividedRows* const divided = RowsOf(multigrid, level);
+    if (divided)
+    {
+      divided->Sum(block);
+    }
+    const Id own = block.rows() - ForeignRows(divided);
     ResidualMeasures measures{ Eigen::VectorXd(r.columns), Eigen::VectorXd(r.columns) };
     ParallelRanges(
-      r.columns, threads,
+      r.columns, divided ? 1 : threads, // messages come from one thread
       [&](Id begin, Id end)
       {
         const MultiVector residual = block.middleCols(begin, end - begin);
         MultiVector correction;
         multigrid.PreconditionFrom(level, residual, correction);
-        measures.energy.segment(begin, end - begin) = ColumnDots(residual, correction, threads);
-        measures.norm.segment(begin, end - begin) = ColumnDots(residual, residual, threads);
+        const auto ofOwn = residual.bottomRows(own);
+        measures.energy.segment(begin, end - begin) =
+          ColumnDots(ofOwn, correction.bottomRows(own), threads);
+        measures.norm.segment(begin, end - begin) = ColumnDots(ofOwn, ofOwn, threads);
         block.middleCols(begin, end - begin) = correction;
       },
-      PanelWidth);
+      divided ? r.columns : PanelWidth);
+    SumOverProcesses(divided, measures.energy);
+    SumOverProcesses(divided, measures.norm);
     if (isWanted(measures))
     {
       HandOver(block, z, threads);

@@ -49,7 +49,8 @@ using CorrectionTest = std::function<bool(const ResidualMeasures&)>;
 
 /// Hands over z = B r where it is wanted, B symmetric positive semi-definite; r has at most
 /// PreconditionedColumns columns. Safe to call from several threads; same bits for any number of
-/// them.
+/// them. Where processes hold the rows together, r is what each adds to it, measures are of the
+/// whole, and one thread of each calls it.
 template<class Real>
 using BlockPreconditioner = std::function<ResidualMeasures(
   const RowSource<Real>& r, const CorrectionTest& isWanted, const RowSink<Real>& z)>;

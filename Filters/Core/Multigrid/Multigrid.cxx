@@ -104,16 +104,19 @@ void Multigrid::BuildSolvers()
 std::unique_ptr<Smoother> Multigrid::MakeSmoother(std::size_t l) const
 {
   const MultigridLevel& level = levels_[l];
-  std::unique_ptr<Smoother> smoother = this->MakeSmoother(level, this->SmoothingOf(l).smoother);
-  if (level.groups.dof.empty())
-  {
-    return smoother;
-  }
   std::vector<std::unique_ptr<Smoother>> sequence;
-  sequence.push_back(std::move(smoother));
-  sequence.push_back(
-    MakePatchSmoother(level.A, level.groups, options_.threads, options_.precision));
-  return MakeSmootherSequence(std::move(sequence));
+  sequence.push_back(this->MakeSmoother(level, this->SmoothingOf(l).smoother));
+  if (!level.groups.dof.empty())
+  {
+    sequence.push_back(
+      MakePatchSmoother(level.A, level.groups, options_.threads, options_.precision));
+  }
+  if (level.divided)
+  {
+    sequence.push_back(MakeBorderSmoother(level.divided));
+  }
+  return sequence.size() == 1 ? std::move(sequence.front())
+                              : MakeSmootherSequence(std::move(sequence));
 }
 
 std::unique_ptr<Smoother> Multigrid::MakeSmoother(
@@ -139,9 +142,16 @@ LevelSmoothing Multigrid::SmoothingOf(std::size_t level) const
 
 bool Multigrid::HasSingleFactors() const
 {
-  return std::any_of(levels_.begin(), levels_.end(),
-    [](const MultigridLevel& level)
-    { return level.smoother && level.smoother->HasSingleFactors(); });
+  double single = std::any_of(levels_.begin(), levels_.end(),
+                    [](const MultigridLevel& level)
+                    { return level.smoother && level.smoother->HasSingleFactors(); })
+                    ? 1.0
+                    : 0.0;
+  if (levels_.front().divided)
+  {
+    levels_.front().divided->Rows().SumNumbers(&single, 1);
+  }
+  return single > 0.0;
 }
 
 Multigrid Multigrid::InDoublePrecision() const
@@ -151,7 +161,7 @@ Multigrid Multigrid::InDoublePrecision() const
   {
     const MultigridLevel& from = levels_[l];
     levels[l] = { from.A, from.prolongation, from.restriction, from.order, from.groups,
-      from.smoothing, nullptr };
+      from.smoothing, from.divided, nullptr };
   }
   MultigridOptions options = options_;
   options.precision = FactorPrecision::Double;
@@ -181,11 +191,12 @@ void Multigrid::NestedIteration(const MultiVector& b, MultiVector& x, MultiVecto
 {
   this->CheckRows(0, b);
   std::vector<MultiVector> load(levels_.size());
+  std::vector<Scratch> scratch(levels_.size());
   for (std::size_t l = 1; l < levels_.size(); ++l)
   {
-    Multiply(levels_[l - 1].restriction, l == 1 ? b : load[l - 1], load[l], options_.threads);
+    this->RestrictResidual(
+      l - 1, l == 1 ? b : load[l - 1], nullptr, scratch[l - 1].residual, load[l]);
   }
-  std::vector<Scratch> scratch(levels_.size());
   coarse_.Solve(levels_.size() == 1 ? b : load.back(), x, options_.threads);
   for (std::size_t l = levels_.size() - 1; l > 0; --l)
   {
@@ -193,7 +204,7 @@ void Multigrid::NestedIteration(const MultiVector& b, MultiVector& x, MultiVecto
     {
       const MultiVector before = l == 1 && lastStep ? x : MultiVector();
       this->CycleLevel(l, load[l], x, false, scratch);
-      if (before.rows() > 0)
+      if (l == 1 && lastStep)
       {
         Multiply(levels_[0].prolongation, x - before, *lastStep, options_.threads);
       }
@@ -201,6 +212,32 @@ void Multigrid::NestedIteration(const MultiVector& b, MultiVector& x, MultiVecto
     MultiVector finer;
     Multiply(levels_[l - 1].prolongation, x, finer, options_.threads);
     x.swap(finer);
+  }
+}
+
+/// coarse = Pᵀ (b - A x), or Pᵀ b without x. Where processes divide the level, a row of b counts
+/// where it belongs to, as A is a part.
+void Multigrid::RestrictResidual(std::size_t l, const MultiVector& b, const MultiVector* x,
+  MultiVector& residual, MultiVector& coarse) const
+{
+  const MultigridLevel& level = levels_[l];
+  if (x)
+  {
+    Residual(level.A, *x, b, residual, options_.threads);
+  }
+  else if (level.divided)
+  {
+    residual = b;
+  }
+  if (level.divided)
+  {
+    const Index foreign = level.divided->Rows().Foreign();
+    residual.topRows(foreign) -= b.topRows(foreign);
+  }
+  Multiply(level.restriction, x || level.divided ? residual : b, coarse, options_.threads);
+  if (level.divided)
+  {
+    level.divided->SumCoarse(coarse);
   }
 }
 
@@ -259,11 +296,7 @@ void Multigrid::VisitCoarse(std::size_t l, const MultiVector& b, MultiVector& x,
 {
   const MultigridLevel& level = levels_[l];
   auto& [residual, coarseB, coarseX] = scratch[l];
-  if (!zeroX)
-  {
-    Residual(level.A, x, b, residual, options_.threads);
-  }
-  Multiply(level.restriction, zeroX ? b : residual, coarseB, options_.threads);
+  this->RestrictResidual(l, b, zeroX ? nullptr : &x, residual, coarseB);
   for (int time = 0; time < times; ++time)
   {
     this->CycleLevel(l + 1, coarseB, coarseX, time == 0, scratch);

@@ -3,6 +3,7 @@
 #define GridFEM_Multigrid_h
 
 #include "Multigrid/CoarseSolver.h"
+#include "Multigrid/DividedLevel.h"
 #include "Multigrid/Smoother.h"
 
 #include <functional>
@@ -55,11 +56,14 @@ struct MultigridLevel
   SharedMatrix restriction;  // its transpose; is made where it is empty
   PatchOrder order;
   PatchOrder groups; // of unknowns that are relaxed together after a sweep over all; or empty
-  std::optional<LevelSmoothing> smoothing; // in place of the options of the hierarchy
-  std::unique_ptr<Smoother> smoother;      // none on the coarsest
+  std::optional<LevelSmoothing> smoothing;     // in place of the options of the hierarchy
+  std::shared_ptr<const DividedLevel> divided; // null: this process holds the level alone
+  std::unique_ptr<Smoother> smoother;          // none on the coarsest
 };
 
-/// A hierarchy that is ready to cycle. Const methods are safe to call from several threads.
+/// A hierarchy that is ready to cycle. Const methods are safe to call from several threads, but
+/// where processes divide a level: there all of them call each method, in the same order. Vectors
+/// of a divided level have a row for each unknown that this process holds.
 class Multigrid
 {
 public:
@@ -76,7 +80,7 @@ public:
   /// throws, the hierarchy must not be used any more.
   void Update(const std::function<void(std::size_t, SparseMatrix&)>& refill);
 
-  /// Whether a patch smoother stores factors in single precision.
+  /// Whether a patch smoother, of any process, stores factors in single precision.
   bool HasSingleFactors() const;
 
   /// A copy whose patch smoothers store all factors in double precision; it shares patterns and
@@ -94,7 +98,7 @@ public:
   /// improves it by one cycle on every level but the finest. x = C b with C symmetric positive
   /// semi-definite where B is. Cost: a third of a W cycle. x must not be b.
   /// @param lastStep  if not null: by how much the solution of the second level differs from that
-  ///                  of the third, on the finest; without rows where there are less than three
+  ///                  of the third, on the finest; without columns where there are fewer
   void NestedIteration(const MultiVector& b, MultiVector& x, MultiVector* lastStep = nullptr) const;
 
   /// The same as Precondition on the hierarchy that begins at `level`.
@@ -119,6 +123,8 @@ private:
   };
 
   void CheckRows(std::size_t level, const MultiVector& b) const;
+  void RestrictResidual(std::size_t level, const MultiVector& b, const MultiVector* x,
+    MultiVector& residual, MultiVector& coarse) const;
   void Start(std::size_t level, const MultiVector& b, MultiVector& x, bool zeroStart) const;
   void CycleLevel(std::size_t level, const MultiVector& b, MultiVector& x, bool zeroStart,
     std::vector<Scratch>& scratch) const;

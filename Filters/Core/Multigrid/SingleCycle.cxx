@@ -3,6 +3,7 @@
 #include "Base/Parallel.h"
 
 #include <algorithm>
+#include <array>
 #include <type_traits>
 
 namespace gridfem
@@ -53,6 +54,22 @@ PanelSums Load(const RowSource<Real>& r, Panel& b, int threads)
     SourceRows);
 }
 
+/// Makes a vector of what the processes add to it; returns rᵀr.
+PanelSums SumParts(const DividedRows& divided, Panel& r, int threads)
+{
+  const Id rows = static_cast<Id>(r.size());
+  const Id foreign = divided.Foreign();
+  divided.Sum(AllColumns(r.data(), rows));
+  PanelSums norm = ParallelSum(rows - foreign, threads, PanelSums(PanelSums::Zero()),
+    [&](Id begin, Id end)
+    {
+      return SumOfRows(
+        foreign + begin, foreign + end, [&](Id row) -> PanelRow { return r[row] * r[row]; });
+    });
+  divided.SumNumbers(norm.data(), norm.size());
+  return norm;
+}
+
 template<class Real>
 void HandOver(const PanelRow* x, Id rows, Id columns, const RowSink<Real>& z, int threads)
 {
@@ -98,14 +115,16 @@ SingleCycle::SingleCycle(std::vector<MultigridLevel> levels, int threads) : thre
 
 bool SingleCycle::IsReliable() const
 {
-  Id patches = 0;
-  Id unresolved = 0;
+  double patches = 0.0;
+  double unresolved = 0.0;
   for (const SingleLevel& level : levels_)
   {
-    patches += level.Patches();
-    unresolved += level.UnresolvedPatches();
+    std::array<double, 2> ofLevel{ double(level.Patches()), double(level.UnresolvedPatches()) };
+    SumOverProcesses(level.Divided(), ofLevel);
+    patches += ofLevel[0];
+    unresolved += ofLevel[1];
   }
-  return double(unresolved) <= UnresolvedShare * double(patches);
+  return unresolved <= UnresolvedShare * patches;
 }
 
 template<class Real>
@@ -120,7 +139,11 @@ ResidualMeasures SingleCycle::Apply(std::size_t level, const RowSource<Real>& r,
   auto& [b, work] = *loan;
   b.resize(levels_.size() + 1);
   work.resize(this->WorkRows(level));
-  const PanelSums norm = Load(r, b[level], threads_);
+  PanelSums norm = Load(r, b[level], threads_);
+  if (level < levels_.size() && levels_[level].Divided())
+  {
+    norm = SumParts(*levels_[level].Divided(), b[level], threads_);
+  }
   const PanelSums energy = this->GoDown(level, b, work.data());
   const ResidualMeasures measures{ energy.head(r.columns), norm.head(r.columns) };
   if (isWanted(measures))

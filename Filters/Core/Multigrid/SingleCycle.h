@@ -11,7 +11,8 @@ namespace gridfem
 {
 
 /// One forward sweep, the correction from the next coarser level, one backward sweep. Const methods
-/// are safe to call from several threads.
+/// are safe to call from several threads, but where processes divide a level: there all of them
+/// call each method, in the same order.
 class SingleCycle
 {
 public:

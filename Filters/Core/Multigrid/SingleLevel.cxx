@@ -108,7 +108,8 @@ SingleMatrix::SingleMatrix(const SparseMatrix& A, int threads)
 }
 
 SingleLevel::SingleLevel(const MultigridLevel& level, int threads)
-  : A_(level.A, threads), prolongation_(level.prolongation, threads),
+  : divided_(level.divided), foreign_(ForeignRows(this->Divided())), A_(level.A, threads),
+    prolongation_(level.prolongation, threads),
     restriction_(
       level.restriction->rows > 0 ? level.restriction : SharedMatrix(Transpose(level.prolongation)),
       threads),
@@ -157,6 +158,43 @@ void SingleLevel::Relax(const Patch& patch, const PanelRow* b, PanelRow* x) cons
 
 void SingleLevel::Sweep(const PanelRow* b, PanelRow* x, SweepDirection direction, int threads) const
 {
+  if (divided_ && direction == SweepDirection::Backward)
+  {
+    this->RelaxBorder(b, x, direction);
+  }
+  this->RelaxPatches(b, x, direction, threads);
+  if (divided_ && direction == SweepDirection::Forward)
+  {
+    this->RelaxBorder(b, x, direction);
+  }
+}
+
+/// Numbers of few rows, in double.
+void SingleLevel::RelaxBorder(const PanelRow* b, PanelRow* x, SweepDirection direction) const
+{
+  const std::vector<Index>& border = divided_->Border();
+  divided_->Relax(
+    PreconditionedColumns, direction,
+    [&](MultiVector& part)
+    {
+      for (std::size_t k = 0; k < border.size(); ++k)
+      {
+        part.row(static_cast<Id>(k)) =
+          this->ResidualRow(border[k], b, x).matrix().transpose().cast<double>();
+      }
+    },
+    [&](const MultiVector& correction)
+    {
+      for (std::size_t k = 0; k < border.size(); ++k)
+      {
+        x[border[k]] += correction.row(static_cast<Id>(k)).transpose().array().cast<float>();
+      }
+    });
+}
+
+void SingleLevel::RelaxPatches(
+  const PanelRow* b, PanelRow* x, SweepDirection direction, int threads) const
+{
   const bool forward = direction == SweepDirection::Forward;
   VisitBlocks(ranges_, direction,
     ThreadsFor(128 * PreconditionedColumns * this->Patches(), threads),
@@ -171,10 +209,16 @@ void SingleLevel::Sweep(const PanelRow* b, PanelRow* x, SweepDirection direction
     });
 }
 
+inline PanelRow SingleLevel::ResidualRow(Index row, const PanelRow* b, const PanelRow* x) const
+{
+  const PanelRow product = RowProduct(A_, row, x);
+  return row < foreign_ ? PanelRow(-product) : PanelRow(b[row] - product);
+}
+
 PanelSums SingleLevel::Residual(
   const PanelRow* b, const PanelRow* x, PanelRow* r, int threads) const
 {
-  return ParallelSum(
+  PanelSums energy = ParallelSum(
     Id(A_.rows), ThreadsFor(PreconditionedColumns * Id(A_.value.size()), threads),
     PanelSums(PanelSums::Zero()),
     [&](Id begin, Id end)
@@ -182,17 +226,23 @@ PanelSums SingleLevel::Residual(
       return SumOfRows(begin, end,
         [&](Id row) -> PanelRow
         {
-          r[row] = b[row] - RowProduct(A_, static_cast<Index>(row), x);
-          return x[row] * (b[row] + r[row]);
+          r[row] = this->ResidualRow(static_cast<Index>(row), b, x);
+          return row < foreign_ ? PanelRow(x[row] * r[row]) : PanelRow(x[row] * (b[row] + r[row]));
         });
     },
     RangeSize);
+  SumOverProcesses(this->Divided(), energy);
+  return energy;
 }
 
 void SingleLevel::Restrict(const PanelRow* r, PanelRow* coarse, int threads) const
 {
   ForEachRow(restriction_.rows, PreconditionedColumns * Id(restriction_.value.size()), threads,
     [&](Index row) { coarse[row] = RowProduct(restriction_, row, r); });
+  if (divided_)
+  {
+    divided_->SumCoarse(AllColumns(coarse, this->CoarseRows()));
+  }
 }
 
 void SingleLevel::AddProlonged(const PanelRow* coarse, PanelRow* x, int threads) const

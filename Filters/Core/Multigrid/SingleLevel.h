@@ -20,6 +20,12 @@ using PanelRow = Eigen::Array<float, PreconditionedColumns, 1>;
 using Panel = Array<PanelRow>;
 using PanelSums = Eigen::Array<double, PreconditionedColumns, 1>;
 
+/// Rows of panels as a block.
+inline Eigen::Map<Vectors<float>> AllColumns(PanelRow* rows, Id count)
+{
+  return { rows->data(), count, PreconditionedColumns };
+}
+
 /// Adds up products(row), in single precision a few rows at a time.
 template<class Products>
 PanelSums SumOfRows(Id begin, Id end, Products&& products)
@@ -55,16 +61,19 @@ struct SingleMatrix
 class SingleLevel
 {
 public:
-  /// From a level with matrix and order; its prolongation may be empty.
+  /// From a level with matrix and order; its prolongation may be empty. Where processes divide it,
+  /// all call Sweep, Residual and Restrict.
   SingleLevel(const MultigridLevel& level, int threads);
 
   Index Rows() const { return A_.rows; }
   Index CoarseRows() const { return restriction_.rows; }
+  const DividedRows* Divided() const { return divided_ ? &divided_->Rows() : nullptr; }
 
   /// As Smoother::Sweep: improves x for A x = b. Here as below panels have a row per unknown.
   void Sweep(const PanelRow* b, PanelRow* x, SweepDirection direction, int threads) const;
 
-  /// r = b - A x; returns xᵀ(b + r), which for the first sweep from zero is its share of bᵀBb.
+  /// r = b - A x, of a divided level the part; returns xᵀ(b + r), which for the first sweep from
+  /// zero is its share of bᵀBb.
   PanelSums Residual(const PanelRow* b, const PanelRow* x, PanelRow* r, int threads) const;
 
   /// coarse = Pᵀ r
@@ -88,7 +97,12 @@ private:
   };
 
   void Relax(const Patch& patch, const PanelRow* b, PanelRow* x) const;
+  void RelaxPatches(const PanelRow* b, PanelRow* x, SweepDirection direction, int threads) const;
+  void RelaxBorder(const PanelRow* b, PanelRow* x, SweepDirection direction) const;
+  PanelRow ResidualRow(Index row, const PanelRow* b, const PanelRow* x) const;
 
+  std::shared_ptr<const DividedLevel> divided_; // null: this process holds all
+  Index foreign_;                               // unknowns of other processes, whose b is theirs
   SingleMatrix A_;
   SingleMatrix prolongation_;
   SingleMatrix restriction_;

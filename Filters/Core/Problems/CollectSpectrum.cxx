@@ -45,8 +45,8 @@ MultiVector SideBySide(
 
 /// One step of Newton's method for columns that are orthonormal up to rounding to single precision:
 /// it squares what is missing. [X (3 - XᵀMX) / 2]
-void Orthonormalize(
-  const SparseMatrix& mass, Block<double> X, int threads, const Progress& progress)
+void Orthonormalize(const SparseMatrix& mass, const DividedRows* divided, Block<double> X,
+  int threads, const Progress& progress)
 {
   Eigen::MatrixXd step(X.cols(), X.cols());
   for (Id first = 0; first < X.cols(); first += ColumnsAtOnce)
@@ -56,6 +56,7 @@ void Orthonormalize(
     step.middleCols(first, count) =
       -0.5 * Project<double>({ X }, mass, X.middleCols(first, count), threads);
   }
+  SumOverProcesses(divided, step);
   step.diagonal().array() += 1.5;
   ParallelRanges(
     X.rows(), threads,
@@ -113,7 +114,8 @@ Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs<Rea
   }
   if (std::is_same_v<Real, float> && others > 0)
   {
-    Orthonormalize(problem.mass, spectrum.vectors.rightCols(others), problem.threads, progress);
+    Orthonormalize(
+      problem.mass, problem.divided, spectrum.vectors.rightCols(others), problem.threads, progress);
   }
 
   const ColumnFacts facts = problem.FactsOf(spectrum.vectors);
@@ -142,6 +144,10 @@ Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs<Rea
     [&](Index a, Index b)
     { return values[a] < values[b] || (std::isnan(values[b]) && !std::isnan(values[a])); });
   ScaleAndOrder(factor, order, spectrum.vectors, problem.threads);
+  if (problem.divided)
+  {
+    problem.divided->TakeForeign(spectrum.vectors);
+  }
   spectrum.eigenvalues = Ordered(values, order);
   std::vector<double> residuals(zeros, 0.0);
   residuals.insert(residuals.end(), report.residuals.begin(), report.residuals.end());

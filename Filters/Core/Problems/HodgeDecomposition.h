@@ -4,6 +4,7 @@
 #define GridFEM_HodgeDecomposition_h
 
 #include "Problems/SolutionAccuracy.h"
+#include "Spaces/FiniteElementSpace.h"
 
 namespace gridfem
 {

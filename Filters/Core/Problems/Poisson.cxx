@@ -25,8 +25,8 @@ void CheckRows(const char* name, const MultiVector& load, std::size_t functions)
   }
 }
 
-void CheckInput(const FiniteElementSpace& space, const MultiVector& values,
-  const MultiVector& gradients, const PoissonOptions& options)
+void CheckInput(const SpaceLevels& space, const MultiVector& values, const MultiVector& gradients,
+  const PoissonOptions& options)
 {
   if (!(options.screeningWeight >= 0.0) || std::isinf(options.screeningWeight))
   {
@@ -38,7 +38,7 @@ void CheckInput(const FiniteElementSpace& space, const MultiVector& values,
     throw InvalidInput("The accuracy must lie between 0 and 1.");
   }
   CheckRows("values", values, space.Integrals().size());
-  if (gradients.rows() != 0)
+  if (gradients.cols() != 0)
   {
     CheckRows("gradients", gradients, space.Integrals().size());
     if (gradients.cols() != values.cols())
@@ -62,35 +62,51 @@ void RequireInRange(const Eigen::RowVectorXd& size)
   }
 }
 
+/// |x_c| of every column.
+Eigen::RowVectorXd NormsOf(const LinearOperator& A, const MultiVector& x)
+{
+  return A.products(x, x).sqrt().matrix().transpose();
+}
+
 /// What is left in a column after the means are taken out can be rounding alone: then it is 0.
-void DropRounding(const Eigen::RowVectorXd& size, MultiVector& rest)
+void DropRounding(const LinearOperator& A, const Eigen::RowVectorXd& size, MultiVector& rest)
 {
   constexpr double Relative = 8.0 * std::numeric_limits<double>::epsilon();
+  const Eigen::RowVectorXd left = NormsOf(A, rest);
   for (Id c = 0; c < rest.cols(); ++c)
   {
-    if (rest.col(c).norm() <= Relative * size[c])
+    if (left[c] <= Relative * size[c])
     {
       rest.col(c).setZero();
     }
   }
 }
 
-double NormOfDiagonal(const SparseMatrix& A, int threads)
+double NormOfDiagonal(const Multigrid& multigrid, const DividedRows* divided)
 {
-  const std::vector<double> diagonal = A.Diagonal(threads);
-  return Eigen::Map<const Eigen::VectorXd>(
-    diagonal.data(), static_cast<Eigen::Index>(diagonal.size()))
-    .norm();
+  const SparseMatrix& A = multigrid.Matrix();
+  MultiVector diagonal(A.rows, 1);
+  for (Index row = 0; row < A.rows; ++row)
+  {
+    diagonal(row, 0) = A.Coefficient(row, row);
+  }
+  if (divided)
+  {
+    divided->Sum(diagonal);
+  }
+  return NormsOf(OperatorOf(multigrid), diagonal)[0];
 }
 
 /// Starts columns that hold NaN from zero.
-MultiVector NestedStart(const Multigrid& multigrid, const MultiVector& load, MultiVector* lastStep)
+MultiVector NestedStart(const Multigrid& multigrid, const MultiVector& load,
+  const DividedRows* divided, MultiVector* lastStep)
 {
   MultiVector start;
   multigrid.NestedIteration(load, start, lastStep);
+  const Columns lost = CountNotFinite(start, divided);
   for (Id c = 0; c < start.cols(); ++c)
   {
-    if (!start.col(c).allFinite())
+    if (lost[c] > 0.0)
     {
       start.col(c).setZero();
     }
@@ -115,27 +131,32 @@ MultiVector GivenStart(
 
 /// Whether every column of the residual is what rounding makes of its own terms, |r| <= ε | |A||x|
 /// | with a small factor: then x solves a system whose numbers differ from these by rounding alone.
-bool IsRounding(
-  const SparseMatrix& A, const MultiVector& b, const MultiVector& x, const Projection& project)
+bool IsRounding(const Multigrid& multigrid, const DividedRows* divided, const MultiVector& b,
+  const MultiVector& x, const Projection& project)
 {
   constexpr double Relative = 16.0 * std::numeric_limits<double>::epsilon();
+  const LinearOperator A = OperatorOf(multigrid);
   MultiVector r;
-  Residual(A, x, b, r);
+  A.residual(x, b, r);
   project.residual(r);
-  SparseMatrix positive = A;
+  SparseMatrix positive = multigrid.Matrix();
   for (double& value : positive.value)
   {
     value = std::abs(value);
   }
   MultiVector terms;
   Multiply(positive, x.cwiseAbs(), terms);
-  return (r.colwise().norm().array() <= Relative * terms.colwise().norm().array()).all();
+  if (divided)
+  {
+    divided->Sum(terms);
+  }
+  return (NormsOf(A, r).array() <= Relative * NormsOf(A, terms).array()).all();
 }
 
 /// The part of the solution without means, and what is known of its errors.
 /// @param squaredSpread  of the means that are left out
 /// @param scale          of the columns of the load
-PoissonSolution SolveWithoutMeans(const FiniteElementSpace& space, const Multigrid& multigrid,
+PoissonSolution SolveWithoutMeans(const SpaceLevels& space, const Multigrid& multigrid,
   const MultiVector& load, const Columns& squaredSpread, const Eigen::RowVectorXd& scale,
   const PoissonOptions& options, const Projection& project, const Progress& progress)
 {
@@ -151,7 +172,8 @@ PoissonSolution SolveWithoutMeans(const FiniteElementSpace& space, const Multigr
   if (isWatched || solution.coefficients.rows() == 0)
   {
     MultiVector lastStep;
-    MultiVector nested = NestedStart(multigrid, load, isWatched ? &lastStep : nullptr);
+    MultiVector nested =
+      NestedStart(multigrid, load, space.Divided(0), isWatched ? &lastStep : nullptr);
     project.solution(nested);
     if (solution.coefficients.rows() == 0)
     {
@@ -168,7 +190,7 @@ PoissonSolution SolveWithoutMeans(const FiniteElementSpace& space, const Multigr
   solution.report = SolveWithFallback(options.iteration, OperatorOf(multigrid),
     CycleWithFallback(multigrid), load, solution.coefficients, solve, project, progress);
   if (!solution.report.converged &&
-      IsRounding(multigrid.Matrix(), load, solution.coefficients, project))
+      IsRounding(multigrid, space.Divided(0), load, solution.coefficients, project))
   {
     solution.isAtRounding = true;
     solution.report.end = SolveEnd::Stagnation;
@@ -182,7 +204,7 @@ PoissonSolution SolveWithoutMeans(const FiniteElementSpace& space, const Multigr
 
 } // namespace
 
-PoissonSolution SolvePoisson(const FiniteElementSpace& space, const Multigrid& multigrid,
+PoissonSolution SolvePoisson(const SpaceLevels& space, const Multigrid& multigrid,
   const MultiVector& values, const MultiVector& gradients, const PoissonOptions& options,
   const Progress& progress)
 {
@@ -190,7 +212,10 @@ PoissonSolution SolvePoisson(const FiniteElementSpace& space, const Multigrid& m
   const double lambda = options.screeningWeight;
   const int threads = multigrid.Options().threads;
   const Components components = space.ComponentsOf(0, threads);
-  const ComponentMeans means(components.ofFunction, space.Integrals(), components.count, threads);
+  const DividedRows* const divided = space.Divided(0);
+  const ComponentMeans means(
+    components.ofFunction, space.Integrals(), components.count, threads, divided);
+  const LinearOperator A = OperatorOf(multigrid);
 
   // λM + L maps the functions of zero mean to the vectors of zero sum and the constants to M's, so
   // the two parts of the equation can be solved apart.
@@ -199,33 +224,32 @@ PoissonSolution SolvePoisson(const FiniteElementSpace& space, const Multigrid& m
   const auto removeSums = [&means](MultiVector& load)
   { means.SubtractIntegrals(means.OfIntegrals(load), load); };
 
-  const Eigen::RowVectorXd scale = ScalesOf(values, gradients);
+  const Eigen::RowVectorXd scale = ScalesOf(values, gradients, divided);
   MultiVector rest = values * scale.asDiagonal();
-  Eigen::RowVectorXd size = lambda * rest.colwise().norm();
+  Eigen::RowVectorXd size = lambda * NormsOf(A, rest);
   const MultiVector meanOfField = means.OfIntegrals(rest);
   means.SubtractIntegrals(meanOfField, rest);
   rest *= lambda;
   if (meanOfField.rows() > 0)
   {
     // The constants cancel to rounding in every row, in the matrix and in ∫ <∇f, ∇b_i> alike.
-    size +=
-      NormOfDiagonal(multigrid.Matrix(), threads) * meanOfField.cwiseAbs().colwise().maxCoeff();
+    size += NormOfDiagonal(multigrid, divided) * meanOfField.cwiseAbs().colwise().maxCoeff();
   }
-  if (gradients.rows() != 0)
+  if (gradients.cols() != 0)
   {
     const MultiVector scaled = gradients * scale.asDiagonal();
     rest += scaled;
-    size += scaled.colwise().norm();
+    size += NormsOf(A, scaled);
   }
   RequireInRange(size);
   // ∫ <s, ∇b_i> sums to 0 over a component but for rounding, which a small λ would blow up.
   removeSums(rest);
-  DropRounding(size, rest);
+  DropRounding(A, size, rest);
 
   PoissonSolution solution = SolveWithoutMeans(space, multigrid, rest,
     means.SquaredSpread(meanOfField), scale, options, { removeMeans, removeSums }, progress);
   means.AddConstants(meanOfField, solution.coefficients);
-  RemoveScales(scale, solution.coefficients, solution.report);
+  RemoveScales(scale, solution.coefficients, solution.report, divided);
   return solution;
 }
 

@@ -4,6 +4,7 @@
 
 #include "Krylov/PrecisionFallback.h"
 #include "Problems/SolutionAccuracy.h"
+#include "Spaces/FiniteElementSpace.h"
 
 namespace gridfem
 {
@@ -39,11 +40,13 @@ struct PoissonSolution
 /// λ >= 0: the constant part is taken from f and the rest is iterated orthogonal to it, from a
 /// start by nested iteration; in double precision where single is not enough (SolveWithFallback).
 /// @param values     ∫ f b_i (LoadOfValues), in the space's unit of length
-/// @param gradients  ∫ <s, ∇b_i> (LoadOfGradients); may have no rows for s = 0
+/// @param gradients  ∫ <s, ∇b_i> (LoadOfGradients); may have no columns for s = 0
 /// @param multigrid  of λM + L, built with the same λ
 /// Columns may have any size in the range of numbers: they are scaled by powers of two.
-/// Same bits for any number of threads.
-PoissonSolution SolvePoisson(const FiniteElementSpace& space, const Multigrid& multigrid,
+/// Same bits for any number of threads. Where processes hold the finest level together, all of them
+/// call it, with a progress that is aborted for all or none, and rows of integrals that several
+/// hold are whole in all of them; of the largest error at a point each tells that of its own.
+PoissonSolution SolvePoisson(const SpaceLevels& space, const Multigrid& multigrid,
   const MultiVector& values, const MultiVector& gradients, const PoissonOptions& options,
   const Progress& progress = {});
 

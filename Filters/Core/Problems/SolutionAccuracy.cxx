@@ -72,7 +72,7 @@ void KeepWorse(const SolutionAccuracy& accuracy, SolutionAccuracy& kept)
   kept.algebraic = std::fmax(kept.algebraic, accuracy.algebraic);
 }
 
-AccuracyWatch::AccuracyWatch(const FiniteElementSpace& space, MultiVector nested,
+AccuracyWatch::AccuracyWatch(const SpaceLevels& space, MultiVector nested,
   const MultiVector& coarser, double accuracy, int threads)
   : space_(space), nested_(std::move(nested)), accuracy_(accuracy), threads_(threads)
 {
@@ -80,7 +80,7 @@ AccuracyWatch::AccuracyWatch(const FiniteElementSpace& space, MultiVector nested
   {
     steps_ = DifferenceOverError(space.NumberOfFunctions(0), space.NumberOfFunctions(1));
   }
-  if (coarser.rows() > 0 && space.NumberOfLevels() > 2)
+  if (coarser.cols() > 0 && space.NumberOfLevels() > 2)
   {
     coarserError_ = this->Norms(coarser) /
                     DifferenceOverError(space.NumberOfFunctions(1), space.NumberOfFunctions(2));

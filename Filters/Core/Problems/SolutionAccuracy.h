@@ -5,7 +5,7 @@
 #define GridFEM_SolutionAccuracy_h
 
 #include "Krylov/ConjugateGradients.h"
-#include "Spaces/FiniteElementSpace.h"
+#include "Spaces/SpaceLevels.h"
 
 #include <limits>
 #include <vector>
@@ -40,9 +40,9 @@ class AccuracyWatch
 {
 public:
   /// @param nested    the coarser solution, prolonged
-  /// @param coarser   how it differs from that of the level below; no rows: there is none
+  /// @param coarser   how it differs from that of the level below; no columns: there is none
   /// @param accuracy  wanted ratio of the algebraic error to that of the space; 0: only watches
-  AccuracyWatch(const FiniteElementSpace& space, MultiVector nested, const MultiVector& coarser,
+  AccuracyWatch(const SpaceLevels& space, MultiVector nested, const MultiVector& coarser,
     double accuracy, int threads);
 
   ColumnMeasures operator()(const Iterate& iterate);
@@ -55,7 +55,7 @@ public:
 private:
   Columns Norms(const MultiVector& u) const;
 
-  const FiniteElementSpace& space_;
+  const SpaceLevels& space_;
   const MultiVector nested_;
   const double accuracy_;
   const int threads_;

@@ -23,7 +23,6 @@ namespace
 /// level below the finest also serves the estimate of the error.
 constexpr double CoarseTolerance = 3e-4;
 constexpr double SecondTolerance = 3e-5;
-constexpr int SecondIterations = 3;
 constexpr int CoarseIterations = 3;
 constexpr int RandomStartIterations = 40;
 
@@ -34,19 +33,25 @@ constexpr double SmallestSingleTolerance = 1e-7;
 /// Steps in single precision; where they do not suffice all is done again in double.
 constexpr int SingleIterations = 40;
 
+/// No process has the matrices of a level that several divide.
+bool CanBeDense(const SpaceLevels& space, std::size_t level, Index blockSize)
+{
+  return !space.Divided(level) && IsDense(space.NumberOfFunctions(level), blockSize);
+}
+
 /// The level below the finest if the finest is solved densely. Else the coarsest level with enough
 /// functions, or the one above it when that is too large for a dense solve.
-std::size_t StartLevel(const FiniteElementSpace& space, Index blockSize)
+std::size_t StartLevel(const SpaceLevels& space, Index blockSize)
 {
   const std::size_t levels = space.NumberOfLevels();
   const auto size = [&](std::size_t l) { return space.NumberOfFunctions(l); };
-  if (IsDense(size(0), blockSize))
+  if (CanBeDense(space, 0, blockSize))
   {
     return std::min<std::size_t>(1, levels - 1);
   }
   std::size_t level = 0;
-  while (level + 1 < levels &&
-         (!IsDense(size(level), blockSize) || (level > 0 && size(level + 1) >= 1.5 * blockSize)))
+  while (level + 1 < levels && (!CanBeDense(space, level, blockSize) ||
+                                 (level > 0 && size(level + 1) >= 1.5 * blockSize)))
   {
     ++level;
   }
@@ -84,8 +89,8 @@ template<class Real>
 class NestedIteration
 {
 public:
-  NestedIteration(const FiniteElementSpace& space, const SpectrumOptions& options,
-    SpectrumCycle& cycle, double shift)
+  NestedIteration(
+    const SpaceLevels& space, const SpectrumOptions& options, SpectrumCycle& cycle, double shift)
     : space_(space), options_(options), cycle_(cycle), shift_(shift)
   {
   }
@@ -102,7 +107,7 @@ private:
   BlockReport FinishList(
     const SpectralProblem<Real>& problem, const BlockOptions& block, const Progress& progress);
 
-  const FiniteElementSpace& space_;
+  const SpaceLevels& space_;
   const SpectrumOptions& options_;
   SpectrumCycle& cycle_;
   const double shift_;
@@ -123,6 +128,7 @@ SpectralProblem<Real> NestedIteration<Real>::Problem(
   problem.mass = std::move(mass);
   problem.shift = shift_;
   problem.constants = &constants;
+  problem.divided = space_.Divided(level);
   problem.threads = threads;
   problem.precondition = cycle_.From<Real>(level);
   if (cycle_.IsSingle())
@@ -142,9 +148,8 @@ BlockOptions NestedIteration<Real>::Options(std::size_t level, Index wanted) con
                     : level == 1 ? SecondTolerance
                                  : CoarseTolerance;
   block.measureLast = level == 0;
-  const int most = level == 1 ? SecondIterations : CoarseIterations;
-  block.maximumIterations =
-    level == 0 ? options_.maximumIterations : std::min(most, options_.maximumIterations);
+  block.maximumIterations = level == 0 ? options_.maximumIterations
+                                       : std::min(CoarseIterations, options_.maximumIterations);
   return block;
 }
 
@@ -194,7 +199,7 @@ BlockReport NestedIteration<Real>::ImproveLevel(std::size_t level, std::size_t s
   // No level has more pairs than functions; room for more would only cost memory.
   const Index functions = space_.NumberOfFunctions(level);
   BlockOptions block = this->Options(level, std::min(options_.numberOfModes - zeros_, functions));
-  if ((level == start || level == 0) && IsDense(functions, block.blockSize))
+  if ((level == start || level == 0) && CanBeDense(space_, level, block.blockSize))
   {
     pairs_ = SolveDense<Real>(problem, block.blockSize);
     isDense_ = level == 0;
@@ -227,8 +232,8 @@ Spectrum NestedIteration<Real>::Run(
   {
     Components components = space_.ComponentsOf(level, threads);
     SparseMatrix levelMass = space_.Matrix(level, 1.0, 0.0, threads);
-    const Constants constants(
-      levelMass, std::move(components.ofFunction), components.count, threads);
+    const Constants constants(levelMass, std::move(components.ofFunction), components.count,
+      threads, space_.Divided(level));
     const SpectralProblem<Real> problem = this->Problem(level, constants, std::move(levelMass));
     this->ImproveLevel(level, start, problem, LevelPart(progress, level));
     coarserConstants_ = constants.Count();
@@ -248,23 +253,32 @@ Spectrum NestedIteration<Real>::Run(
   return spectrum;
 }
 
+} // namespace
+
 Spectrum ComputeOnNestedLevels(
-  const FiniteElementSpace& space, const SpectrumOptions& options, const Progress& progress)
+  const SpaceLevels& space, const SpectrumOptions& options, const Progress& progress)
 {
+  Validate(options);
   const MemoryReuse reuse; // the blocks of a level take the place of those of the one before
   const int threads = options.multigrid.threads;
   SparseMatrix mass = space.Matrix(0, 1.0, 0.0, threads);
   Components components = space.ComponentsOf(0, threads);
-  const Constants zeroModes(mass, std::move(components.ofFunction), components.count, threads);
+  const Constants zeroModes(
+    mass, std::move(components.ofFunction), components.count, threads, space.Divided(0));
   if (zeroModes.Count() >= options.numberOfModes)
   {
     SpectralProblem<double> problem;
     problem.stiffness = space.Matrix(0, 0.0, 1.0, threads);
     problem.mass = std::move(mass);
+    problem.divided = space.Divided(0);
     problem.threads = threads;
     return OnlyConstants(zeroModes, problem, options);
   }
-  const double area = std::accumulate(mass.value.begin(), mass.value.end(), 0.0);
+  double area = std::accumulate(mass.value.begin(), mass.value.end(), 0.0);
+  if (space.Divided(0))
+  {
+    space.Divided(0)->SumNumbers(&area, 1);
+  }
   const double shift = zeroModes.Count() * LowestValue(area, space.Extent());
   SpectrumCycle cycle(space, shift, options.multigrid, progress.Part(0.0, 0.1));
   const bool wasSingle = cycle.IsSingle() && options.tolerance >= SmallestSingleTolerance;
@@ -285,8 +299,6 @@ Spectrum ComputeOnNestedLevels(
     .Run(zeroModes, std::move(mass), progress.Part(wasSingle ? 0.99 : 0.0, 1.0));
 }
 
-} // namespace
-
 void Validate(const SpectrumOptions& options)
 {
   if (options.numberOfModes < 1)
@@ -306,7 +318,6 @@ void Validate(const SpectrumOptions& options)
 Spectrum ComputeNestedSpectrum(
   const FiniteElementSpace& space, const SpectrumOptions& options, const Progress& progress)
 {
-  Validate(options);
   const FiniteElementSpace* nested = space.NestedLevels();
   return nested ? ComputeOnNestedLevels(*nested, StartOptions(options), progress)
                 : ComputeOnNestedLevels(space, options, progress);

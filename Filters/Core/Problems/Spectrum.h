@@ -51,6 +51,12 @@ struct Spectrum
 Spectrum ComputeSpectrum(
   const FiniteElementSpace& space, const SpectrumOptions& options, const Progress& progress = {});
 
+/// The same where all levels are nested, whatever lies on them. Where processes divide levels, all
+/// of them call it, with a progress that is aborted for all or none; vectors have the rows of this
+/// process, and values are the same everywhere.
+Spectrum ComputeOnNestedLevels(
+  const SpaceLevels& space, const SpectrumOptions& options, const Progress& progress = {});
+
 /// The first step: the spectrum of the nested levels, which is the result where all are nested.
 /// Else it has guards behind the wanted modes, to a loose tolerance.
 Spectrum ComputeNestedSpectrum(

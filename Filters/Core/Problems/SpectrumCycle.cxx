@@ -13,8 +13,8 @@ bool AllowsSingle(const MultigridOptions& options)
 
 } // namespace
 
-SpectrumCycle::SpectrumCycle(const FiniteElementSpace& space, double shift,
-  const MultigridOptions& options, const Progress& progress)
+SpectrumCycle::SpectrumCycle(
+  const SpaceLevels& space, double shift, const MultigridOptions& options, const Progress& progress)
   : space_(space), shift_(shift), options_(options)
 {
   if (AllowsSingle(options))

@@ -3,7 +3,7 @@
 #define GridFEM_SpectrumCycle_h
 
 #include "Multigrid/SingleCycle.h"
-#include "Spaces/FiniteElementSpace.h"
+#include "Spaces/SpaceLevels.h"
 
 #include <memory>
 
@@ -16,7 +16,7 @@ namespace gridfem
 class SpectrumCycle
 {
 public:
-  SpectrumCycle(const FiniteElementSpace& space, double shift, const MultigridOptions& options,
+  SpectrumCycle(const SpaceLevels& space, double shift, const MultigridOptions& options,
     const Progress& progress = {});
 
   /// Of the hierarchy that begins at `level`.
@@ -34,7 +34,7 @@ public:
 private:
   void BuildDouble(const Progress& progress);
 
-  const FiniteElementSpace& space_;
+  const SpaceLevels& space_;
   double shift_;
   MultigridOptions options_;
   std::unique_ptr<SingleCycle> single_;

@@ -4,6 +4,7 @@
 #define GridFEM_Stitching_h
 
 #include "Problems/SolutionAccuracy.h"
+#include "Spaces/FiniteElementSpace.h"
 
 #include <optional>
 

@@ -3,6 +3,7 @@
 #define GridFEM_SurfaceDerivatives_h
 
 #include "Problems/SolutionAccuracy.h"
+#include "Spaces/FiniteElementSpace.h"
 
 namespace gridfem
 {

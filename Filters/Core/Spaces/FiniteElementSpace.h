@@ -5,11 +5,10 @@
 #define GridFEM_FiniteElementSpace_h
 
 #include "Algebra/ColumnAlgebra.h"
-#include "Base/Job.h"
 #include "Grid/Field.h"
 #include "Integrals/DirectionalElements.h"
 #include "Integrals/EdgeSamples.h"
-#include "Multigrid/Multigrid.h"
+#include "Spaces/SpaceLevels.h"
 
 #include <memory>
 #include <vector>
@@ -19,64 +18,18 @@ namespace gridfem
 
 struct TriangleMetric;
 
-/// The connected components of the functions of one level.
-struct Components
-{
-  std::vector<Index> ofFunction; // 0 .. count - 1
-  Index count = 0;
-};
-
-/// How a level is relaxed.
-struct LevelRelaxation
-{
-  PatchOrder order;
-  PatchOrder groups;                       // relaxed together after a sweep over all; may be empty
-  std::optional<LevelSmoothing> smoothing; // in place of the options of the hierarchy
-};
-
-/// Level 0 is the finest. All integrals are in the space's unit of length: mass in squared units,
-/// stiffness without one. Const methods are safe to call from several threads, and all results are
-/// the same, bit for bit, for any number of them. A method that takes a job throws Aborted.
-class FiniteElementSpace
+/// The words of SpaceLevels hold here, too.
+class FiniteElementSpace : public SpaceLevels
 {
 public:
-  virtual ~FiniteElementSpace() = default;
-
-  ///@{ Every level.
-  virtual std::size_t NumberOfLevels() const = 0;
-  virtual Index NumberOfFunctions(std::size_t level) const = 0;
-
-  /// a M + b L, in place where the matrix has the level's pattern already.
-  virtual void FillMatrix(
-    std::size_t level, double a, double b, SparseMatrix& matrix, const Job& job) const = 0;
-  SparseMatrix Matrix(std::size_t level, double a, double b, const Job& job = {}) const;
-
-  /// From level + 1 to this level, and its transpose; not for the coarsest.
-  virtual SharedMatrix Prolongation(std::size_t level) const = 0;
-  virtual SharedMatrix Restriction(std::size_t level) const = 0;
-
-  virtual LevelRelaxation Relaxation(std::size_t level, const MultigridOptions& options) const = 0;
-  virtual Components ComponentsOf(std::size_t level, const Job& job = {}) const = 0;
-  ///@}
-
-  /// The levels below the finest as a space of their own, where the finest does not contain them;
-  /// null where every level contains the next coarser one.
-  virtual const FiniteElementSpace* NestedLevels() const { return nullptr; }
-
   /// World units per unit of length.
   virtual double UnitLength() const = 0;
 
   /// The place in the world that positions in units of length are relative to.
   virtual Vec3 Origin() const = 0;
 
-  /// About the longest extent of the surface, in units of length.
-  virtual double Extent() const = 0;
-
   ///@{ The finest level. Fields are given on the mesh, in world units; each method throws
   /// InvalidInput when their rows or columns do not fit.
-
-  /// ∫ b_i.
-  virtual const std::vector<double>& Integrals() const = 0;
 
   /// ∫ f b_i: rows = functions, columns = components of f.
   virtual MultiVector LoadOfValues(const Field& f, const Job& job = {}) const = 0;
@@ -111,17 +64,10 @@ public:
   virtual MultiVector LoadOfGradientsOfCoordinates(
     const Field* scale, const Job& job = {}) const = 0;
 
-  /// Rows = points of the mesh; 0 at points that no function reaches.
-  virtual MultiVector ValuesAtPoints(
-    const MultiVector& coefficients, const Job& job = {}) const = 0;
-
   /// Mean surface gradients on the triangles, per world length: rows = triangles, three columns for
   /// each of the coefficients'; 0 on triangles without an area.
   virtual MultiVector GradientsOnTriangles(
     const MultiVector& coefficients, const Job& job = {}) const = 0;
-
-  /// ∫ u² of every column, in squared units of length, for functions u of the space.
-  virtual Columns SquaredNorms(const MultiVector& u, const Job& job = {}) const = 0;
 
   /// The values of all functions at some points: rows = points, columns = functions. Throws
   /// InvalidInput for a point that the mesh does not have.
@@ -178,17 +124,6 @@ public:
     const std::vector<double>& scale, const Job& job = {}) const = 0;
   ///@}
 };
-
-/// a M + b L on every level, ready to cycle.
-Multigrid BuildMultigrid(const FiniteElementSpace& space, double a, double b,
-  const MultigridOptions& options, const Progress& progress = {});
-
-/// New values, in place, for a hierarchy of the same space or of a copy of it.
-void UpdateMultigrid(const FiniteElementSpace& space, double a, double b, Multigrid& multigrid);
-
-/// The levels of a hierarchy, as Multigrid takes them.
-std::vector<MultigridLevel> BuildMultigridLevels(const FiniteElementSpace& space, double a,
-  double b, const MultigridOptions& options, const Progress& progress = {});
 
 } // namespace gridfem
 

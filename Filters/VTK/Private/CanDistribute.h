@@ -13,7 +13,7 @@ namespace gridfem
 
 /// Collective. Whether all ranks can compute together, each with its piece on port 0: on the
 /// functions of a grid of a chosen depth, without a basis, ghost cells or connections to further
-/// ports, of which ranks together know nothing. Where the build has no MPI or PETSc, or VTK's
+/// ports, of which ranks together know nothing. Where the build has no MPI, or VTK's
 /// global controller is not one of MPI, the filter on the first rank warns that rank 0 gathers.
 /// @param depth    that is chosen
 /// @param isPlain  whether the filter does nothing else that rank 0 alone can do

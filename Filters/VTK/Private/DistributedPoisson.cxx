@@ -1,15 +1,5 @@
 #include "DistributedPoisson.h"
 
-namespace gridfem
-{
-
-double DistributedTolerance(const SurfaceOptions& options)
-{
-  return options.solve.tolerance > 0.0 ? options.solve.tolerance : 1e-8;
-}
-
-} // namespace gridfem
-
 #if GRIDFEM_HAS_PARALLEL
 
 #include "DistributedSpace.h"
@@ -137,18 +127,20 @@ DistributedSolution Solve(const Communicator& ranks, const InputMesh& mesh,
       gradients *= request.gradientScale;
     });
 
-  RankPoissonOptions poisson;
+  PoissonOptions poisson;
   poisson.screeningWeight = WeightInCells(space, mesh, request.weight, options.parameterUnits);
   poisson.multigrid = options.multigrid;
   poisson.multigrid.threads = spaceOptions.space.functions.threads;
   poisson.solve = options.solve;
-  poisson.solve.tolerance = DistributedTolerance(options);
+  poisson.accuracy = options.accuracy;
+  poisson.estimateErrors = true;
   PoissonSolution found = SolvePoisson(space, values, gradients, poisson, progress.Part(0.5, 1.0));
   DistributedSolution solution;
   solution.values = space.ValuesAtPoints(
     found.coefficients, static_cast<Id>(mesh.triangles->points.size()), &solution.isSolved);
   solution.dataType = request.value.array || value.columns > 0 ? value.dataType : 0;
   solution.report = std::move(found.report);
+  solution.accuracy = found.accuracy;
   return solution;
 }
 
@@ -171,7 +163,7 @@ namespace gridfem
 DistributedSolution SolveDistributed(
   const InputMesh&, const DistributedRequest&, const SurfaceOptions&, const Progress&)
 {
-  throw InvalidInput("This build has no PETSc.");
+  throw InvalidInput("This build has no MPI.");
 }
 
 } // namespace gridfem

@@ -1,5 +1,5 @@
 // The screened Poisson equation on the pieces of a surface that several MPI ranks hold: none of
-// them gathers it. Without MPI and PETSc there is no such way.
+// them gathers it. Without MPI there is no such way.
 #ifndef GridFEM_DistributedPoisson_h
 #define GridFEM_DistributedPoisson_h
 
@@ -32,10 +32,8 @@ struct DistributedSolution
   std::vector<char> isSolved; // per point; the others have no function
   int dataType = 0;           // of the values that are given, VTK_FLOAT or VTK_DOUBLE
   SolveReport report;
+  SolutionAccuracy accuracy;
 };
-
-/// Of the energy residual: the one given, or 1e-8 where that is 0.
-double DistributedTolerance(const SurfaceOptions& options);
 
 /// Collective, on the ranks of VTK's global controller. Nothing is kept.
 /// @param mesh     of this rank's piece; without triangles where it has none, and no arrays then

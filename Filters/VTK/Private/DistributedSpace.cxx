@@ -129,7 +129,7 @@ bool gridfem::CanDistribute(
     if (ranks.IsFirst())
     {
       vtkWarningWithObjectMacro(
-        filter, "Distributed needs a build with MPI and PETSc: rank 0 gathers the surface.");
+        filter, "Distributed needs a build with MPI: rank 0 gathers the surface.");
     }
     return false;
   }

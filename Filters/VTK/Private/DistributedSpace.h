@@ -1,5 +1,5 @@
 // What filters have in common that all ranks of VTK's global controller compute together. Only for
-// sources that are built with MPI and PETSc.
+// sources that are built with MPI.
 #ifndef GridFEM_DistributedSpace_h
 #define GridFEM_DistributedSpace_h
 
@@ -7,8 +7,6 @@
 #include "SurfaceSolverState.h"
 
 #include "Parallel/RankSpace.h"
-
-#include "vtkObject.h"
 
 #include <string>
 
@@ -29,8 +27,7 @@ auto OnRanksOfVtk(Body&& body)
   try
   {
     decltype(body(ranks)) result;
-    ranks.Guard([&] { result = body(ranks); },
-      [](const std::string& message) { vtkGenericWarningMacro(<< message); });
+    ranks.Guard([&] { result = body(ranks); });
     return result;
   }
   catch (const RankFailure& failure)

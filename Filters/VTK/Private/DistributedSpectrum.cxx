@@ -47,7 +47,6 @@ DistributedModes FindModesTogether(const InputMesh& mesh, int numberOfModes,
   modes.tolerance = options.solve.tolerance;
   modes.maximumIterations = options.solve.maximumIterations;
   modes.multigrid = options.multigrid;
-  modes.multigrid.precision = FactorPrecision::Double; // nothing is tried a second time
   return OnRanksOfVtk(
     [&](const Communicator& ranks) { return FindModes(ranks, mesh, modes, options, progress); });
 }
@@ -59,7 +58,7 @@ DistributedModes FindModesTogether(const InputMesh& mesh, int numberOfModes,
 gridfem::DistributedModes gridfem::FindModesTogether(
   const InputMesh&, int, bool, const SurfaceOptions&, const Progress&)
 {
-  throw InvalidInput("This build has no PETSc.");
+  throw InvalidInput("This build has no MPI.");
 }
 
 #endif

@@ -1,5 +1,5 @@
 // The spectrum of the pieces of a surface that several MPI ranks hold: none of them gathers it.
-// Without MPI and PETSc there is no such way.
+// Without MPI there is no such way.
 #ifndef GridFEM_DistributedSpectrum_h
 #define GridFEM_DistributedSpectrum_h
 

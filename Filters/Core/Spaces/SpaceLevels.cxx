@@ -1,19 +1,19 @@
-#include "Spaces/FiniteElementSpace.h"
+#include "Spaces/SpaceLevels.h"
 
 #include "Base/LargeMemory.h"
 
 namespace gridfem
 {
 
-SparseMatrix FiniteElementSpace::Matrix(std::size_t level, double a, double b, const Job& job) const
+SparseMatrix SpaceLevels::Matrix(std::size_t level, double a, double b, const Job& job) const
 {
   SparseMatrix matrix;
   this->FillMatrix(level, a, b, matrix, job);
   return matrix;
 }
 
-std::vector<MultigridLevel> BuildMultigridLevels(const FiniteElementSpace& space, double a,
-  double b, const MultigridOptions& options, const Progress& progress)
+std::vector<MultigridLevel> BuildMultigridLevels(const SpaceLevels& space, double a, double b,
+  const MultigridOptions& options, const Progress& progress)
 {
   std::vector<MultigridLevel> levels(space.NumberOfLevels());
   for (std::size_t l = 0; l < levels.size(); ++l)
@@ -23,6 +23,7 @@ std::vector<MultigridLevel> BuildMultigridLevels(const FiniteElementSpace& space
     levels[l].order = std::move(relaxation.order);
     levels[l].groups = std::move(relaxation.groups);
     levels[l].smoothing = relaxation.smoothing;
+    levels[l].divided = space.Divide(l, levels[l].A, options);
     if (l + 1 < levels.size())
     {
       levels[l].prolongation = space.Prolongation(l);
@@ -33,7 +34,7 @@ std::vector<MultigridLevel> BuildMultigridLevels(const FiniteElementSpace& space
   return levels;
 }
 
-Multigrid BuildMultigrid(const FiniteElementSpace& space, double a, double b,
+Multigrid BuildMultigrid(const SpaceLevels& space, double a, double b,
   const MultigridOptions& options, const Progress& progress)
 {
   Multigrid multigrid(BuildMultigridLevels(space, a, b, options, progress.Part(0.0, 0.5)), options);
@@ -41,7 +42,7 @@ Multigrid BuildMultigrid(const FiniteElementSpace& space, double a, double b,
   return multigrid;
 }
 
-void UpdateMultigrid(const FiniteElementSpace& space, double a, double b, Multigrid& multigrid)
+void UpdateMultigrid(const SpaceLevels& space, double a, double b, Multigrid& multigrid)
 {
   const MemoryReuse reuse; // the new factors take the place of the old ones
   multigrid.Update([&](std::size_t level, SparseMatrix& matrix)

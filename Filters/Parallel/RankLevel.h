@@ -1,0 +1,67 @@
+// A level that several ranks divide, for the cycle: patches on the borders between ranks, and the
+// way to the next coarser level.
+#ifndef GridFEM_RankLevel_h
+#define GridFEM_RankLevel_h
+
+#include "Grid/PatchLevel.h"
+#include "Multigrid/DividedLevel.h"
+#include "Parallel/RankRows.h"
+
+#include <memory>
+#include <vector>
+
+namespace gridfem
+{
+
+/// Patches of a level by the ranks that touch their functions: this rank alone, one other rank,
+/// more.
+std::vector<PatchLevel> PatchesByRanks(const PatchLevel& level, const LevelNumbering& numbering);
+
+/// A sweep relaxes the patches of a rank's cells one after the other, in up to three steps. Patches
+/// without a function of another rank do not meet those of other ranks: all ranks relax them at
+/// once, as one rank would, without a message. Then, from the residual that is left, those with
+/// functions of one other rank, and last those where more ranks meet; corrections of these are
+/// divided by the number of ranks, so that together they do not overshoot. A backward sweep is the
+/// adjoint of a forward one. Residuals are not weighted: a part of a residual would not be
+/// consistent where the matrix is singular on a few functions, as on small flat pieces.
+class RankLevel : public DividedLevel
+{
+public:
+  /// Collective. Keeps references to the rows.
+  /// @param coarse   rows of the next coarser level; null: all ranks hold it whole
+  /// @param parts    PatchesByRanks of this rank's cells
+  /// @param A        what this rank's patches add to the matrix
+  RankLevel(const Communicator& ranks, const LevelNumbering& numbering, const RankRows& rows,
+    const RankRows* coarse, const std::vector<PatchLevel>& parts, const SparseMatrix& A,
+    int threads);
+
+  const DividedRows& Rows() const override { return rows_; }
+  void SumCoarse(Block<float> x) const override;
+  void SumCoarse(Block<double> x) const override;
+  const std::vector<Index>& Border() const override { return border_; }
+  void Relax(Id columns, SweepDirection direction,
+    const std::function<void(MultiVector& part)>& residual,
+    const std::function<void(const MultiVector& correction)>& correct) const override;
+
+private:
+  /// Patches that other ranks meet.
+  struct Step
+  {
+    std::unique_ptr<Smoother> smoother;
+    double damping;
+  };
+
+  Communicator ranks_;
+  const RankRows& rows_;
+  const RankRows* coarse_;
+  int threads_;
+  std::vector<Index> border_; // functions of patches that other ranks meet, ascending
+  // Rows and columns of these:
+  std::unique_ptr<RankRows> borderRows_;
+  SparseMatrix matrix_;     // which lacks nothing
+  std::vector<Step> steps_; // the same number on all ranks
+};
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,203 @@
+#include "Parallel/RankRows.h"
+
+#include <algorithm>
+#include <type_traits>
+
+namespace gridfem
+{
+
+namespace
+{
+
+/// Of one message. Wider blocks take several.
+constexpr Id ColumnsPerMessage = 32;
+constexpr int Tag = 1908;
+
+template<class Real>
+MPI_Datatype TypeOf()
+{
+  return std::is_same_v<Real, float> ? MPI_FLOAT : MPI_DOUBLE;
+}
+
+/// The place of so many rows in a buffer, behind which the next ones begin.
+template<class Real>
+Eigen::Map<Vectors<Real>> NextRows(Real*& place, const std::vector<Index>& rows, Id columns)
+{
+  Eigen::Map<Vectors<Real>> values(place, static_cast<Id>(rows.size()), columns);
+  place += values.size();
+  return values;
+}
+
+/// Calls body(some) for neighbouring columns that fit into a message.
+template<class Real, class Body>
+void ForColumns(Block<Real> x, Body&& body)
+{
+  for (Id first = 0; first < x.cols(); first += ColumnsPerMessage)
+  {
+    body(Block<Real>(x.middleCols(first, std::min(ColumnsPerMessage, x.cols() - first))));
+  }
+}
+
+} // namespace
+
+RankRows::RankRows(const Communicator& ranks, Index foreign, std::vector<RankNeighbour> neighbours)
+  : ranks_(ranks), foreign_(foreign), neighbours_(std::move(neighbours))
+{
+  std::vector<char> hasOwner(foreign_, 0);
+  std::size_t rows = 0;
+  for (const RankNeighbour& neighbour : neighbours_)
+  {
+    shared_.push_back(neighbour.functions);
+    ownOfShared_.emplace_back();
+    foreignOfShared_.emplace_back();
+    lower_ += neighbour.rank < ranks_.Rank() ? 1 : 0;
+    rows += neighbour.functions.size();
+    for (const Index row : neighbour.functions)
+    {
+      all_.push_back(row);
+      if (row >= foreign_)
+      {
+        ownOfShared_.back().push_back(row);
+      }
+      else if (!hasOwner[row]) // the lowest of those that hold it
+      {
+        foreignOfShared_.back().push_back(row);
+        hasOwner[row] = 1;
+      }
+    }
+  }
+  std::sort(all_.begin(), all_.end());
+  all_.erase(std::unique(all_.begin(), all_.end()), all_.end());
+  constexpr std::size_t Bytes = ColumnsPerMessage * sizeof(double);
+  sent_.resize(rows * Bytes);
+  received_.resize(rows * Bytes);
+  own_.resize(all_.size() * Bytes);
+  requests_.reserve(2 * neighbours_.size());
+}
+
+MultiVector RankRows::Gather(const Eigen::RowVectorXd& numbers) const
+{
+  const std::vector<double> all =
+    ranks_.Gather(std::vector<double>(numbers.data(), numbers.data() + numbers.size()));
+  return Eigen::Map<const MultiVector>(all.data(), ranks_.Size(), numbers.size());
+}
+
+/// Sends rows `out` of x to each neighbour, and receives as many as `in` has. x has few columns.
+template<class Real>
+void RankRows::Exchange(const Rows& out, const Rows& in, Block<Real> x) const
+{
+  ranks_.RequireAll();
+  requests_.clear();
+  Real* place = reinterpret_cast<Real*>(received_.data());
+  for (std::size_t k = 0; k < neighbours_.size(); ++k)
+  {
+    if (in[k].empty())
+    {
+      continue;
+    }
+    auto rows = NextRows(place, in[k], x.cols());
+    MPI_Irecv(rows.data(), static_cast<int>(rows.size()), TypeOf<Real>(), neighbours_[k].rank, Tag,
+      ranks_.Handle(), &requests_.emplace_back());
+  }
+  place = reinterpret_cast<Real*>(sent_.data());
+  for (std::size_t k = 0; k < neighbours_.size(); ++k)
+  {
+    if (out[k].empty()) // the neighbour knows
+    {
+      continue;
+    }
+    auto rows = NextRows(place, out[k], x.cols());
+    for (Id row = 0; row < rows.rows(); ++row)
+    {
+      rows.row(row) = x.row(out[k][row]);
+    }
+    MPI_Isend(rows.data(), static_cast<int>(rows.size()), TypeOf<Real>(), neighbours_[k].rank, Tag,
+      ranks_.Handle(), &requests_.emplace_back());
+  }
+  MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
+}
+
+/// In the order of the ranks, so that all of them get the same bits.
+template<class Real>
+void RankRows::SumParts(Block<Real> x) const
+{
+  this->Exchange<Real>(shared_, shared_, x);
+  Real* place = reinterpret_cast<Real*>(own_.data());
+  auto own = NextRows(place, all_, x.cols());
+  for (Id k = 0; k < own.rows(); ++k)
+  {
+    own.row(k) = x.row(all_[k]);
+    x.row(all_[k]).setZero();
+  }
+  const auto add = [&](const std::vector<Index>& rows, const auto& values)
+  {
+    for (Id k = 0; k < values.rows(); ++k)
+    {
+      x.row(rows[k]) += values.row(k);
+    }
+  };
+  place = reinterpret_cast<Real*>(received_.data());
+  for (std::size_t k = 0; k < neighbours_.size(); ++k)
+  {
+    if (k == lower_)
+    {
+      add(all_, own);
+    }
+    add(shared_[k], NextRows(place, shared_[k], x.cols()));
+  }
+  if (lower_ == neighbours_.size())
+  {
+    add(all_, own);
+  }
+}
+
+template<class Real>
+void RankRows::TakeOwners(Block<Real> x) const
+{
+  this->Exchange<Real>(ownOfShared_, foreignOfShared_, x);
+  Real* place = reinterpret_cast<Real*>(received_.data());
+  for (const std::vector<Index>& rows : foreignOfShared_)
+  {
+    const auto values = NextRows(place, rows, x.cols());
+    for (Id k = 0; k < values.rows(); ++k)
+    {
+      x.row(rows[k]) = values.row(k);
+    }
+  }
+}
+
+void RankRows::Sum(Block<float> x) const
+{
+  ForColumns<float>(x, [this](Block<float> some) { this->SumParts<float>(some); });
+}
+
+void RankRows::Sum(Block<double> x) const
+{
+  ForColumns<double>(x, [this](Block<double> some) { this->SumParts<double>(some); });
+}
+
+void RankRows::TakeForeign(Block<float> x) const
+{
+  ForColumns<float>(x, [this](Block<float> some) { this->TakeOwners<float>(some); });
+}
+
+void RankRows::TakeForeign(Block<double> x) const
+{
+  ForColumns<double>(x, [this](Block<double> some) { this->TakeOwners<double>(some); });
+}
+
+void RankRows::TakeLeast(Block<double> x) const
+{
+  this->Exchange<double>(shared_, shared_, x);
+  auto* place = reinterpret_cast<double*>(received_.data());
+  for (const std::vector<Index>& rows : shared_)
+  {
+    const auto values = NextRows(place, rows, x.cols());
+    for (Id k = 0; k < values.rows(); ++k)
+    {
+      x.row(rows[k]) = x.row(rows[k]).cwiseMin(values.row(k));
+    }
+  }
+}
+
+} // namespace gridfem
