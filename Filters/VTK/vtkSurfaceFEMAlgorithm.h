@@ -50,6 +50,7 @@
 
 namespace gridfem
 {
+class BlockTables;
 class FailureDump;
 class InputBlocks;
 class InputTime;
@@ -374,6 +375,7 @@ private:
   std::unique_ptr<gridfem::RankedSurface> Ranked;
   std::unique_ptr<gridfem::InputBlocks> Blocks;
   std::unique_ptr<gridfem::JoinedBlocks> Joined;
+  std::unique_ptr<gridfem::BlockTables> Tables;
 };
 
 #endif
