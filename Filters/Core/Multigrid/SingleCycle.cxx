@@ -122,7 +122,7 @@ ResidualMeasures SingleCycle::Apply(std::size_t level, const RowSource<Real>& r,
   work.resize(this->WorkRows(level));
   const PanelSums norm = Load(r, b[level], threads_);
   const PanelSums energy = this->GoDown(level, b, work.data());
-  const ResidualMeasures measures{ energy.head(r.columns), norm.head(r.columns) };
+  ResidualMeasures measures{ energy.head(r.columns), norm.head(r.columns) };
   if (isWanted(measures))
   {
     this->GoUp(level, b, work.data());
