@@ -294,6 +294,7 @@ void vtkGeodesicDistance::Compute(vtkInformationVector** inputs, vtkInformationV
   gridfem::RequireNumber("Smoothing", this->Smoothing);
   const gridfem::InputArray mask = gridfem::FindInputArray(this, 0, input, "SourceArray");
   state.options.space.joinAtPoints = true; // paths lead through points where sheets touch
+  state.options.functionsPerPoint = gridfem::AsManyAsWanted; // heat flows on the grid
   state.UpdateSpace(input, vtkPolyData::GetData(inputs[1]), progress.Part(0.0, 0.2));
   this->Selection->Update(vtkSelection::GetData(inputs[3]), input, this->JoinedInput());
   vtkDataSet* const places = vtkDataSet::GetData(inputs[2]);

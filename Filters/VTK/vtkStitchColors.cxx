@@ -219,6 +219,9 @@ void vtkStitchColors::Compute(vtkInformationVector** inputs, vtkInformationVecto
   const gridfem::Progress progress = state.bridge.GetProgress();
   const gridfem::InputArray colors = FindColors(this, input);
   const gridfem::InputArray labels = FindLabels(this, input);
+  // Details are kept on the grid.
+  state.options.functionsPerPoint =
+    this->KeepDetails ? gridfem::AsManyAsWanted : gridfem::EnoughToPrecondition;
   state.UpdateSpace(input, vtkPolyData::GetData(inputs[1]), progress.Part(0.0, 0.2));
   state.UpdateSystem(progress.Part(0.2, 0.35));
   this->UpdateCut(colors, labels, progress.Part(0.35, 0.6));

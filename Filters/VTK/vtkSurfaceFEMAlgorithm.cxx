@@ -1,5 +1,6 @@
 #include "vtkSurfaceFEMAlgorithm.h"
 
+#include "Private/BlockTables.h"
 #include "Private/FailureDump.h"
 #include "Private/InputArray.h"
 #include "Private/InputBlocks.h"
@@ -48,7 +49,8 @@ vtkSurfaceFEMAlgorithm::vtkSurfaceFEMAlgorithm()
     Time(std::make_unique<gridfem::InputTime>()), Dump(std::make_unique<gridfem::FailureDump>()),
     Ranked(std::make_unique<gridfem::RankedSurface>()),
     Blocks(std::make_unique<gridfem::InputBlocks>()),
-    Joined(std::make_unique<gridfem::JoinedBlocks>())
+    Joined(std::make_unique<gridfem::JoinedBlocks>()),
+    Tables(std::make_unique<gridfem::BlockTables>())
 {
   // On several ranks blocks that only some of them have would leave the others waiting.
   vtkNew<vtkCallbackCommand> beginBlocks;
@@ -57,6 +59,7 @@ vtkSurfaceFEMAlgorithm::vtkSurfaceFEMAlgorithm()
     [](vtkObject*, unsigned long, void* self, void*)
     {
       auto* filter = static_cast<vtkSurfaceFEMAlgorithm*>(self);
+      filter->Tables->PutBack(filter->GetExecutive()->GetOutputInformation());
       filter->Blocks->Begin(
         filter->GetExecutive()->GetInputInformation(), filter->GetNumberOfInputPorts());
     });
@@ -74,6 +77,7 @@ vtkSurfaceFEMAlgorithm::vtkSurfaceFEMAlgorithm()
       if (!filter->Blocks->Whole())
       {
         filter->Joined->Finish(filter->KeepsStages());
+        filter->Tables->Exchange(filter->GetExecutive()->GetOutputInformation());
       }
       const std::vector<double> steps = filter->TimeSteps();
       if (!steps.empty())

@@ -50,6 +50,7 @@
 
 namespace gridfem
 {
+class BlockTables;
 class FailureDump;
 class InputBlocks;
 class InputTime;
@@ -105,8 +106,12 @@ public:
    * What solutions are made of. Grid (default): the functions of the grid, of which Depth says how
    * fine they are. HatFunctions: the piecewise linear functions of the mesh itself, with cotangent
    * stiffness and consistent area mass; the result at the points is that of a direct solver for the
-   * same system, and the grid only speeds up the iteration. A grid with about a third as many
-   * functions as the mesh has points serves well; any other is right, too. Only the solvers use it.
+   * same system, and the grid only speeds up the iteration. So it is coarser than Depth, or a basis
+   * that is given, asks for where it would have more functions than the mesh has points; for
+   * spectra, which take their estimated errors from it, more than four for each; not where its own
+   * solution counts: for distances, for details of stitched colours, where AccuracyDriven or
+   * CompareFunctionSpaces is on. The field array `UsedDepth` says how fine it is. Only the solvers
+   * use it.
    */
   vtkSetClampMacro(FunctionSpace, int, Grid, HatFunctions);
   vtkGetMacro(FunctionSpace, int);
@@ -370,6 +375,7 @@ private:
   std::unique_ptr<gridfem::RankedSurface> Ranked;
   std::unique_ptr<gridfem::InputBlocks> Blocks;
   std::unique_ptr<gridfem::JoinedBlocks> Joined;
+  std::unique_ptr<gridfem::BlockTables> Tables;
 };
 
 #endif

@@ -5,6 +5,7 @@ import unittest
 import gridfem.vtkGridFEMFilters  # before the plugin, which makes objects of its classes
 from paraview import servermanager, simple
 from paraview.modules.vtkRemotingViews import vtkSMParaViewPipelineControllerWithRendering
+from vtkmodules.vtkCommonCore import vtkOutputWindow
 
 import plugin
 
@@ -273,6 +274,27 @@ class TestPipeline(unittest.TestCase):
                 self.assertEqual(list(chart.SeriesVisibility), series)
                 # Row = iteration or mode; the flow has a column Time.
                 self.assertEqual(chart.UseIndexForXAxis, int(name != "MeanCurvatureFlow"))
+
+    def test_charts_of_blocks_draw_the_same_columns(self):
+        errors = []
+        vtkOutputWindow.GetInstance().AddObserver("ErrorEvent", lambda *_: errors.append(_))
+        for kind in ("vtkMultiBlockDataSet", "vtkPartitionedDataSetCollection"):
+            blocks = simple.GroupDatasets(
+                Input=[self.surface, simple.Sphere(Radius=2.0, Center=[5, 0, 0])],
+                BlockNames=["left", "right"], OutputType=kind)
+            with self.subTest(kind=kind):
+                spectrum = simple.LaplaceSpectrum(Input=blocks, Depth=DEPTH, NumberOfModes=4)
+                view = simple.CreateView("XYChartView")
+                chart = simple.Show(simple.OutputPort(spectrum, 1), view)
+                view.SMProxy.Update()  # all but the picture
+                self.assertEqual(list(chart.SeriesVisibility), ["Eigenvalue"])
+                self.assertIn("Eigenvalue (left)", list(chart.SeriesLabel))
+                self.assertNotIn("Eigenvalue (right)", list(chart.SeriesLabel))
+                chart.CompositeDataSetIndex = [1, 2]  # the boxes of the panel
+                view.SMProxy.Update()
+                self.assertEqual(list(chart.SeriesVisibility), ["Eigenvalue"])
+                self.assertIn("Eigenvalue (right)", list(chart.SeriesColor))
+                self.assertEqual(errors, [])
 
 
 if __name__ == "__main__":

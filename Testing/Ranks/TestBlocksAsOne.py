@@ -44,7 +44,7 @@ def compare_others(ours, theirs, is_first, tolerance):
 
 class BlocksAsOne(unittest.TestCase):
     def problems(self, name, mesh, cells, reference, is_first_rank, **properties):
-        tolerance = every.OF_MODES if "Spectr" in name else every.ROUNDING
+        tolerance = every.tolerance_of(name)
         data, parts = blocks(mesh, cells)
         filter_ = ranks.make(name, BlocksAsOne=True, **properties)
         outputs = ranks.run(filter_, data)

@@ -237,6 +237,12 @@ TEST_P(FailureRule, NonManifoldAndBadlyOrientedMeshesAreComputed)
 TEST_P(FailureRule, ADepthBeyondMemoryIsRefusedWithTheEstimate)
 {
   filter->SetDepth(14); // about 1.6e9 cells: more than a terabyte
+  const bool isOnHats = filter->GetFunctionSpace() == vtkSurfaceFEMAlgorithm::HatFunctions;
+  if (isOnHats && !filter->IsA("vtkGeodesicDistance")) // whose heat flows on the grid
+  {
+    this->ExpectComputed(ToPolyData(GeodesicSphere(8))); // over a grid that is as coarse
+    return;
+  }
   this->ExpectRefused(ToPolyData(GeodesicSphere(8)), "Depth 14 (about");
   EXPECT_NE(messages.errors[0].find("GB"), std::string::npos);
 }

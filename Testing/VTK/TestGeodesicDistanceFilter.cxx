@@ -52,6 +52,28 @@ void ExpectRefused(vtkGeodesicDistance* filter, const std::string& reason)
 
 } // namespace
 
+TEST(GeodesicDistanceFilter, OnHatFunctionsTheGridIsAsFineAsDepthSays)
+{
+  // Heat flows on it: a finer one is nearer to the truth, also where the mesh has fewer points.
+  const TriangleMesh mesh = Transform(FlatRectangle(12, 12), { 1, 2, 0 }, 0.5);
+  double before = 1.0;
+  for (const int depth : { 3, 5, 7 })
+  {
+    auto filter = MakeFilter(ToPolyData(mesh), depth);
+    filter->SetFunctionSpace(vtkGeodesicDistance::HatFunctions);
+    filter->AddSourcePointId(0);
+    const std::vector<double> distance = DistancesOf(filter);
+    double error = 0.0;
+    for (std::size_t i = 0; i < distance.size(); ++i)
+    {
+      error = std::max(error, std::abs(distance[i] - (mesh.points[i] - mesh.points[0]).norm()));
+    }
+    EXPECT_EQ(FieldValue(filter->GetOutput(), "UsedDepth"), depth);
+    EXPECT_LT(error, 0.8 * before) << depth;
+    before = error;
+  }
+}
+
 TEST(GeodesicDistanceFilter, TakesTheSameSourceAsIdAsMaskAndAsPlace)
 {
   const TriangleMesh mesh = GeodesicSphere(16);

@@ -6,6 +6,7 @@
 
 #include "vtkConnectivityAwareBasis.h"
 #include "vtkLaplaceSpectrum.h"
+#include "vtkScreenedPoisson.h"
 #include "vtkSpectralSignatures.h"
 
 #include "vtkInformation.h"
@@ -67,8 +68,40 @@ TEST_F(HatLaplaceSpectrum, IsThatOfADirectSolverAtEveryDepth)
   {
     filter->SetDepth(depth);
     this->ExpectSpectrumOf(mesh, "depth " + std::to_string(depth));
-    EXPECT_EQ(FieldValue(filter->GetOutput(), "UsedDepth"), depth);
+    EXPECT_LE(FieldValue(filter->GetOutput(), "UsedDepth"), depth);
   }
+}
+
+TEST_F(HatLaplaceSpectrum, TheGridIsAsFineAsTheEstimateOfErrorsNeeds)
+{
+  // Of the values of the surface itself: the mesh is what is coarse.
+  vtkNew<Spectrum> exact;
+  exact->SetNumberOfModes(Modes);
+  exact->SetDepth(8);
+  exact->SetInputData(ToPolyData(mesh));
+  exact->Update();
+  const auto surface = Column(exact, "Eigenvalue");
+  filter->SetDepth(8);
+  const auto hats = this->Eigenvalues();
+  const double enough = FieldValue(filter->GetOutput(), "UsedDepth");
+  EXPECT_LT(enough, 6);
+  const auto said = Column(filter, "EstimatedError");
+  for (int k = 1; k < Modes; ++k)
+  {
+    const double error = hats[k] / surface[k] - 1.0;
+    EXPECT_GT(said[k], 0.5 * error) << k;
+    EXPECT_LT(said[k], 2.0 * error) << k;
+  }
+  vtkNew<vtkScreenedPoisson> poisson; // which is to be solved only
+  poisson->SetFunctionSpace(Spectrum::HatFunctions);
+  poisson->SetDepth(8);
+  poisson->SetInputData(ToPolyData(mesh));
+  poisson->Update();
+  EXPECT_EQ(FieldValue(poisson->GetOutput(), "UsedDepth"), enough - 1);
+  filter->CompareFunctionSpacesOn(); // the grid's values are asked for
+  filter->SetDepth(6);
+  filter->Update();
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "UsedDepth"), 6);
 }
 
 TEST_F(HatLaplaceSpectrum, ModesAreOrthonormalInTheMassOfTheMesh)

@@ -81,6 +81,41 @@ TEST_F(HatPoisson, IsTheSolutionOfADirectSolverAtEveryDepth)
   }
 }
 
+TEST_F(HatPoisson, TheGridIsNoFinerThanTheMesh)
+{
+  const std::vector<double> expected = this->Direct(mesh, PointValues(input, "f"));
+  filter->SetDepth(7);
+  EXPECT_LT(Difference(this->Solution(), expected), 1e-8);
+  const double enough = FieldValue(filter->GetOutput(), "UsedDepth");
+  EXPECT_LT(enough, 4); // 258 points
+  EXPECT_EQ(filter->GetNumberOfRuns("Space"), 1);
+  filter->SetFunctionSpace(Poisson::Grid); // which has the depth that is wanted
+  this->Solution();
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "UsedDepth"), 7);
+  EXPECT_EQ(filter->GetNumberOfRuns("Space"), 2);
+  filter->SetFunctionSpace(Poisson::HatFunctions);
+  // So is it in place of a basis that is given, whatever that welds.
+  vtkNew<vtkConnectivityAwareBasis> basis;
+  basis->SetInputData(input);
+  basis->SetDepth(5);
+  filter->SetBasisConnection(basis->GetOutputPort());
+  EXPECT_LT(Difference(this->Solution(), expected), 1e-8);
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "UsedDepth"), enough);
+  input->ShallowCopy(ToPolyData(Unweld(mesh)));
+  AddPointArray(input, "f", 1, Wave);
+  filter->SetBasisConnection(nullptr);
+  filter->WeldCoincidentPointsOff();
+  const std::vector<double> apart = this->Solution();
+  basis->WeldCoincidentPointsOff();
+  filter->SetBasisConnection(basis->GetOutputPort());
+  EXPECT_LT(Difference(this->Solution(), apart), 1e-8);
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "UsedDepth"), enough);
+  // The functions of the grid are as fine as the basis.
+  filter->SetFunctionSpace(Poisson::Grid);
+  this->Solution();
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "UsedDepth"), 5);
+}
+
 TEST_F(HatPoisson, SoupIsWeldedUnlessToldOtherwise)
 {
   const TriangleMesh soup = Unweld(mesh);
@@ -208,6 +243,7 @@ TEST_F(HatPoisson, AChangeRunsOnlyItsOwnStagesAndGivesTheSameAsAFreshFilter)
     return counts;
   };
   using Counts = std::vector<vtkIdType>;
+  filter->SetDepth(2); // the mesh has points for no finer grid
   const auto hats = this->Solution();
   EXPECT_EQ(runs(), (Counts{ 1, 1, 1, 1, 1 }));
   filter->SetScreeningWeight(5.0);

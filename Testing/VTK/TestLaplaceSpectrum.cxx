@@ -9,6 +9,9 @@
 
 #include "vtkCallbackCommand.h"
 #include "vtkInformation.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkPartitionedDataSet.h"
+#include "vtkPartitionedDataSetCollection.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 
@@ -47,6 +50,52 @@ protected:
   vtkNew<Spectrum> filter;
   Messages messages;
 };
+
+TEST_F(LaplaceSpectrum, TablesOfAPartitionedCollectionAreAMultiBlock)
+{
+  const vtkSmartPointer<vtkPolyData> ball = ToPolyData(GeodesicSphere(8));
+  vtkNew<vtkPartitionedDataSetCollection> collection;
+  collection->SetPartition(0, 0, ball);
+  collection->SetPartition(0, 1, ToPolyData(GeodesicSphere(6, 0.5)));
+  collection->SetPartition(2, 0, ToPolyData(GeodesicSphere(4, 2.0))); // nothing between
+  collection->GetMetaData(0u)->Set(vtkCompositeDataSet::NAME(), "small");
+  collection->GetMetaData(2u)->Set(vtkCompositeDataSet::NAME(), "large");
+  filter->SetInputDataObject(collection);
+  const auto expect = [&](int rows)
+  {
+    EXPECT_TRUE(vtkPartitionedDataSetCollection::SafeDownCast(filter->GetOutputDataObject(0)));
+    auto* tables = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(1));
+    ASSERT_TRUE(tables);
+    ASSERT_EQ(tables->GetNumberOfBlocks(), 3u);
+    const char* const names[] = { "small 0", "small 1", "large" };
+    for (unsigned int block = 0; block < 3; ++block)
+    {
+      EXPECT_STREQ(tables->GetMetaData(block)->Get(vtkCompositeDataSet::NAME()), names[block]);
+      auto* table = vtkTable::SafeDownCast(tables->GetBlock(block));
+      ASSERT_TRUE(table);
+      EXPECT_EQ(table->GetNumberOfRows(), rows);
+      const double radius = block == 0 ? 1.0 : block == 1 ? 0.5 : 2.0;
+      EXPECT_NEAR(table->GetValueByName(1, "Eigenvalue").ToDouble() * radius * radius, 2.0, 0.3);
+    }
+  };
+  filter->Update();
+  expect(9);
+  const vtkIdType runs = filter->GetNumberOfRuns("Solve");
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfRuns("Solve"), runs);
+  expect(9);
+  filter->SetNumberOfModes(4); // the pipeline fills its own again
+  filter->Update();
+  EXPECT_GT(filter->GetNumberOfRuns("Solve"), runs);
+  expect(4);
+  filter->SetInputDataObject(ball);
+  filter->Update();
+  EXPECT_TRUE(vtkTable::SafeDownCast(filter->GetOutputDataObject(1)));
+  filter->SetInputDataObject(collection);
+  filter->Update();
+  expect(4);
+  EXPECT_TRUE(messages.errors.empty());
+}
 
 TEST_F(LaplaceSpectrum, ASphereHasItsEigenvalues)
 {

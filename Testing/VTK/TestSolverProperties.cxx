@@ -33,7 +33,7 @@ Counts Runs(vtkSurfaceFEMAlgorithm* filter)
 
 vtkSmartPointer<vtkPolyData> Surface()
 {
-  auto surface = ToPolyData(Transform(GeodesicSphere(10), { 1, 2, 0 }, 0.5));
+  auto surface = ToPolyData(Transform(GeodesicSphere(20), { 1, 2, 0 }, 0.5));
   AddPointArray(surface, "f", 1, Wave);
   return surface;
 }
@@ -210,7 +210,15 @@ TEST_P(SolverProperties, AnAutomaticDepthIsThatOfTheMesh)
   EXPECT_EQ(Runs(filter), runs) << "chosen once";
   EXPECT_EQ(run(7, fine), automatic);
   run(0, coarse);
-  EXPECT_EQ(FieldValue(filter->GetOutput(), "UsedDepth"), 6);
+  const double used = FieldValue(filter->GetOutput(), "UsedDepth");
+  if (this->GetParam() == Poisson::Grid)
+  {
+    EXPECT_EQ(used, 6);
+  }
+  else
+  {
+    EXPECT_LT(used, 4); // 402 points
+  }
 }
 
 TEST(SolverProperty, DepthOneIsRefused)

@@ -53,7 +53,7 @@ SolveReport SolveWithFallback(IterationType iteration, const LinearOperator& A,
   }
   SolveOptions attempt = options;
   attempt.giveUp = SolveOptions::GiveUp::WhenTooSlow;
-  const SolveReport report = solve(A, B.first, b, x, attempt, project, progress);
+  SolveReport report = solve(A, B.first, b, x, attempt, project, progress);
   const bool isStuck = report.end == SolveEnd::Stagnation || report.end == SolveEnd::Breakdown;
   attempt.maximumIterations -= report.iterations;
   if (!isStuck || attempt.maximumIterations < 1)

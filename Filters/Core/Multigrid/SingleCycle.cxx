@@ -145,7 +145,7 @@ ResidualMeasures SingleCycle::Apply(std::size_t level, const RowSource<Real>& r,
     norm = SumParts(*levels_[level].Divided(), b[level], threads_);
   }
   const PanelSums energy = this->GoDown(level, b, work.data());
-  const ResidualMeasures measures{ energy.head(r.columns), norm.head(r.columns) };
+  ResidualMeasures measures{ energy.head(r.columns), norm.head(r.columns) };
   if (isWanted(measures))
   {
     this->GoUp(level, b, work.data());

@@ -130,7 +130,7 @@ Field NearTriangles(
 
 GeodesicDistance::GeodesicDistance(std::shared_ptr<const FiniteElementSpace> space,
   std::shared_ptr<const TriangleMesh> mesh, DistanceOptions options, const Job& job)
-  : space_(std::move(space)), mesh_(std::move(mesh)), options_(std::move(options))
+  : space_(std::move(space)), mesh_(std::move(mesh)), options_(options)
 {
   if (!(options_.smoothing > 0.0) || std::isinf(options_.smoothing))
   {

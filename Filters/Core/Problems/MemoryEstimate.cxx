@@ -100,6 +100,17 @@ int SuggestedDepth(const TriangleMesh& mesh)
   return depth;
 }
 
+int DepthForPoints(const TriangleMesh& mesh, int most, double functionsPerPoint)
+{
+  const double functions = functionsPerPoint * WeldedPoints(mesh);
+  int depth = most;
+  while (depth > MinimumDepth && EstimateMemory(mesh, depth).functions > functions)
+  {
+    --depth;
+  }
+  return depth;
+}
+
 double EstimateHatMemory(const TriangleMesh& mesh, double functions)
 {
   return HatsPerPoint * WeldedPoints(mesh) + HatsPerFunction * functions;

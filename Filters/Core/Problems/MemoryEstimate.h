@@ -30,6 +30,10 @@ MemoryEstimate EstimateMemory(const TriangleMesh& mesh, const Grid& grid);
 /// 6, which costs next to nothing and serves the faces of coarse meshes.
 int SuggestedDepth(const TriangleMesh& mesh);
 
+/// The finest depth, from `most` down, at which the grid is expected to have no more functions than
+/// this for each point of the surface, coincident ones counted once; or the least depth.
+int DepthForPoints(const TriangleMesh& mesh, int most, double functionsPerPoint);
+
 /// Bytes that the hat functions of a mesh take on top: their matrices, the transfer to the grid and
 /// their part of the hierarchy, with one right-hand side. Within a third on meshes whose triangles
 /// share their points. Cost O(1).

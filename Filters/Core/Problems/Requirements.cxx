@@ -71,9 +71,15 @@ int FittingDepth(const TriangleMesh& mesh, int most, int least, bool hatFunction
   return depth;
 }
 
-int AffordableDepth(const TriangleMesh& mesh, bool hatFunctions)
+int ChooseDepth(const TriangleMesh& mesh, int wanted, bool hatFunctions, double perPoint)
 {
-  return FittingDepth(mesh, SuggestedDepth(mesh), MinimumDepth, hatFunctions);
+  const bool isAutomatic = wanted == AutomaticDepth;
+  int depth = isAutomatic ? SuggestedDepth(mesh) : wanted;
+  if (hatFunctions)
+  {
+    depth = DepthForPoints(mesh, depth, perPoint);
+  }
+  return isAutomatic ? FittingDepth(mesh, depth, MinimumDepth, hatFunctions) : depth;
 }
 
 void RequireMemory(const TriangleMesh& mesh, int depth, bool hatFunctions)

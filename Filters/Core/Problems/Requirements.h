@@ -4,6 +4,8 @@
 
 #include "Grid/RequireSurface.h"
 
+#include <limits>
+
 namespace gridfem
 {
 
@@ -19,8 +21,20 @@ bool FitsMemory(const TriangleMesh& mesh, int depth, bool hatFunctions = false);
 /// The finest depth from `most` down that fits into memory, or `least`.
 int FittingDepth(const TriangleMesh& mesh, int most, int least, bool hatFunctions = false);
 
-/// The suggested depth, or a smaller one that fits into memory.
-int AffordableDepth(const TriangleMesh& mesh, bool hatFunctions = false);
+/// In the place of a depth: the suggested one, or a smaller one that fits into memory.
+inline constexpr int AutomaticDepth = 0;
+
+///@{ How many functions a grid below hat functions has for each point of the mesh, at most. More of
+/// them make every step dearer and save none (Testing/Benchmarks/README.md).
+inline constexpr double EnoughToPrecondition = 1.0;
+inline constexpr double EnoughToEstimate = 4.0; // the hats' errors, beside which its own are small
+inline constexpr double AsManyAsWanted = std::numeric_limits<double>::infinity(); // to solve on it
+///@}
+
+/// The depth to compute at where `wanted` is asked for: another one where that is automatic, and
+/// below hat functions a coarser one where that is enough.
+/// @param perPoint  of the grid below the hat functions, if there are any
+int ChooseDepth(const TriangleMesh& mesh, int wanted, bool hatFunctions, double perPoint);
 
 /// Throws InvalidInput, with the estimate, when this depth needs more memory than there is.
 void RequireMemory(const TriangleMesh& mesh, int depth, bool hatFunctions = false);

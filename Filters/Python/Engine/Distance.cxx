@@ -24,7 +24,8 @@ public:
       insideLabel_(properties.Integer("InsideLabel", 1, -Largest, Largest)),
       isReversed_(properties.Switch("ReverseSign", false))
   {
-    options_.functions.joinAtPoints = true; // paths lead through points where sheets touch
+    options_.functions.joinAtPoints = true;      // paths lead through points where sheets touch
+    options_.functionsPerPoint = AsManyAsWanted; // heat flows on the grid
   }
 
   Results Solve(const Given& given, const Progress& progress) const override

@@ -22,6 +22,7 @@ public:
       isAccuracyDriven_(properties.Switch("AccuracyDriven", false)),
       accuracy_(properties.Number("Accuracy", 0.01, 1e-6, 0.5))
   {
+    options_.functionsPerPoint = EnoughToEstimate;
   }
 
   Results Solve(const Given& given, const Progress& progress) const override

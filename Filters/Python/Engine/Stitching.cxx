@@ -57,6 +57,8 @@ public:
       keepsDetails_(properties.Switch("KeepDetails", true)),
       blendWidth_(properties.Number("BlendWidth", 0.0, 0.0, 1.0))
   {
+    // Details are kept on the grid.
+    options_.functionsPerPoint = keepsDetails_ ? AsManyAsWanted : EnoughToPrecondition;
   }
 
   Results Solve(const Given& given, const Progress& progress) const override

@@ -177,18 +177,18 @@ SurfaceOptions SurfaceOptions::AtDepth(int depth) const
 {
   SurfaceOptions options = *this;
   options.functions.depth = depth;
+  options.functionsPerPoint = AsManyAsWanted;
   return options;
 }
 
 namespace
 {
 
-/// With a depth in the place of an automatic one, which is 0.
 SurfaceOptions WithDepth(const SurfaceOptions& options, const TriangleMesh& mesh)
 {
   RequireSurface(mesh);
-  return options.functions.depth == 0 ? options.AtDepth(AffordableDepth(mesh, options.IsOnHats()))
-                                      : options;
+  return options.AtDepth(
+    ChooseDepth(mesh, options.functions.depth, options.IsOnHats(), options.functionsPerPoint));
 }
 
 } // namespace

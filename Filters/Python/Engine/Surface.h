@@ -5,6 +5,7 @@
 #include "Properties.h"
 
 #include "Problems/Poisson.h"
+#include "Problems/Requirements.h"
 #include "Spaces/SpaceChoice.h"
 
 #include <map>
@@ -75,9 +76,12 @@ struct SurfaceOptions
   SurfaceOptions(Properties& properties, const SharedDefaults& defaults);
 
   bool IsOnHats() const { return choice.kind == FunctionKind::Hats; }
+
+  /// At this depth and no coarser one.
   SurfaceOptions AtDepth(int depth) const;
 
   SpaceOptions functions;
+  double functionsPerPoint = EnoughToPrecondition; // of the grid below hat functions, at most
   SpaceChoice choice;
   MultigridOptions multigrid;
   SolveOptions solve;

@@ -4,6 +4,7 @@
 #include "BasisReader.h"
 #include "InputValidation.h"
 #include "MetricArray.h"
+#include "Problems/MemoryEstimate.h"
 #include "Problems/MovedSurface.h"
 #include "SolverOutput.h"
 #include "vtkSurfaceFEMAlgorithm.h"
@@ -73,10 +74,10 @@ void AddBasisArrays(StageKey& key, vtkPolyData* data)
 }
 
 StageKey SurfaceSolverState::SpaceKey(
-  vtkPolyData* input, vtkPolyData* basisData, std::int64_t meshNumber) const
+  vtkPolyData* input, vtkPolyData* basisData, std::int64_t meshNumber, int depth) const
 {
   StageKey key;
-  key.Add(meshNumber);
+  key.Add(meshNumber).Add(this->GivesWay());
   const bool carries = CarriesBasis(input);
   if (carries || basisData)
   {
@@ -86,7 +87,7 @@ StageKey SurfaceSolverState::SpaceKey(
   }
   else
   {
-    key.Add(options.space.depth);
+    key.Add(depth);
     key.Add(options.space.connectivityAware);
     key.Add(options.space.weldCoincidentPoints);
   }
@@ -99,8 +100,10 @@ void SurfaceSolverState::UpdateSpace(
   RequireNumber("Tolerance", options.solve.tolerance);
   RequireNumber("Accuracy", options.accuracy);
   const std::int64_t meshNumber = meshVersion.Of(input, mesh, options.space.threads);
+  const int wanted = options.space.depth;
   if (options.trackMetric &&
-      stages.IsCurrent(SpaceStage, this->SpaceKey(input, basisData, tracked_.ReferenceVersion())) &&
+      stages.IsCurrent(
+        SpaceStage, this->SpaceKey(input, basisData, tracked_.ReferenceVersion(), wanted)) &&
       tracked_.Follow(input, mesh))
   {
     return;
@@ -123,24 +126,56 @@ void SurfaceSolverState::UpdateSpace(
       throw InvalidInput("The second input is not the output of a basis filter: the arrays "
                          "'PatchBasisIds' and 'PatchId' are missing.");
     }
-    basis = carries ? ReadBasis(input, mesh, progress.Part(0.1, 1.0))
-                    : ReadBasisFor(basisData, mesh, progress.Part(0.1, 1.0));
+    basis = carries ? ReadBasis(input, mesh, progress.Part(0.1, 0.8))
+                    : ReadBasisFor(basisData, mesh, progress.Part(0.1, 0.8));
+    this->TakeEnough(progress.Part(0.8, 1.0));
     RequireMemory(
       *mesh.triangles, basis.space->GetGrid().depth, options.choice.kind == FunctionKind::Hats);
   };
-  stages.Run(SpaceStage, this->SpaceKey(input, basisData, meshNumber), update);
+  StageKey key = this->SpaceKey(input, basisData, meshNumber, wanted);
+  stages.Run(SpaceStage, key,
+    [&]
+    {
+      update();
+      key = this->SpaceKey(input, basisData, meshNumber, wanted); // of the mesh that is known now
+    });
   if (tracked_.ReferenceVersion() != meshNumber)
   {
     tracked_.Refer(input, meshNumber);
   }
 }
 
+int SurfaceSolverState::DepthFor(int wanted) const
+{
+  return gridfem::ChooseDepth(
+    *mesh.triangles, wanted, options.choice.kind == FunctionKind::Hats, options.functionsPerPoint);
+}
+
+/// Whether the grid that was last wanted is finer than hat functions need.
+bool SurfaceSolverState::GivesWay() const
+{
+  return options.choice.kind == FunctionKind::Hats && mesh.triangles &&
+         DepthForPoints(*mesh.triangles, wanted_, options.functionsPerPoint) < wanted_;
+}
+
 void SurfaceSolverState::ChooseDepth()
 {
-  if (options.space.depth == AutomaticDepth)
+  wanted_ = gridfem::ChooseDepth(*mesh.triangles, options.space.depth, false, AsManyAsWanted);
+  options.space.depth = this->DepthFor(options.space.depth);
+}
+
+/// Hat functions on a basis that is given and finer than is of use to them get a coarser one.
+void SurfaceSolverState::TakeEnough(const Progress& progress)
+{
+  wanted_ = this->Functions().GetGrid().depth;
+  SpaceOptions enough = options.space;
+  enough.depth = this->DepthFor(wanted_);
+  if (enough.depth < wanted_)
   {
-    options.space.depth =
-      AffordableDepth(*mesh.triangles, options.choice.kind == FunctionKind::Hats);
+    enough.connectivityAware = this->Functions().support == FunctionSupport::ConnectivityAware;
+    enough.weldCoincidentPoints = basis.weldCoincidentPoints;
+    basis = MakeSurfaceBasis(mesh.triangles, BuildGridFunctions(*mesh.triangles, enough, progress),
+      enough.weldCoincidentPoints);
   }
 }
 

@@ -7,6 +7,7 @@
 #include "InputMesh.h"
 #include "Krylov/ConjugateGradients.h"
 #include "MeshVersion.h"
+#include "Problems/Requirements.h"
 #include "ProgressBridge.h"
 #include "StageCache.h"
 #include "SurfaceBasis.h"
@@ -21,16 +22,14 @@ namespace gridfem
 struct SurfaceOptions
 {
   SpaceOptions space;
-  SpaceChoice choice; // on the basis
+  SpaceChoice choice;                              // on the basis
+  double functionsPerPoint = EnoughToPrecondition; // of the grid below hat functions, at most
   MultigridOptions multigrid;
   SolveOptions solve;
   double accuracy = 0.0;    // as in PoissonOptions; 0: to the tolerance alone
   int parameterUnits = 1;   // vtkSurfaceFEMAlgorithm::ParameterUnitsType
   bool trackMetric = false; // of a mesh that has only moved since its functions were made
 };
-
-/// In the place of a depth: the one that suits the mesh and fits into memory.
-inline constexpr int AutomaticDepth = 0;
 
 /// The stages that filters have in common.
 inline constexpr const char* SpaceStage = "Space";   // mesh, clipping, patches, levels
@@ -66,7 +65,7 @@ public:
   /// InvalidInput and Aborted.
   void UpdateSpace(vtkPolyData* input, vtkPolyData* basisData, const Progress& progress);
 
-  /// Replaces an automatic depth by the one for `mesh`.
+  /// Replaces the depth that is asked for by the one for `mesh`.
   void ChooseDepth();
 
   /// Builds the function space of a mesh and clips it before. Validates the mesh.
@@ -119,11 +118,17 @@ public:
   ProgressBridge bridge;
 
 private:
+  int DepthFor(int wanted) const;
+  void TakeEnough(const Progress& progress);
+
   std::shared_ptr<const FiniteElementSpace> InMetric(
     std::shared_ptr<const FiniteElementSpace> ofMesh, const Progress& progress) const;
 
-  StageKey SpaceKey(vtkPolyData* input, vtkPolyData* basisData, std::int64_t meshNumber) const;
+  bool GivesWay() const;
+  StageKey SpaceKey(
+    vtkPolyData* input, vtkPolyData* basisData, std::int64_t meshNumber, int depth) const;
 
+  int wanted_ = AutomaticDepth; // of the grid, before it gives way
   TrackedMesh tracked_;
   StageKey structureKey_;
   std::int64_t structure_ = 0;

@@ -175,6 +175,7 @@ void SurfaceSpectrum::Update(SurfaceSolverState& state, vtkPolyData* input, vtkP
     wanted.accuracy = 0.0;
   }
   const bool choose = wanted.accuracy > 0.0;
+  state.options.functionsPerPoint = choose || request.compare ? AsManyAsWanted : EnoughToEstimate;
   if (choose)
   {
     this->ChooseDepth(state, input, wanted);

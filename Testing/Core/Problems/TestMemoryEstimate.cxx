@@ -2,11 +2,13 @@
 #include "Discretisation.h"
 #include "Meshes.h"
 #include "Problems/MemoryEstimate.h"
+#include "Problems/Requirements.h"
 #include "Spaces/HatSpace.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <limits>
 
 namespace gridfem
 {
@@ -178,6 +180,45 @@ TEST(MemoryEstimate, TheSuggestedDepthIsTheFinestThatThePointsFill)
 TEST(MemoryEstimate, TheSuggestedDepthOfACoarseMeshIsSix)
 {
   EXPECT_EQ(SuggestedDepth(testing::Box(1)), 6);
+}
+
+TEST(MemoryEstimate, TheDepthForPointsIsTheFinestThatHasNoMoreFunctionsForEach)
+{
+  const double all = std::numeric_limits<double>::infinity();
+  for (const TriangleMesh& mesh : { testing::GeodesicSphere(30), testing::Torus(200, 80, 1.0, 0.4),
+         testing::TrefoilTube(800, 24) })
+  {
+    const auto points = static_cast<double>(mesh.points.size());
+    for (const double perPoint : { 1.0, 4.0 })
+    {
+      SCOPED_TRACE(points * perPoint);
+      const auto functionsAt = [&](int depth) {
+        return BuildSpace({ "", mesh, depth }).Finest().numberOfFunctions;
+      };
+      const int depth = DepthForPoints(mesh, MaximumDepth, perPoint);
+      // Estimates are good to some per cent; rims have more functions than areas tell.
+      EXPECT_LT(functionsAt(depth), 1.2 * perPoint * points);
+      EXPECT_GT(functionsAt(depth + 1), 0.95 * perPoint * points);
+      EXPECT_EQ(DepthForPoints(mesh, depth - 1, perPoint), depth - 1);
+      EXPECT_EQ(DepthForPoints(testing::Unweld(mesh), MaximumDepth, perPoint), depth);
+    }
+    EXPECT_EQ(DepthForPoints(mesh, 9, all), 9);
+  }
+  EXPECT_EQ(DepthForPoints(testing::Box(1), 9, 1.0), MinimumDepth);
+}
+
+TEST(MemoryEstimate, ADepthGivesWayBelowHatFunctionsOnly)
+{
+  const TriangleMesh mesh = testing::GeodesicSphere(30); // 3,602 points
+  const int enough = DepthForPoints(mesh, MaximumDepth, 1.0);
+  ASSERT_LT(enough, 6);
+  EXPECT_EQ(ChooseDepth(mesh, 7, false, 1.0), 7);
+  EXPECT_EQ(ChooseDepth(mesh, AutomaticDepth, false, 1.0), SuggestedDepth(mesh));
+  EXPECT_EQ(ChooseDepth(mesh, 7, true, EnoughToPrecondition), enough);
+  EXPECT_EQ(ChooseDepth(mesh, 7, true, EnoughToEstimate), enough + 1);
+  EXPECT_EQ(ChooseDepth(mesh, 7, true, AsManyAsWanted), 7);
+  EXPECT_EQ(ChooseDepth(mesh, enough - 1, true, EnoughToPrecondition), enough - 1);
+  EXPECT_EQ(ChooseDepth(mesh, AutomaticDepth, true, EnoughToPrecondition), enough);
 }
 
 TEST(MemoryEstimate, GrowsWithDepth)
