@@ -131,6 +131,12 @@ void Communicator::Sum(double* values, Id count) const
   MPI_Allreduce(MPI_IN_PLACE, values, CountOf(count), MPI_DOUBLE, MPI_SUM, handle_);
 }
 
+void Communicator::Sum(float* values, Id count) const
+{
+  this->RequireAll();
+  MPI_Allreduce(MPI_IN_PLACE, values, CountOf(count), MPI_FLOAT, MPI_SUM, handle_);
+}
+
 void Communicator::Minimum(double* values, Id count) const
 {
   this->RequireAll();

@@ -92,6 +92,7 @@ public:
 
   /// Entry by entry over the ranks, in place. The same bits on all ranks.
   void Sum(double* values, Id count) const;
+  void Sum(float* values, Id count) const;
   void Minimum(double* values, Id count) const;
   void Maximum(double* values, Id count) const;
 

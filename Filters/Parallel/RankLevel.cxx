@@ -1,9 +1,9 @@
 #include "Parallel/RankLevel.h"
 
+#include "Algebra/RowBuilder.h"
 #include "Spaces/PatchOrdering.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace gridfem
 {
@@ -83,36 +83,21 @@ void ForEntries(const SparseMatrix& A, const std::vector<Index>& list, Body&& bo
 /// Entries of one place are added up.
 SparseMatrix MatrixOf(std::vector<Entry> entries, Index rows)
 {
-  std::sort(entries.begin(), entries.end(),
-    [](const Entry& a, const Entry& b)
-    { return a.row != b.row ? a.row < b.row : a.column < b.column; });
-  Array<Id> begin(rows + 1);
-  Array<Index> column;
-  SparseMatrix matrix;
-  Index row = 0;
-  begin[0] = 0;
-  for (std::size_t k = 0; k < entries.size(); ++k)
+  std::sort(
+    entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.row < b.row; });
+  RowBuilder matrix;
+  RowBuilder::Entries ofRow;
+  std::size_t k = 0;
+  for (Index row = 0; row < rows; ++row)
   {
-    while (row < entries[k].row)
+    ofRow.clear();
+    for (; k < entries.size() && entries[k].row == row; ++k)
     {
-      begin[++row] = static_cast<Id>(column.size());
+      ofRow.emplace_back(entries[k].column, entries[k].value);
     }
-    if (begin[row] < static_cast<Id>(column.size()) && column.back() == entries[k].column)
-    {
-      matrix.value.back() += entries[k].value;
-      continue;
-    }
-    column.push_back(entries[k].column);
-    matrix.value.push_back(entries[k].value);
+    matrix.Append(ofRow);
   }
-  while (row < rows)
-  {
-    begin[++row] = static_cast<Id>(column.size());
-  }
-  matrix.rows = matrix.columns = rows;
-  matrix.rowBegin = std::move(begin);
-  matrix.column = std::move(column);
-  return matrix;
+  return matrix.Finish(rows);
 }
 
 /// Collective. The rows and columns of a list of functions, which lack nothing: neighbours tell
@@ -152,23 +137,16 @@ SparseMatrix WholeMatrix(const Communicator& ranks, const SparseMatrix& A,
   return whole;
 }
 
-/// Of rows that all ranks hold, all add up all.
-/// @param rows  null: that is so
+/// @param rows  null: all ranks hold all rows
 template<class Real>
-void SumRows(const Communicator& ranks, const RankRows* rows, Block<Real> x, MPI_Datatype type)
+void SumRows(const Communicator& ranks, const RankRows* rows, Block<Real> x)
 {
   if (rows)
   {
     rows->Sum(x);
     return;
   }
-  ranks.RequireAll();
-  constexpr Id Most = std::numeric_limits<int>::max() / 2;
-  for (Id first = 0; first < x.size(); first += Most)
-  {
-    MPI_Allreduce(MPI_IN_PLACE, x.data() + first,
-      static_cast<int>(std::min(Most, x.size() - first)), type, MPI_SUM, ranks.Handle());
-  }
+  ranks.Sum(x.data(), x.size());
 }
 
 } // namespace
@@ -234,12 +212,12 @@ RankLevel::RankLevel(const Communicator& ranks, const LevelNumbering& numbering,
 
 void RankLevel::SumCoarse(Block<float> x) const
 {
-  SumRows<float>(ranks_, coarse_, x, MPI_FLOAT);
+  SumRows<float>(ranks_, coarse_, x);
 }
 
 void RankLevel::SumCoarse(Block<double> x) const
 {
-  SumRows<double>(ranks_, coarse_, x, MPI_DOUBLE);
+  SumRows<double>(ranks_, coarse_, x);
 }
 
 void RankLevel::Relax(Id columns, SweepDirection direction,

@@ -29,34 +29,37 @@ std::size_t RankLevels::NumberOfLevels() const
   return rows_.size() + space_.Shared().NumberOfLevels();
 }
 
+const GridSpace& RankLevels::HolderOf(std::size_t level) const
+{
+  return this->IsDivided(level) ? space_.Own() : space_.Shared();
+}
+
+std::size_t RankLevels::LevelThere(std::size_t level) const
+{
+  return this->IsDivided(level) ? level : level - rows_.size();
+}
+
 Index RankLevels::NumberOfFunctions(std::size_t level) const
 {
   return this->IsDivided(level) ? static_cast<Index>(space_.Numberings()[level].total)
-                                : space_.Shared().NumberOfFunctions(level - rows_.size());
+                                : this->HolderOf(level).NumberOfFunctions(this->LevelThere(level));
 }
 
 void RankLevels::FillMatrix(
   std::size_t level, double a, double b, SparseMatrix& matrix, const Job& job) const
 {
   space_.Ranks().Together(
-    [&]
-    {
-      const bool isDivided = this->IsDivided(level);
-      const GridSpace& space = isDivided ? space_.Own() : space_.Shared();
-      space.FillMatrix(isDivided ? level : level - rows_.size(), a, b, matrix, job);
-    });
+    [&] { this->HolderOf(level).FillMatrix(this->LevelThere(level), a, b, matrix, job); });
 }
 
 SharedMatrix RankLevels::Prolongation(std::size_t level) const
 {
-  return this->IsDivided(level) ? space_.Own().Prolongation(level)
-                                : space_.Shared().Prolongation(level - rows_.size());
+  return this->HolderOf(level).Prolongation(this->LevelThere(level));
 }
 
 SharedMatrix RankLevels::Restriction(std::size_t level) const
 {
-  return this->IsDivided(level) ? space_.Own().Restriction(level)
-                                : space_.Shared().Restriction(level - rows_.size());
+  return this->HolderOf(level).Restriction(this->LevelThere(level));
 }
 
 LevelRelaxation RankLevels::Relaxation(std::size_t level, const MultigridOptions& options) const
@@ -67,7 +70,7 @@ LevelRelaxation RankLevels::Relaxation(std::size_t level, const MultigridOptions
     {
       relaxation = this->IsDivided(level)
                      ? LevelRelaxation{ OrderPatches(parts_[level].front()), {}, {} }
-                     : space_.Shared().Relaxation(level - rows_.size(), options);
+                     : this->HolderOf(level).Relaxation(this->LevelThere(level), options);
     });
   return relaxation;
 }
@@ -81,7 +84,7 @@ Components RankLevels::ComponentsOf(std::size_t level, const Job& job) const
   }
   Components components;
   space_.Ranks().Together(
-    [&] { components = space_.Shared().ComponentsOf(level - rows_.size(), job); });
+    [&] { components = this->HolderOf(level).ComponentsOf(this->LevelThere(level), job); });
   return components;
 }
 

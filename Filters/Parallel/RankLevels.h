@@ -39,6 +39,9 @@ public:
 
 private:
   bool IsDivided(std::size_t level) const { return level < rows_.size(); }
+  /// The space that has a level here, and its number there.
+  const GridSpace& HolderOf(std::size_t level) const;
+  std::size_t LevelThere(std::size_t level) const;
 
   const RankSpace& space_;
   std::vector<RankRows> rows_;                 // of the divided levels

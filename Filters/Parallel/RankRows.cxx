@@ -117,6 +117,21 @@ void RankRows::Exchange(const Rows& out, const Rows& in, Block<Real> x) const
   MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
 }
 
+/// Calls body(row, values) for all rows that have been received.
+template<class Real, class Body>
+void RankRows::ForReceived(const Rows& in, Id columns, Body&& body) const
+{
+  Real* place = reinterpret_cast<Real*>(received_.data());
+  for (const std::vector<Index>& rows : in)
+  {
+    const auto values = NextRows(place, rows, columns);
+    for (Id k = 0; k < values.rows(); ++k)
+    {
+      body(rows[k], values.row(k));
+    }
+  }
+}
+
 /// In the order of the ranks, so that all of them get the same bits.
 template<class Real>
 void RankRows::SumParts(Block<Real> x) const
@@ -155,15 +170,8 @@ template<class Real>
 void RankRows::TakeOwners(Block<Real> x) const
 {
   this->Exchange<Real>(ownOfShared_, foreignOfShared_, x);
-  Real* place = reinterpret_cast<Real*>(received_.data());
-  for (const std::vector<Index>& rows : foreignOfShared_)
-  {
-    const auto values = NextRows(place, rows, x.cols());
-    for (Id k = 0; k < values.rows(); ++k)
-    {
-      x.row(rows[k]) = values.row(k);
-    }
-  }
+  this->ForReceived<Real>(
+    foreignOfShared_, x.cols(), [&](Index row, const auto& values) { x.row(row) = values; });
 }
 
 void RankRows::Sum(Block<float> x) const
@@ -189,15 +197,8 @@ void RankRows::TakeForeign(Block<double> x) const
 void RankRows::TakeLeast(Block<double> x) const
 {
   this->Exchange<double>(shared_, shared_, x);
-  auto* place = reinterpret_cast<double*>(received_.data());
-  for (const std::vector<Index>& rows : shared_)
-  {
-    const auto values = NextRows(place, rows, x.cols());
-    for (Id k = 0; k < values.rows(); ++k)
-    {
-      x.row(rows[k]) = x.row(rows[k]).cwiseMin(values.row(k));
-    }
-  }
+  this->ForReceived<double>(shared_, x.cols(),
+    [&](Index row, const auto& values) { x.row(row) = x.row(row).cwiseMin(values); });
 }
 
 } // namespace gridfem

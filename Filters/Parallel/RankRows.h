@@ -36,6 +36,8 @@ private:
 
   template<class Real>
   void Exchange(const Rows& out, const Rows& in, Block<Real> x) const;
+  template<class Real, class Body>
+  void ForReceived(const Rows& in, Id columns, Body&& body) const;
   template<class Real>
   void SumParts(Block<Real> x) const;
   template<class Real>

@@ -281,11 +281,7 @@ bool vtkLaplaceSpectrum::ComputeTogether(
       this->CompleteMultiplets, options, this->State->bridge.GetProgress());
     data.spectrum = std::move(modes.spectrum);
     data.depth = options.space.depth;
-    data.eigenvalues.clear();
-    for (const double value : data.spectrum.eigenvalues)
-    {
-      data.eigenvalues.push_back(value / (modes.unitLength * modes.unitLength));
-    }
+    data.eigenvalues = gridfem::InWorldUnits(data.spectrum.eigenvalues, modes.unitLength);
     data.SolvedModes = this->NumberOfModes;
     data.SolvedWhole = this->CompleteMultiplets;
     data.TogetherKey = key;

@@ -70,10 +70,7 @@ public:
 
   MultiVector Weighted(const MultiVector& values) const
   {
-    const std::vector<double>& weight = hierarchy_.Penalty().Weights();
-    const Eigen::Map<const Eigen::VectorXd> diagonal(
-      weight.data(), static_cast<Eigen::Index>(weight.size()));
-    return diagonal.asDiagonal() * values;
+    return hierarchy_.Penalty().Weighted(values);
   }
 
   MultiVector Product(const MultiVector& multipliers)

@@ -222,12 +222,16 @@ void MeanCurvatureFlow::UpdateHierarchy(double timeStep, const Job& job)
   }
   if (!multigrid_)
   {
-    multigrid_ = std::make_unique<Multigrid>(
-      BuildMultigrid(*moving_, 1.0, timeStep, options_.multigrid, job.progress));
-    if (startStiffness_.empty() && !boundary_)
+    std::vector<MultigridLevel> levels = BuildMultigridLevels(
+      *moving_, 1.0, timeStep, options_.multigrid, job.progress.Part(0.0, 0.5));
+    const bool isPlain = startStiffness_.empty() && !boundary_;
+    for (std::size_t level = 0; !isPlain && level < levels.size(); ++level)
     {
-      return;
+      this->FillMatrix(level, timeStep, levels[level].A, job.threads);
     }
+    multigrid_ = std::make_unique<Multigrid>(std::move(levels), options_.multigrid);
+    job.Check(1.0);
+    return;
   }
   try
   {
@@ -254,17 +258,10 @@ StepSolution MeanCurvatureFlow::Solve(const MultiVector& embedding, const Job& j
   {
     isHeld = HeldComponents(*moving_, 0.0, boundary_->Penalty().Rows(), components);
   }
-  const auto ofFree = [&isHeld](MultiVector mean)
-  {
-    for (Id c = 0; c < mean.rows(); ++c)
-    {
-      mean.row(c) *= isHeld[c] ? 0.0 : 1.0;
-    }
-    return mean;
-  };
   const Projection project{ [&](MultiVector& x)
-    { means.AddConstants(-ofFree(means.OfFunction(x)), x); },
-    [&](MultiVector& b) { means.SubtractIntegrals(ofFree(means.OfIntegrals(b)), b); } };
+    { means.AddConstants(-MeansOfFree(isHeld, means.OfFunction(x)), x); },
+    [&](MultiVector& b)
+    { means.SubtractIntegrals(MeansOfFree(isHeld, means.OfIntegrals(b)), b); } };
 
   const MultiVector mean = means.OfFunction(embedding);
   StepSolution solution;

@@ -226,15 +226,17 @@ Projection FreeConstants::AsProjection() const
   {
     return {};
   }
-  return { [this](MultiVector& x) { means_.AddConstants(-this->Of(means_.OfFunction(x)), x); },
-    [this](MultiVector& b) { means_.SubtractIntegrals(this->Of(means_.OfIntegrals(b)), b); } };
+  return { [this](MultiVector& x)
+    { means_.AddConstants(-MeansOfFree(isHeld_, means_.OfFunction(x)), x); },
+    [this](MultiVector& b)
+    { means_.SubtractIntegrals(MeansOfFree(isHeld_, means_.OfIntegrals(b)), b); } };
 }
 
-MultiVector FreeConstants::Of(MultiVector means) const
+MultiVector MeansOfFree(const std::vector<char>& isHeld, MultiVector means)
 {
   for (Id c = 0; c < means.rows(); ++c)
   {
-    if (isHeld_[c])
+    if (isHeld[c])
     {
       means.row(c).setZero();
     }

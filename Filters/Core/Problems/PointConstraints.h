@@ -55,6 +55,9 @@ struct ConstrainedSolution
   double wanted = 0.0;      // tolerance of the report; 0: that of the options
 };
 
+/// Means of components, 0 for those that something holds.
+MultiVector MeansOfFree(const std::vector<char>& isHeld, MultiVector means);
+
 /// Removes the constants of components that nothing holds. Keeps references to what it is made
 /// from.
 class FreeConstants
@@ -66,8 +69,6 @@ public:
   Projection AsProjection() const;
 
 private:
-  MultiVector Of(MultiVector means) const;
-
   const std::vector<char>& isHeld_;
   const std::vector<double> one_;
   const ComponentMeans means_;

@@ -90,12 +90,17 @@ void RowPenalty::AddTo(std::size_t level, SparseMatrix& A, int threads) const
     });
 }
 
-MultiVector RowPenalty::LoadOf(const MultiVector& values, int threads) const
+MultiVector RowPenalty::Weighted(const MultiVector& values) const
 {
   const Eigen::Map<const Eigen::VectorXd> weight(
     weight_.data(), static_cast<Eigen::Index>(weight_.size()));
+  return weight.asDiagonal() * values;
+}
+
+MultiVector RowPenalty::LoadOf(const MultiVector& values, int threads) const
+{
   MultiVector load;
-  Multiply(levels_.front().transposed, weight.asDiagonal() * values, load, threads);
+  Multiply(levels_.front().transposed, this->Weighted(values), load, threads);
   return load;
 }
 

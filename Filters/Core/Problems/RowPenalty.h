@@ -26,6 +26,9 @@ public:
   const SparseMatrix& Rows() const { return levels_.front().rows; }
   const std::vector<double>& Weights() const { return weight_; }
 
+  /// W r for values at the places.
+  MultiVector Weighted(const MultiVector& values) const;
+
   /// A += Cᵀ W C. What the pattern has no place for goes to the diagonal, so that the sum stays
   /// positive: that happens only below hats, on a level that preconditions.
   void AddTo(std::size_t level, SparseMatrix& A, int threads) const;

@@ -4,6 +4,8 @@
 
 #include "InputMesh.h"
 
+#include <initializer_list>
+
 class vtkInformationVector;
 class vtkPolyData;
 class vtkSurfaceFEMAlgorithm;

@@ -6,6 +6,7 @@
 
 #include "InputValidation.h"
 #include "Parallel/RankSpectrum.h"
+#include "SurfaceSpectrum.h"
 
 namespace gridfem
 {
@@ -41,12 +42,8 @@ DistributedModes FindModes(const Communicator& ranks, const InputMesh& mesh,
 DistributedModes FindModesTogether(const InputMesh& mesh, int numberOfModes,
   bool completeMultiplets, const SurfaceOptions& options, const Progress& progress)
 {
-  SpectrumOptions modes;
-  modes.numberOfModes = numberOfModes;
+  SpectrumOptions modes = SolverOptions(options, numberOfModes);
   modes.completeMultiplets = completeMultiplets;
-  modes.tolerance = options.solve.tolerance;
-  modes.maximumIterations = options.solve.maximumIterations;
-  modes.multigrid = options.multigrid;
   return OnRanksOfVtk(
     [&](const Communicator& ranks) { return FindModes(ranks, mesh, modes, options, progress); });
 }

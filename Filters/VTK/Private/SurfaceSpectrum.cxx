@@ -22,25 +22,6 @@ double Largest(const std::vector<double>& values)
   return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
 }
 
-SpectrumOptions SolverOptions(const SurfaceSolverState& state, int numberOfModes)
-{
-  SpectrumOptions options;
-  options.numberOfModes = numberOfModes;
-  options.tolerance = state.options.solve.tolerance;
-  options.maximumIterations = state.options.solve.maximumIterations;
-  options.multigrid = state.options.multigrid;
-  return options;
-}
-
-std::vector<double> InWorldUnits(std::vector<double> eigenvalues, double unitLength)
-{
-  for (double& eigenvalue : eigenvalues)
-  {
-    eigenvalue /= unitLength * unitLength;
-  }
-  return eigenvalues;
-}
-
 /// For which vectors are held at the same time.
 Id NumberOfUnknowns(const FiniteElementSpace& space)
 {
@@ -70,6 +51,25 @@ void AnnounceCost(SurfaceSolverState& state, Id functions, Id modes)
 
 } // namespace
 
+SpectrumOptions SolverOptions(const SurfaceOptions& options, int numberOfModes)
+{
+  SpectrumOptions ofSolver;
+  ofSolver.numberOfModes = numberOfModes;
+  ofSolver.tolerance = options.solve.tolerance;
+  ofSolver.maximumIterations = options.solve.maximumIterations;
+  ofSolver.multigrid = options.multigrid;
+  return ofSolver;
+}
+
+std::vector<double> InWorldUnits(std::vector<double> eigenvalues, double unitLength)
+{
+  for (double& eigenvalue : eigenvalues)
+  {
+    eigenvalue /= unitLength * unitLength;
+  }
+  return eigenvalues;
+}
+
 double SurfaceSpectrum::LargestResidual() const
 {
   return Largest(spectrum.residuals);
@@ -96,7 +96,7 @@ void SurfaceSpectrum::Solve(
     RequireMemoryForModes(
       NumberOfUnknowns(space), request.numberOfModes, state.options.multigrid.threads);
     AnnounceCost(state, NumberOfUnknowns(space), request.numberOfModes);
-    SpectrumOptions options = SolverOptions(state, request.numberOfModes);
+    SpectrumOptions options = SolverOptions(state.options, request.numberOfModes);
     options.completeMultiplets = request.completeMultiplets;
     spectrum = {}; // frees its memory first
     const double split = space.NestedLevels() ? 0.3 : 1.0;
@@ -137,7 +137,7 @@ void SurfaceSpectrum::Compare(SurfaceSolverState& state, const Progress& progres
     return;
   }
   compared_ = {};
-  const SpectrumOptions options = SolverOptions(state, this->NumberOfModes());
+  const SpectrumOptions options = SolverOptions(state.options, this->NumberOfModes());
   const auto space = state.OtherSpace(progress.Part(0.0, 0.1));
   RequireMemoryForModes(NumberOfUnknowns(*space), options.numberOfModes, options.multigrid.threads);
   const Spectrum other = ComputeSpectrum(*space, options, progress.Part(0.1, 1.0));

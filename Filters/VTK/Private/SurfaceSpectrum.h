@@ -59,6 +59,12 @@ private:
   StageKey compared_;              // what `otherEigenvalues` are compared with
 };
 
+/// What a filter's options ask of the solver.
+SpectrumOptions SolverOptions(const SurfaceOptions& options, int numberOfModes);
+
+/// Eigenvalues of a space in world units.
+std::vector<double> InWorldUnits(std::vector<double> eigenvalues, double unitLength);
+
 /// The modes `first` and following, `count` of them, at the input's points, world units: a column
 /// per mode.
 MultiVector EvaluateModes(
