@@ -13,7 +13,7 @@ BUILD_PACKAGES=("${CORE_PACKAGES[@]}" paraview paraview-dev python3-paraview lib
 TEST_PACKAGES=(clang-format clang libomp-dev openmpi-bin python3-pybind11 python3-numpy python3-pip
   python3-setuptools python3-wheel python3-meshio)
 BENCHMARK_PACKAGES=(libbenchmark-dev pkg-config libsuitesparse-dev libhypre-dev libpetsc-real-dev
-  libspectra-dev libopenblas-dev libopenmpi-dev openmpi-bin slepc-dev)
+  libspectra-dev libopenblas-dev libopenmpi-dev openmpi-bin slepc-dev libcgal-dev)
 PLAIN_VTK_PACKAGES=(ca-certificates ccache libvtk9-dev python3-vtk9 python3-dev python3-numpy
   libopenmpi-dev libcli11-dev libgtest-dev)
 FIGURE_PACKAGES=(paraview python3-paraview xvfb xauth)

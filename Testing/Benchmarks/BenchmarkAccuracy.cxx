@@ -1,10 +1,13 @@
 // Solves to the accuracy of the grid beside solves to a tolerance, on all real meshes: iterations,
 // time, the error that is paid for it, and whether the estimates tell the truth. The error of the
 // space is the difference to a grid two levels finer.
+#include "AccuracyPeers.h"
+#include "AlgebraicMultigrid.h"
 #include "Measure.h"
 #include "Meshes.h"
 #include "PointAreas.h"
 #include "Problems/Poisson.h"
+#include "SetupCost.h"
 #include "Spaces/GridSpace.h"
 
 #include <algorithm>
@@ -20,7 +23,7 @@ using namespace gridfem;
 using namespace gridfem::benchmarks;
 
 constexpr int Depth = 7;
-constexpr int LargestPoints = 400000; // a grid two levels finer has to fit
+constexpr int Runs = 2; // of what is timed: the first one touches new memory
 
 std::vector<std::filesystem::path> MeshFiles()
 {
@@ -69,7 +72,8 @@ struct Answer
 };
 
 /// λ = 100 / area.
-Answer Solve(const GridSpace& space, const Field& f, double area, double accuracy, double tolerance)
+Answer Solve(const GridSpace& space, const MultiVector& values, double area, double accuracy,
+  double tolerance, int runs = 1)
 {
   PoissonOptions options;
   options.screeningWeight = 100.0 / area * std::pow(space.UnitLength(), 2);
@@ -78,10 +82,10 @@ Answer Solve(const GridSpace& space, const Field& f, double area, double accurac
   options.solve.maximumIterations = 300;
   const Multigrid multigrid =
     BuildMultigrid(space, options.screeningWeight, 1.0, options.multigrid);
-  const MultiVector load = space.LoadOfValues(f);
+  const MultiVector load = space.LoadOfValues({ FieldAssociation::Points, values });
   Answer answer;
   answer.seconds = 1e300;
-  for (int run = 0; run < 2; ++run) // the first one touches new memory
+  for (int run = 0; run < runs; ++run)
   {
     const Stopwatch watch;
     answer.solution = SolvePoisson(space, multigrid, load, {}, options);
@@ -106,26 +110,47 @@ struct Result
   double error; // over that of the discrete solution
 };
 
-/// A row of the table.
-Result Compare(const std::string& name, const TriangleMesh& mesh, bool isSmooth,
-  const GridSpace& space, const GridSpace& finer, const Table& table)
+/// What the rows of a mesh have in common. Columns: smooth and rough data.
+struct Subject
 {
-  const Field f{ FieldAssociation::Points, Values(mesh, isSmooth) };
-  const Eigen::VectorXd areas = testing::AreasOfPoints(mesh);
-  const double area = areas.sum();
-  const MultiVector truth = Solve(finer, f, area, 0.0, 1e-8).atPoints;
-  const Answer accurate = Solve(space, f, area, 0.1, 1e-9);
-  const Answer tolerant = Solve(space, f, area, 0.0, 1e-6);
-  const Answer discrete = Solve(space, f, area, 0.0, 1e-11);
-  const auto norm = [&](const MultiVector& u)
-  { return std::sqrt(areas.dot(u.col(0).cwiseAbs2())); };
-  const double size = norm(truth.array() - areas.dot(truth.col(0)) / area);
-  const double ofSpace = norm(discrete.atPoints - truth);
-  const double left = norm(accurate.atPoints - discrete.atPoints);
+  std::string name;
+  Eigen::VectorXd areas; // of the points
+  MultiVector values;
+  MultiVector truth;
+  MultiVector discrete; // the solution in the space
+
+  double Area() const { return areas.sum(); }
+  double Norm(const Eigen::VectorXd& u) const { return std::sqrt(areas.dot(u.cwiseAbs2())); }
+};
+
+Subject SubjectOf(const std::string& name, const TriangleMesh& mesh, const GridSpace& space)
+{
+  Subject subject{ name, testing::AreasOfPoints(mesh), {}, {}, {} };
+  subject.values.resize(static_cast<Id>(mesh.points.size()), 2);
+  subject.values << Values(mesh, true), Values(mesh, false);
+  const GridSpace finer = SpaceOf(mesh, Depth + 2, 1e-2);
+  subject.truth = Solve(finer, subject.values, subject.Area(), 0.0, 1e-7).atPoints;
+  subject.discrete = Solve(space, subject.values, subject.Area(), 0.0, 1e-11).atPoints;
+  return subject;
+}
+
+/// A row of the table: a column of the subject.
+Result Compare(const Subject& subject, Id column, const GridSpace& space, const Table& table)
+{
+  const MultiVector values = subject.values.col(column);
+  const Answer accurate = Solve(space, values, subject.Area(), 0.1, 1e-9, Runs);
+  const Answer tolerant = Solve(space, values, subject.Area(), 0.0, 1e-6, Runs);
+  const Eigen::VectorXd truth = subject.truth.col(column);
+  const Eigen::VectorXd discrete = subject.discrete.col(column);
+  const Eigen::VectorXd found = accurate.atPoints.col(0);
+  const double mean = subject.areas.dot(truth) / subject.Area();
+  const double size = subject.Norm(truth.array() - mean);
+  const double ofSpace = subject.Norm(discrete - truth);
+  const double left = subject.Norm(found - discrete);
   const Result result{ double(accurate.solution.report.iterations),
-    accurate.seconds / tolerant.seconds, norm(accurate.atPoints - truth) / ofSpace };
+    accurate.seconds / tolerant.seconds, subject.Norm(found - truth) / ofSpace };
   const SolutionAccuracy& said = accurate.solution.accuracy;
-  table.Row({ name, isSmooth ? "smooth" : "rough", Text("%.1e", ofSpace / size),
+  table.Row({ subject.name, column == 0 ? "smooth" : "rough", Text("%.1e", ofSpace / size),
     Text("%.2f", said.discretization * size / ofSpace) + (said.isTrusted ? "" : " ?"),
     Text("%.3f", left / ofSpace), Text("%.1f", said.algebraic * size / left),
     Text("%.3f", result.error), Text("%.0f", result.iterations),
@@ -139,9 +164,7 @@ double Quantile(std::vector<double> values, double part)
   return values[static_cast<std::size_t>(part * double(values.size() - 1))];
 }
 
-} // namespace
-
-int main()
+int CompareMeshes()
 {
   const std::vector<std::filesystem::path> files = MeshFiles();
   if (files.empty())
@@ -161,15 +184,11 @@ int main()
   for (const std::filesystem::path& file : files)
   {
     const TriangleMesh mesh = testing::ReadMesh(file.string());
-    if (mesh.points.size() > LargestPoints)
-    {
-      continue;
-    }
     const GridSpace space = SpaceOf(mesh, Depth, DefaultNormalStabilization);
-    const GridSpace finer = SpaceOf(mesh, Depth + 2, 1e-2);
-    for (const bool isSmooth : { true, false })
+    const Subject subject = SubjectOf(file.stem().string(), mesh, space);
+    for (const Id column : { 0, 1 })
     {
-      const Result result = Compare(file.stem().string(), mesh, isSmooth, space, finer, table);
+      const Result result = Compare(subject, column, space, table);
       iterations.push_back(result.iterations);
       times.push_back(result.time);
       errors.push_back(result.error);
@@ -180,4 +199,27 @@ int main()
   PrintAtMost("accuracy_time_over_tolerance_median", Quantile(times, 0.5), 0.4);
   PrintAtMost("accuracy_total_error_over_discrete", Quantile(errors, 1.0), 1.1);
   return 0;
+}
+
+void CompareWithPeers()
+{
+  const MessagePassing libraries;
+  const NamedMesh rocker = RockerArm(3);
+  for (const bool isSmooth : { true, false })
+  {
+    ComparePeers(isSmooth ? "smooth" : "rough", rocker.mesh, 8, Values(rocker.mesh, isSmooth));
+  }
+}
+
+} // namespace
+
+/// Arguments: parts of meshes, peers.
+int main(int argc, char** argv)
+{
+  const Parts parts(argc, argv);
+  if (parts.Want("peers"))
+  {
+    CompareWithPeers();
+  }
+  return parts.Want("meshes") ? CompareMeshes() : 0;
 }

@@ -5,10 +5,12 @@
 // method on hat functions with t = (mean edge)², as Crane, Weischedel and Wardetzky give it, by
 // CHOLMOD: both matrices are factorised once, and a further source costs two substitutions with a
 // gradient and a divergence between them. Errors are those of one distance on surfaces where it is
-// known: the largest over the points, and the root mean square, in the longest distance.
+// known, or computed exactly by CGAL.
 #include "Cholmod.h"
+#include "DistanceErrors.h"
 #include "Measure.h"
 #include "Meshes.h"
+#include "PolyhedralDistances.h"
 #include "SetupCost.h"
 
 #include "Problems/GeodesicDistance.h"
@@ -19,6 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 
 namespace
@@ -48,22 +51,14 @@ struct DistanceTimes
   double Total() const { return setup + firstSource + (Sources - 1) * furtherSource; }
 };
 
-using Exact = std::function<double(const Vec3& source, const Vec3& point)>;
+/// From the first source to all points; none where they are not known.
+using Exact = std::vector<double>;
 
-void MeasureErrors(const TriangleMesh& mesh, Id source, const std::vector<double>& found,
-  const Exact& exact, DistanceTimes& times)
+void MeasureErrors(const std::vector<double>& found, const Exact& exact, DistanceTimes& times)
 {
-  double longest = 0.0;
-  double squares = 0.0;
-  for (std::size_t i = 0; i < found.size(); ++i)
-  {
-    const double expected = exact(mesh.points[source], mesh.points[i]);
-    longest = std::max(longest, expected);
-    times.largest = std::max(times.largest, std::abs(found[i] - expected));
-    squares += std::pow(found[i] - expected, 2);
-  }
-  times.largest /= longest;
-  times.mean = std::sqrt(squares / static_cast<double>(found.size())) / longest;
+  const DistanceErrors errors = ErrorsOf(found, exact);
+  times.largest = errors.largest;
+  times.mean = errors.mean;
 }
 
 DistanceTimes MeasureGrid(const TriangleMesh& mesh, int depth, int sources, const Exact& exact)
@@ -89,9 +84,9 @@ DistanceTimes MeasureGrid(const TriangleMesh& mesh, int depth, int sources, cons
     const Stopwatch watch;
     const DistanceField field = distance.From({ SourceOf(mesh, k) }, solve, Threads);
     (k == 0 ? times.firstSource : times.furtherSource) += watch.Seconds();
-    if (exact)
+    if (k == 0 && !exact.empty())
     {
-      MeasureErrors(mesh, SourceOf(mesh, k), field.atPoints, exact, times);
+      MeasureErrors(field.atPoints, exact, times);
     }
   }
   times.furtherSource /= std::max(1, sources - 1);
@@ -193,9 +188,9 @@ DistanceTimes MeasureHats(const TriangleMesh& mesh, int sources, const Exact& ex
     const std::vector<double> found = heat.From(SourceOf(mesh, k), substitutions);
     (k == 0 ? times.firstSource : times.furtherSource) += watch.Seconds();
     times.substitutions += k == 0 ? 0.0 : substitutions;
-    if (exact)
+    if (k == 0 && !exact.empty())
     {
-      MeasureErrors(mesh, SourceOf(mesh, k), found, exact, times);
+      MeasureErrors(found, exact, times);
     }
   }
   times.furtherSource /= std::max(1, sources - 1);
@@ -240,30 +235,56 @@ void PrintTimes()
   PrintAtLeast("distance/all-ten-faster-depth-8", peer.Total() / ours.Total(), 1.0);
 }
 
+/// One distance on a surface where it is known.
+void PrintErrors(
+  const Table& table, const std::string& name, const TriangleMesh& mesh, const Exact& exact)
+{
+  const auto row = [&](const char* by, const std::function<DistanceTimes()>& measure)
+  {
+    const auto times = MeasureInOwnProcess<DistanceTimes>(measure);
+    table.Row({ name, Text("%.0f", static_cast<double>(mesh.points.size())), by,
+      Text("%.2e", times.largest), Text("%.2e", times.mean) });
+    return times;
+  };
+  const DistanceTimes coarse = row("grid, depth 7", [&] { return MeasureGrid(mesh, 7, 1, exact); });
+  const DistanceTimes ours = row("grid, depth 8", [&] { return MeasureGrid(mesh, 8, 1, exact); });
+  const DistanceTimes peer = row("hats, CHOLMOD", [&] { return MeasureHats(mesh, 1, exact); });
+  PrintAtMost("distance/error-depth-7-" + name, coarse.largest / peer.largest, 1.0);
+  PrintAtMost("distance/error-depth-8-" + name, ours.largest / peer.largest, 1.0);
+  PrintAtMost("distance/mean-error-depth-8-" + name, ours.mean / peer.mean, 1.0);
+}
+
 void PrintErrors()
 {
   std::printf("\nErrors of one distance, over the longest\n");
   const Table table({ "on", "vertices", "by", "largest", "root mean square" });
-  const Exact onSphere = [](const Vec3& a, const Vec3& b)
-  { return std::acos(std::clamp(a.dot(b), -1.0, 1.0)); };
-  const Exact onPlane = [](const Vec3& a, const Vec3& b) { return (a - b).norm(); };
-  const auto rows = [&](const char* name, const TriangleMesh& mesh, const Exact& exact)
+  const auto known = [](const TriangleMesh& mesh, auto&& distance)
   {
-    const auto row = [&](const char* by, const std::function<DistanceTimes()>& measure)
+    Exact exact;
+    for (const Vec3& point : mesh.points)
     {
-      const auto times = MeasureInOwnProcess<DistanceTimes>(measure);
-      table.Row({ name, Text("%.0f", static_cast<double>(mesh.points.size())), by,
-        Text("%.2e", times.largest), Text("%.2e", times.mean) });
-      return times.largest;
-    };
-    const double coarse = row("grid, depth 7", [&] { return MeasureGrid(mesh, 7, 1, exact); });
-    const double ours = row("grid, depth 8", [&] { return MeasureGrid(mesh, 8, 1, exact); });
-    const double peer = row("hats, CHOLMOD", [&] { return MeasureHats(mesh, 1, exact); });
-    PrintAtMost(std::string("distance/error-depth-7-") + name, coarse / peer, 1.0);
-    PrintAtMost(std::string("distance/error-depth-8-") + name, ours / peer, 1.0);
+      exact.push_back(distance(mesh.points[SourceOf(mesh, 0)], point));
+    }
+    return exact;
   };
-  rows("sphere", testing::Transform(testing::GeodesicSphere(400), { 1, 2, 3 }, 0.7), onSphere);
-  rows("square", testing::Transform(testing::FlatRectangle(400, 400), { 1, 2, 3 }, 0.7), onPlane);
+  const auto sphere = testing::Transform(testing::GeodesicSphere(400), { 1, 2, 3 }, 0.7);
+  PrintErrors(table, "sphere", sphere,
+    known(sphere,
+      [](const Vec3& a, const Vec3& b) { return std::acos(std::clamp(a.dot(b), -1.0, 1.0)); }));
+  const auto square = testing::Transform(testing::FlatRectangle(400, 400), { 1, 2, 3 }, 0.7);
+  PrintErrors(table, "square", square,
+    known(square, [](const Vec3& a, const Vec3& b) { return (a - b).norm(); }));
+  for (const char* file : { "armadillo_100k.ply", "rocker_arm.ply", "fandisk_32k.ply",
+         "knot_26k.ply", "genus3_13k.ply", "raptor_18k.ply", "neptune_30k.ply" })
+  {
+    const NamedMesh scan = RealMesh(std::filesystem::path(file).stem().string(), file);
+    const Exact exact =
+      scan.mesh.points.empty() ? Exact() : PolyhedralDistances(scan.mesh, SourceOf(scan.mesh, 0));
+    if (!exact.empty())
+    {
+      PrintErrors(table, scan.name, scan.mesh, exact);
+    }
+  }
 }
 
 struct HeldTimes
@@ -275,10 +296,10 @@ struct HeldTimes
 };
 
 /// λ = 0 but for the start: as smooth as it can be, with values held at every so many-th point.
-HeldTimes MeasureHeld(const TriangleMesh& mesh, int count)
+HeldTimes MeasureHeld(const TriangleMesh& mesh, int depth, int count)
 {
   GridSpaceOptions options;
-  options.functions.depth = 7;
+  options.functions.depth = depth;
   options.functions.threads = Threads;
   options.normalStabilization = 1e-2;
   const GridSpace space = BuildGridSpace(mesh, options);
@@ -289,9 +310,10 @@ HeldTimes MeasureHeld(const TriangleMesh& mesh, int count)
   Field field{ FieldAssociation::Points, MultiVector(static_cast<Id>(mesh.points.size()), 1) };
   for (Id i = 0; i < field.values.rows(); ++i)
   {
-    field.values(i, 0) = std::sin(20.0 * mesh.points[i][0] / (space.UnitLength() * 128.0));
+    field.values(i, 0) =
+      std::sin(20.0 * mesh.points[i][0] / (space.UnitLength() * std::exp2(depth)));
   }
-  const double lambda = 1e-3; // per squared cell
+  const double lambda = 1e-3 * std::exp2(2 * (7 - depth)); // of a squared cell of depth 7
   const MultiVector load = space.LoadOfValues(field, Threads);
   std::vector<Id> points;
   for (int k = 0; k < count; ++k)
@@ -318,6 +340,30 @@ HeldTimes MeasureHeld(const TriangleMesh& mesh, int count)
   return times;
 }
 
+/// Rows for so many points that are held; iterations of the last over those of the first, which
+/// holds none.
+double PrintHeld(
+  const Table& table, const TriangleMesh& mesh, int depth, const std::vector<int>& counts)
+{
+  double free = 0.0;
+  double held = 0.0;
+  for (const int count : counts)
+  {
+    const auto times =
+      MeasureInOwnProcess<HeldTimes>([&] { return MeasureHeld(mesh, depth, count); });
+    table.Row({ Text("%.0f", static_cast<double>(mesh.points.size())), std::to_string(depth),
+      std::to_string(count), Text("%.2f", times.hierarchy), Text("%.2f", times.solve),
+      Text("%.0f", times.iterations), Text("%.1e", times.misfit) });
+    free = count == 0 ? times.iterations : free;
+    held = times.iterations;
+    if (count == counts.back())
+    {
+      PrintAtMost("distance/misfit-of-" + std::to_string(count) + "-held", times.misfit, 2e-6);
+    }
+  }
+  return held / free;
+}
+
 void PrintHeld()
 {
   const TriangleMesh mesh = RealMesh("bunny", "stanford_bunny.ply").mesh;
@@ -325,20 +371,14 @@ void PrintHeld()
   {
     return;
   }
-  std::printf("\nSmoothing with values held at some points, depth 7, tolerance 1e-6\n");
-  const Table table({ "points", "hierarchy s", "solve s", "iterations", "largest misfit" });
-  double free = 1.0;
-  for (const int count : { 0, 1, 10, 1000, 10000 })
-  {
-    const auto times = MeasureInOwnProcess<HeldTimes>([&] { return MeasureHeld(mesh, count); });
-    table.Row({ Text("%.0f", count), Text("%.2f", times.hierarchy), Text("%.2f", times.solve),
-      Text("%.0f", times.iterations), Text("%.1e", times.misfit) });
-    free = count == 0 ? times.iterations : free;
-    if (count == 1000)
-    {
-      PrintAtMost("distance/iterations-of-1000-held", times.iterations / free, 4.0);
-    }
-  }
+  std::printf("\nSmoothing with values held at some points, range 2, tolerance 1e-6\n");
+  const Table table(
+    { "vertices", "depth", "held", "hierarchy s", "solve s", "iterations", "largest misfit" });
+  PrintAtMost(
+    "distance/iterations-of-1000-held", PrintHeld(table, mesh, 7, { 0, 1, 10, 1000 }), 4.0);
+  PrintHeld(table, mesh, 7, { 10000 });
+  PrintAtMost("distance/iterations-of-100000-held",
+    PrintHeld(table, testing::SubdivideInPlane(mesh), 9, { 0, 100000 }), 4.0);
 }
 
 } // namespace

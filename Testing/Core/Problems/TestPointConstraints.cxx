@@ -133,6 +133,19 @@ TEST_P(PointConstraints, AreMetInFewIterationsHoweverManyThereAre)
   }
 }
 
+TEST_P(PointConstraints, OfAHundredThousandPointsAreMet)
+{
+  const TriangleMesh mesh = Transform(GeodesicSphere(160), { 1, 2, 3 }, 0.3);
+  const auto space = Build(mesh, GetParam(), 8);
+  std::vector<Id> points = Every(1, static_cast<Id>(mesh.points.size()));
+  points.resize(100000);
+  const MultiVector values = WavesAt(mesh, points).col(0);
+  const ConstrainedSolution found = Solve(*space, 0.0, {}, points, values);
+  EXPECT_TRUE(found.report.converged);
+  EXPECT_TRUE(found.isExact);
+  EXPECT_LT(found.misfit, 2e-6); // 1e-6 of the range, which is 2
+}
+
 TEST_P(PointConstraints, ThatContradictEachOtherAreMetInTheMean)
 {
   const TriangleMesh mesh = GeodesicSphere(12);
