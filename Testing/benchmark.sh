@@ -61,6 +61,18 @@ MeasureRanks()
   done
 }
 
+# What the rank that sends most sends in one cycle.
+CountMessages()
+{
+  export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+  local ranks
+  echo "| surface | cycle | ranks | functions | divided levels | messages | kB | sums | kB of sums | bytes / sqrt(functions per rank) |"
+  echo "|---|---|---|---|---|---|---|---|---|---|"
+  for ranks in 2 4 8 16; do
+    mpiexec --oversubscribe --bind-to none -n "$ranks" "$BUILD/bin/BenchmarkRanks" messages "$@" < /dev/null
+  done
+}
+
 # Threads that wait must not take processor time from those that work.
 export OMP_WAIT_POLICY="${OMP_WAIT_POLICY:-passive}"
 for group in "${groups[@]}"; do
@@ -72,6 +84,8 @@ for group in "${groups[@]}"; do
   elif [ "$group" = ranks ]; then
     MeasureRanks poisson torus:2400 8
     MeasureRanks spectrum torus:1200 7
+    CountMessages torus:1200 7
+    CountMessages torus:2400 8
   else
     "$BUILD/bin/Benchmark${group^}" < /dev/null
   fi

@@ -1,11 +1,13 @@
 // One screened Poisson equation, or the spectrum, on the ranks that the program runs on, and on one
-// process by Core alone. Prints one row of a table: run it once for each number of ranks.
+// process by Core alone; or what the ranks send to each other in one cycle. Prints one row of a
+// table: run it once for each number of ranks.
 //
-//   mpiexec -n N BenchmarkRanks poisson|spectrum MESH DEPTH [core]
+//   mpiexec -n N BenchmarkRanks poisson|spectrum|messages MESH DEPTH [core]
 //
 // MESH is a file, which the first rank reads and the others get their part of, or torus:N, of which
 // every rank makes its own N x N / 4 quadrilaterals' share, so that none ever holds the whole.
 #include "Base/Parallel.h"
+#include "Parallel/RankLevels.h"
 #include "Parallel/RankPoisson.h"
 #include "Parallel/RankSpectrum.h"
 #include "Problems/Poisson.h"
@@ -20,6 +22,46 @@
 #include <string>
 
 using namespace gridfem;
+
+namespace
+{
+
+/// What this rank has sent.
+struct Traffic
+{
+  double messages = 0.0;
+  double bytes = 0.0;
+  double sums = 0.0; // of numbers of all ranks
+  double sumBytes = 0.0;
+};
+
+Traffic traffic;
+
+double BytesOf(int count, MPI_Datatype type)
+{
+  int size = 0;
+  MPI_Type_size(type, &size);
+  return double(count) * double(size);
+}
+
+} // namespace
+
+/// MPI's interface for profiling: these stand before the library's own.
+extern "C" int MPI_Isend(const void* buffer, int count, MPI_Datatype type, int rank, int tag,
+  MPI_Comm ranks, MPI_Request* request)
+{
+  traffic.messages += 1.0;
+  traffic.bytes += BytesOf(count, type);
+  return PMPI_Isend(buffer, count, type, rank, tag, ranks, request);
+}
+
+extern "C" int MPI_Allreduce(
+  const void* sent, void* received, int count, MPI_Datatype type, MPI_Op operation, MPI_Comm ranks)
+{
+  traffic.sums += 1.0;
+  traffic.sumBytes += BytesOf(count, type);
+  return PMPI_Allreduce(sent, received, count, type, operation, ranks);
+}
 
 namespace
 {
@@ -161,6 +203,39 @@ Measured OnRanks(const Communicator& ranks, const std::string& name, int depth, 
   return measured;
 }
 
+/// One cycle of one column in double precision; the most that a rank sends.
+void PrintMessages(const Communicator& ranks, const std::string& name, int depth, CycleType cycle)
+{
+  RankSpaceOptions options;
+  options.space.functions.depth = depth;
+  options.space.functions.threads = 1;
+  const RankSpace space(ranks, OwnPart(ranks, name), options);
+  const RankLevels levels(space);
+  MultigridOptions multigridOptions;
+  multigridOptions.cycle = cycle;
+  multigridOptions.threads = 1;
+  const double cell = 1.0 / space.Own().Extent();
+  const Multigrid multigrid = BuildMultigrid(levels, Weight * cell * cell, 1.0, multigridOptions);
+  const MultiVector b = MultiVector::Ones(multigrid.Matrix().rows, 1);
+  MultiVector x;
+  traffic = {};
+  multigrid.Precondition(b, x);
+  double most[] = { traffic.messages, traffic.bytes, traffic.sums, traffic.sumBytes };
+  ranks.Maximum(most, 4);
+  std::size_t divided = 0;
+  while (divided < levels.NumberOfLevels() && levels.Divided(divided))
+  {
+    ++divided;
+  }
+  if (ranks.Rank() == 0)
+  {
+    const double functions = double(space.Numberings().front().total);
+    std::printf("| %s | %s | %d | %.0f | %zu | %.0f | %.0f | %.0f | %.0f | %.0f |\n", name.c_str(),
+      cycle == CycleType::W ? "W" : "V", ranks.Size(), functions, divided, most[0], most[1] / 1e3,
+      most[2], most[3] / 1e3, most[1] / std::sqrt(functions / ranks.Size()));
+  }
+}
+
 Measured OnCore(const std::string& name, int depth, bool isSpectrum)
 {
   TriangleMesh mesh = OwnPart(Communicator(MPI_COMM_SELF), name);
@@ -200,8 +275,8 @@ int main(int argc, char** argv)
 {
   if (argc < 4)
   {
-    std::fprintf(
-      stderr, "Usage: mpiexec -n N BenchmarkRanks poisson|spectrum MESH|torus:N DEPTH [core]\n");
+    std::fprintf(stderr,
+      "Usage: mpiexec -n N BenchmarkRanks poisson|spectrum|messages MESH|torus:N DEPTH [core]\n");
     return 2;
   }
   MPI_Init(&argc, &argv);
@@ -211,6 +286,13 @@ int main(int argc, char** argv)
     const Communicator ranks(MPI_COMM_WORLD);
     const bool isSpectrum = std::string(argv[1]) == "spectrum";
     const int depth = std::atoi(argv[3]);
+    if (std::string(argv[1]) == "messages")
+    {
+      PrintMessages(ranks, argv[2], depth, CycleType::V);
+      PrintMessages(ranks, argv[2], depth, CycleType::W);
+      MPI_Finalize();
+      return 0;
+    }
     const bool isCore = argc > 4;
     const Measured measured =
       isCore ? OnCore(argv[2], depth, isSpectrum) : OnRanks(ranks, argv[2], depth, isSpectrum);
