@@ -1,6 +1,7 @@
 // Iterations and seconds of the solver: rotated cubes, and the peers on the same
 // surface.
 #include "AlgebraicMultigrid.h"
+#include "Base/Parallel.h"
 #include "Discretisation.h"
 #include "Hierarchy.h"
 #include "Measure.h"
@@ -248,9 +249,90 @@ void RunGridsOfHats()
   PrintAtMost("hat_hybrid_ten_sweeps_grid_two_deeper_worst_cycles", worst[2], 10.0);
 }
 
+double BytesOf(const SparseMatrix& A)
+{
+  return double(A.NonZeros()) * (sizeof(double) + sizeof(Index)) + double(A.rows) * sizeof(Id);
+}
+
+/// What a W(1,1) cycle has to move at least: the matrices, factors and vectors of every sweep,
+/// residual and transfer on all levels but the coarsest, once for every visit.
+double BytesOfCycle(const Multigrid& multigrid, int columns)
+{
+  const std::vector<MultigridLevel>& levels = multigrid.Levels();
+  double bytes = 0.0;
+  double visits = 1.0;
+  for (std::size_t l = 0; l + 1 < levels.size(); ++l)
+  {
+    const MultigridLevel& level = levels[l];
+    const double vector = double(columns) * sizeof(double);
+    const double fine = vector * double(level.A.rows);
+    const double coarse = vector * double(levels[l + 1].A.rows);
+    const double sweep = BytesOf(level.A) + double(level.smoother->Memory()) + 3.0 * fine;
+    const double residual = BytesOf(level.A) + 3.0 * fine;
+    const double transfers =
+      BytesOf(level.restriction) + BytesOf(level.prolongation) + 3.0 * fine + 2.0 * coarse;
+    bytes += visits * (2.0 * sweep + residual + transfers);
+    visits *= l + 2 < levels.size() ? 2.0 : 1.0;
+  }
+  return bytes;
+}
+
+/// The least seconds of some runs.
+template<class Body>
+double BestOf(Body&& body)
+{
+  constexpr int Runs = 15;
+  double best = 1e300;
+  for (int run = 0; run < Runs; ++run)
+  {
+    const Stopwatch watch;
+    body();
+    best = std::min(best, watch.Seconds());
+  }
+  return best;
+}
+
+/// Bytes per second of a sum on all threads.
+double ReadBandwidth()
+{
+  const std::vector<double> numbers(256 * 1000 * 1000 / sizeof(double), 1.0);
+  const auto count = static_cast<Id>(numbers.size());
+  double sum = 0.0;
+  const double seconds = BestOf(
+    [&]
+    {
+      sum += ParallelSum(count, Threads, 0.0,
+        [&](Id begin, Id end)
+        { return Eigen::Map<const Eigen::ArrayXd>(&numbers[begin], end - begin).sum(); });
+    });
+  return sum > 0.0 ? double(count) * sizeof(double) / seconds : 0.0;
+}
+
+/// A cycle over the time in which memory could deliver what it needs.
+void RunMemory()
+{
+  const GridProblem grid = SetUp(RockerArm(3).mesh, 8, Threads);
+  const double bandwidth = ReadBandwidth();
+  std::printf("\nW cycle of %d functions, %d threads; memory delivers %.1f GB/s\n",
+    grid.space.Finest().numberOfFunctions, Threads, 1e-9 * bandwidth);
+  const Table table({ "columns", "ms", "MB", "ms for them" });
+  for (const int columns : { 1, 3 })
+  {
+    const MultiVector b = MultiVector::Ones(grid.space.Finest().numberOfFunctions, columns);
+    MultiVector x;
+    const double seconds = BestOf([&] { grid.multigrid->Precondition(b, x); });
+    const double bytes = BytesOfCycle(*grid.multigrid, columns);
+    table.Row({ std::to_string(columns), Text("%.1f", 1e3 * seconds), Text("%.0f", 1e-6 * bytes),
+      Text("%.1f", 1e3 * bytes / bandwidth) });
+    PrintAtMost(
+      std::string("cycle_over_memory_time_") + (columns == 1 ? "one_column" : "three_columns"),
+      seconds * bandwidth / bytes, columns == 1 ? 7.0 : 10.0);
+  }
+}
+
 } // namespace
 
-/// Arguments: parts of peers, hats, grids, cubes.
+/// Arguments: parts of peers, hats, grids, cubes, memory.
 int main(int argc, char** argv)
 {
   const Parts parts(argc, argv);
@@ -270,5 +352,9 @@ int main(int argc, char** argv)
   if (parts.Want("cubes"))
   {
     Print(RunCubes());
+  }
+  if (parts.Want("memory"))
+  {
+    RunMemory();
   }
 }
