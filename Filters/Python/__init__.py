@@ -70,9 +70,12 @@ def signed_distance(points, cells, labels, inside=1, **properties):
                   {"Signed": True, "InsideLabel": int(_inputs.whole("inside", inside)), **properties})["Distance"]
 
 
-def diffuse(points, cells, values, time, **properties):
-    """Values after heat has spread for a time, a squared length in ParameterUnits, in 8 steps."""
-    return _solve("HeatDiffusion", points, cells, {"values": values},
+def diffuse(points, cells, values, time, held=None, **properties):
+    """Values after heat has spread for a time, a squared length in ParameterUnits, in 8 steps.
+
+    held: where it is true at the points, the values stay; with BoundaryValues where the surface ends.
+    """
+    return _solve("HeatDiffusion", points, cells, {"values": values, "held": held},
                   {"DiffusionTime": time, "NumberOfSteps": 8, **properties})["Diffused"]
 
 

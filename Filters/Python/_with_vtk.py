@@ -17,7 +17,8 @@ _POINTS = vtkDataObject.FIELD_ASSOCIATION_POINTS
 _CELLS = vtkDataObject.FIELD_ASSOCIATION_CELLS
 
 # Of SetInputArrayToProcess.
-_INDICES = {"values": 0, "gradients": 1, "weights": 3, "held": 4, "colors": 0, "labels": 1}
+_INDICES = {"values": 0, "gradients": 1, "weights": 3, "colors": 0, "labels": 1}
+_HELD_INDICES = {"ScreenedPoisson": 4, "HeatDiffusion": 2}
 
 
 def surface(points, cells):
@@ -94,7 +95,7 @@ def solve(name, points, cells, arrays, properties, sources=()):
         column.SetName(array)
         (data.GetPointData() if on_points else data.GetCellData()).AddArray(column)
         algorithm.SetInputArrayToProcess(
-            _INDICES[array], 0, 0, _POINTS if on_points else _CELLS, array)
+            _HELD_INDICES[name] if array == "held" else _INDICES[array], 0, 0, _POINTS if on_points else _CELLS, array)
     if name == "LaplaceSpectrum":
         algorithm.AllModesOn()
     for key, value in properties.items():

@@ -1,15 +1,19 @@
 #include "vtkHeatDiffusion.h"
 
 #include "Private/ClippedMeshWriter.h"
+#include "Private/GivenValues.h"
 #include "Private/InputArray.h"
 #include "Private/InputValidation.h"
 #include "Private/MovedMeshWriter.h"
+#include "Private/SelectedPoints.h"
 #include "Private/SolverOutput.h"
 #include "Private/SurfaceSolverState.h"
 
 #include "Base/Errors.h"
+#include "Grid/SurfaceEdges.h"
 #include "Integrals/QuadratureRule.h"
 #include "Problems/HeatDiffusion.h"
+#include "Problems/SolveWarnings.h"
 
 #include "vtkDataArray.h"
 #include "vtkInformation.h"
@@ -18,6 +22,7 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkSelection.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
@@ -45,6 +50,7 @@ struct Step
   gridfem::MultiVector atPoints;
   gridfem::SolveReport report;
   gridfem::SolutionAccuracy accuracy;
+  gridfem::ConstrainedSolution met; // of held values
 };
 
 } // namespace
@@ -53,17 +59,29 @@ struct vtkHeatDiffusion::Internals
 {
   gridfem::MultiVector Start;
   gridfem::MultiVector Sources;
+  gridfem::HeldValues Held;
   std::unique_ptr<gridfem::HeatDiffusion> Diffusion;
   std::vector<Step> Steps; // the first is step 1
 };
 
-vtkHeatDiffusion::vtkHeatDiffusion() : Data(std::make_unique<Internals>())
+vtkHeatDiffusion::vtkHeatDiffusion()
+  : Data(std::make_unique<Internals>()), Selection(std::make_unique<gridfem::SelectedPoints>(this))
 {
-  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfInputPorts(3);
   this->NormalStabilization = 1e-2;
 }
 
 vtkHeatDiffusion::~vtkHeatDiffusion() = default;
+
+int vtkHeatDiffusion::FillInputPortInformation(int port, vtkInformation* info)
+{
+  this->Superclass::FillInputPortInformation(port, info);
+  if (port == 2)
+  {
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkSelection");
+  }
+  return 1;
+}
 
 std::vector<double> vtkHeatDiffusion::OwnTimeSteps()
 {
@@ -72,7 +90,50 @@ std::vector<double> vtkHeatDiffusion::OwnTimeSteps()
   return steps;
 }
 
-/// The integrals of the array and of the source. The system has to be up to date.
+bool vtkHeatDiffusion::HoldsValues(vtkPolyData* input)
+{
+  return this->BoundaryValues || this->Selection->IsGiven() ||
+         gridfem::FindInputArray(this, 2, input, "ConstraintArray").array;
+}
+
+/// Those of time 0. The space has to be up to date.
+gridfem::HeldValues vtkHeatDiffusion::FindHeldValues(vtkPolyData* input)
+{
+  const gridfem::SurfaceSolverState& state = *this->State;
+  const gridfem::TriangleMesh& mesh = *state.mesh.triangles;
+  const gridfem::InputArray mask = gridfem::FindInputArray(this, 2, input, "ConstraintArray");
+  gridfem::InputArray array = gridfem::FindInputArray(this, 0, input, "Array");
+  gridfem::RequireValuesAtPoints(array, mask.array                   ? "ConstraintArray"
+                                        : this->Selection->IsGiven() ? "A Selection"
+                                                                     : "BoundaryValues");
+  if (!array.array)
+  {
+    array.array = input->GetPoints()->GetData();
+    array.name = "coordinates";
+  }
+  gridfem::GivenValues given;
+  given.values.resize(0, array.array->GetNumberOfComponents());
+  if (mask.array || this->Selection->IsGiven())
+  {
+    given = gridfem::KnownValues(array, mask, *this->Selection, mesh);
+  }
+  gridfem::HeldValues held =
+    gridfem::HoldPoints(*state.space, given.points, std::move(given.values));
+  if (this->BoundaryValues)
+  {
+    const std::vector<gridfem::TriangleEdge> edges =
+      gridfem::FindSurfaceEdges(mesh, state.basis.weldCoincidentPoints).boundary;
+    if (edges.empty())
+    {
+      vtkWarningMacro(<< "The surface has no boundary for BoundaryValues.");
+    }
+    held = gridfem::Join(held,
+      gridfem::HoldEdges(*state.space, mesh, edges, gridfem::ReadField(array, state.mesh).values));
+  }
+  return held;
+}
+
+/// The integrals of the array and of the source, and what is held. The system has to be up to date.
 void vtkHeatDiffusion::UpdateLoads(vtkPolyData* input)
 {
   gridfem::SurfaceSolverState& state = *this->State;
@@ -91,6 +152,8 @@ void vtkHeatDiffusion::UpdateLoads(vtkPolyData* input)
   key.Add(state.stages.Version(gridfem::SystemStage));
   key.Add(start.array).Add(static_cast<int>(start.association));
   key.Add(source.array).Add(static_cast<int>(source.association));
+  key.Add(gridfem::FindInputArray(this, 2, input, "ConstraintArray").array);
+  key.Add(this->BoundaryValues).Add(this->Selection->Version());
   state.stages.Run(gridfem::RightHandSideStage, key,
     [&]
     {
@@ -99,6 +162,7 @@ void vtkHeatDiffusion::UpdateLoads(vtkPolyData* input)
       data.Start = state.space->LoadOfValues(
         start.array ? gridfem::ReadField(start, state.mesh) : gridfem::CoordinatesField(state.mesh),
         state.MakeJob(progress.Part(0.3, 0.35)));
+      data.Held = this->HoldsValues(input) ? this->FindHeldValues(input) : gridfem::HeldValues{};
       data.Sources = {};
       if (source.array)
       {
@@ -129,6 +193,7 @@ void vtkHeatDiffusion::UpdateSteps(double step)
       options.multigrid = state.options.multigrid;
       options.solve = state.options.solve;
       options.accuracy = state.options.accuracy;
+      options.held = data.Held;
       data.Steps.clear();
       data.Diffusion.reset(); // frees its memory first
       data.Diffusion = std::make_unique<gridfem::HeatDiffusion>(
@@ -150,7 +215,7 @@ void vtkHeatDiffusion::UpdateSteps(double step)
           data.Diffusion->Advance(state.MakeJob(progress.Part(done, done + share)));
         data.Steps.push_back(
           { state.space->ValuesAtPoints(data.Diffusion->Coefficients(), this->NumberOfThreads),
-            std::move(report), data.Diffusion->Accuracy() });
+            std::move(report), data.Diffusion->Accuracy(), data.Diffusion->Held() });
       });
   }
 }
@@ -180,6 +245,15 @@ void vtkHeatDiffusion::WriteStep(int shown, vtkPolyData* input, vtkPolyData* out
       gridfem::OutputPrecision(input->GetPoints()), this->NumberOfThreads, output);
   }
   gridfem::AddFieldInt(output, "Step", shown);
+  if (this->Data->Held.values.rows() > 0)
+  {
+    gridfem::AddFieldNumber(output, "Misfit", step.met.misfit);
+    const std::string warning = gridfem::WarningOfConstraints(step.met);
+    if (!warning.empty())
+    {
+      vtkWarningMacro(<< warning);
+    }
+  }
   this->WriteReport(step.report, step.accuracy, output);
 }
 
@@ -195,7 +269,8 @@ void vtkHeatDiffusion::Compute(vtkInformationVector** inputs, vtkInformationVect
   {
     throw gridfem::InvalidInput("DiffusionTime is 0: nothing spreads. It must be above 0.");
   }
-  if (this->NumberOfSteps > 1 && this->Tolerance == 0.0)
+  this->Selection->Update(vtkSelection::GetData(inputs[2]), input);
+  if ((this->NumberOfSteps > 1 || this->HoldsValues(input)) && this->Tolerance == 0.0)
   {
     state.options.accuracy = 0.0;
     state.options.solve.tolerance = gridfem::ToleranceOfSteps;
@@ -216,6 +291,7 @@ void vtkHeatDiffusion::Compute(vtkInformationVector** inputs, vtkInformationVect
 void vtkHeatDiffusion::FreeStages()
 {
   this->Superclass::FreeStages();
+  this->Selection->Free();
   *this->Data = Internals();
 }
 
@@ -226,4 +302,5 @@ void vtkHeatDiffusion::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfSteps: " << this->NumberOfSteps << "\n";
   os << indent << "MovePoints: " << this->MovePoints << "\n";
   os << indent << "Scheme: " << this->Scheme << "\n";
+  os << indent << "BoundaryValues: " << this->BoundaryValues << "\n";
 }

@@ -4,34 +4,45 @@
  *
  * Solves du/dt = div grad u + s on the surface, from the array at time 0 to the DiffusionTime, in
  * NumberOfSteps equal steps, each of which is a time step of the output. No heat flows over
- * boundaries: the integral over every connected component is kept, but for what the source adds.
+ * boundaries: the integral over every connected component is kept, but for what the source adds;
+ * unless values are held, where heat comes and goes.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
  * vtkConnectivityAwareBasis. Input port 1 (optional): the output of vtkConnectivityAwareBasis for
- * the mesh of port 0. The array at time 0 is chosen by SetInputArrayToProcess(0, ...): point or
- * cell data with any number of components C; none: the coordinates. The source, what is added per
- * unit of time, by SetInputArrayToProcess(1, ...): point or cell data with C components; none: 0.
+ * the mesh of port 0. Input port 2 (optional): vtkSelection of points or cells of port 0, whose
+ * values are held. The array at time 0 is chosen by SetInputArrayToProcess(0, ...): point or cell
+ * data with any number of components C; none: the coordinates. The source, what is added per unit
+ * of time, by SetInputArrayToProcess(1, ...): point or cell data with C components; none: 0. The
+ * ConstraintArray, by SetInputArrayToProcess(2, ...): point data with one component; where it is
+ * not 0 the value stays that of time 0, which must be point data then.
  *
  * Output port 0 (vtkPolyData): the input with
  * - point data, double: `Diffused` (C components). Points that no polygon uses keep the array if it
  *   is a point array, else get 0.
  * - field data: `Step` (int, 1), `DiffusionTime` (double, 1; squared world length), `Converged`,
  *   `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor` and the estimated errors
- *   of vtkPoissonAlgorithm, all of the solves of the step that is shown
+ *   of vtkPoissonAlgorithm, all of the solves of the step that is shown; `Misfit` (double, 1) where
+ *   values are held: by how much they are missed at most
  *
  * Time: the steps are the time steps 1 .. NumberOfSteps. A request without a time gets the last.
  * Steps are made once and kept; more steps of the same length, DiffusionTime / NumberOfSteps, are
  * not made again.
  *
  * Accuracy ends the solves of a single step. The errors of several add up: they are solved to a
- * Tolerance, 1e-6 where it is 0, and have no estimates. NormalStabilization is 1e-2 by default.
- * All shared properties are used; DiffusionTime is in the squared unit of length of ParameterUnits,
- * the source is per squared world length.
+ * Tolerance, 1e-6 where it is 0, and have no estimates; and so are steps with values that are held.
+ * NormalStabilization is 1e-2 by default. All shared properties are used; DiffusionTime is in the
+ * squared unit of length of ParameterUnits, the source is per squared world length.
  */
 #ifndef vtkHeatDiffusion_h
 #define vtkHeatDiffusion_h
 
 #include "vtkPoissonAlgorithm.h"
+
+namespace gridfem
+{
+struct HeldValues;
+class SelectedPoints;
+} // namespace gridfem
 
 class VTKGRIDFEMFILTERS_EXPORT vtkHeatDiffusion : public vtkPoissonAlgorithm
 {
@@ -82,15 +93,30 @@ public:
   vtkBooleanMacro(MovePoints, bool);
   ///@}
 
+  ///@{
+  /**
+   * When on, values stay where the surface ends as well. Default off.
+   */
+  vtkSetMacro(BoundaryValues, bool);
+  vtkGetMacro(BoundaryValues, bool);
+  vtkBooleanMacro(BoundaryValues, bool);
+  ///@}
+
   /**
    * The input of port 1: the basis.
    */
   void SetBasisConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
 
+  /**
+   * The input of port 2: a selection of points that are held.
+   */
+  void SetSelectionConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(2, output); }
+
 protected:
   vtkHeatDiffusion();
   ~vtkHeatDiffusion() override;
 
+  int FillInputPortInformation(int port, vtkInformation* info) override;
   std::vector<double> OwnTimeSteps() override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   void FreeStages() override;
@@ -99,17 +125,21 @@ protected:
   int NumberOfSteps = 1;
   int Scheme = SecondOrder;
   bool MovePoints = true;
+  bool BoundaryValues = false;
 
 private:
   vtkHeatDiffusion(const vtkHeatDiffusion&) = delete;
   void operator=(const vtkHeatDiffusion&) = delete;
 
+  bool HoldsValues(vtkPolyData* input);
+  gridfem::HeldValues FindHeldValues(vtkPolyData* input);
   void UpdateLoads(vtkPolyData* input);
   void UpdateSteps(double step);
   void WriteStep(int shown, vtkPolyData* input, vtkPolyData* output);
 
   struct Internals;
   std::unique_ptr<Internals> Data;
+  std::unique_ptr<gridfem::SelectedPoints> Selection;
 };
 
 #endif

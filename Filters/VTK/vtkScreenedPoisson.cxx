@@ -138,13 +138,11 @@ void vtkScreenedPoisson::FindConstraints(vtkPolyData* input)
     throw gridfem::InvalidInput(
       "ValueWeightArray '" + data.Weight.name + "' must have one component.");
   }
-  if (this->HoldsValues() && data.Value.association != gridfem::FieldAssociation::Points)
+  if (this->HoldsValues())
   {
-    throw gridfem::InvalidInput(std::string(data.Constraint.array        ? "ConstraintArray"
-                                            : this->Selection->IsGiven() ? "A Selection"
-                                                                         : "BoundaryValues") +
-                                " needs values at points, but '" + data.Value.name +
-                                "' is a cell array. Cell Data to Point Data converts it.");
+    gridfem::RequireValuesAtPoints(data.Value, data.Constraint.array        ? "ConstraintArray"
+                                               : this->Selection->IsGiven() ? "A Selection"
+                                                                            : "BoundaryValues");
   }
   this->FindFlux(input);
   if (this->IsConstrained() && this->AccuracyDriven)

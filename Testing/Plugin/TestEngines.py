@@ -87,6 +87,7 @@ class Engines(unittest.TestCase):
     def test_poisson_with_conditions(self):
         self.compare(lambda g, p, c, **o: g.poisson(p, c, p[:, 0], weights=p[:, 1] ** 2, **o))
         self.compare(lambda g, p, c, **o: g.poisson(p, c, p, held=p[:, 0] > 0.9, ScreeningWeight=1, **o))
+        self.compare(lambda g, p, c, **o: g.diffuse(p, c, p, 0.01, held=p[:, 0] > 0.9, NumberOfSteps=2, **o))
         self.compare(lambda g, p, c, **o: g.poisson(p, c, p[:, 2], BoundaryValues=True, **o))
         self.compare(lambda g, p, c, **o: g.poisson(
             p, c, numpy.where(p[:, 0] > 0, p[:, 1], numpy.nan), FillUnknown=True, **o))

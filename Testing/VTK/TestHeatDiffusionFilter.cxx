@@ -1,7 +1,10 @@
 // Heat Diffusion as a user of VTK sees it.
 #include "FilterSupport.h"
 
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
 #include "vtkHeatDiffusion.h"
+#include "vtkPointData.h"
 
 #include <gtest/gtest.h>
 
@@ -119,4 +122,57 @@ TEST(HeatDiffusionFilter, RefusesASourceOfOtherComponentsAndNoTime)
   EXPECT_EQ(filter->GetExecutive()->Update(), 0);
   ASSERT_EQ(messages.errors.size(), 1u);
   EXPECT_NE(messages.errors[0].find("DiffusionTime is 0"), std::string::npos);
+}
+
+/// A square that is 0 where it ends and 1 in the middle at first.
+TEST(HeatDiffusionFilter, HoldsTheBoundary)
+{
+  auto input = ToPolyData(Transform(FlatRectangle(20, 20), { 1, 2, 3 }, 0.3));
+  AddPointArray(input, "one", 1, [](const Vec3&, int) { return 1.0; });
+  vtkDataArray* one = input->GetPointData()->GetArray("one");
+  for (vtkIdType k = 0; k < one->GetNumberOfTuples(); ++k)
+  {
+    const vtkIdType column = k % 21;
+    const vtkIdType row = k / 21;
+    one->SetComponent(k, 0, column > 0 && column < 20 && row > 0 && row < 20 ? 1.0 : 0.0);
+  }
+  for (const int space : { 0, 1 })
+  {
+    auto filter = MakeFilter(0.1, 4);
+    filter->SetInputDataObject(input);
+    filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "one");
+    filter->SetFunctionSpace(space);
+    EXPECT_NEAR(HeightAtPole(DiffusedAt(filter, 4)), 0.9, 0.06); // the mean, nearly even
+    filter->BoundaryValuesOn();
+    const std::vector<double> held = DiffusedAt(filter, 4);
+    // The first term of the series: 16 / π² exp(-2 π² t), others are 1e-3 of it.
+    EXPECT_NEAR(HeightAtPole(held), 1.62 * std::exp(-19.74 * 0.1), 0.02);
+    EXPECT_NEAR(held[0], 0.0, 1e-5);
+    EXPECT_LT(FieldValue(filter->GetOutputDataObject(0), "Misfit"), 1e-4);
+  }
+  auto filter = MakeFilter(0.1, 1);
+  filter->BoundaryValuesOn();
+  const Messages messages(filter);
+  filter->Update();
+  ASSERT_EQ(messages.warnings.size(), 1u);
+  EXPECT_NE(messages.warnings[0].find("no boundary"), std::string::npos);
+}
+
+TEST(HeatDiffusionFilter, HoldsNoValuesOfCells)
+{
+  auto input = Input();
+  AddPointArray(input, "mask", 1, [](const Vec3& p, int) { return p[2] > 1.0 ? 1.0 : 0.0; });
+  vtkNew<vtkDoubleArray> cells;
+  cells->SetName("cells");
+  cells->SetNumberOfTuples(input->GetNumberOfCells());
+  cells->Fill(1.0);
+  input->GetCellData()->AddArray(cells);
+  auto filter = MakeFilter(0.1, 1);
+  filter->SetInputDataObject(input);
+  filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "cells");
+  filter->SetInputArrayToProcess(2, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "mask");
+  const Messages messages(filter);
+  EXPECT_EQ(filter->GetExecutive()->Update(), 0);
+  ASSERT_EQ(messages.errors.size(), 1u);
+  EXPECT_NE(messages.errors[0].find("'cells' is a cell array"), std::string::npos);
 }

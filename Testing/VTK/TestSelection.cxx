@@ -3,6 +3,7 @@
 
 #include "vtkGeodesicDistance.h"
 #include "vtkHarmonicInterpolation.h"
+#include "vtkHeatDiffusion.h"
 #include "vtkScreenedPoisson.h"
 #include "vtkSurfaceDetail.h"
 
@@ -474,4 +475,44 @@ TEST(Selection, OfHeldValuesIsAConstraintArray)
   EXPECT_GT(std::abs(solution[held[0]] - f[held[0]]), 0.1);
   EXPECT_EQ(bySelection->GetNumberOfRuns("System"), 1);
   ExpectRefused(poisson(false, SelectPoints({})), "not selected");
+}
+
+TEST(Selection, OfHeldHeatIsAConstraintArray)
+{
+  const auto sphere = Sphere();
+  const std::vector<vtkIdType> held = PointsAbove(sphere, 0.8);
+  AddMask(sphere, held);
+  const auto diffusion = [&](bool mask, vtkSelection* selection)
+  {
+    const auto filter = SolverOf<vtkHeatDiffusion>(sphere);
+    filter->SetInputArrayToProcess(0, 0, 0, Points, "f");
+    if (mask)
+    {
+      filter->SetInputArrayToProcess(2, 0, 0, Points, "mask");
+    }
+    filter->SetInputDataObject(2, selection);
+    filter->SetDiffusionTime(0.02);
+    return filter;
+  };
+  const auto byMask = diffusion(true, nullptr);
+  byMask->Update();
+  const auto bySelection = diffusion(false, SelectPoints(held));
+  bySelection->Update();
+  const std::vector<double> diffused = PointValues(bySelection->GetOutput(), "Diffused");
+  EXPECT_EQ(diffused, PointValues(byMask->GetOutput(), "Diffused"));
+  const std::vector<double> f = PointValues(sphere, "f");
+  for (const vtkIdType point : held)
+  {
+    EXPECT_NEAR(diffused[point], f[point], 1e-5);
+  }
+  EXPECT_LT(FieldValue(bySelection->GetOutput(), "Misfit"), 1e-5);
+
+  // Another selection holds others, on the same matrices of the space.
+  bySelection->SetInputDataObject(2, SelectPoints({ 5 }));
+  bySelection->Update();
+  const std::vector<double> again = PointValues(bySelection->GetOutput(), "Diffused");
+  EXPECT_NEAR(again[5], f[5], 1e-5);
+  EXPECT_GT(std::abs(again[held[0]] - f[held[0]]), 0.01);
+  EXPECT_EQ(bySelection->GetNumberOfRuns("System"), 1);
+  ExpectRefused(diffusion(false, SelectPoints({})), "not selected");
 }

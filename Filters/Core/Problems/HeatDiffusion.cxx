@@ -13,8 +13,8 @@ const double Gamma = 1.0 - std::sqrt(0.5);
 } // namespace
 
 HeatDiffusion::HeatDiffusion(std::shared_ptr<const FiniteElementSpace> space, MultiVector start,
-  MultiVector sources, const DiffusionOptions& options, const Job& job)
-  : space_(std::move(space)), options_(options), load_(std::move(start)),
+  MultiVector sources, DiffusionOptions options, const Job& job)
+  : space_(std::move(space)), options_(std::move(options)), load_(std::move(start)),
     sources_(std::move(sources))
 {
   if (!(options_.timeStep > 0.0) || std::isinf(options_.timeStep))
@@ -31,16 +31,36 @@ HeatDiffusion::HeatDiffusion(std::shared_ptr<const FiniteElementSpace> space, Mu
   {
     throw InvalidInput("The integrals of the start or of the sources do not fit the functions.");
   }
+  const MultiVector& held = options_.held.values;
+  if (held.rows() > 0 && (held.rows() != options_.held.rows.rows || held.cols() != load_.cols()))
+  {
+    throw InvalidInput("The values that are held do not fit the points or the start.");
+  }
   const bool isFirstOrder = options_.scheme == TimeScheme::BackwardEuler;
   stageStep_ = (isFirstOrder ? 1.0 : Gamma) * options_.timeStep;
   mass_ = space_->Matrix(0, 1.0, 0.0, job.threads);
+  if (held.rows() > 0)
+  {
+    constrained_ = std::make_unique<ConstrainedHierarchy>(*space_, 1.0 / stageStep_, 1.0,
+      std::move(options_.held.rows), ConstraintOptions().penalty, options_.multigrid, job.progress);
+    return;
+  }
   multigrid_ = std::make_unique<Multigrid>(
     BuildMultigrid(*space_, 1.0 / stageStep_, 1.0, options_.multigrid, job.progress));
 }
 
-/// (M + γδ L) U = load
-PoissonSolution HeatDiffusion::Solve(const MultiVector& load, const Job& job) const
+/// (M + γδ L) U = load, where nothing is held.
+PoissonSolution HeatDiffusion::Solve(const MultiVector& load, const Job& job)
 {
+  if (constrained_)
+  {
+    PoissonSolution solution;
+    met_ = SolveConstrained(*space_, 1.0 / stageStep_, *constrained_, load / stageStep_,
+      options_.held.values, ConstraintOptions(), options_.solve, job.progress);
+    solution.coefficients = std::move(met_.coefficients);
+    solution.report = std::move(met_.report);
+    return solution;
+  }
   PoissonOptions options;
   options.screeningWeight = 1.0 / stageStep_;
   options.multigrid = options_.multigrid;

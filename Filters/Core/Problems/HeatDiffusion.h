@@ -2,6 +2,8 @@
 #ifndef GridFEM_HeatDiffusion_h
 #define GridFEM_HeatDiffusion_h
 
+#include "Problems/EdgeConditions.h"
+#include "Problems/PointConstraints.h"
 #include "Problems/Poisson.h"
 
 #include <memory>
@@ -26,12 +28,13 @@ struct DiffusionOptions
   TimeScheme scheme = TimeScheme::SecondOrder;
   MultigridOptions multigrid;
   SolveOptions solve;
-  double accuracy = 0.0; // as in PoissonOptions
+  double accuracy = 0.0; // as in PoissonOptions; not where values are held
+  HeldValues held;       // values that stay as they are, columns as the start's; no rows: none
 };
 
 /// Steps (M + γδ L) U = ..., all with one matrix. No heat flows over boundaries, so that the
-/// integral over every connected component changes by that of the sources alone. Same bits for any
-/// number of threads.
+/// integral over every connected component changes by that of the sources alone; unless values are
+/// held, where heat comes and goes. Same bits for any number of threads.
 /// Alexander: Diagonally Implicit Runge-Kutta Methods for Stiff O.D.E.'s, 1977.
 class HeatDiffusion
 {
@@ -41,7 +44,7 @@ public:
   /// Throws InvalidInput when the time step is not a positive number or shapes do not fit, and
   /// Aborted.
   HeatDiffusion(std::shared_ptr<const FiniteElementSpace> space, MultiVector start,
-    MultiVector sources, const DiffusionOptions& options, const Job& job = {});
+    MultiVector sources, DiffusionOptions options, const Job& job = {});
 
   /// Makes the next step and says how its solves went. Aborted, which it throws, leaves the state
   /// as it was.
@@ -50,18 +53,24 @@ public:
   /// Errors of the solves of the last step, the worst of them; unknown unless accuracy was wanted.
   const SolutionAccuracy& Accuracy() const { return accuracy_; }
 
+  /// How the last solve met what is held: without coefficients and report.
+  const ConstrainedSolution& Held() const { return met_; }
+
   /// After the last step: rows = functions, columns as the start's. No rows before the first.
   const MultiVector& Coefficients() const { return coefficients_; }
 
 private:
-  PoissonSolution Solve(const MultiVector& load, const Job& job) const;
+  PoissonSolution Solve(const MultiVector& load, const Job& job);
 
   std::shared_ptr<const FiniteElementSpace> space_;
   DiffusionOptions options_;
   double stageStep_ = 0.0; // γδ
   SparseMatrix mass_;
-  std::unique_ptr<Multigrid> multigrid_; // of M / (γδ) + L
-  MultiVector load_;                     // ∫ u b_i now
+  // One of them: of M / (γδ) + L, and with the penalties of what is held.
+  std::unique_ptr<Multigrid> multigrid_;
+  std::unique_ptr<ConstrainedHierarchy> constrained_;
+  ConstrainedSolution met_;
+  MultiVector load_; // ∫ u b_i now
   MultiVector sources_;
   MultiVector coefficients_;
   SolutionAccuracy accuracy_;

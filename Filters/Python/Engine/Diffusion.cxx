@@ -1,4 +1,4 @@
-#include "Problem.h"
+#include "Held.h"
 
 #include "Base/Errors.h"
 #include "Problems/HeatDiffusion.h"
@@ -16,13 +16,9 @@ public:
     : options_(properties, { 0.0, 200, 1e-2 }),
       time_(properties.NumberFrom("DiffusionTime", 0.001, 0.0)),
       steps_(properties.Integer("NumberOfSteps", 1, 1, 10000)),
-      scheme_(static_cast<TimeScheme>(properties.Integer("Scheme", 1, 0, 1)))
+      scheme_(static_cast<TimeScheme>(properties.Integer("Scheme", 1, 0, 1))),
+      holdsBoundary_(properties.Switch("BoundaryValues", false))
   {
-    if (steps_ > 1 && options_.solve.tolerance == 0.0)
-    {
-      options_.accuracy = 0.0;
-      options_.solve.tolerance = ToleranceOfSteps;
-    }
     if (time_ == 0.0)
     {
       throw InvalidInput("DiffusionTime is 0: nothing spreads. It must be above 0.");
@@ -31,14 +27,25 @@ public:
 
   Results Solve(const Given& given, const Progress& progress) const override
   {
+    CheckHeld(given, holdsBoundary_);
     const Surface surface(given, options_, progress.Part(0.0, 0.3));
     const Field start = given.FieldOf("values");
+    Results results;
     DiffusionOptions options;
     options.timeStep = time_ / steps_ / surface.WeightInSpaceUnits(1.0);
     options.scheme = scheme_;
     options.multigrid = options_.multigrid;
     options.solve = options_.solve;
     options.accuracy = options_.accuracy;
+    if (given.Find("held") || holdsBoundary_)
+    {
+      options.held = FindHeld(given, surface, options_, start, holdsBoundary_, results);
+    }
+    if ((steps_ > 1 || options.held.values.rows() > 0) && options.solve.tolerance == 0.0)
+    {
+      options.accuracy = 0.0;
+      options.solve.tolerance = ToleranceOfSteps;
+    }
     HeatDiffusion diffusion(surface.space,
       surface.space->LoadOfValues(start, surface.MakeJob(progress.Part(0.3, 0.4))), {}, options,
       surface.MakeJob(progress.Part(0.4, 0.5)));
@@ -49,10 +56,10 @@ public:
       last = diffusion.Advance(
         surface.MakeJob(progress.Part(0.5 + step * share, 0.5 + (step + 1) * share)));
     }
-    Results results;
     results.arrays["Diffused"] =
       surface.AtPoints(diffusion.Coefficients(), given.RowsAtPoints("values"));
-    results.Warn(WarningOf(last, diffusion.Accuracy(), options_.solve.tolerance));
+    results.Warn(WarningOf(last, diffusion.Accuracy(), options.solve.tolerance));
+    results.Warn(WarningOfConstraints(diffusion.Held()));
     return results;
   }
 
@@ -61,6 +68,7 @@ private:
   double time_;
   int steps_;
   TimeScheme scheme_;
+  bool holdsBoundary_;
 };
 
 } // namespace

@@ -1,4 +1,4 @@
-#include "Problem.h"
+#include "Held.h"
 
 #include "Base/Errors.h"
 #include "Grid/SurfaceEdges.h"
@@ -64,8 +64,6 @@ private:
     const Given& given, const Surface& surface, const Field& value, const Job& job) const;
   PoissonSolution SolveEquation(
     const Given& given, const Surface& surface, Results& results, const Progress& progress) const;
-  HeldValues Held(
-    const Given& given, const Surface& surface, const Field& value, Results& results) const;
   MultiVector SolveConstrainedEquation(
     const Given& given, const Surface& surface, Results& results, const Progress& progress) const;
 
@@ -80,20 +78,11 @@ private:
   double wantedError_;
 };
 
-void RequirePointValues(const std::string& who, const GivenArray* values)
-{
-  if (values && !values->isOnPoints)
-  {
-    throw InvalidInput(who + " needs values at points, but 'values' is a cell array.");
-  }
-}
-
 void PoissonProblem::Check(const Given& given) const
 {
   const GivenArray* values = given.Find("values");
   const GivenArray* gradients = given.Find("gradients");
   const GivenArray* weights = given.Find("weights");
-  const GivenArray* held = given.Find("held");
   const Id components = values ? values->values.cols() : 3;
   if (gradients && gradients->values.cols() != 3 * components)
   {
@@ -105,18 +94,11 @@ void PoissonProblem::Check(const Given& given) const
   {
     throw InvalidInput("ValueWeightArray 'weights' must have one component.");
   }
-  if (held && (!held->isOnPoints || held->values.cols() != 1))
-  {
-    throw InvalidInput("MaskArray 'held' must be a point array with one component.");
-  }
   if (usesValueGradient_ && !gradients)
   {
     RequirePointValues("UseValueGradient", values);
   }
-  if (held || holdsBoundary_)
-  {
-    RequirePointValues(held ? "ConstraintArray" : "BoundaryValues", values);
-  }
+  CheckHeld(given, holdsBoundary_);
   if (this->IsConstrained(given) && isAccuracyDriven_)
   {
     throw InvalidInput("AccuracyDriven does not go with constraints, weights, a flux or unknown "
@@ -206,37 +188,6 @@ PoissonSolution PoissonProblem::SolveEquation(
   return solution;
 }
 
-HeldValues PoissonProblem::Held(
-  const Given& given, const Surface& surface, const Field& value, Results& results) const
-{
-  const TriangleMesh& mesh = surface.Mesh();
-  KnownRows known;
-  known.values.resize(0, value.values.cols());
-  if (const GivenArray* mask = given.Find("held"))
-  {
-    known = given.KnownValues(mask);
-  }
-  HeldValues held = HoldPoints(surface.Space(), known.points, std::move(known.values));
-  if (!holdsBoundary_)
-  {
-    return held;
-  }
-  std::vector<TriangleEdge> edges =
-    FindSurfaceEdges(mesh, options_.functions.weldCoincidentPoints).boundary;
-  if (edges.empty())
-  {
-    results.Warn("The surface has no boundary for BoundaryValues or a BoundaryFluxArray.");
-    return held;
-  }
-  const auto isUnknown = [&](const TriangleEdge& edge)
-  {
-    const auto ends = edge.Ends(mesh);
-    return value.values.row(ends[0]).hasNaN() || value.values.row(ends[1]).hasNaN();
-  };
-  edges.erase(std::remove_if(edges.begin(), edges.end(), isUnknown), edges.end());
-  return Join(held, HoldEdges(surface.Space(), mesh, edges, value.values));
-}
-
 MultiVector PoissonProblem::SolveConstrainedEquation(
   const Given& given, const Surface& surface, Results& results, const Progress& progress) const
 {
@@ -248,7 +199,7 @@ MultiVector PoissonProblem::SolveConstrainedEquation(
   const auto weight =
     given.Find("weights") ? std::make_optional(given.FieldOf("weights")) : std::nullopt;
   const PartialField field = SplitField(value, weight ? &*weight : nullptr, mesh);
-  const HeldValues held = this->Held(given, surface, value, results);
+  const HeldValues held = FindHeld(given, surface, options_, value, holdsBoundary_, results);
   const double screening = surface.WeightInSpaceUnits(weight_);
   MultiVector load = screening * space.LoadOfWeightedValues(field.values, field.weight, job);
   if (given.Find("gradients"))

@@ -70,6 +70,15 @@ void RequirePointArray(
   }
 }
 
+void RequireValuesAtPoints(const InputArray& array, const std::string& holder)
+{
+  if (array.association != FieldAssociation::Points)
+  {
+    throw InvalidInput(holder + " needs values at points, but '" + array.name +
+                       "' is a cell array. Cell Data to Point Data converts it.");
+  }
+}
+
 GivenValues KnownValues(const InputArray& array, const InputArray& mask,
   const SelectedPoints& selection, const TriangleMesh& mesh)
 {

@@ -3,6 +3,7 @@
 
 #include "Base/Errors.h"
 #include "EitherSpace.h"
+#include "Grid/SurfaceEdges.h"
 #include "Spaces.h"
 
 #include <gtest/gtest.h>
@@ -122,6 +123,77 @@ TEST(HeatDiffusion, KeepsTheIntegralOnEveryComponentAndAddsThatOfSources)
   }
 }
 
+/// A square whose rim is held at 0: sin(πx) sin(πy) decays by exp(-2π² t).
+TEST(HeatDiffusion, LetsHeatGoWhereValuesAreHeld)
+{
+  const double pi = std::acos(-1.0);
+  const TriangleMesh flat = FlatRectangle(40, 40);
+  const TriangleMesh mesh = Transform(flat, { 1, 2, 3 }, 0.3);
+  MultiVector f(static_cast<Id>(mesh.points.size()), 1);
+  for (Id i = 0; i < f.rows(); ++i)
+  {
+    f(i, 0) = std::sin(pi * flat.points[i][0]) * std::sin(pi * flat.points[i][1]);
+  }
+  const std::vector<TriangleEdge> rim = FindSurfaceEdges(mesh, true).boundary;
+  ASSERT_EQ(rim.size(), 160u);
+  for (const bool isOnHats : { false, true })
+  {
+    for (const TimeScheme scheme : { TimeScheme::BackwardEuler, TimeScheme::SecondOrder })
+    {
+      const auto space = Build(mesh, isOnHats, 5);
+      const double time = 0.05;
+      const int steps = 8;
+      DiffusionOptions options = Options(time / steps / std::pow(space->UnitLength(), 2), scheme);
+      options.held = HoldEdges(*space, mesh, rim, MultiVector::Zero(f.rows(), 1));
+      HeatDiffusion diffusion(space, space->LoadOfValues(OnPoints(f)), {}, options);
+      for (int k = 0; k < steps; ++k)
+      {
+        EXPECT_TRUE(diffusion.Advance().converged);
+        EXPECT_LT(diffusion.Held().misfit, 1e-6);
+      }
+      const MultiVector values = space->ValuesAtPoints(diffusion.Coefficients());
+      const double left = values.col(0).dot(f.col(0)) / f.squaredNorm();
+      const double z = 2.0 * pi * pi * time / steps;
+      const double exact =
+        scheme == TimeScheme::BackwardEuler ? std::pow(1.0 + z, -steps) : std::exp(-steps * z);
+      EXPECT_NEAR(left, exact, 0.01) << isOnHats << " " << int(scheme);
+    }
+  }
+}
+
+/// Held at 0 and 1 at the ends of a strip, heat comes to rest on a line in between.
+TEST(HeatDiffusion, ComesToRestOnTheHarmonicFunctionOfWhatIsHeld)
+{
+  const TriangleMesh mesh = Transform(FlatRectangle(30, 10, 3.0, 1.0), { 1, 2, 3 }, 0.3);
+  const MultiVector along = PointCoordinates(FlatRectangle(30, 10, 3.0, 1.0)).col(0);
+  std::vector<Id> ends;
+  for (Id i = 0; i < along.rows(); ++i)
+  {
+    if (along(i, 0) == 0.0 || along(i, 0) == 3.0)
+    {
+      ends.push_back(i);
+    }
+  }
+  MultiVector wanted(static_cast<Id>(ends.size()), 1);
+  for (Id k = 0; k < wanted.rows(); ++k)
+  {
+    wanted(k, 0) = along(ends[k], 0);
+  }
+  for (const bool isOnHats : { false, true })
+  {
+    const auto space = Build(mesh, isOnHats, 5);
+    DiffusionOptions options = Options(1e4, TimeScheme::SecondOrder);
+    options.held = HoldPoints(*space, ends, wanted);
+    HeatDiffusion diffusion(space, MultiVector::Zero(space->NumberOfFunctions(0), 1), {}, options);
+    for (int k = 0; k < 6; ++k)
+    {
+      diffusion.Advance();
+    }
+    EXPECT_LT(RelativeDifference(space->ValuesAtPoints(diffusion.Coefficients()), along), 0.01)
+      << isOnHats;
+  }
+}
+
 TEST(HeatDiffusion, DampsRoughDataAtOnceHoweverLongTheStep)
 {
   const TriangleMesh mesh = GeodesicSphere(20);
@@ -166,4 +238,7 @@ TEST(HeatDiffusion, RefusesWhatDoesNotFit)
   const DiffusionOptions options = Options(1.0, TimeScheme::SecondOrder);
   EXPECT_THROW(HeatDiffusion(space, MultiVector::Ones(3, 1), {}, options), InvalidInput);
   EXPECT_THROW(HeatDiffusion(space, load, load.leftCols(1), options), InvalidInput);
+  DiffusionOptions held = options;
+  held.held = HoldPoints(*space, { 0, 1 }, MultiVector::Ones(2, 1));
+  EXPECT_THROW(HeatDiffusion(space, load, {}, held), InvalidInput); // a column of two
 }
