@@ -25,6 +25,7 @@ install(FILES LICENSE DESTINATION ${GRIDFEM_DOC_DESTINATION} RENAME copyright)
 install(FILES README.md CHANGELOG.md DESTINATION ${GRIDFEM_DOC_DESTINATION})
 
 set(CPACK_GENERATOR DEB)
+set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/CMake/Debian.cmake)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_PACKAGE_NAME gridfem)
 set(CPACK_PACKAGE_VENDOR "GridFEM developers")
@@ -33,13 +34,16 @@ set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Laplace-Beltrami problems on triangle mes
 set(CPACK_PACKAGE_DESCRIPTION
 "Filters that solve equations on the surface of a mesh: they smooth, sharpen,
 stitch, fill in and interpolate functions given there, measure distances along
-the surface, let heat and the surface itself flow, and compute its eigenfunctions.
+the surface, let heat and the surface itself flow, and compute eigenfunctions.
 A plugin for ParaView, a Python package, and C++ libraries with their headers.")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/CMake/triggers) # of the loader's cache
+set(CPACK_DEBIAN_PACKAGE_DEPENDS python3) # which knows the folder of the Python package
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-paraview, python3-numpy") # of the Python package
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "paraview-dev, libeigen3-dev") # of who compiles with the headers
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON) # pins the ParaView that the plugin was built for
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON) # for packages that link to these libraries
 include(CPack)

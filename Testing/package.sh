@@ -9,7 +9,7 @@ if [ "${1:-}" = "--help" ] || [ "${1:-}" = "-h" ]; then
 Usage: Testing/package.sh
 
 Makes the Debian package in build-package/, for any processor of this architecture and with Core once
-more for each of the newer ones; makes a root with nothing but the base of this Debian in a temporary
+more for each of the newer ones; has lintian look at it; makes a root with nothing but the base of this Debian in a temporary
 folder; installs the package there, which brings ParaView along; and runs it: the plugin in pvpython, the
 functions of numpy arrays, and which Core the loader takes. Needs root, the network and 4 GB of disk.
 HELP
@@ -20,7 +20,7 @@ if [ "$(id -u)" -ne 0 ]; then
   exit 1
 fi
 
-InstallMissing "${BUILD_PACKAGES[@]}" dpkg-dev file mmdebstrap
+InstallMissing "${BUILD_PACKAGES[@]}" dpkg-dev file lintian mmdebstrap
 mkdir -p "$BUILD"
 cd "$SOURCE"
 Quietly "$BUILD/configure.log" cmake --preset package
@@ -29,6 +29,11 @@ Quietly "$BUILD/build.log" cmake --build "$BUILD" -j "$JOBS"
 (cd "$BUILD" && rm -f ./*.deb && cpack > cpack.log)
 PACKAGE="$(ls "$BUILD"/gridfem_*.deb)"
 dpkg-deb --info "$PACKAGE" | grep -E "Version|Depends|Installed-Size"
+# The first three: one package holds libraries, what links to them, and plugins. The last: cpack's own.
+ONE_PACKAGE=link-to-shared-library-in-wrong-package,package-name-doesnt-match-sonames
+ONE_PACKAGE+=,shared-library-lacks-version
+lintian --allow-root --fail-on error,warning \
+  --suppress-tags "$ONE_PACKAGE,maintscript-calls-ldconfig" "$PACKAGE"
 
 ROOT="$(mktemp -d)"
 trap 'rm -rf "$ROOT"' EXIT

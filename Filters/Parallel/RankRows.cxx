@@ -176,22 +176,22 @@ void RankRows::TakeOwners(Block<Real> x) const
 
 void RankRows::Sum(Block<float> x) const
 {
-  ForColumns<float>(x, [this](Block<float> some) { this->SumParts<float>(some); });
+  ForColumns<float>(x, [this](const Block<float>& some) { this->SumParts<float>(some); });
 }
 
 void RankRows::Sum(Block<double> x) const
 {
-  ForColumns<double>(x, [this](Block<double> some) { this->SumParts<double>(some); });
+  ForColumns<double>(x, [this](const Block<double>& some) { this->SumParts<double>(some); });
 }
 
 void RankRows::TakeForeign(Block<float> x) const
 {
-  ForColumns<float>(x, [this](Block<float> some) { this->TakeOwners<float>(some); });
+  ForColumns<float>(x, [this](const Block<float>& some) { this->TakeOwners<float>(some); });
 }
 
 void RankRows::TakeForeign(Block<double> x) const
 {
-  ForColumns<double>(x, [this](Block<double> some) { this->TakeOwners<double>(some); });
+  ForColumns<double>(x, [this](const Block<double>& some) { this->TakeOwners<double>(some); });
 }
 
 void RankRows::TakeLeast(Block<double> x) const

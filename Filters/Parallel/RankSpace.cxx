@@ -182,7 +182,7 @@ RankSpace::RankSpace(const Communicator& ranks, const TriangleMesh& own,
       }
       UnitePointPatches(mesh->points, all.Finest(), all.pointPatch);
     });
-  std::vector<PatchLevel> shared = this->Divide(all, std::move(links), partition);
+  std::vector<PatchLevel> shared = this->Divide(all, links, partition);
   ranks_.Together(
     [&]
     {
@@ -235,7 +235,7 @@ void RankSpace::MakeShared(std::vector<PatchLevel> levels, const GridSpaceOption
 /// Leaves in `all` what this rank owns, with the functions numbered by the places in numberings_.
 /// @return the shared levels
 std::vector<PatchLevel> RankSpace::Divide(
-  GridFunctions& all, Array<Link> links, const BlockPartition& partition)
+  GridFunctions& all, const Array<Link>& links, const BlockPartition& partition)
 {
   const std::size_t divided = all.GetGrid().depth - partition.Depth();
   std::vector<PatchLevel> levels;

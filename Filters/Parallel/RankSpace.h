@@ -56,7 +56,7 @@ public:
 
 private:
   std::vector<PatchLevel> Divide(
-    GridFunctions& all, Array<Link> links, const BlockPartition& partition);
+    GridFunctions& all, const Array<Link>& links, const BlockPartition& partition);
   std::vector<PatchLevel> Share(const PatchLevel& level, const Array<Link>& links,
     const BlockPartition& partition, FunctionSupport support) const;
   void MakeShared(std::vector<PatchLevel> levels, const GridSpaceOptions& options);

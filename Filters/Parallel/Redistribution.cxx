@@ -52,6 +52,7 @@ std::vector<Index> OrderInSpace(const std::vector<Vec3>& points, const Grid& gri
 std::vector<Id> SizesOf(const std::vector<std::vector<Point>>& lists)
 {
   std::vector<Id> sizes;
+  sizes.reserve(lists.size());
   for (const auto& list : lists)
   {
     sizes.push_back(static_cast<Id>(list.size()));

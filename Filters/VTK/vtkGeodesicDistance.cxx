@@ -83,7 +83,7 @@ struct vtkGeodesicDistance::Internals
     {
       ids = { mesh.triangles->triangles.front()[0] };
     }
-    const std::vector<gridfem::Id> sources = gridfem::SourcePoints(*mesh.triangles, ids, places);
+    std::vector<gridfem::Id> sources = gridfem::SourcePoints(*mesh.triangles, ids, places);
     if (sources.empty())
     {
       throw gridfem::InvalidInput(WhyNoSource(mask, selection));

@@ -10,6 +10,7 @@
 #include "vtkMultiBlockDataSet.h"
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
+#include "vtkWeakPointer.h"
 
 #include <gtest/gtest.h>
 
@@ -115,6 +116,21 @@ TEST_F(OtherDataSets, AVolumeIsItsBoundary)
   {
     EXPECT_NEAR(eigenvalues[k] / onHats[k], 1.0, 0.03);
   }
+}
+
+TEST_F(OtherDataSets, AreFreedWithTheirFilter)
+{
+  vtkWeakPointer<vtkDataSet> input;
+  {
+    const auto grid = AsGrid(sphere);
+    input = grid;
+    vtkNew<vtkScreenedPoisson> own;
+    own->SetDepth(3);
+    own->SetInputDataObject(grid);
+    own->Update();
+    EXPECT_GT(own->GetOutput()->GetNumberOfCells(), 0);
+  }
+  EXPECT_EQ(input, nullptr);
 }
 
 TEST_F(OtherDataSets, CellsWithoutASurfaceAreRefused)

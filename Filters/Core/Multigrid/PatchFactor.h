@@ -33,13 +33,12 @@ struct BlockSource
 /// case distinction.
 struct PatchFactor
 {
+  PatchMatrix V; // lower triangular, and mirrored to the upper triangle; zero without unknowns
   std::array<Index, FunctionsPerPatch> dof; // in the order of elimination
+  double smallestPivot = 1.0;               // kept, of the block scaled to unit diagonal
   Index count = 0;                          // 0: no unknown can be solved for
-  PatchMatrix V;               // lower triangular, and mirrored to the upper triangle; zero without
-                               // unknowns
-  double smallestPivot = 1.0;  // kept, of the block scaled to unit diagonal
-  bool isComplete = true;      // no pivot was left out
-  bool hasLargeScales = false; // V would leave the range of single precision
+  bool isComplete = true;                   // no pivot was left out
+  bool hasLargeScales = false;              // V would leave the range of single precision
 };
 
 /// As many patches are factored together as vector registers have lanes.

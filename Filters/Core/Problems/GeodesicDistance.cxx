@@ -269,7 +269,7 @@ std::vector<double> GeodesicDistance::ShiftedToCurve(const MultiVector& distance
     const bool isNear = !std::isnan(near[point]) && reach > 0.0;
     const double share = isNear ? 1.0 - std::abs(near[point]) / reach : 0.0;
     const double mixed = isNear ? share * near[point] + (1.0 - share) * solved : solved;
-    const int side = curve.side[point];
+    const auto side = curve.side[point];
     shifted[point] = std::isnan(solved) ? NaN
                      : side > 0         ? std::max(0.0, mixed)
                      : side < 0         ? std::min(0.0, mixed)

@@ -112,13 +112,13 @@ vtkSmartPointer<vtkCellArray> MakeTriangles(const ClippedMesh& clipped, int thre
       for (Id triangle = begin; triangle < end; ++triangle)
       {
         const Id k = triangle - begin;
-        offset[triangle] = static_cast<Value>(3 * triangle);
+        offset[triangle] = 3 * static_cast<Value>(triangle);
         corner[3 * triangle] = corners[0];
         corner[3 * triangle + 1] = corners[k + 1];
         corner[3 * triangle + 2] = corners[k + 2];
       }
     });
-  offset[count] = static_cast<Value>(3 * count);
+  offset[count] = 3 * static_cast<Value>(count);
   auto cells = vtkSmartPointer<vtkCellArray>::New();
   cells->SetData(offsets, connectivity);
   return cells;

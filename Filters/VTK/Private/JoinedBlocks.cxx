@@ -1,5 +1,6 @@
 #include "JoinedBlocks.h"
 
+#include "InformationCopy.h"
 #include "InputValidation.h"
 #include "RankedOutput.h"
 
@@ -60,15 +61,6 @@ void CopyTime(vtkInformation* from, vtkInformation* to)
   }
 }
 
-/// A vector of one information: a copy of that given, with another data object.
-void CopyWith(vtkDataObject* data, vtkInformation* given, vtkInformationVector* vector, int port)
-{
-  vtkNew<vtkInformation> information;
-  information->Copy(given);
-  information->Set(vtkDataObject::DATA_OBJECT(), data);
-  vector->SetInformationObject(port, information);
-}
-
 } // namespace
 
 JoinedBlocks::JoinedBlocks() = default;
@@ -83,7 +75,7 @@ void JoinedBlocks::Start(vtkInformationVector* outputs)
   {
     auto result =
       vtkSmartPointer<vtkDataObject>::Take(vtkDataObject::GetData(outputs, port)->NewInstance());
-    CopyWith(result, outputs->GetInformationObject(port), results_, port);
+    results_->SetInformationObject(port, CopyWith(result, outputs->GetInformationObject(port)));
   }
 }
 
@@ -194,7 +186,8 @@ vtkInformationVector** JoinedBlocks::Inputs(
   {
     CopyTime(blocks_.front().data->GetInformation(), entry_->surface.whole->GetInformation());
   }
-  CopyWith(entry_->surface.whole, inputs[0]->GetInformationObject(0), first_, 0);
+  first_->SetInformationObject(
+    0, CopyWith(entry_->surface.whole, inputs[0]->GetInformationObject(0)));
   ports_.assign(inputs, inputs + ports);
   ports_[0] = first_;
   return ports_.data();

@@ -1,6 +1,7 @@
 #include "RankedSurface.h"
 
 #include "Allocation.h"
+#include "InformationCopy.h"
 #include "RankedOutput.h"
 #include "SurfaceSolverState.h"
 
@@ -246,11 +247,8 @@ vtkInformationVector** RankedSurface::GatheredInputs(vtkInformationVector** inpu
       ports_.push_back(inputs[port]);
       continue;
     }
-    vtkNew<vtkInformation> information;
-    information->Copy(given);
-    information->Set(vtkDataObject::DATA_OBJECT(), whole);
     vtkNew<vtkInformationVector> vector;
-    vector->SetInformationObject(0, information);
+    vector->SetInformationObject(0, CopyWith(whole, given));
     vectors_.emplace_back(vector);
     ports_.push_back(vector);
   }

@@ -224,6 +224,7 @@ std::vector<std::string> Ranks::Exchange(const std::string& own) const
   std::string all(offsets.back() + lengths.back(), ' ');
   controller_->AllGatherV(own.data(), &all[0], lengths[own_], lengths.data(), offsets.data());
   std::vector<std::string> texts;
+  texts.reserve(count_);
   for (int rank = 0; rank < count_; ++rank)
   {
     texts.push_back(all.substr(offsets[rank], lengths[rank]));

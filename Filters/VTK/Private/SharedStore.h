@@ -43,7 +43,7 @@ private:
   Pointer Known(const Key& key)
   {
     const auto found = known_.find(key);
-    const Pointer thing = found == known_.end() ? nullptr : found->second.lock();
+    Pointer thing = found == known_.end() ? nullptr : found->second.lock();
     if (thing)
     {
       last_ = thing;

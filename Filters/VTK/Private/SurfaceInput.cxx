@@ -1,5 +1,7 @@
 #include "SurfaceInput.h"
 
+#include "InformationCopy.h"
+
 #include "Base/Errors.h"
 
 #include "vtkDataSet.h"
@@ -27,10 +29,7 @@ vtkInformationVector** SurfaceInput::Of(vtkInformationVector** inputs, int numbe
   {
     throw InvalidInput("The input has no surface: neither polygons nor volume cells.");
   }
-  vtkNew<vtkInformation> information;
-  information->Copy(inputs[0]->GetInformationObject(0));
-  information->Set(vtkDataObject::DATA_OBJECT(), surface_);
-  first_->SetInformationObject(0, information);
+  first_->SetInformationObject(0, CopyWith(surface_, inputs[0]->GetInformationObject(0)));
   ports_.assign(inputs, inputs + numberOfPorts);
   ports_[0] = first_;
   return ports_.data();

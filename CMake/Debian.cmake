@@ -1,0 +1,18 @@
+# Run by cpack before it packs: what Debian's policy asks of a package and CMake does not do.
+
+# Folders that all can read, whatever the umask of who packs.
+execute_process(
+  COMMAND find ${CPACK_TEMPORARY_INSTALL_DIRECTORY} -type d -exec chmod 755 {} +
+  COMMAND_ERROR_IS_FATAL ANY)
+
+# A changelog in Debian's form beside ours.
+set(changelog ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/usr/share/doc/gridfem/changelog)
+string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC) # that of SOURCE_DATE_EPOCH where it is set
+file(WRITE ${changelog} "gridfem (${CPACK_PACKAGE_VERSION}) unstable; urgency=medium
+
+  * What has changed is in CHANGELOG.md beside this file.
+
+ -- ${CPACK_PACKAGE_CONTACT}  ${date}
+")
+file(CHMOD ${changelog} PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
+execute_process(COMMAND gzip -9nf ${changelog} COMMAND_ERROR_IS_FATAL ANY)

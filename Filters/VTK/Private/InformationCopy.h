@@ -1,0 +1,30 @@
+// Information of a port with another data object.
+#ifndef GridFEM_InformationCopy_h
+#define GridFEM_InformationCopy_h
+
+#include "vtkDataObject.h"
+#include "vtkExecutive.h"
+#include "vtkInformation.h"
+#include "vtkInformationExecutivePortKey.h"
+#include "vtkInformationExecutivePortVectorKey.h"
+#include "vtkNew.h"
+#include "vtkSmartPointer.h"
+
+namespace gridfem
+{
+
+/// All that `given` says, with `data` in the place of its data. It does not hold the pipeline,
+/// whose garbage collection would not know of this and never free what made the data.
+inline vtkSmartPointer<vtkInformation> CopyWith(vtkDataObject* data, vtkInformation* given)
+{
+  vtkNew<vtkInformation> information;
+  information->Copy(given);
+  information->Remove(vtkExecutive::PRODUCER());
+  information->Remove(vtkExecutive::CONSUMERS());
+  information->Set(vtkDataObject::DATA_OBJECT(), data);
+  return information;
+}
+
+} // namespace gridfem
+
+#endif
