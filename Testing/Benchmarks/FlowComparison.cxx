@@ -182,8 +182,8 @@ std::vector<Contestant> ContestantsOf(const std::vector<ComparedSpace>& spaces,
   for (const ComparedSpace& space : spaces)
   {
     contestants.push_back({ &space, "CHOLMOD", MakeCholmodFlow(space.system, options.threads) });
-    contestants.push_back({ &space, "BoomerAMG", MakeAmgFlow(space.system, options.tolerance) });
-    contestants.push_back({ &space, "grid multigrid",
+    contestants.push_back({ &space, "AMG", MakeAmgFlow(space.system, options.tolerance) });
+    contestants.push_back({ &space, "multigrid",
       MakeMultigridFlow(space.space, mesh, options.tolerance, options.threads) });
   }
   return contestants;
@@ -269,6 +269,14 @@ TriangleMesh MeshOf(const FlowComparisonOptions& options)
   return mesh;
 }
 
+/// The same after a zero: all flows start at the same points.
+std::vector<double> FromStart(const std::vector<double>& steps)
+{
+  std::vector<double> result{ 0.0 };
+  result.insert(result.end(), steps.begin(), steps.end());
+  return result;
+}
+
 /// The last of the flows is connectivity-aware multigrid, and three before it stand the plain ones.
 void PrintRatios(const FlowComparison& comparison)
 {
@@ -330,7 +338,7 @@ FlowComparison CompareFlows(const FlowComparisonOptions& options)
 
   const std::vector<ComparedSpace> spaces{ { "hat", MakeHatSystem(mesh), hybrid, &truth },
     { "plain", MakeSpaceSystem(plain, options.threads), plain, &plainTruth },
-    { "connectivity-aware", MakeSpaceSystem(aware, options.threads), aware, &awareTruth } };
+    { "aware", MakeSpaceSystem(aware, options.threads), aware, &awareTruth } };
   std::vector<Contestant> contestants = ContestantsOf(spaces, mesh, options);
   TimeSteps(contestants, options.time);
   for (Contestant& contestant : contestants)
@@ -384,8 +392,9 @@ Figure FigureOf(const FlowComparison& comparison)
                              : flow.space == "plain" ? Curve::Kind::Thesis
                                                      : Curve::Kind::Ours;
     const std::string name = flow.space + ", " + flow.solver;
-    figure.panels[0].curves.push_back({ name, kind, flow.time, flow.error });
-    figure.panels[1].curves.push_back({ name, kind, flow.time, flow.ownError });
+    figure.panels[0].curves.push_back({ name, kind, FromStart(flow.time), FromStart(flow.error) });
+    figure.panels[1].curves.push_back(
+      { name, kind, FromStart(flow.time), FromStart(flow.ownError) });
   }
   return figure;
 }
