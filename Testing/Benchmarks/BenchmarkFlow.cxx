@@ -9,6 +9,7 @@
 // step.
 #include "AlgebraicMultigrid.h"
 #include "Cholmod.h"
+#include "FlowComparison.h"
 #include "Measure.h"
 #include "Meshes.h"
 #include "Problems.h"
@@ -405,7 +406,8 @@ void MeasureDistances()
 
 } // namespace
 
-/// Parts: the names of the subjects, "distance"; "large" (1.3 million vertices) only where named.
+/// Parts: the names of the subjects, "distance", "budget" (ten minutes); "large" (1.3 million
+/// vertices) only where named.
 int main(int argc, char** argv)
 {
   const Parts parts(argc, argv);
@@ -426,5 +428,11 @@ int main(int argc, char** argv)
   if (parts.Want("distance"))
   {
     MeasureDistances();
+  }
+  if (parts.Want("budget"))
+  {
+    const MessagePassing libraries;
+    const FlowComparisonOptions options;
+    PrintComparison(options, CompareFlows(options));
   }
 }

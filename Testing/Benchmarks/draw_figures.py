@@ -106,6 +106,15 @@ def place_legend(chart, panel):
     legend.GetBrush().SetColor(255, 255, 255, 200)
 
 
+def make_room_for_legend(chart, panel):
+    """On the right, beside the curves: so many leave no corner free."""
+    x = [p[0] for _, curve in panel["curves"].values() for p in curve]
+    axis = chart.GetAxis(vtkAxis.BOTTOM)
+    axis.SetBehavior(vtkAxis.FIXED)
+    axis.SetRange(min(x), max(x) + 1.1 * (max(x) - min(x)) * chart.GetShowLegend())
+    chart.GetLegend().SetVerticalAlignment(vtkChartLegend.CENTER)
+
+
 def write_png(window, path):
     window.Render()
     image = vtkWindowToImageFilter()
@@ -135,9 +144,12 @@ def draw_panels(path, picture):
         chart = vtkChartXY()
         fill_chart(chart, title, panel)
         names = [(name, kind) for name, (kind, _) in panel["curves"].items()]
-        chart.SetShowLegend(1 < len(names) <= 8 and names not in explained)
+        chart.SetShowLegend(1 < len(names) <= 9 and names not in explained)
         explained.append(names)
-        place_legend(chart, panel)
+        if len(names) > 8:
+            make_room_for_legend(chart, panel)
+        else:
+            place_legend(chart, panel)
         matrix.SetChart(vtkVector2i(k % columns, rows - 1 - k // columns), chart)
     view.GetRenderWindow().SetMultiSamples(0)  # smooth edges would double the size of the file
     write_png(view.GetRenderWindow(), picture)
