@@ -7,22 +7,41 @@ namespace
 
 using PatchRows = std::array<const double*, FunctionsPerPatch>;
 
-/// uᵀ mass u of a patch, for column c.
-double SquaredNorm(const ElementMatrix& mass, const PatchRows& row, Id c)
+using PatchLanes = Eigen::Array<double, FunctionsPerPatch, 1>;
+
+/// How often an entry of row i of the packed lower triangle counts; those behind the diagonal,
+/// which belong to the next rows, do not.
+std::array<PatchLanes, FunctionsPerPatch> WeightsOfRows()
 {
-  double diagonal = 0.0;
-  double others = 0.0;
+  std::array<PatchLanes, FunctionsPerPatch> weight;
   for (int i = 0; i < FunctionsPerPatch; ++i)
   {
-    double below = 0.0;
-    for (int j = 0; j < i; ++j)
+    for (int j = 0; j < FunctionsPerPatch; ++j)
     {
-      below += mass[PackedIndex(i, j)] * row[j][c];
+      weight[i][j] = j < i ? 2.0 : j == i ? 1.0 : 0.0;
     }
-    others += below * row[i][c];
-    diagonal += mass[PackedIndex(i, i)] * row[i][c] * row[i][c];
   }
-  return diagonal + 2.0 * others;
+  return weight;
+}
+
+/// uᵀ mass u of a patch, for column c. A row of the triangle is a vector, whatever its length.
+double SquaredNorm(const ElementMatrix& mass, const PatchRows& row, Id c)
+{
+  static const std::array<PatchLanes, FunctionsPerPatch> weight = WeightsOfRows();
+  static_assert(
+    PackedIndex(FunctionsPerPatch - 1, FunctionsPerPatch - 1) + 1 ==
+    std::tuple_size_v<ElementMatrix>); // a vector from its first entry on fits everywhere
+  PatchLanes u;
+  for (int i = 0; i < FunctionsPerPatch; ++i)
+  {
+    u[i] = row[i][c];
+  }
+  PatchLanes sum = PatchLanes::Zero();
+  for (int i = 0; i < FunctionsPerPatch; ++i)
+  {
+    sum += u[i] * weight[i] * Eigen::Map<const PatchLanes>(&mass[PackedIndex(i, 0)]);
+  }
+  return (sum * u).sum();
 }
 
 } // namespace
