@@ -22,6 +22,7 @@ from vtkmodules.vtkRenderingCore import (
 )
 
 BLUE, WHITE, RED = (0.13, 0.34, 0.68), (0.96, 0.96, 0.95), (0.76, 0.16, 0.15)
+GREY = (0.7, 0.7, 0.68)
 INK = (0.15, 0.15, 0.15)
 GAP = 8  # pixels between tiles
 
@@ -94,6 +95,7 @@ def view_of(data, width_to_height=1.0, tilt=25.0):
 def diverging_colors(low, high):
     colors = vtkColorTransferFunction()
     colors.SetColorSpaceToLab()
+    colors.SetNanColor(*GREY)
     for value, color in ((low, BLUE), ((low + high) / 2, WHITE), (high, RED)):
         colors.AddRGBPoint(value, *color)
     return colors
