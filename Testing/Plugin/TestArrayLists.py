@@ -48,6 +48,7 @@ EXPECTED = {
     ("SurfaceGradient", "Array"): ANY,
     ("HeatDiffusion", "Array"): ANY,
     ("HeatDiffusion", "HeatSourceArray"): ANY,
+    ("HeatDiffusion", "ConstraintArray"): {"None", "p1"},
     ("GeodesicDistance", "SourceArray"): {"None", "p1"},
     ("GeodesicDistance", "LabelArray"): {"None", "p1", "c1"},
     ("SpectralSignatures", "ValueArray"): {"None", "Normals", "p1", "p3", "p4", "p6", "p9"}}

@@ -9,8 +9,15 @@ using PatchRows = std::array<const double*, FunctionsPerPatch>;
 
 using PatchLanes = Eigen::Array<double, FunctionsPerPatch, 1>;
 
-/// How often an entry of row i of the packed lower triangle counts; those behind the diagonal,
-/// which belong to the next rows, do not.
+/// Where row i of the packed upper triangle would begin if it had all columns.
+constexpr int BeginOfRow(int i)
+{
+  return PackedIndex(i, i) - i;
+}
+static_assert(
+  BeginOfRow(0) == 0 && BeginOfRow(FunctionsPerPatch - 1) + FunctionsPerPatch == ElementEntries);
+
+/// How often the entries of row i count; those before the diagonal belong to rows before it.
 std::array<PatchLanes, FunctionsPerPatch> WeightsOfRows()
 {
   std::array<PatchLanes, FunctionsPerPatch> weight;
@@ -18,19 +25,17 @@ std::array<PatchLanes, FunctionsPerPatch> WeightsOfRows()
   {
     for (int j = 0; j < FunctionsPerPatch; ++j)
     {
-      weight[i][j] = j < i ? 2.0 : j == i ? 1.0 : 0.0;
+      weight[i][j] = j > i ? 2.0 : j == i ? 1.0 : 0.0;
     }
   }
   return weight;
 }
 
-/// uᵀ mass u of a patch, for column c. A row of the triangle is a vector, whatever its length.
+/// uᵀ mass u of a patch, for column c. Every row of the triangle is a vector of all columns, so
+/// that no sum waits for another.
 double SquaredNorm(const ElementMatrix& mass, const PatchRows& row, Id c)
 {
   static const std::array<PatchLanes, FunctionsPerPatch> weight = WeightsOfRows();
-  static_assert(
-    PackedIndex(FunctionsPerPatch - 1, FunctionsPerPatch - 1) + 1 ==
-    std::tuple_size_v<ElementMatrix>); // a vector from its first entry on fits everywhere
   PatchLanes u;
   for (int i = 0; i < FunctionsPerPatch; ++i)
   {
@@ -39,7 +44,7 @@ double SquaredNorm(const ElementMatrix& mass, const PatchRows& row, Id c)
   PatchLanes sum = PatchLanes::Zero();
   for (int i = 0; i < FunctionsPerPatch; ++i)
   {
-    sum += u[i] * weight[i] * Eigen::Map<const PatchLanes>(&mass[PackedIndex(i, 0)]);
+    sum += u[i] * weight[i] * Eigen::Map<const PatchLanes>(&mass[BeginOfRow(i)]);
   }
   return (sum * u).sum();
 }
