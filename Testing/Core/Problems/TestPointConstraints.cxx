@@ -3,6 +3,8 @@
 
 #include "Base/Errors.h"
 #include "EitherSpace.h"
+#include "Grid/SurfaceEdges.h"
+#include "Problems/EdgeConditions.h"
 #include "Problems/Poisson.h"
 #include "Spaces.h"
 
@@ -144,6 +146,38 @@ TEST_P(PointConstraints, OfAHundredThousandPointsAreMet)
   EXPECT_TRUE(found.report.converged);
   EXPECT_TRUE(found.isExact);
   EXPECT_LT(found.misfit, 2e-6); // 1e-6 of the range, which is 2
+}
+
+/// The harmonic function exp(π(x - 1)) sin(πy) + x on a square from its values on the rim: with
+/// each level a quarter of the error.
+TEST(BoundaryConstraints, HaveErrorsOfSecondOrder)
+{
+  const double pi = std::acos(-1.0);
+  const TriangleMesh flat = FlatRectangle(100, 100);
+  const TriangleMesh mesh = Transform(flat, { 1, 2, 3 }, 0.3);
+  MultiVector exact(static_cast<Id>(mesh.points.size()), 1);
+  for (Id i = 0; i < exact.rows(); ++i)
+  {
+    const Vec3& p = flat.points[i];
+    exact(i, 0) = std::exp(pi * (p[0] - 1.0)) * std::sin(pi * p[1]) + p[0];
+  }
+  double last = 0.0;
+  for (const int depth : { 3, 4, 5 })
+  {
+    const auto space = Build(mesh, false, depth);
+    const HeldValues held = HoldEdges(*space, mesh, FindSurfaceEdges(mesh, true).boundary, exact);
+    const ConstraintOptions constraints;
+    const ConstrainedHierarchy hierarchy(*space, 0.0, 1.0, held.rows, constraints.penalty, {});
+    const ConstrainedSolution found =
+      SolveConstrained(*space, 0.0, hierarchy, {}, held.values, constraints, Solver());
+    const double error = (space->ValuesAtPoints(found.coefficients) - exact).norm() / 101.0;
+    if (last > 0.0)
+    {
+      EXPECT_GT(last / error, 3.0) << depth;
+    }
+    last = error;
+  }
+  EXPECT_LT(last, 3e-4);
 }
 
 TEST_P(PointConstraints, ThatContradictEachOtherAreMetInTheMean)
