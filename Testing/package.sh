@@ -9,9 +9,10 @@ if [ "${1:-}" = "--help" ] || [ "${1:-}" = "-h" ]; then
 Usage: Testing/package.sh
 
 Makes the Debian package in build-package/, for any processor of this architecture and with Core once
-more for each of the newer ones; has lintian look at it; makes a root with nothing but the base of this Debian in a temporary
-folder; installs the package there, which brings ParaView along; and runs it: the plugin in pvpython, the
-functions of numpy arrays, and which Core the loader takes. Needs root, the network and 4 GB of disk.
+more for each of the newer ones; has lintian look at it; makes a root with nothing but the base of this
+Debian in a temporary folder; installs the package there, which brings ParaView along; and runs it: the
+plugin in pvpython, the functions of numpy arrays, and which Core the loader takes. Needs root, the
+network and 4 GB of disk.
 HELP
   exit
 fi
