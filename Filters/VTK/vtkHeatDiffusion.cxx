@@ -103,9 +103,7 @@ gridfem::HeldValues vtkHeatDiffusion::FindHeldValues(vtkPolyData* input)
   const gridfem::TriangleMesh& mesh = *state.mesh.triangles;
   const gridfem::InputArray mask = gridfem::FindInputArray(this, 2, input, "ConstraintArray");
   gridfem::InputArray array = gridfem::FindInputArray(this, 0, input, "Array");
-  gridfem::RequireValuesAtPoints(array, mask.array                   ? "ConstraintArray"
-                                        : this->Selection->IsGiven() ? "A Selection"
-                                                                     : "BoundaryValues");
+  gridfem::RequireValuesAtPoints(array, mask, *this->Selection);
   if (!array.array)
   {
     array.array = input->GetPoints()->GetData();

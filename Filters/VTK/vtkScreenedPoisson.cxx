@@ -140,9 +140,7 @@ void vtkScreenedPoisson::FindConstraints(vtkPolyData* input)
   }
   if (this->HoldsValues())
   {
-    gridfem::RequireValuesAtPoints(data.Value, data.Constraint.array        ? "ConstraintArray"
-                                               : this->Selection->IsGiven() ? "A Selection"
-                                                                            : "BoundaryValues");
+    gridfem::RequireValuesAtPoints(data.Value, data.Constraint, *this->Selection);
   }
   this->FindFlux(input);
   if (this->IsConstrained() && this->AccuracyDriven)

@@ -40,18 +40,10 @@ constexpr Subject Subjects[] = { { "Lucy", "happy_buddha_99k.ply", 1, 7 },
   { "Buddha", "happy_buddha_99k.ply", 2, 8 }, { "Armadillo", "armadillo_100k.ply", 1, 8 },
   { "Dragon", "dragon_871k.ply", 0, 8 }, { "Isidore", "rocker_arm.ply", 3, 8 } };
 
-/// The least of the frames, which is what the machine can do.
 template<class Frame>
 double SecondsOf(Frame&& frame)
 {
-  double least = 1e30;
-  for (int k = 0; k < Frames; ++k)
-  {
-    const Stopwatch watch;
-    frame(k);
-    least = std::min(least, watch.Seconds());
-  }
-  return least;
+  return LeastSeconds(Frames, frame);
 }
 
 struct DetailTimes

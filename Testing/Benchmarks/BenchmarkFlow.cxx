@@ -57,18 +57,10 @@ TriangleMesh MeshOf(const Subject& subject)
   return mesh;
 }
 
-/// The least of the repetitions, which is what the machine can do.
 template<class Body>
 double SecondsOf(Body&& body)
 {
-  double least = 1e30;
-  for (int k = 0; k < Repetitions; ++k)
-  {
-    const Stopwatch watch;
-    body();
-    least = std::min(least, watch.Seconds());
-  }
-  return least;
+  return LeastSeconds(Repetitions, [&](int) { body(); });
 }
 
 Eigen::MatrixXd AsColumns(const std::vector<Vec3>& points)

@@ -290,8 +290,7 @@ int main(int argc, char** argv)
     {
       PrintMessages(ranks, argv[2], depth, CycleType::V);
       PrintMessages(ranks, argv[2], depth, CycleType::W);
-      MPI_Finalize();
-      return 0;
+      return MPI_Finalize();
     }
     const bool isCore = argc > 4;
     const Measured measured =

@@ -277,20 +277,7 @@ double BytesOfCycle(const Multigrid& multigrid, int columns)
   return bytes;
 }
 
-/// The least seconds of some runs.
-template<class Body>
-double BestOf(Body&& body)
-{
-  constexpr int Runs = 15;
-  double best = 1e300;
-  for (int run = 0; run < Runs; ++run)
-  {
-    const Stopwatch watch;
-    body();
-    best = std::min(best, watch.Seconds());
-  }
-  return best;
-}
+constexpr int Runs = 15;
 
 /// Bytes per second of a sum on all threads.
 double ReadBandwidth()
@@ -298,8 +285,8 @@ double ReadBandwidth()
   const std::vector<double> numbers(256 * 1000 * 1000 / sizeof(double), 1.0);
   const auto count = static_cast<Id>(numbers.size());
   double sum = 0.0;
-  const double seconds = BestOf(
-    [&]
+  const double seconds = LeastSeconds(Runs,
+    [&](int)
     {
       sum += ParallelSum(count, Threads, 0.0,
         [&](Id begin, Id end)
@@ -320,7 +307,7 @@ void RunMemory()
   {
     const MultiVector b = MultiVector::Ones(grid.space.Finest().numberOfFunctions, columns);
     MultiVector x;
-    const double seconds = BestOf([&] { grid.multigrid->Precondition(b, x); });
+    const double seconds = LeastSeconds(Runs, [&](int) { grid.multigrid->Precondition(b, x); });
     const double bytes = BytesOfCycle(*grid.multigrid, columns);
     table.Row({ std::to_string(columns), Text("%.1f", 1e3 * seconds), Text("%.0f", 1e-6 * bytes),
       Text("%.1f", 1e3 * bytes / bandwidth) });

@@ -2,9 +2,11 @@
 #ifndef GridFEM_Benchmarks_Measure_h
 #define GridFEM_Benchmarks_Measure_h
 
+#include <algorithm>
 #include <chrono>
 #include <cstring>
 #include <functional>
+#include <limits>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -23,6 +25,20 @@ public:
 private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
+
+/// The least of what body(run) takes in so many runs, which is what the machine can do.
+template<class Body>
+double LeastSeconds(int runs, Body&& body)
+{
+  double least = std::numeric_limits<double>::infinity();
+  for (int run = 0; run < runs; ++run)
+  {
+    const Stopwatch watch;
+    body(run);
+    least = std::min(least, watch.Seconds());
+  }
+  return least;
+}
 
 /// Bytes of this process in memory now, and the most there were since ResetPeak. 0 where the system
 /// does not tell (only Linux does).

@@ -24,7 +24,6 @@ public:
 
   /// C, and W of each row.
   const SparseMatrix& Rows() const { return levels_.front().rows; }
-  const std::vector<double>& Weights() const { return weight_; }
 
   /// W r for values at the places.
   MultiVector Weighted(const MultiVector& values) const;

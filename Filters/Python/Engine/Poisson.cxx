@@ -1,15 +1,10 @@
 #include "Held.h"
 
 #include "Base/Errors.h"
-#include "Grid/SurfaceEdges.h"
 #include "Problems/DepthSearch.h"
-#include "Problems/EdgeConditions.h"
 #include "Problems/PartialField.h"
 #include "Problems/SolveWarnings.h"
 
-#include <algorithm>
-#include <cmath>
-#include <iterator>
 #include <optional>
 
 namespace gridfem

@@ -70,10 +70,14 @@ void RequirePointArray(
   }
 }
 
-void RequireValuesAtPoints(const InputArray& array, const std::string& holder)
+void RequireValuesAtPoints(
+  const InputArray& array, const InputArray& mask, const SelectedPoints& selection)
 {
   if (array.association != FieldAssociation::Points)
   {
+    const std::string holder = mask.array            ? "ConstraintArray"
+                               : selection.IsGiven() ? "A Selection"
+                                                     : "BoundaryValues";
     throw InvalidInput(holder + " needs values at points, but '" + array.name +
                        "' is a cell array. Cell Data to Point Data converts it.");
   }

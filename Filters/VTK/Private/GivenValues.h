@@ -25,9 +25,10 @@ struct GivenValues
 void RequirePointArray(
   const InputArray& array, const std::string& property, const std::string& wanted);
 
-/// Throws InvalidInput for cell data, which says nothing of points where values are held.
-/// @param holder  what holds them
-void RequireValuesAtPoints(const InputArray& array, const std::string& holder);
+/// Throws InvalidInput for cell data, which says nothing of points where values are held: by the
+/// mask, by the selection, else by BoundaryValues.
+void RequireValuesAtPoints(
+  const InputArray& array, const InputArray& mask, const SelectedPoints& selection);
 
 /// Tuples without a NaN, at points that a triangle uses and where the mask is neither 0 nor NaN, or
 /// that are selected; at all points without mask and selection. Throws InvalidInput for an infinite
