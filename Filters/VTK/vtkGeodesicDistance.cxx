@@ -165,13 +165,14 @@ void vtkGeodesicDistance::UpdateHierarchies()
   const gridfem::Progress progress = state.bridge.GetProgress();
   gridfem::StageKey key;
   key.Add(state.stages.Version(gridfem::SystemStage)).Add(this->Smoothing);
+  key.Add(this->EstimateErrors);
   gridfem::AddMultigrid(key, state.options.multigrid);
   state.stages.Run(gridfem::HierarchyStage, key,
     [&]
     {
       data.Method.reset(); // frees its memory first
       data.Method = std::make_unique<gridfem::GeodesicDistance>(state.space, state.mesh.triangles,
-        gridfem::DistanceOptions{ this->Smoothing, state.options.multigrid },
+        gridfem::DistanceOptions{ this->Smoothing, state.options.multigrid, this->EstimateErrors },
         state.MakeJob(progress.Part(0.3, 0.4)));
     });
 }
@@ -268,6 +269,7 @@ void vtkGeodesicDistance::WriteDistance(vtkPolyData* output)
   output->GetPointData()->SetActiveScalars("Distance");
   gridfem::AddReport(field.report, output);
   gridfem::AddFieldNumber(output, "HeatSweeps", field.heatSweeps);
+  gridfem::AddAccuracy(field.accuracy, output);
 }
 
 void vtkGeodesicDistance::WriteNearestSource(
@@ -350,4 +352,5 @@ void vtkGeodesicDistance::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Signed: " << this->Signed << "\n";
   os << indent << "InsideLabel: " << this->InsideLabel << "\n";
   os << indent << "ReverseSign: " << this->ReverseSign << "\n";
+  os << indent << "EstimateErrors: " << this->EstimateErrors << "\n";
 }

@@ -142,6 +142,7 @@ void vtkHarmonicInterpolation::Write(vtkPolyData* input, vtkPolyData* output)
   output->GetPointData()->AddArray(array);
   output->GetPointData()->SetActiveScalars("Interpolated");
   gridfem::AddReport(data.Solution.report, output);
+  gridfem::AddAccuracy(data.Solution.accuracy, output);
   gridfem::AddFieldNumber(output, "Misfit", data.Solution.misfit);
 }
 

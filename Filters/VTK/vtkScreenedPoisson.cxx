@@ -143,11 +143,6 @@ void vtkScreenedPoisson::FindConstraints(vtkPolyData* input)
     gridfem::RequireValuesAtPoints(data.Value, data.Constraint, *this->Selection);
   }
   this->FindFlux(input);
-  if (this->IsConstrained() && this->AccuracyDriven)
-  {
-    throw gridfem::InvalidInput("AccuracyDriven does not go with constraints, weights, a flux or "
-                                "unknown values: no error is estimated for them.");
-  }
   if (this->IsConstrained() && this->Iteration != ConjugateGradients)
   {
     throw gridfem::InvalidInput("Constraints, weights and unknown values need Iteration to be "
@@ -204,7 +199,8 @@ const gridfem::SolveReport& vtkScreenedPoisson::Report() const
 
 gridfem::SolutionAccuracy vtkScreenedPoisson::EstimatedErrors() const
 {
-  return this->IsConstrained() ? gridfem::SolutionAccuracy{} : this->Data->Equation.Accuracy();
+  return this->IsConstrained() ? this->Data->Constrained.Accuracy()
+                               : this->Data->Equation.Accuracy();
 }
 
 gridfem::ConstrainedLoad vtkScreenedPoisson::IntegrateConstrained(
@@ -399,9 +395,9 @@ void vtkScreenedPoisson::SolveAccurately(vtkPolyData* input, const gridfem::Prog
   gridfem::SurfaceSolverState& state = *this->State;
   gridfem::StageKey asked;
   gridfem::AddMesh(asked, input);
-  asked.Add(static_cast<std::int64_t>(this->GetMTime()));
-  for (const gridfem::InputArray* array :
-    { &data.Value, &data.Gradient, &data.Scale, &state.metricArray })
+  asked.Add(static_cast<std::int64_t>(this->GetMTime())).Add(this->Selection->Version());
+  for (const gridfem::InputArray* array : { &data.Value, &data.Gradient, &data.Scale, &data.Weight,
+         &data.Constraint, &data.Flux, &state.metricArray })
   {
     asked.Add(array->array).Add(static_cast<int>(array->association));
   }

@@ -67,7 +67,9 @@
  *
  * The iteration ends by Accuracy. With a Tolerance above 0 (default 0) it ends by the energy
  * residual instead, for those who want the solution of the discrete equations itself. Weighed,
- * unknown and held values are solved for to a tolerance, 1e-6 where it is 0, and have no estimates.
+ * unknown and held values are solved for to a tolerance, 1e-6 where it is 0; their errors are
+ * estimated as well, by the rate at which three levels differ, because a solution is not smooth
+ * where a value is held.
  * MaximumIterations is 200 by default. All shared properties are used; with HatFunctions as
  * FunctionSpace, QuadratureDegree touches the preconditioner alone, because all integrals over hat
  * functions are exact.
@@ -148,10 +150,9 @@ public:
   /**
    * When on, Depth is chosen such that the estimated error of the function space, relative to the
    * solution without its mean, is at most WantedError; the field array `UsedDepth` says which. Not
-   * with unknown, weighed or held values or a flux, where nothing is estimated, and not used with a
-   * given basis. The error of HatFunctions is that of the mesh: where it is too large, a warning
-   * says so, as it does where the next depth does not fit into memory; `Converged` is 0 then.
-   * Default off.
+   * used with a given basis. The error of HatFunctions is that of the mesh: where it is too large,
+   * a warning says so, as it does where the next depth does not fit into memory; `Converged` is 0
+   * then. Default off.
    */
   vtkSetMacro(AccuracyDriven, bool);
   vtkGetMacro(AccuracyDriven, bool);

@@ -160,6 +160,18 @@ struct vtkSurfaceDetail::Internals
     return change;
   }
 
+  /// Of the change, relative to it; its largest error at a point is at most what the blocks add up
+  /// to.
+  gridfem::SolutionAccuracy AccuracyOfChange(double inside, double outside) const
+  {
+    gridfem::SolutionAccuracy accuracy = this->Solution.accuracy;
+    const bool hasBlocks = this->Fade || this->ScaleField;
+    accuracy.largest *= !hasBlocks ? std::abs(inside - 1.0)
+                                   : 1.0 + std::abs(this->Fade ? outside : inside) +
+                                       (this->Fade ? std::abs(inside - outside) : 0.0);
+    return accuracy;
+  }
+
   /// The scale at the points.
   gridfem::MultiVector ScaleAtPoints(
     double inside, double outside, const gridfem::TriangleMesh& mesh, int threads) const
@@ -387,6 +399,7 @@ void vtkSurfaceDetail::UpdateSolution(const gridfem::Progress& progress)
   options.screeningWeight = state.WeightInGridUnits(this->ScreeningWeight);
   options.multigrid = state.options.multigrid;
   options.solve = state.options.solve;
+  options.estimateErrors = this->CyclesPerApply == 0;
   if (this->CyclesPerApply > 0)
   {
     options.solve.maximumIterations = this->CyclesPerApply;
@@ -483,6 +496,7 @@ void vtkSurfaceDetail::WriteReport(vtkPolyData* output)
       gridfem::MakePointArray("Selected", data.Fade->values, VTK_DOUBLE));
   }
   gridfem::AddReport(report, output);
+  gridfem::AddAccuracy(data.AccuracyOfChange(this->DetailScale, this->OutsideScale), output);
   if (data.IsWeighed)
   {
     gridfem::AddFieldNumber(output, "UsualCurvature", data.UsualCurvature);

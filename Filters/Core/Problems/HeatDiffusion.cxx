@@ -55,9 +55,12 @@ PoissonSolution HeatDiffusion::Solve(const MultiVector& load, const Job& job)
   if (constrained_)
   {
     PoissonSolution solution;
+    ConstraintOptions constraints;
+    constraints.estimateOn = space_.get();
     met_ = SolveConstrained(*space_, 1.0 / stageStep_, *constrained_, load / stageStep_,
-      options_.held.values, ConstraintOptions(), options_.solve, job.progress);
+      options_.held.values, constraints, options_.solve, job.progress);
     solution.coefficients = std::move(met_.coefficients);
+    solution.accuracy = met_.accuracy;
     solution.report = std::move(met_.report);
     return solution;
   }

@@ -28,7 +28,7 @@ struct DiffusionOptions
   TimeScheme scheme = TimeScheme::SecondOrder;
   MultigridOptions multigrid;
   SolveOptions solve;
-  double accuracy = 0.0; // as in PoissonOptions; not where values are held
+  double accuracy = 0.0; // as in PoissonOptions; where values are held, errors are only estimated
   HeldValues held;       // values that stay as they are, columns as the start's; no rows: none
 };
 
@@ -50,7 +50,8 @@ public:
   /// as it was.
   SolveReport Advance(const Job& job = {});
 
-  /// Errors of the solves of the last step, the worst of them; unknown unless accuracy was wanted.
+  /// Errors of the solves of the last step, the worst of them; unknown unless accuracy was wanted or
+  /// values are held.
   const SolutionAccuracy& Accuracy() const { return accuracy_; }
 
   /// How the last solve met what is held: without coefficients and report.

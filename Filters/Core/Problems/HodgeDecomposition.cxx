@@ -74,6 +74,7 @@ MultiVector SolveHeld(const FiniteElementSpace& space, SparseMatrix rows, const 
   ConstraintOptions constraints;
   constraints.tolerance = std::max(constraints.tolerance, solve.tolerance);
   constraints.maximumSteps = 3; // what is left then, functions cannot meet
+  constraints.estimateOn = options.accuracy > 0.0 ? &space : nullptr;
   const MultiVector zero = MultiVector::Zero(rows.rows, load.cols());
   const ConstrainedHierarchy hierarchy(space, 0.0, 1.0, std::move(rows), constraints.penalty,
     options.multigrid, job.progress.Part(0.0, 0.3));
@@ -82,6 +83,7 @@ MultiVector SolveHeld(const FiniteElementSpace& space, SparseMatrix rows, const 
   SetMeans(space, solution.isHeld,
     MultiVector::Zero(static_cast<Id>(solution.isHeld.size()), load.cols()), solution.coefficients,
     job.threads);
+  KeepWorse(solution.accuracy, parts.accuracy);
   KeepWorse(std::move(solution.report), parts.report);
   return std::move(solution.coefficients);
 }

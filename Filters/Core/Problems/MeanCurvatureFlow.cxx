@@ -275,8 +275,27 @@ StepSolution MeanCurvatureFlow::Solve(const MultiVector& embedding, const Job& j
       this->Points(job.threads), mesh_->triangles, embedding - solution.embedding, job.threads);
   }
   project.residual(b);
-  solution.report = SolveWithFallback(IterationType::ConjugateGradients, OperatorOf(*multigrid_),
+  const LinearOperator A = OperatorOf(*multigrid_);
+  MultiVector rest;
+  A.residual(solution.embedding, b, rest);
+  project.residual(rest);
+  MultiVector way;
+  MultiVector lastStep;
+  multigrid_->NestedIteration(rest, way, &lastStep);
+  project.solution(way);
+  const MultiVector start = solution.embedding;
+  if (way.allFinite())
+  {
+    solution.embedding += way;
+  }
+  const AccuracyWatch watch(*moving_, solution.embedding, lastStep, 0.0, job.threads);
+  solution.report = SolveWithFallback(IterationType::ConjugateGradients, A,
     CycleWithFallback(*multigrid_), b, solution.embedding, options_.solve, project, job.progress);
+  // The errors of all coordinates in the length of the way, however the surface is turned.
+  const double length =
+    std::sqrt(moving_->SquaredNorms(solution.embedding - start, job.threads).max(0.0).sum());
+  solution.accuracy = watch.Result(solution.embedding, Columns::Constant(start.cols(), length),
+    Eigen::RowVectorXd::Constant(start.cols(), 1.0 / moving_->UnitLength()), ErrorOrder::Observed);
   means.AddConstants(mean, solution.embedding);
   return solution;
 }
@@ -377,6 +396,7 @@ FlowStep MeanCurvatureFlow::Advance(const Job& job)
   done.iterations = solution.report.iterations;
   done.lockedSamples = lockedSamples;
   done.converged = solution.report.converged;
+  done.accuracy = solution.accuracy;
   return done;
 }
 

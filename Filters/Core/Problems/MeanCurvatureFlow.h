@@ -7,6 +7,7 @@
 #include "Krylov/ConjugateGradients.h"
 #include "Problems/HeldBoundary.h"
 #include "Problems/MovedSurface.h"
+#include "Problems/SolutionAccuracy.h"
 #include "Spaces/FiniteElementSpace.h"
 
 #include <functional>
@@ -71,15 +72,21 @@ struct FlowStep
   int iterations = 0;
   Id lockedSamples = 0; // whose metric was singular when the step began (SetMetric)
   bool converged = true;
+  /// Of the way of this step: relative to its length in the mean square; the largest error in world
+  /// units; that of the iteration is not known. Errors of the steps before are not among it, nor
+  /// that a step takes finite time.
+  SolutionAccuracy accuracy;
 };
 
 struct StepSolution
 {
   MultiVector embedding;
   SolveReport report;
+  SolutionAccuracy accuracy; // as in FlowStep
 };
 
-/// One step solves (M_t + δ L_t) X⁺ = M_t X for the three coordinates at once, from the last X.
+/// One step solves (M_t + δ L_t) X⁺ = M_t X for the three coordinates at once, from the last X and
+/// the way that the coarser levels go from there.
 /// From the second step on patterns, prolongations and orders are those of the first, unless
 /// the functions are made anew. A boundary that is fixed takes part as HeldBoundary says. Same bits
 /// for any number of threads, and for any way to a step. Hold a MemoryReuse over several steps.

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <string>
 
 namespace gridfem
@@ -112,15 +113,6 @@ public:
       load_(load)
   {
     load_ += this->LoadOf(values_);
-    hierarchy_.GetMultigrid().NestedIteration(load_, x);
-    if (!x.allFinite())
-    {
-      x.setZero();
-    }
-    if (project_.solution)
-    {
-      project_.solution(x);
-    }
     range_ = this->LargestOf(values_);
   }
 
@@ -131,6 +123,15 @@ public:
     SolveOptions step = options_;
     step.tolerance = std::max(SmallestTolerance, step.tolerance * share_);
     const Multigrid& multigrid = hierarchy_.GetMultigrid();
+    const bool isFirst = solution.steps == 0;
+    if (isFirst || constraints.estimateOn)
+    {
+      this->Start(isFirst, constraints.estimateOn);
+    }
+    if (watch_)
+    {
+      step.measureBy = [this](const Iterate& iterate) { return (*watch_)(iterate); };
+    }
     Append(SolveWithFallback(IterationType::ConjugateGradients, OperatorOf(multigrid),
              CycleWithFallback(multigrid), load_, x, step, project_, progress),
       solution.report);
@@ -154,11 +155,43 @@ public:
     return true;
   }
 
+  /// @param size, scale  as AccuracyWatch::Result has them
+  SolutionAccuracy Accuracy(const Columns& size, const Eigen::RowVectorXd& scale) const
+  {
+    return watch_ ? watch_->Result(x, size, scale, ErrorOrder::Observed) : SolutionAccuracy();
+  }
+
   MultiVector x;
   Eigen::RowVectorXd misfit; // largest of each column
 
 private:
   static constexpr double SmallestTolerance = 1e-13;
+
+  /// Solves on the coarser levels for the load of the step, with which they meet the values nearly
+  /// as well: a start, and what an error is estimated from.
+  void Start(bool isStart, const SpaceLevels* estimateOn)
+  {
+    const Multigrid& multigrid = hierarchy_.GetMultigrid();
+    MultiVector nested;
+    MultiVector lastStep;
+    multigrid.NestedIteration(load_, nested, estimateOn ? &lastStep : nullptr);
+    if (!nested.allFinite())
+    {
+      nested.setZero();
+    }
+    if (project_.solution)
+    {
+      project_.solution(nested);
+    }
+    if (isStart)
+    {
+      x = nested;
+    }
+    if (estimateOn)
+    {
+      watch_.emplace(*estimateOn, std::move(nested), lastStep, 0.0, multigrid.Options().threads);
+    }
+  }
 
   MultiVector LoadOf(const MultiVector& values) const
   {
@@ -208,8 +241,29 @@ private:
   const Projection& project_;
   MultiVector load_;
   Eigen::RowVectorXd range_;
-  double share_ = 1.0; // of the tolerance, for a step
+  double share_ = 1.0;                 // of the tolerance, for a step
+  std::optional<AccuracyWatch> watch_; // of the last step
 };
+
+/// |u| without its mean over the components that something holds.
+/// @param rest      functions that constants have to be added to, one for each component
+/// @param constant  of each component
+Columns SizeOf(const SpaceLevels& surface, const Components& components,
+  const std::vector<char>& isHeld, const MultiVector& rest, const MultiVector& constant,
+  int threads)
+{
+  std::vector<double> integral = surface.Integrals();
+  for (std::size_t i = 0; i < integral.size(); ++i)
+  {
+    integral[i] = isHeld[components.ofFunction[i]] ? integral[i] : 0.0;
+  }
+  const ComponentMeans means(components.ofFunction, integral, components.count, threads);
+  const MultiVector mean = means.OfFunction(rest);
+  MultiVector centred = rest;
+  means.AddConstants(-mean, centred);
+  return (surface.SquaredNorms(centred, threads).max(0.0) + means.SquaredSpread(mean + constant))
+    .sqrt();
+}
 
 } // namespace
 
@@ -328,6 +382,13 @@ ConstrainedSolution SolveConstrained(const FiniteElementSpace& space, double a,
   while (
     iteration.Step(constraints, progress, solution) && solution.steps < constraints.maximumSteps)
   {
+  }
+  if (constraints.estimateOn)
+  {
+    solution.accuracy =
+      iteration.Accuracy(SizeOf(*constraints.estimateOn, components, solution.isHeld, iteration.x,
+                           constant * scale.asDiagonal(), threads),
+        scale);
   }
   solution.misfit =
     iteration.misfit.size() > 0 ? (iteration.misfit.array() / scale.array()).maxCoeff() : 0.0;

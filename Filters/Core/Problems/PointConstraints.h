@@ -5,6 +5,7 @@
 #include "Algebra/ComponentMeans.h"
 #include "Krylov/PrecisionFallback.h"
 #include "Problems/RowPenalty.h"
+#include "Problems/SolutionAccuracy.h"
 
 namespace gridfem
 {
@@ -18,6 +19,9 @@ struct ConstraintOptions
   /// square of the solution where that is more. > 0
   double tolerance = 1e-7;
   int maximumSteps = 12; // >= 1
+  /// Errors are estimated on the surface of this space, which has the same functions with the mass
+  /// of the mesh; null: they are not.
+  const SpaceLevels* estimateOn = nullptr;
 };
 
 /// The hierarchy of a M + b L + Cᵀ W C for values that are held at points.
@@ -42,8 +46,9 @@ private:
 
 struct ConstrainedSolution
 {
-  MultiVector coefficients; // up to a constant on components that nothing holds (SetMeans)
-  SolveReport report;       // of all steps, one after the other
+  MultiVector coefficients;  // up to a constant on components that nothing holds (SetMeans)
+  SolveReport report;        // of all steps, one after the other
+  SolutionAccuracy accuracy; // of components that something holds; unknown unless asked for
   int steps = 0;
   /// Largest difference from the given values, over all points and columns.
   double misfit = 0.0;

@@ -187,6 +187,10 @@ PoissonSolution SolveWithoutMeans(const SpaceLevels& space, const Multigrid& mul
     }
   }
   project.solution(solution.coefficients);
+  if (options.solve.maximumIterations == 0)
+  {
+    return solution;
+  }
   solution.report = SolveWithFallback(options.iteration, OperatorOf(multigrid),
     CycleWithFallback(multigrid), load, solution.coefficients, solve, project, progress);
   if (!solution.report.converged &&
@@ -197,7 +201,9 @@ PoissonSolution SolveWithoutMeans(const SpaceLevels& space, const Multigrid& mul
   }
   if (watch)
   {
-    solution.accuracy = watch->Result(solution.coefficients, squaredSpread, scale);
+    const Columns rest = space.SquaredNorms(solution.coefficients, multigrid.Options().threads);
+    solution.accuracy = watch->Result(
+      solution.coefficients, (rest.max(0.0) + squaredSpread).sqrt(), scale, ErrorOrder::Second);
   }
   return solution;
 }

@@ -14,6 +14,7 @@ struct PoissonOptions
   double screeningWeight = 1.0; // λ >= 0, per squared unit of length of the space
   MultigridOptions multigrid;
   IterationType iteration = IterationType::ConjugateGradients;
+  /// With 0 as maximumIterations the start is the solution: that of the next coarser level.
   SolveOptions solve;
   /// In (0, 1]: iterate until the algebraic error is estimated to be this part of the error of the
   /// space, and solve.tolerance is an end as well, if it comes first; 0 stands for 1e-9 then, which

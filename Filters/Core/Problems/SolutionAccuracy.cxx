@@ -24,6 +24,10 @@ constexpr double FinestError = 1e-8;
 constexpr double SmallestRate = 2.0;
 constexpr double LargestRate = 8.0;
 
+/// Differences of two levels over the error of the finer one, where the rate is what they show.
+constexpr double LeastObserved = 0.5;
+constexpr double MostObserved = 5.0;
+
 /// With errors that fall with the number of functions: difference of the solutions of two levels
 /// over the error of the finer one. Where the finer one has not many more functions, as hats over a
 /// fine grid, the difference is about its own error.
@@ -101,37 +105,58 @@ ColumnMeasures AccuracyWatch::operator()(const Iterate& iterate)
   {
     const MultiVector corrected = iterate.x + iterate.correction;
     size_ = this->Norms(corrected);
-    discretization_ = this->Norms(corrected - nested_) / steps_;
+    if (accuracy_ > 0.0)
+    {
+      discretization_ = this->Norms(corrected - nested_) / steps_;
+    }
   }
   const Columns step = this->Norms(iterate.correction);
   const Columns left = step * Reductions(step, lastStep_, iterate.slowest);
   algebraic_ = (step > 0.0).select(left, algebraic_); // columns that are done have no correction
   lastStep_ = step;
-  const double wanted = calls_ < FirstJudgement ? -1.0 : accuracy_;
-  return { Relative(left, size_), wanted * Relative(discretization_, size_).max(FinestError) };
+  if (accuracy_ == 0.0 || calls_ < FirstJudgement)
+  {
+    return { Relative(left, size_), Columns::Constant(left.size(), -1.0) };
+  }
+  return { Relative(left, size_), accuracy_ * Relative(discretization_, size_).max(FinestError) };
 }
 
-SolutionAccuracy AccuracyWatch::Result(
-  const MultiVector& solution, const Columns& squaredSpread, const Eigen::RowVectorXd& scale) const
+/// Errors of two levels, as they would be with four times the functions; empty where it is not
+/// known.
+/// @param step  by how much the finest level differs from the next
+Columns AccuracyWatch::Rates(const Columns& step) const
+{
+  if (coarserError_.size() == 0 || space_.NestedLevels())
+  {
+    return {};
+  }
+  const double functions =
+    double(space_.NumberOfFunctions(0)) / double(space_.NumberOfFunctions(1));
+  return 4.0 / functions * coarserError_ / (step / steps_);
+}
+
+SolutionAccuracy AccuracyWatch::Result(const MultiVector& solution, const Columns& size,
+  const Eigen::RowVectorXd& scale, ErrorOrder order) const
 {
   SolutionAccuracy result;
-  if (calls_ == 0 || space_.NumberOfLevels() < 2)
+  if (space_.NumberOfLevels() < 2)
   {
     return result;
   }
   const MultiVector difference = solution - nested_;
-  const Columns error = this->Norms(difference) / steps_;
-  const Columns size = (this->Norms(solution).square() + squaredSpread).sqrt();
+  const Columns step = this->Norms(difference);
+  const Columns rate = this->Rates(step);
+  const Columns overError = order == ErrorOrder::Observed && rate.size() > 0
+                              ? Columns((rate - 1.0).max(LeastObserved).min(MostObserved))
+                              : Columns(Columns::Constant(step.size(), steps_));
+  const Columns error = step / overError;
   result.discretization = Worst(Relative(error, size));
   result.algebraic = Worst(Relative(algebraic_, size));
-  const MultiVector atPoints =
-    space_.ValuesAtPoints(difference * scale.cwiseInverse().asDiagonal(), threads_);
-  result.largest = atPoints.size() > 0 ? atPoints.cwiseAbs().maxCoeff() / steps_ : 0.0;
-  if (coarserError_.size() > 0 && !space_.NestedLevels())
+  const MultiVector atPoints = space_.ValuesAtPoints(
+    difference * (scale.transpose().array() * overError).inverse().matrix().asDiagonal(), threads_);
+  result.largest = atPoints.size() > 0 ? atPoints.cwiseAbs().maxCoeff() : 0.0;
+  if (rate.size() > 0)
   {
-    const double functions =
-      double(space_.NumberOfFunctions(0)) / double(space_.NumberOfFunctions(1));
-    const Columns rate = 4.0 / functions * coarserError_ / error;
     result.isTrusted =
       ((error <= FinestError * size) || (rate >= SmallestRate && rate <= LargestRate)).all();
   }

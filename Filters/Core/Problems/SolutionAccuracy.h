@@ -34,6 +34,13 @@ struct SolutionAccuracy
 /// Of several solves: the worst of each; `kept` where the other knows nothing.
 void KeepWorse(const SolutionAccuracy& accuracy, SolutionAccuracy& kept);
 
+/// What the difference of two levels says of an error.
+enum class ErrorOrder
+{
+  Second,  // a third of it
+  Observed // as three levels show: where values are held or a surface bends, nothing is smooth
+};
+
 /// Watches an iteration that starts near the solution of the next coarser level, in the sense of
 /// SolveOptions::measureBy. Keeps references.
 class AccuracyWatch
@@ -47,13 +54,16 @@ public:
 
   ColumnMeasures operator()(const Iterate& iterate);
 
-  /// Of the solution, before it is scaled and gets the means of its components back.
-  /// @param squaredSpread  of those means, see ComponentMeans
-  SolutionAccuracy Result(const MultiVector& solution, const Columns& squaredSpread,
-    const Eigen::RowVectorXd& scale) const;
+  /// The algebraic error is unknown where the iteration was not watched.
+  /// @param solution  as the iteration left it
+  /// @param size      |u| of each column, without its mean over the surface
+  /// @param scale     of the columns, which is still in both
+  SolutionAccuracy Result(const MultiVector& solution, const Columns& size,
+    const Eigen::RowVectorXd& scale, ErrorOrder order) const;
 
 private:
   Columns Norms(const MultiVector& u) const;
+  Columns Rates(const Columns& step) const;
 
   const SpaceLevels& space_;
   const MultiVector nested_;

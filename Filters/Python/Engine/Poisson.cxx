@@ -59,7 +59,7 @@ private:
     const Given& given, const Surface& surface, const Field& value, const Job& job) const;
   PoissonSolution SolveEquation(
     const Given& given, const Surface& surface, Results& results, const Progress& progress) const;
-  MultiVector SolveConstrainedEquation(
+  PoissonSolution SolveConstrainedEquation(
     const Given& given, const Surface& surface, Results& results, const Progress& progress) const;
 
   SurfaceOptions options_;
@@ -94,11 +94,6 @@ void PoissonProblem::Check(const Given& given) const
     RequirePointValues("UseValueGradient", values);
   }
   CheckHeld(given, holdsBoundary_);
-  if (this->IsConstrained(given) && isAccuracyDriven_)
-  {
-    throw InvalidInput("AccuracyDriven does not go with constraints, weights, a flux or unknown "
-                       "values: no error is estimated for them.");
-  }
   if (this->IsConstrained(given) && iteration_ != IterationType::ConjugateGradients)
   {
     throw InvalidInput("Constraints, weights and unknown values need Iteration to be "
@@ -129,8 +124,7 @@ SolutionAccuracy PoissonProblem::SolveOn(
   PoissonSolution solution;
   if (this->IsConstrained(given))
   {
-    solution.coefficients =
-      this->SolveConstrainedEquation(given, surface, results, progress.Part(0.0, 0.9));
+    solution = this->SolveConstrainedEquation(given, surface, results, progress.Part(0.0, 0.9));
   }
   else
   {
@@ -183,7 +177,7 @@ PoissonSolution PoissonProblem::SolveEquation(
   return solution;
 }
 
-MultiVector PoissonProblem::SolveConstrainedEquation(
+PoissonSolution PoissonProblem::SolveConstrainedEquation(
   const Given& given, const Surface& surface, Results& results, const Progress& progress) const
 {
   constexpr double ConstrainedTolerance = 1e-6; // where no Tolerance is given
@@ -210,7 +204,8 @@ MultiVector PoissonProblem::SolveConstrainedEquation(
   const MultiVector means = MeansOfKnown(space, field, job);
   const std::unique_ptr<FiniteElementSpace> weighted = space.Copy();
   weighted->WeighMass(field.weight, job);
-  const ConstraintOptions constraints;
+  ConstraintOptions constraints;
+  constraints.estimateOn = &space;
   const ConstrainedHierarchy hierarchy(*weighted, screening, 1.0, held.rows, constraints.penalty,
     options_.multigrid, progress.Part(0.3, 0.5));
   SolveOptions solve = options_.solve;
@@ -221,7 +216,10 @@ MultiVector PoissonProblem::SolveConstrainedEquation(
   std::vector<std::string> sentences = WarningsOf(solution, solve.tolerance);
   sentences.push_back(WarningOf(field));
   results.Warn(Joined(sentences));
-  return std::move(solution.coefficients);
+  PoissonSolution result;
+  result.coefficients = std::move(solution.coefficients);
+  result.accuracy = solution.accuracy;
+  return result;
 }
 
 } // namespace

@@ -64,8 +64,10 @@ void SurfaceConstrainedPoisson::Solve(
       {
         load += this->BalancedFlux(state, weight);
       }
+      ConstraintOptions constraints;
+      constraints.estimateOn = state.space.get();
       solution_ = SolveConstrained(*weighted_, weight, *hierarchy_, load, load_.held.values,
-        ConstraintOptions(), state.options.solve, progress);
+        constraints, state.options.solve, progress);
       SetMeans(*state.space, solution_.isHeld, meanOfField_, solution_.coefficients,
         state.options.multigrid.threads);
     });

@@ -45,6 +45,7 @@ public:
   double Misfit() const { return solution_.misfit; }
 
   const SolveReport& Report() const { return solution_.report; }
+  const SolutionAccuracy& Accuracy() const { return solution_.accuracy; }
 
   /// What to warn of; empty when there is nothing.
   std::string Warning(double tolerance) const;
