@@ -27,7 +27,9 @@
  *   NaN on connected components of the surface without any value, of which the filter warns once,
  *   and at points that no polygon uses.
  * - field data: `Misfit` (double, 1): the largest difference from a given value; `Converged`,
- *   `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor`
+ *   `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor`; `DiscretizationError`,
+ *   `LargestDiscretizationError`, `AlgebraicError` and `TrustedEstimate` of vtkPoissonAlgorithm,
+ * not numbers for biharmonic functions
  *
  * Tolerance (default 1e-6) is on the energy residual, as in vtkScreenedPoisson; values are met to
  * 1e-7 of their range wherever the functions can meet them. NormalStabilization is 1e-2 and

@@ -117,6 +117,7 @@ void vtkMeanCurvatureFlow::WriteTable(vtkTable* table)
   numbers("QuasiConformalError", [](const Row& row) { return row.quasiConformalError; });
   counts("Iterations", [](const Row& row) { return row.iterations; });
   counts("LockedSamples", [](const Row& row) { return static_cast<int>(row.lockedSamples); });
+  numbers("DiscretizationError", [](const Row& row) { return row.accuracy.discretization; });
   numbers("Seconds", [](const Row& row) { return row.seconds; });
 }
 
@@ -171,6 +172,7 @@ void vtkMeanCurvatureFlow::Compute(vtkInformationVector** inputs, vtkInformation
   gridfem::AddFieldInt(output, "Step", shown);
   gridfem::AddFieldNumber(output, "FlowTime", rows[shown].time * unit * unit);
   gridfem::AddFieldInt(output, "Converged", converged ? 1 : 0);
+  gridfem::AddAccuracy(rows[shown].accuracy, output);
   this->WriteTable(vtkTable::GetData(outputs, 1));
   const std::string warning = isNew ? this->Data->Warning(state) : std::string();
   if (!warning.empty())

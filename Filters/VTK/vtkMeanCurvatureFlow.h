@@ -29,7 +29,11 @@
  *   has some at points, are those of the moved surface; those at cells are left out.
  * - field data: `Step` (int, 1), `FlowTime` (double, 1; squared world length), `Converged` (int,
  *   1): 0 when this step or one before it has not converged, or the flow has ended before
- *   NumberOfSteps
+ *   NumberOfSteps; `DiscretizationError` (double, 1): the estimated error of the function space in
+ *   the way of this step, relative to its length; `LargestDiscretizationError` (double, 1): at a
+ *   point, in world units; `TrustedEstimate` (int, 1): 0 where the levels do not differ as they do
+ *   where the grid resolves how far a step smooths, the root of TimeStep; `AlgebraicError`: not a
+ *   number
  *
  * The arrays of the clip and the basis, and `Eigenvalues`, belong to the input and do not come out.
  *
@@ -37,7 +41,7 @@
  * `Area`, `Volume` (of the cone to the centroid, when open), `Sphericity` (π^(1/3) (6 V)^(2/3) / A,
  * 1 for a sphere), `QuasiConformalError` (mean over the surface), `Iterations` (int),
  * `LockedSamples` (int; samples with a singular metric when the step began, which contribute
- * nothing), `Seconds`; world units.
+ * nothing), `DiscretizationError`, `Seconds`; world units.
  *
  * Time: every step is a time step, with its number as time value, from 0, the input. A request
  * without a time gets the last step. All steps are made once; a change of NumberOfSteps continues.

@@ -11,7 +11,7 @@
  *   solution without its mean, in the mean square over the surface; `LargestDiscretizationError`
  *   (double, 1): the largest at a point, in units of the solution; `AlgebraicError` (double, 1):
  *   what the iteration has left, relative as the first. Of several components or solves the worst;
- *   not a number where nothing is known, as without coarser levels or with a Tolerance.
+ *   not a number where nothing is known, as without coarser levels.
  * - `TrustedEstimate` (int, 1): 0 where levels do not differ as they do on a resolved surface: the
  *   first may be too small then.
  */

@@ -36,6 +36,9 @@
  *   function space is scaled by s.
  * - with a selection the point array `Selected` (double, 1 component): 1 where it takes points,
  *   falling to 0 within the TransitionWidth
+ * - field data: `DiscretizationError`, `LargestDiscretizationError`, `AlgebraicError` and
+ *   `TrustedEstimate` of vtkPoissonAlgorithm, of what the filter changes and relative to that, not
+ *   numbers with CyclesPerApply: with a selection or a scale array the second is a bound
  * - field data: `Converged`, `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor`
  *   as in vtkScreenedPoisson; `UsualCurvature` (double, 1) with a TransferFunction
  *

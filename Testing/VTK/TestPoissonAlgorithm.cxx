@@ -105,6 +105,7 @@ TEST_P(PoissonAlgorithm, LeavesATenthOfTheErrorOfTheSpace)
   const std::vector<double> discrete = this->Result();
   EXPECT_GE(this->Said("Iterations"), iterations);
   EXPECT_LT(RelativeDifference(found, discrete), 0.1 * ofSpace);
+  EXPECT_NEAR(this->Said("DiscretizationError"), ofSpace, 0.2 * ofSpace);
 
   solver->SetTolerance(0.0);
   solver->SetAccuracy(1e-4);
@@ -147,7 +148,7 @@ TEST(ManySteps, DoNotAddUpWhatTheyLeave)
   heat->SetInputArrayToProcess(0, 0, 0, Points, "f");
   heat->Update();
   const std::vector<double> found = PointValues(heat->GetOutput(), "Diffused");
-  EXPECT_TRUE(std::isnan(FieldValue(heat->GetOutput(), "DiscretizationError")));
+  EXPECT_GT(FieldValue(heat->GetOutput(), "DiscretizationError"), 0.0);
   heat->SetTolerance(1e-11);
   heat->Update();
   EXPECT_LT(RelativeDifference(found, PointValues(heat->GetOutput(), "Diffused")), 2e-4);

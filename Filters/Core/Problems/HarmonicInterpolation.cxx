@@ -188,10 +188,12 @@ ConstrainedSolution InterpolateHarmonically(const FiniteElementSpace& space,
   }
   if (options.smoothness == Smoothness::Harmonic)
   {
-    const ConstrainedHierarchy hierarchy(space, 0.0, 1.0, rows, options.constraints.penalty,
+    ConstraintOptions constraints = options.constraints;
+    constraints.estimateOn = &space;
+    const ConstrainedHierarchy hierarchy(space, 0.0, 1.0, rows, constraints.penalty,
       options.multigrid, progress.Part(0.0, 0.3));
-    ConstrainedSolution solution = SolveConstrained(space, 0.0, hierarchy, {}, values,
-      options.constraints, options.solve, progress.Part(0.3, 1.0));
+    ConstrainedSolution solution = SolveConstrained(space, 0.0, hierarchy, {}, values, constraints,
+      options.solve, progress.Part(0.3, 1.0));
     const MultiVector unknown = MultiVector::Constant(static_cast<Id>(solution.isHeld.size()),
       values.cols(), std::numeric_limits<double>::quiet_NaN());
     SetMeans(space, solution.isHeld, unknown, solution.coefficients, options.multigrid.threads);

@@ -69,6 +69,7 @@ PoissonSolution HeatDiffusion::Solve(const MultiVector& load, const Job& job)
   options.multigrid = options_.multigrid;
   options.solve = options_.solve;
   options.accuracy = options_.accuracy;
+  options.estimateErrors = true;
   return SolvePoisson(*space_, *multigrid_, load, {}, options, job.progress);
 }
 

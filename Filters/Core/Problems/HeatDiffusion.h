@@ -50,8 +50,7 @@ public:
   /// as it was.
   SolveReport Advance(const Job& job = {});
 
-  /// Errors of the solves of the last step, the worst of them; unknown unless accuracy was wanted or
-  /// values are held.
+  /// Errors of the solves of the last step, the worst of them.
   const SolutionAccuracy& Accuracy() const { return accuracy_; }
 
   /// How the last solve met what is held: without coefficients and report.

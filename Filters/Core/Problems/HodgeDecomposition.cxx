@@ -55,6 +55,7 @@ MultiVector SolveFree(const FiniteElementSpace& space, const MultiVector& load,
   poisson.multigrid = options.multigrid;
   poisson.solve = options.solve;
   poisson.accuracy = options.accuracy;
+  poisson.estimateErrors = true;
   PoissonSolution solution = SolvePoisson(space, multigrid,
     MultiVector::Zero(load.rows(), load.cols()), load, poisson, job.progress.Part(0.3, 1.0));
   KeepWorse(solution.accuracy, parts.accuracy);
@@ -74,7 +75,7 @@ MultiVector SolveHeld(const FiniteElementSpace& space, SparseMatrix rows, const 
   ConstraintOptions constraints;
   constraints.tolerance = std::max(constraints.tolerance, solve.tolerance);
   constraints.maximumSteps = 3; // what is left then, functions cannot meet
-  constraints.estimateOn = options.accuracy > 0.0 ? &space : nullptr;
+  constraints.estimateOn = &space;
   const MultiVector zero = MultiVector::Zero(rows.rows, load.cols());
   const ConstrainedHierarchy hierarchy(space, 0.0, 1.0, std::move(rows), constraints.penalty,
     options.multigrid, job.progress.Part(0.0, 0.3));

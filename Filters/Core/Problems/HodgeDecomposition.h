@@ -34,7 +34,7 @@ struct HodgeDecomposition
   Index numberOfComponents = 0;
   Index numberOfOneSided = 0; // components without two sides: w is 0 there
   SolveReport report;         // of the solve that took most iterations
-  SolutionAccuracy accuracy;  // of the worst solve; unknown unless wanted
+  SolutionAccuracy accuracy;  // of the worst solve
 };
 
 /// v = ∇u + n x ∇w + h, each part orthogonal to the others: ∫ <∇u, ∇b> = ∫ <v, ∇b> for all b, and

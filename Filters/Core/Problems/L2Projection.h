@@ -25,6 +25,7 @@ public:
     poisson_.multigrid = multigrid;
     poisson_.solve = solve;
     poisson_.accuracy = wanted;
+    poisson_.estimateErrors = true;
     report.converged = true;
   }
 
@@ -39,7 +40,7 @@ public:
   }
 
   SolveReport report;
-  SolutionAccuracy accuracy; // unknown unless it was wanted
+  SolutionAccuracy accuracy;
 
 private:
   static constexpr double Smoothing = 0.1; // δ, in squared units of length

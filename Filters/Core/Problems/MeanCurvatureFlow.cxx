@@ -318,7 +318,11 @@ std::optional<double> MeanCurvatureFlow::ScaleOf(double area, double volume) con
 
 FlowStep MeanCurvatureFlow::Start(const Job& job) const
 {
-  return Describe(SizeOf(mesh_->points, mesh_->triangles, job.threads));
+  FlowStep start = Describe(SizeOf(mesh_->points, mesh_->triangles, job.threads));
+  start.accuracy.discretization = 0.0; // it is the input
+  start.accuracy.largest = 0.0;
+  start.accuracy.isTrusted = true;
+  return start;
 }
 
 FlowStep MeanCurvatureFlow::Advance(const Job& job)

@@ -429,6 +429,7 @@ StitchedColors StitchColors(const FiniteElementSpace& space, const TriangleMesh&
   poisson.multigrid = options.multigrid;
   poisson.solve = options.solve;
   poisson.accuracy = options.accuracy;
+  poisson.estimateErrors = true;
   const MultiVector values = space.LoadOfValues(colors, job.Part(0.0, 0.1));
   const std::vector<double> share = KeptShares(mesh, cut, options.blendWidth);
   const MultiVector gradients = LoadOfKeptGradients(space, cut, share, colors, job.Part(0.1, 0.2));

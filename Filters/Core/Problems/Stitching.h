@@ -58,7 +58,7 @@ struct StitchedColors
 {
   MultiVector values; // rows and columns as the colours
   SolveReport report;
-  SolutionAccuracy accuracy; // of the function; unknown unless it was wanted
+  SolutionAccuracy accuracy; // of the function
 };
 
 /// The function whose gradients are those of the colours, and zero on seams, with the mean of the

@@ -30,7 +30,7 @@ struct SurfaceDerivatives
   MultiVector curlOnTriangles;
   MultiVector curlAtPoints;
   SolveReport report;        // of the projection that took most iterations
-  SolutionAccuracy accuracy; // of the worst one; unknown unless it was wanted
+  SolutionAccuracy accuracy; // of the worst one
 };
 
 /// The field is projected into the space, its gradient on triangles is projected again, and the

@@ -173,6 +173,47 @@ TEST(GeodesicDistance, OnASphereAtTheDefaultDepthIsWithinOnePercent)
   EXPECT_LT(ErrorOnSphere(false, 7, 60), 0.01);
 }
 
+TEST(GeodesicDistance, SaysHowFarItIsOff)
+{
+  // Great circles; and from two points of a square, whose fronts meet at a crease.
+  TriangleMesh sphere = GeodesicSphere(40);
+  TriangleMesh square = FlatRectangle(100, 100);
+  const std::vector<Id> ofSquare = { NearestPoint(square, { 0.2, 0.3, 0.0 }),
+    NearestPoint(square, { 0.8, 0.6, 0.0 }) };
+  const std::vector<double> onSquare = DistancesInSpace(square, ofSquare);
+  const Vec3 pole = sphere.points[3];
+  const std::vector<double> onSphere = ExactOf(
+    sphere, [&](const Vec3& point) { return std::acos(std::clamp(point.dot(pole), -1.0, 1.0)); });
+  sphere = Transform(sphere, { 1, 2, 3 }, 0.5);
+  square = Transform(square, { 1, 2, 3 }, 0.5);
+  for (const bool isOnHats : { false, true })
+  {
+    for (const int depth : { 5, 6 })
+    {
+      for (const bool isSphere : { true, false })
+      {
+        SCOPED_TRACE(std::to_string(isOnHats) + std::to_string(depth) + std::to_string(isSphere));
+        const TriangleMesh& mesh = isSphere ? sphere : square;
+        DistanceOptions options;
+        options.estimateErrors = true;
+        const GeodesicDistance method(
+          Build(mesh, isOnHats, depth), std::make_shared<const TriangleMesh>(mesh), options);
+        const DistanceField field =
+          method.From(isSphere ? std::vector<Id>{ 3 } : ofSquare, Solve());
+        const double largest = LargestError(field, isSphere ? onSphere : onSquare);
+        EXPECT_TRUE(field.accuracy.isTrusted);
+        EXPECT_GT(field.accuracy.largest, largest / 3.0);
+        EXPECT_LT(field.accuracy.largest, largest * 4.0);
+        EXPECT_GT(field.accuracy.discretization, 0.0);
+        EXPECT_LT(field.accuracy.discretization, 0.3);
+        EXPECT_LT(field.accuracy.algebraic, 0.1 * field.accuracy.discretization);
+      }
+    }
+  }
+  const DistanceField unasked = Distances(sphere, { 3 }, false, 4);
+  EXPECT_TRUE(std::isnan(unasked.accuracy.discretization));
+}
+
 TEST(GeodesicDistance, FromSeveralSourcesOnASquareHasErrorsThatFallWithDepth)
 {
   const double errors[] = { ErrorOnSquare(false, 5, 100), ErrorOnSquare(false, 6, 100),

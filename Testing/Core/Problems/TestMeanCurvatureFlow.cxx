@@ -2,6 +2,7 @@
 #include "Problems/MeanCurvatureFlow.h"
 
 #include "Base/Errors.h"
+#include "PointAreas.h"
 #include "Problems/MovedSurface.h"
 #include "Spaces.h"
 #include "Spaces/HatSpace.h"
@@ -197,6 +198,43 @@ TEST_P(MeanCurvatureFlows, TrackingIsNearClippingAgain)
   }
   EXPECT_GT(moved, 0.05);
   EXPECT_LT(largest, 0.12 * moved);
+}
+
+TEST(MeanCurvatureFlow, SaysHowFarAStepIsOff)
+{
+  const TriangleMesh torus = Transform(Torus(60, 24, 1.0, 0.4), { 1, 2, 0 }, 0.4);
+  const TriangleMesh box = Transform(Box(12), { 1, 2, 1 }, 0.4);
+  const auto wayOf = [](const TriangleMesh& mesh, int depth, double share)
+  {
+    FlowOnMesh on(mesh, false, depth);
+    on.SetRelativeTimeStep(share);
+    MeanCurvatureFlow flow = on.Make();
+    const FlowStep step = flow.Advance({});
+    MultiVector way(static_cast<Id>(mesh.points.size()), 3);
+    const std::vector<Vec3> points = flow.Points();
+    for (Id i = 0; i < way.rows(); ++i)
+    {
+      way.row(i) = (points[i] - mesh.points[i]).transpose();
+    }
+    return std::make_pair(way, step.accuracy);
+  };
+  for (const TriangleMesh& mesh : { torus, box })
+  {
+    const Eigen::VectorXd area = AreasOfPoints(mesh);
+    const auto norm = [&](const MultiVector& u)
+    { return std::sqrt(area.dot(u.rowwise().squaredNorm())); };
+    for (const double share : { 1e-4, 1e-3, 1e-2 })
+    {
+      SCOPED_TRACE(share);
+      const auto [truth, unused] = wayOf(mesh, 6, share);
+      const auto [way, accuracy] = wayOf(mesh, 4, share);
+      const double error = norm(way - truth) / norm(truth);
+      EXPECT_GT(accuracy.discretization, error / 4.0);
+      EXPECT_LT(accuracy.discretization, error * 4.0);
+      EXPECT_GT(accuracy.largest, (way - truth).cwiseAbs().maxCoeff() / 4.0);
+      EXPECT_TRUE(std::isnan(accuracy.algebraic));
+    }
+  }
 }
 
 TEST_P(MeanCurvatureFlows, TheConformalisedFlowEndsRound)
