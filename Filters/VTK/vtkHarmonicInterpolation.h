@@ -29,7 +29,7 @@
  * - field data: `Misfit` (double, 1): the largest difference from a given value; `Converged`,
  *   `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor`; `DiscretizationError`,
  *   `LargestDiscretizationError`, `AlgebraicError` and `TrustedEstimate` of vtkPoissonAlgorithm,
- * not numbers for biharmonic functions
+ *   not numbers for biharmonic functions of more than 256 points
  *
  * Tolerance (default 1e-6) is on the energy residual, as in vtkScreenedPoisson; values are met to
  * 1e-7 of their range wherever the functions can meet them. NormalStabilization is 1e-2 and

@@ -75,6 +75,15 @@ const Case Cases[] = {
       return filter;
     },
     "Interpolated", 4.0 },
+  { "Biharmonic",
+    []
+    {
+      auto filter = OfWaves<vtkHarmonicInterpolation>();
+      filter->SetInputArrayToProcess(1, 0, 0, Points, "few");
+      filter->SetSmoothness(vtkHarmonicInterpolation::Biharmonic);
+      return filter;
+    },
+    "Interpolated", 4.0 },
   { "HeatDiffusion", OfWaves<vtkHeatDiffusion>, "Diffused", 3.0 },
   { "SeveralStepsOfHeat",
     []
@@ -124,6 +133,9 @@ protected:
     AddPointArray(input, "f", 1, Waves);
     AddPointArray(input, "known", 1,
       [](const Vec3& p, int) { return std::abs(p[0] - 0.4) < 0.05 ? 1.0 : 0.0; });
+    AddPointArray(input, "few", 1,
+      [](const Vec3& p, int)
+      { return std::abs(p[0] - 0.4) < 0.05 && std::abs(p[1] - p[2]) < 0.1 ? 1.0 : 0.0; });
     AddPointArray(input, "holes", 1,
       [](const Vec3& p, int c) { return p[1] > 0.6 ? std::nan("") : Waves(p, c); });
     solver->SetInputData(input);

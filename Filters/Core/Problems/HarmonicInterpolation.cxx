@@ -16,7 +16,7 @@ namespace gridfem
 namespace
 {
 
-/// L⁺ of every column; keeps the worst report.
+/// L⁺ of every column, or that of the next coarser level; keeps the worst report.
 class InverseLaplacian
 {
 public:
@@ -29,6 +29,15 @@ public:
     poisson_.solve = options.solve;
     report.converged = true;
     report.end = SolveEnd::Converged;
+  }
+
+  MultiVector OnCoarser(const MultiVector& load, const Progress& progress) const
+  {
+    PoissonOptions coarser = poisson_;
+    coarser.solve.maximumIterations = 0;
+    return SolvePoisson(
+      space_, multigrid_, MultiVector::Zero(load.rows(), load.cols()), load, coarser, progress)
+      .coefficients;
   }
 
   MultiVector Of(const MultiVector& load, const Progress& progress)
@@ -110,16 +119,16 @@ PointsOfComponents GroupPoints(const SparseMatrix& rows, const Components& compo
   return points;
 }
 
-ConstrainedSolution Biharmonic(const FiniteElementSpace& space, const SparseMatrix& rows,
-  const MultiVector& values, const InterpolationOptions& options, const Progress& progress)
+/// G μ + c; NaN on components without a point.
+/// @param inverse  L⁺
+template<class Inverse>
+MultiVector FitBiharmonic(const Components& components, const PointsOfComponents& points,
+  const SparseMatrix& mass, const SparseMatrix& rows, const MultiVector& values,
+  const Inverse& inverse, const Job& job)
 {
-  const int threads = options.multigrid.threads;
-  const Components components = space.ComponentsOf(0, threads);
-  const PointsOfComponents points = GroupPoints(rows, components);
-  InverseLaplacian inverse(space, options, progress.Part(0.0, 0.1));
-  const MultiVector ofPoints = inverse.Of(DenseTranspose(rows), progress.Part(0.1, 0.8));
+  const MultiVector ofPoints = inverse(DenseTranspose(rows), job.progress.Part(0.0, 0.8));
   MultiVector massOf;
-  Multiply(space.Matrix(0, 1.0, 0.0, threads), ofPoints, massOf, threads);
+  Multiply(mass, ofPoints, massOf, job.threads);
 
   const Eigen::Index m = rows.rows;
   const Eigen::Index constants = points.ones.cols();
@@ -133,23 +142,65 @@ ConstrainedSolution Biharmonic(const FiniteElementSpace& space, const SparseMatr
   right.topRows(m) = values;
   const Eigen::MatrixXd solved = SolveSymmetric(system, right);
 
-  ConstrainedSolution solution;
-  const MultiVector load = massOf * (solved.topRows(m) / size);
-  solution.coefficients = inverse.Of(load, progress.Part(0.8, 1.0));
-  solution.report = inverse.report;
-  solution.steps = 1;
-  solution.isHeld.assign(components.count, 0);
+  MultiVector coefficients =
+    inverse(massOf * (solved.topRows(m) / size), job.progress.Part(0.8, 1.0));
   MultiVector constant = MultiVector::Constant(
     components.count, values.cols(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t k = 0; k < points.component.size(); ++k)
   {
-    solution.isHeld[points.component[k]] = 1;
     constant.row(points.component[k]) = solved.row(m + static_cast<Eigen::Index>(k));
   }
-  for (Id i = 0; i < solution.coefficients.rows(); ++i)
+  for (Id i = 0; i < coefficients.rows(); ++i)
   {
-    solution.coefficients.row(i) += constant.row(components.ofFunction[i]);
+    coefficients.row(i) += constant.row(components.ofFunction[i]);
   }
+  return coefficients;
+}
+
+/// From the function that the next coarser level gives.
+SolutionAccuracy AccuracyOf(const FiniteElementSpace& space, const Components& components,
+  const std::vector<char>& isHeld, MultiVector fine, MultiVector coarser, int threads)
+{
+  for (Id i = 0; i < fine.rows(); ++i)
+  {
+    if (!isHeld[components.ofFunction[i]])
+    {
+      fine.row(i).setZero();
+      coarser.row(i).setZero();
+    }
+  }
+  const AccuracyWatch watch(space, std::move(coarser), {}, 0.0, threads);
+  const MultiVector none = MultiVector::Zero(components.count, fine.cols());
+  return watch.Result(fine, SizeOfSolution(space, components, isHeld, fine, none, threads),
+    Eigen::RowVectorXd::Ones(fine.cols()), ErrorOrder::Second);
+}
+
+ConstrainedSolution Biharmonic(const FiniteElementSpace& space, const SparseMatrix& rows,
+  const MultiVector& values, const InterpolationOptions& options, const Progress& progress)
+{
+  const int threads = options.multigrid.threads;
+  const Components components = space.ComponentsOf(0, threads);
+  const PointsOfComponents points = GroupPoints(rows, components);
+  const SparseMatrix mass = space.Matrix(0, 1.0, 0.0, threads);
+  InverseLaplacian inverse(space, options, progress.Part(0.0, 0.1));
+  ConstrainedSolution solution;
+  solution.coefficients = FitBiharmonic(
+    components, points, mass, rows, values,
+    [&](const MultiVector& load, const Progress& part) { return inverse.Of(load, part); },
+    Job{ threads, progress.Part(0.1, 0.9) });
+  solution.report = inverse.report;
+  solution.steps = 1;
+  solution.isHeld.assign(components.count, 0);
+  for (const Index component : points.component)
+  {
+    solution.isHeld[component] = 1;
+  }
+  const MultiVector coarser = FitBiharmonic(
+    components, points, mass, rows, values,
+    [&](const MultiVector& load, const Progress& part) { return inverse.OnCoarser(load, part); },
+    Job{ threads, progress.Part(0.9, 1.0) });
+  solution.accuracy =
+    AccuracyOf(space, components, solution.isHeld, solution.coefficients, coarser, threads);
   return solution;
 }
 
@@ -190,10 +241,10 @@ ConstrainedSolution InterpolateHarmonically(const FiniteElementSpace& space,
   {
     ConstraintOptions constraints = options.constraints;
     constraints.estimateOn = &space;
-    const ConstrainedHierarchy hierarchy(space, 0.0, 1.0, rows, constraints.penalty,
-      options.multigrid, progress.Part(0.0, 0.3));
-    ConstrainedSolution solution = SolveConstrained(space, 0.0, hierarchy, {}, values, constraints,
-      options.solve, progress.Part(0.3, 1.0));
+    const ConstrainedHierarchy hierarchy(
+      space, 0.0, 1.0, rows, constraints.penalty, options.multigrid, progress.Part(0.0, 0.3));
+    ConstrainedSolution solution = SolveConstrained(
+      space, 0.0, hierarchy, {}, values, constraints, options.solve, progress.Part(0.3, 1.0));
     const MultiVector unknown = MultiVector::Constant(static_cast<Id>(solution.isHeld.size()),
       values.cols(), std::numeric_limits<double>::quiet_NaN());
     SetMeans(space, solution.isHeld, unknown, solution.coefficients, options.multigrid.threads);

@@ -24,10 +24,11 @@ struct InterpolationOptions
   Id mostAtOnce = 256;
 };
 
-/// The result is NaN on components without a point. Errors are estimated for harmonic functions.
-/// Biharmonic: u = G μ + c with the Green's function G = L⁺ M L⁺ of the points, c constant on each
-/// connected component; the multipliers μ solve (C G Cᵀ) μ + c = g, Σ μ = 0. Values that
-/// contradict each other are met in the mean. From many points: see IterateBiharmonic.
+/// The result is NaN on components without a point. Errors are estimated, but not for biharmonic
+/// functions of many points. Biharmonic: u = G μ + c with the Green's function G = L⁺ M L⁺ of the
+/// points, c constant on each connected component; the multipliers μ solve (C G Cᵀ) μ + c = g, Σ μ
+/// = 0. Values that contradict each other are met in the mean. From many points: see
+/// IterateBiharmonic.
 /// @param rows    RowsAtPoints of the points
 /// @param values  rows = points, one column per component
 /// Throws InvalidInput when there is no point or shapes do not fit, and Aborted. Same

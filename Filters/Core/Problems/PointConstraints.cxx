@@ -245,10 +245,9 @@ private:
   std::optional<AccuracyWatch> watch_; // of the last step
 };
 
-/// |u| without its mean over the components that something holds.
-/// @param rest      functions that constants have to be added to, one for each component
-/// @param constant  of each component
-Columns SizeOf(const SpaceLevels& surface, const Components& components,
+} // namespace
+
+Columns SizeOfSolution(const SpaceLevels& surface, const Components& components,
   const std::vector<char>& isHeld, const MultiVector& rest, const MultiVector& constant,
   int threads)
 {
@@ -264,8 +263,6 @@ Columns SizeOf(const SpaceLevels& surface, const Components& components,
   return (surface.SquaredNorms(centred, threads).max(0.0) + means.SquaredSpread(mean + constant))
     .sqrt();
 }
-
-} // namespace
 
 FreeConstants::FreeConstants(
   const Components& components, const std::vector<char>& isHeld, int threads)
@@ -386,8 +383,8 @@ ConstrainedSolution SolveConstrained(const FiniteElementSpace& space, double a,
   if (constraints.estimateOn)
   {
     solution.accuracy =
-      iteration.Accuracy(SizeOf(*constraints.estimateOn, components, solution.isHeld, iteration.x,
-                           constant * scale.asDiagonal(), threads),
+      iteration.Accuracy(SizeOfSolution(*constraints.estimateOn, components, solution.isHeld,
+                           iteration.x, constant * scale.asDiagonal(), threads),
         scale);
   }
   solution.misfit =

@@ -93,6 +93,13 @@ ConstrainedSolution SolveConstrained(const FiniteElementSpace& space, double a,
   const ConstrainedHierarchy& hierarchy, const MultiVector& load, const MultiVector& values,
   const ConstraintOptions& constraints, const SolveOptions& options, const Progress& progress = {});
 
+/// |u| without its mean over the components that something holds.
+/// @param rest      functions that constants have to be added to, one for each component
+/// @param constant  of each component
+Columns SizeOfSolution(const SpaceLevels& surface, const Components& components,
+  const std::vector<char>& isHeld, const MultiVector& rest, const MultiVector& constant,
+  int threads);
+
 /// Adds constants on components that nothing holds, so that they have these means; a mean of NaN
 /// makes all of the component NaN.
 /// @param space  with the mass of the mesh
