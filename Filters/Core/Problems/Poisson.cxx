@@ -178,24 +178,27 @@ bool IsRounding(const Multigrid& multigrid, const DividedRows* divided, const Mu
 {
   constexpr double Relative = 16.0 * std::numeric_limits<double>::epsilon();
   const LinearOperator A = OperatorOf(multigrid);
-  MultiVector Ax;
-  A.multiply(x, Ax);
+  MultiVector r;
+  A.residual(x, b, r);
   MultiVector error;
-  const Columns left = MeasureError(multigrid, project, b - Ax, error);
+  const Columns left = MeasureError(multigrid, project, r, error);
+  const MultiVector solution = x + error; // an iteration that breaks down at once leaves x = 0
   SparseMatrix positive = multigrid.Matrix();
   for (double& value : positive.value)
   {
     value = std::abs(value);
   }
   MultiVector rounding;
-  Multiply(positive, x.cwiseAbs(), rounding);
+  Multiply(positive, solution.cwiseAbs(), rounding);
   if (divided)
   {
     divided->Sum(rounding);
   }
   rounding.array() *= Relative * error.array().sign();
   const Columns undetermined = MeasureError(multigrid, project, rounding, error);
-  const Columns wanted = tolerance * A.products(x, Ax).abs().sqrt();
+  MultiVector product;
+  A.multiply(solution, product);
+  const Columns wanted = tolerance * A.products(solution, product).abs().sqrt();
   return (left <= wanted || undetermined > wanted).all();
 }
 
