@@ -101,15 +101,15 @@ Columns EnergyOfMeans(
   return (lambda * A.products(constants, values)).abs().sqrt();
 }
 
-/// Pieces that lie on each other have integrals that differ by what clipping rounds, 1e-10 of a
-/// cell: so fields that cancel there leave a load of that size, which no function need have. It is
-/// dropped where its solution would be as small beside the means, in the energy. Whether a column
-/// was.
+/// Pieces that lie on each other have integrals that differ by what clipping rounds, some 1e-10 of
+/// a cell: so fields that cancel there leave a load of that size, which no function need have. It
+/// is dropped where its solution would be as small beside the means, in the energy. Whether a
+/// column was.
 /// @param energyOfMeans  its square root, of every column
 bool DropCancelled(const Multigrid& multigrid, const Projection& project,
   const Columns& energyOfMeans, MultiVector& rest)
 {
-  constexpr double Clipping = 1e-10;
+  constexpr double Clipping = 1e-9;
   MultiVector solution;
   const Columns energy = MeasureError(multigrid, project, rest, solution);
   bool isDropped = false;
