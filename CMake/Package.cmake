@@ -39,11 +39,21 @@ A plugin for ParaView, a Python package, and C++ libraries with their headers.")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/CMake/triggers) # of the loader's cache
+# For packages that link to these libraries; cpack would name those of glibc-hwcaps once more.
+set(shlibs)
+foreach (library gridfem_core gridfem_parallel)
+  if (TARGET ${library})
+    get_target_property(version ${library} SOVERSION)
+    string(APPEND shlibs "lib${library} ${version} gridfem (= ${PROJECT_VERSION})\n")
+  endif ()
+endforeach ()
+file(WRITE ${PROJECT_BINARY_DIR}/shlibs ${shlibs})
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA
+  ${PROJECT_SOURCE_DIR}/CMake/triggers # of the loader's cache
+  ${PROJECT_BINARY_DIR}/shlibs)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS python3) # which knows the folder of the Python package
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-paraview, python3-numpy") # of the Python package
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "paraview-dev, libeigen3-dev") # of who compiles with the headers
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON) # pins the ParaView that the plugin was built for
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
-set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON) # for packages that link to these libraries
 include(CPack)

@@ -2,7 +2,6 @@
 #include "RandomProblem.h"
 
 #include "Algebra/ComponentMeans.h"
-#include "Grid/TriangleArea.h"
 #include "Problems/EdgeConditions.h"
 #include "Problems/GeodesicDistance.h"
 #include "Problems/HarmonicInterpolation.h"
@@ -57,29 +56,8 @@ FieldAssociation RandomPlace(Choice& choice)
     { FieldAssociation::Points, FieldAssociation::Triangles, FieldAssociation::Corners });
 }
 
-/// The least height of a triangle over its longest side, of those that hats are made of.
-double NarrowestTriangle(const TriangleMesh& mesh)
-{
-  constexpr double Flat = 1e-10; // such have no part in hats
-  double narrowest = 1.0;
-  for (const auto& corner : mesh.triangles)
-  {
-    double longest = 0.0;
-    for (int k = 0; k < 3; ++k)
-    {
-      const Vec3 side = mesh.points[corner[(k + 1) % 3]] - mesh.points[corner[k]];
-      longest = std::max(longest, side.norm());
-    }
-    const double height = AreaVector(mesh.points, corner).norm() / longest;
-    narrowest = height > Flat * longest ? std::min(narrowest, height / longest) : narrowest;
-  }
-  return narrowest;
-}
-
 } // namespace
 
-/// Data, not the solver, leave a tolerance out of reach where the residual is rounding, and on hats
-/// where cotangents of narrow triangles span more than half of the digits of a number.
 void SolveDefaultPoisson(Choice& choice, RandomSurface& surface, Outcome& outcome)
 {
   surface.Build();
@@ -96,8 +74,7 @@ void SolveDefaultPoisson(Choice& choice, RandomSurface& surface, Outcome& outcom
     BuildMultigrid(space, options.screeningWeight, 1.0, options.multigrid);
   const PoissonSolution solution = SolvePoisson(space, multigrid, load, gradients, options);
   outcome.Add(solution.report);
-  outcome.isDataLimited =
-    solution.isAtRounding || (surface.isOnHats && NarrowestTriangle(*surface.mesh) < 1e-5);
+  outcome.isDataLimited = solution.isAtRounding;
   outcome.RequireFinite(solution.coefficients, "the solution");
   RequireMeans(space, load, solution.coefficients, outcome);
 }

@@ -19,7 +19,7 @@ struct Outcome
   bool isIterative = false;        // has a report
   bool converged = true;           // of several solves all
   bool isDefault = false;          // solved with default options, on valid numbers
-  bool isDataLimited = false;      // no solver could do better: see SolveDefaultPoisson
+  bool isDataLimited = false;      // no solver could do better: PoissonSolution::isAtRounding
   double smallestEnergy = 0.0;     // where it has not converged: the best that was reached
   SolveEnd end = SolveEnd::Converged;
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace gridfem::testing
 {
@@ -141,6 +142,74 @@ void RequireIntegrals(
     std::abs(sum * std::pow(space.UnitLength(), 2) - area) <= allowed, "integrals miss the area");
 }
 
+/// A random order of 0 .. count - 1.
+std::vector<Id> RandomOrder(Choice& choice, std::size_t count)
+{
+  std::vector<Id> order(count);
+  std::iota(order.begin(), order.end(), Id(0));
+  for (Id k = static_cast<Id>(count) - 1; k > 0; --k)
+  {
+    std::swap(order[k], order[choice.Integer(0, k)]);
+  }
+  return order;
+}
+
+/// The same surface: other numbers of points and triangles, which begin at any corner and may be
+/// seen from the other side.
+TriangleMesh Reordered(Choice& choice, const TriangleMesh& mesh)
+{
+  const std::vector<Id> place = RandomOrder(choice, mesh.points.size());
+  TriangleMesh result;
+  result.points.resize(mesh.points.size());
+  for (std::size_t point = 0; point < place.size(); ++point)
+  {
+    result.points[place[point]] = mesh.points[point];
+  }
+  for (const Id triangle : RandomOrder(choice, mesh.triangles.size()))
+  {
+    std::array<Id, 3> corner = mesh.triangles[triangle];
+    std::rotate(corner.begin(), corner.begin() + choice.Integer(0, 2), corner.end());
+    if (choice.OneIn(2))
+    {
+      std::swap(corner[1], corner[2]);
+    }
+    result.triangles.push_back({ place[corner[0]], place[corner[1]], place[corner[2]] });
+  }
+  return result;
+}
+
+double TraceOf(const SparseMatrix& A)
+{
+  const std::vector<double> diagonal = A.Diagonal();
+  return std::accumulate(diagonal.begin(), diagonal.end(), 0.0);
+}
+
+/// Functions do not depend on the order of what the mesh is made of, nor do their products where
+/// they are integrated exactly.
+/// @param allowed  what clipping may change of the area
+void RequireNoOrder(Choice& choice, const RandomSurface& surface, double allowed, Outcome& outcome)
+{
+  RandomSurface other = surface;
+  other.mesh = std::make_shared<const TriangleMesh>(Reordered(choice, *surface.mesh));
+  other.Build();
+  const FiniteElementSpace& space = *surface.space;
+  outcome.Require(other.space->NumberOfFunctions(0) == space.NumberOfFunctions(0),
+    "the order changes the functions");
+  constexpr int Exact = 6; // two trilinear functions on a plane
+  if (surface.options.quadratureDegree < Exact)
+  {
+    return;
+  }
+  // A patch has eight functions, with slopes of up to 3 in the square; those of hats are not
+  // bounded.
+  const double largest = 24.0 * allowed / std::pow(space.UnitLength(), 2);
+  const double stiffness = surface.isOnHats ? 0.0 : 1.0;
+  const double expected = TraceOf(space.Matrix(0, 1.0, stiffness));
+  const double found = TraceOf(other.space->Matrix(0, 1.0, stiffness));
+  outcome.Require(
+    std::abs(found - expected) <= 1e-9 * expected + largest, "the order changes a matrix");
+}
+
 /// Symmetric and positive, the largest eigenvalue at most `ratio` times the smallest.
 Field RandomTensors(Choice& choice, const TriangleMesh& mesh)
 {
@@ -196,7 +265,12 @@ void CheckSpaces(Choice& choice, RandomSurface& surface, Outcome& outcome)
     // Hats leave out triangles flatter than 1e-10 of their longest edge.
     const double perPiece = 10.0 * std::pow(grid.spacing, 2) * Displacement(*surface.mesh, grid) +
                             1e-9 * std::pow(grid.spacing * grid.CellsPerSide(), 2);
-    RequireIntegrals(*surface.space, area, 1e-12 * area + pieces * perPiece, outcome);
+    const double allowed = 1e-12 * area + pieces * perPiece;
+    RequireIntegrals(*surface.space, area, allowed, outcome);
+    if (surface.isChecked)
+    {
+      RequireNoOrder(choice, surface, allowed, outcome);
+    }
   }
   const MultiVector atPoints =
     surface.space->ValuesAtPoints(MultiVector::Ones(surface.space->NumberOfFunctions(0), 1));

@@ -1,11 +1,16 @@
 """A pipeline of all filters survives a state file, in ParaView's format and as Python."""
 import os
+import pathlib
 import tempfile
 import unittest
+from xml.etree import ElementTree
 
 from paraview import simple, smstate
 
 import plugin
+
+NAMES = ("clip", "basis", "poisson", "hats", "spectrum", "both", "signatures", "curvatures",
+         "gradient", "detail", "stitch", "spread", "distance", "heat", "flow")
 
 
 def build():
@@ -46,18 +51,20 @@ def build():
         TransferFunction="Custom", KeepVolume=1, OutsideScale=0.9, TransitionWidth=0.1,
         CyclesPerApply=2, Selection=plugin.selected_points(3, 4, 5))
     detail.CustomTransferFunction.Points = [-1, 0.3, 0.5, 0, 0.2, 0, 0.5, 0, 2, 0.8, 0.5, 0]
-    for name, proxy in (("clip", clip), ("basis", basis), ("poisson", poisson), ("hats", hats),
-                        ("spectrum", spectrum), ("both", both), ("signatures", signatures),
-                        ("curvatures", curvatures), ("detail", detail), ("stitch", stitch),
-                        ("spread", spread), ("distance", distance)):
+    gradient = simple.SurfaceGradient(Input=values, Depth=4, Array=["POINTS", "f"])
+    heat = simple.HeatDiffusion(
+        Input=values, Depth=4, Array=["POINTS", "f"], NumberOfSteps=3, DiffusionTime=0.02)
+    flow = simple.MeanCurvatureFlow(Input=values, Depth=4, NumberOfSteps=2, TimeStep=0.125)
+    for name, proxy in zip(NAMES, (
+            clip, basis, poisson, hats, spectrum, both, signatures, curvatures, gradient, detail,
+            stitch, spread, distance, heat, flow)):
         simple.RenameSource(name, proxy)
 
 
 def results():
     """Every setting and the range of every point array, to compare before and after."""
     found = {}
-    for name in ("clip", "basis", "poisson", "hats", "spectrum", "both", "signatures",
-                 "curvatures", "detail", "stitch", "spread", "distance"):
+    for name in NAMES:
         proxy = simple.FindSource(name)
         proxy.UpdatePipeline()
         for key in proxy.ListProperties():
@@ -69,6 +76,20 @@ def results():
         arrays = proxy.PointData
         for array in arrays.keys():
             found[name, "array", array] = arrays[array].GetRange()
+    return found
+
+
+def settings(path):
+    """The numbers and words of every filter of the plugin in a state file, by name and property."""
+    root = ElementTree.parse(path)
+    names = {item.get("id"): item.get("name")
+             for item in root.findall(".//ProxyCollection[@name='sources']/Item")}
+    found = {}
+    for proxy in root.iter("Proxy"):
+        if proxy.get("type") in plugin.PROXIES and proxy.get("id") in names:
+            for key in proxy.findall("Property"):
+                found[names[proxy.get("id")], key.get("name")] = [
+                    element.get("value") for element in key.findall("Element")]
     return found
 
 
@@ -102,6 +123,24 @@ class TestState(unittest.TestCase):
                 exec(compile(script.read(), path, "exec"), {})
 
         self.check(".py", write, run)
+
+    def test_states_of_releases(self):
+        states = sorted((pathlib.Path(__file__).resolve().parent / "States").glob("*.pvsm"))
+        self.assertTrue(states)
+        for path in states:
+            saved = settings(path)
+            self.assertLessEqual({("poisson", "ScreeningWeight"), ("flow", "TimeStep")}, set(saved))
+            simple.LoadState(str(path))
+            with tempfile.TemporaryDirectory() as folder, self.subTest(state=path.name):
+                for name in {name for name, _ in saved}:
+                    proxy = simple.FindSource(name)
+                    proxy.UpdatePipeline()
+                    self.assertGreater(proxy.GetDataInformation().GetNumberOfPoints(), 0, name)
+                again = os.path.join(folder, "again.pvsm")
+                simple.SaveState(again)
+                now = settings(again)
+                self.assertEqual({key: now.get(key) for key in saved}, saved)
+            simple.ResetSession()
 
 
 if __name__ == "__main__":

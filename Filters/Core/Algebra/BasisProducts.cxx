@@ -79,7 +79,7 @@ template<class Real>
 void SubtractCombination(
   const BasisParts<Real>& parts, const Eigen::MatrixXd& C, Block<Real> Y, int threads)
 {
-  const Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic> coefficients = C.template cast<Real>();
+  const Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>& coefficients = C.template cast<Real>();
   ParallelRanges(
     Y.rows(), threads,
     [&](Id begin, Id end)

@@ -123,7 +123,7 @@ void BlockRayleighRitz<Real>::CombineRows(
   const RitzPairs& ritz, const std::vector<Index>& columns, const Eigen::MatrixXd& overlap)
 {
   const SmallMatrix C = ritz.coefficients.cast<Real>();
-  const SmallMatrix common = overlap.cast<Real>();
+  const SmallMatrix& common = overlap.cast<Real>();
   const auto oldX = pairs_.vectors.View();
   const auto oldP = directions_.View();
   const auto W = corrections_.View();

@@ -99,7 +99,7 @@ SurfaceSize SizeOf(
   {
     return size;
   }
-  const Vec3 near = points[triangles.front()[0]];
+  const Vec3& near = points[triangles.front()[0]];
   const Eigen::Vector4d moments = AreaMoments(points, triangles, near, threads);
   size.area = moments[0];
   size.centroid = near;

@@ -72,7 +72,7 @@ MultiVector ConstantsOf(const FiniteElementSpace& space, double a, const MultiVe
 }
 
 /// One history for all steps.
-void Append(SolveReport step, SolveReport& report)
+void Append(const SolveReport& step, SolveReport& report)
 {
   for (IterationRecord record : step.history)
   {

@@ -82,6 +82,48 @@ void DropRounding(const LinearOperator& A, const Eigen::RowVectorXd& size, Multi
   }
 }
 
+/// About the error that leaves the residual r, in z, and its size as convergence is measured.
+Columns MeasureError(
+  const Multigrid& multigrid, const Projection& project, MultiVector r, MultiVector& z)
+{
+  project.residual(r);
+  multigrid.Precondition(r, z);
+  project.solution(z);
+  return OperatorOf(multigrid).products(r, z).abs().sqrt();
+}
+
+/// sqrt(λ ∫ m²) of the means m of a field.
+Columns EnergyOfMeans(
+  const LinearOperator& A, double lambda, const ComponentMeans& means, const MultiVector& values)
+{
+  MultiVector constants = MultiVector::Zero(values.rows(), values.cols());
+  means.AddConstants(means.OfIntegrals(values), constants);
+  return (lambda * A.products(constants, values)).abs().sqrt();
+}
+
+/// Pieces that lie on each other have integrals that differ by what clipping rounds, some 1e-10 of
+/// a cell: so fields that cancel there leave a load of that size, which no function need have. It
+/// is dropped where its solution would be as small beside the means, in the energy. Whether a
+/// column was.
+/// @param energyOfMeans  its square root, of every column
+bool DropCancelled(const Multigrid& multigrid, const Projection& project,
+  const Columns& energyOfMeans, MultiVector& rest)
+{
+  constexpr double Clipping = 1e-9;
+  MultiVector solution;
+  const Columns energy = MeasureError(multigrid, project, rest, solution);
+  bool isDropped = false;
+  for (Id c = 0; c < rest.cols(); ++c)
+  {
+    if (energy[c] > 0.0 && energy[c] <= Clipping * energyOfMeans[c])
+    {
+      rest.col(c).setZero();
+      isDropped = true;
+    }
+  }
+  return isDropped;
+}
+
 double NormOfDiagonal(const Multigrid& multigrid, const DividedRows* divided)
 {
   const SparseMatrix& A = multigrid.Matrix();
@@ -129,28 +171,35 @@ MultiVector GivenStart(
   return {};
 }
 
-/// Whether every column of the residual is what rounding makes of its own terms, |r| <= ε | |A||x|
-/// | with a small factor: then x solves a system whose numbers differ from these by rounding alone.
+/// Whether every column is solved, or the numbers do not determine it to the tolerance: rounding of
+/// the entries of A, against the error that is left, makes one that is larger.
 bool IsRounding(const Multigrid& multigrid, const DividedRows* divided, const MultiVector& b,
-  const MultiVector& x, const Projection& project)
+  const MultiVector& x, double tolerance, const Projection& project)
 {
   constexpr double Relative = 16.0 * std::numeric_limits<double>::epsilon();
   const LinearOperator A = OperatorOf(multigrid);
   MultiVector r;
   A.residual(x, b, r);
-  project.residual(r);
+  MultiVector error;
+  const Columns left = MeasureError(multigrid, project, r, error);
+  const MultiVector solution = x + error; // an iteration that breaks down at once leaves x = 0
   SparseMatrix positive = multigrid.Matrix();
   for (double& value : positive.value)
   {
     value = std::abs(value);
   }
-  MultiVector terms;
-  Multiply(positive, x.cwiseAbs(), terms);
+  MultiVector rounding;
+  Multiply(positive, solution.cwiseAbs(), rounding);
   if (divided)
   {
-    divided->Sum(terms);
+    divided->Sum(rounding);
   }
-  return (NormsOf(A, r).array() <= Relative * NormsOf(A, terms).array()).all();
+  rounding.array() *= Relative * error.array().sign();
+  const Columns undetermined = MeasureError(multigrid, project, rounding, error);
+  MultiVector product;
+  A.multiply(solution, product);
+  const Columns wanted = tolerance * A.products(solution, product).abs().sqrt();
+  return (left <= wanted || undetermined > wanted).all();
 }
 
 /// The part of the solution without means, and what is known of its errors.
@@ -193,8 +242,8 @@ PoissonSolution SolveWithoutMeans(const SpaceLevels& space, const Multigrid& mul
   }
   solution.report = SolveWithFallback(options.iteration, OperatorOf(multigrid),
     CycleWithFallback(multigrid), load, solution.coefficients, solve, project, progress);
-  if (!solution.report.converged &&
-      IsRounding(multigrid, space.Divided(0), load, solution.coefficients, project))
+  if (!solution.report.converged && IsRounding(multigrid, space.Divided(0), load,
+                                      solution.coefficients, solve.tolerance, project))
   {
     solution.isAtRounding = true;
     solution.report.end = SolveEnd::Stagnation;
@@ -252,8 +301,19 @@ PoissonSolution SolvePoisson(const SpaceLevels& space, const Multigrid& multigri
   removeSums(rest);
   DropRounding(A, size, rest);
 
-  PoissonSolution solution = SolveWithoutMeans(space, multigrid, rest,
-    means.SquaredSpread(meanOfField), scale, options, { removeMeans, removeSums }, progress);
+  const Projection project{ removeMeans, removeSums };
+  const auto solve = [&]
+  {
+    return SolveWithoutMeans(
+      space, multigrid, rest, means.SquaredSpread(meanOfField), scale, options, project, progress);
+  };
+  PoissonSolution solution = solve();
+  if (!solution.report.converged &&
+      DropCancelled(
+        multigrid, project, EnergyOfMeans(A, lambda, means, values * scale.asDiagonal()), rest))
+  {
+    solution = solve();
+  }
   means.AddConstants(meanOfField, solution.coefficients);
   RemoveScales(scale, solution.coefficients, solution.report, divided);
   return solution;

@@ -31,9 +31,9 @@ struct PoissonSolution
   MultiVector coefficients; // rows = functions, one column per component
   SolveReport report;
   SolutionAccuracy accuracy; // unknown unless asked for
-  /// It has not converged, and no iteration would: the residual is rounding. The numbers of the
-  /// equation do not determine the solution better than the report says, as where all triangles
-  /// are narrow or far smaller than the functions. A larger weight of the normal derivative does.
+  /// It has not converged, and no iteration would: the numbers of the equation do not determine the
+  /// solution to the tolerance, as where all triangles are narrow or far smaller than the
+  /// functions. A larger weight of the normal derivative does.
   bool isAtRounding = false;
 };
 

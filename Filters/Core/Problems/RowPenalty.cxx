@@ -55,14 +55,14 @@ RowPenalty::RowPenalty(
     throw InvalidInput("The constraints are rows of " + std::to_string(rows.columns) +
                        " values for " + std::to_string(space.NumberOfFunctions(0)) + " functions.");
   }
-  for (std::size_t l = 0; l < space.NumberOfLevels(); ++l)
+  levels_.push_back({ std::move(rows), {} });
+  for (std::size_t l = 1; l < space.NumberOfLevels(); ++l)
   {
-    if (l > 0)
-    {
-      rows = RowsOnCoarser(levels_.back().rows, space.Prolongation(l - 1));
-    }
-    SparseMatrix transposed = Transpose(rows, threads);
-    levels_.push_back({ std::move(rows), std::move(transposed) });
+    levels_.push_back({ RowsOnCoarser(levels_.back().rows, space.Prolongation(l - 1)), {} });
+  }
+  for (Level& level : levels_)
+  {
+    level.transposed = Transpose(level.rows, threads);
   }
 }
 

@@ -100,7 +100,7 @@ public:
 private:
   BlockOptions Options(std::size_t level, Index wanted) const;
   SpectralProblem<Real> Problem(
-    std::size_t level, const Constants& constants, SparseMatrix mass) const;
+    std::size_t level, const Constants& constants, SparseMatrix&& mass) const;
   BlockReport ImproveLevel(std::size_t level, std::size_t start,
     const SpectralProblem<Real>& problem, const Progress& progress);
   void Prolong(std::size_t level, const Constants& constants, BlockOptions& block);
@@ -120,7 +120,7 @@ private:
 
 template<class Real>
 SpectralProblem<Real> NestedIteration<Real>::Problem(
-  std::size_t level, const Constants& constants, SparseMatrix mass) const
+  std::size_t level, const Constants& constants, SparseMatrix&& mass) const
 {
   const int threads = options_.multigrid.threads;
   SpectralProblem<Real> problem;

@@ -61,7 +61,8 @@ HatLevel BuildHatLevel(const TriangleMesh& mesh, const GridFunctions& grid,
 }
 
 HatSpace::HatSpace(std::shared_ptr<const HatLevel> hats, GridSpace grid)
-  : hats_(std::move(hats)), grid_(hats_->joinedGrid ? *hats_->joinedGrid : std::move(grid))
+  : hats_(std::move(hats)),
+    grid_(hats_->joinedGrid ? GridSpace(*hats_->joinedGrid) : std::move(grid))
 {
 }
 

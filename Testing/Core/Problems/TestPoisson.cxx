@@ -417,6 +417,68 @@ TEST(Poisson, SaysWhereRoundingIsTheEnd)
   EXPECT_FALSE(unfinished.Solve(unfinished.Values(f), {}).isAtRounding);
 }
 
+TEST(Poisson, SaysWhereNumbersDoNotDetermineTheSolution)
+{
+  // Two triangles a billionth as high as long. Their functions differ by energies of 1e-12, of
+  // which rounding of the matrix leaves four digits: the tolerance is out of reach for a residual
+  // that is far from rounding itself.
+  const Vec3 from[] = { { -0.8, -0.5, 0.3 }, { 0.7, -0.6, 0.2 } };
+  const Vec3 to[] = { { 0.9, 0.6, -0.4 }, { -0.5, 0.8, -0.9 } };
+  const Vec3 height[] = { { 0.3e-9, 0.2e-9, 0.8e-9 }, { 0.1e-9, 0.7e-9, -0.4e-9 } };
+  const TriangleMesh narrow = { { from[0], to[0], 0.5 * (from[0] + to[0]) + height[0], from[1],
+                                  to[1], 0.5 * (from[1] + to[1]) + height[1] },
+    { { 0, 1, 2 }, { 3, 4, 5 } } };
+  Problem problem(narrow, AtDepth(4, false), 1.0);
+  problem.options.solve.tolerance = 1e-6;
+  problem.options.solve.maximumIterations = 200;
+  for (const unsigned seed : { 1, 2, 3, 4, 5, 6 })
+  {
+    const MultiVector f = RandomValues(6, 1, seed);
+    const PoissonSolution solution = problem.Solve(problem.Values(f), problem.Gradients(f));
+    EXPECT_TRUE(solution.report.converged || solution.isAtRounding) << seed;
+  }
+
+  // Functions that differ beside the faces have no energy but 1e-6 of the others here, with all the
+  // digits: what stands still is the iteration.
+  const TriangleMesh octahedron = GeodesicSphere(1);
+  Problem slow(octahedron, AtDepth(4), 8e5);
+  slow.options.solve.tolerance = 1e-6;
+  slow.options.solve.maximumIterations = 200;
+  EXPECT_FALSE(slow.Solve(slow.Values(RandomValues(6, 1)), {}).isAtRounding);
+}
+
+TEST(Poisson, LeavesOutWhatCancelsBetweenPiecesThatLieOnEachOther)
+{
+  // Two fields on one triangle and a copy of it, which functions that are not connectivity-aware do
+  // not tell apart, have the mean as their solution. Sides that run there and back make the cut
+  // points of the two differ by rounding, and a load of that size need not be an energy at all.
+  for (const unsigned seed : { 371, 453, 459, 846, 920, 993 }) // of which the iteration broke down
+  {
+    const MultiVector random = RandomValues(4, 3, seed);
+    TriangleMesh mesh;
+    for (const int row : { 0, 1, 2, 0, 1, 2 })
+    {
+      mesh.points.emplace_back(random.row(row).transpose());
+    }
+    mesh.triangles = { { 0, 1, 0 }, { 0, 1, 2 }, { 3, 4, 3 }, { 3, 4, 5 } };
+    GridSpaceOptions functions;
+    functions.functions = AtDepth(2, false);
+    functions.functions.weldCoincidentPoints = false;
+    const GridSpace space = BuildGridSpace(mesh, functions);
+    PoissonOptions options;
+    options.screeningWeight = 1e4;
+    options.solve.tolerance = 1e-6;
+    const Multigrid multigrid = BuildMultigrid(space, options.screeningWeight, 1.0, {});
+    const MultiVector values = MultiVector{ { 0.0 }, { random(3, 0) }, { 0.0 }, { random(3, 1) } };
+    const PoissonSolution solution = SolvePoisson(
+      space, multigrid, space.LoadOfValues({ FieldAssociation::Triangles, values }), {}, options);
+    EXPECT_TRUE(solution.report.converged) << seed;
+    const double mean = 0.5 * (random(3, 0) + random(3, 1));
+    EXPECT_LT((space.ValuesAtPoints(solution.coefficients).array() - mean).abs().maxCoeff(), 1e-9)
+      << seed;
+  }
+}
+
 TEST(Poisson, ProgressIsAlwaysANumber)
 {
   const TriangleMesh mesh = GeodesicSphere(8);

@@ -7,11 +7,16 @@ trap 'rm -rf "$work"' EXIT
 
 command -v paraview > /dev/null || { echo "skipped: no paraview program"; exit 77; }
 
+# Play EVENTS.xml [OPTION OF PARAVIEW...]
+Play() {
+  XDG_CONFIG_HOME="$work" timeout 400 paraview --dr "${@:2}" \
+    --plugins GridFEM --plugin-search-paths "$(dirname "$GRIDFEM_PLUGIN")" \
+    --test-directory="$work" --test-script="$1" --exit
+}
+
 # Drive EVENTS.xml CHECK.py [OPTION OF PARAVIEW...]
 Drive() {
   sed "s|@STATE@|$work/gui.pvsm|" "$here/Gui/$1" > "$work/events.xml"
-  XDG_CONFIG_HOME="$work" timeout 400 paraview --dr "${@:3}" \
-    --plugins GridFEM --plugin-search-paths "$(dirname "$GRIDFEM_PLUGIN")" \
-    --test-directory="$work" --test-script="$work/events.xml" --exit
+  Play "$work/events.xml" "${@:3}"
   pvpython "$here/Gui/$2" "$work/gui.pvsm"
 }

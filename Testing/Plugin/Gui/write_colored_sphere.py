@@ -1,7 +1,7 @@
-"""Writes a sphere with colours, a function and a vector field at its points."""
+"""Writes a sphere with colours, labels of its halves, a function and a vector field at its points."""
 import sys
 
-from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkUnsignedCharArray
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkIntArray, vtkUnsignedCharArray
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
@@ -14,6 +14,8 @@ sphere = source.GetOutput()
 colors = vtkUnsignedCharArray()
 colors.SetName("colors")
 colors.SetNumberOfComponents(3)
+label = vtkIntArray()
+label.SetName("label")
 height = vtkDoubleArray()
 height.SetName("height")
 direction = vtkDoubleArray()
@@ -22,9 +24,10 @@ direction.SetNumberOfComponents(3)
 for point in range(sphere.GetNumberOfPoints()):
     x, y, z = sphere.GetPoint(point)
     colors.InsertNextTuple3(*(round(255 * (c + 0.5)) for c in (x, y, z)))
+    label.InsertNextValue(int(z > 0))
     height.InsertNextValue(z)
     direction.InsertNextTuple3(0, 0, 2)
-for array in (colors, height, direction):
+for array in (colors, label, height, direction):
     sphere.GetPointData().AddArray(array)
 
 writer = vtkXMLPolyDataWriter()
