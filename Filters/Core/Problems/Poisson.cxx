@@ -308,7 +308,8 @@ PoissonSolution SolvePoisson(const SpaceLevels& space, const Multigrid& multigri
       space, multigrid, rest, means.SquaredSpread(meanOfField), scale, options, project, progress);
   };
   PoissonSolution solution = solve();
-  if (!solution.report.converged &&
+  const bool isIterated = options.solve.maximumIterations > 0;
+  if (isIterated && !solution.report.converged &&
       DropCancelled(
         multigrid, project, EnergyOfMeans(A, lambda, means, values * scale.asDiagonal()), rest))
   {
