@@ -102,7 +102,7 @@ struct Projection
 };
 
 /// Preconditioned conjugate gradients; each column has its own steps, and stops
-/// on its own. Starts from x, or from zero where that is nearer. A column that has converged by
+/// on its own. Starts from x, or from zero where x is far beyond. A column that has converged by
 /// energy still takes its last correction B r, which was computed for the measure: it lowers the
 /// energy of the error once more. A column with b = 0 gives x = 0. NaN in b or a breakdown ends the
 /// iteration with converged = false and the last finite x. Throws Aborted.

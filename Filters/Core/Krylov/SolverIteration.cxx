@@ -109,7 +109,7 @@ void SolverIteration::Precondition(
 
 /// By Cauchy and Schwarz bᵀx / |x| is at most |A⁻¹b|, both in the energy norm, and near it for a
 /// start that is worth something. Where it is not even above the error that is left, the energy of
-/// zero costs another B, and zero is the start where that is the better one.
+/// zero costs another B, and zero is the start where the given one would end as a divergence.
 /// @param workOfStart  bᵀx
 void SolverIteration::SetReference(const Columns& workOfStart)
 {
@@ -127,7 +127,7 @@ void SolverIteration::SetReference(const Columns& workOfStart)
     reference_ = isBound.select(reference_, energyOfZero.sqrt());
     for (Id c = 0; c < r.cols(); ++c)
     {
-      if (this->IsActive(c) && !isBound[c] && energyOfZero[c] < rz[c])
+      if (this->IsActive(c) && !isBound[c] && rz[c] > Divergence * Divergence * energyOfZero[c])
       {
         x_.col(c).setZero();
         r.col(c) = zeroResidual.col(c);

@@ -173,8 +173,9 @@ MultiVector GivenStart(
 
 /// Whether every column is solved, or the numbers do not determine it to the tolerance: rounding of
 /// the entries of A, against the error that is left, makes one that is larger.
+/// @param isStuck  else more iterations help where rounding makes less than what is left
 bool IsRounding(const Multigrid& multigrid, const DividedRows* divided, const MultiVector& b,
-  const MultiVector& x, double tolerance, const Projection& project)
+  const MultiVector& x, double tolerance, bool isStuck, const Projection& project)
 {
   constexpr double Relative = 16.0 * std::numeric_limits<double>::epsilon();
   const LinearOperator A = OperatorOf(multigrid);
@@ -199,7 +200,8 @@ bool IsRounding(const Multigrid& multigrid, const DividedRows* divided, const Mu
   MultiVector product;
   A.multiply(solution, product);
   const Columns wanted = tolerance * A.products(solution, product).abs().sqrt();
-  return (left <= wanted || undetermined > wanted).all();
+  const Columns least = isStuck ? wanted : wanted.max(left);
+  return (left <= wanted || undetermined > least).all();
 }
 
 /// The part of the solution without means, and what is known of its errors.
@@ -242,8 +244,9 @@ PoissonSolution SolveWithoutMeans(const SpaceLevels& space, const Multigrid& mul
   }
   solution.report = SolveWithFallback(options.iteration, OperatorOf(multigrid),
     CycleWithFallback(multigrid), load, solution.coefficients, solve, project, progress);
-  if (!solution.report.converged && IsRounding(multigrid, space.Divided(0), load,
-                                      solution.coefficients, solve.tolerance, project))
+  if (!solution.report.converged &&
+      IsRounding(multigrid, space.Divided(0), load, solution.coefficients, solve.tolerance,
+        solution.report.end != SolveEnd::IterationLimit, project))
   {
     solution.isAtRounding = true;
     solution.report.end = SolveEnd::Stagnation;
