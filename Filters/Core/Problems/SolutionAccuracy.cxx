@@ -114,11 +114,10 @@ ColumnMeasures AccuracyWatch::operator()(const Iterate& iterate)
   const Columns left = step * Reductions(step, lastStep_, iterate.slowest);
   algebraic_ = (step > 0.0).select(left, algebraic_); // columns that are done have no correction
   lastStep_ = step;
-  if (accuracy_ == 0.0 || calls_ < FirstJudgement)
-  {
-    return { Relative(left, size_), Columns::Constant(left.size(), -1.0) };
-  }
-  return { Relative(left, size_), accuracy_ * Relative(discretization_, size_).max(FinestError) };
+  const Columns none = Columns::Zero(left.size()); // nothing of a correction is on the surface
+  const Columns wanted =
+    accuracy_ > 0.0 ? accuracy_ * Relative(discretization_, size_).max(FinestError) : none;
+  return { Relative(left, size_), calls_ < FirstJudgement ? Columns(none - 1.0) : wanted };
 }
 
 /// Errors of two levels, as they would be with four times the functions; empty where it is not
