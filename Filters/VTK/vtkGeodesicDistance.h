@@ -143,7 +143,7 @@ public:
   ///@{
   /**
    * Whether errors are estimated, from the distance on functions twice as far from each other: for
-   * a sixth to a third more time. Off by default.
+   * a sixth to two fifths more time. Off by default.
    */
   vtkSetMacro(EstimateErrors, bool);
   vtkGetMacro(EstimateErrors, bool);

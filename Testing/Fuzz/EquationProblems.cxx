@@ -99,6 +99,7 @@ void SolveAnyPoisson(Choice& choice, RandomSurface& surface, Outcome& outcome)
     SolvePoisson(space, multigrid, load, RandomGradients(choice, surface, f), options);
   outcome.Add(solution.report);
   outcome.RequireFinite(solution.coefficients, "the solution");
+  outcome.RequireEstimate(solution.accuracy);
 }
 
 void SolveWithConstraints(Choice& choice, RandomSurface& surface, Outcome& outcome)
@@ -125,6 +126,7 @@ void SolveWithConstraints(Choice& choice, RandomSurface& surface, Outcome& outco
   ConstraintOptions constraints;
   constraints.penalty = choice.PowerOfTen(0.0, 6.0);
   constraints.maximumSteps = static_cast<int>(choice.Integer(1, 12));
+  constraints.estimateOn = &space;
   const ConstrainedHierarchy hierarchy(
     space, weight, 1.0, held.rows, constraints.penalty, RandomCycle(choice));
   MultiVector load = weight * space.LoadOfValues(f);
@@ -135,6 +137,7 @@ void SolveWithConstraints(Choice& choice, RandomSurface& surface, Outcome& outco
   SetMeans(space, solution.isHeld, MultiVector::Zero(components.count, values.cols()),
     solution.coefficients);
   outcome.RequireFinite(solution.coefficients, "the solution with constraints");
+  outcome.RequireEstimate(solution.accuracy);
 }
 
 void FindSpectrum(Choice& choice, RandomSurface& surface, Outcome& outcome)
@@ -190,12 +193,14 @@ void FindDistance(Choice& choice, RandomSurface& surface, Outcome& outcome)
   DistanceOptions options;
   options.smoothing = choice.OneIn(4) ? choice.PowerOfTen(-3.0, 5.0) : 1.75;
   options.multigrid.threads = 1;
+  options.estimateErrors = true;
   SolveOptions solve;
   solve.tolerance = 1e-4;
   const std::vector<Id> sources = RandomPoints(choice, *surface.mesh, 4);
   const GeodesicDistance distance(surface.space, surface.mesh, options);
   const DistanceField field = distance.From(sources, solve);
   outcome.Add(field.report);
+  outcome.RequireEstimate(field.accuracy);
   const std::vector<Id> nearest = NearestSources(
     *surface.mesh, field.atPoints, sources, surface.options.functions.weldCoincidentPoints);
   for (std::size_t point = 0; point < field.atPoints.size(); ++point)
@@ -238,6 +243,7 @@ void Diffuse(Choice& choice, RandomSurface& surface, Outcome& outcome)
     outcome.Add(diffusion.Advance());
   }
   outcome.RequireFinite(diffusion.Coefficients(), "the heat");
+  outcome.RequireEstimate(diffusion.Accuracy());
   if (sources.rows() == 0)
   {
     RequireMeans(space, start, diffusion.Coefficients(), outcome);
@@ -260,6 +266,7 @@ void Interpolate(Choice& choice, RandomSurface& surface, Outcome& outcome)
   options.solve = RandomSolve(choice);
   const SparseMatrix rows = space.RowsAtPoints(points);
   const ConstrainedSolution solution = InterpolateHarmonically(space, rows, values, options);
+  outcome.RequireEstimate(solution.accuracy);
   outcome.Add(solution.report);
   const std::vector<char> isHeld = HeldComponents(space, 0.0, rows, space.ComponentsOf(0));
   if (std::find(isHeld.begin(), isHeld.end(), 0) == isHeld.end())

@@ -3,7 +3,9 @@
 #define GridFEM_Testing_Outcome_h
 
 #include "Krylov/ConjugateGradients.h"
+#include "Problems/SolutionAccuracy.h"
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -35,6 +37,15 @@ struct Outcome
   void RequireFinite(const MultiVector& values, const std::string& what)
   {
     this->Require(!converged || values.allFinite(), what + " is not finite");
+  }
+
+  /// What is said of an error may be unknown.
+  void RequireEstimate(const SolutionAccuracy& accuracy)
+  {
+    for (const double said : { accuracy.discretization, accuracy.largest, accuracy.algebraic })
+    {
+      this->Require(!converged || !(said < 0.0 || std::isinf(said)), "no estimate of an error");
+    }
   }
 
   void Add(const SolveReport& report)

@@ -112,6 +112,7 @@ void Flow(Choice& choice, RandomSurface& surface, Outcome& outcome)
     outcome.isIterative = true;
     outcome.converged = outcome.converged && made.converged;
     outcome.Require(!made.converged || std::isfinite(made.area), "an area is not finite");
+    outcome.RequireEstimate(made.accuracy);
   }
   outcome.Require(AreFinite(mesh, flow.Points()), "a moved point is not finite");
 }

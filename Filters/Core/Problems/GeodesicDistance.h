@@ -25,7 +25,7 @@ struct DistanceOptions
   /// sources are near to each other, by about sqrt(t) / 2, and takes more time.
   double smoothing = 1.75;
   MultigridOptions multigrid;
-  bool estimateErrors = false; // of every distance, for a fifth to two fifths more of its time
+  bool estimateErrors = false; // of every distance, for a sixth to two fifths more time
 };
 
 struct DistanceField

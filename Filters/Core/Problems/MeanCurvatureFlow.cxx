@@ -62,6 +62,34 @@ bool IsBroken(const StepSolution& solution)
          !solution.embedding.allFinite();
 }
 
+/// From the embedding, and from there on from where the coarser levels lead; how far they are from
+/// the result tells its error.
+void SolveStep(const FiniteElementSpace& space, const Multigrid& multigrid, const MultiVector& b,
+  const SolveOptions& options, const Projection& project, const Job& job, StepSolution& solution)
+{
+  const MultiVector before = solution.embedding;
+  const LinearOperator A = OperatorOf(multigrid);
+  MultiVector rest;
+  A.residual(before, b, rest);
+  project.residual(rest);
+  MultiVector way;
+  MultiVector lastStep;
+  multigrid.NestedIteration(rest, way, &lastStep);
+  project.solution(way);
+  if (way.allFinite())
+  {
+    solution.embedding += way;
+  }
+  const AccuracyWatch watch(space, solution.embedding, lastStep, 0.0, job.threads);
+  solution.report = SolveWithFallback(IterationType::ConjugateGradients, A,
+    CycleWithFallback(multigrid), b, solution.embedding, options, project, job.progress);
+  // Errors of all coordinates in the length of the way, however the surface is turned.
+  const Columns squares = space.SquaredNorms(solution.embedding - before, job.threads);
+  const Columns length = Columns::Constant(squares.size(), std::sqrt(squares.max(0.0).sum()));
+  solution.accuracy = watch.Result(solution.embedding, length,
+    Eigen::RowVectorXd::Constant(squares.size(), 1.0 / space.UnitLength()), ErrorOrder::Observed);
+}
+
 FlowStep Describe(const SurfaceSize& size)
 {
   FlowStep step;
@@ -275,27 +303,7 @@ StepSolution MeanCurvatureFlow::Solve(const MultiVector& embedding, const Job& j
       this->Points(job.threads), mesh_->triangles, embedding - solution.embedding, job.threads);
   }
   project.residual(b);
-  const LinearOperator A = OperatorOf(*multigrid_);
-  MultiVector rest;
-  A.residual(solution.embedding, b, rest);
-  project.residual(rest);
-  MultiVector way;
-  MultiVector lastStep;
-  multigrid_->NestedIteration(rest, way, &lastStep);
-  project.solution(way);
-  const MultiVector start = solution.embedding;
-  if (way.allFinite())
-  {
-    solution.embedding += way;
-  }
-  const AccuracyWatch watch(*moving_, solution.embedding, lastStep, 0.0, job.threads);
-  solution.report = SolveWithFallback(IterationType::ConjugateGradients, A,
-    CycleWithFallback(*multigrid_), b, solution.embedding, options_.solve, project, job.progress);
-  // The errors of all coordinates in the length of the way, however the surface is turned.
-  const double length =
-    std::sqrt(moving_->SquaredNorms(solution.embedding - start, job.threads).max(0.0).sum());
-  solution.accuracy = watch.Result(solution.embedding, Columns::Constant(start.cols(), length),
-    Eigen::RowVectorXd::Constant(start.cols(), 1.0 / moving_->UnitLength()), ErrorOrder::Observed);
+  SolveStep(*moving_, *multigrid_, b, options_.solve, project, job, solution);
   means.AddConstants(mean, solution.embedding);
   return solution;
 }

@@ -131,7 +131,8 @@ Columns AccuracyWatch::Rates(const Columns& step) const
   }
   const double functions =
     double(space_.NumberOfFunctions(0)) / double(space_.NumberOfFunctions(1));
-  return 4.0 / functions * coarserError_ / (step / steps_);
+  const Columns rate = 4.0 / functions * coarserError_ / (step / steps_);
+  return (step > 0.0).select(rate, std::numeric_limits<double>::infinity());
 }
 
 SolutionAccuracy AccuracyWatch::Result(const MultiVector& solution, const Columns& size,
