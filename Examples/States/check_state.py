@@ -1,18 +1,35 @@
-"""Loads a state of this folder; ends with 1 unless its source of this name has at least so many time
-steps, and the point array there differs from point to point.
+"""Loads a state of this folder and draws it; ends with 1 unless its source of this name has at least so
+many time steps, the point array there differs from point to point, and every view shows more than its
+background.
 
-    pvpython check_state.py STATE.py SOURCE ARRAY STEPS
+    pvpython check_state.py STATE.py SOURCE ARRAY STEPS PICTURE.png
 """
 
 import runpy
 import sys
 
-from paraview.simple import Disconnect
+from paraview import servermanager, simple
+from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 
-path, source, array, expected = sys.argv[1:]
-state = runpy.run_path(path)
-low, high = state[source].PointData[array].GetRange()
-steps = len(getattr(state[source], "TimestepValues", []))
-print(f"{steps} time steps; {array} lies between {low:.3g} and {high:.3g}")
-Disconnect()  # closes the view while its display is still there
-sys.exit(0 if steps >= int(expected) and low < high else 1)
+
+def colors(view):
+    """How many colours a view shows."""
+    simple.Render(view)
+    image = vtkWindowToImageFilter()
+    image.SetInput(view.SMProxy.GetRenderWindow())
+    image.Update()
+    pixels = image.GetOutput().GetPointData().GetScalars()
+    step = max(1, pixels.GetNumberOfTuples() // 20000)
+    return len({pixels.GetTuple(k) for k in range(0, pixels.GetNumberOfTuples(), step)})
+
+
+path, name, array, expected, picture = sys.argv[1:]
+runpy.run_path(path)
+source = simple.FindSource(name)
+low, high = source.PointData[array].GetRange()
+steps = len(getattr(source, "TimestepValues", []))
+shown = [colors(view) for view in simple.GetViews() if view.IsA("vtkSMRenderViewProxy")]
+print(f"{steps} time steps; {array} lies between {low:.3g} and {high:.3g}; {shown} colours")
+simple.SaveScreenshot(picture, simple.GetLayout(), ImageResolution=[1200, 560])
+simple.Disconnect()  # closes the view while its display is still there
+sys.exit(0 if steps >= int(expected) and low < high and min(shown) > 20 else 1)

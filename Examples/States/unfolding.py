@@ -50,13 +50,14 @@ aware = unfold(1, "Connectivity-Aware")
 layout = CreateLayout("Unfolding")
 views = [CreateRenderView(), CreateRenderView()]
 layout.SplitHorizontal(0, 0.5)
-colors = GetColorTransferFunction("ConformalFactor")
-colors.RescaleTransferFunction(0.2, 2.0)
 for cell, view, flow in zip((1, 2), views, (plain, aware)):
     layout.AssignView(cell, view)
     display = Show(flow, view)
     ColorBy(display, ("POINTS", "ConformalFactor"))
     display.SetScalarBarVisibility(view, flow is aware)
+colors = GetColorTransferFunction("ConformalFactor")
+colors.RescaleTransferFunction(0.2, 2.0)  # of all steps
+colors.AutomaticRescaleRangeMode = "Never"
 scene = GetAnimationScene()
 scene.UpdateAnimationUsingDataTimeSteps()
 scene.AnimationTime = 8  # the largest surface, for the camera

@@ -184,6 +184,23 @@ class Tests(Rule):
         self.assertNothing(offences, "Classes, panels and fragments belong together:")
 
 
+class Examples(Rule):
+    def test_every_filter_has_a_state_and_a_script(self):
+        offences = []
+        for panel in (ROOT / "Plugin").glob("*.xml"):
+            name = re.search(r'<SourceProxy name="(\w+)"', panel.read_text()).group(1)
+            offences += [f"{name}: none in Examples/{folder}" for folder in ("States", "Python")
+                         if not any(f"{name}(" in p.read_text()
+                                    for p in (ROOT / "Examples" / folder).glob("*.py"))]
+        self.assertNothing(offences, "Filters without an example:")
+
+    def test_every_state_is_loaded_by_the_tests(self):
+        tests = (ROOT / "Examples/CMakeLists.txt").read_text()
+        offences = [relative(p) for p in (ROOT / "Examples/States").glob("*.py")
+                    if p.name != "check_state.py" and f"gridfem_add_state_test({p.stem} " not in tests]
+        self.assertNothing(offences, "States that no test loads:")
+
+
 class Readme(Rule):
     def test_both_commands_are_named(self):
         text = (ROOT / "README.md").read_text()
@@ -192,7 +209,7 @@ class Readme(Rule):
 
     def test_linked_files_exist(self):
         offences = []
-        for page in [*ROOT.glob("*.md"), *DOCUMENTATION.glob("*.md")]:
+        for page in [*ROOT.glob("*.md"), *DOCUMENTATION.glob("*.md"), *(ROOT / "Examples").rglob("*.md")]:
             for target in re.findall(r"\]\(([^)#\s]+)[^)]*\)", page.read_text()):
                 if "://" not in target and not (page.parent / target).exists():
                     offences.append(f"{relative(page)} links to {target}")

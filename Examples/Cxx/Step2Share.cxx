@@ -1,7 +1,7 @@
-// The whole pipeline in one place, to be copied: read a mesh, clip it, build one basis, and let two
+// Step 2: one basis for several solvers. Reads a mesh, clips it, builds the basis, and lets two
 // solvers share it.
 //
-//   gridfem_pipeline MESH.vtp DEPTH SMOOTH.vtp MODES.vtp
+//   gridfem_step_2 MESH.vtp DEPTH SMOOTH.vtp MODES.vtp
 
 #include <vtkClipToOctree.h>
 #include <vtkConnectivityAwareBasis.h>
