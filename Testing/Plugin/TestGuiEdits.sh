@@ -1,6 +1,6 @@
 # Drives the real program: opens a file, and with every filter of the menu Surface FEM in turn applies it,
 # changes its Depth, undoes that, does it again and deletes the filter; reads back the states that were
-# saved in between.
+# saved in between, and looks at what the first Apply has shown.
 source "$(dirname "$(readlink -f "$0")")/Gui/drive.sh"
 
 panel=pqClientMainWindow/propertiesDock/propertiesPanel
@@ -22,30 +22,40 @@ Edit() {
   Save "$1.$2"
 }
 
-filters=$(sed -n 's/.*<SourceProxy name="\([A-Za-z]*\)".*/\1/p' "$GRIDFEM_SOURCE_DIR"/Plugin/*.xml)
-{
-  echo '<pqevents>'
-  Event "$panel/Accept" activate
-  for filter in $filters; do
-    Event "$menus/menuFilters/Surface FEM" activate "$filter"
-    case $filter in
-      StitchColors)
-        Choose ColorArray colors
-        Choose LabelArray label
-        ;;
-      HarmonicInterpolation) Choose ValueArray height ;;
-    esac
-    ApplyAt 5
-    ApplyAt 4
-    Edit "$filter" Undo
-    Edit "$filter" Redo
-    Event "$menus/menu_Edit" activate actionDelete
-  done
-  Save left
-  echo '</pqevents>'
-} > "$work/edits.xml"
+# Edits FILTER...: all of it, with one filter after the other
+Edits() {
+  local filter
+  {
+    echo '<pqevents>'
+    Event "$panel/Accept" activate
+    for filter; do
+      Event "$menus/menuFilters/Surface FEM" activate "$filter"
+      case $filter in
+        StitchColors)
+          Choose ColorArray colors
+          Choose LabelArray label
+          ;;
+        HarmonicInterpolation) Choose ValueArray height ;;
+      esac
+      ApplyAt 5
+      Save "$filter.Shown"
+      ApplyAt 4
+      Edit "$filter" Undo
+      Edit "$filter" Redo
+      Event "$menus/menu_Edit" activate actionDelete
+    done
+    Save "left.$1"
+    echo '</pqevents>'
+  } > "$work/edits.xml"
+  Play "$work/edits.xml" --data="$work/sphere.vtp"
+}
 
 pvpython "$here/Gui/write_colored_sphere.py" "$work/sphere.vtp"
-Play "$work/edits.xml" --data="$work/sphere.vtp"
-# shellcheck disable=SC2086 # a word for each filter
+filters=$(sed -n 's/.*<SourceProxy name="\([A-Za-z]*\)".*/\1/p' "$GRIDFEM_SOURCE_DIR"/Plugin/*.xml)
+# A chart that opens is the active view from then on, and no place for the next filter: those that open
+# one come last.
+# shellcheck disable=SC2046 # a word for each filter
+Edits $(echo "$filters" | grep -v -e LaplaceSpectrum -e MeanCurvatureFlow) MeanCurvatureFlow
+Edits LaplaceSpectrum
+# shellcheck disable=SC2086
 pvpython "$here/Gui/check_edits.py" "$work" $filters

@@ -1,5 +1,8 @@
-"""Whether a filter had its first depth again after undo, the second after redo, where its state loads and
-computes, and nothing but the file is left after all were deleted."""
+"""Whether a filter was shown alone, coloured by what it is for over the range of that, with its chart;
+had its first depth again after undo, the second after redo, where its state loads and computes; and
+nothing but the file is left after all were deleted."""
+import glob
+import math
 import os
 import sys
 from xml.etree import ElementTree
@@ -24,7 +27,58 @@ def sources(path):
     return {item.get("name"): proxies[item.get("id")] for item in items}
 
 
+# What colours a filter, and the series of a chart that opens beside it.
+COLORED_BY = {
+    "ClipToOctree": "OctreeCellColor", "ConnectivityAwareBasis": "PatchId",
+    "GeodesicDistance": "Distance", "HarmonicInterpolation": "Interpolated",
+    "HeatDiffusion": "NormalDisplacement", "LaplaceSpectrum": "Mode", "MeanCurvatureFlow": "",
+    "PrincipalCurvatures": "MeanCurvature", "ScreenedPoisson": "NormalDisplacement",
+    "SpectralSignatures": "Signature", "StitchColors": "StitchedColors",
+    "SurfaceDetail": "NormalDisplacement", "SurfaceGradient": "Laplacian"}
+shown = set()  # arrays, so far
+CHARTS = {"LaplaceSpectrum": ["Eigenvalue"], "MeanCurvatureFlow": ["Sphericity"]}
+
+
+def visible(view_type):
+    """The representations that are seen in views of a type."""
+    return [part for view in simple.GetViews() if view.SMProxy.GetXMLName() == view_type
+            for part in view.Representations if getattr(part, "Visibility", 0)]
+
+
+def check_shown(name):
+    simple.LoadState(f"{folder}/{name}.Shown.pvsm")
+    source = simple.FindSource(name + "1")
+    charts = [list(chart.SeriesVisibility) for chart in visible("XYChartView")]
+    if charts != ([CHARTS[name]] if name in CHARTS else []):
+        sys.exit(f"{name}: charts show {charts}")
+    seen = visible("RenderView")
+    surfaces = [part for part in seen if hasattr(part, "ColorArrayName")]
+    if len(surfaces) != 1 or surfaces[0].SMProxy.GetProperty("Input").GetProxy(0) != source.SMProxy:
+        sys.exit(f"{name}: {len(surfaces)} surfaces are shown")
+    association, array = surfaces[0].ColorArrayName
+    if (array or "") != COLORED_BY[name]:
+        sys.exit(f"{name}: coloured by {array}")
+    if not array or not surfaces[0].MapScalars:  # the shape alone, or colours as they are
+        simple.ResetSession()
+        return
+    if len(seen) != 2:
+        sys.exit(f"{name}: no colour bar is shown")
+    data = source.PointData if association == "POINTS" else source.CellData
+    source.UpdatePipeline(simple.GetActiveView().ViewTime)
+    component = -1 if data[array].GetNumberOfComponents() > 1 else 0
+    wanted = data[array].GetRange(component)
+    points = surfaces[0].LookupTable.RGBPoints
+    between = (points[0], points[-4])
+    if array in shown:  # its colours grow by what has it
+        wanted = (min(wanted[0], between[0]), max(wanted[1], between[1]))
+    shown.add(array)
+    if not all(math.isclose(a, b, rel_tol=1e-5, abs_tol=1e-9) for a, b in zip(wanted, between)):
+        sys.exit(f"{name}: colours between {between}, values between {wanted}")
+    simple.ResetSession()
+
+
 for name in filters:
+    check_shown(name)
     for step, depth in (("Undo", "5"), ("Redo", "4")):
         found = sources(f"{folder}/{name}.{step}.pvsm")
         if set(found) != {"sphere.vtp", name + "1"}:
@@ -36,6 +90,7 @@ for name in filters:
     if plugin.data(simple.FindSource(name + "1")).GetNumberOfPoints() == 0:
         sys.exit(f"{name}: nothing comes out of the state")
     simple.ResetSession()
-left = sources(f"{folder}/left.pvsm")
-if set(left) != {"sphere.vtp"}:
-    sys.exit(f"left are {sorted(left)}")
+for path in glob.glob(f"{folder}/left.*.pvsm"):
+    left = sources(path)
+    if set(left) != {"sphere.vtp"}:
+        sys.exit(f"left are {sorted(left)}")
