@@ -14,12 +14,12 @@ PAGES = pathlib.Path(os.environ["GRIDFEM_SOURCE_DIR"]) / "Plugin" / "Documentati
 
 def surface():
     """A sphere with the arrays that the examples name."""
-    mesh = plugin.with_arrays(plugin.sphere())
-    for name, function in (("g", "if(coordsZ > 0.7, sqrt(-1), coordsX)"),
-                           ("colors", "(coordsX+2)*iHat+(coordsY+2)*jHat+2*kHat")):
-        mesh = simple.Calculator(Input=mesh, ResultArrayName=name, Function=function,
-                                 ReplaceInvalidResults=0)
-    return mesh
+    mesh = simple.Calculator(
+        Input=plugin.with_arrays(plugin.sphere()), ResultArrayName="colors",
+        Function="(coordsX+2)*iHat+(coordsY+2)*jHat+2*kHat")
+    return simple.ProgrammableFilter(Input=mesh, CopyArrays=1, Script="""
+x, z = inputs[0].Points[:, 0], inputs[0].Points[:, 2]
+output.PointData.append(numpy.where(z > 0.7, numpy.nan, x), "g")""")
 
 
 class Pages(unittest.TestCase):
