@@ -28,9 +28,7 @@
 #include "vtkSelection.h"
 #include "vtkTable.h"
 
-#include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <optional>
 
 vtkStandardNewMacro(vtkScreenedPoisson);
@@ -264,14 +262,7 @@ void vtkScreenedPoisson::AddBoundary(const gridfem::FiniteElementSpace& space,
   }
   if (this->BoundaryValues)
   {
-    std::vector<gridfem::TriangleEdge> known;
-    std::copy_if(edges.begin(), edges.end(), std::back_inserter(known),
-      [&](const gridfem::TriangleEdge& edge)
-      {
-        const auto ends = edge.Ends(triangles);
-        return !value.values.row(ends[0]).hasNaN() && !value.values.row(ends[1]).hasNaN();
-      });
-    load.held = gridfem::Join(load.held, gridfem::HoldEdges(space, triangles, known, value.values));
+    load.held = gridfem::Join(load.held, gridfem::HoldEdges(space, triangles, edges, value.values));
   }
 }
 

@@ -3,6 +3,8 @@
 #include "Algebra/RowBuilder.h"
 #include "Base/Errors.h"
 
+#include <algorithm>
+#include <iterator>
 #include <string>
 
 namespace gridfem
@@ -91,14 +93,21 @@ HeldValues HoldEdges(const FiniteElementSpace& space, const TriangleMesh& mesh,
   const std::vector<TriangleEdge>& edges, const MultiVector& values)
 {
   CheckValues(mesh, values);
-  const std::vector<Id> ends = EndsOf(edges, mesh);
+  std::vector<TriangleEdge> known;
+  std::copy_if(edges.begin(), edges.end(), std::back_inserter(known),
+    [&](const TriangleEdge& edge)
+    {
+      const auto own = edge.Ends(mesh);
+      return !values.row(own[0]).hasNaN() && !values.row(own[1]).hasNaN();
+    });
+  const std::vector<Id> ends = EndsOf(known, mesh);
   MultiVector atEnds(static_cast<Id>(ends.size()), values.cols());
   for (Id k = 0; k < atEnds.rows(); ++k)
   {
     atEnds.row(k) = values.row(ends[k]);
   }
   std::vector<TriangleEdge> longEdges;
-  for (const TriangleEdge& edge : edges)
+  for (const TriangleEdge& edge : known)
   {
     const auto own = edge.Ends(mesh);
     if ((mesh.points[own[1]] - mesh.points[own[0]]).norm() > space.UnitLength())

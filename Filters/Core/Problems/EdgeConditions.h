@@ -23,7 +23,7 @@ HeldValues Join(const HeldValues& first, const HeldValues& second);
 
 /// The values at the ends of the edges; and on edges longer than a unit of length in the middle of
 /// every stretch as well, linear in between, because functions are not linear there.
-/// @param values  rows = points of the mesh
+/// @param values  rows = points of the mesh; an edge with an unknown value (NaN) is left free
 HeldValues HoldEdges(const FiniteElementSpace& space, const TriangleMesh& mesh,
   const std::vector<TriangleEdge>& edges, const MultiVector& values);
 

@@ -3,8 +3,6 @@
 #include "Base/Errors.h"
 #include "Grid/SurfaceEdges.h"
 
-#include <algorithm>
-
 namespace gridfem
 {
 
@@ -44,19 +42,13 @@ HeldValues FindHeld(const Given& given, const Surface& surface, const SurfaceOpt
   {
     return held;
   }
-  std::vector<TriangleEdge> edges =
+  const std::vector<TriangleEdge> edges =
     FindSurfaceEdges(mesh, options.functions.weldCoincidentPoints).boundary;
   if (edges.empty())
   {
     results.Warn("The surface has no boundary for BoundaryValues.");
     return held;
   }
-  const auto isUnknown = [&](const TriangleEdge& edge)
-  {
-    const auto ends = edge.Ends(mesh);
-    return value.values.row(ends[0]).hasNaN() || value.values.row(ends[1]).hasNaN();
-  };
-  edges.erase(std::remove_if(edges.begin(), edges.end(), isUnknown), edges.end());
   return Join(held, HoldEdges(surface.Space(), mesh, edges, value.values));
 }
 
