@@ -28,7 +28,7 @@ simple.RenameSource("Curvatures", curvatures)
 layout = simple.CreateLayout("Curvatures")
 layout.SplitHorizontal(0, 0.5)
 views = [simple.CreateRenderView(), simple.CreateRenderView()]
-for cell, view, array in zip((1, 2), views, ("MeanCurvature", "ShapeIndex")):
+for cell, view, array in zip((1, 2), views, ("Bending", "ShapeIndex")):
     layout.AssignView(cell, view)
     display = simple.Show(curvatures, view)
     simple.ColorBy(display, ("POINTS", array))

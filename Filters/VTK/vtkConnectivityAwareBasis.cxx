@@ -149,7 +149,7 @@ void vtkConnectivityAwareBasis::Compute(
     output->ShallowCopy(this->Data->Frame);
     gridfem::AddInputArrays(input, this->State->mesh, space.clipped, this->NumberOfThreads, output);
   }
-  output->GetCellData()->SetActiveScalars(gridfem::PatchIdName);
+  output->GetCellData()->SetActiveScalars(gridfem::PatchColorName);
   if (this->BasisId >= 0)
   {
     this->AddBasisFunction(output);

@@ -11,7 +11,9 @@
  * which is clipped first.
  *
  * Output port 0 (vtkPolyData), the clipped mesh with all arrays of vtkClipToOctree, and
- * - cell data: `PatchId` (vtkIdType, 1): index into `PatchBasisIds`
+ * - cell data: `PatchId` (vtkIdType, 1): index into `PatchBasisIds`; `PatchColor` (signed char, 1):
+ *   0 to 7, and 8 to 15 on all patches of an octree cell but its first; not the same where patches
+ *   of two cells touch
  * - field data: `PatchCellId` (vtkIdType, 1) and `PatchBasisIds` (vtkIdType, 8): a patch's octree
  *   cell and its eight functions, corner order x fastest; `NumberOfBasisFunctions` (int, 1);
  *   `ConnectivityAware` (int, 1): the property

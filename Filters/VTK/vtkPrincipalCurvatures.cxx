@@ -21,21 +21,25 @@ namespace
 {
 
 /// All arrays, but for the directions, in the order of their names below.
-gridfem::MultiVector Numbers(const gridfem::PrincipalCurvatures& curvatures)
+gridfem::MultiVector Numbers(const gridfem::PrincipalCurvatures& curvatures, double area)
 {
-  gridfem::MultiVector numbers(static_cast<gridfem::Id>(curvatures.minimum.size()), 5);
+  gridfem::MultiVector numbers(static_cast<gridfem::Id>(curvatures.minimum.size()), 6);
+  std::vector<double> mean(curvatures.minimum.size());
   for (gridfem::Id point = 0; point < numbers.rows(); ++point)
   {
     const double least = curvatures.minimum[point];
     const double most = curvatures.maximum[point];
-    numbers.row(point) << least, most, 0.5 * (least + most), least * most,
-      gridfem::ShapeIndex(least, most);
+    mean[point] = 0.5 * (least + most);
+    numbers.row(point) << least, most, mean[point], least * most, gridfem::ShapeIndex(least, most),
+      0.0;
   }
+  const std::vector<double> bending = gridfem::BendingOf(mean, area);
+  numbers.col(5) = Eigen::Map<const Eigen::VectorXd>(bending.data(), numbers.rows());
   return numbers;
 }
 
 constexpr const char* NumberNames[] = { "MinimumCurvature", "MaximumCurvature", "MeanCurvature",
-  "GaussianCurvature", "ShapeIndex" };
+  "GaussianCurvature", "ShapeIndex", "Bending" };
 
 } // namespace
 
@@ -43,6 +47,7 @@ struct vtkPrincipalCurvatures::Internals
 {
   gridfem::PrincipalCurvatures Curvatures;
   gridfem::SolveReport Report; // of the smoothing
+  double Area = 0.0;           // of the surface
 };
 
 vtkPrincipalCurvatures::vtkPrincipalCurvatures() : Data(std::make_unique<Internals>())
@@ -105,6 +110,7 @@ void vtkPrincipalCurvatures::Fit(vtkPolyData* input, const gridfem::Progress& pr
     gridfem::RequireSurface(*own.triangles);
   }
   const gridfem::TriangleMesh& mesh = *(isSmoothed ? state.mesh : own).triangles;
+  this->Data->Area = gridfem::SurfaceArea(mesh);
   this->Data->Curvatures = gridfem::CurvaturesOfSurface(
     state, mesh, this->SmoothingScale, this->Data->Report, progress.Part(0.3, 1.0));
 }
@@ -114,7 +120,7 @@ void vtkPrincipalCurvatures::WriteArrays(vtkPolyData* input, vtkPolyData* output
   const gridfem::PrincipalCurvatures& curvatures = this->Data->Curvatures;
   output->ShallowCopy(input);
   vtkPointData* points = output->GetPointData();
-  const gridfem::MultiVector numbers = Numbers(curvatures);
+  const gridfem::MultiVector numbers = Numbers(curvatures, this->Data->Area);
   for (gridfem::Id k = 0; k < numbers.cols(); ++k)
   {
     points->AddArray(gridfem::MakePointArray(NumberNames[k], numbers.col(k), VTK_DOUBLE));
@@ -123,7 +129,7 @@ void vtkPrincipalCurvatures::WriteArrays(vtkPolyData* input, vtkPolyData* output
     "MinimumCurvatureDirection", gridfem::RowsOf(curvatures.minimumDirection), VTK_DOUBLE));
   points->AddArray(gridfem::MakePointArray(
     "MaximumCurvatureDirection", gridfem::RowsOf(curvatures.maximumDirection), VTK_DOUBLE));
-  points->SetActiveScalars("MeanCurvature");
+  points->SetActiveScalars("Bending");
 }
 
 void vtkPrincipalCurvatures::FreeStages()

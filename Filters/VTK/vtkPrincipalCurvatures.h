@@ -22,6 +22,9 @@
  * - `MeanCurvature` and `GaussianCurvature` (1; the latter per squared unit of length): half of
  *   their sum, and their product
  * - `ShapeIndex` (1; no unit): -1 cup, -0.5 rut, 0 saddle or plane, 0.5 ridge, 1 cap
+ * - `Bending` (1; no unit), the active scalars: the mean curvature for the eye, in (-1, 1): 2/π
+ * atan(H / h) with h the median of |H|, at least 1/√area, so that a few extremes do not hide the
+ * rest
  *
  * All are 0 at points that no polygon with an area uses. With a SmoothingScale the field data have
  * `Converged`, `Iterations`, `Residual`, `ConvergenceFactor` and `DoublePrecisionSince` of the

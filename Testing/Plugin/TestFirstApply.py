@@ -10,13 +10,13 @@ DEPTH = 4
 
 COLORED_BY = {
     "ClipToOctree": ("CELLS", "OctreeCellColor"),
-    "ConnectivityAwareBasis": ("CELLS", "PatchId"),
+    "ConnectivityAwareBasis": ("CELLS", "PatchColor"),
     "GeodesicDistance": ("POINTS", "Distance"),
     "HarmonicInterpolation": ("POINTS", "Interpolated"),
     "HeatDiffusion": ("POINTS", "NormalDisplacement"),
     "LaplaceSpectrum": ("POINTS", "Mode"),
     "MeanCurvatureFlow": (None, ""),  # the shape itself moves
-    "PrincipalCurvatures": ("POINTS", "MeanCurvature"),
+    "PrincipalCurvatures": ("POINTS", "Bending"),
     "ScreenedPoisson": ("POINTS", "NormalDisplacement"),
     "SpectralSignatures": ("POINTS", "Signature"),
     "StitchColors": ("POINTS", "StitchedColors"),

@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <set>
 
 using namespace gridfem;
@@ -33,6 +34,40 @@ vtkSmartPointer<vtkConnectivityAwareBasis> MakeBasis(const TriangleMesh& mesh, i
   filter->SetInputData(ToPolyData(mesh));
   filter->Update();
   return filter;
+}
+
+/// A sheet in one layer of cells and two in the next: the second patch of a cell stands out, and
+/// the first has the colour of the cell.
+TEST(ConnectivityAwareBasis, PatchesThatShareACellHaveTheirOwnColours)
+{
+  const TriangleMesh sheet = FlatRectangle(10, 10);
+  TriangleMesh sheets;
+  for (const double height : { 0.0, 0.02, 0.03 }) // the grid has a plane in the middle of them
+  {
+    const Id first = static_cast<Id>(sheets.points.size());
+    for (const Vec3& point : sheet.points)
+    {
+      sheets.points.push_back(point + Vec3(0.0, 0.0, height));
+    }
+    for (const auto& corners : sheet.triangles)
+    {
+      sheets.triangles.push_back({ corners[0] + first, corners[1] + first, corners[2] + first });
+    }
+  }
+  auto filter = MakeBasis(sheets, 3);
+  vtkCellData* cells = filter->GetOutput()->GetCellData();
+  const auto cellColor = Values(cells->GetArray("OctreeCellColor"));
+  const auto patchColor = Values(cells->GetArray("PatchColor"));
+  const auto patch = Values(cells->GetArray("PatchId"));
+  std::map<double, std::set<double>> patches; // of each colour
+  for (std::size_t cell = 0; cell < patchColor.size(); ++cell)
+  {
+    const bool isSecond = patchColor[cell] >= 8;
+    EXPECT_EQ(patchColor[cell], cellColor[cell] + (isSecond ? 8 : 0));
+    patches[isSecond].insert(patch[cell]);
+  }
+  EXPECT_EQ(patches[false].size(), 128u);
+  EXPECT_EQ(patches[true].size(), 64u);
 }
 
 TEST(ConnectivityAwareBasis, TablesFitTheMesh)

@@ -14,7 +14,8 @@ namespace
 {
 
 constexpr const char* Names[] = { "MinimumCurvature", "MaximumCurvature", "MeanCurvature",
-  "GaussianCurvature", "ShapeIndex", "MinimumCurvatureDirection", "MaximumCurvatureDirection" };
+  "GaussianCurvature", "ShapeIndex", "Bending", "MinimumCurvatureDirection",
+  "MaximumCurvatureDirection" };
 
 } // namespace
 
@@ -29,8 +30,8 @@ TEST(PrincipalCurvaturesFilter, WritesAllArraysInWorldUnits)
     filter->SetDepth(5);
     filter->Update();
     const double expected[] = { 1.0 / Radius, 1.0 / Radius, 1.0 / Radius, 1.0 / Radius / Radius,
-      1.0 };
-    for (int k = 0; k < 5; ++k)
+      1.0, 0.5 };
+    for (int k = 0; k < 6; ++k)
     {
       for (const double value : PointValues(filter->GetOutput(), Names[k]))
       {
@@ -40,8 +41,8 @@ TEST(PrincipalCurvaturesFilter, WritesAllArraysInWorldUnits)
     for (vtkIdType p = 0; p < filter->GetOutput()->GetNumberOfPoints(); ++p)
     {
       vtkPointData* data = filter->GetOutput()->GetPointData();
-      const Vec3 a(data->GetArray(Names[5])->GetTuple3(p));
-      const Vec3 b(data->GetArray(Names[6])->GetTuple3(p));
+      const Vec3 a(data->GetArray(Names[6])->GetTuple3(p));
+      const Vec3 b(data->GetArray(Names[7])->GetTuple3(p));
       ASSERT_NEAR(a.norm(), 1.0, 1e-12);
       ASSERT_NEAR(a.dot(b), 0.0, 1e-12);
     }

@@ -17,6 +17,8 @@ namespace gridfem
 namespace
 {
 
+constexpr double HalfTurn = 3.14159265358979323846;
+
 /// A symmetric tensor across a normal.
 using Tensor = Eigen::Matrix3d;
 
@@ -458,10 +460,27 @@ PrincipalCurvatures CurvaturesOfSurface(const TriangleMesh& mesh, bool weldCoinc
 
 double ShapeIndex(double minimum, double maximum)
 {
-  constexpr double HalfTurn = 3.14159265358979323846;
   return minimum == 0.0 && maximum == 0.0
            ? 0.0
            : 2.0 / HalfTurn * std::atan2(minimum + maximum, maximum - minimum);
+}
+
+std::vector<double> BendingOf(const std::vector<double>& meanCurvature, double area)
+{
+  if (meanCurvature.empty())
+  {
+    return {};
+  }
+  std::vector<double> size(meanCurvature.size());
+  std::transform(meanCurvature.begin(), meanCurvature.end(), size.begin(),
+    [](double curvature) { return std::abs(curvature); });
+  const auto middle = size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2);
+  std::nth_element(size.begin(), middle, size.end());
+  const double unit = std::max(*middle, 1.0 / std::sqrt(area));
+  std::vector<double> bending(meanCurvature.size());
+  std::transform(meanCurvature.begin(), meanCurvature.end(), bending.begin(),
+    [unit](double curvature) { return 2.0 / HalfTurn * std::atan(curvature / unit); });
+  return bending;
 }
 
 } // namespace gridfem

@@ -67,6 +67,11 @@ PrincipalCurvatures CurvaturesOfSurface(const TriangleMesh& mesh, bool weldCoinc
 /// curvatures are.
 double ShapeIndex(double minimum, double maximum);
 
+/// Mean curvatures H for the eye: 2/π atan(H / h), in (-1, 1). Half of the points lie beyond ±0.5,
+/// whatever a few extremes are: h is the median of |H|, and at least 1/√area, so that what is flat
+/// stays near 0.
+std::vector<double> BendingOf(const std::vector<double>& meanCurvature, double area);
+
 } // namespace gridfem
 
 #endif

@@ -14,7 +14,7 @@ namespace
 {
 
 constexpr const char* CellArrays[] = { SourceCellIdName, OctreeCellIdName, OctreeCellColorName,
-  PatchIdName };
+  PatchIdName, PatchColorName };
 
 constexpr const char* FieldArrays[] = { OctreeCellsName, GridOriginName, GridSpacingName,
   GridDepthName, WeldCoincidentPointsName, PatchCellIdName, PatchBasisIdsName,

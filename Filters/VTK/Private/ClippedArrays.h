@@ -14,6 +14,7 @@ constexpr const char* SourceCellIdName = "SourceCellId"; // cell data
 constexpr const char* OctreeCellIdName = "OctreeCellId";
 constexpr const char* OctreeCellColorName = "OctreeCellColor"; // for the eye
 constexpr const char* PatchIdName = "PatchId";
+constexpr const char* PatchColorName = "PatchColor"; // for the eye
 
 constexpr const char* OctreeCellsName = "OctreeCells"; // field data
 constexpr const char* GridOriginName = "GridOrigin";

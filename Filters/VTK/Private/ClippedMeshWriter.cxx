@@ -223,6 +223,24 @@ std::vector<Id> PatchesOfTriangles(const GridFunctions& space, int threads)
   return patches;
 }
 
+namespace
+{
+
+/// The colour of the octree cell, and 8 more where the patch is not the first one in its cell:
+/// those are where connectivity tells patches apart.
+std::vector<signed char> ColorsOfPatches(const PatchLevel& level)
+{
+  std::vector<signed char> colors(level.NumberOfPatches());
+  for (Id patch = 0; patch < level.NumberOfPatches(); ++patch)
+  {
+    const bool isFirst = patch == 0 || level.cell[patch - 1] != level.cell[patch];
+    colors[patch] = static_cast<signed char>((level.cell[patch] & 7) + (isFirst ? 0 : 8));
+  }
+  return colors;
+}
+
+} // namespace
+
 void WriteBasis(const GridFunctions& space, const std::vector<Id>& cellPatch,
   bool weldCoincidentPoints, vtkPolyData* output)
 {
@@ -231,6 +249,13 @@ void WriteBasis(const GridFunctions& space, const std::vector<Id>& cellPatch,
   output->GetCellData()->AddArray(patchId);
 
   const PatchLevel& finest = space.Finest();
+  const std::vector<signed char> colors = ColorsOfPatches(finest);
+  vtkNew<vtkSignedCharArray> patchColor;
+  patchColor->SetName(PatchColorName);
+  SetTuples(patchColor, static_cast<Id>(cellPatch.size()));
+  std::transform(cellPatch.begin(), cellPatch.end(), patchColor->GetPointer(0),
+    [&](Id patch) { return colors[patch]; });
+  output->GetCellData()->AddArray(patchColor);
   auto patchCell = NewIds(PatchCellIdName, finest.NumberOfPatches());
   auto basisIds = NewIds(PatchBasisIdsName, finest.NumberOfPatches(), FunctionsPerPatch);
   const std::vector<MortonKey>& cells = space.clipped.cells;

@@ -20,8 +20,8 @@ void WriteClippedFrame(vtkPolyData* input, const InputMesh& mesh, const ClippedM
 void AddInputArrays(vtkPolyData* input, const InputMesh& mesh, const ClippedMesh& clipped,
   int threads, vtkPolyData* output);
 
-/// Adds PatchId, PatchCellId, PatchBasisIds, NumberOfBasisFunctions, ConnectivityAware and
-/// WeldCoincidentPoints.
+/// Adds PatchId, PatchColor, PatchCellId, PatchBasisIds, NumberOfBasisFunctions, ConnectivityAware
+/// and WeldCoincidentPoints.
 /// @param cellPatch  per cell of `output`
 void WriteBasis(const GridFunctions& space, const std::vector<Id>& cellPatch,
   bool weldCoincidentPoints, vtkPolyData* output);

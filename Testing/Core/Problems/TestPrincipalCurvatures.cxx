@@ -276,6 +276,27 @@ TEST(PrincipalCurvatures, OfBadMeshesAreFinite)
   EXPECT_LE(changed, 20); // what is around the two triangles
 }
 
+/// One point in a hundred is a needle's end: half of the others still lie beyond ±0.5.
+TEST(PrincipalCurvatures, BendingShowsMostPointsWhateverTheExtremes)
+{
+  std::vector<double> curvature;
+  for (int k = 1; k <= 99; ++k)
+  {
+    curvature.push_back(k % 2 ? k : -k);
+  }
+  curvature.push_back(1e9);
+  const std::vector<double> bending = BendingOf(curvature, 1.0);
+  const auto isStrong = [](double value) { return std::abs(value) >= 0.5; };
+  EXPECT_NEAR(std::count_if(bending.begin(), bending.end(), isStrong), 50, 1);
+  for (std::size_t k = 0; k < bending.size(); ++k)
+  {
+    EXPECT_LT(std::abs(bending[k]), 1.0);
+    EXPECT_GT(bending[k] * curvature[k], 0.0);
+  }
+  EXPECT_NEAR(BendingOf({ 1e-9, -1e-9, 1e-9 }, 4.0).front(), 0.0, 1e-8); // flat but for rounding
+  EXPECT_TRUE(BendingOf({}, 0.0).empty());
+}
+
 TEST(PrincipalCurvatures, ShapeIndexTellsCupFromCap)
 {
   EXPECT_DOUBLE_EQ(ShapeIndex(2, 2), 1.0);

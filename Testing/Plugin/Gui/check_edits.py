@@ -29,10 +29,10 @@ def sources(path):
 
 # What colours a filter, and the series of a chart that opens beside it.
 COLORED_BY = {
-    "ClipToOctree": "OctreeCellColor", "ConnectivityAwareBasis": "PatchId",
+    "ClipToOctree": "OctreeCellColor", "ConnectivityAwareBasis": "PatchColor",
     "GeodesicDistance": "Distance", "HarmonicInterpolation": "Interpolated",
     "HeatDiffusion": "NormalDisplacement", "LaplaceSpectrum": "Mode", "MeanCurvatureFlow": "",
-    "PrincipalCurvatures": "MeanCurvature", "ScreenedPoisson": "NormalDisplacement",
+    "PrincipalCurvatures": "Bending", "ScreenedPoisson": "NormalDisplacement",
     "SpectralSignatures": "Signature", "StitchColors": "StitchedColors",
     "SurfaceDetail": "NormalDisplacement", "SurfaceGradient": "Laplacian"}
 shown = set()  # arrays, so far
