@@ -467,19 +467,24 @@ double ShapeIndex(double minimum, double maximum)
 
 std::vector<double> BendingOf(const std::vector<double>& meanCurvature, double area)
 {
-  if (meanCurvature.empty())
+  std::vector<double> size;
+  for (const double curvature : meanCurvature)
   {
-    return {};
+    if (std::isfinite(curvature))
+    {
+      size.push_back(std::abs(curvature));
+    }
   }
-  std::vector<double> size(meanCurvature.size());
-  std::transform(meanCurvature.begin(), meanCurvature.end(), size.begin(),
-    [](double curvature) { return std::abs(curvature); });
-  const auto middle = size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2);
-  std::nth_element(size.begin(), middle, size.end());
-  const double unit = std::max(*middle, 1.0 / std::sqrt(area));
+  double unit = area > 0.0 ? 1.0 / std::sqrt(area) : 0.0;
+  if (!size.empty())
+  {
+    const auto middle = size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2);
+    std::nth_element(size.begin(), middle, size.end());
+    unit = std::max(unit, *middle);
+  }
   std::vector<double> bending(meanCurvature.size());
   std::transform(meanCurvature.begin(), meanCurvature.end(), bending.begin(),
-    [unit](double curvature) { return 2.0 / HalfTurn * std::atan(curvature / unit); });
+    [unit](double curvature) { return 2.0 / HalfTurn * std::atan2(curvature, unit); });
   return bending;
 }
 

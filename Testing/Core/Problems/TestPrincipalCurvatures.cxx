@@ -295,6 +295,8 @@ TEST(PrincipalCurvatures, BendingShowsMostPointsWhateverTheExtremes)
   }
   EXPECT_NEAR(BendingOf({ 1e-9, -1e-9, 1e-9 }, 4.0).front(), 0.0, 1e-8); // flat but for rounding
   EXPECT_TRUE(BendingOf({}, 0.0).empty());
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(BendingOf({ infinity, 0.0, -infinity }, 0.0), (std::vector<double>{ 1.0, 0.0, -1.0 }));
 }
 
 TEST(PrincipalCurvatures, ShapeIndexTellsCupFromCap)
