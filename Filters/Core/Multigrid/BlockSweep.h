@@ -56,8 +56,7 @@ void ParallelPhases(const std::vector<Id>& count, int threads, Body&& body)
   }
 }
 
-/// Calls body(begin, end) for the items of every block, colour after colour in the order of the
-/// direction.
+/// Calls body(block) for every block, colour after colour in the order of the direction.
 template<class Body>
 void VisitBlocks(const BlockRanges& ranges, SweepDirection direction, int threads, Body&& body)
 {
@@ -70,11 +69,7 @@ void VisitBlocks(const BlockRanges& ranges, SweepDirection direction, int thread
     blocks[step] = ranges.colourBegin[colourOf(step) + 1] - ranges.colourBegin[colourOf(step)];
   }
   ParallelPhases(blocks, threads,
-    [&](Id step, Id k)
-    {
-      const Id block = ranges.colourBegin[colourOf(step)] + k;
-      body(ranges.blockBegin[block], ranges.blockBegin[block + 1]);
-    });
+    [&](Id step, Id k) { body(ranges.colourBegin[colourOf(step)] + k); });
 }
 
 /// Calls relax(item, chunk) for every item and every chunk of `columns`, in the order of the
@@ -85,8 +80,10 @@ void SweepBlocks(const BlockRanges& ranges, Id columns, SweepDirection direction
 {
   const bool forward = direction == SweepDirection::Forward;
   VisitBlocks(ranges, direction, ThreadsFor(work * columns, threads),
-    [&](Id begin, Id end)
+    [&](Id block)
     {
+      const Id begin = ranges.blockBegin[block];
+      const Id end = ranges.blockBegin[block + 1];
       ForEachChunk(columns,
         [&](auto chunk)
         {

@@ -4,6 +4,7 @@
 #include "Multigrid/SmootherSequence.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace gridfem
@@ -42,6 +43,17 @@ void CheckLevels(const std::vector<MultigridLevel>& levels, const MultigridOptio
         "the matrix or the prolongation of level " + std::to_string(l) + " has the wrong shape");
     }
   }
+}
+
+/// Per column a power of two near the largest number; 1 for a column of zeros or without a bound.
+Eigen::ArrayXd UnitsOf(const MultiVector& b)
+{
+  Eigen::ArrayXd unit = b.cwiseAbs().colwise().maxCoeff().transpose().array();
+  for (double& value : unit)
+  {
+    value = std::isnormal(value) ? std::exp2(std::ilogb(value)) : 1.0;
+  }
+  return unit;
 }
 
 std::size_t MatrixMemory(const SparseMatrix& A)
@@ -95,8 +107,11 @@ void Multigrid::BuildSolvers()
   for (std::size_t l = 0; l + 1 < levels_.size(); ++l)
   {
     MultigridLevel& level = levels_[l];
-    level.smoother.reset(); // its memory is free before the new one is built
-    level.smoother = this->MakeSmoother(l);
+    if (!level.smoother || !level.smoother->Refill(level.A, level.order, options_.threads))
+    {
+      level.smoother.reset(); // its memory is free before the new one is built
+      level.smoother = this->MakeSmoother(l);
+    }
   }
   coarse_ = CoarseSolver(levels_.back().A, options_.threads);
 }
@@ -131,7 +146,11 @@ std::unique_ptr<Smoother> Multigrid::MakeSmoother(
     default:
       break;
   }
-  return MakePatchSmoother(level.A, level.order, options_.threads, options_.precision);
+  const bool mayBeSingle =
+    options_.precision == FactorPrecision::Mixed && level.groups.dof.empty() && !level.divided;
+  auto single = mayBeSingle ? MakeStencilSmoother(level.A, level.order, options_.threads) : nullptr;
+  return single ? std::move(single)
+                : MakePatchSmoother(level.A, level.order, options_.threads, options_.precision);
 }
 
 LevelSmoothing Multigrid::SmoothingOf(std::size_t level) const
@@ -174,17 +193,21 @@ void Multigrid::Cycle(const MultiVector& b, MultiVector& x) const
   {
     throw InvalidInput("x and b of a multigrid cycle must have the same shape");
   }
-  this->Start(0, b, x, false);
+  this->CheckRows(0, b);
+  std::vector<Scratch> scratch(levels_.size());
+  this->Improve(0, b, x, scratch);
 }
 
 void Multigrid::Precondition(const MultiVector& b, MultiVector& x) const
 {
-  this->Start(0, b, x, true);
+  this->PreconditionFrom(0, b, x);
 }
 
 void Multigrid::PreconditionFrom(std::size_t level, const MultiVector& b, MultiVector& x) const
 {
-  this->Start(level, b, x, true);
+  this->CheckRows(level, b);
+  std::vector<Scratch> scratch(levels_.size());
+  this->Correct(level, b, x, scratch);
 }
 
 void Multigrid::NestedIteration(const MultiVector& b, MultiVector& x, MultiVector* lastStep) const
@@ -203,7 +226,7 @@ void Multigrid::NestedIteration(const MultiVector& b, MultiVector& x, MultiVecto
     if (l + 1 < levels_.size())
     {
       const MultiVector before = l == 1 && lastStep ? x : MultiVector();
-      this->CycleLevel(l, load[l], x, false, scratch);
+      this->Improve(l, load[l], x, scratch);
       if (l == 1 && lastStep)
       {
         Multiply(levels_[0].prolongation, x - before, *lastStep, options_.threads);
@@ -251,11 +274,40 @@ void Multigrid::CheckRows(std::size_t level, const MultiVector& b) const
   }
 }
 
-void Multigrid::Start(std::size_t level, const MultiVector& b, MultiVector& x, bool zeroStart) const
+bool Multigrid::IsSingle(std::size_t from) const
 {
-  this->CheckRows(level, b);
-  std::vector<Scratch> scratch(levels_.size());
-  this->CycleLevel(level, b, x, zeroStart, scratch);
+  return std::any_of(levels_.begin() + static_cast<Id>(from), levels_.end(),
+    [](const MultigridLevel& level) { return level.smoother && level.smoother->IsSingle(); });
+}
+
+/// x = B b. Single precision gets numbers near 1, whatever those of b are.
+void Multigrid::Correct(
+  std::size_t l, const MultiVector& b, MultiVector& x, std::vector<Scratch>& scratch) const
+{
+  if (!this->IsSingle(l))
+  {
+    this->CycleLevel(l, b, x, true, scratch);
+    return;
+  }
+  const Eigen::ArrayXd unit = UnitsOf(b);
+  this->CycleLevel(l, b * unit.inverse().matrix().asDiagonal(), x, true, scratch);
+  x *= unit.matrix().asDiagonal();
+}
+
+/// x += B (b - A x). Single precision sees the correction alone, whose rounding is small beside it.
+void Multigrid::Improve(
+  std::size_t l, const MultiVector& b, MultiVector& x, std::vector<Scratch>& scratch) const
+{
+  if (!this->IsSingle(l))
+  {
+    this->CycleLevel(l, b, x, false, scratch);
+    return;
+  }
+  MultiVector residual;
+  Residual(levels_[l].A, x, b, residual, options_.threads);
+  MultiVector correction;
+  this->Correct(l, residual, correction, scratch);
+  x += correction;
 }
 
 void Multigrid::CycleLevel(std::size_t l, const MultiVector& b, MultiVector& x, bool zeroStart,

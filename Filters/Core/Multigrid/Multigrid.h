@@ -125,7 +125,11 @@ private:
   void CheckRows(std::size_t level, const MultiVector& b) const;
   void RestrictResidual(std::size_t level, const MultiVector& b, const MultiVector* x,
     MultiVector& residual, MultiVector& coarse) const;
-  void Start(std::size_t level, const MultiVector& b, MultiVector& x, bool zeroStart) const;
+  bool IsSingle(std::size_t from) const; // on this or a coarser level
+  void Correct(
+    std::size_t level, const MultiVector& b, MultiVector& x, std::vector<Scratch>& scratch) const;
+  void Improve(
+    std::size_t level, const MultiVector& b, MultiVector& x, std::vector<Scratch>& scratch) const;
   void CycleLevel(std::size_t level, const MultiVector& b, MultiVector& x, bool zeroStart,
     std::vector<Scratch>& scratch) const;
   void CorrectFromCoarse(std::size_t level, const MultiVector& b, MultiVector& x, bool zeroX,

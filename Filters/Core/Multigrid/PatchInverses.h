@@ -5,6 +5,7 @@
 
 #include "Algebra/RowKernels.h"
 #include "Multigrid/PatchFactor.h"
+#include "Multigrid/PatchInverse.h"
 #include "Multigrid/Smoother.h"
 
 #include <algorithm>
@@ -14,51 +15,6 @@
 
 namespace gridfem
 {
-
-/// r = Vᵀ V r for one column: vectors run along the patch.
-/// @param V  lower triangle, mirrored to the upper one, so that both products run along columns
-template<class Real>
-inline void ApplyInverse(const Real* V, double (&r)[FunctionsPerPatch])
-{
-  double y[FunctionsPerPatch] = {};
-  for (int j = 0; j < FunctionsPerPatch; ++j)
-  {
-    for (int i = 0; i < FunctionsPerPatch; ++i)
-    {
-      y[i] += V[FunctionsPerPatch * j + i] * (i >= j ? r[j] : 0.0);
-    }
-  }
-  std::fill(r, r + FunctionsPerPatch, 0.0);
-  for (int j = 0; j < FunctionsPerPatch; ++j)
-  {
-    for (int i = 0; i < FunctionsPerPatch; ++i)
-    {
-      r[i] += V[FunctionsPerPatch * j + i] * (i <= j ? y[j] : 0.0);
-    }
-  }
-}
-
-/// The same for several columns: vectors run along them.
-template<class Real, class Lanes>
-inline void ApplyInverse(const Real* V, Lanes (&r)[FunctionsPerPatch])
-{
-  for (int i = FunctionsPerPatch - 1; i >= 0; --i)
-  {
-    r[i] *= double(V[FunctionsPerPatch * i + i]);
-    for (int j = 0; j < i; ++j)
-    {
-      r[i] += double(V[FunctionsPerPatch * i + j]) * r[j];
-    }
-  }
-  for (int i = 0; i < FunctionsPerPatch; ++i)
-  {
-    r[i] *= double(V[FunctionsPerPatch * i + i]);
-    for (int j = i + 1; j < FunctionsPerPatch; ++j)
-    {
-      r[i] += double(V[FunctionsPerPatch * i + j]) * r[j];
-    }
-  }
-}
 
 /// x += Vᵀ V (b - A x) on the patch.
 template<class Chunk, class Real>

@@ -198,8 +198,10 @@ void SingleLevel::RelaxPatches(
   const bool forward = direction == SweepDirection::Forward;
   VisitBlocks(ranges_, direction,
     ThreadsFor(128 * PreconditionedColumns * this->Patches(), threads),
-    [&](Id begin, Id end)
+    [&](Id block)
     {
+      const Id begin = ranges_.blockBegin[block];
+      const Id end = ranges_.blockBegin[block + 1];
       for (Id i = begin; i < end; ++i)
       {
         const Id next = std::min(i + 1, end - 1);

@@ -26,6 +26,9 @@ struct PatchOrder
   /// Per unknown, the height of its grid corner in cells; empty where unknowns have none. Unknowns
   /// whose heights differ by more than one are not coupled by the matrix.
   std::vector<Index> slice;
+  /// Per unknown, i + 4 j + 12 k of its grid corner; empty where unknowns have none. Coupled
+  /// unknowns differ by at most one in i, j and k, so that the difference tells their positions.
+  std::vector<Index> corner;
 };
 
 enum class SweepDirection
@@ -55,6 +58,17 @@ public:
 
   /// True if double precision could make a sweep better.
   virtual bool HasSingleFactors() const { return false; }
+
+  /// True if sweeps compute in single precision: x is to be a correction, and the largest number of
+  /// b near 1.
+  virtual bool IsSingle() const { return false; }
+
+  /// Takes new values of the matrix in place. False where it cannot: then a new smoother has to be
+  /// made.
+  virtual bool Refill(const SparseMatrix& /*A*/, const PatchOrder& /*order*/, int /*threads*/)
+  {
+    return false;
+  }
 
   /// Bytes held.
   virtual std::size_t Memory() const = 0;
@@ -87,6 +101,14 @@ std::vector<Index> SlabBoundaries(const std::vector<Index>& slice, int sweeps);
 /// Throws InvalidInput when the order does not fit the matrix. [NUMERICS §1]
 std::unique_ptr<Smoother> MakePatchSmoother(const SparseMatrix& A, const PatchOrder& order,
   int threads = 0, FactorPrecision precision = FactorPrecision::Mixed);
+
+/// The same in a half to a third of the time: rows are stencils of the grid, and all is stored and
+/// computed in single precision (Smoother::IsSingle). Patches with pivots below 1e-6, as flat faces
+/// have that are almost parallel to a plane of the grid, are relaxed once more in double precision.
+/// Null where these are more than a tenth, and where the order knows no corners or cells that hold
+/// many patches; see StencilBlocks.
+std::unique_ptr<Smoother> MakeStencilSmoother(
+  const SparseMatrix& A, const PatchOrder& order, int threads = 0);
 
 } // namespace gridfem
 

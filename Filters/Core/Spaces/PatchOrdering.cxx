@@ -75,23 +75,27 @@ void CheckLevel(const PatchLevel& level)
   }
 }
 
-/// The k of every function's corner.
-std::vector<Index> SlicesOfFunctions(const PatchLevel& level)
+/// Where every function's corner is.
+void PlaceFunctions(const PatchLevel& level, PatchOrder& order)
 {
-  std::vector<Index> slice(level.numberOfFunctions, 0);
+  order.slice.assign(level.numberOfFunctions, 0);
+  order.corner.assign(level.numberOfFunctions, 0);
   for (std::size_t patch = 0; patch < level.dof.size(); ++patch)
   {
-    const Index k = MortonDecode(level.cell[patch])[2];
+    const auto cell = MortonDecode(level.cell[patch]);
     for (int corner = 0; corner < FunctionsPerPatch; ++corner)
     {
       const Index function = level.dof[patch][corner];
       if (function >= 0 && function < level.numberOfFunctions)
       {
-        slice[function] = k + (corner >> 2);
+        const Index i = cell[0] + (corner & 1);
+        const Index j = cell[1] + ((corner >> 1) & 1);
+        const Index k = cell[2] + (corner >> 2);
+        order.slice[function] = k;
+        order.corner[function] = i + 4 * j + 12 * k;
       }
     }
   }
-  return slice;
 }
 
 } // namespace
@@ -123,7 +127,7 @@ PatchOrder OrderPatches(const PatchLevel& level)
   {
     order.colourBegin.push_back(static_cast<Id>(blocks.size()));
   }
-  order.slice = SlicesOfFunctions(level);
+  PlaceFunctions(level, order);
   return order;
 }
 
