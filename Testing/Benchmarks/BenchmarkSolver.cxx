@@ -267,7 +267,9 @@ double BytesOfCycle(const Multigrid& multigrid, int columns)
     const double vector = double(columns) * sizeof(double);
     const double fine = vector * double(level.A.rows);
     const double coarse = vector * double(levels[l + 1].A.rows);
-    const double sweep = BytesOf(level.A) + double(level.smoother->Memory()) + 3.0 * fine;
+    // Single precision has the matrix in a form of its own.
+    const double matrix = level.smoother->IsSingle() ? 0.0 : BytesOf(level.A);
+    const double sweep = matrix + double(level.smoother->Memory()) + 3.0 * fine;
     const double residual = BytesOf(level.A) + 3.0 * fine;
     const double transfers =
       BytesOf(level.restriction) + BytesOf(level.prolongation) + 3.0 * fine + 2.0 * coarse;

@@ -103,8 +103,9 @@ TEST_P(Solvers, HistoryIsWhatItSays)
   multigrid.Precondition(r, Br);
   multigrid.Precondition(b, Bb);
   const double energy = std::sqrt(r.cwiseProduct(Br).sum() / b.cwiseProduct(Bb).sum());
-  // The updated residual differs from the true one by rounding, 1e-16 of b against 1e-6.
-  EXPECT_NEAR(report.history.back().energy / energy, 1.0, 1e-8);
+  // The updated residual differs from the true one by rounding, 1e-16 of b against 1e-6; the cycle
+  // rounds to single precision.
+  EXPECT_NEAR(report.history.back().energy / energy, 1.0, 1e-7);
   EXPECT_NEAR(report.history.back().residual * b.norm() / r.norm(), 1.0, 1e-8);
 }
 
@@ -156,7 +157,8 @@ TEST_P(Solvers, LastCorrectionLowersTheError)
   Solve(multigrid, b, measured, options);
   MultiVector correction;
   multigrid.Precondition(b - Applied(multigrid, measured), correction);
-  EXPECT_LT(RelativeDifference(corrected, measured + correction), 1e-13);
+  // The correction is 1e-6 of x or so, and in single precision.
+  EXPECT_LT(RelativeDifference(corrected, measured + correction), 1e-12);
   // A cycle reduces the energy of every error; on a solid by more than a factor of five.
   EXPECT_LT(5.0 * EnergyOf(multigrid, corrected - exact), EnergyOf(multigrid, measured - exact));
 }

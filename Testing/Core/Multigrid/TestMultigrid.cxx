@@ -146,6 +146,9 @@ protected:
     options.threads = threads;
     return options;
   }
+
+  /// Where the numbers allow it, as here.
+  static bool IsSingle() { return GetParam().smoother == SmootherType::Patch; }
 };
 
 TEST_P(Variants, PreconditionerIsSymmetric)
@@ -160,9 +163,9 @@ TEST_P(Variants, PreconditionerIsSymmetric)
     multigrid.Precondition(a, Ba);
     multigrid.Precondition(b, Bb);
     // Local inverses as large as 1e10 times 1e-16 are the worst that rounding does, and only in
-    // directions of little weight.
-    EXPECT_LT(
-      std::abs(b.cwiseProduct(Ba).sum() - a.cwiseProduct(Bb).sum()), 1e-9 * b.norm() * Ba.norm());
+    // directions of little weight; in single precision 6e-8 of each number.
+    EXPECT_LT(std::abs(b.cwiseProduct(Ba).sum() - a.cwiseProduct(Bb).sum()),
+      (IsSingle() ? 1e-7 : 1e-9) * b.norm() * Ba.norm());
     EXPECT_GT(a.cwiseProduct(Ba).sum(), 0.0);
   }
 }
@@ -207,7 +210,7 @@ TEST_P(Variants, ColumnsDoNotSeeEachOther)
       MultiVector alone;
       multigrid.Precondition(b.col(c), alone);
       // Sums in another order; a few hundred operations deep.
-      EXPECT_LT(RelativeDifference(together.col(c), alone), 1e-12);
+      EXPECT_LT(RelativeDifference(together.col(c), alone), IsSingle() ? 1e-6 : 1e-12);
     }
   }
 }
