@@ -175,7 +175,16 @@ std::vector<std::string> WarningsOf(
     sentences.push_back("Only " + std::to_string(modes) + " of the " + std::to_string(wanted) +
                         " modes exist " + where + ".");
   }
-  if (spectrum.cutsMultiplet && tellOfGroup)
+  const bool allConstants = modes > 1 && !(spectrum.eigenvalues.back() > 0.0);
+  if (allConstants && !spectrum.truncated)
+  {
+    sentences.push_back(
+      "All " + std::to_string(modes) +
+      " modes are constants, of which every connected component of the surface has "
+      "one. Others need a NumberOfModes above " +
+      (spectrum.cutsMultiplet ? "the number of components." : std::to_string(modes) + "."));
+  }
+  else if (spectrum.cutsMultiplet && tellOfGroup)
   {
     sentences.push_back("The list ends inside a group of equal eigenvalues: the last of its "
                         "eigenfunctions are missing. CompleteMultiplets adds them.");
