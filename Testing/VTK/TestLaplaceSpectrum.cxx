@@ -343,14 +343,10 @@ TEST_F(LaplaceSpectrum, ManyComponentsSayHowManyModesAreNeeded)
   filter->SetInputData(ToPolyData(bubbles));
   filter->SetDepth(5);
   filter->SetNumberOfModes(4);
-  EXPECT_EQ(this->Eigenvalues().back(), 0.0);
+  EXPECT_EQ(this->Eigenvalues(), std::vector<double>(4, 0.0));
   ASSERT_EQ(messages.warnings.size(), 1u);
-  EXPECT_NE(messages.warnings[0].find("All 12 modes are constants"), std::string::npos);
+  EXPECT_NE(messages.warnings[0].find("All 4 modes are constants"), std::string::npos);
   EXPECT_NE(messages.warnings[0].find("a NumberOfModes above 12."), std::string::npos);
-  filter->CompleteMultipletsOff();
-  EXPECT_EQ(this->Eigenvalues().size(), 4u);
-  ASSERT_EQ(messages.warnings.size(), 2u);
-  EXPECT_NE(messages.warnings[1].find("above the number of components"), std::string::npos);
   filter->SetNumberOfModes(13);
   EXPECT_GT(this->Eigenvalues().back(), 1.0);
 }

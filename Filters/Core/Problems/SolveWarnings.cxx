@@ -175,14 +175,13 @@ std::vector<std::string> WarningsOf(
     sentences.push_back("Only " + std::to_string(modes) + " of the " + std::to_string(wanted) +
                         " modes exist " + where + ".");
   }
-  const bool allConstants = modes > 1 && !(spectrum.eigenvalues.back() > 0.0);
-  if (allConstants && !spectrum.truncated)
+  const auto constants = static_cast<std::size_t>(spectrum.numberOfConstants);
+  if (modes > 1 && modes <= constants && !spectrum.truncated)
   {
-    sentences.push_back(
-      "All " + std::to_string(modes) +
-      " modes are constants, of which every connected component of the surface has "
-      "one. Others need a NumberOfModes above " +
-      (spectrum.cutsMultiplet ? "the number of components." : std::to_string(modes) + "."));
+    const std::string components = std::to_string(constants);
+    sentences.push_back("All " + std::to_string(modes) + " modes are constants: the surface has " +
+                        components + " connected components, each with one. Others need a " +
+                        "NumberOfModes above " + components + ".");
   }
   else if (spectrum.cutsMultiplet && tellOfGroup)
   {
