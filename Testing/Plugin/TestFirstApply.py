@@ -148,6 +148,90 @@ class FirstApply(unittest.TestCase):
         self.assertTrue(data.GetBlock(1).GetPointData().HasArray("Solution"))
 
 
+class ColorMaps(unittest.TestCase):
+    """The colours of the arrays: a map for each name, made when a filter first has the array."""
+
+    def setUp(self):
+        self.view = simple.CreateRenderView()
+        sphere = plugin.sphere()
+        # Higher above than below, so that ranges are not even by themselves.
+        self.surface = simple.Calculator(
+            Input=sphere, ResultArrayName="moved", CoordinateResults=1,
+            Function="coords*(1+0.3*exp(2*coordsZ-2))")
+
+    def tearDown(self):
+        simple.ResetSession()
+
+    def show(self, proxy):
+        proxy.UpdatePipeline()
+        shown = simple.Show(proxy, self.view)
+        shown.RescaleTransferFunctionToDataRange(True, False)  # as Apply does: grow, unless locked
+        return shown.LookupTable
+
+    @staticmethod
+    def limits(colors):
+        return colors.RGBPoints[0], colors.RGBPoints[-4]
+
+    def test_zero_is_in_the_middle_for_every_mode(self):
+        spectrum = simple.LaplaceSpectrum(Input=self.surface, Depth=DEPTH, NumberOfModes=6, Mode=1)
+        colors = self.show(spectrum)
+        widest = 0.0
+        for mode in (1, 4, 2):
+            spectrum.Mode = mode
+            colors = self.show(spectrum)
+            low, high = self.limits(colors)
+            data = plugin.data(spectrum).GetPointData().GetArray("Mode").GetRange()
+            self.assertNotAlmostEqual(data[0], -data[1])
+            widest = max(widest, -data[0], data[1])
+            self.assertEqual(low, -high)
+            self.assertAlmostEqual(high, widest, delta=1e-6 * widest)  # told in single precision
+
+    def test_a_range_of_the_user_is_left_alone(self):
+        spectrum = simple.LaplaceSpectrum(Input=self.surface, Depth=DEPTH, NumberOfModes=6, Mode=1)
+        colors = self.show(spectrum)
+        colors.RescaleTransferFunction(-7.0, 8.0)
+        spectrum.Mode = 3
+        self.show(spectrum)
+        self.assertEqual(self.limits(colors), (-7.0, 8.0))
+        colors.RescaleTransferFunction(-0.25, 0.25)
+        colors.AutomaticRescaleRangeMode = "Never"
+        spectrum.Mode = 2
+        self.show(spectrum)
+        self.assertEqual(self.limits(colors), (-0.25, 0.25))
+
+    def test_a_color_map_of_the_user_is_left_alone(self):
+        colors = simple.GetColorTransferFunction("Distance")
+        colors.ApplyPreset("Inferno (matplotlib)", True)
+        expected = list(colors.RGBPoints)[1:4]
+        shown = self.show(simple.GeodesicDistance(Input=self.surface, Depth=DEPTH))
+        self.assertEqual(list(shown.RGBPoints)[1:4], expected)
+
+    def test_distances_run_from_dark_to_light(self):
+        colors = self.show(simple.GeodesicDistance(Input=self.surface, Depth=DEPTH))
+        points = list(colors.RGBPoints)
+        brightness = [sum(points[k + 1:k + 4]) for k in range(0, len(points), 4)]
+        self.assertEqual(brightness, sorted(brightness))
+        self.assertEqual(self.limits(colors)[0], 0.0)
+
+    def test_signed_distances_are_zero_in_the_middle(self):
+        line = simple.Slice(Input=self.surface)
+        line.SliceType.Origin = [0.4, 0, 0]
+        colors = self.show(simple.GeodesicDistance(
+            Input=self.surface, Sources=line, Signed=1, Depth=DEPTH))
+        low, high = self.limits(colors)
+        self.assertLess(low, 0.0)
+        self.assertEqual(low, -high)
+
+    def test_whole_numbers_have_a_color_each(self):
+        for proxy, sizes in ((simple.ClipToOctree(Input=self.surface, Depth=DEPTH), {8}),
+                             (simple.ConnectivityAwareBasis(Input=self.surface, Depth=DEPTH), {8, 16})):
+            colors = self.show(proxy)
+            self.assertIn(colors.NumberOfTableValues, sizes)
+            self.assertEqual(self.limits(colors), (0, colors.NumberOfTableValues - 1))
+            table = {tuple(colors.RGBPoints[k + 1:k + 4]) for k in range(0, len(colors.RGBPoints), 4)}
+            self.assertEqual(len(table), colors.NumberOfTableValues)
+
+
 if __name__ == "__main__":
     plugin.load()
     unittest.main()

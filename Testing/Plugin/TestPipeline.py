@@ -89,6 +89,42 @@ class TestPipeline(unittest.TestCase):
         poisson = simple.ScreenedPoisson(Input=self.surface, Basis=basis)
         self.assertEqual(plugin.data(poisson).GetNumberOfPoints(), 0)
 
+    def test_an_input_that_is_taken_away_counts_no_more(self):
+        values = simple.Calculator(Input=self.surface, ResultArrayName="f", Function="coordsX")
+        coarse = simple.ConnectivityAwareBasis(Input=values, Depth=3)
+        few = simple.PointSource(Center=[1, 0, 0], NumberOfPoints=1)
+        height = simple.Calculator(Input=few, ResultArrayName="f", Function="coordsZ")
+        selected = plugin.selected_points(*range(0, 700, 7))
+        settings = {
+            "ScreenedPoisson": {"ValueArray": ["POINTS", "f"]},
+            "HarmonicInterpolation": {"ValueArray": ["POINTS", "f"]},
+            "HeatDiffusion": {"Array": ["POINTS", "f"], "DiffusionTime": 0.1},
+            "SpectralSignatures": {"NumberOfModes": 8},
+            "GeodesicDistance": {"SourcePointIds": [0]}}
+        inputs = [(name, "Basis", coarse) for name in ("LaplaceSpectrum", "ScreenedPoisson")]
+        inputs += [(name, "Sources", few) for name in ("GeodesicDistance", "SpectralSignatures")]
+        inputs += [("HarmonicInterpolation", "Values", height)]
+        inputs += [(name, "Selection", selected) for name in (
+            "GeodesicDistance", "HarmonicInterpolation", "HeatDiffusion", "ScreenedPoisson",
+            "SurfaceDetail")]
+        for name, port, other in inputs:
+            with self.subTest(proxy=name, input=port):
+                def result(proxy):
+                    points = plugin.data(proxy).GetPointData()
+                    return [end for k in range(points.GetNumberOfArrays())
+                            for end in points.GetArray(k).GetRange(0)]
+
+                def differ(one, other):  # the last solution is where the next one starts
+                    return len(one) != len(other) or max(
+                        abs(a - b) for a, b in zip(one, other)) > 1e-4
+
+                proxy = getattr(simple, name)(Input=values, Depth=DEPTH, **settings.get(name, {}))
+                without = result(proxy)
+                setattr(proxy, port, other)
+                self.assertTrue(differ(result(proxy), without))
+                setattr(proxy, port, None)
+                self.assertFalse(differ(result(proxy), without))
+
     def test_only_what_depends_on_a_change_runs_again(self):
         values = simple.Calculator(Input=self.surface, ResultArrayName="f", Function="coordsX")
         poisson = simple.ScreenedPoisson(

@@ -332,6 +332,25 @@ TEST_F(LaplaceSpectrum, TwoComponentsHaveTwoZeros)
   EXPECT_GT(eigenvalues[2], 1.0);
 }
 
+TEST_F(LaplaceSpectrum, ManyComponentsSayHowManyModesAreNeeded)
+{
+  TriangleMesh bubbles = GeodesicSphere(2);
+  for (int k = 1; k < 12; ++k)
+  {
+    bubbles = Join(bubbles,
+      Transform(GeodesicSphere(2), { 0, 0, 1 }, 0.3, 1.0, { 3.0 * (k % 4), 3.0 * (k / 4), 0 }));
+  }
+  filter->SetInputData(ToPolyData(bubbles));
+  filter->SetDepth(5);
+  filter->SetNumberOfModes(4);
+  EXPECT_EQ(this->Eigenvalues(), std::vector<double>(4, 0.0));
+  ASSERT_EQ(messages.warnings.size(), 1u);
+  EXPECT_NE(messages.warnings[0].find("All 4 modes are constants"), std::string::npos);
+  EXPECT_NE(messages.warnings[0].find("a NumberOfModes above 12."), std::string::npos);
+  filter->SetNumberOfModes(13);
+  EXPECT_GT(this->Eigenvalues().back(), 1.0);
+}
+
 TEST_F(LaplaceSpectrum, ARunRepeatsBitForBitAndThreadsAgree)
 {
   filter->SetNumberOfThreads(1);

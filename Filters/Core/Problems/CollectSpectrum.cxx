@@ -106,6 +106,7 @@ Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs<Rea
 {
   const Index others = static_cast<Index>(report.residuals.size());
   Spectrum spectrum;
+  spectrum.numberOfConstants = constants.Count();
   spectrum.vectors = SideBySide(constants.Vectors(zeros), pairs.vectors, others, problem.threads);
   pairs.vectors = {};
   if (others > 0) // what remains of a constant that has come back, as on a sliver, has no mass

@@ -175,7 +175,15 @@ std::vector<std::string> WarningsOf(
     sentences.push_back("Only " + std::to_string(modes) + " of the " + std::to_string(wanted) +
                         " modes exist " + where + ".");
   }
-  if (spectrum.cutsMultiplet && tellOfGroup)
+  const auto constants = static_cast<std::size_t>(spectrum.numberOfConstants);
+  if (modes > 1 && modes <= constants && !spectrum.truncated)
+  {
+    const std::string components = std::to_string(constants);
+    sentences.push_back("All " + std::to_string(modes) + " modes are constants: the surface has " +
+                        components + " connected components, each with one. Others need a " +
+                        "NumberOfModes above " + components + ".");
+  }
+  else if (spectrum.cutsMultiplet && tellOfGroup)
   {
     sentences.push_back("The list ends inside a group of equal eigenvalues: the last of its "
                         "eigenfunctions are missing. CompleteMultiplets adds them.");

@@ -76,11 +76,10 @@ Progress LevelPart(const Progress& progress, std::size_t level)
 Spectrum OnlyConstants(const Constants& zeroModes, const SpectralProblem<double>& problem,
   const SpectrumOptions& options)
 {
-  const bool cut = zeroModes.Count() > options.numberOfModes;
-  const Index count = options.completeMultiplets ? zeroModes.Count() : options.numberOfModes;
   EigenPairs<double> none;
-  Spectrum spectrum = CollectSpectrum(zeroModes, count, none, {}, options.tolerance, problem);
-  spectrum.cutsMultiplet = cut && !options.completeMultiplets;
+  Spectrum spectrum =
+    CollectSpectrum(zeroModes, options.numberOfModes, none, {}, options.tolerance, problem);
+  spectrum.cutsMultiplet = zeroModes.Count() > options.numberOfModes;
   return spectrum;
 }
 

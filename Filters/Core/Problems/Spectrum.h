@@ -14,7 +14,8 @@ struct SpectrumOptions
   /// The error of the space is far larger at any depth that fits into memory.
   double tolerance = 1e-6;     // in (0, 1)
   int maximumIterations = 100; // per level, >= 0
-  /// Go on behind numberOfModes to the end of the multiplet that is cut there.
+  /// Go on behind numberOfModes to the end of the multiplet that is cut there, but not to that of
+  /// the constants: ten thousand components have ten thousand.
   bool completeMultiplets = false;
   /// V: the few steps that are needed are at most one more than with W, and a cycle costs a quarter
   /// less.
@@ -34,6 +35,7 @@ struct Spectrum
   int iterations = 0;              // on the finest level
   bool singlePrecision = false;    // of all cycles, see SpectrumCycle; the result is in double
   bool truncated = false;          // fewer modes exist than were asked for
+  Index numberOfConstants = 0;     // that exist: one per connected component
   bool cutsMultiplet = false;      // the next eigenvalue belongs to the multiplet of the last
   /// Per pair: the relative error of the eigenvalue, as that of the space, from the next coarser
   /// level, whose error is four times as large; 1 (unknown) where that level has no such pair.

@@ -142,7 +142,7 @@ Spectrum ImproveSpectrum(const FiniteElementSpace& space, const Spectrum& start,
   const Constants constants(mass, std::move(components.ofFunction), components.count, threads);
   const Index zeros = constants.Count();
   const Index all = space.NumberOfFunctions(0) - zeros;
-  const Index listed = options.completeMultiplets ? zeros : std::min(zeros, options.numberOfModes);
+  const Index listed = std::min<Index>(zeros, options.numberOfModes);
   SpectralProblem<double> problem = FinestProblem(space, constants, std::move(mass), threads);
   EigenPairs<double> pairs;
   BlockReport report;

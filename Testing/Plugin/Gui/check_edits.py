@@ -35,6 +35,7 @@ COLORED_BY = {
     "PrincipalCurvatures": "Bending", "ScreenedPoisson": "NormalDisplacement",
     "SpectralSignatures": "Signature", "StitchColors": "StitchedColors",
     "SurfaceDetail": "NormalDisplacement", "SurfaceGradient": "Laplacian"}
+ZERO_IN_THE_MIDDLE = ("Bending", "Mode", "NormalDisplacement")
 shown = set()  # arrays, so far
 CHARTS = {"LaplaceSpectrum": ["Eigenvalue"], "MeanCurvatureFlow": ["Sphericity"]}
 
@@ -67,6 +68,9 @@ def check_shown(name):
     source.UpdatePipeline(simple.GetActiveView().ViewTime)
     component = -1 if data[array].GetNumberOfComponents() > 1 else 0
     wanted = data[array].GetRange(component)
+    if array in ZERO_IN_THE_MIDDLE:
+        largest = max(abs(end) for end in wanted)
+        wanted = (-largest, largest)
     points = surfaces[0].LookupTable.RGBPoints
     between = (points[0], points[-4])
     if array in shown:  # its colours grow by what has it
