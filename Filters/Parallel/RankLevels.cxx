@@ -1,5 +1,6 @@
 #include "Parallel/RankLevels.h"
 
+#include "Integrals/Evaluation.h"
 #include "Parallel/RankComponents.h"
 #include "Spaces/PatchOrdering.h"
 
@@ -19,6 +20,8 @@ RankLevels::RankLevels(const RankSpace& space) : space_(space)
         parts_.push_back(PatchesByRanks(space.Own().Functions().levels[l], numberings[l]));
       }
       integrals_ = space.Own().Integrals();
+      areas_ = AreasOfPieces(
+        space.Own().Functions(), static_cast<Id>(space.Own().Mesh().triangles.size()));
     });
   rows_.front().Sum(
     Eigen::Map<MultiVector>(integrals_.data(), static_cast<Id>(integrals_.size()), 1));
@@ -101,9 +104,98 @@ Columns RankLevels::SquaredNorms(const MultiVector& u, const Job& job) const
   return norms;
 }
 
-MultiVector RankLevels::ValuesAtPoints(const MultiVector& coefficients, const Job& job) const
+MultiVector RankLevels::ValuesAtPoints(const MultiVector& coefficients, const Job&) const
 {
-  return space_.Own().ValuesAtPoints(coefficients, job);
+  return space_.ValuesAtPoints(coefficients, space_.Distribution().NumberOfOwnPoints());
+}
+
+double RankLevels::UnitLength() const
+{
+  return space_.Own().UnitLength();
+}
+
+/// A field on the triangles that this rank has received.
+Field RankLevels::Send(const Field& own) const
+{
+  return { own.association, own.association == FieldAssociation::Points
+                              ? space_.Distribution().SendPoints(own.values)
+                              : space_.Distribution().SendTriangles(own.values) };
+}
+
+/// @param integrate  returns what this rank's patches add, on a number of threads
+template<class Integrate>
+MultiVector RankLevels::Load(const Job& job, Integrate&& integrate) const
+{
+  MultiVector load;
+  space_.Ranks().Together([&] { load = integrate(job.threads); });
+  rows_.front().Sum(load);
+  job.Check(1.0);
+  return load;
+}
+
+MultiVector RankLevels::LoadOfValues(const Field& f, const Job& job) const
+{
+  const Field here = this->Send(f);
+  return this->Load(job, [&](int threads) { return space_.Own().LoadOfValues(here, threads); });
+}
+
+MultiVector RankLevels::LoadOfGradients(const Field& s, const Field* scale, const Job& job) const
+{
+  const Field here = this->Send(s);
+  const Field factor = scale ? this->Send(*scale) : Field();
+  return this->Load(job, [&](int threads)
+    { return space_.Own().LoadOfGradients(here, scale ? &factor : nullptr, threads); });
+}
+
+MultiVector RankLevels::LoadOfGradientsOf(const Field& f, const Field* scale, const Job& job) const
+{
+  const Field here = this->Send(f);
+  const Field factor = scale ? this->Send(*scale) : Field();
+  return this->Load(job, [&](int threads)
+    { return space_.Own().LoadOfGradientsOf(here, scale ? &factor : nullptr, threads); });
+}
+
+MultiVector RankLevels::LoadOfGradientsOfCoordinates(const Field* scale, const Job& job) const
+{
+  const Field factor = scale ? this->Send(*scale) : Field();
+  return this->Load(job, [&](int threads)
+    { return space_.Own().LoadOfGradientsOfCoordinates(scale ? &factor : nullptr, threads); });
+}
+
+/// Ranks that have parts of a triangle add up their shares of its mean.
+MultiVector RankLevels::GradientsOnTriangles(const MultiVector& coefficients, const Job& job) const
+{
+  MultiVector shares;
+  space_.Ranks().Together(
+    [&]
+    {
+      const MultiVector means = space_.Own().GradientsOnTriangles(coefficients, job.threads);
+      const Eigen::Map<const Eigen::VectorXd> areas(
+        areas_.data(), static_cast<Eigen::Index>(areas_.size()));
+      shares.resize(means.rows(), means.cols() + 1);
+      shares << areas.asDiagonal() * means, areas;
+    });
+  const MultiVector sums = space_.Distribution().SumTriangles(shares);
+  MultiVector means;
+  space_.Ranks().Together(
+    [&]
+    {
+      means = sums.leftCols(sums.cols() - 1);
+      for (Id t = 0; t < means.rows(); ++t)
+      {
+        const double area = sums(t, means.cols());
+        means.row(t) *= area > 0.0 ? 1.0 / area : 0.0;
+      }
+    });
+  return means;
+}
+
+std::vector<char> RankLevels::PointsWithFunctions() const
+{
+  std::vector<char> has;
+  const MultiVector none = MultiVector::Zero(static_cast<Id>(integrals_.size()), 1);
+  space_.ValuesAtPoints(none, space_.Distribution().NumberOfOwnPoints(), &has);
+  return has;
 }
 
 const DividedRows* RankLevels::Divided(std::size_t level) const

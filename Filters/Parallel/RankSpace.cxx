@@ -108,6 +108,35 @@ void UnitePointPatches(
   }
 }
 
+/// How many points at one place are compared: more are no mesh.
+constexpr std::size_t MostCompared = 64;
+
+/// Sums of the rows of points first .. last, which are at one place, over those with the same
+/// patch, where they are of different ranks.
+void SumOfPlace(std::size_t first, std::size_t last, const Array<Index>& pointPatch,
+  const std::vector<int>& giver, const MultiVector& rows, MultiVector& sums)
+{
+  for (std::size_t k = first; k < last && last - first <= MostCompared; ++k)
+  {
+    Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(rows.cols());
+    int before = -1;
+    bool areApart = false;
+    for (std::size_t other = first; other < last; ++other)
+    {
+      if (pointPatch[other] == pointPatch[k]) // givers ascend
+      {
+        sum += rows.row(static_cast<Id>(other));
+        areApart |= giver[other] == before;
+        before = giver[other];
+      }
+    }
+    if (!areApart)
+    {
+      sums.row(static_cast<Id>(k)) = sum;
+    }
+  }
+}
+
 /// The patches in a range as a level of their own, without functions and parents.
 PatchLevel CellsOfRange(const PatchLevel& level, const PatchRange& range)
 {
@@ -139,7 +168,7 @@ struct LinkToCell
 } // namespace
 
 RankSpace::RankSpace(const Communicator& ranks, const TriangleMesh& own,
-  const RankSpaceOptions& options, const Progress& progress)
+  const RankSpaceOptions& options, const Progress& progress, const TriangleList& copies)
   : ranks_(ranks)
 {
   const SpaceOptions& functions = options.space.functions;
@@ -152,6 +181,7 @@ RankSpace::RankSpace(const Communicator& ranks, const TriangleMesh& own,
   GridFunctions all; // in and around the cells of this rank
   Array<Link> links;
   auto mesh = std::make_shared<TriangleMesh>(distribution_->TakeMesh());
+  copies_ = std::make_unique<TriangleCopies>(ranks_, own, copies, frame.grid, partition, *mesh);
   RequireMemory(ranks_, *mesh, frame.grid);
   ranks_.Together(
     [&]
@@ -341,6 +371,31 @@ MultiVector RankSpace::ValuesAtPoints(
     *hasValue = std::move(isReturned);
   }
   return own;
+}
+
+void RankSpace::SumAtPoints(MultiVector& own) const
+{
+  const MultiVector rows = distribution_->SendPoints(own);
+  MultiVector sums;
+  std::vector<char> isHere;
+  ranks_.Together(
+    [&]
+    {
+      sums = rows;
+      isHere = own_->PointsWithFunctions();
+      const std::vector<int> giver = distribution_->GiversOfPoints();
+      const std::vector<Vec3>& points = own_->Mesh().points;
+      std::size_t last = 0;
+      for (std::size_t first = 0; first < points.size(); first = last)
+      {
+        for (last = first + 1; last < points.size() && points[last] == points[first];)
+        {
+          ++last;
+        }
+        SumOfPlace(first, last, this->PointPatches(), giver, rows, sums);
+      }
+    });
+  distribution_->ReturnPoints(sums, isHere, own);
 }
 
 } // namespace gridfem

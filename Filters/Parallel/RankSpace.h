@@ -4,7 +4,7 @@
 #define GridFEM_RankSpace_h
 
 #include "Parallel/LevelNumbering.h"
-#include "Parallel/Redistribution.h"
+#include "Parallel/TriangleCopies.h"
 #include "Spaces/GridSpace.h"
 
 #include <memory>
@@ -23,13 +23,15 @@ class RankSpace
 {
 public:
   /// Collective. Clips and integrates what the cells of this rank hold.
-  /// @param own  this rank's triangles, world units
+  /// @param own     this rank's triangles, world units
+  /// @param copies  triangles of its points that it has as copies of another rank's
   /// Throws RankFailure, on all ranks, with what went wrong on one, and Aborted.
   RankSpace(const Communicator& ranks, const TriangleMesh& own, const RankSpaceOptions& options,
-    const Progress& progress = {});
+    const Progress& progress = {}, const TriangleList& copies = {});
 
   const Communicator& Ranks() const { return ranks_; }
   const Redistribution& Distribution() const { return *distribution_; }
+  const TriangleCopies& Copies() const { return *copies_; }
 
   /// The patches of this rank's cells as a space of their own. Its levels are the divided ones and
   /// the first of the shared ones. Functions of divided levels are those of Numberings(), so that
@@ -54,6 +56,11 @@ public:
   MultiVector ValuesAtPoints(
     const MultiVector& coefficients, Id ownPoints, std::vector<char>* hasValue = nullptr) const;
 
+  /// Collective. Rows of this rank's own points become the sums over the points of all ranks at the
+  /// same place of one sheet. Where a rank has several there, it keeps them apart: all stay as they
+  /// are.
+  void SumAtPoints(MultiVector& own) const;
+
 private:
   std::vector<PatchLevel> Divide(
     GridFunctions& all, const Array<Link>& links, const BlockPartition& partition);
@@ -63,6 +70,7 @@ private:
 
   Communicator ranks_;
   std::unique_ptr<Redistribution> distribution_;
+  std::unique_ptr<TriangleCopies> copies_;
   std::unique_ptr<GridSpace> own_;
   std::vector<LevelNumbering> numberings_;
   std::unique_ptr<GridSpace> shared_;

@@ -49,7 +49,8 @@ std::vector<Index> OrderInSpace(const std::vector<Vec3>& points, const Grid& gri
   return indices;
 }
 
-std::vector<Id> SizesOf(const std::vector<std::vector<Point>>& lists)
+template<class T>
+std::vector<Id> SizesOf(const std::vector<std::vector<T>>& lists)
 {
   std::vector<Id> sizes;
   sizes.reserve(lists.size());
@@ -65,7 +66,8 @@ std::vector<Id> SizesOf(const std::vector<std::vector<Point>>& lists)
 Redistribution::Redistribution(const Communicator& ranks, const TriangleMesh& own, const Grid& grid,
   const BlockPartition& partition)
   : ranks_(ranks), sentTriangles_(ranks.Size()), sentPoints_(ranks.Size()),
-    numberOfOwnPoints_(static_cast<Id>(own.points.size()))
+    numberOfOwnPoints_(static_cast<Id>(own.points.size())),
+    numberOfOwnTriangles_(static_cast<Id>(own.triangles.size()))
 {
   ranks_.Together(
     [&]
@@ -137,6 +139,7 @@ void Redistribution::Receive(const TriangleMesh& own, const Grid& grid)
   points = ranks_.Exchange(points);
   corners = ranks_.Exchange(corners);
   receivedPoints_ = SizesOf(points);
+  receivedTriangles_ = SizesOf(corners);
   ranks_.Together(
     [&]
     {
@@ -257,6 +260,51 @@ std::vector<char> Redistribution::ReturnPoints(
     }
   }
   return isReturned;
+}
+
+MultiVector Redistribution::SumTriangles(const MultiVector& rows) const
+{
+  const Id columns = rows.cols();
+  std::vector<std::vector<double>> parts(ranks_.Size());
+  ranks_.Together(
+    [&]
+    {
+      std::size_t k = 0;
+      for (int rank = 0; rank < ranks_.Size(); ++rank)
+      {
+        for (Id t = 0; t < receivedTriangles_[rank]; ++t)
+        {
+          const double* const row = rows.row(trianglePlace_[k++]).data();
+          parts[rank].insert(parts[rank].end(), row, row + columns);
+        }
+      }
+    });
+  parts = ranks_.Exchange(parts);
+  MultiVector sum;
+  ranks_.Together([&] { sum = MultiVector::Zero(numberOfOwnTriangles_, columns); });
+  for (int rank = 0; rank < ranks_.Size(); ++rank)
+  {
+    for (std::size_t k = 0; k < sentTriangles_[rank].size(); ++k)
+    {
+      sum.row(sentTriangles_[rank][k]) +=
+        Eigen::Map<const Eigen::RowVectorXd>(parts[rank].data() + k * columns, columns);
+    }
+  }
+  return sum;
+}
+
+std::vector<int> Redistribution::GiversOfPoints() const
+{
+  std::vector<int> giver(pointPlace_.size());
+  std::size_t k = 0;
+  for (int rank = 0; rank < ranks_.Size(); ++rank)
+  {
+    for (Id point = 0; point < receivedPoints_[rank]; ++point)
+    {
+      giver[pointPlace_[k++]] = rank;
+    }
+  }
+  return giver;
 }
 
 } // namespace gridfem

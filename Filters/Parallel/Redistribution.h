@@ -37,6 +37,16 @@ public:
   std::vector<char> ReturnPoints(
     const MultiVector& rows, const std::vector<char>& isKnown, MultiVector& own) const;
 
+  /// Collective. The way back of what is made of parts of triangles: the sum over the ranks that
+  /// have received a triangle. Rows = own triangles.
+  /// @param rows  at the received triangles; the same columns on all ranks
+  MultiVector SumTriangles(const MultiVector& rows) const;
+
+  Id NumberOfOwnPoints() const { return numberOfOwnPoints_; }
+
+  /// Per received point the rank that has given it.
+  std::vector<int> GiversOfPoints() const;
+
 private:
   using Lists = std::vector<std::vector<Index>>; // one per rank
 
@@ -49,9 +59,11 @@ private:
   Lists sentTriangles_; // own triangles that go to each rank, ascending
   Lists sentPoints_;    // own points of these, ascending
   Id numberOfOwnPoints_ = 0;
+  Id numberOfOwnTriangles_ = 0;
   std::vector<Index> pointPlace_;    // in the received mesh, of received points rank after rank
   std::vector<Index> trianglePlace_; // the same for triangles
   std::vector<Id> receivedPoints_;   // from each rank
+  std::vector<Id> receivedTriangles_;
   TriangleMesh mesh_;
 };
 

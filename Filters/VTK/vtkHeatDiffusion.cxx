@@ -1,10 +1,12 @@
 #include "vtkHeatDiffusion.h"
 
+#include "Private/CanDistribute.h"
 #include "Private/ClippedMeshWriter.h"
 #include "Private/GivenValues.h"
 #include "Private/InputArray.h"
 #include "Private/InputValidation.h"
 #include "Private/MovedMeshWriter.h"
+#include "Private/Ranks.h"
 #include "Private/SelectedPoints.h"
 #include "Private/SolverOutput.h"
 #include "Private/SurfaceSolverState.h"
@@ -57,11 +59,15 @@ struct Step
 
 struct vtkHeatDiffusion::Internals
 {
+  gridfem::InputArray Array; // none: the coordinates
+  gridfem::InputArray Source;
+  gridfem::InputArray Mask;
   gridfem::MultiVector Start;
   gridfem::MultiVector Sources;
   gridfem::HeldValues Held;
   std::unique_ptr<gridfem::HeatDiffusion> Diffusion;
-  std::vector<Step> Steps; // the first is step 1
+  std::vector<Step> Steps;     // the first is step 1
+  std::vector<char> IsReached; // points, by functions
 };
 
 vtkHeatDiffusion::vtkHeatDiffusion()
@@ -90,10 +96,9 @@ std::vector<double> vtkHeatDiffusion::OwnTimeSteps()
   return steps;
 }
 
-bool vtkHeatDiffusion::HoldsValues(vtkPolyData* input)
+bool vtkHeatDiffusion::HoldsValues() const
 {
-  return this->BoundaryValues || this->Selection->IsGiven() ||
-         gridfem::FindInputArray(this, 2, input, "ConstraintArray").array;
+  return this->BoundaryValues || this->Selection->IsGiven() || this->Data->Mask.array;
 }
 
 /// Those of time 0. The space has to be up to date.
@@ -101,13 +106,17 @@ gridfem::HeldValues vtkHeatDiffusion::FindHeldValues(vtkPolyData* input)
 {
   const gridfem::SurfaceSolverState& state = *this->State;
   const gridfem::TriangleMesh& mesh = *state.mesh.triangles;
-  const gridfem::InputArray mask = gridfem::FindInputArray(this, 2, input, "ConstraintArray");
-  gridfem::InputArray array = gridfem::FindInputArray(this, 0, input, "Array");
+  const gridfem::InputArray& mask = this->Data->Mask;
+  gridfem::InputArray array = this->Data->Array;
   gridfem::RequireValuesAtPoints(array, mask, *this->Selection);
   if (!array.array)
   {
-    array.array = input->GetPoints()->GetData();
+    array.array = input && input->GetPoints() ? input->GetPoints()->GetData() : nullptr;
     array.name = "coordinates";
+  }
+  if (state.together.IsUsed())
+  {
+    return state.together.HoldKnown(array, mask, *this->Selection, state.mesh);
   }
   gridfem::GivenValues given;
   given.values.resize(0, array.array->GetNumberOfComponents());
@@ -132,12 +141,12 @@ gridfem::HeldValues vtkHeatDiffusion::FindHeldValues(vtkPolyData* input)
 }
 
 /// The integrals of the array and of the source, and what is held. The system has to be up to date.
-void vtkHeatDiffusion::UpdateLoads(vtkPolyData* input)
+void vtkHeatDiffusion::UpdateLoads(vtkPolyData* input, const gridfem::Progress& progress)
 {
   gridfem::SurfaceSolverState& state = *this->State;
   Internals& data = *this->Data;
-  const gridfem::InputArray start = gridfem::FindInputArray(this, 0, input, "Array");
-  const gridfem::InputArray source = gridfem::FindInputArray(this, 1, input, "HeatSourceArray");
+  const gridfem::InputArray& start = data.Array;
+  const gridfem::InputArray& source = data.Source;
   const int components = start.array ? start.array->GetNumberOfComponents() : 3;
   if (source.array && source.array->GetNumberOfComponents() != components)
   {
@@ -150,35 +159,39 @@ void vtkHeatDiffusion::UpdateLoads(vtkPolyData* input)
   key.Add(state.stages.Version(gridfem::SystemStage));
   key.Add(start.array).Add(static_cast<int>(start.association));
   key.Add(source.array).Add(static_cast<int>(source.association));
-  key.Add(gridfem::FindInputArray(this, 2, input, "ConstraintArray").array);
+  key.Add(data.Mask.array);
   key.Add(this->BoundaryValues).Add(this->Selection->Version());
   state.stages.Run(gridfem::RightHandSideStage, key,
     [&]
     {
-      const gridfem::Progress progress = state.bridge.GetProgress();
-      const double unit = state.space->UnitLength();
-      data.Start = state.space->LoadOfValues(
-        start.array ? gridfem::ReadField(start, state.mesh) : gridfem::CoordinatesField(state.mesh),
-        state.MakeJob(progress.Part(0.3, 0.35)));
-      data.Held = this->HoldsValues(input) ? this->FindHeldValues(input) : gridfem::HeldValues{};
+      const gridfem::SurfaceSpace& space = *state.SolverSpace();
+      data.Start =
+        space.LoadOfValues(start.array ? state.Read(start) : gridfem::CoordinatesField(state.mesh),
+          state.MakeJob(progress.Part(0.0, 0.5)));
+      data.Held = this->HoldsValues() ? this->FindHeldValues(input) : gridfem::HeldValues{};
       data.Sources = {};
       if (source.array)
       {
         // Per squared unit of length of the space.
-        data.Sources = unit * unit *
-                       state.space->LoadOfValues(gridfem::ReadField(source, state.mesh),
-                         state.MakeJob(progress.Part(0.35, 0.4)));
+        data.Sources = std::pow(space.UnitLength(), 2) * space.LoadOfValues(state.Read(source),
+                                                           state.MakeJob(progress.Part(0.5, 1.0)));
       }
+      data.IsReached = state.PointsWithFunctions();
     });
 }
 
+/// The length of a step, squared units of length of the space.
+double vtkHeatDiffusion::GridStep() const
+{
+  return this->DiffusionTime / this->NumberOfSteps / this->State->WeightInGridUnits(1.0);
+}
+
 /// Makes the steps that are missing.
-/// @param step  length of a step, squared units of length of the space
-void vtkHeatDiffusion::UpdateSteps(double step)
+void vtkHeatDiffusion::UpdateSteps(const gridfem::Progress& progress)
 {
   gridfem::SurfaceSolverState& state = *this->State;
   Internals& data = *this->Data;
-  const gridfem::Progress progress = state.bridge.GetProgress();
+  const double step = this->GridStep();
   gridfem::StageKey key;
   key.Add(state.stages.Version(gridfem::RightHandSideStage)).Add(step).Add(this->Scheme);
   gridfem::AddSolver(key, state.options);
@@ -194,15 +207,15 @@ void vtkHeatDiffusion::UpdateSteps(double step)
       options.held = data.Held;
       data.Steps.clear();
       data.Diffusion.reset(); // frees its memory first
-      data.Diffusion = std::make_unique<gridfem::HeatDiffusion>(
-        state.space, data.Start, data.Sources, options, state.MakeJob(progress.Part(0.4, 0.5)));
+      data.Diffusion = std::make_unique<gridfem::HeatDiffusion>(state.SolverSpace(), data.Start,
+        data.Sources, options, state.MakeJob(progress.Part(0.0, 0.2)));
     });
   const auto wanted = static_cast<std::size_t>(this->NumberOfSteps);
   const auto first = static_cast<double>(data.Steps.size());
   while (data.Steps.size() < wanted)
   {
-    const double share = 0.45 / (static_cast<double>(wanted) - first);
-    const double done = 0.5 + share * (static_cast<double>(data.Steps.size()) - first);
+    const double share = 0.8 / (static_cast<double>(wanted) - first);
+    const double done = 0.2 + share * (static_cast<double>(data.Steps.size()) - first);
     key = {};
     key.Add(state.stages.Version(gridfem::HierarchyStage));
     key.Add(static_cast<std::int64_t>(data.Steps.size()));
@@ -211,48 +224,80 @@ void vtkHeatDiffusion::UpdateSteps(double step)
       {
         gridfem::SolveReport report =
           data.Diffusion->Advance(state.MakeJob(progress.Part(done, done + share)));
-        data.Steps.push_back(
-          { state.space->ValuesAtPoints(data.Diffusion->Coefficients(), this->NumberOfThreads),
-            std::move(report), data.Diffusion->Accuracy(), data.Diffusion->Held() });
+        gridfem::SolutionAccuracy accuracy = data.Diffusion->Accuracy();
+        if (state.together.IsUsed())
+        {
+          accuracy.largest = state.together.Largest(accuracy.largest);
+        }
+        data.Steps.push_back({ state.ValuesAtPoints(data.Diffusion->Coefficients()),
+          std::move(report), accuracy, data.Diffusion->Held() });
       });
   }
 }
 
 void vtkHeatDiffusion::WriteStep(int shown, vtkPolyData* input, vtkPolyData* output)
 {
-  const Step& step = this->Data->Steps[static_cast<std::size_t>(shown) - 1];
+  const Internals& data = *this->Data;
+  const Step& step = data.Steps[static_cast<std::size_t>(shown) - 1];
   const gridfem::SurfaceSolverState& state = *this->State;
-  const gridfem::InputArray array = gridfem::FindInputArray(this, 0, input, "Array");
-  vtkDataArray* given = array.array ? array.array : input->GetPoints()->GetData();
+  vtkDataArray* given = data.Array.array ? data.Array.array : input->GetPoints()->GetData();
   gridfem::MultiVector values = step.atPoints;
-  if (array.association == gridfem::FieldAssociation::Points)
+  if (data.Array.association == gridfem::FieldAssociation::Points)
   {
-    gridfem::KeepUnsolved(state.space->PointsWithFunctions(), given, values);
+    gridfem::KeepUnsolved(data.IsReached, given, values);
   }
   output->ShallowCopy(input);
   auto diffused = gridfem::MakePointArray("Diffused", values, VTK_DOUBLE);
-  if (array.array)
+  if (data.Array.array)
   {
-    diffused->CopyComponentNames(array.array);
+    diffused->CopyComponentNames(data.Array.array);
   }
   output->GetPointData()->AddArray(diffused);
   output->GetPointData()->SetActiveScalars("Diffused");
-  if (!array.array && this->MovePoints)
+  if (!data.Array.array && this->MovePoints)
   {
     gridfem::MoveSurface(*state.mesh.triangles, values,
       gridfem::OutputPrecision(input->GetPoints()), this->NumberOfThreads, output);
   }
+}
+
+/// What is known of a step besides its values.
+void vtkHeatDiffusion::WriteFacts(int shown, vtkPolyData* output)
+{
+  const Step& step = this->Data->Steps[static_cast<std::size_t>(shown) - 1];
   gridfem::AddFieldInt(output, "Step", shown);
-  if (this->Data->Held.values.rows() > 0)
+  if (this->Data->Held.values.rows() > 0 || this->Data->Mask.array)
   {
     gridfem::AddFieldNumber(output, "Misfit", step.met.misfit);
     const std::string warning = gridfem::WarningOfConstraints(step.met);
-    if (!warning.empty())
+    if (!warning.empty() && gridfem::Ranks().IsFirst())
     {
       vtkWarningMacro(<< warning);
     }
   }
   this->WriteReport(step.report, step.accuracy, output);
+  const double unit = this->State->SolverSpace()->UnitLength();
+  gridfem::AddFieldNumber(output, "DiffusionTime", shown * this->GridStep() * unit * unit);
+}
+
+void vtkHeatDiffusion::RequireTime() const
+{
+  gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
+  gridfem::RequireAtLeast("DiffusionTime", this->DiffusionTime, 0.0);
+  if (this->DiffusionTime == 0.0)
+  {
+    throw gridfem::InvalidInput("DiffusionTime is 0: nothing spreads. It must be above 0.");
+  }
+}
+
+/// Errors of several steps add up, and held values are met by steps of their own.
+void vtkHeatDiffusion::ChooseTolerance()
+{
+  if ((this->NumberOfSteps > 1 || this->HoldsValues()) && this->Tolerance == 0.0)
+  {
+    this->State->options.accuracy = 0.0;
+    this->State->options.solve.tolerance = gridfem::ToleranceOfSteps;
+  }
 }
 
 void vtkHeatDiffusion::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
@@ -260,30 +305,65 @@ void vtkHeatDiffusion::Compute(vtkInformationVector** inputs, vtkInformationVect
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
   gridfem::SurfaceSolverState& state = *this->State;
+  Internals& data = *this->Data;
   const gridfem::Progress progress = state.bridge.GetProgress();
-  gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
-  gridfem::RequireAtLeast("DiffusionTime", this->DiffusionTime, 0.0);
-  if (this->DiffusionTime == 0.0)
-  {
-    throw gridfem::InvalidInput("DiffusionTime is 0: nothing spreads. It must be above 0.");
-  }
+  this->RequireTime();
   this->Selection->Update(vtkSelection::GetData(inputs[2]), input);
-  if ((this->NumberOfSteps > 1 || this->HoldsValues(input)) && this->Tolerance == 0.0)
-  {
-    state.options.accuracy = 0.0;
-    state.options.solve.tolerance = gridfem::ToleranceOfSteps;
-  }
+  data.Array = gridfem::FindInputArray(this, 0, input, "Array");
+  data.Source = gridfem::FindInputArray(this, 1, input, "HeatSourceArray");
+  data.Mask = gridfem::FindInputArray(this, 2, input, "ConstraintArray");
+  this->ChooseTolerance();
   state.UpdateSpace(input, vtkPolyData::GetData(inputs[1]), progress.Part(0.0, 0.2));
   state.UpdateSystem(progress.Part(0.2, 0.3));
-  this->UpdateLoads(input);
-  const double worldPerGrid = std::pow(state.space->UnitLength(), 2);
-  const double step = this->DiffusionTime / this->NumberOfSteps / state.WeightInGridUnits(1.0);
-  this->UpdateSteps(step);
+  this->UpdateLoads(input, progress.Part(0.3, 0.4));
+  this->UpdateSteps(progress.Part(0.4, 0.95));
 
   const int shown = ShownStep(outputs->GetInformationObject(0), this->NumberOfSteps);
   this->WriteStep(shown, input, output);
-  gridfem::AddFieldNumber(output, "DiffusionTime", shown * step * worldPerGrid);
+  this->WriteFacts(shown, output);
   progress.Check(1.0);
+}
+
+bool vtkHeatDiffusion::ComputeTogether(vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  gridfem::SurfaceSolverState& state = *this->State;
+  const std::string obstacle = gridfem::FirstObstacle({ { this->BoundaryValues, "BoundaryValues" },
+    { this->MovePoints && !gridfem::IsArrayChosen(this, 0), "MovePoints of the coordinates" } });
+  if (!this->Distributed ||
+      !gridfem::CanDistribute(this, inputs, state.options.space.depth, obstacle))
+  {
+    return false;
+  }
+  vtkPolyData* piece = vtkPolyData::GetData(inputs[0]);
+  Internals& data = *this->Data;
+  this->Selection->Update(nullptr, piece);
+  state.RunTogether(
+    [&](const gridfem::Progress& progress)
+    {
+      state.together.Together([&] { this->RequireTime(); });
+      state.UpdateTogether(piece);
+      progress.Check(0.3);
+      data.Mask = state.together.Find(this, 2, piece, state.mesh, "ConstraintArray");
+      this->ChooseTolerance();
+      data.Array = state.together.Find(this, 0, piece, state.mesh, "Array");
+      data.Source = state.together.Find(this, 1, piece, state.mesh, "HeatSourceArray");
+      this->UpdateLoads(piece, progress.Part(0.3, 0.4));
+      this->UpdateSteps(progress.Part(0.4, 0.95));
+      state.together.Together([&] { this->WriteDistributed(piece, outputs); });
+    });
+  return true;
+}
+
+void vtkHeatDiffusion::WriteDistributed(vtkPolyData* piece, vtkInformationVector* outputs)
+{
+  vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
+  const int shown = ShownStep(outputs->GetInformationObject(0), this->NumberOfSteps);
+  if (piece && piece->GetPoints())
+  {
+    this->WriteStep(shown, piece, output);
+  }
+  this->WriteFacts(shown, output);
+  gridfem::AddDistributed(this->Depth, output);
 }
 
 void vtkHeatDiffusion::FreeStages()
@@ -301,4 +381,5 @@ void vtkHeatDiffusion::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MovePoints: " << this->MovePoints << "\n";
   os << indent << "Scheme: " << this->Scheme << "\n";
   os << indent << "BoundaryValues: " << this->BoundaryValues << "\n";
+  os << indent << "Distributed: " << this->Distributed << "\n";
 }

@@ -41,6 +41,7 @@
 namespace gridfem
 {
 struct HeldValues;
+class Progress;
 class SelectedPoints;
 } // namespace gridfem
 
@@ -102,6 +103,19 @@ public:
   vtkBooleanMacro(BoundaryValues, bool);
   ///@}
 
+  ///@{
+  /**
+   * On several MPI ranks: when on, all ranks compute, and none gathers the surface, which may be
+   * larger than one machine. Possible on the functions of a grid of a given Depth with the patch
+   * smoother; not with a selection or BoundaryValues, with MovePoints where the coordinates spread,
+   * a given basis, or BlocksAsOne. Where it is not, rank 0 gathers as ever, and warns. The field
+   * array `Distributed` says which. Needs a build with MPI. Default off.
+   */
+  vtkSetMacro(Distributed, bool);
+  vtkGetMacro(Distributed, bool);
+  vtkBooleanMacro(Distributed, bool);
+  ///@}
+
   /**
    * The input of port 1: the basis.
    */
@@ -119,6 +133,7 @@ protected:
   int FillInputPortInformation(int port, vtkInformation* info) override;
   std::vector<double> OwnTimeSteps() override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  bool ComputeTogether(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   void FreeStages() override;
 
   double DiffusionTime = 0.001;
@@ -126,16 +141,22 @@ protected:
   int Scheme = SecondOrder;
   bool MovePoints = true;
   bool BoundaryValues = false;
+  bool Distributed = false;
 
 private:
   vtkHeatDiffusion(const vtkHeatDiffusion&) = delete;
   void operator=(const vtkHeatDiffusion&) = delete;
 
-  bool HoldsValues(vtkPolyData* input);
+  void RequireTime() const;
+  bool HoldsValues() const;
   gridfem::HeldValues FindHeldValues(vtkPolyData* input);
-  void UpdateLoads(vtkPolyData* input);
-  void UpdateSteps(double step);
+  void UpdateLoads(vtkPolyData* input, const gridfem::Progress& progress);
+  void UpdateSteps(const gridfem::Progress& progress);
+  double GridStep() const;
+  void ChooseTolerance();
   void WriteStep(int shown, vtkPolyData* input, vtkPolyData* output);
+  void WriteFacts(int shown, vtkPolyData* output);
+  void WriteDistributed(vtkPolyData* piece, vtkInformationVector* outputs);
 
   struct Internals;
   std::unique_ptr<Internals> Data;

@@ -2,7 +2,6 @@
 
 #include "Private/CanDistribute.h"
 #include "Private/ClippedMeshWriter.h"
-#include "Private/DistributedSpectrum.h"
 #include "Private/InputArray.h"
 #include "Private/InputValidation.h"
 #include "Private/ModeReader.h"
@@ -45,9 +44,6 @@ int FirstTimeStep(int numberOfModes)
 struct vtkLaplaceSpectrum::Internals : gridfem::SurfaceSpectrum
 {
   std::int64_t WarnedRun = 0; // the last solve whose cut multiplet was told of: not every time step
-  gridfem::MultiVector Together; // modes of all ranks at this one's points, a column each
-  gridfem::StageKey TogetherKey;
-  std::int64_t TogetherRuns = 0;
   /// NumberOfModes and CompleteMultiplets of the last solve: how many modes these give is known.
   int SolvedModes = 0;
   bool SolvedWhole = false;
@@ -123,9 +119,9 @@ void vtkLaplaceSpectrum::WriteModes(vtkPolyData* input, vtkInformation* info, vt
   const auto addMode = [&](int mode, const std::string& name)
   {
     const gridfem::MultiVector values =
-      this->Data->Together.cols() > 0
-        ? gridfem::MultiVector(this->Data->Together.col(mode))
-        : gridfem::EvaluateModes(state, this->Data->spectrum, mode, 1, this->NumberOfThreads);
+      this->Data->atPoints.cols() > 0
+        ? gridfem::MultiVector(this->Data->atPoints.col(mode))
+        : gridfem::EvaluateModes(state, this->Data->spectrum, mode, 1);
     output->GetPointData()->AddArray(gridfem::MakePointArray(name.c_str(), values, precision));
     return name;
   };
@@ -202,7 +198,7 @@ void vtkLaplaceSpectrum::Warn()
   const std::string where = this->FunctionSpace == HatFunctions
                               ? "with the hat functions of this mesh"
                               : "at Depth " + std::to_string(this->Data->depth);
-  const std::int64_t run = this->State->stages.Runs(gridfem::SolveStage) + this->Data->TogetherRuns;
+  const std::int64_t run = this->State->stages.Runs(gridfem::SolveStage);
   for (const std::string& warning : gridfem::WarningsOf(
          this->Data->spectrum, this->NumberOfModes, where, run != this->Data->WarnedRun))
   {
@@ -239,7 +235,6 @@ void vtkLaplaceSpectrum::Compute(vtkInformationVector** inputs, vtkInformationVe
   this->State->metricArray = gridfem::FindInputArray(this, 5, input, "MetricArray");
   this->State->options.trackMetric = this->TrackMetric && !this->AccuracyDriven;
   this->Data->SolvedModes = 0;
-  this->Data->Together = {};
   this->Data->Update(*this->State, input, vtkPolyData::GetData(inputs[1]), request);
   this->Data->SolvedModes = this->NumberOfModes;
   this->Data->SolvedWhole = this->CompleteMultiplets;
@@ -252,60 +247,45 @@ void vtkLaplaceSpectrum::Compute(vtkInformationVector** inputs, vtkInformationVe
 bool vtkLaplaceSpectrum::ComputeTogether(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  const bool isPlain = !this->AccuracyDriven && !this->CompareFunctionSpaces &&
-                       !this->TrackMetric && !gridfem::IsArrayChosen(this, { 5 });
-  if (!this->Distributed ||
-      !gridfem::CanDistribute(this, inputs, this->State->options.space.depth, isPlain))
+  if (!this->Distributed)
   {
     return false;
   }
-  const gridfem::Ranks ranks;
-  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
-  Internals& data = *this->Data;
-  const gridfem::SurfaceOptions& options = this->State->options;
-  gridfem::StageKey key;
-  key.Add(this->NumberOfModes).Add(this->CompleteMultiplets).Add(options.space.depth);
-  key.Add(options.space.connectivityAware).Add(options.space.weldCoincidentPoints);
-  key.Add(options.choice.quadratureDegree).Add(options.choice.normalStabilization);
-  gridfem::AddSolver(key, options);
-  if (input)
+  const std::string obstacle = gridfem::FirstObstacle({ { this->AccuracyDriven, "AccuracyDriven" },
+    { this->CompareFunctionSpaces, "CompareFunctionSpaces" }, { this->TrackMetric, "TrackMetric" },
+    { gridfem::IsArrayChosen(this, 5), "a MetricArray" } });
+  gridfem::SurfaceSolverState& state = *this->State;
+  if (!gridfem::CanDistribute(this, inputs, state.options.space.depth, obstacle))
   {
-    gridfem::AddMesh(key, input);
+    return false;
   }
-  if (ranks.Any(data.Together.cols() == 0 || !(key == data.TogetherKey)))
-  {
-    gridfem::InputMesh mesh;
-    ranks.Together([&] { mesh = gridfem::ReadPiece(this, input); });
-    this->FreeStages();
-    gridfem::DistributedModes modes = gridfem::FindModesTogether(mesh, this->NumberOfModes,
-      this->CompleteMultiplets, options, this->State->bridge.GetProgress());
-    data.spectrum = std::move(modes.spectrum);
-    data.depth = options.space.depth;
-    data.eigenvalues = gridfem::InWorldUnits(data.spectrum.eigenvalues, modes.unitLength);
-    data.SolvedModes = this->NumberOfModes;
-    data.SolvedWhole = this->CompleteMultiplets;
-    data.TogetherKey = key;
-    data.Together = std::move(modes.values);
-    ++data.TogetherRuns;
-  }
-  ranks.Together([&] { this->WriteDistributed(input, outputs); });
+  vtkPolyData* piece = vtkPolyData::GetData(inputs[0]);
+  state.options.trackMetric = false;
+  gridfem::SpectrumRequest request;
+  request.numberOfModes = this->NumberOfModes;
+  request.completeMultiplets = this->CompleteMultiplets;
+  this->Data->SolvedModes = 0;
+  state.RunTogether(
+    [&](const gridfem::Progress& progress)
+    {
+      state.UpdateTogether(piece);
+      this->Data->UpdateTogether(state, request, progress.Part(0.3, 1.0));
+      this->Data->SolvedModes = this->NumberOfModes;
+      this->Data->SolvedWhole = this->CompleteMultiplets;
+      state.together.Together([&] { this->WriteDistributed(piece, outputs); });
+    });
   return true;
 }
 
 /// Port 0 is the rank's own piece with its modes; the table is on the first rank.
-void vtkLaplaceSpectrum::WriteDistributed(vtkPolyData* input, vtkInformationVector* outputs)
+void vtkLaplaceSpectrum::WriteDistributed(vtkPolyData* piece, vtkInformationVector* outputs)
 {
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
-  if (input)
+  if (piece)
   {
-    if (this->Data->Together.rows() != input->GetNumberOfPoints()) // of a piece without polygons
-    {
-      this->Data->Together.setZero(input->GetNumberOfPoints(), this->Data->Together.cols());
-    }
-    this->WriteModes(input, outputs->GetInformationObject(0), output);
+    this->WriteModes(piece, outputs->GetInformationObject(0), output);
   }
-  gridfem::AddFieldInt(output, "UsedDepth", this->Depth);
-  gridfem::AddFieldInt(output, "Distributed", 1);
+  gridfem::AddDistributed(this->Depth, output);
   if (gridfem::Ranks().IsFirst())
   {
     this->WriteTable(vtkTable::GetData(outputs, 1));
@@ -317,7 +297,7 @@ void vtkLaplaceSpectrum::FreeStages()
 {
   this->Superclass::FreeStages();
   this->Data->spectrum = {};
-  this->Data->Together = {};
+  this->Data->atPoints = {};
 }
 
 void vtkLaplaceSpectrum::PrintSelf(ostream& os, vtkIndent indent)

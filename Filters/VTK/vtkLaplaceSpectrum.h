@@ -152,10 +152,9 @@ public:
    * On several MPI ranks: when on, all ranks compute, and none gathers the surface, which may be
    * larger than one machine. Possible on the functions of a grid of a given Depth with the patch
    * smoother; not with AccuracyDriven, CompareFunctionSpaces, TrackMetric, a MetricArray, a given
-   * basis, BlocksAsOne, or ghost cells. Where it is not, rank 0 gathers as ever. The field array
-   * `Distributed` says which. The modes stay for other time steps until the surface of a rank
-   * changes; nothing else is kept. Zero modes of several components may come in another order, and
-   * modes with the other sign. Needs a build with MPI. Default off.
+   * basis, or BlocksAsOne. Where it is not, rank 0 gathers as ever, and warns. The field array
+   * `Distributed` says which. Zero modes of several components may come in another order, and modes
+   * with the other sign. Needs a build with MPI. Default off.
    */
   vtkSetMacro(Distributed, bool);
   vtkGetMacro(Distributed, bool);
@@ -191,7 +190,7 @@ private:
   vtkLaplaceSpectrum(const vtkLaplaceSpectrum&) = delete;
   void operator=(const vtkLaplaceSpectrum&) = delete;
 
-  void WriteDistributed(vtkPolyData* input, vtkInformationVector* outputs);
+  void WriteDistributed(vtkPolyData* piece, vtkInformationVector* outputs);
   bool IsAccurate() const;
   int ShownMode(vtkInformation* output);
   void WriteModes(vtkPolyData* input, vtkInformation* info, vtkPolyData* output);

@@ -1,5 +1,6 @@
 #include "vtkPoissonAlgorithm.h"
 
+#include "Private/Ranks.h"
 #include "Private/SolverOutput.h"
 #include "Private/SurfaceSolverState.h"
 
@@ -31,7 +32,7 @@ void vtkPoissonAlgorithm::WriteReport(const gridfem::SolveReport& report,
   gridfem::AddAccuracy(accuracy, output);
   const std::string warning =
     gridfem::WarningOf(report, accuracy, this->State->options.solve.tolerance);
-  if (!warning.empty())
+  if (!warning.empty() && gridfem::Ranks().IsFirst())
   {
     vtkWarningMacro(<< warning);
   }

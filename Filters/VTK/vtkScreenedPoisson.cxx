@@ -3,7 +3,6 @@
 #include "Private/CanDistribute.h"
 #include "Private/ClippedArrays.h"
 #include "Private/ClippedMeshWriter.h"
-#include "Private/DistributedPoisson.h"
 #include "Private/InputArray.h"
 #include "Private/InputValidation.h"
 #include "Private/MovedMeshWriter.h"
@@ -52,11 +51,18 @@ struct vtkScreenedPoisson::Internals
   gridfem::InputArray Coordinates; // stand in for Value
 
   /// The factor on the gradients at points or cells, if one is chosen.
-  std::optional<gridfem::Field> ReadScale(const gridfem::InputMesh& mesh) const
+  std::optional<gridfem::Field> ReadScale(const gridfem::SurfaceSolverState& state) const
   {
-    return this->Scale.array ? std::make_optional(gridfem::ReadField(this->Scale, mesh))
-                             : std::nullopt;
+    return this->Scale.array ? std::make_optional(state.Read(this->Scale)) : std::nullopt;
   }
+
+  /// Of all ranks together, on this one's piece, until they are written.
+  struct
+  {
+    gridfem::MultiVector Values;
+    std::vector<char> IsSolved;
+    gridfem::MultiVector Gradients;
+  } Together;
 
   gridfem::DepthSearch Search; // of AccuracyDriven
   gridfem::StageKey Searched;  // all that its answer depends on
@@ -201,9 +207,23 @@ gridfem::SolutionAccuracy vtkScreenedPoisson::EstimatedErrors() const
                                : this->Data->Equation.Accuracy();
 }
 
-gridfem::ConstrainedLoad vtkScreenedPoisson::IntegrateConstrained(
-  const gridfem::FiniteElementSpace& space, const gridfem::Job& job)
+/// Of ranks together, which hold values and have no other constraint.
+gridfem::ConstrainedLoad vtkScreenedPoisson::IntegrateTogether(const gridfem::Job& job)
 {
+  const Internals& data = *this->Data;
+  const gridfem::SurfaceSolverState& state = *this->State;
+  gridfem::PoissonLoad plain = this->Integrate(*state.SolverSpace(), job);
+  gridfem::ConstrainedLoad load;
+  load.values = std::move(plain.values);
+  load.gradients = std::move(plain.gradients);
+  load.held = state.together.HoldKnown(data.Value.array ? data.Value : data.Coordinates,
+    data.Constraint, *this->Selection, state.mesh);
+  return load;
+}
+
+gridfem::ConstrainedLoad vtkScreenedPoisson::IntegrateConstrained(const gridfem::Job& job)
+{
+  const gridfem::FiniteElementSpace& space = *this->State->space;
   const Internals& data = *this->Data;
   const gridfem::InputMesh& mesh = this->State->mesh;
   const gridfem::TriangleMesh& triangles = *mesh.triangles;
@@ -225,7 +245,7 @@ gridfem::ConstrainedLoad vtkScreenedPoisson::IntegrateConstrained(
   {
     this->AddBoundary(space, value, load);
   }
-  const auto factor = data.ReadScale(mesh);
+  const auto factor = data.ReadScale(*this->State);
   if (data.Gradient.array)
   {
     load.gradients =
@@ -267,25 +287,24 @@ void vtkScreenedPoisson::AddBoundary(const gridfem::FiniteElementSpace& space,
 }
 
 gridfem::PoissonLoad vtkScreenedPoisson::Integrate(
-  const gridfem::FiniteElementSpace& space, const gridfem::Job& job)
+  const gridfem::SurfaceSpace& space, const gridfem::Job& job)
 {
   const Internals& data = *this->Data;
-  const gridfem::InputMesh& mesh = this->State->mesh;
-  const gridfem::Field value = data.Value.array
-                                 ? gridfem::ReadField(data.Value, mesh)
-                                 : gridfem::CoordinatesField(this->State->CurrentMesh());
-  const std::optional<gridfem::Field> factor = data.ReadScale(mesh);
+  const gridfem::SurfaceSolverState& state = *this->State;
+  const gridfem::Field value =
+    data.Value.array ? state.Read(data.Value) : gridfem::CoordinatesField(state.CurrentMesh());
+  const std::optional<gridfem::Field> factor = data.ReadScale(state);
   const gridfem::Field* scale = factor ? &*factor : nullptr;
   gridfem::PoissonLoad load;
   load.values = space.LoadOfValues(value, job.Part(0.0, 0.5));
   if (data.Gradient.array)
   {
     load.gradients = space.LoadOfGradients(
-      this->State->OnReference(gridfem::ReadField(data.Gradient, mesh)), scale, job.Part(0.5, 1.0));
+      state.OnReference(state.Read(data.Gradient)), scale, job.Part(0.5, 1.0));
   }
   else if (this->UseValueGradient)
   {
-    const bool isValue = data.Value.array || &this->State->CurrentMesh() != &mesh;
+    const bool isValue = data.Value.array || &state.CurrentMesh() != &state.mesh;
     load.gradients = isValue ? space.LoadOfGradientsOf(value, scale, job.Part(0.5, 1.0))
                              : space.LoadOfGradientsOfCoordinates(scale, job.Part(0.5, 1.0));
   }
@@ -316,14 +335,17 @@ void vtkScreenedPoisson::Solve(const gridfem::Progress& progress)
     fields.Add(data.Flux.array).Add(this->BoundaryValues).Add(this->Selection->Version());
     data.Constrained.Update(
       *this->State, fields,
-      [this](const gridfem::FiniteElementSpace& space, const gridfem::Job& job)
-      { return this->IntegrateConstrained(space, job); },
+      [this](const gridfem::Job& job)
+      {
+        return this->State->together.IsUsed() ? this->IntegrateTogether(job)
+                                              : this->IntegrateConstrained(job);
+      },
       request, progress);
     return;
   }
   data.Equation.Update(
     *this->State, fields,
-    [this](const gridfem::FiniteElementSpace& space, const gridfem::Job& job)
+    [this](const gridfem::SurfaceSpace& space, const gridfem::Job& job)
     { return this->Integrate(space, job); },
     request, progress);
 }
@@ -455,101 +477,123 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
   {
     gridfem::AddFieldInt(output, "Converged", 0);
   }
+  this->WriteTables(outputs);
+  progress.Check(1.0);
+}
+
+/// The history, and what it gives reason to warn of.
+void vtkScreenedPoisson::WriteTables(vtkInformationVector* outputs)
+{
   vtkTable* table = vtkTable::GetData(outputs, 1);
   gridfem::WriteHistory(this->Report(), table);
   gridfem::AddErrors(this->Report(), this->EstimatedErrors(), table);
   this->Warn();
-  progress.Check(1.0);
 }
 
 bool vtkScreenedPoisson::ComputeTogether(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  const bool isPlain = this->Iteration == ConjugateGradients && !this->AccuracyDriven &&
-                       !this->TrackMetric && !this->FillUnknown && !this->BoundaryValues &&
-                       !this->SolutionGradient &&
-                       (gridfem::IsArrayChosen(this, { 0 }) || !this->MovePoints);
-  const bool hasOthers =
-    gridfem::IsArrayChosen(this, { 3, 4, 5, 6 }); // weight, constraints, metric, flux
-  if (!this->Distributed || !gridfem::CanDistribute(this, inputs, this->State->options.space.depth,
-                              isPlain && !hasOthers))
+  if (!this->Distributed)
   {
     return false;
   }
-  const gridfem::Ranks ranks;
-  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
-  Internals& data = *this->Data;
-  gridfem::InputMesh mesh;
-  gridfem::DistributedRequest request;
-  request.useValueGradient = this->UseValueGradient;
-  request.weight = this->ScreeningWeight;
-  request.gradientScale = this->GradientScale;
-  const gridfem::Progress progress = this->State->bridge.GetProgress();
-  ranks.Together(
-    [&]
-    {
-      mesh = gridfem::ReadPiece(this, input);
-      if (!mesh.triangles->triangles.empty())
-      {
-        this->FindArrays(input);
-        request.value = data.Value;
-        request.gradient = data.Gradient;
-        request.scale = data.Scale;
-      }
-    });
-  gridfem::DistributedSolution solution =
-    gridfem::SolveDistributed(mesh, request, this->State->options, progress);
-  ranks.Together([&] { this->WriteDistributed(input, mesh, solution, outputs); });
+  const std::string obstacle =
+    gridfem::FirstObstacle({ { this->Iteration != ConjugateGradients, "cycles as Iteration" },
+      { this->AccuracyDriven, "AccuracyDriven" }, { this->TrackMetric, "TrackMetric" },
+      { this->FillUnknown, "FillUnknown" }, { this->BoundaryValues, "BoundaryValues" },
+      { gridfem::IsArrayChosen(this, 3), "a ValueWeightArray" },
+      { gridfem::IsArrayChosen(this, 5), "a MetricArray" },
+      { gridfem::IsArrayChosen(this, 6), "a BoundaryFluxArray" },
+      { this->MovePoints && !gridfem::IsArrayChosen(this, 0), "MovePoints of the coordinates" } });
+  if (!gridfem::CanDistribute(this, inputs, this->State->options.space.depth, obstacle))
+  {
+    return false;
+  }
+  this->State->RunTogether([&](const gridfem::Progress& progress)
+    { this->SolveTogether(vtkPolyData::GetData(inputs[0]), outputs, progress); });
   return true;
 }
 
 /// Port 0 is the rank's own piece with the solution; the table is on the first rank.
-void vtkScreenedPoisson::WriteDistributed(vtkPolyData* input, const gridfem::InputMesh& mesh,
-  gridfem::DistributedSolution& solution, vtkInformationVector* outputs)
+void vtkScreenedPoisson::SolveTogether(
+  vtkPolyData* piece, vtkInformationVector* outputs, const gridfem::Progress& progress)
 {
-  vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
-  if (input)
+  Internals& data = *this->Data;
+  gridfem::SurfaceSolverState& state = *this->State;
+  state.options.trackMetric = false;
+  this->Selection->Update(nullptr, piece);
+  state.UpdateTogether(piece);
+  progress.Check(0.4);
+  state.together.Together(
+    [&]
+    {
+      data.Value = data.Gradient = data.Scale = {};
+      data.Weight = data.Constraint = data.Flux = data.Coordinates = {};
+      if (!state.mesh.triangles->triangles.empty())
+      {
+        this->FindArrays(piece);
+        this->FindConstraints(piece);
+      }
+    });
+  state.together.Agree(0, data.Value);
+  state.together.Agree(1, data.Gradient);
+  state.together.Agree(2, data.Scale);
+  state.together.Agree(4, data.Constraint);
+  this->Solve(progress.Part(0.4, 1.0));
+
+  data.Together.Values =
+    this->IsConstrained() ? data.Constrained.Values(state) : data.Equation.Values(state);
+  data.Together.IsSolved = state.PointsWithFunctions();
+  if (this->SolutionGradient)
   {
-    output->ShallowCopy(input);
-    vtkDataArray* given = this->Data->Value.array ? this->Data->Value.array
-                          : input->GetPoints()    ? input->GetPoints()->GetData()
-                                                  : nullptr;
-    const bool isOnPoints = this->Data->Value.association == gridfem::FieldAssociation::Points;
-    if (mesh.triangles->points.empty())
+    data.Together.Gradients = state.MeansOnCells(
+      this->IsConstrained() ? data.Constrained.Gradients(state) : data.Equation.Gradients(state),
+      piece ? piece->GetNumberOfCells() : 0);
+  }
+  state.together.Together([&] { this->WriteDistributed(piece, outputs); });
+  data.Together = {};
+}
+
+void vtkScreenedPoisson::WriteDistributed(vtkPolyData* piece, vtkInformationVector* outputs)
+{
+  Internals& data = *this->Data;
+  vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
+  if (piece)
+  {
+    output->ShallowCopy(piece);
+    vtkDataArray* given = data.Value.array     ? data.Value.array
+                          : piece->GetPoints() ? piece->GetPoints()->GetData()
+                                               : nullptr;
+    if (given && data.Value.association == gridfem::FieldAssociation::Points)
     {
-      solution.values.setZero(input->GetNumberOfPoints(), solution.values.cols());
+      gridfem::KeepUnsolved(data.Together.IsSolved, given, data.Together.Values);
     }
-    else if (given && isOnPoints)
+    auto array = gridfem::MakePointArray("Solution", data.Together.Values,
+      data.Value.array ? this->State->together.DataTypeOf(0)
+      : given          ? given->GetDataType()
+                       : VTK_DOUBLE);
+    if (data.Value.array)
     {
-      gridfem::KeepUnsolved(solution.isSolved, given, solution.values);
-    }
-    auto array = gridfem::MakePointArray("Solution", solution.values,
-      solution.dataType ? solution.dataType
-      : given           ? given->GetDataType()
-                        : VTK_DOUBLE);
-    if (this->Data->Value.array)
-    {
-      array->CopyComponentNames(this->Data->Value.array);
+      array->CopyComponentNames(data.Value.array);
     }
     output->GetPointData()->AddArray(array);
     output->GetPointData()->SetActiveScalars("Solution");
+    if (this->SolutionGradient)
+    {
+      output->GetCellData()->AddArray(
+        gridfem::MakePointArray("SolutionGradient", data.Together.Gradients, VTK_DOUBLE));
+    }
   }
-  gridfem::AddReport(solution.report, output);
-  gridfem::AddAccuracy(solution.accuracy, output);
-  gridfem::AddFieldInt(output, "UsedDepth", this->Depth);
-  gridfem::AddFieldInt(output, "Distributed", 1);
-  if (!gridfem::Ranks().IsFirst())
+  gridfem::AddReport(this->Report(), output);
+  gridfem::AddAccuracy(this->EstimatedErrors(), output);
+  if (this->HoldsValues())
   {
-    return;
+    gridfem::AddFieldNumber(output, "Misfit", data.Constrained.Misfit());
   }
-  vtkTable* table = vtkTable::GetData(outputs, 1);
-  gridfem::WriteHistory(solution.report, table);
-  gridfem::AddErrors(solution.report, solution.accuracy, table);
-  const std::string warning =
-    gridfem::WarningOf(solution.report, solution.accuracy, this->Tolerance);
-  if (!warning.empty())
+  gridfem::AddDistributed(this->Depth, output);
+  if (gridfem::Ranks().IsFirst())
   {
-    vtkWarningMacro(<< warning);
+    this->WriteTables(outputs);
   }
 }
 

@@ -82,7 +82,6 @@
 namespace gridfem
 {
 struct ConstrainedLoad;
-struct DistributedSolution;
 struct Field;
 struct InputMesh;
 struct Job;
@@ -90,6 +89,7 @@ struct PoissonLoad;
 class FiniteElementSpace;
 class Progress;
 class SelectedPoints;
+class SurfaceSpace;
 } // namespace gridfem
 
 class VTKGRIDFEMFILTERS_EXPORT vtkScreenedPoisson : public vtkPoissonAlgorithm
@@ -210,13 +210,11 @@ public:
   ///@{
   /**
    * On several MPI ranks: when on, all ranks compute, and none gathers the surface, which may be
-   * larger than one machine. The parts of space are divided among them, whatever piece each was
-   * given. That is possible for values and gradients at points or cells on the functions of a grid
-   * of a given Depth, with conjugate gradients and the patch smoother; not with constraints,
-   * weights, unknown values, a flux, a metric, AccuracyDriven, SolutionGradient, moved points, a
-   * given basis, BlocksAsOne, or ghost cells. Where it is not, rank 0 gathers as ever. The field
-   * array `Distributed` says which. Nothing is kept for the next run. Needs a build with MPI.
-   * Default off.
+   * larger than one machine. Possible on the functions of a grid of a given Depth with the patch
+   * smoother; not with Iteration Cycles, AccuracyDriven, FillUnknown, weights, a selection,
+   * BoundaryValues, a flux, a metric, TrackMetric, moved points, a given basis, or BlocksAsOne.
+   * Where it is not, rank 0 gathers as ever, and warns. The field array `Distributed` says which.
+   * Needs a build with MPI. Default off.
    */
   vtkSetMacro(Distributed, bool);
   vtkGetMacro(Distributed, bool);
@@ -275,9 +273,9 @@ private:
   void operator=(const vtkScreenedPoisson&) = delete;
 
   void FindArrays(vtkPolyData* input);
-  gridfem::PoissonLoad Integrate(const gridfem::FiniteElementSpace& space, const gridfem::Job& job);
-  gridfem::ConstrainedLoad IntegrateConstrained(
-    const gridfem::FiniteElementSpace& space, const gridfem::Job& job);
+  gridfem::PoissonLoad Integrate(const gridfem::SurfaceSpace& space, const gridfem::Job& job);
+  gridfem::ConstrainedLoad IntegrateConstrained(const gridfem::Job& job);
+  gridfem::ConstrainedLoad IntegrateTogether(const gridfem::Job& job);
   void AddBoundary(const gridfem::FiniteElementSpace& space, const gridfem::Field& value,
     gridfem::ConstrainedLoad& load);
   bool IsConstrained() const;
@@ -291,8 +289,10 @@ private:
   void SolveAtDepth(vtkPolyData* input, vtkPolyData* basis, const gridfem::Progress& progress);
   void SolveAccurately(vtkPolyData* input, const gridfem::Progress& progress);
   bool IsAccurate() const;
-  void WriteDistributed(vtkPolyData* input, const gridfem::InputMesh& mesh,
-    gridfem::DistributedSolution& solution, vtkInformationVector* outputs);
+  void SolveTogether(
+    vtkPolyData* piece, vtkInformationVector* outputs, const gridfem::Progress& progress);
+  void WriteDistributed(vtkPolyData* piece, vtkInformationVector* outputs);
+  void WriteTables(vtkInformationVector* outputs);
   void Warn();
   void WriteSolution(vtkPolyData* input, vtkPolyData* output);
 

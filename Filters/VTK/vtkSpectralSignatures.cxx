@@ -1,17 +1,20 @@
 #include "vtkSpectralSignatures.h"
 
 #include "Private/Allocation.h"
+#include "Private/CanDistribute.h"
 #include "Private/ClippedMeshWriter.h"
 #include "Private/InputArray.h"
 #include "Private/InputValidation.h"
 #include "Private/ModeCheck.h"
 #include "Private/ModeReader.h"
 #include "Private/MovedMeshWriter.h"
+#include "Private/Ranks.h"
 #include "Private/SolverOutput.h"
 #include "Private/SourcePoints.h"
 #include "Private/SurfaceSolverState.h"
 #include "Private/SurfaceSpectrum.h"
 
+#include "Algebra/DividedRows.h"
 #include "Base/Errors.h"
 #include "Integrals/QuadratureRule.h"
 
@@ -68,6 +71,11 @@ void AddNumbers(
   output->GetPointData()->AddArray(gridfem::MakePointArray(name, column, precision));
 }
 
+bool HasPolygons(vtkPolyData* piece)
+{
+  return piece && piece->GetNumberOfPolys() + piece->GetNumberOfStrips() > 0;
+}
+
 } // namespace
 
 struct vtkSpectralSignatures::Internals
@@ -80,6 +88,12 @@ struct vtkSpectralSignatures::Internals
   gridfem::StageKey ModesKey;   // what Modes were made from
   gridfem::StageKey ForeignKey; // the modes of the input that were found to be of another shape
   std::string Misfit;           // why
+  gridfem::InputArray Value;    // that is filtered; none: the coordinates
+  gridfem::MultiVector Filtered;
+
+  gridfem::MultiVector ReadValues(const gridfem::InputMesh& mesh) const;
+  void Filter(const vtkSpectralSignatures& filter, const gridfem::MultiVector& values,
+    const gridfem::DividedRows* divided);
 };
 
 vtkSpectralSignatures::vtkSpectralSignatures() : Data(std::make_unique<Internals>())
@@ -152,8 +166,8 @@ void vtkSpectralSignatures::ComputeModes(vtkPolyData* input, vtkPolyData* basis)
   data.Mesh = state.mesh;
   data.Modes.area = gridfem::SurfaceArea(*state.mesh.triangles);
   data.Modes.eigenvalues = data.Solved.eigenvalues;
-  data.Modes.values = gridfem::EvaluateModes(
-    state, data.Solved.spectrum, 0, data.Solved.NumberOfModes(), this->NumberOfThreads);
+  data.Modes.values =
+    gridfem::EvaluateModes(state, data.Solved.spectrum, 0, data.Solved.NumberOfModes());
   data.ModesKey = key;
 }
 
@@ -253,42 +267,54 @@ void vtkSpectralSignatures::WriteDistances(vtkDataSet* sources, int precision, v
   output->GetPointData()->SetActiveScalars("BiharmonicDistance");
 }
 
-void vtkSpectralSignatures::WriteFiltered(vtkPolyData* input, vtkPolyData* output)
+gridfem::MultiVector vtkSpectralSignatures::Internals::ReadValues(
+  const gridfem::InputMesh& mesh) const
 {
-  Internals& data = *this->Data;
-  const gridfem::TriangleMesh& mesh = *data.Mesh.triangles;
-  const gridfem::InputArray value = gridfem::FindInputArray(this, 0, input, "ValueArray");
-  if (value.array && value.association != gridfem::FieldAssociation::Points)
+  if (this->Value.array && this->Value.association != gridfem::FieldAssociation::Points)
   {
-    throw gridfem::InvalidInput("ValueArray '" + value.name +
+    throw gridfem::InvalidInput("ValueArray '" + this->Value.name +
                                 "' must be a point array. Cell Data to Point Data converts it.");
   }
-  const gridfem::MultiVector values = value.array ? gridfem::ReadField(value, data.Mesh).values
-                                                  : gridfem::CoordinatesField(data.Mesh).values;
+  return this->Value.array ? gridfem::ReadField(this->Value, mesh).values
+                           : gridfem::CoordinatesField(mesh).values;
+}
+
+/// The part of the values in the modes that pass.
+/// @param divided  of ranks together, else null
+void vtkSpectralSignatures::Internals::Filter(const vtkSpectralSignatures& filter,
+  const gridfem::MultiVector& values, const gridfem::DividedRows* divided)
+{
+  const int threads = filter.NumberOfThreads;
   const gridfem::MultiVector shares =
-    gridfem::ModeShares(mesh, data.Modes, values, this->NumberOfThreads);
-  const bool high = this->FilterType == HighPass;
-  const int first = this->FilterType == BandPass ? this->FirstMode : 0;
-  const int last = high ? this->FirstMode - 1 : this->LastMode;
-  gridfem::MultiVector filtered =
-    gridfem::SumOfModes(data.Modes, shares, first, last, this->NumberOfThreads);
+    gridfem::ModeShares(*this->Mesh.triangles, this->Modes, values, threads, divided);
+  const bool high = filter.FilterType == HighPass;
+  const int first = filter.FilterType == BandPass ? filter.FirstMode : 0;
+  const int last = high ? filter.FirstMode - 1 : filter.LastMode;
+  this->Filtered = gridfem::SumOfModes(this->Modes, shares, first, last, threads);
   if (high)
   {
-    filtered = values - filtered;
+    this->Filtered = values - this->Filtered;
   }
-  vtkDataArray* given = value.array ? value.array : input->GetPoints()->GetData();
-  gridfem::KeepUnsolved(gridfem::UsedPoints(mesh), given, filtered);
-  auto array = gridfem::MakePointArray("Filtered", filtered, given->GetDataType());
-  if (value.array)
+}
+
+/// @param isUsed  per point, by a polygon
+void vtkSpectralSignatures::WriteFiltered(
+  const std::vector<char>& isUsed, vtkPolyData* input, vtkPolyData* output)
+{
+  Internals& data = *this->Data;
+  vtkDataArray* given = data.Value.array ? data.Value.array : input->GetPoints()->GetData();
+  gridfem::KeepUnsolved(isUsed, given, data.Filtered);
+  auto array = gridfem::MakePointArray("Filtered", data.Filtered, given->GetDataType());
+  if (data.Value.array)
   {
-    array->CopyComponentNames(value.array);
+    array->CopyComponentNames(data.Value.array);
   }
   output->GetPointData()->AddArray(array);
   output->GetPointData()->SetActiveScalars("Filtered");
-  if (!value.array && this->MovePoints)
+  if (!data.Value.array && this->MovePoints)
   {
-    gridfem::MoveSurface(
-      mesh, filtered, gridfem::OutputPrecision(input->GetPoints()), this->NumberOfThreads, output);
+    gridfem::MoveSurface(*data.Mesh.triangles, data.Filtered,
+      gridfem::OutputPrecision(input->GetPoints()), this->NumberOfThreads, output);
   }
 }
 
@@ -353,7 +379,10 @@ void vtkSpectralSignatures::Compute(vtkInformationVector** inputs, vtkInformatio
   this->WriteDistances(vtkDataSet::GetData(inputs[2]), precision, output);
   if (this->FilterType != NoFilter)
   {
-    this->WriteFiltered(input, output);
+    Internals& data = *this->Data;
+    data.Value = gridfem::FindInputArray(this, 0, input, "ValueArray");
+    data.Filter(*this, data.ReadValues(data.Mesh), nullptr);
+    this->WriteFiltered(gridfem::UsedPoints(*data.Mesh.triangles), input, output);
   }
   this->WriteTable(vtkTable::GetData(outputs, 1));
   if (this->Data->WasSolved)
@@ -364,11 +393,168 @@ void vtkSpectralSignatures::Compute(vtkInformationVector** inputs, vtkInformatio
   progress.Check(1.0);
 }
 
+bool vtkSpectralSignatures::ComputeTogether(
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  const bool moves =
+    this->FilterType != NoFilter && this->MovePoints && !gridfem::IsArrayChosen(this, 0);
+  const std::string obstacle =
+    gridfem::FirstObstacle({ { !this->Data->SourceIds.empty(), "SourcePointIds" },
+      { moves, "MovePoints of the coordinates" } });
+  if (!this->Distributed ||
+      !gridfem::CanDistribute(this, inputs, this->State->options.space.depth, obstacle))
+  {
+    return false;
+  }
+  vtkPolyData* piece = vtkPolyData::GetData(inputs[0]);
+  this->State->RunTogether(
+    [&](const gridfem::Progress& progress)
+    {
+      this->UpdateModesTogether(piece, progress.Part(0.0, 0.95));
+      if (this->FilterType != NoFilter)
+      {
+        this->FilterTogether(piece);
+      }
+      this->State->together.Together([&] { this->WriteDistributed(piece, outputs); });
+      progress.Check(1.0);
+    });
+  return true;
+}
+
+void vtkSpectralSignatures::UpdateModesTogether(
+  vtkPolyData* piece, const gridfem::Progress& progress)
+{
+  Internals& data = *this->Data;
+  const bool areCarried =
+    !this->State->together.Any(HasPolygons(piece) && !gridfem::CarriesModes(piece));
+  if (!areCarried)
+  {
+    data.Misfit.clear();
+    data.ForeignKey = {};
+  }
+  data.WasSolved = !areCarried || !this->TakeModesTogether(piece);
+  if (data.WasSolved)
+  {
+    this->ComputeModesTogether(piece, progress);
+  }
+}
+
+/// As TakeModes.
+bool vtkSpectralSignatures::TakeModesTogether(vtkPolyData* piece)
+{
+  Internals& data = *this->Data;
+  gridfem::DistributedSurface& together = this->State->together;
+  gridfem::StageKey key;
+  key.Add(std::string("together"));
+  if (HasPolygons(piece))
+  {
+    gridfem::AddMesh(key, piece);
+    gridfem::AddModeArrays(key, piece);
+  }
+  if (!together.Any(!(key == data.ModesKey)))
+  {
+    return true;
+  }
+  if (!together.Any(!(key == data.ForeignKey)))
+  {
+    return false;
+  }
+  data.ModesKey = {};
+  data.ForeignKey = {};
+  data.Modes = {};
+  data.Mesh = together.ReadPieces(piece, this->NumberOfThreads);
+  together.Together(
+    [&]
+    {
+      if (HasPolygons(piece))
+      {
+        data.Modes = gridfem::ReadModes(piece, together.WithCopies(data.Mesh));
+      }
+    });
+  together.Agree(data.Modes.eigenvalues);
+  data.Modes.area = together.Area();
+  if (!HasPolygons(piece))
+  {
+    data.Modes.values.setZero(static_cast<gridfem::Id>(data.Mesh.triangles->points.size()),
+      static_cast<gridfem::Id>(data.Modes.eigenvalues.size()));
+  }
+  data.Misfit = gridfem::FindMisfit(
+    *data.Mesh.triangles, data.Modes, this->NumberOfThreads, &together.Numbers());
+  (data.Misfit.empty() ? data.ModesKey : data.ForeignKey) = key;
+  return data.Misfit.empty();
+}
+
+void vtkSpectralSignatures::ComputeModesTogether(
+  vtkPolyData* piece, const gridfem::Progress& progress)
+{
+  Internals& data = *this->Data;
+  gridfem::SurfaceSolverState& state = *this->State;
+  gridfem::SpectrumRequest request;
+  request.numberOfModes = this->NumberOfModes;
+  request.completeMultiplets = true;
+  state.UpdateTogether(piece);
+  data.Solved.UpdateTogether(state, request, progress.Part(0.3, 1.0));
+  data.ModesKey = {};
+  data.Mesh = state.mesh;
+  data.Modes.area = state.together.Area();
+  data.Modes.eigenvalues = data.Solved.eigenvalues;
+  data.Modes.values = data.Solved.atPoints;
+}
+
+void vtkSpectralSignatures::FilterTogether(vtkPolyData* piece)
+{
+  Internals& data = *this->Data;
+  gridfem::DistributedSurface& together = this->State->together;
+  gridfem::MultiVector values;
+  data.Value = together.Find(this, 0, piece, data.Mesh, "ValueArray");
+  together.Together([&] { values = data.ReadValues(together.WithCopies(data.Mesh)); });
+  data.Filter(*this, values, &together.Numbers());
+}
+
+/// Port 0 is the rank's own piece; the table is on the first rank.
+void vtkSpectralSignatures::WriteDistributed(vtkPolyData* piece, vtkInformationVector* outputs)
+{
+  const Internals& data = *this->Data;
+  vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
+  const bool hasPoints = piece && piece->GetPoints();
+  if (hasPoints)
+  {
+    output->ShallowCopy(piece);
+    if (!data.Misfit.empty())
+    {
+      gridfem::RemoveModes(output);
+    }
+  }
+  this->WriteSignatures( // field arrays are on all ranks
+    hasPoints ? gridfem::OutputPrecision(piece->GetPoints()) : VTK_DOUBLE, output);
+  if (hasPoints && this->FilterType != NoFilter)
+  {
+    const gridfem::InputMesh whole = this->State->together.WithCopies(data.Mesh);
+    this->WriteFiltered(gridfem::UsedPoints(*whole.triangles), piece, output);
+  }
+  gridfem::AddFieldInt(output, "Distributed", 1);
+  if (data.WasSolved)
+  {
+    gridfem::AddFieldInt(output, "UsedDepth", this->Depth);
+    gridfem::AddFieldInt(output, "Converged", data.Solved.spectrum.converged ? 1 : 0);
+  }
+  if (gridfem::Ranks().IsFirst())
+  {
+    this->WriteTable(vtkTable::GetData(outputs, 1));
+    if (data.WasSolved)
+    {
+      this->Warn();
+    }
+  }
+}
+
 void vtkSpectralSignatures::FreeStages()
 {
   this->Superclass::FreeStages();
   Internals& data = *this->Data;
   data.Solved.spectrum = {};
+  data.Solved.atPoints = {};
+  data.Filtered = {};
   data.Mesh = {};
   data.Modes = {};
   data.ModesKey = {};
@@ -387,4 +573,5 @@ void vtkSpectralSignatures::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "FirstMode: " << this->FirstMode << "\n";
   os << indent << "LastMode: " << this->LastMode << "\n";
   os << indent << "MovePoints: " << this->MovePoints << "\n";
+  os << indent << "Distributed: " << this->Distributed << "\n";
 }

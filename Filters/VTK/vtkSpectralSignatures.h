@@ -53,6 +53,11 @@
 class vtkDataSet;
 class vtkTable;
 
+namespace gridfem
+{
+class Progress;
+}
+
 class VTKGRIDFEMFILTERS_EXPORT vtkSpectralSignatures : public vtkSurfaceFEMAlgorithm
 {
 public:
@@ -153,6 +158,19 @@ public:
   vtkBooleanMacro(MovePoints, bool);
   ///@}
 
+  ///@{
+  /**
+   * On several MPI ranks: when on, all ranks compute, and none gathers the surface, which may be
+   * larger than one machine. Possible on the functions of a grid of a given Depth with the patch
+   * smoother, or with the modes of the input; not with sources of distances, with MovePoints where
+   * the coordinates are filtered, a given basis, or BlocksAsOne. Where it is not, rank 0 gathers as
+   * ever, and warns. The field array `Distributed` says which. Needs a build with MPI. Default off.
+   */
+  vtkSetMacro(Distributed, bool);
+  vtkGetMacro(Distributed, bool);
+  vtkBooleanMacro(Distributed, bool);
+  ///@}
+
   /**
    * The input of port 1: the basis.
    */
@@ -170,6 +188,7 @@ protected:
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  bool ComputeTogether(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   void FreeStages() override;
 
   int NumberOfModes = 100;
@@ -180,6 +199,7 @@ protected:
   int FirstMode = 1;
   int LastMode = 20;
   bool MovePoints = true;
+  bool Distributed = false;
 
 private:
   vtkSpectralSignatures(const vtkSpectralSignatures&) = delete;
@@ -190,7 +210,12 @@ private:
   void ComputeModes(vtkPolyData* input, vtkPolyData* basis);
   void WriteSignatures(int precision, vtkPolyData* output);
   void WriteDistances(vtkDataSet* sources, int precision, vtkPolyData* output);
-  void WriteFiltered(vtkPolyData* input, vtkPolyData* output);
+  void WriteFiltered(const std::vector<char>& isUsed, vtkPolyData* input, vtkPolyData* output);
+  void UpdateModesTogether(vtkPolyData* piece, const gridfem::Progress& progress);
+  bool TakeModesTogether(vtkPolyData* piece);
+  void ComputeModesTogether(vtkPolyData* piece, const gridfem::Progress& progress);
+  void FilterTogether(vtkPolyData* piece);
+  void WriteDistributed(vtkPolyData* piece, vtkInformationVector* outputs);
   void WriteTable(vtkTable* table);
   void Warn();
   double WorldDiffusionTime();

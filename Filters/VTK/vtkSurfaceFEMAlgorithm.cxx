@@ -329,6 +329,10 @@ void vtkSurfaceFEMAlgorithm::ComputeJoinedBlocks(vtkInformationVector** inputs)
 void vtkSurfaceFEMAlgorithm::ComputeSurface(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
+  if (this->State->together.IsUsed())
+  {
+    this->FreeStages();
+  }
   this->Compute(inputs, outputs);
   if (this->State->basis.space)
   {
@@ -362,11 +366,15 @@ void vtkSurfaceFEMAlgorithm::ComputeOnRanks(
         surfaces = this->Surface->Of(inputs, this->GetNumberOfInputPorts());
       }
     });
-  if (this->ComputeTogether(surfaces, outputs))
+  if (this->TryTogether(surfaces, outputs))
   {
     this->Ranked->NoteComputed();
     gridfem::StampTime(!this->OwnTimeSteps().empty(), surfaces[0], outputs);
     return;
+  }
+  if (this->State->together.IsUsed())
+  {
+    this->FreeStages();
   }
   this->Ranked->Run(surfaces, this->GetNumberOfInputPorts(), outputs, this->WeldCoincidentPoints,
     this->OwnTimeSteps(),
@@ -376,6 +384,25 @@ void vtkSurfaceFEMAlgorithm::ComputeOnRanks(
       gridfem::StampTime(!this->OwnTimeSteps().empty(), gathered[0], results);
       return this->OwnTimeSteps();
     });
+}
+
+/// After a failure what one rank has made may not fit what others have: all start anew.
+bool vtkSurfaceFEMAlgorithm::TryTogether(
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  try
+  {
+    return this->ComputeTogether(inputs, outputs);
+  }
+  catch (const gridfem::Aborted&)
+  {
+    throw;
+  }
+  catch (...)
+  {
+    this->FreeStages();
+    throw;
+  }
 }
 
 bool vtkSurfaceFEMAlgorithm::ComputeTogether(vtkInformationVector**, vtkInformationVector*)

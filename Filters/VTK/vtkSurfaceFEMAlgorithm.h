@@ -365,6 +365,7 @@ private:
   void ComputeJoinedBlocks(vtkInformationVector** inputs);
   void ComputeSurface(vtkInformationVector** inputs, vtkInformationVector* outputs);
   void ComputeOnRanks(vtkInformationVector** inputs, vtkInformationVector* outputs);
+  bool TryTogether(vtkInformationVector** inputs, vtkInformationVector* outputs);
   bool HasNoPoints(vtkInformationVector** inputs) const;
   std::vector<double> TimeSteps();
   void FinishAbort(vtkInformationVector* outputs);

@@ -70,6 +70,19 @@ public:
   vtkBooleanMacro(HodgeDecomposition, bool);
   ///@}
 
+  ///@{
+  /**
+   * On several MPI ranks: when on, all ranks compute, and none gathers the surface, which may be
+   * larger than one machine. Possible on the functions of a grid of a given Depth with the patch
+   * smoother; not with HodgeDecomposition, a given basis, or BlocksAsOne. Where it is not, rank 0
+   * gathers as ever, and warns. The field array `Distributed` says which. Needs a build with MPI.
+   * Default off.
+   */
+  vtkSetMacro(Distributed, bool);
+  vtkGetMacro(Distributed, bool);
+  vtkBooleanMacro(Distributed, bool);
+  ///@}
+
   /**
    * The input of port 1: the basis.
    */
@@ -80,16 +93,21 @@ protected:
   ~vtkSurfaceGradient() override;
 
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  bool ComputeTogether(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   void FreeStages() override;
 
   bool HodgeDecomposition = false;
+  bool Distributed = false;
 
 private:
   vtkSurfaceGradient(const vtkSurfaceGradient&) = delete;
   void operator=(const vtkSurfaceGradient&) = delete;
 
+  void Derive(const gridfem::InputArray& array, const gridfem::Progress& progress);
+  void CollectArrays(bool hasArray, vtkPolyData* input);
+  void WriteArrays(vtkPolyData* output);
   void Decompose(const gridfem::InputArray& array, const gridfem::Progress& progress);
-  void WriteParts(vtkPolyData* output);
+  void CollectParts(vtkPolyData* input);
 
   struct Internals;
   std::unique_ptr<Internals> Data;

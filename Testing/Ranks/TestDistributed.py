@@ -52,7 +52,8 @@ class Distributed(unittest.TestCase):
         return problems
 
     def test_any_pieces(self):
-        for kind in ("first", "last", "contiguous", "scattered", "one rank is empty"):
+        for kind in ("first", "last", "contiguous", "scattered", "one rank is empty", "ghosts",
+                     "all on all"):
             with self.subTest(kind=kind):
                 self.same_as_alone(ranks.ellipsoid(), kind)
 
@@ -78,12 +79,10 @@ class Distributed(unittest.TestCase):
 
     def test_rank_0_gathers_what_is_left_to_it(self):
         for properties in ({"FunctionSpace": 1}, {"Smoother": 1}, {"Iteration": 1},
-                           {"BoundaryValues": True}, {"SolutionGradient": True}):
+                           {"BoundaryValues": True}):
             output = ranks.run(made(**properties), ranks.piece(ranks.bowl(), "contiguous"))[0]
             ranks.check(self, [] if number(output, "Distributed") is None and
                         number(output, "Converged") == 1 else [str(properties)])
-        output = ranks.run(made(), ranks.piece(ranks.bowl(), "ghosts"))[0]
-        ranks.check(self, [] if number(output, "Distributed") is None else ["ghost cells"])
 
     def test_estimates_the_errors_of_one_rank(self):
         warnings = []

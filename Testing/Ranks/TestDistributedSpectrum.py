@@ -55,7 +55,7 @@ class DistributedSpectrum(unittest.TestCase):
         return 0 < k < len(values) - 1 and min(gaps[k - 1], gaps[k]) > 0.05 * values[k]
 
     def test_any_pieces(self):
-        for kind in ("last", "scattered", "one rank is empty"):
+        for kind in ("last", "scattered", "one rank is empty", "ghosts", "all on all"):
             with self.subTest(kind=kind):
                 self.same_as_alone(ranks.ellipsoid(), kind)
 
@@ -97,10 +97,11 @@ class DistributedSpectrum(unittest.TestCase):
             ranks.check(self, [] if number(output, "Distributed") is None and
                         number(output, "Converged") == 1 else [str(properties)])
         filter_ = made()
-        for kind, expected in (("contiguous", 1), ("ghosts", None), ("contiguous", 1)):
-            output = ranks.run(filter_, ranks.piece(ranks.bowl(), kind))[0]
-            ranks.check(self, [] if number(output, "Distributed") == expected and
-                        number(output, "Converged") == 1 else [kind])
+        for together in (True, False, True):
+            filter_.SetDistributed(together)
+            output = ranks.run(filter_, ranks.piece(ranks.bowl(), "ghosts"))[0]
+            ranks.check(self, [] if (number(output, "Distributed") == 1) == together and
+                        number(output, "Converged") == 1 else [str(together)])
 
     def test_what_fails_on_one_rank_fails_on_all(self):
         filter_ = made()

@@ -224,6 +224,16 @@ MultiVector MeanGradients(
   return mean;
 }
 
+std::vector<double> AreasOfPieces(const GridFunctions& space, Id triangles)
+{
+  std::vector<double> area(triangles, 0.0);
+  for (Id piece = 0; piece < space.clipped.NumberOfPieces(); ++piece)
+  {
+    area[space.clipped.pieceTriangle[piece]] += PieceArea(space.clipped, piece);
+  }
+  return area;
+}
+
 MultiVector MeanDirections(
   const GridFunctions& space, Id triangles, const MultiVector& coefficients, int threads)
 {

@@ -32,6 +32,9 @@ Eigen::Matrix3Xd EvaluateGradientInPiece(
 MultiVector MeanGradients(
   const GridFunctions& space, Id triangles, const MultiVector& coefficients, int threads = 0);
 
+/// The areas of the pieces of source triangles, in squared units of the grid: one for each.
+std::vector<double> AreasOfPieces(const GridFunctions& space, Id triangles);
+
 /// The mean of ∇u / |∇u| instead, one direction for each piece; 0 where ∇u = 0.
 MultiVector MeanDirections(
   const GridFunctions& space, Id triangles, const MultiVector& coefficients, int threads = 0);

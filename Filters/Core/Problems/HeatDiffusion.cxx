@@ -1,5 +1,6 @@
 #include "Problems/HeatDiffusion.h"
 
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -12,7 +13,7 @@ const double Gamma = 1.0 - std::sqrt(0.5);
 
 } // namespace
 
-HeatDiffusion::HeatDiffusion(std::shared_ptr<const FiniteElementSpace> space, MultiVector start,
+HeatDiffusion::HeatDiffusion(std::shared_ptr<const SpaceLevels> space, MultiVector start,
   MultiVector sources, DiffusionOptions options, const Job& job)
   : space_(std::move(space)), options_(std::move(options)), load_(std::move(start)),
     sources_(std::move(sources))
@@ -26,8 +27,8 @@ HeatDiffusion::HeatDiffusion(std::shared_ptr<const FiniteElementSpace> space, Mu
   {
     sources_ = MultiVector::Zero(load_.rows(), load_.cols());
   }
-  if (load_.rows() != space_->NumberOfFunctions(0) || sources_.rows() != load_.rows() ||
-      sources_.cols() != load_.cols())
+  if (load_.rows() != static_cast<Id>(space_->Integrals().size()) ||
+      sources_.rows() != load_.rows() || sources_.cols() != load_.cols())
   {
     throw InvalidInput("The integrals of the start or of the sources do not fit the functions.");
   }
@@ -39,7 +40,9 @@ HeatDiffusion::HeatDiffusion(std::shared_ptr<const FiniteElementSpace> space, Mu
   const bool isFirstOrder = options_.scheme == TimeScheme::BackwardEuler;
   stageStep_ = (isFirstOrder ? 1.0 : Gamma) * options_.timeStep;
   mass_ = space_->Matrix(0, 1.0, 0.0, job.threads);
-  if (held.rows() > 0)
+  std::array<double, 1> numberOfHeld = { static_cast<double>(held.rows()) };
+  SumOverProcesses(space_->Divided(0), numberOfHeld);
+  if (numberOfHeld[0] > 0.0)
   {
     constrained_ = std::make_unique<ConstrainedHierarchy>(*space_, 1.0 / stageStep_, 1.0,
       std::move(options_.held.rows), ConstraintOptions().penalty, options_.multigrid, job.progress);
@@ -73,14 +76,25 @@ PoissonSolution HeatDiffusion::Solve(const MultiVector& load, const Job& job)
   return SolvePoisson(*space_, *multigrid_, load, {}, options, job.progress);
 }
 
+/// ∫ u b_i.
+MultiVector HeatDiffusion::IntegralsOf(const MultiVector& coefficients, const Job& job) const
+{
+  MultiVector integrals;
+  Multiply(mass_, coefficients, integrals, job.threads);
+  if (const DividedRows* divided = space_->Divided(0))
+  {
+    divided->Sum(integrals);
+  }
+  return integrals;
+}
+
 SolveReport HeatDiffusion::Advance(const Job& job)
 {
   const MultiVector added = stageStep_ * sources_;
   const bool isFirstOrder = options_.scheme == TimeScheme::BackwardEuler;
   PoissonSolution solution = this->Solve(load_ + added, isFirstOrder ? job : job.Part(0.0, 0.5));
   SolutionAccuracy accuracy = solution.accuracy;
-  MultiVector now;
-  Multiply(mass_, solution.coefficients, now, job.threads);
+  MultiVector now = this->IntegralsOf(solution.coefficients, job);
   if (!isFirstOrder)
   {
     // M U - load is γδ times the slope of the first stage.
@@ -89,7 +103,7 @@ SolveReport HeatDiffusion::Advance(const Job& job)
     solution = this->Solve(load, job.Part(0.5, 1.0));
     solution.report.converged = solution.report.converged && converged;
     KeepWorse(solution.accuracy, accuracy);
-    Multiply(mass_, solution.coefficients, now, job.threads);
+    now = this->IntegralsOf(solution.coefficients, job);
   }
   load_ = std::move(now);
   coefficients_ = std::move(solution.coefficients);

@@ -34,7 +34,8 @@ struct DiffusionOptions
 
 /// Steps (M + γδ L) U = ..., all with one matrix. No heat flows over boundaries, so that the
 /// integral over every connected component changes by that of the sources alone; unless values are
-/// held, where heat comes and goes. Same bits for any number of threads.
+/// held, where heat comes and goes. Same bits for any number of threads. Where processes hold the
+/// surface together, all of them call all, as SolvePoisson and SolveConstrained.
 /// Alexander: Diagonally Implicit Runge-Kutta Methods for Stiff O.D.E.'s, 1977.
 class HeatDiffusion
 {
@@ -43,8 +44,8 @@ public:
   /// @param sources  ∫ s b_i of what is added per unit of time, with as many columns; no rows: none
   /// Throws InvalidInput when the time step is not a positive number or shapes do not fit, and
   /// Aborted.
-  HeatDiffusion(std::shared_ptr<const FiniteElementSpace> space, MultiVector start,
-    MultiVector sources, DiffusionOptions options, const Job& job = {});
+  HeatDiffusion(std::shared_ptr<const SpaceLevels> space, MultiVector start, MultiVector sources,
+    DiffusionOptions options, const Job& job = {});
 
   /// Makes the next step and says how its solves went. Aborted, which it throws, leaves the state
   /// as it was.
@@ -61,8 +62,9 @@ public:
 
 private:
   PoissonSolution Solve(const MultiVector& load, const Job& job);
+  MultiVector IntegralsOf(const MultiVector& coefficients, const Job& job) const;
 
-  std::shared_ptr<const FiniteElementSpace> space_;
+  std::shared_ptr<const SpaceLevels> space_;
   DiffusionOptions options_;
   double stageStep_ = 0.0; // γδ
   SparseMatrix mass_;

@@ -3,6 +3,7 @@
 #define GridFEM_HeldBoundary_h
 
 #include "Problems/RowPenalty.h"
+#include "Spaces/FiniteElementSpace.h"
 
 #include <vector>
 

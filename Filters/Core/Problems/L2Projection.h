@@ -16,7 +16,7 @@ class L2Projection
 {
 public:
   /// @param wanted  accuracy, as in PoissonOptions
-  L2Projection(const FiniteElementSpace& space, const MultigridOptions& multigrid,
+  L2Projection(const SpaceLevels& space, const MultigridOptions& multigrid,
     const SolveOptions& solve, double wanted, const Job& job)
     : space_(space),
       multigrid_(BuildMultigrid(space, 1.0 / Smoothing, 1.0, multigrid, job.progress))
@@ -45,7 +45,7 @@ public:
 private:
   static constexpr double Smoothing = 0.1; // δ, in squared units of length
 
-  const FiniteElementSpace& space_;
+  const SpaceLevels& space_;
   Multigrid multigrid_;
   PoissonOptions poisson_;
 };

@@ -186,28 +186,41 @@ std::vector<Vec3> NormalsOfTriangles(const TriangleMesh& mesh)
   return normals;
 }
 
-std::vector<Vec3> NormalsAtPoints(
-  const std::vector<Vec3>& points, const std::vector<std::array<Id, 3>>& triangles, int threads)
+MultiVector AreaVectorsAtPoints(
+  const std::vector<Vec3>& points, const std::vector<std::array<Id, 3>>& triangles)
 {
-  std::vector<Vec3> normal(points.size(), Vec3(Vec3::Zero()));
+  MultiVector sum = MultiVector::Zero(static_cast<Id>(points.size()), 3);
   for (const std::array<Id, 3>& corner : triangles)
   {
     const Vec3 areaVector = AreaVector(points, corner);
     for (const Id point : corner)
     {
-      normal[point] += areaVector;
+      sum.block<1, 3>(point, 0) += areaVector.transpose();
     }
   }
-  ParallelRanges(static_cast<Id>(normal.size()), threads,
+  return sum;
+}
+
+std::vector<Vec3> UnitVectors(const MultiVector& rows, int threads)
+{
+  std::vector<Vec3> unit(rows.rows());
+  ParallelRanges(rows.rows(), threads,
     [&](Id begin, Id end)
     {
       for (Id k = begin; k < end; ++k)
       {
-        const double length = normal[k].norm();
-        normal[k] = length > 0.0 ? Vec3(normal[k] / length) : Vec3(Vec3::Zero());
+        const Vec3 vector = rows.row(k).transpose();
+        const double length = vector.norm();
+        unit[k] = length > 0.0 ? Vec3(vector / length) : Vec3(Vec3::Zero());
       }
     });
-  return normal;
+  return unit;
+}
+
+std::vector<Vec3> NormalsAtPoints(
+  const std::vector<Vec3>& points, const std::vector<std::array<Id, 3>>& triangles, int threads)
+{
+  return UnitVectors(AreaVectorsAtPoints(points, triangles), threads);
 }
 
 bool IsLikeASphere(const TriangleMesh& mesh, int threads)

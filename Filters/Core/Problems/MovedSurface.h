@@ -52,6 +52,13 @@ double MeanOverSurface(
 /// Unit normals; 0 for triangles without an area.
 std::vector<Vec3> NormalsOfTriangles(const TriangleMesh& mesh);
 
+/// Sums of the area vectors of the triangles around each point: three columns.
+MultiVector AreaVectorsAtPoints(
+  const std::vector<Vec3>& points, const std::vector<std::array<Id, 3>>& triangles);
+
+/// Rows of three numbers as unit vectors; 0 for 0.
+std::vector<Vec3> UnitVectors(const MultiVector& rows, int threads = 0);
+
 /// Unit normals at the points, of the triangles around them weighted by area; 0 where they cancel.
 std::vector<Vec3> NormalsAtPoints(const std::vector<Vec3>& points,
   const std::vector<std::array<Id, 3>>& triangles, int threads = 0);

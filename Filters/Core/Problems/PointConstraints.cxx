@@ -6,7 +6,9 @@
 #include "Spaces/PointComponents.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -16,16 +18,28 @@ namespace gridfem
 namespace
 {
 
+/// Parts of a vector become the vector.
+void SumParts(const DividedRows* divided, std::vector<double>& x)
+{
+  if (divided)
+  {
+    divided->Sum(Eigen::Map<MultiVector>(x.data(), static_cast<Id>(x.size()), 1));
+  }
+}
+
 /// Penalties: relative to the diagonal at a point's functions, shared by the constraints that they
 /// have in common.
-std::vector<double> WeightsOfRows(const SparseMatrix& rows, const SparseMatrix& A, double penalty)
+std::vector<double> WeightsOfRows(
+  const SparseMatrix& rows, const SparseMatrix& A, double penalty, const DividedRows* divided)
 {
-  const std::vector<double> diagonal = A.Diagonal();
+  std::vector<double> diagonal = A.Diagonal();
+  SumParts(divided, diagonal);
   std::vector<double> touched(A.rows, 0.0); // Σ of the rows at each function
   for (std::size_t k = 0; k < rows.column.size(); ++k)
   {
     touched[rows.column[k]] += rows.value[k];
   }
+  SumParts(divided, touched);
   std::vector<double> weight(rows.rows, 0.0);
   for (Index row = 0; row < rows.rows; ++row)
   {
@@ -43,7 +57,7 @@ std::vector<double> WeightsOfRows(const SparseMatrix& rows, const SparseMatrix& 
 
 /// A constant for each component near what the solution has there: the means of its constraints, or
 /// of the values in the load.
-MultiVector ConstantsOf(const FiniteElementSpace& space, double a, const MultiVector& load,
+MultiVector ConstantsOf(const SpaceLevels& space, double a, const MultiVector& load,
   const std::vector<Index>& componentOfRow, const MultiVector& values, const Components& components)
 {
   MultiVector constant = MultiVector::Zero(components.count, values.cols());
@@ -58,11 +72,16 @@ MultiVector ConstantsOf(const FiniteElementSpace& space, double a, const MultiVe
   }
   MultiVector sum = MultiVector::Zero(components.count, values.cols());
   Eigen::ArrayXd mass = Eigen::ArrayXd::Zero(components.count);
-  for (Id i = 0; i < load.rows(); ++i)
+  const DividedRows* const divided = space.Divided(0);
+  for (Id i = ForeignRows(divided); i < load.rows(); ++i)
   {
     sum.row(components.ofFunction[i]) += load.row(i);
     mass[components.ofFunction[i]] += a * space.Integrals()[i];
   }
+  SumOverProcesses(divided, constant);
+  SumOverProcesses(divided, count);
+  SumOverProcesses(divided, sum);
+  SumOverProcesses(divided, mass);
   for (Index c = 0; c < components.count; ++c)
   {
     const double size = count[c] > 0.0 ? count[c] : mass[c];
@@ -89,12 +108,12 @@ void Append(const SolveReport& step, SolveReport& report)
   report.convergenceFactor = MeanFactor(report);
 }
 
-void CheckShapes(const FiniteElementSpace& space, const ConstrainedHierarchy& hierarchy,
+void CheckShapes(const SpaceLevels& space, const ConstrainedHierarchy& hierarchy,
   const MultiVector& load, const MultiVector& values)
 {
   if (values.rows() != hierarchy.Rows().rows ||
       (load.rows() != 0 &&
-        (load.rows() != space.NumberOfFunctions(0) || load.cols() != values.cols())))
+        (load.rows() != static_cast<Id>(space.Integrals().size()) || load.cols() != values.cols())))
   {
     throw InvalidInput("There are " + std::to_string(values.rows()) + " values for " +
                        std::to_string(hierarchy.Rows().rows) + " constraints, and a load of " +
@@ -106,11 +125,11 @@ void CheckShapes(const FiniteElementSpace& space, const ConstrainedHierarchy& hi
 class ConstrainedIteration
 {
 public:
-  ConstrainedIteration(const FiniteElementSpace& space, const ConstrainedHierarchy& hierarchy,
+  ConstrainedIteration(const SpaceLevels& space, const ConstrainedHierarchy& hierarchy,
     const MultiVector& load, const MultiVector& values, const SolveOptions& options,
     const Projection& project)
-    : space_(space), hierarchy_(hierarchy), values_(values), options_(options), project_(project),
-      load_(load)
+    : space_(space), divided_(space.Divided(0)), hierarchy_(hierarchy), values_(values),
+      options_(options), project_(project), load_(load)
   {
     load_ += this->LoadOf(values_);
     range_ = this->LargestOf(values_);
@@ -175,7 +194,7 @@ private:
     MultiVector nested;
     MultiVector lastStep;
     multigrid.NestedIteration(load_, nested, estimateOn ? &lastStep : nullptr);
-    if (!nested.allFinite())
+    if ((CountNotFinite(nested, divided_) > 0.0).any())
     {
       nested.setZero();
     }
@@ -195,19 +214,32 @@ private:
 
   MultiVector LoadOf(const MultiVector& values) const
   {
-    return hierarchy_.Penalty().LoadOf(values, hierarchy_.GetMultigrid().Options().threads);
+    MultiVector load =
+      hierarchy_.Penalty().LoadOf(values, hierarchy_.GetMultigrid().Options().threads);
+    if (divided_)
+    {
+      divided_->Sum(load);
+    }
+    return load;
   }
 
-  static Eigen::RowVectorXd LargestOf(const MultiVector& rows)
+  Eigen::RowVectorXd LargestOf(const MultiVector& rows) const
   {
-    return rows.rows() > 0 ? Eigen::RowVectorXd(rows.cwiseAbs().colwise().maxCoeff())
-                           : Eigen::RowVectorXd(Eigen::RowVectorXd::Zero(rows.cols()));
+    Eigen::RowVectorXd largest = Eigen::RowVectorXd::Zero(rows.cols());
+    if (rows.rows() > 0)
+    {
+      largest = rows.cwiseAbs().colwise().maxCoeff();
+    }
+    return divided_ ? Eigen::RowVectorXd(divided_->Gather(largest).colwise().maxCoeff()) : largest;
   }
 
   double Relative(const Eigen::RowVectorXd& misfits) const
   {
     const auto& integrals = space_.Integrals();
-    const double area = std::accumulate(integrals.begin(), integrals.end(), 0.0);
+    std::array<double, 1> total = { std::accumulate(
+      integrals.begin() + ForeignRows(divided_), integrals.end(), 0.0) };
+    SumOverProcesses(divided_, total);
+    const double area = total[0];
     const Columns squares = space_.SquaredNorms(x, hierarchy_.GetMultigrid().Options().threads);
     double relative = 0.0;
     for (Id c = 0; c < misfits.size(); ++c)
@@ -234,7 +266,8 @@ private:
     return rest;
   }
 
-  const FiniteElementSpace& space_;
+  const SpaceLevels& space_;
+  const DividedRows* divided_;
   const ConstrainedHierarchy& hierarchy_;
   const MultiVector& values_;
   const SolveOptions& options_;
@@ -256,7 +289,8 @@ Columns SizeOfSolution(const SpaceLevels& surface, const Components& components,
   {
     integral[i] = isHeld[components.ofFunction[i]] ? integral[i] : 0.0;
   }
-  const ComponentMeans means(components.ofFunction, integral, components.count, threads);
+  const ComponentMeans means(
+    components.ofFunction, integral, components.count, threads, surface.Divided(0));
   const MultiVector mean = means.OfFunction(rest);
   MultiVector centred = rest;
   means.AddConstants(-mean, centred);
@@ -264,10 +298,10 @@ Columns SizeOfSolution(const SpaceLevels& surface, const Components& components,
     .sqrt();
 }
 
-FreeConstants::FreeConstants(
-  const Components& components, const std::vector<char>& isHeld, int threads)
+FreeConstants::FreeConstants(const Components& components, const std::vector<char>& isHeld,
+  int threads, const DividedRows* divided)
   : isHeld_(isHeld), one_(components.ofFunction.size(), 1.0),
-    means_(components.ofFunction, one_, components.count, threads)
+    means_(components.ofFunction, one_, components.count, threads, divided)
 {
 }
 
@@ -295,7 +329,7 @@ MultiVector MeansOfFree(const std::vector<char>& isHeld, MultiVector means)
   return means;
 }
 
-ConstrainedHierarchy::ConstrainedHierarchy(const FiniteElementSpace& space, double a, double b,
+ConstrainedHierarchy::ConstrainedHierarchy(const SpaceLevels& space, double a, double b,
   SparseMatrix rows, double penalty, const MultigridOptions& options, const Progress& progress)
   : multigrid_(
       this->BuildLevels(space, a, b, std::move(rows), penalty, options, progress.Part(0.0, 0.5)),
@@ -304,36 +338,62 @@ ConstrainedHierarchy::ConstrainedHierarchy(const FiniteElementSpace& space, doub
   progress.Check(1.0);
 }
 
-std::vector<MultigridLevel> ConstrainedHierarchy::BuildLevels(const FiniteElementSpace& space,
-  double a, double b, SparseMatrix rows, double penalty, const MultigridOptions& options,
+std::vector<MultigridLevel> ConstrainedHierarchy::BuildLevels(const SpaceLevels& space, double a,
+  double b, SparseMatrix rows, double penalty, const MultigridOptions& options,
   const Progress& progress)
 {
   std::vector<MultigridLevel> levels = BuildMultigridLevels(space, a, b, options, progress);
-  std::vector<double> weight = WeightsOfRows(rows, levels.front().A, penalty);
+  const DividedRows* const divided = space.Divided(0);
+  std::vector<double> weight = WeightsOfRows(rows, levels.front().A, penalty, divided);
   penalty_ = RowPenalty(space, std::move(rows), std::move(weight), options.threads);
   for (std::size_t l = 0; l < levels.size(); ++l)
   {
+    if (divided && !space.Divided(l))
+    {
+      this->AddWholePenalty(l, *divided, levels[l].A, options.threads);
+      continue;
+    }
     penalty_.AddTo(l, levels[l].A, options.threads);
+    if (divided) // what crosses borders is made from the matrix
+    {
+      levels[l].divided = space.Divide(l, levels[l].A, options);
+    }
   }
   return levels;
 }
 
-std::vector<char> HeldComponents(
-  const FiniteElementSpace& space, double a, const SparseMatrix& rows, const Components& components)
+/// Of a level that all processes hold whole.
+void ConstrainedHierarchy::AddWholePenalty(
+  std::size_t level, const DividedRows& divided, SparseMatrix& A, int threads) const
 {
-  std::vector<char> isHeld(components.count, 0);
+  SparseMatrix sum = A;
+  std::fill(sum.value.begin(), sum.value.end(), 0.0);
+  penalty_.AddTo(level, sum, threads);
+  divided.SumNumbers(sum.value.data(), static_cast<Id>(sum.value.size()));
+  std::transform(
+    A.value.begin(), A.value.end(), sum.value.begin(), A.value.begin(), std::plus<double>());
+}
+
+std::vector<char> HeldComponents(
+  const SpaceLevels& space, double a, const SparseMatrix& rows, const Components& components)
+{
+  std::vector<double> holders(components.count, 0.0); // what holds a component, in this process
   for (const Index function : rows.column)
   {
-    isHeld[components.ofFunction[function]] = 1;
+    holders[components.ofFunction[function]] += 1.0;
   }
   for (std::size_t i = 0; a > 0.0 && i < components.ofFunction.size(); ++i)
   {
-    isHeld[components.ofFunction[i]] |= space.Integrals()[i] > 0.0;
+    holders[components.ofFunction[i]] += space.Integrals()[i] > 0.0 ? 1.0 : 0.0;
   }
+  SumOverProcesses(space.Divided(0), holders);
+  std::vector<char> isHeld(holders.size());
+  std::transform(
+    holders.begin(), holders.end(), isHeld.begin(), [](double count) { return count > 0.0; });
   return isHeld;
 }
 
-ConstrainedSolution SolveConstrained(const FiniteElementSpace& space, double a,
+ConstrainedSolution SolveConstrained(const SpaceLevels& space, double a,
   const ConstrainedHierarchy& hierarchy, const MultiVector& load, const MultiVector& values,
   const ConstraintOptions& constraints, const SolveOptions& options, const Progress& progress)
 {
@@ -343,14 +403,16 @@ ConstrainedSolution SolveConstrained(const FiniteElementSpace& space, double a,
   const std::vector<Index> componentOfRow = ComponentsOfRows(hierarchy.Rows(), components);
   ConstrainedSolution solution;
   solution.isHeld = HeldComponents(space, a, hierarchy.Rows(), components);
-  const FreeConstants free(components, solution.isHeld, threads);
+  const DividedRows* const divided = space.Divided(0);
+  const FreeConstants free(components, solution.isHeld, threads, divided);
   const Projection project = free.AsProjection();
 
   // Constants are solved for at once, so that tolerances are on what differs from them.
   const MultiVector constant = ConstantsOf(space, a, load, componentOfRow, values, components);
-  MultiVector rest = load.rows() > 0
-                       ? load
-                       : MultiVector(MultiVector::Zero(space.NumberOfFunctions(0), values.cols()));
+  MultiVector rest =
+    load.rows() > 0
+      ? load
+      : MultiVector(MultiVector::Zero(static_cast<Id>(space.Integrals().size()), values.cols()));
   for (Id i = 0; a > 0.0 && i < rest.rows(); ++i)
   {
     rest.row(i) -= a * space.Integrals()[i] * constant.row(components.ofFunction[i]);
@@ -367,7 +429,7 @@ ConstrainedSolution SolveConstrained(const FiniteElementSpace& space, double a,
       wanted.row(row).setZero();
     }
   }
-  const Eigen::RowVectorXd scale = ScalesOf(rest, wanted);
+  const Eigen::RowVectorXd scale = ScalesOf(rest, wanted, divided);
   rest *= scale.asDiagonal();
   wanted *= scale.asDiagonal();
   if (project.residual)
@@ -390,7 +452,7 @@ ConstrainedSolution SolveConstrained(const FiniteElementSpace& space, double a,
   solution.misfit =
     iteration.misfit.size() > 0 ? (iteration.misfit.array() / scale.array()).maxCoeff() : 0.0;
   solution.coefficients = std::move(iteration.x);
-  RemoveScales(scale, solution.coefficients, solution.report);
+  RemoveScales(scale, solution.coefficients, solution.report, divided);
   for (Id i = 0; i < solution.coefficients.rows(); ++i)
   {
     const Index own = components.ofFunction[i];
@@ -402,11 +464,12 @@ ConstrainedSolution SolveConstrained(const FiniteElementSpace& space, double a,
   return solution;
 }
 
-void SetMeans(const FiniteElementSpace& space, const std::vector<char>& isHeld,
-  const MultiVector& means, MultiVector& coefficients, int threads)
+void SetMeans(const SpaceLevels& space, const std::vector<char>& isHeld, const MultiVector& means,
+  MultiVector& coefficients, int threads)
 {
   const Components components = space.ComponentsOf(0, threads);
-  const ComponentMeans ofSpace(components.ofFunction, space.Integrals(), components.count, threads);
+  const ComponentMeans ofSpace(
+    components.ofFunction, space.Integrals(), components.count, threads, space.Divided(0));
   MultiVector change = means - ofSpace.OfFunction(coefficients);
   for (Id c = 0; c < change.rows(); ++c)
   {

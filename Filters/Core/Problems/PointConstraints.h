@@ -29,7 +29,7 @@ class ConstrainedHierarchy
 {
 public:
   /// @param rows  RowsAtPoints of the constrained points; a point without functions has none
-  ConstrainedHierarchy(const FiniteElementSpace& space, double a, double b, SparseMatrix rows,
+  ConstrainedHierarchy(const SpaceLevels& space, double a, double b, SparseMatrix rows,
     double penalty, const MultigridOptions& options, const Progress& progress = {});
 
   const Multigrid& GetMultigrid() const { return multigrid_; }
@@ -37,8 +37,10 @@ public:
   const SparseMatrix& Rows() const { return penalty_.Rows(); }
 
 private:
-  std::vector<MultigridLevel> BuildLevels(const FiniteElementSpace& space, double a, double b,
+  std::vector<MultigridLevel> BuildLevels(const SpaceLevels& space, double a, double b,
     SparseMatrix rows, double penalty, const MultigridOptions& options, const Progress& progress);
+  void AddWholePenalty(
+    std::size_t level, const DividedRows& divided, SparseMatrix& A, int threads) const;
 
   RowPenalty penalty_;
   Multigrid multigrid_;
@@ -68,7 +70,8 @@ MultiVector MeansOfFree(const std::vector<char>& isHeld, MultiVector means);
 class FreeConstants
 {
 public:
-  FreeConstants(const Components& components, const std::vector<char>& isHeld, int threads);
+  FreeConstants(const Components& components, const std::vector<char>& isHeld, int threads,
+    const DividedRows* divided = nullptr);
 
   /// Empty where all are held; else to be used while this lives.
   Projection AsProjection() const;
@@ -80,16 +83,18 @@ private:
 };
 
 /// Per component of the functions: whether a constraint or mass holds it.
-std::vector<char> HeldComponents(const FiniteElementSpace& space, double a,
-  const SparseMatrix& rows, const Components& components);
+std::vector<char> HeldComponents(
+  const SpaceLevels& space, double a, const SparseMatrix& rows, const Components& components);
 
 /// Minimises ½ uᵀ (a M + b L) u - loadᵀ u among the functions with these values at the points, by
 /// an augmented Lagrangian: each step solves with the misfit's penalty and adds the misfit that is
-/// left to the load. Components that have neither a constraint nor mass are not determined.
+/// left to the load. Components that have neither a constraint nor mass are not determined. Where
+/// processes hold the surface together, all of them call it, as SolvePoisson, each with constraints
+/// of its own.
 /// @param load    right-hand side: rows = functions; may have no rows for 0
 /// @param values  rows = rows of C, one column per component
 /// Throws InvalidInput when shapes do not fit, and Aborted. Same bits for any number of threads.
-ConstrainedSolution SolveConstrained(const FiniteElementSpace& space, double a,
+ConstrainedSolution SolveConstrained(const SpaceLevels& space, double a,
   const ConstrainedHierarchy& hierarchy, const MultiVector& load, const MultiVector& values,
   const ConstraintOptions& constraints, const SolveOptions& options, const Progress& progress = {});
 
@@ -104,8 +109,8 @@ Columns SizeOfSolution(const SpaceLevels& surface, const Components& components,
 /// makes all of the component NaN.
 /// @param space  with the mass of the mesh
 /// @param means  rows = components of the functions, one column per component of the values
-void SetMeans(const FiniteElementSpace& space, const std::vector<char>& isHeld,
-  const MultiVector& means, MultiVector& coefficients, int threads = 0);
+void SetMeans(const SpaceLevels& space, const std::vector<char>& isHeld, const MultiVector& means,
+  MultiVector& coefficients, int threads = 0);
 
 } // namespace gridfem
 

@@ -47,13 +47,14 @@ Id FindEntry(const SparseMatrix& A, Index row, Index column)
 } // namespace
 
 RowPenalty::RowPenalty(
-  const FiniteElementSpace& space, SparseMatrix rows, std::vector<double> weight, int threads)
+  const SpaceLevels& space, SparseMatrix rows, std::vector<double> weight, int threads)
   : weight_(std::move(weight))
 {
-  if (rows.columns != space.NumberOfFunctions(0))
+  const std::size_t functions = space.Integrals().size(); // in this process
+  if (static_cast<std::size_t>(rows.columns) != functions)
   {
     throw InvalidInput("The constraints are rows of " + std::to_string(rows.columns) +
-                       " values for " + std::to_string(space.NumberOfFunctions(0)) + " functions.");
+                       " values for " + std::to_string(functions) + " functions.");
   }
   levels_.push_back({ std::move(rows), {} });
   for (std::size_t l = 1; l < space.NumberOfLevels(); ++l)

@@ -2,7 +2,7 @@
 #ifndef GridFEM_RowPenalty_h
 #define GridFEM_RowPenalty_h
 
-#include "Spaces/FiniteElementSpace.h"
+#include "Spaces/SpaceLevels.h"
 
 #include <vector>
 
@@ -11,7 +11,8 @@ namespace gridfem
 
 /// Cᵀ W C: each row of C holds the values of all functions at a place, W one weight for each. A
 /// place adds a term of rank one on the functions of one patch, which the patch smoother inverts;
-/// on coarser levels C has the rows C P.
+/// on coarser levels C has the rows C P. Where processes hold the functions together, each has rows
+/// of its own, of functions that it has: what they add is its part.
 class RowPenalty
 {
 public:
@@ -19,8 +20,7 @@ public:
 
   /// @param rows  a place without functions has an empty one
   /// Throws InvalidInput when the rows are not of this space.
-  RowPenalty(
-    const FiniteElementSpace& space, SparseMatrix rows, std::vector<double> weight, int threads);
+  RowPenalty(const SpaceLevels& space, SparseMatrix rows, std::vector<double> weight, int threads);
 
   /// C, and W of each row.
   const SparseMatrix& Rows() const { return levels_.front().rows; }

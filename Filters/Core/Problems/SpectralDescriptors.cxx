@@ -288,8 +288,8 @@ std::vector<double> DiffusionDistance(
   return distance;
 }
 
-MultiVector ModeShares(
-  const TriangleMesh& mesh, const PointModes& modes, const MultiVector& f, int threads)
+MultiVector ModeShares(const TriangleMesh& mesh, const PointModes& modes, const MultiVector& f,
+  int threads, const DividedRows* divided)
 {
   const Id points = static_cast<Id>(mesh.points.size());
   const Id count = modes.values.cols();
@@ -299,7 +299,8 @@ MultiVector ModeShares(
   }
   MultiVector values(points, count + f.cols());
   values << modes.values, f;
-  const Eigen::MatrixXd products = Products(mesh, values, count, threads);
+  Eigen::MatrixXd products = Products(mesh, values, count, threads);
+  SumOverProcesses(divided, products);
   const Eigen::MatrixXd gram = products.leftCols(count);
   const Eigen::LLT<Eigen::MatrixXd> factor(gram);
   if (factor.info() != Eigen::Success ||

@@ -6,6 +6,7 @@
 #ifndef GridFEM_SpectralDescriptors_h
 #define GridFEM_SpectralDescriptors_h
 
+#include "Algebra/DividedRows.h"
 #include "Grid/TriangleMesh.h"
 
 #include <vector>
@@ -69,8 +70,10 @@ std::vector<double> DiffusionDistance(
 /// products: c = (ΦᵀMΦ)⁻¹ ΦᵀM f. The inverse makes up for the modes being orthonormal between their
 /// points, too: a mode has the share 1 in itself and 0 in the others, to rounding. Throws
 /// InvalidInput when the mesh has too few points to tell the modes apart.
-MultiVector ModeShares(
-  const TriangleMesh& mesh, const PointModes& modes, const MultiVector& f, int threads = 0);
+/// @param divided  where several processes hold the surface, each with the mesh of its triangles;
+///                 all call it
+MultiVector ModeShares(const TriangleMesh& mesh, const PointModes& modes, const MultiVector& f,
+  int threads = 0, const DividedRows* divided = nullptr);
 
 /// Σ shares φ over the modes first .. last (an empty sum is 0). Rows = points.
 MultiVector SumOfModes(

@@ -33,18 +33,20 @@ MultiVector Curl(const MultiVector& gradients, const std::vector<Vec3>& normals)
   return curl;
 }
 
-void AddDerivativesOfVectors(const TriangleMesh& mesh, int threads, SurfaceDerivatives& derivatives)
+void AddDerivativesOfVectors(
+  const SurfaceSpace& space, const TriangleMesh& mesh, int threads, SurfaceDerivatives& derivatives)
 {
+  MultiVector areaVectors = AreaVectorsAtPoints(mesh.points, mesh.triangles);
+  space.SumAtPoints(areaVectors);
   derivatives.divergenceOnTriangles = Divergence(derivatives.gradientOnTriangles);
   derivatives.divergenceAtPoints = Divergence(derivatives.gradientAtPoints);
   derivatives.curlOnTriangles = Curl(derivatives.gradientOnTriangles, NormalsOfTriangles(mesh));
-  derivatives.curlAtPoints =
-    Curl(derivatives.gradientAtPoints, NormalsAtPoints(mesh.points, mesh.triangles, threads));
+  derivatives.curlAtPoints = Curl(derivatives.gradientAtPoints, UnitVectors(areaVectors, threads));
 }
 
 } // namespace
 
-SurfaceDerivatives ComputeDerivatives(const FiniteElementSpace& space, const TriangleMesh& mesh,
+SurfaceDerivatives ComputeDerivatives(const SurfaceSpace& space, const TriangleMesh& mesh,
   const Field& f, const DerivativeOptions& options, const Job& job)
 {
   RequireField(f, mesh);
@@ -70,7 +72,7 @@ SurfaceDerivatives ComputeDerivatives(const FiniteElementSpace& space, const Tri
     space.ValuesAtPoints(projection.Solve(loadOfLaplacian, {}, job.Part(0.85, 1.0)), job.threads);
   if (f.values.cols() == 3)
   {
-    AddDerivativesOfVectors(mesh, job.threads, result);
+    AddDerivativesOfVectors(space, mesh, job.threads, result);
   }
   result.report = std::move(projection.report);
   result.accuracy = projection.accuracy;

@@ -3,7 +3,7 @@
 #define GridFEM_SurfaceDerivatives_h
 
 #include "Problems/SolutionAccuracy.h"
-#include "Spaces/FiniteElementSpace.h"
+#include "Spaces/SurfaceSpace.h"
 
 namespace gridfem
 {
@@ -40,8 +40,8 @@ struct SurfaceDerivatives
 /// space stays what it is.
 /// @param triangles  of the mesh that the space was made from
 /// Throws InvalidInput when the field does not fit, and Aborted. Same bits for any number of
-/// threads.
-SurfaceDerivatives ComputeDerivatives(const FiniteElementSpace& space, const TriangleMesh& mesh,
+/// threads. Where processes hold the surface together, all of them call it, as SolvePoisson.
+SurfaceDerivatives ComputeDerivatives(const SurfaceSpace& space, const TriangleMesh& mesh,
   const Field& f, const DerivativeOptions& options, const Job& job = {});
 
 } // namespace gridfem

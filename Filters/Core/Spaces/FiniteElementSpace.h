@@ -5,10 +5,9 @@
 #define GridFEM_FiniteElementSpace_h
 
 #include "Algebra/ColumnAlgebra.h"
-#include "Grid/Field.h"
 #include "Integrals/DirectionalElements.h"
 #include "Integrals/EdgeSamples.h"
-#include "Spaces/SpaceLevels.h"
+#include "Spaces/SurfaceSpace.h"
 
 #include <memory>
 #include <vector>
@@ -18,56 +17,28 @@ namespace gridfem
 
 struct TriangleMetric;
 
-/// The words of SpaceLevels hold here, too.
-class FiniteElementSpace : public SpaceLevels
+/// The words of SurfaceSpace hold here, too. One process holds all of it.
+class FiniteElementSpace : public SurfaceSpace
 {
 public:
-  /// World units per unit of length.
-  virtual double UnitLength() const = 0;
-
   /// The place in the world that positions in units of length are relative to.
   virtual Vec3 Origin() const = 0;
 
-  ///@{ The finest level. Fields are given on the mesh, in world units; each method throws
-  /// InvalidInput when their rows or columns do not fit.
-
-  /// ∫ f b_i: rows = functions, columns = components of f.
-  virtual MultiVector LoadOfValues(const Field& f, const Job& job = {}) const = 0;
+  ///@{ The finest level.
 
   /// ∫ w f b_i with a weight w on each triangle.
   virtual MultiVector LoadOfWeightedValues(
     const Field& f, const std::vector<double>& weight, const Job& job = {}) const = 0;
 
-  /// ∫ <s, ∇b_i> as the stiffness has it, without a unit. Vector c of s lies in columns 3c .. 3c+2;
-  /// its part normal to the surface is ignored.
-  /// @param scale  one column that multiplies s, or null
-  /// @return rows = functions, one column per vector
-  virtual MultiVector LoadOfGradients(
-    const Field& s, const Field* scale, const Job& job = {}) const = 0;
-
-  /// The same with n x s, n along the normal of each triangle.
+  /// LoadOfGradients with n x s, n along the normal of each triangle.
   virtual MultiVector LoadOfTurnedGradients(const Field& s, const Job& job = {}) const = 0;
 
-  /// The same with s = ∇u / |∇u|; 0 where ∇u = 0.
+  /// LoadOfGradients with s = ∇u / |∇u|; 0 where ∇u = 0.
   /// @param coefficients  functions u of the nested levels, where the space has such below it, else
   ///   of the space itself
   /// @return rows = functions of the space, columns as `coefficients`
   virtual MultiVector LoadOfDirections(
     const MultiVector& coefficients, const Field* scale, const Job& job = {}) const = 0;
-
-  /// The same with s = ∇f, f linear on each triangle (f must live on points).
-  virtual MultiVector LoadOfGradientsOf(
-    const Field& f, const Field* scale, const Job& job = {}) const = 0;
-
-  /// The same for the coordinates of the mesh's points, with what they are in space: on a grid with
-  /// a weight of the normal derivative they stay the solution of their own equation.
-  virtual MultiVector LoadOfGradientsOfCoordinates(
-    const Field* scale, const Job& job = {}) const = 0;
-
-  /// Mean surface gradients on the triangles, per world length: rows = triangles, three columns for
-  /// each of the coefficients'; 0 on triangles without an area.
-  virtual MultiVector GradientsOnTriangles(
-    const MultiVector& coefficients, const Job& job = {}) const = 0;
 
   /// The values of all functions at some points: rows = points, columns = functions. Throws
   /// InvalidInput for a point that the mesh does not have.
@@ -76,9 +47,6 @@ public:
   /// The values of all functions along segments of triangles, for integrals over curves. Throws
   /// InvalidInput for a triangle that the mesh does not have.
   virtual EdgeSamples SamplesOfSegments(const std::vector<TriangleSegment>& segments) const = 0;
-
-  /// Per point of the mesh: 1 where a function reaches it.
-  virtual std::vector<char> PointsWithFunctions() const = 0;
 
   /// The coefficients of the mesh's own coordinates, exact but for rounding: functions x 3, in
   /// units of length from the origin. What a flow starts from.

@@ -1,33 +1,37 @@
-// What filters do that all ranks compute together, in every build.
+// Whether a filter's ranks can compute together, in every build.
 #ifndef GridFEM_CanDistribute_h
 #define GridFEM_CanDistribute_h
 
-#include "InputMesh.h"
-
 #include <initializer_list>
+#include <string>
 
 class vtkInformationVector;
-class vtkPolyData;
 class vtkSurfaceFEMAlgorithm;
 
 namespace gridfem
 {
 
 /// Collective. Whether all ranks can compute together, each with its piece on port 0: on the
-/// functions of a grid of a chosen depth, without a basis, ghost cells or connections to further
-/// ports, of which ranks together know nothing. Where the build has no MPI, or VTK's
-/// global controller is not one of MPI, the filter on the first rank warns that rank 0 gathers.
-/// @param depth    that is chosen
-/// @param isPlain  whether the filter does nothing else that rank 0 alone can do
-bool CanDistribute(
-  vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs, int depth, bool isPlain);
+/// functions of a grid of a chosen depth, without a basis or connections to further ports, of which
+/// ranks together know nothing. Where they cannot, the filter on the first rank warns and says why
+/// rank 0 gathers the surface; not where there is none.
+/// @param depth     that is chosen
+/// @param obstacle  what else the filter is asked for that only rank 0 can do; empty: nothing
+bool CanDistribute(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs, int depth,
+  const std::string& obstacle);
 
-/// Whether SetInputArrayToProcess(index, ...) names one of these arrays.
-bool IsArrayChosen(vtkSurfaceFEMAlgorithm* filter, std::initializer_list<int> indices);
+/// Whether SetInputArrayToProcess(index, ...) names an array.
+bool IsArrayChosen(vtkSurfaceFEMAlgorithm* filter, int index);
 
-/// A rank's piece, which may be null; no triangles where it has no polygons. Throws InvalidInput
-/// for these, and for properties of the filter that are wrong on all ranks.
-InputMesh ReadPiece(vtkSurfaceFEMAlgorithm* filter, vtkPolyData* piece);
+/// What an obstacle is called.
+struct Obstacle
+{
+  bool isThere;
+  const char* name;
+};
+
+/// The name of the first obstacle that is there; empty: none is.
+std::string FirstObstacle(std::initializer_list<Obstacle> obstacles);
 
 } // namespace gridfem
 

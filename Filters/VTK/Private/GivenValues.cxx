@@ -83,7 +83,7 @@ void RequireValuesAtPoints(
   }
 }
 
-GivenValues KnownValues(const InputArray& array, const InputArray& mask,
+GivenValues FindKnownValues(const InputArray& array, const InputArray& mask,
   const SelectedPoints& selection, const TriangleMesh& mesh)
 {
   if (mask.array &&
@@ -100,16 +100,28 @@ GivenValues KnownValues(const InputArray& array, const InputArray& mask,
       given.points.push_back(point);
     }
   }
-  if (given.points.empty())
-  {
-    throw InvalidInput("No value of '" + array.name +
-                       "' is known at a point of a polygon: all are NaN, masked, or not selected.");
-  }
   given.values.resize(static_cast<Id>(given.points.size()), array.array->GetNumberOfComponents());
   for (Id row = 0; row < given.values.rows(); ++row)
   {
     CopyFinite(array, given.points[row], given.values, row);
   }
+  return given;
+}
+
+void RequireKnown(bool isAnyKnown, const InputArray& array)
+{
+  if (!isAnyKnown)
+  {
+    throw InvalidInput("No value of '" + array.name +
+                       "' is known at a point of a polygon: all are NaN, masked, or not selected.");
+  }
+}
+
+GivenValues KnownValues(const InputArray& array, const InputArray& mask,
+  const SelectedPoints& selection, const TriangleMesh& mesh)
+{
+  GivenValues given = FindKnownValues(array, mask, selection, mesh);
+  RequireKnown(!given.points.empty(), array);
   return given;
 }
 

@@ -32,9 +32,16 @@ void RequireValuesAtPoints(
 
 /// Tuples without a NaN, at points that a triangle uses and where the mask is neither 0 nor NaN, or
 /// that are selected; at all points without mask and selection. Throws InvalidInput for an infinite
-/// value, a mask that does not fit, and when nothing is known.
+/// value, a mask that does not fit, and when nothing is known (RequireKnown).
 GivenValues KnownValues(const InputArray& array, const InputArray& mask,
   const SelectedPoints& selection, const TriangleMesh& mesh);
+
+/// The same where nothing may be known, as on one of several ranks.
+GivenValues FindKnownValues(const InputArray& array, const InputArray& mask,
+  const SelectedPoints& selection, const TriangleMesh& mesh);
+
+/// Throws InvalidInput when nothing is known.
+void RequireKnown(bool isAnyKnown, const InputArray& array);
 
 /// The values of all points of a data set, each at the nearest point of the mesh that a triangle
 /// uses. Throws InvalidInput when there are none or one is not finite.

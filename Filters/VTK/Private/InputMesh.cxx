@@ -177,20 +177,23 @@ void ForEachCell(vtkCellArray* cells, Id firstCell, const Progress& progress, Ad
   }
 }
 
-/// Takes away the triangles of cells that are hidden or duplicates.
-void RemoveGhosts(vtkPolyData* input, InputMesh& mesh, TriangleMesh& triangles)
+/// The marks of the cells; null where there are none.
+vtkUnsignedCharArray* GhostsOf(vtkPolyData* input)
 {
   auto* ghosts = vtkArrayDownCast<vtkUnsignedCharArray>(
     input->GetCellData()->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()));
-  if (!ghosts || ghosts->GetNumberOfTuples() != input->GetNumberOfCells())
-  {
-    return;
-  }
-  constexpr int left = vtkDataSetAttributes::HIDDENCELL | vtkDataSetAttributes::DUPLICATECELL;
+  return ghosts && ghosts->GetNumberOfTuples() == input->GetNumberOfCells() ? ghosts : nullptr;
+}
+
+/// Keeps the triangles of cells that isKept(mark).
+template<class IsKept>
+void KeepCells(
+  vtkUnsignedCharArray* ghosts, InputMesh& mesh, TriangleMesh& triangles, IsKept&& isKept)
+{
   std::size_t kept = 0;
   for (std::size_t t = 0; t < mesh.sourceCell.size(); ++t)
   {
-    if ((ghosts->GetValue(mesh.sourceCell[t]) & left) == 0)
+    if (isKept(ghosts ? ghosts->GetValue(mesh.sourceCell[t]) : 0))
     {
       triangles.triangles[kept] = triangles.triangles[t];
       mesh.sourceCell[kept++] = mesh.sourceCell[t];
@@ -198,24 +201,24 @@ void RemoveGhosts(vtkPolyData* input, InputMesh& mesh, TriangleMesh& triangles)
   }
   triangles.triangles.resize(kept);
   mesh.sourceCell.resize(kept);
-  if (kept == 0)
-  {
-    throw InvalidInput("All polygons are marked by vtkGhostType as hidden or as duplicates.");
-  }
 }
 
-} // namespace
+bool IsShown(int mark)
+{
+  return (mark & (vtkDataSetAttributes::HIDDENCELL | vtkDataSetAttributes::DUPLICATECELL)) == 0;
+}
 
-InputMesh ReadInputMesh(vtkPolyData* input, int threads, const Progress& progress)
+/// Triangles of all cells, those of ghosts as well, into `triangles`.
+InputMesh ReadCells(
+  vtkPolyData* input, int threads, const Progress& progress, TriangleMesh& triangles)
 {
   InputMesh mesh;
-  auto triangles = std::make_shared<TriangleMesh>();
-  triangles->points = ReadPoints(input, threads);
-  TriangleCollector collector(triangles->points, mesh, *triangles);
+  triangles.points = ReadPoints(input, threads);
+  TriangleCollector collector(triangles.points, mesh, triangles);
   const Id firstPolygon = input->GetNumberOfVerts() + input->GetNumberOfLines();
-  if (!ReadTriangles(input->GetPolys(), firstPolygon, threads, mesh, *triangles))
+  if (!ReadTriangles(input->GetPolys(), firstPolygon, threads, mesh, triangles))
   {
-    triangles->triangles.reserve(input->GetNumberOfPolys());
+    triangles.triangles.reserve(input->GetNumberOfPolys());
     mesh.sourceCell.reserve(input->GetNumberOfPolys());
     ForEachCell(input->GetPolys(), firstPolygon, progress,
       [&](Id cell, vtkIdType size, const vtkIdType* ids)
@@ -223,12 +226,45 @@ InputMesh ReadInputMesh(vtkPolyData* input, int threads, const Progress& progres
   }
   ForEachCell(input->GetStrips(), firstPolygon + input->GetNumberOfPolys(), progress,
     [&](Id cell, vtkIdType size, const vtkIdType* ids) { collector.AddStrip(cell, size, ids); });
+  return mesh;
+}
+
+} // namespace
+
+InputMesh ReadInputMesh(vtkPolyData* input, int threads, const Progress& progress)
+{
+  auto triangles = std::make_shared<TriangleMesh>();
+  InputMesh mesh = ReadCells(input, threads, progress, *triangles);
   if (triangles->triangles.empty())
   {
     throw InvalidInput("The input has no polygons and no triangle strips. A surface is needed: "
                        "Extract Surface makes one from a volume mesh, Delaunay 2D from points.");
   }
-  RemoveGhosts(input, mesh, *triangles);
+  KeepCells(GhostsOf(input), mesh, *triangles, IsShown);
+  if (triangles->triangles.empty())
+  {
+    throw InvalidInput("All polygons are marked by vtkGhostType as hidden or as duplicates.");
+  }
+  mesh.triangles = std::move(triangles);
+  return mesh;
+}
+
+InputMesh ReadPiece(vtkPolyData* piece, int threads, InputMesh& copies)
+{
+  auto triangles = std::make_shared<TriangleMesh>();
+  InputMesh mesh = piece ? ReadCells(piece, threads, {}, *triangles) : InputMesh();
+  vtkUnsignedCharArray* const ghosts = piece ? GhostsOf(piece) : nullptr;
+  auto triangleCopies = std::make_shared<TriangleMesh>();
+  copies = {};
+  if (ghosts)
+  {
+    *triangleCopies = *triangles;
+    copies.sourceCell = mesh.sourceCell;
+    KeepCells(ghosts, copies, *triangleCopies,
+      [](int mark) { return (mark & vtkDataSetAttributes::DUPLICATECELL) != 0; });
+    KeepCells(ghosts, mesh, *triangles, IsShown);
+  }
+  copies.triangles = std::move(triangleCopies);
   mesh.triangles = std::move(triangles);
   return mesh;
 }

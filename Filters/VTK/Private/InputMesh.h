@@ -28,6 +28,11 @@ struct InputMesh
 /// cell with a point that does not exist.
 InputMesh ReadInputMesh(vtkPolyData* input, int threads, const Progress& progress = {});
 
+/// The piece of a surface that one of several ranks has, which may be null or without polygons. Its
+/// points are all its points. Throws InvalidInput as ReadInputMesh, but not where nothing is left.
+/// @param copies  gets the triangles of the cells that vtkGhostType marks as duplicates
+InputMesh ReadPiece(vtkPolyData* piece, int threads, InputMesh& copies);
+
 /// The means of values on triangles over the cells they come from, weighted by area; 0 on other
 /// cells.
 MultiVector MeansOnCells(const InputMesh& mesh, const MultiVector& onTriangles, Id cells);

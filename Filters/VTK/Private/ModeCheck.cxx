@@ -4,8 +4,10 @@
 
 #include <Eigen/Geometry>
 
+#include <array>
 #include <cmath>
 #include <sstream>
+#include <tuple>
 
 namespace gridfem
 {
@@ -115,9 +117,17 @@ std::string Describe(Id mode, const char* what, double value, double expected)
 
 } // namespace
 
-std::string FindMisfit(const TriangleMesh& mesh, const PointModes& modes, int threads)
+std::string FindMisfit(
+  const TriangleMesh& mesh, const PointModes& modes, int threads, const DividedRows* divided)
 {
-  const ModeIntegrals sum = Integrate(mesh, modes.values, threads);
+  ModeIntegrals sum = Integrate(mesh, modes.values, threads);
+  for (Eigen::ArrayXd* numbers : { &sum.exact, &sum.byCorners, &sum.energy })
+  {
+    SumOverProcesses(divided, *numbers);
+  }
+  std::array<double, 3> sizes = { sum.area, sum.flatArea, sum.squaredEdges };
+  SumOverProcesses(divided, sizes);
+  std::tie(sum.area, sum.flatArea, sum.squaredEdges) = std::tie(sizes[0], sizes[1], sizes[2]);
   const bool hasQuotients = sum.flatArea <= FlatShareAllowed * sum.area;
   const double smallest = FirstNonZero(modes);
   for (Id mode = 0; mode < modes.values.cols(); ++mode)

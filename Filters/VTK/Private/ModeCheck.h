@@ -19,7 +19,10 @@ namespace gridfem
 /// not looked at.
 /// @param modes  rows = points of the mesh
 /// Cost O(triangles · modes); the same for any number of threads.
-std::string FindMisfit(const TriangleMesh& mesh, const PointModes& modes, int threads);
+/// @param divided  where several processes hold the surface, each with the mesh of its triangles;
+///                 all call it
+std::string FindMisfit(const TriangleMesh& mesh, const PointModes& modes, int threads,
+  const DividedRows* divided = nullptr);
 
 } // namespace gridfem
 

@@ -54,6 +54,12 @@ void AddFieldInt(vtkPolyData* output, const char* name, int value)
   output->GetFieldData()->AddArray(array);
 }
 
+void AddDistributed(int depth, vtkPolyData* output)
+{
+  AddFieldInt(output, "UsedDepth", depth);
+  AddFieldInt(output, "Distributed", 1);
+}
+
 void AddFieldNumber(vtkPolyData* output, const char* name, double value)
 {
   vtkNew<vtkDoubleArray> array;

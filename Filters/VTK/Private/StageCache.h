@@ -4,8 +4,10 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 class vtkObject;
@@ -41,7 +43,8 @@ public:
   void Run(const std::string& stage, const StageKey& key, Body&& body)
   {
     Entry& entry = entries_[stage];
-    if (this->IsCurrent(stage, key))
+    const bool isCurrent = this->IsCurrent(stage, key);
+    if (anywhere_ ? !anywhere_(!isCurrent) : isCurrent)
     {
       return;
     }
@@ -52,6 +55,11 @@ public:
     ++entry.runs;
     this->Adopt(stage, key);
   }
+
+  /// From now on Run is called by several processes together, and a stage runs in all where it has
+  /// to in one.
+  /// @param anywhere  whether something holds in one of them; null: this process is alone
+  void DecideTogether(std::function<bool(bool)> anywhere) { anywhere_ = std::move(anywhere); }
 
   bool IsCurrent(const std::string& stage, const StageKey& key) const
   {
@@ -102,6 +110,7 @@ private:
   }
 
   std::map<std::string, Entry> entries_;
+  std::function<bool(bool)> anywhere_;
 };
 
 } // namespace gridfem

@@ -7,6 +7,20 @@
 namespace gridfem
 {
 
+namespace
+{
+
+/// Of a field from its integrals.
+MultiVector MeansOfComponents(const SurfaceSpace& space, const MultiVector& integrals, int threads)
+{
+  const Components components = space.ComponentsOf(0, threads);
+  return ComponentMeans(
+    components.ofFunction, space.Integrals(), components.count, threads, space.Divided(0))
+    .OfIntegrals(integrals);
+}
+
+} // namespace
+
 void SurfaceConstrainedPoisson::Update(SurfaceSolverState& state, const StageKey& fields,
   const Integrate& integrate, const PoissonRequest& request, const Progress& progress)
 {
@@ -35,13 +49,21 @@ void SurfaceConstrainedPoisson::UpdateSystem(
   state.stages.Run(RightHandSideStage, fields,
     [&]
     {
-      load_ = integrate(*state.space, state.MakeJob(progress.Part(0.0, 0.4)));
+      load_ = integrate(state.MakeJob(progress.Part(0.0, 0.4)));
+      if (state.together.IsUsed())
+      {
+        weighted_ = state.SolverSpace();
+        values_ = load_.values;
+        meanOfField_ = MeansOfComponents(*weighted_, values_, state.options.space.threads);
+        return;
+      }
       const Job job = state.MakeJob(progress.Part(0.4, 1.0));
       values_ = state.space->LoadOfWeightedValues(
         load_.field.values, load_.field.weight, job.Part(0.0, 0.2));
       meanOfField_ = MeansOfKnown(*state.space, load_.field, job.Part(0.2, 0.5));
-      weighted_ = state.space->Copy();
-      weighted_->WeighMass(load_.field.weight, job.Part(0.5, 1.0));
+      std::shared_ptr<FiniteElementSpace> weighted = state.space->Copy();
+      weighted->WeighMass(load_.field.weight, job.Part(0.5, 1.0));
+      weighted_ = std::move(weighted);
     });
 }
 
@@ -65,10 +87,15 @@ void SurfaceConstrainedPoisson::Solve(
         load += this->BalancedFlux(state, weight);
       }
       ConstraintOptions constraints;
-      constraints.estimateOn = state.space.get();
+      const std::shared_ptr<const SurfaceSpace> space = state.SolverSpace();
+      constraints.estimateOn = space.get();
       solution_ = SolveConstrained(*weighted_, weight, *hierarchy_, load, load_.held.values,
         constraints, state.options.solve, progress);
-      SetMeans(*state.space, solution_.isHeld, meanOfField_, solution_.coefficients,
+      if (state.together.IsUsed())
+      {
+        solution_.accuracy.largest = state.together.Largest(solution_.accuracy.largest);
+      }
+      SetMeans(*space, solution_.isHeld, meanOfField_, solution_.coefficients,
         state.options.multigrid.threads);
     });
 }
@@ -111,12 +138,12 @@ MultiVector SurfaceConstrainedPoisson::BalancedFlux(const SurfaceSolverState& st
 MultiVector SurfaceConstrainedPoisson::Gradients(const SurfaceSolverState& state) const
 {
   return state.OnCurrent(
-    state.space->GradientsOnTriangles(solution_.coefficients, state.options.space.threads));
+    state.SolverSpace()->GradientsOnTriangles(solution_.coefficients, state.options.space.threads));
 }
 
 MultiVector SurfaceConstrainedPoisson::Values(const SurfaceSolverState& state) const
 {
-  return state.space->ValuesAtPoints(solution_.coefficients, state.options.space.threads);
+  return state.ValuesAtPoints(solution_.coefficients);
 }
 
 std::string SurfaceConstrainedPoisson::Warning(double tolerance) const

@@ -20,6 +20,7 @@ namespace gridfem
 struct ConstrainedLoad
 {
   PartialField field;
+  MultiVector values; // integrals, of ranks together, where all is known and counts alike: no field
   MultiVector gradients; // may have no rows
   MultiVector flux;      // integrals over the boundary; may have no rows
   HeldValues held;       // what the solution has exactly
@@ -29,7 +30,7 @@ struct ConstrainedLoad
 class SurfaceConstrainedPoisson
 {
 public:
-  using Integrate = std::function<ConstrainedLoad(const FiniteElementSpace&, const Job&)>;
+  using Integrate = std::function<ConstrainedLoad(const Job&)>;
 
   /// As SurfacePoisson::Update.
   void Update(SurfaceSolverState& state, const StageKey& fields, const Integrate& integrate,
@@ -57,9 +58,9 @@ private:
   void Solve(SurfaceSolverState& state, const PoissonRequest& request, const Progress& progress);
 
   ConstrainedLoad load_;
-  MultiVector values_;      // ∫ w f b_i
-  MultiVector meanOfField_; // of components
-  std::unique_ptr<FiniteElementSpace> weighted_;
+  MultiVector values_;                           // ∫ w f b_i
+  MultiVector meanOfField_;                      // of components
+  std::shared_ptr<const SurfaceSpace> weighted_; // the space with the mass of what is known
   std::unique_ptr<ConstrainedHierarchy> hierarchy_;
   ConstrainedSolution solution_;
   Id unbalanced_ = 0; // components that nothing holds with a flux that does not add up to 0

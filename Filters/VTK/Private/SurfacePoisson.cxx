@@ -7,7 +7,7 @@ void SurfacePoisson::Update(SurfaceSolverState& state, StageKey fields, const In
 {
   fields.Add(state.stages.Version(SystemStage));
   state.stages.Run(RightHandSideStage, fields,
-    [&] { load_ = integrate(*state.space, state.MakeJob(progress.Part(0.0, 0.2))); });
+    [&] { load_ = integrate(*state.SolverSpace(), state.MakeJob(progress.Part(0.0, 0.2))); });
   progress.Check(0.2);
   const double weight = state.WeightInGridUnits(request.weight);
   this->UpdateHierarchy(state, weight, progress.Part(0.2, 0.4));
@@ -27,7 +27,7 @@ void SurfacePoisson::UpdateHierarchy(
     [&]
     {
       // Other threads give the same bits: no reason to run, but used where it runs.
-      if (multigrid_ && shape_ == shape &&
+      if (multigrid_ && shape_ == shape && !state.together.IsUsed() &&
           multigrid_->Options().threads == state.options.multigrid.threads)
       {
         UpdateMultigrid(*state.space, weight, 1.0, *multigrid_);
@@ -35,7 +35,7 @@ void SurfacePoisson::UpdateHierarchy(
       }
       multigrid_.reset(); // frees its memory first
       multigrid_ = std::make_unique<Multigrid>(
-        BuildMultigrid(*state.space, weight, 1.0, state.options.multigrid, progress));
+        BuildMultigrid(*state.SolverSpace(), weight, 1.0, state.options.multigrid, progress));
       shape_ = shape;
     });
 }
@@ -60,13 +60,17 @@ void SurfacePoisson::Solve(
       StageKey solver = shape_; // other options show their own iterations, from the usual start
       solver.Add(state.stages.Version(SystemStage)).Add(static_cast<int>(request.iteration));
       AddSolver(solver, state.options);
-      const bool hasStart = solvedWith_ == solver;
+      const bool hasStart = solvedWith_ == solver && !state.together.IsUsed();
       const MultiVector last = hasStart ? std::move(solution_.coefficients) : MultiVector();
       options.start = hasStart ? &last : nullptr;
       solvedWith_ = {};
       const MultiVector gradients = request.gradientScale * load_.gradients;
       solution_ =
-        SolvePoisson(*state.space, *multigrid_, load_.values, gradients, options, progress);
+        SolvePoisson(*state.SolverSpace(), *multigrid_, load_.values, gradients, options, progress);
+      if (state.together.IsUsed())
+      {
+        solution_.accuracy.largest = state.together.Largest(solution_.accuracy.largest);
+      }
       solvedWith_ = solver;
     });
 }
@@ -74,12 +78,12 @@ void SurfacePoisson::Solve(
 MultiVector SurfacePoisson::Gradients(const SurfaceSolverState& state) const
 {
   return state.OnCurrent(
-    state.space->GradientsOnTriangles(solution_.coefficients, state.options.space.threads));
+    state.SolverSpace()->GradientsOnTriangles(solution_.coefficients, state.options.space.threads));
 }
 
 MultiVector SurfacePoisson::Values(const SurfaceSolverState& state) const
 {
-  return state.space->ValuesAtPoints(solution_.coefficients, state.options.space.threads);
+  return state.ValuesAtPoints(solution_.coefficients);
 }
 
 } // namespace gridfem

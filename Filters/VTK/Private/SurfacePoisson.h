@@ -31,11 +31,12 @@ struct PoissonRequest
 };
 
 /// Every stage is repeated only when something it depends on has changed. A change of the weight or
-/// of the load starts from the last solution. All methods throw InvalidInput and Aborted.
+/// of the load starts from the last solution; not where ranks compute together, which call all but
+/// Report and Accuracy together. All methods throw InvalidInput and Aborted.
 class SurfacePoisson
 {
 public:
-  using Integrate = std::function<PoissonLoad(const FiniteElementSpace&, const Job&)>;
+  using Integrate = std::function<PoissonLoad(const SurfaceSpace&, const Job&)>;
 
   /// Integrates the load when `fields`, all that it depends on besides the space, has changed, and
   /// solves. The space has to be up to date.

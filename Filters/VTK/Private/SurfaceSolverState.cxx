@@ -3,6 +3,7 @@
 #include "Base/Errors.h"
 #include "BasisReader.h"
 #include "InputValidation.h"
+#include "Integrals/QuadratureRule.h"
 #include "MetricArray.h"
 #include "Problems/MemoryEstimate.h"
 #include "Problems/MovedSurface.h"
@@ -247,6 +248,95 @@ std::shared_ptr<const FiniteElementSpace> SurfaceSolverState::InMetric(
   return own;
 }
 
+void SurfaceSolverState::RunTogether(const DistributedSurface::Body& body)
+{
+  stages.DecideTogether([this](bool holds) { return together.Any(holds); });
+  try
+  {
+    together.Run(bridge.GetProgress(), body);
+  }
+  catch (...)
+  {
+    stages.DecideTogether(nullptr);
+    throw;
+  }
+  stages.DecideTogether(nullptr);
+}
+
+void SurfaceSolverState::UpdateTogether(vtkPolyData* piece)
+{
+  StageKey key;
+  together.Together(
+    [&]
+    {
+      RequireNumber("Tolerance", options.solve.tolerance);
+      RequireNumber("Accuracy", options.accuracy);
+      TriangleRule(options.choice.quadratureDegree); // refuses a wrong degree
+      key.Add(std::string("together")).Add(options.space.depth);
+      key.Add(options.space.connectivityAware).Add(options.space.weldCoincidentPoints);
+      key.Add(options.choice.quadratureDegree).Add(options.choice.coarsestSize);
+      key.Add(options.choice.normalStabilization);
+      if (piece)
+      {
+        AddMesh(key, piece);
+      }
+    });
+  options.space.threads = together.ThreadsOfRank(options.space.threads);
+  options.multigrid.threads = options.space.threads;
+  stages.Run(SpaceStage, key,
+    [&]
+    {
+      basis = {};
+      space = {};
+      together.BuildSpace(piece, options, mesh);
+    });
+  key = {};
+  key.Add(stages.Version(SpaceStage));
+  stages.Run(SystemStage, key, [] {}); // ranks make it with the space
+}
+
+std::shared_ptr<const SurfaceSpace> SurfaceSolverState::SolverSpace() const
+{
+  return together.IsUsed() ? together.Space() : space;
+}
+
+Field SurfaceSolverState::Read(const InputArray& array) const
+{
+  if (!together.IsUsed())
+  {
+    return ReadField(array, mesh);
+  }
+  Field field;
+  together.Together([&] { field = ReadField(array, mesh); });
+  return field;
+}
+
+MultiVector SurfaceSolverState::ValuesAtPoints(const MultiVector& coefficients) const
+{
+  MultiVector values = this->SolverSpace()->ValuesAtPoints(coefficients, options.space.threads);
+  this->FillCopies(values);
+  return values;
+}
+
+void SurfaceSolverState::FillCopies(MultiVector& atPoints) const
+{
+  if (together.IsUsed())
+  {
+    together.FillCopies(atPoints);
+  }
+}
+
+std::vector<char> SurfaceSolverState::PointsWithFunctions() const
+{
+  return together.IsUsed() ? together.PointsWithFunctions() : space->PointsWithFunctions();
+}
+
+MultiVector SurfaceSolverState::MeansOnCells(const MultiVector& onTriangles, Id cells) const
+{
+  return together.IsUsed() ? together.MeansOnCells(mesh, onTriangles, cells)
+                           : gridfem::MeansOnCells(this->CurrentMesh(), onTriangles, cells);
+}
+
 const InputMesh& SurfaceSolverState::CurrentMesh() const
 {
   return tracked_.Metric() ? tracked_.Moved() : mesh;
@@ -292,6 +382,7 @@ void SurfaceSolverState::Free()
   basis = {};
   space = {};
   metric_ = {};
+  together.Free();
   stages.Forget();
 }
 
@@ -306,14 +397,22 @@ std::shared_ptr<const FiniteElementSpace> SurfaceSolverState::OtherSpace(
 
 double SurfaceSolverState::WeightInGridUnits(double weight) const
 {
-  const Grid& grid = basis.space->GetGrid();
+  const double spacing =
+    together.IsUsed() ? together.Space()->UnitLength() : basis.space->GetGrid().spacing;
   double length2 = 1.0; // the squared unit of length, world units
-  if (options.parameterUnits == vtkSurfaceFEMAlgorithm::UnitArea)
+  if (together.IsUsed() && options.parameterUnits != vtkSurfaceFEMAlgorithm::World)
+  {
+    length2 = options.parameterUnits == vtkSurfaceFEMAlgorithm::UnitArea
+                ? together.Area()
+                : together.Side() * together.Side();
+  }
+  else if (options.parameterUnits == vtkSurfaceFEMAlgorithm::UnitArea)
   {
     length2 = metric_ ? metric_->AreaOf(*mesh.triangles) : SurfaceArea(*mesh.triangles);
   }
   else if (options.parameterUnits == vtkSurfaceFEMAlgorithm::UnitCube)
   {
+    const Grid& grid = basis.space->GetGrid();
     double side = grid.spacing * grid.CellsPerSide();
     if (tracked_.Metric())
     {
@@ -323,7 +422,7 @@ double SurfaceSolverState::WeightInGridUnits(double weight) const
     }
     length2 = side * side;
   }
-  return weight / length2 * grid.spacing * grid.spacing;
+  return weight / length2 * spacing * spacing;
 }
 
 double SurfaceSolverState::LengthInWorldUnits(double length) const

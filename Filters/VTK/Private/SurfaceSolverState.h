@@ -3,6 +3,7 @@
 #ifndef GridFEM_SurfaceSolverState_h
 #define GridFEM_SurfaceSolverState_h
 
+#include "DistributedSurface.h"
 #include "InputArray.h"
 #include "InputMesh.h"
 #include "Krylov/ConjugateGradients.h"
@@ -75,6 +76,29 @@ public:
   /// mesh that another filter has built on the same basis is taken over without a run.
   void UpdateSystem(const Progress& progress);
 
+  ///@{ On several MPI ranks that compute together. Collective; the words of DistributedSurface
+  /// hold here, too.
+
+  /// Runs a body with stages that run on all ranks where they have to on one.
+  void RunTogether(const DistributedSurface::Body& body);
+
+  /// As UpdateSpace and UpdateSystem, on the pieces of all ranks.
+  /// @param piece  may be null
+  void UpdateTogether(vtkPolyData* piece);
+  ///@}
+
+  ///@{ What solvers ask of the space, be it that of one process or of ranks together: then
+  /// collective, but for SolverSpace.
+  std::shared_ptr<const SurfaceSpace> SolverSpace() const;
+  Field Read(const InputArray& array) const;
+  MultiVector ValuesAtPoints(const MultiVector& coefficients) const;
+  std::vector<char> PointsWithFunctions() const;
+  /// Of rows at points that the space has given.
+  void FillCopies(MultiVector& atPoints) const;
+  /// Of values on the triangles of `mesh`.
+  MultiVector MeansOnCells(const MultiVector& onTriangles, Id cells) const;
+  ///@}
+
   /// Changes when more of the space does than its numbers: a hierarchy of another one cannot be
   /// updated.
   std::int64_t StructureVersion() const { return structure_; }
@@ -115,6 +139,7 @@ public:
   MeshVersion meshVersion; // of `mesh`
   SurfaceBasis basis;
   std::shared_ptr<const FiniteElementSpace> space;
+  DistributedSurface together; // in use in place of `basis` and `space`
   ProgressBridge bridge;
 
 private:

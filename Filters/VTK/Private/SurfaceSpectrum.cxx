@@ -80,16 +80,47 @@ double SurfaceSpectrum::LargestEstimatedError() const
   return Largest(spectrum.estimatedErrors);
 }
 
-void SurfaceSpectrum::Solve(
-  SurfaceSolverState& state, const SpectrumRequest& request, const Progress& progress)
+StageKey SurfaceSpectrum::KeyOf(
+  const SurfaceSolverState& state, const SpectrumRequest& request) const
 {
   StageKey key;
   key.Add(state.stages.Version(SystemStage)).Add(request.numberOfModes);
   key.Add(request.completeMultiplets).Add(state.options.solve.tolerance);
   // What is improved after the nested levels waits for the depth that the accuracy asks for.
-  key.Add(state.space->NestedLevels() ? request.accuracy : 0.0);
+  key.Add(state.SolverSpace()->NestedLevels() ? request.accuracy : 0.0);
   key.Add(state.options.solve.maximumIterations);
   AddMultigrid(key, state.options.multigrid);
+  return key;
+}
+
+void SurfaceSpectrum::UpdateTogether(
+  SurfaceSolverState& state, const SpectrumRequest& request, const Progress& progress)
+{
+  state.stages.Run(SolveStage, this->KeyOf(state, request),
+    [&]
+    {
+      const SurfaceSpace& space = *state.SolverSpace();
+      SpectrumOptions options = SolverOptions(state.options, request.numberOfModes);
+      options.completeMultiplets = request.completeMultiplets;
+      spectrum = {}; // frees its memory first
+      atPoints.resize(0, 0);
+      state.together.Together(
+        [&]
+        {
+          RequireMemoryForModes(static_cast<Id>(space.Integrals().size()), options.numberOfModes,
+            options.multigrid.threads);
+        });
+      spectrum = ComputeOnNestedLevels(space, options, progress);
+      eigenvalues = InWorldUnits(spectrum.eigenvalues, space.UnitLength());
+      atPoints = EvaluateModes(state, spectrum, 0, this->NumberOfModes());
+      spectrum.vectors.resize(0, 0);
+      depth = state.options.space.depth;
+    });
+}
+
+void SurfaceSpectrum::Solve(
+  SurfaceSolverState& state, const SpectrumRequest& request, const Progress& progress)
+{
   const auto solve = [&]
   {
     const FiniteElementSpace& space = *state.space;
@@ -99,6 +130,7 @@ void SurfaceSpectrum::Solve(
     SpectrumOptions options = SolverOptions(state.options, request.numberOfModes);
     options.completeMultiplets = request.completeMultiplets;
     spectrum = {}; // frees its memory first
+    atPoints.resize(0, 0);
     const double split = space.NestedLevels() ? 0.3 : 1.0;
     Spectrum nested = ComputeNestedSpectrum(space, options, progress.Part(0.0, split));
     gridErrors_ = nested.estimatedErrors;
@@ -113,7 +145,7 @@ void SurfaceSpectrum::Solve(
     }
     eigenvalues = InWorldUnits(spectrum.eigenvalues, space.UnitLength());
   };
-  state.stages.Run(SolveStage, key, solve);
+  state.stages.Run(SolveStage, this->KeyOf(state, request), solve);
   nextDepth_ = this->NextDepth(state, request.accuracy);
 }
 
@@ -204,12 +236,12 @@ void SurfaceSpectrum::Update(SurfaceSolverState& state, vtkPolyData* input, vtkP
 }
 
 MultiVector EvaluateModes(
-  const SurfaceSolverState& state, const Spectrum& spectrum, Id first, Id count, int threads)
+  const SurfaceSolverState& state, const Spectrum& spectrum, Id first, Id count)
 {
   // The integral over the space's units is UnitLength² times smaller than the one over world units.
   const MultiVector coefficients =
-    spectrum.vectors.middleCols(first, count) / state.space->UnitLength();
-  return state.space->ValuesAtPoints(coefficients, threads);
+    spectrum.vectors.middleCols(first, count) / state.SolverSpace()->UnitLength();
+  return state.ValuesAtPoints(coefficients);
 }
 
 } // namespace gridfem

@@ -31,6 +31,11 @@ public:
   void Update(SurfaceSolverState& state, vtkPolyData* input, vtkPolyData* basisData,
     const SpectrumRequest& request);
 
+  /// The same by all ranks together, whose space is up to date; at the depth of the space, without
+  /// a comparison.
+  void UpdateTogether(
+    SurfaceSolverState& state, const SpectrumRequest& request, const Progress& progress);
+
   int NumberOfModes() const { return static_cast<int>(eigenvalues.size()); }
 
   /// Of all modes: the largest residual and the largest estimated error.
@@ -40,6 +45,9 @@ public:
   Spectrum spectrum;               // grid units
   std::vector<double> eigenvalues; // world units
   int depth = 0;                   // at which it was computed
+  /// After UpdateTogether, in place of the spectrum's vectors: at the points of this rank's piece,
+  /// a column per mode, world units. Else without columns.
+  MultiVector atPoints;
 
   /// With request.compare, in world units: in the function space that was not chosen. May be fewer
   /// than there are modes.
@@ -47,6 +55,7 @@ public:
   bool otherConverged = true;
 
 private:
+  StageKey KeyOf(const SurfaceSolverState& state, const SpectrumRequest& request) const;
   void Solve(SurfaceSolverState& state, const SpectrumRequest& request, const Progress& progress);
   void Compare(SurfaceSolverState& state, const Progress& progress);
   void ChooseDepth(SurfaceSolverState& state, vtkPolyData* input, const SpectrumRequest& request);
@@ -68,7 +77,7 @@ std::vector<double> InWorldUnits(std::vector<double> eigenvalues, double unitLen
 /// The modes `first` and following, `count` of them, at the input's points, world units: a column
 /// per mode.
 MultiVector EvaluateModes(
-  const SurfaceSolverState& state, const Spectrum& spectrum, Id first, Id count, int threads);
+  const SurfaceSolverState& state, const Spectrum& spectrum, Id first, Id count);
 
 } // namespace gridfem
 

@@ -1,0 +1,103 @@
+#include "CanDistribute.h"
+
+#include "ClippedArrays.h"
+#include "Ranks.h"
+#include "vtkSurfaceFEMAlgorithm.h"
+
+#include "Grid/Grid.h"
+
+#include "vtkDataObject.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkPolyData.h"
+#if GRIDFEM_HAS_PARALLEL
+#include "vtkMPIController.h"
+#endif
+
+#include <algorithm>
+
+namespace gridfem
+{
+namespace
+{
+
+bool HasMpi()
+{
+#if GRIDFEM_HAS_PARALLEL
+  return vtkMPIController::SafeDownCast(vtkMultiProcessController::GetGlobalController());
+#else
+  return false;
+#endif
+}
+
+bool HasPolygons(vtkPolyData* piece)
+{
+  return piece && piece->GetNumberOfPolys() + piece->GetNumberOfStrips() > 0;
+}
+
+bool IsFurtherPortConnected(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs)
+{
+  for (int port = 1; port < filter->GetNumberOfInputPorts(); ++port)
+  {
+    if (vtkDataObject::GetData(inputs[port]))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// What keeps this rank from taking part.
+std::string ObstacleHere(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs, int depth)
+{
+  vtkPolyData* const piece = vtkPolyData::GetData(inputs[0]);
+  return FirstObstacle({ { filter->GetBlocksAsOne(), "BlocksAsOne" },
+    { filter->GetFunctionSpace() != vtkSurfaceFEMAlgorithm::Grid, "hat functions" },
+    { filter->GetSmoother() != vtkSurfaceFEMAlgorithm::PatchSmoother,
+      "a smoother other than that of patches" },
+    { depth < MinimumDepth, "an automatic Depth" },
+    { piece && CarriesBasis(piece), "a basis that is given" },
+    { IsFurtherPortConnected(filter, inputs), "a further input" } });
+}
+
+} // namespace
+
+bool IsArrayChosen(vtkSurfaceFEMAlgorithm* filter, int index)
+{
+  const char* name = filter->GetInputArrayInformation(index)->Get(vtkDataObject::FIELD_NAME());
+  return name && *name && std::string(name) != "None";
+}
+
+std::string FirstObstacle(std::initializer_list<Obstacle> obstacles)
+{
+  const auto* first = std::find_if(
+    obstacles.begin(), obstacles.end(), [](const Obstacle& one) { return one.isThere; });
+  return first == obstacles.end() ? "" : first->name;
+}
+
+bool CanDistribute(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs, int depth,
+  const std::string& obstacle)
+{
+  const Ranks ranks;
+  if (!ranks.Any(HasPolygons(vtkPolyData::GetData(inputs[0]))))
+  {
+    return false;
+  }
+  std::string reason = HasMpi() ? "" : "needs a build with MPI";
+  const std::string own = obstacle.empty() ? ObstacleHere(filter, inputs, depth) : obstacle;
+  for (const std::string& other : ranks.Exchange(own))
+  {
+    if (reason.empty() && !other.empty())
+    {
+      reason = "does not go with " + other;
+    }
+  }
+  if (!reason.empty() && ranks.IsFirst())
+  {
+    vtkWarningWithObjectMacro(
+      filter, << "Distributed " << reason << ": rank 0 gathers the surface.");
+  }
+  return reason.empty();
+}
+
+} // namespace gridfem

@@ -1,0 +1,465 @@
+#include "DistributedSurface.h"
+
+#if GRIDFEM_HAS_PARALLEL
+
+#include "GivenValues.h"
+#include "Ranks.h"
+#include "SurfaceSolverState.h"
+
+#include "Base/Parallel.h"
+#include "Parallel/HeldPoints.h"
+#include "Parallel/RankLevels.h"
+
+#include "vtkDataArray.h"
+#include "vtkMPI.h"
+#include "vtkMPICommunicator.h"
+#include "vtkMPIController.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace gridfem
+{
+namespace
+{
+
+Communicator RanksOfVtk()
+{
+  auto* controller =
+    vtkMPIController::SafeDownCast(vtkMultiProcessController::GetGlobalController());
+  auto* communicator = vtkMPICommunicator::SafeDownCast(controller->GetCommunicator());
+  return Communicator(*communicator->GetMPIComm()->GetHandle());
+}
+
+RankSpaceOptions OptionsOf(const SurfaceOptions& options)
+{
+  RankSpaceOptions result;
+  result.space.functions = options.space;
+  result.space.quadratureDegree = options.choice.quadratureDegree;
+  result.space.coarsestSize = options.choice.coarsestSize;
+  result.space.normalStabilization = options.choice.normalStabilization;
+  return result;
+}
+
+/// Of the bits, so that meshes with the same one are the same.
+std::uint64_t DigestOf(const TriangleMesh& mesh)
+{
+  std::uint64_t digest = 14695981039346656037ULL; // FNV-1a
+  const auto add = [&digest](const auto& item)
+  {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &item, sizeof(item));
+    digest = (digest ^ bits) * 1099511628211ULL;
+    digest ^= digest >> 29;
+  };
+  for (const Vec3& point : mesh.points)
+  {
+    std::for_each(point.data(), point.data() + 3, add);
+  }
+  for (const auto& corners : mesh.triangles)
+  {
+    std::for_each(corners.begin(), corners.end(), add);
+  }
+  return digest;
+}
+
+/// Collective. Whether an earlier rank has this piece, too.
+bool IsRepeated(const Communicator& ranks, const TriangleMesh& mesh)
+{
+  const bool hasAny = !mesh.triangles.empty();
+  const std::vector<std::uint64_t> digests =
+    ranks.Gather(std::vector<std::uint64_t>{ hasAny ? DigestOf(mesh) : 0 });
+  const auto own = digests.begin() + ranks.Rank();
+  return hasAny && std::find(digests.begin(), own, *own) != own;
+}
+
+/// A chosen array as all ranks see it.
+struct Shape
+{
+  int columns = 0; // 0: no array
+  int isOnCells = 0;
+  int dataType = 0;
+};
+
+/// A space, and what it refers to.
+struct SpaceOfRanks
+{
+  SpaceOfRanks(const Communicator& ranks, const TriangleMesh& own, const RankSpaceOptions& options,
+    const Progress& progress, const TriangleList& copies)
+    : space(ranks, own, options, progress, copies), levels(space)
+  {
+  }
+
+  const RankSpace space;
+  const RankLevels levels;
+};
+
+} // namespace
+
+struct DistributedSurface::Internals
+{
+  Communicator ranks = RanksOfVtk();
+  RankRows numbers{ ranks, 0, {} };
+  std::shared_ptr<const SpaceOfRanks> whole;
+};
+
+DistributedSurface::DistributedSurface() = default;
+DistributedSurface::~DistributedSurface() = default;
+
+void DistributedSurface::Run(const Progress& progress, const Body& body)
+{
+  if (!ranks_)
+  {
+    ranks_ = std::make_unique<Internals>();
+  }
+  progress_ = progress;
+  const Communicator& ranks = ranks_->ranks;
+  try
+  {
+    ranks.Guard([&] { body(OfAllRanks(ranks, progress)); });
+  }
+  catch (const RankFailure& failure)
+  {
+    if (ranks.Rank() > 0)
+    {
+      throw FailedElsewhere();
+    }
+    throw InvalidInput("Rank " + std::to_string(failure.rank) + ": " + failure.what());
+  }
+  catch (const InvalidInput&) // of what is the same on all ranks
+  {
+    if (ranks.Rank() > 0)
+    {
+      throw FailedElsewhere();
+    }
+    throw;
+  }
+}
+
+void DistributedSurface::Together(const std::function<void()>& body) const
+{
+  ranks_->ranks.Together(body);
+}
+
+bool DistributedSurface::Any(bool holds) const
+{
+  return this->Largest(holds ? 1.0 : 0.0) > 0.0;
+}
+
+double DistributedSurface::Largest(double own) const
+{
+  ranks_->ranks.Maximum(&own, 1);
+  return own;
+}
+
+int DistributedSurface::ThreadsOfRank(int wanted) const
+{
+  const int all = std::max(1, NumberOfThreads(0) / ranks_->ranks.RanksOfMachine());
+  return wanted > 0 ? wanted : all;
+}
+
+InputMesh DistributedSurface::ReadPieces(vtkPolyData* piece, int threads)
+{
+  const Communicator& ranks = ranks_->ranks;
+  InputMesh mesh;
+  ranks.Together(
+    [&]
+    {
+      numberOfPoints_ = piece ? piece->GetNumberOfPoints() : 0;
+      numberOfCells_ = piece ? piece->GetNumberOfCells() : 0;
+      mesh = ReadPiece(piece, threads, copies_);
+    });
+  if (IsRepeated(ranks, *mesh.triangles))
+  {
+    copies_ = this->WithCopies(mesh);
+    auto none = std::make_shared<TriangleMesh>();
+    none->points = copies_.triangles->points;
+    mesh = {};
+    mesh.triangles = std::move(none);
+  }
+  area_ = SurfaceArea(*mesh.triangles);
+  ranks.Sum(&area_, 1);
+  if (!(area_ > 0.0))
+  {
+    throw InvalidInput("The surface has no area: all polygons are degenerate.");
+  }
+  return mesh;
+}
+
+void DistributedSurface::BuildSpace(
+  vtkPolyData* piece, const SurfaceOptions& options, InputMesh& mesh)
+{
+  this->Free();
+  mesh = this->ReadPieces(piece, options.space.threads);
+  const Communicator& ranks = ranks_->ranks;
+  auto whole = std::make_shared<SpaceOfRanks>(
+    ranks, *mesh.triangles, OptionsOf(options), progress_, copies_.triangles->triangles);
+  space_ = std::shared_ptr<const SurfaceSpace>(whole, &whole->levels);
+  ranks_->whole = std::move(whole);
+}
+
+void DistributedSurface::Agree(int index, InputArray& array)
+{
+  const Communicator& ranks = ranks_->ranks;
+  Shape own;
+  if (array.array)
+  {
+    own = { array.array->GetNumberOfComponents(),
+      array.association == FieldAssociation::Triangles ? 1 : 0, array.array->GetDataType() };
+  }
+  const std::vector<Shape> all = ranks.Gather(std::vector<Shape>{ own });
+  const auto first =
+    std::find_if(all.begin(), all.end(), [](const Shape& shape) { return shape.columns > 0; });
+  if (first == all.end())
+  {
+    return;
+  }
+  ranks.Together(
+    [&]
+    {
+      if (own.columns > 0 && (own.columns != first->columns || own.isOnCells != first->isOnCells))
+      {
+        throw InvalidInput("Array '" + array.name +
+                           "' has other components here than on another rank, or is of cells here "
+                           "and of points there.");
+      }
+      StandIn& known = arrays_[index];
+      known.dataType = first->dataType;
+      if (array.array)
+      {
+        return;
+      }
+      array.association = first->isOnCells ? FieldAssociation::Triangles : FieldAssociation::Points;
+      const vtkIdType tuples = first->isOnCells ? numberOfCells_ : numberOfPoints_;
+      if (!known.array || known.array->GetNumberOfTuples() != tuples ||
+          known.array->GetNumberOfComponents() != first->columns ||
+          known.array->GetDataType() != first->dataType)
+      {
+        known.array.TakeReference(vtkDataArray::CreateDataArray(first->dataType));
+        known.array->SetNumberOfComponents(first->columns);
+        known.array->SetNumberOfTuples(tuples);
+        known.array->Fill(0.0);
+      }
+      array.array = known.array;
+    });
+}
+
+InputArray DistributedSurface::Find(vtkAlgorithm* filter, int index, vtkPolyData* piece,
+  const InputMesh& mesh, const std::string& property)
+{
+  InputArray array;
+  this->Together(
+    [&]
+    {
+      if (!mesh.triangles->triangles.empty())
+      {
+        array = FindInputArray(filter, index, piece, property);
+      }
+    });
+  this->Agree(index, array);
+  return array;
+}
+
+int DistributedSurface::DataTypeOf(int index) const
+{
+  return arrays_.at(index).dataType;
+}
+
+void DistributedSurface::Agree(std::vector<double>& numbers) const
+{
+  const Communicator& ranks = ranks_->ranks;
+  const std::vector<Id> counts = ranks.Gather(std::vector<Id>{ static_cast<Id>(numbers.size()) });
+  const std::vector<double> all = ranks.Gather(numbers);
+  const auto first = std::find_if(counts.begin(), counts.end(), [](Id count) { return count > 0; });
+  numbers.assign(all.begin(), all.begin() + (first == counts.end() ? 0 : *first));
+}
+
+void DistributedSurface::Free()
+{
+  space_ = nullptr;
+  copies_ = {};
+  if (ranks_)
+  {
+    ranks_->whole = nullptr;
+  }
+}
+
+const DividedRows& DistributedSurface::Numbers() const
+{
+  return ranks_->numbers;
+}
+
+InputMesh DistributedSurface::WithCopies(const InputMesh& mesh) const
+{
+  auto triangles = std::make_shared<TriangleMesh>(*mesh.triangles);
+  const TriangleList& copies = copies_.triangles->triangles;
+  triangles->triangles.insert(triangles->triangles.end(), copies.begin(), copies.end());
+  InputMesh whole = mesh;
+  whole.sourceCell.insert(
+    whole.sourceCell.end(), copies_.sourceCell.begin(), copies_.sourceCell.end());
+  whole.triangles = std::move(triangles);
+  return whole;
+}
+
+void DistributedSurface::FillCopies(MultiVector& atPoints) const
+{
+  const RankSpace& space = ranks_->whole->space;
+  space.Copies().FillPoints(space.Distribution(), atPoints);
+}
+
+MultiVector DistributedSurface::MeansOnCells(
+  const InputMesh& mesh, const MultiVector& onTriangles, Id cells) const
+{
+  const RankSpace& space = ranks_->whole->space;
+  const MultiVector ofOriginals = space.Copies().RowsOfOriginals(space.Distribution(), onTriangles);
+  return gridfem::MeansOnCells(mesh, onTriangles, cells) +
+         gridfem::MeansOnCells(copies_, ofOriginals, cells);
+}
+
+std::vector<char> DistributedSurface::PointsWithFunctions() const
+{
+  std::vector<char> has = space_->PointsWithFunctions();
+  MultiVector numbers(static_cast<Id>(has.size()), 1);
+  std::copy(has.begin(), has.end(), numbers.data());
+  this->FillCopies(numbers);
+  std::transform(numbers.data(), numbers.data() + numbers.size(), has.begin(),
+    [](double n) { return n == 1.0; });
+  return has;
+}
+
+HeldValues DistributedSurface::HoldKnown(const InputArray& array, const InputArray& mask,
+  const SelectedPoints& selection, const InputMesh& mesh) const
+{
+  GivenValues given;
+  this->Together(
+    [&]
+    {
+      given.values.resize(0, array.array ? array.array->GetNumberOfComponents() : 3);
+      if (!mesh.triangles->triangles.empty())
+      {
+        given = FindKnownValues(array, mask, selection, *mesh.triangles);
+      }
+    });
+  RequireKnown(this->Any(!given.points.empty()), array);
+  return HoldPoints(ranks_->whole->space, given.points, given.values);
+}
+
+} // namespace gridfem
+
+#else
+
+namespace gridfem
+{
+namespace
+{
+
+/// No filter comes here: CanDistribute says before that they cannot.
+[[noreturn]] void RefuseWithoutMpi()
+{
+  throw InvalidInput("This build has no MPI.");
+}
+
+} // namespace
+
+struct DistributedSurface::Internals
+{
+};
+
+DistributedSurface::DistributedSurface() = default;
+DistributedSurface::~DistributedSurface() = default;
+
+void DistributedSurface::Free()
+{
+}
+
+void DistributedSurface::Run(const Progress&, const Body&)
+{
+  RefuseWithoutMpi();
+}
+
+void DistributedSurface::Together(const std::function<void()>&) const
+{
+  RefuseWithoutMpi();
+}
+
+bool DistributedSurface::Any(bool) const
+{
+  RefuseWithoutMpi();
+}
+
+double DistributedSurface::Largest(double) const
+{
+  RefuseWithoutMpi();
+}
+
+InputMesh DistributedSurface::ReadPieces(vtkPolyData*, int)
+{
+  RefuseWithoutMpi();
+}
+
+void DistributedSurface::BuildSpace(vtkPolyData*, const SurfaceOptions&, InputMesh&)
+{
+  RefuseWithoutMpi();
+}
+
+const DividedRows& DistributedSurface::Numbers() const
+{
+  RefuseWithoutMpi();
+}
+
+InputMesh DistributedSurface::WithCopies(const InputMesh&) const
+{
+  RefuseWithoutMpi();
+}
+
+int DistributedSurface::ThreadsOfRank(int) const
+{
+  RefuseWithoutMpi();
+}
+
+void DistributedSurface::Agree(int, InputArray&)
+{
+  RefuseWithoutMpi();
+}
+
+InputArray DistributedSurface::Find(
+  vtkAlgorithm*, int, vtkPolyData*, const InputMesh&, const std::string&)
+{
+  RefuseWithoutMpi();
+}
+
+int DistributedSurface::DataTypeOf(int) const
+{
+  RefuseWithoutMpi();
+}
+
+void DistributedSurface::Agree(std::vector<double>&) const
+{
+  RefuseWithoutMpi();
+}
+
+void DistributedSurface::FillCopies(MultiVector&) const
+{
+  RefuseWithoutMpi();
+}
+
+MultiVector DistributedSurface::MeansOnCells(const InputMesh&, const MultiVector&, Id) const
+{
+  RefuseWithoutMpi();
+}
+
+std::vector<char> DistributedSurface::PointsWithFunctions() const
+{
+  RefuseWithoutMpi();
+}
+
+HeldValues DistributedSurface::HoldKnown(
+  const InputArray&, const InputArray&, const SelectedPoints&, const InputMesh&) const
+{
+  RefuseWithoutMpi();
+}
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,134 @@
+// The pieces of a surface that several MPI ranks hold, none of which gathers it, with the space of
+// all of them. Without MPI there is no such way.
+#ifndef GridFEM_DistributedSurface_h
+#define GridFEM_DistributedSurface_h
+
+#include "InputArray.h"
+#include "InputMesh.h"
+
+#include "Problems/EdgeConditions.h"
+#include "Spaces/SurfaceSpace.h"
+
+#include "vtkSmartPointer.h"
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkAlgorithm;
+class vtkDataArray;
+class vtkPolyData;
+
+namespace gridfem
+{
+
+class SelectedPoints;
+struct SurfaceOptions;
+
+/// All functions but Free, IsUsed, Space, Area, Side, DataTypeOf, Numbers and WithCopies are
+/// collective, on the ranks of VTK's global controller, and but Run are called within Run. What
+/// throws on one rank alone is called within Together.
+class DistributedSurface
+{
+public:
+  DistributedSurface();
+  ~DistributedSurface();
+
+  using Body = std::function<void(const Progress& ofAll)>;
+
+  /// Runs a body on all ranks, with a progress that is aborted for all or none. Throws on all when
+  /// it throws on one: Aborted on all, or the error on the first rank and FailedElsewhere on the
+  /// others.
+  void Run(const Progress& progress, const Body& body);
+
+  void Together(const std::function<void()>& body) const;
+  bool Any(bool holds) const;
+
+  /// Reads this rank's piece, which may be null. Cells that vtkGhostType marks as duplicates, and
+  /// pieces that an earlier rank has, too, are copies: they count once.
+  /// @return  the piece without the copies
+  InputMesh ReadPieces(vtkPolyData* piece, int threads);
+
+  /// Reads the pieces and clips them.
+  /// @param options  a depth is chosen, functions are those of a grid, threads those of a rank
+  /// @param mesh     gets the piece without the copies
+  void BuildSpace(vtkPolyData* piece, const SurfaceOptions& options, InputMesh& mesh);
+
+  /// The threads that a rank may use: those of a machine are shared.
+  int ThreadsOfRank(int wanted) const;
+
+  /// What ranks with polygons have found becomes known on the others, as an array of zeros. Throws
+  /// where the ranks' arrays do not fit each other.
+  /// @param index  that of SetInputArrayToProcess
+  void Agree(int index, InputArray& array);
+
+  /// The array that SetInputArrayToProcess(index, ...) names, agreed on.
+  /// @param mesh      as ReadPieces has given it; without triangles the piece need not have the
+  /// array
+  /// @param property  the name that messages give
+  InputArray Find(vtkAlgorithm* filter, int index, vtkPolyData* piece, const InputMesh& mesh,
+    const std::string& property);
+
+  /// Of an agreed array that there is: the type that results have on all ranks.
+  int DataTypeOf(int index) const;
+
+  /// Numbers become those of the first rank that has any.
+  void Agree(std::vector<double>& numbers) const;
+
+  /// The largest number of all ranks.
+  double Largest(double own) const;
+
+  /// For sums over ranks; without rows.
+  const DividedRows& Numbers() const;
+
+  void Free();
+  bool IsUsed() const { return space_ != nullptr; }
+  const std::shared_ptr<const SurfaceSpace>& Space() const { return space_; }
+
+  /// Of the whole surface; and the longest side of the box around it, world units.
+  double Area() const { return area_; }
+  double Side() const { return space_->UnitLength() * space_->Extent(); }
+
+  /// The whole piece.
+  /// @param mesh  as ReadPieces has given it
+  InputMesh WithCopies(const InputMesh& mesh) const;
+
+  /// Rows at this rank's points: those of copies become those of the originals.
+  void FillCopies(MultiVector& atPoints) const;
+
+  /// Means on the cells of this rank's piece, those of copies as well.
+  /// @param mesh  as BuildSpace has given it
+  MultiVector MeansOnCells(const InputMesh& mesh, const MultiVector& onTriangles, Id cells) const;
+
+  /// Per point of this rank: 1 where a function of any rank reaches it.
+  std::vector<char> PointsWithFunctions() const;
+
+  /// The known values of an array, which are held (KnownValues, HoldPoints).
+  /// @param array  agreed on, or of the coordinates; null on ranks without these
+  /// @param mesh   as BuildSpace has given it
+  HeldValues HoldKnown(const InputArray& array, const InputArray& mask,
+    const SelectedPoints& selection, const InputMesh& mesh) const;
+
+private:
+  struct StandIn
+  {
+    vtkSmartPointer<vtkDataArray> array; // for a rank without polygons
+    int dataType = 0;                    // of the first rank that has the array
+  };
+  struct Internals;
+
+  std::unique_ptr<Internals> ranks_; // while it runs, and as long as there is a space
+  std::shared_ptr<const SurfaceSpace> space_;
+  Progress progress_;
+  double area_ = 0.0;
+  Id numberOfPoints_ = 0;
+  Id numberOfCells_ = 0;
+  InputMesh copies_;
+  std::map<int, StandIn> arrays_; // by index
+};
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,257 @@
+"""Filters by all ranks together: the answers of one rank on every rank's own piece, ghost cells and repeated
+pieces included, and stages that stay. Where they cannot, rank 0 gathers and says why."""
+import unittest
+
+import numpy
+from vtkmodules.util import numpy_support
+
+import ranks
+
+# A filter and its properties; what is compared, and how exactly: modes of eigenvalues known to 1e-12
+# are known to 1e-6; misfits of held values end at 1e-7.
+CASES = {
+    "gradient": ("SurfaceGradient", {}, 1e-8),
+    "gradient of vectors": ("SurfaceGradient", {"arrays": {0: "v"}}, 1e-8),
+    "gradient of cells": ("SurfaceGradient", {"arrays": {0: "c"}}, 1e-8),
+    "heat": ("HeatDiffusion", {"DiffusionTime": 0.01}, 1e-8),
+    "heat of first order": ("HeatDiffusion", {"Scheme": 0, "arrays": {1: "f"}}, 1e-8),
+    "heat, held": ("HeatDiffusion", {"DiffusionTime": 0.01, "arrays": {2: "mask"}}, 1e-7),
+    "poisson": ("ScreenedPoisson", {"SolutionGradient": True}, 1e-8),
+    "poisson, held": (
+        "ScreenedPoisson", {"UseValueGradient": True, "SolutionGradient": True,
+                            "arrays": {0: "v", 4: "mask"}}, 1e-7),
+    "interpolation": ("ScreenedPoisson", {"ScreeningWeight": 0.0, "arrays": {4: "mask"}}, 1e-7),
+    "signatures": ("SpectralSignatures", {}, 1e-5),
+    "high pass": ("SpectralSignatures", {"FilterType": 2, "FirstMode": 3, "arrays": {0: "f"}}, 1e-5),
+}
+KINDS = ("last", "contiguous", "ghosts", "scattered", "one rank is empty", "all on all")
+POINT_NAMES = ("f", "v", "mask")
+
+
+def made(case, depth=4, **changes):
+    name, properties, _ = CASES[case]
+    properties = {**properties, **changes}
+    arrays = properties.pop("arrays", {})
+    filter_ = ranks.make(name, depth, **properties)
+    for index, array in arrays.items():
+        filter_.SetInputArrayToProcess(index, 0, 0, int(array not in POINT_NAMES), array)
+    return filter_
+
+
+def with_vectors(data):
+    """`v`: three components, and `mask`: some points near one end."""
+    if data.GetNumberOfPoints():
+        points = numpy_support.vtk_to_numpy(data.GetPoints().GetData())
+        origin = numpy_support.vtk_to_numpy(data.GetPointData().GetArray("origin"))
+        ranks.add(data.GetPointData(), "v", points[:, [1, 2, 0]] ** 2)
+        ranks.add(data.GetPointData(), "mask",
+                  ((origin % 9 == 0) & (points[:, 0] > 0.3)).astype(numpy.uint8))
+    return data
+
+
+def number(output, name):
+    array = output.GetFieldData().GetArray(name)
+    return array.GetValue(0) if array else None
+
+
+def listen(filter_, event):
+    texts = []
+
+    def hear(_, __, text=None):
+        texts.append(text)
+    hear.CallDataType = "string0"
+    filter_.AddObserver(event, hear)
+    return texts
+
+
+class DistributedFilters(unittest.TestCase):
+    def same_as_alone(self, case, mesh, kind):
+        mine = with_vectors(ranks.piece(mesh, kind))
+        filter_ = made(case, Distributed=True)
+        problems = listen(filter_, "WarningEvent")
+        outputs = ranks.run(filter_, mine)
+        whole = ranks.alone(lambda: ranks.run(made(case), with_vectors(ranks.whole(mesh)))[0])
+        output = outputs[0]
+        if number(output, "Distributed") != 1 or number(output, "Converged") != 1:
+            problems.append("rank 0 has gathered, or not converged")
+        if output.GetNumberOfCells() != mine.GetNumberOfCells():
+            problems.append("not the cells of the input")
+        if mine.GetNumberOfPoints():
+            for data, own, name in (
+                    (whole.GetPointData(), output.GetPointData(), "origin"),
+                    (whole.GetCellData(), output.GetCellData(), "originCell")):
+                places = numpy_support.vtk_to_numpy(own.GetArray(name))
+                problems += ranks.compare(
+                    ranks.arrays(own), ranks.arrays(data), places, CASES[case][2],
+                    f"{case}, {kind}")
+        for name in ("HeatTimes", "WaveEnergies", "DiffusionTime", "Step"):
+            expected, found = number(whole, name), number(output, name)
+            if expected is not None and not (found and abs(found - expected) <= 1e-8 * expected):
+                problems.append(f"{name} is {found} instead of {expected}")
+        if len(outputs) > 1 and (outputs[1].GetNumberOfRows() > 0) != (ranks.RANK == 0):
+            problems.append(f"the table has {outputs[1].GetNumberOfRows()} rows")
+        ranks.check(self, problems)
+
+    def test_any_pieces(self):
+        for number_of_case, case in enumerate(CASES):
+            others = [kind for kind in KINDS if kind != "ghosts"]
+            for kind in ("ghosts", others[number_of_case % len(others)]):
+                with self.subTest(case=case, kind=kind):
+                    self.same_as_alone(case, ranks.ellipsoid(), kind)
+
+    def test_other_surfaces(self):
+        for case in ("gradient", "heat", "poisson, held"):
+            for mesh, kind in ((ranks.two(), "ghosts"), (ranks.bowl(), "contiguous"),
+                               (ranks.soup(), "scattered")):
+                with self.subTest(case=case, kind=kind):
+                    self.same_as_alone(case, mesh, kind)
+
+    def test_modes_of_the_input(self):
+        for kind in ("contiguous", "ghosts", "one rank is empty"):
+            modes = ranks.make("LaplaceSpectrum", 4, Distributed=True, NumberOfModes=12)
+            carrier = ranks.run(modes, ranks.piece(ranks.ellipsoid(), kind))[0]
+            carrier.GetFieldData().RemoveArray("Distributed")  # which passes through
+            together = made("high pass", Distributed=True)
+            problems = listen(together, "WarningEvent")
+            output = ranks.run(together, carrier)[0]
+            expected = ranks.run(made("high pass"), carrier)[0]
+            if number(output, "Distributed") != 1 or together.GetNumberOfRuns("Solve"):
+                problems.append("rank 0 has gathered, or modes were computed")
+            theirs = {name: values for name, values in ranks.arrays(expected.GetPointData()).items()
+                      if "Signature" in name or name == "Filtered"}
+            if carrier.GetNumberOfPoints():
+                problems += [] if len(theirs) == 4 else [f"{list(theirs)}"]
+                problems += ranks.compare(
+                    ranks.arrays(output.GetPointData()), theirs, None, 1e-8, kind)
+            ranks.check(self, problems)
+
+    def test_modes_of_another_shape(self):
+        modes = ranks.make("LaplaceSpectrum", 4, Distributed=True, NumberOfModes=12)
+        carrier = ranks.run(modes, ranks.piece(ranks.ellipsoid(), "contiguous"))[0]
+        moved = carrier.NewInstance()
+        moved.DeepCopy(carrier)
+        if moved.GetNumberOfPoints():
+            numpy_support.vtk_to_numpy(moved.GetPoints().GetData())[:, 2] *= 2.0
+        filter_ = made("signatures", Distributed=True)
+        warnings = listen(filter_, "WarningEvent")
+        output = ranks.run(filter_, moved)[0]
+        problems = [] if number(output, "Converged") == 1 else ["modes were not computed"]
+        if len(warnings) != (1 if ranks.RANK == 0 else 0) or output.GetPointData().HasArray("Mode003"):
+            problems.append(f"the warnings are {warnings}")
+        ranks.check(self, problems)
+
+    def test_stages_stay(self):
+        stages = ("Space", "System", "RightHandSide", "Hierarchy", "Solve")
+        mine = with_vectors(ranks.piece(ranks.ellipsoid(), "contiguous"))
+        for case, change, expected in (
+                ("poisson", lambda f: f.SetScreeningWeight(50.0), (1, 1, 1, 2, 2)),
+                ("poisson", lambda f: f.SetInputArrayToProcess(0, 0, 0, 0, "v"), (1, 1, 2, 1, 2)),
+                ("poisson", lambda f: f.SetConnectivityAware(False), (2, 2, 2, 2, 2)),
+                ("poisson", lambda f: None, (1, 1, 1, 1, 1)),
+                ("heat", lambda f: f.SetDiffusionTime(0.03), (1, 1, 1, 2, 4)),
+                ("heat", lambda f: f.UpdateTimeStep(1.0), (1, 1, 1, 1, 2)),
+                ("gradient", lambda f: f.SetInputArrayToProcess(0, 0, 0, 0, "v"), (1, 1, 0, 0, 2))):
+            filter_ = made(case, Distributed=True)
+            ranks.run(filter_, mine)
+            change(filter_)
+            output = ranks.run(filter_, mine)[0]
+            runs = tuple(filter_.GetNumberOfRuns(stage) for stage in stages)
+            problems = [] if runs == expected else [f"{case}: runs are {runs}, not {expected}"]
+            problems += [] if number(output, "Distributed") == 1 else ["rank 0 has gathered"]
+            ranks.check(self, problems)
+
+    def test_a_change_on_one_rank_is_one_of_all(self):
+        filter_ = made("poisson", Distributed=True)
+        mine = ranks.piece(ranks.ellipsoid(), "scattered")
+        first = ranks.run(filter_, mine)[0].GetPointData().GetArray("Solution")
+        first = numpy_support.vtk_to_numpy(first).copy()
+        if ranks.RANK == ranks.RANKS - 1:
+            values = mine.GetPointData().GetArray("f")
+            numpy_support.vtk_to_numpy(values)[:] += 1.0
+            values.Modified()
+        second = ranks.run(filter_, mine)[0].GetPointData().GetArray("Solution")
+        runs = [filter_.GetNumberOfRuns(stage) for stage in ("Space", "RightHandSide", "Solve")]
+        problems = [] if runs == [1, 2, 2] else [f"runs are {runs}"]
+        if (numpy_support.vtk_to_numpy(second) == first).all():
+            problems.append("nothing has changed")
+        ranks.check(self, problems)
+
+    def test_rank_0_gathers_and_says_why(self):
+        for case, properties, name in (
+                ("gradient of vectors", {"HodgeDecomposition": True}, "HodgeDecomposition"),
+                ("heat", {"BoundaryValues": True}, "BoundaryValues"),
+                ("poisson", {"FillUnknown": True}, "FillUnknown"),
+                ("signatures", {"FunctionSpace": 1}, "hat functions"),
+                ("gradient", {"Smoother": 1}, "smoother"),
+                ("poisson", {"arrays": {3: "c"}}, "ValueWeightArray")):
+            filter_ = made(case, Distributed=True, **properties)
+            warnings = listen(filter_, "WarningEvent")
+            mine = with_vectors(ranks.piece(ranks.bowl(), "contiguous"))
+            output = ranks.run(filter_, mine)[0]
+            problems = []
+            if number(output, "Distributed") is not None or number(output, "Converged") != 1:
+                problems.append(f"{case}: not gathered, or not converged")
+            if [name in text for text in warnings] != ([True] if ranks.RANK == 0 else []):
+                problems.append(f"{case}: the warnings are {warnings}")
+            ranks.check(self, problems)
+        filter_ = made("signatures", Distributed=True)
+        filter_.AddSourcePointId(3)
+        warnings = listen(filter_, "WarningEvent")
+        output = ranks.run(filter_, ranks.piece(ranks.ellipsoid(), "contiguous"))[0]
+        problems = [] if output.GetPointData().HasArray("BiharmonicDistance") else ["no distance"]
+        if ["SourcePointIds" in text for text in warnings] != [True] * (ranks.RANK == 0):
+            problems.append(f"the warnings are {warnings}")
+        ranks.check(self, problems)
+
+    def test_nothing_held_is_refused(self):
+        for case in ("poisson, held", "heat, held"):
+            filter_ = made(case, Distributed=True)
+            messages = listen(filter_, "ErrorEvent")
+            mine = with_vectors(ranks.piece(ranks.ellipsoid(), "contiguous"))
+            if mine.GetNumberOfPoints():
+                numpy_support.vtk_to_numpy(mine.GetPointData().GetArray("mask"))[:] = 0
+            ranks.run(filter_, mine)
+            known = ["is known at a point" in text for text in messages]
+            ranks.check(
+                self, [] if known == [True] * (ranks.RANK == 0) else [f"{case}: {messages}"])
+
+    def test_from_all_to_rank_0_and_back(self):
+        filter_ = made("poisson", Distributed=True)
+        mine = ranks.piece(ranks.ellipsoid(), "contiguous")
+        found = []
+        for distributed in (True, False, True, False):
+            filter_.SetDistributed(distributed)
+            output = ranks.run(filter_, mine)[0]
+            problems = [] if (number(output, "Distributed") == 1) == distributed else ["not so"]
+            found.append(ranks.arrays(output.GetPointData()))
+            problems += ranks.compare(found[-1], {"Solution": found[0]["Solution"]}, None, 1e-8, "")
+            ranks.check(self, problems)
+
+    def test_what_fails_on_one_rank_fails_on_all(self):
+        for case in ("gradient of vectors", "heat", "signatures", "high pass"):
+            filter_ = made(case, Distributed=True)
+            for damage in ("value", "place", "array"):
+                mine = with_vectors(ranks.piece(ranks.ellipsoid(), "contiguous"))
+                name = "v" if case == "gradient of vectors" else "f"
+                if ranks.RANK == ranks.RANKS - 1 and damage == "array":
+                    mine.GetPointData().RemoveArray(name)
+                elif ranks.RANK == ranks.RANKS - 1:
+                    array = (mine.GetPointData().GetArray(name) if damage == "value"
+                             else mine.GetPoints().GetData())
+                    numpy_support.vtk_to_numpy(array)[3] = float("nan")
+                if case == "signatures" and damage != "place":
+                    continue  # it looks at no array
+                messages = listen(filter_, "ErrorEvent")
+                output = ranks.run(filter_, mine)[0]
+                filter_.RemoveObservers("ErrorEvent")
+                problems = ["the output is not empty"] if output.GetNumberOfPoints() else []
+                if len(messages) != (1 if ranks.RANK == 0 else 0):
+                    problems.append(f"{case}, {damage}: {len(messages)} messages: {messages}")
+                ranks.check(self, problems)
+            output = ranks.run(
+                filter_, with_vectors(ranks.piece(ranks.ellipsoid(), "contiguous")))[0]
+            ranks.check(self, [] if number(output, "Distributed") == 1 else ["not computed again"])
+
+
+if __name__ == "__main__":
+    ranks.main()
