@@ -68,8 +68,8 @@ void VisitBlocks(const BlockRanges& ranges, SweepDirection direction, int thread
   {
     blocks[step] = ranges.colourBegin[colourOf(step) + 1] - ranges.colourBegin[colourOf(step)];
   }
-  ParallelPhases(blocks, threads,
-    [&](Id step, Id k) { body(ranges.colourBegin[colourOf(step)] + k); });
+  ParallelPhases(
+    blocks, threads, [&](Id step, Id k) { body(ranges.colourBegin[colourOf(step)] + k); });
 }
 
 /// Calls relax(item, chunk) for every item and every chunk of `columns`, in the order of the

@@ -146,8 +146,9 @@ std::unique_ptr<Smoother> Multigrid::MakeSmoother(
     default:
       break;
   }
-  const bool mayBeSingle =
-    options_.precision == FactorPrecision::Mixed && level.groups.dof.empty() && !level.divided;
+  // Processes that divide a level have no scale in common (Correct), so theirs stay in double.
+  const bool mayBeSingle = options_.precision == FactorPrecision::Mixed &&
+                           level.groups.dof.empty() && !levels_.front().divided;
   auto single = mayBeSingle ? MakeStencilSmoother(level.A, level.order, options_.threads) : nullptr;
   return single ? std::move(single)
                 : MakePatchSmoother(level.A, level.order, options_.threads, options_.precision);

@@ -26,8 +26,8 @@ constexpr double ClipPerPiece = 102.0;   // pieces, corners and links, by thread
 constexpr double HeldPerPoint = 28.0; // position, patch (28)
 constexpr double HeldPerPiece = 50.0; // piece 12, corners 4 each, cut points 48 (49)
 // Function space, system and hierarchy, all levels (4/3 of the finest): tables 150, element
-// matrices 770, patterns and matrices of 2 functions with 18 entries each 600, stencils and inverses
-// 1110 (inverses alone 390 to 770), prolongations and their transposes 240.
+// matrices 770, patterns and matrices of 2 functions with 18 entries each 600, stencils and
+// inverses 1110 (inverses alone 390 to 770), prolongations and their transposes 240.
 constexpr double HeldPerPatch = 3300.0;
 // For one right-hand side: ten vectors.
 constexpr double HeldPerFunction = 80.0;

@@ -47,8 +47,8 @@ std::vector<std::string> WarningsOf(const ConstrainedSolution& solution, double 
 /// Of known values that do not count; empty when all do.
 std::string WarningOf(const PartialField& field);
 
-/// Of a spectrum that is short, has nothing but constants, is cut inside a group of equal eigenvalues,
-/// or has not converged.
+/// Of a spectrum that is short, has nothing but constants, is cut inside a group of equal
+/// eigenvalues, or has not converged.
 /// @param wanted  number of modes
 /// @param where   in which space, as "at Depth 7"
 /// @param tellOfGroup  false: not of a cut
