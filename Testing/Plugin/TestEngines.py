@@ -51,7 +51,11 @@ class Engines(unittest.TestCase):
                       "soup": soup(*open_torus(30, 16))}
 
     def compare(self, call):
-        """call: of a package, a mesh, and options. Both round in the same way."""
+        """call: of a package, a mesh, and options.
+
+        Both round in the same way but for the last digit; where single precision corrects a
+        solution, such a digit becomes 6e-8 of the last correction, which is small itself.
+        """
         for name, (points, cells) in self.meshes.items():
             for space in (0, 1):
                 with self.subTest(mesh=name, FunctionSpace=space), warnings.catch_warnings():
@@ -65,7 +69,7 @@ class Engines(unittest.TestCase):
                         self.assertEqual(a.dtype, b.dtype)
                         self.assertEqual(a.shape, b.shape)
                         numpy.testing.assert_allclose(
-                            b, a, rtol=1e-12, atol=1e-12 * max(1.0, numpy.nanmax(numpy.abs(a))))
+                            b, a, rtol=1e-10, atol=1e-10 * max(1.0, numpy.nanmax(numpy.abs(a))))
 
     def test_spectrum(self):
         self.compare(lambda g, p, c, **o: g.spectrum(p, c, 8, **o)[0])
