@@ -129,10 +129,10 @@ TEST(RankPoisson, EstimatesTheErrorsOfOneRank)
       const PoissonSolution expected = SolveOnOne(space, f, options);
       const Solved solved = SolveOnRanks(surface.mesh, Dealing::Contiguous, options);
       EXPECT_TRUE(solved.report.converged);
-      // Of one rank the same; of several the coarser solution, which they are told from, is less
-      // exact where nearly all patches are at borders, as on so small a torus. On scans they agree
-      // to a hundredth.
-      const double part = Communicator(MPI_COMM_WORLD).Size() == 1 ? 1e-6 : 0.5;
+      // Of one rank the same, but that Core's sweeps are in single precision and the ranks' are
+      // not; of several the coarser solution, which they are told from, is less exact where nearly
+      // all patches are at borders, as on so small a torus. On scans they agree to a hundredth.
+      const double part = Communicator(MPI_COMM_WORLD).Size() == 1 ? 1e-5 : 0.5;
       EXPECT_NEAR(solved.accuracy.discretization, expected.accuracy.discretization,
         part * expected.accuracy.discretization);
       EXPECT_NEAR(
