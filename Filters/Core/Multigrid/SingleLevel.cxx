@@ -8,13 +8,6 @@ namespace gridfem
 namespace
 {
 
-/// Directions with smaller pivots of a patch's scaled block are left out: rounding to single
-/// precision would disturb their corrections more than it serves the others. Pivots are about the
-/// square of a flat face's slope against the grid. Boxes of which all faces have one slope need as
-/// many steps as in double with pivots of 3e-6, twice as many with 3e-7, and do not converge with
-/// 3e-8.
-constexpr double SmallestPivot = 1e-6;
-
 /// Rows are handed out in ranges of this size.
 constexpr Id RangeSize = 1024;
 
@@ -122,7 +115,7 @@ SingleLevel::SingleLevel(const MultigridLevel& level, int threads)
     [&](Id begin, Id end)
     {
       Id unresolved = 0;
-      ForEachFactor(source, level.order.dof.data(), begin, end, SmallestPivot,
+      ForEachFactor(source, level.order.dof.data(), begin, end, SmallestPivotOfSingle,
         [&](Id p, const PatchFactor& factor)
         {
           const bool fits = !factor.hasLargeScales;

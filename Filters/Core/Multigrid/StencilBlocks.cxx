@@ -2,9 +2,10 @@
 
 #include "Base/Parallel.h"
 
+#include <algorithm>
 #include <atomic>
-#include <cstdlib>
 #include <limits>
+#include <memory>
 
 namespace gridfem
 {
@@ -14,12 +15,9 @@ namespace
 constexpr int N = FunctionsPerPatch;
 constexpr Index None = -1;
 
-/// Directions with smaller pivots of a patch's scaled block are left out, as in SingleLevel.
-constexpr double SmallestPivot = 1e-6;
-
-/// What share of patches may have such directions. They are relaxed once more in double precision.
-/// Beyond, sweeps gain little, and iterations to small tolerances grow: on a part with many walls
-/// (cheese, depth 6) from 40 to 46 to 1e-10.
+/// What share of patches may have pivots below SmallestPivotOfSingle. They are relaxed once more in
+/// double precision. Beyond, sweeps gain little, and iterations to small tolerances grow: on a part
+/// with many walls (cheese, depth 6) from 40 to 46 to 1e-10.
 constexpr double UnresolvedShare = 0.1;
 
 /// Where the entry of a column stands in a row: PatchOrder::corner of both differ by -17 to 17.
@@ -328,7 +326,7 @@ bool StencilBlocks::FillFactors(const SparseMatrix& A, const PatchOrder& order, 
     this->NumberOfPatches(), threads,
     [&](Id begin, Id end)
     {
-      ForEachFactor(source, order.dof.data(), begin, end, SmallestPivot,
+      ForEachFactor(source, order.dof.data(), begin, end, SmallestPivotOfSingle,
         [&](Id p, const PatchFactor& factor)
         { isResolved[p] = this->SetFactor(factor, order.dof[p], patches_[p]) ? 1 : 0; });
     },
