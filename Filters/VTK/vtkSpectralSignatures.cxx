@@ -166,8 +166,8 @@ void vtkSpectralSignatures::ComputeModes(vtkPolyData* input, vtkPolyData* basis)
   data.Mesh = state.mesh;
   data.Modes.area = gridfem::SurfaceArea(*state.mesh.triangles);
   data.Modes.eigenvalues = data.Solved.eigenvalues;
-  data.Modes.values =
-    gridfem::EvaluateModes(state, data.Solved.spectrum, 0, data.Solved.NumberOfModes());
+  data.Modes.values = gridfem::EvaluateModes(state, data.Solved.spectrum, 0,
+    data.Solved.NumberOfModes(), state.bridge.GetProgress().Part(0.95, 0.97));
   data.ModesKey = key;
 }
 
@@ -207,16 +207,18 @@ bool vtkSpectralSignatures::TakeModes(vtkPolyData* input)
   return data.Misfit.empty();
 }
 
-void vtkSpectralSignatures::WriteSignatures(int precision, vtkPolyData* output)
+void vtkSpectralSignatures::WriteSignatures(
+  int precision, const gridfem::Progress& progress, vtkPolyData* output)
 {
+  const int threads = this->NumberOfThreads;
   const gridfem::PointModes& modes = this->Data->Modes;
   const std::vector<double> times = gridfem::HeatTimes(modes, this->NumberOfScales);
   const gridfem::WaveBands bands = gridfem::WaveEnergies(modes, this->NumberOfScales);
   AddSignature(output, "WaveKernelSignature",
-    gridfem::WaveKernelSignature(modes, bands, this->NumberOfThreads), "E", bands.energies,
-    precision);
+    gridfem::WaveKernelSignature(modes, bands, { threads, progress.Part(0.0, 0.5) }), "E",
+    bands.energies, precision);
   const gridfem::MultiVector heat =
-    gridfem::HeatKernelSignature(modes, times, this->NumberOfThreads);
+    gridfem::HeatKernelSignature(modes, times, { threads, progress.Part(0.5, 1.0) });
   AddSignature(output, "HeatKernelSignature", heat, "t", times, precision);
   const auto scales = static_cast<gridfem::Id>(times.size());
   const gridfem::Id shown = this->ShownScale < 0 ? scales / 2 : this->ShownScale;
@@ -368,14 +370,14 @@ void vtkSpectralSignatures::Compute(vtkInformationVector** inputs, vtkInformatio
   gridfem::RequireAtLeast("DiffusionTime", this->DiffusionTime, 0.0);
   progress.Check(0.0);
   this->UpdateModes(input, vtkPolyData::GetData(inputs[1]));
-  progress.Check(0.95);
+  progress.Check(0.97);
   const int precision = gridfem::OutputPrecision(input->GetPoints());
   output->ShallowCopy(input);
   if (!this->Data->Misfit.empty())
   {
     gridfem::RemoveModes(output);
   }
-  this->WriteSignatures(precision, output);
+  this->WriteSignatures(precision, progress.Part(0.97, 0.99), output);
   this->WriteDistances(vtkDataSet::GetData(inputs[2]), precision, output);
   if (this->FilterType != NoFilter)
   {
@@ -526,7 +528,7 @@ void vtkSpectralSignatures::WriteDistributed(vtkPolyData* piece, vtkInformationV
     }
   }
   this->WriteSignatures( // field arrays are on all ranks
-    hasPoints ? gridfem::OutputPrecision(piece->GetPoints()) : VTK_DOUBLE, output);
+    hasPoints ? gridfem::OutputPrecision(piece->GetPoints()) : VTK_DOUBLE, {}, output);
   if (hasPoints && this->FilterType != NoFilter)
   {
     const gridfem::InputMesh whole = this->State->together.WithCopies(data.Mesh);

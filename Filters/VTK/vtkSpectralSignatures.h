@@ -208,7 +208,7 @@ private:
   void UpdateModes(vtkPolyData* input, vtkPolyData* basis);
   bool TakeModes(vtkPolyData* input);
   void ComputeModes(vtkPolyData* input, vtkPolyData* basis);
-  void WriteSignatures(int precision, vtkPolyData* output);
+  void WriteSignatures(int precision, const gridfem::Progress& progress, vtkPolyData* output);
   void WriteDistances(vtkDataSet* sources, int precision, vtkPolyData* output);
   void WriteFiltered(const std::vector<char>& isUsed, vtkPolyData* input, vtkPolyData* output);
   void UpdateModesTogether(vtkPolyData* piece, const gridfem::Progress& progress);

@@ -158,6 +158,7 @@ void vtkStitchColors::UpdateCut(const gridfem::InputArray& colors,
     {
       const gridfem::Field field = gridfem::ReadField(labels, state.mesh);
       data.Labels = DistinctLabels(labels, field);
+      progress.Check(0.0);
       gridfem::ScanLabels scans;
       scans.association = labels.association;
       for (gridfem::Id row = 0; row < field.values.rows(); ++row)
@@ -165,6 +166,7 @@ void vtkStitchColors::UpdateCut(const gridfem::InputArray& colors,
         scans.values.push_back(NumberOf(data.Labels, field.values(row, 0)));
       }
       data.Cut = gridfem::CutAtSeams(*state.mesh.triangles, scans, colors.association);
+      progress.Check(0.1);
       data.Details.reset();
       if (this->KeepDetails && gridfem::SurfaceArea(data.Cut.pieces) > 0.0)
       {
@@ -175,7 +177,8 @@ void vtkStitchColors::UpdateCut(const gridfem::InputArray& colors,
         gridfem::SpaceChoice choice = state.options.choice;
         choice.kind = gridfem::FunctionKind::Grid; // the change is smooth
         gridfem::RequireMemory(data.Cut.pieces, functions.depth);
-        data.Details = gridfem::BuildSpace(data.Cut.pieces, functions, choice, progress);
+        data.Details =
+          gridfem::BuildSpace(data.Cut.pieces, functions, choice, progress.Part(0.1, 1.0));
       }
     });
 }

@@ -26,54 +26,58 @@ void CheckCoefficients(const GridFunctions& space, const MultiVector& coefficien
   }
 }
 
-/// The values of some columns; 0 where a point has no patch.
+/// The values of some columns at points [begin, end); 0 where a point has no patch.
 template<int Columns>
 void EvaluateColumns(const GridFunctions& space, const Array<Index>& patchOfPoint,
-  const MultiVector& coefficients, Id first, int threads, MultiVector& result)
+  const MultiVector& coefficients, Id first, Id begin, Id end, MultiVector& result)
 {
   constexpr Id Ahead = 8; // the coefficients of a patch may lie anywhere in memory
   const PatchLevel& level = space.Finest();
-  ParallelRanges(result.rows(), threads,
-    [&](Id begin, Id end)
+  CornerValues b;
+  for (Id point = begin; point < end; ++point)
+  {
+    const Id later = point + Ahead < end ? patchOfPoint[point + Ahead] : -1;
+    for (int i = 0; later >= 0 && i < FunctionsPerPatch; ++i)
     {
-      CornerValues b;
-      for (Id point = begin; point < end; ++point)
+      Fetch(&coefficients(level.dof[later][i], first));
+    }
+    std::array<double, Columns> sum{};
+    const Id patch = patchOfPoint[point];
+    if (patch >= 0)
+    {
+      TrilinearValues(space.clipped.position[point] - CellCorner(level.cell[patch]), b);
+      for (int i = 0; i < FunctionsPerPatch; ++i)
       {
-        const Id later = point + Ahead < end ? patchOfPoint[point + Ahead] : -1;
-        for (int i = 0; later >= 0 && i < FunctionsPerPatch; ++i)
+        const double* const value = &coefficients(level.dof[patch][i], first);
+        for (int c = 0; c < Columns; ++c)
         {
-          Fetch(&coefficients(level.dof[later][i], first));
+          sum[c] += b[i] * value[c];
         }
-        std::array<double, Columns> sum{};
-        const Id patch = patchOfPoint[point];
-        if (patch >= 0)
-        {
-          TrilinearValues(space.clipped.position[point] - CellCorner(level.cell[patch]), b);
-          for (int i = 0; i < FunctionsPerPatch; ++i)
-          {
-            const double* const value = &coefficients(level.dof[patch][i], first);
-            for (int c = 0; c < Columns; ++c)
-            {
-              sum[c] += b[i] * value[c];
-            }
-          }
-        }
-        std::copy(sum.begin(), sum.end(), &result(point, first));
       }
-    });
+    }
+    std::copy(sum.begin(), sum.end(), &result(point, first));
+  }
 }
 
+/// All columns of some points after each other, so that their rows stay in the cache.
 MultiVector EvaluateAt(const GridFunctions& space, const Array<Index>& patchOfPoint,
-  const MultiVector& coefficients, int threads)
+  const MultiVector& coefficients, const Job& job)
 {
   CheckCoefficients(space, coefficients);
   MultiVector result(static_cast<Id>(patchOfPoint.size()), coefficients.cols());
-  ForEachPass(coefficients.cols(),
-    [&](auto columns, Id first)
+  const Id pointsAtOnce = std::max<Id>(64, DefaultBlockSize / std::max<Id>(1, result.cols()));
+  ParallelRanges(
+    result.rows(), job.threads,
+    [&](Id begin, Id end)
     {
-      EvaluateColumns<decltype(columns)::value>(
-        space, patchOfPoint, coefficients, first, threads, result);
-    });
+      ForEachPass(coefficients.cols(),
+        [&](auto columns, Id first)
+        {
+          EvaluateColumns<decltype(columns)::value>(
+            space, patchOfPoint, coefficients, first, begin, end, result);
+        });
+    },
+    pointsAtOnce, job.progress);
   return result;
 }
 
@@ -107,11 +111,12 @@ void IntegrateGradient(const GridFunctions& space, Id piece, const MultiVector& 
 
 /// Calls add(triangle, piece) for the pieces of all triangles, those of one in order.
 template<class Add>
-void ForEachPieceOfTriangles(const ClippedMesh& clipped, Id triangles, int threads, Add&& add)
+void ForEachPieceOfTriangles(const ClippedMesh& clipped, Id triangles, const Job& job, Add&& add)
 {
   const Groups pieces =
-    GroupItems(clipped.pieceTriangle.data(), clipped.NumberOfPieces(), triangles, threads);
-  ParallelRanges(triangles, threads,
+    GroupItems(clipped.pieceTriangle.data(), clipped.NumberOfPieces(), triangles, job.threads);
+  ParallelRanges(
+    triangles, job.threads,
     [&](Id begin, Id end)
     {
       for (Id t = begin; t < end; ++t)
@@ -121,7 +126,8 @@ void ForEachPieceOfTriangles(const ClippedMesh& clipped, Id triangles, int threa
           add(t, pieces.item[k]);
         }
       }
-    });
+    },
+    DefaultBlockSize, job.progress);
 }
 
 /// v / |v|, also where |v|² is no number any more; 0 for 0.
@@ -135,12 +141,12 @@ Vec3 DirectionOf(const Vec3& v)
 /// grid units, divided by the triangle's area.
 template<class Share>
 MultiVector MeansOfPieces(const GridFunctions& space, Id triangles, const MultiVector& coefficients,
-  int threads, Share&& share)
+  const Job& job, Share&& share)
 {
   CheckCoefficients(space, coefficients);
   MultiVector mean = MultiVector::Zero(triangles, 3 * coefficients.cols());
   std::vector<double> area(triangles, 0.0);
-  ForEachPieceOfTriangles(space.clipped, triangles, threads,
+  ForEachPieceOfTriangles(space.clipped, triangles, job,
     [&](Id triangle, Id piece)
     {
       Eigen::RowVectorXd integral(mean.cols());
@@ -164,9 +170,9 @@ MultiVector MeansOfPieces(const GridFunctions& space, Id triangles, const MultiV
 } // namespace
 
 MultiVector EvaluateAtPoints(
-  const GridFunctions& space, const MultiVector& coefficients, int threads)
+  const GridFunctions& space, const MultiVector& coefficients, const Job& job)
 {
-  return EvaluateAt(space, space.pointPatch, coefficients, threads);
+  return EvaluateAt(space, space.pointPatch, coefficients, job);
 }
 
 MultiVector EvaluateAtClippedPoints(
@@ -216,10 +222,10 @@ Eigen::Matrix3Xd EvaluateGradientInPiece(
 }
 
 MultiVector MeanGradients(
-  const GridFunctions& space, Id triangles, const MultiVector& coefficients, int threads)
+  const GridFunctions& space, Id triangles, const MultiVector& coefficients, const Job& job)
 {
   MultiVector mean = MeansOfPieces(
-    space, triangles, coefficients, threads, [](const Vec3& integral, double) { return integral; });
+    space, triangles, coefficients, job, [](const Vec3& integral, double) { return integral; });
   mean /= space.GetGrid().spacing;
   return mean;
 }
@@ -235,9 +241,9 @@ std::vector<double> AreasOfPieces(const GridFunctions& space, Id triangles)
 }
 
 MultiVector MeanDirections(
-  const GridFunctions& space, Id triangles, const MultiVector& coefficients, int threads)
+  const GridFunctions& space, Id triangles, const MultiVector& coefficients, const Job& job)
 {
-  return MeansOfPieces(space, triangles, coefficients, threads,
+  return MeansOfPieces(space, triangles, coefficients, job,
     [](const Vec3& integral, double area) { return Vec3(area * DirectionOf(integral)); });
 }
 

@@ -415,6 +415,7 @@ PrincipalCurvatures ComputeCurvatures(
           frame.direction[k].data(), frame.direction[k].data() + 3, &frames(function, 2 + 3 * k));
       }
     });
+  job.Check(0.9);
   const MultiVector atPoints = ValuesAtPoints(hats, frames, job.threads);
   PrincipalCurvatures result;
   for (Id point = 0; point < atPoints.rows(); ++point)
@@ -449,6 +450,7 @@ PrincipalCurvatures CurvaturesOfSurface(const TriangleMesh& mesh, bool weldCoinc
   const Job& job)
 {
   const HatFunctions around = TrianglesAroundPoints(mesh, weldCoincidentPoints, job.threads);
+  job.Check(0.1);
   MultiVector normals = PointNormals(mesh, around, job.threads);
   job.Check(0.2);
   if (smoothing.scale > 0.0)

@@ -38,16 +38,18 @@ void RequireCount(int count)
 }
 
 /// area Σ_k weight(k, j) φ_k(x)²: rows = points, a column per column of `weights`.
-MultiVector WeightedSquares(const PointModes& modes, const Eigen::MatrixXd& weights, int threads)
+MultiVector WeightedSquares(const PointModes& modes, const Eigen::MatrixXd& weights, const Job& job)
 {
   MultiVector result(modes.values.rows(), weights.cols());
-  ParallelRanges(modes.values.rows(), threads,
+  ParallelRanges(
+    modes.values.rows(), job.threads,
     [&](Id begin, Id end)
     {
       const Id count = end - begin;
       const MultiVector squares = modes.values.middleRows(begin, count).cwiseAbs2();
       result.middleRows(begin, count).noalias() = modes.area * (squares * weights);
-    });
+    },
+    DefaultBlockSize, job.progress);
   return result;
 }
 
@@ -186,7 +188,7 @@ std::vector<double> HeatTimes(const PointModes& modes, int count)
 }
 
 MultiVector HeatKernelSignature(
-  const PointModes& modes, const std::vector<double>& times, int threads)
+  const PointModes& modes, const std::vector<double>& times, const Job& job)
 {
   CountZeroModes(modes);
   Eigen::MatrixXd weights(modes.values.cols(), times.size());
@@ -197,7 +199,7 @@ MultiVector HeatKernelSignature(
       weights(k, j) = std::exp(-modes.eigenvalues[k] * times[j]);
     }
   }
-  return WeightedSquares(modes, weights, threads);
+  return WeightedSquares(modes, weights, job);
 }
 
 WaveBands WaveEnergies(const PointModes& modes, int count)
@@ -217,7 +219,7 @@ WaveBands WaveEnergies(const PointModes& modes, int count)
   return bands;
 }
 
-MultiVector WaveKernelSignature(const PointModes& modes, const WaveBands& bands, int threads)
+MultiVector WaveKernelSignature(const PointModes& modes, const WaveBands& bands, const Job& job)
 {
   const Index zeros = CountZeroModes(modes);
   if (!(bands.width > 0.0))
@@ -237,7 +239,7 @@ MultiVector WaveKernelSignature(const PointModes& modes, const WaveBands& bands,
     const Eigen::VectorXd weight = (exponent.array() - exponent.maxCoeff()).exp();
     weights.col(j).tail(weight.size()) = weight / weight.sum();
   }
-  return WeightedSquares(modes, weights, threads);
+  return WeightedSquares(modes, weights, job);
 }
 
 std::vector<double> BiharmonicDistance(

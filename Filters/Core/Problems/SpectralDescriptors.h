@@ -7,6 +7,7 @@
 #define GridFEM_SpectralDescriptors_h
 
 #include "Algebra/DividedRows.h"
+#include "Base/Job.h"
 #include "Grid/TriangleMesh.h"
 
 #include <vector>
@@ -35,7 +36,7 @@ std::vector<double> HeatTimes(const PointModes& modes, int count);
 /// a column per time. No unit: the same for a scaled mesh and scaled times, and 1 for long times on
 /// a connected surface.
 MultiVector HeatKernelSignature(
-  const PointModes& modes, const std::vector<double>& times, int threads = 0);
+  const PointModes& modes, const std::vector<double>& times, const Job& job = {});
 
 /// Energies are logarithms of eigenvalues (of λ L²); `width` is the standard deviation of a band.
 struct WaveBands
@@ -52,7 +53,8 @@ WaveBands WaveEnergies(const PointModes& modes, int count);
 /// The weighted mean of area φ(x)² over the modes of a band, with weights
 /// exp(-(E - log λ)² / (2 width²)); constant modes do not count. Rows = points, a column per
 /// energy. No unit; its mean over the surface is 1.
-MultiVector WaveKernelSignature(const PointModes& modes, const WaveBands& bands, int threads = 0);
+MultiVector WaveKernelSignature(
+  const PointModes& modes, const WaveBands& bands, const Job& job = {});
 
 /// The distance of every point to the nearest of `sources`, in L: sqrt(Σ (φ(x) - φ(y))² / λ²).
 /// Points on a component without a source get NaN: their distance is infinite.

@@ -57,14 +57,15 @@ SurfaceDerivatives ComputeDerivatives(const SurfaceSpace& space, const TriangleM
   const MultiVector values = space.LoadOfValues(f, job.Part(0.2, 0.25));
   const MultiVector gradients =
     isOnPoints ? space.LoadOfGradientsOf(f, nullptr, job.Part(0.25, 0.3)) : MultiVector();
-  const MultiVector u = projection.Solve(values, gradients, job.Part(0.3, 0.5));
-  result.gradientOnTriangles = space.GradientsOnTriangles(u, job.threads);
+  const MultiVector u = projection.Solve(values, gradients, job.Part(0.3, 0.45));
+  result.gradientOnTriangles = space.GradientsOnTriangles(u, job.Part(0.45, 0.5));
 
   const MultiVector load = space.LoadOfValues(
     { FieldAssociation::Triangles, result.gradientOnTriangles }, job.Part(0.5, 0.55));
-  const MultiVector gradient = projection.Solve(load, {}, job.Part(0.55, 0.8));
-  result.gradientAtPoints = space.ValuesAtPoints(gradient, job.threads);
-  result.laplacianOnTriangles = Divergence(space.GradientsOnTriangles(gradient, job.threads));
+  const MultiVector gradient = projection.Solve(load, {}, job.Part(0.55, 0.75));
+  result.gradientAtPoints = space.ValuesAtPoints(gradient, job.Part(0.75, 0.77));
+  result.laplacianOnTriangles =
+    Divergence(space.GradientsOnTriangles(gradient, job.Part(0.77, 0.8)));
 
   const MultiVector loadOfLaplacian = space.LoadOfValues(
     { FieldAssociation::Triangles, result.laplacianOnTriangles }, job.Part(0.8, 0.85));

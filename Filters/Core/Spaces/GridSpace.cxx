@@ -147,13 +147,12 @@ MultiVector GridSpace::LoadOfGradientsOfCoordinates(const Field* scale, const Jo
 
 MultiVector GridSpace::ValuesAtPoints(const MultiVector& coefficients, const Job& job) const
 {
-  return EvaluateAtPoints(*functions_, coefficients, job.threads);
+  return EvaluateAtPoints(*functions_, coefficients, job);
 }
 
 MultiVector GridSpace::GradientsOnTriangles(const MultiVector& coefficients, const Job& job) const
 {
-  return MeanGradients(
-    *functions_, static_cast<Id>(mesh_->triangles.size()), coefficients, job.threads);
+  return MeanGradients(*functions_, static_cast<Id>(mesh_->triangles.size()), coefficients, job);
 }
 
 Columns GridSpace::SquaredNorms(const MultiVector& u, const Job& job) const

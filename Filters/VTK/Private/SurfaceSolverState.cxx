@@ -311,9 +311,10 @@ Field SurfaceSolverState::Read(const InputArray& array) const
   return field;
 }
 
-MultiVector SurfaceSolverState::ValuesAtPoints(const MultiVector& coefficients) const
+MultiVector SurfaceSolverState::ValuesAtPoints(
+  const MultiVector& coefficients, const Progress& progress) const
 {
-  MultiVector values = this->SolverSpace()->ValuesAtPoints(coefficients, options.space.threads);
+  MultiVector values = this->SolverSpace()->ValuesAtPoints(coefficients, this->MakeJob(progress));
   this->FillCopies(values);
   return values;
 }

@@ -91,7 +91,7 @@ public:
   /// collective, but for SolverSpace.
   std::shared_ptr<const SurfaceSpace> SolverSpace() const;
   Field Read(const InputArray& array) const;
-  MultiVector ValuesAtPoints(const MultiVector& coefficients) const;
+  MultiVector ValuesAtPoints(const MultiVector& coefficients, const Progress& progress = {}) const;
   std::vector<char> PointsWithFunctions() const;
   /// Of rows at points that the space has given.
   void FillCopies(MultiVector& atPoints) const;

@@ -235,13 +235,13 @@ void SurfaceSpectrum::Update(SurfaceSolverState& state, vtkPolyData* input, vtkP
   }
 }
 
-MultiVector EvaluateModes(
-  const SurfaceSolverState& state, const Spectrum& spectrum, Id first, Id count)
+MultiVector EvaluateModes(const SurfaceSolverState& state, const Spectrum& spectrum, Id first,
+  Id count, const Progress& progress)
 {
   // The integral over the space's units is UnitLength² times smaller than the one over world units.
   const MultiVector coefficients =
     spectrum.vectors.middleCols(first, count) / state.SolverSpace()->UnitLength();
-  return state.ValuesAtPoints(coefficients);
+  return state.ValuesAtPoints(coefficients, progress);
 }
 
 } // namespace gridfem

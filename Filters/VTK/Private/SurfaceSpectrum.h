@@ -76,8 +76,8 @@ std::vector<double> InWorldUnits(std::vector<double> eigenvalues, double unitLen
 
 /// The modes `first` and following, `count` of them, at the input's points, world units: a column
 /// per mode.
-MultiVector EvaluateModes(
-  const SurfaceSolverState& state, const Spectrum& spectrum, Id first, Id count);
+MultiVector EvaluateModes(const SurfaceSolverState& state, const Spectrum& spectrum, Id first,
+  Id count, const Progress& progress = {});
 
 } // namespace gridfem
 
