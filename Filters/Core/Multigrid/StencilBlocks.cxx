@@ -68,10 +68,19 @@ constexpr std::uint64_t IsSet(std::uint64_t word)
   return (((word & low) + low) | word) & ~low;
 }
 
-/// Diagonals whose products with corrections would leave the range.
-bool IsBeyondSingle(const BlockSource::Row& row)
+/// What the square root of a diagonal has at least, and its inverse at most, so that the products
+/// of entries with corrections stay in the range.
+constexpr double Range = 1e-15;
+
+bool IsTooLarge(const BlockSource::Row& row)
 {
-  return row.diagonal >= 0 && !(row.scale > 1e-15 && row.scale < 1e15);
+  return row.diagonal >= 0 && !(row.scale > Range);
+}
+
+/// Functions on slivers of 1e-30 of a cell, which every large mesh has a few of.
+bool IsTooSmall(const BlockSource::Row& row)
+{
+  return row.diagonal >= 0 && !(row.scale < 1.0 / Range);
 }
 
 bool IsPlace(unsigned place)
@@ -317,7 +326,7 @@ bool StencilBlocks::Lay(const SparseMatrix& A, const PatchOrder& order, int thre
 bool StencilBlocks::FillFactors(const SparseMatrix& A, const PatchOrder& order, int threads)
 {
   const BlockSource source(A, threads);
-  if (std::any_of(source.row.begin(), source.row.end(), IsBeyondSingle))
+  if (std::any_of(source.row.begin(), source.row.end(), IsTooLarge))
   {
     return false;
   }
@@ -328,7 +337,16 @@ bool StencilBlocks::FillFactors(const SparseMatrix& A, const PatchOrder& order, 
     {
       ForEachFactor(source, order.dof.data(), begin, end, SmallestPivotOfSingle,
         [&](Id p, const PatchFactor& factor)
-        { isResolved[p] = this->SetFactor(factor, order.dof[p], patches_[p]) ? 1 : 0; });
+        {
+          const std::array<Index, N>& dof = order.dof[p];
+          const bool isInRange = std::none_of(dof.begin(), dof.end(),
+            [&](Index unknown) { return unknown >= 0 && IsTooSmall(source.row[unknown]); });
+          isResolved[p] = this->SetFactor(factor, dof, patches_[p]) && isInRange ? 1 : 0;
+          if (!isInRange)
+          {
+            patches_[p].factor.fill(0.0f);
+          }
+        });
     },
     PatchesPerBlock);
   unresolved_.clear();

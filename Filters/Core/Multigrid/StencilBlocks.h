@@ -67,8 +67,8 @@ public:
   }
 
   /// Empty where the order has no corners, a patch is not a cell's, a block has too many unknowns,
-  /// so many functions share corners that half of the rows would be single patches', numbers leave
-  /// the range of single precision, or it does not resolve all directions of more than a tenth of
+  /// so many functions share corners that half of the rows would be single patches', numbers are
+  /// too large for single precision, or it does not resolve all directions of more than a tenth of
   /// the patches.
   StencilBlocks(const SparseMatrix& A, const PatchOrder& order, int threads);
 
@@ -84,8 +84,8 @@ public:
   const StencilRow* Rows(const Block& block) const { return rows_.data() + block.firstRow; }
   const Patch& PatchAt(Id patch) const { return patches_[patch]; }
   const Extra* Extras(const Patch& patch) const { return extras_.data() + patch.firstExtra; }
-  /// Patches, ascending, with directions that single precision does not resolve: their factors
-  /// leave these out.
+  /// Patches, ascending, with directions that single precision does not resolve, which their
+  /// factors leave out, or with diagonals below its range: their factors are zero.
   const std::vector<Id>& Unresolved() const { return unresolved_; }
   Id NumberOfPatches() const { return static_cast<Id>(patches_.size()); }
   std::size_t Memory() const;
