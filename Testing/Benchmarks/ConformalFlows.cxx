@@ -116,7 +116,7 @@ public:
 
   void Move(const Eigen::MatrixXd& coefficients) override
   {
-    moving_->SetMetric(coefficients, threads_);
+    moving_->SetMetric(coefficients, threads_, ElementParts::Mass);
     moving_->FillMatrix(0, 1.0, 0.0, rows_, threads_);
     // Rows of a symmetric matrix are its columns, and both hold their entries in ascending order.
     std::copy(rows_.value.begin(), rows_.value.end(), mass_.valuePtr());

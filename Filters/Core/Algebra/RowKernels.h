@@ -123,18 +123,39 @@ inline typename Chunk::ColumnLanes RowProduct(
   }
   else
   {
-    ColumnLanes even = ColumnLanes::Zero();
-    ColumnLanes odd = ColumnLanes::Zero();
-    for (; k + 2 <= end; k += 2)
+    // Three numbers are read as four, with the first of the next row. There is one behind all but
+    // the last entry of A's row, whose columns ascend.
+    constexpr bool isThree = std::is_same_v<Chunk, ColumnChunk<3, 3>>;
+    using Read = Eigen::Array<double, isThree ? 4 : Chunk::Width, 1>;
+    const auto lanes = [&](Id entry)
+    { return Eigen::Map<const Read>(x + chunk.Offset(A.column[entry])); };
+    const Id last = isThree ? end - 1 : end;
+    Read even = Read::Zero();
+    Read odd = Read::Zero();
+    for (; k + 2 <= last; k += 2)
     {
-      even += A.value[k] * chunk.Row(x, A.column[k]);
-      odd += A.value[k + 1] * chunk.Row(x, A.column[k + 1]);
+      even += A.value[k] * lanes(k);
+      odd += A.value[k + 1] * lanes(k + 1);
     }
-    if (k < end)
+    if (k < last)
     {
-      even += A.value[k] * chunk.Row(x, A.column[k]);
+      even += A.value[k] * lanes(k);
+      ++k;
     }
-    return even + odd;
+    if constexpr (isThree)
+    {
+      if (k < end)
+      {
+        const double* const three = x + chunk.Offset(A.column[k]);
+        odd += A.value[k] * Read(three[0], three[1], three[2], 0.0);
+      }
+      const Read sum = even + odd;
+      return ColumnLanes(sum[0], sum[1], sum[2]);
+    }
+    else
+    {
+      return even + odd;
+    }
   }
 }
 

@@ -154,17 +154,24 @@ Array<ElementMatrix> CoarsenElements(const PatchLevel& fine, const PatchLevel& c
 }
 
 void CoarsenElements(const PatchLevel& fine, const PatchLevel& coarse,
-  const ElementMatrices& elements, ElementMatrices& result, int threads)
+  const ElementMatrices& elements, ElementMatrices& result, int threads, ElementParts parts)
 {
+  const bool both = parts == ElementParts::Both;
   const Groups children = GroupItems(fine.parent, coarse.NumberOfPatches(), threads);
   result.mass.resize(coarse.NumberOfPatches());
-  result.stiffness.resize(coarse.NumberOfPatches());
+  if (both)
+  {
+    result.stiffness.resize(coarse.NumberOfPatches());
+  }
   ForEachLaneGroup(coarse.NumberOfPatches(), threads,
     [&](Id begin, int count)
     {
       SumChildren(fine, children, begin, count, elements.mass, result.mass.data() + begin);
-      SumChildren(
-        fine, children, begin, count, elements.stiffness, result.stiffness.data() + begin);
+      if (both)
+      {
+        SumChildren(
+          fine, children, begin, count, elements.stiffness, result.stiffness.data() + begin);
+      }
     });
 }
 

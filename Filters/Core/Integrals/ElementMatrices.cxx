@@ -52,7 +52,7 @@ ElementMatrices IntegrateElements(const GridFunctions& space, const QuadratureRu
   int threads, const Progress& progress, double normalStabilization)
 {
   ElementMatrices elements;
-  IntegratePatches(space, rule, threads, progress, elements,
+  IntegratePatches(space, rule, threads, progress, elements, ElementParts::Both,
     [normalStabilization](const TriangleBatch&, const TrianglePlanes& planes)
     {
       return [tensor = TangentialProjection(planes.normal, normalStabilization)](
@@ -72,7 +72,7 @@ ElementMatrices IntegrateWeightedElements(const GridFunctions& space, const Quad
   const Progress& progress, double normalStabilization)
 {
   ElementMatrices elements;
-  IntegratePatches(space, rule, threads, progress, elements,
+  IntegratePatches(space, rule, threads, progress, elements, ElementParts::Both,
     [&](const TriangleBatch& batch, const TrianglePlanes& planes)
     {
       Lanes ofTriangle;

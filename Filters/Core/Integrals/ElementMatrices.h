@@ -19,6 +19,13 @@ struct ElementMatrices
   Array<ElementMatrix> stiffness; // ∫ <∇b_i, ∇b_j> tangential + s ∫ ∂n b_i ∂n b_j
 };
 
+/// Which of both get new values; the others stay what they are.
+enum class ElementParts
+{
+  Both,
+  Mass
+};
+
 /// Values and gradients of the eight trilinear functions at a point given in the cell's own
 /// coordinates [0,1]^3, corner order x fastest.
 void EvaluateTrilinear(const Vec3& local, std::array<double, FunctionsPerPatch>& value);
@@ -57,7 +64,8 @@ Array<ElementMatrix> CoarsenElements(const PatchLevel& fine, const PatchLevel& c
 
 /// The same for both matrices at once, in place where `result` has its size already.
 void CoarsenElements(const PatchLevel& fine, const PatchLevel& coarse,
-  const ElementMatrices& elements, ElementMatrices& result, int threads = 0);
+  const ElementMatrices& elements, ElementMatrices& result, int threads = 0,
+  ElementParts parts = ElementParts::Both);
 
 /// Weights with which the eight functions of a parent cell make up those of the child in `octant`:
 /// value of the child's corner c = Σ_p weights[c][p] value of the parent's corner p.

@@ -7,6 +7,7 @@
 #include "Base/Prefetch.h"
 #include "Base/SimdLanes.h"
 #include "Grid/GridFunctions.h"
+#include "Integrals/ElementMatrices.h"
 #include "Integrals/PatchMoments.h"
 #include "Integrals/QuadratureSamples.h"
 #include "Integrals/TangentPlane.h"
@@ -164,17 +165,21 @@ void ForEachPatch(const GridFunctions& space, const QuadratureRule& rule, int th
     PatchesPerBlock, progress);
 }
 
-/// Mass and stiffness of every finest patch. prepare(batch, planes) returns what gives samples on
-/// the triangles of a batch their mass and tensor: set(point, count, samples), for that many points
-/// of the rule from `point` on. The samples have their positions, and as mass the area they stand
-/// for.
+/// Mass and, where both are wanted, stiffness of every finest patch. prepare(batch, planes) returns
+/// what gives samples on the triangles of a batch their mass and tensor: set(point, count,
+/// samples), for that many points of the rule from `point` on. The samples have their positions,
+/// and as mass the area they stand for.
 template<class Prepare>
 void IntegratePatches(const GridFunctions& space, const QuadratureRule& rule, int threads,
-  const Progress& progress, ElementMatrices& result, Prepare&& prepare)
+  const Progress& progress, ElementMatrices& result, ElementParts parts, Prepare&& prepare)
 {
+  const bool both = parts == ElementParts::Both;
   const Id points = static_cast<Id>(rule.points.size());
   result.mass.resize(space.Finest().NumberOfPatches());
-  result.stiffness.resize(space.Finest().NumberOfPatches());
+  if (both)
+  {
+    result.stiffness.resize(space.Finest().NumberOfPatches());
+  }
   ForEachPatch(space, rule, threads, progress,
     [&](Id patch, auto&& forEachBatch)
     {
@@ -197,11 +202,17 @@ void IntegratePatches(const GridFunctions& space, const QuadratureRule& rule, in
             }
             set(begin, count, samples.data());
             mass.Add(samples.data(), count);
-            stiffness.Add(samples.data(), count);
+            if (both)
+            {
+              stiffness.Add(samples.data(), count);
+            }
           }
         });
       result.mass[patch] = mass.Matrix();
-      result.stiffness[patch] = stiffness.Matrix();
+      if (both)
+      {
+        result.stiffness[patch] = stiffness.Matrix();
+      }
     });
 }
 

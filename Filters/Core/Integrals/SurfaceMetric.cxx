@@ -265,14 +265,14 @@ SampleMetric MetricOfMesh(const GridFunctions& space, const QuadratureRule& rule
 
 Id IntegrateElements(const GridFunctions& space, const QuadratureRule& rule,
   const SampleMetric& metric, ElementMatrices& result, int threads, const Progress& progress,
-  double normalStabilization)
+  double normalStabilization, ElementParts parts)
 {
   if (static_cast<Id>(metric.size()) != NumberOfSamples(space.clipped, rule))
   {
     throw InvalidInput("a metric is needed for every sample of the quadrature rule");
   }
   std::atomic<Id> singular = 0;
-  IntegratePatches(space, rule, threads, progress, result,
+  IntegratePatches(space, rule, threads, progress, result, parts,
     [&](const TriangleBatch& batch, const TrianglePlanes& planes)
     {
       return [&, basis = TangentBasis(planes.normal)](Id point, int count, SampleBatch* samples)

@@ -44,7 +44,8 @@ SampleMetric MetricOfMesh(const GridFunctions& space, const QuadratureRule& rule
 ///          is not between 1e-300 and 1e300: they contribute nothing
 Id IntegrateElements(const GridFunctions& space, const QuadratureRule& rule,
   const SampleMetric& metric, ElementMatrices& result, int threads = 0,
-  const Progress& progress = {}, double normalStabilization = DefaultNormalStabilization);
+  const Progress& progress = {}, double normalStabilization = DefaultNormalStabilization,
+  ElementParts parts = ElementParts::Both);
 
 } // namespace gridfem
 

@@ -1,5 +1,6 @@
 #include "Multigrid/Multigrid.h"
 
+#include "Algebra/RowKernels.h"
 #include "Base/Errors.h"
 #include "Multigrid/SmootherSequence.h"
 
@@ -45,15 +46,54 @@ void CheckLevels(const std::vector<MultigridLevel>& levels, const MultigridOptio
   }
 }
 
-/// Per column a power of two near the largest number; 1 for a column of zeros or without a bound.
-Eigen::ArrayXd UnitsOf(const MultiVector& b)
+/// Of the absolute values in every column; += is the larger of both.
+struct LargestNumbers
 {
-  Eigen::ArrayXd unit = b.cwiseAbs().colwise().maxCoeff().transpose().array();
+  Eigen::ArrayXd value;
+
+  void operator+=(const LargestNumbers& other) { value = value.max(other.value); }
+};
+
+/// Per column a power of two near the largest number; 1 for a column of zeros or without a bound.
+Eigen::ArrayXd UnitsOf(const MultiVector& b, int threads)
+{
+  Eigen::ArrayXd unit = ParallelSum(b.rows(), ThreadsFor(b.size(), threads),
+    LargestNumbers{ Eigen::ArrayXd::Zero(b.cols()) },
+    [&](Id begin, Id end) -> LargestNumbers
+    {
+      const auto rows = b.middleRows(begin, end - begin);
+      return { rows.cwiseAbs().colwise().maxCoeff().transpose().array() };
+    }).value;
   for (double& value : unit)
   {
     value = std::isnormal(value) ? std::exp2(std::ilogb(value)) : 1.0;
   }
   return unit;
+}
+
+/// Calls body(k, column) for every number of b, in parallel, row after row.
+template<class Body>
+void ForEachNumber(const MultiVector& b, int threads, Body&& body)
+{
+  const Id columns = b.cols();
+  ParallelRanges(b.rows(), ThreadsFor(b.size(), threads),
+    [&](Id begin, Id end)
+    {
+      for (Id k = begin * columns, column = 0; k < end * columns; ++k)
+      {
+        body(k, column);
+        column = column + 1 < columns ? column + 1 : 0;
+      }
+    });
+}
+
+/// to = from, every column times its factor.
+void Scale(const MultiVector& from, const Eigen::ArrayXd& factor, MultiVector& to, int threads)
+{
+  to.resize(from.rows(), from.cols());
+  const double* const source = from.data();
+  double* const target = to.data();
+  ForEachNumber(from, threads, [&](Id k, Id column) { target[k] = factor[column] * source[k]; });
 }
 
 std::size_t MatrixMemory(const SparseMatrix& A)
@@ -195,7 +235,9 @@ void Multigrid::Cycle(const MultiVector& b, MultiVector& x) const
     throw InvalidInput("x and b of a multigrid cycle must have the same shape");
   }
   this->CheckRows(0, b);
-  std::vector<Scratch> scratch(levels_.size());
+  const ScratchPool::Loan loan(*scratch_);
+  std::vector<Scratch>& scratch = *loan;
+  scratch.resize(levels_.size());
   this->Improve(0, b, x, scratch);
 }
 
@@ -207,7 +249,9 @@ void Multigrid::Precondition(const MultiVector& b, MultiVector& x) const
 void Multigrid::PreconditionFrom(std::size_t level, const MultiVector& b, MultiVector& x) const
 {
   this->CheckRows(level, b);
-  std::vector<Scratch> scratch(levels_.size());
+  const ScratchPool::Loan loan(*scratch_);
+  std::vector<Scratch>& scratch = *loan;
+  scratch.resize(levels_.size());
   this->Correct(level, b, x, scratch);
 }
 
@@ -215,7 +259,9 @@ void Multigrid::NestedIteration(const MultiVector& b, MultiVector& x, MultiVecto
 {
   this->CheckRows(0, b);
   std::vector<MultiVector> load(levels_.size());
-  std::vector<Scratch> scratch(levels_.size());
+  const ScratchPool::Loan loan(*scratch_);
+  std::vector<Scratch>& scratch = *loan;
+  scratch.resize(levels_.size());
   for (std::size_t l = 1; l < levels_.size(); ++l)
   {
     this->RestrictResidual(
@@ -290,9 +336,11 @@ void Multigrid::Correct(
     this->CycleLevel(l, b, x, true, scratch);
     return;
   }
-  const Eigen::ArrayXd unit = UnitsOf(b);
-  this->CycleLevel(l, b * unit.inverse().matrix().asDiagonal(), x, true, scratch);
-  x *= unit.matrix().asDiagonal();
+  MultiVector& scaled = scratch[l].scaled;
+  const Eigen::ArrayXd unit = UnitsOf(b, options_.threads);
+  Scale(b, unit.inverse(), scaled, options_.threads);
+  this->CycleLevel(l, scaled, x, true, scratch);
+  Scale(x, unit, x, options_.threads);
 }
 
 /// x += B (b - A x). Single precision sees the correction alone, whose rounding is small beside it.
@@ -304,11 +352,16 @@ void Multigrid::Improve(
     this->CycleLevel(l, b, x, false, scratch);
     return;
   }
-  MultiVector residual;
-  Residual(levels_[l].A, x, b, residual, options_.threads);
-  MultiVector correction;
-  this->Correct(l, residual, correction, scratch);
-  x += correction;
+  MultiVector& scaled = scratch[l].scaled;
+  MultiVector& correction = scratch[l].correction;
+  Residual(levels_[l].A, x, b, scaled, options_.threads);
+  const Eigen::ArrayXd unit = UnitsOf(scaled, options_.threads);
+  Scale(scaled, unit.inverse(), scaled, options_.threads);
+  this->CycleLevel(l, scaled, correction, true, scratch);
+  double* const target = x.data();
+  const double* const source = correction.data();
+  ForEachNumber(
+    x, options_.threads, [&](Id k, Id column) { target[k] += unit[column] * source[k]; });
 }
 
 void Multigrid::CycleLevel(std::size_t l, const MultiVector& b, MultiVector& x, bool zeroStart,
@@ -323,7 +376,9 @@ void Multigrid::CycleLevel(std::size_t l, const MultiVector& b, MultiVector& x, 
   const LevelSmoothing smoothing = this->SmoothingOf(l);
   if (zeroStart)
   {
-    x.setZero(b.rows(), b.cols());
+    x.resize(b.rows(), b.cols());
+    ParallelRanges(b.rows(), ThreadsFor(b.size(), options_.threads),
+      [&](Id begin, Id end) { x.middleRows(begin, end - begin).setZero(); });
   }
   for (int sweep = 0; sweep < smoothing.preSweeps; ++sweep)
   {
@@ -348,7 +403,9 @@ void Multigrid::VisitCoarse(std::size_t l, const MultiVector& b, MultiVector& x,
   int times, std::vector<Scratch>& scratch) const
 {
   const MultigridLevel& level = levels_[l];
-  auto& [residual, coarseB, coarseX] = scratch[l];
+  MultiVector& residual = scratch[l].residual;
+  MultiVector& coarseB = scratch[l].coarseB;
+  MultiVector& coarseX = scratch[l].coarseX;
   this->RestrictResidual(l, b, zeroX ? nullptr : &x, residual, coarseB);
   for (int time = 0; time < times; ++time)
   {

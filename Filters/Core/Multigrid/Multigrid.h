@@ -2,6 +2,7 @@
 #ifndef GridFEM_Multigrid_h
 #define GridFEM_Multigrid_h
 
+#include "Base/Pool.h"
 #include "Multigrid/CoarseSolver.h"
 #include "Multigrid/DividedLevel.h"
 #include "Multigrid/Smoother.h"
@@ -87,8 +88,8 @@ public:
   /// prolongations.
   Multigrid InDoublePrecision() const;
 
-  /// One cycle: improves x for A x = b. Any number of columns. Levels above the finest allocate
-  /// their vectors per call: a quarter of b, and less.
+  /// One cycle: improves x for A x = b. Any number of columns. Keeps its vectors, two to four times
+  /// the size of b, for the next call.
   void Cycle(const MultiVector& b, MultiVector& x) const;
 
   /// One cycle from zero: x = B b, B symmetric when both sweep counts are equal.
@@ -117,10 +118,14 @@ private:
   /// Vectors of one level during one call.
   struct Scratch
   {
+    MultiVector scaled;     // right-hand side in units of its columns, for single precision
+    MultiVector correction; // its solution
     MultiVector residual;
     MultiVector coarseB;
     MultiVector coarseX;
   };
+  /// Of all levels, kept from one call to the next: fresh memory takes as long as a sweep.
+  using ScratchPool = Pool<std::vector<Scratch>>;
 
   void CheckRows(std::size_t level, const MultiVector& b) const;
   void RestrictResidual(std::size_t level, const MultiVector& b, const MultiVector* x,
@@ -140,6 +145,7 @@ private:
   std::vector<MultigridLevel> levels_;
   CoarseSolver coarse_;
   MultigridOptions options_;
+  std::unique_ptr<ScratchPool> scratch_ = std::make_unique<ScratchPool>();
 };
 
 } // namespace gridfem

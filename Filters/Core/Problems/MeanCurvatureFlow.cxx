@@ -203,31 +203,18 @@ Id MeanCurvatureFlow::Prepare(MultiVector& embedding, const Job& job)
     moving_ = start_->Copy();
   }
   embedding = shape_;
-  return moving_->SetMetric(embedding, job);
+  return moving_->SetMetric(
+    embedding, job, options_.conformalized ? ElementParts::Mass : ElementParts::Both);
 }
 
 void MeanCurvatureFlow::FillMatrix(
   std::size_t level, double timeStep, SparseMatrix& matrix, const Job& job)
 {
-  if (startStiffness_.empty())
+  moving_->FillMatrix(level, 1.0, timeStep, matrix, job);
+  if (boundary_)
   {
-    moving_->FillMatrix(level, 1.0, timeStep, matrix, job);
-    if (boundary_)
-    {
-      boundary_->Penalty().AddTo(level, matrix, job.threads);
-    }
-    return;
+    boundary_->Penalty().AddTo(level, matrix, job.threads);
   }
-  moving_->FillMatrix(level, 1.0, 0.0, matrix, job);
-  const Array<double>& stiffness = startStiffness_[level].value;
-  ParallelRanges(static_cast<Id>(stiffness.size()), job.threads,
-    [&](Id begin, Id end)
-    {
-      for (Id k = begin; k < end; ++k)
-      {
-        matrix.value[k] += stiffness[k];
-      }
-    });
 }
 
 void MeanCurvatureFlow::UpdateBoundary(double timeStep, int threads)
@@ -241,19 +228,11 @@ void MeanCurvatureFlow::UpdateBoundary(double timeStep, int threads)
 
 void MeanCurvatureFlow::UpdateHierarchy(double timeStep, const Job& job)
 {
-  if (options_.conformalized && startStiffness_.empty())
-  {
-    for (std::size_t level = 0; level < start_->NumberOfLevels(); ++level)
-    {
-      startStiffness_.push_back(start_->Matrix(level, 0.0, timeStep, job));
-    }
-  }
   if (!multigrid_)
   {
     std::vector<MultigridLevel> levels = BuildMultigridLevels(
       *moving_, 1.0, timeStep, options_.multigrid, job.progress.Part(0.0, 0.5));
-    const bool isPlain = startStiffness_.empty() && !boundary_;
-    for (std::size_t level = 0; !isPlain && level < levels.size(); ++level)
+    for (std::size_t level = 0; boundary_ && level < levels.size(); ++level)
     {
       this->FillMatrix(level, timeStep, levels[level].A, job.threads);
     }

@@ -146,9 +146,8 @@ private:
   MultiVector shape_;
   std::unique_ptr<FiniteElementSpace> moving_;
   std::unique_ptr<Multigrid> multigrid_;
-  std::unique_ptr<HeldBoundary> boundary_;   // of functions as they are; null where nothing is held
-  std::vector<SparseMatrix> startStiffness_; // δ L_0 per level; conformalised
-  SparseMatrix mass_;                        // M_t
+  std::unique_ptr<HeldBoundary> boundary_; // of functions as they are; null where nothing is held
+  SparseMatrix mass_;                      // M_t
 };
 
 } // namespace gridfem

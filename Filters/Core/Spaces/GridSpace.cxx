@@ -215,28 +215,28 @@ LevelOperators& GridSpace::OwnOperators()
   return *own_;
 }
 
-Id GridSpace::SetMetric(const MultiVector& embedding, const Job& job)
+Id GridSpace::SetMetric(const MultiVector& embedding, const Job& job, ElementParts parts)
 {
   return this->Integrate(MetricOfEmbedding(*functions_, this->Rule(), embedding, job.threads,
                            job.progress.Part(0.0, 0.3)),
-    job.Part(0.3, 1.0));
+    job.Part(0.3, 1.0), parts);
 }
 
-Id GridSpace::SetMetricOfMesh(const TriangleMesh& moved, const Job& job)
+Id GridSpace::SetMetricOfMesh(const TriangleMesh& moved, const Job& job, ElementParts parts)
 {
   return this->Integrate(MetricOfMesh(*functions_, this->Rule(), *mesh_, moved, job.threads,
                            job.progress.Part(0.0, 0.3)),
-    job.Part(0.3, 1.0));
+    job.Part(0.3, 1.0), parts);
 }
 
-Id GridSpace::Integrate(const SampleMetric& metric, const Job& job)
+Id GridSpace::Integrate(const SampleMetric& metric, const Job& job, ElementParts parts)
 {
   metric_.reset();
   LevelOperators& operators = this->OwnOperators();
   const Id singular =
     IntegrateElements(*functions_, this->Rule(), metric, operators.elements.front(), job.threads,
-      job.progress.Part(0.0, 0.7), operators.normalStabilization);
-  UpdateOperators(*functions_, operators, job.threads);
+      job.progress.Part(0.0, 0.7), operators.normalStabilization, parts);
+  UpdateOperators(*functions_, operators, job.threads, parts);
   job.Check(1.0);
   return singular;
 }

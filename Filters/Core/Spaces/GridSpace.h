@@ -58,9 +58,11 @@ public:
   MultiVector EmbeddingOfMesh(const Job& job = {}) const override;
 
   std::unique_ptr<FiniteElementSpace> Copy() const override;
-  Id SetMetric(const MultiVector& embedding, const Job& job = {}) override;
+  Id SetMetric(const MultiVector& embedding, const Job& job = {},
+    ElementParts parts = ElementParts::Both) override;
   /// The same for the mesh with moved points.
-  Id SetMetricOfMesh(const TriangleMesh& moved, const Job& job = {});
+  Id SetMetricOfMesh(
+    const TriangleMesh& moved, const Job& job = {}, ElementParts parts = ElementParts::Both);
   void SetMetricOnTriangles(
     std::shared_ptr<const TriangleMetric> metric, const Job& job = {}) override;
   void WeighMass(const std::vector<double>& weight, const Job& job = {}) override;
@@ -75,7 +77,7 @@ public:
   const TriangleMesh& Mesh() const { return *mesh_; }
 
 private:
-  Id Integrate(const SampleMetric& metric, const Job& job);
+  Id Integrate(const SampleMetric& metric, const Job& job, ElementParts parts);
   void IntegrateTriangles(const std::vector<double>& weight, const Job& job);
   LevelOperators& OwnOperators();
   const QuadratureRule& Rule() const;

@@ -257,7 +257,7 @@ std::unique_ptr<FiniteElementSpace> HatSpace::Copy() const
 
 /// The cotangent system of the moved points; the grid takes the metric that the moved triangles
 /// have, so that its cycles precondition the same surface.
-Id HatSpace::SetMetric(const MultiVector& embedding, const Job& job)
+Id HatSpace::SetMetric(const MultiVector& embedding, const Job& job, ElementParts parts)
 {
   if (embedding.cols() != 3)
   {
@@ -272,12 +272,17 @@ Id HatSpace::SetMetric(const MultiVector& embedding, const Job& job)
   }
   auto matrices =
     std::make_shared<HatMatrices>(AssembleHatMatrices(moved, hats_->functions, {}, job.threads));
+  if (parts == ElementParts::Mass)
+  {
+    matrices->stiffness = this->Matrices().stiffness;
+  }
   job.Check(0.4);
   own_ = std::move(matrices);
   moved_ = mesh;
+  movedParts_ = parts;
   weights_.reset();
   metric_.reset();
-  grid_.SetMetricOfMesh(moved, job.Part(0.4, 1.0));
+  grid_.SetMetricOfMesh(moved, job.Part(0.4, 1.0), parts);
   return CountFlattened(hats_->functions, moved, job.threads);
 }
 
@@ -354,8 +359,16 @@ void HatSpace::Weigh(const std::vector<ElementWeights>& weights, const Job& job)
 MultiVector HatSpace::LoadOfFunction(
   double a, double b, const MultiVector& u, const std::vector<double>& scale, const Job& job) const
 {
-  const TriangleMesh& mesh = moved_ ? *moved_ : grid_.Mesh();
-  return MultiplyHats(mesh, hats_->functions, this->Weights(), a, b, scale, u, job.threads);
+  const auto multiply = [&](const TriangleMesh& mesh, double ofMass, double ofStiffness)
+  {
+    return MultiplyHats(
+      mesh, hats_->functions, this->Weights(), ofMass, ofStiffness, scale, u, job.threads);
+  };
+  if (moved_ && movedParts_ == ElementParts::Mass)
+  {
+    return multiply(*moved_, a, 0.0) + multiply(grid_.Mesh(), 0.0, b);
+  }
+  return multiply(moved_ ? *moved_ : grid_.Mesh(), a, b);
 }
 
 HatSpace BuildHatSpace(TriangleMesh mesh, const GridSpaceOptions& options, HatTransfer transfer,

@@ -73,7 +73,8 @@ public:
   MultiVector EmbeddingOfMesh(const Job& job = {}) const override;
 
   std::unique_ptr<FiniteElementSpace> Copy() const override;
-  Id SetMetric(const MultiVector& embedding, const Job& job = {}) override;
+  Id SetMetric(const MultiVector& embedding, const Job& job = {},
+    ElementParts parts = ElementParts::Both) override;
   void SetMetricOnTriangles(
     std::shared_ptr<const TriangleMetric> metric, const Job& job = {}) override;
   void WeighMass(const std::vector<double>& weight, const Job& job = {}) override;
@@ -95,7 +96,8 @@ private:
   GridSpace grid_;
   std::shared_ptr<const HatMatrices> own_; // once numbers have changed
   std::shared_ptr<const std::vector<Vec3>> direction_;
-  std::shared_ptr<const TriangleMesh> moved_; // whose metric it is; null: the mesh
+  std::shared_ptr<const TriangleMesh> moved_;    // whose metric it is; null: the mesh
+  ElementParts movedParts_ = ElementParts::Both; // that are in its metric
   std::shared_ptr<const std::vector<ElementWeights>> weights_;
   std::shared_ptr<const TriangleMetric> metric_; // null: that of the mesh, or of moved points
 };

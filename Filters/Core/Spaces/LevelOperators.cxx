@@ -136,12 +136,13 @@ LevelOperators OperatorsOfElements(const GridFunctions& space, ElementMatrices f
   return system;
 }
 
-void UpdateOperators(const GridFunctions& space, LevelOperators& system, int threads)
+void UpdateOperators(
+  const GridFunctions& space, LevelOperators& system, int threads, ElementParts parts)
 {
   for (std::size_t l = 0; l + 1 < system.elements.size(); ++l)
   {
-    CoarsenElements(
-      space.levels[l], space.levels[l + 1], system.elements[l], system.elements[l + 1], threads);
+    CoarsenElements(space.levels[l], space.levels[l + 1], system.elements[l],
+      system.elements[l + 1], threads, parts);
   }
   system.integral =
     IntegralsOfFunctions(system.places.front(), system.elements.front().mass, threads);

@@ -39,7 +39,8 @@ LevelOperators OperatorsOfElements(const GridFunctions& space, ElementMatrices f
 /// Brings a system up to date whose finest element matrices, elements.front(), have new values: in
 /// another metric (SurfaceMetric.h) or with other weights (DirectionalElements.h) on the same
 /// patches. Patterns and prolongations stay.
-void UpdateOperators(const GridFunctions& space, LevelOperators& system, int threads = 0);
+void UpdateOperators(const GridFunctions& space, LevelOperators& system, int threads = 0,
+  ElementParts parts = ElementParts::Both);
 
 /// a M + b L on one level, grid units: new values for a matrix of the level's pattern, and a new
 /// matrix.

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -232,6 +233,50 @@ TEST(StencilSmoother, IsNotMadeWhereItDoesNotServe)
     value *= 1e40;
   }
   EXPECT_FALSE(MakeStencilSmoother(large, level.order)) << "beyond single precision";
+}
+
+/// A mesh that touches a cell with the tip of a triangle has a function of next to nothing.
+TEST(StencilSmoother, AFunctionOfAlmostNothingLeavesItsPatchesInDouble)
+{
+  const Multigrid built = Hierarchy(Meshes()[0], 5, FactorPrecision::Double);
+  const MultigridLevel& level = built.Levels().front();
+  const Index tiny = level.order.dof[level.order.dof.size() / 2][3];
+  SparseMatrix A = level.A;
+  for (Index row = 0; row < A.rows; ++row)
+  {
+    for (Id k = A.rowBegin[row]; k < A.rowBegin[row + 1]; ++k)
+    {
+      A.value[k] *= (row == tiny ? 1e-18 : 1.0) * (A.column[k] == tiny ? 1e-18 : 1.0);
+    }
+  }
+  std::vector<Id> ofTiny;
+  for (Id p = 0; p < static_cast<Id>(level.order.dof.size()); ++p)
+  {
+    const auto& dof = level.order.dof[p];
+    if (std::find(dof.begin(), dof.end(), tiny) != dof.end())
+    {
+      ofTiny.push_back(p);
+    }
+  }
+  const StencilBlocks blocks(A, level.order, 2);
+  ASSERT_FALSE(blocks.IsEmpty());
+  EXPECT_EQ(blocks.Unresolved(), ofTiny);
+
+  const auto smoother = MakeStencilSmoother(A, level.order);
+  const auto inDouble = MakePatchSmoother(A, level.order, 1, FactorPrecision::Double);
+  MultiVector exact = RandomVectors(A.rows, 2, 4);
+  exact.row(tiny) *= 1e18; // as much energy as others have
+  MultiVector b;
+  Multiply(A, exact, b);
+  const auto energyAfter = [&](const Smoother& of)
+  {
+    MultiVector x = MultiVector::Zero(b.rows(), b.cols());
+    of.Sweep(A, b, x, SweepDirection::Forward, 1);
+    MultiVector image;
+    Multiply(A, x - exact, image);
+    return (x - exact).cwiseProduct(image).sum();
+  };
+  EXPECT_LE(energyAfter(*smoother), 1.001 * energyAfter(*inDouble));
 }
 
 /// Sheets through the same cells have functions at the same corners.

@@ -312,6 +312,33 @@ TEST_P(EverySpace, ACopyInAnotherMetricLeavesTheOriginalAlone)
   }
 }
 
+/// As the conformalised flow wants it: the mass of where the surface is, the stiffness of the
+/// start.
+TEST_P(EverySpace, AMetricOfTheMassAloneLeavesTheStiffness)
+{
+  for (const TriangleMesh& mesh : Meshes())
+  {
+    const SpaceOnMesh on = this->Build(mesh);
+    MultiVector moved = on.coordinates;
+    moved.col(1) *= 2.0;
+    const std::unique_ptr<FiniteElementSpace> both = on.space->Copy();
+    const std::unique_ptr<FiniteElementSpace> mass = on.space->Copy();
+    both->SetMetric(moved);
+    mass->SetMetric(moved, {}, ElementParts::Mass);
+    EXPECT_GT(RelativeDifference(DenseOf(*both, 0, 1), DenseOf(*on.space, 0, 1)), 1e-2);
+    for (std::size_t level = 0; level < on.space->NumberOfLevels(); ++level)
+    {
+      EXPECT_EQ(Dense(mass->Matrix(level, 1, 0)), Dense(both->Matrix(level, 1, 0)));
+      EXPECT_EQ(Dense(mass->Matrix(level, 0, 1)), Dense(on.space->Matrix(level, 0, 1)));
+    }
+    EXPECT_EQ(mass->Integrals(), both->Integrals());
+    const MultiVector load = DenseOf(*mass, 2, 3) * moved;
+    EXPECT_LT(RelativeDifference(mass->LoadOfFunction(2, 3, moved, {}), load), 1e-10);
+    mass->SetMetric(moved);
+    EXPECT_LT(RelativeDifference(DenseOf(*mass, 2, 3), DenseOf(*both, 2, 3)), 1e-14);
+  }
+}
+
 TEST_P(EverySpace, ASurfaceThatCollapsesIsSingularAndFinite)
 {
   const SpaceOnMesh on = this->Build(GeodesicSphere(8));
