@@ -156,9 +156,9 @@ void Multigrid::BuildSolvers()
   coarse_ = CoarseSolver(levels_.back().A, options_.threads);
 }
 
-std::unique_ptr<Smoother> Multigrid::MakeSmoother(std::size_t l) const
+std::unique_ptr<Smoother> Multigrid::MakeSmoother(std::size_t l)
 {
-  const MultigridLevel& level = levels_[l];
+  MultigridLevel& level = levels_[l];
   std::vector<std::unique_ptr<Smoother>> sequence;
   sequence.push_back(this->MakeSmoother(level, this->SmoothingOf(l).smoother));
   if (!level.groups.dof.empty())
@@ -174,8 +174,7 @@ std::unique_ptr<Smoother> Multigrid::MakeSmoother(std::size_t l) const
                               : MakeSmootherSequence(std::move(sequence));
 }
 
-std::unique_ptr<Smoother> Multigrid::MakeSmoother(
-  const MultigridLevel& level, SmootherType type) const
+std::unique_ptr<Smoother> Multigrid::MakeSmoother(MultigridLevel& level, SmootherType type)
 {
   switch (type)
   {
@@ -189,7 +188,14 @@ std::unique_ptr<Smoother> Multigrid::MakeSmoother(
   // Processes that divide a level have no scale in common (Correct), so theirs stay in double.
   const bool mayBeSingle = options_.precision == FactorPrecision::Mixed &&
                            level.groups.dof.empty() && !levels_.front().divided;
-  auto single = mayBeSingle ? MakeStencilSmoother(level.A, level.order, options_.threads) : nullptr;
+  bool patternFits = true;
+  auto single = mayBeSingle
+                  ? MakeStencilSmoother(level.A, level.order, options_.threads, &patternFits)
+                  : nullptr;
+  if (!patternFits)
+  {
+    level.order.corner.clear(); // stencils are not tried again with other values
+  }
   return single ? std::move(single)
                 : MakePatchSmoother(level.A, level.order, options_.threads, options_.precision);
 }

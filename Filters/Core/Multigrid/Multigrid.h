@@ -112,8 +112,8 @@ public:
 
 private:
   void BuildSolvers();
-  std::unique_ptr<Smoother> MakeSmoother(std::size_t level) const;
-  std::unique_ptr<Smoother> MakeSmoother(const MultigridLevel& level, SmootherType type) const;
+  std::unique_ptr<Smoother> MakeSmoother(std::size_t level);
+  std::unique_ptr<Smoother> MakeSmoother(MultigridLevel& level, SmootherType type);
   LevelSmoothing SmoothingOf(std::size_t level) const;
   /// Vectors of one level during one call.
   struct Scratch

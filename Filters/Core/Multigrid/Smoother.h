@@ -107,8 +107,9 @@ std::unique_ptr<Smoother> MakePatchSmoother(const SparseMatrix& A, const PatchOr
 /// have that are almost parallel to a plane of the grid, are relaxed once more in double precision.
 /// Null where these are more than a tenth, and where the order knows no corners or cells that hold
 /// many patches; see StencilBlocks.
+/// @param patternFits  if not null: false where it is null for any values of the matrix
 std::unique_ptr<Smoother> MakeStencilSmoother(
-  const SparseMatrix& A, const PatchOrder& order, int threads = 0);
+  const SparseMatrix& A, const PatchOrder& order, int threads = 0, bool* patternFits = nullptr);
 
 } // namespace gridfem
 

@@ -239,9 +239,12 @@ private:
 StencilBlocks::StencilBlocks(const SparseMatrix& A, const PatchOrder& order, int threads)
 {
   patches_.resize(order.dof.size());
-  const bool fits = static_cast<Index>(order.corner.size()) == A.rows &&
-                    this->FillFactors(A, order, threads) && this->Lay(A, order, threads);
-  if (fits)
+  patternFits_ = static_cast<Index>(order.corner.size()) == A.rows;
+  if (patternFits_ && this->FillFactors(A, order, threads))
+  {
+    patternFits_ = this->Lay(A, order, threads);
+  }
+  if (patternFits_ && !blocks_.empty())
   {
     this->FillRows(A, order, threads);
   }

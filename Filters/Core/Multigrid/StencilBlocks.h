@@ -77,6 +77,8 @@ public:
   bool Refill(const SparseMatrix& A, const PatchOrder& order, int threads);
 
   bool IsEmpty() const { return blocks_.empty(); }
+  /// False where they are empty for any values of the matrix.
+  bool PatternFits() const { return patternFits_; }
   const Block& BlockAt(Id block) const { return blocks_[block]; }
   /// Of the level, by their number in the block.
   const Index* Unknowns(const Block& block) const { return &unknowns_[block.firstUnknown]; }
@@ -99,6 +101,7 @@ private:
   void FillOwnRows(
     const SparseMatrix& A, const PatchOrder& order, const Block& block, const Patch& patch);
 
+  bool patternFits_ = true;
   std::vector<Block> blocks_;
   Array<Index> unknowns_;
   Array<StencilRow> rows_;

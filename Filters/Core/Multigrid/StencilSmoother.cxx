@@ -306,10 +306,14 @@ private:
 } // namespace
 
 std::unique_ptr<Smoother> MakeStencilSmoother(
-  const SparseMatrix& A, const PatchOrder& order, int threads)
+  const SparseMatrix& A, const PatchOrder& order, int threads, bool* patternFits)
 {
   CheckOrder(A, order, threads);
   StencilBlocks blocks(A, order, threads);
+  if (patternFits)
+  {
+    *patternFits = blocks.PatternFits();
+  }
   return blocks.IsEmpty() ? nullptr
                           : std::make_unique<StencilSmoother>(std::move(blocks), A, order, threads);
 }
