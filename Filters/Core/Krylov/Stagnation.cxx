@@ -1,5 +1,6 @@
 #include "Krylov/Stagnation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -15,7 +16,8 @@ void Stagnation::Add(double measure)
 bool Stagnation::IsTooSlow() const
 {
   const int iterations = static_cast<int>(lowest_.size()) - 1;
-  if (iterations < PaceWindow || iterations >= maximumIterations_)
+  const int patience = std::max(PaceWindow, std::min(Patience, maximumIterations_ / 2));
+  if (iterations < patience || iterations >= maximumIterations_)
   {
     return false;
   }

@@ -15,6 +15,9 @@ public:
   /// Shorter pieces of a history say little about the rest: conjugate gradients with a good
   /// preconditioner are slow for some ten iterations before they gain speed.
   static constexpr int PaceWindow = 20;
+  /// Before so many iterations, or half of those allowed, the pace is not judged: in a flow whose
+  /// metric degenerates it is slow for forty of the sixty iterations that suffice.
+  static constexpr int Patience = 50;
   /// With a good preconditioner the gaps between two lowest measures were at most five iterations;
   /// with Gauss-Seidel cycles they may be hundreds, and the iteration then goes on.
   static constexpr int StandstillWindow = 50;
@@ -28,8 +31,8 @@ public:
   /// Once per iteration; the first is that of the start. Not a number counts as no progress.
   void Add(double measure);
 
-  /// At the mean pace of the last PaceWindow iterations the tolerance is not reached within the
-  /// iterations that are left.
+  /// After Patience: at the mean pace of the last PaceWindow iterations the tolerance is not
+  /// reached within the iterations that are left.
   bool IsTooSlow() const;
 
   /// The last StandstillWindow iterations have not brought a lower measure.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <limits>
 #include <memory>
 
@@ -68,19 +69,15 @@ constexpr std::uint64_t IsSet(std::uint64_t word)
   return (((word & low) + low) | word) & ~low;
 }
 
-/// What the square root of a diagonal has at least, and its inverse at most, so that the products
-/// of entries with corrections stay in the range.
+/// Roots of diagonals between Range and its inverse leave the products of entries with corrections
+/// in the range of single precision.
 constexpr double Range = 1e-15;
 
-bool IsTooLarge(const BlockSource::Row& row)
+/// A power of two near the root of the diagonal where that is out of range, else 1.
+double WeightOf(const BlockSource::Row& row)
 {
-  return row.diagonal >= 0 && !(row.scale > Range);
-}
-
-/// Functions on slivers of 1e-30 of a cell, which every large mesh has a few of.
-bool IsTooSmall(const BlockSource::Row& row)
-{
-  return row.diagonal >= 0 && !(row.scale < 1.0 / Range);
+  const bool isInRange = row.scale > Range && row.scale < 1.0 / Range;
+  return row.diagonal < 0 || isInRange ? 1.0 : std::exp2(-std::ilogb(row.scale));
 }
 
 bool IsPlace(unsigned place)
@@ -325,13 +322,15 @@ bool StencilBlocks::Lay(const SparseMatrix& A, const PatchOrder& order, int thre
   return true;
 }
 
-/// @return whether single precision holds the numbers and resolves enough of the patches
+/// @return whether single precision resolves enough of the patches
 bool StencilBlocks::FillFactors(const SparseMatrix& A, const PatchOrder& order, int threads)
 {
   const BlockSource source(A, threads);
-  if (std::any_of(source.row.begin(), source.row.end(), IsTooLarge))
+  weight_.resize(source.row.size());
+  std::transform(source.row.begin(), source.row.end(), weight_.begin(), gridfem::WeightOf);
+  if (std::all_of(weight_.begin(), weight_.end(), [](double weight) { return weight == 1.0; }))
   {
-    return false;
+    weight_.clear();
   }
   std::vector<char> isResolved(patches_.size());
   ParallelRanges(
@@ -340,16 +339,7 @@ bool StencilBlocks::FillFactors(const SparseMatrix& A, const PatchOrder& order, 
     {
       ForEachFactor(source, order.dof.data(), begin, end, SmallestPivotOfSingle,
         [&](Id p, const PatchFactor& factor)
-        {
-          const std::array<Index, N>& dof = order.dof[p];
-          const bool isInRange = std::none_of(dof.begin(), dof.end(),
-            [&](Index unknown) { return unknown >= 0 && IsTooSmall(source.row[unknown]); });
-          isResolved[p] = this->SetFactor(factor, dof, patches_[p]) && isInRange ? 1 : 0;
-          if (!isInRange)
-          {
-            patches_[p].factor.fill(0.0f);
-          }
-        });
+        { isResolved[p] = this->SetFactor(factor, order.dof[p], patches_[p]) ? 1 : 0; });
     },
     PatchesPerBlock);
   unresolved_.clear();
@@ -365,33 +355,51 @@ bool StencilBlocks::FillFactors(const SparseMatrix& A, const PatchOrder& order, 
 
 /// @return whether single precision resolves all directions; those that it does not are left out
 bool StencilBlocks::SetFactor(
-  const PatchFactor& factor, const std::array<Index, N>& dof, Patch& patch)
+  const PatchFactor& factor, const std::array<Index, N>& dof, Patch& patch) const
 {
+  std::array<double, N> weight;
   for (int i = 0; i < N; ++i)
   {
+    weight[i] = this->WeightOf(factor.dof[i]);
     const auto found = std::find(dof.begin(), dof.end(), factor.dof[i]);
     patch.corner[i] = static_cast<std::uint8_t>(found != dof.end() ? found - dof.begin() : 0);
   }
   for (int k = 0; k < N * N; ++k)
   {
-    patch.factor[k] = static_cast<float>(factor.V.data()[k]);
+    // Of the lower triangle column j belongs to unknown j; the upper one is its mirror image.
+    patch.factor[k] = static_cast<float>(factor.V.data()[k] * weight[std::min(k / N, k % N)]);
   }
   return factor.isComplete;
 }
 
+float StencilBlocks::EntryOf(const SparseMatrix& A, Index row, Id k) const
+{
+  return static_cast<float>(
+    weight_.empty() ? A.value[k] : A.value[k] / weight_[row] / weight_[A.column[k]]);
+}
+
 void StencilBlocks::FillRows(const SparseMatrix& A, const PatchOrder& order, int threads)
 {
+  scaled_.assign(blocks_.size(), {});
   ParallelBlocks(static_cast<Id>(blocks_.size()), threads,
     [&](Id b)
     {
       const Block& block = blocks_[b];
       StencilRow* const rows = rows_.data() + block.firstRow;
+      const Index* const unknowns = this->Unknowns(block);
+      for (Index i = 1; !weight_.empty() && i < block.count; ++i)
+      {
+        if (weight_[unknowns[i]] != 1.0)
+        {
+          scaled_[b].push_back({ i, weight_[unknowns[i]] });
+        }
+      }
       rows[0].value.fill(0.0f);
       for (Index i = 1; i <= block.own; ++i)
       {
         rows[i].value.fill(0.0f);
-        ForEachPlace(A, order.corner, this->Unknowns(block)[i],
-          [&](Id k, unsigned place) { rows[i].value[place] = static_cast<float>(A.value[k]); });
+        ForEachPlace(A, order.corner, unknowns[i],
+          [&](Id k, unsigned place) { rows[i].value[place] = this->EntryOf(A, unknowns[i], k); });
       }
       for (Id p = order.blockBegin[b]; p < order.blockBegin[b + 1]; ++p)
       {
@@ -419,10 +427,11 @@ void StencilBlocks::FillOwnRows(
     StencilRow& row = rows_[block.firstRow + patch.row[c]];
     row.value.fill(0.0f);
     const Index* const unknowns = this->Unknowns(block);
-    ForEachPlace(A, order.corner, unknowns[patch.slot[OwnSlot(c)]],
+    const Index own = unknowns[patch.slot[OwnSlot(c)]];
+    ForEachPlace(A, order.corner, own,
       [&](Id k, unsigned place)
       {
-        const auto value = static_cast<float>(A.value[k]);
+        const float value = this->EntryOf(A, own, k);
         if (unknowns[patch.slot[SlotOf(c, place)]] == A.column[k])
         {
           row.value[place] = value;
@@ -437,7 +446,8 @@ std::size_t StencilBlocks::Memory() const
 {
   return blocks_.size() * sizeof(Block) + unknowns_.size() * sizeof(Index) +
          rows_.size() * sizeof(StencilRow) + patches_.size() * sizeof(Patch) +
-         extras_.size() * sizeof(Extra);
+         extras_.size() * sizeof(Extra) + weight_.size() * sizeof(double) +
+         scaled_.size() * sizeof(scaled_.front());
 }
 
 } // namespace gridfem

@@ -60,6 +60,15 @@ public:
     Local column;
   };
 
+  /// An unknown of a block whose numbers would leave the range of single precision, as those of a
+  /// function on a sliver of a cell do: `weight` times its value takes the place of the value, in
+  /// rows and factors as well.
+  struct Scaled
+  {
+    Index number;
+    double weight; // a power of two near the root of the diagonal
+  };
+
   /// The slot of a patch's own unknown.
   static constexpr unsigned OwnSlot(unsigned corner)
   {
@@ -67,9 +76,8 @@ public:
   }
 
   /// Empty where the order has no corners, a patch is not a cell's, a block has too many unknowns,
-  /// so many functions share corners that half of the rows would be single patches', numbers are
-  /// too large for single precision, or it does not resolve all directions of more than a tenth of
-  /// the patches.
+  /// so many functions share corners that half of the rows would be single patches', or single
+  /// precision does not resolve all directions of more than a tenth of the patches.
   StencilBlocks(const SparseMatrix& A, const PatchOrder& order, int threads);
 
   /// Takes the values of a matrix with the same pattern.
@@ -86,8 +94,10 @@ public:
   const StencilRow* Rows(const Block& block) const { return rows_.data() + block.firstRow; }
   const Patch& PatchAt(Id patch) const { return patches_[patch]; }
   const Extra* Extras(const Patch& patch) const { return extras_.data() + patch.firstExtra; }
-  /// Patches, ascending, with directions that single precision does not resolve, which their
-  /// factors leave out, or with diagonals below its range: their factors are zero.
+  /// The unknowns of a block that are scaled; of most blocks none.
+  const std::vector<Scaled>& ScaledOf(Id block) const { return scaled_[block]; }
+  /// Patches, ascending, with directions that single precision does not resolve: their factors
+  /// leave these out.
   const std::vector<Id>& Unresolved() const { return unresolved_; }
   Id NumberOfPatches() const { return static_cast<Id>(patches_.size()); }
   std::size_t Memory() const;
@@ -96,7 +106,9 @@ private:
   struct Draft;
   bool Lay(const SparseMatrix& A, const PatchOrder& order, int threads);
   bool FillFactors(const SparseMatrix& A, const PatchOrder& order, int threads);
-  static bool SetFactor(const PatchFactor& factor, const std::array<Index, N>& dof, Patch& patch);
+  bool SetFactor(const PatchFactor& factor, const std::array<Index, N>& dof, Patch& patch) const;
+  double WeightOf(Index unknown) const { return weight_.empty() ? 1.0 : weight_[unknown]; }
+  float EntryOf(const SparseMatrix& A, Index row, Id k) const;
   void FillRows(const SparseMatrix& A, const PatchOrder& order, int threads);
   void FillOwnRows(
     const SparseMatrix& A, const PatchOrder& order, const Block& block, const Patch& patch);
@@ -107,6 +119,8 @@ private:
   Array<StencilRow> rows_;
   Array<Patch> patches_;
   Array<Extra> extras_;
+  std::vector<double> weight_;              // per unknown; empty where all are 1
+  std::vector<std::vector<Scaled>> scaled_; // per block
   std::vector<Id> unresolved_;
 };
 

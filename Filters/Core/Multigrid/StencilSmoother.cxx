@@ -283,6 +283,18 @@ private:
     const auto data = [](Numbers<Width>* of) { return reinterpret_cast<float*>(of); };
     Load<Width>(b, unknowns, own, first, columns, data(load));
     Load<Width>(x, unknowns, block.count, first, columns, data(solution));
+    const std::vector<StencilBlocks::Scaled>& scaled = blocks_.ScaledOf(index);
+    for (const auto& [i, weight] : scaled)
+    {
+      for (Id c = 0; c < columns; ++c)
+      {
+        data(solution)[Width * i + c] = static_cast<float>(x(unknowns[i], first + c) * weight);
+        if (i < own)
+        {
+          data(load)[Width * i + c] = static_cast<float>(b(unknowns[i], first + c) / weight);
+        }
+      }
+    }
     const bool forward = direction == SweepDirection::Forward;
     const Id begin = ranges_.blockBegin[index];
     const Id last = ranges_.blockBegin[index + 1] - 1;
@@ -295,6 +307,13 @@ private:
       Relax<Width>(patch, rows, blocks_.Extras(patch), load, solution);
     }
     Store<Width>(data(solution), unknowns, own, first, columns, x);
+    for (const auto& [i, weight] : scaled)
+    {
+      for (Id c = 0; i < own && c < columns; ++c)
+      {
+        x(unknowns[i], first + c) /= weight;
+      }
+    }
   }
 
   Index rows_;

@@ -31,7 +31,9 @@ TEST(Stagnation, IsTooSlowWhenThePaceDoesNotLeadToTheTolerance)
   for (const int maximum : { 30, 100, 1000 })
   {
     const double needed = std::pow(1e-6, 1.0 / maximum);
-    for (const int iterations : { Stagnation::PaceWindow, Stagnation::PaceWindow + 7 })
+    const int patience =
+      std::max(Stagnation::PaceWindow, std::min(Stagnation::Patience, maximum / 2));
+    for (const int iterations : { patience, patience + 7 })
     {
       EXPECT_TRUE(AfterIterations(iterations, needed * 1.0001, 1e-6, maximum).IsTooSlow());
       EXPECT_FALSE(AfterIterations(iterations, needed * 0.9999, 1e-6, maximum).IsTooSlow());
@@ -41,8 +43,10 @@ TEST(Stagnation, IsTooSlowWhenThePaceDoesNotLeadToTheTolerance)
 
 TEST(Stagnation, TakesItsTime)
 {
-  EXPECT_FALSE(AfterIterations(Stagnation::PaceWindow - 1, 1.0, 1e-6, 100).IsTooSlow());
-  EXPECT_TRUE(AfterIterations(Stagnation::PaceWindow, 1.0, 1e-6, 100).IsTooSlow());
+  EXPECT_FALSE(AfterIterations(Stagnation::PaceWindow - 1, 1.0, 1e-6, 30).IsTooSlow());
+  EXPECT_TRUE(AfterIterations(Stagnation::PaceWindow, 1.0, 1e-6, 30).IsTooSlow());
+  EXPECT_FALSE(AfterIterations(Stagnation::Patience - 1, 1.0, 1e-6, 1000).IsTooSlow());
+  EXPECT_TRUE(AfterIterations(Stagnation::Patience, 1.0, 1e-6, 1000).IsTooSlow());
   EXPECT_FALSE(AfterIterations(Stagnation::StandstillWindow - 1, 1.0, 1e-6, 100).IsAtStandstill());
   EXPECT_TRUE(AfterIterations(Stagnation::StandstillWindow, 1.0, 1e-6, 100).IsAtStandstill());
 }
