@@ -54,8 +54,14 @@ struct LargestNumbers
   void operator+=(const LargestNumbers& other) { value = value.max(other.value); }
 };
 
-/// Per column a power of two near the largest number; 1 for a column of zeros or without a bound.
-Eigen::ArrayXd UnitsOf(const MultiVector& b, int threads)
+const DividedRows* RowsOf(const MultigridLevel& level)
+{
+  return level.divided ? &level.divided->Rows() : nullptr;
+}
+
+/// Per column a power of two near the largest number, or the sum of the largest of all processes;
+/// 1 for a column of zeros or without a bound.
+Eigen::ArrayXd UnitsOf(const MultiVector& b, const DividedRows* divided, int threads)
 {
   Eigen::ArrayXd unit = ParallelSum(b.rows(), ThreadsFor(b.size(), threads),
     LargestNumbers{ Eigen::ArrayXd::Zero(b.cols()) },
@@ -64,6 +70,7 @@ Eigen::ArrayXd UnitsOf(const MultiVector& b, int threads)
       const auto rows = b.middleRows(begin, end - begin);
       return { rows.cwiseAbs().colwise().maxCoeff().transpose().array() };
     }).value;
+  SumOverProcesses(divided, unit);
   for (double& value : unit)
   {
     value = std::isnormal(value) ? std::exp2(std::ilogb(value)) : 1.0;
@@ -154,6 +161,22 @@ void Multigrid::BuildSolvers()
     }
   }
   coarse_ = CoarseSolver(levels_.back().A, options_.threads);
+  this->FindSingle();
+}
+
+/// Where processes divide levels, what one of them has counts for all: they go the same way.
+void Multigrid::FindSingle()
+{
+  std::vector<double> single(levels_.size());
+  std::transform(levels_.begin(), levels_.end(), single.begin(),
+    [](const MultigridLevel& level)
+    { return level.smoother && level.smoother->IsSingle() ? 1.0 : 0.0; });
+  SumOverProcesses(RowsOf(levels_.front()), single);
+  isSingle_.assign(levels_.size(), 0);
+  for (std::size_t l = levels_.size(); l-- > 0;)
+  {
+    isSingle_[l] = single[l] > 0.0 || (l + 1 < levels_.size() && isSingle_[l + 1]);
+  }
 }
 
 std::unique_ptr<Smoother> Multigrid::MakeSmoother(std::size_t l)
@@ -185,9 +208,7 @@ std::unique_ptr<Smoother> Multigrid::MakeSmoother(MultigridLevel& level, Smoothe
     default:
       break;
   }
-  // Processes that divide a level have no scale in common (Correct), so theirs stay in double.
-  const bool mayBeSingle = options_.precision == FactorPrecision::Mixed &&
-                           level.groups.dof.empty() && !levels_.front().divided;
+  const bool mayBeSingle = options_.precision == FactorPrecision::Mixed && level.groups.dof.empty();
   bool patternFits = true;
   auto single = mayBeSingle
                   ? MakeStencilSmoother(level.A, level.order, options_.threads, &patternFits)
@@ -327,23 +348,17 @@ void Multigrid::CheckRows(std::size_t level, const MultiVector& b) const
   }
 }
 
-bool Multigrid::IsSingle(std::size_t from) const
-{
-  return std::any_of(levels_.begin() + static_cast<Id>(from), levels_.end(),
-    [](const MultigridLevel& level) { return level.smoother && level.smoother->IsSingle(); });
-}
-
 /// x = B b. Single precision gets numbers near 1, whatever those of b are.
 void Multigrid::Correct(
   std::size_t l, const MultiVector& b, MultiVector& x, std::vector<Scratch>& scratch) const
 {
-  if (!this->IsSingle(l))
+  if (!isSingle_[l])
   {
     this->CycleLevel(l, b, x, true, scratch);
     return;
   }
   MultiVector& scaled = scratch[l].scaled;
-  const Eigen::ArrayXd unit = UnitsOf(b, options_.threads);
+  const Eigen::ArrayXd unit = UnitsOf(b, RowsOf(levels_[l]), options_.threads);
   Scale(b, unit.inverse(), scaled, options_.threads);
   this->CycleLevel(l, scaled, x, true, scratch);
   Scale(x, unit, x, options_.threads);
@@ -353,7 +368,7 @@ void Multigrid::Correct(
 void Multigrid::Improve(
   std::size_t l, const MultiVector& b, MultiVector& x, std::vector<Scratch>& scratch) const
 {
-  if (!this->IsSingle(l))
+  if (!isSingle_[l])
   {
     this->CycleLevel(l, b, x, false, scratch);
     return;
@@ -361,7 +376,12 @@ void Multigrid::Improve(
   MultiVector& scaled = scratch[l].scaled;
   MultiVector& correction = scratch[l].correction;
   Residual(levels_[l].A, x, b, scaled, options_.threads);
-  const Eigen::ArrayXd unit = UnitsOf(scaled, options_.threads);
+  if (const DividedRows* divided = RowsOf(levels_[l]))
+  {
+    scaled.topRows(divided->Foreign()) -= b.topRows(divided->Foreign());
+    divided->Sum(scaled);
+  }
+  const Eigen::ArrayXd unit = UnitsOf(scaled, RowsOf(levels_[l]), options_.threads);
   Scale(scaled, unit.inverse(), scaled, options_.threads);
   this->CycleLevel(l, scaled, correction, true, scratch);
   double* const target = x.data();

@@ -63,8 +63,8 @@ struct MultigridLevel
 };
 
 /// A hierarchy that is ready to cycle. Const methods are safe to call from several threads, but
-/// where processes divide a level: there all of them call each method, in the same order. Vectors
-/// of a divided level have a row for each unknown that this process holds.
+/// where processes divide a level: there all of them make it and call each method, in the same
+/// order. Vectors of a divided level have a row for each unknown that this process holds.
 class Multigrid
 {
 public:
@@ -112,6 +112,7 @@ public:
 
 private:
   void BuildSolvers();
+  void FindSingle();
   std::unique_ptr<Smoother> MakeSmoother(std::size_t level);
   std::unique_ptr<Smoother> MakeSmoother(MultigridLevel& level, SmootherType type);
   LevelSmoothing SmoothingOf(std::size_t level) const;
@@ -130,7 +131,6 @@ private:
   void CheckRows(std::size_t level, const MultiVector& b) const;
   void RestrictResidual(std::size_t level, const MultiVector& b, const MultiVector* x,
     MultiVector& residual, MultiVector& coarse) const;
-  bool IsSingle(std::size_t from) const; // on this or a coarser level
   void Correct(
     std::size_t level, const MultiVector& b, MultiVector& x, std::vector<Scratch>& scratch) const;
   void Improve(
@@ -143,6 +143,7 @@ private:
     std::vector<Scratch>& scratch) const;
 
   std::vector<MultigridLevel> levels_;
+  std::vector<char> isSingle_; // per level: whether it or a coarser one sweeps in single precision
   CoarseSolver coarse_;
   MultigridOptions options_;
   std::unique_ptr<ScratchPool> scratch_ = std::make_unique<ScratchPool>();

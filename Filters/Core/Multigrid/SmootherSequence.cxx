@@ -31,6 +31,12 @@ public:
       [](const auto& smoother) { return smoother->HasSingleFactors(); });
   }
 
+  bool IsSingle() const override
+  {
+    return std::any_of(smoothers_.begin(), smoothers_.end(),
+      [](const auto& smoother) { return smoother->IsSingle(); });
+  }
+
   std::size_t Memory() const override
   {
     std::size_t bytes = 0;

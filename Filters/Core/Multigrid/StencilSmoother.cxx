@@ -174,6 +174,11 @@ public:
     : rows_(A.rows), ranges_{ order.blockBegin, order.colourBegin }, blocks_(std::move(blocks)),
       rest_(this->MakeRest(A, order, threads))
   {
+    for (Id block = 0; block + 1 < static_cast<Id>(ranges_.blockBegin.size()); ++block)
+    {
+      const StencilBlocks::Block& of = blocks_.BlockAt(block);
+      roomOfBlock_ = std::max<Id>(roomOfBlock_, of.own + 1 + of.count);
+    }
   }
 
   void Sweep(const SparseMatrix& A, const MultiVector& b, MultiVector& x, SweepDirection direction,
@@ -236,19 +241,24 @@ private:
   void SweepStencils(
     const MultiVector& b, MultiVector& x, SweepDirection direction, int threads) const
   {
-    VisitBlocks(ranges_, direction, ThreadsFor(64 * x.cols() * blocks_.NumberOfPatches(), threads),
+    const int team = ThreadsFor(64 * x.cols() * blocks_.NumberOfPatches(), threads);
+    // For the numbers of a block, of each thread: no exception leaves their parallel region.
+    std::vector<Numbers<4>> room(roomOfBlock_ * NumberOfThreads(team));
+    VisitBlocks(ranges_, direction, team,
       [&](Id block)
       {
+        Numbers<4>* const own = room.data() + roomOfBlock_ * omp_get_thread_num();
         for (Id first = 0; first < x.cols(); first += 4)
         {
           const Id columns = std::min<Id>(4, x.cols() - first);
           if (columns == 1)
           {
-            this->RelaxBlock<1>(block, b, x, first, columns, direction);
+            this->RelaxBlock(
+              block, b, x, first, columns, direction, reinterpret_cast<Numbers<1>*>(own));
           }
           else
           {
-            this->RelaxBlock<4>(block, b, x, first, columns, direction);
+            this->RelaxBlock(block, b, x, first, columns, direction, own);
           }
         }
       });
@@ -265,11 +275,30 @@ private:
   }
 
   template<int Width>
-  void RelaxBlock(Id index, const MultiVector& b, MultiVector& x, Id first, Id columns,
-    SweepDirection direction) const
+  EIGEN_ALWAYS_INLINE void RelaxPatches(
+    Id index, const Numbers<Width>* b, Numbers<Width>* x, SweepDirection direction) const
   {
+    const StencilRow* const rows = blocks_.Rows(blocks_.BlockAt(index));
+    const bool forward = direction == SweepDirection::Forward;
+    const Id begin = ranges_.blockBegin[index];
+    const Id last = ranges_.blockBegin[index + 1] - 1;
+    const auto patchAt = [&](Id step) // or the last one
+    { return forward ? std::min(begin + step, last) : std::max(last - step, begin); };
+    for (Id step = 0; step <= last - begin; ++step)
+    {
+      this->FetchAhead(rows, patchAt(step + 2), patchAt(step + 4));
+      const Patch& patch = blocks_.PatchAt(patchAt(step));
+      Relax<Width>(patch, rows, blocks_.Extras(patch), b, x);
+    }
+  }
+
+  /// Numbers of one block, in single precision from when they are loaded until they are stored.
+  template<class Lanes>
+  void RelaxBlock(Id index, const MultiVector& b, MultiVector& x, Id first, Id columns,
+    SweepDirection direction, Lanes* load) const
+  {
+    constexpr int Width = sizeof(Lanes) / sizeof(float);
     const StencilBlocks::Block& block = blocks_.BlockAt(index);
-    const StencilRow* const rows = blocks_.Rows(block);
     const Index* const unknowns = blocks_.Unknowns(block);
     for (Index i = 1; i < block.count; ++i)
     {
@@ -277,14 +306,12 @@ private:
       Fetch(b.data() + x.cols() * Id(unknowns[i]));
     }
     const Index own = block.own + 1;
-    std::vector<Numbers<Width>> numbers(own + block.count);
-    Numbers<Width>* const load = numbers.data();
-    Numbers<Width>* const solution = load + own;
-    const auto data = [](Numbers<Width>* of) { return reinterpret_cast<float*>(of); };
+    Lanes* const solution = load + own;
+    const auto data = [](Lanes* of) { return reinterpret_cast<float*>(of); };
     Load<Width>(b, unknowns, own, first, columns, data(load));
     Load<Width>(x, unknowns, block.count, first, columns, data(solution));
     const std::vector<StencilBlocks::Scaled>& scaled = blocks_.ScaledOf(index);
-    for (const auto& [i, weight] : scaled)
+    for (const auto& [i, weight] : scaled) // which Load has taken out of the range
     {
       for (Id c = 0; c < columns; ++c)
       {
@@ -295,17 +322,7 @@ private:
         }
       }
     }
-    const bool forward = direction == SweepDirection::Forward;
-    const Id begin = ranges_.blockBegin[index];
-    const Id last = ranges_.blockBegin[index + 1] - 1;
-    const auto patchAt = [&](Id step) // or the last one
-    { return forward ? std::min(begin + step, last) : std::max(last - step, begin); };
-    for (Id step = 0; step <= last - begin; ++step)
-    {
-      this->FetchAhead(rows, patchAt(step + 2), patchAt(step + 4));
-      const Patch& patch = blocks_.PatchAt(patchAt(step));
-      Relax<Width>(patch, rows, blocks_.Extras(patch), load, solution);
-    }
+    this->RelaxPatches<Width>(index, load, solution, direction);
     Store<Width>(data(solution), unknowns, own, first, columns, x);
     for (const auto& [i, weight] : scaled)
     {
@@ -319,6 +336,7 @@ private:
   Index rows_;
   BlockRanges ranges_;
   StencilBlocks blocks_;
+  Id roomOfBlock_ = 0; // numbers of the largest one
   std::unique_ptr<Smoother> rest_;
 };
 
