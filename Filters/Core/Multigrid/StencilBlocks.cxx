@@ -18,7 +18,8 @@ constexpr Index None = -1;
 
 /// What share of patches may have pivots below SmallestPivotOfSingle. They are relaxed once more in
 /// double precision. Beyond, sweeps gain little, and iterations to small tolerances grow: with 4 %
-/// of a part with many walls (cheese, depth 6) from 41 to 51 to 1e-10, in seven eighths of the time.
+/// of a part with many walls (cheese, depth 6) from 41 to 51 to 1e-10, in seven eighths of the
+/// time.
 constexpr double UnresolvedShare = 0.1;
 
 /// Where the entry of a column stands in a row: PatchOrder::corner of both differ by -17 to 17.
