@@ -1,0 +1,79 @@
+"""A filter while the process cannot grow: the limit, and what a run under it gives.
+
+    pvpython running_out.py MEGABYTES
+
+is what a new process does: no thread has been started yet, no memory is left from before, and ParaView's
+proxies, which take a second to load, are not there."""
+import os
+import resource
+import sys
+
+import gridfem.vtkGridFEMFilters
+from vtkmodules.util.vtkConstants import VTK_STRING
+from vtkmodules.vtkFiltersSources import vtkSphereSource
+
+MEGABYTE = 1 << 20
+
+
+def address_space():
+    """Bytes of addresses that the process has, which is what the limit counts."""
+    with open("/proc/self/statm", encoding="ascii") as statm:
+        return int(statm.read().split()[0]) * resource.getpagesize()
+
+
+class Limit:
+    """While it holds, the process can grow by so many bytes."""
+
+    def __init__(self, room):
+        self.room = room
+
+    def __enter__(self):
+        resource.setrlimit(resource.RLIMIT_AS, (address_space() + self.room, resource.RLIM_INFINITY))
+
+    def __exit__(self, *_):
+        resource.setrlimit(resource.RLIMIT_AS, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
+
+
+class Outcome:
+    """What one run gave: its messages, whether all outputs are empty, how many of the stages were done."""
+
+    def __init__(self, algorithm, room=None, stages=()):
+        self.errors = []
+
+        def listen(_, __, text):
+            self.errors.append(text)
+
+        listen.CallDataType = VTK_STRING
+        observer = algorithm.AddObserver("ErrorEvent", listen)
+        before = [algorithm.GetNumberOfRuns(stage) for stage in stages]
+        algorithm.Modified()
+        if room is None:
+            algorithm.Update()
+        else:
+            with Limit(room):
+                algorithm.Update()
+        algorithm.RemoveObserver(observer)
+        after = [algorithm.GetNumberOfRuns(stage) for stage in stages]
+        self.stages = sum(b - a for a, b in zip(before, after))
+        ports = range(algorithm.GetNumberOfOutputPorts())
+        self.is_empty = not any(
+            algorithm.GetOutputDataObject(port).GetNumberOfElements(kind) > 0
+            for port in ports for kind in (0, 1, 6))  # points, cells, rows
+
+
+def main(room):
+    sphere = vtkSphereSource()
+    sphere.SetThetaResolution(160)
+    sphere.SetPhiResolution(160)
+    sphere.Update()
+    algorithm = gridfem.vtkGridFEMFilters.vtkScreenedPoisson()
+    algorithm.SetInputData(sphere.GetOutput())
+    algorithm.SetDepth(6)
+    algorithm.SetNumberOfThreads(2)  # on one processor, too
+    for outcome in Outcome(algorithm, room), Outcome(algorithm):
+        says = outcome.errors[0].rsplit("): ", 1)[-1].strip() if outcome.errors else ""
+        os.write(1, f"{len(outcome.errors)} {outcome.is_empty} {says}\n".encode())
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]) * MEGABYTE)
