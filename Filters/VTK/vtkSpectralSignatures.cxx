@@ -76,6 +76,20 @@ bool HasPolygons(vtkPolyData* piece)
   return piece && piece->GetNumberOfPolys() + piece->GetNumberOfStrips() > 0;
 }
 
+/// Throws InvalidInput where all modes are constants and more exist: that says how many it takes.
+void RequireNonConstant(const gridfem::Spectrum& spectrum)
+{
+  const auto modes = static_cast<gridfem::Index>(spectrum.eigenvalues.size());
+  if (modes <= spectrum.numberOfConstants && !spectrum.truncated)
+  {
+    const std::string components = std::to_string(spectrum.numberOfConstants);
+    throw gridfem::InvalidInput("All " + std::to_string(modes) +
+                                " modes are constants: the surface has " + components +
+                                " connected components, each with one. Signatures need a " +
+                                "NumberOfModes above " + components + ".");
+  }
+}
+
 } // namespace
 
 struct vtkSpectralSignatures::Internals
@@ -157,6 +171,7 @@ void vtkSpectralSignatures::ComputeModes(vtkPolyData* input, vtkPolyData* basis)
   request.numberOfModes = this->NumberOfModes;
   request.completeMultiplets = true;
   data.Solved.Update(state, input, basis, request);
+  RequireNonConstant(data.Solved.spectrum);
   gridfem::StageKey key;
   key.Add(true).Add(state.stages.Version(gridfem::SolveStage));
   if (key == data.ModesKey)
@@ -496,6 +511,7 @@ void vtkSpectralSignatures::ComputeModesTogether(
   request.completeMultiplets = true;
   state.UpdateTogether(piece);
   data.Solved.UpdateTogether(state, request, progress.Part(0.3, 1.0));
+  RequireNonConstant(data.Solved.spectrum);
   data.ModesKey = {};
   data.Mesh = state.mesh;
   data.Modes.area = state.together.Area();

@@ -71,6 +71,31 @@ class FirstApply(unittest.TestCase):
         self.assertEqual(styles[styles.index("Eigenvalue") + 1], "0")
         self.assertEqual(marks[marks.index("Eigenvalue") + 1], "4")
 
+    def test_axes_of_charts_have_titles_and_keep_those_of_the_user(self):
+        for name, bottom, left in (("LaplaceSpectrum", "Mode", "Eigenvalue"),
+                                   ("MeanCurvatureFlow", "Time of the flow", "Sphericity"),
+                                   ("ScreenedPoisson", "Iteration", "log10 of the relative error")):
+            proxy = self.apply(name)
+            for own in ("", "mine"):
+                with self.subTest(proxy=name, own=own):
+                    view = simple.CreateView("XYChartView")
+                    view.LeftAxisTitle = own
+                    simple.Show(simple.OutputPort(proxy, 1), view)
+                    view.Update()
+                    self.assertEqual((view.BottomAxisTitle, view.LeftAxisTitle), (bottom, own or left))
+                    view.BottomAxisTitle = ""
+                    view.Update()
+                    self.assertEqual(view.BottomAxisTitle, "")
+
+    def test_a_script_keeps_its_time_and_its_view(self):
+        flow = simple.MeanCurvatureFlow(Input=self.surface, Depth=DEPTH)
+        simple.Show(flow, simple.CreateRenderView())
+        chart = simple.CreateView("XYChartView")
+        simple.Show(simple.OutputPort(flow, 1), chart)
+        chart.Update()
+        self.assertEqual(simple.GetActiveView(), chart)
+        self.assertEqual(simple.GetAnimationScene().AnimationTime, 0.0)
+
     def test_components_of_signatures_bear_their_times(self):
         array = plugin.data(self.apply("SpectralSignatures")).GetPointData().GetArray(
             "HeatKernelSignature")

@@ -1,6 +1,7 @@
 # Drives the real program: opens a file, and with every filter of the menu Surface FEM in turn applies it,
 # changes its Depth, undoes that, does it again and deletes the filter; reads back the states that were
-# saved in between, and looks at what the first Apply has shown.
+# saved in between, and looks at what the first Apply has shown. Filters that compute nothing without an
+# array are applied without one first, as whoever tries them does.
 source "$(dirname "$(readlink -f "$0")")/Gui/drive.sh"
 
 panel=pqClientMainWindow/propertiesDock/propertiesPanel
@@ -32,10 +33,14 @@ Edits() {
       Event "$menus/menuFilters/Surface FEM" activate "$filter"
       case $filter in
         StitchColors)
+          ApplyAt 5
           Choose ColorArray colors
           Choose LabelArray label
           ;;
-        HarmonicInterpolation) Choose ValueArray height ;;
+        HarmonicInterpolation)
+          ApplyAt 5
+          Choose ValueArray height
+          ;;
       esac
       ApplyAt 5
       Save "$filter.Shown"
@@ -52,10 +57,8 @@ Edits() {
 
 pvpython "$here/Gui/write_colored_sphere.py" "$work/sphere.vtp"
 filters=$(sed -n 's/.*<SourceProxy name="\([A-Za-z]*\)".*/\1/p' "$GRIDFEM_SOURCE_DIR"/Plugin/*.xml)
-# A chart that opens is the active view from then on, and no place for the next filter: those that open
-# one come last.
-# shellcheck disable=SC2046 # a word for each filter
-Edits $(echo "$filters" | grep -v -e LaplaceSpectrum -e MeanCurvatureFlow) MeanCurvatureFlow
-Edits LaplaceSpectrum
+# All in one window: charts open beside two of them, and what comes next has to be seen all the same.
+# shellcheck disable=SC2086 # a word for each filter
+Edits $filters
 # shellcheck disable=SC2086
 pvpython "$here/Gui/check_edits.py" "$work" $filters

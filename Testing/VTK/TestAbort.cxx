@@ -2,21 +2,7 @@
 // leaves a filter that works. Seconds are those that the process computes on one thread, so that
 // other work on the machine does not count; with more threads it takes less time.
 
-#include "FilterSupport.h"
-
-#include "vtkClipToOctree.h"
-#include "vtkConnectivityAwareBasis.h"
-#include "vtkGeodesicDistance.h"
-#include "vtkHarmonicInterpolation.h"
-#include "vtkHeatDiffusion.h"
-#include "vtkLaplaceSpectrum.h"
-#include "vtkMeanCurvatureFlow.h"
-#include "vtkPrincipalCurvatures.h"
-#include "vtkScreenedPoisson.h"
-#include "vtkSpectralSignatures.h"
-#include "vtkStitchColors.h"
-#include "vtkSurfaceDetail.h"
-#include "vtkSurfaceGradient.h"
+#include "AllFilters.h"
 
 #include "vtkSphereSource.h"
 
@@ -81,55 +67,6 @@ private:
   std::thread thread_;
 };
 
-template<class Filter>
-vtkSmartPointer<vtkSurfaceFEMAlgorithm> Make()
-{
-  return vtkSmartPointer<Filter>::New();
-}
-
-template<class Filter>
-vtkSmartPointer<vtkSurfaceFEMAlgorithm> MakeWithArray(const char* name)
-{
-  auto filter = Make<Filter>();
-  filter->SetInputArrayToProcess(0, 0, 0, Points, name);
-  return filter;
-}
-
-vtkSmartPointer<vtkSurfaceFEMAlgorithm> MakeInterpolation()
-{
-  return MakeWithArray<vtkHarmonicInterpolation>("few");
-}
-
-vtkSmartPointer<vtkSurfaceFEMAlgorithm> MakeGradient()
-{
-  return MakeWithArray<vtkSurfaceGradient>("f");
-}
-
-vtkSmartPointer<vtkSurfaceFEMAlgorithm> MakeStitching()
-{
-  auto filter = MakeWithArray<vtkStitchColors>("f");
-  filter->SetInputArrayToProcess(1, 0, 0, Points, "label");
-  return filter;
-}
-
-vtkSmartPointer<vtkSurfaceFEMAlgorithm> MakeHats()
-{
-  auto filter = Make<vtkScreenedPoisson>();
-  filter->SetFunctionSpace(vtkSurfaceFEMAlgorithm::HatFunctions);
-  return filter;
-}
-
-struct FilterCase
-{
-  const char* name;
-  vtkSmartPointer<vtkSurfaceFEMAlgorithm> (*make)();
-};
-
-void PrintTo(const FilterCase& filter, std::ostream* stream)
-{
-  *stream << filter.name;
-}
-
 vtkSmartPointer<vtkPolyData> MillionTriangles()
 {
   vtkNew<vtkSphereSource> source;
@@ -137,13 +74,7 @@ vtkSmartPointer<vtkPolyData> MillionTriangles()
   source->SetPhiResolution(502);
   source->Update();
   vtkSmartPointer<vtkPolyData> sphere = source->GetOutput();
-  AddPointArray(sphere, "f", 1, Wave);
-  AddPointArray(sphere, "label", 1, [](const Vec3& p, int) { return p[0] > 0.0 ? 1.0 : 0.0; });
-  auto* few = AddPointArray(sphere, "few", 1, Wave);
-  for (vtkIdType point = 0; point < sphere->GetNumberOfPoints(); ++point)
-  {
-    few->SetValue(point, point % 1000 == 0 ? few->GetValue(point) : std::nan(""));
-  }
+  AddArraysOfAllFilters(sphere);
   return sphere;
 }
 
@@ -190,21 +121,6 @@ TEST_P(Abort, IsServedAtOnceAtAnyStage)
   EXPECT_TRUE(messages.errors.empty());
 }
 
-INSTANTIATE_TEST_SUITE_P(AllFilters, Abort,
-  ::testing::Values(FilterCase{ "ClipToOctree", &Make<vtkClipToOctree> },
-    FilterCase{ "ConnectivityAwareBasis", &Make<vtkConnectivityAwareBasis> },
-    FilterCase{ "GeodesicDistance", &Make<vtkGeodesicDistance> },
-    FilterCase{ "HarmonicInterpolation", &MakeInterpolation },
-    FilterCase{ "HeatDiffusion", &Make<vtkHeatDiffusion> },
-    FilterCase{ "LaplaceSpectrum", &Make<vtkLaplaceSpectrum> },
-    FilterCase{ "MeanCurvatureFlow", &Make<vtkMeanCurvatureFlow> },
-    FilterCase{ "PrincipalCurvatures", &Make<vtkPrincipalCurvatures> },
-    FilterCase{ "ScreenedPoisson", &Make<vtkScreenedPoisson> },
-    FilterCase{ "ScreenedPoissonOnHats", &MakeHats },
-    FilterCase{ "SpectralSignatures", &Make<vtkSpectralSignatures> },
-    FilterCase{ "StitchColors", &MakeStitching },
-    FilterCase{ "SurfaceDetail", &Make<vtkSurfaceDetail> },
-    FilterCase{ "SurfaceGradient", &MakeGradient }),
-  [](const auto& filter) { return std::string(filter.param.name); });
+INSTANTIATE_TEST_SUITE_P(AllFilters, Abort, AllFilters(), NameOf);
 
 } // namespace

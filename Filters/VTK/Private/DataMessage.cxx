@@ -273,7 +273,7 @@ void DataMessage::TakeArrays(vtkFieldData* arrays)
 
 void DataMessage::PutCells(vtkCellArray* cells)
 {
-  const bool isLong = cells && cells->IsStorage64Bit();
+  const bool isLong = cells && cells->GetConnectivityArray()->GetDataTypeSize() == 8;
   this->Put(isLong);
   this->Put(cells ? cells->GetNumberOfCells() : vtkIdType{ 0 });
   this->Put(cells ? cells->GetNumberOfConnectivityIds() : vtkIdType{ 0 });

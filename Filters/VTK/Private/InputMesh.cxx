@@ -6,14 +6,13 @@
 #include "Base/Parallel.h"
 #include "Grid/PolygonTriangles.h"
 
+#include "vtkAOSDataArrayTemplate.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkTypeInt32Array.h"
-#include "vtkTypeInt64Array.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
@@ -129,6 +128,19 @@ bool CopyTriangles(const Corner* corners, Id numberOfPoints, int threads, Triang
   return wrong == 0;
 }
 
+/// The same for what stores corners; false also where these are no plain array of either size, as
+/// VTK has them from 9.6 on.
+bool CopyTriangles(vtkCellArray* polys, Id numberOfPoints, int threads, TriangleMesh& mesh)
+{
+  vtkDataArray* const corners = polys->GetConnectivityArray();
+  if (auto* ids = vtkArrayDownCast<vtkAOSDataArrayTemplate<vtkTypeInt64>>(corners))
+  {
+    return CopyTriangles(ids->GetPointer(0), numberOfPoints, threads, mesh);
+  }
+  auto* ids = vtkArrayDownCast<vtkAOSDataArrayTemplate<vtkTypeInt32>>(corners);
+  return ids && CopyTriangles(ids->GetPointer(0), numberOfPoints, threads, mesh);
+}
+
 /// The short way for polygons that all are triangles. False, and nothing read, when they are not,
 /// or when something is wrong with one of them.
 bool ReadTriangles(
@@ -140,12 +152,7 @@ bool ReadTriangles(
   }
   const Id numberOfPoints = static_cast<Id>(triangles.points.size());
   triangles.triangles.resize(polys->GetNumberOfCells());
-  const bool isRight = polys->IsStorage64Bit()
-                         ? CopyTriangles(polys->GetConnectivityArray64()->GetPointer(0),
-                             numberOfPoints, threads, triangles)
-                         : CopyTriangles(polys->GetConnectivityArray32()->GetPointer(0),
-                             numberOfPoints, threads, triangles);
-  if (!isRight)
+  if (!CopyTriangles(polys, numberOfPoints, threads, triangles))
   {
     triangles.triangles.clear();
     return false;

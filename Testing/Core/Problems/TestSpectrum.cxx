@@ -246,6 +246,22 @@ TEST(Spectrum, ReportsProgressAndStopsWhenAsked)
   EXPECT_THROW(stopAt(0.5), Aborted);
 }
 
+TEST(Spectrum, TenThousandModesReportFromTheStartAndStopAtOnce)
+{
+  const Discretisation on = DiscretiseExactly(GeodesicSphere(16), 6);
+  SpectrumOptions options;
+  options.numberOfModes = 10000;
+  ASSERT_GT(on.space.Finest().numberOfFunctions, options.numberOfModes);
+  for (const int last : { 1, 20, 60 })
+  {
+    int reports = 0;
+    EXPECT_THROW(ComputeSpectrum(ViewOf(on.space, on.system), options,
+                   Progress([&](double) { return ++reports < last; })),
+      Aborted);
+    EXPECT_EQ(reports, last);
+  }
+}
+
 TEST(Spectrum, RefusesOptionsOutOfRange)
 {
   const Discretisation on = DiscretiseExactly(Box(2), 2);

@@ -1,4 +1,5 @@
-"""Whether the arrays that were chosen with the mouse are those that were computed on."""
+"""Whether the arrays that were chosen with the mouse are those that were computed on, and stitched colours
+are shown as they are."""
 import os
 import sys
 
@@ -22,3 +23,8 @@ if list(steep.GradientArray) != ["POINTS", "direction"]:
 highest = plugin.data(steep).GetPointData().GetArray("Solution").GetRange()[1]
 if not highest > 0.51:
     sys.exit(f"the gradients were not used: {highest}")
+stitched = simple.FindSource("StitchColors1")
+shown = [part for part in simple.GetRepresentations().values()
+         if getattr(part, "Input", None) == stitched and part.Visibility]
+if len(shown) != 1 or shown[0].ColorArrayName[1] != "StitchedColors" or shown[0].MapScalars:
+    sys.exit(f"stitched colours are shown {[(part.ColorArrayName, part.MapScalars) for part in shown]}")

@@ -1,6 +1,6 @@
-"""Whether a filter was shown alone, coloured by what it is for over the range of that, with its chart;
-had its first depth again after undo, the second after redo, where its state loads and computes; and
-nothing but the file is left after all were deleted."""
+"""Whether a filter was shown alone, coloured by what it is for over the range of that, with its chart and
+the titles of that, at the time of its result; had its first depth again after undo, the second after
+redo, where its state loads and computes; and nothing but the file is left after all were deleted."""
 import glob
 import math
 import os
@@ -38,6 +38,8 @@ COLORED_BY = {
 ZERO_IN_THE_MIDDLE = ("Bending", "Mode", "NormalDisplacement")
 shown = set()  # arrays, so far
 CHARTS = {"LaplaceSpectrum": ["Eigenvalue"], "MeanCurvatureFlow": ["Sphericity"]}
+TITLES = {"LaplaceSpectrum": ("Mode", "Eigenvalue"),
+          "MeanCurvatureFlow": ("Time of the flow", "Sphericity")}
 
 
 def visible(view_type):
@@ -52,6 +54,13 @@ def check_shown(name):
     charts = [list(chart.SeriesVisibility) for chart in visible("XYChartView")]
     if charts != ([CHARTS[name]] if name in CHARTS else []):
         sys.exit(f"{name}: charts show {charts}")
+    titles = {(view.BottomAxisTitle, view.LeftAxisTitle) for view in simple.GetViews("XYChartView")
+              if any(getattr(part, "Visibility", 0) for part in view.Representations)}
+    if titles != ({TITLES[name]} if name in TITLES else set()):
+        sys.exit(f"{name}: the axes are called {titles}")
+    time = simple.GetAnimationScene().AnimationTime
+    if name == "MeanCurvatureFlow" and time != source.NumberOfSteps:
+        sys.exit(f"{name}: shown is time {time}")
     seen = visible("RenderView")
     surfaces = [part for part in seen if hasattr(part, "ColorArrayName")]
     if len(surfaces) != 1 or surfaces[0].SMProxy.GetProperty("Input").GetProxy(0) != source.SMProxy:
@@ -59,6 +68,8 @@ def check_shown(name):
     association, array = surfaces[0].ColorArrayName
     if (array or "") != COLORED_BY[name]:
         sys.exit(f"{name}: coloured by {array}")
+    if name == "StitchColors" and (surfaces[0].MapScalars or len(seen) != 1):
+        sys.exit(f"{name}: the colours are not shown as they are")
     if not array or not surfaces[0].MapScalars:  # the shape alone, or colours as they are
         simple.ResetSession()
         return

@@ -1,0 +1,115 @@
+// Every filter, ready to run on a surface that has the arrays which they need.
+#ifndef GridFEM_Testing_AllFilters_h
+#define GridFEM_Testing_AllFilters_h
+
+#include "FilterSupport.h"
+
+#include "vtkClipToOctree.h"
+#include "vtkConnectivityAwareBasis.h"
+#include "vtkGeodesicDistance.h"
+#include "vtkHarmonicInterpolation.h"
+#include "vtkHeatDiffusion.h"
+#include "vtkLaplaceSpectrum.h"
+#include "vtkMeanCurvatureFlow.h"
+#include "vtkPrincipalCurvatures.h"
+#include "vtkScreenedPoisson.h"
+#include "vtkSpectralSignatures.h"
+#include "vtkStitchColors.h"
+#include "vtkSurfaceDetail.h"
+#include "vtkSurfaceGradient.h"
+
+#include <gtest/gtest.h>
+
+#include <ostream>
+
+namespace gridfem::testing
+{
+
+template<class Filter>
+vtkSmartPointer<vtkSurfaceFEMAlgorithm> Make()
+{
+  return vtkSmartPointer<Filter>::New();
+}
+
+template<class Filter>
+vtkSmartPointer<vtkSurfaceFEMAlgorithm> MakeWithArray(const char* name)
+{
+  auto filter = Make<Filter>();
+  filter->SetInputArrayToProcess(0, 0, 0, Points, name);
+  return filter;
+}
+
+inline vtkSmartPointer<vtkSurfaceFEMAlgorithm> MakeInterpolation()
+{
+  return MakeWithArray<vtkHarmonicInterpolation>("few");
+}
+
+inline vtkSmartPointer<vtkSurfaceFEMAlgorithm> MakeGradient()
+{
+  return MakeWithArray<vtkSurfaceGradient>("f");
+}
+
+inline vtkSmartPointer<vtkSurfaceFEMAlgorithm> MakeStitching()
+{
+  auto filter = MakeWithArray<vtkStitchColors>("f");
+  filter->SetInputArrayToProcess(1, 0, 0, Points, "label");
+  return filter;
+}
+
+inline vtkSmartPointer<vtkSurfaceFEMAlgorithm> MakeHats()
+{
+  auto filter = Make<vtkScreenedPoisson>();
+  filter->SetFunctionSpace(vtkSurfaceFEMAlgorithm::HatFunctions);
+  return filter;
+}
+
+struct FilterCase
+{
+  const char* name;
+  vtkSmartPointer<vtkSurfaceFEMAlgorithm> (*make)();
+};
+
+inline void PrintTo(const FilterCase& filter, std::ostream* stream)
+{
+  *stream << filter.name;
+}
+
+/// Adds the point arrays that they take.
+inline void AddArraysOfAllFilters(vtkPolyData* surface)
+{
+  AddPointArray(surface, "f", 1, Wave);
+  AddPointArray(surface, "label", 1, [](const Vec3& p, int) { return p[0] > 0.0 ? 1.0 : 0.0; });
+  auto* few = AddPointArray(surface, "few", 1, Wave);
+  for (vtkIdType point = 0; point < surface->GetNumberOfPoints(); ++point)
+  {
+    few->SetValue(point, point % 1000 == 0 ? few->GetValue(point) : std::nan(""));
+  }
+}
+
+/// The argument of INSTANTIATE_TEST_SUITE_P.
+inline auto AllFilters()
+{
+  return ::testing::Values(FilterCase{ "ClipToOctree", &Make<vtkClipToOctree> },
+    FilterCase{ "ConnectivityAwareBasis", &Make<vtkConnectivityAwareBasis> },
+    FilterCase{ "GeodesicDistance", &Make<vtkGeodesicDistance> },
+    FilterCase{ "HarmonicInterpolation", &MakeInterpolation },
+    FilterCase{ "HeatDiffusion", &Make<vtkHeatDiffusion> },
+    FilterCase{ "LaplaceSpectrum", &Make<vtkLaplaceSpectrum> },
+    FilterCase{ "MeanCurvatureFlow", &Make<vtkMeanCurvatureFlow> },
+    FilterCase{ "PrincipalCurvatures", &Make<vtkPrincipalCurvatures> },
+    FilterCase{ "ScreenedPoisson", &Make<vtkScreenedPoisson> },
+    FilterCase{ "ScreenedPoissonOnHats", &MakeHats },
+    FilterCase{ "SpectralSignatures", &Make<vtkSpectralSignatures> },
+    FilterCase{ "StitchColors", &MakeStitching },
+    FilterCase{ "SurfaceDetail", &Make<vtkSurfaceDetail> },
+    FilterCase{ "SurfaceGradient", &MakeGradient });
+}
+
+inline std::string NameOf(const ::testing::TestParamInfo<FilterCase>& filter)
+{
+  return filter.param.name;
+}
+
+} // namespace gridfem::testing
+
+#endif
