@@ -105,6 +105,13 @@ public:
   /// Per point of this rank: 1 where a function of any rank reaches it.
   std::vector<char> PointsWithFunctions() const;
 
+  /// Values that are held at this rank's own points (HoldPoints).
+  HeldValues Hold(const std::vector<Id>& points, const MultiVector& values) const;
+
+  /// What the boundary of the whole adds to an equation (TermsOnBoundary).
+  BoundaryTerms OnBoundary(
+    bool weldCoincidentPoints, const MultiVector* flux, const MultiVector* values) const;
+
   /// The known values of an array, which are held (KnownValues, HoldPoints).
   /// @param array  agreed on, or of the coordinates; null on ranks without these
   /// @param mesh   as BuildSpace has given it
