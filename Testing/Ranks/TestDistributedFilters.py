@@ -38,11 +38,14 @@ CASES = {
         "ScreenedPoisson", {"BoundaryValues": True, "FillUnknown": True,
                             "arrays": {0: "hole", 3: "f2", 4: "mask", 6: "f"}}, 1e-7),
     "heat, boundary": ("HeatDiffusion", {"DiffusionTime": 0.01, "BoundaryValues": True}, 1e-7),
+    # Heat is relaxed until distances are right to some 1e-4.
+    "distance": ("GeodesicDistance", {}, 2e-3),
+    "distance from points": ("GeodesicDistance", {"arrays": {0: "spots"}}, 2e-3),
     "signatures": ("SpectralSignatures", {}, 1e-5),
     "high pass": ("SpectralSignatures", {"FilterType": 2, "FirstMode": 3, "arrays": {0: "f"}}, 1e-5),
 }
 KINDS = ("last", "contiguous", "ghosts", "scattered", "one rank is empty", "all on all")
-POINT_NAMES = ("f", "f2", "v", "mask", "hole")
+POINT_NAMES = ("f", "f2", "v", "mask", "spots", "hole")
 # Of the bowl, which has a boundary; what they warn of is the same on one rank.
 OF_BOUNDARIES = ("poisson, flux", "poisson, flux in balance", "poisson, boundary",
                  "poisson, all at once", "heat, boundary")
@@ -59,14 +62,15 @@ def made(case, depth=4, **changes):
 
 
 def with_vectors(data):
-    """`v`: three components, `f2`: squares, `mask`: some points near one end, and `hole`: `f`, of which
-    most is unknown beyond a plane."""
+    """`v`: three components, `f2`: squares, `mask`: some points near one end, `spots`: a few far from
+    each other, and `hole`: `f`, of which most is unknown beyond a plane."""
     if data.GetNumberOfPoints():
         points = numpy_support.vtk_to_numpy(data.GetPoints().GetData())
         origin = numpy_support.vtk_to_numpy(data.GetPointData().GetArray("origin"))
         ranks.add(data.GetPointData(), "v", points[:, [1, 2, 0]] ** 2)
         ranks.add(data.GetPointData(), "mask",
                   ((origin % 9 == 0) & (points[:, 0] > 0.3)).astype(numpy.uint8))
+        ranks.add(data.GetPointData(), "spots", (origin % 120 == 60).astype(numpy.uint8))
         f = numpy_support.vtk_to_numpy(data.GetPointData().GetArray("f"))
         ranks.add(data.GetPointData(), "f2", f ** 2)
         ranks.add(data.GetPointData(), "hole", numpy.where(
@@ -218,6 +222,7 @@ class DistributedFilters(unittest.TestCase):
                 ("gradient of vectors", {"HodgeDecomposition": True}, "HodgeDecomposition"),
                 ("poisson", {"TrackMetric": True}, "TrackMetric"),
                 ("signatures", {"FunctionSpace": 1}, "hat functions"),
+                ("distance", {"NearestSource": True}, "NearestSource"),
                 ("gradient", {"Smoother": 1}, "smoother")):
             filter_ = made(case, Distributed=True, **properties)
             warnings = listen(filter_, "WarningEvent")

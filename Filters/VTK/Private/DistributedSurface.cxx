@@ -9,6 +9,7 @@
 #include "Base/Parallel.h"
 #include "Parallel/HeldPoints.h"
 #include "Parallel/RankBoundary.h"
+#include "Parallel/RankDistance.h"
 #include "Parallel/RankLevels.h"
 
 #include "vtkDataArray.h"
@@ -340,6 +341,12 @@ BoundaryTerms DistributedSurface::OnBoundary(
   return TermsOnBoundary(ranks_->whole->levels, weldCoincidentPoints, flux, values);
 }
 
+std::unique_ptr<DistanceMethod> DistributedSurface::MakeDistance(
+  const InputMesh& mesh, const DistanceOptions& options, const Job& job) const
+{
+  return std::make_unique<RankDistance>(ranks_->whole->levels, mesh.triangles, options, job);
+}
+
 HeldValues DistributedSurface::HoldKnown(const InputArray& array, const InputArray& mask,
   const SelectedPoints& selection, const InputMesh& mesh) const
 {
@@ -360,6 +367,8 @@ HeldValues DistributedSurface::HoldKnown(const InputArray& array, const InputArr
 } // namespace gridfem
 
 #else
+
+#include "Problems/GeodesicDistance.h"
 
 namespace gridfem
 {
@@ -472,6 +481,12 @@ HeldValues DistributedSurface::Hold(const std::vector<Id>&, const MultiVector&) 
 }
 
 BoundaryTerms DistributedSurface::OnBoundary(bool, const MultiVector*, const MultiVector*) const
+{
+  RefuseWithoutMpi();
+}
+
+std::unique_ptr<DistanceMethod> DistributedSurface::MakeDistance(
+  const InputMesh&, const DistanceOptions&, const Job&) const
 {
   RefuseWithoutMpi();
 }
