@@ -37,7 +37,6 @@ CASES = {
     "poisson, all at once": (
         "ScreenedPoisson", {"BoundaryValues": True, "FillUnknown": True,
                             "arrays": {0: "hole", 3: "f2", 4: "mask", 6: "f"}}, 1e-7),
-    "heat, boundary": ("HeatDiffusion", {"DiffusionTime": 0.01, "BoundaryValues": True}, 1e-7),
     # Heat is relaxed until distances are right to some 1e-4.
     "distance": ("GeodesicDistance", {}, 2e-3),
     "distance from points": ("GeodesicDistance", {"arrays": {0: "spots"}}, 2e-3),
@@ -48,7 +47,7 @@ KINDS = ("last", "contiguous", "ghosts", "scattered", "one rank is empty", "all 
 POINT_NAMES = ("f", "f2", "v", "mask", "spots", "hole")
 # Of the bowl, which has a boundary; what they warn of is the same on one rank.
 OF_BOUNDARIES = ("poisson, flux", "poisson, flux in balance", "poisson, boundary",
-                 "poisson, all at once", "heat, boundary")
+                 "poisson, all at once")
 
 
 def made(case, depth=4, **changes):
@@ -220,6 +219,7 @@ class DistributedFilters(unittest.TestCase):
     def test_rank_0_gathers_and_says_why(self):
         for case, properties, name in (
                 ("gradient of vectors", {"HodgeDecomposition": True}, "HodgeDecomposition"),
+                ("heat", {"BoundaryValues": True}, "BoundaryValues"),
                 ("poisson", {"TrackMetric": True}, "TrackMetric"),
                 ("signatures", {"FunctionSpace": 1}, "hat functions"),
                 ("distance", {"NearestSource": True}, "NearestSource"),
@@ -244,7 +244,7 @@ class DistributedFilters(unittest.TestCase):
         ranks.check(self, problems)
 
     def test_no_boundary_is_told(self):
-        for case in ("poisson, boundary", "poisson, flux", "heat, boundary"):
+        for case in ("poisson, boundary", "poisson, flux"):
             filter_ = made(case, Distributed=True, **(
                 {"ScreeningWeight": 1.0} if case == "poisson, boundary" else {}))
             warnings = listen(filter_, "WarningEvent")
