@@ -53,17 +53,21 @@ HeldValues HoldPoints(
     });
   const MultiVector received = space.Distribution().SendPoints(own);
   HeldValues held;
-  space.Ranks().Together(
-    [&]
-    {
-      const std::vector<Id> places = PlacesOfHeld(space, received);
-      held.rows = space.Own().RowsAtPoints(places);
-      held.values.resize(static_cast<Id>(places.size()), values.cols());
-      for (std::size_t k = 0; k < places.size(); ++k)
-      {
-        held.values.row(static_cast<Id>(k)) = received.row(places[k]).tail(values.cols());
-      }
-    });
+  space.Ranks().Together([&] { held = HoldReceived(space, received); });
+  return held;
+}
+
+HeldValues HoldReceived(const RankSpace& space, const MultiVector& received)
+{
+  const Id columns = received.cols() - 1;
+  const std::vector<Id> places = PlacesOfHeld(space, received);
+  HeldValues held;
+  held.rows = space.Own().RowsAtPoints(places);
+  held.values.resize(static_cast<Id>(places.size()), columns);
+  for (std::size_t k = 0; k < places.size(); ++k)
+  {
+    held.values.row(static_cast<Id>(k)) = received.row(places[k]).tail(columns);
+  }
   return held;
 }
 

@@ -18,6 +18,10 @@ namespace gridfem
 HeldValues HoldPoints(
   const RankSpace& space, const std::vector<Id>& points, const MultiVector& values);
 
+/// What this rank holds of the points that it has received. Not collective.
+/// @param received  rows = received points: not 0 where a point is held, then its values
+HeldValues HoldReceived(const RankSpace& space, const MultiVector& received);
+
 } // namespace gridfem
 
 #endif

@@ -39,6 +39,32 @@ void KeepCutPoints(ClippedMesh& clipped)
   clipped.position = std::move(position);
 }
 
+/// Pieces that are not kept, of triangles with others that are.
+template<class IsKept>
+std::vector<PieceElsewhere> FindElsewhere(
+  const ClippedMesh& all, const Array<Index>& piecePatch, const IsKept& isKept)
+{
+  std::vector<char> isHere;
+  for (std::size_t piece = 0; piece < all.pieceTriangle.size(); ++piece)
+  {
+    const auto triangle = static_cast<std::size_t>(all.pieceTriangle[piece]);
+    isHere.resize(std::max(isHere.size(), triangle + 1), 0);
+    isHere[triangle] |= isKept(piecePatch[piece]);
+  }
+  std::vector<PieceElsewhere> elsewhere;
+  for (std::size_t cell = 0; cell < all.cells.size(); ++cell)
+  {
+    for (Index piece = all.cellBegin[cell]; piece < all.cellBegin[cell + 1]; ++piece)
+    {
+      if (!isKept(piecePatch[piece]) && isHere[all.pieceTriangle[piece]])
+      {
+        elsewhere.push_back({ all.cells[cell], all.pieceTriangle[piece] });
+      }
+    }
+  }
+  return elsewhere;
+}
+
 } // namespace
 
 void KeepPieces(Index first, Index last, GridFunctions& functions)
@@ -51,6 +77,8 @@ void KeepPieces(Index first, Index last, GridFunctions& functions)
   clipped.numberOfInputPoints = all.numberOfInputPoints;
   clipped.cutPoints = std::move(all.cutPoints);
   clipped.position = std::move(all.position);
+  functions.isPart = true;
+  functions.elsewhere = FindElsewhere(all, functions.piecePatch, isKept);
   Array<Index> piecePatch;
   // Room for all costs no memory that is not used.
   piecePatch.reserve(all.pieceTriangle.size());

@@ -139,6 +139,15 @@ MultiVector RankLevels::LoadOfValues(const Field& f, const Job& job) const
   return this->Load(job, [&](int threads) { return space_.Own().LoadOfValues(here, threads); });
 }
 
+MultiVector RankLevels::LoadOfWeightedValues(
+  const Field& f, const std::vector<double>& weight, const Job& job) const
+{
+  const Field here = this->Send(f);
+  const std::vector<double> weightHere = space_.SendToTriangles(weight);
+  return this->Load(
+    job, [&](int threads) { return space_.Own().LoadOfWeightedValues(here, weightHere, threads); });
+}
+
 MultiVector RankLevels::LoadOfGradients(const Field& s, const Field* scale, const Job& job) const
 {
   const Field here = this->Send(s);
@@ -196,6 +205,21 @@ std::vector<char> RankLevels::PointsWithFunctions() const
   const MultiVector none = MultiVector::Zero(static_cast<Id>(integrals_.size()), 1);
   space_.ValuesAtPoints(none, space_.Distribution().NumberOfOwnPoints(), &has);
   return has;
+}
+
+std::shared_ptr<const SurfaceSpace> RankLevels::WithWeighedMass(
+  const std::vector<double>& weight, const Job& job) const
+{
+  struct Weighed
+  {
+    explicit Weighed(RankSpace ofRanks) : space(std::move(ofRanks)), levels(space) {}
+
+    const RankSpace space;
+    const RankLevels levels;
+  };
+  const auto weighed = std::make_shared<const Weighed>(space_.WithWeighedMass(weight, job.threads));
+  job.Check(1.0);
+  return { weighed, &weighed->levels };
 }
 
 const DividedRows* RankLevels::Divided(std::size_t level) const

@@ -21,6 +21,8 @@ class RankLevels : public SurfaceSpace
 public:
   explicit RankLevels(const RankSpace& space);
 
+  const RankSpace& Space() const { return space_; }
+
   std::size_t NumberOfLevels() const override;
   Index NumberOfFunctions(std::size_t level) const override;
   void FillMatrix(
@@ -35,6 +37,8 @@ public:
   MultiVector ValuesAtPoints(const MultiVector& coefficients, const Job& job = {}) const override;
   double UnitLength() const override;
   MultiVector LoadOfValues(const Field& f, const Job& job = {}) const override;
+  MultiVector LoadOfWeightedValues(
+    const Field& f, const std::vector<double>& weight, const Job& job = {}) const override;
   MultiVector LoadOfGradients(
     const Field& s, const Field* scale, const Job& job = {}) const override;
   MultiVector LoadOfGradientsOf(
@@ -43,6 +47,8 @@ public:
   MultiVector GradientsOnTriangles(
     const MultiVector& coefficients, const Job& job = {}) const override;
   std::vector<char> PointsWithFunctions() const override;
+  std::shared_ptr<const SurfaceSpace> WithWeighedMass(
+    const std::vector<double>& weight, const Job& job = {}) const override;
   void SumAtPoints(MultiVector& parts) const override { space_.SumAtPoints(parts); }
   const DividedRows* Divided(std::size_t level) const override;
   std::shared_ptr<const DividedLevel> Divide(

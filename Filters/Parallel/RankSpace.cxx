@@ -169,19 +169,21 @@ struct LinkToCell
 
 RankSpace::RankSpace(const Communicator& ranks, const TriangleMesh& own,
   const RankSpaceOptions& options, const Progress& progress, const TriangleList& copies)
-  : ranks_(ranks)
+  : ranks_(ranks), coarsestSize_(options.space.coarsestSize),
+    numberings_(std::make_shared<std::vector<LevelNumbering>>())
 {
   const SpaceOptions& functions = options.space.functions;
   const FunctionSupport support =
     functions.connectivityAware ? FunctionSupport::ConnectivityAware : FunctionSupport::Plain;
   ClipFrame frame = FrameOf(ranks_, own, functions);
   const BlockPartition partition(ranks_, own, frame, options.granularity);
-  distribution_ = std::make_unique<Redistribution>(ranks_, own, frame.grid, partition);
+  distribution_ = std::make_shared<Redistribution>(ranks_, own, frame.grid, partition);
 
   GridFunctions all; // in and around the cells of this rank
   Array<Link> links;
   auto mesh = std::make_shared<TriangleMesh>(distribution_->TakeMesh());
-  copies_ = std::make_unique<TriangleCopies>(ranks_, own, copies, frame.grid, partition, *mesh);
+  copies_ =
+    std::make_shared<const TriangleCopies>(ranks_, own, copies, frame.grid, partition, *mesh);
   RequireMemory(ranks_, *mesh, frame.grid);
   ranks_.Together(
     [&]
@@ -221,13 +223,24 @@ RankSpace::RankSpace(const Communicator& ranks, const TriangleMesh& own,
       auto operators = std::make_shared<const LevelOperators>(
         BuildLevelOperators(*divided, TriangleRule(options.space.quadratureDegree),
           functions.threads, -1, progress.Part(0.6, 1.0), options.space.normalStabilization));
-      own_ = std::make_unique<GridSpace>(std::move(mesh), std::move(divided), std::move(operators));
+      own_ = std::make_shared<const GridSpace>(
+        std::move(mesh), std::move(divided), std::move(operators));
+      auto whole = std::make_shared<GridFunctions>();
+      whole->support = support;
+      whole->clipped.grid = own_->Functions().GetGrid();
+      whole->levels = std::move(shared);
+      whole->component = FunctionComponents(whole->Finest());
+      whole->numberOfComponents =
+        whole->component.empty()
+          ? 0
+          : 1 + *std::max_element(whole->component.begin(), whole->component.end());
+      sharedFunctions_ = std::move(whole);
     });
-  this->MakeShared(std::move(shared), options.space);
+  this->AddElements(functions.threads);
 }
 
 /// Collective. The levels that all ranks hold, with the element matrices of all.
-void RankSpace::MakeShared(std::vector<PatchLevel> levels, const GridSpaceOptions& options)
+void RankSpace::AddElements(int threads)
 {
   const ElementMatrices& own = own_->Operators().elements.back();
   std::vector<ElementMatrix> mass;
@@ -246,20 +259,39 @@ void RankSpace::MakeShared(std::vector<PatchLevel> levels, const GridSpaceOption
       ElementMatrices elements;
       elements.mass = Array<ElementMatrix>(mass.begin(), mass.end());
       elements.stiffness = Array<ElementMatrix>(stiffness.begin(), stiffness.end());
-      auto functions = std::make_shared<GridFunctions>();
-      functions->support = own_->Functions().support;
-      functions->clipped.grid = own_->Functions().GetGrid();
-      functions->levels = std::move(levels);
-      functions->component = FunctionComponents(functions->Finest());
-      functions->numberOfComponents =
-        functions->component.empty()
-          ? 0
-          : 1 + *std::max_element(functions->component.begin(), functions->component.end());
-      auto operators = std::make_shared<const LevelOperators>(OperatorsOfElements(
-        *functions, std::move(elements), options.functions.threads, options.coarsestSize));
-      shared_ = std::make_unique<GridSpace>(
-        std::make_shared<const TriangleMesh>(), std::move(functions), std::move(operators));
+      auto operators = std::make_shared<const LevelOperators>(
+        OperatorsOfElements(*sharedFunctions_, std::move(elements), threads, coarsestSize_));
+      shared_ = std::make_shared<const GridSpace>(
+        std::make_shared<const TriangleMesh>(), sharedFunctions_, std::move(operators));
     });
+}
+
+std::vector<double> RankSpace::SendToTriangles(const std::vector<double>& own) const
+{
+  MultiVector column;
+  ranks_.Together(
+    [&] {
+      column = Eigen::Map<const Eigen::VectorXd>(own.data(), static_cast<Eigen::Index>(own.size()));
+    });
+  column = distribution_->SendTriangles(column);
+  std::vector<double> received;
+  ranks_.Together([&] { received.assign(column.data(), column.data() + column.size()); });
+  return received;
+}
+
+RankSpace RankSpace::WithWeighedMass(const std::vector<double>& weight, int threads) const
+{
+  const std::vector<double> received = this->SendToTriangles(weight);
+  RankSpace weighed = *this;
+  ranks_.Together(
+    [&]
+    {
+      auto own = std::make_shared<GridSpace>(*own_);
+      own->WeighMass(received, threads);
+      weighed.own_ = std::move(own);
+    });
+  weighed.AddElements(threads);
+  return weighed;
 }
 
 /// Leaves in `all` what this rank owns, with the functions numbered by the places in numberings_.
@@ -282,8 +314,8 @@ std::vector<PatchLevel> RankSpace::Divide(
   for (std::size_t l = 0; l < divided; ++l)
   {
     std::vector<Index> place;
-    numberings_.push_back(NumberLevel(ranks_, partition, all.levels[l], place));
-    levels[l].numberOfFunctions = numberings_[l].Functions();
+    numberings_->push_back(NumberLevel(ranks_, partition, all.levels[l], place));
+    levels[l].numberOfFunctions = (*numberings_)[l].Functions();
     for (Index patch = ranges[l].first; patch < ranges[l].last; ++patch)
     {
       for (int corner = 0; corner < FunctionsPerPatch; ++corner)

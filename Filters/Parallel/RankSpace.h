@@ -19,6 +19,7 @@ struct RankSpaceOptions
   int granularity = 0; // level of the blocks that are divided among the ranks; BlockPartition
 };
 
+/// A copy shares all that does not change.
 class RankSpace
 {
 public:
@@ -40,7 +41,7 @@ public:
   const GridSpace& Own() const { return *own_; }
 
   /// Of the divided levels, finest first.
-  const std::vector<LevelNumbering>& Numberings() const { return numberings_; }
+  const std::vector<LevelNumbering>& Numberings() const { return *numberings_; }
 
   /// The level of the blocks and those below it, which every rank holds whole, as a space without a
   /// mesh.
@@ -56,6 +57,13 @@ public:
   MultiVector ValuesAtPoints(
     const MultiVector& coefficients, Id ownPoints, std::vector<char>* hasValue = nullptr) const;
 
+  /// Collective. The same functions with the mass ∫ w b_i b_j.
+  /// @param weight  w >= 0 of each of this rank's own triangles
+  RankSpace WithWeighedMass(const std::vector<double>& weight, int threads = 0) const;
+
+  /// Collective. Numbers of this rank's own triangles, at those that this rank has received.
+  std::vector<double> SendToTriangles(const std::vector<double>& own) const;
+
   /// Collective. Rows of this rank's own points become the sums over the points of all ranks at the
   /// same place of one sheet. Where a rank has several there, it keeps them apart: all stay as they
   /// are.
@@ -66,14 +74,16 @@ private:
     GridFunctions& all, const Array<Link>& links, const BlockPartition& partition);
   std::vector<PatchLevel> Share(const PatchLevel& level, const Array<Link>& links,
     const BlockPartition& partition, FunctionSupport support) const;
-  void MakeShared(std::vector<PatchLevel> levels, const GridSpaceOptions& options);
+  void AddElements(int threads);
 
   Communicator ranks_;
-  std::unique_ptr<Redistribution> distribution_;
-  std::unique_ptr<TriangleCopies> copies_;
-  std::unique_ptr<GridSpace> own_;
-  std::vector<LevelNumbering> numberings_;
-  std::unique_ptr<GridSpace> shared_;
+  Index coarsestSize_;
+  std::shared_ptr<Redistribution> distribution_;
+  std::shared_ptr<const TriangleCopies> copies_;
+  std::shared_ptr<const GridSpace> own_;
+  std::shared_ptr<std::vector<LevelNumbering>> numberings_;
+  std::shared_ptr<const GridFunctions> sharedFunctions_;
+  std::shared_ptr<const GridSpace> shared_;
 };
 
 } // namespace gridfem

@@ -1,8 +1,10 @@
 #include "vtkGeodesicDistance.h"
 
 #include "Private/Allocation.h"
+#include "Private/CanDistribute.h"
 #include "Private/InputArray.h"
 #include "Private/InputValidation.h"
+#include "Private/Ranks.h"
 #include "Private/SelectedPoints.h"
 #include "Private/SolverOutput.h"
 #include "Private/SourcePoints.h"
@@ -64,6 +66,7 @@ struct vtkGeodesicDistance::Internals
 {
   std::vector<gridfem::Id> SourceIds;
   std::unique_ptr<gridfem::GeodesicDistance> Method;
+  std::unique_ptr<gridfem::DistanceMethod> OfRanks; // together, in its place
   gridfem::DistanceField Field;
   gridfem::SurfaceCurve Curve;
 
@@ -158,11 +161,10 @@ void vtkGeodesicDistance::Warn()
 }
 
 /// The system has to be up to date.
-void vtkGeodesicDistance::UpdateHierarchies()
+void vtkGeodesicDistance::UpdateHierarchies(const gridfem::Progress& progress)
 {
   gridfem::SurfaceSolverState& state = *this->State;
   Internals& data = *this->Data;
-  const gridfem::Progress progress = state.bridge.GetProgress();
   gridfem::StageKey key;
   key.Add(state.stages.Version(gridfem::SystemStage)).Add(this->Smoothing);
   key.Add(this->EstimateErrors);
@@ -171,17 +173,27 @@ void vtkGeodesicDistance::UpdateHierarchies()
     [&]
     {
       data.Method.reset(); // frees its memory first
-      data.Method = std::make_unique<gridfem::GeodesicDistance>(state.space, state.mesh.triangles,
-        gridfem::DistanceOptions{ this->Smoothing, state.options.multigrid, this->EstimateErrors },
-        state.MakeJob(progress.Part(0.3, 0.4)));
+      data.OfRanks.reset();
+      gridfem::DistanceOptions options;
+      options.smoothing = this->Smoothing;
+      options.multigrid = state.options.multigrid;
+      options.estimateErrors = this->EstimateErrors;
+      const gridfem::Job job = state.MakeJob(progress.Part(0.3, 0.4));
+      if (state.together.IsUsed())
+      {
+        data.OfRanks = state.together.MakeDistance(state.mesh, options, job);
+        return;
+      }
+      data.Method = std::make_unique<gridfem::GeodesicDistance>(
+        state.space, state.mesh.triangles, options, job);
     });
 }
 
-void vtkGeodesicDistance::UpdateDistance(const std::vector<vtkIdType>& sources)
+void vtkGeodesicDistance::UpdateDistance(
+  const std::vector<vtkIdType>& sources, const gridfem::Progress& progress)
 {
   gridfem::SurfaceSolverState& state = *this->State;
   Internals& data = *this->Data;
-  const gridfem::Progress progress = state.bridge.GetProgress();
   gridfem::StageKey key;
   key.Add(false); // not from a curve
   key.Add(state.stages.Version(gridfem::HierarchyStage));
@@ -193,8 +205,21 @@ void vtkGeodesicDistance::UpdateDistance(const std::vector<vtkIdType>& sources)
   state.stages.Run(gridfem::SolveStage, key,
     [&]
     {
-      data.Field = data.Method->From({ sources.begin(), sources.end() }, state.options.solve,
+      const gridfem::DistanceMethod* method = data.OfRanks.get();
+      if (!method)
+      {
+        method = data.Method.get();
+      }
+      data.Field = method->From({ sources.begin(), sources.end() }, state.options.solve,
         state.MakeJob(progress.Part(0.4, 0.98)));
+      if (state.together.IsUsed())
+      {
+        Eigen::Map<Eigen::VectorXd> column(
+          data.Field.atPoints.data(), static_cast<Eigen::Index>(data.Field.atPoints.size()));
+        gridfem::MultiVector atPoints = column;
+        state.FillCopies(atPoints);
+        column = atPoints.col(0);
+      }
     });
 }
 
@@ -314,14 +339,14 @@ void vtkGeodesicDistance::Compute(vtkInformationVector** inputs, vtkInformationV
   }
   state.UpdateSystem(progress.Part(0.2, 0.3));
 
-  this->UpdateHierarchies();
+  this->UpdateHierarchies(progress);
   if (this->Signed)
   {
     this->UpdateSignedDistance();
   }
   else
   {
-    this->UpdateDistance(sources);
+    this->UpdateDistance(sources, progress);
   }
   output->ShallowCopy(input);
   this->WriteDistance(output);
@@ -333,10 +358,96 @@ void vtkGeodesicDistance::Compute(vtkInformationVector** inputs, vtkInformationV
   progress.Check(1.0);
 }
 
+bool vtkGeodesicDistance::ComputeTogether(
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  gridfem::SurfaceSolverState& state = *this->State;
+  const std::string obstacle = gridfem::FirstObstacle(
+    { { !this->Data->SourceIds.empty(), "SourcePointIds" }, { this->Signed, "Signed" },
+      { this->NearestSource, "NearestSource" }, { this->EstimateErrors, "EstimateErrors" },
+      { this->Smoothing >= gridfem::MostSmoothing, "a Smoothing of 3.5 or more" } });
+  if (!this->Distributed ||
+      !gridfem::CanDistribute(this, inputs, state.options.space.depth, obstacle))
+  {
+    return false;
+  }
+  vtkPolyData* piece = vtkPolyData::GetData(inputs[0]);
+  this->Selection->Update(nullptr, piece);
+  state.options.space.joinAtPoints = true; // paths lead through points where sheets touch
+  state.RunTogether(
+    [&](const gridfem::Progress& progress) { this->SolveTogether(piece, outputs, progress); });
+  return true;
+}
+
+/// The rank's own points among the sources: without an array the first point of the first rank.
+std::vector<vtkIdType> vtkGeodesicDistance::FindSourcesTogether(vtkPolyData* piece)
+{
+  gridfem::SurfaceSolverState& state = *this->State;
+  const gridfem::TriangleMesh& mesh = *state.mesh.triangles;
+  const gridfem::InputArray mask = state.together.Find(this, 0, piece, state.mesh, "SourceArray");
+  std::vector<vtkIdType> sources;
+  if (mask.array)
+  {
+    state.Together(
+      [&]
+      {
+        const std::vector<gridfem::Id> masked = MaskedPoints(mask, state.mesh);
+        sources.assign(masked.begin(), masked.end());
+      });
+  }
+  else
+  {
+    const double own = gridfem::Ranks().Own();
+    std::vector<double> first;
+    if (!mesh.triangles.empty())
+    {
+      first.push_back(own);
+    }
+    state.together.Agree(first);
+    if (!mesh.triangles.empty() && first.front() == own)
+    {
+      sources.push_back(mesh.triangles.front()[0]);
+    }
+  }
+  if (!state.together.Any(!sources.empty()))
+  {
+    throw gridfem::InvalidInput(Internals::WhyNoSource(mask, *this->Selection));
+  }
+  return sources;
+}
+
+void vtkGeodesicDistance::SolveTogether(
+  vtkPolyData* piece, vtkInformationVector* outputs, const gridfem::Progress& progress)
+{
+  gridfem::SurfaceSolverState& state = *this->State;
+  state.together.Together([&] { gridfem::RequireNumber("Smoothing", this->Smoothing); });
+  state.UpdateTogether(piece);
+  progress.Check(0.3);
+  const std::vector<vtkIdType> sources = this->FindSourcesTogether(piece);
+  this->UpdateHierarchies(progress);
+  this->UpdateDistance(sources, progress);
+  state.together.Together(
+    [&]
+    {
+      vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
+      if (piece)
+      {
+        output->ShallowCopy(piece);
+      }
+      this->WriteDistance(output);
+      gridfem::AddDistributed(this->Depth, output);
+      if (gridfem::Ranks().IsFirst())
+      {
+        this->Warn();
+      }
+    });
+}
+
 void vtkGeodesicDistance::FreeStages()
 {
   this->Superclass::FreeStages();
   this->Selection->Free();
+  this->Data->OfRanks.reset();
   this->Data->Method.reset();
   this->Data->Field = {};
   this->Data->Curve = {};
@@ -353,4 +464,5 @@ void vtkGeodesicDistance::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "InsideLabel: " << this->InsideLabel << "\n";
   os << indent << "ReverseSign: " << this->ReverseSign << "\n";
   os << indent << "EstimateErrors: " << this->EstimateErrors << "\n";
+  os << indent << "Distributed: " << this->Distributed << "\n";
 }

@@ -53,11 +53,13 @@
 #include "vtkSurfaceFEMAlgorithm.h"
 
 #include <string>
+#include <vector>
 
 class vtkDataSet;
 
 namespace gridfem
 {
+class Progress;
 class SelectedPoints;
 } // namespace gridfem
 
@@ -150,6 +152,21 @@ public:
   vtkBooleanMacro(EstimateErrors, bool);
   ///@}
 
+  ///@{
+  /**
+   * On several MPI ranks: when on, all ranks compute, and none gathers the surface, which may be
+   * larger than one machine. Possible on the functions of a grid of a given Depth with the patch
+   * smoother, from the points of a SourceArray or from the first one; not with SourcePointIds,
+   * which count through the gathered surface, further inputs, Signed, NearestSource,
+   * EstimateErrors, a Smoothing of 3.5 or more, a given basis, or BlocksAsOne. Where it is not,
+   * rank 0 gathers as ever, and warns. The field array `Distributed` says which. Needs a build with
+   * MPI. Default off.
+   */
+  vtkSetMacro(Distributed, bool);
+  vtkGetMacro(Distributed, bool);
+  vtkBooleanMacro(Distributed, bool);
+  ///@}
+
   /**
    * The input of port 1: the basis.
    */
@@ -171,6 +188,7 @@ protected:
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  bool ComputeTogether(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   void FreeStages() override;
 
   double Smoothing = 1.75;
@@ -180,13 +198,17 @@ protected:
   int InsideLabel = 1;
   bool ReverseSign = false;
   bool EstimateErrors = false;
+  bool Distributed = false;
 
 private:
   vtkGeodesicDistance(const vtkGeodesicDistance&) = delete;
   void operator=(const vtkGeodesicDistance&) = delete;
 
-  void UpdateHierarchies();
-  void UpdateDistance(const std::vector<vtkIdType>& sources);
+  std::vector<vtkIdType> FindSourcesTogether(vtkPolyData* piece);
+  void SolveTogether(
+    vtkPolyData* piece, vtkInformationVector* outputs, const gridfem::Progress& progress);
+  void UpdateHierarchies(const gridfem::Progress& progress);
+  void UpdateDistance(const std::vector<vtkIdType>& sources, const gridfem::Progress& progress);
   void UpdateCurve(vtkPolyData* input, vtkDataSet* lines);
   void UpdateSignedDistance();
   void RefusePoints(const std::string& sourceArray) const;

@@ -109,33 +109,38 @@ gridfem::HeldValues vtkHeatDiffusion::FindHeldValues(vtkPolyData* input)
   const gridfem::InputArray& mask = this->Data->Mask;
   gridfem::InputArray array = this->Data->Array;
   gridfem::RequireValuesAtPoints(array, mask, *this->Selection);
+  const gridfem::Field values =
+    array.array ? state.Read(array) : gridfem::CoordinatesField(state.mesh);
   if (!array.array)
   {
     array.array = input && input->GetPoints() ? input->GetPoints()->GetData() : nullptr;
     array.name = "coordinates";
   }
-  if (state.together.IsUsed())
+  gridfem::HeldValues held;
+  if (!mask.array && !this->Selection->IsGiven())
   {
-    return state.together.HoldKnown(array, mask, *this->Selection, state.mesh);
+    held = state.Hold({}, gridfem::MultiVector(0, values.values.cols()));
   }
-  gridfem::GivenValues given;
-  given.values.resize(0, array.array->GetNumberOfComponents());
-  if (mask.array || this->Selection->IsGiven())
+  else if (state.together.IsUsed())
   {
-    given = gridfem::KnownValues(array, mask, *this->Selection, mesh);
+    held = state.together.HoldKnown(array, mask, *this->Selection, state.mesh);
   }
-  gridfem::HeldValues held =
-    gridfem::HoldPoints(*state.space, given.points, std::move(given.values));
+  else
+  {
+    const gridfem::GivenValues given = gridfem::KnownValues(array, mask, *this->Selection, mesh);
+    held = state.Hold(given.points, given.values);
+  }
   if (this->BoundaryValues)
   {
-    const std::vector<gridfem::TriangleEdge> edges =
-      gridfem::FindSurfaceEdges(mesh, state.basis.weldCoincidentPoints).boundary;
-    if (edges.empty())
+    const gridfem::BoundaryTerms terms = state.OnBoundary(nullptr, &values.values);
+    if (terms.isThere)
+    {
+      state.Together([&] { held = gridfem::Join(held, terms.held); });
+    }
+    else if (gridfem::Ranks().IsFirst())
     {
       vtkWarningMacro(<< "The surface has no boundary for BoundaryValues.");
     }
-    held = gridfem::Join(held,
-      gridfem::HoldEdges(*state.space, mesh, edges, gridfem::ReadField(array, state.mesh).values));
   }
   return held;
 }
@@ -266,7 +271,7 @@ void vtkHeatDiffusion::WriteFacts(int shown, vtkPolyData* output)
 {
   const Step& step = this->Data->Steps[static_cast<std::size_t>(shown) - 1];
   gridfem::AddFieldInt(output, "Step", shown);
-  if (this->Data->Held.values.rows() > 0 || this->Data->Mask.array)
+  if (!step.met.isHeld.empty()) // the same on all ranks
   {
     gridfem::AddFieldNumber(output, "Misfit", step.met.misfit);
     const std::string warning = gridfem::WarningOfConstraints(step.met);

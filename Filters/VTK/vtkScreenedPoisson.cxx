@@ -207,82 +207,84 @@ gridfem::SolutionAccuracy vtkScreenedPoisson::EstimatedErrors() const
                                : this->Data->Equation.Accuracy();
 }
 
-/// Of ranks together, which hold values and have no other constraint.
-gridfem::ConstrainedLoad vtkScreenedPoisson::IntegrateTogether(const gridfem::Job& job)
+gridfem::ConstrainedLoad vtkScreenedPoisson::IntegrateConstrained(const gridfem::Job& job)
 {
   const Internals& data = *this->Data;
   const gridfem::SurfaceSolverState& state = *this->State;
-  gridfem::PoissonLoad plain = this->Integrate(*state.SolverSpace(), job);
-  gridfem::ConstrainedLoad load;
-  load.values = std::move(plain.values);
-  load.gradients = std::move(plain.gradients);
-  load.held = state.together.HoldKnown(data.Value.array ? data.Value : data.Coordinates,
-    data.Constraint, *this->Selection, state.mesh);
-  return load;
-}
-
-gridfem::ConstrainedLoad vtkScreenedPoisson::IntegrateConstrained(const gridfem::Job& job)
-{
-  const gridfem::FiniteElementSpace& space = *this->State->space;
-  const Internals& data = *this->Data;
-  const gridfem::InputMesh& mesh = this->State->mesh;
-  const gridfem::TriangleMesh& triangles = *mesh.triangles;
+  const gridfem::SurfaceSpace& space = *state.SolverSpace();
+  const gridfem::TriangleMesh& triangles = *state.mesh.triangles;
   const auto weight =
-    data.Weight.array ? std::make_optional(gridfem::ReadField(data.Weight, mesh)) : std::nullopt;
-  const gridfem::InputArray& array = data.Value.array ? data.Value : data.Coordinates;
-  const gridfem::Field value = gridfem::ReadField(
-    array, mesh, this->FillUnknown ? gridfem::NaNs::Kept : gridfem::NaNs::Refused);
+    data.Weight.array ? std::make_optional(state.Read(data.Weight)) : std::nullopt;
+  const gridfem::Field value =
+    data.Value.array
+      ? state.Read(data.Value, this->FillUnknown ? gridfem::NaNs::Kept : gridfem::NaNs::Refused)
+      : gridfem::CoordinatesField(state.CurrentMesh());
   gridfem::ConstrainedLoad load;
-  load.field = gridfem::SplitField(value, weight ? &*weight : nullptr, triangles);
-  gridfem::GivenValues given;
-  given.values.resize(0, value.values.cols());
-  if (this->HoldsPoints())
-  {
-    given = gridfem::KnownValues(array, data.Constraint, *this->Selection, triangles);
-  }
-  load.held = gridfem::HoldPoints(space, given.points, std::move(given.values));
+  load.isWeighed = weight || this->FillUnknown;
+  state.Together(
+    [&] { load.field = gridfem::SplitField(value, weight ? &*weight : nullptr, triangles); });
+  load.field.numberOfIgnoredPoints = gridfem::CountIgnoredPoints(space, load.field, triangles);
+  load.held = this->HoldGiven(value.values.cols());
   if (this->BoundaryValues || data.Flux.array)
   {
-    this->AddBoundary(space, value, load);
+    this->AddBoundary(value, load);
   }
-  const auto factor = data.ReadScale(*this->State);
+  const auto factor = data.ReadScale(state);
   if (data.Gradient.array)
   {
-    load.gradients =
-      space.LoadOfGradients(this->State->OnReference(gridfem::ReadField(data.Gradient, mesh)),
-        factor ? &*factor : nullptr, job);
+    load.gradients = space.LoadOfGradients(
+      state.OnReference(state.Read(data.Gradient)), factor ? &*factor : nullptr, job);
   }
   else if (this->UseValueGradient)
   {
     // Where a corner is unknown there is no gradient.
-    const gridfem::Field known =
-      gridfem::ScaleOfKnown(load.field, factor ? &*factor : nullptr, triangles);
+    gridfem::Field known;
+    state.Together(
+      [&] { known = gridfem::ScaleOfKnown(load.field, factor ? &*factor : nullptr, triangles); });
     load.gradients = space.LoadOfGradientsOf(load.field.values, &known, job);
   }
   return load;
 }
 
-void vtkScreenedPoisson::AddBoundary(const gridfem::FiniteElementSpace& space,
-  const gridfem::Field& value, gridfem::ConstrainedLoad& load)
+/// What the mask or the selection holds.
+gridfem::HeldValues vtkScreenedPoisson::HoldGiven(vtkIdType components) const
 {
   const Internals& data = *this->Data;
-  const gridfem::InputMesh& mesh = this->State->mesh;
-  const gridfem::TriangleMesh& triangles = *mesh.triangles;
-  const std::vector<gridfem::TriangleEdge> edges =
-    gridfem::FindSurfaceEdges(triangles, this->State->basis.weldCoincidentPoints).boundary;
-  if (edges.empty())
+  const gridfem::SurfaceSolverState& state = *this->State;
+  const gridfem::InputArray& array = data.Value.array ? data.Value : data.Coordinates;
+  gridfem::GivenValues given;
+  given.values.resize(0, components);
+  if (this->HoldsPoints() && state.together.IsUsed())
+  {
+    return state.together.HoldKnown(array, data.Constraint, *this->Selection, state.mesh);
+  }
+  if (this->HoldsPoints())
+  {
+    given = gridfem::KnownValues(array, data.Constraint, *this->Selection, *state.mesh.triangles);
+  }
+  return state.Hold(given.points, given.values);
+}
+
+void vtkScreenedPoisson::AddBoundary(const gridfem::Field& value, gridfem::ConstrainedLoad& load)
+{
+  const Internals& data = *this->Data;
+  const gridfem::SurfaceSolverState& state = *this->State;
+  gridfem::MultiVector flux;
+  if (data.Flux.array)
+  {
+    flux = state.Read(data.Flux).values;
+  }
+  gridfem::BoundaryTerms terms = state.OnBoundary(
+    data.Flux.array ? &flux : nullptr, this->BoundaryValues ? &value.values : nullptr);
+  if (!terms.isThere)
   {
     load.warning = "The surface has no boundary for BoundaryValues or a BoundaryFluxArray.";
     return;
   }
-  if (data.Flux.array)
-  {
-    load.flux =
-      gridfem::LoadOnEdges(space, triangles, edges, gridfem::ReadField(data.Flux, mesh).values);
-  }
+  load.flux = std::move(terms.load);
   if (this->BoundaryValues)
   {
-    load.held = gridfem::Join(load.held, gridfem::HoldEdges(space, triangles, edges, value.values));
+    state.Together([&] { load.held = gridfem::Join(load.held, terms.held); });
   }
 }
 
@@ -335,12 +337,8 @@ void vtkScreenedPoisson::Solve(const gridfem::Progress& progress)
     fields.Add(data.Flux.array).Add(this->BoundaryValues).Add(this->Selection->Version());
     data.Constrained.Update(
       *this->State, fields,
-      [this](const gridfem::Job& job)
-      {
-        return this->State->together.IsUsed() ? this->IntegrateTogether(job)
-                                              : this->IntegrateConstrained(job);
-      },
-      request, progress);
+      [this](const gridfem::Job& job) { return this->IntegrateConstrained(job); }, request,
+      progress);
     return;
   }
   data.Equation.Update(
@@ -500,10 +498,7 @@ bool vtkScreenedPoisson::ComputeTogether(
   const std::string obstacle =
     gridfem::FirstObstacle({ { this->Iteration != ConjugateGradients, "cycles as Iteration" },
       { this->AccuracyDriven, "AccuracyDriven" }, { this->TrackMetric, "TrackMetric" },
-      { this->FillUnknown, "FillUnknown" }, { this->BoundaryValues, "BoundaryValues" },
-      { gridfem::IsArrayChosen(this, 3), "a ValueWeightArray" },
       { gridfem::IsArrayChosen(this, 5), "a MetricArray" },
-      { gridfem::IsArrayChosen(this, 6), "a BoundaryFluxArray" },
       { this->MovePoints && !gridfem::IsArrayChosen(this, 0), "MovePoints of the coordinates" } });
   if (!gridfem::CanDistribute(this, inputs, this->State->options.space.depth, obstacle))
   {
@@ -538,7 +533,9 @@ void vtkScreenedPoisson::SolveTogether(
   state.together.Agree(0, data.Value);
   state.together.Agree(1, data.Gradient);
   state.together.Agree(2, data.Scale);
+  state.together.Agree(3, data.Weight);
   state.together.Agree(4, data.Constraint);
+  state.together.Agree(6, data.Flux);
   this->Solve(progress.Part(0.4, 1.0));
 
   data.Together.Values =

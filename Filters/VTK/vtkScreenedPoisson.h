@@ -83,10 +83,10 @@ namespace gridfem
 {
 struct ConstrainedLoad;
 struct Field;
+struct HeldValues;
 struct InputMesh;
 struct Job;
 struct PoissonLoad;
-class FiniteElementSpace;
 class Progress;
 class SelectedPoints;
 class SurfaceSpace;
@@ -211,8 +211,8 @@ public:
   /**
    * On several MPI ranks: when on, all ranks compute, and none gathers the surface, which may be
    * larger than one machine. Possible on the functions of a grid of a given Depth with the patch
-   * smoother; not with Iteration Cycles, AccuracyDriven, FillUnknown, weights, a selection,
-   * BoundaryValues, a flux, a metric, TrackMetric, moved points, a given basis, or BlocksAsOne.
+   * smoother; not with Iteration Cycles, AccuracyDriven, a selection, a metric, TrackMetric, moved
+   * points, a given basis, or BlocksAsOne.
    * Where it is not, rank 0 gathers as ever, and warns. The field array `Distributed` says which.
    * Needs a build with MPI. Default off.
    */
@@ -275,9 +275,8 @@ private:
   void FindArrays(vtkPolyData* input);
   gridfem::PoissonLoad Integrate(const gridfem::SurfaceSpace& space, const gridfem::Job& job);
   gridfem::ConstrainedLoad IntegrateConstrained(const gridfem::Job& job);
-  gridfem::ConstrainedLoad IntegrateTogether(const gridfem::Job& job);
-  void AddBoundary(const gridfem::FiniteElementSpace& space, const gridfem::Field& value,
-    gridfem::ConstrainedLoad& load);
+  gridfem::HeldValues HoldGiven(vtkIdType components) const;
+  void AddBoundary(const gridfem::Field& value, gridfem::ConstrainedLoad& load);
   bool IsConstrained() const;
   bool HoldsPoints() const;
   bool HoldsValues() const;

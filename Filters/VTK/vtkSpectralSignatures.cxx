@@ -524,8 +524,10 @@ void vtkSpectralSignatures::FilterTogether(vtkPolyData* piece)
   Internals& data = *this->Data;
   gridfem::DistributedSurface& together = this->State->together;
   gridfem::MultiVector values;
-  data.Value = together.Find(this, 0, piece, data.Mesh, "ValueArray");
-  together.Together([&] { values = data.ReadValues(together.WithCopies(data.Mesh)); });
+  const gridfem::InputMesh whole =
+    together.WithCopies(data.Mesh); // copies have values of their own
+  data.Value = together.Find(this, 0, piece, whole, "ValueArray");
+  together.Together([&] { values = data.ReadValues(whole); });
   data.Filter(*this, values, &together.Numbers());
 }
 

@@ -79,7 +79,7 @@ class Distributed(unittest.TestCase):
 
     def test_rank_0_gathers_what_is_left_to_it(self):
         for properties in ({"FunctionSpace": 1}, {"Smoother": 1}, {"Iteration": 1},
-                           {"BoundaryValues": True}):
+                           {"TrackMetric": True}):
             output = ranks.run(made(**properties), ranks.piece(ranks.bowl(), "contiguous"))[0]
             ranks.check(self, [] if number(output, "Distributed") is None and
                         number(output, "Converged") == 1 else [str(properties)])

@@ -1,5 +1,6 @@
 """Filters by all ranks together: the answers of one rank on every rank's own piece, ghost cells and repeated
 pieces included, and stages that stay. Where they cannot, rank 0 gathers and says why."""
+import re
 import unittest
 
 import numpy
@@ -21,11 +22,32 @@ CASES = {
         "ScreenedPoisson", {"UseValueGradient": True, "SolutionGradient": True,
                             "arrays": {0: "v", 4: "mask"}}, 1e-7),
     "interpolation": ("ScreenedPoisson", {"ScreeningWeight": 0.0, "arrays": {4: "mask"}}, 1e-7),
+    "poisson, weighed": (
+        "ScreenedPoisson", {"UseValueGradient": True, "arrays": {3: "c"}}, 1e-8),
+    "poisson, unknown": (
+        "ScreenedPoisson", {"FillUnknown": True, "UseValueGradient": True, "SolutionGradient": True,
+                            "arrays": {0: "hole"}}, 1e-8),
+    "poisson, unknown means": (
+        "ScreenedPoisson", {"FillUnknown": True, "ScreeningWeight": 0.0, "arrays": {0: "hole"}}, 1e-8),
+    "poisson, flux": ("ScreenedPoisson", {"arrays": {6: "f"}}, 1e-8),
+    "poisson, flux in balance": (
+        "ScreenedPoisson", {"ScreeningWeight": 0.0, "arrays": {6: "f"}}, 1e-8),
+    "poisson, boundary": (
+        "ScreenedPoisson", {"BoundaryValues": True, "ScreeningWeight": 0.0}, 1e-7),
+    "poisson, all at once": (
+        "ScreenedPoisson", {"BoundaryValues": True, "FillUnknown": True,
+                            "arrays": {0: "hole", 3: "f2", 4: "mask", 6: "f"}}, 1e-7),
+    # Heat is relaxed until distances are right to some 1e-4.
+    "distance": ("GeodesicDistance", {}, 2e-3),
+    "distance from points": ("GeodesicDistance", {"arrays": {0: "spots"}}, 2e-3),
     "signatures": ("SpectralSignatures", {}, 1e-5),
     "high pass": ("SpectralSignatures", {"FilterType": 2, "FirstMode": 3, "arrays": {0: "f"}}, 1e-5),
 }
 KINDS = ("last", "contiguous", "ghosts", "scattered", "one rank is empty", "all on all")
-POINT_NAMES = ("f", "v", "mask")
+POINT_NAMES = ("f", "f2", "v", "mask", "spots", "hole")
+# Of the bowl, which has a boundary; what they warn of is the same on one rank.
+OF_BOUNDARIES = ("poisson, flux", "poisson, flux in balance", "poisson, boundary",
+                 "poisson, all at once")
 
 
 def made(case, depth=4, **changes):
@@ -39,14 +61,25 @@ def made(case, depth=4, **changes):
 
 
 def with_vectors(data):
-    """`v`: three components, and `mask`: some points near one end."""
+    """`v`: three components, `f2`: squares, `mask`: some points near one end, `spots`: a few far from
+    each other, and `hole`: `f`, of which most is unknown beyond a plane."""
     if data.GetNumberOfPoints():
         points = numpy_support.vtk_to_numpy(data.GetPoints().GetData())
         origin = numpy_support.vtk_to_numpy(data.GetPointData().GetArray("origin"))
         ranks.add(data.GetPointData(), "v", points[:, [1, 2, 0]] ** 2)
         ranks.add(data.GetPointData(), "mask",
                   ((origin % 9 == 0) & (points[:, 0] > 0.3)).astype(numpy.uint8))
+        ranks.add(data.GetPointData(), "spots", (origin % 120 == 60).astype(numpy.uint8))
+        f = numpy_support.vtk_to_numpy(data.GetPointData().GetArray("f"))
+        ranks.add(data.GetPointData(), "f2", f ** 2)
+        ranks.add(data.GetPointData(), "hole", numpy.where(
+            (points[:, 0] > 0.4) & (origin % 11 > 0), numpy.nan, f))
     return data
+
+
+def numbers_in(warning):
+    """What a warning counts; the rest of it names an object and a file."""
+    return re.findall(r"(?:^|\s)(\d+)(?=\s)", warning.rsplit("):", 1)[-1])
 
 
 def number(output, name):
@@ -68,9 +101,15 @@ class DistributedFilters(unittest.TestCase):
     def same_as_alone(self, case, mesh, kind):
         mine = with_vectors(ranks.piece(mesh, kind))
         filter_ = made(case, Distributed=True)
-        problems = listen(filter_, "WarningEvent")
+        problems = []
+        warnings = listen(filter_, "WarningEvent")
         outputs = ranks.run(filter_, mine)
-        whole = ranks.alone(lambda: ranks.run(made(case), with_vectors(ranks.whole(mesh)))[0])
+        of_one = made(case)
+        expected_warnings = listen(of_one, "WarningEvent")
+        whole = ranks.alone(lambda: ranks.run(of_one, with_vectors(ranks.whole(mesh)))[0])
+        if [numbers_in(text) for text in warnings] != [
+                numbers_in(text) for text in expected_warnings * (ranks.RANK == 0)]:
+            problems.append(f"the warnings are {warnings} instead of {expected_warnings}")
         output = outputs[0]
         if number(output, "Distributed") != 1 or number(output, "Converged") != 1:
             problems.append("rank 0 has gathered, or not converged")
@@ -96,8 +135,9 @@ class DistributedFilters(unittest.TestCase):
         for number_of_case, case in enumerate(CASES):
             others = [kind for kind in KINDS if kind != "ghosts"]
             for kind in ("ghosts", others[number_of_case % len(others)]):
+                mesh = ranks.bowl() if case in OF_BOUNDARIES else ranks.ellipsoid()
                 with self.subTest(case=case, kind=kind):
-                    self.same_as_alone(case, ranks.ellipsoid(), kind)
+                    self.same_as_alone(case, mesh, kind)
 
     def test_other_surfaces(self):
         for case in ("gradient", "heat", "poisson, held"):
@@ -180,10 +220,10 @@ class DistributedFilters(unittest.TestCase):
         for case, properties, name in (
                 ("gradient of vectors", {"HodgeDecomposition": True}, "HodgeDecomposition"),
                 ("heat", {"BoundaryValues": True}, "BoundaryValues"),
-                ("poisson", {"FillUnknown": True}, "FillUnknown"),
+                ("poisson", {"TrackMetric": True}, "TrackMetric"),
                 ("signatures", {"FunctionSpace": 1}, "hat functions"),
-                ("gradient", {"Smoother": 1}, "smoother"),
-                ("poisson", {"arrays": {3: "c"}}, "ValueWeightArray")):
+                ("distance", {"NearestSource": True}, "NearestSource"),
+                ("gradient", {"Smoother": 1}, "smoother")):
             filter_ = made(case, Distributed=True, **properties)
             warnings = listen(filter_, "WarningEvent")
             mine = with_vectors(ranks.piece(ranks.bowl(), "contiguous"))
@@ -202,6 +242,28 @@ class DistributedFilters(unittest.TestCase):
         if ["SourcePointIds" in text for text in warnings] != [True] * (ranks.RANK == 0):
             problems.append(f"the warnings are {warnings}")
         ranks.check(self, problems)
+
+    def test_no_boundary_is_told(self):
+        for case in ("poisson, boundary", "poisson, flux"):
+            filter_ = made(case, Distributed=True, **(
+                {"ScreeningWeight": 1.0} if case == "poisson, boundary" else {}))
+            warnings = listen(filter_, "WarningEvent")
+            output = ranks.run(
+                filter_, with_vectors(ranks.piece(ranks.ellipsoid(), "scattered")))[0]
+            told = ["has no boundary" in text for text in warnings]
+            problems = [] if told == [True] * (ranks.RANK == 0) else [f"{case}: {warnings}"]
+            problems += [] if number(output, "Distributed") == 1 else ["rank 0 has gathered"]
+            ranks.check(self, problems)
+
+    def test_a_wrong_weight_of_one_rank_is_refused(self):
+        filter_ = made("poisson, weighed", Distributed=True)
+        mine = with_vectors(ranks.piece(ranks.ellipsoid(), "contiguous"))
+        if ranks.RANK == ranks.RANKS - 1:
+            numpy_support.vtk_to_numpy(mine.GetCellData().GetArray("c"))[2] = -1.0
+        messages = listen(filter_, "ErrorEvent")
+        ranks.run(filter_, mine)
+        told = ["weight of the values" in text for text in messages]
+        ranks.check(self, [] if told == [True] * (ranks.RANK == 0) else [f"{messages}"])
 
     def test_nothing_held_is_refused(self):
         for case in ("poisson, held", "heat, held"):

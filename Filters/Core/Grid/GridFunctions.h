@@ -19,6 +19,13 @@ struct SpaceOptions
   bool joinAtPoints = false;        // sheets that touch in a point of the mesh are connected
 };
 
+/// A piece that another process has, of a triangle that has pieces here, too.
+struct PieceElsewhere
+{
+  MortonKey cell;
+  Index triangle;
+};
+
 struct GridFunctions
 {
   FunctionSupport support = FunctionSupport::ConnectivityAware;
@@ -28,6 +35,8 @@ struct GridFunctions
   Array<Index> pointPatch;        // per input point: a patch that contains it; -1 if unused
   std::vector<Index> component;   // per finest function
   Index numberOfComponents = 0;
+  bool isPart = false;                   // other processes have the rest of the surface
+  std::vector<PieceElsewhere> elsewhere; // near the pieces here
 
   const Grid& GetGrid() const { return clipped.grid; }
   const PatchLevel& Finest() const { return levels.front(); }

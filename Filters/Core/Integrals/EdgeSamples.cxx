@@ -18,7 +18,7 @@ namespace
 struct CellPiece
 {
   MortonKey cell;
-  Index piece;
+  Index piece; // -1: of another process
   bool operator<(const CellPiece& other) const { return cell < other.cell; }
 };
 
@@ -51,10 +51,12 @@ public:
         }
       }
     }
+    this->AddElsewhere();
   }
 
-  /// The patch of a triangle at a point of it; -1 where the triangle has no piece. Where cells
-  /// share a face the triangle's functions agree, so that any of them will do.
+  /// The patch of a triangle at a point of it; -1 where the triangle has no piece, or another
+  /// process has it. Where cells share a face the triangle's functions agree, so that any of them
+  /// will do.
   Index PatchAt(Id triangle, const Vec3& position) const
   {
     const std::vector<CellPiece>& pieces = pieces_[list_[triangle]];
@@ -62,8 +64,12 @@ public:
     {
       return -1;
     }
-    const Index piece = this->PieceInCell(pieces, this->Inwards(triangle, position));
-    return space_.piecePatch[piece >= 0 ? piece : NearestPiece(pieces, position)];
+    const CellPiece* found = PieceInCell(pieces, this->Inwards(triangle, position));
+    if (!found)
+    {
+      found = this->NearestPiece(pieces, position);
+    }
+    return found && found->piece >= 0 ? space_.piecePatch[found->piece] : -1;
   }
 
 private:
@@ -77,7 +83,29 @@ private:
     return position + Step / std::max(1.0, inwards.norm()) * inwards;
   }
 
-  Index PieceInCell(const std::vector<CellPiece>& pieces, const Vec3& position) const
+  /// All processes that have pieces near a place choose the same one.
+  void AddElsewhere()
+  {
+    std::vector<char> isShared(pieces_.size(), 0);
+    for (const PieceElsewhere& other : space_.elsewhere)
+    {
+      const Index list = list_[other.triangle];
+      if (list >= 0)
+      {
+        pieces_[list].push_back({ other.cell, -1 });
+        isShared[list] = 1;
+      }
+    }
+    for (std::size_t list = 0; list < pieces_.size(); ++list)
+    {
+      if (isShared[list])
+      {
+        std::stable_sort(pieces_[list].begin(), pieces_[list].end());
+      }
+    }
+  }
+
+  const CellPiece* PieceInCell(const std::vector<CellPiece>& pieces, const Vec3& position) const
   {
     CellIndex cell;
     for (int axis = 0; axis < 3; ++axis)
@@ -87,13 +115,16 @@ private:
     }
     const CellPiece wanted{ MortonEncode(cell), 0 };
     const auto found = std::lower_bound(pieces.begin(), pieces.end(), wanted);
-    return found != pieces.end() && found->cell == wanted.cell ? found->piece : -1;
+    return found != pieces.end() && found->cell == wanted.cell ? &*found : nullptr;
   }
 
-  static Index NearestPiece(const std::vector<CellPiece>& pieces, const Vec3& position)
+  /// Where processes divide the surface, null where the piece is not near: then it is not known
+  /// here.
+  const CellPiece* NearestPiece(const std::vector<CellPiece>& pieces, const Vec3& position) const
   {
-    double least = std::numeric_limits<double>::infinity();
-    Index nearest = pieces.front().piece;
+    constexpr double Near = 1e-3; // cells
+    double least = space_.isPart ? Near : std::numeric_limits<double>::infinity();
+    const CellPiece* nearest = nullptr;
     for (const CellPiece& own : pieces)
     {
       const CellIndex cell = MortonDecode(own.cell);
@@ -102,7 +133,7 @@ private:
       if (distance < least)
       {
         least = distance;
-        nearest = own.piece;
+        nearest = &own;
       }
     }
     return nearest;
@@ -180,6 +211,7 @@ EdgeSamples SampleSegments(const GridFunctions& space, const TriangleMesh& mesh,
         rows.Append(entries);
         samples.edge.push_back(static_cast<Index>(s));
         samples.position.push_back(t);
+        samples.isMiddle.push_back(gauss.position == 0.5);
         samples.length.push_back(gauss.weight * stretch * length);
       }
     }

@@ -25,12 +25,14 @@ struct EdgeSamples
 {
   std::vector<Index> edge;      // of each sample: which of the given segments it is on, ascending
   std::vector<double> position; // 0 at the first end of the segment, 1 at the other
+  std::vector<char> isMiddle;   // of a stretch between two faces of cells
   std::vector<double> length;   // that the sample stands for, world units
   SparseMatrix rows;            // the values of all functions: rows = samples
 };
 
 /// Segments fall into stretches at the faces of the cells, each with three Gauss points. Triangles
-/// without a piece, which have no area, have no samples.
+/// without a piece, which have no area, have no samples. Where processes divide the surface, each
+/// has the samples on its own pieces, and of the others none.
 /// Cost O(pieces + samples log pieces).
 /// Throws InvalidInput for a triangle that the mesh does not have.
 EdgeSamples SampleSegments(const GridFunctions& space, const TriangleMesh& mesh,

@@ -1,5 +1,6 @@
 #include "Problems/BiharmonicIteration.h"
 
+#include "Spaces/FiniteElementSpace.h"
 #include "Spaces/PointComponents.h"
 
 #include <algorithm>

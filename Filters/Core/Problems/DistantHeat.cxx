@@ -21,16 +21,8 @@ constexpr double SmallestHeat = 1e-290;
 /// So many layers are relaxed together: heat from farther off is less than rounding of a direction.
 constexpr Id LayersAtOnce = 16;
 
-/// A layer is left when no patch of it changes by more of its heat. Changes halve from sweep to
-/// sweep, so that errors are of the same size; they give distances that are off by some 1e-4 of
-/// their range.
-constexpr double SmallChange = 3e-3;
-
 /// The first march is there for the order of the next.
 constexpr double RoughChange = 0.5;
-
-/// What a last sweep over all may change when nothing is wrong: layers that were left early.
-constexpr double LastChange = 10.0 * SmallChange;
 
 constexpr int MostMarches = 12;
 constexpr int MostSweepsPerStep = 100;
@@ -50,8 +42,8 @@ EIGEN_ALWAYS_INLINE void DistantHeat::FetchAfter(const Layers& layers, Id k) con
 }
 
 DistantHeat::DistantHeat(
-  const FiniteElementSpace& space, std::size_t level, double t, const Job& job)
-  : t_(t)
+  const FiniteElementSpace& space, std::size_t level, double t, const Job& job, double change)
+  : t_(t), change_(change)
 {
   if (level >= space.NumberOfLevels())
   {
@@ -67,22 +59,37 @@ DistantHeat::DistantHeat(
   {
     direct_.emplace(A_, job.threads);
   }
-  size_ = A_.Diagonal(job.threads);
+  this->Factor(space.Relaxation(level, {}).order.dof, job.threads);
+}
+
+DistantHeat::DistantHeat(SparseMatrix A,
+  const std::vector<std::array<Index, FunctionsPerPatch>>& patches, double t, double change,
+  int threads)
+  : A_(std::move(A)), t_(t), change_(change)
+{
+  this->Factor(patches, threads);
+}
+
+void DistantHeat::Factor(
+  const std::vector<std::array<Index, FunctionsPerPatch>>& patches, int threads)
+{
+  size_ = A_.Diagonal(threads);
   for (double& size : size_)
   {
     size = std::sqrt(std::max(0.0, size));
   }
-  patches_.emplace(A_, space.Relaxation(level, {}).order.dof, job.threads, FactorPrecision::Mixed);
+  patches_.emplace(A_, patches, threads, FactorPrecision::Mixed);
 }
 
 /// Per function, over how many others heat comes to it; -1 on components without a source.
-std::vector<Index> DistantHeat::StepsFromSources(const MultiVector& load) const
+std::vector<Index> DistantHeat::StepsFromSources(
+  const MultiVector& load, const MultiVector& u) const
 {
   std::vector<Index> steps(A_.rows, -1);
   std::vector<Index> reached;
   for (Index i = 0; i < A_.rows; ++i)
   {
-    if (load(i, 0) != 0.0)
+    if (load(i, 0) != 0.0 || u(i, 0) != 0.0)
     {
       steps[i] = 0;
       reached.push_back(i);
@@ -249,19 +256,22 @@ Id DistantHeat::CountUnreached(const Layers& layers, const MultiVector& u) const
   return std::count(isUnreached.begin(), isUnreached.end(), 1);
 }
 
-HeatField DistantHeat::OnLevel(const MultiVector& load, const Job& job) const
+/// @param before  what there is already; 0: nothing
+HeatField DistantHeat::OnLevel(const MultiVector& load, MultiVector before, const Job& job) const
 {
   const MultiVector b = load / t_;
   HeatField heat;
-  heat.coefficients = MultiVector::Zero(A_.rows, 1);
+  heat.coefficients = std::move(before);
   MultiVector& u = heat.coefficients;
-  const Layers bySteps = this->LayersBySteps(this->StepsFromSources(load));
+  const Layers bySteps = this->LayersBySteps(this->StepsFromSources(load, u));
+  const bool isEverywhere = std::all_of(
+    bySteps.patch.begin(), bySteps.patch.end(), [&](Index p) { return this->HeatOf(p, u) > 0.0; });
   Id relaxed = 0;
   if (direct_)
   {
     direct_->Solve(b, u, job.threads);
   }
-  else
+  else if (!isEverywhere)
   {
     relaxed = this->March(bySteps, RoughChange, b, u, job.Part(0.0, 0.2));
   }
@@ -271,19 +281,39 @@ HeatField DistantHeat::OnLevel(const MultiVector& load, const Job& job) const
     // Most often one is enough; heat that came from behind its front needs another order.
     const double next = 1.0 - 0.2 * (1.0 - done);
     const Layers byHeat = this->LayersByHeat(u, bySteps.Count(), bySteps.patch);
-    relaxed += this->March(byHeat, SmallChange, b, u, job.Part(done, next));
+    relaxed += this->March(byHeat, change_, b, u, job.Part(done, next));
     double change = 0.0;
     for (const Index p : byHeat.patch)
     {
       change = std::max(change, this->Relax(p, b, u));
     }
     relaxed += static_cast<Id>(byHeat.patch.size());
-    heat.converged = change <= LastChange;
+    heat.converged = change <= LastChange * change_;
     done = next;
   }
   heat.sweeps = double(relaxed) / std::max(1.0, double(bySteps.patch.size()));
   heat.unreached = this->CountUnreached(bySteps, u);
   return heat;
+}
+
+HeatField DistantHeat::Continue(const MultiVector& load, MultiVector heat, const Job& job) const
+{
+  if (load.rows() != A_.rows || heat.rows() != A_.rows)
+  {
+    throw InvalidInput("The load or the heat does not fit the matrix.");
+  }
+  return this->OnLevel(load, std::move(heat), job);
+}
+
+double DistantHeat::ChangeOf(const MultiVector& load, MultiVector heat) const
+{
+  const MultiVector b = load / t_;
+  double change = 0.0;
+  for (Index p = 0; p < static_cast<Index>(patches_->Count()); ++p)
+  {
+    change = std::max(change, this->Relax(p, b, heat));
+  }
+  return change;
 }
 
 HeatField DistantHeat::From(const MultiVector& load, const Job& job) const
@@ -301,7 +331,7 @@ HeatField DistantHeat::From(const MultiVector& load, const Job& job) const
     Multiply(restriction, b, taken, job.threads);
     b.swap(taken);
   }
-  HeatField heat = this->OnLevel(b, job);
+  HeatField heat = this->OnLevel(b, MultiVector::Zero(A_.rows, 1), job);
   for (auto p = prolongations_.rbegin(); p != prolongations_.rend(); ++p)
   {
     Multiply(*p, heat.coefficients, taken, job.threads);

@@ -13,6 +13,7 @@
 #include "Multigrid/CoarseSolver.h"
 #include "Multigrid/PatchInverses.h"
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -36,19 +37,41 @@ struct HeatField
 class DistantHeat
 {
 public:
+  /// A layer is left when no patch of it changes by more of its heat. Changes halve from sweep to
+  /// sweep, so that errors are of the same size; they give distances that are off by some 1e-4 of
+  /// their range.
+  static constexpr double SmallChange = 3e-3;
+
+  /// What a last sweep over all may change when nothing is wrong, of that: some layers were left
+  /// early.
+  static constexpr double LastChange = 10.0;
+
   /// @param space  one whose patches settle their neighbourhood: a grid's
   /// @param level  of the space, on which the equation is solved. √t should be two to four
   /// distances
   ///   between its functions: with less they oscillate, with more relaxation takes long
   /// @param t      in squared units of length; > 0
   /// Throws Aborted, and InvalidInput when there is no such level.
-  DistantHeat(const FiniteElementSpace& space, std::size_t level, double t, const Job& job = {});
+  DistantHeat(const FiniteElementSpace& space, std::size_t level, double t, const Job& job = {},
+    double change = SmallChange);
+
+  /// The same of a part of a surface that other processes have the rest of.
+  /// @param A        M / t + L. Rows of the unknowns of patches lack nothing.
+  /// @param patches  that are relaxed here; other unknowns stay as they are
+  DistantHeat(SparseMatrix A, const std::vector<std::array<Index, FunctionsPerPatch>>& patches,
+    double t, double change, int threads);
 
   /// @param load  one column: Σ b_i(source), b_i the functions of the finest level
   /// @return      coefficients of the finest level
   /// Throws InvalidInput when its rows do not fit, and Aborted. Same bits for any number of
   /// threads.
   HeatField From(const MultiVector& load, const Job& job = {}) const;
+
+  /// From heat that is there already, on the level.
+  HeatField Continue(const MultiVector& load, MultiVector heat, const Job& job = {}) const;
+
+  /// The largest change of a patch over its heat, when each is relaxed once more.
+  double ChangeOf(const MultiVector& load, MultiVector heat) const;
 
   /// M / t + L on the level
   const SparseMatrix& Matrix() const { return A_; }
@@ -63,8 +86,9 @@ private:
     Id Count() const { return static_cast<Id>(begin.size()) - 1; }
   };
 
-  HeatField OnLevel(const MultiVector& load, const Job& job) const;
-  std::vector<Index> StepsFromSources(const MultiVector& load) const;
+  void Factor(const std::vector<std::array<Index, FunctionsPerPatch>>& patches, int threads);
+  HeatField OnLevel(const MultiVector& load, MultiVector before, const Job& job) const;
+  std::vector<Index> StepsFromSources(const MultiVector& load, const MultiVector& u) const;
   Layers LayersByRank(const std::vector<double>& rank) const;
   Layers LayersBySteps(const std::vector<Index>& steps) const;
   Layers LayersByHeat(const MultiVector& u, Id count, const std::vector<Index>& patches) const;
@@ -83,6 +107,7 @@ private:
   std::optional<PatchInverses> patches_;
   std::optional<CoarseSolver> direct_; // a start on the coarsest level, where t may be very large
   double t_;
+  double change_;
 };
 
 } // namespace gridfem

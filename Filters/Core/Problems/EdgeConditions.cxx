@@ -45,25 +45,6 @@ void AppendRow(const SparseMatrix& matrix, Index row, RowBuilder& rows)
   rows.Append(entries);
 }
 
-/// In the middle of each stretch.
-HeldValues HoldBetween(const FiniteElementSpace& space, const TriangleMesh& mesh,
-  const std::vector<TriangleEdge>& edges, const MultiVector& values)
-{
-  constexpr Index PerStretch = 3; // samples, of which one is held
-  const EdgeSamples samples = space.SamplesOfSegments(SegmentsOf(edges, mesh));
-  const MultiVector atSamples = AtSamples(samples, mesh, edges, values);
-  HeldValues held;
-  held.values.resize(samples.rows.rows / PerStretch, values.cols());
-  RowBuilder rows;
-  for (Index row = 0; row < held.values.rows(); ++row)
-  {
-    AppendRow(samples.rows, PerStretch * row + 1, rows);
-    held.values.row(row) = atSamples.row(PerStretch * row + 1);
-  }
-  held.rows = rows.Finish(samples.rows.columns);
-  return held;
-}
-
 } // namespace
 
 HeldValues HoldPoints(
@@ -89,8 +70,8 @@ HeldValues Join(const HeldValues& first, const HeldValues& second)
   return both;
 }
 
-HeldValues HoldEdges(const FiniteElementSpace& space, const TriangleMesh& mesh,
-  const std::vector<TriangleEdge>& edges, const MultiVector& values)
+std::vector<TriangleEdge> KnownEdges(
+  const TriangleMesh& mesh, const std::vector<TriangleEdge>& edges, const MultiVector& values)
 {
   CheckValues(mesh, values);
   std::vector<TriangleEdge> known;
@@ -100,14 +81,14 @@ HeldValues HoldEdges(const FiniteElementSpace& space, const TriangleMesh& mesh,
       const auto own = edge.Ends(mesh);
       return !values.row(own[0]).hasNaN() && !values.row(own[1]).hasNaN();
     });
-  const std::vector<Id> ends = EndsOf(known, mesh);
-  MultiVector atEnds(static_cast<Id>(ends.size()), values.cols());
-  for (Id k = 0; k < atEnds.rows(); ++k)
-  {
-    atEnds.row(k) = values.row(ends[k]);
-  }
+  return known;
+}
+
+HeldValues HoldWithinEdges(const FiniteElementSpace& space, const TriangleMesh& mesh,
+  const std::vector<TriangleEdge>& edges, const MultiVector& values)
+{
   std::vector<TriangleEdge> longEdges;
-  for (const TriangleEdge& edge : known)
+  for (const TriangleEdge& edge : edges)
   {
     const auto own = edge.Ends(mesh);
     if ((mesh.points[own[1]] - mesh.points[own[0]]).norm() > space.UnitLength())
@@ -115,8 +96,37 @@ HeldValues HoldEdges(const FiniteElementSpace& space, const TriangleMesh& mesh,
       longEdges.push_back(edge);
     }
   }
+  const EdgeSamples samples = space.SamplesOfSegments(SegmentsOf(longEdges, mesh));
+  const MultiVector atSamples = AtSamples(samples, mesh, longEdges, values);
+  HeldValues held;
+  held.values.resize(
+    std::count(samples.isMiddle.begin(), samples.isMiddle.end(), 1), values.cols());
+  RowBuilder rows;
+  Id next = 0;
+  for (Index row = 0; row < samples.rows.rows; ++row)
+  {
+    if (samples.isMiddle[row])
+    {
+      AppendRow(samples.rows, row, rows);
+      held.values.row(next++) = atSamples.row(row);
+    }
+  }
+  held.rows = rows.Finish(samples.rows.columns);
+  return held;
+}
+
+HeldValues HoldEdges(const FiniteElementSpace& space, const TriangleMesh& mesh,
+  const std::vector<TriangleEdge>& edges, const MultiVector& values)
+{
+  const std::vector<TriangleEdge> known = KnownEdges(mesh, edges, values);
+  const std::vector<Id> ends = EndsOf(known, mesh);
+  MultiVector atEnds(static_cast<Id>(ends.size()), values.cols());
+  for (Id k = 0; k < atEnds.rows(); ++k)
+  {
+    atEnds.row(k) = values.row(ends[k]);
+  }
   return Join(
-    HoldPoints(space, ends, std::move(atEnds)), HoldBetween(space, mesh, longEdges, values));
+    HoldPoints(space, ends, std::move(atEnds)), HoldWithinEdges(space, mesh, known, values));
 }
 
 MultiVector LoadOnEdges(const FiniteElementSpace& space, const TriangleMesh& mesh,
@@ -135,6 +145,23 @@ MultiVector LoadOnEdges(const FiniteElementSpace& space, const TriangleMesh& mes
     }
   }
   return load;
+}
+
+BoundaryTerms TermsOnBoundary(const FiniteElementSpace& space, const TriangleMesh& mesh,
+  bool weldCoincidentPoints, const MultiVector* flux, const MultiVector* values)
+{
+  const std::vector<TriangleEdge> edges = FindSurfaceEdges(mesh, weldCoincidentPoints).boundary;
+  BoundaryTerms terms;
+  terms.isThere = !edges.empty();
+  if (terms.isThere && flux)
+  {
+    terms.load = LoadOnEdges(space, mesh, edges, *flux);
+  }
+  if (terms.isThere && values)
+  {
+    terms.held = HoldEdges(space, mesh, edges, *values);
+  }
+  return terms;
 }
 
 } // namespace gridfem

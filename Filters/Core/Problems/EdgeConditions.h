@@ -27,10 +27,29 @@ HeldValues Join(const HeldValues& first, const HeldValues& second);
 HeldValues HoldEdges(const FiniteElementSpace& space, const TriangleMesh& mesh,
   const std::vector<TriangleEdge>& edges, const MultiVector& values);
 
+/// Of HoldEdges: the edges both of whose ends have a known value, and what is held between the ends
+/// of such edges.
+std::vector<TriangleEdge> KnownEdges(
+  const TriangleMesh& mesh, const std::vector<TriangleEdge>& edges, const MultiVector& values);
+HeldValues HoldWithinEdges(const FiniteElementSpace& space, const TriangleMesh& mesh,
+  const std::vector<TriangleEdge>& edges, const MultiVector& values);
+
 /// ∫ f b_i over edges in world units of length: rows = functions, columns as `values`.
 /// @param values  rows = points of the mesh; linear along the edges
 MultiVector LoadOnEdges(const FiniteElementSpace& space, const TriangleMesh& mesh,
   const std::vector<TriangleEdge>& edges, const MultiVector& values);
+
+/// What the boundary of a surface adds to an equation.
+struct BoundaryTerms
+{
+  bool isThere = false; // a boundary; else the rest is empty
+  MultiVector load;     // LoadOnEdges of a flux; no rows without one
+  HeldValues held;      // HoldEdges of values; no rows without them
+};
+
+/// @param flux, values  rows = points of the mesh; null: there are none
+BoundaryTerms TermsOnBoundary(const FiniteElementSpace& space, const TriangleMesh& mesh,
+  bool weldCoincidentPoints, const MultiVector* flux, const MultiVector* values);
 
 } // namespace gridfem
 

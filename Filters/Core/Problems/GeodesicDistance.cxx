@@ -29,20 +29,8 @@ constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 /// pairs, weighted by their overlap ∫ b_i b_j, so that large elements count as the area they have.
 double MeanSpacing(const FiniteElementSpace& space, const Job& job)
 {
-  const SparseMatrix mass = space.Matrix(0, 1.0, 0.0, job);
-  const MultiVector place = space.EmbeddingOfMesh(job);
-  double sum = 0.0;
-  double weights = 0.0;
-  for (Index i = 0; i < mass.rows; ++i)
-  {
-    for (Id k = mass.rowBegin[i]; k < mass.rowBegin[i + 1]; ++k)
-    {
-      const Index j = mass.column[k];
-      const double weight = i == j ? 0.0 : std::abs(mass.value[k]);
-      sum += weight * (place.row(i) - place.row(j)).squaredNorm();
-      weights += weight;
-    }
-  }
+  const auto [sum, weights] =
+    SpacingSums(space.Matrix(0, 1.0, 0.0, job), space.EmbeddingOfMesh(job));
   return std::sqrt(sum / weights);
 }
 
@@ -165,6 +153,53 @@ void CompareDistances(
 
 } // namespace
 
+std::array<double, 2> SpacingSums(const SparseMatrix& mass, const MultiVector& place)
+{
+  std::array<double, 2> sums{ 0.0, 0.0 };
+  for (Index i = 0; i < mass.rows; ++i)
+  {
+    for (Id k = mass.rowBegin[i]; k < mass.rowBegin[i + 1]; ++k)
+    {
+      const Index j = mass.column[k];
+      const double weight = i == j ? 0.0 : std::abs(mass.value[k]);
+      sums[0] += weight * (place.row(i) - place.row(j)).squaredNorm();
+      sums[1] += weight;
+    }
+  }
+  return sums;
+}
+
+Field AwayFromSources(const TriangleMesh& mesh, const std::vector<char>& isSource)
+{
+  Field away{ FieldAssociation::Triangles,
+    MultiVector::Constant(static_cast<Id>(mesh.triangles.size()), 1, -1.0) };
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  {
+    const auto& corner = mesh.triangles[t];
+    if (isSource[corner[0]] && isSource[corner[1]] && isSource[corner[2]])
+    {
+      away.values(static_cast<Id>(t), 0) = 0.0;
+    }
+  }
+  return away;
+}
+
+std::vector<double> ShiftedToZero(const MultiVector& value, const std::vector<Index>& component,
+  const std::vector<double>& zero, const std::vector<char>& isSource)
+{
+  std::vector<double> shifted(component.size(), NaN);
+  for (std::size_t point = 0; point < component.size(); ++point)
+  {
+    const Index c = component[point];
+    if (c >= 0 && !std::isnan(zero[c]))
+    {
+      shifted[point] =
+        isSource[point] ? 0.0 : std::max(0.0, value(static_cast<Id>(point), 0) - zero[c]);
+    }
+  }
+  return shifted;
+}
+
 GeodesicDistance::GeodesicDistance(std::shared_ptr<const FiniteElementSpace> space,
   std::shared_ptr<const TriangleMesh> mesh, DistanceOptions options, const Job& job)
   : space_(std::move(space)), mesh_(std::move(mesh)), options_(options)
@@ -177,7 +212,8 @@ GeodesicDistance::GeodesicDistance(std::shared_ptr<const FiniteElementSpace> spa
   const FiniteElementSpace& heatSpace = HeatSpace(*space_);
   time_ = std::pow(options_.smoothing * MeanSpacing(heatSpace, job.threads), 2);
   const std::size_t level = LevelFor(options_.smoothing, heatSpace);
-  heat_ = std::make_unique<DistantHeat>(heatSpace, level, time_, job.Part(0.0, 0.3));
+  heat_ =
+    std::make_unique<DistantHeat>(heatSpace, level, time_, job.Part(0.0, 0.3), options_.heatChange);
   if (options_.estimateErrors && level + 1 < heatSpace.NumberOfLevels())
   {
     coarserHeat_ =
@@ -193,16 +229,7 @@ GeodesicDistance::GeodesicDistance(std::shared_ptr<const FiniteElementSpace> spa
 MultiVector GeodesicDistance::LoadOfDistance(
   const MultiVector& heat, const std::vector<char>& isSource, const Job& job) const
 {
-  Field away{ FieldAssociation::Triangles,
-    MultiVector::Constant(static_cast<Id>(mesh_->triangles.size()), 1, -1.0) };
-  for (std::size_t t = 0; t < mesh_->triangles.size(); ++t)
-  {
-    const auto& corner = mesh_->triangles[t];
-    if (isSource[corner[0]] && isSource[corner[1]] && isSource[corner[2]])
-    {
-      away.values(static_cast<Id>(t), 0) = 0.0;
-    }
-  }
+  const Field away = AwayFromSources(*mesh_, isSource);
   return space_->LoadOfDirections(heat, &away, job);
 }
 
@@ -222,21 +249,14 @@ std::vector<double> GeodesicDistance::ShiftedToSources(
       ++count[component_[source]];
     }
   }
-  std::vector<double> shifted(component_.size(), NaN);
-  for (std::size_t point = 0; point < component_.size(); ++point)
-  {
-    const Index c = component_[point];
-    if (c >= 0 && count[c] > 0)
-    {
-      const double zero = sum[c] / static_cast<double>(count[c]);
-      shifted[point] = std::max(0.0, value(static_cast<Id>(point), 0) - zero);
-    }
-  }
+  std::transform(sum.begin(), sum.end(), count.begin(), sum.begin(),
+    [](double total, Id of) { return of > 0 ? total / static_cast<double>(of) : NaN; });
+  std::vector<char> isSource(component_.size(), 0);
   for (const Id source : sources)
   {
-    shifted[source] = component_[source] >= 0 ? 0.0 : NaN;
+    isSource[source] = 1;
   }
-  return shifted;
+  return ShiftedToZero(value, component_, sum, isSource);
 }
 
 /// Where X points outwards away from the curve and towards it inside: the gradient of the distance

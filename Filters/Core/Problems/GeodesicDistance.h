@@ -12,6 +12,7 @@
 #include "Problems/SurfaceCurve.h"
 #include "Spaces/FiniteElementSpace.h"
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct DistanceOptions
   double smoothing = 1.75;
   MultigridOptions multigrid;
   bool estimateErrors = false; // of every distance, for a sixth to two fifths more time
+  double heatChange = DistantHeat::SmallChange; // how exact the heat is
 };
 
 struct DistanceField
@@ -43,13 +45,23 @@ struct DistanceField
   SolutionAccuracy accuracy;
 };
 
+/// How distances from points are found.
+class DistanceMethod
+{
+public:
+  virtual ~DistanceMethod() = default;
+
+  virtual DistanceField From(
+    const std::vector<Id>& sources, const SolveOptions& solve, const Job& job = {}) const = 0;
+};
+
 /// (M + t L) u = Σ b_i(source), X = -∇u / |∇u|, L φ = ∫ <X, ∇b_i>, and φ is shifted so that its
 /// mean over the sources of a component is 0. All but the sources is kept, so that other sources
 /// cost the solves alone. The heat flows on the nested levels of a space that has such: hats on
 /// them may be slivers, or much farther from each other than t allows. Distances are exact to the
 /// size of a few functions where one front comes; where fronts meet, and within sqrt(t) of
 /// boundaries, errors are sqrt(t) / 2 to sqrt(t).
-class GeodesicDistance
+class GeodesicDistance : public DistanceMethod
 {
 public:
   /// @param mesh  what the space was made from
@@ -63,7 +75,7 @@ public:
   /// Throws InvalidInput when there is none or one is no point, and Aborted. Same bits for any
   /// number of threads.
   DistanceField From(
-    const std::vector<Id>& sources, const SolveOptions& solve, const Job& job = {}) const;
+    const std::vector<Id>& sources, const SolveOptions& solve, const Job& job = {}) const override;
 
   /// The distance from a curve, negative inside: L φ = ∫ <X, ∇b_i>, where X points away from the
   /// curve outside and towards it inside, so that φ has no crease there. Near the curve X is the
@@ -104,6 +116,26 @@ private:
   std::unique_ptr<DistantHeat> coarserHeat_; // null: no errors are estimated
   std::unique_ptr<Multigrid> poisson_;       // of L
 };
+
+///@{ Steps that processes which hold the surface together take as well, each on its own part.
+
+/// With a smoothing below this heat flows on the finest level.
+constexpr double MostSmoothing = 3.5; // twice the default
+
+/// Σ w d² and Σ w over pairs of functions: w is their overlap, d how far they are from each other.
+/// The root of the quotient is the mean spacing.
+std::array<double, 2> SpacingSums(const SparseMatrix& mass, const MultiVector& place);
+
+/// -1 on triangles, what the direction of the heat counts; 0 on those whose corners are all
+/// sources.
+Field AwayFromSources(const TriangleMesh& mesh, const std::vector<char>& isSource);
+
+/// A distance at points from its values there: 0 at sources, elsewhere at least 0.
+/// @param component  of every point; -1 where no function reaches
+/// @param zero       what is 0 on each component; NaN where it has no source
+std::vector<double> ShiftedToZero(const MultiVector& value, const std::vector<Index>& component,
+  const std::vector<double>& zero, const std::vector<char>& isSource);
+///@}
 
 } // namespace gridfem
 

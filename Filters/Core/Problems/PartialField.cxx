@@ -1,8 +1,10 @@
 #include "Problems/PartialField.h"
 
+#include "Algebra/DividedRows.h"
 #include "Base/Errors.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -54,28 +56,47 @@ PartialField SplitField(Field field, const Field* weight, const TriangleMesh& me
   PartialField partial;
   partial.weight = WeightsOfTriangles(weight, mesh);
   partial.values = std::move(field);
-  const std::vector<char> isKnown = TakeOutUnknown(partial.values.values);
-  const bool isOnPoints = partial.values.association == FieldAssociation::Points;
-  std::vector<char> counts(mesh.points.size(), 0);
+  partial.hasValue = TakeOutUnknown(partial.values.values);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
   {
     const auto& corner = mesh.triangles[t];
     const auto rows = partial.values.RowsOf(static_cast<Id>(t), corner);
     const bool isWhole =
-      std::all_of(rows.begin(), rows.end(), [&](Id row) { return isKnown[row]; });
-    for (const Id point : corner)
-    {
-      counts[point] |= isWhole;
-    }
+      std::all_of(rows.begin(), rows.end(), [&](Id row) { return partial.hasValue[row]; });
     partial.isKnown.push_back(isWhole);
     partial.weight[t] *= isWhole;
   }
-  const std::vector<char> used = UsedPoints(mesh);
-  for (std::size_t point = 0; isOnPoints && point < used.size(); ++point)
-  {
-    partial.numberOfIgnoredPoints += used[point] && isKnown[point] && !counts[point];
-  }
   return partial;
+}
+
+Id CountIgnoredPoints(
+  const SurfaceSpace& space, const PartialField& field, const TriangleMesh& mesh)
+{
+  if (field.values.association != FieldAssociation::Points)
+  {
+    return 0;
+  }
+  // Known triangles around each point, and the processes that have it.
+  MultiVector around = MultiVector::Zero(static_cast<Id>(mesh.points.size()), 2);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  {
+    for (const Id point : mesh.triangles[t])
+    {
+      around(point, 0) += field.isKnown[t];
+      around(point, 1) = 1.0;
+    }
+  }
+  space.SumAtPoints(around);
+  std::array<double, 1> ignored{ 0.0 };
+  for (Id point = 0; point < around.rows(); ++point)
+  {
+    if (field.hasValue[point] && around(point, 0) == 0.0 && around(point, 1) > 0.0)
+    {
+      ignored[0] += 1.0 / around(point, 1);
+    }
+  }
+  SumOverProcesses(space.Divided(0), ignored);
+  return std::llround(ignored[0]);
 }
 
 Field ScaleOfKnown(const PartialField& field, const Field* scale, const TriangleMesh& mesh)
@@ -93,7 +114,7 @@ Field ScaleOfKnown(const PartialField& field, const Field* scale, const Triangle
   return known;
 }
 
-MultiVector MeansOfKnown(const FiniteElementSpace& space, const PartialField& field, const Job& job)
+MultiVector MeansOfKnown(const SurfaceSpace& space, const PartialField& field, const Job& job)
 {
   const std::vector<double> isKnown(field.isKnown.begin(), field.isKnown.end());
   const Components components = space.ComponentsOf(0, job);
@@ -103,11 +124,14 @@ MultiVector MeansOfKnown(const FiniteElementSpace& space, const PartialField& fi
   const MultiVector area = space.LoadOfWeightedValues(one, isKnown, job.Part(0.5, 1.0));
   MultiVector sum = MultiVector::Zero(components.count, load.cols());
   std::vector<double> size(components.count, 0.0);
-  for (Id i = 0; i < load.rows(); ++i)
+  const DividedRows* const divided = space.Divided(0);
+  for (Id i = ForeignRows(divided); i < load.rows(); ++i)
   {
     sum.row(components.ofFunction[i]) += load.row(i);
     size[components.ofFunction[i]] += area(i, 0);
   }
+  SumOverProcesses(divided, sum);
+  SumOverProcesses(divided, size);
   for (Id c = 0; c < sum.rows(); ++c)
   {
     sum.row(c) *= size[c] > 0.0 ? 1.0 / size[c] : std::numeric_limits<double>::quiet_NaN();

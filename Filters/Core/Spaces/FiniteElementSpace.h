@@ -26,10 +26,6 @@ public:
 
   ///@{ The finest level.
 
-  /// ∫ w f b_i with a weight w on each triangle.
-  virtual MultiVector LoadOfWeightedValues(
-    const Field& f, const std::vector<double>& weight, const Job& job = {}) const = 0;
-
   /// LoadOfGradients with n x s, n along the normal of each triangle.
   virtual MultiVector LoadOfTurnedGradients(const Field& s, const Job& job = {}) const = 0;
 
@@ -55,6 +51,14 @@ public:
 
   ///@{ Other numbers on the same functions. A copy shares all that does not change.
   virtual std::unique_ptr<FiniteElementSpace> Copy() const = 0;
+
+  std::shared_ptr<const SurfaceSpace> WithWeighedMass(
+    const std::vector<double>& weight, const Job& job = {}) const override
+  {
+    std::shared_ptr<FiniteElementSpace> weighed = this->Copy();
+    weighed->WeighMass(weight, job);
+    return weighed;
+  }
 
   /// All integrals in the metric of an embedding, but for loads, which stay those of the mesh.
   /// [T §5.1]

@@ -20,7 +20,7 @@ std::vector<Index> ComponentsOfRows(const SparseMatrix& rows, const Components& 
 }
 
 std::vector<Index> ComponentsOfPoints(
-  const FiniteElementSpace& space, const Components& components, const Job& job)
+  const SurfaceSpace& space, const Components& components, const Job& job)
 {
   MultiVector numbers(static_cast<Id>(components.ofFunction.size()), 1);
   std::copy(components.ofFunction.begin(), components.ofFunction.end(), numbers.data());

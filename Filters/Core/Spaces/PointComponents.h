@@ -2,7 +2,7 @@
 #ifndef GridFEM_PointComponents_h
 #define GridFEM_PointComponents_h
 
-#include "Spaces/FiniteElementSpace.h"
+#include "Spaces/SurfaceSpace.h"
 
 namespace gridfem
 {
@@ -12,7 +12,7 @@ std::vector<Index> ComponentsOfRows(const SparseMatrix& rows, const Components& 
 
 /// Per point of the mesh; -1 where no function reaches.
 std::vector<Index> ComponentsOfPoints(
-  const FiniteElementSpace& space, const Components& components, const Job& job = {});
+  const SurfaceSpace& space, const Components& components, const Job& job = {});
 
 } // namespace gridfem
 

@@ -6,6 +6,7 @@
 #include "Grid/Field.h"
 #include "Spaces/SpaceLevels.h"
 
+#include <memory>
 #include <vector>
 
 namespace gridfem
@@ -25,6 +26,10 @@ public:
 
   /// ∫ f b_i: rows = functions, columns = components of f.
   virtual MultiVector LoadOfValues(const Field& f, const Job& job = {}) const = 0;
+
+  /// ∫ w f b_i with a weight w on each triangle.
+  virtual MultiVector LoadOfWeightedValues(
+    const Field& f, const std::vector<double>& weight, const Job& job = {}) const = 0;
 
   /// ∫ <s, ∇b_i> as the stiffness has it, without a unit. Vector c of s lies in columns 3c .. 3c+2;
   /// its part normal to the surface is ignored.
@@ -50,6 +55,12 @@ public:
   /// Per point of the mesh: 1 where a function reaches it.
   virtual std::vector<char> PointsWithFunctions() const = 0;
   ///@}
+
+  /// The same functions with the mass ∫ w b_i b_j, a weight w >= 0 on each triangle, and
+  /// Integrals() ∫ w b_i; the stiffness and all loads stay. Throws InvalidInput when there is not
+  /// one finite weight per triangle. [FiniteElementSpace::WeighMass]
+  virtual std::shared_ptr<const SurfaceSpace> WithWeighedMass(
+    const std::vector<double>& weight, const Job& job = {}) const = 0;
 
   /// Sums over the triangles around each point of the mesh become those of all processes.
   virtual void SumAtPoints(MultiVector& /*parts*/) const {}

@@ -187,7 +187,8 @@ PoissonSolution PoissonProblem::SolveConstrainedEquation(
   const Field value = this->ValuesOf(given);
   const auto weight =
     given.Find("weights") ? std::make_optional(given.FieldOf("weights")) : std::nullopt;
-  const PartialField field = SplitField(value, weight ? &*weight : nullptr, mesh);
+  PartialField field = SplitField(value, weight ? &*weight : nullptr, mesh);
+  field.numberOfIgnoredPoints = CountIgnoredPoints(space, field, mesh);
   const HeldValues held = FindHeld(given, surface, options_, value, holdsBoundary_, results);
   const double screening = surface.WeightInSpaceUnits(weight_);
   MultiVector load = screening * space.LoadOfWeightedValues(field.values, field.weight, job);

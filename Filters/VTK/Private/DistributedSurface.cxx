@@ -8,6 +8,8 @@
 
 #include "Base/Parallel.h"
 #include "Parallel/HeldPoints.h"
+#include "Parallel/RankBoundary.h"
+#include "Parallel/RankDistance.h"
 #include "Parallel/RankLevels.h"
 
 #include "vtkDataArray.h"
@@ -328,6 +330,23 @@ std::vector<char> DistributedSurface::PointsWithFunctions() const
   return has;
 }
 
+HeldValues DistributedSurface::Hold(const std::vector<Id>& points, const MultiVector& values) const
+{
+  return HoldPoints(ranks_->whole->space, points, values);
+}
+
+BoundaryTerms DistributedSurface::OnBoundary(
+  bool weldCoincidentPoints, const MultiVector* flux, const MultiVector* values) const
+{
+  return TermsOnBoundary(ranks_->whole->levels, weldCoincidentPoints, flux, values);
+}
+
+std::unique_ptr<DistanceMethod> DistributedSurface::MakeDistance(
+  const InputMesh& mesh, const DistanceOptions& options, const Job& job) const
+{
+  return std::make_unique<RankDistance>(ranks_->whole->levels, mesh.triangles, options, job);
+}
+
 HeldValues DistributedSurface::HoldKnown(const InputArray& array, const InputArray& mask,
   const SelectedPoints& selection, const InputMesh& mesh) const
 {
@@ -342,12 +361,14 @@ HeldValues DistributedSurface::HoldKnown(const InputArray& array, const InputArr
       }
     });
   RequireKnown(this->Any(!given.points.empty()), array);
-  return HoldPoints(ranks_->whole->space, given.points, given.values);
+  return this->Hold(given.points, given.values);
 }
 
 } // namespace gridfem
 
 #else
+
+#include "Problems/GeodesicDistance.h"
 
 namespace gridfem
 {
@@ -450,6 +471,22 @@ MultiVector DistributedSurface::MeansOnCells(const InputMesh&, const MultiVector
 }
 
 std::vector<char> DistributedSurface::PointsWithFunctions() const
+{
+  RefuseWithoutMpi();
+}
+
+HeldValues DistributedSurface::Hold(const std::vector<Id>&, const MultiVector&) const
+{
+  RefuseWithoutMpi();
+}
+
+BoundaryTerms DistributedSurface::OnBoundary(bool, const MultiVector*, const MultiVector*) const
+{
+  RefuseWithoutMpi();
+}
+
+std::unique_ptr<DistanceMethod> DistributedSurface::MakeDistance(
+  const InputMesh&, const DistanceOptions&, const Job&) const
 {
   RefuseWithoutMpi();
 }

@@ -24,7 +24,9 @@ class vtkPolyData;
 namespace gridfem
 {
 
+class DistanceMethod;
 class SelectedPoints;
+struct DistanceOptions;
 struct SurfaceOptions;
 
 /// All functions but Free, IsUsed, Space, Area, Side, DataTypeOf, Numbers and WithCopies are
@@ -104,6 +106,18 @@ public:
 
   /// Per point of this rank: 1 where a function of any rank reaches it.
   std::vector<char> PointsWithFunctions() const;
+
+  /// Values that are held at this rank's own points (HoldPoints).
+  HeldValues Hold(const std::vector<Id>& points, const MultiVector& values) const;
+
+  /// What the boundary of the whole adds to an equation (TermsOnBoundary).
+  BoundaryTerms OnBoundary(
+    bool weldCoincidentPoints, const MultiVector* flux, const MultiVector* values) const;
+
+  /// Distances from points of the ranks (RankDistance), as long as there is this space.
+  /// @param mesh  as BuildSpace has given it
+  std::unique_ptr<DistanceMethod> MakeDistance(
+    const InputMesh& mesh, const DistanceOptions& options, const Job& job) const;
 
   /// The known values of an array, which are held (KnownValues, HoldPoints).
   /// @param array  agreed on, or of the coordinates; null on ranks without these

@@ -7,20 +7,6 @@
 namespace gridfem
 {
 
-namespace
-{
-
-/// Of a field from its integrals.
-MultiVector MeansOfComponents(const SurfaceSpace& space, const MultiVector& integrals, int threads)
-{
-  const Components components = space.ComponentsOf(0, threads);
-  return ComponentMeans(
-    components.ofFunction, space.Integrals(), components.count, threads, space.Divided(0))
-    .OfIntegrals(integrals);
-}
-
-} // namespace
-
 void SurfaceConstrainedPoisson::Update(SurfaceSolverState& state, const StageKey& fields,
   const Integrate& integrate, const PoissonRequest& request, const Progress& progress)
 {
@@ -49,21 +35,16 @@ void SurfaceConstrainedPoisson::UpdateSystem(
   state.stages.Run(RightHandSideStage, fields,
     [&]
     {
+      hierarchy_.reset();
+      weighted_.reset();
       load_ = integrate(state.MakeJob(progress.Part(0.0, 0.4)));
-      if (state.together.IsUsed())
-      {
-        weighted_ = state.SolverSpace();
-        values_ = load_.values;
-        meanOfField_ = MeansOfComponents(*weighted_, values_, state.options.space.threads);
-        return;
-      }
       const Job job = state.MakeJob(progress.Part(0.4, 1.0));
-      values_ = state.space->LoadOfWeightedValues(
-        load_.field.values, load_.field.weight, job.Part(0.0, 0.2));
-      meanOfField_ = MeansOfKnown(*state.space, load_.field, job.Part(0.2, 0.5));
-      std::shared_ptr<FiniteElementSpace> weighted = state.space->Copy();
-      weighted->WeighMass(load_.field.weight, job.Part(0.5, 1.0));
-      weighted_ = std::move(weighted);
+      const std::shared_ptr<const SurfaceSpace> space = state.SolverSpace();
+      values_ =
+        space->LoadOfWeightedValues(load_.field.values, load_.field.weight, job.Part(0.0, 0.2));
+      meanOfField_ = MeansOfKnown(*space, load_.field, job.Part(0.2, 0.5));
+      weighted_ =
+        load_.isWeighed ? space->WithWeighedMass(load_.field.weight, job.Part(0.5, 1.0)) : space;
     });
 }
 
@@ -82,7 +63,7 @@ void SurfaceConstrainedPoisson::Solve(
       {
         load += request.gradientScale * load_.gradients;
       }
-      if (load_.flux.rows() > 0)
+      if (load_.flux.cols() > 0) // also on a rank without functions
       {
         load += this->BalancedFlux(state, weight);
       }
@@ -104,28 +85,25 @@ void SurfaceConstrainedPoisson::Solve(
 MultiVector SurfaceConstrainedPoisson::BalancedFlux(const SurfaceSolverState& state, double weight)
 {
   constexpr double Visible = 1e-3;
-  const FiniteElementSpace& space = *state.space;
-  const Components components = space.ComponentsOf(0, state.options.space.threads);
+  const std::shared_ptr<const SurfaceSpace> space = state.SolverSpace();
+  const int threads = state.options.space.threads;
+  const DividedRows* const divided = space->Divided(0);
+  const Components components = space->ComponentsOf(0, threads);
   const std::vector<char> isHeld = HeldComponents(*weighted_, weight, load_.held.rows, components);
   MultiVector sum = MultiVector::Zero(components.count, load_.flux.cols());
   MultiVector size = sum;
-  std::vector<double> area(components.count, 0.0);
-  for (Id i = 0; i < load_.flux.rows(); ++i)
+  for (Id i = ForeignRows(divided); i < load_.flux.rows(); ++i)
   {
     const Index own = components.ofFunction[i];
     sum.row(own) += load_.flux.row(i);
     size.row(own) += load_.flux.row(i).cwiseAbs();
-    area[own] += space.Integrals()[i];
   }
+  SumOverProcesses(divided, sum);
+  SumOverProcesses(divided, size);
+  const ComponentMeans means(
+    components.ofFunction, space->Integrals(), components.count, threads, divided);
   MultiVector balanced = load_.flux;
-  for (Id i = 0; i < balanced.rows(); ++i)
-  {
-    const Index own = components.ofFunction[i];
-    if (!isHeld[own] && area[own] > 0.0)
-    {
-      balanced.row(i) -= space.Integrals()[i] / area[own] * sum.row(own);
-    }
-  }
+  means.SubtractIntegrals(MeansOfFree(isHeld, means.OfIntegrals(load_.flux)), balanced);
   unbalanced_ = 0;
   for (Index c = 0; c < components.count; ++c)
   {

@@ -20,7 +20,7 @@ namespace gridfem
 struct ConstrainedLoad
 {
   PartialField field;
-  MultiVector values; // integrals, of ranks together, where all is known and counts alike: no field
+  bool isWeighed = true; // else all is known and counts 1, on all ranks
   MultiVector gradients; // may have no rows
   MultiVector flux;      // integrals over the boundary; may have no rows
   HeldValues held;       // what the solution has exactly
@@ -58,10 +58,10 @@ private:
   void Solve(SurfaceSolverState& state, const PoissonRequest& request, const Progress& progress);
 
   ConstrainedLoad load_;
-  MultiVector values_;                           // ∫ w f b_i
-  MultiVector meanOfField_;                      // of components
-  std::shared_ptr<const SurfaceSpace> weighted_; // the space with the mass of what is known
-  std::unique_ptr<ConstrainedHierarchy> hierarchy_;
+  MultiVector values_;                              // ∫ w f b_i
+  MultiVector meanOfField_;                         // of components
+  std::shared_ptr<const SurfaceSpace> weighted_;    // the space with the mass of what is known
+  std::unique_ptr<ConstrainedHierarchy> hierarchy_; // refers to it
   ConstrainedSolution solution_;
   Id unbalanced_ = 0; // components that nothing holds with a flux that does not add up to 0
 };

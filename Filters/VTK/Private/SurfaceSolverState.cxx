@@ -300,15 +300,34 @@ std::shared_ptr<const SurfaceSpace> SurfaceSolverState::SolverSpace() const
   return together.IsUsed() ? together.Space() : space;
 }
 
-Field SurfaceSolverState::Read(const InputArray& array) const
+void SurfaceSolverState::Together(const std::function<void()>& body) const
 {
-  if (!together.IsUsed())
+  if (together.IsUsed())
   {
-    return ReadField(array, mesh);
+    together.Together(body);
+    return;
   }
+  body();
+}
+
+Field SurfaceSolverState::Read(const InputArray& array, NaNs nans) const
+{
   Field field;
-  together.Together([&] { field = ReadField(array, mesh); });
+  this->Together([&] { field = ReadField(array, mesh, nans); });
   return field;
+}
+
+HeldValues SurfaceSolverState::Hold(const std::vector<Id>& points, const MultiVector& values) const
+{
+  return together.IsUsed() ? together.Hold(points, values) : HoldPoints(*space, points, values);
+}
+
+BoundaryTerms SurfaceSolverState::OnBoundary(
+  const MultiVector* flux, const MultiVector* values) const
+{
+  return together.IsUsed()
+           ? together.OnBoundary(options.space.weldCoincidentPoints, flux, values)
+           : TermsOnBoundary(*space, *mesh.triangles, basis.weldCoincidentPoints, flux, values);
 }
 
 MultiVector SurfaceSolverState::ValuesAtPoints(

@@ -8,6 +8,7 @@
 #include "InputMesh.h"
 #include "Krylov/ConjugateGradients.h"
 #include "MeshVersion.h"
+#include "Problems/EdgeConditions.h"
 #include "Problems/Requirements.h"
 #include "ProgressBridge.h"
 #include "StageCache.h"
@@ -90,7 +91,11 @@ public:
   ///@{ What solvers ask of the space, be it that of one process or of ranks together: then
   /// collective, but for SolverSpace.
   std::shared_ptr<const SurfaceSpace> SolverSpace() const;
-  Field Read(const InputArray& array) const;
+  /// Runs what can throw on one rank alone.
+  void Together(const std::function<void()>& body) const;
+  Field Read(const InputArray& array, NaNs nans = NaNs::Refused) const;
+  HeldValues Hold(const std::vector<Id>& points, const MultiVector& values) const;
+  BoundaryTerms OnBoundary(const MultiVector* flux, const MultiVector* values) const;
   MultiVector ValuesAtPoints(const MultiVector& coefficients, const Progress& progress = {}) const;
   std::vector<char> PointsWithFunctions() const;
   /// Of rows at points that the space has given.

@@ -1,0 +1,47 @@
+// The distance along a surface that several ranks hold together, from the nearest of some points.
+// [Problems/GeodesicDistance.h]
+#ifndef GridFEM_RankDistance_h
+#define GridFEM_RankDistance_h
+
+#include "Parallel/RankHeat.h"
+#include "Problems/GeodesicDistance.h"
+
+#include <memory>
+#include <vector>
+
+namespace gridfem
+{
+
+/// The words of GeodesicDistance hold here, too, but that errors are not estimated. Heat flows on
+/// the finest level, so that the smoothing is below MostSmoothing. All functions are collective.
+class RankDistance : public DistanceMethod
+{
+public:
+  /// Keeps a reference to the levels.
+  /// @param mesh  this rank's own triangles
+  /// Throws InvalidInput on all ranks for options out of range, RankFailure, and Aborted.
+  RankDistance(const RankLevels& levels, std::shared_ptr<const TriangleMesh> mesh,
+    DistanceOptions options, const Job& job = {});
+
+  /// @param sources  points of this rank; all that lie in one place may be there or one of them
+  /// @return at this rank's points
+  DistanceField From(
+    const std::vector<Id>& sources, const SolveOptions& solve, const Job& job = {}) const override;
+
+private:
+  std::vector<char> MarkSources(const std::vector<Id>& sources) const;
+  MultiVector LoadOfDistance(const MultiVector& heat, const std::vector<char>& isSource) const;
+  std::vector<double> ZeroesAt(const SparseMatrix& rows, const MultiVector& distance) const;
+
+  const RankLevels& levels_;
+  std::shared_ptr<const TriangleMesh> mesh_;
+  DistanceOptions options_;
+  Components components_;
+  std::vector<Index> component_; // of every point
+  std::unique_ptr<RankHeat> heat_;
+  std::unique_ptr<Multigrid> poisson_; // of L
+};
+
+} // namespace gridfem
+
+#endif

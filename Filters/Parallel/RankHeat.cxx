@@ -1,0 +1,253 @@
+#include "Parallel/RankHeat.h"
+
+#include "Algebra/RowBuilder.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace gridfem
+{
+
+namespace
+{
+
+/// Rounds are as many as ranks that lie behind each other, and those in which errors at borders
+/// fall.
+constexpr int MostRounds = 500;
+
+/// Rounds end when what a rank changes at borders is this part of what may change in layers that
+/// are left: errors at borders fall more slowly than those within a rank.
+constexpr double AtBorders = 0.1;
+
+/// Rounds that come when all is nearly settled, at most.
+constexpr int MostLastRounds = 30;
+
+/// Of what a rank's patches add to the row of a function that another rank has, too.
+struct ToldEntry
+{
+  Index row; // place among the functions of both
+  Id column; // number over all ranks
+  double value;
+};
+
+struct Entry
+{
+  Index row;
+  Index column;
+  double value;
+};
+
+/// Places of numbers in an ascending list; -1 elsewhere.
+Index PlaceOf(Id number, const std::vector<Id>& list)
+{
+  const auto found = std::lower_bound(list.begin(), list.end(), number);
+  return found != list.end() && *found == number ? static_cast<Index>(found - list.begin()) : -1;
+}
+
+void SortEachOnce(std::vector<Id>& numbers)
+{
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+/// @param others  further entries, in any order
+SparseMatrix SumOf(const SparseMatrix& A, std::vector<Entry> others, Index rows)
+{
+  std::sort(
+    others.begin(), others.end(), [](const Entry& a, const Entry& b) { return a.row < b.row; });
+  RowBuilder sum;
+  RowBuilder::Entries ofRow;
+  std::size_t next = 0;
+  for (Index row = 0; row < rows; ++row)
+  {
+    ofRow.clear();
+    for (Id k = row < A.rows ? A.rowBegin[row] : 0; row < A.rows && k < A.rowBegin[row + 1]; ++k)
+    {
+      ofRow.emplace_back(A.column[k], A.value[k]);
+    }
+    for (; next < others.size() && others[next].row == row; ++next)
+    {
+      ofRow.emplace_back(others[next].column, others[next].value);
+    }
+    sum.Append(ofRow);
+  }
+  return sum.Finish(rows);
+}
+
+} // namespace
+
+RankHeat::RankHeat(const RankLevels& levels, double t, double change, const Job& job)
+  : levels_(levels), ranks_(levels.Space().Ranks()),
+    functions_(levels.Space().Numberings().front().Functions()), change_(change)
+{
+  SparseMatrix part;
+  ranks_.Together([&] { part = levels.Space().Own().Matrix(0, 1.0 / t, 1.0, job.threads); });
+  this->FindOthers(part);
+  ranks_.Together(
+    [&]
+    {
+      heat_ = std::make_unique<DistantHeat>(
+        std::move(whole_), levels.Space().Own().Functions().Finest().dof, t, change, job.threads);
+    });
+  job.Check(1.0);
+}
+
+/// Collective. Completes the rows of all functions here, by what neighbours tell of those that both
+/// have.
+void RankHeat::FindOthers(const SparseMatrix& part)
+{
+  const LevelNumbering& numbering = levels_.Space().Numberings().front();
+  std::vector<std::vector<ToldEntry>> messages(ranks_.Size());
+  told_.resize(ranks_.Size());
+  heard_.resize(ranks_.Size());
+  ranks_.Together(
+    [&]
+    {
+      for (const RankNeighbour& neighbour : numbering.neighbours)
+      {
+        std::vector<char> isShared(functions_, 0);
+        for (const Index function : neighbour.functions)
+        {
+          isShared[function] = 1;
+        }
+        std::vector<Index>& told = told_[neighbour.rank];
+        for (std::size_t k = 0; k < neighbour.functions.size(); ++k)
+        {
+          const Index row = neighbour.functions[k];
+          for (Id e = part.rowBegin[row]; e < part.rowBegin[row + 1]; ++e)
+          {
+            const Index column = part.column[e];
+            messages[neighbour.rank].push_back(
+              { static_cast<Index>(k), numbering.number[column], part.value[e] });
+            if (!isShared[column])
+            {
+              isShared[column] = 1;
+              told.push_back(column);
+            }
+          }
+        }
+        std::sort(told.begin(), told.end()); // numbers ascend with places
+      }
+    });
+  messages = ranks_.Exchange(messages);
+  ranks_.Together(
+    [&]
+    {
+      std::vector<std::vector<Id>> unknown(ranks_.Size()); // numbers here, of each rank
+      std::vector<Id> numbers;
+      for (int rank = 0; rank < ranks_.Size(); ++rank)
+      {
+        for (const ToldEntry& entry : messages[rank])
+        {
+          if (PlaceOf(entry.column, numbering.number) < 0)
+          {
+            unknown[rank].push_back(entry.column);
+          }
+        }
+        SortEachOnce(unknown[rank]);
+        numbers.insert(numbers.end(), unknown[rank].begin(), unknown[rank].end());
+      }
+      SortEachOnce(numbers);
+      const auto placeOf = [&](Id number)
+      {
+        const Index here = PlaceOf(number, numbering.number);
+        return here >= 0 ? here : functions_ + PlaceOf(number, numbers);
+      };
+      for (int rank = 0; rank < ranks_.Size(); ++rank)
+      {
+        for (const Id number : unknown[rank])
+        {
+          heard_[rank].push_back(placeOf(number));
+        }
+      }
+      std::vector<Entry> others;
+      for (const RankNeighbour& neighbour : numbering.neighbours)
+      {
+        for (const ToldEntry& entry : messages[neighbour.rank])
+        {
+          const Index row = neighbour.functions[entry.row];
+          const Index column = placeOf(entry.column);
+          others.push_back({ row, column, entry.value });
+          if (column >= functions_) // so that heat is known to come from there
+          {
+            others.push_back({ column, row, entry.value });
+          }
+        }
+      }
+      whole_ = SumOf(part, std::move(others), functions_ + static_cast<Index>(numbers.size()));
+    });
+}
+
+/// Collective. What belongs to other ranks becomes what they have.
+void RankHeat::TakeOthers(MultiVector& u) const
+{
+  MultiVector here;
+  ranks_.Together([&] { here = u.topRows(functions_); });
+  levels_.Divided(0)->TakeForeign(here);
+  std::vector<std::vector<double>> values(ranks_.Size());
+  ranks_.Together(
+    [&]
+    {
+      u.topRows(functions_) = here;
+      for (int rank = 0; rank < ranks_.Size(); ++rank)
+      {
+        for (const Index function : told_[rank])
+        {
+          values[rank].push_back(here(function, 0));
+        }
+      }
+    });
+  values = ranks_.Exchange(values);
+  for (int rank = 0; rank < ranks_.Size(); ++rank)
+  {
+    for (std::size_t k = 0; k < values[rank].size(); ++k)
+    {
+      u(heard_[rank][k], 0) = values[rank][k];
+    }
+  }
+}
+
+double RankHeat::Sum(double own) const
+{
+  ranks_.Sum(&own, 1);
+  return own;
+}
+
+HeatField RankHeat::From(const MultiVector& load, const Job& job) const
+{
+  MultiVector b;
+  HeatField heat;
+  double sweeps = 0.0;
+  ranks_.Together(
+    [&]
+    {
+      const Index all = heat_->Matrix().rows;
+      b = MultiVector::Zero(all, 1);
+      b.topRows(functions_) = load;
+      heat.coefficients = MultiVector::Zero(all, 1);
+    });
+  double change = std::numeric_limits<double>::infinity();
+  int last = 0;
+  for (int round = 0; round < MostRounds && last < MostLastRounds && change > AtBorders * change_;
+       ++round)
+  {
+    job.Check(1.0 - 10.0 / (10.0 + round));
+    ranks_.Together([&] { heat = heat_->Continue(b, std::move(heat.coefficients), job.threads); });
+    sweeps += heat.sweeps;
+    this->TakeOthers(heat.coefficients);
+    ranks_.Together([&] { change = heat_->ChangeOf(b, heat.coefficients); });
+    ranks_.Maximum(&change, 1);
+    last += change <= DistantHeat::LastChange * change_ ? 1 : 0;
+  }
+  const double patches =
+    static_cast<double>(levels_.Space().Own().Functions().Finest().NumberOfPatches());
+  heat.sweeps = this->Sum(sweeps * patches) / std::max(1.0, this->Sum(patches));
+  heat.converged =
+    change <= DistantHeat::LastChange * change_ && this->Sum(heat.converged ? 0.0 : 1.0) == 0.0;
+  heat.unreached = static_cast<Id>(this->Sum(static_cast<double>(heat.unreached)));
+  ranks_.Together([&] { heat.coefficients = MultiVector(heat.coefficients.topRows(functions_)); });
+  return heat;
+}
+
+} // namespace gridfem

@@ -1,0 +1,44 @@
+// Pieces of surfaces on the ranks, and comparison with the whole.
+#ifndef GridFEM_Testing_Pieces_h
+#define GridFEM_Testing_Pieces_h
+
+#include "Parallel/RankLevels.h"
+#include "Problems/SurfaceDerivatives.h"
+#include "Surfaces.h"
+
+#include <vector>
+
+namespace gridfem::testing
+{
+
+/// With which few iterations lead to small tolerances.
+RankSpaceOptions StableOptions();
+
+/// Three columns, which differ from point to point.
+MultiVector VectorsAt(const std::vector<Vec3>& points);
+
+/// One thread, and solutions to rounding.
+DerivativeOptions Exactly();
+
+/// A rank's part, the numbers of its points and triangles in the whole, and what it has of other
+/// ranks.
+struct Piece
+{
+  TriangleMesh mesh;
+  std::vector<Id> points;
+  std::vector<Id> triangles;
+  TriangleList copies;
+  std::vector<Id> originals; // of the copies, in the whole
+};
+
+/// @param withCopies  of the triangles that touch the part
+Piece PieceOf(const TriangleMesh& mesh, Dealing dealing, bool withCopies);
+
+/// Whether rows here are those of the whole, to 1e-8 of its largest number. What is not a number in
+/// one is none in the other.
+void ExpectRows(const char* name, const MultiVector& found, const MultiVector& whole,
+  const std::vector<Id>& places, const std::vector<char>& isCompared = {});
+
+} // namespace gridfem::testing
+
+#endif
