@@ -10,9 +10,8 @@
 //                       port 0, which stays the active one: what the next filter makes comes there
 //   vtkSMShowsLastStep  the first Apply goes to the last of the filter's time steps, where no other
 //                       source has time steps that would move with it
-//   vtkSMColorsLater    port 0 is coloured by the array as soon as it has it. ParaView looks when
-//   it
-//                       shows a filter first, which may be before its arrays were chosen. Colours
+//   vtkSMColorsLater    port 0 is coloured by the array as soon as it has it. ParaView looks once,
+//                       when it shows a filter, which may be before its arrays were chosen. Colours
 //                       of the user are left alone. direct: three or four bytes, or numbers from 0
 //                       to 1, are shown as the colours that they are, without a bar.
 //

@@ -61,8 +61,12 @@ RankDistance::RankDistance(const RankLevels& levels, std::shared_ptr<const Trian
   }
   const double time = std::pow(options_.smoothing * MeanSpacing(levels_, job.threads), 2);
   heat_ = std::make_unique<RankHeat>(levels_, time, options_.heatChange, job.Part(0.0, 0.3));
-  poisson_ = std::make_unique<Multigrid>(
-    BuildMultigrid(levels_, 0.0, 1.0, options_.multigrid, job.progress.Part(0.3, 0.9)));
+  levels_.Space().Ranks().Guard(
+    [&]
+    {
+      poisson_ = std::make_unique<Multigrid>(
+        BuildMultigrid(levels_, 0.0, 1.0, options_.multigrid, job.progress.Part(0.3, 0.9)));
+    });
   components_ = levels_.ComponentsOf(0, job.threads);
   component_ = ComponentsOfPoints(levels_, components_, job.threads);
 }

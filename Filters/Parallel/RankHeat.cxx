@@ -81,6 +81,7 @@ RankHeat::RankHeat(const RankLevels& levels, double t, double change, const Job&
   : levels_(levels), ranks_(levels.Space().Ranks()),
     functions_(levels.Space().Numberings().front().Functions()), change_(change)
 {
+  components_ = levels.ComponentsOf(0, job.threads);
   SparseMatrix part;
   ranks_.Together([&] { part = levels.Space().Own().Matrix(0, 1.0 / t, 1.0, job.threads); });
   this->FindOthers(part);
@@ -208,6 +209,30 @@ void RankHeat::TakeOthers(MultiVector& u) const
   }
 }
 
+/// Collective. Each rank's own count would miss ranks that no heat has entered at all.
+Id RankHeat::CountUnreached(const MultiVector& heat) const
+{
+  // What is too little to be known is 0.
+  const auto hasHeat = [&](Index function) { return heat(function, 0) != 0.0; };
+  std::vector<double> isReached;
+  ranks_.Together([&] { isReached.assign(components_.count, 0.0); });
+  for (Index function = 0; function < functions_; ++function)
+  {
+    if (hasHeat(function))
+    {
+      isReached[components_.ofFunction[function]] = 1.0;
+    }
+  }
+  ranks_.Maximum(isReached.data(), components_.count);
+  double unreached = 0.0;
+  for (Index function = levels_.Divided(0)->Foreign(); function < functions_; ++function)
+  {
+    unreached +=
+      !hasHeat(function) && isReached[components_.ofFunction[function]] > 0.0 ? 1.0 : 0.0;
+  }
+  return static_cast<Id>(this->Sum(unreached));
+}
+
 double RankHeat::Sum(double own) const
 {
   ranks_.Sum(&own, 1);
@@ -245,7 +270,7 @@ HeatField RankHeat::From(const MultiVector& load, const Job& job) const
   heat.sweeps = this->Sum(sweeps * patches) / std::max(1.0, this->Sum(patches));
   heat.converged =
     change <= DistantHeat::LastChange * change_ && this->Sum(heat.converged ? 0.0 : 1.0) == 0.0;
-  heat.unreached = static_cast<Id>(this->Sum(static_cast<double>(heat.unreached)));
+  heat.unreached = this->CountUnreached(heat.coefficients);
   ranks_.Together([&] { heat.coefficients = MultiVector(heat.coefficients.topRows(functions_)); });
   return heat;
 }

@@ -27,18 +27,23 @@ public:
 
   /// Collective.
   /// @param load  Σ b_i(source), whole in all rows
-  /// @return      rows = functions that touch this rank's cells; numbers of all ranks
+  /// @return      rows = functions that touch this rank's cells; numbers of all ranks. Not
+  /// converged
+  ///              where 500 rounds do not do. Unreached is a function without heat whose component
+  ///              has some on any rank.
   HeatField From(const MultiVector& load, const Job& job = {}) const;
 
 private:
   void FindOthers(const SparseMatrix& part);
   void TakeOthers(MultiVector& u) const;
+  Id CountUnreached(const MultiVector& heat) const;
   double Sum(double own) const;
 
   const RankLevels& levels_;
   Communicator ranks_;
   Index functions_; // that touch this rank's cells; those of neighbours' cells follow
   double change_;
+  Components components_;
   SparseMatrix whole_;
   std::vector<std::vector<Index>> told_;  // functions here whose values a rank is told
   std::vector<std::vector<Index>> heard_; // places of those that a rank tells

@@ -57,11 +57,13 @@ PoissonSolution SolvePoisson(const RankSpace& space, const MultiVector& values,
   }
   std::vector<MultigridLevel> hierarchy = BuildMultigridLevels(
     levels, options.screeningWeight, 1.0, options.multigrid, together.Part(0.0, 0.3));
-  const Multigrid multigrid(std::move(hierarchy), options.multigrid);
+  std::unique_ptr<const Multigrid> multigrid;
+  ranks.Guard(
+    [&] { multigrid = std::make_unique<Multigrid>(std::move(hierarchy), options.multigrid); });
   PoissonOptions own = options;
   own.start = nullptr;
   PoissonSolution solution =
-    SolvePoisson(levels, multigrid, ofValues, ofGradients, own, together.Part(0.3, 1.0));
+    SolvePoisson(levels, *multigrid, ofValues, ofGradients, own, together.Part(0.3, 1.0));
   ranks.Maximum(&solution.accuracy.largest, 1);
   return solution;
 }

@@ -123,8 +123,9 @@ inline typename Chunk::ColumnLanes RowProduct(
   }
   else
   {
-    // Three numbers are read as four, with the first of the next row. There is one behind all but
-    // the last entry of A's row, whose columns ascend.
+    // Three numbers are read as four, with the first of the next row, which is not used: another
+    // thread may be writing it. There is one behind all but the last entry of A's row, whose
+    // columns ascend.
     constexpr bool isThree = std::is_same_v<Chunk, ColumnChunk<3, 3>>;
     using Read = Eigen::Array<double, isThree ? 4 : Chunk::Width, 1>;
     const auto lanes = [&](Id entry)

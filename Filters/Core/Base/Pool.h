@@ -2,6 +2,8 @@
 #ifndef GridFEM_Pool_h
 #define GridFEM_Pool_h
 
+#include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <mutex>
 #include <utility>
@@ -14,6 +16,9 @@ template<class Space>
 class Pool
 {
 public:
+  /// @param kept  spaces that are kept while nobody uses them, at most
+  explicit Pool(std::size_t kept = static_cast<std::size_t>(-1)) : kept_(kept) {}
+
   /// A space for the life of this object, nobody else's meanwhile; what it held stays in it.
   class Loan
   {
@@ -36,7 +41,10 @@ private:
     const std::lock_guard<std::mutex> lock(mutex_);
     if (free_.empty())
     {
-      return std::make_unique<Space>();
+      free_.reserve(std::min(kept_, made_ + 1)); // Return must not fail
+      auto space = std::make_unique<Space>();
+      ++made_;
+      return space;
     }
     std::unique_ptr<Space> space = std::move(free_.back());
     free_.pop_back();
@@ -45,10 +53,19 @@ private:
   void Return(std::unique_ptr<Space> space)
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    free_.push_back(std::move(space));
+    if (free_.size() < kept_)
+    {
+      free_.push_back(std::move(space));
+    }
+    else
+    {
+      --made_;
+    }
   }
 
   std::mutex mutex_;
+  std::size_t kept_;
+  std::size_t made_ = 0; // and not gone
   std::vector<std::unique_ptr<Space>> free_;
 };
 

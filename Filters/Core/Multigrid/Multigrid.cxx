@@ -255,6 +255,17 @@ Multigrid Multigrid::InDoublePrecision() const
   return Multigrid(std::move(levels), options);
 }
 
+std::vector<Multigrid::Scratch>& Multigrid::Workspace::For(std::size_t levels, Id wanted)
+{
+  if (wanted != columns)
+  {
+    scratch.clear();
+    columns = wanted;
+  }
+  scratch.resize(levels);
+  return scratch;
+}
+
 void Multigrid::Cycle(const MultiVector& b, MultiVector& x) const
 {
   if (x.rows() != b.rows() || x.cols() != b.cols())
@@ -262,9 +273,8 @@ void Multigrid::Cycle(const MultiVector& b, MultiVector& x) const
     throw InvalidInput("x and b of a multigrid cycle must have the same shape");
   }
   this->CheckRows(0, b);
-  const ScratchPool::Loan loan(*scratch_);
-  std::vector<Scratch>& scratch = *loan;
-  scratch.resize(levels_.size());
+  const Pool<Workspace>::Loan workspace(*workspace_);
+  std::vector<Scratch>& scratch = (*workspace).For(levels_.size(), b.cols());
   this->Improve(0, b, x, scratch);
 }
 
@@ -276,9 +286,8 @@ void Multigrid::Precondition(const MultiVector& b, MultiVector& x) const
 void Multigrid::PreconditionFrom(std::size_t level, const MultiVector& b, MultiVector& x) const
 {
   this->CheckRows(level, b);
-  const ScratchPool::Loan loan(*scratch_);
-  std::vector<Scratch>& scratch = *loan;
-  scratch.resize(levels_.size());
+  const Pool<Workspace>::Loan workspace(*workspace_);
+  std::vector<Scratch>& scratch = (*workspace).For(levels_.size(), b.cols());
   this->Correct(level, b, x, scratch);
 }
 
@@ -286,9 +295,8 @@ void Multigrid::NestedIteration(const MultiVector& b, MultiVector& x, MultiVecto
 {
   this->CheckRows(0, b);
   std::vector<MultiVector> load(levels_.size());
-  const ScratchPool::Loan loan(*scratch_);
-  std::vector<Scratch>& scratch = *loan;
-  scratch.resize(levels_.size());
+  const Pool<Workspace>::Loan workspace(*workspace_);
+  std::vector<Scratch>& scratch = (*workspace).For(levels_.size(), b.cols());
   for (std::size_t l = 1; l < levels_.size(); ++l)
   {
     this->RestrictResidual(

@@ -88,7 +88,7 @@ public:
   /// prolongations.
   Multigrid InDoublePrecision() const;
 
-  /// One cycle: improves x for A x = b. Any number of columns. Keeps its vectors, two to four times
+  /// One cycle: improves x for A x = b. Any number of columns. Keeps its vectors, up to four times
   /// the size of b, for the next call.
   void Cycle(const MultiVector& b, MultiVector& x) const;
 
@@ -125,8 +125,17 @@ private:
     MultiVector coarseB;
     MultiVector coarseX;
   };
-  /// Of all levels, kept from one call to the next: fresh memory takes as long as a sweep.
-  using ScratchPool = Pool<std::vector<Scratch>>;
+  /// Of all levels, kept from one call to the next, of one thread: fresh memory takes as long as a
+  /// sweep.
+  struct Workspace
+  {
+    std::vector<Scratch> scratch;
+    Id columns = 0;
+
+    /// What has been used has its size already: a block that Eigen cannot resize for lack of memory
+    /// keeps a pointer to what it has freed.
+    std::vector<Scratch>& For(std::size_t levels, Id wanted);
+  };
 
   void CheckRows(std::size_t level, const MultiVector& b) const;
   void RestrictResidual(std::size_t level, const MultiVector& b, const MultiVector* x,
@@ -146,7 +155,7 @@ private:
   std::vector<char> isSingle_; // per level: whether it or a coarser one sweeps in single precision
   CoarseSolver coarse_;
   MultigridOptions options_;
-  std::unique_ptr<ScratchPool> scratch_ = std::make_unique<ScratchPool>();
+  std::unique_ptr<Pool<Workspace>> workspace_ = std::make_unique<Pool<Workspace>>(1);
 };
 
 } // namespace gridfem

@@ -241,7 +241,8 @@ private:
   void SweepStencils(
     const MultiVector& b, MultiVector& x, SweepDirection direction, int threads) const
   {
-    const int team = ThreadsFor(64 * x.cols() * blocks_.NumberOfPatches(), threads);
+    const int wanted = omp_in_parallel() ? 1 : threads;
+    const int team = ThreadsFor(64 * x.cols() * blocks_.NumberOfPatches(), wanted);
     // For the numbers of a block, of each thread: no exception leaves their parallel region.
     std::vector<Numbers<4>> room(roomOfBlock_ * NumberOfThreads(team));
     VisitBlocks(ranges_, direction, team,

@@ -63,7 +63,8 @@ public:
   /// All integrals in the metric of an embedding, but for loads, which stay those of the mesh.
   /// [T §5.1]
   /// @param embedding  functions x 3 coefficients, in units of length
-  /// @param parts      Mass: the stiffness stays what it is, as in the conformalised flow [T (6.2)]
+  /// @param parts      Mass: the stiffness stays that of the mesh, which it has to be before; as in
+  ///                   the conformalised flow [T (6.2)]
   /// @return  number of samples whose metric is singular: they contribute nothing
   virtual Id SetMetric(
     const MultiVector& embedding, const Job& job = {}, ElementParts parts = ElementParts::Both) = 0;
