@@ -3,7 +3,9 @@
 #include "Multigrid/Smoother.h"
 #include "Multigrid/StencilBlocks.h"
 
+#include <algorithm>
 #include <cstring>
+#include <limits>
 
 namespace gridfem
 {
@@ -137,18 +139,21 @@ inline void Relax(const Patch& patch, const StencilRow* rows, const StencilBlock
 }
 
 /// Columns first .. first + columns - 1 of the unknowns of a block, by their numbers: `Width` for
-/// each, of which those beyond `columns` are zero, as is all of number 0.
+/// each, of which those beyond `columns` are zero, as is all of number 0. What is out of range, as
+/// unknowns that are scaled may be, becomes the largest number.
 template<int Width>
-void Load(
-  const MultiVector& from, const Index* unknowns, Index count, Id first, Id columns, float* to)
+void Load(const MultiVector& from, const Index* unknowns, Index count, Id first, Id columns,
+  bool isInRange, float* to)
 {
+  constexpr double Largest = std::numeric_limits<float>::max();
   std::fill(to, to + Width * Id(count), 0.0f);
   for (Index i = 1; i < count; ++i)
   {
     const double* const row = from.data() + from.cols() * Id(unknowns[i]) + first;
     for (Id c = 0; c < columns; ++c)
     {
-      to[Width * i + c] = static_cast<float>(row[c]);
+      to[Width * i + c] =
+        static_cast<float>(isInRange ? row[c] : std::clamp(row[c], -Largest, Largest));
     }
   }
 }
@@ -309,10 +314,10 @@ private:
     const Index own = block.own + 1;
     Lanes* const solution = load + own;
     const auto data = [](Lanes* of) { return reinterpret_cast<float*>(of); };
-    Load<Width>(b, unknowns, own, first, columns, data(load));
-    Load<Width>(x, unknowns, block.count, first, columns, data(solution));
     const std::vector<StencilBlocks::Scaled>& scaled = blocks_.ScaledOf(index);
-    for (const auto& [i, weight] : scaled) // which Load has taken out of the range
+    Load<Width>(b, unknowns, own, first, columns, scaled.empty(), data(load));
+    Load<Width>(x, unknowns, block.count, first, columns, scaled.empty(), data(solution));
+    for (const auto& [i, weight] : scaled)
     {
       for (Id c = 0; c < columns; ++c)
       {
