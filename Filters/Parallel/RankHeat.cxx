@@ -1,6 +1,6 @@
 #include "Parallel/RankHeat.h"
 
-#include "Algebra/RowBuilder.h"
+#include "Parallel/MatrixEntries.h"
 
 #include <algorithm>
 #include <limits>
@@ -31,13 +31,6 @@ struct ToldEntry
   double value;
 };
 
-struct Entry
-{
-  Index row;
-  Index column;
-  double value;
-};
-
 /// Places of numbers in an ascending list; -1 elsewhere.
 Index PlaceOf(Id number, const std::vector<Id>& list)
 {
@@ -49,30 +42,6 @@ void SortEachOnce(std::vector<Id>& numbers)
 {
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-}
-
-/// @param others  further entries, in any order
-SparseMatrix SumOf(const SparseMatrix& A, std::vector<Entry> others, Index rows)
-{
-  std::sort(
-    others.begin(), others.end(), [](const Entry& a, const Entry& b) { return a.row < b.row; });
-  RowBuilder sum;
-  RowBuilder::Entries ofRow;
-  std::size_t next = 0;
-  for (Index row = 0; row < rows; ++row)
-  {
-    ofRow.clear();
-    for (Id k = row < A.rows ? A.rowBegin[row] : 0; row < A.rows && k < A.rowBegin[row + 1]; ++k)
-    {
-      ofRow.emplace_back(A.column[k], A.value[k]);
-    }
-    for (; next < others.size() && others[next].row == row; ++next)
-    {
-      ofRow.emplace_back(others[next].column, others[next].value);
-    }
-    sum.Append(ofRow);
-  }
-  return sum.Finish(rows);
 }
 
 } // namespace
@@ -162,7 +131,7 @@ void RankHeat::FindOthers(const SparseMatrix& part)
           heard_[rank].push_back(placeOf(number));
         }
       }
-      std::vector<Entry> others;
+      std::vector<MatrixEntry> others;
       for (const RankNeighbour& neighbour : numbering.neighbours)
       {
         for (const ToldEntry& entry : messages[neighbour.rank])

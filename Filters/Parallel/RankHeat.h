@@ -27,10 +27,9 @@ public:
 
   /// Collective.
   /// @param load  Σ b_i(source), whole in all rows
-  /// @return      rows = functions that touch this rank's cells; numbers of all ranks. Not
-  /// converged
-  ///              where 500 rounds do not do. Unreached is a function without heat whose component
-  ///              has some on any rank.
+  /// @return      rows = functions that touch this rank's cells; numbers are of all ranks. After
+  ///              500 rounds it has not converged. Unreached is a function without heat whose
+  ///              component has some on any rank.
   HeatField From(const MultiVector& load, const Job& job = {}) const;
 
 private:

@@ -1,6 +1,6 @@
 #include "Parallel/RankLevel.h"
 
-#include "Algebra/RowBuilder.h"
+#include "Parallel/MatrixEntries.h"
 #include "Spaces/PatchOrdering.h"
 
 #include <algorithm>
@@ -52,13 +52,6 @@ void Renumber(const std::vector<Index>& list, Functions& functions)
   }
 }
 
-struct Entry
-{
-  Index row;
-  Index column;
-  double value;
-};
-
 /// Calls body(row, column, value) for entries whose row and column are in a list, places in it.
 template<class Body>
 void ForEntries(const SparseMatrix& A, const std::vector<Index>& list, Body&& body)
@@ -74,30 +67,10 @@ void ForEntries(const SparseMatrix& A, const std::vector<Index>& list, Body&& bo
     {
       if (place[A.column[k]] >= 0)
       {
-        body(Entry{ place[row], place[A.column[k]], A.value[k] });
+        body(MatrixEntry{ place[row], place[A.column[k]], A.value[k] });
       }
     }
   }
-}
-
-/// Entries of one place are added up.
-SparseMatrix MatrixOf(std::vector<Entry> entries, Index rows)
-{
-  std::sort(
-    entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.row < b.row; });
-  RowBuilder matrix;
-  RowBuilder::Entries ofRow;
-  std::size_t k = 0;
-  for (Index row = 0; row < rows; ++row)
-  {
-    ofRow.clear();
-    for (; k < entries.size() && entries[k].row == row; ++k)
-    {
-      ofRow.emplace_back(entries[k].column, entries[k].value);
-    }
-    matrix.Append(ofRow);
-  }
-  return matrix.Finish(rows);
 }
 
 /// Collective. The rows and columns of a list of functions, which lack nothing: neighbours tell
@@ -107,14 +80,14 @@ SparseMatrix WholeMatrix(const Communicator& ranks, const SparseMatrix& A,
   const std::vector<Index>& list, const LevelNumbering& numbering,
   const std::vector<RankNeighbour>& inList)
 {
-  std::vector<std::vector<Entry>> messages(ranks.Size());
+  std::vector<std::vector<MatrixEntry>> messages(ranks.Size());
   ranks.Together(
     [&]
     {
       for (const RankNeighbour& neighbour : numbering.neighbours)
       {
         ForEntries(A, neighbour.functions,
-          [&](const Entry& entry) { messages[neighbour.rank].push_back(entry); });
+          [&](const MatrixEntry& entry) { messages[neighbour.rank].push_back(entry); });
       }
     });
   messages = ranks.Exchange(messages);
@@ -122,17 +95,17 @@ SparseMatrix WholeMatrix(const Communicator& ranks, const SparseMatrix& A,
   ranks.Together(
     [&]
     {
-      std::vector<Entry> entries;
-      ForEntries(A, list, [&](const Entry& entry) { entries.push_back(entry); });
+      std::vector<MatrixEntry> entries;
+      ForEntries(A, list, [&](const MatrixEntry& entry) { entries.push_back(entry); });
       for (const RankNeighbour& neighbour : inList)
       {
-        for (const Entry& entry : messages[neighbour.rank])
+        for (const MatrixEntry& entry : messages[neighbour.rank])
         {
           entries.push_back(
             { neighbour.functions[entry.row], neighbour.functions[entry.column], entry.value });
         }
       }
-      whole = MatrixOf(std::move(entries), static_cast<Index>(list.size()));
+      whole = SumOf({}, std::move(entries), static_cast<Index>(list.size()));
     });
   return whole;
 }

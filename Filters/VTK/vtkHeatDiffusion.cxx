@@ -105,7 +105,6 @@ bool vtkHeatDiffusion::HoldsValues() const
 gridfem::HeldValues vtkHeatDiffusion::FindHeldValues(vtkPolyData* input)
 {
   const gridfem::SurfaceSolverState& state = *this->State;
-  const gridfem::TriangleMesh& mesh = *state.mesh.triangles;
   const gridfem::InputArray& mask = this->Data->Mask;
   gridfem::InputArray array = this->Data->Array;
   gridfem::RequireValuesAtPoints(array, mask, *this->Selection);
@@ -116,20 +115,7 @@ gridfem::HeldValues vtkHeatDiffusion::FindHeldValues(vtkPolyData* input)
     array.array = input && input->GetPoints() ? input->GetPoints()->GetData() : nullptr;
     array.name = "coordinates";
   }
-  gridfem::HeldValues held;
-  if (!mask.array && !this->Selection->IsGiven())
-  {
-    held = state.Hold({}, gridfem::MultiVector(0, values.values.cols()));
-  }
-  else if (state.together.IsUsed())
-  {
-    held = state.together.HoldKnown(array, mask, *this->Selection, state.mesh);
-  }
-  else
-  {
-    const gridfem::GivenValues given = gridfem::KnownValues(array, mask, *this->Selection, mesh);
-    held = state.Hold(given.points, given.values);
-  }
+  gridfem::HeldValues held = state.HoldKnown(array, mask, *this->Selection, values.values.cols());
   if (this->BoundaryValues)
   {
     const gridfem::BoundaryTerms terms = state.OnBoundary(nullptr, &values.values);

@@ -224,7 +224,8 @@ gridfem::ConstrainedLoad vtkScreenedPoisson::IntegrateConstrained(const gridfem:
   state.Together(
     [&] { load.field = gridfem::SplitField(value, weight ? &*weight : nullptr, triangles); });
   load.field.numberOfIgnoredPoints = gridfem::CountIgnoredPoints(space, load.field, triangles);
-  load.held = this->HoldGiven(value.values.cols());
+  load.held = state.HoldKnown(data.Value.array ? data.Value : data.Coordinates, data.Constraint,
+    *this->Selection, value.values.cols());
   if (this->BoundaryValues || data.Flux.array)
   {
     this->AddBoundary(value, load);
@@ -244,25 +245,6 @@ gridfem::ConstrainedLoad vtkScreenedPoisson::IntegrateConstrained(const gridfem:
     load.gradients = space.LoadOfGradientsOf(load.field.values, &known, job);
   }
   return load;
-}
-
-/// What the mask or the selection holds.
-gridfem::HeldValues vtkScreenedPoisson::HoldGiven(vtkIdType components) const
-{
-  const Internals& data = *this->Data;
-  const gridfem::SurfaceSolverState& state = *this->State;
-  const gridfem::InputArray& array = data.Value.array ? data.Value : data.Coordinates;
-  gridfem::GivenValues given;
-  given.values.resize(0, components);
-  if (this->HoldsPoints() && state.together.IsUsed())
-  {
-    return state.together.HoldKnown(array, data.Constraint, *this->Selection, state.mesh);
-  }
-  if (this->HoldsPoints())
-  {
-    given = gridfem::KnownValues(array, data.Constraint, *this->Selection, *state.mesh.triangles);
-  }
-  return state.Hold(given.points, given.values);
 }
 
 void vtkScreenedPoisson::AddBoundary(const gridfem::Field& value, gridfem::ConstrainedLoad& load)

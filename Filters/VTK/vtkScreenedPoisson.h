@@ -83,7 +83,6 @@ namespace gridfem
 {
 struct ConstrainedLoad;
 struct Field;
-struct HeldValues;
 struct InputMesh;
 struct Job;
 struct PoissonLoad;
@@ -275,7 +274,6 @@ private:
   void FindArrays(vtkPolyData* input);
   gridfem::PoissonLoad Integrate(const gridfem::SurfaceSpace& space, const gridfem::Job& job);
   gridfem::ConstrainedLoad IntegrateConstrained(const gridfem::Job& job);
-  gridfem::HeldValues HoldGiven(vtkIdType components) const;
   void AddBoundary(const gridfem::Field& value, gridfem::ConstrainedLoad& load);
   bool IsConstrained() const;
   bool HoldsPoints() const;

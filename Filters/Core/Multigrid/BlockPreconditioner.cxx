@@ -40,12 +40,6 @@ void HandOver(const MultiVector& z, const RowSink<Real>& sink, int threads)
     SourceRows);
 }
 
-const DividedRows* RowsOf(const Multigrid& multigrid, std::size_t level)
-{
-  const auto& divided = multigrid.Levels()[level].divided;
-  return divided ? &divided->Rows() : nullptr;
-}
-
 } // namespace
 
 template<class Real>
@@ -84,7 +78,7 @@ BlockPreconditioner<Real> CyclePreconditioner(const Multigrid& multigrid, std::s
   {
     const int threads = multigrid.Options().threads;
     MultiVector block = AllRows(r, threads); // corrections take the place of residuals
-    const DividedRows* const divided = RowsOf(multigrid, level);
+    const DividedRows* const divided = RowsOf(multigrid.Levels()[level]);
     if (divided)
     {
       divided->Sum(block);

@@ -54,9 +54,11 @@ struct LargestNumbers
   void operator+=(const LargestNumbers& other) { value = value.max(other.value); }
 };
 
-const DividedRows* RowsOf(const MultigridLevel& level)
+/// Makes b - A x, with the part of A that is here, a part of the residual: a row of b counts where
+/// it belongs to.
+void LeaveToOwners(const DividedRows& divided, const MultiVector& b, MultiVector& r)
 {
-  return level.divided ? &level.divided->Rows() : nullptr;
+  r.topRows(divided.Foreign()) -= b.topRows(divided.Foreign());
 }
 
 /// Per column a power of two near the largest number, or the sum of the largest of all processes;
@@ -320,8 +322,7 @@ void Multigrid::NestedIteration(const MultiVector& b, MultiVector& x, MultiVecto
   }
 }
 
-/// coarse = Pᵀ (b - A x), or Pᵀ b without x. Where processes divide the level, a row of b counts
-/// where it belongs to, as A is a part.
+/// coarse = Pᵀ (b - A x), or Pᵀ b without x.
 void Multigrid::RestrictResidual(std::size_t l, const MultiVector& b, const MultiVector* x,
   MultiVector& residual, MultiVector& coarse) const
 {
@@ -336,8 +337,7 @@ void Multigrid::RestrictResidual(std::size_t l, const MultiVector& b, const Mult
   }
   if (level.divided)
   {
-    const Index foreign = level.divided->Rows().Foreign();
-    residual.topRows(foreign) -= b.topRows(foreign);
+    LeaveToOwners(level.divided->Rows(), b, residual);
   }
   Multiply(level.restriction, x || level.divided ? residual : b, coarse, options_.threads);
   if (level.divided)
@@ -356,7 +356,19 @@ void Multigrid::CheckRows(std::size_t level, const MultiVector& b) const
   }
 }
 
-/// x = B b. Single precision gets numbers near 1, whatever those of b are.
+/// x = B b in units of the columns of b, which are returned: single precision gets numbers near 1.
+/// b may be the scaled vector of the level.
+Eigen::ArrayXd Multigrid::CycleInUnits(
+  std::size_t l, const MultiVector& b, MultiVector& x, std::vector<Scratch>& scratch) const
+{
+  MultiVector& scaled = scratch[l].scaled;
+  const Eigen::ArrayXd unit = UnitsOf(b, RowsOf(levels_[l]), options_.threads);
+  Scale(b, unit.inverse(), scaled, options_.threads);
+  this->CycleLevel(l, scaled, x, true, scratch);
+  return unit;
+}
+
+/// x = B b
 void Multigrid::Correct(
   std::size_t l, const MultiVector& b, MultiVector& x, std::vector<Scratch>& scratch) const
 {
@@ -365,10 +377,7 @@ void Multigrid::Correct(
     this->CycleLevel(l, b, x, true, scratch);
     return;
   }
-  MultiVector& scaled = scratch[l].scaled;
-  const Eigen::ArrayXd unit = UnitsOf(b, RowsOf(levels_[l]), options_.threads);
-  Scale(b, unit.inverse(), scaled, options_.threads);
-  this->CycleLevel(l, scaled, x, true, scratch);
+  const Eigen::ArrayXd unit = this->CycleInUnits(l, b, x, scratch);
   Scale(x, unit, x, options_.threads);
 }
 
@@ -381,17 +390,15 @@ void Multigrid::Improve(
     this->CycleLevel(l, b, x, false, scratch);
     return;
   }
-  MultiVector& scaled = scratch[l].scaled;
+  MultiVector& residual = scratch[l].scaled;
   MultiVector& correction = scratch[l].correction;
-  Residual(levels_[l].A, x, b, scaled, options_.threads);
+  Residual(levels_[l].A, x, b, residual, options_.threads);
   if (const DividedRows* divided = RowsOf(levels_[l]))
   {
-    scaled.topRows(divided->Foreign()) -= b.topRows(divided->Foreign());
-    divided->Sum(scaled);
+    LeaveToOwners(*divided, b, residual);
+    divided->Sum(residual);
   }
-  const Eigen::ArrayXd unit = UnitsOf(scaled, RowsOf(levels_[l]), options_.threads);
-  Scale(scaled, unit.inverse(), scaled, options_.threads);
-  this->CycleLevel(l, scaled, correction, true, scratch);
+  const Eigen::ArrayXd unit = this->CycleInUnits(l, residual, correction, scratch);
   double* const target = x.data();
   const double* const source = correction.data();
   ForEachNumber(

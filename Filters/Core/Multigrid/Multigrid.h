@@ -62,6 +62,12 @@ struct MultigridLevel
   std::unique_ptr<Smoother> smoother;          // none on the coarsest
 };
 
+/// What processes that divide the level have of it; null: this process holds it alone.
+inline const DividedRows* RowsOf(const MultigridLevel& level)
+{
+  return level.divided ? &level.divided->Rows() : nullptr;
+}
+
 /// A hierarchy that is ready to cycle. Const methods are safe to call from several threads, but
 /// where processes divide a level: there all of them make it and call each method, in the same
 /// order. Vectors of a divided level have a row for each unknown that this process holds.
@@ -140,6 +146,8 @@ private:
   void CheckRows(std::size_t level, const MultiVector& b) const;
   void RestrictResidual(std::size_t level, const MultiVector& b, const MultiVector* x,
     MultiVector& residual, MultiVector& coarse) const;
+  Eigen::ArrayXd CycleInUnits(
+    std::size_t level, const MultiVector& b, MultiVector& x, std::vector<Scratch>& scratch) const;
   void Correct(
     std::size_t level, const MultiVector& b, MultiVector& x, std::vector<Scratch>& scratch) const;
   void Improve(

@@ -75,7 +75,7 @@ constexpr std::uint64_t IsSet(std::uint64_t word)
 constexpr double Range = 1e-15;
 
 /// A power of two near the root of the diagonal where that is out of range, else 1.
-double WeightOf(const BlockSource::Row& row)
+double RangeWeight(const BlockSource::Row& row)
 {
   const bool isInRange = row.scale > Range && row.scale < 1.0 / Range;
   return row.diagonal < 0 || isInRange ? 1.0 : std::exp2(-std::ilogb(row.scale));
@@ -328,7 +328,7 @@ bool StencilBlocks::FillFactors(const SparseMatrix& A, const PatchOrder& order, 
 {
   const BlockSource source(A, threads);
   weight_.resize(source.row.size());
-  std::transform(source.row.begin(), source.row.end(), weight_.begin(), gridfem::WeightOf);
+  std::transform(source.row.begin(), source.row.end(), weight_.begin(), RangeWeight);
   if (std::all_of(weight_.begin(), weight_.end(), [](double weight) { return weight == 1.0; }))
   {
     weight_.clear();

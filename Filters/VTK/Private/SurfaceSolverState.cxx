@@ -2,11 +2,13 @@
 
 #include "Base/Errors.h"
 #include "BasisReader.h"
+#include "GivenValues.h"
 #include "InputValidation.h"
 #include "Integrals/QuadratureRule.h"
 #include "MetricArray.h"
 #include "Problems/MemoryEstimate.h"
 #include "Problems/MovedSurface.h"
+#include "SelectedPoints.h"
 #include "SolverOutput.h"
 #include "vtkSurfaceFEMAlgorithm.h"
 
@@ -320,6 +322,21 @@ Field SurfaceSolverState::Read(const InputArray& array, NaNs nans) const
 HeldValues SurfaceSolverState::Hold(const std::vector<Id>& points, const MultiVector& values) const
 {
   return together.IsUsed() ? together.Hold(points, values) : HoldPoints(*space, points, values);
+}
+
+HeldValues SurfaceSolverState::HoldKnown(const InputArray& array, const InputArray& mask,
+  const SelectedPoints& selection, Id components) const
+{
+  if (!mask.array && !selection.IsGiven())
+  {
+    return this->Hold({}, MultiVector(0, components));
+  }
+  if (together.IsUsed())
+  {
+    return together.HoldKnown(array, mask, selection, mesh);
+  }
+  const GivenValues given = KnownValues(array, mask, selection, *mesh.triangles);
+  return this->Hold(given.points, given.values);
 }
 
 BoundaryTerms SurfaceSolverState::OnBoundary(

@@ -95,6 +95,10 @@ public:
   void Together(const std::function<void()>& body) const;
   Field Read(const InputArray& array, NaNs nans = NaNs::Refused) const;
   HeldValues Hold(const std::vector<Id>& points, const MultiVector& values) const;
+  /// The known values of an array where a mask or a selection is given, else none (KnownValues).
+  /// @param components  of the values
+  HeldValues HoldKnown(const InputArray& array, const InputArray& mask,
+    const SelectedPoints& selection, Id components) const;
   BoundaryTerms OnBoundary(const MultiVector* flux, const MultiVector* values) const;
   MultiVector ValuesAtPoints(const MultiVector& coefficients, const Progress& progress = {}) const;
   std::vector<char> PointsWithFunctions() const;
