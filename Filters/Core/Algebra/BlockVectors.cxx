@@ -71,18 +71,4 @@ MultiVector RandomColumns(Id rows, Id columns)
   return X;
 }
 
-Eigen::VectorXd ColumnDots(const ConstBlock<double>& X, const ConstBlock<double>& Y, int threads)
-{
-  return ParallelSum(X.rows(), threads, Eigen::VectorXd(Eigen::VectorXd::Zero(X.cols())),
-    [&](Id begin, Id end)
-    {
-      Eigen::VectorXd sum = Eigen::VectorXd::Zero(X.cols());
-      for (Id i = begin; i < end; ++i)
-      {
-        sum += X.row(i).cwiseProduct(Y.row(i)).transpose();
-      }
-      return sum;
-    });
-}
-
 } // namespace gridfem

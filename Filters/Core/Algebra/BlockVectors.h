@@ -12,10 +12,6 @@
 namespace gridfem
 {
 
-/// MultiVector is the one in double precision.
-template<class Real>
-using Vectors = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
 /// Neighbouring columns of a block that is stored elsewhere, all of them or some.
 template<class Real>
 using Block = Eigen::Ref<Vectors<Real>>;
@@ -72,10 +68,6 @@ void CopyBlock(const From& from, To to, int threads)
 
 /// Uniform in [-1, 1), the same on every platform.
 MultiVector RandomColumns(Id rows, Id columns);
-
-/// xᵀ y for every pair of columns. Same bits for any number of threads.
-Eigen::VectorXd ColumnDots(
-  const ConstBlock<double>& X, const ConstBlock<double>& Y, int threads = 0);
 
 } // namespace gridfem
 

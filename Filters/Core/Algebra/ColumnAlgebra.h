@@ -10,29 +10,34 @@ namespace gridfem
 /// One number per column.
 using Columns = Eigen::ArrayXd;
 
-/// x_cᵀ y_c of every column c, over the rows from `first` on. Same bits for any number of threads.
-inline Columns ColumnProducts(const MultiVector& x, const MultiVector& y, int threads, Id first = 0)
+/// x_cᵀ y_c of every column c over some rows, added up in double precision.
+template<class Real>
+Columns RowProducts(const Vectors<Real>& x, const Vectors<Real>& y, Id begin, Id end)
 {
-  const auto sumRange = [&](Id begin, Id end)
-  {
-    Columns sums = Columns::Zero(x.cols());
-    ForEachChunk(x.cols(),
-      [&](auto chunk)
+  Columns sums = Columns::Zero(x.cols());
+  ForEachChunk<Real>(x.cols(),
+    [&](auto chunk)
+    {
+      constexpr int width = decltype(chunk)::Width;
+      using Sums = Eigen::Array<double, width, 1>;
+      Sums part[4] = { Sums::Zero(), Sums::Zero(), Sums::Zero(), Sums::Zero() };
+      for (Index row = static_cast<Index>(begin); row < end; ++row)
       {
-        using ColumnLanes = typename decltype(chunk)::ColumnLanes;
-        ColumnLanes part[4] = { ColumnLanes::Zero(), ColumnLanes::Zero(), ColumnLanes::Zero(),
-          ColumnLanes::Zero() };
-        for (Index row = static_cast<Index>(first + begin); row < first + end; ++row)
-        {
-          part[row & 3] += chunk.Row(x.data(), row) * chunk.Row(y.data(), row);
-        }
-        sums.segment<ColumnLanes::SizeAtCompileTime>(chunk.first) =
-          (part[0] + part[1]) + (part[2] + part[3]);
-      });
-    return sums;
-  };
-  return ParallelSum(
-    x.rows() - first, ThreadsFor(x.size(), threads), Columns(Columns::Zero(x.cols())), sumRange);
+        part[row & 3] += chunk.Row(x.data(), row).template cast<double>() *
+                         chunk.Row(y.data(), row).template cast<double>();
+      }
+      sums.segment<width>(chunk.first) = (part[0] + part[1]) + (part[2] + part[3]);
+    });
+  return sums;
+}
+
+/// The same over the rows from `first` on. Same bits for any number of threads.
+template<class Real>
+Columns ColumnProducts(const Vectors<Real>& x, const Vectors<Real>& y, int threads, Id first = 0)
+{
+  return ParallelSum(x.rows() - first, ThreadsFor(x.size(), threads),
+    Columns(Columns::Zero(x.cols())),
+    [&](Id begin, Id end) { return RowProducts(x, y, first + begin, first + end); });
 }
 
 /// y_c += factor_c x_c.

@@ -13,84 +13,97 @@ namespace gridfem
 
 /// `Columns` neighbouring columns of a row-major block, the first of them `first`. `Stride` is the
 /// distance of two rows, 0 where it is known at run time only.
-template<int Columns, int Stride>
+template<int Columns, int Stride, class Real = double>
 struct ColumnChunk
 {
   static constexpr int Width = Columns;
-  using ColumnLanes = Eigen::Array<double, Columns, 1>;
+  using ColumnLanes = Eigen::Array<Real, Columns, 1>;
 
   Id first = 0;
   Id stride = Stride;
 
   Id Offset(Index row) const { return Id(row) * (Stride > 0 ? Stride : stride) + first; }
 
-  Eigen::Map<ColumnLanes> Row(double* x, Index row) const
+  Eigen::Map<ColumnLanes> Row(Real* x, Index row) const
   {
     return Eigen::Map<ColumnLanes>(x + this->Offset(row));
   }
-  Eigen::Map<const ColumnLanes> Row(const double* x, Index row) const
+  Eigen::Map<const ColumnLanes> Row(const Real* x, Index row) const
   {
     return Eigen::Map<const ColumnLanes>(x + this->Offset(row));
   }
 };
 
-/// Calls body(chunk) for chunks of 8, 4, 3, 2 or 1 columns that cover a block of `columns`.
-template<class Body>
+/// Columns of a block in single precision that are worked on together: two vector registers of
+/// sixteen share every number of a matrix that is read.
+constexpr Id WideChunk = 32;
+
+/// Calls body(chunk) for chunks of 8, 4, 3, 2 or 1 columns that cover a block of `columns`; for one
+/// chunk where a block in single precision has WideChunk of them.
+template<class Real = double, class Body>
 void ForEachChunk(Id columns, Body&& body)
 {
   switch (columns)
   {
     case 1:
-      return body(ColumnChunk<1, 1>());
+      return body(ColumnChunk<1, 1, Real>());
     case 2:
-      return body(ColumnChunk<2, 2>());
+      return body(ColumnChunk<2, 2, Real>());
     case 3:
-      return body(ColumnChunk<3, 3>());
+      return body(ColumnChunk<3, 3, Real>());
     case 4:
-      return body(ColumnChunk<4, 4>());
+      return body(ColumnChunk<4, 4, Real>());
     case 8:
-      return body(ColumnChunk<8, 8>());
+      return body(ColumnChunk<8, 8, Real>());
+    case WideChunk:
+      if constexpr (std::is_same_v<Real, float>)
+      {
+        return body(ColumnChunk<WideChunk, WideChunk, Real>());
+      }
+      break;
     default:
       break;
   }
   Id first = 0;
   for (; columns - first >= 8; first += 8)
   {
-    body(ColumnChunk<8, 0>{ first, columns });
+    body(ColumnChunk<8, 0, Real>{ first, columns });
   }
   if (columns - first >= 4)
   {
-    body(ColumnChunk<4, 0>{ first, columns });
+    body(ColumnChunk<4, 0, Real>{ first, columns });
     first += 4;
   }
   switch (columns - first)
   {
     case 1:
-      return body(ColumnChunk<1, 0>{ first, columns });
+      return body(ColumnChunk<1, 0, Real>{ first, columns });
     case 2:
-      return body(ColumnChunk<2, 0>{ first, columns });
+      return body(ColumnChunk<2, 0, Real>{ first, columns });
     case 3:
-      return body(ColumnChunk<3, 0>{ first, columns });
+      return body(ColumnChunk<3, 0, Real>{ first, columns });
     default:
       break;
   }
 }
 
 /// The arrays of a matrix, for loops that should not look them up again.
+template<class Real>
 struct RowView
 {
   const Id* begin;
   const Index* column;
-  const double* value;
+  const Real* value;
 
-  explicit RowView(const SparseMatrix& A)
+  explicit RowView(const BasicSparseMatrix<Real>& A)
     : begin(A.rowBegin.data()), column(A.column.data()), value(A.value.data())
   {
   }
 };
 
 /// Asks for the entries of a row, of a long one for the first.
-EIGEN_ALWAYS_INLINE void FetchRow(const RowView& A, Index row)
+template<class Real>
+EIGEN_ALWAYS_INLINE void FetchRow(const RowView<Real>& A, Index row)
 {
   Fetch(A.column + A.begin[row]);
   Fetch<3>(A.value + A.begin[row]);
@@ -98,16 +111,16 @@ EIGEN_ALWAYS_INLINE void FetchRow(const RowView& A, Index row)
 
 /// One row of A times a chunk of x. A single column is added up in four parts, so that additions
 /// need not wait for each other.
-template<class Chunk>
-inline typename Chunk::ColumnLanes RowProduct(
-  const RowView& A, Index row, const double* x, Chunk chunk)
+template<class Real, class Chunk>
+EIGEN_ALWAYS_INLINE typename Chunk::ColumnLanes RowProduct(
+  const RowView<Real>& A, Index row, const Real* x, Chunk chunk)
 {
   using ColumnLanes = typename Chunk::ColumnLanes;
   const Id end = A.begin[row + 1];
   Id k = A.begin[row];
   if constexpr (Chunk::Width == 1)
   {
-    double part[4] = { 0.0, 0.0, 0.0, 0.0 };
+    Real part[4] = {};
     for (; k + 4 <= end; k += 4)
     {
       for (int i = 0; i < 4; ++i)
@@ -126,8 +139,8 @@ inline typename Chunk::ColumnLanes RowProduct(
     // Three numbers are read as four, with the first of the next row, which is not used: another
     // thread may be writing it. There is one behind all but the last entry of A's row, whose
     // columns ascend.
-    constexpr bool isThree = std::is_same_v<Chunk, ColumnChunk<3, 3>>;
-    using Read = Eigen::Array<double, isThree ? 4 : Chunk::Width, 1>;
+    constexpr bool isThree = std::is_same_v<Chunk, ColumnChunk<3, 3, Real>>;
+    using Read = Eigen::Array<Real, isThree ? 4 : Chunk::Width, 1>;
     const auto lanes = [&](Id entry)
     { return Eigen::Map<const Read>(x + chunk.Offset(A.column[entry])); };
     const Id last = isThree ? end - 1 : end;
@@ -147,8 +160,8 @@ inline typename Chunk::ColumnLanes RowProduct(
     {
       if (k < end)
       {
-        const double* const three = x + chunk.Offset(A.column[k]);
-        odd += A.value[k] * Read(three[0], three[1], three[2], 0.0);
+        const Real* const three = x + chunk.Offset(A.column[k]);
+        odd += A.value[k] * Read(three[0], three[1], three[2], Real(0));
       }
       const Read sum = even + odd;
       return ColumnLanes(sum[0], sum[1], sum[2]);

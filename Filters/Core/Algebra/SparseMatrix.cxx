@@ -1,6 +1,6 @@
 #include "Algebra/SparseMatrix.h"
 
-#include "Algebra/RowKernels.h"
+#include "Algebra/ColumnAlgebra.h"
 #include "Base/Errors.h"
 #include "Base/Grouping.h"
 
@@ -21,42 +21,73 @@ void CheckRows(Id have, Id want, const char* what)
   }
 }
 
-/// Calls body(row, chunk, product of the row with the chunk of x) for every row and chunk.
-template<class Body>
-void ForEachRow(const SparseMatrix& A, const MultiVector& x, int threads, Body&& body)
+/// Short ranges keep their part of the matrix in the cache while chunk after chunk passes.
+constexpr Id RowsPerRange = 1024;
+
+/// Calls body(row, chunk, product of the row with the chunk of x) for some rows and every chunk.
+template<class Real, class Body>
+void ForRows(const RowView<Real>& A, const Vectors<Real>& x, Id begin, Id end, Body&& body)
 {
-  // Short ranges keep their part of the matrix in the cache while chunk after chunk passes.
-  constexpr Id RowsPerRange = 1024;
+  ForEachChunk<Real>(x.cols(),
+    [&](auto chunk)
+    {
+      for (Index row = static_cast<Index>(begin); row < end; ++row)
+      {
+        body(row, chunk, RowProduct(A, row, x.data(), chunk));
+      }
+    });
+}
+
+template<class Real, class Body>
+void ForEachRow(const BasicSparseMatrix<Real>& A, const Vectors<Real>& x, int threads, Body&& body)
+{
   const RowView rows(A);
   ParallelRanges(
     A.rows, ThreadsFor(A.NonZeros() * x.cols(), threads),
-    [&](Id begin, Id end)
-    {
-      ForEachChunk(x.cols(),
-        [&](auto chunk)
-        {
-          for (Index row = static_cast<Index>(begin); row < end; ++row)
-          {
-            body(row, chunk, RowProduct(rows, row, x.data(), chunk));
-          }
-        });
-    },
-    RowsPerRange);
+    [&](Id begin, Id end) { ForRows(rows, x, begin, end, body); }, RowsPerRange);
+}
+
+template<class Real>
+void MultiplyAny(
+  const BasicSparseMatrix<Real>& A, const Vectors<Real>& x, Vectors<Real>& y, int threads)
+{
+  CheckRows(x.rows(), A.columns, "x");
+  y.resize(A.rows, x.cols());
+  ForEachRow(A, x, threads,
+    [&](Index row, auto chunk, const auto& product) { chunk.Row(y.data(), row) = product; });
+}
+
+template<class Real>
+void MultiplyAddAny(
+  const BasicSparseMatrix<Real>& A, const Vectors<Real>& x, Vectors<Real>& y, int threads)
+{
+  CheckRows(x.rows(), A.columns, "x");
+  CheckRows(y.rows(), A.rows, "y");
+  ForEachRow(A, x, threads,
+    [&](Index row, auto chunk, const auto& product) { chunk.Row(y.data(), row) += product; });
 }
 
 } // namespace
 
-double SparseMatrix::Coefficient(Index row, Index col) const
+template<class Real>
+std::size_t BasicSparseMatrix<Real>::Memory() const
+{
+  return rowBegin.size() * sizeof(Id) + column.size() * sizeof(Index) + value.size() * sizeof(Real);
+}
+
+template<class Real>
+Real BasicSparseMatrix<Real>::Coefficient(Index row, Index col) const
 {
   const auto first = column.begin() + rowBegin[row];
   const auto last = column.begin() + rowBegin[row + 1];
   const auto found = std::lower_bound(first, last, col);
-  return found != last && *found == col ? value[found - column.begin()] : 0.0;
+  return found != last && *found == col ? value[found - column.begin()] : Real(0);
 }
 
-std::vector<double> SparseMatrix::Diagonal(int threads) const
+template<class Real>
+std::vector<Real> BasicSparseMatrix<Real>::Diagonal(int threads) const
 {
-  std::vector<double> diagonal(std::min(rows, columns));
+  std::vector<Real> diagonal(std::min(rows, columns));
   ParallelRanges(static_cast<Id>(diagonal.size()), ThreadsFor(this->NonZeros(), threads),
     [&](Id begin, Id end)
     {
@@ -68,32 +99,96 @@ std::vector<double> SparseMatrix::Diagonal(int threads) const
   return diagonal;
 }
 
+template struct BasicSparseMatrix<float>;
+template struct BasicSparseMatrix<double>;
+
+BasicSparseMatrix<float> InSinglePrecision(const SparseMatrix& A, int threads)
+{
+  BasicSparseMatrix<float> single{ A.rows, A.columns, A.rowBegin, A.column, {} };
+  single.value.resize(A.value.size());
+  ParallelRanges(static_cast<Id>(A.value.size()), threads,
+    [&](Id begin, Id end)
+    {
+      for (Id k = begin; k < end; ++k)
+      {
+        single.value[k] = static_cast<float>(A.value[k]);
+      }
+    });
+  return single;
+}
+
 void Multiply(const SparseMatrix& A, const MultiVector& x, MultiVector& y, int threads)
 {
-  CheckRows(x.rows(), A.columns, "x");
-  y.resize(A.rows, x.cols());
-  ForEachRow(A, x, threads,
-    [&](Index row, auto chunk, const auto& product) { chunk.Row(y.data(), row) = product; });
+  MultiplyAny(A, x, y, threads);
+}
+
+void Multiply(
+  const BasicSparseMatrix<float>& A, const Vectors<float>& x, Vectors<float>& y, int threads)
+{
+  MultiplyAny(A, x, y, threads);
 }
 
 void MultiplyAdd(const SparseMatrix& A, const MultiVector& x, MultiVector& y, int threads)
 {
-  CheckRows(x.rows(), A.columns, "x");
-  CheckRows(y.rows(), A.rows, "y");
-  ForEachRow(A, x, threads,
-    [&](Index row, auto chunk, const auto& product) { chunk.Row(y.data(), row) += product; });
+  MultiplyAddAny(A, x, y, threads);
+}
+
+void MultiplyAdd(
+  const BasicSparseMatrix<float>& A, const Vectors<float>& x, Vectors<float>& y, int threads)
+{
+  MultiplyAddAny(A, x, y, threads);
 }
 
 void Residual(
   const SparseMatrix& A, const MultiVector& x, const MultiVector& b, MultiVector& r, int threads)
 {
+  ResidualPart<double>(A, x, b, 0, r, nullptr, threads);
+}
+
+template<class Real>
+void ResidualPart(const BasicSparseMatrix<Real>& A, const Vectors<Real>& x, const Vectors<Real>& b,
+  Index foreign, Vectors<Real>& r, Eigen::ArrayXd* energy, int threads)
+{
   CheckRows(x.rows(), A.columns, "x");
   CheckRows(b.rows(), A.rows, "b");
   r.resize(A.rows, x.cols());
-  ForEachRow(A, x, threads,
-    [&](Index row, auto chunk, const auto& product)
-    { chunk.Row(r.data(), row) = chunk.Row(b.data(), row) - product; });
+  const RowView rows(A);
+  const int team = ThreadsFor(A.NonZeros() * x.cols(), threads);
+  const auto fill = [&](Id begin, Id end)
+  {
+    ForRows(rows, x, begin, end,
+      [&](Index row, auto chunk, const auto& product)
+      {
+        auto to = chunk.Row(r.data(), row);
+        if (row < foreign)
+        {
+          to = -product;
+        }
+        else
+        {
+          to = chunk.Row(b.data(), row) - product;
+        }
+      });
+  };
+  if (!energy)
+  {
+    ParallelRanges(A.rows, team, fill, RowsPerRange);
+    return;
+  }
+  *energy = ParallelSum(
+    A.rows, team, Columns(Columns::Zero(x.cols())),
+    [&](Id begin, Id end) -> Columns
+    {
+      fill(begin, end);
+      return RowProducts(x, r, begin, end) + RowProducts(x, b, std::max<Id>(begin, foreign), end);
+    },
+    RowsPerRange);
 }
+
+template void ResidualPart(const BasicSparseMatrix<float>&, const Vectors<float>&,
+  const Vectors<float>&, Index, Vectors<float>&, Eigen::ArrayXd*, int);
+template void ResidualPart(const SparseMatrix&, const MultiVector&, const MultiVector&, Index,
+  MultiVector&, Eigen::ArrayXd*, int);
 
 SparseMatrix Transpose(const SparseMatrix& A, int threads)
 {

@@ -25,7 +25,9 @@ using Vec3 = Eigen::Vector3d;
 
 /// Several vectors side by side: one row per function (or point), one column per right-hand side.
 /// Row-major, so that the columns of one row are neighbours in memory and fill SIMD lanes.
-using MultiVector = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+template<class Real>
+using Vectors = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using MultiVector = Vectors<double>;
 
 /// Trilinear B-splines that do not vanish inside one cell, one per corner, x fastest.
 constexpr int FunctionsPerPatch = 8;

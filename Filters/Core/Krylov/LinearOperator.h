@@ -4,13 +4,12 @@
 #define GridFEM_LinearOperator_h
 
 #include "Algebra/ColumnAlgebra.h"
+#include "Multigrid/Multigrid.h"
 
 #include <functional>
 
 namespace gridfem
 {
-
-class Multigrid;
 
 /// A symmetric positive semi-definite A, for blocks of vectors with any number of columns.
 struct LinearOperator

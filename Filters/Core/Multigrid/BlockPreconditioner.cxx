@@ -1,46 +1,65 @@
 #include "Multigrid/BlockPreconditioner.h"
 
 #include "Base/Parallel.h"
-#include "Multigrid/Multigrid.h"
+
+#include <type_traits>
 
 namespace gridfem
 {
-namespace
+template<class Given, class Real>
+Columns LoadRows(const RowSource<Given>& r, Vectors<Real>& to, int threads)
 {
-
-/// Columns of one cycle: as wide as SIMD lanes need and small enough for the cache.
-constexpr Id PanelWidth = 8;
-
-template<class Real>
-MultiVector AllRows(const RowSource<Real>& r, int threads)
-{
-  MultiVector all(r.rows, r.columns);
-  ParallelRanges(
-    r.rows, threads,
+  return ParallelSum(
+    r.rows, threads, Columns(Columns::Zero(to.cols())),
     [&](Id begin, Id end)
     {
-      Vectors<Real> part(end - begin, r.columns);
-      r.fill(begin, end, part);
-      all.middleRows(begin, end - begin) = part.template cast<double>();
-    },
-    SourceRows);
-  return all;
-}
-
-template<class Real>
-void HandOver(const MultiVector& z, const RowSink<Real>& sink, int threads)
-{
-  ParallelRanges(
-    z.rows(), threads,
-    [&](Id begin, Id end)
-    {
-      const Vectors<Real> part = z.middleRows(begin, end - begin).template cast<Real>();
-      sink(begin, end, part);
+      auto rows = to.middleRows(begin, end - begin);
+      rows.rightCols(to.cols() - r.columns).setZero();
+      if constexpr (std::is_same_v<Given, Real>)
+      {
+        r.fill(begin, end, rows.leftCols(r.columns));
+      }
+      else
+      {
+        Vectors<Given> part(end - begin, r.columns);
+        r.fill(begin, end, part);
+        rows.leftCols(r.columns) = part.template cast<Real>();
+      }
+      return RowProducts(to, to, begin, end);
     },
     SourceRows);
 }
 
-} // namespace
+template Columns LoadRows(const RowSource<float>&, Vectors<float>&, int);
+template Columns LoadRows(const RowSource<double>&, Vectors<float>&, int);
+template Columns LoadRows(const RowSource<float>&, Vectors<double>&, int);
+template Columns LoadRows(const RowSource<double>&, Vectors<double>&, int);
+
+template<class Given, class Real>
+void HandOver(const Vectors<Real>& from, Id columns, const RowSink<Given>& z, int threads)
+{
+  ParallelRanges(
+    from.rows(), threads,
+    [&](Id begin, Id end)
+    {
+      const auto rows = from.block(begin, 0, end - begin, columns);
+      if constexpr (std::is_same_v<Given, Real>)
+      {
+        z(begin, end, rows);
+      }
+      else
+      {
+        const Vectors<Given> part = rows.template cast<Given>();
+        z(begin, end, part);
+      }
+    },
+    SourceRows);
+}
+
+template void HandOver(const Vectors<float>&, Id, const RowSink<float>&, int);
+template void HandOver(const Vectors<float>&, Id, const RowSink<double>&, int);
+template void HandOver(const Vectors<double>&, Id, const RowSink<float>&, int);
+template void HandOver(const Vectors<double>&, Id, const RowSink<double>&, int);
 
 template<class Real>
 Eigen::VectorXd SquaredNorms(const RowSource<Real>& r, int threads)
@@ -69,47 +88,5 @@ Eigen::VectorXd SquaredNorms(const RowSource<Real>& r, int threads)
 
 template Eigen::VectorXd SquaredNorms(const RowSource<float>&, int);
 template Eigen::VectorXd SquaredNorms(const RowSource<double>&, int);
-
-template<class Real>
-BlockPreconditioner<Real> CyclePreconditioner(const Multigrid& multigrid, std::size_t level)
-{
-  return [&multigrid, level](
-           const RowSource<Real>& r, const CorrectionTest& isWanted, const RowSink<Real>& z)
-  {
-    const int threads = multigrid.Options().threads;
-    MultiVector block = AllRows(r, threads); // corrections take the place of residuals
-    const DividedRows* const divided = RowsOf(multigrid.Levels()[level]);
-    if (divided)
-    {
-      divided->Sum(block);
-    }
-    const Id own = block.rows() - ForeignRows(divided);
-    ResidualMeasures measures{ Eigen::VectorXd(r.columns), Eigen::VectorXd(r.columns) };
-    ParallelRanges(
-      r.columns, divided ? 1 : threads, // messages come from one thread
-      [&](Id begin, Id end)
-      {
-        const MultiVector residual = block.middleCols(begin, end - begin);
-        MultiVector correction;
-        multigrid.PreconditionFrom(level, residual, correction);
-        const auto ofOwn = residual.bottomRows(own);
-        measures.energy.segment(begin, end - begin) =
-          ColumnDots(ofOwn, correction.bottomRows(own), threads);
-        measures.norm.segment(begin, end - begin) = ColumnDots(ofOwn, ofOwn, threads);
-        block.middleCols(begin, end - begin) = correction;
-      },
-      divided ? r.columns : PanelWidth);
-    SumOverProcesses(divided, measures.energy);
-    SumOverProcesses(divided, measures.norm);
-    if (isWanted(measures))
-    {
-      HandOver(block, z, threads);
-    }
-    return measures;
-  };
-}
-
-template BlockPreconditioner<float> CyclePreconditioner(const Multigrid&, std::size_t);
-template BlockPreconditioner<double> CyclePreconditioner(const Multigrid&, std::size_t);
 
 } // namespace gridfem

@@ -4,16 +4,15 @@
 #define GridFEM_BlockPreconditioner_h
 
 #include "Algebra/BlockVectors.h"
+#include "Algebra/ColumnAlgebra.h"
 
 #include <functional>
 
 namespace gridfem
 {
 
-class Multigrid;
-
 /// Columns that are corrected together, at most.
-constexpr Id PreconditionedColumns = 32;
+constexpr Id PreconditionedColumns = WideChunk;
 
 /// Rows that are asked for or handed over at a time, at most: they stay in the cache.
 constexpr Id SourceRows = 256;
@@ -31,6 +30,14 @@ struct RowSource
 /// Takes the rows begin .. end - 1 of a block. Safe to call from several threads.
 template<class Real>
 using RowSink = std::function<void(Id begin, Id end, const ConstBlock<Real>& part)>;
+
+/// The rows as a block of to.cols() columns, of which those behind r's are zero. Returns rᵀr.
+template<class Given, class Real>
+Columns LoadRows(const RowSource<Given>& r, Vectors<Real>& to, int threads);
+
+/// Hands over the first columns of a block.
+template<class Given, class Real>
+void HandOver(const Vectors<Real>& from, Id columns, const RowSink<Given>& z, int threads);
 
 /// Σ r² of every column. Same bits for any number of threads.
 template<class Real>
@@ -54,10 +61,6 @@ using CorrectionTest = std::function<bool(const ResidualMeasures&)>;
 template<class Real>
 using BlockPreconditioner = std::function<ResidualMeasures(
   const RowSource<Real>& r, const CorrectionTest& isWanted, const RowSink<Real>& z)>;
-
-/// One cycle from `level` on, from zero, in double precision. The hierarchy has to outlive it.
-template<class Real>
-BlockPreconditioner<Real> CyclePreconditioner(const Multigrid& multigrid, std::size_t level);
 
 } // namespace gridfem
 

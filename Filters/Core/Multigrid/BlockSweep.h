@@ -74,7 +74,7 @@ void VisitBlocks(const BlockRanges& ranges, SweepDirection direction, int thread
 
 /// Calls relax(item, chunk) for every item and every chunk of `columns`, in the order of the
 /// direction. @param work  multiplications of the whole sweep per column
-template<class Relax>
+template<class Real = double, class Relax>
 void SweepBlocks(const BlockRanges& ranges, Id columns, SweepDirection direction, Id work,
   int threads, Relax&& relax)
 {
@@ -84,7 +84,7 @@ void SweepBlocks(const BlockRanges& ranges, Id columns, SweepDirection direction
     {
       const Id begin = ranges.blockBegin[block];
       const Id end = ranges.blockBegin[block + 1];
-      ForEachChunk(columns,
+      ForEachChunk<Real>(columns,
         [&](auto chunk)
         {
           for (Id i = begin; i < end; ++i)
@@ -106,7 +106,9 @@ inline bool IsUsableDiagonal(double value)
 void CheckOrder(const SparseMatrix& A, const PatchOrder& order, int threads = 1);
 
 /// Throws InvalidInput when the shapes of a sweep do not fit.
-void CheckSweep(const SparseMatrix& A, Id rows, const MultiVector& b, const MultiVector& x);
+template<class Real>
+void CheckSweep(
+  const BasicSparseMatrix<Real>& A, Id rows, const Vectors<Real>& b, const Vectors<Real>& x);
 
 } // namespace gridfem
 

@@ -7,7 +7,8 @@ namespace gridfem
 namespace
 {
 
-class BorderSmoother : public Smoother
+template<class Real>
+class BorderSmoother : public BasicSmoother<Real>
 {
 public:
   explicit BorderSmoother(std::shared_ptr<const DividedLevel> divided)
@@ -15,8 +16,8 @@ public:
   {
   }
 
-  void Sweep(const SparseMatrix& A, const MultiVector& b, MultiVector& x, SweepDirection direction,
-    int) const override
+  void Sweep(const BasicSparseMatrix<Real>& A, const Vectors<Real>& b, Vectors<Real>& x,
+    SweepDirection direction, int) const override
   {
     const std::vector<Index>& border = divided_->Border();
     const Index foreign = divided_->Rows().Foreign();
@@ -25,17 +26,19 @@ public:
       x.cols(), direction,
       [&](MultiVector& part)
       {
-        ForEachChunk(x.cols(),
+        ForEachChunk<Real>(x.cols(),
           [&](auto chunk)
           {
             for (std::size_t k = 0; k < border.size(); ++k)
             {
-              auto to = chunk.Row(part.data(), static_cast<Index>(k));
-              to = -RowProduct(rows, border[k], x.data(), chunk);
+              typename decltype(chunk)::ColumnLanes residual =
+                -RowProduct(rows, border[k], x.data(), chunk);
               if (border[k] >= foreign)
               {
-                to += chunk.Row(b.data(), border[k]);
+                residual += chunk.Row(b.data(), border[k]);
               }
+              part.row(static_cast<Id>(k)).template segment<decltype(chunk)::Width>(chunk.first) =
+                residual.matrix().transpose().template cast<double>();
             }
           });
       },
@@ -43,7 +46,7 @@ public:
       {
         for (std::size_t k = 0; k < border.size(); ++k)
         {
-          x.row(border[k]) += correction.row(static_cast<Id>(k));
+          x.row(border[k]) += correction.row(static_cast<Id>(k)).template cast<Real>();
         }
       });
   }
@@ -56,9 +59,14 @@ private:
 
 } // namespace
 
-std::unique_ptr<Smoother> MakeBorderSmoother(std::shared_ptr<const DividedLevel> divided)
+template<class Real>
+std::unique_ptr<BasicSmoother<Real>> MakeBorderSmoother(std::shared_ptr<const DividedLevel> divided)
 {
-  return std::make_unique<BorderSmoother>(std::move(divided));
+  return std::make_unique<BorderSmoother<Real>>(std::move(divided));
 }
+
+template std::unique_ptr<BasicSmoother<float>> MakeBorderSmoother(
+  std::shared_ptr<const DividedLevel>);
+template std::unique_ptr<Smoother> MakeBorderSmoother(std::shared_ptr<const DividedLevel>);
 
 } // namespace gridfem

@@ -38,7 +38,9 @@ public:
 };
 
 /// Relax as a smoother.
-std::unique_ptr<Smoother> MakeBorderSmoother(std::shared_ptr<const DividedLevel> divided);
+template<class Real>
+std::unique_ptr<BasicSmoother<Real>> MakeBorderSmoother(
+  std::shared_ptr<const DividedLevel> divided);
 
 } // namespace gridfem
 

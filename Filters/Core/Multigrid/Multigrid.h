@@ -3,6 +3,7 @@
 #define GridFEM_Multigrid_h
 
 #include "Base/Pool.h"
+#include "Multigrid/BlockPreconditioner.h"
 #include "Multigrid/CoarseSolver.h"
 #include "Multigrid/DividedLevel.h"
 #include "Multigrid/Smoother.h"
@@ -50,34 +51,43 @@ struct LevelSmoothing
 };
 
 /// One level as the cycle sees it.
-struct MultigridLevel
+template<class Real>
+struct BasicMultigridLevel
 {
-  SparseMatrix A;
-  SharedMatrix prolongation; // from the next coarser level to this one; empty on the coarsest
-  SharedMatrix restriction;  // its transpose; is made where it is empty
+  BasicSparseMatrix<Real> A;
+  BasicSharedMatrix<Real> prolongation; // from the next coarser level; empty on the coarsest
+  BasicSharedMatrix<Real> restriction;  // its transpose; is made where it is empty
   PatchOrder order;
   PatchOrder groups; // of unknowns that are relaxed together after a sweep over all; or empty
-  std::optional<LevelSmoothing> smoothing;     // in place of the options of the hierarchy
-  std::shared_ptr<const DividedLevel> divided; // null: this process holds the level alone
-  std::unique_ptr<Smoother> smoother;          // none on the coarsest
+  std::optional<LevelSmoothing> smoothing;       // in place of the options of the hierarchy
+  std::shared_ptr<const DividedLevel> divided;   // null: this process holds the level alone
+  std::unique_ptr<BasicSmoother<Real>> smoother; // none on the coarsest
 };
 
+using MultigridLevel = BasicMultigridLevel<double>;
+
 /// What processes that divide the level have of it; null: this process holds it alone.
-inline const DividedRows* RowsOf(const MultigridLevel& level)
+template<class Real>
+const DividedRows* RowsOf(const BasicMultigridLevel<Real>& level)
 {
   return level.divided ? &level.divided->Rows() : nullptr;
 }
 
-/// A hierarchy that is ready to cycle. Const methods are safe to call from several threads, but
-/// where processes divide a level: there all of them make it and call each method, in the same
-/// order. Vectors of a divided level have a row for each unknown that this process holds.
-class Multigrid
+/// A hierarchy that is ready to cycle. Real is the precision of matrices and vectors: double for
+/// solves; float for corrections of many columns that need to be right in a few digits only, which
+/// has PreconditionRows alone. Sweeps may be in single precision in both. Const methods are safe to
+/// call from several threads, but where processes divide a level: there all of them make it and
+/// call each method, in the same order. Vectors of a divided level have a row for each unknown that
+/// this process holds.
+template<class Real>
+class BasicMultigrid
 {
 public:
   /// @param levels finest first, with A, prolongation and order filled; the rest is built here.
   /// The coarsest level is solved directly; its prolongation and order are not used.
+  /// In single precision they are taken apart one after the other, and only patches are relaxed.
   /// Throws InvalidInput when there is no level, shapes do not fit or a sweep count is negative.
-  Multigrid(std::vector<MultigridLevel> levels, const MultigridOptions& options);
+  BasicMultigrid(std::vector<MultigridLevel> levels, const MultigridOptions& options);
 
   /// New matrix values on the same patterns (finest first): rebuilds smoothers and coarse solver.
   /// Throws InvalidInput, and changes nothing, when a pattern differs in shape or size.
@@ -90,46 +100,59 @@ public:
   /// Whether a patch smoother, of any process, stores factors in single precision.
   bool HasSingleFactors() const;
 
+  /// Whether sweeps resolve all but a hundredth of the patches, of all processes. The others are
+  /// flat and almost parallel to a plane of the grid, where differences of functions nearly vanish.
+  bool IsReliable() const { return isReliable_; }
+
   /// A copy whose patch smoothers store all factors in double precision; it shares patterns and
   /// prolongations.
-  Multigrid InDoublePrecision() const;
+  BasicMultigrid InDoublePrecision() const;
 
   /// One cycle: improves x for A x = b. Any number of columns. Keeps its vectors, up to four times
   /// the size of b, for the next call.
-  void Cycle(const MultiVector& b, MultiVector& x) const;
+  void Cycle(const Vectors<Real>& b, Vectors<Real>& x) const;
 
   /// One cycle from zero: x = B b, B symmetric when both sweep counts are equal.
-  void Precondition(const MultiVector& b, MultiVector& x) const;
+  void Precondition(const Vectors<Real>& b, Vectors<Real>& x) const;
 
   /// A start for the iteration [T §3.3]: solves the coarsest system, takes the solution up and
   /// improves it by one cycle on every level but the finest. x = C b with C symmetric positive
   /// semi-definite where B is. Cost: a third of a W cycle. x must not be b.
   /// @param lastStep  if not null: by how much the solution of the second level differs from that
   ///                  of the third, on the finest; without columns where there are fewer
-  void NestedIteration(const MultiVector& b, MultiVector& x, MultiVector* lastStep = nullptr) const;
+  void NestedIteration(
+    const Vectors<Real>& b, Vectors<Real>& x, Vectors<Real>* lastStep = nullptr) const;
 
-  /// The same as Precondition on the hierarchy that begins at `level`.
-  void PreconditionFrom(std::size_t level, const MultiVector& b, MultiVector& x) const;
+  /// z = B r on the hierarchy that begins at `level`; see BlockPreconditioner. All but the last
+  /// sweeps of this level makes rᵀBr known. Throws InvalidInput when there are more than
+  /// PreconditionedColumns columns, or B is not symmetric.
+  template<class Given>
+  ResidualMeasures PreconditionRows(std::size_t level, const RowSource<Given>& r,
+    const CorrectionTest& isWanted, const RowSink<Given>& z) const;
 
-  const SparseMatrix& Matrix() const { return levels_.front().A; }
-  const std::vector<MultigridLevel>& Levels() const { return levels_; }
+  const BasicSparseMatrix<Real>& Matrix() const { return levels_.front().A; }
+  const std::vector<BasicMultigridLevel<Real>>& Levels() const { return levels_; }
   const MultigridOptions& Options() const { return options_; }
   std::size_t Memory() const;
 
 private:
+  void TakeApart(std::vector<MultigridLevel> levels);
   void BuildSolvers();
   void FindSingle();
-  std::unique_ptr<Smoother> MakeSmoother(std::size_t level);
-  std::unique_ptr<Smoother> MakeSmoother(MultigridLevel& level, SmootherType type);
-  LevelSmoothing SmoothingOf(std::size_t level) const;
+  std::unique_ptr<BasicSmoother<Real>> MakeSmoother(MultigridLevel& level) const;
+  std::unique_ptr<BasicSmoother<Real>> MakeFirstSmoother(MultigridLevel& level) const;
+  LevelSmoothing SmoothingOf(const std::optional<LevelSmoothing>& ofLevel) const
+  {
+    return ofLevel.value_or(
+      LevelSmoothing{ options_.smoother, options_.preSweeps, options_.postSweeps, options_.cycle });
+  }
+
   /// Vectors of one level during one call.
   struct Scratch
   {
-    MultiVector scaled;     // right-hand side in units of its columns, for single precision
-    MultiVector correction; // its solution
-    MultiVector residual;
-    MultiVector coarseB;
-    MultiVector coarseX;
+    Vectors<Real> b; // where the caller's does not do: of a coarser level, or in units
+    Vectors<Real> x; // its solution
+    Vectors<Real> residual;
   };
   /// Of all levels, kept from one call to the next, of one thread: fresh memory takes as long as a
   /// sweep.
@@ -143,28 +166,44 @@ private:
     std::vector<Scratch>& For(std::size_t levels, Id wanted);
   };
 
-  void CheckRows(std::size_t level, const MultiVector& b) const;
-  void RestrictResidual(std::size_t level, const MultiVector& b, const MultiVector* x,
-    MultiVector& residual, MultiVector& coarse) const;
-  Eigen::ArrayXd CycleInUnits(
-    std::size_t level, const MultiVector& b, MultiVector& x, std::vector<Scratch>& scratch) const;
-  void Correct(
-    std::size_t level, const MultiVector& b, MultiVector& x, std::vector<Scratch>& scratch) const;
-  void Improve(
-    std::size_t level, const MultiVector& b, MultiVector& x, std::vector<Scratch>& scratch) const;
-  void CycleLevel(std::size_t level, const MultiVector& b, MultiVector& x, bool zeroStart,
+  bool IsCoarsest(std::size_t level) const { return level + 1 == levels_.size(); }
+  void CheckRows(std::size_t level, Id rows) const;
+  void SolveCoarsest(const Vectors<Real>& b, Vectors<Real>& x) const;
+  void RestrictResidual(std::size_t level, const Vectors<Real>& b, const Vectors<Real>* x,
+    Vectors<Real>& residual, Vectors<Real>& coarse, Columns* energy = nullptr) const;
+  Columns CycleInUnits(std::size_t level, const Vectors<Real>& b, Vectors<Real>& x,
     std::vector<Scratch>& scratch) const;
-  void CorrectFromCoarse(std::size_t level, const MultiVector& b, MultiVector& x, bool zeroX,
+  void Correct(std::size_t level, const Vectors<Real>& b, Vectors<Real>& x,
     std::vector<Scratch>& scratch) const;
-  void VisitCoarse(std::size_t level, const MultiVector& b, MultiVector& x, bool zeroX, int times,
+  void Improve(std::size_t level, const Vectors<Real>& b, Vectors<Real>& x,
     std::vector<Scratch>& scratch) const;
+  void CycleLevel(std::size_t level, const Vectors<Real>& b, Vectors<Real>& x, bool zeroStart,
+    std::vector<Scratch>& scratch) const;
+  void Descend(std::size_t level, const Vectors<Real>& b, Vectors<Real>& x, bool zeroStart,
+    std::vector<Scratch>& scratch, Columns* energy = nullptr) const;
+  void Ascend(std::size_t level, const Vectors<Real>& b, Vectors<Real>& x,
+    const std::vector<Scratch>& scratch) const;
+  Columns Products(std::size_t level, const Vectors<Real>& x, const Vectors<Real>& y) const;
 
-  std::vector<MultigridLevel> levels_;
-  std::vector<char> isSingle_; // per level: whether it or a coarser one sweeps in single precision
+  std::vector<BasicMultigridLevel<Real>> levels_;
+  /// Per level of vectors in double: whether it or a coarser one sweeps in single precision.
+  std::vector<char> isSingle_;
+  bool isReliable_ = true;
   CoarseSolver coarse_;
   MultigridOptions options_;
   std::unique_ptr<Pool<Workspace>> workspace_ = std::make_unique<Pool<Workspace>>(1);
 };
+
+using Multigrid = BasicMultigrid<double>;
+
+/// One cycle from `level` on, from zero. The hierarchy has to outlive it.
+template<class Given, class Real>
+BlockPreconditioner<Given> CyclePreconditioner(
+  const BasicMultigrid<Real>& multigrid, std::size_t level)
+{
+  return [&multigrid, level](const RowSource<Given>& r, const CorrectionTest& isWanted,
+           const RowSink<Given>& z) { return multigrid.PreconditionRows(level, r, isWanted, z); };
+}
 
 } // namespace gridfem
 

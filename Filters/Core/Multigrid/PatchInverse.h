@@ -5,6 +5,7 @@
 
 #include "Base/Types.h"
 
+#include <array>
 #include <type_traits>
 
 namespace gridfem
@@ -56,42 +57,70 @@ EIGEN_ALWAYS_INLINE Eigen::Array<Number, FunctionsPerPatch, 1> MultiplyTriangle(
   return even + odd;
 }
 
-/// r = Vᵀ V r for one column: vectors run along the patch.
-/// @param V  lower triangle, mirrored to the upper one, so that both products run along columns
-template<class Real, class Number, std::enable_if_t<std::is_floating_point_v<Number>, int> = 0>
-EIGEN_ALWAYS_INLINE void ApplyInverse(const Real* V, Number (&r)[FunctionsPerPatch])
+/// V as patches store it: all of a lower triangle mirrored to the upper one, so that products run
+/// along columns, or packed.
+template<class Real>
+using MirroredFactor = std::array<Real, FunctionsPerPatch * FunctionsPerPatch>;
+template<class Real>
+using PackedFactor = std::array<Real, FunctionsPerPatch*(FunctionsPerPatch + 1) / 2>;
+
+/// Entry (i, j), i >= j.
+template<class Real>
+EIGEN_ALWAYS_INLINE Real EntryOf(const MirroredFactor<Real>& V, int i, int j)
 {
-  using Vector = Eigen::Array<Number, FunctionsPerPatch, 1>;
-  const Vector y = MultiplyTriangle<true>(V, &r[0]);
-  Eigen::Map<Vector> result(r);
-  result = MultiplyTriangle<false>(V, y.data());
+  return V[FunctionsPerPatch * j + i];
 }
 
-/// The same for several columns: vectors run along them.
-template<class Real, class Lanes, std::enable_if_t<!std::is_floating_point_v<Lanes>, int> = 0>
-inline void ApplyInverse(const Real* V, Lanes (&r)[FunctionsPerPatch])
+template<class Real>
+EIGEN_ALWAYS_INLINE Real EntryOf(const PackedFactor<Real>& V, int i, int j)
+{
+  return V[i * (i + 1) / 2 + j];
+}
+
+/// r = Vᵀ V r. Vectors run along the columns, of which there may be one or several.
+template<class Factor, class Lanes>
+EIGEN_ALWAYS_INLINE void ApplyAlongColumns(const Factor& V, Lanes (&r)[FunctionsPerPatch])
 {
   constexpr int N = FunctionsPerPatch;
-  using Number = typename Lanes::Scalar;
+  using Number = typename Eigen::NumTraits<Lanes>::Literal;
+  const auto entry = [&](int i, int j) { return static_cast<Number>(EntryOf(V, i, j)); };
 #pragma GCC unroll 8
   for (int i = N - 1; i >= 0; --i)
   {
-    r[i] *= Number(V[N * i + i]);
+    r[i] *= entry(i, i);
 #pragma GCC unroll 8
     for (int j = 0; j < i; ++j)
     {
-      r[i] += Number(V[N * i + j]) * r[j];
+      r[i] += entry(i, j) * r[j];
     }
   }
 #pragma GCC unroll 8
   for (int i = 0; i < N; ++i)
   {
-    r[i] *= Number(V[N * i + i]);
+    r[i] *= entry(i, i);
 #pragma GCC unroll 8
     for (int j = i + 1; j < N; ++j)
     {
-      r[i] += Number(V[N * i + j]) * r[j];
+      r[i] += entry(j, i) * r[j];
     }
+  }
+}
+
+/// The same; for one column and a mirrored factor vectors run along the patch.
+template<class Factor, class Lanes>
+EIGEN_ALWAYS_INLINE void ApplyInverse(const Factor& V, Lanes (&r)[FunctionsPerPatch])
+{
+  using Real = typename Factor::value_type;
+  if constexpr (std::is_floating_point_v<Lanes> && std::is_same_v<Factor, MirroredFactor<Real>>)
+  {
+    using Vector = Eigen::Array<Lanes, FunctionsPerPatch, 1>;
+    const Vector y = MultiplyTriangle<true>(V.data(), &r[0]);
+    Eigen::Map<Vector> result(r);
+    result = MultiplyTriangle<false>(V.data(), y.data());
+  }
+  else
+  {
+    ApplyAlongColumns(V, r);
   }
 }
 

@@ -14,6 +14,12 @@ constexpr double SmallestPivot = 1e-14;
 /// that is 2 %, which a smoother does not feel; below it, as on flat faces, V is kept in double.
 constexpr double SmallestSinglePivot = 1e-11;
 
+/// Pivots below this are left out.
+double SmallestPivotOf(FactorPrecision precision)
+{
+  return precision == FactorPrecision::Resolved ? SmallestPivotOfSingle : SmallestPivot;
+}
+
 /// Numbers that single precision does not hold would be zero or infinite.
 bool IsSingle(const PatchFactor& factor, FactorPrecision precision)
 {
@@ -29,25 +35,43 @@ PatchInverses::PatchInverses(const SparseMatrix& A,
   FactorPrecision precision)
 {
   patches_.resize(dof.size());
-  single_.resize(dof.size());
-  double_.resize(dof.size());
+  const bool isPacked = precision == FactorPrecision::Resolved;
+  single_.resize(isPacked ? 0 : dof.size());
+  double_.resize(isPacked ? 0 : dof.size());
+  packed_.resize(isPacked ? dof.size() : 0);
   const BlockSource source(A, threads);
-  ParallelRanges(
-    static_cast<Id>(dof.size()), threads,
+  unresolved_ = ParallelSum(
+    static_cast<Id>(dof.size()), threads, Id{ 0 },
     [&](Id begin, Id end)
     {
-      ForEachFactor(source, dof.data(), begin, end, SmallestPivot,
-        [&](Id p, const PatchFactor& factor) { this->Set(p, factor, precision); });
+      Id unresolved = 0;
+      ForEachFactor(source, dof.data(), begin, end, SmallestPivotOf(precision),
+        [&](Id p, const PatchFactor& factor)
+        { unresolved += this->Set(p, factor, precision) ? 0 : 1; });
+      return unresolved;
     },
     PatchesPerBlock);
 }
 
-void PatchInverses::Set(Id p, const PatchFactor& factor, FactorPrecision precision)
+bool PatchInverses::Set(Id p, const PatchFactor& factor, FactorPrecision precision)
 {
-  if (factor.count == 0)
+  const bool isPacked = precision == FactorPrecision::Resolved;
+  if (factor.count == 0 || (isPacked && factor.hasLargeScales))
   {
     patches_[p] = { factor.dof, None };
-    return;
+    return !factor.hasLargeScales;
+  }
+  if (isPacked)
+  {
+    patches_[p] = { factor.dof, Packed };
+    for (int i = 0, k = 0; i < FunctionsPerPatch; ++i)
+    {
+      for (int j = 0; j <= i; ++j, ++k)
+      {
+        packed_[p][k] = static_cast<float>(factor.V(i, j));
+      }
+    }
+    return factor.isComplete;
   }
   const bool isSingle = IsSingle(factor, precision);
   patches_[p] = { factor.dof, isSingle ? Single : Double };
@@ -60,12 +84,13 @@ void PatchInverses::Set(Id p, const PatchFactor& factor, FactorPrecision precisi
   {
     Eigen::Map<PatchMatrix>(double_[p].data()) = factor.V;
   }
+  return true;
 }
 
 bool PatchInverses::HasSingle() const
 {
-  return std::any_of(
-    patches_.begin(), patches_.end(), [](const Patch& patch) { return patch.precision == Single; });
+  return std::any_of(patches_.begin(), patches_.end(),
+    [](const Patch& patch) { return patch.kind == Single || patch.kind == Packed; });
 }
 
 std::size_t PatchInverses::Memory() const
@@ -73,9 +98,10 @@ std::size_t PatchInverses::Memory() const
   std::size_t bytes = patches_.size() * sizeof(patches_.front());
   for (const Patch& patch : patches_)
   {
-    bytes += patch.precision == Single   ? sizeof(single_.front())
-             : patch.precision == Double ? sizeof(double_.front())
-                                         : 0;
+    bytes += patch.kind == Single   ? sizeof(single_.front())
+             : patch.kind == Double ? sizeof(double_.front())
+             : patch.kind == Packed ? sizeof(packed_.front())
+                                    : 0;
   }
   return bytes;
 }

@@ -17,12 +17,12 @@ namespace gridfem
 {
 
 /// x += Vᵀ V (b - A x) on the patch.
-template<class Chunk, class Real>
-inline void RelaxPatch(const RowView& A, const std::array<Index, FunctionsPerPatch>& dof,
-  const Real* V, const double* b, double* x, Chunk chunk)
+template<class Chunk, class Real, class Factor>
+inline void RelaxPatch(const RowView<Real>& A, const std::array<Index, FunctionsPerPatch>& dof,
+  const Factor& V, const Real* b, Real* x, Chunk chunk)
 {
   using ColumnLanes = typename Chunk::ColumnLanes;
-  std::conditional_t<Chunk::Width == 1, double, ColumnLanes> r[FunctionsPerPatch];
+  std::conditional_t<Chunk::Width == 1, Real, ColumnLanes> r[FunctionsPerPatch];
   for (int i = 0; i < FunctionsPerPatch; ++i)
   {
     const ColumnLanes residual = chunk.Row(b, dof[i]) - RowProduct(A, dof[i], x, chunk);
@@ -56,29 +56,49 @@ public:
   const std::array<Index, FunctionsPerPatch>& Unknowns(Id p) const { return patches_[p].dof; }
 
   /// x += Vᵀ V (b - A x) on the patch, for a chunk of columns.
-  template<class Chunk>
+  template<class Real, class Chunk>
   EIGEN_ALWAYS_INLINE void Relax(
-    Id p, const RowView& A, const double* b, double* x, Chunk chunk) const
+    Id p, const RowView<Real>& A, const Real* b, Real* x, Chunk chunk) const
   {
     const Patch& patch = patches_[p];
-    if (patch.precision == Single)
+    if (patch.kind == Single)
     {
-      RelaxPatch(A, patch.dof, single_[p].data(), b, x, chunk);
+      RelaxPatch(A, patch.dof, single_[p], b, x, chunk);
     }
-    else if (patch.precision == Double)
+    else if (patch.kind == Double)
     {
-      RelaxPatch(A, patch.dof, double_[p].data(), b, x, chunk);
+      RelaxPatch(A, patch.dof, double_[p], b, x, chunk);
+    }
+    else if (patch.kind == Packed)
+    {
+      RelaxPatch(A, patch.dof, packed_[p], b, x, chunk);
     }
   }
 
   /// Asks for the rows of a patch that is visited soon; there may be none.
-  EIGEN_ALWAYS_INLINE void FetchRows(const RowView& A, Id p) const
+  template<class Real>
+  EIGEN_ALWAYS_INLINE void FetchRows(const RowView<Real>& A, Id p) const
   {
     if (p >= 0 && p < this->Count())
     {
       for (const Index row : patches_[p].dof)
       {
         FetchRow(A, row);
+      }
+    }
+  }
+
+  /// Asks for what vectors of many columns have in these rows.
+  template<class Real, class Chunk>
+  EIGEN_ALWAYS_INLINE void FetchVectors(Id p, const Real* b, const Real* x, Chunk chunk) const
+  {
+    constexpr std::size_t lines = (Chunk::Width * sizeof(Real) + LineSize - 1) / LineSize;
+    if (p >= 0 && p < this->Count())
+    {
+      for (const Index row : patches_[p].dof)
+      {
+        Fetch<lines>(b + chunk.Offset(row));
+        Fetch<lines>(x + chunk.Offset(row));
       }
     }
   }
@@ -91,28 +111,34 @@ public:
   }
 
   bool HasSingle() const;
+  /// Those whose directions single precision does not all resolve, where it has to.
+  Id Unresolved() const { return unresolved_; }
   std::size_t Memory() const;
 
 private:
   struct Patch
   {
     std::array<Index, FunctionsPerPatch> dof;
-    Index precision; // of its factor
+    Index kind; // of its factor
   };
-  enum Precision : Index
+  enum Kind : Index
   {
     None, // no unknown can be solved for
     Single,
-    Double
+    Double,
+    Packed // in single precision, for many columns
   };
 
-  void Set(Id p, const PatchFactor& factor, FactorPrecision precision);
+  /// Returns false where the patch is left out in part or as a whole.
+  bool Set(Id p, const PatchFactor& factor, FactorPrecision precision);
 
   Array<Patch> patches_;
+  Id unresolved_ = 0;
   // The factor of patch p is entry p of one of them. What is not used is never touched, and so
   // takes no memory.
-  Array<std::array<float, FunctionsPerPatch * FunctionsPerPatch>> single_;
-  Array<std::array<double, FunctionsPerPatch * FunctionsPerPatch>> double_;
+  Array<MirroredFactor<float>> single_;
+  Array<MirroredFactor<double>> double_;
+  Array<PackedFactor<float>> packed_;
 };
 
 } // namespace gridfem

@@ -8,7 +8,8 @@ namespace
 {
 
 /// Patches in visiting order.
-class PatchSmoother : public Smoother
+template<class Real>
+class PatchSmoother : public BasicSmoother<Real>
 {
 public:
   PatchSmoother(
@@ -18,21 +19,33 @@ public:
   {
   }
 
-  void Sweep(const SparseMatrix& A, const MultiVector& b, MultiVector& x, SweepDirection direction,
-    int threads) const override
+  void Sweep(const BasicSparseMatrix<Real>& A, const Vectors<Real>& b, Vectors<Real>& x,
+    SweepDirection direction, int threads) const override
   {
     CheckSweep(A, rows_, b, x);
     const RowView rows(A);
-    const Id ahead = direction == SweepDirection::Forward ? 2 : -2;
-    SweepBlocks(ranges_, x.cols(), direction, 128 * inverses_.Count(), threads,
+    const Id next = direction == SweepDirection::Forward ? 1 : -1;
+    SweepBlocks<Real>(ranges_, x.cols(), direction, 128 * inverses_.Count(), threads,
       [&](Id p, auto chunk)
       {
-        inverses_.FetchRows(rows, p + ahead);
+        // What takes longest to come: the rows of the matrix, or those of many columns.
+        if constexpr (decltype(chunk)::Width < WideChunk)
+        {
+          inverses_.FetchRows(rows, p + 2 * next);
+        }
+        else
+        {
+          inverses_.FetchVectors(p + next, b.data(), x.data(), chunk);
+        }
         inverses_.Relax(p, rows, b.data(), x.data(), chunk);
       });
   }
 
   bool HasSingleFactors() const override { return inverses_.HasSingle(); }
+
+  bool IsSingle() const override { return std::is_same_v<Real, float>; }
+
+  Id UnresolvedPatches() const override { return inverses_.Unresolved(); }
 
   std::size_t Memory() const override { return inverses_.Memory() + ranges_.Memory(); }
 
@@ -54,7 +67,13 @@ private:
 std::unique_ptr<Smoother> MakePatchSmoother(
   const SparseMatrix& A, const PatchOrder& order, int threads, FactorPrecision precision)
 {
-  return std::make_unique<PatchSmoother>(A, order, threads, precision);
+  return std::make_unique<PatchSmoother<double>>(A, order, threads, precision);
+}
+
+std::unique_ptr<BasicSmoother<float>> MakeSinglePatchSmoother(
+  const SparseMatrix& A, const PatchOrder& order, int threads)
+{
+  return std::make_unique<PatchSmoother<float>>(A, order, threads, FactorPrecision::Resolved);
 }
 
 } // namespace gridfem

@@ -49,7 +49,9 @@ void CheckOrder(const SparseMatrix& A, const PatchOrder& order, int threads)
     });
 }
 
-void CheckSweep(const SparseMatrix& A, Id rows, const MultiVector& b, const MultiVector& x)
+template<class Real>
+void CheckSweep(
+  const BasicSparseMatrix<Real>& A, Id rows, const Vectors<Real>& b, const Vectors<Real>& x)
 {
   if (A.rows != rows || b.rows() != rows || x.rows() != rows || b.cols() != x.cols())
   {
@@ -59,5 +61,9 @@ void CheckSweep(const SparseMatrix& A, Id rows, const MultiVector& b, const Mult
                        std::to_string(x.cols()));
   }
 }
+
+template void CheckSweep(
+  const BasicSparseMatrix<float>&, Id, const Vectors<float>&, const Vectors<float>&);
+template void CheckSweep(const SparseMatrix&, Id, const MultiVector&, const MultiVector&);
 
 } // namespace gridfem

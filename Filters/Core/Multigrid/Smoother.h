@@ -42,18 +42,21 @@ enum class FactorPrecision
 {
   Mixed = 0,  // single where its rounding changes nothing, else double
   Single = 1, // single wherever it holds the numbers, however they are rounded
-  Double = 2
+  Double = 2,
+  Resolved = 3 // single, without what it does not hold or resolve
 };
 
-class Smoother
+/// Real: of the vectors and of the matrix.
+template<class Real>
+class BasicSmoother
 {
 public:
-  virtual ~Smoother() = default;
+  virtual ~BasicSmoother() = default;
 
   /// One sweep: improves x for A x = b, with the matrix the smoother was made for. Any number of
   /// columns; same bits for any number of threads (0: all). The backward sweep is the adjoint of
   /// the forward one.
-  virtual void Sweep(const SparseMatrix& A, const MultiVector& b, MultiVector& x,
+  virtual void Sweep(const BasicSparseMatrix<Real>& A, const Vectors<Real>& b, Vectors<Real>& x,
     SweepDirection direction, int threads) const = 0;
 
   /// True if double precision could make a sweep better.
@@ -70,9 +73,14 @@ public:
     return false;
   }
 
+  /// Patches that a sweep does not relax in all directions that double precision resolves.
+  virtual Id UnresolvedPatches() const { return 0; }
+
   /// Bytes held.
   virtual std::size_t Memory() const = 0;
 };
+
+using Smoother = BasicSmoother<double>;
 
 /// Gauss-Seidel: every unknown once, in the order of the first patch that contains it; unknowns of
 /// no patch come last. Rows whose diagonal is not a positive number are left alone. Throws
@@ -102,7 +110,13 @@ std::vector<Index> SlabBoundaries(const std::vector<Index>& slice, int sweeps);
 std::unique_ptr<Smoother> MakePatchSmoother(const SparseMatrix& A, const PatchOrder& order,
   int threads = 0, FactorPrecision precision = FactorPrecision::Mixed);
 
-/// The same in a half to a third of the time: rows are stencils of the grid, and all is stored and
+/// The same for vectors in single precision: pivots below 1e-6 stop the Cholesky, because rounding
+/// would disturb corrections in these directions more than it serves the others, and patches whose
+/// numbers leave the range of single precision are left alone.
+std::unique_ptr<BasicSmoother<float>> MakeSinglePatchSmoother(
+  const SparseMatrix& A, const PatchOrder& order, int threads = 0);
+
+/// The first in a half to a third of the time: rows are stencils of the grid, and all is stored and
 /// computed in single precision (Smoother::IsSingle). Patches with pivots below 1e-6, as flat faces
 /// have that are almost parallel to a plane of the grid, are relaxed once more in double precision.
 /// Null where these are more than a tenth, and where the order knows no corners or cells that hold

@@ -7,16 +7,16 @@ namespace gridfem
 namespace
 {
 
-class SmootherSequence : public Smoother
+template<class Real>
+class SmootherSequence : public BasicSmoother<Real>
 {
 public:
-  explicit SmootherSequence(std::vector<std::unique_ptr<Smoother>> smoothers)
-    : smoothers_(std::move(smoothers))
-  {
-  }
+  using Smoothers = std::vector<std::unique_ptr<BasicSmoother<Real>>>;
 
-  void Sweep(const SparseMatrix& A, const MultiVector& b, MultiVector& x, SweepDirection direction,
-    int threads) const override
+  explicit SmootherSequence(Smoothers smoothers) : smoothers_(std::move(smoothers)) {}
+
+  void Sweep(const BasicSparseMatrix<Real>& A, const Vectors<Real>& b, Vectors<Real>& x,
+    SweepDirection direction, int threads) const override
   {
     const bool forward = direction == SweepDirection::Forward;
     for (std::size_t k = 0; k < smoothers_.size(); ++k)
@@ -37,6 +37,16 @@ public:
       [](const auto& smoother) { return smoother->IsSingle(); });
   }
 
+  Id UnresolvedPatches() const override
+  {
+    Id patches = 0;
+    for (const auto& smoother : smoothers_)
+    {
+      patches += smoother->UnresolvedPatches();
+    }
+    return patches;
+  }
+
   std::size_t Memory() const override
   {
     std::size_t bytes = 0;
@@ -48,14 +58,20 @@ public:
   }
 
 private:
-  std::vector<std::unique_ptr<Smoother>> smoothers_;
+  Smoothers smoothers_;
 };
 
 } // namespace
 
-std::unique_ptr<Smoother> MakeSmootherSequence(std::vector<std::unique_ptr<Smoother>> smoothers)
+template<class Real>
+std::unique_ptr<BasicSmoother<Real>> MakeSmootherSequence(
+  std::vector<std::unique_ptr<BasicSmoother<Real>>> smoothers)
 {
-  return std::make_unique<SmootherSequence>(std::move(smoothers));
+  return std::make_unique<SmootherSequence<Real>>(std::move(smoothers));
 }
+
+template std::unique_ptr<BasicSmoother<float>> MakeSmootherSequence(
+  std::vector<std::unique_ptr<BasicSmoother<float>>>);
+template std::unique_ptr<Smoother> MakeSmootherSequence(std::vector<std::unique_ptr<Smoother>>);
 
 } // namespace gridfem

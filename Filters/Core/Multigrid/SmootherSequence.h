@@ -9,7 +9,9 @@ namespace gridfem
 
 /// A forward sweep runs all forward, first to last; a backward sweep all backward, last to first:
 /// the adjoint.
-std::unique_ptr<Smoother> MakeSmootherSequence(std::vector<std::unique_ptr<Smoother>> smoothers);
+template<class Real>
+std::unique_ptr<BasicSmoother<Real>> MakeSmootherSequence(
+  std::vector<std::unique_ptr<BasicSmoother<Real>>> smoothers);
 
 } // namespace gridfem
 

@@ -131,7 +131,7 @@ inline void Relax(const Patch& patch, const StencilRow* rows, const StencilBlock
   {
     r[i] = residual[patch.corner[i]];
   }
-  ApplyInverse(patch.factor.data(), r);
+  ApplyInverse(patch.factor, r);
   for (int i = 0; i < N; ++i)
   {
     x[patch.unknown[i]] += r[i];

@@ -2,25 +2,15 @@
 
 namespace gridfem
 {
-namespace
-{
-
-bool AllowsSingle(const MultigridOptions& options)
-{
-  return options.cycle == CycleType::V && options.smoother == SmootherType::Patch &&
-         options.preSweeps == 1 && options.postSweeps == 1;
-}
-
-} // namespace
 
 SpectrumCycle::SpectrumCycle(
   const SpaceLevels& space, double shift, const MultigridOptions& options, const Progress& progress)
   : space_(space), shift_(shift), options_(options)
 {
-  if (AllowsSingle(options))
+  if (options.smoother == SmootherType::Patch)
   {
-    single_ = std::make_unique<SingleCycle>(
-      BuildMultigridLevels(space, shift, 1.0, options, progress.Part(0.0, 0.5)), options.threads);
+    single_ = std::make_unique<BasicMultigrid<float>>(
+      BuildMultigridLevels(space, shift, 1.0, options, progress.Part(0.0, 0.5)), options);
   }
   if (!single_ || !single_->IsReliable())
   {
@@ -37,12 +27,8 @@ void SpectrumCycle::BuildDouble(const Progress& progress)
 template<class Real>
 BlockPreconditioner<Real> SpectrumCycle::From(std::size_t level) const
 {
-  if (!single_)
-  {
-    return CyclePreconditioner<Real>(*double_, level);
-  }
-  return [this, level](const RowSource<Real>& r, const CorrectionTest& isWanted,
-           const RowSink<Real>& z) { return single_->Apply(level, r, isWanted, z); };
+  return single_ ? CyclePreconditioner<Real>(*single_, level)
+                 : CyclePreconditioner<Real>(*double_, level);
 }
 
 template<class Real>

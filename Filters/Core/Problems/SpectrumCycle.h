@@ -2,7 +2,6 @@
 #ifndef GridFEM_SpectrumCycle_h
 #define GridFEM_SpectrumCycle_h
 
-#include "Multigrid/SingleCycle.h"
 #include "Spaces/SpaceLevels.h"
 
 #include <memory>
@@ -10,9 +9,9 @@
 namespace gridfem
 {
 
-/// Cycles of L + σM. Single precision where the options ask for V(1,1) cycles of all patches, as
-/// they do by default, and it resolves the operator: it takes half of the time and memory, and the
-/// pairs that are found are the same. Else double. The space has to outlive it.
+/// Cycles of L + σM. Single precision where patches are relaxed, as they are by default, and it
+/// resolves the operator: it takes half of the time and memory, and the pairs that are found are
+/// the same. Else double. The space has to outlive it.
 class SpectrumCycle
 {
 public:
@@ -37,7 +36,7 @@ private:
   const SpaceLevels& space_;
   double shift_;
   MultigridOptions options_;
-  std::unique_ptr<SingleCycle> single_;
+  std::unique_ptr<BasicMultigrid<float>> single_;
   std::unique_ptr<Multigrid> double_;
 };
 

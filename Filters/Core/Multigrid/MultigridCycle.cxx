@@ -1,0 +1,399 @@
+// What a hierarchy does once it is built: cycles, and iterations from the coarsest level on.
+#include "Multigrid/Multigrid.h"
+
+#include "Algebra/ColumnAlgebra.h"
+#include "Base/Errors.h"
+
+#include <cmath>
+#include <string>
+
+namespace gridfem
+{
+namespace
+{
+
+/// Of the absolute values in every column; += is the larger of both.
+struct LargestNumbers
+{
+  Eigen::ArrayXd value;
+
+  void operator+=(const LargestNumbers& other) { value = value.max(other.value); }
+};
+
+/// Per column a power of two near the largest number, or the sum of the largest of all processes;
+/// 1 for a column of zeros or without a bound.
+Eigen::ArrayXd UnitsOf(const MultiVector& b, const DividedRows* divided, int threads)
+{
+  Eigen::ArrayXd unit = ParallelSum(b.rows(), ThreadsFor(b.size(), threads),
+    LargestNumbers{ Eigen::ArrayXd::Zero(b.cols()) },
+    [&](Id begin, Id end) -> LargestNumbers
+    {
+      const auto rows = b.middleRows(begin, end - begin);
+      return { rows.cwiseAbs().colwise().maxCoeff().transpose().array() };
+    }).value;
+  SumOverProcesses(divided, unit);
+  for (double& value : unit)
+  {
+    value = std::isnormal(value) ? std::exp2(std::ilogb(value)) : 1.0;
+  }
+  return unit;
+}
+
+/// Calls body(k, column) for every number of b, in parallel, row after row.
+template<class Body>
+void ForEachNumber(const MultiVector& b, int threads, Body&& body)
+{
+  const Id columns = b.cols();
+  ParallelRanges(b.rows(), ThreadsFor(b.size(), threads),
+    [&](Id begin, Id end)
+    {
+      for (Id k = begin * columns, column = 0; k < end * columns; ++k)
+      {
+        body(k, column);
+        column = column + 1 < columns ? column + 1 : 0;
+      }
+    });
+}
+
+/// to = from, every column times its factor.
+void Scale(const MultiVector& from, const Eigen::ArrayXd& factor, MultiVector& to, int threads)
+{
+  to.resize(from.rows(), from.cols());
+  const double* const source = from.data();
+  double* const target = to.data();
+  ForEachNumber(from, threads, [&](Id k, Id column) { target[k] = factor[column] * source[k]; });
+}
+
+/// Fewer columns than registers hold are not faster in single precision, where reading matrices
+/// takes most of the time.
+template<class Real>
+Id WidthFor(Id columns)
+{
+  return std::is_same_v<Real, float> ? WideChunk : columns;
+}
+
+} // namespace
+
+template<class Real>
+auto BasicMultigrid<Real>::Workspace::For(std::size_t levels, Id wanted) -> std::vector<Scratch>&
+{
+  if (wanted != columns)
+  {
+    scratch.clear();
+    columns = wanted;
+  }
+  scratch.resize(levels);
+  return scratch;
+}
+
+template<class Real>
+void BasicMultigrid<Real>::CheckRows(std::size_t level, Id rows) const
+{
+  const Index unknowns = levels_.at(level).A.rows;
+  if (rows != unknowns)
+  {
+    throw InvalidInput("a right-hand side of " + std::to_string(rows) +
+                       " rows does not fit a system of " + std::to_string(unknowns) + " unknowns");
+  }
+}
+
+template<class Real>
+void BasicMultigrid<Real>::Cycle(const Vectors<Real>& b, Vectors<Real>& x) const
+{
+  if (x.rows() != b.rows() || x.cols() != b.cols())
+  {
+    throw InvalidInput("x and b of a multigrid cycle must have the same shape");
+  }
+  this->CheckRows(0, b.rows());
+  const typename Pool<Workspace>::Loan workspace(*workspace_);
+  this->Improve(0, b, x, (*workspace).For(levels_.size(), b.cols()));
+}
+
+template<class Real>
+void BasicMultigrid<Real>::Precondition(const Vectors<Real>& b, Vectors<Real>& x) const
+{
+  this->CheckRows(0, b.rows());
+  const typename Pool<Workspace>::Loan workspace(*workspace_);
+  this->Correct(0, b, x, (*workspace).For(levels_.size(), b.cols()));
+}
+
+template<class Real>
+void BasicMultigrid<Real>::NestedIteration(
+  const Vectors<Real>& b, Vectors<Real>& x, Vectors<Real>* lastStep) const
+{
+  this->CheckRows(0, b.rows());
+  std::vector<Vectors<Real>> load(levels_.size());
+  const typename Pool<Workspace>::Loan workspace(*workspace_);
+  std::vector<Scratch>& scratch = (*workspace).For(levels_.size(), b.cols());
+  for (std::size_t l = 1; l < levels_.size(); ++l)
+  {
+    this->RestrictResidual(
+      l - 1, l == 1 ? b : load[l - 1], nullptr, scratch[l - 1].residual, load[l]);
+  }
+  this->SolveCoarsest(levels_.size() == 1 ? b : load.back(), x);
+  for (std::size_t l = levels_.size() - 1; l > 0; --l)
+  {
+    if (!this->IsCoarsest(l))
+    {
+      const Vectors<Real> before = l == 1 && lastStep ? x : Vectors<Real>();
+      this->Improve(l, load[l], x, scratch);
+      if (l == 1 && lastStep)
+      {
+        Multiply(levels_[0].prolongation, x - before, *lastStep, options_.threads);
+      }
+    }
+    Vectors<Real> finer;
+    Multiply(levels_[l - 1].prolongation, x, finer, options_.threads);
+    x.swap(finer);
+  }
+}
+
+template<class Real>
+template<class Given>
+ResidualMeasures BasicMultigrid<Real>::PreconditionRows(std::size_t l, const RowSource<Given>& r,
+  const CorrectionTest& isWanted, const RowSink<Given>& z) const
+{
+  this->CheckRows(l, r.rows);
+  const LevelSmoothing smoothing = this->SmoothingOf(levels_[l].smoothing);
+  if (r.columns > PreconditionedColumns || smoothing.preSweeps != smoothing.postSweeps)
+  {
+    throw InvalidInput("a cycle preconditions a few columns at a time, and is symmetric");
+  }
+  const int threads = options_.threads;
+  const Id width = WidthFor<Real>(r.columns);
+  const typename Pool<Workspace>::Loan workspace(*workspace_);
+  std::vector<Scratch>& scratch = (*workspace).For(levels_.size(), width);
+  Vectors<Real>& b = scratch[l].b;
+  Vectors<Real>& x = scratch[l].x;
+  b.resize(r.rows, width);
+  Columns norm = LoadRows(r, b, threads);
+  if (const DividedRows* divided = RowsOf(levels_[l]))
+  {
+    divided->Sum(b);
+    norm = this->Products(l, b, b);
+  }
+  Columns unit = Columns::Ones(width);
+  if constexpr (std::is_same_v<Real, double>)
+  {
+    if (isSingle_[l])
+    {
+      unit = UnitsOf(b, RowsOf(levels_[l]), threads);
+      Scale(b, unit.inverse(), b, threads);
+    }
+  }
+  Columns energy;
+  this->Descend(l, b, x, true, scratch, &energy);
+  energy *= unit.square();
+  const ResidualMeasures measures{ energy.head(r.columns), norm.head(r.columns) };
+  if (isWanted(measures))
+  {
+    this->Ascend(l, b, x, scratch);
+    if constexpr (std::is_same_v<Real, double>)
+    {
+      if (isSingle_[l])
+      {
+        Scale(x, unit, x, threads);
+      }
+    }
+    HandOver(x, r.columns, z, threads);
+  }
+  return measures;
+}
+
+/// xᵀy of every column, over all processes.
+template<class Real>
+Columns BasicMultigrid<Real>::Products(
+  std::size_t l, const Vectors<Real>& x, const Vectors<Real>& y) const
+{
+  const DividedRows* const divided = RowsOf(levels_[l]);
+  Columns products = ColumnProducts(x, y, options_.threads, ForeignRows(divided));
+  SumOverProcesses(divided, products);
+  return products;
+}
+
+/// Few unknowns: in double.
+template<class Real>
+void BasicMultigrid<Real>::SolveCoarsest(const Vectors<Real>& b, Vectors<Real>& x) const
+{
+  if constexpr (std::is_same_v<Real, double>)
+  {
+    coarse_.Solve(b, x, options_.threads);
+  }
+  else
+  {
+    MultiVector solution;
+    coarse_.Solve(b.template cast<double>(), solution, options_.threads);
+    x = solution.template cast<Real>();
+  }
+}
+
+/// coarse = Pᵀ (b - A x), or Pᵀ b without x.
+/// @param energy  if not null: xᵀ(b + r) for r = b - A x
+template<class Real>
+void BasicMultigrid<Real>::RestrictResidual(std::size_t l, const Vectors<Real>& b,
+  const Vectors<Real>* x, Vectors<Real>& residual, Vectors<Real>& coarse, Columns* energy) const
+{
+  const BasicMultigridLevel<Real>& level = levels_[l];
+  const Index foreign = ForeignRows(RowsOf(level));
+  if (x)
+  {
+    ResidualPart(level.A, *x, b, foreign, residual, energy, options_.threads);
+  }
+  else if (level.divided)
+  {
+    residual = b;
+    residual.topRows(foreign).setZero();
+  }
+  Multiply(level.restriction, x || level.divided ? residual : b, coarse, options_.threads);
+  if (level.divided)
+  {
+    level.divided->SumCoarse(coarse);
+  }
+  if (x && energy)
+  {
+    SumOverProcesses(RowsOf(level), *energy);
+  }
+  else if (energy)
+  {
+    *energy = Columns::Zero(b.cols());
+  }
+}
+
+/// x = B b in units of the columns of b, which are returned: single precision gets numbers near 1.
+/// b may be the scaled vector of the level.
+template<class Real>
+Columns BasicMultigrid<Real>::CycleInUnits(
+  std::size_t l, const Vectors<Real>& b, Vectors<Real>& x, std::vector<Scratch>& scratch) const
+{
+  Vectors<Real>& scaled = scratch[l].b;
+  const Columns unit = UnitsOf(b, RowsOf(levels_[l]), options_.threads);
+  Scale(b, unit.inverse(), scaled, options_.threads);
+  this->CycleLevel(l, scaled, x, true, scratch);
+  return unit;
+}
+
+/// x = B b
+template<class Real>
+void BasicMultigrid<Real>::Correct(
+  std::size_t l, const Vectors<Real>& b, Vectors<Real>& x, std::vector<Scratch>& scratch) const
+{
+  if (!isSingle_[l])
+  {
+    this->CycleLevel(l, b, x, true, scratch);
+    return;
+  }
+  const Columns unit = this->CycleInUnits(l, b, x, scratch);
+  Scale(x, unit, x, options_.threads);
+}
+
+/// x += B (b - A x). Single precision sees the correction alone, whose rounding is small beside it.
+template<class Real>
+void BasicMultigrid<Real>::Improve(
+  std::size_t l, const Vectors<Real>& b, Vectors<Real>& x, std::vector<Scratch>& scratch) const
+{
+  if (!isSingle_[l])
+  {
+    this->CycleLevel(l, b, x, false, scratch);
+    return;
+  }
+  Vectors<Real>& residual = scratch[l].b;
+  Vectors<Real>& correction = scratch[l].x;
+  const DividedRows* const divided = RowsOf(levels_[l]);
+  ResidualPart<Real>(levels_[l].A, x, b, ForeignRows(divided), residual, nullptr, options_.threads);
+  if (divided)
+  {
+    divided->Sum(residual);
+  }
+  const Columns unit = this->CycleInUnits(l, residual, correction, scratch);
+  Real* const target = x.data();
+  const Real* const source = correction.data();
+  ForEachNumber(
+    x, options_.threads, [&](Id k, Id column) { target[k] += unit[column] * source[k]; });
+}
+
+template<class Real>
+void BasicMultigrid<Real>::CycleLevel(std::size_t l, const Vectors<Real>& b, Vectors<Real>& x,
+  bool zeroStart, std::vector<Scratch>& scratch) const
+{
+  this->Descend(l, b, x, zeroStart, scratch);
+  this->Ascend(l, b, x, scratch);
+}
+
+/// The first sweeps, and the correction from the next coarser level; on the coarsest all.
+/// @param energy  if not null, from zero: bᵀBb. With S for the first sweeps, S̄ for these and the
+///                last ones, and B' for the coarser levels, B = S̄ + (1 - SᵀA) P B' Pᵀ (1 - A S), so
+///                that bᵀBb = xᵀ(b + r) + (Pᵀr)ᵀ B' (Pᵀr) for x = S b and r = b - A x
+template<class Real>
+void BasicMultigrid<Real>::Descend(std::size_t l, const Vectors<Real>& b, Vectors<Real>& x,
+  bool zeroStart, std::vector<Scratch>& scratch, Columns* energy) const
+{
+  if (this->IsCoarsest(l))
+  {
+    this->SolveCoarsest(b, x);
+    if (energy)
+    {
+      *energy = this->Products(l, b, x);
+    }
+    return;
+  }
+  const BasicMultigridLevel<Real>& level = levels_[l];
+  const LevelSmoothing smoothing = this->SmoothingOf(level.smoothing);
+  if (zeroStart)
+  {
+    x.resize(b.rows(), b.cols());
+    ParallelRanges(b.rows(), ThreadsFor(b.size(), options_.threads),
+      [&](Id begin, Id end) { x.middleRows(begin, end - begin).setZero(); });
+  }
+  for (int sweep = 0; sweep < smoothing.preSweeps; ++sweep)
+  {
+    level.smoother->Sweep(level.A, b, x, SweepDirection::Forward, options_.threads);
+  }
+  Scratch& coarse = scratch[l + 1];
+  const bool isZero = zeroStart && smoothing.preSweeps == 0;
+  this->RestrictResidual(l, b, isZero ? nullptr : &x, scratch[l].residual, coarse.b, energy);
+  const bool once = smoothing.cycle == CycleType::V || this->IsCoarsest(l + 1); // solved directly
+  for (int time = 0; time < (once ? 1 : 2); ++time)
+  {
+    this->CycleLevel(l + 1, coarse.b, coarse.x, time == 0, scratch);
+  }
+  if (energy)
+  {
+    *energy += this->Products(l + 1, coarse.b, coarse.x);
+  }
+}
+
+/// Adds the correction that Descend has found, and the last sweeps.
+template<class Real>
+void BasicMultigrid<Real>::Ascend(std::size_t l, const Vectors<Real>& b, Vectors<Real>& x,
+  const std::vector<Scratch>& scratch) const
+{
+  if (this->IsCoarsest(l))
+  {
+    return;
+  }
+  const BasicMultigridLevel<Real>& level = levels_[l];
+  MultiplyAdd(level.prolongation, scratch[l + 1].x, x, options_.threads);
+  const int sweeps = this->SmoothingOf(level.smoothing).postSweeps;
+  for (int sweep = 0; sweep < sweeps; ++sweep)
+  {
+    level.smoother->Sweep(level.A, b, x, SweepDirection::Backward, options_.threads);
+  }
+}
+
+template void BasicMultigrid<double>::Cycle(const MultiVector&, MultiVector&) const;
+template void BasicMultigrid<double>::Precondition(const MultiVector&, MultiVector&) const;
+template void BasicMultigrid<double>::NestedIteration(
+  const MultiVector&, MultiVector&, MultiVector*) const;
+
+#define GRIDFEM_PRECONDITION_ROWS(Real, Given)                                                     \
+  template ResidualMeasures BasicMultigrid<Real>::PreconditionRows(                                \
+    std::size_t, const RowSource<Given>&, const CorrectionTest&, const RowSink<Given>&) const
+
+GRIDFEM_PRECONDITION_ROWS(float, float);
+GRIDFEM_PRECONDITION_ROWS(float, double);
+GRIDFEM_PRECONDITION_ROWS(double, float);
+GRIDFEM_PRECONDITION_ROWS(double, double);
+
+#undef GRIDFEM_PRECONDITION_ROWS
+
+} // namespace gridfem
