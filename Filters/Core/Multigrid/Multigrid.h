@@ -154,8 +154,8 @@ private:
     Vectors<Real> x; // its solution
     Vectors<Real> residual;
   };
-  /// Of all levels, kept from one call to the next, of one thread: fresh memory takes as long as a
-  /// sweep.
+  /// Of all levels, during one call; as many as are used at the same time are kept for the next:
+  /// fresh memory takes as long as a sweep.
   struct Workspace
   {
     std::vector<Scratch> scratch;
@@ -191,7 +191,7 @@ private:
   bool isReliable_ = true;
   CoarseSolver coarse_;
   MultigridOptions options_;
-  std::unique_ptr<Pool<Workspace>> workspace_ = std::make_unique<Pool<Workspace>>(1);
+  std::unique_ptr<Pool<Workspace>> workspace_ = std::make_unique<Pool<Workspace>>();
 };
 
 using Multigrid = BasicMultigrid<double>;

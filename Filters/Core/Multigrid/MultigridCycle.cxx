@@ -3,6 +3,7 @@
 
 #include "Algebra/ColumnAlgebra.h"
 #include "Base/Errors.h"
+#include "Base/LargeMemory.h"
 
 #include <cmath>
 #include <string>
@@ -19,6 +20,17 @@ struct LargestNumbers
 
   void operator+=(const LargestNumbers& other) { value = value.max(other.value); }
 };
+
+/// Room for a block, in large pages where it is new.
+template<class Real>
+void MakeRoom(Id rows, Id columns, Vectors<Real>& block)
+{
+  if (block.rows() != rows || block.cols() != columns)
+  {
+    block.resize(rows, columns);
+    PreferLargePages(block.data(), block.size() * sizeof(Real));
+  }
+}
 
 /// Per column a power of two near the largest number, or the sum of the largest of all processes;
 /// 1 for a column of zeros or without a bound.
@@ -58,7 +70,7 @@ void ForEachNumber(const MultiVector& b, int threads, Body&& body)
 /// to = from, every column times its factor.
 void Scale(const MultiVector& from, const Eigen::ArrayXd& factor, MultiVector& to, int threads)
 {
-  to.resize(from.rows(), from.cols());
+  MakeRoom(from.rows(), from.cols(), to);
   const double* const source = from.data();
   double* const target = to.data();
   ForEachNumber(from, threads, [&](Id k, Id column) { target[k] = factor[column] * source[k]; });
@@ -165,7 +177,7 @@ ResidualMeasures BasicMultigrid<Real>::PreconditionRows(std::size_t l, const Row
   std::vector<Scratch>& scratch = (*workspace).For(levels_.size(), width);
   Vectors<Real>& b = scratch[l].b;
   Vectors<Real>& x = scratch[l].x;
-  b.resize(r.rows, width);
+  MakeRoom(r.rows, width, b);
   Columns norm = LoadRows(r, b, threads);
   if (const DividedRows* divided = RowsOf(levels_[l]))
   {
@@ -237,6 +249,7 @@ void BasicMultigrid<Real>::RestrictResidual(std::size_t l, const Vectors<Real>& 
   const Index foreign = ForeignRows(RowsOf(level));
   if (x)
   {
+    MakeRoom(b.rows(), b.cols(), residual);
     ResidualPart(level.A, *x, b, foreign, residual, energy, options_.threads);
   }
   else if (level.divided)
@@ -244,6 +257,7 @@ void BasicMultigrid<Real>::RestrictResidual(std::size_t l, const Vectors<Real>& 
     residual = b;
     residual.topRows(foreign).setZero();
   }
+  MakeRoom(level.restriction->rows, b.cols(), coarse);
   Multiply(level.restriction, x || level.divided ? residual : b, coarse, options_.threads);
   if (level.divided)
   {
@@ -340,7 +354,7 @@ void BasicMultigrid<Real>::Descend(std::size_t l, const Vectors<Real>& b, Vector
   const LevelSmoothing smoothing = this->SmoothingOf(level.smoothing);
   if (zeroStart)
   {
-    x.resize(b.rows(), b.cols());
+    MakeRoom(b.rows(), b.cols(), x);
     ParallelRanges(b.rows(), ThreadsFor(b.size(), options_.threads),
       [&](Id begin, Id end) { x.middleRows(begin, end - begin).setZero(); });
   }
