@@ -2,7 +2,7 @@
 # Builds the filters against Debian's VTK, without ParaView, in a root of their own, and tests them there.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/build.sh"
-BUILD="$SOURCE/build-plain-vtk"
+BUILD="$SOURCE/build-plain-vtk${GRIDFEM_SUITE:+-$GRIDFEM_SUITE}"
 ROOT="${GRIDFEM_ROOT:-$BUILD/root}"
 
 if [ "${1:-}" = "--help" ] || [ "${1:-}" = "-h" ]; then
@@ -18,6 +18,7 @@ start anew, delete it. Needs root, the network and 3 GB of disk.
 Environment:
   GRIDFEM_JOBS   compilers and tests that run at the same time (default: processors)
   GRIDFEM_ROOT   another folder for the root
+  GRIDFEM_SUITE  another Debian with another VTK, such as trixie (9.3), in build-plain-vtk-trixie/
 HELP
   exit
 fi
@@ -35,7 +36,7 @@ if [ ! -f "$ROOT/made" ]; then
     exit 1
   fi
   packages=("${CORE_PACKAGES[@]}" "${PLAIN_VTK_PACKAGES[@]}")
-  suite="$(. /etc/os-release && echo "$VERSION_CODENAME")"
+  suite="${GRIDFEM_SUITE:-$(. /etc/os-release && echo "$VERSION_CODENAME")}"
   Say "Making a root of $suite with VTK in $ROOT"
   Quietly "$BUILD/root.log" mmdebstrap --variant=apt --aptopt='APT::Install-Recommends "false"' \
     --include="$(IFS=,; echo "${packages[*]}")" "$suite" "$ROOT"
