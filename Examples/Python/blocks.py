@@ -13,7 +13,7 @@ import sys
 from paraview import servermanager, simple
 from vtkmodules.vtkCommonTransforms import vtkTransform
 from vtkmodules.vtkFiltersCore import vtkAppendPolyData, vtkContourFilter, vtkTubeFilter
-from vtkmodules.vtkFiltersGeneral import vtkTransformPolyDataFilter
+from vtkmodules.vtkFiltersGeneral import vtkTransformFilter
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
@@ -48,7 +48,7 @@ def drawn_apart(blocks):
     for k, block in enumerate(blocks):
         shift = vtkTransform()
         shift.Translate(0, APART * height * k, 0)
-        moved = vtkTransformPolyDataFilter()
+        moved = vtkTransformFilter()
         moved.SetInputData(block)
         moved.SetTransform(shift)
         moved.Update()

@@ -13,7 +13,7 @@
 #include "vtkPolyDataNormals.h"
 #include "vtkTable.h"
 #include "vtkTransform.h"
-#include "vtkTransformPolyDataFilter.h"
+#include "vtkTransformFilter.h"
 
 #include <gtest/gtest.h>
 
@@ -27,11 +27,11 @@ vtkSmartPointer<vtkPolyData> Scaled(vtkPolyData* data, double x, double y, doubl
 {
   vtkNew<vtkTransform> transform;
   transform->Scale(x, y, z);
-  vtkNew<vtkTransformPolyDataFilter> scale;
+  vtkNew<vtkTransformFilter> scale;
   scale->SetTransform(transform);
   scale->SetInputData(data);
   scale->Update();
-  return scale->GetOutput();
+  return scale->GetPolyDataOutput();
 }
 
 vtkSmartPointer<vtkPolyData> WithModes(vtkPolyData* data, int modes, int depth = 5)

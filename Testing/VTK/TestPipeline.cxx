@@ -9,7 +9,7 @@
 #include "vtkScreenedPoisson.h"
 
 #include "vtkTransform.h"
-#include "vtkTransformPolyDataFilter.h"
+#include "vtkTransformFilter.h"
 #include "vtkXMLPolyDataReader.h"
 #include "vtkXMLPolyDataWriter.h"
 
@@ -334,7 +334,7 @@ TEST_F(Pipeline, AMovedBasisIsRefused)
   directBasis->Update();
   vtkNew<vtkTransform> transform;
   transform->Translate(0.3, 0, 0);
-  vtkNew<vtkTransformPolyDataFilter> move;
+  vtkNew<vtkTransformFilter> move;
   move->SetTransform(transform);
   move->SetInputData(directBasis->GetOutput());
   move->Update();
