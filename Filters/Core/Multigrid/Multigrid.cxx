@@ -100,10 +100,11 @@ void BasicMultigrid<Real>::TakeApart(std::vector<MultigridLevel> levels)
   double unresolved = 0.0;
   for (MultigridLevel& level : levels)
   {
+    const bool isCoarsest = &level == &levels.back();
     MultigridLevel from = std::move(level); // its memory is free before the next one is made
     BasicMultigridLevel<Real>& to = levels_.emplace_back();
     to.A = InSinglePrecision(from.A, threads);
-    if (&level == &levels.back())
+    if (isCoarsest)
     {
       coarse_ = CoarseSolver(from.A, threads);
       break;

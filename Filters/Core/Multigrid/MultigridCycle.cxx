@@ -196,7 +196,7 @@ ResidualMeasures BasicMultigrid<Real>::PreconditionRows(std::size_t l, const Row
   Columns energy;
   this->Descend(l, b, x, true, scratch, &energy);
   energy *= unit.square();
-  const ResidualMeasures measures{ energy.head(r.columns), norm.head(r.columns) };
+  ResidualMeasures measures{ energy.head(r.columns), norm.head(r.columns) };
   if (isWanted(measures))
   {
     this->Ascend(l, b, x, scratch);
@@ -280,7 +280,7 @@ Columns BasicMultigrid<Real>::CycleInUnits(
   std::size_t l, const Vectors<Real>& b, Vectors<Real>& x, std::vector<Scratch>& scratch) const
 {
   Vectors<Real>& scaled = scratch[l].b;
-  const Columns unit = UnitsOf(b, RowsOf(levels_[l]), options_.threads);
+  Columns unit = UnitsOf(b, RowsOf(levels_[l]), options_.threads);
   Scale(b, unit.inverse(), scaled, options_.threads);
   this->CycleLevel(l, scaled, x, true, scratch);
   return unit;
