@@ -445,10 +445,15 @@ void StencilBlocks::FillOwnRows(
 
 std::size_t StencilBlocks::Memory() const
 {
-  return blocks_.size() * sizeof(Block) + unknowns_.size() * sizeof(Index) +
-         rows_.size() * sizeof(StencilRow) + patches_.size() * sizeof(Patch) +
-         extras_.size() * sizeof(Extra) + weight_.size() * sizeof(double) +
-         scaled_.size() * sizeof(scaled_.front());
+  std::size_t bytes = blocks_.size() * sizeof(Block) + unknowns_.size() * sizeof(Index) +
+                      rows_.size() * sizeof(StencilRow) + patches_.size() * sizeof(Patch) +
+                      extras_.size() * sizeof(Extra) + weight_.size() * sizeof(double) +
+                      scaled_.size() * sizeof(std::vector<Scaled>);
+  for (const std::vector<Scaled>& scaled : scaled_)
+  {
+    bytes += scaled.capacity() * sizeof(Scaled);
+  }
+  return bytes;
 }
 
 } // namespace gridfem

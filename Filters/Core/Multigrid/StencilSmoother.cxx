@@ -28,7 +28,7 @@ EIGEN_ALWAYS_INLINE Run SumOfEach(const Run* run)
   const auto four = [&](int k)
   {
     Four value;
-    std::memcpy(&value, run + k, sizeof(value));
+    std::memcpy(&value, run[k].data(), sizeof(value));
     return value;
   };
   const auto pairs = [](Four a, Four b)
