@@ -24,7 +24,7 @@ def resident():
 
 
 def make(name, surface, **properties):
-    return getattr(simple, name)(Input=surface, Depth=7, **OPTIONS.get(name, {}), **properties)
+    return getattr(simple, name)(Input=surface, Depth=6, **OPTIONS.get(name, {}), **properties)
 
 
 def update_all_ports(proxy):

@@ -13,9 +13,12 @@ PAGES = pathlib.Path(os.environ["GRIDFEM_SOURCE_DIR"]) / "Plugin" / "Documentati
 
 
 def surface():
-    """A sphere with the arrays that the examples name."""
+    """A spindle with the arrays that the examples name. It meets a tenth of the cells that a sphere would:
+    the examples have the depth that filters have by themselves, and are the same for any surface."""
+    spindle = simple.Calculator(
+        Input=plugin.sphere(), CoordinateResults=1, Function="0.1*(coordsX*iHat+coordsY*jHat)+coordsZ*kHat")
     mesh = simple.Calculator(
-        Input=plugin.with_arrays(plugin.sphere()), ResultArrayName="colors",
+        Input=plugin.with_arrays(spindle), ResultArrayName="colors",
         Function="(coordsX+2)*iHat+(coordsY+2)*jHat+2*kHat")
     return simple.ProgrammableFilter(Input=mesh, CopyArrays=1, Script="""
 x, z = inputs[0].Points[:, 0], inputs[0].Points[:, 2]

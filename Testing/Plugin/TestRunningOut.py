@@ -13,7 +13,7 @@ from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
 import plugin
 from running_out import MEGABYTE, Outcome
 
-STEPS = 5  # limits below the one that was enough
+STEPS = 16  # limits below the one that was enough
 OPTIONS = {
     "LaplaceSpectrum": {"NumberOfModes": 8},
     "MeanCurvatureFlow": {"NumberOfSteps": 2},
@@ -22,10 +22,10 @@ OPTIONS = {
 
 class TestRunningOut(unittest.TestCase):
     def make(self, name):
-        sphere = simple.Sphere(Radius=1.0, ThetaResolution=160, PhiResolution=160)
+        sphere = simple.Sphere(Radius=1.0, ThetaResolution=120, PhiResolution=120)
         options = {**plugin.CHOICES.get(name, {}), **OPTIONS.get(name, {})}
         proxy = getattr(simple, name)(
-            Input=plugin.with_arrays(sphere), Depth=6, KeepStages=0, **options)
+            Input=plugin.with_arrays(sphere), Depth=5, KeepStages=0, **options)
         proxy.UpdatePipeline()  # without a limit: loads libraries and makes threads
         return proxy.GetClientSideObject()
 

@@ -303,32 +303,3 @@ TEST(HarmonicInterpolationFilter, RefusesWhatItCannotUse)
   ASSERT_EQ(messages.errors.size(), 1u);
   EXPECT_NE(messages.errors[0].find("no points"), std::string::npos) << messages.errors[0];
 }
-
-TEST(HarmonicInterpolationFilter, EmptyInputAndAbortGiveEmptyOutputs)
-{
-  const auto sphere = ToPolyData(GeodesicSphere(8));
-  AddPointArray(sphere, "Value", 1, [](const Vec3& p, int) { return p[2] > 0.5 ? p[0] : NaN; });
-  const auto filter = Interpolate(sphere, "Value");
-  vtkNew<vtkPolyData> empty;
-  filter->SetInputData(empty);
-  Messages messages(filter);
-  EXPECT_EQ(filter->GetExecutive()->Update(), 1);
-  EXPECT_TRUE(messages.errors.empty() && IsEmptyData(filter->GetOutput()));
-  vtkNew<vtkCallbackCommand> abortLate;
-  abortLate->SetCallback(
-    [](vtkObject* caller, unsigned long, void*, void* progress)
-    {
-      if (*static_cast<double*>(progress) > 0.7)
-      {
-        vtkAlgorithm::SafeDownCast(caller)->AbortExecuteOn();
-        caller->RemoveObservers(vtkCommand::ProgressEvent);
-      }
-    });
-  filter->AddObserver(vtkCommand::ProgressEvent, abortLate);
-  filter->SetInputData(sphere);
-  EXPECT_EQ(filter->GetExecutive()->Update(), 1);
-  EXPECT_TRUE(messages.errors.empty() && IsEmptyData(filter->GetOutput()));
-  filter->Modified();
-  EXPECT_EQ(filter->GetExecutive()->Update(), 1); // nothing half done is left
-  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), sphere->GetNumberOfPoints());
-}

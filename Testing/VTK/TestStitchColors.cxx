@@ -350,32 +350,3 @@ TEST(StitchColorsFilter, StitchesARealScan)
   filter->Update();
   ExpectStitched(data, filter->GetOutput());
 }
-
-TEST(StitchColorsFilter, EmptyInputAndAbortGiveEmptyOutputs)
-{
-  const auto sphere = ToPolyData(GeodesicSphere(8));
-  AddScans(sphere);
-  const auto filter = Stitch(sphere, "Seen", 4);
-  vtkNew<vtkPolyData> empty;
-  filter->SetInputData(empty);
-  Messages messages(filter);
-  EXPECT_EQ(filter->GetExecutive()->Update(), 1);
-  EXPECT_TRUE(messages.errors.empty() && IsEmptyData(filter->GetOutput()));
-  vtkNew<vtkCallbackCommand> abortLate;
-  abortLate->SetCallback(
-    [](vtkObject* caller, unsigned long, void*, void* progress)
-    {
-      if (*static_cast<double*>(progress) > 0.7)
-      {
-        vtkAlgorithm::SafeDownCast(caller)->AbortExecuteOn();
-        caller->RemoveObservers(vtkCommand::ProgressEvent);
-      }
-    });
-  filter->AddObserver(vtkCommand::ProgressEvent, abortLate);
-  filter->SetInputData(sphere);
-  EXPECT_EQ(filter->GetExecutive()->Update(), 1);
-  EXPECT_TRUE(messages.errors.empty() && IsEmptyData(filter->GetOutput()));
-  filter->Modified();
-  EXPECT_EQ(filter->GetExecutive()->Update(), 1); // nothing half done is left
-  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), sphere->GetNumberOfPoints());
-}

@@ -109,27 +109,6 @@ void IntegrateGradient(const GridFunctions& space, Id piece, const MultiVector& 
     });
 }
 
-/// Calls add(triangle, piece) for the pieces of all triangles, those of one in order.
-template<class Add>
-void ForEachPieceOfTriangles(const ClippedMesh& clipped, Id triangles, const Job& job, Add&& add)
-{
-  const Groups pieces =
-    GroupItems(clipped.pieceTriangle.data(), clipped.NumberOfPieces(), triangles, job.threads);
-  ParallelRanges(
-    triangles, job.threads,
-    [&](Id begin, Id end)
-    {
-      for (Id t = begin; t < end; ++t)
-      {
-        for (Index k = pieces.begin[t]; k < pieces.begin[t + 1]; ++k)
-        {
-          add(t, pieces.item[k]);
-        }
-      }
-    },
-    DefaultBlockSize, job.progress);
-}
-
 /// v / |v|, also where |v|² is no number any more; 0 for 0.
 Vec3 DirectionOf(const Vec3& v)
 {
@@ -144,26 +123,34 @@ MultiVector MeansOfPieces(const GridFunctions& space, Id triangles, const MultiV
   const Job& job, Share&& share)
 {
   CheckCoefficients(space, coefficients);
+  const ClippedMesh& clipped = space.clipped;
+  const Groups pieces =
+    GroupItems(clipped.pieceTriangle.data(), clipped.NumberOfPieces(), triangles, job.threads);
   MultiVector mean = MultiVector::Zero(triangles, 3 * coefficients.cols());
-  std::vector<double> area(triangles, 0.0);
-  ForEachPieceOfTriangles(space.clipped, triangles, job,
-    [&](Id triangle, Id piece)
+  ParallelRanges(
+    triangles, job.threads,
+    [&](Id begin, Id end)
     {
       Eigen::RowVectorXd integral(mean.cols());
-      IntegrateGradient(space, piece, coefficients, integral);
-      const double ofPiece = PieceArea(space.clipped, piece);
-      for (Id c = 0; c < mean.cols(); c += 3)
+      for (Id t = begin; t < end; ++t)
       {
-        const Vec3 sum = integral.segment<3>(c).transpose();
-        const Vec3 added = share(sum, ofPiece);
-        mean.row(triangle).segment<3>(c) += added.transpose();
+        double area = 0.0;
+        for (Index k = pieces.begin[t]; k < pieces.begin[t + 1]; ++k)
+        {
+          IntegrateGradient(space, pieces.item[k], coefficients, integral);
+          const double ofPiece = PieceArea(clipped, pieces.item[k]);
+          for (Id c = 0; c < mean.cols(); c += 3)
+          {
+            const Vec3 sum = integral.segment<3>(c).transpose();
+            const Vec3 added = share(sum, ofPiece);
+            mean.row(t).segment<3>(c) += added.transpose();
+          }
+          area += ofPiece;
+        }
+        mean.row(t) *= area > 0.0 ? 1.0 / area : 0.0;
       }
-      area[triangle] += ofPiece;
-    });
-  for (Id t = 0; t < triangles; ++t)
-  {
-    mean.row(t) *= area[t] > 0.0 ? 1.0 / area[t] : 0.0;
-  }
+    },
+    DefaultBlockSize, job.progress);
   return mean;
 }
 
@@ -181,44 +168,6 @@ MultiVector EvaluateAtClippedPoints(
   const Array<Index> patchOfPoint = FindPointPatches(space.clipped, space.piecePatch,
     space.Finest().NumberOfPatches(), static_cast<Id>(space.clipped.position.size()), threads);
   return EvaluateAt(space, patchOfPoint, coefficients, threads);
-}
-
-Eigen::RowVectorXd EvaluateInPatch(
-  const GridFunctions& space, Id patch, const Vec3& position, const MultiVector& coefficients)
-{
-  CheckCoefficients(space, coefficients);
-  const PatchLevel& level = space.Finest();
-  CornerValues b;
-  TrilinearValues(position - CellCorner(level.cell[patch]), b);
-  Eigen::RowVectorXd result = Eigen::RowVectorXd::Zero(coefficients.cols());
-  for (int c = 0; c < FunctionsPerPatch; ++c)
-  {
-    result += b[c] * coefficients.row(level.dof[patch][c]);
-  }
-  return result;
-}
-
-Eigen::Matrix3Xd EvaluateGradientInPiece(
-  const GridFunctions& space, Id piece, const Vec3& position, const MultiVector& coefficients)
-{
-  CheckCoefficients(space, coefficients);
-  const PatchLevel& level = space.Finest();
-  const Id patch = space.piecePatch[piece];
-  const Vec3 normal = UnitNormal(space.clipped, piece);
-  Eigen::Matrix3Xd result = Eigen::Matrix3Xd::Zero(3, coefficients.cols());
-  if (normal.isZero(0.0))
-  {
-    return result;
-  }
-  std::array<CornerValues, 3> derivative;
-  TrilinearGradients(position - CellCorner(level.cell[patch]), derivative);
-  for (int c = 0; c < FunctionsPerPatch; ++c)
-  {
-    const Vec3 gradient(derivative[0][c], derivative[1][c], derivative[2][c]);
-    const Vec3 tangential = gradient - normal.dot(gradient) * normal;
-    result += tangential / space.GetGrid().spacing * coefficients.row(level.dof[patch][c]);
-  }
-  return result;
 }
 
 MultiVector MeanGradients(

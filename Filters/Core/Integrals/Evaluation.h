@@ -19,15 +19,6 @@ MultiVector EvaluateAtPoints(
 MultiVector EvaluateAtClippedPoints(
   const GridFunctions& space, const MultiVector& coefficients, int threads = 0);
 
-/// Value at a point (grid units) of a patch of the finest level.
-Eigen::RowVectorXd EvaluateInPatch(
-  const GridFunctions& space, Id patch, const Vec3& position, const MultiVector& coefficients);
-
-/// Surface gradient (world units) at a point (grid units) of a piece: one column per function.
-/// The normal is that of the piece; a piece without area gives zero.
-Eigen::Matrix3Xd EvaluateGradientInPiece(
-  const GridFunctions& space, Id piece, const Vec3& position, const MultiVector& coefficients);
-
 /// The mean surface gradients on source triangles, world units: rows = triangles, three columns for
 /// each of the coefficients'; 0 on triangles without an area. Same bits for any number of threads.
 /// Throws Aborted.

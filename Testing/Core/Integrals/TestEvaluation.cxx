@@ -3,7 +3,9 @@
 
 #include "Spaces.h"
 
-#include <Eigen/Geometry>
+#include "Integrals/ElementMatrices.h"
+#include "Integrals/QuadratureSamples.h"
+
 #include <gtest/gtest.h>
 
 using namespace gridfem;
@@ -20,6 +22,21 @@ protected:
   /// Rounding of world coordinates, of which grid coordinates and spacing are made.
   double tolerance = 1e-14 * coordinates.cwiseAbs().maxCoeff();
 };
+
+/// At a point (grid units) of a patch of the finest level.
+Eigen::RowVectorXd ValueInPatch(
+  const GridFunctions& space, Id patch, const Vec3& position, const MultiVector& coefficients)
+{
+  const PatchLevel& level = space.Finest();
+  std::array<double, FunctionsPerPatch> b;
+  EvaluateTrilinear(position - CellCorner(level.cell[patch]), b);
+  Eigen::RowVectorXd result = Eigen::RowVectorXd::Zero(coefficients.cols());
+  for (int c = 0; c < FunctionsPerPatch; ++c)
+  {
+    result += b[c] * coefficients.row(level.dof[patch][c]);
+  }
+  return result;
+}
 
 } // namespace
 
@@ -52,8 +69,8 @@ TEST_P(EvaluationOnSpaces, FunctionsAreContinuousAcrossPieces)
     for (Id k = space.clipped.pieceBegin[piece]; k < space.clipped.pieceBegin[piece + 1]; ++k)
     {
       const Id point = space.clipped.corners[k];
-      const Eigen::RowVectorXd value = EvaluateInPatch(
-        space, space.piecePatch[piece], space.clipped.position[point], coefficients);
+      const Eigen::RowVectorXd value =
+        ValueInPatch(space, space.piecePatch[piece], space.clipped.position[point], coefficients);
       // Points within the clipper's 1e-10 of a cell face are on it for both cells.
       ASSERT_LT((values.row(point) - value).norm(), 1e-9);
     }
@@ -62,12 +79,13 @@ TEST_P(EvaluationOnSpaces, FunctionsAreContinuousAcrossPieces)
 
 TEST_P(EvaluationOnSpaces, GradientsOfTheCoordinatesSpanTheTangentPlane)
 {
-  for (Id piece = 0; piece < space.clipped.NumberOfPieces(); ++piece)
+  const auto triangles = static_cast<Id>(GetParam().mesh.triangles.size());
+  const MultiVector gradients = MeanGradients(space, triangles, coordinates);
+  const std::vector<double> area = AreasOfPieces(space, triangles);
+  for (Id t = 0; t < triangles; ++t)
   {
-    const Index* ids = space.clipped.corners.data() + space.clipped.pieceBegin[piece];
-    const Eigen::Matrix3d gradient =
-      EvaluateGradientInPiece(space, piece, space.clipped.position[ids[0]], coordinates);
-    if (PieceArea(space.clipped, piece) == 0.0)
+    const Eigen::Map<const Eigen::Matrix3d> gradient(gradients.row(t).data());
+    if (area[t] == 0.0)
     {
       ASSERT_TRUE(gradient.isZero(0.0));
       continue;
@@ -102,17 +120,19 @@ TEST(Evaluation, GivesZeroAtPointsThatNoTriangleUses)
 
 TEST(Evaluation, OfAFunctionOnTheSideOfASquareHasTheHandMadeGradient)
 {
-  // u = x y on the plane z = 0: the surface gradient is (y, x, 0).
-  const GridFunctions space = BuildGridFunctions(FlatRectangle(4, 4), {});
+  // u = x y on the plane z = 0: the surface gradient is (y, x, 0), its mean that at the centroid.
+  const TriangleMesh mesh = FlatRectangle(4, 4);
+  const GridFunctions space = BuildGridFunctions(mesh, {});
   const MultiVector corner = CoordinateCoefficients(space);
   const MultiVector product = corner.col(0).cwiseProduct(corner.col(1));
-  for (Id piece = 0; piece < space.clipped.NumberOfPieces(); piece += 7)
+  const auto triangles = static_cast<Id>(mesh.triangles.size());
+  const MultiVector gradients = MeanGradients(space, triangles, product);
+  for (Id t = 0; t < triangles; ++t)
   {
-    const Vec3& position =
-      space.clipped.position[space.clipped.corners[2 + space.clipped.pieceBegin[piece]]];
-    const Vec3 world = space.GetGrid().ToWorld(position);
-    const Vec3 gradient = EvaluateGradientInPiece(space, piece, position, product);
-    EXPECT_LT((gradient - Vec3(world[1], world[0], 0.0)).norm(), 1e-12);
+    const auto& [p, q, r] = mesh.triangles[t];
+    const Vec3 centroid = (mesh.points[p] + mesh.points[q] + mesh.points[r]) / 3.0;
+    const Vec3 gradient = gradients.row(t).transpose();
+    EXPECT_LT((gradient - Vec3(centroid[1], centroid[0], 0.0)).norm(), 1e-12);
   }
 }
 
@@ -120,5 +140,4 @@ TEST(Evaluation, RefusesCoefficientsOfAnotherSpace)
 {
   const GridFunctions space = BuildGridFunctions(Box(2), {});
   EXPECT_THROW(EvaluateAtPoints(space, MultiVector::Ones(5, 1)), InvalidInput);
-  EXPECT_THROW(EvaluateInPatch(space, 0, Vec3::Zero(), MultiVector::Ones(5, 1)), InvalidInput);
 }
