@@ -318,8 +318,8 @@ void vtkHeatDiffusion::Compute(vtkInformationVector** inputs, vtkInformationVect
 bool vtkHeatDiffusion::ComputeTogether(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   gridfem::SurfaceSolverState& state = *this->State;
-  const std::string obstacle = gridfem::FirstObstacle({ { this->BoundaryValues, "BoundaryValues" },
-    { this->MovePoints && !gridfem::IsArrayChosen(this, 0), "MovePoints of the coordinates" } });
+  const std::string obstacle = gridfem::FirstObstacle(
+    { { this->MovePoints && !gridfem::IsArrayChosen(this, 0), "MovePoints of the coordinates" } });
   if (!this->Distributed ||
       !gridfem::CanDistribute(this, inputs, state.options.space.depth, obstacle))
   {
