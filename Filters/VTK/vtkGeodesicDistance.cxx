@@ -60,6 +60,17 @@ std::vector<gridfem::Id> MaskedPoints(
   return points;
 }
 
+/// Those that the mask or the selection takes; a point of both twice.
+std::vector<gridfem::Id> ChosenPoints(const gridfem::InputMesh& mesh,
+  const gridfem::InputArray& mask, const gridfem::SelectedPoints& selection)
+{
+  std::vector<gridfem::Id> points =
+    mask.array ? MaskedPoints(mask, mesh) : std::vector<gridfem::Id>();
+  const std::vector<gridfem::Id> selected = selection.Ids(*mesh.triangles);
+  points.insert(points.end(), selected.begin(), selected.end());
+  return points;
+}
+
 } // namespace
 
 struct vtkGeodesicDistance::Internals
@@ -75,13 +86,8 @@ struct vtkGeodesicDistance::Internals
     const gridfem::SelectedPoints& selection) const
   {
     std::vector<gridfem::Id> ids = this->SourceIds;
-    if (mask.array)
-    {
-      const std::vector<gridfem::Id> masked = MaskedPoints(mask, mesh);
-      ids.insert(ids.end(), masked.begin(), masked.end());
-    }
-    const std::vector<gridfem::Id> selected = selection.Ids(*mesh.triangles);
-    ids.insert(ids.end(), selected.begin(), selected.end());
+    const std::vector<gridfem::Id> chosen = ChosenPoints(mesh, mask, selection);
+    ids.insert(ids.end(), chosen.begin(), chosen.end());
     if (this->SourceIds.empty() && !mask.array && !places && !selection.IsGiven())
     {
       ids = { mesh.triangles->triangles.front()[0] };
@@ -372,27 +378,31 @@ bool vtkGeodesicDistance::ComputeTogether(
     return false;
   }
   vtkPolyData* piece = vtkPolyData::GetData(inputs[0]);
-  this->Selection->Update(nullptr, piece);
   state.options.space.joinAtPoints = true; // paths lead through points where sheets touch
   state.RunTogether(
-    [&](const gridfem::Progress& progress) { this->SolveTogether(piece, outputs, progress); });
+    [&](const gridfem::Progress& progress)
+    {
+      this->Selection->UpdateTogether(state.together, vtkSelection::GetData(inputs[3]), piece);
+      this->SolveTogether(piece, outputs, progress);
+    });
   return true;
 }
 
-/// The rank's own points among the sources: without an array the first point of the first rank.
+/// The rank's own points among the sources: where none are chosen the first point of the first
+/// rank.
 std::vector<vtkIdType> vtkGeodesicDistance::FindSourcesTogether(vtkPolyData* piece)
 {
   gridfem::SurfaceSolverState& state = *this->State;
   const gridfem::TriangleMesh& mesh = *state.mesh.triangles;
   const gridfem::InputArray mask = state.together.Find(this, 0, piece, state.mesh, "SourceArray");
   std::vector<vtkIdType> sources;
-  if (mask.array)
+  if (mask.array || this->Selection->IsGiven())
   {
     state.Together(
       [&]
       {
-        const std::vector<gridfem::Id> masked = MaskedPoints(mask, state.mesh);
-        sources.assign(masked.begin(), masked.end());
+        const std::vector<gridfem::Id> chosen = ChosenPoints(state.mesh, mask, *this->Selection);
+        sources.assign(chosen.begin(), chosen.end());
       });
   }
   else

@@ -318,8 +318,8 @@ void vtkHeatDiffusion::Compute(vtkInformationVector** inputs, vtkInformationVect
 bool vtkHeatDiffusion::ComputeTogether(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   gridfem::SurfaceSolverState& state = *this->State;
-  const std::string obstacle = gridfem::FirstObstacle({ { this->BoundaryValues, "BoundaryValues" },
-    { this->MovePoints && !gridfem::IsArrayChosen(this, 0), "MovePoints of the coordinates" } });
+  const std::string obstacle = gridfem::FirstObstacle(
+    { { this->MovePoints && !gridfem::IsArrayChosen(this, 0), "MovePoints of the coordinates" } });
   if (!this->Distributed ||
       !gridfem::CanDistribute(this, inputs, state.options.space.depth, obstacle))
   {
@@ -327,11 +327,11 @@ bool vtkHeatDiffusion::ComputeTogether(vtkInformationVector** inputs, vtkInforma
   }
   vtkPolyData* piece = vtkPolyData::GetData(inputs[0]);
   Internals& data = *this->Data;
-  this->Selection->Update(nullptr, piece);
   state.RunTogether(
     [&](const gridfem::Progress& progress)
     {
       state.together.Together([&] { this->RequireTime(); });
+      this->Selection->UpdateTogether(state.together, vtkSelection::GetData(inputs[2]), piece);
       state.UpdateTogether(piece);
       progress.Check(0.3);
       data.Mask = state.together.Find(this, 2, piece, state.mesh, "ConstraintArray");

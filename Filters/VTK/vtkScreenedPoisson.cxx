@@ -486,8 +486,14 @@ bool vtkScreenedPoisson::ComputeTogether(
   {
     return false;
   }
-  this->State->RunTogether([&](const gridfem::Progress& progress)
-    { this->SolveTogether(vtkPolyData::GetData(inputs[0]), outputs, progress); });
+  vtkPolyData* piece = vtkPolyData::GetData(inputs[0]);
+  this->State->RunTogether(
+    [&](const gridfem::Progress& progress)
+    {
+      this->Selection->UpdateTogether(
+        this->State->together, vtkSelection::GetData(inputs[2]), piece);
+      this->SolveTogether(piece, outputs, progress);
+    });
   return true;
 }
 
@@ -498,7 +504,6 @@ void vtkScreenedPoisson::SolveTogether(
   Internals& data = *this->Data;
   gridfem::SurfaceSolverState& state = *this->State;
   state.options.trackMetric = false;
-  this->Selection->Update(nullptr, piece);
   state.UpdateTogether(piece);
   progress.Check(0.4);
   state.together.Together(

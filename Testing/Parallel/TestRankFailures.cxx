@@ -79,6 +79,7 @@ SolveReport Solve(const Communicator& ranks, const TriangleMesh& own)
   PoissonOptions poisson;
   poisson.screeningWeight = 0.05;
   poisson.multigrid.threads = 1;
+  poisson.solve.tolerance = 1e-3; // two iterations: further ones allocate what the second does
   const PoissonSolution solution = SolvePoisson(space, load, MultiVector(), poisson);
   space.ValuesAtPoints(solution.coefficients, static_cast<Id>(own.points.size()));
   return solution.report;

@@ -10,6 +10,7 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkPolyData.h"
+#include "vtkSelection.h"
 #if GRIDFEM_HAS_PARALLEL
 #include "vtkMPIController.h"
 #endif
@@ -35,11 +36,13 @@ bool HasPolygons(vtkPolyData* piece)
   return piece && piece->GetNumberOfPolys() + piece->GetNumberOfStrips() > 0;
 }
 
+/// But for a selection, of which every rank evaluates its part.
 bool IsFurtherPortConnected(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs)
 {
   for (int port = 1; port < filter->GetNumberOfInputPorts(); ++port)
   {
-    if (vtkDataObject::GetData(inputs[port]))
+    vtkDataObject* const data = vtkDataObject::GetData(inputs[port]);
+    if (data && !vtkSelection::SafeDownCast(data))
     {
       return true;
     }

@@ -1,5 +1,6 @@
 #include "SelectedPoints.h"
 
+#include "DistributedSurface.h"
 #include "JoinedBlocks.h"
 #include "Ranks.h"
 
@@ -114,6 +115,17 @@ int KindOf(vtkSelectionNode* node)
   return takesCells ? static_cast<int>(vtkSelectionNode::CELL) : kind;
 }
 
+/// A rank evaluates only what of the data it has.
+void RequireOneProcess(const std::string& what)
+{
+  if (Ranks::AreSeveral())
+  {
+    throw InvalidInput(what + " is evaluated on one MPI rank only. Extract Selection with "
+                              "Preserve Topology makes an array of it, which can be chosen "
+                              "instead.");
+  }
+}
+
 /// What vtkExtractSelection stumbles over.
 void Validate(vtkSelection* selection)
 {
@@ -131,6 +143,10 @@ void Validate(vtkSelection* selection)
                          std::string(vtkSelectionNode::GetContentTypeAsString(content)) +
                          ", which cannot be evaluated here.");
     }
+    if (content == vtkSelectionNode::QUERY)
+    {
+      RequireOneProcess("A Selection by a query");
+    }
     vtkAbstractArray* list = node->GetSelectionList();
     constexpr vtkIdType FrustumNumbers = 8 * 4; // corners, homogeneous
     if (content == vtkSelectionNode::FRUSTUM &&
@@ -138,16 +154,6 @@ void Validate(vtkSelection* selection)
     {
       throw InvalidInput("The Selection by a frustum needs the eight corners of it.");
     }
-  }
-}
-
-/// A rank evaluates only what of the data it has, while the surface is that of all ranks.
-void RequireOneProcess()
-{
-  if (Ranks::AreSeveral())
-  {
-    throw InvalidInput("A Selection is evaluated on one MPI rank only. Extract Selection with "
-                       "Preserve Topology makes an array of it, which can be chosen instead.");
   }
 }
 
@@ -291,7 +297,8 @@ void SelectedPoints::ExtractFrom(vtkDataObject* data, vtkSelection* selection)
   filter->PreserveTopologyOn();
   filter->SetInputDataObject(0, CopyOf(data));
   filter->SetInputDataObject(1, own);
-  filter->Update();
+  const Ranks ranks;
+  filter->UpdatePiece(ranks.Own(), ranks.Count(), 0); // nodes may be of one process
   if (!error.empty())
   {
     throw InvalidInput("The Selection cannot be evaluated: " + error);
@@ -337,23 +344,53 @@ void SelectedPoints::Update(
   std::vector<char> isSelected;
   if (selection)
   {
-    RequireOneProcess();
-    Validate(selection);
-    this->Extract(selection);
-    vtkDataSet* part = joined ? nullptr : this->PartOf(filter_->GetInputDataObject(0, 0));
-    isSelected = joined ? this->PointsOfBlocks(*joined)
-                 : part ? PointsOf(part, surface)
-                        : std::vector<char>(surface->GetNumberOfPoints(), 0);
+    RequireOneProcess("A Selection"); // the surface is that of all ranks
+    isSelected = this->Evaluate(selection, surface, joined);
   }
   else
   {
     this->Free();
   }
-  if (isGiven_ != (selection != nullptr) || isSelected_ != isSelected)
+  this->Take(selection != nullptr, std::move(isSelected));
+}
+
+void SelectedPoints::UpdateTogether(
+  const DistributedSurface& together, vtkSelection* selection, vtkPolyData* piece)
+{
+  const bool isGiven = together.Any(selection != nullptr);
+  std::vector<char> isSelected;
+  together.Together(
+    [&]
+    {
+      if (selection && piece)
+      {
+        isSelected = this->Evaluate(selection, piece, nullptr);
+        return;
+      }
+      this->Free();
+      isSelected.assign(isGiven && piece ? piece->GetNumberOfPoints() : 0, 0);
+    });
+  this->Take(isGiven, std::move(isSelected));
+}
+
+std::vector<char> SelectedPoints::Evaluate(
+  vtkSelection* selection, vtkPolyData* surface, const JoinedBlocks* joined)
+{
+  Validate(selection);
+  this->Extract(selection);
+  vtkDataSet* part = joined ? nullptr : this->PartOf(filter_->GetInputDataObject(0, 0));
+  return joined ? this->PointsOfBlocks(*joined)
+         : part ? PointsOf(part, surface)
+                : std::vector<char>(surface->GetNumberOfPoints(), 0);
+}
+
+void SelectedPoints::Take(bool isGiven, std::vector<char> isSelected)
+{
+  if (isGiven_ != isGiven || isSelected_ != isSelected)
   {
     ++version_;
   }
-  isGiven_ = selection != nullptr;
+  isGiven_ = isGiven;
   isSelected_ = std::move(isSelected);
 }
 

@@ -20,6 +20,7 @@ class vtkSelection;
 namespace gridfem
 {
 
+class DistributedSurface;
 class JoinedBlocks;
 
 /// Evaluated by vtkExtractSelection on the data set of the filter's input port 0, of composite data
@@ -41,6 +42,13 @@ public:
   /// cannot be evaluated.
   void Update(vtkSelection* selection, vtkPolyData* surface, const JoinedBlocks* joined = nullptr);
 
+  /// Collective, within DistributedSurface::Run: the points of this rank's own piece, which it
+  /// evaluates alone. What one rank selects is a selection of all. Throws also for a query, which
+  /// may look at what other ranks have.
+  /// @param piece  as `surface`; may be null
+  void UpdateTogether(
+    const DistributedSurface& together, vtkSelection* selection, vtkPolyData* piece);
+
   /// Frees what the next update could take over.
   void Free();
 
@@ -58,6 +66,9 @@ public:
   std::int64_t Version() const { return version_; }
 
 private:
+  std::vector<char> Evaluate(
+    vtkSelection* selection, vtkPolyData* surface, const JoinedBlocks* joined);
+  void Take(bool isGiven, std::vector<char> isSelected);
   void Extract(vtkSelection* selection);
   vtkDataSet* PartOf(vtkDataObject* block) const;
   std::vector<char> PointsOfBlocks(const JoinedBlocks& joined) const;
