@@ -41,8 +41,8 @@
  *
  * Tolerance (default 1e-6) is the wanted relative error of the eigenvalues as those of the space;
  * Depth, or Accuracy, decides about the error of the space. All shared properties
- * but ParameterUnits are used. V cycles with the patch smoother and one sweep, the default, run in
- * single precision where that resolves the surface; eigenvalues and modes are always double.
+ * but ParameterUnits are used. Cycles with the patch smoother, the default, run in single precision
+ * where that resolves the surface; eigenvalues and modes are always double.
  */
 #ifndef vtkLaplaceSpectrum_h
 #define vtkLaplaceSpectrum_h

@@ -8,6 +8,8 @@
 #include "Base/Parallel.h"
 #include "Base/Prefetch.h"
 
+#include <type_traits>
+
 namespace gridfem
 {
 

@@ -69,7 +69,7 @@ void Residual(const SparseMatrix& A, const MultiVector& x, const MultiVector& b,
 
 /// The same where rows before `foreign` leave out b, which belongs to other processes: a part of
 /// the residual.
-/// @param energy  if not null: xᵀ(b + r) of every column, a part, too
+/// @param energy  if not null: xᵀ(b + r) of every column, a part, too; r must not be b then
 template<class Real>
 void ResidualPart(const BasicSparseMatrix<Real>& A, const Vectors<Real>& x, const Vectors<Real>& b,
   Index foreign, Vectors<Real>& r, Eigen::ArrayXd* energy, int threads);

@@ -4,12 +4,15 @@
 #define GridFEM_LinearOperator_h
 
 #include "Algebra/ColumnAlgebra.h"
-#include "Multigrid/Multigrid.h"
 
 #include <functional>
 
 namespace gridfem
 {
+
+template<class Real>
+class BasicMultigrid;
+using Multigrid = BasicMultigrid<double>;
 
 /// A symmetric positive semi-definite A, for blocks of vectors with any number of columns.
 struct LinearOperator

@@ -114,7 +114,7 @@ void BasicMultigrid<Real>::TakeApart(std::vector<MultigridLevel> levels)
     to.smoothing = from.smoothing;
     to.divided = from.divided;
     to.smoother = this->MakeSmoother(from);
-    std::array<double, 2> counts{ double(from.order.dof.size()),
+    std::array<double, 2> counts{ double(from.order.dof.size() + from.groups.dof.size()),
       double(to.smoother->UnresolvedPatches()) };
     SumOverProcesses(RowsOf(from), counts);
     patches += counts[0];
@@ -243,9 +243,9 @@ bool BasicMultigrid<Real>::HasSingleFactors() const
                     { return level.smoother && level.smoother->HasSingleFactors(); })
                     ? 1.0
                     : 0.0;
-  if (levels_.front().divided)
+  if (const DividedRows* divided = RowsOf(levels_.front()))
   {
-    levels_.front().divided->Rows().SumNumbers(&single, 1);
+    divided->SumNumbers(&single, 1);
   }
   return single > 0.0;
 }

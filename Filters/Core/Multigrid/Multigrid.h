@@ -109,7 +109,7 @@ public:
   BasicMultigrid InDoublePrecision() const;
 
   /// One cycle: improves x for A x = b. Any number of columns. Keeps its vectors, up to four times
-  /// the size of b, for the next call.
+  /// the size of b for each thread that cycles at the same time, for the next call.
   void Cycle(const Vectors<Real>& b, Vectors<Real>& x) const;
 
   /// One cycle from zero: x = B b, B symmetric when both sweep counts are equal.
@@ -131,6 +131,7 @@ public:
     const CorrectionTest& isWanted, const RowSink<Given>& z) const;
 
   const BasicSparseMatrix<Real>& Matrix() const { return levels_.front().A; }
+  /// In single precision without orders and groups.
   const std::vector<BasicMultigridLevel<Real>>& Levels() const { return levels_; }
   const MultigridOptions& Options() const { return options_; }
   std::size_t Memory() const;
@@ -168,6 +169,7 @@ private:
 
   bool IsCoarsest(std::size_t level) const { return level + 1 == levels_.size(); }
   void CheckRows(std::size_t level, Id rows) const;
+  void RequireSymmetry(std::size_t level) const;
   void SolveCoarsest(const Vectors<Real>& b, Vectors<Real>& x) const;
   void RestrictResidual(std::size_t level, const Vectors<Real>& b, const Vectors<Real>* x,
     Vectors<Real>& residual, Vectors<Real>& coarse, Columns* energy = nullptr) const;

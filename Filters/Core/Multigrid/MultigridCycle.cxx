@@ -110,6 +110,20 @@ void BasicMultigrid<Real>::CheckRows(std::size_t level, Id rows) const
 }
 
 template<class Real>
+void BasicMultigrid<Real>::RequireSymmetry(std::size_t level) const
+{
+  for (std::size_t l = level; !this->IsCoarsest(l); ++l)
+  {
+    const LevelSmoothing smoothing = this->SmoothingOf(levels_[l].smoothing);
+    if (smoothing.preSweeps != smoothing.postSweeps)
+    {
+      throw InvalidInput("a cycle that preconditions needs as many sweeps before as after the "
+                         "correction");
+    }
+  }
+}
+
+template<class Real>
 void BasicMultigrid<Real>::Cycle(const Vectors<Real>& b, Vectors<Real>& x) const
 {
   if (x.rows() != b.rows() || x.cols() != b.cols())
@@ -166,11 +180,11 @@ ResidualMeasures BasicMultigrid<Real>::PreconditionRows(std::size_t l, const Row
   const CorrectionTest& isWanted, const RowSink<Given>& z) const
 {
   this->CheckRows(l, r.rows);
-  const LevelSmoothing smoothing = this->SmoothingOf(levels_[l].smoothing);
-  if (r.columns > PreconditionedColumns || smoothing.preSweeps != smoothing.postSweeps)
+  if (r.columns > PreconditionedColumns)
   {
-    throw InvalidInput("a cycle preconditions a few columns at a time, and is symmetric");
+    throw InvalidInput("a cycle preconditions a few columns at a time");
   }
+  this->RequireSymmetry(l);
   const int threads = options_.threads;
   const Id width = WidthFor<Real>(r.columns);
   const typename Pool<Workspace>::Loan workspace(*workspace_);

@@ -14,12 +14,6 @@ constexpr double SmallestPivot = 1e-14;
 /// that is 2 %, which a smoother does not feel; below it, as on flat faces, V is kept in double.
 constexpr double SmallestSinglePivot = 1e-11;
 
-/// Pivots below this are left out.
-double SmallestPivotOf(FactorPrecision precision)
-{
-  return precision == FactorPrecision::Resolved ? SmallestPivotOfSingle : SmallestPivot;
-}
-
 /// Numbers that single precision does not hold would be zero or infinite.
 bool IsSingle(const PatchFactor& factor, FactorPrecision precision)
 {
@@ -32,10 +26,10 @@ bool IsSingle(const PatchFactor& factor, FactorPrecision precision)
 
 PatchInverses::PatchInverses(const SparseMatrix& A,
   const std::vector<std::array<Index, FunctionsPerPatch>>& dof, int threads,
-  FactorPrecision precision)
+  std::optional<FactorPrecision> precision)
 {
   patches_.resize(dof.size());
-  const bool isPacked = precision == FactorPrecision::Resolved;
+  const bool isPacked = !precision;
   single_.resize(isPacked ? 0 : dof.size());
   double_.resize(isPacked ? 0 : dof.size());
   packed_.resize(isPacked ? dof.size() : 0);
@@ -45,7 +39,8 @@ PatchInverses::PatchInverses(const SparseMatrix& A,
     [&](Id begin, Id end)
     {
       Id unresolved = 0;
-      ForEachFactor(source, dof.data(), begin, end, SmallestPivotOf(precision),
+      ForEachFactor(source, dof.data(), begin, end,
+        isPacked ? SmallestPivotOfSingle : SmallestPivot,
         [&](Id p, const PatchFactor& factor)
         { unresolved += this->Set(p, factor, precision) ? 0 : 1; });
       return unresolved;
@@ -53,9 +48,9 @@ PatchInverses::PatchInverses(const SparseMatrix& A,
     PatchesPerBlock);
 }
 
-bool PatchInverses::Set(Id p, const PatchFactor& factor, FactorPrecision precision)
+bool PatchInverses::Set(Id p, const PatchFactor& factor, std::optional<FactorPrecision> precision)
 {
-  const bool isPacked = precision == FactorPrecision::Resolved;
+  const bool isPacked = !precision;
   if (factor.count == 0 || (isPacked && factor.hasLargeScales))
   {
     patches_[p] = { factor.dof, None };
@@ -73,7 +68,7 @@ bool PatchInverses::Set(Id p, const PatchFactor& factor, FactorPrecision precisi
     }
     return factor.isComplete;
   }
-  const bool isSingle = IsSingle(factor, precision);
+  const bool isSingle = IsSingle(factor, *precision);
   patches_[p] = { factor.dof, isSingle ? Single : Double };
   if (isSingle)
   {

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <type_traits>
 #include <vector>
 
@@ -46,9 +47,11 @@ inline void RelaxPatch(const RowView<Real>& A, const std::array<Index, Functions
 class PatchInverses
 {
 public:
-  /// @param dof  unknowns of each patch, -1 for an unused place
+  /// @param dof        unknowns of each patch, -1 for an unused place
+  /// @param precision  none: single, for vectors in single precision; what that does not hold or
+  ///                   resolve is left out
   PatchInverses(const SparseMatrix& A, const std::vector<std::array<Index, FunctionsPerPatch>>& dof,
-    int threads, FactorPrecision precision);
+    int threads, std::optional<FactorPrecision> precision);
 
   Id Count() const { return static_cast<Id>(patches_.size()); }
 
@@ -103,7 +106,7 @@ public:
     }
   }
 
-  /// Asks for the patch itself, for orders that are not that of memory.
+  /// Asks for the patch itself, with a given precision, for orders that are not that of memory.
   EIGEN_ALWAYS_INLINE void FetchInverse(Id p) const
   {
     Fetch(&patches_[p]);
@@ -130,7 +133,7 @@ private:
   };
 
   /// Returns false where the patch is left out in part or as a whole.
-  bool Set(Id p, const PatchFactor& factor, FactorPrecision precision);
+  bool Set(Id p, const PatchFactor& factor, std::optional<FactorPrecision> precision);
 
   Array<Patch> patches_;
   Id unresolved_ = 0;

@@ -12,8 +12,8 @@ template<class Real>
 class PatchSmoother : public BasicSmoother<Real>
 {
 public:
-  PatchSmoother(
-    const SparseMatrix& A, const PatchOrder& order, int threads, FactorPrecision precision)
+  PatchSmoother(const SparseMatrix& A, const PatchOrder& order, int threads,
+    std::optional<FactorPrecision> precision)
     : rows_(A.rows), ranges_(RangesOf(A, order, threads)),
       inverses_(A, order.dof, threads, precision)
   {
@@ -73,7 +73,7 @@ std::unique_ptr<Smoother> MakePatchSmoother(
 std::unique_ptr<BasicSmoother<float>> MakeSinglePatchSmoother(
   const SparseMatrix& A, const PatchOrder& order, int threads)
 {
-  return std::make_unique<PatchSmoother<float>>(A, order, threads, FactorPrecision::Resolved);
+  return std::make_unique<PatchSmoother<float>>(A, order, threads, std::nullopt);
 }
 
 } // namespace gridfem

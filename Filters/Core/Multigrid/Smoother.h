@@ -42,8 +42,7 @@ enum class FactorPrecision
 {
   Mixed = 0,  // single where its rounding changes nothing, else double
   Single = 1, // single wherever it holds the numbers, however they are rounded
-  Double = 2,
-  Resolved = 3 // single, without what it does not hold or resolve
+  Double = 2
 };
 
 /// Real: of the vectors and of the matrix.
@@ -62,8 +61,8 @@ public:
   /// True if double precision could make a sweep better.
   virtual bool HasSingleFactors() const { return false; }
 
-  /// True if sweeps compute in single precision: x is to be a correction, and the largest number of
-  /// b near 1.
+  /// True if sweeps compute in single precision. Where vectors are in double, x is to be a
+  /// correction, and the largest number of b near 1.
   virtual bool IsSingle() const { return false; }
 
   /// Takes new values of the matrix in place. False where it cannot: then a new smoother has to be

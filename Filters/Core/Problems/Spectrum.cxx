@@ -312,6 +312,11 @@ void Validate(const SpectrumOptions& options)
   {
     throw InvalidInput("the number of iterations must not be negative");
   }
+  if (options.multigrid.preSweeps != options.multigrid.postSweeps)
+  {
+    throw InvalidInput(
+      "the cycles of a spectrum need as many sweeps before as after the correction");
+  }
 }
 
 Spectrum ComputeNestedSpectrum(
@@ -341,7 +346,7 @@ double EstimateSpectrumMemory(Id functions, Id modes, int threads)
 {
   // Bytes per function, fitted to the growth of the process (Testing/Benchmarks, group `memory`).
   constexpr double matrices = 850.0; // two of 18 entries per row; a hierarchy of floats and factors
-  constexpr double panels = 427.0;   // of each cycle at work: 10/3 of 32 floats
+  constexpr double panels = 512.0;   // of each cycle at work: 4 of 32 floats
   const Id columns = std::min(functions, modes);
   const Id cycles = std::min<Id>(
     NumberOfThreads(threads), (columns + PreconditionedColumns - 1) / PreconditionedColumns);

@@ -1,5 +1,6 @@
 // Hierarchies in single precision against those in double, and who decides between the two.
 #include "Base/Errors.h"
+#include "Base/Parallel.h"
 #include "Discretisation.h"
 #include "Krylov/Lobpcg.h"
 #include "Meshes.h"
@@ -227,6 +228,24 @@ TEST(SingleMultigrid, IsReliableWhereFunctionsDoNotAlmostVanish)
   EXPECT_FALSE(MakeSingle(Discretise(TiltedBox(0.0), 5)).IsReliable());
 }
 
+/// Two threads in one hierarchy at the same time, and one after the other.
+TEST(SingleMultigrid, SeveralThreadsMayCycleAtTheSameTime)
+{
+  const Discretisation on = Discretise(Torus(64, 32, 1.0, 0.4), 5);
+  const SingleMultigrid cycle = MakeSingle(on, 1);
+  constexpr int Times = 8;
+  std::vector<MultiVector> r(Times);
+  std::vector<MultiVector> alone(Times);
+  std::vector<MultiVector> together(Times);
+  for (int k = 0; k < Times; ++k)
+  {
+    r[k] = RandomBlock(on.space.Finest().numberOfFunctions, 5 + k);
+    Apply(cycle, 0, r[k], alone[k]);
+  }
+  ParallelBlocks(Times, 2, [&](Id k) { Apply(cycle, 0, r[k], together[k]); });
+  EXPECT_TRUE(alone == together);
+}
+
 Spectrum Solve(const Discretisation& on, const MultigridOptions& multigrid, double tolerance = 1e-8)
 {
   SpectrumOptions options;
@@ -236,7 +255,7 @@ Spectrum Solve(const Discretisation& on, const MultigridOptions& multigrid, doub
   return ComputeSpectrum(ViewOf(on.space, on.system), options);
 }
 
-TEST(SpectrumCycle, IsDoubleWhereSinglePrecisionWouldNotDo)
+TEST(SpectrumCycle, IsDoubleWhereSinglePrecisionWouldNotDoAndSingleForAnyCycle)
 {
   const Spectrum flat = Solve(Discretise(TiltedBox(0.01), 5), Standard);
   EXPECT_TRUE(flat.converged);
@@ -248,7 +267,7 @@ TEST(SpectrumCycle, IsDoubleWhereSinglePrecisionWouldNotDo)
   EXPECT_TRUE(inDouble.converged);
   EXPECT_FALSE(inDouble.singlePrecision);
   std::vector<MultigridOptions> cycles = OtherCycles();
-  cycles.back() = Standard;
+  cycles.back() = Standard; // in place of no sweeps
   for (const MultigridOptions& options : cycles)
   {
     const Spectrum single = Solve(sphere, options);
