@@ -1,4 +1,5 @@
 // Hierarchies in single precision against those in double, and who decides between the two.
+#include "Algebra/BlockVectors.h"
 #include "Base/Errors.h"
 #include "Base/Parallel.h"
 #include "Discretisation.h"
@@ -10,7 +11,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 namespace gridfem
 {
@@ -51,17 +51,6 @@ std::vector<MultigridOptions> OtherCycles()
   all[1].preSweeps = all[1].postSweeps = 2;
   all[2].preSweeps = all[2].postSweeps = 0;
   return all;
-}
-
-MultiVector RandomBlock(Id rows, Id columns)
-{
-  std::mt19937_64 generator(3);
-  MultiVector X(rows, columns);
-  for (Id k = 0; k < X.size(); ++k)
-  {
-    X.data()[k] = static_cast<double>(generator() >> 11) * 0x1p-52 - 1.0;
-  }
-  return X;
 }
 
 /// The preconditioner on a block that is stored.
@@ -106,7 +95,7 @@ TEST(SingleMultigrid, IsTheDoubleOneUpToSinglePrecision)
   {
     for (const Id columns : { 1, 16, 17, 32 })
     {
-      const MultiVector r = RandomBlock(on.space.levels[level].numberOfFunctions, columns);
+      const MultiVector r = RandomColumns(on.space.levels[level].numberOfFunctions, columns);
       MultiVector z;
       MultiVector reference;
       const ResidualMeasures mine = Apply(single, level, r, z);
@@ -124,7 +113,7 @@ TEST(SingleMultigrid, IsTheDoubleOneUpToSinglePrecision)
 TEST(SingleMultigrid, EveryCycleKnowsItsEnergy)
 {
   const Discretisation on = Discretise(Torus(64, 32, 1.0, 0.4), 5);
-  const MultiVector r = RandomBlock(on.space.Finest().numberOfFunctions, 5);
+  const MultiVector r = RandomColumns(on.space.Finest().numberOfFunctions, 5);
   for (const MultigridOptions& options : OtherCycles())
   {
     const SingleMultigrid single = MakeSingle(on, options);
@@ -153,7 +142,7 @@ TEST(SingleMultigrid, ColumnsKnowNothingOfEachOtherNorOfThreads)
   const Discretisation on = Discretise(TrefoilTube(120, 16, 0.12), 5);
   const SingleMultigrid one = MakeSingle(on, 1);
   const SingleMultigrid three = MakeSingle(on, 3);
-  const MultiVector r = RandomBlock(on.space.Finest().numberOfFunctions, 32);
+  const MultiVector r = RandomColumns(on.space.Finest().numberOfFunctions, 32);
   MultiVector z;
   MultiVector again;
   const ResidualMeasures measures = Apply(one, 0, r, z);
@@ -168,7 +157,7 @@ TEST(SingleMultigrid, IsTheSameForBlocksInSinglePrecision)
 {
   const Discretisation on = Discretise(Torus(64, 32, 1.0, 0.4), 5);
   const SingleMultigrid cycle = MakeSingle(on);
-  const Vectors<float> r = RandomBlock(on.space.Finest().numberOfFunctions, 21).cast<float>();
+  const Vectors<float> r = RandomColumns(on.space.Finest().numberOfFunctions, 21).cast<float>();
   Vectors<float> z;
   const ResidualMeasures measures = Apply(cycle, 0, r, z);
   MultiVector wide;
@@ -183,7 +172,7 @@ TEST(SingleMultigrid, HandsOverOnlyWhatIsWanted)
   const Discretisation on = Discretise(Torus(64, 32, 1.0, 0.4), 5);
   const SingleMultigrid single = MakeSingle(on);
   const Multigrid multigrid = MakeDouble(on);
-  const MultiVector r = RandomBlock(on.space.Finest().numberOfFunctions, 5);
+  const MultiVector r = RandomColumns(on.space.Finest().numberOfFunctions, 5);
   const RowSource<double> source{ r.rows(), r.cols(),
     [&r](Id begin, Id end, Block<double> part) { part = r.middleRows(begin, end - begin); } };
   int handedOver = 0;
@@ -209,7 +198,7 @@ TEST(SingleMultigrid, RefusesWhatItCannotDo)
   const Discretisation on = Discretise(GeodesicSphere(8), 3);
   const SingleMultigrid single = MakeSingle(on);
   MultiVector z;
-  const MultiVector r = RandomBlock(on.space.Finest().numberOfFunctions, 33);
+  const MultiVector r = RandomColumns(on.space.Finest().numberOfFunctions, 33);
   EXPECT_THROW(Apply(single, 0, r, z), InvalidInput);
   MultigridOptions options = Standard;
   options.postSweeps = 2; // B is not symmetric
@@ -239,7 +228,7 @@ TEST(SingleMultigrid, SeveralThreadsMayCycleAtTheSameTime)
   std::vector<MultiVector> together(Times);
   for (int k = 0; k < Times; ++k)
   {
-    r[k] = RandomBlock(on.space.Finest().numberOfFunctions, 5 + k);
+    r[k] = RandomColumns(on.space.Finest().numberOfFunctions, 5 + k);
     Apply(cycle, 0, r[k], alone[k]);
   }
   ParallelBlocks(Times, 2, [&](Id k) { Apply(cycle, 0, r[k], together[k]); });
