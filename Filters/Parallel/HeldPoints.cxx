@@ -1,6 +1,9 @@
 #include "Parallel/HeldPoints.h"
 
+#include "Algebra/RowBuilder.h"
+
 #include <algorithm>
+#include <limits>
 
 namespace gridfem
 {
@@ -36,28 +39,8 @@ std::vector<Id> PlacesOfHeld(const RankSpace& space, const MultiVector& received
   return places;
 }
 
-} // namespace
-
-HeldValues HoldPoints(
-  const RankSpace& space, const std::vector<Id>& points, const MultiVector& values)
-{
-  MultiVector own; // 1 where a point is held, and its values
-  space.Ranks().Together(
-    [&]
-    {
-      own = MultiVector::Zero(space.Distribution().NumberOfOwnPoints(), 1 + values.cols());
-      for (std::size_t k = 0; k < points.size(); ++k)
-      {
-        own.row(points[k]) << 1.0, values.row(static_cast<Id>(k));
-      }
-    });
-  const MultiVector received = space.Distribution().SendPoints(own);
-  HeldValues held;
-  space.Ranks().Together([&] { held = HoldReceived(space, received); });
-  return held;
-}
-
-HeldValues HoldReceived(const RankSpace& space, const MultiVector& received)
+/// On a grid, where each point has the rank that evaluates it.
+HeldValues HoldOnGrid(const RankSpace& space, const MultiVector& received)
 {
   const Id columns = received.cols() - 1;
   const std::vector<Id> places = PlacesOfHeld(space, received);
@@ -68,6 +51,112 @@ HeldValues HoldReceived(const RankSpace& space, const MultiVector& received)
   {
     held.values.row(static_cast<Id>(k)) = received.row(places[k]).tail(columns);
   }
+  return held;
+}
+
+constexpr double Nobody = std::numeric_limits<double>::infinity();
+
+/// Collective. Per hat the lowest rank that has given a held point of it.
+MultiVector FirstGivers(const RankLevels& levels, const MultiVector& received)
+{
+  MultiVector first;
+  levels.Space().Ranks().Together(
+    [&]
+    {
+      const std::vector<Index>& hatOf = levels.Hats()->Own().Hats().functions.ofPoint;
+      const std::vector<int> giver = levels.Space().Distribution().GiversOfPoints();
+      first = MultiVector::Constant(levels.Numbering(0).Functions(), 1, Nobody);
+      for (Id place = 0; place < received.rows(); ++place)
+      {
+        if (hatOf[place] >= 0 && received(place, 0) != 0.0)
+        {
+          first(hatOf[place], 0) = std::min(first(hatOf[place], 0), double(giver[place]));
+        }
+      }
+    });
+  levels.Rows(0).TakeLeast(first);
+  return first;
+}
+
+/// Collective. Per hat the values that its first giver has for it, of several points the least.
+MultiVector ValuesOfGivers(
+  const RankLevels& levels, const MultiVector& first, const MultiVector& received)
+{
+  const Id columns = received.cols() - 1;
+  MultiVector values;
+  levels.Space().Ranks().Together(
+    [&]
+    {
+      const std::vector<Index>& hatOf = levels.Hats()->Own().Hats().functions.ofPoint;
+      const std::vector<int> giver = levels.Space().Distribution().GiversOfPoints();
+      values = MultiVector::Constant(first.rows(), columns, Nobody);
+      for (Id place = 0; place < received.rows(); ++place)
+      {
+        const Index hat = hatOf[place];
+        if (hat >= 0 && received(place, 0) != 0.0 && first(hat, 0) == giver[place])
+        {
+          values.row(hat) = values.row(hat).cwiseMin(received.row(place).tail(columns));
+        }
+      }
+    });
+  levels.Rows(0).TakeLeast(values);
+  return values;
+}
+
+/// A hat is 1 at its point, which all ranks that have received it may hold.
+HeldValues HoldHats(const RankLevels& levels, const MultiVector& received)
+{
+  const MultiVector first = FirstGivers(levels, received);
+  const MultiVector values = ValuesOfGivers(levels, first, received);
+  HeldValues held;
+  levels.Space().Ranks().Together(
+    [&]
+    {
+      const std::vector<char>& isEvaluated = levels.Hats()->IsEvaluated();
+      RowBuilder rows;
+      std::vector<Index> hats;
+      for (Index hat = 0; hat < static_cast<Index>(first.rows()); ++hat)
+      {
+        if (isEvaluated[hat] && first(hat, 0) != Nobody)
+        {
+          RowBuilder::Entries entries{ { hat, 1.0 } };
+          rows.Append(entries);
+          hats.push_back(hat);
+        }
+      }
+      held.rows = rows.Finish(static_cast<Index>(first.rows()));
+      held.values = values(hats, Eigen::all);
+    });
+  return held;
+}
+
+} // namespace
+
+HeldValues HoldPoints(
+  const RankLevels& levels, const std::vector<Id>& points, const MultiVector& values)
+{
+  const RankSpace& space = levels.Space();
+  MultiVector own; // 1 where a point is held, and its values
+  space.Ranks().Together(
+    [&]
+    {
+      own = MultiVector::Zero(space.Distribution().NumberOfOwnPoints(), 1 + values.cols());
+      for (std::size_t k = 0; k < points.size(); ++k)
+      {
+        own.row(points[k]) << 1.0, values.row(static_cast<Id>(k));
+      }
+    });
+  return HoldReceived(levels, space.Distribution().SendPoints(own));
+}
+
+HeldValues HoldReceived(const RankLevels& levels, const MultiVector& received)
+{
+  if (levels.Hats())
+  {
+    return HoldHats(levels, received);
+  }
+  HeldValues held;
+  levels.Space().Ranks().Together([&] { held = HoldOnGrid(levels.Space(), received); });
   return held;
 }
 

@@ -2,7 +2,7 @@
 #ifndef GridFEM_HeldPoints_h
 #define GridFEM_HeldPoints_h
 
-#include "Parallel/RankSpace.h"
+#include "Parallel/RankLevels.h"
 #include "Problems/EdgeConditions.h"
 
 #include <vector>
@@ -16,11 +16,11 @@ namespace gridfem
 /// @param points  this rank's own, each once
 /// @param values  a row for each; the same columns on all ranks
 HeldValues HoldPoints(
-  const RankSpace& space, const std::vector<Id>& points, const MultiVector& values);
+  const RankLevels& levels, const std::vector<Id>& points, const MultiVector& values);
 
-/// What this rank holds of the points that it has received. Not collective.
+/// Collective. What this rank holds of the points that it has received.
 /// @param received  rows = received points: not 0 where a point is held, then its values
-HeldValues HoldReceived(const RankSpace& space, const MultiVector& received);
+HeldValues HoldReceived(const RankLevels& levels, const MultiVector& received);
 
 } // namespace gridfem
 

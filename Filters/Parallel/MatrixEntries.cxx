@@ -30,4 +30,11 @@ SparseMatrix SumOf(const SparseMatrix& A, std::vector<MatrixEntry> entries, Inde
   return sum.Finish(rows);
 }
 
+SparseMatrix PartOf(const SparseMatrix& A, const std::vector<Index>& list)
+{
+  std::vector<MatrixEntry> entries;
+  ForEntries(A, list, [&](const MatrixEntry& entry) { entries.push_back(entry); });
+  return SumOf({}, std::move(entries), static_cast<Index>(list.size()));
+}
+
 } // namespace gridfem

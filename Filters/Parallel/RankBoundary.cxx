@@ -2,18 +2,99 @@
 
 #include "Parallel/HeldPoints.h"
 
+#include <algorithm>
+#include <array>
+
 namespace gridfem
 {
 
 namespace
 {
 
-/// Whether a part of the edges is in the cells of this rank. Of received triangles that end where
-/// nothing more was received none is.
+/// On a grid: whether a part of the edges is in the cells of this rank. Of received triangles that
+/// end where nothing more was received none is.
 bool HasPart(const RankSpace& space, const std::vector<TriangleEdge>& edges)
 {
   const EdgeSamples samples = space.Own().SamplesOfSegments(SegmentsOf(edges, space.Own().Mesh()));
   return samples.rows.rows > 0;
+}
+
+using Ends = std::array<double, 6>;
+
+/// Told by the coordinates of its ends, in an order that all ranks share.
+Ends EndsOf(const TriangleEdge& edge, const TriangleMesh& mesh)
+{
+  const auto corner = edge.Ends(mesh);
+  const Vec3& a = mesh.points[std::min(corner[0], corner[1])];
+  const Vec3& b = mesh.points[std::max(corner[0], corner[1])];
+  return { a[0], a[1], a[2], b[0], b[1], b[2] };
+}
+
+/// Collective. With hats: edges of the triangles that this rank integrates. Whether no rank has
+/// another triangle with them is known where one of the ends is in the cells of this rank, and told
+/// by the rank of the first end elsewhere.
+/// @param edges  where nothing more was received
+std::vector<TriangleEdge> EdgesOfHats(
+  const RankLevels& levels, const std::vector<TriangleEdge>& edges)
+{
+  const RankSpace& space = levels.Space();
+  const Communicator& ranks = space.Ranks();
+  const TriangleMesh& mesh = space.Own().Mesh();
+  std::vector<TriangleEdge> found;
+  std::vector<std::vector<Ends>> asked(ranks.Size());
+  std::vector<std::vector<TriangleEdge>> open(ranks.Size());
+  ranks.Together(
+    [&]
+    {
+      for (const TriangleEdge& edge : edges)
+      {
+        if (levels.Hats()->IsIntegrated()[edge.triangle] == 0.0)
+        {
+          continue;
+        }
+        const auto corner = edge.Ends(mesh);
+        const int first = space.OwnerOfPoint(mesh.points[std::min(corner[0], corner[1])]);
+        const int other = space.OwnerOfPoint(mesh.points[std::max(corner[0], corner[1])]);
+        if (first == ranks.Rank() || other == ranks.Rank())
+        {
+          found.push_back(edge);
+          continue;
+        }
+        asked[first].push_back(EndsOf(edge, mesh));
+        open[first].push_back(edge);
+      }
+    });
+  asked = ranks.Exchange(asked);
+  std::vector<std::vector<char>> told(ranks.Size());
+  ranks.Together(
+    [&]
+    {
+      std::vector<Ends> here;
+      for (const TriangleEdge& edge : edges)
+      {
+        here.push_back(EndsOf(edge, mesh));
+      }
+      std::sort(here.begin(), here.end());
+      for (int rank = 0; rank < ranks.Size(); ++rank)
+      {
+        for (const Ends& ends : asked[rank])
+        {
+          told[rank].push_back(std::binary_search(here.begin(), here.end(), ends));
+        }
+      }
+    });
+  told = ranks.Exchange(told);
+  for (int rank = 0; rank < ranks.Size(); ++rank)
+  {
+    for (std::size_t k = 0; k < told[rank].size(); ++k)
+    {
+      if (told[rank][k])
+      {
+        found.push_back(open[rank][k]);
+      }
+    }
+  }
+  return found;
 }
 
 /// Of received points: 1 at ends of the edges, and the values.
@@ -36,34 +117,40 @@ BoundaryTerms TermsOnBoundary(const RankLevels& levels, bool weldCoincidentPoint
 {
   const RankSpace& space = levels.Space();
   const Communicator& ranks = space.Ranks();
-  const GridSpace& own = space.Own();
+  const FiniteElementSpace& own = levels.Own();
+  const TriangleMesh& mesh = space.Own().Mesh();
   std::vector<TriangleEdge> edges;
+  ranks.Together([&] { edges = FindSurfaceEdges(mesh, weldCoincidentPoints).boundary; });
+  if (levels.Hats())
+  {
+    edges = EdgesOfHats(levels, edges);
+  }
   double parts = 0.0;
   ranks.Together(
-    [&]
-    {
-      edges = FindSurfaceEdges(own.Mesh(), weldCoincidentPoints).boundary;
-      parts = HasPart(space, edges) ? 1.0 : 0.0;
-    });
+    [&] { parts = (levels.Hats() ? !edges.empty() : HasPart(space, edges)) ? 1.0 : 0.0; });
   ranks.Sum(&parts, 1);
   BoundaryTerms terms;
   terms.isThere = parts > 0.0;
   if (terms.isThere && flux)
   {
     const MultiVector received = space.Distribution().SendPoints(*flux);
-    ranks.Together([&] { terms.load = LoadOnEdges(own, own.Mesh(), edges, received); });
+    ranks.Together([&] { terms.load = LoadOnEdges(own, mesh, edges, received); });
     levels.Divided(0)->Sum(terms.load);
   }
   if (terms.isThere && values)
   {
     const MultiVector received = space.Distribution().SendPoints(*values);
+    std::vector<TriangleEdge> known;
+    MultiVector atEnds;
     ranks.Together(
       [&]
       {
-        const std::vector<TriangleEdge> known = KnownEdges(own.Mesh(), edges, received);
-        terms.held = Join(HoldReceived(space, RowsOfEnds(own.Mesh(), known, received)),
-          HoldWithinEdges(own, own.Mesh(), known, received));
+        known = KnownEdges(mesh, edges, received);
+        atEnds = RowsOfEnds(mesh, known, received);
       });
+    terms.held = HoldReceived(levels, atEnds);
+    ranks.Together(
+      [&] { terms.held = Join(terms.held, HoldWithinEdges(own, mesh, known, received)); });
   }
   return terms;
 }

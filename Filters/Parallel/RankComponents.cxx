@@ -12,17 +12,16 @@ namespace
 /// part at first, and lower ones as neighbours tell them. As many rounds as a component crosses
 /// from rank to rank.
 MultiVector LowestOfComponents(const Communicator& ranks, const LevelNumbering& numbering,
-  const RankRows& rows, const PatchLevel& level)
+  const RankRows& rows, const Components& part)
 {
-  std::vector<Index> part;
+  const std::vector<Index>& partOf = part.ofFunction;
   std::vector<double> ofPart;
   MultiVector lowest;
   MultiVector next;
   ranks.Together(
     [&]
     {
-      part = FunctionComponents(level);
-      ofPart.resize(part.empty() ? 0 : *std::max_element(part.begin(), part.end()) + 1);
+      ofPart.resize(part.count);
       lowest.resize(numbering.Functions(), 1);
       std::copy(numbering.number.begin(), numbering.number.end(), lowest.data());
       next.resize(numbering.Functions(), 1);
@@ -30,13 +29,13 @@ MultiVector LowestOfComponents(const Communicator& ranks, const LevelNumbering& 
   for (double change = 1.0; change > 0.0; ranks.Maximum(&change, 1))
   {
     std::fill(ofPart.begin(), ofPart.end(), static_cast<double>(numbering.total));
-    for (std::size_t f = 0; f < part.size(); ++f)
+    for (std::size_t f = 0; f < partOf.size(); ++f)
     {
-      ofPart[part[f]] = std::min(ofPart[part[f]], lowest.data()[f]);
+      ofPart[partOf[f]] = std::min(ofPart[partOf[f]], lowest.data()[f]);
     }
-    for (std::size_t f = 0; f < part.size(); ++f)
+    for (std::size_t f = 0; f < partOf.size(); ++f)
     {
-      next.data()[f] = ofPart[part[f]];
+      next.data()[f] = ofPart[partOf[f]];
     }
     rows.TakeLeast(next);
     change = next == lowest ? 0.0 : 1.0;
@@ -48,9 +47,9 @@ MultiVector LowestOfComponents(const Communicator& ranks, const LevelNumbering& 
 } // namespace
 
 Components ComponentsOfRanks(const Communicator& ranks, const LevelNumbering& numbering,
-  const RankRows& rows, const PatchLevel& level)
+  const RankRows& rows, const Components& part)
 {
-  const MultiVector lowest = LowestOfComponents(ranks, numbering, rows, level);
+  const MultiVector lowest = LowestOfComponents(ranks, numbering, rows, part);
   std::vector<double> firsts; // numbers of the first functions of all components, ascending
   ranks.Together(
     [&]

@@ -9,9 +9,9 @@ namespace gridfem
 {
 
 /// Collective. Components of the whole, in the order of their first functions' numbers.
-/// @param level  the patches of this rank's cells, functions as in the numbering
+/// @param part  of what this rank adds to the surface, functions as in the numbering
 Components ComponentsOfRanks(const Communicator& ranks, const LevelNumbering& numbering,
-  const RankRows& rows, const PatchLevel& level);
+  const RankRows& rows, const Components& part);
 
 } // namespace gridfem
 

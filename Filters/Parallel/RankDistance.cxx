@@ -60,7 +60,8 @@ RankDistance::RankDistance(const RankLevels& levels, std::shared_ptr<const Trian
                        std::to_string(MostSmoothing) + ".");
   }
   const double time = std::pow(options_.smoothing * MeanSpacing(levels_, job.threads), 2);
-  heat_ = std::make_unique<RankHeat>(levels_, time, options_.heatChange, job.Part(0.0, 0.3));
+  heat_ =
+    std::make_unique<RankHeat>(levels_.OfGrid(), time, options_.heatChange, job.Part(0.0, 0.3));
   levels_.Space().Ranks().Guard(
     [&]
     {
@@ -103,15 +104,9 @@ std::vector<char> RankDistance::MarkSources(const std::vector<Id>& sources) cons
 MultiVector RankDistance::LoadOfDistance(
   const MultiVector& heat, const std::vector<char>& isSource) const
 {
-  const RankSpace& space = levels_.Space();
   Field away;
-  space.Ranks().Together([&] { away = AwayFromSources(*mesh_, isSource); });
-  away.values = space.Distribution().SendTriangles(away.values);
-  MultiVector load;
-  space.Ranks().Together(
-    [&] { load = space.Own().LoadOfDirections(heat, &away, options_.multigrid.threads); });
-  levels_.Divided(0)->Sum(load);
-  return load;
+  levels_.Space().Ranks().Together([&] { away = AwayFromSources(*mesh_, isSource); });
+  return levels_.LoadOfDirections(heat, away, options_.multigrid.threads);
 }
 
 /// Per component the mean over the sources; NaN where there is none.
@@ -146,11 +141,11 @@ std::vector<double> RankDistance::ZeroesAt(
 DistanceField RankDistance::From(
   const std::vector<Id>& sources, const SolveOptions& solve, const Job& job) const
 {
-  const RankSpace& space = levels_.Space();
   const std::vector<char> isSource = this->MarkSources(sources);
-  const HeldValues held =
-    HoldPoints(space, sources, MultiVector::Zero(static_cast<Id>(sources.size()), 1));
-  const HeatField heat = heat_->From(LoadOfRows(levels_, held.rows), job.Part(0.0, 0.5));
+  const MultiVector zeroes = MultiVector::Zero(static_cast<Id>(sources.size()), 1);
+  const HeldValues onGrid = HoldPoints(levels_.OfGrid(), sources, zeroes);
+  const HeldValues held = levels_.Hats() ? HoldPoints(levels_, sources, zeroes) : onGrid;
+  const HeatField heat = heat_->From(LoadOfRows(levels_.OfGrid(), onGrid.rows), job.Part(0.0, 0.5));
   const MultiVector load = this->LoadOfDistance(heat.coefficients, isSource);
   PoissonOptions options;
   options.screeningWeight = 0.0;

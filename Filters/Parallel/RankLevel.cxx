@@ -1,9 +1,12 @@
 #include "Parallel/RankLevel.h"
 
+#include "Multigrid/MatrixOrdering.h"
+#include "Multigrid/SmootherSequence.h"
 #include "Parallel/MatrixEntries.h"
 #include "Spaces/PatchOrdering.h"
 
 #include <algorithm>
+#include <array>
 
 namespace gridfem
 {
@@ -25,20 +28,10 @@ Index RanksAt(const std::array<Index, FunctionsPerPatch>& patch, const LevelNumb
   return most;
 }
 
-/// Functions of all patches but those of this rank alone.
-std::vector<Index> BorderOf(const std::vector<PatchLevel>& parts)
+void SortEachOnce(std::vector<Index>& functions)
 {
-  std::vector<Index> border;
-  for (std::size_t kind = 1; kind < parts.size(); ++kind)
-  {
-    for (const auto& patch : parts[kind].dof)
-    {
-      border.insert(border.end(), patch.begin(), patch.end());
-    }
-  }
-  std::sort(border.begin(), border.end());
-  border.erase(std::unique(border.begin(), border.end()), border.end());
-  return border;
+  std::sort(functions.begin(), functions.end());
+  functions.erase(std::unique(functions.begin(), functions.end()), functions.end());
 }
 
 /// Replaces functions by their places in an ascending list, which has all of them.
@@ -49,27 +42,6 @@ void Renumber(const std::vector<Index>& list, Functions& functions)
   {
     function =
       static_cast<Index>(std::lower_bound(list.begin(), list.end(), function) - list.begin());
-  }
-}
-
-/// Calls body(row, column, value) for entries whose row and column are in a list, places in it.
-template<class Body>
-void ForEntries(const SparseMatrix& A, const std::vector<Index>& list, Body&& body)
-{
-  std::vector<Index> place(A.rows, -1);
-  for (std::size_t k = 0; k < list.size(); ++k)
-  {
-    place[list[k]] = static_cast<Index>(k);
-  }
-  for (const Index row : list)
-  {
-    for (Id k = A.rowBegin[row]; k < A.rowBegin[row + 1]; ++k)
-    {
-      if (place[A.column[k]] >= 0)
-      {
-        body(MatrixEntry{ place[row], place[A.column[k]], A.value[k] });
-      }
-    }
   }
 }
 
@@ -110,6 +82,95 @@ SparseMatrix WholeMatrix(const Communicator& ranks, const SparseMatrix& A,
   return whole;
 }
 
+/// Per function the rank that it belongs to.
+std::vector<int> OwnersOf(const LevelNumbering& numbering, int rank)
+{
+  std::vector<int> owner(numbering.Functions(), rank);
+  for (auto neighbour = numbering.neighbours.rbegin(); neighbour != numbering.neighbours.rend();
+       ++neighbour) // the lowest comes last
+  {
+    for (const Index function : neighbour->functions)
+    {
+      owner[function] = std::min(owner[function], neighbour->rank);
+    }
+  }
+  return owner;
+}
+
+using RankPair = std::array<int, 2>;
+
+/// Collective. Per rank the lowest number that no lower rank has whose functions are coupled to its
+/// own. The same on all ranks.
+std::vector<int> ColourRanks(
+  const Communicator& ranks, const SparseMatrix& A, const std::vector<int>& owner)
+{
+  std::vector<RankPair> coupled;
+  ranks.Together(
+    [&]
+    {
+      for (Index row = 0; row < A.rows; ++row)
+      {
+        for (Id k = A.rowBegin[row]; k < A.rowBegin[row + 1]; ++k)
+        {
+          const RankPair pair{ owner[A.column[k]], owner[row] };
+          if (pair[0] < pair[1] && (coupled.empty() || coupled.back() != pair))
+          {
+            coupled.push_back(pair);
+          }
+        }
+      }
+      std::sort(coupled.begin(), coupled.end());
+      coupled.erase(std::unique(coupled.begin(), coupled.end()), coupled.end());
+    });
+  coupled = ranks.Gather(coupled);
+  std::vector<int> colour(ranks.Size(), 0);
+  ranks.Together(
+    [&]
+    {
+      for (int rank = 0; rank < ranks.Size(); ++rank)
+      {
+        std::vector<char> isTaken(ranks.Size() + 1, 0);
+        for (const RankPair& pair : coupled)
+        {
+          if (pair[1] == rank)
+          {
+            isTaken[colour[pair[0]]] = 1;
+          }
+        }
+        colour[rank] =
+          static_cast<int>(std::find(isTaken.begin(), isTaken.end(), 0) - isTaken.begin());
+      }
+    });
+  return colour;
+}
+
+/// Places in a part become those in the whole.
+PatchOrder InWhole(PatchOrder order, const std::vector<Index>& part)
+{
+  for (auto& group : order.dof)
+  {
+    for (Index& place : group)
+    {
+      place = place < 0 ? place : part[place];
+    }
+  }
+  return order;
+}
+
+std::unique_ptr<Smoother> MakeStep(const SparseMatrix& matrix, const BorderStep& step, int threads)
+{
+  std::vector<std::unique_ptr<Smoother>> sequence;
+  if (!step.single.dof.empty())
+  {
+    sequence.push_back(MakeGaussSeidel(matrix, step.single));
+  }
+  if (!step.patches.dof.empty())
+  {
+    sequence.push_back(MakePatchSmoother(matrix, step.patches, threads, FactorPrecision::Double));
+  }
+  return sequence.empty() ? nullptr : MakeSmootherSequence(std::move(sequence));
+}
+
 /// @param rows  null: all ranks hold all rows
 template<class Real>
 void SumRows(const Communicator& ranks, const RankRows* rows, Block<Real> x)
@@ -139,17 +200,97 @@ std::vector<PatchLevel> PatchesByRanks(const PatchLevel& level, const LevelNumbe
   return parts;
 }
 
-RankLevel::RankLevel(const Communicator& ranks, const LevelNumbering& numbering,
-  const RankRows& rows, const RankRows* coarse, const std::vector<PatchLevel>& parts,
-  const SparseMatrix& A, int threads)
-  : ranks_(ranks), rows_(rows), coarse_(coarse), threads_(threads)
+LevelBorder BorderOfPatches(
+  const Communicator& ranks, const LevelNumbering& numbering, const std::vector<PatchLevel>& parts)
 {
-  std::vector<RankNeighbour> neighbours;
+  LevelBorder border;
   double most = 1.0;
   ranks.Together(
     [&]
     {
-      border_ = BorderOf(parts);
+      for (std::size_t kind = 1; kind < parts.size(); ++kind)
+      {
+        for (const auto& patch : parts[kind].dof)
+        {
+          border.functions.insert(border.functions.end(), patch.begin(), patch.end());
+        }
+      }
+      SortEachOnce(border.functions);
+      for (const Index touching : numbering.touching)
+      {
+        most = std::max(most, double(touching));
+      }
+    });
+  ranks.Maximum(&most, 1);
+  border.steps = [&parts, functions = border.functions, most](const SparseMatrix& matrix)
+  {
+    std::vector<BorderStep> steps;
+    for (int kind = 1; kind < std::min(most, double(Kinds)); ++kind)
+    {
+      PatchLevel part = parts[kind];
+      part.numberOfFunctions = matrix.rows;
+      for (auto& patch : part.dof)
+      {
+        Renumber(functions, patch);
+      }
+      steps.push_back({ {}, OrderPatches(part), 1.0 / (kind == 1 ? 2.0 : most) });
+    }
+    return steps;
+  };
+  return border;
+}
+
+LevelBorder BorderOfGroups(
+  const Communicator& ranks, const LevelNumbering& numbering, const SparseMatrix& A, int threads)
+{
+  LevelBorder border;
+  std::vector<int> owner;
+  std::vector<Index> own; // places of the functions of this rank
+  ranks.Together(
+    [&]
+    {
+      owner = OwnersOf(numbering, ranks.Rank());
+      for (Index row = 0; row < A.rows; ++row)
+      {
+        if (numbering.touching[row] > 1)
+        {
+          border.functions.push_back(row);
+          border.functions.insert(border.functions.end(), A.column.begin() + A.rowBegin[row],
+            A.column.begin() + A.rowBegin[row + 1]);
+        }
+      }
+      SortEachOnce(border.functions);
+      for (std::size_t place = 0; place < border.functions.size(); ++place)
+      {
+        if (border.functions[place] >= numbering.foreign)
+        {
+          own.push_back(static_cast<Index>(place));
+        }
+      }
+    });
+  const std::vector<int> colour = ColourRanks(ranks, A, owner);
+  border.steps = [own, colour, rank = ranks.Rank(), threads](const SparseMatrix& matrix)
+  {
+    std::vector<BorderStep> steps(1 + *std::max_element(colour.begin(), colour.end()));
+    BorderStep& step = steps[colour[rank]];
+    const SparseMatrix rows = PartOf(matrix, own);
+    step.single = InWhole(OrderInBlocks(rows), own);
+    step.patches = InWhole(GroupByCoupling(rows, threads), own);
+    return steps;
+  };
+  return border;
+}
+
+RankLevel::RankLevel(const Communicator& ranks, const LevelNumbering& numbering,
+  const RankRows& rows, const RankRows* coarse, LevelBorder border, const SparseMatrix& A,
+  int threads)
+  : ranks_(ranks), rows_(rows), coarse_(coarse), threads_(threads),
+    border_(std::move(border.functions))
+{
+  std::vector<RankNeighbour> neighbours;
+  ranks.Together(
+    [&]
+    {
       neighbours = numbering.neighbours;
       for (RankNeighbour& neighbour : neighbours)
       {
@@ -158,27 +299,14 @@ RankLevel::RankLevel(const Communicator& ranks, const LevelNumbering& numbering,
       const auto foreign = static_cast<Index>(
         std::lower_bound(border_.begin(), border_.end(), numbering.foreign) - border_.begin());
       borderRows_ = std::make_unique<RankRows>(ranks, foreign, neighbours);
-      for (const Index touching : numbering.touching)
-      {
-        most = std::max(most, double(touching));
-      }
     });
-  ranks.Maximum(&most, 1);
   matrix_ = WholeMatrix(ranks, A, border_, numbering, neighbours);
   ranks.Together(
     [&]
     {
-      for (int kind = 1; kind < std::min(most, double(Kinds)); ++kind)
+      for (const BorderStep& step : border.steps(matrix_))
       {
-        PatchLevel part = parts[kind];
-        part.numberOfFunctions = matrix_.rows;
-        for (auto& patch : part.dof)
-        {
-          Renumber(border_, patch);
-        }
-        steps_.push_back(
-          { MakePatchSmoother(matrix_, OrderPatches(part), threads_, FactorPrecision::Double),
-            1.0 / (kind == 1 ? 2.0 : most) });
+        steps_.push_back({ MakeStep(matrix_, step, threads_), step.damping });
       }
     });
 }
@@ -206,8 +334,11 @@ void RankLevel::Relax(Id columns, SweepDirection direction,
     residual(r);
     borderRows_->Sum(r);
     correction.setZero();
-    step.smoother->Sweep(matrix_, r, correction, direction, threads_);
-    correction *= step.damping;
+    if (step.smoother)
+    {
+      step.smoother->Sweep(matrix_, r, correction, direction, threads_);
+      correction *= step.damping;
+    }
     borderRows_->Sum(correction);
     correct(correction);
   }

@@ -7,6 +7,7 @@
 #include "Multigrid/DividedLevel.h"
 #include "Parallel/RankRows.h"
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -17,23 +18,50 @@ namespace gridfem
 /// more.
 std::vector<PatchLevel> PatchesByRanks(const PatchLevel& level, const LevelNumbering& numbering);
 
-/// A sweep relaxes the patches of a rank's cells one after the other, in up to three steps. Patches
-/// without a function of another rank do not meet those of other ranks: all ranks relax them at
-/// once, as one rank would, without a message. Then, from the residual that is left, those with
-/// functions of one other rank, and last those where more ranks meet; corrections of these are
-/// divided by the number of ranks, so that together they do not overshoot. A backward sweep is the
-/// adjoint of a forward one. Residuals are not weighted: a part of a residual would not be
-/// consistent where the matrix is singular on a few functions, as on small flat pieces.
+/// What a rank relaxes at the same time as other ranks, places among the functions of the border.
+struct BorderStep
+{
+  PatchOrder single; // for Gauss-Seidel, before the patches
+  PatchOrder patches;
+  double damping = 1.0; // of corrections
+};
+
+/// Unknowns of a level that are relaxed with those of other ranks, and in which patches.
+struct LevelBorder
+{
+  std::vector<Index> functions; // ascending; with all that several ranks hold
+  /// Steps for the matrix of these: as many on all ranks.
+  std::function<std::vector<BorderStep>(const SparseMatrix& matrix)> steps;
+};
+
+/// Collective. Of PatchesByRanks, in up to two steps: patches that one other rank meets, and those
+/// that more do. Corrections are divided by the number of ranks, so that together they do not
+/// overshoot.
+LevelBorder BorderOfPatches(
+  const Communicator& ranks, const LevelNumbering& numbering, const std::vector<PatchLevel>& parts);
+
+/// Collective. Functions that several ranks hold, and those coupled to them, each relaxed by its
+/// owner in groups as on one rank (GroupByCoupling). Ranks whose functions are coupled take turns:
+/// a matrix of hats without a stiffness is too far from that of the grid for corrections of the
+/// grid to do without the whole relaxation.
+/// @param A  what this rank adds to the matrix
+LevelBorder BorderOfGroups(
+  const Communicator& ranks, const LevelNumbering& numbering, const SparseMatrix& A, int threads);
+
+/// A sweep relaxes the patches of a rank's cells one after the other, in steps. Patches without a
+/// function of another rank do not meet those of other ranks: all ranks relax them at once, as one
+/// rank would, without a message. Then those of the border, each step from the residual that is
+/// left. A backward sweep is the adjoint of a forward one. Residuals are not weighted: a part of a
+/// residual would not be consistent where the matrix is singular on a few functions, as on small
+/// flat pieces.
 class RankLevel : public DividedLevel
 {
 public:
   /// Collective. Keeps references to the rows.
   /// @param coarse   rows of the next coarser level; null: all ranks hold it whole
-  /// @param parts    PatchesByRanks of this rank's cells
   /// @param A        what this rank's patches add to the matrix
   RankLevel(const Communicator& ranks, const LevelNumbering& numbering, const RankRows& rows,
-    const RankRows* coarse, const std::vector<PatchLevel>& parts, const SparseMatrix& A,
-    int threads);
+    const RankRows* coarse, LevelBorder border, const SparseMatrix& A, int threads);
 
   const DividedRows& Rows() const override { return rows_; }
   void SumCoarse(Block<float> x) const override;
@@ -44,7 +72,6 @@ public:
     const std::function<void(const MultiVector& correction)>& correct) const override;
 
 private:
-  /// Patches that other ranks meet.
   struct Step
   {
     std::unique_ptr<Smoother> smoother;

@@ -4,27 +4,48 @@
 #include "Parallel/RankComponents.h"
 #include "Spaces/PatchOrdering.h"
 
+#include <optional>
+
 namespace gridfem
 {
 
-RankLevels::RankLevels(const RankSpace& space) : space_(space)
+RankLevels::RankLevels(const RankSpace& space, const RankHats* hats) : space_(space), hats_(hats)
 {
+  if (hats)
+  {
+    grid_ = std::make_unique<const RankLevels>(space);
+  }
   space.Ranks().Together(
     [&]
     {
+      if (hats)
+      {
+        rows_.emplace_back(
+          space.Ranks(), hats->Numbering().foreign, hats->Numbering().neighbours, true);
+      }
       const std::vector<LevelNumbering>& numberings = space.Numberings();
-      rows_.reserve(numberings.size());
       for (std::size_t l = 0; l < numberings.size(); ++l)
       {
         rows_.emplace_back(space.Ranks(), numberings[l].foreign, numberings[l].neighbours);
         parts_.push_back(PatchesByRanks(space.Own().Functions().levels[l], numberings[l]));
       }
-      integrals_ = space.Own().Integrals();
-      areas_ = AreasOfPieces(
-        space.Own().Functions(), static_cast<Id>(space.Own().Mesh().triangles.size()));
+      integrals_ = this->Own().Integrals();
+      areas_ = hats ? hats->IsIntegrated()
+                    : AreasOfPieces(space.Own().Functions(),
+                        static_cast<Id>(space.Own().Mesh().triangles.size()));
     });
   rows_.front().Sum(
     Eigen::Map<MultiVector>(integrals_.data(), static_cast<Id>(integrals_.size()), 1));
+}
+
+const FiniteElementSpace& RankLevels::Own() const
+{
+  return hats_ ? static_cast<const FiniteElementSpace&>(hats_->Own()) : space_.Own();
+}
+
+const LevelNumbering& RankLevels::Numbering(std::size_t level) const
+{
+  return this->IsOfHats(level) ? hats_->Numbering() : space_.Numberings()[this->GridLevel(level)];
 }
 
 std::size_t RankLevels::NumberOfLevels() const
@@ -32,9 +53,9 @@ std::size_t RankLevels::NumberOfLevels() const
   return rows_.size() + space_.Shared().NumberOfLevels();
 }
 
-const GridSpace& RankLevels::HolderOf(std::size_t level) const
+const SpaceLevels& RankLevels::HolderOf(std::size_t level) const
 {
-  return this->IsDivided(level) ? space_.Own() : space_.Shared();
+  return this->IsDivided(level) ? static_cast<const SpaceLevels&>(this->Own()) : space_.Shared();
 }
 
 std::size_t RankLevels::LevelThere(std::size_t level) const
@@ -44,7 +65,7 @@ std::size_t RankLevels::LevelThere(std::size_t level) const
 
 Index RankLevels::NumberOfFunctions(std::size_t level) const
 {
-  return this->IsDivided(level) ? static_cast<Index>(space_.Numberings()[level].total)
+  return this->IsDivided(level) ? static_cast<Index>(this->Numbering(level).total)
                                 : this->HolderOf(level).NumberOfFunctions(this->LevelThere(level));
 }
 
@@ -71,24 +92,22 @@ LevelRelaxation RankLevels::Relaxation(std::size_t level, const MultigridOptions
   space_.Ranks().Together(
     [&]
     {
-      relaxation = this->IsDivided(level)
-                     ? LevelRelaxation{ OrderPatches(parts_[level].front()), {}, {} }
-                     : this->HolderOf(level).Relaxation(this->LevelThere(level), options);
+      relaxation =
+        this->IsDivided(level) && !this->IsOfHats(level)
+          ? LevelRelaxation{ OrderPatches(parts_[this->GridLevel(level)].front()), {}, {} }
+          : this->HolderOf(level).Relaxation(this->LevelThere(level), options);
     });
   return relaxation;
 }
 
 Components RankLevels::ComponentsOf(std::size_t level, const Job& job) const
 {
-  if (this->IsDivided(level))
-  {
-    return ComponentsOfRanks(space_.Ranks(), space_.Numberings()[level], rows_[level],
-      space_.Own().Functions().levels[level]);
-  }
   Components components;
   space_.Ranks().Together(
     [&] { components = this->HolderOf(level).ComponentsOf(this->LevelThere(level), job); });
-  return components;
+  return this->IsDivided(level)
+           ? ComponentsOfRanks(space_.Ranks(), this->Numbering(level), rows_[level], components)
+           : components;
 }
 
 double RankLevels::Extent() const
@@ -99,14 +118,37 @@ double RankLevels::Extent() const
 Columns RankLevels::SquaredNorms(const MultiVector& u, const Job& job) const
 {
   Columns norms;
-  space_.Ranks().Together([&] { norms = space_.Own().SquaredNorms(u, job); });
+  space_.Ranks().Together([&] { norms = this->Own().SquaredNorms(u, job); });
   space_.Ranks().Sum(norms.data(), norms.size());
   return norms;
 }
 
-MultiVector RankLevels::ValuesAtPoints(const MultiVector& coefficients, const Job&) const
+/// Rows that several ranks hold have the same bits in all of them, so that it does not matter which
+/// of them gives a value.
+MultiVector RankLevels::ValuesAtPoints(const MultiVector& coefficients, const Job& job) const
 {
-  return space_.ValuesAtPoints(coefficients, space_.Distribution().NumberOfOwnPoints());
+  return this->ValuesOf(coefficients, nullptr, job);
+}
+
+MultiVector RankLevels::ValuesOf(
+  const MultiVector& coefficients, std::vector<char>* hasValue, const Job& job) const
+{
+  MultiVector values;
+  MultiVector own;
+  std::vector<char> isHere;
+  space_.Ranks().Together(
+    [&]
+    {
+      values = this->Own().ValuesAtPoints(coefficients, job.threads);
+      isHere = this->Own().PointsWithFunctions();
+      own = MultiVector::Zero(space_.Distribution().NumberOfOwnPoints(), coefficients.cols());
+    });
+  std::vector<char> isReturned = space_.Distribution().ReturnPoints(values, isHere, own);
+  if (hasValue)
+  {
+    *hasValue = std::move(isReturned);
+  }
+  return own;
 }
 
 double RankLevels::UnitLength() const
@@ -136,7 +178,7 @@ MultiVector RankLevels::Load(const Job& job, Integrate&& integrate) const
 MultiVector RankLevels::LoadOfValues(const Field& f, const Job& job) const
 {
   const Field here = this->Send(f);
-  return this->Load(job, [&](int threads) { return space_.Own().LoadOfValues(here, threads); });
+  return this->Load(job, [&](int threads) { return this->Own().LoadOfValues(here, threads); });
 }
 
 MultiVector RankLevels::LoadOfWeightedValues(
@@ -145,7 +187,7 @@ MultiVector RankLevels::LoadOfWeightedValues(
   const Field here = this->Send(f);
   const std::vector<double> weightHere = space_.SendToTriangles(weight);
   return this->Load(
-    job, [&](int threads) { return space_.Own().LoadOfWeightedValues(here, weightHere, threads); });
+    job, [&](int threads) { return this->Own().LoadOfWeightedValues(here, weightHere, threads); });
 }
 
 MultiVector RankLevels::LoadOfGradients(const Field& s, const Field* scale, const Job& job) const
@@ -153,7 +195,7 @@ MultiVector RankLevels::LoadOfGradients(const Field& s, const Field* scale, cons
   const Field here = this->Send(s);
   const Field factor = scale ? this->Send(*scale) : Field();
   return this->Load(job, [&](int threads)
-    { return space_.Own().LoadOfGradients(here, scale ? &factor : nullptr, threads); });
+    { return this->Own().LoadOfGradients(here, scale ? &factor : nullptr, threads); });
 }
 
 MultiVector RankLevels::LoadOfGradientsOf(const Field& f, const Field* scale, const Job& job) const
@@ -161,49 +203,78 @@ MultiVector RankLevels::LoadOfGradientsOf(const Field& f, const Field* scale, co
   const Field here = this->Send(f);
   const Field factor = scale ? this->Send(*scale) : Field();
   return this->Load(job, [&](int threads)
-    { return space_.Own().LoadOfGradientsOf(here, scale ? &factor : nullptr, threads); });
+    { return this->Own().LoadOfGradientsOf(here, scale ? &factor : nullptr, threads); });
 }
 
 MultiVector RankLevels::LoadOfGradientsOfCoordinates(const Field* scale, const Job& job) const
 {
   const Field factor = scale ? this->Send(*scale) : Field();
   return this->Load(job, [&](int threads)
-    { return space_.Own().LoadOfGradientsOfCoordinates(scale ? &factor : nullptr, threads); });
+    { return this->Own().LoadOfGradientsOfCoordinates(scale ? &factor : nullptr, threads); });
 }
 
-/// Ranks that have parts of a triangle add up their shares of its mean.
-MultiVector RankLevels::GradientsOnTriangles(const MultiVector& coefficients, const Job& job) const
+/// Collective. Ranks that have parts of a triangle add up their shares of its mean.
+/// @param means  rows = received triangles
+/// @return       rows = own triangles
+MultiVector RankLevels::MeansOfRanks(
+  const MultiVector& means, const std::vector<double>& areas) const
 {
   MultiVector shares;
   space_.Ranks().Together(
     [&]
     {
-      const MultiVector means = space_.Own().GradientsOnTriangles(coefficients, job.threads);
-      const Eigen::Map<const Eigen::VectorXd> areas(
-        areas_.data(), static_cast<Eigen::Index>(areas_.size()));
+      const Eigen::Map<const Eigen::VectorXd> weights(
+        areas.data(), static_cast<Eigen::Index>(areas.size()));
       shares.resize(means.rows(), means.cols() + 1);
-      shares << areas.asDiagonal() * means, areas;
+      shares << weights.asDiagonal() * means, weights;
     });
   const MultiVector sums = space_.Distribution().SumTriangles(shares);
-  MultiVector means;
+  MultiVector result;
   space_.Ranks().Together(
     [&]
     {
-      means = sums.leftCols(sums.cols() - 1);
-      for (Id t = 0; t < means.rows(); ++t)
+      result = sums.leftCols(sums.cols() - 1);
+      for (Id t = 0; t < result.rows(); ++t)
       {
-        const double area = sums(t, means.cols());
-        means.row(t) *= area > 0.0 ? 1.0 / area : 0.0;
+        const double area = sums(t, result.cols());
+        result.row(t) *= area > 0.0 ? 1.0 / area : 0.0;
       }
     });
-  return means;
+  return result;
+}
+
+MultiVector RankLevels::GradientsOnTriangles(const MultiVector& coefficients, const Job& job) const
+{
+  MultiVector means;
+  space_.Ranks().Together(
+    [&] { means = this->Own().GradientsOnTriangles(coefficients, job.threads); });
+  return this->MeansOfRanks(means, areas_);
+}
+
+MultiVector RankLevels::LoadOfDirections(
+  const MultiVector& coefficients, const Field& scale, const Job& job) const
+{
+  if (!hats_)
+  {
+    const Field factor = this->Send(scale);
+    return this->Load(job,
+      [&](int threads) { return space_.Own().LoadOfDirections(coefficients, &factor, threads); });
+  }
+  MultiVector directions;
+  space_.Ranks().Together(
+    [&]
+    {
+      directions = MeanDirections(space_.Own().Functions(),
+        static_cast<Id>(space_.Own().Mesh().triangles.size()), coefficients, job.threads);
+    });
+  const Field means{ FieldAssociation::Triangles, this->MeansOfRanks(directions, grid_->areas_) };
+  return this->LoadOfGradients(means, &scale, job);
 }
 
 std::vector<char> RankLevels::PointsWithFunctions() const
 {
   std::vector<char> has;
-  const MultiVector none = MultiVector::Zero(static_cast<Id>(integrals_.size()), 1);
-  space_.ValuesAtPoints(none, space_.Distribution().NumberOfOwnPoints(), &has);
+  this->ValuesOf(MultiVector::Zero(static_cast<Id>(integrals_.size()), 1), &has, {});
   return has;
 }
 
@@ -212,14 +283,22 @@ std::shared_ptr<const SurfaceSpace> RankLevels::WithWeighedMass(
 {
   struct Weighed
   {
-    explicit Weighed(RankSpace ofRanks) : space(std::move(ofRanks)), levels(space) {}
-
-    const RankSpace space;
-    const RankLevels levels;
+    RankSpace space;
+    std::optional<RankHats> hats;
+    std::unique_ptr<const RankLevels> levels;
   };
-  const auto weighed = std::make_shared<const Weighed>(space_.WithWeighedMass(weight, job.threads));
+  const std::vector<double> received = space_.SendToTriangles(weight);
+  const auto weighed = std::make_shared<Weighed>(
+    Weighed{ space_.WithWeighedMass(received, job.threads), {}, nullptr });
+  if (hats_)
+  {
+    space_.Ranks().Together(
+      [&] { weighed->hats = hats_->WithWeighedMass(weighed->space, received, job.threads); });
+  }
+  weighed->levels =
+    std::make_unique<const RankLevels>(weighed->space, weighed->hats ? &*weighed->hats : nullptr);
   job.Check(1.0);
-  return { weighed, &weighed->levels };
+  return { weighed, weighed->levels.get() };
 }
 
 const DividedRows* RankLevels::Divided(std::size_t level) const
@@ -234,8 +313,13 @@ std::shared_ptr<const DividedLevel> RankLevels::Divide(
   {
     return nullptr;
   }
-  return std::make_shared<RankLevel>(space_.Ranks(), space_.Numberings()[level], rows_[level],
-    this->IsDivided(level + 1) ? &rows_[level + 1] : nullptr, parts_[level], A, options.threads);
+  LevelBorder border =
+    this->IsOfHats(level)
+      ? BorderOfGroups(space_.Ranks(), this->Numbering(level), A, options.threads)
+      : BorderOfPatches(space_.Ranks(), this->Numbering(level), parts_[this->GridLevel(level)]);
+  return std::make_shared<RankLevel>(space_.Ranks(), this->Numbering(level), rows_[level],
+    this->IsDivided(level + 1) ? &rows_[level + 1] : nullptr, std::move(border), A,
+    options.threads);
 }
 
 Progress OfAllRanks(const Communicator& ranks, const Progress& progress)

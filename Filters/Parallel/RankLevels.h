@@ -2,6 +2,7 @@
 #ifndef GridFEM_RankLevels_h
 #define GridFEM_RankLevels_h
 
+#include "Parallel/RankHats.h"
 #include "Parallel/RankLevel.h"
 #include "Parallel/RankSpace.h"
 #include "Spaces/SpaceLevels.h"
@@ -12,16 +13,39 @@
 namespace gridfem
 {
 
-/// First the divided levels, whose functions are those of RankSpace::Numberings, then the shared
-/// ones. The mesh is that of the rank's own triangles. All functions are collective but those that
-/// return a number; what a progress of theirs says has to be the same on all ranks. Keeps a
-/// reference to the space.
+/// First the divided levels, whose functions are those of RankHats::Numbering, if there are hats,
+/// and of RankSpace::Numberings, then the shared ones. The mesh is that of the rank's own
+/// triangles. All functions are collective but those that return a number or a reference; what a
+/// progress of theirs says has to be the same on all ranks. Keeps references to the space and the
+/// hats.
 class RankLevels : public SurfaceSpace
 {
 public:
-  explicit RankLevels(const RankSpace& space);
+  /// @param hats  of the same surface, above the levels of the grid; or null
+  explicit RankLevels(const RankSpace& space, const RankHats* hats = nullptr);
 
   const RankSpace& Space() const { return space_; }
+
+  /// What this rank adds to the finest level, as a space on the triangles that it has received.
+  const FiniteElementSpace& Own() const;
+
+  /// Of a divided level.
+  const LevelNumbering& Numbering(std::size_t level) const;
+
+  const RankRows& Rows(std::size_t level) const { return rows_[level]; }
+
+  /// Those of the grid: itself, where there are no hats.
+  const RankLevels& OfGrid() const { return grid_ ? *grid_ : *this; }
+  const SurfaceSpace* NestedLevels() const override { return grid_.get(); }
+
+  /// Null where there are none.
+  const RankHats* Hats() const { return hats_; }
+
+  /// ∫ scale <d, ∇b_i> with the directions d of gradients, ∇u / |∇u|; whole in all rows.
+  /// @param coefficients  of functions u of the grid
+  /// @param scale         on this rank's own points or triangles
+  MultiVector LoadOfDirections(
+    const MultiVector& coefficients, const Field& scale, const Job& job = {}) const;
 
   std::size_t NumberOfLevels() const override;
   Index NumberOfFunctions(std::size_t level) const override;
@@ -57,17 +81,26 @@ public:
 private:
   bool IsDivided(std::size_t level) const { return level < rows_.size(); }
   /// The space that has a level here, and its number there.
-  const GridSpace& HolderOf(std::size_t level) const;
+  const SpaceLevels& HolderOf(std::size_t level) const;
   std::size_t LevelThere(std::size_t level) const;
+  /// The level of the grid.
+  std::size_t GridLevel(std::size_t level) const { return hats_ ? level - 1 : level; }
+  bool IsOfHats(std::size_t level) const { return hats_ && level == 0; }
+  MultiVector ValuesOf(
+    const MultiVector& coefficients, std::vector<char>* hasValue, const Job& job) const;
+  MultiVector MeansOfRanks(const MultiVector& means, const std::vector<double>& areas) const;
   Field Send(const Field& own) const;
   template<class Integrate>
   MultiVector Load(const Job& job, Integrate&& integrate) const;
 
   const RankSpace& space_;
+  const RankHats* hats_;
+  std::unique_ptr<const RankLevels> grid_;     // below hats
   std::vector<RankRows> rows_;                 // of the divided levels
-  std::vector<std::vector<PatchLevel>> parts_; // PatchesByRanks
+  std::vector<std::vector<PatchLevel>> parts_; // PatchesByRanks of those of the grid
   std::vector<double> integrals_;
-  std::vector<double> areas_; // of this rank's parts of the triangles that it has received
+  /// Of this rank's parts of the triangles that it has received, as the functions see them.
+  std::vector<double> areas_;
 };
 
 /// An abort that one rank asks for is one of all: the others would wait for it.

@@ -53,10 +53,17 @@ void RequireBytes(double bytes, double available, const Grid& grid, const char* 
 
 } // namespace
 
-void RequireMemory(const Communicator& ranks, const TriangleMesh& received, const Grid& grid)
+void RequireMemory(
+  const Communicator& ranks, const TriangleMesh& received, const Grid& grid, bool hasHats)
 {
   double bytes = 0.0;
-  ranks.Together([&] { bytes = OfRank * EstimateMemory(received, grid).bytes; });
+  ranks.Together(
+    [&]
+    {
+      const MemoryEstimate estimate = EstimateMemory(received, grid);
+      bytes = OfRank *
+              (estimate.bytes + (hasHats ? EstimateHatMemory(received, estimate.functions) : 0.0));
+    });
   const double ofMachine = ranks.SumOfMachine(bytes);
   ranks.Together(
     [&]

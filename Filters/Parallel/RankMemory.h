@@ -15,8 +15,10 @@ struct Grid;
 /// of a machine need more than it has, or one rank more than the limit of its process (`ulimit -v`)
 /// leaves.
 /// @param received  the triangles that this rank clips
+/// @param hasHats   hat functions come above those of the grid
 /// Throws RankFailure on all ranks.
-void RequireMemory(const Communicator& ranks, const TriangleMesh& received, const Grid& grid);
+void RequireMemory(
+  const Communicator& ranks, const TriangleMesh& received, const Grid& grid, bool hasHats = false);
 
 } // namespace gridfem
 

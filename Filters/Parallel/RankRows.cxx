@@ -40,8 +40,10 @@ void ForColumns(Block<Real> x, Body&& body)
 
 } // namespace
 
-RankRows::RankRows(const Communicator& ranks, Index foreign, std::vector<RankNeighbour> neighbours)
-  : ranks_(ranks), foreign_(foreign), neighbours_(std::move(neighbours))
+RankRows::RankRows(const Communicator& ranks, Index foreign, std::vector<RankNeighbour> neighbours,
+  bool arePartsProlonged)
+  : ranks_(ranks), foreign_(foreign), arePartsProlonged_(arePartsProlonged),
+    neighbours_(std::move(neighbours))
 {
   std::vector<char> hasOwner(foreign_, 0);
   std::size_t rows = 0;
@@ -196,9 +198,13 @@ void RankRows::TakeForeign(Block<double> x) const
 
 void RankRows::TakeLeast(Block<double> x) const
 {
-  this->Exchange<double>(shared_, shared_, x);
-  this->ForReceived<double>(shared_, x.cols(),
-    [&](Index row, const auto& values) { x.row(row) = x.row(row).cwiseMin(values); });
+  ForColumns<double>(x,
+    [this](Block<double> some)
+    {
+      this->Exchange<double>(shared_, shared_, some);
+      this->ForReceived<double>(shared_, some.cols(),
+        [&](Index row, const auto& values) { some.row(row) = some.row(row).cwiseMin(values); });
+    });
 }
 
 } // namespace gridfem

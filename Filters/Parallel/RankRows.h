@@ -18,9 +18,12 @@ class RankRows : public DividedRows
 public:
   /// @param foreign     rows of other ranks, which come first
   /// @param neighbours  per rank, which ascend: the rows that both hold, in the same order there
-  RankRows(const Communicator& ranks, Index foreign, std::vector<RankNeighbour> neighbours);
+  /// @param arePartsProlonged  see DividedRows
+  RankRows(const Communicator& ranks, Index foreign, std::vector<RankNeighbour> neighbours,
+    bool arePartsProlonged = false);
 
   Index Foreign() const override { return foreign_; }
+  bool ArePartsProlonged() const override { return arePartsProlonged_; }
   void Sum(Block<float> x) const override;
   void Sum(Block<double> x) const override;
   void TakeForeign(Block<float> x) const override;
@@ -28,7 +31,7 @@ public:
   void SumNumbers(double* values, Id count) const override { ranks_.Sum(values, count); }
   MultiVector Gather(const Eigen::RowVectorXd& numbers) const override;
 
-  /// Rows become the least of what the ranks have in them. Few columns.
+  /// Rows become the least of what the ranks have in them.
   void TakeLeast(Block<double> x) const;
 
 private:
@@ -45,6 +48,7 @@ private:
 
   Communicator ranks_;
   Index foreign_;
+  bool arePartsProlonged_;
   std::vector<RankNeighbour> neighbours_;
   std::size_t lower_ = 0;  // neighbours of lower rank
   Rows shared_;            // with each neighbour

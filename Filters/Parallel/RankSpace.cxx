@@ -3,6 +3,7 @@
 #include "Base/Parallel.h"
 #include "Parallel/OwnPieces.h"
 #include "Parallel/RankMemory.h"
+#include "Problems/MemoryEstimate.h"
 
 #include <algorithm>
 #include <limits>
@@ -14,9 +15,33 @@ namespace gridfem
 namespace
 {
 
-/// Collective.
-ClipFrame FrameOf(const Communicator& ranks, const TriangleMesh& own, const SpaceOptions& options)
+/// Collective. As DepthForPoints, from the sums over the ranks: points of borders count once, as
+/// far as triangles tell.
+void LimitFunctions(
+  const Communicator& ranks, const TriangleMesh& own, double functionsPerPoint, Grid& grid)
 {
+  double points = WeldedPoints(own);
+  ranks.Sum(&points, 1);
+  const auto functions = [&]
+  {
+    double patches = 0.0;
+    ranks.Together(
+      [&] { patches = own.triangles.empty() ? 0.0 : EstimateMemory(own, grid).patches; });
+    ranks.Sum(&patches, 1);
+    return FunctionsOfPatches(patches);
+  };
+  while (grid.depth > MinimumDepth && functions() > functionsPerPoint * points)
+  {
+    --grid.depth;
+    grid.spacing *= 2.0;
+  }
+}
+
+/// Collective.
+ClipFrame FrameOf(
+  const Communicator& ranks, const TriangleMesh& own, const RankSpaceOptions& rankOptions)
+{
+  const SpaceOptions& options = rankOptions.space.functions;
   constexpr double Infinity = std::numeric_limits<double>::infinity();
   std::array<double, 7> extremes; // largest of -x, -y, -z, x, y, z, and of their absolute values
   ranks.Together(
@@ -44,6 +69,10 @@ ClipFrame FrameOf(const Communicator& ranks, const TriangleMesh& own, const Spac
     const Vec3 high(extremes[3], extremes[4], extremes[5]);
     frame.grid = EmbedInGrid({ low, high }, {}, options.depth);
     extremes[6] = low.cwiseAbs().cwiseMax(high.cwiseAbs()).maxCoeff();
+  }
+  if (rankOptions.isBelowHats)
+  {
+    LimitFunctions(ranks, own, rankOptions.functionsPerPoint, frame.grid);
   }
   frame.tolerance = SnapTolerance(extremes[6], frame.grid);
   return frame;
@@ -172,11 +201,13 @@ RankSpace::RankSpace(const Communicator& ranks, const TriangleMesh& own,
   : ranks_(ranks), coarsestSize_(options.space.coarsestSize),
     numberings_(std::make_shared<std::vector<LevelNumbering>>())
 {
-  const SpaceOptions& functions = options.space.functions;
+  ClipFrame frame = FrameOf(ranks_, own, options);
+  SpaceOptions functions = options.space.functions;
+  functions.depth = frame.grid.depth;
   const FunctionSupport support =
     functions.connectivityAware ? FunctionSupport::ConnectivityAware : FunctionSupport::Plain;
-  ClipFrame frame = FrameOf(ranks_, own, functions);
-  const BlockPartition partition(ranks_, own, frame, options.granularity);
+  partition_ = std::make_shared<const BlockPartition>(ranks_, own, frame, options.granularity);
+  const BlockPartition& partition = *partition_;
   distribution_ = std::make_shared<Redistribution>(ranks_, own, frame.grid, partition);
 
   GridFunctions all; // in and around the cells of this rank
@@ -184,7 +215,7 @@ RankSpace::RankSpace(const Communicator& ranks, const TriangleMesh& own,
   auto mesh = std::make_shared<TriangleMesh>(distribution_->TakeMesh());
   copies_ =
     std::make_shared<const TriangleCopies>(ranks_, own, copies, frame.grid, partition, *mesh);
-  RequireMemory(ranks_, *mesh, frame.grid);
+  RequireMemory(ranks_, *mesh, frame.grid, options.isBelowHats);
   ranks_.Together(
     [&]
     {
@@ -218,6 +249,7 @@ RankSpace::RankSpace(const Communicator& ranks, const TriangleMesh& own,
   ranks_.Together(
     [&]
     {
+      FindComponents(all, functions.threads);
       auto divided = std::make_shared<const GridFunctions>(std::move(all));
       // All levels of this rank, none of which is the coarsest of the whole.
       auto operators = std::make_shared<const LevelOperators>(
@@ -229,14 +261,22 @@ RankSpace::RankSpace(const Communicator& ranks, const TriangleMesh& own,
       whole->support = support;
       whole->clipped.grid = own_->Functions().GetGrid();
       whole->levels = std::move(shared);
-      whole->component = FunctionComponents(whole->Finest());
-      whole->numberOfComponents =
-        whole->component.empty()
-          ? 0
-          : 1 + *std::max_element(whole->component.begin(), whole->component.end());
+      FindComponents(*whole);
       sharedFunctions_ = std::move(whole);
     });
   this->AddElements(functions.threads);
+}
+
+int RankSpace::OwnerOfPoint(const Vec3& point) const
+{
+  const Grid& grid = own_->Functions().GetGrid();
+  const Vec3 place = grid.ToGrid(point);
+  CellIndex cell;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    cell[axis] = std::clamp(static_cast<int>(place[axis]), 0, grid.CellsPerSide() - 1);
+  }
+  return partition_->OwnerOf(MortonEncode(cell), grid.depth);
 }
 
 /// Collective. The levels that all ranks hold, with the element matrices of all.
@@ -279,9 +319,8 @@ std::vector<double> RankSpace::SendToTriangles(const std::vector<double>& own) c
   return received;
 }
 
-RankSpace RankSpace::WithWeighedMass(const std::vector<double>& weight, int threads) const
+RankSpace RankSpace::WithWeighedMass(const std::vector<double>& received, int threads) const
 {
-  const std::vector<double> received = this->SendToTriangles(weight);
   RankSpace weighed = *this;
   ranks_.Together(
     [&]
@@ -382,27 +421,6 @@ std::vector<PatchLevel> RankSpace::Share(const PatchLevel& level, const Array<Li
       levels = BuildLevels(std::move(finest), std::move(patches.links), support);
     });
   return levels;
-}
-
-MultiVector RankSpace::ValuesAtPoints(
-  const MultiVector& coefficients, Id ownPoints, std::vector<char>* hasValue) const
-{
-  MultiVector values;
-  MultiVector own;
-  std::vector<char> isHere;
-  ranks_.Together(
-    [&]
-    {
-      values = own_->ValuesAtPoints(coefficients);
-      isHere = own_->PointsWithFunctions();
-      own = MultiVector::Zero(ownPoints, coefficients.cols());
-    });
-  std::vector<char> isReturned = distribution_->ReturnPoints(values, isHere, own);
-  if (hasValue)
-  {
-    *hasValue = std::move(isReturned);
-  }
-  return own;
 }
 
 void RankSpace::SumAtPoints(MultiVector& own) const

@@ -7,6 +7,7 @@
 #include "Parallel/TriangleCopies.h"
 #include "Spaces/GridSpace.h"
 
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -16,7 +17,11 @@ namespace gridfem
 struct RankSpaceOptions
 {
   GridSpaceOptions space;
-  int granularity = 0; // level of the blocks that are divided among the ranks; BlockPartition
+  int granularity = 0;      // level of the blocks that are divided among the ranks; BlockPartition
+  bool isBelowHats = false; // which need memory, too
+  /// Below hats: the grid is made coarser until it has at most so many functions for each point of
+  /// the surface. [DepthForPoints]
+  double functionsPerPoint = std::numeric_limits<double>::infinity();
 };
 
 /// A copy shares all that does not change.
@@ -33,6 +38,9 @@ public:
   const Communicator& Ranks() const { return ranks_; }
   const Redistribution& Distribution() const { return *distribution_; }
   const TriangleCopies& Copies() const { return *copies_; }
+
+  /// The rank whose cells contain a point of the surface, world units.
+  int OwnerOfPoint(const Vec3& point) const;
 
   /// The patches of this rank's cells as a space of their own. Its levels are the divided ones and
   /// the first of the shared ones. Functions of divided levels are those of Numberings(), so that
@@ -51,15 +59,9 @@ public:
   /// Points at the same place of one sheet have values that are equal bit for bit.
   const Array<Index>& PointPatches() const { return own_->Functions().pointPatch; }
 
-  /// Collective. Values at this rank's own points, from the coefficients of the functions that
-  /// touch its cells.
-  /// @return per own point; 0 where no rank has a patch with it
-  MultiVector ValuesAtPoints(
-    const MultiVector& coefficients, Id ownPoints, std::vector<char>* hasValue = nullptr) const;
-
   /// Collective. The same functions with the mass ∫ w b_i b_j.
-  /// @param weight  w >= 0 of each of this rank's own triangles
-  RankSpace WithWeighedMass(const std::vector<double>& weight, int threads = 0) const;
+  /// @param received  w >= 0 of each triangle that this rank has received: SendToTriangles
+  RankSpace WithWeighedMass(const std::vector<double>& received, int threads = 0) const;
 
   /// Collective. Numbers of this rank's own triangles, at those that this rank has received.
   std::vector<double> SendToTriangles(const std::vector<double>& own) const;
@@ -78,6 +80,7 @@ private:
 
   Communicator ranks_;
   Index coarsestSize_;
+  std::shared_ptr<const BlockPartition> partition_;
   std::shared_ptr<Redistribution> distribution_;
   std::shared_ptr<const TriangleCopies> copies_;
   std::shared_ptr<const GridSpace> own_;

@@ -379,6 +379,7 @@ bool vtkGeodesicDistance::ComputeTogether(
   }
   vtkPolyData* piece = vtkPolyData::GetData(inputs[0]);
   state.options.space.joinAtPoints = true; // paths lead through points where sheets touch
+  state.options.functionsPerPoint = gridfem::AsManyAsWanted; // heat flows on the grid
   state.RunTogether(
     [&](const gridfem::Progress& progress)
     {
@@ -445,7 +446,7 @@ void vtkGeodesicDistance::SolveTogether(
         output->ShallowCopy(piece);
       }
       this->WriteDistance(output);
-      gridfem::AddDistributed(this->Depth, output);
+      gridfem::AddDistributed(this->State->together.Depth(), output);
       if (gridfem::Ranks().IsFirst())
       {
         this->Warn();

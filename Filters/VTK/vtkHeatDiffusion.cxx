@@ -354,7 +354,7 @@ void vtkHeatDiffusion::WriteDistributed(vtkPolyData* piece, vtkInformationVector
     this->WriteStep(shown, piece, output);
   }
   this->WriteFacts(shown, output);
-  gridfem::AddDistributed(this->Depth, output);
+  gridfem::AddDistributed(this->State->together.Depth(), output);
 }
 
 void vtkHeatDiffusion::FreeStages()

@@ -261,6 +261,7 @@ bool vtkLaplaceSpectrum::ComputeTogether(
   }
   vtkPolyData* piece = vtkPolyData::GetData(inputs[0]);
   state.options.trackMetric = false;
+  state.options.functionsPerPoint = gridfem::EnoughToEstimate;
   gridfem::SpectrumRequest request;
   request.numberOfModes = this->NumberOfModes;
   request.completeMultiplets = this->CompleteMultiplets;
@@ -285,7 +286,7 @@ void vtkLaplaceSpectrum::WriteDistributed(vtkPolyData* piece, vtkInformationVect
   {
     this->WriteModes(piece, outputs->GetInformationObject(0), output);
   }
-  gridfem::AddDistributed(this->Depth, output);
+  gridfem::AddDistributed(this->State->together.Depth(), output);
   if (gridfem::Ranks().IsFirst())
   {
     this->WriteTable(vtkTable::GetData(outputs, 1));

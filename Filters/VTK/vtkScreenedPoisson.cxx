@@ -574,7 +574,7 @@ void vtkScreenedPoisson::WriteDistributed(vtkPolyData* piece, vtkInformationVect
   {
     gridfem::AddFieldNumber(output, "Misfit", data.Constrained.Misfit());
   }
-  gridfem::AddDistributed(this->Depth, output);
+  gridfem::AddDistributed(this->State->together.Depth(), output);
   if (gridfem::Ranks().IsFirst())
   {
     this->WriteTables(outputs);

@@ -509,6 +509,7 @@ void vtkSpectralSignatures::ComputeModesTogether(
   gridfem::SpectrumRequest request;
   request.numberOfModes = this->NumberOfModes;
   request.completeMultiplets = true;
+  this->State->options.functionsPerPoint = gridfem::EnoughToEstimate;
   state.UpdateTogether(piece);
   data.Solved.UpdateTogether(state, request, progress.Part(0.3, 1.0));
   RequireNonConstant(data.Solved.spectrum);

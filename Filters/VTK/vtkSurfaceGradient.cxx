@@ -220,7 +220,7 @@ bool vtkSurfaceGradient::ComputeTogether(
             this->WriteArrays(output);
           }
           this->WriteReport(this->Data->Derivatives.report, accuracy, output);
-          gridfem::AddDistributed(this->Depth, output);
+          gridfem::AddDistributed(this->State->together.Depth(), output);
         });
     });
   return true;

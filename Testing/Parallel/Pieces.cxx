@@ -14,6 +14,16 @@ RankSpaceOptions StableOptions()
   return options;
 }
 
+std::unique_ptr<const FiniteElementSpace> WholeSpace(
+  const TriangleMesh& mesh, const RankSpaceOptions& options, bool hasHats)
+{
+  if (hasHats)
+  {
+    return std::make_unique<HatSpace>(BuildHatSpace(mesh, options.space));
+  }
+  return std::make_unique<GridSpace>(BuildGridSpace(mesh, options.space));
+}
+
 MultiVector VectorsAt(const std::vector<Vec3>& points)
 {
   MultiVector values(static_cast<Id>(points.size()), 3);

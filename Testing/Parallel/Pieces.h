@@ -2,10 +2,11 @@
 #ifndef GridFEM_Testing_Pieces_h
 #define GridFEM_Testing_Pieces_h
 
-#include "Parallel/RankLevels.h"
+#include "Parallel/RankSurface.h"
 #include "Problems/SurfaceDerivatives.h"
 #include "Surfaces.h"
 
+#include <memory>
 #include <vector>
 
 namespace gridfem::testing
@@ -13,6 +14,10 @@ namespace gridfem::testing
 
 /// With which few iterations lead to small tolerances.
 RankSpaceOptions StableOptions();
+
+/// The functions of a grid, or hats above them, as one process holds them.
+std::unique_ptr<const FiniteElementSpace> WholeSpace(
+  const TriangleMesh& mesh, const RankSpaceOptions& options, bool hasHats);
 
 /// Three columns, which differ from point to point.
 MultiVector VectorsAt(const std::vector<Vec3>& points);

@@ -89,21 +89,25 @@ TEST(RankConditions, WeighedAndUnknownValuesCountAsOnOneRank)
       {
         continue;
       }
-      SCOPED_TRACE(surface.name + ", weight " + std::to_string(lambda));
-      const GridSpace alone = BuildGridSpace(surface.mesh, StableOptions().space);
-      const Partial expected =
-        SolvePartial(alone, surface.mesh, HoldPoints(alone, {}, MultiVector(0, 3)), lambda);
-      EXPECT_TRUE(expected.solution.report.converged);
-      EXPECT_GT(expected.ignored, 0);
+      for (const bool hasHats : { false, true })
+      {
+        SCOPED_TRACE(
+          surface.name + (hasHats ? ", hats" : "") + ", weight " + std::to_string(lambda));
+        const auto alone = WholeSpace(surface.mesh, StableOptions(), hasHats);
+        const Partial expected =
+          SolvePartial(*alone, surface.mesh, HoldPoints(*alone, {}, MultiVector(0, 3)), lambda);
+        EXPECT_TRUE(expected.solution.report.converged);
+        EXPECT_GT(expected.ignored, 0);
 
-      const Piece piece = PieceOf(surface.mesh, Dealing::Shuffled, false);
-      const RankSpace space(ranks, piece.mesh, StableOptions());
-      const RankLevels levels(space);
-      const Partial found =
-        SolvePartial(levels, piece.mesh, HoldPoints(space, {}, MultiVector(0, 3)), lambda);
-      EXPECT_TRUE(found.solution.report.converged);
-      EXPECT_EQ(found.ignored, expected.ignored);
-      ExpectRows("values", found.atPoints, expected.atPoints, piece.points);
+        const Piece piece = PieceOf(surface.mesh, Dealing::Shuffled, false);
+        const RankSurface pieces(ranks, piece.mesh, StableOptions(), hasHats);
+        const RankLevels& levels = pieces.Levels();
+        const Partial found =
+          SolvePartial(levels, piece.mesh, HoldPoints(levels, {}, MultiVector(0, 3)), lambda);
+        EXPECT_TRUE(found.solution.report.converged);
+        EXPECT_EQ(found.ignored, expected.ignored);
+        ExpectRows("values", found.atPoints, expected.atPoints, piece.points);
+      }
     }
   }
 }
@@ -112,13 +116,14 @@ TEST(RankConditions, AWrongWeightOfOneRankFailsOnAll)
 {
   const Communicator ranks(MPI_COMM_WORLD);
   const Piece piece = PieceOf(Surfaces().front().mesh, Dealing::Contiguous, false);
-  const RankSpace space(ranks, piece.mesh, Options(4));
+  const RankSurface surface(ranks, piece.mesh, Options(4), true);
   std::vector<double> weight(piece.mesh.triangles.size(), 1.0);
   if (ranks.Rank() == ranks.Size() - 1)
   {
     weight.back() = std::nan("");
   }
-  EXPECT_THROW(space.WithWeighedMass(weight), RankFailure);
+  EXPECT_THROW(surface.Levels().WithWeighedMass(weight), RankFailure);
+  EXPECT_THROW(surface.Levels().OfGrid().WithWeighedMass(weight), RankFailure);
 }
 
 namespace
@@ -141,7 +146,8 @@ std::vector<NamedSurface> WithBoundary()
 }
 
 /// Σ load_i x_i for the corners x of functions, which is ∮ f x, and Σ load_i.
-MultiVector MomentsOf(const SurfaceSpace& space, const GridSpace& own, const MultiVector& load)
+MultiVector MomentsOf(
+  const SurfaceSpace& space, const FiniteElementSpace& own, const MultiVector& load)
 {
   MultiVector place(load.rows(), 4);
   place << own.EmbeddingOfMesh(), MultiVector::Ones(load.rows(), 1);
@@ -167,21 +173,23 @@ TEST(RankConditions, AFluxIsThatOfOneRank)
   const Communicator ranks(MPI_COMM_WORLD);
   for (const NamedSurface& surface : WithBoundary())
   {
-    for (const Dealing dealing : { Dealing::Shuffled, Dealing::OneRank })
+    for (const bool hasHats : { false, true })
     {
-      SCOPED_TRACE(surface.name);
-      const GridSpace alone = BuildGridSpace(surface.mesh, StableOptions().space);
+      SCOPED_TRACE(surface.name + (hasHats ? ", hats" : ""));
+      const auto whole = WholeSpace(surface.mesh, StableOptions(), hasHats);
+      const FiniteElementSpace& alone = *whole;
       const MultiVector flux = VectorsAt(surface.mesh.points);
       const BoundaryTerms expected = TermsOnBoundary(alone, surface.mesh, true, &flux, nullptr);
-      const Piece piece = PieceOf(surface.mesh, dealing, false);
-      const RankSpace space(ranks, piece.mesh, StableOptions());
-      const RankLevels levels(space);
+      const Piece piece =
+        PieceOf(surface.mesh, hasHats ? Dealing::Contiguous : Dealing::Shuffled, false);
+      const RankSurface pieces(ranks, piece.mesh, StableOptions(), hasHats);
+      const RankLevels& levels = pieces.Levels();
       const MultiVector own = VectorsAt(piece.mesh.points);
       const BoundaryTerms found = TermsOnBoundary(levels, true, &own, nullptr);
       ASSERT_TRUE(found.isThere);
       EXPECT_EQ(found.held.values.rows(), 0);
       const MultiVector moments = MomentsOf(alone, alone, expected.load);
-      const MultiVector ours = MomentsOf(levels, space.Own(), found.load);
+      const MultiVector ours = MomentsOf(levels, levels.Own(), found.load);
       EXPECT_LE((ours - moments).cwiseAbs().maxCoeff(), 1e-9 * moments.cwiseAbs().maxCoeff());
 
       if (surface.name != "soup" && surface.name != "half a sphere")
@@ -211,54 +219,61 @@ TEST(RankConditions, TheBoundaryIsHeldAsOnOneRank)
   const Communicator ranks(MPI_COMM_WORLD);
   for (const NamedSurface& surface : WithBoundary())
   {
-    if (surface.name == "soup" || surface.name == "sheets") // held at points that are two
+    for (const bool hasHats : { false, true })
     {
-      continue;
-    }
-    SCOPED_TRACE(surface.name);
-    const auto valuesOf = [](const TriangleMesh& mesh)
-    {
-      MultiVector values = VectorsAt(mesh.points);
-      for (Id k = 0; k < values.rows(); ++k)
+      if (!hasHats && (surface.name == "soup" || surface.name == "sheets")) // points that are two
       {
-        if (mesh.points[k][1] > 0.9)
-        {
-          values(k, 0) = std::nan("");
-        }
+        continue;
       }
-      return values;
-    };
-    const GridSpace alone = BuildGridSpace(surface.mesh, StableOptions().space);
-    const MultiVector values = valuesOf(surface.mesh);
-    const BoundaryTerms expected = TermsOnBoundary(alone, surface.mesh, true, nullptr, &values);
-    const Piece piece = PieceOf(surface.mesh, Dealing::Shuffled, false);
-    const RankSpace space(ranks, piece.mesh, StableOptions());
-    const RankLevels levels(space);
-    const MultiVector own = valuesOf(piece.mesh);
-    const BoundaryTerms found = TermsOnBoundary(levels, true, nullptr, &own);
-    ASSERT_TRUE(found.isThere);
-    EXPECT_EQ(found.load.size(), 0);
-    auto held = static_cast<double>(found.held.values.rows());
-    ranks.Sum(&held, 1);
-    EXPECT_EQ(held, static_cast<double>(expected.held.values.rows()));
-    EXPECT_NEAR(
-      LargestOf(ranks, found.held.values), expected.held.values.cwiseAbs().maxCoeff(), 1e-12);
+      SCOPED_TRACE(surface.name + (hasHats ? ", hats" : ""));
+      const auto valuesOf = [](const TriangleMesh& mesh)
+      {
+        MultiVector values = VectorsAt(mesh.points);
+        for (Id k = 0; k < values.rows(); ++k)
+        {
+          if (mesh.points[k][1] > 0.9)
+          {
+            values(k, 0) = std::nan("");
+          }
+        }
+        return values;
+      };
+      const auto whole = WholeSpace(surface.mesh, StableOptions(), hasHats);
+      const FiniteElementSpace& alone = *whole;
+      const MultiVector values = valuesOf(surface.mesh);
+      const BoundaryTerms expected = TermsOnBoundary(alone, surface.mesh, true, nullptr, &values);
+      const Piece piece = PieceOf(surface.mesh, Dealing::Shuffled, false);
+      const RankSurface pieces(ranks, piece.mesh, StableOptions(), hasHats);
+      const RankLevels& levels = pieces.Levels();
+      const MultiVector own = valuesOf(piece.mesh);
+      const BoundaryTerms found = TermsOnBoundary(levels, true, nullptr, &own);
+      ASSERT_TRUE(found.isThere);
+      EXPECT_EQ(found.load.size(), 0);
+      auto held = static_cast<double>(found.held.values.rows());
+      ranks.Sum(&held, 1);
+      if (surface.name != "soup" && surface.name != "sheets") // whose points hold one hat twice
+      {
+        EXPECT_EQ(held, static_cast<double>(expected.held.values.rows()));
+      }
+      EXPECT_NEAR(
+        LargestOf(ranks, found.held.values), expected.held.values.cwiseAbs().maxCoeff(), 1e-12);
 
-    if (surface.name == "on planes")
-    {
-      continue;
+      if (surface.name == "on planes")
+      {
+        continue;
+      }
+      const auto solve = [&](const SurfaceSpace& on, const HeldValues& what)
+      {
+        ConstraintOptions constraints;
+        const ConstrainedHierarchy hierarchy(
+          on, 0.05, 1.0, what.rows, constraints.penalty, Exactly().multigrid);
+        const ConstrainedSolution solution = SolveConstrained(
+          on, 0.05, hierarchy, MultiVector(), what.values, constraints, Exactly().solve);
+        EXPECT_TRUE(solution.report.converged);
+        return on.ValuesAtPoints(solution.coefficients);
+      };
+      ExpectRows("values", solve(levels, found.held), solve(alone, expected.held), piece.points);
     }
-    const auto solve = [&](const SurfaceSpace& on, const HeldValues& what)
-    {
-      ConstraintOptions constraints;
-      const ConstrainedHierarchy hierarchy(
-        on, 0.05, 1.0, what.rows, constraints.penalty, Exactly().multigrid);
-      const ConstrainedSolution solution = SolveConstrained(
-        on, 0.05, hierarchy, MultiVector(), what.values, constraints, Exactly().solve);
-      EXPECT_TRUE(solution.report.converged);
-      return on.ValuesAtPoints(solution.coefficients);
-    };
-    ExpectRows("values", solve(levels, found.held), solve(alone, expected.held), piece.points);
   }
 }
 
@@ -268,10 +283,13 @@ TEST(RankConditions, AClosedSurfaceHasNoBoundary)
   for (const int surface : { 0, 1, 2 })
   {
     const Piece piece = PieceOf(Surfaces()[surface].mesh, Dealing::Shuffled, false);
-    const RankSpace space(ranks, piece.mesh, StableOptions());
+    const RankSurface pieces(ranks, piece.mesh, StableOptions(), true);
     const MultiVector own = VectorsAt(piece.mesh.points);
-    const BoundaryTerms found = TermsOnBoundary(RankLevels(space), true, &own, &own);
-    EXPECT_FALSE(found.isThere);
-    EXPECT_EQ(found.load.size(), 0);
+    for (const RankLevels* levels : { &pieces.Levels(), &pieces.Levels().OfGrid() })
+    {
+      const BoundaryTerms found = TermsOnBoundary(*levels, true, &own, &own);
+      EXPECT_FALSE(found.isThere);
+      EXPECT_EQ(found.load.size(), 0);
+    }
   }
 }

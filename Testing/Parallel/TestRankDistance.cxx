@@ -63,9 +63,10 @@ void ExpectOneValue(const Communicator& ranks, const Piece& piece, const MultiVe
   }
 }
 
-void CompareDistances(const NamedSurface& surface, Dealing dealing, int depth, bool byAll)
+void CompareDistances(
+  const NamedSurface& surface, Dealing dealing, int depth, bool byAll, bool hasHats)
 {
-  SCOPED_TRACE(surface.name);
+  SCOPED_TRACE(surface.name + (hasHats ? ", hats" : ""));
   const Communicator ranks(MPI_COMM_WORLD);
   RankSpaceOptions options = Options(depth);
   options.space.normalStabilization = 0.1;
@@ -80,8 +81,7 @@ void CompareDistances(const NamedSurface& surface, Dealing dealing, int depth, b
       sources.push_back(static_cast<Id>(k));
     }
   }
-  const GeodesicDistance alone(
-    std::make_shared<GridSpace>(BuildGridSpace(*mesh, options.space)), mesh, ExactDistance());
+  const GeodesicDistance alone(WholeSpace(*mesh, options, hasHats), mesh, ExactDistance());
   const DistanceField expected = alone.From(sources, Exactly().solve);
   ASSERT_TRUE(expected.report.converged);
 
@@ -100,10 +100,9 @@ void CompareDistances(const NamedSurface& surface, Dealing dealing, int depth, b
       own.push_back(static_cast<Id>(k));
     }
   }
-  const RankSpace space(ranks, piece.mesh, options);
-  const RankLevels levels(space);
+  const RankSurface pieces(ranks, piece.mesh, options, hasHats);
   const RankDistance distance(
-    levels, std::make_shared<const TriangleMesh>(piece.mesh), ExactDistance());
+    pieces.Levels(), std::make_shared<const TriangleMesh>(piece.mesh), ExactDistance());
   const DistanceField found = distance.From(own, Exactly().solve);
   EXPECT_TRUE(found.report.converged);
   EXPECT_EQ(found.unreached, 0);
@@ -118,9 +117,15 @@ TEST(RankDistance, DistancesAreThoseOfOneRank)
 {
   for (const int surface : { 0, 2, 4 })
   {
-    CompareDistances(Surfaces()[surface], Dealing::Shuffled, 4, true);
+    CompareDistances(Surfaces()[surface], Dealing::Shuffled, 4, true, false);
   }
-  CompareDistances(Surfaces()[1], Dealing::Contiguous, 4, false);
+  CompareDistances(Surfaces()[1], Dealing::Contiguous, 4, false, false);
+}
+
+TEST(RankDistance, DistancesOfHatsAreThoseOfOneRank)
+{
+  CompareDistances(Surfaces()[0], Dealing::Contiguous, 4, false, true);
+  CompareDistances(Surfaces()[2], Dealing::Shuffled, 4, true, true);
 }
 
 /// Between sources that are near to each other heat falls slowly, so that its rounding shows most.

@@ -1,5 +1,6 @@
 // Memory that runs out on one rank alone ends the computation on all ranks: whichever of its
 // allocations fails, no rank waits for ever, and all name the rank.
+#include "Parallel/RankLevels.h"
 #include "Parallel/RankPoisson.h"
 #include "Surfaces.h"
 
@@ -81,7 +82,7 @@ SolveReport Solve(const Communicator& ranks, const TriangleMesh& own)
   poisson.multigrid.threads = 1;
   poisson.solve.tolerance = 1e-3; // two iterations: further ones allocate what the second does
   const PoissonSolution solution = SolvePoisson(space, load, MultiVector(), poisson);
-  space.ValuesAtPoints(solution.coefficients, static_cast<Id>(own.points.size()));
+  RankLevels(space).ValuesAtPoints(solution.coefficients);
   return solution.report;
 }
 

@@ -1,4 +1,5 @@
 // The screened Poisson equation on several ranks has the solution of one rank, at every point.
+#include "Parallel/RankLevels.h"
 #include "Parallel/RankPoisson.h"
 #include "Spaces/GridSpace.h"
 #include "Surfaces.h"
@@ -62,8 +63,9 @@ Solved SolveOnRanks(const TriangleMesh& mesh, Dealing dealing, const PoissonOpti
   f.values = space.Distribution().SendPoints(FieldAt(own.points));
   const PoissonSolution solution = SolvePoisson(
     space, space.Own().LoadOfValues(f), space.Own().LoadOfGradientsOf(f, nullptr), poisson);
-  solved.values = space.ValuesAtPoints(
-    solution.coefficients, static_cast<Id>(own.points.size()), &solved.hasValue);
+  const RankLevels levels(space);
+  solved.values = levels.ValuesAtPoints(solution.coefficients);
+  solved.hasValue = levels.PointsWithFunctions();
   solved.report = solution.report;
   solved.accuracy = solution.accuracy;
   return solved;

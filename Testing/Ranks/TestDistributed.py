@@ -78,7 +78,7 @@ class Distributed(unittest.TestCase):
         ranks.check(self, [f"point {p}" for p in differ])
 
     def test_rank_0_gathers_what_is_left_to_it(self):
-        for properties in ({"FunctionSpace": 1}, {"Smoother": 1}, {"Iteration": 1},
+        for properties in ({"Smoother": 1}, {"Iteration": 1},
                            {"TrackMetric": True}):
             output = ranks.run(made(**properties), ranks.piece(ranks.bowl(), "contiguous"))[0]
             ranks.check(self, [] if number(output, "Distributed") is None and

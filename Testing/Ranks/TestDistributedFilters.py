@@ -47,13 +47,23 @@ CASES = {
     "distance": ("GeodesicDistance", {}, 2e-3),
     "distance from points": ("GeodesicDistance", {"arrays": {0: "spots"}}, 2e-3),
     "signatures": ("SpectralSignatures", {}, 1e-5),
+    "gradient, hats": ("SurfaceGradient", {"FunctionSpace": 1}, 1e-8),
+    "heat, hats": ("HeatDiffusion", {"FunctionSpace": 1, "DiffusionTime": 0.01}, 1e-8),
+    "heat, hats, boundary": ("HeatDiffusion", {"FunctionSpace": 1, "DiffusionTime": 0.01, "BoundaryValues": True}, 1e-7),
+    "poisson, hats": ("ScreenedPoisson", {"FunctionSpace": 1, "SolutionGradient": True}, 1e-8),
+    "poisson, hats, all at once": (
+        "ScreenedPoisson", {"FunctionSpace": 1, "BoundaryValues": True, "FillUnknown": True,
+                            "arrays": {0: "hole", 3: "f2", 4: "mask", 6: "f"}}, 1e-7),
+    "distance, hats": ("GeodesicDistance", {"FunctionSpace": 1, "arrays": {0: "spots"}}, 2e-3),
+    "signatures, hats": ("SpectralSignatures", {"FunctionSpace": 1}, 1e-5),
     "high pass": ("SpectralSignatures", {"FilterType": 2, "FirstMode": 3, "arrays": {0: "f"}}, 1e-5),
 }
 KINDS = ("last", "contiguous", "ghosts", "scattered", "one rank is empty", "all on all")
 POINT_NAMES = ("f", "f2", "v", "mask", "spots", "hole")
 # Of the bowl, which has a boundary; what they warn of is the same on one rank.
 OF_BOUNDARIES = ("poisson, flux", "poisson, flux in balance", "poisson, boundary",
-                 "poisson, all at once", "heat, boundary")
+                 "poisson, all at once", "heat, boundary", "heat, hats, boundary",
+                 "poisson, hats, all at once")
 # Filters whose points an array or a selection takes: the index of the array, and the port.
 CHOICES_OF_POINTS = {"heat, held": (2, 2), "poisson, held": (4, 2), "distance from points": (0, 3)}
 
@@ -297,7 +307,7 @@ class DistributedFilters(unittest.TestCase):
         for case, properties, name in (
                 ("gradient of vectors", {"HodgeDecomposition": True}, "HodgeDecomposition"),
                 ("poisson", {"TrackMetric": True}, "TrackMetric"),
-                ("signatures", {"FunctionSpace": 1}, "hat functions"),
+                ("signatures", {"FunctionSpace": 1, "WeldCoincidentPoints": False}, "hat functions"),
                 ("distance", {"NearestSource": True}, "NearestSource"),
                 ("gradient", {"Smoother": 1}, "smoother")):
             filter_ = made(case, Distributed=True, **properties)

@@ -63,6 +63,10 @@ class DistributedSpectrum(unittest.TestCase):
         for mesh in (ranks.two(), ranks.bowl(), ranks.soup()):
             self.same_as_alone(mesh, "scattered")
 
+    def test_hat_functions(self):
+        for mesh, kind in ((ranks.ellipsoid(), "contiguous"), (ranks.bowl(), "ghosts")):
+            self.same_as_alone(mesh, kind, FunctionSpace=1)
+
     def test_time_steps_compute_nothing(self):
         filter_ = made(AllModes=False)
         mine = ranks.piece(ranks.ellipsoid(), "contiguous")
@@ -92,7 +96,7 @@ class DistributedSpectrum(unittest.TestCase):
         ranks.check(self, problems)
 
     def test_rank_0_gathers_what_is_left_to_it(self):
-        for properties in ({"FunctionSpace": 1}, {"Smoother": 1}, {"CompareFunctionSpaces": True}):
+        for properties in ({"Smoother": 1}, {"CompareFunctionSpaces": True}):
             output = ranks.run(made(**properties), ranks.piece(ranks.bowl(), "contiguous"))[0]
             ranks.check(self, [] if number(output, "Distributed") is None and
                         number(output, "Converged") == 1 else [str(properties)])

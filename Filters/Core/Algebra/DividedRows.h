@@ -19,6 +19,11 @@ public:
   /// Rows here that belong to other processes. They come first.
   virtual Index Foreign() const = 0;
 
+  /// Whether the prolongations of the processes are parts as well, which add up to the whole: what
+  /// they give is to be summed, and what their transposes take has to be whole. Else each process
+  /// has all entries of its rows.
+  virtual bool ArePartsProlonged() const { return false; }
+
   /// Parts of a vector become the vector: adds up rows that several processes hold.
   virtual void Sum(Block<float> x) const = 0;
   virtual void Sum(Block<double> x) const = 0;
@@ -38,6 +43,16 @@ public:
 inline Index ForeignRows(const DividedRows* divided)
 {
   return divided ? divided->Foreign() : 0;
+}
+
+/// Of what a process has prolonged to such rows.
+template<class Real>
+void SumProlonged(const DividedRows* divided, Block<Real> x)
+{
+  if (divided && divided->ArePartsProlonged())
+  {
+    divided->Sum(x);
+  }
 }
 
 template<class Numbers>

@@ -28,10 +28,7 @@ GridFunctions Complete(ClippedMesh clipped, Array<Index> piecePatch, PatchLevel 
   progress.Check(0.3);
   space.levels =
     BuildLevels(std::move(finest), std::move(links), support, threads, progress.Part(0.3, 0.9));
-  space.component = FunctionComponents(space.Finest(), threads);
-  space.numberOfComponents =
-    space.component.empty() ? 0
-                            : *std::max_element(space.component.begin(), space.component.end()) + 1;
+  FindComponents(space, threads);
   progress.Check(1.0);
   return space;
 }
@@ -88,6 +85,14 @@ void Improve(std::atomic<Index>& choice, Index patch, const PatchChoice& patches
 }
 
 } // namespace
+
+void FindComponents(GridFunctions& space, int threads)
+{
+  space.component = FunctionComponents(space.Finest(), threads);
+  space.numberOfComponents =
+    space.component.empty() ? 0
+                            : *std::max_element(space.component.begin(), space.component.end()) + 1;
+}
 
 Array<Index> FindPointPatches(const ClippedMesh& clipped, const Array<Index>& piecePatch,
   Id numberOfPatches, Id points, int threads)

@@ -56,6 +56,9 @@ GridFunctions BuildGridFunctions(
 GridFunctions RestoreGridFunctions(ClippedMesh clipped, Array<Index> piecePatch, PatchLevel finest,
   FunctionSupport support, const Progress& progress = {});
 
+/// Fills `component` and `numberOfComponents` from the patches of the finest level.
+void FindComponents(GridFunctions& space, int threads = 0);
+
 /// For each of the first `points` points of the clipped mesh the patch it is given to among those
 /// of the pieces around it (PatchChoice); -1 for points without a piece.
 Array<Index> FindPointPatches(const ClippedMesh& clipped, const Array<Index>& piecePatch,

@@ -25,7 +25,7 @@ struct EdgeSamples
 {
   std::vector<Index> edge;      // of each sample: which of the given segments it is on, ascending
   std::vector<double> position; // 0 at the first end of the segment, 1 at the other
-  std::vector<char> isMiddle;   // of a stretch between two faces of cells
+  std::vector<char> isMiddle;   // of a stretch on which functions are not linear
   std::vector<double> length;   // that the sample stands for, world units
   SparseMatrix rows;            // the values of all functions: rows = samples
 };

@@ -21,6 +21,7 @@ public:
   }
 
 private:
+  Id unknowns_;                         // of the matrix
   std::vector<Index> unknown_;          // in visiting order
   std::vector<double> inverseDiagonal_; // of the unknowns in that order; 0: left alone
   BlockRanges ranges_;
@@ -28,7 +29,7 @@ private:
 
 /// An unknown belongs to the block of its first patch. That patch contains it, so the argument that
 /// blocks of one colour are not coupled holds for their unknowns.
-GaussSeidel::GaussSeidel(const SparseMatrix& A, const PatchOrder& order)
+GaussSeidel::GaussSeidel(const SparseMatrix& A, const PatchOrder& order) : unknowns_(A.rows)
 {
   CheckOrder(A, order);
   std::vector<char> isVisited(A.rows, 0);
@@ -51,20 +52,7 @@ GaussSeidel::GaussSeidel(const SparseMatrix& A, const PatchOrder& order)
     }
     ranges_.blockBegin.push_back(static_cast<Id>(unknown_.size()));
   }
-  if (static_cast<Id>(unknown_.size()) < A.rows)
-  {
-    for (Index unknown = 0; unknown < A.rows; ++unknown)
-    {
-      visit(unknown);
-    }
-    if (ranges_.colourBegin.empty())
-    {
-      ranges_.colourBegin.push_back(0);
-    }
-    ranges_.blockBegin.push_back(static_cast<Id>(unknown_.size()));
-    ranges_.colourBegin.push_back(static_cast<Id>(ranges_.blockBegin.size()) - 1);
-  }
-  inverseDiagonal_.reserve(A.rows);
+  inverseDiagonal_.reserve(unknown_.size());
   for (const Index unknown : unknown_)
   {
     const double diagonal = A.Coefficient(unknown, unknown);
@@ -75,7 +63,7 @@ GaussSeidel::GaussSeidel(const SparseMatrix& A, const PatchOrder& order)
 void GaussSeidel::Sweep(const SparseMatrix& A, const MultiVector& b, MultiVector& x,
   SweepDirection direction, int threads) const
 {
-  CheckSweep(A, static_cast<Id>(unknown_.size()), b, x);
+  CheckSweep(A, unknowns_, b, x);
   const RowView rows(A);
   SweepBlocks(ranges_, x.cols(), direction, A.NonZeros(), threads,
     [&](Id item, auto chunk)

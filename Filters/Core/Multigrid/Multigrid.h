@@ -171,6 +171,7 @@ private:
   void CheckRows(std::size_t level, Id rows) const;
   void RequireSymmetry(std::size_t level) const;
   void SolveCoarsest(const Vectors<Real>& b, Vectors<Real>& x) const;
+  void Prolong(std::size_t level, const Vectors<Real>& coarse, Vectors<Real>& fine) const;
   void RestrictResidual(std::size_t level, const Vectors<Real>& b, const Vectors<Real>* x,
     Vectors<Real>& residual, Vectors<Real>& coarse, Columns* energy = nullptr) const;
   Columns CycleInUnits(std::size_t level, const Vectors<Real>& b, Vectors<Real>& x,

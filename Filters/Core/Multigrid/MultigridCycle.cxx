@@ -165,11 +165,11 @@ void BasicMultigrid<Real>::NestedIteration(
       this->Improve(l, load[l], x, scratch);
       if (l == 1 && lastStep)
       {
-        Multiply(levels_[0].prolongation, x - before, *lastStep, options_.threads);
+        this->Prolong(0, x - before, *lastStep);
       }
     }
     Vectors<Real> finer;
-    Multiply(levels_[l - 1].prolongation, x, finer, options_.threads);
+    this->Prolong(l - 1, x, finer);
     x.swap(finer);
   }
 }
@@ -253,6 +253,15 @@ void BasicMultigrid<Real>::SolveCoarsest(const Vectors<Real>& b, Vectors<Real>& 
   }
 }
 
+/// fine = P coarse, from the next coarser level; whole in all rows.
+template<class Real>
+void BasicMultigrid<Real>::Prolong(
+  std::size_t l, const Vectors<Real>& coarse, Vectors<Real>& fine) const
+{
+  Multiply(levels_[l].prolongation, coarse, fine, options_.threads);
+  SumProlonged<Real>(RowsOf(levels_[l]), fine);
+}
+
 /// coarse = Pᵀ (b - A x), or Pᵀ b without x.
 /// @param energy  if not null: xᵀ(b + r) for r = b - A x
 template<class Real>
@@ -260,19 +269,22 @@ void BasicMultigrid<Real>::RestrictResidual(std::size_t l, const Vectors<Real>& 
   const Vectors<Real>* x, Vectors<Real>& residual, Vectors<Real>& coarse, Columns* energy) const
 {
   const BasicMultigridLevel<Real>& level = levels_[l];
-  const Index foreign = ForeignRows(RowsOf(level));
+  const DividedRows* const divided = RowsOf(level);
+  const Index foreign = ForeignRows(divided);
+  const bool countOnce = divided && !divided->ArePartsProlonged(); // rows that several hold
   if (x)
   {
     MakeRoom(b.rows(), b.cols(), residual);
     ResidualPart(level.A, *x, b, foreign, residual, energy, options_.threads);
+    SumProlonged<Real>(divided, residual);
   }
-  else if (level.divided)
+  else if (countOnce)
   {
     residual = b;
     residual.topRows(foreign).setZero();
   }
   MakeRoom(level.restriction->rows, b.cols(), coarse);
-  Multiply(level.restriction, x || level.divided ? residual : b, coarse, options_.threads);
+  Multiply(level.restriction, x || countOnce ? residual : b, coarse, options_.threads);
   if (level.divided)
   {
     level.divided->SumCoarse(coarse);
@@ -400,7 +412,17 @@ void BasicMultigrid<Real>::Ascend(std::size_t l, const Vectors<Real>& b, Vectors
     return;
   }
   const BasicMultigridLevel<Real>& level = levels_[l];
-  MultiplyAdd(level.prolongation, scratch[l + 1].x, x, options_.threads);
+  const DividedRows* const divided = RowsOf(level);
+  if (divided && divided->ArePartsProlonged())
+  {
+    Vectors<Real> correction;
+    this->Prolong(l, scratch[l + 1].x, correction);
+    x += correction;
+  }
+  else
+  {
+    MultiplyAdd(level.prolongation, scratch[l + 1].x, x, options_.threads);
+  }
   const int sweeps = this->SmoothingOf(level.smoothing).postSweeps;
   for (int sweep = 0; sweep < sweeps; ++sweep)
   {

@@ -3,6 +3,7 @@
 #define GridFEM_HarmonicInterpolation_h
 
 #include "Problems/PointConstraints.h"
+#include "Spaces/FiniteElementSpace.h"
 
 namespace gridfem
 {

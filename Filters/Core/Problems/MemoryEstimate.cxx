@@ -40,6 +40,8 @@ constexpr double HatsPerFunction = 10.0;
 
 constexpr int CoarsestSuggestion = 6;
 
+} // namespace
+
 /// A mesh whose triangles share no points is welded: two triangles to a point, whatever it has.
 double WeldedPoints(const TriangleMesh& mesh)
 {
@@ -47,7 +49,10 @@ double WeldedPoints(const TriangleMesh& mesh)
   return std::min(static_cast<double>(mesh.points.size()), welded);
 }
 
-} // namespace
+double FunctionsOfPatches(double patches)
+{
+  return 2.0 * patches + FunctionsPerPatch;
+}
 
 MemoryEstimate EstimateMemory(const TriangleMesh& mesh, int depth)
 {
@@ -81,7 +86,7 @@ MemoryEstimate EstimateMemory(const TriangleMesh& mesh, const Grid& grid)
   estimate.clippedTriangles = triangles + 2.0 * (lines + crossings);
   // A plane meets as many cells as grid lines cross it; a surface has at least one patch.
   estimate.patches = crossings + 1.0;
-  estimate.functions = 2.0 * estimate.patches + FunctionsPerPatch;
+  estimate.functions = FunctionsOfPatches(estimate.patches);
   const double points = static_cast<double>(mesh.points.size());
   const double clip = ClipPerPoint * points + ClipPerTriangle * triangles + ClipPerPiece * pieces;
   const double solve = HeldPerPoint * points + HeldPerPiece * pieces +

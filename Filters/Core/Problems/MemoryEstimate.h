@@ -25,6 +25,12 @@ MemoryEstimate EstimateMemory(const TriangleMesh& mesh, int depth);
 /// The same for a part of a surface, in the grid of the whole.
 MemoryEstimate EstimateMemory(const TriangleMesh& mesh, const Grid& grid);
 
+/// The functions that so many patches are expected to have.
+double FunctionsOfPatches(double patches);
+
+/// How many points a mesh is taken to have once coincident ones are welded.
+double WeldedPoints(const TriangleMesh& mesh);
+
 /// The finest depth at which the grid is expected to have no more functions than the surface has
 /// points, coincident ones counted once: what the mesh can tell, at the cost of the mesh. At least
 /// 6, which costs next to nothing and serves the faces of coarse meshes.

@@ -320,14 +320,14 @@ void Validate(const SpectrumOptions& options)
 }
 
 Spectrum ComputeNestedSpectrum(
-  const FiniteElementSpace& space, const SpectrumOptions& options, const Progress& progress)
+  const SurfaceSpace& space, const SpectrumOptions& options, const Progress& progress)
 {
-  const FiniteElementSpace* nested = space.NestedLevels();
+  const SurfaceSpace* nested = space.NestedLevels();
   return nested ? ComputeOnNestedLevels(*nested, StartOptions(options), progress)
                 : ComputeOnNestedLevels(space, options, progress);
 }
 
-Spectrum FinishSpectrum(const FiniteElementSpace& space, Spectrum nested,
+Spectrum FinishSpectrum(const SurfaceSpace& space, Spectrum nested,
   const SpectrumOptions& options, const Progress& progress)
 {
   return space.NestedLevels() ? ImproveSpectrum(space, nested, options, progress)
@@ -335,7 +335,7 @@ Spectrum FinishSpectrum(const FiniteElementSpace& space, Spectrum nested,
 }
 
 Spectrum ComputeSpectrum(
-  const FiniteElementSpace& space, const SpectrumOptions& options, const Progress& progress)
+  const SurfaceSpace& space, const SpectrumOptions& options, const Progress& progress)
 {
   const double split = space.NestedLevels() ? 0.3 : 1.0;
   return FinishSpectrum(space, ComputeNestedSpectrum(space, options, progress.Part(0.0, split)),

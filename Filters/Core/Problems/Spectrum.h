@@ -2,7 +2,7 @@
 #ifndef GridFEM_Spectrum_h
 #define GridFEM_Spectrum_h
 
-#include "Spaces/FiniteElementSpace.h"
+#include "Spaces/SurfaceSpace.h"
 
 namespace gridfem
 {
@@ -51,7 +51,7 @@ struct Spectrum
 /// are Rayleigh quotients in double. Throws InvalidInput for options out of range, and Aborted.
 /// Where the finest level does not contain the next coarser one the two steps below are taken.
 Spectrum ComputeSpectrum(
-  const FiniteElementSpace& space, const SpectrumOptions& options, const Progress& progress = {});
+  const SurfaceSpace& space, const SpectrumOptions& options, const Progress& progress = {});
 
 /// The same where all levels are nested, whatever lies on them. Where processes divide levels, all
 /// of them call it, with a progress that is aborted for all or none; vectors have the rows of this
@@ -62,14 +62,14 @@ Spectrum ComputeOnNestedLevels(
 /// The first step: the spectrum of the nested levels, which is the result where all are nested.
 /// Else it has guards behind the wanted modes, to a loose tolerance.
 Spectrum ComputeNestedSpectrum(
-  const FiniteElementSpace& space, const SpectrumOptions& options, const Progress& progress = {});
+  const SurfaceSpace& space, const SpectrumOptions& options, const Progress& progress = {});
 
 /// The second: nothing where all levels are nested. Else carries the pairs over to the finest level
 /// and improves them by block iterations with one cycle of the whole hierarchy. Estimated errors
 /// are those of the nested levels, and what the finest level lies above them: no space has
 /// eigenvalues below the surface's, so this is the error of the worse of the two.
 /// @param nested  fewer modes than asked for do, too, at the price of more iterations
-Spectrum FinishSpectrum(const FiniteElementSpace& space, Spectrum nested,
+Spectrum FinishSpectrum(const SurfaceSpace& space, Spectrum nested,
   const SpectrumOptions& options, const Progress& progress = {});
 
 /// Bytes that it takes beyond the space, for so many functions on the finest level, in

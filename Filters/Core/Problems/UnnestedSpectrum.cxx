@@ -39,12 +39,13 @@ Index ListLength(const Spectrum& start, const SpectrumOptions& options)
 
 /// Without a preconditioner, which is not needed where the list ends among the constants.
 SpectralProblem<double> FinestProblem(
-  const FiniteElementSpace& space, const Constants& constants, SparseMatrix mass, int threads)
+  const SurfaceSpace& space, const Constants& constants, SparseMatrix mass, int threads)
 {
   SpectralProblem<double> problem;
   problem.stiffness = space.Matrix(0, 0.0, 1.0, threads);
   problem.mass = std::move(mass);
   problem.constants = &constants;
+  problem.divided = space.Divided(0);
   problem.threads = threads;
   return problem;
 }
@@ -62,14 +63,23 @@ double LowestValue(const Spectrum& start)
 
 /// Of constants among the columns rounding is left, which may be constant again, and scaled would
 /// count as one more mode: it becomes zero.
-void RemoveConstants(const Constants& constants, Block<double> columns)
+void RemoveConstants(
+  const Constants& constants, const DividedRows* divided, Block<double> columns)
 {
   constexpr double Rounding = 1e-10;
-  const Eigen::RowVectorXd before = columns.colwise().norm();
+  const auto norms = [&]
+  {
+    Eigen::RowVectorXd squares =
+      columns.bottomRows(columns.rows() - ForeignRows(divided)).colwise().squaredNorm();
+    SumOverProcesses(divided, squares);
+    return Eigen::RowVectorXd(squares.cwiseSqrt());
+  };
+  const Eigen::RowVectorXd before = norms();
   constants.Remove<double>(columns);
+  const Eigen::RowVectorXd left = norms();
   for (Id c = 0; c < columns.cols(); ++c)
   {
-    if (columns.col(c).norm() <= Rounding * before[c])
+    if (left[c] <= Rounding * before[c])
     {
       columns.col(c).setZero();
     }
@@ -133,13 +143,14 @@ SpectrumOptions StartOptions(SpectrumOptions options)
   return options;
 }
 
-Spectrum ImproveSpectrum(const FiniteElementSpace& space, const Spectrum& start,
+Spectrum ImproveSpectrum(const SurfaceSpace& space, const Spectrum& start,
   const SpectrumOptions& options, const Progress& progress)
 {
   const int threads = options.multigrid.threads;
   SparseMatrix mass = space.Matrix(0, 1.0, 0.0, threads);
   Components components = space.ComponentsOf(0, threads);
-  const Constants constants(mass, std::move(components.ofFunction), components.count, threads);
+  const Constants constants(
+    mass, std::move(components.ofFunction), components.count, threads, space.Divided(0));
   const Index zeros = constants.Count();
   const Index all = space.NumberOfFunctions(0) - zeros;
   const Index listed = std::min<Index>(zeros, options.numberOfModes);
@@ -155,7 +166,8 @@ Spectrum ImproveSpectrum(const FiniteElementSpace& space, const Spectrum& start,
     pairs.vectors.Reserve(problem.mass.rows, start.vectors.cols());
     pairs.vectors.Show(start.vectors.cols());
     MultiplyBlock<double>(space.Prolongation(0), start.vectors, pairs.vectors.View(), threads);
-    RemoveConstants(constants, pairs.vectors.View());
+    SumProlonged<double>(space.Divided(0), pairs.vectors.View());
+    RemoveConstants(constants, space.Divided(0), pairs.vectors.View());
     report = FindPairs(
       problem, options, ListLength(start, options) - zeros, all, pairs, progress.Part(0.1, 1.0));
   }

@@ -24,6 +24,8 @@ public:
   /// The place in the world that positions in units of length are relative to.
   virtual Vec3 Origin() const = 0;
 
+  const FiniteElementSpace* NestedLevels() const override { return nullptr; }
+
   ///@{ The finest level.
 
   /// LoadOfGradients with n x s, n along the normal of each triangle.

@@ -192,7 +192,7 @@ EdgeSamples SampleSegments(
       rows.Append(entries);
       samples.edge.push_back(static_cast<Index>(s));
       samples.position.push_back(gauss.position);
-      samples.isMiddle.push_back(gauss.position == 0.5);
+      samples.isMiddle.push_back(0);
       samples.length.push_back(gauss.weight * length);
     }
   }

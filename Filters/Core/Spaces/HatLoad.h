@@ -35,7 +35,7 @@ MultiVector IntegrateTurnedGradients(
 MultiVector IntegrateGradientsOf(const HatFunctions& hats, const TriangleMesh& mesh, const Field& f,
   const Field* scale, int threads = 0);
 
-/// The same samples as of a grid (EdgeSamples.h), three on each segment.
+/// The same samples as of a grid (EdgeSamples.h), three on each segment, on which hats are linear.
 EdgeSamples SampleSegments(
   const HatFunctions& hats, const TriangleMesh& mesh, const std::vector<TriangleSegment>& segments);
 

@@ -263,7 +263,8 @@ MultiVector MultiplyHats(const TriangleMesh& mesh, const HatFunctions& hats,
 
 void Combine(const HatMatrices& matrices, double a, double b, SparseMatrix& result, int threads)
 {
-  if (result.rows != matrices.mass.rows || result.NonZeros() != matrices.mass.NonZeros())
+  if (result.value.empty() || result.rows != matrices.mass.rows ||
+      result.NonZeros() != matrices.mass.NonZeros())
   {
     result = matrices.stiffness;
   }

@@ -104,7 +104,7 @@ void AddPieceAtPoint(const GridFunctions& space, Id point, Id piece, Row& row)
   }
 }
 
-/// The values at a point, for a hat without pieces of any area as well.
+/// The values at a point, for a hat without pieces of any area.
 void AddPoint(const GridFunctions& space, Id point, Row& row)
 {
   const Id patch = space.pointPatch[point];
@@ -115,34 +115,23 @@ void AddPoint(const GridFunctions& space, Id point, Row& row)
   }
 }
 
-double Sum(const Row& row)
-{
-  double sum = 0.0;
-  for (const PatchWeights& weights : row)
-  {
-    sum = std::accumulate(weights.weight.begin(), weights.weight.end(), sum);
-  }
-  return sum;
-}
-
 struct Entry
 {
   Index column;
   double value;
 };
 
-/// The entries of a row, sorted by column, divided by their sum.
+/// The entries of a row, sorted by column.
 std::vector<Entry> EntriesOf(const PatchLevel& level, const Row& row)
 {
-  const double sum = Sum(row);
   std::vector<Entry> entries;
   for (const PatchWeights& weights : row)
   {
     for (int c = 0; c < FunctionsPerPatch; ++c)
     {
-      if (sum > 0.0 && weights.weight[c] > 0.0)
+      if (weights.weight[c] > 0.0)
       {
-        entries.push_back({ level.dof[weights.patch][c], weights.weight[c] / sum });
+        entries.push_back({ level.dof[weights.patch][c], weights.weight[c] });
       }
     }
   }
@@ -219,11 +208,12 @@ SparseMatrix BuildRows(
 
 } // namespace
 
-SparseMatrix BuildHatProlongation(const HatFunctions& hats, const GridFunctions& space,
-  const TriangleMesh& mesh, HatTransfer transfer, int threads)
+SparseMatrix BuildHatWeights(const HatFunctions& hats, const GridFunctions& space,
+  const TriangleMesh& mesh, HatTransfer transfer, const std::vector<char>& isBare, int threads)
 {
   CheckMeshes(hats, space, mesh);
-  const std::vector<Id> pointOfHat = PointsOfFunctions(hats, space);
+  const std::vector<Id> pointOfHat =
+    isBare.empty() ? std::vector<Id>() : PointsOfFunctions(hats, space);
   const Groups pieces = GroupItems(space.clipped.pieceTriangle.data(),
     space.clipped.NumberOfPieces(), static_cast<Id>(mesh.triangles.size()), threads);
   const auto addTriangle = [&](Id triangle, int corner, Row& row)
@@ -242,18 +232,57 @@ SparseMatrix BuildHatProlongation(const HatFunctions& hats, const GridFunctions&
     }
   };
   return BuildRows(hats, space, threads,
-    [&](Id hat, Row& row)
+    [&](Index hat, Row& row)
     {
+      if (!isBare.empty() && isBare[hat])
+      {
+        AddPoint(space, pointOfHat[hat], row);
+        return;
+      }
       for (Id k = hats.begin[hat]; k < hats.begin[hat + 1]; ++k)
       {
         addTriangle(hats.corners[k].Triangle(), hats.corners[k].Corner(), row);
       }
-      if (!(Sum(row) > 0.0))
-      {
-        row.clear();
-        AddPoint(space, pointOfHat[hat], row);
-      }
     });
+}
+
+void DivideRows(const std::vector<double>& sum, SparseMatrix& weights)
+{
+  for (Index row = 0; row < weights.rows; ++row)
+  {
+    for (Id k = weights.rowBegin[row]; k < weights.rowBegin[row + 1]; ++k)
+    {
+      weights.value[k] /= sum[row];
+    }
+  }
+}
+
+SparseMatrix BuildHatProlongation(const HatFunctions& hats, const GridFunctions& space,
+  const TriangleMesh& mesh, HatTransfer transfer, int threads)
+{
+  SparseMatrix prolongation = BuildHatWeights(hats, space, mesh, transfer, {}, threads);
+  std::vector<double> sum = RowSums(prolongation);
+  const auto isZero = [](double s) { return s == 0.0; };
+  if (std::any_of(sum.begin(), sum.end(), isZero))
+  {
+    std::vector<char> isBare(sum.size());
+    std::transform(sum.begin(), sum.end(), isBare.begin(), isZero);
+    prolongation = BuildHatWeights(hats, space, mesh, transfer, isBare, threads);
+    sum = RowSums(prolongation);
+  }
+  DivideRows(sum, prolongation);
+  return prolongation;
+}
+
+std::vector<double> RowSums(const SparseMatrix& weights)
+{
+  std::vector<double> sum(weights.rows, 0.0);
+  for (Index row = 0; row < weights.rows; ++row)
+  {
+    sum[row] = std::accumulate(weights.value.begin() + weights.rowBegin[row],
+      weights.value.begin() + weights.rowBegin[row + 1], 0.0);
+  }
+  return sum;
 }
 
 } // namespace gridfem

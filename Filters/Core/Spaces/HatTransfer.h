@@ -31,6 +31,18 @@ enum class HatTransfer
 SparseMatrix BuildHatProlongation(const HatFunctions& hats, const GridFunctions& space,
   const TriangleMesh& mesh, HatTransfer transfer, int threads = 0);
 
+/// What such a prolongation is made of: rows of weights, which are yet to be divided by their sums,
+/// so that processes that have pieces around the same point may add up theirs.
+/// @param isBare  per hat: no process has pieces with an area there, and the functions in the best
+///                patch at its point are taken; may be empty
+SparseMatrix BuildHatWeights(const HatFunctions& hats, const GridFunctions& space,
+  const TriangleMesh& mesh, HatTransfer transfer, const std::vector<char>& isBare, int threads = 0);
+
+std::vector<double> RowSums(const SparseMatrix& weights);
+
+/// Rows without entries stay as they are.
+void DivideRows(const std::vector<double>& sum, SparseMatrix& weights);
+
 } // namespace gridfem
 
 #endif

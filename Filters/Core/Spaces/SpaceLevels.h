@@ -13,7 +13,7 @@
 namespace gridfem
 {
 
-class FiniteElementSpace;
+class SurfaceSpace;
 
 /// The connected components of the functions of one level.
 struct Components
@@ -62,7 +62,7 @@ public:
 
   /// The levels below the finest as a space of their own, where the finest does not contain them;
   /// null where every level contains the next coarser one.
-  virtual const FiniteElementSpace* NestedLevels() const { return nullptr; }
+  virtual const SurfaceSpace* NestedLevels() const { return nullptr; }
 
   ///@{ The finest level.
 

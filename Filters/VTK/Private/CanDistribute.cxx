@@ -55,7 +55,9 @@ std::string ObstacleHere(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** 
 {
   vtkPolyData* const piece = vtkPolyData::GetData(inputs[0]);
   return FirstObstacle({ { filter->GetBlocksAsOne(), "BlocksAsOne" },
-    { filter->GetFunctionSpace() != vtkSurfaceFEMAlgorithm::Grid, "hat functions" },
+    { filter->GetFunctionSpace() != vtkSurfaceFEMAlgorithm::Grid &&
+        !filter->GetWeldCoincidentPoints(),
+      "hat functions of points that are not welded" },
     { filter->GetSmoother() != vtkSurfaceFEMAlgorithm::PatchSmoother,
       "a smoother other than that of patches" },
     { depth < MinimumDepth, "an automatic Depth" },

@@ -10,7 +10,7 @@
 #include "Parallel/HeldPoints.h"
 #include "Parallel/RankBoundary.h"
 #include "Parallel/RankDistance.h"
-#include "Parallel/RankLevels.h"
+#include "Parallel/RankSurface.h"
 
 #include "vtkDataArray.h"
 #include "vtkMPI.h"
@@ -41,6 +41,7 @@ RankSpaceOptions OptionsOf(const SurfaceOptions& options)
   result.space.quadratureDegree = options.choice.quadratureDegree;
   result.space.coarsestSize = options.choice.coarsestSize;
   result.space.normalStabilization = options.choice.normalStabilization;
+  result.functionsPerPoint = options.functionsPerPoint;
   return result;
 }
 
@@ -84,26 +85,13 @@ struct Shape
   int dataType = 0;
 };
 
-/// A space, and what it refers to.
-struct SpaceOfRanks
-{
-  SpaceOfRanks(const Communicator& ranks, const TriangleMesh& own, const RankSpaceOptions& options,
-    const Progress& progress, const TriangleList& copies)
-    : space(ranks, own, options, progress, copies), levels(space)
-  {
-  }
-
-  const RankSpace space;
-  const RankLevels levels;
-};
-
 } // namespace
 
 struct DistributedSurface::Internals
 {
   Communicator ranks = RanksOfVtk();
   RankRows numbers{ ranks, 0, {} };
-  std::shared_ptr<const SpaceOfRanks> whole;
+  std::shared_ptr<const RankSurface> whole;
 };
 
 DistributedSurface::DistributedSurface() = default;
@@ -147,6 +135,11 @@ void DistributedSurface::Together(const std::function<void()>& body) const
 bool DistributedSurface::Any(bool holds) const
 {
   return this->Largest(holds ? 1.0 : 0.0) > 0.0;
+}
+
+int DistributedSurface::Depth() const
+{
+  return ranks_->whole->Space().Own().Functions().GetGrid().depth;
 }
 
 double DistributedSurface::Largest(double own) const
@@ -195,9 +188,9 @@ void DistributedSurface::BuildSpace(
   this->Free();
   mesh = this->ReadPieces(piece, options.space.threads);
   const Communicator& ranks = ranks_->ranks;
-  auto whole = std::make_shared<SpaceOfRanks>(
-    ranks, *mesh.triangles, OptionsOf(options), progress_, copies_.triangles->triangles);
-  space_ = std::shared_ptr<const SurfaceSpace>(whole, &whole->levels);
+  auto whole = std::make_shared<const RankSurface>(ranks, *mesh.triangles, OptionsOf(options),
+    options.choice.kind == FunctionKind::Hats, progress_, copies_.triangles->triangles);
+  space_ = std::shared_ptr<const SurfaceSpace>(whole, &whole->Levels());
   ranks_->whole = std::move(whole);
 }
 
@@ -306,14 +299,14 @@ InputMesh DistributedSurface::WithCopies(const InputMesh& mesh) const
 
 void DistributedSurface::FillCopies(MultiVector& atPoints) const
 {
-  const RankSpace& space = ranks_->whole->space;
+  const RankSpace& space = ranks_->whole->Space();
   space.Copies().FillPoints(space.Distribution(), atPoints);
 }
 
 MultiVector DistributedSurface::MeansOnCells(
   const InputMesh& mesh, const MultiVector& onTriangles, Id cells) const
 {
-  const RankSpace& space = ranks_->whole->space;
+  const RankSpace& space = ranks_->whole->Space();
   const MultiVector ofOriginals = space.Copies().RowsOfOriginals(space.Distribution(), onTriangles);
   return gridfem::MeansOnCells(mesh, onTriangles, cells) +
          gridfem::MeansOnCells(copies_, ofOriginals, cells);
@@ -332,19 +325,19 @@ std::vector<char> DistributedSurface::PointsWithFunctions() const
 
 HeldValues DistributedSurface::Hold(const std::vector<Id>& points, const MultiVector& values) const
 {
-  return HoldPoints(ranks_->whole->space, points, values);
+  return HoldPoints(ranks_->whole->Levels(), points, values);
 }
 
 BoundaryTerms DistributedSurface::OnBoundary(
   bool weldCoincidentPoints, const MultiVector* flux, const MultiVector* values) const
 {
-  return TermsOnBoundary(ranks_->whole->levels, weldCoincidentPoints, flux, values);
+  return TermsOnBoundary(ranks_->whole->Levels(), weldCoincidentPoints, flux, values);
 }
 
 std::unique_ptr<DistanceMethod> DistributedSurface::MakeDistance(
   const InputMesh& mesh, const DistanceOptions& options, const Job& job) const
 {
-  return std::make_unique<RankDistance>(ranks_->whole->levels, mesh.triangles, options, job);
+  return std::make_unique<RankDistance>(ranks_->whole->Levels(), mesh.triangles, options, job);
 }
 
 HeldValues DistributedSurface::HoldKnown(const InputArray& array, const InputArray& mask,
@@ -405,6 +398,11 @@ void DistributedSurface::Together(const std::function<void()>&) const
 }
 
 bool DistributedSurface::Any(bool) const
+{
+  RefuseWithoutMpi();
+}
+
+int DistributedSurface::Depth() const
 {
   RefuseWithoutMpi();
 }

@@ -29,7 +29,7 @@ class SelectedPoints;
 struct DistanceOptions;
 struct SurfaceOptions;
 
-/// All functions but Free, IsUsed, Space, Area, Side, DataTypeOf, Numbers and WithCopies are
+/// All functions but Free, IsUsed, Space, Area, Side, Depth, DataTypeOf, Numbers and WithCopies are
 /// collective, on the ranks of VTK's global controller, and but Run are called within Run. What
 /// throws on one rank alone is called within Together.
 class DistributedSurface
@@ -54,7 +54,7 @@ public:
   InputMesh ReadPieces(vtkPolyData* piece, int threads);
 
   /// Reads the pieces and clips them.
-  /// @param options  a depth is chosen, functions are those of a grid, threads those of a rank
+  /// @param options  a depth is chosen, threads are those of a rank
   /// @param mesh     gets the piece without the copies
   void BuildSpace(vtkPolyData* piece, const SurfaceOptions& options, InputMesh& mesh);
 
@@ -92,6 +92,9 @@ public:
   /// Of the whole surface; and the longest side of the box around it, world units.
   double Area() const { return area_; }
   double Side() const { return space_->UnitLength() * space_->Extent(); }
+
+  /// Of the grid, which is coarser below hat functions that do not need it.
+  int Depth() const;
 
   /// The whole piece.
   /// @param mesh  as ReadPieces has given it

@@ -275,6 +275,8 @@ void SurfaceSolverState::UpdateTogether(vtkPolyData* piece)
       RequireNumber("Accuracy", options.accuracy);
       TriangleRule(options.choice.quadratureDegree); // refuses a wrong degree
       key.Add(std::string("together")).Add(options.space.depth);
+      key.Add(static_cast<int>(options.choice.kind)).Add(options.space.joinAtPoints);
+      key.Add(options.functionsPerPoint);
       key.Add(options.space.connectivityAware).Add(options.space.weldCoincidentPoints);
       key.Add(options.choice.quadratureDegree).Add(options.choice.coarsestSize);
       key.Add(options.choice.normalStabilization);

@@ -110,7 +110,7 @@ void SurfaceSpectrum::UpdateTogether(
           RequireMemoryForModes(static_cast<Id>(space.Integrals().size()), options.numberOfModes,
             options.multigrid.threads);
         });
-      spectrum = ComputeOnNestedLevels(space, options, progress);
+      spectrum = ComputeSpectrum(space, options, progress);
       eigenvalues = InWorldUnits(spectrum.eigenvalues, space.UnitLength());
       atPoints = EvaluateModes(state, spectrum, 0, this->NumberOfModes());
       spectrum.vectors.resize(0, 0);

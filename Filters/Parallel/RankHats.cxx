@@ -1,0 +1,294 @@
+#include "Parallel/RankHats.h"
+
+#include "Base/UnionFind.h"
+#include "Multigrid/MatrixOrdering.h"
+#include "Parallel/HatNumbering.h"
+#include "Parallel/MatrixEntries.h"
+#include "Parallel/RankRows.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace gridfem
+{
+
+namespace
+{
+
+/// The hats of what a rank has received, and what of them is its own.
+class ReceivedHats
+{
+public:
+  ReceivedHats(const RankSpace& space, int threads)
+    : mesh_(space.Own().Mesh()), own_(space.Own().Functions())
+  {
+    HatOptions options;
+    options.unitLength = space.Own().UnitLength();
+    options.threads = threads;
+    all_ = NumberHatFunctions(mesh_, options);
+    for (const Vec3& point : mesh_.points)
+    {
+      home_.push_back(space.OwnerOfPoint(point));
+    }
+    for (const auto& corners : mesh_.triangles)
+    {
+      const int lowest = std::min({ home_[corners[0]], home_[corners[1]], home_[corners[2]] });
+      isOwn_.push_back(lowest == space.Ranks().Rank());
+    }
+    this->ListHeld();
+  }
+
+  /// Received points are in an order that all ranks share.
+  HatList Held() const
+  {
+    HatList list;
+    for (const Id point : point_)
+    {
+      list.position.push_back(mesh_.points[point]);
+      list.home.push_back(home_[point]);
+    }
+    return list;
+  }
+
+  /// The held hats, in the places of a numbering.
+  /// @param ofOwn  with the triangles that are integrated here; else with all that were received
+  HatFunctions Part(const std::vector<Index>& place, bool ofOwn) const
+  {
+    std::vector<Index> placeOf(all_.Count(), -1);
+    std::vector<Index> hatAt(place.size());
+    for (std::size_t k = 0; k < place.size(); ++k)
+    {
+      placeOf[all_.ofPoint[point_[k]]] = place[k];
+      hatAt[place[k]] = all_.ofPoint[point_[k]];
+    }
+    HatFunctions part;
+    part.unitLength = all_.unitLength;
+    for (const Index hat : all_.ofPoint)
+    {
+      part.ofPoint.push_back(hat < 0 ? -1 : placeOf[hat]);
+    }
+    UnionFind sets(static_cast<Index>(hatAt.size()));
+    part.begin.push_back(0);
+    for (const Index hat : hatAt)
+    {
+      for (Index k = all_.begin[hat]; k < all_.begin[hat + 1]; ++k)
+      {
+        const TriangleCorner corner = all_.corners[k];
+        if (!ofOwn || isOwn_[corner.Triangle()])
+        {
+          part.corners.push_back(corner);
+        }
+        for (int side = 0; side < 3 && isOwn_[corner.Triangle()]; ++side)
+        {
+          sets.Unite(placeOf[hat], part.ofPoint[mesh_.triangles[corner.Triangle()][side]]);
+        }
+      }
+      part.begin.push_back(static_cast<Index>(part.corners.size()));
+    }
+    const Array<Index> component = NumberSets(sets, part.numberOfComponents);
+    part.component.assign(component.begin(), component.end());
+    return part;
+  }
+
+  std::vector<double> IsIntegrated() const { return { isOwn_.begin(), isOwn_.end() }; }
+
+private:
+  /// Hats of own triangles, and those with a piece of this rank at their point; the first points.
+  void ListHeld()
+  {
+    std::vector<char> isHeld(all_.Count(), 0);
+    const auto hold = [&](Id point)
+    {
+      if (all_.ofPoint[point] >= 0)
+      {
+        isHeld[all_.ofPoint[point]] = 1;
+      }
+    };
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+    {
+      for (int corner = 0; corner < 3 && isOwn_[t]; ++corner) // edges of flat ones may be needed
+      {
+        hold(mesh_.triangles[t][corner]);
+      }
+    }
+    for (const Index corner : own_.clipped.corners)
+    {
+      if (corner < own_.clipped.numberOfInputPoints)
+      {
+        hold(corner);
+      }
+    }
+    for (std::size_t point = 0; point < all_.ofPoint.size(); ++point)
+    {
+      const Index hat = all_.ofPoint[point];
+      if (hat >= 0 && isHeld[hat])
+      {
+        isHeld[hat] = 0;
+        point_.push_back(static_cast<Id>(point));
+      }
+    }
+  }
+
+  const TriangleMesh& mesh_;
+  const GridFunctions& own_;
+  HatFunctions all_;
+  std::vector<int> home_;   // per point
+  std::vector<char> isOwn_; // per triangle
+  std::vector<Id> point_;   // of each held hat
+};
+
+/// Orders of a part of the unknowns become orders of all.
+PatchOrder Renumbered(PatchOrder order, const std::vector<Index>& number)
+{
+  for (auto& patch : order.dof)
+  {
+    for (Index& unknown : patch)
+    {
+      unknown = unknown < 0 ? unknown : number[unknown];
+    }
+  }
+  return order;
+}
+
+/// Sweeps over hats that no other rank holds, whose rows lack nothing.
+void OrderAlone(const LevelNumbering& numbering, int threads, HatLevel& level)
+{
+  std::vector<Index> alone;
+  for (Index hat = numbering.foreign; hat < numbering.Functions(); ++hat)
+  {
+    if (numbering.touching[hat] == 1)
+    {
+      alone.push_back(hat);
+    }
+  }
+  const SparseMatrix rows = PartOf(level.matrices.stiffness, alone);
+  level.order = Renumbered(OrderInBlocks(rows), alone);
+  level.groups = Renumbered(GroupByCoupling(rows, threads), alone);
+}
+
+/// Collective. The sum over the ranks that hold a hat.
+std::vector<double> SumOfRanks(const RankRows& rows, const std::vector<double>& parts)
+{
+  MultiVector sum =
+    Eigen::Map<const Eigen::VectorXd>(parts.data(), static_cast<Eigen::Index>(parts.size()));
+  rows.Sum(sum);
+  return { sum.data(), sum.data() + sum.size() };
+}
+
+/// Collective. Weights of all ranks sum up to 1 in each row.
+SparseMatrix BuildProlongation(const RankSpace& space, const HatFunctions& hats,
+  const RankRows& rows, HatTransfer transfer, int threads)
+{
+  SparseMatrix weights;
+  std::vector<double> sum;
+  const auto build = [&](const std::vector<char>& isBare)
+  {
+    weights =
+      BuildHatWeights(hats, space.Own().Functions(), space.Own().Mesh(), transfer, isBare, threads);
+    sum = RowSums(weights);
+  };
+  space.Ranks().Together([&] { build({}); });
+  sum = SumOfRanks(rows, sum);
+  const auto isZero = [](double s) { return s == 0.0; };
+  double bare = static_cast<double>(std::count_if(sum.begin(), sum.end(), isZero));
+  space.Ranks().Maximum(&bare, 1);
+  if (bare > 0.0)
+  {
+    space.Ranks().Together(
+      [&]
+      {
+        std::vector<char> isBare(sum.size());
+        std::transform(sum.begin(), sum.end(), isBare.begin(), isZero);
+        build(isBare);
+      });
+    sum = SumOfRanks(rows, sum);
+  }
+  DivideRows(sum, weights);
+  return weights;
+}
+
+/// Collective. Whether this rank is the first that has a row of the prolongation.
+std::vector<char> FindEvaluated(const Communicator& ranks, const LevelNumbering& numbering,
+  const RankRows& rows, const SparseMatrix& prolongation)
+{
+  constexpr double Nobody = std::numeric_limits<double>::infinity();
+  MultiVector first;
+  ranks.Together(
+    [&]
+    {
+      first.resize(numbering.Functions(), 1);
+      for (Index hat = 0; hat < numbering.Functions(); ++hat)
+      {
+        const bool hasRow = prolongation.rowBegin[hat] < prolongation.rowBegin[hat + 1];
+        first(hat, 0) = hasRow ? ranks.Rank() : Nobody;
+      }
+    });
+  rows.TakeLeast(first);
+  std::vector<char> isEvaluated;
+  ranks.Together(
+    [&]
+    {
+      for (Index hat = 0; hat < numbering.Functions(); ++hat)
+      {
+        isEvaluated.push_back(
+          first(hat, 0) == Nobody ? hat >= numbering.foreign : first(hat, 0) == ranks.Rank());
+      }
+    });
+  return isEvaluated;
+}
+
+} // namespace
+
+RankHats::RankHats(const RankSpace& space, HatTransfer transfer, const Job& job)
+{
+  const Communicator& ranks = space.Ranks();
+  std::unique_ptr<const ReceivedHats> received;
+  HatList held;
+  ranks.Together(
+    [&]
+    {
+      received = std::make_unique<const ReceivedHats>(space, job.threads);
+      held = received->Held();
+      isIntegrated_ = std::make_shared<const std::vector<double>>(received->IsIntegrated());
+      job.Check(0.2);
+    });
+  std::vector<Index> place;
+  numbering_ = std::make_shared<const LevelNumbering>(NumberHats(ranks, held, place));
+  auto level = std::make_shared<HatLevel>();
+  HatFunctions atPoints; // with all triangles around them
+  std::unique_ptr<const RankRows> rows;
+  ranks.Together(
+    [&]
+    {
+      level->functions = received->Part(place, true);
+      atPoints = received->Part(place, false);
+      level->matrices = AssembleHatMatrices(space.Own().Mesh(), level->functions, {}, job.threads);
+      job.Check(0.5);
+      OrderAlone(*numbering_, job.threads, *level);
+      rows = std::make_unique<const RankRows>(ranks, numbering_->foreign, numbering_->neighbours);
+      job.Check(0.7);
+    });
+  level->prolongation = BuildProlongation(space, atPoints, *rows, transfer, job.threads);
+  isEvaluated_ = std::make_shared<const std::vector<char>>(
+    FindEvaluated(ranks, *numbering_, *rows, level->prolongation));
+  ranks.Together(
+    [&]
+    {
+      level->restriction = Transpose(level->prolongation, job.threads);
+      level_ = std::move(level);
+      own_ = std::make_shared<const HatSpace>(level_, space.Own());
+      job.Check(1.0);
+    });
+}
+
+RankHats RankHats::WithWeighedMass(
+  const RankSpace& space, const std::vector<double>& received, int threads) const
+{
+  RankHats weighed = *this;
+  auto own = std::make_shared<HatSpace>(level_, space.Own());
+  own->WeighMass(received, threads);
+  weighed.own_ = std::move(own);
+  return weighed;
+}
+
+} // namespace gridfem

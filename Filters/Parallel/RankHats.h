@@ -1,0 +1,54 @@
+// The hat functions of a mesh on several ranks, above the grid's functions, as one rank sees them.
+#ifndef GridFEM_RankHats_h
+#define GridFEM_RankHats_h
+
+#include "Parallel/RankSpace.h"
+#include "Spaces/HatSpace.h"
+
+#include <memory>
+#include <vector>
+
+namespace gridfem
+{
+
+/// Each triangle is integrated by the lowest of the ranks whose cells contain its corners: a rank
+/// holds the hats of these triangles, and those at whose points it has pieces of the clipped
+/// surface. Points with the same coordinates have one hat. A copy shares all that does not change.
+class RankHats
+{
+public:
+  /// Collective. Throws RankFailure on all ranks when one fails, and Aborted.
+  /// @param space  whose functions join coincident points
+  explicit RankHats(
+    const RankSpace& space, HatTransfer transfer = HatTransfer::Evaluation, const Job& job = {});
+
+  /// The hats that this rank holds as a space of their own, above RankSpace::Own. Matrices,
+  /// integrals and the prolongation are what the rank adds to the whole; its order and groups have
+  /// the hats that no other rank holds.
+  const HatSpace& Own() const { return *own_; }
+  const LevelNumbering& Numbering() const { return *numbering_; }
+
+  /// 1 for triangles of the received mesh that this rank integrates, else 0.
+  const std::vector<double>& IsIntegrated() const { return *isIntegrated_; }
+
+  /// Per hat whether this rank's prolongation has its row. Of ranks that share a row the lowest has
+  /// it, and the owner where there is none: of each hat it is one rank.
+  const std::vector<char>& IsEvaluated() const { return *isEvaluated_; }
+
+  /// The same hats, with the mass ∫ w b_i b_j.
+  /// @param space     weighed in the same way
+  /// @param received  w >= 0 of each received triangle
+  RankHats WithWeighedMass(
+    const RankSpace& space, const std::vector<double>& received, int threads) const;
+
+private:
+  std::shared_ptr<const LevelNumbering> numbering_;
+  std::shared_ptr<const HatLevel> level_;
+  std::shared_ptr<const std::vector<double>> isIntegrated_;
+  std::shared_ptr<const std::vector<char>> isEvaluated_;
+  std::shared_ptr<const HatSpace> own_;
+};
+
+} // namespace gridfem
+
+#endif
