@@ -50,8 +50,8 @@ MultiVector LoadOfRows(const RankLevels& levels, const SparseMatrix& rows)
 } // namespace
 
 RankDistance::RankDistance(const RankLevels& levels, std::shared_ptr<const TriangleMesh> mesh,
-  DistanceOptions options, const Job& job)
-  : levels_(levels), mesh_(std::move(mesh)), options_(std::move(options))
+  const DistanceOptions& options, const Job& job)
+  : levels_(levels), mesh_(std::move(mesh)), options_(options)
 {
   if (!(options_.smoothing > 0.0) || options_.smoothing >= MostSmoothing)
   {

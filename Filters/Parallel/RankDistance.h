@@ -21,7 +21,7 @@ public:
   /// @param mesh  this rank's own triangles
   /// Throws InvalidInput on all ranks for options out of range, RankFailure, and Aborted.
   RankDistance(const RankLevels& levels, std::shared_ptr<const TriangleMesh> mesh,
-    DistanceOptions options, const Job& job = {});
+    const DistanceOptions& options, const Job& job = {});
 
   /// @param sources  points of this rank; all that lie in one place may be there or one of them
   /// @return at this rank's points

@@ -618,13 +618,15 @@ MultiVector IntegrateGradientsOfCoordinates(const GridFunctions& space, const Tr
     {
       constexpr int Columns = std::decay_t<decltype(sums)>::Count;
       LaneVector slope[Columns];
-      for (int c = 0; c < std::min(Columns, 3); ++c) // there is no pass of four
+      for (int c = 0; c < Columns; ++c)
       {
+        const int column = c % 3; // there is no pass of four
         for (int axis = 0; axis < 3; ++axis)
         {
-          slope[c].axis[axis] = spacing * ((axis == c ? 1.0 : 0.0) - (1.0 - normalStabilization) *
-                                                                       source.Normal().axis[c] *
-                                                                       source.Normal().axis[axis]);
+          slope[c].axis[axis] =
+            spacing * ((axis == column ? 1.0 : 0.0) - (1.0 - normalStabilization) *
+                                                        source.Normal().axis[column] *
+                                                        source.Normal().axis[axis]);
         }
       }
       WithScale(scale, source,

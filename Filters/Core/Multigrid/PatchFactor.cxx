@@ -169,7 +169,6 @@ void FactorWithPivots(const PatchMatrix& block, const Patch& patch, const PatchS
   result = PatchFactor();
   result.dof = patch.dof;
   result.count = patch.count;
-  result.V.setZero();
   if (patch.count == 0)
   {
     return;

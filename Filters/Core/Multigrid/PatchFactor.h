@@ -33,7 +33,8 @@ struct BlockSource
 /// case distinction.
 struct PatchFactor
 {
-  PatchMatrix V; // lower triangular, and mirrored to the upper triangle; zero without unknowns
+  // Lower triangular, and mirrored to the upper triangle; zero without unknowns.
+  PatchMatrix V = PatchMatrix::Zero();
   std::array<Index, FunctionsPerPatch> dof; // in the order of elimination
   double smallestPivot = 1.0;               // kept, of the block scaled to unit diagonal
   Index count = 0;                          // 0: no unknown can be solved for

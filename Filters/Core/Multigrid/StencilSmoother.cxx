@@ -259,12 +259,12 @@ private:
           const Id columns = std::min<Id>(4, x.cols() - first);
           if (columns == 1)
           {
-            this->RelaxBlock(
+            this->RelaxBlock<1>(
               block, b, x, first, columns, direction, reinterpret_cast<Numbers<1>*>(own));
           }
           else
           {
-            this->RelaxBlock(block, b, x, first, columns, direction, own);
+            this->RelaxBlock<4>(block, b, x, first, columns, direction, own);
           }
         }
       });
@@ -299,11 +299,10 @@ private:
   }
 
   /// Numbers of one block, in single precision from when they are loaded until they are stored.
-  template<class Lanes>
+  template<int Width>
   void RelaxBlock(Id index, const MultiVector& b, MultiVector& x, Id first, Id columns,
-    SweepDirection direction, Lanes* load) const
+    SweepDirection direction, Numbers<Width>* load) const
   {
-    constexpr int Width = sizeof(Lanes) / sizeof(float);
     const StencilBlocks::Block& block = blocks_.BlockAt(index);
     const Index* const unknowns = blocks_.Unknowns(block);
     for (Index i = 1; i < block.count; ++i)
@@ -312,8 +311,8 @@ private:
       Fetch(b.data() + x.cols() * Id(unknowns[i]));
     }
     const Index own = block.own + 1;
-    Lanes* const solution = load + own;
-    const auto data = [](Lanes* of) { return reinterpret_cast<float*>(of); };
+    Numbers<Width>* const solution = load + own;
+    const auto data = [](Numbers<Width>* of) { return reinterpret_cast<float*>(of); };
     const std::vector<StencilBlocks::Scaled>& scaled = blocks_.ScaledOf(index);
     Load<Width>(b, unknowns, own, first, columns, scaled.empty(), data(load));
     Load<Width>(x, unknowns, block.count, first, columns, scaled.empty(), data(solution));

@@ -100,7 +100,10 @@ void LineTracer::Follow(const std::vector<Vec3>& line)
       const SurfacePlace begin = this->MovedToAnchor(piece.begin, last);
       if (!at || at->triangle != begin.triangle)
       {
-        ends_.insert(ends_.end(), at ? 1 : 0, at.value_or(begin));
+        if (at)
+        {
+          ends_.push_back(*at);
+        }
         ends_.push_back(begin);
       }
       this->Connect(piece.begin, line[k - 1], piece.end, line[k]);
@@ -108,7 +111,10 @@ void LineTracer::Follow(const std::vector<Vec3>& line)
     }
     last = std::move(next);
   }
-  ends_.insert(ends_.end(), at ? 1 : 0, at.value_or(SurfacePlace{}));
+  if (at)
+  {
+    ends_.push_back(*at);
+  }
   ++line_;
 }
 
