@@ -2,14 +2,14 @@
 // process by Core alone; or what the ranks send to each other in one cycle. Prints one row of a
 // table: run it once for each number of ranks.
 //
-//   mpiexec -n N BenchmarkRanks poisson|spectrum|messages MESH DEPTH [core]
+//   mpiexec -n N BenchmarkRanks poisson|spectrum|hats|hat_spectrum|messages MESH DEPTH [core]
 //
 // MESH is a file, which the first rank reads and the others get their part of, or torus:N, of which
 // every rank makes its own N x N / 4 quadrilaterals' share, so that none ever holds the whole.
 #include "Base/Parallel.h"
-#include "Parallel/RankLevels.h"
 #include "Parallel/RankPoisson.h"
 #include "Parallel/RankSpectrum.h"
+#include "Parallel/RankSurface.h"
 #include "Problems/Poisson.h"
 #include "Support/Meshes.h"
 
@@ -169,7 +169,42 @@ SpectrumOptions ModesOptions(int threads)
   return options;
 }
 
-Measured OnRanks(const Communicator& ranks, const std::string& name, int depth, bool isSpectrum)
+struct Problem
+{
+  bool isSpectrum;
+  bool hasHats; // above the grid
+};
+
+/// From the load on, with the values at points.
+void Solve(const SurfaceSpace& space, const MultiVector& load, const Problem& problem, int threads,
+  Measured& measured)
+{
+  const Stopwatch solve;
+  if (problem.isSpectrum)
+  {
+    const Spectrum spectrum = ComputeSpectrum(space, ModesOptions(threads));
+    space.ValuesAtPoints(spectrum.vectors);
+    Take(spectrum, measured);
+  }
+  else
+  {
+    PoissonOptions poisson;
+    const double cell = 1.0 / space.Extent();
+    poisson.screeningWeight = Weight * cell * cell;
+    poisson.solve.tolerance = Tolerance;
+    poisson.multigrid.threads = threads;
+    const Multigrid multigrid =
+      BuildMultigrid(space, poisson.screeningWeight, 1.0, poisson.multigrid);
+    const PoissonSolution solution = SolvePoisson(space, multigrid, load, MultiVector(), poisson);
+    space.ValuesAtPoints(solution.coefficients);
+    Take(solution.report, measured);
+  }
+  measured.solve = solve.Seconds();
+  measured.functions = space.NumberOfFunctions(0);
+}
+
+Measured OnRanks(
+  const Communicator& ranks, const std::string& name, int depth, const Problem& problem)
 {
   const TriangleMesh own = OwnPart(ranks, name);
   Measured measured{ PeakMegabytes(), 0.0, 0.0, 0, 0, false };
@@ -177,29 +212,11 @@ Measured OnRanks(const Communicator& ranks, const std::string& name, int depth, 
   RankSpaceOptions options;
   options.space.functions.depth = depth;
   options.space.functions.threads = std::max(1, NumberOfThreads(0) / ranks.RanksOfMachine());
-  const RankSpace space(ranks, own, options);
-  Field f;
-  f.values = space.Distribution().SendPoints(WaveAt(own.points));
-  const MultiVector values = space.Own().LoadOfValues(f);
+  const RankSurface surface(ranks, own, options, problem.hasHats);
+  const RankLevels& levels = surface.Levels();
+  const MultiVector load = levels.LoadOfValues({ FieldAssociation::Points, WaveAt(own.points) });
   measured.setUp = setUp.Seconds();
-  const Stopwatch solve;
-  PoissonOptions poisson;
-  const double cell = 1.0 / space.Own().Extent();
-  poisson.screeningWeight = Weight * cell * cell;
-  poisson.solve.tolerance = Tolerance;
-  poisson.multigrid.threads = options.space.functions.threads;
-  if (isSpectrum)
-  {
-    Take(ComputeSpectrum(space, ModesOptions(poisson.multigrid.threads)), measured);
-  }
-  else
-  {
-    const PoissonSolution solution = SolvePoisson(space, values, MultiVector(), poisson);
-    space.ValuesAtPoints(solution.coefficients, static_cast<Id>(own.points.size()));
-    Take(solution.report, measured);
-  }
-  measured.solve = solve.Seconds();
-  measured.functions = space.Numberings().front().total;
+  Solve(levels, load, problem, options.space.functions.threads, measured);
   return measured;
 }
 
@@ -236,7 +253,7 @@ void PrintMessages(const Communicator& ranks, const std::string& name, int depth
   }
 }
 
-Measured OnCore(const std::string& name, int depth, bool isSpectrum)
+Measured OnCore(const std::string& name, int depth, const Problem& problem)
 {
   TriangleMesh mesh = OwnPart(Communicator(MPI_COMM_SELF), name);
   Measured measured{ PeakMegabytes(), 0.0, 0.0, 0, 0, false };
@@ -244,28 +261,18 @@ Measured OnCore(const std::string& name, int depth, bool isSpectrum)
   const Stopwatch setUp;
   GridSpaceOptions options;
   options.functions.depth = depth;
-  const GridSpace space = BuildGridSpace(std::move(mesh), options);
-  const MultiVector values = space.LoadOfValues(f);
-  measured.setUp = setUp.Seconds();
-  const Stopwatch solve;
-  PoissonOptions poisson;
-  const double cell = 1.0 / space.Extent();
-  poisson.screeningWeight = Weight * cell * cell;
-  poisson.solve.tolerance = Tolerance;
-  if (isSpectrum)
+  std::unique_ptr<const FiniteElementSpace> space;
+  if (problem.hasHats)
   {
-    Take(ComputeSpectrum(space, ModesOptions(0)), measured);
+    space = std::make_unique<HatSpace>(BuildHatSpace(std::move(mesh), options));
   }
   else
   {
-    const Multigrid multigrid =
-      BuildMultigrid(space, poisson.screeningWeight, 1.0, poisson.multigrid);
-    const PoissonSolution solution = SolvePoisson(space, multigrid, values, MultiVector(), poisson);
-    space.ValuesAtPoints(solution.coefficients);
-    Take(solution.report, measured);
+    space = std::make_unique<GridSpace>(BuildGridSpace(std::move(mesh), options));
   }
-  measured.solve = solve.Seconds();
-  measured.functions = space.NumberOfFunctions(0);
+  const MultiVector load = space->LoadOfValues(f);
+  measured.setUp = setUp.Seconds();
+  Solve(*space, load, problem, 0, measured);
   return measured;
 }
 
@@ -275,8 +282,8 @@ int main(int argc, char** argv)
 {
   if (argc < 4)
   {
-    std::fprintf(stderr,
-      "Usage: mpiexec -n N BenchmarkRanks poisson|spectrum|messages MESH|torus:N DEPTH [core]\n");
+    std::fprintf(stderr, "Usage: mpiexec -n N BenchmarkRanks "
+                         "poisson|spectrum|hats|hat_spectrum|messages MESH|torus:N DEPTH [core]\n");
     return 2;
   }
   MPI_Init(&argc, &argv);
@@ -284,9 +291,11 @@ int main(int argc, char** argv)
   try
   {
     const Communicator ranks(MPI_COMM_WORLD);
-    const bool isSpectrum = std::string(argv[1]) == "spectrum";
+    const std::string name = argv[1];
+    const Problem problem{ name == "spectrum" || name == "hat_spectrum",
+      name == "hats" || name == "hat_spectrum" };
     const int depth = std::atoi(argv[3]);
-    if (std::string(argv[1]) == "messages")
+    if (name == "messages")
     {
       PrintMessages(ranks, argv[2], depth, CycleType::V);
       PrintMessages(ranks, argv[2], depth, CycleType::W);
@@ -294,7 +303,7 @@ int main(int argc, char** argv)
     }
     const bool isCore = argc > 4;
     const Measured measured =
-      isCore ? OnCore(argv[2], depth, isSpectrum) : OnRanks(ranks, argv[2], depth, isSpectrum);
+      isCore ? OnCore(argv[2], depth, problem) : OnRanks(ranks, argv[2], depth, problem);
     double peak = PeakMegabytes();
     ranks.Maximum(&peak, 1);
     if (ranks.Rank() == 0)
