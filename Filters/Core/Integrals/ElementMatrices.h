@@ -11,6 +11,16 @@
 namespace gridfem
 {
 
+/// Entries of a symmetric element matrix, upper triangle row by row.
+constexpr int ElementEntries = FunctionsPerPatch * (FunctionsPerPatch + 1) / 2;
+
+/// Position of entry (row, column) in the packed upper triangle; order of the arguments is free.
+constexpr int PackedIndex(int row, int column)
+{
+  return row <= column ? row * FunctionsPerPatch - row * (row - 1) / 2 + (column - row)
+                       : PackedIndex(column, row);
+}
+
 using ElementMatrix = std::array<double, ElementEntries>;
 
 struct ElementMatrices
