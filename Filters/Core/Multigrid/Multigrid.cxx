@@ -121,6 +121,7 @@ void BasicMultigrid<Real>::TakeApart(std::vector<MultigridLevel> levels)
     unresolved += counts[1];
   }
   isReliable_ = unresolved <= UnresolvedShare * patches;
+  isSingle_.assign(levels_.size(), 0);
 }
 
 template<class Real>
@@ -278,6 +279,16 @@ std::size_t BasicMultigrid<Real>::Memory() const
     bytes += level.smoother ? level.smoother->Memory() : 0;
   }
   return bytes;
+}
+
+bool FitSinglePrecision(const std::vector<MultigridLevel>& levels, const MultigridOptions& options)
+{
+  return std::all_of(levels.begin(), levels.end() - 1,
+    [&](const MultigridLevel& level)
+    {
+      const SmootherType type = level.smoothing ? level.smoothing->smoother : options.smoother;
+      return type == SmootherType::Patch;
+    });
 }
 
 template BasicMultigrid<float>::BasicMultigrid(
