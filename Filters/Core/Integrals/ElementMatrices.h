@@ -36,11 +36,6 @@ enum class ElementParts
   Mass
 };
 
-/// Values and gradients of the eight trilinear functions at a point given in the cell's own
-/// coordinates [0,1]^3, corner order x fastest.
-void EvaluateTrilinear(const Vec3& local, std::array<double, FunctionsPerPatch>& value);
-void EvaluateTrilinearGradient(const Vec3& local, std::array<Vec3, FunctionsPerPatch>& gradient);
-
 /// The weight s of |∂n u|² in the stiffness (normal-gradient stabilisation: Burman, Hansbo, Larson,
 /// Massing 2018), in (0, 1]. On a nearly flat piece of surface a function can be almost zero
 /// although its coefficients are not; its energy is the square of the surface's roughness, which
