@@ -17,10 +17,12 @@
 namespace gridfem
 {
 
-/// x += Vᵀ V (b - A x) on the patch.
+/// x += Vᵀ V (b - A x) on the patch. A function of its own, so that what surrounds it does not
+/// change it.
 template<class Chunk, class Real, class Factor>
-inline void RelaxPatch(const RowView<Real>& A, const std::array<Index, PatchKernelWidth>& dof,
-  const Factor& V, const Real* b, Real* x, Chunk chunk)
+EIGEN_DONT_INLINE void RelaxPatch(const RowView<Real>& A,
+  const std::array<Index, PatchKernelWidth>& dof, const Factor& V, const Real* b, Real* x,
+  Chunk chunk)
 {
   using ColumnLanes = typename Chunk::ColumnLanes;
   std::conditional_t<Chunk::Width == 1, Real, ColumnLanes> r[PatchKernelWidth];
@@ -46,7 +48,7 @@ inline void RelaxPatch(const RowView<Real>& A, const std::array<Index, PatchKern
 /// So many unknowns a group may have: what a thread has of one while it relaxes it.
 constexpr int LargestGroup = 64;
 
-/// The same on a group of any size; apart from the kernels, so that these stay as they are.
+/// The same on a group of any size.
 template<class Chunk, class Real>
 EIGEN_DONT_INLINE void RelaxGroup(
   const RowView<Real>& A, const GroupFactor& group, const Real* b, Real* x, Chunk chunk)
