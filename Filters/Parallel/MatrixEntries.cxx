@@ -30,6 +30,15 @@ SparseMatrix SumOf(const SparseMatrix& A, std::vector<MatrixEntry> entries, Inde
   return sum.Finish(rows);
 }
 
+PatchOrder InWhole(PatchOrder order, const std::vector<Index>& list)
+{
+  for (Index& unknown : order.dof.unknown)
+  {
+    unknown = unknown < 0 ? unknown : list[unknown];
+  }
+  return order;
+}
+
 SparseMatrix PartOf(const SparseMatrix& A, const std::vector<Index>& list)
 {
   std::vector<MatrixEntry> entries;

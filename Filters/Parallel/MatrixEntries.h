@@ -2,7 +2,7 @@
 #ifndef GridFEM_MatrixEntries_h
 #define GridFEM_MatrixEntries_h
 
-#include "Algebra/SparseMatrix.h"
+#include "Multigrid/Smoother.h"
 
 #include <vector>
 
@@ -43,6 +43,9 @@ void ForEntries(const SparseMatrix& A, const std::vector<Index>& list, Body&& bo
 
 /// The rows and columns of a list.
 SparseMatrix PartOf(const SparseMatrix& A, const std::vector<Index>& list);
+
+/// An order of such a part becomes one of the whole.
+PatchOrder InWhole(PatchOrder order, const std::vector<Index>& list);
 
 } // namespace gridfem
 

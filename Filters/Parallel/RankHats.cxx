@@ -137,19 +137,6 @@ private:
   std::vector<Id> point_;   // of each held hat
 };
 
-/// Orders of a part of the unknowns become orders of all.
-PatchOrder Renumbered(PatchOrder order, const std::vector<Index>& number)
-{
-  for (auto& patch : order.dof)
-  {
-    for (Index& unknown : patch)
-    {
-      unknown = unknown < 0 ? unknown : number[unknown];
-    }
-  }
-  return order;
-}
-
 /// Sweeps over hats that no other rank holds, whose rows lack nothing.
 void OrderAlone(const LevelNumbering& numbering, int threads, HatLevel& level)
 {
@@ -162,8 +149,8 @@ void OrderAlone(const LevelNumbering& numbering, int threads, HatLevel& level)
     }
   }
   const SparseMatrix rows = PartOf(level.matrices.stiffness, alone);
-  level.order = Renumbered(OrderInBlocks(rows), alone);
-  level.groups = Renumbered(GroupByCoupling(rows, threads), alone);
+  level.order = InWhole(OrderInBlocks(rows), alone);
+  level.groups = InWhole(GroupByCoupling(rows, threads), alone);
 }
 
 /// Collective. The sum over the ranks that hold a hat.

@@ -144,27 +144,14 @@ std::vector<int> ColourRanks(
   return colour;
 }
 
-/// Places in a part become those in the whole.
-PatchOrder InWhole(PatchOrder order, const std::vector<Index>& part)
-{
-  for (auto& group : order.dof)
-  {
-    for (Index& place : group)
-    {
-      place = place < 0 ? place : part[place];
-    }
-  }
-  return order;
-}
-
 std::unique_ptr<Smoother> MakeStep(const SparseMatrix& matrix, const BorderStep& step, int threads)
 {
   std::vector<std::unique_ptr<Smoother>> sequence;
-  if (!step.single.dof.empty())
+  if (!step.single.dof.IsEmpty())
   {
     sequence.push_back(MakeGaussSeidel(matrix, step.single));
   }
-  if (!step.patches.dof.empty())
+  if (!step.patches.dof.IsEmpty())
   {
     sequence.push_back(MakePatchSmoother(matrix, step.patches, threads, FactorPrecision::Double));
   }

@@ -1,6 +1,7 @@
 #include "Hierarchy.h"
 
 #include <memory>
+#include <numeric>
 
 namespace gridfem::benchmarks
 {
@@ -12,15 +13,10 @@ namespace
 PatchOrder RowOrder(Index rows)
 {
   PatchOrder order;
-  for (Index row = 0; row < rows; row += FunctionsPerPatch)
-  {
-    auto& patch = order.dof.emplace_back();
-    for (int c = 0; c < FunctionsPerPatch; ++c)
-    {
-      patch[c] = row + c < rows ? row + c : -1;
-    }
-  }
-  order.blockBegin = { 0, static_cast<Id>(order.dof.size()) };
+  order.dof.size = 1;
+  order.dof.unknown.resize(rows);
+  std::iota(order.dof.unknown.begin(), order.dof.unknown.end(), 0);
+  order.blockBegin = { 0, rows };
   order.colourBegin = { 0, 1 };
   return order;
 }

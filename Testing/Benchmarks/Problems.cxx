@@ -102,9 +102,9 @@ void ChooseColours(GridProblem& problem, int columns)
   const double side =
     (space.GetGrid().ToWorld(Vec3(2 * half, 0, 0)) - space.GetGrid().ToWorld(Vec3(0, 0, 0))).norm();
   problem.exact = Colours(Corners(space), centre, side, columns);
-  problem.mass = MassMatrix(space, problem.system);
+  problem.mass = testing::MassMatrix(space, problem.system);
   Multiply(problem.mass, problem.exact, problem.values);
-  Multiply(StiffnessMatrix(space, problem.system), problem.exact, problem.gradients);
+  Multiply(testing::StiffnessMatrix(space, problem.system), problem.exact, problem.gradients);
 }
 
 MultiVector GridProblem::Solve(int columns, int iterations) const

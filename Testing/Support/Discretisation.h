@@ -18,6 +18,17 @@ inline GridSpace ViewOf(
   return GridSpace(view(mesh), view(&space), view(&system));
 }
 
+/// The finest mass or stiffness matrix, grid units.
+inline SparseMatrix MassMatrix(const GridFunctions& space, const LevelOperators& system)
+{
+  return LevelMatrix(space, system, 0, 1.0, 0.0);
+}
+
+inline SparseMatrix StiffnessMatrix(const GridFunctions& space, const LevelOperators& system)
+{
+  return LevelMatrix(space, system, 0, 0.0, 1.0);
+}
+
 struct Discretisation
 {
   GridFunctions space;

@@ -6,6 +6,7 @@
 #include "Algebra/SparseMatrix.h"
 #include "Dense.h"
 #include "Grid/GridFunctions.h"
+#include "Integrals/TrilinearBasis.h"
 #include "Meshes.h"
 
 #include <ostream>
@@ -14,6 +15,19 @@
 
 namespace gridfem::testing
 {
+
+/// Gradients of the eight functions of a cell at a point in its own coordinates.
+inline std::array<Vec3, FunctionsPerPatch> TrilinearGradientsAt(const Vec3& local)
+{
+  std::array<CornerValues, 3> derivative;
+  TrilinearGradients(local, derivative);
+  std::array<Vec3, FunctionsPerPatch> gradient;
+  for (int c = 0; c < FunctionsPerPatch; ++c)
+  {
+    gradient[c] = Vec3(derivative[0][c], derivative[1][c], derivative[2][c]);
+  }
+  return gradient;
+}
 
 /// A mesh with a space on it, as a test parameter.
 struct SpaceCase

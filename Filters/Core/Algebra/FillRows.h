@@ -6,7 +6,6 @@
 #include "Base/PerThreadLists.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 namespace gridfem
@@ -46,27 +45,6 @@ void FillRows(SparseMatrix& matrix, int threads, Row&& row)
   values.AppendTo(matrix.value, threads);
   matrix.rowBegin = std::move(rowBegin);
   matrix.column = std::move(column);
-}
-
-/// Appends the row of a function that is a sum of the eight functions of a patch, with weights; for
-/// FillRows.
-inline void AppendRow(const std::array<Index, FunctionsPerPatch>& dof, const double* weight,
-  Array<Index>& columns, Array<double>& values)
-{
-  std::array<std::pair<Index, double>, FunctionsPerPatch> entries;
-  for (int p = 0; p < FunctionsPerPatch; ++p)
-  {
-    entries[p] = { dof[p], weight[p] };
-  }
-  std::sort(entries.begin(), entries.end());
-  for (const auto& [column, value] : entries)
-  {
-    if (value != 0.0)
-    {
-      columns.push_back(column);
-      values.push_back(value);
-    }
-  }
 }
 
 } // namespace gridfem

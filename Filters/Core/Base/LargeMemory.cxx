@@ -1,16 +1,16 @@
 #include "Base/LargeMemory.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <new>
+
 #ifdef __linux__
 #include <sys/mman.h>
 #endif
-
-#include <algorithm>
-#include <cstdint>
-#include <limits>
-#include <mutex>
-#include <new>
-#include <vector>
-
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
@@ -32,151 +32,82 @@ std::size_t RoundUp(std::size_t size, std::size_t unit)
   return (size + unit - 1) / unit * unit;
 }
 
-/// New memory that begins with a large page: more is asked for, and the rest given back.
-char* MapMemory(std::size_t bytes)
+/// Memory that was freed while somebody wants to use it again.
+struct FreeBlocks
 {
-  void* const all =
-    mmap(nullptr, bytes + LargePage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (all == MAP_FAILED)
-  {
-    throw std::bad_alloc();
-  }
-  const auto address = reinterpret_cast<std::uintptr_t>(all);
-  const std::size_t before = RoundUp(address, LargePage) - address;
-  char* const memory = static_cast<char*>(all) + before;
-  if (before > 0)
-  {
-    munmap(all, before);
-  }
-  if (before < LargePage)
-  {
-    munmap(memory + bytes, LargePage - before);
-  }
-  PreferLargePages(memory, bytes);
-  return memory;
-}
+  std::mutex mutex;
+  int users = 0;
+  std::map<char*, std::size_t> bytes; // no two lie side by side
 
-/// Blocks that were freed while somebody wants to use them again.
-class FreeBlocks
-{
-public:
-  void Keep()
+  /// Gives that much, a multiple of Page, or all there is, back to the system.
+  void Return(std::size_t wanted) noexcept
   {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    ++users_;
-  }
-
-  void Drop() noexcept
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (--users_ == 0)
+    while (wanted > 0 && !bytes.empty())
     {
-      this->Return(std::numeric_limits<std::size_t>::max());
+      const auto block = std::prev(bytes.end());
+      const std::size_t part = std::min(wanted, block->second);
+      block->second -= part;
+      wanted -= part;
+      munmap(block->first + block->second, part);
+      if (block->second == 0)
+      {
+        bytes.erase(block);
+      }
     }
   }
 
   /// The end of the smallest block that is large enough. Null, and as much is returned, if none is.
-  char* Take(std::size_t bytes) noexcept
+  char* Take(std::size_t size) noexcept
   {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    auto best = blocks_.end();
-    for (auto block = blocks_.begin(); block != blocks_.end(); ++block)
+    auto best = bytes.end();
+    for (auto block = bytes.begin(); block != bytes.end(); ++block)
     {
-      if (block->bytes >= bytes && (best == blocks_.end() || block->bytes < best->bytes))
-      {
-        best = block;
-      }
+      const bool isSmaller = best == bytes.end() || block->second < best->second;
+      best = block->second >= size && isSmaller ? block : best;
     }
-    if (best == blocks_.end())
+    if (best == bytes.end())
     {
-      this->Return(bytes);
+      this->Return(size);
       return nullptr;
     }
-    best->bytes -= bytes;
-    char* const memory = best->begin + best->bytes;
-    if (best->bytes == 0)
+    best->second -= size;
+    char* const memory = best->first + best->second;
+    if (best->second == 0)
     {
-      blocks_.erase(best);
+      bytes.erase(best);
     }
     return memory;
   }
 
-  void ReturnSome(std::size_t bytes) noexcept
+  void Insert(char* memory, std::size_t size)
   {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    this->Return(RoundUp(bytes, Page)); // parts of pages would take those of the next block along
-  }
-
-  void Give(char* memory, std::size_t bytes) noexcept
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (users_ == 0 || !this->Insert({ memory, bytes }))
+    const auto block = bytes.emplace(memory, size).first;
+    const auto next = std::next(block);
+    if (next != bytes.end() && memory + size == next->first)
     {
-      munmap(memory, bytes);
+      block->second += next->second;
+      bytes.erase(next);
     }
-  }
-
-private:
-  struct Block
-  {
-    char* begin;
-    std::size_t bytes;
-  };
-
-  /// Joins what lies side by side. False where there is no memory for the entry itself.
-  bool Insert(Block block) noexcept
-  try
-  {
-    for (std::size_t k = 0; k < blocks_.size();)
+    if (block != bytes.begin())
     {
-      const Block& other = blocks_[k];
-      const bool isBefore = other.begin + other.bytes == block.begin;
-      if (isBefore || block.begin + block.bytes == other.begin)
+      const auto before = std::prev(block);
+      if (before->first + before->second == memory)
       {
-        block = { isBefore ? other.begin : block.begin, block.bytes + other.bytes };
-        blocks_.erase(blocks_.begin() + static_cast<std::ptrdiff_t>(k));
-      }
-      else
-      {
-        ++k;
-      }
-    }
-    blocks_.push_back(block);
-    return true;
-  }
-  catch (const std::bad_alloc&)
-  {
-    return false;
-  }
-
-  /// Gives that much, a multiple of Page, or all there is, back to the system.
-  void Return(std::size_t bytes) noexcept
-  {
-    while (bytes > 0 && !blocks_.empty())
-    {
-      Block& block = blocks_.back();
-      const std::size_t part = std::min(bytes, block.bytes);
-      block.bytes -= part;
-      bytes -= part;
-      munmap(block.begin + block.bytes, part);
-      if (block.bytes == 0)
-      {
-        blocks_.pop_back();
+        before->second += block->second;
+        bytes.erase(block);
       }
     }
   }
-
-  std::mutex mutex_;
-  int users_ = 0;
-  std::vector<Block> blocks_;
 };
 
 /// Never destroyed: arrays of static lifetime may outlive it.
-FreeBlocks& KeptBlocks()
+FreeBlocks& Kept()
 {
   static FreeBlocks& blocks = *new FreeBlocks;
   return blocks;
 }
+
+using Lock = std::lock_guard<std::mutex>;
 
 } // namespace
 
@@ -193,29 +124,67 @@ void PreferLargePages(void* begin, std::size_t bytes) noexcept
 
 MemoryReuse::MemoryReuse()
 {
-  KeptBlocks().Keep();
+  const Lock lock(Kept().mutex);
+  ++Kept().users;
 }
 
 MemoryReuse::~MemoryReuse()
 {
-  KeptBlocks().Drop();
+  const Lock lock(Kept().mutex);
+  if (--Kept().users == 0)
+  {
+    Kept().Return(std::numeric_limits<std::size_t>::max());
+  }
 }
 
 void* AllocateLargeMemory(std::size_t bytes)
 {
   const std::size_t size = RoundUp(bytes, Page);
-  char* const kept = KeptBlocks().Take(size);
-  return kept ? kept : MapMemory(size);
+  {
+    const Lock lock(Kept().mutex);
+    if (char* const kept = Kept().Take(size))
+    {
+      return kept;
+    }
+  }
+  // To begin with a large page: more is asked for, and the rest given back.
+  void* const all =
+    mmap(nullptr, size + LargePage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (all == MAP_FAILED)
+  {
+    throw std::bad_alloc();
+  }
+  const auto address = reinterpret_cast<std::uintptr_t>(all);
+  const std::size_t before = RoundUp(address, LargePage) - address;
+  char* const memory = static_cast<char*>(all) + before;
+  munmap(all, before); // of nothing: an error without effect
+  munmap(memory + size, LargePage - before);
+  PreferLargePages(memory, size);
+  return memory;
 }
 
 void FreeLargeMemory(void* memory, std::size_t bytes) noexcept
 {
-  KeptBlocks().Give(static_cast<char*>(memory), RoundUp(bytes, Page));
+  const std::size_t size = RoundUp(bytes, Page);
+  const Lock lock(Kept().mutex);
+  try
+  {
+    if (Kept().users > 0)
+    {
+      Kept().Insert(static_cast<char*>(memory), size);
+      return;
+    }
+  }
+  catch (const std::bad_alloc&)
+  {
+  }
+  munmap(memory, size);
 }
 
 void ReturnLargeMemory(std::size_t bytes) noexcept
 {
-  KeptBlocks().ReturnSome(bytes);
+  const Lock lock(Kept().mutex);
+  Kept().Return(RoundUp(bytes, Page)); // parts of pages would take those of the next block along
 }
 
 #else

@@ -29,19 +29,6 @@ template<class Real>
 using Vectors = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using MultiVector = Vectors<double>;
 
-/// Trilinear B-splines that do not vanish inside one cell, one per corner, x fastest.
-constexpr int FunctionsPerPatch = 8;
-
-/// Entries of a symmetric element matrix, upper triangle row by row.
-constexpr int ElementEntries = FunctionsPerPatch * (FunctionsPerPatch + 1) / 2;
-
-/// Position of entry (row, column) in the packed upper triangle; order of the arguments is free.
-constexpr int PackedIndex(int row, int column)
-{
-  return row <= column ? row * FunctionsPerPatch - row * (row - 1) / 2 + (column - row)
-                       : PackedIndex(column, row);
-}
-
 } // namespace gridfem
 
 #endif

@@ -11,6 +11,9 @@
 namespace gridfem
 {
 
+/// Trilinear B-splines that do not vanish inside one cell, one per corner, x fastest.
+constexpr int FunctionsPerPatch = 8;
+
 struct PatchLevel
 {
   int depth = 0;

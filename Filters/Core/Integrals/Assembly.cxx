@@ -162,6 +162,26 @@ struct ElementSum
   }
 };
 
+/// Appends the row of a function that is a sum of the eight functions of a patch, with weights.
+void AppendRow(const std::array<Index, FunctionsPerPatch>& dof, const double* weight,
+  Array<Index>& columns, Array<double>& values)
+{
+  std::array<std::pair<Index, double>, FunctionsPerPatch> entries;
+  for (int p = 0; p < FunctionsPerPatch; ++p)
+  {
+    entries[p] = { dof[p], weight[p] };
+  }
+  std::sort(entries.begin(), entries.end());
+  for (const auto& [column, value] : entries)
+  {
+    if (value != 0.0)
+    {
+      columns.push_back(column);
+      values.push_back(value);
+    }
+  }
+}
+
 } // namespace
 
 FunctionPlaces PlacesOfFunctions(const PatchLevel& level, int threads)

@@ -2,7 +2,6 @@
 #include "Integrals/ElementMatrices.h"
 
 #include "Integrals/PatchIntegrals.h"
-#include "Integrals/TrilinearBasis.h"
 
 namespace gridfem
 {
@@ -32,21 +31,6 @@ LaneTensor TensorOfTriangles(const ClippedMesh& clipped, const TriangleBatch& ba
 }
 
 } // namespace
-
-void EvaluateTrilinear(const Vec3& local, std::array<double, FunctionsPerPatch>& value)
-{
-  TrilinearValues(local, value);
-}
-
-void EvaluateTrilinearGradient(const Vec3& local, std::array<Vec3, FunctionsPerPatch>& gradient)
-{
-  std::array<CornerValues, 3> derivative;
-  TrilinearGradients(local, derivative);
-  for (int c = 0; c < FunctionsPerPatch; ++c)
-  {
-    gradient[c] = Vec3(derivative[0][c], derivative[1][c], derivative[2][c]);
-  }
-}
 
 ElementMatrices IntegrateElements(const GridFunctions& space, const QuadratureRule& rule,
   int threads, const Progress& progress, double normalStabilization)

@@ -11,6 +11,16 @@
 namespace gridfem
 {
 
+/// Entries of a symmetric element matrix, upper triangle row by row.
+constexpr int ElementEntries = FunctionsPerPatch * (FunctionsPerPatch + 1) / 2;
+
+/// Position of entry (row, column) in the packed upper triangle; order of the arguments is free.
+constexpr int PackedIndex(int row, int column)
+{
+  return row <= column ? row * FunctionsPerPatch - row * (row - 1) / 2 + (column - row)
+                       : PackedIndex(column, row);
+}
+
 using ElementMatrix = std::array<double, ElementEntries>;
 
 struct ElementMatrices
@@ -25,11 +35,6 @@ enum class ElementParts
   Both,
   Mass
 };
-
-/// Values and gradients of the eight trilinear functions at a point given in the cell's own
-/// coordinates [0,1]^3, corner order x fastest.
-void EvaluateTrilinear(const Vec3& local, std::array<double, FunctionsPerPatch>& value);
-void EvaluateTrilinearGradient(const Vec3& local, std::array<Vec3, FunctionsPerPatch>& gradient);
 
 /// The weight s of |∂n u|² in the stiffness (normal-gradient stabilisation: Burman, Hansbo, Larson,
 /// Massing 2018), in (0, 1]. On a nearly flat piece of surface a function can be almost zero

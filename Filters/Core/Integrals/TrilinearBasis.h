@@ -2,7 +2,7 @@
 #ifndef GridFEM_TrilinearBasis_h
 #define GridFEM_TrilinearBasis_h
 
-#include "Base/Types.h"
+#include "Grid/PatchLevel.h"
 
 namespace gridfem
 {

@@ -7,10 +7,11 @@
 namespace gridfem
 {
 template<class Given, class Real>
-Columns LoadRows(const RowSource<Given>& r, Vectors<Real>& to, int threads)
+void LoadRows(const RowSource<Given>& r, Vectors<Real>& to, Columns* norm, int threads)
 {
-  return ParallelSum(
-    r.rows, threads, Columns(Columns::Zero(to.cols())),
+  const Columns zero = Columns::Zero(to.cols());
+  const Columns sum = ParallelSum(
+    r.rows, threads, zero,
     [&](Id begin, Id end)
     {
       auto rows = to.middleRows(begin, end - begin);
@@ -25,15 +26,19 @@ Columns LoadRows(const RowSource<Given>& r, Vectors<Real>& to, int threads)
         r.fill(begin, end, part);
         rows.leftCols(r.columns) = part.template cast<Real>();
       }
-      return RowProducts(to, to, begin, end);
+      return norm ? RowProducts(to, to, begin, end) : zero;
     },
     SourceRows);
+  if (norm)
+  {
+    *norm = sum;
+  }
 }
 
-template Columns LoadRows(const RowSource<float>&, Vectors<float>&, int);
-template Columns LoadRows(const RowSource<double>&, Vectors<float>&, int);
-template Columns LoadRows(const RowSource<float>&, Vectors<double>&, int);
-template Columns LoadRows(const RowSource<double>&, Vectors<double>&, int);
+template void LoadRows(const RowSource<float>&, Vectors<float>&, Columns*, int);
+template void LoadRows(const RowSource<double>&, Vectors<float>&, Columns*, int);
+template void LoadRows(const RowSource<float>&, Vectors<double>&, Columns*, int);
+template void LoadRows(const RowSource<double>&, Vectors<double>&, Columns*, int);
 
 template<class Given, class Real>
 void HandOver(const Vectors<Real>& from, Id columns, const RowSink<Given>& z, int threads)

@@ -31,9 +31,10 @@ struct RowSource
 template<class Real>
 using RowSink = std::function<void(Id begin, Id end, const ConstBlock<Real>& part)>;
 
-/// The rows as a block of to.cols() columns, of which those behind r's are zero. Returns rᵀr.
+/// The rows as a block of to.cols() columns, of which those behind r's are zero.
+/// @param norm  if not null: rᵀr
 template<class Given, class Real>
-Columns LoadRows(const RowSource<Given>& r, Vectors<Real>& to, int threads);
+void LoadRows(const RowSource<Given>& r, Vectors<Real>& to, Columns* norm, int threads);
 
 /// Hands over the first columns of a block.
 template<class Given, class Real>

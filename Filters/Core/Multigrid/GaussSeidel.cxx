@@ -48,7 +48,8 @@ GaussSeidel::GaussSeidel(const SparseMatrix& A, const PatchOrder& order) : unkno
   {
     for (Id patch = order.blockBegin[block]; patch < order.blockBegin[block + 1]; ++patch)
     {
-      std::for_each(order.dof[patch].begin(), order.dof[patch].end(), visit);
+      const UnknownGroup unknowns = order.dof[patch];
+      std::for_each(unknowns.begin(), unknowns.end(), visit);
     }
     ranges_.blockBegin.push_back(static_cast<Id>(unknown_.size()));
   }

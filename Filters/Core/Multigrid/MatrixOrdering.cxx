@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace gridfem
@@ -17,8 +18,6 @@ constexpr Index UnknownsPerBlock = 512;
 /// Of a coupling with an unknown that another group has already. Groups overlap where couplings are
 /// strong, but not everywhere: half as many groups need the same iterations.
 constexpr double WeightOfGrouped = 0.7;
-
-using Group = std::array<Index, FunctionsPerPatch>;
 
 /// The unknowns of one block.
 struct Range
@@ -47,21 +46,18 @@ struct BlocksOfUnknowns
 };
 
 template<class Visit>
-void ForMembers(const std::vector<Group>& groups, Visit&& visit)
+void ForMembers(const UnknownGroups& groups, Visit&& visit)
 {
-  for (const Group& group : groups)
+  for (const Index member : groups.unknown)
   {
-    for (const Index member : group)
+    if (member >= 0)
     {
-      if (member >= 0)
-      {
-        visit(member);
-      }
+      visit(member);
     }
   }
 }
 
-BlocksOfUnknowns FindBlocks(Index unknowns, const std::vector<std::vector<Group>>& groups)
+BlocksOfUnknowns FindBlocks(Index unknowns, const std::vector<UnknownGroups>& groups)
 {
   std::vector<Index> last(unknowns, -1); // the last block that has counted or listed the unknown
   BlocksOfUnknowns blocks;
@@ -90,7 +86,7 @@ BlocksOfUnknowns FindBlocks(Index unknowns, const std::vector<std::vector<Group>
 }
 
 /// The lowest colour that no block before it has whose groups are coupled with its own.
-std::vector<int> ColourBlocks(const SparseMatrix& A, const std::vector<std::vector<Group>>& groups)
+std::vector<int> ColourBlocks(const SparseMatrix& A, const std::vector<UnknownGroups>& groups)
 {
   const BlocksOfUnknowns blocks = FindBlocks(A.rows, groups);
   std::vector<int> colour(groups.size(), -1);
@@ -124,21 +120,22 @@ std::vector<int> ColourBlocks(const SparseMatrix& A, const std::vector<std::vect
 }
 
 /// An order of the groups of all blocks; blocks without a group are left out.
-PatchOrder SortByColour(const SparseMatrix& A, const std::vector<std::vector<Group>>& groups)
+PatchOrder SortByColour(const SparseMatrix& A, const std::vector<UnknownGroups>& groups, int size)
 {
   const std::vector<int> colour = ColourBlocks(A, groups);
   const int colours = colour.empty() ? 0 : 1 + *std::max_element(colour.begin(), colour.end());
   PatchOrder order;
+  order.dof.size = size;
   order.blockBegin.push_back(0);
   order.colourBegin.push_back(0);
   for (int c = 0; c < colours; ++c)
   {
     for (std::size_t block = 0; block < groups.size(); ++block)
     {
-      if (colour[block] == c && !groups[block].empty())
+      if (colour[block] == c && !groups[block].IsEmpty())
       {
-        order.dof.insert(order.dof.end(), groups[block].begin(), groups[block].end());
-        order.blockBegin.push_back(static_cast<Id>(order.dof.size()));
+        order.dof.Add(groups[block].unknown);
+        order.blockBegin.push_back(order.dof.Count());
       }
     }
     order.colourBegin.push_back(static_cast<Id>(order.blockBegin.size()) - 1);
@@ -150,24 +147,25 @@ PatchOrder SortByColour(const SparseMatrix& A, const std::vector<std::vector<Gro
 class GroupGrower
 {
 public:
-  GroupGrower(const SparseMatrix& A, const std::vector<double>& diagonal, const Range& range)
-    : A_(A), diagonal_(diagonal), range_(range), isGrouped_(range.end - range.begin, 0)
+  GroupGrower(
+    const SparseMatrix& A, const std::vector<double>& diagonal, const Range& range, int size)
+    : A_(A), diagonal_(diagonal), range_(range), size_(size), isGrouped_(range.end - range.begin, 0)
   {
   }
 
-  std::vector<Group> Grow()
+  UnknownGroups Grow()
   {
-    std::vector<Group> groups;
+    UnknownGroups groups(size_);
+    std::vector<Index> group(size_);
     for (Index seed = range_.begin; seed < range_.end; ++seed)
     {
       if (this->IsGrouped(seed))
       {
         continue;
       }
-      const Group group = this->GrowFrom(seed);
-      if (group[1] >= 0)
+      if (this->GrowFrom(seed, group))
       {
-        groups.push_back(group);
+        groups.Add(group);
         for (const Index member : group)
         {
           if (range_.Contains(member))
@@ -185,15 +183,16 @@ private:
   bool IsGrouped(Index i) const { return range_.Contains(i) && isGrouped_[i - range_.begin]; }
 
   /// May take in members of other groups and of other blocks: lines must not end at their borders.
-  Group GrowFrom(Index seed) const
+  /// @return  whether a coupling leads on from the seed
+  bool GrowFrom(Index seed, std::vector<Index>& group) const
   {
-    Group group;
-    group.fill(-1);
+    std::fill(group.begin(), group.end(), -1);
     group[0] = seed;
-    for (int size = 1; size < FunctionsPerPatch; ++size)
+    int count = 1;
+    for (; count < size_; ++count)
     {
       std::pair<double, Index> strongest{ 0.0, -1 };
-      for (int k = 0; k < size; ++k)
+      for (int k = 0; k < count; ++k)
       {
         this->FindStronger(group, group[k], strongest);
       }
@@ -201,12 +200,13 @@ private:
       {
         break;
       }
-      group[size] = strongest.second;
+      group[count] = strongest.second;
     }
-    return group;
+    return count > 1;
   }
 
-  void FindStronger(const Group& group, Index member, std::pair<double, Index>& strongest) const
+  void FindStronger(
+    const std::vector<Index>& group, Index member, std::pair<double, Index>& strongest) const
   {
     for (Id k = A_.rowBegin[member]; k < A_.rowBegin[member + 1]; ++k)
     {
@@ -227,6 +227,7 @@ private:
   const SparseMatrix& A_;
   const std::vector<double>& diagonal_;
   Range range_;
+  int size_;
   std::vector<char> isGrouped_;
 };
 
@@ -234,30 +235,23 @@ private:
 
 PatchOrder OrderInBlocks(const SparseMatrix& A)
 {
-  std::vector<std::vector<Group>> groups(NumberOfBlocks(A));
+  std::vector<UnknownGroups> groups(NumberOfBlocks(A), UnknownGroups(1));
   for (std::size_t block = 0; block < groups.size(); ++block)
   {
     const Range range = BlockOf(A, static_cast<Id>(block));
-    for (Index first = range.begin; first < range.end; first += FunctionsPerPatch)
-    {
-      Group group;
-      for (int k = 0; k < FunctionsPerPatch; ++k)
-      {
-        group[k] = range.Contains(first + k) ? first + k : -1;
-      }
-      groups[block].push_back(group);
-    }
+    groups[block].unknown.resize(range.end - range.begin);
+    std::iota(groups[block].unknown.begin(), groups[block].unknown.end(), range.begin);
   }
-  return SortByColour(A, groups);
+  return SortByColour(A, groups, 1);
 }
 
-PatchOrder GroupByCoupling(const SparseMatrix& A, int threads)
+PatchOrder GroupByCoupling(const SparseMatrix& A, int threads, int size)
 {
   const std::vector<double> diagonal = A.Diagonal();
-  std::vector<std::vector<Group>> groups(NumberOfBlocks(A));
+  std::vector<UnknownGroups> groups(NumberOfBlocks(A));
   ParallelBlocks(static_cast<Id>(groups.size()), threads,
-    [&](Id block) { groups[block] = GroupGrower(A, diagonal, BlockOf(A, block)).Grow(); });
-  return SortByColour(A, groups);
+    [&](Id block) { groups[block] = GroupGrower(A, diagonal, BlockOf(A, block), size).Grow(); });
+  return SortByColour(A, groups, size);
 }
 
 } // namespace gridfem

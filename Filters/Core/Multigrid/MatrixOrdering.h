@@ -12,12 +12,12 @@ namespace gridfem
 /// are near should have near numbers.
 PatchOrder OrderInBlocks(const SparseMatrix& A);
 
-/// Groups of eight coupled unknowns, grown from every unknown that is in none by the strongest
+/// Groups of `size` coupled unknowns, grown from every unknown that is in none by the strongest
 /// coupling -a_ij / sqrt(a_ii a_jj); fewer only where no positive coupling leads on. Across thin
 /// triangles a Gauss-Seidel sweep leaves errors that no coarser grid can see; groups follow these
-/// couplings, and solve for eight unknowns at once everywhere else. Groups overlap. Blocks of one
+/// couplings, and solve for as many unknowns at once everywhere else. Groups overlap. Blocks of one
 /// colour are not coupled. Cost O(entries of A), partly serial; same for any number of threads.
-PatchOrder GroupByCoupling(const SparseMatrix& A, int threads = 0);
+PatchOrder GroupByCoupling(const SparseMatrix& A, int threads = 0, int size = PatchKernelWidth);
 
 } // namespace gridfem
 

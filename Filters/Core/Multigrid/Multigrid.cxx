@@ -114,13 +114,14 @@ void BasicMultigrid<Real>::TakeApart(std::vector<MultigridLevel> levels)
     to.smoothing = from.smoothing;
     to.divided = from.divided;
     to.smoother = this->MakeSmoother(from);
-    std::array<double, 2> counts{ double(from.order.dof.size() + from.groups.dof.size()),
+    std::array<double, 2> counts{ double(from.order.dof.Count() + from.groups.dof.Count()),
       double(to.smoother->UnresolvedPatches()) };
     SumOverProcesses(RowsOf(from), counts);
     patches += counts[0];
     unresolved += counts[1];
   }
   isReliable_ = unresolved <= UnresolvedShare * patches;
+  isSingle_.assign(levels_.size(), 0);
 }
 
 template<class Real>
@@ -186,7 +187,7 @@ std::unique_ptr<BasicSmoother<Real>> BasicMultigrid<Real>::MakeSmoother(Multigri
 {
   std::vector<std::unique_ptr<BasicSmoother<Real>>> sequence;
   sequence.push_back(this->MakeFirstSmoother(level));
-  if (!level.groups.dof.empty())
+  if (!level.groups.dof.IsEmpty())
   {
     sequence.push_back(MakePatches<Real>(level.A, level.groups, options_));
   }
@@ -214,7 +215,7 @@ std::unique_ptr<BasicSmoother<Real>> BasicMultigrid<Real>::MakeFirstSmoother(
     {
       return MakeSliceGaussSeidel(level.A, level.order, options_.sweepsPerSynchronisation);
     }
-    if (options_.precision == FactorPrecision::Mixed && level.groups.dof.empty())
+    if (options_.precision == FactorPrecision::Mixed && level.groups.dof.IsEmpty())
     {
       bool patternFits = true;
       auto single = MakeStencilSmoother(level.A, level.order, options_.threads, &patternFits);
@@ -272,12 +273,22 @@ std::size_t BasicMultigrid<Real>::Memory() const
   for (const BasicMultigridLevel<Real>& level : levels_)
   {
     bytes += level.A.Memory() + level.prolongation->Memory() + level.restriction->Memory() +
-             level.order.dof.size() * sizeof(level.order.dof.front()) +
+             level.order.dof.unknown.size() * sizeof(Index) +
              (level.order.blockBegin.size() + level.order.colourBegin.size()) * sizeof(Id) +
              level.order.slice.size() * sizeof(Index);
     bytes += level.smoother ? level.smoother->Memory() : 0;
   }
   return bytes;
+}
+
+bool FitSinglePrecision(const std::vector<MultigridLevel>& levels, const MultigridOptions& options)
+{
+  return std::all_of(levels.begin(), levels.end() - 1,
+    [&](const MultigridLevel& level)
+    {
+      const SmootherType type = level.smoothing ? level.smoothing->smoother : options.smoother;
+      return type == SmootherType::Patch;
+    });
 }
 
 template BasicMultigrid<float>::BasicMultigrid(

@@ -174,8 +174,7 @@ private:
   void Prolong(std::size_t level, const Vectors<Real>& coarse, Vectors<Real>& fine) const;
   void RestrictResidual(std::size_t level, const Vectors<Real>& b, const Vectors<Real>* x,
     Vectors<Real>& residual, Vectors<Real>& coarse, Columns* energy = nullptr) const;
-  Columns CycleInUnits(std::size_t level, const Vectors<Real>& b, Vectors<Real>& x,
-    std::vector<Scratch>& scratch) const;
+  Columns InUnits(std::size_t level, const Vectors<Real>& b, Vectors<Real>& scaled) const;
   void Correct(std::size_t level, const Vectors<Real>& b, Vectors<Real>& x,
     std::vector<Scratch>& scratch) const;
   void Improve(std::size_t level, const Vectors<Real>& b, Vectors<Real>& x,
@@ -189,7 +188,7 @@ private:
   Columns Products(std::size_t level, const Vectors<Real>& x, const Vectors<Real>& y) const;
 
   std::vector<BasicMultigridLevel<Real>> levels_;
-  /// Per level of vectors in double: whether it or a coarser one sweeps in single precision.
+  /// Per level: whether vectors are in double, and it or a coarser one sweeps in single precision.
   std::vector<char> isSingle_;
   bool isReliable_ = true;
   CoarseSolver coarse_;
@@ -198,6 +197,28 @@ private:
 };
 
 using Multigrid = BasicMultigrid<double>;
+
+///@{ What only vectors in double have.
+template<>
+void BasicMultigrid<float>::Update(std::vector<SparseMatrix>) = delete;
+template<>
+void BasicMultigrid<float>::Update(const std::function<void(std::size_t, SparseMatrix&)>&) = delete;
+template<>
+bool BasicMultigrid<float>::HasSingleFactors() const = delete;
+template<>
+BasicMultigrid<float> BasicMultigrid<float>::InDoublePrecision() const = delete;
+template<>
+void BasicMultigrid<float>::Cycle(const Vectors<float>&, Vectors<float>&) const = delete;
+template<>
+void BasicMultigrid<float>::Precondition(const Vectors<float>&, Vectors<float>&) const = delete;
+template<>
+void BasicMultigrid<float>::NestedIteration(
+  const Vectors<float>&, Vectors<float>&, Vectors<float>*) const = delete;
+///@}
+
+/// Whether a hierarchy in single precision takes them: all but the coarsest relax patches, whatever
+/// the precision of their factors in double.
+bool FitSinglePrecision(const std::vector<MultigridLevel>& levels, const MultigridOptions& options);
 
 /// One cycle from `level` on, from zero. The hierarchy has to outlive it.
 template<class Given, class Real>

@@ -34,14 +34,15 @@ void MakeRoom(Id rows, Id columns, Vectors<Real>& block)
 
 /// Per column a power of two near the largest number, or the sum of the largest of all processes;
 /// 1 for a column of zeros or without a bound.
-Eigen::ArrayXd UnitsOf(const MultiVector& b, const DividedRows* divided, int threads)
+template<class Real>
+Eigen::ArrayXd UnitsOf(const Vectors<Real>& b, const DividedRows* divided, int threads)
 {
   Eigen::ArrayXd unit = ParallelSum(b.rows(), ThreadsFor(b.size(), threads),
     LargestNumbers{ Eigen::ArrayXd::Zero(b.cols()) },
     [&](Id begin, Id end) -> LargestNumbers
     {
       const auto rows = b.middleRows(begin, end - begin);
-      return { rows.cwiseAbs().colwise().maxCoeff().transpose().array() };
+      return { rows.cwiseAbs().colwise().maxCoeff().transpose().array().template cast<double>() };
     }).value;
   SumOverProcesses(divided, unit);
   for (double& value : unit)
@@ -52,8 +53,8 @@ Eigen::ArrayXd UnitsOf(const MultiVector& b, const DividedRows* divided, int thr
 }
 
 /// Calls body(k, column) for every number of b, in parallel, row after row.
-template<class Body>
-void ForEachNumber(const MultiVector& b, int threads, Body&& body)
+template<class Real, class Body>
+void ForEachNumber(const Vectors<Real>& b, int threads, Body&& body)
 {
   const Id columns = b.cols();
   ParallelRanges(b.rows(), ThreadsFor(b.size(), threads),
@@ -68,12 +69,14 @@ void ForEachNumber(const MultiVector& b, int threads, Body&& body)
 }
 
 /// to = from, every column times its factor.
-void Scale(const MultiVector& from, const Eigen::ArrayXd& factor, MultiVector& to, int threads)
+template<class Real>
+void Scale(const Vectors<Real>& from, const Eigen::ArrayXd& factor, Vectors<Real>& to, int threads)
 {
   MakeRoom(from.rows(), from.cols(), to);
-  const double* const source = from.data();
-  double* const target = to.data();
-  ForEachNumber(from, threads, [&](Id k, Id column) { target[k] = factor[column] * source[k]; });
+  const Real* const source = from.data();
+  Real* const target = to.data();
+  ForEachNumber(from, threads,
+    [&](Id k, Id column) { target[k] = static_cast<Real>(factor[column] * source[k]); });
 }
 
 /// Fewer columns than registers hold are not faster in single precision, where reading matrices
@@ -192,21 +195,15 @@ ResidualMeasures BasicMultigrid<Real>::PreconditionRows(std::size_t l, const Row
   Vectors<Real>& b = scratch[l].b;
   Vectors<Real>& x = scratch[l].x;
   MakeRoom(r.rows, width, b);
-  Columns norm = LoadRows(r, b, threads);
-  if (const DividedRows* divided = RowsOf(levels_[l]))
+  const DividedRows* const divided = RowsOf(levels_[l]);
+  Columns norm;
+  LoadRows(r, b, divided ? nullptr : &norm, threads);
+  if (divided)
   {
     divided->Sum(b);
     norm = this->Products(l, b, b);
   }
-  Columns unit = Columns::Ones(width);
-  if constexpr (std::is_same_v<Real, double>)
-  {
-    if (isSingle_[l])
-    {
-      unit = UnitsOf(b, RowsOf(levels_[l]), threads);
-      Scale(b, unit.inverse(), b, threads);
-    }
-  }
+  const Columns unit = isSingle_[l] ? this->InUnits(l, b, b) : Columns::Ones(width);
   Columns energy;
   this->Descend(l, b, x, true, scratch, &energy);
   energy *= unit.square();
@@ -214,12 +211,9 @@ ResidualMeasures BasicMultigrid<Real>::PreconditionRows(std::size_t l, const Row
   if (isWanted(measures))
   {
     this->Ascend(l, b, x, scratch);
-    if constexpr (std::is_same_v<Real, double>)
+    if (isSingle_[l])
     {
-      if (isSingle_[l])
-      {
-        Scale(x, unit, x, threads);
-      }
+      Scale(x, unit, x, threads);
     }
     HandOver(x, r.columns, z, threads);
   }
@@ -299,16 +293,14 @@ void BasicMultigrid<Real>::RestrictResidual(std::size_t l, const Vectors<Real>& 
   }
 }
 
-/// x = B b in units of the columns of b, which are returned: single precision gets numbers near 1.
-/// b may be the scaled vector of the level.
+/// scaled = b in units of its columns, which are returned: single precision gets numbers near 1.
+/// Both may be one.
 template<class Real>
-Columns BasicMultigrid<Real>::CycleInUnits(
-  std::size_t l, const Vectors<Real>& b, Vectors<Real>& x, std::vector<Scratch>& scratch) const
+Columns BasicMultigrid<Real>::InUnits(
+  std::size_t l, const Vectors<Real>& b, Vectors<Real>& scaled) const
 {
-  Vectors<Real>& scaled = scratch[l].b;
   Columns unit = UnitsOf(b, RowsOf(levels_[l]), options_.threads);
   Scale(b, unit.inverse(), scaled, options_.threads);
-  this->CycleLevel(l, scaled, x, true, scratch);
   return unit;
 }
 
@@ -322,7 +314,8 @@ void BasicMultigrid<Real>::Correct(
     this->CycleLevel(l, b, x, true, scratch);
     return;
   }
-  const Columns unit = this->CycleInUnits(l, b, x, scratch);
+  const Columns unit = this->InUnits(l, b, scratch[l].b);
+  this->CycleLevel(l, scratch[l].b, x, true, scratch);
   Scale(x, unit, x, options_.threads);
 }
 
@@ -344,7 +337,8 @@ void BasicMultigrid<Real>::Improve(
   {
     divided->Sum(residual);
   }
-  const Columns unit = this->CycleInUnits(l, residual, correction, scratch);
+  const Columns unit = this->InUnits(l, residual, residual);
+  this->CycleLevel(l, residual, correction, true, scratch);
   Real* const target = x.data();
   const Real* const source = correction.data();
   ForEachNumber(

@@ -1,11 +1,13 @@
 #include "Multigrid/PatchFactor.h"
 
+#include "Algebra/PivotedCholesky.h"
 #include "Base/Parallel.h"
 #include "Base/SimdLanes.h"
 #include "Multigrid/BlockSweep.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -14,7 +16,7 @@ namespace gridfem
 namespace
 {
 
-constexpr int N = FunctionsPerPatch;
+constexpr int N = PatchKernelWidth;
 
 /// Sizes that single precision holds with all its digits.
 constexpr double LargestSingle = 1e30;
@@ -113,8 +115,24 @@ PatchMatrix PrincipalBlock(const BlockSource& source, const Patch& patch)
   return S;
 }
 
-/// The unknowns that can be solved for: used places, once, with a positive diagonal; ascending.
-Patch UnknownsOf(const std::array<Index, N>& dof, const BlockSource& source)
+/// Used, with a positive diagonal.
+bool IsSolvable(const BlockSource& source, Index unknown)
+{
+  return unknown >= 0 && source.row[unknown].diagonal >= 0;
+}
+
+/// The unknowns that can be solved for, once, ascending. @return  the end of the copy
+template<class From, class To>
+To CopySolvable(From begin, From end, const BlockSource& source, To copy)
+{
+  const To last =
+    std::copy_if(begin, end, copy, [&](Index unknown) { return IsSolvable(source, unknown); });
+  std::sort(copy, last);
+  return std::unique(copy, last);
+}
+
+/// The unknowns of a patch that can be solved for.
+Patch UnknownsOf(const Index* dof, const BlockSource& source)
 {
   // Nearly always all of them; then each comes after as many as are smaller.
   Patch patch;
@@ -123,21 +141,18 @@ Patch UnknownsOf(const std::array<Index, N>& dof, const BlockSource& source)
   for (int i = 0; i < N; ++i)
   {
     int smaller = 0;
-    for (const Index other : dof)
+    for (int j = 0; j < N; ++j)
     {
-      smaller += other < dof[i] ? 1 : 0;
+      smaller += dof[j] < dof[i] ? 1 : 0;
     }
     patch.dof[smaller] = dof[i];
   }
   if (std::all_of(patch.dof.begin(), patch.dof.end(),
-        [&](Index unknown) { return unknown >= 0 && source.row[unknown].diagonal >= 0; }))
+        [&](Index unknown) { return IsSolvable(source, unknown); }))
   {
     return patch;
   }
-  auto end = std::copy_if(dof.begin(), dof.end(), patch.dof.begin(),
-    [&](Index unknown) { return unknown >= 0 && source.row[unknown].diagonal >= 0; });
-  std::sort(patch.dof.begin(), end);
-  end = std::unique(patch.dof.begin(), end);
+  const auto end = CopySolvable(dof, dof + N, source, patch.dof.begin());
   patch.count = static_cast<Index>(end - patch.dof.begin());
   std::fill(end, patch.dof.end(), patch.count > 0 ? patch.dof.front() : 0);
   return patch;
@@ -156,10 +171,11 @@ PatchScale ScaleOf(const BlockSource& source, const Patch& patch)
   return scale;
 }
 
-bool HasLargeScales(const PatchScale& scale, Index count, double smallestPivot)
+template<class Scale>
+bool HasLargeScales(const Scale& scale, double smallestPivot)
 {
-  return !(scale.head(count).maxCoeff() / std::sqrt(smallestPivot) < LargestSingle &&
-           scale.head(count).minCoeff() > 1.0 / LargestSingle);
+  return !(scale.maxCoeff() / std::sqrt(smallestPivot) < LargestSingle &&
+           scale.minCoeff() > 1.0 / LargestSingle);
 }
 
 /// @param block  not scaled
@@ -185,7 +201,7 @@ void FactorWithPivots(const PatchMatrix& block, const Patch& patch, const PatchS
   }
   result.smallestPivot = factor.smallestPivot;
   result.isComplete = factor.rank == patch.count;
-  result.hasLargeScales = HasLargeScales(scale, patch.count, factor.smallestPivot);
+  result.hasLargeScales = HasLargeScales(scale.head(patch.count), factor.smallestPivot);
 }
 
 static_assert(PatchesAtOnce == LaneCount && N == LaneCount);
@@ -312,15 +328,15 @@ BlockSource::BlockSource(const SparseMatrix& matrix, int threads) : A(matrix), r
     });
 }
 
-void FactorPatches(const BlockSource& source, const std::array<Index, N>* dof, int count,
-  double smallestPivot, PatchFactor* factors)
+void FactorPatches(const BlockSource& source, const Index* dof, int count, double smallestPivot,
+  PatchFactor* factors)
 {
   std::array<Patch, PatchesAtOnce> patch;
   std::array<PatchScale, PatchesAtOnce> scale;
   LaneFactors lanes;
   for (int k = 0; k < count; ++k)
   {
-    patch[k] = UnknownsOf(dof[k], source);
+    patch[k] = UnknownsOf(dof + N * k, source);
     scale[k] = ScaleOf(source, patch[k]);
     if (patch[k].count == N)
     {
@@ -341,8 +357,50 @@ void FactorPatches(const BlockSource& source, const std::array<Index, N>* dof, i
     result.dof = patch[k].dof;
     result.count = N;
     result.isComplete = true;
-    result.hasLargeScales = HasLargeScales(scale[k], N, result.smallestPivot);
+    result.hasLargeScales = HasLargeScales(scale[k], result.smallestPivot);
   }
+}
+
+GroupFactor FactorGroup(const BlockSource& source, UnknownGroup group, double smallestPivot)
+{
+  GroupFactor result;
+  std::vector<Index>& unknown = result.unknown;
+  unknown.resize(group.size());
+  unknown.erase(CopySolvable(group.begin(), group.end(), source, unknown.begin()), unknown.end());
+  const auto count = static_cast<Index>(unknown.size());
+  if (count == 0)
+  {
+    unknown.push_back(0);
+    return result;
+  }
+  Eigen::VectorXd scale(count);
+  Eigen::MatrixXd S(count, count);
+  for (Index i = 0; i < count; ++i)
+  {
+    scale[i] = source.row[unknown[i]].scale;
+    for (Index j = 0; j <= i; ++j)
+    {
+      S(i, j) = S(j, i) = scale[i] * source.A.Coefficient(unknown[i], unknown[j]) * scale[j];
+    }
+  }
+  const std::vector<Index> pivots = PivotedCholesky(S, smallestPivot);
+  const auto rank = static_cast<Index>(pivots.size());
+  result.V.setIdentity(rank, rank);
+  S.topLeftCorner(rank, rank).triangularView<Eigen::Lower>().solveInPlace(result.V);
+  std::vector<Index> ordered;
+  for (const Index pivot : pivots)
+  {
+    result.V.col(static_cast<Index>(ordered.size())) *= scale[pivot];
+    ordered.push_back(unknown[pivot]);
+    unknown[pivot] = -1;
+  }
+  std::copy_if(unknown.begin(), unknown.end(), std::back_inserter(ordered),
+    [](Index rest) { return rest >= 0; });
+  unknown = std::move(ordered);
+  const double root = rank > 0 ? S.diagonal().head(rank).minCoeff() : 1.0;
+  result.isComplete = rank == count;
+  result.hasLargeScales = HasLargeScales(scale, root * root);
+  return result;
 }
 
 } // namespace gridfem

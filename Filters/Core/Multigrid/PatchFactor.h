@@ -1,9 +1,11 @@
-// The inverse of a patch's block of a matrix, as patch smoothers of any precision store it.
+// The inverse of a patch's block of a matrix, as patch smoothers of any precision store it: of
+// patches of PatchKernelWidth unknowns, and of groups of any size.
 #ifndef GridFEM_PatchFactor_h
 #define GridFEM_PatchFactor_h
 
 #include "Algebra/SparseMatrix.h"
 #include "Base/Prefetch.h"
+#include "Multigrid/UnknownGroups.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +13,7 @@
 namespace gridfem
 {
 
-using PatchMatrix = Eigen::Matrix<double, FunctionsPerPatch, FunctionsPerPatch>;
+using PatchMatrix = Eigen::Matrix<double, PatchKernelWidth, PatchKernelWidth>;
 
 /// What the blocks are cut from: a matrix, and where the diagonal is in its rows. Keeps a
 /// reference.
@@ -35,11 +37,20 @@ struct PatchFactor
 {
   // Lower triangular, and mirrored to the upper triangle; zero without unknowns.
   PatchMatrix V = PatchMatrix::Zero();
-  std::array<Index, FunctionsPerPatch> dof; // in the order of elimination
-  double smallestPivot = 1.0;               // kept, of the block scaled to unit diagonal
-  Index count = 0;                          // 0: no unknown can be solved for
-  bool isComplete = true;                   // no pivot was left out
-  bool hasLargeScales = false;              // V would leave the range of single precision
+  std::array<Index, PatchKernelWidth> dof; // in the order of elimination
+  double smallestPivot = 1.0;              // kept, of the block scaled to unit diagonal
+  Index count = 0;                         // 0: no unknown can be solved for
+  bool isComplete = true;                  // no pivot was left out
+  bool hasLargeScales = false;             // V would leave the range of single precision
+};
+
+/// The same for a group of any size: Vᵀ V is the inverse of the block of its first unknowns.
+struct GroupFactor
+{
+  Eigen::MatrixXd V;          // lower triangular; zero above the diagonal
+  std::vector<Index> unknown; // that can be solved for, those of V first; if there are none, one
+  bool isComplete = true;
+  bool hasLargeScales = false;
 };
 
 /// For sweeps in single precision: directions with smaller pivots of a patch's scaled block are
@@ -56,16 +67,19 @@ constexpr int PatchesAtOnce = 8;
 /// pivots stay large in the order of their unknowns keep that order: it is as exact, and without
 /// choices all lanes go at once. Places of dof with -1 are not used; unknowns without a positive
 /// diagonal are left out.
-/// @param dof, factors  `count` of them, at most PatchesAtOnce
-void FactorPatches(const BlockSource& source, const std::array<Index, FunctionsPerPatch>* dof,
-  int count, double smallestPivot, PatchFactor* factors);
+/// @param dof, factors  of `count` patches, at most PatchesAtOnce, one after the other
+void FactorPatches(const BlockSource& source, const Index* dof, int count, double smallestPivot,
+  PatchFactor* factors);
+
+/// One group of any size, with the pivots of pivoted Cholesky.
+GroupFactor FactorGroup(const BlockSource& source, UnknownGroup group, double smallestPivot);
 
 /// What a patch's block is cut from: its rows from the diagonal on.
-EIGEN_ALWAYS_INLINE void FetchRows(
-  const BlockSource& source, const std::array<Index, FunctionsPerPatch>& dof)
+EIGEN_ALWAYS_INLINE void FetchRows(const BlockSource& source, const Index* dof)
 {
-  for (const Index unknown : dof)
+  for (int i = 0; i < PatchKernelWidth; ++i)
   {
+    const Index unknown = dof[i];
     const Id k = unknown >= 0 ? source.row[unknown].diagonal : -1;
     if (k >= 0)
     {
@@ -76,19 +90,21 @@ EIGEN_ALWAYS_INLINE void FetchRows(
 }
 
 /// Calls body(patch, factor) for the patches from `begin` to `end`.
+/// @param patches  of PatchKernelWidth unknowns
 template<class Body>
-void ForEachFactor(const BlockSource& source, const std::array<Index, FunctionsPerPatch>* dof,
-  Id begin, Id end, double smallestPivot, Body&& body)
+void ForEachFactor(const BlockSource& source, const UnknownGroups& patches, Id begin, Id end,
+  double smallestPivot, Body&& body)
 {
+  const auto dofOf = [&](Id patch) { return patches.unknown.data() + PatchKernelWidth * patch; };
   std::array<PatchFactor, PatchesAtOnce> factors;
   for (Id first = begin; first < end; first += PatchesAtOnce)
   {
     const int count = static_cast<int>(std::min<Id>(PatchesAtOnce, end - first));
     for (Id next = first + count; next < std::min(end, first + 2 * PatchesAtOnce); ++next)
     {
-      FetchRows(source, dof[next]);
+      FetchRows(source, dofOf(next));
     }
-    FactorPatches(source, dof + first, count, smallestPivot, factors.data());
+    FactorPatches(source, dofOf(first), count, smallestPivot, factors.data());
     for (int k = 0; k < count; ++k)
     {
       body(first + k, factors[k]);

@@ -1,9 +1,9 @@
-// The correction of a patch from its residuals, for the precisions and numbers of columns of all
-// patch smoothers.
+// The correction of a patch of PatchKernelWidth unknowns from its residuals, for the precisions and
+// numbers of columns of all patch smoothers.
 #ifndef GridFEM_PatchInverse_h
 #define GridFEM_PatchInverse_h
 
-#include "Base/Types.h"
+#include "Multigrid/UnknownGroups.h"
 
 #include <array>
 #include <type_traits>
@@ -15,7 +15,7 @@ namespace gridfem
 template<class Number, bool IsLower>
 struct TriangleOfOnes
 {
-  static constexpr int N = FunctionsPerPatch;
+  static constexpr int N = PatchKernelWidth;
   Number value[N * N]{};
 
   constexpr TriangleOfOnes()
@@ -36,10 +36,10 @@ inline constexpr TriangleOfOnes<Number, IsLower> OnesOf{};
 /// y = T x with the lower or the upper triangle of what is stored mirrored. Two sums need not wait
 /// for each other.
 template<bool IsLower, class Real, class Number>
-EIGEN_ALWAYS_INLINE Eigen::Array<Number, FunctionsPerPatch, 1> MultiplyTriangle(
+EIGEN_ALWAYS_INLINE Eigen::Array<Number, PatchKernelWidth, 1> MultiplyTriangle(
   const Real* mirrored, const Number* x)
 {
-  constexpr int N = FunctionsPerPatch;
+  constexpr int N = PatchKernelWidth;
   using Vector = Eigen::Array<Number, N, 1>;
   const auto column = [&](int j)
   {
@@ -60,15 +60,15 @@ EIGEN_ALWAYS_INLINE Eigen::Array<Number, FunctionsPerPatch, 1> MultiplyTriangle(
 /// V as patches store it: all of a lower triangle mirrored to the upper one, so that products run
 /// along columns, or packed.
 template<class Real>
-using MirroredFactor = std::array<Real, FunctionsPerPatch * FunctionsPerPatch>;
+using MirroredFactor = std::array<Real, PatchKernelWidth * PatchKernelWidth>;
 template<class Real>
-using PackedFactor = std::array<Real, FunctionsPerPatch*(FunctionsPerPatch + 1) / 2>;
+using PackedFactor = std::array<Real, PatchKernelWidth*(PatchKernelWidth + 1) / 2>;
 
 /// Entry (i, j), i >= j.
 template<class Real>
 EIGEN_ALWAYS_INLINE Real EntryOf(const MirroredFactor<Real>& V, int i, int j)
 {
-  return V[FunctionsPerPatch * j + i];
+  return V[PatchKernelWidth * j + i];
 }
 
 template<class Real>
@@ -79,9 +79,9 @@ EIGEN_ALWAYS_INLINE Real EntryOf(const PackedFactor<Real>& V, int i, int j)
 
 /// r = Vᵀ V r. Vectors run along the columns, of which there may be one or several.
 template<class Factor, class Lanes>
-EIGEN_ALWAYS_INLINE void ApplyAlongColumns(const Factor& V, Lanes (&r)[FunctionsPerPatch])
+EIGEN_ALWAYS_INLINE void ApplyAlongColumns(const Factor& V, Lanes (&r)[PatchKernelWidth])
 {
-  constexpr int N = FunctionsPerPatch;
+  constexpr int N = PatchKernelWidth;
   using Number = typename Eigen::NumTraits<Lanes>::Literal;
   const auto entry = [&](int i, int j) { return static_cast<Number>(EntryOf(V, i, j)); };
 #pragma GCC unroll 8
@@ -108,12 +108,12 @@ EIGEN_ALWAYS_INLINE void ApplyAlongColumns(const Factor& V, Lanes (&r)[Functions
 
 /// The same; for one column and a mirrored factor vectors run along the patch.
 template<class Factor, class Lanes>
-EIGEN_ALWAYS_INLINE void ApplyInverse(const Factor& V, Lanes (&r)[FunctionsPerPatch])
+EIGEN_ALWAYS_INLINE void ApplyInverse(const Factor& V, Lanes (&r)[PatchKernelWidth])
 {
   using Real = typename Factor::value_type;
   if constexpr (std::is_floating_point_v<Lanes> && std::is_same_v<Factor, MirroredFactor<Real>>)
   {
-    using Vector = Eigen::Array<Lanes, FunctionsPerPatch, 1>;
+    using Vector = Eigen::Array<Lanes, PatchKernelWidth, 1>;
     const Vector y = MultiplyTriangle<true>(V.data(), &r[0]);
     Eigen::Map<Vector> result(r);
     result = MultiplyTriangle<false>(V.data(), y.data());

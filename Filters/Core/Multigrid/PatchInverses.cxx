@@ -1,6 +1,9 @@
 #include "Multigrid/PatchInverses.h"
 
+#include "Base/Errors.h"
 #include "Base/Parallel.h"
+
+#include <string>
 
 namespace gridfem
 {
@@ -24,23 +27,60 @@ bool IsSingle(const PatchFactor& factor, FactorPrecision precision)
 
 } // namespace
 
-PatchInverses::PatchInverses(const SparseMatrix& A,
-  const std::vector<std::array<Index, FunctionsPerPatch>>& dof, int threads,
+PatchInverses::PatchInverses(const SparseMatrix& A, const UnknownGroups& patches, int threads,
   std::optional<FactorPrecision> precision)
 {
-  patches_.resize(dof.size());
-  const bool isPacked = !precision;
-  single_.resize(isPacked ? 0 : dof.size());
-  double_.resize(isPacked ? 0 : dof.size());
-  packed_.resize(isPacked ? dof.size() : 0);
+  if (patches.size > LargestGroup)
+  {
+    throw InvalidInput("a patch of " + std::to_string(patches.size) + " unknowns; at most " +
+                       std::to_string(LargestGroup) + " are relaxed together");
+  }
+  unresolved_ = patches.size == PatchKernelWidth
+                  ? this->FillPatches(A, patches, threads, precision)
+                  : this->FillGroups(A, patches, threads, !precision);
+}
+
+Id PatchInverses::FillGroups(
+  const SparseMatrix& A, const UnknownGroups& patches, int threads, bool isSingle)
+{
+  groups_.resize(patches.Count());
   const BlockSource source(A, threads);
-  unresolved_ = ParallelSum(
-    static_cast<Id>(dof.size()), threads, Id{ 0 },
+  return ParallelSum(
+    patches.Count(), threads, Id{ 0 },
     [&](Id begin, Id end)
     {
       Id unresolved = 0;
-      ForEachFactor(source, dof.data(), begin, end,
-        isPacked ? SmallestPivotOfSingle : SmallestPivot,
+      for (Id p = begin; p < end; ++p)
+      {
+        groups_[p] =
+          FactorGroup(source, patches[p], isSingle ? SmallestPivotOfSingle : SmallestPivot);
+        if (isSingle && groups_[p].hasLargeScales)
+        {
+          groups_[p].V.resize(0, 0);
+        }
+        unresolved += isSingle && (groups_[p].hasLargeScales || !groups_[p].isComplete) ? 1 : 0;
+      }
+      return unresolved;
+    },
+    PatchesPerBlock);
+}
+
+Id PatchInverses::FillPatches(const SparseMatrix& A, const UnknownGroups& patches, int threads,
+  std::optional<FactorPrecision> precision)
+{
+  const Id count = patches.Count();
+  const bool isPacked = !precision;
+  patches_.resize(count);
+  single_.resize(isPacked ? 0 : count);
+  double_.resize(isPacked ? 0 : count);
+  packed_.resize(isPacked ? count : 0);
+  const BlockSource source(A, threads);
+  return ParallelSum(
+    count, threads, Id{ 0 },
+    [&](Id begin, Id end)
+    {
+      Id unresolved = 0;
+      ForEachFactor(source, patches, begin, end, isPacked ? SmallestPivotOfSingle : SmallestPivot,
         [&](Id p, const PatchFactor& factor)
         { unresolved += this->Set(p, factor, precision) ? 0 : 1; });
       return unresolved;
@@ -59,7 +99,7 @@ bool PatchInverses::Set(Id p, const PatchFactor& factor, std::optional<FactorPre
   if (isPacked)
   {
     patches_[p] = { factor.dof, Packed };
-    for (int i = 0, k = 0; i < FunctionsPerPatch; ++i)
+    for (int i = 0, k = 0; i < PatchKernelWidth; ++i)
     {
       for (int j = 0; j <= i; ++j, ++k)
       {
@@ -72,7 +112,7 @@ bool PatchInverses::Set(Id p, const PatchFactor& factor, std::optional<FactorPre
   patches_[p] = { factor.dof, isSingle ? Single : Double };
   if (isSingle)
   {
-    Eigen::Map<Eigen::Matrix<float, FunctionsPerPatch, FunctionsPerPatch>>(single_[p].data()) =
+    Eigen::Map<Eigen::Matrix<float, PatchKernelWidth, PatchKernelWidth>>(single_[p].data()) =
       factor.V.cast<float>();
   }
   else
@@ -91,6 +131,10 @@ bool PatchInverses::HasSingle() const
 std::size_t PatchInverses::Memory() const
 {
   std::size_t bytes = patches_.size() * sizeof(patches_.front());
+  for (const GroupFactor& group : groups_)
+  {
+    bytes += sizeof(group) + group.unknown.size() * sizeof(Index) + group.V.size() * sizeof(double);
+  }
   for (const Patch& patch : patches_)
   {
     bytes += patch.kind == Single   ? sizeof(single_.front())

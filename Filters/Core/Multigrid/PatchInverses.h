@@ -17,14 +17,16 @@
 namespace gridfem
 {
 
-/// x += Vᵀ V (b - A x) on the patch.
+/// x += Vᵀ V (b - A x) on the patch. A function of its own, so that what surrounds it does not
+/// change it.
 template<class Chunk, class Real, class Factor>
-inline void RelaxPatch(const RowView<Real>& A, const std::array<Index, FunctionsPerPatch>& dof,
-  const Factor& V, const Real* b, Real* x, Chunk chunk)
+EIGEN_DONT_INLINE void RelaxPatch(const RowView<Real>& A,
+  const std::array<Index, PatchKernelWidth>& dof, const Factor& V, const Real* b, Real* x,
+  Chunk chunk)
 {
   using ColumnLanes = typename Chunk::ColumnLanes;
-  std::conditional_t<Chunk::Width == 1, Real, ColumnLanes> r[FunctionsPerPatch];
-  for (int i = 0; i < FunctionsPerPatch; ++i)
+  std::conditional_t<Chunk::Width == 1, Real, ColumnLanes> r[PatchKernelWidth];
+  for (int i = 0; i < PatchKernelWidth; ++i)
   {
     const ColumnLanes residual = chunk.Row(b, dof[i]) - RowProduct(A, dof[i], x, chunk);
     if constexpr (Chunk::Width == 1)
@@ -37,34 +39,101 @@ inline void RelaxPatch(const RowView<Real>& A, const std::array<Index, Functions
     }
   }
   ApplyInverse(V, r);
-  for (int i = 0; i < FunctionsPerPatch; ++i)
+  for (int i = 0; i < PatchKernelWidth; ++i)
   {
     chunk.Row(x, dof[i]) += r[i];
   }
 }
 
-/// Vᵀ V of every patch, in single precision where the options and the numbers allow it.
+/// So many unknowns a group may have: what a thread has of one while it relaxes it.
+constexpr int LargestGroup = 64;
+
+/// The same on a group of any size.
+template<class Chunk, class Real>
+EIGEN_DONT_INLINE void RelaxGroup(
+  const RowView<Real>& A, const GroupFactor& group, const Real* b, Real* x, Chunk chunk)
+{
+  const auto& V = group.V;
+  const auto count = static_cast<int>(V.rows());
+  Eigen::Array<double, Chunk::Width, 1> r[LargestGroup];
+  for (int i = 0; i < count; ++i)
+  {
+    const Index row = group.unknown[i];
+    r[i] = (chunk.Row(b, row) - RowProduct(A, row, x, chunk)).template cast<double>();
+  }
+  for (int i = count - 1; i >= 0; --i)
+  {
+    r[i] *= V(i, i);
+    for (int j = 0; j < i; ++j)
+    {
+      r[i] += V(i, j) * r[j];
+    }
+  }
+  for (int i = 0; i < count; ++i)
+  {
+    r[i] *= V(i, i);
+    for (int j = i + 1; j < count; ++j)
+    {
+      r[i] += V(j, i) * r[j];
+    }
+    chunk.Row(x, group.unknown[i]) += r[i].template cast<Real>();
+  }
+}
+
+/// Vᵀ V of every patch. Patches of PatchKernelWidth unknowns have it in single precision where the
+/// options and the numbers allow it, those of any other size always in double.
 class PatchInverses
 {
 public:
-  /// @param dof        unknowns of each patch, -1 for an unused place
-  /// @param precision  none: single, for vectors in single precision; what that does not hold or
-  ///                   resolve is left out
-  PatchInverses(const SparseMatrix& A, const std::vector<std::array<Index, FunctionsPerPatch>>& dof,
-    int threads, std::optional<FactorPrecision> precision);
+  /// @param precision  none: for vectors in single precision; what that does not hold or resolve is
+  ///                   left out
+  /// Throws InvalidInput where patches have more than LargestGroup unknowns.
+  PatchInverses(const SparseMatrix& A, const UnknownGroups& patches, int threads,
+    std::optional<FactorPrecision> precision);
 
-  Id Count() const { return static_cast<Id>(patches_.size()); }
+  Id Count() const { return static_cast<Id>(patches_.size() + groups_.size()); }
 
   /// Unknowns in the order of the factor. Unused places repeat one that is used.
-  const std::array<Index, FunctionsPerPatch>& Unknowns(Id p) const { return patches_[p].dof; }
+  UnknownGroup Unknowns(Id p) const
+  {
+    return groups_.empty() ? UnknownGroup(patches_[p].dof.data(), PatchKernelWidth)
+                           : UnknownGroup(groups_[p].unknown.data(), Id(groups_[p].unknown.size()));
+  }
+
+  /// Whether patches have PatchKernelWidth unknowns. Loops over many patches ask once: asked for
+  /// each of them, sweeps over eight columns in double precision take 15 % longer.
+  bool HaveKernels() const { return groups_.empty(); }
 
   /// x += Vᵀ V (b - A x) on the patch, for a chunk of columns.
+  /// @param Real  float where the inverses are for vectors in single precision, else double
   template<class Real, class Chunk>
   EIGEN_ALWAYS_INLINE void Relax(
     Id p, const RowView<Real>& A, const Real* b, Real* x, Chunk chunk) const
   {
+    if (this->HaveKernels())
+    {
+      this->RelaxByKernel(p, A, b, x, chunk);
+    }
+    else
+    {
+      RelaxGroup(A, groups_[p], b, x, chunk);
+    }
+  }
+
+  /// The same where patches have kernels.
+  template<class Real, class Chunk>
+  EIGEN_ALWAYS_INLINE void RelaxByKernel(
+    Id p, const RowView<Real>& A, const Real* b, Real* x, Chunk chunk) const
+  {
     const Patch& patch = patches_[p];
-    if (patch.kind == Single)
+    if constexpr (std::is_same_v<Real, float>)
+    {
+      if (patch.kind == Packed)
+      {
+        RelaxPatch(A, patch.dof, packed_[p], b, x, chunk);
+      }
+    }
+    else if (patch.kind == Single)
     {
       RelaxPatch(A, patch.dof, single_[p], b, x, chunk);
     }
@@ -72,17 +141,13 @@ public:
     {
       RelaxPatch(A, patch.dof, double_[p], b, x, chunk);
     }
-    else if (patch.kind == Packed)
-    {
-      RelaxPatch(A, patch.dof, packed_[p], b, x, chunk);
-    }
   }
 
   /// Asks for the rows of a patch that is visited soon; there may be none.
   template<class Real>
   EIGEN_ALWAYS_INLINE void FetchRows(const RowView<Real>& A, Id p) const
   {
-    if (p >= 0 && p < this->Count())
+    if (p >= 0 && p < static_cast<Id>(patches_.size()))
     {
       for (const Index row : patches_[p].dof)
       {
@@ -96,7 +161,7 @@ public:
   EIGEN_ALWAYS_INLINE void FetchVectors(Id p, const Real* b, const Real* x, Chunk chunk) const
   {
     constexpr std::size_t lines = (Chunk::Width * sizeof(Real) + LineSize - 1) / LineSize;
-    if (p >= 0 && p < this->Count())
+    if (p >= 0 && p < static_cast<Id>(patches_.size()))
     {
       for (const Index row : patches_[p].dof)
       {
@@ -109,8 +174,11 @@ public:
   /// Asks for the patch itself, with a given precision, for orders that are not that of memory.
   EIGEN_ALWAYS_INLINE void FetchInverse(Id p) const
   {
-    Fetch(&patches_[p]);
-    Fetch<4>(single_[p].data());
+    if (groups_.empty())
+    {
+      Fetch(&patches_[p]);
+      Fetch<4>(single_[p].data());
+    }
   }
 
   bool HasSingle() const;
@@ -121,7 +189,7 @@ public:
 private:
   struct Patch
   {
-    std::array<Index, FunctionsPerPatch> dof;
+    std::array<Index, PatchKernelWidth> dof;
     Index kind; // of its factor
   };
   enum Kind : Index
@@ -132,11 +200,16 @@ private:
     Packed // in single precision, for many columns
   };
 
+  /// Both return how many are unresolved.
+  Id FillPatches(const SparseMatrix& A, const UnknownGroups& patches, int threads,
+    std::optional<FactorPrecision> precision);
+  Id FillGroups(const SparseMatrix& A, const UnknownGroups& patches, int threads, bool isSingle);
   /// Returns false where the patch is left out in part or as a whole.
   bool Set(Id p, const PatchFactor& factor, std::optional<FactorPrecision> precision);
 
-  Array<Patch> patches_;
   Id unresolved_ = 0;
+  std::vector<GroupFactor> groups_; // where patches have another size than PatchKernelWidth
+  Array<Patch> patches_;            // where they have this one
   // The factor of patch p is entry p of one of them. What is not used is never touched, and so
   // takes no memory.
   Array<MirroredFactor<float>> single_;

@@ -24,8 +24,15 @@ public:
   {
     CheckSweep(A, rows_, b, x);
     const RowView rows(A);
+    const auto sweep = [&](auto&& relax)
+    { SweepBlocks<Real>(ranges_, x.cols(), direction, 128 * inverses_.Count(), threads, relax); };
+    if (!inverses_.HaveKernels())
+    {
+      sweep([&](Id p, auto chunk) { inverses_.Relax(p, rows, b.data(), x.data(), chunk); });
+      return;
+    }
     const Id next = direction == SweepDirection::Forward ? 1 : -1;
-    SweepBlocks<Real>(ranges_, x.cols(), direction, 128 * inverses_.Count(), threads,
+    sweep(
       [&](Id p, auto chunk)
       {
         // What takes longest to come: the rows of the matrix, or those of many columns.
@@ -37,7 +44,7 @@ public:
         {
           inverses_.FetchVectors(p + next, b.data(), x.data(), chunk);
         }
-        inverses_.Relax(p, rows, b.data(), x.data(), chunk);
+        inverses_.RelaxByKernel(p, rows, b.data(), x.data(), chunk);
       });
   }
 

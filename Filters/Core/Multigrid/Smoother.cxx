@@ -28,11 +28,11 @@ void CheckOrder(const SparseMatrix& A, const PatchOrder& order, int threads)
     throw InvalidInput("a smoother needs a square matrix");
   }
   const Id blocks = std::max<Id>(0, Id(order.blockBegin.size()) - 1);
-  if (!Covers(order.blockBegin, Id(order.dof.size())) || !Covers(order.colourBegin, blocks))
+  if (!Covers(order.blockBegin, order.dof.Count()) || !Covers(order.colourBegin, blocks))
   {
     throw InvalidInput("blocks and colours of a patch order must cover all patches");
   }
-  ParallelRanges(static_cast<Id>(order.dof.size()), threads,
+  ParallelRanges(order.dof.Count(), threads,
     [&](Id begin, Id end)
     {
       for (Id patch = begin; patch < end; ++patch)

@@ -5,8 +5,8 @@
 #define GridFEM_Smoother_h
 
 #include "Algebra/SparseMatrix.h"
+#include "Multigrid/UnknownGroups.h"
 
-#include <array>
 #include <memory>
 #include <vector>
 
@@ -17,7 +17,7 @@ namespace gridfem
 /// opposite order. Knows no mesh: groups of unknowns suffice.
 struct PatchOrder
 {
-  std::vector<std::array<Index, FunctionsPerPatch>> dof; // -1 marks an unused place
+  UnknownGroups dof;
   /// Block k has the patches blockBegin[k] .. blockBegin[k + 1). Blocks are sorted by colour.
   std::vector<Id> blockBegin;
   /// Colour c has the blocks colourBegin[c] .. colourBegin[c + 1). Unknowns of two blocks of one
@@ -105,7 +105,9 @@ std::vector<Index> SlabBoundaries(const std::vector<Index>& slice, int sweeps);
 /// is stored, in single precision where its rounding changes nothing (no pivot below 1e-11), else
 /// in double: the sweep stays symmetric and as good as with exact solves, whatever the surface.
 /// Unknowns whose diagonal is not a positive number, and unknowns of no patch, are left alone.
-/// Throws InvalidInput when the order does not fit the matrix. [NUMERICS §1]
+/// Patches of another size than PatchKernelWidth take general loops, with all factors in double.
+/// Throws InvalidInput when the order does not fit the matrix or patches have more than 64
+/// unknowns. [NUMERICS §1]
 std::unique_ptr<Smoother> MakePatchSmoother(const SparseMatrix& A, const PatchOrder& order,
   int threads = 0, FactorPrecision precision = FactorPrecision::Mixed);
 
@@ -118,8 +120,8 @@ std::unique_ptr<BasicSmoother<float>> MakeSinglePatchSmoother(
 /// The first in a half to a third of the time: rows are stencils of the grid, and all is stored and
 /// computed in single precision (Smoother::IsSingle). Patches with pivots below 1e-6, as flat faces
 /// have that are almost parallel to a plane of the grid, are relaxed once more in double precision.
-/// Null where these are more than a tenth, and where the order knows no corners or cells that hold
-/// many patches; see StencilBlocks.
+/// Null where these are more than a tenth, and where patches are not the eight corners of a cell or
+/// many share one; see StencilBlocks.
 /// @param patternFits  if not null: false where it is null for any values of the matrix
 std::unique_ptr<Smoother> MakeStencilSmoother(
   const SparseMatrix& A, const PatchOrder& order, int threads = 0, bool* patternFits = nullptr);

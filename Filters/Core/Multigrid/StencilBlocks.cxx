@@ -13,7 +13,8 @@ namespace gridfem
 namespace
 {
 
-constexpr int N = FunctionsPerPatch;
+constexpr int N = StencilBlocks::N;
+static_assert(N == PatchKernelWidth);
 constexpr Index None = -1;
 
 /// What share of patches may have pivots below SmallestPivotOfSingle. They are relaxed once more in
@@ -40,7 +41,7 @@ constexpr unsigned SlotOf(unsigned corner, unsigned place)
   return x + 4 * y + 16 * z;
 }
 
-bool IsCell(const std::array<Index, N>& dof, const std::vector<Index>& corner)
+bool IsCell(UnknownGroup dof, const std::vector<Index>& corner)
 {
   for (int c = 0; c < N; ++c)
   {
@@ -175,7 +176,7 @@ private:
   /// Functions that share a corner cannot both have its slot: it is the patch's own, or that of the
   /// first row which is coupled to one. Rows that are coupled to others get a copy of their own,
   /// without these, which become extras.
-  void TakeSlots(const SparseMatrix& A, const PatchOrder& order, const std::array<Index, N>& dof,
+  void TakeSlots(const SparseMatrix& A, const PatchOrder& order, UnknownGroup dof,
     const std::vector<Index>& number, Patch& patch)
   {
     std::array<std::uint64_t, Slots / 4> slots{};
@@ -236,8 +237,8 @@ private:
 
 StencilBlocks::StencilBlocks(const SparseMatrix& A, const PatchOrder& order, int threads)
 {
-  patches_.resize(order.dof.size());
-  patternFits_ = static_cast<Index>(order.corner.size()) == A.rows;
+  patches_.resize(order.dof.Count());
+  patternFits_ = order.dof.size == N && static_cast<Index>(order.corner.size()) == A.rows;
   if (patternFits_ && this->FillFactors(A, order, threads))
   {
     patternFits_ = this->Lay(A, order, threads);
@@ -338,7 +339,7 @@ bool StencilBlocks::FillFactors(const SparseMatrix& A, const PatchOrder& order, 
     this->NumberOfPatches(), threads,
     [&](Id begin, Id end)
     {
-      ForEachFactor(source, order.dof.data(), begin, end, SmallestPivotOfSingle,
+      ForEachFactor(source, order.dof, begin, end, SmallestPivotOfSingle,
         [&](Id p, const PatchFactor& factor)
         { isResolved[p] = this->SetFactor(factor, order.dof[p], patches_[p]) ? 1 : 0; });
     },
@@ -355,8 +356,7 @@ bool StencilBlocks::FillFactors(const SparseMatrix& A, const PatchOrder& order, 
 }
 
 /// @return whether single precision resolves all directions; those that it does not are left out
-bool StencilBlocks::SetFactor(
-  const PatchFactor& factor, const std::array<Index, N>& dof, Patch& patch) const
+bool StencilBlocks::SetFactor(const PatchFactor& factor, UnknownGroup dof, Patch& patch) const
 {
   std::array<double, N> weight;
   for (int i = 0; i < N; ++i)

@@ -27,7 +27,7 @@ struct StencilRow
 class StencilBlocks
 {
 public:
-  static constexpr int N = FunctionsPerPatch;
+  static constexpr int N = 8;      // corners of a cell
   static constexpr int Slots = 64; // corners around a cell: 4 x 4 x 4, x fastest
 
   using Local = std::uint16_t; // number of an unknown within its block
@@ -106,7 +106,7 @@ private:
   struct Draft;
   bool Lay(const SparseMatrix& A, const PatchOrder& order, int threads);
   bool FillFactors(const SparseMatrix& A, const PatchOrder& order, int threads);
-  bool SetFactor(const PatchFactor& factor, const std::array<Index, N>& dof, Patch& patch) const;
+  bool SetFactor(const PatchFactor& factor, UnknownGroup dof, Patch& patch) const;
   double WeightOf(Index unknown) const { return weight_.empty() ? 1.0 : weight_[unknown]; }
   float EntryOf(const SparseMatrix& A, Index row, Id k) const;
   void FillRows(const SparseMatrix& A, const PatchOrder& order, int threads);

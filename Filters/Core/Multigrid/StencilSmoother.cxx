@@ -12,7 +12,7 @@ namespace gridfem
 namespace
 {
 
-constexpr int N = FunctionsPerPatch;
+constexpr int N = StencilBlocks::N;
 using Patch = StencilBlocks::Patch;
 
 /// What an unknown of a block has in `Width` columns.
@@ -230,9 +230,10 @@ private:
       return nullptr;
     }
     PatchOrder rest;
+    rest.dof.size = order.dof.size;
     for (const Id patch : patches)
     {
-      rest.dof.push_back(order.dof[patch]);
+      rest.dof.Add(order.dof[patch]);
     }
     for (const Id begin : order.blockBegin)
     {

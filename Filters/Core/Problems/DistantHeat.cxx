@@ -62,16 +62,14 @@ DistantHeat::DistantHeat(
   this->Factor(space.Relaxation(level, {}).order.dof, job.threads);
 }
 
-DistantHeat::DistantHeat(SparseMatrix A,
-  const std::vector<std::array<Index, FunctionsPerPatch>>& patches, double t, double change,
-  int threads)
+DistantHeat::DistantHeat(
+  SparseMatrix A, const UnknownGroups& patches, double t, double change, int threads)
   : A_(std::move(A)), t_(t), change_(change)
 {
   this->Factor(patches, threads);
 }
 
-void DistantHeat::Factor(
-  const std::vector<std::array<Index, FunctionsPerPatch>>& patches, int threads)
+void DistantHeat::Factor(const UnknownGroups& patches, int threads)
 {
   size_ = A_.Diagonal(threads);
   for (double& size : size_)
@@ -142,10 +140,10 @@ DistantHeat::Layers DistantHeat::LayersBySteps(const std::vector<Index>& steps) 
   std::vector<double> rank(patches_->Count());
   for (std::size_t p = 0; p < rank.size(); ++p)
   {
-    const auto& unknowns = patches_->Unknowns(static_cast<Id>(p));
+    const UnknownGroup unknowns = patches_->Unknowns(static_cast<Id>(p));
     const double sum = std::accumulate(unknowns.begin(), unknowns.end(), 0.0,
       [&](double before, Index i) { return before + steps[i]; });
-    rank[p] = steps[unknowns[0]] < 0 ? Infinite : sum / FunctionsPerPatch;
+    rank[p] = steps[unknowns[0]] < 0 ? Infinite : sum / double(unknowns.size());
   }
   return this->LayersByRank(rank);
 }
@@ -184,16 +182,16 @@ double DistantHeat::HeatOf(Index patch, const MultiVector& u) const
 /// @return  the largest change over the heat of the patch
 double DistantHeat::Relax(Index patch, const MultiVector& b, MultiVector& u) const
 {
-  const auto& unknowns = patches_->Unknowns(patch);
-  std::array<double, FunctionsPerPatch> before;
-  for (int k = 0; k < FunctionsPerPatch; ++k)
+  const UnknownGroup unknowns = patches_->Unknowns(patch);
+  std::array<double, LargestGroup> before;
+  for (Id k = 0; k < unknowns.size(); ++k)
   {
     before[k] = u(unknowns[k], 0);
   }
   patches_->Relax(patch, RowView(A_), b.data(), u.data(), ColumnChunk<1, 1>());
   double heat = SmallestHeat;
   double change = 0.0;
-  for (int k = 0; k < FunctionsPerPatch; ++k)
+  for (Id k = 0; k < unknowns.size(); ++k)
   {
     const Index i = unknowns[k];
     double& value = u(i, 0);

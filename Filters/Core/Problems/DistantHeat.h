@@ -13,7 +13,6 @@
 #include "Multigrid/CoarseSolver.h"
 #include "Multigrid/PatchInverses.h"
 
-#include <array>
 #include <optional>
 #include <vector>
 
@@ -58,8 +57,7 @@ public:
   /// The same of a part of a surface that other processes have the rest of.
   /// @param A        M / t + L. Rows of the unknowns of patches lack nothing.
   /// @param patches  that are relaxed here; other unknowns stay as they are
-  DistantHeat(SparseMatrix A, const std::vector<std::array<Index, FunctionsPerPatch>>& patches,
-    double t, double change, int threads);
+  DistantHeat(SparseMatrix A, const UnknownGroups& patches, double t, double change, int threads);
 
   /// @param load  one column: Σ b_i(source), b_i the functions of the finest level
   /// @return      coefficients of the finest level
@@ -86,7 +84,7 @@ private:
     Id Count() const { return static_cast<Id>(begin.size()) - 1; }
   };
 
-  void Factor(const std::vector<std::array<Index, FunctionsPerPatch>>& patches, int threads);
+  void Factor(const UnknownGroups& patches, int threads);
   HeatField OnLevel(const MultiVector& load, MultiVector before, const Job& job) const;
   std::vector<Index> StepsFromSources(const MultiVector& load, const MultiVector& u) const;
   Layers LayersByRank(const std::vector<double>& rank) const;

@@ -1,6 +1,7 @@
 #include "Problems/MemoryEstimate.h"
 
 #include "Grid/MeshEdges.h"
+#include "Grid/PatchLevel.h"
 
 #include <algorithm>
 #include <fstream>

@@ -7,12 +7,15 @@ SpectrumCycle::SpectrumCycle(
   const SpaceLevels& space, double shift, const MultigridOptions& options, const Progress& progress)
   : space_(space), shift_(shift), options_(options)
 {
-  if (options.smoother == SmootherType::Patch)
+  std::vector<MultigridLevel> levels =
+    BuildMultigridLevels(space, shift, 1.0, options, progress.Part(0.0, 0.5));
+  if (!FitSinglePrecision(levels, options))
   {
-    single_ = std::make_unique<BasicMultigrid<float>>(
-      BuildMultigridLevels(space, shift, 1.0, options, progress.Part(0.0, 0.5)), options);
+    double_ = std::make_unique<Multigrid>(std::move(levels), options);
+    return;
   }
-  if (!single_ || !single_->IsReliable())
+  single_ = std::make_unique<BasicMultigrid<float>>(std::move(levels), options);
+  if (!single_->IsReliable())
   {
     single_.reset();
     this->BuildDouble(progress.Part(0.5, 1.0));

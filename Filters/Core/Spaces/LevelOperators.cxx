@@ -164,14 +164,4 @@ SparseMatrix LevelMatrix(const GridFunctions& space, const LevelOperators& syste
   return matrix;
 }
 
-SparseMatrix MassMatrix(const GridFunctions& space, const LevelOperators& system, int threads)
-{
-  return LevelMatrix(space, system, 0, 1.0, 0.0, threads);
-}
-
-SparseMatrix StiffnessMatrix(const GridFunctions& space, const LevelOperators& system, int threads)
-{
-  return LevelMatrix(space, system, 0, 0.0, 1.0, threads);
-}
-
 } // namespace gridfem

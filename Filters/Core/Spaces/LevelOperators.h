@@ -49,11 +49,6 @@ void FillLevelMatrix(const GridFunctions& space, const LevelOperators& system, s
 SparseMatrix LevelMatrix(const GridFunctions& space, const LevelOperators& system,
   std::size_t level, double a, double b, int threads = 0);
 
-/// The finest mass or stiffness matrix, grid units.
-SparseMatrix MassMatrix(const GridFunctions& space, const LevelOperators& system, int threads = 0);
-SparseMatrix StiffnessMatrix(
-  const GridFunctions& space, const LevelOperators& system, int threads = 0);
-
 } // namespace gridfem
 
 #endif

@@ -108,7 +108,8 @@ PatchOrder OrderPatches(const PatchLevel& level)
     [](const BlockRange& a, const BlockRange& b) { return a.colour < b.colour; });
 
   PatchOrder order;
-  order.dof.reserve(level.dof.size());
+  order.dof.size = FunctionsPerPatch;
+  order.dof.unknown.reserve(FunctionsPerPatch * level.dof.size());
   order.blockBegin.push_back(0);
   order.colourBegin.push_back(0);
   for (Id k = 0; k < static_cast<Id>(blocks.size()); ++k)
@@ -119,9 +120,9 @@ PatchOrder OrderPatches(const PatchLevel& level)
     }
     for (const Id patch : VisitingOrder(level, blocks[k].begin, blocks[k].end))
     {
-      order.dof.push_back(level.dof[patch]);
+      order.dof.Add(level.dof[patch]);
     }
-    order.blockBegin.push_back(static_cast<Id>(order.dof.size()));
+    order.blockBegin.push_back(order.dof.Count());
   }
   if (!blocks.empty())
   {

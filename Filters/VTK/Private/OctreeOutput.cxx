@@ -6,7 +6,7 @@
 
 #include "Base/Errors.h"
 #include "Base/Parallel.h"
-#include "Integrals/ElementMatrices.h"
+#include "Integrals/TrilinearBasis.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -323,7 +323,7 @@ MultiVector BasisFunctionCoefficients(const GridFunctions& space, int depth, Id 
         cell[1] + ((corner >> 1) & 1) - side * coarse[1],
         cell[2] + ((corner >> 2) & 1) - side * coarse[2]);
       std::array<double, FunctionsPerPatch> value;
-      EvaluateTrilinear(local / side, value);
+      TrilinearValues(local / side, value);
       coefficients(space.Finest().dof[patch][corner], 0) = value[found - dof.begin()];
     }
   }

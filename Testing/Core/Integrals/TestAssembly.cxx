@@ -1,6 +1,7 @@
 // Level matrices and prolongations: against dense sums, Galerkin products and point values.
 #include "Integrals/Assembly.h"
 
+#include "Integrals/TrilinearBasis.h"
 #include "Spaces.h"
 
 #include <Eigen/SparseCore>
@@ -48,7 +49,7 @@ double ValueInPatch(const PatchLevel& level, Id patch, double side, const Vec3& 
 {
   const CellIndex cell = MortonDecode(level.cell[patch]);
   std::array<double, FunctionsPerPatch> b;
-  EvaluateTrilinear(position / side - Vec3(cell[0], cell[1], cell[2]), b);
+  TrilinearValues(position / side - Vec3(cell[0], cell[1], cell[2]), b);
   double value = 0.0;
   for (int c = 0; c < FunctionsPerPatch; ++c)
   {

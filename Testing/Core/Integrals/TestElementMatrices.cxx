@@ -77,9 +77,8 @@ DirectIntegrals IntegrateOnLevel(
         const auto& t = point.barycentric;
         const Vec3 local = (t[0] * p + t[1] * q + t[2] * r - corner) / side;
         std::array<double, FunctionsPerPatch> b;
-        std::array<Vec3, FunctionsPerPatch> g;
-        EvaluateTrilinear(local, b);
-        EvaluateTrilinearGradient(local, g);
+        TrilinearValues(local, b);
+        const std::array<Vec3, FunctionsPerPatch> g = TrilinearGradientsAt(local);
         const double weight = 0.5 * twice.norm() * point.weight;
         for (int i = 0; i < FunctionsPerPatch; ++i)
         {
@@ -296,7 +295,7 @@ TEST(Trilinear, FunctionsInterpolateAndSumToOne)
   {
     const Vec3 local = points.row(k).transpose();
     std::array<double, FunctionsPerPatch> b;
-    EvaluateTrilinear(local, b);
+    TrilinearValues(local, b);
     double sum = 0.0;
     Vec3 position = Vec3::Zero();
     for (int c = 0; c < FunctionsPerPatch; ++c)
@@ -316,17 +315,17 @@ TEST(Trilinear, GradientsAreDifferencesAlongTheAxes)
   for (Id k = 0; k < points.rows(); ++k)
   {
     const Vec3 local = points.row(k).transpose();
-    std::array<Vec3, FunctionsPerPatch> gradient;
-    EvaluateTrilinearGradient(local, gradient);
+    std::array<CornerValues, 3> gradient;
+    TrilinearGradients(local, gradient);
     for (int axis = 0; axis < 3; ++axis)
     {
       std::array<double, FunctionsPerPatch> here;
       std::array<double, FunctionsPerPatch> there;
-      EvaluateTrilinear(local, here);
-      EvaluateTrilinear(local + Vec3::Unit(axis), there);
+      TrilinearValues(local, here);
+      TrilinearValues(local + Vec3::Unit(axis), there);
       for (int c = 0; c < FunctionsPerPatch; ++c)
       {
-        EXPECT_NEAR(gradient[c][axis], there[c] - here[c], 1e-13);
+        EXPECT_NEAR(gradient[axis][c], there[c] - here[c], 1e-13);
       }
     }
   }
@@ -343,8 +342,8 @@ TEST(Trilinear, ChildWeightsWriteParentFunctionsInChildOnes)
       const Vec3 inParent = 0.5 * (inChild + Vec3(octant & 1, (octant >> 1) & 1, octant >> 2));
       std::array<double, FunctionsPerPatch> child;
       std::array<double, FunctionsPerPatch> parent;
-      EvaluateTrilinear(inChild, child);
-      EvaluateTrilinear(inParent, parent);
+      TrilinearValues(inChild, child);
+      TrilinearValues(inParent, parent);
       for (int p = 0; p < FunctionsPerPatch; ++p)
       {
         double value = 0.0;

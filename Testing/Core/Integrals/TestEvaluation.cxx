@@ -1,6 +1,7 @@
 // Values and surface gradients at points: the space contains the linear functions of space.
 #include "Integrals/Evaluation.h"
 
+#include "Integrals/TrilinearBasis.h"
 #include "Spaces.h"
 
 #include "Integrals/ElementMatrices.h"
@@ -29,7 +30,7 @@ Eigen::RowVectorXd ValueInPatch(
 {
   const PatchLevel& level = space.Finest();
   std::array<double, FunctionsPerPatch> b;
-  EvaluateTrilinear(position - CellCorner(level.cell[patch]), b);
+  TrilinearValues(position - CellCorner(level.cell[patch]), b);
   Eigen::RowVectorXd result = Eigen::RowVectorXd::Zero(coefficients.cols());
   for (int c = 0; c < FunctionsPerPatch; ++c)
   {

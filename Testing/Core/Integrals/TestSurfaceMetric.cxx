@@ -75,9 +75,9 @@ ElementMatrices IntegrateInSpace(const GridFunctions& space, const MultiVector& 
         for (const QuadratureRule::Point& point : TriangleRule(2).points)
         {
           std::array<double, FunctionsPerPatch> value;
-          std::array<Vec3, FunctionsPerPatch> gradient;
-          EvaluateTrilinear(triangle.At(point.barycentric), value);
-          EvaluateTrilinearGradient(triangle.At(point.barycentric), gradient);
+          TrilinearValues(triangle.At(point.barycentric), value);
+          const std::array<Vec3, FunctionsPerPatch> gradient =
+            TrilinearGradientsAt(triangle.At(point.barycentric));
           Eigen::Matrix3d slope = Eigen::Matrix3d::Zero();
           for (int c = 0; c < FunctionsPerPatch; ++c)
           {

@@ -21,7 +21,7 @@ using testing::RandomVectors;
 Multigrid NearlyDependentPatches(int seen, double hidden, FactorPrecision precision)
 {
   constexpr int Count = 100;
-  constexpr int N = FunctionsPerPatch;
+  constexpr int N = PatchKernelWidth;
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(N * Count, N * Count);
   std::vector<MultigridLevel> levels(2);
   PatchOrder& order = levels[0].order;
@@ -31,9 +31,10 @@ Multigrid NearlyDependentPatches(int seen, double hidden, FactorPrecision precis
     A.block(N * k, N * k, N, N) =
       R.leftCols(seen) * R.leftCols(seen).transpose() +
       hidden * R.rightCols(N - seen) * R.rightCols(N - seen).transpose();
-    order.dof.emplace_back();
-    std::iota(order.dof.back().begin(), order.dof.back().end(), N * k);
   }
+  order.dof.size = N;
+  order.dof.unknown.resize(N * Count);
+  std::iota(order.dof.unknown.begin(), order.dof.unknown.end(), 0);
   order.blockBegin = { 0, Count };
   order.colourBegin = { 0, 1 };
   levels[0].A = testing::Sparse(A);

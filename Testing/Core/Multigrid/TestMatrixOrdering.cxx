@@ -2,6 +2,7 @@
 #include "Multigrid/MatrixOrdering.h"
 
 #include "Meshes.h"
+#include "SampledHierarchy.h"
 #include "Spaces/HatMatrices.h"
 
 #include <gtest/gtest.h>
@@ -79,12 +80,9 @@ TEST(HatOrdering, VisitsEveryUnknownOnceAndSeparatesBlocksOfAColour)
   const SparseMatrix A = HatStiffness(GeodesicSphere(30)); // 3602 functions
   const PatchOrder order = OrderInBlocks(A);
   std::vector<int> visits(A.rows, 0);
-  for (const auto& group : order.dof)
+  for (const Index unknown : order.dof.unknown)
   {
-    for (const Index unknown : group)
-    {
-      visits[std::max(unknown, 0)] += unknown >= 0;
-    }
+    visits[std::max(unknown, 0)] += unknown >= 0;
   }
   EXPECT_EQ(visits, std::vector<int>(A.rows, 1));
   ExpectColoursSeparateBlocks(order, A);
@@ -95,14 +93,30 @@ TEST(HatOrdering, GroupsReachEveryUnknownAndSeparateBlocksOfAColour)
   for (const TriangleMesh& mesh : { GeodesicSphere(30), Ring(150), Ring(600) })
   {
     const SparseMatrix A = HatStiffness(mesh);
-    const PatchOrder groups = GroupByCoupling(A);
-    const std::vector<std::set<Id>> blocks = BlocksOfUnknowns(groups, A.rows);
-    EXPECT_TRUE(
-      std::none_of(blocks.begin(), blocks.end(), [](const std::set<Id>& b) { return b.empty(); }));
-    EXPECT_TRUE(std::any_of(blocks.begin(), blocks.end(),
-      [](const std::set<Id>& b) { return b.size() > 1; })); // some reach over borders
-    ExpectColoursSeparateBlocks(groups, A);
+    for (const int size : { 8, 27 })
+    {
+      const PatchOrder groups = GroupByCoupling(A, 0, size);
+      EXPECT_EQ(groups.dof.size, size);
+      const std::vector<std::set<Id>> blocks = BlocksOfUnknowns(groups, A.rows);
+      EXPECT_TRUE(std::none_of(
+        blocks.begin(), blocks.end(), [](const std::set<Id>& b) { return b.empty(); }));
+      EXPECT_TRUE(std::any_of(blocks.begin(), blocks.end(),
+        [](const std::set<Id>& b) { return b.size() > 1; })); // some reach over borders
+      ExpectColoursSeparateBlocks(groups, A);
+    }
   }
+}
+
+TEST(HatOrdering, ThreadsDoNotChangeABitOfGroupsOfAnySize)
+{
+  const SparseMatrix A = HatStiffness(GeodesicSphere(30));
+  const auto smoother = MakePatchSmoother(A, GroupByCoupling(A, 0, 27));
+  const MultiVector b = RandomVectors(A.rows, 3, 1);
+  MultiVector one = RandomVectors(A.rows, 3, 2);
+  MultiVector two = one;
+  smoother->Sweep(A, b, one, SweepDirection::Forward, 1);
+  smoother->Sweep(A, b, two, SweepDirection::Forward, 2);
+  EXPECT_EQ(one, two);
 }
 
 TEST(HatOrdering, GroupsFollowStrongCouplings)
@@ -119,12 +133,13 @@ TEST(HatOrdering, GroupsFollowStrongCouplings)
     const double angle = std::atan2(mesh.points[p][1], mesh.points[p][0]);
     place[hats.ofPoint[p]] = std::lround(angle / (2.0 * Pi) * Along + Along) % Along;
   }
-  for (const auto& group : GroupByCoupling(HatStiffness(mesh)).dof)
+  const UnknownGroups groups = GroupByCoupling(HatStiffness(mesh)).dof;
+  for (Id group = 0; group < groups.Count(); ++group)
   {
-    for (const Index member : group)
+    for (const Index member : groups[group])
     {
       ASSERT_GE(member, 0);
-      EXPECT_EQ(place[member], place[group[0]]);
+      EXPECT_EQ(place[member], place[groups[group][0]]);
     }
   }
 }

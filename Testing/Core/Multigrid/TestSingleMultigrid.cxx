@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <type_traits>
 
 namespace gridfem
 {
@@ -24,6 +25,15 @@ constexpr double Shift = 0.01;
 using SingleMultigrid = BasicMultigrid<float>;
 
 constexpr MultigridOptions Standard{ CycleType::V };
+
+template<class Hierarchy, class = void>
+constexpr bool HasCycle = false;
+
+template<class Hierarchy>
+constexpr bool HasCycle<Hierarchy,
+  std::void_t<decltype(&Hierarchy::Cycle), decltype(&Hierarchy::InDoublePrecision)>> = true;
+
+static_assert(HasCycle<Multigrid> && !HasCycle<SingleMultigrid>);
 
 SingleMultigrid MakeSingle(const Discretisation& on, const MultigridOptions& options = Standard)
 {
@@ -268,6 +278,20 @@ TEST(SpectrumCycle, IsDoubleWhereSinglePrecisionWouldNotDoAndSingleForAnyCycle)
       EXPECT_NEAR(single.eigenvalues[j] / inDouble.eigenvalues[j], 1.0, 2e-8);
     }
   }
+}
+
+TEST(SpectrumCycle, LooksAtHowEveryLevelIsRelaxed)
+{
+  const Discretisation on = Discretise(GeodesicSphere(8), 3);
+  std::vector<MultigridLevel> levels =
+    BuildMultigridLevels(ViewOf(on.space, on.system), Shift, 1.0, Standard);
+  EXPECT_TRUE(FitSinglePrecision(levels, Standard));
+  levels.front().smoothing = LevelSmoothing{}; // Gauss-Seidel
+  EXPECT_FALSE(FitSinglePrecision(levels, Standard));
+  levels.front().smoothing->smoother = SmootherType::Patch;
+  EXPECT_TRUE(FitSinglePrecision(levels, Standard));
+  levels.back().smoothing = LevelSmoothing{}; // is solved directly
+  EXPECT_TRUE(FitSinglePrecision(levels, Standard));
 }
 
 /// The finest level, without a preconditioner.

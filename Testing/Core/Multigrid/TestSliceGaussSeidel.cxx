@@ -46,10 +46,8 @@ std::unique_ptr<Smoother> SequentialSweep(
              std::pair(IsLeftOut(slice[j], boundaries, sweep), slice[j]);
     });
   PatchOrder order;
-  for (const Index unknown : unknowns)
-  {
-    order.dof.push_back({ unknown, -1, -1, -1, -1, -1, -1, -1 });
-  }
+  order.dof.size = 1;
+  order.dof.unknown = unknowns;
   order.blockBegin = { 0, static_cast<Id>(unknowns.size()) };
   order.colourBegin = { 0, 1 };
   return MakeGaussSeidel(level.A, order);

@@ -8,6 +8,9 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <random>
+#include <set>
 
 namespace gridfem
 {
@@ -18,16 +21,21 @@ using testing::Dense;
 using testing::RandomVectors;
 using testing::RelativeDifference;
 using testing::Sparse;
-using Group = std::array<Index, FunctionsPerPatch>;
+using Group = std::array<Index, PatchKernelWidth>;
 
 /// One block, one colour.
-PatchOrder OneBlock(std::vector<Group> groups)
+PatchOrder OneBlock(const UnknownGroups& groups)
 {
   PatchOrder order;
-  order.blockBegin = { 0, static_cast<Id>(groups.size()) };
+  order.blockBegin = { 0, groups.Count() };
   order.colourBegin = { 0, 1 };
-  order.dof = std::move(groups);
+  order.dof = groups;
   return order;
+}
+
+PatchOrder OneBlock(const std::vector<Group>& groups)
+{
+  return OneBlock(UnknownGroups(groups));
 }
 
 Group Single(Index unknown)
@@ -134,6 +142,137 @@ TEST(PatchSmoother, IsMultiplicativeSchwarz)
   x.head(3) += D.topLeftCorner(3, 3).ldlt().solve((b - D * x).eval().topRows(3));
   x.tail(4) += D.bottomRightCorner(4, 4).ldlt().solve((b - D * x).eval().bottomRows(4));
   EXPECT_LT((Swept(*smoother, A, b, start) - x).cwiseAbs().maxCoeff(), 1e-6); // single precision
+}
+
+/// The textbook, with a dense matrix.
+MultiVector SweptInBlocks(const Eigen::MatrixXd& D, const UnknownGroups& groups,
+  const MultiVector& b, MultiVector x, SweepDirection direction)
+{
+  for (Id k = 0; k < groups.Count(); ++k)
+  {
+    const UnknownGroup group =
+      groups[direction == SweepDirection::Forward ? k : groups.Count() - 1 - k];
+    std::set<Index> used(group.begin(), group.end());
+    used.erase(-1);
+    const std::vector<Index> unknowns(used.begin(), used.end());
+    const Eigen::MatrixXd rest = b - D * x;
+    const Eigen::MatrixXd correction =
+      D(unknowns, unknowns).ldlt().solve(rest(unknowns, Eigen::all));
+    for (std::size_t i = 0; i < unknowns.size(); ++i)
+    {
+      x.row(unknowns[i]) += correction.row(static_cast<Id>(i));
+    }
+  }
+  return x;
+}
+
+/// Groups overlap, have unused places and one place twice, and come in no order.
+UnknownGroups RandomGroups(Index unknowns, int size)
+{
+  UnknownGroups groups(size);
+  std::mt19937 random(7);
+  for (int group = 0; group < 12; ++group)
+  {
+    std::vector<Index> all(unknowns);
+    std::iota(all.begin(), all.end(), 0);
+    std::shuffle(all.begin(), all.end(), random);
+    all.resize(size);
+    all.back() = group % 3 == 0 ? -1 : group % 3 == 1 ? all.front() : all.back();
+    groups.Add(all);
+  }
+  return groups;
+}
+
+/// Patches of trilinear functions have 8, of quadratic B-splines 27, of cubic ones 64.
+class GroupsOfAnySize : public ::testing::TestWithParam<int>
+{
+};
+
+TEST_P(GroupsOfAnySize, AreRelaxedOneAfterTheOther)
+{
+  constexpr Index Unknowns = 100;
+  const Eigen::MatrixXd D = RandomSpd(Unknowns);
+  const SparseMatrix A = Sparse(D);
+  const UnknownGroups groups = RandomGroups(Unknowns, GetParam());
+  const auto smoother = MakePatchSmoother(A, OneBlock(groups));
+  const auto single = MakeSinglePatchSmoother(A, OneBlock(groups));
+  EXPECT_EQ(smoother->HasSingleFactors(), GetParam() == PatchKernelWidth);
+  EXPECT_EQ(single->UnresolvedPatches(), 0);
+  for (const int width : { 1, 3, 13, 32 })
+  {
+    for (const auto direction : { SweepDirection::Forward, SweepDirection::Backward })
+    {
+      const MultiVector b = RandomVectors(Unknowns, width, 1);
+      const MultiVector start = RandomVectors(Unknowns, width, 2);
+      const MultiVector expected = SweptInBlocks(D, groups, b, start, direction);
+      // Groups of eight have factors in single precision.
+      EXPECT_LT(RelativeDifference(Swept(*smoother, A, b, start, direction), expected),
+        GetParam() == PatchKernelWidth ? 1e-6 : 1e-13);
+      Vectors<float> x = start.cast<float>();
+      single->Sweep(InSinglePrecision(A, 1), b.cast<float>(), x, direction, 1);
+      EXPECT_LT(RelativeDifference(x.cast<double>(), expected), 2e-6);
+    }
+  }
+}
+
+TEST_P(GroupsOfAnySize, SolveForWhatCanBeSolvedFor)
+{
+  const int size = GetParam();
+  constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+  Eigen::MatrixXd D = Eigen::MatrixXd::Zero(size + 3, size + 3);
+  D.topLeftCorner(size, size).setOnes(); // rank 1
+  D(size, size) = -1.0;
+  D(size + 1, size + 1) = NaN;
+  D(size + 2, size + 2) = 4.0;
+  const SparseMatrix A = Sparse(D);
+  UnknownGroups groups(size);
+  std::vector<Index> group(size);
+  std::iota(group.begin(), group.end(), 0);
+  groups.Add(group);
+  std::iota(group.begin(), group.end(), 3); // the three last ones among them
+  groups.Add(group);
+  groups.Add(std::vector<Index>(size, size)); // nothing
+  groups.Add(std::vector<Index>(size, -1));
+  const MultiVector b = MultiVector::Constant(size + 3, 1, 2.0);
+  const MultiVector x =
+    Swept(*MakePatchSmoother(A, OneBlock(groups)), A, b, MultiVector::Zero(size + 3, 1));
+  EXPECT_NEAR(x.topRows(size).sum(), 2.0, 1e-6);
+  EXPECT_EQ(x(size, 0), 0.0);
+  EXPECT_EQ(x(size + 1, 0), 0.0);
+  EXPECT_NEAR(x(size + 2, 0), 0.5, 1e-7);
+  const auto single = MakeSinglePatchSmoother(A, OneBlock(groups));
+  EXPECT_EQ(single->UnresolvedPatches(), 2);
+}
+
+TEST_P(GroupsOfAnySize, ThatSinglePrecisionDoesNotHoldAreLeftAlone)
+{
+  const int size = GetParam();
+  UnknownGroups groups(size);
+  std::vector<Index> group(size);
+  std::iota(group.begin(), group.end(), 0);
+  groups.Add(group);
+  const Eigen::MatrixXd D = RandomSpd(size);
+  const SparseMatrix huge = Sparse(1e100 * D);
+  const MultiVector exact = RandomVectors(size, 2, 1);
+  const MultiVector x = Swept(*MakePatchSmoother(huge, OneBlock(groups)), huge, 1e100 * (D * exact),
+    MultiVector::Zero(size, 2));
+  EXPECT_LT(RelativeDifference(x, exact), 1e-13);
+  const auto single = MakeSinglePatchSmoother(huge, OneBlock(groups));
+  EXPECT_EQ(single->UnresolvedPatches(), 1);
+  Vectors<float> left = exact.cast<float>();
+  single->Sweep(InSinglePrecision(Sparse(D), 1), Vectors<float>::Zero(size, 2), left,
+    SweepDirection::Forward, 1);
+  EXPECT_EQ(left, exact.cast<float>());
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, GroupsOfAnySize, ::testing::Values(5, 7, 8, 9, 27, 64),
+  ::testing::PrintToStringParamName());
+
+TEST(PatchSmoother, RefusesGroupsThatAreTooLarge)
+{
+  const SparseMatrix A = Sparse(RandomSpd(65));
+  EXPECT_NO_THROW(MakePatchSmoother(A, OneBlock(UnknownGroups(64))));
+  EXPECT_THROW(MakePatchSmoother(A, OneBlock(UnknownGroups(65))), InvalidInput);
 }
 
 /// Rank 4 out of 8, as eight functions act like four on a plane, and the rest at size `hidden`.
@@ -304,11 +443,11 @@ TEST_P(BothSmoothers, ReduceTheEnergyOfEveryError)
 TEST_P(BothSmoothers, BrokenOrdersAreRefused)
 {
   MultigridLevel level = Finest(testing::SolidCube(1), 1);
-  level.order.dof.front()[3] = level.A.rows;
+  level.order.dof.unknown[3] = level.A.rows;
   EXPECT_THROW(Make(level), InvalidInput);
-  level.order.dof.front()[3] = -2;
+  level.order.dof.unknown[3] = -2;
   EXPECT_THROW(Make(level), InvalidInput);
-  level.order.dof.front()[3] = -1;
+  level.order.dof.unknown[3] = -1;
   EXPECT_NO_THROW(Make(level));
   level.order.blockBegin.back() -= 1;
   EXPECT_THROW(Make(level), InvalidInput);
@@ -375,16 +514,25 @@ TEST(OrderPatches, BlocksOfAColourAreNotCoupled)
 
 TEST(OrderPatches, EveryPatchOnceAndEmptyLevelsAreFine)
 {
-  EXPECT_TRUE(OrderPatches(PatchLevel()).dof.empty());
+  EXPECT_TRUE(OrderPatches(PatchLevel()).dof.IsEmpty());
   PatchLevel level;
   for (MortonKey key = 0; key < 4096; key += 3)
   {
     level.cell.push_back(key);
     level.dof.push_back(Single(static_cast<Index>(key)));
   }
-  PatchOrder order = OrderPatches(level);
-  std::sort(order.dof.begin(), order.dof.end());
-  EXPECT_EQ(order.dof, level.dof);
+  std::vector<Index> visited; // the first unknown of each patch
+  const PatchOrder order = OrderPatches(level);
+  for (Id patch = 0; patch < order.dof.Count(); ++patch)
+  {
+    visited.push_back(order.dof[patch][0]);
+  }
+  std::sort(visited.begin(), visited.end());
+  ASSERT_EQ(visited.size(), level.dof.size());
+  for (std::size_t patch = 0; patch < level.dof.size(); ++patch)
+  {
+    EXPECT_EQ(visited[patch], level.dof[patch][0]);
+  }
   std::swap(level.cell[1], level.cell[2]);
   EXPECT_THROW(OrderPatches(level), InvalidInput);
 }

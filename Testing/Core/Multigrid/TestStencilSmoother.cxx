@@ -227,7 +227,7 @@ TEST(StencilSmoother, IsNotMadeWhereItDoesNotServe)
   EXPECT_FALSE(MakeStencilSmoother(level.A, order, 1, &patternFits)) << "no corners";
   EXPECT_FALSE(patternFits);
   order = level.order;
-  std::swap(order.dof.front()[0], order.dof.front()[1]);
+  std::swap(order.dof.unknown[0], order.dof.unknown[1]);
   EXPECT_FALSE(MakeStencilSmoother(level.A, order, 1, &patternFits)) << "not corners of a cell";
   EXPECT_FALSE(patternFits);
 }
@@ -298,7 +298,7 @@ TEST(StencilBlocks, KeepEveryEntryOfARow)
     {
       const StencilBlocks::Patch& patch = blocks.PatchAt(p);
       extras += patch.extras;
-      for (int c = 0; c < FunctionsPerPatch; ++c)
+      for (int c = 0; c < StencilBlocks::N; ++c)
       {
         const Index row = level.order.dof[p][c];
         ASSERT_EQ(blocks.Unknowns(block)[patch.slot[StencilBlocks::OwnSlot(c)]], row);

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -436,6 +437,42 @@ TEST(DistantHeat, IsTheSolutionOfTheEquation)
       (heat.coefficients.col(0) - exact).transpose() * A * (heat.coefficients.col(0) - exact);
     EXPECT_LT(std::sqrt(error), 3e-3 * std::sqrt(exact.dot(A * exact)));
   }
+}
+
+/// Every patch with what the row of its first function is coupled to, up to 27 functions.
+UnknownGroups WidePatches(const SparseMatrix& A, const UnknownGroups& patches)
+{
+  UnknownGroups wide(27);
+  for (Id p = 0; p < patches.Count(); ++p)
+  {
+    const UnknownGroup patch = patches[p];
+    std::vector<Index> group(patch.begin(), patch.end());
+    for (Id k = A.rowBegin[patch[0]]; k < A.rowBegin[patch[0] + 1]; ++k)
+    {
+      if (std::find(patch.begin(), patch.end(), A.column[k]) == patch.end())
+      {
+        group.push_back(A.column[k]);
+      }
+    }
+    group.resize(27, -1);
+    wide.Add(group);
+  }
+  return wide;
+}
+
+TEST(DistantHeat, TakesPatchesOfAnySize)
+{
+  const auto space = Build(GeodesicSphere(12), false, 4);
+  const DistantHeat equation(*space, 0, 3.0);
+  const SparseMatrix& A = equation.Matrix();
+  const DistantHeat wide(
+    A, WidePatches(A, space->Relaxation(0, {}).order.dof), 3.0, DistantHeat::SmallChange, 1);
+  const MultiVector load = LoadOfPoint(*space, 7);
+  const HeatField heat = wide.Continue(load, MultiVector::Zero(A.rows, 1));
+  EXPECT_TRUE(heat.converged);
+  EXPECT_EQ(heat.unreached, 0);
+  const Eigen::VectorXd exact = Dense(A).ldlt().solve(load.col(0) / 3.0);
+  EXPECT_LT((heat.coefficients.col(0) - exact).norm(), 3e-3 * exact.norm());
 }
 
 /// Heat that would be less than the smallest number is missed and counted.

@@ -36,7 +36,7 @@ TEST(HatSpace, IsASymmetricPositivePreconditioner)
   for (const HatTransfer transfer : { HatTransfer::Evaluation, HatTransfer::PseudoEvaluation })
   {
     const Hybrid hybrid(Torus(12, 60, 1.0, 0.3), 3, transfer);
-    ASSERT_FALSE(hybrid.space.Relaxation(0, {}).groups.dof.empty());
+    ASSERT_FALSE(hybrid.space.Relaxation(0, {}).groups.dof.IsEmpty());
     const Multigrid multigrid = hybrid.Build(hybrid.Weight(10.0));
     const MultiVector x = RandomValues(hybrid.space.NumberOfFunctions(0), 6);
     MultiVector Bx;
