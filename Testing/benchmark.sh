@@ -84,6 +84,7 @@ for group in "${groups[@]}"; do
   elif [ "$group" = ranks ]; then
     MeasureRanks poisson torus:2400 8
     MeasureRanks spectrum torus:1200 7
+    MeasureRanks hats torus:1200 7
     CountMessages torus:1200 7
     CountMessages torus:2400 8
   else
