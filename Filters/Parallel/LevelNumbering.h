@@ -18,9 +18,9 @@ struct RankNeighbour
   std::vector<Index> functions;
 };
 
-/// The functions that touch a cell of this rank. A function belongs to the lowest rank whose cells
-/// it touches, so that those of others have lower numbers: they come first here, and the numbers
-/// ascend. Numbers of one rank are contiguous.
+/// The functions that touch a cell of this rank; of hats those that it holds (RankHats). A function
+/// belongs to the lowest rank whose cells it touches, so that those of others have lower numbers:
+/// they come first here, and the numbers ascend. Numbers of one rank are contiguous.
 struct LevelNumbering
 {
   Id begin = 0; // number of this rank's first function

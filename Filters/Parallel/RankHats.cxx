@@ -20,7 +20,7 @@ class ReceivedHats
 {
 public:
   ReceivedHats(const RankSpace& space, int threads)
-    : mesh_(space.Own().Mesh()), own_(space.Own().Functions())
+    : mesh_(space.Own().Mesh()), own_(space.Own().Functions()), rank_(space.Ranks().Rank())
   {
     HatOptions options;
     options.unitLength = space.Own().UnitLength();
@@ -33,7 +33,7 @@ public:
     for (const auto& corners : mesh_.triangles)
     {
       const int lowest = std::min({ home_[corners[0]], home_[corners[1]], home_[corners[2]] });
-      isOwn_.push_back(lowest == space.Ranks().Rank());
+      isOwn_.push_back(lowest == rank_);
     }
     this->ListHeld();
   }
@@ -93,7 +93,8 @@ public:
   std::vector<double> IsIntegrated() const { return { isOwn_.begin(), isOwn_.end() }; }
 
 private:
-  /// Hats of own triangles, and those with a piece of this rank at their point; the first points.
+  /// Hats of own triangles, those with a piece of this rank at their point, and those whose points
+  /// are in its cells; the first points.
   void ListHeld()
   {
     std::vector<char> isHeld(all_.Count(), 0);
@@ -118,6 +119,13 @@ private:
         hold(corner);
       }
     }
+    for (std::size_t point = 0; point < home_.size(); ++point)
+    {
+      if (home_[point] == rank_)
+      {
+        hold(static_cast<Id>(point));
+      }
+    }
     for (std::size_t point = 0; point < all_.ofPoint.size(); ++point)
     {
       const Index hat = all_.ofPoint[point];
@@ -131,6 +139,7 @@ private:
 
   const TriangleMesh& mesh_;
   const GridFunctions& own_;
+  int rank_;
   HatFunctions all_;
   std::vector<int> home_;   // per point
   std::vector<char> isOwn_; // per triangle
@@ -163,15 +172,15 @@ std::vector<double> SumOfRanks(const RankRows& rows, const std::vector<double>& 
 }
 
 /// Collective. Weights of all ranks sum up to 1 in each row.
-SparseMatrix BuildProlongation(const RankSpace& space, const HatFunctions& hats,
-  const RankRows& rows, HatTransfer transfer, int threads)
+SparseMatrix BuildProlongation(
+  const RankSpace& space, const HatFunctions& hats, const RankRows& rows, int threads)
 {
   SparseMatrix weights;
   std::vector<double> sum;
   const auto build = [&](const std::vector<char>& isBare)
   {
-    weights =
-      BuildHatWeights(hats, space.Own().Functions(), space.Own().Mesh(), transfer, isBare, threads);
+    weights = BuildHatWeights(
+      hats, space.Own().Functions(), space.Own().Mesh(), HatTransfer::Evaluation, isBare, threads);
     sum = RowSums(weights);
   };
   space.Ranks().Together([&] { build({}); });
@@ -226,7 +235,7 @@ std::vector<char> FindEvaluated(const Communicator& ranks, const LevelNumbering&
 
 } // namespace
 
-RankHats::RankHats(const RankSpace& space, HatTransfer transfer, const Job& job)
+RankHats::RankHats(const RankSpace& space, const Job& job)
 {
   const Communicator& ranks = space.Ranks();
   std::unique_ptr<const ReceivedHats> received;
@@ -255,7 +264,7 @@ RankHats::RankHats(const RankSpace& space, HatTransfer transfer, const Job& job)
       rows = std::make_unique<const RankRows>(ranks, numbering_->foreign, numbering_->neighbours);
       job.Check(0.7);
     });
-  level->prolongation = BuildProlongation(space, atPoints, *rows, transfer, job.threads);
+  level->prolongation = BuildProlongation(space, atPoints, *rows, job.threads);
   isEvaluated_ = std::make_shared<const std::vector<char>>(
     FindEvaluated(ranks, *numbering_, *rows, level->prolongation));
   ranks.Together(

@@ -12,15 +12,14 @@ namespace gridfem
 {
 
 /// Each triangle is integrated by the lowest of the ranks whose cells contain its corners: a rank
-/// holds the hats of these triangles, and those at whose points it has pieces of the clipped
-/// surface. Points with the same coordinates have one hat. A copy shares all that does not change.
+/// holds the hats of these triangles, and those whose points are in its cells or on their borders.
+/// Points with the same coordinates have one hat. A copy shares all that does not change.
 class RankHats
 {
 public:
   /// Collective. Throws RankFailure on all ranks when one fails, and Aborted.
   /// @param space  whose functions join coincident points
-  explicit RankHats(
-    const RankSpace& space, HatTransfer transfer = HatTransfer::Evaluation, const Job& job = {});
+  explicit RankHats(const RankSpace& space, const Job& job = {});
 
   /// The hats that this rank holds as a space of their own, above RankSpace::Own. Matrices,
   /// integrals and the prolongation are what the rank adds to the whole; its order and groups have
@@ -31,8 +30,8 @@ public:
   /// 1 for triangles of the received mesh that this rank integrates, else 0.
   const std::vector<double>& IsIntegrated() const { return *isIntegrated_; }
 
-  /// Per hat whether this rank's prolongation has its row. Of ranks that share a row the lowest has
-  /// it, and the owner where there is none: of each hat it is one rank.
+  /// Per hat whether this rank is the one that evaluates it: the lowest whose prolongation has a
+  /// part of its row, and the owner where no rank has one.
   const std::vector<char>& IsEvaluated() const { return *isEvaluated_; }
 
   /// The same hats, with the mass ∫ w b_i b_j.

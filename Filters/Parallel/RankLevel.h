@@ -59,7 +59,7 @@ class RankLevel : public DividedLevel
 public:
   /// Collective. Keeps references to the rows.
   /// @param coarse   rows of the next coarser level; null: all ranks hold it whole
-  /// @param A        what this rank's patches add to the matrix
+  /// @param A        what this rank adds to the matrix
   RankLevel(const Communicator& ranks, const LevelNumbering& numbering, const RankRows& rows,
     const RankRows* coarse, LevelBorder border, const SparseMatrix& A, int threads);
 

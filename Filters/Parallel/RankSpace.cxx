@@ -6,6 +6,7 @@
 #include "Problems/MemoryEstimate.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -70,7 +71,7 @@ ClipFrame FrameOf(
     frame.grid = EmbedInGrid({ low, high }, {}, options.depth);
     extremes[6] = low.cwiseAbs().cwiseMax(high.cwiseAbs()).maxCoeff();
   }
-  if (rankOptions.isBelowHats)
+  if (rankOptions.isBelowHats && std::isfinite(rankOptions.functionsPerPoint))
   {
     LimitFunctions(ranks, own, rankOptions.functionsPerPoint, frame.grid);
   }

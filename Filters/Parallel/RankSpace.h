@@ -20,7 +20,7 @@ struct RankSpaceOptions
   int granularity = 0;      // level of the blocks that are divided among the ranks; BlockPartition
   bool isBelowHats = false; // which need memory, too
   /// Below hats: the grid is made coarser until it has at most so many functions for each point of
-  /// the surface. [DepthForPoints]
+  /// the surface. A granularity is to fit it then. [DepthForPoints]
   double functionsPerPoint = std::numeric_limits<double>::infinity();
 };
 

@@ -38,8 +38,7 @@ RankSurface::RankSurface(const Communicator& ranks, const TriangleMesh& own,
 
 void RankSurface::AddHats(int threads, const Progress& progress)
 {
-  hats_ =
-    std::make_unique<const RankHats>(*space_, HatTransfer::Evaluation, Job{ threads, progress });
+  hats_ = std::make_unique<const RankHats>(*space_, Job{ threads, progress });
   if (hats_->Numbering().total == 0)
   {
     throw InvalidInput("No triangle has an area, so there are no hat functions.");

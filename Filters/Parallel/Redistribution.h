@@ -29,7 +29,7 @@ public:
   MultiVector SendPoints(const MultiVector& own) const;
   MultiVector SendTriangles(const MultiVector& own) const;
 
-  /// Collective. The way back: rows at received points, of which one rank has each.
+  /// Collective. The way back: rows at received points, the same bits on all ranks that return one.
   /// @param rows   at the received points
   /// @param isKnown  which of them are returned
   /// @param own    gets the rows; those that no rank returns are left as they are

@@ -145,7 +145,7 @@ TEST(RankProblems, HeatSpreadsAsOnOneRank)
 TEST(RankProblems, HeldValuesAreMetAsOnOneRank)
 {
   const Communicator ranks(MPI_COMM_WORLD);
-  for (const int surfaceAndHats : { 2, 3, 4, 5 })
+  for (const int surfaceAndHats : { 2, 3, 4, 5, 11 })
   {
     const NamedSurface surface = Surfaces()[surfaceAndHats / 2];
     const bool hasHats = surfaceAndHats % 2 > 0;
@@ -196,6 +196,10 @@ TEST(RankProblems, HeldValuesAreMetAsOnOneRank)
       EXPECT_TRUE(found.report.converged);
       EXPECT_EQ(found.isExact, expected.isExact);
       EXPECT_EQ(found.steps, expected.steps);
+      if (hasHats) // also where points are between cells of two ranks, as on the plate
+      {
+        EXPECT_LE(found.report.iterations, 5 + 1.5 * expected.report.iterations);
+      }
       EXPECT_NEAR(found.misfit, expected.misfit, 1e-7);
       EXPECT_EQ(found.isHeld.size(), expected.isHeld.size());
       if (expected.isExact)

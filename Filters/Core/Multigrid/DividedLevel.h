@@ -12,7 +12,7 @@
 namespace gridfem
 {
 
-/// The matrix of such a level is the part that the patches of this process add, and its order has
+/// The matrix of such a level is the part that this process adds, and its order has
 /// the patches all of whose unknowns are of this process alone. Others are relaxed by Relax, in
 /// double precision. As DividedRows, all functions are called by all processes.
 class DividedLevel

@@ -81,9 +81,9 @@ public:
 
 using Smoother = BasicSmoother<double>;
 
-/// Gauss-Seidel: every unknown once, in the order of the first patch that contains it. Unknowns of no
-/// patch, and rows whose diagonal is not a positive number, are left alone. Throws InvalidInput when
-/// the order does not fit the matrix.
+/// Gauss-Seidel: every unknown once, in the order of the first patch that contains it. Unknowns of
+/// no patch, and rows whose diagonal is not a positive number, are left alone. Throws InvalidInput
+/// when the order does not fit the matrix.
 std::unique_ptr<Smoother> MakeGaussSeidel(const SparseMatrix& A, const PatchOrder& order);
 
 /// Gauss-Seidel of [T §4.2, Fig. 4.3]: slabs of slices are relaxed in parallel, and the threads

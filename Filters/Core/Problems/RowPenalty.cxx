@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 namespace gridfem
@@ -35,6 +36,24 @@ SparseMatrix RowsOnCoarser(const SparseMatrix& rows, const SparseMatrix& prolong
   return coarse.Finish(prolongation.columns);
 }
 
+/// Entry by entry, so that the sums of rows are those of `wanted`; rows whose sum is 0 stay.
+void ScaleRows(const SparseMatrix& wanted, SparseMatrix& rows)
+{
+  const auto sumOf = [](const SparseMatrix& A, Index row)
+  {
+    return std::accumulate(
+      A.value.begin() + A.rowBegin[row], A.value.begin() + A.rowBegin[row + 1], 0.0);
+  };
+  for (Index row = 0; row < rows.rows; ++row)
+  {
+    const double sum = sumOf(rows, row);
+    for (Id k = rows.rowBegin[row]; k < rows.rowBegin[row + 1] && sum != 0.0; ++k)
+    {
+      rows.value[k] *= sumOf(wanted, row) / sum;
+    }
+  }
+}
+
 /// Place of an entry, or -1.
 Id FindEntry(const SparseMatrix& A, Index row, Index column)
 {
@@ -59,7 +78,13 @@ RowPenalty::RowPenalty(
   levels_.push_back({ std::move(rows), {} });
   for (std::size_t l = 1; l < space.NumberOfLevels(); ++l)
   {
-    levels_.push_back({ RowsOnCoarser(levels_.back().rows, space.Prolongation(l - 1)), {} });
+    SparseMatrix coarse = RowsOnCoarser(levels_.back().rows, space.Prolongation(l - 1));
+    const DividedRows* const divided = space.Divided(l - 1);
+    if (divided && divided->ArePartsProlonged()) // the part of this process stands for the whole
+    {
+      ScaleRows(levels_.back().rows, coarse);
+    }
+    levels_.push_back({ std::move(coarse), {} });
   }
   for (Level& level : levels_)
   {

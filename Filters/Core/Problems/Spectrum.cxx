@@ -327,8 +327,8 @@ Spectrum ComputeNestedSpectrum(
                 : ComputeOnNestedLevels(space, options, progress);
 }
 
-Spectrum FinishSpectrum(const SurfaceSpace& space, Spectrum nested,
-  const SpectrumOptions& options, const Progress& progress)
+Spectrum FinishSpectrum(const SurfaceSpace& space, Spectrum nested, const SpectrumOptions& options,
+  const Progress& progress)
 {
   return space.NestedLevels() ? ImproveSpectrum(space, nested, options, progress)
                               : std::move(nested);

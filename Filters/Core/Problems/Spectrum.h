@@ -69,8 +69,8 @@ Spectrum ComputeNestedSpectrum(
 /// are those of the nested levels, and what the finest level lies above them: no space has
 /// eigenvalues below the surface's, so this is the error of the worse of the two.
 /// @param nested  fewer modes than asked for do, too, at the price of more iterations
-Spectrum FinishSpectrum(const SurfaceSpace& space, Spectrum nested,
-  const SpectrumOptions& options, const Progress& progress = {});
+Spectrum FinishSpectrum(const SurfaceSpace& space, Spectrum nested, const SpectrumOptions& options,
+  const Progress& progress = {});
 
 /// Bytes that it takes beyond the space, for so many functions on the finest level, in
 /// single precision: within a fifth, from 20 to 1,000 modes.

@@ -63,8 +63,7 @@ double LowestValue(const Spectrum& start)
 
 /// Of constants among the columns rounding is left, which may be constant again, and scaled would
 /// count as one more mode: it becomes zero.
-void RemoveConstants(
-  const Constants& constants, const DividedRows* divided, Block<double> columns)
+void RemoveConstants(const Constants& constants, const DividedRows* divided, Block<double> columns)
 {
   constexpr double Rounding = 1e-10;
   const auto norms = [&]
