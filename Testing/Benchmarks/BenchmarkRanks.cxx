@@ -287,7 +287,6 @@ int main(int argc, char** argv)
     return 2;
   }
   MPI_Init(&argc, &argv);
-  int failed = 0;
   try
   {
     const Communicator ranks(MPI_COMM_WORLD);
@@ -318,8 +317,7 @@ int main(int argc, char** argv)
   catch (const std::exception& error)
   {
     std::fprintf(stderr, "%s\n", error.what());
-    failed = 1;
+    MPI_Abort(MPI_COMM_WORLD, 1); // others may wait for this rank
   }
-  MPI_Finalize();
-  return failed;
+  return MPI_Finalize();
 }
