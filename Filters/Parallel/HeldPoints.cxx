@@ -56,6 +56,21 @@ HeldValues HoldOnGrid(const RankSpace& space, const MultiVector& received)
 
 constexpr double Nobody = std::numeric_limits<double>::infinity();
 
+/// Calls body(hat, place, rank that has given it) for places where a point of a hat is held.
+template<class Body>
+void ForHeldHats(const RankLevels& levels, const MultiVector& received, Body&& body)
+{
+  const std::vector<Index>& hatOf = levels.Hats()->Own().Hats().functions.ofPoint;
+  const std::vector<int> giver = levels.Space().Distribution().GiversOfPoints();
+  for (Id place = 0; place < received.rows(); ++place)
+  {
+    if (hatOf[place] >= 0 && received(place, 0) != 0.0)
+    {
+      body(hatOf[place], place, double(giver[place]));
+    }
+  }
+}
+
 /// Collective. Per hat the lowest rank that has given a held point of it.
 MultiVector FirstGivers(const RankLevels& levels, const MultiVector& received)
 {
@@ -63,16 +78,9 @@ MultiVector FirstGivers(const RankLevels& levels, const MultiVector& received)
   levels.Space().Ranks().Together(
     [&]
     {
-      const std::vector<Index>& hatOf = levels.Hats()->Own().Hats().functions.ofPoint;
-      const std::vector<int> giver = levels.Space().Distribution().GiversOfPoints();
       first = MultiVector::Constant(levels.Numbering(0).Functions(), 1, Nobody);
-      for (Id place = 0; place < received.rows(); ++place)
-      {
-        if (hatOf[place] >= 0 && received(place, 0) != 0.0)
-        {
-          first(hatOf[place], 0) = std::min(first(hatOf[place], 0), double(giver[place]));
-        }
-      }
+      ForHeldHats(levels, received,
+        [&](Index hat, Id, double giver) { first(hat, 0) = std::min(first(hat, 0), giver); });
     });
   levels.Rows(0).TakeLeast(first);
   return first;
@@ -87,17 +95,15 @@ MultiVector ValuesOfGivers(
   levels.Space().Ranks().Together(
     [&]
     {
-      const std::vector<Index>& hatOf = levels.Hats()->Own().Hats().functions.ofPoint;
-      const std::vector<int> giver = levels.Space().Distribution().GiversOfPoints();
       values = MultiVector::Constant(first.rows(), columns, Nobody);
-      for (Id place = 0; place < received.rows(); ++place)
-      {
-        const Index hat = hatOf[place];
-        if (hat >= 0 && received(place, 0) != 0.0 && first(hat, 0) == giver[place])
+      ForHeldHats(levels, received,
+        [&](Index hat, Id place, double giver)
         {
-          values.row(hat) = values.row(hat).cwiseMin(received.row(place).tail(columns));
-        }
-      }
+          if (first(hat, 0) == giver)
+          {
+            values.row(hat) = values.row(hat).cwiseMin(received.row(place).tail(columns));
+          }
+        });
     });
   levels.Rows(0).TakeLeast(values);
   return values;

@@ -162,44 +162,38 @@ void OrderAlone(const LevelNumbering& numbering, int threads, HatLevel& level)
   level.groups = InWhole(GroupByCoupling(rows, threads), alone);
 }
 
-/// Collective. The sum over the ranks that hold a hat.
-std::vector<double> SumOfRanks(const RankRows& rows, const std::vector<double>& parts)
-{
-  MultiVector sum =
-    Eigen::Map<const Eigen::VectorXd>(parts.data(), static_cast<Eigen::Index>(parts.size()));
-  rows.Sum(sum);
-  return { sum.data(), sum.data() + sum.size() };
-}
-
 /// Collective. Weights of all ranks sum up to 1 in each row.
 SparseMatrix BuildProlongation(
   const RankSpace& space, const HatFunctions& hats, const RankRows& rows, int threads)
 {
   SparseMatrix weights;
-  std::vector<double> sum;
+  MultiVector sum;
   const auto build = [&](const std::vector<char>& isBare)
-  {
-    weights = BuildHatWeights(
-      hats, space.Own().Functions(), space.Own().Mesh(), HatTransfer::Evaluation, isBare, threads);
-    sum = RowSums(weights);
-  };
-  space.Ranks().Together([&] { build({}); });
-  sum = SumOfRanks(rows, sum);
-  const auto isZero = [](double s) { return s == 0.0; };
-  double bare = static_cast<double>(std::count_if(sum.begin(), sum.end(), isZero));
-  space.Ranks().Maximum(&bare, 1);
-  if (bare > 0.0)
   {
     space.Ranks().Together(
       [&]
       {
-        std::vector<char> isBare(sum.size());
-        std::transform(sum.begin(), sum.end(), isBare.begin(), isZero);
-        build(isBare);
+        weights = BuildHatWeights(hats, space.Own().Functions(), space.Own().Mesh(),
+          HatTransfer::Evaluation, isBare, threads);
+        sum = RowSums(weights, threads);
       });
-    sum = SumOfRanks(rows, sum);
+    rows.Sum(sum);
+  };
+  build({});
+  std::vector<char> isBare;
+  double anyBare = 0.0;
+  space.Ranks().Together(
+    [&]
+    {
+      isBare = BareRows(sum);
+      anyBare = std::count(isBare.begin(), isBare.end(), 1) > 0 ? 1.0 : 0.0;
+    });
+  space.Ranks().Maximum(&anyBare, 1);
+  if (anyBare > 0.0)
+  {
+    build(isBare);
   }
-  DivideRows(sum, weights);
+  DivideRows(sum, weights, threads);
   return weights;
 }
 
@@ -277,14 +271,11 @@ RankHats::RankHats(const RankSpace& space, const Job& job)
     });
 }
 
-RankHats RankHats::WithWeighedMass(
-  const RankSpace& space, const std::vector<double>& received, int threads) const
+RankHats RankHats::WithOwn(HatSpace own) const
 {
-  RankHats weighed = *this;
-  auto own = std::make_shared<HatSpace>(level_, space.Own());
-  own->WeighMass(received, threads);
-  weighed.own_ = std::move(own);
-  return weighed;
+  RankHats other = *this;
+  other.own_ = std::make_shared<const HatSpace>(std::move(own));
+  return other;
 }
 
 } // namespace gridfem

@@ -34,11 +34,9 @@ public:
   /// part of its row, and the owner where no rank has one.
   const std::vector<char>& IsEvaluated() const { return *isEvaluated_; }
 
-  /// The same hats, with the mass ∫ w b_i b_j.
-  /// @param space     weighed in the same way
-  /// @param received  w >= 0 of each received triangle
-  RankHats WithWeighedMass(
-    const RankSpace& space, const std::vector<double>& received, int threads) const;
+  /// The same hats with other integrals.
+  /// @param own  a copy of Own() with these
+  RankHats WithOwn(HatSpace own) const;
 
 private:
   std::shared_ptr<const LevelNumbering> numbering_;

@@ -288,13 +288,23 @@ std::shared_ptr<const SurfaceSpace> RankLevels::WithWeighedMass(
     std::unique_ptr<const RankLevels> levels;
   };
   const std::vector<double> received = space_.SendToTriangles(weight);
-  const auto weighed = std::make_shared<Weighed>(
-    Weighed{ space_.WithWeighedMass(received, job.threads), {}, nullptr });
-  if (hats_)
-  {
-    space_.Ranks().Together(
-      [&] { weighed->hats = hats_->WithWeighedMass(weighed->space, received, job.threads); });
-  }
+  const auto weighed = std::make_shared<Weighed>(Weighed{ space_, {}, nullptr });
+  std::optional<GridSpace> grid;
+  space_.Ranks().Together(
+    [&]
+    {
+      if (hats_)
+      {
+        HatSpace own = hats_->Own();
+        own.WeighMass(received, job.threads); // with its grid
+        grid.emplace(own.Grid());
+        weighed->hats = hats_->WithOwn(std::move(own));
+        return;
+      }
+      grid.emplace(space_.Own());
+      grid->WeighMass(received, job.threads);
+    });
+  weighed->space = space_.WithOwn(std::move(*grid), job.threads);
   weighed->levels =
     std::make_unique<const RankLevels>(weighed->space, weighed->hats ? &*weighed->hats : nullptr);
   job.Check(1.0);

@@ -271,13 +271,7 @@ RankSpace::RankSpace(const Communicator& ranks, const TriangleMesh& own,
 int RankSpace::OwnerOfPoint(const Vec3& point) const
 {
   const Grid& grid = own_->Functions().GetGrid();
-  const Vec3 place = grid.ToGrid(point);
-  CellIndex cell;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    cell[axis] = std::clamp(static_cast<int>(place[axis]), 0, grid.CellsPerSide() - 1);
-  }
-  return partition_->OwnerOf(MortonEncode(cell), grid.depth);
+  return partition_->OwnerOf(MortonEncode(grid.CellAt(point)), grid.depth);
 }
 
 /// Collective. The levels that all ranks hold, with the element matrices of all.
@@ -320,18 +314,12 @@ std::vector<double> RankSpace::SendToTriangles(const std::vector<double>& own) c
   return received;
 }
 
-RankSpace RankSpace::WithWeighedMass(const std::vector<double>& received, int threads) const
+RankSpace RankSpace::WithOwn(GridSpace own, int threads) const
 {
-  RankSpace weighed = *this;
-  ranks_.Together(
-    [&]
-    {
-      auto own = std::make_shared<GridSpace>(*own_);
-      own->WeighMass(received, threads);
-      weighed.own_ = std::move(own);
-    });
-  weighed.AddElements(threads);
-  return weighed;
+  RankSpace other = *this;
+  ranks_.Together([&] { other.own_ = std::make_shared<const GridSpace>(std::move(own)); });
+  other.AddElements(threads);
+  return other;
 }
 
 /// Leaves in `all` what this rank owns, with the functions numbered by the places in numberings_.

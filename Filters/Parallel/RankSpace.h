@@ -59,9 +59,9 @@ public:
   /// Points at the same place of one sheet have values that are equal bit for bit.
   const Array<Index>& PointPatches() const { return own_->Functions().pointPatch; }
 
-  /// Collective. The same functions with the mass ∫ w b_i b_j.
-  /// @param received  w >= 0 of each triangle that this rank has received: SendToTriangles
-  RankSpace WithWeighedMass(const std::vector<double>& received, int threads = 0) const;
+  /// Collective. The same functions with other integrals.
+  /// @param own  a copy of Own() with these
+  RankSpace WithOwn(GridSpace own, int threads = 0) const;
 
   /// Collective. Numbers of this rank's own triangles, at those that this rank has received.
   std::vector<double> SendToTriangles(const std::vector<double>& own) const;

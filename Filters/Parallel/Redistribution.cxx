@@ -20,18 +20,11 @@ bool IsBefore(const Vec3& a, const Vec3& b)
 /// each other in memory; those of a cell by their coordinates, coincident ones as they come.
 std::vector<Index> OrderInSpace(const std::vector<Vec3>& points, const Grid& grid)
 {
-  const int side = grid.CellsPerSide();
   std::vector<std::pair<MortonKey, Index>> order;
   order.reserve(points.size());
   for (std::size_t k = 0; k < points.size(); ++k)
   {
-    const Vec3 place = grid.ToGrid(points[k]);
-    CellIndex cell;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      cell[axis] = std::clamp(static_cast<int>(place[axis]), 0, side - 1);
-    }
-    order.emplace_back(MortonEncode(cell), static_cast<Index>(k));
+    order.emplace_back(MortonEncode(grid.CellAt(points[k])), static_cast<Index>(k));
   }
   std::sort(order.begin(), order.end(),
     [&](const auto& a, const auto& b)

@@ -190,6 +190,28 @@ template void ResidualPart(const BasicSparseMatrix<float>&, const Vectors<float>
 template void ResidualPart(const SparseMatrix&, const MultiVector&, const MultiVector&, Index,
   MultiVector&, Eigen::ArrayXd*, int);
 
+MultiVector RowSums(const SparseMatrix& A, int threads)
+{
+  MultiVector sums;
+  Multiply(A, MultiVector::Ones(A.columns, 1), sums, threads);
+  return sums;
+}
+
+void DivideRows(const MultiVector& by, SparseMatrix& A, int threads)
+{
+  ParallelRanges(A.rows, threads,
+    [&](Id begin, Id end)
+    {
+      for (Id row = begin; row < end; ++row)
+      {
+        for (Id k = A.rowBegin[row]; k < A.rowBegin[row + 1]; ++k)
+        {
+          A.value[k] /= by(row, 0);
+        }
+      }
+    });
+}
+
 SparseMatrix Transpose(const SparseMatrix& A, int threads)
 {
   const Groups entries = GroupItems(A.column.data(), A.NonZeros(), A.columns, threads);

@@ -74,6 +74,12 @@ template<class Real>
 void ResidualPart(const BasicSparseMatrix<Real>& A, const Vectors<Real>& x, const Vectors<Real>& b,
   Index foreign, Vectors<Real>& r, Eigen::ArrayXd* energy, int threads);
 
+/// A column: A times ones.
+MultiVector RowSums(const SparseMatrix& A, int threads = 0);
+
+/// Divides each row by a number. Rows without entries stay as they are.
+void DivideRows(const MultiVector& by, SparseMatrix& A, int threads = 0);
+
 SparseMatrix Transpose(const SparseMatrix& A, int threads = 0);
 
 } // namespace gridfem

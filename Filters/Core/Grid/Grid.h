@@ -5,6 +5,7 @@
 
 #include "Base/Types.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace gridfem
@@ -32,6 +33,18 @@ struct Grid
   int CellsPerSide() const { return 1 << depth; }
   Vec3 ToGrid(const Vec3& world) const { return (world - origin) / spacing; }
   Vec3 ToWorld(const Vec3& grid) const { return origin + spacing * grid; }
+
+  /// The cell that a point lies in, world units; the nearest along each axis for one outside.
+  CellIndex CellAt(const Vec3& world) const
+  {
+    const Vec3 place = this->ToGrid(world);
+    CellIndex cell;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      cell[axis] = std::clamp(static_cast<int>(place[axis]), 0, this->CellsPerSide() - 1);
+    }
+    return cell;
+  }
 };
 
 /// The cube that shares the centre and the longest side of the bounding box of the points that

@@ -12,9 +12,9 @@
 namespace gridfem
 {
 
-/// The matrix of such a level is the part that this process adds, and its order has
-/// the patches all of whose unknowns are of this process alone. Others are relaxed by Relax, in
-/// double precision. As DividedRows, all functions are called by all processes.
+/// The matrix of such a level is the part that this process adds, and its order has the patches all
+/// of whose unknowns are of this process alone. Others are relaxed by Relax, in double precision.
+/// As DividedRows, all functions are called by all processes.
 class DividedLevel
 {
 public:

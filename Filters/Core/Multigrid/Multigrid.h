@@ -184,7 +184,7 @@ private:
   void Descend(std::size_t level, const Vectors<Real>& b, Vectors<Real>& x, bool zeroStart,
     std::vector<Scratch>& scratch, Columns* energy = nullptr) const;
   void Ascend(std::size_t level, const Vectors<Real>& b, Vectors<Real>& x,
-    const std::vector<Scratch>& scratch) const;
+    std::vector<Scratch>& scratch) const;
   Columns Products(std::size_t level, const Vectors<Real>& x, const Vectors<Real>& y) const;
 
   std::vector<BasicMultigridLevel<Real>> levels_;

@@ -398,8 +398,8 @@ void BasicMultigrid<Real>::Descend(std::size_t l, const Vectors<Real>& b, Vector
 
 /// Adds the correction that Descend has found, and the last sweeps.
 template<class Real>
-void BasicMultigrid<Real>::Ascend(std::size_t l, const Vectors<Real>& b, Vectors<Real>& x,
-  const std::vector<Scratch>& scratch) const
+void BasicMultigrid<Real>::Ascend(
+  std::size_t l, const Vectors<Real>& b, Vectors<Real>& x, std::vector<Scratch>& scratch) const
 {
   if (this->IsCoarsest(l))
   {
@@ -409,9 +409,8 @@ void BasicMultigrid<Real>::Ascend(std::size_t l, const Vectors<Real>& b, Vectors
   const DividedRows* const divided = RowsOf(level);
   if (divided && divided->ArePartsProlonged())
   {
-    Vectors<Real> correction;
-    this->Prolong(l, scratch[l + 1].x, correction);
-    x += correction;
+    this->Prolong(l, scratch[l + 1].x, scratch[l].residual);
+    x += scratch[l].residual;
   }
   else
   {

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
 
 namespace gridfem
@@ -36,22 +35,12 @@ SparseMatrix RowsOnCoarser(const SparseMatrix& rows, const SparseMatrix& prolong
   return coarse.Finish(prolongation.columns);
 }
 
-/// Entry by entry, so that the sums of rows are those of `wanted`; rows whose sum is 0 stay.
-void ScaleRows(const SparseMatrix& wanted, SparseMatrix& rows)
+/// The sums of rows become those of `wanted`; rows whose sum is 0 stay.
+void TakeRowSums(const SparseMatrix& wanted, SparseMatrix& rows)
 {
-  const auto sumOf = [](const SparseMatrix& A, Index row)
-  {
-    return std::accumulate(
-      A.value.begin() + A.rowBegin[row], A.value.begin() + A.rowBegin[row + 1], 0.0);
-  };
-  for (Index row = 0; row < rows.rows; ++row)
-  {
-    const double sum = sumOf(rows, row);
-    for (Id k = rows.rowBegin[row]; k < rows.rowBegin[row + 1] && sum != 0.0; ++k)
-    {
-      rows.value[k] *= sumOf(wanted, row) / sum;
-    }
-  }
+  const MultiVector sum = RowSums(rows);
+  const MultiVector by = sum.array() / RowSums(wanted).array();
+  DivideRows((sum.array() == 0.0).select(1.0, by), rows);
 }
 
 /// Place of an entry, or -1.
@@ -82,7 +71,7 @@ RowPenalty::RowPenalty(
     const DividedRows* const divided = space.Divided(l - 1);
     if (divided && divided->ArePartsProlonged()) // the part of this process stands for the whole
     {
-      ScaleRows(levels_.back().rows, coarse);
+      TakeRowSums(levels_.back().rows, coarse);
     }
     levels_.push_back({ std::move(coarse), {} });
   }

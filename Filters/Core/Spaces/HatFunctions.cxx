@@ -56,13 +56,7 @@ Array<SortEntry> SortPoints(const TriangleMesh& mesh, const std::vector<char>& u
       {
         if (used[point] && (pointClass.empty() || pointClass[point] == point))
         {
-          const Vec3 position = grid.ToGrid(mesh.points[point]);
-          CellIndex cell;
-          for (int axis = 0; axis < 3; ++axis)
-          {
-            cell[axis] = std::clamp(static_cast<int>(position[axis]), 0, grid.CellsPerSide() - 1);
-          }
-          add(MortonEncode(cell), point);
+          add(MortonEncode(grid.CellAt(mesh.points[point])), point);
         }
       }
     });

@@ -13,7 +13,6 @@
 #include "Integrals/TrilinearBasis.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace gridfem
 {
@@ -246,43 +245,26 @@ SparseMatrix BuildHatWeights(const HatFunctions& hats, const GridFunctions& spac
     });
 }
 
-void DivideRows(const std::vector<double>& sum, SparseMatrix& weights)
-{
-  for (Index row = 0; row < weights.rows; ++row)
-  {
-    for (Id k = weights.rowBegin[row]; k < weights.rowBegin[row + 1]; ++k)
-    {
-      weights.value[k] /= sum[row];
-    }
-  }
-}
-
 SparseMatrix BuildHatProlongation(const HatFunctions& hats, const GridFunctions& space,
   const TriangleMesh& mesh, HatTransfer transfer, int threads)
 {
   SparseMatrix prolongation = BuildHatWeights(hats, space, mesh, transfer, {}, threads);
-  std::vector<double> sum = RowSums(prolongation);
-  const auto isZero = [](double s) { return s == 0.0; };
-  if (std::any_of(sum.begin(), sum.end(), isZero))
+  MultiVector sum = RowSums(prolongation, threads);
+  if ((sum.array() == 0.0).any())
   {
-    std::vector<char> isBare(sum.size());
-    std::transform(sum.begin(), sum.end(), isBare.begin(), isZero);
-    prolongation = BuildHatWeights(hats, space, mesh, transfer, isBare, threads);
-    sum = RowSums(prolongation);
+    prolongation = BuildHatWeights(hats, space, mesh, transfer, BareRows(sum), threads);
+    sum = RowSums(prolongation, threads);
   }
-  DivideRows(sum, prolongation);
+  DivideRows(sum, prolongation, threads);
   return prolongation;
 }
 
-std::vector<double> RowSums(const SparseMatrix& weights)
+std::vector<char> BareRows(const MultiVector& sum)
 {
-  std::vector<double> sum(weights.rows, 0.0);
-  for (Index row = 0; row < weights.rows; ++row)
-  {
-    sum[row] = std::accumulate(weights.value.begin() + weights.rowBegin[row],
-      weights.value.begin() + weights.rowBegin[row + 1], 0.0);
-  }
-  return sum;
+  std::vector<char> isBare(sum.rows());
+  std::transform(
+    sum.data(), sum.data() + sum.rows(), isBare.begin(), [](double s) { return s == 0.0; });
+  return isBare;
 }
 
 } // namespace gridfem

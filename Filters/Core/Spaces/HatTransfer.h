@@ -38,10 +38,8 @@ SparseMatrix BuildHatProlongation(const HatFunctions& hats, const GridFunctions&
 SparseMatrix BuildHatWeights(const HatFunctions& hats, const GridFunctions& space,
   const TriangleMesh& mesh, HatTransfer transfer, const std::vector<char>& isBare, int threads = 0);
 
-std::vector<double> RowSums(const SparseMatrix& weights);
-
-/// Rows without entries stay as they are.
-void DivideRows(const std::vector<double>& sum, SparseMatrix& weights);
+/// Of sums of rows: which of them have no weight.
+std::vector<char> BareRows(const MultiVector& sum);
 
 } // namespace gridfem
 
