@@ -11,7 +11,7 @@ from paraview import simple
 from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
 
 import plugin
-from running_out import MEGABYTE, Outcome
+from running_out import MEGABYTE, Outcome, take_arrays_from_the_system
 
 STEPS = 16  # limits below the one that was enough
 OPTIONS = {
@@ -48,6 +48,7 @@ class TestRunningOut(unittest.TestCase):
         return True
 
     def test_every_filter_under_every_limit(self):
+        take_arrays_from_the_system()
         silent = vtkStringOutputWindow()
         usual = vtkOutputWindow.GetInstance()
         vtkOutputWindow.SetInstance(silent)

@@ -4,6 +4,7 @@
 
 is what a new process does: no thread has been started yet, no memory is left from before, and ParaView's
 proxies, which take a second to load, are not there."""
+import ctypes
 import os
 import resource
 import sys
@@ -13,6 +14,13 @@ from vtkmodules.util.vtkConstants import VTK_STRING
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 
 MEGABYTE = 1 << 20
+M_MMAP_THRESHOLD = -3  # of malloc.h
+
+
+def take_arrays_from_the_system():
+    """From now on malloc asks for each array by itself. By default it serves them from what earlier runs
+    have left, as long as that is enough: then whether a small filter feels a limit is a matter of luck."""
+    ctypes.CDLL(None).mallopt(M_MMAP_THRESHOLD, 1 << 15)
 
 
 def address_space():
