@@ -10,10 +10,16 @@ namespace gridfem
 {
 
 struct Grid;
+struct MemoryNeed;
 
 /// Collective. A run that would not have the memory is refused before it takes long: when the ranks
 /// of a machine need more than it has, or one rank more than the limit of its process (`ulimit -v`)
 /// leaves.
+/// @param own  what this rank needs
+/// Throws RankFailure on all ranks.
+void RequireMemory(const Communicator& ranks, const MemoryNeed& own);
+
+/// The same for a surface.
 /// @param received  the triangles that this rank clips
 /// @param hasHats   hat functions come above those of the grid
 /// Throws RankFailure on all ranks.

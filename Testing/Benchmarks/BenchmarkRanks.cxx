@@ -1,16 +1,17 @@
 // One screened Poisson equation, or the spectrum, on the ranks that the program runs on, and on one
 // process by Core alone; or what the ranks send to each other in one cycle. Prints one row of a
-// table: run it once for each number of ranks.
+// table: run it once for each number of ranks. `peers` is `hats` and the same system by algebraic
+// multigrid on the same ranks and with the same owners.
 //
-//   mpiexec -n N BenchmarkRanks poisson|spectrum|hats|hat_spectrum|messages MESH DEPTH [core]
+//   mpiexec -n N BenchmarkRanks poisson|spectrum|hats|hat_spectrum|peers|messages MESH DEPTH [core]
 //
 // MESH is a file, which the first rank reads and the others get their part of, or torus:N, of which
 // every rank makes its own N x N / 4 quadrilaterals' share, so that none ever holds the whole.
 #include "Base/Parallel.h"
-#include "Parallel/RankPoisson.h"
-#include "Parallel/RankSpectrum.h"
 #include "Parallel/RankSurface.h"
+#include "Peers/DistributedAmg.h"
 #include "Problems/Poisson.h"
+#include "Problems/Spectrum.h"
 #include "Support/Meshes.h"
 
 #include <sys/resource.h>
@@ -220,6 +221,94 @@ Measured OnRanks(
   return measured;
 }
 
+/// What triangles that a rank integrates add to λM + L of the hats.
+benchmarks::SymmetricMatrix OwnCotangents(
+  const RankLevels& levels, double lambda, std::vector<int>& number)
+{
+  TriangleMesh mesh = levels.Space().Own().Mesh();
+  const std::vector<double>& isIntegrated = levels.Hats()->IsIntegrated();
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  {
+    if (isIntegrated[t] > 0.0)
+    {
+      mesh.triangles[kept++] = mesh.triangles[t];
+    }
+  }
+  mesh.triangles.resize(kept);
+  const benchmarks::CotangentSystem system = benchmarks::AssembleCotangents(mesh);
+  const std::vector<Index>& hatOf = levels.Hats()->Own().Hats().functions.ofPoint;
+  number.resize(static_cast<std::size_t>(system.mass.rows()));
+  for (std::size_t point = 0; point < system.row.size(); ++point)
+  {
+    if (system.row[point] >= 0)
+    {
+      number[static_cast<std::size_t>(system.row[point])] =
+        static_cast<int>(levels.Numbering(0).number[static_cast<std::size_t>(hatOf[point])]);
+    }
+  }
+  return benchmarks::Combine(system, lambda);
+}
+
+void PrintPeer(const Communicator& ranks, const char* peer, double setUp, double solve,
+  int iterations, double difference)
+{
+  if (ranks.Rank() == 0)
+  {
+    std::printf("| %s | %d | %d | %.2f | %.2f | %.2f | %.1e |\n", peer, ranks.Size(), iterations,
+      setUp, solve, setUp + solve, difference);
+  }
+}
+
+/// Ours from the rank's triangles to its rows of the solution, whole; the peers' from the triangles
+/// and owners that ours has found to the same, so that they send no triangles and number nothing.
+void PrintPeers(const Communicator& ranks, const std::string& name, int depth)
+{
+  const TriangleMesh own = OwnPart(ranks, name);
+  const benchmarks::PetscOnRanks petsc;
+  const Stopwatch begin;
+  RankSpaceOptions options;
+  options.space.functions.depth = depth;
+  options.space.functions.threads = 1;
+  const RankSurface surface(ranks, own, options, true);
+  const RankLevels& levels = surface.Levels();
+  PoissonOptions poisson;
+  const double cell = 1.0 / levels.Extent();
+  poisson.screeningWeight = Weight * cell * cell;
+  poisson.solve.tolerance = Tolerance;
+  poisson.multigrid.threads = 1;
+  const Multigrid multigrid =
+    BuildMultigrid(levels, poisson.screeningWeight, 1.0, poisson.multigrid);
+  const double setUp = begin.Seconds();
+  const MultiVector load = levels.LoadOfValues({ FieldAssociation::Points, WaveAt(own.points) });
+  const Stopwatch solve;
+  const PoissonSolution solution = SolvePoisson(levels, multigrid, load, MultiVector(), poisson);
+  PrintPeer(ranks, "ours", setUp, solve.Seconds(), solution.report.iterations, 0.0);
+
+  const auto rows = levels.Numbering(0).OwnFunctions();
+  const Eigen::VectorXd ours = solution.coefficients.col(0).tail(rows);
+  const double unit = levels.UnitLength();
+  for (const auto cycle :
+    { benchmarks::DistributedCycle::Gamg, benchmarks::DistributedCycle::BoomerAmg })
+  {
+    const Stopwatch peerBegin;
+    std::vector<int> number;
+    const benchmarks::SymmetricMatrix part =
+      OwnCotangents(levels, poisson.screeningWeight / (unit * unit), number);
+    const auto peer = benchmarks::MakeDistributedAmg(
+      ranks.Handle(), { part, number, static_cast<int>(rows) }, cycle);
+    const double peerSetUp = peerBegin.Seconds();
+    const Stopwatch peerSolve;
+    const Eigen::VectorXd values = peer->Solve(load.col(0).tail(rows), Tolerance);
+    const double seconds = peerSolve.Seconds();
+    double most[] = { rows > 0 ? (values - ours).cwiseAbs().maxCoeff() : 0.0,
+      rows > 0 ? ours.cwiseAbs().maxCoeff() : 0.0 };
+    ranks.Maximum(most, 2);
+    PrintPeer(ranks, cycle == benchmarks::DistributedCycle::Gamg ? "PETSc GAMG" : "hypre BoomerAMG",
+      peerSetUp, seconds, peer->Iterations(), most[0] / most[1]);
+  }
+}
+
 /// One cycle of one column in double precision; the most that a rank sends.
 void PrintMessages(const Communicator& ranks, const std::string& name, int depth, CycleType cycle)
 {
@@ -282,8 +371,9 @@ int main(int argc, char** argv)
 {
   if (argc < 4)
   {
-    std::fprintf(stderr, "Usage: mpiexec -n N BenchmarkRanks "
-                         "poisson|spectrum|hats|hat_spectrum|messages MESH|torus:N DEPTH [core]\n");
+    std::fprintf(stderr,
+      "Usage: mpiexec -n N BenchmarkRanks "
+      "poisson|spectrum|hats|hat_spectrum|peers|messages MESH|torus:N DEPTH [core]\n");
     return 2;
   }
   MPI_Init(&argc, &argv);
@@ -294,6 +384,11 @@ int main(int argc, char** argv)
     const Problem problem{ name == "spectrum" || name == "hat_spectrum",
       name == "hats" || name == "hat_spectrum" };
     const int depth = std::atoi(argv[3]);
+    if (name == "peers")
+    {
+      PrintPeers(ranks, argv[2], depth);
+      return MPI_Finalize();
+    }
     if (name == "messages")
     {
       PrintMessages(ranks, argv[2], depth, CycleType::V);

@@ -44,6 +44,16 @@ DerivativeOptions Exactly()
   return options;
 }
 
+PoissonSolution SolveScreened(
+  const SurfaceSpace& space, const MultiVector& f, const PoissonOptions& options)
+{
+  const Field field{ FieldAssociation::Points, f };
+  const Multigrid multigrid =
+    BuildMultigrid(space, options.screeningWeight, 1.0, options.multigrid);
+  return SolvePoisson(
+    space, multigrid, space.LoadOfValues(field), space.LoadOfGradientsOf(field, nullptr), options);
+}
+
 Piece PieceOf(const TriangleMesh& mesh, Dealing dealing, bool withCopies)
 {
   const Communicator ranks(MPI_COMM_WORLD);

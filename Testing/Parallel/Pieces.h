@@ -3,6 +3,7 @@
 #define GridFEM_Testing_Pieces_h
 
 #include "Parallel/RankSurface.h"
+#include "Problems/Poisson.h"
 #include "Problems/SurfaceDerivatives.h"
 #include "Surfaces.h"
 
@@ -24,6 +25,11 @@ MultiVector VectorsAt(const std::vector<Vec3>& points);
 
 /// One thread, and solutions to rounding.
 DerivativeOptions Exactly();
+
+/// (λM + L) u = f + div s with the gradient s of f, on one process or on ranks, from the load on.
+/// @param f  at the points of the space
+PoissonSolution SolveScreened(
+  const SurfaceSpace& space, const MultiVector& f, const PoissonOptions& options);
 
 /// A rank's part, the numbers of its points and triangles in the whole, and what it has of other
 /// ranks.

@@ -1,8 +1,6 @@
 // The screened Poisson equation on several ranks has the solution of one rank, at every point.
-#include "Parallel/RankLevels.h"
-#include "Parallel/RankPoisson.h"
-#include "Spaces/GridSpace.h"
-#include "Surfaces.h"
+#include "Pieces.h"
+#include "Spaces/FiniteElementSpace.h"
 
 #include <gtest/gtest.h>
 
@@ -26,23 +24,6 @@ MultiVector FieldAt(const std::vector<Vec3>& points)
   return values;
 }
 
-PoissonSolution SolveOnOne(const GridSpace& space, const Field& f, const PoissonOptions& options)
-{
-  std::vector<MultigridLevel> levels;
-  for (std::size_t l = 0; l < space.NumberOfLevels(); ++l)
-  {
-    MultigridLevel& level = levels.emplace_back();
-    space.FillMatrix(l, options.screeningWeight, 1.0, level.A, 1);
-    level.order = space.Relaxation(l, options.multigrid).order;
-    if (l + 1 < space.NumberOfLevels())
-    {
-      level.prolongation = space.Prolongation(l);
-    }
-  }
-  return SolvePoisson(space, Multigrid(std::move(levels), options.multigrid), space.LoadOfValues(f),
-    space.LoadOfGradientsOf(f, nullptr), options);
-}
-
 struct Solved
 {
   MultiVector values; // at this rank's own points
@@ -52,22 +33,21 @@ struct Solved
   SolutionAccuracy accuracy;
 };
 
-Solved SolveOnRanks(const TriangleMesh& mesh, Dealing dealing, const PoissonOptions& poisson)
+Solved SolveOnRanks(
+  const TriangleMesh& mesh, Dealing dealing, const PoissonOptions& poisson, bool hasHats)
 {
   const Communicator ranks(MPI_COMM_WORLD);
   Solved solved;
   const TriangleMesh own =
     PartOf(mesh, Deal(mesh, dealing, ranks.Size()), ranks.Rank(), &solved.points);
-  const RankSpace space(ranks, own, Options(4));
-  Field f;
-  f.values = space.Distribution().SendPoints(FieldAt(own.points));
-  const PoissonSolution solution = SolvePoisson(
-    space, space.Own().LoadOfValues(f), space.Own().LoadOfGradientsOf(f, nullptr), poisson);
-  const RankLevels levels(space);
+  const RankSurface surface(ranks, own, Options(4), hasHats);
+  const RankLevels& levels = surface.Levels();
+  const PoissonSolution solution = SolveScreened(levels, FieldAt(own.points), poisson);
   solved.values = levels.ValuesAtPoints(solution.coefficients);
   solved.hasValue = levels.PointsWithFunctions();
   solved.report = solution.report;
   solved.accuracy = solution.accuracy;
+  ranks.Maximum(&solved.accuracy.largest, 1);
   return solved;
 }
 
@@ -89,27 +69,28 @@ TEST(RankPoisson, HasTheSolutionOfOneRank)
   {
     for (const double weight : { 0.0, 0.05 })
     {
-      if (weight > 0.0 && surface.name != "torus")
+      for (const bool hasHats : { false, true })
       {
-        continue;
-      }
-      SCOPED_TRACE(surface.name + ", weight " + std::to_string(weight));
-      const GridSpace space = BuildGridSpace(surface.mesh, Options(4).space);
-      const Field f{ FieldAssociation::Points, FieldAt(surface.mesh.points) };
-      const PoissonSolution expected = SolveOnOne(space, f, PoissonWith(weight));
-      const MultiVector values = space.ValuesAtPoints(expected.coefficients);
-      const Solved solved = SolveOnRanks(surface.mesh, Dealing::Shuffled, PoissonWith(weight));
-      EXPECT_TRUE(solved.report.converged);
-      // On so small a surface most patches are at borders, where corrections are damped.
-      EXPECT_LE(solved.report.iterations, 5 + 2 * expected.report.iterations);
-      for (std::size_t k = 0; k < solved.points.size(); ++k)
-      {
-        EXPECT_TRUE(solved.hasValue[k]);
-        ASSERT_LE((solved.values.row(static_cast<Id>(k)) - values.row(solved.points[k]))
-                    .cwiseAbs()
-                    .maxCoeff(),
-          1e-8)
-          << "point " << k;
+        if (weight > 0.0 && surface.name != "torus")
+        {
+          continue;
+        }
+        SCOPED_TRACE(
+          surface.name + ", weight " + std::to_string(weight) + (hasHats ? ", hats" : ""));
+        const auto space = WholeSpace(surface.mesh, Options(4), hasHats);
+        const PoissonSolution expected =
+          SolveScreened(*space, FieldAt(surface.mesh.points), PoissonWith(weight));
+        const MultiVector values = space->ValuesAtPoints(expected.coefficients);
+        const Solved solved =
+          SolveOnRanks(surface.mesh, Dealing::Shuffled, PoissonWith(weight), hasHats);
+        EXPECT_TRUE(solved.report.converged);
+        // On so small a surface most patches are at borders, where corrections are damped.
+        EXPECT_LE(solved.report.iterations, 5 + 2 * expected.report.iterations);
+        for (const char hasValue : solved.hasValue)
+        {
+          EXPECT_TRUE(hasValue);
+        }
+        ExpectRows("values", solved.values, values, solved.points);
       }
     }
   }
@@ -126,10 +107,9 @@ TEST(RankPoisson, EstimatesTheErrorsOfOneRank)
     for (const NamedSurface& surface : { Surfaces()[0], Surfaces()[1], Surfaces()[2] })
     {
       SCOPED_TRACE(surface.name + ", accuracy " + std::to_string(accuracy));
-      const GridSpace space = BuildGridSpace(surface.mesh, Options(4).space);
-      const Field f{ FieldAssociation::Points, FieldAt(surface.mesh.points) };
-      const PoissonSolution expected = SolveOnOne(space, f, options);
-      const Solved solved = SolveOnRanks(surface.mesh, Dealing::Contiguous, options);
+      const auto space = WholeSpace(surface.mesh, Options(4), false);
+      const PoissonSolution expected = SolveScreened(*space, FieldAt(surface.mesh.points), options);
+      const Solved solved = SolveOnRanks(surface.mesh, Dealing::Contiguous, options, false);
       EXPECT_TRUE(solved.report.converged);
       // Of one rank the same, but that Core's sweeps are in single precision and the ranks' are
       // not; of several the coarser solution, which they are told from, is less exact where nearly
@@ -150,19 +130,23 @@ TEST(RankPoisson, GivesPointsOfTwoRanksOneValue)
   const Communicator ranks(MPI_COMM_WORLD);
   for (const NamedSurface& surface : Surfaces())
   {
-    SCOPED_TRACE(surface.name);
-    const Solved solved = SolveOnRanks(surface.mesh, Dealing::Shuffled, PoissonWith(0.05));
-    const auto points = static_cast<Id>(surface.mesh.points.size());
-    MultiVector low = MultiVector::Constant(points, 2, 1e300);
-    MultiVector high = MultiVector::Constant(points, 2, -1e300);
-    for (std::size_t k = 0; k < solved.points.size(); ++k)
+    for (const bool hasHats : { false, true })
     {
-      low.row(solved.points[k]) = high.row(solved.points[k]) =
-        solved.values.row(static_cast<Id>(k));
+      SCOPED_TRACE(surface.name + (hasHats ? ", hats" : ""));
+      const Solved solved =
+        SolveOnRanks(surface.mesh, Dealing::Shuffled, PoissonWith(0.05), hasHats);
+      const auto points = static_cast<Id>(surface.mesh.points.size());
+      MultiVector low = MultiVector::Constant(points, 2, 1e300);
+      MultiVector high = MultiVector::Constant(points, 2, -1e300);
+      for (std::size_t k = 0; k < solved.points.size(); ++k)
+      {
+        low.row(solved.points[k]) = high.row(solved.points[k]) =
+          solved.values.row(static_cast<Id>(k));
+      }
+      ranks.Minimum(low.data(), low.size());
+      ranks.Maximum(high.data(), high.size());
+      EXPECT_TRUE(low == high);
     }
-    ranks.Minimum(low.data(), low.size());
-    ranks.Maximum(high.data(), high.size());
-    EXPECT_TRUE(low == high);
   }
 }
 
@@ -187,13 +171,17 @@ TEST(RankPoisson, EndsOnAllRanksWhenOneFails)
     EXPECT_EQ(failure.rank, bad);
   }
 
-  const RankSpace space(ranks, PartOf(mesh, rankOf, ranks.Rank()), Options(4));
-  MultiVector load = MultiVector::Zero(space.Numberings().front().Functions(), 1);
-  if (ranks.Rank() == bad && load.rows() > 0)
+  own = PartOf(mesh, rankOf, ranks.Rank());
+  MultiVector f = FieldAt(own.points);
+  if (ranks.Rank() == bad)
   {
-    load(0, 0) = std::nan("");
+    f(0, 0) = std::nan("");
   }
-  EXPECT_THROW(SolvePoisson(space, load, MultiVector(), PoissonWith(0.05)), std::runtime_error);
+  for (const bool hasHats : { false, true })
+  {
+    const RankSurface surface(ranks, own, Options(4), hasHats);
+    EXPECT_FALSE(SolveScreened(surface.Levels(), f, PoissonWith(0.05)).report.converged);
+  }
 }
 
 TEST(RankPoisson, IsAbortedOnAllRanksByOne)
@@ -202,28 +190,33 @@ TEST(RankPoisson, IsAbortedOnAllRanksByOne)
   const TriangleMesh mesh = Surfaces().front().mesh;
   const TriangleMesh own =
     PartOf(mesh, Deal(mesh, Dealing::Contiguous, ranks.Size()), ranks.Rank());
-  for (const double when : { 0.1, 0.3, 0.61, 0.73 })
+  for (const bool hasHats : { false, true })
   {
-    const Progress progress(
-      [&](double done) { return ranks.Rank() != ranks.Size() - 1 || done < when; });
-    EXPECT_THROW(
-      {
-        const RankSpace space(ranks, own, Options(4), progress.Part(0.0, 0.6));
-        Field f;
-        f.values = space.Distribution().SendPoints(FieldAt(own.points));
-        SolvePoisson(space, space.Own().LoadOfValues(f), MultiVector(), PoissonWith(0.05),
-          progress.Part(0.6, 1.0));
-      },
-      Aborted);
+    for (const double when : { 0.1, 0.3, 0.61, 0.73 })
+    {
+      const Progress progress = OfAllRanks(ranks,
+        Progress([&](double done) { return ranks.Rank() != ranks.Size() - 1 || done < when; }));
+      EXPECT_THROW(
+        {
+          const RankSurface surface(ranks, own, Options(4), hasHats, progress.Part(0.0, 0.6));
+          const PoissonOptions options = PoissonWith(0.05);
+          const Multigrid multigrid = BuildMultigrid(surface.Levels(), options.screeningWeight, 1.0,
+            options.multigrid, progress.Part(0.6, 0.7));
+          SolvePoisson(surface.Levels(), multigrid,
+            surface.Levels().LoadOfValues({ FieldAssociation::Points, FieldAt(own.points) }),
+            MultiVector(), options, progress.Part(0.7, 1.0));
+        },
+        Aborted);
+    }
   }
 }
 
 TEST(RankPoisson, OfNothingIsNothing)
 {
   const Communicator ranks(MPI_COMM_WORLD);
-  const RankSpace space(ranks, TriangleMesh(), Options(4));
+  const RankSurface nothing(ranks, TriangleMesh(), Options(4), false);
   const PoissonSolution solution =
-    SolvePoisson(space, MultiVector(0, 1), MultiVector(), PoissonWith(0.05));
+    SolveScreened(nothing.Levels(), MultiVector(0, 1), PoissonWith(0.05));
   EXPECT_TRUE(solution.report.converged);
   EXPECT_EQ(solution.coefficients.rows(), 0);
 }

@@ -1,8 +1,7 @@
 // The spectrum on several ranks is that of one rank: its values, and its vectors at every point.
 #include "Krylov/SpectralProblem.h"
-#include "Parallel/RankLevels.h"
-#include "Parallel/RankSpectrum.h"
 #include "Pieces.h"
+#include "Problems/Spectrum.h"
 #include "Spaces/GridSpace.h"
 
 #include <gtest/gtest.h>
@@ -163,9 +162,9 @@ TEST(RankSpectrum, IsOrthonormalForAnyDistribution)
   for (const Dealing dealing : Dealings)
   {
     const TriangleMesh own = PartOf(mesh, Deal(mesh, dealing, ranks.Size()), ranks.Rank());
-    const RankSpace space(ranks, own, Options(4));
-    const Spectrum spectrum = ComputeSpectrum(space, Modes(12));
-    const RankLevels levels(space);
+    const RankSurface surface(ranks, own, Options(4), false);
+    const RankLevels& levels = surface.Levels();
+    const Spectrum spectrum = ComputeSpectrum(levels, Modes(12));
     SpectralProblem<double> problem;
     problem.stiffness = levels.Matrix(0, 0.0, 1.0, 1);
     problem.mass = levels.Matrix(0, 1.0, 0.0, 1);
@@ -209,13 +208,17 @@ TEST(RankSpectrum, IsAbortedOnAllRanksByOne)
 {
   const Communicator ranks(MPI_COMM_WORLD);
   const TriangleMesh mesh = Surfaces().front().mesh;
-  const RankSpace space(
-    ranks, PartOf(mesh, Deal(mesh, Dealing::Contiguous, ranks.Size()), ranks.Rank()), Options(4));
-  for (const double when : { 0.05, 0.2, 0.6 })
+  const TriangleMesh own =
+    PartOf(mesh, Deal(mesh, Dealing::Contiguous, ranks.Size()), ranks.Rank());
+  for (const bool hasHats : { false, true })
   {
-    const Progress progress(
-      [&](double done) { return ranks.Rank() != ranks.Size() - 1 || done < when; });
-    EXPECT_THROW(ComputeSpectrum(space, Modes(10), progress), Aborted);
+    const RankSurface surface(ranks, own, Options(4), hasHats);
+    for (const double when : { 0.05, 0.2, 0.6 })
+    {
+      const Progress progress = OfAllRanks(ranks,
+        Progress([&](double done) { return ranks.Rank() != ranks.Size() - 1 || done < when; }));
+      EXPECT_THROW(ComputeSpectrum(surface.Levels(), Modes(10), progress), Aborted);
+    }
   }
 }
 
@@ -229,6 +232,6 @@ TEST(RankSpectrum, OfConstantsAloneAndOfNothing)
   {
     EXPECT_NEAR(constant.values(k, 0), constant.values(0, 0), 1e-12);
   }
-  const RankSpace nothing(ranks, TriangleMesh(), Options(4));
-  EXPECT_TRUE(ComputeSpectrum(nothing, Modes(5)).eigenvalues.empty());
+  const RankSurface nothing(ranks, TriangleMesh(), Options(4), false);
+  EXPECT_TRUE(ComputeSpectrum(nothing.Levels(), Modes(5)).eigenvalues.empty());
 }

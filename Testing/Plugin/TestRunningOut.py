@@ -1,5 +1,5 @@
 """Memory that runs out: under every limit a filter gives one message and empty outputs, or its result,
-and goes on to work when there is room again. The limit is that of `ulimit -v`, counted from what the
+and goes on to work when there is room again. The limit is that of `ulimit -d`, counted from what the
 process has when the filter starts; small ones stop the first stages, larger ones the last."""
 import os
 import pathlib

@@ -23,23 +23,24 @@ def take_arrays_from_the_system():
     ctypes.CDLL(None).mallopt(M_MMAP_THRESHOLD, 1 << 15)
 
 
-def address_space():
-    """Bytes of addresses that the process has, which is what the limit counts."""
-    with open("/proc/self/statm", encoding="ascii") as statm:
-        return int(statm.read().split()[0]) * resource.getpagesize()
+def data_size():
+    """Bytes that the process may write to, which is what the limit counts."""
+    with open("/proc/self/status", encoding="ascii") as status:
+        return next(int(line.split()[1]) for line in status if line.startswith("VmData:")) * 1024
 
 
 class Limit:
-    """While it holds, the process can grow by so many bytes."""
+    """While it holds, the process can grow by so many bytes. Not that of `ulimit -v`: it is looked at before
+    anything is computed, and a run that needs more is refused."""
 
     def __init__(self, room):
         self.room = room
 
     def __enter__(self):
-        resource.setrlimit(resource.RLIMIT_AS, (address_space() + self.room, resource.RLIM_INFINITY))
+        resource.setrlimit(resource.RLIMIT_DATA, (data_size() + self.room, resource.RLIM_INFINITY))
 
     def __exit__(self, *_):
-        resource.setrlimit(resource.RLIMIT_AS, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
+        resource.setrlimit(resource.RLIMIT_DATA, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
 
 
 class Outcome:

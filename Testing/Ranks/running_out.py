@@ -1,6 +1,7 @@
-"""Screened Poisson by all ranks together, while the last rank can grow by so many megabytes only:
+"""Screened Poisson by all ranks together, while the last rank can grow by so many megabytes only, or each
+of them, with a larger surface:
 
-    mpiexec -n 2 pvbatch --symmetric running_out.py MEGABYTES
+    mpiexec -n 2 pvbatch --symmetric running_out.py MEGABYTES [each]
 
 prints what came of it: "computed", or the message. Whatever it is, all ranks agree and go on."""
 import resource
@@ -17,7 +18,7 @@ def address_space():
         return int(statm.read().split()[0]) * resource.getpagesize()
 
 
-def run(depth, mesh, room=None):
+def run(depth, mesh, room=None, limited=lambda rank: rank == ranks.RANKS - 1):
     """The messages of a run, and what its output says."""
     piece = ranks.piece(mesh, "contiguous")
     filter_ = ranks.make("ScreenedPoisson", depth, Distributed=True, Tolerance=1e-8)
@@ -27,11 +28,11 @@ def run(depth, mesh, room=None):
         messages.append(text)
     listen.CallDataType = "string0"
     filter_.AddObserver("ErrorEvent", listen)
-    if room is not None and ranks.RANK == ranks.RANKS - 1:
+    if room is not None and limited(ranks.RANK):
         resource.setrlimit(resource.RLIMIT_AS, (address_space() + room, resource.RLIM_INFINITY))
     output = ranks.run(filter_, piece)[0]
     resource.setrlimit(resource.RLIMIT_AS, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
-    is_computed = output.GetFieldData().HasArray("Distributed")
+    is_computed = bool(output.GetFieldData().HasArray("Converged"))
     if is_computed != (output.GetNumberOfPoints() > 0):
         messages.append("the output is neither empty nor computed")
     return messages, is_computed
@@ -40,7 +41,11 @@ def run(depth, mesh, room=None):
 def main():
     if not run(4, ranks.ellipsoid())[1]:
         sys.exit("nothing is computed without a limit")
-    messages, is_computed = run(6, ranks.ellipsoid(150, 75), int(sys.argv[1]) * MEGABYTE)
+    room = int(sys.argv[1]) * MEGABYTE
+    if sys.argv[2:] == ["each"]:
+        messages, is_computed = run(7, ranks.ellipsoid(400, 200), room, lambda rank: True)
+    else:
+        messages, is_computed = run(6, ranks.ellipsoid(150, 75), room)
     computed = ranks.total(int(is_computed))
     told = ranks.gathered([len(messages)])
     if computed not in (0, ranks.RANKS) or list(told) != [computed == 0] + (ranks.RANKS - 1) * [0]:

@@ -3,6 +3,11 @@
 #include "Grid/MeshEdges.h"
 #include "Grid/PatchLevel.h"
 
+#ifdef __linux__
+#include <sys/resource.h>
+#include <unistd.h>
+#endif
+
 #include <algorithm>
 #include <fstream>
 #include <limits>
@@ -122,7 +127,7 @@ double EstimateHatMemory(const TriangleMesh& mesh, double functions)
   return HatsPerPoint * WeldedPoints(mesh) + HatsPerFunction * functions;
 }
 
-double AvailableMemory()
+double MemoryOfMachine()
 {
   double available = std::numeric_limits<double>::infinity();
   std::ifstream info("/proc/meminfo");
@@ -145,7 +150,26 @@ double AvailableMemory()
   {
     available = limit - used;
   }
-  return available < std::numeric_limits<double>::infinity() ? available : 0.0;
+  return available;
+}
+
+double MemoryOfProcess()
+{
+#ifdef __linux__
+  rlimit limit{};
+  double pages = 0.0;
+  if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY &&
+      std::ifstream("/proc/self/statm") >> pages)
+  {
+    return std::max(double(limit.rlim_cur) - pages * double(sysconf(_SC_PAGESIZE)), 0.0);
+  }
+#endif
+  return std::numeric_limits<double>::infinity();
+}
+
+double AvailableMemory()
+{
+  return std::min(MemoryOfMachine(), MemoryOfProcess());
 }
 
 } // namespace gridfem

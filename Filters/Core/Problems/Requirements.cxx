@@ -15,20 +15,6 @@ namespace gridfem
 namespace
 {
 
-/// Throws when a job needs more memory than there is; unknown memory is taken as enough.
-void RequireBytes(double bytes, const std::string& subject, const std::string& advice)
-{
-  constexpr double GB = 1e9;
-  const double available = AvailableMemory();
-  if (available > 0.0 && bytes > available)
-  {
-    std::ostringstream message;
-    message << std::setprecision(3) << subject << " needs about " << bytes / GB
-            << " GB of memory, but only " << available / GB << " GB are free. " << advice;
-    throw InvalidInput(message.str());
-  }
-}
-
 /// Of all that a filter makes on the grid.
 double BytesOf(const TriangleMesh& mesh, const MemoryEstimate& grid, bool hatFunctions)
 {
@@ -57,8 +43,7 @@ void RequireAtLeast(const char* property, double value, double least)
 
 bool FitsMemory(const TriangleMesh& mesh, int depth, bool hatFunctions)
 {
-  const double available = AvailableMemory();
-  return available <= 0.0 || BytesOf(mesh, EstimateMemory(mesh, depth), hatFunctions) <= available;
+  return BytesOf(mesh, EstimateMemory(mesh, depth), hatFunctions) <= AvailableMemory();
 }
 
 int FittingDepth(const TriangleMesh& mesh, int most, int least, bool hatFunctions)
@@ -82,6 +67,27 @@ int ChooseDepth(const TriangleMesh& mesh, int wanted, bool hatFunctions, double 
   return isAutomatic ? FittingDepth(mesh, depth, MinimumDepth, hatFunctions) : depth;
 }
 
+void RequireMemory(const MemoryNeed& need, double available, const std::string& where)
+{
+  if (need.bytes > available)
+  {
+    constexpr double GB = 1e9;
+    std::ostringstream message;
+    message << std::setprecision(3) << need.subject << " needs about " << need.bytes / GB
+            << " GB of memory" << where << ", but only " << available / GB << " GB are free. "
+            << need.advice;
+    throw InvalidInput(message.str());
+  }
+}
+
+MemoryNeed NeedOfModes(Id functions, Id modes, int threads)
+{
+  return { EstimateSpectrumMemory(functions, modes, threads),
+    "NumberOfModes " + std::to_string(modes) + " with " + std::to_string(functions) +
+      " basis functions",
+    "Choose fewer modes or a smaller Depth." };
+}
+
 void RequireMemory(const TriangleMesh& mesh, int depth, bool hatFunctions)
 {
   const MemoryEstimate estimate = EstimateMemory(mesh, depth);
@@ -92,23 +98,21 @@ void RequireMemory(const TriangleMesh& mesh, int depth, bool hatFunctions)
   {
     subject << " with the hat functions of " << mesh.points.size() << " points";
   }
-  RequireBytes(BytesOf(mesh, estimate, hatFunctions), subject.str(),
-    "Every step down in Depth takes a quarter of the memory.");
+  RequireMemory({ BytesOf(mesh, estimate, hatFunctions), subject.str(), CoarserGrid },
+    AvailableMemory());
 }
 
 void RequireMemoryForHats(const TriangleMesh& mesh, Id functions)
 {
-  RequireBytes(EstimateHatMemory(mesh, static_cast<double>(functions)),
-    "Hat functions on " + std::to_string(mesh.points.size()) + " points",
-    "Choose the functions of the grid, or fewer points.");
+  RequireMemory({ EstimateHatMemory(mesh, static_cast<double>(functions)),
+                  "Hat functions on " + std::to_string(mesh.points.size()) + " points",
+                  "Choose the functions of the grid, or fewer points." },
+    AvailableMemory());
 }
 
 void RequireMemoryForModes(Id functions, Id modes, int threads)
 {
-  RequireBytes(EstimateSpectrumMemory(functions, modes, threads),
-    "NumberOfModes " + std::to_string(modes) + " with " + std::to_string(functions) +
-      " basis functions",
-    "Choose fewer modes or a smaller Depth.");
+  RequireMemory(NeedOfModes(functions, modes, threads), AvailableMemory());
 }
 
 } // namespace gridfem

@@ -5,6 +5,7 @@
 #include "Grid/RequireSurface.h"
 
 #include <limits>
+#include <string>
 
 namespace gridfem
 {
@@ -35,6 +36,24 @@ inline constexpr double AsManyAsWanted = std::numeric_limits<double>::infinity()
 /// below hat functions a coarser one where that is enough.
 /// @param perPoint  of the grid below the hat functions, if there are any
 int ChooseDepth(const TriangleMesh& mesh, int wanted, bool hatFunctions, double perPoint);
+
+/// What a job needs memory for, and what to do when there is not enough of it.
+struct MemoryNeed
+{
+  double bytes;
+  std::string subject;
+  std::string advice;
+};
+
+inline constexpr const char* CoarserGrid =
+  "Every step down in Depth takes a quarter of the memory.";
+
+/// Of so many eigenvectors.
+MemoryNeed NeedOfModes(Id functions, Id modes, int threads);
+
+/// Throws InvalidInput when a job needs more bytes than are available.
+/// @param where  as in " on this machine", for the message
+void RequireMemory(const MemoryNeed& need, double available, const std::string& where = {});
 
 /// Throws InvalidInput, with the estimate, when this depth needs more memory than there is.
 void RequireMemory(const TriangleMesh& mesh, int depth, bool hatFunctions = false);

@@ -10,6 +10,7 @@
 #include "Parallel/HeldPoints.h"
 #include "Parallel/RankBoundary.h"
 #include "Parallel/RankDistance.h"
+#include "Parallel/RankMemory.h"
 #include "Parallel/RankSurface.h"
 
 #include "vtkDataArray.h"
@@ -130,6 +131,11 @@ void DistributedSurface::Run(const Progress& progress, const Body& body)
 void DistributedSurface::Together(const std::function<void()>& body) const
 {
   ranks_->ranks.Together(body);
+}
+
+void DistributedSurface::Require(const MemoryNeed& own) const
+{
+  RequireMemory(ranks_->ranks, own);
 }
 
 bool DistributedSurface::Any(bool holds) const
@@ -393,6 +399,11 @@ void DistributedSurface::Run(const Progress&, const Body&)
 }
 
 void DistributedSurface::Together(const std::function<void()>&) const
+{
+  RefuseWithoutMpi();
+}
+
+void DistributedSurface::Require(const MemoryNeed&) const
 {
   RefuseWithoutMpi();
 }

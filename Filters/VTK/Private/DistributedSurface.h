@@ -26,6 +26,7 @@ namespace gridfem
 
 class DistanceMethod;
 class SelectedPoints;
+struct MemoryNeed;
 struct DistanceOptions;
 struct SurfaceOptions;
 
@@ -46,6 +47,9 @@ public:
   void Run(const Progress& progress, const Body& body);
 
   void Together(const std::function<void()>& body) const;
+
+  /// Throws on all ranks where the memory of one is not enough.
+  void Require(const MemoryNeed& own) const;
   bool Any(bool holds) const;
 
   /// Reads this rank's piece, which may be null. Cells that vtkGhostType marks as duplicates, and

@@ -1,6 +1,8 @@
 #include "Ranks.h"
 
 #include "Base/Errors.h"
+#include "Problems/MemoryEstimate.h"
+#include "Problems/Requirements.h"
 
 #include "vtkCommunicator.h"
 #include "vtkMultiProcessController.h"
@@ -61,6 +63,15 @@ bool IsAbort(const std::exception_ptr& failure)
   {
     return false;
   }
+}
+
+/// Before they are touched: the system kills processes that take more than it has.
+void RequireRoom(double bytesOfMessages)
+{
+  constexpr double WithSurface = 2.0; // that is read from them
+  RequireMemory({ WithSurface * bytesOfMessages, "What rank 0 gathers",
+                  "Distributed, where a filter has it, leaves the pieces where they are." },
+    AvailableMemory());
 }
 
 /// MPI waits with all the power of a processor, which the first rank can use better.
@@ -177,6 +188,10 @@ std::vector<Bytes> Ranks::Gather(const Bytes& own) const
   this->Together( // there is memory for all, or nobody sends
     [&]
     {
+      if (this->IsFirst())
+      {
+        RequireRoom(std::accumulate(lengths.begin() + 1, lengths.end(), 0.0));
+      }
       for (int rank = 0; this->IsFirst() && rank < count_; ++rank)
       {
         messages.emplace_back(rank == 0 ? own : Bytes(lengths[rank]));

@@ -22,10 +22,11 @@ double Largest(const std::vector<double>& values)
   return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
 }
 
-/// For which vectors are held at the same time.
-Id NumberOfUnknowns(const FiniteElementSpace& space)
+/// On this rank; for which vectors are held at the same time.
+Id NumberOfUnknowns(const SurfaceSpace& space)
 {
-  return space.NumberOfFunctions(0) + (space.NestedLevels() ? space.NumberOfFunctions(1) : 0);
+  const std::size_t nested = space.NestedLevels() ? space.NestedLevels()->Integrals().size() : 0;
+  return static_cast<Id>(space.Integrals().size() + nested);
 }
 
 /// Says the cost of many modes before anything is computed.
@@ -104,12 +105,8 @@ void SurfaceSpectrum::UpdateTogether(
       options.completeMultiplets = request.completeMultiplets;
       spectrum = {}; // frees its memory first
       atPoints.resize(0, 0);
-      state.together.Together(
-        [&]
-        {
-          RequireMemoryForModes(static_cast<Id>(space.Integrals().size()), options.numberOfModes,
-            options.multigrid.threads);
-        });
+      state.together.Require(
+        NeedOfModes(NumberOfUnknowns(space), options.numberOfModes, options.multigrid.threads));
       spectrum = ComputeSpectrum(space, options, progress);
       eigenvalues = InWorldUnits(spectrum.eigenvalues, space.UnitLength());
       atPoints = EvaluateModes(state, spectrum, 0, this->NumberOfModes());

@@ -7,6 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <fstream>
 #include <limits>
 
@@ -257,8 +260,24 @@ TEST(MemoryEstimate, KnowsWhatTheMachineHas)
   {
     GTEST_SKIP() << "this system does not say how much memory it has";
   }
-  EXPECT_GT(AvailableMemory(), 1e6);
-  EXPECT_LT(AvailableMemory(), 1e15);
+  EXPECT_GT(MemoryOfMachine(), 1e6);
+  EXPECT_LT(MemoryOfMachine(), 1e15);
+}
+
+TEST(MemoryEstimate, KnowsTheLimitOfTheProcess)
+{
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
+  rlimit limit = before;
+  constexpr double Room = 3e9;
+  double pages = 0.0;
+  ASSERT_TRUE(std::ifstream("/proc/self/statm") >> pages);
+  limit.rlim_cur = static_cast<rlim_t>(pages * double(getpagesize()) + Room);
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &limit), 0);
+  EXPECT_NEAR(MemoryOfProcess(), Room, 1e8);
+  EXPECT_LE(AvailableMemory(), MemoryOfProcess() + 1e8);
+  EXPECT_THROW(RequireMemoryForModes(100000000, 1000, 1), InvalidInput);
+  setrlimit(RLIMIT_AS, &before);
 }
 
 } // namespace
