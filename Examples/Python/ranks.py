@@ -3,8 +3,8 @@
     PV_PLUGIN_CONFIG_FILE=build/lib/paraview-5.11/plugins/gridfem.plugins.xml \\
         xvfb-run -a mpiexec -n 4 --bind-to none pvbatch ranks.py MESH DEPTH MODES.pvtp PICTURE.png
 
-MESH is a file that ParaView reads (.ply, .vtp, ...). Without --bind-to none the first rank, which
-computes, may have one processor only.
+MESH is a file that ParaView reads (.ply, .vtp, ...). Without --bind-to none a rank may have one
+processor only.
 """
 
 import pathlib
@@ -26,9 +26,9 @@ def main():
     # gets a piece. Files in pieces (.pvtp) come divided.
     pieces = simple.RedistributeDataSet(Input=simple.OpenDataFile(sys.argv[1]))
 
-    # The first rank gathers the surface and computes; each rank gets its piece back, with arrays.
+    # All ranks compute, and none gathers the surface; each gets its piece back, with arrays.
     modes = simple.LaplaceSpectrum(
-        Input=pieces, Depth=int(sys.argv[2]), NumberOfModes=MODE + 1, AllModes=1)
+        Input=pieces, Depth=int(sys.argv[2]), NumberOfModes=MODE + 1, AllModes=1, Distributed=1)
     simple.SaveData(sys.argv[3], proxy=modes)
 
     mesh = required(servermanager.Fetch(simple.ProcessIdScalars(Input=modes)))

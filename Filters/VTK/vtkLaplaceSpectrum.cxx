@@ -282,10 +282,8 @@ bool vtkLaplaceSpectrum::ComputeTogether(
 void vtkLaplaceSpectrum::WriteDistributed(vtkPolyData* piece, vtkInformationVector* outputs)
 {
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
-  if (piece)
-  {
-    this->WriteModes(piece, outputs->GetInformationObject(0), output);
-  }
+  const vtkNew<vtkPolyData> nothing; // field arrays are on all ranks
+  this->WriteModes(piece ? piece : nothing, outputs->GetInformationObject(0), output);
   gridfem::AddDistributed(this->State->together.Depth(), output);
   if (gridfem::Ranks().IsFirst())
   {

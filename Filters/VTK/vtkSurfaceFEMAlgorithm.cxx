@@ -7,6 +7,7 @@
 #include "Private/InputValidation.h"
 #include "Private/JoinedBlocks.h"
 #include "Private/PipelineTime.h"
+#include "Private/RankedOutput.h"
 #include "Private/RankedSurface.h"
 #include "Private/SolverOutput.h"
 #include "Private/SurfaceInput.h"
@@ -369,6 +370,8 @@ void vtkSurfaceFEMAlgorithm::ComputeOnRanks(
   if (this->TryTogether(surfaces, outputs))
   {
     this->Ranked->NoteComputed();
+    gridfem::ShareFieldArrays(
+      vtkDataObject::GetData(surfaces[0]), vtkDataObject::GetData(outputs, 0));
     gridfem::StampTime(!this->OwnTimeSteps().empty(), surfaces[0], outputs);
     return;
   }

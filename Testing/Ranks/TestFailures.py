@@ -175,6 +175,27 @@ class Failures(unittest.TestCase):
         filter_.Modified()
         self.computed(filter_, self.good())
 
+    def test_an_abort_on_any_rank_while_all_compute(self):
+        for name in ("ScreenedPoisson", "LaplaceSpectrum", "SpectralSignatures", "SurfaceGradient",
+                     "HeatDiffusion", "GeodesicDistance"):
+            for rank in {0, LAST}:
+                filter_ = ranks.make(name, Distributed=True)
+                aborted_at = []
+
+                def abort(*_, filter_=filter_, aborted_at=aborted_at, rank=rank):
+                    if ranks.RANK == rank and filter_.GetProgress() > 0.1 and not aborted_at:
+                        aborted_at.append(filter_.GetProgress())
+                        filter_.SetAbortExecute(1)
+                observer = filter_.AddObserver(vtkCommand.ProgressEvent, abort)
+                messages, is_empty = self.run_and_listen(filter_, self.good())
+                filter_.RemoveObserver(observer)
+                problems = messages + ([] if is_empty else [f"{name}: not empty"])
+                if ranks.RANK == rank and not (aborted_at and aborted_at[0] < 0.95):
+                    problems.append(f"{name}: aborted at {aborted_at}")
+                ranks.check(self, problems)
+                filter_.Modified()
+                self.computed(filter_, self.good())
+
 
 if __name__ == "__main__":
     ranks.main()

@@ -104,6 +104,33 @@ class Client(unittest.TestCase):
                 nearest = numpy.abs(places - point).max(axis=1).argmin()
                 self.assertLess(abs(value - expected[nearest]), 1e-10)  # the solver's tolerance
 
+    def test_all_ranks_compute(self):
+        places, expected = self.solution_of_one_rank()
+        solver = simple.ScreenedPoisson(Input=self.surface, ValueArray=["POINTS", "f"], Depth=DEPTH,
+                                        Tolerance=1e-12, Distributed=1)
+        data = servermanager.Fetch(solver)
+        self.assertEqual(data.GetFieldData().GetArray("Distributed").GetValue(0), 1)
+        for point, value in zip(numpy_support.vtk_to_numpy(data.GetPoints().GetData()),
+                                array_of(data, "Solution")):
+            nearest = numpy.abs(places - point).max(axis=1).argmin()
+            self.assertLess(abs(value - expected[nearest]), 1e-8)
+        modes = {}
+        for together in (0, 1):
+            proxy = simple.LaplaceSpectrum(Input=self.surface, Depth=DEPTH, NumberOfModes=6,
+                                           Tolerance=1e-10, Distributed=together)
+            proxy.UpdatePipeline()
+            fields = servermanager.Fetch(proxy).GetFieldData()
+            self.assertEqual(fields.HasArray("Distributed"), together)
+            modes[together] = numpy_support.vtk_to_numpy(fields.GetArray("Eigenvalues"))
+            self.assertEqual(servermanager.Fetch(proxy, idx=1).GetNumberOfRows(), len(modes[together]))
+        numpy.testing.assert_allclose(modes[1], modes[0], rtol=1e-8, atol=1e-8)
+        solver.ValueArray = ["POINTS", "nothing"]
+        solver.UpdatePipeline()
+        self.assertEqual(solver.GetDataInformation().GetNumberOfPoints(), 0)
+        solver.ValueArray = ["POINTS", "f"]
+        solver.UpdatePipeline()
+        self.assertEqual(solver.GetDataInformation().GetNumberOfPoints(), self.points)
+
     def test_modes_play(self):
         modes = simple.LaplaceSpectrum(Input=self.surface, Depth=DEPTH, NumberOfModes=6)
         modes.UpdatePipeline()

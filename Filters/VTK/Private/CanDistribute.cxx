@@ -55,9 +55,8 @@ std::string ObstacleHere(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** 
 {
   vtkPolyData* const piece = vtkPolyData::GetData(inputs[0]);
   return FirstObstacle({ { filter->GetBlocksAsOne(), "BlocksAsOne" },
-    { filter->GetFunctionSpace() != vtkSurfaceFEMAlgorithm::Grid &&
-        !filter->GetWeldCoincidentPoints(),
-      "hat functions of points that are not welded" },
+    // Pieces would be apart along their borders: nothing else tells which points are one.
+    { !filter->GetWeldCoincidentPoints(), "points that are not welded" },
     { filter->GetSmoother() != vtkSurfaceFEMAlgorithm::PatchSmoother,
       "a smoother other than that of patches" },
     { depth < MinimumDepth, "an automatic Depth" },

@@ -74,19 +74,6 @@ GatheredSurface OnlyPiece(vtkPolyData* piece)
   return result;
 }
 
-/// Adds field arrays whose names are not there yet.
-void AddMissing(vtkFieldData* from, vtkFieldData* to)
-{
-  for (int k = 0; k < from->GetNumberOfArrays(); ++k)
-  {
-    vtkAbstractArray* array = from->GetAbstractArray(k);
-    if (array->GetName() && !to->HasArray(array->GetName()))
-    {
-      to->AddArray(array);
-    }
-  }
-}
-
 void KeepUnchanged(vtkFieldData* last, vtkFieldData* data)
 {
   for (int k = 0; k < data->GetNumberOfArrays(); ++k)
@@ -202,6 +189,18 @@ GatheredSurface JoinPieces(
     AddMissing(piece->GetFieldData(), joined.whole->GetFieldData());
   }
   return joined;
+}
+
+void AddMissing(vtkFieldData* from, vtkFieldData* to)
+{
+  for (int k = 0; k < from->GetNumberOfArrays(); ++k)
+  {
+    vtkAbstractArray* array = from->GetAbstractArray(k);
+    if (array->GetName() && !to->HasArray(array->GetName()))
+    {
+      to->AddArray(array);
+    }
+  }
 }
 
 void ThrowWithPartialArrays(const InvalidInput& error, const GatheredSurface& surface)

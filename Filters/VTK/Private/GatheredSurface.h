@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+class vtkFieldData;
 class vtkPolyData;
 
 namespace gridfem
@@ -52,6 +53,9 @@ void RequireGoodCells(vtkPolyData* surface);
 /// Throws InvalidInput when two points with the same global id have different coordinates.
 GatheredSurface JoinPieces(const std::vector<vtkSmartPointer<vtkPolyData>>& pieces,
   const std::vector<std::string>& owners, bool weldCoincidentPoints);
+
+/// Adds field arrays whose names are not there yet.
+void AddMissing(vtkFieldData* from, vtkFieldData* to);
 
 /// Throws the error again, with the arrays that some pieces lack: the likely reason for one that
 /// does not exist.

@@ -2,6 +2,7 @@
 
 #include "Allocation.h"
 #include "ClippedArrays.h"
+#include "Ranks.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -304,6 +305,48 @@ void TakePart(DataMessage& message, vtkPolyData* own, vtkDataObject* output)
   TakeAttributes(message, surface->GetPointData());
   TakeAttributes(message, surface->GetCellData());
   TakeFieldArrays(message, surface->GetFieldData());
+}
+
+void ShareFieldArrays(vtkDataObject* input, vtkDataObject* output)
+{
+  const Ranks ranks;
+  vtkFieldData* const own = input ? input->GetFieldData() : nullptr;
+  std::string names;
+  if (own)
+  {
+    ForEachArray(
+      own, [&](vtkAbstractArray* array) { names += array->GetName() + std::string("\n"); });
+  }
+  if (!ranks.Any(ranks.Exchange(names).front() != names))
+  {
+    return;
+  }
+  DataMessage message;
+  const vtkNew<vtkFieldData> all;
+  ranks.Together([&] { message.PutArrays(own ? own : all.Get(), -1); });
+  std::vector<Bytes> messages = ranks.Gather(message.Release());
+  std::vector<Bytes> copies;
+  ranks.OnFirst(
+    [&]
+    {
+      for (Bytes& bytes : messages)
+      {
+        const vtkNew<vtkFieldData> ofRank;
+        DataMessage(std::move(bytes)).TakeArrays(ofRank);
+        AddMissing(ofRank, all);
+      }
+      DataMessage merged;
+      merged.PutArrays(all, -1);
+      copies.assign(ranks.Count(), merged.Release());
+    });
+  Bytes merged = ranks.Scatter(copies);
+  ranks.Together(
+    [&]
+    {
+      const vtkNew<vtkFieldData> ofAll;
+      DataMessage(std::move(merged)).TakeArrays(ofAll);
+      AddMissing(ofAll, output->GetFieldData());
+    });
 }
 
 } // namespace gridfem

@@ -28,6 +28,11 @@ enum class GivenFieldArrays
 void PutPart(vtkDataObject* output, const GatheredSurface& input, int rank, DataMessage& message,
   GivenFieldArrays given = GivenFieldArrays::Shared);
 
+/// Collective. Field arrays that another rank's input has and this rank's output lacks, of the
+/// lowest such rank, are added to the output.
+/// @param input  may be null
+void ShareFieldArrays(vtkDataObject* input, vtkDataObject* output);
+
 /// Makes an output of a rank from its part.
 /// @param own     the rank's own surface
 /// @param output  on the first rank that of all ranks
