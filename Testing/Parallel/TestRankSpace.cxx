@@ -60,38 +60,62 @@ std::vector<Entry> EntriesOf(const RankSpace& space, const SparseMatrix& own, In
         NumberOf(space, columnLevel, own.column[k]), own.value[k] });
     }
   }
-  return space.Ranks().Gather(entries);
+  return entries;
+}
+
+std::vector<Id> NumbersOf(const RankSpace& space, const PatchLevel& own, std::size_t level)
+{
+  std::vector<Id> numbers;
+  for (const auto& dof : own.dof)
+  {
+    for (const Index function : dof)
+    {
+      numbers.push_back(NumberOf(space, level, function));
+    }
+  }
+  return numbers;
+}
+
+GatheredLevel GatherDivided(const RankSpace& space, std::size_t l)
+{
+  const Communicator& ranks = space.Ranks();
+  const GridSpace& own = space.Own();
+  GatheredLevel level;
+  level.cells = ranks.Gather(own.Functions().levels[l].cell);
+  level.numbers = ranks.Gather(NumbersOf(space, own.Functions().levels[l], l));
+  level.total = space.Numberings()[l].total;
+  level.mass = ranks.Gather(EntriesOf(space, own.Matrix(l, 1.0, 0.0, 1), 0, l, l));
+  level.stiffness = ranks.Gather(EntriesOf(space, own.Matrix(l, 0.0, 1.0, 1), 0, l, l));
+  level.prolongation =
+    ranks.Gather(EntriesOf(space, own.Prolongation(l), space.Numberings()[l].foreign, l, l + 1));
+  return level;
+}
+
+/// Of the levels that each rank holds whole.
+GatheredLevel TakeShared(const RankSpace& space, std::size_t l)
+{
+  const GridSpace& shared = space.Shared();
+  const std::size_t there = l - space.Numberings().size();
+  GatheredLevel level;
+  level.cells = shared.Functions().levels[there].cell;
+  level.numbers = NumbersOf(space, shared.Functions().levels[there], l);
+  level.total = shared.NumberOfFunctions(there);
+  level.mass = EntriesOf(space, shared.Matrix(there, 1.0, 0.0, 1), 0, l, l);
+  level.stiffness = EntriesOf(space, shared.Matrix(there, 0.0, 1.0, 1), 0, l, l);
+  if (there + 1 < shared.NumberOfLevels())
+  {
+    level.prolongation = EntriesOf(space, shared.Prolongation(there), 0, l, l + 1);
+  }
+  return level;
 }
 
 std::vector<GatheredLevel> GatherLevels(const RankSpace& space)
 {
   const std::size_t divided = space.Numberings().size();
-  std::vector<GatheredLevel> levels(divided + 1);
-  for (std::size_t l = 0; l <= divided; ++l)
+  std::vector<GatheredLevel> levels;
+  for (std::size_t l = 0; l < divided + space.Shared().NumberOfLevels(); ++l)
   {
-    const PatchLevel& own = space.Own().Functions().levels[l];
-    levels[l].cells = space.Ranks().Gather(own.cell);
-    std::vector<Id> numbers;
-    for (const auto& dof : own.dof)
-    {
-      for (const Index function : dof)
-      {
-        numbers.push_back(NumberOf(space, l, function));
-      }
-    }
-    levels[l].numbers = space.Ranks().Gather(numbers);
-    levels[l].total =
-      l < divided ? space.Numberings()[l].total : space.Shared().NumberOfFunctions(0);
-    if (l < divided)
-    {
-      SparseMatrix matrix;
-      space.Own().FillMatrix(l, 1.0, 0.0, matrix, 1);
-      levels[l].mass = EntriesOf(space, matrix, 0, l, l);
-      space.Own().FillMatrix(l, 0.0, 1.0, matrix, 1);
-      levels[l].stiffness = EntriesOf(space, matrix, 0, l, l);
-      levels[l].prolongation =
-        EntriesOf(space, space.Own().Prolongation(l), space.Numberings()[l].foreign, l, l + 1);
-    }
+    levels.push_back(l < divided ? GatherDivided(space, l) : TakeShared(space, l));
   }
   return levels;
 }
@@ -156,21 +180,23 @@ void CompareEntries(std::vector<Entry> entries, const SparseMatrix& whole, const
 
 void Compare(const std::vector<GatheredLevel>& levels, const GridSpace& whole)
 {
+  ASSERT_EQ(levels.size(), whole.NumberOfLevels());
   std::vector<Numbers> functionOf(levels.size());
   for (std::size_t l = 0; l < levels.size(); ++l)
   {
     SCOPED_TRACE("level " + std::to_string(l));
     ASSERT_NO_FATAL_FAILURE(MatchFunctions(levels[l], whole.Functions().levels[l], functionOf[l]));
   }
-  for (std::size_t l = 0; l + 1 < levels.size(); ++l)
+  for (std::size_t l = 0; l < levels.size(); ++l)
   {
     SCOPED_TRACE("level " + std::to_string(l));
-    SparseMatrix matrix;
-    whole.FillMatrix(l, 1.0, 0.0, matrix, 1);
-    CompareEntries(levels[l].mass, matrix, functionOf[l], functionOf[l]);
-    whole.FillMatrix(l, 0.0, 1.0, matrix, 1);
-    CompareEntries(levels[l].stiffness, matrix, functionOf[l], functionOf[l]);
-    CompareEntries(levels[l].prolongation, whole.Prolongation(l), functionOf[l], functionOf[l + 1]);
+    CompareEntries(levels[l].mass, whole.Matrix(l, 1.0, 0.0, 1), functionOf[l], functionOf[l]);
+    CompareEntries(levels[l].stiffness, whole.Matrix(l, 0.0, 1.0, 1), functionOf[l], functionOf[l]);
+    if (l + 1 < levels.size())
+    {
+      CompareEntries(
+        levels[l].prolongation, whole.Prolongation(l), functionOf[l], functionOf[l + 1]);
+    }
   }
 }
 

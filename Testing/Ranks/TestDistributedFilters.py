@@ -196,7 +196,8 @@ class DistributedFilters(unittest.TestCase):
     def test_other_surfaces(self):
         for case in ("gradient", "heat", "poisson, held"):
             for mesh, kind in ((ranks.two(), "ghosts"), (ranks.bowl(), "contiguous"),
-                               (ranks.soup(), "scattered")):
+                               (ranks.soup(), "scattered"), (ranks.sheets(), "scattered"),
+                               (ranks.triangle(), "contiguous")):
                 with self.subTest(case=case, kind=kind):
                     self.same_as_alone(case, mesh, kind)
 

@@ -112,6 +112,24 @@ def soup():
     return points[triangles].reshape(-1, 3), numpy.arange(3 * len(triangles)).reshape(-1, 3)
 
 
+def sheets(gap=0.003, segments=12):
+    """Two squares with a thin gap, in planes of the grid."""
+    steps = numpy.arange(segments + 1) / segments
+    x, y = (axis.ravel() for axis in numpy.meshgrid(steps, steps))
+    a = (numpy.arange(segments)[:, None] * (segments + 1) + numpy.arange(segments)).ravel()
+    around = a + segments + 1
+    triangles = numpy.concatenate([numpy.stack([a, a + 1, around + 1], axis=1),
+                                   numpy.stack([a, around + 1, around], axis=1)])
+    points = numpy.stack([x, y, 0.0 * x], axis=1)
+    return (numpy.concatenate([points, points + [0.0, 0.0, gap]]),
+            numpy.concatenate([triangles, triangles[:, ::-1] + len(points)]))
+
+
+def triangle():
+    """Fewer cells than ranks."""
+    return numpy.array([(0.4, 0.0, 0.0), (1.0, 0.1, 0.0), (0.2, 0.9, 0.3)]), numpy.array([(0, 1, 2)])
+
+
 # --- pieces -----------------------------------------------------------------------------------
 
 def owners(cells, kind):

@@ -98,8 +98,8 @@ void RequireMemory(const TriangleMesh& mesh, int depth, bool hatFunctions)
   {
     subject << " with the hat functions of " << mesh.points.size() << " points";
   }
-  RequireMemory({ BytesOf(mesh, estimate, hatFunctions), subject.str(), CoarserGrid },
-    AvailableMemory());
+  RequireMemory(
+    { BytesOf(mesh, estimate, hatFunctions), subject.str(), CoarserGrid }, AvailableMemory());
 }
 
 void RequireMemoryForHats(const TriangleMesh& mesh, Id functions)
