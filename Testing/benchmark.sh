@@ -48,28 +48,60 @@ fi
 BUILD="$SOURCE/build-benchmarks"
 BuildTree all -DGRIDFEM_BUILD_VTK=OFF -DGRIDFEM_MPI=ON -DGRIDFEM_BUILD_TESTING=OFF \
   -DGRIDFEM_BUILD_BENCHMARKS=ON
-# One row for each number of ranks, and one of Core alone.
+OnRanks()
+{
+  OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 \
+    mpiexec --oversubscribe --bind-to none -n "$1" "$BUILD/bin/BenchmarkRanks" "${@:2}" < /dev/null
+}
+
+# Bounds of the rows of MeasureRanks.
+CompareRanks()
+{
+  awk -F ' *[|] *' -v name="$1" '
+    { seconds[$4] = $7 + $8; iterations[$4] = $6; memory[$4] = $10 }
+    END {
+      if (!seconds[2]) exit
+      printf "RATIO two_ranks_seconds_over_two_threads_%s %.4g <= 1.2\n", name, seconds[2] / seconds["Core"]
+      printf "RATIO eight_ranks_memory_over_one_%s %.4g <= 0.25\n", name, memory[8] / memory[1]
+      printf "RATIO eight_ranks_iterations_over_one_%s %.4g <= 1.3\n", name, iterations[8] / iterations[1]
+    }'
+}
+
+# One row for each number of ranks, and two of Core alone, by one thread and by all.
 MeasureRanks()
 {
-  export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-  local ranks program="$BUILD/bin/BenchmarkRanks"
+  local ranks
   echo "| problem | depth | ranks | functions | iterations | set-up, s | solve, s | MB before | MB |"
   echo "|---|---|---|---|---|---|---|---|---|"
-  "$program" "$@" core < /dev/null
-  for ranks in 1 2 4 8; do
-    mpiexec --oversubscribe --bind-to none -n "$ranks" "$program" "$@" < /dev/null
+  {
+    OMP_NUM_THREADS=1 "$BUILD/bin/BenchmarkRanks" "$@" core < /dev/null
+    "$BUILD/bin/BenchmarkRanks" "$@" core < /dev/null
+    for ranks in 1 2 4 8; do
+      OnRanks "$ranks" "$@"
+    done
+  } | tee "$BUILD/ranks"
+  CompareRanks "${1}_${2%%.*}" < "$BUILD/ranks"
+}
+
+# The hat functions of a surface on the same ranks by ours and by algebraic multigrid.
+MeasurePeersOnRanks()
+{
+  local ranks
+  echo "| hats of $1, by | ranks | iterations | set-up, s | solve, s | both, s | difference |"
+  echo "|---|---|---|---|---|---|---|"
+  for ranks in 1 2 4; do
+    OnRanks "$ranks" peers "$@"
   done
 }
 
 # What the rank that sends most sends in one cycle.
 CountMessages()
 {
-  export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
   local ranks
   echo "| surface | cycle | ranks | functions | divided levels | messages | kB | sums | kB of sums | bytes / sqrt(functions per rank) |"
   echo "|---|---|---|---|---|---|---|---|---|---|"
   for ranks in 2 4 8 16; do
-    mpiexec --oversubscribe --bind-to none -n "$ranks" "$BUILD/bin/BenchmarkRanks" messages "$@" < /dev/null
+    OnRanks "$ranks" messages "$@"
   done
 }
 
@@ -82,9 +114,12 @@ for group in "${groups[@]}"; do
     xvfb-run -a pvpython "$SOURCE/Testing/Benchmarks/draw_figures.py" "$BUILD/figures" \
       "$SOURCE/Testing/Benchmarks/Figures" < /dev/null
   elif [ "$group" = ranks ]; then
-    MeasureRanks poisson torus:2400 8
+    MeasureRanks poisson torus:3225 8
     MeasureRanks spectrum torus:1200 7
     MeasureRanks hats torus:1200 7
+    MeasureRanks hats "${GRIDFEM_DATA_DIR:-$SOURCE/../shared/data}/armadillo_100k.ply" 7
+    MeasurePeersOnRanks torus:1200 7
+    MeasurePeersOnRanks "${GRIDFEM_DATA_DIR:-$SOURCE/../shared/data}/armadillo_100k.ply" 7
     CountMessages torus:1200 7
     CountMessages torus:2400 8
   else

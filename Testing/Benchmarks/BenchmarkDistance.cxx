@@ -201,10 +201,6 @@ DistanceTimes MeasureHats(const TriangleMesh& mesh, int sources, const Exact& ex
 void PrintTimes()
 {
   TriangleMesh mesh = RealMesh("rocker arm", "rocker_arm.ply").mesh;
-  if (mesh.points.empty())
-  {
-    return;
-  }
   while (mesh.points.size() < 500000)
   {
     mesh = testing::SubdivideInPlane(mesh);
@@ -278,8 +274,7 @@ void PrintErrors()
          "knot_26k.ply", "genus3_13k.ply", "raptor_18k.ply", "neptune_30k.ply" })
   {
     const NamedMesh scan = RealMesh(std::filesystem::path(file).stem().string(), file);
-    const Exact exact =
-      scan.mesh.points.empty() ? Exact() : PolyhedralDistances(scan.mesh, SourceOf(scan.mesh, 0));
+    const Exact exact = PolyhedralDistances(scan.mesh, SourceOf(scan.mesh, 0));
     if (!exact.empty())
     {
       PrintErrors(table, scan.name, scan.mesh, exact);
@@ -367,10 +362,6 @@ double PrintHeld(
 void PrintHeld()
 {
   const TriangleMesh mesh = RealMesh("bunny", "stanford_bunny.ply").mesh;
-  if (mesh.points.empty())
-  {
-    return;
-  }
   std::printf("\nSmoothing with values held at some points, range 2, tolerance 1e-6\n");
   const Table table(
     { "vertices", "depth", "held", "hierarchy s", "solve s", "iterations", "largest misfit" });

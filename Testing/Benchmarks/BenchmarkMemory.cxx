@@ -40,10 +40,7 @@ std::vector<Case> Cases()
   for (const auto& [file, depth] : { std::pair{ "brain_mni_LR.ply", 7 },
          std::pair{ "armadillo_100k.ply", 6 }, std::pair{ "dragon_871k.ply", 9 } })
   {
-    if (const std::string path = testing::RealMesh(file); !path.empty())
-    {
-      cases.push_back({ file, [path] { return testing::ReadMesh(path); }, depth });
-    }
+    cases.push_back({ file, [name = file] { return RealMesh(name, name).mesh; }, depth });
   }
   return cases;
 }
@@ -94,10 +91,7 @@ void RunSpectra()
 {
   std::vector<SpectrumCase> cases{ { RockerArm(2), 7, 20 }, { RockerArm(2), 7, 100 },
     { RockerArm(2), 7, 300 }, { { "sphere", testing::GeodesicSphere(100) }, 7, 100 } };
-  if (NamedMesh dragon = RealMesh("dragon", "dragon_871k.ply"); !dragon.mesh.points.empty())
-  {
-    cases.push_back({ dragon, 8, 100 });
-  }
+  cases.push_back({ RealMesh("dragon", "dragon_871k.ply"), 8, 100 });
   const Table table(
     { "spectrum", "depth", "modes", "functions", "MB real", "MB estimated", "estimate / real" });
   for (const SpectrumCase& item : cases)

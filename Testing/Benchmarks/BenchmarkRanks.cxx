@@ -299,7 +299,8 @@ void PrintPeers(const Communicator& ranks, const std::string& name, int depth)
       ranks.Handle(), { part, number, static_cast<int>(rows) }, cycle);
     const double peerSetUp = peerBegin.Seconds();
     const Stopwatch peerSolve;
-    const Eigen::VectorXd values = peer->Solve(load.col(0).tail(rows), Tolerance);
+    const Eigen::VectorXd values =
+      peer->Solve(poisson.screeningWeight * load.col(0).tail(rows), Tolerance);
     const double seconds = peerSolve.Seconds();
     double most[] = { rows > 0 ? (values - ours).cwiseAbs().maxCoeff() : 0.0,
       rows > 0 ? ours.cwiseAbs().maxCoeff() : 0.0 };
@@ -403,7 +404,9 @@ int main(int argc, char** argv)
     if (ranks.Rank() == 0)
     {
       std::printf("| %s of %s | %d | %s | %lld | %d%s | %.2f | %.2f | %.0f | %.0f |\n", argv[1],
-        argv[2], depth, isCore ? "Core" : std::to_string(ranks.Size()).c_str(),
+        argv[2], depth,
+        isCore ? NumberOfThreads(0) > 1 ? "Core" : "Core, one thread"
+               : std::to_string(ranks.Size()).c_str(),
         static_cast<long long>(measured.functions), measured.iterations,
         measured.converged ? "" : " (not converged)", measured.setUp, measured.solve,
         measured.before, peak);

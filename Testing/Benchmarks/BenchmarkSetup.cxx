@@ -135,8 +135,10 @@ Peaks MeasurePeaks(const NamedMesh& mesh, int depth)
     {
       const SymmetricMatrix A = AssembleProblem(mesh.mesh).A;
       ReleaseFreeMemory();
+      // The matrix counts, but of its two triangles CHOLMOD reads one only.
       const double entry = sizeof(double) + sizeof(int);
-      const double before = ResidentBytes() - entry * static_cast<double>(A.nonZeros());
+      const double before =
+        ResidentBytes() - entry * 0.5 * static_cast<double>(A.nonZeros() + A.rows());
       ResetPeak();
       Cholmod cholmod;
       cholmod.Analyse(A);
@@ -158,11 +160,12 @@ void PrintPeerRatios(
   const auto& [one, two] = times.grid;
   PrintAtMost(
     "setup_over_cholmod_" + name, two.setup / SetupSeconds(times.cholmod[1]), cholmodBound);
-  PrintAtMost("setup_and_solve_over_faster_amg_one_thread_" + name,
-    (one.setup + one.solve) / times.FasterStatic(), 0.8);
-  PrintAtMost("values_update_over_setup_" + name, two.values / two.setup, 0.2);
   PrintAtMost(
-    "values_update_over_cholmod_refactor_" + name, two.values / times.cholmod[1].factor, 0.25);
+    "from_mesh_over_faster_amg_one_thread_" + name, one.FromMesh() / times.FasterFromMesh(), 0.8);
+  const double metricUpdate = two.metric + two.values;
+  PrintAtMost("metric_update_over_setup_" + name, metricUpdate / two.setup, 0.2);
+  PrintAtMost(
+    "metric_update_over_cholmod_refactor_" + name, metricUpdate / times.cholmod[1].factor, 0.25);
   PrintAtMost("weights_update_over_setup_" + name, two.weights / two.setup, 0.1);
   PrintAtMost("connectivity_aware_over_plain_" + name, two.setup / two.plain, 1.3);
   PrintAtLeast("setup_second_thread_" + name, one.setup / two.setup, 1.6);
@@ -222,9 +225,8 @@ int main(int argc, char** argv)
   {
     RunContest({ "642816", RockerArm(3), 8, 0.5 });
   }
-  const NamedMesh dragon = RealMesh("dragon", "dragon_871k.ply");
-  if (parts.Want("dragon") && !dragon.mesh.points.empty())
+  if (parts.Want("dragon"))
   {
-    RunContest({ "dragon", dragon, 8, 0.5 });
+    RunContest({ "dragon", RealMesh("dragon", "dragon_871k.ply"), 8, 0.5 });
   }
 }

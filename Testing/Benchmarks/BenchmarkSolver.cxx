@@ -120,25 +120,33 @@ void RunPeers()
 constexpr double HatTolerance = 1e-8;
 
 /// Iterations of conjugate gradients on a hat system to a residual of 1e-8.
+struct HatSolve
+{
+  double iterations = Never;
+  double seconds = 0.0; // without set-up
+};
+
 struct HatIterations
 {
-  double hybrid = Never;
-  double boomerAmg = Never;
-  double gamg = Never;
-  double hybridSeconds = 0.0;
+  HatSolve hybrid;
+  HatSolve pseudo; // its values from the grid by pseudo-evaluation
+  HatSolve boomerAmg;
+  HatSolve gamg;
   // Of the hybrid alone, W with ten Gauss-Seidel sweeps everywhere, as the thesis; and when each
   // sweep over the hats also relaxes their groups.
   double thesisCycles = Never;
   double groupedCycles = Never;
 };
 
-int Iterations(AlgebraicMultigrid& amg, const HatProblem& problem)
+HatSolve Solve(AlgebraicMultigrid& amg, const HatProblem& problem)
 {
   constexpr int Most = 200;
   amg.Setup();
+  const Eigen::VectorXd b = problem.b.col(0);
   Eigen::VectorXd x;
-  const int iterations = amg.Solve(problem.b.col(0), x, HatTolerance, Most);
-  return iterations < Most ? iterations : Never;
+  const Stopwatch watch;
+  const int iterations = amg.Solve(b, x, HatTolerance, Most);
+  return { double(iterations < Most ? iterations : Never), watch.Seconds() };
 }
 
 int Iterations(const SolveReport& report)
@@ -161,26 +169,34 @@ int CyclesAlone(const TriangleMesh& mesh, const HybridProblem& hybrid, double we
   return Iterations(SolveCycles(OperatorOf(cycle), CycleOf(cycle), b, x, solve));
 }
 
-HatIterations RunHats(const TriangleMesh& mesh, const HybridProblem& hybrid, double weight)
+HatSolve Solve(const TriangleMesh& mesh, const HybridProblem& hybrid, double weight)
 {
-  HatIterations result;
-  HatProblem problem = AssembleProblem(mesh, weight);
-  ChooseColours(mesh, problem, 1);
-  result.boomerAmg = Iterations(*MakeBoomerAmg(problem.A), problem);
-  result.gamg = Iterations(*MakeGamg(problem.A), problem);
-
   SolveOptions solve;
   solve.tolerance = HatTolerance;
   solve.maximumIterations = 200;
   solve.measure = SolveOptions::Measure::Residual;
-  const Multigrid cycle = hybrid.BuildCycle(weight, {});
+  testing::HybridCycle options;
+  options.grid.threads = 1; // as the peers
+  const Multigrid cycle = hybrid.BuildCycle(weight, options);
   MultiVector b;
   Multiply(cycle.Matrix(), hybrid.ToFunctions(ColoursAtPoints(mesh, 1)), b);
   MultiVector x = MultiVector::Zero(b.rows(), 1);
   const Stopwatch watch;
-  result.hybrid =
+  const int iterations =
     Iterations(SolveConjugateGradients(OperatorOf(cycle), CycleOf(cycle), b, x, solve));
-  result.hybridSeconds = watch.Seconds();
+  return { double(iterations), watch.Seconds() };
+}
+
+HatIterations RunHats(
+  const TriangleMesh& mesh, const HybridProblem& hybrid, const HybridProblem& pseudo, double weight)
+{
+  HatIterations result;
+  HatProblem problem = AssembleProblem(mesh, weight);
+  ChooseColours(mesh, problem, 1);
+  result.boomerAmg = Solve(*MakeBoomerAmg(problem.A), problem);
+  result.gamg = Solve(*MakeGamg(problem.A), problem);
+  result.hybrid = Solve(mesh, hybrid, weight);
+  result.pseudo = Solve(mesh, pseudo, weight);
 
   testing::HybridCycle tenSweeps = ThesisHybrid();
   result.thesisCycles = CyclesAlone(mesh, hybrid, weight, tenSweeps);
@@ -191,10 +207,12 @@ HatIterations RunHats(const TriangleMesh& mesh, const HybridProblem& hybrid, dou
 
 void RunHatTable()
 {
-  std::printf("\nHat functions, rocker arm: conjugate gradients to residual 1e-8; thesis: the "
-              "hybrid alone, W, ten Gauss-Seidel sweeps, cycles to 1e-8; groups: these, too\n");
-  const Table table({ "vertices", "depth", "screening", "hybrid", "BoomerAMG", "GAMG", "s hybrid",
-    "thesis", "groups" });
+  std::printf("\nHat functions, rocker arm: conjugate gradients to residual 1e-8, iterations and "
+              "seconds without set-up, one thread or process each; sweeps over hats also relax "
+              "their groups; pseudo: values from the grid by pseudo-evaluation; thesis: the hybrid "
+              "alone, W, ten Gauss-Seidel sweeps, no groups, cycles to 1e-8; groups: with them\n");
+  const Table table({ "vertices", "depth", "screening", "hybrid", "pseudo", "BoomerAMG", "GAMG",
+    "s hybrid", "s pseudo", "s BoomerAMG", "s GAMG", "thesis", "groups" });
   double worst = 0.0;
   double againstPeers = 0.0;
   double thesis = 0.0;
@@ -204,15 +222,28 @@ void RunHatTable()
     const int depth = 5 + subdivisions;
     const TriangleMesh mesh = RockerArm(subdivisions).mesh;
     const HybridProblem hybrid = SetUpHybrid(mesh, depth, Threads);
+    const HybridProblem pseudo = SetUpHybrid(
+      mesh, depth, Threads, FunctionSupport::ConnectivityAware, HatTransfer::PseudoEvaluation);
     for (const double weight : { 1e-2, 1.0, 1e2, 1e4 })
     {
-      const HatIterations row = RunHats(mesh, hybrid, weight);
-      table.Row({ std::to_string(mesh.points.size()), std::to_string(depth), Text("%g", weight),
-        Text("%.0f", row.hybrid), Text("%.0f", row.boomerAmg), Text("%.0f", row.gamg),
-        Text("%.3f", row.hybridSeconds), Text("%.0f", row.thesisCycles),
-        Text("%.0f", row.groupedCycles) });
-      worst = std::max(worst, row.hybrid);
-      againstPeers = std::max(againstPeers, row.hybrid / std::min(row.boomerAmg, row.gamg));
+      const HatIterations row = RunHats(mesh, hybrid, pseudo, weight);
+      const std::array<HatSolve, 4> solves{ row.hybrid, row.pseudo, row.boomerAmg, row.gamg };
+      std::vector<std::string> cells{ std::to_string(mesh.points.size()), std::to_string(depth),
+        Text("%g", weight) };
+      for (const HatSolve& solve : solves)
+      {
+        cells.push_back(Text("%.0f", solve.iterations));
+      }
+      for (const HatSolve& solve : solves)
+      {
+        cells.push_back(Text("%.3f", solve.seconds));
+      }
+      cells.push_back(Text("%.0f", row.thesisCycles));
+      cells.push_back(Text("%.0f", row.groupedCycles));
+      table.Row(cells);
+      worst = std::max(worst, row.hybrid.iterations);
+      againstPeers = std::max(againstPeers,
+        row.hybrid.iterations / std::min(row.boomerAmg.iterations, row.gamg.iterations));
       thesis = std::max(thesis, row.thesisCycles);
       grouped = std::max(grouped, row.groupedCycles);
     }

@@ -5,6 +5,7 @@
 #include "Integrals/LoadVector.h"
 #include "Measure.h"
 #include "Meshes.h"
+#include "SetupCost.h"
 
 #include <array>
 #include <cmath>
@@ -34,13 +35,7 @@ std::vector<Surface> Surfaces()
     { std::pair{ "rocker arm", "rocker_arm.ply" }, std::pair{ "armadillo", "armadillo_100k.ply" },
       std::pair{ "fandisk", "fandisk_32k.ply" }, std::pair{ "turbine", "turbine_cad_18k.ply" } })
   {
-    const std::string path = testing::RealMesh(file);
-    if (path.empty())
-    {
-      std::printf("%s is missing: set GRIDFEM_DATA_DIR\n", file);
-      continue;
-    }
-    surfaces.push_back({ name, testing::ReadMesh(path) });
+    surfaces.push_back({ name, benchmarks::RealMesh(name, file).mesh });
   }
   for (const double angle : { 0.1, 1.0, 45.0 })
   {

@@ -156,11 +156,12 @@ MultiVector ColoursAtPoints(const TriangleMesh& mesh, int columns)
   return Colours(mesh.points, box.centre, box.side, columns);
 }
 
-HybridProblem SetUpHybrid(const TriangleMesh& mesh, int depth, int threads, FunctionSupport support)
+HybridProblem SetUpHybrid(
+  const TriangleMesh& mesh, int depth, int threads, FunctionSupport support, HatTransfer transfer)
 {
   GridSpaceOptions options;
   options.functions = OptionsOf(depth, threads, support);
-  return { BuildHatSpace(mesh, options) };
+  return { BuildHatSpace(mesh, options, transfer) };
 }
 
 Multigrid HybridProblem::BuildCycle(double weight, const testing::HybridCycle& options) const

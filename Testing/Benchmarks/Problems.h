@@ -79,7 +79,8 @@ struct HybridProblem
 
 /// Everything that does not depend on λ.
 HybridProblem SetUpHybrid(const TriangleMesh& mesh, int depth, int threads,
-  FunctionSupport support = FunctionSupport::ConnectivityAware);
+  FunctionSupport support = FunctionSupport::ConnectivityAware,
+  HatTransfer transfer = HatTransfer::Evaluation);
 
 /// The least number of iterations after which `error` is at most `target`; -1: not within `most`.
 /// Takes the error for decreasing, and so searches by doubling and halving.

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace gridfem::benchmarks
 {
@@ -14,14 +15,16 @@ namespace gridfem::benchmarks
 NamedMesh RealMesh(const std::string& name, const std::string& file)
 {
   const std::string path = testing::RealMesh(file);
-  return { name, path.empty() ? TriangleMesh() : testing::ReadMesh(path) };
+  if (path.empty())
+  {
+    throw std::runtime_error(file + " is not there: GRIDFEM_DATA_DIR names the folder.");
+  }
+  return { name, testing::ReadMesh(path) };
 }
 
 NamedMesh RockerArm(int subdivisions)
 {
-  const std::string path = testing::RealMesh("rocker_arm.ply");
-  NamedMesh result{ path.empty() ? "geodesic sphere" : "rocker arm",
-    path.empty() ? testing::GeodesicSphere(50) : testing::ReadMesh(path) };
+  NamedMesh result = RealMesh("rocker arm", "rocker_arm.ply");
   for (int k = 0; k < subdivisions; ++k)
   {
     result.mesh = testing::SubdivideInPlane(result.mesh);

@@ -16,11 +16,10 @@ struct NamedMesh
   TriangleMesh mesh;
 };
 
-/// One of the real meshes; without points when it is absent.
+/// One of the real meshes. Throws when it is absent.
 NamedMesh RealMesh(const std::string& name, const std::string& file);
 
-/// The rocker arm (20,088 triangles), every triangle cut into four `subdivisions` times; where the
-/// real meshes are absent a geodesic sphere of 20,000 triangles takes its place.
+/// The rocker arm (20,088 triangles), every triangle cut into four `subdivisions` times.
 NamedMesh RockerArm(int subdivisions);
 
 constexpr int SetupStages = 4;

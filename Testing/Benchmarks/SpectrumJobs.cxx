@@ -4,6 +4,7 @@
 #include "AlgebraicMultigrid.h"
 #include "Base/LargeMemory.h"
 #include "Cholmod.h"
+#include "Integrals/Evaluation.h"
 #include "Measure.h"
 #include "Problems/Spectrum.h"
 
@@ -76,6 +77,7 @@ SpectrumJob GridSpectrum(
       spectrum.numberOfModes = modes;
       spectrum.multigrid.threads = threads;
       const Spectrum result = ComputeSpectrum(testing::ViewOf(space, system), spectrum);
+      EvaluateAtPoints(space, result.vectors, threads);
       job.unknowns = space.Finest().numberOfFunctions;
       job.steps = result.iterations;
       job.converged = result.numberOfConverged;

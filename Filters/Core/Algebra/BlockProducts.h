@@ -40,15 +40,14 @@ template<class Real>
 void MultiplyBlock(
   const SparseMatrix& A, const ConstBlock<Real>& X, Block<Real> Y, int threads = 0);
 
-/// The columns of A X - B X diag(values), for matrices of one pattern, some rows and some columns
-/// at a time. Sums are in the precision of X: its rounding is as large as theirs. Keeps references.
+/// Columns of A X - B X diag(values), a few rows at a time. A and B have the same pattern. Sums are
+/// in the precision of X, whose own rounding is as large. Keeps references.
 template<class Real>
 class EigenResidual
 {
 public:
   /// @param values   one per column of X
-  /// @param columns  of X that are wanted, ascending; the work is that of all between the first and
-  /// the last
+  /// @param columns  of X that are wanted, ascending; all between the first and the last cost time
   /// Throws InvalidInput when the shapes do not fit.
   EigenResidual(const SparseMatrix& A, const SparseMatrix& B, const ConstBlock<Real>& X,
     const Eigen::VectorXd& values, std::vector<Index> columns);

@@ -13,13 +13,12 @@
 namespace gridfem
 {
 
-/// A triangle's side of an edge: where the cut points of the edge and the pieces along this side
-/// are numbered. Cut points divide an edge into stretches; a stretch is named by its end nearer to
-/// the lower end of the edge: 0 for that end itself, 1 + n for cut point n.
+/// One triangle's side of an edge. Planes of the grid cut the edge in cut points, which divide it
+/// into stretches. Stretch 0 begins at the lower end of the edge, stretch 1 + n at cut point n.
 struct EdgeSide
 {
-  Index cut;     // of the edge's cut point 0; ~cut on all sides but the first
-  Index stretch; // place of stretch 0; None on an edge without length
+  Index cut;     // number of the edge's first cut point; ~cut on all sides but the first
+  Index stretch; // number of this side's stretch 0; None on an edge without length
 
   static constexpr Index None = -1;
   bool IsFirst() const { return cut >= 0; }

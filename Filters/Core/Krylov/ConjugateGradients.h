@@ -57,10 +57,9 @@ struct SolveOptions
 struct IterationRecord
 {
   int iteration;
-  /// sqrt(rᵀBr), an estimate of the error in the energy norm |·|_A, relative to the size of the
-  /// solution in that norm: sqrt(bᵀBb) for an iteration that starts from x = 0, else the lower
-  /// bound bᵀx / |x|_A with the start x, or sqrt(bᵀBb) again where a start is farther from the
-  /// solution than this bound.
+  /// sqrt(rᵀBr) over the size of the solution: an estimate of the relative error in the energy norm
+  /// |·|_A. From a start of zero the size is sqrt(bᵀBb). From another start x it is the lower bound
+  /// bᵀx / |x|_A, unless x is farther from the solution than this bound; then it is sqrt(bᵀBb) too.
   double energy;
   double residual;  // |r| / |b|
   double own = 0.0; // the value of SolveOptions::measureBy

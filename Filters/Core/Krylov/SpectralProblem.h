@@ -65,9 +65,9 @@ struct SpectralProblem
   /// [X₁ X₂ ...]ᵀ M Y over all rows.
   Eigen::MatrixXd ProjectMass(const BasisParts<Real>& parts, const ConstBlock<Real>& Y) const;
 
-  /// W = B (L X - M X diag(θ)) for the columns at work, but for panels that have converged as a
-  /// whole, and P = B F for loads F that go with them: a cycle takes as long for a few columns as
-  /// for a panel. Measures are those of the columns at work, as many as W has.
+  /// W = B (L X - M X diag(θ)), where X are the columns at work. Panels in which all columns have
+  /// converged are left out. Further loads F share the cycles, P = B F: a cycle takes as long for a
+  /// few columns as for a panel. Measures are those of the columns at work, as many as W has.
   /// @param load  F; as many columns as P has
   ResidualMeasures Correct(const BlockPreconditioner<Real>& B, const EigenPairs<Real>& pairs,
     const SoftLocking& locking, Block<Real> W, const MultiVector& load, Block<Real> P) const;

@@ -51,14 +51,14 @@ struct ResidualMeasures
   Eigen::VectorXd norm;   // rᵀr
 };
 
-/// Whether corrections are wanted, once the measures of all columns of r are known, which may be
-/// after half of the work. Called once for every r, by the thread that corrects it.
+/// Says whether corrections are wanted. Called once for every r, when the measures of all of its
+/// columns are known; half of the work may be done by then. The thread that corrects r calls it.
 using CorrectionTest = std::function<bool(const ResidualMeasures&)>;
 
-/// Hands over z = B r where it is wanted, B symmetric positive semi-definite; r has at most
+/// Hands over z = B r where it is wanted. B is symmetric positive semi-definite; r has at most
 /// PreconditionedColumns columns. Safe to call from several threads; same bits for any number of
-/// them. Where processes hold the rows together, r is what each adds to it, measures are of the
-/// whole, and one thread of each calls it.
+/// them. If several processes hold the rows together, r is what this one adds to the whole, the
+/// measures are those of the whole, and one thread of each process calls it.
 template<class Real>
 using BlockPreconditioner = std::function<ResidualMeasures(
   const RowSource<Real>& r, const CorrectionTest& isWanted, const RowSink<Real>& z)>;

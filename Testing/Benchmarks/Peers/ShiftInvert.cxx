@@ -54,7 +54,8 @@ HatSpectrum SpectraSpectrum(const CotangentSystem& hats, int count)
     solver(
       inverse, mass, count, std::min<int>(3 * count / 2, static_cast<int>(mass.rows())), shift);
   solver.init();
-  solver.compute(Spectra::SortRule::LargestMagn, 1000, 1e-6, Spectra::SortRule::SmallestAlge);
+  solver.compute(
+    Spectra::SortRule::LargestMagn, 1000, PairTolerance, Spectra::SortRule::SmallestAlge);
   HatSpectrum result;
   const Eigen::VectorXd values = solver.eigenvalues();
   result.eigenvalues.assign(values.data(), values.data() + values.size());
