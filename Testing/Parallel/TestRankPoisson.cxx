@@ -1,4 +1,5 @@
 // The screened Poisson equation on several ranks has the solution of one rank, at every point.
+#include "Meshes.h"
 #include "Pieces.h"
 #include "Spaces/FiniteElementSpace.h"
 
@@ -100,6 +101,27 @@ TEST(RankPoisson, HasTheSolutionOfOneRank)
         }
       }
     }
+  }
+}
+
+TEST(RankPoisson, TakesAboutAsManyIterationsAsOneRank)
+{
+  const TriangleMesh mesh = Transform(Torus(240, 80, 1.0, 0.4), { 1, 2, 3 }, 0.4);
+  const Communicator ranks(MPI_COMM_WORLD);
+  const TriangleMesh own =
+    PartOf(mesh, Deal(mesh, Dealing::Contiguous, ranks.Size()), ranks.Rank());
+  RankSpaceOptions options = Options(6);
+  options.granularity = 0;
+  PoissonOptions poisson = PoissonWith(1e-4);
+  poisson.solve.tolerance = 1e-8;
+  for (const bool hasHats : { false, true })
+  {
+    const auto whole = WholeSpace(mesh, options, hasHats);
+    const int ofOne = SolveScreened(*whole, FieldAt(mesh.points), poisson).report.iterations;
+    const RankSurface surface(ranks, own, options, hasHats);
+    const SolveReport report = SolveScreened(surface.Levels(), FieldAt(own.points), poisson).report;
+    EXPECT_TRUE(report.converged);
+    EXPECT_LE(report.iterations, std::ceil(1.3 * ofOne)) << ofOne << " on one rank";
   }
 }
 

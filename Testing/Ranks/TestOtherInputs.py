@@ -1,4 +1,6 @@
 """Inputs on other ports, chains of filters, and composite data."""
+import os
+import tempfile
 import unittest
 
 import numpy
@@ -7,6 +9,8 @@ from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import (
     VTK_VERTEX, vtkMultiBlockDataSet, vtkPartitionedDataSet, vtkPartitionedDataSetCollection,
     vtkPolyData, vtkUnstructuredGrid)
+from vtkmodules.vtkIOParallelXML import vtkXMLPPolyDataWriter
+from vtkmodules.vtkIOXML import vtkXMLPPolyDataReader
 
 import gridfem
 import ranks
@@ -80,6 +84,51 @@ class OtherPorts(unittest.TestCase):
                 reference = ranks.alone(
                     lambda: ranks.run(ranks.make("ScreenedPoisson"), ranks.whole(mesh))[0])
                 ranks.check(self, expect(output, reference, "Solution", data))
+
+    def test_a_basis_that_was_saved(self):
+        """By all ranks or one, and read by all or one."""
+        mesh = ranks.ellipsoid()
+        data = ranks.piece(mesh, "first")
+        reference = ranks.alone(
+            lambda: ranks.run(ranks.make("ScreenedPoisson"), ranks.whole(mesh))[0])
+
+        def saved(name, pieces, piece):
+            basis = ranks.run(ranks.make("ConnectivityAwareBasis"), data)[0]
+            path = os.path.join(folder, name)
+            writer = vtkXMLPPolyDataWriter()
+            writer.SetFileName(path)
+            writer.SetInputDataObject(basis)
+            writer.SetNumberOfPieces(pieces)
+            writer.SetStartPiece(piece)
+            writer.SetEndPiece(piece)
+            if pieces == 1:
+                writer.SetController(None)
+            if pieces > 1 or ranks.RANK == 0:
+                writer.Write()
+            ranks.CONTROLLER.Barrier()
+            return path
+
+        def read(path, pieces, piece):
+            reader = vtkXMLPPolyDataReader()
+            reader.SetFileName(path)
+            reader.UpdatePiece(piece, pieces, 0)
+            return reader.GetOutput()
+
+        def solved(basis, surface):
+            solver = ranks.make("ScreenedPoisson")
+            solver.SetInputDataObject(1, basis)
+            return ranks.run(solver, surface)[0]
+
+        with tempfile.TemporaryDirectory() as own:
+            letters = ranks.gathered([ord(letter) for letter in own if ranks.RANK == 0])
+            folder = "".join(chr(int(letter)) for letter in letters)
+            for name, pieces, piece in (("all.pvtp", ranks.RANKS, ranks.RANK), ("one.pvtp", 1, 0)):
+                path = saved(name, pieces, piece)
+                output = solved(read(path, ranks.RANKS, ranks.RANK), data)
+                problems = expect(output, reference, "Solution", data)
+                output = ranks.alone(lambda: solved(read(path, 1, 0), ranks.whole(mesh)))
+                problems += expect(output, reference, "Solution", ranks.whole(mesh))
+                ranks.check(self, problems)
 
     def test_a_basis_of_another_mesh_is_refused_on_all_ranks(self):
         basis = ranks.make("ConnectivityAwareBasis")
