@@ -15,7 +15,33 @@ namespace
 /// A torus of 2.9 million took 1.2 times as much on one rank, 1.5 times on each of two.
 constexpr double OfRank = 1.5;
 
+/// Collective. Bytes for a rank's triangles.
+double BytesOf(
+  const Communicator& ranks, const TriangleMesh& triangles, const Grid& grid, bool hasHats)
+{
+  double bytes = 0.0;
+  ranks.Together(
+    [&]
+    {
+      const MemoryEstimate estimate = EstimateMemory(triangles, grid);
+      bytes = OfRank *
+              (estimate.bytes + (hasHats ? EstimateHatMemory(triangles, estimate.functions) : 0.0));
+    });
+  return bytes;
+}
+
 } // namespace
+
+bool FitsMemory(const Communicator& ranks, const TriangleMesh& own, const Grid& grid, bool hasHats)
+{
+  double bytes = BytesOf(ranks, own, grid, hasHats);
+  ranks.Sum(&bytes, 1);
+  bytes /= ranks.Size();
+  double lacking = bytes > MemoryOfProcess() ? 1.0 : 0.0;
+  lacking += ranks.SumOfMachine(bytes) > MemoryOfMachine() ? 1.0 : 0.0;
+  ranks.Maximum(&lacking, 1);
+  return lacking == 0.0;
+}
 
 void RequireMemory(const Communicator& ranks, const MemoryNeed& own)
 {
@@ -32,15 +58,8 @@ void RequireMemory(const Communicator& ranks, const MemoryNeed& own)
 void RequireMemory(
   const Communicator& ranks, const TriangleMesh& received, const Grid& grid, bool hasHats)
 {
-  MemoryNeed own{ 0.0, "Depth " + std::to_string(grid.depth), CoarserGrid };
-  ranks.Together(
-    [&]
-    {
-      const MemoryEstimate estimate = EstimateMemory(received, grid);
-      own.bytes = OfRank * (estimate.bytes +
-                             (hasHats ? EstimateHatMemory(received, estimate.functions) : 0.0));
-    });
-  RequireMemory(ranks, own);
+  RequireMemory(ranks, { BytesOf(ranks, received, grid, hasHats),
+                         "Depth " + std::to_string(grid.depth), CoarserGrid });
 }
 
 } // namespace gridfem

@@ -19,7 +19,13 @@ struct MemoryNeed;
 /// Throws RankFailure on all ranks.
 void RequireMemory(const Communicator& ranks, const MemoryNeed& own);
 
-/// The same for a surface.
+/// Collective. Whether the ranks should have the memory for a surface that is divided evenly among
+/// them.
+/// @param own  this rank's triangles, wherever they are
+bool FitsMemory(
+  const Communicator& ranks, const TriangleMesh& own, const Grid& grid, bool hasHats = false);
+
+/// As RequireMemory, for a surface.
 /// @param received  the triangles that this rank clips
 /// @param hasHats   hat functions come above those of the grid
 /// Throws RankFailure on all ranks.

@@ -4,6 +4,7 @@
 #include "Parallel/OwnPieces.h"
 #include "Parallel/RankMemory.h"
 #include "Problems/MemoryEstimate.h"
+#include "Problems/Requirements.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,26 +17,58 @@ namespace gridfem
 namespace
 {
 
-/// Collective. As DepthForPoints, from the sums over the ranks: points of borders count once, as
-/// far as triangles tell.
-void LimitFunctions(
-  const Communicator& ranks, const TriangleMesh& own, double functionsPerPoint, Grid& grid)
+Grid WithDepth(Grid grid, int depth)
+{
+  grid.spacing = std::ldexp(grid.spacing, grid.depth - depth);
+  grid.depth = depth;
+  return grid;
+}
+
+/// Collective. Points of borders count once, as far as triangles tell.
+double SumOfPoints(const Communicator& ranks, const TriangleMesh& own)
 {
   double points = WeldedPoints(own);
   ranks.Sum(&points, 1);
-  const auto functions = [&]
+  return points;
+}
+
+/// Collective. What the surface of all ranks is expected to have in a grid.
+double SumOfFunctions(const Communicator& ranks, const TriangleMesh& own, const Grid& grid)
+{
+  double patches = 0.0;
+  ranks.Together(
+    [&] { patches = own.triangles.empty() ? 0.0 : EstimateMemory(own, grid).patches; });
+  ranks.Sum(&patches, 1);
+  return FunctionsOfPatches(patches);
+}
+
+/// Collective. As SuggestedDepth, and coarser until it fits into memory.
+int SuggestDepth(const Communicator& ranks, const TriangleMesh& own, const Grid& grid, bool hasHats)
+{
+  const double points = SumOfPoints(ranks, own);
+  int depth = CoarsestSuggestion;
+  while (depth < MaximumDepth && SumOfFunctions(ranks, own, WithDepth(grid, depth + 1)) <= points)
   {
-    double patches = 0.0;
-    ranks.Together(
-      [&] { patches = own.triangles.empty() ? 0.0 : EstimateMemory(own, grid).patches; });
-    ranks.Sum(&patches, 1);
-    return FunctionsOfPatches(patches);
-  };
-  while (grid.depth > MinimumDepth && functions() > functionsPerPoint * points)
-  {
-    --grid.depth;
-    grid.spacing *= 2.0;
+    ++depth;
   }
+  while (depth > MinimumDepth && !FitsMemory(ranks, own, WithDepth(grid, depth), hasHats))
+  {
+    --depth;
+  }
+  return depth;
+}
+
+/// Collective. As DepthForPoints.
+int LimitDepth(
+  const Communicator& ranks, const TriangleMesh& own, double functionsPerPoint, const Grid& grid)
+{
+  const double functions = functionsPerPoint * SumOfPoints(ranks, own);
+  int depth = grid.depth;
+  while (depth > MinimumDepth && SumOfFunctions(ranks, own, WithDepth(grid, depth)) > functions)
+  {
+    --depth;
+  }
+  return depth;
 }
 
 /// Collective.
@@ -43,13 +76,15 @@ ClipFrame FrameOf(
   const Communicator& ranks, const TriangleMesh& own, const RankSpaceOptions& rankOptions)
 {
   const SpaceOptions& options = rankOptions.space.functions;
+  const bool isAutomatic = options.depth == AutomaticDepth;
+  const int depth = isAutomatic ? CoarsestSuggestion : options.depth;
   constexpr double Infinity = std::numeric_limits<double>::infinity();
   std::array<double, 7> extremes; // largest of -x, -y, -z, x, y, z, and of their absolute values
   ranks.Together(
     [&]
     {
       Validate(own, options.threads);
-      EmbedInGrid({}, {}, options.depth); // refuses a wrong depth
+      EmbedInGrid({}, {}, depth); // refuses a wrong depth
       const Bounds bounds = BoundsOf(own.points, UsedPoints(own, options.threads), options.threads);
       for (int axis = 0; axis < 3; ++axis)
       {
@@ -62,18 +97,24 @@ ClipFrame FrameOf(
   ClipFrame frame;
   if (extremes[0] == -Infinity)
   {
-    frame.grid = EmbedInGrid({}, {}, options.depth); // nobody has a triangle
+    frame.grid = EmbedInGrid({}, {}, depth); // nobody has a triangle
   }
   else
   {
     const Vec3 low(-extremes[0], -extremes[1], -extremes[2]);
     const Vec3 high(extremes[3], extremes[4], extremes[5]);
-    frame.grid = EmbedInGrid({ low, high }, {}, options.depth);
+    frame.grid = EmbedInGrid({ low, high }, {}, depth);
     extremes[6] = low.cwiseAbs().cwiseMax(high.cwiseAbs()).maxCoeff();
+  }
+  if (isAutomatic)
+  {
+    frame.grid =
+      WithDepth(frame.grid, SuggestDepth(ranks, own, frame.grid, rankOptions.isBelowHats));
   }
   if (rankOptions.isBelowHats && std::isfinite(rankOptions.functionsPerPoint))
   {
-    LimitFunctions(ranks, own, rankOptions.functionsPerPoint, frame.grid);
+    frame.grid =
+      WithDepth(frame.grid, LimitDepth(ranks, own, rankOptions.functionsPerPoint, frame.grid));
   }
   frame.tolerance = SnapTolerance(extremes[6], frame.grid);
   return frame;

@@ -16,7 +16,7 @@ namespace gridfem
 
 struct RankSpaceOptions
 {
-  GridSpaceOptions space;
+  GridSpaceOptions space;   // of a depth that may be AutomaticDepth
   int granularity = 0;      // level of the blocks that are divided among the ranks; BlockPartition
   bool isBelowHats = false; // which need memory, too
   /// Below hats: the grid is made coarser until it has at most so many functions for each point of

@@ -372,8 +372,7 @@ bool vtkGeodesicDistance::ComputeTogether(
     { { !this->Data->SourceIds.empty(), "SourcePointIds" }, { this->Signed, "Signed" },
       { this->NearestSource, "NearestSource" }, { this->EstimateErrors, "EstimateErrors" },
       { this->Smoothing >= gridfem::MostSmoothing, "a Smoothing of 3.5 or more" } });
-  if (!this->Distributed ||
-      !gridfem::CanDistribute(this, inputs, state.options.space.depth, obstacle))
+  if (!this->Distributed || !gridfem::CanDistribute(this, inputs, obstacle))
   {
     return false;
   }

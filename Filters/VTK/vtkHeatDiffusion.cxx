@@ -320,8 +320,7 @@ bool vtkHeatDiffusion::ComputeTogether(vtkInformationVector** inputs, vtkInforma
   gridfem::SurfaceSolverState& state = *this->State;
   const std::string obstacle = gridfem::FirstObstacle(
     { { this->MovePoints && !gridfem::IsArrayChosen(this, 0), "MovePoints of the coordinates" } });
-  if (!this->Distributed ||
-      !gridfem::CanDistribute(this, inputs, state.options.space.depth, obstacle))
+  if (!this->Distributed || !gridfem::CanDistribute(this, inputs, obstacle))
   {
     return false;
   }

@@ -255,7 +255,7 @@ bool vtkLaplaceSpectrum::ComputeTogether(
     { this->CompareFunctionSpaces, "CompareFunctionSpaces" }, { this->TrackMetric, "TrackMetric" },
     { gridfem::IsArrayChosen(this, 5), "a MetricArray" } });
   gridfem::SurfaceSolverState& state = *this->State;
-  if (!gridfem::CanDistribute(this, inputs, state.options.space.depth, obstacle))
+  if (!gridfem::CanDistribute(this, inputs, obstacle))
   {
     return false;
   }

@@ -482,7 +482,7 @@ bool vtkScreenedPoisson::ComputeTogether(
       { this->AccuracyDriven, "AccuracyDriven" }, { this->TrackMetric, "TrackMetric" },
       { gridfem::IsArrayChosen(this, 5), "a MetricArray" },
       { this->MovePoints && !gridfem::IsArrayChosen(this, 0), "MovePoints of the coordinates" } });
-  if (!gridfem::CanDistribute(this, inputs, this->State->options.space.depth, obstacle))
+  if (!gridfem::CanDistribute(this, inputs, obstacle))
   {
     return false;
   }

@@ -418,8 +418,7 @@ bool vtkSpectralSignatures::ComputeTogether(
   const std::string obstacle =
     gridfem::FirstObstacle({ { !this->Data->SourceIds.empty(), "SourcePointIds" },
       { moves, "MovePoints of the coordinates" } });
-  if (!this->Distributed ||
-      !gridfem::CanDistribute(this, inputs, this->State->options.space.depth, obstacle))
+  if (!this->Distributed || !gridfem::CanDistribute(this, inputs, obstacle))
   {
     return false;
   }
@@ -556,7 +555,7 @@ void vtkSpectralSignatures::WriteDistributed(vtkPolyData* piece, vtkInformationV
   gridfem::AddFieldInt(output, "Distributed", 1);
   if (data.WasSolved)
   {
-    gridfem::AddFieldInt(output, "UsedDepth", this->Depth);
+    gridfem::AddFieldInt(output, "UsedDepth", this->State->together.Depth());
     gridfem::AddFieldInt(output, "Converged", data.Solved.spectrum.converged ? 1 : 0);
   }
   if (gridfem::Ranks().IsFirst())

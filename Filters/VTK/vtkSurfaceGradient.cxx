@@ -194,8 +194,7 @@ bool vtkSurfaceGradient::ComputeTogether(
   gridfem::SurfaceSolverState& state = *this->State;
   const std::string obstacle =
     gridfem::FirstObstacle({ { this->HodgeDecomposition, "HodgeDecomposition" } });
-  if (!this->Distributed ||
-      !gridfem::CanDistribute(this, inputs, state.options.space.depth, obstacle))
+  if (!this->Distributed || !gridfem::CanDistribute(this, inputs, obstacle))
   {
     return false;
   }

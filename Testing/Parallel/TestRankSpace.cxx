@@ -1,6 +1,9 @@
 // The space on several ranks is that of one rank: the same patches and functions on every level,
 // the same entries of M, L and the prolongations.
+#include "Meshes.h"
 #include "Parallel/RankLevels.h"
+#include "Problems/MemoryEstimate.h"
+#include "Problems/Requirements.h"
 #include "Surfaces.h"
 
 #include <gtest/gtest.h>
@@ -269,6 +272,22 @@ TEST(RankSpace, IsThatOfOneRankHoweverTrianglesAreDealt)
       SCOPED_TRACE(surface.name + ", dealing " + std::to_string(static_cast<int>(dealing)));
       CompareWithOneRank(surface.mesh, dealing, Options(true, 3));
     }
+  }
+}
+
+TEST(RankSpace, HasTheSuggestedDepthOfOneRank)
+{
+  const Communicator ranks(MPI_COMM_WORLD);
+  const TriangleMesh mesh = Transform(FlatRectangle(300, 300), { 1, 2, 3 }, 0.4);
+  const int suggested = SuggestedDepth(mesh);
+  ASSERT_GT(suggested, CoarsestSuggestion);
+  for (const Dealing dealing : { Dealing::OneRank, Dealing::Contiguous })
+  {
+    RankSpaceOptions options = gridfem::testing::Options(AutomaticDepth);
+    options.granularity = 0;
+    const RankSpace space(
+      ranks, PartOf(mesh, Deal(mesh, dealing, ranks.Size()), ranks.Rank()), options);
+    EXPECT_EQ(space.Own().Functions().GetGrid().depth, suggested);
   }
 }
 

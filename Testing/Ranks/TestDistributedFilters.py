@@ -181,8 +181,8 @@ class DistributedFilters(unittest.TestCase):
             own = ranks.arrays(output.GetPointData()).get(name, values[:0]).reshape(-1, values[:1].size)
             for component in range(own.shape[1]):
                 bits = ranks.gathered(own[:, component])[order].view(numpy.int64)
-                problems += [f"{name} differs at a point of two pieces"] * (
-                    is_same & (numpy.diff(bits) != 0)).any()
+                if (is_same & (numpy.diff(bits) != 0)).any():
+                    problems.append(f"{name} differs at a point of two pieces")
         return problems
 
     def test_any_pieces(self):
@@ -200,6 +200,20 @@ class DistributedFilters(unittest.TestCase):
                                (ranks.triangle(), "contiguous")):
                 with self.subTest(case=case, kind=kind):
                     self.same_as_alone(case, mesh, kind)
+
+    def test_depth_may_be_automatic(self):
+        for case in ("poisson", "poisson, hats", "signatures"):
+            mine = with_vectors(ranks.piece(ranks.ellipsoid(), "contiguous"))
+            output = ranks.run(made(case, 0, Distributed=True), mine)[0]
+            whole = ranks.alone(
+                lambda case=case: ranks.run(made(case, 0), with_vectors(ranks.whole(ranks.ellipsoid())))[0])
+            problems = [] if number(output, "Distributed") == 1 else ["rank 0 has gathered"]
+            if number(output, "UsedDepth") != number(whole, "UsedDepth"):
+                problems.append(f"{case}: {number(output, 'UsedDepth')} is used, not {number(whole, 'UsedDepth')}")
+            places = numpy_support.vtk_to_numpy(mine.GetPointData().GetArray("origin"))
+            problems += ranks.compare(ranks.arrays(output.GetPointData()),
+                                      ranks.arrays(whole.GetPointData()), places, CASES[case][2], case)
+            ranks.check(self, problems)
 
     def test_modes_of_the_input(self):
         for kind in ("contiguous", "ghosts", "one rank is empty"):

@@ -44,7 +44,6 @@ constexpr double HeldPerFunction = 80.0;
 constexpr double HatsPerPoint = 680.0;
 constexpr double HatsPerFunction = 10.0;
 
-constexpr int CoarsestSuggestion = 6;
 
 } // namespace
 

@@ -31,9 +31,12 @@ double FunctionsOfPatches(double patches);
 /// How many points a mesh is taken to have once coincident ones are welded.
 double WeldedPoints(const TriangleMesh& mesh);
 
+/// Costs next to nothing and serves the faces of coarse meshes.
+inline constexpr int CoarsestSuggestion = 6;
+
 /// The finest depth at which the grid is expected to have no more functions than the surface has
 /// points, coincident ones counted once: what the mesh can tell, at the cost of the mesh. At least
-/// 6, which costs next to nothing and serves the faces of coarse meshes.
+/// CoarsestSuggestion.
 int SuggestedDepth(const TriangleMesh& mesh);
 
 /// The finest depth, from `most` down, at which the grid is expected to have no more functions than

@@ -4,8 +4,6 @@
 #include "Ranks.h"
 #include "vtkSurfaceFEMAlgorithm.h"
 
-#include "Grid/Grid.h"
-
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -51,7 +49,7 @@ bool IsFurtherPortConnected(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector
 }
 
 /// What keeps this rank from taking part.
-std::string ObstacleHere(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs, int depth)
+std::string ObstacleHere(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs)
 {
   vtkPolyData* const piece = vtkPolyData::GetData(inputs[0]);
   return FirstObstacle({ { filter->GetBlocksAsOne(), "BlocksAsOne" },
@@ -59,7 +57,6 @@ std::string ObstacleHere(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** 
     { !filter->GetWeldCoincidentPoints(), "points that are not welded" },
     { filter->GetSmoother() != vtkSurfaceFEMAlgorithm::PatchSmoother,
       "a smoother other than that of patches" },
-    { depth < MinimumDepth, "an automatic Depth" },
     { piece && CarriesBasis(piece), "a basis that is given" },
     { IsFurtherPortConnected(filter, inputs), "a further input" } });
 }
@@ -79,8 +76,8 @@ std::string FirstObstacle(std::initializer_list<Obstacle> obstacles)
   return first == obstacles.end() ? "" : first->name;
 }
 
-bool CanDistribute(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs, int depth,
-  const std::string& obstacle)
+bool CanDistribute(
+  vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs, const std::string& obstacle)
 {
   const Ranks ranks;
   if (!ranks.Any(HasPolygons(vtkPolyData::GetData(inputs[0]))))
@@ -88,7 +85,7 @@ bool CanDistribute(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs
     return false;
   }
   std::string reason = HasMpi() ? "" : "needs a build with MPI";
-  const std::string own = obstacle.empty() ? ObstacleHere(filter, inputs, depth) : obstacle;
+  const std::string own = obstacle.empty() ? ObstacleHere(filter, inputs) : obstacle;
   for (const std::string& other : ranks.Exchange(own))
   {
     if (reason.empty() && !other.empty())

@@ -11,14 +11,13 @@ class vtkSurfaceFEMAlgorithm;
 namespace gridfem
 {
 
-/// Collective. Whether all ranks can compute together, each with its piece on port 0: on the
-/// functions of a grid of a chosen depth, without a basis or connections to further ports other
-/// than selections, of which ranks together know nothing. Where they cannot, the filter on the
-/// first rank warns and says why rank 0 gathers the surface; not where there is none.
-/// @param depth     that is chosen
+/// Collective. Whether all ranks can compute together, each with its piece on port 0: without a
+/// basis or connections to further ports other than selections, of which ranks together know
+/// nothing. Where they cannot, the filter on the first rank warns and says why rank 0 gathers the
+/// surface; not where there is none.
 /// @param obstacle  what else the filter is asked for that only rank 0 can do; empty: nothing
-bool CanDistribute(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs, int depth,
-  const std::string& obstacle);
+bool CanDistribute(
+  vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs, const std::string& obstacle);
 
 /// Whether SetInputArrayToProcess(index, ...) names an array.
 bool IsArrayChosen(vtkSurfaceFEMAlgorithm* filter, int index);

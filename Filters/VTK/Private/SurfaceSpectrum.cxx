@@ -111,7 +111,7 @@ void SurfaceSpectrum::UpdateTogether(
       eigenvalues = InWorldUnits(spectrum.eigenvalues, space.UnitLength());
       atPoints = EvaluateModes(state, spectrum, 0, this->NumberOfModes());
       spectrum.vectors.resize(0, 0);
-      depth = state.options.space.depth;
+      depth = state.together.Depth();
     });
 }
 
