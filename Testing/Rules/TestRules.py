@@ -103,6 +103,17 @@ class Spaces(Rule):
         self.assertNothing(offences, "Problems and filters know a FiniteElementSpace alone.")
 
 
+class Filters(Rule):
+    def test_tests_of_all_filters_have_each_of_the_plugin(self):
+        """Tests in Python find the filters in the plugin's XML; a list in C++ has to be kept."""
+        listed = (ROOT / "Testing/VTK/AllFilters.h").read_text()
+        names = [re.search(r'<SourceProxy name="(\w+)"', p.read_text()).group(1)
+                 for p in (ROOT / "Plugin").glob("*.xml")]
+        self.assertGreater(len(names), 10)
+        offences = [name for name in names if f'FilterCase{{ "{name}"' not in listed]
+        self.assertNothing(offences, "Testing/VTK/AllFilters.h lists every filter.")
+
+
 class Core(Rule):
     FORBIDDEN = re.compile(
         r"std::(?:cout|cerr|clog|terminate|exit|abort|quick_exit)\b|#\s*include\s*<iostream>"

@@ -44,7 +44,6 @@ constexpr double HeldPerFunction = 80.0;
 constexpr double HatsPerPoint = 680.0;
 constexpr double HatsPerFunction = 10.0;
 
-
 } // namespace
 
 /// A mesh whose triangles share no points is welded: two triangles to a point, whatever it has.
