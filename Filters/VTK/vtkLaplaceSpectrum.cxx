@@ -150,6 +150,12 @@ void vtkLaplaceSpectrum::WriteModes(vtkPolyData* input, vtkInformation* info, vt
   state.WriteTracking(output);
 }
 
+void vtkLaplaceSpectrum::WriteCompletedModes(vtkPolyData* output)
+{
+  gridfem::AddFieldInt(output, gridfem::CompletedModesName,
+    std::max(0, this->Data->NumberOfModes() - this->NumberOfModes));
+}
+
 void vtkLaplaceSpectrum::WriteTable(vtkTable* table)
 {
   std::vector<int> modes(this->Data->NumberOfModes());
@@ -238,7 +244,9 @@ void vtkLaplaceSpectrum::Compute(vtkInformationVector** inputs, vtkInformationVe
   this->Data->Update(*this->State, input, vtkPolyData::GetData(inputs[1]), request);
   this->Data->SolvedModes = this->NumberOfModes;
   this->Data->SolvedWhole = this->CompleteMultiplets;
-  this->WriteModes(input, outputs->GetInformationObject(0), vtkPolyData::GetData(outputs, 0));
+  vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
+  this->WriteModes(input, outputs->GetInformationObject(0), output);
+  this->WriteCompletedModes(output);
   this->WriteTable(vtkTable::GetData(outputs, 1));
   this->Warn();
   this->State->bridge.GetProgress().Check(1.0);
@@ -286,6 +294,7 @@ void vtkLaplaceSpectrum::WriteDistributed(vtkPolyData* piece, vtkInformationVect
   {
     this->WriteModes(piece, outputs->GetInformationObject(0), output);
   }
+  this->WriteCompletedModes(output);
   gridfem::AddDistributed(this->State->together.Depth(), output);
   if (gridfem::Ranks().IsFirst())
   {
