@@ -33,18 +33,18 @@ Edits() {
       Event "$menus/menuFilters/Surface FEM" activate "$filter"
       case $filter in
         StitchColors)
-          ApplyAt 5
+          ApplyAt 4
           Choose ColorArray colors
           Choose LabelArray label
           ;;
         HarmonicInterpolation)
-          ApplyAt 5
+          ApplyAt 4
           Choose ValueArray height
           ;;
       esac
-      ApplyAt 5
-      Save "$filter.Shown"
       ApplyAt 4
+      Save "$filter.Shown"
+      ApplyAt 5
       Edit "$filter" Undo
       Edit "$filter" Redo
       Event "$menus/menu_Edit" activate actionDelete

@@ -35,6 +35,7 @@ COLORED_BY = {
     "PrincipalCurvatures": "Bending", "ScreenedPoisson": "NormalDisplacement",
     "SpectralSignatures": "Signature", "StitchColors": "StitchedColors",
     "SurfaceDetail": "NormalDisplacement", "SurfaceGradient": "Laplacian"}
+WITH_EDGES = ("ClipToOctree",)  # where it has no more cells than its hint says
 ZERO_IN_THE_MIDDLE = ("Bending", "Mode", "NormalDisplacement")
 shown = set()  # arrays, so far
 CHARTS = {"LaplaceSpectrum": ["Eigenvalue"], "MeanCurvatureFlow": ["Sphericity"]}
@@ -68,6 +69,8 @@ def check_shown(name):
     association, array = surfaces[0].ColorArrayName
     if (array or "") != COLORED_BY[name]:
         sys.exit(f"{name}: coloured by {array}")
+    if surfaces[0].Representation != ("Surface With Edges" if name in WITH_EDGES else "Surface"):
+        sys.exit(f"{name}: shown as {surfaces[0].Representation}")
     if name == "StitchColors" and (surfaces[0].MapScalars or len(seen) != 1):
         sys.exit(f"{name}: the colours are not shown as they are")
     if not array or not surfaces[0].MapScalars:  # the shape alone, or colours as they are
@@ -94,7 +97,7 @@ def check_shown(name):
 
 for name in filters:
     check_shown(name)
-    for step, depth in (("Undo", "5"), ("Redo", "4")):
+    for step, depth in (("Undo", "4"), ("Redo", "5")):
         found = sources(f"{folder}/{name}.{step}.pvsm")
         if set(found) != {"sphere.vtp", name + "1"}:
             sys.exit(f"{name}: after {step} there are {sorted(found)}")
