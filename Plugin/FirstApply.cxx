@@ -121,7 +121,9 @@ void WhenShown(const vtkWeakPointer<vtkSMSourceProxy>& filter, int port,
       }
       const auto* made = static_cast<vtkSMProxyManager::RegisteredProxyInformation*>(data);
       auto* representation = vtkSMRepresentationProxy::SafeDownCast(made->Proxy);
-      if (!representation || !ShowsPort(representation, filter, port))
+      // Axes around the data have the same input, and are registered among helpers before it.
+      if (!representation || made->GroupName != std::string("representations") ||
+          !ShowsPort(representation, filter, port))
       {
         return false;
       }
@@ -338,6 +340,45 @@ private:
 
 vtkStandardNewMacro(vtkSMColorsLater);
 
+class vtkSMShowsEdges : public vtkSMProxyInitializationHelper
+{
+public:
+  static vtkSMShowsEdges* New();
+  vtkTypeMacro(vtkSMShowsEdges, vtkSMProxyInitializationHelper);
+
+  void PostInitializeProxy(vtkSMProxy* proxy, vtkPVXMLElement* xml, vtkMTimeType) override
+  {
+    int most = 0;
+    xml->GetScalarAttribute("most", &most);
+    const vtkWeakPointer<vtkSMSourceProxy> filter = vtkSMSourceProxy::SafeDownCast(proxy);
+    Watch(proxy, vtkCommand::UpdateDataEvent,
+      [filter, most](void*)
+      {
+        if (HasWindow())
+        {
+          WhenShown(
+            filter, 0, [filter, most](vtkSMProxy* shown) { ShowEdges(shown, filter, most); });
+        }
+        return true;
+      });
+  }
+
+private:
+  static void ShowEdges(vtkSMProxy* shown, vtkSMSourceProxy* filter, vtkIdType most)
+  {
+    const vtkIdType cells = filter->GetDataInformation(0)->GetNumberOfCells();
+    const vtkSMPropertyHelper type(shown, "Representation", true);
+    if (type.GetNumberOfElements() == 1 && type.GetAsString() == std::string("Surface") &&
+        cells > 0 && cells <= most)
+    {
+      vtkSMPropertyHelper(shown, "Representation").Set("Surface With Edges");
+      shown->UpdateVTKObjects();
+    }
+  }
+};
+
+vtkStandardNewMacro(vtkSMShowsEdges);
+
 class vtkSMAxisTitles : public vtkSMProxyInitializationHelper
 {
 public:
@@ -389,6 +430,7 @@ void AddToInterpreter(vtkClientServerInterpreter* interpreter)
   interpreter->AddNewInstanceFunction("vtkSMOpensBeside", NewHelper<vtkSMOpensBeside>);
   interpreter->AddNewInstanceFunction("vtkSMShowsLastStep", NewHelper<vtkSMShowsLastStep>);
   interpreter->AddNewInstanceFunction("vtkSMColorsLater", NewHelper<vtkSMColorsLater>);
+  interpreter->AddNewInstanceFunction("vtkSMShowsEdges", NewHelper<vtkSMShowsEdges>);
   interpreter->AddNewInstanceFunction("vtkSMAxisTitles", NewHelper<vtkSMAxisTitles>);
 }
 

@@ -4,6 +4,7 @@
 //     <InitializationHelper class="vtkSMOpensBeside" port="1" />
 //     <InitializationHelper class="vtkSMShowsLastStep" />
 //     <InitializationHelper class="vtkSMColorsLater" array="StitchedColors" direct="1" />
+//     <InitializationHelper class="vtkSMShowsEdges" most="20000" />
 //   </Hints>
 //
 //   vtkSMOpensBeside    the view that opens for this port at the first Apply stands beside that of
@@ -14,6 +15,8 @@
 //                       when it shows a filter, which may be before its arrays were chosen. Colours
 //                       of the user are left alone. direct: three or four bytes, or numbers from 0
 //                       to 1, are shown as the colours that they are, without a bar.
+//   vtkSMShowsEdges     port 0 is a surface with edges when it is first shown, where it has no more
+//                       cells than this: more edges hide the colours
 //
 // and in that of a chart:
 //

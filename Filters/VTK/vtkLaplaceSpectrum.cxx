@@ -147,6 +147,8 @@ void vtkLaplaceSpectrum::WriteModes(vtkPolyData* input, vtkInformation* info, vt
   output->GetFieldData()->AddArray(eigenvalues);
   const bool converged = this->Data->spectrum.converged && this->IsAccurate();
   gridfem::AddFieldInt(output, "Converged", converged ? 1 : 0);
+  gridfem::AddFieldInt(output, gridfem::CompletedModesName,
+    std::max(0, this->Data->NumberOfModes() - this->NumberOfModes));
   state.WriteTracking(output);
 }
 
@@ -238,7 +240,8 @@ void vtkLaplaceSpectrum::Compute(vtkInformationVector** inputs, vtkInformationVe
   this->Data->Update(*this->State, input, vtkPolyData::GetData(inputs[1]), request);
   this->Data->SolvedModes = this->NumberOfModes;
   this->Data->SolvedWhole = this->CompleteMultiplets;
-  this->WriteModes(input, outputs->GetInformationObject(0), vtkPolyData::GetData(outputs, 0));
+  vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
+  this->WriteModes(input, outputs->GetInformationObject(0), output);
   this->WriteTable(vtkTable::GetData(outputs, 1));
   this->Warn();
   this->State->bridge.GetProgress().Check(1.0);

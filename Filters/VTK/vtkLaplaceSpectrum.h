@@ -22,6 +22,7 @@
  *   integral of a squared mode over the surface is 1 in world units. Points that no polygon uses
  *   get 0. Such arrays of the input are left out.
  * - field data: `Eigenvalues` (double, 1; a tuple per mode, one over squared world length),
+ *   `CompletedModes` (int, 1): how many modes CompleteMultiplets has added to NumberOfModes,
  *   `Converged` (int, 1), `UsedDepth` (int, 1): the depth of the space
  *
  * Output port 1 (vtkTable): a row per mode with `Mode` (int), `Eigenvalue` (double), `Residual`

@@ -19,9 +19,43 @@ OTHER_INDICES = {("HeatDiffusion", "ConstraintArray"): 2}
 INFORMATION = {"TimestepValues"}
 LISTS = {"SourcePointIds"}
 
+# What the panel of a filter that was just made shows without its advanced properties: at most so many,
+# besides inputs.
+MOST_SHOWN = 5
+
 # The class does not clamp these but refuses what is below, with a message.
 REFUSED_BELOW = {"ScreeningWeight": 0, "Mode": -1, "DiffusionTime": 0, "SmoothingScale": 0,
                  "TransitionWidth": 0}
+
+
+def is_shown(proxy, decorator):
+    """Whether a decorator of the panel lets its property be seen, on a surface without blocks."""
+    kind, words = decorator.GetAttribute("type"), decorator.GetAttribute
+    if kind == "CompositeDecorator":
+        expression = decorator.FindNestedElementByName("Expression")
+        return any(is_shown(proxy, expression.GetNestedElement(k))
+                   for k in range(expression.GetNumberOfNestedElements()))
+    if kind == "InputDataTypeDecorator":
+        return False
+    if words("mode") != "visibility":
+        return True
+    value = str(proxy.GetProperty(words("property")).GetElement(int(words("index") or 0)))
+    return (value in (words("values") or words("value")).split()) != (words("inverse") == "1")
+
+
+def shown_properties(proxy):
+    """The properties in the panel of a filter, without inputs and what is advanced or hidden by another."""
+    for key in proxy.ListProperties():
+        prop = proxy.SMProxy.GetProperty(key)
+        if (prop.IsA("vtkSMInputProperty") or prop.GetInformationOnly()
+                or prop.GetPanelVisibility() != "default"):
+            continue
+        hints = prop.GetHints()
+        number = hints.GetNumberOfNestedElements() if hints else 0
+        nested = [hints.GetNestedElement(k) for k in range(number)]
+        if all(is_shown(proxy.SMProxy, element) for element in nested
+               if element.GetName() == "PropertyWidgetDecorator"):
+            yield key
 
 
 class TestDefaults(unittest.TestCase):
@@ -128,6 +162,15 @@ class TestDefaults(unittest.TestCase):
                 self.assertTrue(documentation.GetShortHelp())
                 self.assertTrue(documentation.GetLongHelp())
                 self.assertGreater(len(documentation.GetDescription().split()), 40)
+
+    def test_a_panel_shows_what_matters(self):
+        for name, proxy in self.proxies.items():
+            with self.subTest(proxy=name):
+                shown = set(shown_properties(proxy))
+                self.assertLessEqual(len(shown), MOST_SHOWN, sorted(shown))
+                self.assertTrue(shown & {"Depth", "SmoothingScale"})
+                # An array that a filter cannot do without is seen.
+                self.assertLessEqual(set(plugin.CHOICES.get(name, ())), shown)
 
     def test_every_filter_is_in_the_menu(self):
         for name, proxy in self.proxies.items():

@@ -1,7 +1,8 @@
 # Drives the real program: opens a file, and with every filter of the menu Surface FEM in turn applies it,
-# changes its Depth, undoes that, does it again and deletes the filter; reads back the states that were
-# saved in between, and looks at what the first Apply has shown. Filters that compute nothing without an
-# array are applied without one first, as whoever tries them does.
+# changes what defines its result, undoes that, does it again and deletes the filter; loads the last state
+# into the window; reads back the states that were saved in between, and looks at what the first Apply has
+# shown. Filters that compute nothing without an array are applied without one first, as whoever tries
+# them does.
 source "$(dirname "$(readlink -f "$0")")/Gui/drive.sh"
 
 panel=pqClientMainWindow/propertiesDock/propertiesPanel
@@ -10,9 +11,29 @@ menus=pqClientMainWindow/menubar
 
 Event() { printf '  <pqevent object="%s" command="%s" arguments="%s" />\n' "$1" "$2" "${3:-}"; }
 Choose() { Event "$properties/$1/ComboBox" set_string "$2"; }
-ApplyAt() {
-  Event "$properties/Depth/IntRangeWidget/LineEdit" set_string "$1"
-  Event "$panel/Accept" activate
+Type() { Event "$properties/$1/DoubleLineEdit0" set_string "$2"; }
+Slide() { Event "$properties/$1/IntRangeWidget/LineEdit" set_string "$2"; }
+Apply() { Event "$panel/Accept" activate; }
+
+# The filter's own property that is changed; check_edits.py knows the values before and after.
+Change() {
+  case $1 in
+    ClipToOctree) Slide Depth 5 ;;
+    ConnectivityAwareBasis) Event "$properties/ConnectivityAware/CheckBox" set_boolean false ;;
+    GeodesicDistance) Choose SourceArray label ;;
+    HarmonicInterpolation) Choose MaskArray label ;;
+    HeatDiffusion) Slide NumberOfSteps 3 ;;
+    LaplaceSpectrum) Slide NumberOfModes 12 ;;
+    MeanCurvatureFlow) Slide NumberOfSteps 12 ;;
+    PrincipalCurvatures) Type SmoothingScale 0.05 ;;
+    ScreenedPoisson) Type ScreeningWeight 50 ;;
+    SpectralSignatures) Slide ShownScale 0 ;;
+    StitchColors) Choose KeptMean "Reference Scan" ;;
+    SurfaceDetail) Event "$properties/DetailScale/DoubleRangeWidget/DoubleLineEdit" set_string 3 ;;
+    SurfaceGradient) Choose Array height ;;
+    *) echo "TestGuiEdits.sh does not know what to change of $1" >&2; exit 1 ;;
+  esac
+  Apply
 }
 Save() {
   Event "$menus/menu_File" activate actionFileSaveServerState
@@ -33,23 +54,29 @@ Edits() {
       Event "$menus/menuFilters/Surface FEM" activate "$filter"
       case $filter in
         StitchColors)
-          ApplyAt 5
+          Apply
           Choose ColorArray colors
           Choose LabelArray label
           ;;
         HarmonicInterpolation)
-          ApplyAt 5
+          Apply
           Choose ValueArray height
           ;;
       esac
-      ApplyAt 5
+      # The panel of Principal Curvatures shows no Depth.
+      [ "$filter" = PrincipalCurvatures ] || Slide Depth 4
+      Apply
       Save "$filter.Shown"
-      ApplyAt 4
+      Change "$filter"
       Edit "$filter" Undo
       Edit "$filter" Redo
       Event "$menus/menu_Edit" activate actionDelete
     done
     Save "left.$1"
+    Event "$menus/menu_File" activate actionFileLoadServerState
+    Event pqClientMainWindow/FileLoadServerStateDialog filesSelected "$work/$1.Redo.pvsm"
+    Event LoadStateOptionsDialog/widget/OKButton activate
+    Save loaded
     echo '</pqevents>'
   } > "$work/edits.xml"
   Play "$work/edits.xml" --data="$work/sphere.vtp"

@@ -23,16 +23,27 @@ class TestHelp(unittest.TestCase):
     def tearDown(self):
         self.database.close()
 
-    def test_every_filter_has_the_page_that_its_panel_opens(self):
+    def of_filters(self):
+        """Name and page of every filter."""
         for panel in os.listdir(PANELS):
             name, extension = os.path.splitext(panel)
-            if extension != ".xml":
-                continue
-            page = self.pages[f"filters.{name}.html"]
+            if extension == ".xml":
+                yield name, self.pages[f"filters.{name}.html"]
+
+    def test_every_filter_has_the_page_that_its_panel_opens(self):
+        for name, page in self.of_filters():
             with open(os.path.join(PANELS, "Documentation", name + ".md"), encoding="utf-8") as file:
                 title = file.readline().lstrip("# ").strip()
             self.assertIn(f"<h1>{title}</h1>", page)
             self.assertIn("<table", page)
+
+    def test_the_equation_stands_before_the_properties(self):
+        for name, page in self.of_filters():
+            shown = re.findall("<pre><code>(.*?)</code></pre>", page[:page.index("<table")], re.S)
+            with self.subTest(filter=name):
+                self.assertTrue(shown)
+                for line in "".join(shown).splitlines():
+                    self.assertLess(len(line), 90)  # what ParaView's window of help is wide
 
     def test_links_and_pictures_are_there(self):
         count = 0

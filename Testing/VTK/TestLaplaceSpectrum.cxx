@@ -268,10 +268,12 @@ TEST_F(LaplaceSpectrum, ACutMultipletIsCompletedOrReported)
   EXPECT_EQ(this->Eigenvalues().size(), 6u);
   ASSERT_EQ(messages.warnings.size(), 1u);
   EXPECT_NE(messages.warnings[0].find("CompleteMultiplets"), std::string::npos);
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "CompletedModes"), 0);
   this->ModeAt(4);
   EXPECT_EQ(messages.warnings.size(), 1u); // not at every time step
   filter->CompleteMultipletsOn();
   EXPECT_EQ(this->Eigenvalues().size(), 9u); // 1 + 3 + 5
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "CompletedModes"), 3);
   EXPECT_EQ(messages.warnings.size(), 1u);
 }
 

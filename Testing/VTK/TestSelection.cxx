@@ -12,6 +12,7 @@
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkMultiBlockDataSet.h"
+#include "vtkOutputWindow.h"
 #include "vtkSelection.h"
 #include "vtkSelectionNode.h"
 #include "vtkUnsignedIntArray.h"
@@ -355,6 +356,24 @@ TEST(Selection, OfABlockIsOfThatBlock)
   const auto all =
     counts(SelectionOf(NodeOf(vtkSelectionNode::CELL, vtkSelectionNode::BLOCKS, whole)));
   EXPECT_EQ(all, std::vector<std::size_t>({ std::size_t(Sphere()->GetNumberOfPoints()), 0 }));
+}
+
+/// VTK extracts nothing then, not even a tree of blocks.
+TEST(Selection, WithoutNodesTakesNothingOfBlocks)
+{
+  vtkNew<vtkCallbackCommand> fail;
+  fail->SetCallback([](vtkObject*, unsigned long, void*, void* text)
+    { ADD_FAILURE() << static_cast<const char*>(text); });
+  const unsigned long tag =
+    vtkOutputWindow::GetInstance()->AddObserver(vtkCommand::ErrorEvent, fail);
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, Sphere());
+  blocks->SetBlock(1, Sphere());
+  const auto filter = DetailOf(blocks, SelectionOf(nullptr));
+  filter->Update();
+  auto* output = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0));
+  EXPECT_TRUE(Selected(vtkPolyData::SafeDownCast(output->GetBlock(1))).empty());
+  vtkOutputWindow::GetInstance()->RemoveObserver(tag);
 }
 
 TEST(Selection, ThatCannotBeEvaluatedIsRefused)

@@ -83,6 +83,7 @@ void RemoveModes(vtkPolyData* data)
     }
   }
   data->GetFieldData()->RemoveArray(EigenvaluesName);
+  data->GetFieldData()->RemoveArray(CompletedModesName);
 }
 
 void AddModeArrays(StageKey& key, vtkPolyData* input)

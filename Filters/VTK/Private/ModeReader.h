@@ -14,13 +14,16 @@ class vtkPolyData;
 namespace gridfem
 {
 
+constexpr const char* CompletedModesName = "CompletedModes"; // field data
+
 /// Mode000, Mode001, ...
 std::string ModeName(int mode);
 
 /// Whether the mesh has the field array Eigenvalues and the point array Mode000.
 bool CarriesModes(vtkPolyData* input);
 
-/// Takes modes away: the point arrays Mode, Mode000, ..., however many there are, and Eigenvalues.
+/// Takes modes away: the point arrays Mode, Mode000, ..., however many there are, and the field
+/// arrays Eigenvalues and CompletedModes.
 void RemoveModes(vtkPolyData* data);
 
 /// Adds the arrays of the modes.

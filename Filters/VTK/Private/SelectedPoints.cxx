@@ -161,6 +161,12 @@ void Validate(vtkSelection* selection)
 vtkDataObject* BlockOf(
   vtkCompositeDataSet* extracted, vtkCompositeDataSet* whole, vtkDataObject* block)
 {
+  const auto found = LeavesOf(extracted);
+  found->InitTraversal();
+  if (found->IsDoneWithTraversal()) // by no node at all: then it has not even the blocks
+  {
+    return nullptr;
+  }
   const auto leaf = LeavesOf(whole);
   for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
   {

@@ -1,6 +1,7 @@
 """Whether a filter was shown alone, coloured by what it is for over the range of that, with its chart and
-the titles of that, at the time of its result; had its first depth again after undo, the second after
-redo, where its state loads and computes; and nothing but the file is left after all were deleted."""
+the titles of that, at the time of its result; had its first value again after undo, the second after
+redo, where its state loads and computes; nothing but the file is left after all were deleted, and a state
+brings all of it back into the window. What the first Apply has shown is in Shown/ of the current folder."""
 import glob
 import math
 import os
@@ -9,7 +10,10 @@ from xml.etree import ElementTree
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir))
 
+import numpy
 from paraview import simple
+from vtkmodules.util import numpy_support
+from vtkmodules.vtkIOImage import vtkPNGReader
 
 import plugin
 
@@ -27,6 +31,11 @@ def sources(path):
     return {item.get("name"): proxies[item.get("id")] for item in items}
 
 
+def value_of(proxy, name):
+    """Of a property of one value, or of one that chooses an array, whose name comes last."""
+    return proxy.findall(f"Property[@name='{name}']/Element")[-1].get("value")
+
+
 # What colours a filter, and the series of a chart that opens beside it.
 COLORED_BY = {
     "ClipToOctree": "OctreeCellColor", "ConnectivityAwareBasis": "PatchColor",
@@ -35,6 +44,17 @@ COLORED_BY = {
     "PrincipalCurvatures": "Bending", "ScreenedPoisson": "NormalDisplacement",
     "SpectralSignatures": "Signature", "StitchColors": "StitchedColors",
     "SurfaceDetail": "NormalDisplacement", "SurfaceGradient": "Laplacian"}
+WITH_EDGES = ("ClipToOctree",)  # where it has no more cells than its hint says
+# What was changed, from which value to which; of an array its name.
+CHANGES = {
+    "ClipToOctree": ("Depth", "4", "5"), "ConnectivityAwareBasis": ("ConnectivityAware", "1", "0"),
+    "GeodesicDistance": ("SourceArray", "None", "label"),
+    "HarmonicInterpolation": ("MaskArray", "None", "label"), "HeatDiffusion": ("NumberOfSteps", "1", "3"),
+    "LaplaceSpectrum": ("NumberOfModes", "20", "12"), "MeanCurvatureFlow": ("NumberOfSteps", "10", "12"),
+    "PrincipalCurvatures": ("SmoothingScale", "0", "0.05"),
+    "ScreenedPoisson": ("ScreeningWeight", "100", "50"), "SpectralSignatures": ("ShownScale", "-1", "0"),
+    "StitchColors": ("KeptMean", "0", "1"), "SurfaceDetail": ("DetailScale", "2", "3"),
+    "SurfaceGradient": ("Array", "None", "height")}
 ZERO_IN_THE_MIDDLE = ("Bending", "Mode", "NormalDisplacement")
 shown = set()  # arrays, so far
 CHARTS = {"LaplaceSpectrum": ["Eigenvalue"], "MeanCurvatureFlow": ["Sphericity"]}
@@ -46,6 +66,21 @@ def visible(view_type):
     """The representations that are seen in views of a type."""
     return [part for view in simple.GetViews() if view.SMProxy.GetXMLName() == view_type
             for part in view.Representations if getattr(part, "Visibility", 0)]
+
+
+def check_picture(name):
+    """The window's layout holds a surface that is lit, and is not full of it."""
+    os.makedirs("Shown", exist_ok=True)
+    path = f"Shown/{name}.png"
+    simple.SaveScreenshot(path, simple.GetLayout(), ImageResolution=[800, 500])
+    reader = vtkPNGReader()
+    reader.SetFileName(path)
+    reader.Update()
+    pixels = numpy_support.vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())[:, :3]
+    _, counts = numpy.unique(pixels, axis=0, return_counts=True)
+    background = counts.max() / counts.sum()
+    if len(counts) < 50 or not 0.2 < background < 0.97:
+        sys.exit(f"{path} has {len(counts)} colours, and one on {100 * background:.0f} % of it")
 
 
 def check_shown(name):
@@ -61,6 +96,7 @@ def check_shown(name):
     time = simple.GetAnimationScene().AnimationTime
     if name == "MeanCurvatureFlow" and time != source.NumberOfSteps:
         sys.exit(f"{name}: shown is time {time}")
+    check_picture(name)
     seen = visible("RenderView")
     surfaces = [part for part in seen if hasattr(part, "ColorArrayName")]
     if len(surfaces) != 1 or surfaces[0].SMProxy.GetProperty("Input").GetProxy(0) != source.SMProxy:
@@ -68,6 +104,8 @@ def check_shown(name):
     association, array = surfaces[0].ColorArrayName
     if (array or "") != COLORED_BY[name]:
         sys.exit(f"{name}: coloured by {array}")
+    if surfaces[0].Representation != ("Surface With Edges" if name in WITH_EDGES else "Surface"):
+        sys.exit(f"{name}: shown as {surfaces[0].Representation}")
     if name == "StitchColors" and (surfaces[0].MapScalars or len(seen) != 1):
         sys.exit(f"{name}: the colours are not shown as they are")
     if not array or not surfaces[0].MapScalars:  # the shape alone, or colours as they are
@@ -94,17 +132,25 @@ def check_shown(name):
 
 for name in filters:
     check_shown(name)
-    for step, depth in (("Undo", "5"), ("Redo", "4")):
+    changed, before, after = CHANGES[name]
+    for step, wanted in (("Undo", before), ("Redo", after)):
         found = sources(f"{folder}/{name}.{step}.pvsm")
         if set(found) != {"sphere.vtp", name + "1"}:
             sys.exit(f"{name}: after {step} there are {sorted(found)}")
-        value = found[name + "1"].find("Property[@name='Depth']/Element").get("value")
-        if value != depth:
-            sys.exit(f"{name}: after {step} Depth is {value}")
+        value = value_of(found[name + "1"], changed)
+        if value != wanted:
+            sys.exit(f"{name}: after {step} {changed} is {value}")
     simple.LoadState(f"{folder}/{name}.Redo.pvsm")
     if plugin.data(simple.FindSource(name + "1")).GetNumberOfPoints() == 0:
         sys.exit(f"{name}: nothing comes out of the state")
     simple.ResetSession()
+loaded = sources(f"{folder}/loaded.pvsm")
+again = sources(f"{folder}/{filters[0]}.Redo.pvsm")
+changed = CHANGES[filters[0]][0]
+if {name: proxy.get("type") for name, proxy in loaded.items()} != {
+        name: proxy.get("type") for name, proxy in again.items()} or (
+            value_of(loaded[filters[0] + "1"], changed) != CHANGES[filters[0]][2]):
+    sys.exit(f"the window has loaded {sorted(loaded)}")
 for path in glob.glob(f"{folder}/left.*.pvsm"):
     left = sources(path)
     if set(left) != {"sphere.vtp"}:
