@@ -38,7 +38,7 @@ NEVER_SET = {"Depth", "NumberOfModes", "NumberOfSteps", "NumberOfThreads", "Maxi
 # What filters make the active scalars, but for what is not a number where nothing reaches.
 MADE = {"Solution", "NormalDisplacement", "Filtered", "Mode", "Mode000", "Diffused", "Laplacian", "Bending",
         "Signature", "StitchedColors"}
-KEPT_WHERE_NOTHING_REACHES = {"Filtered", "Diffused", "StitchedColors"}  # values of the input
+KEPT_WHERE_NOTHING_REACHES = {"Solution", "Filtered", "Diffused", "StitchedColors"}  # the input's values
 NUMBERS = (0.0, 1.0, -1.0, 1e-3, 1e3, 1e-12, 1e12, float("nan"), float("inf"))
 FILTERS = sorted(name for name in dir(vtkGridFEMFilters)
                  if name.startswith("vtk") and not name.endswith("Algorithm")
