@@ -1,4 +1,5 @@
 // Clips, levels, matrices and metrics at random.
+#include "Invariants.h"
 #include "RandomProblem.h"
 
 #include "Integrals/TriangleMetric.h"
@@ -11,24 +12,6 @@ namespace gridfem::testing
 {
 namespace
 {
-
-/// Sizes whose squares are in the range of numbers.
-bool HasOrdinarySize(const Grid& grid)
-{
-  return grid.spacing > 1e-100 && grid.spacing < 1e100;
-}
-
-/// What clipping may move a side of a triangle by, in cells: 1e-10, or the rounding of the input,
-/// which far away from the origin can be many cells.
-double Displacement(const TriangleMesh& mesh, const Grid& grid)
-{
-  double largest = 0.0;
-  for (const Vec3& point : mesh.points)
-  {
-    largest = std::max(largest, point.cwiseAbs().maxCoeff());
-  }
-  return 4.0 * std::max(1e-10, 2e-15 * largest / grid.spacing);
-}
 
 void RequireArea(const TriangleMesh& mesh, const ClippedMesh& clipped, Outcome& outcome)
 {
@@ -110,6 +93,7 @@ bool IsNested(Choice& choice, const FiniteElementSpace& space, std::size_t level
 void RequireMatrices(
   Choice& choice, const FiniteElementSpace& space, std::size_t firstNested, Outcome& outcome)
 {
+  double largest = 0.0; // of this level and of those that it is summed from
   for (std::size_t level = 0; level < space.NumberOfLevels(); ++level)
   {
     const SparseMatrix mass = space.Matrix(level, 1.0, 0.0);
@@ -118,8 +102,8 @@ void RequireMatrices(
     MultiVector product;
     Multiply(stiffness, MultiVector::Ones(stiffness.columns, 1), product);
     const std::vector<double> diagonal = stiffness.Diagonal();
-    const double largest =
-      diagonal.empty() ? 0.0 : *std::max_element(diagonal.begin(), diagonal.end());
+    largest = std::accumulate(
+      diagonal.begin(), diagonal.end(), largest, [](double a, double b) { return std::max(a, b); });
     outcome.Require(product.size() == 0 || product.cwiseAbs().maxCoeff() <= 1e-12 * largest,
       "constants have energy");
     if (level + 1 < space.NumberOfLevels() && level >= firstNested)
@@ -140,88 +124,6 @@ void RequireIntegrals(
   }
   outcome.Require(
     std::abs(sum * std::pow(space.UnitLength(), 2) - area) <= allowed, "integrals miss the area");
-}
-
-/// A random order of 0 .. count - 1.
-std::vector<Id> RandomOrder(Choice& choice, std::size_t count)
-{
-  std::vector<Id> order(count);
-  std::iota(order.begin(), order.end(), Id(0));
-  for (Id k = static_cast<Id>(count) - 1; k > 0; --k)
-  {
-    std::swap(order[k], order[choice.Integer(0, k)]);
-  }
-  return order;
-}
-
-/// The same surface: other numbers of points and triangles, which begin at any corner and may be
-/// seen from the other side.
-TriangleMesh Reordered(Choice& choice, const TriangleMesh& mesh)
-{
-  const std::vector<Id> place = RandomOrder(choice, mesh.points.size());
-  TriangleMesh result;
-  result.points.resize(mesh.points.size());
-  for (std::size_t point = 0; point < place.size(); ++point)
-  {
-    result.points[place[point]] = mesh.points[point];
-  }
-  for (const Id triangle : RandomOrder(choice, mesh.triangles.size()))
-  {
-    std::array<Id, 3> corner = mesh.triangles[triangle];
-    std::rotate(corner.begin(), corner.begin() + choice.Integer(0, 2), corner.end());
-    if (choice.OneIn(2))
-    {
-      std::swap(corner[1], corner[2]);
-    }
-    result.triangles.push_back({ place[corner[0]], place[corner[1]], place[corner[2]] });
-  }
-  return result;
-}
-
-/// Whether it is nearly as narrow along an axis as what clipping moves points by: then rounding
-/// decides whether it lies in one layer of cells or in two.
-bool IsThin(const TriangleMesh& mesh, const Grid& grid)
-{
-  Vec3 lowest = mesh.points.front();
-  Vec3 highest = lowest;
-  for (const Vec3& point : mesh.points)
-  {
-    lowest = lowest.cwiseMin(point);
-    highest = highest.cwiseMax(point);
-  }
-  return (highest - lowest).minCoeff() < 1e3 * Displacement(mesh, grid) * grid.spacing;
-}
-
-double TraceOf(const SparseMatrix& A)
-{
-  const std::vector<double> diagonal = A.Diagonal();
-  return std::accumulate(diagonal.begin(), diagonal.end(), 0.0);
-}
-
-/// Functions do not depend on the order of what the mesh is made of, nor do their products where
-/// they are integrated exactly.
-/// @param allowed  what clipping may change of the area
-void RequireNoOrder(Choice& choice, const RandomSurface& surface, double allowed, Outcome& outcome)
-{
-  RandomSurface other = surface;
-  other.mesh = std::make_shared<const TriangleMesh>(Reordered(choice, *surface.mesh));
-  other.Build();
-  const FiniteElementSpace& space = *surface.space;
-  outcome.Require(other.space->NumberOfFunctions(0) == space.NumberOfFunctions(0),
-    "the order changes the functions");
-  constexpr int Exact = 6; // two trilinear functions on a plane
-  if (surface.options.quadratureDegree < Exact)
-  {
-    return;
-  }
-  // A patch has eight functions, with slopes of up to 3 in the square; those of hats are not
-  // bounded.
-  const double largest = 24.0 * allowed / std::pow(space.UnitLength(), 2);
-  const double stiffness = surface.isOnHats ? 0.0 : 1.0;
-  const double expected = TraceOf(space.Matrix(0, 1.0, stiffness));
-  const double found = TraceOf(other.space->Matrix(0, 1.0, stiffness));
-  outcome.Require(
-    std::abs(found - expected) <= 1e-9 * expected + largest, "the order changes a matrix");
 }
 
 /// Symmetric and positive, the largest eigenvalue at most `ratio` times the smallest.
@@ -284,6 +186,11 @@ void CheckSpaces(Choice& choice, RandomSurface& surface, Outcome& outcome)
     if (surface.isChecked && !IsThin(*surface.mesh, grid))
     {
       RequireNoOrder(choice, surface, allowed, outcome);
+      RequireNoWelding(choice, surface, allowed, outcome);
+    }
+    if (surface.isChecked)
+    {
+      RequireNoPlace(choice, surface, outcome);
     }
   }
   const MultiVector atPoints =

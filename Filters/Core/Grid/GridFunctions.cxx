@@ -84,6 +84,20 @@ void Improve(std::atomic<Index>& choice, Index patch, const PatchChoice& patches
   }
 }
 
+/// Gives the points of a piece to its patch, where that is better and no other is final.
+void ImprovePoints(const ClippedMesh& clipped, Id piece, Index patch, const PatchChoice& patches,
+  const std::vector<char>& isFinal, std::vector<std::atomic<Index>>& choice)
+{
+  for (Index k = clipped.pieceBegin[piece]; k < clipped.pieceBegin[piece + 1]; ++k)
+  {
+    const Index point = clipped.corners[k];
+    if (point < static_cast<Id>(choice.size()) && !isFinal[point])
+    {
+      Improve(choice[point], patch, patches);
+    }
+  }
+}
+
 } // namespace
 
 void FindComponents(GridFunctions& space, int threads)
@@ -103,20 +117,25 @@ Array<Index> FindPointPatches(const ClippedMesh& clipped, const Array<Index>& pi
   {
     patch.store(-1, std::memory_order_relaxed);
   }
-  ParallelRanges(clipped.NumberOfPieces(), threads,
-    [&](Id begin, Id end)
-    {
-      for (Id piece = begin; piece < end; ++piece)
+  // A piece without area may belong to a patch in another cell, whose functions say nothing here:
+  // it counts where a point has no other.
+  std::vector<char> isFinal(points, 0);
+  for (const bool hasArea : { true, false })
+  {
+    ParallelRanges(clipped.NumberOfPieces(), threads,
+      [&](Id begin, Id end)
       {
-        for (Index k = clipped.pieceBegin[piece]; k < clipped.pieceBegin[piece + 1]; ++k)
+        for (Id piece = begin; piece < end; ++piece)
         {
-          if (clipped.corners[k] < points)
+          if ((PieceArea(clipped, piece) >= SmallestPatchArea) == hasArea)
           {
-            Improve(choice[clipped.corners[k]], piecePatch[piece], patches);
+            ImprovePoints(clipped, piece, piecePatch[piece], patches, isFinal, choice);
           }
         }
-      }
-    });
+      });
+    std::transform(choice.begin(), choice.end(), isFinal.begin(),
+      [](const std::atomic<Index>& patch) { return patch.load() >= 0; });
+  }
   Array<Index> pointPatch(choice.size());
   std::transform(choice.begin(), choice.end(), pointPatch.begin(),
     [](const std::atomic<Index>& patch) { return patch.load(); });

@@ -236,7 +236,8 @@ void SolverIteration::Retire(Id column, SolveEnd end)
   r.col(column).setZero();
   if (z.size() > 0)
   {
-    if (end == SolveEnd::Converged && options_.measure == SolveOptions::Measure::Energy)
+    if (end == SolveEnd::Converged && options_.measure == SolveOptions::Measure::Energy &&
+        takesLast_)
     {
       x_.col(column) += z.col(column);
     }
@@ -262,7 +263,10 @@ void SolverIteration::Confirm()
   }
   if (this->IsActive())
   {
+    // What is done after all is so as it stands: nobody would look at the residual of another step.
+    takesLast_ = false;
     this->Measure();
+    takesLast_ = true;
   }
 }
 

@@ -66,6 +66,7 @@ private:
 
   Eigen::Array<bool, Eigen::Dynamic, 1> isActive_;
   std::vector<SolveEnd> end_; // per column; IterationLimit while it iterates
+  bool takesLast_ = true;     // a column that is done takes z
   Columns reference_;         // of the energy; see IterationRecord
   Columns residualOfZero_;
   Columns energy_;     // relative to the first

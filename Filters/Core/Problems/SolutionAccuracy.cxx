@@ -154,7 +154,9 @@ SolutionAccuracy AccuracyWatch::Result(const MultiVector& solution, const Column
   result.algebraic = Worst(Relative(algebraic_, size));
   const MultiVector atPoints = space_.ValuesAtPoints(
     difference * (scale.transpose().array() * overError).inverse().matrix().asDiagonal(), threads_);
-  result.largest = atPoints.size() > 0 ? atPoints.cwiseAbs().maxCoeff() : 0.0;
+  // Of values near the largest number the error may lie beyond it.
+  const double largest = atPoints.size() > 0 ? atPoints.cwiseAbs().maxCoeff() : 0.0;
+  result.largest = std::isinf(largest) ? SolutionAccuracy::Unknown : largest;
   if (rate.size() > 0)
   {
     result.isTrusted =

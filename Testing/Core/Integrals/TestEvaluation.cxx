@@ -119,6 +119,33 @@ TEST(Evaluation, GivesZeroAtPointsThatNoTriangleUses)
   EXPECT_NEAR(values.topRows(values.rows() - 1).minCoeff(), 1.0, 1e-15);
 }
 
+// A line without area arrives at point 6 through a cell that has nothing else; its piece there
+// belongs to a patch in another cell.
+TEST(Evaluation, TakesTheFunctionsOfPiecesWithAnArea)
+{
+  TriangleMesh mesh;
+  mesh.points = { Vec3(4, 0, 0), Vec3(4, 4, 0.5), Vec3(3.5, 4, 0), Vec3(0, 0.25, 2),
+    Vec3(1.5, 0.25, 2), Vec3(1.5, 0.25, 3), Vec3(2.5, 1.75, 3), Vec3(1.5, 1.25, 4),
+    Vec3(2.5, 2.25, 4) };
+  mesh.triangles = { { 0, 1, 2 }, { 3, 4, 5 }, { 6, 7, 8 }, { 3, 3, 6 } };
+  for (const bool connectivityAware : { false, true })
+  {
+    SpaceOptions options;
+    options.depth = 2;
+    options.connectivityAware = connectivityAware;
+    const GridFunctions space = BuildGridFunctions(mesh, options);
+    for (std::size_t point = 0; point < mesh.points.size(); ++point)
+    {
+      const CellIndex cell = MortonDecode(space.Finest().cell[space.pointPatch[point]]);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        EXPECT_LE(cell[axis], mesh.points[point][axis]) << point;
+        EXPECT_GE(cell[axis] + 1, mesh.points[point][axis]) << point;
+      }
+    }
+  }
+}
+
 TEST(Evaluation, OfAFunctionOnTheSideOfASquareHasTheHandMadeGradient)
 {
   // u = x y on the plane z = 0: the surface gradient is (y, x, 0), its mean that at the centroid.

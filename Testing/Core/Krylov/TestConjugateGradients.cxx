@@ -430,6 +430,27 @@ TEST(ConjugateGradients, EndAfterAsManyStepsAsAnyOperatorHasValues)
   EXPECT_LT(RelativeDifference(x, exact), 1e-12);
 }
 
+// A step along what the preconditioner blows up leaves more than the rounding that it was made of.
+TEST(ConjugateGradients, TakeNoStepThatNobodyLooksAt)
+{
+  const LinearOperator A = FourValues(1000);
+  for (const double largest : { 1e6, 1e8, 1e10 })
+  {
+    const Preconditioner uneven = [largest](const MultiVector& r, MultiVector& z)
+    {
+      z = r;
+      z.topRows(4) *= largest;
+    };
+    const MultiVector exact = RandomVectors(A.rows, 4);
+    MultiVector b;
+    A.multiply(exact, b);
+    MultiVector x = MultiVector::Zero(A.rows, 4);
+    const SolveReport report = SolveConjugateGradients(A, uneven, b, x, Tolerance(1e-9));
+    EXPECT_TRUE(report.converged) << largest;
+    EXPECT_LT(RelativeDifference(x, exact), 1e-8) << largest;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Both, Solvers, ::testing::Values(&SolveConjugateGradients, &SolveCycles),
   [](const auto& test)
   { return test.param == &SolveConjugateGradients ? "ConjugateGradients" : "Cycles"; });
