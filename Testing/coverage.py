@@ -38,6 +38,8 @@ def main():
         folders["all"] += lines.values()
     for name, ran in sorted(folders.items(), key=lambda entry: entry[0] == "all"):
         print(f"{name:12} {100 * sum(ran) / len(ran):5.1f} % of {len(ran)} lines")
+    parts = {path: 100 * sum(lines.values()) / len(lines) for path, lines in found.items() if lines}
+    print("least:", ", ".join(f"{path} {parts[path]:.0f} %" for path in sorted(parts, key=parts.get)[:5]))
     sys.exit(100 * sum(folders["all"]) / len(folders["all"]) < float(sys.argv[3]))
 
 

@@ -29,6 +29,7 @@ std::vector<Id> PlacesOfHeld(const RankSpace& space, const MultiVector& received
     {
       first = places.size();
     }
+    // cppcheck-suppress containerOutOfBounds ; first is at most their number
     const bool isThere = std::any_of(places.begin() + static_cast<std::ptrdiff_t>(first),
       places.end(), [&](Id other) { return patch[other] == patch[place]; });
     if (!isThere)

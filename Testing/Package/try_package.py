@@ -26,7 +26,8 @@ with open("/proc/self/maps", encoding="utf-8") as maps:
     cores = {line.split()[-1] for line in maps if "libgridfem_core" in line}
 with open("/proc/cpuinfo", encoding="utf-8") as file:
     flags = next(line for line in file if line.startswith("flags")).split()
-wanted = "x86-64-v4" if "avx512vl" in flags else "x86-64-v3" if "avx2" in flags else ""
+wanted = ("x86-64-v4" if "avx512vl" in flags else "x86-64-v3" if "avx2" in flags
+          else "x86-64-v2" if "sse4_2" in flags else "")
 if len(cores) != 1 or wanted not in min(cores):
     sys.exit(f"{cores} is loaded, not the one for {wanted}")
 print("The package works, with", os.path.realpath(min(cores)))

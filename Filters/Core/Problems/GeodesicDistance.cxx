@@ -201,7 +201,7 @@ std::vector<double> ShiftedToZero(const MultiVector& value, const std::vector<In
 }
 
 GeodesicDistance::GeodesicDistance(std::shared_ptr<const FiniteElementSpace> space,
-  std::shared_ptr<const TriangleMesh> mesh, DistanceOptions options, const Job& job)
+  std::shared_ptr<const TriangleMesh> mesh, const DistanceOptions& options, const Job& job)
   : space_(std::move(space)), mesh_(std::move(mesh)), options_(options)
 {
   if (!(options_.smoothing > 0.0) || std::isinf(options_.smoothing))

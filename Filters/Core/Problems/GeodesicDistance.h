@@ -67,7 +67,7 @@ public:
   /// @param mesh  what the space was made from
   /// Throws InvalidInput when the smoothing is not a positive number, and Aborted.
   GeodesicDistance(std::shared_ptr<const FiniteElementSpace> space,
-    std::shared_ptr<const TriangleMesh> mesh, DistanceOptions options, const Job& job = {});
+    std::shared_ptr<const TriangleMesh> mesh, const DistanceOptions& options, const Job& job = {});
 
   /// @param sources  points of the mesh; one that no function reaches is the source of nothing. A
   ///   triangle whose corners are all sources belongs to a source as a whole.

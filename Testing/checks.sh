@@ -1,0 +1,132 @@
+#!/usr/bin/env bash
+# What looks at the code besides compilers and tests.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/build.sh"
+
+if [ "${1:-}" = "--help" ] || [ $# -eq 0 ]; then
+  cat << 'HELP'
+Usage: Testing/checks.sh STEP...
+
+  cppcheck   all of Filters
+  tidy       clang-tidy, with the checks of .clang-tidy, over the sources of Filters that differ from
+             origin/main, or from GRIDFEM_SINCE where that names another commit
+  tidy-all   the same over all of Filters, some hours of one processor
+  threads    ThreadSanitizer, with clang, on the tests of Core and random problems, in build-threads/
+  valgrind   leaks and wrong memory on some tests of Core and random problems, in build-valgrind/
+  all        cppcheck, tidy, threads and valgrind
+
+Installs what is missing, and fails where something is found. GRIDFEM_JOBS: processes at the same time.
+Continuous integration runs none of them, because they take from minutes to hours.
+HELP
+  exit
+fi
+
+# Configures Core for a check in a folder of its own. Usage: BuildFor FOLDER TARGETS [-DOPTION=VALUE...]
+BuildFor()
+{
+  local folder="$1" targets
+  read -ra targets <<< "$2"
+  shift 2
+  mkdir -p "$folder"
+  Quietly "$folder/configure.log" cmake -S "$SOURCE" -B "$folder" -G Ninja -DGRIDFEM_BUILD_VTK=OFF \
+    -DCMAKE_BUILD_TYPE=RelWithDebInfo "$@"
+  Say "Building in $folder"
+  Quietly "$folder/build.log" cmake --build "$folder" --target "${targets[@]}" -j "$JOBS"
+}
+
+Cppcheck()
+{
+  InstallMissing cppcheck
+  # What its parser does not know, templates called by name and macros of VTK and pybind11, are no
+  # findings. Points of clipping are made without values, because there are many.
+  cppcheck -j "$JOBS" --quiet --std=c++17 --language=c++ --enable=warning,performance,portability \
+    --suppress=unknownMacro --suppress=internalAstError --suppress=syntaxError \
+    --suppress=uninitMemberVar:*/Grid/Clip.h --inline-suppr --error-exitcode=1 \
+    -I "$SOURCE/Filters/Core" -I "$SOURCE/Filters/VTK" "$SOURCE/Filters"
+}
+
+# Usage: Tidy FILE...: names the sources of Filters among the files, and looks at them.
+Tidy()
+{
+  local file sources=()
+  for file in "$@"; do
+    if [[ "$file" == Filters/*.cxx ]] && [ -f "$SOURCE/$file" ]; then
+      sources+=("$SOURCE/$file")
+    fi
+  done
+  Say "clang-tidy: ${#sources[@]} sources"
+  [ ${#sources[@]} -gt 0 ] || return 0
+  InstallMissing "${BUILD_PACKAGES[@]}" "${TEST_PACKAGES[@]}" clang-tidy
+  BuildTree all -DGRIDFEM_BUILD_PYTHON=ON # makes compile_commands.json, and headers
+  printf '%s\0' "${sources[@]}" |
+    xargs -0 -n 1 -P "$JOBS" clang-tidy -p "$BUILD" --quiet --warnings-as-errors='*'
+}
+
+TidyChanged()
+{
+  local since files
+  since="$(git -C "$SOURCE" merge-base HEAD "${GRIDFEM_SINCE:-origin/main}")"
+  mapfile -t files < <(git -C "$SOURCE" diff --name-only "$since")
+  Tidy "${files[@]}"
+}
+
+TidyAll()
+{
+  local files
+  mapfile -t files < <(git -C "$SOURCE" ls-files Filters)
+  Tidy "${files[@]}"
+}
+
+Threads()
+{
+  local folder="$SOURCE/build-threads"
+  InstallMissing "${CORE_PACKAGES[@]}" clang libomp-dev libgtest-dev
+  BuildFor "$folder" all -DCMAKE_CXX_COMPILER=clang++ \
+    -DCMAKE_CXX_FLAGS="-fsanitize=thread -O1"
+  # Without libomp's archer every barrier is a false alarm.
+  export OMP_TOOL_LIBRARIES=libarcher.so
+  export TSAN_OPTIONS=ignore_noninstrumented_modules=1
+  ctest --test-dir "$folder" --output-on-failure -j "$JOBS" -E "Rules|Fuzz.Core|Package" < /dev/null
+  "$folder/bin/FuzzCore" 1 500
+}
+
+# Usage: UnderValgrind PROGRAM [ARGUMENT...]
+UnderValgrind()
+{
+  Say "valgrind: $*"
+  OMP_NUM_THREADS=1 valgrind --quiet --error-exitcode=1 --leak-check=full --show-leak-kinds=definite \
+    --errors-for-leak-kinds=definite "$SOURCE/build-valgrind/bin/$1" "${@:2}"
+}
+
+Valgrind()
+{
+  local tests="TestGrouping TestSparseMatrix TestPatchLevel TestHatMatrices TestConjugateGradients" test
+  InstallMissing "${CORE_PACKAGES[@]}" valgrind libgtest-dev
+  # It does not know AVX-512.
+  BuildFor "$SOURCE/build-valgrind" "$tests FuzzCore" -DGRIDFEM_NATIVE=OFF
+  for test in $tests; do
+    UnderValgrind "$test" --gtest_brief=1 --gtest_filter="-*Threads*:*Large*"
+  done
+  UnderValgrind FuzzCore 1 20
+}
+
+for step in "$@"; do
+  case "$step" in
+    cppcheck) Cppcheck ;;
+    tidy) TidyChanged ;;
+    tidy-all) TidyAll ;;
+    threads) Threads ;;
+    valgrind) Valgrind ;;
+    all)
+      Cppcheck
+      TidyChanged
+      Threads
+      Valgrind
+      ;;
+    *)
+      Say "There is no step $step; see --help"
+      exit 1
+      ;;
+  esac
+  Say "$step: nothing found"
+done
