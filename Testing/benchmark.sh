@@ -60,7 +60,7 @@ CompareRanks()
   awk -F ' *[|] *' -v name="$1" '
     { seconds[$4] = $7 + $8; iterations[$4] = $6; memory[$4] = $10 }
     END {
-      if (!seconds[2]) exit
+      if (!seconds[2] || !seconds["Core"]) exit
       printf "RATIO two_ranks_seconds_over_two_threads_%s %.4g <= 1.2\n", name, seconds[2] / seconds["Core"]
       printf "RATIO eight_ranks_memory_over_one_%s %.4g <= 0.25\n", name, memory[8] / memory[1]
       printf "RATIO eight_ranks_iterations_over_one_%s %.4g <= 1.3\n", name, iterations[8] / iterations[1]
@@ -74,7 +74,7 @@ MeasureRanks()
   echo "| problem | depth | ranks | functions | iterations | set-up, s | solve, s | MB before | MB |"
   echo "|---|---|---|---|---|---|---|---|---|"
   {
-    OMP_NUM_THREADS=1 "$BUILD/bin/BenchmarkRanks" "$@" core < /dev/null
+    taskset -c 0 "$BUILD/bin/BenchmarkRanks" "$@" core < /dev/null
     "$BUILD/bin/BenchmarkRanks" "$@" core < /dev/null
     for ranks in 1 2 4 8; do
       OnRanks "$ranks" "$@"

@@ -30,7 +30,8 @@ Scans, machine parts, terrain, anatomy and broken files: {surfaces} surfaces of 
 and of up to {components:,} components, closed and open, of high genus, not manifold, not oriented, unwelded,
 with slivers, and some of slivers alone. Every filter, with all other properties as in its panel, on how many
 it converged, warned or refused. In part: distances are not a number on components without a source,
-interpolated values on those where nothing is known, and both where all triangles are without area.
+interpolated values on those where nothing is known, and both at points that only triangles without area use.
+A number alone: so many converged.
 
 {counts}
 
@@ -208,7 +209,10 @@ def results_of(path):
     process = subprocess.run(program, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
     if process.returncode > 0:
         sys.exit(process.stderr)
-    size, *results = [json.loads(line) for line in process.stdout.splitlines() if line.startswith("{")]
+    lines = [json.loads(line) for line in process.stdout.splitlines() if line.startswith("{")]
+    if not lines:
+        sys.exit(f"{path} ends the program before any filter runs: signal {-process.returncode}")
+    size, *results = lines
     if process.returncode < 0:
         results.append({"filter": "what follows these", "way": "", "word": "crashed", "seconds": 0.0,
                         "message": f"signal {-process.returncode}"})

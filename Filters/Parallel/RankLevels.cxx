@@ -92,10 +92,13 @@ LevelRelaxation RankLevels::Relaxation(std::size_t level, const MultigridOptions
   space_.Ranks().Together(
     [&]
     {
-      relaxation =
-        this->IsDivided(level) && !this->IsOfHats(level)
-          ? LevelRelaxation{ OrderPatches(parts_[this->GridLevel(level)].front()), {}, {} }
-          : this->HolderOf(level).Relaxation(this->LevelThere(level), options);
+      if (this->IsDivided(level) && !this->IsOfHats(level))
+      {
+        const std::size_t l = this->GridLevel(level);
+        relaxation.order = OrderPatches(parts_[l].front(), space_.Own().Functions().levels[l]);
+        return;
+      }
+      relaxation = this->HolderOf(level).Relaxation(this->LevelThere(level), options);
     });
   return relaxation;
 }

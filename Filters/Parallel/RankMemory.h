@@ -25,7 +25,7 @@ void RequireMemory(const Communicator& ranks, const MemoryNeed& own);
 bool FitsMemory(
   const Communicator& ranks, const TriangleMesh& own, const Grid& grid, bool hasHats = false);
 
-/// As RequireMemory, for a surface.
+/// Collective. Refuses a surface for which the memory is not enough.
 /// @param received  the triangles that this rank clips
 /// @param hasHats   hat functions come above those of the grid
 /// Throws RankFailure on all ranks.

@@ -27,6 +27,7 @@ RankSurface::RankSurface(const Communicator& ranks, const TriangleMesh& own,
   if (!functions.joinAtPoints && levels_->ComponentsOf(0, functions.threads).count <
                                    levels_->OfGrid().ComponentsOf(0, functions.threads).count)
   {
+    how.space.functions.depth = space_->Own().Functions().GetGrid().depth;
     levels_ = nullptr;
     hats_ = nullptr;
     space_ = nullptr;

@@ -155,7 +155,7 @@ public:
   ///@{
   /**
    * On several MPI ranks: when on, all ranks compute, and none gathers the surface, which may be
-   * larger than one machine. Possible at a given Depth, on a grid or on hats of welded points, with
+   * larger than one machine. Possible on a grid or on hats, of welded points, with
    * the patch smoother, from the points of a SourceArray and of a selection, or from the first one;
    * not with SourcePointIds, which count through the gathered surface, Sources, Signed,
    * NearestSource, EstimateErrors, a Smoothing of 3.5 or more, a given basis, or BlocksAsOne. Where

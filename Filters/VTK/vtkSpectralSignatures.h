@@ -161,7 +161,7 @@ public:
   ///@{
   /**
    * On several MPI ranks: when on, all ranks compute, and none gathers the surface, which may be
-   * larger than one machine. Possible at a given Depth, on a grid or on hats of welded points, with
+   * larger than one machine. Possible on a grid or on hats, of welded points, with
    * the patch smoother, or with the modes of the input; not with sources of distances, with
    * MovePoints where the coordinates are filtered, a given basis, or BlocksAsOne. Where it is not,
    * rank 0 gathers as ever, and warns. The field array `Distributed` says which. Needs a build with

@@ -199,10 +199,16 @@ TEST(RankPoisson, EndsOnAllRanksWhenOneFails)
   {
     EXPECT_EQ(failure.rank, bad);
   }
+}
 
-  own = PartOf(mesh, rankOf, ranks.Rank());
+TEST(RankPoisson, OfWhatIsNoNumberOnOneRankIsConvergedOnNone)
+{
+  const Communicator ranks(MPI_COMM_WORLD);
+  const TriangleMesh mesh = Surfaces().front().mesh;
+  const TriangleMesh own =
+    PartOf(mesh, Deal(mesh, Dealing::Contiguous, ranks.Size()), ranks.Rank());
   MultiVector f = FieldAt(own.points);
-  if (ranks.Rank() == bad)
+  if (ranks.Rank() == ranks.Size() - 1)
   {
     f(0, 0) = std::nan("");
   }

@@ -5,6 +5,7 @@ set -euo pipefail
 
 folder="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 megabytes=125
+export OMP_NUM_THREADS=1 # stacks of threads count
 
 Expect()
 {

@@ -263,7 +263,7 @@ void SolverIteration::Confirm()
   }
   if (this->IsActive())
   {
-    // What is done after all is so as it stands: nobody would look at the residual of another step.
+    // A column that is done now takes no last step: nobody would look at the residual after it.
     takesLast_ = false;
     this->Measure();
     takesLast_ = true;

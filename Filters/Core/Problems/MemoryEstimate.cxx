@@ -44,6 +44,21 @@ constexpr double HeldPerFunction = 80.0;
 constexpr double HatsPerPoint = 680.0;
 constexpr double HatsPerFunction = 10.0;
 
+/// Of what a container's use counts, those that the system gives back when memory is asked for.
+double BytesOfFiles()
+{
+  std::ifstream statistics("/sys/fs/cgroup/memory.stat");
+  double bytes = 0.0;
+  for (std::string name; statistics >> name >> bytes;)
+  {
+    if (name == "inactive_file")
+    {
+      return bytes;
+    }
+  }
+  return 0.0;
+}
+
 } // namespace
 
 /// A mesh whose triangles share no points is welded: two triangles to a point, whatever it has.
@@ -140,13 +155,14 @@ double MemoryOfMachine()
     }
     info.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
   }
-  // A container may allow less than the machine has.
+  // A container may allow less than the machine has. Files that it has read are no obstacle.
   double limit = 0.0;
   double used = 0.0;
   if (std::ifstream("/sys/fs/cgroup/memory.max") >> limit &&
-      std::ifstream("/sys/fs/cgroup/memory.current") >> used && limit - used < available)
+      std::ifstream("/sys/fs/cgroup/memory.current") >> used)
   {
-    available = limit - used;
+    used -= BytesOfFiles();
+    available = std::min(available, std::max(limit - used, 0.0));
   }
   return available;
 }

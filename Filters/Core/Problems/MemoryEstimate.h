@@ -49,8 +49,8 @@ int DepthForPoints(const TriangleMesh& mesh, int most, double functionsPerPoint)
 /// @param functions  of the grid below, which the transfer has a row for each of
 double EstimateHatMemory(const TriangleMesh& mesh, double functions);
 
-/// Bytes that all processes of this machine together can allocate now, or what its container
-/// leaves; infinity when unknown.
+/// Bytes that all processes of this machine together can allocate now; in a container at most what
+/// its limit leaves. Infinity when unknown.
 double MemoryOfMachine();
 
 /// Bytes that the limit of this process (`ulimit -v`) leaves; infinity without one.

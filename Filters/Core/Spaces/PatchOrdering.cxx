@@ -102,14 +102,19 @@ void PlaceFunctions(const PatchLevel& level, PatchOrder& order)
 
 PatchOrder OrderPatches(const PatchLevel& level)
 {
-  CheckLevel(level);
-  std::vector<BlockRange> blocks = FindBlocks(level.cell);
+  return OrderPatches(level, level);
+}
+
+PatchOrder OrderPatches(const PatchLevel& some, const PatchLevel& level)
+{
+  CheckLevel(some);
+  std::vector<BlockRange> blocks = FindBlocks(some.cell);
   std::stable_sort(blocks.begin(), blocks.end(),
     [](const BlockRange& a, const BlockRange& b) { return a.colour < b.colour; });
 
   PatchOrder order;
   order.dof.size = FunctionsPerPatch;
-  order.dof.unknown.reserve(FunctionsPerPatch * level.dof.size());
+  order.dof.unknown.reserve(FunctionsPerPatch * some.dof.size());
   order.blockBegin.push_back(0);
   order.colourBegin.push_back(0);
   for (Id k = 0; k < static_cast<Id>(blocks.size()); ++k)
@@ -118,9 +123,9 @@ PatchOrder OrderPatches(const PatchLevel& level)
     {
       order.colourBegin.push_back(k);
     }
-    for (const Id patch : VisitingOrder(level, blocks[k].begin, blocks[k].end))
+    for (const Id patch : VisitingOrder(some, blocks[k].begin, blocks[k].end))
     {
-      order.dof.Add(level.dof[patch]);
+      order.dof.Add(some.dof[patch]);
     }
     order.blockBegin.push_back(order.dof.Count());
   }

@@ -14,6 +14,9 @@ namespace gridfem
 /// by cell.
 PatchOrder OrderPatches(const PatchLevel& level);
 
+/// The same for some patches of a level, the rows of whose functions have entries of the others.
+PatchOrder OrderPatches(const PatchLevel& some, const PatchLevel& level);
+
 } // namespace gridfem
 
 #endif

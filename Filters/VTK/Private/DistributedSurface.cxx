@@ -20,7 +20,9 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace gridfem
 {
@@ -150,8 +152,10 @@ int DistributedSurface::Depth() const
 
 double DistributedSurface::Largest(double own) const
 {
-  ranks_->ranks.Maximum(&own, 1);
-  return own;
+  constexpr double Unknown = std::numeric_limits<double>::infinity();
+  double largest = std::isnan(own) ? Unknown : own; // MPI does not say what it makes of NaN
+  ranks_->ranks.Maximum(&largest, 1);
+  return largest == Unknown ? std::nan("") : largest;
 }
 
 int DistributedSurface::ThreadsOfRank(int wanted) const

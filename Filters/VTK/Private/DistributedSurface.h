@@ -58,7 +58,7 @@ public:
   InputMesh ReadPieces(vtkPolyData* piece, int threads);
 
   /// Reads the pieces and clips them.
-  /// @param options  a depth is chosen, threads are those of a rank
+  /// @param options  threads are those of a rank
   /// @param mesh     gets the piece without the copies
   void BuildSpace(vtkPolyData* piece, const SurfaceOptions& options, InputMesh& mesh);
 
@@ -83,7 +83,7 @@ public:
   /// Numbers become those of the first rank that has any.
   void Agree(std::vector<double>& numbers) const;
 
-  /// The largest number of all ranks.
+  /// The largest number of all ranks; NaN where one is unknown, NaN or infinite.
   double Largest(double own) const;
 
   /// For sums over ranks; without rows.

@@ -15,7 +15,9 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 
+#include <algorithm>
 #include <limits>
+#include <sstream>
 
 namespace gridfem
 {
@@ -310,25 +312,56 @@ void TakePart(DataMessage& message, vtkPolyData* own, vtkDataObject* output)
 void ShareFieldArrays(vtkDataObject* input, vtkDataObject* output)
 {
   const Ranks ranks;
-  vtkFieldData* const own = input ? input->GetFieldData() : nullptr;
-  std::string names;
-  if (own)
+  const vtkNew<vtkFieldData> none;
+  vtkFieldData* const given = input ? input->GetFieldData() : none.Get();
+  vtkFieldData* const results = output->GetFieldData();
+  std::string own; // names of those of the input that the filter has kept, one per line
+  ranks.Together(
+    [&]
+    {
+      ForEachArray(given,
+        [&](vtkAbstractArray* array)
+        {
+          if (results->HasArray(array->GetName()) && !IsClipFieldArray(array->GetName()))
+          {
+            own += array->GetName() + std::string("\n");
+          }
+        });
+    });
+  const std::vector<std::string> names = ranks.Exchange(own);
+  const auto isLacking = [&](const std::string& name)
   {
-    ForEachArray(
-      own, [&](vtkAbstractArray* array) { names += array->GetName() + std::string("\n"); });
-  }
-  if (!ranks.Any(ranks.Exchange(names).front() != names))
+    return std::any_of(names.begin(), names.end(),
+      [&](const std::string& ofRank)
+      { return ("\n" + ofRank).find("\n" + name + "\n") == std::string::npos; });
+  };
+  DataMessage message;
+  bool isAnyLacking = false;
+  ranks.Together(
+    [&]
+    {
+      const vtkNew<vtkFieldData> wanted;
+      std::istringstream lines(own);
+      for (std::string name; std::getline(lines, name);)
+      {
+        if (isLacking(name))
+        {
+          wanted->AddArray(given->GetAbstractArray(name.c_str()));
+        }
+      }
+      isAnyLacking = wanted->GetNumberOfArrays() > 0;
+      message.PutArrays(wanted, -1);
+    });
+  if (!ranks.Any(isAnyLacking))
   {
     return;
   }
-  DataMessage message;
-  const vtkNew<vtkFieldData> all;
-  ranks.Together([&] { message.PutArrays(own ? own : all.Get(), -1); });
   std::vector<Bytes> messages = ranks.Gather(message.Release());
   std::vector<Bytes> copies;
   ranks.OnFirst(
     [&]
     {
+      const vtkNew<vtkFieldData> all;
       for (Bytes& bytes : messages)
       {
         const vtkNew<vtkFieldData> ofRank;
@@ -345,7 +378,9 @@ void ShareFieldArrays(vtkDataObject* input, vtkDataObject* output)
     {
       const vtkNew<vtkFieldData> ofAll;
       DataMessage(std::move(merged)).TakeArrays(ofAll);
-      AddMissing(ofAll, output->GetFieldData());
+      ForEachArray(given, // what the filter has taken away stays away
+        [&](vtkAbstractArray* array) { ofAll->RemoveArray(array->GetName()); });
+      AddMissing(ofAll, results);
     });
 }
 

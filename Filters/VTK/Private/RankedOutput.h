@@ -28,8 +28,9 @@ enum class GivenFieldArrays
 void PutPart(vtkDataObject* output, const GatheredSurface& input, int rank, DataMessage& message,
   GivenFieldArrays given = GivenFieldArrays::Shared);
 
-/// Collective. Field arrays that another rank's input has and this rank's output lacks, of the
-/// lowest such rank, are added to the output.
+/// Collective. Field arrays of another rank's input that its filter has kept are added to the
+/// outputs of ranks whose inputs lack them, those of the lowest rank that has them. Not the tables
+/// of a clip.
 /// @param input  may be null
 void ShareFieldArrays(vtkDataObject* input, vtkDataObject* output);
 

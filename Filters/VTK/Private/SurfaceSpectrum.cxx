@@ -105,8 +105,10 @@ void SurfaceSpectrum::UpdateTogether(
       options.completeMultiplets = request.completeMultiplets;
       spectrum = {}; // frees its memory first
       atPoints.resize(0, 0);
-      state.together.Require(
-        NeedOfModes(NumberOfUnknowns(space), options.numberOfModes, options.multigrid.threads));
+      MemoryNeed need =
+        NeedOfModes(NumberOfUnknowns(space), options.numberOfModes, options.multigrid.threads);
+      need.subject = "NumberOfModes " + std::to_string(options.numberOfModes); // functions differ
+      state.together.Require(need);
       spectrum = ComputeSpectrum(space, options, progress);
       eigenvalues = InWorldUnits(spectrum.eigenvalues, space.UnitLength());
       atPoints = EvaluateModes(state, spectrum, 0, this->NumberOfModes());

@@ -4,6 +4,7 @@
 #include "Multigrid/StencilBlocks.h"
 #include "Problems/Poisson.h"
 #include "SampledHierarchy.h"
+#include "Spaces/PatchOrdering.h"
 
 #include <gtest/gtest.h>
 
@@ -187,6 +188,33 @@ TEST(StencilSmoother, CyclesFromAnyStartReachDoublePrecision)
   MultiVector r;
   Residual(multigrid.Matrix(), x, b, r);
   EXPECT_LT(r.norm(), 1e-10 * b.norm());
+}
+
+/// As on a rank, which relaxes the others with its neighbours.
+TEST(StencilSmoother, RelaxesSomeOfThePatches)
+{
+  for (const TriangleMesh& mesh : Meshes())
+  {
+    SpaceOptions options;
+    options.depth = 5;
+    const GridFunctions functions = BuildGridFunctions(mesh, options);
+    const PatchLevel& all = functions.Finest();
+    PatchLevel some;
+    some.depth = all.depth;
+    some.numberOfFunctions = all.numberOfFunctions;
+    const auto half = static_cast<std::ptrdiff_t>(all.cell.size() / 2);
+    some.cell.assign(all.cell.begin(), all.cell.begin() + half);
+    some.dof.assign(all.dof.begin(), all.dof.begin() + half);
+    MultigridLevel level;
+    level.A = LevelMatrix(functions, BuildLevelOperators(functions, TriangleRule(2)), 0, 1e-3, 1.0);
+    level.order = OrderPatches(some, all);
+    const auto inSingle = MakeStencilSmoother(level.A, level.order);
+    ASSERT_TRUE(inSingle);
+    const auto inDouble = MakePatchSmoother(level.A, level.order, 1, FactorPrecision::Double);
+    const MultiVector exact = RandomVectors(level.A.rows, 1, 4);
+    const double single = EnergyAfter(level, *inSingle, exact, SweepDirection::Forward);
+    EXPECT_LE(single, 1.001 * EnergyAfter(level, *inDouble, exact, SweepDirection::Forward));
+  }
 }
 
 TEST(StencilSmoother, RefilledIsAsNew)
