@@ -106,6 +106,14 @@ class Client(unittest.TestCase):
                 nearest = numpy.abs(places - point).max(axis=1).argmin()
                 self.assertLess(abs(value - expected[nearest]), 1e-10)  # the solver's tolerance
 
+    def refuse_and_compute(self, solver):
+        solver.ValueArray = ["POINTS", "nothing"]
+        solver.UpdatePipeline()
+        self.assertEqual(solver.GetDataInformation().GetNumberOfPoints(), 0)
+        solver.ValueArray = ["POINTS", "f"]
+        solver.UpdatePipeline()
+        self.assertEqual(solver.GetDataInformation().GetNumberOfPoints(), self.points)
+
     def test_all_ranks_compute(self):
         places, expected = self.solution_of_one_rank()
         solver = simple.ScreenedPoisson(Input=self.surface, ValueArray=["POINTS", "f"], Depth=DEPTH,
@@ -126,12 +134,7 @@ class Client(unittest.TestCase):
             modes[together] = numpy_support.vtk_to_numpy(fields.GetArray("Eigenvalues"))
             self.assertEqual(servermanager.Fetch(proxy, idx=1).GetNumberOfRows(), len(modes[together]))
         numpy.testing.assert_allclose(modes[1], modes[0], rtol=1e-8, atol=1e-8)
-        solver.ValueArray = ["POINTS", "nothing"]
-        solver.UpdatePipeline()
-        self.assertEqual(solver.GetDataInformation().GetNumberOfPoints(), 0)
-        solver.ValueArray = ["POINTS", "f"]
-        solver.UpdatePipeline()
-        self.assertEqual(solver.GetDataInformation().GetNumberOfPoints(), self.points)
+        self.refuse_and_compute(solver)
 
     def test_modes_play(self):
         modes = simple.LaplaceSpectrum(Input=self.surface, Depth=DEPTH, NumberOfModes=6)
@@ -157,12 +160,7 @@ class Client(unittest.TestCase):
     def test_a_refusal_leaves_the_server_alive(self):
         solver = simple.ScreenedPoisson(Input=self.surface, ValueArray=["POINTS", "f"], Depth=DEPTH,
                                         QuadratureDegree=2)
-        solver.ValueArray = ["POINTS", "nothing"]
-        solver.UpdatePipeline()
-        self.assertEqual(solver.GetDataInformation().GetNumberOfPoints(), 0)
-        solver.ValueArray = ["POINTS", "f"]
-        solver.UpdatePipeline()
-        self.assertEqual(solver.GetDataInformation().GetNumberOfPoints(), self.points)
+        self.refuse_and_compute(solver)
 
 
 if __name__ == "__main__":
