@@ -132,6 +132,22 @@ void WhenShown(const vtkWeakPointer<vtkSMSourceProxy>& filter, int port,
     });
 }
 
+/// The same from the first data of the filter on, where ParaView has a window.
+void WhenFirstShown(
+  vtkSMProxy* proxy, int port, std::function<void(vtkSMProxy* shown, vtkSMSourceProxy* filter)> act)
+{
+  const vtkWeakPointer<vtkSMSourceProxy> filter = vtkSMSourceProxy::SafeDownCast(proxy);
+  Watch(proxy, vtkCommand::UpdateDataEvent,
+    [filter, port, act = std::move(act)](void*)
+    {
+      if (HasWindow())
+      {
+        WhenShown(filter, port, [filter, act](vtkSMProxy* shown) { act(shown, filter); });
+      }
+      return true;
+    });
+}
+
 class vtkSMOpensBeside : public vtkSMProxyInitializationHelper
 {
 public:
@@ -144,16 +160,7 @@ public:
   {
     int port = 1;
     xml->GetScalarAttribute("port", &port);
-    const vtkWeakPointer<vtkSMSourceProxy> filter = vtkSMSourceProxy::SafeDownCast(proxy);
-    Watch(proxy, vtkCommand::UpdateDataEvent,
-      [filter, port](void*)
-      {
-        if (HasWindow())
-        {
-          WhenShown(filter, port, [filter](vtkSMProxy* chart) { ReturnFrom(chart, filter); });
-        }
-        return true;
-      });
+    WhenFirstShown(proxy, port, ReturnFrom);
   }
 
 private:
@@ -350,17 +357,8 @@ public:
   {
     int most = 0;
     xml->GetScalarAttribute("most", &most);
-    const vtkWeakPointer<vtkSMSourceProxy> filter = vtkSMSourceProxy::SafeDownCast(proxy);
-    Watch(proxy, vtkCommand::UpdateDataEvent,
-      [filter, most](void*)
-      {
-        if (HasWindow())
-        {
-          WhenShown(
-            filter, 0, [filter, most](vtkSMProxy* shown) { ShowEdges(shown, filter, most); });
-        }
-        return true;
-      });
+    WhenFirstShown(proxy, 0,
+      [most](vtkSMProxy* shown, vtkSMSourceProxy* filter) { ShowEdges(shown, filter, most); });
   }
 
 private:

@@ -42,20 +42,13 @@ double SumOfFunctions(const Communicator& ranks, const TriangleMesh& own, const 
   return FunctionsOfPatches(patches);
 }
 
-/// Collective. As SuggestedDepth, and coarser until it fits into memory.
+/// Collective. That of one rank, and coarser until it fits into memory.
 int SuggestDepth(const Communicator& ranks, const TriangleMesh& own, const Grid& grid, bool hasHats)
 {
-  const double points = SumOfPoints(ranks, own);
-  int depth = CoarsestSuggestion;
-  while (depth < MaximumDepth && SumOfFunctions(ranks, own, WithDepth(grid, depth + 1)) <= points)
-  {
-    ++depth;
-  }
-  while (depth > MinimumDepth && !FitsMemory(ranks, own, WithDepth(grid, depth), hasHats))
-  {
-    --depth;
-  }
-  return depth;
+  const int suggested = SuggestedDepth(SumOfPoints(ranks, own),
+    [&](int depth) { return SumOfFunctions(ranks, own, WithDepth(grid, depth)); });
+  return FinestDepth(suggested, MinimumDepth,
+    [&](int depth) { return FitsMemory(ranks, own, WithDepth(grid, depth), hasHats); });
 }
 
 /// Collective. As DepthForPoints.
@@ -63,12 +56,8 @@ int LimitDepth(
   const Communicator& ranks, const TriangleMesh& own, double functionsPerPoint, const Grid& grid)
 {
   const double functions = functionsPerPoint * SumOfPoints(ranks, own);
-  int depth = grid.depth;
-  while (depth > MinimumDepth && SumOfFunctions(ranks, own, WithDepth(grid, depth)) > functions)
-  {
-    --depth;
-  }
-  return depth;
+  return FinestDepth(grid.depth, MinimumDepth,
+    [&](int depth) { return SumOfFunctions(ranks, own, WithDepth(grid, depth)) <= functions; });
 }
 
 /// Collective.

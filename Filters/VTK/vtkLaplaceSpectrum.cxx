@@ -240,8 +240,7 @@ void vtkLaplaceSpectrum::Compute(vtkInformationVector** inputs, vtkInformationVe
   this->Data->Update(*this->State, input, vtkPolyData::GetData(inputs[1]), request);
   this->Data->SolvedModes = this->NumberOfModes;
   this->Data->SolvedWhole = this->CompleteMultiplets;
-  vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
-  this->WriteModes(input, outputs->GetInformationObject(0), output);
+  this->WriteModes(input, outputs->GetInformationObject(0), vtkPolyData::GetData(outputs, 0));
   this->WriteTable(vtkTable::GetData(outputs, 1));
   this->Warn();
   this->State->bridge.GetProgress().Check(1.0);

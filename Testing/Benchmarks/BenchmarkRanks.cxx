@@ -9,6 +9,7 @@
 // every rank makes its own N x N / 4 quadrilaterals' share, so that none ever holds the whole.
 #include "Base/Parallel.h"
 #include "Parallel/RankSurface.h"
+#include "Peers/AlgebraicMultigrid.h"
 #include "Peers/DistributedAmg.h"
 #include "Problems/Poisson.h"
 #include "Problems/Spectrum.h"
@@ -170,6 +171,24 @@ SpectrumOptions ModesOptions(int threads)
   return options;
 }
 
+RankSpaceOptions SurfaceOptions(int depth, int threads)
+{
+  RankSpaceOptions options;
+  options.space.functions.depth = depth;
+  options.space.functions.threads = threads;
+  return options;
+}
+
+PoissonOptions EquationOn(const SurfaceSpace& space, int threads)
+{
+  PoissonOptions options;
+  const double cell = 1.0 / space.Extent();
+  options.screeningWeight = Weight * cell * cell;
+  options.solve.tolerance = Tolerance;
+  options.multigrid.threads = threads;
+  return options;
+}
+
 struct Problem
 {
   bool isSpectrum;
@@ -189,11 +208,7 @@ void Solve(const SurfaceSpace& space, const MultiVector& load, const Problem& pr
   }
   else
   {
-    PoissonOptions poisson;
-    const double cell = 1.0 / space.Extent();
-    poisson.screeningWeight = Weight * cell * cell;
-    poisson.solve.tolerance = Tolerance;
-    poisson.multigrid.threads = threads;
+    const PoissonOptions poisson = EquationOn(space, threads);
     const Multigrid multigrid =
       BuildMultigrid(space, poisson.screeningWeight, 1.0, poisson.multigrid);
     const PoissonSolution solution = SolvePoisson(space, multigrid, load, MultiVector(), poisson);
@@ -210,14 +225,12 @@ Measured OnRanks(
   const TriangleMesh own = OwnPart(ranks, name);
   Measured measured{ PeakMegabytes(), 0.0, 0.0, 0, 0, false };
   const Stopwatch setUp;
-  RankSpaceOptions options;
-  options.space.functions.depth = depth;
-  options.space.functions.threads = std::max(1, NumberOfThreads(0) / ranks.RanksOfMachine());
-  const RankSurface surface(ranks, own, options, problem.hasHats);
+  const int threads = std::max(1, NumberOfThreads(0) / ranks.RanksOfMachine());
+  const RankSurface surface(ranks, own, SurfaceOptions(depth, threads), problem.hasHats);
   const RankLevels& levels = surface.Levels();
   const MultiVector load = levels.LoadOfValues({ FieldAssociation::Points, WaveAt(own.points) });
   measured.setUp = setUp.Seconds();
-  Solve(levels, load, problem, options.space.functions.threads, measured);
+  Solve(levels, load, problem, threads, measured);
   return measured;
 }
 
@@ -265,18 +278,11 @@ void PrintPeer(const Communicator& ranks, const char* peer, double setUp, double
 void PrintPeers(const Communicator& ranks, const std::string& name, int depth)
 {
   const TriangleMesh own = OwnPart(ranks, name);
-  const benchmarks::PetscOnRanks petsc;
+  const benchmarks::MessagePassing petsc;
   const Stopwatch begin;
-  RankSpaceOptions options;
-  options.space.functions.depth = depth;
-  options.space.functions.threads = 1;
-  const RankSurface surface(ranks, own, options, true);
+  const RankSurface surface(ranks, own, SurfaceOptions(depth, 1), true);
   const RankLevels& levels = surface.Levels();
-  PoissonOptions poisson;
-  const double cell = 1.0 / levels.Extent();
-  poisson.screeningWeight = Weight * cell * cell;
-  poisson.solve.tolerance = Tolerance;
-  poisson.multigrid.threads = 1;
+  const PoissonOptions poisson = EquationOn(levels, 1);
   const Multigrid multigrid =
     BuildMultigrid(levels, poisson.screeningWeight, 1.0, poisson.multigrid);
   const double setUp = begin.Seconds();
@@ -313,16 +319,12 @@ void PrintPeers(const Communicator& ranks, const std::string& name, int depth)
 /// One cycle of one column in double precision; the most that a rank sends.
 void PrintMessages(const Communicator& ranks, const std::string& name, int depth, CycleType cycle)
 {
-  RankSpaceOptions options;
-  options.space.functions.depth = depth;
-  options.space.functions.threads = 1;
-  const RankSpace space(ranks, OwnPart(ranks, name), options);
+  const RankSpace space(ranks, OwnPart(ranks, name), SurfaceOptions(depth, 1));
   const RankLevels levels(space);
-  MultigridOptions multigridOptions;
-  multigridOptions.cycle = cycle;
-  multigridOptions.threads = 1;
-  const double cell = 1.0 / space.Own().Extent();
-  const Multigrid multigrid = BuildMultigrid(levels, Weight * cell * cell, 1.0, multigridOptions);
+  PoissonOptions poisson = EquationOn(levels, 1);
+  poisson.multigrid.cycle = cycle;
+  const Multigrid multigrid =
+    BuildMultigrid(levels, poisson.screeningWeight, 1.0, poisson.multigrid);
   const MultiVector b = MultiVector::Ones(multigrid.Matrix().rows, 1);
   MultiVector x;
   traffic = {};

@@ -3,9 +3,11 @@
 Every rank runs the whole script. A check is collective: it fails on all ranks when it fails on one,
 so that no rank goes on alone and waits for the others.
 """
+import contextlib
 import os
 import pathlib
 import re
+import resource
 import sys
 import unittest
 
@@ -25,6 +27,20 @@ RANKS = CONTROLLER.GetNumberOfProcesses()
 RANK = CONTROLLER.GetLocalProcessId()
 
 POINTS = vtkDataObject.FIELD_ASSOCIATION_POINTS
+
+
+@contextlib.contextmanager
+def growing_by(room):
+    """Within it this process can grow by so many bytes of addresses only; None: as it likes."""
+    free = (resource.RLIM_INFINITY, resource.RLIM_INFINITY)
+    if room is not None:
+        with open("/proc/self/statm", encoding="ascii") as statm:
+            used = int(statm.read().split()[0]) * resource.getpagesize()
+        resource.setrlimit(resource.RLIMIT_AS, (used + room, resource.RLIM_INFINITY))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_AS, free)
 
 
 def proxies():

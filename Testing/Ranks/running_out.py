@@ -4,18 +4,11 @@ of them, with a larger surface:
     mpiexec -n 2 pvbatch --symmetric running_out.py MEGABYTES [each]
 
 prints what came of it: "computed", or the message. Whatever it is, all ranks agree and go on."""
-import resource
 import sys
 
 import ranks
 
 MEGABYTE = 1 << 20
-
-
-def address_space():
-    """Bytes of addresses that the process has, which is what the limit counts."""
-    with open("/proc/self/statm", encoding="ascii") as statm:
-        return int(statm.read().split()[0]) * resource.getpagesize()
 
 
 def run(depth, mesh, room=None, limited=lambda rank: rank == ranks.RANKS - 1):
@@ -28,10 +21,8 @@ def run(depth, mesh, room=None, limited=lambda rank: rank == ranks.RANKS - 1):
         messages.append(text)
     listen.CallDataType = "string0"
     filter_.AddObserver("ErrorEvent", listen)
-    if room is not None and limited(ranks.RANK):
-        resource.setrlimit(resource.RLIMIT_AS, (address_space() + room, resource.RLIM_INFINITY))
-    output = ranks.run(filter_, piece)[0]
-    resource.setrlimit(resource.RLIMIT_AS, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
+    with ranks.growing_by(room if limited(ranks.RANK) else None):
+        output = ranks.run(filter_, piece)[0]
     is_computed = bool(output.GetFieldData().HasArray("Converged"))
     if is_computed != (output.GetNumberOfPoints() > 0):
         messages.append("the output is neither empty nor computed")

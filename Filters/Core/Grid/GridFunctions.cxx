@@ -84,24 +84,6 @@ void Improve(std::atomic<Index>& choice, Index patch, const PatchChoice& patches
   }
 }
 
-/// Nearly always told by the first triangle.
-bool HasArea(const ClippedMesh& clipped, Id piece)
-{
-  constexpr double Least = 4.0 * SmallestPatchArea * SmallestPatchArea;
-  const Id begin = clipped.pieceBegin[piece];
-  const Vec3& apex = clipped.position[clipped.corners[begin]];
-  for (Id k = begin + 1; k + 1 < clipped.pieceBegin[piece + 1]; ++k)
-  {
-    const Vec3 twiceArea = (clipped.position[clipped.corners[k]] - apex)
-                             .cross(clipped.position[clipped.corners[k + 1]] - apex);
-    if (twiceArea.squaredNorm() >= Least)
-    {
-      return true;
-    }
-  }
-  return PieceArea(clipped, piece) >= SmallestPatchArea;
-}
-
 /// Gives the points of a piece to its patch, where that is better and no other is final.
 void ImprovePoints(const ClippedMesh& clipped, Id piece, Index patch, const PatchChoice& patches,
   const std::vector<char>& isFinal, std::vector<std::atomic<Index>>& choice)
@@ -143,7 +125,7 @@ Array<Index> FindPointPatches(const ClippedMesh& clipped, const Array<Index>& pi
       {
         for (Id piece = begin; piece < end; ++piece)
         {
-          if (!needsArea || HasArea(clipped, piece))
+          if (!needsArea || PieceArea(clipped, piece) >= SmallestPatchArea)
           {
             ImprovePoints(clipped, piece, piecePatch[piece], patches, isFinal, choice);
           }

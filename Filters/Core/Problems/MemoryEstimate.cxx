@@ -114,25 +114,27 @@ MemoryEstimate EstimateMemory(const TriangleMesh& mesh, const Grid& grid)
   return estimate;
 }
 
-int SuggestedDepth(const TriangleMesh& mesh)
+int SuggestedDepth(double points, const std::function<double(int depth)>& functions)
 {
   int depth = CoarsestSuggestion;
-  while (depth < MaximumDepth && EstimateMemory(mesh, depth + 1).functions <= WeldedPoints(mesh))
+  while (depth < MaximumDepth && functions(depth + 1) <= points)
   {
     ++depth;
   }
   return depth;
 }
 
+int SuggestedDepth(const TriangleMesh& mesh)
+{
+  return SuggestedDepth(
+    WeldedPoints(mesh), [&](int depth) { return EstimateMemory(mesh, depth).functions; });
+}
+
 int DepthForPoints(const TriangleMesh& mesh, int most, double functionsPerPoint)
 {
   const double functions = functionsPerPoint * WeldedPoints(mesh);
-  int depth = most;
-  while (depth > MinimumDepth && EstimateMemory(mesh, depth).functions > functions)
-  {
-    --depth;
-  }
-  return depth;
+  return FinestDepth(most, MinimumDepth,
+    [&](int depth) { return EstimateMemory(mesh, depth).functions <= functions; });
 }
 
 double EstimateHatMemory(const TriangleMesh& mesh, double functions)

@@ -5,6 +5,8 @@
 #include "Grid/Grid.h"
 #include "Grid/TriangleMesh.h"
 
+#include <functional>
+
 namespace gridfem
 {
 
@@ -31,6 +33,18 @@ double FunctionsOfPatches(double patches);
 /// How many points a mesh is taken to have once coincident ones are welded.
 double WeldedPoints(const TriangleMesh& mesh);
 
+/// The finest depth from `most` down at which a condition holds, or `least`.
+template<class Condition>
+int FinestDepth(int most, int least, Condition&& holds)
+{
+  int depth = most;
+  while (depth > least && !holds(depth))
+  {
+    --depth;
+  }
+  return depth;
+}
+
 /// Costs next to nothing and serves the faces of coarse meshes.
 inline constexpr int CoarsestSuggestion = 6;
 
@@ -38,6 +52,9 @@ inline constexpr int CoarsestSuggestion = 6;
 /// points, coincident ones counted once: what the mesh can tell, at the cost of the mesh. At least
 /// CoarsestSuggestion.
 int SuggestedDepth(const TriangleMesh& mesh);
+
+/// The same where the functions at a depth and the points are known otherwise.
+int SuggestedDepth(double points, const std::function<double(int depth)>& functions);
 
 /// The finest depth, from `most` down, at which the grid is expected to have no more functions than
 /// this for each point of the surface, coincident ones counted once; or the least depth.

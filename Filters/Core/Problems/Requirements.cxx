@@ -48,12 +48,7 @@ bool FitsMemory(const TriangleMesh& mesh, int depth, bool hatFunctions)
 
 int FittingDepth(const TriangleMesh& mesh, int most, int least, bool hatFunctions)
 {
-  int depth = most;
-  while (depth > least && !FitsMemory(mesh, depth, hatFunctions))
-  {
-    --depth;
-  }
-  return depth;
+  return FinestDepth(most, least, [&](int depth) { return FitsMemory(mesh, depth, hatFunctions); });
 }
 
 int ChooseDepth(const TriangleMesh& mesh, int wanted, bool hatFunctions, double perPoint)

@@ -193,13 +193,7 @@ void TakeFieldArrays(DataMessage& message, vtkFieldData* fields)
 {
   vtkNew<vtkFieldData> given;
   message.TakeArrays(given);
-  for (int k = 0; k < given->GetNumberOfArrays(); ++k)
-  {
-    if (!fields->HasArray(given->GetArrayName(k)))
-    {
-      fields->AddArray(given->GetAbstractArray(k));
-    }
-  }
+  AddMissing(given, fields);
   message.TakeArrays(fields);
 }
 

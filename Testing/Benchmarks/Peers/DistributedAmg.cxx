@@ -104,17 +104,6 @@ private:
 
 } // namespace
 
-PetscOnRanks::PetscOnRanks()
-{
-  PetscInitializeNoArguments();
-  PetscPopSignalHandler();
-}
-
-PetscOnRanks::~PetscOnRanks()
-{
-  PetscFinalize();
-}
-
 std::unique_ptr<DistributedAmg> MakeDistributedAmg(
   MPI_Comm ranks, const MatrixPart& part, DistributedCycle cycle)
 {

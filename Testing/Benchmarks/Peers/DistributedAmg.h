@@ -12,17 +12,6 @@
 namespace gridfem::benchmarks
 {
 
-/// PETSc is up while this lives, on the ranks of MPI, which is up before and after. Once per
-/// process.
-class PetscOnRanks
-{
-public:
-  PetscOnRanks();
-  ~PetscOnRanks();
-  PetscOnRanks(const PetscOnRanks&) = delete;
-  PetscOnRanks& operator=(const PetscOnRanks&) = delete;
-};
-
 /// What a rank adds to a matrix of all ranks, and which of its rows are its own.
 struct MatrixPart
 {
@@ -37,7 +26,7 @@ enum class DistributedCycle
   BoomerAmg
 };
 
-/// All functions are collective.
+/// All functions are collective. MessagePassing must be alive; MPI may be up before and after it.
 class DistributedAmg
 {
 public:
