@@ -2,13 +2,8 @@
 
 #include "Base/Parallel.h"
 #include "Parallel/OwnPieces.h"
-#include "Parallel/RankMemory.h"
-#include "Problems/MemoryEstimate.h"
-#include "Problems/Requirements.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace gridfem
@@ -16,98 +11,6 @@ namespace gridfem
 
 namespace
 {
-
-Grid WithDepth(Grid grid, int depth)
-{
-  grid.spacing = std::ldexp(grid.spacing, grid.depth - depth);
-  grid.depth = depth;
-  return grid;
-}
-
-/// Collective. Points of borders count once, as far as triangles tell.
-double SumOfPoints(const Communicator& ranks, const TriangleMesh& own)
-{
-  double points = WeldedPoints(own);
-  ranks.Sum(&points, 1);
-  return points;
-}
-
-/// Collective. What the surface of all ranks is expected to have in a grid.
-double SumOfFunctions(const Communicator& ranks, const TriangleMesh& own, const Grid& grid)
-{
-  double patches = 0.0;
-  ranks.Together(
-    [&] { patches = own.triangles.empty() ? 0.0 : EstimateMemory(own, grid).patches; });
-  ranks.Sum(&patches, 1);
-  return FunctionsOfPatches(patches);
-}
-
-/// Collective. That of one rank, and coarser until it fits into memory.
-int SuggestDepth(const Communicator& ranks, const TriangleMesh& own, const Grid& grid, bool hasHats)
-{
-  const int suggested = SuggestedDepth(SumOfPoints(ranks, own),
-    [&](int depth) { return SumOfFunctions(ranks, own, WithDepth(grid, depth)); });
-  return FinestDepth(suggested, MinimumDepth,
-    [&](int depth) { return FitsMemory(ranks, own, WithDepth(grid, depth), hasHats); });
-}
-
-/// Collective. As DepthForPoints.
-int LimitDepth(
-  const Communicator& ranks, const TriangleMesh& own, double functionsPerPoint, const Grid& grid)
-{
-  const double functions = functionsPerPoint * SumOfPoints(ranks, own);
-  return FinestDepth(grid.depth, MinimumDepth,
-    [&](int depth) { return SumOfFunctions(ranks, own, WithDepth(grid, depth)) <= functions; });
-}
-
-/// Collective.
-ClipFrame FrameOf(
-  const Communicator& ranks, const TriangleMesh& own, const RankSpaceOptions& rankOptions)
-{
-  const SpaceOptions& options = rankOptions.space.functions;
-  const bool isAutomatic = options.depth == AutomaticDepth;
-  const int depth = isAutomatic ? CoarsestSuggestion : options.depth;
-  constexpr double Infinity = std::numeric_limits<double>::infinity();
-  std::array<double, 7> extremes; // largest of -x, -y, -z, x, y, z, and of their absolute values
-  ranks.Together(
-    [&]
-    {
-      Validate(own, options.threads);
-      EmbedInGrid({}, {}, depth); // refuses a wrong depth
-      const Bounds bounds = BoundsOf(own.points, UsedPoints(own, options.threads), options.threads);
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        extremes[axis] = -bounds.low[axis];
-        extremes[3 + axis] = bounds.high[axis];
-      }
-      extremes[6] = 0.0;
-    });
-  ranks.Maximum(extremes.data(), 6);
-  ClipFrame frame;
-  if (extremes[0] == -Infinity)
-  {
-    frame.grid = EmbedInGrid({}, {}, depth); // nobody has a triangle
-  }
-  else
-  {
-    const Vec3 low(-extremes[0], -extremes[1], -extremes[2]);
-    const Vec3 high(extremes[3], extremes[4], extremes[5]);
-    frame.grid = EmbedInGrid({ low, high }, {}, depth);
-    extremes[6] = low.cwiseAbs().cwiseMax(high.cwiseAbs()).maxCoeff();
-  }
-  if (isAutomatic)
-  {
-    frame.grid =
-      WithDepth(frame.grid, SuggestDepth(ranks, own, frame.grid, rankOptions.isBelowHats));
-  }
-  if (rankOptions.isBelowHats && std::isfinite(rankOptions.functionsPerPoint))
-  {
-    frame.grid =
-      WithDepth(frame.grid, LimitDepth(ranks, own, rankOptions.functionsPerPoint, frame.grid));
-  }
-  frame.tolerance = SnapTolerance(extremes[6], frame.grid);
-  return frame;
-}
 
 /// Of a level's patches, those of the finer one's being given; `links` are replaced.
 void CoarsenLinks(const PatchLevel& fine, int threads, Array<Link>& links)
@@ -232,51 +135,39 @@ RankSpace::RankSpace(const Communicator& ranks, const TriangleMesh& own,
   : ranks_(ranks), coarsestSize_(options.space.coarsestSize),
     numberings_(std::make_shared<std::vector<LevelNumbering>>())
 {
-  ClipFrame frame = FrameOf(ranks_, own, options);
-  SpaceOptions functions = options.space.functions;
-  functions.depth = frame.grid.depth;
+  RankClip clip(ranks_, own, options, progress.Part(0.0, 0.4), copies);
+  partition_ = clip.partition;
+  distribution_ = clip.distribution;
+  copies_ = clip.copies;
+  const SpaceOptions& functions = options.space.functions;
+  const int depth = clip.clipped.grid.depth;
   const FunctionSupport support =
     functions.connectivityAware ? FunctionSupport::ConnectivityAware : FunctionSupport::Plain;
-  partition_ = std::make_shared<const BlockPartition>(ranks_, own, frame, options.granularity);
-  const BlockPartition& partition = *partition_;
-  distribution_ = std::make_shared<Redistribution>(ranks_, own, frame.grid, partition);
 
   GridFunctions all; // in and around the cells of this rank
   Array<Link> links;
-  auto mesh = std::make_shared<TriangleMesh>(distribution_->TakeMesh());
-  copies_ =
-    std::make_shared<const TriangleCopies>(ranks_, own, copies, frame.grid, partition, *mesh);
-  RequireMemory(ranks_, *mesh, frame.grid, options.isBelowHats);
   ranks_.Together(
     [&]
     {
-      progress.Check(0.1);
-      const CellRegion region = partition.RegionOf(ranks_.Rank());
-      frame.region = &region;
-      ClipOptions clip;
-      clip.depth = functions.depth;
-      clip.weldCoincidentPoints = functions.weldCoincidentPoints;
-      clip.joinAtPoints = functions.joinAtPoints;
-      clip.threads = functions.threads;
       all.support = support;
-      all.clipped = ClipPart(*mesh, frame, clip, progress.Part(0.1, 0.4));
+      all.clipped = std::move(clip.clipped);
       PatchPartition patches = BuildPatches(all.clipped, support, functions.threads);
       Release(all.clipped.links);
       all.piecePatch = std::move(patches.piecePatch);
       all.pointPatch = FindPointPatches(all.clipped, all.piecePatch,
         static_cast<Id>(patches.cell.size()), all.clipped.numberOfInputPoints, functions.threads);
       progress.Check(0.45);
-      PatchLevel finest = BuildFinestLevel(functions.depth, patches, support, functions.threads);
+      PatchLevel finest = BuildFinestLevel(depth, patches, support, functions.threads);
       links = patches.links;
       all.levels = BuildLevels(std::move(finest), std::move(patches.links), support,
         functions.threads, progress.Part(0.45, 0.6));
-      for (int depth = functions.depth; depth > partition.Depth(); --depth)
+      for (int level = depth; level > partition_->Depth(); --level)
       {
-        CoarsenLinks(all.levels[functions.depth - depth], functions.threads, links);
+        CoarsenLinks(all.levels[depth - level], functions.threads, links);
       }
-      UnitePointPatches(mesh->points, all.Finest(), all.pointPatch);
+      UnitePointPatches(clip.mesh->points, all.Finest(), all.pointPatch);
     });
-  std::vector<PatchLevel> shared = this->Divide(all, links, partition);
+  std::vector<PatchLevel> shared = this->Divide(all, links, *partition_);
   ranks_.Together(
     [&]
     {
@@ -286,8 +177,7 @@ RankSpace::RankSpace(const Communicator& ranks, const TriangleMesh& own,
       auto operators = std::make_shared<const LevelOperators>(
         BuildLevelOperators(*divided, TriangleRule(options.space.quadratureDegree),
           functions.threads, -1, progress.Part(0.6, 1.0), options.space.normalStabilization));
-      own_ = std::make_shared<const GridSpace>(
-        std::move(mesh), std::move(divided), std::move(operators));
+      own_ = std::make_shared<const GridSpace>(clip.mesh, std::move(divided), std::move(operators));
       auto whole = std::make_shared<GridFunctions>();
       whole->support = support;
       whole->clipped.grid = own_->Functions().GetGrid();

@@ -4,25 +4,14 @@
 #define GridFEM_RankSpace_h
 
 #include "Parallel/LevelNumbering.h"
-#include "Parallel/TriangleCopies.h"
+#include "Parallel/RankClip.h"
 #include "Spaces/GridSpace.h"
 
-#include <limits>
 #include <memory>
 #include <vector>
 
 namespace gridfem
 {
-
-struct RankSpaceOptions
-{
-  GridSpaceOptions space;   // of a depth that may be AutomaticDepth
-  int granularity = 0;      // level of the blocks that are divided among the ranks; BlockPartition
-  bool isBelowHats = false; // which need memory, too
-  /// Below hats: the grid is made coarser until it has at most so many functions for each point of
-  /// the surface. A granularity is to fit it then. [DepthForPoints]
-  double functionsPerPoint = std::numeric_limits<double>::infinity();
-};
 
 /// A copy shares all that does not change.
 class RankSpace

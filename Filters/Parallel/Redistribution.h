@@ -44,6 +44,15 @@ public:
 
   Id NumberOfOwnPoints() const { return numberOfOwnPoints_; }
 
+  ///@{ What goes to a rank, ascending: own points, own triangles.
+  const std::vector<Index>& PointsTo(int rank) const { return sentPoints_[rank]; }
+  const std::vector<Index>& TrianglesTo(int rank) const { return sentTriangles_[rank]; }
+  ///@}
+
+  /// Of the points that ranks have sent here, one rank after the other: the places in the received
+  /// mesh. Triangles come in the same order and stay in it.
+  const std::vector<Index>& PlacesOfPoints() const { return pointPlace_; }
+
   /// Per received point the rank that has given it.
   std::vector<int> GiversOfPoints() const;
 

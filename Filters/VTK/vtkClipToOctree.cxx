@@ -1,9 +1,12 @@
 #include "vtkClipToOctree.h"
 
+#include "Private/CanDistribute.h"
 #include "Private/ClippedArrays.h"
 #include "Private/ClippedMeshWriter.h"
+#include "Private/DistributedClip.h"
 #include "Private/InputValidation.h"
 #include "Private/OctreeOutput.h"
+#include "Private/SolverOutput.h"
 #include "Private/SurfaceSolverState.h"
 
 #include "vtkCellData.h"
@@ -27,6 +30,7 @@ struct vtkClipToOctree::Internals
 {
   gridfem::ClippedMesh Clipped;
   vtkNew<vtkPolyData> Frame;
+  std::unique_ptr<gridfem::DistributedClip> OfRanks; // null where one clips all
 };
 
 vtkClipToOctree::vtkClipToOctree() : Data(std::make_unique<Internals>())
@@ -49,6 +53,10 @@ void vtkClipToOctree::Compute(vtkInformationVector** inputs, vtkInformationVecto
   const gridfem::SpaceOptions& options = state.options.space;
   const gridfem::Progress progress = state.bridge.GetProgress();
   const gridfem::QuadratureRule& rule = gridfem::TriangleRule(this->QuadratureDegree);
+  if (this->Data->OfRanks)
+  {
+    this->FreeStages();
+  }
 
   gridfem::StageKey key;
   key.Add(state.meshVersion.Of(input, state.mesh, options.threads));
@@ -76,11 +84,7 @@ void vtkClipToOctree::Compute(vtkInformationVector** inputs, vtkInformationVecto
   output->GetCellData()->SetActiveScalars(gridfem::OctreeCellColorName);
   progress.Check(0.8);
   const int precision = gridfem::OutputPrecision(input->GetPoints());
-  const auto quadraturePoints = static_cast<double>(rule.points.size()) *
-                                static_cast<double>(this->Data->Clipped.NumberOfTriangles());
-  if (this->GenerateQuadraturePoints == QuadraturePointsOn ||
-      (this->GenerateQuadraturePoints == QuadraturePointsAutomatic &&
-        quadraturePoints <= MostAutomaticPoints))
+  if (this->WantsQuadraturePoints(static_cast<double>(this->Data->Clipped.NumberOfTriangles())))
   {
     gridfem::WriteQuadraturePoints(state.mesh, this->Data->Clipped, rule, precision,
       options.threads, vtkPolyData::GetData(outputs, 1));
@@ -91,9 +95,77 @@ void vtkClipToOctree::Compute(vtkInformationVector** inputs, vtkInformationVecto
   progress.Check(1.0);
 }
 
+bool vtkClipToOctree::WantsQuadraturePoints(double triangles) const
+{
+  const auto perTriangle =
+    static_cast<double>(gridfem::TriangleRule(this->QuadratureDegree).points.size());
+  return this->GenerateQuadraturePoints == QuadraturePointsOn ||
+         (this->GenerateQuadraturePoints == QuadraturePointsAutomatic &&
+           perTriangle * triangles <= MostAutomaticPoints);
+}
+
+bool vtkClipToOctree::ComputeTogether(vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  gridfem::SurfaceSolverState& state = *this->State;
+  if (!this->Distributed || !gridfem::CanDistribute(this, inputs, ""))
+  {
+    return false;
+  }
+  vtkPolyData* piece = vtkPolyData::GetData(inputs[0]);
+  vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
+  std::unique_ptr<gridfem::DistributedClip>& clip = this->Data->OfRanks;
+  const auto update = [&](const gridfem::Progress& progress)
+  {
+    gridfem::SurfaceOptions& options = state.options;
+    options.space.threads = state.together.ThreadsOfRank(options.space.threads);
+    gridfem::StageKey key;
+    state.together.Together(
+      [&]
+      {
+        gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree
+        key.Add(std::string("together")).Add(options.space.depth);
+        if (piece)
+        {
+          gridfem::AddMesh(key, piece);
+        }
+      });
+    state.stages.Run(gridfem::SpaceStage, key,
+      [&]
+      {
+        this->Data->Clipped = {};
+        this->Data->Frame->Initialize();
+        clip = gridfem::DistributedClip::Make();
+        clip->Build(state.together, piece, options, state.mesh, progress.Part(0.1, 0.7));
+      });
+    progress.Check(0.7);
+    clip->WriteMesh(piece, state.mesh, options.space.threads, output);
+    progress.Check(0.8);
+    auto triangles = static_cast<double>(clip->Clipped().NumberOfTriangles());
+    state.together.Numbers().SumNumbers(&triangles, 1);
+    state.together.Together(
+      [&]
+      {
+        gridfem::AddFieldInt(output, "Distributed", 1);
+        output->GetCellData()->SetActiveScalars(gridfem::OctreeCellColorName);
+        if (this->WantsQuadraturePoints(triangles))
+        {
+          gridfem::WriteQuadraturePoints(clip->Source(), clip->Clipped(),
+            gridfem::TriangleRule(this->QuadratureDegree), clip->Precision(), options.space.threads,
+            vtkPolyData::GetData(outputs, 1));
+        }
+        gridfem::WriteOctreeCells(clip->Clipped(), this->Level, clip->Precision(),
+          options.space.threads, vtkUnstructuredGrid::GetData(outputs, 2), clip->CellBefore());
+      });
+    progress.Check(1.0);
+  };
+  state.RunTogether(update);
+  return true;
+}
+
 void vtkClipToOctree::FreeStages()
 {
   this->Superclass::FreeStages();
+  this->Data->OfRanks = nullptr;
   this->Data->Clipped = {};
   this->Data->Frame->Initialize();
 }
@@ -101,6 +173,7 @@ void vtkClipToOctree::FreeStages()
 void vtkClipToOctree::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "Distributed: " << this->Distributed << "\n";
   os << indent << "GenerateQuadraturePoints: " << this->GenerateQuadraturePoints << "\n";
   os << indent << "Level: " << this->Level << "\n";
 }

@@ -69,20 +69,38 @@ public:
   vtkBooleanMacro(GenerateQuadraturePoints, int);
   ///@}
 
+  ///@{
+  /**
+   * On several MPI ranks: when on, all ranks compute, and none gathers the surface, which may be
+   * larger than one machine. Each puts out the triangles in its own cells of the octree, wherever
+   * their polygons came from: one rank after the other, the triangles of one rank. `OctreeCells`
+   * are those of all ranks on each. Arrays are those that the pieces of all ranks have. Possible
+   * with welded points; not with a given basis, or BlocksAsOne. Where it is not, rank 0 gathers as
+   * ever, and warns. The field array `Distributed` says which. Needs a build with MPI. Default off.
+   */
+  vtkSetMacro(Distributed, bool);
+  vtkGetMacro(Distributed, bool);
+  vtkBooleanMacro(Distributed, bool);
+  ///@}
+
 protected:
   vtkClipToOctree();
   ~vtkClipToOctree() override;
 
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  bool ComputeTogether(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   void FreeStages() override;
 
+  bool Distributed = false;
   int GenerateQuadraturePoints = QuadraturePointsAutomatic;
   int Level = 14;
 
 private:
   vtkClipToOctree(const vtkClipToOctree&) = delete;
   void operator=(const vtkClipToOctree&) = delete;
+
+  bool WantsQuadraturePoints(double triangles) const;
 
   struct Internals;
   std::unique_ptr<Internals> Data;

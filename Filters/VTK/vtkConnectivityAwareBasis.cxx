@@ -2,9 +2,12 @@
 
 #include "Private/Allocation.h"
 #include "Private/BasisReader.h"
+#include "Private/CanDistribute.h"
 #include "Private/ClippedMeshWriter.h"
+#include "Private/DistributedClip.h"
 #include "Private/InputValidation.h"
 #include "Private/OctreeOutput.h"
+#include "Private/SolverOutput.h"
 #include "Private/SurfaceSolverState.h"
 #include "Private/vtkSurfaceBasisHolder.h"
 
@@ -25,9 +28,17 @@
 
 vtkStandardNewMacro(vtkConnectivityAwareBasis);
 
+namespace
+{
+
+constexpr const char* ClipStage = "ClipOfRanks";
+
+} // namespace
+
 struct vtkConnectivityAwareBasis::Internals
 {
-  vtkNew<vtkPolyData> Frame; // what does not depend on the input's arrays
+  vtkNew<vtkPolyData> Frame;                         // what does not depend on the input's arrays
+  std::unique_ptr<gridfem::DistributedClip> OfRanks; // null where one computes for all
 };
 
 vtkConnectivityAwareBasis::vtkConnectivityAwareBasis() : Data(std::make_unique<Internals>())
@@ -68,7 +79,8 @@ void vtkConnectivityAwareBasis::ReadClip(vtkPolyData* input)
     cellPatch[state.mesh.sourceCell[space.clipped.pieceTriangle[piece]]] = space.piecePatch[piece];
   }
   this->Data->Frame->Initialize();
-  gridfem::WriteBasis(space, cellPatch, options.weldCoincidentPoints, this->Data->Frame);
+  gridfem::WriteBasis(space.Finest(), space.clipped.cells, space.support, cellPatch,
+    options.weldCoincidentPoints, this->Data->Frame);
 }
 
 void vtkConnectivityAwareBasis::UpdateBasis(vtkPolyData* input)
@@ -102,9 +114,10 @@ void vtkConnectivityAwareBasis::UpdateBasis(vtkPolyData* input)
       state.BuildSpace(input, state.bridge.GetProgress().Part(0.0, 0.8));
       gridfem::WriteClippedFrame(input, state.mesh, state.Functions().clipped,
         options.weldCoincidentPoints, options.threads, this->Data->Frame);
-      gridfem::WriteBasis(state.Functions(),
-        gridfem::PatchesOfTriangles(state.Functions(), options.threads),
-        options.weldCoincidentPoints, this->Data->Frame);
+      const gridfem::GridFunctions& space = state.Functions();
+      gridfem::WriteBasis(space.Finest(), space.clipped.cells, space.support,
+        gridfem::PatchesOfTriangles(space, options.threads), options.weldCoincidentPoints,
+        this->Data->Frame);
     }
     if (this->KeepsStages())
     {
@@ -120,13 +133,14 @@ void vtkConnectivityAwareBasis::AddBasisFunction(vtkPolyData* output)
 {
   const gridfem::GridFunctions& space = this->State->Functions();
   const gridfem::MultiVector values = gridfem::EvaluateAtClippedPoints(space,
-    gridfem::BasisFunctionCoefficients(space, this->Level, this->BasisId), this->NumberOfThreads);
+    gridfem::BasisFunctionCoefficients(space.levels, this->Level, this->BasisId),
+    this->NumberOfThreads);
   vtkNew<vtkDoubleArray> array;
-  array->SetName("BasisFunction");
+  array->SetName(gridfem::BasisFunctionName);
   gridfem::SetTuples(array, values.rows());
   std::copy(values.data(), values.data() + values.size(), array->GetPointer(0));
   output->GetPointData()->AddArray(array);
-  output->GetPointData()->SetActiveScalars("BasisFunction");
+  output->GetPointData()->SetActiveScalars(gridfem::BasisFunctionName);
 }
 
 void vtkConnectivityAwareBasis::Compute(
@@ -135,6 +149,10 @@ void vtkConnectivityAwareBasis::Compute(
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
   const gridfem::Progress progress = this->State->bridge.GetProgress();
+  if (this->Data->OfRanks)
+  {
+    this->FreeStages();
+  }
   this->UpdateBasis(input);
   progress.Check(0.8);
 
@@ -155,20 +173,71 @@ void vtkConnectivityAwareBasis::Compute(
     this->AddBasisFunction(output);
   }
   progress.Check(0.9);
-  gridfem::WriteBasisFunctions(space, this->Level, gridfem::OutputPrecision(input->GetPoints()),
-    vtkUnstructuredGrid::GetData(outputs, 1));
+  gridfem::WriteBasisFunctions(space.GetGrid(),
+    gridfem::DescribeLevel(space.levels, gridfem::PatchAreas(space), space.component,
+      gridfem::LevelOfDepth(space.levels, this->Level)),
+    gridfem::OutputPrecision(input->GetPoints()), vtkUnstructuredGrid::GetData(outputs, 1));
   progress.Check(1.0);
+}
+
+bool vtkConnectivityAwareBasis::ComputeTogether(
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  gridfem::SurfaceSolverState& state = *this->State;
+  vtkPolyData* piece = vtkPolyData::GetData(inputs[0]);
+  const std::string obstacle =
+    gridfem::FirstObstacle({ { gridfem::CarriesClip(piece), "a clip that is given" } });
+  if (!this->Distributed || !gridfem::CanDistribute(this, inputs, obstacle))
+  {
+    return false;
+  }
+  vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
+  std::unique_ptr<gridfem::DistributedClip>& clip = this->Data->OfRanks;
+  const auto update = [&](const gridfem::Progress& progress)
+  {
+    state.options.choice.kind = gridfem::FunctionKind::Grid;
+    state.UpdateTogether(piece);
+    gridfem::StageKey key;
+    key.Add(state.stages.Version(gridfem::SpaceStage));
+    state.stages.Run(ClipStage, key,
+      [&]
+      {
+        this->Data->Frame->Initialize();
+        clip = gridfem::DistributedClip::Make();
+        clip->Take(state.together, piece, state.options, state.mesh);
+      });
+    progress.Check(0.8);
+    const int threads = state.options.space.threads;
+    clip->WriteMesh(piece, state.mesh, threads, output);
+    state.together.Together(
+      [&]
+      {
+        output->GetCellData()->SetActiveScalars(gridfem::PatchColorName);
+        gridfem::AddDistributed(state.together.Depth(), output);
+      });
+    if (this->BasisId >= 0)
+    {
+      clip->AddBasisFunction(this->Level, this->BasisId, threads, output);
+    }
+    progress.Check(0.9);
+    clip->WriteFunctions(this->Level, vtkUnstructuredGrid::GetData(outputs, 1));
+    progress.Check(1.0);
+  };
+  state.RunTogether(update);
+  return true;
 }
 
 void vtkConnectivityAwareBasis::FreeStages()
 {
   this->Superclass::FreeStages();
+  this->Data->OfRanks = nullptr;
   this->Data->Frame->Initialize();
 }
 
 void vtkConnectivityAwareBasis::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "Distributed: " << this->Distributed << "\n";
   os << indent << "Level: " << this->Level << "\n";
   os << indent << "BasisId: " << this->BasisId << "\n";
 }

@@ -59,14 +59,31 @@ public:
   vtkGetMacro(BasisId, vtkIdType);
   ///@}
 
+  ///@{
+  /**
+   * On several MPI ranks: when on, all ranks compute, and none gathers the surface, which may be
+   * larger than one machine. Each puts out the triangles in its own cells of the octree, wherever
+   * their polygons came from: one rank after the other, the triangles of one rank. The tables of
+   * the basis are whole on all, and so are levels that are coarse: their functions are shown on the
+   * first rank. Arrays are those that the pieces of all ranks have. Possible with welded points;
+   * not with a given clip, a given basis, or BlocksAsOne. Where it is not, rank 0 gathers as ever,
+   * and warns. The field array `Distributed` says which. Needs a build with MPI. Default off.
+   */
+  vtkSetMacro(Distributed, bool);
+  vtkGetMacro(Distributed, bool);
+  vtkBooleanMacro(Distributed, bool);
+  ///@}
+
 protected:
   vtkConnectivityAwareBasis();
   ~vtkConnectivityAwareBasis() override;
 
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  bool ComputeTogether(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   void FreeStages() override;
 
+  bool Distributed = false;
   int Level = 14;
   vtkIdType BasisId = -1;
 

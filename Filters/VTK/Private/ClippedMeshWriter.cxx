@@ -132,7 +132,8 @@ vtkSmartPointer<vtkCellArray> MakeTriangles(const ClippedMesh& clipped, int thre
                  : MakeTriangles<vtkTypeInt64Array>(clipped, threads);
 }
 
-void AddCellIds(const InputMesh& mesh, const ClippedMesh& clipped, int threads, vtkPolyData* output)
+void AddCellIds(
+  const InputMesh& mesh, const ClippedMesh& clipped, Id firstCell, int threads, vtkPolyData* output)
 {
   auto source = NewIds(SourceCellIdName, clipped.NumberOfTriangles());
   auto octree = NewIds(OctreeCellIdName, clipped.NumberOfTriangles());
@@ -147,7 +148,7 @@ void AddCellIds(const InputMesh& mesh, const ClippedMesh& clipped, int threads, 
     [&](Id piece, Id begin, Id end)
     {
       std::fill(sources + begin, sources + end, mesh.sourceCell[clipped.pieceTriangle[piece]]);
-      std::fill(octreeCells + begin, octreeCells + end, pieceCell[piece]);
+      std::fill(octreeCells + begin, octreeCells + end, firstCell + pieceCell[piece]);
       const MortonKey parities = clipped.cells[pieceCell[piece]] & 7;
       std::fill(colors + begin, colors + end, static_cast<signed char>(parities));
     });
@@ -156,26 +157,26 @@ void AddCellIds(const InputMesh& mesh, const ClippedMesh& clipped, int threads, 
   output->GetCellData()->AddArray(color);
 }
 
-void AddGrid(const ClippedMesh& clipped, vtkPolyData* output)
+void AddGrid(const Grid& grid, const std::vector<MortonKey>& keys, vtkPolyData* output)
 {
-  auto cells = NewInts(OctreeCellsName, static_cast<Id>(clipped.cells.size()), 3);
-  for (std::size_t cell = 0; cell < clipped.cells.size(); ++cell)
+  auto cells = NewInts(OctreeCellsName, static_cast<Id>(keys.size()), 3);
+  for (std::size_t cell = 0; cell < keys.size(); ++cell)
   {
-    cells->SetTypedTuple(static_cast<vtkIdType>(cell), MortonDecode(clipped.cells[cell]).data());
+    cells->SetTypedTuple(static_cast<vtkIdType>(cell), MortonDecode(keys[cell]).data());
   }
   output->GetFieldData()->AddArray(cells);
 
   vtkNew<vtkDoubleArray> origin;
   origin->SetName(GridOriginName);
   origin->SetNumberOfComponents(3);
-  origin->InsertNextTuple(clipped.grid.origin.data());
+  origin->InsertNextTuple(grid.origin.data());
   output->GetFieldData()->AddArray(origin);
 
   vtkNew<vtkDoubleArray> spacing;
   spacing->SetName(GridSpacingName);
-  spacing->InsertNextValue(clipped.grid.spacing);
+  spacing->InsertNextValue(grid.spacing);
   output->GetFieldData()->AddArray(spacing);
-  AddInt(output, GridDepthName, clipped.grid.depth);
+  AddInt(output, GridDepthName, grid.depth);
 }
 
 } // namespace
@@ -188,11 +189,18 @@ int OutputPrecision(vtkPoints* input)
 void WriteClippedFrame(vtkPolyData* input, const InputMesh& mesh, const ClippedMesh& clipped,
   bool weldCoincidentPoints, int threads, vtkPolyData* frame)
 {
+  WriteClippedFrame(input, mesh, clipped, clipped.cells, 0, weldCoincidentPoints, threads, frame);
+}
+
+void WriteClippedFrame(vtkPolyData* input, const InputMesh& mesh, const ClippedMesh& part,
+  const std::vector<MortonKey>& cells, Id first, bool weldCoincidentPoints, int threads,
+  vtkPolyData* frame)
+{
   frame->Initialize();
-  frame->SetPoints(MakePoints(input, clipped, threads));
-  frame->SetPolys(MakeTriangles(clipped, threads));
-  AddCellIds(mesh, clipped, threads, frame);
-  AddGrid(clipped, frame);
+  frame->SetPoints(MakePoints(input, part, threads));
+  frame->SetPolys(MakeTriangles(part, threads));
+  AddCellIds(mesh, part, first, threads, frame);
+  AddGrid(part.grid, cells, frame);
   AddInt(frame, WeldCoincidentPointsName, weldCoincidentPoints);
 }
 
@@ -203,6 +211,11 @@ void AddInputArrays(vtkPolyData* input, const InputMesh& mesh, const ClippedMesh
     input->GetPointData(), *mesh.triangles, clipped, threads, output->GetPointData());
   CopyCellArrays(input->GetCellData(), input->GetNumberOfCells(), output->GetCellData(),
     output->GetCellData()->GetArray(SourceCellIdName));
+  AddFieldArrays(input, output);
+}
+
+void AddFieldArrays(vtkPolyData* input, vtkPolyData* output)
+{
   vtkFieldData* fields = input->GetFieldData();
   for (int k = 0; k < fields->GetNumberOfArrays(); ++k)
   {
@@ -241,14 +254,14 @@ std::vector<signed char> ColorsOfPatches(const PatchLevel& level)
 
 } // namespace
 
-void WriteBasis(const GridFunctions& space, const std::vector<Id>& cellPatch,
-  bool weldCoincidentPoints, vtkPolyData* output)
+void WriteBasis(const PatchLevel& finest, const std::vector<MortonKey>& cells,
+  FunctionSupport support, const std::vector<Id>& cellPatch, bool weldCoincidentPoints,
+  vtkPolyData* output)
 {
   auto patchId = NewIds(PatchIdName, static_cast<Id>(cellPatch.size()));
   std::copy(cellPatch.begin(), cellPatch.end(), patchId->GetPointer(0));
   output->GetCellData()->AddArray(patchId);
 
-  const PatchLevel& finest = space.Finest();
   const std::vector<signed char> colors = ColorsOfPatches(finest);
   vtkNew<vtkSignedCharArray> patchColor;
   patchColor->SetName(PatchColorName);
@@ -258,7 +271,6 @@ void WriteBasis(const GridFunctions& space, const std::vector<Id>& cellPatch,
   output->GetCellData()->AddArray(patchColor);
   auto patchCell = NewIds(PatchCellIdName, finest.NumberOfPatches());
   auto basisIds = NewIds(PatchBasisIdsName, finest.NumberOfPatches(), FunctionsPerPatch);
-  const std::vector<MortonKey>& cells = space.clipped.cells;
   for (Id patch = 0; patch < finest.NumberOfPatches(); ++patch)
   {
     const auto cell = std::lower_bound(cells.begin(), cells.end(), finest.cell[patch]);
@@ -271,7 +283,7 @@ void WriteBasis(const GridFunctions& space, const std::vector<Id>& cellPatch,
   output->GetFieldData()->AddArray(patchCell);
   output->GetFieldData()->AddArray(basisIds);
   AddInt(output, NumberOfBasisFunctionsName, finest.numberOfFunctions);
-  AddInt(output, ConnectivityAwareName, space.support == FunctionSupport::ConnectivityAware);
+  AddInt(output, ConnectivityAwareName, support == FunctionSupport::ConnectivityAware);
   AddInt(output, WeldCoincidentPointsName, weldCoincidentPoints);
 }
 

@@ -15,16 +15,27 @@ namespace gridfem
 void WriteClippedFrame(vtkPolyData* input, const InputMesh& mesh, const ClippedMesh& clipped,
   bool weldCoincidentPoints, int threads, vtkPolyData* frame);
 
+/// The same of a part of a clipped mesh.
+/// @param cells  of the whole; `first` of them come before those of the part
+void WriteClippedFrame(vtkPolyData* input, const InputMesh& mesh, const ClippedMesh& part,
+  const std::vector<MortonKey>& cells, Id first, bool weldCoincidentPoints, int threads,
+  vtkPolyData* frame);
+
 /// Adds the input's point arrays, interpolated along source triangles, its cell arrays by source
 /// cell, and its field arrays. Throws InvalidInput naming an array of wrong length.
 void AddInputArrays(vtkPolyData* input, const InputMesh& mesh, const ClippedMesh& clipped,
   int threads, vtkPolyData* output);
 
+/// Adds the input's field arrays alone.
+void AddFieldArrays(vtkPolyData* input, vtkPolyData* output);
+
 /// Adds PatchId, PatchColor, PatchCellId, PatchBasisIds, NumberOfBasisFunctions, ConnectivityAware
 /// and WeldCoincidentPoints.
+/// @param cells      of the octree that contain surface
 /// @param cellPatch  per cell of `output`
-void WriteBasis(const GridFunctions& space, const std::vector<Id>& cellPatch,
-  bool weldCoincidentPoints, vtkPolyData* output);
+void WriteBasis(const PatchLevel& finest, const std::vector<MortonKey>& cells,
+  FunctionSupport support, const std::vector<Id>& cellPatch, bool weldCoincidentPoints,
+  vtkPolyData* output);
 
 /// Adds the cell and field arrays of one mesh to another; replaces those of the same name.
 void PassArrays(vtkPolyData* from, vtkPolyData* to);

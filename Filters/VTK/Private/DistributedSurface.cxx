@@ -2,6 +2,7 @@
 
 #if GRIDFEM_HAS_PARALLEL
 
+#include "DistributedInternals.h"
 #include "GivenValues.h"
 #include "Ranks.h"
 #include "SurfaceSolverState.h"
@@ -11,7 +12,6 @@
 #include "Parallel/RankBoundary.h"
 #include "Parallel/RankDistance.h"
 #include "Parallel/RankMemory.h"
-#include "Parallel/RankSurface.h"
 
 #include "vtkDataArray.h"
 #include "vtkMPI.h"
@@ -26,8 +26,6 @@
 
 namespace gridfem
 {
-namespace
-{
 
 Communicator RanksOfVtk()
 {
@@ -37,7 +35,7 @@ Communicator RanksOfVtk()
   return Communicator(*communicator->GetMPIComm()->GetHandle());
 }
 
-RankSpaceOptions OptionsOf(const SurfaceOptions& options)
+RankSpaceOptions RankOptionsOf(const SurfaceOptions& options)
 {
   RankSpaceOptions result;
   result.space.functions = options.space;
@@ -47,6 +45,9 @@ RankSpaceOptions OptionsOf(const SurfaceOptions& options)
   result.functionsPerPoint = options.functionsPerPoint;
   return result;
 }
+
+namespace
+{
 
 /// Of the bits, so that meshes with the same one are the same.
 std::uint64_t DigestOf(const TriangleMesh& mesh)
@@ -89,13 +90,6 @@ struct Shape
 };
 
 } // namespace
-
-struct DistributedSurface::Internals
-{
-  Communicator ranks = RanksOfVtk();
-  RankRows numbers{ ranks, 0, {} };
-  std::shared_ptr<const RankSurface> whole;
-};
 
 DistributedSurface::DistributedSurface() = default;
 DistributedSurface::~DistributedSurface() = default;
@@ -198,7 +192,7 @@ void DistributedSurface::BuildSpace(
   this->Free();
   mesh = this->ReadPieces(piece, options.space.threads);
   const Communicator& ranks = ranks_->ranks;
-  auto whole = std::make_shared<const RankSurface>(ranks, *mesh.triangles, OptionsOf(options),
+  auto whole = std::make_shared<const RankSurface>(ranks, *mesh.triangles, RankOptionsOf(options),
     options.choice.kind == FunctionKind::Hats, progress_, copies_.triangles->triangles);
   space_ = std::shared_ptr<const SurfaceSpace>(whole, &whole->Levels());
   ranks_->whole = std::move(whole);

@@ -132,14 +132,16 @@ public:
   HeldValues HoldKnown(const InputArray& array, const InputArray& mask,
     const SelectedPoints& selection, const InputMesh& mesh) const;
 
+  struct Internals;
+  const Internals& Parts() const { return *ranks_; }
+  const InputMesh& CopiedTriangles() const { return copies_; }
+
 private:
   struct StandIn
   {
     vtkSmartPointer<vtkDataArray> array; // for a rank without polygons
     int dataType = 0;                    // of the first rank that has the array
   };
-  struct Internals;
-
   std::unique_ptr<Internals> ranks_; // while it runs, and as long as there is a space
   std::shared_ptr<const SurfaceSpace> space_;
   Progress progress_;

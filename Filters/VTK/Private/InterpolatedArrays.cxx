@@ -134,6 +134,8 @@ vtkSmartPointer<vtkAbstractArray> TakeNearest(
 }
 
 /// Active attributes of the input become active in the output, but for ids.
+} // namespace
+
 void PassActiveAttributes(vtkDataSetAttributes* input, vtkDataSetAttributes* output)
 {
   for (const int attribute :
@@ -147,8 +149,6 @@ void PassActiveAttributes(vtkDataSetAttributes* input, vtkDataSetAttributes* out
     }
   }
 }
-
-} // namespace
 
 void InterpolatePointArrays(vtkPointData* input, const TriangleMesh& mesh,
   const ClippedMesh& clipped, int threads, vtkPointData* output)

@@ -6,6 +6,7 @@
 
 class vtkCellData;
 class vtkDataArray;
+class vtkDataSetAttributes;
 class vtkPointData;
 
 namespace gridfem
@@ -23,6 +24,9 @@ void InterpolatePointArrays(vtkPointData* input, const TriangleMesh& mesh,
 /// an earlier clip) are left out.
 void CopyCellArrays(
   vtkCellData* input, Id numberOfCells, vtkCellData* output, vtkDataArray* sourceCellId);
+
+/// Of the arrays that both have; those that name points or cells are left out.
+void PassActiveAttributes(vtkDataSetAttributes* input, vtkDataSetAttributes* output);
 
 } // namespace gridfem
 

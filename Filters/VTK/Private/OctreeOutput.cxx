@@ -33,6 +33,9 @@ namespace gridfem
 namespace
 {
 
+/// Of a function without a patch here.
+constexpr Id NoComponent = std::numeric_limits<Index>::max();
+
 vtkSmartPointer<vtkPoints> NewPoints(int precision, Id count)
 {
   auto points = vtkSmartPointer<vtkPoints>::New();
@@ -96,21 +99,17 @@ std::vector<MortonKey> AncestorCells(const std::vector<MortonKey>& cells, int ge
   return ancestors;
 }
 
-/// World area of the surface in every patch of a level.
-std::vector<double> PatchAreas(const GridFunctions& space, std::size_t level)
+/// The surface in every patch of a level.
+/// @param area  in those of the finest
+std::vector<double> AreasOfLevel(
+  const std::vector<PatchLevel>& levels, std::vector<double> area, std::size_t level)
 {
-  std::vector<double> area(space.Finest().NumberOfPatches(), 0.0);
-  const double cellArea = space.GetGrid().spacing * space.GetGrid().spacing;
-  for (Id piece = 0; piece < space.clipped.NumberOfPieces(); ++piece)
-  {
-    area[space.piecePatch[piece]] += cellArea * PieceArea(space.clipped, piece);
-  }
   for (std::size_t k = 0; k < level; ++k)
   {
-    std::vector<double> coarse(space.levels[k + 1].NumberOfPatches(), 0.0);
+    std::vector<double> coarse(levels[k + 1].NumberOfPatches(), 0.0);
     for (std::size_t patch = 0; patch < area.size(); ++patch)
     {
-      coarse[space.levels[k].parent[patch]] += area[patch];
+      coarse[levels[k].parent[patch]] += area[patch];
     }
     area = std::move(coarse);
   }
@@ -118,21 +117,21 @@ std::vector<double> PatchAreas(const GridFunctions& space, std::size_t level)
 }
 
 /// Connected component of every patch of a level, by the numbers of the finest; the lowest where
-/// the plain space joins several.
-std::vector<Index> PatchComponents(const GridFunctions& space, std::size_t level)
+/// the plain space joins several. Of patches elsewhere the greatest number.
+std::vector<Index> PatchComponents(
+  const std::vector<PatchLevel>& levels, const std::vector<Index>& ofFunction, std::size_t level)
 {
   std::vector<Index> component;
-  for (const auto& dof : space.Finest().dof)
+  for (const auto& dof : levels.front().dof)
   {
-    component.push_back(space.component[dof[0]]);
+    component.push_back(ofFunction[dof[0]]);
   }
   for (std::size_t k = 0; k < level; ++k)
   {
-    std::vector<Index> coarse(
-      space.levels[k + 1].NumberOfPatches(), std::numeric_limits<Index>::max());
+    std::vector<Index> coarse(levels[k + 1].NumberOfPatches(), std::numeric_limits<Index>::max());
     for (std::size_t patch = 0; patch < component.size(); ++patch)
     {
-      Index& parent = coarse[space.levels[k].parent[patch]];
+      Index& parent = coarse[levels[k].parent[patch]];
       parent = std::min(parent, component[patch]);
     }
     component = std::move(coarse);
@@ -140,37 +139,25 @@ std::vector<Index> PatchComponents(const GridFunctions& space, std::size_t level
   return component;
 }
 
-void AddFunctionArrays(const GridFunctions& space, std::size_t index, vtkUnstructuredGrid* output)
+void AddFunctionArrays(const ShownLevel& shown, vtkUnstructuredGrid* output)
 {
-  const PatchLevel& level = space.levels[index];
-  const std::vector<double> area = PatchAreas(space, index);
-  const std::vector<Index> component = PatchComponents(space, index);
-  auto basisId = NewArray<vtkIdTypeArray>("BasisId", level.numberOfFunctions);
-  auto supportArea = NewArray<vtkDoubleArray>("SupportArea", level.numberOfFunctions);
-  supportArea->FillValue(0.0);
-  auto functionComponent = NewArray<vtkIdTypeArray>("Component", level.numberOfFunctions);
-  for (Index function = 0; function < level.numberOfFunctions; ++function)
-  {
-    basisId->SetValue(function, function);
-    functionComponent->SetValue(function, -1);
-  }
-  for (Id patch = level.NumberOfPatches() - 1; patch >= 0; --patch)
-  {
-    for (const Index function : level.dof[patch])
-    {
-      supportArea->SetValue(function, supportArea->GetValue(function) + area[patch]);
-      functionComponent->SetValue(function, component[patch]);
-    }
-  }
+  const auto count = static_cast<Id>(shown.function.size());
+  auto basisId = NewArray<vtkIdTypeArray>("BasisId", count);
+  auto supportArea = NewArray<vtkDoubleArray>("SupportArea", count);
+  auto component = NewArray<vtkIdTypeArray>("Component", count);
+  std::copy(shown.function.begin(), shown.function.end(), basisId->GetPointer(0));
+  std::copy(shown.area.begin(), shown.area.end(), supportArea->GetPointer(0));
+  std::replace_copy(shown.component.begin(), shown.component.end(), component->GetPointer(0),
+    NoComponent, Id{ -1 });
   output->GetPointData()->AddArray(basisId);
   output->GetPointData()->AddArray(supportArea);
-  output->GetPointData()->AddArray(functionComponent);
+  output->GetPointData()->AddArray(component);
 }
 
 } // namespace
 
-void WriteOctreeCells(
-  const ClippedMesh& clipped, int level, int precision, int threads, vtkUnstructuredGrid* output)
+void WriteOctreeCells(const ClippedMesh& clipped, int level, int precision, int threads,
+  vtkUnstructuredGrid* output, const MortonKey* before)
 {
   const int finest = clipped.grid.depth;
   const int from = level < 0 ? finest : std::min(level, finest);
@@ -180,7 +167,10 @@ void WriteOctreeCells(
   {
     for (const MortonKey key : AncestorCells(clipped.cells, finest - depth))
     {
-      cells.emplace_back(depth, key);
+      if (!before || key != *before >> (3 * (finest - depth)))
+      {
+        cells.emplace_back(depth, key);
+      }
     }
   }
   const Id count = static_cast<Id>(cells.size());
@@ -251,21 +241,54 @@ void WriteQuadraturePoints(const InputMesh& mesh, const ClippedMesh& clipped,
   output->GetPointData()->AddArray(sourceCell);
 }
 
-const PatchLevel& LevelOfDepth(const GridFunctions& space, int depth)
+std::size_t LevelOfDepth(const std::vector<PatchLevel>& levels, int depth)
 {
-  const auto found = std::find_if(space.levels.begin(), space.levels.end(),
-    [&](const PatchLevel& level) { return level.depth <= depth; });
-  return found == space.levels.end() ? space.levels.back() : *found;
+  const auto found = std::find_if(
+    levels.begin(), levels.end(), [&](const PatchLevel& level) { return level.depth <= depth; });
+  return std::min<std::size_t>(found - levels.begin(), levels.size() - 1);
+}
+
+std::vector<double> PatchAreas(const GridFunctions& space)
+{
+  std::vector<double> area(space.Finest().NumberOfPatches(), 0.0);
+  const double cellArea = space.GetGrid().spacing * space.GetGrid().spacing;
+  for (Id piece = 0; piece < space.clipped.NumberOfPieces(); ++piece)
+  {
+    area[space.piecePatch[piece]] += cellArea * PieceArea(space.clipped, piece);
+  }
+  return area;
+}
+
+ShownLevel DescribeLevel(const std::vector<PatchLevel>& levels, const std::vector<double>& areas,
+  const std::vector<Index>& components, std::size_t level)
+{
+  const std::vector<double> area = AreasOfLevel(levels, areas, level);
+  const std::vector<Index> ofPatch = PatchComponents(levels, components, level);
+  ShownLevel shown;
+  shown.level = &levels[level];
+  shown.function.resize(shown.level->numberOfFunctions);
+  std::iota(shown.function.begin(), shown.function.end(), Id{ 0 });
+  shown.area.assign(shown.function.size(), 0.0);
+  shown.component.assign(shown.function.size(), NoComponent);
+  for (Id patch = shown.level->NumberOfPatches() - 1; patch >= 0; --patch)
+  {
+    for (const Index function : shown.level->dof[patch])
+    {
+      shown.area[function] += area[patch];
+      shown.component[function] = std::min<Id>(shown.component[function], ofPatch[patch]);
+    }
+  }
+  return shown;
 }
 
 void WriteBasisFunctions(
-  const GridFunctions& space, int depth, int precision, vtkUnstructuredGrid* output)
+  const Grid& grid, const ShownLevel& shown, int precision, vtkUnstructuredGrid* output)
 {
-  const PatchLevel& level = LevelOfDepth(space, depth);
+  const PatchLevel& level = *shown.level;
   auto points = NewPoints(precision, level.numberOfFunctions);
   for (Index function = 0; function < level.numberOfFunctions; ++function)
   {
-    points->SetPoint(function, space.GetGrid().origin.data()); // functions without a patch
+    points->SetPoint(function, grid.origin.data()); // functions without a patch
   }
   auto patchId = NewArray<vtkIdTypeArray>("PatchId", level.NumberOfPatches());
   auto levels = NewArray<vtkIntArray>("Level", level.NumberOfPatches());
@@ -277,37 +300,43 @@ void WriteBasisFunctions(
     for (int corner = 0; corner < FunctionsPerPatch; ++corner)
     {
       ids[corner] = level.dof[patch][corner];
-      const Vec3 position = CornerPosition(space.GetGrid(), level.depth, level.cell[patch], corner);
+      const Vec3 position = CornerPosition(grid, level.depth, level.cell[patch], corner);
       points->SetPoint(ids[corner], position.data());
     }
-    patchId->SetValue(patch, patch);
+    patchId->SetValue(patch, shown.firstPatch + patch);
     levels->SetValue(patch, level.depth);
   }
   output->SetPoints(points);
   output->SetCells(VTK_VOXEL, CellsOfSize(corners, FunctionsPerPatch));
   output->GetCellData()->AddArray(patchId);
   output->GetCellData()->AddArray(levels);
-  AddFunctionArrays(space, &level - space.levels.data(), output);
+  AddFunctionArrays(shown, output);
 }
 
-MultiVector BasisFunctionCoefficients(const GridFunctions& space, int depth, Id function)
+void RequireBasisFunction(int depth, Id functions, Id function)
 {
-  const PatchLevel& level = LevelOfDepth(space, depth);
-  if (function < 0 || function >= level.numberOfFunctions)
+  if (function < 0 || function >= functions)
   {
     throw InvalidInput("BasisId " + std::to_string(function) + " does not exist: level " +
-                       std::to_string(level.depth) + " has the basis functions 0 to " +
-                       std::to_string(level.numberOfFunctions - 1) + ".");
+                       std::to_string(depth) + " has the basis functions 0 to " +
+                       std::to_string(functions - 1) + ".");
   }
-  MultiVector coefficients = MultiVector::Zero(space.Finest().numberOfFunctions, 1);
-  const int generations = space.GetGrid().depth - level.depth;
+}
+
+MultiVector BasisFunctionCoefficients(const std::vector<PatchLevel>& levels, int depth, Id function)
+{
+  const PatchLevel& level = levels[LevelOfDepth(levels, depth)];
+  const PatchLevel& finest = levels.front();
+  RequireBasisFunction(level.depth, level.numberOfFunctions, function);
+  MultiVector coefficients = MultiVector::Zero(finest.numberOfFunctions, 1);
+  const int generations = finest.depth - level.depth;
   const double side = std::ldexp(1.0, generations);
-  for (Id patch = 0; patch < space.Finest().NumberOfPatches(); ++patch)
+  for (Id patch = 0; patch < finest.NumberOfPatches(); ++patch)
   {
     Id ancestor = patch;
     for (int k = 0; k < generations; ++k)
     {
-      ancestor = space.levels[k].parent[ancestor];
+      ancestor = levels[k].parent[ancestor];
     }
     const auto& dof = level.dof[ancestor];
     const auto found = std::find(dof.begin(), dof.end(), function);
@@ -315,7 +344,7 @@ MultiVector BasisFunctionCoefficients(const GridFunctions& space, int depth, Id 
     {
       continue;
     }
-    const CellIndex cell = MortonDecode(space.Finest().cell[patch]);
+    const CellIndex cell = MortonDecode(finest.cell[patch]);
     const CellIndex coarse = MortonDecode(level.cell[ancestor]);
     for (int corner = 0; corner < FunctionsPerPatch; ++corner)
     {
@@ -324,7 +353,7 @@ MultiVector BasisFunctionCoefficients(const GridFunctions& space, int depth, Id 
         cell[2] + ((corner >> 2) & 1) - side * coarse[2]);
       std::array<double, FunctionsPerPatch> value;
       TrilinearValues(local / side, value);
-      coefficients(space.Finest().dof[patch][corner], 0) = value[found - dof.begin()];
+      coefficients(finest.dof[patch][corner], 0) = value[found - dof.begin()];
     }
   }
   return coefficients;

@@ -1,0 +1,163 @@
+#include "Parallel/RankClip.h"
+
+#include "Base/Parallel.h"
+#include "Parallel/OwnPieces.h"
+#include "Parallel/RankMemory.h"
+#include "Problems/MemoryEstimate.h"
+#include "Problems/Requirements.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace gridfem
+{
+
+namespace
+{
+
+Grid WithDepth(Grid grid, int depth)
+{
+  grid.spacing = std::ldexp(grid.spacing, grid.depth - depth);
+  grid.depth = depth;
+  return grid;
+}
+
+/// Collective. Points of borders count once, as far as triangles tell.
+double SumOfPoints(const Communicator& ranks, const TriangleMesh& own)
+{
+  double points = WeldedPoints(own);
+  ranks.Sum(&points, 1);
+  return points;
+}
+
+/// Collective. What the surface of all ranks is expected to have in a grid.
+double SumOfFunctions(const Communicator& ranks, const TriangleMesh& own, const Grid& grid)
+{
+  double patches = 0.0;
+  ranks.Together(
+    [&] { patches = own.triangles.empty() ? 0.0 : EstimateMemory(own, grid).patches; });
+  ranks.Sum(&patches, 1);
+  return FunctionsOfPatches(patches);
+}
+
+/// Collective. That of one rank, and coarser until it fits into memory.
+int SuggestDepth(const Communicator& ranks, const TriangleMesh& own, const Grid& grid, bool hasHats)
+{
+  const int suggested = SuggestedDepth(SumOfPoints(ranks, own),
+    [&](int depth) { return SumOfFunctions(ranks, own, WithDepth(grid, depth)); });
+  return FinestDepth(suggested, MinimumDepth,
+    [&](int depth) { return FitsMemory(ranks, own, WithDepth(grid, depth), hasHats); });
+}
+
+/// Collective. As DepthForPoints.
+int LimitDepth(
+  const Communicator& ranks, const TriangleMesh& own, double functionsPerPoint, const Grid& grid)
+{
+  const double functions = functionsPerPoint * SumOfPoints(ranks, own);
+  return FinestDepth(grid.depth, MinimumDepth,
+    [&](int depth) { return SumOfFunctions(ranks, own, WithDepth(grid, depth)) <= functions; });
+}
+
+/// Collective.
+ClipFrame FrameOf(
+  const Communicator& ranks, const TriangleMesh& own, const RankSpaceOptions& rankOptions)
+{
+  const SpaceOptions& options = rankOptions.space.functions;
+  const bool isAutomatic = options.depth == AutomaticDepth;
+  const int depth = isAutomatic ? CoarsestSuggestion : options.depth;
+  constexpr double Infinity = std::numeric_limits<double>::infinity();
+  std::array<double, 7> extremes; // largest of -x, -y, -z, x, y, z, and of their absolute values
+  ranks.Together(
+    [&]
+    {
+      Validate(own, options.threads);
+      EmbedInGrid({}, {}, depth); // refuses a wrong depth
+      const Bounds bounds = BoundsOf(own.points, UsedPoints(own, options.threads), options.threads);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        extremes[axis] = -bounds.low[axis];
+        extremes[3 + axis] = bounds.high[axis];
+      }
+      extremes[6] = 0.0;
+    });
+  ranks.Maximum(extremes.data(), 6);
+  ClipFrame frame;
+  if (extremes[0] == -Infinity)
+  {
+    frame.grid = EmbedInGrid({}, {}, depth); // nobody has a triangle
+  }
+  else
+  {
+    const Vec3 low(-extremes[0], -extremes[1], -extremes[2]);
+    const Vec3 high(extremes[3], extremes[4], extremes[5]);
+    frame.grid = EmbedInGrid({ low, high }, {}, depth);
+    extremes[6] = low.cwiseAbs().cwiseMax(high.cwiseAbs()).maxCoeff();
+  }
+  if (isAutomatic)
+  {
+    frame.grid =
+      WithDepth(frame.grid, SuggestDepth(ranks, own, frame.grid, rankOptions.isBelowHats));
+  }
+  if (rankOptions.isBelowHats && std::isfinite(rankOptions.functionsPerPoint))
+  {
+    frame.grid =
+      WithDepth(frame.grid, LimitDepth(ranks, own, rankOptions.functionsPerPoint, frame.grid));
+  }
+  frame.tolerance = SnapTolerance(extremes[6], frame.grid);
+  return frame;
+}
+
+} // namespace
+
+RankClip::RankClip(const Communicator& ranks, const TriangleMesh& own,
+  const RankSpaceOptions& options, const Progress& progress, const TriangleList& copiesOfOthers)
+{
+  ClipFrame frame = FrameOf(ranks, own, options);
+  partition = std::make_shared<const BlockPartition>(ranks, own, frame, options.granularity);
+  distribution = std::make_shared<Redistribution>(ranks, own, frame.grid, *partition);
+  auto received = std::make_shared<TriangleMesh>(distribution->TakeMesh());
+  copies = std::make_shared<const TriangleCopies>(
+    ranks, own, copiesOfOthers, frame.grid, *partition, *received);
+  RequireMemory(ranks, *received, frame.grid, options.isBelowHats);
+  ranks.Together(
+    [&]
+    {
+      progress.Check(0.25);
+      const CellRegion region = partition->RegionOf(ranks.Rank());
+      frame.region = &region;
+      const SpaceOptions& functions = options.space.functions;
+      ClipOptions clip;
+      clip.depth = frame.grid.depth;
+      clip.weldCoincidentPoints = functions.weldCoincidentPoints;
+      clip.joinAtPoints = functions.joinAtPoints;
+      clip.threads = functions.threads;
+      clipped = ClipPart(*received, frame, clip, progress.Part(0.25, 1.0));
+    });
+  mesh = std::move(received);
+}
+
+void RankClip::KeepOwn(const Communicator& ranks)
+{
+  ranks.Together(
+    [&]
+    {
+      const auto [begin, end] = partition->CellsOf(ranks.Rank(), clipped.grid.depth);
+      const auto placeOf = [&](MortonKey key)
+      {
+        const auto& cells = clipped.cells;
+        return static_cast<Index>(
+          std::lower_bound(cells.begin(), cells.end(), key) - cells.begin());
+      };
+      const Index first = placeOf(begin);
+      const Index last = placeOf(end);
+      Release(clipped.links);
+      GridFunctions cells; // of which a patch is all that is in a cell
+      cells.piecePatch = PieceCells(clipped);
+      cells.clipped = std::move(clipped);
+      KeepPieces(first, last, cells);
+      clipped = std::move(cells.clipped);
+    });
+}
+
+} // namespace gridfem

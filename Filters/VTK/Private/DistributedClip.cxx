@@ -1,0 +1,460 @@
+#include "DistributedClip.h"
+
+#if GRIDFEM_HAS_PARALLEL
+
+#include "Allocation.h"
+#include "ClippedFans.h"
+#include "ClippedMeshWriter.h"
+#include "DistributedInternals.h"
+#include "InterpolatedArrays.h"
+#include "OctreeOutput.h"
+#include "PieceArrays.h"
+#include "PointCoordinates.h"
+#include "ReceivedArrays.h"
+#include "SurfaceSolverState.h"
+
+#include "Integrals/Evaluation.h"
+#include "Parallel/RankClip.h"
+
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace gridfem
+{
+namespace
+{
+
+using CountsOfKinds = std::array<Id, CellKinds>;
+
+/// Collective. Per cell of this rank's piece its number among those of all ranks that are no
+/// copies, as PieceJoiner gives them.
+std::vector<Id> NumberCells(const Communicator& ranks, vtkPolyData* piece, bool isCounted)
+{
+  std::vector<Id> number; // among those of the rank and the kind
+  CountsOfKinds own{};
+  CountsOfKinds ends{}; // of the piece's cells
+  ranks.Together(
+    [&]
+    {
+      if (!isCounted)
+      {
+        return;
+      }
+      auto* const ghosts = GhostsOf(piece->GetCellData(), piece->GetNumberOfCells());
+      const auto kinds = CellsOf(piece);
+      for (int kind = 0; kind < CellKinds; ++kind)
+      {
+        const Id count = kinds[kind] ? kinds[kind]->GetNumberOfCells() : 0;
+        for (Id cell = 0; cell < count; ++cell)
+        {
+          const bool isCopied = ghosts && (ghosts->GetValue(static_cast<Id>(number.size())) &
+                                            vtkDataSetAttributes::DUPLICATECELL) != 0;
+          number.push_back(own[kind]);
+          own[kind] += isCopied ? 0 : 1;
+        }
+        ends[kind] = static_cast<Id>(number.size());
+      }
+    });
+  const std::vector<CountsOfKinds> all = ranks.Gather(std::vector<CountsOfKinds>{ own });
+  Id before = 0;
+  Id first = 0;
+  for (int kind = 0; kind < CellKinds; ++kind)
+  {
+    for (int rank = 0; rank < ranks.Size(); ++rank)
+    {
+      if (rank == ranks.Rank())
+      {
+        std::for_each(
+          number.begin() + first, number.begin() + ends[kind], [=](Id& cell) { cell += before; });
+      }
+      before += all[rank][kind];
+    }
+    first = ends[kind];
+  }
+  return number;
+}
+
+/// Collective. The number of the cell that each received triangle comes from.
+std::vector<Id> SourceCells(const Communicator& ranks, const Redistribution& distribution,
+  vtkPolyData* piece, const InputMesh& mesh)
+{
+  const std::vector<Id> number = NumberCells(ranks, piece, !mesh.triangles->triangles.empty());
+  MultiVector own;
+  ranks.Together(
+    [&]
+    {
+      own.resize(static_cast<Id>(mesh.sourceCell.size()), 1);
+      std::transform(mesh.sourceCell.begin(), mesh.sourceCell.end(), own.data(),
+        [&](Id cell) { return static_cast<double>(number[cell]); });
+    });
+  const MultiVector received = distribution.SendTriangles(own);
+  return { received.data(), received.data() + received.size() };
+}
+
+/// The triangles as a data set.
+void SetSurface(const TriangleMesh& mesh, int precision, vtkPolyData* surface)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataType(precision);
+  SetTuples(points->GetData(), static_cast<vtkIdType>(mesh.points.size()));
+  VisitCoordinates(points,
+    [&](auto* coordinates)
+    {
+      for (std::size_t k = 0; k < mesh.points.size(); ++k)
+      {
+        StorePoint(mesh.points[k], coordinates + 3 * k);
+      }
+    });
+  vtkNew<vtkCellArray> cells;
+  const auto count = static_cast<vtkIdType>(mesh.triangles.size());
+  ReserveCells(cells, count, 3 * count);
+  for (const auto& corners : mesh.triangles)
+  {
+    cells->InsertNextCell({ corners[0], corners[1], corners[2] });
+  }
+  surface->Initialize();
+  surface->SetPoints(points);
+  surface->SetPolys(cells);
+}
+
+/// The input's points that pieces have, ascending, then all cut points.
+std::vector<vtkIdType> PointsOfPieces(const ClippedMesh& clipped)
+{
+  std::vector<char> isUsed(clipped.numberOfInputPoints, 0);
+  for (const Index corner : clipped.corners)
+  {
+    if (corner < clipped.numberOfInputPoints)
+    {
+      isUsed[corner] = 1;
+    }
+  }
+  std::vector<vtkIdType> points;
+  for (Id point = 0; point < static_cast<Id>(clipped.position.size()); ++point)
+  {
+    if (point >= clipped.numberOfInputPoints || isUsed[point])
+    {
+      points.push_back(point);
+    }
+  }
+  return points;
+}
+
+/// With these points alone.
+ClippedMesh WithPoints(const ClippedMesh& clipped, const std::vector<vtkIdType>& points)
+{
+  ClippedMesh shown;
+  shown.grid = clipped.grid;
+  shown.cells = clipped.cells;
+  shown.cellBegin = clipped.cellBegin;
+  shown.pieceTriangle = clipped.pieceTriangle;
+  shown.pieceBegin = clipped.pieceBegin;
+  std::vector<Index> place(clipped.position.size(), -1);
+  for (const vtkIdType point : points)
+  {
+    place[point] = static_cast<Index>(shown.position.size());
+    shown.position.push_back(clipped.position[point]);
+    shown.numberOfInputPoints += point < clipped.numberOfInputPoints ? 1 : 0;
+  }
+  shown.corners.reserve(clipped.corners.size());
+  for (const Index corner : clipped.corners)
+  {
+    shown.corners.push_back(place[corner]);
+  }
+  return shown;
+}
+
+/// Per clipped triangle its source triangle.
+vtkSmartPointer<vtkIdTypeArray> TrianglesOfFans(const ClippedMesh& clipped, int threads)
+{
+  auto triangles = vtkSmartPointer<vtkIdTypeArray>::New();
+  SetTuples(triangles, clipped.NumberOfTriangles());
+  vtkIdType* const triangle = triangles->GetPointer(0);
+  ForEachFan(clipped, threads,
+    [&](Id piece, Id begin, Id end)
+    { std::fill(triangle + begin, triangle + end, clipped.pieceTriangle[piece]); });
+  return triangles;
+}
+
+/// The levels of all ranks' functions as this rank has them: the divided ones, with its own patches
+/// and its own numbers of functions, and behind them the shared ones, which are whole.
+std::vector<PatchLevel> LevelsOfRank(const RankSpace& space)
+{
+  const std::vector<PatchLevel>& own = space.Own().Functions().levels;
+  const std::size_t divided = space.Numberings().size();
+  const Id before = space.Ranks().ShareOf(own[divided].NumberOfPatches()).before;
+  std::vector<PatchLevel> levels;
+  space.Ranks().Together(
+    [&]
+    {
+      levels.assign(own.begin(), own.begin() + static_cast<Id>(divided));
+      for (Index& parent : levels.back().parent)
+      {
+        parent += static_cast<Index>(before);
+      }
+      const std::vector<PatchLevel>& shared = space.Shared().Functions().levels;
+      levels.insert(levels.end(), shared.begin(), shared.end());
+    });
+  return levels;
+}
+
+/// The finest level of all ranks.
+PatchLevel GatherFinest(const RankSpace& space)
+{
+  const LevelNumbering& numbering = space.Numberings().front();
+  PatchLevel finest = space.Own().Functions().Finest();
+  for (auto& dof : finest.dof)
+  {
+    for (Index& function : dof)
+    {
+      function = static_cast<Index>(numbering.number[function]);
+    }
+  }
+  finest.cell = space.Ranks().Gather(finest.cell);
+  finest.dof = space.Ranks().Gather(finest.dof);
+  finest.numberOfFunctions = static_cast<Index>(numbering.total);
+  return finest;
+}
+
+class ClipOfRanks : public DistributedClip
+{
+public:
+  void Build(DistributedSurface& together, vtkPolyData* piece, const SurfaceOptions& options,
+    InputMesh& mesh, const Progress& progress) override;
+  void Take(const DistributedSurface& together, vtkPolyData* piece, const SurfaceOptions& options,
+    const InputMesh& mesh) override;
+  void WriteMesh(
+    vtkPolyData* piece, const InputMesh& mesh, int threads, vtkPolyData* output) const override;
+  void WriteFunctions(int level, vtkUnstructuredGrid* output) const override;
+  void AddBasisFunction(int level, Id function, int threads, vtkPolyData* output) const override;
+
+  const ClippedMesh& Clipped() const override { return *clipped_; }
+  const InputMesh& Source() const override { return source_; }
+  const MortonKey* CellBefore() const override { return before_.empty() ? nullptr : &before_[0]; }
+  int Precision() const override { return precision_; }
+
+private:
+  void Complete(vtkPolyData* piece, const SurfaceOptions& options, const InputMesh& mesh);
+  void AddBasis(const SurfaceOptions& options);
+  vtkSmartPointer<vtkAbstractArray> AtPointsShown(vtkAbstractArray* atAllPoints) const;
+
+  Communicator ranks_ = RanksOfVtk();
+  std::shared_ptr<const RankSurface> whole_; // with functions
+  std::shared_ptr<const Redistribution> distribution_;
+  std::shared_ptr<const ClippedMesh> clipped_;
+  std::vector<PatchLevel> levels_; // LevelsOfRank
+  InputMesh source_;
+  std::vector<MortonKey> cells_;  // of all ranks
+  std::vector<MortonKey> before_; // at most one
+  int precision_ = VTK_DOUBLE;
+  std::vector<vtkIdType> points_; // of the clipped mesh, that are put out
+  vtkNew<vtkPolyData> surface_;   // that was received, without arrays
+  vtkNew<vtkPolyData> frame_;     // what does not depend on arrays of the input
+};
+
+void ClipOfRanks::Build(DistributedSurface& together, vtkPolyData* piece,
+  const SurfaceOptions& options, InputMesh& mesh, const Progress& progress)
+{
+  whole_ = nullptr;
+  clipped_ = nullptr; // frees the memory of the last one first
+  mesh = together.ReadPieces(piece, options.space.threads);
+  RankClip clip(ranks_, *mesh.triangles, RankOptionsOf(options), progress,
+    together.CopiedTriangles().triangles->triangles);
+  clip.KeepOwn(ranks_);
+  distribution_ = clip.distribution;
+  source_.triangles = clip.mesh;
+  clipped_ = std::make_shared<const ClippedMesh>(std::move(clip.clipped));
+  this->Complete(piece, options, mesh);
+}
+
+void ClipOfRanks::Take(const DistributedSurface& together, vtkPolyData* piece,
+  const SurfaceOptions& options, const InputMesh& mesh)
+{
+  whole_ = together.Parts().whole;
+  const RankSpace& space = whole_->Space();
+  distribution_ = { whole_, &space.Distribution() };
+  source_.triangles = { whole_, &space.Own().Mesh() };
+  clipped_ = { whole_, &space.Own().Functions().clipped };
+  levels_ = LevelsOfRank(space);
+  this->Complete(piece, options, mesh);
+  this->AddBasis(options);
+}
+
+/// All else, where the pieces and what they refer to are there.
+void ClipOfRanks::Complete(vtkPolyData* piece, const SurfaceOptions& options, const InputMesh& mesh)
+{
+  source_.sourceCell = SourceCells(ranks_, *distribution_, piece, mesh);
+  cells_ = ranks_.Gather(clipped_->cells);
+  const Id first = ranks_.ShareOf(static_cast<Id>(clipped_->cells.size())).before;
+  before_.assign(cells_.begin() + std::max<Id>(first - 1, 0), cells_.begin() + first);
+  const bool isDouble =
+    !mesh.triangles->triangles.empty() && OutputPrecision(piece->GetPoints()) == VTK_DOUBLE;
+  double any = isDouble ? 1.0 : 0.0;
+  ranks_.Maximum(&any, 1);
+  precision_ = any > 0.0 ? VTK_DOUBLE : VTK_FLOAT;
+  ranks_.Together(
+    [&]
+    {
+      SetSurface(*source_.triangles, precision_, surface_);
+      points_ = PointsOfPieces(*clipped_);
+      const ClippedMesh shown = WithPoints(*clipped_, points_);
+      TriangleMesh given; // points alone
+      for (Id k = 0; k < shown.numberOfInputPoints; ++k)
+      {
+        given.points.push_back(source_.triangles->points[points_[k]]);
+      }
+      vtkNew<vtkPolyData> ofPieces;
+      SetSurface(given, precision_, ofPieces);
+      WriteClippedFrame(ofPieces, source_, shown, cells_, first, options.space.weldCoincidentPoints,
+        options.space.threads, frame_);
+    });
+}
+
+void ClipOfRanks::AddBasis(const SurfaceOptions& options)
+{
+  const RankSpace& space = whole_->Space();
+  const PatchLevel finest = GatherFinest(space);
+  const GridFunctions& own = space.Own().Functions();
+  const Id before = ranks_.ShareOf(own.Finest().NumberOfPatches()).before;
+  ranks_.Together(
+    [&]
+    {
+      std::vector<Id> patches = PatchesOfTriangles(own, options.space.threads);
+      for (Id& patch : patches)
+      {
+        patch += before;
+      }
+      WriteBasis(finest, cells_, own.support, patches, options.space.weldCoincidentPoints, frame_);
+    });
+}
+
+vtkSmartPointer<vtkAbstractArray> ClipOfRanks::AtPointsShown(vtkAbstractArray* atAllPoints) const
+{
+  Numbering numbering;
+  numbering.Add(atAllPoints->GetNumberOfTuples());
+  return Pick({ atAllPoints }, numbering, points_);
+}
+
+void ClipOfRanks::WriteMesh(
+  vtkPolyData* piece, const InputMesh& mesh, int threads, vtkPolyData* output) const
+{
+  vtkNew<vtkPolyData> received;
+  received->ShallowCopy(surface_);
+  SendArrays(ranks_, *distribution_, piece, mesh, received);
+  ranks_.Together(
+    [&]
+    {
+      output->ShallowCopy(frame_);
+      vtkNew<vtkPointData> atPoints;
+      InterpolatePointArrays(
+        received->GetPointData(), *source_.triangles, *clipped_, threads, atPoints);
+      for (int k = 0; k < atPoints->GetNumberOfArrays(); ++k)
+      {
+        output->GetPointData()->AddArray(this->AtPointsShown(atPoints->GetAbstractArray(k)));
+      }
+      PassActiveAttributes(atPoints, output->GetPointData());
+      CopyCellArrays(received->GetCellData(), received->GetNumberOfCells(), output->GetCellData(),
+        TrianglesOfFans(*clipped_, threads));
+      if (piece)
+      {
+        AddFieldArrays(piece, output);
+      }
+    });
+}
+
+void ClipOfRanks::WriteFunctions(int depth, vtkUnstructuredGrid* output) const
+{
+  const std::size_t level = LevelOfDepth(levels_, depth);
+  const RankLevels& ofRanks = whole_->Levels();
+  const GridFunctions& own = whole_->Space().Own().Functions();
+  const bool isDivided = level < whole_->Space().Numberings().size();
+  ShownLevel shown;
+  const std::vector<Index> component = ofRanks.ComponentsOf(0).ofFunction;
+  ranks_.Together([&] { shown = DescribeLevel(levels_, PatchAreas(own), component, level); });
+  const auto count = static_cast<Id>(shown.function.size());
+  MultiVector area = Eigen::Map<MultiVector>(shown.area.data(), count, 1);
+  if (isDivided)
+  {
+    const LevelNumbering& numbering = whole_->Space().Numberings()[level];
+    shown.function = numbering.number;
+    ofRanks.Rows(level).Sum(area);
+    shown.firstPatch = ranks_.ShareOf(shown.level->NumberOfPatches()).before;
+  }
+  else
+  {
+    ranks_.Sum(area.data(), count);
+    std::vector<double> least(shown.component.begin(), shown.component.end());
+    ranks_.Minimum(least.data(), count);
+    shown.component.assign(least.begin(), least.end());
+  }
+  std::copy_n(area.data(), count, shown.area.data());
+  ranks_.Together(
+    [&]
+    {
+      if (isDivided || ranks_.Rank() == 0)
+      {
+        WriteBasisFunctions(own.GetGrid(), shown, precision_, output);
+      }
+    });
+}
+
+void ClipOfRanks::AddBasisFunction(int depth, Id function, int threads, vtkPolyData* output) const
+{
+  const std::size_t level = LevelOfDepth(levels_, depth);
+  const std::vector<LevelNumbering>& numberings = whole_->Space().Numberings();
+  ranks_.Together(
+    [&]
+    {
+      Id here = function;
+      if (level < numberings.size())
+      {
+        const LevelNumbering& numbering = numberings[level];
+        RequireBasisFunction(levels_[level].depth, numbering.total, function);
+        const auto found =
+          std::lower_bound(numbering.number.begin(), numbering.number.end(), function);
+        here = found != numbering.number.end() && *found == function
+                 ? found - numbering.number.begin()
+                 : -1;
+      }
+      const MultiVector coefficients =
+        here < 0 ? MultiVector(MultiVector::Zero(levels_.front().numberOfFunctions, 1))
+                 : BasisFunctionCoefficients(levels_, depth, here);
+      const MultiVector values =
+        EvaluateAtClippedPoints(whole_->Space().Own().Functions(), coefficients, threads);
+      vtkNew<vtkDoubleArray> array;
+      array->SetName(BasisFunctionName);
+      SetTuples(array, values.rows());
+      std::copy(values.data(), values.data() + values.size(), array->GetPointer(0));
+      output->GetPointData()->AddArray(this->AtPointsShown(array));
+      output->GetPointData()->SetActiveScalars(BasisFunctionName);
+    });
+}
+
+} // namespace
+
+std::unique_ptr<DistributedClip> DistributedClip::Make()
+{
+  return std::make_unique<ClipOfRanks>();
+}
+
+} // namespace gridfem
+
+#else
+
+namespace gridfem
+{
+
+std::unique_ptr<DistributedClip> DistributedClip::Make()
+{
+  return nullptr;
+}
+
+} // namespace gridfem
+
+#endif

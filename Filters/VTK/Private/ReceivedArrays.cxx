@@ -1,0 +1,256 @@
+#if GRIDFEM_HAS_PARALLEL
+
+#include "ReceivedArrays.h"
+
+#include "DataMessage.h"
+#include "InterpolatedArrays.h"
+#include "PieceArrays.h"
+#include "Ranks.h"
+
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkPointData.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace gridfem
+{
+namespace
+{
+
+/// What ranks have to agree on of an array.
+struct ArrayKind
+{
+  std::string name;
+  int components;
+  int type;
+};
+
+bool IsSent(vtkAbstractArray* array, vtkIdType tuples)
+{
+  return array->GetName() && CanTravel(array) && array->GetNumberOfTuples() == tuples &&
+         std::string(array->GetName()) != vtkDataSetAttributes::GhostArrayName();
+}
+
+/// One array per line, the name last, because it may have blanks.
+std::string Describe(vtkDataSetAttributes* arrays, vtkIdType tuples)
+{
+  std::ostringstream text;
+  for (int k = 0; k < arrays->GetNumberOfArrays(); ++k)
+  {
+    vtkAbstractArray* const array = arrays->GetAbstractArray(k);
+    if (IsSent(array, tuples))
+    {
+      text << array->GetNumberOfComponents() << ' ' << array->GetDataType() << ' '
+           << array->GetName() << '\n';
+    }
+  }
+  return text.str();
+}
+
+std::vector<ArrayKind> ReadKinds(const std::string& text)
+{
+  std::vector<ArrayKind> kinds;
+  std::istringstream lines(text);
+  for (ArrayKind kind; lines >> kind.components >> kind.type && lines.get() == ' ' &&
+                       std::getline(lines, kind.name);)
+  {
+    kinds.push_back(kind);
+  }
+  return kinds;
+}
+
+/// The arrays that both have; of numbers, which both can be, the type may differ.
+std::vector<ArrayKind> CommonKinds(
+  const std::vector<ArrayKind>& kinds, const std::vector<ArrayKind>& others)
+{
+  std::vector<ArrayKind> common;
+  for (ArrayKind kind : kinds)
+  {
+    const auto other = std::find_if(others.begin(), others.end(),
+      [&](const ArrayKind& one)
+      {
+        return one.name == kind.name && one.components == kind.components &&
+               (one.type == VTK_STRING) == (kind.type == VTK_STRING);
+      });
+    if (other != others.end())
+    {
+      kind.type = other->type == kind.type ? kind.type : VTK_DOUBLE;
+      common.push_back(kind);
+    }
+  }
+  return common;
+}
+
+/// Collective. The arrays that all ranks with triangles have.
+std::vector<ArrayKind> Agree(const std::string& own, bool hasTriangles)
+{
+  const std::string silent = "-"; // no line of an array
+  std::vector<ArrayKind> common;
+  bool isFirst = true;
+  for (const std::string& text : Ranks().Exchange(hasTriangles ? own : silent))
+  {
+    if (text != silent)
+    {
+      const std::vector<ArrayKind> kinds = ReadKinds(text);
+      common = isFirst ? kinds : CommonKinds(common, kinds);
+      isFirst = false;
+    }
+  }
+  return common;
+}
+
+/// Puts the tuples of the arrays into the message.
+void PutTuples(vtkDataSetAttributes* from, const std::vector<ArrayKind>& kinds,
+  const std::vector<vtkIdType>& tuples, DataMessage& message)
+{
+  vtkNew<vtkPointData> picked; // of cells as well
+  for (const ArrayKind& kind : kinds)
+  {
+    vtkAbstractArray* const array = from->GetAbstractArray(kind.name.c_str());
+    Numbering numbering;
+    numbering.Add(array->GetNumberOfTuples());
+    vtkSmartPointer<vtkAbstractArray> some = Pick({ array }, numbering, tuples);
+    if (some->GetDataType() != kind.type && kind.type == VTK_DOUBLE)
+    {
+      vtkNew<vtkDoubleArray> numbers;
+      numbers->DeepCopy(some);
+      some = numbers;
+    }
+    picked->AddArray(some);
+  }
+  PassActiveAttributes(from, picked);
+  message.PutArrays(picked, static_cast<vtkIdType>(tuples.size()));
+}
+
+/// Takes arrays out of the messages of all ranks that have sent any tuples.
+/// @param counts  of tuples, by rank
+/// @param order   per tuple of the result its place among all that have come
+void TakeTuples(std::vector<DataMessage>& messages, const std::vector<Id>& counts,
+  const std::vector<ArrayKind>& kinds, const std::vector<vtkIdType>& order,
+  vtkDataSetAttributes* to)
+{
+  std::vector<vtkSmartPointer<vtkPointData>> parts;
+  Numbering numbering;
+  for (std::size_t rank = 0; rank < messages.size(); ++rank)
+  {
+    if (counts[rank] > 0)
+    {
+      parts.push_back(vtkSmartPointer<vtkPointData>::New());
+      messages[rank].TakeArrays(parts.back());
+      numbering.Add(counts[rank]);
+    }
+  }
+  for (const ArrayKind& kind : kinds)
+  {
+    ArraysOfPieces arrays;
+    for (const auto& part : parts)
+    {
+      arrays.push_back(part->GetAbstractArray(kind.name.c_str()));
+    }
+    if (!arrays.empty())
+    {
+      to->AddArray(Pick(arrays, numbering, order));
+    }
+  }
+  if (!parts.empty())
+  {
+    PassActiveAttributes(parts.front(), to);
+  }
+}
+
+std::vector<vtkIdType> CellsOfTriangles(
+  const std::vector<Id>& sourceCell, const std::vector<Index>& triangles)
+{
+  std::vector<vtkIdType> cells;
+  cells.reserve(triangles.size());
+  for (const Index triangle : triangles)
+  {
+    cells.push_back(sourceCell[triangle]);
+  }
+  return cells;
+}
+
+std::vector<vtkIdType> Inverse(const std::vector<Index>& places)
+{
+  std::vector<vtkIdType> inverse(places.size());
+  for (std::size_t k = 0; k < places.size(); ++k)
+  {
+    inverse[places[k]] = static_cast<vtkIdType>(k);
+  }
+  return inverse;
+}
+
+std::vector<vtkIdType> Count(vtkIdType count)
+{
+  std::vector<vtkIdType> numbers(count);
+  for (vtkIdType k = 0; k < count; ++k)
+  {
+    numbers[k] = k;
+  }
+  return numbers;
+}
+
+} // namespace
+
+void SendArrays(const Communicator& ranks, const Redistribution& distribution, vtkPolyData* piece,
+  const InputMesh& mesh, vtkPolyData* received)
+{
+  const bool hasTriangles = !mesh.triangles->triangles.empty();
+  std::string ofPoints;
+  std::string ofCells;
+  ranks.Together(
+    [&]
+    {
+      if (hasTriangles)
+      {
+        ofPoints = Describe(piece->GetPointData(), piece->GetNumberOfPoints());
+        ofCells = Describe(piece->GetCellData(), piece->GetNumberOfCells());
+      }
+    });
+  const std::vector<ArrayKind> pointKinds = Agree(ofPoints, hasTriangles);
+  const std::vector<ArrayKind> cellKinds = Agree(ofCells, hasTriangles);
+  std::vector<Bytes> sent(ranks.Size());
+  ranks.Together(
+    [&]
+    {
+      for (int rank = 0; rank < ranks.Size(); ++rank)
+      {
+        const std::vector<Index>& points = distribution.PointsTo(rank);
+        const std::vector<Index>& triangles = distribution.TrianglesTo(rank);
+        DataMessage message;
+        message.Put(static_cast<Id>(points.size()));
+        message.Put(static_cast<Id>(triangles.size()));
+        if (!triangles.empty())
+        {
+          PutTuples(piece->GetPointData(), pointKinds, { points.begin(), points.end() }, message);
+          PutTuples(
+            piece->GetCellData(), cellKinds, CellsOfTriangles(mesh.sourceCell, triangles), message);
+        }
+        sent[rank] = message.Release();
+      }
+    });
+  sent = ranks.Exchange(sent);
+  ranks.Together(
+    [&]
+    {
+      std::vector<DataMessage> messages;
+      std::vector<Id> points;
+      std::vector<Id> triangles;
+      for (Bytes& bytes : sent)
+      {
+        messages.emplace_back(std::move(bytes));
+        points.push_back(messages.back().Take<Id>());
+        triangles.push_back(messages.back().Take<Id>());
+      }
+      TakeTuples(messages, points, pointKinds, Inverse(distribution.PlacesOfPoints()),
+        received->GetPointData());
+      TakeTuples(messages, triangles, cellKinds, Count(received->GetNumberOfCells()),
+        received->GetCellData());
+    });
+}
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,268 @@
+"""The clip and the basis by all ranks together: one rank after the other, the triangles, octree cells,
+quadrature points and functions of one rank."""
+import unittest
+
+import numpy
+from vtkmodules.util import numpy_support
+from vtkmodules.vtkCommonCore import vtkStringArray
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+import ranks
+
+MESHES = (ranks.ellipsoid, ranks.two, ranks.bowl, ranks.soup, ranks.sheets, ranks.triangle)
+LEVELS = (14, 3, 2, 1, 0)
+TABLES = ("OctreeCells", "PatchCellId", "PatchBasisIds", "NumberOfBasisFunctions", "GridOrigin",
+          "GridSpacing", "GridDepth", "ConnectivityAware", "WeldCoincidentPoints", "given")
+
+
+def made(name, **properties):
+    return ranks.make(name, 4, Distributed=True, **properties)
+
+
+def field(output, name):
+    array = output.GetFieldData().GetArray(name)
+    return None if array is None else numpy_support.vtk_to_numpy(array)
+
+
+def rows_of_triangles(output):
+    """Per triangle its cell arrays, and the places and point arrays at its corners."""
+    if output.GetNumberOfCells() == 0:
+        return numpy.zeros((0, 0)), []
+    corners = numpy_support.vtk_to_numpy(output.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    columns, names = [], []
+    cells = ranks.arrays(output.GetCellData())
+    for name in ("OctreeCellId", "originCell", "PatchId", "c", "SourceCellId", "OctreeCellColor",
+                 "PatchColor"):
+        if name in cells:
+            columns.append(cells[name])
+            names.append(name)
+    points = {"place": numpy_support.vtk_to_numpy(output.GetPoints().GetData()),
+              **ranks.arrays(output.GetPointData())}
+    for name in ("place", "f", "label", "BasisFunction"):
+        if name in points:
+            at_corners = points[name].reshape(len(points["place"]), -1)[corners].reshape(
+                len(corners), -1)
+            columns += list(at_corners.T)
+            names += at_corners.shape[1] * [name]
+    return numpy.column_stack(columns), names
+
+
+def of_all_ranks(rows):
+    """The rows of all ranks, one rank after the other; ranks without any do not know how long they are."""
+    width = int(ranks.gathered([rows.shape[1]]).max())
+    return ranks.gathered(rows.ravel()).reshape(-1, max(width, 1))
+
+
+def sorted_rows(rows):
+    return rows[numpy.lexsort(numpy.round(rows.T[::-1], 9))]
+
+
+def apart(ours, theirs, what, tolerance=1e-12):
+    if ours.shape != theirs.shape:
+        return [f"{what}: {ours.shape} instead of {theirs.shape}"]
+    difference = ranks.apart(ours, theirs)
+    return [] if difference <= tolerance else [f"{what}: {difference} off"]
+
+
+class DistributedClip(unittest.TestCase):
+    def compare_meshes(self, output, whole, kind, case):
+        """Triangles in the order of one rank's where the pieces have that of the mesh."""
+        theirs, names = rows_of_triangles(whole)
+        ours = of_all_ranks(rows_of_triangles(output)[0])
+        problems = []
+        if kind == "scattered":  # triangles have other numbers, and patches of a cell with them
+            ours, theirs = (
+                rows[:, [k for k, name in enumerate(names)
+                         if name not in ("PatchId", "PatchColor", "SourceCellId")]]
+                for rows in (ours, theirs))
+        problems += apart(sorted_rows(ours), sorted_rows(theirs), f"{case}: triangles")
+        for name in TABLES:
+            expected = field(whole, name)
+            found = field(output, name)
+            if expected is None or (kind == "scattered" and name in ("PatchCellId", "PatchBasisIds")):
+                continue
+            if found is None:
+                problems.append(f"{case}: no {name}")
+                continue
+            problems += apart(found.astype(float), expected.astype(float), f"{case}: {name}")
+        if field(output, "Distributed") is None:
+            problems.append(f"{case}: rank 0 has gathered")
+        used = numpy.unique(numpy_support.vtk_to_numpy(
+            output.GetPolys().GetConnectivityArray())) if output.GetNumberOfCells() else []
+        if len(used) != output.GetNumberOfPoints():
+            problems.append(f"{case}: points without triangles")
+        return problems
+
+    def test_clips_as_one_rank(self):
+        for mesh in MESHES:
+            for kind in ranks.KINDS:
+                with self.subTest(mesh=mesh.__name__, kind=kind):
+                    outputs = ranks.run(made("ClipToOctree", Level=-1), ranks.piece(mesh(), kind))
+                    whole = ranks.alone(lambda: ranks.run(
+                        ranks.make("ClipToOctree", 4, Level=-1), ranks.whole(mesh())))
+                    case = f"{mesh.__name__}, {kind}"
+                    problems = self.compare_meshes(outputs[0], whole[0], kind, case)
+                    problems += self.wrong_points_or_cells(outputs, whole, case)
+                    ranks.check(self, problems)
+
+    def wrong_points_or_cells(self, outputs, whole, case):
+        def quadrature(output):
+            if not output.GetNumberOfPoints():
+                return numpy.zeros((0, 4))
+            places = numpy_support.vtk_to_numpy(output.GetPoints().GetData())
+            return numpy.column_stack([places, ranks.arrays(output.GetPointData())["Weight"]])
+
+        def octree(output):
+            boxes = [output.GetCell(k).GetBounds() for k in range(output.GetNumberOfCells())]
+            return numpy.array(boxes).reshape(-1, 6)
+        problems = apart(sorted_rows(of_all_ranks(quadrature(outputs[1]))),
+                         sorted_rows(quadrature(whole[1])), f"{case}: quadrature points")
+        return problems + apart(sorted_rows(of_all_ranks(octree(outputs[2]))),
+                                sorted_rows(octree(whole[2])), f"{case}: octree cells")
+
+    def functions(self, output):
+        """Per function its number, place, area and component, once; and the numbers of patches."""
+        points = ranks.arrays(output.GetPointData())
+        rows = numpy.zeros((0, 6))
+        patches = numpy.zeros(0)
+        if output.GetNumberOfPoints():
+            places = numpy_support.vtk_to_numpy(output.GetPoints().GetData())
+            rows = numpy.column_stack([points["BasisId"], places, points["SupportArea"],
+                                       points["Component"]])
+            patches = ranks.arrays(output.GetCellData())["PatchId"]
+        return rows, patches
+
+    def test_builds_the_basis_of_one_rank(self):
+        for mesh in MESHES:
+            for kind in ("contiguous", "ghosts", "one rank is empty", "all on all", "last"):
+                for level in LEVELS:
+                    if level < 14 and kind != "contiguous":
+                        continue
+                    case = f"{mesh.__name__}, {kind}, level {level}"
+                    with self.subTest(case):
+                        ranks.check(self, self.wrong_basis(mesh(), kind, level, case))
+
+    def wrong_basis(self, mesh, kind, level, case):
+        properties = {"Level": level, "BasisId": 5 if level > 1 else 0}
+        outputs = ranks.run(made("ConnectivityAwareBasis", **properties), ranks.piece(mesh, kind))
+        whole = ranks.alone(lambda: ranks.run(
+            ranks.make("ConnectivityAwareBasis", 4, **properties), ranks.whole(mesh)))
+        problems = self.compare_meshes(outputs[0], whole[0], kind, case)
+        rows, patches = self.functions(outputs[1])
+        expected_rows, expected_patches = self.functions(whole[1])
+        rows = of_all_ranks(rows)
+        # Functions between two ranks are on both, the same on both sides.
+        same = numpy.unique(numpy.round(rows, 12), axis=0)
+        problems += apart(same, numpy.unique(numpy.round(expected_rows, 12), axis=0),
+                          f"{case}: functions", 2e-12)
+        return problems + apart(numpy.sort(ranks.gathered(patches)), expected_patches,
+                                f"{case}: patches")
+
+    def test_scattered_pieces_have_as_many_functions(self):
+        for mesh in MESHES:
+            for aware in (True, False):
+                filter_ = made("ConnectivityAwareBasis", ConnectivityAware=aware)
+                output = ranks.run(filter_, ranks.piece(mesh(), "scattered"))[0]
+                whole = ranks.alone(lambda: ranks.run(
+                    ranks.make("ConnectivityAwareBasis", 4, ConnectivityAware=aware),
+                    ranks.whole(mesh()))[0])
+                ranks.check(self, self.compare_meshes(output, whole, "scattered", mesh.__name__))
+
+    def test_a_solver_that_gathers_takes_the_basis(self):
+        mesh = ranks.ellipsoid()
+        basis = ranks.run(made("ConnectivityAwareBasis"), ranks.piece(mesh, "contiguous"))[0]
+        output = ranks.run(ranks.make("ScreenedPoisson", 7), basis)[0]
+        whole = ranks.alone(lambda: ranks.run(ranks.make("ScreenedPoisson", 4), ranks.whole(mesh))[0])
+
+        def solution(data):
+            if not data.GetNumberOfPoints():
+                return numpy.zeros((0, 4))
+            return numpy.column_stack([
+                numpy_support.vtk_to_numpy(data.GetPoints().GetData()),
+                ranks.arrays(data.GetPointData())["Solution"]])
+        expected = {tuple(row[:3]): row[3] for row in solution(whole)}
+        ours = solution(output)
+        found = [(row[3], expected[tuple(row[:3])]) for row in ours if tuple(row[:3]) in expected]
+        off = max((abs(a - b) for a, b in found), default=0.0)
+        depth = field(output, "UsedDepth")
+        ranks.check(self, ([] if off <= 1e-8 else [f"{off} off"]) +
+                    ([] if len(found) or not len(ours) else ["no point of the mesh"]) +
+                    ([] if depth is not None and depth[0] == 4 else [f"depth {depth}"]))
+        self.assertGreaterEqual(ranks.total(len(found)), len(mesh[0]))
+
+    def test_arrays_change_without_a_new_clip(self):
+        filter_ = made("ClipToOctree")
+        data = ranks.piece(ranks.ellipsoid(), "contiguous")
+        before = vtkPolyData()
+        before.ShallowCopy(ranks.run(filter_, data)[0])
+        if data.GetNumberOfPoints():
+            f = numpy_support.vtk_to_numpy(data.GetPointData().GetArray("f"))
+            f += 1.0
+            data.GetPointData().GetArray("f").Modified()
+        after = ranks.run(filter_, data)[0]
+        problems = [] if filter_.GetNumberOfRuns("Space") == 1 else ["clipped again"]
+        if after.GetNumberOfPoints():
+            change = (ranks.arrays(after.GetPointData())["f"] -
+                      ranks.arrays(before.GetPointData())["f"])
+            problems += apart(change, numpy.ones_like(change), "f", 1e-12)
+        ranks.check(self, problems)
+
+    def test_arrays_of_any_type(self):
+        """Text and bytes travel as they are; numbers of different types become double; an array that
+        one rank lacks is left out."""
+        data = ranks.piece(ranks.bowl(), "contiguous")
+        cells = data.GetNumberOfCells()
+        if cells:
+            names = vtkStringArray()
+            names.SetName("names")
+            for cell in numpy_support.vtk_to_numpy(data.GetCellData().GetArray("originCell")):
+                names.InsertNextValue(f"cell {int(cell)}")
+            data.GetCellData().AddArray(names)
+            ranks.add(data.GetCellData(), "mixed", numpy.arange(cells).astype(
+                numpy.float32 if ranks.RANK else numpy.int16))
+            if ranks.RANK:
+                ranks.add(data.GetCellData(), "partial", numpy.arange(cells))
+        output = ranks.run(made("ClipToOctree"), data)[0]
+        problems = []
+        if output.GetNumberOfCells():
+            names = output.GetCellData().GetAbstractArray("names")
+            origins = numpy_support.vtk_to_numpy(output.GetCellData().GetArray("originCell"))
+            if names is None or [names.GetValue(k) for k in range(len(origins))] != [
+                    f"cell {int(cell)}" for cell in origins]:
+                problems.append("the names are not those of the cells")
+            mixed = output.GetCellData().GetArray("mixed")
+            if mixed is None or mixed.GetDataTypeAsString() != "double":
+                problems.append("the array of two types is not double")
+            if output.GetCellData().HasArray("partial"):
+                problems.append("an array that one rank lacks is there")
+        ranks.check(self, problems)
+
+    def test_what_fails_on_one_rank_fails_on_all(self):
+        cases = {"BasisId": lambda: (made("ConnectivityAwareBasis", BasisId=10 ** 9),
+                                     ranks.piece(ranks.ellipsoid(), "contiguous")),
+                 "degree": lambda: (made("ClipToOctree", QuadratureDegree=3),
+                                    ranks.piece(ranks.ellipsoid(), "contiguous"))}
+
+        def broken():
+            data = ranks.piece(ranks.ellipsoid(), "contiguous")
+            if ranks.RANK == ranks.RANKS - 1:
+                numpy_support.vtk_to_numpy(data.GetPoints().GetData())[2] = numpy.nan
+            return made("ClipToOctree"), data
+        cases["place"] = broken
+        for case, make in cases.items():
+            filter_, data = make()
+            messages = []
+
+            def listen(_, __, text=None):
+                messages.append(text)
+            listen.CallDataType = "string0"
+            filter_.AddObserver("ErrorEvent", listen)
+            output = ranks.run(filter_, data)[0]
+            problems = [f"{case}: not empty"] if output.GetNumberOfPoints() else []
+            if len(messages) != (1 if ranks.RANK == 0 else 0):
+                problems.append(f"{case}: {messages}")
+            ranks.check(self, problems)
+
+
+if __name__ == "__main__":
+    ranks.main()
