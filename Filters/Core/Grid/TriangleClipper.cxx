@@ -172,25 +172,61 @@ void TriangleClipper::ClipAxis(const Polygon& polygon, int axis, ClipBuffer& sto
   }
 }
 
+int TriangleClipper::SideOf(const Corner& corner, int axis, int plane) const
+{
+  const double value = vertices_[corner.vertex].position[axis];
+  return (value > plane) - (value < plane);
+}
+
+/// The side of the first corner that is not on the plane, in steps from one corner.
+int TriangleClipper::SideAfter(
+  const Polygon& polygon, int corner, int step, int axis, int plane) const
+{
+  int side = 0;
+  for (int k = 1; side == 0 && k < polygon.size; ++k)
+  {
+    side = this->SideOf(polygon.corner[(corner + k * step) % polygon.size], axis, plane);
+  }
+  return side;
+}
+
+/// Gives a corner on the plane to the polygons on its two sides. Where such corners follow each
+/// other, as in a triangle that is nearly in the plane, what lies on the plane belongs above it,
+/// whichever way round the polygon is: below it gets only the corner where it comes to the plane,
+/// or the two would overlap.
+void TriangleClipper::ShareCorner(
+  const Polygon& polygon, int i, int axis, int plane, Polygon& below, Polygon& above) const
+{
+  const int back = polygon.size - 1;
+  const int before = this->SideOf(polygon.corner[(i + back) % polygon.size], axis, plane);
+  const int after = this->SideOf(polygon.corner[(i + 1) % polygon.size], axis, plane);
+  const int from = this->SideAfter(polygon, i, back, axis, plane);
+  const int to = this->SideAfter(polygon, i, 1, axis, plane);
+  const Corner& corner = polygon.corner[i];
+  const int planeTag = PlaneTag + axis;
+  if (before < 0 || after < 0 || (from < 0 && to < 0))
+  {
+    below.Push(corner.vertex, to > 0 ? planeTag : corner.tag);
+  }
+  if (from > 0 || to > 0)
+  {
+    above.Push(corner.vertex, after < 0 ? planeTag : corner.tag);
+  }
+}
+
 void TriangleClipper::Split(
   const Polygon& polygon, int axis, int plane, Polygon& below, Polygon& above, ClipBuffer& store)
 {
   below.size = above.size = 0;
   bool hasBelow = false;
   bool hasAbove = false;
-  const auto sideOf = [&](const Corner& corner)
-  {
-    const double value = vertices_[corner.vertex].position[axis];
-    return (value > plane) - (value < plane);
-  };
   const int planeTag = PlaneTag + axis;
-  int before = sideOf(polygon.corner[polygon.size - 1]);
-  int here = sideOf(polygon.corner[0]);
+  int here = this->SideOf(polygon.corner[0], axis, plane);
   for (int i = 0; i < polygon.size; ++i)
   {
     const Corner& corner = polygon.corner[i];
     const Corner& next = polygon.corner[i + 1 == polygon.size ? 0 : i + 1];
-    const int there = sideOf(next);
+    const int there = this->SideOf(next, axis, plane);
     hasBelow |= here < 0;
     hasAbove |= here > 0;
     if (here != 0)
@@ -199,21 +235,7 @@ void TriangleClipper::Split(
     }
     else
     {
-      // Of corners on the plane that follow each other, as in a triangle that is nearly in it, both
-      // sides get the first; the others go where the polygon goes on, or the two would overlap.
-      int after = there;
-      for (int k = i + 2; after == 0 && k < i + polygon.size; ++k)
-      {
-        after = sideOf(polygon.corner[k % polygon.size]);
-      }
-      if (before != 0 || after <= 0)
-      {
-        below.Push(corner.vertex, after > 0 ? planeTag : corner.tag);
-      }
-      if (before != 0 || after >= 0)
-      {
-        above.Push(corner.vertex, after < 0 ? planeTag : corner.tag);
-      }
+      this->ShareCorner(polygon, i, axis, plane, below, above);
     }
     if (here * there < 0)
     {
@@ -223,7 +245,6 @@ void TriangleClipper::Split(
       below.Push(cut, here < 0 ? planeTag : corner.tag);
       above.Push(cut, here < 0 ? corner.tag : planeTag);
     }
-    before = here;
     here = there;
   }
   below.size = hasBelow ? below.size : 0;

@@ -115,6 +115,10 @@ private:
   void EmitWhole(const CellIndex& cell, ClipBuffer& store);
   void Start();
   void ClipAxis(const Polygon& polygon, int axis, ClipBuffer& store);
+  int SideOf(const Corner& corner, int axis, int plane) const; // -1 below the plane, 0, 1
+  int SideAfter(const Polygon& polygon, int corner, int step, int axis, int plane) const;
+  void ShareCorner(
+    const Polygon& polygon, int i, int axis, int plane, Polygon& below, Polygon& above) const;
   void Split(
     const Polygon& polygon, int axis, int plane, Polygon& below, Polygon& above, ClipBuffer& store);
   std::int32_t CutMeshEdge(const Edge& edge, int axis, int plane);

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -63,6 +64,35 @@ double ClippedArea(const ClippedMesh& clipped)
   return area * clipped.grid.spacing * clipped.grid.spacing;
 }
 
+/// A rectangle in a grid of 16 cells per side whose heights are off a plane of the grid by up to
+/// half of `deviation` (in cells), so that points and cuts are taken onto the plane one by one.
+TriangleMesh NearlyOnAGridPlane(unsigned seed, double deviation)
+{
+  const double cell = 1.0 / 16.0;
+  std::mt19937 generator(seed);
+  TriangleMesh mesh = FlatRectangle(3, 2, 1.0, 0.3);
+  for (Vec3& point : mesh.points)
+  {
+    const double part = double(generator()) / double(std::mt19937::max());
+    point[2] = cell * (4.0 + deviation * (part - 0.5));
+  }
+  return Join(mesh, Transform(FlatRectangle(1, 1), { 1, 0, 0 }, std::acos(-1.0) / 2)); // heights
+}
+
+/// The cells that each link connects, in ascending order.
+std::vector<std::pair<MortonKey, MortonKey>> LinkedCells(const ClippedMesh& clipped)
+{
+  const Array<Index> cell = PieceCells(clipped);
+  std::vector<std::pair<MortonKey, MortonKey>> linked;
+  for (const Link& link : clipped.links)
+  {
+    linked.push_back(
+      std::minmax(clipped.cells[cell[link.first]], clipped.cells[cell[link.second]]));
+  }
+  std::sort(linked.begin(), linked.end());
+  return linked;
+}
+
 } // namespace
 
 TEST(Clip, AreasAddUp)
@@ -98,19 +128,31 @@ TEST(Clip, AreasOfEveryTriangleAddUp)
 
 TEST(Clip, AreasAddUpNearAGridPlane)
 {
-  // Heights of some 1e-10 of a cell, of which points and cuts are taken onto the plane one by one.
-  const double cell = 1.0 / 16.0;
   for (unsigned seed = 1; seed <= 100; ++seed)
   {
-    std::mt19937 generator(seed);
-    TriangleMesh mesh = FlatRectangle(3, 2, 1.0, 0.3);
-    for (Vec3& point : mesh.points)
-    {
-      point[2] = cell * (4.0 + 6e-10 * (double(generator()) / double(std::mt19937::max()) - 0.5));
-    }
-    mesh = Join(mesh, Transform(FlatRectangle(1, 1), { 1, 0, 0 }, std::acos(-1.0) / 2)); // heights
+    const TriangleMesh mesh = NearlyOnAGridPlane(seed, 6e-10);
     const double area = SurfaceArea(mesh);
     ASSERT_NEAR(ClippedArea(ClipAt(mesh, 4)), area, 1e-9 * area) << seed;
+  }
+}
+
+TEST(Clip, LinksTheSameCellsWhenTrianglesAreTurnedOver)
+{
+  for (const double deviation : { 6e-10, 1e-9, 3e-9, 1e-8 })
+  {
+    for (unsigned seed = 1; seed <= 25; ++seed)
+    {
+      const TriangleMesh mesh = NearlyOnAGridPlane(seed, deviation);
+      TriangleMesh turned = mesh;
+      for (auto& corner : turned.triangles)
+      {
+        std::swap(corner[1], corner[2]);
+      }
+      const ClippedMesh clipped = ClipAt(mesh, 4);
+      const ClippedMesh other = ClipAt(turned, 4);
+      ASSERT_EQ(clipped.cells, other.cells) << seed << " " << deviation;
+      ASSERT_EQ(LinkedCells(clipped), LinkedCells(other)) << seed << " " << deviation;
+    }
   }
 }
 
