@@ -8,9 +8,12 @@ if [ "${1:-}" = "--help" ] || [ "${1:-}" = "-h" ]; then
   cat << 'HELP'
 Usage: Testing/coverage.sh [CTEST OPTIONS]
 
-Builds Core in build-coverage/, which counts how often each line runs, runs its tests, and prints the part
-of its lines that has run, by folder. Options go to ctest. Takes about half an hour on two processors,
-which is why continuous integration does not.
+Builds Core in build-coverage/, which counts how often each line of it runs, runs its tests and random problems,
+and prints the part of its lines that has run, by folder. Options go to ctest. Takes seven minutes on two
+processors, of which tests take two. GRIDFEM_JOBS: processes at the same time.
+
+Left out: real meshes, which not every machine has; the tests of filters, of the Python package and of MPI
+ranks, for which more has to be built, and which run the rest of Core's Problems/, and what is for ranks alone.
 HELP
   exit
 fi
@@ -22,10 +25,9 @@ Quietly "$BUILD/configure.log" cmake --preset coverage
 Say "Building"
 Quietly "$BUILD/build.log" cmake --build "$BUILD" -j "$JOBS"
 find "$BUILD" -name "*.gcda" -delete
-# Counting makes some tests slower than their limit, and real meshes would take hours: what has run counts all
-# the same.
-export GRIDFEM_DATA_DIR=/dev/null # else they are looked for beside the clone
+Say "Testing"
+export GRIDFEM_DATA_DIR=/dev/null # else real meshes are looked for beside the clone
 RAN=0
-ctest --test-dir "$BUILD" --output-on-failure -j "$JOBS" -E "Rules|Fuzz.Core|Package" "$@" < /dev/null || RAN=$?
+ctest --test-dir "$BUILD" --output-on-failure -j "$JOBS" -E "^Rules[.]" "$@" < /dev/null || RAN=$?
 python3 Testing/coverage.py "$BUILD" "$SOURCE/Filters/Core" 90
-[ "$RAN" -eq 0 ] || Say "Some tests have failed, or were too slow"
+exit "$RAN"

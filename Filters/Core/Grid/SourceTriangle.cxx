@@ -1,4 +1,4 @@
-// Barycentric coordinates and gradients on source triangles.
+// Barycentric coordinates on source triangles.
 #include "Grid/SourceTriangle.h"
 
 #include <Eigen/Geometry>
@@ -7,13 +7,6 @@
 
 namespace gridfem
 {
-namespace
-{
-
-/// Heights below this (grid units) are rounding of the clipping.
-constexpr double SmallestHeight = 1e-10;
-
-} // namespace
 
 SourceTriangle::SourceTriangle(const ClippedMesh& clipped, const TriangleMesh& mesh, Id triangle)
   : clipped_(clipped), mesh_(mesh), triangle_(triangle), points_(mesh.triangles[triangle])
@@ -102,34 +95,6 @@ Barycentric SourceTriangle::LocateByPosition(Id point) const
     weight = sum > 0.0 ? weight / sum : 1.0 / 3.0;
   }
   return result;
-}
-
-Vec3 SourceTriangle::Normal() const
-{
-  const Vec3 area = this->AreaVector();
-  const double norm = area.norm();
-  return norm > 0.0 ? Vec3(area / norm) : Vec3(Vec3::Zero());
-}
-
-std::array<Vec3, 3> SourceTriangle::Gradients() const
-{
-  const Vec3 area = this->AreaVector();
-  std::array<Vec3, 3> edge;
-  double longest = 0.0;
-  for (int k = 0; k < 3; ++k)
-  {
-    edge[k] = clipped_.position[points_[(k + 2) % 3]] - clipped_.position[points_[(k + 1) % 3]];
-    longest = std::max(longest, edge[k].norm());
-  }
-  std::array<Vec3, 3> gradient = { Vec3::Zero(), Vec3::Zero(), Vec3::Zero() };
-  if (area.norm() > SmallestHeight * longest)
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      gradient[k] = area.cross(edge[k]) / area.squaredNorm();
-    }
-  }
-  return gradient;
 }
 
 } // namespace gridfem

@@ -1,5 +1,5 @@
-// A source triangle as the integrals over its pieces see it: barycentric coordinates of the points
-// of the clipped mesh, and gradients of the linear functions on it.
+// A source triangle as its pieces see it: barycentric coordinates of the points of the clipped
+// mesh.
 #ifndef GridFEM_SourceTriangle_h
 #define GridFEM_SourceTriangle_h
 
@@ -16,18 +16,10 @@ public:
   /// Keeps references to both meshes. The clipped mesh must come from `mesh`.
   SourceTriangle(const ClippedMesh& clipped, const TriangleMesh& mesh, Id triangle);
 
-  const std::array<Id, 3>& Points() const { return points_; }
-
   /// Barycentric coordinates of a point of the clipped mesh that lies on the triangle: exactly
   /// those the point was made with. A cut point of an edge may have been made from another triangle
   /// at that edge; a point whose origin is not known is located by its position.
   Barycentric Locate(Id point) const;
-
-  /// Unit normal, zero for a triangle without area.
-  Vec3 Normal() const;
-
-  /// ∇λ_k, 1 / grid unit. Zero for a triangle flatter than 1e-10 of a cell, which has no direction.
-  std::array<Vec3, 3> Gradients() const;
 
 private:
   int CornerAt(Id inputPoint) const;

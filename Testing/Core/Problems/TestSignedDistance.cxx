@@ -316,6 +316,29 @@ TEST(SignedDistance, FromTheBorderOfARegionIsAsExactAsItsEdges)
   }
 }
 
+TEST(SignedDistance, TheBorderOfALabelIsThatOfItsRegion)
+{
+  const TriangleMesh mesh = FlatRectangle(20, 20);
+  const Distance circle = [](const Vec3& p) { return (p - Vec3(0.45, 0.52, 0)).norm() - 0.3; };
+  Field labels{ FieldAssociation::Points, MultiVector(static_cast<Id>(mesh.points.size()), 1) };
+  Field inside = labels;
+  for (Id i = 0; i < labels.values.rows(); ++i)
+  {
+    const bool isInside = circle(mesh.points[i]) < 0.0;
+    inside.values(i, 0) = isInside ? 1.0 : 0.0;
+    labels.values(i, 0) = isInside ? -2.0 : double(i % 5); // outside are several
+  }
+  const SurfaceCurve curve = BorderOfLabel(mesh, labels, -2, true);
+  const SurfaceCurve expected = BorderOfRegion(mesh, inside, true);
+  EXPECT_EQ(curve.side, expected.side);
+  EXPECT_EQ(Distances(mesh, curve, false, 4), Distances(mesh, expected, false, 4));
+  for (const double wrong : { 0.5, std::nan("") })
+  {
+    labels.values(7, 0) = wrong;
+    EXPECT_THROW(BorderOfLabel(mesh, labels, -2, true), InvalidInput) << wrong;
+  }
+}
+
 /// Two rings around a tube divide it into a short and a long part; each component has its own.
 TEST(SignedDistance, TakesSeveralCurvesOnSeveralComponents)
 {

@@ -3,6 +3,7 @@
 
 #include "Base/Errors.h"
 #include "EitherSpace.h"
+#include "Grid/TriangleArea.h"
 #include "Spaces.h"
 
 #include <gtest/gtest.h>
@@ -57,6 +58,12 @@ StitchOptions Options(int threads = 0)
   options.multigrid.threads = threads;
   options.solve.tolerance = 1e-6;
   return options;
+}
+
+Vec3 CentreOf(const TriangleMesh& mesh, Id triangle)
+{
+  const auto& corner = mesh.triangles[triangle];
+  return (mesh.points[corner[0]] + mesh.points[corner[1]] + mesh.points[corner[2]]) / 3.0;
 }
 
 /// A mesh in five scans with their colours at its points.
@@ -166,6 +173,58 @@ TEST_P(Stitching, BlendsOverMarginsThatAreWrong)
   const double blended = spread(2.0 * Margin);
   EXPECT_GT(sharp, 0.15);
   EXPECT_LT(blended, 0.6 * sharp);
+}
+
+/// Colours of points and of triangles; one scan shows what is right, and the others become as it
+/// is.
+TEST_P(Stitching, TakesOtherScansToAReference)
+{
+  constexpr Index Reference = 2;
+  Scans scans(Transform(GeodesicSphere(40), { 1, 2, 3 }, 0.3));
+  for (const FieldAssociation association :
+    { FieldAssociation::Points, FieldAssociation::Triangles })
+  {
+    if (association == FieldAssociation::Triangles)
+    {
+      scans.labels = { association, {} };
+      scans.colors = { association, MultiVector(static_cast<Id>(scans.mesh.triangles.size()), 3) };
+      for (Id t = 0; t < scans.colors.values.rows(); ++t)
+      {
+        const Vec3 centre = CentreOf(scans.mesh, t);
+        scans.labels.values.push_back(ScanAt(centre));
+        SetRow(scans.colors.values, t, Seen(scans.labels.values.back(), ColorAt(centre)));
+      }
+    }
+    StitchOptions options = Options();
+    options.reference = Reference;
+    const StitchedColors stitched = Stitch(scans, GetParam(), 5, options);
+    EXPECT_TRUE(stitched.report.converged);
+    // What is left of a difference to what the reference sees everywhere, and what it was.
+    double before = 0.0;
+    double after = 0.0;
+    Eigen::RowVector3d drift = Eigen::RowVector3d::Zero();
+    double area = 0.0;
+    const ScanCut cut = CutAtSeams(scans.mesh, scans.labels, association);
+    for (Id t = 0; t < static_cast<Id>(scans.mesh.triangles.size()); ++t)
+    {
+      for (const Id row : scans.colors.RowsOf(t, scans.mesh.triangles[t]))
+      {
+        const Vec3 place = association == FieldAssociation::Points ? scans.mesh.points[row]
+                                                                   : CentreOf(scans.mesh, t);
+        const Vec3 truth = Seen(Reference, ColorAt(place));
+        before += (scans.colors.values.row(row).transpose() - truth).squaredNorm();
+        after += (stitched.values.row(row).transpose() - truth).squaredNorm();
+        if (cut.scanOfTriangle[t] == Reference)
+        {
+          area += AreaOf(scans.mesh, t);
+          drift +=
+            AreaOf(scans.mesh, t) * (stitched.values.row(row) - scans.colors.values.row(row));
+        }
+      }
+    }
+    EXPECT_LT(after, 0.1 * before);
+    EXPECT_LT((drift / area).norm(), 1e-12); // the reference keeps its mean
+  }
 }
 
 TEST(KeptShares, RiseFromNothingAtTheSeamToAllBeyondTheWidth)

@@ -3,6 +3,7 @@
 
 #include "Base/Errors.h"
 #include "EitherSpace.h"
+#include "Grid/TriangleArea.h"
 #include "Spaces.h"
 
 #include <gtest/gtest.h>
@@ -168,6 +169,53 @@ TEST(SurfaceDerivatives, ScaleWithTheMeshAndTakeColumnsApart)
     EXPECT_LT(RelativeDifference(100.0 * ten.laplacianAtPoints, one.laplacianAtPoints), 1e-6);
     const SurfaceDerivatives alone = ComputeDerivatives(*space, mesh, second, Options());
     EXPECT_LT(RelativeDifference(alone.gradientAtPoints, one.gradientAtPoints.rightCols(3)), 1e-5);
+  }
+}
+
+/// The vectors p + w x p at p are linear, so both spaces hold them: on every surface their
+/// divergence is 2, of p alone, and n · rot is 2 w · n, of the rotation alone.
+TEST(SurfaceDerivatives, OfARotationAndAScalingAreItsAxisAndTwo)
+{
+  const Vec3 axis(0.3, -0.5, 0.8);
+  for (const TriangleMesh& mesh :
+    { GeodesicSphere(24), Transform(Box(6), { 1, 2, 3 }, 0.4), Torus(40, 24, 1.0, 0.4) })
+  {
+    MultiVector vectors = PointCoordinates(mesh);
+    for (Id i = 0; i < vectors.rows(); ++i)
+    {
+      SetRow(vectors, i, mesh.points[i] + axis.cross(mesh.points[i]));
+    }
+    for (const bool isOnHats : { false, true })
+    {
+      const SurfaceDerivatives d = ComputeDerivatives(
+        *Build(mesh, isOnHats, 4), mesh, { FieldAssociation::Points, vectors }, Options());
+      EXPECT_LT((d.divergenceOnTriangles.array() - 2.0).abs().maxCoeff(), 1e-5) << isOnHats;
+      EXPECT_LT((d.divergenceAtPoints.array() - 2.0).abs().maxCoeff(), 1e-5) << isOnHats;
+      for (Id t = 0; t < d.curlOnTriangles.rows(); ++t)
+      {
+        const Vec3 normal = AreaVector(mesh.points, mesh.triangles[t]).normalized();
+        ASSERT_NEAR(d.curlOnTriangles(t, 0), 2.0 * axis.dot(normal), 1e-5) << isOnHats;
+      }
+    }
+  }
+}
+
+/// At points the curl is that of smoothed gradients, along mean normals.
+TEST(SurfaceDerivatives, HaveTheCurlOfARotationAtPointsOfASphere)
+{
+  const Vec3 axis(0.3, -0.5, 0.8);
+  const TriangleMesh mesh = GeodesicSphere(40);
+  MultiVector vectors = PointCoordinates(mesh);
+  for (Id i = 0; i < vectors.rows(); ++i)
+  {
+    SetRow(vectors, i, axis.cross(mesh.points[i]));
+  }
+  for (const bool isOnHats : { false, true })
+  {
+    const SurfaceDerivatives d = ComputeDerivatives(
+      *Build(mesh, isOnHats, 5), mesh, { FieldAssociation::Points, vectors }, Options());
+    const MultiVector exact = 2.0 * PointCoordinates(mesh) * axis;
+    EXPECT_LT(RelativeDifference(d.curlAtPoints, exact), 0.02) << isOnHats;
   }
 }
 

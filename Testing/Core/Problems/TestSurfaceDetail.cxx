@@ -4,6 +4,7 @@
 
 #include "Base/Errors.h"
 #include "EitherSpace.h"
+#include "Problems/MovedSurface.h"
 #include "Spaces.h"
 
 #include <gtest/gtest.h>
@@ -239,5 +240,63 @@ TEST(WeightsOfMetric, AreThoseOfTheThesis)
          std::numeric_limits<double>::quiet_NaN() })
   {
     EXPECT_THROW(WeightsOfMetric(curvatures, [=](double) { return length; }), InvalidInput);
+  }
+}
+
+TEST(LengthOf, RisesFromOneToTheLargestOnTheSideThatIsEnlarged)
+{
+  constexpr double Largest = 5.0;
+  const auto lengthOf = [](CurvatureTransfer transfer, double curvature)
+  { return LengthOf(transfer, curvature, Largest); };
+  double last = 1.0;
+  for (const double k : { 0.0, 0.2, 0.5, 0.9, 1.0, 3.0 })
+  {
+    const double length = lengthOf(CurvatureTransfer::LargePositive, k);
+    EXPECT_TRUE(length > last || k == 0.0 || k > 1.0) << k;
+    last = length;
+    EXPECT_EQ(lengthOf(CurvatureTransfer::LargePositive, -k), 1.0);
+    EXPECT_EQ(lengthOf(CurvatureTransfer::LargeNegative, -k), length);
+    EXPECT_EQ(lengthOf(CurvatureTransfer::LargeNegative, k), 1.0);
+    EXPECT_EQ(lengthOf(CurvatureTransfer::LargeAbsolute, k), length);
+    EXPECT_EQ(lengthOf(CurvatureTransfer::LargeAbsolute, -k), length);
+    EXPECT_EQ(lengthOf(CurvatureTransfer::Isotropic, k), 1.0);
+    EXPECT_EQ(lengthOf(CurvatureTransfer::Custom, -k), 1.0 + (Largest - 1.0) * std::min(k, 1.0));
+  }
+  EXPECT_EQ(last, Largest);
+  // No kinks: from both ends it leaves with the square.
+  constexpr double Step = 1e-3;
+  EXPECT_LT(SmoothStep(Step), 3.0 * Step * Step);
+  EXPECT_LT(1.0 - SmoothStep(1.0 - Step), 3.0 * Step * Step);
+}
+
+TEST(ScaleToVolume, KeepsTheCentroidAndLeavesAloneWhatHasNoVolume)
+{
+  const auto stretched = [](const TriangleMesh& mesh, const Vec3& factors)
+  {
+    std::vector<Vec3> points = mesh.points;
+    for (Vec3& p : points)
+    {
+      p = factors.cwiseProduct(p) + Vec3(5, 0, -3);
+    }
+    return points;
+  };
+  const TriangleMesh torus = Torus(40, 16, 1.0, 0.3);
+  std::vector<Vec3> points = stretched(torus, { 1.0, 2.0, 0.7 });
+  const SurfaceSize before = SizeOf(points, torus.triangles);
+  ScaleToVolume(torus, points);
+  const SurfaceSize after = SizeOf(points, torus.triangles);
+  const double wanted = SizeOf(torus.points, torus.triangles).volume;
+  EXPECT_NEAR(after.volume, wanted, 1e-12 * wanted);
+  EXPECT_LT((after.centroid - before.centroid).norm(), 1e-12);
+
+  const TriangleMesh sheet = FlatRectangle(4, 4);
+  for (const auto& [mesh, factors] : { std::pair<TriangleMesh, Vec3>(torus, { 1, 1, -1 }),
+         std::pair<TriangleMesh, Vec3>(torus, { 1, 1, 0 }),
+         std::pair<TriangleMesh, Vec3>(sheet, { 2, 2, 1 }) })
+  {
+    const std::vector<Vec3> given = stretched(mesh, factors);
+    points = given;
+    ScaleToVolume(mesh, points);
+    EXPECT_EQ(points, given);
   }
 }

@@ -93,6 +93,31 @@ TEST(HatTransfer, EvaluatesAtThePoints)
   }
 }
 
+/// A hat whose pieces have no area has nothing to weigh sheets with, and takes the value at its
+/// point as it is; others keep their rows.
+TEST(HatTransfer, EvaluatesAtThePointsOfHatsWithoutArea)
+{
+  const TriangleMesh mesh = Transform(GeodesicSphere(5), { 1, 2, 3 }, 0.4);
+  const GridFunctions space = Hybrid(mesh, 4).space.Grid().Functions();
+  const HatFunctions hats = NumberHatFunctions(mesh);
+  MultiVector sums = MultiVector::Ones(hats.Count(), 1);
+  for (Index hat = 0; hat < hats.Count(); hat += 3)
+  {
+    sums(hat, 0) = 0.0;
+  }
+  const auto weights = [&](const std::vector<char>& isBare)
+  { return Dense(BuildHatWeights(hats, space, mesh, HatTransfer::PseudoEvaluation, isBare)); };
+  const Eigen::MatrixXd found = weights(BareRows(sums));
+  const Eigen::MatrixXd ofArea = weights({});
+  const Eigen::MatrixXd atPoints =
+    Dense(BuildHatProlongation(hats, space, mesh, HatTransfer::Evaluation));
+  for (Index hat = 0; hat < hats.Count(); ++hat)
+  {
+    const Eigen::MatrixXd& expected = hat % 3 == 0 ? atPoints : ofArea;
+    ASSERT_LT((found.row(hat) - expected.row(hat)).cwiseAbs().maxCoeff(), 1e-14) << hat;
+  }
+}
+
 TEST(HatTransfer, IsThePseudoEvaluationMatrixOfTheThesis)
 {
   for (const TriangleMesh& mesh : { Transform(GeodesicSphere(4), { 1, 2, 3 }, 0.4),
