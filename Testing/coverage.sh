@@ -8,12 +8,14 @@ if [ "${1:-}" = "--help" ] || [ "${1:-}" = "-h" ]; then
   cat << 'HELP'
 Usage: Testing/coverage.sh [CTEST OPTIONS]
 
-Builds Core in build-coverage/, which counts how often each line of it runs, runs its tests and random problems,
-and prints the part of its lines that has run, by folder. Options go to ctest. Takes seven minutes on two
-processors, of which tests take two. GRIDFEM_JOBS: processes at the same time.
+Builds Core in build-coverage/, which counts how often each line of Core runs, runs its tests and random
+problems, and prints the part of its lines that has run, by folder. Options go to ctest. Takes seven minutes
+on two processors, of which the tests take two. GRIDFEM_JOBS: processes at the same time.
 
-Left out: real meshes, which not every machine has; the tests of filters, of the Python package and of MPI
-ranks, for which more has to be built, and which run the rest of Core's Problems/, and what is for ranks alone.
+Measured: 96 % of all lines, 93 % of Krylov/, 94 % or more of every other folder.
+Left out are tests of source text, real meshes, which not every machine has, and the tests of filters, of the
+Python package and of MPI ranks, for which more would have to be built: so what Core does for ranks alone
+(Grid/CellRegion.cxx, Multigrid/DividedLevel.cxx) counts as not run.
 HELP
   exit
 fi
@@ -21,10 +23,12 @@ fi
 InstallMissing "${CORE_PACKAGES[@]}" libgtest-dev python3
 mkdir -p "$BUILD"
 cd "$SOURCE"
+# Its flags count in functions of Core alone, not of Eigen and the tests, and without atomic additions, which
+# made tests forty times as slow: threads may lose a count, but a line that has run keeps one.
 Quietly "$BUILD/configure.log" cmake --preset coverage
 Say "Building"
 Quietly "$BUILD/build.log" cmake --build "$BUILD" -j "$JOBS"
-find "$BUILD" -name "*.gcda" -delete
+find "$BUILD" -name "*.gcda" -delete # of programs that have changed they could not be added to
 Say "Testing"
 export GRIDFEM_DATA_DIR=/dev/null # else real meshes are looked for beside the clone
 RAN=0
