@@ -55,8 +55,8 @@ void SortAndMerge(std::vector<Block>& blocks)
 
 } // namespace
 
-BlockPartition::BlockPartition(
-  const Communicator& ranks, const TriangleMesh& mesh, const ClipFrame& frame, int granularity)
+BlockPartition::BlockPartition(const Communicator& ranks, const TriangleMesh& mesh,
+  const ClipFrame& frame, int granularity, const std::vector<MortonKey>* cells)
 {
   const int finest = frame.grid.depth - 1;
   if (granularity < 0 || granularity > finest)
@@ -77,8 +77,15 @@ BlockPartition::BlockPartition(
       {
         const auto corner = CornersOf(mesh, t, frame.grid);
         met.clear();
-        ForBlocksNear(corner, BoxNear(corner, side, 1 << depth_, Slack), side, Slack,
-          [&](MortonKey key) { met.push_back(key); });
+        if (cells)
+        {
+          met.push_back((*cells)[t] >> (3 * (frame.grid.depth - depth_)));
+        }
+        else
+        {
+          ForBlocksNear(corner, BoxNear(corner, side, 1 << depth_, Slack), side, Slack,
+            [&](MortonKey key) { met.push_back(key); });
+        }
         for (const MortonKey key : met)
         {
           last = last && last->first == key ? last : &*pieces.try_emplace(key, 0.0).first;
@@ -189,6 +196,23 @@ void BlockPartition::AddRanksNear(MortonKey block, std::vector<int>& ranks) cons
   {
     ranks.push_back(next->second);
   }
+}
+
+std::vector<int> BlockPartition::RanksNearCell(MortonKey cell) const
+{
+  constexpr int Reach = Margin + 1; // all that FindRanksNear finds of a triangle in the cell
+  const CellIndex index = MortonDecode(cell);
+  BlockBox box;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    box.first[axis] = std::max(index[axis] - Reach, 0) >> shift_;
+    box.last[axis] = std::min((index[axis] + Reach) >> shift_, (1 << depth_) - 1);
+  }
+  std::vector<int> ranks;
+  ForBlocksOf(box, [&](const CellIndex& block) { this->AddRanksNear(MortonEncode(block), ranks); });
+  std::sort(ranks.begin(), ranks.end());
+  ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+  return ranks;
 }
 
 void BlockPartition::FindRanksNear(

@@ -22,9 +22,10 @@ public:
   /// @param mesh         the triangles of this rank, of the whole surface's grid
   /// @param granularity  the level of the blocks, 1 .. grid.depth - 1; 0: the finest with at most
   ///                     MostBlocks of them
+  /// @param cells        of triangles that are pieces already; null: they are clipped
   /// Throws InvalidInput for a granularity outside this range.
-  BlockPartition(
-    const Communicator& ranks, const TriangleMesh& mesh, const ClipFrame& frame, int granularity);
+  BlockPartition(const Communicator& ranks, const TriangleMesh& mesh, const ClipFrame& frame,
+    int granularity, const std::vector<MortonKey>* cells = nullptr);
 
   /// Each of their functions is held by all ranks, on that level and those above it.
   static constexpr Id MostBlocks = 4096;
@@ -51,6 +52,9 @@ public:
   /// @param a, b, c  the triangle's corners, grid units
   /// @param near     of the triangle before; near triangles often have the same
   void FindRanksNear(const Vec3& a, const Vec3& b, const Vec3& c, RanksNear& near) const;
+
+  /// The ranks whose regions contain a cell of the finest level, ascending.
+  std::vector<int> RanksNearCell(MortonKey cell) const;
 
   /// How many cells a region reaches beyond its blocks.
   static constexpr int Margin = 2;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 namespace gridfem
 {
@@ -64,7 +65,7 @@ ClipFrame FrameOf(
   const Communicator& ranks, const TriangleMesh& own, const RankSpaceOptions& rankOptions)
 {
   const SpaceOptions& options = rankOptions.space.functions;
-  const bool isAutomatic = options.depth == AutomaticDepth;
+  const bool isAutomatic = options.depth == AutomaticDepth && !rankOptions.given;
   const int depth = isAutomatic ? CoarsestSuggestion : options.depth;
   constexpr double Infinity = std::numeric_limits<double>::infinity();
   std::array<double, 7> extremes; // largest of -x, -y, -z, x, y, z, and of their absolute values
@@ -104,8 +105,30 @@ ClipFrame FrameOf(
     frame.grid =
       WithDepth(frame.grid, LimitDepth(ranks, own, rankOptions.functionsPerPoint, frame.grid));
   }
+  if (rankOptions.given)
+  {
+    frame.grid = rankOptions.given->grid;
+  }
   frame.tolerance = SnapTolerance(extremes[6], frame.grid);
   return frame;
+}
+
+/// Collective. The received triangles that are in the region of this rank.
+GivenCells SendCells(
+  const Redistribution& distribution, const GivenCells& given, const CellRegion& region)
+{
+  MultiVector keys(static_cast<Id>(given.ofTriangle.size()), 1); // of 42 bits at most
+  std::copy(given.ofTriangle.begin(), given.ofTriangle.end(), keys.data());
+  keys = distribution.SendTriangles(keys);
+  GivenCells received;
+  received.grid = given.grid;
+  received.ofTriangle.assign(keys.data(), keys.data() + keys.size());
+  std::vector<MortonKey> cells = received.ofTriangle;
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  std::copy_if(cells.begin(), cells.end(), std::back_inserter(received.cells),
+    [&](MortonKey cell) { return region.Contains(MortonDecode(cell)); });
+  return received;
 }
 
 } // namespace
@@ -114,19 +137,31 @@ RankClip::RankClip(const Communicator& ranks, const TriangleMesh& own,
   const RankSpaceOptions& options, const Progress& progress, const TriangleList& copiesOfOthers)
 {
   ClipFrame frame = FrameOf(ranks, own, options);
-  partition = std::make_shared<const BlockPartition>(ranks, own, frame, options.granularity);
-  distribution = std::make_shared<Redistribution>(ranks, own, frame.grid, *partition);
+  const auto* const cells = options.given ? &options.given->ofTriangle : nullptr;
+  partition = std::make_shared<const BlockPartition>(ranks, own, frame, options.granularity, cells);
+  distribution = std::make_shared<Redistribution>(ranks, own, frame.grid, *partition, cells);
   auto received = std::make_shared<TriangleMesh>(distribution->TakeMesh());
   copies = std::make_shared<const TriangleCopies>(
     ranks, own, copiesOfOthers, frame.grid, *partition, *received);
   RequireMemory(ranks, *received, frame.grid, options.isBelowHats);
+  const CellRegion region = partition->RegionOf(ranks.Rank());
+  GivenCells given;
+  if (options.given)
+  {
+    given = SendCells(*distribution, *options.given, region);
+  }
   ranks.Together(
     [&]
     {
       progress.Check(0.25);
-      const CellRegion region = partition->RegionOf(ranks.Rank());
-      frame.region = &region;
       const SpaceOptions& functions = options.space.functions;
+      if (options.given)
+      {
+        clipped = ClipOfGivenCells(
+          *received, given, functions.weldCoincidentPoints, progress.Part(0.25, 1.0));
+        return;
+      }
+      frame.region = &region;
       ClipOptions clip;
       clip.depth = frame.grid.depth;
       clip.weldCoincidentPoints = functions.weldCoincidentPoints;

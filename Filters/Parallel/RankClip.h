@@ -3,6 +3,7 @@
 #ifndef GridFEM_RankClip_h
 #define GridFEM_RankClip_h
 
+#include "Grid/GivenPieces.h"
 #include "Parallel/TriangleCopies.h"
 #include "Spaces/GridSpace.h"
 
@@ -20,12 +21,16 @@ struct RankSpaceOptions
   /// Below hats: the grid is made coarser until it has at most so many functions for each point of
   /// the surface. A granularity is to fit it then. [DepthForPoints]
   double functionsPerPoint = std::numeric_limits<double>::infinity();
+  /// Of the rank's own triangles, which are pieces of its grid already; null: they are clipped. Not
+  /// below hats.
+  std::shared_ptr<const GivenCells> given;
 };
 
 struct RankClip
 {
   /// Collective.
   /// @param own     this rank's triangles, world units
+  /// @param progress        of this rank alone, which reports as often as its work is long
   /// @param copiesOfOthers  triangles of its points that it has as copies of another rank's
   /// Throws RankFailure, on all ranks, with what went wrong on one, and Aborted.
   RankClip(const Communicator& ranks, const TriangleMesh& own, const RankSpaceOptions& options,

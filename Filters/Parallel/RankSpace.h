@@ -19,6 +19,7 @@ class RankSpace
 public:
   /// Collective. Clips and integrates what the cells of this rank hold.
   /// @param own     this rank's triangles, world units
+  /// @param progress  of this rank alone, which reports as often as its work is long
   /// @param copies  triangles of its points that it has as copies of another rank's
   /// Throws RankFailure, on all ranks, with what went wrong on one, and Aborted.
   RankSpace(const Communicator& ranks, const TriangleMesh& own, const RankSpaceOptions& options,

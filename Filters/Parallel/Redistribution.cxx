@@ -57,7 +57,7 @@ std::vector<Id> SizesOf(const std::vector<std::vector<T>>& lists)
 } // namespace
 
 Redistribution::Redistribution(const Communicator& ranks, const TriangleMesh& own, const Grid& grid,
-  const BlockPartition& partition)
+  const BlockPartition& partition, const std::vector<MortonKey>* cells)
   : ranks_(ranks), sentTriangles_(ranks.Size()), sentPoints_(ranks.Size()),
     numberOfOwnPoints_(static_cast<Id>(own.points.size())),
     numberOfOwnTriangles_(static_cast<Id>(own.triangles.size()))
@@ -67,20 +67,27 @@ Redistribution::Redistribution(const Communicator& ranks, const TriangleMesh& ow
     {
       RequireIndices(3.0 * static_cast<double>(own.triangles.size()), "corners of triangles");
       RequireIndices(static_cast<double>(own.points.size()), "points");
-      this->Route(own, grid, partition);
+      this->Route(own, grid, partition, cells);
     });
   this->Receive(own, grid);
 }
 
-void Redistribution::Route(
-  const TriangleMesh& own, const Grid& grid, const BlockPartition& partition)
+void Redistribution::Route(const TriangleMesh& own, const Grid& grid,
+  const BlockPartition& partition, const std::vector<MortonKey>* cells)
 {
   BlockPartition::RanksNear near;
   for (std::size_t t = 0; t < own.triangles.size(); ++t)
   {
     const auto& corner = own.triangles[t];
-    partition.FindRanksNear(grid.ToGrid(own.points[corner[0]]), grid.ToGrid(own.points[corner[1]]),
-      grid.ToGrid(own.points[corner[2]]), near);
+    if (cells)
+    {
+      near.ranks = partition.RanksNearCell((*cells)[t]);
+    }
+    else
+    {
+      partition.FindRanksNear(grid.ToGrid(own.points[corner[0]]),
+        grid.ToGrid(own.points[corner[1]]), grid.ToGrid(own.points[corner[2]]), near);
+    }
     for (const int rank : near.ranks)
     {
       sentTriangles_[rank].push_back(static_cast<Index>(t));

@@ -16,8 +16,9 @@ class Redistribution
 public:
   /// Collective. Triangles are numbered rank after rank, points as well.
   /// @param own  the triangles that this rank was given; a border's points are repeated
+  /// @param cells  of triangles that are pieces already; null: they are clipped
   Redistribution(const Communicator& ranks, const TriangleMesh& own, const Grid& grid,
-    const BlockPartition& partition);
+    const BlockPartition& partition, const std::vector<MortonKey>* cells = nullptr);
 
   /// What this rank has received: triangles in the order of their numbers; points sorted in
   /// space by their coordinates alone, coincident ones in the order of their numbers. The order is
@@ -59,7 +60,8 @@ public:
 private:
   using Lists = std::vector<std::vector<Index>>; // one per rank
 
-  void Route(const TriangleMesh& own, const Grid& grid, const BlockPartition& partition);
+  void Route(const TriangleMesh& own, const Grid& grid, const BlockPartition& partition,
+    const std::vector<MortonKey>* cells);
   void Receive(const TriangleMesh& own, const Grid& grid);
   MultiVector Send(
     const MultiVector& own, const Lists& sent, const std::vector<Index>& place) const;

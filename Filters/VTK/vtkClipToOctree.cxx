@@ -135,7 +135,8 @@ bool vtkClipToOctree::ComputeTogether(vtkInformationVector** inputs, vtkInformat
         this->Data->Clipped = {};
         this->Data->Frame->Initialize();
         clip = gridfem::DistributedClip::Make();
-        clip->Build(state.together, piece, options, state.mesh, progress.Part(0.1, 0.7));
+        clip->Build(
+          state.together, piece, options, state.mesh, state.bridge.GetProgress().Part(0.1, 0.7));
       });
     progress.Check(0.7);
     clip->WriteMesh(piece, state.mesh, options.space.threads, output);

@@ -75,7 +75,7 @@ public:
    * larger than one machine. Each puts out the triangles in its own cells of the octree, wherever
    * their polygons came from: one rank after the other, the triangles of one rank. `OctreeCells`
    * are those of all ranks on each. Arrays are those that the pieces of all ranks have. Possible
-   * with welded points; not with a given basis, or BlocksAsOne. Where it is not, rank 0 gathers as
+   * with welded points; not with BlocksAsOne. Where it is not, rank 0 gathers as
    * ever, and warns. The field array `Distributed` says which. Needs a build with MPI. Default off.
    */
   vtkSetMacro(Distributed, bool);

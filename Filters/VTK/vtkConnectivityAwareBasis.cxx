@@ -185,9 +185,7 @@ bool vtkConnectivityAwareBasis::ComputeTogether(
 {
   gridfem::SurfaceSolverState& state = *this->State;
   vtkPolyData* piece = vtkPolyData::GetData(inputs[0]);
-  const std::string obstacle =
-    gridfem::FirstObstacle({ { gridfem::CarriesClip(piece), "a clip that is given" } });
-  if (!this->Distributed || !gridfem::CanDistribute(this, inputs, obstacle))
+  if (!this->Distributed || !gridfem::CanDistribute(this, inputs, ""))
   {
     return false;
   }
@@ -196,7 +194,8 @@ bool vtkConnectivityAwareBasis::ComputeTogether(
   const auto update = [&](const gridfem::Progress& progress)
   {
     state.options.choice.kind = gridfem::FunctionKind::Grid;
-    state.UpdateTogether(piece);
+    const bool isClipped = state.together.Any(gridfem::CarriesClip(piece));
+    state.BuildTogether(piece, isClipped);
     gridfem::StageKey key;
     key.Add(state.stages.Version(gridfem::SpaceStage));
     state.stages.Run(ClipStage, key,
@@ -204,7 +203,7 @@ bool vtkConnectivityAwareBasis::ComputeTogether(
       {
         this->Data->Frame->Initialize();
         clip = gridfem::DistributedClip::Make();
-        clip->Take(state.together, piece, state.options, state.mesh);
+        clip->Take(state.together, piece, isClipped, state.options, state.mesh);
       });
     progress.Check(0.8);
     const int threads = state.options.space.threads;

@@ -65,9 +65,10 @@ public:
    * larger than one machine. Each puts out the triangles in its own cells of the octree, wherever
    * their polygons came from: one rank after the other, the triangles of one rank. The tables of
    * the basis are whole on all, and so are levels that are coarse: their functions are shown on the
-   * first rank. Arrays are those that the pieces of all ranks have. Possible with welded points;
-   * not with a given clip, a given basis, or BlocksAsOne. Where it is not, rank 0 gathers as ever,
-   * and warns. The field array `Distributed` says which. Needs a build with MPI. Default off.
+   * first rank. Arrays are those that the pieces of all ranks have. Triangles that were clipped
+   * before, by all ranks or by one, stay on the ranks that have them. Possible with welded points;
+   * not with BlocksAsOne. Where it is not, rank 0 gathers as ever, and warns. The field array
+   * `Distributed` says which. Needs a build with MPI. Default off.
    */
   vtkSetMacro(Distributed, bool);
   vtkGetMacro(Distributed, bool);

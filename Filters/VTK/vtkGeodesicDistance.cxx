@@ -383,7 +383,7 @@ bool vtkGeodesicDistance::ComputeTogether(
     [&](const gridfem::Progress& progress)
     {
       this->Selection->UpdateTogether(state.together, vtkSelection::GetData(inputs[3]), piece);
-      this->SolveTogether(piece, outputs, progress);
+      this->SolveTogether(inputs, outputs, progress);
     });
   return true;
 }
@@ -427,11 +427,12 @@ std::vector<vtkIdType> vtkGeodesicDistance::FindSourcesTogether(vtkPolyData* pie
 }
 
 void vtkGeodesicDistance::SolveTogether(
-  vtkPolyData* piece, vtkInformationVector* outputs, const gridfem::Progress& progress)
+  vtkInformationVector** inputs, vtkInformationVector* outputs, const gridfem::Progress& progress)
 {
   gridfem::SurfaceSolverState& state = *this->State;
   state.together.Together([&] { gridfem::RequireNumber("Smoothing", this->Smoothing); });
-  state.UpdateTogether(piece);
+  vtkPolyData* piece = vtkPolyData::GetData(inputs[0]);
+  state.UpdateTogether(piece, vtkPolyData::GetData(inputs[1]));
   progress.Check(0.3);
   const std::vector<vtkIdType> sources = this->FindSourcesTogether(piece);
   this->UpdateHierarchies(progress);

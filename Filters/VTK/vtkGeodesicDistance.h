@@ -158,9 +158,9 @@ public:
    * larger than one machine. Possible on a grid or on hats, of welded points, with
    * the patch smoother, from the points of a SourceArray and of a selection, or from the first one;
    * not with SourcePointIds, which count through the gathered surface, Sources, Signed,
-   * NearestSource, EstimateErrors, a Smoothing of 3.5 or more, a given basis, or BlocksAsOne. Where
-   * it is not, rank 0 gathers as ever, and warns. The field array `Distributed` says which. Needs a
-   * build with MPI. Default off.
+   * NearestSource, EstimateErrors, a Smoothing of 3.5 or more, or BlocksAsOne. Where it is not,
+   * rank 0 gathers as ever, and warns. The field array `Distributed` says which. Needs a build with
+   * MPI. Default off.
    */
   vtkSetMacro(Distributed, bool);
   vtkGetMacro(Distributed, bool);
@@ -205,8 +205,8 @@ private:
   void operator=(const vtkGeodesicDistance&) = delete;
 
   std::vector<vtkIdType> FindSourcesTogether(vtkPolyData* piece);
-  void SolveTogether(
-    vtkPolyData* piece, vtkInformationVector* outputs, const gridfem::Progress& progress);
+  void SolveTogether(vtkInformationVector** inputs, vtkInformationVector* outputs,
+    const gridfem::Progress& progress);
   void UpdateHierarchies(const gridfem::Progress& progress);
   void UpdateDistance(const std::vector<vtkIdType>& sources, const gridfem::Progress& progress);
   void UpdateCurve(vtkPolyData* input, vtkDataSet* lines);

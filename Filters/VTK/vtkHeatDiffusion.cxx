@@ -331,7 +331,7 @@ bool vtkHeatDiffusion::ComputeTogether(vtkInformationVector** inputs, vtkInforma
     {
       state.together.Together([&] { this->RequireTime(); });
       this->Selection->UpdateTogether(state.together, vtkSelection::GetData(inputs[2]), piece);
-      state.UpdateTogether(piece);
+      state.UpdateTogether(piece, vtkPolyData::GetData(inputs[1]));
       progress.Check(0.3);
       data.Mask = state.together.Find(this, 2, piece, state.mesh, "ConstraintArray");
       this->ChooseTolerance();

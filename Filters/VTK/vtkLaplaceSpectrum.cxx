@@ -271,7 +271,7 @@ bool vtkLaplaceSpectrum::ComputeTogether(
   state.RunTogether(
     [&](const gridfem::Progress& progress)
     {
-      state.UpdateTogether(piece);
+      state.UpdateTogether(piece, vtkPolyData::GetData(inputs[1]));
       this->Data->UpdateTogether(state, request, progress.Part(0.3, 1.0));
       this->Data->SolvedModes = this->NumberOfModes;
       this->Data->SolvedWhole = this->CompleteMultiplets;

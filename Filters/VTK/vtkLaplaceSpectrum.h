@@ -153,7 +153,7 @@ public:
    * On several MPI ranks: when on, all ranks compute, and none gathers the surface, which may be
    * larger than one machine. Possible on a grid or on hats, of welded points, with
    * the patch smoother; not with AccuracyDriven, CompareFunctionSpaces, TrackMetric, a MetricArray,
-   * a given basis, or BlocksAsOne. Where it is not, rank 0 gathers as ever, and warns. The field
+   * or BlocksAsOne. Where it is not, rank 0 gathers as ever, and warns. The field
    * array `Distributed` says which. Zero modes of several components may come in another order, and
    * modes with the other sign. Needs a build with MPI. Default off.
    */

@@ -492,19 +492,20 @@ bool vtkScreenedPoisson::ComputeTogether(
     {
       this->Selection->UpdateTogether(
         this->State->together, vtkSelection::GetData(inputs[2]), piece);
-      this->SolveTogether(piece, outputs, progress);
+      this->SolveTogether(inputs, outputs, progress);
     });
   return true;
 }
 
 /// Port 0 is the rank's own piece with the solution; the table is on the first rank.
 void vtkScreenedPoisson::SolveTogether(
-  vtkPolyData* piece, vtkInformationVector* outputs, const gridfem::Progress& progress)
+  vtkInformationVector** inputs, vtkInformationVector* outputs, const gridfem::Progress& progress)
 {
   Internals& data = *this->Data;
   gridfem::SurfaceSolverState& state = *this->State;
   state.options.trackMetric = false;
-  state.UpdateTogether(piece);
+  vtkPolyData* piece = vtkPolyData::GetData(inputs[0]);
+  state.UpdateTogether(piece, vtkPolyData::GetData(inputs[1]));
   progress.Check(0.4);
   state.together.Together(
     [&]

@@ -211,7 +211,7 @@ public:
    * On several MPI ranks: when on, all ranks compute, and none gathers the surface, which may be
    * larger than one machine. Possible on a grid or on hats, of welded points, with
    * the patch smoother; not with Iteration Cycles, AccuracyDriven, a metric, TrackMetric, moved
-   * points, a given basis, or BlocksAsOne. Where it is not, rank 0 gathers as ever, and warns. The
+   * points, or BlocksAsOne. Where it is not, rank 0 gathers as ever, and warns. The
    * field array `Distributed` says which. Needs a build with MPI. Default off.
    */
   vtkSetMacro(Distributed, bool);
@@ -285,8 +285,8 @@ private:
   void SolveAtDepth(vtkPolyData* input, vtkPolyData* basis, const gridfem::Progress& progress);
   void SolveAccurately(vtkPolyData* input, const gridfem::Progress& progress);
   bool IsAccurate() const;
-  void SolveTogether(
-    vtkPolyData* piece, vtkInformationVector* outputs, const gridfem::Progress& progress);
+  void SolveTogether(vtkInformationVector** inputs, vtkInformationVector* outputs,
+    const gridfem::Progress& progress);
   void WriteDistributed(vtkPolyData* piece, vtkInformationVector* outputs);
   void WriteTables(vtkInformationVector* outputs);
   void Warn();

@@ -426,7 +426,7 @@ bool vtkSpectralSignatures::ComputeTogether(
   this->State->RunTogether(
     [&](const gridfem::Progress& progress)
     {
-      this->UpdateModesTogether(piece, progress.Part(0.0, 0.95));
+      this->UpdateModesTogether(inputs, progress.Part(0.0, 0.95));
       if (this->FilterType != NoFilter)
       {
         this->FilterTogether(piece);
@@ -438,9 +438,10 @@ bool vtkSpectralSignatures::ComputeTogether(
 }
 
 void vtkSpectralSignatures::UpdateModesTogether(
-  vtkPolyData* piece, const gridfem::Progress& progress)
+  vtkInformationVector** inputs, const gridfem::Progress& progress)
 {
   Internals& data = *this->Data;
+  vtkPolyData* piece = vtkPolyData::GetData(inputs[0]);
   const bool areCarried =
     !this->State->together.Any(HasPolygons(piece) && !gridfem::CarriesModes(piece));
   if (!areCarried)
@@ -451,7 +452,7 @@ void vtkSpectralSignatures::UpdateModesTogether(
   data.WasSolved = !areCarried || !this->TakeModesTogether(piece);
   if (data.WasSolved)
   {
-    this->ComputeModesTogether(piece, progress);
+    this->ComputeModesTogether(inputs, progress);
   }
 }
 
@@ -501,7 +502,7 @@ bool vtkSpectralSignatures::TakeModesTogether(vtkPolyData* piece)
 }
 
 void vtkSpectralSignatures::ComputeModesTogether(
-  vtkPolyData* piece, const gridfem::Progress& progress)
+  vtkInformationVector** inputs, const gridfem::Progress& progress)
 {
   Internals& data = *this->Data;
   gridfem::SurfaceSolverState& state = *this->State;
@@ -509,7 +510,8 @@ void vtkSpectralSignatures::ComputeModesTogether(
   request.numberOfModes = this->NumberOfModes;
   request.completeMultiplets = true;
   this->State->options.functionsPerPoint = gridfem::EnoughToEstimate;
-  state.UpdateTogether(piece);
+  vtkPolyData* piece = vtkPolyData::GetData(inputs[0]);
+  state.UpdateTogether(piece, vtkPolyData::GetData(inputs[1]));
   data.Solved.UpdateTogether(state, request, progress.Part(0.3, 1.0));
   RequireNonConstant(data.Solved.spectrum);
   data.ModesKey = {};

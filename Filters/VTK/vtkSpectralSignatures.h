@@ -163,7 +163,7 @@ public:
    * On several MPI ranks: when on, all ranks compute, and none gathers the surface, which may be
    * larger than one machine. Possible on a grid or on hats, of welded points, with
    * the patch smoother, or with the modes of the input; not with sources of distances, with
-   * MovePoints where the coordinates are filtered, a given basis, or BlocksAsOne. Where it is not,
+   * MovePoints where the coordinates are filtered, or BlocksAsOne. Where it is not,
    * rank 0 gathers as ever, and warns. The field array `Distributed` says which. Needs a build with
    * MPI. Default off.
    */
@@ -212,9 +212,9 @@ private:
   void WriteSignatures(int precision, const gridfem::Progress& progress, vtkPolyData* output);
   void WriteDistances(vtkDataSet* sources, int precision, vtkPolyData* output);
   void WriteFiltered(const std::vector<char>& isUsed, vtkPolyData* input, vtkPolyData* output);
-  void UpdateModesTogether(vtkPolyData* piece, const gridfem::Progress& progress);
+  void UpdateModesTogether(vtkInformationVector** inputs, const gridfem::Progress& progress);
   bool TakeModesTogether(vtkPolyData* piece);
-  void ComputeModesTogether(vtkPolyData* piece, const gridfem::Progress& progress);
+  void ComputeModesTogether(vtkInformationVector** inputs, const gridfem::Progress& progress);
   void FilterTogether(vtkPolyData* piece);
   void WriteDistributed(vtkPolyData* piece, vtkInformationVector* outputs);
   void WriteTable(vtkTable* table);

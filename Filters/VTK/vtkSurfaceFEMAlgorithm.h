@@ -29,6 +29,7 @@
  * global point ids, or else by their coordinates with WeldCoincidentPoints. Port 0 is each rank's
  * own input plus arrays, borders and ghosts included; outputs with cells of their own, and tables,
  * are on rank 0. Ids, such as those of sources and in messages, count through the gathered surface.
+ * Filters with the property Distributed can compute on all ranks together, and gather nothing then.
  * The same ranks have to run the filter together. When one fails, all do, with one message.
  *
  * A solver filter finds its function space in this order: on input port 0, when that is the output

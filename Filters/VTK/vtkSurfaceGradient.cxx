@@ -203,7 +203,7 @@ bool vtkSurfaceGradient::ComputeTogether(
   state.RunTogether(
     [&](const gridfem::Progress& progress)
     {
-      state.UpdateTogether(piece);
+      state.UpdateTogether(piece, vtkPolyData::GetData(inputs[1]));
       progress.Check(0.4);
       const gridfem::InputArray array = state.together.Find(this, 0, piece, state.mesh, "Array");
       this->Derive(array, progress.Part(0.4, 1.0));

@@ -74,7 +74,7 @@ public:
   /**
    * On several MPI ranks: when on, all ranks compute, and none gathers the surface, which may be
    * larger than one machine. Possible on a grid or on hats, of welded points, with
-   * the patch smoother; not with HodgeDecomposition, a given basis, or BlocksAsOne. Where it is
+   * the patch smoother; not with HodgeDecomposition, or BlocksAsOne. Where it is
    * not, rank 0 gathers as ever, and warns. The field array `Distributed` says which. Needs a build
    * with MPI. Default off.
    */

@@ -229,11 +229,12 @@ TEST(RankPoisson, IsAbortedOnAllRanksByOne)
   {
     for (const double when : { 0.1, 0.3, 0.61, 0.73 })
     {
-      const Progress progress = OfAllRanks(ranks,
-        Progress([&](double done) { return ranks.Rank() != ranks.Size() - 1 || done < when; }));
+      const Progress ofRank(
+        [&](double done) { return ranks.Rank() != ranks.Size() - 1 || done < when; });
+      const Progress progress = OfAllRanks(ranks, ofRank);
       EXPECT_THROW(
         {
-          const RankSurface surface(ranks, own, Options(4), hasHats, progress.Part(0.0, 0.6));
+          const RankSurface surface(ranks, own, Options(4), hasHats, ofRank.Part(0.0, 0.6));
           const PoissonOptions options = PoissonWith(0.05);
           const Multigrid multigrid = BuildMultigrid(surface.Levels(), options.screeningWeight, 1.0,
             options.multigrid, progress.Part(0.6, 0.7));

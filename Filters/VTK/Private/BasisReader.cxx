@@ -1,7 +1,6 @@
 #include "BasisReader.h"
 
 #include "Base/Errors.h"
-#include "Base/Grouping.h"
 #include "BasisConversion.h"
 #include "vtkSurfaceBasisHolder.h"
 
@@ -99,34 +98,6 @@ std::vector<MortonKey> ReadCells(vtkFieldData* fields, const Grid& grid)
   return cells;
 }
 
-/// Cells of the triangles; the triangles sorted by cell become the pieces.
-void ReadPieces(vtkPolyData* data, const InputMesh& mesh, ClippedMesh& clipped)
-{
-  vtkDataArray* octreeCell =
-    RequireArray(data->GetCellData(), OctreeCellIdName, 1, data->GetNumberOfCells());
-  const Id count = static_cast<Id>(mesh.sourceCell.size());
-  RequireIndices(3.0 * static_cast<double>(count), "corners of triangles");
-  Array<Index> cell(count);
-  for (Id t = 0; t < count; ++t)
-  {
-    cell[t] = static_cast<Index>(
-      IntegerIn(octreeCell, mesh.sourceCell[t], 0, static_cast<Id>(clipped.cells.size())));
-  }
-  Groups byCell = GroupItems(cell, static_cast<Id>(clipped.cells.size()));
-  clipped.cellBegin = std::move(byCell.begin);
-  clipped.pieceTriangle = std::move(byCell.item);
-  clipped.pieceBegin.push_back(0);
-  for (const Index triangle : clipped.pieceTriangle)
-  {
-    const auto& corners = mesh.triangles->triangles[triangle];
-    for (const Id corner : corners)
-    {
-      clipped.corners.push_back(static_cast<Index>(corner));
-    }
-    clipped.pieceBegin.push_back(static_cast<Index>(clipped.corners.size()));
-  }
-}
-
 /// What a coordinate may be off, relative to its size: it was stored, and then taken to the grid.
 double RoundingOf(vtkPolyData* data)
 {
@@ -135,21 +106,21 @@ double RoundingOf(vtkPolyData* data)
                   : 8.0 * std::numeric_limits<double>::epsilon();
 }
 
-void RequireInsideCells(const ClippedMesh& clipped, const TriangleMesh& mesh, double rounding)
+void RequireInsideCells(const GivenCells& given, const TriangleMesh& mesh, double rounding)
 {
-  const Array<Index> pieceCell = PieceCells(clipped);
-  for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
   {
-    const CellIndex cell = MortonDecode(clipped.cells[pieceCell[piece]]);
-    for (Id k = clipped.pieceBegin[piece]; k < clipped.pieceBegin[piece + 1]; ++k)
+    const CellIndex cell = MortonDecode(given.ofTriangle[t]);
+    for (const Id corner : mesh.triangles[t])
     {
-      const Vec3 local = clipped.position[clipped.corners[k]] - Vec3(cell[0], cell[1], cell[2]);
-      const double size = mesh.points[clipped.corners[k]].cwiseAbs().maxCoeff();
-      const double outside = OutsideCell + rounding * size / clipped.grid.spacing;
+      const Vec3& point = mesh.points[corner];
+      const Vec3 local = given.grid.ToGrid(point) - Vec3(cell[0], cell[1], cell[2]);
+      const double size = point.cwiseAbs().maxCoeff();
+      const double outside = OutsideCell + rounding * size / given.grid.spacing;
       if (!(local.minCoeff() >= -outside && local.maxCoeff() <= 1.0 + outside))
       {
         throw InvalidInput(
-          "Point " + std::to_string(clipped.corners[k]) +
+          "Point " + std::to_string(corner) +
           " does not lie in its octree cell: the mesh was moved or changed after it was clipped. "
           "Clip it again.");
       }
@@ -204,6 +175,13 @@ bool IsMadeFrom(const SurfaceBasis& basis, const InputMesh& source)
   return true;
 }
 
+Index NumberOfFunctionsIn(vtkFieldData* fields)
+{
+  constexpr Id Limit = Id(1) << 31;
+  return static_cast<Index>(
+    IntegerIn(RequireArray(fields, NumberOfBasisFunctionsName, 1, 1), 0, 0, Limit));
+}
+
 PatchLevel ReadFinestLevel(vtkFieldData* fields, const ClippedMesh& clipped)
 {
   PatchLevel finest;
@@ -211,9 +189,7 @@ PatchLevel ReadFinestLevel(vtkFieldData* fields, const ClippedMesh& clipped)
   vtkDataArray* patchCell = RequireArray(fields, PatchCellIdName, 1, -1);
   const Id patches = patchCell->GetNumberOfTuples();
   vtkDataArray* basisIds = RequireArray(fields, PatchBasisIdsName, FunctionsPerPatch, patches);
-  constexpr Id functionLimit = Id(1) << 31;
-  finest.numberOfFunctions = static_cast<Index>(
-    IntegerIn(RequireArray(fields, NumberOfBasisFunctionsName, 1, 1), 0, 0, functionLimit));
+  finest.numberOfFunctions = NumberOfFunctionsIn(fields);
   finest.cell.resize(patches);
   finest.dof.resize(patches);
   for (Id patch = 0; patch < patches; ++patch)
@@ -274,28 +250,36 @@ std::vector<Id> ReadSourceCells(vtkPolyData* data, const InputMesh& mesh)
 
 } // namespace
 
+GivenCells ReadGivenCells(vtkPolyData* data, const InputMesh& mesh)
+{
+  GivenCells given;
+  given.grid = ReadGrid(data->GetFieldData());
+  given.cells = ReadCells(data->GetFieldData(), given.grid);
+  vtkDataArray* octreeCell =
+    RequireArray(data->GetCellData(), OctreeCellIdName, 1, data->GetNumberOfCells());
+  given.ofTriangle.reserve(mesh.sourceCell.size());
+  for (const Id cell : mesh.sourceCell)
+  {
+    given.ofTriangle.push_back(
+      given.cells[IntegerIn(octreeCell, cell, 0, static_cast<Id>(given.cells.size()))]);
+  }
+  RequireInsideCells(given, *mesh.triangles, RoundingOf(data));
+  return given;
+}
+
 ClippedMesh ReadClippedMesh(
   vtkPolyData* data, const InputMesh& mesh, bool weldCoincidentPoints, const Progress& progress)
 {
   Validate(*mesh.triangles);
-  ClippedMesh clipped;
-  clipped.grid = ReadGrid(data->GetFieldData());
-  clipped.cells = ReadCells(data->GetFieldData(), clipped.grid);
-  clipped.numberOfInputPoints = static_cast<Id>(mesh.triangles->points.size());
-  clipped.position.reserve(mesh.triangles->points.size());
-  for (const Vec3& point : mesh.triangles->points)
-  {
-    clipped.position.push_back(clipped.grid.ToGrid(point));
-  }
-  progress.Check(0.1);
-  ReadPieces(data, mesh, clipped);
-  RequireInsideCells(clipped, *mesh.triangles, RoundingOf(data));
-  progress.Check(0.4);
-  const Array<Index> pointClass =
-    weldCoincidentPoints ? WeldCoincidentPoints(mesh.triangles->points, UsedPoints(*mesh.triangles))
-                         : Array<Index>{};
-  clipped.links = FindLinks(clipped, pointClass, progress.Part(0.5, 1.0));
-  return clipped;
+  const GivenCells given = ReadGivenCells(data, mesh);
+  progress.Check(0.3);
+  return ClipOfGivenCells(*mesh.triangles, given, weldCoincidentPoints, progress.Part(0.3, 1.0));
+}
+
+BasisFacts ReadBasisFacts(vtkPolyData* data)
+{
+  vtkFieldData* const fields = data->GetFieldData();
+  return { ReadGrid(fields), NumberOfFunctionsIn(fields), FlagOf(data, ConnectivityAwareName) };
 }
 
 bool WeldsCoincidentPoints(vtkPolyData* data)

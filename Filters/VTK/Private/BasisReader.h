@@ -3,6 +3,7 @@
 #define GridFEM_BasisReader_h
 
 #include "ClippedArrays.h"
+#include "Grid/GivenPieces.h"
 #include "SurfaceBasis.h"
 
 #include <vector>
@@ -12,6 +13,9 @@ class vtkPolyData;
 namespace gridfem
 {
 
+/// The octree cells of the triangles of `data`. Throws as ReadClippedMesh.
+GivenCells ReadGivenCells(vtkPolyData* data, const InputMesh& mesh);
+
 /// The clipped mesh whose pieces are the triangles of `data`, with links.
 /// @param mesh  ReadInputMesh(data)
 /// @param weldCoincidentPoints  coincident points count as one for the links
@@ -19,6 +23,17 @@ namespace gridfem
 /// does not lie in its cell.
 ClippedMesh ReadClippedMesh(vtkPolyData* data, const InputMesh& mesh, bool weldCoincidentPoints,
   const Progress& progress = {});
+
+/// What the tables of a basis say without its triangles.
+struct BasisFacts
+{
+  Grid grid;
+  Id functions = 0;
+  bool isConnectivityAware = true;
+};
+
+/// Throws InvalidInput naming an array that is missing or does not fit.
+BasisFacts ReadBasisFacts(vtkPolyData* data);
 
 /// Whether coincident points counted as one when the basis of `data` was made.
 bool WeldsCoincidentPoints(vtkPolyData* data);

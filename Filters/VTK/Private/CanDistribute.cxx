@@ -1,6 +1,6 @@
 #include "CanDistribute.h"
 
-#include "ClippedArrays.h"
+#include "BasisReader.h"
 #include "Ranks.h"
 #include "vtkSurfaceFEMAlgorithm.h"
 
@@ -34,10 +34,10 @@ bool HasPolygons(vtkPolyData* piece)
   return piece && piece->GetNumberOfPolys() + piece->GetNumberOfStrips() > 0;
 }
 
-/// But for a selection, of which every rank evaluates its part.
+/// But for a selection, of which every rank evaluates its part. Port 1 is that of a basis.
 bool IsFurtherPortConnected(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs)
 {
-  for (int port = 1; port < filter->GetNumberOfInputPorts(); ++port)
+  for (int port = 2; port < filter->GetNumberOfInputPorts(); ++port)
   {
     vtkDataObject* const data = vtkDataObject::GetData(inputs[port]);
     if (data && !vtkSelection::SafeDownCast(data))
@@ -52,12 +52,17 @@ bool IsFurtherPortConnected(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector
 std::string ObstacleHere(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs)
 {
   vtkPolyData* const piece = vtkPolyData::GetData(inputs[0]);
+  const bool isOther = filter->GetNumberOfInputPorts() > 1 && !CarriesBasis(piece);
+  vtkPolyData* const basis = isOther ? vtkPolyData::GetData(inputs[1]) : piece;
+  const bool isGiven = CarriesBasis(basis);
   return FirstObstacle({ { filter->GetBlocksAsOne(), "BlocksAsOne" },
     // Pieces would be apart along their borders: nothing else tells which points are one.
     { !filter->GetWeldCoincidentPoints(), "points that are not welded" },
     { filter->GetSmoother() != vtkSurfaceFEMAlgorithm::PatchSmoother,
       "a smoother other than that of patches" },
-    { piece && CarriesBasis(piece), "a basis that is given" },
+    { isGiven && !WeldsCoincidentPoints(basis), "a basis whose points are not welded" },
+    { isGiven && basis == piece && filter->GetFunctionSpace() != vtkSurfaceFEMAlgorithm::Grid,
+      "hat functions on a basis" },
     { IsFurtherPortConnected(filter, inputs), "a further input" } });
 }
 

@@ -3,6 +3,7 @@
 #if GRIDFEM_HAS_PARALLEL
 
 #include "Allocation.h"
+#include "BasisReader.h"
 #include "ClippedFans.h"
 #include "ClippedMeshWriter.h"
 #include "DistributedInternals.h"
@@ -24,7 +25,8 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
-#include <numeric>
+#include <array>
+#include <cmath>
 
 namespace gridfem
 {
@@ -227,8 +229,8 @@ class ClipOfRanks : public DistributedClip
 public:
   void Build(DistributedSurface& together, vtkPolyData* piece, const SurfaceOptions& options,
     InputMesh& mesh, const Progress& progress) override;
-  void Take(const DistributedSurface& together, vtkPolyData* piece, const SurfaceOptions& options,
-    const InputMesh& mesh) override;
+  void Take(const DistributedSurface& together, vtkPolyData* piece, bool isClipped,
+    const SurfaceOptions& options, const InputMesh& mesh) override;
   void WriteMesh(
     vtkPolyData* piece, const InputMesh& mesh, int threads, vtkPolyData* output) const override;
   void WriteFunctions(int level, vtkUnstructuredGrid* output) const override;
@@ -242,10 +244,12 @@ public:
 private:
   void Complete(vtkPolyData* piece, const SurfaceOptions& options, const InputMesh& mesh);
   void AddBasis(const SurfaceOptions& options);
+  void AddBasisToPiece(const InputMesh& mesh, const InputMesh& copies, vtkPolyData* piece);
   vtkSmartPointer<vtkAbstractArray> AtPointsShown(vtkAbstractArray* atAllPoints) const;
 
   Communicator ranks_ = RanksOfVtk();
   std::shared_ptr<const RankSurface> whole_; // with functions
+  bool isClipped_ = false;                   // before
   std::shared_ptr<const Redistribution> distribution_;
   std::shared_ptr<const ClippedMesh> clipped_;
   std::vector<PatchLevel> levels_; // LevelsOfRank
@@ -261,7 +265,6 @@ private:
 void ClipOfRanks::Build(DistributedSurface& together, vtkPolyData* piece,
   const SurfaceOptions& options, InputMesh& mesh, const Progress& progress)
 {
-  whole_ = nullptr;
   clipped_ = nullptr; // frees the memory of the last one first
   mesh = together.ReadPieces(piece, options.space.threads);
   RankClip clip(ranks_, *mesh.triangles, RankOptionsOf(options), progress,
@@ -273,9 +276,10 @@ void ClipOfRanks::Build(DistributedSurface& together, vtkPolyData* piece,
   this->Complete(piece, options, mesh);
 }
 
-void ClipOfRanks::Take(const DistributedSurface& together, vtkPolyData* piece,
+void ClipOfRanks::Take(const DistributedSurface& together, vtkPolyData* piece, bool isClipped,
   const SurfaceOptions& options, const InputMesh& mesh)
 {
+  isClipped_ = isClipped;
   whole_ = together.Parts().whole;
   const RankSpace& space = whole_->Space();
   distribution_ = { whole_, &space.Distribution() };
@@ -283,6 +287,11 @@ void ClipOfRanks::Take(const DistributedSurface& together, vtkPolyData* piece,
   clipped_ = { whole_, &space.Own().Functions().clipped };
   levels_ = LevelsOfRank(space);
   this->Complete(piece, options, mesh);
+  if (isClipped)
+  {
+    this->AddBasisToPiece(mesh, together.CopiedTriangles(), piece);
+    return;
+  }
   this->AddBasis(options);
 }
 
@@ -334,6 +343,49 @@ void ClipOfRanks::AddBasis(const SurfaceOptions& options)
     });
 }
 
+/// The tables of the basis for triangles that are pieces already.
+void ClipOfRanks::AddBasisToPiece(
+  const InputMesh& mesh, const InputMesh& copies, vtkPolyData* piece)
+{
+  const RankSpace& space = whole_->Space();
+  const PatchLevel finest = GatherFinest(space);
+  const GridFunctions& own = space.Own().Functions();
+  const Id before = ranks_.ShareOf(own.Finest().NumberOfPatches()).before;
+  MultiVector patches; // of received triangles, each of which one rank has in its cells
+  ranks_.Together(
+    [&]
+    {
+      patches = MultiVector::Zero(static_cast<Id>(space.Own().Mesh().triangles.size()), 1);
+      for (Id k = 0; k < own.clipped.NumberOfPieces(); ++k)
+      {
+        patches(own.clipped.pieceTriangle[k], 0) = static_cast<double>(before + own.piecePatch[k]);
+      }
+    });
+  patches = space.Distribution().SumTriangles(patches);
+  const MultiVector ofCopies = space.Copies().RowsOfOriginals(space.Distribution(), patches);
+  ranks_.Together(
+    [&]
+    {
+      frame_->Initialize();
+      if (!piece || piece->GetNumberOfCells() == 0)
+      {
+        return;
+      }
+      std::vector<Id> ofCells(piece->GetNumberOfCells(), -1);
+      const auto set = [&](const InputMesh& triangles, const MultiVector& rows)
+      {
+        for (Id t = 0; t < rows.rows(); ++t)
+        {
+          ofCells[triangles.sourceCell[t]] =
+            std::isnan(rows(t, 0)) ? -1 : static_cast<Id>(rows(t, 0));
+        }
+      };
+      set(mesh, patches);
+      set(copies, ofCopies);
+      WriteBasis(finest, ReadGivenCells(piece, mesh).cells, own.support, ofCells, true, frame_);
+    });
+}
+
 vtkSmartPointer<vtkAbstractArray> ClipOfRanks::AtPointsShown(vtkAbstractArray* atAllPoints) const
 {
   Numbering numbering;
@@ -344,6 +396,19 @@ vtkSmartPointer<vtkAbstractArray> ClipOfRanks::AtPointsShown(vtkAbstractArray* a
 void ClipOfRanks::WriteMesh(
   vtkPolyData* piece, const InputMesh& mesh, int threads, vtkPolyData* output) const
 {
+  if (isClipped_)
+  {
+    ranks_.Together(
+      [&]
+      {
+        if (piece)
+        {
+          output->ShallowCopy(piece);
+          PassArrays(frame_, output);
+        }
+      });
+    return;
+  }
   vtkNew<vtkPolyData> received;
   received->ShallowCopy(surface_);
   SendArrays(ranks_, *distribution_, piece, mesh, received);
@@ -408,6 +473,7 @@ void ClipOfRanks::AddBasisFunction(int depth, Id function, int threads, vtkPolyD
 {
   const std::size_t level = LevelOfDepth(levels_, depth);
   const std::vector<LevelNumbering>& numberings = whole_->Space().Numberings();
+  MultiVector coefficients;
   ranks_.Together(
     [&]
     {
@@ -422,16 +488,27 @@ void ClipOfRanks::AddBasisFunction(int depth, Id function, int threads, vtkPolyD
                  ? found - numbering.number.begin()
                  : -1;
       }
-      const MultiVector coefficients =
-        here < 0 ? MultiVector(MultiVector::Zero(levels_.front().numberOfFunctions, 1))
-                 : BasisFunctionCoefficients(levels_, depth, here);
-      const MultiVector values =
-        EvaluateAtClippedPoints(whole_->Space().Own().Functions(), coefficients, threads);
+      coefficients = here < 0 ? MultiVector(MultiVector::Zero(levels_.front().numberOfFunctions, 1))
+                              : BasisFunctionCoefficients(levels_, depth, here);
+    });
+  MultiVector values;
+  if (isClipped_)
+  {
+    values = whole_->Levels().ValuesAtPoints(coefficients, { threads, {} });
+    whole_->Space().Copies().FillPoints(whole_->Space().Distribution(), values);
+  }
+  ranks_.Together(
+    [&]
+    {
+      if (!isClipped_)
+      {
+        values = EvaluateAtClippedPoints(whole_->Space().Own().Functions(), coefficients, threads);
+      }
       vtkNew<vtkDoubleArray> array;
       array->SetName(BasisFunctionName);
       SetTuples(array, values.rows());
       std::copy(values.data(), values.data() + values.size(), array->GetPointer(0));
-      output->GetPointData()->AddArray(this->AtPointsShown(array));
+      output->GetPointData()->AddArray(isClipped_ ? array : this->AtPointsShown(array));
       output->GetPointData()->SetActiveScalars(BasisFunctionName);
     });
 }

@@ -26,13 +26,16 @@ public:
   virtual ~DistributedClip() = default;
 
   /// Reads the pieces of all ranks and clips them.
-  /// @param mesh  gets this rank's own triangles
+  /// @param mesh      gets this rank's own triangles
+  /// @param progress  of this rank alone
   virtual void Build(DistributedSurface& together, vtkPolyData* piece,
     const SurfaceOptions& options, InputMesh& mesh, const Progress& progress) = 0;
 
   /// Takes the pieces of the grid space that the ranks have, with its functions.
-  /// @param mesh  this rank's own triangles
-  virtual void Take(const DistributedSurface& together, vtkPolyData* piece,
+  /// @param isClipped  the ranks' pieces are parts of a clip: they stay where and as they are, and
+  ///                   get the tables of the basis
+  /// @param mesh       this rank's own triangles
+  virtual void Take(const DistributedSurface& together, vtkPolyData* piece, bool isClipped,
     const SurfaceOptions& options, const InputMesh& mesh) = 0;
 
   /// The clipped mesh of this rank, with the arrays of the pieces as they are now.

@@ -2,6 +2,7 @@
 
 #if GRIDFEM_HAS_PARALLEL
 
+#include "BasisReader.h"
 #include "DistributedInternals.h"
 #include "GivenValues.h"
 #include "Ranks.h"
@@ -139,9 +140,14 @@ bool DistributedSurface::Any(bool holds) const
   return this->Largest(holds ? 1.0 : 0.0) > 0.0;
 }
 
-int DistributedSurface::Depth() const
+const Grid& DistributedSurface::GridOfRanks() const
 {
-  return ranks_->whole->Space().Own().Functions().GetGrid().depth;
+  return ranks_->whole->Space().Own().Functions().GetGrid();
+}
+
+Id DistributedSurface::NumberOfFunctions() const
+{
+  return ranks_->whole->Levels().Numbering(0).total;
 }
 
 double DistributedSurface::Largest(double own) const
@@ -186,13 +192,52 @@ InputMesh DistributedSurface::ReadPieces(vtkPolyData* piece, int threads)
   return mesh;
 }
 
+/// The grid is that of the first rank with triangles.
+std::shared_ptr<const GivenCells> DistributedSurface::ReadCells(
+  vtkPolyData* piece, const InputMesh& mesh) const
+{
+  auto given = std::make_shared<GivenCells>();
+  std::vector<double> numbers;
+  this->Together(
+    [&]
+    {
+      if (!mesh.triangles->triangles.empty())
+      {
+        *given = ReadGivenCells(piece, mesh);
+        const Vec3& origin = given->grid.origin;
+        numbers = { origin[0], origin[1], origin[2], given->grid.spacing,
+          static_cast<double>(given->grid.depth) };
+      }
+    });
+  const std::vector<double> own = numbers;
+  this->Agree(numbers);
+  this->Together(
+    [&]
+    {
+      if (!own.empty() && own != numbers)
+      {
+        throw InvalidInput("The surface here was clipped in another grid than that of other ranks. "
+                           "Clip it again.");
+      }
+    });
+  given->grid.origin = Vec3(numbers[0], numbers[1], numbers[2]);
+  given->grid.spacing = numbers[3];
+  given->grid.depth = static_cast<int>(numbers[4]);
+  return given;
+}
+
 void DistributedSurface::BuildSpace(
-  vtkPolyData* piece, const SurfaceOptions& options, InputMesh& mesh)
+  vtkPolyData* piece, const SurfaceOptions& options, bool isClipped, InputMesh& mesh)
 {
   this->Free();
   mesh = this->ReadPieces(piece, options.space.threads);
   const Communicator& ranks = ranks_->ranks;
-  auto whole = std::make_shared<const RankSurface>(ranks, *mesh.triangles, RankOptionsOf(options),
+  RankSpaceOptions rankOptions = RankOptionsOf(options);
+  if (isClipped)
+  {
+    rankOptions.given = this->ReadCells(piece, mesh);
+  }
+  auto whole = std::make_shared<const RankSurface>(ranks, *mesh.triangles, rankOptions,
     options.choice.kind == FunctionKind::Hats, progress_, copies_.triangles->triangles);
   space_ = std::shared_ptr<const SurfaceSpace>(whole, &whole->Levels());
   ranks_->whole = std::move(whole);
@@ -411,7 +456,12 @@ bool DistributedSurface::Any(bool) const
   RefuseWithoutMpi();
 }
 
-int DistributedSurface::Depth() const
+const Grid& DistributedSurface::GridOfRanks() const
+{
+  RefuseWithoutMpi();
+}
+
+Id DistributedSurface::NumberOfFunctions() const
 {
   RefuseWithoutMpi();
 }
@@ -426,7 +476,7 @@ InputMesh DistributedSurface::ReadPieces(vtkPolyData*, int)
   RefuseWithoutMpi();
 }
 
-void DistributedSurface::BuildSpace(vtkPolyData*, const SurfaceOptions&, InputMesh&)
+void DistributedSurface::BuildSpace(vtkPolyData*, const SurfaceOptions&, bool, InputMesh&)
 {
   RefuseWithoutMpi();
 }

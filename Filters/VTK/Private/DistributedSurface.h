@@ -26,13 +26,15 @@ namespace gridfem
 
 class DistanceMethod;
 class SelectedPoints;
+struct GivenCells;
+struct Grid;
 struct MemoryNeed;
 struct DistanceOptions;
 struct SurfaceOptions;
 
-/// All functions but Free, IsUsed, Space, Area, Side, Depth, DataTypeOf, Numbers and WithCopies are
-/// collective, on the ranks of VTK's global controller, and but Run are called within Run. What
-/// throws on one rank alone is called within Together.
+/// All functions but Free, IsUsed, Space, Area, Side, Depth, GridOfRanks, NumberOfFunctions,
+/// DataTypeOf, Numbers and WithCopies are collective, on the ranks of VTK's global controller, and
+/// but Run are called within Run. What throws on one rank alone is called within Together.
 class DistributedSurface
 {
 public:
@@ -59,8 +61,11 @@ public:
 
   /// Reads the pieces and clips them.
   /// @param options  threads are those of a rank
+  /// @param isClipped  the pieces are parts of a clip, whose grid and cells are taken
+  /// (ReadGivenCells)
   /// @param mesh     gets the piece without the copies
-  void BuildSpace(vtkPolyData* piece, const SurfaceOptions& options, InputMesh& mesh);
+  void BuildSpace(
+    vtkPolyData* piece, const SurfaceOptions& options, bool isClipped, InputMesh& mesh);
 
   /// The threads that a rank may use: those of a machine are shared.
   int ThreadsOfRank(int wanted) const;
@@ -98,7 +103,11 @@ public:
   double Side() const { return space_->UnitLength() * space_->Extent(); }
 
   /// Of the grid, which is coarser below hat functions that do not need it.
-  int Depth() const;
+  int Depth() const { return this->GridOfRanks().depth; }
+  const Grid& GridOfRanks() const;
+
+  /// Functions of the finest level, on all ranks.
+  Id NumberOfFunctions() const;
 
   /// The whole piece.
   /// @param mesh  as ReadPieces has given it
@@ -137,6 +146,8 @@ public:
   const InputMesh& CopiedTriangles() const { return copies_; }
 
 private:
+  std::shared_ptr<const GivenCells> ReadCells(vtkPolyData* piece, const InputMesh& mesh) const;
+
   struct StandIn
   {
     vtkSmartPointer<vtkDataArray> array; // for a rank without polygons

@@ -24,6 +24,13 @@
 
 namespace gridfem
 {
+namespace
+{
+
+constexpr const char* NoBasisText = "The second input is not the output of a basis filter: the "
+                                    "arrays 'PatchBasisIds' and 'PatchId' are missing.";
+
+} // namespace
 
 void AddMesh(StageKey& key, vtkPolyData* data)
 {
@@ -126,8 +133,7 @@ void SurfaceSolverState::UpdateSpace(
     RequireSurface(*mesh.triangles);
     if (!carries && !CarriesBasis(basisData))
     {
-      throw InvalidInput("The second input is not the output of a basis filter: the arrays "
-                         "'PatchBasisIds' and 'PatchId' are missing.");
+      throw InvalidInput(NoBasisText);
     }
     basis = carries ? ReadBasis(input, mesh, progress.Part(0.1, 0.8))
                     : ReadBasisFor(basisData, mesh, progress.Part(0.1, 0.8));
@@ -265,7 +271,89 @@ void SurfaceSolverState::RunTogether(const DistributedSurface::Body& body)
   stages.DecideTogether(nullptr);
 }
 
-void SurfaceSolverState::UpdateTogether(vtkPolyData* piece)
+namespace
+{
+
+/// What ranks tell each other of a basis: origin, side and depth of the grid, functions, and
+/// whether they are aware of connectivity.
+enum BasisNumber
+{
+  OriginX,
+  OriginY,
+  OriginZ,
+  Side,
+  Depth,
+  AllFunctions,
+  Aware,
+  BasisNumbers
+};
+
+} // namespace
+
+/// Asks for the functions of a basis that any rank has.
+std::vector<double> SurfaceSolverState::TakeBasisTogether(vtkPolyData* basisData)
+{
+  std::vector<double> told;
+  together.Together(
+    [&]
+    {
+      if (basisData && CarriesBasis(basisData))
+      {
+        const BasisFacts facts = ReadBasisFacts(basisData);
+        const Grid& grid = facts.grid;
+        told.resize(BasisNumbers);
+        std::copy_n(grid.origin.data(), 3, told.begin());
+        told[Side] = grid.spacing * grid.CellsPerSide();
+        told[Depth] = grid.depth;
+        told[AllFunctions] = static_cast<double>(facts.functions);
+        told[Aware] = facts.isConnectivityAware ? 1.0 : 0.0;
+      }
+    });
+  together.Agree(told);
+  if (told.empty())
+  {
+    throw InvalidInput(NoBasisText);
+  }
+  options.space.depth = static_cast<int>(told[Depth]);
+  options.space.connectivityAware = told[Aware] != 0.0;
+  return told;
+}
+
+/// That the functions are those of the basis, as far as numbers tell.
+void SurfaceSolverState::RequireBasisTogether(const std::vector<double>& told) const
+{
+  const Grid& grid = together.GridOfRanks();
+  const bool isSameCube = grid.origin == Vec3(told[OriginX], told[OriginY], told[OriginZ]) &&
+                          grid.spacing * grid.CellsPerSide() == told[Side];
+  // Below hats the grid may be coarser.
+  const bool isSameSpace = options.choice.kind == FunctionKind::Hats ||
+                           static_cast<double>(together.NumberOfFunctions()) == told[AllFunctions];
+  if (!isSameCube || !isSameSpace)
+  {
+    throw InvalidInput("The basis was made from another mesh. Connect the mesh that went into the "
+                       "basis filter, or the output of the basis filter itself.");
+  }
+}
+
+void SurfaceSolverState::UpdateTogether(vtkPolyData* piece, vtkPolyData* basisData)
+{
+  if (together.Any(piece && CarriesBasis(piece)))
+  {
+    this->TakeBasisTogether(piece);
+    this->BuildTogether(piece, true);
+    return;
+  }
+  if (!together.Any(basisData != nullptr && basisData->GetNumberOfPoints() > 0))
+  {
+    this->BuildTogether(piece, false);
+    return;
+  }
+  const std::vector<double> told = this->TakeBasisTogether(basisData);
+  this->BuildTogether(piece, false);
+  this->RequireBasisTogether(told);
+}
+
+void SurfaceSolverState::BuildTogether(vtkPolyData* piece, bool isClipped)
 {
   StageKey key;
   together.Together(
@@ -279,10 +367,14 @@ void SurfaceSolverState::UpdateTogether(vtkPolyData* piece)
       key.Add(options.functionsPerPoint);
       key.Add(options.space.connectivityAware).Add(options.space.weldCoincidentPoints);
       key.Add(options.choice.quadratureDegree).Add(options.choice.coarsestSize);
-      key.Add(options.choice.normalStabilization);
+      key.Add(options.choice.normalStabilization).Add(isClipped);
       if (piece)
       {
         AddMesh(key, piece);
+      }
+      if (piece && isClipped)
+      {
+        AddClipArrays(key, piece);
       }
     });
   options.space.threads = together.ThreadsOfRank(options.space.threads);
@@ -292,7 +384,7 @@ void SurfaceSolverState::UpdateTogether(vtkPolyData* piece)
     {
       basis = {};
       space = {};
-      together.BuildSpace(piece, options, mesh);
+      together.BuildSpace(piece, options, isClipped, mesh);
     });
   key = {};
   key.Add(stages.Version(SpaceStage));

@@ -83,9 +83,14 @@ public:
   /// Runs a body with stages that run on all ranks where they have to on one.
   void RunTogether(const DistributedSurface::Body& body);
 
-  /// As UpdateSpace and UpdateSystem, on the pieces of all ranks.
-  /// @param piece  may be null
-  void UpdateTogether(vtkPolyData* piece);
+  /// As UpdateSpace and UpdateSystem, on the pieces of all ranks. Of a basis the grid counts, and
+  /// the cells where the piece carries it: on the same surface that gives the same functions.
+  /// @param piece, basisData  may be null
+  void UpdateTogether(vtkPolyData* piece, vtkPolyData* basisData);
+
+  /// The same with the functions that the properties ask for.
+  /// @param isClipped  the pieces are parts of a clip, whose grid and cells are taken
+  void BuildTogether(vtkPolyData* piece, bool isClipped);
   ///@}
 
   ///@{ What solvers ask of the space, be it that of one process or of ranks together: then
@@ -152,6 +157,8 @@ public:
   ProgressBridge bridge;
 
 private:
+  std::vector<double> TakeBasisTogether(vtkPolyData* basisData);
+  void RequireBasisTogether(const std::vector<double>& told) const;
   int DepthFor(int wanted) const;
   void TakeEnough(const Progress& progress);
 
