@@ -169,7 +169,7 @@ class Failures(unittest.TestCase):
 
     def test_an_abort_on_any_rank_while_all_compute(self):
         for name in ("ScreenedPoisson", "LaplaceSpectrum", "SpectralSignatures", "SurfaceGradient",
-                     "HeatDiffusion", "GeodesicDistance"):
+                     "HeatDiffusion", "GeodesicDistance", "ClipToOctree", "ConnectivityAwareBasis"):
             for rank in {0, LAST}:
                 filter_ = ranks.make(name, Distributed=True)
                 aborted_at = []

@@ -76,7 +76,7 @@ class OtherPorts(unittest.TestCase):
             given = vtkPolyData()
             if ranks.RANK == rank:
                 given.DeepCopy(alone)
-            for kind in ("first", "last"):  # points in the order in which the basis was made
+            for kind in ("first", "last", "contiguous"):  # whatever the order of points
                 data = ranks.piece(mesh, kind)
                 solver = ranks.make("ScreenedPoisson")
                 solver.SetInputDataObject(1, given)
@@ -88,12 +88,13 @@ class OtherPorts(unittest.TestCase):
     def test_a_basis_that_was_saved(self):
         """By all ranks or one, and read by all or one."""
         mesh = ranks.ellipsoid()
-        data = ranks.piece(mesh, "first")
+        data = ranks.piece(mesh, "contiguous")
         reference = ranks.alone(
             lambda: ranks.run(ranks.make("ScreenedPoisson"), ranks.whole(mesh))[0])
 
-        def saved(name, pieces, piece):
-            basis = ranks.run(ranks.make("ConnectivityAwareBasis"), data)[0]
+        def saved(name, pieces, piece, together):
+            basis = ranks.run(
+                ranks.make("ConnectivityAwareBasis", Distributed=together), data)[0]
             path = os.path.join(folder, name)
             writer = vtkXMLPPolyDataWriter()
             writer.SetFileName(path)
@@ -114,18 +115,22 @@ class OtherPorts(unittest.TestCase):
             reader.UpdatePiece(piece, pieces, 0)
             return reader.GetOutput()
 
-        def solved(basis, surface):
-            solver = ranks.make("ScreenedPoisson")
+        def solved(basis, surface, together=False):
+            solver = ranks.make("ScreenedPoisson", Distributed=together)
             solver.SetInputDataObject(1, basis)
             return ranks.run(solver, surface)[0]
 
         with tempfile.TemporaryDirectory() as own:
             letters = ranks.gathered([ord(letter) for letter in own if ranks.RANK == 0])
             folder = "".join(chr(int(letter)) for letter in letters)
-            for name, pieces, piece in (("all.pvtp", ranks.RANKS, ranks.RANK), ("one.pvtp", 1, 0)):
-                path = saved(name, pieces, piece)
-                output = solved(read(path, ranks.RANKS, ranks.RANK), data)
-                problems = expect(output, reference, "Solution", data)
+            for name, pieces, piece, together in (
+                    ("all.pvtp", ranks.RANKS, ranks.RANK, False), ("one.pvtp", 1, 0, False),
+                    ("together.pvtp", ranks.RANKS, ranks.RANK, True)):
+                path = saved(name, pieces, piece, together)
+                problems = []
+                for all_compute in (False, True):
+                    output = solved(read(path, ranks.RANKS, ranks.RANK), data, all_compute)
+                    problems += expect(output, reference, "Solution", data)
                 output = ranks.alone(lambda: solved(read(path, 1, 0), ranks.whole(mesh)))
                 problems += expect(output, reference, "Solution", ranks.whole(mesh))
                 ranks.check(self, problems)

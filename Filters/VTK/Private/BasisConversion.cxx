@@ -168,17 +168,12 @@ bool IsStored(const Vec3& stored, const Vec3& given)
   return stored == given || stored == Vec3(given.cast<float>().cast<double>());
 }
 
-void RequireSamePoints(const TriangleMesh& stored, const TriangleMesh& source)
+void RequireAllFound(const TriangleMesh& source, const std::vector<char>& isFound)
 {
-  if (stored.points.size() < source.points.size())
-  {
-    RefuseForeignBasis("it has " + std::to_string(stored.points.size()) +
-                       " points, this mesh has " + std::to_string(source.points.size()) + ".");
-  }
   const std::vector<char> used = UsedPoints(source);
-  for (std::size_t point = 0; point < source.points.size(); ++point)
+  for (std::size_t point = 0; point < used.size(); ++point)
   {
-    if (used[point] && !IsStored(stored.points[point], source.points[point]))
+    if (used[point] && !isFound[point])
     {
       RefuseForeignBasis("point " + std::to_string(point) + " is elsewhere.");
     }
@@ -218,36 +213,59 @@ SurfaceBasis OnClippedMesh(const SurfaceBasis& basis)
 SurfaceBasis OnSourceMesh(
   const SurfaceBasis& basis, const std::vector<Id>& sourceCell, const InputMesh& source)
 {
-  RequireSamePoints(*basis.mesh, *source.triangles);
-  RequireSameArea(*basis.mesh, *source.triangles);
+  const TriangleMesh& stored = *basis.mesh;
+  const TriangleMesh& given = *source.triangles;
+  RequireSameArea(stored, given);
 
   GridFunctions space = *basis.space;
   ClippedMesh& clipped = space.clipped;
-  const Id inputPoints = static_cast<Id>(source.triangles->points.size());
-  clipped.numberOfInputPoints = inputPoints;
-  clipped.cutPoints.assign(clipped.position.size() - inputPoints, CutPoint(-1, {}));
+  const ClippedMesh& before = basis.space->clipped;
+  const auto inputs = static_cast<Index>(given.points.size());
+  clipped.numberOfInputPoints = inputs;
+  clipped.cutPoints.clear();
+  clipped.position.clear();
+  for (const Vec3& point : given.points)
+  {
+    clipped.position.push_back(clipped.grid.ToGrid(point));
+  }
+  std::vector<char> isFound(given.points.size(), 0);
+  std::vector<Index> cutPoint(stored.points.size(), -1); // that a stored point has become
   for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
   {
-    const Id cell = sourceCell[clipped.pieceTriangle[piece]];
+    const Id cell = sourceCell[before.pieceTriangle[piece]];
     const auto candidates = TrianglesOfCell(source, cell);
     if (candidates.first == candidates.second)
     {
       RefuseForeignBasis(
         "it refers to cell " + std::to_string(cell) + ", which is no polygon here.");
     }
-    const Id triangle = FindSourceTriangle(clipped, piece, candidates, *source.triangles);
+    const Id triangle = FindSourceTriangle(before, piece, candidates, given);
+    const auto& corners = given.triangles[triangle];
     clipped.pieceTriangle[piece] = static_cast<Index>(triangle);
     for (Id k = clipped.pieceBegin[piece]; k < clipped.pieceBegin[piece + 1]; ++k)
     {
-      const Id cut = clipped.corners[k] - inputPoints;
-      if (cut >= 0 && clipped.cutPoints[cut].triangle < 0)
+      const Index point = before.corners[k];
+      const Vec3& position = before.position[point];
+      const auto* const corner = std::find_if(corners.begin(), corners.end(),
+        [&](Id input) { return IsStored(stored.points[point], given.points[input]); });
+      if (corner != corners.end())
       {
-        clipped.cutPoints[cut] = { static_cast<Index>(triangle),
-          WeightsIn(
-            *source.triangles, clipped.grid, triangle, clipped.position[cut + inputPoints]) };
+        clipped.corners[k] = static_cast<Index>(*corner);
+        clipped.position[*corner] = position;
+        isFound[*corner] = 1;
+        continue;
       }
+      if (cutPoint[point] < 0)
+      {
+        cutPoint[point] = static_cast<Index>(clipped.position.size());
+        clipped.position.push_back(position);
+        clipped.cutPoints.push_back(
+          { static_cast<Index>(triangle), WeightsIn(given, clipped.grid, triangle, position) });
+      }
+      clipped.corners[k] = cutPoint[point];
     }
   }
+  RequireAllFound(given, isFound);
   space.pointPatch = FindPointPatches(space.clipped, space.piecePatch,
     space.Finest().NumberOfPatches(), space.clipped.numberOfInputPoints);
   SurfaceBasis result =

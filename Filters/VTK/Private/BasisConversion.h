@@ -15,7 +15,7 @@ namespace gridfem
 SurfaceBasis OnClippedMesh(const SurfaceBasis& basis);
 
 /// The same space on the mesh that was clipped.
-/// @param basis       on the clipped mesh; the source's points have to be its first points
+/// @param basis       on the clipped mesh, whose points may be in any order
 /// @param sourceCell  per clipped triangle: the cell of `source` it comes from
 /// Throws InvalidInput, saying what does not fit, when the basis was made from another mesh.
 SurfaceBasis OnSourceMesh(
