@@ -53,7 +53,7 @@ public:
   /// @param near     of the triangle before; near triangles often have the same
   void FindRanksNear(const Vec3& a, const Vec3& b, const Vec3& c, RanksNear& near) const;
 
-  /// The ranks whose regions contain a cell of the finest level, ascending.
+  /// Of a triangle in a cell of the finest level: all ranks that FindRanksNear can find, ascending.
   std::vector<int> RanksNearCell(MortonKey cell) const;
 
   /// How many cells a region reaches beyond its blocks.

@@ -66,7 +66,9 @@ ClipFrame FrameOf(
 {
   const SpaceOptions& options = rankOptions.space.functions;
   const bool isAutomatic = options.depth == AutomaticDepth && !rankOptions.given;
-  const int depth = isAutomatic ? CoarsestSuggestion : options.depth;
+  const int depth = rankOptions.given ? rankOptions.given->grid.depth
+                    : isAutomatic     ? CoarsestSuggestion
+                                      : options.depth;
   constexpr double Infinity = std::numeric_limits<double>::infinity();
   std::array<double, 7> extremes; // largest of -x, -y, -z, x, y, z, and of their absolute values
   ranks.Together(

@@ -104,62 +104,74 @@ bool vtkClipToOctree::WantsQuadraturePoints(double triangles) const
            perTriangle * triangles <= MostAutomaticPoints);
 }
 
+/// The pieces of all ranks, as they are now.
+void vtkClipToOctree::ClipTogether(vtkPolyData* piece)
+{
+  gridfem::SurfaceSolverState& state = *this->State;
+  gridfem::SurfaceOptions& options = state.options;
+  options.space.threads = state.together.ThreadsOfRank(options.space.threads);
+  gridfem::StageKey key;
+  state.together.Together(
+    [&]
+    {
+      gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree
+      key.Add(std::string("together")).Add(options.space.depth);
+      if (piece)
+      {
+        gridfem::AddMesh(key, piece);
+      }
+    });
+  state.stages.Run(gridfem::SpaceStage, key,
+    [&]
+    {
+      this->Data->Clipped = {};
+      this->Data->Frame->Initialize();
+      this->Data->OfRanks = gridfem::DistributedClip::Make();
+      this->Data->OfRanks->Build(
+        state.together, piece, options, state.mesh, state.bridge.GetProgress().Part(0.1, 0.7));
+    });
+}
+
 bool vtkClipToOctree::ComputeTogether(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   gridfem::SurfaceSolverState& state = *this->State;
   if (!this->Distributed || !gridfem::CanDistribute(this, inputs, ""))
   {
+    if (this->Data->OfRanks)
+    {
+      this->FreeStages();
+    }
     return false;
   }
   vtkPolyData* piece = vtkPolyData::GetData(inputs[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
-  std::unique_ptr<gridfem::DistributedClip>& clip = this->Data->OfRanks;
-  const auto update = [&](const gridfem::Progress& progress)
+  const auto compute = [&](const gridfem::Progress& progress)
   {
-    gridfem::SurfaceOptions& options = state.options;
-    options.space.threads = state.together.ThreadsOfRank(options.space.threads);
-    gridfem::StageKey key;
-    state.together.Together(
-      [&]
-      {
-        gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree
-        key.Add(std::string("together")).Add(options.space.depth);
-        if (piece)
-        {
-          gridfem::AddMesh(key, piece);
-        }
-      });
-    state.stages.Run(gridfem::SpaceStage, key,
-      [&]
-      {
-        this->Data->Clipped = {};
-        this->Data->Frame->Initialize();
-        clip = gridfem::DistributedClip::Make();
-        clip->Build(
-          state.together, piece, options, state.mesh, state.bridge.GetProgress().Part(0.1, 0.7));
-      });
+    this->ClipTogether(piece);
     progress.Check(0.7);
-    clip->WriteMesh(piece, state.mesh, options.space.threads, output);
+    const gridfem::DistributedClip& clip = *this->Data->OfRanks;
+    const int threads = state.options.space.threads;
+    clip.WriteMesh(piece, state.mesh, threads, output);
     progress.Check(0.8);
-    auto triangles = static_cast<double>(clip->Clipped().NumberOfTriangles());
+    auto triangles = static_cast<double>(clip.Clipped().NumberOfTriangles());
     state.together.Numbers().SumNumbers(&triangles, 1);
     state.together.Together(
       [&]
       {
-        gridfem::AddFieldInt(output, "Distributed", 1);
+        gridfem::AddFieldInt(output, gridfem::DistributedName, 1);
         output->GetCellData()->SetActiveScalars(gridfem::OctreeCellColorName);
         if (this->WantsQuadraturePoints(triangles))
         {
-          gridfem::WriteQuadraturePoints(clip->Source(), clip->Clipped(),
-            gridfem::TriangleRule(this->QuadratureDegree), clip->Precision(), options.space.threads,
+          gridfem::WriteQuadraturePoints(clip.Source(), clip.Clipped(),
+            gridfem::TriangleRule(this->QuadratureDegree), clip.Precision(), threads,
             vtkPolyData::GetData(outputs, 1));
         }
-        gridfem::WriteOctreeCells(clip->Clipped(), this->Level, clip->Precision(),
-          options.space.threads, vtkUnstructuredGrid::GetData(outputs, 2), clip->CellBefore());
+        gridfem::WriteOctreeCells(clip.Clipped(), this->Level, clip.Precision(), threads,
+          vtkUnstructuredGrid::GetData(outputs, 2), clip.CellBefore());
       });
     progress.Check(1.0);
   };
-  state.RunTogether(update);
+  state.RunTogether(compute);
   return true;
 }
 

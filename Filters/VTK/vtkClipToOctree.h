@@ -73,10 +73,11 @@ public:
   /**
    * On several MPI ranks: when on, all ranks compute, and none gathers the surface, which may be
    * larger than one machine. Each puts out the triangles in its own cells of the octree, wherever
-   * their polygons came from: one rank after the other, the triangles of one rank. `OctreeCells`
-   * are those of all ranks on each. Arrays are those that the pieces of all ranks have. Possible
-   * with welded points; not with BlocksAsOne. Where it is not, rank 0 gathers as
-   * ever, and warns. The field array `Distributed` says which. Needs a build with MPI. Default off.
+   * their polygons came from: one rank after the other, the triangles of one rank. Of points
+   * those are there that triangles use: the input's first, in another order. `OctreeCells` are
+   * those of all ranks on each. Arrays are those that the pieces of all ranks have. Possible with
+   * welded points; not with BlocksAsOne. Where it is not, rank 0 gathers as ever, and warns. The
+   * field array `Distributed` says which. Needs a build with MPI. Default off.
    */
   vtkSetMacro(Distributed, bool);
   vtkGetMacro(Distributed, bool);
@@ -101,6 +102,7 @@ private:
   void operator=(const vtkClipToOctree&) = delete;
 
   bool WantsQuadraturePoints(double triangles) const;
+  void ClipTogether(vtkPolyData* piece);
 
   struct Internals;
   std::unique_ptr<Internals> Data;

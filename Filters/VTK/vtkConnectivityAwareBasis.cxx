@@ -1,6 +1,5 @@
 #include "vtkConnectivityAwareBasis.h"
 
-#include "Private/Allocation.h"
 #include "Private/BasisReader.h"
 #include "Private/CanDistribute.h"
 #include "Private/ClippedMeshWriter.h"
@@ -14,7 +13,6 @@
 #include "Integrals/Evaluation.h"
 
 #include "vtkCellData.h"
-#include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -135,11 +133,8 @@ void vtkConnectivityAwareBasis::AddBasisFunction(vtkPolyData* output)
   const gridfem::MultiVector values = gridfem::EvaluateAtClippedPoints(space,
     gridfem::BasisFunctionCoefficients(space.levels, this->Level, this->BasisId),
     this->NumberOfThreads);
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(gridfem::BasisFunctionName);
-  gridfem::SetTuples(array, values.rows());
-  std::copy(values.data(), values.data() + values.size(), array->GetPointer(0));
-  output->GetPointData()->AddArray(array);
+  output->GetPointData()->AddArray(
+    gridfem::MakePointArray(gridfem::BasisFunctionName, values, VTK_DOUBLE));
   output->GetPointData()->SetActiveScalars(gridfem::BasisFunctionName);
 }
 
@@ -195,7 +190,7 @@ bool vtkConnectivityAwareBasis::ComputeTogether(
   {
     state.options.choice.kind = gridfem::FunctionKind::Grid;
     const bool isClipped = state.together.Any(gridfem::CarriesClip(piece));
-    state.BuildTogether(piece, isClipped);
+    state.BuildTogether(piece, isClipped, [&] { clip = nullptr; });
     gridfem::StageKey key;
     key.Add(state.stages.Version(gridfem::SpaceStage));
     state.stages.Run(ClipStage, key,

@@ -142,8 +142,15 @@ class DistributedClip(unittest.TestCase):
                     with self.subTest(case):
                         ranks.check(self, self.wrong_basis(mesh(), kind, level, case))
 
-    def wrong_basis(self, mesh, kind, level, case):
-        properties = {"Level": level, "BasisId": 5 if level > 1 else 0}
+    def test_plain_functions_have_the_components_of_one_rank(self):
+        """On coarse levels they join sheets, of which each rank sees its own."""
+        for mesh in (ranks.sheets(), ranks.two()):
+            for level in (14, 3, 2, 1):
+                ranks.check(self, self.wrong_basis(
+                    mesh, "contiguous", level, f"plain, level {level}", ConnectivityAware=False))
+
+    def wrong_basis(self, mesh, kind, level, case, **others):
+        properties = {"Level": level, "BasisId": 5 if level > 1 else 0, **others}
         outputs = ranks.run(made("ConnectivityAwareBasis", **properties), ranks.piece(mesh, kind))
         whole = ranks.alone(lambda: ranks.run(
             ranks.make("ConnectivityAwareBasis", 4, **properties), ranks.whole(mesh)))
@@ -324,6 +331,53 @@ class DistributedClip(unittest.TestCase):
         expected = values(spread)
         off = max(abs(value - expected[place]) for place, value in values(output).items())
         return [] if off <= 1e-12 else [f"{case}: BasisFunction is {off} off"]
+
+    def test_a_clip_has_its_own_depth(self):
+        """Whatever Depth says, also 0."""
+        clip = ranks.run(made("ClipToOctree"), ranks.piece(ranks.ellipsoid(), "contiguous"))[0]
+        for depth in (0, 9):
+            output = ranks.run(
+                ranks.make("ConnectivityAwareBasis", depth, Distributed=True), clip)[0]
+            found = field(output, "UsedDepth")
+            ranks.check(self, [] if found is not None and found[0] == 4 else [f"depth {found}"])
+
+    def test_cells_count_as_in_the_gathered_surface(self):
+        """Vertices come before polygons, also those of a rank that has nothing else; and ids of points are
+        left out."""
+        data = ranks.piece(ranks.bowl(), "one rank is empty", global_ids=True)
+        data.GetCellData().SetGlobalIds(None)
+        data.GetCellData().RemoveArray("global")
+        if not data.GetNumberOfPoints():
+            places = vtkPoints()
+            places.SetDataTypeToDouble()
+            places.InsertNextPoint(0.0, 0.0, 0.0)
+            data.SetPoints(places)
+            data.GetPointData().SetGlobalIds(ranks.ids([10 ** 6]))
+            data.GetPointData().GetGlobalIds().SetName("global")
+        vertices = vtkCellArray()
+        vertices.InsertNextCell(1, [0])
+        arrays = data.GetCellData()
+        for k in reversed(range(arrays.GetNumberOfArrays())):
+            arrays.RemoveArray(k)
+        data.SetVerts(vertices)
+        together = ranks.run(made("ClipToOctree"), data)[0]
+        gathered = ranks.run(ranks.make("ClipToOctree", 4), data)[0]
+
+        def sources(output):
+            array = output.GetCellData().GetArray("SourceCellId")
+            return numpy.zeros(0) if array is None else numpy_support.vtk_to_numpy(array)
+        ours = numpy.sort(ranks.gathered(sources(together)))
+        theirs = numpy.sort(ranks.gathered(sources(gathered)))
+        problems = apart(ours, theirs, "source cells")
+        if together.GetPointData().HasArray("global"):
+            problems.append("cut points have ids of others")
+        ranks.check(self, problems)
+
+    def test_what_a_filter_that_gathers_makes_is_not_of_all(self):
+        clip = ranks.run(made("ClipToOctree"), ranks.piece(ranks.ellipsoid(), "contiguous"))[0]
+        output = ranks.run(ranks.make("HeatDiffusion", 4), clip)[0]
+        ranks.check(self, ["Distributed is still there"] if field(output, "Distributed") is not None
+                    else [])
 
     def test_arrays_change_without_a_new_clip(self):
         filter_ = made("ClipToOctree")

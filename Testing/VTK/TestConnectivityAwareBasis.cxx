@@ -6,8 +6,10 @@
 
 #include "vtkClipToOctree.h"
 #include "vtkConnectivityAwareBasis.h"
+#include "vtkScreenedPoisson.h"
 
 #include "vtkIdTypeArray.h"
+#include "vtkPointData.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <gtest/gtest.h>
@@ -205,6 +207,38 @@ TEST(ConnectivityAwareBasis, AClippedInputGivesTheSameBasis)
   }
   EXPECT_EQ(Values(chained->GetOutput()->GetCellData()->GetArray("PatchId")),
     Values(direct->GetOutput()->GetCellData()->GetArray("PatchId")));
+}
+
+/// Two corners of a triangle are one point then, and both are of the surface.
+TEST(ConnectivityAwareBasis, IsReadForAMeshWithATriangleThatIsALine)
+{
+  TriangleMesh mesh = Unweld(GeodesicSphere(5));
+  const auto& corner = mesh.triangles[17];
+  mesh.points[corner[2]] = mesh.points[corner[1]];
+  vtkSmartPointer<vtkPolyData> data = ToPolyData(mesh);
+  vtkNew<vtkConnectivityAwareBasis> basis;
+  basis->SetDepth(4);
+  basis->KeepStagesOff(); // so that it is read from its arrays
+  basis->SetInputData(data);
+  vtkNew<vtkScreenedPoisson> alone;
+  vtkNew<vtkScreenedPoisson> given;
+  given->SetBasisConnection(basis->GetOutputPort());
+  for (vtkScreenedPoisson* solver : { alone.Get(), given.Get() })
+  {
+    solver->SetDepth(4);
+    solver->SetTolerance(1e-12);
+    solver->SetInputData(data);
+    solver->MovePointsOff();
+    solver->Update();
+  }
+  EXPECT_EQ(given->GetErrorCode(), 0UL);
+  const auto values = Values(given->GetOutput()->GetPointData()->GetArray("Solution"));
+  const auto expected = Values(alone->GetOutput()->GetPointData()->GetArray("Solution"));
+  ASSERT_EQ(values.size(), expected.size());
+  for (std::size_t k = 0; k < values.size(); ++k)
+  {
+    ASSERT_NEAR(values[k], expected[k], 1e-9) << k;
+  }
 }
 
 TEST(ConnectivityAwareBasis, AMissingClipArrayIsRefusedByName)

@@ -6,7 +6,9 @@
 #include "Grid/PieceAdjacency.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <map>
 #include <string>
 
 namespace gridfem
@@ -98,6 +100,42 @@ void ImprovePoints(const ClippedMesh& clipped, Id piece, Index patch, const Patc
   }
 }
 
+/// Gives points whose patches have no area that of a point at the same place, where one has: no
+/// equation says what the functions of theirs are.
+void TakeCoincidentPatches(
+  const ClippedMesh& clipped, const PatchChoice& patches, Array<Index>& pointPatch)
+{
+  const auto placeOf = [&](std::size_t point)
+  {
+    const Vec3& position = clipped.position[point];
+    return std::array<double, 3>{ position[0], position[1], position[2] };
+  };
+  std::map<std::array<double, 3>, Index> best; // at the places of such points
+  std::vector<std::size_t> without;
+  for (std::size_t point = 0; point < pointPatch.size(); ++point)
+  {
+    if (pointPatch[point] >= 0 && !patches.HasArea(pointPatch[point]))
+    {
+      without.push_back(point);
+      best.emplace(placeOf(point), -1);
+    }
+  }
+  for (std::size_t point = 0; point < pointPatch.size() && !without.empty(); ++point)
+  {
+    const Index patch = pointPatch[point];
+    const auto found = patch >= 0 ? best.find(placeOf(point)) : best.end();
+    if (found != best.end() && patches.HasArea(patch) && patches.IsBetter(patch, found->second))
+    {
+      found->second = patch;
+    }
+  }
+  for (const std::size_t point : without)
+  {
+    const Index patch = best.at(placeOf(point));
+    pointPatch[point] = patch >= 0 ? patch : pointPatch[point];
+  }
+}
+
 } // namespace
 
 void FindComponents(GridFunctions& space, int threads)
@@ -137,6 +175,7 @@ Array<Index> FindPointPatches(const ClippedMesh& clipped, const Array<Index>& pi
   Array<Index> pointPatch(choice.size());
   std::transform(choice.begin(), choice.end(), pointPatch.begin(),
     [](const std::atomic<Index>& patch) { return patch.load(); });
+  TakeCoincidentPatches(clipped, patches, pointPatch);
   return pointPatch;
 }
 

@@ -36,6 +36,8 @@ public:
     return area_[patch] != area_[other] ? area_[patch] > area_[other] : patch < other;
   }
 
+  bool HasArea(Index patch) const { return area_[patch] >= SmallestPatchArea; }
+
 private:
   std::vector<double> area_;
 };

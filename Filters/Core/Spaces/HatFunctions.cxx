@@ -65,9 +65,15 @@ Array<SortEntry> SortPoints(const TriangleMesh& mesh, const std::vector<char>& u
 void NumberPoints(const TriangleMesh& mesh, const std::vector<char>& isFlat,
   const HatOptions& options, HatFunctions& hats)
 {
-  const std::vector<char> used = PointsWithFunction(mesh, isFlat);
-  const Array<Index> pointClass =
-    options.weldCoincidentPoints ? WeldCoincidentPoints(mesh.points, used) : Array<Index>();
+  std::vector<char> used = PointsWithFunction(mesh, isFlat);
+  const Array<Index> pointClass = options.weldCoincidentPoints
+                                    ? WeldCoincidentPoints(mesh.points, UsedPoints(mesh))
+                                    : Array<Index>();
+  // Points of flat triangles alone have the function of others at their place.
+  for (std::size_t point = 0; point < pointClass.size(); ++point)
+  {
+    used[pointClass[point]] |= used[point];
+  }
   const Array<SortEntry> sorted = SortPoints(mesh, used, pointClass, options.threads);
   RequireIndices(static_cast<double>(sorted.size()), "hat functions");
   hats.ofPoint.assign(mesh.points.size(), -1);

@@ -246,13 +246,19 @@ SurfaceBasis OnSourceMesh(
     {
       const Index point = before.corners[k];
       const Vec3& position = before.position[point];
-      const auto* const corner = std::find_if(corners.begin(), corners.end(),
-        [&](Id input) { return IsStored(stored.points[point], given.points[input]); });
-      if (corner != corners.end())
+      Id input = -1; // the first corner of the triangle that is there; others may be, too
+      for (const Id corner : corners)
       {
-        clipped.corners[k] = static_cast<Index>(*corner);
-        clipped.position[*corner] = position;
-        isFound[*corner] = 1;
+        if (IsStored(stored.points[point], given.points[corner]))
+        {
+          input = input < 0 ? corner : input;
+          clipped.position[corner] = position;
+          isFound[corner] = 1;
+        }
+      }
+      if (input >= 0)
+      {
+        clipped.corners[k] = static_cast<Index>(input);
         continue;
       }
       if (cutPoint[point] < 0)

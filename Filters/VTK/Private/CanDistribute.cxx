@@ -52,9 +52,11 @@ bool IsFurtherPortConnected(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector
 std::string ObstacleHere(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs)
 {
   vtkPolyData* const piece = vtkPolyData::GetData(inputs[0]);
-  const bool isOther = filter->GetNumberOfInputPorts() > 1 && !CarriesBasis(piece);
-  vtkPolyData* const basis = isOther ? vtkPolyData::GetData(inputs[1]) : piece;
-  const bool isGiven = CarriesBasis(basis);
+  // To filters with one port a basis is a surface, or a clip.
+  const bool isSolver = filter->GetNumberOfInputPorts() > 1;
+  vtkPolyData* const basis =
+    isSolver && !CarriesBasis(piece) ? vtkPolyData::GetData(inputs[1]) : piece;
+  const bool isGiven = isSolver && CarriesBasis(basis);
   return FirstObstacle({ { filter->GetBlocksAsOne(), "BlocksAsOne" },
     // Pieces would be apart along their borders: nothing else tells which points are one.
     { !filter->GetWeldCoincidentPoints(), "points that are not welded" },

@@ -11,8 +11,8 @@ class vtkSurfaceFEMAlgorithm;
 namespace gridfem
 {
 
-/// Collective. Whether all ranks can compute together, each with its piece on port 0: without a
-/// basis or connections to further ports other than selections, of which ranks together know
+/// Collective. Whether all ranks can compute together, each with its piece on port 0: without
+/// connections to ports behind that of a basis, other than selections, of which ranks together know
 /// nothing. Where they cannot, the filter on the first rank warns and says why rank 0 gathers the
 /// surface; not where there is none.
 /// @param obstacle  what else the filter is asked for that only rank 0 can do; empty: nothing

@@ -207,8 +207,8 @@ void WriteClippedFrame(vtkPolyData* input, const InputMesh& mesh, const ClippedM
 void AddInputArrays(vtkPolyData* input, const InputMesh& mesh, const ClippedMesh& clipped,
   int threads, vtkPolyData* output)
 {
-  InterpolatePointArrays(
-    input->GetPointData(), *mesh.triangles, clipped, threads, output->GetPointData());
+  InterpolatePointArrays(input->GetPointData(), *mesh.triangles, clipped,
+    !clipped.cutPoints.empty(), threads, output->GetPointData());
   CopyCellArrays(input->GetCellData(), input->GetNumberOfCells(), output->GetCellData(),
     output->GetCellData()->GetArray(SourceCellIdName));
   AddFieldArrays(input, output);
@@ -267,7 +267,7 @@ void WriteBasis(const PatchLevel& finest, const std::vector<MortonKey>& cells,
   patchColor->SetName(PatchColorName);
   SetTuples(patchColor, static_cast<Id>(cellPatch.size()));
   std::transform(cellPatch.begin(), cellPatch.end(), patchColor->GetPointer(0),
-    [&](Id patch) { return colors[patch]; });
+    [&](Id patch) { return patch < 0 ? static_cast<signed char>(-1) : colors[patch]; });
   output->GetCellData()->AddArray(patchColor);
   auto patchCell = NewIds(PatchCellIdName, finest.NumberOfPatches());
   auto basisIds = NewIds(PatchBasisIdsName, finest.NumberOfPatches(), FunctionsPerPatch);

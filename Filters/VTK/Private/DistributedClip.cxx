@@ -12,13 +12,14 @@
 #include "PieceArrays.h"
 #include "PointCoordinates.h"
 #include "ReceivedArrays.h"
+#include "SolverOutput.h"
 #include "SurfaceSolverState.h"
 
 #include "Integrals/Evaluation.h"
 #include "Parallel/RankClip.h"
 
 #include "vtkCellData.h"
-#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkIdTypeArray.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -36,7 +37,7 @@ namespace
 using CountsOfKinds = std::array<Id, CellKinds>;
 
 /// Collective. Per cell of this rank's piece its number among those of all ranks that are no
-/// copies, as PieceJoiner gives them.
+/// copies, as PieceJoiner gives them without global ids.
 std::vector<Id> NumberCells(const Communicator& ranks, vtkPolyData* piece, bool isCounted)
 {
   std::vector<Id> number; // among those of the rank and the kind
@@ -85,9 +86,9 @@ std::vector<Id> NumberCells(const Communicator& ranks, vtkPolyData* piece, bool 
 
 /// Collective. The number of the cell that each received triangle comes from.
 std::vector<Id> SourceCells(const Communicator& ranks, const Redistribution& distribution,
-  vtkPolyData* piece, const InputMesh& mesh)
+  vtkPolyData* piece, bool isCounted, const InputMesh& mesh)
 {
-  const std::vector<Id> number = NumberCells(ranks, piece, !mesh.triangles->triangles.empty());
+  const std::vector<Id> number = NumberCells(ranks, piece, isCounted);
   MultiVector own;
   ranks.Together(
     [&]
@@ -100,30 +101,24 @@ std::vector<Id> SourceCells(const Communicator& ranks, const Redistribution& dis
   return { received.data(), received.data() + received.size() };
 }
 
-/// The triangles as a data set.
-void SetSurface(const TriangleMesh& mesh, int precision, vtkPolyData* surface)
+/// The first of the chosen points as a data set.
+vtkSmartPointer<vtkPolyData> SurfaceOfPoints(
+  const std::vector<Vec3>& points, const std::vector<vtkIdType>& chosen, Id count, int precision)
 {
-  vtkNew<vtkPoints> points;
-  points->SetDataType(precision);
-  SetTuples(points->GetData(), static_cast<vtkIdType>(mesh.points.size()));
-  VisitCoordinates(points,
+  vtkNew<vtkPoints> some;
+  some->SetDataType(precision);
+  SetTuples(some->GetData(), count);
+  VisitCoordinates(some,
     [&](auto* coordinates)
     {
-      for (std::size_t k = 0; k < mesh.points.size(); ++k)
+      for (Id k = 0; k < count; ++k)
       {
-        StorePoint(mesh.points[k], coordinates + 3 * k);
+        StorePoint(points[chosen[k]], coordinates + 3 * k);
       }
     });
-  vtkNew<vtkCellArray> cells;
-  const auto count = static_cast<vtkIdType>(mesh.triangles.size());
-  ReserveCells(cells, count, 3 * count);
-  for (const auto& corners : mesh.triangles)
-  {
-    cells->InsertNextCell({ corners[0], corners[1], corners[2] });
-  }
-  surface->Initialize();
-  surface->SetPoints(points);
-  surface->SetPolys(cells);
+  auto surface = vtkSmartPointer<vtkPolyData>::New();
+  surface->SetPoints(some);
+  return surface;
 }
 
 /// The input's points that pieces have, ascending, then all cut points.
@@ -242,7 +237,10 @@ public:
   int Precision() const override { return precision_; }
 
 private:
-  void Complete(vtkPolyData* piece, const SurfaceOptions& options, const InputMesh& mesh);
+  void FindPrecision(vtkPolyData* piece, const InputMesh& mesh);
+  void WriteFrame(const DistributedSurface& together, vtkPolyData* piece,
+    const SurfaceOptions& options, const InputMesh& mesh);
+  Id PatchesBefore() const;
   void AddBasis(const SurfaceOptions& options);
   void AddBasisToPiece(const InputMesh& mesh, const InputMesh& copies, vtkPolyData* piece);
   vtkSmartPointer<vtkAbstractArray> AtPointsShown(vtkAbstractArray* atAllPoints) const;
@@ -258,7 +256,6 @@ private:
   std::vector<MortonKey> before_; // at most one
   int precision_ = VTK_DOUBLE;
   std::vector<vtkIdType> points_; // of the clipped mesh, that are put out
-  vtkNew<vtkPolyData> surface_;   // that was received, without arrays
   vtkNew<vtkPolyData> frame_;     // what does not depend on arrays of the input
 };
 
@@ -273,7 +270,8 @@ void ClipOfRanks::Build(DistributedSurface& together, vtkPolyData* piece,
   distribution_ = clip.distribution;
   source_.triangles = clip.mesh;
   clipped_ = std::make_shared<const ClippedMesh>(std::move(clip.clipped));
-  this->Complete(piece, options, mesh);
+  this->FindPrecision(piece, mesh);
+  this->WriteFrame(together, piece, options, mesh);
 }
 
 void ClipOfRanks::Take(const DistributedSurface& together, vtkPolyData* piece, bool isClipped,
@@ -286,51 +284,57 @@ void ClipOfRanks::Take(const DistributedSurface& together, vtkPolyData* piece, b
   source_.triangles = { whole_, &space.Own().Mesh() };
   clipped_ = { whole_, &space.Own().Functions().clipped };
   levels_ = LevelsOfRank(space);
-  this->Complete(piece, options, mesh);
+  this->FindPrecision(piece, mesh);
   if (isClipped)
   {
     this->AddBasisToPiece(mesh, together.CopiedTriangles(), piece);
     return;
   }
+  this->WriteFrame(together, piece, options, mesh);
   this->AddBasis(options);
 }
 
-/// All else, where the pieces and what they refer to are there.
-void ClipOfRanks::Complete(vtkPolyData* piece, const SurfaceOptions& options, const InputMesh& mesh)
+/// Single where all pieces are.
+void ClipOfRanks::FindPrecision(vtkPolyData* piece, const InputMesh& mesh)
 {
-  source_.sourceCell = SourceCells(ranks_, *distribution_, piece, mesh);
-  cells_ = ranks_.Gather(clipped_->cells);
-  const Id first = ranks_.ShareOf(static_cast<Id>(clipped_->cells.size())).before;
-  before_.assign(cells_.begin() + std::max<Id>(first - 1, 0), cells_.begin() + first);
   const bool isDouble =
     !mesh.triangles->triangles.empty() && OutputPrecision(piece->GetPoints()) == VTK_DOUBLE;
   double any = isDouble ? 1.0 : 0.0;
   ranks_.Maximum(&any, 1);
   precision_ = any > 0.0 ? VTK_DOUBLE : VTK_FLOAT;
+}
+
+void ClipOfRanks::WriteFrame(const DistributedSurface& together, vtkPolyData* piece,
+  const SurfaceOptions& options, const InputMesh& mesh)
+{
+  const bool isCounted = piece && !together.IsPieceRepeated();
+  source_.sourceCell = SourceCells(ranks_, *distribution_, piece, isCounted, mesh);
+  cells_ = ranks_.Gather(clipped_->cells);
+  const Id first = ranks_.ShareOf(static_cast<Id>(clipped_->cells.size())).before;
+  before_.assign(cells_.begin() + std::max<Id>(first - 1, 0), cells_.begin() + first);
   ranks_.Together(
     [&]
     {
-      SetSurface(*source_.triangles, precision_, surface_);
       points_ = PointsOfPieces(*clipped_);
       const ClippedMesh shown = WithPoints(*clipped_, points_);
-      TriangleMesh given; // points alone
-      for (Id k = 0; k < shown.numberOfInputPoints; ++k)
-      {
-        given.points.push_back(source_.triangles->points[points_[k]]);
-      }
-      vtkNew<vtkPolyData> ofPieces;
-      SetSurface(given, precision_, ofPieces);
-      WriteClippedFrame(ofPieces, source_, shown, cells_, first, options.space.weldCoincidentPoints,
+      const auto given =
+        SurfaceOfPoints(source_.triangles->points, points_, shown.numberOfInputPoints, precision_);
+      WriteClippedFrame(given, source_, shown, cells_, first, options.space.weldCoincidentPoints,
         options.space.threads, frame_);
     });
 }
 
+/// Of lower ranks.
+Id ClipOfRanks::PatchesBefore() const
+{
+  return ranks_.ShareOf(whole_->Space().Own().Functions().Finest().NumberOfPatches()).before;
+}
+
 void ClipOfRanks::AddBasis(const SurfaceOptions& options)
 {
-  const RankSpace& space = whole_->Space();
-  const PatchLevel finest = GatherFinest(space);
-  const GridFunctions& own = space.Own().Functions();
-  const Id before = ranks_.ShareOf(own.Finest().NumberOfPatches()).before;
+  const PatchLevel finest = GatherFinest(whole_->Space());
+  const GridFunctions& own = whole_->Space().Own().Functions();
+  const Id before = this->PatchesBefore();
   ranks_.Together(
     [&]
     {
@@ -350,7 +354,7 @@ void ClipOfRanks::AddBasisToPiece(
   const RankSpace& space = whole_->Space();
   const PatchLevel finest = GatherFinest(space);
   const GridFunctions& own = space.Own().Functions();
-  const Id before = ranks_.ShareOf(own.Finest().NumberOfPatches()).before;
+  const Id before = this->PatchesBefore();
   MultiVector patches; // of received triangles, each of which one rank has in its cells
   ranks_.Together(
     [&]
@@ -367,7 +371,7 @@ void ClipOfRanks::AddBasisToPiece(
     [&]
     {
       frame_->Initialize();
-      if (!piece || piece->GetNumberOfCells() == 0)
+      if (mesh.triangles->triangles.empty() && copies.triangles->triangles.empty())
       {
         return;
       }
@@ -404,28 +408,34 @@ void ClipOfRanks::WriteMesh(
         if (piece)
         {
           output->ShallowCopy(piece);
+          if (frame_->GetFieldData()->GetNumberOfArrays() == 0)
+          {
+            RemoveClipArrays(output); // of a basis that was there before
+          }
           PassArrays(frame_, output);
         }
       });
     return;
   }
-  vtkNew<vtkPolyData> received;
-  received->ShallowCopy(surface_);
-  SendArrays(ranks_, *distribution_, piece, mesh, received);
+  vtkNew<vtkPointData> receivedPoints;
+  vtkNew<vtkCellData> receivedTriangles;
+  SendArrays(ranks_, *distribution_, piece, mesh, receivedPoints, receivedTriangles);
+  double areCut = clipped_->cutPoints.empty() ? 0.0 : 1.0;
+  ranks_.Maximum(&areCut, 1);
   ranks_.Together(
     [&]
     {
       output->ShallowCopy(frame_);
       vtkNew<vtkPointData> atPoints;
       InterpolatePointArrays(
-        received->GetPointData(), *source_.triangles, *clipped_, threads, atPoints);
+        receivedPoints, *source_.triangles, *clipped_, areCut > 0.0, threads, atPoints);
       for (int k = 0; k < atPoints->GetNumberOfArrays(); ++k)
       {
         output->GetPointData()->AddArray(this->AtPointsShown(atPoints->GetAbstractArray(k)));
       }
       PassActiveAttributes(atPoints, output->GetPointData());
-      CopyCellArrays(received->GetCellData(), received->GetNumberOfCells(), output->GetCellData(),
-        TrianglesOfFans(*clipped_, threads));
+      CopyCellArrays(receivedTriangles, static_cast<Id>(source_.triangles->triangles.size()),
+        output->GetCellData(), TrianglesOfFans(*clipped_, threads));
       if (piece)
       {
         AddFieldArrays(piece, output);
@@ -444,21 +454,22 @@ void ClipOfRanks::WriteFunctions(int depth, vtkUnstructuredGrid* output) const
   ranks_.Together([&] { shown = DescribeLevel(levels_, PatchAreas(own), component, level); });
   const auto count = static_cast<Id>(shown.function.size());
   MultiVector area = Eigen::Map<MultiVector>(shown.area.data(), count, 1);
+  MultiVector least(count, 1);
+  std::copy(shown.component.begin(), shown.component.end(), least.data());
   if (isDivided)
   {
-    const LevelNumbering& numbering = whole_->Space().Numberings()[level];
-    shown.function = numbering.number;
+    shown.function = whole_->Space().Numberings()[level].number;
     ofRanks.Rows(level).Sum(area);
+    ofRanks.Rows(level).TakeLeast(least);
     shown.firstPatch = ranks_.ShareOf(shown.level->NumberOfPatches()).before;
   }
   else
   {
     ranks_.Sum(area.data(), count);
-    std::vector<double> least(shown.component.begin(), shown.component.end());
     ranks_.Minimum(least.data(), count);
-    shown.component.assign(least.begin(), least.end());
   }
   std::copy_n(area.data(), count, shown.area.data());
+  shown.component.assign(least.data(), least.data() + count);
   ranks_.Together(
     [&]
     {
@@ -504,10 +515,8 @@ void ClipOfRanks::AddBasisFunction(int depth, Id function, int threads, vtkPolyD
       {
         values = EvaluateAtClippedPoints(whole_->Space().Own().Functions(), coefficients, threads);
       }
-      vtkNew<vtkDoubleArray> array;
-      array->SetName(BasisFunctionName);
-      SetTuples(array, values.rows());
-      std::copy(values.data(), values.data() + values.size(), array->GetPointer(0));
+      const vtkSmartPointer<vtkAbstractArray> array =
+        MakePointArray(BasisFunctionName, values, VTK_DOUBLE);
       output->GetPointData()->AddArray(isClipped_ ? array : this->AtPointsShown(array));
       output->GetPointData()->SetActiveScalars(BasisFunctionName);
     });

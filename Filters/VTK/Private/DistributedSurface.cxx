@@ -50,26 +50,44 @@ RankSpaceOptions RankOptionsOf(const SurfaceOptions& options)
 namespace
 {
 
-/// Of the bits, so that meshes with the same one are the same.
-std::uint64_t DigestOf(const TriangleMesh& mesh)
+/// Of the bits of what is added, so that things with the same one are the same. FNV-1a.
+class Digest
 {
-  std::uint64_t digest = 14695981039346656037ULL; // FNV-1a
-  const auto add = [&digest](const auto& item)
+public:
+  template<class Item>
+  void operator()(const Item& item)
   {
     std::uint64_t bits = 0;
     std::memcpy(&bits, &item, sizeof(item));
-    digest = (digest ^ bits) * 1099511628211ULL;
-    digest ^= digest >> 29;
-  };
+    value_ = (value_ ^ bits) * 1099511628211ULL;
+    value_ ^= value_ >> 29;
+  }
+
+  std::uint64_t Value() const { return value_; }
+
+private:
+  std::uint64_t value_ = 14695981039346656037ULL;
+};
+
+std::uint64_t DigestOf(const TriangleMesh& mesh)
+{
+  Digest digest;
   for (const Vec3& point : mesh.points)
   {
-    std::for_each(point.data(), point.data() + 3, add);
+    std::for_each(point.data(), point.data() + 3, std::ref(digest));
   }
   for (const auto& corners : mesh.triangles)
   {
-    std::for_each(corners.begin(), corners.end(), add);
+    std::for_each(corners.begin(), corners.end(), std::ref(digest));
   }
-  return digest;
+  return digest.Value();
+}
+
+std::uint64_t DigestOf(const std::vector<MortonKey>& cells)
+{
+  Digest digest;
+  std::for_each(cells.begin(), cells.end(), std::ref(digest));
+  return digest.Value();
 }
 
 /// Collective. Whether an earlier rank has this piece, too.
@@ -175,7 +193,8 @@ InputMesh DistributedSurface::ReadPieces(vtkPolyData* piece, int threads)
       numberOfCells_ = piece ? piece->GetNumberOfCells() : 0;
       mesh = ReadPiece(piece, threads, copies_);
     });
-  if (IsRepeated(ranks, *mesh.triangles))
+  isRepeated_ = IsRepeated(ranks, *mesh.triangles);
+  if (isRepeated_)
   {
     copies_ = this->WithCopies(mesh);
     auto none = std::make_shared<TriangleMesh>();
@@ -206,7 +225,8 @@ std::shared_ptr<const GivenCells> DistributedSurface::ReadCells(
         *given = ReadGivenCells(piece, mesh);
         const Vec3& origin = given->grid.origin;
         numbers = { origin[0], origin[1], origin[2], given->grid.spacing,
-          static_cast<double>(given->grid.depth) };
+          static_cast<double>(given->grid.depth), static_cast<double>(given->cells.size()),
+          static_cast<double>(DigestOf(given->cells) >> 12) };
       }
     });
   const std::vector<double> own = numbers;
@@ -216,7 +236,7 @@ std::shared_ptr<const GivenCells> DistributedSurface::ReadCells(
     {
       if (!own.empty() && own != numbers)
       {
-        throw InvalidInput("The surface here was clipped in another grid than that of other ranks. "
+        throw InvalidInput("The surface here was clipped to other cells than that of other ranks. "
                            "Clip it again.");
       }
     });

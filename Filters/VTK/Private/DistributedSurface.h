@@ -32,9 +32,10 @@ struct MemoryNeed;
 struct DistanceOptions;
 struct SurfaceOptions;
 
-/// All functions but Free, IsUsed, Space, Area, Side, Depth, GridOfRanks, NumberOfFunctions,
-/// DataTypeOf, Numbers and WithCopies are collective, on the ranks of VTK's global controller, and
-/// but Run are called within Run. What throws on one rank alone is called within Together.
+/// All functions but Free, IsUsed, Space, Area, Side, Depth, GridOfRanks, NumberOfFunctions, Parts,
+/// CopiedTriangles, IsPieceRepeated, DataTypeOf, Numbers and WithCopies are collective, on the
+/// ranks of VTK's global controller, and but Run are called within Run. What throws on one rank
+/// alone is called within Together.
 class DistributedSurface
 {
 public:
@@ -144,6 +145,8 @@ public:
   struct Internals;
   const Internals& Parts() const { return *ranks_; }
   const InputMesh& CopiedTriangles() const { return copies_; }
+  /// Whether an earlier rank has this piece, too.
+  bool IsPieceRepeated() const { return isRepeated_; }
 
 private:
   std::shared_ptr<const GivenCells> ReadCells(vtkPolyData* piece, const InputMesh& mesh) const;
@@ -160,6 +163,7 @@ private:
   Id numberOfPoints_ = 0;
   Id numberOfCells_ = 0;
   InputMesh copies_;
+  bool isRepeated_ = false;
   std::map<int, StandIn> arrays_; // by index
 };
 

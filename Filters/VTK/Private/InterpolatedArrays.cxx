@@ -133,7 +133,6 @@ vtkSmartPointer<vtkAbstractArray> TakeNearest(
   return output;
 }
 
-/// Active attributes of the input become active in the output, but for ids.
 } // namespace
 
 void PassActiveAttributes(vtkDataSetAttributes* input, vtkDataSetAttributes* output)
@@ -151,13 +150,13 @@ void PassActiveAttributes(vtkDataSetAttributes* input, vtkDataSetAttributes* out
 }
 
 void InterpolatePointArrays(vtkPointData* input, const TriangleMesh& mesh,
-  const ClippedMesh& clipped, int threads, vtkPointData* output)
+  const ClippedMesh& clipped, bool areCut, int threads, vtkPointData* output)
 {
   for (int k = 0; k < input->GetNumberOfArrays(); ++k)
   {
     vtkAbstractArray* array = input->GetAbstractArray(k);
     RequireLength(array, clipped.numberOfInputPoints, "points");
-    if (clipped.cutPoints.empty())
+    if (!areCut)
     {
       output->AddArray(array);
     }

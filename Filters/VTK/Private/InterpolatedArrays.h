@@ -17,8 +17,9 @@ namespace gridfem
 /// rounded, as bytes. Other integers, ghost flags and text are taken from the nearest corner.
 /// Global and pedigree ids are left out. Active attributes stay active. Throws InvalidInput naming
 /// an array of wrong length.
+/// @param areCut  whether there are cut points; of a part of a clip: anywhere
 void InterpolatePointArrays(vtkPointData* input, const TriangleMesh& mesh,
-  const ClippedMesh& clipped, int threads, vtkPointData* output);
+  const ClippedMesh& clipped, bool areCut, int threads, vtkPointData* output);
 
 /// Cell arrays, copied from the source cell of every output cell. Arrays of the clip itself (from
 /// an earlier clip) are left out.

@@ -5,13 +5,13 @@
 #include "DataMessage.h"
 #include "InterpolatedArrays.h"
 #include "PieceArrays.h"
-#include "Ranks.h"
 
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkPointData.h"
 
 #include <algorithm>
+#include <numeric>
 #include <sstream>
 
 namespace gridfem
@@ -29,8 +29,16 @@ struct ArrayKind
 
 bool IsSent(vtkAbstractArray* array, vtkIdType tuples)
 {
-  return array->GetName() && CanTravel(array) && array->GetNumberOfTuples() == tuples &&
-         std::string(array->GetName()) != vtkDataSetAttributes::GhostArrayName();
+  const std::string name = array->GetName() ? array->GetName() : "";
+  return !name.empty() && name.find('\n') == std::string::npos && CanTravel(array) &&
+         array->GetNumberOfTuples() == tuples && name != vtkDataSetAttributes::GhostArrayName();
+}
+
+/// Ids of points, which no cut point has.
+bool NumbersPoints(vtkDataSetAttributes* arrays, vtkAbstractArray* array)
+{
+  return vtkPointData::SafeDownCast(arrays) &&
+         (array == arrays->GetGlobalIds() || array == arrays->GetPedigreeIds());
 }
 
 /// One array per line, the name last, because it may have blanks.
@@ -40,7 +48,7 @@ std::string Describe(vtkDataSetAttributes* arrays, vtkIdType tuples)
   for (int k = 0; k < arrays->GetNumberOfArrays(); ++k)
   {
     vtkAbstractArray* const array = arrays->GetAbstractArray(k);
-    if (IsSent(array, tuples))
+    if (IsSent(array, tuples) && !NumbersPoints(arrays, array))
     {
       text << array->GetNumberOfComponents() << ' ' << array->GetDataType() << ' '
            << array->GetName() << '\n';
@@ -84,20 +92,28 @@ std::vector<ArrayKind> CommonKinds(
 }
 
 /// Collective. The arrays that all ranks with triangles have.
-std::vector<ArrayKind> Agree(const std::string& own, bool hasTriangles)
+std::vector<ArrayKind> Agree(const Communicator& ranks, const std::string& own, bool hasTriangles)
 {
-  const std::string silent = "-"; // no line of an array
+  const std::vector<Id> lengths =
+    ranks.Gather(std::vector<Id>{ hasTriangles ? static_cast<Id>(own.size()) : -1 });
+  const std::vector<char> texts = ranks.Gather(std::vector<char>(own.begin(), own.end()));
   std::vector<ArrayKind> common;
-  bool isFirst = true;
-  for (const std::string& text : Ranks().Exchange(hasTriangles ? own : silent))
-  {
-    if (text != silent)
+  ranks.Together(
+    [&]
     {
-      const std::vector<ArrayKind> kinds = ReadKinds(text);
-      common = isFirst ? kinds : CommonKinds(common, kinds);
-      isFirst = false;
-    }
-  }
+      bool isFirst = true;
+      auto text = texts.begin();
+      for (const Id length : lengths)
+      {
+        if (length >= 0)
+        {
+          const std::vector<ArrayKind> kinds = ReadKinds(std::string(text, text + length));
+          common = isFirst ? kinds : CommonKinds(common, kinds);
+          isFirst = false;
+          text += length;
+        }
+      }
+    });
   return common;
 }
 
@@ -185,17 +201,14 @@ std::vector<vtkIdType> Inverse(const std::vector<Index>& places)
 std::vector<vtkIdType> Count(vtkIdType count)
 {
   std::vector<vtkIdType> numbers(count);
-  for (vtkIdType k = 0; k < count; ++k)
-  {
-    numbers[k] = k;
-  }
+  std::iota(numbers.begin(), numbers.end(), vtkIdType{ 0 });
   return numbers;
 }
 
 } // namespace
 
 void SendArrays(const Communicator& ranks, const Redistribution& distribution, vtkPolyData* piece,
-  const InputMesh& mesh, vtkPolyData* received)
+  const InputMesh& mesh, vtkPointData* atPoints, vtkCellData* onTriangles)
 {
   const bool hasTriangles = !mesh.triangles->triangles.empty();
   std::string ofPoints;
@@ -209,8 +222,8 @@ void SendArrays(const Communicator& ranks, const Redistribution& distribution, v
         ofCells = Describe(piece->GetCellData(), piece->GetNumberOfCells());
       }
     });
-  const std::vector<ArrayKind> pointKinds = Agree(ofPoints, hasTriangles);
-  const std::vector<ArrayKind> cellKinds = Agree(ofCells, hasTriangles);
+  const std::vector<ArrayKind> pointKinds = Agree(ranks, ofPoints, hasTriangles);
+  const std::vector<ArrayKind> cellKinds = Agree(ranks, ofCells, hasTriangles);
   std::vector<Bytes> sent(ranks.Size());
   ranks.Together(
     [&]
@@ -244,10 +257,9 @@ void SendArrays(const Communicator& ranks, const Redistribution& distribution, v
         points.push_back(messages.back().Take<Id>());
         triangles.push_back(messages.back().Take<Id>());
       }
-      TakeTuples(messages, points, pointKinds, Inverse(distribution.PlacesOfPoints()),
-        received->GetPointData());
-      TakeTuples(messages, triangles, cellKinds, Count(received->GetNumberOfCells()),
-        received->GetCellData());
+      TakeTuples(messages, points, pointKinds, Inverse(distribution.PlacesOfPoints()), atPoints);
+      const Id count = std::accumulate(triangles.begin(), triangles.end(), Id{ 0 });
+      TakeTuples(messages, triangles, cellKinds, Count(count), onTriangles);
     });
 }
 

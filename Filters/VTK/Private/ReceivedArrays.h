@@ -6,19 +6,20 @@
 
 #include "Parallel/Redistribution.h"
 
+class vtkCellData;
+class vtkPointData;
 class vtkPolyData;
 
 namespace gridfem
 {
 
-/// Collective. Adds to the points and triangles of the received mesh the point and cell arrays that
-/// the pieces of all ranks with triangles have, alike; double where they are of different types.
-/// Ghost flags are left out, and arrays of variants.
-/// @param piece     this rank's; may be null
-/// @param mesh      its triangles
-/// @param received  gets the arrays
+/// Collective. The point and cell arrays that the pieces of all ranks with triangles have, alike,
+/// at the points and on the triangles of the received mesh; double where they are of different
+/// types. Ghost flags are left out, ids of points, and arrays of variants.
+/// @param piece  this rank's; may be null
+/// @param mesh   its triangles
 void SendArrays(const Communicator& ranks, const Redistribution& distribution, vtkPolyData* piece,
-  const InputMesh& mesh, vtkPolyData* received);
+  const InputMesh& mesh, vtkPointData* atPoints, vtkCellData* onTriangles);
 
 } // namespace gridfem
 

@@ -57,7 +57,7 @@ void AddFieldInt(vtkPolyData* output, const char* name, int value)
 void AddDistributed(int depth, vtkPolyData* output)
 {
   AddFieldInt(output, "UsedDepth", depth);
-  AddFieldInt(output, "Distributed", 1);
+  AddFieldInt(output, DistributedName, 1);
 }
 
 void AddFieldNumber(vtkPolyData* output, const char* name, double value)

@@ -37,6 +37,9 @@ void AddAccuracy(const SolutionAccuracy& accuracy, vtkPolyData* output);
 /// Adds a field array with one int.
 void AddFieldInt(vtkPolyData* output, const char* name, int value);
 
+/// Field data: 1 where ranks have computed together.
+constexpr const char* DistributedName = "Distributed";
+
 /// Adds the field arrays UsedDepth and Distributed, of a solution by all ranks together.
 void AddDistributed(int depth, vtkPolyData* output);
 

@@ -90,7 +90,9 @@ public:
 
   /// The same with the functions that the properties ask for.
   /// @param isClipped  the pieces are parts of a clip, whose grid and cells are taken
-  void BuildTogether(vtkPolyData* piece, bool isClipped);
+  /// @param release    called before another space is made: lets go what holds the one that was
+  void BuildTogether(
+    vtkPolyData* piece, bool isClipped, const std::function<void()>& release = [] {});
   ///@}
 
   ///@{ What solvers ask of the space, be it that of one process or of ranks together: then

@@ -239,6 +239,32 @@ TEST_P(EverySpace, HasTheNormsOfItsMass)
   }
 }
 
+/// As facets in files of STL may be: with corners of their own, which are one point or two.
+TEST_P(EverySpace, HasTheValuesOfOtherPointsWhereATriangleWithoutAreaEnds)
+{
+  TriangleMesh mesh = GeodesicSphere(12);
+  const std::array<std::array<Id, 3>, 3> places = { { { 40, 40, 40 }, { 41, 50, 50 },
+    { 7, 7, 90 } } };
+  std::vector<std::pair<Id, Id>> same;
+  for (const auto& place : places)
+  {
+    const auto first = static_cast<Id>(mesh.points.size());
+    for (Id k = 0; k < 3; ++k)
+    {
+      same.emplace_back(first + k, place[k]);
+      mesh.points.push_back(mesh.points[place[k]]);
+    }
+    mesh.triangles.push_back({ first, first + 1, first + 2 });
+  }
+  const SpaceOnMesh on = this->Build(mesh);
+  const MultiVector values =
+    on.space->ValuesAtPoints(RandomValues(on.space->NumberOfFunctions(0), 2));
+  for (const auto& [added, given] : same)
+  {
+    EXPECT_LT((values.row(added) - values.row(given)).norm(), 1e-12) << added;
+  }
+}
+
 TEST_P(EverySpace, HasTheSameValuesByRows)
 {
   for (const TriangleMesh& mesh : Meshes())
