@@ -168,6 +168,32 @@ bool IsStored(const Vec3& stored, const Vec3& given)
   return stored == given || stored == Vec3(given.cast<float>().cast<double>());
 }
 
+/// The corner of a triangle that a stored point is; -1: none. Of several at one place the one with
+/// its number, else the first that the piece does not have yet, among its corners taken .. end.
+Id FindCorner(Id point, const TriangleMesh& stored, const TriangleMesh& given,
+  const std::array<Id, 3>& corners, const Index* taken, const Index* end)
+{
+  Id found = -1;
+  bool isFree = false;
+  for (const Id corner : corners)
+  {
+    if (!IsStored(stored.points[point], given.points[corner]))
+    {
+      continue;
+    }
+    if (corner == point)
+    {
+      return corner;
+    }
+    if (!isFree)
+    {
+      found = corner;
+      isFree = std::find(taken, end, static_cast<Index>(corner)) == end;
+    }
+  }
+  return found;
+}
+
 void RequireAllFound(const TriangleMesh& source, const std::vector<char>& isFound)
 {
   const std::vector<char> used = UsedPoints(source);
@@ -246,19 +272,13 @@ SurfaceBasis OnSourceMesh(
     {
       const Index point = before.corners[k];
       const Vec3& position = before.position[point];
-      Id input = -1; // the first corner of the triangle that is there; others may be, too
-      for (const Id corner : corners)
-      {
-        if (IsStored(stored.points[point], given.points[corner]))
-        {
-          input = input < 0 ? corner : input;
-          clipped.position[corner] = position;
-          isFound[corner] = 1;
-        }
-      }
+      const Id input = FindCorner(point, stored, given, corners,
+        &clipped.corners[clipped.pieceBegin[piece]], &clipped.corners[k]);
       if (input >= 0)
       {
         clipped.corners[k] = static_cast<Index>(input);
+        clipped.position[input] = position;
+        isFound[input] = 1;
         continue;
       }
       if (cutPoint[point] < 0)
