@@ -75,6 +75,7 @@ void KeepPieces(Index first, Index last, GridFunctions& functions)
   clipped = ClippedMesh();
   clipped.grid = all.grid;
   clipped.numberOfInputPoints = all.numberOfInputPoints;
+  clipped.isWelded = all.isWelded;
   clipped.cutPoints = std::move(all.cutPoints);
   clipped.position = std::move(all.position);
   functions.isPart = true;

@@ -196,6 +196,7 @@ ClippedMesh ClipInFrame(const TriangleMesh& mesh, const std::vector<char>& used,
   ClippedMesh clipped;
   clipped.grid = frame.grid;
   clipped.numberOfInputPoints = static_cast<Id>(mesh.points.size());
+  clipped.isWelded = options.weldCoincidentPoints;
   clipped.position.resize(mesh.points.size());
   ParallelRanges(static_cast<Id>(mesh.points.size()), threads,
     [&](Id begin, Id end)

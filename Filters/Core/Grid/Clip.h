@@ -74,6 +74,7 @@ struct ClippedMesh
 {
   Grid grid;
   Id numberOfInputPoints = 0;
+  bool isWelded = false; // coincident points count as one
   Array<CutPoint> cutPoints;
   Array<Vec3> position; // of all points, grid units
 

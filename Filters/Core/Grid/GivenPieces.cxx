@@ -14,6 +14,7 @@ ClippedMesh ClipOfGivenCells(const TriangleMesh& mesh, const GivenCells& given,
   ClippedMesh clipped;
   clipped.grid = given.grid;
   clipped.cells = given.cells;
+  clipped.isWelded = weldCoincidentPoints;
   clipped.numberOfInputPoints = static_cast<Id>(mesh.points.size());
   clipped.position.reserve(mesh.points.size());
   for (const Vec3& point : mesh.points)

@@ -175,7 +175,10 @@ Array<Index> FindPointPatches(const ClippedMesh& clipped, const Array<Index>& pi
   Array<Index> pointPatch(choice.size());
   std::transform(choice.begin(), choice.end(), pointPatch.begin(),
     [](const std::atomic<Index>& patch) { return patch.load(); });
-  TakeCoincidentPatches(clipped, patches, pointPatch);
+  if (clipped.isWelded)
+  {
+    TakeCoincidentPatches(clipped, patches, pointPatch);
+  }
   return pointPatch;
 }
 

@@ -62,7 +62,8 @@ void FindComponents(GridFunctions& space, int threads = 0);
 /// For each of the first `points` points of the clipped mesh the patch it is given to: the best
 /// (PatchChoice) of the pieces around it that have an area, or of all where none has; -1 for points
 /// without a piece. A piece without area may belong to a patch in another cell, whose functions say
-/// nothing at the point. Points of patches without area get that of a point at the same place.
+/// nothing at the point. Where points are welded, those of patches without area get that of a point
+/// at the same place.
 Array<Index> FindPointPatches(const ClippedMesh& clipped, const Array<Index>& piecePatch,
   Id numberOfPatches, Id points, int threads = 0);
 
