@@ -47,6 +47,33 @@ TEST_P(RealMeshes, TheWholeChainComputes)
   EXPECT_TRUE(AllFinite(solution));
 }
 
+class BasisOfRealMeshes : public ::testing::TestWithParam<const char*>
+{
+};
+
+/// Triangles without area are in one cell, and may be with a patch of another.
+TEST_P(BasisOfRealMeshes, IsReadFromItsArrays)
+{
+  const std::string path = RealMesh(GetParam());
+  if (path.empty())
+  {
+    GTEST_SKIP() << "the folder of real meshes is not there";
+  }
+  vtkNew<vtkConnectivityAwareBasis> basis;
+  basis->SetDepth(6);
+  basis->KeepStagesOff(); // so that nothing else is there
+  basis->SetInputData(ToPolyData(ReadMesh(path)));
+  vtkNew<vtkScreenedPoisson> poisson;
+  poisson->SetInputConnection(basis->GetOutputPort());
+  poisson->Update();
+  EXPECT_EQ(poisson->GetErrorCode(), 0UL);
+  EXPECT_EQ(FieldValue(poisson->GetOutput(), "Converged"), 1);
+  EXPECT_EQ(poisson->GetOutput()->GetNumberOfPoints(), basis->GetOutput()->GetNumberOfPoints());
+}
+
+INSTANTIATE_TEST_SUITE_P(Large, BasisOfRealMeshes,
+  ::testing::Values("cheese_18k.ply", "dragon_res3_nonmanifold.ply", "conrod.stl"));
+
 INSTANTIATE_TEST_SUITE_P(Small, RealMeshes,
   ::testing::Values("degenerated-libigl.obj", "degtri_2dt_1edge_split_twice.off", "degtri_four.off",
     "degtri_nullface_bis.off", "degtri_sliding.off", "joinedtets.obj", "multibody.stl",

@@ -2,6 +2,7 @@
 
 #include "Base/Errors.h"
 #include "BasisConversion.h"
+#include "Grid/PatchChoice.h"
 #include "vtkSurfaceBasisHolder.h"
 
 #include "vtkCellData.h"
@@ -104,6 +105,18 @@ double RoundingOf(vtkPolyData* data)
   const bool isSingle = data->GetPoints()->GetDataType() == VTK_FLOAT;
   return isSingle ? std::numeric_limits<float>::epsilon()
                   : 8.0 * std::numeric_limits<double>::epsilon();
+}
+
+/// The area, in cells, that a triangle without area may have for the rounding of its corners.
+double LargestRounding(
+  vtkPolyData* data, const InputMesh& mesh, const ClippedMesh& clipped, Id piece)
+{
+  double largest = 0.0;
+  for (const Id corner : mesh.triangles->triangles[clipped.pieceTriangle[piece]])
+  {
+    largest = std::max(largest, mesh.triangles->points[corner].cwiseAbs().maxCoeff());
+  }
+  return SmallestPatchArea + 4.0 * RoundingOf(data) * largest / clipped.grid.spacing;
 }
 
 void RequireInsideCells(const GivenCells& given, const TriangleMesh& mesh, double rounding)
@@ -219,7 +232,9 @@ SurfaceBasis RebuildBasis(vtkPolyData* data, const InputMesh& mesh, const Progre
   {
     const vtkIdType cell = mesh.sourceCell[clipped.pieceTriangle[piece]];
     piecePatch.push_back(static_cast<Index>(IntegerIn(patchId, cell, 0, finest.NumberOfPatches())));
-    if (finest.cell[piecePatch.back()] != clipped.cells[pieceCell[piece]])
+    // Without area it may be with a patch that it shares an edge with.
+    if (finest.cell[piecePatch.back()] != clipped.cells[pieceCell[piece]] &&
+        PieceArea(clipped, piece) > LargestRounding(data, mesh, clipped, piece))
     {
       throw InvalidInput(
         "The patch of cell " + std::to_string(cell) +

@@ -132,9 +132,25 @@ vtkSmartPointer<vtkCellArray> MakeTriangles(const ClippedMesh& clipped, int thre
                  : MakeTriangles<vtkTypeInt64Array>(clipped, threads);
 }
 
-void AddCellIds(
-  const InputMesh& mesh, const ClippedMesh& clipped, Id firstCell, int threads, vtkPolyData* output)
+/// Per cell of a part of a clipped mesh its place among those of the whole.
+std::vector<Id> PlacesOfCells(
+  const std::vector<MortonKey>& part, const std::vector<MortonKey>& whole)
 {
+  std::vector<Id> places;
+  places.reserve(part.size());
+  auto place = whole.begin();
+  for (const MortonKey cell : part)
+  {
+    place = std::lower_bound(place, whole.end(), cell);
+    places.push_back(place - whole.begin());
+  }
+  return places;
+}
+
+void AddCellIds(const InputMesh& mesh, const ClippedMesh& clipped,
+  const std::vector<MortonKey>& cells, int threads, vtkPolyData* output)
+{
+  const std::vector<Id> place = PlacesOfCells(clipped.cells, cells);
   auto source = NewIds(SourceCellIdName, clipped.NumberOfTriangles());
   auto octree = NewIds(OctreeCellIdName, clipped.NumberOfTriangles());
   vtkNew<vtkSignedCharArray> color;
@@ -148,7 +164,7 @@ void AddCellIds(
     [&](Id piece, Id begin, Id end)
     {
       std::fill(sources + begin, sources + end, mesh.sourceCell[clipped.pieceTriangle[piece]]);
-      std::fill(octreeCells + begin, octreeCells + end, firstCell + pieceCell[piece]);
+      std::fill(octreeCells + begin, octreeCells + end, place[pieceCell[piece]]);
       const MortonKey parities = clipped.cells[pieceCell[piece]] & 7;
       std::fill(colors + begin, colors + end, static_cast<signed char>(parities));
     });
@@ -189,17 +205,16 @@ int OutputPrecision(vtkPoints* input)
 void WriteClippedFrame(vtkPolyData* input, const InputMesh& mesh, const ClippedMesh& clipped,
   bool weldCoincidentPoints, int threads, vtkPolyData* frame)
 {
-  WriteClippedFrame(input, mesh, clipped, clipped.cells, 0, weldCoincidentPoints, threads, frame);
+  WriteClippedFrame(input, mesh, clipped, clipped.cells, weldCoincidentPoints, threads, frame);
 }
 
 void WriteClippedFrame(vtkPolyData* input, const InputMesh& mesh, const ClippedMesh& part,
-  const std::vector<MortonKey>& cells, Id first, bool weldCoincidentPoints, int threads,
-  vtkPolyData* frame)
+  const std::vector<MortonKey>& cells, bool weldCoincidentPoints, int threads, vtkPolyData* frame)
 {
   frame->Initialize();
   frame->SetPoints(MakePoints(input, part, threads));
   frame->SetPolys(MakeTriangles(part, threads));
-  AddCellIds(mesh, part, first, threads, frame);
+  AddCellIds(mesh, part, cells, threads, frame);
   AddGrid(part.grid, cells, frame);
   AddInt(frame, WeldCoincidentPointsName, weldCoincidentPoints);
 }

@@ -16,10 +16,9 @@ void WriteClippedFrame(vtkPolyData* input, const InputMesh& mesh, const ClippedM
   bool weldCoincidentPoints, int threads, vtkPolyData* frame);
 
 /// The same of a part of a clipped mesh.
-/// @param cells  of the whole; `first` of them come before those of the part
+/// @param cells  of the whole, ascending
 void WriteClippedFrame(vtkPolyData* input, const InputMesh& mesh, const ClippedMesh& part,
-  const std::vector<MortonKey>& cells, Id first, bool weldCoincidentPoints, int threads,
-  vtkPolyData* frame);
+  const std::vector<MortonKey>& cells, bool weldCoincidentPoints, int threads, vtkPolyData* frame);
 
 /// Adds the input's point arrays, interpolated along source triangles, its cell arrays by source
 /// cell, and its field arrays. Throws InvalidInput naming an array of wrong length.

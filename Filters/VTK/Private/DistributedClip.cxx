@@ -315,11 +315,14 @@ void ClipOfRanks::WriteFrame(const DistributedSurface& together, vtkPolyData* pi
   ranks_.Together(
     [&]
     {
+      // A piece without area may be with a patch of another rank, in a cell that both have then.
+      std::sort(cells_.begin(), cells_.end());
+      cells_.erase(std::unique(cells_.begin(), cells_.end()), cells_.end());
       points_ = PointsOfPieces(*clipped_);
       const ClippedMesh shown = WithPoints(*clipped_, points_);
       const auto given =
         SurfaceOfPoints(source_.triangles->points, points_, shown.numberOfInputPoints, precision_);
-      WriteClippedFrame(given, source_, shown, cells_, first, options.space.weldCoincidentPoints,
+      WriteClippedFrame(given, source_, shown, cells_, options.space.weldCoincidentPoints,
         options.space.threads, frame_);
     });
 }
