@@ -1,6 +1,7 @@
 #include "Parallel/RankClip.h"
 
 #include "Base/Parallel.h"
+#include "Parallel/LevelNumbering.h"
 #include "Parallel/OwnPieces.h"
 #include "Parallel/RankMemory.h"
 #include "Problems/MemoryEstimate.h"
@@ -179,21 +180,16 @@ void RankClip::KeepOwn(const Communicator& ranks)
   ranks.Together(
     [&]
     {
-      const auto [begin, end] = partition->CellsOf(ranks.Rank(), clipped.grid.depth);
-      const auto placeOf = [&](MortonKey key)
-      {
-        const auto& cells = clipped.cells;
-        return static_cast<Index>(
-          std::lower_bound(cells.begin(), cells.end(), key) - cells.begin());
-      };
-      const Index first = placeOf(begin);
-      const Index last = placeOf(end);
+      PatchLevel cells; // of which a patch is all that is in a cell
+      cells.depth = clipped.grid.depth;
+      cells.cell = clipped.cells;
+      const PatchRange own = OwnPatches(cells, *partition, ranks.Rank());
       Release(clipped.links);
-      GridFunctions cells; // of which a patch is all that is in a cell
-      cells.piecePatch = PieceCells(clipped);
-      cells.clipped = std::move(clipped);
-      KeepPieces(first, last, cells);
-      clipped = std::move(cells.clipped);
+      GridFunctions all;
+      all.piecePatch = PieceCells(clipped);
+      all.clipped = std::move(clipped);
+      KeepPieces(own.first, own.last, all);
+      clipped = std::move(all.clipped);
     });
 }
 

@@ -236,12 +236,7 @@ class DistributedClip(unittest.TestCase):
         other = ranks.run(made("ConnectivityAwareBasis"), ranks.piece(ranks.bowl(), "contiguous"))[0]
         solver = ranks.make("ScreenedPoisson", 6, Distributed=True)
         solver.SetInputDataObject(1, other)
-        messages = []
-
-        def listen(_, __, text=None):
-            messages.append(text)
-        listen.CallDataType = "string0"
-        solver.AddObserver("ErrorEvent", listen)
+        messages = ranks.heard(solver)
         output = ranks.run(solver, ranks.piece(ranks.ellipsoid(), "contiguous"))[0]
         problems = ["not empty"] if output.GetNumberOfPoints() else []
         if ranks.RANK == 0 and (len(messages) != 1 or "another mesh" not in messages[0]):
@@ -440,12 +435,7 @@ class DistributedClip(unittest.TestCase):
         cases["place"] = broken
         for case, make in cases.items():
             filter_, data = make()
-            messages = []
-
-            def listen(_, __, text=None):
-                messages.append(text)
-            listen.CallDataType = "string0"
-            filter_.AddObserver("ErrorEvent", listen)
+            messages = ranks.heard(filter_)
             output = ranks.run(filter_, data)[0]
             problems = [f"{case}: not empty"] if output.GetNumberOfPoints() else []
             if len(messages) != (1 if ranks.RANK == 0 else 0):

@@ -121,25 +121,15 @@ def number(output, name):
     return array.GetValue(0) if array else None
 
 
-def listen(filter_, event):
-    texts = []
-
-    def hear(_, __, text=None):
-        texts.append(text)
-    hear.CallDataType = "string0"
-    filter_.AddObserver(event, hear)
-    return texts
-
-
 class DistributedFilters(unittest.TestCase):
     def same_as_alone(self, case, mesh, kind):
         mine = with_vectors(ranks.piece(mesh, kind))
         filter_ = made(case, Distributed=True)
         problems = []
-        warnings = listen(filter_, "WarningEvent")
+        warnings = ranks.heard(filter_, "WarningEvent")
         outputs = ranks.run(filter_, mine)
         of_one = made(case)
-        expected_warnings = listen(of_one, "WarningEvent")
+        expected_warnings = ranks.heard(of_one, "WarningEvent")
         whole = ranks.alone(lambda: ranks.run(of_one, with_vectors(ranks.whole(mesh)))[0])
         if [numbers_in(text) for text in warnings] != [
                 numbers_in(text) for text in expected_warnings * (ranks.RANK == 0)]:
@@ -221,7 +211,7 @@ class DistributedFilters(unittest.TestCase):
             carrier = ranks.run(modes, ranks.piece(ranks.ellipsoid(), kind))[0]
             carrier.GetFieldData().RemoveArray("Distributed")  # which passes through
             together = made("high pass", Distributed=True)
-            problems = listen(together, "WarningEvent")
+            problems = ranks.heard(together, "WarningEvent")
             output = ranks.run(together, carrier)[0]
             expected = ranks.run(made("high pass"), carrier)[0]
             if number(output, "Distributed") != 1 or together.GetNumberOfRuns("Solve"):
@@ -242,7 +232,7 @@ class DistributedFilters(unittest.TestCase):
         if moved.GetNumberOfPoints():
             numpy_support.vtk_to_numpy(moved.GetPoints().GetData())[:, 2] *= 2.0
         filter_ = made("signatures", Distributed=True)
-        warnings = listen(filter_, "WarningEvent")
+        warnings = ranks.heard(filter_, "WarningEvent")
         output = ranks.run(filter_, moved)[0]
         problems = [] if number(output, "Converged") == 1 else ["modes were not computed"]
         if len(warnings) != (1 if ranks.RANK == 0 else 0) or output.GetPointData().HasArray("Mode003"):
@@ -296,7 +286,7 @@ class DistributedFilters(unittest.TestCase):
             of_rows = ranks.RANK == ranks.RANKS - 1
             filter_.SetInputDataObject(port, selection_of(
                 mine, "mask", vtkSelectionNode.ROW if of_rows else vtkSelectionNode.POINT))
-            messages = listen(filter_, "ErrorEvent")
+            messages = ranks.heard(filter_, "ErrorEvent")
             ranks.run(filter_, mine)
             told = ["points or of cells" in text for text in messages]
             ranks.check(
@@ -347,7 +337,7 @@ class DistributedFilters(unittest.TestCase):
                 ("distance", {"NearestSource": True}, "NearestSource"),
                 ("gradient", {"Smoother": 1}, "smoother")):
             filter_ = made(case, Distributed=True, **properties)
-            warnings = listen(filter_, "WarningEvent")
+            warnings = ranks.heard(filter_, "WarningEvent")
             mine = with_vectors(ranks.piece(ranks.bowl(), "contiguous"))
             output = ranks.run(filter_, mine)[0]
             problems = []
@@ -358,7 +348,7 @@ class DistributedFilters(unittest.TestCase):
             ranks.check(self, problems)
         filter_ = made("signatures", Distributed=True)
         filter_.AddSourcePointId(3)
-        warnings = listen(filter_, "WarningEvent")
+        warnings = ranks.heard(filter_, "WarningEvent")
         output = ranks.run(filter_, ranks.piece(ranks.ellipsoid(), "contiguous"))[0]
         problems = [] if output.GetPointData().HasArray("BiharmonicDistance") else ["no distance"]
         if ["SourcePointIds" in text for text in warnings] != [True] * (ranks.RANK == 0):
@@ -369,7 +359,7 @@ class DistributedFilters(unittest.TestCase):
         for case in ("poisson, boundary", "poisson, flux", "heat, boundary"):
             filter_ = made(case, Distributed=True, **(
                 {"ScreeningWeight": 1.0} if case == "poisson, boundary" else {}))
-            warnings = listen(filter_, "WarningEvent")
+            warnings = ranks.heard(filter_, "WarningEvent")
             output = ranks.run(
                 filter_, with_vectors(ranks.piece(ranks.ellipsoid(), "scattered")))[0]
             told = ["has no boundary" in text for text in warnings]
@@ -382,7 +372,7 @@ class DistributedFilters(unittest.TestCase):
         mine = with_vectors(ranks.piece(ranks.ellipsoid(), "contiguous"))
         if ranks.RANK == ranks.RANKS - 1:
             numpy_support.vtk_to_numpy(mine.GetCellData().GetArray("c"))[2] = -1.0
-        messages = listen(filter_, "ErrorEvent")
+        messages = ranks.heard(filter_, "ErrorEvent")
         ranks.run(filter_, mine)
         told = ["weight of the values" in text for text in messages]
         ranks.check(self, [] if told == [True] * (ranks.RANK == 0) else [f"{messages}"])
@@ -390,7 +380,7 @@ class DistributedFilters(unittest.TestCase):
     def test_nothing_held_is_refused(self):
         for case in ("poisson, held", "heat, held"):
             filter_ = made(case, Distributed=True)
-            messages = listen(filter_, "ErrorEvent")
+            messages = ranks.heard(filter_, "ErrorEvent")
             mine = with_vectors(ranks.piece(ranks.ellipsoid(), "contiguous"))
             if mine.GetNumberOfPoints():
                 numpy_support.vtk_to_numpy(mine.GetPointData().GetArray("mask"))[:] = 0
@@ -425,7 +415,7 @@ class DistributedFilters(unittest.TestCase):
                     numpy_support.vtk_to_numpy(array)[3] = float("nan")
                 if case == "signatures" and damage != "place":
                     continue  # it looks at no array
-                messages = listen(filter_, "ErrorEvent")
+                messages = ranks.heard(filter_, "ErrorEvent")
                 output = ranks.run(filter_, mine)[0]
                 filter_.RemoveObservers("ErrorEvent")
                 problems = ["the output is not empty"] if output.GetNumberOfPoints() else []

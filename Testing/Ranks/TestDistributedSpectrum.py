@@ -123,12 +123,7 @@ class DistributedSpectrum(unittest.TestCase):
         mine = ranks.piece(ranks.ellipsoid(), "contiguous")
         if ranks.RANK == ranks.RANKS - 1:
             numpy_support.vtk_to_numpy(mine.GetPoints().GetData())[3] = numpy.nan
-        messages = []
-
-        def listen(_, __, text=None):
-            messages.append(text)
-        listen.CallDataType = "string0"
-        filter_.AddObserver("ErrorEvent", listen)
+        messages = ranks.heard(filter_)
         output = ranks.run(filter_, mine)[0]
         problems = ["the output is not empty"] if output.GetNumberOfPoints() else []
         if len(messages) != (1 if ranks.RANK == 0 else 0):

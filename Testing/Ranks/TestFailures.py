@@ -15,14 +15,8 @@ LAST = ranks.RANKS - 1
 class Failures(unittest.TestCase):
     def run_and_listen(self, filter_, data):
         """The messages of a run, and whether all outputs are empty."""
-        messages = []
-
-        def listen(_, __, text=None):
-            messages.append(text)
-        listen.CallDataType = "string0"
-        observer = filter_.AddObserver("ErrorEvent", listen)
+        messages = ranks.heard(filter_)
         outputs = ranks.run(filter_, data)
-        filter_.RemoveObserver(observer)
         sizes = [output.GetNumberOfElements(kind) for output in outputs for kind in (0, 1)]
         return messages, not any(sizes)
 

@@ -8,12 +8,7 @@ class WithoutMpi(unittest.TestCase):
     def test_rank_0_gathers_and_says_so(self):
         for name, array in (("ScreenedPoisson", "Solution"), ("LaplaceSpectrum", "Mode001")):
             filter_ = ranks.make(name, Distributed=True)
-            warnings = []
-
-            def listen(_, __, text=None, texts=warnings):
-                texts.append(text)
-            listen.CallDataType = "string0"
-            filter_.AddObserver("WarningEvent", listen)
+            warnings = ranks.heard(filter_, "WarningEvent")
             output = ranks.run(filter_, ranks.piece(ranks.ellipsoid(), "contiguous"))[0]
             problems = [] if output.GetPointData().HasArray(array) else [f"no {array}"]
             if len(warnings) != (1 if ranks.RANK == 0 else 0) or not all(

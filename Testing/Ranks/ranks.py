@@ -291,6 +291,17 @@ def run(filter_, data):
     return [filter_.GetOutputDataObject(port) for port in range(filter_.GetNumberOfOutputPorts())]
 
 
+def heard(filter_, event="ErrorEvent"):
+    """A list that gets the texts of what a filter says from now on."""
+    texts = []
+
+    def hear(_, __, text=None):
+        texts.append(text)
+    hear.CallDataType = "string0"
+    filter_.AddObserver(event, hear)
+    return texts
+
+
 def alone(compute):
     """What a function returns when this process is the only one."""
     vtkMultiProcessController.SetGlobalController(vtkDummyController())

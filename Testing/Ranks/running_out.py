@@ -15,12 +15,7 @@ def run(depth, mesh, room=None, limited=lambda rank: rank == ranks.RANKS - 1):
     """The messages of a run, and what its output says."""
     piece = ranks.piece(mesh, "contiguous")
     filter_ = ranks.make("ScreenedPoisson", depth, Distributed=True, Tolerance=1e-8)
-    messages = []
-
-    def listen(_, __, text=None):
-        messages.append(text)
-    listen.CallDataType = "string0"
-    filter_.AddObserver("ErrorEvent", listen)
+    messages = ranks.heard(filter_)
     with ranks.growing_by(room if limited(ranks.RANK) else None):
         output = ranks.run(filter_, piece)[0]
     is_computed = bool(output.GetFieldData().HasArray("Converged"))

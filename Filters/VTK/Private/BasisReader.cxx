@@ -265,6 +265,11 @@ std::vector<Id> ReadSourceCells(vtkPolyData* data, const InputMesh& mesh)
 
 } // namespace
 
+std::vector<MortonKey> ReadOctreeCells(vtkPolyData* data)
+{
+  return ReadCells(data->GetFieldData(), ReadGrid(data->GetFieldData()));
+}
+
 GivenCells ReadGivenCells(vtkPolyData* data, const InputMesh& mesh)
 {
   GivenCells given;

@@ -13,6 +13,9 @@ class vtkPolyData;
 namespace gridfem
 {
 
+/// All octree cells of a clip, ascending. Throws InvalidInput where its tables do not fit.
+std::vector<MortonKey> ReadOctreeCells(vtkPolyData* data);
+
 /// The octree cells of the triangles of `data`. Throws as ReadClippedMesh.
 GivenCells ReadGivenCells(vtkPolyData* data, const InputMesh& mesh);
 

@@ -237,7 +237,7 @@ public:
   int Precision() const override { return precision_; }
 
 private:
-  void FindPrecision(vtkPolyData* piece, const InputMesh& mesh);
+  void FindPrecision(const DistributedSurface& together, vtkPolyData* piece, const InputMesh& mesh);
   void WriteFrame(const DistributedSurface& together, vtkPolyData* piece,
     const SurfaceOptions& options, const InputMesh& mesh);
   Id PatchesBefore() const;
@@ -255,6 +255,7 @@ private:
   std::vector<MortonKey> cells_;  // of all ranks
   std::vector<MortonKey> before_; // at most one
   int precision_ = VTK_DOUBLE;
+  bool areCut_ = false;           // points, on any rank
   std::vector<vtkIdType> points_; // of the clipped mesh, that are put out
   vtkNew<vtkPolyData> frame_;     // what does not depend on arrays of the input
 };
@@ -262,7 +263,6 @@ private:
 void ClipOfRanks::Build(DistributedSurface& together, vtkPolyData* piece,
   const SurfaceOptions& options, InputMesh& mesh, const Progress& progress)
 {
-  clipped_ = nullptr; // frees the memory of the last one first
   mesh = together.ReadPieces(piece, options.space.threads);
   RankClip clip(ranks_, *mesh.triangles, RankOptionsOf(options), progress,
     together.CopiedTriangles().triangles->triangles);
@@ -270,7 +270,7 @@ void ClipOfRanks::Build(DistributedSurface& together, vtkPolyData* piece,
   distribution_ = clip.distribution;
   source_.triangles = clip.mesh;
   clipped_ = std::make_shared<const ClippedMesh>(std::move(clip.clipped));
-  this->FindPrecision(piece, mesh);
+  this->FindPrecision(together, piece, mesh);
   this->WriteFrame(together, piece, options, mesh);
 }
 
@@ -284,7 +284,7 @@ void ClipOfRanks::Take(const DistributedSurface& together, vtkPolyData* piece, b
   source_.triangles = { whole_, &space.Own().Mesh() };
   clipped_ = { whole_, &space.Own().Functions().clipped };
   levels_ = LevelsOfRank(space);
-  this->FindPrecision(piece, mesh);
+  this->FindPrecision(together, piece, mesh);
   if (isClipped)
   {
     this->AddBasisToPiece(mesh, together.CopiedTriangles(), piece);
@@ -295,13 +295,12 @@ void ClipOfRanks::Take(const DistributedSurface& together, vtkPolyData* piece, b
 }
 
 /// Single where all pieces are.
-void ClipOfRanks::FindPrecision(vtkPolyData* piece, const InputMesh& mesh)
+void ClipOfRanks::FindPrecision(
+  const DistributedSurface& together, vtkPolyData* piece, const InputMesh& mesh)
 {
   const bool isDouble =
     !mesh.triangles->triangles.empty() && OutputPrecision(piece->GetPoints()) == VTK_DOUBLE;
-  double any = isDouble ? 1.0 : 0.0;
-  ranks_.Maximum(&any, 1);
-  precision_ = any > 0.0 ? VTK_DOUBLE : VTK_FLOAT;
+  precision_ = together.Any(isDouble) ? VTK_DOUBLE : VTK_FLOAT;
 }
 
 void ClipOfRanks::WriteFrame(const DistributedSurface& together, vtkPolyData* piece,
@@ -309,6 +308,7 @@ void ClipOfRanks::WriteFrame(const DistributedSurface& together, vtkPolyData* pi
 {
   const bool isCounted = piece && !together.IsPieceRepeated();
   source_.sourceCell = SourceCells(ranks_, *distribution_, piece, isCounted, mesh);
+  areCut_ = together.Any(!clipped_->cutPoints.empty());
   cells_ = ranks_.Gather(clipped_->cells);
   const Id first = ranks_.ShareOf(static_cast<Id>(clipped_->cells.size())).before;
   before_.assign(cells_.begin() + std::max<Id>(first - 1, 0), cells_.begin() + first);
@@ -373,7 +373,6 @@ void ClipOfRanks::AddBasisToPiece(
   ranks_.Together(
     [&]
     {
-      frame_->Initialize();
       if (mesh.triangles->triangles.empty() && copies.triangles->triangles.empty())
       {
         return;
@@ -389,7 +388,7 @@ void ClipOfRanks::AddBasisToPiece(
       };
       set(mesh, patches);
       set(copies, ofCopies);
-      WriteBasis(finest, ReadGivenCells(piece, mesh).cells, own.support, ofCells, true, frame_);
+      WriteBasis(finest, ReadOctreeCells(piece), own.support, ofCells, true, frame_);
     });
 }
 
@@ -423,15 +422,13 @@ void ClipOfRanks::WriteMesh(
   vtkNew<vtkPointData> receivedPoints;
   vtkNew<vtkCellData> receivedTriangles;
   SendArrays(ranks_, *distribution_, piece, mesh, receivedPoints, receivedTriangles);
-  double areCut = clipped_->cutPoints.empty() ? 0.0 : 1.0;
-  ranks_.Maximum(&areCut, 1);
   ranks_.Together(
     [&]
     {
       output->ShallowCopy(frame_);
       vtkNew<vtkPointData> atPoints;
       InterpolatePointArrays(
-        receivedPoints, *source_.triangles, *clipped_, areCut > 0.0, threads, atPoints);
+        receivedPoints, *source_.triangles, *clipped_, areCut_, threads, atPoints);
       for (int k = 0; k < atPoints->GetNumberOfArrays(); ++k)
       {
         output->GetPointData()->AddArray(this->AtPointsShown(atPoints->GetAbstractArray(k)));
