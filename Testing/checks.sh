@@ -11,9 +11,12 @@ Usage: Testing/checks.sh STEP...
   tidy       clang-tidy, with the checks of .clang-tidy, over the sources of Filters that differ from
              origin/main, or from GRIDFEM_SINCE where that names another commit
   tidy-all   the same over all of Filters, some hours of one processor
+  sanitize   random problems of Core with the address and undefined-behaviour sanitizers, in
+             build-sanitize/; GRIDFEM_CASES: how many, of GRIDFEM_SEED on (default: 1000 from 1)
   threads    ThreadSanitizer, with clang, on the tests of Core and random problems, in build-threads/
-  valgrind   leaks and wrong memory on some tests of Core and random problems, in build-valgrind/
-  all        cppcheck, tidy, threads and valgrind
+  valgrind   leaks and wrong memory on some tests of Core and of the filters, and on random problems, in
+             build-valgrind/
+  all        cppcheck, tidy, sanitize, threads and valgrind
 
 Installs what is missing, and fails where something is found. GRIDFEM_JOBS: processes at the same time.
 Continuous integration runs none of them, because they take from minutes to hours.
@@ -21,7 +24,7 @@ HELP
   exit
 fi
 
-# Configures Core for a check in a folder of its own. Usage: BuildFor FOLDER TARGETS [-DOPTION=VALUE...]
+# Configures Core, without VTK where options do not say otherwise, for a check in a folder of its own. Usage: BuildFor FOLDER TARGETS [-DOPTION=VALUE...]
 BuildFor()
 {
   local folder="$1" targets
@@ -90,6 +93,17 @@ Threads()
   "$folder/bin/FuzzCore" 1 500
 }
 
+Sanitize()
+{
+  local folder="$SOURCE/build-sanitize"
+  InstallMissing "${CORE_PACKAGES[@]}" libgtest-dev
+  mkdir -p "$folder"
+  (cd "$SOURCE" && Quietly "$folder/configure.log" cmake --preset sanitize)
+  Say "Building in $folder"
+  Quietly "$folder/build.log" cmake --build "$folder" --target FuzzCore -j "$JOBS"
+  "$folder/bin/FuzzCore" "${GRIDFEM_SEED:-1}" "${GRIDFEM_CASES:-1000}"
+}
+
 # Usage: UnderValgrind PROGRAM [ARGUMENT...]
 UnderValgrind()
 {
@@ -101,9 +115,11 @@ UnderValgrind()
 Valgrind()
 {
   local tests="TestGrouping TestSparseMatrix TestPatchLevel TestHatMatrices TestConjugateGradients" test
-  InstallMissing "${CORE_PACKAGES[@]}" valgrind libgtest-dev
+  tests+=" TestPipeline TestSelection TestOtherDataSets TestFailureRule TestTime"
+  InstallMissing "${BUILD_PACKAGES[@]}" valgrind
   # It does not know AVX-512.
-  BuildFor "$SOURCE/build-valgrind" "$tests FuzzCore" -DGRIDFEM_NATIVE=OFF
+  BuildFor "$SOURCE/build-valgrind" "$tests FuzzCore" -DGRIDFEM_BUILD_VTK=ON \
+    -DGRIDFEM_BUILD_PLUGIN=ON -DGRIDFEM_NATIVE=OFF
   for test in $tests; do
     UnderValgrind "$test" --gtest_brief=1 --gtest_filter="-*Threads*:*Large*"
   done
@@ -115,11 +131,13 @@ for step in "$@"; do
     cppcheck) Cppcheck ;;
     tidy) TidyChanged ;;
     tidy-all) TidyAll ;;
+    sanitize) Sanitize ;;
     threads) Threads ;;
     valgrind) Valgrind ;;
     all)
       Cppcheck
       TidyChanged
+      Sanitize
       Threads
       Valgrind
       ;;

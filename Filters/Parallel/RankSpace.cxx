@@ -160,7 +160,7 @@ RankSpace::RankSpace(const Communicator& ranks, const TriangleMesh& own,
       PatchLevel finest = BuildFinestLevel(depth, patches, support, functions.threads);
       links = patches.links;
       all.levels = BuildLevels(std::move(finest), std::move(patches.links), support,
-        functions.threads, progress.Part(0.45, 0.6));
+        { functions.threads, progress.Part(0.45, 0.6) });
       for (int level = depth; level > partition_->Depth(); --level)
       {
         CoarsenLinks(all.levels[depth - level], functions.threads, links);
@@ -176,7 +176,7 @@ RankSpace::RankSpace(const Communicator& ranks, const TriangleMesh& own,
       // All levels of this rank, none of which is the coarsest of the whole.
       auto operators = std::make_shared<const LevelOperators>(
         BuildLevelOperators(*divided, TriangleRule(options.space.quadratureDegree),
-          functions.threads, -1, progress.Part(0.6, 1.0), options.space.normalStabilization));
+          { functions.threads, progress.Part(0.6, 1.0) }, -1, options.space.normalStabilization));
       own_ = std::make_shared<const GridSpace>(clip.mesh, std::move(divided), std::move(operators));
       auto whole = std::make_shared<GridFunctions>();
       whole->support = support;

@@ -67,7 +67,7 @@ void vtkConnectivityAwareBasis::ReadClip(vtkPolyData* input)
                                                  : gridfem::FunctionSupport::Plain;
   state.basis = gridfem::MakeSurfaceBasis(state.mesh.triangles,
     gridfem::BuildGridFunctions(
-      std::move(clipped), support, options.threads, progress.Part(0.4, 0.8)),
+      std::move(clipped), support, { options.threads, progress.Part(0.4, 0.8) }),
     options.weldCoincidentPoints);
 
   const gridfem::GridFunctions& space = state.Functions();

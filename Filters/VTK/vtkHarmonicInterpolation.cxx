@@ -19,6 +19,7 @@
 #include "vtkSelection.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 vtkStandardNewMacro(vtkHarmonicInterpolation);
@@ -44,6 +45,35 @@ gridfem::InputArray FindArrayOf(vtkAlgorithm* algorithm, vtkDataSet* values)
   gridfem::RequirePointArray(
     array, "ValueArray", "the input Values has no active scalars to take instead");
   return array;
+}
+
+/// Whether values are known at some points, but not at all of them. A NaN makes a tuple unknown.
+bool KnowsSome(vtkDataArray* array)
+{
+  const int components = array->GetNumberOfComponents();
+  vtkIdType unknown = 0;
+  for (vtkIdType k = 0; k < array->GetNumberOfTuples(); ++k)
+  {
+    int c = 0;
+    while (c < components && !std::isnan(array->GetComponent(k, c)))
+    {
+      ++c;
+    }
+    unknown += c < components ? 1 : 0;
+  }
+  return unknown > 0 && unknown < array->GetNumberOfTuples();
+}
+
+/// ValueArray, or where none is chosen the only point array that says itself what is not known.
+gridfem::InputArray FindValueArray(vtkAlgorithm* algorithm, vtkDataSet* input)
+{
+  gridfem::InputArray array = gridfem::FindInputArray(algorithm, 0, input, "ValueArray");
+  if (array.array)
+  {
+    return array;
+  }
+  return gridfem::OnlyArray(input, [](vtkDataArray* other, gridfem::FieldAssociation association)
+    { return association == gridfem::FieldAssociation::Points && KnowsSome(other); });
 }
 
 } // namespace
@@ -89,9 +119,6 @@ void vtkHarmonicInterpolation::FindValues(vtkPolyData* input, vtkDataSet* values
   }
   else
   {
-    data.Array = gridfem::FindInputArray(this, 0, input, "ValueArray");
-    gridfem::RequirePointArray(data.Array, "ValueArray",
-      "values at some points, with NaN, a MaskArray or a Selection for the others");
     const gridfem::InputArray mask = gridfem::FindInputArray(this, 1, input, "MaskArray");
     given = gridfem::KnownValues(data.Array, mask, *this->Selection, *mesh.triangles);
   }
@@ -153,7 +180,10 @@ void vtkHarmonicInterpolation::Compute(vtkInformationVector** inputs, vtkInforma
   const gridfem::Progress progress = state.bridge.GetProgress();
   if (!vtkDataSet::GetData(inputs[2]))
   {
-    gridfem::FindInputArray(this, 0, input, "ValueArray"); // before the long work
+    // Before the long work.
+    this->Data->Array = FindValueArray(this, input);
+    gridfem::RequirePointArray(this->Data->Array, "ValueArray",
+      "values at some points, with NaN, a MaskArray or a Selection for the others");
     gridfem::FindInputArray(this, 1, input, "MaskArray");
   }
   state.UpdateSpace(input, vtkPolyData::GetData(inputs[1]), progress.Part(0.0, 0.3));

@@ -14,7 +14,8 @@
  * its points.
  *
  * Arrays, chosen by SetInputArrayToProcess, with any number of components:
- * - index 0, `ValueArray`: point data of port 0. A tuple with a NaN is unknown.
+ * - index 0, `ValueArray`: point data of port 0. A tuple with a NaN is unknown. Where none is
+ *   chosen and only one point array has a NaN for some points and values for others, it is that.
  * - index 1, `MaskArray` (optional): point data of port 0, one component. With it or a selection,
  *   values are known where it is neither 0 nor NaN and at selected points, and nowhere else.
  * - index 2 (optional): point data of port 2, where that is connected. Without it the array there

@@ -12,6 +12,7 @@
 
 #include "Base/Errors.h"
 #include "Integrals/QuadratureRule.h"
+#include "Problems/SolveWarnings.h"
 
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
@@ -171,14 +172,13 @@ void vtkLaplaceSpectrum::WriteTable(vtkTable* table)
 
 void vtkLaplaceSpectrum::WriteComparison(vtkTable* table)
 {
-  const std::vector<double>& chosen = this->Data->eigenvalues;
-  std::vector<double> other = this->Data->otherEigenvalues;
-  other.resize(chosen.size(), std::nan(""));
-  const bool hats = this->FunctionSpace == HatFunctions;
-  const std::vector<double>& onGrid = hats ? other : chosen;
-  const std::vector<double>& onHats = hats ? chosen : other;
-  std::vector<double> difference(chosen.size(), 0.0);
-  for (std::size_t mode = 0; mode < chosen.size(); ++mode)
+  const auto all = this->Data->eigenvalues.size();
+  std::vector<double> onGrid = this->Data->EigenvaluesOf(gridfem::FunctionKind::Grid);
+  std::vector<double> onHats = this->Data->EigenvaluesOf(gridfem::FunctionKind::Hats);
+  onGrid.resize(all, std::nan(""));
+  onHats.resize(all, std::nan(""));
+  std::vector<double> difference(all, 0.0);
+  for (std::size_t mode = 0; mode < all; ++mode)
   {
     if (onHats[mode] != onGrid[mode])
     {
@@ -197,9 +197,8 @@ bool vtkLaplaceSpectrum::IsAccurate() const
 
 void vtkLaplaceSpectrum::Warn()
 {
-  const std::string where = this->FunctionSpace == HatFunctions
-                              ? "with the hat functions of this mesh"
-                              : "at Depth " + std::to_string(this->Data->depth);
+  const gridfem::FunctionKind kind = this->State->options.choice.kind;
+  const std::string where = gridfem::PlaceOf(kind, this->Data->depth);
   const std::int64_t run = this->State->stages.Runs(gridfem::SolveStage);
   for (const std::string& warning : gridfem::WarningsOf(
          this->Data->spectrum, this->NumberOfModes, where, run != this->Data->WarnedRun))
@@ -215,8 +214,7 @@ void vtkLaplaceSpectrum::Warn()
   if (!this->IsAccurate())
   {
     vtkWarningMacro(<< gridfem::WarningOfAccuracy(this->Accuracy,
-                      this->Data->LargestEstimatedError(), this->FunctionSpace == HatFunctions,
-                      this->Data->depth));
+                      this->Data->LargestEstimatedError(), kind, this->Data->depth));
   }
 }
 

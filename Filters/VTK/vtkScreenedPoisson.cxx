@@ -428,7 +428,7 @@ void vtkScreenedPoisson::Warn()
   if (!this->IsAccurate())
   {
     vtkWarningMacro(<< gridfem::WarningOfWantedError(this->WantedError,
-                      this->EstimatedErrors().discretization, this->FunctionSpace == HatFunctions));
+                      this->EstimatedErrors().discretization, this->State->options.choice.kind));
   }
 }
 
@@ -444,7 +444,8 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
   this->Selection->Update(vtkSelection::GetData(inputs[2]), input);
   this->FindConstraints(input);
   const bool hasBasis = basis || gridfem::CarriesBasis(input);
-  if (this->AccuracyDriven && !hasBasis && this->FunctionSpace != HatFunctions)
+  if (this->AccuracyDriven && !hasBasis &&
+      gridfem::IsRefinedByDepth(this->State->options.choice.kind))
   {
     this->SolveAccurately(input, progress.Part(0.0, 0.95));
   }

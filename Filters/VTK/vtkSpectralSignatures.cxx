@@ -17,6 +17,7 @@
 #include "Algebra/DividedRows.h"
 #include "Base/Errors.h"
 #include "Integrals/QuadratureRule.h"
+#include "Problems/SolveWarnings.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
@@ -363,8 +364,8 @@ void vtkSpectralSignatures::Warn()
     vtkWarningMacro(
       "Only " << this->Data->Solved.NumberOfModes() << " of the " << this->NumberOfModes
               << " modes exist "
-              << (this->FunctionSpace == HatFunctions ? "with the hat functions of this mesh."
-                                                      : "at this Depth."));
+              << gridfem::PlaceOf(this->State->options.choice.kind, this->Data->Solved.depth)
+              << ".");
   }
   if (!spectrum.converged)
   {

@@ -1,6 +1,7 @@
 #include "vtkStitchColors.h"
 
 #include "Private/Allocation.h"
+#include "Private/ClippedArrays.h"
 #include "Private/InputArray.h"
 #include "Private/InputValidation.h"
 #include "Private/SolverOutput.h"
@@ -19,6 +20,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 
 vtkStandardNewMacro(vtkStitchColors);
 
@@ -27,9 +30,47 @@ namespace
 
 constexpr const char* CutStage = "Cut"; // the scans and a space on each
 
+/// As readers of scans give them.
+bool AreColors(vtkDataArray* array)
+{
+  return array->GetDataType() == VTK_UNSIGNED_CHAR && array->GetNumberOfComponents() >= 3 &&
+         array->GetNumberOfComponents() <= 4;
+}
+
+/// What numbers or marks points and cells for other ends than to tell scans.
+bool IsForOtherEnds(vtkDataArray* array, vtkDataSetAttributes* attributes)
+{
+  const char* name = array->GetName();
+  return array == attributes->GetGlobalIds() || array == attributes->GetPedigreeIds() ||
+         (name && (std::string(name) == vtkDataSetAttributes::GhostArrayName() ||
+                    gridfem::IsClipCellArray(name)));
+}
+
+/// Integers, of which each is there twice in the mean at least.
+bool AreLabels(vtkDataArray* array)
+{
+  constexpr std::size_t MostScans = 1000;
+  const bool isReal = array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
+  if (isReal || array->GetNumberOfComponents() != 1)
+  {
+    return false;
+  }
+  const auto most = std::min(MostScans, static_cast<std::size_t>(array->GetNumberOfTuples() / 2));
+  std::set<double> labels;
+  for (vtkIdType k = 0; k < array->GetNumberOfTuples() && labels.size() <= most; ++k)
+  {
+    labels.insert(array->GetComponent(k, 0));
+  }
+  return labels.size() >= 2 && labels.size() <= most;
+}
+
 gridfem::InputArray FindColors(vtkAlgorithm* algorithm, vtkPolyData* input)
 {
   gridfem::InputArray colors = gridfem::FindInputArray(algorithm, 0, input, "ColorArray");
+  if (!colors.array)
+  {
+    colors = gridfem::OnlyArray(input, [](vtkDataArray* array, auto) { return AreColors(array); });
+  }
   if (!colors.array)
   {
     throw gridfem::InvalidInput("Choose a ColorArray: the colours of the scans.");
@@ -43,9 +84,22 @@ gridfem::InputArray FindColors(vtkAlgorithm* algorithm, vtkPolyData* input)
   return colors;
 }
 
-gridfem::InputArray FindLabels(vtkAlgorithm* algorithm, vtkPolyData* input)
+gridfem::InputArray FindLabels(vtkAlgorithm* algorithm, vtkPolyData* input, vtkDataArray* colors)
 {
   gridfem::InputArray labels = gridfem::FindInputArray(algorithm, 1, input, "LabelArray");
+  if (!labels.array)
+  {
+    labels = gridfem::OnlyArray(input,
+      [input, colors](vtkDataArray* array, gridfem::FieldAssociation association)
+      {
+        vtkDataSetAttributes* attributes = input->GetCellData();
+        if (association == gridfem::FieldAssociation::Points)
+        {
+          attributes = input->GetPointData();
+        }
+        return array != colors && AreLabels(array) && !IsForOtherEnds(array, attributes);
+      });
+  }
   if (!labels.array)
   {
     throw gridfem::InvalidInput("Choose a LabelArray: it says which scan a colour comes from.");
@@ -221,7 +275,7 @@ void vtkStitchColors::Compute(vtkInformationVector** inputs, vtkInformationVecto
   gridfem::SurfaceSolverState& state = *this->State;
   const gridfem::Progress progress = state.bridge.GetProgress();
   const gridfem::InputArray colors = FindColors(this, input);
-  const gridfem::InputArray labels = FindLabels(this, input);
+  const gridfem::InputArray labels = FindLabels(this, input, colors.array);
   // Details are kept on the grid.
   state.options.functionsPerPoint =
     this->KeepDetails ? gridfem::AsManyAsWanted : gridfem::EnoughToPrecondition;

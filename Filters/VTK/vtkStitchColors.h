@@ -11,9 +11,11 @@
  * the mesh of port 0.
  *
  * Arrays, as point or cell data of input port 0, chosen by SetInputArrayToProcess:
- * - index 0, `ColorArray`: 1 to 4 components of any numeric type
+ * - index 0, `ColorArray`: 1 to 4 components of any numeric type. Where none is chosen, the only
+ *   array of bytes with three or four components.
  * - index 1, `LabelArray`: one component, integers: the scan. Points with one label may be
- * anywhere.
+ *   anywhere. Where none is chosen, the only other array of an integer type with 2 to
+ *   1,000 values, each of them there twice in the mean, that is no ids, ghosts or cells of a clip.
  *
  * Output port 0 (vtkPolyData): the input with
  * - point or cell data, as ColorArray: `StitchedColors`, same type and components. Integers are

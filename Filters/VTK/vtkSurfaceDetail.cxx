@@ -7,6 +7,7 @@
 #include "Private/SelectedPoints.h"
 #include "Private/SolverOutput.h"
 #include "Private/SurfaceCurvatures.h"
+#include "Private/SurfacePoisson.h"
 #include "Private/SurfaceSolverState.h"
 
 #include "Base/Errors.h"
@@ -94,18 +95,6 @@ gridfem::Field FadeOut(
   return fade;
 }
 
-/// Of a solution for other columns the first, which are those for the scale 1, are still good.
-gridfem::MultiVector StartFor(gridfem::MultiVector last, gridfem::Id columns)
-{
-  if (last.cols() > 0 && last.cols() != columns)
-  {
-    const gridfem::Id kept = last.cols();
-    last.conservativeResize(Eigen::NoChange, columns);
-    last.rightCols(std::max<gridfem::Id>(columns - kept, 0)).setZero();
-  }
-  return last;
-}
-
 } // namespace
 
 struct vtkSurfaceDetail::Internals
@@ -122,32 +111,21 @@ struct vtkSurfaceDetail::Internals
   gridfem::SignalInSpace Signal;
   std::optional<gridfem::Field> ScaleField;
   std::optional<gridfem::Field> Fade; // of the selection
-  /// Blocks of columns, one for each of: the scale 1; the scale array; the same times the fade.
-  gridfem::MultiVector Load;
-  std::unique_ptr<gridfem::Multigrid> Hierarchy;
-  gridfem::StageKey HierarchyShape;  // what it depends on but for its numbers
-  gridfem::PoissonSolution Solution; // for the columns of Load
-  std::int64_t Continuations = 0;    // runs that went on from an unfinished solution
+  /// Its load has blocks of columns, one for each of: the scale 1; the scale array; the same times
+  /// the fade. Of a solution for other columns the first are still good.
+  gridfem::SurfacePoisson Equation;
+  std::int64_t Continuations = 0; // runs that went on from an unfinished solution
 
   const gridfem::FiniteElementSpace& Space(const gridfem::SurfaceSolverState& state) const
   {
     return this->IsWeighed ? *this->Weighed : *state.space;
   }
 
-  /// What numbers the matrices have.
-  gridfem::StageKey SpaceKey(const gridfem::SurfaceSolverState& state) const
-  {
-    gridfem::StageKey key;
-    key.Add(state.stages.Version(gridfem::SystemStage)).Add(this->IsWeighed);
-    key.Add(this->IsWeighed ? state.stages.Version(WeightsStage) : 0);
-    return key;
-  }
-
   /// The change for the scales inside and outside of the selection, as coefficients: linear in
   /// them.
   gridfem::MultiVector Change(double inside, double outside) const
   {
-    const gridfem::MultiVector& solved = this->Solution.coefficients;
+    const gridfem::MultiVector& solved = this->Equation.Solution().coefficients;
     const gridfem::Id columns = this->Signal.coefficients.cols();
     const double everywhere = this->Fade ? outside : inside;
     gridfem::MultiVector change =
@@ -164,7 +142,7 @@ struct vtkSurfaceDetail::Internals
   /// to.
   gridfem::SolutionAccuracy AccuracyOfChange(double inside, double outside) const
   {
-    gridfem::SolutionAccuracy accuracy = this->Solution.accuracy;
+    gridfem::SolutionAccuracy accuracy = this->Equation.Accuracy();
     const bool hasBlocks = this->Fade || this->ScaleField;
     accuracy.largest *= !hasBlocks ? std::abs(inside - 1.0)
                                    : 1.0 + std::abs(this->Fade ? outside : inside) +
@@ -346,99 +324,77 @@ void vtkSurfaceDetail::UpdateSignal(const gridfem::Progress& progress)
     });
 }
 
-void vtkSurfaceDetail::UpdateLoad(const gridfem::Progress& progress)
-{
-  Internals& data = *this->Data;
-  gridfem::SurfaceSolverState& state = *this->State;
-  gridfem::StageKey key = data.SpaceKey(state);
-  key.Add(state.stages.Version(SignalStage)).Add(data.Scale.array);
-  key.Add(static_cast<int>(data.Scale.association)).Add(this->Selection->Version());
-  if (this->Selection->IsGiven())
-  {
-    key.Add(this->TransitionWidth).Add(this->ParameterUnits);
-  }
-  state.stages.Run(gridfem::RightHandSideStage, key,
-    [&]
-    {
-      const gridfem::FiniteElementSpace& space = data.Space(state);
-      const gridfem::TriangleMesh& mesh = *state.mesh.triangles;
-      const gridfem::Job job = state.MakeJob(progress);
-      data.ScaleField.reset();
-      data.Fade.reset();
-      data.Load = gridfem::LoadOfDetail(space, data.Signal.coefficients, {}, job);
-      const auto append = [&](const gridfem::MultiVector& scale)
-      {
-        const gridfem::Id columns = data.Signal.coefficients.cols();
-        data.Load.conservativeResize(Eigen::NoChange, data.Load.cols() + columns);
-        data.Load.rightCols(columns) = gridfem::LoadOfDetail(
-          space, data.Signal.coefficients, OnElements(space, scale, job), job);
-      };
-      gridfem::MultiVector scale;
-      if (data.Scale.array)
-      {
-        data.ScaleField = gridfem::ReadField(data.Scale, state.mesh);
-        scale = OnTriangles(*data.ScaleField, mesh);
-        append(scale);
-      }
-      if (this->Selection->IsGiven())
-      {
-        data.Fade =
-          FadeOut(state, *this->Selection, state.LengthInWorldUnits(this->TransitionWidth));
-        const gridfem::MultiVector fade = OnTriangles(*data.Fade, mesh);
-        append(data.ScaleField ? gridfem::MultiVector(scale.cwiseProduct(fade)) : fade);
-      }
-    });
-}
-
-void vtkSurfaceDetail::UpdateSolution(const gridfem::Progress& progress)
+gridfem::PoissonLoad vtkSurfaceDetail::Integrate(const gridfem::Job& job)
 {
   Internals& data = *this->Data;
   gridfem::SurfaceSolverState& state = *this->State;
   const gridfem::FiniteElementSpace& space = data.Space(state);
-  gridfem::PoissonOptions options;
-  options.screeningWeight = state.WeightInGridUnits(this->ScreeningWeight);
-  options.multigrid = state.options.multigrid;
-  options.solve = state.options.solve;
-  options.estimateErrors = this->CyclesPerApply == 0;
+  const gridfem::TriangleMesh& mesh = *state.mesh.triangles;
+  data.ScaleField.reset();
+  data.Fade.reset();
+  gridfem::PoissonLoad load;
+  const gridfem::Id columns = data.Signal.coefficients.cols();
+  const double blocks =
+    1.0 + (data.Scale.array ? 1.0 : 0.0) + (this->Selection->IsGiven() ? 1.0 : 0.0);
+  double done = 0.0;
+  const auto append = [&](const gridfem::MultiVector* scale)
+  {
+    const gridfem::Job part = job.Part(done / blocks, (done + 1.0) / blocks);
+    const std::vector<double> onElements =
+      scale ? OnElements(space, *scale, part.Part(0.0, 0.5)) : std::vector<double>();
+    load.gradients.conservativeResize(space.Integrals().size(), load.gradients.cols() + columns);
+    load.gradients.rightCols(columns) = gridfem::LoadOfDetail(
+      space, data.Signal.coefficients, onElements, part.Part(scale ? 0.5 : 0.0, 1.0));
+    done += 1.0;
+  };
+  append(nullptr);
+  gridfem::MultiVector scale;
+  if (data.Scale.array)
+  {
+    data.ScaleField = gridfem::ReadField(data.Scale, state.mesh);
+    scale = OnTriangles(*data.ScaleField, mesh);
+    append(&scale);
+  }
+  if (this->Selection->IsGiven())
+  {
+    data.Fade = FadeOut(state, *this->Selection, state.LengthInWorldUnits(this->TransitionWidth));
+    gridfem::MultiVector fade = OnTriangles(*data.Fade, mesh);
+    if (data.ScaleField)
+    {
+      fade.array() *= scale.array();
+    }
+    append(&fade);
+  }
+  load.values.setZero(load.gradients.rows(), load.gradients.cols());
+  return load;
+}
+
+void vtkSurfaceDetail::Solve(const gridfem::Progress& progress)
+{
+  Internals& data = *this->Data;
+  gridfem::SurfaceSolverState& state = *this->State;
+  gridfem::StageKey fields;
+  fields.Add(state.stages.Version(SignalStage)).Add(data.Scale.array);
+  fields.Add(static_cast<int>(data.Scale.association)).Add(this->Selection->Version());
+  if (this->Selection->IsGiven())
+  {
+    fields.Add(this->TransitionWidth).Add(this->ParameterUnits);
+  }
+  gridfem::PoissonRequest request;
+  request.weight = this->ScreeningWeight;
+  request.space = &data.Space(state);
+  request.numbers.Add(data.IsWeighed ? state.stages.Version(WeightsStage) : -1);
+  request.goesOn = true;
+  request.estimateErrors = this->CyclesPerApply == 0;
   if (this->CyclesPerApply > 0)
   {
-    options.solve.maximumIterations = this->CyclesPerApply;
-    data.Continuations += data.Solution.report.converged ? 0 : 1;
+    state.options.solve.maximumIterations = this->CyclesPerApply;
+    data.Continuations += data.Equation.Report().converged ? 0 : 1;
   }
-  gridfem::StageKey shape;
-  shape.Add(state.stages.Version(gridfem::SystemStage));
-  gridfem::AddMultigrid(shape, options.multigrid);
-  gridfem::StageKey hierarchy = data.SpaceKey(state);
-  gridfem::AddMultigrid(hierarchy, options.multigrid);
-  hierarchy.Add(options.screeningWeight);
-  state.stages.Run(gridfem::HierarchyStage, hierarchy,
-    [&]
-    {
-      if (data.Hierarchy && data.HierarchyShape == shape &&
-          data.Hierarchy->Options().threads == options.multigrid.threads)
-      {
-        gridfem::UpdateMultigrid(space, options.screeningWeight, 1.0, *data.Hierarchy);
-        return;
-      }
-      data.Hierarchy.reset(); // frees its memory first
-      data.Hierarchy = std::make_unique<gridfem::Multigrid>(gridfem::BuildMultigrid(
-        space, options.screeningWeight, 1.0, options.multigrid, progress.Part(0.0, 0.3)));
-      data.HierarchyShape = shape;
-    });
-  gridfem::StageKey solve;
-  solve.Add(state.stages.Version(gridfem::HierarchyStage));
-  solve.Add(state.stages.Version(gridfem::RightHandSideStage));
-  solve.Add(options.solve.tolerance).Add(options.solve.maximumIterations);
-  solve.Add(data.Continuations);
-  state.stages.Run(gridfem::SolveStage, solve,
-    [&]
-    {
-      gridfem::MultiVector& last = data.Solution.coefficients; // stays where this is aborted
-      last = StartFor(std::move(last), data.Load.cols());
-      options.start = &last;
-      data.Solution =
-        gridfem::SolveDetail(space, *data.Hierarchy, data.Load, options, progress.Part(0.3, 1.0));
-    });
+  request.attempt = data.Continuations;
+  const auto integrate = [this](const gridfem::SurfaceSpace&, const gridfem::Job& job)
+  { return this->Integrate(job); };
+  data.Equation.Update(state, fields, integrate, request, progress);
 }
 
 void vtkSurfaceDetail::WriteShape(vtkPolyData* input, vtkPolyData* output)
@@ -489,7 +445,7 @@ void vtkSurfaceDetail::WriteArray(vtkPolyData* input, vtkPolyData* output)
 void vtkSurfaceDetail::WriteReport(vtkPolyData* output)
 {
   const Internals& data = *this->Data;
-  const gridfem::SolveReport& report = data.Solution.report;
+  const gridfem::SolveReport& report = data.Equation.Report();
   if (data.Fade)
   {
     output->GetPointData()->AddArray(
@@ -521,8 +477,7 @@ void vtkSurfaceDetail::Compute(vtkInformationVector** inputs, vtkInformationVect
   state.UpdateSystem(progress.Part(0.3, 0.4));
   this->UpdateMetric(progress.Part(0.4, 0.5));
   this->UpdateSignal(progress.Part(0.5, 0.55));
-  this->UpdateLoad(progress.Part(0.55, 0.6));
-  this->UpdateSolution(progress.Part(0.6, 0.95));
+  this->Solve(progress.Part(0.55, 0.95));
   if (this->Data->Value.array)
   {
     this->WriteArray(input, output);

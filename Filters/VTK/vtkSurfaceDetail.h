@@ -59,9 +59,10 @@ class vtkPiecewiseFunction;
 
 namespace gridfem
 {
+struct Job;
+struct PoissonLoad;
 class Progress;
 class SelectedPoints;
-class StageKey;
 } // namespace gridfem
 
 class VTKGRIDFEMFILTERS_EXPORT vtkSurfaceDetail : public vtkSurfaceFEMAlgorithm
@@ -212,8 +213,8 @@ private:
   double LengthOf(double relativeCurvature) const;
   void UpdateMetric(const gridfem::Progress& progress);
   void UpdateSignal(const gridfem::Progress& progress);
-  void UpdateLoad(const gridfem::Progress& progress);
-  void UpdateSolution(const gridfem::Progress& progress);
+  gridfem::PoissonLoad Integrate(const gridfem::Job& job);
+  void Solve(const gridfem::Progress& progress);
   void WriteShape(vtkPolyData* input, vtkPolyData* output);
   void WriteArray(vtkPolyData* input, vtkPolyData* output);
   void WriteReport(vtkPolyData* output);

@@ -56,8 +56,7 @@ struct Answer
 Answer Solve(
   const TriangleMesh& mesh, const GridFunctions& space, double normalWeight, double tolerance)
 {
-  const LevelOperators system =
-    BuildLevelOperators(space, TriangleRule(2), 0, 256, {}, normalWeight);
+  const LevelOperators system = BuildLevelOperators(space, TriangleRule(2), 0, 256, normalWeight);
   PoissonOptions options;
   options.screeningWeight = 100.0 / SurfaceArea(mesh) * std::pow(space.GetGrid().spacing, 2);
   options.solve.tolerance = tolerance;

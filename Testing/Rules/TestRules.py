@@ -94,6 +94,11 @@ class Layers(Rule):
 class Spaces(Rule):
     KINDS = re.compile(r"\b(?:GridSpace|HatSpace|HatLevel|HatMatrices|LevelOperators)\b")
     MAKERS = ("SurfaceBasis",)  # where a filter's space is made
+    QUESTION = re.compile(r"FunctionSpace *[!=]=|[!=]= *(?:gridfem::)?FunctionKind::|"
+                          r"FunctionKind::\w+ *[!=]=|case (?:gridfem::)?FunctionKind::")
+    # They make spaces, estimate their memory before there are any, or say what would help.
+    KNOW_THE_KIND = MAKERS + ("vtkSurfaceFEMAlgorithm", "DistributedSurface", "Requirements",
+                              "SolveWarnings")
 
     def test_nobody_asks_which_space_there_is(self):
         offences = [f"{relative(p)}: {match.group()}"
@@ -101,6 +106,14 @@ class Spaces(Rule):
                     for p in sources(folder) if p.stem not in self.MAKERS
                     for match in self.KINDS.finditer(without_comments(p.read_text()))]
         self.assertNothing(offences, "Problems and filters know a FiniteElementSpace alone.")
+
+    def test_nobody_asks_which_space_was_chosen(self):
+        offences = [relative(p)
+                    for folder in ("Filters/Core/Problems", "Filters/Core/Krylov", "Filters/VTK",
+                                   "Filters/Python")
+                    for p in sources(folder) if p.stem not in self.KNOW_THE_KIND
+                    and self.QUESTION.search(without_comments(p.read_text()))]
+        self.assertNothing(offences, "Problems and filters do the same in both function spaces.")
 
 
 class Filters(Rule):

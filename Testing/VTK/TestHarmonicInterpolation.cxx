@@ -266,6 +266,29 @@ TEST(HarmonicInterpolationFilter, RunsOnlyWhatHasChangedAndTakesASharedBasis)
   EXPECT_EQ(filter->GetNumberOfRuns("Space"), 1);
 }
 
+/// What the first Apply does, and that a second array of the kind has to be chosen from.
+TEST(HarmonicInterpolationFilter, TakesTheOnlyArrayThatIsKnownInPart)
+{
+  const auto sphere = ToPolyData(GeodesicSphere(8));
+  const auto cap = [](const Vec3& p, int) { return p[2] > 0.5 ? p[0] : NaN; };
+  AddPointArray(sphere, "Everywhere", 1, [](const Vec3& p, int) { return p[2]; });
+  AddPointArray(sphere, "Nowhere", 1, [](const Vec3&, int) { return NaN; });
+  AddPointArray(sphere, "Known", 1, cap);
+  const auto chosen = Interpolate(sphere, "Known");
+  chosen->Update();
+  const auto filter = Interpolate(sphere, "None");
+  filter->Update();
+  EXPECT_EQ(PointValues(filter->GetOutput(), "Interpolated"),
+    PointValues(chosen->GetOutput(), "Interpolated"));
+
+  AddPointArray(sphere, "Other", 1, cap);
+  sphere->Modified();
+  Messages messages(filter);
+  EXPECT_EQ(filter->GetExecutive()->Update(), 0);
+  ASSERT_EQ(messages.errors.size(), 1u);
+  EXPECT_NE(messages.errors[0].find("Choose a ValueArray"), std::string::npos);
+}
+
 TEST(HarmonicInterpolationFilter, RefusesWhatItCannotUse)
 {
   const auto sphere = ToPolyData(GeodesicSphere(8));

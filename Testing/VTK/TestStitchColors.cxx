@@ -175,6 +175,87 @@ TEST(StitchColorsFilter, TakesBytesAndLeavesThemInRange)
   EXPECT_NEAR(mean[1], mean[0], 3.0); // what is cut off at 255 and unequal areas
 }
 
+namespace
+{
+
+/// Bytes "RGB" of the scans, a byte "Grey" of theirs, and what is no label: an id for each point.
+void AddBytes(vtkPolyData* data)
+{
+  vtkNew<vtkUnsignedCharArray> bytes;
+  bytes->SetName("RGB");
+  bytes->SetNumberOfComponents(3);
+  vtkNew<vtkUnsignedCharArray> grey;
+  grey->SetName("Grey");
+  vtkNew<vtkIdTypeArray> ids;
+  ids->SetName("Ids");
+  for (vtkIdType k = 0; k < data->GetNumberOfPoints(); ++k)
+  {
+    const Vec3 p(data->GetPoint(k));
+    for (int c = 0; c < 3; ++c)
+    {
+      bytes->InsertNextValue(static_cast<unsigned char>(Seen(ScanAt(p), ColorAt(p, c), c)));
+    }
+    grey->InsertNextValue(bytes->GetValue(3 * k));
+    ids->InsertNextValue(k);
+  }
+  data->GetPointData()->AddArray(bytes);
+  data->GetPointData()->AddArray(grey);
+  data->GetPointData()->AddArray(ids);
+}
+
+void ExpectToBeChosen(vtkStitchColors* filter, const char* property)
+{
+  Messages messages(filter);
+  EXPECT_EQ(filter->GetExecutive()->Update(), 0);
+  ASSERT_EQ(messages.errors.size(), 1u);
+  EXPECT_NE(messages.errors[0].find(std::string("Choose a ") + property), std::string::npos);
+}
+
+} // namespace
+
+/// What the first Apply does, and that one of several has to be chosen.
+TEST(StitchColorsFilter, TakesTheOnlyColorsAndTheOnlyLabels)
+{
+  const auto sphere = ToPolyData(GeodesicSphere(8));
+  AddScans(sphere);
+  AddBytes(sphere);
+  sphere->GetPointData()->RemoveArray("Grey");
+  vtkNew<vtkPolyData> plain;
+  plain->ShallowCopy(sphere);
+  vtkNew<vtkConnectivityAwareBasis> basis;    // adds numbers and a colour to each cell
+  sphere->GetPointData()->RemoveArray("Ids"); // they are no longer one for each point there
+  basis->SetInputData(sphere);
+  basis->SetDepth(4);
+  basis->Update();
+  for (vtkPolyData* data : { plain.Get(), basis->GetOutput() })
+  {
+    const auto chosen = Stitch(data, "RGB", 4);
+    chosen->Update();
+    const auto filter = Stitch(data, "None", 4);
+    filter->SetInputArrayToProcess(1, 0, 0, Points, "None");
+    filter->Update();
+    EXPECT_EQ(PointValues(filter->GetOutput(), "StitchedColors"),
+      PointValues(chosen->GetOutput(), "StitchedColors"));
+  }
+  vtkNew<vtkUnsignedCharArray> others;
+  others->DeepCopy(plain->GetPointData()->GetArray("RGB"));
+  others->SetName("Others");
+  plain->GetPointData()->AddArray(others);
+  const auto filter = Stitch(plain, "None", 4);
+  ExpectToBeChosen(filter, "ColorArray");
+}
+
+TEST(StitchColorsFilter, TakesNoColorsAndNoIdsForLabels)
+{
+  const auto data = ToPolyData(GeodesicSphere(8));
+  AddScans(data);
+  AddBytes(data);
+  data->GetPointData()->RemoveArray("Scan");
+  const auto filter = Stitch(data, "Grey", 4);
+  filter->SetInputArrayToProcess(1, 0, 0, Points, "None");
+  ExpectToBeChosen(filter, "LabelArray");
+}
+
 /// The same borders, but no common points; and a gap that only a plain grid closes.
 TEST(StitchColorsFilter, StitchesUnweldedBordersAndNarrowGaps)
 {
@@ -291,6 +372,10 @@ TEST(StitchColorsFilter, RefusesWhatIsNoColorOrNoLabel)
     EXPECT_NE(messages.errors[0].find(reason), std::string::npos) << messages.errors[0];
     EXPECT_TRUE(IsEmptyData(filter->GetOutput()));
   };
+  vtkNew<vtkIntArray> other;
+  other->DeepCopy(data->GetPointData()->GetArray("Scan"));
+  other->SetName("Other");
+  data->GetPointData()->AddArray(other);
   expectRefused("None", "Scan", "Choose a ColorArray");
   expectRefused("Seen", "None", "Choose a LabelArray");
   expectRefused("Five", "Scan", "1 to 4");

@@ -4,6 +4,7 @@
 #ifndef GridFEM_RayleighRitz_h
 #define GridFEM_RayleighRitz_h
 
+#include "Base/PrecisionTraits.h"
 #include "Base/Types.h"
 
 #include <vector>
@@ -17,20 +18,14 @@ struct RitzPairs
   Eigen::MatrixXd coefficients; // one column per pair, orthonormal in the mass matrix
 };
 
-/// Pivots of the matrix scaled to unit diagonal below this mark a dependent direction: far above
-/// the rounding of products in that precision (1e-16, 1e-7), so that noise never poses as a vector,
-/// and below what a solution needs.
-template<class Real>
-constexpr double DependentPivot = sizeof(Real) == sizeof(double) ? 1e-12 : 1e-4;
-
 /// The lowest pairs of stiffness c = θ mass c, at most `wanted`; fewer when fewer exist. Both are
 /// symmetric positive semi-definite, of equal size; what both map to zero does not count. Solved
 /// as the largest pairs of mass c = μ (stiffness + shift mass) c, μ = 1 / (θ + shift): rounding
 /// then harms the highest pairs, not the lowest, and directions with mass zero are harmless.
 /// @param shift     > 0, about the size of the lowest values of θ
-/// @param smallest  pivot of an independent direction
+/// @param smallest  pivot of an independent direction; see PrecisionTraits::DependentPivot
 RitzPairs SolvePencil(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass, double shift,
-  Index wanted, double smallest = DependentPivot<double>);
+  Index wanted, double smallest = PrecisionTraits<double>::DependentPivot);
 
 } // namespace gridfem
 

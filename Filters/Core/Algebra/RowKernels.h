@@ -6,6 +6,7 @@
 
 #include "Algebra/SparseMatrix.h"
 #include "Base/Parallel.h"
+#include "Base/PrecisionTraits.h"
 #include "Base/Prefetch.h"
 
 #include <type_traits>
@@ -36,9 +37,8 @@ struct ColumnChunk
   }
 };
 
-/// Columns of a block in single precision that are worked on together: two vector registers of
-/// sixteen share every number of a matrix that is read.
-constexpr Id WideChunk = 32;
+/// Columns of a block in single precision that are worked on together.
+constexpr Id WideChunk = PrecisionTraits<float>::WidestPanel;
 
 /// Calls body(chunk) for chunks of 8, 4, 3, 2 or 1 columns that cover a block of `columns`; for one
 /// chunk where a block in single precision has WideChunk of them.
@@ -58,7 +58,7 @@ void ForEachChunk(Id columns, Body&& body)
     case 8:
       return body(ColumnChunk<8, 8, Real>());
     case WideChunk:
-      if constexpr (std::is_same_v<Real, float>)
+      if constexpr (PrecisionTraits<Real>::IsSingle)
       {
         return body(ColumnChunk<WideChunk, WideChunk, Real>());
       }

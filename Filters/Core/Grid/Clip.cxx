@@ -1,6 +1,7 @@
 #include "Grid/ClipPart.h"
 
 #include "Base/Errors.h"
+#include "Base/Job.h"
 #include "Base/Parallel.h"
 #include "Base/PerThreadLists.h"
 #include "Grid/CutPoints.h"
@@ -134,10 +135,10 @@ void EndBlock(ClipBlock& block)
 }
 
 ClippedTriangles ClipTriangles(const ClipInput& input, const Array<WorkRange>& work,
-  Array<Index>& stretches, ClippedMesh& clipped, int threads, const Progress& progress)
+  Array<Index>& stretches, ClippedMesh& clipped, const Job& job)
 {
   ClippedTriangles result;
-  const int team = NumberOfThreads(threads);
+  const int team = NumberOfThreads(job.threads);
   double pieces = 0.0;
   for (const WorkRange& range : work)
   {
@@ -163,29 +164,28 @@ ClippedTriangles ClipTriangles(const ClipInput& input, const Array<WorkRange>& w
       }
       EndBlock(block);
     },
-    progress);
+    job.progress);
   return result;
 }
 
 /// Clips with everything that depends on the mesh alone at hand; clipped.position holds the input
 /// points.
-void ClipAndJoin(
-  const ClipInput& input, int threads, const Progress& progress, ClippedMesh& clipped)
+void ClipAndJoin(const ClipInput& input, const Job& job, ClippedMesh& clipped)
 {
-  const Array<WorkRange> work = SplitWork(input.triangles, input.position, threads);
-  progress.Check(0.05);
+  const Array<WorkRange> work = SplitWork(input.triangles, input.position, job.threads);
+  job.Check(0.05);
   RequireIndices(static_cast<double>(input.position.size()) + input.edges.numberOfCuts,
     "points of the clipped mesh");
-  AllocateEdgeCuts(input.edges.numberOfCuts, threads, clipped);
+  AllocateEdgeCuts(input.edges.numberOfCuts, job.threads, clipped);
   Array<Index> stretches(input.edges.numberOfPlaces);
-  ParallelRanges(input.edges.numberOfPlaces, threads,
+  ParallelRanges(input.edges.numberOfPlaces, job.threads,
     [&](Id begin, Id end) { std::fill(stretches.begin() + begin, stretches.begin() + end, -1); });
   const Array<Index> place =
-    JoinPieces(ClipTriangles(input, work, stretches, clipped, threads, progress.Part(0.05, 0.5)),
-      input, threads, progress.Part(0.5, 0.85), clipped);
-  DropUnmadeCutPoints(threads, clipped);
-  progress.Check(0.9);
-  LinkAlongEdges(input.edges, stretches, place, threads, progress.Part(0.9, 1.0), clipped);
+    JoinPieces(ClipTriangles(input, work, stretches, clipped, job.Part(0.05, 0.5)), input,
+      job.Part(0.5, 0.85), clipped);
+  DropUnmadeCutPoints(job.threads, clipped);
+  job.Check(0.9);
+  LinkAlongEdges(input.edges, stretches, place, job.Part(0.9, 1.0), clipped);
 }
 
 /// Clips a mesh of valid triangles.
@@ -224,7 +224,7 @@ ClippedMesh ClipInFrame(const TriangleMesh& mesh, const std::vector<char>& used,
   progress.Check(0.2);
   ClipAndJoin({ mesh.triangles, pointClass, snapped, edges, clipped.grid.CellsPerSide(),
                 frame.tolerance, frame.region },
-    threads, progress.Part(0.2, 1.0), clipped);
+    { threads, progress.Part(0.2, 1.0) }, clipped);
   if (options.joinAtPoints)
   {
     LinkAtPoints(pointClass, clipped);

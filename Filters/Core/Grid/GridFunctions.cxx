@@ -18,20 +18,19 @@ namespace
 {
 
 GridFunctions Complete(ClippedMesh clipped, Array<Index> piecePatch, PatchLevel finest,
-  Array<Link> links, FunctionSupport support, int threads, const Progress& progress)
+  Array<Link> links, FunctionSupport support, const Job& job)
 {
   GridFunctions space;
   space.support = support;
   space.clipped = std::move(clipped);
   space.piecePatch = std::move(piecePatch);
   space.pointPatch = FindPointPatches(space.clipped, space.piecePatch, finest.NumberOfPatches(),
-    space.clipped.numberOfInputPoints, threads);
+    space.clipped.numberOfInputPoints, job.threads);
   Release(space.clipped.links); // the patches' links stand for them
-  progress.Check(0.3);
-  space.levels =
-    BuildLevels(std::move(finest), std::move(links), support, threads, progress.Part(0.3, 0.9));
-  FindComponents(space, threads);
-  progress.Check(1.0);
+  job.Check(0.3);
+  space.levels = BuildLevels(std::move(finest), std::move(links), support, job.Part(0.3, 0.9));
+  FindComponents(space, job.threads);
+  job.Check(1.0);
   return space;
 }
 
@@ -192,17 +191,16 @@ GridFunctions BuildGridFunctions(
   clip.threads = options.threads;
   return BuildGridFunctions(Clip(mesh, clip, progress.Part(0.0, 0.7)),
     options.connectivityAware ? FunctionSupport::ConnectivityAware : FunctionSupport::Plain,
-    options.threads, progress.Part(0.7, 1.0));
+    { options.threads, progress.Part(0.7, 1.0) });
 }
 
-GridFunctions BuildGridFunctions(
-  ClippedMesh clipped, FunctionSupport support, int threads, const Progress& progress)
+GridFunctions BuildGridFunctions(ClippedMesh clipped, FunctionSupport support, const Job& job)
 {
-  PatchPartition patches = BuildPatches(clipped, support, threads);
-  progress.Check(0.4);
-  PatchLevel finest = BuildFinestLevel(clipped.grid.depth, patches, support, threads);
+  PatchPartition patches = BuildPatches(clipped, support, job.threads);
+  job.Check(0.4);
+  PatchLevel finest = BuildFinestLevel(clipped.grid.depth, patches, support, job.threads);
   return Complete(std::move(clipped), std::move(patches.piecePatch), std::move(finest),
-    std::move(patches.links), support, threads, progress.Part(0.5, 1.0));
+    std::move(patches.links), support, job.Part(0.5, 1.0));
 }
 
 GridFunctions RestoreGridFunctions(ClippedMesh clipped, Array<Index> piecePatch, PatchLevel finest,
@@ -212,7 +210,7 @@ GridFunctions RestoreGridFunctions(ClippedMesh clipped, Array<Index> piecePatch,
   finest.depth = clipped.grid.depth;
   Array<Link> links = LinksOfGroups(clipped.links, piecePatch);
   return Complete(std::move(clipped), std::move(piecePatch), std::move(finest), std::move(links),
-    support, 0, progress);
+    support, { 0, progress });
 }
 
 Array<Link> FindLinks(

@@ -2,6 +2,7 @@
 #ifndef GridFEM_GridFunctions_h
 #define GridFEM_GridFunctions_h
 
+#include "Base/Job.h"
 #include "Grid/Clip.h"
 #include "Grid/PatchLevel.h"
 
@@ -47,8 +48,7 @@ GridFunctions BuildGridFunctions(
   const TriangleMesh& mesh, const SpaceOptions& options, const Progress& progress = {});
 
 /// The same on a mesh that is clipped already.
-GridFunctions BuildGridFunctions(
-  ClippedMesh clipped, FunctionSupport support, int threads = 0, const Progress& progress = {});
+GridFunctions BuildGridFunctions(ClippedMesh clipped, FunctionSupport support, const Job& job = {});
 
 /// The same from stored tables: patches and functions are taken as they are. `clipped.links` must
 /// be filled (FindLinks finds them in a mesh that was read from a file), `finest.cell` and

@@ -225,25 +225,25 @@ void PlaceLinks(const std::vector<ClipBlock>& blocks, const Array<Index>& place,
 
 } // namespace
 
-Array<Index> JoinPieces(ClippedTriangles parts, const ClipInput& input, int threads,
-  const Progress& progress, ClippedMesh& clipped)
+Array<Index> JoinPieces(
+  ClippedTriangles parts, const ClipInput& input, const Job& job, ClippedMesh& clipped)
 {
   RequireTotal(parts.blocks, &ClipBlock::pieces, "pieces");
   RequireTotal(parts.blocks, &ClipBlock::corners, "corners of pieces");
-  AppendInteriorPoints(input, parts.blocks, threads, clipped);
+  AppendInteriorPoints(input, parts.blocks, job.threads, clipped);
   for (ClipBuffer& store : parts.stores)
   {
     Release(store.interior);
   }
-  progress.Check(0.2);
-  Array<SortEntry> entries = SortPieces(parts, clipped.grid.depth, threads);
-  progress.Check(0.5);
-  ListCells(entries, threads, clipped);
-  Array<Index> place = CopyPieces(PieceFinder(parts.stores), entries, threads, clipped);
+  job.Check(0.2);
+  Array<SortEntry> entries = SortPieces(parts, clipped.grid.depth, job.threads);
+  job.Check(0.5);
+  ListCells(entries, job.threads, clipped);
+  Array<Index> place = CopyPieces(PieceFinder(parts.stores), entries, job.threads, clipped);
   Release(entries);
-  progress.Check(0.9);
-  PlaceLinks(parts.blocks, place, threads, clipped);
-  progress.Check(1.0);
+  job.Check(0.9);
+  PlaceLinks(parts.blocks, place, job.threads, clipped);
+  job.Check(1.0);
   return place;
 }
 

@@ -2,6 +2,7 @@
 #ifndef GridFEM_MergePieces_h
 #define GridFEM_MergePieces_h
 
+#include "Base/Job.h"
 #include "Grid/TriangleClipper.h"
 
 #include <vector>
@@ -33,8 +34,8 @@ struct ClippedTriangles
 /// links inside triangles. The same for any number of threads.
 /// Throws InvalidInput when there are too many.
 /// @return the place of each piece in the clipped mesh, by its number
-Array<Index> JoinPieces(ClippedTriangles parts, const ClipInput& input, int threads,
-  const Progress& progress, ClippedMesh& clipped);
+Array<Index> JoinPieces(
+  ClippedTriangles parts, const ClipInput& input, const Job& job, ClippedMesh& clipped);
 
 } // namespace gridfem
 

@@ -151,18 +151,18 @@ PatchLevel BuildFinestLevel(
   return level;
 }
 
-std::vector<PatchLevel> BuildLevels(PatchLevel finest, Array<Link> links, FunctionSupport support,
-  int threads, const Progress& progress)
+std::vector<PatchLevel> BuildLevels(
+  PatchLevel finest, Array<Link> links, FunctionSupport support, const Job& job)
 {
   std::vector<PatchLevel> levels;
   levels.push_back(std::move(finest));
   const int depth = levels.front().depth;
   while (levels.back().depth > 0)
   {
-    progress.Check(1.0 - double(levels.back().depth) / depth);
-    PatchLevel coarse = GroupToParents(levels.back(), links, support, threads);
-    links = LinksOfGroups(links, levels.back().parent, threads);
-    NumberFunctions(coarse, links, support, threads);
+    job.Check(1.0 - double(levels.back().depth) / depth);
+    PatchLevel coarse = GroupToParents(levels.back(), links, support, job.threads);
+    links = LinksOfGroups(links, levels.back().parent, job.threads);
+    NumberFunctions(coarse, links, support, job.threads);
     levels.push_back(std::move(coarse));
   }
   return levels;

@@ -4,6 +4,7 @@
 #ifndef GridFEM_PatchLevel_h
 #define GridFEM_PatchLevel_h
 
+#include "Base/Job.h"
 #include "Grid/Clip.h"
 
 #include <vector>
@@ -58,8 +59,8 @@ PatchLevel BuildFinestLevel(
 /// The levels above `finest`, down to depth 0: coarse patches are unions of connected fine patches
 /// inside the parent cell. Returns finest first; fills `parent` of every level but the last.
 /// @param links  of the finest level's patches
-std::vector<PatchLevel> BuildLevels(PatchLevel finest, Array<Link> links, FunctionSupport support,
-  int threads = 0, const Progress& progress = {});
+std::vector<PatchLevel> BuildLevels(
+  PatchLevel finest, Array<Link> links, FunctionSupport support, const Job& job = {});
 
 /// Connected component of every function: functions of one patch are connected. Numbered 0, 1, ...
 /// in the order of the lowest function.

@@ -91,10 +91,10 @@ void LinkAtPoints(const Array<Index>& pointClass, ClippedMesh& clipped)
 }
 
 void LinkAlongEdges(const MeshEdges& edges, const Array<Index>& stretches,
-  const Array<Index>& place, int threads, const Progress& progress, ClippedMesh& clipped)
+  const Array<Index>& place, const Job& job, ClippedMesh& clipped)
 {
   AppendRanges(
-    edges.numberOfPairs, threads, clipped.links,
+    edges.numberOfPairs, job.threads, clipped.links,
     [&](Id begin, Id end, Array<Link>& links)
     {
       for (Id pair = begin; pair < end; ++pair)
@@ -108,8 +108,8 @@ void LinkAlongEdges(const MeshEdges& edges, const Array<Index>& stretches,
         }
       }
     },
-    progress);
-  AppendRanges(static_cast<Id>(edges.manySided.size()), threads, clipped.links,
+    job.progress);
+  AppendRanges(static_cast<Id>(edges.manySided.size()), job.threads, clipped.links,
     [&](Id begin, Id end, Array<Link>& links)
     {
       for (Id edge = begin; edge < end; ++edge)

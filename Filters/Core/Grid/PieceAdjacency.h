@@ -2,6 +2,7 @@
 #ifndef GridFEM_PieceAdjacency_h
 #define GridFEM_PieceAdjacency_h
 
+#include "Base/Job.h"
 #include "Grid/Clip.h"
 #include "Grid/MeshEdges.h"
 
@@ -26,7 +27,7 @@ void LinkStars(std::vector<EdgeUse>& uses, const Array<Index>& pieceCell, Array<
 /// @param stretches  number of the piece at every place of a stretch, -1: none (see EdgeSide)
 /// @param place      of every piece in the clipped mesh, by its number
 void LinkAlongEdges(const MeshEdges& edges, const Array<Index>& stretches,
-  const Array<Index>& place, int threads, const Progress& progress, ClippedMesh& clipped);
+  const Array<Index>& place, const Job& job, ClippedMesh& clipped);
 
 /// Appends links for pieces that share a point of the mesh, as LinkStars.
 /// @param pointClass  per input point: equal for points that count as one

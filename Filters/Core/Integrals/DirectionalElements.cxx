@@ -64,8 +64,7 @@ bool IsUsable(double weight)
 } // namespace
 
 DirectionalElements IntegrateElements(const GridFunctions& space, const QuadratureRule& rule,
-  const std::vector<Vec3>& direction, int threads, const Progress& progress,
-  double normalStabilization)
+  const std::vector<Vec3>& direction, const Job& job, double normalStabilization)
 {
   const auto& triangles = space.clipped.pieceTriangle;
   if (!triangles.empty() &&
@@ -78,7 +77,7 @@ DirectionalElements IntegrateElements(const GridFunctions& space, const Quadratu
   elements.mass.resize(patches);
   elements.stiffness[0].resize(patches);
   elements.stiffness[1].resize(patches);
-  ForEachPatch(space, rule, threads, progress,
+  ForEachPatch(space, rule, job,
     [&](Id patch, auto&& forEachBatch)
     {
       MassMoments mass;

@@ -3,6 +3,7 @@
 #ifndef GridFEM_DirectionalElements_h
 #define GridFEM_DirectionalElements_h
 
+#include "Base/Job.h"
 #include "Integrals/ElementMatrices.h"
 
 namespace gridfem
@@ -29,7 +30,7 @@ struct ElementWeights
 /// Throws InvalidInput when there are fewer directions than source triangles. Cost and determinism
 /// as IntegrateElements.
 DirectionalElements IntegrateElements(const GridFunctions& space, const QuadratureRule& rule,
-  const std::vector<Vec3>& direction, int threads = 0, const Progress& progress = {},
+  const std::vector<Vec3>& direction, const Job& job = {},
   double normalStabilization = DefaultNormalStabilization);
 
 /// The element matrices with these weights, one per patch. Throws InvalidInput when the numbers

@@ -33,10 +33,10 @@ LaneTensor TensorOfTriangles(const ClippedMesh& clipped, const TriangleBatch& ba
 } // namespace
 
 ElementMatrices IntegrateElements(const GridFunctions& space, const QuadratureRule& rule,
-  int threads, const Progress& progress, double normalStabilization)
+  const Job& job, double normalStabilization)
 {
   ElementMatrices elements;
-  IntegratePatches(space, rule, threads, progress, elements, ElementParts::Both,
+  IntegratePatches(space, rule, job, elements, ElementParts::Both,
     [normalStabilization](const TriangleBatch&, const TrianglePlanes& planes)
     {
       return [tensor = TangentialProjection(planes.normal, normalStabilization)](
@@ -52,11 +52,11 @@ ElementMatrices IntegrateElements(const GridFunctions& space, const QuadratureRu
 }
 
 ElementMatrices IntegrateWeightedElements(const GridFunctions& space, const QuadratureRule& rule,
-  const std::vector<double>& weight, const std::vector<Eigen::Matrix3d>* tensor, int threads,
-  const Progress& progress, double normalStabilization)
+  const std::vector<double>& weight, const std::vector<Eigen::Matrix3d>* tensor, const Job& job,
+  double normalStabilization)
 {
   ElementMatrices elements;
-  IntegratePatches(space, rule, threads, progress, elements, ElementParts::Both,
+  IntegratePatches(space, rule, job, elements, ElementParts::Both,
     [&](const TriangleBatch& batch, const TrianglePlanes& planes)
     {
       Lanes ofTriangle;

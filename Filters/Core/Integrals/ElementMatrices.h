@@ -3,6 +3,7 @@
 #ifndef GridFEM_ElementMatrices_h
 #define GridFEM_ElementMatrices_h
 
+#include "Base/Job.h"
 #include "Grid/GridFunctions.h"
 #include "Integrals/QuadratureRule.h"
 
@@ -51,16 +52,14 @@ constexpr double DefaultNormalStabilization = 1e-12;
 /// Pieces of zero area contribute nothing. Cost O(clipped triangles x points); same bits for any
 /// number of threads.
 ElementMatrices IntegrateElements(const GridFunctions& space, const QuadratureRule& rule,
-  int threads = 0, const Progress& progress = {},
-  double normalStabilization = DefaultNormalStabilization);
+  const Job& job = {}, double normalStabilization = DefaultNormalStabilization);
 
 /// The same with a weight of the mass on each source triangle, ∫ w b_i b_j, and a symmetric tensor
 /// in its plane, ∫ <∇b_i, T ∇b_j>.
 /// @param tensor  null: the projection to the plane
 ElementMatrices IntegrateWeightedElements(const GridFunctions& space, const QuadratureRule& rule,
   const std::vector<double>& weight, const std::vector<Eigen::Matrix3d>* tensor = nullptr,
-  int threads = 0, const Progress& progress = {},
-  double normalStabilization = DefaultNormalStabilization);
+  const Job& job = {}, double normalStabilization = DefaultNormalStabilization);
 
 /// Galerkin coarsening: adds every patch's matrix, interpolated, to its parent's. [T (4.6)]
 /// @return one entry per patch of `coarse`. Same bits for any number of threads.

@@ -315,11 +315,11 @@ private:
 /// Sums<columns of the pass>.
 template<template<int> class Sums, class AddBatch>
 MultiVector Integrate(const GridFunctions& space, const TriangleMesh& mesh, Id columns,
-  const QuadratureRule& rule, int threads, const Progress& progress, AddBatch&& addBatch)
+  const QuadratureRule& rule, const Job& job, AddBatch&& addBatch)
 {
   CheckMesh(space, mesh);
   const PatchLevel& level = space.Finest();
-  const FunctionPlaces places = PlacesOfFunctions(level, threads);
+  const FunctionPlaces places = PlacesOfFunctions(level, job.threads);
   MultiVector result(level.numberOfFunctions, columns);
   std::vector<double> shares;
   ForEachPass(columns,
@@ -327,8 +327,8 @@ MultiVector Integrate(const GridFunctions& space, const TriangleMesh& mesh, Id c
     {
       constexpr int Columns = decltype(pass)::value;
       shares.resize(level.NumberOfPatches() * FunctionsPerPatch * Columns);
-      ForEachPatch(space, rule, threads,
-        progress.Part(double(first) / double(columns), double(first + Columns) / double(columns)),
+      ForEachPatch(space, rule,
+        job.Part(double(first) / double(columns), double(first + Columns) / double(columns)),
         [&](Id patch, auto&& forEachBatch)
         {
           Sums<Columns> sums;
@@ -337,7 +337,7 @@ MultiVector Integrate(const GridFunctions& space, const TriangleMesh& mesh, Id c
             { addBatch(batch, SourceLanes(space, mesh, batch, origin), first, sums); });
           sums.Write(shares.data() + patch * FunctionsPerPatch * Columns);
         });
-      SumShares<Columns>(shares, places, first, threads, result);
+      SumShares<Columns>(shares, places, first, job.threads, result);
     });
   return result;
 }
@@ -373,11 +373,10 @@ EIGEN_ALWAYS_INLINE LaneVector Tangential(
 /// @param weightOf  a factor for each source triangle
 template<class Weight>
 MultiVector IntegrateValuesTimes(const GridFunctions& space, const TriangleMesh& mesh,
-  const Field& f, const Weight& weightOf, const QuadratureRule& rule, int threads,
-  const Progress& progress)
+  const Field& f, const Weight& weightOf, const QuadratureRule& rule, const Job& job)
 {
   RequireField(f, mesh);
-  return Integrate<ValueSums>(space, mesh, f.values.cols(), rule, threads, progress,
+  return Integrate<ValueSums>(space, mesh, f.values.cols(), rule, job,
     [&](const TriangleBatch& batch, const SourceLanes& source, Id first, auto& sums)
     {
       const Lanes factor = source.PerTriangle(weightOf);
@@ -404,11 +403,11 @@ MultiVector IntegrateValuesTimes(const GridFunctions& space, const TriangleMesh&
 /// ∫ <s, ∇b_i> for s = map(vector of the field, normal).
 template<class Map>
 MultiVector IntegrateVectors(const GridFunctions& space, const TriangleMesh& mesh, const Field& s,
-  const Field* scale, const QuadratureRule& rule, int threads, const Progress& progress, Map&& map)
+  const Field* scale, const QuadratureRule& rule, const Job& job, Map&& map)
 {
   RequireVectors(s, mesh);
   RequireScale(scale, mesh);
-  return Integrate<GradientSums>(space, mesh, s.values.cols() / 3, rule, threads, progress,
+  return Integrate<GradientSums>(space, mesh, s.values.cols() / 3, rule, job,
     [&](const TriangleBatch& batch, const SourceLanes& source, Id first, auto& sums)
     {
       constexpr int Columns = std::decay_t<decltype(sums)>::Count;
@@ -499,35 +498,34 @@ EIGEN_ALWAYS_INLINE LaneVector Direction(const LaneVector& vector, double factor
 } // namespace
 
 MultiVector IntegrateValues(const GridFunctions& space, const TriangleMesh& mesh, const Field& f,
-  const QuadratureRule& rule, int threads, const Progress& progress)
+  const QuadratureRule& rule, const Job& job)
 {
   return IntegrateValuesTimes(
-    space, mesh, f, [](Id) { return 1.0; }, rule, threads, progress);
+    space, mesh, f, [](Id) { return 1.0; }, rule, job);
 }
 
 MultiVector IntegrateWeightedValues(const GridFunctions& space, const TriangleMesh& mesh,
-  const Field& f, const std::vector<double>& weight, const QuadratureRule& rule, int threads,
-  const Progress& progress)
+  const Field& f, const std::vector<double>& weight, const QuadratureRule& rule, const Job& job)
 {
   RequireWeights(weight, mesh);
   return IntegrateValuesTimes(
-    space, mesh, f, [&weight](Id triangle) { return weight[triangle]; }, rule, threads, progress);
+    space, mesh, f, [&weight](Id triangle) { return weight[triangle]; }, rule, job);
 }
 
 MultiVector IntegrateGradients(const GridFunctions& space, const TriangleMesh& mesh, const Field& s,
-  const Field* scale, const QuadratureRule& rule, int threads, const Progress& progress)
+  const Field* scale, const QuadratureRule& rule, const Job& job)
 {
   const double spacing = space.GetGrid().spacing;
-  return IntegrateVectors(space, mesh, s, scale, rule, threads, progress,
+  return IntegrateVectors(space, mesh, s, scale, rule, job,
     [spacing](const LaneVector& vector, const LaneVector& normal)
     { return Tangential(vector, normal, spacing); });
 }
 
 MultiVector IntegrateTurnedGradients(const GridFunctions& space, const TriangleMesh& mesh,
-  const Field& s, const QuadratureRule& rule, int threads, const Progress& progress)
+  const Field& s, const QuadratureRule& rule, const Job& job)
 {
   const double spacing = space.GetGrid().spacing;
-  return IntegrateVectors(space, mesh, s, nullptr, rule, threads, progress,
+  return IntegrateVectors(space, mesh, s, nullptr, rule, job,
     [spacing](const LaneVector& vector, const LaneVector& normal)
     {
       LaneVector turned;
@@ -543,8 +541,7 @@ MultiVector IntegrateTurnedGradients(const GridFunctions& space, const TriangleM
 }
 
 MultiVector IntegrateDirections(const GridFunctions& space, const TriangleMesh& mesh,
-  const MultiVector& coefficients, const Field* scale, const QuadratureRule& rule, int threads,
-  const Progress& progress)
+  const MultiVector& coefficients, const Field* scale, const QuadratureRule& rule, const Job& job)
 {
   RequireScale(scale, mesh);
   const PatchLevel& level = space.Finest();
@@ -554,7 +551,7 @@ MultiVector IntegrateDirections(const GridFunctions& space, const TriangleMesh& 
                        std::to_string(level.numberOfFunctions) + " functions.");
   }
   const double spacing = space.GetGrid().spacing;
-  return Integrate<GradientSums>(space, mesh, coefficients.cols(), rule, threads, progress,
+  return Integrate<GradientSums>(space, mesh, coefficients.cols(), rule, job,
     [&](const TriangleBatch& batch, const SourceLanes& source, Id first, auto& sums)
     {
       constexpr int Columns = std::decay_t<decltype(sums)>::Count;
@@ -584,12 +581,11 @@ MultiVector IntegrateDirections(const GridFunctions& space, const TriangleMesh& 
 }
 
 MultiVector IntegrateGradientsOf(const GridFunctions& space, const TriangleMesh& mesh,
-  const Field& f, const Field* scale, const QuadratureRule& rule, int threads,
-  const Progress& progress)
+  const Field& f, const Field* scale, const QuadratureRule& rule, const Job& job)
 {
   RequireOnPoints(f, mesh);
   RequireScale(scale, mesh);
-  return Integrate<GradientSums>(space, mesh, f.values.cols(), rule, threads, progress,
+  return Integrate<GradientSums>(space, mesh, f.values.cols(), rule, job,
     [&](const TriangleBatch& batch, const SourceLanes& source, Id first, auto& sums)
     {
       constexpr int Columns = std::decay_t<decltype(sums)>::Count;
@@ -608,12 +604,11 @@ MultiVector IntegrateGradientsOf(const GridFunctions& space, const TriangleMesh&
 }
 
 MultiVector IntegrateGradientsOfCoordinates(const GridFunctions& space, const TriangleMesh& mesh,
-  const Field* scale, const QuadratureRule& rule, double normalStabilization, int threads,
-  const Progress& progress)
+  const Field* scale, const QuadratureRule& rule, double normalStabilization, const Job& job)
 {
   RequireScale(scale, mesh);
   const double spacing = space.GetGrid().spacing;
-  return Integrate<GradientSums>(space, mesh, 3, rule, threads, progress,
+  return Integrate<GradientSums>(space, mesh, 3, rule, job,
     [&](const TriangleBatch& batch, const SourceLanes& source, Id, auto& sums)
     {
       constexpr int Columns = std::decay_t<decltype(sums)>::Count;

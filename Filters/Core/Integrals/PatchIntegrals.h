@@ -4,6 +4,7 @@
 #define GridFEM_PatchIntegrals_h
 
 #include "Base/Grouping.h"
+#include "Base/Job.h"
 #include "Base/Prefetch.h"
 #include "Base/SimdLanes.h"
 #include "Grid/GridFunctions.h"
@@ -141,13 +142,13 @@ void ForEachBatch(const ClippedMesh& clipped, const Index* pieceBegin, const Ind
 /// Calls body(patch, forEachBatch) for every finest patch, in parallel; forEachBatch(body) as
 /// ForEachBatch on its pieces, relative to the lowest corner of its cell.
 template<class Body>
-void ForEachPatch(const GridFunctions& space, const QuadratureRule& rule, int threads,
-  const Progress& progress, Body&& body)
+void ForEachPatch(
+  const GridFunctions& space, const QuadratureRule& rule, const Job& job, Body&& body)
 {
   const PatchLevel& level = space.Finest();
-  const Groups pieces = GroupItems(space.piecePatch, level.NumberOfPatches(), threads);
+  const Groups pieces = GroupItems(space.piecePatch, level.NumberOfPatches(), job.threads);
   ParallelRanges(
-    level.NumberOfPatches(), threads,
+    level.NumberOfPatches(), job.threads,
     [&](Id begin, Id end)
     {
       for (Id patch = begin; patch < end; ++patch)
@@ -162,7 +163,7 @@ void ForEachPatch(const GridFunctions& space, const QuadratureRule& rule, int th
           });
       }
     },
-    PatchesPerBlock, progress);
+    PatchesPerBlock, job.progress);
 }
 
 /// Mass and, where both are wanted, stiffness of every finest patch. prepare(batch, planes) returns
@@ -170,8 +171,8 @@ void ForEachPatch(const GridFunctions& space, const QuadratureRule& rule, int th
 /// samples), for that many points of the rule from `point` on. The samples have their positions,
 /// and as mass the area they stand for.
 template<class Prepare>
-void IntegratePatches(const GridFunctions& space, const QuadratureRule& rule, int threads,
-  const Progress& progress, ElementMatrices& result, ElementParts parts, Prepare&& prepare)
+void IntegratePatches(const GridFunctions& space, const QuadratureRule& rule, const Job& job,
+  ElementMatrices& result, ElementParts parts, Prepare&& prepare)
 {
   const bool both = parts == ElementParts::Both;
   const Id points = static_cast<Id>(rule.points.size());
@@ -180,7 +181,7 @@ void IntegratePatches(const GridFunctions& space, const QuadratureRule& rule, in
   {
     result.stiffness.resize(space.Finest().NumberOfPatches());
   }
-  ForEachPatch(space, rule, threads, progress,
+  ForEachPatch(space, rule, job,
     [&](Id patch, auto&& forEachBatch)
     {
       MassMoments mass;

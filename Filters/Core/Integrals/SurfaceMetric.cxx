@@ -205,7 +205,7 @@ LaneMetric MetricOfTriangles(const ClippedMesh& clipped, const TriangleMesh& mes
 } // namespace
 
 SampleMetric MetricOfEmbedding(const GridFunctions& space, const QuadratureRule& rule,
-  const MultiVector& embedding, int threads, const Progress& progress)
+  const MultiVector& embedding, const Job& job)
 {
   const PatchLevel& level = space.Finest();
   if (embedding.rows() != level.numberOfFunctions || embedding.cols() != 3)
@@ -214,7 +214,7 @@ SampleMetric MetricOfEmbedding(const GridFunctions& space, const QuadratureRule&
   }
   const Id points = static_cast<Id>(rule.points.size());
   SampleMetric metric(NumberOfSamples(space.clipped, rule));
-  ForEachPatch(space, rule, threads, progress,
+  ForEachPatch(space, rule, job,
     [&](Id patch, auto&& forEachBatch)
     {
       PatchEmbedding coefficients;
@@ -238,7 +238,7 @@ SampleMetric MetricOfEmbedding(const GridFunctions& space, const QuadratureRule&
 }
 
 SampleMetric MetricOfMesh(const GridFunctions& space, const QuadratureRule& rule,
-  const TriangleMesh& mesh, const TriangleMesh& moved, int threads, const Progress& progress)
+  const TriangleMesh& mesh, const TriangleMesh& moved, const Job& job)
 {
   if (mesh.points.size() != moved.points.size() || mesh.triangles != moved.triangles)
   {
@@ -246,7 +246,7 @@ SampleMetric MetricOfMesh(const GridFunctions& space, const QuadratureRule& rule
   }
   const Id points = static_cast<Id>(rule.points.size());
   SampleMetric metric(NumberOfSamples(space.clipped, rule));
-  ForEachPatch(space, rule, threads, progress,
+  ForEachPatch(space, rule, job,
     [&](Id, auto&& forEachBatch)
     {
       forEachBatch(
@@ -264,15 +264,15 @@ SampleMetric MetricOfMesh(const GridFunctions& space, const QuadratureRule& rule
 }
 
 Id IntegrateElements(const GridFunctions& space, const QuadratureRule& rule,
-  const SampleMetric& metric, ElementMatrices& result, int threads, const Progress& progress,
-  double normalStabilization, ElementParts parts)
+  const SampleMetric& metric, ElementMatrices& result, const Job& job, double normalStabilization,
+  ElementParts parts)
 {
   if (static_cast<Id>(metric.size()) != NumberOfSamples(space.clipped, rule))
   {
     throw InvalidInput("a metric is needed for every sample of the quadrature rule");
   }
   std::atomic<Id> singular = 0;
-  IntegratePatches(space, rule, threads, progress, result, parts,
+  IntegratePatches(space, rule, job, result, parts,
     [&](const TriangleBatch& batch, const TrianglePlanes& planes)
     {
       return [&, basis = TangentBasis(planes.normal)](Id point, int count, SampleBatch* samples)

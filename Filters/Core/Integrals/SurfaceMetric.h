@@ -3,6 +3,7 @@
 #ifndef GridFEM_SurfaceMetric_h
 #define GridFEM_SurfaceMetric_h
 
+#include "Base/Job.h"
 #include "Integrals/ElementMatrices.h"
 
 namespace gridfem
@@ -24,14 +25,13 @@ using SampleMetric = Array<FundamentalForm>;
 /// The metric of an embedding whose coordinates are grid functions: g = dXᵀ dX. [T (5.5)]
 /// @param embedding  functions x 3 coefficients, grid units. Throws InvalidInput for another shape.
 SampleMetric MetricOfEmbedding(const GridFunctions& space, const QuadratureRule& rule,
-  const MultiVector& embedding, int threads = 0, const Progress& progress = {});
+  const MultiVector& embedding, const Job& job = {});
 
 /// The metric of the mesh with moved points: on every triangle that of the linear map to where it
 /// has gone. Throws InvalidInput when the meshes differ in more than positions; 0 on source
 /// triangles without an area.
 SampleMetric MetricOfMesh(const GridFunctions& space, const QuadratureRule& rule,
-  const TriangleMesh& mesh, const TriangleMesh& moved, int threads = 0,
-  const Progress& progress = {});
+  const TriangleMesh& mesh, const TriangleMesh& moved, const Job& job = {});
 
 /// Element matrices in a metric: mass b_i b_j √|g|, stiffness <∇b_i, g⁻¹ ∇b_j> √|g|. [T (5.6)]
 /// The normal derivative is that of the mesh, integrated over the mesh, whatever the metric: it is
@@ -43,9 +43,8 @@ SampleMetric MetricOfMesh(const GridFunctions& space, const QuadratureRule& rule
 ///          finite, or stretches one direction 1e7 times as much as the other, or whose determinant
 ///          is not between 1e-300 and 1e300: they contribute nothing
 Id IntegrateElements(const GridFunctions& space, const QuadratureRule& rule,
-  const SampleMetric& metric, ElementMatrices& result, int threads = 0,
-  const Progress& progress = {}, double normalStabilization = DefaultNormalStabilization,
-  ElementParts parts = ElementParts::Both);
+  const SampleMetric& metric, ElementMatrices& result, const Job& job = {},
+  double normalStabilization = DefaultNormalStabilization, ElementParts parts = ElementParts::Both);
 
 } // namespace gridfem
 

@@ -1,6 +1,7 @@
 #include "Krylov/BlockRayleighRitz.h"
 
 #include "Base/Parallel.h"
+#include "Base/PrecisionTraits.h"
 
 #include <algorithm>
 #include <iterator>
@@ -43,7 +44,7 @@ void BlockRayleighRitz<Real>::Step(Index wanted, const std::vector<Index>& withD
   }
   this->ProjectPart({ X, P }, corrections_.View());
   const RitzPairs ritz =
-    SolvePencil(stiffness_, mass_, problem_.shift, wanted, DependentPivot<Real>);
+    SolvePencil(stiffness_, mass_, problem_.shift, wanted, PrecisionTraits<Real>::DependentPivot);
   this->NextVectors(ritz, withDirections);
   pairs_.isRenewed = false;
   ++steps_;
@@ -57,7 +58,8 @@ void BlockRayleighRitz<Real>::Renew()
   this->ProjectPart({}, pairs_.vectors.View());
   const Index count = static_cast<Index>(pairs_.values.size());
   this->NextVectors(
-    SolvePencil(stiffness_, mass_, problem_.shift, count, DependentPivot<Real>), {});
+    SolvePencil(stiffness_, mass_, problem_.shift, count, PrecisionTraits<Real>::DependentPivot),
+    {});
   pairs_.isRenewed = true;
 }
 

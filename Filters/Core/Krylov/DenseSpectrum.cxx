@@ -1,9 +1,9 @@
 #include "Krylov/DenseSpectrum.h"
 
 #include "Algebra/RayleighRitz.h"
+#include "Base/PrecisionTraits.h"
 
 #include <algorithm>
-#include <type_traits>
 
 namespace gridfem
 {
@@ -43,7 +43,7 @@ EigenPairs<Real> SolveDense(const SpectralProblem<Real>& problem, Index count)
   const RitzPairs ritz = SolvePencil(ToDense(problem.stiffness), mass, problem.shift, count);
   // Coefficients of nearly dependent functions are large: rounded to Real, vectors have other
   // products.
-  EigenPairs<Real> pairs{ ritz.values, {}, std::is_same_v<Real, double> };
+  EigenPairs<Real> pairs{ ritz.values, {}, !PrecisionTraits<Real>::IsSingle };
   pairs.vectors.Reserve(ritz.coefficients.rows(), count);
   pairs.vectors.Show(ritz.coefficients.cols());
   CopyBlock(ritz.coefficients, pairs.vectors.View(), problem.threads);

@@ -2,6 +2,7 @@
 
 #include "Krylov/BlockRayleighRitz.h"
 #include "Krylov/SoftLocking.h"
+#include "Krylov/WithFallback.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,7 +57,7 @@ private:
   BlockBuffer<Real>& corrections_; // W = B r of the columns at work that have not converged
   MultiVector randomLoad_;         // of the last columns of P, which have no values yet
   BlockRayleighRitz<Real> rayleighRitz_;
-  BlockPreconditioner<Real> fallback_; // when it is needed
+  BlockPreconditioner<Real> double_; // when it is needed
   SoftLocking locking_;
   BlockReport report_;
   double fraction_ = 0.0;
@@ -107,15 +108,16 @@ void BlockIteration<Real>::RemoveKnown(Block<Real> X, const Progress& progress)
 template<class Real>
 const BlockPreconditioner<Real>& BlockIteration<Real>::CurrentPreconditioner()
 {
-  if (report_.iterations < StepsBeforeFallback || !problem_.fallback)
+  const WithFallback<BlockPreconditioner<Real>>& B = problem_.preconditioner;
+  if (report_.iterations < StepsBeforeFallback || !B.makeDouble)
   {
-    return problem_.precondition;
+    return B.first;
   }
-  if (!fallback_)
+  if (!double_)
   {
-    fallback_ = problem_.fallback();
+    double_ = B.makeDouble();
   }
-  return fallback_;
+  return double_;
 }
 
 /// Residuals and corrections of the columns at work, and the random directions when it is called

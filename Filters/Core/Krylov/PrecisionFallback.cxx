@@ -28,9 +28,9 @@ SolveReport Join(SolveReport first, const SolveReport& second)
 
 } // namespace
 
-FallbackPreconditioner CycleWithFallback(const Multigrid& multigrid)
+WithFallback<Preconditioner> CycleWithFallback(const Multigrid& multigrid)
 {
-  FallbackPreconditioner B{ CycleOf(multigrid), {} };
+  WithFallback<Preconditioner> B{ CycleOf(multigrid), {} };
   if (multigrid.HasSingleFactors())
   {
     B.makeDouble = [&multigrid]() -> Preconditioner
@@ -43,7 +43,7 @@ FallbackPreconditioner CycleWithFallback(const Multigrid& multigrid)
 }
 
 SolveReport SolveWithFallback(IterationType iteration, const LinearOperator& A,
-  const FallbackPreconditioner& B, const MultiVector& b, MultiVector& x,
+  const WithFallback<Preconditioner>& B, const MultiVector& b, MultiVector& x,
   const SolveOptions& options, const Projection& project, const Progress& progress)
 {
   const auto solve = iteration == IterationType::Cycles ? &SolveCycles : &SolveConjugateGradients;

@@ -4,6 +4,7 @@
 #define GridFEM_PrecisionFallback_h
 
 #include "Krylov/ConjugateGradients.h"
+#include "Krylov/WithFallback.h"
 
 namespace gridfem
 {
@@ -14,16 +15,8 @@ enum class IterationType
   Cycles = 1              // the cycle alone
 };
 
-/// A preconditioner that rounds, and one that does not.
-struct FallbackPreconditioner
-{
-  Preconditioner first;
-  std::function<Preconditioner()> makeDouble; // called at most once; empty: `first` is in double
-};
-
-/// One cycle from zero, and one with factors in double precision; these take memory and time like
-/// new ones for the hierarchy, and only when they are asked for.
-FallbackPreconditioner CycleWithFallback(const Multigrid& multigrid);
+/// One cycle from zero, and one with factors in double precision.
+WithFallback<Preconditioner> CycleWithFallback(const Multigrid& multigrid);
 
 /// SolveConjugateGradients or SolveCycles. Where B may be replaced, an iteration that is too slow
 /// (Stagnation::IsTooSlow) or breaks down begins anew, once, from the x it has reached or from
@@ -31,7 +24,7 @@ FallbackPreconditioner CycleWithFallback(const Multigrid& multigrid);
 /// the report says of the iteration of this change, `doubleSince`, is measured in double precision.
 /// options.giveUp counts where B is in double precision from the start.
 SolveReport SolveWithFallback(IterationType iteration, const LinearOperator& A,
-  const FallbackPreconditioner& B, const MultiVector& b, MultiVector& x,
+  const WithFallback<Preconditioner>& B, const MultiVector& b, MultiVector& x,
   const SolveOptions& options, const Projection& project = {}, const Progress& progress = {});
 
 } // namespace gridfem

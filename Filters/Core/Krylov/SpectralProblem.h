@@ -9,9 +9,8 @@
 #include "Algebra/Constants.h"
 #include "Algebra/SparseMatrix.h"
 #include "Krylov/SoftLocking.h"
+#include "Krylov/WithFallback.h"
 #include "Multigrid/BlockPreconditioner.h"
-
-#include <functional>
 
 namespace gridfem
 {
@@ -87,9 +86,7 @@ struct SpectralProblem
   SparseMatrix mass;
   double shift = 1.0;
   /// Approximate inverse, symmetric positive semi-definite, of stiffness + shift mass.
-  BlockPreconditioner<Real> precondition;
-  /// Makes a better one, where there is: it takes over when convergence is slow.
-  std::function<BlockPreconditioner<Real>()> fallback;
+  WithFallback<BlockPreconditioner<Real>> preconditioner;
   const Constants* constants = nullptr; // the pairs found are orthogonal to them
   const DividedRows* divided = nullptr; // null: this process holds all rows
   int threads = 0;

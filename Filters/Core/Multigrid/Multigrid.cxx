@@ -1,12 +1,12 @@
 #include "Multigrid/Multigrid.h"
 
 #include "Base/Errors.h"
+#include "Base/PrecisionTraits.h"
 #include "Multigrid/SmootherSequence.h"
 
 #include <algorithm>
 #include <array>
 #include <string>
-#include <type_traits>
 
 namespace gridfem
 {
@@ -55,7 +55,7 @@ template<class Real>
 std::unique_ptr<BasicSmoother<Real>> MakePatches(
   const SparseMatrix& A, const PatchOrder& order, const MultigridOptions& options)
 {
-  if constexpr (std::is_same_v<Real, double>)
+  if constexpr (!PrecisionTraits<Real>::IsSingle)
   {
     return MakePatchSmoother(A, order, options.threads, options.precision);
   }
@@ -80,7 +80,7 @@ BasicMultigrid<Real>::BasicMultigrid(
       levels[l].restriction = Transpose(levels[l].prolongation, options_.threads);
     }
   }
-  if constexpr (std::is_same_v<Real, double>)
+  if constexpr (!PrecisionTraits<Real>::IsSingle)
   {
     levels_ = std::move(levels);
     this->BuildSolvers();
@@ -205,7 +205,7 @@ std::unique_ptr<BasicSmoother<Real>> BasicMultigrid<Real>::MakeFirstSmoother(
   MultigridLevel& level) const
 {
   const SmootherType type = this->SmoothingOf(level.smoothing).smoother;
-  if constexpr (std::is_same_v<Real, double>)
+  if constexpr (!PrecisionTraits<Real>::IsSingle)
   {
     if (type == SmootherType::GaussSeidel)
     {

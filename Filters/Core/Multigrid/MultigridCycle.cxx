@@ -4,6 +4,7 @@
 #include "Algebra/ColumnAlgebra.h"
 #include "Base/Errors.h"
 #include "Base/LargeMemory.h"
+#include "Base/PrecisionTraits.h"
 
 #include <cmath>
 #include <string>
@@ -77,14 +78,6 @@ void Scale(const Vectors<Real>& from, const Eigen::ArrayXd& factor, Vectors<Real
   Real* const target = to.data();
   ForEachNumber(from, threads,
     [&](Id k, Id column) { target[k] = static_cast<Real>(factor[column] * source[k]); });
-}
-
-/// Fewer columns than registers hold are not faster in single precision, where reading matrices
-/// takes most of the time.
-template<class Real>
-Id WidthFor(Id columns)
-{
-  return std::is_same_v<Real, float> ? WideChunk : columns;
 }
 
 } // namespace
@@ -189,7 +182,7 @@ ResidualMeasures BasicMultigrid<Real>::PreconditionRows(std::size_t l, const Row
   }
   this->RequireSymmetry(l);
   const int threads = options_.threads;
-  const Id width = WidthFor<Real>(r.columns);
+  const Id width = PrecisionTraits<Real>::PanelWidth(r.columns);
   const typename Pool<Workspace>::Loan workspace(*workspace_);
   std::vector<Scratch>& scratch = (*workspace).For(levels_.size(), width);
   Vectors<Real>& b = scratch[l].b;
@@ -235,7 +228,7 @@ Columns BasicMultigrid<Real>::Products(
 template<class Real>
 void BasicMultigrid<Real>::SolveCoarsest(const Vectors<Real>& b, Vectors<Real>& x) const
 {
-  if constexpr (std::is_same_v<Real, double>)
+  if constexpr (!PrecisionTraits<Real>::IsSingle)
   {
     coarse_.Solve(b, x, options_.threads);
   }

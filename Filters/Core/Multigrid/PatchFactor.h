@@ -53,13 +53,6 @@ struct GroupFactor
   bool hasLargeScales = false;
 };
 
-/// For sweeps in single precision: directions with smaller pivots of a patch's scaled block are
-/// left out: rounding to single precision would disturb their corrections more than it serves the
-/// others. Pivots are about the square of a flat face's slope against the grid. Boxes of which all
-/// faces have one slope need as many steps as in double with pivots of 3e-6, twice as many with
-/// 3e-7, and do not converge with 3e-8.
-constexpr double SmallestPivotOfSingle = 1e-6;
-
 /// As many patches are factored together as vector registers have lanes.
 constexpr int PatchesAtOnce = 8;
 

@@ -2,6 +2,7 @@
 
 #include "Base/Errors.h"
 #include "Base/Parallel.h"
+#include "Base/PrecisionTraits.h"
 
 #include <string>
 
@@ -10,8 +11,12 @@ namespace gridfem
 namespace
 {
 
-/// Pivots of the scaled block below this are rounding: the direction is left out.
-constexpr double SmallestPivot = 1e-14;
+/// The smallest pivot of a patch's scaled block that counts.
+double SmallestPivot(bool isSingle)
+{
+  return isSingle ? PrecisionTraits<float>::SmallestPatchPivot
+                  : PrecisionTraits<double>::SmallestPatchPivot;
+}
 
 /// Rounding V to single precision changes V S Vᵀ = I by some 6e-8 / sqrt(pivot). From this pivot on
 /// that is 2 %, which a smoother does not feel; below it, as on flat faces, V is kept in double.
@@ -52,8 +57,7 @@ Id PatchInverses::FillGroups(
       Id unresolved = 0;
       for (Id p = begin; p < end; ++p)
       {
-        groups_[p] =
-          FactorGroup(source, patches[p], isSingle ? SmallestPivotOfSingle : SmallestPivot);
+        groups_[p] = FactorGroup(source, patches[p], SmallestPivot(isSingle));
         if (isSingle && groups_[p].hasLargeScales)
         {
           groups_[p].V.resize(0, 0);
@@ -80,7 +84,7 @@ Id PatchInverses::FillPatches(const SparseMatrix& A, const UnknownGroups& patche
     [&](Id begin, Id end)
     {
       Id unresolved = 0;
-      ForEachFactor(source, patches, begin, end, isPacked ? SmallestPivotOfSingle : SmallestPivot,
+      ForEachFactor(source, patches, begin, end, SmallestPivot(isPacked),
         [&](Id p, const PatchFactor& factor)
         { unresolved += this->Set(p, factor, precision) ? 0 : 1; });
       return unresolved;

@@ -4,6 +4,7 @@
 #define GridFEM_PatchInverses_h
 
 #include "Algebra/RowKernels.h"
+#include "Base/PrecisionTraits.h"
 #include "Multigrid/PatchFactor.h"
 #include "Multigrid/PatchInverse.h"
 #include "Multigrid/Smoother.h"
@@ -126,7 +127,7 @@ public:
     Id p, const RowView<Real>& A, const Real* b, Real* x, Chunk chunk) const
   {
     const Patch& patch = patches_[p];
-    if constexpr (std::is_same_v<Real, float>)
+    if constexpr (PrecisionTraits<Real>::IsSingle)
     {
       if (patch.kind == Packed)
       {

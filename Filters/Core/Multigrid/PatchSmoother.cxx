@@ -1,3 +1,4 @@
+#include "Base/PrecisionTraits.h"
 #include "Multigrid/BlockSweep.h"
 #include "Multigrid/PatchInverses.h"
 #include "Multigrid/Smoother.h"
@@ -50,7 +51,7 @@ public:
 
   bool HasSingleFactors() const override { return inverses_.HasSingle(); }
 
-  bool IsSingle() const override { return std::is_same_v<Real, float>; }
+  bool IsSingle() const override { return PrecisionTraits<Real>::IsSingle; }
 
   Id UnresolvedPatches() const override { return inverses_.Unresolved(); }
 

@@ -1,6 +1,7 @@
 #include "Multigrid/StencilBlocks.h"
 
 #include "Base/Parallel.h"
+#include "Base/PrecisionTraits.h"
 
 #include <algorithm>
 #include <atomic>
@@ -17,10 +18,10 @@ constexpr int N = StencilBlocks::N;
 static_assert(N == PatchKernelWidth);
 constexpr Index None = -1;
 
-/// What share of patches may have pivots below SmallestPivotOfSingle. They are relaxed once more in
-/// double precision. Beyond, sweeps gain little, and iterations to small tolerances grow: with 4 %
-/// of a part with many walls (cheese, depth 6) from 41 to 51 to 1e-10, in seven eighths of the
-/// time.
+/// What share of patches may have smaller pivots than single precision bears. They are relaxed once
+/// more in double precision. Beyond, sweeps gain little, and iterations to small tolerances grow:
+/// with 4 % of a part with many walls (cheese, depth 6) from 41 to 51 to 1e-10, in seven eighths of
+/// the time.
 constexpr double UnresolvedShare = 0.1;
 
 /// Where the entry of a column stands in a row: PatchOrder::corner of both differ by -17 to 17.
@@ -339,7 +340,7 @@ bool StencilBlocks::FillFactors(const SparseMatrix& A, const PatchOrder& order, 
     this->NumberOfPatches(), threads,
     [&](Id begin, Id end)
     {
-      ForEachFactor(source, order.dof, begin, end, SmallestPivotOfSingle,
+      ForEachFactor(source, order.dof, begin, end, PrecisionTraits<float>::SmallestPatchPivot,
         [&](Id p, const PatchFactor& factor)
         { isResolved[p] = this->SetFactor(factor, order.dof[p], patches_[p]) ? 1 : 0; });
     },

@@ -2,8 +2,10 @@
 
 #include "Algebra/BasisProducts.h"
 #include "Algebra/BlockVectors.h"
+#include "Base/Job.h"
 #include "Base/LargeMemory.h"
 #include "Base/Parallel.h"
+#include "Base/PrecisionTraits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,21 +47,21 @@ MultiVector SideBySide(
 
 /// One step of Newton's method for columns that are orthonormal up to rounding to single precision:
 /// it squares what is missing. [X (3 - XᵀMX) / 2]
-void Orthonormalize(const SparseMatrix& mass, const DividedRows* divided, Block<double> X,
-  int threads, const Progress& progress)
+void Orthonormalize(
+  const SparseMatrix& mass, const DividedRows* divided, Block<double> X, const Job& job)
 {
   Eigen::MatrixXd step(X.cols(), X.cols());
   for (Id first = 0; first < X.cols(); first += ColumnsAtOnce)
   {
-    progress.Check(1.0); // a thousand columns take a second, ten thousand minutes
+    job.Check(1.0); // a thousand columns take a second, ten thousand minutes
     const Id count = std::min(ColumnsAtOnce, X.cols() - first);
     step.middleCols(first, count) =
-      -0.5 * Project<double>({ X }, mass, X.middleCols(first, count), threads);
+      -0.5 * Project<double>({ X }, mass, X.middleCols(first, count), job.threads);
   }
   SumOverProcesses(divided, step);
   step.diagonal().array() += 1.5;
   ParallelRanges(
-    X.rows(), threads,
+    X.rows(), job.threads,
     [&](Id begin, Id end)
     {
       const MultiVector rows = X.middleRows(begin, end - begin) * step;
@@ -113,10 +115,10 @@ Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs<Rea
   {
     constants.Remove<double>(spectrum.vectors.rightCols(others));
   }
-  if (std::is_same_v<Real, float> && others > 0)
+  if (PrecisionTraits<Real>::IsSingle && others > 0)
   {
-    Orthonormalize(
-      problem.mass, problem.divided, spectrum.vectors.rightCols(others), problem.threads, progress);
+    Orthonormalize(problem.mass, problem.divided, spectrum.vectors.rightCols(others),
+      { problem.threads, progress });
   }
 
   const ColumnFacts facts = problem.FactsOf(spectrum.vectors);
@@ -136,7 +138,7 @@ Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs<Rea
   std::vector<Index> order;
   for (Index j = 0; j < zeros + others; ++j)
   {
-    if (j < zeros || std::is_same_v<Real, float> || isNormal(j))
+    if (j < zeros || PrecisionTraits<Real>::IsSingle || isNormal(j))
     {
       order.push_back(j);
     }

@@ -37,17 +37,17 @@ void DepthSearch::Judge(const TriangleMesh& mesh, const SolutionAccuracy& errors
   depth_ = next;
 }
 
-int FirstDepthForModes(const TriangleMesh& mesh, Id modes, double accuracy, bool hatFunctions)
+int FirstDepthForModes(const TriangleMesh& mesh, Id modes, double accuracy, FunctionKind kind)
 {
   const int depth = FirstDepthForAccuracy(EstimateMemory(mesh, 5).functions, modes, accuracy);
-  return FittingDepth(mesh, depth, MinimumDepth, hatFunctions);
+  return FittingDepth(mesh, depth, MinimumDepth, kind);
 }
 
 int NextDepthForModes(const TriangleMesh& mesh, const std::vector<double>& errors, int depth,
-  double accuracy, bool hatFunctions)
+  double accuracy, FunctionKind kind)
 {
   const int next = DepthForAccuracy(errors, depth, accuracy);
-  return next == depth || FitsMemory(mesh, next, hatFunctions) ? next : depth;
+  return next == depth || FitsMemory(mesh, next, kind) ? next : depth;
 }
 
 } // namespace gridfem

@@ -5,6 +5,7 @@
 
 #include "Grid/TriangleMesh.h"
 #include "Problems/SolutionAccuracy.h"
+#include "Spaces/FunctionKind.h"
 
 #include <vector>
 
@@ -32,11 +33,11 @@ private:
 
 ///@{ Of a spectrum. The depth to begin with, and the one to go on with after `depth`, at which the
 /// eigenvalues on the grid have these estimated relative errors; `depth` itself where it is enough.
-/// @param accuracy      wanted relative error, in (0, 1)
-/// @param hatFunctions  whether those of the mesh stand above the grid
-int FirstDepthForModes(const TriangleMesh& mesh, Id modes, double accuracy, bool hatFunctions);
+/// @param accuracy  wanted relative error, in (0, 1)
+/// @param kind      Hats: those of the mesh stand above the grid
+int FirstDepthForModes(const TriangleMesh& mesh, Id modes, double accuracy, FunctionKind kind);
 int NextDepthForModes(const TriangleMesh& mesh, const std::vector<double>& errors, int depth,
-  double accuracy, bool hatFunctions);
+  double accuracy, FunctionKind kind);
 ///@}
 
 } // namespace gridfem

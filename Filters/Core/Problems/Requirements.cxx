@@ -16,9 +16,9 @@ namespace
 {
 
 /// Of all that a filter makes on the grid.
-double BytesOf(const TriangleMesh& mesh, const MemoryEstimate& grid, bool hatFunctions)
+double BytesOf(const TriangleMesh& mesh, const MemoryEstimate& grid, FunctionKind kind)
 {
-  return grid.bytes + (hatFunctions ? EstimateHatMemory(mesh, grid.functions) : 0.0);
+  return grid.bytes + (kind == FunctionKind::Hats ? EstimateHatMemory(mesh, grid.functions) : 0.0);
 }
 
 } // namespace
@@ -41,25 +41,25 @@ void RequireAtLeast(const char* property, double value, double least)
   }
 }
 
-bool FitsMemory(const TriangleMesh& mesh, int depth, bool hatFunctions)
+bool FitsMemory(const TriangleMesh& mesh, int depth, FunctionKind kind)
 {
-  return BytesOf(mesh, EstimateMemory(mesh, depth), hatFunctions) <= AvailableMemory();
+  return BytesOf(mesh, EstimateMemory(mesh, depth), kind) <= AvailableMemory();
 }
 
-int FittingDepth(const TriangleMesh& mesh, int most, int least, bool hatFunctions)
+int FittingDepth(const TriangleMesh& mesh, int most, int least, FunctionKind kind)
 {
-  return FinestDepth(most, least, [&](int depth) { return FitsMemory(mesh, depth, hatFunctions); });
+  return FinestDepth(most, least, [&](int depth) { return FitsMemory(mesh, depth, kind); });
 }
 
-int ChooseDepth(const TriangleMesh& mesh, int wanted, bool hatFunctions, double perPoint)
+int ChooseDepth(const TriangleMesh& mesh, int wanted, FunctionKind kind, double perPoint)
 {
   const bool isAutomatic = wanted == AutomaticDepth;
   int depth = isAutomatic ? SuggestedDepth(mesh) : wanted;
-  if (hatFunctions)
+  if (kind == FunctionKind::Hats)
   {
     depth = DepthForPoints(mesh, depth, perPoint);
   }
-  return isAutomatic ? FittingDepth(mesh, depth, MinimumDepth, hatFunctions) : depth;
+  return isAutomatic ? FittingDepth(mesh, depth, MinimumDepth, kind) : depth;
 }
 
 void RequireMemory(const MemoryNeed& need, double available, const std::string& where)
@@ -83,18 +83,17 @@ MemoryNeed NeedOfModes(Id functions, Id modes, int threads)
     "Choose fewer modes or a smaller Depth." };
 }
 
-void RequireMemory(const TriangleMesh& mesh, int depth, bool hatFunctions)
+void RequireMemory(const TriangleMesh& mesh, int depth, FunctionKind kind)
 {
   const MemoryEstimate estimate = EstimateMemory(mesh, depth);
   std::ostringstream subject;
   subject << "Depth " << depth << " (about " << std::setprecision(3) << estimate.functions
           << " basis functions)";
-  if (hatFunctions)
+  if (kind == FunctionKind::Hats)
   {
     subject << " with the hat functions of " << mesh.points.size() << " points";
   }
-  RequireMemory(
-    { BytesOf(mesh, estimate, hatFunctions), subject.str(), CoarserGrid }, AvailableMemory());
+  RequireMemory({ BytesOf(mesh, estimate, kind), subject.str(), CoarserGrid }, AvailableMemory());
 }
 
 void RequireMemoryForHats(const TriangleMesh& mesh, Id functions)

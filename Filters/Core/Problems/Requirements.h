@@ -3,6 +3,7 @@
 #define GridFEM_Requirements_h
 
 #include "Grid/RequireSurface.h"
+#include "Spaces/FunctionKind.h"
 
 #include <limits>
 #include <string>
@@ -17,10 +18,11 @@ void RequireNumber(const char* property, double value);
 void RequireAtLeast(const char* property, double value, double least);
 
 /// Whether all that a solver makes at this depth should fit into memory.
-bool FitsMemory(const TriangleMesh& mesh, int depth, bool hatFunctions = false);
+bool FitsMemory(const TriangleMesh& mesh, int depth, FunctionKind kind = FunctionKind::Grid);
 
 /// The finest depth from `most` down that fits into memory, or `least`.
-int FittingDepth(const TriangleMesh& mesh, int most, int least, bool hatFunctions = false);
+int FittingDepth(
+  const TriangleMesh& mesh, int most, int least, FunctionKind kind = FunctionKind::Grid);
 
 /// In the place of a depth: the suggested one, or a smaller one that fits into memory.
 inline constexpr int AutomaticDepth = 0;
@@ -35,7 +37,7 @@ inline constexpr double AsManyAsWanted = std::numeric_limits<double>::infinity()
 /// The depth to compute at where `wanted` is asked for: another one where that is automatic, and
 /// below hat functions a coarser one where that is enough.
 /// @param perPoint  of the grid below the hat functions, if there are any
-int ChooseDepth(const TriangleMesh& mesh, int wanted, bool hatFunctions, double perPoint);
+int ChooseDepth(const TriangleMesh& mesh, int wanted, FunctionKind kind, double perPoint);
 
 /// What a job needs memory for, and what to do when there is not enough of it.
 struct MemoryNeed
@@ -56,7 +58,7 @@ MemoryNeed NeedOfModes(Id functions, Id modes, int threads);
 void RequireMemory(const MemoryNeed& need, double available, const std::string& where = {});
 
 /// Throws InvalidInput, with the estimate, when this depth needs more memory than there is.
-void RequireMemory(const TriangleMesh& mesh, int depth, bool hatFunctions = false);
+void RequireMemory(const TriangleMesh& mesh, int depth, FunctionKind kind = FunctionKind::Grid);
 
 /// The same for hat functions above a grid with so many functions, which is there.
 void RequireMemoryForHats(const TriangleMesh& mesh, Id functions);

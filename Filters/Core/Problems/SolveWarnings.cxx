@@ -35,12 +35,12 @@ const char* ReasonOf(FlowEnd end)
 }
 
 /// Why a wanted error is not reached by a choice of the depth.
-const char* ReasonOfError(bool hatFunctions)
+const char* ReasonOfError(FunctionKind kind)
 {
-  return hatFunctions ? "No Depth changes the error of hat functions: subdivide the mesh, or take "
-                        "FunctionSpace = Grid."
-                      : "A given basis has a fixed Depth; else the next one does not fit into "
-                        "memory.";
+  return IsRefinedByDepth(kind)
+           ? "A given basis has a fixed Depth; else the next one does not fit into memory."
+           : "No Depth changes the error of hat functions: subdivide the mesh, or take "
+             "FunctionSpace = Grid.";
 }
 
 } // namespace
@@ -106,19 +106,25 @@ std::string WarningOf(const SolveReport& report, const SolutionAccuracy& accurac
   return text.str();
 }
 
-std::string WarningOfWantedError(double wanted, double estimated, bool hatFunctions)
+std::string PlaceOf(FunctionKind kind, int depth)
+{
+  return kind == FunctionKind::Hats ? "with the hat functions of this mesh"
+                                    : "at Depth " + std::to_string(depth);
+}
+
+std::string WarningOfWantedError(double wanted, double estimated, FunctionKind kind)
 {
   std::ostringstream text;
   text << "The WantedError of " << wanted << " is not reached: the estimated error is " << estimated
-       << ". " << ReasonOfError(hatFunctions) << " The result is kept.";
+       << ". " << ReasonOfError(kind) << " The result is kept.";
   return text.str();
 }
 
-std::string WarningOfAccuracy(double wanted, double estimated, bool hatFunctions, int depth)
+std::string WarningOfAccuracy(double wanted, double estimated, FunctionKind kind, int depth)
 {
   std::ostringstream text;
   text << "The wanted Accuracy of " << wanted << " is not reached: at Depth " << depth
-       << " the estimated error is up to " << estimated << ". " << ReasonOfError(hatFunctions)
+       << " the estimated error is up to " << estimated << ". " << ReasonOfError(kind)
        << " The result is kept.";
   return text.str();
 }

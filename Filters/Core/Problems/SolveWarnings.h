@@ -9,6 +9,7 @@
 #include "Problems/PointConstraints.h"
 #include "Problems/SolutionAccuracy.h"
 #include "Problems/Spectrum.h"
+#include "Spaces/FunctionKind.h"
 
 #include <string>
 #include <vector>
@@ -32,9 +33,12 @@ std::string WarningOf(const SolveReport& report, double tolerance);
 std::string WarningOf(
   const SolveReport& report, const SolutionAccuracy& accuracy, double tolerance);
 
+/// Where a problem was solved, for messages: "at Depth 6" or "with the hat functions of this mesh".
+std::string PlaceOf(FunctionKind kind, int depth);
+
 ///@{ What to warn of when no depth gives the wanted error: of a solution, of eigenvalues.
-std::string WarningOfWantedError(double wanted, double estimated, bool hatFunctions);
-std::string WarningOfAccuracy(double wanted, double estimated, bool hatFunctions, int depth);
+std::string WarningOfWantedError(double wanted, double estimated, FunctionKind kind);
+std::string WarningOfAccuracy(double wanted, double estimated, FunctionKind kind, int depth);
 ///@}
 
 /// What to say when values are not met; empty when they are to 1e-3 of their range or of the

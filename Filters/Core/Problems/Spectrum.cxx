@@ -129,11 +129,7 @@ SpectralProblem<Real> NestedIteration<Real>::Problem(
   problem.constants = &constants;
   problem.divided = space_.Divided(level);
   problem.threads = threads;
-  problem.precondition = cycle_.From<Real>(level);
-  if (cycle_.IsSingle())
-  {
-    problem.fallback = [this, level] { return cycle_.DoubleFrom<Real>(level); };
-  }
+  problem.preconditioner = cycle_.From<Real>(level);
   return problem;
 }
 

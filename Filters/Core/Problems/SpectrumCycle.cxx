@@ -28,25 +28,24 @@ void SpectrumCycle::BuildDouble(const Progress& progress)
 }
 
 template<class Real>
-BlockPreconditioner<Real> SpectrumCycle::From(std::size_t level) const
+WithFallback<BlockPreconditioner<Real>> SpectrumCycle::From(std::size_t level)
 {
-  return single_ ? CyclePreconditioner<Real>(*single_, level)
-                 : CyclePreconditioner<Real>(*double_, level);
-}
-
-template<class Real>
-BlockPreconditioner<Real> SpectrumCycle::DoubleFrom(std::size_t level)
-{
-  if (!double_)
+  if (!single_)
   {
-    this->BuildDouble({});
+    return { CyclePreconditioner<Real>(*double_, level), {} };
   }
-  return CyclePreconditioner<Real>(*double_, level);
+  const auto makeDouble = [this, level]
+  {
+    if (!double_)
+    {
+      this->BuildDouble({});
+    }
+    return CyclePreconditioner<Real>(*double_, level);
+  };
+  return { CyclePreconditioner<Real>(*single_, level), makeDouble };
 }
 
-template BlockPreconditioner<float> SpectrumCycle::From(std::size_t) const;
-template BlockPreconditioner<double> SpectrumCycle::From(std::size_t) const;
-template BlockPreconditioner<float> SpectrumCycle::DoubleFrom(std::size_t);
-template BlockPreconditioner<double> SpectrumCycle::DoubleFrom(std::size_t);
+template WithFallback<BlockPreconditioner<float>> SpectrumCycle::From(std::size_t);
+template WithFallback<BlockPreconditioner<double>> SpectrumCycle::From(std::size_t);
 
 } // namespace gridfem

@@ -2,6 +2,7 @@
 #ifndef GridFEM_SpectrumCycle_h
 #define GridFEM_SpectrumCycle_h
 
+#include "Krylov/WithFallback.h"
 #include "Spaces/SpaceLevels.h"
 
 #include <memory>
@@ -18,14 +19,10 @@ public:
   SpectrumCycle(const SpaceLevels& space, double shift, const MultigridOptions& options,
     const Progress& progress = {});
 
-  /// Of the hierarchy that begins at `level`.
+  /// Of the hierarchy that begins at `level`. The one in double is built once, when it is first
+  /// asked for, which must not be from several threads. This has to outlive what it gives.
   template<class Real>
-  BlockPreconditioner<Real> From(std::size_t level) const;
-
-  /// The same in double, for a solve that stagnates; the hierarchy is built when it is first asked
-  /// for. Not safe to call from several threads.
-  template<class Real>
-  BlockPreconditioner<Real> DoubleFrom(std::size_t level);
+  WithFallback<BlockPreconditioner<Real>> From(std::size_t level);
 
   /// Whether double was never needed.
   bool IsSingle() const { return !double_; }

@@ -160,7 +160,7 @@ Spectrum ImproveSpectrum(const SurfaceSpace& space, const Spectrum& start,
   {
     problem.shift = LowestValue(start);
     const Multigrid multigrid = BuildMultigrid(space, problem.shift, 1.0, options.multigrid);
-    problem.precondition = CyclePreconditioner<double>(multigrid, 0);
+    problem.preconditioner.first = CyclePreconditioner<double>(multigrid, 0);
     progress.Check(0.1);
     pairs.vectors.Reserve(problem.mass.rows, start.vectors.cols());
     pairs.vectors.Show(start.vectors.cols());

@@ -95,42 +95,39 @@ const QuadratureRule& GridSpace::Rule() const
 
 MultiVector GridSpace::LoadOfValues(const Field& f, const Job& job) const
 {
-  return metric_ ? IntegrateWeightedValues(
-                     *functions_, *mesh_, f, metric_->area, this->Rule(), job.threads, job.progress)
-                 : IntegrateValues(*functions_, *mesh_, f, this->Rule(), job.threads, job.progress);
+  return metric_ ? IntegrateWeightedValues(*functions_, *mesh_, f, metric_->area, this->Rule(), job)
+                 : IntegrateValues(*functions_, *mesh_, f, this->Rule(), job);
 }
 
 MultiVector GridSpace::LoadOfWeightedValues(
   const Field& f, const std::vector<double>& weight, const Job& job) const
 {
   RequireWeights(weight, *mesh_);
-  return IntegrateWeightedValues(*functions_, *mesh_, f,
-    metric_ ? ProductOf(weight, metric_->area) : weight, this->Rule(), job.threads, job.progress);
+  return IntegrateWeightedValues(
+    *functions_, *mesh_, f, metric_ ? ProductOf(weight, metric_->area) : weight, this->Rule(), job);
 }
 
 MultiVector GridSpace::LoadOfGradients(const Field& s, const Field* scale, const Job& job) const
 {
-  return IntegrateGradients(*functions_, *mesh_, metric_ ? metric_->Transform(*mesh_, s) : s, scale,
-    this->Rule(), job.threads, job.progress);
+  return IntegrateGradients(
+    *functions_, *mesh_, metric_ ? metric_->Transform(*mesh_, s) : s, scale, this->Rule(), job);
 }
 
 MultiVector GridSpace::LoadOfTurnedGradients(const Field& s, const Job& job) const
 {
-  return IntegrateTurnedGradients(*functions_, *mesh_, s, this->Rule(), job.threads, job.progress);
+  return IntegrateTurnedGradients(*functions_, *mesh_, s, this->Rule(), job);
 }
 
 MultiVector GridSpace::LoadOfDirections(
   const MultiVector& coefficients, const Field* scale, const Job& job) const
 {
-  return IntegrateDirections(
-    *functions_, *mesh_, coefficients, scale, this->Rule(), job.threads, job.progress);
+  return IntegrateDirections(*functions_, *mesh_, coefficients, scale, this->Rule(), job);
 }
 
 MultiVector GridSpace::LoadOfGradientsOf(const Field& f, const Field* scale, const Job& job) const
 {
   return metric_ ? this->LoadOfGradients(GradientsOf(*mesh_, f), scale, job)
-                 : IntegrateGradientsOf(
-                     *functions_, *mesh_, f, scale, this->Rule(), job.threads, job.progress);
+                 : IntegrateGradientsOf(*functions_, *mesh_, f, scale, this->Rule(), job);
 }
 
 MultiVector GridSpace::LoadOfGradientsOfCoordinates(const Field* scale, const Job& job) const
@@ -141,8 +138,8 @@ MultiVector GridSpace::LoadOfGradientsOfCoordinates(const Field* scale, const Jo
                  : this->LoadOfFunction(
                      0.0, 1.0, this->UnitLength() * this->EmbeddingOfMesh(job), {}, job);
   }
-  return IntegrateGradientsOfCoordinates(*functions_, *mesh_, scale, this->Rule(),
-    shared_->normalStabilization, job.threads, job.progress);
+  return IntegrateGradientsOfCoordinates(
+    *functions_, *mesh_, scale, this->Rule(), shared_->normalStabilization, job);
 }
 
 MultiVector GridSpace::ValuesAtPoints(const MultiVector& coefficients, const Job& job) const
@@ -217,15 +214,14 @@ LevelOperators& GridSpace::OwnOperators()
 
 Id GridSpace::SetMetric(const MultiVector& embedding, const Job& job, ElementParts parts)
 {
-  return this->Integrate(MetricOfEmbedding(*functions_, this->Rule(), embedding, job.threads,
-                           job.progress.Part(0.0, 0.3)),
-    job.Part(0.3, 1.0), parts);
+  return this->Integrate(
+    MetricOfEmbedding(*functions_, this->Rule(), embedding, job.Part(0.0, 0.3)), job.Part(0.3, 1.0),
+    parts);
 }
 
 Id GridSpace::SetMetricOfMesh(const TriangleMesh& moved, const Job& job, ElementParts parts)
 {
-  return this->Integrate(MetricOfMesh(*functions_, this->Rule(), *mesh_, moved, job.threads,
-                           job.progress.Part(0.0, 0.3)),
+  return this->Integrate(MetricOfMesh(*functions_, this->Rule(), *mesh_, moved, job.Part(0.0, 0.3)),
     job.Part(0.3, 1.0), parts);
 }
 
@@ -233,9 +229,8 @@ Id GridSpace::Integrate(const SampleMetric& metric, const Job& job, ElementParts
 {
   metric_.reset();
   LevelOperators& operators = this->OwnOperators();
-  const Id singular =
-    IntegrateElements(*functions_, this->Rule(), metric, operators.elements.front(), job.threads,
-      job.progress.Part(0.0, 0.7), operators.normalStabilization, parts);
+  const Id singular = IntegrateElements(*functions_, this->Rule(), metric,
+    operators.elements.front(), job.Part(0.0, 0.7), operators.normalStabilization, parts);
   UpdateOperators(*functions_, operators, job.threads, parts);
   job.Check(1.0);
   return singular;
@@ -259,16 +254,15 @@ void GridSpace::IntegrateTriangles(const std::vector<double>& weight, const Job&
 {
   LevelOperators& operators = this->OwnOperators();
   operators.elements.front() = IntegrateWeightedElements(*functions_, this->Rule(), weight,
-    metric_ ? &metric_->tensor : nullptr, job.threads, job.progress.Part(0.0, 0.7),
-    operators.normalStabilization);
+    metric_ ? &metric_->tensor : nullptr, job.Part(0.0, 0.7), operators.normalStabilization);
   UpdateOperators(*functions_, operators, job.threads);
   job.Check(1.0);
 }
 
 void GridSpace::SplitStiffness(const std::vector<Vec3>& direction, const Job& job)
 {
-  split_ = std::make_shared<const DirectionalElements>(IntegrateElements(
-    *functions_, this->Rule(), direction, job.threads, job.progress, shared_->normalStabilization));
+  split_ = std::make_shared<const DirectionalElements>(
+    IntegrateElements(*functions_, this->Rule(), direction, job, shared_->normalStabilization));
 }
 
 MultiVector GridSpace::MeansOnElements(const MultiVector& onTriangles, const Job& job) const
@@ -304,8 +298,8 @@ GridSpace BuildGridSpace(
   auto functions = std::make_shared<const GridFunctions>(
     BuildGridFunctions(*surface, options.functions, progress.Part(0.0, 0.7)));
   auto operators = std::make_shared<const LevelOperators>(
-    BuildLevelOperators(*functions, TriangleRule(options.quadratureDegree), threads,
-      options.coarsestSize, progress.Part(0.7, 1.0), options.normalStabilization));
+    BuildLevelOperators(*functions, TriangleRule(options.quadratureDegree),
+      { threads, progress.Part(0.7, 1.0) }, options.coarsestSize, options.normalStabilization));
   return GridSpace(std::move(surface), std::move(functions), std::move(operators));
 }
 

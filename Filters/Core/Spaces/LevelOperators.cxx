@@ -94,45 +94,46 @@ std::vector<double> IntegralsOfFunctions(
 } // namespace
 
 LevelOperators BuildLevelOperators(const GridFunctions& space, const QuadratureRule& rule,
-  int threads, Index coarsestSize, const Progress& progress, double normalStabilization)
+  const Job& job, Index coarsestSize, double normalStabilization)
 {
   if (!(normalStabilization > 0.0 && normalStabilization <= 1.0))
   {
     throw InvalidInput("NormalStabilization must be above 0 and at most 1.");
   }
   LevelOperators system = OperatorsOfElements(space,
-    IntegrateElements(space, rule, threads, progress.Part(0.0, 0.5), normalStabilization), threads,
-    coarsestSize, progress.Part(0.5, 1.0));
+    IntegrateElements(space, rule, job.Part(0.0, 0.5), normalStabilization), job.Part(0.5, 1.0),
+    coarsestSize);
   system.quadratureDegree = rule.degree;
   system.normalStabilization = normalStabilization;
   return system;
 }
 
-LevelOperators OperatorsOfElements(const GridFunctions& space, ElementMatrices finest, int threads,
-  Index coarsestSize, const Progress& progress)
+LevelOperators OperatorsOfElements(
+  const GridFunctions& space, ElementMatrices finest, const Job& job, Index coarsestSize)
 {
   LevelOperators system;
   system.elements.push_back(std::move(finest));
   for (std::size_t l = 0;; ++l)
   {
     const PatchLevel& level = space.levels[l];
-    system.places.push_back(PlacesOfFunctions(level, threads));
-    system.pattern.push_back(BuildPattern(level, system.places.back(), threads));
-    progress.Check(0.8 * double(l + 1) / double(space.levels.size()));
+    system.places.push_back(PlacesOfFunctions(level, job.threads));
+    system.pattern.push_back(BuildPattern(level, system.places.back(), job.threads));
+    job.Check(0.8 * double(l + 1) / double(space.levels.size()));
     if (IsCoarsest(space, l, coarsestSize))
     {
       break;
     }
     const PatchLevel& coarse = space.levels[l + 1];
-    system.prolongation.push_back(BuildProlongation(level, system.places.back(), coarse, threads));
-    system.restriction.push_back(Transpose(system.prolongation.back(), threads));
+    system.prolongation.push_back(
+      BuildProlongation(level, system.places.back(), coarse, job.threads));
+    system.restriction.push_back(Transpose(system.prolongation.back(), job.threads));
     ElementMatrices elements;
-    CoarsenElements(level, coarse, system.elements.back(), elements, threads);
+    CoarsenElements(level, coarse, system.elements.back(), elements, job.threads);
     system.elements.push_back(std::move(elements));
   }
   system.integral =
-    IntegralsOfFunctions(system.places.front(), system.elements.front().mass, threads);
-  progress.Check(1.0);
+    IntegralsOfFunctions(system.places.front(), system.elements.front().mass, job.threads);
+  job.Check(1.0);
   return system;
 }
 

@@ -3,6 +3,7 @@
 #ifndef GridFEM_LevelOperators_h
 #define GridFEM_LevelOperators_h
 
+#include "Base/Job.h"
 #include "Integrals/Assembly.h"
 #include "Integrals/QuadratureRule.h"
 
@@ -29,12 +30,12 @@ struct LevelOperators
 /// largest component (or to depth 0), builds patterns and prolongations. Throws InvalidInput when
 /// the weight of the normal derivative is not in (0, 1].
 LevelOperators BuildLevelOperators(const GridFunctions& space, const QuadratureRule& rule,
-  int threads = 0, Index coarsestSize = 256, const Progress& progress = {},
+  const Job& job = {}, Index coarsestSize = 256,
   double normalStabilization = DefaultNormalStabilization);
 
 /// From element matrices of the finest level, which may be no integrals over clipped pieces.
 LevelOperators OperatorsOfElements(const GridFunctions& space, ElementMatrices finest,
-  int threads = 0, Index coarsestSize = 256, const Progress& progress = {});
+  const Job& job = {}, Index coarsestSize = 256);
 
 /// Brings a system up to date whose finest element matrices, elements.front(), have new values: in
 /// another metric (SurfaceMetric.h) or with other weights (DirectionalElements.h) on the same

@@ -2,19 +2,13 @@
 #ifndef GridFEM_SpaceChoice_h
 #define GridFEM_SpaceChoice_h
 
+#include "Spaces/FunctionKind.h"
 #include "Spaces/GridSpace.h"
 
 #include <memory>
 
 namespace gridfem
 {
-
-/// Which functions solutions are made of.
-enum class FunctionKind
-{
-  Grid,
-  Hats
-};
 
 /// Which space is wanted on a basis.
 struct SpaceChoice

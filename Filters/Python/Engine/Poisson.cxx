@@ -32,7 +32,7 @@ public:
   {
     this->Check(given);
     Results results;
-    if (isAccuracyDriven_ && !options_.IsOnHats())
+    if (isAccuracyDriven_ && IsRefinedByDepth(options_.choice.kind))
     {
       this->SolveAccurately(given, results, progress);
     }
@@ -133,7 +133,7 @@ SolutionAccuracy PoissonProblem::SolveOn(
   const double error = solution.accuracy.discretization;
   if (isAccuracyDriven_ && !(error <= wantedError_))
   {
-    results.Warn(WarningOfWantedError(wantedError_, error, options_.IsOnHats()));
+    results.Warn(WarningOfWantedError(wantedError_, error, options_.choice.kind));
   }
   results.arrays["Solution"] =
     surface.AtPoints(solution.coefficients, given.RowsAtPoints("values"));

@@ -32,7 +32,7 @@ public:
     {
       RequireSurface(*given.mesh);
       options =
-        options_.AtDepth(FirstDepthForModes(*given.mesh, modes_, accuracy_, options_.IsOnHats()));
+        options_.AtDepth(FirstDepthForModes(*given.mesh, modes_, accuracy_, options_.choice.kind));
     }
     for (double done = 0.0;; done = 0.5 + 0.5 * done)
     {
@@ -73,7 +73,7 @@ private:
       errors.resize(std::min<std::size_t>(errors.size(), modes_));
     }
     return isAccuracyDriven_
-             ? NextDepthForModes(surface.Mesh(), errors, depth, accuracy_, options_.IsOnHats())
+             ? NextDepthForModes(surface.Mesh(), errors, depth, accuracy_, options_.choice.kind)
              : depth;
   }
 
@@ -89,14 +89,13 @@ private:
                                       static_cast<Id>(spectrum.eigenvalues.size())) /
                                     (unit * unit);
     const int depth = surface.options.functions.depth;
-    const std::string where = options_.IsOnHats() ? "with the hat functions of this mesh"
-                                                  : "at Depth " + std::to_string(depth);
-    results.warnings = WarningsOf(spectrum, modes_, where, true);
+    const FunctionKind kind = options_.choice.kind;
+    results.warnings = WarningsOf(spectrum, modes_, PlaceOf(kind, depth), true);
     const std::vector<double>& errors = spectrum.estimatedErrors;
     const double error = errors.empty() ? 0.0 : *std::max_element(errors.begin(), errors.end());
     if (isAccuracyDriven_ && !(error <= accuracy_))
     {
-      results.Warn(WarningOfAccuracy(accuracy_, error, options_.IsOnHats(), depth));
+      results.Warn(WarningOfAccuracy(accuracy_, error, kind, depth));
     }
     return results;
   }

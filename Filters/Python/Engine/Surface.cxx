@@ -188,7 +188,7 @@ SurfaceOptions WithDepth(const SurfaceOptions& options, const TriangleMesh& mesh
 {
   RequireSurface(mesh);
   return options.AtDepth(
-    ChooseDepth(mesh, options.functions.depth, options.IsOnHats(), options.functionsPerPoint));
+    ChooseDepth(mesh, options.functions.depth, options.choice.kind, options.functionsPerPoint));
 }
 
 } // namespace
@@ -196,7 +196,7 @@ SurfaceOptions WithDepth(const SurfaceOptions& options, const TriangleMesh& mesh
 Surface::Surface(const Given& given, const SurfaceOptions& own, const Progress& progress)
   : options(WithDepth(own, *given.mesh)), mesh(given.mesh)
 {
-  RequireMemory(*mesh, options.functions.depth, options.IsOnHats());
+  RequireMemory(*mesh, options.functions.depth, options.choice.kind);
   space = BuildSpace(*mesh, options.functions, options.choice, progress);
 }
 

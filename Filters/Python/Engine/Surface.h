@@ -75,8 +75,6 @@ struct SurfaceOptions
 {
   SurfaceOptions(Properties& properties, const SharedDefaults& defaults);
 
-  bool IsOnHats() const { return choice.kind == FunctionKind::Hats; }
-
   /// At this depth and no coarser one.
   SurfaceOptions AtDepth(int depth) const;
 

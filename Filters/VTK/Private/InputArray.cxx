@@ -140,6 +140,33 @@ InputArray FindInputArray(
   return result;
 }
 
+InputArray OnlyArray(
+  vtkDataSet* input, const std::function<bool(vtkDataArray*, FieldAssociation)>& fits)
+{
+  InputArray only;
+  for (const auto association : { FieldAssociation::Points, FieldAssociation::Triangles })
+  {
+    const bool onPoints = association == FieldAssociation::Points;
+    vtkDataSetAttributes* attributes =
+      onPoints ? static_cast<vtkDataSetAttributes*>(input->GetPointData()) : input->GetCellData();
+    const vtkIdType tuples = onPoints ? input->GetNumberOfPoints() : input->GetNumberOfCells();
+    for (int k = 0; k < attributes->GetNumberOfArrays(); ++k)
+    {
+      vtkDataArray* array = attributes->GetArray(k); // null: no numbers
+      if (!array || array->GetNumberOfTuples() != tuples || !fits(array, association))
+      {
+        continue;
+      }
+      if (only.array)
+      {
+        return {};
+      }
+      only = { array, association, array->GetName() ? array->GetName() : "" };
+    }
+  }
+  return only;
+}
+
 Field ReadField(const InputArray& input, const InputMesh& mesh, NaNs nans)
 {
   const TriangleMesh& triangles = *mesh.triangles;

@@ -6,6 +6,7 @@
 #include "InputMesh.h"
 #include "Integrals/LoadVector.h"
 
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -40,6 +41,11 @@ struct MissingArray : InvalidInput
 /// wrong length; `property` is the name the message gives.
 InputArray FindInputArray(
   vtkAlgorithm* algorithm, int index, vtkDataSet* input, const std::string& property);
+
+/// What can be chosen without being asked: the only point or cell array of numbers that has a value
+/// for each and for which `fits` is true; null array when there is none or a second one.
+InputArray OnlyArray(
+  vtkDataSet* input, const std::function<bool(vtkDataArray*, FieldAssociation)>& fits);
 
 enum class NaNs
 {

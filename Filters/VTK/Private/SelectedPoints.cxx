@@ -161,12 +161,6 @@ void Validate(vtkSelection* selection)
 vtkDataObject* BlockOf(
   vtkCompositeDataSet* extracted, vtkCompositeDataSet* whole, vtkDataObject* block)
 {
-  const auto found = LeavesOf(extracted);
-  found->InitTraversal();
-  if (found->IsDoneWithTraversal()) // by no node at all: then it has not even the blocks
-  {
-    return nullptr;
-  }
   const auto leaf = LeavesOf(whole);
   for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
   {
@@ -382,6 +376,11 @@ void SelectedPoints::UpdateTogether(
 std::vector<char> SelectedPoints::Evaluate(
   vtkSelection* selection, vtkPolyData* surface, const JoinedBlocks* joined)
 {
+  if (selection->GetNumberOfNodes() == 0) // of blocks VTK makes an error of it, or loses them
+  {
+    vtkPolyData* whole = joined ? joined->Surface().whole.GetPointer() : surface;
+    return std::vector<char>(whole->GetNumberOfPoints(), 0);
+  }
   Validate(selection);
   this->Extract(selection);
   vtkDataSet* part = joined ? nullptr : this->PartOf(filter_->GetInputDataObject(0, 0));

@@ -31,6 +31,13 @@ StageKey& StageKey::Add(const std::string& value)
   return *this;
 }
 
+StageKey& StageKey::Add(const StageKey& other)
+{
+  parts_.push_back(other.parts_.size());
+  parts_.insert(parts_.end(), other.parts_.begin(), other.parts_.end());
+  return *this;
+}
+
 StageKey& StageKey::Add(vtkObject* object)
 {
   parts_.push_back(reinterpret_cast<std::uintptr_t>(object));

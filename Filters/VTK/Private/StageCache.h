@@ -24,6 +24,8 @@ public:
   StageKey& Add(bool value) { return this->Add(static_cast<std::int64_t>(value)); }
   StageKey& Add(double value);
   StageKey& Add(const std::string& value);
+  /// All that another one has.
+  StageKey& Add(const StageKey& other);
   /// Address and modification time; the time alone is unique in a process. May be null.
   StageKey& Add(vtkObject* object);
 

@@ -58,8 +58,8 @@ std::shared_ptr<const FiniteElementSpace> MakeSpace(
   auto operators = basis.operators->Get(OperatorKey(choice),
     [&]
     {
-      return BuildLevelOperators(*basis.space, rule, job.threads, choice.coarsestSize,
-        job.progress.Part(0.0, 0.7), choice.normalStabilization);
+      return BuildLevelOperators(
+        *basis.space, rule, job.Part(0.0, 0.7), choice.coarsestSize, choice.normalStabilization);
     });
   std::shared_ptr<const HatLevel> hats;
   if (choice.kind == FunctionKind::Hats)

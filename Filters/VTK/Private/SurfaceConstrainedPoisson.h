@@ -32,7 +32,7 @@ class SurfaceConstrainedPoisson
 public:
   using Integrate = std::function<ConstrainedLoad(const Job&)>;
 
-  /// As SurfacePoisson::Update.
+  /// As SurfacePoisson::Update; of the request the weight and the scale of the gradients count.
   void Update(SurfaceSolverState& state, const StageKey& fields, const Integrate& integrate,
     const PoissonRequest& request, const Progress& progress);
 

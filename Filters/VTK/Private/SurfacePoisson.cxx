@@ -1,28 +1,41 @@
 #include "SurfacePoisson.h"
 
+#include <algorithm>
+
 namespace gridfem
 {
+namespace
+{
+
+const SurfaceSpace& SpaceOf(const SurfaceSolverState& state, const PoissonRequest& request)
+{
+  return request.space ? *request.space : *state.SolverSpace();
+}
+
+} // namespace
+
 void SurfacePoisson::Update(SurfaceSolverState& state, StageKey fields, const Integrate& integrate,
   const PoissonRequest& request, const Progress& progress)
 {
-  fields.Add(state.stages.Version(SystemStage));
+  fields.Add(state.stages.Version(SystemStage)).Add(request.numbers);
   state.stages.Run(RightHandSideStage, fields,
-    [&] { load_ = integrate(*state.SolverSpace(), state.MakeJob(progress.Part(0.0, 0.2))); });
+    [&] { load_ = integrate(SpaceOf(state, request), state.MakeJob(progress.Part(0.0, 0.2))); });
   progress.Check(0.2);
-  const double weight = state.WeightInGridUnits(request.weight);
-  this->UpdateHierarchy(state, weight, progress.Part(0.2, 0.4));
+  this->UpdateHierarchy(state, request, progress.Part(0.2, 0.4));
   progress.Check(0.4);
   this->Solve(state, request, progress.Part(0.4, 1.0));
 }
 
 void SurfacePoisson::UpdateHierarchy(
-  SurfaceSolverState& state, double weight, const Progress& progress)
+  SurfaceSolverState& state, const PoissonRequest& request, const Progress& progress)
 {
+  const SurfaceSpace& space = SpaceOf(state, request);
+  const double weight = state.WeightInGridUnits(request.weight);
   StageKey shape;
   shape.Add(state.StructureVersion());
   AddMultigrid(shape, state.options.multigrid);
   StageKey key = shape;
-  key.Add(state.stages.Version(SystemStage)).Add(weight);
+  key.Add(state.stages.Version(SystemStage)).Add(request.numbers).Add(weight);
   state.stages.Run(HierarchyStage, key,
     [&]
     {
@@ -30,14 +43,35 @@ void SurfacePoisson::UpdateHierarchy(
       if (multigrid_ && shape_ == shape && !state.together.IsUsed() &&
           multigrid_->Options().threads == state.options.multigrid.threads)
       {
-        UpdateMultigrid(*state.space, weight, 1.0, *multigrid_);
+        UpdateMultigrid(space, weight, 1.0, *multigrid_);
         return;
       }
       multigrid_.reset(); // frees its memory first
       multigrid_ = std::make_unique<Multigrid>(
-        BuildMultigrid(*state.SolverSpace(), weight, 1.0, state.options.multigrid, progress));
+        BuildMultigrid(space, weight, 1.0, state.options.multigrid, progress));
       shape_ = shape;
     });
+}
+
+/// Null where there is none to start from.
+/// @param resized  holds it where it has other columns than the last one
+const MultiVector* SurfacePoisson::Start(
+  const PoissonRequest& request, bool isSameSolver, MultiVector& resized) const
+{
+  const MultiVector& last = solution_.coefficients;
+  const Id columns = load_.values.cols();
+  if (last.cols() == columns)
+  {
+    return isSameSolver || request.goesOn ? &last : nullptr;
+  }
+  if (!request.goesOn || last.cols() == 0)
+  {
+    return nullptr;
+  }
+  resized = last;
+  resized.conservativeResize(Eigen::NoChange, columns);
+  resized.rightCols(std::max<Id>(columns - last.cols(), 0)).setZero();
+  return &resized;
 }
 
 void SurfacePoisson::Solve(
@@ -46,6 +80,7 @@ void SurfacePoisson::Solve(
   StageKey key;
   key.Add(state.stages.Version(HierarchyStage)).Add(state.stages.Version(RightHandSideStage));
   key.Add(request.gradientScale).Add(static_cast<int>(request.iteration));
+  key.Add(request.attempt);
   AddSolver(key, state.options);
   state.stages.Run(SolveStage, key,
     [&]
@@ -56,17 +91,22 @@ void SurfacePoisson::Solve(
       options.iteration = request.iteration;
       options.solve = state.options.solve;
       options.accuracy = state.options.accuracy;
-      options.estimateErrors = true;
+      options.estimateErrors = request.estimateErrors;
       StageKey solver = shape_; // other options show their own iterations, from the usual start
-      solver.Add(state.stages.Version(SystemStage)).Add(static_cast<int>(request.iteration));
+      solver.Add(state.stages.Version(SystemStage)).Add(request.numbers);
+      solver.Add(static_cast<int>(request.iteration));
       AddSolver(solver, state.options);
-      const bool hasStart = solvedWith_ == solver && !state.together.IsUsed();
-      const MultiVector last = hasStart ? std::move(solution_.coefficients) : MultiVector();
-      options.start = hasStart ? &last : nullptr;
+      MultiVector resized;
+      options.start =
+        state.together.IsUsed() ? nullptr : this->Start(request, solvedWith_ == solver, resized);
+      MultiVector scaled;
+      if (request.gradientScale != 1.0)
+      {
+        scaled = request.gradientScale * load_.gradients;
+      }
       solvedWith_ = {};
-      const MultiVector gradients = request.gradientScale * load_.gradients;
-      solution_ =
-        SolvePoisson(*state.SolverSpace(), *multigrid_, load_.values, gradients, options, progress);
+      solution_ = SolvePoisson(SpaceOf(state, request), *multigrid_, load_.values,
+        request.gradientScale != 1.0 ? scaled : load_.gradients, options, progress);
       if (state.together.IsUsed())
       {
         solution_.accuracy.largest = state.together.Largest(solution_.accuracy.largest);

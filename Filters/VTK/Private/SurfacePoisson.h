@@ -20,7 +20,7 @@ namespace gridfem
 struct PoissonLoad
 {
   MultiVector values;
-  MultiVector gradients; // may have no rows
+  MultiVector gradients; // may have no columns
 };
 
 struct PoissonRequest
@@ -28,6 +28,15 @@ struct PoissonRequest
   double weight = 1.0;        // λ in parameter units
   double gradientScale = 1.0; // σ: a factor on the gradients, which are not integrated again
   IterationType iteration = IterationType::ConjugateGradients;
+  bool estimateErrors = true;
+  /// In place of the state's space a copy of it with numbers of its own, and what they depend on;
+  /// not where ranks compute together.
+  const SurfaceSpace* space = nullptr;
+  StageKey numbers;
+  /// Start from the last solution, finished or not, whatever has changed but the functions; columns
+  /// that it does not have start at zero. Another `attempt` goes on where nothing has changed.
+  bool goesOn = false;
+  std::int64_t attempt = 0;
 };
 
 /// Every stage is repeated only when something it depends on has changed. A change of the weight or
@@ -43,6 +52,8 @@ public:
   void Update(SurfaceSolverState& state, StageKey fields, const Integrate& integrate,
     const PoissonRequest& request, const Progress& progress);
 
+  const PoissonSolution& Solution() const { return solution_; }
+
   /// At the points of the mesh.
   MultiVector Values(const SurfaceSolverState& state) const;
 
@@ -53,7 +64,10 @@ public:
   const SolutionAccuracy& Accuracy() const { return solution_.accuracy; }
 
 private:
-  void UpdateHierarchy(SurfaceSolverState& state, double weight, const Progress& progress);
+  void UpdateHierarchy(
+    SurfaceSolverState& state, const PoissonRequest& request, const Progress& progress);
+  const MultiVector* Start(
+    const PoissonRequest& request, bool isSameSolver, MultiVector& resized) const;
   void Solve(SurfaceSolverState& state, const PoissonRequest& request, const Progress& progress);
 
   PoissonLoad load_;

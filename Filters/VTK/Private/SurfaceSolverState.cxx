@@ -138,8 +138,7 @@ void SurfaceSolverState::UpdateSpace(
     basis = carries ? ReadBasis(input, mesh, progress.Part(0.1, 0.8))
                     : ReadBasisFor(basisData, mesh, progress.Part(0.1, 0.8));
     this->TakeEnough(progress.Part(0.8, 1.0));
-    RequireMemory(
-      *mesh.triangles, basis.space->GetGrid().depth, options.choice.kind == FunctionKind::Hats);
+    RequireMemory(*mesh.triangles, basis.space->GetGrid().depth, options.choice.kind);
   };
   StageKey key = this->SpaceKey(input, basisData, meshNumber, wanted);
   stages.Run(SpaceStage, key,
@@ -157,19 +156,20 @@ void SurfaceSolverState::UpdateSpace(
 int SurfaceSolverState::DepthFor(int wanted) const
 {
   return gridfem::ChooseDepth(
-    *mesh.triangles, wanted, options.choice.kind == FunctionKind::Hats, options.functionsPerPoint);
+    *mesh.triangles, wanted, options.choice.kind, options.functionsPerPoint);
 }
 
 /// Whether the grid that was last wanted is finer than hat functions need.
 bool SurfaceSolverState::GivesWay() const
 {
-  return options.choice.kind == FunctionKind::Hats && mesh.triangles &&
+  return !IsRefinedByDepth(options.choice.kind) && mesh.triangles &&
          DepthForPoints(*mesh.triangles, wanted_, options.functionsPerPoint) < wanted_;
 }
 
 void SurfaceSolverState::ChooseDepth()
 {
-  wanted_ = gridfem::ChooseDepth(*mesh.triangles, options.space.depth, false, AsManyAsWanted);
+  wanted_ =
+    gridfem::ChooseDepth(*mesh.triangles, options.space.depth, FunctionKind::Grid, AsManyAsWanted);
   options.space.depth = this->DepthFor(options.space.depth);
 }
 
@@ -195,7 +195,7 @@ void SurfaceSolverState::BuildSpace(vtkPolyData* input, const Progress& progress
   mesh = ReadInputMesh(input, options.space.threads, progress.Part(0.0, 0.1));
   RequireSurface(*mesh.triangles);
   this->ChooseDepth();
-  RequireMemory(*mesh.triangles, options.space.depth, options.choice.kind == FunctionKind::Hats);
+  RequireMemory(*mesh.triangles, options.space.depth, options.choice.kind);
   basis = MakeSurfaceBasis(mesh.triangles,
     BuildGridFunctions(*mesh.triangles, options.space, progress.Part(0.1, 1.0)),
     options.space.weldCoincidentPoints);
@@ -329,7 +329,7 @@ void SurfaceSolverState::RequireBasisTogether(const std::vector<double>& told) c
   // Points of a clip in single precision may make a few functions more.
   const double more = static_cast<double>(together.NumberOfFunctions()) - told[AllFunctions];
   const bool isSameSpace =
-    options.choice.kind == FunctionKind::Hats || std::abs(more) <= 0.01 * told[AllFunctions];
+    !IsRefinedByDepth(options.choice.kind) || std::abs(more) <= 0.01 * told[AllFunctions];
   if (!isSameCube || !isSameSpace)
   {
     throw InvalidInput("The basis was made from another mesh. Connect the mesh that went into the "
@@ -525,7 +525,7 @@ std::shared_ptr<const FiniteElementSpace> SurfaceSolverState::OtherSpace(
   const Progress& progress) const
 {
   SpaceChoice other = options.choice;
-  other.kind = other.kind == FunctionKind::Grid ? FunctionKind::Hats : FunctionKind::Grid;
+  other.kind = OtherThan(other.kind);
   return this->InMetric(
     MakeSpace(basis, other, this->MakeJob(progress.Part(0.0, 0.6))), progress.Part(0.6, 1.0));
 }

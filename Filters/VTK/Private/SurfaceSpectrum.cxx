@@ -154,7 +154,7 @@ int SurfaceSpectrum::NextDepth(const SurfaceSolverState& state, double accuracy)
 {
   const int now = state.Functions().GetGrid().depth;
   return accuracy > 0.0 ? NextDepthForModes(*state.mesh.triangles, gridErrors_, now, accuracy,
-                            state.options.choice.kind == FunctionKind::Hats)
+                            state.options.choice.kind)
                         : now;
 }
 
@@ -172,7 +172,8 @@ void SurfaceSpectrum::Compare(SurfaceSolverState& state, const Progress& progres
   const auto space = state.OtherSpace(progress.Part(0.0, 0.1));
   RequireMemoryForModes(NumberOfUnknowns(*space), options.numberOfModes, options.multigrid.threads);
   const Spectrum other = ComputeSpectrum(*space, options, progress.Part(0.1, 1.0));
-  otherEigenvalues = InWorldUnits(other.eigenvalues, space->UnitLength());
+  kind_ = state.options.choice.kind;
+  otherEigenvalues_ = InWorldUnits(other.eigenvalues, space->UnitLength());
   otherConverged = other.converged;
   compared_ = key;
 }
@@ -190,8 +191,8 @@ void SurfaceSpectrum::ChooseDepth(
     asked_ = asked;
     const InputMesh mesh = ReadInputMesh(input, state.options.space.threads);
     RequireSurface(*mesh.triangles);
-    depth = FirstDepthForModes(*mesh.triangles, request.numberOfModes, request.accuracy,
-      state.options.choice.kind == FunctionKind::Hats);
+    depth = FirstDepthForModes(
+      *mesh.triangles, request.numberOfModes, request.accuracy, state.options.choice.kind);
   }
   state.options.space.depth = depth;
 }

@@ -7,6 +7,7 @@
 #include "SurfaceSolverState.h"
 
 #include "Problems/Spectrum.h"
+#include "Spaces/FunctionKind.h"
 
 #include <vector>
 
@@ -38,6 +39,12 @@ public:
 
   int NumberOfModes() const { return static_cast<int>(eigenvalues.size()); }
 
+  /// With request.compare, of either function space, world units.
+  const std::vector<double>& EigenvaluesOf(FunctionKind kind) const
+  {
+    return kind == kind_ ? eigenvalues : otherEigenvalues_;
+  }
+
   /// Of all modes: the largest residual and the largest estimated error.
   double LargestResidual() const;
   double LargestEstimatedError() const;
@@ -49,10 +56,7 @@ public:
   /// a column per mode, world units. Else without columns.
   MultiVector atPoints;
 
-  /// With request.compare, in world units: in the function space that was not chosen. May be fewer
-  /// than there are modes.
-  std::vector<double> otherEigenvalues;
-  bool otherConverged = true;
+  bool otherConverged = true; // with request.compare, in the function space that was not chosen
 
 private:
   StageKey KeyOf(const SurfaceSolverState& state, const SpectrumRequest& request) const;
@@ -65,7 +69,9 @@ private:
   std::vector<double> gridErrors_; // estimated, of the wanted modes on the grid
   int nextDepth_ = 0;              // that they ask for; the depth they were found at: they suffice
   StageKey asked_;                 // what `depth` was chosen for
-  StageKey compared_;              // what `otherEigenvalues` are compared with
+  StageKey compared_;              // what `otherEigenvalues_` stand beside
+  FunctionKind kind_ = FunctionKind::Grid; // of `eigenvalues`
+  std::vector<double> otherEigenvalues_;   // may be fewer
 };
 
 /// What a filter's options ask of the solver.

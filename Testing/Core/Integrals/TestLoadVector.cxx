@@ -260,5 +260,5 @@ TEST(LoadVector, StopsWhenAskedTo)
   const GridFunctions space = BuildGridFunctions(mesh, {});
   const Field f{ FieldAssociation::Points, PointCoordinates(mesh) };
   const Progress stop([](double) { return false; });
-  EXPECT_THROW(IntegrateValues(space, mesh, f, TriangleRule(2), 2, stop), Aborted);
+  EXPECT_THROW(IntegrateValues(space, mesh, f, TriangleRule(2), { 2, stop }), Aborted);
 }

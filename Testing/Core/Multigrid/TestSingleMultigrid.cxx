@@ -315,7 +315,7 @@ TEST(BlockIteration, PairsForAFinerLevelAreRenewed)
   const Constants constants(
     MassMatrix(on.space, on.system), on.space.component, on.space.numberOfComponents, 0);
   SpectralProblem<float> problem = ProblemOn<float>(on, constants);
-  problem.precondition = CyclePreconditioner<float>(cycle, 0);
+  problem.preconditioner.first = CyclePreconditioner<float>(cycle, 0);
   BlockOptions options;
   options.wanted = 60;
   options.blockSize = 72;
@@ -344,7 +344,7 @@ TEST(BlockIteration, FallsBackToABetterPreconditionerWhenItStagnates)
   const Constants constants(
     MassMatrix(on.space, on.system), on.space.component, on.space.numberOfComponents, 0);
   SpectralProblem<double> problem = ProblemOn<double>(on, constants);
-  problem.precondition =
+  problem.preconditioner.first =
     [](const RowSource<double>& source, const CorrectionTest&, const RowSink<double>& sink)
   {
     MultiVector r(source.rows, source.columns);
@@ -365,7 +365,7 @@ TEST(BlockIteration, FallsBackToABetterPreconditionerWhenItStagnates)
   };
   EXPECT_LT(solve().numberOfConverged, 8);
   int made = 0;
-  problem.fallback = [&]
+  problem.preconditioner.makeDouble = [&]
   {
     ++made;
     return CyclePreconditioner<double>(multigrid, 0);

@@ -82,10 +82,13 @@ TEST(DepthSearch, FindsModesBetweenItsBounds)
   int last = MinimumDepth;
   for (const double accuracy : { 0.1, 0.01, 0.001 })
   {
-    const int first = FirstDepthForModes(mesh, 20, accuracy, false);
+    const int first = FirstDepthForModes(mesh, 20, accuracy, FunctionKind::Grid);
     EXPECT_GE(first, last);
     last = first;
-    EXPECT_EQ(NextDepthForModes(mesh, { 0.5 * accuracy, accuracy }, first, accuracy, false), first);
-    EXPECT_EQ(NextDepthForModes(mesh, { 4.0 * accuracy }, first, accuracy, false), first + 1);
+    EXPECT_EQ(
+      NextDepthForModes(mesh, { 0.5 * accuracy, accuracy }, first, accuracy, FunctionKind::Grid),
+      first);
+    EXPECT_EQ(
+      NextDepthForModes(mesh, { 4.0 * accuracy }, first, accuracy, FunctionKind::Grid), first + 1);
   }
 }

@@ -215,13 +215,13 @@ TEST(MemoryEstimate, ADepthGivesWayBelowHatFunctionsOnly)
   const TriangleMesh mesh = testing::GeodesicSphere(30); // 3,602 points
   const int enough = DepthForPoints(mesh, MaximumDepth, 1.0);
   ASSERT_LT(enough, 6);
-  EXPECT_EQ(ChooseDepth(mesh, 7, false, 1.0), 7);
-  EXPECT_EQ(ChooseDepth(mesh, AutomaticDepth, false, 1.0), SuggestedDepth(mesh));
-  EXPECT_EQ(ChooseDepth(mesh, 7, true, EnoughToPrecondition), enough);
-  EXPECT_EQ(ChooseDepth(mesh, 7, true, EnoughToEstimate), enough + 1);
-  EXPECT_EQ(ChooseDepth(mesh, 7, true, AsManyAsWanted), 7);
-  EXPECT_EQ(ChooseDepth(mesh, enough - 1, true, EnoughToPrecondition), enough - 1);
-  EXPECT_EQ(ChooseDepth(mesh, AutomaticDepth, true, EnoughToPrecondition), enough);
+  EXPECT_EQ(ChooseDepth(mesh, 7, FunctionKind::Grid, 1.0), 7);
+  EXPECT_EQ(ChooseDepth(mesh, AutomaticDepth, FunctionKind::Grid, 1.0), SuggestedDepth(mesh));
+  EXPECT_EQ(ChooseDepth(mesh, 7, FunctionKind::Hats, EnoughToPrecondition), enough);
+  EXPECT_EQ(ChooseDepth(mesh, 7, FunctionKind::Hats, EnoughToEstimate), enough + 1);
+  EXPECT_EQ(ChooseDepth(mesh, 7, FunctionKind::Hats, AsManyAsWanted), 7);
+  EXPECT_EQ(ChooseDepth(mesh, enough - 1, FunctionKind::Hats, EnoughToPrecondition), enough - 1);
+  EXPECT_EQ(ChooseDepth(mesh, AutomaticDepth, FunctionKind::Hats, EnoughToPrecondition), enough);
 }
 
 TEST(MemoryEstimate, GrowsWithDepth)

@@ -26,7 +26,7 @@ struct Problem
     SpaceOptions spaceOptions;
     spaceOptions.depth = depth;
     space = BuildGridFunctions(mesh, spaceOptions);
-    system = BuildLevelOperators(space, TriangleRule(2), 0, 256, {}, weight);
+    system = BuildLevelOperators(space, TriangleRule(2), 0, 256, weight);
     options.screeningWeight = lambda * std::pow(space.GetGrid().spacing, 2);
     options.solve.tolerance = 1e-8;
   }

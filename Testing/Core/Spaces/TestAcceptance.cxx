@@ -43,7 +43,7 @@ PoissonSolution FitField(const TriangleMesh& mesh, const GridFunctions& space, c
 {
   const QuadratureRule& rule = TriangleRule(2);
   const LevelOperators system =
-    BuildLevelOperators(space, rule, 0, coarsestSize, {}, normalStabilization);
+    BuildLevelOperators(space, rule, 0, coarsestSize, normalStabilization);
   PoissonOptions options;
   options.screeningWeight = unitCubeWeight * std::pow(0.25, space.GetGrid().depth);
   const Multigrid multigrid =
