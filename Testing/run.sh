@@ -12,7 +12,7 @@ the tests. Options go to ctest, for example: -R Clip
 Without options Core is also compiled with clang, into build-clang/, with warnings as errors.
 
 Environment:
-  CI=true            compiler warnings are errors
+  CI=true            compiler warnings are errors; without options the coverage of Core is printed
   GRIDFEM_JOBS       compilers and tests that run at the same time (default: processors)
   GRIDFEM_DATA_DIR   folder of real meshes; tests that need them are skipped without it
 HELP
@@ -28,5 +28,8 @@ if [ $# -eq 0 ] && command -v clang++ > /dev/null; then
     -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG= -DGRIDFEM_WERROR=ON \
     -DGRIDFEM_BUILD_VTK=OFF -DGRIDFEM_BUILD_TESTING=OFF
   Quietly "$BUILD/clang-build.log" cmake --build "$SOURCE/build-clang" -j "$JOBS"
+fi
+if [ $# -eq 0 ] && [ "${CI:-}" = "true" ]; then
+  "$SOURCE/Testing/coverage.sh"
 fi
 ctest --test-dir "$BUILD" --output-on-failure --timeout 300 -j "$JOBS" "$@" < /dev/null
