@@ -115,7 +115,8 @@ UnderValgrind()
 Valgrind()
 {
   local tests="TestGrouping TestSparseMatrix TestPatchLevel TestHatMatrices TestConjugateGradients" test
-  tests+=" TestPipeline TestSelection TestOtherDataSets TestFailureRule TestTime"
+  tests+=" TestPipeline TestSelection TestOtherDataSets TestGhostCells TestHostileProperties TestBlocksAsOne"
+  tests+=" TestMetricArray TestTime"
   InstallMissing "${BUILD_PACKAGES[@]}" valgrind
   # It does not know AVX-512.
   BuildFor "$SOURCE/build-valgrind" "$tests FuzzCore" -DGRIDFEM_BUILD_VTK=ON \
