@@ -24,7 +24,8 @@ HELP
   exit
 fi
 
-# Configures Core, without VTK where options do not say otherwise, for a check in a folder of its own. Usage: BuildFor FOLDER TARGETS [-DOPTION=VALUE...]
+# Configures and builds for a check in a folder of its own, without VTK unless an option says otherwise.
+# Usage: BuildFor FOLDER TARGETS [-DOPTION=VALUE...]
 BuildFor()
 {
   local folder="$1" targets

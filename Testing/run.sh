@@ -29,7 +29,7 @@ if [ $# -eq 0 ] && command -v clang++ > /dev/null; then
     -DGRIDFEM_BUILD_VTK=OFF -DGRIDFEM_BUILD_TESTING=OFF
   Quietly "$BUILD/clang-build.log" cmake --build "$SOURCE/build-clang" -j "$JOBS"
 fi
+ctest --test-dir "$BUILD" --output-on-failure --timeout 300 -j "$JOBS" "$@" < /dev/null
 if [ $# -eq 0 ] && [ "${CI:-}" = "true" ]; then
   "$SOURCE/Testing/coverage.sh"
 fi
-ctest --test-dir "$BUILD" --output-on-failure --timeout 300 -j "$JOBS" "$@" < /dev/null

@@ -72,8 +72,8 @@ gridfem::InputArray FindValueArray(vtkAlgorithm* algorithm, vtkDataSet* input)
   {
     return array;
   }
-  return gridfem::OnlyArray(input, [](vtkDataArray* other, gridfem::FieldAssociation association)
-    { return association == gridfem::FieldAssociation::Points && KnowsSome(other); });
+  return gridfem::OnlyArray(input, [input](vtkDataArray* other, vtkDataSetAttributes* attributes)
+    { return attributes == input->GetPointData() && KnowsSome(other); });
 }
 
 } // namespace

@@ -89,16 +89,9 @@ gridfem::InputArray FindLabels(vtkAlgorithm* algorithm, vtkPolyData* input, vtkD
   gridfem::InputArray labels = gridfem::FindInputArray(algorithm, 1, input, "LabelArray");
   if (!labels.array)
   {
-    labels = gridfem::OnlyArray(input,
-      [input, colors](vtkDataArray* array, gridfem::FieldAssociation association)
-      {
-        vtkDataSetAttributes* attributes = input->GetCellData();
-        if (association == gridfem::FieldAssociation::Points)
-        {
-          attributes = input->GetPointData();
-        }
-        return array != colors && AreLabels(array) && !IsForOtherEnds(array, attributes);
-      });
+    labels =
+      gridfem::OnlyArray(input, [colors](vtkDataArray* array, vtkDataSetAttributes* attributes)
+        { return array != colors && AreLabels(array) && !IsForOtherEnds(array, attributes); });
   }
   if (!labels.array)
   {

@@ -77,6 +77,12 @@ vtkAbstractArray* FindArray(
   return found || !cells ? found : FindAmong(input->GetCellData(), choice);
 }
 
+/// How many values an array of points or cells has.
+vtkIdType TuplesOf(vtkDataSet* input, bool onPoints)
+{
+  return onPoints ? input->GetNumberOfPoints() : input->GetNumberOfCells();
+}
+
 void RequireFound(
   vtkAbstractArray* found, const InputArray& result, const std::string& property, vtkDataSet* input)
 {
@@ -93,7 +99,7 @@ void RequireFound(
     throw InvalidInput(subject + " is not numeric.");
   }
   const bool onPoints = result.association == FieldAssociation::Points;
-  const vtkIdType expected = onPoints ? input->GetNumberOfPoints() : input->GetNumberOfCells();
+  const vtkIdType expected = TuplesOf(input, onPoints);
   if (found->GetNumberOfTuples() != expected)
   {
     throw InvalidInput(subject + " has " + std::to_string(found->GetNumberOfTuples()) +
@@ -141,7 +147,7 @@ InputArray FindInputArray(
 }
 
 InputArray OnlyArray(
-  vtkDataSet* input, const std::function<bool(vtkDataArray*, FieldAssociation)>& fits)
+  vtkDataSet* input, const std::function<bool(vtkDataArray*, vtkDataSetAttributes*)>& fits)
 {
   InputArray only;
   for (const auto association : { FieldAssociation::Points, FieldAssociation::Triangles })
@@ -149,11 +155,11 @@ InputArray OnlyArray(
     const bool onPoints = association == FieldAssociation::Points;
     vtkDataSetAttributes* attributes =
       onPoints ? static_cast<vtkDataSetAttributes*>(input->GetPointData()) : input->GetCellData();
-    const vtkIdType tuples = onPoints ? input->GetNumberOfPoints() : input->GetNumberOfCells();
     for (int k = 0; k < attributes->GetNumberOfArrays(); ++k)
     {
       vtkDataArray* array = attributes->GetArray(k); // null: no numbers
-      if (!array || array->GetNumberOfTuples() != tuples || !fits(array, association))
+      if (!array || array->GetNumberOfTuples() != TuplesOf(input, onPoints) ||
+          !fits(array, attributes))
       {
         continue;
       }

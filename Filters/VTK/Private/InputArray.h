@@ -13,6 +13,7 @@
 class vtkAlgorithm;
 class vtkDataArray;
 class vtkDataSet;
+class vtkDataSetAttributes;
 
 namespace gridfem
 {
@@ -43,9 +44,10 @@ InputArray FindInputArray(
   vtkAlgorithm* algorithm, int index, vtkDataSet* input, const std::string& property);
 
 /// What can be chosen without being asked: the only point or cell array of numbers that has a value
-/// for each and for which `fits` is true; null array when there is none or a second one.
+/// for each and for which `fits`, called with the attributes that it is of, is true; null array
+/// when there is none or a second one.
 InputArray OnlyArray(
-  vtkDataSet* input, const std::function<bool(vtkDataArray*, FieldAssociation)>& fits);
+  vtkDataSet* input, const std::function<bool(vtkDataArray*, vtkDataSetAttributes*)>& fits);
 
 enum class NaNs
 {
