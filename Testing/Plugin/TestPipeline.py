@@ -33,26 +33,19 @@ class TestPipeline(unittest.TestCase):
                    for c in range(one.GetNumberOfComponents()))
 
     def test_every_filter_runs_on_a_mesh(self):
-        expected = {
-            "ClipToOctree": ["vtkPolyData", "vtkPolyData", "vtkUnstructuredGrid"],
-            "ConnectivityAwareBasis": ["vtkPolyData", "vtkUnstructuredGrid"],
-            "ScreenedPoisson": ["vtkPolyData", "vtkTable"],
-            "LaplaceSpectrum": ["vtkPolyData", "vtkTable"],
-            "MeanCurvatureFlow": ["vtkPolyData", "vtkTable"],
-            "PrincipalCurvatures": ["vtkPolyData"],
-            "SpectralSignatures": ["vtkPolyData", "vtkTable"],
-            "StitchColors": ["vtkPolyData"],
-            "HarmonicInterpolation": ["vtkPolyData"],
-            "SurfaceDetail": ["vtkPolyData"],
-            "SurfaceGradient": ["vtkPolyData"],
-            "GeodesicDistance": ["vtkPolyData"],
-            "HeatDiffusion": ["vtkPolyData"]}
+        further = {  # behind the mesh
+            "ClipToOctree": ["vtkPolyData", "vtkUnstructuredGrid"],
+            "ConnectivityAwareBasis": ["vtkUnstructuredGrid"],
+            "ScreenedPoisson": ["vtkTable"],
+            "LaplaceSpectrum": ["vtkTable"],
+            "MeanCurvatureFlow": ["vtkTable"],
+            "SpectralSignatures": ["vtkTable"]}
         surface = plugin.with_arrays(self.surface)
         for name in plugin.PROXIES:
             with self.subTest(proxy=name):
                 proxy = getattr(simple, name)(
                     Input=surface, Depth=DEPTH, **plugin.CHOICES.get(name, {}))
-                self.assertEqual(outputs(proxy), expected[name])
+                self.assertEqual(outputs(proxy), ["vtkPolyData", *further.get(name, [])])
                 self.assertGreater(plugin.data(proxy).GetNumberOfCells(), 0)
 
     def test_output_ports_have_names(self):

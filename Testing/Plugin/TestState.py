@@ -9,11 +9,10 @@ from paraview import simple, smstate
 
 import plugin
 
-NAMES = ("clip", "basis", "poisson", "hats", "spectrum", "both", "signatures", "curvatures",
-         "gradient", "detail", "stitch", "spread", "distance", "heat", "flow")
-
 
 def build():
+    """Names of filters that are connected, with properties that are not the defaults; and of those of the
+    plugin that are not among them, as they are."""
     surface = plugin.sphere()
     simple.RenameSource("surface", surface)
     values = simple.Calculator(Input=surface, ResultArrayName="f", Function="coordsX*coordsY")
@@ -55,21 +54,26 @@ def build():
     heat = simple.HeatDiffusion(
         Input=values, Depth=4, Array=["POINTS", "f"], NumberOfSteps=3, DiffusionTime=0.02)
     flow = simple.MeanCurvatureFlow(Input=values, Depth=4, NumberOfSteps=2, TimeStep=0.125)
-    for name, proxy in zip(NAMES, (
-            clip, basis, poisson, hats, spectrum, both, signatures, curvatures, gradient, detail,
-            stitch, spread, distance, heat, flow)):
+    made = {"clip": clip, "basis": basis, "poisson": poisson, "hats": hats, "spectrum": spectrum, "both": both,
+            "signatures": signatures, "curvatures": curvatures, "gradient": gradient, "detail": detail,
+            "stitch": stitch, "spread": spread, "distance": distance, "heat": heat, "flow": flow}
+    types = {proxy.SMProxy.GetXMLName() for proxy in made.values()}
+    for name in sorted(set(plugin.PROXIES) - types):
+        made[name] = getattr(simple, name)(Input=labels, Depth=4, **plugin.CHOICES.get(name, {}))
+    for name, proxy in made.items():
         simple.RenameSource(name, proxy)
+    return list(made)
 
 
-def results():
+def results(names):
     """Every setting and the range of every point array, to compare before and after."""
     found = {}
-    for name in NAMES:
+    for name in names:
         proxy = simple.FindSource(name)
         proxy.UpdatePipeline()
         for key in proxy.ListProperties():
-            if key not in ("Input", "Basis", "Sources", "Values", "Selection",
-                           "CustomTransferFunction", "TimestepValues"):
+            prop = proxy.SMProxy.GetProperty(key)
+            if not prop.IsA("vtkSMProxyProperty") and not prop.GetInformationOnly():
                 found[name, key] = str(proxy.GetPropertyValue(key))
         if name == "detail":
             found[name, "curve"] = list(proxy.CustomTransferFunction.Points)
@@ -95,8 +99,8 @@ def settings(path):
 
 class TestState(unittest.TestCase):
     def check(self, suffix, save, load):
-        build()
-        expected = results()
+        names = build()
+        expected = results(names)
         self.assertIn(("poisson", "array", "Solution"), expected)
         self.assertIn(("basis", "array", "BasisFunction"), expected)
         with tempfile.TemporaryDirectory() as folder:
@@ -105,7 +109,7 @@ class TestState(unittest.TestCase):
             simple.ResetSession()
             self.assertIsNone(simple.FindSource("poisson"))
             load(path)
-        self.assertEqual(results(), expected)
+        self.assertEqual(results(names), expected)
         basis = simple.FindSource("poisson").Basis
         self.assertEqual(basis.SMProxy, simple.FindSource("basis").SMProxy)
         simple.ResetSession()

@@ -6,17 +6,17 @@ import re
 from paraview import servermanager, simple
 
 
-def _filters():
-    """Per filter of the plugin: whether it takes a basis, as solvers do."""
+def _panels():
+    """The XML of every filter of the plugin, by its name."""
     folder = pathlib.Path(os.environ["GRIDFEM_SOURCE_DIR"]) / "Plugin"
     texts = [path.read_text() for path in sorted(folder.glob("*.xml"))]
-    return {re.search(r'<SourceProxy name="(\w+)"', text).group(1): "@Basis@" in text
-            for text in texts}
+    return {re.search(r'<SourceProxy name="(\w+)"', text).group(1): text for text in texts}
 
 
-_FILTERS = _filters()
-PROXIES = tuple(_FILTERS)
-SOLVERS = tuple(name for name, takes_basis in _FILTERS.items() if takes_basis)
+_PANELS = _panels()
+PROXIES = tuple(_PANELS)
+
+# What is known here of single filters, for all tests; one that is not named works without.
 
 # Filters that compute nothing without an array: properties that choose one, for a surface with the
 # point arrays `f`, any numbers, and `label`, whole ones.
@@ -24,7 +24,27 @@ CHOICES = {
     "StitchColors": {"ColorArray": ["POINTS", "f"], "LabelArray": ["POINTS", "label"]},
     "HarmonicInterpolation": {"ValueArray": ["POINTS", "f"]}}
 
+# What is changed of a filter in the window, and the value as it stands in a state; else its depth.
+CHANGES = {
+    "ConnectivityAwareBasis": ("ConnectivityAware", "0"), "GeodesicDistance": ("SourceArray", "label"),
+    "HarmonicInterpolation": ("MaskArray", "label"), "HeatDiffusion": ("NumberOfSteps", "3"),
+    "LaplaceSpectrum": ("NumberOfModes", "12"), "MeanCurvatureFlow": ("NumberOfSteps", "12"),
+    "PrincipalCurvatures": ("SmoothingScale", "0.05"), "ScreenedPoisson": ("ScreeningWeight", "50"),
+    "SpectralSignatures": ("ShownScale", "0"), "StitchColors": ("KeptMean", "1"),
+    "SurfaceDetail": ("DetailScale", "3"), "SurfaceGradient": ("Array", "height")}
+
 STAGES = ("Space", "System", "Hierarchy", "RightHandSide", "Solve")
+
+
+def change_of(name):
+    """The property of a filter that is changed, and its new value."""
+    return CHANGES.get(name, ("Depth", "5"))
+
+
+def colors_of(name):
+    """By which array the hints of a filter's panel colour it first, and how; empty where they say nothing."""
+    hint = re.search(r'class="vtkSM(?:ArrayColors|ColorsLater)" array="(\w+)"(?: colors="(\w+)")?', _PANELS[name])
+    return hint.groups("") if hint else ("", "")
 
 
 def load():

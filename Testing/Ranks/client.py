@@ -14,12 +14,11 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
+sys.path.append(os.path.join(os.environ["GRIDFEM_SOURCE_DIR"], "Testing", "Plugin"))
+from plugin import CHOICES
+
 RANKS = int(sys.argv[2])
 DEPTH = 4
-
-CHOICES = {
-    "StitchColors": {"ColorArray": ["POINTS", "f"], "LabelArray": ["POINTS", "label"]},
-    "HarmonicInterpolation": {"ValueArray": ["POINTS", "f"]}}
 
 
 def array_of(data, name):

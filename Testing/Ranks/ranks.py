@@ -238,20 +238,15 @@ def piece(mesh, kind, global_ids=False):
 
 # --- filters ----------------------------------------------------------------------------------
 
-# Besides Depth: what a filter needs to compute something that numbers can be compared of.
+# Besides Depth and a Tolerance of 1e-13: what a filter needs to compute something that numbers can be
+# compared of.
 CHOICES = {
-    "ScreenedPoisson": {"ScreeningWeight": 100.0, "Tolerance": 1e-13},
-    "StitchColors": {"Tolerance": 1e-13},
-    "HarmonicInterpolation": {"Tolerance": 1e-13},
+    "ScreenedPoisson": {"ScreeningWeight": 100.0},
     "LaplaceSpectrum": {"NumberOfModes": 5, "AllModes": True, "Tolerance": 1e-12,
                         "CompleteMultiplets": False},
     "SpectralSignatures": {"NumberOfModes": 8, "Tolerance": 1e-12},
-    "MeanCurvatureFlow": {"NumberOfSteps": 2, "Tolerance": 1e-13},
-    "HeatDiffusion": {"NumberOfSteps": 2, "Tolerance": 1e-13},
-    "GeodesicDistance": {"Tolerance": 1e-13},
-    "PrincipalCurvatures": {"Tolerance": 1e-13},
-    "SurfaceDetail": {"Tolerance": 1e-13},
-    "SurfaceGradient": {"Tolerance": 1e-13}}
+    "MeanCurvatureFlow": {"NumberOfSteps": 2},
+    "HeatDiffusion": {"NumberOfSteps": 2}}
 ARRAYS = {
     "ScreenedPoisson": ["f"], "StitchColors": ["f", "label"], "HeatDiffusion": ["f"],
     "SurfaceGradient": ["f"], "HarmonicInterpolation": ["g"]}
@@ -266,7 +261,7 @@ def make(name, depth=4, hats=False, **properties):
     made.SetMaximumIterations(500)
     if hats:
         made.SetFunctionSpace(made.HatFunctions)
-    for key, value in {**CHOICES.get(name, {}), **properties}.items():
+    for key, value in {"Tolerance": 1e-13, **CHOICES.get(name, {}), **properties}.items():
         getattr(made, "Set" + key)(value)
     for index, array in enumerate(ARRAYS.get(name, [])):
         made.SetInputArrayToProcess(index, 0, 0, POINTS, array)

@@ -2,7 +2,6 @@
 the titles of that, at the time of its result; had its first value again after undo, the second after
 redo, where its state loads and computes; nothing but the file is left after all were deleted, and a state
 brings all of it back into the window. What the first Apply has shown is in Shown/ of the current folder."""
-import glob
 import math
 import os
 import sys
@@ -18,9 +17,7 @@ from vtkmodules.vtkIOImage import vtkPNGReader
 import plugin
 
 plugin.load()
-folder, filters = sys.argv[1], sys.argv[2:]
-if set(filters) != set(plugin.PROXIES):
-    sys.exit(f"the filters are {filters}")
+folder = sys.argv[1]
 
 
 def sources(path):
@@ -36,27 +33,9 @@ def value_of(proxy, name):
     return proxy.findall(f"Property[@name='{name}']/Element")[-1].get("value")
 
 
-# What colours a filter, and the series of a chart that opens beside it.
-COLORED_BY = {
-    "ClipToOctree": "OctreeCellColor", "ConnectivityAwareBasis": "PatchColor",
-    "GeodesicDistance": "Distance", "HarmonicInterpolation": "Interpolated",
-    "HeatDiffusion": "NormalDisplacement", "LaplaceSpectrum": "Mode", "MeanCurvatureFlow": "",
-    "PrincipalCurvatures": "Bending", "ScreenedPoisson": "NormalDisplacement",
-    "SpectralSignatures": "Signature", "StitchColors": "StitchedColors",
-    "SurfaceDetail": "NormalDisplacement", "SurfaceGradient": "Laplacian"}
 WITH_EDGES = ("ClipToOctree",)  # where it has no more cells than its hint says
-# What was changed, from which value to which; of an array its name.
-CHANGES = {
-    "ClipToOctree": ("Depth", "4", "5"), "ConnectivityAwareBasis": ("ConnectivityAware", "1", "0"),
-    "GeodesicDistance": ("SourceArray", "None", "label"),
-    "HarmonicInterpolation": ("MaskArray", "None", "label"), "HeatDiffusion": ("NumberOfSteps", "1", "3"),
-    "LaplaceSpectrum": ("NumberOfModes", "20", "12"), "MeanCurvatureFlow": ("NumberOfSteps", "10", "12"),
-    "PrincipalCurvatures": ("SmoothingScale", "0", "0.05"),
-    "ScreenedPoisson": ("ScreeningWeight", "100", "50"), "SpectralSignatures": ("ShownScale", "-1", "0"),
-    "StitchColors": ("KeptMean", "0", "1"), "SurfaceDetail": ("DetailScale", "2", "3"),
-    "SurfaceGradient": ("Array", "None", "height")}
-ZERO_IN_THE_MIDDLE = ("Bending", "Mode", "NormalDisplacement")
 shown = set()  # arrays, so far
+# The series of a chart that opens beside a filter, and the titles of its axes.
 CHARTS = {"LaplaceSpectrum": ["Eigenvalue"], "MeanCurvatureFlow": ["Sphericity"]}
 TITLES = {"LaplaceSpectrum": ("Mode", "Eigenvalue"),
           "MeanCurvatureFlow": ("Time of the flow", "Sphericity")}
@@ -102,7 +81,8 @@ def check_shown(name):
     if len(surfaces) != 1 or surfaces[0].SMProxy.GetProperty("Input").GetProxy(0) != source.SMProxy:
         sys.exit(f"{name}: {len(surfaces)} surfaces are shown")
     association, array = surfaces[0].ColorArrayName
-    if (array or "") != COLORED_BY[name]:
+    wanted_array, colors = plugin.colors_of(name)
+    if (array or "") != wanted_array:
         sys.exit(f"{name}: coloured by {array}")
     if surfaces[0].Representation != ("Surface With Edges" if name in WITH_EDGES else "Surface"):
         sys.exit(f"{name}: shown as {surfaces[0].Representation}")
@@ -117,7 +97,7 @@ def check_shown(name):
     source.UpdatePipeline(simple.GetActiveView().ViewTime)
     component = -1 if data[array].GetNumberOfComponents() > 1 else 0
     wanted = data[array].GetRange(component)
-    if array in ZERO_IN_THE_MIDDLE:
+    if colors == "diverging" and component == 0:
         largest = max(abs(end) for end in wanted)
         wanted = (-largest, largest)
     points = surfaces[0].LookupTable.RGBPoints
@@ -130,9 +110,12 @@ def check_shown(name):
     simple.ResetSession()
 
 
-for name in filters:
+for name in plugin.PROXIES:
     check_shown(name)
-    changed, before, after = CHANGES[name]
+    changed, after = plugin.change_of(name)
+    before = value_of(sources(f"{folder}/{name}.Shown.pvsm")[name + "1"], changed)
+    if before == after:
+        sys.exit(f"{name}: {changed} was {after} before it was changed")
     for step, wanted in (("Undo", before), ("Redo", after)):
         found = sources(f"{folder}/{name}.{step}.pvsm")
         if set(found) != {"sphere.vtp", name + "1"}:
@@ -145,13 +128,13 @@ for name in filters:
         sys.exit(f"{name}: nothing comes out of the state")
     simple.ResetSession()
 loaded = sources(f"{folder}/loaded.pvsm")
-again = sources(f"{folder}/{filters[0]}.Redo.pvsm")
-changed = CHANGES[filters[0]][0]
+first = plugin.PROXIES[0]
+again = sources(f"{folder}/{first}.Redo.pvsm")
+changed, after = plugin.change_of(first)
 if {name: proxy.get("type") for name, proxy in loaded.items()} != {
         name: proxy.get("type") for name, proxy in again.items()} or (
-            value_of(loaded[filters[0] + "1"], changed) != CHANGES[filters[0]][2]):
+            value_of(loaded[first + "1"], changed) != after):
     sys.exit(f"the window has loaded {sorted(loaded)}")
-for path in glob.glob(f"{folder}/left.*.pvsm"):
-    left = sources(path)
-    if set(left) != {"sphere.vtp"}:
-        sys.exit(f"left are {sorted(left)}")
+left = sources(f"{folder}/left.pvsm")
+if set(left) != {"sphere.vtp"}:
+    sys.exit(f"left are {sorted(left)}")

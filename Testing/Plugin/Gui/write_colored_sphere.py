@@ -1,4 +1,5 @@
-"""Writes a sphere with colours, labels of its halves, a function and a vector field at its points."""
+"""Writes a sphere with colours, which are `f` as well, the array that all tests choose, labels of its
+halves, a function and a vector field at its points."""
 import sys
 
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkIntArray, vtkUnsignedCharArray
@@ -27,7 +28,10 @@ for point in range(sphere.GetNumberOfPoints()):
     label.InsertNextValue(int(z > 0))
     height.InsertNextValue(z)
     direction.InsertNextTuple3(0, 0, 2)
-for array in (colors, label, height, direction):
+f = vtkUnsignedCharArray()
+f.DeepCopy(colors)
+f.SetName("f")
+for array in (colors, f, label, height, direction):
     sphere.GetPointData().AddArray(array)
 
 writer = vtkXMLPolyDataWriter()
