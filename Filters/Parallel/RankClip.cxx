@@ -165,11 +165,8 @@ RankClip::RankClip(const Communicator& ranks, const TriangleMesh& own,
         return;
       }
       frame.region = &region;
-      ClipOptions clip;
+      ClipOptions clip = functions;
       clip.depth = frame.grid.depth;
-      clip.weldCoincidentPoints = functions.weldCoincidentPoints;
-      clip.joinAtPoints = functions.joinAtPoints;
-      clip.threads = functions.threads;
       clipped = ClipPart(*received, frame, clip, progress.Part(0.25, 1.0));
     });
   mesh = std::move(received);

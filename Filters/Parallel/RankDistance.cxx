@@ -147,10 +147,7 @@ DistanceField RankDistance::From(
   const HeldValues held = levels_.Hats() ? HoldPoints(levels_, sources, zeroes) : onGrid;
   const HeatField heat = heat_->From(LoadOfRows(levels_.OfGrid(), onGrid.rows), job.Part(0.0, 0.5));
   const MultiVector load = this->LoadOfDistance(heat.coefficients, isSource);
-  PoissonOptions options;
-  options.screeningWeight = 0.0;
-  options.multigrid = options_.multigrid;
-  options.solve = solve;
+  const PoissonOptions options{ { options_.multigrid, solve }, 0.0 };
   PoissonSolution solution = SolvePoisson(levels_, *poisson_, MultiVector::Zero(load.rows(), 1),
     load, options, job.progress.Part(0.5, 0.95));
   DistanceField field;

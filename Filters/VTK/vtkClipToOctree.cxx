@@ -68,10 +68,7 @@ void vtkClipToOctree::Compute(vtkInformationVector** inputs, vtkInformationVecto
     gridfem::RequireSurface(*state.mesh.triangles);
     state.ChooseDepth();
     gridfem::RequireMemory(*state.mesh.triangles, options.depth);
-    const gridfem::ClipOptions clipOptions{ options.depth, options.weldCoincidentPoints,
-      options.threads };
-    this->Data->Clipped =
-      gridfem::Clip(*state.mesh.triangles, clipOptions, progress.Part(0.1, 0.7));
+    this->Data->Clipped = gridfem::Clip(*state.mesh.triangles, options, progress.Part(0.1, 0.7));
     gridfem::WriteClippedFrame(input, state.mesh, this->Data->Clipped, options.weldCoincidentPoints,
       options.threads, this->Data->Frame);
   };

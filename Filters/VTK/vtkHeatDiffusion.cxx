@@ -189,13 +189,8 @@ void vtkHeatDiffusion::UpdateSteps(const gridfem::Progress& progress)
   state.stages.Run(gridfem::HierarchyStage, key,
     [&]
     {
-      gridfem::DiffusionOptions options;
-      options.timeStep = step;
-      options.scheme = static_cast<gridfem::TimeScheme>(this->Scheme);
-      options.multigrid = state.options.multigrid;
-      options.solve = state.options.solve;
-      options.accuracy = state.options.accuracy;
-      options.held = data.Held;
+      const gridfem::DiffusionOptions options{ state.options, step,
+        static_cast<gridfem::TimeScheme>(this->Scheme), data.Held };
       data.Steps.clear();
       data.Diffusion.reset(); // frees its memory first
       data.Diffusion = std::make_unique<gridfem::HeatDiffusion>(state.SolverSpace(), data.Start,

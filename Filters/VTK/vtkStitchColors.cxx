@@ -234,11 +234,8 @@ void vtkStitchColors::Solve(const gridfem::InputArray& colors, const gridfem::Pr
 {
   Internals& data = *this->Data;
   gridfem::SurfaceSolverState& state = *this->State;
-  gridfem::StitchOptions options;
-  options.multigrid = state.options.multigrid;
-  options.solve = state.options.solve;
-  options.accuracy = state.options.accuracy;
-  options.blendWidth = this->BlendWidth * state.space->Extent() * state.space->UnitLength();
+  gridfem::StitchOptions options{ state.options,
+    this->BlendWidth * state.space->Extent() * state.space->UnitLength(), {} };
   if (this->KeptMean == ReferenceScan)
   {
     options.reference = NumberOf(data.Labels, this->ReferenceLabel);

@@ -343,8 +343,8 @@ gridfem::PoissonLoad vtkSurfaceDetail::Integrate(const gridfem::Job& job)
     const std::vector<double> onElements =
       scale ? OnElements(space, *scale, part.Part(0.0, 0.5)) : std::vector<double>();
     load.gradients.conservativeResize(space.Integrals().size(), load.gradients.cols() + columns);
-    load.gradients.rightCols(columns) = gridfem::LoadOfDetail(
-      space, data.Signal.coefficients, onElements, part.Part(scale ? 0.5 : 0.0, 1.0));
+    load.gradients.rightCols(columns) =
+      space.StiffnessTimes(data.Signal.coefficients, onElements, part.Part(scale ? 0.5 : 0.0, 1.0));
     done += 1.0;
   };
   append(nullptr);

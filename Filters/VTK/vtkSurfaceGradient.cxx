@@ -80,9 +80,7 @@ void vtkSurfaceGradient::Decompose(
     [&]
     {
       parts = gridfem::DecomposeField(*state.space, *state.mesh.triangles,
-        gridfem::ReadField(array, state.mesh),
-        { state.options.multigrid, state.options.solve, state.options.accuracy,
-          state.basis.weldCoincidentPoints },
+        gridfem::ReadField(array, state.mesh), { state.options, state.basis.weldCoincidentPoints },
         state.MakeJob(progress));
     });
   if (parts.numberOfOneSided > 0)
@@ -118,8 +116,7 @@ void vtkSurfaceGradient::Derive(const gridfem::InputArray& array, const gridfem:
     [&]
     {
       derivatives = gridfem::ComputeDerivatives(*state.SolverSpace(), *state.mesh.triangles,
-        array.array ? state.Read(array) : gridfem::CoordinatesField(state.mesh),
-        { state.options.multigrid, state.options.solve, state.options.accuracy },
+        array.array ? state.Read(array) : gridfem::CoordinatesField(state.mesh), state.options,
         state.MakeJob(progress));
     });
 }

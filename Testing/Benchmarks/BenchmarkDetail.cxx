@@ -139,7 +139,7 @@ private:
   void Integrate(int frame)
   {
     const std::vector<double> scale(onElements_.rows(), 1.0 + 0.02 * frame);
-    load_ = LoadOfDetail(*weighed_, shape_, scale, Threads);
+    load_ = weighed_->StiffnessTimes(shape_, scale, Threads);
   }
 
   void Solve()
@@ -150,7 +150,8 @@ private:
     options.solve.tolerance = 1e-8;
     const MultiVector last = std::move(solution_);
     options.start = &last;
-    solution_ = SolveDetail(*weighed_, *hierarchy_, load_, options).coefficients;
+    const MultiVector noValues = MultiVector::Zero(load_.rows(), load_.cols());
+    solution_ = SolvePoisson(*weighed_, *hierarchy_, noValues, load_, options).coefficients;
     this->Move(1.0);
   }
 

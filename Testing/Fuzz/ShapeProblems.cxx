@@ -141,10 +141,11 @@ void ChangeDetail(Choice& choice, RandomSurface& surface, Outcome& outcome)
     choice.OneIn(2) ? ShapeInSpace(*space)
                     : ProjectSignal(*space, RandomField(choice, mesh, 2, FieldAssociation::Points),
                         options.multigrid, options.solve);
-  const MultiVector load = LoadOfDetail(*space, signal.coefficients, {});
+  const MultiVector load = space->StiffnessTimes(signal.coefficients, {});
   const Multigrid multigrid =
     BuildMultigrid(*space, options.screeningWeight, 1.0, options.multigrid);
-  const PoissonSolution solution = SolveDetail(*space, multigrid, load, options);
+  const PoissonSolution solution =
+    SolvePoisson(*space, multigrid, MultiVector::Zero(load.rows(), load.cols()), load, options);
   outcome.Add(solution.report);
   outcome.RequireFinite(solution.coefficients, "the detail");
   std::vector<Vec3> points = mesh.points;
@@ -204,7 +205,7 @@ void Decompose(Choice& choice, RandomSurface& surface, Outcome& outcome)
 void Derive(Choice& choice, RandomSurface& surface, Outcome& outcome)
 {
   surface.Build();
-  DerivativeOptions options;
+  EquationOptions options;
   options.multigrid = RandomCycle(choice);
   options.solve = RandomSolve(choice);
   const Field f = RandomField(choice, *surface.mesh, choice.Integer(1, 3),

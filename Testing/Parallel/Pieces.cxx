@@ -35,9 +35,9 @@ MultiVector VectorsAt(const std::vector<Vec3>& points)
   return values;
 }
 
-DerivativeOptions Exactly()
+EquationOptions Exactly()
 {
-  DerivativeOptions options;
+  EquationOptions options;
   options.multigrid.threads = 1;
   options.solve.tolerance = 1e-12;
   options.solve.maximumIterations = 300;

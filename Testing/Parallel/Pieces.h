@@ -24,7 +24,7 @@ std::unique_ptr<const FiniteElementSpace> WholeSpace(
 MultiVector VectorsAt(const std::vector<Vec3>& points);
 
 /// One thread, and solutions to rounding.
-DerivativeOptions Exactly();
+EquationOptions Exactly();
 
 /// (λM + L) u = f + div s with the gradient s of f, on one process or on ranks, from the load on.
 /// @param f  at the points of the space

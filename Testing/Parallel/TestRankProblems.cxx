@@ -38,7 +38,7 @@ void CompareDerivatives(const NamedSurface& surface, Dealing dealing, bool withC
   const Communicator ranks(MPI_COMM_WORLD);
   const auto alone = WholeSpace(surface.mesh, StableOptions(), hasHats);
   const Field f{ FieldAssociation::Points, VectorsAt(surface.mesh.points) };
-  DerivativeOptions options = Exactly();
+  EquationOptions options = Exactly();
   options.solve.tolerance = hasHats ? 1e-11 : options.solve.tolerance; // rounding is 1e-12
   const SurfaceDerivatives expected = ComputeDerivatives(*alone, surface.mesh, f, options);
 

@@ -21,12 +21,12 @@ inline GridSpace ViewOf(
 /// The finest mass or stiffness matrix, grid units.
 inline SparseMatrix MassMatrix(const GridFunctions& space, const LevelOperators& system)
 {
-  return LevelMatrix(space, system, 0, 1.0, 0.0);
+  return ViewOf(space, system).Matrix(0, 1.0, 0.0);
 }
 
 inline SparseMatrix StiffnessMatrix(const GridFunctions& space, const LevelOperators& system)
 {
-  return LevelMatrix(space, system, 0, 0.0, 1.0);
+  return ViewOf(space, system).Matrix(0, 0.0, 1.0);
 }
 
 struct Discretisation

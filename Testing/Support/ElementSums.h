@@ -12,6 +12,14 @@
 namespace gridfem::testing
 {
 
+inline ElementMatrices Coarsened(const PatchLevel& fine, const PatchLevel& coarse,
+  const ElementMatrices& elements, int threads = 0)
+{
+  ElementMatrices result;
+  CoarsenElements(fine, coarse, elements, result, threads);
+  return result;
+}
+
 inline double LargestEntry(const Array<ElementMatrix>& matrices)
 {
   double largest = 0.0;

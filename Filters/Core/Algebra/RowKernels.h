@@ -37,11 +37,8 @@ struct ColumnChunk
   }
 };
 
-/// Columns of a block in single precision that are worked on together.
-constexpr Id WideChunk = PrecisionTraits<float>::WidestPanel;
-
 /// Calls body(chunk) for chunks of 8, 4, 3, 2 or 1 columns that cover a block of `columns`; for one
-/// chunk where a block in single precision has WideChunk of them.
+/// chunk where a block in single precision has WidestPanel of them.
 template<class Real = double, class Body>
 void ForEachChunk(Id columns, Body&& body)
 {
@@ -57,10 +54,10 @@ void ForEachChunk(Id columns, Body&& body)
       return body(ColumnChunk<4, 4, Real>());
     case 8:
       return body(ColumnChunk<8, 8, Real>());
-    case WideChunk:
+    case WidestPanel:
       if constexpr (PrecisionTraits<Real>::IsSingle)
       {
-        return body(ColumnChunk<WideChunk, WideChunk, Real>());
+        return body(ColumnChunk<WidestPanel, WidestPanel, Real>());
       }
       break;
     default:

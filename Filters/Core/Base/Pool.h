@@ -2,7 +2,6 @@
 #ifndef GridFEM_Pool_h
 #define GridFEM_Pool_h
 
-#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <mutex>
@@ -16,9 +15,6 @@ template<class Space>
 class Pool
 {
 public:
-  /// @param kept  spaces that are kept while nobody uses them, at most
-  explicit Pool(std::size_t kept = static_cast<std::size_t>(-1)) : kept_(kept) {}
-
   /// A space for the life of this object, nobody else's meanwhile; what it held stays in it.
   class Loan
   {
@@ -41,7 +37,7 @@ private:
     const std::lock_guard<std::mutex> lock(mutex_);
     if (free_.empty())
     {
-      free_.reserve(std::min(kept_, made_ + 1)); // Return must not fail
+      free_.reserve(made_ + 1); // Return must not fail
       auto space = std::make_unique<Space>();
       ++made_;
       return space;
@@ -53,19 +49,11 @@ private:
   void Return(std::unique_ptr<Space> space)
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (free_.size() < kept_)
-    {
-      free_.push_back(std::move(space));
-    }
-    else
-    {
-      --made_;
-    }
+    free_.push_back(std::move(space));
   }
 
   std::mutex mutex_;
-  std::size_t kept_;
-  std::size_t made_ = 0; // and not gone
+  std::size_t made_ = 0;
   std::vector<std::unique_ptr<Space>> free_;
 };
 

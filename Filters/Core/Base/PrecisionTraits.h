@@ -7,6 +7,11 @@
 namespace gridfem
 {
 
+/// Columns of a block in single precision that are worked on together, at most. Two vector
+/// registers of sixteen share every number of a matrix that is read. Fewer columns are not faster,
+/// because reading matrices takes most of the time.
+constexpr Id WidestPanel = 32;
+
 template<class Real>
 struct PrecisionTraits;
 
@@ -39,9 +44,6 @@ struct PrecisionTraits<float>
   /// of 3e-6, twice as many with 3e-7, and do not converge with 3e-8.
   static constexpr double SmallestPatchPivot = 1e-6;
 
-  /// Two vector registers of sixteen share every number of a matrix that is read. Fewer columns are
-  /// not faster, because reading matrices takes most of the time.
-  static constexpr Id WidestPanel = 32;
   static constexpr Id PanelWidth(Id) { return WidestPanel; }
 };
 

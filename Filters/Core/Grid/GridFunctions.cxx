@@ -184,12 +184,7 @@ Array<Index> FindPointPatches(const ClippedMesh& clipped, const Array<Index>& pi
 GridFunctions BuildGridFunctions(
   const TriangleMesh& mesh, const SpaceOptions& options, const Progress& progress)
 {
-  ClipOptions clip;
-  clip.depth = options.depth;
-  clip.weldCoincidentPoints = options.weldCoincidentPoints;
-  clip.joinAtPoints = options.joinAtPoints;
-  clip.threads = options.threads;
-  return BuildGridFunctions(Clip(mesh, clip, progress.Part(0.0, 0.7)),
+  return BuildGridFunctions(Clip(mesh, options, progress.Part(0.0, 0.7)),
     options.connectivityAware ? FunctionSupport::ConnectivityAware : FunctionSupport::Plain,
     { options.threads, progress.Part(0.7, 1.0) });
 }

@@ -11,13 +11,10 @@
 namespace gridfem
 {
 
-struct SpaceOptions
+/// What pieces are linked decides what is connected.
+struct SpaceOptions : ClipOptions
 {
-  int depth = 7;                    // 2^depth cells along the longest side, 2..14
-  bool connectivityAware = true;    // one function per connected component of a support
-  bool weldCoincidentPoints = true; // coincident points count as one for connectivity
-  int threads = 0;                  // 0: all
-  bool joinAtPoints = false;        // sheets that touch in a point of the mesh are connected
+  bool connectivityAware = true; // one function per connected component of a support
 };
 
 /// A piece that another process has, of a triangle that has pieces here, too.

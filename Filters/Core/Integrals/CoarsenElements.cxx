@@ -142,17 +142,6 @@ std::array<OctantWeights, 8> MakeChildWeights()
 
 } // namespace
 
-Array<ElementMatrix> CoarsenElements(const PatchLevel& fine, const PatchLevel& coarse,
-  const Array<ElementMatrix>& matrices, int threads)
-{
-  const Groups children = GroupItems(fine.parent, coarse.NumberOfPatches(), threads);
-  Array<ElementMatrix> result(coarse.NumberOfPatches());
-  ForEachLaneGroup(coarse.NumberOfPatches(), threads,
-    [&](Id begin, int count)
-    { SumChildren(fine, children, begin, count, matrices, result.data() + begin); });
-  return result;
-}
-
 void CoarsenElements(const PatchLevel& fine, const PatchLevel& coarse,
   const ElementMatrices& elements, ElementMatrices& result, int threads, ElementParts parts)
 {

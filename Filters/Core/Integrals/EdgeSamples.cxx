@@ -220,4 +220,18 @@ EdgeSamples SampleSegments(const GridFunctions& space, const TriangleMesh& mesh,
   return samples;
 }
 
+MultiVector IntegrateAlong(const EdgeSamples& samples, const MultiVector& values)
+{
+  MultiVector load = MultiVector::Zero(samples.rows.columns, values.cols());
+  for (Index row = 0; row < samples.rows.rows; ++row)
+  {
+    for (Id k = samples.rows.rowBegin[row]; k < samples.rows.rowBegin[row + 1]; ++k)
+    {
+      load.row(samples.rows.column[k]) +=
+        samples.length[row] * samples.rows.value[k] * values.row(row);
+    }
+  }
+  return load;
+}
+
 } // namespace gridfem

@@ -30,6 +30,10 @@ struct EdgeSamples
   SparseMatrix rows;            // the values of all functions: rows = samples
 };
 
+/// ∫ f b_i along the segments: rows = functions, columns as `values`.
+/// @param values  f at the samples
+MultiVector IntegrateAlong(const EdgeSamples& samples, const MultiVector& values);
+
 /// Segments fall into stretches at the faces of the cells, each with three Gauss points. Triangles
 /// without a piece, which have no area, have no samples. Where processes divide the surface, each
 /// has the samples on its own pieces, and of the others none.

@@ -33,27 +33,8 @@ LaneTensor TensorOfTriangles(const ClippedMesh& clipped, const TriangleBatch& ba
 } // namespace
 
 ElementMatrices IntegrateElements(const GridFunctions& space, const QuadratureRule& rule,
-  const Job& job, double normalStabilization)
-{
-  ElementMatrices elements;
-  IntegratePatches(space, rule, job, elements, ElementParts::Both,
-    [normalStabilization](const TriangleBatch&, const TrianglePlanes& planes)
-    {
-      return [tensor = TangentialProjection(planes.normal, normalStabilization)](
-               Id, int count, SampleBatch* samples)
-      {
-        for (int k = 0; k < count; ++k)
-        {
-          samples[k].tensor = tensor.Times(samples[k].mass);
-        }
-      };
-    });
-  return elements;
-}
-
-ElementMatrices IntegrateWeightedElements(const GridFunctions& space, const QuadratureRule& rule,
-  const std::vector<double>& weight, const std::vector<Eigen::Matrix3d>* tensor, const Job& job,
-  double normalStabilization)
+  const Job& job, double normalStabilization, const std::vector<double>* weight,
+  const std::vector<Eigen::Matrix3d>* tensor)
 {
   ElementMatrices elements;
   IntegratePatches(space, rule, job, elements, ElementParts::Both,
@@ -62,7 +43,8 @@ ElementMatrices IntegrateWeightedElements(const GridFunctions& space, const Quad
       Lanes ofTriangle;
       for (int lane = 0; lane < LaneCount; ++lane)
       {
-        ofTriangle[lane] = weight[space.clipped.pieceTriangle[batch.piece[lane]]];
+        const Index triangle = space.clipped.pieceTriangle[batch.piece[lane]];
+        ofTriangle[lane] = weight ? (*weight)[triangle] : 1.0;
       }
       const LaneTensor ofStiffness =
         tensor

@@ -51,22 +51,17 @@ constexpr double DefaultNormalStabilization = 1e-12;
 /// Integrates over every piece with `rule` on every triangle of its fan. [T Alg. 4.1]
 /// Pieces of zero area contribute nothing. Cost O(clipped triangles x points); same bits for any
 /// number of threads.
+/// @param weight  of the mass on each source triangle, ∫ w b_i b_j; null: 1
+/// @param tensor  symmetric, in the plane of each source triangle, ∫ <∇b_i, T ∇b_j>; null: the
+///                projection to the plane
 ElementMatrices IntegrateElements(const GridFunctions& space, const QuadratureRule& rule,
-  const Job& job = {}, double normalStabilization = DefaultNormalStabilization);
-
-/// The same with a weight of the mass on each source triangle, ∫ w b_i b_j, and a symmetric tensor
-/// in its plane, ∫ <∇b_i, T ∇b_j>.
-/// @param tensor  null: the projection to the plane
-ElementMatrices IntegrateWeightedElements(const GridFunctions& space, const QuadratureRule& rule,
-  const std::vector<double>& weight, const std::vector<Eigen::Matrix3d>* tensor = nullptr,
-  const Job& job = {}, double normalStabilization = DefaultNormalStabilization);
+  const Job& job = {}, double normalStabilization = DefaultNormalStabilization,
+  const std::vector<double>* weight = nullptr,
+  const std::vector<Eigen::Matrix3d>* tensor = nullptr);
 
 /// Galerkin coarsening: adds every patch's matrix, interpolated, to its parent's. [T (4.6)]
-/// @return one entry per patch of `coarse`. Same bits for any number of threads.
-Array<ElementMatrix> CoarsenElements(const PatchLevel& fine, const PatchLevel& coarse,
-  const Array<ElementMatrix>& matrices, int threads = 0);
-
-/// The same for both matrices at once, in place where `result` has its size already.
+/// Same bits for any number of threads.
+/// @param result  gets one entry per patch of `coarse`, in place where it has its size already
 void CoarsenElements(const PatchLevel& fine, const PatchLevel& coarse,
   const ElementMatrices& elements, ElementMatrices& result, int threads = 0,
   ElementParts parts = ElementParts::Both);

@@ -11,12 +11,10 @@ namespace gridfem
 namespace
 {
 
-using PackedEntries = Eigen::Map<const Eigen::Array<double, ElementEntries, 1>>;
-
-/// share = matrix x the coefficients of a patch. Lanes are its functions.
+/// share = factor x matrix x the coefficients of a patch. Lanes are its functions.
 template<int Columns>
-void Multiply(const ElementMatrix& matrix, const std::array<Index, FunctionsPerPatch>& dof,
-  const MultiVector& u, const PatchShare& share)
+void Multiply(double factor, const ElementMatrix& matrix,
+  const std::array<Index, FunctionsPerPatch>& dof, const MultiVector& u, const PatchShare& share)
 {
   std::array<Lanes, Columns> sum;
   sum.fill(Lanes::Zero());
@@ -25,7 +23,7 @@ void Multiply(const ElementMatrix& matrix, const std::array<Index, FunctionsPerP
     Lanes column;
     for (int i = 0; i < FunctionsPerPatch; ++i)
     {
-      column[i] = matrix[PackedIndex(i, j)];
+      column[i] = factor * matrix[PackedIndex(i, j)];
     }
     const double* const value = &u(dof[j], share.firstColumn);
     for (int c = 0; c < Columns; ++c)
@@ -59,8 +57,8 @@ void Check(const PatchLevel& level, const std::vector<double>& scale, const Mult
 } // namespace
 
 MultiVector MultiplyElements(const PatchLevel& level, const FunctionPlaces& places,
-  const ElementMatrices& elements, double a, double b, const std::vector<double>& scale,
-  const MultiVector& u, int threads)
+  const Array<ElementMatrix>& matrices, const std::vector<double>& scale, const MultiVector& u,
+  int threads)
 {
   Check(level, scale, u);
   MultiVector result(u.rows(), u.cols());
@@ -73,15 +71,10 @@ MultiVector MultiplyElements(const PatchLevel& level, const FunctionPlaces& plac
       ParallelRanges(level.NumberOfPatches(), threads,
         [&](Id begin, Id end)
         {
-          ElementMatrix sum;
           for (Id patch = begin; patch < end; ++patch)
           {
-            const double factor = scale.empty() ? b : b * scale[patch];
-            Eigen::Map<Eigen::Array<double, ElementEntries, 1>>(sum.data()) =
-              a * PackedEntries(elements.mass[patch].data()) +
-              factor * PackedEntries(elements.stiffness[patch].data());
-            Multiply<Columns>(sum, level.dof[patch], u,
-              { first, shares.data() + patch * FunctionsPerPatch * Columns });
+            Multiply<Columns>(scale.empty() ? 1.0 : scale[patch], matrices[patch], level.dof[patch],
+              u, { first, shares.data() + patch * FunctionsPerPatch * Columns });
           }
         });
       SumShares<Columns>(shares, places, first, threads, result);

@@ -1,4 +1,4 @@
-// Products of a level's matrices with vectors, from the element matrices: the weight of an element
+// Products of a level's matrix with vectors, from the element matrices: the weight of an element
 // can change without a new matrix.
 #ifndef GridFEM_ElementProducts_h
 #define GridFEM_ElementProducts_h
@@ -8,15 +8,15 @@
 namespace gridfem
 {
 
-/// Σ over the patches of (a mass + b scale stiffness) u. Cost O(patches x columns); same bits for
-/// any number of threads.
+/// Σ over the patches of scale matrix u. Cost O(patches x columns); same bits for any number of
+/// threads.
 /// @param places  of the level's functions
 /// @param scale   one number per patch; empty: 1
 /// @param u       rows = functions of the level; the result has its size
 /// Throws InvalidInput when a number of rows does not fit.
 MultiVector MultiplyElements(const PatchLevel& level, const FunctionPlaces& places,
-  const ElementMatrices& elements, double a, double b, const std::vector<double>& scale,
-  const MultiVector& u, int threads = 0);
+  const Array<ElementMatrix>& matrices, const std::vector<double>& scale, const MultiVector& u,
+  int threads = 0);
 
 } // namespace gridfem
 

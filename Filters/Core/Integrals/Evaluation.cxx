@@ -90,7 +90,7 @@ void IntegrateGradient(const GridFunctions& space, Id piece, const MultiVector& 
   const Vec3 normal = UnitNormal(space.clipped, piece);
   sum.setZero();
   ForEachSample(space.clipped, piece, CellCorner(level.cell[patch]), TriangleRule(2),
-    [&](Id, const Vec3& local, double weight)
+    [&](const Vec3& local, double weight)
     {
       std::array<CornerValues, 3> derivative;
       TrilinearGradients(local, derivative);

@@ -370,36 +370,6 @@ EIGEN_ALWAYS_INLINE LaneVector Tangential(
   return result;
 }
 
-/// @param weightOf  a factor for each source triangle
-template<class Weight>
-MultiVector IntegrateValuesTimes(const GridFunctions& space, const TriangleMesh& mesh,
-  const Field& f, const Weight& weightOf, const QuadratureRule& rule, const Job& job)
-{
-  RequireField(f, mesh);
-  return Integrate<ValueSums>(space, mesh, f.values.cols(), rule, job,
-    [&](const TriangleBatch& batch, const SourceLanes& source, Id first, auto& sums)
-    {
-      const Lanes factor = source.PerTriangle(weightOf);
-      constexpr int Columns = std::decay_t<decltype(sums)>::Count;
-      const RowNumbers rows = source.RowsOf(f);
-      std::array<LinearLanes, Columns> column;
-      for (int c = 0; c < Columns; ++c)
-      {
-        column[c] = source.Column(f, rows, first + c);
-      }
-      ForEachSample(batch, rule, nullptr,
-        [&](const Sample& sample)
-        {
-          Lanes value[Columns];
-          for (int c = 0; c < Columns; ++c)
-          {
-            value[c] = factor * column[c].At(sample.position);
-          }
-          sums.Add(sample, value);
-        });
-    });
-}
-
 /// ∫ <s, ∇b_i> for s = map(vector of the field, normal).
 template<class Map>
 MultiVector IntegrateVectors(const GridFunctions& space, const TriangleMesh& mesh, const Field& s,
@@ -498,18 +468,36 @@ EIGEN_ALWAYS_INLINE LaneVector Direction(const LaneVector& vector, double factor
 } // namespace
 
 MultiVector IntegrateValues(const GridFunctions& space, const TriangleMesh& mesh, const Field& f,
-  const QuadratureRule& rule, const Job& job)
+  const QuadratureRule& rule, const Job& job, const std::vector<double>* weight)
 {
-  return IntegrateValuesTimes(
-    space, mesh, f, [](Id) { return 1.0; }, rule, job);
-}
-
-MultiVector IntegrateWeightedValues(const GridFunctions& space, const TriangleMesh& mesh,
-  const Field& f, const std::vector<double>& weight, const QuadratureRule& rule, const Job& job)
-{
-  RequireWeights(weight, mesh);
-  return IntegrateValuesTimes(
-    space, mesh, f, [&weight](Id triangle) { return weight[triangle]; }, rule, job);
+  RequireField(f, mesh);
+  if (weight)
+  {
+    RequireWeights(*weight, mesh);
+  }
+  return Integrate<ValueSums>(space, mesh, f.values.cols(), rule, job,
+    [&](const TriangleBatch& batch, const SourceLanes& source, Id first, auto& sums)
+    {
+      const Lanes factor =
+        source.PerTriangle([weight](Id triangle) { return weight ? (*weight)[triangle] : 1.0; });
+      constexpr int Columns = std::decay_t<decltype(sums)>::Count;
+      const RowNumbers rows = source.RowsOf(f);
+      std::array<LinearLanes, Columns> column;
+      for (int c = 0; c < Columns; ++c)
+      {
+        column[c] = source.Column(f, rows, first + c);
+      }
+      ForEachSample(batch, rule, nullptr,
+        [&](const Sample& sample)
+        {
+          Lanes value[Columns];
+          for (int c = 0; c < Columns; ++c)
+          {
+            value[c] = factor * column[c].At(sample.position);
+          }
+          sums.Add(sample, value);
+        });
+    });
 }
 
 MultiVector IntegrateGradients(const GridFunctions& space, const TriangleMesh& mesh, const Field& s,

@@ -13,13 +13,9 @@ namespace gridfem
 /// All integrals throw InvalidInput when the rows or columns of a field do not fit the mesh.
 /// f_i = ∫ f b_i in grid units (field unit x cell sides squared): rows = functions of the finest
 /// level, columns = components of f. Same bits for any number of threads.
+/// @param weight  on each source triangle: ∫ w f b_i; null: 1
 MultiVector IntegrateValues(const GridFunctions& space, const TriangleMesh& mesh, const Field& f,
-  const QuadratureRule& rule, const Job& job = {});
-
-/// ∫ w f b_i with a weight w on each source triangle.
-MultiVector IntegrateWeightedValues(const GridFunctions& space, const TriangleMesh& mesh,
-  const Field& f, const std::vector<double>& weight, const QuadratureRule& rule,
-  const Job& job = {});
+  const QuadratureRule& rule, const Job& job = {}, const std::vector<double>* weight = nullptr);
 
 /// s_i = ∫ <s, ∇b_i> in the units of λM + L in grid units (the world's integral: spacing times the
 /// one over grid units), for vector fields in world units: s.values has 3 C columns, the three

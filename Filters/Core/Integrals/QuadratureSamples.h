@@ -42,44 +42,6 @@ inline Vec3 UnitNormal(const ClippedMesh& clipped, Id piece)
   return norm > 0.0 ? Vec3(area / norm) : Vec3(Vec3::Zero());
 }
 
-/// A triangle of a piece's fan: its corners are the piece's corners 0, k and k + 1.
-struct FanTriangle
-{
-  Id k;
-  std::array<Vec3, 3> corner; // relative to the given origin, grid units
-  Vec3 areaVector;            // along the normal
-  double area;                // its length, grid units, > 0
-
-  Vec3 At(const std::array<double, 3>& barycentric) const
-  {
-    return barycentric[0] * corner[0] + barycentric[1] * corner[1] + barycentric[2] * corner[2];
-  }
-};
-
-/// Calls body(FanTriangle) for the triangles of a piece that have an area.
-template<class Body>
-void ForEachFanTriangle(const ClippedMesh& clipped, Id piece, const Vec3& origin, Body&& body)
-{
-  const Index* corner = clipped.corners.data() + clipped.pieceBegin[piece];
-  const Id count = clipped.pieceBegin[piece + 1] - clipped.pieceBegin[piece];
-  FanTriangle triangle;
-  triangle.corner[0] = clipped.position[corner[0]] - origin;
-  for (Id k = 1; k + 1 < count; ++k)
-  {
-    triangle.k = k;
-    triangle.corner[1] = clipped.position[corner[k]] - origin;
-    triangle.corner[2] = clipped.position[corner[k + 1]] - origin;
-    triangle.areaVector =
-      0.5 *
-      (triangle.corner[1] - triangle.corner[0]).cross(triangle.corner[2] - triangle.corner[0]);
-    triangle.area = triangle.areaVector.norm();
-    if (triangle.area > 0.0)
-    {
-      body(triangle);
-    }
-  }
-}
-
 /// Samples of all pieces have one numbering: piece after piece, triangle after triangle of a fan
 /// (those without area too), point after point of the rule.
 inline Id FirstSample(const ClippedMesh& clipped, Id piece, const QuadratureRule& rule)
@@ -92,23 +54,29 @@ inline Id NumberOfSamples(const ClippedMesh& clipped, const QuadratureRule& rule
   return clipped.NumberOfTriangles() * static_cast<Id>(rule.points.size());
 }
 
-/// Calls body(sample, local, weight) for the samples of a piece: number, position relative to the
-/// origin, area it stands for; grid units.
+/// Calls body(local, weight) for the samples of a piece on triangles that have an area: position
+/// relative to the origin, area it stands for; grid units.
 template<class Body>
 void ForEachSample(
   const ClippedMesh& clipped, Id piece, const Vec3& origin, const QuadratureRule& rule, Body&& body)
 {
-  const Id points = static_cast<Id>(rule.points.size());
-  const Id first = FirstSample(clipped, piece, rule);
-  ForEachFanTriangle(clipped, piece, origin,
-    [&](const FanTriangle& triangle)
+  const Index* corner = clipped.corners.data() + clipped.pieceBegin[piece];
+  const Index* const last = clipped.corners.data() + clipped.pieceBegin[piece + 1] - 1;
+  const Vec3 apex = clipped.position[*corner] - origin;
+  while (++corner < last)
+  {
+    const Vec3 a = clipped.position[corner[0]] - origin;
+    const Vec3 b = clipped.position[corner[1]] - origin;
+    const double area = 0.5 * (a - apex).cross(b - apex).norm();
+    for (const QuadratureRule::Point& point : rule.points)
     {
-      Id sample = first + (triangle.k - 1) * points;
-      for (const QuadratureRule::Point& point : rule.points)
+      const auto& [ofApex, ofA, ofB] = point.barycentric;
+      if (area > 0.0)
       {
-        body(sample++, triangle.At(point.barycentric), point.weight * triangle.area);
+        body(Vec3(ofApex * apex + ofA * a + ofB * b), point.weight * area);
       }
-    });
+    }
+  }
 }
 
 } // namespace gridfem

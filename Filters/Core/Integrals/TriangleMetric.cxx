@@ -16,27 +16,18 @@ constexpr double SmallestEigenvalue = 1e-100;
 constexpr double LargestEigenvalue = 1e100;
 constexpr double LargestQuotient = 1e14;
 
-/// The edges of a triangle from its first corner, and what is across them.
-struct Edges
-{
-  Vec3 a;
-  Vec3 b;
-  Vec3 normal; // twice the area long
-  bool isFlat;
-
-  Edges(const TriangleMesh& mesh, Id triangle)
-  {
-    constexpr double SmallestHeight = 1e-10; // of the longest edge
-    const std::array<Id, 3>& corner = mesh.triangles[triangle];
-    a = mesh.points[corner[1]] - mesh.points[corner[0]];
-    b = mesh.points[corner[2]] - mesh.points[corner[0]];
-    normal = a.cross(b);
-    const double longest2 = std::max({ a.squaredNorm(), b.squaredNorm(), (b - a).squaredNorm() });
-    isFlat = !(normal.norm() > SmallestHeight * longest2);
-  }
-};
-
 } // namespace
+
+TriangleFrame::TriangleFrame(const TriangleMesh& mesh, Id triangle)
+{
+  constexpr double SmallestHeight = 1e-10;
+  const std::array<Id, 3>& corner = mesh.triangles[triangle];
+  a = mesh.points[corner[1]] - mesh.points[corner[0]];
+  b = mesh.points[corner[2]] - mesh.points[corner[0]];
+  normal = a.cross(b);
+  const double longest2 = std::max({ a.squaredNorm(), b.squaredNorm(), (b - a).squaredNorm() });
+  isFlat = !(normal.norm() > SmallestHeight * longest2);
+}
 
 double TriangleMetric::AreaOf(const TriangleMesh& mesh) const
 {
@@ -52,30 +43,12 @@ Field TriangleMetric::Transform(const TriangleMesh& mesh, const Field& s) const
 {
   RequireVectors(s, mesh);
   RequireMetric(*this, mesh);
-  const bool isConstant = s.association == FieldAssociation::Triangles;
-  const int rowsPerTriangle = isConstant ? 1 : 3;
-  Field result;
-  result.association = isConstant ? FieldAssociation::Triangles : FieldAssociation::Corners;
-  result.values.resize(rowsPerTriangle * static_cast<Id>(mesh.triangles.size()), s.values.cols());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-  {
-    const std::array<Id, 3> row = s.RowsOf(static_cast<Id>(t), mesh.triangles[t]);
-    for (int k = 0; k < rowsPerTriangle; ++k)
-    {
-      for (Id c = 0; c < s.values.cols(); c += 3)
-      {
-        const Vec3 vector(s.values(row[k], c), s.values(row[k], c + 1), s.values(row[k], c + 2));
-        result.values.row(rowsPerTriangle * static_cast<Id>(t) + k).segment<3>(c) =
-          (tensor[t] * vector).transpose();
-      }
-    }
-  }
-  return result;
+  return MapVectors(mesh, s, [this](Id t) { return tensor[t]; });
 }
 
 PlaneTensor::PlaneTensor(const TriangleMesh& mesh, Id triangle, const Eigen::Matrix3d& tensor)
 {
-  const Edges edges(mesh, triangle);
+  const TriangleFrame edges(mesh, triangle);
   if (edges.isFlat)
   {
     return;
@@ -178,7 +151,7 @@ Field GradientsOf(const TriangleMesh& mesh, const Field& f)
   gradients.values = MultiVector::Zero(static_cast<Id>(mesh.triangles.size()), 3 * f.values.cols());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
   {
-    const Edges edges(mesh, static_cast<Id>(t));
+    const TriangleFrame edges(mesh, static_cast<Id>(t));
     if (edges.isFlat)
     {
       continue;

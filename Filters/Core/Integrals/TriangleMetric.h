@@ -10,6 +10,17 @@
 namespace gridfem
 {
 
+/// The edges of a triangle from its first corner, and what is across them.
+struct TriangleFrame
+{
+  Vec3 a;
+  Vec3 b;
+  Vec3 normal; // twice the area long
+  bool isFlat; // its height is at most 1e-10 of its longest edge
+
+  TriangleFrame(const TriangleMesh& mesh, Id triangle);
+};
+
 /// Integrals in the metric g are integrals over the mesh with these: ∫ √|g| u v and
 /// ∫ <∇u, √|g| g⁻¹ ∇v>. A gradient is what its field has in space: a given s stands for the linear
 /// form <s, ·>, so that the gradient of a function is given in the same way whatever the metric.
@@ -59,6 +70,33 @@ Eigen::Matrix3d SymmetricTensor(const double* six);
 /// The metric of tensors of six components; of tensors at points the means over the triangles
 /// count. Throws InvalidInput where one is not a metric in the plane of its triangle.
 TriangleMetric MetricOfTensors(const TriangleMesh& mesh, const Field& tensors);
+
+/// matrixOf(triangle) times every vector of a field with 3 C columns.
+/// @return  on triangles, or on corners where s is on points
+template<class MatrixOf>
+Field MapVectors(const TriangleMesh& mesh, const Field& s, const MatrixOf& matrixOf)
+{
+  const auto triangles = static_cast<Id>(mesh.triangles.size());
+  const bool isConstant = s.association == FieldAssociation::Triangles;
+  const Id rows = isConstant ? 1 : 3;
+  Field result;
+  result.association = isConstant ? FieldAssociation::Triangles : FieldAssociation::Corners;
+  result.values.resize(rows * triangles, s.values.cols());
+  for (Id t = 0; t < triangles; ++t)
+  {
+    const Eigen::Matrix3d matrix = matrixOf(t);
+    const std::array<Id, 3> given = s.RowsOf(t, mesh.triangles[t]);
+    for (Id k = 0; k < rows; ++k)
+    {
+      for (Id c = 0; c < s.values.cols(); c += 3)
+      {
+        const Vec3 vector = s.values.row(given[k]).segment<3>(c).transpose();
+        result.values.row(rows * t + k).segment<3>(c) = (matrix * vector).transpose();
+      }
+    }
+  }
+  return result;
+}
 
 /// Throws InvalidInput unless the metric has all triangles of the mesh.
 void RequireMetric(const TriangleMetric& metric, const TriangleMesh& mesh);

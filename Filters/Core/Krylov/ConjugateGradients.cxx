@@ -50,6 +50,23 @@ double MeanFactor(const SolveReport& report)
                                               : 0.0;
 }
 
+void Append(const SolveReport& step, SolveReport& report)
+{
+  for (IterationRecord record : step.history)
+  {
+    record.iteration += report.iterations;
+    report.history.push_back(record);
+  }
+  if (report.doubleSince < 0 && step.doubleSince >= 0)
+  {
+    report.doubleSince = report.iterations + step.doubleSince;
+  }
+  report.iterations += step.iterations;
+  report.converged = step.converged;
+  report.end = step.end;
+  report.convergenceFactor = MeanFactor(report);
+}
+
 void KeepWorse(SolveReport report, SolveReport& kept)
 {
   if (report.converged != kept.converged ? kept.converged : report.iterations >= kept.iterations)

@@ -88,6 +88,9 @@ struct SolveReport
 /// What `convergenceFactor` is.
 double MeanFactor(const SolveReport& report);
 
+/// One history of steps that follow each other.
+void Append(const SolveReport& step, SolveReport& report);
+
 /// Of several solves: what has not converged, or else has taken more iterations, replaces `kept`.
 void KeepWorse(SolveReport report, SolveReport& kept);
 

@@ -28,8 +28,7 @@ struct LinearOperator
 /// z = B r for every column, B symmetric positive semi-definite.
 using Preconditioner = std::function<void(const MultiVector& r, MultiVector& z)>;
 
-/// Matrix and hierarchy have to outlive what is made of them.
-LinearOperator OperatorOf(const SparseMatrix& A, int threads);
+/// Its finest matrix. The hierarchy has to outlive what is made of it.
 LinearOperator OperatorOf(const Multigrid& multigrid);
 
 /// One cycle from zero.

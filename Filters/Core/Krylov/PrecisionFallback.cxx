@@ -13,16 +13,8 @@ namespace
 SolveReport Join(SolveReport first, const SolveReport& second)
 {
   first.history.pop_back();
-  for (IterationRecord record : second.history)
-  {
-    record.iteration += first.iterations;
-    first.history.push_back(record);
-  }
   first.doubleSince = first.iterations;
-  first.iterations += second.iterations;
-  first.converged = second.converged;
-  first.end = second.end;
-  first.convergenceFactor = MeanFactor(first);
+  Append(second, first);
   return first;
 }
 

@@ -19,12 +19,12 @@ constexpr Id RowsOfFacts = 512;
 template<class Body>
 void ForEachPanel(Id columns, const DividedRows* divided, int threads, Body&& body)
 {
-  const Id panels = (columns + PreconditionedColumns - 1) / PreconditionedColumns;
+  const Id panels = (columns + WidestPanel - 1) / WidestPanel;
   ParallelBlocks(panels, !divided && panels >= NumberOfThreads(threads) ? threads : 1,
     [&](Id panel)
     {
-      const Id first = panel * PreconditionedColumns;
-      body(first, std::min(PreconditionedColumns, columns - first));
+      const Id first = panel * WidestPanel;
+      body(first, std::min(WidestPanel, columns - first));
     });
 }
 

@@ -11,9 +11,6 @@
 namespace gridfem
 {
 
-/// Columns that are corrected together, at most.
-constexpr Id PreconditionedColumns = WideChunk;
-
 /// Rows that are asked for or handed over at a time, at most: they stay in the cache.
 constexpr Id SourceRows = 256;
 
@@ -56,7 +53,7 @@ struct ResidualMeasures
 using CorrectionTest = std::function<bool(const ResidualMeasures&)>;
 
 /// Hands over z = B r where it is wanted. B is symmetric positive semi-definite; r has at most
-/// PreconditionedColumns columns. Safe to call from several threads; same bits for any number of
+/// WidestPanel columns. Safe to call from several threads; same bits for any number of
 /// them. If several processes hold the rows together, r is what this one adds to the whole, the
 /// measures are those of the whole, and one thread of each process calls it.
 template<class Real>

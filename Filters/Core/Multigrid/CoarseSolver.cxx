@@ -1,6 +1,8 @@
 #include "Multigrid/CoarseSolver.h"
 
 #include "Algebra/PivotedCholesky.h"
+#include "Base/Grouping.h"
+#include "Base/UnionFind.h"
 #include "Multigrid/BlockSweep.h"
 
 #include <cmath>
@@ -15,41 +17,20 @@ constexpr double SmallestPivot = 1e-12;
 /// Components per parallel task: most have a handful of unknowns.
 constexpr Id ComponentsPerRange = 8;
 
-/// Connected components of the matrix graph; unknowns ascending in each.
-std::vector<std::vector<Index>> FindComponents(const SparseMatrix& A)
+/// Unknowns of the connected components of the matrix graph.
+Groups FindComponents(const SparseMatrix& A)
 {
-  std::vector<Index> component(A.rows, -1);
-  std::vector<Index> stack;
-  Index count = 0;
-  for (Index start = 0; start < A.rows; ++start)
-  {
-    if (component[start] >= 0)
-    {
-      continue;
-    }
-    component[start] = count;
-    stack.assign(1, start);
-    while (!stack.empty())
-    {
-      const Index row = stack.back();
-      stack.pop_back();
-      for (Id k = A.rowBegin[row]; k < A.rowBegin[row + 1]; ++k)
-      {
-        if (component[A.column[k]] < 0)
-        {
-          component[A.column[k]] = count;
-          stack.push_back(A.column[k]);
-        }
-      }
-    }
-    ++count;
-  }
-  std::vector<std::vector<Index>> members(count);
+  UnionFind sets(A.rows);
   for (Index row = 0; row < A.rows; ++row)
   {
-    members[component[row]].push_back(row);
+    for (Id k = A.rowBegin[row]; k < A.rowBegin[row + 1]; ++k)
+    {
+      sets.Unite(row, A.column[k]);
+    }
   }
-  return members;
+  Index count = 0;
+  const Array<Index> component = NumberSets(sets, count);
+  return GroupItems(component, count);
 }
 
 /// The part of A that couples the given unknowns (ascending), scaled.
@@ -81,31 +62,32 @@ CoarseSolver::CoarseSolver(const SparseMatrix& A, int threads) : rows_(A.rows)
   {
     throw InvalidInput("the coarsest matrix is not square");
   }
-  const std::vector<std::vector<Index>> members = FindComponents(A);
-  components_.resize(members.size());
+  const Groups members = FindComponents(A);
+  components_.resize(members.begin.size() - 1);
   ParallelRanges(
-    static_cast<Id>(members.size()), threads,
+    static_cast<Id>(components_.size()), threads,
     [&](Id begin, Id end)
     {
       for (Id c = begin; c < end; ++c)
       {
-        components_[c] = Factor(A, members[c]);
+        const Index* const unknowns = members.item.data();
+        components_[c] = Factor(A, unknowns + members.begin[c], unknowns + members.begin[c + 1]);
       }
     },
     ComponentsPerRange);
 }
 
 CoarseSolver::Component CoarseSolver::Factor(
-  const SparseMatrix& A, const std::vector<Index>& unknowns)
+  const SparseMatrix& A, const Index* begin, const Index* end)
 {
   std::vector<Index> usable;
   std::vector<double> scales;
-  for (const Index unknown : unknowns)
+  for (; begin != end; ++begin)
   {
-    const double diagonal = A.Coefficient(unknown, unknown);
+    const double diagonal = A.Coefficient(*begin, *begin);
     if (IsUsableDiagonal(diagonal))
     {
-      usable.push_back(unknown);
+      usable.push_back(*begin);
       scales.push_back(1.0 / std::sqrt(diagonal));
     }
   }

@@ -36,7 +36,7 @@ private:
     Eigen::MatrixXd L; // lower triangle
   };
 
-  static Component Factor(const SparseMatrix& A, const std::vector<Index>& unknowns);
+  static Component Factor(const SparseMatrix& A, const Index* begin, const Index* end);
   static void SolveComponent(const Component& component, const MultiVector& b, MultiVector& x);
 
   Id rows_ = 0;

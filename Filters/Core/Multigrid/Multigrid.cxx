@@ -125,22 +125,6 @@ void BasicMultigrid<Real>::TakeApart(std::vector<MultigridLevel> levels)
 }
 
 template<class Real>
-void BasicMultigrid<Real>::Update(std::vector<SparseMatrix> matrices)
-{
-  bool fits = matrices.size() == levels_.size();
-  for (std::size_t l = 0; fits && l < levels_.size(); ++l)
-  {
-    fits = matrices[l].rows == levels_[l].A.rows && matrices[l].columns == levels_[l].A.columns &&
-           matrices[l].NonZeros() == levels_[l].A.NonZeros();
-  }
-  if (!fits)
-  {
-    throw InvalidInput("new matrix values must have the patterns of the hierarchy");
-  }
-  this->Update([&](std::size_t l, SparseMatrix& matrix) { matrix = std::move(matrices[l]); });
-}
-
-template<class Real>
 void BasicMultigrid<Real>::Update(const std::function<void(std::size_t, SparseMatrix&)>& refill)
 {
   for (std::size_t l = 0; l < levels_.size(); ++l)
@@ -297,7 +281,6 @@ template std::size_t BasicMultigrid<float>::Memory() const;
 
 template BasicMultigrid<double>::BasicMultigrid(
   std::vector<MultigridLevel>, const MultigridOptions&);
-template void BasicMultigrid<double>::Update(std::vector<SparseMatrix>);
 template void BasicMultigrid<double>::Update(
   const std::function<void(std::size_t, SparseMatrix&)>&);
 template bool BasicMultigrid<double>::HasSingleFactors() const;

@@ -89,12 +89,9 @@ public:
   /// Throws InvalidInput when there is no level, shapes do not fit or a sweep count is negative.
   BasicMultigrid(std::vector<MultigridLevel> levels, const MultigridOptions& options);
 
-  /// New matrix values on the same patterns (finest first): rebuilds smoothers and coarse solver.
-  /// Throws InvalidInput, and changes nothing, when a pattern differs in shape or size.
-  void Update(std::vector<SparseMatrix> matrices);
-
-  /// The same in place: refill(level, matrix) gives the matrix of every level its values. When it
-  /// throws, the hierarchy must not be used any more.
+  /// New matrix values on the same patterns: rebuilds smoothers and coarse solver.
+  /// refill(level, matrix) gives the matrix of every level its values. When it throws, the
+  /// hierarchy must not be used any more.
   void Update(const std::function<void(std::size_t, SparseMatrix&)>& refill);
 
   /// Whether a patch smoother, of any process, stores factors in single precision.
@@ -102,6 +99,7 @@ public:
 
   /// Whether sweeps resolve all but a hundredth of the patches, of all processes. The others are
   /// flat and almost parallel to a plane of the grid, where differences of functions nearly vanish.
+  /// Always true in double precision.
   bool IsReliable() const { return isReliable_; }
 
   /// A copy whose patch smoothers store all factors in double precision; it shares patterns and
@@ -125,7 +123,7 @@ public:
 
   /// z = B r on the hierarchy that begins at `level`; see BlockPreconditioner. All but the last
   /// sweeps of this level makes rᵀBr known. Throws InvalidInput when there are more than
-  /// PreconditionedColumns columns, or B is not symmetric.
+  /// WidestPanel columns, or B is not symmetric.
   template<class Given>
   ResidualMeasures PreconditionRows(std::size_t level, const RowSource<Given>& r,
     const CorrectionTest& isWanted, const RowSink<Given>& z) const;
@@ -172,6 +170,8 @@ private:
   void RequireSymmetry(std::size_t level) const;
   void SolveCoarsest(const Vectors<Real>& b, Vectors<Real>& x) const;
   void Prolong(std::size_t level, const Vectors<Real>& coarse, Vectors<Real>& fine) const;
+  void AddProlonged(
+    std::size_t level, const Vectors<Real>& coarse, Vectors<Real>& x, Vectors<Real>& scratch) const;
   void RestrictResidual(std::size_t level, const Vectors<Real>& b, const Vectors<Real>* x,
     Vectors<Real>& residual, Vectors<Real>& coarse, Columns* energy = nullptr) const;
   Columns InUnits(std::size_t level, const Vectors<Real>& b, Vectors<Real>& scaled) const;
@@ -181,6 +181,8 @@ private:
     std::vector<Scratch>& scratch) const;
   void CycleLevel(std::size_t level, const Vectors<Real>& b, Vectors<Real>& x, bool zeroStart,
     std::vector<Scratch>& scratch) const;
+  void Sweep(std::size_t level, const Vectors<Real>& b, Vectors<Real>& x, SweepDirection direction,
+    int times) const;
   void Descend(std::size_t level, const Vectors<Real>& b, Vectors<Real>& x, bool zeroStart,
     std::vector<Scratch>& scratch, Columns* energy = nullptr) const;
   void Ascend(std::size_t level, const Vectors<Real>& b, Vectors<Real>& x,
@@ -199,8 +201,6 @@ private:
 using Multigrid = BasicMultigrid<double>;
 
 ///@{ What only vectors in double have.
-template<>
-void BasicMultigrid<float>::Update(std::vector<SparseMatrix>) = delete;
 template<>
 void BasicMultigrid<float>::Update(const std::function<void(std::size_t, SparseMatrix&)>&) = delete;
 template<>

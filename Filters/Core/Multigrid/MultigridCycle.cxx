@@ -33,6 +33,14 @@ void MakeRoom(Id rows, Id columns, Vectors<Real>& block)
   }
 }
 
+template<class Real>
+void SetZero(Id rows, Id columns, Vectors<Real>& block, int threads)
+{
+  MakeRoom(rows, columns, block);
+  ParallelRanges(rows, ThreadsFor(block.size(), threads),
+    [&](Id begin, Id end) { block.middleRows(begin, end - begin).setZero(); });
+}
+
 /// Per column a power of two near the largest number, or the sum of the largest of all processes;
 /// 1 for a column of zeros or without a bound.
 template<class Real>
@@ -176,7 +184,7 @@ ResidualMeasures BasicMultigrid<Real>::PreconditionRows(std::size_t l, const Row
   const CorrectionTest& isWanted, const RowSink<Given>& z) const
 {
   this->CheckRows(l, r.rows);
-  if (r.columns > PreconditionedColumns)
+  if (r.columns > WidestPanel)
   {
     throw InvalidInput("a cycle preconditions a few columns at a time");
   }
@@ -247,6 +255,23 @@ void BasicMultigrid<Real>::Prolong(
 {
   Multiply(levels_[l].prolongation, coarse, fine, options_.threads);
   SumProlonged<Real>(RowsOf(levels_[l]), fine);
+}
+
+/// x += P coarse
+template<class Real>
+void BasicMultigrid<Real>::AddProlonged(
+  std::size_t l, const Vectors<Real>& coarse, Vectors<Real>& x, Vectors<Real>& scratch) const
+{
+  const DividedRows* const divided = RowsOf(levels_[l]);
+  if (divided && divided->ArePartsProlonged())
+  {
+    this->Prolong(l, coarse, scratch);
+    x += scratch;
+  }
+  else
+  {
+    MultiplyAdd(levels_[l].prolongation, coarse, x, options_.threads);
+  }
 }
 
 /// coarse = Pᵀ (b - A x), or Pᵀ b without x.
@@ -346,6 +371,16 @@ void BasicMultigrid<Real>::CycleLevel(std::size_t l, const Vectors<Real>& b, Vec
   this->Ascend(l, b, x, scratch);
 }
 
+template<class Real>
+void BasicMultigrid<Real>::Sweep(std::size_t l, const Vectors<Real>& b, Vectors<Real>& x,
+  SweepDirection direction, int times) const
+{
+  for (int sweep = 0; sweep < times; ++sweep)
+  {
+    levels_[l].smoother->Sweep(levels_[l].A, b, x, direction, options_.threads);
+  }
+}
+
 /// The first sweeps, and the correction from the next coarser level; on the coarsest all.
 /// @param energy  if not null, from zero: bᵀBb. With S for the first sweeps, S̄ for these and the
 ///                last ones, and B' for the coarser levels, B = S̄ + (1 - SᵀA) P B' Pᵀ (1 - A S), so
@@ -363,18 +398,12 @@ void BasicMultigrid<Real>::Descend(std::size_t l, const Vectors<Real>& b, Vector
     }
     return;
   }
-  const BasicMultigridLevel<Real>& level = levels_[l];
-  const LevelSmoothing smoothing = this->SmoothingOf(level.smoothing);
+  const LevelSmoothing smoothing = this->SmoothingOf(levels_[l].smoothing);
   if (zeroStart)
   {
-    MakeRoom(b.rows(), b.cols(), x);
-    ParallelRanges(b.rows(), ThreadsFor(b.size(), options_.threads),
-      [&](Id begin, Id end) { x.middleRows(begin, end - begin).setZero(); });
+    SetZero(b.rows(), b.cols(), x, options_.threads);
   }
-  for (int sweep = 0; sweep < smoothing.preSweeps; ++sweep)
-  {
-    level.smoother->Sweep(level.A, b, x, SweepDirection::Forward, options_.threads);
-  }
+  this->Sweep(l, b, x, SweepDirection::Forward, smoothing.preSweeps);
   Scratch& coarse = scratch[l + 1];
   const bool isZero = zeroStart && smoothing.preSweeps == 0;
   this->RestrictResidual(l, b, isZero ? nullptr : &x, scratch[l].residual, coarse.b, energy);
@@ -394,25 +423,11 @@ template<class Real>
 void BasicMultigrid<Real>::Ascend(
   std::size_t l, const Vectors<Real>& b, Vectors<Real>& x, std::vector<Scratch>& scratch) const
 {
-  if (this->IsCoarsest(l))
+  if (!this->IsCoarsest(l))
   {
-    return;
-  }
-  const BasicMultigridLevel<Real>& level = levels_[l];
-  const DividedRows* const divided = RowsOf(level);
-  if (divided && divided->ArePartsProlonged())
-  {
-    this->Prolong(l, scratch[l + 1].x, scratch[l].residual);
-    x += scratch[l].residual;
-  }
-  else
-  {
-    MultiplyAdd(level.prolongation, scratch[l + 1].x, x, options_.threads);
-  }
-  const int sweeps = this->SmoothingOf(level.smoothing).postSweeps;
-  for (int sweep = 0; sweep < sweeps; ++sweep)
-  {
-    level.smoother->Sweep(level.A, b, x, SweepDirection::Backward, options_.threads);
+    this->AddProlonged(l, scratch[l + 1].x, x, scratch[l].residual);
+    this->Sweep(
+      l, b, x, SweepDirection::Backward, this->SmoothingOf(levels_[l].smoothing).postSweeps);
   }
 }
 

@@ -37,7 +37,7 @@ public:
       [&](Id p, auto chunk)
       {
         // What takes longest to come: the rows of the matrix, or those of many columns.
-        if constexpr (decltype(chunk)::Width < WideChunk)
+        if constexpr (decltype(chunk)::Width < WidestPanel)
         {
           inverses_.FetchRows(rows, p + 2 * next);
         }

@@ -130,40 +130,6 @@ SolveReport SolveForMultipliers(NodalProducts& products, Id points, int threads,
   return SolveConjugateGradients(S, divide, right, multipliers, options, {}, progress);
 }
 
-/// Per component the mean of the values at its points.
-MultiVector MeansOf(
-  const MultiVector& values, const std::vector<Index>& componentOfRow, Index components)
-{
-  MultiVector mean = MultiVector::Zero(components, values.cols());
-  Eigen::ArrayXd count = Eigen::ArrayXd::Zero(components);
-  for (Id row = 0; row < values.rows(); ++row)
-  {
-    if (componentOfRow[row] >= 0)
-    {
-      mean.row(componentOfRow[row]) += values.row(row);
-      count[componentOfRow[row]] += 1.0;
-    }
-  }
-  return count.max(1.0).inverse().matrix().asDiagonal() * mean;
-}
-
-/// u - c for a constant c of each component; rows of nothing become 0.
-void SubtractMeans(
-  const MultiVector& mean, const std::vector<Index>& component, MultiVector& values)
-{
-  for (Id row = 0; row < values.rows(); ++row)
-  {
-    if (component[row] >= 0)
-    {
-      values.row(row) -= mean.row(component[row]);
-    }
-    else
-    {
-      values.row(row).setZero();
-    }
-  }
-}
-
 } // namespace
 
 ConstrainedSolution IterateBiharmonic(const FiniteElementSpace& space, const SparseMatrix& rows,
@@ -184,8 +150,8 @@ ConstrainedSolution IterateBiharmonic(const FiniteElementSpace& space, const Spa
   }
   const Components components = space.ComponentsOf(0, threads);
   const std::vector<Index> componentOfRow = ComponentsOfRows(rows, components);
-  const MultiVector mean = MeansOf(wanted, componentOfRow, components.count);
-  SubtractMeans(mean, componentOfRow, wanted);
+  const MultiVector mean = ConstantsOf(space, 0.0, {}, componentOfRow, wanted, components);
+  SubtractConstants(mean, componentOfRow, wanted);
 
   const FreeConstants free(components, solution.isHeld, threads);
   const Projection project = free.AsProjection();
@@ -208,7 +174,7 @@ ConstrainedSolution IterateBiharmonic(const FiniteElementSpace& space, const Spa
     SolveConstrained(space, 0.0, strict, {}, wanted - products.AtPoints(solution.coefficients),
       options.constraints, options.solve, progress.Part(0.9, 1.0));
   solution.coefficients += rest.coefficients;
-  SubtractMeans(-mean, components.ofFunction, solution.coefficients);
+  SubtractConstants(-mean, components.ofFunction, solution.coefficients);
   return solution;
 }
 

@@ -134,17 +134,7 @@ MultiVector LoadOnEdges(const FiniteElementSpace& space, const TriangleMesh& mes
 {
   CheckValues(mesh, values);
   const EdgeSamples samples = space.SamplesOfSegments(SegmentsOf(edges, mesh));
-  const MultiVector atSamples = AtSamples(samples, mesh, edges, values);
-  MultiVector load = MultiVector::Zero(samples.rows.columns, values.cols());
-  for (Index row = 0; row < samples.rows.rows; ++row)
-  {
-    for (Id k = samples.rows.rowBegin[row]; k < samples.rows.rowBegin[row + 1]; ++k)
-    {
-      load.row(samples.rows.column[k]) +=
-        samples.length[row] * samples.rows.value[k] * atSamples.row(row);
-    }
-  }
-  return load;
+  return IntegrateAlong(samples, AtSamples(samples, mesh, edges, values));
 }
 
 BoundaryTerms TermsOnBoundary(const FiniteElementSpace& space, const TriangleMesh& mesh,

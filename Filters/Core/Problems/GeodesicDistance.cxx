@@ -80,15 +80,7 @@ MultiVector LoadOfPoints(const FiniteElementSpace& space, const std::vector<Id>&
 MultiVector LoadOfCurve(const FiniteElementSpace& space, const SurfaceCurve& curve)
 {
   const EdgeSamples samples = space.SamplesOfSegments(curve.segments);
-  MultiVector load = MultiVector::Zero(samples.rows.columns, 1);
-  for (Index row = 0; row < samples.rows.rows; ++row)
-  {
-    for (Id k = samples.rows.rowBegin[row]; k < samples.rows.rowBegin[row + 1]; ++k)
-    {
-      load(samples.rows.column[k], 0) += samples.length[row] * samples.rows.value[k];
-    }
-  }
-  return load;
+  return IntegrateAlong(samples, MultiVector::Ones(samples.rows.rows, 1));
 }
 
 /// 1 on triangles where the distances near a curve are known and grow as distances do, else 0: not
@@ -344,10 +336,7 @@ std::vector<double> GeodesicDistance::ShiftedToCurve(const MultiVector& distance
 MultiVector GeodesicDistance::Solve(const MultiVector& load, const SolveOptions& solve,
   DistanceField& field, const Progress& progress) const
 {
-  PoissonOptions options;
-  options.screeningWeight = 0.0;
-  options.multigrid = options_.multigrid;
-  options.solve = solve;
+  PoissonOptions options{ { options_.multigrid, solve }, 0.0 };
   options.estimateErrors = options_.estimateErrors;
   PoissonSolution solution =
     SolvePoisson(*space_, *poisson_, MultiVector::Zero(load.rows(), 1), load, options, progress);
@@ -389,9 +378,7 @@ void GeodesicDistance::EstimateErrors(
 {
   const HeatField heat = coarserHeat_->From(sources.heat, job.Part(0.0, 0.4));
   const MultiVector load = sources.loadOfDistance(heat.coefficients, job.Part(0.4, 0.8));
-  PoissonOptions options;
-  options.screeningWeight = 0.0;
-  options.multigrid = options_.multigrid;
+  PoissonOptions options{ { options_.multigrid, {} }, 0.0 };
   options.solve.maximumIterations = 0;
   const PoissonSolution coarser = SolvePoisson(*space_, *poisson_,
     MultiVector::Zero(load.rows(), 1), load, options, job.progress.Part(0.8, 0.9));

@@ -22,11 +22,9 @@ class InverseLaplacian
 public:
   InverseLaplacian(
     const FiniteElementSpace& space, const InterpolationOptions& options, const Progress& progress)
-    : space_(space), multigrid_(BuildMultigrid(space, 0.0, 1.0, options.multigrid, progress))
+    : space_(space), multigrid_(BuildMultigrid(space, 0.0, 1.0, options.multigrid, progress)),
+      poisson_(PoissonOptions{ { options.multigrid, options.solve }, 0.0 })
   {
-    poisson_.screeningWeight = 0.0;
-    poisson_.multigrid = options.multigrid;
-    poisson_.solve = options.solve;
     report.converged = true;
     report.end = SolveEnd::Converged;
   }
@@ -225,6 +223,14 @@ void MeasureMisfit(const SparseMatrix& rows, const MultiVector& values, double t
   solution.isExact = solution.relativeMisfit <= tolerance;
 }
 
+/// NaN on components without a point.
+void ForgetFree(const FiniteElementSpace& space, int threads, ConstrainedSolution& solution)
+{
+  const MultiVector unknown = MultiVector::Constant(static_cast<Id>(solution.isHeld.size()),
+    solution.coefficients.cols(), std::numeric_limits<double>::quiet_NaN());
+  SetMeans(space, solution.isHeld, unknown, solution.coefficients, threads);
+}
+
 } // namespace
 
 ConstrainedSolution InterpolateHarmonically(const FiniteElementSpace& space,
@@ -245,9 +251,7 @@ ConstrainedSolution InterpolateHarmonically(const FiniteElementSpace& space,
       space, 0.0, 1.0, rows, constraints.penalty, options.multigrid, progress.Part(0.0, 0.3));
     ConstrainedSolution solution = SolveConstrained(
       space, 0.0, hierarchy, {}, values, constraints, options.solve, progress.Part(0.3, 1.0));
-    const MultiVector unknown = MultiVector::Constant(static_cast<Id>(solution.isHeld.size()),
-      values.cols(), std::numeric_limits<double>::quiet_NaN());
-    SetMeans(space, solution.isHeld, unknown, solution.coefficients, options.multigrid.threads);
+    ForgetFree(space, options.multigrid.threads, solution);
     return solution;
   }
   if (rows.rows > options.mostAtOnce)
@@ -255,9 +259,7 @@ ConstrainedSolution InterpolateHarmonically(const FiniteElementSpace& space,
     constexpr double Met = 1e-6;
     ConstrainedSolution solution = IterateBiharmonic(space, rows, values, options, progress);
     MeasureMisfit(rows, values, Met, options.multigrid.threads, solution);
-    const MultiVector unknown = MultiVector::Constant(static_cast<Id>(solution.isHeld.size()),
-      values.cols(), std::numeric_limits<double>::quiet_NaN());
-    SetMeans(space, solution.isHeld, unknown, solution.coefficients, options.multigrid.threads);
+    ForgetFree(space, options.multigrid.threads, solution);
     return solution;
   }
   constexpr double Tolerance = 1e-4; // dense multipliers carry the tolerance of the solves

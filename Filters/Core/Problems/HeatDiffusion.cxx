@@ -67,11 +67,7 @@ PoissonSolution HeatDiffusion::Solve(const MultiVector& load, const Job& job)
     solution.report = std::move(met_.report);
     return solution;
   }
-  PoissonOptions options;
-  options.screeningWeight = 1.0 / stageStep_;
-  options.multigrid = options_.multigrid;
-  options.solve = options_.solve;
-  options.accuracy = options_.accuracy;
+  PoissonOptions options{ options_, 1.0 / stageStep_ };
   options.estimateErrors = true;
   return SolvePoisson(*space_, *multigrid_, load, {}, options, job.progress);
 }

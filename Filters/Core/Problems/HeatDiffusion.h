@@ -22,14 +22,12 @@ enum class TimeScheme
 /// as much was left as the space itself leaves (raptor, depth 7).
 inline constexpr double ToleranceOfSteps = 1e-6;
 
-struct DiffusionOptions
+/// Where values are held, errors are only estimated.
+struct DiffusionOptions : EquationOptions
 {
   double timeStep = 1.0; // δ > 0, squared units of length of the space
   TimeScheme scheme = TimeScheme::SecondOrder;
-  MultigridOptions multigrid;
-  SolveOptions solve;
-  double accuracy = 0.0; // as in PoissonOptions; where values are held, errors are only estimated
-  HeldValues held;       // values that stay as they are, columns as the start's; no rows: none
+  HeldValues held; // values that stay as they are, columns as the start's; no rows: none
 };
 
 /// Steps (M + γδ L) U = ..., all with one matrix. No heat flows over boundaries, so that the

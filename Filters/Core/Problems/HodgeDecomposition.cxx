@@ -50,11 +50,7 @@ MultiVector SolveFree(const FiniteElementSpace& space, const MultiVector& load,
 {
   const Multigrid multigrid =
     BuildMultigrid(space, 0.0, 1.0, options.multigrid, job.progress.Part(0.0, 0.3));
-  PoissonOptions poisson;
-  poisson.screeningWeight = 0.0;
-  poisson.multigrid = options.multigrid;
-  poisson.solve = options.solve;
-  poisson.accuracy = options.accuracy;
+  PoissonOptions poisson{ options, 0.0 };
   poisson.estimateErrors = true;
   PoissonSolution solution = SolvePoisson(space, multigrid,
     MultiVector::Zero(load.rows(), load.cols()), load, poisson, job.progress.Part(0.3, 1.0));
@@ -127,8 +123,7 @@ void ProjectToPoints(const FiniteElementSpace& space, const HodgeOptions& option
 {
   Field all{ FieldAssociation::Triangles, MultiVector(parts.restOnTriangles.rows(), 9) };
   all.values << parts.gradientOnTriangles, parts.rotationOnTriangles, parts.restOnTriangles;
-  L2Projection projection(
-    space, options.multigrid, options.solve, options.accuracy, job.Part(0.0, 0.3));
+  L2Projection projection(space, options, job.Part(0.0, 0.3));
   const MultiVector atPoints = space.ValuesAtPoints(
     projection.Solve(space.LoadOfValues(all, job.Part(0.3, 0.5)), {}, job.Part(0.5, 1.0)),
     job.threads);

@@ -3,18 +3,15 @@
 #ifndef GridFEM_HodgeDecomposition_h
 #define GridFEM_HodgeDecomposition_h
 
-#include "Problems/SolutionAccuracy.h"
+#include "Problems/Poisson.h"
 #include "Spaces/FiniteElementSpace.h"
 
 namespace gridfem
 {
 
-struct HodgeOptions
+/// What is held is solved for to the tolerance, or to 1e-4 where that is 0.
+struct HodgeOptions : EquationOptions
 {
-  MultigridOptions multigrid;
-  SolveOptions solve;
-  double accuracy = 0.0; // as in PoissonOptions; what is held is solved for to the tolerance, or to
-                         // 1e-4 where that is 0
   bool weldCoincidentPoints = true; // coincident points count as one where triangles meet
 };
 

@@ -15,16 +15,10 @@ namespace gridfem
 class L2Projection
 {
 public:
-  /// @param wanted  accuracy, as in PoissonOptions
-  L2Projection(const SpaceLevels& space, const MultigridOptions& multigrid,
-    const SolveOptions& solve, double wanted, const Job& job)
-    : space_(space),
-      multigrid_(BuildMultigrid(space, 1.0 / Smoothing, 1.0, multigrid, job.progress))
+  L2Projection(const SpaceLevels& space, const EquationOptions& options, const Job& job)
+    : space_(space), poisson_{ options, 1.0 / Smoothing },
+      multigrid_(BuildMultigrid(space, 1.0 / Smoothing, 1.0, options.multigrid, job.progress))
   {
-    poisson_.screeningWeight = 1.0 / Smoothing;
-    poisson_.multigrid = multigrid;
-    poisson_.solve = solve;
-    poisson_.accuracy = wanted;
     poisson_.estimateErrors = true;
     report.converged = true;
   }
@@ -46,8 +40,8 @@ private:
   static constexpr double Smoothing = 0.1; // δ, in squared units of length
 
   const SpaceLevels& space_;
-  Multigrid multigrid_;
   PoissonOptions poisson_;
+  Multigrid multigrid_;
 };
 
 } // namespace gridfem

@@ -55,59 +55,6 @@ std::vector<double> WeightsOfRows(
   return weight;
 }
 
-/// A constant for each component near what the solution has there: the means of its constraints, or
-/// of the values in the load.
-MultiVector ConstantsOf(const SpaceLevels& space, double a, const MultiVector& load,
-  const std::vector<Index>& componentOfRow, const MultiVector& values, const Components& components)
-{
-  MultiVector constant = MultiVector::Zero(components.count, values.cols());
-  Eigen::ArrayXd count = Eigen::ArrayXd::Zero(components.count);
-  for (Id row = 0; row < values.rows(); ++row)
-  {
-    if (componentOfRow[row] >= 0)
-    {
-      constant.row(componentOfRow[row]) += values.row(row);
-      count[componentOfRow[row]] += 1.0;
-    }
-  }
-  MultiVector sum = MultiVector::Zero(components.count, values.cols());
-  Eigen::ArrayXd mass = Eigen::ArrayXd::Zero(components.count);
-  const DividedRows* const divided = space.Divided(0);
-  for (Id i = ForeignRows(divided); i < load.rows(); ++i)
-  {
-    sum.row(components.ofFunction[i]) += load.row(i);
-    mass[components.ofFunction[i]] += a * space.Integrals()[i];
-  }
-  SumOverProcesses(divided, constant);
-  SumOverProcesses(divided, count);
-  SumOverProcesses(divided, sum);
-  SumOverProcesses(divided, mass);
-  for (Index c = 0; c < components.count; ++c)
-  {
-    const double size = count[c] > 0.0 ? count[c] : mass[c];
-    constant.row(c) = (count[c] > 0.0 ? constant : sum).row(c) * (size > 0.0 ? 1.0 / size : 0.0);
-  }
-  return constant;
-}
-
-/// One history for all steps.
-void Append(const SolveReport& step, SolveReport& report)
-{
-  for (IterationRecord record : step.history)
-  {
-    record.iteration += report.iterations;
-    report.history.push_back(record);
-  }
-  if (report.doubleSince < 0 && step.doubleSince >= 0)
-  {
-    report.doubleSince = report.iterations + step.doubleSince;
-  }
-  report.iterations += step.iterations;
-  report.converged = step.converged;
-  report.end = step.end;
-  report.convergenceFactor = MeanFactor(report);
-}
-
 void CheckShapes(const SpaceLevels& space, const ConstrainedHierarchy& hierarchy,
   const MultiVector& load, const MultiVector& values)
 {
@@ -393,6 +340,39 @@ std::vector<char> HeldComponents(
   return isHeld;
 }
 
+MultiVector ConstantsOf(const SpaceLevels& space, double a, const MultiVector& load,
+  const std::vector<Index>& componentOfRow, const MultiVector& values, const Components& components)
+{
+  MultiVector constant = MultiVector::Zero(components.count, values.cols());
+  Eigen::ArrayXd count = Eigen::ArrayXd::Zero(components.count);
+  for (Id row = 0; row < values.rows(); ++row)
+  {
+    if (componentOfRow[row] >= 0)
+    {
+      constant.row(componentOfRow[row]) += values.row(row);
+      count[componentOfRow[row]] += 1.0;
+    }
+  }
+  MultiVector sum = MultiVector::Zero(components.count, values.cols());
+  Eigen::ArrayXd mass = Eigen::ArrayXd::Zero(components.count);
+  const DividedRows* const divided = space.Divided(0);
+  for (Id i = ForeignRows(divided); i < load.rows(); ++i)
+  {
+    sum.row(components.ofFunction[i]) += load.row(i);
+    mass[components.ofFunction[i]] += a * space.Integrals()[i];
+  }
+  SumOverProcesses(divided, constant);
+  SumOverProcesses(divided, count);
+  SumOverProcesses(divided, sum);
+  SumOverProcesses(divided, mass);
+  for (Index c = 0; c < components.count; ++c)
+  {
+    const double size = count[c] > 0.0 ? count[c] : mass[c];
+    constant.row(c) = (count[c] > 0.0 ? constant : sum).row(c) * (size > 0.0 ? 1.0 / size : 0.0);
+  }
+  return constant;
+}
+
 ConstrainedSolution SolveConstrained(const SpaceLevels& space, double a,
   const ConstrainedHierarchy& hierarchy, const MultiVector& load, const MultiVector& values,
   const ConstraintOptions& constraints, const SolveOptions& options, const Progress& progress)
@@ -418,17 +398,7 @@ ConstrainedSolution SolveConstrained(const SpaceLevels& space, double a,
     rest.row(i) -= a * space.Integrals()[i] * constant.row(components.ofFunction[i]);
   }
   MultiVector wanted = values;
-  for (Id row = 0; row < wanted.rows(); ++row)
-  {
-    if (componentOfRow[row] >= 0)
-    {
-      wanted.row(row) -= constant.row(componentOfRow[row]);
-    }
-    else
-    {
-      wanted.row(row).setZero();
-    }
-  }
+  SubtractConstants(constant, componentOfRow, wanted);
   const Eigen::RowVectorXd scale = ScalesOf(rest, wanted, divided);
   rest *= scale.asDiagonal();
   wanted *= scale.asDiagonal();
@@ -470,15 +440,7 @@ void SetMeans(const SpaceLevels& space, const std::vector<char>& isHeld, const M
   const Components components = space.ComponentsOf(0, threads);
   const ComponentMeans ofSpace(
     components.ofFunction, space.Integrals(), components.count, threads, space.Divided(0));
-  MultiVector change = means - ofSpace.OfFunction(coefficients);
-  for (Id c = 0; c < change.rows(); ++c)
-  {
-    if (isHeld[c])
-    {
-      change.row(c).setZero();
-    }
-  }
-  ofSpace.AddConstants(change, coefficients);
+  ofSpace.AddConstants(MeansOfFree(isHeld, means - ofSpace.OfFunction(coefficients)), coefficients);
 }
 
 } // namespace gridfem

@@ -86,6 +86,14 @@ private:
 std::vector<char> HeldComponents(
   const SpaceLevels& space, double a, const SparseMatrix& rows, const Components& components);
 
+/// A constant for each component near what the solution has there: the means of its constraints, or
+/// of the values in the load.
+/// @param load            as SolveConstrained has it
+/// @param componentOfRow  of the constraints (ComponentsOfRows)
+MultiVector ConstantsOf(const SpaceLevels& space, double a, const MultiVector& load,
+  const std::vector<Index>& componentOfRow, const MultiVector& values,
+  const Components& components);
+
 /// Minimises ½ uᵀ (a M + b L) u - loadᵀ u among the functions with these values at the points, by
 /// an augmented Lagrangian: each step solves with the misfit's penalty and adds the misfit that is
 /// left to the load. Components that have neither a constraint nor mass are not determined. Where

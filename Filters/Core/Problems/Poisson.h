@@ -9,17 +9,22 @@
 namespace gridfem
 {
 
-struct PoissonOptions
+/// How an equation is solved.
+struct EquationOptions
 {
-  double screeningWeight = 1.0; // λ >= 0, per squared unit of length of the space
   MultigridOptions multigrid;
-  IterationType iteration = IterationType::ConjugateGradients;
-  /// With 0 as maximumIterations the start is the solution: that of the next coarser level.
   SolveOptions solve;
   /// In (0, 1]: iterate until the algebraic error is estimated to be this part of the error of the
   /// space, and solve.tolerance is an end as well, if it comes first; 0 stands for 1e-9 then, which
   /// solutions reach that coarser levels contain. 0: to the tolerance alone.
   double accuracy = 0.0;
+};
+
+/// With 0 as solve.maximumIterations the start is the solution: that of the next coarser level.
+struct PoissonOptions : EquationOptions
+{
+  double screeningWeight = 1.0; // λ >= 0, per squared unit of length of the space
+  IterationType iteration = IterationType::ConjugateGradients;
   bool estimateErrors = false; // also where nothing ends by them
   /// Coefficients to start from, as of a similar equation on the same space; null: nested
   /// iteration.

@@ -367,10 +367,7 @@ MultiVector SmoothNormals(const FiniteElementSpace& space, const MultiVector& no
     throw InvalidInput("The scale of the smoothing must be above 0 and finite.");
   }
   const double scale = options.scale / space.UnitLength();
-  PoissonOptions poisson;
-  poisson.screeningWeight = 2.0 / (scale * scale);
-  poisson.multigrid = options.multigrid;
-  poisson.solve = options.solve;
+  const PoissonOptions poisson{ { options.multigrid, options.solve }, 2.0 / (scale * scale) };
   const MultiVector load =
     space.LoadOfValues({ FieldAssociation::Points, normals }, job.Part(0.0, 0.1));
   const Multigrid multigrid = BuildMultigrid(

@@ -6,6 +6,7 @@
 #include "Krylov/DenseSpectrum.h"
 #include "Krylov/LobpcgWindows.h"
 #include "Problems/CollectSpectrum.h"
+#include "Problems/LevelProblem.h"
 #include "Problems/SpectrumAccuracy.h"
 #include "Problems/SpectrumCycle.h"
 #include "Problems/SpectrumList.h"
@@ -24,7 +25,6 @@ namespace
 constexpr double CoarseTolerance = 3e-4;
 constexpr double SecondTolerance = 3e-5;
 constexpr int CoarseIterations = 3;
-constexpr int RandomStartIterations = 40;
 
 /// Wanted errors from which on blocks are in single precision. Rounding them makes an error of
 /// 1e-14 times the ratio of the largest eigenvalue to the lowest, below 1e-9 at depth 8.
@@ -121,14 +121,9 @@ template<class Real>
 SpectralProblem<Real> NestedIteration<Real>::Problem(
   std::size_t level, const Constants& constants, SparseMatrix&& mass) const
 {
-  const int threads = options_.multigrid.threads;
-  SpectralProblem<Real> problem;
-  problem.stiffness = space_.Matrix(level, 0.0, 1.0, threads);
-  problem.mass = std::move(mass);
+  SpectralProblem<Real> problem =
+    ProblemOnLevel<Real>(space_, level, constants, std::move(mass), options_.multigrid.threads);
   problem.shift = shift_;
-  problem.constants = &constants;
-  problem.divided = space_.Divided(level);
-  problem.threads = threads;
   problem.preconditioner = cycle_.From<Real>(level);
   return problem;
 }
@@ -225,10 +220,8 @@ Spectrum NestedIteration<Real>::Run(
   const std::size_t start = StartLevel(space_, blockSize);
   for (std::size_t level = start; level > 0; --level)
   {
-    Components components = space_.ComponentsOf(level, threads);
     SparseMatrix levelMass = space_.Matrix(level, 1.0, 0.0, threads);
-    const Constants constants(levelMass, std::move(components.ofFunction), components.count,
-      threads, space_.Divided(level));
+    const Constants constants = ConstantsOnLevel(space_, level, levelMass, threads);
     const SpectralProblem<Real> problem = this->Problem(level, constants, std::move(levelMass));
     this->ImproveLevel(level, start, problem, LevelPart(progress, level));
     coarserConstants_ = constants.Count();
@@ -257,17 +250,11 @@ Spectrum ComputeOnNestedLevels(
   const MemoryReuse reuse; // the blocks of a level take the place of those of the one before
   const int threads = options.multigrid.threads;
   SparseMatrix mass = space.Matrix(0, 1.0, 0.0, threads);
-  Components components = space.ComponentsOf(0, threads);
-  const Constants zeroModes(
-    mass, std::move(components.ofFunction), components.count, threads, space.Divided(0));
+  const Constants zeroModes = ConstantsOnLevel(space, 0, mass, threads);
   if (zeroModes.Count() >= options.numberOfModes)
   {
-    SpectralProblem<double> problem;
-    problem.stiffness = space.Matrix(0, 0.0, 1.0, threads);
-    problem.mass = std::move(mass);
-    problem.divided = space.Divided(0);
-    problem.threads = threads;
-    return OnlyConstants(zeroModes, problem, options);
+    return OnlyConstants(
+      zeroModes, ProblemOnLevel<double>(space, 0, zeroModes, std::move(mass), threads), options);
   }
   double area = std::accumulate(mass.value.begin(), mass.value.end(), 0.0);
   if (space.Divided(0))
@@ -344,8 +331,8 @@ double EstimateSpectrumMemory(Id functions, Id modes, int threads)
   constexpr double matrices = 850.0; // two of 18 entries per row; a hierarchy of floats and factors
   constexpr double panels = 512.0;   // of each cycle at work: 4 of 32 floats
   const Id columns = std::min(functions, modes);
-  const Id cycles = std::min<Id>(
-    NumberOfThreads(threads), (columns + PreconditionedColumns - 1) / PreconditionedColumns);
+  const Id cycles =
+    std::min<Id>(NumberOfThreads(threads), (columns + WidestPanel - 1) / WidestPanel);
   const double blocks = sizeof(float) * double(HeldColumns(static_cast<Index>(columns)));
   const double result = double(sizeof(float) + sizeof(double)) * double(columns);
   const double products = sizeof(double) * double(columns) * double(columns); // of all modes

@@ -424,11 +424,7 @@ StitchedColors StitchColors(const FiniteElementSpace& space, const TriangleMesh&
   const FiniteElementSpace* details, const Job& job)
 {
   RequireField(colors, mesh);
-  PoissonOptions poisson;
-  poisson.screeningWeight = 0.0;
-  poisson.multigrid = options.multigrid;
-  poisson.solve = options.solve;
-  poisson.accuracy = options.accuracy;
+  PoissonOptions poisson{ options, 0.0 };
   poisson.estimateErrors = true;
   const MultiVector values = space.LoadOfValues(colors, job.Part(0.0, 0.1));
   const std::vector<double> share = KeptShares(mesh, cut, options.blendWidth);

@@ -3,7 +3,7 @@
 #ifndef GridFEM_Stitching_h
 #define GridFEM_Stitching_h
 
-#include "Problems/SolutionAccuracy.h"
+#include "Problems/Poisson.h"
 #include "Spaces/FiniteElementSpace.h"
 
 #include <optional>
@@ -45,12 +45,9 @@ ScanCut CutAtSeams(const TriangleMesh& mesh, const ScanLabels& labels, FieldAsso
 /// Throws InvalidInput when it is not a number from 0 on.
 std::vector<double> KeptShares(const TriangleMesh& mesh, const ScanCut& cut, double width);
 
-struct StitchOptions
+struct StitchOptions : EquationOptions
 {
   double blendWidth = 0.0; // of KeptShares: margins of scans, where colours are poor, count less
-  MultigridOptions multigrid;
-  SolveOptions solve;
-  double accuracy = 0.0;          // as in PoissonOptions
   std::optional<Index> reference; // the scan that keeps its mean; none: the whole surface
 };
 

@@ -47,12 +47,11 @@ void AddDerivativesOfVectors(
 } // namespace
 
 SurfaceDerivatives ComputeDerivatives(const SurfaceSpace& space, const TriangleMesh& mesh,
-  const Field& f, const DerivativeOptions& options, const Job& job)
+  const Field& f, const EquationOptions& options, const Job& job)
 {
   RequireField(f, mesh);
   SurfaceDerivatives result;
-  L2Projection projection(
-    space, options.multigrid, options.solve, options.accuracy, job.Part(0.0, 0.2));
+  L2Projection projection(space, options, job.Part(0.0, 0.2));
   const bool isOnPoints = f.association == FieldAssociation::Points;
   const MultiVector values = space.LoadOfValues(f, job.Part(0.2, 0.25));
   const MultiVector gradients =

@@ -2,18 +2,11 @@
 #ifndef GridFEM_SurfaceDerivatives_h
 #define GridFEM_SurfaceDerivatives_h
 
-#include "Problems/SolutionAccuracy.h"
+#include "Problems/Poisson.h"
 #include "Spaces/SurfaceSpace.h"
 
 namespace gridfem
 {
-
-struct DerivativeOptions
-{
-  MultigridOptions multigrid;
-  SolveOptions solve;
-  double accuracy = 0.0; // as in PoissonOptions
-};
 
 /// World units. C components of the field; vectors in columns 3c .. 3c+2.
 struct SurfaceDerivatives
@@ -42,7 +35,7 @@ struct SurfaceDerivatives
 /// Throws InvalidInput when the field does not fit, and Aborted. Same bits for any number of
 /// threads. Where processes hold the surface together, all of them call it, as SolvePoisson.
 SurfaceDerivatives ComputeDerivatives(const SurfaceSpace& space, const TriangleMesh& mesh,
-  const Field& f, const DerivativeOptions& options, const Job& job = {});
+  const Field& f, const EquationOptions& options, const Job& job = {});
 
 } // namespace gridfem
 

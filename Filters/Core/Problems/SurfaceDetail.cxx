@@ -150,10 +150,7 @@ SignalInSpace ProjectSignal(const FiniteElementSpace& space, const Field& f,
   const MultigridOptions& multigrid, const SolveOptions& solve, const Job& job)
 {
   constexpr double Smoothing = 0.1; // squared units of length, as for SurfaceDerivatives
-  PoissonOptions options;
-  options.screeningWeight = 1.0 / Smoothing;
-  options.multigrid = multigrid;
-  options.solve = solve;
+  const PoissonOptions options{ { multigrid, solve }, 1.0 / Smoothing };
   const MultiVector values = space.LoadOfValues(f, job.Part(0.0, 0.1));
   const MultiVector gradients = space.LoadOfGradientsOf(f, nullptr, job.Part(0.1, 0.2));
   const Multigrid hierarchy =
@@ -165,12 +162,6 @@ SignalInSpace ProjectSignal(const FiniteElementSpace& space, const Field& f,
   signal.coefficients = std::move(solution.coefficients);
   signal.report = std::move(solution.report);
   return signal;
-}
-
-MultiVector LoadOfDetail(const FiniteElementSpace& space, const MultiVector& signal,
-  const std::vector<double>& scale, const Job& job)
-{
-  return space.LoadOfFunction(0.0, 1.0, signal, scale, job);
 }
 
 void ScaleToVolume(const TriangleMesh& mesh, std::vector<Vec3>& points, int threads)
@@ -185,13 +176,6 @@ void ScaleToVolume(const TriangleMesh& mesh, std::vector<Vec3>& points, int thre
       point = size.centroid + factor * (point - size.centroid);
     }
   }
-}
-
-PoissonSolution SolveDetail(const FiniteElementSpace& space, const Multigrid& multigrid,
-  const MultiVector& load, const PoissonOptions& options, const Progress& progress)
-{
-  return SolvePoisson(
-    space, multigrid, MultiVector::Zero(load.rows(), load.cols()), load, options, progress);
 }
 
 } // namespace gridfem

@@ -1,6 +1,9 @@
 // Detail of a surface or of an array on it, amplified or damped: the screened Poisson equation with
 // the gradients of the signal times σ, in a metric that depends on the principal curvatures.
 // [T §5.2]
+// As the signal f is a function of the space, the solution of (λM + L) u = λ f + div σ∇f is f + v
+// with (λM + L) v = StiffnessTimes(f, σ - 1): so σ = 1 changes nothing whatever the metric and the
+// tolerance, and a tolerance is one on the change.
 #ifndef GridFEM_SurfaceDetail_h
 #define GridFEM_SurfaceDetail_h
 
@@ -68,20 +71,6 @@ SignalInSpace ShapeInSpace(const FiniteElementSpace& space, const Job& job = {})
 /// A field on points is projected, with its gradients, as for SurfaceDerivatives.
 SignalInSpace ProjectSignal(const FiniteElementSpace& space, const Field& f,
   const MultigridOptions& multigrid, const SolveOptions& solve, const Job& job = {});
-
-/// ∫ scale <∇f, ∇b_i> in the metric of the space: the right-hand side of what the scale changes.
-/// [T (5.19)]
-/// @param signal  coefficients, as SignalInSpace has them
-/// @param scale   one number per element; empty: 1
-MultiVector LoadOfDetail(const FiniteElementSpace& space, const MultiVector& signal,
-  const std::vector<double>& scale, const Job& job = {});
-
-/// The solution v of (λM + L) v = load. As f is a function of the space, the solution of
-/// (λM + L) u = λ f + div σ∇f is f + v for the load of the scale σ - 1: so σ = 1 changes nothing
-/// whatever the metric and the tolerance, and a tolerance is one on the change.
-/// @param multigrid  of λM + L
-PoissonSolution SolveDetail(const FiniteElementSpace& space, const Multigrid& multigrid,
-  const MultiVector& load, const PoissonOptions& options, const Progress& progress = {});
 
 /// Scales points of a moved mesh about their centroid to the volume of the mesh; leaves them alone
 /// where that is not possible, because a volume is 0 or has turned over.

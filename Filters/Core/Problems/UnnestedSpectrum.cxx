@@ -4,9 +4,11 @@
 #include "Krylov/LobpcgWindows.h"
 #include "Multigrid/BlockPreconditioner.h"
 #include "Problems/CollectSpectrum.h"
+#include "Problems/LevelProblem.h"
 #include "Problems/SpectrumAccuracy.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace gridfem
 {
@@ -15,7 +17,6 @@ namespace
 
 /// Far below what the two discretisations differ by.
 constexpr double StartTolerance = 1e-4;
-constexpr int RandomStartIterations = 40;
 
 /// Whether the value behind the first `count` belongs to the multiplet of the last of them.
 /// @param before  how many values precede these
@@ -35,19 +36,6 @@ Index ListLength(const Spectrum& start, const SpectrumOptions& options)
     ++count;
   }
   return count;
-}
-
-/// Without a preconditioner, which is not needed where the list ends among the constants.
-SpectralProblem<double> FinestProblem(
-  const SurfaceSpace& space, const Constants& constants, SparseMatrix mass, int threads)
-{
-  SpectralProblem<double> problem;
-  problem.stiffness = space.Matrix(0, 0.0, 1.0, threads);
-  problem.mass = std::move(mass);
-  problem.constants = &constants;
-  problem.divided = space.Divided(0);
-  problem.threads = threads;
-  return problem;
 }
 
 /// About the lowest value: far above it, a shift would cost digits; far below, as by the values
@@ -83,6 +71,25 @@ void RemoveConstants(const Constants& constants, const DividedRows* divided, Blo
       columns.col(c).setZero();
     }
   }
+}
+
+/// One cycle, and one with factors in double precision, for which `inDouble` makes room.
+WithFallback<BlockPreconditioner<double>> BlockCycleWithFallback(
+  const Multigrid& multigrid, std::optional<Multigrid>& inDouble)
+{
+  WithFallback<BlockPreconditioner<double>> B{ CyclePreconditioner<double>(multigrid, 0), {} };
+  if (multigrid.HasSingleFactors())
+  {
+    B.makeDouble = [&multigrid, &inDouble]
+    {
+      if (!inDouble)
+      {
+        inDouble.emplace(multigrid.InDoublePrecision());
+      }
+      return CyclePreconditioner<double>(*inDouble, 0);
+    };
+  }
+  return B;
 }
 
 /// The wanted pairs, at most `all`; more until the multiplet at their end is whole, if that is
@@ -147,20 +154,20 @@ Spectrum ImproveSpectrum(const SurfaceSpace& space, const Spectrum& start,
 {
   const int threads = options.multigrid.threads;
   SparseMatrix mass = space.Matrix(0, 1.0, 0.0, threads);
-  Components components = space.ComponentsOf(0, threads);
-  const Constants constants(
-    mass, std::move(components.ofFunction), components.count, threads, space.Divided(0));
+  const Constants constants = ConstantsOnLevel(space, 0, mass, threads);
   const Index zeros = constants.Count();
   const Index all = space.NumberOfFunctions(0) - zeros;
   const Index listed = std::min<Index>(zeros, options.numberOfModes);
-  SpectralProblem<double> problem = FinestProblem(space, constants, std::move(mass), threads);
+  SpectralProblem<double> problem =
+    ProblemOnLevel<double>(space, 0, constants, std::move(mass), threads);
   EigenPairs<double> pairs;
   BlockReport report;
   if (options.numberOfModes > zeros && all > 0)
   {
     problem.shift = LowestValue(start);
     const Multigrid multigrid = BuildMultigrid(space, problem.shift, 1.0, options.multigrid);
-    problem.preconditioner.first = CyclePreconditioner<double>(multigrid, 0);
+    std::optional<Multigrid> inDouble;
+    problem.preconditioner = BlockCycleWithFallback(multigrid, inDouble);
     progress.Check(0.1);
     pairs.vectors.Reserve(problem.mass.rows, start.vectors.cols());
     pairs.vectors.Show(start.vectors.cols());

@@ -92,13 +92,12 @@ public:
   /// New weights of the elements, for SplitStiffness has been called. [T (5.16)-(5.19)]
   virtual void Weigh(const std::vector<ElementWeights>& weights, const Job& job = {}) = 0;
 
-  /// a ∫ u b_i + b ∫ scale <∇u, ∇b_i> for functions u of the space, as mass and stiffness have it:
-  /// in the same metric and with the same weights. Sums what the elements keep, on a grid without
-  /// a look at the triangles.
+  /// ∫ scale <∇u, ∇b_i> for functions u of the space, in the metric and with the weights of the
+  /// stiffness. Sums what the elements keep, on a grid without a look at the triangles. [T (5.19)]
   /// @param u      functions x columns
   /// @param scale  one number per element, as from MeansOnElements; empty: 1
-  virtual MultiVector LoadOfFunction(double a, double b, const MultiVector& u,
-    const std::vector<double>& scale, const Job& job = {}) const = 0;
+  virtual MultiVector StiffnessTimes(
+    const MultiVector& u, const std::vector<double>& scale, const Job& job = {}) const = 0;
   ///@}
 };
 

@@ -35,7 +35,9 @@ void GridSpace::FillMatrix(
   {
     matrix = this->Operators().pattern.at(level);
   }
-  FillLevelMatrix(*functions_, this->Operators(), level, a, b, job.threads, matrix);
+  const ElementMatrices& elements = this->Operators().elements[level];
+  AssembleValues(functions_->levels[level], this->Operators().places[level], elements.mass, a,
+    elements.stiffness, b, matrix, job.threads);
 }
 
 SharedMatrix GridSpace::Prolongation(std::size_t level) const
@@ -95,16 +97,16 @@ const QuadratureRule& GridSpace::Rule() const
 
 MultiVector GridSpace::LoadOfValues(const Field& f, const Job& job) const
 {
-  return metric_ ? IntegrateWeightedValues(*functions_, *mesh_, f, metric_->area, this->Rule(), job)
-                 : IntegrateValues(*functions_, *mesh_, f, this->Rule(), job);
+  return IntegrateValues(
+    *functions_, *mesh_, f, this->Rule(), job, metric_ ? &metric_->area : nullptr);
 }
 
 MultiVector GridSpace::LoadOfWeightedValues(
   const Field& f, const std::vector<double>& weight, const Job& job) const
 {
   RequireWeights(weight, *mesh_);
-  return IntegrateWeightedValues(
-    *functions_, *mesh_, f, metric_ ? ProductOf(weight, metric_->area) : weight, this->Rule(), job);
+  const std::vector<double> all = metric_ ? ProductOf(weight, metric_->area) : weight;
+  return IntegrateValues(*functions_, *mesh_, f, this->Rule(), job, &all);
 }
 
 MultiVector GridSpace::LoadOfGradients(const Field& s, const Field* scale, const Job& job) const
@@ -135,8 +137,7 @@ MultiVector GridSpace::LoadOfGradientsOfCoordinates(const Field* scale, const Jo
   if (metric_)
   {
     return scale ? this->LoadOfGradientsOf(CoordinatesOf(*mesh_), scale, job)
-                 : this->LoadOfFunction(
-                     0.0, 1.0, this->UnitLength() * this->EmbeddingOfMesh(job), {}, job);
+                 : this->StiffnessTimes(this->UnitLength() * this->EmbeddingOfMesh(job), {}, job);
   }
   return IntegrateGradientsOfCoordinates(
     *functions_, *mesh_, scale, this->Rule(), shared_->normalStabilization, job);
@@ -253,8 +254,8 @@ void GridSpace::WeighMass(const std::vector<double>& weight, const Job& job)
 void GridSpace::IntegrateTriangles(const std::vector<double>& weight, const Job& job)
 {
   LevelOperators& operators = this->OwnOperators();
-  operators.elements.front() = IntegrateWeightedElements(*functions_, this->Rule(), weight,
-    metric_ ? &metric_->tensor : nullptr, job.Part(0.0, 0.7), operators.normalStabilization);
+  operators.elements.front() = IntegrateElements(*functions_, this->Rule(), job.Part(0.0, 0.7),
+    operators.normalStabilization, &weight, metric_ ? &metric_->tensor : nullptr);
   UpdateOperators(*functions_, operators, job.threads);
   job.Check(1.0);
 }
@@ -282,12 +283,12 @@ void GridSpace::Weigh(const std::vector<ElementWeights>& weights, const Job& job
   UpdateOperators(*functions_, operators, job.threads);
 }
 
-MultiVector GridSpace::LoadOfFunction(
-  double a, double b, const MultiVector& u, const std::vector<double>& scale, const Job& job) const
+MultiVector GridSpace::StiffnessTimes(
+  const MultiVector& u, const std::vector<double>& scale, const Job& job) const
 {
   const LevelOperators& operators = this->Operators();
   return MultiplyElements(functions_->Finest(), operators.places.front(),
-    operators.elements.front(), a, b, scale, u, job.threads);
+    operators.elements.front().stiffness, scale, u, job.threads);
 }
 
 GridSpace BuildGridSpace(

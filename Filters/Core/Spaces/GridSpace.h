@@ -69,8 +69,8 @@ public:
   void SplitStiffness(const std::vector<Vec3>& direction, const Job& job = {}) override;
   MultiVector MeansOnElements(const MultiVector& onTriangles, const Job& job = {}) const override;
   void Weigh(const std::vector<ElementWeights>& weights, const Job& job = {}) override;
-  MultiVector LoadOfFunction(double a, double b, const MultiVector& u,
-    const std::vector<double>& scale, const Job& job = {}) const override;
+  MultiVector StiffnessTimes(
+    const MultiVector& u, const std::vector<double>& scale, const Job& job = {}) const override;
 
   const GridFunctions& Functions() const { return *functions_; }
   const LevelOperators& Operators() const { return own_ ? *own_ : *shared_; }
@@ -90,14 +90,19 @@ private:
   std::shared_ptr<const TriangleMetric> metric_; // null: that of the mesh, or of an embedding
 };
 
-struct GridSpaceOptions
+/// Of the operators on the functions.
+struct OperatorOptions
 {
-  SpaceOptions functions;
   int quadratureDegree = 2;
   Index coarsestSize = 256; // functions of the largest component on the coarsest level, at most
   /// The weight of |∂u/∂n|² in the operator, in (0, 1]. 1e-2 needs few iterations to small
   /// tolerances on any surface, for 1.2 to 1.6 times the discretisation error.
   double normalStabilization = DefaultNormalStabilization;
+};
+
+struct GridSpaceOptions : OperatorOptions
+{
+  SpaceOptions functions;
 };
 
 /// Clips, builds functions and operators in one go. Throws InvalidInput and Aborted.

@@ -90,40 +90,27 @@ MultiVector IntegrateVectors(const HatFunctions& hats, const TriangleMesh& mesh,
     });
 }
 
-/// @param weightOf  a factor for each triangle
-template<class Weight>
-MultiVector IntegrateValuesTimes(const HatFunctions& hats, const TriangleMesh& mesh, const Field& f,
-  const Weight& weightOf, int threads)
+} // namespace
+
+MultiVector IntegrateValues(const HatFunctions& hats, const TriangleMesh& mesh, const Field& f,
+  int threads, const std::vector<double>* weight)
 {
   CheckMesh(hats, mesh);
   RequireField(f, mesh);
+  if (weight)
+  {
+    RequireWeights(*weight, mesh);
+  }
   return IntegrateTriangles(hats, mesh, f.values.cols(), threads,
     [&](const HatTriangle& triangle, Id number, int corner, auto sum)
     {
       const std::array<Id, 3> row = f.RowsOf(number, mesh.triangles[number]);
-      const double area = weightOf(number) * triangle.area;
+      const double area = (weight ? (*weight)[number] : 1.0) * triangle.area;
       for (int k = 0; k < 3; ++k)
       {
         sum += area / (k == corner ? 6.0 : 12.0) * f.values.row(row[k]);
       }
     });
-}
-
-} // namespace
-
-MultiVector IntegrateValues(
-  const HatFunctions& hats, const TriangleMesh& mesh, const Field& f, int threads)
-{
-  return IntegrateValuesTimes(
-    hats, mesh, f, [](Id) { return 1.0; }, threads);
-}
-
-MultiVector IntegrateWeightedValues(const HatFunctions& hats, const TriangleMesh& mesh,
-  const Field& f, const std::vector<double>& weight, int threads)
-{
-  RequireWeights(weight, mesh);
-  return IntegrateValuesTimes(
-    hats, mesh, f, [&weight](Id triangle) { return weight[triangle]; }, threads);
 }
 
 MultiVector IntegrateGradients(const HatFunctions& hats, const TriangleMesh& mesh, const Field& s,

@@ -14,12 +14,9 @@ namespace gridfem
 /// rows or columns of a field do not fit the mesh; same bits for any number of threads.
 
 /// ∫ f φ_i, in the unit of length squared: rows = functions, columns = components of f.
-MultiVector IntegrateValues(
-  const HatFunctions& hats, const TriangleMesh& mesh, const Field& f, int threads = 0);
-
-/// ∫ w f φ_i with a weight w on each triangle.
-MultiVector IntegrateWeightedValues(const HatFunctions& hats, const TriangleMesh& mesh,
-  const Field& f, const std::vector<double>& weight, int threads = 0);
+/// @param weight  on each triangle: ∫ w f φ_i; null: 1
+MultiVector IntegrateValues(const HatFunctions& hats, const TriangleMesh& mesh, const Field& f,
+  int threads = 0, const std::vector<double>* weight = nullptr);
 
 /// ∫ <s, ∇φ_i> in world units, in which the stiffness has none. Vector c of s lies in columns
 /// 3c .. 3c+2; its part normal to the triangle is ignored.

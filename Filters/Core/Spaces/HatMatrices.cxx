@@ -228,8 +228,7 @@ HatMatrices AssembleHatMatrices(
 }
 
 MultiVector MultiplyHats(const TriangleMesh& mesh, const HatFunctions& hats,
-  const HatWeights& weights, double a, double b, const std::vector<double>& scale,
-  const MultiVector& u, int threads)
+  const HatWeights& weights, const std::vector<double>& scale, const MultiVector& u, int threads)
 {
   if (u.rows() != hats.Count() || (!scale.empty() && scale.size() != mesh.triangles.size()))
   {
@@ -247,13 +246,12 @@ MultiVector MultiplyHats(const TriangleMesh& mesh, const HatFunctions& hats,
         {
           const Id t = hats.corners[k].Triangle();
           const int corner = hats.corners[k].Corner();
-          const double factor = scale.empty() ? b : b * scale[t];
+          const double factor = scale.empty() ? 1.0 : scale[t];
           for (int side = 1; side < 3; ++side)
           {
             const Index j = hats.ofPoint[mesh.triangles[t][(corner + side) % 3]];
-            const double mass = a * terms[t].twelfthOfArea;
             const double stiffness = factor * terms[t].halfCotangent[(corner + 3 - side) % 3];
-            result.row(i) += mass * (u.row(i) + u.row(j)) + stiffness * (u.row(i) - u.row(j));
+            result.row(i) += stiffness * (u.row(i) - u.row(j));
           }
         }
       }

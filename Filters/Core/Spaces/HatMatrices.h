@@ -34,13 +34,13 @@ struct HatWeights
 HatMatrices AssembleHatMatrices(const TriangleMesh& mesh, const HatFunctions& hats,
   const HatWeights& weights = {}, int threads = 0);
 
-/// Σ over the triangles of (a mass + b scale stiffness) u, with the same weights.
+/// Σ over the triangles of scale stiffness u, with the same weights.
 /// @param scale  one number per triangle; empty: 1
 /// @param u      rows = functions; the result has its size
 /// Throws InvalidInput when a number of rows does not fit. Same bits for any number of threads.
 MultiVector MultiplyHats(const TriangleMesh& mesh, const HatFunctions& hats,
-  const HatWeights& weights, double a, double b, const std::vector<double>& scale,
-  const MultiVector& u, int threads = 0);
+  const HatWeights& weights, const std::vector<double>& scale, const MultiVector& u,
+  int threads = 0);
 
 /// a M + b L, in place where `result` has the pattern.
 void Combine(

@@ -139,17 +139,16 @@ const std::vector<double>& HatSpace::Integrals() const
 
 MultiVector HatSpace::LoadOfValues(const Field& f, const Job& job) const
 {
-  return metric_
-           ? IntegrateWeightedValues(hats_->functions, grid_.Mesh(), f, metric_->area, job.threads)
-           : IntegrateValues(hats_->functions, grid_.Mesh(), f, job.threads);
+  return IntegrateValues(
+    hats_->functions, grid_.Mesh(), f, job.threads, metric_ ? &metric_->area : nullptr);
 }
 
 MultiVector HatSpace::LoadOfWeightedValues(
   const Field& f, const std::vector<double>& weight, const Job& job) const
 {
   RequireWeights(weight, grid_.Mesh());
-  return IntegrateWeightedValues(hats_->functions, grid_.Mesh(), f,
-    metric_ ? ProductOf(weight, metric_->area) : weight, job.threads);
+  const std::vector<double> all = metric_ ? ProductOf(weight, metric_->area) : weight;
+  return IntegrateValues(hats_->functions, grid_.Mesh(), f, job.threads, &all);
 }
 
 MultiVector HatSpace::LoadOfGradients(const Field& s, const Field* scale, const Job& job) const
@@ -356,19 +355,12 @@ void HatSpace::Weigh(const std::vector<ElementWeights>& weights, const Job& job)
   grid_.Weigh(onPatches, job);
 }
 
-MultiVector HatSpace::LoadOfFunction(
-  double a, double b, const MultiVector& u, const std::vector<double>& scale, const Job& job) const
+MultiVector HatSpace::StiffnessTimes(
+  const MultiVector& u, const std::vector<double>& scale, const Job& job) const
 {
-  const auto multiply = [&](const TriangleMesh& mesh, double ofMass, double ofStiffness)
-  {
-    return MultiplyHats(
-      mesh, hats_->functions, this->Weights(), ofMass, ofStiffness, scale, u, job.threads);
-  };
-  if (moved_ && movedParts_ == ElementParts::Mass)
-  {
-    return multiply(*moved_, a, 0.0) + multiply(grid_.Mesh(), 0.0, b);
-  }
-  return multiply(moved_ ? *moved_ : grid_.Mesh(), a, b);
+  const bool isMoved = moved_ && movedParts_ == ElementParts::Both;
+  return MultiplyHats(
+    isMoved ? *moved_ : grid_.Mesh(), hats_->functions, this->Weights(), scale, u, job.threads);
 }
 
 HatSpace BuildHatSpace(TriangleMesh mesh, const GridSpaceOptions& options, HatTransfer transfer,

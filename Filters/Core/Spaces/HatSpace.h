@@ -81,8 +81,8 @@ public:
   void SplitStiffness(const std::vector<Vec3>& direction, const Job& job = {}) override;
   MultiVector MeansOnElements(const MultiVector& onTriangles, const Job& job = {}) const override;
   void Weigh(const std::vector<ElementWeights>& weights, const Job& job = {}) override;
-  MultiVector LoadOfFunction(double a, double b, const MultiVector& u,
-    const std::vector<double>& scale, const Job& job = {}) const override;
+  MultiVector StiffnessTimes(
+    const MultiVector& u, const std::vector<double>& scale, const Job& job = {}) const override;
 
   const HatLevel& Hats() const { return *hats_; }
   const GridSpace& Grid() const { return grid_; }

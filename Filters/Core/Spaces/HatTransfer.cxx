@@ -114,42 +114,36 @@ void AddPoint(const GridFunctions& space, Id point, Row& row)
   }
 }
 
-struct Entry
+/// Appends the entries of a row, sorted by column.
+void AppendEntries(
+  const PatchLevel& level, const Row& row, Array<Index>& columns, Array<double>& values)
 {
-  Index column;
-  double value;
-};
-
-/// The entries of a row, sorted by column.
-std::vector<Entry> EntriesOf(const PatchLevel& level, const Row& row)
-{
-  std::vector<Entry> entries;
+  std::vector<std::pair<Index, double>> entries;
   for (const PatchWeights& weights : row)
   {
     for (int c = 0; c < FunctionsPerPatch; ++c)
     {
       if (weights.weight[c] > 0.0)
       {
-        entries.push_back({ level.dof[weights.patch][c], weights.weight[c] });
+        entries.emplace_back(level.dof[weights.patch][c], weights.weight[c]);
       }
     }
   }
-  std::stable_sort(entries.begin(), entries.end(),
-    [](const Entry& a, const Entry& b) { return a.column < b.column; });
-  std::size_t end = 0;
-  for (std::size_t k = 0; k < entries.size(); ++k)
+  std::stable_sort(
+    entries.begin(), entries.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  const std::size_t begin = columns.size();
+  for (const auto& [column, value] : entries)
   {
-    if (k > 0 && entries[k].column == entries[end - 1].column)
+    if (columns.size() > begin && columns.back() == column)
     {
-      entries[end - 1].value += entries[k].value;
+      values.back() += value;
     }
     else
     {
-      entries[end++] = entries[k];
+      columns.push_back(column);
+      values.push_back(value);
     }
   }
-  entries.resize(end);
-  return entries;
 }
 
 /// A point of every function: of those that share it the one in the best patch, and of equal ones
@@ -196,11 +190,7 @@ SparseMatrix BuildRows(
     {
       Row row;
       fillRow(hat, row);
-      for (const Entry& entry : EntriesOf(space.Finest(), row))
-      {
-        columns.push_back(entry.column);
-        values.push_back(entry.value);
-      }
+      AppendEntries(space.Finest(), row, columns, values);
     });
   return matrix;
 }

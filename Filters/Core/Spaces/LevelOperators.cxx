@@ -149,20 +149,4 @@ void UpdateOperators(
     IntegralsOfFunctions(system.places.front(), system.elements.front().mass, threads);
 }
 
-void FillLevelMatrix(const GridFunctions& space, const LevelOperators& system, std::size_t level,
-  double a, double b, int threads, SparseMatrix& matrix)
-{
-  const ElementMatrices& elements = system.elements[level];
-  AssembleValues(space.levels[level], system.places[level], elements.mass, a, elements.stiffness, b,
-    matrix, threads);
-}
-
-SparseMatrix LevelMatrix(const GridFunctions& space, const LevelOperators& system,
-  std::size_t level, double a, double b, int threads)
-{
-  SparseMatrix matrix = system.pattern[level];
-  FillLevelMatrix(space, system, level, a, b, threads, matrix);
-  return matrix;
-}
-
 } // namespace gridfem

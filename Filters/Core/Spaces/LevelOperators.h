@@ -43,13 +43,6 @@ LevelOperators OperatorsOfElements(const GridFunctions& space, ElementMatrices f
 void UpdateOperators(const GridFunctions& space, LevelOperators& system, int threads = 0,
   ElementParts parts = ElementParts::Both);
 
-/// a M + b L on one level, grid units: new values for a matrix of the level's pattern, and a new
-/// matrix.
-void FillLevelMatrix(const GridFunctions& space, const LevelOperators& system, std::size_t level,
-  double a, double b, int threads, SparseMatrix& matrix);
-SparseMatrix LevelMatrix(const GridFunctions& space, const LevelOperators& system,
-  std::size_t level, double a, double b, int threads = 0);
-
 } // namespace gridfem
 
 #endif

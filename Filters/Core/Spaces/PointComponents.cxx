@@ -37,4 +37,20 @@ std::vector<Index> ComponentsOfPoints(
   return component;
 }
 
+void SubtractConstants(
+  const MultiVector& constant, const std::vector<Index>& componentOfRow, MultiVector& values)
+{
+  for (Id row = 0; row < values.rows(); ++row)
+  {
+    if (componentOfRow[row] >= 0)
+    {
+      values.row(row) -= constant.row(componentOfRow[row]);
+    }
+    else
+    {
+      values.row(row).setZero();
+    }
+  }
+}
+
 } // namespace gridfem

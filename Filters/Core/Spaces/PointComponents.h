@@ -14,6 +14,10 @@ std::vector<Index> ComponentsOfRows(const SparseMatrix& rows, const Components& 
 std::vector<Index> ComponentsOfPoints(
   const SurfaceSpace& space, const Components& components, const Job& job = {});
 
+/// values -= the constant of each row's component; rows of nothing become 0.
+void SubtractConstants(
+  const MultiVector& constant, const std::vector<Index>& componentOfRow, MultiVector& values);
+
 } // namespace gridfem
 
 #endif

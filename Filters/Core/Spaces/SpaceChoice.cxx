@@ -8,11 +8,7 @@ namespace gridfem
 std::unique_ptr<FiniteElementSpace> BuildSpace(const TriangleMesh& mesh,
   const SpaceOptions& functions, const SpaceChoice& choice, const Progress& progress)
 {
-  GridSpaceOptions options;
-  options.functions = functions;
-  options.quadratureDegree = choice.quadratureDegree;
-  options.coarsestSize = choice.coarsestSize;
-  options.normalStabilization = choice.normalStabilization;
+  const GridSpaceOptions options{ choice, functions };
   if (choice.kind == FunctionKind::Grid)
   {
     return std::make_unique<GridSpace>(BuildGridSpace(mesh, options, progress));

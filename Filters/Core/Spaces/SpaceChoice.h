@@ -11,12 +11,9 @@ namespace gridfem
 {
 
 /// Which space is wanted on a basis.
-struct SpaceChoice
+struct SpaceChoice : OperatorOptions
 {
   FunctionKind kind = FunctionKind::Grid;
-  int quadratureDegree = 2;
-  Index coarsestSize = 256; // functions of the largest component on the coarsest level, at most
-  double normalStabilization = DefaultNormalStabilization;
 };
 
 /// Clips the mesh and builds all that the space takes. Throws InvalidInput and Aborted.

@@ -31,19 +31,17 @@ public:
       this->Weighed(surface, progress.Part(0.4, 0.5));
     const Job job = surface.MakeJob(progress.Part(0.5, 0.6));
     const SignalInSpace shape = ShapeInSpace(*surface.space, job);
-    const MultiVector load = LoadOfDetail(*space, shape.coefficients, {}, job);
-    PoissonOptions options;
-    options.screeningWeight = surface.WeightInSpaceUnits(weight_);
-    options.multigrid = options_.multigrid;
-    options.solve = options_.solve;
+    const MultiVector load = space->StiffnessTimes(shape.coefficients, {}, job);
+    PoissonOptions options{ { options_.multigrid, options_.solve },
+      surface.WeightInSpaceUnits(weight_) };
     if (cycles_ > 0)
     {
       options.solve.maximumIterations = cycles_;
     }
     const Multigrid multigrid = BuildMultigrid(
       *space, options.screeningWeight, 1.0, options.multigrid, progress.Part(0.6, 0.7));
-    const PoissonSolution solution =
-      SolveDetail(*space, multigrid, load, options, progress.Part(0.7, 0.95));
+    const PoissonSolution solution = SolvePoisson(*space, multigrid,
+      MultiVector::Zero(load.rows(), load.cols()), load, options, progress.Part(0.7, 0.95));
 
     const MultiVector change =
       space->ValuesAtPoints((scale_ - 1.0) * solution.coefficients, options_.functions.threads);

@@ -31,12 +31,8 @@ public:
     const Surface surface(given, options_, progress.Part(0.0, 0.3));
     const Field start = given.FieldOf("values");
     Results results;
-    DiffusionOptions options;
-    options.timeStep = time_ / steps_ / surface.WeightInSpaceUnits(1.0);
-    options.scheme = scheme_;
-    options.multigrid = options_.multigrid;
-    options.solve = options_.solve;
-    options.accuracy = options_.accuracy;
+    DiffusionOptions options{ options_, time_ / steps_ / surface.WeightInSpaceUnits(1.0), scheme_,
+      {} };
     if (given.Find("held") || holdsBoundary_)
     {
       options.held = FindHeld(given, surface, options_, start, holdsBoundary_, results);

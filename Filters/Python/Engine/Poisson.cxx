@@ -162,13 +162,7 @@ PoissonSolution PoissonProblem::SolveEquation(
     gradients = given.Find("values") ? space.LoadOfGradientsOf(value, nullptr, job)
                                      : space.LoadOfGradientsOfCoordinates(nullptr, job);
   }
-  PoissonOptions options;
-  options.screeningWeight = surface.WeightInSpaceUnits(weight_);
-  options.multigrid = options_.multigrid;
-  options.iteration = iteration_;
-  options.solve = options_.solve;
-  options.estimateErrors = true;
-  options.accuracy = options_.accuracy;
+  const PoissonOptions options{ options_, surface.WeightInSpaceUnits(weight_), iteration_, true };
   const Multigrid multigrid =
     BuildMultigrid(space, options.screeningWeight, 1.0, options.multigrid, progress.Part(0.2, 0.4));
   PoissonSolution solution = SolvePoisson(

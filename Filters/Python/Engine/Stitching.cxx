@@ -70,11 +70,8 @@ public:
     const ScanCut cut = CutAtSeams(surface.Mesh(), scans.numbers, colors.association);
     const std::unique_ptr<FiniteElementSpace> details =
       this->SpaceOfDetails(surface.options, cut, progress.Part(0.35, 0.6));
-    StitchOptions options;
-    options.multigrid = options_.multigrid;
-    options.solve = options_.solve;
-    options.accuracy = options_.accuracy;
-    options.blendWidth = blendWidth_ * surface.space->Extent() * surface.space->UnitLength();
+    StitchOptions options{ options_,
+      blendWidth_ * surface.space->Extent() * surface.space->UnitLength(), {} };
     if (keepsReference_)
     {
       options.reference = scans.NumberOf(referenceLabel_);

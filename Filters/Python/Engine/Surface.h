@@ -71,7 +71,7 @@ struct SharedDefaults
 };
 
 /// The properties that all problems have.
-struct SurfaceOptions
+struct SurfaceOptions : EquationOptions
 {
   SurfaceOptions(Properties& properties, const SharedDefaults& defaults);
 
@@ -81,10 +81,7 @@ struct SurfaceOptions
   SpaceOptions functions;
   double functionsPerPoint = EnoughToPrecondition; // of the grid below hat functions, at most
   SpaceChoice choice;
-  MultigridOptions multigrid;
-  SolveOptions solve;
-  double accuracy = 0.0; // as in PoissonOptions
-  int parameterUnits;    // 0: world, 1: those of area 1, 2: those of a longest side of 1
+  int parameterUnits; // 0: world, 1: those of area 1, 2: those of a longest side of 1
 };
 
 /// A mesh with its function space.

@@ -39,10 +39,7 @@ Communicator RanksOfVtk()
 RankSpaceOptions RankOptionsOf(const SurfaceOptions& options)
 {
   RankSpaceOptions result;
-  result.space.functions = options.space;
-  result.space.quadratureDegree = options.choice.quadratureDegree;
-  result.space.coarsestSize = options.choice.coarsestSize;
-  result.space.normalStabilization = options.choice.normalStabilization;
+  result.space = { options.choice, options.space };
   result.functionsPerPoint = options.functionsPerPoint;
   return result;
 }

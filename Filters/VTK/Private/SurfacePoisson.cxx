@@ -85,13 +85,8 @@ void SurfacePoisson::Solve(
   state.stages.Run(SolveStage, key,
     [&]
     {
-      PoissonOptions options;
-      options.screeningWeight = state.WeightInGridUnits(request.weight);
-      options.multigrid = state.options.multigrid;
-      options.iteration = request.iteration;
-      options.solve = state.options.solve;
-      options.accuracy = state.options.accuracy;
-      options.estimateErrors = request.estimateErrors;
+      PoissonOptions options{ state.options, state.WeightInGridUnits(request.weight),
+        request.iteration, request.estimateErrors };
       StageKey solver = shape_; // other options show their own iterations, from the usual start
       solver.Add(state.stages.Version(SystemStage)).Add(request.numbers);
       solver.Add(static_cast<int>(request.iteration));

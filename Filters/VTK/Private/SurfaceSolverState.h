@@ -9,6 +9,7 @@
 #include "Krylov/ConjugateGradients.h"
 #include "MeshVersion.h"
 #include "Problems/EdgeConditions.h"
+#include "Problems/Poisson.h"
 #include "Problems/Requirements.h"
 #include "ProgressBridge.h"
 #include "StageCache.h"
@@ -21,15 +22,12 @@ namespace gridfem
 {
 
 /// The shared properties in Core's terms.
-struct SurfaceOptions
+struct SurfaceOptions : EquationOptions
 {
   SpaceOptions space;
   SpaceChoice choice;                              // on the basis
   double functionsPerPoint = EnoughToPrecondition; // of the grid below hat functions, at most
-  MultigridOptions multigrid;
-  SolveOptions solve;
-  double accuracy = 0.0;    // as in PoissonOptions; 0: to the tolerance alone
-  int parameterUnits = 1;   // vtkSurfaceFEMAlgorithm::ParameterUnitsType
+  int parameterUnits = 1;                          // vtkSurfaceFEMAlgorithm::ParameterUnitsType
   bool trackMetric = false; // of a mesh that has only moved since its functions were made
 };
 

@@ -416,25 +416,27 @@ TEST(Clip, OnOneThreadWorksInsideAParallelRegion)
   }
 }
 
-TEST(Clip, RealMeshesKeepTheirArea)
+namespace
 {
-  const char* const names[] = { "rocker_arm.ply", "cheese_18k.ply", "conrod.stl",
-    "cycloidal_43k.ply", "dragon_res3_nonmanifold.ply", "stanford_bunny.ply" };
-  int tested = 0;
-  for (const char* name : names)
+
+class ClipOfRealMesh : public ::testing::TestWithParam<const char*>
+{
+};
+
+} // namespace
+
+TEST_P(ClipOfRealMesh, KeepsTheArea)
+{
+  const std::string path = RealMesh(GetParam());
+  if (path.empty())
   {
-    const std::string path = RealMesh(name);
-    if (path.empty())
-    {
-      continue;
-    }
-    const TriangleMesh mesh = ReadMesh(path);
-    const double area = SurfaceArea(mesh);
-    EXPECT_NEAR(ClippedArea(ClipAt(mesh, 6)), area, 1e-12 * area) << name;
-    ++tested;
+    GTEST_SKIP() << "no real mesh " << GetParam();
   }
-  if (tested == 0)
-  {
-    GTEST_SKIP() << "The folder of real meshes is not there.";
-  }
+  const TriangleMesh mesh = ReadMesh(path);
+  const double area = SurfaceArea(mesh);
+  EXPECT_NEAR(ClippedArea(ClipAt(mesh, 6)), area, 1e-12 * area);
 }
+
+INSTANTIATE_TEST_SUITE_P(Files, ClipOfRealMesh,
+  ::testing::Values("rocker_arm.ply", "cheese_18k.ply", "conrod.stl", "cycloidal_43k.ply",
+    "dragon_res3_nonmanifold.ply", "stanford_bunny.ply"));

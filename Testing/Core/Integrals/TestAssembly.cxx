@@ -1,6 +1,7 @@
 // Level matrices and prolongations: against dense sums, Galerkin products and point values.
 #include "Integrals/Assembly.h"
 
+#include "ElementSums.h"
 #include "Integrals/TrilinearBasis.h"
 #include "Spaces.h"
 
@@ -89,9 +90,8 @@ TEST_P(AssemblyOnSpaces, MatricesAreTheSumsOfTheirElements)
 {
   const GridFunctions space = GetParam().Build();
   const PatchLevel& level = space.levels[1];
-  ElementMatrices elements = IntegrateElements(space, TriangleRule(2));
-  elements.mass = CoarsenElements(space.levels[0], level, elements.mass);
-  elements.stiffness = CoarsenElements(space.levels[0], level, elements.stiffness);
+  const ElementMatrices elements =
+    Coarsened(space.levels[0], level, IntegrateElements(space, TriangleRule(2)));
   const Eigen::MatrixXd M = DenseSum(level, elements.mass);
   const Eigen::MatrixXd L = DenseSum(level, elements.stiffness);
   // A few additions of at most eight terms each.
@@ -153,9 +153,7 @@ TEST_P(AssemblyOnSpaces, GalerkinProductsEqualTheAssembledCoarseMatrices)
       const Eigen::SparseMatrix<double> P = Dense(prolongation).sparseView();
       const Eigen::SparseMatrix<double> fine = Dense(assembled).sparseView();
       A = P.transpose() * fine * P;
-      elements.mass = CoarsenElements(space.levels[l], space.levels[l + 1], elements.mass);
-      elements.stiffness =
-        CoarsenElements(space.levels[l], space.levels[l + 1], elements.stiffness);
+      elements = Coarsened(space.levels[l], space.levels[l + 1], elements);
     }
   }
 }

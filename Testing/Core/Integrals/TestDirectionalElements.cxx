@@ -38,7 +38,7 @@ struct TiltedRectangle
 {
   Eigen::Matrix3d turn = Eigen::AngleAxisd(0.6, Vec3(1, 2, -1).normalized()).toRotationMatrix();
   TriangleMesh mesh = Transform(FlatRectangle(9, 5, 2.0, 1.0), Vec3(1, 2, -1), 0.6);
-  GridFunctions space = BuildGridFunctions(mesh, { 4 });
+  GridFunctions space = BuildGridFunctions(mesh, { { 4 } });
   Vec3 along = turn.col(0);
   Vec3 across = turn.col(1);
   DirectionalElements elements = IntegrateElements(

@@ -2,6 +2,7 @@
 // and what must not matter (subdivision in the plane, slivers, threads).
 #include "Integrals/ElementMatrices.h"
 
+#include "ElementSums.h"
 #include "Spaces.h"
 
 #include <Eigen/Eigenvalues>
@@ -199,9 +200,7 @@ TEST_P(ElementsOfSpaces, CoarsenedMatricesEqualDirectIntegrationOnEveryLevel)
     ExpectNear(elements.stiffness, direct.stiffness, 1e-12);
     if (l + 1 < space.levels.size())
     {
-      elements.mass = CoarsenElements(space.levels[l], space.levels[l + 1], elements.mass);
-      elements.stiffness =
-        CoarsenElements(space.levels[l], space.levels[l + 1], elements.stiffness);
+      elements = Coarsened(space.levels[l], space.levels[l + 1], elements);
     }
   }
 }
@@ -228,8 +227,8 @@ TEST_P(ElementsOfSpaces, AreTheSameBitsForAnyNumberOfThreads)
   const ElementMatrices two = IntegrateElements(space, TriangleRule(4), 2);
   EXPECT_EQ(one.mass, two.mass);
   EXPECT_EQ(one.stiffness, two.stiffness);
-  EXPECT_EQ(CoarsenElements(space.levels[0], space.levels[1], one.mass, 1),
-    CoarsenElements(space.levels[0], space.levels[1], one.mass, 2));
+  EXPECT_EQ(Coarsened(space.levels[0], space.levels[1], one, 1).mass,
+    Coarsened(space.levels[0], space.levels[1], one, 2).mass);
 }
 
 INSTANTIATE_TEST_SUITE_P(Spaces, ElementsOfSpaces, ::testing::ValuesIn(AllSpaces()));

@@ -69,34 +69,30 @@ ElementMatrices IntegrateInSpace(const GridFunctions& space, const MultiVector& 
     const Id patch = space.piecePatch[piece];
     const Vec3 n = UnitNormal(space.clipped, piece);
     const Eigen::Matrix3d tangential = Eigen::Matrix3d::Identity() - n * n.transpose();
-    ForEachFanTriangle(space.clipped, piece, CellCorner(level.cell[patch]),
-      [&](const FanTriangle& triangle)
+    ForEachSample(space.clipped, piece, CellCorner(level.cell[patch]), TriangleRule(2),
+      [&](const Vec3& local, double area)
       {
-        for (const QuadratureRule::Point& point : TriangleRule(2).points)
+        std::array<double, FunctionsPerPatch> value;
+        TrilinearValues(local, value);
+        const std::array<Vec3, FunctionsPerPatch> gradient = TrilinearGradientsAt(local);
+        Eigen::Matrix3d slope = Eigen::Matrix3d::Zero();
+        for (int c = 0; c < FunctionsPerPatch; ++c)
         {
-          std::array<double, FunctionsPerPatch> value;
-          TrilinearValues(triangle.At(point.barycentric), value);
-          const std::array<Vec3, FunctionsPerPatch> gradient =
-            TrilinearGradientsAt(triangle.At(point.barycentric));
-          Eigen::Matrix3d slope = Eigen::Matrix3d::Zero();
-          for (int c = 0; c < FunctionsPerPatch; ++c)
+          slope += embedding.row(level.dof[patch][c]).transpose() * gradient[c].transpose();
+        }
+        const Eigen::JacobiSVD<Eigen::Matrix3d> svd(slope * tangential, Eigen::ComputeFullV);
+        const Vec3 sigma = svd.singularValues();
+        const Eigen::Matrix3d V = svd.matrixV();
+        const Eigen::Matrix3d inverse = V.col(0) * V.col(0).transpose() / (sigma[0] * sigma[0]) +
+                                        V.col(1) * V.col(1).transpose() / (sigma[1] * sigma[1]);
+        const double weight = area * sigma[0] * sigma[1];
+        for (int i = 0; i < FunctionsPerPatch; ++i)
+        {
+          for (int j = i; j < FunctionsPerPatch; ++j)
           {
-            slope += embedding.row(level.dof[patch][c]).transpose() * gradient[c].transpose();
-          }
-          const Eigen::JacobiSVD<Eigen::Matrix3d> svd(slope * tangential, Eigen::ComputeFullV);
-          const Vec3 sigma = svd.singularValues();
-          const Eigen::Matrix3d V = svd.matrixV();
-          const Eigen::Matrix3d inverse = V.col(0) * V.col(0).transpose() / (sigma[0] * sigma[0]) +
-                                          V.col(1) * V.col(1).transpose() / (sigma[1] * sigma[1]);
-          const double weight = point.weight * triangle.area * sigma[0] * sigma[1];
-          for (int i = 0; i < FunctionsPerPatch; ++i)
-          {
-            for (int j = i; j < FunctionsPerPatch; ++j)
-            {
-              sums.mass[patch][PackedIndex(i, j)] += weight * value[i] * value[j];
-              sums.stiffness[patch][PackedIndex(i, j)] +=
-                weight * gradient[i].dot(inverse * gradient[j]);
-            }
+            sums.mass[patch][PackedIndex(i, j)] += weight * value[i] * value[j];
+            sums.stiffness[patch][PackedIndex(i, j)] +=
+              weight * gradient[i].dot(inverse * gradient[j]);
           }
         }
       });
@@ -188,15 +184,15 @@ INSTANTIATE_TEST_SUITE_P(Spaces, MetricOfSpaces, ::testing::ValuesIn(AllSpaces(3
 
 TEST(SurfaceMetric, SingularSamplesContributeNothingAndAreCounted)
 {
-  const GridFunctions space = BuildGridFunctions(GeodesicSphere(6), { 3 });
+  const GridFunctions space = BuildGridFunctions(GeodesicSphere(6), { { 3 } });
   MultiVector line = GridCoordinates(space);
   line.rightCols(2).setZero();
   const Integrals collapsed = IntegrateEmbedding(space, line);
   Id samples = 0;
   for (Id piece = 0; piece < space.clipped.NumberOfPieces(); ++piece)
   {
-    ForEachFanTriangle(
-      space.clipped, piece, Vec3::Zero(), [&](const FanTriangle&) { samples += 3; });
+    ForEachSample(
+      space.clipped, piece, Vec3::Zero(), TriangleRule(2), [&](const Vec3&, double) { ++samples; });
   }
   EXPECT_EQ(collapsed.singular, samples);
   EXPECT_EQ(LargestEntry(collapsed.elements.mass), 0.0);
@@ -205,7 +201,7 @@ TEST(SurfaceMetric, SingularSamplesContributeNothingAndAreCounted)
 
 TEST(SurfaceMetric, OneBadSampleIsLeftOut)
 {
-  const GridFunctions space = BuildGridFunctions(GeodesicSphere(6), { 3 });
+  const GridFunctions space = BuildGridFunctions(GeodesicSphere(6), { { 3 } });
   const QuadratureRule& rule = TriangleRule(2);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
@@ -227,7 +223,7 @@ TEST(SurfaceMetric, OneBadSampleIsLeftOut)
 /// Close to the least and the largest determinant a root has all its digits.
 TEST(SurfaceMetric, TinyAndHugeMetricsScaleAreas)
 {
-  const GridFunctions space = BuildGridFunctions(GeodesicSphere(6), { 3 });
+  const GridFunctions space = BuildGridFunctions(GeodesicSphere(6), { { 3 } });
   const QuadratureRule& rule = TriangleRule(2);
   const ElementMatrices own = IntegrateElements(space, rule);
   for (const double scale : { 1e-149, 1e149 })
@@ -242,7 +238,7 @@ TEST(SurfaceMetric, TinyAndHugeMetricsScaleAreas)
 
 TEST(SurfaceMetric, RefusesTheWrongNumbers)
 {
-  const GridFunctions space = BuildGridFunctions(GeodesicSphere(4), { 3 });
+  const GridFunctions space = BuildGridFunctions(GeodesicSphere(4), { { 3 } });
   const QuadratureRule& rule = TriangleRule(2);
   ElementMatrices elements;
   EXPECT_THROW(
@@ -257,7 +253,7 @@ TEST(SurfaceMetric, RefusesTheWrongNumbers)
 /// the bits of one that was built with a quarter of the weight.
 TEST(SurfaceMetric, AnUpdatedHierarchyEqualsANewOne)
 {
-  const GridFunctions space = BuildGridFunctions(Torus(40, 20, 1.0, 0.4), { 5 });
+  const GridFunctions space = BuildGridFunctions(Torus(40, 20, 1.0, 0.4), { { 5 } });
   const QuadratureRule& rule = TriangleRule(2);
   LevelOperators system = BuildLevelOperators(space, rule);
   const std::vector<double> integral = system.integral;

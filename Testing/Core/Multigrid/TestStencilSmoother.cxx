@@ -206,7 +206,8 @@ TEST(StencilSmoother, RelaxesSomeOfThePatches)
     some.cell.assign(all.cell.begin(), all.cell.begin() + half);
     some.dof.assign(all.dof.begin(), all.dof.begin() + half);
     MultigridLevel level;
-    level.A = LevelMatrix(functions, BuildLevelOperators(functions, TriangleRule(2)), 0, 1e-3, 1.0);
+    const LevelOperators operators = BuildLevelOperators(functions, TriangleRule(2));
+    level.A = testing::ViewOf(functions, operators).Matrix(0, 1e-3, 1.0);
     level.order = OrderPatches(some, all);
     const auto inSingle = MakeStencilSmoother(level.A, level.order);
     ASSERT_TRUE(inSingle);

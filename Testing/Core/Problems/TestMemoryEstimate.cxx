@@ -23,13 +23,19 @@ struct Case
   std::string name;
   TriangleMesh mesh;
   int depth;
+  std::string file = {}; ///< a real mesh instead, read by the tests that need it
 };
+
+void PrintTo(const Case& item, std::ostream* stream)
+{
+  *stream << item.name;
+}
 
 /// Coarse and fine meshes: many cells per triangle, and many triangles per cell.
 std::vector<Case> Cases()
 {
   using namespace testing;
-  std::vector<Case> cases{
+  return {
     { "coarse sphere", GeodesicSphere(4), 6 },
     { "fine sphere", GeodesicSphere(80), 4 },
     { "box on grid planes", Box(1), 6 },
@@ -39,13 +45,31 @@ std::vector<Case> Cases()
     { "open sheet", Transform(FlatRectangle(8, 8), { 1, 2, 0 }, 0.7), 6 },
     { "soup", Unweld(Torus(60, 24, 1.0, 0.3)), 5 },
     { "far away", Transform(GeodesicSphere(10), { 1, 0, 1 }, 0.2, 1e3, { 1e6, 0, -1e6 }), 5 },
+    { "rocker arm", {}, 6, "rocker_arm.ply" },
   };
-  if (const std::string path = RealMesh("rocker_arm.ply"); !path.empty())
-  {
-    cases.push_back({ "rocker arm", ReadMesh(path), 6 });
-  }
-  return cases;
 }
+
+/// On each of the meshes.
+class MemoryEstimates : public ::testing::TestWithParam<Case>
+{
+protected:
+  void SetUp() override
+  {
+    if (GetParam().file.empty())
+    {
+      return;
+    }
+    const std::string path = testing::RealMesh(GetParam().file);
+    if (path.empty())
+    {
+      GTEST_SKIP() << "no real mesh " << GetParam().file;
+    }
+    mesh = testing::ReadMesh(path);
+  }
+
+  TriangleMesh mesh = GetParam().mesh;
+  int depth = GetParam().depth;
+};
 
 template<class T, class Allocator>
 double Bytes(const std::vector<T, Allocator>& items)
@@ -90,11 +114,11 @@ double Bytes(const LevelOperators& system)
   return bytes;
 }
 
-GridFunctions BuildSpace(const Case& item)
+GridFunctions BuildSpace(const TriangleMesh& mesh, int depth)
 {
   SpaceOptions options;
-  options.depth = item.depth;
-  return BuildGridFunctions(item.mesh, options);
+  options.depth = depth;
+  return BuildGridFunctions(mesh, options);
 }
 
 /// Sizes are exact on average over positions of the grid, but for what depends on curves on the
@@ -105,62 +129,50 @@ double ShareOfCurves(int depth)
   return 4.0 / double(1 << depth);
 }
 
-TEST(MemoryEstimate, ExpectsTheSizesThatCome)
+TEST_P(MemoryEstimates, ExpectsTheSizesThatCome)
 {
-  for (const Case& item : Cases())
-  {
-    SCOPED_TRACE(item.name);
-    const MemoryEstimate estimate = EstimateMemory(item.mesh, item.depth);
-    const GridFunctions space = BuildSpace(item);
-    const auto expectNear = [](double expected, double real, double share)
-    { EXPECT_NEAR(expected / real, 1.0, share); };
-    const double share = ShareOfCurves(item.depth);
-    expectNear(
-      estimate.clippedTriangles, static_cast<double>(space.clipped.NumberOfTriangles()), share);
-    expectNear(estimate.patches, static_cast<double>(space.Finest().NumberOfPatches()), share);
-    expectNear(estimate.functions, space.Finest().numberOfFunctions, share);
-  }
+  const MemoryEstimate estimate = EstimateMemory(mesh, depth);
+  const GridFunctions space = BuildSpace(mesh, depth);
+  const auto expectNear = [](double expected, double real, double share)
+  { EXPECT_NEAR(expected / real, 1.0, share); };
+  const double share = ShareOfCurves(depth);
+  expectNear(
+    estimate.clippedTriangles, static_cast<double>(space.clipped.NumberOfTriangles()), share);
+  expectNear(estimate.patches, static_cast<double>(space.Finest().NumberOfPatches()), share);
+  expectNear(estimate.functions, space.Finest().numberOfFunctions, share);
 }
 
-TEST(MemoryEstimate, HoldsWhatIsBuiltAndNotMuchMore)
+TEST_P(MemoryEstimates, HoldsWhatIsBuiltAndNotMuchMore)
 {
-  for (const Case& item : Cases())
-  {
-    SCOPED_TRACE(item.name);
-    const MemoryEstimate estimate = EstimateMemory(item.mesh, item.depth);
-    const GridFunctions space = BuildSpace(item);
-    const LevelOperators system = BuildLevelOperators(space, TriangleRule(2));
-    const Multigrid multigrid =
-      BuildMultigrid(gridfem::testing::ViewOf(space, system), 0.01, 1.0, {});
-    const double arrays = Bytes(space) + Bytes(system) + static_cast<double>(multigrid.Memory());
-    // The arrays that are held at the end; rims and coarse levels have a few more functions than
-    // areas tell. The peak of clipping is up to twice what clipping leaves.
-    EXPECT_GT(estimate.bytes, (1.0 - ShareOfCurves(item.depth)) * arrays);
-    EXPECT_LT(estimate.bytes, 2.5 * arrays);
-  }
+  const MemoryEstimate estimate = EstimateMemory(mesh, depth);
+  const GridFunctions space = BuildSpace(mesh, depth);
+  const LevelOperators system = BuildLevelOperators(space, TriangleRule(2));
+  const Multigrid multigrid =
+    BuildMultigrid(gridfem::testing::ViewOf(space, system), 0.01, 1.0, {});
+  const double arrays = Bytes(space) + Bytes(system) + static_cast<double>(multigrid.Memory());
+  // The arrays that are held at the end; rims and coarse levels have a few more functions than
+  // areas tell. The peak of clipping is up to twice what clipping leaves.
+  EXPECT_GT(estimate.bytes, (1.0 - ShareOfCurves(depth)) * arrays);
+  EXPECT_LT(estimate.bytes, 2.5 * arrays);
 }
 
-TEST(MemoryEstimate, HoldsTheHatFunctions)
+TEST_P(MemoryEstimates, HoldsTheHatFunctions)
 {
-  for (const Case& item : Cases())
-  {
-    SCOPED_TRACE(item.name);
-    const GridFunctions space = BuildSpace(item);
-    const LevelOperators system = BuildLevelOperators(space, TriangleRule(2));
-    const auto level = std::make_shared<const HatLevel>(BuildHatLevel(item.mesh, space, true));
-    const HatLevel& hats = *level;
-    const std::size_t withHats =
-      BuildMultigrid(HatSpace(level, testing::ViewOf(space, system)), 0.01, 1.0, {}).Memory();
-    const std::size_t without =
-      BuildMultigrid(testing::ViewOf(space, system), 0.01, 1.0, {}).Memory();
-    const HatFunctions& functions = hats.functions;
-    const double arrays =
-      Bytes(functions.ofPoint) + Bytes(functions.begin) + Bytes(functions.corners) +
-      Bytes(functions.component) + Bytes(hats.matrices.mass) + Bytes(hats.matrices.stiffness) +
-      Bytes(hats.matrices.integral) + static_cast<double>(withHats) - static_cast<double>(without);
-    EXPECT_GT(EstimateHatMemory(item.mesh, space.Finest().numberOfFunctions), arrays);
-    EXPECT_LT(EstimateHatMemory(item.mesh, space.Finest().numberOfFunctions), 2.5 * arrays);
-  }
+  const GridFunctions space = BuildSpace(mesh, depth);
+  const LevelOperators system = BuildLevelOperators(space, TriangleRule(2));
+  const auto level = std::make_shared<const HatLevel>(BuildHatLevel(mesh, space, true));
+  const HatLevel& hats = *level;
+  const std::size_t withHats =
+    BuildMultigrid(HatSpace(level, testing::ViewOf(space, system)), 0.01, 1.0, {}).Memory();
+  const std::size_t without =
+    BuildMultigrid(testing::ViewOf(space, system), 0.01, 1.0, {}).Memory();
+  const HatFunctions& functions = hats.functions;
+  const double arrays =
+    Bytes(functions.ofPoint) + Bytes(functions.begin) + Bytes(functions.corners) +
+    Bytes(functions.component) + Bytes(hats.matrices.mass) + Bytes(hats.matrices.stiffness) +
+    Bytes(hats.matrices.integral) + static_cast<double>(withHats) - static_cast<double>(without);
+  EXPECT_GT(EstimateHatMemory(mesh, space.Finest().numberOfFunctions), arrays);
+  EXPECT_LT(EstimateHatMemory(mesh, space.Finest().numberOfFunctions), 2.5 * arrays);
 }
 
 TEST(MemoryEstimate, TheSuggestedDepthIsTheFinestThatThePointsFill)
@@ -169,9 +181,8 @@ TEST(MemoryEstimate, TheSuggestedDepthIsTheFinestThatThePointsFill)
          testing::Torus(500, 200, 1.0, 0.4), testing::TrefoilTube(2000, 60) })
   {
     SCOPED_TRACE(mesh.points.size());
-    const auto functionsAt = [&](int depth) {
-      return BuildSpace({ "", mesh, depth }).Finest().numberOfFunctions;
-    };
+    const auto functionsAt = [&](int depth)
+    { return BuildSpace(mesh, depth).Finest().numberOfFunctions; };
     const int depth = SuggestedDepth(mesh);
     const auto points = static_cast<double>(mesh.points.size());
     EXPECT_LT(functionsAt(depth), 1.05 * points);
@@ -195,9 +206,8 @@ TEST(MemoryEstimate, TheDepthForPointsIsTheFinestThatHasNoMoreFunctionsForEach)
     for (const double perPoint : { 1.0, 4.0 })
     {
       SCOPED_TRACE(points * perPoint);
-      const auto functionsAt = [&](int depth) {
-        return BuildSpace({ "", mesh, depth }).Finest().numberOfFunctions;
-      };
+      const auto functionsAt = [&](int depth)
+      { return BuildSpace(mesh, depth).Finest().numberOfFunctions; };
       const int depth = DepthForPoints(mesh, MaximumDepth, perPoint);
       // Estimates are good to some per cent; rims have more functions than areas tell.
       EXPECT_LT(functionsAt(depth), 1.2 * perPoint * points);
@@ -224,24 +234,21 @@ TEST(MemoryEstimate, ADepthGivesWayBelowHatFunctionsOnly)
   EXPECT_EQ(ChooseDepth(mesh, AutomaticDepth, FunctionKind::Hats, EnoughToPrecondition), enough);
 }
 
-TEST(MemoryEstimate, GrowsWithDepth)
+TEST_P(MemoryEstimates, GrowsWithDepth)
 {
-  for (const Case& item : Cases())
+  for (int level = MinimumDepth; level < MaximumDepth; ++level)
   {
-    SCOPED_TRACE(item.name);
-    for (int depth = MinimumDepth; depth < MaximumDepth; ++depth)
-    {
-      const MemoryEstimate coarse = EstimateMemory(item.mesh, depth);
-      const MemoryEstimate fine = EstimateMemory(item.mesh, depth + 1);
-      EXPECT_GT(fine.bytes, coarse.bytes);
-      // Areas grow by 4, all else by less.
-      EXPECT_LE(fine.bytes, 4.0 * coarse.bytes);
-    }
-    // Deep enough, areas are all that counts.
-    EXPECT_NEAR(
-      EstimateMemory(item.mesh, 14).bytes / EstimateMemory(item.mesh, 13).bytes, 4.0, 0.2);
+    const MemoryEstimate coarse = EstimateMemory(mesh, level);
+    const MemoryEstimate fine = EstimateMemory(mesh, level + 1);
+    EXPECT_GT(fine.bytes, coarse.bytes);
+    // Areas grow by 4, all else by less.
+    EXPECT_LE(fine.bytes, 4.0 * coarse.bytes);
   }
+  // Deep enough, areas are all that counts.
+  EXPECT_NEAR(EstimateMemory(mesh, 14).bytes / EstimateMemory(mesh, 13).bytes, 4.0, 0.2);
 }
+
+INSTANTIATE_TEST_SUITE_P(Meshes, MemoryEstimates, ::testing::ValuesIn(Cases()));
 
 TEST(MemoryEstimate, DoesNotDependOnTheUnit)
 {

@@ -16,9 +16,9 @@ using namespace gridfem::testing;
 namespace
 {
 
-DerivativeOptions Options(int threads = 0)
+EquationOptions Options(int threads = 0)
 {
-  DerivativeOptions options;
+  EquationOptions options;
   options.multigrid.threads = threads;
   options.solve.tolerance = 1e-9;
   return options;

@@ -182,6 +182,27 @@ int Iterations(const Hybrid& hybrid, double lambda)
   return solution.report.iterations;
 }
 
+/// As in Fig. 4.7 of it.
+void ExpectTenCyclesOfTheThesis(const TriangleMesh& mesh)
+{
+  for (const HatTransfer transfer : { HatTransfer::Evaluation, HatTransfer::PseudoEvaluation })
+  {
+    Hybrid hybrid(mesh, 5, transfer);
+    UseThesisSweeps(hybrid.options);
+    for (const double lambda : { 1e-2, 1e2, 1e4 })
+    {
+      const double weight = lambda * std::pow(0.25, 5);
+      const Multigrid multigrid = hybrid.Build(weight);
+      const MultiVector load = hybrid.space.LoadOfValues({ FieldAssociation::Points, Waves(mesh) });
+      MultiVector x = MultiVector::Zero(load.rows(), 1);
+      const SolveReport report =
+        SolveCycles(OperatorOf(multigrid), CycleOf(multigrid), weight * load, x, hybrid.solve);
+      EXPECT_TRUE(report.converged);
+      EXPECT_LE(report.iterations, 10) << lambda;
+    }
+  }
+}
+
 } // namespace
 
 TEST(HatSpace, NeedsFewIterationsOnSubdividedMeshes)
@@ -218,25 +239,17 @@ TEST(HatSpace, DoesNotMindThinTriangles)
 
 TEST(HatSpace, ConvergesInTenCyclesOfTheThesis)
 {
+  ExpectTenCyclesOfTheThesis(Transform(GeodesicSphere(40), { 1, 2, 3 }, 0.5));
+}
+
+TEST(HatSpace, ConvergesInTenCyclesOfTheThesisOnTheRockerArm)
+{
   const std::string path = RealMesh("rocker_arm.ply");
-  const TriangleMesh mesh =
-    path.empty() ? Transform(GeodesicSphere(40), { 1, 2, 3 }, 0.5) : ReadMesh(path);
-  for (const HatTransfer transfer : { HatTransfer::Evaluation, HatTransfer::PseudoEvaluation })
+  if (path.empty())
   {
-    Hybrid hybrid(mesh, 5, transfer);
-    UseThesisSweeps(hybrid.options);
-    for (const double lambda : { 1e-2, 1e2, 1e4 })
-    {
-      const double weight = lambda * std::pow(0.25, 5);
-      const Multigrid multigrid = hybrid.Build(weight);
-      const MultiVector load = hybrid.space.LoadOfValues({ FieldAssociation::Points, Waves(mesh) });
-      MultiVector x = MultiVector::Zero(load.rows(), 1);
-      const SolveReport report =
-        SolveCycles(OperatorOf(multigrid), CycleOf(multigrid), weight * load, x, hybrid.solve);
-      EXPECT_TRUE(report.converged);
-      EXPECT_LE(report.iterations, 10) << lambda; // Fig. 4.7
-    }
+    GTEST_SKIP() << "no real mesh rocker_arm.ply";
   }
+  ExpectTenCyclesOfTheThesis(ReadMesh(path));
 }
 
 TEST(HatSpace, DoesNotMindAGridThatIsMuchFinerThanTheMesh)
