@@ -116,11 +116,13 @@ void Connect(vtkPolyData* mesh, const std::string& array, const Options& options
   p.flow->SetNumberOfSteps(FlowSteps);
 }
 
-void Run(Pipeline& p, StepClock& clock)
+void Run(Pipeline& p, double expectedMegabytes, StepClock& clock)
 {
+  clock.Expect(expectedMegabytes);
   clock.Run("Clip To Octree", p.clip);
   clock.Run("Connectivity-Aware Basis", p.basis);
   clock.Run("Screened Poisson", p.poisson);
+  clock.CompareWithExpected();
   clock.AddPart("element matrices", p.poisson->GetStageSeconds("System"));
   clock.AddPart("hierarchy", p.poisson->GetStageSeconds("Hierarchy"));
   clock.AddPart("right-hand side", p.poisson->GetStageSeconds("RightHandSide"));
@@ -244,7 +246,7 @@ ExitCode DoMainJob(const Options& options)
   const std::string array = AddArrayToSmooth(mesh);
   Pipeline pipeline;
   Connect(mesh, array, options, pipeline);
-  Run(pipeline, clock);
+  Run(pipeline, ExpectedMegabytes(mesh, options.depth), clock);
   WriteAll(options.output, pipeline, clock);
   PrintResults(mesh, array, pipeline, clock);
   std::cout << "\nwritten to " << options.output << std::endl;

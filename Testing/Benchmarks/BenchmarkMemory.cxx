@@ -3,8 +3,10 @@
 #include "Measure.h"
 #include "Meshes.h"
 #include "Problems/MemoryEstimate.h"
+#include "Problems/Requirements.h"
 #include "Problems/Spectrum.h"
 #include "SetupCost.h"
+#include "Spaces/SpaceChoice.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -65,6 +67,23 @@ struct EstimateAndPeak
   double real; // growth of the process from the system on
 };
 
+/// From the mesh to the hierarchy over its hats, with the grid that filters choose below them.
+EstimateAndPeak MeasureHats(const TriangleMesh& mesh)
+{
+  ReleaseFreeMemory();
+  const double before = ResidentBytes();
+  ResetPeak();
+  SpaceChoice choice;
+  choice.kind = FunctionKind::Hats;
+  SpaceOptions options;
+  options.depth = ChooseDepth(mesh, AutomaticDepth, choice.kind, 1.0);
+  const MemoryEstimate grid = EstimateMemory(mesh, options.depth);
+  const auto space = BuildSpace(mesh, options, choice, {});
+  const Multigrid multigrid = BuildMultigrid(*space, 1e-4, 1.0, {});
+  return { double(space->NumberOfFunctions(0)),
+    grid.bytes + EstimateHatMemory(mesh, grid.functions), PeakBytes() - before };
+}
+
 EstimateAndPeak MeasureSpectrum(const SpectrumCase& item)
 {
   SpaceOptions options;
@@ -104,6 +123,23 @@ void RunSpectra()
   }
 }
 
+void RunHats()
+{
+  std::vector<NamedMesh> meshes{ RockerArm(1), RockerArm(2) };
+  for (const char* file : { "armadillo_100k.ply", "dragon_871k.ply" })
+  {
+    meshes.push_back(RealMesh(file, file));
+  }
+  const Table table({ "hats", "functions", "MB real", "MB estimated", "estimate / real" });
+  for (const NamedMesh& item : meshes)
+  {
+    const auto [functions, estimated, real] =
+      MeasureInOwnProcess<EstimateAndPeak>([&] { return MeasureHats(item.mesh); });
+    table.Row({ item.name, Text("%.0f", functions), Text("%.0f", 1e-6 * real),
+      Text("%.0f", 1e-6 * estimated), Quotient(estimated, real) });
+  }
+}
+
 } // namespace
 
 int main()
@@ -136,5 +172,6 @@ int main()
     PrintAtMost(name, ratio, 1.3);
     PrintAtLeast(name, ratio, 0.8);
   }
+  RunHats();
   RunSpectra();
 }
