@@ -20,6 +20,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <ostream>
 
 namespace gridfem::testing
@@ -74,15 +76,17 @@ inline void PrintTo(const FilterCase& filter, std::ostream* stream)
   *stream << filter.name;
 }
 
-/// Adds the point arrays that they take.
+/// Adds the point arrays that they take. "few" has values at a thousandth of the points, and at ten
+/// of a small surface.
 inline void AddArraysOfAllFilters(vtkPolyData* surface)
 {
   AddPointArray(surface, "f", 1, Wave);
   AddPointArray(surface, "label", 1, [](const Vec3& p, int) { return p[0] > 0.0 ? 1.0 : 0.0; });
   auto* few = AddPointArray(surface, "few", 1, Wave);
+  const vtkIdType step = std::clamp<vtkIdType>(surface->GetNumberOfPoints() / 10, 1, 1000);
   for (vtkIdType point = 0; point < surface->GetNumberOfPoints(); ++point)
   {
-    few->SetValue(point, point % 1000 == 0 ? few->GetValue(point) : std::nan(""));
+    few->SetValue(point, point % step == 0 ? few->GetValue(point) : std::nan(""));
   }
 }
 

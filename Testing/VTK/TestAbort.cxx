@@ -34,7 +34,7 @@ double SecondsComputed()
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-/// The longest time between two reports of progress.
+/// The longest time between two reports of progress, and whether each is above the one before.
 class Reports
 {
 public:
@@ -50,6 +50,7 @@ public:
 
   double Longest() const { return longest_; }
   double LongestAt() const { return at_; }
+  bool AreRising() const { return areRising_; }
 
 private:
   void Hear()
@@ -61,6 +62,8 @@ private:
       at_ = filter_->GetProgress();
     }
     last_ = now;
+    areRising_ = areRising_ && filter_->GetProgress() > progress_;
+    progress_ = filter_->GetProgress();
   }
 
   vtkAlgorithm* filter_;
@@ -68,6 +71,8 @@ private:
   double last_ = SecondsComputed();
   double longest_ = 0.0;
   double at_ = 0.0;
+  double progress_ = -1.0;
+  bool areRising_ = true;
 };
 
 /// Sets a filter's abort flag from another thread when the process has computed for so long.
@@ -147,6 +152,7 @@ TEST_P(Abort, IsServedAtOnceAtAnyStage)
       EXPECT_EQ(filter->GetExecutive()->Update(), 1);
       late = aborter.SecondsSince();
     }
+    EXPECT_TRUE(reports.AreRising()) << "after " << wait << " s";
     if (late < 0.0 || !IsEmptyData(filter->GetOutputDataObject(0)))
     {
       std::cout << "longest silence " << reports.Longest() << " s, until " << reports.LongestAt()

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <tuple>
 
 using namespace gridfem;
@@ -365,7 +366,7 @@ namespace
 {
 
 /// On both kinds of functions, and the file of a real mesh.
-class FlowsOfRealMesh : public ::testing::TestWithParam<std::tuple<bool, const char*>>
+class FlowsOfRealMesh : public ::testing::TestWithParam<std::tuple<bool, std::string>>
 {
 };
 
