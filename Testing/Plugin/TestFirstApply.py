@@ -8,6 +8,23 @@ import plugin
 
 DEPTH = 4
 
+# What the hints of the panels have to come to; of a filter that is not named any array of its output will do.
+COLORED_BY = {
+    "ClipToOctree": ("CELLS", "OctreeCellColor"),
+    "ConnectivityAwareBasis": ("CELLS", "PatchColor"),
+    "GeodesicDistance": ("POINTS", "Distance"),
+    "HarmonicInterpolation": ("POINTS", "Interpolated"),
+    "HeatDiffusion": ("POINTS", "NormalDisplacement"),
+    "LaplaceSpectrum": ("POINTS", "Mode"),
+    "MeanCurvatureFlow": (None, ""),  # the shape itself moves
+    "PrincipalCurvatures": ("POINTS", "Bending"),
+    "ScreenedPoisson": ("POINTS", "NormalDisplacement"),
+    "SpectralSignatures": ("POINTS", "Signature"),
+    "StitchColors": ("POINTS", "StitchedColors"),
+    "SurfaceDetail": ("POINTS", "NormalDisplacement"),
+    "SurfaceGradient": ("POINTS", "Laplacian")}
+ZERO_IN_THE_MIDDLE = ("Bending", "Mode", "NormalDisplacement")
+
 SHOWN_PORTS = {"LaplaceSpectrum": {0, 1}, "MeanCurvatureFlow": {0, 1}}
 
 
@@ -37,12 +54,14 @@ class FirstApply(unittest.TestCase):
             with self.subTest(proxy=name):
                 proxy = self.apply(name)
                 association, array = simple.Show(proxy, view).ColorArrayName
-                self.assertEqual(array, plugin.colors_of(name)[0])
+                wanted, colors = plugin.colors_of(name)
+                self.assertEqual(array, wanted)
+                self.assertEqual((association, array), COLORED_BY.get(name, (association, array)))
+                if array in ZERO_IN_THE_MIDDLE:
+                    self.assertEqual(colors, "diverging")
                 if array:
                     data = {"POINTS": proxy.PointData, "CELLS": proxy.CellData}[association]
                     self.assertIn(array, data.keys())
-                else:
-                    self.assertEqual(name, "MeanCurvatureFlow")  # the shape itself moves
 
     def test_only_what_helps_is_opened(self):
         controller = vtkSMParaViewPipelineControllerWithRendering()

@@ -40,11 +40,10 @@ ElementMatrices IntegrateElements(const GridFunctions& space, const QuadratureRu
   IntegratePatches(space, rule, job, elements, ElementParts::Both,
     [&](const TriangleBatch& batch, const TrianglePlanes& planes)
     {
-      Lanes ofTriangle;
-      for (int lane = 0; lane < LaneCount; ++lane)
+      Lanes ofTriangle = Lanes::Ones();
+      for (int lane = 0; weight && lane < LaneCount; ++lane)
       {
-        const Index triangle = space.clipped.pieceTriangle[batch.piece[lane]];
-        ofTriangle[lane] = weight ? (*weight)[triangle] : 1.0;
+        ofTriangle[lane] = (*weight)[space.clipped.pieceTriangle[batch.piece[lane]]];
       }
       const LaneTensor ofStiffness =
         tensor

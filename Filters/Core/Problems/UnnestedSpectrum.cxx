@@ -8,7 +8,7 @@
 #include "Problems/SpectrumAccuracy.h"
 
 #include <algorithm>
-#include <optional>
+#include <memory>
 
 namespace gridfem
 {
@@ -73,18 +73,17 @@ void RemoveConstants(const Constants& constants, const DividedRows* divided, Blo
   }
 }
 
-/// One cycle, and one with factors in double precision, for which `inDouble` makes room.
-WithFallback<BlockPreconditioner<double>> BlockCycleWithFallback(
-  const Multigrid& multigrid, std::optional<Multigrid>& inDouble)
+/// One cycle, and one with factors in double precision, which are made once.
+WithFallback<BlockPreconditioner<double>> BlockCycleWithFallback(const Multigrid& multigrid)
 {
   WithFallback<BlockPreconditioner<double>> B{ CyclePreconditioner<double>(multigrid, 0), {} };
   if (multigrid.HasSingleFactors())
   {
-    B.makeDouble = [&multigrid, &inDouble]
+    B.makeDouble = [&multigrid, inDouble = std::shared_ptr<const Multigrid>()]() mutable
     {
       if (!inDouble)
       {
-        inDouble.emplace(multigrid.InDoublePrecision());
+        inDouble = std::make_shared<const Multigrid>(multigrid.InDoublePrecision());
       }
       return CyclePreconditioner<double>(*inDouble, 0);
     };
@@ -166,8 +165,7 @@ Spectrum ImproveSpectrum(const SurfaceSpace& space, const Spectrum& start,
   {
     problem.shift = LowestValue(start);
     const Multigrid multigrid = BuildMultigrid(space, problem.shift, 1.0, options.multigrid);
-    std::optional<Multigrid> inDouble;
-    problem.preconditioner = BlockCycleWithFallback(multigrid, inDouble);
+    problem.preconditioner = BlockCycleWithFallback(multigrid);
     progress.Check(0.1);
     pairs.vectors.Reserve(problem.mass.rows, start.vectors.cols());
     pairs.vectors.Show(start.vectors.cols());
