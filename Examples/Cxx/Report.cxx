@@ -144,7 +144,7 @@ void StepClock::Run(const std::string& name, vtkAlgorithm* algorithm)
   }
   if (this->steps_.empty() || this->steps_.back().name != name)
   {
-    this->steps_.push_back({ name });
+    this->steps_.push_back({ name, 0, 0, 0 });
   }
   this->steps_.back().seconds += seconds.count();
   this->steps_.back().megabytes = PeakMegabytes();
@@ -153,52 +153,29 @@ void StepClock::Run(const std::string& name, vtkAlgorithm* algorithm)
 
 void StepClock::AddPart(const std::string& name, double seconds)
 {
-  this->steps_.push_back({ "  " + name, seconds, -1 });
-}
-
-void StepClock::Expect(double megabytes)
-{
-  this->expected_ = ResidentMegabytes() + megabytes;
-}
-
-void StepClock::CompareWithExpected()
-{
-  this->steps_.back().expected = this->expected_;
+  this->steps_.push_back({ "  " + name, seconds, -1, 0 });
 }
 
 void StepClock::Print(std::ostream& out) const
 {
   out << "\n"
       << std::left << std::setw(30) << "step" << std::right << std::setw(10) << "seconds"
-      << std::setw(20) << "peak memory / MB" << std::setw(15) << "expected / MB" << std::setw(12)
-      << "held / MB"
+      << std::setw(20) << "peak memory / MB" << std::setw(12) << "held / MB"
       << "\n";
-  const auto number = [&out](double value, int width, int digits)
-  { out << std::fixed << std::setprecision(digits) << std::setw(width) << value; };
   double total = 0;
   for (const Step& step : this->steps_)
   {
-    out << std::left << std::setw(30) << step.name << std::right;
-    number(step.seconds, 10, 2);
+    out << std::left << std::setw(30) << step.name << std::right << std::fixed
+        << std::setprecision(2) << std::setw(10) << step.seconds;
     if (step.megabytes >= 0)
     {
       total += step.seconds;
-      number(step.megabytes, 20, 0);
-      if (step.expected > 0)
-      {
-        number(step.expected, 15, 0);
-      }
-      else
-      {
-        out << std::setw(15) << "";
-      }
-      number(step.held, 12, 0);
+      out << std::setprecision(0) << std::setw(20) << step.megabytes << std::setw(12) << step.held;
     }
     out << "\n";
   }
-  out << std::left << std::setw(30) << "all" << std::right;
-  number(total, 10, 2);
-  out << std::defaultfloat << "\n";
+  out << std::left << std::setw(30) << "all" << std::right << std::setprecision(2) << std::setw(10)
+      << total << std::defaultfloat << "\n";
 }
 
 double ExpectedMegabytes(vtkPolyData* mesh, int depth)

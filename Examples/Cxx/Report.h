@@ -34,32 +34,24 @@ public:
   /// Adds a part of a step that ran already; it has no memory of its own.
   void AddPart(const std::string& name, double seconds);
 
-  /// Says how much memory the next steps together are expected to take beside what is held now.
-  void Expect(double megabytes);
-
-  /// The steps that were meant have ended with the one that ran last.
-  void CompareWithExpected();
-
-  /// A table: seconds of every step, the largest memory the process had used when it ended, what
-  /// was expected, and what it held then: all filters keep what they made, for the next change
-  /// (KeepStages).
+  /// A table: seconds of every step, the largest memory the process had used when it ended, and
+  /// what it held then: all filters keep what they made, for the next change (KeepStages).
   void Print(std::ostream& out) const;
 
 private:
   struct Step
   {
     std::string name;
-    double seconds = 0;
-    double megabytes = 0; // negative for a part
-    double expected = 0;  // 0: not said
-    double held = 0;
+    double seconds;
+    double megabytes; // negative for a part
+    double held;
   };
   std::vector<Step> steps_;
-  double expected_ = 0;
 };
 
 /// What clip, function space, matrices and hierarchy of a mesh with one right-hand side are
-/// expected to take at most: the filters refuse what does not fit the memory of the machine.
+/// expected to take, without the outputs of filters: they refuse what does not fit the memory of
+/// the machine.
 double ExpectedMegabytes(vtkPolyData* mesh, int depth);
 
 /// One level of the function space.
