@@ -14,9 +14,11 @@ Usage: Testing/checks.sh STEP...
   sanitize   random problems of Core with the address and undefined-behaviour sanitizers, in
              build-sanitize/; GRIDFEM_CASES: how many, of GRIDFEM_SEED on (default: 1000 from 1)
   threads    ThreadSanitizer, with clang, on the tests of Core and random problems, in build-threads/
+  coverage   which lines of Core its tests run, in build-coverage/; fails where they are less than nine in ten
+  ranks      the tests of ranks on two, four and five of them, not on three as in every run, in build-ranks/
   valgrind   leaks and wrong memory on some tests of Core and of the filters, and on random problems, in
              build-valgrind/
-  all        cppcheck, tidy, sanitize, threads and valgrind
+  all        all but tidy-all
 
 Installs what is missing, and fails where something is found. GRIDFEM_JOBS: processes at the same time.
 Continuous integration runs none of them, because they take from minutes to hours.
@@ -105,6 +107,20 @@ Sanitize()
   "$folder/bin/FuzzCore" "${GRIDFEM_SEED:-1}" "${GRIDFEM_CASES:-1000}"
 }
 
+Coverage()
+{
+  "$SOURCE/Testing/coverage.sh"
+}
+
+Ranks()
+{
+  local folder="$SOURCE/build-ranks"
+  InstallMissing "${BUILD_PACKAGES[@]}" "${TEST_PACKAGES[@]}"
+  BuildFor "$folder" all -DGRIDFEM_BUILD_VTK=ON -DGRIDFEM_BUILD_PLUGIN=ON -DCMAKE_BUILD_TYPE=Release \
+    -DGRIDFEM_TEST_RANKS="2;4;5"
+  ctest --test-dir "$folder" --output-on-failure -R "^(Parallel|Ranks)[.]" < /dev/null
+}
+
 # Usage: UnderValgrind PROGRAM [ARGUMENT...]
 UnderValgrind()
 {
@@ -135,12 +151,16 @@ for step in "$@"; do
     tidy-all) TidyAll ;;
     sanitize) Sanitize ;;
     threads) Threads ;;
+    coverage) Coverage ;;
+    ranks) Ranks ;;
     valgrind) Valgrind ;;
     all)
       Cppcheck
       TidyChanged
       Sanitize
       Threads
+      Coverage
+      Ranks
       Valgrind
       ;;
     *)

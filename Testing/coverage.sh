@@ -11,7 +11,7 @@ Usage: Testing/coverage.sh
 Builds in build-coverage/ a library of Core that counts how often each of its lines runs, runs the tests of
 Core and random problems, which are those of build/, with it, and prints the part of its lines that has run,
 by folder. Takes five minutes on two processors where build/ is there. GRIDFEM_JOBS: processes at the
-same time. Continuous integration runs it.
+same time.
 
 Measured: 96 % of all lines, 93 % of Krylov/, 94 % or more of every other folder.
 Left out are real meshes, which not every machine has, and the tests of filters, of the Python package and of

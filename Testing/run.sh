@@ -12,7 +12,7 @@ the tests. Options go to ctest, for example: -R Clip
 Without options Core is also compiled with clang, into build-clang/, with warnings as errors.
 
 Environment:
-  CI=true            compiler warnings are errors; without options the coverage of Core is printed
+  CI=true            compiler warnings are errors
   GRIDFEM_JOBS       compilers and tests that run at the same time (default: processors)
   GRIDFEM_DATA_DIR   folder of real meshes; tests that need them are skipped without it
 HELP
@@ -30,6 +30,3 @@ if [ $# -eq 0 ] && command -v clang++ > /dev/null; then
   Quietly "$BUILD/clang-build.log" cmake --build "$SOURCE/build-clang" -j "$JOBS"
 fi
 ctest --test-dir "$BUILD" --output-on-failure --timeout 300 -j "$JOBS" "$@" < /dev/null
-if [ $# -eq 0 ] && [ "${CI:-}" = "true" ]; then
-  "$SOURCE/Testing/coverage.sh"
-fi

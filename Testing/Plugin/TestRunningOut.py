@@ -13,7 +13,7 @@ from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
 import plugin
 from running_out import MEGABYTE, Outcome, take_arrays_from_the_system
 
-STEPS = 16  # limits below the one that was enough
+STEPS = 8  # limits below the one that was enough
 OPTIONS = {
     "LaplaceSpectrum": {"NumberOfModes": 8},
     "MeanCurvatureFlow": {"NumberOfSteps": 2},

@@ -1,24 +1,38 @@
-// Dense copies of sparse matrices, for references that are computed densely.
+// Dense matrices, for references that are computed densely: solvers of Eigen, which take long to
+// compile, once for all tests.
 #ifndef GridFEM_Testing_Dense_h
 #define GridFEM_Testing_Dense_h
 
 #include "Algebra/SparseMatrix.h"
 
+#include <vector>
+
 namespace gridfem::testing
 {
 
-inline Eigen::MatrixXd Dense(const SparseMatrix& A)
+Eigen::MatrixXd Dense(const SparseMatrix& A);
+
+/// A⁻¹ b of a symmetric positive definite A.
+Eigen::MatrixXd DenseSolution(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b);
+
+/// The smallest of the x with the least |A x - b|, of any A.
+Eigen::MatrixXd LeastSquares(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b);
+
+struct DenseEigenPairs
 {
-  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(A.rows, A.columns);
-  for (Index row = 0; row < A.rows; ++row)
-  {
-    for (Id k = A.rowBegin[row]; k < A.rowBegin[row + 1]; ++k)
-    {
-      dense(row, A.column[k]) += A.value[k];
-    }
-  }
-  return dense;
-}
+  Eigen::VectorXd values; // rising
+  Eigen::MatrixXd vectors;
+};
+
+/// A x = λ x with orthonormal x, of a symmetric A.
+DenseEigenPairs DenseEigen(const Eigen::MatrixXd& A);
+
+/// A x = λ B x with B-orthonormal x, of a symmetric A and a positive definite B.
+DenseEigenPairs DenseEigen(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
+
+/// The smallest eigenvalues of L x = α M x for semidefinite L and M, also where x has neither
+/// energy nor mass: the range of K = L + M, then the largest values of M in it.
+std::vector<double> DenseEigenvalues(const SparseMatrix& L, const SparseMatrix& M, int count);
 
 } // namespace gridfem::testing
 

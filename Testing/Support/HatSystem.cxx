@@ -1,6 +1,7 @@
 #include "HatSystem.h"
 
-#include <Eigen/Dense>
+#include "Dense.h"
+
 #include <Eigen/SparseCholesky>
 
 #include <stdexcept>
@@ -108,11 +109,10 @@ std::vector<double> HatEigenvalues(const HatSystem& system, int count)
     const Eigen::MatrixXd y = factors.solve(system.mass * x);
     const Eigen::MatrixXd projectedMass = y.transpose() * (system.mass * y);
     const Eigen::MatrixXd projectedStiffness = y.transpose() * (system.stiffness * y);
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> dense(
-      projectedStiffness, projectedMass);
-    x = y * dense.eigenvectors();
-    const double change = (dense.eigenvalues() - values).head(count).cwiseAbs().maxCoeff();
-    values = dense.eigenvalues();
+    const DenseEigenPairs dense = DenseEigen(projectedStiffness, projectedMass);
+    x = y * dense.vectors;
+    const double change = (dense.values - values).head(count).cwiseAbs().maxCoeff();
+    values = dense.values;
     if (change < 1e-8 * values[count - 1])
     {
       return { values.data(), values.data() + count };

@@ -7,8 +7,6 @@
 #include "Discretisation.h"
 #include "Problems/Spectrum.h"
 
-#include <Eigen/Eigenvalues>
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,27 +45,11 @@ inline std::vector<double> WorldValues(const Discretisation& on, const Spectrum&
   return values;
 }
 
-/// An independent dense solver: an orthonormal basis of the range of K = L + M by its spectral
-/// decomposition, then the largest values of M in it.
+/// From a dense solver, in grid units.
 inline std::vector<double> DenseReference(const Discretisation& on, int modes)
 {
-  const Eigen::MatrixXd M = Dense(MassMatrix(on.space, on.system));
-  const Eigen::MatrixXd K = Dense(StiffnessMatrix(on.space, on.system)) + M;
-  const Eigen::VectorXd scale =
-    K.diagonal().unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; });
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> range(
-    scale.asDiagonal() * K * scale.asDiagonal());
-  const Eigen::VectorXd weight = range.eigenvalues().unaryExpr(
-    [](double value) { return value > 1e-12 ? 1.0 / std::sqrt(value) : 0.0; });
-  const Eigen::MatrixXd basis = scale.asDiagonal() * range.eigenvectors() * weight.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(
-    basis.transpose() * M * basis, Eigen::EigenvaluesOnly);
-  std::vector<double> values;
-  for (int j = 0; j < modes; ++j)
-  {
-    values.push_back(1.0 / solver.eigenvalues()[K.rows() - 1 - j] - 1.0);
-  }
-  return values;
+  return DenseEigenvalues(
+    StiffnessMatrix(on.space, on.system), MassMatrix(on.space, on.system), modes);
 }
 
 /// What must hold for every spectrum: order, M-orthonormality, true residuals, the sign rule.

@@ -142,7 +142,7 @@ TEST_P(Abort, IsServedAtOnceAtAnyStage)
   filter->SetDepth(6);
   const Messages messages(filter);
   int aborts = 0;
-  for (double wait = 0.05;; wait *= 1.7)
+  for (double wait = 0.05;; wait *= 2.5)
   {
     filter->Modified();
     double late = 0.0;

@@ -1,5 +1,6 @@
 // Both smoothers, on matrices with and without a grid behind them.
 #include "Base/Errors.h"
+#include "Dense.h"
 #include "Multigrid/Smoother.h"
 #include "SampledHierarchy.h"
 #include "Spaces/PatchOrdering.h"
@@ -18,6 +19,7 @@ namespace
 {
 
 using testing::Dense;
+using testing::DenseSolution;
 using testing::RandomVectors;
 using testing::RelativeDifference;
 using testing::Sparse;
@@ -139,8 +141,8 @@ TEST(PatchSmoother, IsMultiplicativeSchwarz)
   const MultiVector b = RandomVectors(6, 1, 1);
   Eigen::VectorXd x = RandomVectors(6, 1, 2);
   const MultiVector start = x;
-  x.head(3) += D.topLeftCorner(3, 3).ldlt().solve((b - D * x).eval().topRows(3));
-  x.tail(4) += D.bottomRightCorner(4, 4).ldlt().solve((b - D * x).eval().bottomRows(4));
+  x.head(3) += DenseSolution(D.topLeftCorner(3, 3), (b - D * x).topRows(3));
+  x.tail(4) += DenseSolution(D.bottomRightCorner(4, 4), (b - D * x).bottomRows(4));
   EXPECT_LT((Swept(*smoother, A, b, start) - x).cwiseAbs().maxCoeff(), 1e-6); // single precision
 }
 
@@ -157,7 +159,7 @@ MultiVector SweptInBlocks(const Eigen::MatrixXd& D, const UnknownGroups& groups,
     const std::vector<Index> unknowns(used.begin(), used.end());
     const Eigen::MatrixXd rest = b - D * x;
     const Eigen::MatrixXd correction =
-      D(unknowns, unknowns).ldlt().solve(rest(unknowns, Eigen::all));
+      DenseSolution(D(unknowns, unknowns), rest(unknowns, Eigen::all));
     for (std::size_t i = 0; i < unknowns.size(); ++i)
     {
       x.row(unknowns[i]) += correction.row(static_cast<Id>(i));

@@ -2,10 +2,9 @@
 #include "Problems/PrincipalCurvatures.h"
 
 #include "Base/Errors.h"
+#include "Dense.h"
 #include "Spaces.h"
 #include "Spaces/HatSpace.h"
-
-#include <Eigen/Eigenvalues>
 
 #include <gtest/gtest.h>
 
@@ -112,9 +111,9 @@ Exact OfSaddle(const Vec3& p)
   Eigen::Matrix2d first;
   first << u.dot(u), u.dot(v), u.dot(v), v.dot(v);
   const Eigen::Matrix2d second = Eigen::Vector2d(-1.0, 1.0).asDiagonal();
-  Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> solver(second / length, first);
-  const Eigen::Vector2d maximum = solver.eigenvectors().col(1);
-  return { solver.eigenvalues()[0], solver.eigenvalues()[1], maximum[0] * u + maximum[1] * v };
+  const DenseEigenPairs pairs = DenseEigen(second / length, first);
+  const Eigen::Vector2d maximum = pairs.vectors.col(1);
+  return { pairs.values[0], pairs.values[1], maximum[0] * u + maximum[1] * v };
 }
 
 Exact OfTorus(const Vec3& p)

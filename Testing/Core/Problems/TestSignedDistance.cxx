@@ -3,6 +3,7 @@
 #include "Problems/GeodesicDistance.h"
 
 #include "Base/Errors.h"
+#include "Dense.h"
 #include "EitherSpace.h"
 #include "Spaces.h"
 
@@ -91,7 +92,7 @@ private:
     const Vec3& a = mesh_.points[corner[0]];
     Eigen::Matrix<double, 3, 2> edges;
     edges << mesh_.points[corner[1]] - a, mesh_.points[corner[2]] - a;
-    const Eigen::Vector2d share = edges.colPivHouseholderQr().solve(wanted - a);
+    const Eigen::Vector2d share = LeastSquares(edges, wanted - a);
     std::vector<Vec3> candidates;
     if (share.minCoeff() >= 0.0 && share.sum() <= 1.0)
     {

@@ -1,12 +1,12 @@
 // Eigenpairs on hat functions against dense and shift-inverted references.
 #include "Problems/Spectrum.h"
 
+#include "Dense.h"
 #include "Discretisation.h"
 #include "Spaces.h"
 #include "Spaces/HatSpace.h"
 #include "Support/HatSystem.h"
 
-#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 using namespace gridfem;
@@ -48,9 +48,9 @@ SpectrumOptions Options(int modes, double tolerance = 1e-10)
 std::vector<double> DenseEigenvalues(const TriangleMesh& mesh)
 {
   const HatSystem reference = BuildHatSystem(mesh);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> dense(
-    Eigen::MatrixXd(reference.stiffness), Eigen::MatrixXd(reference.mass));
-  return { dense.eigenvalues().data(), dense.eigenvalues().data() + reference.mass.rows() };
+  const Eigen::VectorXd values =
+    DenseEigen(Eigen::MatrixXd(reference.stiffness), Eigen::MatrixXd(reference.mass)).values;
+  return { values.begin(), values.end() };
 }
 
 } // namespace

@@ -7,7 +7,6 @@
 #include "Spaces.h"
 #include "Support/HatSystem.h"
 
-#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -307,11 +306,11 @@ std::pair<double, double> ExtremesOfPreconditioned(const Hybrid& hybrid, double 
   MultiVector B;
   multigrid.Precondition(MultiVector::Identity(count, count), B);
   const Eigen::MatrixXd A = Dense(multigrid.Matrix());
-  const Eigen::MatrixXd root = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A).operatorSqrt();
-  const Eigen::MatrixXd symmetric = root * (0.5 * (B + B.transpose())) * root;
-  const Eigen::VectorXd values =
-    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, Eigen::EigenvaluesOnly).eigenvalues();
-  return { values.minCoeff(), values.maxCoeff() };
+  const DenseEigenPairs pairs = DenseEigen(A);
+  const Eigen::MatrixXd root =
+    pairs.vectors * pairs.values.cwiseMax(0.0).cwiseSqrt().asDiagonal() * pairs.vectors.transpose();
+  const Eigen::VectorXd values = DenseEigen(root * (0.5 * (B + B.transpose())) * root).values;
+  return { values[0], values[count - 1] };
 }
 
 } // namespace
