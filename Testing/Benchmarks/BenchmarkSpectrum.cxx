@@ -79,8 +79,8 @@ void RunContest(const Contest& contest)
   std::vector<SpectrumJob> jobs;
   for (const Peer& peer : contest.peers)
   {
-    jobs.push_back(
-      ShiftInvertSpectrum(peer.solver, mesh, contest.modes, Threads, contest.limit * grid.seconds));
+    jobs.push_back(ShiftInvertSpectrum(
+      peer.solver, mesh, contest.modes, Threads, PairTolerance, contest.limit * grid.seconds));
     PrintJob(table, peer.name + " and CHOLMOD, 2 threads", jobs.back());
   }
   double peak = HUGE_VAL;
@@ -203,7 +203,7 @@ void RunThinWalls()
     fine = testing::SubdivideInPlane(fine);
   }
   const std::vector<double> truth =
-    ShiftInvertSpectrum(SlepcSpectrum, fine, Modes, Threads).eigenvalues;
+    ShiftInvertSpectrum(SlepcSpectrum, fine, Modes, Threads, TruthTolerance).eigenvalues;
   std::printf("\nPulley with walls 1.5 cells thick at depth 5, eigenvalues 2 to %d, largest error "
               "against hat functions on %zu vertices\n",
     Modes, fine.points.size());
@@ -271,7 +271,7 @@ void RunNeedles()
   const auto grid = [&](const TriangleMesh& mesh)
   { return GridSpectrum(mesh, Depth, Modes, Threads).eigenvalues; };
   const auto hats = [&](const TriangleMesh& mesh)
-  { return ShiftInvertSpectrum(SlepcSpectrum, mesh, Modes, Threads).eigenvalues; };
+  { return ShiftInvertSpectrum(SlepcSpectrum, mesh, Modes, Threads, TruthTolerance).eigenvalues; };
   std::printf(
     "\nCube of needles 1 : 1000 against a uniform mesh of the same cube, eigenvalues 2 to "
     "%d\n",

@@ -90,8 +90,8 @@ SpectrumJob GridSpectrum(
     });
 }
 
-SpectrumJob ShiftInvertSpectrum(
-  HatEigensolver solver, const TriangleMesh& mesh, int modes, int blasThreads, double limit)
+SpectrumJob ShiftInvertSpectrum(HatEigensolver solver, const TriangleMesh& mesh, int modes,
+  int blasThreads, double tolerance, double limit)
 {
   return InOwnProcessWithPeak(
     [&]
@@ -102,7 +102,7 @@ SpectrumJob ShiftInvertSpectrum(
       const Stopwatch setup;
       const CotangentSystem hats = AssembleCotangents(mesh);
       job.setup = setup.Seconds();
-      const HatSpectrum result = solver(hats, modes);
+      const HatSpectrum result = solver(hats, modes, tolerance);
       job.unknowns = static_cast<double>(hats.mass.rows());
       job.steps = result.solves;
       job.converged = static_cast<double>(result.eigenvalues.size());

@@ -28,10 +28,11 @@ SpectrumJob GridSpectrum(const TriangleMesh& mesh, int depth, int modes, int thr
   FunctionSupport support = FunctionSupport::ConnectivityAware);
 
 /// SpectraSpectrum or SlepcSpectrum.
-using HatEigensolver = HatSpectrum (*)(const CotangentSystem&, int);
-/// @param limit  seconds after which it is stopped
+using HatEigensolver = HatSpectrum (*)(const CotangentSystem&, int, double);
+/// @param tolerance  PairTolerance or TruthTolerance
+/// @param limit      seconds after which it is stopped
 SpectrumJob ShiftInvertSpectrum(HatEigensolver solver, const TriangleMesh& mesh, int modes,
-  int blasThreads, double limit = HUGE_VAL);
+  int blasThreads, double tolerance, double limit = HUGE_VAL);
 
 } // namespace gridfem::benchmarks
 

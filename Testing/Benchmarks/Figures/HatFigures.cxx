@@ -194,7 +194,7 @@ void WriteHatConvergence(const std::string& folder)
       { ConvergencePanel("Rocker arm, hat functions, screening 0.01: as the thesis", colours),
         HybridPanel(colours) } },
     folder);
-  const HatSpectrum spectrum = SpectraSpectrum(system, Modes);
+  const HatSpectrum spectrum = SpectraSpectrum(system, Modes, TruthTolerance);
   const Eigen::MatrixXd sum = spectrum.vectors.rowwise().sum();
   Figure convergence{ "figure-4.9", {} };
   Figure errors{ "figure-4.10", {} };

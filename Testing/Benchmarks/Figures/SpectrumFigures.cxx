@@ -67,7 +67,7 @@ Panel DifferencePanel(const std::string& title, const std::string& quantity)
 
 std::vector<double> HatEigenvalues(const TriangleMesh& mesh)
 {
-  return SpectraSpectrum(AssembleCotangents(mesh), Modes).eigenvalues;
+  return SpectraSpectrum(AssembleCotangents(mesh), Modes, TruthTolerance).eigenvalues;
 }
 
 } // namespace

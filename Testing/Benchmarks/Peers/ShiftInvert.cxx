@@ -43,7 +43,7 @@ private:
 
 } // namespace
 
-HatSpectrum SpectraSpectrum(const CotangentSystem& hats, int count)
+HatSpectrum SpectraSpectrum(const CotangentSystem& hats, int count, double tolerance)
 {
   InverseOperator inverse(hats);
   Spectra::SparseSymMatProd<double> mass(hats.mass);
@@ -54,8 +54,7 @@ HatSpectrum SpectraSpectrum(const CotangentSystem& hats, int count)
     solver(
       inverse, mass, count, std::min<int>(3 * count / 2, static_cast<int>(mass.rows())), shift);
   solver.init();
-  solver.compute(
-    Spectra::SortRule::LargestMagn, 1000, PairTolerance, Spectra::SortRule::SmallestAlge);
+  solver.compute(Spectra::SortRule::LargestMagn, 1000, tolerance, Spectra::SortRule::SmallestAlge);
   HatSpectrum result;
   const Eigen::VectorXd values = solver.eigenvalues();
   result.eigenvalues.assign(values.data(), values.data() + values.size());

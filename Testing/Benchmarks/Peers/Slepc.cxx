@@ -25,7 +25,7 @@ Mat View(const SymmetricMatrix& A)
 
 } // namespace
 
-HatSpectrum SlepcSpectrum(const CotangentSystem& hats, int count)
+HatSpectrum SlepcSpectrum(const CotangentSystem& hats, int count, double tolerance)
 {
   SlepcInitializeNoArguments();
   Mat stiffness = View(hats.stiffness);
@@ -35,7 +35,7 @@ HatSpectrum SlepcSpectrum(const CotangentSystem& hats, int count)
   EPSSetOperators(solver, stiffness, mass);
   EPSSetProblemType(solver, EPS_GHEP);
   EPSSetDimensions(solver, count, PETSC_DEFAULT, PETSC_DEFAULT);
-  EPSSetTolerances(solver, PairTolerance, 1000);
+  EPSSetTolerances(solver, tolerance, 1000);
   EPSSetTarget(solver, -1.0 / hats.mass.sum()); // below zero: the shifted matrix is definite
   EPSSetWhichEigenpairs(solver, EPS_TARGET_MAGNITUDE);
   ST transform = nullptr;
