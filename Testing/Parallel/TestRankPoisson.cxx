@@ -142,9 +142,8 @@ TEST(RankPoisson, EstimatesTheErrorsOfOneRank)
       EXPECT_TRUE(solved.report.converged);
       // Of one rank the same, but that Core's sweeps are in single precision and the ranks' are
       // not; of several the coarser solution, which they are told from, is less exact where nearly
-      // all patches are at borders, as on so small a torus (0.58 and 0.77 on five). On scans they
-      // agree to a hundredth.
-      const double part = Communicator(MPI_COMM_WORLD).Size() == 1 ? 1e-5 : 0.9;
+      // all patches are at borders, as on so small a torus. On scans they agree to a hundredth.
+      const double part = Communicator(MPI_COMM_WORLD).Size() == 1 ? 1e-5 : 0.5;
       EXPECT_NEAR(solved.accuracy.discretization, expected.accuracy.discretization,
         part * expected.accuracy.discretization);
       EXPECT_NEAR(

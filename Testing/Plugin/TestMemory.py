@@ -34,7 +34,7 @@ def update_all_ports(proxy):
 
 class TestMemory(unittest.TestCase):
     def setUp(self):
-        self.surface = simple.Sphere(Radius=1.0, ThetaResolution=180, PhiResolution=180)
+        self.surface = simple.Sphere(Radius=1.0, ThetaResolution=240, PhiResolution=240)
         self.surface.UpdatePipeline()
 
     def tearDown(self):
