@@ -72,9 +72,11 @@ BuildTree()
 {
   local target="$1"
   shift
-  local options=(-DCMAKE_BUILD_TYPE=Release "$@") werror=OFF
-  [ "${CI:-}" != "true" ] || werror=ON
-  options+=("-DGRIDFEM_WERROR=$werror")
+  # From nothing, libraries take half of the time when ten files are compiled at a time.
+  local ci=OFF
+  [ "${CI:-}" != "true" ] || ci=ON
+  local options=(-DCMAKE_BUILD_TYPE=Release "$@" "-DGRIDFEM_WERROR=$ci" "-DCMAKE_UNITY_BUILD=$ci"
+    -DCMAKE_UNITY_BUILD_BATCH_SIZE=10)
   mkdir -p "$BUILD"
   if [ ! -f "$BUILD/build.ninja" ] ||
     [ "${options[*]}" != "$(cat "$BUILD/options" 2> /dev/null)" ]; then

@@ -201,7 +201,7 @@ SparseMatrix BuildProlongation(
 std::vector<char> FindEvaluated(const Communicator& ranks, const LevelNumbering& numbering,
   const RankRows& rows, const SparseMatrix& prolongation)
 {
-  constexpr double Nobody = std::numeric_limits<double>::infinity();
+  constexpr double NoRank = std::numeric_limits<double>::infinity();
   MultiVector first;
   ranks.Together(
     [&]
@@ -210,7 +210,7 @@ std::vector<char> FindEvaluated(const Communicator& ranks, const LevelNumbering&
       for (Index hat = 0; hat < numbering.Functions(); ++hat)
       {
         const bool hasRow = prolongation.rowBegin[hat] < prolongation.rowBegin[hat + 1];
-        first(hat, 0) = hasRow ? ranks.Rank() : Nobody;
+        first(hat, 0) = hasRow ? ranks.Rank() : NoRank;
       }
     });
   rows.TakeLeast(first);
@@ -221,7 +221,7 @@ std::vector<char> FindEvaluated(const Communicator& ranks, const LevelNumbering&
       for (Index hat = 0; hat < numbering.Functions(); ++hat)
       {
         isEvaluated.push_back(
-          first(hat, 0) == Nobody ? hat >= numbering.foreign : first(hat, 0) == ranks.Rank());
+          first(hat, 0) == NoRank ? hat >= numbering.foreign : first(hat, 0) == ranks.Rank());
       }
     });
   return isEvaluated;

@@ -6,6 +6,7 @@
 #include "Private/InputArray.h"
 #include "Private/InputValidation.h"
 #include "Private/MovedMeshWriter.h"
+#include "Private/PipelineTime.h"
 #include "Private/Ranks.h"
 #include "Private/SelectedPoints.h"
 #include "Private/SolverOutput.h"
@@ -25,9 +26,7 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSelection.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -35,17 +34,6 @@ vtkStandardNewMacro(vtkHeatDiffusion);
 
 namespace
 {
-
-/// The step of the time that is asked for; the last when none is.
-int ShownStep(vtkInformation* output, int lastStep)
-{
-  if (!output->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
-  {
-    return lastStep;
-  }
-  const double time = output->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
-  return time > 1.0 ? static_cast<int>(std::lround(std::min(time, double(lastStep)))) : 1;
-}
 
 struct Step
 {
@@ -304,7 +292,7 @@ void vtkHeatDiffusion::Compute(vtkInformationVector** inputs, vtkInformationVect
   this->UpdateLoads(input, progress.Part(0.3, 0.4));
   this->UpdateSteps(progress.Part(0.4, 0.95));
 
-  const int shown = ShownStep(outputs->GetInformationObject(0), this->NumberOfSteps);
+  const int shown = gridfem::ShownStep(outputs->GetInformationObject(0), 1, this->NumberOfSteps);
   this->WriteStep(shown, input, output);
   this->WriteFacts(shown, output);
   progress.Check(1.0);
@@ -342,7 +330,7 @@ bool vtkHeatDiffusion::ComputeTogether(vtkInformationVector** inputs, vtkInforma
 void vtkHeatDiffusion::WriteDistributed(vtkPolyData* piece, vtkInformationVector* outputs)
 {
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
-  const int shown = ShownStep(outputs->GetInformationObject(0), this->NumberOfSteps);
+  const int shown = gridfem::ShownStep(outputs->GetInformationObject(0), 1, this->NumberOfSteps);
   if (piece && piece->GetPoints())
   {
     this->WriteStep(shown, piece, output);

@@ -3,6 +3,7 @@
 #include "Private/ClippedMeshWriter.h"
 #include "Private/InputValidation.h"
 #include "Private/MovedMeshWriter.h"
+#include "Private/PipelineTime.h"
 #include "Private/SolverOutput.h"
 #include "Private/SurfaceFlow.h"
 
@@ -13,11 +14,9 @@
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <string>
 
@@ -39,21 +38,6 @@ gridfem::Rescaling RescalingOf(int rescale, bool conformalized)
     default:
       return conformalized ? gridfem::Rescaling::ConstantArea : gridfem::Rescaling::None;
   }
-}
-
-/// The step of the time that is asked for; the last when none is.
-int ShownStep(vtkInformation* output, int lastStep)
-{
-  if (!output->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
-  {
-    return lastStep;
-  }
-  const double time = output->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
-  if (!(time > 0.0)) // NaN as well
-  {
-    return 0;
-  }
-  return static_cast<int>(std::lround(std::min(time, double(lastStep))));
 }
 
 } // namespace
@@ -159,7 +143,7 @@ void vtkMeanCurvatureFlow::Compute(vtkInformationVector** inputs, vtkInformation
 
   const std::vector<gridfem::FlowRow> rows = this->Data->Rows();
   vtkInformation* info = outputs->GetInformationObject(0);
-  const int shown = ShownStep(info, static_cast<int>(rows.size()) - 1);
+  const int shown = gridfem::ShownStep(info, 0, static_cast<int>(rows.size()) - 1);
   const std::vector<gridfem::Vec3> points =
     this->Data->PointsAt(shown, state, progress.Part(0.9, 0.98));
   output->ShallowCopy(input);

@@ -25,7 +25,8 @@ namespace gridfem
 inline int NumberOfThreads(int wanted)
 {
   const int processors = std::max(1, omp_get_num_procs());
-  const int threads = wanted > 0 ? std::min(wanted, 2 * processors) : processors;
+  const int asked = wanted > 0 ? std::min(wanted, 2 * processors) : processors;
+  const int threads = ThreadLimit() > 0 ? std::min(asked, ThreadLimit()) : asked;
   if (threads > 1 && !omp_in_parallel())
   {
     KeepWaitsShort();

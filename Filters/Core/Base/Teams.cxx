@@ -2,11 +2,13 @@
 
 #include "Base/Errors.h"
 
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -66,7 +68,62 @@ private:
   std::vector<std::thread> threads_;
 };
 
+thread_local int threadLimit = 0;
+
 } // namespace
+
+int ThreadLimit() noexcept
+{
+  return threadLimit;
+}
+
+void SideBySide(int count, int threads, const std::function<void(int)>& body)
+{
+  std::mutex mutex;
+  std::exception_ptr error;
+  const auto run = [&](int k)
+  {
+    const int before = threadLimit;
+    threadLimit = std::max(1, threads / count + (k < threads % count ? 1 : 0));
+    try
+    {
+      body(k);
+    }
+    catch (...)
+    {
+      const std::lock_guard<std::mutex> lock(mutex);
+      error = error ? error : std::current_exception();
+    }
+    threadLimit = before;
+  };
+  std::vector<std::thread> others;
+  others.reserve(count);
+  int next = 1;
+  try
+  {
+    for (; next < count; ++next)
+    {
+      others.emplace_back(run, next);
+    }
+  }
+  catch (const std::system_error&)
+  {
+    // There are no more threads.
+  }
+  run(0);
+  for (; next < count; ++next)
+  {
+    run(next);
+  }
+  for (std::thread& other : others)
+  {
+    other.join();
+  }
+  if (error)
+  {
+    std::rethrow_exception(error);
+  }
+}
 
 bool CanStart(int threads) noexcept
 {

@@ -227,7 +227,7 @@ ClippedMesh ClipInFrame(const TriangleMesh& mesh, const std::vector<char>& used,
     { threads, progress.Part(0.2, 1.0) }, clipped);
   if (options.joinAtPoints)
   {
-    LinkAtPoints(pointClass, clipped);
+    LinkAtPoints(pointClass, threads, clipped);
   }
   progress.Check(1.0);
   return clipped;

@@ -148,7 +148,7 @@ void FindComponents(GridFunctions& space, int threads)
 Array<Index> FindPointPatches(const ClippedMesh& clipped, const Array<Index>& piecePatch,
   Id numberOfPatches, Id points, int threads)
 {
-  const PatchChoice patches(clipped, piecePatch, numberOfPatches);
+  const PatchChoice patches(clipped, piecePatch, numberOfPatches, threads);
   std::vector<std::atomic<Index>> choice(points);
   for (std::atomic<Index>& patch : choice)
   {

@@ -10,19 +10,20 @@ namespace gridfem
 {
 
 /// Area of every patch in cell faces, added up from its pieces to SmallestPatchArea, and counted no
-/// further: what is larger is no rounding. Cost O(pieces).
+/// further: what is larger is no rounding. Cost O(pieces); same bits for any number of threads.
 /// @param piecePatch  per piece its patch, in [0, numberOfPatches)
 constexpr double SmallestPatchArea = 1e-10;
 std::vector<double> CountedPatchAreas(
-  const ClippedMesh& clipped, const Array<Index>& piecePatch, Id numberOfPatches);
+  const ClippedMesh& clipped, const Array<Index>& piecePatch, Id numberOfPatches, int threads);
 
 /// A point is given to the patch with the largest counted area, and of equal ones to the lowest. On
 /// a patch without area a function has no integral, so that no equation says what it is there.
 class PatchChoice
 {
 public:
-  PatchChoice(const ClippedMesh& clipped, const Array<Index>& piecePatch, Id numberOfPatches)
-    : area_(CountedPatchAreas(clipped, piecePatch, numberOfPatches))
+  PatchChoice(
+    const ClippedMesh& clipped, const Array<Index>& piecePatch, Id numberOfPatches, int threads)
+    : area_(CountedPatchAreas(clipped, piecePatch, numberOfPatches, threads))
   {
   }
 

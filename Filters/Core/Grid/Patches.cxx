@@ -40,9 +40,9 @@ Array<Index> GroupPieces(const ClippedMesh& clipped, const Array<Index>& pieceCe
 
 /// Patches that come from rounding.
 std::vector<char> FindSlivers(
-  const ClippedMesh& clipped, const Array<Index>& piecePatch, Index numberOfPatches)
+  const ClippedMesh& clipped, const Array<Index>& piecePatch, Index numberOfPatches, int threads)
 {
-  const std::vector<double> area = CountedPatchAreas(clipped, piecePatch, numberOfPatches);
+  const std::vector<double> area = CountedPatchAreas(clipped, piecePatch, numberOfPatches, threads);
   std::vector<char> isSliver(area.size());
   std::transform(area.begin(), area.end(), isSliver.begin(),
     [](double counted) { return counted < SmallestPatchArea; });
@@ -141,8 +141,8 @@ PatchPartition BuildPatches(const ClippedMesh& clipped, FunctionSupport support,
   {
     cellOfPatch[patches.piecePatch[piece]] = pieceCell[piece];
   }
-  const std::vector<Index> target =
-    AbsorbSlivers(clipped, patches.piecePatch, FindSlivers(clipped, patches.piecePatch, count));
+  const std::vector<Index> target = AbsorbSlivers(
+    clipped, patches.piecePatch, FindSlivers(clipped, patches.piecePatch, count, threads));
   std::vector<Index> number(count, -1);
   for (Index patch = 0; patch < count; ++patch)
   {

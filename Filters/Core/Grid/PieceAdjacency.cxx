@@ -1,5 +1,6 @@
 #include "Grid/PieceAdjacency.h"
 
+#include "Base/Grouping.h"
 #include "Base/PerThreadLists.h"
 
 #include <algorithm>
@@ -74,20 +75,49 @@ void LinkStars(std::vector<EdgeUse>& uses, const Array<Index>& pieceCell, Array<
   }
 }
 
-void LinkAtPoints(const Array<Index>& pointClass, ClippedMesh& clipped)
+void LinkAtPoints(const Array<Index>& pointClass, int threads, ClippedMesh& clipped)
 {
-  std::vector<EdgeUse> uses;
-  for (Index piece = 0; piece < clipped.NumberOfPieces(); ++piece)
-  {
-    for (Index k = clipped.pieceBegin[piece]; k < clipped.pieceBegin[piece + 1]; ++k)
+  const auto points = static_cast<Index>(clipped.numberOfInputPoints);
+  Array<Link> uses; // class of a point, piece that has it
+  AppendRanges(clipped.NumberOfPieces(), threads, uses,
+    [&](Id begin, Id end, Array<Link>& list)
     {
-      if (clipped.corners[k] < clipped.numberOfInputPoints)
+      for (auto piece = static_cast<Index>(begin); piece < end; ++piece)
       {
-        uses.push_back({ pointClass[clipped.corners[k]], piece });
+        for (Index k = clipped.pieceBegin[piece]; k < clipped.pieceBegin[piece + 1]; ++k)
+        {
+          if (clipped.corners[k] < points)
+          {
+            list.emplace_back(pointClass[clipped.corners[k]], piece);
+          }
+        }
       }
-    }
-  }
-  LinkStars(uses, PieceCells(clipped), clipped.links);
+    });
+  Array<Index> point(uses.size());
+  std::transform(
+    uses.begin(), uses.end(), point.begin(), [](const Link& use) { return use.first; });
+  const Groups ofPoint =
+    GroupItems(point.data(), static_cast<Id>(point.size()), Id{ points }, threads);
+  const Array<Index> pieceCell = PieceCells(clipped, threads);
+  AppendRanges(points, threads, clipped.links,
+    [&](Id begin, Id end, Array<Link>& links)
+    {
+      std::vector<Index> pieces;
+      for (Id p = begin; p < end; ++p)
+      {
+        pieces.clear();
+        for (Index k = ofPoint.begin[p]; k < ofPoint.begin[p + 1]; ++k)
+        {
+          const Index piece = uses[ofPoint.item[k]].second;
+          if (pieces.empty() || pieces.back() != piece)
+          {
+            pieces.push_back(piece);
+          }
+        }
+        LinkStar(
+          pieces, [&](Index piece) { return pieceCell[piece]; }, links);
+      }
+    });
 }
 
 void LinkAlongEdges(const MeshEdges& edges, const Array<Index>& stretches,

@@ -29,9 +29,10 @@ void LinkStars(std::vector<EdgeUse>& uses, const Array<Index>& pieceCell, Array<
 void LinkAlongEdges(const MeshEdges& edges, const Array<Index>& stretches,
   const Array<Index>& place, const Job& job, ClippedMesh& clipped);
 
-/// Appends links for pieces that share a point of the mesh, as LinkStars.
+/// Appends links for pieces that share a point of the mesh, as LinkStars. The same for any number
+/// of threads.
 /// @param pointClass  per input point: equal for points that count as one
-void LinkAtPoints(const Array<Index>& pointClass, ClippedMesh& clipped);
+void LinkAtPoints(const Array<Index>& pointClass, int threads, ClippedMesh& clipped);
 
 } // namespace gridfem
 

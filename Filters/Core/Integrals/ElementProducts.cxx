@@ -12,11 +12,11 @@ namespace
 {
 
 /// share = factor x matrix x the coefficients of a patch. Lanes are its functions.
-template<int Columns>
+template<int Width>
 void Multiply(double factor, const ElementMatrix& matrix,
   const std::array<Index, FunctionsPerPatch>& dof, const MultiVector& u, const PatchShare& share)
 {
-  std::array<Lanes, Columns> sum;
+  std::array<Lanes, Width> sum;
   sum.fill(Lanes::Zero());
   for (int j = 0; j < FunctionsPerPatch; ++j)
   {
@@ -26,16 +26,16 @@ void Multiply(double factor, const ElementMatrix& matrix,
       column[i] = factor * matrix[PackedIndex(i, j)];
     }
     const double* const value = &u(dof[j], share.firstColumn);
-    for (int c = 0; c < Columns; ++c)
+    for (int c = 0; c < Width; ++c)
     {
       sum[c] += value[c] * column;
     }
   }
   for (int i = 0; i < FunctionsPerPatch; ++i)
   {
-    for (int c = 0; c < Columns; ++c)
+    for (int c = 0; c < Width; ++c)
     {
-      share.value[i * Columns + c] = sum[c][i];
+      share.value[i * Width + c] = sum[c][i];
     }
   }
 }
@@ -66,18 +66,18 @@ MultiVector MultiplyElements(const PatchLevel& level, const FunctionPlaces& plac
   ForEachPass(u.cols(),
     [&](auto columns, Id first)
     {
-      constexpr int Columns = decltype(columns)::value;
-      shares.resize(level.NumberOfPatches() * FunctionsPerPatch * Columns);
+      constexpr int Width = decltype(columns)::value;
+      shares.resize(level.NumberOfPatches() * FunctionsPerPatch * Width);
       ParallelRanges(level.NumberOfPatches(), threads,
         [&](Id begin, Id end)
         {
           for (Id patch = begin; patch < end; ++patch)
           {
-            Multiply<Columns>(scale.empty() ? 1.0 : scale[patch], matrices[patch], level.dof[patch],
-              u, { first, shares.data() + patch * FunctionsPerPatch * Columns });
+            Multiply<Width>(scale.empty() ? 1.0 : scale[patch], matrices[patch], level.dof[patch],
+              u, { first, shares.data() + patch * FunctionsPerPatch * Width });
           }
         });
-      SumShares<Columns>(shares, places, first, threads, result);
+      SumShares<Width>(shares, places, first, threads, result);
     });
   return result;
 }

@@ -27,7 +27,7 @@ void CheckCoefficients(const GridFunctions& space, const MultiVector& coefficien
 }
 
 /// The values of some columns at points [begin, end); 0 where a point has no patch.
-template<int Columns>
+template<int Width>
 void EvaluateColumns(const GridFunctions& space, const Array<Index>& patchOfPoint,
   const MultiVector& coefficients, Id first, Id begin, Id end, MultiVector& result)
 {
@@ -41,7 +41,7 @@ void EvaluateColumns(const GridFunctions& space, const Array<Index>& patchOfPoin
     {
       Fetch(&coefficients(level.dof[later][i], first));
     }
-    std::array<double, Columns> sum{};
+    std::array<double, Width> sum{};
     const Id patch = patchOfPoint[point];
     if (patch >= 0)
     {
@@ -49,7 +49,7 @@ void EvaluateColumns(const GridFunctions& space, const Array<Index>& patchOfPoin
       for (int i = 0; i < FunctionsPerPatch; ++i)
       {
         const double* const value = &coefficients(level.dof[patch][i], first);
-        for (int c = 0; c < Columns; ++c)
+        for (int c = 0; c < Width; ++c)
         {
           sum[c] += b[i] * value[c];
         }

@@ -209,11 +209,11 @@ struct Bilinear
 };
 
 /// ∫ f b_i over a patch.
-template<int Columns>
+template<int Width>
 class ValueSums
 {
 public:
-  static constexpr int Count = Columns;
+  static constexpr int Count = Width;
 
   ValueSums()
   {
@@ -226,7 +226,7 @@ public:
   EIGEN_ALWAYS_INLINE void Add(const Sample& sample, const Lanes* value)
   {
     const Bilinear across(sample.position[0], sample.position[1]);
-    for (int c = 0; c < Columns; ++c)
+    for (int c = 0; c < Width; ++c)
     {
       const Lanes weighted = sample.weight * value[c];
       const Lanes up = weighted * sample.position[2];
@@ -243,24 +243,24 @@ public:
   {
     for (int i = 0; i < FunctionsPerPatch; ++i)
     {
-      for (int c = 0; c < Columns; ++c)
+      for (int c = 0; c < Width; ++c)
       {
-        share[i * Columns + c] = SumOverLanes(sum_[c][i]);
+        share[i * Width + c] = SumOverLanes(sum_[c][i]);
       }
     }
   }
 
 private:
-  std::array<std::array<Lanes, FunctionsPerPatch>, Columns> sum_;
+  std::array<std::array<Lanes, FunctionsPerPatch>, Width> sum_;
 };
 
 /// ∫ <s, ∇b_i> over a patch. Along an axis the slope of a function is that of the other two, with a
 /// sign; so four sums per axis stand for eight.
-template<int Columns>
+template<int Width>
 class GradientSums
 {
 public:
-  static constexpr int Count = Columns;
+  static constexpr int Count = Width;
 
   GradientSums()
   {
@@ -275,7 +275,7 @@ public:
     for (int p = 0; p < 3; ++p)
     {
       const Bilinear across(sample.position[(p + 1) % 3], sample.position[(p + 2) % 3]);
-      for (int c = 0; c < Columns; ++c)
+      for (int c = 0; c < Width; ++c)
       {
         const Lanes weighted = sample.weight * vector[c].axis[p];
         for (int k = 0; k < 4; ++k)
@@ -288,7 +288,7 @@ public:
 
   void Write(double* share) const
   {
-    for (int c = 0; c < Columns; ++c)
+    for (int c = 0; c < Width; ++c)
     {
       std::array<double, 12> sum;
       std::transform(sum_[c].begin(), sum_[c].end(), sum.begin(), SumOverLanes);
@@ -302,13 +302,13 @@ public:
           const double value = sum[4 * p + first + 2 * second];
           total += (i >> p) & 1 ? value : -value;
         }
-        share[i * Columns + c] = total;
+        share[i * Width + c] = total;
       }
     }
   }
 
 private:
-  std::array<std::array<Lanes, 12>, Columns> sum_;
+  std::array<std::array<Lanes, 12>, Width> sum_;
 };
 
 /// Sums over the patches: addBatch(batch, source triangles, first column, sums), with sums a
@@ -325,19 +325,19 @@ MultiVector Integrate(const GridFunctions& space, const TriangleMesh& mesh, Id c
   ForEachPass(columns,
     [&](auto pass, Id first)
     {
-      constexpr int Columns = decltype(pass)::value;
-      shares.resize(level.NumberOfPatches() * FunctionsPerPatch * Columns);
+      constexpr int Width = decltype(pass)::value;
+      shares.resize(level.NumberOfPatches() * FunctionsPerPatch * Width);
       ForEachPatch(space, rule,
-        job.Part(double(first) / double(columns), double(first + Columns) / double(columns)),
+        job.Part(double(first) / double(columns), double(first + Width) / double(columns)),
         [&](Id patch, auto&& forEachBatch)
         {
-          Sums<Columns> sums;
+          Sums<Width> sums;
           const Vec3 origin = CellCorner(level.cell[patch]);
           forEachBatch([&](const TriangleBatch& batch)
             { addBatch(batch, SourceLanes(space, mesh, batch, origin), first, sums); });
-          sums.Write(shares.data() + patch * FunctionsPerPatch * Columns);
+          sums.Write(shares.data() + patch * FunctionsPerPatch * Width);
         });
-      SumShares<Columns>(shares, places, first, job.threads, result);
+      SumShares<Width>(shares, places, first, job.threads, result);
     });
   return result;
 }
@@ -380,10 +380,10 @@ MultiVector IntegrateVectors(const GridFunctions& space, const TriangleMesh& mes
   return Integrate<GradientSums>(space, mesh, s.values.cols() / 3, rule, job,
     [&](const TriangleBatch& batch, const SourceLanes& source, Id first, auto& sums)
     {
-      constexpr int Columns = std::decay_t<decltype(sums)>::Count;
+      constexpr int Width = std::decay_t<decltype(sums)>::Count;
       const RowNumbers rows = source.RowsOf(s);
-      std::array<LinearLanes, 3 * Columns> column;
-      for (int c = 0; c < 3 * Columns; ++c)
+      std::array<LinearLanes, 3 * Width> column;
+      for (int c = 0; c < 3 * Width; ++c)
       {
         column[c] = source.Column(s, rows, 3 * first + c);
       }
@@ -393,8 +393,8 @@ MultiVector IntegrateVectors(const GridFunctions& space, const TriangleMesh& mes
           ForEachSample(batch, rule, factor,
             [&](const Sample& sample)
             {
-              LaneVector vector[Columns];
-              for (int c = 0; c < Columns; ++c)
+              LaneVector vector[Width];
+              for (int c = 0; c < Width; ++c)
               {
                 LaneVector given;
                 for (int axis = 0; axis < 3; ++axis)
@@ -480,18 +480,18 @@ MultiVector IntegrateValues(const GridFunctions& space, const TriangleMesh& mesh
     {
       const Lanes factor =
         source.PerTriangle([weight](Id triangle) { return weight ? (*weight)[triangle] : 1.0; });
-      constexpr int Columns = std::decay_t<decltype(sums)>::Count;
+      constexpr int Width = std::decay_t<decltype(sums)>::Count;
       const RowNumbers rows = source.RowsOf(f);
-      std::array<LinearLanes, Columns> column;
-      for (int c = 0; c < Columns; ++c)
+      std::array<LinearLanes, Width> column;
+      for (int c = 0; c < Width; ++c)
       {
         column[c] = source.Column(f, rows, first + c);
       }
       ForEachSample(batch, rule, nullptr,
         [&](const Sample& sample)
         {
-          Lanes value[Columns];
-          for (int c = 0; c < Columns; ++c)
+          Lanes value[Width];
+          for (int c = 0; c < Width; ++c)
           {
             value[c] = factor * column[c].At(sample.position);
           }
@@ -542,11 +542,11 @@ MultiVector IntegrateDirections(const GridFunctions& space, const TriangleMesh& 
   return Integrate<GradientSums>(space, mesh, coefficients.cols(), rule, job,
     [&](const TriangleBatch& batch, const SourceLanes& source, Id first, auto& sums)
     {
-      constexpr int Columns = std::decay_t<decltype(sums)>::Count;
+      constexpr int Width = std::decay_t<decltype(sums)>::Count;
       const auto& dof = level.dof[space.piecePatch[batch.piece[0]]];
       std::vector<PatchSlopes> slopes;
-      slopes.reserve(Columns);
-      for (int c = 0; c < Columns; ++c)
+      slopes.reserve(Width);
+      for (int c = 0; c < Width; ++c)
       {
         slopes.emplace_back(dof, coefficients, first + c);
       }
@@ -556,8 +556,8 @@ MultiVector IntegrateDirections(const GridFunctions& space, const TriangleMesh& 
           ForEachSample(batch, rule, factor,
             [&](const Sample& sample)
             {
-              LaneVector vector[Columns];
-              for (int c = 0; c < Columns; ++c)
+              LaneVector vector[Width];
+              for (int c = 0; c < Width; ++c)
               {
                 vector[c] = Direction(
                   Tangential(slopes[c].At(sample.position), source.Normal(), 1.0), spacing);
@@ -576,10 +576,10 @@ MultiVector IntegrateGradientsOf(const GridFunctions& space, const TriangleMesh&
   return Integrate<GradientSums>(space, mesh, f.values.cols(), rule, job,
     [&](const TriangleBatch& batch, const SourceLanes& source, Id first, auto& sums)
     {
-      constexpr int Columns = std::decay_t<decltype(sums)>::Count;
+      constexpr int Width = std::decay_t<decltype(sums)>::Count;
       const RowNumbers rows = source.RowsOf(f);
-      LaneVector slope[Columns];
-      for (int c = 0; c < Columns; ++c)
+      LaneVector slope[Width];
+      for (int c = 0; c < Width; ++c)
       {
         slope[c] = source.Column(f, rows, first + c).slope;
       }
@@ -599,9 +599,9 @@ MultiVector IntegrateGradientsOfCoordinates(const GridFunctions& space, const Tr
   return Integrate<GradientSums>(space, mesh, 3, rule, job,
     [&](const TriangleBatch& batch, const SourceLanes& source, Id, auto& sums)
     {
-      constexpr int Columns = std::decay_t<decltype(sums)>::Count;
-      LaneVector slope[Columns];
-      for (int c = 0; c < Columns; ++c)
+      constexpr int Width = std::decay_t<decltype(sums)>::Count;
+      LaneVector slope[Width];
+      for (int c = 0; c < Width; ++c)
       {
         const int column = c % 3; // there is no pass of four
         for (int axis = 0; axis < 3; ++axis)

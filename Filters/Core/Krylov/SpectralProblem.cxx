@@ -14,18 +14,26 @@ namespace
 constexpr Id RowsOfFacts = 512;
 
 /// Calls body(first, count) for panels of columns that a preconditioner takes. Panels know nothing
-/// of each other, so each is the job of one thread where there are enough of them; one thread sends
-/// messages to other processes.
+/// of each other, so each is the job of one thread where there are enough of them, or of its share
+/// of all; one thread sends messages to other processes.
 template<class Body>
 void ForEachPanel(Id columns, const DividedRows* divided, int threads, Body&& body)
 {
   const Id panels = (columns + WidestPanel - 1) / WidestPanel;
-  ParallelBlocks(panels, !divided && panels >= NumberOfThreads(threads) ? threads : 1,
-    [&](Id panel)
-    {
-      const Id first = panel * WidestPanel;
-      body(first, std::min(WidestPanel, columns - first));
-    });
+  const int all = NumberOfThreads(threads);
+  const auto ofPanel = [&](Id panel)
+  {
+    const Id first = panel * WidestPanel;
+    body(first, std::min(WidestPanel, columns - first));
+  };
+  if (!divided && panels > 1 && panels < all)
+  {
+    SideBySide(static_cast<int>(panels), all, [&](int panel) { ofPanel(panel); });
+  }
+  else
+  {
+    ParallelBlocks(panels, divided ? 1 : threads, ofPanel);
+  }
 }
 
 /// L X - M X diag(θ) of `count` of the columns, the first of them number `first`.

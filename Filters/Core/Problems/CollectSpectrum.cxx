@@ -23,7 +23,7 @@ constexpr Id RowsAtOnce = 512;
 /// Orthonormal columns have a mass of 1 up to this. The mass of others is rounding: they are
 /// functions that almost vanish, as on a sliver.
 constexpr double LargestMassError = 1e-3;
-constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double NotANumber = std::numeric_limits<double>::quiet_NaN();
 
 /// Columns that are projected together: the partial sums of a thousand would take 200 MB.
 constexpr Id ColumnsAtOnce = 128;
@@ -132,7 +132,7 @@ Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs<Rea
     if (j >= zeros)
     {
       // Below 0 there is only rounding, where a sliver has functions that almost vanish.
-      values[j] = isNormal(j) ? std::max(facts.energy[j] / mass, 0.0) : NaN;
+      values[j] = isNormal(j) ? std::max(facts.energy[j] / mass, 0.0) : NotANumber;
     }
   }
   std::vector<Index> order;

@@ -148,9 +148,10 @@ void AppendEntries(
 
 /// A point of every function: of those that share it the one in the best patch, and of equal ones
 /// the lowest.
-std::vector<Id> PointsOfFunctions(const HatFunctions& hats, const GridFunctions& space)
+std::vector<Id> PointsOfFunctions(const HatFunctions& hats, const GridFunctions& space, int threads)
 {
-  const PatchChoice patches(space.clipped, space.piecePatch, space.Finest().NumberOfPatches());
+  const PatchChoice patches(
+    space.clipped, space.piecePatch, space.Finest().NumberOfPatches(), threads);
   std::vector<Id> point(hats.Count(), -1);
   for (Id p = 0; p < static_cast<Id>(hats.ofPoint.size()); ++p)
   {
@@ -202,7 +203,7 @@ SparseMatrix BuildHatWeights(const HatFunctions& hats, const GridFunctions& spac
 {
   CheckMeshes(hats, space, mesh);
   const std::vector<Id> pointOfHat =
-    isBare.empty() ? std::vector<Id>() : PointsOfFunctions(hats, space);
+    isBare.empty() ? std::vector<Id>() : PointsOfFunctions(hats, space, threads);
   const Groups pieces = GroupItems(space.clipped.pieceTriangle.data(),
     space.clipped.NumberOfPieces(), static_cast<Id>(mesh.triangles.size()), threads);
   const auto addTriangle = [&](Id triangle, int corner, Row& row)

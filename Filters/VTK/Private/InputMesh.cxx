@@ -1,6 +1,7 @@
 #include "InputMesh.h"
 
 #include "CellCorners.h"
+#include "PieceArrays.h"
 #include "PointCoordinates.h"
 
 #include "Base/Parallel.h"
@@ -185,13 +186,6 @@ void ForEachCell(vtkCellArray* cells, Id firstCell, const Progress& progress, Ad
 }
 
 /// The marks of the cells; null where there are none.
-vtkUnsignedCharArray* GhostsOf(vtkPolyData* input)
-{
-  auto* ghosts = vtkArrayDownCast<vtkUnsignedCharArray>(
-    input->GetCellData()->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()));
-  return ghosts && ghosts->GetNumberOfTuples() == input->GetNumberOfCells() ? ghosts : nullptr;
-}
-
 /// Keeps the triangles of cells that isKept(mark).
 template<class IsKept>
 void KeepCells(
@@ -247,7 +241,7 @@ InputMesh ReadInputMesh(vtkPolyData* input, int threads, const Progress& progres
     throw InvalidInput("The input has no polygons and no triangle strips. A surface is needed: "
                        "Extract Surface makes one from a volume mesh, Delaunay 2D from points.");
   }
-  KeepCells(GhostsOf(input), mesh, *triangles, IsShown);
+  KeepCells(GhostsOf(input->GetCellData(), input->GetNumberOfCells()), mesh, *triangles, IsShown);
   if (triangles->triangles.empty())
   {
     throw InvalidInput("All polygons are marked by vtkGhostType as hidden or as duplicates.");
@@ -260,7 +254,8 @@ InputMesh ReadPiece(vtkPolyData* piece, int threads, InputMesh& copies)
 {
   auto triangles = std::make_shared<TriangleMesh>();
   InputMesh mesh = piece ? ReadCells(piece, threads, {}, *triangles) : InputMesh();
-  vtkUnsignedCharArray* const ghosts = piece ? GhostsOf(piece) : nullptr;
+  vtkUnsignedCharArray* const ghosts =
+    piece ? GhostsOf(piece->GetCellData(), piece->GetNumberOfCells()) : nullptr;
   auto triangleCopies = std::make_shared<TriangleMesh>();
   copies = {};
   if (ghosts)

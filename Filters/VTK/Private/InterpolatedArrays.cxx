@@ -47,11 +47,6 @@ bool IsColor(vtkAbstractArray* array)
   return array->GetDataType() == VTK_UNSIGNED_CHAR && (components == 3 || components == 4);
 }
 
-bool IsReal(vtkAbstractArray* array)
-{
-  return array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
-}
-
 vtkSmartPointer<vtkDataArray> Interpolate(
   vtkDataArray* input, const TriangleMesh& mesh, const ClippedMesh& clipped, int threads)
 {
@@ -134,6 +129,11 @@ vtkSmartPointer<vtkAbstractArray> TakeNearest(
 }
 
 } // namespace
+
+bool IsReal(vtkAbstractArray* array)
+{
+  return array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
+}
 
 void PassActiveAttributes(vtkDataSetAttributes* input, vtkDataSetAttributes* output)
 {

@@ -4,6 +4,7 @@
 
 #include "Grid/Clip.h"
 
+class vtkAbstractArray;
 class vtkCellData;
 class vtkDataArray;
 class vtkDataSetAttributes;
@@ -11,6 +12,9 @@ class vtkPointData;
 
 namespace gridfem
 {
+
+/// Whether its values are of a type of real numbers.
+bool IsReal(vtkAbstractArray* array);
 
 /// Point arrays at the clipped points; without cut points they are shared as they are. Real numbers
 /// are linear along source triangles, as double; colours (bytes with 3 or 4 components) as well,

@@ -5,6 +5,9 @@
 #include "vtkInformationVector.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace gridfem
 {
 namespace
@@ -58,6 +61,14 @@ void SetTimeSteps(const std::vector<double>& steps, vtkInformationVector* output
     info->Set(Pipeline::TIME_STEPS(), steps.data(), static_cast<int>(steps.size()));
     info->Set(Pipeline::TIME_RANGE(), range, 2);
   }
+}
+
+int ShownStep(vtkInformation* output, int firstStep, int lastStep)
+{
+  const double time = RequestedTime(output).value_or(lastStep);
+  // A NaN is not after the first.
+  return time > firstStep ? static_cast<int>(std::lround(std::min(time, double(lastStep))))
+                          : firstStep;
 }
 
 void InputTime::ForgetOfAnother(vtkInformation* input)

@@ -15,6 +15,9 @@ namespace gridfem
 /// Gives all outputs the time steps of the filter's own. Ascending, at least one.
 void SetTimeSteps(const std::vector<double>& steps, vtkInformationVector* outputs);
 
+/// The step that an output is asked for where steps are whole numbers; the last when none is.
+int ShownStep(vtkInformation* output, int firstStep, int lastStep);
+
 /// The time at which the inputs of a filter are asked for.
 class InputTime
 {

@@ -2,6 +2,7 @@
 
 #include "Allocation.h"
 #include "ClippedArrays.h"
+#include "InterpolatedArrays.h"
 #include "Ranks.h"
 
 #include "vtkCellArray.h"
@@ -47,11 +48,6 @@ bool HasCellsOf(vtkPolyData* output, vtkPolyData* input)
   return output && output->GetNumberOfPoints() == input->GetNumberOfPoints() &&
          are(output->GetVerts(), input->GetVerts()) && are(output->GetLines(), input->GetLines()) &&
          are(output->GetPolys(), input->GetPolys()) && are(output->GetStrips(), input->GetStrips());
-}
-
-bool IsReal(vtkAbstractArray* array)
-{
-  return array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
 }
 
 vtkSmartPointer<vtkAbstractArray> NewLike(vtkAbstractArray* array)
@@ -198,7 +194,7 @@ void TakeFieldArrays(DataMessage& message, vtkFieldData* fields)
 }
 
 /// Of points, cells or rows, whichever the data object has.
-std::vector<vtkDataSetAttributes*> AttributesOf(vtkDataObject* data)
+std::vector<vtkDataSetAttributes*> AllAttributesOf(vtkDataObject* data)
 {
   std::vector<vtkDataSetAttributes*> all;
   for (const int type : { vtkDataObject::POINT, vtkDataObject::CELL, vtkDataObject::ROW })
@@ -220,7 +216,7 @@ void PutNames(vtkDataObject* output, const GatheredSurface& input, int rank,
   {
     return;
   }
-  for (vtkDataSetAttributes* data : AttributesOf(output))
+  for (vtkDataSetAttributes* data : AllAttributesOf(output))
   {
     vtkNew<vtkFieldData> none;
     ForEachArray(data, [&](vtkAbstractArray* array) { none->AddArray(NewLike(array)); });
@@ -238,7 +234,7 @@ void TakeNames(DataMessage& message, vtkDataObject* output)
     return;
   }
   output->Initialize();
-  for (vtkDataSetAttributes* data : AttributesOf(output))
+  for (vtkDataSetAttributes* data : AllAttributesOf(output))
   {
     message.TakeArrays(data);
     TakeActive(message, data);

@@ -19,7 +19,7 @@ std::array<vtkIdType, 3> CountsOf(vtkPolyData* data)
   return { data->GetNumberOfPoints(), data->GetNumberOfVerts(), data->GetNumberOfLines() };
 }
 
-vtkAbstractArray* GhostsOf(vtkPolyData* data)
+vtkAbstractArray* GhostArrayOf(vtkPolyData* data)
 {
   return data->GetCellData()->GetAbstractArray(vtkDataSetAttributes::GhostArrayName());
 }
@@ -52,7 +52,7 @@ void TrackedMesh::Refer(vtkPolyData* data, std::int64_t version)
       cells_[kind]->ShallowCopy(given);
     }
   }
-  ghosts_ = GhostsOf(data);
+  ghosts_ = GhostArrayOf(data);
   counts_ = CountsOf(data);
   vtkInformation* about = data->GetInformation();
   time_ = about->Has(vtkDataObject::DATA_TIME_STEP())
@@ -63,7 +63,7 @@ void TrackedMesh::Refer(vtkPolyData* data, std::int64_t version)
 bool TrackedMesh::HasCellsOf(vtkPolyData* data) const
 {
   return counts_ == CountsOf(data) && AreSame(cells_[0], data->GetPolys()) &&
-         AreSame(cells_[1], data->GetStrips()) && HaveSameContents(ghosts_, GhostsOf(data));
+         AreSame(cells_[1], data->GetStrips()) && HaveSameContents(ghosts_, GhostArrayOf(data));
 }
 
 bool TrackedMesh::Follow(vtkPolyData* data, const InputMesh& reference)
