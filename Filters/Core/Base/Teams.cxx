@@ -8,7 +8,6 @@
 #include <exception>
 #include <mutex>
 #include <string>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -106,9 +105,9 @@ void SideBySide(int count, int threads, const std::function<void(int)>& body)
       others.emplace_back(run, next);
     }
   }
-  catch (const std::system_error&)
+  catch (const std::exception&)
   {
-    // There are no more threads.
+    // There are no more threads, or no memory to begin one with.
   }
   run(0);
   for (; next < count; ++next)
