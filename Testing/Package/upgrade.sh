@@ -27,6 +27,7 @@ if [ "${1:-}" != "--here" ]; then
 fi
 
 source "$source/Testing/build.sh"
+unset CI # which compiles several files at a time
 JOBS=1
 OBJECTS=Filters/Core/CMakeFiles/gridfem_core.dir/Base
 OPTIONS=(-DGRIDFEM_BUILD_VTK=OFF -DGRIDFEM_BUILD_TESTING=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON)
