@@ -4,6 +4,7 @@
 #include "Private/ClippedArrays.h"
 #include "Private/InputArray.h"
 #include "Private/InputValidation.h"
+#include "Private/InterpolatedArrays.h"
 #include "Private/SolverOutput.h"
 #include "Private/SurfaceSolverState.h"
 
@@ -50,7 +51,7 @@ bool IsForOtherEnds(vtkDataArray* array, vtkDataSetAttributes* attributes)
 bool AreLabels(vtkDataArray* array)
 {
   constexpr std::size_t MostScans = 1000;
-  const bool isReal = array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
+  const bool isReal = gridfem::IsReal(array);
   if (isReal || array->GetNumberOfComponents() != 1)
   {
     return false;
@@ -160,7 +161,7 @@ vtkSmartPointer<vtkDataArray> WithValues(
     static_cast<std::size_t>(colors->GetNumberOfValues()) * colors->GetDataTypeSize());
   result->DeepCopy(colors);
   result->SetName("StitchedColors");
-  const bool isReal = colors->GetDataType() == VTK_FLOAT || colors->GetDataType() == VTK_DOUBLE;
+  const bool isReal = gridfem::IsReal(colors);
   const auto [least, largest] = RangeOf(colors);
   for (vtkIdType row = 0; row < values.rows(); ++row)
   {

@@ -244,7 +244,7 @@ Array<Link> FindLinks(
                                 : a.piece < b.piece;
     });
   progress.Check(0.7);
-  std::vector<EdgeUse> uses;
+  Array<EdgeUse> uses;
   uses.reserve(pieceEdges.size());
   Index edge = -1;
   for (std::size_t k = 0; k < pieceEdges.size(); ++k)
@@ -255,7 +255,7 @@ Array<Link> FindLinks(
     uses.push_back({ edge, pieceEdges[k].piece });
   }
   Array<Link> links;
-  LinkStars(uses, PieceCells(clipped), links);
+  LinkStars(uses, Id{ edge } + 1, PieceCells(clipped), 1, links);
   progress.Check(1.0);
   return links;
 }

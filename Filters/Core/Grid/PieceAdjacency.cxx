@@ -54,70 +54,50 @@ void LinkManySides(const ManySidedEdge& edge, const Array<Index>& stretches,
 
 } // namespace
 
-void LinkStars(std::vector<EdgeUse>& uses, const Array<Index>& pieceCell, Array<Link>& links)
+void LinkStars(const Array<EdgeUse>& uses, Id edges, const Array<Index>& pieceCell, int threads,
+  Array<Link>& links)
 {
-  std::sort(uses.begin(), uses.end(),
-    [](const EdgeUse& a, const EdgeUse& b)
-    { return a.edge != b.edge ? a.edge < b.edge : a.piece < b.piece; });
-  std::vector<Index> pieces;
-  for (std::size_t k = 0; k < uses.size(); ++k)
-  {
-    if (pieces.empty() || pieces.back() != uses[k].piece)
+  Array<Index> edge(uses.size());
+  std::transform(
+    uses.begin(), uses.end(), edge.begin(), [](const EdgeUse& use) { return use.edge; });
+  const Groups ofEdge = GroupItems(edge.data(), static_cast<Id>(edge.size()), edges, threads);
+  AppendRanges(edges, threads, links,
+    [&](Id begin, Id end, Array<Link>& list)
     {
-      pieces.push_back(uses[k].piece);
-    }
-    if (k + 1 == uses.size() || uses[k + 1].edge != uses[k].edge)
-    {
-      LinkStar(
-        pieces, [&](Index piece) { return pieceCell[piece]; }, links);
-      pieces.clear();
-    }
-  }
+      std::vector<Index> pieces;
+      for (Id e = begin; e < end; ++e)
+      {
+        pieces.clear();
+        for (Index k = ofEdge.begin[e]; k < ofEdge.begin[e + 1]; ++k)
+        {
+          pieces.push_back(uses[ofEdge.item[k]].piece);
+        }
+        pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
+        LinkStar(
+          pieces, [&](Index piece) { return pieceCell[piece]; }, list);
+      }
+    });
 }
 
 void LinkAtPoints(const Array<Index>& pointClass, int threads, ClippedMesh& clipped)
 {
-  const auto points = static_cast<Index>(clipped.numberOfInputPoints);
-  Array<Link> uses; // class of a point, piece that has it
+  Array<EdgeUse> uses;
   AppendRanges(clipped.NumberOfPieces(), threads, uses,
-    [&](Id begin, Id end, Array<Link>& list)
+    [&](Id begin, Id end, Array<EdgeUse>& list)
     {
       for (auto piece = static_cast<Index>(begin); piece < end; ++piece)
       {
         for (Index k = clipped.pieceBegin[piece]; k < clipped.pieceBegin[piece + 1]; ++k)
         {
-          if (clipped.corners[k] < points)
+          if (clipped.corners[k] < clipped.numberOfInputPoints)
           {
-            list.emplace_back(pointClass[clipped.corners[k]], piece);
+            list.push_back({ pointClass[clipped.corners[k]], piece });
           }
         }
       }
     });
-  Array<Index> point(uses.size());
-  std::transform(
-    uses.begin(), uses.end(), point.begin(), [](const Link& use) { return use.first; });
-  const Groups ofPoint =
-    GroupItems(point.data(), static_cast<Id>(point.size()), Id{ points }, threads);
-  const Array<Index> pieceCell = PieceCells(clipped, threads);
-  AppendRanges(points, threads, clipped.links,
-    [&](Id begin, Id end, Array<Link>& links)
-    {
-      std::vector<Index> pieces;
-      for (Id p = begin; p < end; ++p)
-      {
-        pieces.clear();
-        for (Index k = ofPoint.begin[p]; k < ofPoint.begin[p + 1]; ++k)
-        {
-          const Index piece = uses[ofPoint.item[k]].second;
-          if (pieces.empty() || pieces.back() != piece)
-          {
-            pieces.push_back(piece);
-          }
-        }
-        LinkStar(
-          pieces, [&](Index piece) { return pieceCell[piece]; }, links);
-      }
-    });
+  LinkStars(
+    uses, clipped.numberOfInputPoints, PieceCells(clipped, threads), threads, clipped.links);
 }
 
 void LinkAlongEdges(const MeshEdges& edges, const Array<Index>& stretches,

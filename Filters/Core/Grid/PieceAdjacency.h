@@ -19,8 +19,11 @@ struct EdgeUse
 };
 
 /// Links for edges given by their uses: pieces of one cell in a star, the stars of different cells
-/// pairwise. Sorts `uses`.
-void LinkStars(std::vector<EdgeUse>& uses, const Array<Index>& pieceCell, Array<Link>& links);
+/// pairwise. Appended edge by edge, the same for any number of threads.
+/// @param uses   ascending by piece for each edge; a piece may have one twice
+/// @param edges  their number
+void LinkStars(const Array<EdgeUse>& uses, Id edges, const Array<Index>& pieceCell, int threads,
+  Array<Link>& links);
 
 /// Appends a link for every two pieces on different sides of a mesh edge that share a stretch of
 /// it; where more than two do, as LinkStars. The same for any number of threads.
