@@ -147,7 +147,7 @@ bool vtkClipToOctree::ComputeTogether(vtkInformationVector** inputs, vtkInformat
     this->ClipTogether(piece);
     progress.Check(0.7);
     const gridfem::DistributedClip& clip = *this->Data->OfRanks;
-    const int threads = state.options.space.threads;
+    const int threads = state.Threads();
     clip.WriteMesh(piece, state.mesh, threads, output);
     progress.Check(0.8);
     auto triangles = static_cast<double>(clip.Clipped().NumberOfTriangles());

@@ -201,7 +201,7 @@ bool vtkConnectivityAwareBasis::ComputeTogether(
         clip->Take(state.together, piece, isClipped, state.options, state.mesh);
       });
     progress.Check(0.8);
-    const int threads = state.options.space.threads;
+    const int threads = state.Threads();
     clip->WriteMesh(piece, state.mesh, threads, output);
     state.together.Together(
       [&]

@@ -154,7 +154,7 @@ void vtkHarmonicInterpolation::Write(vtkPolyData* input, vtkPolyData* output)
   const Internals& data = *this->Data;
   const gridfem::SurfaceSolverState& state = *this->State;
   gridfem::MultiVector values =
-    state.space->ValuesAtPoints(data.Solution.coefficients, state.options.space.threads);
+    state.space->ValuesAtPoints(data.Solution.coefficients, state.Threads());
   const std::vector<char> has = state.space->PointsWithFunctions();
   for (gridfem::Id point = 0; point < values.rows(); ++point)
   {

@@ -143,7 +143,7 @@ void vtkHeatDiffusion::UpdateLoads(vtkPolyData* input, const gridfem::Progress& 
   state.stages.Run(gridfem::RightHandSideStage, key,
     [&]
     {
-      const gridfem::SurfaceSpace& space = *state.SolverSpace();
+      const gridfem::SurfaceSpace& space = *state.SharedSpace();
       data.Start =
         space.LoadOfValues(start.array ? state.Read(start) : gridfem::CoordinatesField(state.mesh),
           state.MakeJob(progress.Part(0.0, 0.5)));
@@ -162,7 +162,7 @@ void vtkHeatDiffusion::UpdateLoads(vtkPolyData* input, const gridfem::Progress& 
 /// The length of a step, squared units of length of the space.
 double vtkHeatDiffusion::GridStep() const
 {
-  return this->DiffusionTime / this->NumberOfSteps / this->State->WeightInGridUnits(1.0);
+  return this->DiffusionTime / this->NumberOfSteps / this->State->WeightInSpaceUnits(1.0);
 }
 
 /// Makes the steps that are missing.
@@ -181,7 +181,7 @@ void vtkHeatDiffusion::UpdateSteps(const gridfem::Progress& progress)
         static_cast<gridfem::TimeScheme>(this->Scheme), data.Held };
       data.Steps.clear();
       data.Diffusion.reset(); // frees its memory first
-      data.Diffusion = std::make_unique<gridfem::HeatDiffusion>(state.SolverSpace(), data.Start,
+      data.Diffusion = std::make_unique<gridfem::HeatDiffusion>(state.SharedSpace(), data.Start,
         data.Sources, options, state.MakeJob(progress.Part(0.0, 0.2)));
     });
   const auto wanted = static_cast<std::size_t>(this->NumberOfSteps);
@@ -250,7 +250,7 @@ void vtkHeatDiffusion::WriteFacts(int shown, vtkPolyData* output)
     }
   }
   this->WriteReport(step.report, step.accuracy, output);
-  const double unit = this->State->SolverSpace()->UnitLength();
+  const double unit = this->State->SharedSpace()->UnitLength();
   gridfem::AddFieldNumber(output, "DiffusionTime", shown * this->GridStep() * unit * unit);
 }
 

@@ -211,14 +211,14 @@ gridfem::ConstrainedLoad vtkScreenedPoisson::IntegrateConstrained(const gridfem:
 {
   const Internals& data = *this->Data;
   const gridfem::SurfaceSolverState& state = *this->State;
-  const gridfem::SurfaceSpace& space = *state.SolverSpace();
+  const gridfem::SurfaceSpace& space = *state.SharedSpace();
   const gridfem::TriangleMesh& triangles = *state.mesh.triangles;
   const auto weight =
     data.Weight.array ? std::make_optional(state.Read(data.Weight)) : std::nullopt;
   const gridfem::Field value =
     data.Value.array
       ? state.Read(data.Value, this->FillUnknown ? gridfem::NaNs::Kept : gridfem::NaNs::Refused)
-      : gridfem::CoordinatesField(state.CurrentMesh());
+      : gridfem::CoordinatesField(state.CurrentInput());
   gridfem::ConstrainedLoad load;
   load.isWeighed = weight || this->FillUnknown;
   state.Together(
@@ -276,7 +276,7 @@ gridfem::PoissonLoad vtkScreenedPoisson::Integrate(
   const Internals& data = *this->Data;
   const gridfem::SurfaceSolverState& state = *this->State;
   const gridfem::Field value =
-    data.Value.array ? state.Read(data.Value) : gridfem::CoordinatesField(state.CurrentMesh());
+    data.Value.array ? state.Read(data.Value) : gridfem::CoordinatesField(state.CurrentInput());
   const std::optional<gridfem::Field> factor = data.ReadScale(state);
   const gridfem::Field* scale = factor ? &*factor : nullptr;
   gridfem::PoissonLoad load;
@@ -288,7 +288,7 @@ gridfem::PoissonLoad vtkScreenedPoisson::Integrate(
   }
   else if (this->UseValueGradient)
   {
-    const bool isValue = data.Value.array || &state.CurrentMesh() != &state.mesh;
+    const bool isValue = data.Value.array || &state.CurrentInput() != &state.mesh;
     load.gradients = isValue ? space.LoadOfGradientsOf(value, scale, job.Part(0.5, 1.0))
                              : space.LoadOfGradientsOfCoordinates(scale, job.Part(0.5, 1.0));
   }
@@ -351,7 +351,7 @@ void vtkScreenedPoisson::WriteSolution(vtkPolyData* input, vtkPolyData* output)
   output->GetPointData()->SetActiveScalars("Solution");
   if (!data.Value.array && this->MovePoints)
   {
-    gridfem::MoveSurface(*state.CurrentMesh().triangles, values,
+    gridfem::MoveSurface(*state.CurrentInput().triangles, values,
       gridfem::OutputPrecision(input->GetPoints()), this->NumberOfThreads, output);
   }
   gridfem::AddReport(this->Report(), output);
@@ -359,7 +359,7 @@ void vtkScreenedPoisson::WriteSolution(vtkPolyData* input, vtkPolyData* output)
   if (this->SolutionGradient)
   {
     output->GetCellData()->AddArray(gridfem::MakePointArray("SolutionGradient",
-      gridfem::MeansOnCells(state.CurrentMesh(),
+      gridfem::MeansOnCells(state.CurrentInput(),
         this->IsConstrained() ? data.Constrained.Gradients(state) : data.Equation.Gradients(state),
         input->GetNumberOfCells()),
       VTK_DOUBLE));

@@ -80,7 +80,7 @@ gridfem::Field FadeOut(
   const gridfem::TriangleMesh& mesh = *state.mesh.triangles;
   gridfem::HatOptions options;
   options.weldCoincidentPoints = state.options.space.weldCoincidentPoints;
-  options.threads = state.options.space.threads;
+  options.threads = state.Threads();
   const std::vector<double> distance = gridfem::MarchDistance(
     mesh, gridfem::NumberHatFunctions(mesh, options), selection.Points(), width);
   gridfem::Field fade;

@@ -145,7 +145,7 @@ int vtkSurfaceFEMAlgorithm::RequestUpdateExtent(
 int vtkSurfaceFEMAlgorithm::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  gridfem::SurfaceOptions& options = this->State->options;
+  gridfem::FilterOptions& options = this->State->options;
   options.space.depth = this->Depth;
   options.space.connectivityAware = this->ConnectivityAware;
   options.space.weldCoincidentPoints = this->WeldCoincidentPoints;
@@ -164,7 +164,7 @@ int vtkSurfaceFEMAlgorithm::RequestData(
   options.solve.tolerance = this->Tolerance;
   options.solve.maximumIterations = this->MaximumIterations;
   options.accuracy = this->WantedAccuracy();
-  options.parameterUnits = this->ParameterUnits;
+  options.parameterUnits = static_cast<gridfem::ParameterUnits>(this->ParameterUnits);
 
   EmptyOutputs(outputs);
   this->SetErrorCode(vtkErrorCode::NoError);

@@ -115,7 +115,7 @@ void vtkSurfaceGradient::Derive(const gridfem::InputArray& array, const gridfem:
   state.stages.Run(gridfem::SolveStage, key,
     [&]
     {
-      derivatives = gridfem::ComputeDerivatives(*state.SolverSpace(), *state.mesh.triangles,
+      derivatives = gridfem::ComputeDerivatives(*state.SharedSpace(), *state.mesh.triangles,
         array.array ? state.Read(array) : gridfem::CoordinatesField(state.mesh), state.options,
         state.MakeJob(progress));
     });

@@ -20,7 +20,7 @@ SOURCE_SUFFIXES = (".h", ".cxx")
 # The layers of Core from the bottom up, a folder each. An include goes to its own folder or to a
 # lower one; so the cycle, which sees matrices and lists of unknowns only, cannot reach a mesh.
 CORE_LAYERS = (
-    "Base", "Algebra", "Multigrid", "Krylov", "Grid", "Integrals", "Spaces", "Problems")
+    "Base", "Algebra", "Multigrid", "Krylov", "Grid", "Integrals", "Spaces", "Problems", "Solvers")
 
 
 def sources(folder, suffixes=SOURCE_SUFFIXES):

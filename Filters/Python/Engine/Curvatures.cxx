@@ -58,7 +58,7 @@ public:
   }
 
 private:
-  SurfaceOptions options_;
+  EngineOptions options_;
   double smoothingScale_;
 };
 

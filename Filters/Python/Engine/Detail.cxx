@@ -26,7 +26,7 @@ public:
 
   Results Solve(const Given& given, const Progress& progress) const override
   {
-    const Surface surface(given, options_, progress.Part(0.0, 0.4));
+    const EngineSurface surface(given, options_, progress.Part(0.0, 0.4));
     const std::shared_ptr<const FiniteElementSpace> space =
       this->Weighed(surface, progress.Part(0.4, 0.5));
     const Job job = surface.MakeJob(progress.Part(0.5, 0.6));
@@ -67,7 +67,7 @@ public:
 private:
   /// The space in the metric that the curvatures give.
   std::shared_ptr<const FiniteElementSpace> Weighed(
-    const Surface& surface, const Progress& progress) const
+    const EngineSurface& surface, const Progress& progress) const
   {
     if (transfer_ == CurvatureTransfer::Isotropic)
     {
@@ -95,7 +95,7 @@ private:
     return weighed;
   }
 
-  SurfaceOptions options_;
+  EngineOptions options_;
   double scale_;
   double weight_;
   CurvatureTransfer transfer_;

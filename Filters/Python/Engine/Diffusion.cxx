@@ -28,7 +28,7 @@ public:
   Results Solve(const Given& given, const Progress& progress) const override
   {
     CheckHeld(given, holdsBoundary_);
-    const Surface surface(given, options_, progress.Part(0.0, 0.3));
+    const EngineSurface surface(given, options_, progress.Part(0.0, 0.3));
     const Field start = given.FieldOf("values");
     Results results;
     DiffusionOptions options{ options_, time_ / steps_ / surface.WeightInSpaceUnits(1.0), scheme_,
@@ -60,7 +60,7 @@ public:
   }
 
 private:
-  SurfaceOptions options_;
+  EngineOptions options_;
   double time_;
   int steps_;
   TimeScheme scheme_;

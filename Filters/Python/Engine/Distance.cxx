@@ -30,7 +30,7 @@ public:
 
   Results Solve(const Given& given, const Progress& progress) const override
   {
-    const Surface surface(given, options_, progress.Part(0.0, 0.3));
+    const EngineSurface surface(given, options_, progress.Part(0.0, 0.3));
     const GeodesicDistance method(surface.space, surface.mesh,
       DistanceOptions{ smoothing_, options_.multigrid }, surface.MakeJob(progress.Part(0.3, 0.4)));
     const DistanceField field =
@@ -88,7 +88,7 @@ private:
     return sources;
   }
 
-  SurfaceOptions options_;
+  EngineOptions options_;
   double smoothing_;
   bool toInfinity_;
   bool isSigned_;

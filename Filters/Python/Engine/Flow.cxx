@@ -27,7 +27,7 @@ public:
 
   Results Solve(const Given& given, const Progress& progress) const override
   {
-    const Surface surface(given, options_, progress.Part(0.0, 0.2));
+    const EngineSurface surface(given, options_, progress.Part(0.0, 0.2));
     MeanCurvatureFlow flow(surface.space, surface.mesh, this->OptionsOf(surface));
     FlowSummary summary;
     summary.wanted = steps_;
@@ -85,7 +85,7 @@ private:
     }
   }
 
-  FlowOptions OptionsOf(const Surface& surface) const
+  FlowOptions OptionsOf(const EngineSurface& surface) const
   {
     FlowOptions options;
     options.timeStep = timeStep_ / surface.WeightInSpaceUnits(1.0);
@@ -106,7 +106,7 @@ private:
     return options;
   }
 
-  SurfaceOptions options_;
+  EngineOptions options_;
   double timeStep_;
   int steps_;
   bool isConformalized_;

@@ -27,7 +27,7 @@ void CheckHeld(const Given& given, bool holdsBoundary)
   }
 }
 
-HeldValues FindHeld(const Given& given, const Surface& surface, const SurfaceOptions& options,
+HeldValues FindHeld(const Given& given, const EngineSurface& surface, const EngineOptions& options,
   const Field& value, bool holdsBoundary, Results& results)
 {
   const TriangleMesh& mesh = surface.Mesh();

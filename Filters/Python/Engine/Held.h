@@ -16,7 +16,7 @@ void RequirePointValues(const std::string& who, const GivenArray* values);
 void CheckHeld(const Given& given, bool holdsBoundary);
 
 /// @param value  the array `values` at points; edges with a NaN are left out
-HeldValues FindHeld(const Given& given, const Surface& surface, const SurfaceOptions& options,
+HeldValues FindHeld(const Given& given, const EngineSurface& surface, const EngineOptions& options,
   const Field& value, bool holdsBoundary, Results& results);
 
 } // namespace gridfem

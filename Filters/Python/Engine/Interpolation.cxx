@@ -23,7 +23,7 @@ public:
 
   Results Solve(const Given& given, const Progress& progress) const override
   {
-    const Surface surface(given, options_, progress.Part(0.0, 0.5));
+    const EngineSurface surface(given, options_, progress.Part(0.0, 0.5));
     const FiniteElementSpace& space = surface.Space();
     const KnownRows known = given.KnownValues(nullptr);
     InterpolationOptions options;
@@ -52,7 +52,7 @@ public:
   }
 
 private:
-  SurfaceOptions options_;
+  EngineOptions options_;
   Smoothness smoothness_;
 };
 

@@ -39,7 +39,7 @@ public:
     else
     {
       this->SolveOn(
-        Surface(given, options_, progress.Part(0.0, 0.5)), given, results, progress.Part(0.5, 1.0));
+        EngineSurface(given, options_, progress.Part(0.0, 0.5)), given, results, progress.Part(0.5, 1.0));
     }
     return results;
   }
@@ -47,7 +47,7 @@ public:
 private:
   void SolveAccurately(const Given& given, Results& results, const Progress& progress) const;
   SolutionAccuracy SolveOn(
-    const Surface& surface, const Given& given, Results& results, const Progress& progress) const;
+    const EngineSurface& surface, const Given& given, Results& results, const Progress& progress) const;
   bool IsConstrained(const Given& given) const
   {
     return fillsUnknown_ || holdsBoundary_ || given.Find("weights") || given.Find("held");
@@ -56,13 +56,13 @@ private:
   void Check(const Given& given) const;
   Field ValuesOf(const Given& given) const;
   MultiVector Gradients(
-    const Given& given, const Surface& surface, const Field& value, const Job& job) const;
+    const Given& given, const EngineSurface& surface, const Field& value, const Job& job) const;
   PoissonSolution SolveEquation(
-    const Given& given, const Surface& surface, Results& results, const Progress& progress) const;
+    const Given& given, const EngineSurface& surface, Results& results, const Progress& progress) const;
   PoissonSolution SolveConstrainedEquation(
-    const Given& given, const Surface& surface, Results& results, const Progress& progress) const;
+    const Given& given, const EngineSurface& surface, Results& results, const Progress& progress) const;
 
-  SurfaceOptions options_;
+  EngineOptions options_;
   double weight_;
   double gradientScale_;
   IterationType iteration_;
@@ -112,14 +112,14 @@ void PoissonProblem::SolveAccurately(
     solved = search.Depth();
     results = {};
     const Progress part = progress.Part(done, 0.5 + 0.5 * done);
-    const Surface surface(given, options_.AtDepth(solved), part.Part(0.0, 0.5));
+    const EngineSurface surface(given, options_.AtDepth(solved), part.Part(0.0, 0.5));
     search.Judge(
       *given.mesh, this->SolveOn(surface, given, results, part.Part(0.5, 1.0)), wantedError_);
   }
 }
 
 SolutionAccuracy PoissonProblem::SolveOn(
-  const Surface& surface, const Given& given, Results& results, const Progress& progress) const
+  const EngineSurface& surface, const Given& given, Results& results, const Progress& progress) const
 {
   PoissonSolution solution;
   if (this->IsConstrained(given))
@@ -146,7 +146,7 @@ Field PoissonProblem::ValuesOf(const Given& given) const
 }
 
 PoissonSolution PoissonProblem::SolveEquation(
-  const Given& given, const Surface& surface, Results& results, const Progress& progress) const
+  const Given& given, const EngineSurface& surface, Results& results, const Progress& progress) const
 {
   const FiniteElementSpace& space = surface.Space();
   const Job job = surface.MakeJob(progress.Part(0.0, 0.2));
@@ -172,7 +172,7 @@ PoissonSolution PoissonProblem::SolveEquation(
 }
 
 PoissonSolution PoissonProblem::SolveConstrainedEquation(
-  const Given& given, const Surface& surface, Results& results, const Progress& progress) const
+  const Given& given, const EngineSurface& surface, Results& results, const Progress& progress) const
 {
   constexpr double ConstrainedTolerance = 1e-6; // where no Tolerance is given
   const FiniteElementSpace& space = surface.Space();

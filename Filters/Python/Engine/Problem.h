@@ -3,7 +3,7 @@
 #ifndef GridFEM_Problem_h
 #define GridFEM_Problem_h
 
-#include "Surface.h"
+#include "EngineSurface.h"
 
 namespace gridfem
 {

@@ -27,7 +27,7 @@ public:
 
   Results Solve(const Given& given, const Progress& progress) const override
   {
-    SurfaceOptions options = options_;
+    EngineOptions options = options_;
     if (isAccuracyDriven_)
     {
       RequireSurface(*given.mesh);
@@ -37,7 +37,7 @@ public:
     for (double done = 0.0;; done = 0.5 + 0.5 * done)
     {
       const Progress part = progress.Part(done, isAccuracyDriven_ ? 0.5 + 0.5 * done : 1.0);
-      const Surface surface(given, options, part.Part(0.0, 0.5));
+      const EngineSurface surface(given, options, part.Part(0.0, 0.5));
       const SpectrumOptions solver = this->SolverOptions(surface.Space());
       Spectrum nested = ComputeNestedSpectrum(surface.Space(), solver, part.Part(0.5, 0.7));
       const int next = this->NextDepth(surface, nested);
@@ -64,7 +64,7 @@ private:
     return options;
   }
 
-  int NextDepth(const Surface& surface, const Spectrum& nested) const
+  int NextDepth(const EngineSurface& surface, const Spectrum& nested) const
   {
     const int depth = surface.options.functions.depth;
     std::vector<double> errors = nested.estimatedErrors;
@@ -77,7 +77,7 @@ private:
              : depth;
   }
 
-  Results ResultsOf(const Surface& surface, const Spectrum& spectrum) const
+  Results ResultsOf(const EngineSurface& surface, const Spectrum& spectrum) const
   {
     // The integral over the space's units is UnitLength² times smaller than that over the world's.
     const FiniteElementSpace& space = surface.Space();
@@ -100,7 +100,7 @@ private:
     return results;
   }
 
-  SurfaceOptions options_;
+  EngineOptions options_;
   int modes_;
   bool completes_;
   bool isAccuracyDriven_;

@@ -64,7 +64,7 @@ public:
   Results Solve(const Given& given, const Progress& progress) const override
   {
     Check(given);
-    const Surface surface(given, options_, progress.Part(0.0, 0.35));
+    const EngineSurface surface(given, options_, progress.Part(0.0, 0.35));
     const Field colors = given.FieldOf("colors");
     const Scans scans(given.FieldOf("labels"));
     const ScanCut cut = CutAtSeams(surface.Mesh(), scans.numbers, colors.association);
@@ -109,7 +109,7 @@ private:
   }
 
   std::unique_ptr<FiniteElementSpace> SpaceOfDetails(
-    const SurfaceOptions& options, const ScanCut& cut, const Progress& progress) const
+    const EngineOptions& options, const ScanCut& cut, const Progress& progress) const
   {
     if (!keepsDetails_ || !(SurfaceArea(cut.pieces) > 0.0))
     {
@@ -124,13 +124,13 @@ private:
     return BuildSpace(cut.pieces, functions, choice, progress);
   }
 
-  static MultiVector KeepUnsolved(const Surface& surface, const Given& given, MultiVector values)
+  static MultiVector KeepUnsolved(const EngineSurface& surface, const Given& given, MultiVector values)
   {
     surface.KeepUnsolved(given.arrays.at("colors").values, values);
     return values;
   }
 
-  SurfaceOptions options_;
+  EngineOptions options_;
   bool keepsReference_;
   int referenceLabel_;
   bool keepsDetails_;

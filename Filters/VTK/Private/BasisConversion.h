@@ -5,7 +5,8 @@
 #ifndef GridFEM_BasisConversion_h
 #define GridFEM_BasisConversion_h
 
-#include "SurfaceBasis.h"
+#include "InputMesh.h"
+#include "Solvers/SurfaceBasis.h"
 
 namespace gridfem
 {

@@ -4,7 +4,7 @@
 
 #include "ClippedArrays.h"
 #include "Grid/GivenPieces.h"
-#include "SurfaceBasis.h"
+#include "Solvers/SurfaceBasis.h"
 
 #include <vector>
 

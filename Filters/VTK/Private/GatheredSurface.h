@@ -3,7 +3,7 @@
 #define GridFEM_GatheredSurface_h
 
 #include "Base/Errors.h"
-#include "StageCache.h"
+#include "Solvers/Stages.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkType.h"

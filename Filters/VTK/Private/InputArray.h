@@ -4,7 +4,7 @@
 
 #include "Base/Errors.h"
 #include "InputMesh.h"
-#include "Integrals/LoadVector.h"
+#include "Solvers/GivenField.h"
 
 #include <functional>
 #include <string>
@@ -48,12 +48,6 @@ InputArray FindInputArray(
 /// when there is none or a second one.
 InputArray OnlyArray(
   vtkDataSet* input, const std::function<bool(vtkDataArray*, vtkDataSetAttributes*)>& fits);
-
-enum class NaNs
-{
-  Refused,
-  Kept // unknown values
-};
 
 /// The array's values: rows are points, or triangles for cell data. Throws InvalidInput naming the
 /// first point or cell of the surface with a NaN or infinite value; values that no polygon uses

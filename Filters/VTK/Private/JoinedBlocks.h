@@ -4,7 +4,7 @@
 #define GridFEM_JoinedBlocks_h
 
 #include "GatheredSurface.h"
-#include "StageCache.h"
+#include "Solvers/Stages.h"
 #include "SurfaceInput.h"
 
 #include "vtkNew.h"

@@ -3,7 +3,7 @@
 #define GridFEM_MeshVersion_h
 
 #include "InputMesh.h"
-#include "StageCache.h"
+#include "Solvers/Stages.h"
 
 namespace gridfem
 {

@@ -3,7 +3,7 @@
 #define GridFEM_ModeReader_h
 
 #include "InputMesh.h"
-#include "StageCache.h"
+#include "Solvers/Stages.h"
 
 #include "Problems/SpectralDescriptors.h"
 

@@ -5,7 +5,7 @@
 
 #include "GatheredSurface.h"
 #include "Ranks.h"
-#include "StageCache.h"
+#include "Solvers/Stages.h"
 
 #include "vtkNew.h"
 #include "vtkSmartPointer.h"

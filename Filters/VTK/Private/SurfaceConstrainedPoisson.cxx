@@ -12,7 +12,7 @@ void SurfaceConstrainedPoisson::Update(SurfaceSolverState& state, const StageKey
 {
   this->UpdateSystem(state, fields, integrate, progress.Part(0.0, 0.3));
   progress.Check(0.3);
-  const double weight = state.WeightInGridUnits(request.weight);
+  const double weight = state.WeightInSpaceUnits(request.weight);
   StageKey key;
   key.Add(state.stages.Version(RightHandSideStage)).Add(weight);
   AddMultigrid(key, state.options.multigrid);
@@ -39,7 +39,7 @@ void SurfaceConstrainedPoisson::UpdateSystem(
       weighted_.reset();
       load_ = integrate(state.MakeJob(progress.Part(0.0, 0.4)));
       const Job job = state.MakeJob(progress.Part(0.4, 1.0));
-      const std::shared_ptr<const SurfaceSpace> space = state.SolverSpace();
+      const std::shared_ptr<const SurfaceSpace> space = state.SharedSpace();
       values_ =
         space->LoadOfWeightedValues(load_.field.values, load_.field.weight, job.Part(0.0, 0.2));
       meanOfField_ = MeansOfKnown(*space, load_.field, job.Part(0.2, 0.5));
@@ -57,7 +57,7 @@ void SurfaceConstrainedPoisson::Solve(
   state.stages.Run(SolveStage, key,
     [&]
     {
-      const double weight = state.WeightInGridUnits(request.weight);
+      const double weight = state.WeightInSpaceUnits(request.weight);
       MultiVector load = weight * values_;
       if (load_.gradients.rows() > 0)
       {
@@ -68,7 +68,7 @@ void SurfaceConstrainedPoisson::Solve(
         load += this->BalancedFlux(state, weight);
       }
       ConstraintOptions constraints;
-      const std::shared_ptr<const SurfaceSpace> space = state.SolverSpace();
+      const std::shared_ptr<const SurfaceSpace> space = state.SharedSpace();
       constraints.estimateOn = space.get();
       solution_ = SolveConstrained(*weighted_, weight, *hierarchy_, load, load_.held.values,
         constraints, state.options.solve, progress);
@@ -85,8 +85,8 @@ void SurfaceConstrainedPoisson::Solve(
 MultiVector SurfaceConstrainedPoisson::BalancedFlux(const SurfaceSolverState& state, double weight)
 {
   constexpr double Visible = 1e-3;
-  const std::shared_ptr<const SurfaceSpace> space = state.SolverSpace();
-  const int threads = state.options.space.threads;
+  const std::shared_ptr<const SurfaceSpace> space = state.SharedSpace();
+  const int threads = state.Threads();
   const DividedRows* const divided = space->Divided(0);
   const Components components = space->ComponentsOf(0, threads);
   const std::vector<char> isHeld = HeldComponents(*weighted_, weight, load_.held.rows, components);
@@ -116,7 +116,7 @@ MultiVector SurfaceConstrainedPoisson::BalancedFlux(const SurfaceSolverState& st
 MultiVector SurfaceConstrainedPoisson::Gradients(const SurfaceSolverState& state) const
 {
   return state.OnCurrent(
-    state.SolverSpace()->GradientsOnTriangles(solution_.coefficients, state.options.space.threads));
+    state.SharedSpace()->GradientsOnTriangles(solution_.coefficients, state.Threads()));
 }
 
 MultiVector SurfaceConstrainedPoisson::Values(const SurfaceSolverState& state) const

@@ -12,13 +12,13 @@ namespace gridfem
 void SurfaceFlow::Restart(SurfaceSolverState& state)
 {
   FlowOptions options;
-  options.timeStep = request_.timeStep / state.WeightInGridUnits(1.0);
+  options.timeStep = request_.timeStep / state.WeightInSpaceUnits(1.0);
   options.conformalized = request_.conformalized;
   options.rescaling = request_.rescaling;
   if (request_.fixedBoundary)
   {
     options.fixed = BoundaryOf(
-      *state.mesh.triangles, state.basis.weldCoincidentPoints, state.options.space.threads);
+      *state.mesh.triangles, state.basis.weldCoincidentPoints, state.Threads());
   }
   options.multigrid = state.options.multigrid;
   options.solve = state.options.solve;
@@ -37,7 +37,7 @@ void SurfaceFlow::Restart(SurfaceSolverState& state)
   kept_.clear();
   stride_ = 1;
   end_ = FlowEnd::None;
-  rows_.assign(1, FlowRow{ flow_->Start(state.options.space.threads), 1.0, 0.0 });
+  rows_.assign(1, FlowRow{ flow_->Start(state.Threads()), 1.0, 0.0 });
 }
 
 void SurfaceFlow::ReturnTo(int step)
@@ -94,7 +94,7 @@ bool SurfaceFlow::Update(
   SurfaceSolverState& state, const FlowRequest& request, const Progress& progress)
 {
   StageKey key;
-  key.Add(state.stages.Version(SystemStage)).Add(state.WeightInGridUnits(1.0));
+  key.Add(state.stages.Version(SystemStage)).Add(state.WeightInSpaceUnits(1.0));
   key.Add(request.timeStep).Add(request.conformalized).Add(request.trackMetric);
   key.Add(request.fixedBoundary);
   key.Add(static_cast<int>(request.rescaling));

@@ -9,7 +9,7 @@ namespace
 
 const SurfaceSpace& SpaceOf(const SurfaceSolverState& state, const PoissonRequest& request)
 {
-  return request.space ? *request.space : *state.SolverSpace();
+  return request.space ? *request.space : *state.SharedSpace();
 }
 
 } // namespace
@@ -30,7 +30,7 @@ void SurfacePoisson::UpdateHierarchy(
   SurfaceSolverState& state, const PoissonRequest& request, const Progress& progress)
 {
   const SurfaceSpace& space = SpaceOf(state, request);
-  const double weight = state.WeightInGridUnits(request.weight);
+  const double weight = state.WeightInSpaceUnits(request.weight);
   StageKey shape;
   shape.Add(state.StructureVersion());
   AddMultigrid(shape, state.options.multigrid);
@@ -85,7 +85,7 @@ void SurfacePoisson::Solve(
   state.stages.Run(SolveStage, key,
     [&]
     {
-      PoissonOptions options{ state.options, state.WeightInGridUnits(request.weight),
+      PoissonOptions options{ state.options, state.WeightInSpaceUnits(request.weight),
         request.iteration, request.estimateErrors };
       StageKey solver = shape_; // other options show their own iterations, from the usual start
       solver.Add(state.stages.Version(SystemStage)).Add(request.numbers);
@@ -113,7 +113,7 @@ void SurfacePoisson::Solve(
 MultiVector SurfacePoisson::Gradients(const SurfaceSolverState& state) const
 {
   return state.OnCurrent(
-    state.SolverSpace()->GradientsOnTriangles(solution_.coefficients, state.options.space.threads));
+    state.SharedSpace()->GradientsOnTriangles(solution_.coefficients, state.Threads()));
 }
 
 MultiVector SurfacePoisson::Values(const SurfaceSolverState& state) const

@@ -3,7 +3,7 @@
 #ifndef GridFEM_SurfacePoisson_h
 #define GridFEM_SurfacePoisson_h
 
-#include "StageCache.h"
+#include "Solvers/Stages.h"
 #include "SurfaceSolverState.h"
 
 #include "Problems/Poisson.h"

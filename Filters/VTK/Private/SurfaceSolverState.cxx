@@ -10,7 +10,6 @@
 #include "Problems/MovedSurface.h"
 #include "SelectedPoints.h"
 #include "SolverOutput.h"
-#include "vtkSurfaceFEMAlgorithm.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -21,6 +20,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace gridfem
 {
@@ -54,7 +54,7 @@ void AddMultigrid(StageKey& key, const MultigridOptions& options)
     .Add(options.sweepsPerSynchronisation); // the number of threads changes no bit
 }
 
-void AddSolver(StageKey& key, const SurfaceOptions& options)
+void AddSolver(StageKey& key, const FilterOptions& options)
 {
   AddMultigrid(key, options.multigrid);
   key.Add(options.solve.tolerance).Add(options.solve.maximumIterations).Add(options.accuracy);
@@ -109,6 +109,9 @@ void SurfaceSolverState::UpdateSpace(
 {
   RequireNumber("Tolerance", options.solve.tolerance);
   RequireNumber("Accuracy", options.accuracy);
+  const int lastDepth = used_.space.depth; // of functions that may stay
+  used_ = options;
+  used_.space.depth = lastDepth;
   const std::int64_t meshNumber = meshVersion.Of(input, mesh, options.space.threads);
   const int wanted = options.space.depth;
   if (options.trackMetric &&
@@ -170,7 +173,7 @@ void SurfaceSolverState::ChooseDepth()
 {
   wanted_ =
     gridfem::ChooseDepth(*mesh.triangles, options.space.depth, FunctionKind::Grid, AsManyAsWanted);
-  options.space.depth = this->DepthFor(options.space.depth);
+  used_.space.depth = this->DepthFor(options.space.depth);
 }
 
 /// Hat functions on a basis that is given and finer than is of use to them get a coarser one.
@@ -194,11 +197,12 @@ void SurfaceSolverState::BuildSpace(vtkPolyData* input, const Progress& progress
   space = {};
   mesh = ReadInputMesh(input, options.space.threads, progress.Part(0.0, 0.1));
   RequireSurface(*mesh.triangles);
+  used_ = options;
   this->ChooseDepth();
-  RequireMemory(*mesh.triangles, options.space.depth, options.choice.kind);
+  RequireMemory(*mesh.triangles, used_.space.depth, used_.choice.kind);
   basis = MakeSurfaceBasis(mesh.triangles,
-    BuildGridFunctions(*mesh.triangles, options.space, progress.Part(0.1, 1.0)),
-    options.space.weldCoincidentPoints);
+    BuildGridFunctions(*mesh.triangles, used_.space, progress.Part(0.1, 1.0)),
+    used_.space.weldCoincidentPoints);
 }
 
 void SurfaceSolverState::UpdateSystem(const Progress& progress)
@@ -258,6 +262,7 @@ std::shared_ptr<const FiniteElementSpace> SurfaceSolverState::InMetric(
 
 void SurfaceSolverState::RunTogether(const DistributedSurface::Body& body)
 {
+  isTogether_ = true;
   stages.DecideTogether([this](bool holds) { return together.Any(holds); });
   try
   {
@@ -266,9 +271,11 @@ void SurfaceSolverState::RunTogether(const DistributedSurface::Body& body)
   catch (...)
   {
     stages.DecideTogether(nullptr);
+    isTogether_ = false;
     throw;
   }
   stages.DecideTogether(nullptr);
+  isTogether_ = false;
 }
 
 namespace
@@ -291,7 +298,8 @@ enum BasisNumber
 } // namespace
 
 /// Asks for the functions of a basis that any rank has.
-std::vector<double> SurfaceSolverState::TakeBasisTogether(vtkPolyData* basisData)
+std::vector<double> SurfaceSolverState::TakeBasisTogether(
+  vtkPolyData* basisData, SurfaceOptions& asked) const
 {
   std::vector<double> told;
   together.Together(
@@ -314,8 +322,8 @@ std::vector<double> SurfaceSolverState::TakeBasisTogether(vtkPolyData* basisData
   {
     throw InvalidInput(NoBasisText);
   }
-  options.space.depth = static_cast<int>(told[Depth]);
-  options.space.connectivityAware = told[Aware] != 0.0;
+  asked.space.depth = static_cast<int>(told[Depth]);
+  asked.space.connectivityAware = told[Aware] != 0.0;
   return told;
 }
 
@@ -339,10 +347,11 @@ void SurfaceSolverState::RequireBasisTogether(const std::vector<double>& told) c
 
 void SurfaceSolverState::UpdateTogether(vtkPolyData* piece, vtkPolyData* basisData)
 {
+  SurfaceOptions asked = options;
   if (together.Any(piece && CarriesBasis(piece)))
   {
-    this->TakeBasisTogether(piece);
-    this->BuildTogether(piece, true);
+    this->TakeBasisTogether(piece, asked);
+    this->BuildShared(piece, true, asked, [] {});
     return;
   }
   if (!together.Any(basisData != nullptr && basisData->GetNumberOfPoints() > 0))
@@ -350,13 +359,19 @@ void SurfaceSolverState::UpdateTogether(vtkPolyData* piece, vtkPolyData* basisDa
     this->BuildTogether(piece, false);
     return;
   }
-  const std::vector<double> told = this->TakeBasisTogether(basisData);
-  this->BuildTogether(piece, false);
+  const std::vector<double> told = this->TakeBasisTogether(basisData, asked);
+  this->BuildShared(piece, false, asked, [] {});
   this->RequireBasisTogether(told);
 }
 
 void SurfaceSolverState::BuildTogether(
   vtkPolyData* piece, bool isClipped, const std::function<void()>& release)
+{
+  this->BuildShared(piece, isClipped, options, release);
+}
+
+void SurfaceSolverState::BuildShared(vtkPolyData* piece, bool isClipped,
+  const SurfaceOptions& asked, const std::function<void()>& release)
 {
   StageKey key;
   together.Together(
@@ -364,13 +379,13 @@ void SurfaceSolverState::BuildTogether(
     {
       RequireNumber("Tolerance", options.solve.tolerance);
       RequireNumber("Accuracy", options.accuracy);
-      TriangleRule(options.choice.quadratureDegree); // refuses a wrong degree
-      key.Add(std::string("together")).Add(isClipped ? 0 : options.space.depth);
-      key.Add(static_cast<int>(options.choice.kind)).Add(options.space.joinAtPoints);
-      key.Add(options.functionsPerPoint);
-      key.Add(options.space.connectivityAware).Add(options.space.weldCoincidentPoints);
-      key.Add(options.choice.quadratureDegree).Add(options.choice.coarsestSize);
-      key.Add(options.choice.normalStabilization).Add(isClipped);
+      TriangleRule(asked.choice.quadratureDegree); // refuses a wrong degree
+      key.Add(std::string("together")).Add(isClipped ? 0 : asked.space.depth);
+      key.Add(static_cast<int>(asked.choice.kind)).Add(asked.space.joinAtPoints);
+      key.Add(asked.functionsPerPoint);
+      key.Add(asked.space.connectivityAware).Add(asked.space.weldCoincidentPoints);
+      key.Add(asked.choice.quadratureDegree).Add(asked.choice.coarsestSize);
+      key.Add(asked.choice.normalStabilization).Add(isClipped);
       if (piece)
       {
         AddMesh(key, piece);
@@ -380,24 +395,44 @@ void SurfaceSolverState::BuildTogether(
         AddClipArrays(key, piece);
       }
     });
-  options.space.threads = together.ThreadsOfRank(options.space.threads);
-  options.multigrid.threads = options.space.threads;
+  used_ = asked;
+  used_.space.threads = together.ThreadsOfRank(asked.space.threads);
+  options.multigrid.threads = used_.space.threads;
   stages.Run(SpaceStage, key,
     [&]
     {
       basis = {};
       space = {};
       release();
-      together.BuildSpace(piece, options, isClipped, mesh);
+      together.BuildSpace(piece, used_, isClipped, mesh);
     });
   key = {};
   key.Add(stages.Version(SpaceStage));
   stages.Run(SystemStage, key, [] {}); // ranks make it with the space
 }
 
-std::shared_ptr<const SurfaceSpace> SurfaceSolverState::SolverSpace() const
+std::shared_ptr<const SurfaceSpace> SurfaceSolverState::SharedSpace() const
 {
   return together.IsUsed() ? together.Space() : space;
+}
+
+std::shared_ptr<const FiniteElementSpace> SurfaceSolverState::WholeSpace() const
+{
+  if (together.IsUsed())
+  {
+    throw std::logic_error("no process holds the whole surface");
+  }
+  return space;
+}
+
+double SurfaceSolverState::Largest(double own) const
+{
+  return together.IsUsed() ? together.Largest(own) : own;
+}
+
+bool SurfaceSolverState::AreCoincidentPointsWelded() const
+{
+  return together.IsUsed() ? used_.space.weldCoincidentPoints : basis.weldCoincidentPoints;
 }
 
 void SurfaceSolverState::Together(const std::function<void()>& body) const
@@ -441,16 +476,8 @@ BoundaryTerms SurfaceSolverState::OnBoundary(
   const MultiVector* flux, const MultiVector* values) const
 {
   return together.IsUsed()
-           ? together.OnBoundary(options.space.weldCoincidentPoints, flux, values)
+           ? together.OnBoundary(used_.space.weldCoincidentPoints, flux, values)
            : TermsOnBoundary(*space, *mesh.triangles, basis.weldCoincidentPoints, flux, values);
-}
-
-MultiVector SurfaceSolverState::ValuesAtPoints(
-  const MultiVector& coefficients, const Progress& progress) const
-{
-  MultiVector values = this->SolverSpace()->ValuesAtPoints(coefficients, this->MakeJob(progress));
-  this->FillCopies(values);
-  return values;
 }
 
 void SurfaceSolverState::FillCopies(MultiVector& atPoints) const
@@ -469,10 +496,10 @@ std::vector<char> SurfaceSolverState::PointsWithFunctions() const
 MultiVector SurfaceSolverState::MeansOnCells(const MultiVector& onTriangles, Id cells) const
 {
   return together.IsUsed() ? together.MeansOnCells(mesh, onTriangles, cells)
-                           : gridfem::MeansOnCells(this->CurrentMesh(), onTriangles, cells);
+                           : gridfem::MeansOnCells(this->CurrentInput(), onTriangles, cells);
 }
 
-const InputMesh& SurfaceSolverState::CurrentMesh() const
+const InputMesh& SurfaceSolverState::CurrentInput() const
 {
   return tracked_.Metric() ? tracked_.Moved() : mesh;
 }
@@ -499,7 +526,7 @@ void SurfaceSolverState::WriteTracking(vtkPolyData* output) const
   if (tracked_.Metric())
   {
     const std::vector<double> ratio =
-      DistortionOf(*mesh.triangles, tracked_.Moved().triangles->points, options.space.threads)
+      DistortionOf(*mesh.triangles, tracked_.Moved().triangles->points, this->Threads())
         .stretchRatio;
     largest = *std::max_element(ratio.begin(), ratio.end());
   }
@@ -530,39 +557,53 @@ std::shared_ptr<const FiniteElementSpace> SurfaceSolverState::OtherSpace(
     MakeSpace(basis, other, this->MakeJob(progress.Part(0.0, 0.6))), progress.Part(0.6, 1.0));
 }
 
-double SurfaceSolverState::WeightInGridUnits(double weight) const
+double SurfaceSolverState::Area() const
 {
-  const double spacing =
-    together.IsUsed() ? together.Space()->UnitLength() : basis.space->GetGrid().spacing;
-  double length2 = 1.0; // the squared unit of length, world units
-  if (together.IsUsed() && options.parameterUnits != vtkSurfaceFEMAlgorithm::World)
+  if (together.IsUsed())
   {
-    length2 = options.parameterUnits == vtkSurfaceFEMAlgorithm::UnitArea
-                ? together.Area()
-                : together.Side() * together.Side();
+    return together.Area();
   }
-  else if (options.parameterUnits == vtkSurfaceFEMAlgorithm::UnitArea)
-  {
-    length2 = metric_ ? metric_->AreaOf(*mesh.triangles) : SurfaceArea(*mesh.triangles);
-  }
-  else if (options.parameterUnits == vtkSurfaceFEMAlgorithm::UnitCube)
-  {
-    const Grid& grid = basis.space->GetGrid();
-    double side = grid.spacing * grid.CellsPerSide();
-    if (tracked_.Metric())
-    {
-      const TriangleMesh& moved = *this->CurrentMesh().triangles;
-      const Bounds bounds = BoundsOf(moved.points, UsedPoints(moved), options.space.threads);
-      side = (bounds.high - bounds.low).maxCoeff();
-    }
-    length2 = side * side;
-  }
-  return weight / length2 * spacing * spacing;
+  return metric_ ? metric_->AreaOf(*mesh.triangles) : SurfaceArea(*mesh.triangles);
 }
 
-double SurfaceSolverState::LengthInWorldUnits(double length) const
+double SurfaceSolverState::LongestSide() const
 {
-  return length * basis.space->GetGrid().spacing / std::sqrt(this->WeightInGridUnits(1.0));
+  if (together.IsUsed())
+  {
+    return together.Side();
+  }
+  if (tracked_.Metric())
+  {
+    const TriangleMesh& moved = this->CurrentMesh();
+    const Bounds bounds = BoundsOf(moved.points, UsedPoints(moved), this->Threads());
+    return (bounds.high - bounds.low).maxCoeff();
+  }
+  const Grid& grid = basis.space->GetGrid();
+  return grid.spacing * grid.CellsPerSide();
+}
+
+void SurfaceSolverState::SetInput(vtkPolyData* input, vtkPolyData* basisData)
+{
+  input_ = input;
+  basisData_ = basisData;
+}
+
+void SurfaceSolverState::Prepare(const Progress& progress)
+{
+  if (isTogether_)
+  {
+    this->UpdateTogether(input_, basisData_);
+    return;
+  }
+  this->UpdateSpace(input_, basisData_, progress.Part(0.0, 0.6));
+  progress.Check(0.6);
+  this->UpdateSystem(progress.Part(0.6, 1.0));
+}
+
+void SurfaceSolverState::PrepareAtDepth(int depth, const Progress& progress)
+{
+  options.space.depth = depth;
+  this->Prepare(progress);
 }
 
 } // namespace gridfem

@@ -8,12 +8,11 @@
 #include "InputMesh.h"
 #include "Krylov/ConjugateGradients.h"
 #include "MeshVersion.h"
-#include "Problems/EdgeConditions.h"
 #include "Problems/Poisson.h"
-#include "Problems/Requirements.h"
 #include "ProgressBridge.h"
-#include "StageCache.h"
-#include "SurfaceBasis.h"
+#include "Solvers/GivenField.h"
+#include "Solvers/Surface.h"
+#include "Solvers/SurfaceBasis.h"
 #include "TrackedMesh.h"
 
 class vtkPolyData;
@@ -22,21 +21,10 @@ namespace gridfem
 {
 
 /// The shared properties in Core's terms.
-struct SurfaceOptions : EquationOptions
+struct FilterOptions : EquationOptions, SurfaceOptions
 {
-  SpaceOptions space;
-  SpaceChoice choice;                              // on the basis
-  double functionsPerPoint = EnoughToPrecondition; // of the grid below hat functions, at most
-  int parameterUnits = 1;                          // vtkSurfaceFEMAlgorithm::ParameterUnitsType
   bool trackMetric = false; // of a mesh that has only moved since its functions were made
 };
-
-/// The stages that filters have in common.
-inline constexpr const char* SpaceStage = "Space";   // mesh, clipping, patches, levels
-inline constexpr const char* SystemStage = "System"; // element matrices, patterns, prolongations
-inline constexpr const char* HierarchyStage = "Hierarchy";         // level matrices, smoothers
-inline constexpr const char* RightHandSideStage = "RightHandSide"; // integrals of given arrays
-inline constexpr const char* SolveStage = "Solve";
 
 /// Adds all that the triangles of the mesh depend on; never the vtkPolyData itself, which is a new
 /// one after every hop through ParaView.
@@ -46,7 +34,7 @@ void AddMesh(StageKey& key, vtkPolyData* data);
 void AddMultigrid(StageKey& key, const MultigridOptions& options);
 
 /// Adds what a solution depends on besides its equation.
-void AddSolver(StageKey& key, const SurfaceOptions& options);
+void AddSolver(StageKey& key, const FilterOptions& options);
 
 /// Adds the arrays of the clip.
 void AddClipArrays(StageKey& key, vtkPolyData* data);
@@ -54,10 +42,36 @@ void AddClipArrays(StageKey& key, vtkPolyData* data);
 /// Adds the arrays of the clip and of the basis.
 void AddBasisArrays(StageKey& key, vtkPolyData* data);
 
-class SurfaceSolverState
+class SurfaceSolverState : public Surface
 {
 public:
-  explicit SurfaceSolverState(vtkAlgorithm* algorithm) : bridge(algorithm) {}
+  explicit SurfaceSolverState(vtkAlgorithm* algorithm) : Surface(stages), bridge(algorithm) {}
+
+  /// What Prepare works on, until another call. With null the next run has to say it again.
+  void SetInput(vtkPolyData* input, vtkPolyData* basisData);
+
+  ///@{ Surface.
+  void Prepare(const Progress& progress) override;
+  void PrepareAtDepth(int depth, const Progress& progress) override;
+  std::int64_t StructureVersion() const override { return structure_; }
+  const SurfaceOptions& UsedOptions() const override { return used_; }
+  const TriangleMesh& Mesh() const override { return *mesh.triangles; }
+  const TriangleMesh& CurrentMesh() const override { return *this->CurrentInput().triangles; }
+  std::shared_ptr<const SurfaceSpace> SharedSpace() const override;
+  std::shared_ptr<const FiniteElementSpace> WholeSpace() const override;
+  Field OnReference(Field gradients) const override;
+  MultiVector OnCurrent(MultiVector gradients) const override;
+  bool AreCoincidentPointsWelded() const override;
+  double Area() const override;
+  double LongestSide() const override;
+  bool IsShared() const override { return together.IsUsed(); }
+  void Together(const std::function<void()>& body) const override;
+  double Largest(double own) const override;
+  HeldValues Hold(const std::vector<Id>& points, const MultiVector& values) const override;
+  BoundaryTerms OnBoundary(const MultiVector* flux, const MultiVector* values) const override;
+  std::vector<char> PointsWithFunctions() const override;
+  void FillCopies(MultiVector& atPoints) const override;
+  ///@}
 
   /// Brings the mesh and the function space up to date: from `input` where it carries a basis, else
   /// from `basisData` where it is not null, else built. With trackMetric they stay where only
@@ -65,7 +79,7 @@ public:
   /// InvalidInput and Aborted.
   void UpdateSpace(vtkPolyData* input, vtkPolyData* basisData, const Progress& progress);
 
-  /// Replaces the depth that is asked for by the one for `mesh`.
+  /// Decides on the depth for `mesh`.
   void ChooseDepth();
 
   /// Builds the function space of a mesh and clips it before. Validates the mesh.
@@ -93,38 +107,17 @@ public:
     vtkPolyData* piece, bool isClipped, const std::function<void()>& release = [] {});
   ///@}
 
-  ///@{ What solvers ask of the space, be it that of one process or of ranks together: then
-  /// collective, but for SolverSpace.
-  std::shared_ptr<const SurfaceSpace> SolverSpace() const;
-  /// Runs what can throw on one rank alone.
-  void Together(const std::function<void()>& body) const;
   Field Read(const InputArray& array, NaNs nans = NaNs::Refused) const;
-  HeldValues Hold(const std::vector<Id>& points, const MultiVector& values) const;
   /// The known values of an array where a mask or a selection is given, else none (KnownValues).
+  /// Collective.
   /// @param components  of the values
   HeldValues HoldKnown(const InputArray& array, const InputArray& mask,
     const SelectedPoints& selection, Id components) const;
-  BoundaryTerms OnBoundary(const MultiVector* flux, const MultiVector* values) const;
-  MultiVector ValuesAtPoints(const MultiVector& coefficients, const Progress& progress = {}) const;
-  std::vector<char> PointsWithFunctions() const;
-  /// Of rows at points that the space has given.
-  void FillCopies(MultiVector& atPoints) const;
-  /// Of values on the triangles of `mesh`.
+  /// Means on the cells of this process of values on the triangles of `mesh`. Collective.
   MultiVector MeansOnCells(const MultiVector& onTriangles, Id cells) const;
-  ///@}
-
-  /// Changes when more of the space does than its numbers: a hierarchy of another one cannot be
-  /// updated.
-  std::int64_t StructureVersion() const { return structure_; }
 
   /// The mesh of the input: `mesh`, or where that has moved to.
-  const InputMesh& CurrentMesh() const;
-
-  /// A gradient that is given on the current mesh, for integrals over `mesh`.
-  Field OnReference(Field gradients) const;
-
-  /// Gradients on the triangles of `mesh`, on those of the current one.
-  MultiVector OnCurrent(MultiVector gradients) const;
+  const InputMesh& CurrentInput() const;
 
   /// Adds what trackMetric has done to the field arrays of an output.
   void WriteTracking(vtkPolyData* output) const;
@@ -135,20 +128,12 @@ public:
   /// Frees all that the stages have made.
   void Free();
 
-  Job MakeJob(const Progress& progress) const { return { options.space.threads, progress }; }
-
   /// The functions of the grid.
   const GridFunctions& Functions() const { return *basis.space; }
 
-  /// A weight per squared length of the parameter units, per squared grid unit.
-  double WeightInGridUnits(double weight) const;
-
-  /// A length in the parameter units, in the world's.
-  double LengthInWorldUnits(double length) const;
-
-  SurfaceOptions options;
+  FilterOptions options; // what is asked for
   InputArray metricArray; // of the input; none: the metric of the mesh
-  StageCache stages;
+  Stages stages;
   InputMesh mesh;
   MeshVersion meshVersion; // of `mesh`
   SurfaceBasis basis;
@@ -157,7 +142,9 @@ public:
   ProgressBridge bridge;
 
 private:
-  std::vector<double> TakeBasisTogether(vtkPolyData* basisData);
+  std::vector<double> TakeBasisTogether(vtkPolyData* basisData, SurfaceOptions& asked) const;
+  void BuildShared(vtkPolyData* piece, bool isClipped, const SurfaceOptions& asked,
+    const std::function<void()>& release);
   void RequireBasisTogether(const std::vector<double>& told) const;
   int DepthFor(int wanted) const;
   void TakeEnough(const Progress& progress);
@@ -169,6 +156,10 @@ private:
   StageKey SpaceKey(
     vtkPolyData* input, vtkPolyData* basisData, std::int64_t meshNumber, int depth) const;
 
+  vtkPolyData* input_ = nullptr; // of this run
+  vtkPolyData* basisData_ = nullptr;
+  SurfaceOptions used_;
+  bool isTogether_ = false; // within RunTogether
   int wanted_ = AutomaticDepth; // of the grid, before it gives way
   TrackedMesh tracked_;
   StageKey structureKey_;

@@ -34,7 +34,7 @@ void AnnounceCost(SurfaceSolverState& state, Id functions, Id modes)
 {
   constexpr double Minute = 60.0;
   constexpr double Hour = 3600.0;
-  const double seconds = EstimateSpectrumSeconds(functions, modes, state.options.space.threads);
+  const double seconds = EstimateSpectrumSeconds(functions, modes, state.Threads());
   if (seconds < Minute)
   {
     return;
@@ -52,7 +52,7 @@ void AnnounceCost(SurfaceSolverState& state, Id functions, Id modes)
 
 } // namespace
 
-SpectrumOptions SolverOptions(const SurfaceOptions& options, int numberOfModes)
+SpectrumOptions SolverOptions(const FilterOptions& options, int numberOfModes)
 {
   SpectrumOptions ofSolver;
   ofSolver.numberOfModes = numberOfModes;
@@ -88,7 +88,7 @@ StageKey SurfaceSpectrum::KeyOf(
   key.Add(state.stages.Version(SystemStage)).Add(request.numberOfModes);
   key.Add(request.completeMultiplets).Add(state.options.solve.tolerance);
   // What is improved after the nested levels waits for the depth that the accuracy asks for.
-  key.Add(state.SolverSpace()->NestedLevels() ? request.accuracy : 0.0);
+  key.Add(state.SharedSpace()->NestedLevels() ? request.accuracy : 0.0);
   key.Add(state.options.solve.maximumIterations);
   AddMultigrid(key, state.options.multigrid);
   return key;
@@ -100,7 +100,7 @@ void SurfaceSpectrum::UpdateTogether(
   state.stages.Run(SolveStage, this->KeyOf(state, request),
     [&]
     {
-      const SurfaceSpace& space = *state.SolverSpace();
+      const SurfaceSpace& space = *state.SharedSpace();
       SpectrumOptions options = SolverOptions(state.options, request.numberOfModes);
       options.completeMultiplets = request.completeMultiplets;
       spectrum = {}; // frees its memory first
@@ -189,7 +189,7 @@ void SurfaceSpectrum::ChooseDepth(
   if (!(asked == asked_))
   {
     asked_ = asked;
-    const InputMesh mesh = ReadInputMesh(input, state.options.space.threads);
+    const InputMesh mesh = ReadInputMesh(input, state.Threads());
     RequireSurface(*mesh.triangles);
     depth = FirstDepthForModes(
       *mesh.triangles, request.numberOfModes, request.accuracy, state.options.choice.kind);
@@ -240,7 +240,7 @@ MultiVector EvaluateModes(const SurfaceSolverState& state, const Spectrum& spect
 {
   // The integral over the space's units is UnitLength² times smaller than the one over world units.
   const MultiVector coefficients =
-    spectrum.vectors.middleCols(first, count) / state.SolverSpace()->UnitLength();
+    spectrum.vectors.middleCols(first, count) / state.SharedSpace()->UnitLength();
   return state.ValuesAtPoints(coefficients, progress);
 }
 

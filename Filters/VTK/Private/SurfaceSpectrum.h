@@ -3,7 +3,7 @@
 #ifndef GridFEM_SurfaceSpectrum_h
 #define GridFEM_SurfaceSpectrum_h
 
-#include "StageCache.h"
+#include "Solvers/Stages.h"
 #include "SurfaceSolverState.h"
 
 #include "Problems/Spectrum.h"
@@ -75,7 +75,7 @@ private:
 };
 
 /// What a filter's options ask of the solver.
-SpectrumOptions SolverOptions(const SurfaceOptions& options, int numberOfModes);
+SpectrumOptions SolverOptions(const FilterOptions& options, int numberOfModes);
 
 /// Eigenvalues of a space in world units.
 std::vector<double> InWorldUnits(std::vector<double> eigenvalues, double unitLength);

@@ -4,7 +4,7 @@
 #ifndef vtkSurfaceBasisHolder_h
 #define vtkSurfaceBasisHolder_h
 
-#include "SurfaceBasis.h"
+#include "Solvers/SurfaceBasis.h"
 
 #include "vtkObject.h"
 

@@ -1,4 +1,4 @@
-#include "Surface.h"
+#include "EngineSurface.h"
 
 #include "Base/Errors.h"
 #include "Base/VectorRows.h"
@@ -140,7 +140,7 @@ MultiVector Given::MeansOnCells(const MultiVector& onTriangles) const
   return mean;
 }
 
-SurfaceOptions::SurfaceOptions(Properties& properties, const SharedDefaults& defaults)
+EngineOptions::EngineOptions(Properties& properties, const SharedDefaults& defaults)
 {
   constexpr int Largest = std::numeric_limits<int>::max();
   functions.depth = properties.Integer("Depth", 7, 0, MaximumDepth);
@@ -173,9 +173,9 @@ SurfaceOptions::SurfaceOptions(Properties& properties, const SharedDefaults& def
   parameterUnits = properties.Integer("ParameterUnits", 1, 0, 2);
 }
 
-SurfaceOptions SurfaceOptions::AtDepth(int depth) const
+EngineOptions EngineOptions::AtDepth(int depth) const
 {
-  SurfaceOptions options = *this;
+  EngineOptions options = *this;
   options.functions.depth = depth;
   options.functionsPerPoint = AsManyAsWanted;
   return options;
@@ -184,7 +184,7 @@ SurfaceOptions SurfaceOptions::AtDepth(int depth) const
 namespace
 {
 
-SurfaceOptions WithDepth(const SurfaceOptions& options, const TriangleMesh& mesh)
+EngineOptions WithDepth(const EngineOptions& options, const TriangleMesh& mesh)
 {
   RequireSurface(mesh);
   return options.AtDepth(
@@ -193,14 +193,14 @@ SurfaceOptions WithDepth(const SurfaceOptions& options, const TriangleMesh& mesh
 
 } // namespace
 
-Surface::Surface(const Given& given, const SurfaceOptions& own, const Progress& progress)
+EngineSurface::EngineSurface(const Given& given, const EngineOptions& own, const Progress& progress)
   : options(WithDepth(own, *given.mesh)), mesh(given.mesh)
 {
   RequireMemory(*mesh, options.functions.depth, options.choice.kind);
   space = BuildSpace(*mesh, options.functions, options.choice, progress);
 }
 
-double Surface::WeightInSpaceUnits(double weight) const
+double EngineSurface::WeightInSpaceUnits(double weight) const
 {
   const double unit = space->UnitLength();
   double length2 = 1.0; // the squared unit of length, world units
@@ -216,12 +216,12 @@ double Surface::WeightInSpaceUnits(double weight) const
   return weight / length2 * unit * unit;
 }
 
-double Surface::LengthInWorldUnits(double length) const
+double EngineSurface::LengthInWorldUnits(double length) const
 {
   return length * space->UnitLength() / std::sqrt(this->WeightInSpaceUnits(1.0));
 }
 
-void Surface::KeepUnsolved(const MultiVector& given, MultiVector& values) const
+void EngineSurface::KeepUnsolved(const MultiVector& given, MultiVector& values) const
 {
   const std::vector<char> isSolved = space->PointsWithFunctions();
   for (Id point = 0; point < values.rows(); ++point)
@@ -233,7 +233,7 @@ void Surface::KeepUnsolved(const MultiVector& given, MultiVector& values) const
   }
 }
 
-MultiVector Surface::AtPoints(const MultiVector& coefficients, const MultiVector& given) const
+MultiVector EngineSurface::AtPoints(const MultiVector& coefficients, const MultiVector& given) const
 {
   MultiVector values = space->ValuesAtPoints(coefficients, options.functions.threads);
   this->KeepUnsolved(given, values);

@@ -1,6 +1,8 @@
-// Which stage of a filter has to run again: every stage remembers what it was made from.
-#ifndef GridFEM_StageCache_h
-#define GridFEM_StageCache_h
+// The steps of a solver. Each remembers what it was made from and runs again only when this changes.
+#ifndef GridFEM_Stages_h
+#define GridFEM_Stages_h
+
+#include "Solvers/StageKey.h"
 
 #include <chrono>
 #include <cstdint>
@@ -8,36 +10,13 @@
 #include <map>
 #include <string>
 #include <utility>
-#include <vector>
-
-class vtkObject;
 
 namespace gridfem
 {
 
-/// Everything a stage depends on, as a list of numbers.
-class StageKey
-{
-public:
-  StageKey& Add(std::int64_t value);
-  StageKey& Add(int value) { return this->Add(static_cast<std::int64_t>(value)); }
-  StageKey& Add(bool value) { return this->Add(static_cast<std::int64_t>(value)); }
-  StageKey& Add(double value);
-  StageKey& Add(const std::string& value);
-  /// All that another one has.
-  StageKey& Add(const StageKey& other);
-  /// Address and modification time; the time alone is unique in a process. May be null.
-  StageKey& Add(vtkObject* object);
-
-  bool operator==(const StageKey& other) const { return parts_ == other.parts_; }
-
-private:
-  std::vector<std::uint64_t> parts_;
-};
-
-/// Runs stages when their keys change; counts the runs and takes their time. A stage is known by
-/// its name, which the filter declares by using it.
-class StageCache
+/// Runs stages when their keys change, counts the runs and takes their time. The name of a stage is
+/// its identity.
+class Stages
 {
 public:
   /// Runs `body` unless the stage's last result has this key. A body that throws leaves no result.
@@ -58,9 +37,8 @@ public:
     this->Adopt(stage, key);
   }
 
-  /// From now on Run is called by several processes together, and a stage runs in all where it has
-  /// to in one.
-  /// @param anywhere  whether something holds in one of them; null: this process is alone
+  /// Makes Run collective: a stage runs in all processes when it has to run in one.
+  /// @param anywhere  tells whether something holds in one of them; null: this process is alone
   void DecideTogether(std::function<bool(bool)> anywhere) { anywhere_ = std::move(anywhere); }
 
   bool IsCurrent(const std::string& stage, const StageKey& key) const
@@ -69,7 +47,7 @@ public:
     return entry.valid && entry.key == key;
   }
 
-  /// Notes a result that was made elsewhere: it counts as no run.
+  /// Notes a result that was made elsewhere. This is no run.
   void Adopt(const std::string& stage, const StageKey& key)
   {
     Entry& entry = entries_[stage];

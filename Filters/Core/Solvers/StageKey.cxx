@@ -1,6 +1,4 @@
-#include "StageCache.h"
-
-#include "vtkObject.h"
+#include "Solvers/StageKey.h"
 
 #include <cstring>
 
@@ -35,13 +33,6 @@ StageKey& StageKey::Add(const StageKey& other)
 {
   parts_.push_back(other.parts_.size());
   parts_.insert(parts_.end(), other.parts_.begin(), other.parts_.end());
-  return *this;
-}
-
-StageKey& StageKey::Add(vtkObject* object)
-{
-  parts_.push_back(reinterpret_cast<std::uintptr_t>(object));
-  parts_.push_back(object ? object->GetMTime() : 0);
   return *this;
 }
 

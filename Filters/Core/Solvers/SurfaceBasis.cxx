@@ -1,7 +1,7 @@
-#include "SurfaceBasis.h"
+#include "Solvers/SurfaceBasis.h"
 
-#include "InputValidation.h"
 #include "Integrals/QuadratureRule.h"
+#include "Problems/Requirements.h"
 
 namespace gridfem
 {

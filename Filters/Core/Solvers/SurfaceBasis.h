@@ -3,8 +3,8 @@
 #ifndef GridFEM_SurfaceBasis_h
 #define GridFEM_SurfaceBasis_h
 
-#include "InputMesh.h"
-#include "SharedStore.h"
+#include "Grid/TriangleMesh.h"
+#include "Solvers/SharedStore.h"
 #include "Spaces/HatSpace.h"
 #include "Spaces/SpaceChoice.h"
 

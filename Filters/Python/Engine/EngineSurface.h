@@ -1,6 +1,6 @@
 // What problems are given, and the surface that they are solved on.
-#ifndef GridFEM_Surface_h
-#define GridFEM_Surface_h
+#ifndef GridFEM_EngineSurface_h
+#define GridFEM_EngineSurface_h
 
 #include "Properties.h"
 
@@ -71,12 +71,12 @@ struct SharedDefaults
 };
 
 /// The properties that all problems have.
-struct SurfaceOptions : EquationOptions
+struct EngineOptions : EquationOptions
 {
-  SurfaceOptions(Properties& properties, const SharedDefaults& defaults);
+  EngineOptions(Properties& properties, const SharedDefaults& defaults);
 
   /// At this depth and no coarser one.
-  SurfaceOptions AtDepth(int depth) const;
+  EngineOptions AtDepth(int depth) const;
 
   SpaceOptions functions;
   double functionsPerPoint = EnoughToPrecondition; // of the grid below hat functions, at most
@@ -85,11 +85,11 @@ struct SurfaceOptions : EquationOptions
 };
 
 /// A mesh with its function space.
-class Surface
+class EngineSurface
 {
 public:
   /// Throws InvalidInput for a surface that cannot be computed on, and Aborted.
-  Surface(const Given& given, const SurfaceOptions& options, const Progress& progress);
+  EngineSurface(const Given& given, const EngineOptions& options, const Progress& progress);
 
   const TriangleMesh& Mesh() const { return *mesh; }
   const FiniteElementSpace& Space() const { return *space; }
@@ -107,7 +107,7 @@ public:
   /// The function at the points. Points that no function reaches keep what they were given.
   MultiVector AtPoints(const MultiVector& coefficients, const MultiVector& given) const;
 
-  const SurfaceOptions options; // with the depth in use
+  const EngineOptions options; // with the depth in use
   std::shared_ptr<const TriangleMesh> mesh;
   std::shared_ptr<const FiniteElementSpace> space;
 };

@@ -1,0 +1,146 @@
+// The fields of an options struct with their names, defaults and ranges: from them come stage keys,
+// range checks and the properties that Python knows.
+#ifndef GridFEM_OptionFields_h
+#define GridFEM_OptionFields_h
+
+#include "Problems/Poisson.h"
+#include "Problems/Requirements.h"
+#include "Solvers/StageKey.h"
+
+#include <limits>
+#include <type_traits>
+
+namespace gridfem
+{
+
+/// The values that an option may have.
+struct Range
+{
+  double least = -std::numeric_limits<double>::infinity();
+  double most = std::numeric_limits<double>::infinity();
+  bool isClamped = true; // a value outside becomes the nearest inside; else it is refused
+};
+
+constexpr Range Clamped(double least, double most)
+{
+  return { least, most, true };
+}
+
+constexpr Range AtLeast(double least)
+{
+  return { least, std::numeric_limits<double>::infinity(), false };
+}
+
+/// Any finite number.
+constexpr Range Finite()
+{
+  return { std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max(), false };
+}
+
+/// What a switch or a list of ids has.
+constexpr Range AnyValue()
+{
+  return {};
+}
+
+/// An options struct names all its fields in a static function template
+///
+///   template<class Self, class Visit>
+///   static void ForEach(Self& self, Visit&& visit)
+///   {
+///     visit("ScreeningWeight", self.screeningWeight, AtLeast(0.0));
+///     visit(self.equation);
+///   }
+///
+/// The names are those of the properties in VTK and ParaView. TestOptionFields refuses a struct
+/// with a field that ForEach leaves out.
+namespace option_fields
+{
+
+struct AddToKey
+{
+  StageKey& key;
+
+  template<class Value>
+  void operator()(const char* /*name*/, const Value& value, const Range& /*range*/) const
+  {
+    key.Add(value);
+  }
+
+  void operator()(const EquationOptions& equation) const
+  {
+    const MultigridOptions& multigrid = equation.multigrid; // threads change no bit
+    key.Add(multigrid.cycle).Add(multigrid.smoother).Add(multigrid.preSweeps);
+    key.Add(multigrid.postSweeps).Add(multigrid.sweepsPerSynchronisation);
+    key.Add(equation.solve.tolerance).Add(equation.solve.maximumIterations);
+    key.Add(equation.accuracy);
+  }
+};
+
+struct RequireInRange
+{
+  template<class Value>
+  void operator()(const char* name, const Value& value, const Range& range) const
+  {
+    if constexpr (std::is_same_v<Value, double>)
+    {
+      RequireNumber(name, value);
+      if (!range.isClamped)
+      {
+        RequireAtLeast(name, value, range.least);
+      }
+    }
+  }
+
+  void operator()(const EquationOptions& equation) const
+  {
+    RequireNumber("Tolerance", equation.solve.tolerance);
+    RequireNumber("Accuracy", equation.accuracy);
+  }
+};
+
+struct Count
+{
+  int& fields;
+
+  template<class Value>
+  void operator()(const char* /*name*/, const Value& /*value*/, const Range& /*range*/) const
+  {
+    ++fields;
+  }
+
+  void operator()(const EquationOptions& /*equation*/) const { ++fields; }
+};
+
+} // namespace option_fields
+
+/// The key of all fields.
+template<class Options>
+StageKey KeyOfOptions(const Options& options)
+{
+  StageKey key;
+  Options::ForEach(options, option_fields::AddToKey{ key });
+  return key;
+}
+
+/// Throws InvalidInput, naming the option, for a value that is NaN or out of a range that is not
+/// clamped.
+template<class Options>
+void RequireOptions(const Options& options)
+{
+  Options::ForEach(options, option_fields::RequireInRange{});
+}
+
+/// How many fields ForEach names.
+template<class Options>
+int NumberOfNamedFields()
+{
+  int fields = 0;
+  const Options options;
+  Options::ForEach(options, option_fields::Count{ fields });
+  return fields;
+}
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,44 @@
+#include "Solvers/Surface.h"
+
+#include <cmath>
+
+namespace gridfem
+{
+
+double Surface::WeightInSpaceUnits(double weight) const
+{
+  double length2 = 1.0; // the squared unit of length, world units
+  switch (this->UsedOptions().parameterUnits)
+  {
+    case ParameterUnits::UnitArea:
+      length2 = this->Area();
+      break;
+    case ParameterUnits::UnitCube:
+      length2 = this->LongestSide() * this->LongestSide();
+      break;
+    case ParameterUnits::World:
+      break;
+  }
+  const double unit = this->Space().UnitLength();
+  return weight / length2 * unit * unit;
+}
+
+double Surface::LengthInWorldUnits(double length) const
+{
+  return length * this->Space().UnitLength() / std::sqrt(this->WeightInSpaceUnits(1.0));
+}
+
+MultiVector Surface::ValuesAtPoints(
+  const MultiVector& coefficients, const Progress& progress) const
+{
+  MultiVector values = this->Space().ValuesAtPoints(coefficients, this->MakeJob(progress));
+  this->FillCopies(values);
+  return values;
+}
+
+MultiVector Surface::GradientsOnTriangles(const MultiVector& coefficients) const
+{
+  return this->OnCurrent(this->Space().GradientsOnTriangles(coefficients, this->Threads()));
+}
+
+} // namespace gridfem

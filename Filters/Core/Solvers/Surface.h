@@ -1,0 +1,123 @@
+// What a solver asks of a surface, whether one process holds it or several share it.
+#ifndef GridFEM_Surface_h
+#define GridFEM_Surface_h
+
+#include "Problems/EdgeConditions.h"
+#include "Solvers/Stages.h"
+#include "Solvers/SurfaceOptions.h"
+
+#include <functional>
+#include <memory>
+
+namespace gridfem
+{
+
+/// The stages that all solvers have.
+inline constexpr const char* SpaceStage = "Space";   // mesh, clipping, patches, levels
+inline constexpr const char* SystemStage = "System"; // element matrices, patterns, prolongations
+inline constexpr const char* HierarchyStage = "Hierarchy";         // level matrices, smoothers
+inline constexpr const char* RightHandSideStage = "RightHandSide"; // integrals of given fields
+inline constexpr const char* SolveStage = "Solve";
+
+/// A mesh with the functions on it. Where several processes share the surface, all of them call the
+/// methods marked as collective, in the same order; what can throw on one of them alone runs within
+/// Together.
+class Surface
+{
+public:
+  virtual ~Surface() = default;
+
+  /// Brings mesh, functions and element matrices up to date (SpaceStage, SystemStage). Repeated
+  /// calls cost next to nothing. Collective. Throws InvalidInput and Aborted.
+  virtual void Prepare(const Progress& progress) = 0;
+
+  /// The same at a depth of the solver's choice.
+  virtual void PrepareAtDepth(int depth, const Progress& progress) = 0;
+
+  /// The stages of the surface and of the solver that works on it.
+  Stages& GetStages() const { return stages_; }
+
+  /// Changes when functions are added, removed or renumbered, so that a hierarchy cannot be updated.
+  virtual std::int64_t StructureVersion() const = 0;
+
+  /// With the depth, the threads and the support that are in use.
+  virtual const SurfaceOptions& UsedOptions() const = 0;
+
+  int Threads() const { return this->UsedOptions().space.threads; }
+  Job MakeJob(const Progress& progress) const { return { this->Threads(), progress }; }
+
+  /// The triangles of this process on which the functions were made.
+  virtual const TriangleMesh& Mesh() const = 0;
+
+  /// The same triangles where they have moved to since (TrackMetric); else Mesh().
+  virtual const TriangleMesh& CurrentMesh() const { return this->Mesh(); }
+
+  virtual std::shared_ptr<const SurfaceSpace> SharedSpace() const = 0;
+  const SurfaceSpace& Space() const { return *this->SharedSpace(); }
+
+  /// The space of a surface that one process holds. Solvers that ranks cannot run together use it;
+  /// the surface is gathered for them. Throws std::logic_error on a shared surface.
+  virtual std::shared_ptr<const FiniteElementSpace> WholeSpace() const = 0;
+
+  /// A gradient given on the current mesh, for integrals over Mesh().
+  virtual Field OnReference(Field gradients) const { return gradients; }
+
+  /// Gradients on the triangles of Mesh(), as gradients on the current mesh.
+  virtual MultiVector OnCurrent(MultiVector gradients) const { return gradients; }
+
+  /// Whether coincident points of the mesh count as one.
+  virtual bool AreCoincidentPointsWelded() const = 0;
+
+  ///@{ Squared world units, and world units.
+  virtual double Area() const = 0;
+  virtual double LongestSide() const = 0;
+  ///@}
+
+  /// A weight per squared length of the parameter units, per squared unit of length of the space.
+  double WeightInSpaceUnits(double weight) const;
+
+  /// A length in the parameter units, in the world's.
+  double LengthInWorldUnits(double length) const;
+
+  ///@{ Collective.
+
+  /// Whether several processes share the surface.
+  virtual bool IsShared() const { return false; }
+
+  /// Runs a body that can throw on one process alone; then it throws on all.
+  virtual void Together(const std::function<void()>& body) const { body(); }
+
+  /// The largest number of all processes; NaN where one is NaN.
+  virtual double Largest(double own) const { return own; }
+
+  bool Any(bool holds) const { return this->Largest(holds ? 1.0 : 0.0) > 0.0; }
+
+  /// Rows and values that hold a solution at points of this process.
+  virtual HeldValues Hold(const std::vector<Id>& points, const MultiVector& values) const = 0;
+
+  /// What the boundary of the whole surface adds to an equation (TermsOnBoundary).
+  virtual BoundaryTerms OnBoundary(const MultiVector* flux, const MultiVector* values) const = 0;
+
+  /// Per point of this process: 1 where a function reaches it.
+  virtual std::vector<char> PointsWithFunctions() const = 0;
+
+  /// Gives points that this process has only copies of the rows of their originals.
+  virtual void FillCopies(MultiVector& /*atPoints*/) const {}
+
+  /// A solution at the points of this process: a row for each.
+  MultiVector ValuesAtPoints(const MultiVector& coefficients, const Progress& progress = {}) const;
+
+  /// Surface gradients on the triangles of this process, on the current mesh, per world length.
+  MultiVector GradientsOnTriangles(const MultiVector& coefficients) const;
+  ///@}
+
+protected:
+  explicit Surface(Stages& stages) : stages_(stages) {}
+
+private:
+  Stages& stages_;
+};
+
+} // namespace gridfem
+
+#endif
