@@ -20,7 +20,7 @@ double Displacement(const TriangleMesh& mesh, const Grid& grid);
 /// points. Rounding then decides whether it lies in one layer of cells or in two.
 bool IsThin(const TriangleMesh& mesh, const Grid& grid);
 
-/// @{ For a built surface of ordinary size that is not thin.
+///@{ For a built surface of ordinary size that is not thin.
 /// @param allowed  change of the area that clipping may cause
 
 /// Requires that functions do not depend on the order of points, triangles and corners. Their

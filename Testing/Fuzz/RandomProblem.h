@@ -11,7 +11,7 @@ namespace gridfem::testing
 /// Runs the case of a seed. Exceptions of Core other than InvalidInput count as broken.
 Outcome RunCase(std::uint64_t seed);
 
-/// @{ Each adds violated requirements to the outcome, and may throw whatever Core throws.
+///@{ Each adds violated requirements to the outcome, and may throw whatever Core throws.
 using RandomProblem = void (*)(Choice& choice, RandomSurface& surface, Outcome& outcome);
 
 // Meshes, levels and matrices.

@@ -22,9 +22,9 @@ struct RitzPairs
 /// Returns the lowest pairs of stiffness c = θ mass c: `wanted` of them, or fewer if fewer exist.
 /// Both matrices are symmetric positive semi-definite and of equal size. Vectors that both matrices
 /// map to zero do not count.
-/// It solves for the largest pairs of mass c = μ (stiffness + shift mass) c with μ = 1 / (θ +
-/// shift). Rounding then harms the highest pairs, not the lowest, and directions without mass are
-/// harmless.
+/// It solves for the largest pairs of mass c = μ (stiffness + shift mass) c with μ =
+/// 1 / (θ + shift). Rounding then harms the highest pairs, not the lowest, and directions without
+/// mass are harmless.
 /// @param shift     > 0, about the size of the lowest values of θ
 /// @param smallest  smallest pivot of an independent direction; see PrecisionTraits::DependentPivot
 RitzPairs SolvePencil(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass, double shift,

@@ -42,8 +42,8 @@ struct Groups
 /// Fewer items than this are sorted faster than a sleeping thread wakes.
 constexpr Id ItemsPerRange = 16 * DefaultBlockSize;
 
-/// Groups items by a counting sort. Ranges of items are processed in parallel. Cost O(items +
-/// groups).
+/// Groups items by a counting sort. Ranges of items are processed in parallel. Cost
+/// O(items + groups).
 /// @param group  the group of each of the `items` items, in [0, numberOfGroups)
 inline Groups GroupItems(const Index* group, Id items, Id numberOfGroups, int threads = 1)
 {

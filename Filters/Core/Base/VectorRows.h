@@ -9,7 +9,7 @@
 namespace gridfem
 {
 
-/// @{ Copies one number at a time, because GCC warns about bounds when a fixed-size vector is
+///@{ Copies one number at a time, because GCC warns about bounds when a fixed-size vector is
 /// assigned to a dynamic row.
 inline Vec3 RowOf(const MultiVector& rows, Id row)
 {

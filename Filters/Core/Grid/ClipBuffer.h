@@ -18,8 +18,8 @@ namespace gridfem
 constexpr Index PiecesPerChunk = 4096;
 
 /// The pieces made by one thread, in the order of clipping.
-/// Corner ids: input points and cuts of mesh edges have their global id; -1 - k is interior point
-/// k.
+/// Corner ids: input points and cuts of mesh edges have their global id;
+/// -1 - k is interior point k.
 /// The alignment keeps two threads from sharing a cache line, because threads write to their stores
 /// all the time.
 struct alignas(CacheLine) ClipBuffer

@@ -11,8 +11,8 @@
 namespace gridfem
 {
 
-/// The interleaved bits of i, j and k, with i lowest. The three lowest bits are the octant x + 2y +
-/// 4z in the parent cell, and key >> 3 is the parent's key.
+/// The interleaved bits of i, j and k, with i lowest. The three lowest bits are the octant
+/// x + 2y + 4z in the parent cell, and key >> 3 is the parent's key.
 using MortonKey = std::uint64_t;
 
 using CellIndex = std::array<int, 3>;

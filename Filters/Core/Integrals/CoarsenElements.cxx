@@ -120,8 +120,8 @@ void SumChildren(const PatchLevel& fine, const Groups& children, Id begin, int c
 
 std::array<OctantWeights, 8> MakeChildWeights()
 {
-  // Along an axis, the child's nodes lie at 0, 1/2 or 1 of the parent. The index is octant bit +
-  // corner bit.
+  // Along an axis, the child's nodes lie at 0, 1/2 or 1 of the parent. The index is
+  // octant bit + corner bit.
   const double axis[3][2] = { { 1.0, 0.0 }, { 0.5, 0.5 }, { 0.0, 1.0 } };
   std::array<OctantWeights, 8> weights;
   for (int octant = 0; octant < 8; ++octant)

@@ -10,8 +10,8 @@ namespace gridfem
 {
 
 /// The two stiffness parts add up to the stiffness of IntegrateElements. Each contains half of the
-/// normal derivative's weight s. With weights w, the normal derivative therefore counts s (w_0 +
-/// w_1) / 2.
+/// normal derivative's weight s. With weights w, the normal derivative therefore counts
+/// s (w_0 + w_1) / 2.
 struct DirectionalElements
 {
   Array<ElementMatrix> mass;

@@ -42,9 +42,10 @@ MultiVector IntegrateDirections(const GridFunctions& space, const TriangleMesh& 
 MultiVector IntegrateGradientsOf(const GridFunctions& space, const TriangleMesh& mesh,
   const Field& f, const Field* scale, const QuadratureRule& rule, const Job& job = {});
 
-/// Integrates the gradients of the coordinates of the mesh's points, in world units: ∫ <(I - n nᵀ +
-/// s n nᵀ) e_k, ∇b_i> for coordinate k. The normal derivative of a coordinate is known: n_k. With
-/// the weight s of the system, the coordinates therefore remain the system's solution.
+/// Integrates the gradients of the coordinates of the mesh's points, in world units:
+/// ∫ <(I - n nᵀ + s n nᵀ) e_k, ∇b_i> for coordinate k. The normal derivative of a coordinate is
+/// known: n_k. With the weight s of the system, the coordinates therefore remain the system's
+/// solution.
 /// @return  three columns
 MultiVector IntegrateGradientsOfCoordinates(const GridFunctions& space, const TriangleMesh& mesh,
   const Field* scale, const QuadratureRule& rule, double normalStabilization, const Job& job = {});

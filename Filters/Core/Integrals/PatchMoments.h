@@ -52,8 +52,9 @@ public:
 
 private:
   // Axis q follows p, and axis r follows q. The first 27 sums are for T_pp: index 9 p + 3 a + k for
-  // quadratic a along q and k along r. From `Mixed` on, the sums are for T_pq: index 12 p + 3 (a +
-  // 2 b) + k for the linear functions a along p and b along q, and quadratic k along r.
+  // quadratic a along q and k along r. From `Mixed` on, the sums are for T_pq: index
+  // 12 p + 3 (a + 2 b) + k for the linear functions a along p and b along q, and quadratic k along
+  // r.
   std::array<Lanes, 63> sum_ = MassMoments::MakeZeros<63>();
 };
 

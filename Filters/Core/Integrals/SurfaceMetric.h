@@ -35,8 +35,8 @@ SampleMetric MetricOfEmbedding(const GridFunctions& space, const QuadratureRule&
 SampleMetric MetricOfMesh(const GridFunctions& space, const QuadratureRule& rule,
   const TriangleMesh& mesh, const TriangleMesh& moved, const Job& job = {});
 
-/// Integrates element matrices in a metric: mass b_i b_j √|g|, stiffness <∇b_i, g⁻¹ ∇b_j> √|g|. [T
-/// (5.6)] The normal derivative is taken and integrated on the mesh for every metric. It only
+/// Integrates element matrices in a metric: mass b_i b_j √|g|, stiffness <∇b_i, g⁻¹ ∇b_j> √|g|.
+/// [T (5.6)] The normal derivative is taken and integrated on the mesh for every metric. It only
 /// serves to determine all functions. It does not scale, just like the stiffness of a scaled
 /// surface.
 /// Cost and determinism are those of IntegrateElements. Throws InvalidInput unless there is one

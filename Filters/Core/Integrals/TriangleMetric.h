@@ -51,7 +51,7 @@ public:
   /// the other.
   bool IsMetric() const;
 
-  /// @{ Entries of TriangleMetric for this triangle. The tensor must be a metric.
+  ///@{ Entries of TriangleMetric for this triangle. The tensor must be a metric.
   double Area() const;
   Eigen::Matrix3d InverseTimesArea() const;
   ///@}

@@ -52,7 +52,7 @@ public:
   virtual MultiVector EmbeddingOfMesh(const Job& job = {}) const = 0;
   ///@}
 
-  /// @{ Changes the integrals on the same functions. A copy shares everything that does not change.
+  ///@{ Changes the integrals on the same functions. A copy shares everything that does not change.
   virtual std::unique_ptr<FiniteElementSpace> Copy() const = 0;
 
   std::shared_ptr<const SurfaceSpace> WithWeighedMass(
@@ -77,14 +77,14 @@ public:
   virtual void SetMetricOnTriangles(
     std::shared_ptr<const TriangleMetric> metric, const Job& job = {}) = 0;
 
-  /// Changes the mass to ∫ w b_i b_j with a weight w >= 0 on each triangle, and Integrals() to ∫ w
-  /// b_i. The stiffness and all loads do not change. The integrals use the metric of
+  /// Changes the mass to ∫ w b_i b_j with a weight w >= 0 on each triangle, and Integrals() to
+  /// ∫ w b_i. The stiffness and all loads do not change. The integrals use the metric of
   /// SetMetricOnTriangles if there is one, otherwise the mesh. Throws InvalidInput unless there is
   /// one finite weight per triangle.
   virtual void WeighMass(const std::vector<double>& weight, const Job& job = {}) = 0;
 
-  /// Prepares for Weigh: splits the stiffness along and across a direction on each triangle. [T
-  /// §5.2]
+  /// Prepares for Weigh: splits the stiffness along and across a direction on each triangle.
+  /// [T §5.2]
   virtual void SplitStiffness(const std::vector<Vec3>& direction, const Job& job = {}) = 0;
 
   /// Returns the area-weighted means, over each element with weights of its own, of values on
@@ -96,8 +96,8 @@ public:
   virtual void Weigh(const std::vector<ElementWeights>& weights, const Job& job = {}) = 0;
 
   /// Returns ∫ scale <∇u, ∇b_i> for functions u of the space, with the metric and the weights of
-  /// the stiffness. On a grid, it sums stored element matrices and does not visit the triangles. [T
-  /// (5.19)]
+  /// the stiffness. On a grid, it sums stored element matrices and does not visit the triangles.
+  /// [T (5.19)]
   /// @param u      functions x columns
   /// @param scale  one number per element, as returned by MeansOnElements; empty: 1
   virtual MultiVector StiffnessTimes(

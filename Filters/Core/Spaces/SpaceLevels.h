@@ -79,7 +79,7 @@ public:
     const MultiVector& coefficients, const Job& job = {}) const = 0;
   ///@}
 
-  /// @{ Null if this process holds the level alone. Rows are the rows of the space. Divide returns
+  ///@{ Null if this process holds the level alone. Rows are the rows of the space. Divide returns
   /// the level for cycles of a matrix of which A is this process's part.
   virtual const DividedRows* Divided(std::size_t) const { return nullptr; }
   virtual std::shared_ptr<const DividedLevel> Divide(

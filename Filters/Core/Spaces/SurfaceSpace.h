@@ -22,7 +22,7 @@ public:
   /// World units per unit of length.
   virtual double UnitLength() const = 0;
 
-  /// @{ The finest level. Fields are given on the mesh, in world units. Each method throws
+  ///@{ The finest level. Fields are given on the mesh, in world units. Each method throws
   /// InvalidInput when their rows or columns do not fit.
 
   /// Returns ∫ f b_i: rows = functions, columns = components of f.
