@@ -6,7 +6,7 @@
 //     FuzzCore                    runs the seeds of all cases found so far
 //
 // Returns 1 if something is broken. The current seed is the last output on the error stream, so
-// that a crash names it.
+// that a crash shows it.
 #include "RandomProblem.h"
 
 #include <chrono>

@@ -51,7 +51,7 @@ struct UninitializedAllocator : std::allocator<T>
   {
     ::new (static_cast<void*>(place)) U;
   }
-  /// Also constructs aggregates, so that emplace_back writes them in place. Copying an object whose
+  /// Constructs aggregates, too, so that emplace_back writes them in place. Copying an object whose
   /// parts were just written would stall until the parts are in the cache.
   template<class U, class... Args>
   void construct(U* place, Args&&... args)

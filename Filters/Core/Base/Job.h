@@ -9,7 +9,8 @@
 namespace gridfem
 {
 
-/// Passed from the caller down to every loop. A plain number of threads converts to a silent job.
+/// A job is passed from the caller down to every loop. A plain number of threads converts to a
+/// silent job.
 struct Job
 {
   Job(int threadsOfJob = 0, Progress progressOfJob = {})

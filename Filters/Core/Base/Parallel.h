@@ -20,9 +20,9 @@ namespace gridfem
 {
 
 /// The number of threads to use when `wanted` are requested; 0 requests all processors. At most two
-/// threads per processor are used, because all threads wait for each other at every barrier. A
-/// thousand threads on two processors took 80 times as long as the work itself. Throws OutOfThreads
-/// when the threads cannot be started.
+/// threads per processor are used, because threads wait for each other at every barrier. With a
+/// thousand threads on two processors, these waits took 80 times as long as the work. Throws
+/// OutOfThreads when the threads cannot be started.
 inline int NumberOfThreads(int wanted)
 {
   const int processors = std::max(1, omp_get_num_procs());

@@ -55,7 +55,8 @@ private:
     Id size = 0;
   };
 
-  /// The list of one thread. It is aligned because its thread writes to it all the time.
+  /// The list of one thread. Threads write to their lists all the time; the alignment keeps two
+  /// lists from sharing a cache line.
   struct alignas(CacheLine) List
   {
     Array<T> items;

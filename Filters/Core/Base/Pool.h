@@ -16,8 +16,8 @@ template<class Space>
 class Pool
 {
 public:
-  /// Lends a space to its owner alone during the life of this object. Contents left in the space
-  /// stay in it.
+  /// Borrows a space for the life of this object; nobody else uses it meanwhile. A space keeps the
+  /// contents that were left in it.
   class Loan
   {
   public:

@@ -11,7 +11,8 @@
 namespace gridfem
 {
 
-/// The part [from, to] of a longer job. It is cheap to copy; a default-constructed one is silent.
+/// Reports the progress of the part [from, to] of a longer job. It is cheap to copy; a
+/// default-constructed object is silent.
 class Progress
 {
 public:

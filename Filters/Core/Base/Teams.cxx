@@ -16,7 +16,7 @@ namespace gridfem
 namespace
 {
 
-/// Threads that exist at the same time and end together.
+/// Starts threads that exist at the same time and end together.
 class Trial
 {
 public:

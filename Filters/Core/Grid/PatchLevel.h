@@ -1,5 +1,5 @@
-// A level of the hierarchy: an eight-node element mesh. This is the one data structure. [DESIGN §2]
-// A patch is a connected piece of the surface inside one cell. It touches exactly eight functions.
+// The one data structure: a level of the hierarchy is an eight-node element mesh [DESIGN §2]. A
+// patch is a connected piece of the surface inside one cell. It touches exactly eight functions.
 // The plain space and the connectivity-aware space differ only in their lists of patches. [T ch. 6]
 #ifndef GridFEM_PatchLevel_h
 #define GridFEM_PatchLevel_h

@@ -1,5 +1,5 @@
-// The input of everything: a list of triangles with shared points in world coordinates. Also finds
-// coincident points.
+// The input of everything: a list of triangles with shared points in world coordinates. Coincident
+// points are found here, too.
 #ifndef GridFEM_TriangleMesh_h
 #define GridFEM_TriangleMesh_h
 

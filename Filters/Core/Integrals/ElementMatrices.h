@@ -70,8 +70,9 @@ void CoarsenElements(const PatchLevel& fine, const PatchLevel& coarse,
   const ElementMatrices& elements, ElementMatrices& result, int threads = 0,
   ElementParts parts = ElementParts::Both);
 
-/// The weights of the functions of a parent cell in the functions of its child in `octant`: value
-/// at the child's corner c = Σ_p weights[c][p] value at the parent's corner p.
+/// The weights with which the corners of a parent cell give the values at the corners of its child
+/// in `octant`. The value at child corner c is Σ_p weights[c][p] times the value at parent corner
+/// p.
 using OctantWeights = std::array<std::array<double, FunctionsPerPatch>, FunctionsPerPatch>;
 const OctantWeights& ChildWeights(int octant);
 

@@ -1,5 +1,5 @@
-// Right-hand sides: integrals of given fields against the functions. [T (4.3), (4.4), Alg. 4.2] All
-// integrals throw InvalidInput when the rows or columns of a field do not fit the mesh.
+// Right-hand sides: integrals of given fields against the functions [T (4.3), (4.4), Alg. 4.2]. All
+// functions throw InvalidInput when the rows or columns of a field do not fit the mesh.
 #ifndef GridFEM_LoadVector_h
 #define GridFEM_LoadVector_h
 
@@ -19,8 +19,8 @@ MultiVector IntegrateValues(const GridFunctions& space, const TriangleMesh& mesh
 
 /// Returns s_i = ∫ <s, ∇b_i> for vector fields in world units. The result has the units of λM + L
 /// in grid units: it is the integral over the world, or spacing times the integral over grid units.
-/// s.values has 3 C columns, with vector c in columns 3c .. 3c+2. The part of s normal to the
-/// surface is ignored.
+/// The values of s have 3 C columns, with vector c in columns 3c .. 3c+2. The part of s normal to
+/// the surface is ignored.
 /// @param scale  field with one column that multiplies s; null: 1
 /// @return rows = functions, C columns
 MultiVector IntegrateGradients(const GridFunctions& space, const TriangleMesh& mesh, const Field& s,

@@ -1,6 +1,6 @@
 // Moments: the integrals from which the element matrices of a patch follow linearly. Along each
-// axis, products of the two linear functions 1 - t and t are combinations of three quadratics. 27
-// moments therefore give all 36 entries of the mass matrix, and 63 moments give the stiffness
+// axis, products of the two linear functions 1 - t and t are combinations of three quadratics.
+// Therefore 27 moments give all 36 entries of the mass matrix, and 63 moments give the stiffness
 // matrix. They are summed over several samples at once, one per SIMD lane.
 #ifndef GridFEM_PatchMoments_h
 #define GridFEM_PatchMoments_h
@@ -52,9 +52,9 @@ public:
 
 private:
   // Axis q follows p, and axis r follows q. The first 27 sums are for T_pp: index 9 p + 3 a + k for
-  // quadratic a along q and k along r. From `Mixed` on, the sums are for T_pq: index
-  // 12 p + 3 (a + 2 b) + k for the linear functions a along p and b along q, and quadratic k along
-  // r.
+  // quadratic a along q and k along r. From `Mixed` on, the sums are for T_pq, with index
+  // 12 p + 3 (a + 2 b) + k. Numbers a and b select linear functions along p and q, and k selects a
+  // quadratic along r.
   std::array<Lanes, 63> sum_ = MassMoments::MakeZeros<63>();
 };
 

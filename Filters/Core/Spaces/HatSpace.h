@@ -32,7 +32,7 @@ HatLevel BuildHatLevel(const TriangleMesh& mesh, const GridFunctions& grid,
   bool weldCoincidentPoints, HatTransfer transfer = HatTransfer::Evaluation, const Job& job = {});
 
 /// Level 0 consists of the hats, and level l + 1 is level l of the grid. The hats are relaxed by
-/// Gauss-Seidel with twice the sweeps of the grid's levels, and in between in groups.
+/// Gauss-Seidel with twice the sweeps of the grid's levels, and in groups after a sweep.
 class HatSpace : public FiniteElementSpace
 {
 public:

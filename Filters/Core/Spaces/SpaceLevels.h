@@ -26,7 +26,7 @@ struct Components
 struct LevelRelaxation
 {
   PatchOrder order;
-  PatchOrder groups;                       // relaxed after a sweep over all unknowns; may be empty
+  PatchOrder groups; // unknowns relaxed together after a sweep over all; may be empty
   std::optional<LevelSmoothing> smoothing; // replaces the options of the hierarchy
 };
 
@@ -79,8 +79,8 @@ public:
     const MultiVector& coefficients, const Job& job = {}) const = 0;
   ///@}
 
-  ///@{ Null if this process holds the level alone. Rows are the rows of the space. Divide returns
-  /// the level for cycles of a matrix of which A is this process's part.
+  ///@{ Null if this process holds the level alone. Rows are the rows of the space. In Divide, A is
+  /// this process's part of a matrix; the result is the divided level for cycles.
   virtual const DividedRows* Divided(std::size_t) const { return nullptr; }
   virtual std::shared_ptr<const DividedLevel> Divide(
     std::size_t, const SparseMatrix& /*A*/, const MultigridOptions&) const

@@ -1,5 +1,5 @@
 // Compares integrals in another metric with the mesh's own metric and with sums over samples that
-// use a pseudo-inverse in space. Also tests properties that hold on any surface.
+// use a pseudo-inverse in space. Other tests check properties that hold on any surface.
 #include "Integrals/SurfaceMetric.h"
 
 #include "Base/Errors.h"
