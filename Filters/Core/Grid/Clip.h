@@ -116,8 +116,8 @@ struct ClipOptions
 };
 
 /// Clips a mesh by the cells of a grid. The areas of the pieces add up to the areas of the
-/// triangles, up to rounding. A coordinate counts as lying on a face if it is within 1e-10 of a
-/// cell of it, or within the rounding of the input.
+/// triangles, up to rounding. A coordinate counts as lying on a face if their distance is at most
+/// 1e-10 cells, or at most the rounding of the input.
 /// Throws InvalidInput (see Validate; also for more than 2^31 - 1 corners) and Aborted. The result
 /// is the same for any number of threads.
 ClippedMesh Clip(

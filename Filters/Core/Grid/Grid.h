@@ -50,8 +50,8 @@ struct Grid
 
 /// Returns the cube with the center and the longest side of the bounding box of the points, cut
 /// into 2^depth cells per side. Only points marked by `used` count, or all if it is empty. A box
-/// without extent gets side 1. Throws InvalidInput for a depth outside [MinimumDepth,
-/// MaximumDepth].
+/// without extent gets side 1. Throws InvalidInput for a depth outside
+/// [MinimumDepth, MaximumDepth].
 Grid EmbedInGrid(
   const std::vector<Vec3>& points, const std::vector<char>& used, int depth, int threads = 0);
 

@@ -59,9 +59,9 @@ void FindComponents(GridFunctions& space, int threads = 0);
 
 /// Returns a patch for each of the first `points` points of the clipped mesh, or -1 for a point
 /// without a piece. It takes the best patch (see PatchChoice) among the pieces with area around the
-/// point, or among all pieces if none has area. The reason: a piece without area may belong to a
-/// patch in another cell, whose functions say nothing about the point. If points are welded, a
-/// point whose patch has no area gets the patch of a coincident point.
+/// point, or among all pieces if none has area. Pieces without area come last, because they may
+/// belong to a patch in another cell, whose functions say nothing about the point. If points are
+/// welded, a point whose patch has no area gets the patch of a coincident point.
 Array<Index> FindPointPatches(const ClippedMesh& clipped, const Array<Index>& piecePatch,
   Id numberOfPatches, Id points, int threads = 0);
 

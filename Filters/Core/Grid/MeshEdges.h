@@ -17,8 +17,7 @@ namespace gridfem
 /// it into stretches. Stretch 0 begins at the lower end of the edge, stretch 1 + n at cut point n.
 struct EdgeSide
 {
-  Index cut;     // number of the edge's first cut point; its complement ~ on every side except the
-                 // first
+  Index cut;     // number of the edge's first cut point; ~cut on every side but the first
   Index stretch; // place of this side's stretch 0; None on an edge without length
 
   static constexpr Index None = -1;

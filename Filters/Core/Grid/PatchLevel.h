@@ -48,8 +48,8 @@ struct PatchPartition
 /// create no functions. Cost O(pieces + links); the result is the same for any number of threads.
 PatchPartition BuildPatches(const ClippedMesh& clipped, FunctionSupport support, int threads = 0);
 
-/// Returns the links between groups whose items are linked, for example from pieces to patches, or
-/// from patches to their parents. Sorted by first, then by second; unique.
+/// Returns the links between groups whose items are linked: between patches whose pieces are
+/// linked, or between parents whose patches are linked. Sorted by first, then by second; unique.
 Array<Link> LinksOfGroups(const Array<Link>& links, const Array<Index>& group, int threads = 0);
 
 /// Builds the finest level on given patches. Functions are numbered in the order of their first

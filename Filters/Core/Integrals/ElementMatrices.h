@@ -47,9 +47,9 @@ enum class ElementParts
 /// The default raises their energy to a level that double precision can resolve. It changes
 /// solutions by at most its square root, and in general by at most its own size. With 1e-2, the
 /// number of iterations to any tolerance does not grow with the depth. The error of the space then
-/// is 1.1 to 1.4 times as large on scans and parts. It is two to four times as large on spheres and
-/// cubes, where it is smallest. Its rate of convergence is unchanged. [NUMERICS §6;
-/// Testing/Benchmarks]
+/// is 1.1 to 1.4 times as large on scans and parts. On spheres and cubes, where the error is
+/// smallest, it is two to four times as large. Its rate of convergence does not change. [NUMERICS
+/// §6; Testing/Benchmarks]
 constexpr double DefaultNormalStabilization = 1e-12;
 
 /// Integrates over every piece, with `rule` on every triangle of its fan. [T Alg. 4.1]

@@ -8,8 +8,8 @@
 namespace gridfem
 {
 
-/// Returns Σ over the patches of uᵀ mass u, for every column of u (rows = functions of the level).
-/// Cost O(patches x columns); same bits for any number of threads.
+/// Returns the sum over the patches of uᵀ mass u, for every column of u (rows = functions of the
+/// level). Cost O(patches x columns); same bits for any number of threads.
 Columns SquaredNorms(
   const PatchLevel& level, const Array<ElementMatrix>& mass, const MultiVector& u, int threads = 0);
 

@@ -8,8 +8,8 @@
 namespace gridfem
 {
 
-/// Returns Σ over the patches of scale matrix u. Cost O(patches x columns); same bits for any
-/// number of threads.
+/// Returns the sum over the patches of scale * matrix * u. Cost O(patches x columns); same bits for
+/// any number of threads.
 /// @param places  places of the level's functions
 /// @param scale   one number per patch; empty: 1
 /// @param u       rows = functions of the level; the result has its size

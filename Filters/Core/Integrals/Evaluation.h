@@ -36,7 +36,7 @@ MultiVector MeanDirections(
 /// triangle uses are empty. Throws InvalidInput for a point that does not exist.
 SparseMatrix EvaluationRows(const GridFunctions& space, const std::vector<Id>& points);
 
-/// Returns the area-weighted means, over the finest patches, of values on source triangles. Patches
+/// Returns the area-weighted mean of values on source triangles over each finest patch. Patches
 /// without area get 0.
 MultiVector MeansOnPatches(
   const GridFunctions& space, const MultiVector& onTriangles, int threads = 0);

@@ -26,19 +26,19 @@ MultiVector IntegrateValues(const GridFunctions& space, const TriangleMesh& mesh
 MultiVector IntegrateGradients(const GridFunctions& space, const TriangleMesh& mesh, const Field& s,
   const Field* scale, const QuadratureRule& rule, const Job& job = {});
 
-/// Integrates like IntegrateGradients, without a scale, the field n x s. n is the unit normal of
-/// each triangle.
+/// Integrates the field n x s like IntegrateGradients, but without a scale. The vector n is the
+/// unit normal of each triangle.
 MultiVector IntegrateTurnedGradients(const GridFunctions& space, const TriangleMesh& mesh,
   const Field& s, const QuadratureRule& rule, const Job& job = {});
 
-/// Integrates like IntegrateGradients the field s = ∇u / |∇u|, or 0 where ∇u = 0. Each column of
+/// Integrates the field s = ∇u / |∇u| (0 where ∇u = 0) like IntegrateGradients. Each column of
 /// `coefficients` is a function u.
 MultiVector IntegrateDirections(const GridFunctions& space, const TriangleMesh& mesh,
   const MultiVector& coefficients, const Field* scale, const QuadratureRule& rule,
   const Job& job = {});
 
-/// Integrates like IntegrateGradients the field s = ∇f, with f linear on each triangle (f must be
-/// on points).
+/// Integrates the field s = ∇f like IntegrateGradients. The field f is linear on each triangle and
+/// must be on points.
 MultiVector IntegrateGradientsOf(const GridFunctions& space, const TriangleMesh& mesh,
   const Field& f, const Field* scale, const QuadratureRule& rule, const Job& job = {});
 

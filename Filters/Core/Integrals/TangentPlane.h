@@ -10,7 +10,7 @@
 namespace gridfem
 {
 
-/// An orthonormal basis of the plane across a unit normal. It depends only on the normal.
+/// An orthonormal basis of the plane perpendicular to a unit normal. It depends only on the normal.
 struct TangentBasis
 {
   LaneVector first;
@@ -34,7 +34,7 @@ struct TangentBasis
   }
 };
 
-/// Returns the projection to the plane across a unit normal, plus normalWeight n nᵀ.
+/// Returns the projection to the plane perpendicular to a unit normal n, plus normalWeight n nᵀ.
 inline LaneTensor TangentialProjection(const LaneVector& normal, double normalWeight)
 {
   LaneTensor tensor;

@@ -21,9 +21,9 @@ struct TriangleFrame
   TriangleFrame(const TriangleMesh& mesh, Id triangle);
 };
 
-/// Factors that turn integrals over the mesh into integrals in the metric g: ∫ √|g| u v and ∫ <∇u,
-/// √|g| g⁻¹ ∇v>. Gradient fields are given as vectors in space: s stands for the linear form <s,
-/// ·>. The gradient of a function is therefore given in the same way for every metric.
+/// Factors that turn integrals over the mesh into integrals in the metric g: ∫ √|g| u v and
+/// ∫ <∇u, √|g| g⁻¹ ∇v>. Gradient fields are given as vectors in space: s represents the linear form
+/// <s, ·>. The gradient of a function is therefore given in the same way for every metric.
 struct TriangleMetric
 {
   std::vector<double> area;            // √|g|: area in the metric over area of the mesh

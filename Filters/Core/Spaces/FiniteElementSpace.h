@@ -87,8 +87,8 @@ public:
   /// [T §5.2]
   virtual void SplitStiffness(const std::vector<Vec3>& direction, const Job& job = {}) = 0;
 
-  /// Returns the area-weighted means, over each element with weights of its own, of values on
-  /// triangles.
+  /// Returns the area-weighted mean of values on triangles over each element that has its own
+  /// weights.
   virtual MultiVector MeansOnElements(
     const MultiVector& onTriangles, const Job& job = {}) const = 0;
 

@@ -25,13 +25,13 @@ MultiVector IntegrateValues(const HatFunctions& hats, const TriangleMesh& mesh, 
 MultiVector IntegrateGradients(const HatFunctions& hats, const TriangleMesh& mesh, const Field& s,
   const Field* scale, int threads = 0);
 
-/// Integrates like IntegrateGradients, without a scale, the field n x s. n is the unit normal of
-/// each triangle.
+/// Integrates the field n x s like IntegrateGradients, but without a scale. The vector n is the
+/// unit normal of each triangle.
 MultiVector IntegrateTurnedGradients(
   const HatFunctions& hats, const TriangleMesh& mesh, const Field& s, int threads = 0);
 
-/// Integrates like IntegrateGradients the field s = ∇f, with f linear on each triangle (f must be
-/// on points).
+/// Integrates the field s = ∇f like IntegrateGradients. The field f is linear on each triangle and
+/// must be on points.
 MultiVector IntegrateGradientsOf(const HatFunctions& hats, const TriangleMesh& mesh, const Field& f,
   const Field* scale, int threads = 0);
 

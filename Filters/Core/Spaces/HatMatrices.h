@@ -35,7 +35,7 @@ struct HatWeights
 HatMatrices AssembleHatMatrices(const TriangleMesh& mesh, const HatFunctions& hats,
   const HatWeights& weights = {}, int threads = 0);
 
-/// Returns Σ over the triangles of scale stiffness u, with the same weights.
+/// Returns the sum over the triangles of scale * stiffness * u, with the same weights.
 /// @param scale  one number per triangle; empty: 1
 /// @param u      rows = functions; the result has its size
 /// Throws InvalidInput when a number of rows does not fit. Same bits for any number of threads.

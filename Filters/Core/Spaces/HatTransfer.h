@@ -11,9 +11,9 @@ namespace gridfem
 
 /// How a hat gets its value from the grid. On meshes finer than the grid, both ways need the same
 /// number of iterations. On a much coarser mesh, Evaluation turns a residual at a point into a load
-/// on single grid functions. The response peaks like the logarithm of the ratio. Repeated cycles
-/// then slow down, and conjugate gradients need one or two more iterations. PseudoEvaluation is not
-/// affected.
+/// on single grid functions. The response peaks like the logarithm of the ratio of both sizes.
+/// Repeated cycles then slow down, and conjugate gradients need one or two more iterations.
+/// PseudoEvaluation is not affected.
 enum class HatTransfer
 {
   /// Takes the values of the grid functions at the hats' points. Sheets that meet in a point may

@@ -32,7 +32,7 @@ struct LevelRelaxation
 
 /// Level 0 is the finest. All integrals are in the space's unit of length: mass in squared units,
 /// stiffness dimensionless. Const methods may be called from several threads. All results are the
-/// same, bit for bit, for any number of threads. A method with a job throws Aborted.
+/// same, bit for bit, for any number of threads. A method that takes a job may throw Aborted.
 /// Collective: if several processes divide a level, all of them call every method, in the same
 /// order.
 class SpaceLevels

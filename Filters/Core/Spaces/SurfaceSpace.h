@@ -63,7 +63,8 @@ public:
   virtual std::shared_ptr<const SurfaceSpace> WithWeighedMass(
     const std::vector<double>& weight, const Job& job = {}) const = 0;
 
-  /// Adds up, over all processes, sums over the triangles around each point of the mesh.
+  /// Adds the contributions of all processes to sums over the triangles around each point of the
+  /// mesh.
   virtual void SumAtPoints(MultiVector& /*parts*/) const {}
 };
 
