@@ -29,10 +29,10 @@ public:
 
   ///@{ The finest level.
 
-  /// LoadOfGradients for the field n x s, with n along the normal of each triangle.
+  /// Computes LoadOfGradients for the field n x s, with n along the normal of each triangle.
   virtual MultiVector LoadOfTurnedGradients(const Field& s, const Job& job = {}) const = 0;
 
-  /// LoadOfGradients for the field s = ∇u / |∇u|, or 0 where ∇u = 0.
+  /// Computes LoadOfGradients for the field s = ∇u / |∇u|, or 0 where ∇u = 0.
   /// @param coefficients  functions u of the nested levels if the space has them, otherwise of the
   ///   space itself
   /// @return rows = functions of the space, columns as `coefficients`

@@ -60,7 +60,7 @@ public:
   std::unique_ptr<FiniteElementSpace> Copy() const override;
   Id SetMetric(const MultiVector& embedding, const Job& job = {},
     ElementParts parts = ElementParts::Both) override;
-  /// SetMetric with the metric of the mesh with moved points.
+  /// Works like SetMetric, with the metric of the mesh with moved points.
   Id SetMetricOfMesh(
     const TriangleMesh& moved, const Job& job = {}, ElementParts parts = ElementParts::Both);
   void SetMetricOnTriangles(

@@ -1,6 +1,6 @@
 // The hat functions of a triangle mesh. They are continuous and linear on every triangle, 1 at one
-// point and 0 at all others. They form the finest level of the hybrid solver. [T §3.2, §4.2
-// Hat-Basis Incorporation]
+// point and 0 at all others. They are the finest level of the hybrid solver
+// [T §3.2, §4.2 Hat-Basis Incorporation].
 #ifndef GridFEM_HatFunctions_h
 #define GridFEM_HatFunctions_h
 

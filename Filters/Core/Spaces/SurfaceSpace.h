@@ -39,12 +39,13 @@ public:
   virtual MultiVector LoadOfGradients(
     const Field& s, const Field* scale, const Job& job = {}) const = 0;
 
-  /// LoadOfGradients for the field s = ∇f, with f linear on each triangle (f must be on points).
+  /// Computes LoadOfGradients for the field s = ∇f, with f linear on each triangle (f must be on
+  /// points).
   virtual MultiVector LoadOfGradientsOf(
     const Field& f, const Field* scale, const Job& job = {}) const = 0;
 
-  /// LoadOfGradientsOf for the coordinates of the mesh's points, as functions in space. On a grid
-  /// with a weight of the normal derivative, they remain the solution of their own equation.
+  /// Computes LoadOfGradientsOf for the coordinates of the mesh's points, as functions in space. On
+  /// a grid with a weight of the normal derivative, they remain the solution of their own equation.
   virtual MultiVector LoadOfGradientsOfCoordinates(
     const Field* scale, const Job& job = {}) const = 0;
 
