@@ -217,8 +217,7 @@ TEST(HatSpace, NeedsFewIterationsOnSubdividedMeshes)
     const Hybrid hybrid(mesh, depth);
     for (const double lambda : { 1e-2, 1.0, 1e2, 1e4 })
     {
-      // 4 to 6 iterations were measured. Gauss-Seidel without groups needs up to 14, and 24 for
-      // 642,816 points.
+      // Measured: 4 to 6. Gauss-Seidel without groups needs up to 14, and 24 at 642,816 points.
       EXPECT_LE(Iterations(hybrid, lambda), 7) << depth << " " << lambda;
     }
     mesh = SubdivideInPlane(mesh);
@@ -227,8 +226,7 @@ TEST(HatSpace, NeedsFewIterationsOnSubdividedMeshes)
 
 TEST(HatSpace, DoesNotMindThinTriangles)
 {
-  // With 150 points around a thin tube and 12 along it, triangles are at least 10 times as long as
-  // wide.
+  // 150 points around a thin tube and 12 along it make triangles at least 10 times as long as wide.
   const TriangleMesh mesh = SubdivideInPlane(Torus(12, 150, 1.0, 0.3));
   Hybrid hybrid(mesh, 4);
   const int withGroups = Iterations(hybrid, 1.0);
