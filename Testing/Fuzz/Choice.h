@@ -1,4 +1,4 @@
-// Random choices that depend on a seed alone.
+// Random choices that depend only on a seed.
 #ifndef GridFEM_Testing_Choice_h
 #define GridFEM_Testing_Choice_h
 
@@ -12,13 +12,13 @@
 namespace gridfem::testing
 {
 
-/// The same on every machine; the distributions of the standard library are not.
+/// Gives the same choices on every machine, unlike the distributions of the standard library.
 class Choice
 {
 public:
   explicit Choice(std::uint64_t seed) : generator_(seed) {}
 
-  /// low .. high, both included.
+  /// Returns a number in low .. high, both included.
   Id Integer(Id low, Id high)
   {
     return low + static_cast<Id>(generator_() % static_cast<std::uint64_t>(high - low + 1));
@@ -29,7 +29,8 @@ public:
     return low + (high - low) * std::ldexp(double(generator_() >> 11), -53);
   }
 
-  /// Evenly many of every order of magnitude.
+  /// Returns a power of ten with an exponent in [low, high]. All orders of magnitude are equally
+  /// likely.
   double PowerOfTen(double low, double high) { return std::pow(10.0, this->Real(low, high)); }
 
   bool OneIn(Id count) { return this->Integer(1, count) == 1; }
@@ -40,7 +41,7 @@ public:
     return values.begin()[this->Integer(0, static_cast<Id>(values.size()) - 1)];
   }
 
-  /// Between -1 and 1 on each axis.
+  /// Returns a vector with coordinates in [-1, 1].
   Vec3 Vector()
   {
     const double x = this->Real(-1.0, 1.0);

@@ -1,4 +1,4 @@
-// Equations at random.
+// Random equations.
 #include "RandomProblem.h"
 
 #include "Algebra/ComponentMeans.h"
@@ -18,7 +18,7 @@ namespace gridfem::testing
 namespace
 {
 
-/// The solution has the means of its field.
+/// Requires that the solution has the means of its field.
 void RequireMeans(const FiniteElementSpace& space, const MultiVector& load,
   const MultiVector& coefficients, Outcome& outcome)
 {
@@ -27,7 +27,7 @@ void RequireMeans(const FiniteElementSpace& space, const MultiVector& load,
   const MultiVector wanted = means.OfIntegrals(load);
   const MultiVector found = means.OfFunction(coefficients);
   const double size = coefficients.size() > 0 ? coefficients.cwiseAbs().maxCoeff() : 0.0;
-  // Means of components without area are not defined; rounding grows with the number of functions.
+  // Means of components without area are undefined. Rounding grows with the number of functions.
   const bool isKept = wanted.size() == 0 || !outcome.converged ||
                       (wanted - found).cwiseAbs().maxCoeff() <= 1e-9 * size;
   outcome.Require(isKept, "the mean is not kept");

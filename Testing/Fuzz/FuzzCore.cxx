@@ -1,12 +1,12 @@
-// Core on random input: a result, or a message that says why not; never a crash, a hang or a wrong
-// number without a word.
+// Runs Core on random input. Every case must give a result, or a message that explains why not. It
+// must never crash, hang, or return a wrong number silently.
 //
-//     FuzzCore FIRST_SEED NUMBER  a summary, and the seeds of what is broken
-//     FuzzCore SEED               one case in words
-//     FuzzCore                    the seeds of all that was found
+//     FuzzCore FIRST_SEED NUMBER  prints a summary, and the seeds of broken cases
+//     FuzzCore SEED               describes one case
+//     FuzzCore                    runs the seeds of all cases found so far
 //
-// Returns 1 when something is broken. The seed that runs is the last thing written to the error
-// stream, so that a crash names it.
+// Returns 1 if something is broken. The current seed is the last output on the error stream, so
+// that a crash shows it.
 #include "RandomProblem.h"
 
 #include <chrono>
@@ -20,7 +20,7 @@ using namespace gridfem::testing;
 namespace
 {
 
-/// Seconds that no case may take, on a machine that does other work as well.
+/// Seconds that no case may exceed, even on a busy machine.
 constexpr double Longest = 10.0;
 
 #if defined(__SANITIZE_ADDRESS__)
@@ -29,12 +29,12 @@ constexpr double Slowdown = 10.0;
 constexpr double Slowdown = 1.0;
 #endif
 
-/// More than this share of the cases with default options must not miss their tolerance.
+/// Largest fraction of the cases with default options that may miss their tolerance.
 constexpr double LargestShare = 2e-3;
 
-/// What was broken once, or missed its tolerance with default options. Where the generator changes,
-/// so do the cases of these seeds: what they found has a test of its own as well, in the folder of
-/// the concept.
+/// Seeds of cases that were broken once, or missed their tolerance with default options. A change
+/// of the generator changes these cases. Each finding therefore also has a test of its own in the
+/// folder of its concept.
 constexpr std::uint64_t Found[] = { 2684, 5456, 6906, 1004525, 1025469, 1044447, 1051031, 1055105,
   2010166, 2011440, 2015058, 3506428, 3511331, 3516046, 3539173, 3604339, 3607997, 3623297 };
 

@@ -12,10 +12,10 @@ namespace gridfem::testing
 namespace
 {
 
-/// Integrates the product of two trilinear functions on a plane.
+/// Degree that integrates the product of two trilinear functions on a plane exactly.
 constexpr int ExactDegree = 6;
 
-/// A random order of 0 .. count - 1.
+/// Returns 0 .. count - 1 in a random order.
 std::vector<Id> RandomOrder(Choice& choice, std::size_t count)
 {
   std::vector<Id> order(count);
@@ -27,8 +27,8 @@ std::vector<Id> RandomOrder(Choice& choice, std::size_t count)
   return order;
 }
 
-/// The same surface: other numbers of points and triangles, which begin at any corner and may be
-/// seen from the other side.
+/// Returns the same surface with other numbers of points and triangles. Triangles may begin at any
+/// corner and may be turned over.
 TriangleMesh Reordered(Choice& choice, const TriangleMesh& mesh)
 {
   const std::vector<Id> place = RandomOrder(choice, mesh.points.size());
@@ -62,7 +62,7 @@ Bounds BoundsOfUsed(const TriangleMesh& mesh)
   return BoundsOf(mesh.points, UsedPoints(mesh));
 }
 
-/// The surface with another mesh and exact integrals, built.
+/// Builds the surface with another mesh and exact integrals.
 RandomSurface WithMesh(const RandomSurface& surface, TriangleMesh mesh)
 {
   RandomSurface other = surface;
@@ -72,7 +72,8 @@ RandomSurface WithMesh(const RandomSurface& surface, TriangleMesh mesh)
   return other;
 }
 
-/// As many functions on every level, and the same matrices but for rounding and `largest`.
+/// Requires the same number of functions on every level, and matrices that differ only by rounding
+/// and `largest`.
 void RequireSameMatrices(const FiniteElementSpace& a, const FiniteElementSpace& b, double stiffness,
   double largest, const std::string& what, Outcome& outcome)
 {
@@ -93,8 +94,8 @@ struct Solved
 {
   MultiVector coefficients;
   MultiVector atPoints;
-  double energy;   // of u: (λM + L) u, without a unit
-  double rounding; // of the energy
+  double energy;   // uᵀ (λM + L) u, dimensionless
+  double rounding; // error of the energy
   bool converged;
 };
 
@@ -105,9 +106,9 @@ double EnergyOf(const FiniteElementSpace& space, double weight, const MultiVecto
   return u.cwiseProduct(product).sum();
 }
 
-/// What rounding of the matrix's entries changes of the energy of a solution. It is much where
-/// functions that are almost zero on the surface have large coefficients, as next to a face that
-/// nearly lies in a plane of the grid, with a small weight of the normal derivative.
+/// Returns how much rounding of the matrix's entries changes the energy of a solution. This is much
+/// if functions that almost vanish on the surface have large coefficients. It happens next to a
+/// face nearly parallel to a grid plane, with a small weight of the normal derivative.
 double RoundingOfEnergy(const FiniteElementSpace& space, double weight, const MultiVector& u)
 {
   SparseMatrix positive = space.Matrix(0, weight, 1.0);
@@ -139,16 +140,17 @@ Solved Solve(const RandomSurface& surface, double weight, const Field& f)
     solution.report.converged };
 }
 
-/// Whether a point has one value only: sheets that touch there may have functions of their own,
-/// and which of them the value is of depends on the order.
+/// Whether every point has a single value. Sheets that touch at a point may have separate functions
+/// there, and the order decides which function gives the value.
 bool HasOneValue(const RandomSurface& surface)
 {
   return surface.isOnHats || !surface.options.functions.connectivityAware ||
          surface.options.functions.joinAtPoints;
 }
 
-/// By area, relative to u: the mean of the squared difference at the triangles' corners.
-/// @param ofCopy  per corner of a triangle: its point in the copy
+/// Returns the difference relative to u, in a norm over the area: the mean of the squared
+/// differences at the triangles' corners.
+/// @param ofCopy  for each corner of a triangle, its point in the copy
 double Difference(const TriangleMesh& mesh, const MultiVector& u,
   const std::vector<std::array<Id, 3>>& ofCopy, const MultiVector& copied)
 {
@@ -181,9 +183,9 @@ double ExtentOf(const TriangleMesh& mesh)
   return (high - low).maxCoeff();
 }
 
-/// What rounding of the coordinates changes of lengths on the triangles, as a part of them, at
-/// most, here or where the mesh is moved by its extent; infinite where it may decide which
-/// triangles are flat.
+/// Returns the largest relative change of lengths on the triangles that rounding of the coordinates
+/// can cause, here or after a move by the mesh's extent. It is infinite if rounding may decide
+/// which triangles are flat.
 double RoundingOn(const TriangleMesh& mesh)
 {
   const double rounding =
@@ -211,10 +213,10 @@ double RoundingOn(const TriangleMesh& mesh)
   return largest;
 }
 
-/// Of triangles whose solutions are compared.
+/// Largest rounding on triangles whose solutions are compared.
 constexpr double LargestRounding = 1e-5;
 
-/// The same solution, where both are known to the tolerance: the energy, and the values.
+/// Requires the same energy and values of two solutions if both reach the tolerance.
 void RequireSameSolution(const RandomSurface& a, const RandomSurface& b, double weight,
   const Field& f, const Field& fOfCopy, const std::string& what, Outcome& outcome)
 {
@@ -233,16 +235,16 @@ void RequireSameSolution(const RandomSurface& a, const RandomSurface& b, double 
     what + " changes a solution");
 }
 
-/// Per squared world unit: from the size of the surface to that of cells.
+/// Returns λ per squared world unit, from the scale of the surface to the scale of cells.
 double WeightFor(Choice& choice, const RandomSurface& surface)
 {
   return choice.PowerOfTen(-2.0, 4.0) /
          std::pow(surface.space->Extent() * surface.space->UnitLength(), 2);
 }
 
-/// The mesh on the points of a lattice near the origin that is 2^12 times finer than its extent:
-/// coordinates, shifts and the grid around it are numbers without rounding, and where a triangle
-/// leans against a face, however little, it is known where it meets the face.
+/// Moves the mesh to points of a lattice near the origin. The lattice is 2^12 times finer than the
+/// extent of the mesh. Coordinates, shifts and the surrounding grid then have no rounding errors.
+/// Even for a triangle that hardly leans against a face, it is then known where it meets the face.
 TriangleMesh OnFineLattice(const TriangleMesh& mesh, double& step)
 {
   const Vec3 low = BoundsOfUsed(mesh).low;
@@ -260,7 +262,8 @@ TriangleMesh OnFineLattice(const TriangleMesh& mesh, double& step)
   return result;
 }
 
-/// Whether a triangle lies across an axis: in a face between two cells it belongs to the upper one.
+/// Whether a triangle is perpendicular to an axis. Such a triangle in a face between two cells
+/// belongs to the upper cell.
 bool HasTriangleAcross(const TriangleMesh& mesh, int axis)
 {
   return std::any_of(mesh.triangles.begin(), mesh.triangles.end(),
@@ -271,7 +274,7 @@ bool HasTriangleAcross(const TriangleMesh& mesh, int axis)
     });
 }
 
-/// Another place whose axes are these.
+/// Moves the mesh to another place by shifts, exchanges of axes and mirrors.
 TriangleMesh PlacedAlongAxes(Choice& choice, const TriangleMesh& mesh, double step)
 {
   const std::vector<Id> axisOf = RandomOrder(choice, 3);
@@ -310,7 +313,8 @@ const std::vector<Index>& HatOfPoint(const RandomSurface& surface)
   return dynamic_cast<const HatSpace&>(*surface.space).Hats().functions.ofPoint;
 }
 
-/// Coefficients that have values at points: those at coincident points are the same.
+/// Returns the coefficients of the hats with these values at points. Values at coincident points
+/// must be equal.
 MultiVector HatsWith(const RandomSurface& surface, const MultiVector& atPoints)
 {
   const std::vector<Index>& hatOfPoint = HatOfPoint(surface);
@@ -337,7 +341,7 @@ void RequireNoPlaceOfHats(Choice& choice, const RandomSurface& surface, Outcome&
   if (!(rounding < LargestRounding) ||
       WeldCoincidentPoints(mesh.points, used) != WeldCoincidentPoints(moved.points, used))
   {
-    return; // rounding decides what is there
+    return; // rounding decides about flat triangles or coincident points
   }
   const RandomSurface here = WithMesh(surface, mesh);
   const RandomSurface there = WithMesh(surface, std::move(moved));
@@ -348,7 +352,7 @@ void RequireNoPlaceOfHats(Choice& choice, const RandomSurface& surface, Outcome&
   const double ofThere = weight * std::pow(there.space->UnitLength(), 2);
   const Field f = OrdinaryField(choice, mesh, 1, FieldAssociation::Points);
 
-  // The energy on every triangle is what its sides say.
+  // The energy on every triangle depends only on its sides.
   const MultiVector v = here.space->ValuesAtPoints(HatsWith(here, f.values));
   const double before = EnergyOf(*here.space, ofHere, HatsWith(here, v));
   const double after = EnergyOf(*there.space, ofThere, HatsWith(there, v));
@@ -410,8 +414,7 @@ void RequireNoOrder(Choice& choice, const RandomSurface& surface, double allowed
   {
     return;
   }
-  // A patch has eight functions, with slopes of up to 3 in the square; those of hats are not
-  // bounded.
+  // A patch has eight functions with squared slopes of up to 3. The slopes of hats are unbounded.
   const double largest = 24.0 * allowed / std::pow(space.UnitLength(), 2);
   const double stiffness = surface.isOnHats ? 0.0 : 1.0;
   const double expected = TraceOf(space.Matrix(0, 1.0, stiffness));

@@ -1,5 +1,5 @@
-// What a surface may be told by without another result: the order and the sharing of its points,
-// and its place in space.
+// Checks of invariance: results do not depend on the order and the sharing of a surface's points,
+// nor on its place in space.
 #ifndef GridFEM_Testing_Invariants_h
 #define GridFEM_Testing_Invariants_h
 
@@ -9,32 +9,33 @@
 namespace gridfem::testing
 {
 
-/// Sizes whose squares are in the range of numbers.
+/// Whether squares of the grid's lengths are in the range of doubles.
 bool HasOrdinarySize(const Grid& grid);
 
-/// What clipping may move a side of a triangle by, in cells: 1e-10, or the rounding of the input,
-/// which far away from the origin can be many cells.
+/// Returns how far clipping may move a side of a triangle, in cells: 1e-10, or the rounding of the
+/// input. Far from the origin, this rounding can be many cells.
 double Displacement(const TriangleMesh& mesh, const Grid& grid);
 
-/// Whether it is nearly as narrow along an axis as what clipping moves points by: then rounding
-/// decides whether it lies in one layer of cells or in two.
+/// Whether the surface is, along an axis, nearly as narrow as the distance by which clipping moves
+/// points. Rounding then decides whether it lies in one layer of cells or in two.
 bool IsThin(const TriangleMesh& mesh, const Grid& grid);
 
-///@{ Of a surface that has been built, is no thinner than that, and is of ordinary size.
-/// @param allowed  what clipping may change of the area
+///@{ For a built surface of ordinary size that is not thin.
+/// @param allowed  change of the area that clipping may cause
 
-/// Functions do not depend on the order of what the mesh is made of, nor do their products where
-/// they are integrated exactly.
+/// Requires that functions do not depend on the order of points, triangles and corners. Their
+/// products must not depend on it either if they are integrated exactly.
 void RequireNoOrder(Choice& choice, const RandomSurface& surface, double allowed, Outcome& outcome);
 
-/// Where coincident points count as one, triangles with points of their own have the same functions
-/// and the same solutions.
+/// Requires that the functions and solutions do not change if every triangle has its own points,
+/// and coincident points count as one.
 void RequireNoWelding(
   Choice& choice, const RandomSurface& surface, double allowed, Outcome& outcome);
 ///@}
 
-/// Hats move with the surface wherever it goes. A grid moves with it where its axes stay axes:
-/// shifts, exchanged axes and mirrors. Thin surfaces count as well.
+/// Requires that results do not depend on the place of the surface. Hats move with any surface. A
+/// grid moves with it if axes remain axes: under shifts, exchanges of axes and mirrors. Thin
+/// surfaces count as well.
 void RequireNoPlace(Choice& choice, const RandomSurface& surface, Outcome& outcome);
 
 } // namespace gridfem::testing

@@ -1,4 +1,4 @@
-// What one random case came to.
+// The result of one random case.
 #ifndef GridFEM_Testing_Outcome_h
 #define GridFEM_Testing_Outcome_h
 
@@ -15,14 +15,14 @@ namespace gridfem::testing
 struct Outcome
 {
   std::string problem;
-  std::string description;         // of the mesh and the space
-  std::string refusal;             // the message of InvalidInput, which is no failure
-  std::vector<std::string> broken; // what must hold and does not
-  bool isIterative = false;        // has a report
-  bool converged = true;           // of several solves all
-  bool isDefault = false;          // solved with default options, on valid numbers
-  bool isDataLimited = false;      // no solver could do better: PoissonSolution::isAtRounding
-  double smallestEnergy = 0.0;     // where it has not converged: the best that was reached
+  std::string description;         // mesh and space
+  std::string refusal;             // message of InvalidInput; a refusal is no failure
+  std::vector<std::string> broken; // violated requirements
+  bool isIterative = false;        // whether it has a report
+  bool converged = true;           // whether all solves converged
+  bool isDefault = false;          // solved with default options and valid numbers
+  bool isDataLimited = false;      // no solver could do better; see PoissonSolution::isAtRounding
+  double smallestEnergy = 0.0;     // if not converged: the best energy reached
   SolveEnd end = SolveEnd::Converged;
 
   void Require(bool holds, const std::string& what)
@@ -33,13 +33,14 @@ struct Outcome
     }
   }
 
-  /// What is called converged has to be a number.
+  /// Requires that converged values are finite.
   void RequireFinite(const MultiVector& values, const std::string& what)
   {
     this->Require(!converged || values.allFinite(), what + " is not finite");
   }
 
-  /// What is said of an error may be unknown.
+  /// Requires estimates of errors that are not negative or infinite. An estimate may be unknown
+  /// (NaN).
   void RequireEstimate(const SolutionAccuracy& accuracy)
   {
     for (const double said : { accuracy.discretization, accuracy.largest, accuracy.algebraic })

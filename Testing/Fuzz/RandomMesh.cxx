@@ -51,7 +51,7 @@ TriangleMesh SeparateTriangles(Choice& choice)
   return mesh;
 }
 
-/// Corners are whole numbers, so that many lie on faces and edges of the grid, and coincide.
+/// Corners are whole numbers, so that many of them coincide or lie on faces and edges of the grid.
 TriangleMesh OnLattice(Choice& choice)
 {
   TriangleMesh mesh;
@@ -70,7 +70,7 @@ TriangleMesh OnLattice(Choice& choice)
   return mesh;
 }
 
-/// Any three of few points.
+/// Connects any three of a few points.
 TriangleMesh Tangle(Choice& choice)
 {
   TriangleMesh mesh;
@@ -88,7 +88,7 @@ TriangleMesh Tangle(Choice& choice)
   return mesh;
 }
 
-/// Triangles around one edge.
+/// Makes triangles around one edge.
 TriangleMesh Fan(Choice& choice)
 {
   TriangleMesh mesh;
@@ -120,7 +120,7 @@ TriangleMesh Octahedron(double radius, const Vec3& centre)
   return Transform(GeodesicSphere(1, radius), Vec3(0, 0, 1), 0.0, 1.0, centre);
 }
 
-/// A chain that touches in corners alone.
+/// Makes a chain of octahedra that touch only at corners.
 TriangleMesh Octahedra(Choice& choice)
 {
   TriangleMesh mesh = Octahedron(1.0, Vec3::Zero());
@@ -133,7 +133,7 @@ TriangleMesh Octahedra(Choice& choice)
   return mesh;
 }
 
-/// They share faces, edges, corners, or nothing.
+/// Makes cubes that share faces, edges, corners, or nothing.
 TriangleMesh Cubes(Choice& choice)
 {
   TriangleMesh mesh;
@@ -171,7 +171,7 @@ TriangleMesh Ring(Choice& choice)
   return Torus(along, static_cast<int>(choice.Integer(3, 6)), 1.0, choice.PowerOfTen(-4.0, -0.1));
 }
 
-/// A strip that is closed after half a turn.
+/// Makes a strip that is closed after half a turn.
 TriangleMesh MoebiusStrip(Choice& choice)
 {
   TriangleMesh mesh;
@@ -231,7 +231,7 @@ void Move(Choice& choice, TriangleMesh& mesh)
   }
 }
 
-/// Some triangles once more, as they are or turned over.
+/// Repeats some triangles, as they are or turned over.
 void Repeat(Choice& choice, TriangleMesh& mesh)
 {
   const Id last = static_cast<Id>(mesh.triangles.size()) - 1;
@@ -246,7 +246,7 @@ void Repeat(Choice& choice, TriangleMesh& mesh)
   }
 }
 
-/// The whole mesh once more, a hair apart.
+/// Repeats the whole mesh at a tiny distance.
 void Double(Choice& choice, TriangleMesh& mesh)
 {
   const Vec3 shift = choice.PowerOfTen(-16.0, -2.0) * choice.Vector();
@@ -264,7 +264,7 @@ void TurnOver(Choice& choice, TriangleMesh& mesh)
   }
 }
 
-/// Triangles with two corners in one point, or three.
+/// Adds triangles with two or three corners at one point.
 void AddWithoutArea(Choice& choice, TriangleMesh& mesh)
 {
   const Id last = static_cast<Id>(mesh.points.size()) - 1;
@@ -275,7 +275,7 @@ void AddWithoutArea(Choice& choice, TriangleMesh& mesh)
   }
 }
 
-/// Points that no triangle uses, or in the place of others.
+/// Adds points that no triangle uses, or that coincide with others.
 void AddPoints(Choice& choice, TriangleMesh& mesh)
 {
   const Id last = static_cast<Id>(mesh.points.size()) - 1;
@@ -331,7 +331,7 @@ struct Change
 {
   const char* name;
   void (*apply)(Choice&, TriangleMesh&);
-  Id rarity; // applied once in so many meshes
+  Id rarity; // applied to one in this many meshes
 };
 
 constexpr Change Changes[] = { { "flattened", Flatten, 8 }, { "jittered", Jitter, 10 },

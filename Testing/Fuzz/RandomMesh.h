@@ -1,4 +1,4 @@
-// Small meshes of every kind that somebody might have, most of them bad.
+// Small meshes of every kind that users might have. Most of them are bad.
 #ifndef GridFEM_Testing_RandomMesh_h
 #define GridFEM_Testing_RandomMesh_h
 
@@ -12,11 +12,12 @@ namespace gridfem::testing
 
 struct RandomMesh
 {
-  std::string name; // how it was made
+  std::string name; // describes how it was made
   TriangleMesh mesh;
 };
 
-/// Some are no valid input: they have numbers that are not finite, or corners that do not exist.
+/// Makes a random mesh. Some are invalid input: they have infinite or NaN coordinates, or corners
+/// that do not exist.
 RandomMesh MakeRandomMesh(Choice& choice);
 
 } // namespace gridfem::testing

@@ -38,7 +38,7 @@ Outcome RunCase(std::uint64_t seed)
     problem.run(choice, surface, outcome);
     if (!surface.isChecked)
     {
-      outcome.broken.clear(); // what comes out of no surface need not mean anything
+      outcome.broken.clear(); // results on an invalid surface need not be meaningful
     }
   }
   catch (const InvalidInput& error)

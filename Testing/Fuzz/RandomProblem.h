@@ -1,4 +1,4 @@
-// Random problems on random surfaces, and what has to hold for each of them.
+// Random problems on random surfaces, and the requirements on their results.
 #ifndef GridFEM_Testing_RandomProblem_h
 #define GridFEM_Testing_RandomProblem_h
 
@@ -8,10 +8,10 @@
 namespace gridfem::testing
 {
 
-/// The case of a seed. What Core throws, but for InvalidInput, is among what is broken.
+/// Runs the case of a seed. Exceptions of Core other than InvalidInput count as broken.
 Outcome RunCase(std::uint64_t seed);
 
-///@{ Each adds what is broken, and may throw whatever Core throws.
+///@{ Each adds violated requirements to the outcome, and may throw whatever Core throws.
 using RandomProblem = void (*)(Choice& choice, RandomSurface& surface, Outcome& outcome);
 
 // Meshes, levels and matrices.

@@ -25,7 +25,7 @@ Id RowsOf(const TriangleMesh& mesh, FieldAssociation where)
                                                 : 3 * triangles;
 }
 
-/// The numbers of a column: constant, rough or waves along the rows.
+/// Fills a column with a constant, rough numbers or waves along the rows.
 void FillColumn(Choice& choice, MultiVector& values, Id column)
 {
   const Id kind = choice.Integer(0, 3);

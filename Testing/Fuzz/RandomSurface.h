@@ -1,4 +1,4 @@
-// A random mesh with random functions on it, and random options and fields for problems.
+// A random mesh with a random function space, and random options and fields for problems.
 #ifndef GridFEM_Testing_RandomSurface_h
 #define GridFEM_Testing_RandomSurface_h
 
@@ -16,35 +16,36 @@ struct RandomSurface
   GridSpaceOptions options;
   bool isOnHats = false;
   std::shared_ptr<FiniteElementSpace> space; // null until Build
-  const GridSpace* grid = nullptr;           // it, or the one below the hats
+  const GridSpace* grid = nullptr;           // the space itself, or the grid below the hats
 
   Id NumberOfPoints() const { return static_cast<Id>(mesh->points.size()); }
   Id NumberOfTriangles() const { return static_cast<Id>(mesh->triangles.size()); }
 
-  bool isChecked = true; // RequireSurface has the first word
+  bool isChecked = true; // RequireSurface checks the mesh first
 
-  /// Throws InvalidInput.
+  /// Builds the space. Throws InvalidInput.
   void Build();
 
   std::string Describe() const;
 };
 
-/// @param isDefault  the quadrature and the operator are those of the filters by default
+/// @param isDefault  quadrature and operator have the filters' default options
 RandomSurface MakeRandomSurface(Choice& choice, bool isDefault);
 
 MultigridOptions RandomCycle(Choice& choice);
 SolveOptions RandomSolve(Choice& choice);
 
-/// Of any size, smooth or rough, now and then with columns of zeros or of NaN.
+/// Returns a field of any size, smooth or rough. Some columns are zeros, and some values are NaN or
+/// infinite.
 Field RandomField(Choice& choice, const TriangleMesh& mesh, Id columns, FieldAssociation where);
 
-/// Numbers of ordinary size.
+/// Returns a field with numbers of ordinary size.
 Field OrdinaryField(Choice& choice, const TriangleMesh& mesh, Id columns, FieldAssociation where);
 
-/// Mostly points of the mesh.
+/// Returns random point ids; rarely, a point does not exist.
 std::vector<Id> RandomPoints(Choice& choice, const TriangleMesh& mesh, Id most);
 
-/// 0 or a power of ten, in squared cells.
+/// Returns 0 or a power of ten, in squared cells.
 double RandomWeight(Choice& choice);
 
 } // namespace gridfem::testing

@@ -1,4 +1,4 @@
-// Shapes and fields on them at random.
+// Random shapes, and fields on them.
 #include "RandomProblem.h"
 
 #include "Problems/HodgeDecomposition.h"
@@ -16,7 +16,7 @@ namespace gridfem::testing
 namespace
 {
 
-/// Points that no triangle uses may be anything.
+/// Whether all used points are finite. Points that no triangle uses may be anything.
 bool AreFinite(const TriangleMesh& mesh, const std::vector<Vec3>& points)
 {
   for (const auto& corner : mesh.triangles)
@@ -195,7 +195,7 @@ void Decompose(Choice& choice, RandomSurface& surface, Outcome& outcome)
   outcome.Add(parts.report);
   outcome.RequireFinite(parts.gradientOnTriangles, "a gradient");
   outcome.RequireFinite(parts.rotationOnTriangles, "a rotation");
-  // What is no number on a triangle without an area, no integral sees.
+  // No integral sees a NaN on a triangle without area.
   outcome.Require(!v.values.allFinite() || !outcome.converged || parts.restOnTriangles.allFinite(),
     "a rest is not finite");
   outcome.RequireFinite(parts.potentialAtPoints, "a potential");

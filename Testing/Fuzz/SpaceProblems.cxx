@@ -1,4 +1,4 @@
-// Clips, levels, matrices and metrics at random.
+// Random clips, levels, matrices and metrics.
 #include "Invariants.h"
 #include "RandomProblem.h"
 
@@ -49,7 +49,7 @@ void RequireInsideCells(const TriangleMesh& mesh, const ClippedMesh& clipped, Ou
   outcome.Require(isInside, "a piece is outside its cell");
 }
 
-/// |A - Aᵀ| against rounding.
+/// Whether |A - Aᵀ| is at most rounding.
 bool IsSymmetric(const SparseMatrix& A)
 {
   const SparseMatrix transposed = Transpose(A);
@@ -68,8 +68,8 @@ bool IsSymmetric(const SparseMatrix& A)
   return true;
 }
 
-/// P maps functions of the coarser level to the same functions of the finer one: Pᵀ A P is the
-/// coarser A.
+/// Whether P maps functions of the coarser level to the same functions of the finer level, so that
+/// Pᵀ A P is the coarser A.
 bool IsNested(Choice& choice, const FiniteElementSpace& space, std::size_t level)
 {
   const SparseMatrix fine = space.Matrix(level, 1.0, 1.0);
@@ -93,7 +93,7 @@ bool IsNested(Choice& choice, const FiniteElementSpace& space, std::size_t level
 void RequireMatrices(
   Choice& choice, const FiniteElementSpace& space, std::size_t firstNested, Outcome& outcome)
 {
-  double largest = 0.0; // of this level and of those that it is summed from
+  double largest = 0.0; // of this level and the finer levels that it is summed from
   for (std::size_t level = 0; level < space.NumberOfLevels(); ++level)
   {
     const SparseMatrix mass = space.Matrix(level, 1.0, 0.0);
@@ -113,7 +113,7 @@ void RequireMatrices(
   }
 }
 
-/// Σ ∫ b_i is the area.
+/// Requires that Σ ∫ b_i is the area.
 void RequireIntegrals(
   const FiniteElementSpace& space, double area, double allowed, Outcome& outcome)
 {
@@ -126,7 +126,7 @@ void RequireIntegrals(
     std::abs(sum * std::pow(space.UnitLength(), 2) - area) <= allowed, "integrals miss the area");
 }
 
-/// Symmetric and positive, the largest eigenvalue at most `ratio` times the smallest.
+/// Returns symmetric positive tensors of random size, orientation and anisotropy.
 Field RandomTensors(Choice& choice, const TriangleMesh& mesh)
 {
   const double ratio = choice.PowerOfTen(0.0, choice.OneIn(5) ? 20.0 : 4.0);
@@ -159,7 +159,7 @@ void CheckClip(Choice& choice, RandomSurface& surface, Outcome& outcome)
   {
     RequireArea(*surface.mesh, clipped, outcome);
   }
-  // The same from the pieces alone, as from a file.
+  // The same must work with the pieces alone, as read from a file.
   ClippedMesh restored = clipped;
   restored.links = FindLinks(clipped, {});
   for (const FunctionSupport support :

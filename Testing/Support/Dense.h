@@ -1,5 +1,5 @@
-// Dense matrices, for references that are computed densely: solvers of Eigen, which take long to
-// compile, once for all tests.
+// Dense matrices, for references that are computed densely. Eigen's dense solvers take long to
+// compile, so they are compiled once for all tests.
 #ifndef GridFEM_Testing_Dense_h
 #define GridFEM_Testing_Dense_h
 
@@ -12,26 +12,27 @@ namespace gridfem::testing
 
 Eigen::MatrixXd Dense(const SparseMatrix& A);
 
-/// A⁻¹ b of a symmetric positive definite A.
+/// Returns A⁻¹ b for a symmetric positive definite A.
 Eigen::MatrixXd DenseSolution(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b);
 
-/// The smallest of the x with the least |A x - b|, of any A.
+/// Returns, for any A, the smallest x among those that minimize |A x - b|.
 Eigen::MatrixXd LeastSquares(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b);
 
 struct DenseEigenPairs
 {
-  Eigen::VectorXd values; // rising
+  Eigen::VectorXd values; // ascending
   Eigen::MatrixXd vectors;
 };
 
-/// A x = λ x with orthonormal x, of a symmetric A.
+/// Solves A x = λ x with orthonormal x, for a symmetric A.
 DenseEigenPairs DenseEigen(const Eigen::MatrixXd& A);
 
-/// A x = λ B x with B-orthonormal x, of a symmetric A and a positive definite B.
+/// Solves A x = λ B x with B-orthonormal x, for a symmetric A and a positive definite B.
 DenseEigenPairs DenseEigen(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 
-/// The smallest eigenvalues of L x = α M x for semidefinite L and M, also where x has neither
-/// energy nor mass: the range of K = L + M, then the largest values of M in it.
+/// Returns the smallest eigenvalues of L x = α M x for semidefinite L and M. Some x may have
+/// neither energy nor mass. It therefore takes the range of K = L + M, and the largest values of M
+/// in it.
 std::vector<double> DenseEigenvalues(const SparseMatrix& L, const SparseMatrix& M, int count);
 
 } // namespace gridfem::testing

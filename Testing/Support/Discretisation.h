@@ -7,7 +7,7 @@
 namespace gridfem::testing
 {
 
-/// A space that owns nothing: its parts have to outlive it. Without a mesh it has no loads.
+/// Returns a space that owns nothing: its parts must outlive it. Without a mesh, it has no loads.
 inline GridSpace ViewOf(
   const GridFunctions& space, const LevelOperators& system, const TriangleMesh* mesh = nullptr)
 {
@@ -18,7 +18,7 @@ inline GridSpace ViewOf(
   return GridSpace(view(mesh), view(&space), view(&system));
 }
 
-/// The finest mass or stiffness matrix, grid units.
+/// Returns the mass or stiffness matrix of the finest level, in grid units.
 inline SparseMatrix MassMatrix(const GridFunctions& space, const LevelOperators& system)
 {
   return ViewOf(space, system).Matrix(0, 1.0, 0.0);

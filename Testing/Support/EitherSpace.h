@@ -1,4 +1,4 @@
-// A space on a mesh for tests that run on both kinds.
+// Builds a space on a mesh for tests that run on both kinds of space.
 #ifndef GridFEM_Testing_EitherSpace_h
 #define GridFEM_Testing_EitherSpace_h
 
@@ -9,7 +9,7 @@
 namespace gridfem::testing
 {
 
-/// The hats of the mesh, or the functions of the grid below them.
+/// Returns the hats of the mesh, or the functions of the grid below them.
 inline std::unique_ptr<FiniteElementSpace> BuildEither(
   const TriangleMesh& mesh, bool isOnHats, const GridSpaceOptions& options)
 {

@@ -1,4 +1,4 @@
-// What tests ask of element matrices as a whole.
+// Sums and differences of element matrices, for tests.
 #ifndef GridFEM_Testing_ElementSums_h
 #define GridFEM_Testing_ElementSums_h
 
@@ -33,7 +33,7 @@ inline double LargestEntry(const Array<ElementMatrix>& matrices)
   return largest;
 }
 
-/// Of two lists that must be of one length.
+/// Returns the largest difference of entries of two lists, which must have the same length.
 inline double LargestDifference(const Array<ElementMatrix>& a, const Array<ElementMatrix>& b)
 {
   EXPECT_EQ(a.size(), b.size());
@@ -48,7 +48,8 @@ inline double LargestDifference(const Array<ElementMatrix>& a, const Array<Eleme
   return difference;
 }
 
-/// xᵀ A x summed over the columns of x, A the finest matrix with these element matrices.
+/// Returns xᵀ A x, summed over the columns of x. A is the finest matrix with these element
+/// matrices.
 inline double Energy(
   const GridFunctions& space, const Array<ElementMatrix>& elements, const MultiVector& x)
 {

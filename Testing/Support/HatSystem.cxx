@@ -41,7 +41,8 @@ HatSystem BuildHatSystem(const TriangleMesh& mesh)
         const int row = system.row[triangle[i]];
         const int column = system.row[triangle[j]];
         mass.emplace_back(row, column, twiceArea / (i == j ? 12.0 : 24.0));
-        // The gradient of hat i is the opposite edge turned by 90 degrees over twice the area.
+        // The gradient of hat i is the opposite edge, turned by 90 degrees, divided by twice the
+        // area.
         const Vec3 edgeI = p[(i + 2) % 3] - p[(i + 1) % 3];
         const Vec3 edgeJ = p[(j + 2) % 3] - p[(j + 1) % 3];
         stiffness.emplace_back(row, column, edgeI.dot(edgeJ) / (2.0 * twiceArea));

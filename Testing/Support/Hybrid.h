@@ -1,4 +1,4 @@
-// A mesh with its grid and its hats, ready to solve: what tests of the hybrid hierarchy share.
+// A mesh with its grid and its hats, ready to solve, for tests of the hybrid hierarchy.
 #ifndef GridFEM_Testing_Hybrid_h
 #define GridFEM_Testing_Hybrid_h
 
@@ -11,15 +11,15 @@
 namespace gridfem::testing
 {
 
-/// A cycle of a hybrid hierarchy, with other sweeps on the hats than the space has by itself.
+/// A cycle of a hybrid hierarchy. The sweeps on the hats may differ from the space's own choice.
 struct HybridCycle
 {
-  MultigridOptions grid; // of the levels below the hats
+  MultigridOptions grid; // options of the levels below the hats
   std::optional<LevelSmoothing> hats;
   bool relaxGroups = true;
 };
 
-/// λM + L, ready to cycle; the weight in grid units.
+/// Builds a hierarchy for λM + L, ready to cycle, with the weight λ in grid units.
 inline Multigrid BuildHybridCycle(
   const FiniteElementSpace& space, double weight, const HybridCycle& options)
 {
@@ -55,12 +55,12 @@ struct Hybrid
     return BuildHatSpace(mesh, spaceOptions, transfer);
   }
 
-  /// λ in world units to grid units.
+  /// Converts λ from world units to grid units.
   double Weight(double lambda) const { return lambda * std::pow(space.UnitLength(), 2); }
 
   Multigrid Build(double weight) const { return BuildHybridCycle(space, weight, options); }
 
-  /// Solves (λM + L) u = λ f, f at points.
+  /// Solves (λM + L) u = λ f, with f given at points.
   PoissonSolution Solve(double lambda, const MultiVector& f) const
   {
     PoissonOptions poisson;
@@ -76,7 +76,7 @@ struct Hybrid
   SolveOptions solve;
 };
 
-/// A smooth function with fine detail.
+/// Returns a smooth function with fine detail.
 inline MultiVector Waves(const TriangleMesh& mesh)
 {
   const Grid grid = EmbedInGrid(mesh.points, UsedPoints(mesh), 2);

@@ -1,4 +1,4 @@
-// A reader for just the kinds of files in the folder of real meshes.
+// Reads only the kinds of files in the folder of real meshes.
 #include "Meshes.h"
 
 #include <cstdlib>
@@ -37,7 +37,7 @@ void AddSoupTriangles(TriangleMesh& mesh)
   }
 }
 
-/// Reads little-endian numbers one after the other.
+/// Reads little-endian numbers, one after the other.
 class ByteReader
 {
 public:
@@ -102,7 +102,7 @@ struct PlyProperty
 {
   std::string name;
   std::string type;
-  std::string countType; // of a list; else empty
+  std::string countType; // of a list; otherwise empty
 };
 
 struct PlyElement
@@ -112,7 +112,7 @@ struct PlyElement
   std::vector<PlyProperty> properties;
 };
 
-/// Reads the header; returns the position behind it.
+/// Reads the header and returns the position after it.
 std::size_t ReadPlyHeader(const std::string& bytes, std::vector<PlyElement>& elements)
 {
   const std::string end = "end_header\n";
@@ -262,7 +262,7 @@ TriangleMesh ReadOff(const std::string& bytes)
     {
       words >> corner;
     }
-    std::getline(words, keyword); // an optional colour
+    std::getline(words, keyword); // an optional color
     AddFan(mesh, polygon);
   }
   if (!words && !words.eof())

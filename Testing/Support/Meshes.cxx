@@ -14,7 +14,7 @@ namespace
 
 constexpr double Pi = 3.14159265358979323846;
 
-/// Points of an integer lattice that get their id when they are first asked for.
+/// Points of an integer lattice. A point gets its id when it is first requested.
 class LatticePoints
 {
 public:
@@ -44,7 +44,8 @@ void AddQuad(TriangleMesh& mesh, Id a, Id b, Id c, Id d)
   mesh.triangles.push_back({ a, c, d });
 }
 
-/// The torus of quads between points i * m + j, 0 <= i < n, 0 <= j < m; i x j points outwards.
+/// Connects the points i * m + j, 0 <= i < n, 0 <= j < m, to a torus of quads. i x j points
+/// outward.
 void ConnectClosedGrid(TriangleMesh& mesh, int n, int m)
 {
   const auto at = [=](int i, int j) { return static_cast<Id>(i % n) * m + j % m; };
@@ -57,7 +58,7 @@ void ConnectClosedGrid(TriangleMesh& mesh, int n, int m)
   }
 }
 
-/// Turns a closed profile around z. Its points are (distance from the axis, z), counter-clockwise.
+/// Turns a closed profile around z. Its points are (distance from the axis, z), counterclockwise.
 TriangleMesh Revolve(const std::vector<std::pair<double, double>>& profile, int around)
 {
   TriangleMesh mesh;
@@ -152,7 +153,7 @@ TriangleMesh Box(int n, const Vec3& low, const Vec3& high)
   {
     for (const int side : { 0, n })
     {
-      // (u, v) turned so that u x v points out of the box on both sides
+      // (u, v) is chosen so that u x v points out of the box on both sides.
       const int u = side == 0 ? (axis + 2) % 3 : (axis + 1) % 3;
       const int v = side == 0 ? (axis + 1) % 3 : (axis + 2) % 3;
       const auto at = [&](int i, int j)
@@ -172,7 +173,7 @@ TriangleMesh Box(int n, const Vec3& low, const Vec3& high)
       }
     }
   }
-  // written so that the ends are exactly low and high
+  // Written so that the ends are exactly low and high.
   mesh.points = lattice.Positions([&](const Vec3& p) -> Vec3
     { return (low.array() * (n - p.array()) + high.array() * p.array()) / n; });
   return mesh;
@@ -201,8 +202,8 @@ TriangleMesh FlatRectangle(int nx, int ny, double width, double height)
 
 TriangleMesh TrefoilTube(int along, int around, double tubeRadius)
 {
-  // The knot lies on a torus of radii 2 and 1; the torus' normal and its product with the tangent
-  // are a frame that closes up.
+  // The knot lies on a torus of radii 2 and 1. The normal of the torus, and its cross product with
+  // the tangent, form a frame that closes up.
   TriangleMesh mesh;
   for (int i = 0; i < along; ++i)
   {
@@ -261,7 +262,7 @@ TriangleMesh TwoSheets(int n, double gap)
 TriangleMesh Pulley(int around, double wallThickness)
 {
   const double w = wallThickness;
-  // Upper half of the section from the bore outwards: hub, web, flange, groove.
+  // Upper half of the section, from the bore outward: hub, web, flange, groove.
   const std::vector<std::pair<double, double>> upper = { { 0.15, 0.25 }, { 0.15 + w, 0.25 },
     { 0.15 + w, w / 2 }, { 0.6, w / 2 }, { 1.0, 0.25 + w / 2 }, { 1.0, 0.25 - w / 2 } };
   std::vector<std::pair<double, double>> corners;

@@ -1,4 +1,4 @@
-// The surface shared out among its points: weights of norms.
+// Distributes the area of a surface over its points, as weights of norms.
 #ifndef GridFEM_Testing_PointAreas_h
 #define GridFEM_Testing_PointAreas_h
 
@@ -7,7 +7,7 @@
 namespace gridfem::testing
 {
 
-/// Parts of the area that belong to the points.
+/// Returns the part of the area that belongs to each point.
 inline Eigen::VectorXd AreasOfPoints(const TriangleMesh& mesh)
 {
   Eigen::VectorXd area = Eigen::VectorXd::Zero(static_cast<Id>(mesh.points.size()));

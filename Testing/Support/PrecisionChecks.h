@@ -1,4 +1,4 @@
-// What holds for the copy of any hierarchy whose factors are in double precision.
+// Checks of a hierarchy's copy with factors in double precision.
 #ifndef GridFEM_Testing_PrecisionChecks_h
 #define GridFEM_Testing_PrecisionChecks_h
 
@@ -9,8 +9,8 @@
 namespace gridfem::testing
 {
 
-/// @param mixed  holds factors in single precision
-/// @param built  the same, built in double precision
+/// @param mixed  a hierarchy with factors in single precision
+/// @param built  the same hierarchy, built in double precision
 inline void ExpectCopyInDoublePrecision(const Multigrid& mixed, const Multigrid& built)
 {
   const MultiVector b = RandomVectors(built.Matrix().rows, 1);
@@ -22,7 +22,7 @@ inline void ExpectCopyInDoublePrecision(const Multigrid& mixed, const Multigrid&
   copy.Precondition(b, copied);
   mixed.Precondition(b, x);
   EXPECT_EQ(copied, expected);
-  EXPECT_NE(x, expected); // it was not in double before
+  EXPECT_NE(x, expected); // so it was not in double precision before
   EXPECT_FALSE(copy.HasSingleFactors());
 }
 

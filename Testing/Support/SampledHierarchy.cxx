@@ -81,7 +81,8 @@ SparseMatrix FromRows(const std::vector<std::map<Index, double>>& rows, Index co
   return sparse.Matrix(columns);
 }
 
-/// Value and gradient of the function of a corner at local coordinates in [0, 1]³.
+/// Returns the value of a corner's function at local coordinates in [0, 1]³, and computes its
+/// gradient.
 double Trilinear(const Vec3& local, int corner, Vec3& gradient)
 {
   Vec3 factor;
@@ -99,7 +100,7 @@ double Trilinear(const Vec3& local, int corner, Vec3& gradient)
 
 using ElementMatrix = Eigen::Matrix<double, FunctionsPerPatch, FunctionsPerPatch>;
 
-/// Adds the integrand at a sample; `local` are its coordinates in the patch's cell.
+/// Adds the integrand at a sample. `local` are the sample's coordinates in the patch's cell.
 void AddSample(const Sample& sample, const Vec3& local, double size, double mass, double stiffness,
   ElementMatrix& E)
 {

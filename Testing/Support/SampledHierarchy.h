@@ -1,5 +1,5 @@
-// Multigrid hierarchies without a mesh: integrals are sums over sample points in the unit grid.
-// All levels use the same samples, so their matrices obey PᵀAP to rounding.
+// Multigrid hierarchies without a mesh. Integrals are sums over sample points in the unit grid. All
+// levels use the same samples, so their matrices satisfy PᵀAP up to rounding.
 #ifndef GridFEM_Testing_SampledHierarchy_h
 #define GridFEM_Testing_SampledHierarchy_h
 
@@ -18,28 +18,30 @@ struct Sample
   double weight;
 };
 
-/// Samples that integrate trilinear elements exactly over the whole cube of 2^depth cells per side.
+/// Returns samples that integrate trilinear elements exactly over the whole cube of 2^depth cells
+/// per side.
 std::vector<Sample> SolidCube(int depth);
 
-/// The same over the flat square z = 0: a two-dimensional problem. Functions above it have zero
-/// rows.
+/// Returns samples over the flat square z = 0, for a two-dimensional problem. Functions above the
+/// square have zero rows.
 std::vector<Sample> FlatSquare(int depth);
 
-/// Points of the plane z = height + slope x inside the cube of 2^depth cells, some 16 per cell. The
-/// functions are nearly dependent, as they are on any surface.
+/// Returns points of the plane z = height + slope x inside the cube of 2^depth cells per side,
+/// about 16 per cell. The functions are nearly dependent, as on any surface.
 std::vector<Sample> TiltedPlane(int depth, double height, double slope);
 
-/// Levels depth .. coarsestDepth of mass * M + stiffness * L on the cells that hold samples.
+/// Returns levels depth .. coarsestDepth of mass * M + stiffness * L, on the cells that contain
+/// samples.
 std::vector<MultigridLevel> SampledHierarchy(
   const std::vector<Sample>& samples, int depth, int coarsestDepth, double mass, double stiffness);
 
-/// Entries in [-1, 1], the same for the same seed.
+/// Returns random entries in [-1, 1]. The same seed gives the same entries.
 MultiVector RandomVectors(Id rows, Id columns, std::uint32_t seed = 1);
 
-/// The largest difference of two blocks relative to the largest entry of the second.
+/// Returns the largest difference of two blocks, relative to the largest entry of the second.
 double RelativeDifference(const MultiVector& a, const MultiVector& b);
 
-/// All entries of a dense matrix that are not zero.
+/// Returns all nonzero entries of a dense matrix.
 SparseMatrix Sparse(const Eigen::MatrixXd& A);
 
 } // namespace gridfem::testing

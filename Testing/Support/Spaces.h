@@ -1,4 +1,4 @@
-// What tests of function spaces share: named meshes in both spaces, coefficients of known
+// Common parts of tests of function spaces: named meshes in both spaces, coefficients of known
 // functions, dense copies of sparse matrices.
 #ifndef GridFEM_Testing_Spaces_h
 #define GridFEM_Testing_Spaces_h
@@ -16,7 +16,7 @@
 namespace gridfem::testing
 {
 
-/// Gradients of the eight functions of a cell at a point in its own coordinates.
+/// Returns the gradients of a cell's eight functions at a point in the cell's own coordinates.
 inline std::array<Vec3, FunctionsPerPatch> TrilinearGradientsAt(const Vec3& local)
 {
   std::array<CornerValues, 3> derivative;
@@ -29,7 +29,7 @@ inline std::array<Vec3, FunctionsPerPatch> TrilinearGradientsAt(const Vec3& loca
   return gradient;
 }
 
-/// A mesh with a space on it, as a test parameter.
+/// A mesh and the options of a space on it, as a test parameter.
 struct SpaceCase
 {
   std::string name;
@@ -44,10 +44,11 @@ inline std::ostream& operator<<(std::ostream& stream, const SpaceCase& space)
   return stream << space.name << (space.options.connectivityAware ? "" : " plain");
 }
 
-/// Curved, flat, on grid planes, nearly on grid planes (slivers), with holes of connectivity.
+/// Returns surfaces that are curved, flat, on grid planes, nearly on grid planes (slivers), or
+/// disconnected.
 inline std::vector<SpaceCase> AllSpaces(int depth = 4)
 {
-  const double nearly = 1e-7; // radians: the faces cross grid planes at glancing angles
+  const double nearly = 1e-7; // radians, so that faces cross grid planes at glancing angles
   const std::vector<std::pair<std::string, TriangleMesh>> meshes = {
     { "sphere", GeodesicSphere(8) },
     { "torus", Torus(30, 12, 1.0, 0.3) },
@@ -71,7 +72,8 @@ inline std::vector<SpaceCase> AllSpaces(int depth = 4)
   return cases;
 }
 
-/// One number at a time: a fixed-size vector in a dynamic row makes GCC warn about its bounds.
+/// Copies one number at a time, because GCC warns about bounds when a fixed-size vector is assigned
+/// to a dynamic row.
 inline void SetRow(MultiVector& values, Id row, const Vec3& vector)
 {
   for (int axis = 0; axis < 3; ++axis)
@@ -80,7 +82,8 @@ inline void SetRow(MultiVector& values, Id row, const Vec3& vector)
   }
 }
 
-/// Grid corner of every finest function, world units: the coefficients of the coordinate functions.
+/// Returns the grid corner of every finest function, in world units. These are the coefficients of
+/// the coordinate functions.
 inline MultiVector CoordinateCoefficients(const GridFunctions& space)
 {
   const PatchLevel& level = space.Finest();
@@ -97,7 +100,7 @@ inline MultiVector CoordinateCoefficients(const GridFunctions& space)
   return result;
 }
 
-/// The same in grid units: the coefficients of the embedding that is the mesh itself.
+/// Returns these coefficients in grid units: the embedding that is the mesh itself.
 inline MultiVector GridCoordinates(const GridFunctions& space)
 {
   MultiVector coordinates = CoordinateCoefficients(space);
@@ -108,7 +111,7 @@ inline MultiVector GridCoordinates(const GridFunctions& space)
   return coordinates;
 }
 
-/// The points of a mesh as values on points.
+/// Returns the points of a mesh as values on points.
 inline MultiVector PointCoordinates(const TriangleMesh& mesh)
 {
   MultiVector result(mesh.points.size(), 3);
@@ -119,7 +122,7 @@ inline MultiVector PointCoordinates(const TriangleMesh& mesh)
   return result;
 }
 
-/// Numbers in [-1, 1], the same in every run.
+/// Returns random numbers in [-1, 1], the same in every run.
 inline MultiVector RandomValues(Id rows, Id columns, unsigned seed = 1)
 {
   std::mt19937 generator(seed);
@@ -131,7 +134,7 @@ inline MultiVector RandomValues(Id rows, Id columns, unsigned seed = 1)
   return result;
 }
 
-/// Largest difference relative to the largest entry of the second.
+/// Returns the largest difference, relative to the largest entry of the second matrix.
 inline double RelativeDifference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
 {
   return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();

@@ -1,4 +1,4 @@
-// Sparse matrices written down entry by entry.
+// Builds sparse matrices entry by entry.
 #ifndef GridFEM_Testing_SparseRows_h
 #define GridFEM_Testing_SparseRows_h
 

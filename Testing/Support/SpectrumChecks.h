@@ -1,5 +1,5 @@
-// Spectra of small problems, what holds for all of them, and independent references: what their
-// tests share.
+// Common parts of tests of spectra: spectra of small problems, properties of every spectrum, and
+// independent references.
 #ifndef GridFEM_Testing_SpectrumChecks_h
 #define GridFEM_Testing_SpectrumChecks_h
 
@@ -18,7 +18,7 @@ namespace gridfem::testing
 
 constexpr double Pi = 3.14159265358979323846;
 
-/// With a rule that is exact.
+/// Discretizes with an exact quadrature rule.
 inline Discretisation DiscretiseExactly(
   const TriangleMesh& mesh, int depth, bool connectivityAware = true)
 {
@@ -34,7 +34,7 @@ inline Spectrum Solve(const Discretisation& on, int modes, double tolerance = 1e
   return ComputeSpectrum(ViewOf(on.space, on.system), options);
 }
 
-/// Eigenvalues in world units.
+/// Returns eigenvalues in world units.
 inline std::vector<double> WorldValues(const Discretisation& on, const Spectrum& spectrum)
 {
   std::vector<double> values = spectrum.eigenvalues;
@@ -45,14 +45,14 @@ inline std::vector<double> WorldValues(const Discretisation& on, const Spectrum&
   return values;
 }
 
-/// From a dense solver, in grid units.
+/// Returns eigenvalues of a dense solver, in grid units.
 inline std::vector<double> DenseReference(const Discretisation& on, int modes)
 {
   return DenseEigenvalues(
     StiffnessMatrix(on.space, on.system), MassMatrix(on.space, on.system), modes);
 }
 
-/// What must hold for every spectrum: order, M-orthonormality, true residuals, the sign rule.
+/// Checks the properties of every spectrum: order, M-orthonormality, true residuals, the sign rule.
 inline void CheckPairs(const Discretisation& on, const Spectrum& spectrum)
 {
   const SparseMatrix mass = MassMatrix(on.space, on.system);
@@ -70,15 +70,15 @@ inline void CheckPairs(const Discretisation& on, const Spectrum& spectrum)
   for (Id j = 0; j < count; ++j)
   {
     const Eigen::VectorXd r = stiffnessX.col(j) - spectrum.eigenvalues[j] * massX.col(j);
-    // |r|² <= |L + shift M| rᵀBr up to the quality of B, and the norm of L is below 10.
+    // |r|² <= |L + shift M| rᵀBr, up to the quality of B, and the norm of L is below 10.
     const double bound = 10.0 * spectrum.residuals[j] * std::sqrt(spectrum.eigenvalues[j]);
     EXPECT_LT(r.norm(), bound + 1e-9) << "mode " << j;
-    // Of two entries of about the same magnitude the first decides.
+    // Among entries of about the same magnitude, the first one decides the sign.
     EXPECT_GT(massX.col(j).maxCoeff(), (1.0 - 3e-6) * massX.col(j).cwiseAbs().maxCoeff());
   }
 }
 
-/// The largest relative error of the modes behind the constants.
+/// Returns the largest relative error of the modes after the constants.
 inline double LargestError(const std::vector<double>& values, const std::vector<double>& exact)
 {
   double error = 0.0;
@@ -89,7 +89,7 @@ inline double LargestError(const std::vector<double>& values, const std::vector<
   return error;
 }
 
-/// l (l + 1), each 2 l + 1 times, for `spheres` unit spheres.
+/// Returns l (l + 1), each 2 l + 1 times, for `spheres` unit spheres.
 inline std::vector<double> SphereValues(int modes, int spheres = 1)
 {
   std::vector<double> values;

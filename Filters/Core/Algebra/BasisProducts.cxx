@@ -8,11 +8,13 @@ namespace gridfem
 namespace
 {
 
-/// Rows whose images are computed and multiplied at a time: they fit the second-level cache.
+/// Number of rows whose images are computed and multiplied together: they fit the second-level
+/// cache.
 template<class Real>
 constexpr Id RowsAtOnce = 2048 / sizeof(Real);
 
-/// Sums over all rows are made of this many, each by one thread and added in order.
+/// A sum over all rows is split into at most this many parts. One thread computes each part, and
+/// the parts are added in order.
 constexpr Id NumberOfSums = 16;
 
 template<class Real>
@@ -26,8 +28,8 @@ Id Width(const BasisParts<Real>& parts)
   return width;
 }
 
-/// Sum over the rows of [X₁ X₂ ...]ᵀ image, where imageRows(begin, end, image) fills the first rows
-/// of a block of `columns` columns.
+/// Returns [X₁ X₂ ...]ᵀ times the whole image. The function imageRows(begin, end, image) computes
+/// rows begin .. end - 1 of the image, in the first rows of a block with `columns` columns.
 template<class Real, class ImageRows>
 Eigen::MatrixXd ProjectRows(
   const BasisParts<Real>& parts, Id rows, Id columns, int threads, ImageRows&& imageRows)

@@ -10,7 +10,7 @@ namespace gridfem
 namespace
 {
 
-/// Calls body(column, lanes) for groups of 32, 16, 4 and 1 columns; lanes gives their type.
+/// Calls body(column, lanes) for groups of 32, 16, 4 and 1 columns. `lanes` only conveys its type.
 template<class Sum, class Body>
 inline void ForEachLanes(Id columns, Body&& body)
 {
@@ -33,11 +33,11 @@ inline void ForEachLanes(Id columns, Body&& body)
   }
 }
 
-/// Eight neighbouring numbers, wherever they begin.
+/// Eight adjacent numbers at any address.
 typedef float Floats __attribute__((vector_size(32), aligned(4), may_alias));
 typedef double Doubles __attribute__((vector_size(64), aligned(8), may_alias));
 
-/// a += p x, b += q x for entries x of the same precision or less.
+/// Computes a += p x and b += q x for entries x of the same or lower precision.
 template<class Real, class Lanes>
 inline void AddProducts(double p, double q, const Real* x, Lanes& a, Lanes& b)
 {
@@ -67,7 +67,7 @@ inline void AddProducts(double p, double q, const Real* x, Lanes& a, Lanes& b)
   }
 }
 
-/// A row of the block, from that column on.
+/// Pointer to the entry of a block at (row, column).
 template<class Real>
 inline const Real* RowAt(const ConstBlock<Real>& X, Id row, Id column)
 {
@@ -94,7 +94,7 @@ void CheckShapes(const SparseMatrix& A, const SparseMatrix& B, const ConstBlock<
   }
 }
 
-/// From the first of these columns to the last.
+/// Returns all columns of X from the first to the last of `columns`.
 template<class Real>
 ConstBlock<Real> Span(const ConstBlock<Real>& X, const std::vector<Index>& columns)
 {
@@ -113,8 +113,8 @@ std::vector<Index> CheckColumns(
   return columns;
 }
 
-/// Calls store(row, column, a, b) with the lanes of A X and B X that begin there, in the precision
-/// of Sum.
+/// Calls store(row, column, a, b) with the lanes of A X and B X that begin at (row, column), in the
+/// precision of Sum.
 template<class Sum, class Real, class Store>
 void ForEachRowPair(const SparseMatrix& A, const SparseMatrix& B, const ConstBlock<Real>& X,
   Id first, Id last, Store&& store)

@@ -1,6 +1,6 @@
-// Stiffness and mass times the same block of vectors in one pass: the two matrices share their
-// pattern, so every row of the block is fetched once. Eigenproblems multiply by hundreds of
-// columns. Blocks may be in single precision; sums are in double but for residuals.
+// Multiplies stiffness and mass by the same block of vectors in one pass. The two matrices share
+// their pattern, so every row of the block is fetched once. Eigenproblems multiply by hundreds of
+// columns. Blocks may be in single precision; sums are in double precision, except for residuals.
 #ifndef GridFEM_BlockProducts_h
 #define GridFEM_BlockProducts_h
 
@@ -12,15 +12,16 @@
 namespace gridfem
 {
 
-/// [A X, B X] side by side, for matrices of one pattern, some rows at a time. Keeps references.
-/// Throws InvalidInput when the shapes do not fit.
+/// Computes [A X, B X] side by side, some rows at a time, for two matrices with the same pattern.
+/// Keeps references to its arguments. Throws InvalidInput when the shapes do not fit.
 template<class Real>
 class BlockProducts
 {
 public:
   BlockProducts(const SparseMatrix& A, const SparseMatrix& B, const ConstBlock<Real>& X);
 
-  /// The rows begin .. end - 1, from the first row of `image` on, which has 2 X.cols() columns.
+  /// Computes rows begin .. end - 1 and stores them from the first row of `image` on. `image` has 2
+  /// X.cols() columns.
   void Rows(Id begin, Id end, Vectors<Real>& image) const;
 
 private:
@@ -29,30 +30,32 @@ private:
   ConstBlock<Real> X_;
 };
 
-/// The rows begin .. end - 1 of A X, from the first row of `image` on, which has X.cols() columns.
-/// Throws InvalidInput when the shapes do not fit.
+/// Computes rows begin .. end - 1 of A X and stores them from the first row of `image` on. `image`
+/// has X.cols() columns. Throws InvalidInput when the shapes do not fit.
 template<class Real>
 void MultiplyRows(
   const SparseMatrix& A, const ConstBlock<Real>& X, Id begin, Id end, Block<Real> image);
 
-/// Y = A X for columns of wider blocks, under the same conditions.
+/// Computes Y = A X for columns of wider blocks, under the same conditions.
 template<class Real>
 void MultiplyBlock(
   const SparseMatrix& A, const ConstBlock<Real>& X, Block<Real> Y, int threads = 0);
 
-/// Columns of A X - B X diag(values), a few rows at a time. A and B have the same pattern. Sums are
-/// in the precision of X, whose own rounding is as large. Keeps references.
+/// Computes columns of A X - B X diag(values), a few rows at a time. A and B have the same pattern.
+/// Sums are in the precision of X, because the rounding of X itself is as large. Keeps references
+/// to A, B and X.
 template<class Real>
 class EigenResidual
 {
 public:
-  /// @param values   one per column of X
-  /// @param columns  of X that are wanted, ascending; all between the first and the last cost time
+  /// @param values   one number per column of X
+  /// @param columns  the wanted columns of X, ascending; every column between the first and the
+  ///   last costs time
   /// Throws InvalidInput when the shapes do not fit.
   EigenResidual(const SparseMatrix& A, const SparseMatrix& B, const ConstBlock<Real>& X,
     const Eigen::VectorXd& values, std::vector<Index> columns);
 
-  /// The rows begin .. end - 1 of the wanted columns.
+  /// Computes rows begin .. end - 1 of the wanted columns.
   void Rows(Id begin, Id end, Block<Real> rows) const;
 
 private:

@@ -10,7 +10,7 @@ void BlockBuffer<Real>::Reserve(Id rows, Id columns)
 {
   if (rows_ != rows || capacity_ < columns)
   {
-    Release(memory_); // two blocks at a time would be one too many
+    Release(memory_); // so that two blocks never exist at the same time
     memory_.resize(rows * columns);
     rows_ = rows;
     capacity_ = columns;

@@ -1,5 +1,5 @@
-// Columns of a block of vectors, in single or double precision: stored, made, selected. Used by the
-// block iteration.
+// Storage, copies and random values for blocks of vectors, in single or double precision. The block
+// iteration uses them.
 #ifndef GridFEM_BlockVectors_h
 #define GridFEM_BlockVectors_h
 
@@ -12,33 +12,34 @@
 namespace gridfem
 {
 
-/// Neighbouring columns of a block that is stored elsewhere, all of them or some.
+/// A view of adjacent columns of a block that is stored elsewhere: all of its columns or some.
 template<class Real>
 using Block = Eigen::Ref<Vectors<Real>>;
 template<class Real>
 using ConstBlock = Eigen::Ref<const Vectors<Real>>;
 
-/// Room for a block whose width changes from step to step. Memory is kept: touching fresh pages
-/// takes longer than the work on them.
+/// Storage for a block whose width changes from step to step. It keeps its memory, because touching
+/// fresh pages takes longer than the work on them.
 template<class Real>
 class BlockBuffer
 {
 public:
   using Map = Eigen::Map<Vectors<Real>, 0, Eigen::OuterStride<>>;
 
-  /// Room for blocks of up to so many columns; their numbers are lost where it has to grow.
+  /// Makes room for blocks of up to `columns` columns. If the buffer has to grow, its numbers are
+  /// lost.
   void Reserve(Id rows, Id columns);
 
-  /// As Reserve, but the columns that are shown keep their numbers.
+  /// Makes room like Reserve, but the visible columns keep their numbers.
   void Grow(Id rows, Id columns, int threads = 0);
 
-  /// Shows the first columns, of which there is room for at least so many; numbers stay.
+  /// Makes the first `columns` columns visible; there must be room for them. Numbers stay.
   void Show(Id columns) { columns_ = columns; }
 
-  /// Shows these columns, which ascend, and loses the others.
+  /// Makes only these columns visible, given in ascending order. The other columns are lost.
   void Keep(const std::vector<Index>& columns, int threads = 0);
 
-  /// The columns that are shown. Rows lie the capacity apart.
+  /// Returns the visible columns. The distance between two rows is the capacity.
   Map View() { return Map(memory_.data(), rows_, columns_, Eigen::OuterStride<>(capacity_)); }
   Eigen::Map<const Vectors<Real>, 0, Eigen::OuterStride<>> View() const
   {
@@ -54,7 +55,7 @@ private:
   Id capacity_ = 0;
 };
 
-/// to = from, in the precision of `to`; of one shape.
+/// Copies `from` to `to`, converted to the precision of `to`. Both have the same shape.
 template<class From, class To>
 void CopyBlock(const From& from, To to, int threads)
 {
@@ -66,7 +67,7 @@ void CopyBlock(const From& from, To to, int threads)
     });
 }
 
-/// Uniform in [-1, 1), the same on every platform.
+/// Random numbers, uniform in [-1, 1), the same on every platform.
 MultiVector RandomColumns(Id rows, Id columns);
 
 } // namespace gridfem

@@ -1,4 +1,5 @@
-// Sums and products of blocks of vectors, column by column: every right-hand side has its own step.
+// Sums and products of blocks of vectors, column by column, because every right-hand side has its
+// own step length.
 #ifndef GridFEM_ColumnAlgebra_h
 #define GridFEM_ColumnAlgebra_h
 
@@ -10,7 +11,7 @@ namespace gridfem
 /// One number per column.
 using Columns = Eigen::ArrayXd;
 
-/// x_cᵀ y_c of every column c over some rows, added up in double precision.
+/// Returns x_cᵀ y_c of every column c over the rows begin .. end - 1, added up in double precision.
 template<class Real>
 Columns RowProducts(const Vectors<Real>& x, const Vectors<Real>& y, Id begin, Id end)
 {
@@ -31,7 +32,7 @@ Columns RowProducts(const Vectors<Real>& x, const Vectors<Real>& y, Id begin, Id
   return sums;
 }
 
-/// The same over the rows from `first` on. Same bits for any number of threads.
+/// Returns the same products over all rows from `first` on. Same bits for any number of threads.
 template<class Real>
 Columns ColumnProducts(const Vectors<Real>& x, const Vectors<Real>& y, int threads, Id first = 0)
 {
@@ -40,7 +41,7 @@ Columns ColumnProducts(const Vectors<Real>& x, const Vectors<Real>& y, int threa
     [&](Id begin, Id end) { return RowProducts(x, y, first + begin, first + end); });
 }
 
-/// y_c += factor_c x_c.
+/// Computes y_c += factor_c x_c for every column c.
 inline void AddScaled(const MultiVector& x, const Columns& factor, MultiVector& y, int threads)
 {
   ParallelRanges(x.rows(), ThreadsFor(x.size(), threads),
@@ -51,7 +52,7 @@ inline void AddScaled(const MultiVector& x, const Columns& factor, MultiVector& 
     });
 }
 
-/// x_c = z_c + factor_c x_c.
+/// Computes x_c = z_c + factor_c x_c for every column c.
 inline void ScaleAndAdd(const MultiVector& z, const Columns& factor, MultiVector& x, int threads)
 {
   ParallelRanges(x.rows(), ThreadsFor(x.size(), threads),

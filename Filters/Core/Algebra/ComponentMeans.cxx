@@ -18,12 +18,12 @@ ComponentMeans::ComponentMeans(const std::vector<Index>& component,
   SumOverProcesses(divided_, area_);
 }
 
-/// Σ weight(i) x_i over every component, divided by its area.
+/// Returns Σ weight(i) x_i over every component, divided by the component's area.
 template<class Weight>
 MultiVector ComponentMeans::WeightedMeans(const MultiVector& x, Weight&& weight) const
 {
   const MultiVector zero = MultiVector::Zero(static_cast<Id>(area_.size()), x.cols());
-  const Id foreign = ForeignRows(divided_); // which count elsewhere
+  const Id foreign = ForeignRows(divided_); // rows that other processes count
   const auto sumRange = [&](Id begin, Id end)
   {
     MultiVector sum = zero;
@@ -37,7 +37,8 @@ MultiVector ComponentMeans::WeightedMeans(const MultiVector& x, Weight&& weight)
       });
     return sum;
   };
-  // Sums of ranges that are longer than components are many take less room than x.
+  // Each range is at least as long as there are components, so the partial sums take less memory
+  // than x.
   const Id range = std::max(DefaultBlockSize, zero.rows());
   MultiVector mean =
     ParallelSum(x.rows() - foreign, ThreadsFor(x.size(), threads_), zero, sumRange, range);
@@ -56,7 +57,7 @@ MultiVector ComponentMeans::WeightedMeans(const MultiVector& x, Weight&& weight)
   return mean;
 }
 
-/// x_i += weight(i) times the mean of its component.
+/// Computes x_i += weight(i) times the mean of the component of i.
 template<class Weight>
 void ComponentMeans::AddWeighted(const MultiVector& mean, MultiVector& x, Weight&& weight) const
 {

@@ -1,4 +1,5 @@
-// Means of functions over the connected components of a surface, and the constants that have them.
+// Means of functions over the connected components of a surface, and the constant functions with
+// these means.
 #ifndef GridFEM_ComponentMeans_h
 #define GridFEM_ComponentMeans_h
 
@@ -11,32 +12,32 @@
 namespace gridfem
 {
 
-/// Blocks have one row per function, means one row per component; any number of columns. Same bits
-/// for any number of threads. Keeps references to what it is made from. Where processes hold the
-/// rows together, all of them call every function, and means are those of the whole.
+/// Blocks have one row per function and any number of columns; means have one row per component.
+/// Same bits for any number of threads. Keeps references to the constructor's arguments. Collective
+/// if the rows are divided (see DividedRows); the means are those of the whole surface.
 class ComponentMeans
 {
 public:
-  /// @param component  per function, 0 .. numberOfComponents - 1
-  /// @param integral   ∫ b_i per function
+  /// @param component  the component of each function, 0 .. numberOfComponents - 1
+  /// @param integral   ∫ b_i of each function
   /// @param divided    null: this process holds all functions
   ComponentMeans(const std::vector<Index>& component, const std::vector<double>& integral,
     Index numberOfComponents, int threads, const DividedRows* divided = nullptr);
 
-  /// Means of a field over the components, from its integrals against the functions. Components
-  /// without area have mean 0.
+  /// Means of a field over the components, computed from its integrals against the functions.
+  /// Components without area have mean 0.
   MultiVector OfIntegrals(const MultiVector& load) const;
 
-  /// Means of a function over the components, from its coefficients.
+  /// Means of a function over the components, computed from its coefficients.
   MultiVector OfFunction(const MultiVector& coefficients) const;
 
-  /// coefficients += the constants `mean`, but on components without area.
+  /// Adds the constants `mean` to the coefficients, except on components without area.
   void AddConstants(const MultiVector& mean, MultiVector& coefficients) const;
 
-  /// load -= the integrals of the constants `mean`.
+  /// Subtracts the integrals of the constants `mean` from the load.
   void SubtractIntegrals(const MultiVector& mean, MultiVector& load) const;
 
-  /// ∫ (mean - mean of all)² over the surface, per column.
+  /// Returns ∫ (mean - mean of all)² over the surface, per column.
   Columns SquaredSpread(const MultiVector& mean) const;
 
 private:

@@ -11,7 +11,7 @@ namespace gridfem
 namespace
 {
 
-/// Sums over all rows are made of at most so many, whatever the number of threads.
+/// A sum over all rows is split into at most this many parts, for any number of threads.
 constexpr Id MostSums = 16;
 constexpr Id RowsPerComponent = 64;
 
@@ -78,7 +78,8 @@ template<class Real>
 MultiVector Constants::Means(const ConstBlock<Real>& X) const
 {
   const Id components = static_cast<Id>(mass_.size());
-  // A sum of every component each: as many as take less memory than a part of X.
+  // Each part has a sum for every component. There are only so many parts that they take less
+  // memory than a fraction of X.
   const Id sums = std::clamp<Id>(X.rows() / (RowsPerComponent * components + 1), 1, MostSums);
   MultiVector mean = ParallelSum(
     X.rows(), threads_, MultiVector(MultiVector::Zero(components, X.cols())),

@@ -1,5 +1,5 @@
-// The constant functions of the connected components on one level: the zero modes of the Laplacian,
-// known exactly, so that no iteration has to find them.
+// The constant functions of the connected components on one level. They are the zero modes of the
+// Laplacian and known exactly, so no iteration has to find them.
 #ifndef GridFEM_Constants_h
 #define GridFEM_Constants_h
 
@@ -11,40 +11,42 @@
 namespace gridfem
 {
 
-/// The null space of the stiffness matrix, known exactly: the constants of every component.
+/// The null space of the stiffness matrix: one constant function per component.
 class Constants
 {
 public:
-  /// @param mass       where processes hold the functions together, what this one adds to it
-  /// @param component  per function, 0 .. numberOfComponents - 1
-  /// @param divided    null: this process holds all functions; else has to outlive this, and all
-  ///                   processes call the constructor and Remove
+  /// @param mass       this process's part of the mass matrix, if several processes hold the
+  ///   functions
+  /// @param component  the component of each function, 0 .. numberOfComponents - 1
+  /// @param divided    null: this process holds all functions. Otherwise it must outlive this
+  ///   object, and the constructor and Remove are collective
   Constants(const SparseMatrix& mass, std::vector<Index> component, Index numberOfComponents,
     int threads, const DividedRows* divided = nullptr);
 
-  /// Removes the constants from every column, in the inner product of the mass matrix; components
-  /// without mass, as pieces without an area are, become zero.
+  /// Removes the constants from every column, in the inner product of the mass matrix. Components
+  /// without mass become zero, for example pieces without area.
   template<class Real>
   void Remove(Block<Real> X) const;
 
-  /// Takes the constants out of a dense mass matrix of the same size, M - M Z Zᵀ M, and components
-  /// without mass.
+  /// Removes the constants from a dense mass matrix of the same size: M - M Z Zᵀ M. Rows and
+  /// columns of components without mass become zero.
   void Deflate(Eigen::MatrixXd& mass) const;
 
-  /// The first `count` constants, of mass norm 1: one component each, in order of their numbers.
+  /// Returns the first `count` constants with mass norm 1, one component each, in the order of the
+  /// components' numbers.
   MultiVector Vectors(Index count) const;
 
-  /// Components without mass do not count.
+  /// Number of constants. Components without mass do not count.
   Index Count() const { return static_cast<Index>(massive_.size()); }
 
 private:
-  /// Mean of every column on every component.
+  /// Returns the mean of every column on every component.
   template<class Real>
   MultiVector Means(const ConstBlock<Real>& X) const;
 
   std::vector<Index> component_;
-  std::vector<double> weight_; // ∫ b_i, or what this process adds to it
-  std::vector<double> mass_;   // per component; 0 when negligible
+  std::vector<double> weight_; // ∫ b_i, or the part of this process
+  std::vector<double> mass_;   // per component; 0 if negligible
   std::vector<Index> massive_; // components with mass
   int threads_;
   const DividedRows* divided_;

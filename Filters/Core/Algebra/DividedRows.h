@@ -1,5 +1,5 @@
-// Rows of vectors that several processes hold together: what an iteration in each of them asks of
-// the others. Rows that several processes hold have the same bits in all of them.
+// The communication that an iteration needs if several processes hold the rows of its vectors
+// together. A row held by several processes has the same bits in all of them.
 #ifndef GridFEM_DividedRows_h
 #define GridFEM_DividedRows_h
 
@@ -8,44 +8,45 @@
 namespace gridfem
 {
 
-/// All functions but Foreign are called by all processes, in the same order and by one thread each.
-/// A row belongs to one process; what a process adds to a vector before it is summed up is called
-/// its part.
+/// Every function except Foreign is collective: all processes call it, in the same order, from one
+/// thread each. Every row belongs to one process. A process's contribution to a vector, before the
+/// contributions are added up, is called its part.
 class DividedRows
 {
 public:
   virtual ~DividedRows() = default;
 
-  /// Rows here that belong to other processes. They come first.
+  /// Number of rows here that belong to other processes. These rows come first.
   virtual Index Foreign() const = 0;
 
-  /// Whether the prolongations of the processes are parts as well, which add up to the whole: what
-  /// they give is to be summed, and what their transposes take has to be whole. Else each process
-  /// has all entries of its rows.
+  /// Whether the prolongations of the processes are parts that add up to the whole prolongation. If
+  /// so, their results must be summed, and their transposes need whole vectors. Otherwise each
+  /// process has all entries of its rows.
   virtual bool ArePartsProlonged() const { return false; }
 
-  /// Parts of a vector become the vector: adds up rows that several processes hold.
+  /// Turns the parts of a vector into the whole vector by adding up the rows that several processes
+  /// hold.
   virtual void Sum(Block<float> x) const = 0;
   virtual void Sum(Block<double> x) const = 0;
 
-  /// Foreign rows become those of the processes that they belong to.
+  /// Overwrites each foreign row with the row of the process it belongs to.
   virtual void TakeForeign(Block<float> x) const = 0;
   virtual void TakeForeign(Block<double> x) const = 0;
 
-  /// Adds up numbers of all processes, in place; the same bits in all of them.
+  /// Adds up numbers over all processes, in place. All processes get the same bits.
   virtual void SumNumbers(double* values, Id count) const = 0;
 
-  /// One row per process.
+  /// Returns one row per process.
   virtual MultiVector Gather(const Eigen::RowVectorXd& numbers) const = 0;
 };
 
-/// The same where there may be one process alone, which holds all.
+/// Number of foreign rows; 0 if `divided` is null, because one process then holds all rows.
 inline Index ForeignRows(const DividedRows* divided)
 {
   return divided ? divided->Foreign() : 0;
 }
 
-/// Of what a process has prolonged to such rows.
+/// Sums the result of a prolongation, if the processes prolong parts.
 template<class Real>
 void SumProlonged(const DividedRows* divided, Block<Real> x)
 {

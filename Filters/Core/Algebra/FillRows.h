@@ -1,4 +1,4 @@
-// Sparse matrices whose rows are made in parallel.
+// Makes the rows of a sparse matrix in parallel.
 #ifndef GridFEM_FillRows_h
 #define GridFEM_FillRows_h
 
@@ -11,8 +11,8 @@
 namespace gridfem
 {
 
-/// Fills a matrix whose shape is set from rows made block by block: row(r, columns, values) appends
-/// one row's entries; a pattern's rows have no values.
+/// Fills a matrix whose shape is already set. row(r, columns, values) appends the entries of row r.
+/// For a mere pattern it appends no values.
 template<class Row>
 void FillRows(SparseMatrix& matrix, int threads, Row&& row)
 {

@@ -11,7 +11,8 @@ namespace
 
 constexpr Index PanelWidth = 48;
 
-/// Position of the largest entry from `begin` on that is above `smallest`; -1 if there is none.
+/// Returns the position of the largest entry from `begin` on that is above `smallest`, or -1 if
+/// there is none.
 Index FindPivot(const Eigen::VectorXd& diagonal, Index begin, double smallest)
 {
   Index pivot = -1;
@@ -26,7 +27,7 @@ Index FindPivot(const Eigen::VectorXd& diagonal, Index begin, double smallest)
   return pivot;
 }
 
-/// Moves row and column `pivot` to `target`.
+/// Exchanges rows and columns `pivot` and `target`.
 void Exchange(Eigen::MatrixXd& S, Eigen::VectorXd& diagonal, std::vector<Index>& order,
   Index target, Index pivot)
 {
@@ -46,7 +47,7 @@ std::vector<Index> PivotedCholesky(Eigen::MatrixXd& S, double smallestPivot)
   const Index size = static_cast<Index>(S.rows());
   std::vector<Index> order(size);
   std::iota(order.begin(), order.end(), 0);
-  Eigen::VectorXd diagonal = S.diagonal(); // what is left of it
+  Eigen::VectorXd diagonal = S.diagonal(); // diagonal of the remaining matrix
   for (Index panel = 0; panel < size; panel += PanelWidth)
   {
     const Index panelEnd = std::min(size, panel + PanelWidth);

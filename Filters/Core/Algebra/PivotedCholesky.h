@@ -1,4 +1,4 @@
-// Cholesky with diagonal pivoting for semi-definite matrices.
+// Cholesky factorization with diagonal pivoting, for semi-definite matrices.
 #ifndef GridFEM_PivotedCholesky_h
 #define GridFEM_PivotedCholesky_h
 
@@ -9,11 +9,13 @@
 namespace gridfem
 {
 
-/// P S Pᵀ = L Lᵀ, where the largest remaining diagonal is the next pivot, until none is above
-/// `smallestPivot`. Overwrites S: its leading rank x rank lower triangle is L, the rest is garbage.
-/// @param S  symmetric, both triangles; NaN is never a pivot
-/// @return   the pivots' rows of the original S in their order; their number is the rank
-/// Blocked like LAPACK's dpstrf: the trailing matrix is updated once per panel.
+/// Factorizes P S Pᵀ = L Lᵀ. Each pivot is the largest remaining diagonal entry; it stops when none
+/// is above `smallestPivot`. The leading rank x rank lower triangle of S becomes L; the rest of S
+/// is garbage.
+/// The algorithm is blocked like LAPACK's dpstrf: it updates the trailing matrix once per panel.
+/// @param S  symmetric, both triangles filled; NaN is never a pivot
+/// @return   the rows of the original S that hold the pivots, in order of pivoting; their number is
+///   the rank
 std::vector<Index> PivotedCholesky(Eigen::MatrixXd& S, double smallestPivot);
 
 } // namespace gridfem

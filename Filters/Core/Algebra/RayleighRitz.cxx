@@ -11,10 +11,10 @@ namespace gridfem
 namespace
 {
 
-/// Pairs of mass c = μ K c with μ below this fraction of the largest count as μ = 0 (θ infinite).
+/// Pairs of mass c = μ K c with μ below this fraction of the largest count as μ = 0 (infinite θ).
 constexpr double MasslessFraction = 1e-12;
 
-/// 1 / sqrt(diagonal); 0 where there is nothing to scale.
+/// Returns 1 / sqrt(diagonal), or 0 where the diagonal is zero.
 Eigen::VectorXd DiagonalScale(const Eigen::MatrixXd& A)
 {
   const double floor = 1e-300;

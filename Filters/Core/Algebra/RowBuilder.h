@@ -1,4 +1,4 @@
-// A sparse matrix that is made row by row.
+// Builds a sparse matrix row by row.
 #ifndef GridFEM_RowBuilder_h
 #define GridFEM_RowBuilder_h
 
@@ -17,7 +17,8 @@ class RowBuilder
 public:
   using Entries = std::vector<std::pair<Index, double>>;
 
-  /// Entries of one column are added; sums up to `least` are left out.
+  /// Appends a row. Entries in the same column are added up; sums whose absolute value is at most
+  /// `least` are left out.
   void Append(Entries& entries, double least = -1.0)
   {
     std::sort(entries.begin(), entries.end(),

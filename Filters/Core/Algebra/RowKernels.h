@@ -1,6 +1,6 @@
 // Inner loops shared by matrix products and smoothers: one row of a sparse matrix times a few
-// columns of a row-major block. The number of columns is known at compile time, so that they fill
-// SIMD lanes; the choice at run time is made in one place, ForEachChunk.
+// columns of a row-major block. The number of columns is a compile-time constant, so that they fill
+// SIMD lanes. Only ForEachChunk chooses it at run time.
 #ifndef GridFEM_RowKernels_h
 #define GridFEM_RowKernels_h
 
@@ -14,8 +14,8 @@
 namespace gridfem
 {
 
-/// `Columns` neighbouring columns of a row-major block, the first of them `first`. `Stride` is the
-/// distance of two rows, 0 where it is known at run time only.
+/// `Columns` adjacent columns of a row-major block, beginning with column `first`. `Stride` is the
+/// distance between two rows, or 0 if it is known only at run time.
 template<int Columns, int Stride, class Real = double>
 struct ColumnChunk
 {
@@ -37,8 +37,8 @@ struct ColumnChunk
   }
 };
 
-/// Calls body(chunk) for chunks of 8, 4, 3, 2 or 1 columns that cover a block of `columns`; for one
-/// chunk where a block in single precision has WidestPanel of them.
+/// Calls body(chunk) for chunks of 8, 4, 3, 2 or 1 columns that cover a block of `columns` columns.
+/// A block in single precision with WidestPanel columns is a single chunk.
 template<class Real = double, class Body>
 void ForEachChunk(Id columns, Body&& body)
 {
@@ -86,7 +86,7 @@ void ForEachChunk(Id columns, Body&& body)
   }
 }
 
-/// The arrays of a matrix, for loops that should not look them up again.
+/// Pointers to the arrays of a matrix, for loops that should not look them up again.
 template<class Real>
 struct RowView
 {
@@ -100,7 +100,7 @@ struct RowView
   }
 };
 
-/// Asks for the entries of a row, of a long one for the first.
+/// Prefetches the entries of a row, or the first entries of a long row.
 template<class Real>
 EIGEN_ALWAYS_INLINE void FetchRow(const RowView<Real>& A, Index row)
 {
@@ -108,8 +108,8 @@ EIGEN_ALWAYS_INLINE void FetchRow(const RowView<Real>& A, Index row)
   Fetch<3>(A.value + A.begin[row]);
 }
 
-/// One row of A times a chunk of x. A single column is added up in four parts, so that additions
-/// need not wait for each other.
+/// Returns one row of A times a chunk of x. A single column is summed in four parts, so that
+/// additions need not wait for each other.
 template<class Real, class Chunk>
 EIGEN_ALWAYS_INLINE typename Chunk::ColumnLanes RowProduct(
   const RowView<Real>& A, Index row, const Real* x, Chunk chunk)
@@ -135,9 +135,9 @@ EIGEN_ALWAYS_INLINE typename Chunk::ColumnLanes RowProduct(
   }
   else
   {
-    // Three numbers are read as four, with the first of the next row, which is not used: another
-    // thread may be writing it. There is one behind all but the last entry of A's row, whose
-    // columns ascend.
+    // Three numbers are read as four. The fourth is the first number of the next row and is not
+    // used, because another thread may be writing it. The columns of A's row ascend, so only the
+    // last entry may lack a next row.
     constexpr bool isThree = std::is_same_v<Chunk, ColumnChunk<3, 3, Real>>;
     using Read = Eigen::Array<Real, isThree ? 4 : Chunk::Width, 1>;
     const auto lanes = [&](Id entry)
@@ -172,8 +172,8 @@ EIGEN_ALWAYS_INLINE typename Chunk::ColumnLanes RowProduct(
   }
 }
 
-/// `threads` where there is enough to do (multiplications) to be worth waking them, else 1. A
-/// sleeping thread takes some 20 µs to wake, 100,000 multiplications some 100 µs.
+/// Returns `threads` if the work (in multiplications) is worth waking threads, otherwise 1. A
+/// sleeping thread takes about 20 µs to wake; 100,000 multiplications take about 100 µs.
 inline int ThreadsFor(Id work, int threads)
 {
   constexpr Id Worthwhile = 100000;

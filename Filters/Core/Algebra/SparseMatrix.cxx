@@ -21,10 +21,12 @@ void CheckRows(Id have, Id want, const char* what)
   }
 }
 
-/// Short ranges keep their part of the matrix in the cache while chunk after chunk passes.
+/// Ranges are short, so that their part of the matrix stays in the cache while all chunks are
+/// multiplied.
 constexpr Id RowsPerRange = 1024;
 
-/// Calls body(row, chunk, product of the row with the chunk of x) for some rows and every chunk.
+/// Calls body(row, chunk, product) for rows begin .. end - 1 and every chunk. `product` is the row
+/// times the chunk of x.
 template<class Real, class Body>
 void ForRows(const RowView<Real>& A, const Vectors<Real>& x, Id begin, Id end, Body&& body)
 {

@@ -1,5 +1,5 @@
-// A sparse matrix in compressed rows, with products for several vectors at once, in single or
-// double precision.
+// A sparse matrix in compressed row format. Its products handle several vectors at once, in single
+// or double precision.
 #ifndef GridFEM_SparseMatrix_h
 #define GridFEM_SparseMatrix_h
 
@@ -15,14 +15,14 @@ struct BasicSparseMatrix
 {
   Index rows = 0;
   Index columns = 0;
-  SharedArray<Id> rowBegin;  // rows + 1
+  SharedArray<Id> rowBegin;  // rows + 1 entries
   SharedArray<Index> column; // ascending in each row
   Array<Real> value;
 
   Id NonZeros() const { return static_cast<Id>(column.size()); }
   std::size_t Memory() const;
 
-  /// Value at (row, column), 0 where there is no entry.
+  /// Value at (row, column), or 0 if there is no entry.
   Real Coefficient(Index row, Index col) const;
 
   std::vector<Real> Diagonal(int threads = 1) const;
@@ -30,10 +30,10 @@ struct BasicSparseMatrix
 
 using SparseMatrix = BasicSparseMatrix<double>;
 
-/// The same in single precision; the pattern is shared.
+/// Returns A in single precision. The copy shares the pattern of A.
 BasicSparseMatrix<float> InSinglePrecision(const SparseMatrix& A, int threads = 0);
 
-/// A matrix that never changes once it is made, so that hierarchies can share it.
+/// An immutable matrix that several hierarchies can share.
 template<class Real>
 class BasicSharedMatrix
 {
@@ -52,32 +52,33 @@ private:
 
 using SharedMatrix = BasicSharedMatrix<double>;
 
-/// y = A x; y must not be x. Throws InvalidInput, as the next two, when shapes do not fit. Same
-/// bits for any number of threads.
+/// Computes y = A x; y must not be x. Multiply, MultiplyAdd and Residual throw InvalidInput when
+/// shapes do not fit. Same bits for any number of threads.
 void Multiply(const SparseMatrix& A, const MultiVector& x, MultiVector& y, int threads = 0);
 void Multiply(
   const BasicSparseMatrix<float>& A, const Vectors<float>& x, Vectors<float>& y, int threads = 0);
 
-/// y += A x.
+/// Computes y += A x.
 void MultiplyAdd(const SparseMatrix& A, const MultiVector& x, MultiVector& y, int threads = 0);
 void MultiplyAdd(
   const BasicSparseMatrix<float>& A, const Vectors<float>& x, Vectors<float>& y, int threads = 0);
 
-/// r = b - A x; r may be b.
+/// Computes r = b - A x; r may be b.
 void Residual(const SparseMatrix& A, const MultiVector& x, const MultiVector& b, MultiVector& r,
   int threads = 0);
 
-/// The same where rows before `foreign` leave out b, which belongs to other processes: a part of
-/// the residual.
-/// @param energy  if not null: xᵀ(b + r) of every column, a part, too; r must not be b then
+/// Computes this process's part of the residual. It leaves out b in the rows before `foreign`,
+/// because these rows belong to other processes.
+/// @param energy  if not null: receives this process's part of xᵀ(b + r) for every column; r must
+///   not be b then
 template<class Real>
 void ResidualPart(const BasicSparseMatrix<Real>& A, const Vectors<Real>& x, const Vectors<Real>& b,
   Index foreign, Vectors<Real>& r, Eigen::ArrayXd* energy, int threads);
 
-/// A column: A times ones.
+/// Returns A times a vector of ones, as one column.
 MultiVector RowSums(const SparseMatrix& A, int threads = 0);
 
-/// Divides each row by a number. Rows without entries stay as they are.
+/// Divides each row r by by(r, 0). Rows without entries stay unchanged.
 void DivideRows(const MultiVector& by, SparseMatrix& A, int threads = 0);
 
 SparseMatrix Transpose(const SparseMatrix& A, int threads = 0);

@@ -1,5 +1,5 @@
-// A vector whose resize leaves numbers without a value: they are about to be filled, and the
-// threads that fill them should be the first to touch their memory.
+// Array: a std::vector whose resize() leaves numbers uninitialized. The numbers are about to be
+// written anyway, and the threads that write them should be the first to touch their memory.
 #ifndef GridFEM_Array_h
 #define GridFEM_Array_h
 
@@ -51,8 +51,8 @@ struct UninitializedAllocator : std::allocator<T>
   {
     ::new (static_cast<void*>(place)) U;
   }
-  /// Aggregates, too, so that emplace_back writes them where they stay: a copy of what was just
-  /// written in parts waits until the parts are in the cache.
+  /// Constructs aggregates, too, so that emplace_back writes them in place. Copying an object whose
+  /// parts were just written would stall until the parts are in the cache.
   template<class U, class... Args>
   void construct(U* place, Args&&... args)
   {
@@ -70,7 +70,7 @@ struct UninitializedAllocator : std::allocator<T>
 template<class T>
 using Array = std::vector<T, UninitializedAllocator<T>>;
 
-/// Gives the memory of an array back: `array = {}` would keep it.
+/// Empties the array and frees its memory. `array = {}` would keep the memory.
 template<class T>
 void Release(Array<T>& array)
 {

@@ -11,7 +11,7 @@
 namespace gridfem
 {
 
-/// A precondition is broken; the message names the offending id or value and what would help.
+/// A precondition is broken. The message names the offending id or value and suggests a remedy.
 struct InvalidInput : std::invalid_argument
 {
   using std::invalid_argument::invalid_argument;
@@ -23,7 +23,7 @@ struct Aborted : std::runtime_error
   Aborted() : std::runtime_error("aborted") {}
 };
 
-/// The system gives no more threads, or no memory for them.
+/// The system cannot start more threads, or has no memory for them.
 struct OutOfThreads : std::runtime_error
 {
   using std::runtime_error::runtime_error;

@@ -1,4 +1,5 @@
-// Lists of items per group, from the group of every item: pieces of a patch, children of a parent.
+// Lists the items of each group, given the group of each item: pieces of a patch, children of a
+// parent.
 #ifndef GridFEM_Grouping_h
 #define GridFEM_Grouping_h
 
@@ -12,9 +13,9 @@
 namespace gridfem
 {
 
-/// Turns the number of items per range and group, counts[range * groups + group], into the places
-/// where they begin: group after group, in each range after range. `begin`, one longer than there
-/// are groups, gets where each group begins.
+/// Turns counts[range * groups + group], the number of items per range and group, into the position
+/// of the first such item. The order is group by group, and range by range within a group. `begin`
+/// has one entry more than there are groups and receives the start of each group.
 template<class Counts, class Begins>
 void ScanGroups(Counts& counts, Id ranges, Begins& begin)
 {
@@ -31,21 +32,22 @@ void ScanGroups(Counts& counts, Id ranges, Begins& begin)
   begin[groups] = total;
 }
 
-/// Items of group g are item[begin[g] .. begin[g + 1]), ascending.
+/// The items of group g are item[begin[g] .. begin[g + 1]), in ascending order.
 struct Groups
 {
   Array<Index> begin;
   Array<Index> item;
 };
 
-/// Fewer are sorted before a sleeping thread has begun.
+/// Fewer items than this are sorted faster than a sleeping thread wakes.
 constexpr Id ItemsPerRange = 16 * DefaultBlockSize;
 
-/// Counting sort, ranges of items in parallel. Cost O(items + groups).
-/// @param group  of every one of `items` items, in [0, numberOfGroups)
+/// Groups items by a counting sort. Ranges of items are processed in parallel. Cost
+/// O(items + groups).
+/// @param group  the group of each of the `items` items, in [0, numberOfGroups)
 inline Groups GroupItems(const Index* group, Id items, Id numberOfGroups, int threads = 1)
 {
-  // Each range has a counter per group: no more of them than four times the items.
+  // Each range has one counter per group. All counters together are at most four times the items.
   const Id most = std::min(4 * items / (numberOfGroups + 1), items / ItemsPerRange);
   const Id ranges = std::clamp<Id>(most, 1, NumberOfThreads(threads));
   Array<Index> next(ranges * numberOfGroups);
@@ -56,7 +58,8 @@ inline Groups GroupItems(const Index* group, Id items, Id numberOfGroups, int th
       {
         Index* const ofGroup = next.data() + range * numberOfGroups;
         const auto end = static_cast<Index>((range + 1) * items / ranges);
-        // Neighbours often are of one group: run by run, as each has to wait for the one before.
+        // Neighboring items often share a group. Each increment of a counter waits for the one
+        // before, so a whole run of equal groups is counted at once.
         for (auto item = static_cast<Index>(range * items / ranges); item < end;)
         {
           const Index first = item;

@@ -1,4 +1,4 @@
-// How a computation is run: on how many threads, and who hears of its progress.
+// How a computation runs: the number of threads, and the receiver of its progress.
 #ifndef GridFEM_Job_h
 #define GridFEM_Job_h
 
@@ -9,7 +9,8 @@
 namespace gridfem
 {
 
-/// Handed down from the caller to every loop. A number of threads is a silent job.
+/// A job is passed from the caller down to every loop. A plain number of threads converts to a
+/// silent job.
 struct Job
 {
   Job(int threadsOfJob = 0, Progress progressOfJob = {})
@@ -17,13 +18,13 @@ struct Job
   {
   }
 
-  /// The part of this job between two fractions of it.
+  /// The part of this job between the fractions `from` and `to`.
   Job Part(double from, double to) const { return { threads, progress.Part(from, to) }; }
 
-  /// Reports the fraction that is done; throws Aborted when an abort is asked for.
+  /// Reports the completed fraction. Throws Aborted when the receiver asks for an abort.
   void Check(double fraction) const { progress.Check(fraction); }
 
-  int threads; // 0: all
+  int threads; // 0: all processors
   Progress progress;
 };
 

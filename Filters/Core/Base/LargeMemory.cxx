@@ -18,13 +18,13 @@
 namespace gridfem
 {
 
-// Address sanitizers watch the heap alone.
+// Address sanitizers watch only the heap.
 #if defined(__linux__) && !defined(__SANITIZE_ADDRESS__)
 
 namespace
 {
 
-constexpr std::size_t Page = std::size_t{ 1 } << 16; // a multiple of any system's
+constexpr std::size_t Page = std::size_t{ 1 } << 16; // a multiple of the page size of every system
 constexpr std::size_t LargePage = std::size_t{ 1 } << 21;
 
 std::size_t RoundUp(std::size_t size, std::size_t unit)
@@ -32,14 +32,14 @@ std::size_t RoundUp(std::size_t size, std::size_t unit)
   return (size + unit - 1) / unit * unit;
 }
 
-/// Memory that was freed while somebody wants to use it again.
+/// Freed memory that is kept while a MemoryReuse exists.
 struct FreeBlocks
 {
   std::mutex mutex;
   int users = 0;
-  std::map<char*, std::size_t> bytes; // no two lie side by side
+  std::map<char*, std::size_t> bytes; // no two blocks are adjacent
 
-  /// Gives that much, a multiple of Page, or all there is, back to the system.
+  /// Returns `wanted` bytes, a multiple of Page, to the system, or all of them if there are fewer.
   void Return(std::size_t wanted) noexcept
   {
     while (wanted > 0 && !bytes.empty())
@@ -56,7 +56,8 @@ struct FreeBlocks
     }
   }
 
-  /// The end of the smallest block that is large enough. Null, and as much is returned, if none is.
+  /// Cuts `size` bytes off the end of the smallest block that is large enough. If there is none,
+  /// returns as many bytes to the system and gives null.
   char* Take(std::size_t size) noexcept
   {
     auto best = bytes.end();
@@ -100,7 +101,7 @@ struct FreeBlocks
   }
 };
 
-/// Never destroyed: arrays of static lifetime may outlive it.
+/// Never destroyed, because arrays of static lifetime may outlive it.
 FreeBlocks& Kept()
 {
   static FreeBlocks& blocks = *new FreeBlocks;
@@ -147,7 +148,7 @@ void* AllocateLargeMemory(std::size_t bytes)
       return kept;
     }
   }
-  // To begin with a large page: more is asked for, and the rest given back.
+  // To start at a large page, map more than needed and unmap the rest.
   void* const all =
     mmap(nullptr, size + LargePage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (all == MAP_FAILED)
@@ -157,7 +158,7 @@ void* AllocateLargeMemory(std::size_t bytes)
   const auto address = reinterpret_cast<std::uintptr_t>(all);
   const std::size_t before = RoundUp(address, LargePage) - address;
   char* const memory = static_cast<char*>(all) + before;
-  munmap(all, before); // of nothing: an error without effect
+  munmap(all, before); // fails without effect if `before` is 0
   munmap(memory + size, LargePage - before);
   PreferLargePages(memory, size);
   return memory;
@@ -184,7 +185,8 @@ void FreeLargeMemory(void* memory, std::size_t bytes) noexcept
 void ReturnLargeMemory(std::size_t bytes) noexcept
 {
   const Lock lock(Kept().mutex);
-  Kept().Return(RoundUp(bytes, Page)); // parts of pages would take those of the next block along
+  Kept().Return(RoundUp(bytes, Page)); // munmap frees whole pages, so a partial page would cut into
+                                       // the next block
 }
 
 #else

@@ -1,5 +1,5 @@
-// Memory for large arrays: few large pages where the system has them, because a block that is
-// touched for the first time costs a call into the system for every page.
+// Memory for large arrays. It uses few large pages where the system has them, because the first
+// touch of every page costs a call into the system.
 #ifndef GridFEM_LargeMemory_h
 #define GridFEM_LargeMemory_h
 
@@ -8,20 +8,21 @@
 namespace gridfem
 {
 
-/// From this size on (bytes) arrays take large memory; below it the usual heap is faster.
+/// Arrays of at least this size (bytes) use large memory. Below it, the heap is faster.
 constexpr std::size_t LargeMemorySize = std::size_t{ 1 } << 20;
 
-/// Memory without values, aligned to a page, that goes back to the system as soon as it is free
-/// (but see MemoryReuse): the peak of a run then is what its arrays need. Any thread. Throws
-/// std::bad_alloc.
+/// Allocates uninitialized memory, aligned to a page. Freed memory returns to the system at once
+/// (except under MemoryReuse), so the peak of a run is what its arrays need. Any thread may call
+/// it. Throws std::bad_alloc.
 void* AllocateLargeMemory(std::size_t bytes);
 
-/// @param bytes  as at AllocateLargeMemory
+/// @param bytes  the size passed to AllocateLargeMemory
 void FreeLargeMemory(void* memory, std::size_t bytes) noexcept;
 
-/// While one exists, large memory that is freed stays for the next requests: the system takes a
-/// fifth of a set-up to clear new pages. For a request that no free block is large enough for, as
-/// much goes back, so that the peak does not grow. The last one to go returns what is left.
+/// While an object of this class exists, freed large memory is kept for later requests. Without it,
+/// the system spends a fifth of a set-up on clearing new pages. If no kept block is large enough
+/// for a request, as many kept bytes return to the system, so the peak does not grow. The
+/// destructor of the last object returns the rest.
 class MemoryReuse
 {
 public:
@@ -31,15 +32,16 @@ public:
   MemoryReuse& operator=(const MemoryReuse&) = delete;
 };
 
-/// Gives up to so many of the bytes that are kept for reuse back to the system, before memory of
-/// another origin is taken.
+/// Returns up to `bytes` bytes of the memory kept for reuse to the system. Called before memory is
+/// allocated elsewhere.
 void ReturnLargeMemory(std::size_t bytes) noexcept;
 
-/// Gives memory of any size that has been freed back to the system, where the heap can (glibc).
+/// Returns freed heap memory of any size to the system, if the heap supports it (glibc).
 void ReturnFreedMemory() noexcept;
 
-/// Asks for large pages where memory of any origin that has not been touched yet spans some of
-/// them. A wish: the system may ignore it, and only Linux is asked. Contents do not change.
+/// Asks the system for large pages in untouched memory of any origin, wherever the range spans
+/// whole ones. This is only a hint, and only on Linux: the system may ignore it. Contents do not
+/// change.
 void PreferLargePages(void* begin, std::size_t bytes) noexcept;
 
 } // namespace gridfem

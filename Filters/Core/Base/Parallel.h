@@ -1,5 +1,5 @@
-// Parallel loops over fixed blocks: what a block computes never depends on the number of threads.
-// Exceptions leave the loop on the calling thread; progress and abort are served from it.
+// Parallel loops over fixed blocks: the result of a block never depends on the number of threads.
+// The calling thread rethrows exceptions, reports progress and handles aborts.
 #ifndef GridFEM_Parallel_h
 #define GridFEM_Parallel_h
 
@@ -19,9 +19,10 @@
 namespace gridfem
 {
 
-/// The number of threads to use when `wanted` are asked for; 0 asks for all processors. More than
-/// two per processor are never used: they wait for each other at every barrier, a thousand on two
-/// processors 80 times as long as the work takes. Throws OutOfThreads where they cannot be had.
+/// The number of threads to use when `wanted` are requested; 0 requests all processors. At most two
+/// threads per processor are used, because threads wait for each other at every barrier. With a
+/// thousand threads on two processors, these waits took 80 times as long as the work. Throws
+/// OutOfThreads when the threads cannot be started.
 inline int NumberOfThreads(int wanted)
 {
   const int processors = std::max(1, omp_get_num_procs());
@@ -35,15 +36,15 @@ inline int NumberOfThreads(int wanted)
   return threads;
 }
 
-/// Items per block where nothing else suggests a size.
+/// Default number of items per block.
 constexpr Id DefaultBlockSize = 4096;
 
-/// Patches per block: each has matrices, and takes as long as many items of other kinds.
+/// Patches per block. A patch has matrices and takes as long as many items of other kinds.
 constexpr Id PatchesPerBlock = 256;
 
-/// Runs body(block) or body(block, thread) for every block in [0, blocks), in any order, on
-/// `threads` threads (0: all), which are numbered from 0. The first exception of a body, or
-/// Aborted, is thrown again after the loop.
+/// Runs body(block) or body(block, thread) for every block in [0, blocks), in any order. It uses
+/// `threads` threads (0: all), numbered from 0. After the loop it rethrows the first exception of a
+/// body, or Aborted.
 template<class Body>
 void ParallelBlocks(Id blocks, int threads, Body&& body, const Progress& progress = {})
 {
@@ -105,8 +106,8 @@ void ParallelBlocks(Id blocks, int threads, Body&& body, const Progress& progres
   }
 }
 
-/// Bytes that threads cannot write to at the same time without waiting; two lines, because they are
-/// fetched in pairs.
+/// Size in bytes of the memory that two threads cannot write to at the same time without waiting.
+/// It is two cache lines, because processors fetch lines in pairs.
 constexpr std::size_t CacheLine = 128;
 
 /// Runs body(begin, end) for consecutive ranges of `size` items that cover [0, count).
@@ -118,8 +119,8 @@ void ParallelRanges(
     [&](Id block) { body(block * size, std::min(count, (block + 1) * size)); }, progress);
 }
 
-/// Sum of body(begin, end) over fixed ranges, added in order: same bits for any number of threads.
-/// Value needs +=; `zero` is the start and fixes the shape.
+/// Returns the sum of body(begin, end) over fixed ranges, added in order. The result has the same
+/// bits for any number of threads. Value needs +=; `zero` is the initial value and fixes the shape.
 template<class Value, class Body>
 Value ParallelSum(Id count, int threads, Value zero, Body&& body, Id size = DefaultBlockSize)
 {
@@ -134,7 +135,7 @@ Value ParallelSum(Id count, int threads, Value zero, Body&& body, Id size = Defa
   return zero;
 }
 
-/// Replaces counts by their running sum, starting at 0; returns the total.
+/// Replaces counts by their running sum, starting at 0, and returns the total.
 template<class Counts>
 auto ExclusiveScan(Counts& counts)
 {

@@ -1,5 +1,6 @@
-// Lists of unknown length that the blocks of a parallel loop make, joined in the order of the
-// blocks. Every thread appends to one array: many small ones would stay in its heap.
+// Collects lists of unknown length made by the blocks of a parallel loop and joins them in the
+// order of the blocks. Each thread appends to one array, because many small arrays would stay in
+// its heap.
 #ifndef GridFEM_PerThreadLists_h
 #define GridFEM_PerThreadLists_h
 
@@ -18,8 +19,8 @@ class PerThreadLists
 public:
   PerThreadLists(Id blocks, int threads) : lists_(NumberOfThreads(threads)), blocks_(blocks) {}
 
-  /// fill(list) appends what the block makes to the list of its thread. For the body of
-  /// ParallelBlocks; every block once.
+  /// Calls fill(list), which appends the block's items to the list of its thread. To be called once
+  /// per block, from the body of ParallelBlocks.
   template<class Fill>
   void Make(Id block, int thread, Fill&& fill)
   {
@@ -29,7 +30,7 @@ public:
     blocks_[block] = { thread, begin, static_cast<Id>(list.size()) - begin };
   }
 
-  /// Appends the lists of all blocks.
+  /// Appends the lists of all blocks to `items`.
   void AppendTo(Array<T>& items, int threads) const
   {
     std::vector<Id> first(blocks_.size());
@@ -54,7 +55,8 @@ private:
     Id size = 0;
   };
 
-  /// Of one thread, which writes to it all the time.
+  /// The list of one thread. Threads write to their lists all the time; the alignment keeps two
+  /// lists from sharing a cache line.
   struct alignas(CacheLine) List
   {
     Array<T> items;
@@ -64,8 +66,8 @@ private:
   std::vector<Block> blocks_;
 };
 
-/// Appends to `items` what fill(begin, end, list) appends to a list for consecutive ranges that
-/// cover [0, count), in their order.
+/// Appends items made in parallel, in order. fill(begin, end, list) appends the items of one range;
+/// consecutive ranges cover [0, count).
 template<class T, class Fill>
 void AppendRanges(
   Id count, int threads, Array<T>& items, Fill&& fill, const Progress& progress = {})

@@ -1,4 +1,5 @@
-// Work space of parallel jobs: as many as run at the same time, kept from one to the next.
+// A pool of work spaces for parallel jobs. It holds as many spaces as jobs run at the same time,
+// and later jobs reuse them.
 #ifndef GridFEM_Pool_h
 #define GridFEM_Pool_h
 
@@ -15,7 +16,8 @@ template<class Space>
 class Pool
 {
 public:
-  /// A space for the life of this object, nobody else's meanwhile; what it held stays in it.
+  /// Borrows a space for the life of this object; nobody else uses it meanwhile. A space keeps the
+  /// contents that were left in it.
   class Loan
   {
   public:
@@ -37,7 +39,7 @@ private:
     const std::lock_guard<std::mutex> lock(mutex_);
     if (free_.empty())
     {
-      free_.reserve(made_ + 1); // Return must not fail
+      free_.reserve(made_ + 1); // so that Return cannot fail
       auto space = std::make_unique<Space>();
       ++made_;
       return space;

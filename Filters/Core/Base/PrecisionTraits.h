@@ -1,4 +1,4 @@
-// What differs between computing in double and in single precision.
+// Constants that differ between double and single precision.
 #ifndef GridFEM_PrecisionTraits_h
 #define GridFEM_PrecisionTraits_h
 
@@ -7,9 +7,9 @@
 namespace gridfem
 {
 
-/// Columns of a block in single precision that are worked on together, at most. Two vector
-/// registers of sixteen share every number of a matrix that is read. Fewer columns are not faster,
-/// because reading matrices takes most of the time.
+/// Largest number of columns of a block processed together in single precision. Two of sixteen
+/// vector registers share each number read from a matrix. Fewer columns are not faster, because
+/// reading matrices takes most of the time.
 constexpr Id WidestPanel = 32;
 
 template<class Real>
@@ -20,15 +20,17 @@ struct PrecisionTraits<double>
 {
   static constexpr bool IsSingle = false;
 
-  /// Pivots of the matrix of products of vectors, scaled to unit diagonal, below this mark a
-  /// dependent direction: far above the rounding of products, so that noise never poses as a
-  /// vector, and below what a solution needs.
+  /// Pivots below this value mark a linearly dependent direction. They are pivots of the Gram
+  /// matrix of the vectors, scaled to unit diagonal. The value is far above the rounding errors of
+  /// the products, so noise never passes for a vector. It is also below every pivot that a solution
+  /// needs.
   static constexpr double DependentPivot = 1e-12;
 
-  /// Pivots of the scaled block of a patch below this are rounding: the direction is left out.
+  /// Pivots of a patch's scaled block below this value are rounding errors. Their directions are
+  /// left out.
   static constexpr double SmallestPatchPivot = 1e-14;
 
-  /// How many columns a cycle works on at once for a block of `columns`.
+  /// Number of columns that a cycle processes together, for a block of `columns` columns.
   static constexpr Id PanelWidth(Id columns) { return columns; }
 };
 
@@ -38,10 +40,10 @@ struct PrecisionTraits<float>
   static constexpr bool IsSingle = true;
   static constexpr double DependentPivot = 1e-4;
 
-  /// Rounding to single precision would disturb the corrections of directions with smaller pivots
-  /// more than they serve the others. Pivots are about the square of a flat face's slope against
-  /// the grid. Boxes of which all faces have one slope need as many steps as in double with pivots
-  /// of 3e-6, twice as many with 3e-7, and do not converge with 3e-8.
+  /// Rounding to single precision disturbs corrections along directions with smaller pivots more
+  /// than the corrections help. A pivot is about the square of a flat face's slope against the
+  /// grid. Boxes whose faces all have one slope need as many steps as in double precision if the
+  /// pivots are 3e-6. They need twice as many for 3e-7 and do not converge for 3e-8.
   static constexpr double SmallestPatchPivot = 1e-6;
 
   static constexpr Id PanelWidth(Id) { return WidestPanel; }

@@ -1,6 +1,6 @@
-// Asks for memory that is needed soon: wishes, without any effect but on time.
-// A function that does nothing else has to be EIGEN_ALWAYS_INLINE: the compiler takes it for one
-// without effect, and does not call it at all.
+// Prefetches memory that is needed soon. A prefetch is a hint and affects only time.
+// A function that only prefetches must be EIGEN_ALWAYS_INLINE. Otherwise the compiler considers it
+// free of effects and drops the call.
 #ifndef GridFEM_Prefetch_h
 #define GridFEM_Prefetch_h
 
@@ -13,7 +13,7 @@ namespace gridfem
 
 constexpr std::size_t LineSize = 64;
 
-/// As many lines of the cache, from that of an address on.
+/// Prefetches `Lines` cache lines, beginning with the line that contains `address`.
 template<std::size_t Lines = 1>
 EIGEN_ALWAYS_INLINE void Fetch(const void* address)
 {
@@ -27,7 +27,7 @@ EIGEN_ALWAYS_INLINE void Fetch(const void* address)
 #endif
 }
 
-/// All of an object that begins with a line.
+/// Prefetches a whole object that starts at the beginning of a cache line.
 template<class Object>
 EIGEN_ALWAYS_INLINE void FetchAll(const Object& object)
 {

@@ -1,4 +1,5 @@
-// Progress out of, and abort into, a running computation. Called from the calling thread only.
+// Carries progress out of a running computation and abort requests into it. Only the calling thread
+// uses it.
 #ifndef GridFEM_Progress_h
 #define GridFEM_Progress_h
 
@@ -10,11 +11,12 @@
 namespace gridfem
 {
 
-/// A part [from, to] of a longer job. Cheap to copy; a default one is silent.
+/// Reports the progress of the part [from, to] of a longer job. It is cheap to copy; a
+/// default-constructed object is silent.
 class Progress
 {
 public:
-  /// Gets the fraction done in [0, 1]; returns false to ask for an abort.
+  /// Receives the completed fraction in [0, 1] and returns false to request an abort.
   using Callback = std::function<bool(double)>;
 
   Progress() = default;
@@ -23,20 +25,20 @@ public:
   {
   }
 
-  /// The part of this job between two fractions of it.
+  /// The part of this job between the fractions `from` and `to`.
   Progress Part(double from, double to) const
   {
     return Progress(report_, from_ + from * (to_ - from_), from_ + to * (to_ - from_));
   }
 
-  /// Reports; false when an abort is asked for. What is no number counts as nothing done.
+  /// Reports the fraction; returns false when an abort is requested. NaN counts as 0.
   bool Report(double fraction) const
   {
     const double done = fraction > 0.0 ? std::min(fraction, 1.0) : 0.0;
     return !report_ || report_(from_ + done * (to_ - from_));
   }
 
-  /// Reports; throws Aborted when an abort is asked for.
+  /// Reports the fraction; throws Aborted when an abort is requested.
   void Check(double fraction) const
   {
     if (!this->Report(fraction))

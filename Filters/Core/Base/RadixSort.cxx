@@ -8,13 +8,14 @@ namespace gridfem
 namespace
 {
 
-/// Up to this size comparing costs less than counting digits.
+/// Up to this many entries, sorting by comparison costs less than counting digits.
 constexpr Id Few = 48;
 
-/// More digits than this do not fit the first cache beside the entries.
+/// Counters for more digit bits than this do not fit the first-level cache together with the
+/// entries.
 constexpr int MostDigitBits = 11;
 
-/// From the lowest digit up; stable.
+/// Stable sort by digits, from the lowest digit up.
 void SortByDigits(SortEntry* entries, Id count, int bits)
 {
   const int passes = (bits + MostDigitBits - 1) / MostDigitBits;

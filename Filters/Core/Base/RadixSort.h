@@ -1,5 +1,5 @@
-// Stable sorting of items by integer keys: into buckets by the first digit, then every bucket by
-// itself in the cache.
+// Stable sort of items by integer keys. It distributes the items into buckets by the leading digit,
+// then sorts each bucket on its own within the cache.
 #ifndef GridFEM_RadixSort_h
 #define GridFEM_RadixSort_h
 
@@ -17,15 +17,16 @@ struct SortEntry
   Id item;
 };
 
-/// Sorts every bucket, entries[begin[b] .. begin[b + 1]), by the lowest `bits` bits.
+/// Sorts every bucket, entries[begin[b] .. begin[b + 1]), by the lowest `bits` bits of the keys.
 void SortBuckets(Array<SortEntry>& entries, const std::vector<Id>& begin, int bits, int threads);
 
-/// Entries ascending by key; equal keys in the order of their sources. The same for any number of
-/// threads. Cost O(n bits / 11).
-/// @param sources  what entries come from, in parallel ranges of at least `smallestRange`
-/// @param bits     of the keys, 1..64
-/// @param visit    visit(begin, end, add) calls add(key, item) for every entry of some sources, in
-///                 their order; it is called twice for each
+/// Returns the entries in ascending order of their keys. Entries with equal keys keep the order of
+/// their sources. The result is the same for any number of threads. Cost O(n bits / 11).
+/// @param sources  number of sources of entries, visited in parallel in ranges of at least
+///   `smallestRange`
+/// @param bits     number of bits of the keys, 1..64
+/// @param visit    visit(begin, end, add) calls add(key, item) for every entry of sources [begin,
+///   end), in their order. It is called twice for each range
 template<class Visit>
 Array<SortEntry> SortByKey(
   Id sources, int bits, int threads, Visit&& visit, Id smallestRange = Id{ 1 } << 14)

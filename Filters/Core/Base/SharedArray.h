@@ -1,5 +1,5 @@
-// Numbers that never change once they are made, so that copies can share them: the pattern of all
-// matrices of a level is one.
+// An immutable array whose copies share their memory. For example, all matrices of a level share
+// one pattern.
 #ifndef GridFEM_SharedArray_h
 #define GridFEM_SharedArray_h
 

@@ -22,15 +22,15 @@ namespace
 {
 
 #ifdef GRIDFEM_GNU_OPENMP
-/// GNU's OpenMP waits for a short time only as long as the process has more of its threads than
-/// there are processors; the environment is read when it is loaded, which is before us. So one team
-/// of so many threads exists for good, and sleeps.
+/// Starts one team that exists forever, and sleeps. GNU's OpenMP waits for only a short time while
+/// the process has more OpenMP threads than processors. Environment variables cannot do this,
+/// because OpenMP reads them when it is loaded, before our code runs.
 void HoldManyThreads(std::promise<void> areHeld)
 {
   sigset_t all;
   sigfillset(&all);
   pthread_sigmask(SIG_BLOCK, &all, nullptr); // so that the threads never wake
-  std::atomic<int> started{ 0 };             // a region without work would be left out
+  std::atomic<int> started{ 0 };             // the compiler would drop a region without work
 #pragma omp parallel num_threads(omp_get_num_procs() + 1)
   {
     ++started;
@@ -55,12 +55,12 @@ bool Begin()
   {
     if (!CanStart(omp_get_num_procs() + 1))
     {
-      return false; // waits stay long
+      return false; // threads keep spinning for a long time
     }
     std::promise<void> areHeld;
     std::future<void> held = areHeld.get_future();
     std::thread(HoldManyThreads, std::move(areHeld)).detach();
-    held.wait(); // lest somebody takes the memory for them meanwhile
+    held.wait(); // so that nobody takes the memory of these threads meanwhile
   }
 #endif
   return true;

@@ -12,10 +12,11 @@ namespace gridfem
 constexpr int LaneCount = 8;
 using Lanes = Eigen::Array<double, LaneCount, 1>;
 
-/// As many numbers of as many items as there are lanes; transposed, every number has its lanes.
+/// A square block: LaneCount numbers of LaneCount items. Transposing it gathers each number over
+/// all items.
 using LaneBlock = Eigen::Array<double, LaneCount, LaneCount>;
 
-/// lanes[k][lane] = item[lane][begin + k] for as many k as there are lanes.
+/// Sets lanes[k][lane] = item[lane][begin + k] for 0 <= k < LaneCount.
 inline void LoadLanes(const std::array<const double*, LaneCount>& item, int begin, Lanes* lanes)
 {
   LaneBlock block;
@@ -30,8 +31,8 @@ inline void LoadLanes(const std::array<const double*, LaneCount>& item, int begi
   }
 }
 
-/// The reverse, for the first `count` items: item[lane][begin + k] = lanes(lane, k). The block is
-/// used up.
+/// The reverse for the first `count` items: item[lane][begin + k] = lanes(lane, k). Overwrites
+/// `lanes`.
 inline void StoreLanes(
   LaneBlock& lanes, const std::array<double*, LaneCount>& item, int count, int begin)
 {
@@ -42,8 +43,8 @@ inline void StoreLanes(
   }
 }
 
-/// The sum over the lanes of what lies in memory: its quarters are loaded one by one, which takes
-/// fewer shuffles than to split a register.
+/// Sum over the lanes of numbers in memory. The quarters are loaded one by one, which takes fewer
+/// shuffles than splitting a register.
 inline double SumOverLanes(const Lanes& lanes)
 {
   return ((lanes.segment<2>(0) + lanes.segment<2>(2)) + (lanes.segment<2>(4) + lanes.segment<2>(6)))
@@ -60,14 +61,14 @@ struct LaneVector
   }
 };
 
-/// A symmetric tensor.
+/// A symmetric 3 x 3 tensor.
 struct LaneTensor
 {
   Lanes same[3];  // xx, yy, zz
   Lanes mixed[3]; // xy, yz, zx
 
-  // Not moved: Eigen copies registers, but moves bytes, in pieces that the next load has to wait
-  // for.
+  // No move operations: Eigen copies whole registers, but moves byte by byte. The next load then
+  // has to wait for the pieces.
   LaneTensor() = default;
   LaneTensor(const LaneTensor&) = default;
   LaneTensor& operator=(const LaneTensor&) = default;

@@ -16,7 +16,7 @@ namespace gridfem
 namespace
 {
 
-/// Threads that exist at the same time, and end together.
+/// Starts threads that exist at the same time and end together.
 class Trial
 {
 public:
@@ -107,7 +107,7 @@ void SideBySide(int count, int threads, const std::function<void(int)>& body)
   }
   catch (const std::exception&)
   {
-    // There are no more threads, or no memory to begin one with.
+    // The system has no more threads, or no memory to start one.
   }
   run(0);
   for (; next < count; ++next)
@@ -150,7 +150,7 @@ void RequireTeam(int threads)
                        " threads cannot be started: the limit of memory or of processes is "
                        "reached. Try with one thread.");
   }
-  std::atomic<int> started{ 0 }; // a region without work would be left out
+  std::atomic<int> started{ 0 }; // the compiler would drop a region without work
 #pragma omp parallel num_threads(threads)
   {
     ++started;

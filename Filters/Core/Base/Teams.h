@@ -1,5 +1,5 @@
-// Threads that OpenMP can have. It ends the process when it cannot start one, so that they are
-// started without it before.
+// Makes sure that OpenMP gets the threads it needs. OpenMP ends the process when it cannot start a
+// thread, so we try to start the threads ourselves first.
 #ifndef GridFEM_Teams_h
 #define GridFEM_Teams_h
 
@@ -8,21 +8,21 @@
 namespace gridfem
 {
 
-/// Makes sure that the calling thread can have teams of so many threads from now on; cheap once it
-/// has had one. Throws OutOfThreads.
+/// Makes sure that the calling thread can have teams of `threads` threads from now on. Cheap once
+/// it has had such a team. Throws OutOfThreads.
 void RequireTeam(int threads);
 
-/// The most threads that a team of the calling thread may have; 0: as many as it asks for, as
-/// anywhere but within SideBySide.
+/// Largest number of threads in a team of the calling thread. 0 means no limit, as everywhere
+/// outside SideBySide.
 int ThreadLimit() noexcept;
 
-/// Runs body(k) for 0 <= k < count at the same time, each on a thread whose teams have a share of
-/// `threads`: for few jobs that several threads take part in. The first exception of a body is
-/// thrown again when all have ended. Bodies that no thread can be started for run one after the
-/// other.
+/// Runs body(k) for 0 <= k < count at the same time, for a few jobs that each use several threads.
+/// Each body runs on its own thread, whose teams have a share of `threads`. Bodies for which no
+/// thread can be started run one after the other. Once all bodies have ended, it rethrows the first
+/// exception.
 void SideBySide(int count, int threads, const std::function<void(int)>& body);
 
-/// Whether so many threads can be started besides those there are.
+/// Whether the system can start `threads` threads in addition to the existing ones.
 bool CanStart(int threads) noexcept;
 
 } // namespace gridfem

@@ -1,5 +1,5 @@
-// Disjoint sets that several threads may unite at once. The root of a set is its lowest member, so
-// results depend neither on the order of unions nor on the number of threads.
+// Disjoint sets that several threads may unite at the same time. The root of a set is its lowest
+// member. Results therefore depend neither on the order of unions nor on the number of threads.
 #ifndef GridFEM_UnionFind_h
 #define GridFEM_UnionFind_h
 
@@ -27,14 +27,15 @@ public:
       });
   }
 
-  /// The lowest member of the set that contains x; while others unite, of the set found so far.
+  /// Lowest member of the set that contains x. While other threads unite sets, it is the lowest
+  /// member found so far.
   Index Find(Index x)
   {
     Index above = this->Parent(x);
     while (above != x)
     {
       // Shorten the path. A parent is only ever replaced by a lower member of the same set, so a
-      // store that comes late does no harm.
+      // late store does no harm.
       const Index next = this->Parent(above);
       parent_[x].store(next, std::memory_order_relaxed);
       x = next;
@@ -65,8 +66,8 @@ private:
   Array<std::atomic<Index>> parent_;
 };
 
-/// Numbers the sets 0, 1, ... in the order of their lowest members; returns the number of each
-/// member's set. `count` gets the number of sets.
+/// Numbers the sets 0, 1, ... in the order of their lowest members and returns the set number of
+/// each member. `count` receives the number of sets.
 inline Array<Index> NumberSets(UnionFind& sets, Index& count, int threads = 1)
 {
   Array<Index> number(sets.Size());

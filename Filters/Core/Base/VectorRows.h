@@ -1,4 +1,4 @@
-// Vectors in space as rows of three numbers.
+// Converts between vectors in space and rows of three numbers.
 #ifndef GridFEM_VectorRows_h
 #define GridFEM_VectorRows_h
 
@@ -9,7 +9,8 @@
 namespace gridfem
 {
 
-///@{ One number at a time: a fixed-size vector in a dynamic row makes GCC warn about its bounds.
+///@{ Copies one number at a time, because GCC warns about bounds when a fixed-size vector is
+/// assigned to a dynamic row.
 inline Vec3 RowOf(const MultiVector& rows, Id row)
 {
   return { rows(row, 0), rows(row, 1), rows(row, 2) };

@@ -20,7 +20,7 @@ namespace gridfem
 namespace
 {
 
-/// Of the used points' coordinates, by absolute value.
+/// Returns the largest absolute value of the used points' coordinates.
 double LargestCoordinate(const TriangleMesh& mesh, const std::vector<char>& used, int threads)
 {
   struct Largest
@@ -69,7 +69,8 @@ struct WorkRange
   double pieces; // expected
 };
 
-/// Ranges of not many more pieces than one of them should have; they depend on the mesh alone.
+/// Splits the triangles into ranges whose expected number of pieces hardly exceeds PiecesPerRange.
+/// The ranges depend on the mesh alone.
 Array<WorkRange> SplitWork(
   const std::vector<std::array<Id, 3>>& triangles, const Array<Vec3>& position, int threads)
 {
@@ -97,8 +98,7 @@ Array<WorkRange> SplitWork(
   return work;
 }
 
-/// A store with room for its share, so that it need not move; memory that is not used costs
-/// nothing.
+/// Makes a store with room for its share, so that it need not move. Unused memory costs nothing.
 ClipBuffer MakeStore(double pieces)
 {
   const auto room = static_cast<std::size_t>(std::min(1.2 * pieces, 2e9)) + 64;
@@ -168,8 +168,7 @@ ClippedTriangles ClipTriangles(const ClipInput& input, const Array<WorkRange>& w
   return result;
 }
 
-/// Clips with everything that depends on the mesh alone at hand; clipped.position holds the input
-/// points.
+/// Clips the mesh and joins the pieces. clipped.position holds the input points.
 void ClipAndJoin(const ClipInput& input, const Job& job, ClippedMesh& clipped)
 {
   const Array<WorkRange> work = SplitWork(input.triangles, input.position, job.threads);
@@ -188,7 +187,7 @@ void ClipAndJoin(const ClipInput& input, const Job& job, ClippedMesh& clipped)
   LinkAlongEdges(input.edges, stretches, place, job.Part(0.9, 1.0), clipped);
 }
 
-/// Clips a mesh of valid triangles.
+/// Clips a mesh whose triangles are valid.
 ClippedMesh ClipInFrame(const TriangleMesh& mesh, const std::vector<char>& used,
   const ClipFrame& frame, const ClipOptions& options, const Progress& progress)
 {

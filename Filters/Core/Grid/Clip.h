@@ -1,6 +1,7 @@
-// Clipping of triangles by the faces of grid cells. [T §4.2, Computing Integrals]
-// Every triangle falls into pieces: convex polygons, each inside one cell. Cut points that
-// neighbouring triangles share are one point; what lies exactly on a face belongs to one cell.
+// Clips triangles by the faces of grid cells. [T §4.2, Computing Integrals]
+// Every triangle is cut into pieces: convex polygons, each inside one cell. A cut point that
+// neighboring triangles share is a single point. A part of the surface that lies exactly on a face
+// belongs to one cell.
 #ifndef GridFEM_Clip_h
 #define GridFEM_Clip_h
 
@@ -14,12 +15,12 @@
 namespace gridfem
 {
 
-/// A point made by clipping, as a combination of the corners of one source triangle. The weights
-/// sum to 1, so that two of them are enough.
+/// A point made by clipping, stored as a combination of the corners of one source triangle. The
+/// weights sum to 1, so storing two of them is enough.
 class CutPoint
 {
 public:
-  CutPoint() = default; // without a value
+  CutPoint() = default; // leaves the members uninitialized
   CutPoint(Index source, const std::array<double, 3>& weight)
     : triangle(source), zero_(weight[0] == 0.0   ? 0
                               : weight[1] == 0.0 ? 1
@@ -29,13 +30,15 @@ public:
   {
   }
 
-  /// On the edge across from corner `opposite`; `first` belongs to the corner after that one.
+  /// A point on the edge opposite to corner `opposite`. `first` is the weight of the next corner,
+  /// `second` the weight of the corner after it.
   CutPoint(Index source, int opposite, double first, double second)
     : triangle(source), zero_(opposite), first_(first), second_(second)
   {
   }
 
-  /// Per corner of the triangle. Points on a mesh edge have zero at the opposite corner.
+  /// One weight per corner of the triangle. Points on a mesh edge have weight 0 at the opposite
+  /// corner.
   std::array<double, 3> Weights() const
   {
     std::array<double, 3> weight;
@@ -48,7 +51,7 @@ public:
   Index triangle;
 
 private:
-  static constexpr Index None = 3; // as if it were corner 0
+  static constexpr Index None = 3; // (None + 1) % 3 is 1, as for corner 0
   Index zero_;
   double first_;
   double second_;
@@ -66,36 +69,37 @@ struct Link
 };
 
 /// A mesh clipped by the cells of a grid.
-/// Point ids: the input's points first, then the cut points.
+/// Point ids: the input's points come first, then the cut points.
 /// Pieces are sorted by the Morton key of their cell, then by source triangle.
-/// What is numbered here has 32 bits: it fills most of the memory of a run, and half the size is
-/// half the time. Clip refuses what does not fit.
+/// Ids and offsets have 32 bits, because they fill most of the memory of a run, and half the size
+/// takes half the time. Clip refuses meshes that do not fit.
 struct ClippedMesh
 {
   Grid grid;
   Id numberOfInputPoints = 0;
   bool isWelded = false; // coincident points count as one
   Array<CutPoint> cutPoints;
-  Array<Vec3> position; // of all points, grid units
+  Array<Vec3> position; // of all points, in grid units
 
   std::vector<MortonKey> cells; // cells that contain a piece, ascending
-  Array<Index> cellBegin;       // pieces of cell c: cellBegin[c] .. cellBegin[c + 1]
+  Array<Index> cellBegin;       // cell c has the pieces cellBegin[c] .. cellBegin[c + 1] - 1
 
   Array<Index> pieceTriangle; // source triangle
   Array<Index> pieceBegin;    // corners of piece p: corners[pieceBegin[p] .. pieceBegin[p + 1])
-  Array<Index> corners;       // point ids, oriented as the source triangle
+  Array<Index> corners;       // point ids, in the orientation of the source triangle
 
-  /// Connects the pieces that share an edge: within a cell at least as a tree, between two cells at
-  /// least one pair per shared edge. Fixed order.
+  /// Links between pieces that share an edge. Within a cell, the links contain at least a spanning
+  /// tree. Between two cells, there is at least one link per shared edge. The order is fixed.
   Array<Link> links;
 
   Id NumberOfPieces() const { return static_cast<Id>(pieceTriangle.size()); }
 
-  /// Index into cells, by bisection; where many are asked for see PieceCells.
+  /// Index of the piece's cell in `cells`, found by bisection. PieceCells is faster for many
+  /// pieces.
   Index CellOf(Id piece) const;
 
-  /// A piece with n corners is the fan of n - 2 triangles around its first corner; the triangles of
-  /// all pieces are numbered one piece after the other.
+  /// A piece with n corners is the fan of n - 2 triangles around its first corner. The triangles of
+  /// all pieces are numbered piece after piece.
   Id FirstTriangle(Id piece) const { return pieceBegin[piece] - 2 * piece; }
   Id NumberOfTriangles() const
   {
@@ -106,22 +110,23 @@ struct ClippedMesh
 struct ClipOptions
 {
   int depth = 7;                    // 2^depth cells along the longest side, 2..14
-  bool weldCoincidentPoints = true; // coincident points count as one for links and cut points
-  int threads = 0;                  // 0: all
-  bool joinAtPoints = false;        // pieces that share a point of the mesh are linked, too
+  bool weldCoincidentPoints = true; // for links and cut points, coincident points count as one
+  int threads = 0;                  // 0: all processors
+  bool joinAtPoints = false;        // also link pieces that share a point of the mesh
 };
 
-/// Clips. Areas of the pieces add up to the areas of the triangles to rounding; a coordinate within
-/// 1e-10 of a cell (or within the rounding of the input) of a face counts as lying on it.
-/// Throws InvalidInput (see Validate; or more than 2^31 - 1 corners) and Aborted. The result is the
-/// same for any number of threads.
+/// Clips a mesh by the cells of a grid. The areas of the pieces add up to the areas of the
+/// triangles, up to rounding. A coordinate counts as lying on a face if their distance is at most
+/// 1e-10 cells, or at most the rounding of the input.
+/// Throws InvalidInput (see Validate; also for more than 2^31 - 1 corners) and Aborted. The result
+/// is the same for any number of threads.
 ClippedMesh Clip(
   const TriangleMesh& mesh, const ClipOptions& options, const Progress& progress = {});
 
-/// Index into cells of every piece.
+/// Returns the index in `cells` of the cell of every piece.
 Array<Index> PieceCells(const ClippedMesh& clipped, int threads = 1);
 
-/// Area of one piece in grid units.
+/// Returns the area of one piece in grid units.
 double PieceArea(const ClippedMesh& clipped, Id piece);
 
 } // namespace gridfem

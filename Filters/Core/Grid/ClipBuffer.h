@@ -1,4 +1,4 @@
-// What triangles fall into while they are clipped, before the pieces are sorted by cell.
+// Temporary storage for the pieces of triangles, before they are sorted by cell.
 #ifndef GridFEM_ClipBuffer_h
 #define GridFEM_ClipBuffer_h
 
@@ -12,23 +12,25 @@
 namespace gridfem
 {
 
-/// Pieces of all threads have numbers, handed out in chunks. A piece is told by its number until
-/// all are sorted; which number it has does not matter.
+/// The pieces of all threads are numbered together; the numbers are handed out in chunks of this
+/// size. A number identifies its piece until all pieces are sorted. Results do not depend on the
+/// numbers.
 constexpr Index PiecesPerChunk = 4096;
 
-/// What the triangles fall into that one thread clips, in the order it meets them.
-/// Corner ids: input points and cuts of mesh edges have their global id; -1 - k is interior point
-/// k.
-/// Threads write to their stores all the time, so that no two share a line of the cache.
+/// The pieces made by one thread, in the order of clipping.
+/// Corner ids: input points and cuts of mesh edges have their global id;
+/// -1 - k is interior point k.
+/// The alignment keeps two threads from sharing a cache line, because threads write to their stores
+/// all the time.
 struct alignas(CacheLine) ClipBuffer
 {
   Array<MortonKey> key;
   Array<Index> triangle;
-  Array<Index> cornerBegin; // one more than pieces
+  Array<Index> cornerBegin; // one entry more than there are pieces
   Array<Index> corner;
   Array<CutPoint> interior; // points where two planes cut a triangle
   Array<Link> links;        // numbers of pieces of one triangle that share an edge
-  std::vector<Index> chunk; // of every PiecesPerChunk pieces
+  std::vector<Index> chunk; // the chunk number of every PiecesPerChunk pieces
 
   Index Size() const { return static_cast<Index>(key.size()); }
   Index NumberOf(Index piece) const
@@ -36,9 +38,9 @@ struct alignas(CacheLine) ClipBuffer
     return PiecesPerChunk * chunk[piece / PiecesPerChunk] + piece % PiecesPerChunk;
   }
 
-  /// Appends a piece without corners. Throws InvalidInput when there are too many.
-  /// @param nextChunk  the next that no store has
-  /// @return its place in the store
+  /// Appends a piece without corners. Throws InvalidInput when there are too many pieces.
+  /// @param nextChunk  the lowest chunk number that no store has taken
+  /// @return the index of the piece in this store
   Index Append(MortonKey cell, Index source, std::atomic<Index>& nextChunk)
   {
     const Index piece = this->Size();

@@ -1,5 +1,5 @@
-// Clipping a part of a surface: the grid is that of the whole, and pieces are made in some of its
-// cells only. What is made there is, bit for bit, what every other part makes there.
+// Clips a part of a surface. The grid is that of the whole surface, but pieces are made only in
+// some of its cells. In the cells that two parts share, they make the same pieces, bit for bit.
 #ifndef GridFEM_ClipPart_h
 #define GridFEM_ClipPart_h
 
@@ -10,18 +10,18 @@
 namespace gridfem
 {
 
-/// Cells of a grid: those of some blocks of 2^shift cells per side, and those near to them.
+/// A region of grid cells: some blocks of 2^shift cells per side, and a margin around them.
 class CellRegion
 {
 public:
-  /// @param blocks  keys of the blocks, in any order
-  /// @param margin  how many cells around the blocks belong to it; less than a block has
+  /// @param blocks  Morton keys of the blocks, in any order
+  /// @param margin  width of the margin around the blocks, in cells; less than the side of a block
   CellRegion(std::vector<MortonKey> blocks, int shift, int margin);
 
   bool Contains(const CellIndex& cell) const;
 
-  /// Whether cells with this index along an axis are in the region or next to it. Who makes a point
-  /// on the border of the region can lie just outside.
+  /// Whether cells with this index along `axis` can be in the region or next to it. A polygon that
+  /// makes a point on the border of the region may lie just outside.
   bool IsNear(int axis, int index) const { return low_[axis] <= index && index <= high_[axis]; }
 
 private:
@@ -34,20 +34,22 @@ private:
   CellIndex high_;
 };
 
-/// What a part knows of the whole surface.
+/// Data of the whole surface that clipping a part needs.
 struct ClipFrame
 {
-  Grid grid;                          // of the whole; its depth counts
-  double tolerance = 0.0;             // SnapTolerance of the whole
+  Grid grid;                          // grid of the whole surface; its depth replaces
+                                      // ClipOptions::depth
+  double tolerance = 0.0;             // SnapTolerance of the whole surface
   const CellRegion* region = nullptr; // null: all cells
 };
 
-/// A coordinate this near to a grid plane (in cells) lies on it.
-/// @param largest  absolute value of a coordinate of the surface, world units
+/// Returns the distance, in cells, up to which a coordinate near a grid plane counts as lying on
+/// it.
+/// @param largest  largest absolute value of a coordinate of the surface, world units
 double SnapTolerance(double largest, const Grid& grid);
 
-/// As Clip, in a given grid. Positions agree between parts, bit for bit, when coincident points
-/// have the same order in both. Throws InvalidInput (see Validate) and Aborted.
+/// Clips like Clip, but in a given grid. Positions in two parts agree bit for bit if coincident
+/// points have the same order in both parts. Throws InvalidInput (see Validate) and Aborted.
 ClippedMesh ClipPart(const TriangleMesh& mesh, const ClipFrame& frame, const ClipOptions& options,
   const Progress& progress = {});
 

@@ -14,7 +14,8 @@ constexpr Index Unmade = -1;
 
 void AllocateEdgeCuts(Id cuts, int threads, ClippedMesh& clipped)
 {
-  // Interior points follow: on fine meshes fewer than this, so that nothing moves then.
+  // Interior points are appended later. Fine meshes have fewer of them than this reserve, so that
+  // nothing moves then.
   clipped.cutPoints.reserve(cuts + cuts / 8);
   clipped.position.reserve(clipped.numberOfInputPoints + cuts + cuts / 8);
   clipped.cutPoints.resize(cuts);

@@ -1,4 +1,4 @@
-// The points that clipping makes.
+// Creates the points that clipping makes.
 #ifndef GridFEM_CutPoints_h
 #define GridFEM_CutPoints_h
 
@@ -7,11 +7,12 @@
 namespace gridfem
 {
 
-/// Makes room for so many cuts of mesh edges after the input points, none of them made yet.
+/// Makes room for `cuts` cuts of mesh edges after the input points. None of the cut points is made
+/// yet.
 void AllocateEdgeCuts(Id cuts, int threads, ClippedMesh& clipped);
 
-/// Sets a cut point and its position.
-/// @param point  its number among all points
+/// Stores a cut point and its position.
+/// @param point  the id of the point among all points
 inline void PlaceCutPoint(
   Id point, const CutPoint& cut, const ClipInput& input, ClippedMesh& clipped)
 {
@@ -23,7 +24,8 @@ inline void PlaceCutPoint(
                             weight[2] * clipped.position[corner[2]];
 }
 
-/// Where several planes cut an edge in one point only one of its numbers is made: drops the others.
+/// Removes the ids of cut points that were never made. If several planes cut an edge in one point,
+/// only one of its ids is made.
 void DropUnmadeCutPoints(int threads, ClippedMesh& clipped);
 
 } // namespace gridfem

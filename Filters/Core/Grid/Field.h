@@ -1,4 +1,4 @@
-// Fields given on a mesh: what right-hand sides are integrated from.
+// Fields given on a mesh. Right-hand sides are integrals of such fields.
 #ifndef GridFEM_Field_h
 #define GridFEM_Field_h
 
@@ -7,12 +7,12 @@
 namespace gridfem
 {
 
-/// Where the rows of a field live.
+/// The items of the mesh that the rows of a field belong to.
 enum class FieldAssociation
 {
-  Points,    // one row per input point, linear along each source triangle
+  Points,    // one row per input point, linear on each source triangle
   Triangles, // one row per source triangle, constant on it
-  Corners    // three rows per source triangle, linear along it
+  Corners    // three rows per source triangle, linear on it
 };
 
 struct Field
@@ -20,8 +20,8 @@ struct Field
   FieldAssociation association = FieldAssociation::Points;
   MultiVector values; // rows: points, triangles or corners; columns: components
 
-  /// Rows of `values` at the corners of a source triangle.
-  /// (All three are the triangle's own row for FieldAssociation::Triangles.)
+  /// Returns the rows of `values` at the corners of a source triangle. For
+  /// FieldAssociation::Triangles, all three are the row of the triangle.
   std::array<Id, 3> RowsOf(Id triangle, const std::array<Id, 3>& points) const
   {
     switch (association)
@@ -37,25 +37,26 @@ struct Field
   }
 };
 
-/// The coordinates of the points.
+/// Returns the coordinates of the points as a field.
 Field CoordinatesOf(const TriangleMesh& mesh);
 
-/// Throws InvalidInput when the rows of a field do not fit the mesh.
+/// Throws InvalidInput when the number of rows does not fit the mesh.
 void RequireField(const Field& field, const TriangleMesh& mesh);
 
-/// The same, and when the columns are no vectors: 3 C columns, vector c in 3c .. 3c+2.
+/// Throws InvalidInput like RequireField, and when the number of columns is not a multiple of 3.
+/// Vector c is in columns 3c .. 3c+2.
 void RequireVectors(const Field& field, const TriangleMesh& mesh);
 
-/// The same, and when there is more than one column. Null is let through.
+/// Throws InvalidInput like RequireField, and unless there is exactly one column. Accepts null.
 void RequireScale(const Field* scale, const TriangleMesh& mesh);
 
-/// Throws InvalidInput unless there is one weight for each triangle, finite and 0 or more.
+/// Throws InvalidInput unless every triangle has a finite weight of at least 0.
 void RequireWeights(const std::vector<double>& weight, const TriangleMesh& mesh);
 
-/// Weight by weight.
+/// Multiplies two lists of weights, entry by entry.
 std::vector<double> ProductOf(const std::vector<double>& a, const std::vector<double>& b);
 
-/// The same as RequireField, and when the field is constant on triangles.
+/// Throws InvalidInput like RequireField, and unless the field is given on points.
 void RequireOnPoints(const Field& field, const TriangleMesh& mesh);
 
 } // namespace gridfem

@@ -22,7 +22,7 @@ ClippedMesh ClipOfGivenCells(const TriangleMesh& mesh, const GivenCells& given,
     clipped.position.push_back(clipped.grid.ToGrid(point));
   }
   RequireIndices(3.0 * static_cast<double>(mesh.triangles.size()), "corners of triangles");
-  Array<Index> cellOf; // of the triangles that stay
+  Array<Index> cellOf; // of the triangles that are kept
   Array<Index> triangleOf;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
   {

@@ -1,4 +1,4 @@
-// A mesh that was clipped before: every triangle is a piece, in a cell that is known.
+// Handles a mesh that was clipped earlier: every triangle is a piece in a known cell.
 #ifndef GridFEM_GivenPieces_h
 #define GridFEM_GivenPieces_h
 
@@ -9,18 +9,18 @@
 namespace gridfem
 {
 
-/// Which cells of a grid the triangles of a mesh lie in.
+/// The grid cells that contain the triangles of a mesh.
 struct GivenCells
 {
   Grid grid;
-  std::vector<MortonKey> cells;      // those that there are, ascending
-  std::vector<MortonKey> ofTriangle; // each among them
+  std::vector<MortonKey> cells;      // the occupied cells, ascending
+  std::vector<MortonKey> ofTriangle; // the cell of each triangle
 };
 
-/// The clipped mesh whose pieces are the triangles, with links.
-/// @param mesh   all of whose points count as input
-/// @param given  of its triangles; a triangle in a cell that `cells` lacks is left out
-/// @param weldCoincidentPoints  coincident points count as one for the links
+/// Returns the clipped mesh whose pieces are the triangles of `mesh`, with links.
+/// @param mesh   all its points count as input points
+/// @param given  cells of the triangles; a triangle whose cell is missing in `cells` is left out
+/// @param weldCoincidentPoints  for the links, coincident points count as one
 ClippedMesh ClipOfGivenCells(const TriangleMesh& mesh, const GivenCells& given,
   bool weldCoincidentPoints, const Progress& progress = {});
 

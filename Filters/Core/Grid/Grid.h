@@ -1,5 +1,5 @@
-// The regular grid a mesh is laid into, and the Morton keys of its cells. [T §4.2]
-// Grid units: the cell (i,j,k) is [i,i+1] x [j,j+1] x [k,k+1].
+// The regular grid that contains a mesh, and the Morton keys of its cells. [T §4.2]
+// In grid units, cell (i,j,k) is [i,i+1] x [j,j+1] x [k,k+1].
 #ifndef GridFEM_Grid_h
 #define GridFEM_Grid_h
 
@@ -11,8 +11,8 @@
 namespace gridfem
 {
 
-/// Bits of i, j and k interleaved, x lowest: the three lowest bits are the octant x + 2y + 4z in
-/// the parent cell, and key >> 3 is the parent's key.
+/// The interleaved bits of i, j and k, with i lowest. The three lowest bits are the octant
+/// x + 2y + 4z in the parent cell, and key >> 3 is the parent's key.
 using MortonKey = std::uint64_t;
 
 using CellIndex = std::array<int, 3>;
@@ -34,7 +34,8 @@ struct Grid
   Vec3 ToGrid(const Vec3& world) const { return (world - origin) / spacing; }
   Vec3 ToWorld(const Vec3& grid) const { return origin + spacing * grid; }
 
-  /// The cell that a point lies in, world units; the nearest along each axis for one outside.
+  /// Returns the cell that contains a point, given in world units. For a point outside, it is the
+  /// nearest cell along each axis.
   CellIndex CellAt(const Vec3& world) const
   {
     const Vec3 place = this->ToGrid(world);
@@ -47,9 +48,10 @@ struct Grid
   }
 };
 
-/// The cube that shares the centre and the longest side of the bounding box of the points that
-/// `used` marks (all when empty), cut into 2^depth cells per side. A box without extent gets
-/// side 1. Throws InvalidInput for a depth outside [MinimumDepth, MaximumDepth].
+/// Returns the cube with the center and the longest side of the bounding box of the points, cut
+/// into 2^depth cells per side. Only points marked by `used` count, or all if it is empty. A box
+/// without extent gets side 1. Throws InvalidInput for a depth outside
+/// [MinimumDepth, MaximumDepth].
 Grid EmbedInGrid(
   const std::vector<Vec3>& points, const std::vector<char>& used, int depth, int threads = 0);
 

@@ -26,7 +26,7 @@ GridFunctions Complete(ClippedMesh clipped, Array<Index> piecePatch, PatchLevel 
   space.piecePatch = std::move(piecePatch);
   space.pointPatch = FindPointPatches(space.clipped, space.piecePatch, finest.NumberOfPatches(),
     space.clipped.numberOfInputPoints, job.threads);
-  Release(space.clipped.links); // the patches' links stand for them
+  Release(space.clipped.links); // the links of the patches replace them
   job.Check(0.3);
   space.levels = BuildLevels(std::move(finest), std::move(links), support, job.Part(0.3, 0.9));
   FindComponents(space, job.threads);
@@ -75,7 +75,7 @@ void CheckTables(
   }
 }
 
-/// Puts a better patch in the place of another, whichever thread comes first.
+/// Replaces the choice by a better patch. The result does not depend on the order of the threads.
 void Improve(std::atomic<Index>& choice, Index patch, const PatchChoice& patches)
 {
   Index known = choice.load(std::memory_order_relaxed);
@@ -85,7 +85,7 @@ void Improve(std::atomic<Index>& choice, Index patch, const PatchChoice& patches
   }
 }
 
-/// Gives the points of a piece to its patch, where that is better and no other is final.
+/// Offers a patch to the corners of one of its pieces, except to points whose choice is final.
 void ImprovePoints(const ClippedMesh& clipped, Id piece, Index patch, const PatchChoice& patches,
   const std::vector<char>& isFinal, std::vector<std::atomic<Index>>& choice)
 {
@@ -99,8 +99,8 @@ void ImprovePoints(const ClippedMesh& clipped, Id piece, Index patch, const Patc
   }
 }
 
-/// Gives points whose patches have no area that of a point at the same place, where one has: no
-/// equation says what the functions of theirs are.
+/// Gives each point whose patch has no area the patch of a coincident point, if that patch has an
+/// area. No equation determines the functions of a patch without area.
 void TakeCoincidentPatches(
   const ClippedMesh& clipped, const PatchChoice& patches, Array<Index>& pointPatch)
 {
@@ -109,7 +109,7 @@ void TakeCoincidentPatches(
     const Vec3& position = clipped.position[point];
     return std::array<double, 3>{ position[0], position[1], position[2] };
   };
-  std::map<std::array<double, 3>, Index> best; // at the places of such points
+  std::map<std::array<double, 3>, Index> best; // per place of such points
   std::vector<std::size_t> without;
   for (std::size_t point = 0; point < pointPatch.size(); ++point)
   {

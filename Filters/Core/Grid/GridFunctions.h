@@ -1,4 +1,4 @@
-// A mesh in its grid with the nested function spaces on it: what every solver starts from.
+// A mesh in its grid with nested function spaces. Every solver starts from this.
 #ifndef GridFEM_GridFunctions_h
 #define GridFEM_GridFunctions_h
 
@@ -11,13 +11,14 @@
 namespace gridfem
 {
 
-/// What pieces are linked decides what is connected.
+/// Options of a function space. The links that ClipOptions asks for decide which pieces are
+/// connected.
 struct SpaceOptions : ClipOptions
 {
   bool connectivityAware = true; // one function per connected component of a support
 };
 
-/// A piece that another process has, of a triangle that has pieces here, too.
+/// A piece held by another process. Its triangle also has pieces here.
 struct PieceElsewhere
 {
   MortonKey cell;
@@ -27,45 +28,45 @@ struct PieceElsewhere
 struct GridFunctions
 {
   FunctionSupport support = FunctionSupport::ConnectivityAware;
-  ClippedMesh clipped;            // without its links
-  Array<Index> piecePatch;        // per piece: patch of the finest level
+  ClippedMesh clipped;            // its links are removed
+  Array<Index> piecePatch;        // the patch of each piece on the finest level
   std::vector<PatchLevel> levels; // finest first, down to depth 0
-  Array<Index> pointPatch;        // per input point: a patch that contains it; -1 if unused
-  std::vector<Index> component;   // per finest function
+  Array<Index> pointPatch;        // a patch that contains each input point; -1 if unused
+  std::vector<Index> component;   // the component of each function of the finest level
   Index numberOfComponents = 0;
   bool isPart = false;                   // other processes have the rest of the surface
-  std::vector<PieceElsewhere> elsewhere; // near the pieces here
+  std::vector<PieceElsewhere> elsewhere; // pieces near those of this process
 
   const Grid& GetGrid() const { return clipped.grid; }
   const PatchLevel& Finest() const { return levels.front(); }
 };
 
-/// Clip, patches and levels in one go.
+/// Clips the mesh and builds patches and levels.
 GridFunctions BuildGridFunctions(
   const TriangleMesh& mesh, const SpaceOptions& options, const Progress& progress = {});
 
-/// The same on a mesh that is clipped already.
+/// Builds patches and levels on a mesh that is already clipped.
 GridFunctions BuildGridFunctions(ClippedMesh clipped, FunctionSupport support, const Job& job = {});
 
-/// The same from stored tables: patches and functions are taken as they are. `clipped.links` must
-/// be filled (FindLinks finds them in a mesh that was read from a file), `finest.cell` and
-/// `finest.dof` too. Throws InvalidInput when the tables do not fit together.
+/// Builds the levels from stored tables, without changing patches and functions. `clipped.links`,
+/// `finest.cell` and `finest.dof` must be filled; FindLinks computes the links of a mesh read from
+/// a file. Throws InvalidInput when the tables do not fit together.
 GridFunctions RestoreGridFunctions(ClippedMesh clipped, Array<Index> piecePatch, PatchLevel finest,
   FunctionSupport support, const Progress& progress = {});
 
-/// Fills `component` and `numberOfComponents` from the patches of the finest level.
+/// Computes `component` and `numberOfComponents` from the patches of the finest level.
 void FindComponents(GridFunctions& space, int threads = 0);
 
-/// For each of the first `points` points of the clipped mesh the patch it is given to: the best
-/// (PatchChoice) of the pieces around it that have an area, or of all where none has; -1 for points
-/// without a piece. A piece without area may belong to a patch in another cell, whose functions say
-/// nothing at the point. Where points are welded, those of patches without area get that of a point
-/// at the same place.
+/// Returns a patch for each of the first `points` points of the clipped mesh, or -1 for a point
+/// without a piece. It takes the best patch (see PatchChoice) among the pieces with area around the
+/// point, or among all pieces if none has area. Pieces without area come last, because they may
+/// belong to a patch in another cell, whose functions say nothing about the point. If points are
+/// welded, a point whose patch has no area gets the patch of a coincident point.
 Array<Index> FindPointPatches(const ClippedMesh& clipped, const Array<Index>& piecePatch,
   Id numberOfPatches, Id points, int threads = 0);
 
-/// Pieces that share an edge (two point ids, after `pointClass` if it is not empty), for a clipped
-/// mesh that comes without links.
+/// Returns links between pieces that share an edge, for a clipped mesh without links. An edge is a
+/// pair of point ids, mapped through `pointClass` unless it is empty.
 Array<Link> FindLinks(
   const ClippedMesh& clipped, const Array<Index>& pointClass, const Progress& progress = {});
 

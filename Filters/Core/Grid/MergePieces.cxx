@@ -12,7 +12,7 @@ namespace gridfem
 namespace
 {
 
-/// Throws InvalidInput when all blocks together have too many.
+/// Throws InvalidInput when all blocks together have too many items.
 void RequireTotal(const std::vector<ClipBlock>& blocks, Index ClipBlock::*count, const char* what)
 {
   double total = 0.0;
@@ -23,7 +23,7 @@ void RequireTotal(const std::vector<ClipBlock>& blocks, Index ClipBlock::*count,
   RequireIndices(total, what);
 }
 
-/// Where each block's entries begin when all are joined; one more than there are blocks.
+/// Returns the position of each block's items after joining, and the total at the end.
 std::vector<Index> BlockOffsets(
   const std::vector<ClipBlock>& blocks, Index ClipBlock::*count, const char* what)
 {
@@ -39,7 +39,8 @@ std::vector<Index> BlockOffsets(
   return begin;
 }
 
-/// Appends the interior points of all blocks, and gives the corners of pieces their ids.
+/// Appends the interior points of all blocks, and replaces their temporary ids in the corners of
+/// pieces.
 void AppendInteriorPoints(
   const ClipInput& input, const std::vector<ClipBlock>& blocks, int threads, ClippedMesh& clipped)
 {
@@ -47,7 +48,7 @@ void AppendInteriorPoints(
     BlockOffsets(blocks, &ClipBlock::interiors, "points of the clipped mesh");
   const auto first = static_cast<Index>(clipped.position.size());
   RequireIndices(double(first) + begin.back(), "points of the clipped mesh");
-  // Reserved first: resizing alone would double them.
+  // Reserve first, because resize() alone would double the capacity.
   clipped.cutPoints.reserve(clipped.cutPoints.size() + begin.back());
   clipped.cutPoints.resize(clipped.cutPoints.size() + begin.back());
   clipped.position.reserve(clipped.position.size() + begin.back());
@@ -70,7 +71,7 @@ void AppendInteriorPoints(
     });
 }
 
-/// Numbers of the pieces, sorted by cell.
+/// Returns the numbers of all pieces, sorted by cell.
 Array<SortEntry> SortPieces(ClippedTriangles& parts, int depth, int threads)
 {
   constexpr Id BlocksPerRange = 4;
@@ -95,7 +96,7 @@ Array<SortEntry> SortPieces(ClippedTriangles& parts, int depth, int threads)
   return entries;
 }
 
-/// Lists the cells that the sorted pieces lie in.
+/// Lists the cells that contain the sorted pieces.
 void ListCells(const Array<SortEntry>& entries, int threads, ClippedMesh& clipped)
 {
   const Id count = static_cast<Id>(entries.size());
@@ -155,7 +156,7 @@ public:
     }
   }
 
-  /// Numbers are less than this.
+  /// All numbers are below this bound.
   Id Bound() const { return static_cast<Id>(chunks_.size()) * PiecesPerChunk; }
 
   Found operator()(Id number) const
@@ -165,11 +166,11 @@ public:
   }
 
 private:
-  std::vector<Found> chunks_; // their first pieces
+  std::vector<Found> chunks_; // the first piece of each chunk
 };
 
 /// Copies the pieces in their sorted order.
-/// @return the place of each piece, by its number
+/// @return the index of each piece in the clipped mesh, by the piece's number
 Array<Index> CopyPieces(
   const PieceFinder& find, const Array<SortEntry>& entries, int threads, ClippedMesh& clipped)
 {
@@ -204,7 +205,7 @@ Array<Index> CopyPieces(
   return place;
 }
 
-/// Links inside triangles.
+/// Copies the links inside triangles.
 void PlaceLinks(const std::vector<ClipBlock>& blocks, const Array<Index>& place, int threads,
   ClippedMesh& clipped)
 {

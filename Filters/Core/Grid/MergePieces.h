@@ -1,4 +1,4 @@
-// The pieces that several threads made, joined into one clipped mesh in the order of their cells.
+// Joins the pieces made by several threads into one clipped mesh, in the order of their cells.
 #ifndef GridFEM_MergePieces_h
 #define GridFEM_MergePieces_h
 
@@ -10,7 +10,7 @@
 namespace gridfem
 {
 
-/// One range of triangles: its part of the store of the thread that clipped it.
+/// The pieces of one range of triangles, inside the store of the thread that clipped it.
 struct ClipBlock
 {
   ClipBuffer* store;
@@ -26,14 +26,14 @@ struct ClipBlock
 
 struct ClippedTriangles
 {
-  std::vector<ClipBuffer> stores; // per thread
-  std::vector<ClipBlock> blocks;  // per range of triangles, in their order
+  std::vector<ClipBuffer> stores; // one per thread
+  std::vector<ClipBlock> blocks;  // one per range of triangles, in their order
 };
 
-/// Gives the clipped mesh its cells, pieces, interior points (after the points it has), and the
-/// links inside triangles. The same for any number of threads.
-/// Throws InvalidInput when there are too many.
-/// @return the place of each piece in the clipped mesh, by its number
+/// Fills the cells, pieces, interior points and the links inside triangles of the clipped mesh.
+/// Interior points follow the existing points. The result is the same for any number of threads.
+/// Throws InvalidInput when there are too many items of a kind.
+/// @return the index in the clipped mesh of each piece, by the piece's number
 Array<Index> JoinPieces(
   ClippedTriangles parts, const ClipInput& input, const Job& job, ClippedMesh& clipped);
 

@@ -14,14 +14,15 @@ namespace gridfem
 namespace
 {
 
-/// Lower ends per bucket: its sides are sorted in cache.
+/// Number of lower ends per bucket. The sides of a bucket fit the cache while they are sorted.
 constexpr Index PointsPerBucket = 512;
 
-/// Ranges of triangles that the partition treats in parallel: few, because each counts all buckets.
+/// Most ranges of triangles that the partition processes in parallel. There are few, because each
+/// range counts all buckets.
 constexpr Id MostRanges = 64;
 constexpr Id SmallestRange = Id{ 1 } << 14;
 
-/// One side of an edge: the triangle's edge from a corner to the next.
+/// One side of an edge, from a corner of the triangle to the next.
 struct Side
 {
   Index low; // lower end of the edge
@@ -29,7 +30,7 @@ struct Side
   Index side; // 3 triangle + edge
 };
 
-/// What a bucket's edges need, then where it begins.
+/// First the space that a bucket's edges need, later the positions where it begins.
 struct Places
 {
   double cuts = 0.0;
@@ -37,7 +38,8 @@ struct Places
   double manySided = 0.0; // places of stretches
 };
 
-/// Finds the edges bucket by bucket: one partition of the sides by lower end, then sorts in cache.
+/// Finds the edges bucket by bucket. It partitions the sides by their lower end, then sorts each
+/// bucket in the cache.
 class EdgeFinder
 {
 public:
@@ -51,7 +53,7 @@ public:
   MeshEdges Find();
 
 private:
-  /// Stands for the number of cuts of an edge without length.
+  /// Replaces the number of cuts for an edge without length.
   static constexpr Index NoLength = -1;
 
   void Partition();
@@ -71,7 +73,7 @@ private:
   std::vector<Places> places_;     // per bucket
 };
 
-/// A stable counting sort of the sides by bucket, ranges of triangles in parallel.
+/// Stable counting sort of the sides by bucket, with ranges of triangles in parallel.
 void EdgeFinder::Partition()
 {
   const Id triangles = static_cast<Id>(triangles_.size());
@@ -105,7 +107,7 @@ void EdgeFinder::Partition()
   forSides([&](const Side& side, Index& place) { sides_[place++] = side; });
 }
 
-/// Sorts by the higher end; sides of one edge keep their order.
+/// Sorts by the higher end. Sides of one edge keep their order.
 void SortByHighEnd(Side* begin, Side* end)
 {
   constexpr std::ptrdiff_t Few = 32;
@@ -167,9 +169,9 @@ Index EdgeFinder::CutsOf(const Side& side) const
          PlanesBetween(a[2], b[2]).count;
 }
 
-/// Counts what the edges of a sorted bucket need. The first side of an edge gets its number of cuts
-/// in the place of the lower end, and its number of sides in that of the higher end: looking at the
-/// positions is what takes time here.
+/// Counts the space that the edges of a sorted bucket need. In the first side of an edge, it
+/// overwrites `low` by the number of cuts and `high` by the number of sides. Looking up the
+/// positions takes most of the time, so they are not looked up again.
 void EdgeFinder::MeasureBucket(Index bucket)
 {
   Places& places = places_[bucket];
@@ -211,7 +213,7 @@ void EdgeFinder::ScanPlaces(MeshEdges& edges)
   edges.numberOfPlaces = static_cast<Index>(2.0 * sum.pairs + sum.manySided);
 }
 
-/// @param manySided  gets the bucket's edges of more than two sides
+/// @param manySided  receives the bucket's edges with more than two sides
 void EdgeFinder::FillBucket(Index bucket, MeshEdges& edges, Array<ManySidedEdge>& manySided) const
 {
   auto cut = static_cast<Index>(places_[bucket].cuts);

@@ -11,7 +11,8 @@ namespace gridfem
 std::vector<double> CountedPatchAreas(
   const ClippedMesh& clipped, const Array<Index>& piecePatch, Id numberOfPatches, int threads)
 {
-  // One piece suffices for nearly all patches. The rest is added up in the order of the pieces.
+  // For nearly all patches, one large piece suffices. The areas of the others are added in the
+  // order of the pieces.
   std::vector<std::atomic<char>> hasLarge(numberOfPatches);
   for (std::atomic<char>& patch : hasLarge)
   {

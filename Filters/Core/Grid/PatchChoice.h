@@ -1,4 +1,4 @@
-// Which patch a point is given to that lies in several.
+// Chooses the patch of a point that lies in several patches.
 #ifndef GridFEM_PatchChoice_h
 #define GridFEM_PatchChoice_h
 
@@ -9,15 +9,16 @@
 namespace gridfem
 {
 
-/// Area of every patch in cell faces, added up from its pieces to SmallestPatchArea, and counted no
-/// further: what is larger is no rounding. Cost O(pieces); same bits for any number of threads.
-/// @param piecePatch  per piece its patch, in [0, numberOfPatches)
+/// Returns the area of every patch in units of cell faces, but at most SmallestPatchArea. Larger
+/// areas do not come from rounding, so their size does not matter. Cost O(pieces); same bits for
+/// any number of threads.
+/// @param piecePatch  the patch of each piece, in [0, numberOfPatches)
 constexpr double SmallestPatchArea = 1e-10;
 std::vector<double> CountedPatchAreas(
   const ClippedMesh& clipped, const Array<Index>& piecePatch, Id numberOfPatches, int threads);
 
-/// A point is given to the patch with the largest counted area, and of equal ones to the lowest. On
-/// a patch without area a function has no integral, so that no equation says what it is there.
+/// Prefers the patch with the largest counted area, and the lowest number among equal areas. On a
+/// patch without area, functions have no integral, so no equation determines their values there.
 class PatchChoice
 {
 public:
@@ -27,7 +28,7 @@ public:
   {
   }
 
-  /// Whether `patch` is a better choice than `other`; -1 stands for no patch.
+  /// Whether `patch` is a better choice than `other`; -1 means no patch.
   bool IsBetter(Index patch, Index other) const
   {
     if (patch < 0 || other < 0)

@@ -10,7 +10,8 @@ namespace gridfem
 namespace
 {
 
-/// Corner of `cell` that is the lattice point `corner`, or -1.
+/// Returns the number of the corner of `cell` at the lattice point `corner`, or -1 if it has none
+/// there.
 int CornerOf(const CellIndex& cell, const CellIndex& corner)
 {
   int number = 0;
@@ -31,8 +32,8 @@ CellIndex LatticePoint(const CellIndex& cell, int corner)
   return { cell[0] + (corner & 1), cell[1] + (corner >> 1 & 1), cell[2] + (corner >> 2 & 1) };
 }
 
-/// One set per component of a corner's support: linked patches share the functions of the corners
-/// they have in common. Slot 8 p + c is corner c of patch p.
+/// Makes one set per component of a corner's support: linked patches share the functions of their
+/// common corners. Slot 8 p + c is corner c of patch p.
 void UniteAlongLinks(
   const std::vector<MortonKey>& cell, const Array<Link>& links, int threads, UnionFind& slots)
 {
@@ -56,7 +57,7 @@ void UniteAlongLinks(
     });
 }
 
-/// One set per lattice point.
+/// Makes one set per lattice point.
 void UniteByCorner(const std::vector<MortonKey>& cell, int depth, int threads, UnionFind& slots)
 {
   const Array<SortEntry> entries = SortByKey(static_cast<Id>(cell.size()), 3 * (depth + 1), threads,
@@ -102,7 +103,7 @@ void NumberFunctions(
   }
 }
 
-/// Fills `fine.parent`; returns the parents' level without functions.
+/// Fills `fine.parent` and returns the level of the parents, without functions.
 PatchLevel GroupToParents(
   PatchLevel& fine, const Array<Link>& links, FunctionSupport support, int threads)
 {

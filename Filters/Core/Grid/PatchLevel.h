@@ -1,6 +1,6 @@
-// The one data structure: a level of the hierarchy is an eight-node element mesh. [DESIGN §2]
-// A patch is a connected piece of the surface inside one cell; it touches exactly eight functions.
-// The plain space and the connectivity-aware space differ in the patch list alone. [T ch. 6]
+// The one data structure: a level of the hierarchy is an eight-node element mesh [DESIGN §2]. A
+// patch is a connected piece of the surface inside one cell. It touches exactly eight functions.
+// The plain space and the connectivity-aware space differ only in their lists of patches. [T ch. 6]
 #ifndef GridFEM_PatchLevel_h
 #define GridFEM_PatchLevel_h
 
@@ -12,7 +12,7 @@
 namespace gridfem
 {
 
-/// Trilinear B-splines that do not vanish inside one cell, one per corner, x fastest.
+/// Number of trilinear B-splines that do not vanish inside a cell: one per corner, x fastest.
 constexpr int FunctionsPerPatch = 8;
 
 struct PatchLevel
@@ -27,14 +27,15 @@ struct PatchLevel
   int Octant(Id patch) const { return static_cast<int>(cell[patch] & 7); }
 };
 
-/// Which points of a patch list count as one function.
+/// Decides which corners of patches share one function.
 enum class FunctionSupport
 {
   Plain,            // one function per grid corner
   ConnectivityAware // one function per connected component of the corner's support
 };
 
-/// Patches of the finest level: connected pieces of a cell (or all pieces of it, when plain).
+/// The patches of the finest level. A patch is a connected group of pieces in a cell, or all pieces
+/// in it for FunctionSupport::Plain.
 struct PatchPartition
 {
   Array<Index> piecePatch;     // per piece
@@ -42,28 +43,29 @@ struct PatchPartition
   Array<Link> links;           // sorted, unique
 };
 
-/// Groups the pieces of a clipped mesh to patches. A patch whose area is below 1e-10 of a cell face
-/// joins a patch it shares an edge with, if there is one: rounding makes no functions.
-/// Cost O(pieces + links); the same for any number of threads.
+/// Groups the pieces of a clipped mesh into patches. A patch whose area is below 1e-10 of a cell
+/// face joins a patch that shares an edge with it, if there is one. Rounding errors therefore
+/// create no functions. Cost O(pieces + links); the result is the same for any number of threads.
 PatchPartition BuildPatches(const ClippedMesh& clipped, FunctionSupport support, int threads = 0);
 
-/// The links between the groups that linked items belong to: from pieces to their patches, from
-/// patches to their parents. Sorted by first, then second; unique.
+/// Returns the links between groups whose items are linked: between patches whose pieces are
+/// linked, or between parents whose patches are linked. Sorted by first, then by second; unique.
 Array<Link> LinksOfGroups(const Array<Link>& links, const Array<Index>& group, int threads = 0);
 
-/// The finest level on given patches; functions are numbered in the order of their first patch.
-/// Throws InvalidInput when there are more than 2^31 - 1 functions.
+/// Builds the finest level on given patches. Functions are numbered in the order of their first
+/// patch. Throws InvalidInput when there are more than 2^31 - 1 functions.
 PatchLevel BuildFinestLevel(
   int depth, const PatchPartition& patches, FunctionSupport support, int threads = 0);
 
-/// The levels above `finest`, down to depth 0: coarse patches are unions of connected fine patches
-/// inside the parent cell. Returns finest first; fills `parent` of every level but the last.
-/// @param links  of the finest level's patches
+/// Builds the coarser levels, down to depth 0. A coarse patch is the union of connected fine
+/// patches inside the parent cell. Returns all levels, finest first, and fills `parent` of every
+/// level except the last.
+/// @param links  links between the patches of the finest level
 std::vector<PatchLevel> BuildLevels(
   PatchLevel finest, Array<Link> links, FunctionSupport support, const Job& job = {});
 
-/// Connected component of every function: functions of one patch are connected. Numbered 0, 1, ...
-/// in the order of the lowest function.
+/// Returns the connected component of every function: the functions of a patch are connected.
+/// Components are numbered 0, 1, ... in the order of their lowest function.
 std::vector<Index> FunctionComponents(const PatchLevel& level, int threads = 0);
 
 } // namespace gridfem

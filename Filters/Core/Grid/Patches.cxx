@@ -13,7 +13,8 @@ namespace gridfem
 namespace
 {
 
-/// Patch of every piece, numbered by the first piece: so by Morton key.
+/// Returns the patch of every piece. Patches are numbered by their first piece, and thus by Morton
+/// key.
 Array<Index> GroupPieces(const ClippedMesh& clipped, const Array<Index>& pieceCell,
   FunctionSupport support, int threads, Index& count)
 {
@@ -38,7 +39,7 @@ Array<Index> GroupPieces(const ClippedMesh& clipped, const Array<Index>& pieceCe
   return NumberSets(sets, count, threads);
 }
 
-/// Patches that come from rounding.
+/// Marks the patches that result from rounding.
 std::vector<char> FindSlivers(
   const ClippedMesh& clipped, const Array<Index>& piecePatch, Index numberOfPatches, int threads)
 {
@@ -49,8 +50,9 @@ std::vector<char> FindSlivers(
   return isSliver;
 }
 
-/// For every patch the patch it becomes part of: itself, or for a sliver the lowest patch that is
-/// none and that it touches, over other slivers if need be. Slivers that touch none stay.
+/// Returns for every patch the patch that it joins. A regular patch joins itself. A sliver joins
+/// the lowest regular patch that it touches, if need be through other slivers. A sliver that
+/// touches none stays.
 std::vector<Index> AbsorbSlivers(
   const ClippedMesh& clipped, const Array<Index>& piecePatch, const std::vector<char>& isSliver)
 {
@@ -97,7 +99,8 @@ std::vector<Index> AbsorbSlivers(
   return target;
 }
 
-/// Sorts by first, then second, and drops repetitions, in time linear in the number of links.
+/// Sorts links by first, then by second, and removes duplicates, in time linear in the number of
+/// links.
 Array<Link> SortUnique(const Array<Link>& links, int threads)
 {
   Array<Index> group(links.size());

@@ -11,7 +11,7 @@ namespace gridfem
 namespace
 {
 
-/// Links of one edge. `pieces` is sorted and unique, so it is grouped by cell.
+/// Appends the links of one edge. `pieces` is sorted and unique, so it is grouped by cell.
 template<class CellOf>
 void LinkStar(const std::vector<Index>& pieces, const CellOf& cellOf, Array<Link>& links)
 {

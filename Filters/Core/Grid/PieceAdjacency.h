@@ -1,4 +1,4 @@
-// Which pieces of a clipped mesh share an edge.
+// Finds the pieces of a clipped mesh that share an edge.
 #ifndef GridFEM_PieceAdjacency_h
 #define GridFEM_PieceAdjacency_h
 
@@ -11,30 +11,32 @@
 namespace gridfem
 {
 
-/// A piece has an edge; edges are numbered, and equal for all pieces that share them.
+/// One piece at one edge. All pieces that share an edge have the same edge number.
 struct EdgeUse
 {
   Index edge;
   Index piece;
 };
 
-/// Links for edges given by their uses: pieces of one cell in a star, the stars of different cells
-/// pairwise. Appended edge by edge, the same for any number of threads.
-/// @param uses   ascending by piece for each edge; a piece may have one twice
-/// @param edges  their number
+/// Appends links between the pieces at each edge. Pieces in one cell are linked to the first of
+/// them; these first pieces of different cells are linked pairwise. The links are appended edge by
+/// edge and are the same for any number of threads.
+/// @param uses   ascending by piece for each edge; a piece may use an edge twice
+/// @param edges  number of edges
 void LinkStars(const Array<EdgeUse>& uses, Id edges, const Array<Index>& pieceCell, int threads,
   Array<Link>& links);
 
 /// Appends a link for every two pieces on different sides of a mesh edge that share a stretch of
-/// it; where more than two do, as LinkStars. The same for any number of threads.
-/// @param stretches  number of the piece at every place of a stretch, -1: none (see EdgeSide)
-/// @param place      of every piece in the clipped mesh, by its number
+/// it. More than two pieces at a stretch are linked as in LinkStars. The result is the same for any
+/// number of threads.
+/// @param stretches  number of the piece at each place of a stretch (see EdgeSide); -1: none
+/// @param place      index of each piece in the clipped mesh, by the piece's number
 void LinkAlongEdges(const MeshEdges& edges, const Array<Index>& stretches,
   const Array<Index>& place, const Job& job, ClippedMesh& clipped);
 
-/// Appends links for pieces that share a point of the mesh, as LinkStars. The same for any number
-/// of threads.
-/// @param pointClass  per input point: equal for points that count as one
+/// Appends links between pieces that share a point of the mesh, as in LinkStars. The result is the
+/// same for any number of threads.
+/// @param pointClass  a number for each input point, equal for points that count as one
 void LinkAtPoints(const Array<Index>& pointClass, int threads, ClippedMesh& clipped);
 
 } // namespace gridfem

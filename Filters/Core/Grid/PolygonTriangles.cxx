@@ -18,7 +18,7 @@ Vec3 NormalOf(const Vec3& a, const Vec3& b, const Vec3& c)
   return (b - a).cross(c - a);
 }
 
-/// The corners of a polygon that are left, in a ring. Corners are numbers from 0.
+/// Cuts ears off a polygon. It keeps the remaining corners in a ring; corners are numbered from 0.
 class EarCutter
 {
 public:
@@ -39,7 +39,8 @@ public:
     }
   }
 
-  /// False when no corner can be cut off any more. Throws InvalidInput when it takes too long.
+  /// Cuts until one triangle is left. Returns false when no corner can be cut off anymore. Throws
+  /// InvalidInput when it takes too long.
   bool Cut(std::vector<Triangle>& triangles)
   {
     for (std::size_t left = corners_.size(); left > 3; --left)
@@ -74,8 +75,8 @@ private:
     return NormalOf(this->Place(a), this->Place(b), this->Place(c)).dot(normal_);
   }
 
-  /// Sorts a corner among the ears, by how far from equilateral they are, or those that point
-  /// inward.
+  /// Classifies a corner as an ear or as an inward corner. Ears are sorted by how far they are from
+  /// equilateral.
   void Judge(Id corner)
   {
     this->Forget(corner);
@@ -101,8 +102,8 @@ private:
     ears_.erase({ ear_[corner], corner });
   }
 
-  /// Whether no corner that points inward lies in the triangle that would be cut off. One that was
-  /// found to lie there does as long as it is left.
+  /// Whether no inward corner lies in the triangle that would be cut off. An inward corner once
+  /// found there keeps blocking until it is cut off or no longer points inward.
   bool IsFree(Id corner)
   {
     if (blocker_[corner] != None && inward_.count(blocker_[corner]) > 0)
@@ -129,7 +130,7 @@ private:
            this->AreaOf(c, a, other) >= 0.0;
   }
 
-  /// Ears look at inward corners, and nothing else can stop them on the way.
+  /// Stops the search after too many looks of ears at inward corners. Nothing else could stop it.
   void RequireTime() const
   {
     constexpr double Most = 2e8; // a few seconds
@@ -159,13 +160,13 @@ private:
   const std::vector<Id>& corners_;
   std::vector<Id> before_;
   std::vector<Id> after_;
-  std::vector<double> ear_; // what each corner is sorted by in ears_
-  std::vector<Id> blocker_; // of each ear that was found not to be free
+  std::vector<double> ear_; // the key of each corner in ears_
+  std::vector<Id> blocker_; // the inward corner that blocks each ear
   double looks_ = 0.0;
   Vec3 normal_ = Vec3::Zero();
   std::set<std::pair<double, Id>> ears_;
   std::set<Id> inward_;
-  Id first_ = 0; // a corner that is left
+  Id first_ = 0; // a remaining corner
 };
 
 std::vector<Triangle> TrianglesOfQuad(const std::vector<Vec3>& points, const std::vector<Id>& q)

@@ -1,4 +1,4 @@
-// Polygons of any number of corners, concave ones too, as triangles.
+// Splits polygons with any number of corners into triangles. The polygons may be concave.
 #ifndef GridFEM_PolygonTriangles_h
 #define GridFEM_PolygonTriangles_h
 
@@ -11,14 +11,14 @@ namespace gridfem
 
 using Triangle = std::array<Id, 3>;
 
-/// A quadrilateral along the shorter diagonal, unless only the other one lies inside. Of larger
-/// polygons the ear of the best shape is cut off until a triangle is left; one that is too
-/// degenerate for it becomes a fan.
-/// @param cell     the number of the polygon, for messages
-/// @param corners  ids of three or more points, in order
-/// @return  as many triangles as there are corners, less two
-/// Throws InvalidInput when the polygon has so many corners that point inward that it would take
-/// more than some seconds.
+/// Splits a polygon into triangles. A quadrilateral is split along its shorter diagonal, unless
+/// only the other one lies inside. From a larger polygon, the ear with the best shape is cut off
+/// until a triangle is left. A polygon too degenerate for this becomes a fan.
+/// @param cell     number of the polygon, for messages
+/// @param corners  ids of at least three points, in order
+/// @return  two triangles fewer than there are corners
+/// Throws InvalidInput if the polygon has so many inward-pointing corners that it would take more
+/// than a few seconds.
 std::vector<Triangle> TrianglesOfPolygon(
   const std::vector<Vec3>& points, Id cell, const std::vector<Id>& corners);
 

@@ -1,4 +1,4 @@
-// Barycentric coordinates on source triangles.
+// Computes barycentric coordinates on source triangles.
 #include "Grid/SourceTriangle.h"
 
 #include <Eigen/Geometry>

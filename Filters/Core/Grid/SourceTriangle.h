@@ -1,5 +1,4 @@
-// A source triangle as its pieces see it: barycentric coordinates of the points of the clipped
-// mesh.
+// Barycentric coordinates of the points of a clipped mesh on their source triangle.
 #ifndef GridFEM_SourceTriangle_h
 #define GridFEM_SourceTriangle_h
 
@@ -16,9 +15,9 @@ public:
   /// Keeps references to both meshes. The clipped mesh must come from `mesh`.
   SourceTriangle(const ClippedMesh& clipped, const TriangleMesh& mesh, Id triangle);
 
-  /// Barycentric coordinates of a point of the clipped mesh that lies on the triangle: exactly
-  /// those the point was made with. A cut point of an edge may have been made from another triangle
-  /// at that edge; a point whose origin is not known is located by its position.
+  /// Returns the barycentric coordinates of a point of the clipped mesh on this triangle: exactly
+  /// the ones it was made with. The point may have been made from another triangle at the same
+  /// edge. A point of unknown origin is located by its position.
   Barycentric Locate(Id point) const;
 
 private:

@@ -15,11 +15,11 @@ namespace
 
 constexpr Id None = -1;
 
-/// Across an edge of two triangles; None across others.
+/// The neighbor across an edge of two triangles. Across other edges, `triangle` is None.
 struct Neighbour
 {
   Id triangle = None;
-  bool facesAlike = true; // the two run along the edge in opposite directions
+  bool facesAlike = true; // the two triangles run along the edge in opposite directions
 };
 
 using Neighbours = std::vector<std::array<Neighbour, 3>>;
@@ -57,8 +57,8 @@ Neighbours Classify(
 }
 
 /// Spreads the side of the first triangle over its component.
-/// @param members  gets its triangles
-/// @return whether it has two sides
+/// @param members  the first triangle; receives all triangles of the component
+/// @return whether the component has two sides
 bool SpreadSide(
   const Neighbours& neighbours, std::vector<signed char>& side, std::vector<Id>& members)
 {

@@ -1,4 +1,5 @@
-// How the triangles of a mesh meet at their edges: where the surface ends, and which way it faces.
+// Finds how the triangles of a mesh meet at their edges: where the surface ends, and which way it
+// faces.
 #ifndef GridFEM_SurfaceEdges_h
 #define GridFEM_SurfaceEdges_h
 
@@ -9,7 +10,7 @@
 namespace gridfem
 {
 
-/// The edge of a triangle from one of its corners to the next.
+/// The edge of a triangle from one corner to the next.
 struct TriangleEdge
 {
   Id triangle;
@@ -21,8 +22,8 @@ struct TriangleEdge
   }
 };
 
-/// A straight piece of a curve within a triangle. Its ends are weights of the three corners, at
-/// least 0 and with the sum 1.
+/// A straight piece of a curve within a triangle. Each end is given by the weights of the three
+/// corners, which are at least 0 and sum to 1.
 struct TriangleSegment
 {
   Id triangle;
@@ -30,30 +31,30 @@ struct TriangleSegment
   Vec3 to;
 };
 
-/// Triangles two of whose corners are one point count as none.
+/// The edges and orientation of a surface. Triangles with two equal corners do not count.
 struct SurfaceEdges
 {
   std::vector<TriangleEdge> boundary; // edges of one triangle, ascending
-  /// Edges of more than two triangles, each from one of them, ascending.
+  /// Edges of more than two triangles, each listed with one of them, ascending.
   std::vector<TriangleEdge> branching;
-  /// Per triangle: 1, -1 where it faces the other way than most of the area of its component does,
-  /// or 0 on components without two sides, as a Möbius strip. Components end at branching edges.
+  /// One number per triangle: -1 if it faces against most of the area of its component, otherwise
+  /// 1. It is 0 on one-sided components such as a Möbius strip. Components end at branching edges.
   std::vector<signed char> side;
   Index numberOfComponents = 0;
-  Index numberOfOneSided = 0; // components
+  Index numberOfOneSided = 0; // number of one-sided components
 
   bool IsOriented() const; // all sides are 1
 };
 
+/// Finds the edges and orientation of a surface. Cost O(n log n).
 /// @param weldCoincidentPoints  coincident points count as one
-/// Cost O(n log n).
 SurfaceEdges FindSurfaceEdges(const TriangleMesh& mesh, bool weldCoincidentPoints, int threads = 0);
 
-/// Edges as segments. Throws InvalidInput for a triangle that the mesh does not have.
+/// Converts edges to segments. Throws InvalidInput for a triangle that the mesh does not have.
 std::vector<TriangleSegment> SegmentsOf(
   const std::vector<TriangleEdge>& edges, const TriangleMesh& mesh);
 
-/// The ends of edges: points of the mesh, ascending, each once.
+/// Returns the end points of edges: ids of points of the mesh, ascending, each once.
 std::vector<Id> EndsOf(const std::vector<TriangleEdge>& edges, const TriangleMesh& mesh);
 
 } // namespace gridfem

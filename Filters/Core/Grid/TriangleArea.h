@@ -1,4 +1,4 @@
-// The area of a triangle, and which way it faces.
+// Area and orientation of a triangle.
 #ifndef GridFEM_TriangleArea_h
 #define GridFEM_TriangleArea_h
 
@@ -7,7 +7,7 @@
 namespace gridfem
 {
 
-/// Twice the area, along the normal.
+/// Returns the normal vector whose length is twice the area.
 inline Vec3 AreaVector(const std::vector<Vec3>& points, const std::array<Id, 3>& corner)
 {
   return (points[corner[1]] - points[corner[0]]).cross(points[corner[2]] - points[corner[0]]);

@@ -178,7 +178,7 @@ int TriangleClipper::SideOf(const Corner& corner, int axis, int plane) const
   return (value > plane) - (value < plane);
 }
 
-/// The side of the first corner that is not on the plane, in steps from one corner.
+/// Returns the side of the first corner off the plane, searched from `corner` in steps of `step`.
 int TriangleClipper::SideAfter(
   const Polygon& polygon, int corner, int step, int axis, int plane) const
 {
@@ -190,10 +190,10 @@ int TriangleClipper::SideAfter(
   return side;
 }
 
-/// Gives a corner on the plane to the polygons on its two sides. Where such corners follow each
-/// other, as in a triangle that is nearly in the plane, what lies on the plane belongs above it,
-/// whichever way round the polygon is: below it gets only the corner where it comes to the plane,
-/// or the two would overlap.
+/// Gives a corner on the plane to the polygons on both sides of it. Several such corners may be
+/// consecutive, for example in a triangle nearly parallel to the plane. The part on the plane then
+/// belongs to the polygon above, for both orientations. The polygon below gets only the corner
+/// where it meets the plane; otherwise the two polygons would overlap.
 void TriangleClipper::ShareCorner(
   const Polygon& polygon, int i, int axis, int plane, Polygon& below, Polygon& above) const
 {
@@ -282,7 +282,8 @@ TriangleClipper::Slot& TriangleClipper::InteriorSlot(int axisA, int planeA, int 
 {
   const PlaneRange& a = planes_[axisA];
   const PlaneRange& b = planes_[axisB];
-  // A triangle that touches a plane without crossing it can still have a cut edge there.
+  // The margin of one plane on each side is needed because a triangle that only touches a plane can
+  // still have a cut edge there.
   const Id row = planeA - a.first + 1;
   const Id width = b.count + 2;
   const Id place = row * width + (planeB - b.first + 1);
@@ -360,7 +361,8 @@ void TriangleClipper::Emit(const Polygon& polygon, ClipBuffer& store)
   this->NoteStretches(polygon, piece, store);
 }
 
-/// Two pieces on one stretch come from rounding; they are linked, and the first stands for both.
+/// Stores the piece along each stretch of the triangle's sides. If rounding puts two pieces on one
+/// stretch, they are linked, and the first stands for both.
 void TriangleClipper::NoteStretches(const Polygon& polygon, Index piece, ClipBuffer& store)
 {
   const Index number = store.NumberOf(piece);
@@ -433,8 +435,8 @@ const TriangleClipper::LocalPiece* TriangleClipper::FindPiece(CellCode cell) con
   return found != pieces_.end() && found->cell == cell ? &*found : nullptr;
 }
 
-/// The piece on the other side of a cut is in the next cell; where the cut runs along an edge of
-/// the grid it can be one further along the axes that were clipped later.
+/// Links a piece to the piece on the other side of a cut, which is in the next cell. If the cut
+/// runs along an edge of the grid, it can be one cell away along the axes clipped later.
 void TriangleClipper::LinkAcross(const LocalPiece& piece, int corner, ClipBuffer& store) const
 {
   const Index* const ids = store.corner.data() + store.cornerBegin[piece.piece];

@@ -1,5 +1,5 @@
-// Clips one triangle by the planes of a grid, axis by axis. Points are named by what makes them (a
-// corner; an edge and a plane; two planes), so no search is needed to know equal ones.
+// Clips one triangle by the planes of a grid, axis by axis. A point is identified by its origin: a
+// corner, an edge and a plane, or two planes. Equal points are therefore known without a search.
 #ifndef GridFEM_TriangleClipper_h
 #define GridFEM_TriangleClipper_h
 
@@ -13,7 +13,7 @@
 namespace gridfem
 {
 
-/// What the clipper knows of the mesh; all of it outlives the clipper.
+/// The clipper's view of the mesh. Everything here must outlive the clipper.
 struct ClipInput
 {
   const std::vector<std::array<Id, 3>>& triangles;
@@ -21,32 +21,34 @@ struct ClipInput
   const Array<Vec3>& position;    // of the input points, grid units, snapped to the planes
   const MeshEdges& edges;
   int cellsPerSide;
-  double tolerance;         // of snapping
-  const CellRegion* region; // where pieces are wanted; null: everywhere
+  double tolerance;         // of snapping, in cells
+  const CellRegion* region; // makes pieces only here; null: everywhere
 };
 
-/// In cache lines of its own, because threads write to theirs all the time.
+/// Clips triangles on one thread. The alignment gives every clipper its own cache lines, because
+/// threads write to their clippers all the time.
 class alignas(CacheLine) TriangleClipper
 {
 public:
   /// @param clipped    has room for the cut points of mesh edges; the first triangle at an edge
-  ///                   fills those it makes
-  /// @param stretches  all -1; get the numbers of the pieces along the triangles' sides
-  /// @param nextChunk  of the numbers of pieces
+  ///   fills in the points that it makes
+  /// @param stretches  all -1 at first; receives the numbers of the pieces along the triangles'
+  ///   sides
+  /// @param nextChunk  the next free chunk of piece numbers
   TriangleClipper(const ClipInput& input, ClippedMesh& clipped, Array<Index>& stretches,
     std::atomic<Index>& nextChunk)
     : input_(input), clipped_(clipped), stretches_(stretches), nextChunk_(nextChunk)
   {
   }
 
-  /// Appends the pieces of one triangle. Clippers may clip different triangles of one mesh at the
-  /// same time.
+  /// Appends the pieces of one triangle. Several clippers may clip different triangles of one mesh
+  /// at the same time.
   void Clip(Id triangle, ClipBuffer& store);
 
 private:
   using Point = std::array<double, 3>;
 
-  /// A point of this triangle.
+  /// A corner of the triangle or a point made by clipping it.
   struct Vertex
   {
     Point position; // snapped
@@ -54,8 +56,8 @@ private:
     Index id;
   };
 
-  /// A corner of a polygon. The edge from it to the next lies on edge `tag` of the triangle, or,
-  /// from PlaneTag on, on a plane across axis tag - PlaneTag.
+  /// A corner of a polygon. The polygon's edge from this corner to the next lies on edge `tag` of
+  /// the triangle if tag < PlaneTag. Otherwise it lies on a plane across axis tag - PlaneTag.
   static constexpr std::int16_t PlaneTag = 3;
   struct Corner
   {
@@ -76,16 +78,16 @@ private:
   {
     const Vec3* low;
     const Vec3* high;
-    int lowCorner; // of the triangle
+    int lowCorner; // corner of the triangle at the low end
     int highCorner;
     std::array<PlaneRange, 3> planes;
-    std::array<Index, 4> firstCut; // per axis; then where they end
+    std::array<Index, 4> firstCut; // point id of the first cut per axis, then the end of the ids
     bool isNamedHere;              // this is the first triangle at the edge
     Index* stretch;                // piece along stretch 0; null for an edge without length
-    Index stride;                  // from one stretch to the next
+    Index stride;                  // distance between the places of two stretches
   };
 
-  /// A cell as one number that ascends with (i, j, k): fast to compare, and to step from.
+  /// A cell as one number, ascending with (i, j, k). It is fast to compare and to step from.
   using CellCode = std::int64_t;
   static constexpr int BitsPerAxis = 20;
   static constexpr int ShiftOf(int axis) { return BitsPerAxis * (2 - axis); }
@@ -93,14 +95,14 @@ private:
   struct LocalPiece
   {
     CellCode cell;
-    Index piece;     // in the store
-    int firstCorner; // into corners_
+    Index piece;     // index in the store
+    int firstCorner; // index into corners_
     int size;
   };
 
-  /// Interior points by the two planes that make them: entries of earlier triangles are told by
-  /// their stamp, so nothing is cleared. Where the table would be large and nearly empty (a needle
-  /// across a fine grid) a map takes its place.
+  /// A table entry for the interior point made by two planes. A stamp tells entries of earlier
+  /// triangles apart, so nothing needs to be cleared. If the table would be large and nearly empty
+  /// (a needle across a fine grid), a map replaces it.
   struct Slot
   {
     Id stamp = -1;
@@ -115,7 +117,8 @@ private:
   void EmitWhole(const CellIndex& cell, ClipBuffer& store);
   void Start();
   void ClipAxis(const Polygon& polygon, int axis, ClipBuffer& store);
-  int SideOf(const Corner& corner, int axis, int plane) const; // -1 below the plane, 0, 1
+  int SideOf(const Corner& corner, int axis, int plane) const; // -1: below the plane, 0: on it, 1:
+                                                               // above
   int SideAfter(const Polygon& polygon, int corner, int step, int axis, int plane) const;
   void ShareCorner(
     const Polygon& polygon, int i, int axis, int plane, Polygon& below, Polygon& above) const;

@@ -27,7 +27,7 @@ bool IsValid(const TriangleMesh& mesh, Id triangle)
     });
 }
 
-/// The first triangle that is not valid; the number of triangles if all are.
+/// Returns the first invalid triangle, or the number of triangles if all are valid.
 Id FirstInvalid(const TriangleMesh& mesh, int threads)
 {
   const Id count = static_cast<Id>(mesh.triangles.size());
@@ -72,13 +72,13 @@ void Validate(const TriangleMesh& mesh, int threads)
 namespace
 {
 
-/// Mixes the bits of the coordinates; equal points give equal values.
+/// Mixes the bits of the coordinates. Equal points give equal values.
 std::uint64_t HashPoint(const Vec3& point)
 {
   std::uint64_t hash = 0;
   for (int axis = 0; axis < 3; ++axis)
   {
-    const double value = point[axis] + 0.0; // -0 becomes 0
+    const double value = point[axis] + 0.0; // turns -0 into 0
     std::uint64_t bits;
     std::memcpy(&bits, &value, sizeof(bits));
     hash = (hash ^ bits) * 0x9e3779b97f4a7c15u;
@@ -95,8 +95,8 @@ Array<Index> WeldCoincidentPoints(
   RequireIndices(static_cast<double>(points.size()), "points");
   Array<Index> representative(points.size());
   std::iota(representative.begin(), representative.end(), Index{ 0 });
-  // Equal points have equal hashes, so they are neighbours after sorting by any part of the hash;
-  // the few others beside them are told apart by their coordinates.
+  // Equal points have equal hashes, so sorting by any part of the hash makes them neighbors.
+  // Comparing coordinates separates the few other points among them.
   constexpr int HashBits = 34;
   const Array<SortEntry> entries = SortByKey(static_cast<Id>(points.size()), HashBits, threads,
     [&](Id begin, Id end, const auto& add)

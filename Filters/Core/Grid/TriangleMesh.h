@@ -1,5 +1,5 @@
-// The input of everything: a triangle soup with shared points, in world coordinates, and the
-// identification of its coincident points.
+// The input of everything: a list of triangles with shared points in world coordinates. Coincident
+// points are found here, too.
 #ifndef GridFEM_TriangleMesh_h
 #define GridFEM_TriangleMesh_h
 
@@ -17,18 +17,17 @@ struct TriangleMesh
   std::vector<std::array<Id, 3>> triangles; // indices into points
 };
 
-/// Throws InvalidInput naming the first triangle with an index out of range, or the first
-/// triangle corner with a NaN or infinite coordinate.
+/// Throws InvalidInput that names the first triangle with an index out of range or with a NaN or
+/// infinite coordinate.
 void Validate(const TriangleMesh& mesh, int threads = 0);
 
-/// For each point that `used` marks (all when empty) the lowest id of such a point with the same
-/// three coordinates; other points stand for themselves. Coordinates are compared
-/// exactly (-0 = 0).
-/// Cost O(n log n).
+/// Returns for each point the lowest id of a point with the same three coordinates. Only points
+/// marked by `used` count (all if it is empty); other points keep their own id. Coordinates are
+/// compared exactly (-0 = 0). Cost O(n log n).
 Array<Index> WeldCoincidentPoints(
   const std::vector<Vec3>& points, const std::vector<char>& used = {}, int threads = 0);
 
-/// 1 for points that a triangle uses.
+/// Returns 1 for every point that a triangle uses, and 0 for the others.
 std::vector<char> UsedPoints(const TriangleMesh& mesh, int threads = 0);
 
 struct Bounds
@@ -37,12 +36,12 @@ struct Bounds
   Vec3 high;
 };
 
-/// Of the points that `used` marks (all when empty); low is infinite and high is -infinite when
-/// there are none.
+/// Returns the bounding box of the points marked by `used` (of all if it is empty). Without such
+/// points, low is infinite and high is -infinite.
 Bounds BoundsOf(
   const std::vector<Vec3>& points, const std::vector<char>& used = {}, int threads = 0);
 
-/// Surface area, world units.
+/// Returns the surface area in world units.
 double SurfaceArea(const TriangleMesh& mesh);
 
 } // namespace gridfem

@@ -1,4 +1,4 @@
-// The sides of triangles, sorted such that those of one edge follow each other.
+// The sides of triangles, sorted so that the sides of an edge are consecutive.
 #ifndef GridFEM_TriangleSides_h
 #define GridFEM_TriangleSides_h
 
@@ -7,13 +7,13 @@
 namespace gridfem
 {
 
-/// A triangle's side of an edge, which is named by its two ends.
+/// A triangle's side of an edge. The edge is identified by its two ends.
 struct TriangleSide
 {
   Index low;
   Index high;
   TriangleEdge edge;
-  bool isUpwards; // from the low to the high end
+  bool isUpwards; // whether the triangle runs from the low to the high end
 
   bool IsOfSameEdge(const TriangleSide& other) const
   {
@@ -21,12 +21,13 @@ struct TriangleSide
   }
 };
 
-/// Throw InvalidInput for an edge or a segment of a triangle that the mesh does not have.
+/// Both throw InvalidInput if an edge or a segment refers to a triangle that the mesh does not
+/// have.
 void RequireEdges(const std::vector<TriangleEdge>& edges, const TriangleMesh& mesh);
 void RequireSegments(const std::vector<TriangleSegment>& segments, const TriangleMesh& mesh);
 
-/// Sides of the triangles with three different points.
-/// @param pointClass  welded id of each point; empty: points are themselves
+/// Returns the sides of all triangles with three different points, sorted by edge.
+/// @param pointClass  welded id of each point; empty: every point is its own class
 std::vector<TriangleSide> SortedSides(const TriangleMesh& mesh, const Array<Index>& pointClass);
 
 /// Calls body(first side, number of sides) for each edge.

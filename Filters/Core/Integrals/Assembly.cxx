@@ -1,4 +1,4 @@
-// Patterns, values and prolongations of level matrices, row by row and without hash maps.
+// Builds patterns, values and prolongations of level matrices, row by row and without hash maps.
 #include "Integrals/Assembly.h"
 
 #include "Algebra/FillRows.h"
@@ -14,7 +14,8 @@ namespace gridfem
 namespace
 {
 
-/// Around a grid corner are 27, itself included: number of corner j of a cell, seen from corner i.
+/// Number of grid corners around a grid corner, including itself. NumberAround gives the number of
+/// corner j of a cell as seen from corner i.
 constexpr int CornersAround = 27;
 
 constexpr int NumberAround(int i, int j)
@@ -52,7 +53,8 @@ constexpr CornerTable Around = MakeCornerTable(NumberAround);
 /// Packed positions of the entries of each row of an element matrix.
 constexpr CornerTable Rows = MakeCornerTable(PackedIndex);
 
-/// Sorts different numbers by counting the smaller ones of each, which has no branch to guess.
+/// Sorts distinct numbers by counting the smaller numbers for each. This needs no branch to be
+/// predicted.
 void SortFew(Index* begin, Index* end)
 {
   constexpr int Few = 32;
@@ -76,8 +78,8 @@ void SortFew(Index* begin, Index* end)
   }
 }
 
-/// Appends the distinct functions that share a patch with function f, ascending. Most grid corners
-/// around its own have one of them, so that a repetition is known by its corner.
+/// Appends the distinct functions that share a patch with function f, ascending. Most surrounding
+/// grid corners have only one such function, so most repetitions are recognized by their corner.
 void AppendNeighbours(
   const PatchLevel& level, const FunctionPlaces& places, Index f, Array<Index>& columns)
 {
@@ -104,17 +106,17 @@ void AppendNeighbours(
   SortFew(columns.data() + first, columns.data() + columns.size());
 }
 
-/// What the rows of a level matrix are summed from.
+/// Computes the rows of a level matrix as sums over elements.
 struct ElementSum
 {
   const PatchLevel& level;
   const FunctionPlaces& places;
-  const ElementMatrix* mass; // null when its factor is 0
+  const ElementMatrix* mass; // null if its factor is 0
   double a;
-  const ElementMatrix* stiffness; // null when its factor is 0
+  const ElementMatrix* stiffness; // null if its factor is 0
   double b;
 
-  /// The matrices of the last patch of a row, which may be new after earlier rows.
+  /// Prefetches the matrices of the last patch of a row. Earlier rows may not have used this patch.
   EIGEN_ALWAYS_INLINE void FetchLast(Index row) const
   {
     const Index end = places.begin[row + 1];
@@ -132,7 +134,7 @@ struct ElementSum
     }
   }
 
-  /// @param position  scratch, one per column: place of the column's entry in the row
+  /// @param position  scratch with one entry per column: the place of the column in the row
   void FillRow(SparseMatrix& matrix, Index row, std::vector<Index>& position) const
   {
     const Id begin = matrix.rowBegin[row];
@@ -147,7 +149,8 @@ struct ElementSum
     {
       const Index patch = places.item[k] / FunctionsPerPatch;
       const int* entry = Rows.number[places.item[k] % FunctionsPerPatch];
-      std::array<double, FunctionsPerPatch> part; // apart from the sums, so that lanes can make it
+      std::array<double, FunctionsPerPatch> part; // separate from the sums, so that SIMD lanes
+                                                  // compute it
       for (int j = 0; j < FunctionsPerPatch; ++j)
       {
         const double m = mass ? a * mass[patch][entry[j]] : 0.0;
@@ -162,7 +165,7 @@ struct ElementSum
   }
 };
 
-/// Appends the row of a function that is a sum of the eight functions of a patch, with weights.
+/// Appends the row of a function that is a weighted sum of the eight functions of a patch.
 void AppendRow(const std::array<Index, FunctionsPerPatch>& dof, const double* weight,
   Array<Index>& columns, Array<double>& values)
 {
@@ -208,7 +211,8 @@ void AssembleValues(const PatchLevel& level, const FunctionPlaces& places,
     b != 0.0 ? stiffness.data() : nullptr, b };
   matrix.value.resize(matrix.NonZeros());
   const int team = NumberOfThreads(threads);
-  // One table per thread, made before the threads start: their bodies then cannot throw.
+  // There is one table per thread. Tables are made before the threads start, so that the loop
+  // cannot throw.
   std::vector<std::vector<Index>> positions(team, std::vector<Index>(matrix.columns));
 #pragma omp parallel for num_threads(team) schedule(dynamic, DefaultBlockSize)
   for (Index row = 0; row < matrix.rows; ++row)

@@ -1,4 +1,4 @@
-// Level matrices from element matrices, and the prolongation between levels.
+// Assembles the matrices of a level from its element matrices, and the prolongation between levels.
 #ifndef GridFEM_Assembly_h
 #define GridFEM_Assembly_h
 
@@ -9,22 +9,23 @@
 namespace gridfem
 {
 
-/// Where each function stands in the table of the patches: item 8 p + c is corner c of patch p.
+/// The places of each function in the table of patches. Item 8 p + c is corner c of patch p.
 using FunctionPlaces = Groups;
 FunctionPlaces PlacesOfFunctions(const PatchLevel& level, int threads = 0);
 
-/// The pattern of every matrix of a level, without values.
+/// Returns the pattern of every matrix of a level, without values.
 SparseMatrix BuildPattern(const PatchLevel& level, const FunctionPlaces& places, int threads = 0);
 
-/// Gives a matrix of that pattern its values: the sum of combine(mass, stiffness) = a mass + b
-/// stiffness. Either may be empty when its factor is 0. Same bits for any number of threads.
+/// Computes the values of a matrix with this pattern: a mass + b stiffness, summed over the
+/// patches. Either array may be empty if its factor is 0. Same bits for any number of threads.
 void AssembleValues(const PatchLevel& level, const FunctionPlaces& places,
   const Array<ElementMatrix>& mass, double a, const Array<ElementMatrix>& stiffness, double b,
   SparseMatrix& matrix, int threads = 0);
 
-/// Rows = functions of `fine`, columns = functions of `coarse`: a coarse function written in fine
-/// ones. Any patch of a fine function's support gives the same row [T (6.1)]; the first is used.
-/// @param places  of the fine functions
+/// Returns the matrix that writes coarse functions in terms of fine ones: rows = functions of
+/// `fine`, columns = functions of `coarse`. Every patch in a fine function's support gives the same
+/// row [T (6.1)]; the first one is used.
+/// @param places  places of the fine functions
 SparseMatrix BuildProlongation(
   const PatchLevel& fine, const FunctionPlaces& places, const PatchLevel& coarse, int threads = 0);
 

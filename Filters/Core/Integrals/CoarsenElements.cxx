@@ -1,5 +1,5 @@
-// Galerkin coarsening of element matrices: the functions of a parent in terms of those of its
-// children, for several parents at once, one per SIMD lane. [T (4.6)]
+// Galerkin coarsening of element matrices. It writes the functions of a parent in terms of its
+// children's functions, for several parents at once, one per SIMD lane. [T (4.6)]
 #include "Base/Grouping.h"
 #include "Base/Prefetch.h"
 #include "Integrals/ElementLanes.h"
@@ -11,14 +11,14 @@ namespace gridfem
 namespace
 {
 
-/// The four entries between two pairs of corners; those of a pair differ along one axis.
+/// The four entries between two pairs of corners. The two corners of a pair differ along one axis.
 struct PairBlock
 {
   int entry[2][2];
 };
 
-/// All blocks of the upper triangle. No two share an entry; in those of a pair with itself [0][1]
-/// is [1][0].
+/// All blocks of the upper triangle. No two blocks share an entry. In the block of a pair with
+/// itself, [0][1] equals [1][0].
 using PairBlocks = std::array<PairBlock, 10>;
 
 constexpr PairBlocks MakePairBlocks(int axis)
@@ -42,9 +42,10 @@ constexpr PairBlocks MakePairBlocks(int axis)
 
 constexpr PairBlocks BlocksAlong[3] = { MakePairBlocks(0), MakePairBlocks(1), MakePairBlocks(2) };
 
-/// The matrix of two neighbours along an axis in terms of linear functions on both together. The
-/// corners of `lower` lie at 0 and 1/2 of them, those of `upper` at 1/2 and 1.
-/// @param lower  the result takes its place
+/// Combines the matrices of two neighbors along an axis into the matrix of linear functions on
+/// their union. The corners of `lower` lie at 0 and 1/2 of the union, the corners of `upper` at 1/2
+/// and 1.
+/// @param lower  overwritten by the result
 void Join(const PairBlocks& blocks, ElementLanes& lower, const ElementLanes& upper)
 {
   for (const auto& [entry] : blocks)
@@ -61,7 +62,7 @@ void Join(const PairBlocks& blocks, ElementLanes& lower, const ElementLanes& upp
   }
 }
 
-/// The matrices of `count` parents from `begin` on, at most LaneCount.
+/// Computes the matrices of `count` parents from `begin` on; `count` is at most LaneCount.
 void SumChildren(const PatchLevel& fine, const Groups& children, Id begin, int count,
   const Array<ElementMatrix>& matrices, ElementMatrix* result)
 {
@@ -100,7 +101,7 @@ void SumChildren(const PatchLevel& fine, const Groups& children, Id begin, int c
       {
         return;
       }
-      // An octant has several patches where pieces of surface are close to each other.
+      // An octant has several patches if several parts of the surface are close to each other.
       for (int entry = 0; entry < ElementEntries; ++entry)
       {
         sum[octant][entry][lane] += matrix[entry];
@@ -119,7 +120,8 @@ void SumChildren(const PatchLevel& fine, const Groups& children, Id begin, int c
 
 std::array<OctantWeights, 8> MakeChildWeights()
 {
-  // Along one axis the child's nodes lie at 0, 1/2 or 1 of the parent: octant bit + corner bit.
+  // Along an axis, the child's nodes lie at 0, 1/2 or 1 of the parent. The index is
+  // octant bit + corner bit.
   const double axis[3][2] = { { 1.0, 0.0 }, { 0.5, 0.5 }, { 0.0, 1.0 } };
   std::array<OctantWeights, 8> weights;
   for (int octant = 0; octant < 8; ++octant)

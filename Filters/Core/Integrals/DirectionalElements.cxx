@@ -12,7 +12,7 @@ namespace gridfem
 namespace
 {
 
-/// A direction whose part in the plane is below this (of its length) has none.
+/// A direction has no part in the plane if this part is shorter than this fraction of its length.
 constexpr double SmallestPart = 1e-10;
 
 LaneVector Load(
@@ -34,7 +34,7 @@ LaneVector Load(
   return result;
 }
 
-/// Tensors of the two directions; each has half of the normal's weight.
+/// Returns the tensors of the two directions. Each contains half of the normal's weight.
 std::array<LaneTensor, 2> Split(
   const LaneVector& direction, const LaneVector& normal, double normalWeight)
 {

@@ -18,11 +18,11 @@ namespace
 struct CellPiece
 {
   MortonKey cell;
-  Index piece; // -1: of another process
+  Index piece; // -1: the piece of another process
   bool operator<(const CellPiece& other) const { return cell < other.cell; }
 };
 
-/// The pieces of triangles that some segments lie in, by their cell.
+/// The pieces of the triangles that contain some segments, sorted by cell.
 class PiecesOfSegments
 {
 public:
@@ -47,16 +47,16 @@ public:
         const Index list = list_[clipped.pieceTriangle[piece]];
         if (list >= 0)
         {
-          pieces_[list].push_back({ clipped.cells[c], piece }); // cells ascend
+          pieces_[list].push_back({ clipped.cells[c], piece }); // cells are in ascending order
         }
       }
     }
     this->AddElsewhere();
   }
 
-  /// The patch of a triangle at a point of it; -1 where the triangle has no piece, or another
-  /// process has it. Where cells share a face the triangle's functions agree, so that any of them
-  /// will do.
+  /// Returns the patch of a triangle at one of its points. Returns -1 if the triangle has no piece
+  /// there or another process has the piece. On a face between cells, the functions of both patches
+  /// agree, so either patch will do.
   Index PatchAt(Id triangle, const Vec3& position) const
   {
     const std::vector<CellPiece>& pieces = pieces_[list_[triangle]];
@@ -73,7 +73,8 @@ public:
   }
 
 private:
-  /// A little off the faces of cells that a segment may lie in.
+  /// Moves a point slightly toward the triangle's center, because a segment may lie on faces of
+  /// cells.
   Vec3 Inwards(Id triangle, const Vec3& position) const
   {
     constexpr double Step = 1e-6;
@@ -83,7 +84,8 @@ private:
     return position + Step / std::max(1.0, inwards.norm()) * inwards;
   }
 
-  /// All processes that have pieces near a place choose the same one.
+  /// Adds pieces of other processes, so that all processes with pieces near a point choose the same
+  /// piece.
   void AddElsewhere()
   {
     std::vector<char> isShared(pieces_.size(), 0);
@@ -118,8 +120,8 @@ private:
     return found != pieces.end() && found->cell == wanted.cell ? &*found : nullptr;
   }
 
-  /// Where processes divide the surface, null where the piece is not near: then it is not known
-  /// here.
+  /// Returns the piece whose cell is nearest. If processes divide the surface, it returns null when
+  /// this cell is not near, because the piece at the position is then unknown here.
   const CellPiece* NearestPiece(const std::vector<CellPiece>& pieces, const Vec3& position) const
   {
     constexpr double Near = 1e-3; // cells
@@ -141,7 +143,7 @@ private:
 
   const GridFunctions& space_;
   const TriangleMesh& mesh_;
-  std::vector<Index> list_; // of a triangle; -1: none
+  std::vector<Index> list_; // list of each triangle; -1: none
   std::vector<std::vector<CellPiece>> pieces_;
 };
 
@@ -156,7 +158,8 @@ std::array<Vec3, 2> EndsOf(
   return { PointOfSegment(segment, 0.0, a, b, c), PointOfSegment(segment, 1.0, a, b, c) };
 }
 
-/// Where the line from a to b crosses faces of cells: parameters from 0 to 1, ends included.
+/// Returns the parameters in [0, 1] where the line from a to b crosses faces of cells, including
+/// both ends.
 std::vector<double> Crossings(const Vec3& a, const Vec3& b)
 {
   std::vector<double> at{ 0.0, 1.0 };

@@ -1,4 +1,5 @@
-// Samples along segments of triangles: what integrals over boundaries and other curves are sums of.
+// Samples along segments of triangles. Integrals over boundaries and other curves are sums over
+// them.
 #ifndef GridFEM_EdgeSamples_h
 #define GridFEM_EdgeSamples_h
 
@@ -11,7 +12,8 @@
 namespace gridfem
 {
 
-/// Of a rule on [0, 1] that is exact up to degree 5: functions of a grid are cubic along a line.
+/// A point of a quadrature rule on [0, 1] that is exact up to degree 5. Functions of the grid are
+/// cubic along a line.
 struct GaussPoint
 {
   double position;
@@ -20,29 +22,30 @@ struct GaussPoint
 constexpr GaussPoint GaussPoints[3] = { { 0.1127016653792583, 5.0 / 18.0 }, { 0.5, 8.0 / 18.0 },
   { 0.8872983346207417, 5.0 / 18.0 } };
 
-/// Integrals over the segments of a function of the space times a linear one are exact.
+/// Samples on segments. They integrate a function of the space times a linear function exactly.
 struct EdgeSamples
 {
-  std::vector<Index> edge;      // of each sample: which of the given segments it is on, ascending
+  std::vector<Index> edge;      // index of the segment that contains the sample, ascending
   std::vector<double> position; // 0 at the first end of the segment, 1 at the other
-  std::vector<char> isMiddle;   // of a stretch on which functions are not linear
-  std::vector<double> length;   // that the sample stands for, world units
+  std::vector<char> isMiddle;   // whether the sample is in the middle of its stretch, on which
+                                // functions are not linear
+  std::vector<double> length;   // length that the sample represents, world units
   SparseMatrix rows;            // the values of all functions: rows = samples
 };
 
-/// ∫ f b_i along the segments: rows = functions, columns as `values`.
+/// Returns ∫ f b_i along the segments: rows = functions, columns as `values`.
 /// @param values  f at the samples
 MultiVector IntegrateAlong(const EdgeSamples& samples, const MultiVector& values);
 
-/// Segments fall into stretches at the faces of the cells, each with three Gauss points. Triangles
-/// without a piece, which have no area, have no samples. Where processes divide the surface, each
-/// has the samples on its own pieces, and of the others none.
-/// Cost O(pieces + samples log pieces).
-/// Throws InvalidInput for a triangle that the mesh does not have.
+/// Samples segments. The faces of cells divide a segment into stretches with three Gauss points
+/// each. Triangles without a piece have no area and get no samples. If several processes divide the
+/// surface, each process samples only its own pieces.
+/// Cost O(pieces + samples log pieces). Throws InvalidInput for a triangle that the mesh does not
+/// have.
 EdgeSamples SampleSegments(const GridFunctions& space, const TriangleMesh& mesh,
   const std::vector<TriangleSegment>& segments);
 
-/// The point of a segment at t from 0 to 1, of a triangle with these corners.
+/// Returns the point of a segment at parameter t in [0, 1], in a triangle with corners a, b and c.
 inline Vec3 PointOfSegment(
   const TriangleSegment& segment, double t, const Vec3& a, const Vec3& b, const Vec3& c)
 {

@@ -13,7 +13,7 @@ namespace gridfem
 
 using ElementLanes = std::array<Lanes, ElementEntries>;
 
-/// The entries of the matrix of each lane.
+/// One pointer per lane, to the entries of the lane's matrix.
 using MatrixPointers = std::array<const double*, LaneCount>;
 
 inline void Gather(const MatrixPointers& matrices, ElementLanes& lanes)
@@ -25,7 +25,7 @@ inline void Gather(const MatrixPointers& matrices, ElementLanes& lanes)
   }
 }
 
-/// The first `count` lanes.
+/// Writes the first `count` lanes to the matrices.
 inline void Scatter(const ElementLanes& lanes, int count, ElementMatrix* matrices)
 {
   std::array<double*, LaneCount> entries{};
@@ -43,7 +43,7 @@ inline void Scatter(const ElementLanes& lanes, int count, ElementMatrix* matrice
   }
 }
 
-/// Calls body(begin, count) for groups of up to LaneCount of `patches`, in parallel.
+/// Calls body(begin, count) in parallel, for groups of up to LaneCount of the `patches` patches.
 template<class Body>
 void ForEachLaneGroup(Id patches, int threads, Body&& body)
 {

@@ -1,4 +1,4 @@
-// Integration of element matrices patch by patch.
+// Integrates element matrices patch by patch.
 #include "Integrals/ElementMatrices.h"
 
 #include "Integrals/PatchIntegrals.h"
@@ -8,7 +8,7 @@ namespace gridfem
 namespace
 {
 
-/// The tensors of the source triangles of a batch, plus normalWeight n nᵀ.
+/// Returns the tensors of a batch's source triangles, plus normalWeight n nᵀ.
 LaneTensor TensorOfTriangles(const ClippedMesh& clipped, const TriangleBatch& batch,
   const std::vector<Eigen::Matrix3d>& tensor, const LaneVector& normal, double normalWeight)
 {

@@ -1,5 +1,6 @@
-// Element matrices: per patch 36 integrals of products of its eight functions. [T (4.1), (4.2)]
-// Grid units: mass in cell sides squared, stiffness dimensionless.
+// Element matrices: for each patch, 36 integrals of products of its eight functions. [T (4.1),
+// (4.2)]
+// In grid units, mass is in squared cell sides and stiffness is dimensionless.
 #ifndef GridFEM_ElementMatrices_h
 #define GridFEM_ElementMatrices_h
 
@@ -12,10 +13,11 @@
 namespace gridfem
 {
 
-/// Entries of a symmetric element matrix, upper triangle row by row.
+/// Number of entries of a symmetric element matrix, stored as its upper triangle row by row.
 constexpr int ElementEntries = FunctionsPerPatch * (FunctionsPerPatch + 1) / 2;
 
-/// Position of entry (row, column) in the packed upper triangle; order of the arguments is free.
+/// Position of entry (row, column) in the packed upper triangle. The order of the arguments does
+/// not matter.
 constexpr int PackedIndex(int row, int column)
 {
   return row <= column ? row * FunctionsPerPatch - row * (row - 1) / 2 + (column - row)
@@ -30,44 +32,47 @@ struct ElementMatrices
   Array<ElementMatrix> stiffness; // ∫ <∇b_i, ∇b_j> tangential + s ∫ ∂n b_i ∂n b_j
 };
 
-/// Which of both get new values; the others stay what they are.
+/// Selects the matrices that receive new values. The others stay unchanged.
 enum class ElementParts
 {
   Both,
   Mass
 };
 
-/// The weight s of |∂n u|² in the stiffness (normal-gradient stabilisation: Burman, Hansbo, Larson,
-/// Massing 2018), in (0, 1]. On a nearly flat piece of surface a function can be almost zero
-/// although its coefficients are not; its energy is the square of the surface's roughness, which
-/// for coordinates in single precision is as small as rounding. Such functions are neither zero nor
-/// known and stop any solver. The default lifts their energy to what double precision can resolve
-/// and changes solutions by no more than its root, in general by no more than itself. With 1e-2 the
-/// iterations to any tolerance do not grow with the depth, and the error of the space is 1.1 to 1.4
-/// times as large on scans and parts, two to four times on spheres and cubes, whose own is the
-/// smallest; its rate stays. [NUMERICS §6; Testing/Benchmarks]
+/// The weight s of |∂n u|² in the stiffness, in (0, 1] (normal-gradient stabilization: Burman,
+/// Hansbo, Larson, Massing 2018). On a nearly flat piece of surface, a function can almost vanish
+/// although its coefficients do not. Its energy is the square of the surface's roughness. For
+/// coordinates in single precision, this is as small as rounding errors. Such functions are neither
+/// zero nor determined, and they stop any solver.
+/// The default raises their energy to a level that double precision can resolve. It changes
+/// solutions by at most its square root, and in general by at most its own size. With 1e-2, the
+/// number of iterations to any tolerance does not grow with the depth. The error of the space then
+/// is 1.1 to 1.4 times as large on scans and parts. On spheres and cubes, where the error is
+/// smallest, it is two to four times as large. Its rate of convergence does not change. [NUMERICS
+/// §6; Testing/Benchmarks]
 constexpr double DefaultNormalStabilization = 1e-12;
 
-/// Integrates over every piece with `rule` on every triangle of its fan. [T Alg. 4.1]
+/// Integrates over every piece, with `rule` on every triangle of its fan. [T Alg. 4.1]
 /// Pieces of zero area contribute nothing. Cost O(clipped triangles x points); same bits for any
 /// number of threads.
-/// @param weight  of the mass on each source triangle, ∫ w b_i b_j; null: 1
-/// @param tensor  symmetric, in the plane of each source triangle, ∫ <∇b_i, T ∇b_j>; null: the
-///                projection to the plane
+/// @param weight  weight w of the mass on each source triangle, ∫ w b_i b_j; null: 1
+/// @param tensor  symmetric tensor T in the plane of each source triangle, ∫ <∇b_i, T ∇b_j>; null:
+///   the projection to the plane
 ElementMatrices IntegrateElements(const GridFunctions& space, const QuadratureRule& rule,
   const Job& job = {}, double normalStabilization = DefaultNormalStabilization,
   const std::vector<double>* weight = nullptr,
   const std::vector<Eigen::Matrix3d>* tensor = nullptr);
 
-/// Galerkin coarsening: adds every patch's matrix, interpolated, to its parent's. [T (4.6)]
-/// Same bits for any number of threads.
-/// @param result  gets one entry per patch of `coarse`, in place where it has its size already
+/// Galerkin coarsening: interpolates every patch's matrix and adds it to the matrix of its parent.
+/// [T (4.6)] Same bits for any number of threads.
+/// @param result  receives one entry per patch of `coarse`, in place if its size is already right
 void CoarsenElements(const PatchLevel& fine, const PatchLevel& coarse,
   const ElementMatrices& elements, ElementMatrices& result, int threads = 0,
   ElementParts parts = ElementParts::Both);
 
-/// Weights with which the eight functions of a parent cell make up those of the child in `octant`:
-/// value of the child's corner c = Σ_p weights[c][p] value of the parent's corner p.
+/// The weights with which the corners of a parent cell give the values at the corners of its child
+/// in `octant`. The value at child corner c is Σ_p weights[c][p] times the value at parent corner
+/// p.
 using OctantWeights = std::array<std::array<double, FunctionsPerPatch>, FunctionsPerPatch>;
 const OctantWeights& ChildWeights(int octant);
 

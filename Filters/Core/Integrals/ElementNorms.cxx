@@ -9,7 +9,7 @@ using PatchRows = std::array<const double*, FunctionsPerPatch>;
 
 using PatchLanes = Eigen::Array<double, FunctionsPerPatch, 1>;
 
-/// Where row i of the packed upper triangle would begin if it had all columns.
+/// The place where row i of the packed upper triangle would begin if it had all columns.
 constexpr int BeginOfRow(int i)
 {
   return PackedIndex(i, i) - i;
@@ -17,7 +17,8 @@ constexpr int BeginOfRow(int i)
 static_assert(
   BeginOfRow(0) == 0 && BeginOfRow(FunctionsPerPatch - 1) + FunctionsPerPatch == ElementEntries);
 
-/// How often the entries of row i count; those before the diagonal belong to rows before it.
+/// Returns how often each entry of row i counts. Entries before the diagonal belong to earlier rows
+/// and count 0 times.
 std::array<PatchLanes, FunctionsPerPatch> WeightsOfRows()
 {
   std::array<PatchLanes, FunctionsPerPatch> weight;
@@ -31,8 +32,8 @@ std::array<PatchLanes, FunctionsPerPatch> WeightsOfRows()
   return weight;
 }
 
-/// uᵀ mass u of a patch, for column c. Every row of the triangle is a vector of all columns, so
-/// that no sum waits for another.
+/// Returns uᵀ mass u of a patch, for column c. Every row of the triangle is a vector over all
+/// columns, so that no sum waits for another.
 double SquaredNorm(const ElementMatrix& mass, const PatchRows& row, Id c)
 {
   static const std::array<PatchLanes, FunctionsPerPatch> weight = WeightsOfRows();
@@ -63,7 +64,7 @@ Columns SquaredNorms(
         PatchRows row;
         for (int i = 0; i < FunctionsPerPatch; ++i)
         {
-          row[i] = u.data() + level.dof[patch][i] * u.cols(); // of no columns, too
+          row[i] = u.data() + level.dof[patch][i] * u.cols(); // valid even without columns
         }
         for (Id c = 0; c < u.cols(); ++c)
         {

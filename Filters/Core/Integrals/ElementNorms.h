@@ -1,4 +1,4 @@
-// Integrals of squares, from the element matrices of a level.
+// Computes integrals of squares from the element matrices of a level.
 #ifndef GridFEM_ElementNorms_h
 #define GridFEM_ElementNorms_h
 
@@ -8,8 +8,8 @@
 namespace gridfem
 {
 
-/// Σ over the patches of uᵀ mass u, for every column of u (rows = functions of the level). Cost
-/// O(patches x columns); same bits for any number of threads.
+/// Returns the sum over the patches of uᵀ mass u, for every column of u (rows = functions of the
+/// level). Cost O(patches x columns); same bits for any number of threads.
 Columns SquaredNorms(
   const PatchLevel& level, const Array<ElementMatrix>& mass, const MultiVector& u, int threads = 0);
 

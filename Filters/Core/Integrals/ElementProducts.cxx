@@ -11,7 +11,7 @@ namespace gridfem
 namespace
 {
 
-/// share = factor x matrix x the coefficients of a patch. Lanes are its functions.
+/// Computes share = factor x matrix x coefficients of a patch. The lanes are the patch's functions.
 template<int Width>
 void Multiply(double factor, const ElementMatrix& matrix,
   const std::array<Index, FunctionsPerPatch>& dof, const MultiVector& u, const PatchShare& share)

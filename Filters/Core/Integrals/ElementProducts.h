@@ -1,5 +1,5 @@
-// Products of a level's matrix with vectors, from the element matrices: the weight of an element
-// can change without a new matrix.
+// Multiplies a level's matrix by vectors, using its element matrices. The weight of an element can
+// then change without a new matrix.
 #ifndef GridFEM_ElementProducts_h
 #define GridFEM_ElementProducts_h
 
@@ -8,9 +8,9 @@
 namespace gridfem
 {
 
-/// Σ over the patches of scale matrix u. Cost O(patches x columns); same bits for any number of
-/// threads.
-/// @param places  of the level's functions
+/// Returns the sum over the patches of scale * matrix * u. Cost O(patches x columns); same bits for
+/// any number of threads.
+/// @param places  places of the level's functions
 /// @param scale   one number per patch; empty: 1
 /// @param u       rows = functions of the level; the result has its size
 /// Throws InvalidInput when a number of rows does not fit.

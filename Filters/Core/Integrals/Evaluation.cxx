@@ -1,4 +1,4 @@
-// Evaluation of functions: every point lies in a patch, and a patch has eight coefficients.
+// Evaluates functions. Every point lies in a patch, and a patch has eight coefficients.
 #include "Integrals/Evaluation.h"
 
 #include "Algebra/RowBuilder.h"
@@ -26,12 +26,13 @@ void CheckCoefficients(const GridFunctions& space, const MultiVector& coefficien
   }
 }
 
-/// The values of some columns at points [begin, end); 0 where a point has no patch.
+/// Evaluates some columns at points [begin, end). Points without a patch get 0.
 template<int Width>
 void EvaluateColumns(const GridFunctions& space, const Array<Index>& patchOfPoint,
   const MultiVector& coefficients, Id first, Id begin, Id end, MultiVector& result)
 {
-  constexpr Id Ahead = 8; // the coefficients of a patch may lie anywhere in memory
+  constexpr Id Ahead = 8; // prefetch distance, because the coefficients of a patch may lie anywhere
+                          // in memory
   const PatchLevel& level = space.Finest();
   CornerValues b;
   for (Id point = begin; point < end; ++point)
@@ -59,7 +60,8 @@ void EvaluateColumns(const GridFunctions& space, const Array<Index>& patchOfPoin
   }
 }
 
-/// All columns of some points after each other, so that their rows stay in the cache.
+/// Evaluates all columns of a group of points before the next group, so that rows stay in the
+/// cache.
 MultiVector EvaluateAt(const GridFunctions& space, const Array<Index>& patchOfPoint,
   const MultiVector& coefficients, const Job& job)
 {
@@ -81,7 +83,8 @@ MultiVector EvaluateAt(const GridFunctions& space, const Array<Index>& patchOfPo
   return result;
 }
 
-/// ∫ ∇u over a piece, grid units: gradients of trilinear functions are quadratic on it.
+/// Returns ∫ ∇u over a piece in grid units. Gradients of trilinear functions are quadratic on the
+/// piece.
 void IntegrateGradient(const GridFunctions& space, Id piece, const MultiVector& coefficients,
   Eigen::Ref<Eigen::RowVectorXd> sum)
 {
@@ -100,7 +103,7 @@ void IntegrateGradient(const GridFunctions& space, Id piece, const MultiVector& 
         const Vec3 tangential = weight * (gradient - normal.dot(gradient) * normal);
         for (Id c = 0; c < coefficients.cols(); ++c)
         {
-          // Differences, so that a constant has no gradient at all.
+          // Differences are used so that the gradient of a constant is exactly 0.
           const double slope =
             coefficients(level.dof[patch][i], c) - coefficients(level.dof[patch][0], c);
           sum.segment<3>(3 * c) += slope * tangential.transpose();
@@ -109,15 +112,15 @@ void IntegrateGradient(const GridFunctions& space, Id piece, const MultiVector& 
     });
 }
 
-/// v / |v|, also where |v|² is no number any more; 0 for 0.
+/// Returns v / |v|, even if |v|² overflows or underflows, and 0 for v = 0.
 Vec3 DirectionOf(const Vec3& v)
 {
   const double largest = v.cwiseAbs().maxCoeff();
   return largest > 0.0 ? Vec3((v / largest).normalized()) : Vec3(Vec3::Zero());
 }
 
-/// Sums, over the pieces of each triangle, what share(∫ ∇u, area) makes of a piece's gradient in
-/// grid units, divided by the triangle's area.
+/// Returns the sum of share(∫ ∇u, area) over the pieces of each triangle, divided by the triangle's
+/// area. The integral and the area of a piece are in grid units.
 template<class Share>
 MultiVector MeansOfPieces(const GridFunctions& space, Id triangles, const MultiVector& coefficients,
   const Job& job, Share&& share)

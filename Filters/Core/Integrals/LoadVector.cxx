@@ -1,5 +1,5 @@
-// Right-hand sides, over several triangles at once, one per SIMD lane. Fields are linear on each
-// source triangle, so that four numbers per lane and column say what they are at a sample.
+// Integrates right-hand sides over several triangles at once, one per SIMD lane. Fields are linear
+// on each source triangle, so four numbers per lane and column give their values at all samples.
 #include "Integrals/LoadVector.h"
 
 #include "Integrals/PatchIntegrals.h"
@@ -31,7 +31,7 @@ void CheckMesh(const GridFunctions& space, const TriangleMesh& mesh)
   }
 }
 
-/// What a row of a field is known by: a corner of a source triangle, or the triangle itself.
+/// The rows of a field at the corners of the source triangle of each lane.
 using RowNumbers = std::array<std::array<Id, 3>, LaneCount>;
 
 /// A function that is linear on the triangle of each lane.
@@ -47,8 +47,8 @@ struct LinearLanes
   }
 };
 
-/// The source triangles of a batch, in the cell's own coordinates. Those flatter than 1e-10 of a
-/// cell have no direction: fields on them are constant.
+/// The source triangles of a batch, in the cell's own coordinates. Triangles flatter than 1e-10 of
+/// a cell have no plane, so fields on them are taken as constant.
 class SourceLanes
 {
 public:
@@ -74,7 +74,7 @@ public:
 
   const LaneVector& Normal() const { return normal_; }
 
-  /// One number for each of the triangles.
+  /// Returns one number per lane: ofTriangle(source triangle).
   template<class OfTriangle>
   Lanes PerTriangle(const OfTriangle& ofTriangle) const
   {
@@ -96,7 +96,7 @@ public:
     return rows;
   }
 
-  /// A column of a field.
+  /// Returns a column of a field as a linear function.
   LinearLanes Column(const Field& f, const RowNumbers& rows, Id column) const
   {
     Lanes value[3];
@@ -120,7 +120,8 @@ public:
   }
 
 private:
-  static constexpr double SmallestHeight = 1e-10; // grid units; below is rounding of the clipping
+  static constexpr double SmallestHeight = 1e-10; // grid units; smaller heights are rounding errors
+                                                  // of clipping
 
   void SetGeometry(const LaneVector* corner)
   {
@@ -144,7 +145,8 @@ private:
     const Lanes inverse = (square > SmallestHeight * SmallestHeight * longest)
                             .select(1.0 / square.max(1e-300), Lanes::Zero());
     const Lanes length = square.max(1e-300).rsqrt();
-    // ∇λ of the second and of the third corner: across the edge to the other one.
+    // Gradients of the barycentric coordinates of the second and third corners. Each is
+    // perpendicular to the edge from the first corner to the other one.
     for (int p = 0; p < 3; ++p)
     {
       const int q = (p + 1) % 3;
@@ -162,8 +164,7 @@ private:
   LaneVector normal_;
 };
 
-/// A sample on every triangle of a batch: its position and weight, which has the area and the
-/// scale.
+/// A sample on every triangle of a batch. The weight includes the area and the scale.
 struct Sample
 {
   Lanes position[3];
@@ -197,7 +198,7 @@ EIGEN_ALWAYS_INLINE void ForEachSample(
 /// The four products of the linear functions 1 - t and t along two axes.
 struct Bilinear
 {
-  Lanes product[4]; // the first axis fastest
+  Lanes product[4]; // first axis fastest
 
   EIGEN_ALWAYS_INLINE Bilinear(const Lanes& first, const Lanes& second)
   {
@@ -208,7 +209,7 @@ struct Bilinear
   }
 };
 
-/// ∫ f b_i over a patch.
+/// Sums ∫ f b_i over a patch.
 template<int Width>
 class ValueSums
 {
@@ -254,8 +255,9 @@ private:
   std::array<std::array<Lanes, FunctionsPerPatch>, Width> sum_;
 };
 
-/// ∫ <s, ∇b_i> over a patch. Along an axis the slope of a function is that of the other two, with a
-/// sign; so four sums per axis stand for eight.
+/// Sums ∫ <s, ∇b_i> over a patch. Up to the sign, the derivative of a function along an axis is the
+/// product of its linear functions along the other two axes. Four sums per axis therefore serve all
+/// eight functions.
 template<int Width>
 class GradientSums
 {
@@ -311,8 +313,8 @@ private:
   std::array<std::array<Lanes, 12>, Width> sum_;
 };
 
-/// Sums over the patches: addBatch(batch, source triangles, first column, sums), with sums a
-/// Sums<columns of the pass>.
+/// Integrates over all patches. addBatch(batch, source triangles, first column, sums) adds a batch
+/// to `sums`, a Sums<columns of the pass>.
 template<template<int> class Sums, class AddBatch>
 MultiVector Integrate(const GridFunctions& space, const TriangleMesh& mesh, Id columns,
   const QuadratureRule& rule, const Job& job, AddBatch&& addBatch)
@@ -342,7 +344,7 @@ MultiVector Integrate(const GridFunctions& space, const TriangleMesh& mesh, Id c
   return result;
 }
 
-/// The scale on the triangles of a batch; body(null) without one.
+/// Calls body(scale on the triangles of a batch), or body(null) without a scale.
 template<class Body>
 EIGEN_ALWAYS_INLINE void WithScale(const Field* scale, const SourceLanes& source, Body&& body)
 {
@@ -357,7 +359,7 @@ EIGEN_ALWAYS_INLINE void WithScale(const Field* scale, const SourceLanes& source
   }
 }
 
-/// factor (v - <n, v> n)
+/// Returns factor (v - <n, v> n).
 EIGEN_ALWAYS_INLINE LaneVector Tangential(
   const LaneVector& vector, const LaneVector& normal, double factor)
 {
@@ -370,7 +372,7 @@ EIGEN_ALWAYS_INLINE LaneVector Tangential(
   return result;
 }
 
-/// ∫ <s, ∇b_i> for s = map(vector of the field, normal).
+/// Returns ∫ <s, ∇b_i> for s = map(vector of the field, normal).
 template<class Map>
 MultiVector IntegrateVectors(const GridFunctions& space, const TriangleMesh& mesh, const Field& s,
   const Field* scale, const QuadratureRule& rule, const Job& job, Map&& map)
@@ -409,7 +411,7 @@ MultiVector IntegrateVectors(const GridFunctions& space, const TriangleMesh& mes
     });
 }
 
-/// The trilinear function of a patch's coefficients as its differences along the axes.
+/// A trilinear function on a patch, stored as the differences of its coefficients along the axes.
 class PatchSlopes
 {
 public:
@@ -446,7 +448,7 @@ private:
   double difference_[3][4];
 };
 
-/// factor v / |v|, 0 where v is; v may be so small that its square is 0.
+/// Returns factor v / |v|, or 0 for v = 0. v may be so small that its square is 0.
 EIGEN_ALWAYS_INLINE LaneVector Direction(const LaneVector& vector, double factor)
 {
   const Lanes largest = vector.axis[0].abs().max(vector.axis[1].abs()).max(vector.axis[2].abs());
@@ -603,7 +605,7 @@ MultiVector IntegrateGradientsOfCoordinates(const GridFunctions& space, const Tr
       LaneVector slope[Width];
       for (int c = 0; c < Width; ++c)
       {
-        const int column = c % 3; // there is no pass of four
+        const int column = c % 3; // a pass of four columns is compiled, but never runs
         for (int axis = 0; axis < 3; ++axis)
         {
           slope[c].axis[axis] =

@@ -7,7 +7,8 @@ namespace gridfem
 namespace
 {
 
-/// The linear map of a triangle, normal to normal; the identity where the triangle is flat.
+/// Returns the linear map between two triangles, which maps normal to normal. Returns the identity
+/// if a triangle is flat.
 Eigen::Matrix3d MapOf(const TriangleFrame& from, const TriangleFrame& to)
 {
   if (from.isFlat || to.isFlat)

@@ -1,6 +1,5 @@
-// The metric of a mesh whose points have moved, on the triangles of the mesh as it was, and what
-// the motion makes of vectors: so a surface that moves is tracked on the functions of its first
-// shape. [T §5.1, (5.5)]
+// Tracks a moving surface on the functions of its first shape. It computes the metric of the moved
+// mesh on the original triangles, and maps vectors between the two meshes. [T §5.1, (5.5)]
 #ifndef GridFEM_MotionMetric_h
 #define GridFEM_MotionMetric_h
 
@@ -11,17 +10,20 @@
 namespace gridfem
 {
 
-/// g = JᵀJ of the linear map J of every triangle to where it has gone. Nothing where that is no
-/// metric (PlaneTensor::IsMetric): where a triangle has lost its area, gained one, or a point is
-/// not finite. Throws InvalidInput when the meshes have not the same triangles. Cost O(triangles).
+/// Returns g = JᵀJ for the linear map J of every triangle to its moved triangle. Returns nothing if
+/// some g is no metric (PlaneTensor::IsMetric), because a triangle lost or gained area or a point
+/// is not finite. Throws InvalidInput when the meshes do not have the same triangles. Cost
+/// O(triangles).
 std::optional<TriangleMetric> MetricOfMotion(const TriangleMesh& mesh, const TriangleMesh& moved);
 
-/// Jᵀ s: vectors of the moved surface as linear forms on the mesh, as TriangleMetric wants them.
+/// Returns Jᵀ s: vectors of the moved surface as linear forms on the mesh, as TriangleMetric
+/// expects them.
 /// @param s  on the moved mesh, 3 C columns
-/// @return   on triangles, or on corners where s is on points
+/// @return   on triangles, or on corners if s is on points
 Field PullBack(const TriangleMesh& mesh, const TriangleMesh& moved, const Field& s);
 
-/// J⁻ᵀ s: gradients on the triangles of the mesh, 3 C columns, as those on the moved ones.
+/// Returns J⁻ᵀ s: gradients on the triangles of the mesh become gradients on the moved ones; 3 C
+/// columns.
 MultiVector PushForward(
   const TriangleMesh& mesh, const TriangleMesh& moved, const MultiVector& gradients);
 

@@ -1,5 +1,5 @@
-// How integrals over the clipped mesh run: patch by patch, so that each has its own sums, and over
-// several triangles at once, one per SIMD lane.
+// Loops of all integrals over the clipped mesh. They go patch by patch, so that each patch has its
+// own sums, and process several triangles at once, one per SIMD lane.
 #ifndef GridFEM_PatchIntegrals_h
 #define GridFEM_PatchIntegrals_h
 
@@ -16,19 +16,19 @@
 namespace gridfem
 {
 
-/// Fan triangles of one patch. Lanes from `count` on repeat the first triangle without an area.
+/// Fan triangles of one patch. Lanes from `count` on repeat the first triangle with zero area.
 struct TriangleBatch
 {
-  Lanes corner[3][3]; // corner, axis; in the cell's own coordinates
+  Lanes corner[3][3]; // [corner][axis], in the cell's own coordinates
   Index piece[LaneCount];
   Id firstSample[LaneCount]; // see FirstSample
   int count = 0;
 };
 
-/// The planes of the triangles of a batch.
+/// The planes of a batch's triangles.
 struct TrianglePlanes
 {
-  LaneVector normal; // unit; 0, or short, for a triangle with hardly any area
+  LaneVector normal; // unit vector; 0 or shorter for a triangle with hardly any area
   Lanes area;        // grid units
 
   explicit TrianglePlanes(const TriangleBatch& batch)
@@ -47,7 +47,7 @@ struct TrianglePlanes
       normal.axis[p] = u.axis[q] * v.axis[r] - u.axis[r] * v.axis[q];
     }
     const Lanes square = normal.Dot(normal);
-    const Lanes inverse = square.max(1e-300).rsqrt(); // 0 times this is 0
+    const Lanes inverse = square.max(1e-300).rsqrt(); // finite, so that 0 times it is 0
     for (Lanes& component : normal.axis)
     {
       component *= inverse;
@@ -56,7 +56,7 @@ struct TrianglePlanes
   }
 };
 
-/// Positions of one point of a rule on all triangles of a batch.
+/// Computes the positions of one point of the rule on all triangles of a batch.
 inline void SetPositions(
   const TriangleBatch& batch, const QuadratureRule::Point& point, SampleBatch& samples)
 {
@@ -68,10 +68,12 @@ inline void SetPositions(
   }
 }
 
-/// So many are fetched of every piece, which leaves no branch to guess.
+/// Number of corners prefetched for every piece. It is fixed, so that no branch needs to be
+/// predicted.
 constexpr Index UsualCorners = 4;
 
-/// The corners of a piece may lie anywhere in memory. For meshes with UsualCorners at least.
+/// Prefetches the corners of a piece, which may lie anywhere in memory. The mesh must have at least
+/// UsualCorners corners.
 EIGEN_ALWAYS_INLINE void FetchCorners(const ClippedMesh& clipped, Index piece)
 {
   const Index last = static_cast<Index>(clipped.corners.size()) - UsualCorners;
@@ -82,8 +84,8 @@ EIGEN_ALWAYS_INLINE void FetchCorners(const ClippedMesh& clipped, Index piece)
   }
 }
 
-/// Calls body(batch) for the fan triangles of some pieces, several at a time.
-/// @param listEnd  of the list they are part of: corners of the next ones are fetched ahead
+/// Calls body(batch) for the fan triangles of some pieces, several triangles at a time.
+/// @param listEnd  end of the whole list; corners of later pieces in it are prefetched
 template<class Body>
 void ForEachBatch(const ClippedMesh& clipped, const Index* pieceBegin, const Index* pieceEnd,
   const Index* listEnd, const Vec3& origin, const QuadratureRule& rule, Body&& body)
@@ -99,7 +101,7 @@ void ForEachBatch(const ClippedMesh& clipped, const Index* pieceBegin, const Ind
   };
   for (const Index* piece = pieceBegin; piece < pieceEnd; ++piece)
   {
-    constexpr int Ahead = 16; // so many pieces have more than enough corners
+    constexpr int Ahead = 16; // this many pieces have more than enough corners
     if (listEnd - piece > Ahead)
     {
       FetchCorners(clipped, piece[Ahead]);
@@ -139,8 +141,8 @@ void ForEachBatch(const ClippedMesh& clipped, const Index* pieceBegin, const Ind
   }
 }
 
-/// Calls body(patch, forEachBatch) for every finest patch, in parallel; forEachBatch(body) as
-/// ForEachBatch on its pieces, relative to the lowest corner of its cell.
+/// Calls body(patch, forEachBatch) for every finest patch, in parallel. forEachBatch(body) calls
+/// ForEachBatch on the pieces of the patch, relative to the lowest corner of its cell.
 template<class Body>
 void ForEachPatch(
   const GridFunctions& space, const QuadratureRule& rule, const Job& job, Body&& body)
@@ -166,10 +168,10 @@ void ForEachPatch(
     PatchesPerBlock, job.progress);
 }
 
-/// Mass and, where both are wanted, stiffness of every finest patch. prepare(batch, planes) returns
-/// what gives samples on the triangles of a batch their mass and tensor: set(point, count,
-/// samples), for that many points of the rule from `point` on. The samples have their positions,
-/// and as mass the area they stand for.
+/// Integrates the mass and, if wanted, the stiffness of every finest patch. prepare(batch, planes)
+/// returns a function set(point, count, samples). It sets mass and tensor of the samples at `count`
+/// points of the rule, beginning with `point`. On entry, the samples have their positions, and
+/// their mass is the area they represent.
 template<class Prepare>
 void IntegratePatches(const GridFunctions& space, const QuadratureRule& rule, const Job& job,
   ElementMatrices& result, ElementParts parts, Prepare&& prepare)

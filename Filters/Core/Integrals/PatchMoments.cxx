@@ -10,7 +10,7 @@ namespace
 
 constexpr int Mixed = 27;
 
-/// A number for each sample of several batches.
+/// One number for each sample of several batches.
 template<int Batches>
 using Factors = std::array<Lanes, Batches>;
 
@@ -42,7 +42,7 @@ struct Linear
   }
 };
 
-/// The quadratics: (1 - t)², t (1 - t) and t².
+/// The three quadratics along an axis: (1 - t)², t (1 - t) and t².
 template<int Batches>
 struct Quadratic
 {
@@ -55,7 +55,8 @@ struct Quadratic
   }
 };
 
-/// To the next three sums: Σ weight z_c. They are loaded and stored once for several batches.
+/// Adds weight z_c to the next three sums and advances `sum`. Each sum is loaded and stored once
+/// for several batches.
 template<int Batches>
 EIGEN_ALWAYS_INLINE void AddProducts(
   const Factors<Batches>& weight, const Quadratic<Batches>& z, Lanes*& sum)
@@ -83,7 +84,7 @@ EIGEN_ALWAYS_INLINE void ForQuadratics(
   add(Product<Batches>(up, t.up));
 }
 
-/// To the next nine: Σ weight t_a z_c, with the quadratics of t.
+/// Adds weight t_a z_c to the next nine sums, with the quadratics t_a of t.
 template<int Batches>
 EIGEN_ALWAYS_INLINE void AddProducts(const Factors<Batches>& weight, const Linear<Batches>& t,
   const Quadratic<Batches>& z, Lanes*& sum)
@@ -138,13 +139,13 @@ constexpr int Bit(int corner, int axis)
   return (corner >> axis) & 1;
 }
 
-/// Derivative of the function of a corner along an axis, up to the other two factors.
+/// Derivative of a corner's function along an axis, up to its other two factors.
 constexpr double Slope(int corner, int axis)
 {
   return Bit(corner, axis) ? 1.0 : -1.0;
 }
 
-/// An entry of an element matrix is the sum of sign[entry][k] times moment place[entry][k].
+/// An entry of an element matrix is the sum over k of sign[entry][k] times moment place[entry][k].
 template<int Terms>
 struct MomentSums
 {
@@ -164,7 +165,8 @@ ElementMatrix EntriesOf(const double* moment, std::index_sequence<Entry...>)
   return { EntryOf<Sums, Entry>(moment, std::make_index_sequence<Terms>())... };
 }
 
-/// Unrolled, so that places and signs are part of the code.
+/// Computes an element matrix from moments. The loops are unrolled, so that places and signs are
+/// constants in the code.
 template<const auto& Sums, int Terms, std::size_t Count>
 ElementMatrix Apply(const std::array<Lanes, Count>& lanes)
 {
@@ -192,7 +194,7 @@ constexpr MomentSums<1> MakeMassTerms()
   return sums;
 }
 
-/// Per axis T_pp ∂_p b_i ∂_p b_j and T_pq (∂_p b_i ∂_q b_j + ∂_q b_i ∂_p b_j).
+/// Sums, for each axis p, T_pp ∂_p b_i ∂_p b_j and T_pq (∂_p b_i ∂_q b_j + ∂_q b_i ∂_p b_j).
 constexpr MomentSums<9> MakeStiffnessTerms()
 {
   MomentSums<9> sums;
@@ -209,7 +211,7 @@ constexpr MomentSums<9> MakeStiffnessTerms()
         const int alongR = Bit(i, r) + Bit(j, r);
         place[3 * p] = 9 * p + 3 * (Bit(i, q) + Bit(j, q)) + alongR;
         sign[3 * p] = Slope(i, p) * Slope(j, p);
-        // One function has its slope along p, the other along q.
+        // One function is differentiated along p, the other along q.
         place[3 * p + 1] = Mixed + 12 * p + 3 * (Bit(j, p) + 2 * Bit(i, q)) + alongR;
         sign[3 * p + 1] = Slope(i, p) * Slope(j, q);
         place[3 * p + 2] = Mixed + 12 * p + 3 * (Bit(i, p) + 2 * Bit(j, q)) + alongR;

@@ -1,5 +1,6 @@
-// How patches add up to functions: every patch writes its share of its eight functions, and every
-// function sums its shares in a fixed order, so that no number of threads changes a bit.
+// Sums the contributions of patches to functions. Every patch writes its shares of its eight
+// functions, and every function sums its shares in a fixed order. The bits are therefore the same
+// for any number of threads.
 #ifndef GridFEM_PatchShares_h
 #define GridFEM_PatchShares_h
 
@@ -12,17 +13,17 @@
 namespace gridfem
 {
 
-/// Columns that are made in one pass: bounds the memory per patch.
+/// Number of columns made in one pass. It bounds the memory per patch.
 constexpr Id ColumnsPerPass = 4;
 
-/// A patch's share in some of the columns, function by function.
+/// A patch's shares in some of the columns, function by function.
 struct PatchShare
 {
   Id firstColumn;
   double* value; // 8 x Columns
 };
 
-/// result.middleCols(firstColumn, Columns) = sums of the shares of each function.
+/// Stores the sums of each function's shares in result.middleCols(firstColumn, Columns).
 template<int Columns>
 void SumShares(const std::vector<double>& shares, const FunctionPlaces& places, Id firstColumn,
   int threads, MultiVector& result)

@@ -1,6 +1,7 @@
-// Symmetric rules as orbits under the permutations of the three barycentric coordinates.
-// Degrees 4, 6, 10 and 12: D. A. Dunavant, High degree efficient symmetrical Gaussian quadrature
-// rules for the triangle, IJNME 21 (1985); the numbers solve the moment equations to 18 digits.
+// Symmetric quadrature rules, stored as orbits under permutations of the three barycentric
+// coordinates. Degrees 4, 6, 10 and 12: D. A. Dunavant, High degree efficient symmetrical Gaussian
+// quadrature rules for the triangle, IJNME 21 (1985). The numbers solve the moment equations to 18
+// digits.
 #include "Integrals/QuadratureRule.h"
 
 #include "Base/Errors.h"
@@ -13,7 +14,7 @@ namespace gridfem
 namespace
 {
 
-/// All different permutations of (a, b, 1 - a - b), each with the same weight.
+/// All distinct permutations of (a, b, 1 - a - b), each with the same weight.
 struct Orbit
 {
   double weight;

@@ -20,8 +20,9 @@ struct QuadratureRule
   std::vector<Point> points;
 };
 
-/// The rule of degree 2 (the thesis' three points between corners and centroid), 4, 6, 10 or 12.
-/// All weights are positive and all points inside. Throws InvalidInput for another degree.
+/// Returns the rule of degree 2 (the thesis' three points between corners and centroid), 4, 6, 10
+/// or 12. All weights are positive and all points are inside. Throws InvalidInput for another
+/// degree.
 const QuadratureRule& TriangleRule(int degree);
 
 } // namespace gridfem

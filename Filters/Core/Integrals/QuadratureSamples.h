@@ -1,5 +1,5 @@
-// What all integrals over the clipped mesh share: the plane of a piece and its quadrature samples.
-// A piece is integrated as the fan of triangles around its first corner. [T Alg. 4.1]
+// The common parts of all integrals over the clipped mesh: the plane of a piece and its quadrature
+// samples. A piece is integrated as the fan of triangles around its first corner. [T Alg. 4.1]
 #ifndef GridFEM_QuadratureSamples_h
 #define GridFEM_QuadratureSamples_h
 
@@ -11,15 +11,16 @@
 namespace gridfem
 {
 
-/// Lowest corner of the cell with this key, grid units: the origin of its local coordinates.
+/// Returns the lowest corner of a cell in grid units. It is the origin of the cell's local
+/// coordinates.
 inline Vec3 CellCorner(MortonKey key)
 {
   const CellIndex cell = MortonDecode(key);
   return Vec3(cell[0], cell[1], cell[2]);
 }
 
-/// Sum of the area vectors of the fan: twice the area along the normal, which is less sensitive to
-/// short edges than the normal of any of its triangles.
+/// Returns the sum of the area vectors of the fan: a normal with twice the area as its length. It
+/// is less sensitive to short edges than the normal of a single triangle.
 inline Vec3 AreaVector(const ClippedMesh& clipped, Id piece)
 {
   const Id begin = clipped.pieceBegin[piece];
@@ -34,7 +35,7 @@ inline Vec3 AreaVector(const ClippedMesh& clipped, Id piece)
   return sum;
 }
 
-/// Unit normal of a piece, zero for a piece without area.
+/// Returns the unit normal of a piece, or zero for a piece without area.
 inline Vec3 UnitNormal(const ClippedMesh& clipped, Id piece)
 {
   const Vec3 area = AreaVector(clipped, piece);
@@ -42,8 +43,9 @@ inline Vec3 UnitNormal(const ClippedMesh& clipped, Id piece)
   return norm > 0.0 ? Vec3(area / norm) : Vec3(Vec3::Zero());
 }
 
-/// Samples of all pieces have one numbering: piece after piece, triangle after triangle of a fan
-/// (those without area too), point after point of the rule.
+/// Returns the number of a piece's first sample. Samples are numbered piece after piece, then
+/// triangle after triangle of the fan (including triangles without area), then point after point of
+/// the rule.
 inline Id FirstSample(const ClippedMesh& clipped, Id piece, const QuadratureRule& rule)
 {
   return clipped.FirstTriangle(piece) * static_cast<Id>(rule.points.size());
@@ -54,8 +56,8 @@ inline Id NumberOfSamples(const ClippedMesh& clipped, const QuadratureRule& rule
   return clipped.NumberOfTriangles() * static_cast<Id>(rule.points.size());
 }
 
-/// Calls body(local, weight) for the samples of a piece on triangles that have an area: position
-/// relative to the origin, area it stands for; grid units.
+/// Calls body(local, weight) for the samples of a piece on triangles with area. `local` is the
+/// position relative to `origin`, `weight` the area that the sample represents, both in grid units.
 template<class Body>
 void ForEachSample(
   const ClippedMesh& clipped, Id piece, const Vec3& origin, const QuadratureRule& rule, Body&& body)

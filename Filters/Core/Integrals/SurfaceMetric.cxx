@@ -12,20 +12,20 @@ namespace gridfem
 namespace
 {
 
-/// A metric counts as singular if its determinant is not between these: a share of its squared
-/// trace and what a number can hold with all its digits.
+/// A metric is singular if its determinant is outside these bounds: a fraction of the squared
+/// trace, and the range in which doubles keep all digits.
 constexpr double SmallestQuotient = 1e-14;
 constexpr double SmallestDeterminant = 1e-300;
 constexpr double LargestDeterminant = 1e300;
 
-/// For a number or for lanes.
+/// Returns the lower bound of the determinant, for a number or for lanes.
 template<class Number>
 Number LeastDeterminant(const Number& trace)
 {
   return SmallestQuotient * trace * trace + SmallestDeterminant;
 }
 
-/// One point of the rule on all triangles of a batch.
+/// Metrics at one point of the rule on all triangles of a batch.
 struct LaneMetric
 {
   Lanes E;
@@ -33,16 +33,16 @@ struct LaneMetric
   Lanes G;
 };
 
-/// Metrics that are looked at together.
+/// Metrics that are checked together.
 using MetricGroup = std::array<LaneMetric, BatchesAtOnce>;
 
-/// The metrics of `count` points from `point` on.
+/// Loads the metrics of `count` points of the rule, beginning with `point`.
 void Load(
   const SampleMetric& metric, const TriangleBatch& batch, Id point, int count, MetricGroup& group)
 {
   static_assert(
     sizeof(FundamentalForm) == 3 * sizeof(double) && sizeof(LaneMetric) == 3 * sizeof(Lanes));
-  std::array<const double*, LaneCount> form; // E, F, G of point after point
+  std::array<const double*, LaneCount> form; // E, F, G of each point in turn
   for (int lane = 0; lane < LaneCount; ++lane)
   {
     form[lane] = &metric[batch.firstSample[lane] + point].E;
@@ -75,7 +75,7 @@ Lanes Determinant(const LaneMetric& metric)
   return metric.E * metric.G - metric.F * metric.F;
 }
 
-/// All lanes at once.
+/// Whether all metrics of the group are regular. It checks all lanes at once.
 bool AreRegular(const MetricGroup& metric, int count)
 {
   Lanes margin = Lanes::Ones();
@@ -89,12 +89,12 @@ bool AreRegular(const MetricGroup& metric, int count)
                .min(LargestDeterminant - determinant);
     zero += 0.0 * (determinant + trace);
   }
-  // Least values may miss what is no number; the sum cannot.
+  // The minimum may miss NaN; the sum cannot.
   return margin.minCoeff() > 0.0 && zero.sum() == 0.0;
 }
 
-/// Takes the weight of samples with a singular metric.
-/// @return  their number, of those that had a weight
+/// Sets the weight of samples with a singular metric to 0.
+/// @return  number of these samples that had a weight
 Id DropSingular(LaneMetric& metric, SampleBatch& samples)
 {
   Id singular = 0;
@@ -115,14 +115,14 @@ Id DropSingular(LaneMetric& metric, SampleBatch& samples)
   return singular;
 }
 
-/// Sets mass and tensor of samples whose mass is that of the mesh.
+/// Sets mass and tensor of samples in the metric. On entry, the mass is the mass on the mesh.
 void SetWeights(const LaneMetric& metric, const TangentBasis& basis, const LaneVector& normal,
   double normalWeight, SampleBatch& samples)
 {
   const Lanes determinant = Determinant(metric);
   const Lanes inverseRoot = determinant.rsqrt();
   const Lanes over = samples.mass * inverseRoot;
-  // Like the stiffness of a scaled surface, the part along the normal does not scale.
+  // The part along the normal does not scale, just like the stiffness of a scaled surface.
   samples.tensor = TensorInBasis(
     over * metric.G, -over * metric.F, over * metric.E, normalWeight * samples.mass, basis, normal);
   samples.mass = over * determinant;
@@ -131,7 +131,7 @@ void SetWeights(const LaneMetric& metric, const TangentBasis& basis, const LaneV
 /// Coefficients of an embedding on a patch, one column per coordinate.
 using PatchEmbedding = Eigen::Matrix<double, FunctionsPerPatch, 3>;
 
-/// The metric of the embedding at positions in the cell.
+/// Returns the metric of the embedding at positions in the cell.
 LaneMetric MetricAt(
   const Lanes (&position)[3], const TangentBasis& basis, const PatchEmbedding& embedding)
 {
@@ -144,7 +144,7 @@ LaneMetric MetricAt(
     const Lanes& s = position[(axis + 1) % 3];
     const Lanes& t = position[(axis + 2) % 3];
     const Lanes st = s * t;
-    // The slope along the axis is bilinear in the other two coordinates.
+    // The derivative along the axis is bilinear in the other two coordinates.
     const std::pair<int, Lanes> edges[4] = { { 0, 1.0 - s - t + st }, { first, s - st },
       { second, t - st }, { first + second, st } };
     for (int component = 0; component < 3; ++component)
@@ -169,7 +169,7 @@ LaneMetric MetricAt(
   return metric;
 }
 
-/// Where the two directions of the basis go with the source triangles of a batch.
+/// Returns the metric of the maps that move the source triangles of a batch, in the given basis.
 LaneMetric MetricOfTriangles(const ClippedMesh& clipped, const TriangleMesh& mesh,
   const TriangleMesh& moved, const TriangleBatch& batch, const TangentBasis& basis)
 {

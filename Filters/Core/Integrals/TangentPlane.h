@@ -1,4 +1,5 @@
-// The tangent plane of several triangles at once: bases, the projection to it, and tensors in it.
+// Tangent planes of several triangles at once: bases, projections to the planes, and tensors in
+// them.
 #ifndef GridFEM_TangentPlane_h
 #define GridFEM_TangentPlane_h
 
@@ -9,7 +10,7 @@
 namespace gridfem
 {
 
-/// An orthonormal basis of the plane across a unit normal, which it depends on alone.
+/// An orthonormal basis of the plane perpendicular to a unit normal. It depends only on the normal.
 struct TangentBasis
 {
   LaneVector first;
@@ -33,7 +34,7 @@ struct TangentBasis
   }
 };
 
-/// The projection to the plane across a unit normal, plus normalWeight n nᵀ.
+/// Returns the projection to the plane perpendicular to a unit normal n, plus normalWeight n nᵀ.
 inline LaneTensor TangentialProjection(const LaneVector& normal, double normalWeight)
 {
   LaneTensor tensor;
@@ -42,14 +43,15 @@ inline LaneTensor TangentialProjection(const LaneVector& normal, double normalWe
     const Lanes& a = normal.axis[p];
     const Lanes& b = normal.axis[(p + 1) % 3];
     const Lanes& c = normal.axis[(p + 2) % 3];
-    // Entry (p, p) of the projection without the cancellation of 1 - n_p².
+    // This form of entry (p, p) of the projection avoids the cancellation of 1 - n_p².
     tensor.same[p] = b * b + c * c + normalWeight * a * a;
     tensor.mixed[p] = (normalWeight - 1.0) * a * b;
   }
   return tensor;
 }
 
-/// a first firstᵀ + b (first secondᵀ + second firstᵀ) + c second secondᵀ + n normal normalᵀ.
+/// Returns a first firstᵀ + b (first secondᵀ + second firstᵀ) + c second secondᵀ + n normal
+/// normalᵀ.
 inline LaneTensor TensorInBasis(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& n,
   const TangentBasis& basis, const LaneVector& normal)
 {

@@ -67,7 +67,7 @@ std::array<double, 2> PlaneTensor::Eigenvalues() const
   const double radius = std::hypot(0.5 * E_ - 0.5 * G_, F_);
   if (mean > 0.0 && mean + radius < LargestEigenvalue && mean + radius > SmallestEigenvalue)
   {
-    const double large = mean + radius; // the small one as a quotient keeps its digits
+    const double large = mean + radius; // computing the smaller one as a quotient keeps its digits
     return { (E_ / large) * G_ - (F_ / large) * F_, large };
   }
   return { mean - radius, mean + radius };
@@ -157,7 +157,8 @@ Field GradientsOf(const TriangleMesh& mesh, const Field& f)
       continue;
     }
     const double square = edges.normal.squaredNorm();
-    const Vec3 alongA = edges.b.cross(edges.normal) / square; // ∇ of the second corner's hat
+    const Vec3 alongA = edges.b.cross(edges.normal) / square; // gradient of the second corner's hat
+                                                              // function
     const Vec3 alongB = edges.normal.cross(edges.a) / square;
     const std::array<Id, 3>& corner = mesh.triangles[t];
     for (Id c = 0; c < f.values.cols(); ++c)

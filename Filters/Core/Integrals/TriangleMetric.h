@@ -1,5 +1,5 @@
-// A metric that is constant on every triangle, given by tensors in space, and what it makes of
-// integrals over the mesh. [T §5.1, (5.5), (5.6)]
+// A metric that is constant on every triangle, given by tensors in space. It also defines how
+// integrals over the mesh change in the metric. [T §5.1, (5.5), (5.6)]
 #ifndef GridFEM_TriangleMetric_h
 #define GridFEM_TriangleMetric_h
 
@@ -10,47 +10,48 @@
 namespace gridfem
 {
 
-/// The edges of a triangle from its first corner, and what is across them.
+/// Two edges of a triangle from its first corner, and the normal.
 struct TriangleFrame
 {
   Vec3 a;
   Vec3 b;
-  Vec3 normal; // twice the area long
-  bool isFlat; // its height is at most 1e-10 of its longest edge
+  Vec3 normal; // its length is twice the area
+  bool isFlat; // whether the height is at most 1e-10 of the longest edge
 
   TriangleFrame(const TriangleMesh& mesh, Id triangle);
 };
 
-/// Integrals in the metric g are integrals over the mesh with these: ∫ √|g| u v and
-/// ∫ <∇u, √|g| g⁻¹ ∇v>. A gradient is what its field has in space: a given s stands for the linear
-/// form <s, ·>, so that the gradient of a function is given in the same way whatever the metric.
+/// Factors that turn integrals over the mesh into integrals in the metric g: ∫ √|g| u v and
+/// ∫ <∇u, √|g| g⁻¹ ∇v>. Gradient fields are given as vectors in space: s represents the linear form
+/// <s, ·>. The gradient of a function is therefore given in the same way for every metric.
 struct TriangleMetric
 {
   std::vector<double> area;            // √|g|: area in the metric over area of the mesh
   std::vector<Eigen::Matrix3d> tensor; // √|g| g⁻¹ in the plane of the triangle, 0 across it
 
-  /// Of the surface, squared units of the points.
+  /// Area of the surface in the metric, in squared units of the points.
   double AreaOf(const TriangleMesh& mesh) const;
 
-  /// √|g| g⁻¹ s: what the metric makes of vectors, 3 C columns.
+  /// Returns √|g| g⁻¹ s, the vectors of the integrals in the metric; 3 C columns.
   Field Transform(const TriangleMesh& mesh, const Field& s) const;
 };
 
-/// The restriction of a symmetric tensor to the plane of a triangle. That of a triangle flatter
-/// than 1e-10 of its longest edge, which has no plane, is the identity.
+/// The restriction of a symmetric tensor to the plane of a triangle. A triangle flatter than 1e-10
+/// of its longest edge has no plane; its restriction is the identity.
 class PlaneTensor
 {
 public:
   PlaneTensor(const TriangleMesh& mesh, Id triangle, const Eigen::Matrix3d& tensor);
 
-  /// Ascending.
+  /// Eigenvalues, ascending.
   std::array<double, 2> Eigenvalues() const;
 
-  /// Both eigenvalues are between 1e-100 and 1e100, and the larger is less than 1e14 times the
-  /// smaller: such a map stretches one direction up to 1e7 times as much as the other.
+  /// Whether both eigenvalues are between 1e-100 and 1e100, and the larger is less than 1e14 times
+  /// the smaller. A map with such a metric stretches one direction less than 1e7 times as much as
+  /// the other.
   bool IsMetric() const;
 
-  ///@{ As TriangleMetric has them; of a metric.
+  ///@{ Entries of TriangleMetric for this triangle. The tensor must be a metric.
   double Area() const;
   Eigen::Matrix3d InverseTimesArea() const;
   ///@}
@@ -64,15 +65,15 @@ private:
   bool hasPlane_ = false;
 };
 
-/// A symmetric tensor of six components in VTK's order: XX, YY, ZZ, XY, YZ, XZ.
+/// Makes a symmetric tensor from six components in VTK's order: XX, YY, ZZ, XY, YZ, XZ.
 Eigen::Matrix3d SymmetricTensor(const double* six);
 
-/// The metric of tensors of six components; of tensors at points the means over the triangles
-/// count. Throws InvalidInput where one is not a metric in the plane of its triangle.
+/// Returns the metric given by tensors of six components. Tensors at points are averaged over each
+/// triangle. Throws InvalidInput if one is not a metric in the plane of its triangle.
 TriangleMetric MetricOfTensors(const TriangleMesh& mesh, const Field& tensors);
 
-/// matrixOf(triangle) times every vector of a field with 3 C columns.
-/// @return  on triangles, or on corners where s is on points
+/// Multiplies every vector of a field with 3 C columns by matrixOf(triangle).
+/// @return  on triangles, or on corners if s is on points
 template<class MatrixOf>
 Field MapVectors(const TriangleMesh& mesh, const Field& s, const MatrixOf& matrixOf)
 {
@@ -98,12 +99,12 @@ Field MapVectors(const TriangleMesh& mesh, const Field& s, const MatrixOf& matri
   return result;
 }
 
-/// Throws InvalidInput unless the metric has all triangles of the mesh.
+/// Throws InvalidInput unless the metric has an entry for every triangle of the mesh.
 void RequireMetric(const TriangleMetric& metric, const TriangleMesh& mesh);
 
-/// Gradients in space of functions that are linear on each triangle: three columns for each of the
-/// field's, constant on triangles; 0 on triangles flatter than 1e-10. Throws InvalidInput for a
-/// field that is not on points.
+/// Returns the gradients in space of functions that are linear on each triangle, constant on
+/// triangles. There are three columns for each column of the field. Triangles flatter than 1e-10
+/// get 0. Throws InvalidInput for a field that is not on points.
 Field GradientsOf(const TriangleMesh& mesh, const Field& f);
 
 } // namespace gridfem

@@ -1,4 +1,4 @@
-// The eight trilinear functions of a cell in a layout that fills SIMD lanes.
+// The eight trilinear functions of a cell, in a layout that fills SIMD lanes.
 #ifndef GridFEM_TrilinearBasis_h
 #define GridFEM_TrilinearBasis_h
 
@@ -10,7 +10,7 @@ namespace gridfem
 /// One number per corner of a cell, x fastest.
 using CornerValues = std::array<double, FunctionsPerPatch>;
 
-/// Values at a point in the cell's own coordinates.
+/// Computes the values at a point in the cell's own coordinates.
 inline void TrilinearValues(const Vec3& local, CornerValues& value)
 {
   const double x[2] = { 1.0 - local[0], local[0] };
@@ -24,7 +24,7 @@ inline void TrilinearValues(const Vec3& local, CornerValues& value)
   }
 }
 
-/// Gradients: derivative[axis][corner].
+/// Computes the gradients: derivative[axis][corner].
 inline void TrilinearGradients(const Vec3& local, std::array<CornerValues, 3>& derivative)
 {
   const double x[2] = { 1.0 - local[0], local[0] };

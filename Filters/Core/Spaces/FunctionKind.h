@@ -1,19 +1,19 @@
-// Which functions solutions are made of.
+// The kinds of functions that solutions are made of.
 #ifndef GridFEM_FunctionKind_h
 #define GridFEM_FunctionKind_h
 
 namespace gridfem
 {
 
-/// Chosen by a user, and known to what makes a space, estimates its memory or says what would make
-/// its error smaller; a problem is the same on both.
+/// The kind of functions, chosen by the user. Only code that builds a space, estimates its memory
+/// or suggests how to reduce its error knows it. Problems are the same for both kinds.
 enum class FunctionKind
 {
-  Grid, // of the grid's corners
-  Hats  // of the mesh's points
+  Grid, // functions of the grid's corners
+  Hats  // functions of the mesh's points
 };
 
-/// Whether a finer grid has functions of smaller error; else only a finer mesh has.
+/// Whether a finer grid reduces the error of the functions. Otherwise only a finer mesh does.
 constexpr bool IsRefinedByDepth(FunctionKind kind)
 {
   return kind == FunctionKind::Grid;

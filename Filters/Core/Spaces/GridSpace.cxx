@@ -177,7 +177,8 @@ std::vector<char> GridSpace::PointsWithFunctions() const
   return has;
 }
 
-/// Trilinear functions reproduce coordinates: each coefficient is that of its function's corner.
+/// Trilinear functions reproduce coordinates: each coefficient is the position of its function's
+/// corner.
 MultiVector GridSpace::EmbeddingOfMesh(const Job& job) const
 {
   const FunctionPlaces& places = this->Operators().places.front();
@@ -250,7 +251,7 @@ void GridSpace::WeighMass(const std::vector<double>& weight, const Job& job)
   this->IntegrateTriangles(metric_ ? ProductOf(weight, metric_->area) : weight, job);
 }
 
-/// @param weight  of the mass
+/// @param weight  weight of the mass on each triangle
 void GridSpace::IntegrateTriangles(const std::vector<double>& weight, const Job& job)
 {
   LevelOperators& operators = this->OwnOperators();

@@ -1,5 +1,5 @@
-// The functions of a grid as a finite element space: trilinear B-splines restricted to the surface,
-// nested from level to level. [DESIGN §1, §2]
+// The functions of a grid as a finite element space: trilinear B-splines restricted to the surface
+// and nested from level to level. [DESIGN §1, §2]
 #ifndef GridFEM_GridSpace_h
 #define GridFEM_GridSpace_h
 
@@ -13,12 +13,12 @@
 namespace gridfem
 {
 
-/// The unit of length is a cell's side. Functions and operators may be shared by many spaces; a new
-/// metric or new weights belong to one.
+/// The unit of length is the side of a cell. Many spaces may share functions and operators. A new
+/// metric or new weights belong to a single space.
 class GridSpace : public FiniteElementSpace
 {
 public:
-  /// @param mesh  what the pieces' source triangles refer to
+  /// @param mesh  the mesh of the pieces' source triangles
   GridSpace(std::shared_ptr<const TriangleMesh> mesh,
     std::shared_ptr<const GridFunctions> functions,
     std::shared_ptr<const LevelOperators> operators);
@@ -60,7 +60,7 @@ public:
   std::unique_ptr<FiniteElementSpace> Copy() const override;
   Id SetMetric(const MultiVector& embedding, const Job& job = {},
     ElementParts parts = ElementParts::Both) override;
-  /// The same for the mesh with moved points.
+  /// Works like SetMetric, with the metric of the mesh with moved points.
   Id SetMetricOfMesh(
     const TriangleMesh& moved, const Job& job = {}, ElementParts parts = ElementParts::Both);
   void SetMetricOnTriangles(
@@ -85,18 +85,18 @@ private:
   std::shared_ptr<const TriangleMesh> mesh_;
   std::shared_ptr<const GridFunctions> functions_;
   std::shared_ptr<const LevelOperators> shared_;
-  std::optional<LevelOperators> own_; // once numbers have changed
+  std::optional<LevelOperators> own_; // set once numbers have changed
   std::shared_ptr<const DirectionalElements> split_;
-  std::shared_ptr<const TriangleMetric> metric_; // null: that of the mesh, or of an embedding
+  std::shared_ptr<const TriangleMetric> metric_; // null: the metric of the mesh, or of an embedding
 };
 
-/// Of the operators on the functions.
+/// Options of the operators on the functions.
 struct OperatorOptions
 {
   int quadratureDegree = 2;
-  Index coarsestSize = 256; // functions of the largest component on the coarsest level, at most
+  Index coarsestSize = 256; // most functions in the largest component of the coarsest level
   /// The weight of |∂u/∂n|² in the operator, in (0, 1]. 1e-2 needs few iterations to small
-  /// tolerances on any surface, for 1.2 to 1.6 times the discretisation error.
+  /// tolerances on any surface, at 1.2 to 1.6 times the discretization error.
   double normalStabilization = DefaultNormalStabilization;
 };
 
@@ -105,7 +105,7 @@ struct GridSpaceOptions : OperatorOptions
   SpaceOptions functions;
 };
 
-/// Clips, builds functions and operators in one go. Throws InvalidInput and Aborted.
+/// Clips a mesh and builds functions and operators. Throws InvalidInput and Aborted.
 GridSpace BuildGridSpace(
   TriangleMesh mesh, const GridSpaceOptions& options, const Progress& progress = {});
 

@@ -30,7 +30,7 @@ std::vector<char> FlatTriangles(const TriangleMesh& mesh, const HatOptions& opti
   return isFlat;
 }
 
-/// 1 for points of triangles that are not flat.
+/// Returns 1 for points of triangles that are not flat.
 std::vector<char> PointsWithFunction(const TriangleMesh& mesh, const std::vector<char>& isFlat)
 {
   std::vector<char> used(mesh.points.size(), 0);
@@ -44,7 +44,7 @@ std::vector<char> PointsWithFunction(const TriangleMesh& mesh, const std::vector
   return used;
 }
 
-/// Points that have a function of their own, along the Morton curve.
+/// Returns the points that have a function of their own, along the Morton curve.
 Array<SortEntry> SortPoints(const TriangleMesh& mesh, const std::vector<char>& used,
   const Array<Index>& pointClass, int threads)
 {
@@ -69,7 +69,7 @@ void NumberPoints(const TriangleMesh& mesh, const std::vector<char>& isFlat,
   const Array<Index> pointClass = options.weldCoincidentPoints
                                     ? WeldCoincidentPoints(mesh.points, UsedPoints(mesh))
                                     : Array<Index>();
-  // Points of flat triangles alone have the function of others at their place.
+  // Points whose triangles are all flat share the function of coincident points.
   for (std::size_t point = 0; point < pointClass.size(); ++point)
   {
     used[pointClass[point]] |= used[point];
@@ -90,7 +90,7 @@ void NumberPoints(const TriangleMesh& mesh, const std::vector<char>& isFlat,
 
 void ListTriangles(const TriangleMesh& mesh, const std::vector<char>& isFlat, HatFunctions& hats)
 {
-  // The corners of flat triangles form a last group, which is dropped.
+  // The corners of flat triangles form the last group, which is dropped.
   const Index none = hats.Count();
   RequireIndices(3.0 * static_cast<double>(mesh.triangles.size()), "corners of triangles");
   Array<Index> functionOfCorner(3 * mesh.triangles.size());
@@ -140,10 +140,10 @@ HatTriangle::HatTriangle(const TriangleMesh& mesh, Id triangle, double unitLengt
 
 bool HatTriangle::IsFlat() const
 {
-  constexpr double SmallestHeight = 1e-10; // of the longest edge
+  constexpr double SmallestHeight = 1e-10; // as a fraction of the longest edge
   const double longest2 =
     std::max({ edge[0].squaredNorm(), edge[1].squaredNorm(), edge[2].squaredNorm() });
-  // Written so that a size out of the range of numbers counts as flat.
+  // Written so that a size outside the range of doubles counts as flat.
   return !(2.0 * area > SmallestHeight * longest2 && std::isfinite(longest2));
 }
 

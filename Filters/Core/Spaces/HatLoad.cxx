@@ -22,7 +22,8 @@ void CheckMesh(const HatFunctions& hats, const TriangleMesh& mesh)
   }
 }
 
-/// Values of a field with one column, or 1, at the corners of a triangle.
+/// Returns the values at the corners of a triangle of a field with one column, or 1 without a
+/// field.
 std::array<double, 3> ScaleAtCorners(const Field* scale, const TriangleMesh& mesh, Id triangle)
 {
   std::array<double, 3> value = { 1.0, 1.0, 1.0 };
@@ -33,8 +34,8 @@ std::array<double, 3> ScaleAtCorners(const Field* scale, const TriangleMesh& mes
   return value;
 }
 
-/// Means over a triangle of (linear function with these corner values) times φ_k: what corner k of
-/// a second linear function weighs in the mean of the product.
+/// Returns the means over a triangle of φ_k times a linear function with these corner values. Entry
+/// k is the weight of corner k of a second linear function in the mean of the product.
 std::array<double, 3> MeansOfProducts(const std::array<double, 3>& corner)
 {
   const double sum = corner[0] + corner[1] + corner[2];
@@ -63,7 +64,7 @@ MultiVector IntegrateTriangles(const HatFunctions& hats, const TriangleMesh& mes
   return result;
 }
 
-/// ∫ <s, test(triangle, corner)>, world units.
+/// Returns ∫ <s, test(triangle, corner)> in world units.
 template<class Test>
 MultiVector IntegrateVectors(const HatFunctions& hats, const TriangleMesh& mesh, const Field& s,
   const Field* scale, int threads, Test&& test)
@@ -120,7 +121,7 @@ MultiVector IntegrateGradients(const HatFunctions& hats, const TriangleMesh& mes
     [](const HatTriangle& triangle, int corner) { return triangle.Gradient(corner); });
 }
 
-/// <n x s, ∇φ> = <s, ∇φ x n>
+/// Uses <n x s, ∇φ> = <s, ∇φ x n>.
 MultiVector IntegrateTurnedGradients(
   const HatFunctions& hats, const TriangleMesh& mesh, const Field& s, int threads)
 {

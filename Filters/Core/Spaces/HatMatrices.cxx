@@ -10,7 +10,7 @@ namespace gridfem
 namespace
 {
 
-/// What a triangle adds to its element matrices.
+/// The contribution of a triangle to its element matrices.
 struct TriangleTerms
 {
   std::array<double, 3> halfCotangent; // of the angle at each corner
@@ -29,8 +29,8 @@ TriangleTerms TermsOf(const HatTriangle& triangle)
   return terms;
 }
 
-/// The stiffness with weights along and across a direction. Where that has no part in the plane,
-/// both ways share the stiffness equally, as in DirectionalElements.
+/// Computes the stiffness with weights along and across a direction. If the direction has no part
+/// in the plane, both share the stiffness equally, as in DirectionalElements.
 void SplitStiffness(const HatTriangle& triangle, const Vec3& direction,
   const std::array<double, 2>& weight, TriangleTerms& terms)
 {
@@ -45,7 +45,7 @@ void SplitStiffness(const HatTriangle& triangle, const Vec3& direction,
   {
     const Vec3& u = triangle.edge[(k + 1) % 3];
     const Vec3& v = triangle.edge[(k + 2) % 3];
-    // Gradients are edges, turned by a right angle: along takes the part of the edges across.
+    // Gradients are edges turned by a right angle, so `along` takes the part of the edges across.
     const double ofAlong = isThere ? across.dot(u) * across.dot(v) : 0.5 * u.dot(v);
     const double ofAcross = isThere ? along.dot(u) * along.dot(v) : 0.5 * u.dot(v);
     terms.halfCotangent[k] = -(weight[0] * ofAlong + weight[1] * ofAcross) / (4.0 * triangle.area);
@@ -92,7 +92,8 @@ std::vector<TriangleTerms> ComputeTerms(
       for (Id t = begin; t < end; ++t)
       {
         const HatTriangle triangle(mesh, t, hats.unitLength);
-        if (!triangle.IsFlat()) // else no function lists it, or it adds nothing after a move
+        if (!triangle.IsFlat()) // no function lists a flat triangle, and one flattened by a move
+                                // adds nothing
         {
           terms[t] = WeightedTermsOf(triangle, t, weights);
         }
@@ -101,11 +102,11 @@ std::vector<TriangleTerms> ComputeTerms(
   return terms;
 }
 
-/// What one triangle adds to an off-diagonal entry of a row.
+/// The contribution of one triangle to an off-diagonal entry of a row.
 struct Contribution
 {
   Index column;
-  int order; // of the triangle around the function: fixes the order of sums
+  int order; // of the triangle around the function; fixes the order of sums
   double mass;
   double stiffness;
 
@@ -115,7 +116,7 @@ struct Contribution
   }
 };
 
-/// Rows of a block, before their place in the matrices is known.
+/// The rows of a block, before their place in the matrices is known.
 struct RowBlock
 {
   std::vector<Index> column;
@@ -149,7 +150,7 @@ void CollectRow(const TriangleMesh& mesh, const HatFunctions& hats,
   std::sort(contributions.begin(), contributions.end());
 }
 
-/// Appends a row; the diagonal follows from the other entries. Returns ∫ φ_row.
+/// Appends a row and returns ∫ φ_row. The diagonal follows from the other entries.
 double AppendRow(Index row, const std::vector<Contribution>& contributions, RowBlock& block)
 {
   double massSum = 0.0;

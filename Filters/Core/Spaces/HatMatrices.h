@@ -10,31 +10,32 @@
 namespace gridfem
 {
 
-/// Both matrices have the same pattern: functions that share a triangle. Each row of the stiffness
-/// sums to 0. Negative cotangents are kept; the matrix is positive semi-definite all the same,
-/// being a sum of element matrices that are.
+/// The matrices of the hat functions. Both have the same pattern: functions that share a triangle.
+/// Each row of the stiffness sums to 0. Negative cotangents are kept. The stiffness is still
+/// positive semi-definite, because it is a sum of positive semi-definite element matrices.
 struct HatMatrices
 {
-  SparseMatrix mass;            // ∫ φ_i φ_j, unit of length squared
+  SparseMatrix mass;            // ∫ φ_i φ_j, in squared units of length
   SparseMatrix stiffness;       // ∫ <∇φ_i, ∇φ_j>, dimensionless
   std::vector<double> integral; // ∫ φ_i, the lumped mass
 };
 
-/// What changes the integrals over every triangle.
+/// Weights of the integrals over every triangle.
 struct HatWeights
 {
-  const TriangleMetric* metric = nullptr; // null: that of the mesh
-  /// Of its mass, and of its stiffness along and across a direction; null: 1. In a metric those of
-  /// the stiffness do not count, nor without directions.
+  const TriangleMetric* metric = nullptr; // null: the metric of the mesh
+  /// Weights of the mass, and of the stiffness along and across a direction; null: 1. The weights
+  /// of the stiffness are ignored in a metric and without directions.
   const std::vector<ElementWeights>* weights = nullptr;
   const std::vector<Vec3>* direction = nullptr;
 };
 
-/// Cost O(triangles); same bits for any number of threads, and bitwise symmetric.
+/// Assembles the matrices. Cost O(triangles); same bits for any number of threads, and bitwise
+/// symmetric.
 HatMatrices AssembleHatMatrices(const TriangleMesh& mesh, const HatFunctions& hats,
   const HatWeights& weights = {}, int threads = 0);
 
-/// Σ over the triangles of scale stiffness u, with the same weights.
+/// Returns the sum over the triangles of scale * stiffness * u, with the same weights.
 /// @param scale  one number per triangle; empty: 1
 /// @param u      rows = functions; the result has its size
 /// Throws InvalidInput when a number of rows does not fit. Same bits for any number of threads.
@@ -42,7 +43,7 @@ MultiVector MultiplyHats(const TriangleMesh& mesh, const HatFunctions& hats,
   const HatWeights& weights, const std::vector<double>& scale, const MultiVector& u,
   int threads = 0);
 
-/// a M + b L, in place where `result` has the pattern.
+/// Computes a M + b L, in place if `result` has the pattern.
 void Combine(
   const HatMatrices& matrices, double a, double b, SparseMatrix& result, int threads = 0);
 

@@ -15,7 +15,7 @@ namespace gridfem
 namespace
 {
 
-/// The same grid with functions that know of sheets that touch in points.
+/// Returns the same grid with functions that are joined where sheets touch at points.
 std::shared_ptr<const GridSpace> JoinAtPoints(
   const TriangleMesh& mesh, const GridFunctions& grid, bool weldCoincidentPoints, const Job& job)
 {
@@ -254,8 +254,8 @@ std::unique_ptr<FiniteElementSpace> HatSpace::Copy() const
   return std::make_unique<HatSpace>(*this);
 }
 
-/// The cotangent system of the moved points; the grid takes the metric that the moved triangles
-/// have, so that its cycles precondition the same surface.
+/// Assembles the cotangent matrices of the moved points. The grid gets the metric of the moved
+/// triangles, so that its cycles precondition the same surface.
 Id HatSpace::SetMetric(const MultiVector& embedding, const Job& job, ElementParts parts)
 {
   if (embedding.cols() != 3)
@@ -290,7 +290,7 @@ HatWeights HatSpace::Weights() const
   return { metric_.get(), weights_.get(), direction_.get() };
 }
 
-/// On the mesh itself.
+/// Assembles the matrices on the mesh itself.
 void HatSpace::Assemble(const Job& job)
 {
   moved_.reset();

@@ -1,5 +1,5 @@
-// The hat functions of a mesh as a finite element space: the finest level, above those of a grid
-// that speeds up the solution. [T §4.2, Hat-Basis Incorporation]
+// The hat functions of a mesh as a finite element space. They are the finest level above the levels
+// of a grid, which accelerates the solution. [T §4.2, Hat-Basis Incorporation]
 #ifndef GridFEM_HatSpace_h
 #define GridFEM_HatSpace_h
 
@@ -10,28 +10,29 @@
 namespace gridfem
 {
 
-/// What hats of one mesh above one grid keep for any a M + b L; in the grid's unit of length.
+/// Data of the hats of a mesh above a grid, shared by all a M + b L, in the grid's unit of length.
 struct HatLevel
 {
   HatFunctions functions;
   HatMatrices matrices;
-  PatchOrder order;          // of the sweeps
-  PatchOrder groups;         // of eight hats each; see GroupByCoupling
+  PatchOrder order;          // order of the sweeps
+  PatchOrder groups;         // groups of eight hats each; see GroupByCoupling
   SharedMatrix prolongation; // from the finest functions of the grid
   SharedMatrix restriction;
-  /// In place of the given grid, whose functions part where sheets touch in a point only, as hats
-  /// do not: a step that moves one sheet as a whole would cost nothing on the grid and much on
-  /// hats.
+  /// Replaces the given grid if sheets touch only at points. The given grid's functions are split
+  /// there, but hats are not. A correction that moves one whole sheet would then cost no energy on
+  /// the grid and much energy on the hats.
   std::shared_ptr<const GridSpace> joinedGrid;
 };
 
-/// @param mesh  what the functions of the grid were made from, weldCoincidentPoints as there
-/// Throws InvalidInput when no triangle has an area.
+/// Builds the data of the hats. Throws InvalidInput when no triangle has an area.
+/// @param mesh  the mesh that the grid's functions were made from, with the same
+///   weldCoincidentPoints
 HatLevel BuildHatLevel(const TriangleMesh& mesh, const GridFunctions& grid,
   bool weldCoincidentPoints, HatTransfer transfer = HatTransfer::Evaluation, const Job& job = {});
 
-/// Level 0 are the hats, relaxed by Gauss-Seidel with twice the sweeps of the grid's levels and, on
-/// the way, in groups; level l + 1 is level l of the grid.
+/// Level 0 consists of the hats, and level l + 1 is level l of the grid. The hats are relaxed by
+/// Gauss-Seidel with twice the sweeps of the grid's levels, and in groups after a sweep.
 class HatSpace : public FiniteElementSpace
 {
 public:
@@ -94,15 +95,15 @@ private:
 
   std::shared_ptr<const HatLevel> hats_;
   GridSpace grid_;
-  std::shared_ptr<const HatMatrices> own_; // once numbers have changed
+  std::shared_ptr<const HatMatrices> own_; // set once numbers have changed
   std::shared_ptr<const std::vector<Vec3>> direction_;
-  std::shared_ptr<const TriangleMesh> moved_;    // whose metric it is; null: the mesh
-  ElementParts movedParts_ = ElementParts::Both; // that are in its metric
+  std::shared_ptr<const TriangleMesh> moved_;    // mesh whose metric is used; null: the mesh itself
+  ElementParts movedParts_ = ElementParts::Both; // the matrices in the metric of moved_
   std::shared_ptr<const std::vector<ElementWeights>> weights_;
-  std::shared_ptr<const TriangleMetric> metric_; // null: that of the mesh, or of moved points
+  std::shared_ptr<const TriangleMetric> metric_; // null: the metric of the mesh, or of moved points
 };
 
-/// Both in one go. Throws InvalidInput and Aborted.
+/// Builds grid and hats. Throws InvalidInput and Aborted.
 HatSpace BuildHatSpace(TriangleMesh mesh, const GridSpaceOptions& options,
   HatTransfer transfer = HatTransfer::Evaluation, const Progress& progress = {});
 

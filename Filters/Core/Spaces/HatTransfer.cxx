@@ -1,7 +1,7 @@
-// The clipped mesh is refined, so M_f P is the vertex rule on its triangles: the entry of hat k and
-// grid function i is Σ m λ_k b_i over the corners of all pieces of the hat's triangles, divided by
-// Σ m λ_k, with a third of the area of each triangle as m. Summing corner by corner instead of
-// point by point keeps sheets apart that touch in a point, and needs no numbers of points.
+// The clipped mesh is a refinement, so M_f P is the vertex rule on its triangles. The entry of hat
+// k and grid function i is Σ m λ_k b_i / Σ m λ_k, over the corners of all pieces of the hat's
+// triangles. The mass m is a third of the area of each triangle. Summing corner by corner, not
+// point by point, keeps sheets that touch in a point apart and needs no numbers of points.
 #include "Spaces/HatTransfer.h"
 
 #include "Algebra/FillRows.h"
@@ -28,7 +28,8 @@ struct PatchWeights
 /// One row, patch by patch.
 using Row = std::vector<PatchWeights>;
 
-/// The weights of a patch, if it is among the last in the row, or new ones: a patch may come twice.
+/// Returns the weights of a patch if it is among the last in the row, otherwise new weights. A
+/// patch may therefore occur twice.
 PatchWeights& WeightsOf(Id patch, Row& row)
 {
   constexpr std::size_t Recent = 8; // more than most rows have
@@ -70,7 +71,7 @@ void AddPiece(
       AddScaled(mass * lambda, b, sum);
     }
   };
-  double previous = 0.0; // a point's share of the fan triangle before
+  double previous = 0.0; // the point's share of the previous fan triangle
   double all = 0.0;
   const Id last = clipped.pieceBegin[piece + 1] - clipped.pieceBegin[piece] - 1;
   for (Id k = 1; k < last; ++k)
@@ -86,9 +87,9 @@ void AddPiece(
   add(0, all);
 }
 
-/// Adds the values at a point if it is a corner of the piece, times the area of the piece. All
-/// sheets that meet in the point have their share then: the values of one alone would say nothing
-/// of the others, whose functions at the point may be different ones.
+/// If the point is a corner of the piece, adds the values at the point, times the area of the
+/// piece. All sheets that meet in the point then have their share. The sheets may have different
+/// functions at the point, so the values of one sheet would say nothing about the others.
 void AddPieceAtPoint(const GridFunctions& space, Id point, Id piece, Row& row)
 {
   const ClippedMesh& clipped = space.clipped;
@@ -103,7 +104,7 @@ void AddPieceAtPoint(const GridFunctions& space, Id point, Id piece, Row& row)
   }
 }
 
-/// The values at a point, for a hat without pieces of any area.
+/// Adds the values at a point, for a hat without pieces of any area.
 void AddPoint(const GridFunctions& space, Id point, Row& row)
 {
   const Id patch = space.pointPatch[point];
@@ -146,8 +147,8 @@ void AppendEntries(
   }
 }
 
-/// A point of every function: of those that share it the one in the best patch, and of equal ones
-/// the lowest.
+/// Returns one point of every function. Among the points that share a function, it is the one in
+/// the best patch, and the lowest one among equals.
 std::vector<Id> PointsOfFunctions(const HatFunctions& hats, const GridFunctions& space, int threads)
 {
   const PatchChoice patches(
@@ -178,7 +179,7 @@ void CheckMeshes(const HatFunctions& hats, const GridFunctions& space, const Tri
   }
 }
 
-/// Fills a matrix row by row: fillRow(hat, row) lists the weights.
+/// Fills a matrix row by row. fillRow(hat, row) lists the weights.
 template<class FillRow>
 SparseMatrix BuildRows(
   const HatFunctions& hats, const GridFunctions& space, int threads, FillRow&& fillRow)

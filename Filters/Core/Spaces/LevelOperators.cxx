@@ -12,7 +12,7 @@ namespace gridfem
 namespace
 {
 
-/// Number of functions of the largest connected component.
+/// Returns the number of functions of the largest connected component.
 Index LargestComponent(const PatchLevel& level)
 {
   std::vector<Index> size;
@@ -33,7 +33,7 @@ bool IsCoarsest(const GridFunctions& space, std::size_t level, Index coarsestSiz
 
 using RowSums = std::array<double, FunctionsPerPatch>;
 
-/// Of `count` matrices, at most LaneCount.
+/// Computes the row sums of `count` matrices; `count` is at most LaneCount.
 void SumRows(const ElementMatrix* matrices, int count, RowSums* sums)
 {
   MatrixPointers entries;
@@ -57,7 +57,7 @@ void SumRows(const ElementMatrix* matrices, int count, RowSums* sums)
   StoreLanes(block, result, count, 0);
 }
 
-/// The functions of a patch sum to 1, so that ∫ b_i is the sum of row i of the mass matrix.
+/// Returns ∫ b_i, the sum of row i of the mass matrix, because the functions of a patch sum to 1.
 std::vector<double> IntegralsOfFunctions(
   const FunctionPlaces& places, const Array<ElementMatrix>& mass, int threads)
 {

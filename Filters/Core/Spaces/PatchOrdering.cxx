@@ -11,20 +11,21 @@ namespace gridfem
 namespace
 {
 
-/// Three bits of a Morton key are one level: the key of the block of 8 x 8 x 8 cells.
+/// Shifts the Morton key of a cell to the key of its block of 8 x 8 x 8 cells. Each level takes
+/// three bits.
 constexpr int BlockShift = 9;
 
-/// The lowest bits of the block's i, j and k. Functions of a block lie on the corners 0 .. 8 of its
-/// cells along each axis and their rows reach the corners -1 .. 9; the next block of the colour
-/// begins at corner 16. So two blocks of a colour neither share nor couple functions.
+/// Returns the lowest bits of the block's i, j and k. Along each axis, functions of a block lie on
+/// corners 0 .. 8 of its cells, and their rows reach corners -1 .. 9. The next block of the color
+/// begins at corner 16. Two blocks of one color therefore neither share nor couple functions.
 int Colour(MortonKey block)
 {
   return static_cast<int>(block & 7);
 }
 
-/// Patches of a block in the order of their cell's parity, as if each block were coloured by cells
-/// again; Morton order among equals. Neighbours then do not wait for each other, and conjugate
-/// gradients need 10 to 20 % fewer iterations than with plain Morton order.
+/// Returns the patches of a block by the parity of their cell, as if the cells of each block were
+/// colored again; equal ones are in Morton order. Neighbors then do not wait for each other.
+/// Conjugate gradients need 10 to 20 % fewer iterations than with plain Morton order.
 std::vector<Id> VisitingOrder(const PatchLevel& level, Id begin, Id end)
 {
   std::vector<Id> patches(end - begin);
@@ -41,7 +42,7 @@ struct BlockRange
   Id end;
 };
 
-/// Runs of patches that lie in one block; patches in Morton order are in block order, too.
+/// Returns the runs of patches in the same block. Patches in Morton order are also in block order.
 std::vector<BlockRange> FindBlocks(const std::vector<MortonKey>& cell)
 {
   std::vector<BlockRange> blocks;
@@ -75,7 +76,7 @@ void CheckLevel(const PatchLevel& level)
   }
 }
 
-/// Where every function's corner is.
+/// Stores the position of every function's corner.
 void PlaceFunctions(const PatchLevel& level, PatchOrder& order)
 {
   order.slice.assign(level.numberOfFunctions, 0);

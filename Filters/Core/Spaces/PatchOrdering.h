@@ -1,4 +1,4 @@
-// The order in which a level's patches are relaxed.
+// Chooses the order in which a level's patches are relaxed.
 #ifndef GridFEM_PatchOrdering_h
 #define GridFEM_PatchOrdering_h
 
@@ -8,13 +8,14 @@
 namespace gridfem
 {
 
-/// Blocks of 8 x 8 x 8 cells, coloured by the parity of the block's i, j, k: eight colours. A sweep
-/// then stays in the cache and every block is a serial job. Inside a block, patches are visited by
-/// the parity of their cell, then in Morton order. Throws InvalidInput when patches are not sorted
-/// by cell.
+/// Makes blocks of 8 x 8 x 8 cells in eight colors, given by the parity of the block's i, j, k. A
+/// sweep then stays in the cache, and every block is a serial job. Inside a block, patches are
+/// visited by the parity of their cell, then in Morton order. Throws InvalidInput when patches are
+/// not sorted by cell.
 PatchOrder OrderPatches(const PatchLevel& level);
 
-/// The same for some patches of a level, the rows of whose functions have entries of the others.
+/// Orders some patches of a level. The rows of their functions also have entries of the level's
+/// other functions.
 PatchOrder OrderPatches(const PatchLevel& some, const PatchLevel& level);
 
 } // namespace gridfem

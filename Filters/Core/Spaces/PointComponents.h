@@ -1,4 +1,4 @@
-// Which connected component of the functions a point lies on.
+// Finds the connected component of the functions at a point.
 #ifndef GridFEM_PointComponents_h
 #define GridFEM_PointComponents_h
 
@@ -7,14 +7,15 @@
 namespace gridfem
 {
 
-/// Per row of values at points (RowsAtPoints) the component of its first function; -1 without one.
+/// Returns, for each row of values at points (RowsAtPoints), the component of its first function;
+/// -1 for an empty row.
 std::vector<Index> ComponentsOfRows(const SparseMatrix& rows, const Components& components);
 
-/// Per point of the mesh; -1 where no function reaches.
+/// Returns the component at each point of the mesh; -1 where no function reaches.
 std::vector<Index> ComponentsOfPoints(
   const SurfaceSpace& space, const Components& components, const Job& job = {});
 
-/// values -= the constant of each row's component; rows of nothing become 0.
+/// Subtracts the constant of its component from each row. Rows without a component become 0.
 void SubtractConstants(
   const MultiVector& constant, const std::vector<Index>& componentOfRow, MultiVector& values);
 

@@ -1,4 +1,4 @@
-// Which finite element space is wanted on a mesh.
+// The choice of a finite element space on a mesh.
 #ifndef GridFEM_SpaceChoice_h
 #define GridFEM_SpaceChoice_h
 
@@ -10,13 +10,13 @@
 namespace gridfem
 {
 
-/// Which space is wanted on a basis.
+/// The finite element space to build on given functions of a grid.
 struct SpaceChoice : OperatorOptions
 {
   FunctionKind kind = FunctionKind::Grid;
 };
 
-/// Clips the mesh and builds all that the space takes. Throws InvalidInput and Aborted.
+/// Clips the mesh and builds everything that the space needs. Throws InvalidInput and Aborted.
 std::unique_ptr<FiniteElementSpace> BuildSpace(const TriangleMesh& mesh,
   const SpaceOptions& functions, const SpaceChoice& choice, const Progress& progress);
 

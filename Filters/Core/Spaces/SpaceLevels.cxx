@@ -44,7 +44,7 @@ Multigrid BuildMultigrid(const SpaceLevels& space, double a, double b,
 
 void UpdateMultigrid(const SpaceLevels& space, double a, double b, Multigrid& multigrid)
 {
-  const MemoryReuse reuse; // the new factors take the place of the old ones
+  const MemoryReuse reuse; // the new factors reuse the memory of the old ones
   multigrid.Update([&](std::size_t level, SparseMatrix& matrix)
     { space.FillMatrix(level, a, b, matrix, multigrid.Options().threads); });
 }

@@ -1,4 +1,4 @@
-// Means over components: what they are, and that threads do not change a bit of them.
+// Tests means over components: their values, and that the number of threads changes no bit.
 #include "Algebra/ComponentMeans.h"
 #include "SampledHierarchy.h"
 
@@ -11,7 +11,7 @@ namespace
 
 using testing::RandomVectors;
 
-/// Functions of `components` components in turn; the last component has no area.
+/// Functions of `components` components in turn. The last component has no area.
 struct Functions
 {
   std::vector<Index> component;
@@ -31,7 +31,7 @@ struct Functions
   ComponentMeans Means(int threads) const { return { component, integral, components, threads }; }
 };
 
-/// Enough functions for two threads; columns in chunks of all sizes.
+/// Enough functions for two threads, and columns in chunks of all sizes.
 class Means : public ::testing::TestWithParam<int>
 {
 protected:
@@ -67,7 +67,7 @@ TEST_P(Means, OfConstantsAreTheConstants)
     MultiVector x = MultiVector::Zero(60000, GetParam());
     means.AddConstants(constants, x);
     constants.bottomRows(1).setZero(); // no area, no mean
-    // Sums of 20,000 numbers.
+    // Each value is a sum of up to 20,000 numbers.
     EXPECT_LT((means.OfFunction(x) - constants).cwiseAbs().maxCoeff(), 1e-12);
     MultiVector load = MultiVector::Zero(60000, GetParam());
     means.SubtractIntegrals(-constants, load);

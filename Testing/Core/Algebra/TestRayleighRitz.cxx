@@ -1,4 +1,4 @@
-// The projected eigenproblem and the products that build it.
+// Tests the projected eigenproblem and the products that build it.
 #include "Algebra/BasisProducts.h"
 #include "Algebra/BlockProducts.h"
 #include "Algebra/RayleighRitz.h"
@@ -30,7 +30,7 @@ Eigen::MatrixXd Random(Index rows, Index columns, unsigned seed)
   return A;
 }
 
-/// A pencil with the given values: mass = T Tᵀ, stiffness = T diag(values) Tᵀ.
+/// A pencil with the given eigenvalues: mass = T Tᵀ, stiffness = T diag(values) Tᵀ.
 struct Pencil
 {
   Eigen::MatrixXd stiffness;
@@ -52,7 +52,7 @@ TEST(SolvePencil, FindsTheLowestPairsInOrder)
   const Pencil pencil = MakePencil(Random(size, size, 1), Ramp(size));
   const RitzPairs pairs = SolvePencil(pencil.stiffness, pencil.mass, 1.0, 7);
   ASSERT_EQ(pairs.values.size(), 7);
-  // A random 30 x 30 matrix has a condition near 1e3, its square times rounding is 1e-10.
+  // A random 30 x 30 matrix has a condition number near 1e3. Its square times rounding is 1e-10.
   EXPECT_LT((pairs.values - Ramp(7)).norm(), 1e-9);
   const Eigen::MatrixXd& C = pairs.coefficients;
   EXPECT_LT((C.transpose() * pencil.mass * C - Eigen::MatrixXd::Identity(7, 7)).norm(), 1e-9);
@@ -72,7 +72,8 @@ TEST(SolvePencil, LeavesOutDependentVectors)
 
 TEST(SolvePencil, DirectionsWithoutMassAreNoPairs)
 {
-  // Stiffness regular, mass of rank 3: exactly three finite values, and no others pose as pairs.
+  // The stiffness is regular and the mass has rank 3. There are exactly three finite values, and
+  // nothing else passes for a pair.
   const Eigen::MatrixXd Q = Random(8, 8, 3);
   Eigen::VectorXd mass = Eigen::VectorXd::Zero(8);
   mass.head(3) << 1.0, 0.5, 0.25;
@@ -102,7 +103,7 @@ TEST(SolvePencil, NothingGivesNothing)
   EXPECT_EQ(SolvePencil({}, {}, 1.0, 3).values.size(), 0);
 }
 
-/// A matrix with entries on three diagonals.
+/// Returns a matrix with entries on three diagonals.
 SparseMatrix Tridiagonal(Index size, double diagonal, double beside)
 {
   testing::SparseRows rows;
@@ -119,13 +120,13 @@ SparseMatrix Tridiagonal(Index size, double diagonal, double beside)
 
 TEST(Products, EqualPlainOnesAndDoNotDependOnThreads)
 {
-  const Index rows = 5500; // several sums of several ranges
+  const Index rows = 5500; // several sums over several ranges
   const SparseMatrix A = Tridiagonal(rows, 2.0, -1.0);
   const SparseMatrix B = Tridiagonal(rows, 4.0, 0.5);
   const MultiVector X = Random(rows, 150, 5);
   const MultiVector empty(rows, 0);
   const MultiVector Z = Random(rows, 20, 9);
-  const MultiVector Y = Random(rows, 23, 10); // groups of 16, 4 and 1
+  const MultiVector Y = Random(rows, 23, 10); // groups of 16, 4 and 1 columns
   MultiVector basis(rows, 170);
   basis << X, Z;
   MultiVector image(rows, 46);
@@ -195,16 +196,16 @@ TEST(Products, InSinglePrecisionAreRoundedOnce)
   const SparseMatrix A = Tridiagonal(rows, 2.0, -1.0);
   const SparseMatrix B = Tridiagonal(rows, 4.0, 0.5);
   const Vectors<float> X = Random(rows, 40, 5).cast<float>();
-  const Vectors<float> Y = Random(rows, 55, 10).cast<float>(); // groups of 32, 16, 4 and 1
+  const Vectors<float> Y = Random(rows, 55, 10).cast<float>(); // groups of 32, 16, 4 and 1 columns
   const MultiVector wideX = X.cast<double>();
   const MultiVector wideY = Y.cast<double>();
   const BasisParts<float> parts = { X };
   const Eigen::MatrixXd pair = ProjectPair<float>(parts, A, B, Y, 1);
   const Eigen::MatrixXd exact = ProjectPair<double>({ wideX }, A, B, wideY, 1);
-  // Sums of a few hundred products, each rounded to 6e-8, next to terms that cancel.
+  // Sums of a few hundred products, each rounded to 6e-8, in which terms cancel.
   EXPECT_LT((pair - exact).norm(), 1e-6 * exact.norm());
   EXPECT_TRUE(pair == ProjectPair<float>(parts, A, B, Y, 3));
-  // Residuals: seven roundings of sums up to (514 + 0.37 * 516) times the largest entry.
+  // Residuals have seven roundings of sums of up to (514 + 0.37 * 516) times the largest entry.
   const Eigen::VectorXd values = Eigen::VectorXd::Constant(55, 0.37);
   Vectors<float> single(256, 55);
   MultiVector wide(256, 55);

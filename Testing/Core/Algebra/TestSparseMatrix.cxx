@@ -1,4 +1,4 @@
-// Products, residual and transpose of sparse matrices, for every number of columns.
+// Tests products, residual and transpose of sparse matrices for every number of columns.
 #include "Algebra/SparseMatrix.h"
 #include "Base/Errors.h"
 #include "SampledHierarchy.h"
@@ -14,7 +14,7 @@ using testing::Dense;
 using testing::RandomVectors;
 using testing::Sparse;
 
-/// Sums of at most 12 products of numbers up to 1, in whatever order.
+/// Bound for sums of at most 12 products of numbers up to 1, in any order.
 constexpr double Rounding = 1e-14;
 
 SparseMatrix RandomMatrix(Index rows, Index columns)

@@ -1,4 +1,4 @@
-// Arrays below and above the size from which they take large memory.
+// Tests arrays below and above the size at which they start to use large memory.
 #include "Base/Array.h"
 
 #include <gtest/gtest.h>
@@ -67,7 +67,7 @@ namespace
 
 constexpr std::size_t Block = 4 * LargeMemorySize;
 
-/// Bytes of the process that are in memory.
+/// Bytes of the process that are resident in memory.
 double ResidentBytes()
 {
   std::ifstream file("/proc/self/statm");
@@ -136,14 +136,14 @@ TEST(LargeMemory, ThatIsKeptGoesBackWhenAskedFor)
   EXPECT_LT(ResidentBytes(), before + 3.0 * Block);
 }
 
-// Parts of pages were: what was left of a block began off a page, and giving it back took the
-// beginning of the next block along, which was in use.
+// Regression test: once, partial pages were returned. The rest of a block began inside a page, and
+// returning it took the beginning of the next block, which was in use.
 TEST(LargeMemory, GoesBackInWholePages)
 {
   const MemoryReuse reuse;
   char* const whole = AllocateAndTouch(Block);
   FreeLargeMemory(whole, Block);
-  char* const used = AllocateAndTouch(Block / 2); // the end of it
+  char* const used = AllocateAndTouch(Block / 2); // the end of `whole`
   ASSERT_EQ(used, whole + Block / 2);
   ReturnLargeMemory(12345);
   char* const other = AllocateAndTouch(LargeMemorySize);

@@ -1,4 +1,4 @@
-// Grouping against the lists that one item after the other makes.
+// Compares grouping with lists made one item after the other.
 #include "Base/Grouping.h"
 
 #include <gtest/gtest.h>

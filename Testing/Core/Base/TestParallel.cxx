@@ -1,4 +1,4 @@
-// The number of threads that loops run on.
+// Tests the number of threads that loops use.
 #include "Base/Parallel.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Sorting by keys, against the standard library.
+// Compares sorting by keys with the standard library.
 #include "Base/RadixSort.h"
 
 #include <gtest/gtest.h>

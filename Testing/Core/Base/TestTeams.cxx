@@ -1,4 +1,4 @@
-// Threads that the system does not give.
+// Tests what happens when the system refuses threads.
 #include "Base/Errors.h"
 #include "Base/Parallel.h"
 #include "Base/Teams.h"
@@ -20,7 +20,7 @@ namespace gridfem
 namespace
 {
 
-constexpr int Many = 64; // their stacks, of 8 MB each, are more than any that are kept
+constexpr int Many = 64; // their stacks of 8 MB each exceed the stacks that the system keeps
 
 TEST(Teams, OneThreadIsAlwaysThere)
 {
@@ -74,7 +74,7 @@ TEST(Teams, AnExceptionOfAJobComesWhenAllHaveEnded)
 }
 
 #if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-/// While it lives, the process can have that many more bytes of addresses.
+/// While this object lives, the address space of the process can grow only by `room` bytes.
 class Limit
 {
 public:

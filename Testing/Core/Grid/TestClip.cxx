@@ -1,5 +1,5 @@
-// Clipping: nothing lost, nothing twice, every piece inside its cell, neighbours agree on cut
-// points.
+// Tests clipping: nothing is lost or doubled, every piece is inside its cell, and neighbors agree
+// on cut points.
 #include "Grid/Clip.h"
 
 #include "Base/Errors.h"
@@ -64,8 +64,8 @@ double ClippedArea(const ClippedMesh& clipped)
   return area * clipped.grid.spacing * clipped.grid.spacing;
 }
 
-/// A rectangle in a grid of 16 cells per side whose heights are off a plane of the grid by up to
-/// half of `deviation` (in cells), so that points and cuts are taken onto the plane one by one.
+/// Returns a rectangle in a grid of 16 cells per side. Its heights differ from a grid plane by up
+/// to half of `deviation` (in cells), so that points and cuts are snapped to the plane one by one.
 TriangleMesh NearlyOnAGridPlane(unsigned seed, double deviation)
 {
   const double cell = 1.0 / 16.0;
@@ -76,10 +76,12 @@ TriangleMesh NearlyOnAGridPlane(unsigned seed, double deviation)
     const double part = double(generator()) / double(std::mt19937::max());
     point[2] = cell * (4.0 + deviation * (part - 0.5));
   }
-  return Join(mesh, Transform(FlatRectangle(1, 1), { 1, 0, 0 }, std::acos(-1.0) / 2)); // heights
+  return Join(mesh, Transform(FlatRectangle(1, 1), { 1, 0, 0 }, std::acos(-1.0) / 2)); // fixes the
+                                                                                       // heights of
+                                                                                       // the grid
 }
 
-/// The cells that each link connects, in ascending order.
+/// Returns the cells that each link connects, in ascending order.
 std::vector<std::pair<MortonKey, MortonKey>> LinkedCells(const ClippedMesh& clipped)
 {
   const Array<Index> cell = PieceCells(clipped);
@@ -161,7 +163,7 @@ TEST(Clip, PiecesStayInsideTheirCells)
   for (const auto& [name, mesh] : MakeMeshes())
   {
     const ClippedMesh clipped = ClipAt(mesh, 5);
-    // What lies within the rounding of the input of a plane counts as on it.
+    // A coordinate within the rounding of the input of a plane counts as lying on it.
     const double tolerance = name == "far away" ? 1e-6 : 1e-9;
     for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
     {
@@ -197,8 +199,8 @@ TEST(Clip, PiecesAreSortedByCellThenTriangle)
   }
 }
 
-// On a closed surface every edge of every piece has exactly one partner, by point ids: that is what
-// "cut points shared by neighbours are one point" means.
+// On a closed surface, every edge of every piece has exactly one partner with the same point ids.
+// This means that cut points shared by neighbors are a single point.
 TEST(Clip, ClosedMeshStaysClosed)
 {
   for (const auto& [name, mesh] : MakeMeshes())
@@ -263,7 +265,7 @@ TEST(Clip, CutPointsAreUsedAndLieOnTheirTriangle)
   }
 }
 
-// The cube's faces lie in planes of the grid: each face belongs to one layer of cells.
+// The cube's faces lie in planes of the grid. Each face belongs to one layer of cells.
 TEST(Clip, CubeOnGridPlanesIsHandledOnce)
 {
   for (const int n : { 1, 2, 3, 8 })
@@ -279,7 +281,8 @@ TEST(Clip, CubeOnGridPlanesIsHandledOnce)
 
 TEST(Clip, PlaneThroughGridLinesMakesNoSlivers)
 {
-  // x + y = constant through lattice points: rounding must not add cells beside the diagonal ones.
+  // On x + y = constant through lattice points, rounding must not add cells beside the diagonal
+  // ones.
   TriangleMesh diagonal;
   diagonal.points = { { 0, 0, 0 }, { 1, 1, 0 }, { 1, 1, 1 }, { 0, 0, 1 } };
   diagonal.triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
@@ -350,7 +353,7 @@ TEST(Clip, NonManifoldEdgesConnectAllTheirTriangles)
       pairs.insert(std::minmax(a, b));
     }
   }
-  // Inside one cell a tree is enough: the lowest triangle is linked to both others.
+  // Within one cell, a tree is enough: the lowest triangle is linked to both others.
   EXPECT_TRUE(pairs.count({ 0, 1 }));
   EXPECT_TRUE(pairs.count({ 0, 2 }));
 }

@@ -1,4 +1,4 @@
-// The test meshes themselves: topology, orientation, sizes. Other tests lean on these facts.
+// Tests the test meshes themselves: topology, orientation, sizes. Other tests rely on these facts.
 #include "Meshes.h"
 
 #include <Eigen/Geometry>
@@ -31,7 +31,8 @@ DirectedEdges CountDirectedEdges(const TriangleMesh& mesh)
   return count;
 }
 
-/// Every directed edge occurs once and its opposite once: closed, manifold edges, oriented.
+/// Whether every directed edge and its opposite occur once. The mesh is then closed and oriented,
+/// with manifold edges.
 bool IsClosedAndOriented(const TriangleMesh& mesh)
 {
   const DirectedEdges edges = CountDirectedEdges(mesh);
@@ -57,7 +58,7 @@ Id EulerCharacteristic(const TriangleMesh& mesh)
          static_cast<Id>(mesh.triangles.size());
 }
 
-/// Positive when the triangles point outwards.
+/// Returns the enclosed volume, positive if the triangles point outward.
 double EnclosedVolume(const TriangleMesh& mesh)
 {
   double volume = 0;
@@ -132,19 +133,20 @@ TEST(Meshes, SphereOfTable43HasItsCounts)
 
 TEST(Meshes, SphereAreaConvergesWithSecondOrder)
 {
-  // An inscribed polyhedron misses an area proportional to h²: half h, a quarter of the error.
+  // An inscribed polyhedron misses an area proportional to h², so half of h gives a quarter of the
+  // error.
   const double exact = 4 * Pi;
   const double coarse = exact - SurfaceArea(GeodesicSphere(8));
   const double fine = exact - SurfaceArea(GeodesicSphere(16));
   EXPECT_GT(fine, 0.0);
-  EXPECT_NEAR(coarse / fine, 4.0, 0.2); // higher-order terms are a few per cent at this h
+  EXPECT_NEAR(coarse / fine, 4.0, 0.2); // higher-order terms are a few percent at this h
   const double longitudes = exact - SurfaceArea(LatLongSphere(32, 15, 1.0));
   EXPECT_NEAR(longitudes / (exact - SurfaceArea(LatLongSphere(64, 31, 1.0))), 4.0, 0.2);
 }
 
 TEST(Meshes, TorusAreaApproachesTheExactOne)
 {
-  // Relative error of an inscribed torus is below (π/n)² for the smaller count n per circle.
+  // The relative error of an inscribed torus is below (π/n)² for the smaller count n per circle.
   const double exact = 4 * Pi * Pi * 2.0 * 0.5;
   EXPECT_NEAR(SurfaceArea(Torus(160, 80, 2.0, 0.5)) / exact, 1.0, std::pow(Pi / 80, 2));
 }
@@ -162,7 +164,7 @@ TEST(Meshes, TrefoilStrandsNearlyTouchButDoNot)
       centre[i] += knot.points[i * around + j] / around;
     }
   }
-  // Half a strand's turn apart or more along the knot is another strand.
+  // Points at least a quarter of the knot apart along it belong to different strands.
   double nearest = 1e9;
   for (int i = 0; i < along; ++i)
   {
@@ -209,7 +211,7 @@ TEST(Meshes, RealFilesAreReadAsTheirFolderDescribesThem)
     std::size_t points;
     std::size_t triangles;
   };
-  // One of each kind: binary PLY, PLY with colours, ASCII STL, binary STL, OFF.
+  // One file of each kind: binary PLY, PLY with colors, ASCII STL, binary STL, OFF.
   for (const FileCase& test : { FileCase{ "rocker_arm.ply", 10044, 20088 },
          FileCase{ "laurana_colour_50k.ply", 27861, 49954 }, FileCase{ "pulley.stl", 8520, 2840 },
          FileCase{ "conrod.stl", 19326, 6442 }, FileCase{ "small/prim.off", 0, 0 } })

@@ -1,4 +1,4 @@
-// Patches, functions and nested levels, plain and connectivity-aware.
+// Tests patches, functions and nested levels, plain and connectivity-aware.
 #include "Grid/GridFunctions.h"
 
 #include "Base/Errors.h"
@@ -27,7 +27,7 @@ GridFunctions SpaceOf(
   return BuildGridFunctions(mesh, options);
 }
 
-/// Lattice point of corner c of a cell, as a key.
+/// Returns the lattice point of a cell's corner, as a key.
 MortonKey CornerKey(MortonKey cell, int corner)
 {
   CellIndex index = MortonDecode(cell);
@@ -62,7 +62,7 @@ TEST(PatchLevel, SphereOfThesisTable43)
   EXPECT_EQ(space.Finest().numberOfFunctions, 9532);
 }
 
-// Thesis Table 4.3 prints 3,226 functions for the rocker arm at depth 5.
+// Thesis Table 4.3 lists 3,226 functions for the rocker arm at depth 5.
 TEST(PatchLevel, RockerArmOfThesisTable43)
 {
   const std::string path = RealMesh("rocker_arm.ply");
@@ -95,8 +95,8 @@ TEST(PatchLevel, PlainSpaceHasOneFunctionPerGridCorner)
   }
 }
 
-// The definition itself, computed another way: for every grid corner the connected components of
-// the patches around it, by repeated sweeps over the links.
+// Computes the definition in another way. For every grid corner, repeated sweeps over the links
+// find the connected components of the patches around it.
 TEST(PatchLevel, FunctionsAreTheComponentsOfTheirSupport)
 {
   for (const TriangleMesh& mesh :
@@ -107,7 +107,7 @@ TEST(PatchLevel, FunctionsAreTheComponentsOfTheirSupport)
     const ClippedMesh clipped = Clip(mesh, options);
     const PatchPartition patches = BuildPatches(clipped, FunctionSupport::ConnectivityAware);
     const PatchLevel level = BuildFinestLevel(4, patches, FunctionSupport::ConnectivityAware);
-    std::map<MortonKey, std::map<Id, Id>> label; // per corner: patch -> component label
+    std::map<MortonKey, std::map<Id, Id>> label; // for each corner: patch -> component label
     std::map<MortonKey, std::map<Id, int>> cornerOf;
     for (Id patch = 0; patch < level.NumberOfPatches(); ++patch)
     {
@@ -162,7 +162,8 @@ TEST(PatchLevel, LevelsAreNested)
       ASSERT_EQ(fine.parent.size(), fine.cell.size());
       std::vector<int> children(coarse.cell.size(), 0);
       // Patches that share a function have parents that share every coarse function on which the
-      // fine one depends: the row of the prolongation does not depend on the patch. [T (6.1)]
+      // fine function depends. The row of the prolongation therefore does not depend on the patch.
+      // [T (6.1)]
       std::vector<std::map<MortonKey, Index>> row(fine.numberOfFunctions);
       for (Id patch = 0; patch < fine.NumberOfPatches(); ++patch)
       {
@@ -248,7 +249,7 @@ TEST(PatchLevel, SoupGivesTheFunctionsOfItsWeldedMesh)
 TEST(PatchLevel, EveryUsedPointHasAPatchThatContainsIt)
 {
   TriangleMesh mesh = LatLongSphere(40, 21);
-  mesh.points.push_back({ 9, 9, 9 }); // used by nothing
+  mesh.points.push_back({ 9, 9, 9 }); // no triangle uses it
   const GridFunctions space = SpaceOf(mesh, 5);
   EXPECT_EQ(space.pointPatch.back(), -1);
   for (std::size_t point = 0; point + 1 < mesh.points.size(); ++point)
@@ -301,8 +302,8 @@ TEST(PatchLevel, RefusesTablesThatDoNotFit)
     RestoreGridFunctions(live.clipped, piecePatch, live.Finest(), live.support), InvalidInput);
 }
 
-// A corner that pokes 1e-6 of a cell into the next one makes a sliver there: it must not make
-// functions.
+// A corner that reaches 1e-6 of a cell into the next cell makes a sliver there. The sliver must not
+// create functions.
 TEST(PatchLevel, SliversJoinTheirNeighbours)
 {
   TriangleMesh mesh;

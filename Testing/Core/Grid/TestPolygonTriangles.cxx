@@ -12,7 +12,8 @@ namespace gridfem
 namespace
 {
 
-/// A regular polygon whose every second corner is drawn in by a part of the radius.
+/// Returns a regular polygon in which every second corner is moved inward by a fraction of the
+/// radius.
 std::vector<Vec3> Star(int size, double depth)
 {
   std::vector<Vec3> corners;
@@ -31,7 +32,7 @@ std::vector<Triangle> TrianglesOf(const std::vector<Vec3>& corners)
   return TrianglesOfPolygon(corners, 0, ids);
 }
 
-/// Along z: positive for triangles that are turned as the polygon is.
+/// Returns signed areas along z, positive for triangles with the orientation of the polygon.
 std::vector<double> AreasOf(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles)
 {
   std::vector<double> areas;

@@ -1,4 +1,4 @@
-// Where surfaces end, and which way they face.
+// Tests where surfaces end, and which way they face.
 #include "Grid/SurfaceEdges.h"
 
 #include "Meshes.h"
@@ -13,7 +13,7 @@ using namespace gridfem::testing;
 namespace
 {
 
-/// A band of so many squares, closed after half a turn when it is twisted.
+/// Returns a band of `squares` squares. A twisted band is closed after half a turn.
 TriangleMesh Band(Id squares, bool isTwisted)
 {
   TriangleMesh mesh;
@@ -88,7 +88,7 @@ TEST(SurfaceEdges, KnowAMoebiusStrip)
 
 TEST(SurfaceEdges, PartComponentsWhereSheetsBranch)
 {
-  // Three triangles at one edge, and one without an area that does not count.
+  // Three triangles share an edge, and a triangle without area does not count.
   TriangleMesh mesh;
   mesh.points = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, -1, 0 }, { 0, 0, 1 } };
   mesh.triangles = { { 0, 1, 2 }, { 1, 0, 3 }, { 0, 1, 4 }, { 0, 1, 1 } };

@@ -1,4 +1,4 @@
-// Level matrices and prolongations: against dense sums, Galerkin products and point values.
+// Compares level matrices and prolongations with dense sums, Galerkin products and point values.
 #include "Integrals/Assembly.h"
 
 #include "ElementSums.h"
@@ -44,7 +44,8 @@ SparseMatrix Assemble(
   return matrix;
 }
 
-/// A function of the patch's level at a point in grid units of the finest level.
+/// Returns the value of a function of the patch's level at a point in grid units of the finest
+/// level.
 double ValueInPatch(const PatchLevel& level, Id patch, double side, const Vec3& position,
   const MultiVector& coefficients)
 {
@@ -94,7 +95,7 @@ TEST_P(AssemblyOnSpaces, MatricesAreTheSumsOfTheirElements)
     Coarsened(space.levels[0], level, IntegrateElements(space, TriangleRule(2)));
   const Eigen::MatrixXd M = DenseSum(level, elements.mass);
   const Eigen::MatrixXd L = DenseSum(level, elements.stiffness);
-  // A few additions of at most eight terms each.
+  // Each entry takes a few additions of at most eight terms.
   EXPECT_LT(
     RelativeDifference(Dense(Assemble(level, elements, 3.0, 0.5)), 3.0 * M + 0.5 * L), 1e-14);
   EXPECT_LT(
@@ -131,7 +132,7 @@ TEST_P(AssemblyOnSpaces, FillingAgainReplacesTheValues)
   const SparseMatrix B = Assemble(level, elements, 0.1, 1.0, 1);
   EXPECT_EQ(A.rowBegin, B.rowBegin);
   EXPECT_EQ(A.column, B.column);
-  EXPECT_EQ(A.value, B.value); // one thread or two: the same bits
+  EXPECT_EQ(A.value, B.value); // the same bits for one thread and two
 }
 
 TEST_P(AssemblyOnSpaces, GalerkinProductsEqualTheAssembledCoarseMatrices)
@@ -210,7 +211,7 @@ TEST_P(AssemblyOnSpaces, ProlongedFunctionsHaveTheSameValuesOnTheSurface)
       patch = space.levels[l].parent[patch];
     }
     const double side = std::pow(2.0, double(top));
-    // Coefficients are at most 1 and their weights sum to 1.
+    // Coefficients are at most 1, and their weights sum to 1.
     ASSERT_NEAR(value, ValueInPatch(space.levels[top], patch, side, position, coarse), 1e-13);
   }
 }

@@ -1,5 +1,5 @@
-// Element matrices split by direction: the parts add up, each sees its own slope only, and weights
-// are the same as the metric they stand for.
+// Tests element matrices split by direction. The parts add up, each part depends only on its own
+// derivative, and weights give the same result as the metric that they represent.
 #include "Integrals/DirectionalElements.h"
 
 #include "Base/Errors.h"
@@ -17,7 +17,7 @@ using namespace gridfem::testing;
 namespace
 {
 
-/// Random ones, some of them zero, some across the surface.
+/// Returns random directions. Some are zero, some are normal to the surface.
 std::vector<Vec3> RandomDirections(const TriangleMesh& mesh)
 {
   const MultiVector values = RandomValues(static_cast<Id>(mesh.triangles.size()), 3);
@@ -33,7 +33,7 @@ std::vector<Vec3> RandomDirections(const TriangleMesh& mesh)
   return directions;
 }
 
-/// A tilted rectangle of 2 x 1 with the directions of its sides.
+/// A tilted rectangle of 2 x 1, with the directions of its sides.
 struct TiltedRectangle
 {
   Eigen::Matrix3d turn = Eigen::AngleAxisd(0.6, Vec3(1, 2, -1).normalized()).toRotationMatrix();
@@ -44,7 +44,7 @@ struct TiltedRectangle
   DirectionalElements elements = IntegrateElements(
     space, TriangleRule(2), std::vector<Vec3>(mesh.triangles.size(), 5.0 * along));
 
-  /// Coefficients of the distance along a direction.
+  /// Returns the coefficients of the distance along a direction.
   MultiVector Distance(const Vec3& direction) const
   {
     return CoordinateCoefficients(space) * direction;
@@ -83,8 +83,8 @@ TEST(DirectionalElements, SeeTheSlopeAlongTheirDirectionOnly)
   EXPECT_NEAR(Energy(space, stiffness[1], rectangle.Distance(rectangle.across)), area, 1e-10);
 }
 
-/// Two ways to the same: weights of the metric diag(α₁², α₂²), and the metric of the stretched
-/// rectangle, on samples.
+/// Compares two ways: weights of the metric diag(α₁², α₂²), and the metric of the stretched
+/// rectangle at samples.
 TEST(DirectionalElements, WeightsAreTheMetricTheyStandFor)
 {
   const TiltedRectangle rectangle;
@@ -104,7 +104,7 @@ TEST(DirectionalElements, WeightsAreTheMetricTheyStandFor)
   Weigh(rectangle.elements, std::vector<ElementWeights>(rectangle.elements.mass.size(), weights),
     weighted);
   EXPECT_LE(LargestDifference(weighted.mass, stretched.mass), 1e-12);
-  // The normal's weight of 1e-12 is stretched with the directions in one, not in the other.
+  // The normal's weight of 1e-12 is stretched like the directions in one way, but not in the other.
   EXPECT_LE(LargestDifference(weighted.stiffness, stretched.stiffness), 1e-10);
 }
 

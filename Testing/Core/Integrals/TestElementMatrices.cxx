@@ -1,5 +1,5 @@
-// Element matrices: sums that must hold on any mesh, an independent integration on coarse levels,
-// and what must not matter (subdivision in the plane, slivers, threads).
+// Tests element matrices: sums that must hold on any mesh, an independent integration on coarse
+// levels, and invariance (subdivision in the plane, slivers, threads).
 #include "Integrals/ElementMatrices.h"
 
 #include "Dense.h"
@@ -35,7 +35,8 @@ double AreaInGridUnits(const SpaceCase& space, const Grid& grid)
   return SurfaceArea(space.mesh) / (grid.spacing * grid.spacing);
 }
 
-/// The element matrices of a level straight from the samples of the finest pieces: no coarsening.
+/// The element matrices of a level, integrated directly from the samples of the finest pieces
+/// without coarsening.
 struct DirectIntegrals
 {
   std::vector<Element> mass;
@@ -135,7 +136,7 @@ TEST_P(ElementsOfSpaces, MassSumsToTheArea)
     sum += Full(mass).sum();
   }
   const double area = AreaInGridUnits(GetParam(), space.GetGrid());
-  // Far from the origin the grid coordinates lose |coordinate| / size of the digits.
+  // Far from the origin, grid coordinates lose digits by the factor |coordinate| / size.
   EXPECT_NEAR(sum, area, 1e-12 * area);
 }
 
@@ -145,7 +146,7 @@ TEST_P(ElementsOfSpaces, StiffnessAnnihilatesConstants)
   for (const ElementMatrix& stiffness : elements.stiffness)
   {
     const Element L = Full(stiffness);
-    // Eight terms of both signs, each with an error of a few roundings of the largest sum.
+    // Each sum has eight terms of both signs, with an error of a few roundings of the largest sum.
     EXPECT_LT(L.rowwise().sum().cwiseAbs().maxCoeff(), 1e-14 * L.trace() + 1e-300);
   }
 }
@@ -164,7 +165,7 @@ TEST_P(ElementsOfSpaces, AreSymmetricPositiveSemidefinite)
 
 TEST_P(ElementsOfSpaces, EnergyOfTheCoordinatesIsTwiceTheArea)
 {
-  // |∇x|² + |∇y|² + |∇z|² of tangential gradients is the trace of the projection on the plane: 2.
+  // For tangential gradients, |∇x|² + |∇y|² + |∇z|² is the trace of the projection to the plane: 2.
   const GridFunctions space = GetParam().Build();
   const ElementMatrices elements = IntegrateElements(space, TriangleRule(2));
   double energy = 0.0;
@@ -182,7 +183,7 @@ TEST_P(ElementsOfSpaces, EnergyOfTheCoordinatesIsTwiceTheArea)
     }
   }
   const double area = AreaInGridUnits(GetParam(), space.GetGrid());
-  // Normal derivatives may have a weight of 1e-12 beside the rounding.
+  // In addition to rounding, normal derivatives may have a weight of 1e-12.
   EXPECT_NEAR(energy, 2.0 * area, 4e-12 * area);
 }
 
@@ -206,8 +207,8 @@ TEST_P(ElementsOfSpaces, CoarsenedMatricesEqualDirectIntegrationOnEveryLevel)
 
 TEST_P(ElementsOfSpaces, DoNotDependOnSubdivisionInThePlane)
 {
-  // Degree 6 integrates the products of two trilinear functions exactly on any piece. New points of
-  // the subdivision are rounded to the input's precision, seen from the origin.
+  // Degree 6 integrates the products of two trilinear functions exactly on any piece. The new
+  // points of the subdivision are rounded to the input's precision, relative to the origin.
   SpaceCase subdivided = GetParam();
   subdivided.mesh = SubdivideInPlane(subdivided.mesh);
   const GridFunctions coarse = GetParam().Build();
@@ -252,7 +253,8 @@ TEST(ElementMatrices, OfTrianglesWithoutAreaVanish)
 
 TEST(ElementMatrices, OfASquareInTheMiddleOfACellAreTheKnownOnes)
 {
-  // A unit square in the plane z = 1/2 that fills one cell: tensor products of 1D matrices.
+  // A unit square in the plane z = 1/2 fills one cell. Its matrices are tensor products of 1D
+  // matrices.
   TriangleMesh mesh;
   mesh.points = { { 0, 0, 0.5 }, { 1, 0, 0.5 }, { 1, 1, 0.5 }, { 0, 1, 0.5 } };
   mesh.triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
@@ -308,7 +310,7 @@ TEST(Trilinear, FunctionsInterpolateAndSumToOne)
 
 TEST(Trilinear, GradientsAreDifferencesAlongTheAxes)
 {
-  // Along an axis the functions are linear: a difference over 1 is the derivative.
+  // The functions are linear along an axis, so a difference over length 1 is the derivative.
   const MultiVector points = RandomValues(20, 3);
   for (Id k = 0; k < points.rows(); ++k)
   {

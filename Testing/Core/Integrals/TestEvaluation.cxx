@@ -1,4 +1,5 @@
-// Values and surface gradients at points: the space contains the linear functions of space.
+// Tests values and surface gradients at points: the function space contains the linear functions in
+// space.
 #include "Integrals/Evaluation.h"
 
 #include "Integrals/TrilinearBasis.h"
@@ -20,11 +21,11 @@ class EvaluationOnSpaces : public ::testing::TestWithParam<SpaceCase>
 protected:
   GridFunctions space = GetParam().Build();
   MultiVector coordinates = CoordinateCoefficients(space);
-  /// Rounding of world coordinates, of which grid coordinates and spacing are made.
+  /// Rounding of world coordinates, from which grid coordinates and spacing are computed.
   double tolerance = 1e-14 * coordinates.cwiseAbs().maxCoeff();
 };
 
-/// At a point (grid units) of a patch of the finest level.
+/// Returns the value at a point (in grid units) of a patch of the finest level.
 Eigen::RowVectorXd ValueInPatch(
   const GridFunctions& space, Id patch, const Vec3& position, const MultiVector& coefficients)
 {
@@ -62,7 +63,7 @@ TEST_P(EvaluationOnSpaces, CoordinatesAreReproducedAtAllClippedPoints)
 
 TEST_P(EvaluationOnSpaces, FunctionsAreContinuousAcrossPieces)
 {
-  // A shared point has one value, whichever of its pieces' patches is asked.
+  // A shared point has a single value for the patches of all its pieces.
   const MultiVector coefficients = RandomValues(space.Finest().numberOfFunctions, 2);
   const MultiVector values = EvaluateAtClippedPoints(space, coefficients);
   for (Id piece = 0; piece < space.clipped.NumberOfPieces(); ++piece)
@@ -72,7 +73,7 @@ TEST_P(EvaluationOnSpaces, FunctionsAreContinuousAcrossPieces)
       const Id point = space.clipped.corners[k];
       const Eigen::RowVectorXd value =
         ValueInPatch(space, space.piecePatch[piece], space.clipped.position[point], coefficients);
-      // Points within the clipper's 1e-10 of a cell face are on it for both cells.
+      // Points within the clipper's 1e-10 of a cell face lie on it for both cells.
       ASSERT_LT((values.row(point) - value).norm(), 1e-9);
     }
   }
@@ -91,8 +92,8 @@ TEST_P(EvaluationOnSpaces, GradientsOfTheCoordinatesSpanTheTangentPlane)
       ASSERT_TRUE(gradient.isZero(0.0));
       continue;
     }
-    // The columns of the projection I - n nᵀ: idempotent, symmetric, of trace 2. Differences of
-    // coordinates are divided by the spacing.
+    // The columns of the projection I - n nᵀ, which is idempotent, symmetric and of trace 2.
+    // Differences of coordinates are divided by the spacing.
     const double error = 16.0 * tolerance / space.GetGrid().spacing;
     ASSERT_LT((gradient * gradient - gradient).norm(), error);
     ASSERT_LT((gradient - gradient.transpose()).norm(), error);
@@ -119,8 +120,8 @@ TEST(Evaluation, GivesZeroAtPointsThatNoTriangleUses)
   EXPECT_NEAR(values.topRows(values.rows() - 1).minCoeff(), 1.0, 1e-15);
 }
 
-// A line without area arrives at point 6 through a cell that has nothing else; its piece there
-// belongs to a patch in another cell.
+// A line without area reaches point 6 through a cell that contains nothing else. The line's piece
+// there belongs to a patch in another cell.
 TEST(Evaluation, TakesTheFunctionsOfPiecesWithAnArea)
 {
   TriangleMesh mesh;
@@ -148,7 +149,8 @@ TEST(Evaluation, TakesTheFunctionsOfPiecesWithAnArea)
 
 TEST(Evaluation, OfAFunctionOnTheSideOfASquareHasTheHandMadeGradient)
 {
-  // u = x y on the plane z = 0: the surface gradient is (y, x, 0), its mean that at the centroid.
+  // u = x y on the plane z = 0 has the surface gradient (y, x, 0). The mean is the value at the
+  // centroid.
   const TriangleMesh mesh = FlatRectangle(4, 4);
   const GridFunctions space = BuildGridFunctions(mesh, {});
   const MultiVector corner = CoordinateCoefficients(space);

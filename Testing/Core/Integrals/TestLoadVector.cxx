@@ -1,5 +1,5 @@
-// Right-hand sides: consistent with the matrices of the same samples, whatever way a field is
-// given.
+// Tests that right-hand sides are consistent with matrices of the same samples, for every way to
+// give a field.
 #include "Integrals/LoadVector.h"
 
 #include "Integrals/Assembly.h"
@@ -14,11 +14,11 @@ using namespace gridfem::testing;
 namespace
 {
 
-/// A case with everything a load vector is compared with.
+/// A space with everything that load vectors are compared with.
 class LoadsOnSpaces : public ::testing::TestWithParam<SpaceCase>
 {
 protected:
-  /// a M + b L times coefficients
+  /// Returns a M + b L times coefficients.
   MultiVector Apply(double a, double b, const MultiVector& coefficients) const
   {
     const ElementMatrices elements = IntegrateElements(space, rule);
@@ -37,7 +37,7 @@ protected:
 
   Field RandomOnPoints(Id columns, unsigned seed = 1) const
   {
-    // Points at one place share their value: the field is a function on the surface.
+    // Coincident points have the same value, so the field is a function on the surface.
     const MultiVector table = RandomValues(997, columns, seed);
     Field field{ FieldAssociation::Points, MultiVector(mesh.points.size(), columns) };
     for (std::size_t i = 0; i < mesh.points.size(); ++i)
@@ -51,12 +51,12 @@ protected:
   const TriangleMesh& mesh = GetParam().mesh;
   GridFunctions space = GetParam().Build();
   const QuadratureRule& rule = TriangleRule(2);
-  /// Rounding of world coordinates measured in cells.
+  /// Rounding of world coordinates, measured in cells.
   double rounding =
     1e-14 * (1.0 + CoordinateCoefficients(space).cwiseAbs().maxCoeff() / space.GetGrid().spacing);
 };
 
-/// ∇f of a field that is linear on triangles, from world coordinates.
+/// Returns ∇f of a field that is linear on triangles, computed from world coordinates.
 MultiVector TriangleGradients(const TriangleMesh& mesh, const MultiVector& f)
 {
   MultiVector gradients = MultiVector::Zero(mesh.triangles.size(), 3 * f.cols());
@@ -105,7 +105,7 @@ TEST_P(LoadsOnSpaces, OfTheGradientsOfCoordinatesAreTheStiffnessTimesTheirCoeffi
   EXPECT_LT(
     RelativeDifference(IntegrateGradientsOf(space, mesh, f, nullptr, rule), expected), tolerance);
 
-  // The same as vector fields: three constant unit vectors, on points and on triangles.
+  // The gradients as vector fields: three constant unit vectors, on points and on triangles.
   const Eigen::Matrix3d unit = Eigen::Matrix3d::Identity();
   const Eigen::Map<const Eigen::Matrix<double, 1, 9>> row(unit.data());
   for (const auto association : { FieldAssociation::Points, FieldAssociation::Triangles })
@@ -153,7 +153,7 @@ TEST_P(LoadsOnSpaces, TakeAScaleOnPointsAndOnTriangles)
   EXPECT_LT(
     RelativeDifference(IntegrateGradientsOf(space, mesh, f, &three, rule), 3.0 * plain), 1e-13);
 
-  // A scale on triangles is the same as scaling the field there.
+  // A scale on triangles has the same effect as scaling the field there.
   const Field s{ FieldAssociation::Triangles, TriangleGradients(mesh, f.values) };
   const Field scale{ FieldAssociation::Triangles, RandomValues(mesh.triangles.size(), 1, 3) };
   const Field scaled{ FieldAssociation::Triangles, scale.values.col(0).asDiagonal() * s.values };
@@ -167,7 +167,7 @@ TEST_P(LoadsOnSpaces, TakeAScaleOnPointsAndOnTriangles)
 
 TEST_P(LoadsOnSpaces, OfAScaleOnPointsAreThoseOfTheScaledField)
 {
-  // σ times a constant vector is linear on triangles when σ is.
+  // σ times a constant vector is linear on triangles if σ is.
   const Field scale = RandomOnPoints(1);
   const Field constant{ FieldAssociation::Points,
     Eigen::RowVector3d(1, -2, 3).replicate(mesh.points.size(), 1) };
@@ -202,7 +202,7 @@ TEST_P(LoadsOnSpaces, FindCutPointsByPositionWhereTheirOriginIsNotKnown)
 
 TEST_P(LoadsOnSpaces, DoNotDependOnSubdivisionInThePlane)
 {
-  // Coordinates times a function: degree 4, exact with the rule of degree 6.
+  // Coordinates times a function have degree 4, which the rule of degree 6 integrates exactly.
   SpaceCase subdivided = GetParam();
   subdivided.mesh = SubdivideInPlane(subdivided.mesh);
   const GridFunctions fine = subdivided.Build();

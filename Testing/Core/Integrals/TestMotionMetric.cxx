@@ -1,4 +1,4 @@
-// The metric of a mesh whose points have moved, and what the motion makes of gradients.
+// Tests the metric of a mesh with moved points, and the maps of gradients between both meshes.
 #include "Integrals/MotionMetric.h"
 
 #include "Base/Errors.h"
@@ -23,7 +23,7 @@ TriangleMesh Bent(TriangleMesh mesh)
   return mesh;
 }
 
-/// A function of the points, which the motion does not change, and its gradients on a mesh.
+/// Returns a function of the points, which the motion does not change.
 Field ValuesOf(const TriangleMesh& mesh)
 {
   Field f;
@@ -72,7 +72,7 @@ TEST_P(MotionMetric, OfARigidMotionIsThatOfTheMesh)
   }
 }
 
-/// ∫ |∇u|² on the moved mesh, as an integral over the mesh.
+/// Compares ∫ |∇u|² on the moved mesh with an integral over the original mesh.
 TEST_P(MotionMetric, HasTheEnergyOfTheMovedMesh)
 {
   const auto metric = MetricOfMotion(mesh, moved);
@@ -96,7 +96,7 @@ TEST_P(MotionMetric, GradientsGoForthAndBack)
   const Field there = GradientsOf(moved, f);
   EXPECT_LT((PushForward(mesh, moved, here.values) - there.values).cwiseAbs().maxCoeff(), 1e-11);
   EXPECT_LT((PullBack(mesh, moved, there).values - here.values).cwiseAbs().maxCoeff(), 1e-11);
-  // Vectors at points come back on corners.
+  // Vectors at points are mapped to corners.
   Field constant;
   constant.values = MultiVector::Ones(static_cast<Id>(mesh.points.size()), 3);
   const Field back = PullBack(mesh, mesh, constant);

@@ -1,4 +1,5 @@
-// Rules are exact on every monomial of their degree, with positive weights at inner points.
+// Tests that rules are exact on every monomial of their degree, with positive weights at inner
+// points.
 #include "Integrals/QuadratureRule.h"
 
 #include "Base/Errors.h"
@@ -12,7 +13,7 @@ using namespace gridfem;
 namespace
 {
 
-/// ∫ λ0^i λ1^j λ2^k over a triangle, divided by its area: 2 i! j! k! / (i + j + k + 2)!
+/// Returns ∫ λ0^i λ1^j λ2^k over a triangle, divided by its area: 2 i! j! k! / (i + j + k + 2)!
 double ExactMoment(int i, int j, int k)
 {
   return 2.0 * std::tgamma(i + 1.0) * std::tgamma(j + 1.0) * std::tgamma(k + 1.0) /
@@ -46,7 +47,7 @@ TEST_P(TriangleRules, AreExactOnAllMonomialsOfTheirDegree)
     {
       for (int k = 0; i + j + k <= rule.degree; ++k)
       {
-        // At most 33 positive terms that sum to at most 1: rounding stays below 1e-14.
+        // At most 33 positive terms have a sum of at most 1, so rounding stays below 1e-14.
         EXPECT_NEAR(Moment(rule, i, j, k), ExactMoment(i, j, k), 1e-14) << i << j << k;
       }
     }
@@ -55,7 +56,7 @@ TEST_P(TriangleRules, AreExactOnAllMonomialsOfTheirDegree)
 
 TEST_P(TriangleRules, AreNotExactBeyondTheirDegree)
 {
-  // The degree is what it says and no more, so that the test above cannot pass by accident.
+  // The degree is exact and no higher, so that the test above cannot pass by accident.
   const QuadratureRule& rule = TriangleRule(GetParam());
   double worst = 0.0;
   for (int i = 0; i <= rule.degree + 1; ++i)

@@ -1,5 +1,5 @@
-// Integrals in another metric: against the mesh's own metric, against sums over samples with a
-// pseudo-inverse in space, and against what must hold on any surface.
+// Compares integrals in another metric with the mesh's own metric and with sums over samples that
+// use a pseudo-inverse in space. Other tests check properties that hold on any surface.
 #include "Integrals/SurfaceMetric.h"
 
 #include "Base/Errors.h"
@@ -56,8 +56,8 @@ Array<ElementMatrix> Scaled(double factor, Array<ElementMatrix> matrices)
   return matrices;
 }
 
-/// Element matrices with everything in space: the metric restricted to the tangent plane and its
-/// pseudo-inverse from the singular values of dX (I - n nᵀ).
+/// Computes element matrices with everything in space: the metric restricted to the tangent plane,
+/// and its pseudo-inverse from the singular values of dX (I - n nᵀ).
 ElementMatrices IntegrateInSpace(const GridFunctions& space, const MultiVector& embedding)
 {
   const PatchLevel& level = space.Finest();
@@ -136,7 +136,7 @@ TEST_P(MetricOfSpaces, DoesNotChangeUnderRotation)
   ExpectNear(turned.elements.stiffness, own.stiffness, 1e-12);
 }
 
-/// 1ᵀ M 1 is the area of the mapped surface, and twice it the energy of its own coordinates.
+/// 1ᵀ M 1 is the area of the mapped surface. The energy of its own coordinates is twice the area.
 TEST_P(MetricOfSpaces, HasTheAreaAndTheEnergyOfALinearImage)
 {
   SpaceCase mapped = GetParam();
@@ -164,7 +164,7 @@ TEST_P(MetricOfSpaces, AgreesWithSumsInSpaceForABentSurface)
   const Integrals bent = IntegrateEmbedding(space, embedding);
   const ElementMatrices reference = IntegrateInSpace(space, embedding);
   EXPECT_EQ(bent.singular, 0);
-  // The normal's weight of 1e-12 is not in the reference.
+  // The reference does not contain the normal's weight of 1e-12.
   ExpectNear(bent.elements.mass, reference.mass, 1e-11);
   ExpectNear(bent.elements.stiffness, reference.stiffness, 1e-11);
 }
@@ -220,7 +220,7 @@ TEST(SurfaceMetric, OneBadSampleIsLeftOut)
   }
 }
 
-/// Close to the least and the largest determinant a root has all its digits.
+/// Near the smallest and the largest determinant, square roots keep all digits.
 TEST(SurfaceMetric, TinyAndHugeMetricsScaleAreas)
 {
   const GridFunctions space = BuildGridFunctions(GeodesicSphere(6), { { 3 } });
@@ -249,8 +249,8 @@ TEST(SurfaceMetric, RefusesTheWrongNumbers)
     InvalidInput);
 }
 
-/// Twice the lengths are four times the mass, all of them powers of two: the updated hierarchy has
-/// the bits of one that was built with a quarter of the weight.
+/// Twice the lengths give four times the mass, all powers of two. The updated hierarchy therefore
+/// has the same bits as one built with a quarter of the weight.
 TEST(SurfaceMetric, AnUpdatedHierarchyEqualsANewOne)
 {
   const GridFunctions space = BuildGridFunctions(Torus(40, 20, 1.0, 0.4), { { 5 } });

@@ -1,4 +1,4 @@
-// What the method has to show as a whole: the thesis' figures and the numbers the project promises.
+// Tests the method as a whole against figures of the thesis and numbers that the project promises.
 #include "Discretisation.h"
 #include "Integrals/Evaluation.h"
 #include "Integrals/LoadVector.h"
@@ -24,7 +24,7 @@ GridFunctions SpaceOf(const TriangleMesh& mesh, int depth, bool connectivityAwar
   return BuildGridFunctions(mesh, options);
 }
 
-/// A colour: a smooth function of the position that neither space represents exactly.
+/// Returns a color: a smooth function of the position that neither space represents exactly.
 Field Colour(const TriangleMesh& mesh)
 {
   Field field;
@@ -74,8 +74,8 @@ class RotatedCube : public ::testing::TestWithParam<std::tuple<int, double>>
 };
 
 // Thesis Fig. 4.11: Gauss-Seidel stalls on a cube that is barely turned. The cube has side 0.55 in
-// a unit cube, whose corners two tiny triangles hold; the colour is fitted with its gradient at
-// screening weight 0.01.
+// a unit cube, whose corners are held by two tiny triangles. The color is fitted with its gradient
+// at screening weight 0.01.
 TEST_P(RotatedCube, TakesFewIterations)
 {
   const auto [depth, degrees] = GetParam();
@@ -91,7 +91,8 @@ TEST_P(RotatedCube, TakesFewIterations)
   ASSERT_NEAR(space.GetGrid().spacing, std::pow(0.5, depth), 1e-15);
   const PoissonSolution solution = FitField(mesh, space, Colour(mesh), 0.01);
   EXPECT_TRUE(solution.report.converged);
-  EXPECT_LE(solution.report.iterations, 4 * depth - 8); // 12, 16; depth 7 is left to the benchmark
+  EXPECT_LE(solution.report.iterations, 4 * depth - 8); // 12 at depth 5, 16 at depth 6; the
+                                                        // benchmark covers depth 7
   RecordProperty("iterations", solution.report.iterations);
   const PoissonSolution stabilized = FitField(mesh, space, Colour(mesh), 0.01, 256, 1e-2);
   EXPECT_TRUE(stabilized.report.converged);
@@ -128,7 +129,7 @@ TEST(Acceptance, RigidMotionsHardlyChangeTheSpectrum)
   }
 }
 
-// Thesis Fig. 4.4: the three points are enough.
+// Thesis Fig. 4.4: the rule with three points is enough.
 TEST(Acceptance, QuadratureRulesAgreeOnTheSpectrum)
 {
   const TriangleMesh mesh = TrefoilTube(120, 16, 0.5);
@@ -144,7 +145,7 @@ TEST(Acceptance, QuadratureRulesAgreeOnTheSpectrum)
   }
 }
 
-// Thesis Fig. 6.5, 6.6: the spaces differ on coarse levels alone, and so does the convergence.
+// Thesis Fig. 6.5, 6.6: the spaces differ only on coarse levels. This changes the convergence.
 TEST(Acceptance, SeparatedCubesConvergeFasterWhenConnectivityAware)
 {
   const TriangleMesh cubes = CubeArray(6, 2, 1.0);
@@ -158,8 +159,8 @@ TEST(Acceptance, SeparatedCubesConvergeFasterWhenConnectivityAware)
   EXPECT_EQ(plainMatrix.value, awareMatrix.value);
   EXPECT_EQ(MassMatrix(plain, plainSystem).value, MassMatrix(aware, awareSystem).value);
 
-  // Every level is used: else the finest one, which falls into small components, is solved
-  // directly.
+  // Every level is used. Otherwise the finest level, which consists of small components, would be
+  // solved directly.
   const Field colour = Colour(cubes);
   const Index all = FunctionsPerPatch;
   const SolveReport plainReport = FitField(cubes, plain, colour, 0.01, all).report;
@@ -191,7 +192,7 @@ TEST(Acceptance, StripesOnAKnotNeedConnectivity)
   EXPECT_LT(error[1], 0.1 * error[0]);
 }
 
-// What happens on one sheet stays there, unless the space couples the sheets.
+// A field on one sheet does not affect the other sheet, unless the space couples them.
 TEST(Acceptance, NearSheetsDoNotFeelEachOther)
 {
   const TriangleMesh outer = GeodesicSphere(24, 1.0);

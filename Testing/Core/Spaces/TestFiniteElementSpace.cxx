@@ -1,4 +1,4 @@
-// What every finite element space promises, tried on both kinds.
+// Tests the interface of finite element spaces on both kinds.
 #include "Spaces/FiniteElementSpace.h"
 
 #include "Base/Errors.h"
@@ -92,8 +92,8 @@ TEST_P(EverySpace, HasALoadOfOneThatAddsUpToTheArea)
   }
 }
 
-/// Of a function whose slope is 1 direction and gradient are the same, and those of coordinates on
-/// a plane are known.
+/// If a function has slope 1, its direction is its gradient. The gradients of coordinates on a
+/// plane are known.
 TEST_P(EverySpace, IntegratesDirectionsAsGradientsOverTheirSize)
 {
   const Eigen::AngleAxisd turn(0.4, Vec3(1, 0.3, 0).normalized());
@@ -101,7 +101,7 @@ TEST_P(EverySpace, IntegratesDirectionsAsGradientsOverTheirSize)
   const Vec3 slope = turn * Vec3(0.6, -0.8, 0);
   const FiniteElementSpace* nested = on.space->NestedLevels();
   const MultiVector coordinates = nested ? nested->EmbeddingOfMesh() : on.coordinates;
-  const MultiVector u = coordinates * (1e-200 * slope); // however small
+  const MultiVector u = coordinates * (1e-200 * slope); // works for arbitrarily small slopes
   MultiVector s(static_cast<Id>(on.mesh.points.size()), 3);
   for (Id i = 0; i < s.rows(); ++i)
   {
@@ -116,7 +116,7 @@ TEST_P(EverySpace, IntegratesDirectionsAsGradientsOverTheirSize)
   EXPECT_THROW(on.space->LoadOfDirections(MultiVector::Ones(3, 1), nullptr), InvalidInput);
 }
 
-/// ∫ (a + b p) x_i over the boundary, for coordinates as functions of the space.
+/// Compares ∫ (a + b p) x_i over the boundary, for coordinates as functions of the space.
 TEST_P(EverySpace, IntegratesAlongBoundaries)
 {
   const TriangleMesh coarse = Transform(FlatRectangle(1, 2, 2.0, 3.0), { 1, 2, 3 }, 0.4, 5.0);
@@ -134,7 +134,9 @@ TEST_P(EverySpace, IntegratesAlongBoundaries)
       const Vec3& b = mesh.points[ends[1]];
       length += (b - a).norm();
       expected += (b - a).norm() / 6.0 *
-                  ((2 + 3 * a[0]) * (2 * a + b) + (2 + 3 * b[0]) * (a + 2 * b)); // linear . linear
+                  ((2 + 3 * a[0]) * (2 * a + b) + (2 + 3 * b[0]) * (a + 2 * b)); // a linear
+                                                                                 // function times a
+                                                                                 // linear function
     }
     MultiVector values;
     Multiply(samples.rows, on.coordinates * on.space->UnitLength(), values);
@@ -239,7 +241,7 @@ TEST_P(EverySpace, HasTheNormsOfItsMass)
   }
 }
 
-/// As facets in files of STL may be: with corners of their own, which are one point or two.
+/// Uses facets as in STL files: they have corners of their own, which coincide in one point or two.
 TEST_P(EverySpace, HasTheValuesOfOtherPointsWhereATriangleWithoutAreaEnds)
 {
   TriangleMesh mesh = GeodesicSphere(12);
@@ -318,7 +320,7 @@ TEST_P(EverySpace, ACopyInAnotherMetricLeavesTheOriginalAlone)
     const Eigen::MatrixXd mass = DenseOf(*on.space, 1, 0);
     const Eigen::MatrixXd stiffness = DenseOf(*on.space, 0, 1);
     const std::unique_ptr<FiniteElementSpace> copy = on.space->Copy();
-    EXPECT_EQ(copy->SetMetric(on.coordinates), 0); // of the mesh itself
+    EXPECT_EQ(copy->SetMetric(on.coordinates), 0); // the metric of the mesh itself
     EXPECT_LT(RelativeDifference(DenseOf(*copy, 1, 0), mass), 1e-6);
     EXPECT_LT(RelativeDifference(DenseOf(*copy, 0, 1), stiffness), 1e-6);
 
@@ -338,7 +340,7 @@ TEST_P(EverySpace, ACopyInAnotherMetricLeavesTheOriginalAlone)
   }
 }
 
-/// As the conformalised flow wants it: the mass of where the surface is, the stiffness of the
+/// Tests the case of the conformalized flow: the mass of the moved surface, the stiffness of the
 /// start.
 TEST_P(EverySpace, AMetricOfTheMassAloneLeavesTheStiffness)
 {
@@ -389,8 +391,8 @@ TEST_P(EverySpace, WeightsOfOneChangeNothing)
   }
 }
 
-/// On a flat square, turned in space, ∇x has one direction: its energy takes that direction's
-/// weight.
+/// On a flat square turned in space, ∇x has a single direction. Its energy gets the weight of this
+/// direction.
 TEST_P(EverySpace, WeightsAreThoseOfTheDirection)
 {
   const Eigen::AngleAxisd turn(0.3, Vec3(0, 0, 1)); // stays in a plane of the grid's cells
@@ -436,7 +438,7 @@ TEST_P(EverySpace, WeighsItsMassAsItsLoads)
     const Eigen::MatrixXd mass = DenseOf(*weighted, 1.0, 0.0);
     const double unit = s.space->UnitLength();
     EXPECT_NEAR(mass.sum() * unit * unit, sum, 1e-9 * sum);
-    // Functions of the space are what their weighted loads are made of.
+    // The weighted load of a function of the space is the mass times its coefficients.
     const Field x{ FieldAssociation::Points, PointCoordinates(mesh) / unit };
     const MultiVector load = s.space->LoadOfWeightedValues(x, weight);
     EXPECT_LT(RelativeDifference(mass * s.coordinates, load), 1e-9);
@@ -479,7 +481,7 @@ TEST_P(EverySpace, MultipliesItsOwnFunctionsByItsElements)
     EXPECT_LE(RelativeDifference(on.space->StiffnessTimes(u, {}), expected), 1e-13);
     EXPECT_EQ(on.space->StiffnessTimes(u, {}, 1), on.space->StiffnessTimes(u, {}, 2));
 
-    // The coordinates as such a function, and as a field that is integrated.
+    // The coordinates, once as functions of the space and once as a field that is integrated.
     const MultiVector world = on.coordinates * on.space->UnitLength();
     EXPECT_LE(RelativeDifference(DenseOf(*on.space, 1.0, 0.0) * world,
                 on.space->LoadOfValues({ FieldAssociation::Points, PointCoordinates(mesh) })),
@@ -490,7 +492,7 @@ TEST_P(EverySpace, MultipliesItsOwnFunctionsByItsElements)
   }
 }
 
-/// A scale that differs from component to component is one number per element.
+/// A scale that is constant on each component gives one number per element.
 TEST_P(EverySpace, ScalesGradientsInProductsWithItsStiffness)
 {
   const TriangleMesh mesh = Join(Box(4), GeodesicSphere(4, 0.1));

@@ -1,4 +1,4 @@
-// Right-hand sides for hat functions against matrices and against quadrature.
+// Compares right-hand sides for hat functions with matrices and with quadrature.
 #include "Spaces/HatLoad.h"
 
 #include "Integrals/QuadratureRule.h"
@@ -13,7 +13,7 @@ using namespace gridfem::testing;
 namespace
 {
 
-constexpr double Unit = 0.125; // a power of two: rounding does not depend on it
+constexpr double Unit = 0.125; // a power of two, so that rounding does not depend on it
 
 struct Hats
 {
@@ -25,7 +25,7 @@ struct Hats
     matrices = AssembleHatMatrices(mesh, functions);
   }
 
-  /// Coefficients of a function that is given at points.
+  /// Returns the coefficients of a function given at points.
   MultiVector Coefficients(const MultiVector& onPoints) const
   {
     MultiVector result = MultiVector::Zero(functions.Count(), onPoints.cols());
@@ -50,7 +50,7 @@ std::vector<TriangleMesh> Meshes()
     Torus(20, 9, 1.0, 0.4), TwoSheets(3, 0.1) };
 }
 
-/// Value of a field at barycentric coordinates of a triangle.
+/// Returns the value of a field at barycentric coordinates of a triangle.
 Eigen::RowVectorXd ValueAt(
   const Field& field, const TriangleMesh& mesh, Id triangle, const std::array<double, 3>& lambda)
 {
@@ -59,7 +59,7 @@ Eigen::RowVectorXd ValueAt(
          lambda[2] * field.values.row(row[2]);
 }
 
-/// ∫ scale <s, ∇φ_i> in world units with a rule that is exact for the product.
+/// Returns ∫ scale <s, ∇φ_i> in world units, with a rule that is exact for the product.
 Eigen::MatrixXd GradientsByQuadrature(const Hats& hats, const Field& s, const Field& scale)
 {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(hats.functions.Count(), s.values.cols() / 3);
@@ -134,7 +134,8 @@ TEST(HatLoad, OfValuesThatDifferAtCoincidentPointsTakesEveryTrianglesOwn)
 {
   const TriangleMesh soup = Unweld(GeodesicSphere(3));
   const Hats hats(soup);
-  // Constant on each triangle, once as such and once at its three points of a soup.
+  // A field that is constant on each triangle: given on triangles, and at the three points of each
+  // triangle of a soup.
   const MultiVector f = RandomValues(static_cast<Id>(soup.triangles.size()), 1);
   MultiVector onPoints(static_cast<Id>(soup.points.size()), 1);
   for (std::size_t t = 0; t < soup.triangles.size(); ++t)

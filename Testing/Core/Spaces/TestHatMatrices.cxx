@@ -1,4 +1,5 @@
-// Numbering of hat functions, their mass and stiffness: an independent assembly, degenerate input.
+// Tests the numbering of hat functions, and their mass and stiffness: an independent assembly, and
+// degenerate input.
 #include "Spaces/HatMatrices.h"
 
 #include "Dense.h"
@@ -20,7 +21,7 @@ struct MeshCase
 {
   std::string name;
   TriangleMesh mesh;
-  std::string file = {}; ///< a real mesh instead, read by the tests that need it
+  std::string file = {}; ///< name of a real mesh to use instead, read by the tests that need it
 
   TriangleMesh Mesh() const { return file.empty() ? mesh : ReadMesh(RealMesh(file)); }
 };
@@ -30,7 +31,7 @@ void PrintTo(const MeshCase& meshCase, std::ostream* stream)
   *stream << meshCase.name;
 }
 
-/// A fan around a vertical axis, an edge with five triangles.
+/// Returns a fan around a vertical axis: an edge with five triangles.
 TriangleMesh FiveSheets()
 {
   TriangleMesh mesh;
@@ -68,8 +69,8 @@ protected:
   }
 };
 
-/// Largest difference of the entries of a matrix from those of the reference times `factor`,
-/// relative to the diagonal of the row.
+/// Returns the largest difference between entries of a matrix and `factor` times the entries of the
+/// reference, relative to the diagonal of the row.
 double Difference(const SparseMatrix& A, const Eigen::SparseMatrix<double>& reference,
   double factor, const std::vector<int>& rowOfHat)
 {
@@ -113,7 +114,8 @@ TEST_P(HatMatricesOf, AreThoseOfTheReference)
   EXPECT_EQ(matrices.stiffness.NonZeros(), reference.stiffness.nonZeros());
   const std::vector<int> row = ReferenceRows(hats, reference);
   EXPECT_LT(Difference(matrices.mass, reference.mass, 16.0, row), 1e-12); // 1 / unit²
-  // Cotangents of needles lose as many digits as the triangle is thin: aspect 6e4 at most here.
+  // Cotangents of needles lose digits by the aspect ratio of the triangle, which is at most 6e4
+  // here.
   EXPECT_LT(Difference(matrices.stiffness, reference.stiffness, 1.0, row), 1e-10);
 }
 
@@ -174,7 +176,7 @@ TEST(HatFunctions, AreConnectedByTrianglesThatShareAPoint)
 {
   TriangleMesh mesh = Join(Torus(8, 5, 1.0, 0.2), GeodesicSphere(2, 0.1));
   EXPECT_EQ(NumberHatFunctions(mesh).numberOfComponents, 2);
-  mesh.points.back() = mesh.points.front(); // now the two touch in a point
+  mesh.points.back() = mesh.points.front(); // now both parts touch in a point
   EXPECT_EQ(NumberHatFunctions(mesh).numberOfComponents, 1);
 }
 

@@ -1,4 +1,4 @@
-// The hybrid hierarchy: solutions against a direct solver, numbers of iterations.
+// Tests the hybrid hierarchy: solutions against a direct solver, numbers of iterations.
 #include "Spaces/HatSpace.h"
 
 #include "Dense.h"
@@ -19,7 +19,7 @@ using namespace gridfem::testing;
 namespace
 {
 
-/// Ten sweeps of Gauss-Seidel on every level, W cycles: the solver of the thesis.
+/// Selects the solver of the thesis: ten sweeps of Gauss-Seidel on every level, W cycles.
 void UseThesisSweeps(HybridCycle& options)
 {
   options.grid.smoother = SmootherType::GaussSeidel;
@@ -41,7 +41,7 @@ TEST(HatSpace, IsASymmetricPositivePreconditioner)
     MultiVector Bx;
     multigrid.Precondition(x, Bx);
     const Eigen::MatrixXd products = x.transpose() * Bx;
-    // Below the hats is single precision.
+    // The levels below the hats use single precision.
     EXPECT_LT(RelativeDifference(products, products.transpose()), 1e-6);
     EXPECT_GT(products.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0.0);
   }
@@ -88,7 +88,7 @@ struct PoissonCase
   const char* name;
   TriangleMesh mesh;
   int depth;
-  std::string file = {}; ///< a real mesh instead, read by the tests that need it
+  std::string file = {}; ///< name of a real mesh to use instead, read by the tests that need it
 
   TriangleMesh Mesh() const { return file.empty() ? mesh : ReadMesh(RealMesh(file)); }
 };
@@ -172,7 +172,7 @@ INSTANTIATE_TEST_SUITE_P(Meshes, HatPoisson, ::testing::ValuesIn(PoissonCases())
 namespace
 {
 
-/// Iterations to a residual of 1e-8 for one weight in units of the unit cube.
+/// Returns the iterations to a residual of 1e-8, for one weight in units of the unit cube.
 int Iterations(const Hybrid& hybrid, double lambda)
 {
   const double side = hybrid.space.UnitLength() * hybrid.space.Extent();
@@ -181,7 +181,7 @@ int Iterations(const Hybrid& hybrid, double lambda)
   return solution.report.iterations;
 }
 
-/// As in Fig. 4.7 of it.
+/// Repeats the experiment of thesis Fig. 4.7.
 void ExpectTenCyclesOfTheThesis(const TriangleMesh& mesh)
 {
   for (const HatTransfer transfer : { HatTransfer::Evaluation, HatTransfer::PseudoEvaluation })
@@ -217,7 +217,7 @@ TEST(HatSpace, NeedsFewIterationsOnSubdividedMeshes)
     const Hybrid hybrid(mesh, depth);
     for (const double lambda : { 1e-2, 1.0, 1e2, 1e4 })
     {
-      // 4 to 6 were measured; Gauss-Seidel without groups needs up to 14, and 24 at 642,816 points.
+      // Measured: 4 to 6. Gauss-Seidel without groups needs up to 14, and 24 at 642,816 points.
       EXPECT_LE(Iterations(hybrid, lambda), 7) << depth << " " << lambda;
     }
     mesh = SubdivideInPlane(mesh);
@@ -226,7 +226,7 @@ TEST(HatSpace, NeedsFewIterationsOnSubdividedMeshes)
 
 TEST(HatSpace, DoesNotMindThinTriangles)
 {
-  // 150 points around a thin tube and 12 along: triangles 10 and more times as long as wide.
+  // 150 points around a thin tube and 12 along it make triangles at least 10 times as long as wide.
   const TriangleMesh mesh = SubdivideInPlane(Torus(12, 150, 1.0, 0.3));
   Hybrid hybrid(mesh, 4);
   const int withGroups = Iterations(hybrid, 1.0);
@@ -253,12 +253,12 @@ TEST(HatSpace, ConvergesInTenCyclesOfTheThesisOnTheRockerArm)
 
 TEST(HatSpace, DoesNotMindAGridThatIsMuchFinerThanTheMesh)
 {
-  // A point's residual spread over the hat is answered alike by every grid; a point load is not.
+  // A residual spread over the hat gives a similar response on every grid. A point load does not.
   const TriangleMesh mesh = Transform(GeodesicSphere(3), { 1, 2, 3 }, 0.5); // 38 points
   const auto cycles = [&](int depth, HatTransfer transfer)
   {
     Hybrid hybrid(mesh, depth, transfer);
-    hybrid.options.relaxGroups = false; // of 38 points they would leave the grid nothing to do
+    hybrid.options.relaxGroups = false; // with 38 points, groups would leave the grid nothing to do
     const double weight = 0.01 * std::pow(0.25, depth);
     const Multigrid multigrid = hybrid.Build(weight);
     MultiVector x = MultiVector::Zero(hybrid.space.NumberOfFunctions(0), 1);
@@ -275,8 +275,8 @@ TEST(HatSpace, DoesNotMindAGridThatIsMuchFinerThanTheMesh)
 namespace
 {
 
-/// Triangles between random points of a small lattice: degenerate ones, crossings, edges with many
-/// triangles, and parts that meet in a point.
+/// Returns triangles between random points of a small lattice. It has degenerate triangles,
+/// crossings, edges with many triangles, and parts that meet in a point.
 TriangleMesh RandomSoup(int triangles, int points, unsigned seed)
 {
   std::mt19937 generator(seed);
@@ -298,7 +298,7 @@ TriangleMesh RandomSoup(int triangles, int points, unsigned seed)
   return mesh;
 }
 
-/// Extreme eigenvalues of B A on the functions of zero mean, for the cycle B of A.
+/// Returns the extreme eigenvalues of B A on functions of zero mean, for the cycle B of A.
 std::pair<double, double> ExtremesOfPreconditioned(const Hybrid& hybrid, double weight)
 {
   const Multigrid multigrid = hybrid.Build(weight);
@@ -317,8 +317,8 @@ std::pair<double, double> ExtremesOfPreconditioned(const Hybrid& hybrid, double 
 
 TEST(HatSpace, SolvesManyTrianglesAroundOneEdge)
 {
-  // Their hats are nearly solved by the first relaxation; what is left is rounding, in which rᵀBr
-  // can be negative.
+  // The first relaxation nearly solves for their hats. The rest is rounding, in which rᵀBr can be
+  // negative.
   for (const int pages : { 8, 20, 40, 60 })
   {
     TriangleMesh mesh;
@@ -357,8 +357,8 @@ TEST(HatSpace, IsNearTheInverseOnSoupsWithDegenerateTriangles)
 
 TEST(HatSpace, JoinsSheetsThatTouchInPoints)
 {
-  // Octahedra that share corners: one surface for hats, one component each for a grid that knows of
-  // edges only. With such a grid the iteration for 64 of them did not end.
+  // The octahedra share corners. They are one surface for hats, but separate components for a grid
+  // that only knows edges. With such a grid, the iteration for 64 octahedra did not end.
   constexpr int Side = 4;
   TriangleMesh mesh;
   std::map<std::array<int, 3>, Index> number;

@@ -1,4 +1,4 @@
-// Between hats and grid functions: evaluation and the thesis' pseudo-evaluation.
+// Tests the transfer between hats and grid functions: evaluation and the thesis' pseudo-evaluation.
 #include "Spaces/HatTransfer.h"
 
 #include "Hybrid.h"
@@ -15,7 +15,8 @@ using namespace gridfem::testing;
 namespace
 {
 
-/// Dense Rᵀ as the thesis writes it: M_c⁻¹ Pᵀ M_f E_f, lumped masses, over the clipped mesh.
+/// Returns dense Rᵀ as written in the thesis: M_c⁻¹ Pᵀ M_f E_f with lumped masses, over the clipped
+/// mesh.
 Eigen::MatrixXd PseudoEvaluation(const Hybrid& hybrid)
 {
   const ClippedMesh& clipped = hybrid.space.Grid().Functions().clipped;
@@ -59,7 +60,8 @@ Eigen::MatrixXd PseudoEvaluation(const Hybrid& hybrid)
   return lumped.cwiseInverse().asDiagonal() * (P.transpose() * (mass.asDiagonal() * E));
 }
 
-/// Part of the surface, measured in ∫ b_i, whose grid functions get no residual: empty columns.
+/// Returns the fraction of the surface, measured in ∫ b_i, whose grid functions get no residual
+/// (empty columns).
 double ShareWithoutResidual(const Hybrid& hybrid)
 {
   const SharedArray<Index>& column = hybrid.space.Hats().prolongation->column;
@@ -93,8 +95,8 @@ TEST(HatTransfer, EvaluatesAtThePoints)
   }
 }
 
-/// A hat whose pieces have no area has nothing to weigh sheets with, and takes the value at its
-/// point as it is; others keep their rows.
+/// A hat whose pieces have no area cannot weigh sheets, so it takes the value at its point. Other
+/// hats keep their rows.
 TEST(HatTransfer, EvaluatesAtThePointsOfHatsWithoutArea)
 {
   const TriangleMesh mesh = Transform(GeodesicSphere(5), { 1, 2, 3 }, 0.4);
@@ -151,9 +153,10 @@ TEST(HatTransfer, KeepsConstants)
 
 TEST(HatTransfer, ReachesTheWholeSurfaceAlsoWhereTheGridIsFiner)
 {
-  // 18 points reach their own 8 functions each, some tenth of a grid of depth 5. The points of the
-  // clipped mesh miss only functions that all pieces touch with one cut-off corner of their cell,
-  // where all points lie on faces on which the function vanishes: it is 1/27 there at most.
+  // Each of 18 points reaches only its own 8 functions, about a tenth of a grid of depth 5. The
+  // points of the clipped mesh miss few functions. All pieces touch such a function with one
+  // cut-off corner of their cell, so all their points lie on faces where it vanishes. On the
+  // pieces, it is at most 1/27.
   const TriangleMesh mesh = Transform(GeodesicSphere(2), { 1, 2, 3 }, 0.4);
   EXPECT_GT(ShareWithoutResidual(Hybrid(mesh, 5, HatTransfer::Evaluation)), 0.5);
   EXPECT_LT(ShareWithoutResidual(Hybrid(mesh, 5, HatTransfer::PseudoEvaluation)), 1.0 / 27.0);

@@ -1,5 +1,5 @@
-// A metric given by tensors against the mesh that has been moved to where it has that metric, on
-// grids and on hats.
+// Compares a metric given by tensors with a mesh moved so that it has this metric, on grids and on
+// hats.
 #include "Integrals/TriangleMetric.h"
 
 #include "Base/Errors.h"
@@ -17,7 +17,7 @@ using namespace gridfem::testing;
 namespace
 {
 
-/// Stretches, shears and turns; far from the identity in every plane.
+/// A map that stretches, shears and turns. It is far from the identity in every plane.
 Eigen::Matrix3d SomeMap()
 {
   Eigen::Matrix3d map;
@@ -27,7 +27,7 @@ Eigen::Matrix3d SomeMap()
   return map;
 }
 
-/// Not an affine map: every triangle gets a metric of its own.
+/// Returns a mesh bent by a map that is not affine: every triangle gets a metric of its own.
 TriangleMesh Bent(TriangleMesh mesh)
 {
   for (Vec3& p : mesh.points)
@@ -53,7 +53,7 @@ Field TensorsOf(Id rows, FieldAssociation association, const Eigen::Matrix3d& g)
   return field;
 }
 
-/// JᵀJ of the linear map on each triangle, with something of its own across the plane.
+/// Returns JᵀJ of the linear map on each triangle, with arbitrary entries across the plane.
 Field TensorsOfMove(const TriangleMesh& mesh, const TriangleMesh& moved)
 {
   Field field = TensorsOf(
@@ -170,7 +170,7 @@ TEST(MetricOnTriangles, IsInTheLoadsOfHatsAsOnTheMovedMesh)
   }
 }
 
-/// What the functions of a space have as matrix times coefficients they have as loads.
+/// Requires that matrices times coefficients equal the loads of the same functions.
 void ExpectLoadsOfItsMatrices(
   const FiniteElementSpace& space, const TriangleMesh& mesh, const MultiVector& coordinates)
 {
@@ -183,7 +183,7 @@ void ExpectLoadsOfItsMatrices(
   const MultiVector expected = stiffness * coordinates * unit;
   EXPECT_LT(RelativeDifference(space.LoadOfGradientsOf(OnPoints(world), nullptr), expected), 1e-9);
   EXPECT_LT(RelativeDifference(space.LoadOfGradientsOfCoordinates(nullptr), expected), 1e-9);
-  // The gradient of x, y and z at points and on triangles: three vectors side by side.
+  // The gradients of x, y and z at points and on triangles: three vectors side by side.
   MultiVector unitVectors(world.rows(), 9);
   for (Id row = 0; row < world.rows(); ++row)
   {
@@ -226,7 +226,7 @@ TEST(MetricOnTriangles, IsInAllLoadsAsInTheMatrices)
       const MultiVector u = RandomValues(own->NumberOfFunctions(0), 1);
       EXPECT_LT(
         RelativeDifference(weighed->StiffnessTimes(u, {}), own->StiffnessTimes(u, {})), 1e-11);
-      own->SetMetric(own->EmbeddingOfMesh()); // ends it
+      own->SetMetric(own->EmbeddingOfMesh()); // ends the metric on triangles
       EXPECT_LT(RelativeDifference(DenseOf(*own, 1, 1), DenseOf(*space, 1, 1)), 1e-10);
       EXPECT_LT(RelativeDifference(own->LoadOfValues(OnPoints(PointCoordinates(mesh))),
                   space->LoadOfValues(OnPoints(PointCoordinates(mesh)))),
@@ -253,7 +253,7 @@ TEST(MetricOnTriangles, OfTheIdentityChangesNothing)
   }
 }
 
-/// The weight of the normal derivative is not the metric's.
+/// The weight of the normal derivative does not depend on the metric.
 TEST(MetricOnTriangles, KeepsCoordinatesTheSolutionOfTheirOwnEquation)
 {
   const TriangleMesh mesh = Transform(GeodesicSphere(8), { 1, 2, 3 }, 0.4);
@@ -270,7 +270,7 @@ TEST(PlaneTensor, KnowsItsEigenvaluesInThePlane)
 {
   const TriangleMesh flat = FlatRectangle(1, 1);
   Eigen::Matrix3d tensor = Eigen::Vector3d(4.0, 9.0, -1.0).asDiagonal();
-  const PlaneTensor plane(flat, 0, tensor); // what is across does not count
+  const PlaneTensor plane(flat, 0, tensor); // entries across the plane do not count
   EXPECT_NEAR(plane.Eigenvalues()[0], 4.0, 1e-14);
   EXPECT_NEAR(plane.Eigenvalues()[1], 9.0, 1e-14);
   EXPECT_TRUE(plane.IsMetric());
