@@ -55,7 +55,7 @@ private:
   const BasisParts<Real>& known_;
   EigenPairs<Real>& pairs_;        // X
   BlockBuffer<Real>& directions_;  // P
-  BlockBuffer<Real>& corrections_; // W = B r of the columns at work that have not converged
+  BlockBuffer<Real>& corrections_; // W = B r of the unconverged columns at work
   MultiVector randomLoad_;         // loads of the last columns of P, which are not computed yet
   BlockRayleighRitz<Real> rayleighRitz_;
   BlockPreconditioner<Real> double_; // made when it is needed

@@ -19,8 +19,7 @@ struct BlockOptions
   Index blockSize = 1;     // pairs carried along, >= wanted
   double tolerance = 1e-8; // on rᵀBr / θ
   int maximumIterations = 100;
-  int minimumIterations = 0; // 1: takes the random directions into account even if all pairs have
-                             // converged
+  int minimumIterations = 0; // 1: uses the random directions even if all has converged
   /// False: the pairs are a start for a finer level. They are renewed, and the last step is not
   /// measured.
   bool measureLast = true;

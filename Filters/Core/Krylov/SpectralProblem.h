@@ -30,8 +30,7 @@ struct ColumnFacts
 {
   Eigen::RowVectorXd energy;  // xᵀLx
   Eigen::RowVectorXd mass;    // xᵀMx
-  Eigen::RowVectorXd largest; // the entry of M x of largest magnitude; near ties go to the lowest
-                              // row
+  Eigen::RowVectorXd largest; // largest entry of M x in magnitude; near ties to the lowest row
 
   explicit ColumnFacts(Id columns)
     : energy(Eigen::RowVectorXd::Zero(columns)), mass(energy), largest(energy)

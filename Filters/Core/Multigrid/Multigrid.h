@@ -36,8 +36,7 @@ struct MultigridOptions
   int preSweeps = 1;                                  // >= 0; equal counts keep the cycle symmetric
   int postSweeps = 1;                                 // >= 0
   FactorPrecision precision = FactorPrecision::Mixed; // precision of the patch smoother's factors
-  int sweepsPerSynchronisation = 1;                   // of SliceGaussSeidel: sweeps that one Sweep
-                                                      // does
+  int sweepsPerSynchronisation = 1;                   // of SliceGaussSeidel: sweeps in one Sweep
   int threads = 0;                                    // 0: all
 };
 
@@ -117,8 +116,9 @@ public:
   void Precondition(const Vectors<Real>& b, Vectors<Real>& x) const;
 
   /// Computes a start for the iteration [T §3.3]. It solves the coarsest system, prolongs the
-  /// solution and improves it by one cycle on every level but the finest. x = C b, with C symmetric
-  /// positive semi-definite where B is. Cost: a third of a W cycle. x must not be b.
+  /// solution and improves it by one cycle on every level but the finest. The result is x = C b,
+  /// with C symmetric positive semi-definite where B is. Cost: a third of a W cycle. x must not be
+  /// b.
   /// @param lastStep if not null: the solution of the second level minus that of the third,
   /// prolonged to the finest; without columns if there are fewer levels
   void NestedIteration(
@@ -193,8 +193,8 @@ private:
   Columns Products(std::size_t level, const Vectors<Real>& x, const Vectors<Real>& y) const;
 
   std::vector<BasicMultigridLevel<Real>> levels_;
-  /// Per level: whether vectors are in double precision while this level or a coarser one sweeps in
-  /// single precision.
+  /// Whether vectors of each level are in double precision while this level or a coarser one sweeps
+  /// in single precision.
   std::vector<char> isSingle_;
   bool isReliable_ = true;
   CoarseSolver coarse_;

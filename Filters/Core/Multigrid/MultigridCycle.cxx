@@ -283,8 +283,7 @@ void BasicMultigrid<Real>::RestrictResidual(std::size_t l, const Vectors<Real>& 
   const BasicMultigridLevel<Real>& level = levels_[l];
   const DividedRows* const divided = RowsOf(level);
   const Index foreign = ForeignRows(divided);
-  const bool countOnce = divided && !divided->ArePartsProlonged(); // whether a row that several
-                                                                   // processes hold counts once
+  const bool countOnce = divided && !divided->ArePartsProlonged(); // shared rows count once
   if (x)
   {
     MakeRoom(b.rows(), b.cols(), residual);
@@ -410,9 +409,8 @@ void BasicMultigrid<Real>::Descend(std::size_t l, const Vectors<Real>& b, Vector
   Scratch& coarse = scratch[l + 1];
   const bool isZero = zeroStart && smoothing.preSweeps == 0;
   this->RestrictResidual(l, b, isZero ? nullptr : &x, scratch[l].residual, coarse.b, energy);
-  const bool once = smoothing.cycle == CycleType::V || this->IsCoarsest(l + 1); // the coarsest
-                                                                                // level is solved
-                                                                                // directly
+  // The coarsest level is solved directly, so one visit is enough.
+  const bool once = smoothing.cycle == CycleType::V || this->IsCoarsest(l + 1);
   for (int time = 0; time < (once ? 1 : 2); ++time)
   {
     this->CycleLevel(l + 1, coarse.b, coarse.x, time == 0, scratch);

@@ -37,8 +37,7 @@ struct PatchFactor
   // Lower triangular, and mirrored to the upper triangle. Zero if there are no unknowns.
   PatchMatrix V = PatchMatrix::Zero();
   std::array<Index, PatchKernelWidth> dof; // in the order of elimination
-  double smallestPivot = 1.0;              // the smallest kept pivot of the block scaled to unit
-                                           // diagonal
+  double smallestPivot = 1.0;              // smallest kept pivot of the scaled block
   Index count = 0;                         // 0: no unknown can be solved for
   bool isComplete = true;                  // no pivot was left out
   bool hasLargeScales = false;             // V would leave the range of single precision
@@ -48,8 +47,7 @@ struct PatchFactor
 struct GroupFactor
 {
   Eigen::MatrixXd V;          // lower triangular; zero above the diagonal
-  std::vector<Index> unknown; // solvable unknowns, those of V first; one unknown if none is
-                              // solvable
+  std::vector<Index> unknown; // the solvable ones, those of V first; else any one
   bool isComplete = true;
   bool hasLargeScales = false;
 };

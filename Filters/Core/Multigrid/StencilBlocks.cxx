@@ -96,8 +96,7 @@ struct StencilBlocks::Draft
 {
   std::vector<Index> unknowns{ None }; // by their number, own unknowns first
   Index own = 0;
-  Index rows = 0;            // number of rows: the zero row, own rows, and rows of patches with
-                             // extras
+  Index rows = 0;            // zero row, own rows, and rows of patches with extras
   std::vector<Extra> extras; // of all its patches, without values
   bool fits = true;
 

@@ -36,8 +36,7 @@ public:
   {
     Id firstUnknown; // index where Unknowns() begin
     Id firstRow;     // index where Rows() begin
-    Index own;       // number of its patches' unknowns; these have the numbers 1 to `own` and have
-                     // rows
+    Index own;       // its patches' unknowns, which have rows: numbers 1 to `own`
     Index count;     // how many numbers there are, with 0
   };
 
@@ -76,10 +75,10 @@ public:
     return 21 + corner % 2 + 4 * (corner / 2 % 2) + 16 * (corner / 4);
   }
 
-  /// Empty if the order has no corners, a patch is not a cell's, or a block has too many unknowns.
-  /// Also empty if so many functions share corners that half of the rows would be for single
-  /// patches. Also empty if single precision does not resolve all directions of more than a tenth
-  /// of the patches.
+  /// Numbers the blocks. They stay empty if the order has no corners, a patch is not a cell's, or a
+  /// block has too many unknowns. They stay empty if so many functions share corners that half of
+  /// the rows would be for single patches. Finally, they stay empty if single precision does not
+  /// resolve all directions of more than a tenth of the patches.
   StencilBlocks(const SparseMatrix& A, const PatchOrder& order, int threads);
 
   /// Takes the values of a matrix with the same pattern.
