@@ -17,13 +17,13 @@ template<class Real>
 class BlockRayleighRitz
 {
 public:
-  /// @param pairs X with its values: Ritz pairs, or no pairs yet
+  /// @param pairs  X with its values: Ritz pairs, or no pairs yet
   BlockRayleighRitz(const SpectralProblem<Real>& problem, EigenPairs<Real>& pairs,
     BlockBuffer<Real>& directions, BlockBuffer<Real>& corrections);
 
   /// Replaces X by the lowest `wanted` pairs of the span of [X, P, W], and P by the shares of P and
   /// W in them. Uses up W.
-  /// @param withDirections columns of X that get a direction, ascending
+  /// @param withDirections  columns of X that get a direction, ascending
   void Step(Index wanted, const std::vector<Index>& withDirections);
 
   /// Rayleigh-Ritz on X alone, with all products computed anew. P and W are lost.

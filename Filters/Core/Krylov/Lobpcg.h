@@ -49,7 +49,7 @@ struct BlockWorkspace
 /// Blocks in single precision halve the memory and the time of dense products. Projected matrices
 /// are added up in double precision, so tolerances down to 1e-7 are reached in the same steps. Same
 /// bits for any number of threads. Throws Aborted.
-/// @param known orthonormal in the mass matrix; the pairs found are orthogonal to these vectors
+/// @param known  orthonormal in the mass matrix; the pairs found are orthogonal to these vectors
 template<class Real>
 BlockReport ImproveEigenPairs(const SpectralProblem<Real>& problem, const BlockOptions& options,
   const BasisParts<Real>& known, EigenPairs<Real>& pairs, BlockWorkspace<Real>& workspace,

@@ -41,7 +41,7 @@ public:
   std::vector<Index> DropConverged();
 
   /// Drops from the work the columns that have not changed since they converged.
-  /// @param norm rᵀr of the columns at work
+  /// @param norm  rᵀr of the columns at work
   void DropUnmoved(const Eigen::VectorXd& norm);
 
   bool IsConverged(Index column) const { return measure_[column] <= tolerance_; }

@@ -112,7 +112,7 @@ void SolverIteration::Precondition(
 /// If this bound is even below the energy of the error that is left, one more B gives the energy of
 /// a start from zero. The iteration starts from zero if the given start would count as a
 /// divergence.
-/// @param workOfStart bᵀx
+/// @param workOfStart  bᵀx
 void SolverIteration::SetReference(const Columns& workOfStart)
 {
   const Columns energyOfStart = workOfStart - A_.products(x_, r); // xᵀAx

@@ -67,7 +67,7 @@ Eigen::VectorXd NormsOfParts(const DividedRows& divided, const RowSource<Real>& 
 
 /// Entry of largest magnitude of every column of M X over all processes. Every entry counts once,
 /// in the process that owns its row.
-/// @param image this process's part of M X
+/// @param image  this process's part of M X
 Eigen::RowVectorXd LargestOfAll(const DividedRows& divided, MultiVector image)
 {
   divided.Sum(image);

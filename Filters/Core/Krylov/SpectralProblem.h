@@ -38,7 +38,7 @@ struct ColumnFacts
   }
 
   /// Updates `largest`.
-  /// @param row the entries of M x in a row behind all rows before
+  /// @param row  the entries of M x in a row behind all rows before
   template<class Row>
   void TakeLargest(const Row& row)
   {
@@ -68,8 +68,8 @@ struct SpectralProblem
   /// W = B (L X - M X diag(θ)), where X are the columns at work. Panels in which all columns have
   /// converged are left out. Further loads F share the cycles, P = B F, because a cycle takes as
   /// long for a few columns as for a panel.
-  /// @param load F; as many columns as P has
-  /// @return measures of the columns at work, as many as W has
+  /// @param load  F; as many columns as P has
+  /// @return      measures of the columns at work, as many as W has
   ResidualMeasures Correct(const BlockPreconditioner<Real>& B, const EigenPairs<Real>& pairs,
     const SoftLocking& locking, Block<Real> W, const MultiVector& load, Block<Real> P) const;
 

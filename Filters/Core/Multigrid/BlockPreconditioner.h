@@ -29,7 +29,7 @@ template<class Real>
 using RowSink = std::function<void(Id begin, Id end, const ConstBlock<Real>& part)>;
 
 /// Loads all rows into a block of to.cols() columns. Columns beyond those of r become zero.
-/// @param norm if not null: rᵀr
+/// @param norm  if not null: rᵀr
 template<class Given, class Real>
 void LoadRows(const RowSource<Given>& r, Vectors<Real>& to, Columns* norm, int threads);
 

@@ -28,7 +28,7 @@ struct BlockRanges
 /// Runs body(phase, item) for all items of phase 0, then of phase 1, and so on. Items of one phase
 /// run in any order, in parallel. A thread that has to wait for a phase polls for a while and then
 /// yields. The body must not throw.
-/// @param count number of items of each phase
+/// @param count  number of items of each phase
 template<class Body>
 void ParallelPhases(const std::vector<Id>& count, int threads, Body&& body)
 {
@@ -74,7 +74,7 @@ void VisitBlocks(const BlockRanges& ranges, SweepDirection direction, int thread
 
 /// Calls relax(item, chunk) for every item and every chunk of `columns`, in the order of the
 /// direction.
-/// @param work multiplications of the whole sweep per column
+/// @param work  multiplications of the whole sweep per column
 template<class Real = double, class Relax>
 void SweepBlocks(const BlockRanges& ranges, Id columns, SweepDirection direction, Id work,
   int threads, Relax&& relax)

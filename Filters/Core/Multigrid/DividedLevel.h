@@ -32,8 +32,8 @@ public:
   virtual const std::vector<Index>& Border() const = 0;
 
   /// One sweep over these patches.
-  /// @param residual fills this process's part of b - A x in the rows of Border()
-  /// @param correct adds a correction in these rows to x
+  /// @param residual  fills this process's part of b - A x in the rows of Border()
+  /// @param correct   adds a correction in these rows to x
   virtual void Relax(Id columns, SweepDirection direction,
     const std::function<void(MultiVector& part)>& residual,
     const std::function<void(const MultiVector& correction)>& correct) const = 0;

@@ -187,7 +187,7 @@ private:
 
   /// Grows a group. It may include members of other groups and of other blocks, because lines must
   /// not end at block borders.
-  /// @return whether a coupling leads on from the seed
+  /// @return  whether a coupling leads on from the seed
   bool GrowFrom(Index seed, std::vector<Index>& group) const
   {
     std::fill(group.begin(), group.end(), -1);

@@ -85,7 +85,7 @@ class BasicMultigrid
 {
 public:
   /// Builds everything else from the matrices, prolongations and orders.
-  /// @param levels finest first, with A, prolongation and order filled
+  /// @param levels  finest first, with A, prolongation and order filled
   /// The coarsest level is solved directly; its prolongation and order are not used. In single
   /// precision only patches are relaxed, and each level is released as soon as it is converted.
   /// Throws InvalidInput when there is no level, shapes do not fit or a sweep count is negative.
@@ -119,8 +119,8 @@ public:
   /// solution and improves it by one cycle on every level but the finest. The result is x = C b,
   /// with C symmetric positive semi-definite where B is. Cost: a third of a W cycle. x must not be
   /// b.
-  /// @param lastStep if not null: the solution of the second level minus that of the third,
-  /// prolonged to the finest; without columns if there are fewer levels
+  /// @param lastStep  if not null: the solution of the second level minus that of the third,
+  ///   prolonged to the finest; without columns if there are fewer levels
   void NestedIteration(
     const Vectors<Real>& b, Vectors<Real>& x, Vectors<Real>* lastStep = nullptr) const;
 

@@ -384,9 +384,9 @@ void BasicMultigrid<Real>::Sweep(std::size_t l, const Vectors<Real>& b, Vectors<
 
 /// The first half of a cycle: the first sweeps, and the correction from the next coarser level. On
 /// the coarsest level it is the whole solve.
-/// @param energy if not null, from zero: bᵀBb. Let S stand for the first sweeps, S̄ for the first
-/// and the last sweeps together, and B' for the coarser levels. Then B = S̄ + (1 - SᵀA) P B' Pᵀ (1
-/// - A S). So bᵀBb = xᵀ(b + r) + (Pᵀr)ᵀ B' (Pᵀr) for x = S b and r = b - A x.
+/// @param energy  if not null, from zero: bᵀBb. Let S stand for the first sweeps, S̄ for the first
+///   and the last sweeps together, and B' for the coarser levels. Then B = S̄ + (1 - SᵀA) P B' Pᵀ
+///   (1 - A S). So bᵀBb = xᵀ(b + r) + (Pᵀr)ᵀ B' (Pᵀr) for x = S b and r = b - A x.
 template<class Real>
 void BasicMultigrid<Real>::Descend(std::size_t l, const Vectors<Real>& b, Vectors<Real>& x,
   bool zeroStart, std::vector<Scratch>& scratch, Columns* energy) const

@@ -123,7 +123,7 @@ bool IsSolvable(const BlockSource& source, Index unknown)
 }
 
 /// Copies each solvable unknown once, in ascending order.
-/// @return the end of the copy
+/// @return  the end of the copy
 template<class From, class To>
 To CopySolvable(From begin, From end, const BlockSource& source, To copy)
 {
@@ -182,7 +182,7 @@ bool HasLargeScales(const Scale& scale, double smallestPivot)
 }
 
 /// Factors one patch with pivots.
-/// @param block not scaled
+/// @param block  not scaled
 void FactorWithPivots(const PatchMatrix& block, const Patch& patch, const PatchScale& scale,
   double smallestPivot, PatchFactor& result)
 {

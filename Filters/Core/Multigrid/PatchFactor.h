@@ -58,8 +58,8 @@ constexpr int PatchesAtOnce = 8;
 /// Pivoted Cholesky of the scaled blocks, stopped at the smallest pivot that counts. Blocks whose
 /// pivots stay large in the order of their unknowns keep that order. It is equally accurate, and
 /// without pivot choices all lanes go at once. Unknowns without a positive diagonal are left out.
-/// @param dof, factors of `count` patches, at most PatchesAtOnce, one after the other; -1 in dof
-/// marks an unused place
+/// @param dof, factors  of `count` patches, at most PatchesAtOnce, one after the other; -1 in dof
+///   marks an unused place
 void FactorPatches(const BlockSource& source, const Index* dof, int count, double smallestPivot,
   PatchFactor* factors);
 
@@ -82,7 +82,7 @@ EIGEN_ALWAYS_INLINE void FetchRows(const BlockSource& source, const Index* dof)
 }
 
 /// Calls body(patch, factor) for the patches from `begin` to `end`.
-/// @param patches of PatchKernelWidth unknowns each
+/// @param patches  of PatchKernelWidth unknowns each
 template<class Body>
 void ForEachFactor(const BlockSource& source, const UnknownGroups& patches, Id begin, Id end,
   double smallestPivot, Body&& body)

@@ -86,8 +86,8 @@ EIGEN_DONT_INLINE void RelaxGroup(
 class PatchInverses
 {
 public:
-  /// @param precision none: for vectors in single precision, without the directions that single
-  /// precision does not hold or resolve
+  /// @param precision  none: for vectors in single precision, without the directions that single
+  ///   precision does not hold or resolve
   /// Throws InvalidInput if patches have more than LargestGroup unknowns.
   PatchInverses(const SparseMatrix& A, const UnknownGroups& patches, int threads,
     std::optional<FactorPrecision> precision);
@@ -106,7 +106,7 @@ public:
   bool HaveKernels() const { return groups_.empty(); }
 
   /// x += Vᵀ V (b - A x) on the patch, for a chunk of columns.
-  /// @param Real float if the inverses are for vectors in single precision, else double
+  /// @param Real  float if the inverses are for vectors in single precision, else double
   template<class Real, class Chunk>
   EIGEN_ALWAYS_INLINE void Relax(
     Id p, const RowView<Real>& A, const Real* b, Real* x, Chunk chunk) const

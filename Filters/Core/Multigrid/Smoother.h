@@ -128,7 +128,7 @@ std::unique_ptr<BasicSmoother<float>> MakeSinglePatchSmoother(
 /// the grid have such patches.
 /// Returns null if more than a tenth of the patches have such pivots. Also returns null if patches
 /// are not the eight corners of a cell or many of them share a cell; see StencilBlocks.
-/// @param patternFits if not null: false if the result is null for any values of the matrix
+/// @param patternFits  if not null: false if the result is null for any values of the matrix
 std::unique_ptr<Smoother> MakeStencilSmoother(
   const SparseMatrix& A, const PatchOrder& order, int threads = 0, bool* patternFits = nullptr);
 

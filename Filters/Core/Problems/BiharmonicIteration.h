@@ -19,10 +19,11 @@ namespace gridfem
 /// Conjugate gradients solve with S. Their preconditioner is the row sums of S: the area around
 /// each point. A product with S takes two solves with K, by multigrid. Finally, a harmonic function
 /// takes away the misfit that is left.
-/// @param rows RowsAtPoints of the points. Contradictory values are first replaced by the values
-/// that a harmonic function reaches.
-/// @param values rows = points, one column per component
-/// @return components without a point are left at 0; the report is that of conjugate gradients
+/// @param rows    RowsAtPoints of the points. Contradictory values are first replaced by the values
+///   that a harmonic function reaches.
+/// @param values  rows = points, one column per component
+/// @return        components without a point are left at 0; the report is that of conjugate
+///   gradients
 /// Throws Aborted. Same bits for any number of threads.
 ConstrainedSolution IterateBiharmonic(const FiniteElementSpace& space, const SparseMatrix& rows,
   const MultiVector& values, const InterpolationOptions& options, const Progress& progress = {});

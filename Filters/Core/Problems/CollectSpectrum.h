@@ -15,7 +15,7 @@ namespace gridfem
 /// A vector whose mass is only rounding is dropped. From pairs in single precision it stays, at the
 /// end and with the value NaN, because it may have a mass in double precision. Estimated errors are
 /// 0 for the constants and not set for the others. Takes the vectors out of `pairs`.
-/// @param tolerance a pair has converged when the square of its residual is no larger
+/// @param tolerance  a pair has converged when the square of its residual is no larger
 template<class Real>
 Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs<Real>& pairs,
   const BlockReport& report, double tolerance, const SpectralProblem<Real>& problem,

@@ -11,7 +11,7 @@ namespace gridfem
 /// The power of two per column that brings its largest entry in both blocks to about 1. Powers of
 /// two change no bit of a solution. Columns of zeros and columns that are not finite get 1. A block
 /// may have no rows.
-/// @param divided if processes share the rows: all processes get the same scales
+/// @param divided  if processes share the rows: all processes get the same scales
 Eigen::RowVectorXd ScalesOf(
   const MultiVector& first, const MultiVector& second, const DividedRows* divided = nullptr);
 

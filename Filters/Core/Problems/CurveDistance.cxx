@@ -142,7 +142,7 @@ private:
   }
 
   /// Offers a point the best segment near `start`.
-  /// @param least a segment that is nearer than this is on the other side of a fold
+  /// @param least  a segment that is nearer than this is on the other side of a fold
   void Offer(Index place, Index start, double least, double most)
   {
     const Index segment = this->NearestFrom(start, place);

@@ -16,7 +16,7 @@ namespace gridfem
 /// Points hand their nearest segment to their neighbors as long as the distance grows. Each point
 /// then follows the curve from that segment as long as it gets nearer. Sheets that are close in
 /// space therefore do not affect each other.
-/// @param limit world units
+/// @param limit  world units
 /// Cost O(segments + k log k) for k points within the limit.
 std::vector<double> DistancesNear(
   const SurfaceCurve& curve, const TriangleMesh& mesh, double limit, int threads = 0);

@@ -21,9 +21,9 @@ public:
   bool IsFound() const { return isFound_; }
 
   /// Ends the search, or goes on to another depth. Has no effect once the depth is found.
-  /// @param errors of the solution at Depth(). An error that is not trusted has to be small enough
-  /// at two consecutive depths
-  /// @param wanted relative error, above 0
+  /// @param errors  of the solution at Depth(). An error that is not trusted has to be small enough
+  ///   at two consecutive depths
+  /// @param wanted  relative error, above 0
   void Judge(const TriangleMesh& mesh, const SolutionAccuracy& errors, double wanted);
 
 private:
@@ -35,8 +35,8 @@ private:
 /// ///@{ Search for a spectrum: the first depth, and the next depth after `depth`. The second
 /// function gets the estimated relative errors of the eigenvalues on the grid of `depth`. It
 /// returns `depth` itself when they are small enough.
-/// @param accuracy wanted relative error, in (0, 1)
-/// @param kind Hats: hat functions of the mesh stand above the grid
+/// @param accuracy  wanted relative error, in (0, 1)
+/// @param kind      Hats: hat functions of the mesh stand above the grid
 int FirstDepthForModes(const TriangleMesh& mesh, Id modes, double accuracy, FunctionKind kind);
 int NextDepthForModes(const TriangleMesh& mesh, const std::vector<double>& errors, int depth,
   double accuracy, FunctionKind kind);

@@ -183,7 +183,7 @@ double DistantHeat::HeatOf(Index patch, const MultiVector& u) const
 }
 
 /// Relaxes one patch.
-/// @return the largest change over the heat of the patch
+/// @return  the largest change over the heat of the patch
 double DistantHeat::Relax(Index patch, const MultiVector& b, MultiVector& u) const
 {
   const UnknownGroup unknowns = patches_->Unknowns(patch);
@@ -207,7 +207,7 @@ double DistantHeat::Relax(Index patch, const MultiVector& b, MultiVector& u) con
 }
 
 /// Relaxes the patches layer after layer, until they settle.
-/// @return number of relaxations
+/// @return  number of relaxations
 Id DistantHeat::March(
   const Layers& layers, double change, const MultiVector& b, MultiVector& u, const Job& job) const
 {
@@ -260,7 +260,7 @@ Id DistantHeat::CountUnreached(const Layers& layers, const MultiVector& u) const
 }
 
 /// Solves on the level.
-/// @param before heat that is already there; 0: none
+/// @param before  heat that is already there; 0: none
 HeatField DistantHeat::OnLevel(const MultiVector& load, MultiVector before, const Job& job) const
 {
   const MultiVector b = load / t_;

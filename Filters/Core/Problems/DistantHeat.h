@@ -45,22 +45,22 @@ public:
   /// change above. It is larger than 1 because some layers were left early.
   static constexpr double LastChange = 10.0;
 
-  /// @param space a space whose patches resolve their neighborhood, such as a grid's
-  /// @param level level of the space on which the equation is solved. √t should be two to four
-  /// distances between its functions. With less they oscillate, with more relaxation takes long
-  /// @param t in squared units of length; > 0
+  /// @param space  a space whose patches resolve their neighborhood, such as a grid's
+  /// @param level  level of the space on which the equation is solved. √t should be two to four
+  ///   distances between its functions. With less they oscillate, with more relaxation takes long
+  /// @param t      in squared units of length; > 0
   /// Throws Aborted, and InvalidInput when there is no such level.
   DistantHeat(const FiniteElementSpace& space, std::size_t level, double t, const Job& job = {},
     double change = SmallChange);
 
   /// The equation on one part of a surface; other processes have the rest.
-  /// @param A M / t + L, complete in the rows of the patches' unknowns
-  /// @param patches patches that are relaxed here; all other unknowns keep their values
+  /// @param A        M / t + L, complete in the rows of the patches' unknowns
+  /// @param patches  patches that are relaxed here; all other unknowns keep their values
   DistantHeat(SparseMatrix A, const UnknownGroups& patches, double t, double change, int threads);
 
   /// The heat of these sources.
-  /// @param load one column: Σ b_i(source), b_i the functions of the finest level
-  /// @return coefficients on the finest level
+  /// @param load  one column: Σ b_i(source), b_i the functions of the finest level
+  /// @return      coefficients on the finest level
   /// Throws InvalidInput when its rows do not fit, and Aborted. Same bits for any number of
   /// threads.
   HeatField From(const MultiVector& load, const Job& job = {}) const;

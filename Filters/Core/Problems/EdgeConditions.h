@@ -15,7 +15,7 @@ struct HeldValues
 };
 
 /// Holds the values of points.
-/// @param values a row for each of the points
+/// @param values  a row for each of the points
 HeldValues HoldPoints(
   const FiniteElementSpace& space, const std::vector<Id>& points, MultiVector values);
 
@@ -25,7 +25,7 @@ HeldValues Join(const HeldValues& first, const HeldValues& second);
 /// Holds the values at the ends of the edges. On edges longer than a unit of length it also holds
 /// the middle of every stretch, with linearly interpolated values, because functions are not linear
 /// there.
-/// @param values rows = points of the mesh; an edge with an unknown value (NaN) is left free
+/// @param values  rows = points of the mesh; an edge with an unknown value (NaN) is left free
 HeldValues HoldEdges(const FiniteElementSpace& space, const TriangleMesh& mesh,
   const std::vector<TriangleEdge>& edges, const MultiVector& values);
 
@@ -37,7 +37,7 @@ HeldValues HoldWithinEdges(const FiniteElementSpace& space, const TriangleMesh& 
   const std::vector<TriangleEdge>& edges, const MultiVector& values);
 
 /// ∫ f b_i over edges, in world units of length: rows = functions, columns as in `values`.
-/// @param values rows = points of the mesh; linear along the edges
+/// @param values  rows = points of the mesh; linear along the edges
 MultiVector LoadOnEdges(const FiniteElementSpace& space, const TriangleMesh& mesh,
   const std::vector<TriangleEdge>& edges, const MultiVector& values);
 
@@ -49,7 +49,7 @@ struct BoundaryTerms
   HeldValues held;      // HoldEdges of values; no rows without values
 };
 
-/// @param flux, values rows = points of the mesh; may be null
+/// @param flux, values  rows = points of the mesh; may be null
 BoundaryTerms TermsOnBoundary(const FiniteElementSpace& space, const TriangleMesh& mesh,
   bool weldCoincidentPoints, const MultiVector* flux, const MultiVector* values);
 

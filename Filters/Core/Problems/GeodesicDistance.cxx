@@ -336,7 +336,7 @@ std::vector<double> GeodesicDistance::ShiftedToCurve(const MultiVector& distance
 }
 
 /// Solves L φ = load.
-/// @return φ; its report goes into the field
+/// @return  φ; its report goes into the field
 MultiVector GeodesicDistance::Solve(const MultiVector& load, const SolveOptions& solve,
   DistanceField& field, const Progress& progress) const
 {

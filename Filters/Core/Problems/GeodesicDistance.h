@@ -65,14 +65,14 @@ public:
 class GeodesicDistance : public DistanceMethod
 {
 public:
-  /// @param mesh the mesh that the space was made from
+  /// @param mesh  the mesh that the space was made from
   /// Throws InvalidInput when the smoothing is not a positive number, and Aborted.
   GeodesicDistance(std::shared_ptr<const FiniteElementSpace> space,
     std::shared_ptr<const TriangleMesh> mesh, const DistanceOptions& options, const Job& job = {});
 
-  /// @param sources points of the mesh. A point that no function reaches has no effect. A triangle
-  /// whose corners are all sources belongs to a source as a whole.
-  /// @param solve of the distance from its gradient
+  /// @param sources  points of the mesh. A point that no function reaches has no effect. A triangle
+  ///   whose corners are all sources belongs to a source as a whole.
+  /// @param solve    of the distance from its gradient
   /// Throws InvalidInput when there are no sources or a source is not a point, and Aborted. Same
   /// bits for any number of threads.
   DistanceField From(
@@ -132,8 +132,8 @@ std::array<double, 2> SpacingSums(const SparseMatrix& mass, const MultiVector& p
 Field AwayFromSources(const TriangleMesh& mesh, const std::vector<char>& isSource);
 
 /// Shifts values at points to a distance: 0 at sources, elsewhere at least 0.
-/// @param component of every point; -1 if no function reaches it
-/// @param zero the value on each component that becomes 0; NaN if it has no source
+/// @param component  of every point; -1 if no function reaches it
+/// @param zero       the value on each component that becomes 0; NaN if it has no source
 std::vector<double> ShiftedToZero(const MultiVector& value, const std::vector<Index>& component,
   const std::vector<double>& zero, const std::vector<char>& isSource);
 ///@}

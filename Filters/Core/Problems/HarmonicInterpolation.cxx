@@ -118,7 +118,7 @@ PointsOfComponents GroupPoints(const SparseMatrix& rows, const Components& compo
 }
 
 /// Computes G μ + c; NaN on components without a point.
-/// @param inverse L⁺
+/// @param inverse  L⁺
 template<class Inverse>
 MultiVector FitBiharmonic(const Components& components, const PointsOfComponents& points,
   const SparseMatrix& mass, const SparseMatrix& rows, const MultiVector& values,

@@ -30,8 +30,8 @@ struct InterpolationOptions
 /// Biharmonic: u = G μ + c with the Green's function G = L⁺ M L⁺ of the points, c constant on each
 /// connected component. The multipliers μ solve (C G Cᵀ) μ + c = g, Σ μ = 0. Contradictory values
 /// are met in the mean. For many points see IterateBiharmonic.
-/// @param rows RowsAtPoints of the points
-/// @param values rows = points, one column per component
+/// @param rows    RowsAtPoints of the points
+/// @param values  rows = points, one column per component
 /// Throws InvalidInput when there is no point or shapes do not fit, and Aborted. Same bits for any
 /// number of threads.
 ConstrainedSolution InterpolateHarmonically(const FiniteElementSpace& space,

@@ -37,8 +37,8 @@ struct DiffusionOptions : EquationOptions
 class HeatDiffusion
 {
 public:
-  /// @param start ∫ f b_i of the field at time 0 (LoadOfValues)
-  /// @param sources ∫ s b_i of the heat added per unit of time, as many columns; no rows: none
+  /// @param start    ∫ f b_i of the field at time 0 (LoadOfValues)
+  /// @param sources  ∫ s b_i of the heat added per unit of time, as many columns; no rows: none
   /// Throws InvalidInput when the time step is not a positive number or shapes do not fit, and
   /// Aborted.
   HeatDiffusion(std::shared_ptr<const SpaceLevels> space, MultiVector start, MultiVector sources,

@@ -18,9 +18,9 @@ namespace gridfem
 class HeldBoundary
 {
 public:
-  /// @param mesh the mesh that the space was made from
-  /// @param edges edges of the mesh
-  /// @param timeStep δ, squared units of length of the space
+  /// @param mesh      the mesh that the space was made from
+  /// @param edges     edges of the mesh
+  /// @param timeStep  δ, squared units of length of the space
   HeldBoundary(const FiniteElementSpace& space, const TriangleMesh& mesh,
     std::vector<TriangleEdge> edges, double timeStep, int threads);
 
@@ -28,8 +28,8 @@ public:
   const RowPenalty& Penalty() const { return penalty_; }
 
   /// The load δ ∮ (β (X₀ - shift) + ν) b: rows = functions, three columns.
-  /// @param points current points of the mesh, world units, for ν
-  /// @param shift coefficients of functions that are taken out of X: functions x 3
+  /// @param points  current points of the mesh, world units, for ν
+  /// @param shift   coefficients of functions that are taken out of X: functions x 3
   MultiVector Load(const std::vector<Vec3>& points, const std::vector<std::array<Id, 3>>& triangles,
     const MultiVector& shift, int threads) const;
 

@@ -44,7 +44,7 @@ struct HodgeDecomposition
 /// Triangles with the opposite orientation to their component are treated as turned round. Vectors
 /// at points are then replaced by their means over triangles. Edges of more than two triangles
 /// count as a boundary for w.
-/// @param v three columns
+/// @param v  three columns
 /// Throws InvalidInput when the field does not fit, and Aborted. Same bits for any number of
 /// threads.
 HodgeDecomposition DecomposeField(const FiniteElementSpace& space, const TriangleMesh& mesh,

@@ -23,7 +23,7 @@ public:
     report.converged = true;
   }
 
-  /// @param values, gradients integrals of a field and of its gradient; gradients may have no rows
+  /// @param values, gradients  integrals of a field and of its gradient; gradients may have no rows
   MultiVector Solve(const MultiVector& values, const MultiVector& gradients, const Job& job)
   {
     PoissonSolution solution =

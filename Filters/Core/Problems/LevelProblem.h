@@ -14,7 +14,7 @@ namespace gridfem
 constexpr int RandomStartIterations = 40;
 
 /// The constants of a level.
-/// @param mass of this level
+/// @param mass  of this level
 inline Constants ConstantsOnLevel(
   const SpaceLevels& space, std::size_t level, const SparseMatrix& mass, int threads)
 {
@@ -25,7 +25,7 @@ inline Constants ConstantsOnLevel(
 
 /// The eigenproblem of a level, without a preconditioner. Lists that end among the constants need
 /// none.
-/// @param constants of this level; they have to outlive the problem
+/// @param constants  of this level; they have to outlive the problem
 template<class Real>
 SpectralProblem<Real> ProblemOnLevel(const SpaceLevels& space, std::size_t level,
   const Constants& constants, SparseMatrix mass, int threads)

@@ -212,7 +212,7 @@ void LineTracer::Cross(Index edge, Id from, Id to)
 /// The possible pieces between two points of a line. Triangles that the piece crosses from edge to
 /// edge come first. If there are none, the piece is in one triangle that has both points. If there
 /// is none either, it leads from one triangle to another.
-/// @param at the place that the line has reached; its part of the surface goes first
+/// @param at  the place that the line has reached; its part of the surface goes first
 std::vector<LineTracer::Piece> LineTracer::ChoicesOf(
   const Places& from, const Places& to, const std::optional<SurfacePlace>& at) const
 {

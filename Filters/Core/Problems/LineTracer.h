@@ -24,7 +24,7 @@ public:
     const NearestPlaces& nearest);
 
   /// Adds a line. Throws InvalidInput if it jumps from one part of the surface to another.
-  /// @param line at least one point
+  /// @param line  at least one point
   void Follow(const std::vector<Vec3>& line);
 
   /// Lets lines that end on the border of the surface, or in triangles next to it, leave the
@@ -36,7 +36,7 @@ public:
 
   /// Throws InvalidInput for a line within a triangle that is not closed. It checks the components
   /// that no line divides.
-  /// @param isDivided per place
+  /// @param isDivided  per place
   void RequireClosed(const std::vector<char>& isDivided) const;
 
   /// Whether each edge is crossed an odd number of times.

@@ -16,7 +16,7 @@ constexpr double Unreached = std::numeric_limits<double>::infinity();
 
 /// The distance at a corner of a triangle, given the distances at the two others. A straight front
 /// with these distances arrives across the triangle, or else along an edge.
-/// @param a, b the other corners, relative to this one
+/// @param a, b  the other corners, relative to this one
 double CrossTriangle(const Vec3& a, double distanceA, const Vec3& b, double distanceB)
 {
   const double alongEdges = std::min(distanceA + a.norm(), distanceB + b.norm());

@@ -16,9 +16,10 @@ namespace gridfem
 /// beyond the limit or without a path. Fast marching on triangles (Kimmel and Sethian 1998): a
 /// front crosses a triangle as a straight line from the two points it has reached. If that is
 /// impossible, it runs along the edges. Never less than the distance through space.
-/// @param hats of the mesh: the triangles around each point, with coincident points welded or not
-/// @param isSource per point of the mesh; among welded points, any source counts for all
-/// @param limit world units, 0 or more
+/// @param hats      of the mesh: the triangles around each point, with coincident points welded or
+///   not
+/// @param isSource  per point of the mesh; among welded points, any source counts for all
+/// @param limit     world units, 0 or more
 /// Cost O(points) and O(k log k) for k points within the limit.
 std::vector<double> MarchDistance(const TriangleMesh& mesh, const HatFunctions& hats,
   const std::vector<char>& isSource, double limit);

@@ -174,7 +174,7 @@ std::vector<Vec3> MeanCurvatureFlow::Points(const Job& job) const
 
 /// Prepares functions and metric for the next step. moving_ stays empty if the functions cannot be
 /// made anew.
-/// @return number of singular samples
+/// @return  number of singular samples
 Id MeanCurvatureFlow::Prepare(MultiVector& embedding, const Job& job)
 {
   if (step_ == 0)

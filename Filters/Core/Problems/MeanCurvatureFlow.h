@@ -93,7 +93,7 @@ struct StepSolution
 class MeanCurvatureFlow
 {
 public:
-  /// @param mesh the mesh that the space was made from
+  /// @param mesh  the mesh that the space was made from
   /// Throws InvalidInput for a time step that is not positive and for a conformalized flow with
   /// functions that are made anew. Also throws it for fixed points that another option would move,
   /// and if there is no volume to keep.

@@ -66,7 +66,7 @@ int DepthForPoints(const TriangleMesh& mesh, int most, double functionsPerPoint)
 /// Additional bytes for the hat functions of a mesh: their matrices, the transfer to the grid and
 /// their part of the hierarchy, with one right-hand side. Within a third on meshes whose triangles
 /// share their points. Cost O(1).
-/// @param functions of the grid below; the transfer has a row for each
+/// @param functions  of the grid below; the transfer has a row for each
 double EstimateHatMemory(const TriangleMesh& mesh, double functions);
 
 /// Bytes that all processes of this machine together can allocate now. In a container it is at most

@@ -39,7 +39,7 @@ struct MapDistortion
   static constexpr double LargestRatio = 1e7;
 };
 
-/// @param moved the current points of the mesh
+/// @param moved  the current points of the mesh
 MapDistortion DistortionOf(
   const TriangleMesh& mesh, const std::vector<Vec3>& moved, int threads = 0);
 
@@ -78,7 +78,7 @@ struct SurfaceBoundary
 };
 
 /// The boundary of a mesh.
-/// @param weldCoincidentPoints coincident points count as one
+/// @param weldCoincidentPoints  coincident points count as one
 SurfaceBoundary BoundaryOf(const TriangleMesh& mesh, bool weldCoincidentPoints, int threads = 0);
 
 } // namespace gridfem

@@ -19,12 +19,12 @@ void RequireSources(const std::vector<Id>& sources, std::size_t points);
 /// in the proportion of the place. The labels are the binary digits of the sources' numbers, as
 /// shares between 0 and 1. Borders of regions therefore do not follow the edges of the mesh.
 ///
-/// @param distance of every point of the mesh; NaN if it has none
-/// @param sources points of the mesh, whose distance is 0
-/// @param weldCoincidentPoints whether points in one place are one
-/// @return a source per point of the mesh; among sources in one place, the first in the list. It is
-/// -1 if the distance is NaN or triangles lead to no source. Functions that ignore connectivity
-/// have distances across gaps, too. Borders are right to about an edge of the mesh.
+/// @param distance  of every point of the mesh; NaN if it has none
+/// @param sources   points of the mesh, whose distance is 0
+/// @param weldCoincidentPoints  whether points in one place are one
+/// @return  a source per point of the mesh; among sources in one place, the first in the list. It
+///   is -1 if the distance is NaN or triangles lead to no source. Functions that ignore
+///   connectivity have distances across gaps, too. Borders are right to about an edge of the mesh.
 /// Throws InvalidInput when there is not one distance per point or a source is no point, and
 /// Aborted.
 std::vector<Id> NearestSources(const TriangleMesh& mesh, const std::vector<double>& distance,

@@ -20,8 +20,8 @@ struct PartialField
 
 /// Marks the unknown values of a field. A row with a NaN is unknown, and so is a triangle with an
 /// unknown corner.
-/// @param weight one column of weights of the values: 0 or more. Weights on points act by their
-/// mean over a triangle. Null: 1
+/// @param weight  one column of weights of the values: 0 or more. Weights on points act by their
+///   mean over a triangle. Null: 1
 /// Throws InvalidInput when rows or columns do not fit, or a weight is negative or not finite.
 PartialField SplitField(Field field, const Field* weight, const TriangleMesh& mesh);
 

@@ -122,7 +122,7 @@ public:
     return true;
   }
 
-  /// @param size, scale as in AccuracyWatch::Result
+  /// @param size, scale  as in AccuracyWatch::Result
   SolutionAccuracy Accuracy(const Columns& size, const Eigen::RowVectorXd& scale) const
   {
     return watch_ ? watch_->Result(x, size, scale, ErrorOrder::Observed) : SolutionAccuracy();

@@ -28,8 +28,8 @@ struct ConstraintOptions
 class ConstrainedHierarchy
 {
 public:
-  /// @param rows RowsAtPoints of the constrained points; the row of a point without functions is
-  /// empty
+  /// @param rows  RowsAtPoints of the constrained points; the row of a point without functions is
+  ///   empty
   ConstrainedHierarchy(const SpaceLevels& space, double a, double b, SparseMatrix rows,
     double penalty, const MultigridOptions& options, const Progress& progress = {});
 
@@ -88,8 +88,8 @@ std::vector<char> HeldComponents(
 
 /// A constant for each component near the solution there: the mean of its constraints, or of the
 /// values in the load.
-/// @param load as in SolveConstrained
-/// @param componentOfRow of the constraints (ComponentsOfRows)
+/// @param load            as in SolveConstrained
+/// @param componentOfRow  of the constraints (ComponentsOfRows)
 MultiVector ConstantsOf(const SpaceLevels& space, double a, const MultiVector& load,
   const std::vector<Index>& componentOfRow, const MultiVector& values,
   const Components& components);
@@ -98,24 +98,24 @@ MultiVector ConstantsOf(const SpaceLevels& space, double a, const MultiVector& l
 /// method is an augmented Lagrangian: each step solves with the penalty of the misfit and adds the
 /// remaining misfit to the load. Components that have neither a constraint nor mass are
 /// undetermined. Collective; each process has constraints of its own.
-/// @param load right-hand side: rows = functions; no rows: 0
-/// @param values rows = rows of C, one column per component
+/// @param load    right-hand side: rows = functions; no rows: 0
+/// @param values  rows = rows of C, one column per component
 /// Throws InvalidInput when shapes do not fit, and Aborted. Same bits for any number of threads.
 ConstrainedSolution SolveConstrained(const SpaceLevels& space, double a,
   const ConstrainedHierarchy& hierarchy, const MultiVector& load, const MultiVector& values,
   const ConstraintOptions& constraints, const SolveOptions& options, const Progress& progress = {});
 
 /// |u| without its mean over the held components.
-/// @param rest u minus a constant on each component
-/// @param constant these constants
+/// @param rest      u minus a constant on each component
+/// @param constant  these constants
 Columns SizeOfSolution(const SpaceLevels& surface, const Components& components,
   const std::vector<char>& isHeld, const MultiVector& rest, const MultiVector& constant,
   int threads);
 
 /// Adds constants on components that nothing holds, to give them these means. A mean of NaN makes
 /// the whole component NaN.
-/// @param space with the mass of the mesh
-/// @param means rows = components of the functions, one column per component of the values
+/// @param space  with the mass of the mesh
+/// @param means  rows = components of the functions, one column per component of the values
 void SetMeans(const SpaceLevels& space, const std::vector<char>& isHeld, const MultiVector& means,
   MultiVector& coefficients, int threads = 0);
 

@@ -104,8 +104,8 @@ Columns EnergyOfMeans(
 /// Overlapping sheets: clipping perturbs their integrals by about 1e-10 cells. Opposite fields on
 /// them therefore leave a spurious load of that size, which no function needs to match. A column is
 /// dropped if the energy of its solution is equally small beside that of the means.
-/// @param energyOfMeans the square root of this energy, of every column
-/// @return whether a column was dropped
+/// @param energyOfMeans  the square root of this energy, of every column
+/// @return               whether a column was dropped
 bool DropCancelled(const Multigrid& multigrid, const Projection& project,
   const Columns& energyOfMeans, MultiVector& rest)
 {
@@ -173,8 +173,8 @@ MultiVector GivenStart(
 
 /// Whether every column is either solved or not determined to the tolerance by the numbers. The
 /// test compares the remaining error with the error by rounding of the entries of A.
-/// @param isStuck false: more iterations help where the error by rounding is smaller than the
-/// remaining error
+/// @param isStuck  false: more iterations help where the error by rounding is smaller than the
+///   remaining error
 bool IsRounding(const Multigrid& multigrid, const DividedRows* divided, const MultiVector& b,
   const MultiVector& x, double tolerance, bool isStuck, const Projection& project)
 {
@@ -206,8 +206,8 @@ bool IsRounding(const Multigrid& multigrid, const DividedRows* divided, const Mu
 }
 
 /// Solves for the part without means, and estimates its errors.
-/// @param squaredSpread of the means that are left out
-/// @param scale of the columns of the load
+/// @param squaredSpread  of the means that are left out
+/// @param scale          of the columns of the load
 PoissonSolution SolveWithoutMeans(const SpaceLevels& space, const Multigrid& multigrid,
   const MultiVector& load, const Columns& squaredSpread, const Eigen::RowVectorXd& scale,
   const PoissonOptions& options, const Projection& project, const Progress& progress)

@@ -47,9 +47,9 @@ struct PoissonSolution
 /// component, for every λ >= 0. Its constant part is taken from f, and the rest is iterated
 /// orthogonal to it, from a start by nested iteration. The iteration goes on in double precision if
 /// single is not enough (SolveWithFallback).
-/// @param values ∫ f b_i (LoadOfValues), in the space's unit of length
-/// @param gradients ∫ <s, ∇b_i> (LoadOfGradients); no columns: s = 0
-/// @param multigrid of λM + L, built with the same λ
+/// @param values     ∫ f b_i (LoadOfValues), in the space's unit of length
+/// @param gradients  ∫ <s, ∇b_i> (LoadOfGradients); no columns: s = 0
+/// @param multigrid  of λM + L, built with the same λ
 /// Columns may have any size in the range of numbers, because they are scaled by powers of two.
 /// Same bits for any number of threads. Collective; progress is aborted for all processes or none.
 /// Shared rows of the integrals are complete in all processes. Each process reports the largest

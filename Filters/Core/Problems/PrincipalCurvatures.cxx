@@ -176,7 +176,7 @@ private:
     return boundary;
   }
 
-  /// @return false if the known neighbors lie along one line
+  /// @return  false if the known neighbors lie along one line
   bool Fit(Index function, const std::vector<Index>& neighbours, Vec3& normal) const
   {
     constexpr double SmallestSpread = 1e-3;

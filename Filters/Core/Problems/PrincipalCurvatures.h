@@ -28,8 +28,8 @@ struct PrincipalCurvatures
 /// of opposite orientation cancel, the normal is that of the first one. Points without a triangle
 /// get 0. Normals at a boundary follow from the neighbors' normals, so that a quadratic surface
 /// keeps its curvature there.
-/// @param hats of the mesh: the triangles around each point, with coincident points welded or not
-/// @return points x 3
+/// @param hats  of the mesh: the triangles around each point, with coincident points welded or not
+/// @return      points x 3
 MultiVector PointNormals(const TriangleMesh& mesh, const HatFunctions& hats, int threads = 0);
 
 struct NormalSmoothing
@@ -42,7 +42,7 @@ struct NormalSmoothing
 /// Removes detail smaller than the scale from normals, by one implicit step of diffusion. Its time
 /// is half of the squared scale. The normals are then scaled to unit length again. The normals of a
 /// sphere and of a cylinder stay the same.
-/// @param report of the solver
+/// @param report  of the solver
 MultiVector SmoothNormals(const FiniteElementSpace& space, const MultiVector& normals,
   const NormalSmoothing& options, SolveReport& report, const Job& job = {});
 
@@ -50,16 +50,16 @@ MultiVector SmoothNormals(const FiniteElementSpace& space, const MultiVector& no
 /// is fitted to the differences of the normals along its edges. A point takes the mean over its
 /// triangles, rotated into its tangent plane and weighted by the part of their area that is nearest
 /// to it. A triangle with the opposite orientation to its neighbors counts as turned round.
-/// @param normals points x 3, unit or zero
+/// @param normals  points x 3, unit or zero
 /// Throws InvalidInput when the rows do not fit. Same bits for any number of threads.
 PrincipalCurvatures ComputeCurvatures(const TriangleMesh& mesh, const HatFunctions& hats,
   const MultiVector& normals, const Job& job = {});
 
 /// Computes the curvatures of a surface from start to end, with or without smoothing.
-/// @param weldCoincidentPoints coincident points share their triangles
-/// @param space of the mesh; null if nothing is smoothed
-/// @param smoothing scale 0: no smoothing
-/// @param report of the smoothing
+/// @param weldCoincidentPoints  coincident points share their triangles
+/// @param space      of the mesh; null if nothing is smoothed
+/// @param smoothing  scale 0: no smoothing
+/// @param report     of the smoothing
 PrincipalCurvatures CurvaturesOfSurface(const TriangleMesh& mesh, bool weldCoincidentPoints,
   const FiniteElementSpace* space, const NormalSmoothing& smoothing, SolveReport& report,
   const Job& job = {});

@@ -37,7 +37,7 @@ inline constexpr double AsManyAsWanted = std::numeric_limits<double>::infinity()
 
 /// The depth to compute at, given the `wanted` depth. An automatic depth is replaced by a suitable
 /// one. Below hat functions a coarser depth is taken if it is enough.
-/// @param perPoint functions per point of the grid below the hat functions, if there are any
+/// @param perPoint  functions per point of the grid below the hat functions, if there are any
 int ChooseDepth(const TriangleMesh& mesh, int wanted, FunctionKind kind, double perPoint);
 
 /// The memory that a job needs, and advice if there is not enough of it.
@@ -55,7 +55,7 @@ inline constexpr const char* CoarserGrid =
 MemoryNeed NeedOfModes(Id functions, Id modes, int threads);
 
 /// Throws InvalidInput when a job needs more bytes than are available.
-/// @param where for the message, such as " on this machine"
+/// @param where  for the message, such as " on this machine"
 void RequireMemory(const MemoryNeed& need, double available, const std::string& where = {});
 
 /// Throws InvalidInput, with the estimate, when this depth needs more memory than there is.

@@ -18,7 +18,7 @@ class RowPenalty
 public:
   RowPenalty() = default;
 
-  /// @param rows a place without functions has an empty row
+  /// @param rows  a place without functions has an empty row
   /// Throws InvalidInput when the rows are not of this space.
   RowPenalty(const SpaceLevels& space, SparseMatrix rows, std::vector<double> weight, int threads);
 

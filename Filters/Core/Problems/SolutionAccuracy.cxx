@@ -122,7 +122,7 @@ ColumnMeasures AccuracyWatch::operator()(const Iterate& iterate)
 }
 
 /// Ratios of the errors of two levels, scaled to four times the functions. Empty if unknown.
-/// @param step the difference between the finest level and the next
+/// @param step  the difference between the finest level and the next
 Columns AccuracyWatch::Rates(const Columns& step) const
 {
   if (coarserError_.size() == 0 || space_.NestedLevels())

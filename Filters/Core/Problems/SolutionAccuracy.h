@@ -49,18 +49,19 @@ enum class ErrorOrder
 class AccuracyWatch
 {
 public:
-  /// @param nested the coarser solution, prolonged
-  /// @param coarser its difference from the solution of the level below; no columns: there is none
-  /// @param accuracy wanted ratio of the algebraic error to that of the space; 0: only watches
+  /// @param nested    the coarser solution, prolonged
+  /// @param coarser   its difference from the solution of the level below; no columns: there is
+  ///   none
+  /// @param accuracy  wanted ratio of the algebraic error to that of the space; 0: only watches
   AccuracyWatch(const SpaceLevels& space, MultiVector nested, const MultiVector& coarser,
     double accuracy, int threads);
 
   ColumnMeasures operator()(const Iterate& iterate);
 
   /// The errors of the solution. The algebraic error is unknown if the iteration was not watched.
-  /// @param solution the result of the iteration
-  /// @param size |u| of each column, without its mean over the surface
-  /// @param scale of the columns; both still contain it
+  /// @param solution  the result of the iteration
+  /// @param size      |u| of each column, without its mean over the surface
+  /// @param scale     of the columns; both still contain it
   SolutionAccuracy Result(const MultiVector& solution, const Columns& size,
     const Eigen::RowVectorXd& scale, ErrorOrder order) const;
 

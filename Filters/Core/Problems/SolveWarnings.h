@@ -54,9 +54,9 @@ std::string WarningOf(const PartialField& field);
 
 /// The warnings about a spectrum that is too short, has only constants, ends inside a group of
 /// equal eigenvalues, or has not converged.
-/// @param wanted number of modes
-/// @param where the space, such as "at Depth 7"
-/// @param tellOfGroup false: no warning about a list that ends inside a group
+/// @param wanted  number of modes
+/// @param where   the space, such as "at Depth 7"
+/// @param tellOfGroup  false: no warning about a list that ends inside a group
 std::vector<std::string> WarningsOf(
   const Spectrum& spectrum, int wanted, const std::string& where, bool tellOfGroup);
 

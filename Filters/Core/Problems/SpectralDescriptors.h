@@ -75,7 +75,7 @@ std::vector<double> DiffusionDistance(
 /// space, not as linear functions between the points. A mode has the share 1 in itself and 0 in the
 /// others, to rounding. Throws InvalidInput when the mesh has too few points to tell the modes
 /// apart.
-/// @param divided for several processes, each with the mesh of its triangles; collective
+/// @param divided  for several processes, each with the mesh of its triangles; collective
 MultiVector ModeShares(const TriangleMesh& mesh, const PointModes& modes, const MultiVector& f,
   int threads = 0, const DividedRows* divided = nullptr);
 

@@ -72,7 +72,7 @@ Spectrum ComputeNestedSpectrum(
 /// Estimated errors are those of the nested levels plus the excess of the finest level's values
 /// over theirs. No space has eigenvalues below those of the surface, so the sum is the error of the
 /// worse of the two.
-/// @param nested may have fewer modes than asked for, at the price of more iterations
+/// @param nested  may have fewer modes than asked for, at the price of more iterations
 Spectrum FinishSpectrum(const SurfaceSpace& space, Spectrum nested, const SpectrumOptions& options,
   const Progress& progress = {});
 

@@ -24,8 +24,8 @@ double LowestValue(double area, double side);
 /// next coarser level has four times the error, and the error of `fine` is a third of the
 /// difference. The squared residuals, the error of the iteration, are added. Errors are at most 1,
 /// which stands for unknown: the coarser level does not have the pair.
-/// @param coarse values of the next coarser level, ascending; may be fewer
-/// @param residuals one per wanted pair, at most as many as `fine`
+/// @param coarse     values of the next coarser level, ascending; may be fewer
+/// @param residuals  one per wanted pair, at most as many as `fine`
 std::vector<double> EstimateErrors(
   const Eigen::VectorXd& coarse, const Eigen::VectorXd& fine, const std::vector<double>& residuals);
 

@@ -22,7 +22,7 @@ struct ListReport
 };
 
 /// Improves approximate pairs on the finest level to the final list.
-/// @param block as for ImproveManyEigenPairs; `wanted` is the length of the list without zeros
+/// @param block  as for ImproveManyEigenPairs; `wanted` is the length of the list without zeros
 template<class Real>
 ListReport FinishList(const SpectralProblem<Real>& problem, BlockOptions block, const ListEnd& end,
   EigenPairs<Real>& pairs, const Progress& progress);

@@ -212,7 +212,7 @@ MultiVector LoadOfKeptGradients(const FiniteElementSpace& space, const ScanCut& 
 }
 
 /// Whether each point of the mesh is a corner of a seam, or of triangles of two scans.
-/// @param hats coincident points have the same function
+/// @param hats  coincident points have the same function
 std::vector<char> PointsOnSeams(
   const TriangleMesh& mesh, const HatFunctions& hats, const ScanCut& cut)
 {

@@ -34,15 +34,16 @@ struct ScanCut
 };
 
 /// Cuts a mesh into its scans.
-/// @param colors whether colors are on points or triangles. Colors on points are linear on
-/// triangles. A triangle with corners of two scans is then a seam. With labels on triangles, so is
-/// every triangle that shares a corner with another scan. Colors of triangles jump only on edges.
+/// @param colors  whether colors are on points or triangles. Colors on points are linear on
+///   triangles. A triangle with corners of two scans is then a seam. With labels on triangles, so
+///   is every triangle that shares a corner with another scan. Colors of triangles jump only on
+///   edges.
 /// Throws InvalidInput when the labels do not fit the mesh or one is negative.
 ScanCut CutAtSeams(const TriangleMesh& mesh, const ScanLabels& labels, FieldAssociation colors);
 
 /// The share of each triangle's gradient that is kept. It is 0 on seams and where triangles of two
 /// scans meet. It rises smoothly to 1 at a distance along the surface.
-/// @param width this distance, world units; 0: the share is 1 on all triangles but seams
+/// @param width  this distance, world units; 0: the share is 1 on all triangles but seams
 /// Throws InvalidInput when `width` is not a number from 0 on.
 std::vector<double> KeptShares(const TriangleMesh& mesh, const ScanCut& cut, double width);
 
@@ -62,10 +63,10 @@ struct StitchedColors
 /// Finds the function whose gradients are those of the colors, and zero on seams. Its mean on every
 /// connected component is that of the colors, or that of the reference. Scans on two sides of a gap
 /// are stitched across the gap if functions overlap it.
-/// @param details a space on cut.pieces, connectivity-aware and without welding, or null. With it,
-/// the result is the colors plus the change by stitching, smoothed over two units of length within
-/// each scan. Details finer than the functions then stay. The result is the function itself without
-/// `details`, and at points whose triangles are all seams.
+/// @param details  a space on cut.pieces, connectivity-aware and without welding, or null. With it,
+///   the result is the colors plus the change by stitching, smoothed over two units of length
+///   within each scan. Details finer than the functions then stay. The result is the function
+///   itself without `details`, and at points whose triangles are all seams.
 /// Throws InvalidInput when the colors do not fit, and Aborted. Same bits for any number of
 /// threads.
 StitchedColors StitchColors(const FiniteElementSpace& space, const TriangleMesh& mesh,

@@ -22,7 +22,7 @@ struct SurfaceCurve
 /// The border between a region and the rest. A region of points ends halfway along the edges that
 /// leave it; a region of triangles ends at edges. Coincident points that are welded may be on
 /// different sides; the border then runs through them.
-/// @param isInside one column on points or triangles: not 0 in the region
+/// @param isInside  one column on points or triangles: not 0 in the region
 /// Throws InvalidInput when all of the surface is inside or nothing is, or the field does not fit.
 SurfaceCurve BorderOfRegion(
   const TriangleMesh& mesh, const Field& isInside, bool weldCoincidentPoints);

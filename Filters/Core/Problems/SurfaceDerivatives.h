@@ -32,7 +32,7 @@ struct SurfaceDerivatives
 /// A projection u of g solves (M + δL) u = ∫ g b_i with δ a tenth of a squared unit of length. This
 /// smooths less than a grid of that unit does. The projection of a field on points also uses its
 /// gradient ∇f, so that a function of the space does not change.
-/// @param triangles of the mesh that the space was made from
+/// @param triangles  of the mesh that the space was made from
 /// Throws InvalidInput when the field does not fit, and Aborted. Same bits for any number of
 /// threads. Collective.
 SurfaceDerivatives ComputeDerivatives(const SurfaceSpace& space, const TriangleMesh& mesh,

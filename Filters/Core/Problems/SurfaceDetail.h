@@ -45,14 +45,14 @@ enum class CurvatureTransfer
 
 /// The length factor for a curvature: 1 for small curvatures, `largest` from 1 and -1 on, if
 /// `transfer` enlarges curvatures of that sign.
-/// @param curvature in units of the usual curvature
+/// @param curvature  in units of the usual curvature
 double LengthOf(CurvatureTransfer transfer, double curvature, double largest);
 
 /// Rises from 0 to 1 like x, without a kink at its ends.
 double SmoothStep(double x);
 
 /// The weights of the elements in the metric diag(α(κ₁)², α(κ₂)²). [T (5.16), (5.17)]
-/// @param curvatures elements x 2 (MeansOnElements of TriangleCurvatures::values)
+/// @param curvatures  elements x 2 (MeansOnElements of TriangleCurvatures::values)
 /// Throws InvalidInput where α is not above 0 and finite.
 std::vector<ElementWeights> WeightsOfMetric(
   const MultiVector& curvatures, const TransferFunction& alpha);

@@ -19,7 +19,7 @@ namespace
 constexpr double StartTolerance = 1e-4;
 
 /// Whether the value behind the first `count` belongs to the multiplet of the last of them.
-/// @param before number of values before these
+/// @param before  number of values before these
 template<class Values>
 bool EndsInside(const Values& values, Index before, Index count)
 {

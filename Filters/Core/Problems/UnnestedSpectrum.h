@@ -14,7 +14,7 @@ SpectrumOptions StartOptions(SpectrumOptions options);
 
 /// The second step of ComputeSpectrum. The result is that of any solver for the finest matrices.
 /// Constants of the components are exact. Same bits for any number of threads. Throws Aborted.
-/// @param start of the nested levels, with StartOptions
+/// @param start  of the nested levels, with StartOptions
 Spectrum ImproveSpectrum(const SurfaceSpace& space, const Spectrum& start,
   const SpectrumOptions& options, const Progress& progress = {});
 
