@@ -112,8 +112,8 @@ TEST(UnnestedSpectrum, VectorsAreEigenvectors)
 
 TEST(UnnestedSpectrum, GoesOnToTheEndOfAMultipletOrSaysThatItIsCut)
 {
-  const TriangleMesh mesh = Transform(GeodesicSphere(24), { 1, 2, 3 }, 0.4); // groups of 1, 3, 5,
-                                                                             // ...
+  // Its eigenvalues are equal in groups of 1, 3, 5, ...
+  const TriangleMesh mesh = Transform(GeodesicSphere(24), { 1, 2, 3 }, 0.4);
   SpectrumOptions options = Options(6, 1e-8);
   const Modes cut(mesh, 5, options);
   EXPECT_EQ(cut.spectrum.eigenvalues.size(), 6u);
