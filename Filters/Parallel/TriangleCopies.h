@@ -1,5 +1,5 @@
-// Triangles of a rank that are copies of another rank's triangles, such as those of ghost cells.
-// They are not integrated, and get the values of the originals.
+// Triangles of a rank that are copies of another rank's triangles, such as ghost cells. They are
+// not integrated, and get the values of the originals.
 #ifndef GridFEM_TriangleCopies_h
 #define GridFEM_TriangleCopies_h
 

@@ -24,11 +24,12 @@ struct PatchOrder
   /// Color c has the blocks colourBegin[c] .. colourBegin[c + 1). The matrix does not couple
   /// unknowns of two blocks of one color.
   std::vector<Id> colourBegin;
-  /// Per unknown, the height of its grid corner in cells; empty if unknowns have none. The matrix
-  /// does not couple unknowns whose heights differ by more than one.
+  /// The height of each unknown's grid corner in cells; empty if unknowns have no corner. The
+  /// matrix does not couple unknowns whose heights differ by more than one.
   std::vector<Index> slice;
-  /// Per unknown, i + 4 j + 12 k of its grid corner; empty if unknowns have none. Coupled unknowns
-  /// differ by at most one in i, j and k, so the difference tells their relative position.
+  /// The number i + 4 j + 12 k of each unknown's grid corner; empty if unknowns have no corner.
+  /// Coupled unknowns differ by at most one in i, j and k, so the difference tells their relative
+  /// position.
   std::vector<Index> corner;
 };
 
@@ -126,8 +127,8 @@ std::unique_ptr<BasicSmoother<float>> MakeSinglePatchSmoother(
 /// everything is stored and computed in single precision (Smoother::IsSingle). Patches with pivots
 /// below 1e-6 are relaxed once more in double precision. Flat faces almost parallel to a plane of
 /// the grid have such patches.
-/// Returns null if more than a tenth of the patches have such pivots. Also returns null if patches
-/// are not the eight corners of a cell or many of them share a cell; see StencilBlocks.
+/// Returns null if more than a tenth of the patches have such pivots. The result is also null if
+/// patches are not the eight corners of a cell, or if many of them share a cell. See StencilBlocks.
 /// @param patternFits  if not null: false if the result is null for any values of the matrix
 std::unique_ptr<Smoother> MakeStencilSmoother(
   const SparseMatrix& A, const PatchOrder& order, int threads = 0, bool* patternFits = nullptr);

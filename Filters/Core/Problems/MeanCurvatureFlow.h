@@ -95,7 +95,7 @@ class MeanCurvatureFlow
 public:
   /// @param mesh  the mesh that the space was made from
   /// Throws InvalidInput for a time step that is not positive and for a conformalized flow with
-  /// functions that are made anew. Also throws it for fixed points that another option would move,
+  /// functions that are made anew. It also throws for fixed points that another option would move,
   /// and if there is no volume to keep.
   MeanCurvatureFlow(std::shared_ptr<const FiniteElementSpace> space,
     std::shared_ptr<const TriangleMesh> mesh, FlowOptions options);

@@ -61,7 +61,7 @@ using NearestPlaces =
 /// next such triangle, for doubled triangles. If there is none, a piece repeated by another line
 /// counts once.
 ///
-/// Also throws InvalidInput for a line that jumps between parts of the surface, and for an open
+/// A line that jumps between parts of the surface throws InvalidInput, too, and so does an open
 /// line within a triangle. Cost O(triangles + crossings), and some calls of `nearest` for each
 /// crossing.
 SurfaceCurve DivideByLines(const TriangleMesh& mesh, const std::vector<std::vector<Vec3>>& lines,
