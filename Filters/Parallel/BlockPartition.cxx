@@ -11,10 +11,11 @@ namespace gridfem
 namespace
 {
 
-/// Cells by which a triangle may be nearer to a block than its coordinates say: more than snapping.
+/// Cells by which a triangle may be closer to a block than its coordinates say. It is more than the
+/// distance of snapping.
 constexpr double Slack = 0.01;
 
-/// Finest level that blocks are looked for on when none is given: some 10^5 of them on a surface.
+/// Finest level for blocks when none is given. A surface has about 10^5 blocks there.
 constexpr int FinestBlocks = 7;
 
 std::array<Vec3, 3> CornersOf(const TriangleMesh& mesh, Id triangle, const Grid& grid)
@@ -24,7 +25,7 @@ std::array<Vec3, 3> CornersOf(const TriangleMesh& mesh, Id triangle, const Grid&
     grid.ToGrid(mesh.points[points[2]]) };
 }
 
-/// Pieces that a triangle is clipped to, about.
+/// Approximate number of pieces that a triangle is clipped to.
 double ExpectedPieces(const std::array<Vec3, 3>& corner)
 {
   const Vec3 extent = corner[0].cwiseMax(corner[1]).cwiseMax(corner[2]) -
@@ -32,7 +33,7 @@ double ExpectedPieces(const std::array<Vec3, 3>& corner)
   return 1.0 + extent.sum() + 0.5 * (corner[1] - corner[0]).cross(corner[2] - corner[0]).norm();
 }
 
-/// Adds up the pieces of blocks with the same key, which become sorted.
+/// Sorts blocks by key and adds up the pieces of blocks with the same key.
 template<class Block>
 void SortAndMerge(std::vector<Block>& blocks)
 {
@@ -71,7 +72,7 @@ BlockPartition::BlockPartition(const Communicator& ranks, const TriangleMesh& me
     {
       std::unordered_map<MortonKey, double> pieces;
       std::vector<MortonKey> met;
-      std::pair<const MortonKey, double>* last = nullptr; // of the triangle before: often the same
+      std::pair<const MortonKey, double>* last = nullptr; // of the triangle before, often the same
       const double side = 1 << (frame.grid.depth - depth_);
       for (Id t = 0; t < static_cast<Id>(mesh.triangles.size()); ++t)
       {
@@ -125,7 +126,7 @@ void BlockPartition::Divide(std::vector<Block> blocks, bool isCoarsened, int ran
   double sum = 0.0;
   for (const Block& block : blocks)
   {
-    // A block goes to the rank in whose share its middle lies.
+    // A block goes to the rank whose share contains its middle.
     const double middle = sum + 0.5 * block.pieces;
     while (static_cast<int>(begin_.size()) < ranks &&
            middle >= total * static_cast<double>(begin_.size()) / ranks)
@@ -200,7 +201,7 @@ void BlockPartition::AddRanksNear(MortonKey block, std::vector<int>& ranks) cons
 
 std::vector<int> BlockPartition::RanksNearCell(MortonKey cell) const
 {
-  constexpr int Reach = Margin + 1; // all that FindRanksNear finds of a triangle in the cell
+  constexpr int Reach = Margin + 1; // for all results of FindRanksNear
   const CellIndex index = MortonDecode(cell);
   BlockBox box;
   for (int axis = 0; axis < 3; ++axis)
@@ -235,7 +236,7 @@ void BlockPartition::FindRanksNear(
   ranks.clear();
   if (isSmall)
   {
-    // To look closer would cost more than the few triangles that it saves.
+    // A closer look would cost more than the few triangles that it saves.
     near.box = box;
     ForBlocksOf(
       box, [&](const CellIndex& block) { this->AddRanksNear(MortonEncode(block), ranks); });

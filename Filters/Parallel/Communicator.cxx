@@ -11,7 +11,7 @@ namespace gridfem
 namespace
 {
 
-/// What the ranks tell each other of a failure; the largest wins.
+/// Outcomes that the ranks exchange after a failure. The largest wins.
 enum Outcome
 {
   Fine = 0,
@@ -53,7 +53,7 @@ Failure Describe(const std::exception_ptr& failure)
   }
 }
 
-/// Items as one MPI type, so that counts are those of items.
+/// Items as one MPI type, so that MPI counts items and not bytes.
 class ItemType
 {
 public:
@@ -71,7 +71,7 @@ private:
   MPI_Datatype type_ = MPI_DATATYPE_NULL;
 };
 
-/// MPI counts items with 32 bits in one message.
+/// Largest number of items in a message, because MPI counts them with 32 bits.
 constexpr Id ItemsPerMessage = std::numeric_limits<int>::max() / 2;
 
 int CountOf(Id items)
@@ -90,7 +90,7 @@ Communicator::Communicator(MPI_Comm handle) : handle_(handle)
 void Communicator::ThrowTogether(const std::exception_ptr& failure) const
 {
   const Failure own = Describe(failure);
-  // The worst outcome, and of equal ones the lowest rank.
+  // The worst outcome. If several ranks have it, the lowest rank counts.
   int mine[2] = { own.outcome, rank_ };
   int worst[2] = { Fine, 0 };
   MPI_Allreduce(mine, worst, 1, MPI_2INT, MPI_MAXLOC, handle_);
@@ -193,8 +193,8 @@ void Communicator::GatherBytes(
   MPI_Allgatherv(own, count[rank_], type, all, count.data(), begin.data(), type, handle_);
 }
 
-/// From one rank to the next, in parts that MPI can count; only between ranks that have something
-/// to say.
+/// Sends bytes from each rank to each other, in parts that MPI can count. Ranks without data for
+/// each other exchange no message.
 void Communicator::ExchangeBytes(const std::vector<const void*>& out, const std::vector<Id>& sent,
   const std::vector<void*>& in, const std::vector<Id>& received, std::size_t itemSize) const
 {

@@ -1,4 +1,4 @@
-// The MPI ranks that hold a surface together: messages between them, and failures taken together.
+// The MPI ranks that hold a surface: messages between them, and a common reaction to failures.
 #ifndef GridFEM_Communicator_h
 #define GridFEM_Communicator_h
 
@@ -15,7 +15,7 @@
 namespace gridfem
 {
 
-/// Thrown on every rank when one has failed; says which, and why.
+/// Thrown on every rank when one rank has failed; names the rank and the reason.
 struct RankFailure : std::runtime_error
 {
   RankFailure(int failed, const std::string& reason) : std::runtime_error(reason), rank(failed) {}
@@ -33,8 +33,9 @@ public:
   int Size() const { return size_; }
   int Rank() const { return rank_; }
 
-  /// Runs the body, which is not collective, on all ranks. When one throws, all do: Aborted if that
-  /// was thrown anywhere, else RankFailure with the message of the first rank that failed.
+  /// Runs the body, which is not collective, on all ranks. If it throws on one rank, all ranks
+  /// throw: Aborted if any rank threw Aborted, else RankFailure with the message of the first rank
+  /// that failed.
   template<class Body>
   void Together(Body&& body) const
   {
@@ -50,10 +51,10 @@ public:
     this->ThrowTogether(failure);
   }
 
-  /// Runs a body that calls collective functions. What it throws on this rank alone, also outside
-  /// of Together, all throw, as there: every message between ranks begins with the question whether
-  /// one has failed, so that the others learn it where they wait next. InvalidInput is thrown on
-  /// all ranks or none, and stays what it is.
+  /// Runs a body that calls collective functions. If it throws on this rank alone, even outside of
+  /// Together, all ranks throw, as with Together. Every message between ranks first asks whether a
+  /// rank has failed, so the other ranks learn of it at their next wait. InvalidInput has to be
+  /// thrown on all ranks or none, and is passed on unchanged.
   template<class Body>
   void Guard(Body&& body) const
   {
@@ -81,22 +82,22 @@ public:
     this->ThrowTogether(failure);
   }
 
-  /// What every message begins with, for those that are not sent here.
+  /// The check for failures that starts every message, for callers that send their own messages.
   void RequireAll() const { this->ThrowTogether(nullptr); }
 
-  /// How many of the ranks run on this machine.
+  /// The number of ranks that run on this machine.
   int RanksOfMachine() const;
 
   /// The sum over the ranks of this machine.
   double SumOfMachine(double own) const;
 
-  /// Entry by entry over the ranks, in place. The same bits on all ranks.
+  /// Reductions over the ranks, entry by entry and in place. The same bits on all ranks.
   void Sum(double* values, Id count) const;
   void Sum(float* values, Id count) const;
   void Minimum(double* values, Id count) const;
   void Maximum(double* values, Id count) const;
 
-  /// What the ranks before this one have, and what all have.
+  /// The count of the ranks before this one, and the count of all ranks.
   struct Share
   {
     Id before = 0;
@@ -104,7 +105,7 @@ public:
   };
   Share ShareOf(Id own) const;
 
-  /// The items of all ranks, one rank after the other.
+  /// The items of all ranks, ordered by rank.
   template<class T>
   std::vector<T> Gather(const std::vector<T>& own) const
   {
@@ -121,7 +122,7 @@ public:
     return all;
   }
 
-  /// Sends messages[r] to rank r; returns what each rank has sent here.
+  /// Sends messages[r] to rank r, and returns the messages that each rank has sent here.
   template<class T>
   std::vector<std::vector<T>> Exchange(const std::vector<std::vector<T>>& messages) const
   {

@@ -25,7 +25,7 @@ Position PositionOf(const Vec3& point)
   return { point[0], point[1], point[2] };
 }
 
-/// Who holds hats that more than one rank holds.
+/// The ranks that hold hats which more than one rank holds.
 class Directory
 {
 public:
@@ -55,7 +55,7 @@ public:
     std::sort(holders_.begin(), holders_.end());
   }
 
-  /// By rank.
+  /// The holders of a position, sorted by rank.
   using Range = std::pair<std::vector<Holder>::const_iterator, std::vector<Holder>::const_iterator>;
   Range Of(const Position& position) const
   {
@@ -67,7 +67,7 @@ private:
   std::vector<Holder> holders_;
 };
 
-/// Collective. Per hat the ranks that hold it, ascending; none where this rank holds it alone.
+/// Collective. The ranks that hold each hat, ascending; none if this rank holds it alone.
 std::vector<std::vector<int>> HoldersOf(const Communicator& ranks, const HatList& hats)
 {
   std::vector<std::vector<Position>> asked(ranks.Size());
@@ -84,7 +84,7 @@ std::vector<std::vector<int>> HoldersOf(const Communicator& ranks, const HatList
       }
     });
   asked = ranks.Exchange(asked);
-  std::vector<std::vector<int>> told(ranks.Size()); // for each hat the number of ranks, and these
+  std::vector<std::vector<int>> told(ranks.Size()); // per hat: a number of ranks, then these
   ranks.Together(
     [&]
     {
@@ -146,7 +146,7 @@ std::vector<RankNeighbour> NeighboursOf(
   return neighbours;
 }
 
-/// Collective. Numbers of own hats are known, and are told to the other ranks.
+/// Collective. Numbers own hats and sends their numbers to the other ranks.
 void TakeNumbers(const Communicator& ranks, LevelNumbering& numbering)
 {
   std::unique_ptr<const RankRows> rows;

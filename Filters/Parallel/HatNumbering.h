@@ -1,4 +1,4 @@
-// Which hat functions of a mesh that several ranks hold together are here, and their numbers.
+// Numbers the hat functions of a mesh on several ranks, and tells which of them are here.
 #ifndef GridFEM_HatNumbering_h
 #define GridFEM_HatNumbering_h
 
@@ -9,14 +9,15 @@
 namespace gridfem
 {
 
-/// Hats that a rank holds, in an order that any two ranks have for those that both hold.
+/// Hats that a rank holds. Any two ranks list the hats that both hold in the same order.
 struct HatList
 {
-  std::vector<Vec3> position; // of its point, which tells the hat on all ranks
-  std::vector<int> home; // the rank whose cells contain the point: it is asked who holds the hat
+  std::vector<Vec3> position; // position of its point, which identifies the hat on all ranks
+  // The rank whose cells contain the point. It is asked which ranks hold the hat.
+  std::vector<int> home;
 };
 
-/// Collective. A hat belongs to the lowest rank that holds it.
+/// Collective. Numbers the hats. A hat belongs to the lowest rank that holds it.
 /// @param place  gets the place of each hat of the list in the numbering
 LevelNumbering NumberHats(
   const Communicator& ranks, const HatList& hats, std::vector<Index>& place);

@@ -11,14 +11,14 @@ namespace gridfem
 namespace
 {
 
-/// Received points that this rank evaluates and that somebody holds, ascending; of those at one
-/// place of one sheet the first.
+/// Received points that this rank evaluates and that some rank holds, ascending. If several are at
+/// one place of one sheet, only the first is listed.
 std::vector<Id> PlacesOfHeld(const RankSpace& space, const MultiVector& received)
 {
   const std::vector<Vec3>& position = space.Own().Mesh().points;
   const Array<Index>& patch = space.PointPatches();
   std::vector<Id> places;
-  std::size_t first = 0; // of the places at the same position
+  std::size_t first = 0; // first of the places at the same position
   for (Id place = 0; place < received.rows(); ++place)
   {
     if (patch[place] < 0 || received(place, 0) == 0.0)
@@ -40,7 +40,7 @@ std::vector<Id> PlacesOfHeld(const RankSpace& space, const MultiVector& received
   return places;
 }
 
-/// On a grid, where each point has the rank that evaluates it.
+/// Held values on a grid, where one rank evaluates each point.
 HeldValues HoldOnGrid(const RankSpace& space, const MultiVector& received)
 {
   const Id columns = received.cols() - 1;
@@ -57,7 +57,8 @@ HeldValues HoldOnGrid(const RankSpace& space, const MultiVector& received)
 
 constexpr double Nobody = std::numeric_limits<double>::infinity();
 
-/// Calls body(hat, place, rank that has given it) for places where a point of a hat is held.
+/// Calls body(hat, place, rank that has sent the point) for every place where a hat's point is
+/// held.
 template<class Body>
 void ForHeldHats(const RankLevels& levels, const MultiVector& received, Body&& body)
 {
@@ -72,7 +73,7 @@ void ForHeldHats(const RankLevels& levels, const MultiVector& received, Body&& b
   }
 }
 
-/// Collective. Per hat the lowest rank that has given a held point of it.
+/// Collective. The lowest rank that has sent a held point of each hat.
 MultiVector FirstGivers(const RankLevels& levels, const MultiVector& received)
 {
   MultiVector first;
@@ -87,7 +88,8 @@ MultiVector FirstGivers(const RankLevels& levels, const MultiVector& received)
   return first;
 }
 
-/// Collective. Per hat the values that its first giver has for it, of several points the least.
+/// Collective. The values that the first sender of each hat has for it; the least values if it has
+/// several points.
 MultiVector ValuesOfGivers(
   const RankLevels& levels, const MultiVector& first, const MultiVector& received)
 {
@@ -110,7 +112,8 @@ MultiVector ValuesOfGivers(
   return values;
 }
 
-/// A hat is 1 at its point, which all ranks that have received it may hold.
+/// Held values on hats. A hat is 1 at its point, and every rank that has received the point may
+/// hold it.
 HeldValues HoldHats(const RankLevels& levels, const MultiVector& received)
 {
   const MultiVector first = FirstGivers(levels, received);
@@ -143,7 +146,7 @@ HeldValues HoldPoints(
   const RankLevels& levels, const std::vector<Id>& points, const MultiVector& values)
 {
   const RankSpace& space = levels.Space();
-  MultiVector own; // 1 where a point is held, and its values
+  MultiVector own; // 1 where a point is held, followed by its values
   space.Ranks().Together(
     [&]
     {

@@ -1,4 +1,4 @@
-// Values that are held at points of a surface on several ranks.
+// Held values at points of a surface on several ranks.
 #ifndef GridFEM_HeldPoints_h
 #define GridFEM_HeldPoints_h
 
@@ -10,16 +10,17 @@
 namespace gridfem
 {
 
-/// Collective. As HoldPoints on one rank; each rank gets the rows of the points that it evaluates.
-/// Points of several ranks at the same place of one sheet are one, which has the value of the first
-/// of them.
+/// Collective. HoldPoints for several ranks; each rank gets the rows of the points that it
+/// evaluates. Points of several ranks at the same place of one sheet count as one, with the value
+/// of the first.
 /// @param points  this rank's own, each once
 /// @param values  a row for each; the same columns on all ranks
 HeldValues HoldPoints(
   const RankLevels& levels, const std::vector<Id>& points, const MultiVector& values);
 
-/// Collective. What this rank holds of the points that it has received.
-/// @param received  rows = received points: not 0 where a point is held, then its values
+/// Collective. The held values at the points that this rank has received.
+/// @param received  rows = received points: a number that is not 0 where a point is held, then its
+///   values
 HeldValues HoldReceived(const RankLevels& levels, const MultiVector& received);
 
 } // namespace gridfem

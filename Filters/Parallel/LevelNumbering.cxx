@@ -10,7 +10,7 @@ namespace gridfem
 namespace
 {
 
-/// A function told by one of its patches.
+/// A function, identified by one of its patches.
 struct PatchCorner
 {
   MortonKey cell;
@@ -18,7 +18,7 @@ struct PatchCorner
   Index corner;
 };
 
-/// What the patches around this rank's cells say of the functions.
+/// The ranks that functions touch, as far as the patches around this rank's cells show.
 class Touching
 {
 public:
@@ -59,7 +59,7 @@ public:
   int OwnerOf(Index function) const { return owner_[function]; }
   Index CountOf(Index function) const { return count_[function]; }
 
-  /// @param place  of every function in the numbering
+  /// @param place  place of every function in the numbering
   std::vector<RankNeighbour> Neighbours(const std::vector<Index>& place) const
   {
     std::vector<RankNeighbour> neighbours;
@@ -78,7 +78,7 @@ public:
     return neighbours;
   }
 
-  /// Of a function of another rank: a patch in the owner's cells.
+  /// Identifies a function of another rank by a patch in the owner's cells.
   PatchCorner Describe(Index function) const
   {
     const Index patch = patch_[function];
@@ -112,7 +112,7 @@ private:
   std::vector<int> owner_;
   std::vector<Index> patch_;
   std::vector<Index> count_;
-  std::vector<std::pair<int, Index>> others_; // other ranks that functions here touch
+  std::vector<std::pair<int, Index>> others_; // other ranks touched by functions here
 };
 
 /// The number of a function that another rank asks for.

@@ -1,4 +1,4 @@
-// Entries of a sparse matrix that come in any order, as other processes tell them.
+// Entries of a sparse matrix in any order, as other processes send them.
 #ifndef GridFEM_MatrixEntries_h
 #define GridFEM_MatrixEntries_h
 
@@ -16,11 +16,12 @@ struct MatrixEntry
   double value;
 };
 
-/// A square matrix of so many rows: those of A, to which entries are added; entries of one place
-/// are added up.
+/// The sum of A and the entries, as a square matrix with `rows` rows. Entries at one place are
+/// added up.
 SparseMatrix SumOf(const SparseMatrix& A, std::vector<MatrixEntry> entries, Index rows);
 
-/// Calls body(row, column, value) for entries whose row and column are in a list, places in it.
+/// Calls body(row, column, value) for entries whose row and column are in a list. Row and column
+/// are given as places in the list.
 template<class Body>
 void ForEntries(const SparseMatrix& A, const std::vector<Index>& list, Body&& body)
 {
@@ -41,10 +42,10 @@ void ForEntries(const SparseMatrix& A, const std::vector<Index>& list, Body&& bo
   }
 }
 
-/// The rows and columns of a list.
+/// The part of A with the rows and columns in a list.
 SparseMatrix PartOf(const SparseMatrix& A, const std::vector<Index>& list);
 
-/// An order of such a part becomes one of the whole.
+/// Converts an order of such a part to an order of the whole matrix.
 PatchOrder InWhole(PatchOrder order, const std::vector<Index>& list);
 
 } // namespace gridfem

@@ -8,7 +8,7 @@ namespace gridfem
 namespace
 {
 
-/// Numbers the cut points that corners name anew, and drops the others.
+/// Renumbers the cut points that corners use, and drops all others.
 void KeepCutPoints(ClippedMesh& clipped)
 {
   const auto inputs = static_cast<Index>(clipped.numberOfInputPoints);
@@ -39,7 +39,7 @@ void KeepCutPoints(ClippedMesh& clipped)
   clipped.position = std::move(position);
 }
 
-/// Pieces that are not kept, of triangles with others that are.
+/// Removed pieces of triangles that also have pieces that stay.
 template<class IsKept>
 std::vector<PieceElsewhere> FindElsewhere(
   const ClippedMesh& all, const Array<Index>& piecePatch, const IsKept& isKept)
@@ -81,7 +81,7 @@ void KeepPieces(Index first, Index last, GridFunctions& functions)
   functions.isPart = true;
   functions.elsewhere = FindElsewhere(all, functions.piecePatch, isKept);
   Array<Index> piecePatch;
-  // Room for all costs no memory that is not used.
+  // Room for all pieces is reserved, because unused memory costs nothing.
   piecePatch.reserve(all.pieceTriangle.size());
   clipped.pieceTriangle.reserve(all.pieceTriangle.size());
   clipped.pieceBegin.reserve(all.pieceBegin.size());

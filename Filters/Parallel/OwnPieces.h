@@ -1,4 +1,4 @@
-// Takes what belongs to other ranks out of the functions on a clipped mesh.
+// Removes the data of other ranks from the functions on a clipped mesh.
 #ifndef GridFEM_OwnPieces_h
 #define GridFEM_OwnPieces_h
 
@@ -7,9 +7,9 @@
 namespace gridfem
 {
 
-/// Keeps the pieces of the patches first .. last, which are numbered from 0 then, and of the cut
-/// points those of these pieces. Input points stay; other patches' points have none. Of the other
-/// pieces it is kept where they are that belong to the same triangles.
+/// Keeps the pieces of the patches first .. last, which are then numbered from 0, and the cut
+/// points of these pieces. Input points stay; if they are in other patches, they have no patch. A
+/// removed piece is recorded by its cell and triangle if the triangle also has pieces that stay.
 void KeepPieces(Index first, Index last, GridFunctions& functions);
 
 } // namespace gridfem

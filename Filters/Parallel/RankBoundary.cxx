@@ -11,8 +11,8 @@ namespace gridfem
 namespace
 {
 
-/// On a grid: whether a part of the edges is in the cells of this rank. Of received triangles that
-/// end where nothing more was received none is.
+/// Whether a part of the edges is in the cells of this rank, on a grid. Edges that exist only
+/// because no more triangles were received have no part there.
 bool HasPart(const RankSpace& space, const std::vector<TriangleEdge>& edges)
 {
   const EdgeSamples samples = space.Own().SamplesOfSegments(SegmentsOf(edges, space.Own().Mesh()));
@@ -21,7 +21,7 @@ bool HasPart(const RankSpace& space, const std::vector<TriangleEdge>& edges)
 
 using Ends = std::array<double, 6>;
 
-/// Told by the coordinates of its ends, in an order that all ranks share.
+/// Identifies an edge by the coordinates of its ends, in an order that all ranks share.
 Ends EndsOf(const TriangleEdge& edge, const TriangleMesh& mesh)
 {
   const auto corner = edge.Ends(mesh);
@@ -30,10 +30,10 @@ Ends EndsOf(const TriangleEdge& edge, const TriangleMesh& mesh)
   return { a[0], a[1], a[2], b[0], b[1], b[2] };
 }
 
-/// Collective. With hats: edges of the triangles that this rank integrates. Whether no rank has
-/// another triangle with them is known where one of the ends is in the cells of this rank, and told
-/// by the rank of the first end elsewhere.
-/// @param edges  where nothing more was received
+/// Collective. Boundary edges of the triangles that this rank integrates, with hats. If one end of
+/// an edge is in this rank's cells, this rank knows whether another triangle has the edge.
+/// Otherwise the rank that owns the first end tells.
+/// @param edges  edges with one received triangle
 std::vector<TriangleEdge> EdgesOfHats(
   const RankLevels& levels, const std::vector<TriangleEdge>& edges)
 {
@@ -97,7 +97,7 @@ std::vector<TriangleEdge> EdgesOfHats(
   return found;
 }
 
-/// Of received points: 1 at ends of the edges, and the values.
+/// Rows of received points: 1 at ends of the edges, followed by the values.
 MultiVector RowsOfEnds(
   const TriangleMesh& mesh, const std::vector<TriangleEdge>& edges, const MultiVector& values)
 {
@@ -111,7 +111,8 @@ MultiVector RowsOfEnds(
 
 } // namespace
 
-/// Whoever has a cell that an edge runs through, or a point, has received all triangles with them.
+/// A rank that owns a point, or a cell that an edge runs through, has received all triangles with
+/// them.
 BoundaryTerms TermsOnBoundary(const RankLevels& levels, bool weldCoincidentPoints,
   const MultiVector* flux, const MultiVector* values)
 {

@@ -25,7 +25,7 @@ Grid WithDepth(Grid grid, int depth)
   return grid;
 }
 
-/// Collective. Points of borders count once, as far as triangles tell.
+/// Collective. Number of points. Points on borders count once, as far as the triangles tell.
 double SumOfPoints(const Communicator& ranks, const TriangleMesh& own)
 {
   double points = WeldedPoints(own);
@@ -33,7 +33,7 @@ double SumOfPoints(const Communicator& ranks, const TriangleMesh& own)
   return points;
 }
 
-/// Collective. What the surface of all ranks is expected to have in a grid.
+/// Collective. Expected number of functions of the surface of all ranks in a grid.
 double SumOfFunctions(const Communicator& ranks, const TriangleMesh& own, const Grid& grid)
 {
   double patches = 0.0;
@@ -43,7 +43,7 @@ double SumOfFunctions(const Communicator& ranks, const TriangleMesh& own, const 
   return FunctionsOfPatches(patches);
 }
 
-/// Collective. That of one rank, and coarser until it fits into memory.
+/// Collective. The depth that one rank would suggest, or a coarser one that fits into memory.
 int SuggestDepth(const Communicator& ranks, const TriangleMesh& own, const Grid& grid, bool hasHats)
 {
   const int suggested = SuggestedDepth(SumOfPoints(ranks, own),
@@ -52,7 +52,7 @@ int SuggestDepth(const Communicator& ranks, const TriangleMesh& own, const Grid&
     [&](int depth) { return FitsMemory(ranks, own, WithDepth(grid, depth), hasHats); });
 }
 
-/// Collective. As DepthForPoints.
+/// Collective. DepthForPoints for the surface of all ranks.
 int LimitDepth(
   const Communicator& ranks, const TriangleMesh& own, double functionsPerPoint, const Grid& grid)
 {
@@ -61,7 +61,7 @@ int LimitDepth(
     [&](int depth) { return SumOfFunctions(ranks, own, WithDepth(grid, depth)) <= functions; });
 }
 
-/// Collective.
+/// Collective. The frame in which the surface of all ranks is clipped.
 ClipFrame FrameOf(
   const Communicator& ranks, const TriangleMesh& own, const RankSpaceOptions& rankOptions)
 {
@@ -71,12 +71,12 @@ ClipFrame FrameOf(
                     : isAutomatic     ? CoarsestSuggestion
                                       : options.depth;
   constexpr double Infinity = std::numeric_limits<double>::infinity();
-  std::array<double, 7> extremes; // largest of -x, -y, -z, x, y, z, and of their absolute values
+  std::array<double, 7> extremes; // largest of -x, -y, -z, x, y, z and of all magnitudes
   ranks.Together(
     [&]
     {
       Validate(own, options.threads);
-      EmbedInGrid({}, {}, depth); // refuses a wrong depth
+      EmbedInGrid({}, {}, depth); // throws for a wrong depth
       const Bounds bounds = BoundsOf(own.points, UsedPoints(own, options.threads), options.threads);
       for (int axis = 0; axis < 3; ++axis)
       {
@@ -89,7 +89,7 @@ ClipFrame FrameOf(
   ClipFrame frame;
   if (extremes[0] == -Infinity)
   {
-    frame.grid = EmbedInGrid({}, {}, depth); // nobody has a triangle
+    frame.grid = EmbedInGrid({}, {}, depth); // no rank has a triangle
   }
   else
   {
@@ -116,7 +116,7 @@ ClipFrame FrameOf(
   return frame;
 }
 
-/// Collective. The received triangles that are in the region of this rank.
+/// Collective. The cells of the received triangles, and those of them in this rank's region.
 GivenCells SendCells(
   const Redistribution& distribution, const GivenCells& given, const CellRegion& region)
 {
@@ -177,7 +177,7 @@ void RankClip::KeepOwn(const Communicator& ranks)
   ranks.Together(
     [&]
     {
-      PatchLevel cells; // of which a patch is all that is in a cell
+      PatchLevel cells; // a patch is all that is in a cell
       cells.depth = clipped.grid.depth;
       cells.cell = clipped.cells;
       const PatchRange own = OwnPatches(cells, *partition, ranks.Rank());

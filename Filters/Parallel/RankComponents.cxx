@@ -8,9 +8,9 @@ namespace gridfem
 namespace
 {
 
-/// Collective. Per function the lowest number of a function of its component: that of the rank's
-/// part at first, and lower ones as neighbours tell them. As many rounds as a component crosses
-/// from rank to rank.
+/// Collective. The lowest number of a function in the component of each function. It starts as the
+/// lowest in the rank's part, and decreases as neighbors send lower numbers. It takes as many
+/// rounds as a component crosses borders between ranks.
 MultiVector LowestOfComponents(const Communicator& ranks, const LevelNumbering& numbering,
   const RankRows& rows, const Components& part)
 {
@@ -50,7 +50,7 @@ Components ComponentsOfRanks(const Communicator& ranks, const LevelNumbering& nu
   const RankRows& rows, const Components& part)
 {
   const MultiVector lowest = LowestOfComponents(ranks, numbering, rows, part);
-  std::vector<double> firsts; // numbers of the first functions of all components, ascending
+  std::vector<double> firsts; // numbers of the components' first functions, ascending
   ranks.Together(
     [&]
     {

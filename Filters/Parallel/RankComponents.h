@@ -8,8 +8,8 @@
 namespace gridfem
 {
 
-/// Collective. Components of the whole, in the order of their first functions' numbers.
-/// @param part  of what this rank adds to the surface, functions as in the numbering
+/// Collective. Components of the whole surface, in the order of their first functions' numbers.
+/// @param part  components of this rank's part of the surface, functions as in the numbering
 Components ComponentsOfRanks(const Communicator& ranks, const LevelNumbering& numbering,
   const RankRows& rows, const Components& part);
 

@@ -15,7 +15,7 @@ namespace gridfem
 namespace
 {
 
-/// Of all ranks.
+/// Mean spacing of the functions of all ranks.
 double MeanSpacing(const RankLevels& levels, int threads)
 {
   const RankSpace& space = levels.Space();
@@ -30,7 +30,7 @@ double MeanSpacing(const RankLevels& levels, int threads)
   return std::sqrt(sums[0] / sums[1]);
 }
 
-/// Σ b_i(source), whole in all rows.
+/// Σ b_i(source), complete in all rows.
 MultiVector LoadOfRows(const RankLevels& levels, const SparseMatrix& rows)
 {
   MultiVector load;
@@ -72,7 +72,7 @@ RankDistance::RankDistance(const RankLevels& levels, std::shared_ptr<const Trian
   component_ = ComponentsOfPoints(levels_, components_, job.threads);
 }
 
-/// Points of other ranks that lie upon a source are sources here.
+/// Marks the sources, including points at the place of another rank's source.
 std::vector<char> RankDistance::MarkSources(const std::vector<Id>& sources) const
 {
   const RankSpace& space = levels_.Space();
@@ -109,8 +109,8 @@ MultiVector RankDistance::LoadOfDistance(
   return levels_.LoadOfDirections(heat, away, options_.multigrid.threads);
 }
 
-/// Per component the mean over the sources; NaN where there is none.
-/// @param rows  values of functions at those that this rank evaluates
+/// The mean over the sources of each component; NaN if it has none.
+/// @param rows  values of functions at the sources that this rank evaluates
 std::vector<double> RankDistance::ZeroesAt(
   const SparseMatrix& rows, const MultiVector& distance) const
 {

@@ -1,4 +1,4 @@
-// The distance along a surface that several ranks hold together, from the nearest of some points.
+// The distance along a surface on several ranks from the nearest of some points.
 // [Problems/GeodesicDistance.h]
 #ifndef GridFEM_RankDistance_h
 #define GridFEM_RankDistance_h
@@ -12,8 +12,8 @@
 namespace gridfem
 {
 
-/// The words of GeodesicDistance hold here, too, but that errors are not estimated. Heat flows on
-/// the finest level, so that the smoothing is below MostSmoothing. All functions are collective.
+/// GeodesicDistance for several ranks, without estimated errors. Heat flows on the finest level, so
+/// the smoothing has to be below MostSmoothing. All functions are collective.
 class RankDistance : public DistanceMethod
 {
 public:
@@ -23,8 +23,9 @@ public:
   RankDistance(const RankLevels& levels, std::shared_ptr<const TriangleMesh> mesh,
     const DistanceOptions& options, const Job& job = {});
 
-  /// @param sources  points of this rank; all that lie in one place may be there or one of them
-  /// @return at this rank's points
+  /// @param sources  points of this rank; if several lie in one place, one or all of them may be
+  ///   listed
+  /// @return         distance at this rank's points
   DistanceField From(
     const std::vector<Id>& sources, const SolveOptions& solve, const Job& job = {}) const override;
 

@@ -15,7 +15,7 @@ namespace gridfem
 namespace
 {
 
-/// The hats of what a rank has received, and what of them is its own.
+/// The hats of the received mesh, and this rank's part of them.
 class ReceivedHats
 {
 public:
@@ -38,7 +38,7 @@ public:
     this->ListHeld();
   }
 
-  /// Received points are in an order that all ranks share.
+  /// The held hats. Received points are in an order that all ranks share, and so is the list.
   HatList Held() const
   {
     HatList list;
@@ -50,8 +50,8 @@ public:
     return list;
   }
 
-  /// The held hats, in the places of a numbering.
-  /// @param ofOwn  with the triangles that are integrated here; else with all that were received
+  /// The held hats, at their places in a numbering.
+  /// @param ofOwn  with the triangles that are integrated here; else with all received triangles
   HatFunctions Part(const std::vector<Index>& place, bool ofOwn) const
   {
     std::vector<Index> placeOf(all_.Count(), -1);
@@ -93,8 +93,8 @@ public:
   std::vector<double> IsIntegrated() const { return { isOwn_.begin(), isOwn_.end() }; }
 
 private:
-  /// Hats of own triangles, those with a piece of this rank at their point, and those whose points
-  /// are in its cells; the first points.
+  /// Lists the held hats by their first points: hats of own triangles, hats with a piece of this
+  /// rank at their point, and hats whose points are in its cells.
   void ListHeld()
   {
     std::vector<char> isHeld(all_.Count(), 0);
@@ -107,7 +107,8 @@ private:
     };
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
     {
-      for (int corner = 0; corner < 3 && isOwn_[t]; ++corner) // edges of flat ones may be needed
+      // The edges of flat triangles may be needed.
+      for (int corner = 0; corner < 3 && isOwn_[t]; ++corner)
       {
         hold(mesh_.triangles[t][corner]);
       }
@@ -141,12 +142,12 @@ private:
   const GridFunctions& own_;
   int rank_;
   HatFunctions all_;
-  std::vector<int> home_;   // per point
-  std::vector<char> isOwn_; // per triangle
-  std::vector<Id> point_;   // of each held hat
+  std::vector<int> home_;   // owner of each point
+  std::vector<char> isOwn_; // whether this rank integrates each triangle
+  std::vector<Id> point_;   // first point of each held hat
 };
 
-/// Sweeps over hats that no other rank holds, whose rows lack nothing.
+/// Orders sweeps over the hats that no other rank holds. Their rows are complete here.
 void OrderAlone(const LevelNumbering& numbering, int threads, HatLevel& level)
 {
   std::vector<Index> alone;
@@ -162,7 +163,8 @@ void OrderAlone(const LevelNumbering& numbering, int threads, HatLevel& level)
   level.groups = InWhole(GroupByCoupling(rows, threads), alone);
 }
 
-/// Collective. Weights of all ranks sum up to 1 in each row.
+/// Collective. Builds the rank's part of the prolongation. The weights of all ranks sum to 1 in
+/// each row.
 SparseMatrix BuildProlongation(
   const RankSpace& space, const HatFunctions& hats, const RankRows& rows, int threads)
 {
@@ -197,7 +199,7 @@ SparseMatrix BuildProlongation(
   return weights;
 }
 
-/// Collective. Whether this rank is the first that has a row of the prolongation.
+/// Collective. Whether this rank is the first that has a row of the prolongation, for each hat.
 std::vector<char> FindEvaluated(const Communicator& ranks, const LevelNumbering& numbering,
   const RankRows& rows, const SparseMatrix& prolongation)
 {
@@ -245,7 +247,7 @@ RankHats::RankHats(const RankSpace& space, const Job& job)
   std::vector<Index> place;
   numbering_ = std::make_shared<const LevelNumbering>(NumberHats(ranks, held, place));
   auto level = std::make_shared<HatLevel>();
-  HatFunctions atPoints; // with all triangles around them
+  HatFunctions atPoints; // with all triangles around each point
   std::unique_ptr<const RankRows> rows;
   ranks.Together(
     [&]

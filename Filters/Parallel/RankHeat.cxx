@@ -12,26 +12,26 @@ namespace gridfem
 namespace
 {
 
-/// Rounds are as many as ranks that lie behind each other, and those in which errors at borders
-/// fall.
+/// Largest number of rounds. Heat needs one round per rank on its way, and errors at borders need
+/// further rounds to fall.
 constexpr int MostRounds = 500;
 
-/// Rounds end when what a rank changes at borders is this part of what may change in layers that
-/// are left: errors at borders fall more slowly than those within a rank.
+/// Rounds end when the changes at borders are this fraction of the changes allowed in layers that
+/// are left. Errors at borders fall more slowly than those within a rank.
 constexpr double AtBorders = 0.1;
 
-/// Rounds that come when all is nearly settled, at most.
+/// Largest number of rounds after everything has nearly settled.
 constexpr int MostLastRounds = 30;
 
-/// Of what a rank's patches add to the row of a function that another rank has, too.
+/// An entry that a rank's patches add to the row of a shared function.
 struct ToldEntry
 {
-  Index row; // place among the functions of both
+  Index row; // place among the shared functions
   Id column; // number over all ranks
   double value;
 };
 
-/// Places of numbers in an ascending list; -1 elsewhere.
+/// The place of a number in an ascending list; -1 if it is missing.
 Index PlaceOf(Id number, const std::vector<Id>& list)
 {
   const auto found = std::lower_bound(list.begin(), list.end(), number);
@@ -63,8 +63,8 @@ RankHeat::RankHeat(const RankLevels& levels, double t, double change, const Job&
   job.Check(1.0);
 }
 
-/// Collective. Completes the rows of all functions here, by what neighbours tell of those that both
-/// have.
+/// Collective. Completes the rows of all functions here with the entries that neighbors send for
+/// shared functions.
 void RankHeat::FindOthers(const SparseMatrix& part)
 {
   const LevelNumbering& numbering = levels_.Space().Numberings().front();
@@ -104,7 +104,7 @@ void RankHeat::FindOthers(const SparseMatrix& part)
   ranks_.Together(
     [&]
     {
-      std::vector<std::vector<Id>> unknown(ranks_.Size()); // numbers here, of each rank
+      std::vector<std::vector<Id>> unknown(ranks_.Size()); // from each rank, unknown here
       std::vector<Id> numbers;
       for (int rank = 0; rank < ranks_.Size(); ++rank)
       {
@@ -139,7 +139,7 @@ void RankHeat::FindOthers(const SparseMatrix& part)
           const Index row = neighbour.functions[entry.row];
           const Index column = placeOf(entry.column);
           others.push_back({ row, column, entry.value });
-          if (column >= functions_) // so that heat is known to come from there
+          if (column >= functions_) // so that heat can come from there
           {
             others.push_back({ column, row, entry.value });
           }
@@ -149,7 +149,7 @@ void RankHeat::FindOthers(const SparseMatrix& part)
     });
 }
 
-/// Collective. What belongs to other ranks becomes what they have.
+/// Collective. Replaces values that belong to other ranks by the owners' values.
 void RankHeat::TakeOthers(MultiVector& u) const
 {
   MultiVector here;
@@ -178,10 +178,11 @@ void RankHeat::TakeOthers(MultiVector& u) const
   }
 }
 
-/// Collective. Each rank's own count would miss ranks that no heat has entered at all.
+/// Collective. Counts over all ranks. A rank's own count would miss ranks that no heat has entered
+/// at all.
 Id RankHeat::CountUnreached(const MultiVector& heat) const
 {
-  // What is too little to be known is 0.
+  // Heat that is too small to be represented is 0.
   const auto hasHeat = [&](Index function) { return heat(function, 0) != 0.0; };
   std::vector<double> isReached;
   ranks_.Together([&] { isReached.assign(components_.count, 0.0); });

@@ -1,5 +1,4 @@
-// Heat that has spread from its sources, on a surface that several ranks hold together.
-// [Problems/DistantHeat.h]
+// Heat that has spread from its sources, on a surface on several ranks. [Problems/DistantHeat.h]
 #ifndef GridFEM_RankHeat_h
 #define GridFEM_RankHeat_h
 
@@ -12,24 +11,24 @@
 namespace gridfem
 {
 
-/// Every rank relaxes the patches of its own cells, in the order in which heat comes to them, while
-/// what it sees of other ranks' functions stays as it is; then each function takes the value of the
-/// rank that it belongs to, and so on until no patch of any rank changes. Heat comes one rank
-/// further in a round, and errors at borders, which overlap by a function, fall as it does from one
-/// function to the next. [restricted additive Schwarz; Cai and Sarkis 1999]
+/// Every rank relaxes the patches of its own cells, in the order in which heat reaches them.
+/// Functions of other ranks keep their values meanwhile. Each function then takes the value of the
+/// rank that owns it. These rounds repeat until no patch of any rank changes.
+/// Heat advances by one rank per round. Errors at borders, which overlap by a function, fall as the
+/// heat does from one function to the next. [restricted additive Schwarz; Cai and Sarkis 1999]
 class RankHeat
 {
 public:
-  /// Collective. On the finest level.
+  /// Collective. Prepares the equation on the finest level.
   /// @param t       in squared units of length; > 0
   /// @param change  as in DistantHeat
   RankHeat(const RankLevels& levels, double t, double change, const Job& job = {});
 
   /// Collective.
-  /// @param load  Σ b_i(source), whole in all rows
-  /// @return      rows = functions that touch this rank's cells; numbers are of all ranks. After
-  ///              500 rounds it has not converged. Unreached is a function without heat whose
-  ///              component has some on any rank.
+  /// @param load  Σ b_i(source), complete in all rows
+  /// @return      rows = functions that touch this rank's cells; counts are over all ranks. It has
+  ///   not converged if 500 rounds are not enough. A function is unreached if it has no heat but
+  ///   its component has heat on some rank.
   HeatField From(const MultiVector& load, const Job& job = {}) const;
 
 private:
@@ -40,12 +39,13 @@ private:
 
   const RankLevels& levels_;
   Communicator ranks_;
-  Index functions_; // that touch this rank's cells; those of neighbours' cells follow
+  // Number of functions that touch this rank's cells. Functions of neighbors' cells follow.
+  Index functions_;
   double change_;
   Components components_;
   SparseMatrix whole_;
-  std::vector<std::vector<Index>> told_;  // functions here whose values a rank is told
-  std::vector<std::vector<Index>> heard_; // places of those that a rank tells
+  std::vector<std::vector<Index>> told_;  // functions here whose values go to each rank
+  std::vector<std::vector<Index>> heard_; // places of functions that come from each rank
   std::unique_ptr<DistantHeat> heat_;
 };
 

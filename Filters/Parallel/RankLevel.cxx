@@ -14,10 +14,11 @@ namespace gridfem
 namespace
 {
 
-/// Patches whose functions this rank has alone, shares with one other, with more.
+/// Kinds of patches: this rank alone has its functions, one other rank shares them, or more ranks
+/// do.
 constexpr Index Kinds = 3;
 
-/// How many ranks touch a function of the patch, at most.
+/// The largest number of ranks that touch a function of the patch.
 Index RanksAt(const std::array<Index, FunctionsPerPatch>& patch, const LevelNumbering& numbering)
 {
   Index most = 1;
@@ -34,7 +35,7 @@ void SortEachOnce(std::vector<Index>& functions)
   functions.erase(std::unique(functions.begin(), functions.end()), functions.end());
 }
 
-/// Replaces functions by their places in an ascending list, which has all of them.
+/// Replaces functions by their places in an ascending list that contains all of them.
 template<class Functions>
 void Renumber(const std::vector<Index>& list, Functions& functions)
 {
@@ -45,9 +46,9 @@ void Renumber(const std::vector<Index>& list, Functions& functions)
   }
 }
 
-/// Collective. The rows and columns of a list of functions, which lack nothing: neighbours tell
-/// what their patches add between functions that both hold.
-/// @param inList  per neighbour the functions of both, places in the list
+/// Collective. The complete rows and columns of a list of functions. Neighbors send the entries of
+/// their patches between shared functions.
+/// @param inList  shared functions with each neighbor, as places in the list
 SparseMatrix WholeMatrix(const Communicator& ranks, const SparseMatrix& A,
   const std::vector<Index>& list, const LevelNumbering& numbering,
   const std::vector<RankNeighbour>& inList)
@@ -82,12 +83,12 @@ SparseMatrix WholeMatrix(const Communicator& ranks, const SparseMatrix& A,
   return whole;
 }
 
-/// Per function the rank that it belongs to.
+/// The owner of each function.
 std::vector<int> OwnersOf(const LevelNumbering& numbering, int rank)
 {
   std::vector<int> owner(numbering.Functions(), rank);
   for (auto neighbour = numbering.neighbours.rbegin(); neighbour != numbering.neighbours.rend();
-       ++neighbour) // the lowest comes last
+       ++neighbour) // the lowest rank comes last
   {
     for (const Index function : neighbour->functions)
     {
@@ -99,8 +100,8 @@ std::vector<int> OwnersOf(const LevelNumbering& numbering, int rank)
 
 using RankPair = std::array<int, 2>;
 
-/// Collective. Per rank the lowest number that no lower rank has whose functions are coupled to its
-/// own. The same on all ranks.
+/// Collective. The color of each rank: the lowest number that no lower rank with coupled functions
+/// has. The same on all ranks.
 std::vector<int> ColourRanks(
   const Communicator& ranks, const SparseMatrix& A, const std::vector<int>& owner)
 {
@@ -158,6 +159,7 @@ std::unique_ptr<Smoother> MakeStep(const SparseMatrix& matrix, const BorderStep&
   return sequence.empty() ? nullptr : MakeSmootherSequence(std::move(sequence));
 }
 
+/// Adds up rows over the ranks.
 /// @param rows  null: all ranks hold all rows
 template<class Real>
 void SumRows(const Communicator& ranks, const RankRows* rows, Block<Real> x)
@@ -232,7 +234,7 @@ LevelBorder BorderOfGroups(
 {
   LevelBorder border;
   std::vector<int> owner;
-  std::vector<Index> own; // places of the functions of this rank
+  std::vector<Index> own; // places of this rank's functions
   ranks.Together(
     [&]
     {

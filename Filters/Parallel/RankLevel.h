@@ -1,5 +1,5 @@
-// A level that several ranks divide, for the cycle: patches on the borders between ranks, and the
-// way to the next coarser level.
+// A level that several ranks divide, for the cycle: the patches on the borders between ranks, and
+// the transfer to the next coarser level.
 #ifndef GridFEM_RankLevel_h
 #define GridFEM_RankLevel_h
 
@@ -14,52 +14,56 @@
 namespace gridfem
 {
 
-/// Patches of a level by the ranks that touch their functions: this rank alone, one other rank,
-/// more.
+/// The patches of a level, grouped by the number of ranks that touch their functions: this rank
+/// alone, one other rank, or more.
 std::vector<PatchLevel> PatchesByRanks(const PatchLevel& level, const LevelNumbering& numbering);
 
-/// What a rank relaxes at the same time as other ranks, places among the functions of the border.
+/// The patches that a rank relaxes at the same time as other ranks, as places among the functions
+/// of the border.
 struct BorderStep
 {
-  PatchOrder single; // for Gauss-Seidel, before the patches
+  PatchOrder single; // for Gauss-Seidel before the patches
   PatchOrder patches;
-  double damping = 1.0; // of corrections
+  double damping = 1.0; // factor of the corrections
 };
 
-/// Unknowns of a level that are relaxed with those of other ranks, and in which patches.
+/// The unknowns of a level that are relaxed together with other ranks, and their patches.
 struct LevelBorder
 {
-  std::vector<Index> functions; // ascending; with all that several ranks hold
-  /// Steps for the matrix of these: as many on all ranks.
+  std::vector<Index> functions; // ascending; includes all functions that several ranks hold
+  /// Makes the steps for the matrix of these functions, the same number on all ranks.
   std::function<std::vector<BorderStep>(const SparseMatrix& matrix)> steps;
 };
 
-/// Collective. Of PatchesByRanks, in up to two steps: patches that one other rank meets, and those
-/// that more do. Corrections are divided by the number of ranks, so that together they do not
-/// overshoot.
+/// Collective. The border for the result of PatchesByRanks, with up to two steps: patches that one
+/// other rank touches, and patches that more ranks touch. Corrections are divided by the number of
+/// ranks, so that together they do not overshoot.
 LevelBorder BorderOfPatches(
   const Communicator& ranks, const LevelNumbering& numbering, const std::vector<PatchLevel>& parts);
 
-/// Collective. Functions that several ranks hold, and those coupled to them, each relaxed by its
-/// owner in groups as on one rank (GroupByCoupling). Ranks whose functions are coupled take turns:
-/// a matrix of hats without a stiffness is too far from that of the grid for corrections of the
-/// grid to do without the whole relaxation.
-/// @param A  what this rank adds to the matrix
+/// Collective. The border of hats: functions that several ranks hold, and functions coupled to
+/// them. Each is relaxed by its owner in groups as on one rank (GroupByCoupling). Ranks with
+/// coupled functions take turns. They need the complete relaxation, because a matrix of hats
+/// without a stiffness is far from the grid's matrix, and the grid's corrections alone are too
+/// poor.
+/// @param A  this rank's part of the matrix
 LevelBorder BorderOfGroups(
   const Communicator& ranks, const LevelNumbering& numbering, const SparseMatrix& A, int threads);
 
-/// A sweep relaxes the patches of a rank's cells one after the other, in steps. Patches without a
-/// function of another rank do not meet those of other ranks: all ranks relax them at once, as one
-/// rank would, without a message. Then those of the border, each step from the residual that is
-/// left. A backward sweep is the adjoint of a forward one. Residuals are not weighted: a part of a
-/// residual would not be consistent where the matrix is singular on a few functions, as on small
-/// flat pieces.
+/// The smoother and the transfer of a divided level. A sweep relaxes the patches of a rank's cells
+/// in steps.
+/// Patches without functions of other ranks do not touch patches of other ranks. All ranks relax
+/// them at the same time, without a message, with the result of one rank. The patches of the border
+/// follow, each step from the remaining residual. A backward sweep is the adjoint of a forward
+/// sweep.
+/// Residuals are not weighted. A weighted part would not be consistent where the matrix is singular
+/// on a few functions, as on small flat pieces.
 class RankLevel : public DividedLevel
 {
 public:
   /// Collective. Keeps references to the rows.
   /// @param coarse   rows of the next coarser level; null: all ranks hold it whole
-  /// @param A        what this rank adds to the matrix
+  /// @param A        this rank's part of the matrix
   RankLevel(const Communicator& ranks, const LevelNumbering& numbering, const RankRows& rows,
     const RankRows* coarse, LevelBorder border, const SparseMatrix& A, int threads);
 
@@ -82,10 +86,10 @@ private:
   const RankRows& rows_;
   const RankRows* coarse_;
   int threads_;
-  std::vector<Index> border_; // functions of patches that other ranks meet, ascending
-  // Rows and columns of these:
+  std::vector<Index> border_; // functions of patches that touch other ranks, ascending
+  // Rows and columns of these functions:
   std::unique_ptr<RankRows> borderRows_;
-  SparseMatrix matrix_;     // which lacks nothing
+  SparseMatrix matrix_;     // complete
   std::vector<Step> steps_; // the same number on all ranks
 };
 

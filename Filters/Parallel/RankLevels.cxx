@@ -126,8 +126,7 @@ Columns RankLevels::SquaredNorms(const MultiVector& u, const Job& job) const
   return norms;
 }
 
-/// Rows that several ranks hold have the same bits in all of them, so that it does not matter which
-/// of them gives a value.
+/// Shared rows have the same bits on all ranks, so any of them may return a value.
 MultiVector RankLevels::ValuesAtPoints(const MultiVector& coefficients, const Job& job) const
 {
   return this->ValuesOf(coefficients, nullptr, job);
@@ -159,7 +158,7 @@ double RankLevels::UnitLength() const
   return space_.Own().UnitLength();
 }
 
-/// A field on the triangles that this rank has received.
+/// Sends a field to the triangles that this rank has received.
 Field RankLevels::Send(const Field& own) const
 {
   return { own.association, own.association == FieldAssociation::Points
@@ -167,7 +166,8 @@ Field RankLevels::Send(const Field& own) const
                               : space_.Distribution().SendTriangles(own.values) };
 }
 
-/// @param integrate  returns what this rank's patches add, on a number of threads
+/// Adds up a load over the ranks.
+/// @param integrate  returns this rank's part, using a number of threads
 template<class Integrate>
 MultiVector RankLevels::Load(const Job& job, Integrate&& integrate) const
 {
@@ -216,7 +216,8 @@ MultiVector RankLevels::LoadOfGradientsOfCoordinates(const Field* scale, const J
     { return this->Own().LoadOfGradientsOfCoordinates(scale ? &factor : nullptr, threads); });
 }
 
-/// Collective. Ranks that have parts of a triangle add up their shares of its mean.
+/// Collective. Combines the means of a triangle from the ranks that have parts of it, weighted by
+/// area.
 /// @param means  rows = received triangles
 /// @return       rows = own triangles
 MultiVector RankLevels::MeansOfRanks(
@@ -299,7 +300,7 @@ std::shared_ptr<const SurfaceSpace> RankLevels::WithWeighedMass(
       if (hats_)
       {
         HatSpace own = hats_->Own();
-        own.WeighMass(received, job.threads); // with its grid
+        own.WeighMass(received, job.threads); // including its grid
         grid.emplace(own.Grid());
         weighed->hats = hats_->WithOwn(std::move(own));
         return;

@@ -1,4 +1,4 @@
-// The space of several ranks, as one of them sees it: levels, and fields on its own mesh.
+// One rank's view of a space on several ranks: its levels, and fields on the rank's own mesh.
 #ifndef GridFEM_RankLevels_h
 #define GridFEM_RankLevels_h
 
@@ -13,36 +13,36 @@
 namespace gridfem
 {
 
-/// First the divided levels, whose functions are those of RankHats::Numbering, if there are hats,
-/// and of RankSpace::Numberings, then the shared ones. The mesh is that of the rank's own
-/// triangles. All functions are collective but those that return a number or a reference; what a
-/// progress of theirs says has to be the same on all ranks. Keeps references to the space and the
-/// hats.
+/// The divided levels come first: the functions of RankHats::Numbering if there are hats, then
+/// those of RankSpace::Numberings. The shared levels follow. The mesh consists of the rank's own
+/// triangles. All functions are collective, except those that return a number or a reference. A
+/// progress passed to them has to give the same answer on all ranks. Keeps references to the space
+/// and the hats.
 class RankLevels : public SurfaceSpace
 {
 public:
-  /// @param hats  of the same surface, above the levels of the grid; or null
+  /// @param hats  of the same surface, above the levels of the grid; may be null
   explicit RankLevels(const RankSpace& space, const RankHats* hats = nullptr);
 
   const RankSpace& Space() const { return space_; }
 
-  /// What this rank adds to the finest level, as a space on the triangles that it has received.
+  /// This rank's part of the finest level, as a space on the triangles that the rank has received.
   const FiniteElementSpace& Own() const;
 
-  /// Of a divided level.
+  /// Numbering of a divided level.
   const LevelNumbering& Numbering(std::size_t level) const;
 
   const RankRows& Rows(std::size_t level) const { return rows_[level]; }
 
-  /// Those of the grid: itself, where there are no hats.
+  /// The levels of the grid: this object, if there are no hats.
   const RankLevels& OfGrid() const { return grid_ ? *grid_ : *this; }
   const SurfaceSpace* NestedLevels() const override { return grid_.get(); }
 
-  /// Null where there are none.
+  /// Null if there are none.
   const RankHats* Hats() const { return hats_; }
 
-  /// ∫ scale <d, ∇b_i> with the directions d of gradients, ∇u / |∇u|; whole in all rows.
-  /// @param coefficients  of functions u of the grid
+  /// ∫ scale <d, ∇b_i> with the directions of gradients d = ∇u / |∇u|; complete in all rows.
+  /// @param coefficients  of a function u of the grid
   /// @param scale         on this rank's own points or triangles
   MultiVector LoadOfDirections(
     const MultiVector& coefficients, const Field& scale, const Job& job = {}) const;
@@ -80,10 +80,10 @@ public:
 
 private:
   bool IsDivided(std::size_t level) const { return level < rows_.size(); }
-  /// The space that has a level here, and its number there.
+  /// The space that holds a level on this rank, and the level's number in that space.
   const SpaceLevels& HolderOf(std::size_t level) const;
   std::size_t LevelThere(std::size_t level) const;
-  /// The level of the grid.
+  /// The number of a level in the grid.
   std::size_t GridLevel(std::size_t level) const { return hats_ ? level - 1 : level; }
   bool IsOfHats(std::size_t level) const { return hats_ && level == 0; }
   MultiVector ValuesOf(
@@ -95,15 +95,16 @@ private:
 
   const RankSpace& space_;
   const RankHats* hats_;
-  std::unique_ptr<const RankLevels> grid_;     // below hats
+  std::unique_ptr<const RankLevels> grid_;     // if there are hats
   std::vector<RankRows> rows_;                 // of the divided levels
-  std::vector<std::vector<PatchLevel>> parts_; // PatchesByRanks of those of the grid
+  std::vector<std::vector<PatchLevel>> parts_; // PatchesByRanks of the grid's divided levels
   std::vector<double> integrals_;
-  /// Of this rank's parts of the triangles that it has received, as the functions see them.
+  /// Areas of this rank's parts of the triangles that it has received, as the functions see them.
   std::vector<double> areas_;
 };
 
-/// An abort that one rank asks for is one of all: the others would wait for it.
+/// A progress that aborts all ranks when one rank asks for it. Otherwise the other ranks would wait
+/// for that rank.
 Progress OfAllRanks(const Communicator& ranks, const Progress& progress);
 
 } // namespace gridfem

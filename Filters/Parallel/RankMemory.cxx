@@ -11,11 +11,12 @@ namespace gridfem
 namespace
 {
 
-/// Of what Core takes for the same triangles: the way of triangles to their ranks takes room, too.
-/// A torus of 2.9 million took 1.2 times as much on one rank, 1.5 times on each of two.
+/// Memory of a rank relative to Core's estimate for the same triangles. The transfer of triangles
+/// to their ranks takes memory, too. A torus of 2.9 million took 1.2 times as much on one rank, and
+/// 1.5 times on each of two.
 constexpr double OfRank = 1.5;
 
-/// A rank may get more than its share of the surface, and what lies around it.
+/// A rank may get more than its share of the surface, and the surface around it.
 constexpr double MostOfShare = 1.5;
 
 /// Collective. Bytes for a rank's triangles.

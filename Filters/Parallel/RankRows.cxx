@@ -9,7 +9,7 @@ namespace gridfem
 namespace
 {
 
-/// Of one message. Wider blocks take several.
+/// Columns of one message. Wider blocks take several messages.
 constexpr Id ColumnsPerMessage = 32;
 constexpr int Tag = 1908;
 
@@ -19,7 +19,7 @@ MPI_Datatype TypeOf()
   return std::is_same_v<Real, float> ? MPI_FLOAT : MPI_DOUBLE;
 }
 
-/// The place of so many rows in a buffer, behind which the next ones begin.
+/// The next rows in a buffer. Moves `place` behind them.
 template<class Real>
 Eigen::Map<Vectors<Real>> NextRows(Real*& place, const std::vector<Index>& rows, Id columns)
 {
@@ -28,7 +28,7 @@ Eigen::Map<Vectors<Real>> NextRows(Real*& place, const std::vector<Index>& rows,
   return values;
 }
 
-/// Calls body(some) for neighbouring columns that fit into a message.
+/// Calls body(some) for blocks of adjacent columns that fit into a message.
 template<class Real, class Body>
 void ForColumns(Block<Real> x, Body&& body)
 {
@@ -61,7 +61,7 @@ RankRows::RankRows(const Communicator& ranks, Index foreign, std::vector<RankNei
       {
         ownOfShared_.back().push_back(row);
       }
-      else if (!hasOwner[row]) // the lowest of those that hold it
+      else if (!hasOwner[row]) // the lowest rank that holds it
       {
         foreignOfShared_.back().push_back(row);
         hasOwner[row] = 1;
@@ -84,7 +84,8 @@ MultiVector RankRows::Gather(const Eigen::RowVectorXd& numbers) const
   return Eigen::Map<const MultiVector>(all.data(), ranks_.Size(), numbers.size());
 }
 
-/// Sends rows `out` of x to each neighbour, and receives as many as `in` has. x has few columns.
+/// Sends rows `out` of x to each neighbor, and receives as many rows as `in` has. x has few
+/// columns.
 template<class Real>
 void RankRows::Exchange(const Rows& out, const Rows& in, Block<Real> x) const
 {
@@ -104,7 +105,7 @@ void RankRows::Exchange(const Rows& out, const Rows& in, Block<Real> x) const
   place = reinterpret_cast<Real*>(sent_.data());
   for (std::size_t k = 0; k < neighbours_.size(); ++k)
   {
-    if (out[k].empty()) // the neighbour knows
+    if (out[k].empty()) // the neighbor expects no message
     {
       continue;
     }
@@ -119,7 +120,7 @@ void RankRows::Exchange(const Rows& out, const Rows& in, Block<Real> x) const
   MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
 }
 
-/// Calls body(row, values) for all rows that have been received.
+/// Calls body(row, values) for all received rows.
 template<class Real, class Body>
 void RankRows::ForReceived(const Rows& in, Id columns, Body&& body) const
 {
@@ -134,7 +135,7 @@ void RankRows::ForReceived(const Rows& in, Id columns, Body&& body) const
   }
 }
 
-/// In the order of the ranks, so that all of them get the same bits.
+/// Adds parts in the order of the ranks, so that all ranks get the same bits.
 template<class Real>
 void RankRows::SumParts(Block<Real> x) const
 {

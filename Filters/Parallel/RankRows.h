@@ -1,4 +1,4 @@
-// Rows of a level's vectors on several ranks, and the messages that they need.
+// Rows of a level's vectors on several ranks, and the messages between the ranks.
 #ifndef GridFEM_RankRows_h
 #define GridFEM_RankRows_h
 
@@ -10,14 +10,15 @@
 namespace gridfem
 {
 
-/// Rows are those of the functions of a numbering, or of some of them. Ranks that hold rows
-/// together send them to each other, in one message for up to 32 columns, which has its room from
-/// the start. All functions but Foreign are collective.
+/// The rows belong to the functions of a numbering, or to some of them. Ranks exchange their shared
+/// rows, in one message for up to 32 columns. Buffers are allocated at the start. All functions but
+/// Foreign are collective.
 class RankRows : public DividedRows
 {
 public:
-  /// @param foreign     rows of other ranks, which come first
-  /// @param neighbours  per rank, which ascend: the rows that both hold, in the same order there
+  /// @param foreign     number of rows that belong to other ranks, which come first
+  /// @param neighbours  for each other rank, in ascending order: the shared rows, in the same order
+  ///   on both ranks
   /// @param arePartsProlonged  see DividedRows
   RankRows(const Communicator& ranks, Index foreign, std::vector<RankNeighbour> neighbours,
     bool arePartsProlonged = false);
@@ -31,11 +32,11 @@ public:
   void SumNumbers(double* values, Id count) const override { ranks_.Sum(values, count); }
   MultiVector Gather(const Eigen::RowVectorXd& numbers) const override;
 
-  /// Rows become the least of what the ranks have in them.
+  /// Sets shared rows to the least of the ranks' values.
   void TakeLeast(Block<double> x) const;
 
 private:
-  using Rows = std::vector<std::vector<Index>>; // per neighbour
+  using Rows = std::vector<std::vector<Index>>; // per neighbor
 
   template<class Real>
   void Exchange(const Rows& out, const Rows& in, Block<Real> x) const;
@@ -50,12 +51,13 @@ private:
   Index foreign_;
   bool arePartsProlonged_;
   std::vector<RankNeighbour> neighbours_;
-  std::size_t lower_ = 0;  // neighbours of lower rank
-  Rows shared_;            // with each neighbour
-  Rows ownOfShared_;       // those of them that belong to this rank
-  Rows foreignOfShared_;   // to the neighbour
-  std::vector<Index> all_; // rows that any neighbour holds, ascending
-  // Room for the rows of a message, and for what this rank has in them. One call is at work.
+  std::size_t lower_ = 0;  // number of neighbors with lower rank
+  Rows shared_;            // shared with each neighbor
+  Rows ownOfShared_;       // shared rows that belong to this rank
+  Rows foreignOfShared_;   // shared rows that belong to the neighbor
+  std::vector<Index> all_; // rows that any neighbor holds, ascending
+  // Buffers for the rows of a message, and for this rank's own values in these rows. Only one call
+  // may be active.
   mutable std::vector<unsigned char> sent_;
   mutable std::vector<unsigned char> received_;
   mutable std::vector<unsigned char> own_;

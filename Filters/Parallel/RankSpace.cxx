@@ -12,14 +12,14 @@ namespace gridfem
 namespace
 {
 
-/// Of a level's patches, those of the finer one's being given; `links` are replaced.
+/// Replaces the links of the finer level's patches by those of the coarser level's patches.
 void CoarsenLinks(const PatchLevel& fine, int threads, Array<Link>& links)
 {
   links = LinksOfGroups(links, fine.parent, threads);
 }
 
-/// Whether two patches have the same functions wherever their cells share a corner: then what they
-/// say of a point that both contain is the same.
+/// Whether two patches have the same functions at all corners that their cells share. They then
+/// give the same value at any point that both contain.
 bool AgreeOnSharedCorners(const PatchLevel& level, Index a, Index b)
 {
   const CellIndex cellA = MortonDecode(level.cell[a]);
@@ -42,12 +42,12 @@ bool AgreeOnSharedCorners(const PatchLevel& level, Index a, Index b)
   return true;
 }
 
-/// Gives points at the same place of one sheet to one patch, so that their values are equal bit for
-/// bit. Coincident points follow each other.
+/// Assigns points at the same place of one sheet to one patch, so that their values are equal bit
+/// for bit. Coincident points have to be consecutive.
 void UnitePointPatches(
   const std::vector<Vec3>& points, const PatchLevel& level, Array<Index>& pointPatch)
 {
-  std::vector<Index> chosen; // of the points at one place
+  std::vector<Index> chosen; // chosen patches of the points at one place
   for (std::size_t k = 0; k < points.size(); ++k)
   {
     if (k > 0 && points[k] != points[k - 1])
@@ -71,11 +71,11 @@ void UnitePointPatches(
   }
 }
 
-/// How many points at one place are compared: more are no mesh.
+/// Largest number of points that are compared at one place. No mesh has more.
 constexpr std::size_t MostCompared = 64;
 
-/// Sums of the rows of points first .. last, which are at one place, over those with the same
-/// patch, where they are of different ranks.
+/// Adds up the rows of points first .. last, which are at one place, over those with the same
+/// patch. Points of one rank are not added to each other.
 void SumOfPlace(std::size_t first, std::size_t last, const Array<Index>& pointPatch,
   const std::vector<int>& giver, const MultiVector& rows, MultiVector& sums)
 {
@@ -120,7 +120,7 @@ void SetParents(
   }
 }
 
-/// A link of a patch of this rank to a patch that may be another's.
+/// A link from a patch of this rank to a patch that may belong to another rank.
 struct LinkToCell
 {
   Id patch; // numbered over all ranks
@@ -173,7 +173,7 @@ RankSpace::RankSpace(const Communicator& ranks, const TriangleMesh& own,
     {
       FindComponents(all, functions.threads);
       auto divided = std::make_shared<const GridFunctions>(std::move(all));
-      // All levels of this rank, none of which is the coarsest of the whole.
+      // All levels of this rank. None of them is the coarsest level of the whole.
       auto operators = std::make_shared<const LevelOperators>(
         BuildLevelOperators(*divided, TriangleRule(options.space.quadratureDegree),
           { functions.threads, progress.Part(0.6, 1.0) }, -1, options.space.normalStabilization));
@@ -194,7 +194,7 @@ int RankSpace::OwnerOfPoint(const Vec3& point) const
   return partition_->OwnerOf(MortonEncode(grid.CellAt(point)), grid.depth);
 }
 
-/// Collective. The levels that all ranks hold, with the element matrices of all.
+/// Collective. Makes the shared levels with the element matrices of all ranks.
 void RankSpace::AddElements(int threads)
 {
   const ElementMatrices& own = own_->Operators().elements.back();
@@ -242,7 +242,8 @@ RankSpace RankSpace::WithOwn(GridSpace own, int threads) const
   return other;
 }
 
-/// Leaves in `all` what this rank owns, with the functions numbered by the places in numberings_.
+/// Keeps in `all` only this rank's part, with the functions numbered by their places in
+/// numberings_.
 /// @return the shared levels
 std::vector<PatchLevel> RankSpace::Divide(
   GridFunctions& all, const Array<Link>& links, const BlockPartition& partition)
@@ -283,7 +284,7 @@ std::vector<PatchLevel> RankSpace::Divide(
   return shared;
 }
 
-/// Collective. The level of the blocks with the patches of all ranks, and those below it.
+/// Collective. The level of the blocks with the patches of all ranks, and all coarser levels.
 std::vector<PatchLevel> RankSpace::Share(const PatchLevel& level, const Array<Link>& links,
   const BlockPartition& partition, FunctionSupport support) const
 {

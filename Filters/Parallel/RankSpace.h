@@ -1,5 +1,5 @@
-// The grid space of a surface that lies on several ranks, as one of them sees it: the functions
-// that touch its cells, and the patches in them. Nobody has the whole but for the coarse levels.
+// One rank's part of the grid space of a surface: the functions that touch its cells, and the
+// patches in them. No rank has the whole space, except for the coarse levels.
 #ifndef GridFEM_RankSpace_h
 #define GridFEM_RankSpace_h
 
@@ -13,15 +13,15 @@
 namespace gridfem
 {
 
-/// A copy shares all that does not change.
+/// The grid space on several ranks. A copy shares all data that do not change.
 class RankSpace
 {
 public:
-  /// Collective. Clips and integrates what the cells of this rank hold.
-  /// @param own     this rank's triangles, world units
-  /// @param progress  of this rank alone, which reports as often as its work is long
-  /// @param copies  triangles of its points that it has as copies of another rank's
-  /// Throws RankFailure, on all ranks, with what went wrong on one, and Aborted.
+  /// Collective. Clips and integrates the surface in the cells of this rank.
+  /// @param own       this rank's triangles, world units
+  /// @param progress  of this rank alone; it reports as often as its work requires
+  /// @param copies    triangles of its points that are copies of another rank's triangles
+  /// Throws RankFailure on all ranks if one rank fails, with its reason, and Aborted.
   RankSpace(const Communicator& ranks, const TriangleMesh& own, const RankSpaceOptions& options,
     const Progress& progress = {}, const TriangleList& copies = {});
 
@@ -32,33 +32,35 @@ public:
   /// The rank whose cells contain a point of the surface, world units.
   int OwnerOfPoint(const Vec3& point) const;
 
-  /// The patches of this rank's cells as a space of their own. Its levels are the divided ones and
-  /// the first of the shared ones. Functions of divided levels are those of Numberings(), so that
-  /// matrices and integrals are what the rank's patches add to the whole. Its mesh is the one that
-  /// the rank has received.
+  /// The patches of this rank's cells as a space of their own. Its levels are the divided levels
+  /// and the first shared level. Functions of divided levels are those of Numberings(), so that
+  /// matrices and integrals are this rank's parts of the sums over all ranks. Its mesh is the mesh
+  /// that the rank has received.
   const GridSpace& Own() const { return *own_; }
 
-  /// Of the divided levels, finest first.
+  /// The numberings of the divided levels, finest first.
   const std::vector<LevelNumbering>& Numberings() const { return *numberings_; }
 
-  /// The level of the blocks and those below it, which every rank holds whole, as a space without a
-  /// mesh.
+  /// The level of the blocks and all coarser levels, which every rank holds whole, as a space
+  /// without a mesh.
   const GridSpace& Shared() const { return *shared_; }
 
-  /// Places of the received points' patches in this rank's cells; -1 where another rank evaluates.
-  /// Points at the same place of one sheet have values that are equal bit for bit.
+  /// The patch of each received point in this rank's cells; -1 if another rank evaluates the point.
+  /// Points at the same place of one sheet have the same values, bit for bit.
   const Array<Index>& PointPatches() const { return own_->Functions().pointPatch; }
 
   /// Collective. The same functions with other integrals.
-  /// @param own  a copy of Own() with these
+  /// @param own  a copy of Own() with these integrals
   RankSpace WithOwn(GridSpace own, int threads = 0) const;
 
-  /// Collective. Numbers of this rank's own triangles, at those that this rank has received.
+  /// Collective. Sends numbers on this rank's own triangles to the ranks that have received the
+  /// triangles.
+  /// @return  the numbers on the triangles that this rank has received
   std::vector<double> SendToTriangles(const std::vector<double>& own) const;
 
-  /// Collective. Rows of this rank's own points become the sums over the points of all ranks at the
-  /// same place of one sheet. Where a rank has several there, it keeps them apart: all stay as they
-  /// are.
+  /// Collective. Replaces rows of this rank's own points by the sums over the points of all ranks
+  /// at the same place of one sheet. If a rank has several points there, they are meant to be
+  /// separate, and all stay as they are.
   void SumAtPoints(MultiVector& own) const;
 
 private:

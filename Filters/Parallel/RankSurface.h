@@ -1,5 +1,5 @@
-// The functions on a surface that several ranks hold together, of a grid or of the mesh, with all
-// that they refer to.
+// The functions of a grid or of the mesh on a surface on several ranks, with all data that they
+// refer to.
 #ifndef GridFEM_RankSurface_h
 #define GridFEM_RankSurface_h
 
@@ -13,10 +13,10 @@ namespace gridfem
 class RankSurface
 {
 public:
-  /// Collective. As RankSpace; with hats above it, its functions are joined at points where sheets
-  /// touch in a point only, if hats join there what the grid parts. [HatLevel::joinedGrid]
+  /// Collective. Makes a RankSpace, with hats above it if wanted. With hats, sheets that touch only
+  /// in a point are joined on the grid if the hats join them. [HatLevel::joinedGrid]
   /// Throws InvalidInput for hats when no triangle has an area, or coincident points are not
-  /// welded: points of two ranks at the same place are told to be one by nothing else.
+  /// welded. Nothing else tells that points of two ranks at the same place are one.
   RankSurface(const Communicator& ranks, const TriangleMesh& own, const RankSpaceOptions& options,
     bool hasHats, const Progress& progress = {}, const TriangleList& copies = {});
 

@@ -16,8 +16,8 @@ bool IsBefore(const Vec3& a, const Vec3& b)
   return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
 }
 
-/// Points sorted by the cells that they lie in, along the Morton curve, so that neighbours are near
-/// each other in memory; those of a cell by their coordinates, coincident ones as they come.
+/// Sorts points by their cells along the Morton curve, so that neighbors are close in memory.
+/// Points of one cell are sorted by their coordinates; coincident points keep their order.
 std::vector<Index> OrderInSpace(const std::vector<Vec3>& points, const Grid& grid)
 {
   std::vector<std::pair<MortonKey, Index>> order;
@@ -126,7 +126,7 @@ void Redistribution::Receive(const TriangleMesh& own, const Grid& grid)
         {
           place[point] = static_cast<Index>(points[rank].size());
           const Vec3& x = own.points[point];
-          // Zeros without a sign: coincident points are equal.
+          // Removes the sign of zeros, so that coincident points are equal.
           points[rank].push_back({ x[0] + 0.0, x[1] + 0.0, x[2] + 0.0 });
         }
         for (const Index t : sentTriangles_[rank])
@@ -226,7 +226,7 @@ std::vector<char> Redistribution::ReturnPoints(
   const MultiVector& rows, const std::vector<char>& isKnown, MultiVector& own) const
 {
   const Id columns = rows.cols();
-  std::vector<std::vector<Index>> which(ranks_.Size()); // of the points that a rank has sent here
+  std::vector<std::vector<Index>> which(ranks_.Size()); // points, among those from each rank
   std::vector<std::vector<double>> values(ranks_.Size());
   ranks_.Together(
     [&]

@@ -1,4 +1,4 @@
-// Which cells of a coarse grid a triangle meets.
+// Finds the cells of a coarse grid that a triangle meets.
 #ifndef GridFEM_TriangleBlocks_h
 #define GridFEM_TriangleBlocks_h
 
@@ -11,8 +11,8 @@
 namespace gridfem
 {
 
-/// Whether a triangle meets a box around the origin; touching counts. Separating axes: the box's
-/// three, the triangle's normal, and the nine products of edges. [Akenine-Möller 2001]
+/// Whether a triangle meets a box around the origin; touching counts. It tests separating axes: the
+/// box's three, the triangle's normal, and the nine products of edges. [Akenine-Möller 2001]
 inline bool MeetsBox(const std::array<Vec3, 3>& corner, double halfSide)
 {
   const auto isSeparated = [&](const Vec3& axis)
@@ -53,7 +53,7 @@ struct BlockBox
   }
 };
 
-/// The blocks that come as near to the box around a triangle as `margin` along the axes.
+/// The blocks within `margin`, along the axes, of the box around a triangle.
 /// @param side           of a block
 /// @param blocksPerSide  of the grid
 inline BlockBox BoxNear(
@@ -88,7 +88,7 @@ void ForBlocksOf(const BlockBox& box, Body&& body)
   }
 }
 
-/// Calls body(key) for every block of BoxNear that comes as near to the triangle itself.
+/// Calls body(key) for every block of BoxNear within `margin` of the triangle itself.
 template<class Body>
 void ForBlocksNear(
   const std::array<Vec3, 3>& corner, const BlockBox& box, double side, double margin, Body&& body)

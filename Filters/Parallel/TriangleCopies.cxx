@@ -38,7 +38,7 @@ TriangleCopies::TriangleCopies(const Communicator& ranks, const TriangleMesh& ow
           inGrid[corner] = grid.ToGrid(own.points[point]);
           for (int axis = 0; axis < 3; ++axis)
           {
-            corners[3 * corner + axis] = own.points[point][axis] + 0.0; // as it is received
+            corners[3 * corner + axis] = own.points[point][axis] + 0.0; // as the received points
           }
         }
         partition.FindRanksNear(inGrid[0], inGrid[1], inGrid[2], near);
@@ -88,7 +88,7 @@ void TriangleCopies::Find(
   }
 }
 
-/// Collective. What all ranks answer to this one, copy by copy.
+/// Collective. The answers of all ranks to this rank, copy by copy.
 /// @param rows    at received points or triangles
 /// @param rowsOf  row k of an original
 template<class RowsOf>

@@ -10,7 +10,7 @@ namespace gridfem::testing
 RankSpaceOptions StableOptions()
 {
   RankSpaceOptions options = Options(4);
-  options.space.normalStabilization = 1e-2; // few iterations to small tolerances
+  options.space.normalStabilization = 1e-2; // small tolerances in few iterations
   return options;
 }
 

@@ -1,4 +1,4 @@
-// Runs the tests of a file on all ranks; only the first one prints, but for what fails.
+// Runs the tests of a file on all ranks. Only the first rank prints; the others print failures.
 #include <gtest/gtest.h>
 
 #include <mpi.h>

@@ -10,7 +10,7 @@ namespace gridfem::testing
 namespace
 {
 
-/// Three fins around one edge, and triangles in no order across them.
+/// Three fins around one edge, and triangles across them in random order.
 TriangleMesh NonManifoldSoup()
 {
   TriangleMesh soup;

@@ -1,4 +1,4 @@
-// Failures of one rank reach the others where they wait for it.
+// A failure of one rank reaches the other ranks where they wait for it.
 #include "Parallel/Communicator.h"
 
 #include <gtest/gtest.h>

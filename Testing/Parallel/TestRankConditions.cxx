@@ -1,5 +1,5 @@
-// Weighed and unknown values, and what the boundary adds, on the pieces of several ranks have the
-// answers of one rank.
+// Weighted and unknown values, and terms of the boundary: the pieces of several ranks give the
+// results of one rank.
 #include "Parallel/HeldPoints.h"
 #include "Parallel/RankBoundary.h"
 #include "Pieces.h"
@@ -19,7 +19,7 @@ using namespace gridfem::testing;
 namespace
 {
 
-/// Two in three points are unknown beyond a plane, so that some known ones have no triangle.
+/// Two in three points are unknown beyond a plane, so some known points have no triangle.
 Field PartlyKnown(const TriangleMesh& mesh)
 {
   Field f{ FieldAssociation::Points, VectorsAt(mesh.points) };
@@ -66,7 +66,7 @@ Partial SolvePartial(
   constraints.estimateOn = &space;
   Partial partial;
   SolveOptions solve = Exactly().solve;
-  solve.tolerance = 1e-11; // nothing holds the solution: rounding is more than 1e-12
+  solve.tolerance = 1e-11; // nothing holds the solution: rounding exceeds 1e-12
   partial.solution =
     SolveConstrained(*weighed, lambda, hierarchy, load, none.values, constraints, solve);
   SetMeans(
@@ -129,7 +129,8 @@ TEST(RankConditions, AWrongWeightOfOneRankFailsOnAll)
 namespace
 {
 
-/// With edges that are longer than cells, edges on planes of the grid, and triangles on each other.
+/// Surfaces with boundary: with edges longer than cells, edges on planes of the grid, and
+/// overlapping triangles.
 std::vector<NamedSurface> WithBoundary()
 {
   const TriangleMesh square = FlatRectangle(1, 1);
@@ -158,7 +159,7 @@ MultiVector MomentsOf(
   return moments;
 }
 
-/// The largest number of all ranks that is not NaN, of both 0 for none.
+/// The largest number of all ranks that is not NaN; 0 if there is none.
 double LargestOf(const Communicator& ranks, const MultiVector& values)
 {
   double largest = values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0.0;
@@ -221,7 +222,7 @@ TEST(RankConditions, TheBoundaryIsHeldAsOnOneRank)
   {
     for (const bool hasHats : { false, true })
     {
-      if (!hasHats && (surface.name == "soup" || surface.name == "sheets")) // points that are two
+      if (!hasHats && (surface.name == "soup" || surface.name == "sheets")) // double points
       {
         continue;
       }
@@ -251,7 +252,7 @@ TEST(RankConditions, TheBoundaryIsHeldAsOnOneRank)
       EXPECT_EQ(found.load.size(), 0);
       auto held = static_cast<double>(found.held.values.rows());
       ranks.Sum(&held, 1);
-      if (surface.name != "soup" && surface.name != "sheets") // whose points hold one hat twice
+      if (surface.name != "soup" && surface.name != "sheets") // their points hold one hat twice
       {
         EXPECT_EQ(held, static_cast<double>(expected.held.values.rows()));
       }

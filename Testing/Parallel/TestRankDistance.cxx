@@ -15,8 +15,8 @@ using namespace gridfem::testing;
 namespace
 {
 
-/// Options with which the heat is exact to rounding, so that the order of its relaxation is not to
-/// be seen.
+/// Options with heat that is exact to rounding, so that the order of its relaxation does not
+/// matter.
 DistanceOptions ExactDistance()
 {
   DistanceOptions options;
@@ -25,7 +25,7 @@ DistanceOptions ExactDistance()
   return options;
 }
 
-/// A triangle, all corners of which are sources, and one more point.
+/// A triangle with sources at all corners, and one more source.
 std::vector<char> SourcesOf(const TriangleMesh& mesh)
 {
   std::vector<char> isSource(mesh.points.size(), 0);
@@ -43,7 +43,7 @@ MultiVector ColumnOf(const std::vector<double>& numbers)
     numbers.data(), static_cast<Eigen::Index>(numbers.size()));
 }
 
-/// Points of several ranks have the same bits on all of them.
+/// Expects that points of several ranks have the same bits on all of them.
 void ExpectOneValue(const Communicator& ranks, const Piece& piece, const MultiVector& values,
   std::size_t pointsOfWhole)
 {
@@ -59,7 +59,7 @@ void ExpectOneValue(const Communicator& ranks, const Piece& piece, const MultiVe
   for (std::size_t k = 0; k < low.size(); ++k)
   {
     EXPECT_TRUE(low[k] == high[k] || low[k] > high[k])
-      << "point " << k; // the latter: nobody has it
+      << "point " << k; // the latter: no rank has the point
   }
 }
 
@@ -86,7 +86,7 @@ void CompareDistances(
   ASSERT_TRUE(expected.report.converged);
 
   const Piece piece = PieceOf(surface.mesh, dealing, false);
-  std::vector<double> first(isSource.size(), ranks.Size()); // rank that has a point
+  std::vector<double> first(isSource.size(), ranks.Size()); // first rank that has each point
   for (const Id point : piece.points)
   {
     first[point] = ranks.Rank();
@@ -128,7 +128,7 @@ TEST(RankDistance, DistancesOfHatsAreThoseOfOneRank)
   CompareDistances(Surfaces()[2], Dealing::Shuffled, 4, true, true);
 }
 
-/// Between sources that are near to each other heat falls slowly, so that its rounding shows most.
+/// Between sources that are close to each other heat falls slowly, so its rounding shows most.
 TEST(RankDistance, AreAsExactAsThoseOfOneRank)
 {
   const Communicator ranks(MPI_COMM_WORLD);

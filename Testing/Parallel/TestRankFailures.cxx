@@ -1,5 +1,5 @@
-// Memory that runs out on one rank alone ends the computation on all ranks: whichever of its
-// allocations fails, no rank waits for ever, and all name the rank.
+// If memory runs out on one rank alone, the computation ends on all ranks. Whichever of its
+// allocations fails, no rank waits forever, and all ranks name the rank.
 #include "Pieces.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ using namespace gridfem::testing;
 namespace
 {
 
-/// Smaller ones are lists with an entry per rank or level, or texts.
+/// Smaller allocations are lists with an entry per rank or level, or texts.
 constexpr std::size_t SmallestFailure = 2048;
 
 constexpr long Never = -1;
@@ -26,8 +26,8 @@ long allocations = 0;
 
 } // namespace
 
-/// In place of that of the standard library, also where Core and Parallel allocate. Not inline: the
-/// compiler would complain that `free` does not belong to `new`.
+/// Replaces the operator of the standard library, also for allocations in Core and Parallel. It is
+/// not inline, because the compiler would complain that `free` does not belong to `new`.
 [[gnu::noinline]] void* operator new(std::size_t size)
 {
   if (size >= SmallestFailure)
@@ -75,7 +75,7 @@ SolveReport Solve(const Communicator& ranks, const TriangleMesh& own, bool hasHa
   PoissonOptions poisson;
   poisson.screeningWeight = 0.05;
   poisson.multigrid.threads = 1;
-  poisson.solve.tolerance = 1e-3; // two iterations: further ones allocate what the second does
+  poisson.solve.tolerance = 1e-3; // two iterations: further ones allocate the same as the second
   const PoissonSolution solution = SolveScreened(surface.Levels(), ValuesAt(own.points), poisson);
   surface.Levels().ValuesAtPoints(solution.coefficients);
   return solution.report;

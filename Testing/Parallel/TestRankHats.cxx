@@ -1,4 +1,4 @@
-// Hat functions on several ranks are those of one rank: the same matrices and prolongation.
+// Hat functions on several ranks are those of one rank, with the same matrices and prolongation.
 #include "Parallel/RankSurface.h"
 #include "Pieces.h"
 #include "Spaces/HatSpace.h"
@@ -20,7 +20,7 @@ HatSpace HatsOf(const TriangleMesh& mesh, const RankSpaceOptions& options)
   return BuildHatSpace(mesh, options.space);
 }
 
-/// Per hat here, that of the whole.
+/// The number in the whole of each hat on this rank.
 std::vector<Index> HatsOfWhole(const RankSurface& surface, const HatSpace& whole)
 {
   using Position = std::array<double, 3>;
@@ -45,7 +45,7 @@ std::vector<Index> HatsOfWhole(const RankSurface& surface, const HatSpace& whole
   return hats;
 }
 
-/// Sums of the ranks' entries, to 1e-12 of the largest.
+/// Compares sums of the ranks' entries, to 1e-12 of the largest.
 void CompareMatrices(const RankSurface& surface, const HatSpace& whole)
 {
   const Communicator& ranks = surface.Space().Ranks();
@@ -87,7 +87,7 @@ void CompareMatrices(const RankSurface& surface, const HatSpace& whole)
   }
 }
 
-/// A number for each function, told by its corner of the grid: another one at each.
+/// A different number for each function, according to its corner of the grid.
 MultiVector NumbersAtCorners(const PatchLevel& level)
 {
   MultiVector numbers = MultiVector::Zero(level.numberOfFunctions, 1);
@@ -105,7 +105,8 @@ MultiVector NumbersAtCorners(const PatchLevel& level)
   return numbers;
 }
 
-/// Its weights, which all ranks add up, by what it makes of numbers at the corners of the grid.
+/// Compares the weights that all ranks add up, by their products with numbers at the corners of the
+/// grid.
 void CompareProlongations(const RankSurface& surface, const HatSpace& whole)
 {
   const RankLevels& levels = surface.Levels();

@@ -13,7 +13,7 @@ using namespace gridfem::testing;
 namespace
 {
 
-/// Two columns, which differ from point to point.
+/// Two columns that differ from point to point.
 MultiVector FieldAt(const std::vector<Vec3>& points)
 {
   MultiVector values(static_cast<Id>(points.size()), 2);
@@ -57,7 +57,7 @@ PoissonOptions PoissonWith(double weight)
   PoissonOptions options;
   options.screeningWeight = weight;
   options.multigrid.threads = 1;
-  options.solve.tolerance = 1e-10; // residuals of sheets with a thin gap are rounding below
+  options.solve.tolerance = 1e-10; // smaller residuals of sheets with a thin gap are rounding
   options.solve.maximumIterations = 300;
   return options;
 }
@@ -89,8 +89,8 @@ TEST(RankPoisson, HasTheSolutionOfOneRank)
         {
           const Solved solved = SolveOnRanks(surface.mesh, dealing, PoissonWith(weight), hasHats);
           EXPECT_TRUE(solved.report.converged);
-          // On so small a surface most patches are at borders, where corrections are damped, and of
-          // triangles that are longer than cells all ranks share all hats.
+          // On such a small surface most patches are at borders, where corrections are damped. If
+          // triangles are longer than cells, all ranks share all hats.
           const int ofOne = expected.report.iterations;
           EXPECT_LE(solved.report.iterations, hasHats ? 2 + 1.3 * ofOne : 5 + 2 * ofOne);
           for (const char hasValue : solved.hasValue)
@@ -140,9 +140,10 @@ TEST(RankPoisson, EstimatesTheErrorsOfOneRank)
       const PoissonSolution expected = SolveScreened(*space, FieldAt(surface.mesh.points), options);
       const Solved solved = SolveOnRanks(surface.mesh, Dealing::Contiguous, options, false);
       EXPECT_TRUE(solved.report.converged);
-      // Of one rank the same, but that Core's sweeps are in single precision and the ranks' are
-      // not; of several the coarser solution, which they are told from, is less exact where nearly
-      // all patches are at borders, as on so small a torus. On scans they agree to a hundredth.
+      // On one rank the results are the same, except that Core's sweeps are in single precision and
+      // the ranks' sweeps are not. On several ranks the estimates use a coarser solution that is
+      // less exact if nearly all patches are at borders, as on this small torus. On scans they
+      // agree to a hundredth.
       const double part = Communicator(MPI_COMM_WORLD).Size() == 1 ? 1e-5 : 0.5;
       EXPECT_NEAR(solved.accuracy.discretization, expected.accuracy.discretization,
         part * expected.accuracy.discretization);

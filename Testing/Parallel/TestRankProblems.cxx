@@ -1,5 +1,5 @@
-// Problems of Core on the pieces of several ranks have the answers of one rank, at every point and
-// on every triangle; copies of triangles count once, and have the values of their originals.
+// Core's problems on the pieces of several ranks have the results of one rank, at every point and
+// on every triangle. Copies of triangles count once, and have the values of their originals.
 #include "Parallel/HeldPoints.h"
 #include "Pieces.h"
 #include "Problems/HeatDiffusion.h"
@@ -17,7 +17,8 @@ using namespace gridfem::testing;
 namespace
 {
 
-/// Points that nothing else lies upon: elsewhere the ranks' points are not known to be one.
+/// Points without another point in the same place. Elsewhere, nothing tells that points of several
+/// ranks are one.
 std::vector<char> AlonePoints(const TriangleMesh& mesh)
 {
   const Array<Index> first = WeldCoincidentPoints(mesh.points);
@@ -76,7 +77,7 @@ TEST(RankProblems, DerivativesAreThoseOfOneRank)
   {
     const Dealing dealing = surface == 1 ? Dealing::EveryOther : Dealing::Shuffled;
     CompareDerivatives(Surfaces()[surface], dealing, false, false);
-    if (surface != 3) // whose triangles are so large that the grid says little of hats' masses
+    if (surface != 3) // its triangles are so large that the grid says little about the hats' masses
     {
       CompareDerivatives(Surfaces()[surface], dealing, false, true);
     }
@@ -196,7 +197,7 @@ TEST(RankProblems, HeldValuesAreMetAsOnOneRank)
       EXPECT_TRUE(found.report.converged);
       EXPECT_EQ(found.isExact, expected.isExact);
       EXPECT_EQ(found.steps, expected.steps);
-      if (hasHats) // also where points are between cells of two ranks, as on the plate
+      if (hasHats) // even if points lie between cells of two ranks, as on the plate
       {
         EXPECT_LE(found.report.iterations, 5 + 1.5 * expected.report.iterations);
       }

@@ -1,5 +1,5 @@
-// The space on several ranks is that of one rank: the same patches and functions on every level,
-// the same entries of M, L and the prolongations.
+// The space on several ranks is that of one rank, with the same patches and functions on every
+// level, and the same entries of M, L and the prolongations.
 #include "Meshes.h"
 #include "Parallel/RankLevels.h"
 #include "Problems/MemoryEstimate.h"
@@ -35,11 +35,11 @@ struct Entry
   double value;
 };
 
-/// A level as all ranks have it together; collective to make.
+/// A level gathered from all ranks. Making it is collective.
 struct GatheredLevel
 {
   std::vector<MortonKey> cells;
-  std::vector<Id> numbers; // of the functions, eight for each patch
+  std::vector<Id> numbers; // numbers of the functions, eight per patch
   Id total = 0;
   std::vector<Entry> mass;
   std::vector<Entry> stiffness;
@@ -94,7 +94,7 @@ GatheredLevel GatherDivided(const RankSpace& space, std::size_t l)
   return level;
 }
 
-/// Of the levels that each rank holds whole.
+/// Takes a level that each rank holds whole.
 GatheredLevel TakeShared(const RankSpace& space, std::size_t l)
 {
   const GridSpace& shared = space.Shared();
@@ -123,9 +123,9 @@ std::vector<GatheredLevel> GatherLevels(const RankSpace& space)
   return levels;
 }
 
-using Numbers = std::vector<Index>; // per number, the function of the whole
+using Numbers = std::vector<Index>; // the function of the whole for each number
 
-/// Patches are in the same order everywhere, so that functions are matched by their corners.
+/// Matches functions by their corners, because patches are in the same order everywhere.
 void MatchFunctions(const GatheredLevel& level, const PatchLevel& whole, Numbers& functionOf)
 {
   ASSERT_EQ(level.cells, whole.cell);
@@ -146,7 +146,7 @@ void MatchFunctions(const GatheredLevel& level, const PatchLevel& whole, Numbers
   }
 }
 
-/// Entries at one place are added up; to 1e-12 of the largest.
+/// Compares entries, after adding up those at one place, to 1e-12 of the largest.
 void CompareEntries(std::vector<Entry> entries, const SparseMatrix& whole, const Numbers& rows,
   const Numbers& columns)
 {
@@ -203,7 +203,7 @@ void Compare(const std::vector<GatheredLevel>& levels, const GridSpace& whole)
   }
 }
 
-/// What all ranks hold together, in the order of their triangles.
+/// The mesh of all ranks, in the order of their triangles.
 TriangleMesh WholeOf(const TriangleMesh& mesh, const std::vector<int>& rankOf, int ranks)
 {
   TriangleMesh whole;
@@ -220,7 +220,7 @@ TriangleMesh WholeOf(const TriangleMesh& mesh, const std::vector<int>& rankOf, i
   return whole;
 }
 
-/// The first rank compares.
+/// Compares with a space on one rank. The first rank does the comparison.
 void CompareWithOneRank(const TriangleMesh& mesh, Dealing dealing, const RankSpaceOptions& options)
 {
   const Communicator ranks(MPI_COMM_WORLD);
@@ -233,7 +233,8 @@ void CompareWithOneRank(const TriangleMesh& mesh, Dealing dealing, const RankSpa
   }
 }
 
-/// Of every function, on all ranks that touch it; in more columns than a message has.
+/// Exchanges values of every function between all ranks that touch it, in more columns than a
+/// message has.
 template<class Real>
 void ExchangeRows(const RankLevels& levels, const LevelNumbering& numbering, std::size_t level)
 {
@@ -244,7 +245,7 @@ void ExchangeRows(const RankLevels& levels, const LevelNumbering& numbering, std
   for (Index f = 0; f < numbering.Functions(); ++f)
   {
     const bool isOwn = f >= numbering.foreign;
-    const auto number = static_cast<Real>(numbering.number[f]); // small enough for all digits
+    const auto number = static_cast<Real>(numbering.number[f]); // small enough to keep all digits
     for (Id c = 0; c < Columns; ++c)
     {
       parts(f, c) = Real(c) + number;

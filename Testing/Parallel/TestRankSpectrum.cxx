@@ -29,7 +29,7 @@ SpectrumOptions Modes(int count)
 struct OnRanks
 {
   Spectrum spectrum;
-  MultiVector values; // of the modes at this rank's own points
+  MultiVector values; // modes at this rank's own points
   std::vector<Id> points;
 };
 
@@ -46,7 +46,7 @@ OnRanks SolveOnRanks(const TriangleMesh& mesh, Dealing dealing, const SpectrumOp
   return result;
 }
 
-/// Whether a value is so far from its neighbours that its vector is one up to its sign.
+/// Whether a value is far enough from its neighbors to determine its vector up to the sign.
 bool IsSimple(const std::vector<double>& values, std::size_t mode)
 {
   constexpr double Gap = 1e-2;
@@ -68,7 +68,7 @@ double LargestDifference(
   return difference;
 }
 
-/// Values of one rank to a part of them, in about as many iterations.
+/// Compares with the values of one rank, to a relative tolerance, in about as many iterations.
 void CompareWithOneRank(const NamedSurface& surface, const SpectrumOptions& options, double part)
 {
   SCOPED_TRACE(surface.name);
@@ -77,7 +77,7 @@ void CompareWithOneRank(const NamedSurface& surface, const SpectrumOptions& opti
   const Spectrum expected = ComputeSpectrum(space, options);
   const Spectrum found = SolveOnRanks(surface.mesh, Dealing::Contiguous, options, Depth).spectrum;
   EXPECT_TRUE(found.converged);
-  // Patches at borders are in double precision, so that flat pieces may need it nowhere else.
+  // Patches at borders are in double precision. Flat pieces may therefore need it nowhere else.
   EXPECT_GE(found.singlePrecision, expected.singlePrecision);
   EXPECT_LE(found.iterations, 1 + 1.3 * expected.iterations);
   ASSERT_EQ(found.eigenvalues.size(), expected.eigenvalues.size());
@@ -129,12 +129,11 @@ TEST(RankSpectrum, IsThatOfOneRank)
 TEST(RankSpectrum, TakesBlocksInSinglePrecisionAsOneRankDoes)
 {
   SpectrumOptions options = Modes(12);
-  options.tolerance = 1e-6; // of the values
+  options.tolerance = 1e-6; // relative error of the values
   int single = 0;
   for (const NamedSurface& surface : Surfaces())
   {
-    CompareWithOneRank(
-      surface, options, 1e-5); // values that are near each other miss the tolerance
+    CompareWithOneRank(surface, options, 1e-5); // close values miss the tolerance
     single += SolveOnRanks(surface.mesh, Dealing::OneRank, options).spectrum.singlePrecision;
   }
   EXPECT_GE(single, 3); // flat pieces need double precision
@@ -191,7 +190,7 @@ TEST(RankSpectrum, IsOrthonormalForAnyDistribution)
 
 TEST(RankSpectrum, EndsWithWholeMultiplets)
 {
-  const TriangleMesh sphere = Surfaces().front().mesh; // values l (l + 1), 2 l + 1 of them
+  const TriangleMesh sphere = Surfaces().front().mesh; // 2 l + 1 values of l (l + 1)
   SpectrumOptions options = Modes(6);
   options.tolerance = 1e-6;
   const Spectrum cut = SolveOnRanks(sphere, Dealing::Contiguous, options).spectrum;

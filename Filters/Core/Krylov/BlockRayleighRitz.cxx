@@ -11,10 +11,10 @@ namespace gridfem
 namespace
 {
 
-/// After so many steps the projected matrices are computed anew: rounding adds up.
+/// The projected matrices are computed anew after this many steps, because rounding errors add up.
 constexpr int RefreshInterval = 8;
 
-/// Rows of the basis that are combined at a time: they stay in the cache.
+/// Rows of the basis that are combined at a time. They stay in the cache.
 constexpr Id CombinedRows = 512;
 
 } // namespace
@@ -31,7 +31,7 @@ void BlockRayleighRitz<Real>::Step(Index wanted, const std::vector<Index>& withD
 {
   const ConstBlock<Real> X = pairs_.vectors.View();
   const ConstBlock<Real> P = directions_.View();
-  if (pairs_.isRenewed) // on this level or a coarser one, whose products are the same
+  if (pairs_.isRenewed) // renewed on this level, or on a coarser one with the same products
   {
     stiffness_ = pairs_.values.asDiagonal();
     mass_ = Eigen::MatrixXd::Identity(X.cols(), X.cols());
@@ -63,7 +63,7 @@ void BlockRayleighRitz<Real>::Renew()
   pairs_.isRenewed = true;
 }
 
-/// Extends stiffness and mass on the basis `before` by one more part of it.
+/// Extends the projected matrices, known on the basis `before`, by one more part of the basis.
 template<class Real>
 void BlockRayleighRitz<Real>::ProjectPart(
   const BasisParts<Real>& before, const ConstBlock<Real>& part)
@@ -84,7 +84,8 @@ void BlockRayleighRitz<Real>::ProjectPart(
   extend(mass_, projected.rightCols(added));
 }
 
-/// Coefficients in the new vectors of what makes `step` orthogonal to all of them when subtracted.
+/// The part of `step` in the span of the new vectors, as coefficients in them. Subtracting it makes
+/// `step` orthogonal to all new vectors.
 template<class Real>
 Eigen::MatrixXd BlockRayleighRitz<Real>::Overlap(
   const RitzPairs& ritz, const Eigen::MatrixXd& step) const
@@ -94,8 +95,9 @@ Eigen::MatrixXd BlockRayleighRitz<Real>::Overlap(
   return inverse.asDiagonal() * (ritz.coefficients.transpose() * image);
 }
 
-/// New X and P, and stiffness and mass on them. New directions are the shares of P and W in the new
-/// vectors, less their overlap with these, so that [X, P] stays well conditioned.
+/// Computes the new X and P, and stiffness and mass on them. New directions are the shares of P and
+/// W in the new vectors. Their overlap with the new vectors is subtracted, so that [X, P] stays
+/// well conditioned.
 template<class Real>
 void BlockRayleighRitz<Real>::NextVectors(
   const RitzPairs& ritz, const std::vector<Index>& withDirections)
@@ -119,7 +121,8 @@ void BlockRayleighRitz<Real>::NextVectors(
   pairs_.values = ritz.values;
 }
 
-/// The products of NextVectors: new vectors and directions replace the old ones row by row.
+/// Carries out the products of NextVectors. New vectors and directions replace the old ones row by
+/// row.
 template<class Real>
 void BlockRayleighRitz<Real>::CombineRows(
   const RitzPairs& ritz, const std::vector<Index>& columns, const Eigen::MatrixXd& overlap)

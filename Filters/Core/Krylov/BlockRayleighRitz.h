@@ -1,6 +1,6 @@
-// Rayleigh-Ritz on the blocks of a LOBPCG step: vectors X, directions P and corrections W are
-// combined to new vectors and directions. Sums over all rows are taken of what is new alone; the
-// projected matrices of the rest follow from the coefficients. [NUMERICS §3]
+// Rayleigh-Ritz step of LOBPCG: combines the vectors X, the directions P and the corrections W to
+// new vectors and directions. Only the new blocks cost sums over all rows. The projected matrices
+// of the other blocks follow from the coefficients. [NUMERICS §3]
 #ifndef GridFEM_BlockRayleighRitz_h
 #define GridFEM_BlockRayleighRitz_h
 
@@ -17,16 +17,16 @@ template<class Real>
 class BlockRayleighRitz
 {
 public:
-  /// @param pairs  X; Ritz pairs, or none
+  /// @param pairs  X with its values: Ritz pairs, or no pairs yet
   BlockRayleighRitz(const SpectralProblem<Real>& problem, EigenPairs<Real>& pairs,
     BlockBuffer<Real>& directions, BlockBuffer<Real>& corrections);
 
-  /// The lowest `wanted` pairs of the span become X, their shares of P and W become P; W is used
-  /// up.
+  /// Replaces X by the lowest `wanted` pairs of the span of [X, P, W], and P by the shares of P and
+  /// W in them. Uses up W.
   /// @param withDirections  columns of X that get a direction, ascending
   void Step(Index wanted, const std::vector<Index>& withDirections);
 
-  /// Rayleigh-Ritz on X alone, of which it computes all products; P and W are lost.
+  /// Rayleigh-Ritz on X alone, with all products computed anew. P and W are lost.
   void Renew();
 
 private:

@@ -11,12 +11,12 @@ namespace gridfem
 namespace
 {
 
-/// The preconditioner B makes p'Ap / p'B⁻¹p at most 1 or so. Below the inverse of this, p lies in
-/// the null space of A: the system has no solution.
+/// The preconditioner B makes p'Ap / p'B⁻¹p at most about 1. If this ratio is below the inverse of
+/// LongestStep, p lies in the null space of A, and the system has no solution.
 constexpr double LongestStep = 1e12;
 
-/// Steps to the minimum along p; 0 in columns that do not iterate. A column whose p does not have
-/// positive energy breaks down, and what its q holds is forgotten.
+/// Steps to the minimum along p; 0 in columns that do not iterate. A column breaks down if its p
+/// does not have positive energy. Its columns of p and q become zero.
 Columns StepLengths(
   const LinearOperator& A, SolverIteration& iteration, MultiVector& p, MultiVector& q)
 {

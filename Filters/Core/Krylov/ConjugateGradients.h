@@ -11,18 +11,18 @@
 namespace gridfem
 {
 
-/// An iteration where it is looked at.
+/// The state of an iteration, for a measure of the caller's own.
 struct Iterate
 {
   const MultiVector& x;
-  const MultiVector& correction; // B r, which x takes when the iteration ends
-  /// Per right-hand side the smallest Ritz value of B A that conjugate gradients have found: what
-  /// is slowest to converge is reduced by 1 - this at each cycle. Not a number before the first
-  /// step and for cycles alone.
+  const MultiVector& correction; // B r, which is added to x when the iteration ends
+  /// Smallest Ritz value of B A that conjugate gradients have found, per right-hand side. Each
+  /// cycle reduces the slowest component of the error by the factor 1 - this value. NaN before the
+  /// first step and in SolveCycles.
   const Columns& slowest;
 };
 
-/// Per right-hand side, and what it has to fall to.
+/// A measure per right-hand side, and the value that it has to reach.
 struct ColumnMeasures
 {
   Columns value;
@@ -31,29 +31,30 @@ struct ColumnMeasures
 
 struct SolveOptions
 {
-  double tolerance = 1e-8;     // on the stopping measure as in IterationRecord; > 0
+  double tolerance = 1e-8;     // on the measure of IterationRecord chosen below; > 0
   int maximumIterations = 100; // >= 1
-  /// What has to fall below the tolerance: the energy estimate sqrt(rᵀBr) or the residual |r|.
+  /// The measure that has to fall below the tolerance: the energy estimate sqrt(rᵀBr) or the
+  /// residual |r|.
   enum class Measure
   {
     Energy,
     Residual
   } measure = Measure::Energy;
-  /// What ends an iteration before maximumIterations, as stagnated.
+  /// When an iteration ends as stagnated, before maximumIterations.
   enum class GiveUp
   {
     Never,
     AtStandstill, // Stagnation::IsAtStandstill
-    WhenTooSlow   // Stagnation::IsTooSlow: for those who can go on with a better cycle
+    WhenTooSlow   // Stagnation::IsTooSlow: for a caller who has a better cycle to go on with
   } giveUp = GiveUp::Never;
-  /// A measure of its own, where it is set. A column is done when this or the tolerance says so.
-  /// Called once before each iteration and at the end; columns that are done already come with a
+  /// Optional measure of the caller's own. A column is done when this measure or the tolerance says
+  /// so. It is called once before each iteration and once at the end. Finished columns come with a
   /// correction of 0.
   std::function<ColumnMeasures(const Iterate&)> measureBy;
 };
 
-/// The state of x before the correction B r of that iteration; the largest over the right-hand
-/// sides.
+/// Measures of x before the correction B r of this iteration. Each is the largest over the
+/// right-hand sides.
 struct IterationRecord
 {
   int iteration;
@@ -65,14 +66,14 @@ struct IterationRecord
   double own = 0.0; // the value of SolveOptions::measureBy
 };
 
-/// Why an iteration ended; of several right-hand sides, what comes last here.
+/// Why an iteration ended. Several right-hand sides report the last of their reasons in this order.
 enum class SolveEnd
 {
   Converged,
   IterationLimit,
-  NotFinite,  // a right-hand side is not
+  NotFinite,  // a right-hand side is not finite
   Stagnation, // see SolveOptions::GiveUp
-  Breakdown   // a direction without positive energy, or numbers without bounds
+  Breakdown   // a direction without positive energy, or numbers that grow without bound
 };
 
 struct SolveReport
@@ -82,37 +83,39 @@ struct SolveReport
   int iterations = 0;
   std::vector<IterationRecord> history; // iteration 0 is the start
   double convergenceFactor = 0.0;       // mean reduction of the energy measure per iteration
-  int doubleSince = -1;                 // iteration of the fall-back to double precision; -1: none
+  int doubleSince = -1;                 // iteration of the fallback to double precision; -1: none
 };
 
-/// What `convergenceFactor` is.
+/// The value of `convergenceFactor`.
 double MeanFactor(const SolveReport& report);
 
-/// One history of steps that follow each other.
+/// Appends the history of one solve to that of the solves before it.
 void Append(const SolveReport& step, SolveReport& report);
 
-/// Of several solves: what has not converged, or else has taken more iterations, replaces `kept`.
+/// Keeps the report of the worse of two solves: the one that has not converged, or else the one
+/// that took more iterations.
 void KeepWorse(SolveReport report, SolveReport& kept);
 
-/// Keeps an iteration out of directions that are solved otherwise, such as the constants of each
-/// component. A must map what `solution` keeps to what `residual` keeps; the two are each other's
-/// transposes. Both empty: no projection.
+/// Keeps an iteration out of directions that are solved by other means, such as the constants of
+/// each component. A must map the range of `solution` to the range of `residual`. The two are each
+/// other's transposes. Both empty: no projection.
 struct Projection
 {
   std::function<void(MultiVector&)> solution; // removes the direction from x and from B r
   std::function<void(MultiVector&)> residual; // removes it from b and from b - A x
 };
 
-/// Preconditioned conjugate gradients; each column has its own steps, and stops
-/// on its own. Starts from x, or from zero where x is far beyond. A column that has converged by
-/// energy still takes its last correction B r, which was computed for the measure: it lowers the
-/// energy of the error once more. A column with b = 0 gives x = 0. NaN in b or a breakdown ends the
-/// iteration with converged = false and the last finite x. Throws Aborted.
+/// Preconditioned conjugate gradients. Each column has its own steps and stops on its own. Starts
+/// from x, or from zero if x is very far from the solution.
+/// A column that has converged by energy still takes its last correction B r, which the measure has
+/// computed. The correction lowers the energy of the error once more. A column with b = 0 gives x =
+/// 0. NaN in b or a breakdown ends the iteration with converged = false and the last finite x.
+/// Throws Aborted.
 SolveReport SolveConjugateGradients(const LinearOperator& A, const Preconditioner& B,
   const MultiVector& b, MultiVector& x, const SolveOptions& options, const Projection& project = {},
   const Progress& progress = {});
 
-/// x += B (b - A x), repeated: cycles alone.
+/// Repeats x += B (b - A x): cycles without conjugate gradients.
 SolveReport SolveCycles(const LinearOperator& A, const Preconditioner& B, const MultiVector& b,
   MultiVector& x, const SolveOptions& options, const Projection& project = {},
   const Progress& progress = {});

@@ -10,7 +10,8 @@ namespace gridfem
 namespace
 {
 
-/// A level with this many functions is solved densely, or with this many per pair, if not too many.
+/// A level is solved densely up to AlwaysDense functions. With more pairs it is solved densely up
+/// to DensePerPair functions per pair, but never beyond LargestDense.
 constexpr double AlwaysDense = 600.0;
 constexpr double DensePerPair = 3.5;
 constexpr double LargestDense = 1200.0;
@@ -41,8 +42,8 @@ EigenPairs<Real> SolveDense(const SpectralProblem<Real>& problem, Index count)
   Eigen::MatrixXd mass = ToDense(problem.mass);
   problem.constants->Deflate(mass);
   const RitzPairs ritz = SolvePencil(ToDense(problem.stiffness), mass, problem.shift, count);
-  // Coefficients of nearly dependent functions are large: rounded to Real, vectors have other
-  // products.
+  // Coefficients of nearly dependent functions are large. Vectors that are rounded to Real
+  // therefore have other products.
   EigenPairs<Real> pairs{ ritz.values, {}, !PrecisionTraits<Real>::IsSingle };
   pairs.vectors.Reserve(ritz.coefficients.rows(), count);
   pairs.vectors.Show(ritz.coefficients.cols());

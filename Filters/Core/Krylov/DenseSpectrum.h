@@ -7,10 +7,10 @@
 namespace gridfem
 {
 
-/// Whether a level with so many functions is small enough for so many pairs.
+/// Whether a level with this number of functions is small enough for this number of pairs.
 bool IsDense(Id functions, Index blockSize);
 
-/// All of the lowest pairs there are, up to `count`.
+/// The lowest pairs, up to `count`, or all pairs if there are fewer.
 template<class Real>
 EigenPairs<Real> SolveDense(const SpectralProblem<Real>& problem, Index count);
 

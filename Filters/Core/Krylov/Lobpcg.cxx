@@ -12,17 +12,18 @@ namespace gridfem
 namespace
 {
 
-/// Directions mixed in at the start of a level against eigenvectors the coarser level has missed.
+/// Random directions that are mixed in at the start of a level. They find eigenvectors that the
+/// coarser level has missed.
 constexpr Index MinimumRandomColumns = 4;
 
 /// Known columns that are removed between two reports of progress.
 constexpr Id KnownAtOnce = 1024;
 
-/// Steps after which the fallback takes over. Most problems need three to six; those with strands
-/// of surface that nearly touch fifteen, whatever the preconditioner's precision.
+/// Steps after which the fallback takes over. Most problems need three to six steps. Surfaces with
+/// strands that nearly touch need fifteen, whatever the preconditioner's precision.
 constexpr int StepsBeforeFallback = 20;
 
-/// The iteration's state: the basis is [X, P, W].
+/// The state of the iteration. Its basis is [X, P, W].
 template<class Real>
 class BlockIteration
 {
@@ -54,17 +55,17 @@ private:
   const BasisParts<Real>& known_;
   EigenPairs<Real>& pairs_;        // X
   BlockBuffer<Real>& directions_;  // P
-  BlockBuffer<Real>& corrections_; // W = B r of the columns at work that have not converged
-  MultiVector randomLoad_;         // of the last columns of P, which have no values yet
+  BlockBuffer<Real>& corrections_; // W = B r of the unconverged columns at work
+  MultiVector randomLoad_;         // loads of the last columns of P, which are not computed yet
   BlockRayleighRitz<Real> rayleighRitz_;
-  BlockPreconditioner<Real> double_; // when it is needed
+  BlockPreconditioner<Real> double_; // made when it is needed
   SoftLocking locking_;
   BlockReport report_;
   double fraction_ = 0.0;
 };
 
-/// Loads M x of random x, of which B M x become directions; vectors that are no Ritz pairs become
-/// directions as well.
+/// Prepares loads M x of random vectors x. Their images B M x become directions. Start vectors that
+/// are no Ritz pairs become directions as well.
 template<class Real>
 void BlockIteration<Real>::SetStart()
 {
@@ -86,8 +87,8 @@ void BlockIteration<Real>::SetStart()
   pairs_.vectors.Grow(rows, options_.blockSize, problem_.threads);
 }
 
-/// Makes X orthogonal to all that is known, some columns of it at a time: tens of thousands take
-/// minutes.
+/// Makes X orthogonal to all known vectors, in steps of KnownAtOnce columns. Tens of thousands of
+/// known columns take minutes, and the steps allow an abort.
 template<class Real>
 void BlockIteration<Real>::RemoveKnown(Block<Real> X, const Progress& progress)
 {
@@ -120,8 +121,8 @@ const BlockPreconditioner<Real>& BlockIteration<Real>::CurrentPreconditioner()
   return double_;
 }
 
-/// Residuals and corrections of the columns at work, and the random directions when it is called
-/// for the first time. True when all wanted ones have converged.
+/// Computes residuals and corrections of the columns at work. The first call also computes the
+/// random directions. True when all wanted columns at work have converged.
 template<class Real>
 bool BlockIteration<Real>::Correct(const Progress& progress)
 {
@@ -138,15 +139,15 @@ bool BlockIteration<Real>::Correct(const Progress& progress)
   progress.Check(fraction_);
   const bool done = locking_.Update(measures, pairs_.values);
   const std::vector<Index> places = locking_.DropConverged();
-  if (static_cast<Id>(places.size()) < columns) // their corrections are not needed
+  if (static_cast<Id>(places.size()) < columns) // corrections of converged columns are not needed
   {
     corrections_.Keep(places, problem_.threads);
   }
   return done;
 }
 
-/// Residuals and corrections. True when all wanted pairs have converged: columns that converged
-/// earlier are looked at once more before that is said.
+/// Computes residuals and corrections. True when all wanted pairs have converged. Columns that
+/// converged earlier are measured once more before the function returns true.
 template<class Real>
 bool BlockIteration<Real>::Precondition(const Progress& progress)
 {
@@ -162,7 +163,7 @@ bool BlockIteration<Real>::Precondition(const Progress& progress)
          (this->FoundAndWanted() == options_.wanted || report_.iterations > 0);
 }
 
-/// A step of Rayleigh-Ritz. The columns of the new vectors that still work get directions.
+/// One step of Rayleigh-Ritz. The columns of the new vectors that are still at work get directions.
 template<class Real>
 void BlockIteration<Real>::NextVectors(const Progress& progress)
 {
@@ -181,7 +182,7 @@ Index BlockIteration<Real>::FoundAndWanted() const
   return std::min<Index>(options_.wanted, static_cast<Index>(pairs_.values.size()));
 }
 
-/// How far the slowest wanted pair has come, in orders of magnitude.
+/// Progress of the slowest wanted pair, in orders of magnitude, as a fraction of the whole way.
 template<class Real>
 double BlockIteration<Real>::Fraction() const
 {
@@ -226,7 +227,7 @@ BlockReport BlockIteration<Real>::Run(const Progress& progress)
 template<class Real>
 void BlockIteration<Real>::Report()
 {
-  locking_.Start(pairs_.values); // there may be pairs that were not looked at
+  locking_.Start(pairs_.values); // some pairs may not have been measured yet
   const Index found = this->FoundAndWanted();
   for (Index j = 0; j < found; ++j)
   {

@@ -1,6 +1,6 @@
-// Block iteration for the lowest eigenpairs of L x = θ M x on one level: Rayleigh-Ritz on the
-// vectors, their preconditioned residuals and the last directions (LOBPCG). Knows no mesh.
-// [NUMERICS §3]
+// Block iteration for the lowest eigenpairs of L x = θ M x on one level (LOBPCG). Each step is a
+// Rayleigh-Ritz on the vectors, their preconditioned residuals and the last directions. It knows no
+// mesh. [NUMERICS §3]
 #ifndef GridFEM_Lobpcg_h
 #define GridFEM_Lobpcg_h
 
@@ -19,20 +19,21 @@ struct BlockOptions
   Index blockSize = 1;     // pairs carried along, >= wanted
   double tolerance = 1e-8; // on rᵀBr / θ
   int maximumIterations = 100;
-  int minimumIterations = 0; // 1: the random directions have their say even if all has converged
-  /// False: pairs for a finer level. They are renewed, and the last step allowed is not measured.
+  int minimumIterations = 0; // 1: uses the random directions even if all has converged
+  /// False: the pairs are a start for a finer level. They are renewed, and the last step is not
+  /// measured.
   bool measureLast = true;
 };
 
 struct BlockReport
 {
-  std::vector<double> residuals; // per wanted pair when last looked at: sqrt(rᵀBr / max(θ, shift))
-  double nextResidual = 1.0;     // of the first pair behind them; 1 when there is none
-  Index numberOfConverged = 0;   // of the wanted ones
+  std::vector<double> residuals; // per wanted pair, when last measured: sqrt(rᵀBr / max(θ, shift))
+  double nextResidual = 1.0;     // of the first pair beyond the wanted ones; 1 when there is none
+  Index numberOfConverged = 0;   // among the wanted pairs
   int iterations = 0;            // Rayleigh-Ritz steps
 };
 
-/// Memory of an iteration, for one that comes after it.
+/// Memory of an iteration, kept for the next iteration.
 template<class Real>
 struct BlockWorkspace
 {
@@ -40,14 +41,15 @@ struct BlockWorkspace
   BlockBuffer<Real> corrections;
 };
 
-/// Improves `pairs` (orthonormal Ritz pairs, or vectors of any kind without values; may be fewer
-/// than blockSize, or none) until the wanted ones reach the tolerance. Columns that did drop out of
-/// the work until they move again. A few fixed random directions are mixed in, so that no
-/// eigenvector stays hidden. Returns at most blockSize pairs, fewer when fewer exist. Blocks in
-/// single precision halve memory and the time of dense products; projected matrices are added up in
-/// double, so that tolerances down to 1e-7 are reached in the same steps. Same bits for any number
-/// of threads. Throws Aborted.
-/// @param known  orthonormal in the mass matrix; the pairs found are orthogonal to them
+/// Improves `pairs` until the wanted ones reach the tolerance. `pairs` may be orthonormal Ritz
+/// pairs, vectors of any kind without values, fewer than blockSize of either, or empty. Returns at
+/// most blockSize pairs, fewer when fewer exist.
+/// Converged columns drop out of the work until they move again. A few fixed random directions are
+/// mixed in, so that no eigenvector stays hidden.
+/// Blocks in single precision halve the memory and the time of dense products. Projected matrices
+/// are added up in double precision, so tolerances down to 1e-7 are reached in the same steps. Same
+/// bits for any number of threads. Throws Aborted.
+/// @param known  orthonormal in the mass matrix; the pairs found are orthogonal to these vectors
 template<class Real>
 BlockReport ImproveEigenPairs(const SpectralProblem<Real>& problem, const BlockOptions& options,
   const BasisParts<Real>& known, EigenPairs<Real>& pairs, BlockWorkspace<Real>& workspace,

@@ -13,20 +13,21 @@ namespace
 /// Blocks up to this size are not cut into windows.
 constexpr Index LargestBlock = 160;
 
-/// Wanted pairs of one window, at most, and those beyond: inside the spectrum the gap is relatively
-/// small.
+/// Wanted pairs of one window, at most, and the additional pairs. There are many of them, because
+/// the gap is relatively small inside the spectrum.
 constexpr Index WindowSize = 112;
 constexpr Index WindowGuard = 32;
 
-/// Windows are of equal size.
+/// Wanted pairs of the next window. All windows get about the same size.
 Index NextWindowSize(Index left)
 {
   const Index windows = (left + WindowSize - 1) / WindowSize;
   return (left + windows - 1) / windows;
 }
 
-/// Windows that have been found, and the start vectors that are left. Both share one block: the
-/// windows that were found need no more columns than were taken out of it, but at its end.
+/// The windows found so far, and the start vectors that are left. Both share one block. The found
+/// windows never need more columns than were already taken out of the block. More room is needed
+/// only beyond the last start vector.
 template<class Real>
 class WindowIteration
 {
@@ -51,16 +52,16 @@ private:
   const BlockOptions& options_;
   EigenPairs<Real>& pairs_;
   const Id start_; // columns of the start
-  Id used_ = 0;    // of them have been in a window
+  Id used_ = 0;    // number of start columns that have been in a window
   EigenPairs<Real> window_;
-  BlockBuffer<Real> guards_; // of the last window
+  BlockBuffer<Real> guards_; // guards of the last window
   std::vector<double> values_;
   std::vector<double> residuals_;
   BlockWorkspace<Real> workspace_;
   BlockReport report_;
 };
 
-/// One column for every wanted pair and guard.
+/// Provides one column for every wanted pair and every guard.
 template<class Real>
 void WindowIteration<Real>::MakeRoom()
 {
@@ -69,7 +70,7 @@ void WindowIteration<Real>::MakeRoom()
   pairs_.vectors.Show(columns);
 }
 
-/// The guards of the last window and the next columns of the start.
+/// Starts the window from the guards of the last window and the next columns of the start.
 template<class Real>
 void WindowIteration<Real>::SetStartVectors(Index blockSize)
 {
@@ -86,7 +87,7 @@ void WindowIteration<Real>::SetStartVectors(Index blockSize)
   used_ += fresh;
 }
 
-/// Puts what was found behind what is locked.
+/// Appends the pairs of the window to the locked pairs, and keeps its guards.
 template<class Real>
 void WindowIteration<Real>::Lock(const BlockReport& report)
 {
@@ -107,7 +108,7 @@ void WindowIteration<Real>::Lock(const BlockReport& report)
   report_.iterations = std::max(report_.iterations, report.iterations);
 }
 
-/// False when no pairs are left.
+/// Solves the next window. False when no pairs are left.
 template<class Real>
 bool WindowIteration<Real>::NextWindow(const Progress& progress)
 {
@@ -127,7 +128,7 @@ bool WindowIteration<Real>::NextWindow(const Progress& progress)
   return static_cast<Index>(report.residuals.size()) == block.wanted;
 }
 
-/// Orders the columns that were found and puts the guards behind.
+/// Sorts the found columns and puts the guards behind them.
 template<class Real>
 void WindowIteration<Real>::Arrange(const std::vector<Index>& order)
 {
@@ -149,7 +150,7 @@ void WindowIteration<Real>::Arrange(const std::vector<Index>& order)
   pairs_.vectors.Show(found + guards);
 }
 
-/// All windows as one, in ascending order, and the guards of the last behind.
+/// Collects all windows in ascending order. The guards of the last window come behind them.
 template<class Real>
 BlockReport WindowIteration<Real>::Collect()
 {

@@ -9,7 +9,7 @@ namespace gridfem
 namespace
 {
 
-/// One history of both: the second begins where the first ends.
+/// Joins two histories. The second begins where the first ends.
 SolveReport Join(SolveReport first, const SolveReport& second)
 {
   first.history.pop_back();
@@ -54,7 +54,7 @@ SolveReport SolveWithFallback(IterationType iteration, const LinearOperator& A,
   }
   if (report.end == SolveEnd::Breakdown)
   {
-    x.setZero(); // steps with a cycle that was not positive may have led anywhere
+    x.setZero(); // a cycle that was not positive may have led x anywhere
   }
   attempt.giveUp = SolveOptions::GiveUp::AtStandstill;
   const double done = double(report.iterations) / options.maximumIterations;

@@ -1,5 +1,5 @@
-// Solves that go on in double precision where a preconditioner in single precision turns out not to
-// be enough.
+// Solves that start with a preconditioner in single precision and go on in double precision where
+// that is not enough.
 #ifndef GridFEM_PrecisionFallback_h
 #define GridFEM_PrecisionFallback_h
 
@@ -15,14 +15,17 @@ enum class IterationType
   Cycles = 1              // the cycle alone
 };
 
-/// One cycle from zero, and one with factors in double precision.
+/// One cycle from zero as the preconditioner, and the same cycle with factors in double precision
+/// as its replacement.
 WithFallback<Preconditioner> CycleWithFallback(const Multigrid& multigrid);
 
-/// SolveConjugateGradients or SolveCycles. Where B may be replaced, an iteration that is too slow
-/// (Stagnation::IsTooSlow) or breaks down begins anew, once, from the x it has reached or from
-/// zero, for the iterations that are left, in double precision. That one ends at a standstill. What
-/// the report says of the iteration of this change, `doubleSince`, is measured in double precision.
-/// options.giveUp counts where B is in double precision from the start.
+/// Calls SolveConjugateGradients or SolveCycles, with at most one fallback to double precision. An
+/// iteration falls back if it is too slow (Stagnation::IsTooSlow) or breaks down, and if B has a
+/// replacement.
+/// The second iteration starts from the x reached so far, or from zero after a breakdown, and has
+/// the iterations that are left. It ends at a standstill. The record of the iteration `doubleSince`
+/// is measured in double precision. options.giveUp applies only where B is in double precision from
+/// the start.
 SolveReport SolveWithFallback(IterationType iteration, const LinearOperator& A,
   const WithFallback<Preconditioner>& B, const MultiVector& b, MultiVector& x,
   const SolveOptions& options, const Projection& project = {}, const Progress& progress = {});

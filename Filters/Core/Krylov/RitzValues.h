@@ -1,4 +1,4 @@
-// What conjugate gradients learn of the spectrum of the preconditioned operator on their way.
+// Estimates of the spectrum of the preconditioned operator, a by-product of conjugate gradients.
 #ifndef GridFEM_RitzValues_h
 #define GridFEM_RitzValues_h
 
@@ -9,29 +9,29 @@
 namespace gridfem
 {
 
-/// The tridiagonal matrix of the Lanczos method for B A, from the coefficients of conjugate
-/// gradients, for each right-hand side. Its eigenvalues are Ritz values: those of B A are not
-/// smaller than the smallest but for what the right-hand side does not excite.
+/// The tridiagonal matrix of the Lanczos method for B A, for each right-hand side. It follows from
+/// the coefficients of conjugate gradients. Its eigenvalues are the Ritz values. The smallest one
+/// approaches from above the smallest eigenvalue of B A that the right-hand side excites.
 /// Saad: Iterative Methods for Sparse Linear Systems, section 6.7.3.
 class RitzValues
 {
 public:
   explicit RitzValues(Id columns) : matrices_(columns) {}
 
-  /// α of the next step; columns with 0 stand still.
+  /// Adds α of the next step. Columns with α = 0 have made no step.
   void AddStep(const Columns& step);
 
-  /// β, the factor of the direction before in the next one; follows a step.
+  /// Adds β, the factor of the old direction in the next one. Each call follows a call of AddStep.
   void AddFactor(const Columns& factor);
 
-  /// Not a number before the first step.
+  /// NaN before the first step.
   Columns Smallest() const;
 
 private:
   struct Tridiagonal
   {
     std::vector<double> diagonal;
-    std::vector<double> offDiagonal; // as long, after a factor
+    std::vector<double> offDiagonal; // as long as `diagonal` after AddFactor
     double lastStep = 0.0;
     double lastFactor = 0.0;
   };

@@ -9,10 +9,10 @@ namespace gridfem
 namespace
 {
 
-/// A converged column whose value moves by more than this many tolerances has to work again.
+/// A converged column has to work again if its value moves by more than this many tolerances.
 constexpr double WakeFactor = 10.0;
 
-/// A converged column whose squared residual grows by more than this is measured again.
+/// A converged column is measured again if its squared residual grows by more than this factor.
 constexpr double GrowthFactor = 1.5;
 
 } // namespace
@@ -56,7 +56,7 @@ bool SoftLocking::Update(const ResidualMeasures& measures, const Eigen::VectorXd
   return done;
 }
 
-/// Columns of which condition(place, column) holds stay at work; returns their places.
+/// Keeps the columns at work for which condition(place, column) holds, and returns their places.
 template<class Condition>
 std::vector<Index> SoftLocking::KeepWhere(Condition&& condition)
 {

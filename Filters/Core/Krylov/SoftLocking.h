@@ -1,5 +1,5 @@
-// Which columns of a block iteration still work. What has converged drops out, stays in the
-// Rayleigh-Ritz basis, and works again when it moves.
+// The columns of a block iteration that are still at work. Converged columns drop out, stay in the
+// Rayleigh-Ritz basis, and work again when they move.
 #ifndef GridFEM_SoftLocking_h
 #define GridFEM_SoftLocking_h
 
@@ -21,35 +21,36 @@ public:
   {
   }
 
-  /// To work: columns that have not converged, or whose values have moved since.
+  /// Puts to work the columns that have not converged, and those whose values have moved since.
   void Start(const Eigen::VectorXd& values);
 
-  /// To work: the wanted columns.
+  /// Puts the wanted columns to work.
   void StartWanted();
 
-  /// Numbers of the columns that work, ascending.
+  /// Numbers of the columns at work, ascending.
   const std::vector<Index>& AtWork() const { return atWork_; }
 
   /// Whether a column with this value and rᵀBr has converged.
   bool IsSmall(double energy, double value) const { return Relative(energy, value) <= tolerance_; }
 
   /// Takes the measures of the columns at work, all of which have a value. True when all wanted
-  /// ones of them have converged.
+  /// columns among them have converged.
   bool Update(const ResidualMeasures& measures, const Eigen::VectorXd& values);
 
-  /// What has converged leaves the work. Returns the places in AtWork of those that stay.
+  /// Drops converged columns from the work. Returns the places in AtWork of the columns that stay.
   std::vector<Index> DropConverged();
 
-  /// What has not changed since it converged leaves the work. @param norm  rᵀr of those at work
+  /// Drops from the work the columns that have not changed since they converged.
+  /// @param norm  rᵀr of the columns at work
   void DropUnmoved(const Eigen::VectorXd& norm);
 
   bool IsConverged(Index column) const { return measure_[column] <= tolerance_; }
-  /// rᵀBr / max(θ, shift) of a column when it was last looked at; 1 before.
+  /// rᵀBr / max(θ, shift) of a column when it was last measured; 1 before its first measurement.
   double Measure(Index column) const { return measure_[column]; }
 
 private:
-  /// Rounding may make rᵀBr negative: it is as far from zero then. NaN stays, and has not
-  /// converged.
+  /// Rounding may make rᵀBr negative. The magnitude then still tells how far it is from zero. NaN
+  /// stays NaN and therefore has not converged.
   double Relative(double energy, double value) const
   {
     return std::abs(energy) / std::max(value, shift_);
@@ -62,8 +63,8 @@ private:
   double shift_;
   std::vector<Index> atWork_;
   std::vector<double> measure_;
-  std::vector<double> settledAt_;   // value at which a column has converged, else -1
-  std::vector<double> settledNorm_; // rᵀr then
+  std::vector<double> settledAt_;   // value at which the column has converged, else -1
+  std::vector<double> settledNorm_; // rᵀr at that time
 };
 
 } // namespace gridfem

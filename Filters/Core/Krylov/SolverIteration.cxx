@@ -31,8 +31,8 @@ void CheckProblem(
   }
 }
 
-/// Growth of the energy measure that a solvable system does not show: conjugate gradients stay
-/// below the root of the condition number.
+/// Growth of the energy measure that no solvable system shows. Conjugate gradients stay below the
+/// square root of the condition number.
 constexpr double Divergence = 1e8;
 
 void Project(const std::function<void(MultiVector&)>& projection, MultiVector& v)
@@ -43,7 +43,7 @@ void Project(const std::function<void(MultiVector&)>& projection, MultiVector& v
   }
 }
 
-/// The largest over the columns; NaN if there is one.
+/// The largest value over the columns; NaN if any is NaN.
 double Worst(const Columns& values)
 {
   return values.size() == 0 ? 0.0 : values.maxCoeff<Eigen::PropagateNaN>();
@@ -79,7 +79,7 @@ SolverIteration::SolverIteration(const LinearOperator& A, const Preconditioner& 
   this->Judge();
 }
 
-/// |b|. Retires columns without a solution or with a trivial one.
+/// Measures |b|. Retires the columns without a solution and those with a trivial solution.
 void SolverIteration::MeasureZero()
 {
   residualOfZero_ = A_.products(r, r).sqrt();
@@ -107,9 +107,11 @@ void SolverIteration::Precondition(
   energy = A_.products(residual, correction);
 }
 
-/// By Cauchy and Schwarz bᵀx / |x| is at most |A⁻¹b|, both in the energy norm, and near it for a
-/// start that is worth something. Where it is not even above the error that is left, the energy of
-/// zero costs another B, and zero is the start where the given one would end as a divergence.
+/// Sets the reference of the energy for a start other than zero. By Cauchy-Schwarz, bᵀx / |x| is at
+/// most |A⁻¹b|, both in the energy norm, and close to it for a useful start.
+/// If this bound is even below the energy of the error that is left, one more B gives the energy of
+/// a start from zero. The iteration starts from zero if the given start would count as a
+/// divergence.
 /// @param workOfStart  bᵀx
 void SolverIteration::SetReference(const Columns& workOfStart)
 {
@@ -181,7 +183,7 @@ void SolverIteration::Judge()
       continue;
     }
     residual_[c] = std::sqrt(rr[c]) / residualOfZero_[c];
-    // In a residual that is rounding alone, rᵀBr is too, of either sign.
+    // If the residual is nothing but rounding, rᵀBr is rounding too and may have either sign.
     const bool isRounding = !(rz[c] > 0.0) && residual_[c] <= options_.tolerance;
     energy_[c] = isRounding ? 0.0 : std::sqrt(rz[c]) / reference_[c];
     const bool isBroken = !(energy_[c] < Divergence) || !std::isfinite(residual_[c]);
@@ -194,7 +196,7 @@ void SolverIteration::Judge()
   this->JudgePace();
 }
 
-/// Ends all columns at once: they share their cycles, and the slowest decides.
+/// Ends all columns at once. They share their cycles, and the slowest column decides.
 void SolverIteration::JudgePace()
 {
   if (!this->IsActive())
@@ -218,7 +220,8 @@ void SolverIteration::JudgePace()
   }
 }
 
-/// A vanishing energy may be underflow or a residual that the cycle does not see; |r| tells.
+/// A vanishing energy may be underflow, or a residual that the cycle does not see. |r| tells the
+/// difference.
 bool SolverIteration::IsSolved(Id column) const
 {
   if (options_.measureBy && own_.value[column] <= own_.wanted[column])
@@ -263,7 +266,8 @@ void SolverIteration::Confirm()
   }
   if (this->IsActive())
   {
-    // A column that is done now takes no last step: nobody would look at the residual after it.
+    // A column that is done now takes no last step, because nobody would check the residual after
+    // it.
     takesLast_ = false;
     this->Measure();
     takesLast_ = true;

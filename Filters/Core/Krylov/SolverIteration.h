@@ -1,4 +1,4 @@
-// What conjugate gradients and repeated cycles have in common.
+// The common part of conjugate gradients and repeated cycles.
 #ifndef GridFEM_SolverIteration_h
 #define GridFEM_SolverIteration_h
 
@@ -10,8 +10,9 @@
 namespace gridfem
 {
 
-/// The residual r, z = B r, their measures, and which columns still iterate. The columns of r and z
-/// that do not are zero, so that they neither change x nor spread NaN. Keeps references.
+/// The residual r, the correction z = B r, their measures, and the columns that still iterate. All
+/// other columns of r and z are zero, so that they neither change x nor spread NaN. Keeps
+/// references to its arguments.
 class SolverIteration
 {
 public:
@@ -25,20 +26,21 @@ public:
   bool IsActive() const { return isActive_.any(); }
   bool IsActive(Id column) const { return isActive_[column]; }
 
-  /// Counts an iteration and reports progress; throws Aborted.
+  /// Counts an iteration and reports progress. Throws Aborted.
   void Begin(const Progress& progress);
 
-  /// r = b - A x in the columns that iterate.
+  /// Computes r = b - A x in the columns that iterate.
   void ComputeResidual();
 
-  /// z = B r and its measures; retires columns that are done.
+  /// Computes z = B r and its measures, and retires the columns that are done.
   void Measure();
 
-  /// Ends the iteration of a column. One that has converged by energy takes z, which is there.
+  /// Ends the iteration of a column. A column that has converged by energy also takes z, which is
+  /// already there.
   void Retire(Id column, SolveEnd end);
 
-  /// Looks at the true residual of converged columns: an updated one drifts away by rounding. Those
-  /// that were wrong iterate again, from z.
+  /// Checks converged columns against their true residual, because an updated residual drifts away
+  /// by rounding. Columns that have not really converged iterate again, from z.
   void Confirm();
 
   SolveReport Finish();
@@ -66,12 +68,12 @@ private:
 
   Eigen::Array<bool, Eigen::Dynamic, 1> isActive_;
   std::vector<SolveEnd> end_; // per column; IterationLimit while it iterates
-  bool takesLast_ = true;     // a column that is done takes z
-  Columns reference_;         // of the energy; see IterationRecord
+  bool takesLast_ = true;     // a finished column takes z
+  Columns reference_;         // reference of the energy; see IterationRecord
   Columns residualOfZero_;
-  Columns energy_;     // relative to the first
-  Columns residual_;   // relative to the second
-  ColumnMeasures own_; // of options_.measureBy; empty without
+  Columns energy_;     // relative to reference_
+  Columns residual_;   // relative to residualOfZero_
+  ColumnMeasures own_; // of options_.measureBy; empty without it
   Stagnation stagnation_;
   SolveReport report_;
 };

@@ -10,12 +10,12 @@ namespace gridfem
 namespace
 {
 
-/// Rows whose images are looked at together.
+/// Rows whose images are examined together.
 constexpr Id RowsOfFacts = 512;
 
-/// Calls body(first, count) for panels of columns that a preconditioner takes. Panels know nothing
-/// of each other, so each is the job of one thread where there are enough of them, or of its share
-/// of all; one thread sends messages to other processes.
+/// Calls body(first, count) for the panels of columns that a preconditioner takes. Panels are
+/// independent. With enough panels each is the job of one thread, otherwise the panels share the
+/// threads. With several processes one thread does all panels, because it sends messages.
 template<class Body>
 void ForEachPanel(Id columns, const DividedRows* divided, int threads, Body&& body)
 {
@@ -36,7 +36,7 @@ void ForEachPanel(Id columns, const DividedRows* divided, int threads, Body&& bo
   }
 }
 
-/// L X - M X diag(θ) of `count` of the columns, the first of them number `first`.
+/// L X - M X diag(θ) of `count` of the columns. The first of them has the number `first`.
 template<class Real>
 EigenResidual<Real> ResidualOf(const SpectralProblem<Real>& problem, const EigenPairs<Real>& pairs,
   const std::vector<Index>& columns, Id first, Id count)
@@ -46,7 +46,7 @@ EigenResidual<Real> ResidualOf(const SpectralProblem<Real>& problem, const Eigen
     problem.stiffness, problem.mass, pairs.vectors.View(), pairs.values, { begin, begin + count });
 }
 
-/// As SquaredNorms, of the whole that the processes add up.
+/// Squared norms as by SquaredNorms, for a residual whose parts the processes add up.
 template<class Real>
 Eigen::VectorXd NormsOfParts(const DividedRows& divided, const RowSource<Real>& part, int threads)
 {
@@ -65,8 +65,9 @@ Eigen::VectorXd NormsOfParts(const DividedRows& divided, const RowSource<Real>& 
   return norm;
 }
 
-/// Entries of M x count once, where their rows belong to.
-/// @param image  the parts of M X
+/// Entry of largest magnitude of every column of M X over all processes. Every entry counts once,
+/// in the process that owns its row.
+/// @param image  this process's part of M X
 Eigen::RowVectorXd LargestOfAll(const DividedRows& divided, MultiVector image)
 {
   divided.Sum(image);
@@ -132,7 +133,7 @@ ResidualMeasures SpectralProblem<Real>::Correct(const BlockPreconditioner<Real>&
         [&](Id begin, Id end, Block<Real> part)
         {
           residual.Rows(begin, end, part.leftCols(ofW));
-          if (ofP > 0) // the load may have no rows else
+          if (ofP > 0) // without a load, `load` may have no rows
           {
             part.rightCols(ofP) = load.block(begin, firstP, end - begin, ofP).template cast<Real>();
           }

@@ -1,7 +1,6 @@
-// The eigenproblem of one level, L x = θ M x, and pairs that solve it. What the block iteration,
-// the dense solve and the collection of results share.
-// Where several processes hold the rows of the vectors together, matrices are the parts that this
-// one adds.
+// The eigenproblem of one level, L x = θ M x, and pairs that solve it. The block iteration, the
+// dense solve and the collection of results share it. If several processes hold the rows of the
+// vectors, each has only its own part of the sums in the matrices.
 #ifndef GridFEM_SpectralProblem_h
 #define GridFEM_SpectralProblem_h
 
@@ -20,24 +19,26 @@ struct EigenPairs
 {
   Eigen::VectorXd values;    // ascending
   BlockBuffer<Real> vectors; // columns orthonormal in the mass matrix, up to rounding of Real
-  /// By Rayleigh-Ritz on these vectors or on those they are prolonged from: XᵀLX = diag(values) and
-  /// XᵀMX = 1 up to rounding of Real, not up to that of many steps.
+  /// True if XᵀLX = diag(values) and XᵀMX = 1 up to rounding of Real, without the rounding of many
+  /// steps. A Rayleigh-Ritz on these vectors, or on the vectors they are prolonged from, ensures
+  /// it.
   bool isRenewed = false;
 };
 
-/// Per column x of a block.
+/// Facts about every column x of a block.
 struct ColumnFacts
 {
   Eigen::RowVectorXd energy;  // xᵀLx
   Eigen::RowVectorXd mass;    // xᵀMx
-  Eigen::RowVectorXd largest; // the entry of M x of largest magnitude, near ties to the lowest row
+  Eigen::RowVectorXd largest; // largest entry of M x in magnitude; near ties to the lowest row
 
   explicit ColumnFacts(Id columns)
     : energy(Eigen::RowVectorXd::Zero(columns)), mass(energy), largest(energy)
   {
   }
 
-  /// @param row  entries of M x in rows behind those before
+  /// Updates `largest`.
+  /// @param row  the entries of M x in a row behind all rows before
   template<class Row>
   void TakeLargest(const Row& row)
   {
@@ -47,15 +48,15 @@ struct ColumnFacts
   }
 };
 
-/// One level's eigenproblem, for blocks of vectors of one precision. Where processes hold it
-/// together, all of them call every function but Rows, in the same order.
+/// The eigenproblem of one level, for blocks of vectors in one precision. Every function but Rows
+/// is collective.
 template<class Real>
 struct SpectralProblem
 {
-  /// Of the vectors, in this process.
+  /// Rows of the vectors in this process.
   Id Rows() const { return mass.rows; }
 
-  /// M X, in double precision; of a divided problem the part.
+  /// M X, in double precision. A divided problem returns the part of this process.
   MultiVector MassTimes(const MultiVector& X) const;
 
   /// [X₁ X₂ ...]ᵀ [L Y, M Y] over all rows.
@@ -65,21 +66,22 @@ struct SpectralProblem
   Eigen::MatrixXd ProjectMass(const BasisParts<Real>& parts, const ConstBlock<Real>& Y) const;
 
   /// W = B (L X - M X diag(θ)), where X are the columns at work. Panels in which all columns have
-  /// converged are left out. Further loads F share the cycles, P = B F: a cycle takes as long for a
-  /// few columns as for a panel. Measures are those of the columns at work, as many as W has.
+  /// converged are left out. Further loads F share the cycles, P = B F, because a cycle takes as
+  /// long for a few columns as for a panel.
   /// @param load  F; as many columns as P has
+  /// @return      measures of the columns at work, as many as W has
   ResidualMeasures Correct(const BlockPreconditioner<Real>& B, const EigenPairs<Real>& pairs,
     const SoftLocking& locking, Block<Real> W, const MultiVector& load, Block<Real> P) const;
 
-  /// What X has, column by column, in double precision.
+  /// The facts about X, column by column, in double precision.
   ColumnFacts FactsOf(const MultiVector& X) const;
 
-  /// rᵀr of these columns. A cycle for each would cost far more.
+  /// rᵀr of these columns. It costs far less than a cycle for each column.
   Eigen::VectorXd SquaredResiduals(
     const EigenPairs<Real>& pairs, const std::vector<Index>& columns) const;
 
-  /// Gives rows that several processes hold the same bits in all of them: products of dense
-  /// matrices may round them differently.
+  /// Gives shared rows the same bits in all processes. Products of dense matrices may round them
+  /// differently.
   void Agree(Block<Real> X) const;
 
   SparseMatrix stiffness;

@@ -1,4 +1,4 @@
-// Whether an iteration still gets anywhere.
+// Decides whether an iteration still makes progress.
 #ifndef GridFEM_Stagnation_h
 #define GridFEM_Stagnation_h
 
@@ -7,19 +7,21 @@
 namespace gridfem
 {
 
-/// Watches a measure that has to fall to a tolerance within so many iterations. What counts is the
-/// lowest one so far, because the measures of conjugate gradients go up and down.
+/// Watches a measure that has to fall to a tolerance within a given number of iterations. Only the
+/// lowest measure so far counts, because the measures of conjugate gradients go up and down.
 class Stagnation
 {
 public:
-  /// Shorter pieces of a history say little about the rest: conjugate gradients with a good
-  /// preconditioner are slow for some ten iterations before they gain speed.
+  /// Iterations over which the pace is measured. Shorter pieces of a history say little about the
+  /// rest: conjugate gradients with a good preconditioner are slow for some ten iterations before
+  /// they gain speed.
   static constexpr int PaceWindow = 20;
-  /// Before so many iterations, or half of those allowed, the pace is not judged: in a flow whose
-  /// metric degenerates it is slow for forty of the sixty iterations that suffice.
+  /// The pace is judged only after this many iterations, or after half of those allowed. In a flow
+  /// whose metric degenerates, the first forty of the sixty sufficient iterations are slow.
   static constexpr int Patience = 50;
-  /// With a good preconditioner the gaps between two lowest measures were at most five iterations;
-  /// with Gauss-Seidel cycles they may be hundreds, and the iteration then goes on.
+  /// Iterations without a new lowest measure that count as a standstill. With a good preconditioner
+  /// there were at most five iterations between two lowest measures. With Gauss-Seidel cycles there
+  /// may be hundreds, and the iteration then goes on.
   static constexpr int StandstillWindow = 50;
 
   /// @param tolerance > 0
@@ -28,20 +30,20 @@ public:
   {
   }
 
-  /// Once per iteration; the first is that of the start. Not a number counts as no progress.
+  /// Called once per iteration; the first measure is that of the start. NaN counts as no progress.
   void Add(double measure);
 
-  /// After Patience: at the mean pace of the last PaceWindow iterations the tolerance is not
-  /// reached within the iterations that are left.
+  /// True if, at the mean pace of the last PaceWindow iterations, the remaining iterations do not
+  /// reach the tolerance. Always false before Patience.
   bool IsTooSlow() const;
 
-  /// The last StandstillWindow iterations have not brought a lower measure.
+  /// True if the last StandstillWindow iterations have not lowered the measure.
   bool IsAtStandstill() const;
 
 private:
   double tolerance_;
   int maximumIterations_;
-  std::vector<double> lowest_; // after every iteration
+  std::vector<double> lowest_; // the lowest measure after every iteration
 };
 
 } // namespace gridfem

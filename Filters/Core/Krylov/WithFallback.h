@@ -1,5 +1,5 @@
-// An approximate inverse in single precision and, where that turns out not to be enough, one in
-// double: conjugate gradients begin anew with it, LOBPCG goes on with it.
+// An approximate inverse in single precision, and one in double precision as its fallback.
+// Conjugate gradients begin anew with the fallback; LOBPCG goes on with it.
 #ifndef GridFEM_WithFallback_h
 #define GridFEM_WithFallback_h
 
@@ -13,8 +13,8 @@ template<class Inverse>
 struct WithFallback
 {
   Inverse first;
-  /// Takes memory and time like a new hierarchy, and is called at most once in an iteration. Empty:
-  /// `first` is in double.
+  /// Makes the inverse in double precision. Takes the memory and time of a new hierarchy and is
+  /// called at most once in an iteration. Empty: `first` is in double precision already.
   std::function<Inverse()> makeDouble;
 };
 

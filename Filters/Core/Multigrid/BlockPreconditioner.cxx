@@ -69,7 +69,7 @@ template void HandOver(const Vectors<double>&, Id, const RowSink<double>&, int);
 template<class Real>
 Eigen::VectorXd SquaredNorms(const RowSource<Real>& r, int threads)
 {
-  // Few sums of many ranges each: their number does not depend on the threads.
+  // Each sum takes many ranges, so there are few sums. Their number does not depend on the threads.
   constexpr Id RangesPerSum = 16;
   return ParallelSum(
     r.rows, threads, Eigen::VectorXd(Eigen::VectorXd::Zero(r.columns)),

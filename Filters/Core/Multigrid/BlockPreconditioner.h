@@ -1,4 +1,4 @@
-// What a block iteration asks of a preconditioner: corrections of a few columns, whose residuals
+// The preconditioner of a block iteration: corrections of a few columns at a time, whose residuals
 // are never stored.
 #ifndef GridFEM_BlockPreconditioner_h
 #define GridFEM_BlockPreconditioner_h
@@ -11,7 +11,7 @@
 namespace gridfem
 {
 
-/// Rows that are asked for or handed over at a time, at most: they stay in the cache.
+/// Largest number of rows that are requested or handed over at a time. They stay in the cache.
 constexpr Id SourceRows = 256;
 
 /// A block of vectors that is computed some rows at a time.
@@ -28,7 +28,7 @@ struct RowSource
 template<class Real>
 using RowSink = std::function<void(Id begin, Id end, const ConstBlock<Real>& part)>;
 
-/// The rows as a block of to.cols() columns, of which those behind r's are zero.
+/// Loads all rows into a block of to.cols() columns. Columns beyond those of r become zero.
 /// @param norm  if not null: rᵀr
 template<class Given, class Real>
 void LoadRows(const RowSource<Given>& r, Vectors<Real>& to, Columns* norm, int threads);
@@ -41,21 +41,21 @@ void HandOver(const Vectors<Real>& from, Id columns, const RowSink<Given>& z, in
 template<class Real>
 Eigen::VectorXd SquaredNorms(const RowSource<Real>& r, int threads);
 
-/// Per column.
+/// Measures of every column.
 struct ResidualMeasures
 {
   Eigen::VectorXd energy; // rᵀBr
   Eigen::VectorXd norm;   // rᵀr
 };
 
-/// Says whether corrections are wanted. Called once for every r, when the measures of all of its
-/// columns are known; half of the work may be done by then. The thread that corrects r calls it.
+/// Says whether corrections are wanted. The thread that corrects r calls it, once for every r, when
+/// the measures of all columns are known. Half of the work may be done by then.
 using CorrectionTest = std::function<bool(const ResidualMeasures&)>;
 
-/// Hands over z = B r where it is wanted. B is symmetric positive semi-definite; r has at most
-/// WidestPanel columns. Safe to call from several threads; same bits for any number of
-/// them. If several processes hold the rows together, r is what this one adds to the whole, the
-/// measures are those of the whole, and one thread of each process calls it.
+/// Hands over z = B r where it is wanted. B is symmetric positive semi-definite, and r has at most
+/// WidestPanel columns. Safe to call from several threads; same bits for any number of them.
+/// Collective, called by one thread of each process: r is this process's part of the sum over all
+/// processes, and the measures are those of the sum.
 template<class Real>
 using BlockPreconditioner = std::function<ResidualMeasures(
   const RowSource<Real>& r, const CorrectionTest& isWanted, const RowSink<Real>& z)>;

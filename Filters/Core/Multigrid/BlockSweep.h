@@ -1,6 +1,6 @@
-// How a sweep runs over the blocks of a PatchOrder: colour after colour, the blocks of one colour
-// in parallel. Shared by the smoothers. One team of threads does all colours: to wake a team for
-// each would take longer than a colour of a coarse level.
+// Runs a sweep over the blocks of a PatchOrder, for all smoothers: color after color, with the
+// blocks of one color in parallel. One team of threads does all colors. Waking a team for each
+// would take longer than a color of a coarse level.
 #ifndef GridFEM_BlockSweep_h
 #define GridFEM_BlockSweep_h
 
@@ -15,7 +15,7 @@
 namespace gridfem
 {
 
-/// Items (patches or unknowns) in visiting order, cut into blocks and colours as in PatchOrder.
+/// Items (patches or unknowns) in visiting order, cut into blocks and colors as in PatchOrder.
 struct BlockRanges
 {
   std::vector<Id> blockBegin;
@@ -25,10 +25,10 @@ struct BlockRanges
   std::size_t Memory() const { return (blockBegin.size() + colourBegin.size()) * sizeof(Id); }
 };
 
-/// Runs body(phase, item) for all items of phase 0, then of phase 1 ...; those of one phase in any
-/// order, in parallel. A thread that has to wait for a phase looks again and again for a while,
-/// then lets others run. The body must not throw.
-/// @param count  items of each phase
+/// Runs body(phase, item) for all items of phase 0, then of phase 1, and so on. Items of one phase
+/// run in any order, in parallel. A thread that has to wait for a phase polls for a while and then
+/// yields. The body must not throw.
+/// @param count  number of items of each phase
 template<class Body>
 void ParallelPhases(const std::vector<Id>& count, int threads, Body&& body)
 {
@@ -56,7 +56,7 @@ void ParallelPhases(const std::vector<Id>& count, int threads, Body&& body)
   }
 }
 
-/// Calls body(block) for every block, colour after colour in the order of the direction.
+/// Calls body(block) for every block, color after color in the order of the direction.
 template<class Body>
 void VisitBlocks(const BlockRanges& ranges, SweepDirection direction, int threads, Body&& body)
 {
@@ -73,7 +73,8 @@ void VisitBlocks(const BlockRanges& ranges, SweepDirection direction, int thread
 }
 
 /// Calls relax(item, chunk) for every item and every chunk of `columns`, in the order of the
-/// direction. @param work  multiplications of the whole sweep per column
+/// direction.
+/// @param work  multiplications of the whole sweep per column
 template<class Real = double, class Relax>
 void SweepBlocks(const BlockRanges& ranges, Id columns, SweepDirection direction, Id work,
   int threads, Relax&& relax)
@@ -95,13 +96,13 @@ void SweepBlocks(const BlockRanges& ranges, Id columns, SweepDirection direction
     });
 }
 
-/// Diagonals that can be divided by, with room for the inverse of what they scale.
+/// Whether a diagonal can be divided by, with room for the inverse of the numbers it scales.
 inline bool IsUsableDiagonal(double value)
 {
   return value > 1e-200 && value < 1e200;
 }
 
-/// Throws InvalidInput when the order is not a partition into blocks and colours, or names unknowns
+/// Throws InvalidInput when the order is not a partition into blocks and colors, or names unknowns
 /// that the matrix does not have.
 void CheckOrder(const SparseMatrix& A, const PatchOrder& order, int threads = 1);
 

@@ -14,10 +14,10 @@ namespace
 
 constexpr double SmallestPivot = 1e-12;
 
-/// Components per parallel task: most have a handful of unknowns.
+/// Components per parallel task. Most components have a handful of unknowns.
 constexpr Id ComponentsPerRange = 8;
 
-/// Unknowns of the connected components of the matrix graph.
+/// Unknowns of each connected component of the matrix graph.
 Groups FindComponents(const SparseMatrix& A)
 {
   UnionFind sets(A.rows);

@@ -10,9 +10,9 @@ namespace gridfem
 {
 
 /// Dense factors of a symmetric positive semi-definite matrix, one per connected component of its
-/// graph, so that thousands of components cost no more than one. Dependent directions (pivots below
-/// 1e-12 of the scaled diagonal) and unknowns whose diagonal is not a positive number are left out.
-/// Cost: n³ / 3 multiplications and 8 n² bytes for a component of n unknowns.
+/// graph. Thousands of components therefore cost no more than one. Left out are dependent
+/// directions (pivots below 1e-12 of the scaled diagonal) and unknowns whose diagonal is not a
+/// positive number. Cost: n³ / 3 multiplications and 8 n² bytes for a component of n unknowns.
 class CoarseSolver
 {
 public:
@@ -21,8 +21,9 @@ public:
   /// Throws InvalidInput when A is not square.
   explicit CoarseSolver(const SparseMatrix& A, int threads = 1);
 
-  /// x = B b with B symmetric, positive semi-definite and A B A = A: a solution of A x = b wherever
-  /// b is consistent. Unknowns that were left out get 0. Any number of columns; x must not be b.
+  /// Computes x = B b, with B symmetric, positive semi-definite and A B A = A. It solves A x = b
+  /// wherever b is consistent. Unknowns that were left out get 0. Any number of columns; x must not
+  /// be b.
   void Solve(const MultiVector& b, MultiVector& x, int threads = 1) const;
 
   std::size_t Memory() const;
@@ -31,7 +32,7 @@ private:
   /// S A S restricted to `unknown` is L Lᵀ, with S = diag(scale).
   struct Component
   {
-    std::vector<Index> unknown; // kept ones, in the order of the pivots
+    std::vector<Index> unknown; // the kept unknowns, in the order of the pivots
     Eigen::VectorXd scale;
     Eigen::MatrixXd L; // lower triangle
   };

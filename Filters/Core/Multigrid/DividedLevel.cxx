@@ -51,7 +51,7 @@ public:
       });
   }
 
-  std::size_t Memory() const override { return 0; } // of the level, not of this
+  std::size_t Memory() const override { return 0; } // the level counts its memory
 
 private:
   std::shared_ptr<const DividedLevel> divided_;

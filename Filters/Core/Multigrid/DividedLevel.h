@@ -1,4 +1,5 @@
-// A level whose unknowns several processes hold together, as the cycle of each of them sees it.
+// A level whose unknowns are distributed over several processes, from the view of each process's
+// cycle.
 #ifndef GridFEM_DividedLevel_h
 #define GridFEM_DividedLevel_h
 
@@ -12,9 +13,9 @@
 namespace gridfem
 {
 
-/// The matrix of such a level is the part that this process adds, and its order has the patches all
-/// of whose unknowns are of this process alone. Others are relaxed by Relax, in double precision.
-/// As DividedRows, all functions are called by all processes.
+/// The matrix of a divided level is this process's part of the sum over all processes. Its order
+/// has only the patches whose unknowns all belong to this process alone. Relax relaxes the other
+/// patches, in double precision. Every function is collective, as in DividedRows.
 class DividedLevel
 {
 public:
@@ -22,22 +23,23 @@ public:
 
   virtual const DividedRows& Rows() const = 0;
 
-  /// As Rows().Sum for vectors, without a gap, of the next coarser level, which all may hold whole.
+  /// The sum of Rows().Sum without a gap, for vectors of the next coarser level, which every
+  /// process may hold whole.
   virtual void SumCoarse(Block<float> x) const = 0;
   virtual void SumCoarse(Block<double> x) const = 0;
 
-  /// Unknowns of the patches that Relax relaxes, ascending.
+  /// Unknowns of the patches that Relax relaxes, in ascending order.
   virtual const std::vector<Index>& Border() const = 0;
 
   /// One sweep over these patches.
-  /// @param residual  fills the part of b - A x in the rows of Border()
+  /// @param residual  fills this process's part of b - A x in the rows of Border()
   /// @param correct   adds a correction in these rows to x
   virtual void Relax(Id columns, SweepDirection direction,
     const std::function<void(MultiVector& part)>& residual,
     const std::function<void(const MultiVector& correction)>& correct) const = 0;
 };
 
-/// Relax as a smoother.
+/// DividedLevel::Relax as a smoother.
 template<class Real>
 std::unique_ptr<BasicSmoother<Real>> MakeBorderSmoother(
   std::shared_ptr<const DividedLevel> divided);

@@ -21,14 +21,14 @@ public:
   }
 
 private:
-  Id unknowns_;                         // of the matrix
+  Id unknowns_;                         // number of unknowns of the matrix
   std::vector<Index> unknown_;          // in visiting order
   std::vector<double> inverseDiagonal_; // of the unknowns in that order; 0: left alone
   BlockRanges ranges_;
 };
 
-/// An unknown belongs to the block of its first patch. That patch contains it, so the argument that
-/// blocks of one colour are not coupled holds for their unknowns.
+/// An unknown belongs to the block of its first patch. Blocks of one color are not coupled, so
+/// neither are the unknowns of their patches.
 GaussSeidel::GaussSeidel(const SparseMatrix& A, const PatchOrder& order) : unknowns_(A.rows)
 {
   CheckOrder(A, order);

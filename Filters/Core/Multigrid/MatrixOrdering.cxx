@@ -12,11 +12,13 @@ namespace gridfem
 namespace
 {
 
-/// Small enough for many blocks per thread, large enough that few unknowns are at a border.
+/// Unknowns of a block: small enough for many blocks per thread, large enough that few unknowns are
+/// at a border.
 constexpr Index UnknownsPerBlock = 512;
 
-/// Of a coupling with an unknown that another group has already. Groups overlap where couplings are
-/// strong, but not everywhere: half as many groups need the same iterations.
+/// Weight of a coupling with an unknown that is already in another group. Groups overlap where
+/// couplings are strong, but not everywhere. Half as many groups need the same number of
+/// iterations.
 constexpr double WeightOfGrouped = 0.7;
 
 /// The unknowns of one block.
@@ -85,7 +87,7 @@ BlocksOfUnknowns FindBlocks(Index unknowns, const std::vector<UnknownGroups>& gr
   return blocks;
 }
 
-/// The lowest colour that no block before it has whose groups are coupled with its own.
+/// Gives every block the lowest color that no earlier coupled block has.
 std::vector<int> ColourBlocks(const SparseMatrix& A, const std::vector<UnknownGroups>& groups)
 {
   const BlocksOfUnknowns blocks = FindBlocks(A.rows, groups);
@@ -119,7 +121,7 @@ std::vector<int> ColourBlocks(const SparseMatrix& A, const std::vector<UnknownGr
   return colour;
 }
 
-/// An order of the groups of all blocks; blocks without a group are left out.
+/// Sorts the groups of all blocks by color. Blocks without a group are left out.
 PatchOrder SortByColour(const SparseMatrix& A, const std::vector<UnknownGroups>& groups, int size)
 {
   const std::vector<int> colour = ColourBlocks(A, groups);
@@ -179,10 +181,12 @@ public:
   }
 
 private:
-  /// True only for unknowns of the own block: the result must not depend on the other blocks'.
+  /// True only for unknowns of this block, because the result must not depend on the progress of
+  /// other blocks.
   bool IsGrouped(Index i) const { return range_.Contains(i) && isGrouped_[i - range_.begin]; }
 
-  /// May take in members of other groups and of other blocks: lines must not end at their borders.
+  /// Grows a group. It may include members of other groups and of other blocks, because lines must
+  /// not end at block borders.
   /// @return  whether a coupling leads on from the seed
   bool GrowFrom(Index seed, std::vector<Index>& group) const
   {

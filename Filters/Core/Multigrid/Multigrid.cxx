@@ -13,9 +13,10 @@ namespace gridfem
 namespace
 {
 
-/// What is left out is seen neither by the cycle nor by the measure of the residual. On a part with
-/// flat faces, a quarter of its patches, that moved eigenvalues by 7e-7 at a tolerance of 1e-6; on
-/// a brain of 0.4 % of the patches by 2e-10.
+/// Neither the cycle nor the measure of the residual sees the directions that are left out. On a
+/// part with flat faces, where they are in a quarter of the patches, eigenvalues moved by 7e-7 at a
+/// tolerance of 1e-6. On a brain, where they are in 0.4 % of the patches, eigenvalues moved by
+/// 2e-10.
 constexpr double UnresolvedShare = 1e-2;
 
 void CheckSweeps(int pre, int post)
@@ -91,7 +92,7 @@ BasicMultigrid<Real>::BasicMultigrid(
   }
 }
 
-/// Into levels in single precision.
+/// Converts the levels to levels in single precision.
 template<class Real>
 void BasicMultigrid<Real>::TakeApart(std::vector<MultigridLevel> levels)
 {
@@ -101,7 +102,7 @@ void BasicMultigrid<Real>::TakeApart(std::vector<MultigridLevel> levels)
   for (MultigridLevel& level : levels)
   {
     const bool isCoarsest = &level == &levels.back();
-    MultigridLevel from = std::move(level); // its memory is free before the next one is made
+    MultigridLevel from = std::move(level); // its memory is freed before the next one is made
     BasicMultigridLevel<Real>& to = levels_.emplace_back();
     to.A = InSinglePrecision(from.A, threads);
     if (isCoarsest)
@@ -142,7 +143,7 @@ void BasicMultigrid<Real>::BuildSolvers()
     MultigridLevel& level = levels_[l];
     if (!level.smoother || !level.smoother->Refill(level.A, level.order, options_.threads))
     {
-      level.smoother.reset(); // its memory is free before the new one is built
+      level.smoother.reset(); // its memory is freed before the new one is built
       level.smoother = this->MakeSmoother(level);
     }
   }
@@ -150,7 +151,8 @@ void BasicMultigrid<Real>::BuildSolvers()
   this->FindSingle();
 }
 
-/// Where processes divide levels, what one of them has counts for all: they go the same way.
+/// Finds the levels that sweep in single precision. Collective: if one process has a smoother in
+/// single precision, all processes treat the level so.
 template<class Real>
 void BasicMultigrid<Real>::FindSingle()
 {
@@ -183,7 +185,7 @@ std::unique_ptr<BasicSmoother<Real>> BasicMultigrid<Real>::MakeSmoother(Multigri
                               : MakeSmootherSequence(std::move(sequence));
 }
 
-/// The one that relaxes all unknowns, in the order of the level.
+/// Makes the smoother that relaxes all unknowns, in the order of the level.
 template<class Real>
 std::unique_ptr<BasicSmoother<Real>> BasicMultigrid<Real>::MakeFirstSmoother(
   MultigridLevel& level) const

@@ -1,4 +1,4 @@
-// The multigrid cycle. It sees matrices and patch lists only, never triangles. [T §3.3, §4.2]
+// The multigrid cycle. It sees only matrices and patch lists, never triangles. [T §3.3, §4.2]
 #ifndef GridFEM_Multigrid_h
 #define GridFEM_Multigrid_h
 
@@ -35,13 +35,13 @@ struct MultigridOptions
   SmootherType smoother = SmootherType::Patch;
   int preSweeps = 1;                                  // >= 0; equal counts keep the cycle symmetric
   int postSweeps = 1;                                 // >= 0
-  FactorPrecision precision = FactorPrecision::Mixed; // of the patch smoother
-  int sweepsPerSynchronisation = 1;                   // of SliceGaussSeidel: one Sweep is so many
+  FactorPrecision precision = FactorPrecision::Mixed; // precision of the patch smoother's factors
+  int sweepsPerSynchronisation = 1;                   // of SliceGaussSeidel: sweeps in one Sweep
   int threads = 0;                                    // 0: all
 };
 
-/// How one level is relaxed, where that differs from the rest of the hierarchy: the hat functions
-/// of a mesh above the levels of a grid.
+/// How one level is relaxed, if it differs from the rest of the hierarchy. An example is the level
+/// of a mesh's hat functions above the levels of a grid.
 struct LevelSmoothing
 {
   SmootherType smoother = SmootherType::GaussSeidel;
@@ -50,86 +50,89 @@ struct LevelSmoothing
   CycleType cycle = CycleType::V; // V: the next coarser level is visited once, W: twice
 };
 
-/// One level as the cycle sees it.
+/// The data of one level that the cycle uses.
 template<class Real>
 struct BasicMultigridLevel
 {
   BasicSparseMatrix<Real> A;
   BasicSharedMatrix<Real> prolongation; // from the next coarser level; empty on the coarsest
-  BasicSharedMatrix<Real> restriction;  // its transpose; is made where it is empty
+  BasicSharedMatrix<Real> restriction;  // transpose of `prolongation`; made if empty
   PatchOrder order;
-  PatchOrder groups; // of unknowns that are relaxed together after a sweep over all; or empty
-  std::optional<LevelSmoothing> smoothing;       // in place of the options of the hierarchy
+  PatchOrder groups; // unknowns that are relaxed together after a sweep over all; may be empty
+  std::optional<LevelSmoothing> smoothing;       // replaces the options of the hierarchy
   std::shared_ptr<const DividedLevel> divided;   // null: this process holds the level alone
   std::unique_ptr<BasicSmoother<Real>> smoother; // none on the coarsest
 };
 
 using MultigridLevel = BasicMultigridLevel<double>;
 
-/// What processes that divide the level have of it; null: this process holds it alone.
+/// This process's share of a level that several processes divide; null: this process holds it
+/// alone.
 template<class Real>
 const DividedRows* RowsOf(const BasicMultigridLevel<Real>& level)
 {
   return level.divided ? &level.divided->Rows() : nullptr;
 }
 
-/// A hierarchy that is ready to cycle. Real is the precision of matrices and vectors: double for
-/// solves; float for corrections of many columns that need to be right in a few digits only, which
-/// has PreconditionRows alone. Sweeps may be in single precision in both. Const methods are safe to
-/// call from several threads, but where processes divide a level: there all of them make it and
-/// call each method, in the same order. Vectors of a divided level have a row for each unknown that
-/// this process holds.
+/// A hierarchy that is ready to cycle. Real is the precision of matrices and vectors. Solves need
+/// double. Float suits corrections of many columns that need only a few correct digits; it offers
+/// PreconditionRows alone. Sweeps may be in single precision with both.
+/// Const methods are safe to call from several threads, unless processes divide a level. The
+/// constructor and every method are then collective. Vectors of a divided level have a row for each
+/// unknown that this process holds.
 template<class Real>
 class BasicMultigrid
 {
 public:
-  /// @param levels finest first, with A, prolongation and order filled; the rest is built here.
-  /// The coarsest level is solved directly; its prolongation and order are not used.
-  /// In single precision they are taken apart one after the other, and only patches are relaxed.
+  /// Builds everything else from the matrices, prolongations and orders.
+  /// @param levels  finest first, with A, prolongation and order filled
+  /// The coarsest level is solved directly; its prolongation and order are not used. In single
+  /// precision only patches are relaxed, and each level is released as soon as it is converted.
   /// Throws InvalidInput when there is no level, shapes do not fit or a sweep count is negative.
   BasicMultigrid(std::vector<MultigridLevel> levels, const MultigridOptions& options);
 
-  /// New matrix values on the same patterns: rebuilds smoothers and coarse solver.
-  /// refill(level, matrix) gives the matrix of every level its values. When it throws, the
-  /// hierarchy must not be used any more.
+  /// Takes new matrix values on the same patterns and rebuilds smoothers and coarse solver.
+  /// refill(level, matrix) gives the matrix of every level its values. If it throws, the hierarchy
+  /// must not be used any more.
   void Update(const std::function<void(std::size_t, SparseMatrix&)>& refill);
 
-  /// Whether a patch smoother, of any process, stores factors in single precision.
+  /// Whether a patch smoother of any process stores factors in single precision.
   bool HasSingleFactors() const;
 
-  /// Whether sweeps resolve all but a hundredth of the patches, of all processes. The others are
-  /// flat and almost parallel to a plane of the grid, where differences of functions nearly vanish.
-  /// Always true in double precision.
+  /// Whether sweeps resolve all but a hundredth of the patches of all processes. Unresolved patches
+  /// are flat and almost parallel to a plane of the grid, where differences of functions nearly
+  /// vanish. Always true in double precision.
   bool IsReliable() const { return isReliable_; }
 
-  /// A copy whose patch smoothers store all factors in double precision; it shares patterns and
+  /// A copy whose patch smoothers store all factors in double precision. It shares patterns and
   /// prolongations.
   BasicMultigrid InDoublePrecision() const;
 
-  /// One cycle: improves x for A x = b. Any number of columns. Keeps its vectors, up to four times
-  /// the size of b for each thread that cycles at the same time, for the next call.
+  /// One cycle: improves x for A x = b. Any number of columns. Keeps its vectors for the next call,
+  /// up to four times the size of b for each thread that cycles at the same time.
   void Cycle(const Vectors<Real>& b, Vectors<Real>& x) const;
 
-  /// One cycle from zero: x = B b, B symmetric when both sweep counts are equal.
+  /// One cycle from zero: x = B b. B is symmetric when both sweep counts are equal.
   void Precondition(const Vectors<Real>& b, Vectors<Real>& x) const;
 
-  /// A start for the iteration [T §3.3]: solves the coarsest system, takes the solution up and
-  /// improves it by one cycle on every level but the finest. x = C b with C symmetric positive
-  /// semi-definite where B is. Cost: a third of a W cycle. x must not be b.
-  /// @param lastStep  if not null: by how much the solution of the second level differs from that
-  ///                  of the third, on the finest; without columns where there are fewer
+  /// Computes a start for the iteration [T §3.3]. It solves the coarsest system, prolongs the
+  /// solution and improves it by one cycle on every level but the finest. The result is x = C b,
+  /// with C symmetric positive semi-definite where B is. Cost: a third of a W cycle. x must not be
+  /// b.
+  /// @param lastStep  if not null: the solution of the second level minus that of the third,
+  ///   prolonged to the finest; without columns if there are fewer levels
   void NestedIteration(
     const Vectors<Real>& b, Vectors<Real>& x, Vectors<Real>* lastStep = nullptr) const;
 
-  /// z = B r on the hierarchy that begins at `level`; see BlockPreconditioner. All but the last
-  /// sweeps of this level makes rᵀBr known. Throws InvalidInput when there are more than
+  /// z = B r on the hierarchy that begins at `level`; see BlockPreconditioner. rᵀBr is known after
+  /// all but the last sweeps of this level. Throws InvalidInput when there are more than
   /// WidestPanel columns, or B is not symmetric.
   template<class Given>
   ResidualMeasures PreconditionRows(std::size_t level, const RowSource<Given>& r,
     const CorrectionTest& isWanted, const RowSink<Given>& z) const;
 
   const BasicSparseMatrix<Real>& Matrix() const { return levels_.front().A; }
-  /// In single precision without orders and groups.
+  /// The levels; in single precision they have no orders and groups.
   const std::vector<BasicMultigridLevel<Real>>& Levels() const { return levels_; }
   const MultigridOptions& Options() const { return options_; }
   std::size_t Memory() const;
@@ -149,19 +152,19 @@ private:
   /// Vectors of one level during one call.
   struct Scratch
   {
-    Vectors<Real> b; // where the caller's does not do: of a coarser level, or in units
+    Vectors<Real> b; // a load other than the caller's: of a coarser level, or scaled to units
     Vectors<Real> x; // its solution
     Vectors<Real> residual;
   };
-  /// Of all levels, during one call; as many as are used at the same time are kept for the next:
-  /// fresh memory takes as long as a sweep.
+  /// Vectors of all levels during one call. As many workspaces are kept for the next call as are
+  /// used at the same time, because fresh memory takes as long as a sweep.
   struct Workspace
   {
     std::vector<Scratch> scratch;
     Id columns = 0;
 
-    /// What has been used has its size already: a block that Eigen cannot resize for lack of memory
-    /// keeps a pointer to what it has freed.
+    /// The scratch of `levels` levels. Old blocks of another width are released, not resized. A
+    /// block that Eigen cannot resize for lack of memory keeps a pointer to freed memory.
     std::vector<Scratch>& For(std::size_t levels, Id wanted);
   };
 
@@ -190,7 +193,8 @@ private:
   Columns Products(std::size_t level, const Vectors<Real>& x, const Vectors<Real>& y) const;
 
   std::vector<BasicMultigridLevel<Real>> levels_;
-  /// Per level: whether vectors are in double, and it or a coarser one sweeps in single precision.
+  /// Whether vectors of each level are in double precision while this level or a coarser one sweeps
+  /// in single precision.
   std::vector<char> isSingle_;
   bool isReliable_ = true;
   CoarseSolver coarse_;
@@ -200,7 +204,7 @@ private:
 
 using Multigrid = BasicMultigrid<double>;
 
-///@{ What only vectors in double have.
+/// ///@{ Functions of hierarchies in double precision only.
 template<>
 void BasicMultigrid<float>::Update(const std::function<void(std::size_t, SparseMatrix&)>&) = delete;
 template<>
@@ -216,11 +220,11 @@ void BasicMultigrid<float>::NestedIteration(
   const Vectors<float>&, Vectors<float>&, Vectors<float>*) const = delete;
 ///@}
 
-/// Whether a hierarchy in single precision takes them: all but the coarsest relax patches, whatever
-/// the precision of their factors in double.
+/// Whether a hierarchy in single precision accepts these levels. All levels but the coarsest have
+/// to relax patches; the precision of their factors does not matter.
 bool FitSinglePrecision(const std::vector<MultigridLevel>& levels, const MultigridOptions& options);
 
-/// One cycle from `level` on, from zero. The hierarchy has to outlive it.
+/// One cycle from zero, from `level` on. The hierarchy has to outlive the preconditioner.
 template<class Given, class Real>
 BlockPreconditioner<Given> CyclePreconditioner(
   const BasicMultigrid<Real>& multigrid, std::size_t level)

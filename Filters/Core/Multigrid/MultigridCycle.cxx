@@ -1,4 +1,4 @@
-// What a hierarchy does once it is built: cycles, and iterations from the coarsest level on.
+// The cycles of a hierarchy that is already built, and the iteration from the coarsest level on.
 #include "Multigrid/Multigrid.h"
 
 #include "Algebra/ColumnAlgebra.h"
@@ -14,7 +14,7 @@ namespace gridfem
 namespace
 {
 
-/// Of the absolute values in every column; += is the larger of both.
+/// Largest absolute value of each column. `+=` takes the larger of the two.
 struct LargestNumbers
 {
   Eigen::ArrayXd value;
@@ -22,7 +22,7 @@ struct LargestNumbers
   void operator+=(const LargestNumbers& other) { value = value.max(other.value); }
 };
 
-/// Room for a block, in large pages where it is new.
+/// Resizes a block. New memory prefers large pages.
 template<class Real>
 void MakeRoom(Id rows, Id columns, Vectors<Real>& block)
 {
@@ -41,8 +41,8 @@ void SetZero(Id rows, Id columns, Vectors<Real>& block, int threads)
     [&](Id begin, Id end) { block.middleRows(begin, end - begin).setZero(); });
 }
 
-/// Per column a power of two near the largest number, or the sum of the largest of all processes;
-/// 1 for a column of zeros or without a bound.
+/// Unit of each column: a power of two near its largest number, or near the sum of the largest
+/// numbers of all processes. A column of zeros or without a bound gets 1.
 template<class Real>
 Eigen::ArrayXd UnitsOf(const Vectors<Real>& b, const DividedRows* divided, int threads)
 {
@@ -77,7 +77,7 @@ void ForEachNumber(const Vectors<Real>& b, int threads, Body&& body)
     });
 }
 
-/// to = from, every column times its factor.
+/// to = from, with every column multiplied by its factor.
 template<class Real>
 void Scale(const Vectors<Real>& from, const Eigen::ArrayXd& factor, Vectors<Real>& to, int threads)
 {
@@ -232,7 +232,7 @@ Columns BasicMultigrid<Real>::Products(
   return products;
 }
 
-/// Few unknowns: in double.
+/// The coarsest system has few unknowns and is solved in double precision.
 template<class Real>
 void BasicMultigrid<Real>::SolveCoarsest(const Vectors<Real>& b, Vectors<Real>& x) const
 {
@@ -248,7 +248,7 @@ void BasicMultigrid<Real>::SolveCoarsest(const Vectors<Real>& b, Vectors<Real>& 
   }
 }
 
-/// fine = P coarse, from the next coarser level; whole in all rows.
+/// fine = P coarse, from the next coarser level, with the full sum in all rows.
 template<class Real>
 void BasicMultigrid<Real>::Prolong(
   std::size_t l, const Vectors<Real>& coarse, Vectors<Real>& fine) const
@@ -283,7 +283,7 @@ void BasicMultigrid<Real>::RestrictResidual(std::size_t l, const Vectors<Real>& 
   const BasicMultigridLevel<Real>& level = levels_[l];
   const DividedRows* const divided = RowsOf(level);
   const Index foreign = ForeignRows(divided);
-  const bool countOnce = divided && !divided->ArePartsProlonged(); // rows that several hold
+  const bool countOnce = divided && !divided->ArePartsProlonged(); // shared rows count once
   if (x)
   {
     MakeRoom(b.rows(), b.cols(), residual);
@@ -311,8 +311,8 @@ void BasicMultigrid<Real>::RestrictResidual(std::size_t l, const Vectors<Real>& 
   }
 }
 
-/// scaled = b in units of its columns, which are returned: single precision gets numbers near 1.
-/// Both may be one.
+/// scaled = b in units of its columns, so that single precision gets numbers near 1. Returns the
+/// units. b and scaled may be the same block.
 template<class Real>
 Columns BasicMultigrid<Real>::InUnits(
   std::size_t l, const Vectors<Real>& b, Vectors<Real>& scaled) const
@@ -337,7 +337,8 @@ void BasicMultigrid<Real>::Correct(
   Scale(x, unit, x, options_.threads);
 }
 
-/// x += B (b - A x). Single precision sees the correction alone, whose rounding is small beside it.
+/// x += B (b - A x). Single precision computes only the correction, so its rounding is small
+/// compared to x.
 template<class Real>
 void BasicMultigrid<Real>::Improve(
   std::size_t l, const Vectors<Real>& b, Vectors<Real>& x, std::vector<Scratch>& scratch) const
@@ -381,10 +382,11 @@ void BasicMultigrid<Real>::Sweep(std::size_t l, const Vectors<Real>& b, Vectors<
   }
 }
 
-/// The first sweeps, and the correction from the next coarser level; on the coarsest all.
-/// @param energy  if not null, from zero: bᵀBb. With S for the first sweeps, S̄ for these and the
-///                last ones, and B' for the coarser levels, B = S̄ + (1 - SᵀA) P B' Pᵀ (1 - A S), so
-///                that bᵀBb = xᵀ(b + r) + (Pᵀr)ᵀ B' (Pᵀr) for x = S b and r = b - A x
+/// The first half of a cycle: the first sweeps, and the correction from the next coarser level. On
+/// the coarsest level it is the whole solve.
+/// @param energy  if not null, from zero: bᵀBb. Let S stand for the first sweeps, S̄ for the first
+///   and the last sweeps together, and B' for the coarser levels. Then B = S̄ + (1 - SᵀA) P B' Pᵀ
+///   (1 - A S). So bᵀBb = xᵀ(b + r) + (Pᵀr)ᵀ B' (Pᵀr) for x = S b and r = b - A x.
 template<class Real>
 void BasicMultigrid<Real>::Descend(std::size_t l, const Vectors<Real>& b, Vectors<Real>& x,
   bool zeroStart, std::vector<Scratch>& scratch, Columns* energy) const
@@ -407,7 +409,8 @@ void BasicMultigrid<Real>::Descend(std::size_t l, const Vectors<Real>& b, Vector
   Scratch& coarse = scratch[l + 1];
   const bool isZero = zeroStart && smoothing.preSweeps == 0;
   this->RestrictResidual(l, b, isZero ? nullptr : &x, scratch[l].residual, coarse.b, energy);
-  const bool once = smoothing.cycle == CycleType::V || this->IsCoarsest(l + 1); // solved directly
+  // The coarsest level is solved directly, so one visit is enough.
+  const bool once = smoothing.cycle == CycleType::V || this->IsCoarsest(l + 1);
   for (int time = 0; time < (once ? 1 : 2); ++time)
   {
     this->CycleLevel(l + 1, coarse.b, coarse.x, time == 0, scratch);
@@ -418,7 +421,8 @@ void BasicMultigrid<Real>::Descend(std::size_t l, const Vectors<Real>& b, Vector
   }
 }
 
-/// Adds the correction that Descend has found, and the last sweeps.
+/// The second half of a cycle: adds the correction that Descend has found, and does the last
+/// sweeps.
 template<class Real>
 void BasicMultigrid<Real>::Ascend(
   std::size_t l, const Vectors<Real>& b, Vectors<Real>& x, std::vector<Scratch>& scratch) const

@@ -18,10 +18,10 @@ namespace
 
 constexpr int N = PatchKernelWidth;
 
-/// Sizes that single precision holds with all its digits.
+/// Numbers up to this size, and their inverses, keep all digits in single precision.
 constexpr double LargestSingle = 1e30;
 
-/// The unknowns of a patch, `count` of them.
+/// The unknowns of a patch; `count` of them are used.
 struct Patch
 {
   std::array<Index, N> dof;
@@ -31,14 +31,15 @@ struct Patch
 /// Vᵀ V is the inverse of a scaled block S on its numerically independent part.
 struct InverseFactor
 {
-  PatchMatrix row = PatchMatrix::Zero(); // column k: row k of V; zero but in the first k + 1 of
-                                         // `order`
-  std::array<int, N> order;              // of the pivots; the unknowns that are left out come last
+  // Column k is row k of V. It is zero except in the first k + 1 unknowns of `order`.
+  PatchMatrix row = PatchMatrix::Zero();
+  std::array<int, N> order; // of the pivots; unknowns that are left out come last
   int rank = 0;
   double smallestPivot = 1.0;
 };
 
-/// Position, in `order` of the largest diagonal above `smallest`; -1 if none. NaN never is.
+/// Position in `order` of the largest diagonal entry above `smallest`; -1 if none. NaN is never
+/// chosen.
 int FindPivot(
   const PatchMatrix& S, const std::array<int, N>& order, int begin, int end, double smallest)
 {
@@ -85,8 +86,8 @@ InverseFactor Factor(PatchMatrix S, int count, double smallestPivot)
   return factor;
 }
 
-/// Calls visit(i, j, value) for the upper triangle of the block of A with the patch's unknowns,
-/// which ascend, as rows and columns.
+/// Calls visit(i, j, value) for the upper triangle of a patch's block of A. The unknowns of the
+/// patch ascend.
 template<class Visit>
 void ForEachEntry(const BlockSource& source, const Patch& patch, Visit&& visit)
 {
@@ -107,7 +108,7 @@ void ForEachEntry(const BlockSource& source, const Patch& patch, Visit&& visit)
   }
 }
 
-/// Zeros beyond `count`.
+/// The patch's block, with zeros beyond `count`.
 PatchMatrix PrincipalBlock(const BlockSource& source, const Patch& patch)
 {
   PatchMatrix S = PatchMatrix::Zero();
@@ -115,13 +116,14 @@ PatchMatrix PrincipalBlock(const BlockSource& source, const Patch& patch)
   return S;
 }
 
-/// Used, with a positive diagonal.
+/// Whether a place is used and its unknown has a positive diagonal.
 bool IsSolvable(const BlockSource& source, Index unknown)
 {
   return unknown >= 0 && source.row[unknown].diagonal >= 0;
 }
 
-/// The unknowns that can be solved for, once, ascending. @return  the end of the copy
+/// Copies each solvable unknown once, in ascending order.
+/// @return  the end of the copy
 template<class From, class To>
 To CopySolvable(From begin, From end, const BlockSource& source, To copy)
 {
@@ -134,7 +136,8 @@ To CopySolvable(From begin, From end, const BlockSource& source, To copy)
 /// The unknowns of a patch that can be solved for.
 Patch UnknownsOf(const Index* dof, const BlockSource& source)
 {
-  // Nearly always all of them; then each comes after as many as are smaller.
+  // Nearly always all unknowns are solvable. The place of an unknown is then the number of smaller
+  // unknowns.
   Patch patch;
   patch.dof.fill(-1);
   patch.count = N;
@@ -178,6 +181,7 @@ bool HasLargeScales(const Scale& scale, double smallestPivot)
            scale.minCoeff() > 1.0 / LargestSingle);
 }
 
+/// Factors one patch with pivots.
 /// @param block  not scaled
 void FactorWithPivots(const PatchMatrix& block, const Patch& patch, const PatchScale& scale,
   double smallestPivot, PatchFactor& result)
@@ -206,11 +210,12 @@ void FactorWithPivots(const PatchMatrix& block, const Patch& patch, const PatchS
 
 static_assert(PatchesAtOnce == LaneCount && N == LaneCount);
 
-/// Scaled blocks of patches without a missing unknown, and the inverses of their factors.
+/// Scaled blocks of patches without a missing unknown, and the inverses of their factors. Each
+/// patch has a lane.
 class LaneFactors
 {
 public:
-  /// Unit matrices.
+  /// Starts from unit matrices.
   LaneFactors()
   {
     for (int j = 0; j < N; ++j)
@@ -264,7 +269,7 @@ public:
     }
   }
 
-  /// NaN if any pivot is.
+  /// NaN if any pivot is NaN.
   double SmallestPivot(int lane) const
   {
     double smallest = 1.0;
@@ -301,7 +306,7 @@ private:
   Lanes scale_[N];
 };
 
-/// From this pivot on the order of elimination does not matter.
+/// The order of elimination does not matter if all pivots are at least this large.
 double SafePivot(double smallestPivot)
 {
   return std::max(1e-10, 100.0 * smallestPivot);
@@ -316,7 +321,7 @@ BlockSource::BlockSource(const SparseMatrix& matrix, int threads) : A(matrix), r
     {
       for (Id i = begin; i < end; ++i)
       {
-        // Behind as many as are smaller: short rows are counted faster than bisected.
+        // Counts the columns before the diagonal. In short rows that is faster than bisection.
         const Index* const first = A.column.data() + A.rowBegin[i];
         const Index* const last = A.column.data() + A.rowBegin[i + 1];
         const Index* const found =

@@ -1,5 +1,5 @@
-// The inverse of a patch's block of a matrix, as patch smoothers of any precision store it: of
-// patches of PatchKernelWidth unknowns, and of groups of any size.
+// The inverse of a patch's block of a matrix, for patch smoothers of any precision. Patches have
+// PatchKernelWidth unknowns; groups have any number.
 #ifndef GridFEM_PatchFactor_h
 #define GridFEM_PatchFactor_h
 
@@ -15,59 +15,58 @@ namespace gridfem
 
 using PatchMatrix = Eigen::Matrix<double, PatchKernelWidth, PatchKernelWidth>;
 
-/// What the blocks are cut from: a matrix, and where the diagonal is in its rows. Keeps a
-/// reference.
+/// The source of blocks: a matrix, and the place of the diagonal in each row. Keeps a reference.
 struct BlockSource
 {
   const SparseMatrix& A;
   struct Row
   {
-    Id diagonal;  // where it is; -1 where it is not a positive number
-    double scale; // 1 / √diagonal; 0 where it is not a positive number
+    Id diagonal;  // place of the diagonal entry; -1 if it is not a positive number
+    double scale; // 1 / √diagonal; 0 if the diagonal is not a positive number
   };
   Array<Row> row;
 
   BlockSource(const SparseMatrix& matrix, int threads);
 };
 
-/// Vᵀ V is the inverse of the block on its numerically independent part. A patch has `count`
-/// unknowns. The other places repeat the first one and have zeros in V, so that a sweep needs no
-/// case distinction.
+/// Factor of a patch: Vᵀ V is the inverse of the block on its numerically independent part. A patch
+/// has `count` unknowns. The other places repeat the first one and have zeros in V, so that a sweep
+/// needs no case distinction.
 struct PatchFactor
 {
-  // Lower triangular, and mirrored to the upper triangle; zero without unknowns.
+  // Lower triangular, and mirrored to the upper triangle. Zero if there are no unknowns.
   PatchMatrix V = PatchMatrix::Zero();
   std::array<Index, PatchKernelWidth> dof; // in the order of elimination
-  double smallestPivot = 1.0;              // kept, of the block scaled to unit diagonal
+  double smallestPivot = 1.0;              // smallest kept pivot of the scaled block
   Index count = 0;                         // 0: no unknown can be solved for
   bool isComplete = true;                  // no pivot was left out
   bool hasLargeScales = false;             // V would leave the range of single precision
 };
 
-/// The same for a group of any size: Vᵀ V is the inverse of the block of its first unknowns.
+/// The same for a group of any size. Vᵀ V is the inverse of the block of the first unknowns.
 struct GroupFactor
 {
   Eigen::MatrixXd V;          // lower triangular; zero above the diagonal
-  std::vector<Index> unknown; // that can be solved for, those of V first; if there are none, one
+  std::vector<Index> unknown; // the solvable ones, those of V first; else any one
   bool isComplete = true;
   bool hasLargeScales = false;
 };
 
-/// As many patches are factored together as vector registers have lanes.
+/// Number of patches that are factored together, as many as vector registers have lanes.
 constexpr int PatchesAtOnce = 8;
 
 /// Pivoted Cholesky of the scaled blocks, stopped at the smallest pivot that counts. Blocks whose
-/// pivots stay large in the order of their unknowns keep that order: it is as exact, and without
-/// choices all lanes go at once. Places of dof with -1 are not used; unknowns without a positive
-/// diagonal are left out.
-/// @param dof, factors  of `count` patches, at most PatchesAtOnce, one after the other
+/// pivots stay large in the order of their unknowns keep that order. It is equally accurate, and
+/// without pivot choices all lanes go at once. Unknowns without a positive diagonal are left out.
+/// @param dof, factors  of `count` patches, at most PatchesAtOnce, one after the other; -1 in dof
+///   marks an unused place
 void FactorPatches(const BlockSource& source, const Index* dof, int count, double smallestPivot,
   PatchFactor* factors);
 
-/// One group of any size, with the pivots of pivoted Cholesky.
+/// Factors one group of any size by pivoted Cholesky.
 GroupFactor FactorGroup(const BlockSource& source, UnknownGroup group, double smallestPivot);
 
-/// What a patch's block is cut from: its rows from the diagonal on.
+/// Prefetches the data of a patch's block: its rows from the diagonal on.
 EIGEN_ALWAYS_INLINE void FetchRows(const BlockSource& source, const Index* dof)
 {
   for (int i = 0; i < PatchKernelWidth; ++i)
@@ -83,7 +82,7 @@ EIGEN_ALWAYS_INLINE void FetchRows(const BlockSource& source, const Index* dof)
 }
 
 /// Calls body(patch, factor) for the patches from `begin` to `end`.
-/// @param patches  of PatchKernelWidth unknowns
+/// @param patches  of PatchKernelWidth unknowns each
 template<class Body>
 void ForEachFactor(const BlockSource& source, const UnknownGroups& patches, Id begin, Id end,
   double smallestPivot, Body&& body)

@@ -1,5 +1,5 @@
-// The correction of a patch of PatchKernelWidth unknowns from its residuals, for the precisions and
-// numbers of columns of all patch smoothers.
+// Computes the correction of a patch of PatchKernelWidth unknowns from its residuals, for the
+// precisions and numbers of columns of all patch smoothers.
 #ifndef GridFEM_PatchInverse_h
 #define GridFEM_PatchInverse_h
 
@@ -11,7 +11,7 @@
 namespace gridfem
 {
 
-/// Columns with ones from the diagonal on (lower) or up to it.
+/// Columns of ones from the diagonal down (lower triangle) or up to the diagonal (upper triangle).
 template<class Number, bool IsLower>
 struct TriangleOfOnes
 {
@@ -33,8 +33,8 @@ struct TriangleOfOnes
 template<class Number, bool IsLower>
 inline constexpr TriangleOfOnes<Number, IsLower> OnesOf{};
 
-/// y = T x with the lower or the upper triangle of what is stored mirrored. Two sums need not wait
-/// for each other.
+/// y = T x, where T is the lower or the upper triangle of a mirrored factor. It has two sums that
+/// do not wait for each other.
 template<bool IsLower, class Real, class Number>
 EIGEN_ALWAYS_INLINE Eigen::Array<Number, PatchKernelWidth, 1> MultiplyTriangle(
   const Real* mirrored, const Number* x)
@@ -57,14 +57,14 @@ EIGEN_ALWAYS_INLINE Eigen::Array<Number, PatchKernelWidth, 1> MultiplyTriangle(
   return even + odd;
 }
 
-/// V as patches store it: all of a lower triangle mirrored to the upper one, so that products run
-/// along columns, or packed.
+/// Storage of V in patches. A mirrored factor repeats the lower triangle in the upper one, so that
+/// products run along columns. A packed factor has the lower triangle alone.
 template<class Real>
 using MirroredFactor = std::array<Real, PatchKernelWidth * PatchKernelWidth>;
 template<class Real>
 using PackedFactor = std::array<Real, PatchKernelWidth*(PatchKernelWidth + 1) / 2>;
 
-/// Entry (i, j), i >= j.
+/// Entry (i, j) of V, for i >= j.
 template<class Real>
 EIGEN_ALWAYS_INLINE Real EntryOf(const MirroredFactor<Real>& V, int i, int j)
 {
@@ -77,7 +77,7 @@ EIGEN_ALWAYS_INLINE Real EntryOf(const PackedFactor<Real>& V, int i, int j)
   return V[i * (i + 1) / 2 + j];
 }
 
-/// r = Vᵀ V r. Vectors run along the columns, of which there may be one or several.
+/// r = Vᵀ V r. Vector instructions run along the columns, of which there may be one or several.
 template<class Factor, class Lanes>
 EIGEN_ALWAYS_INLINE void ApplyAlongColumns(const Factor& V, Lanes (&r)[PatchKernelWidth])
 {
@@ -106,7 +106,7 @@ EIGEN_ALWAYS_INLINE void ApplyAlongColumns(const Factor& V, Lanes (&r)[PatchKern
   }
 }
 
-/// The same; for one column and a mirrored factor vectors run along the patch.
+/// r = Vᵀ V r. For one column and a mirrored factor vector instructions run along the patch.
 template<class Factor, class Lanes>
 EIGEN_ALWAYS_INLINE void ApplyInverse(const Factor& V, Lanes (&r)[PatchKernelWidth])
 {

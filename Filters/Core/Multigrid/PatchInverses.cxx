@@ -11,18 +11,19 @@ namespace gridfem
 namespace
 {
 
-/// The smallest pivot of a patch's scaled block that counts.
+/// Pivots of a patch's scaled block below this value are left out.
 double SmallestPivot(bool isSingle)
 {
   return isSingle ? PrecisionTraits<float>::SmallestPatchPivot
                   : PrecisionTraits<double>::SmallestPatchPivot;
 }
 
-/// Rounding V to single precision changes V S Vᵀ = I by some 6e-8 / sqrt(pivot). From this pivot on
-/// that is 2 %, which a smoother does not feel; below it, as on flat faces, V is kept in double.
+/// Rounding V to single precision changes V S Vᵀ = I by about 6e-8 / sqrt(pivot). At this pivot the
+/// change is 2 %, too little to affect a smoother. If a pivot is smaller, as on flat faces, V is
+/// kept in double.
 constexpr double SmallestSinglePivot = 1e-11;
 
-/// Numbers that single precision does not hold would be zero or infinite.
+/// Whether V may be in single precision. Numbers outside its range would become zero or infinite.
 bool IsSingle(const PatchFactor& factor, FactorPrecision precision)
 {
   return !factor.hasLargeScales &&

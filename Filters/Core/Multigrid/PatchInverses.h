@@ -1,5 +1,5 @@
-// The inverses of all patches of a level, and the relaxation of one of them: what a patch smoother
-// does in an order of its own, and a march of heat in that of the heat.
+// The inverses of all patches of a level, and the relaxation of one patch. A patch smoother visits
+// the patches in an order of its own; the march of heat visits them in the order of the heat.
 #ifndef GridFEM_PatchInverses_h
 #define GridFEM_PatchInverses_h
 
@@ -18,8 +18,8 @@
 namespace gridfem
 {
 
-/// x += Vᵀ V (b - A x) on the patch. A function of its own, so that what surrounds it does not
-/// change it.
+/// x += Vᵀ V (b - A x) on the patch. It is not inlined, so that surrounding code does not change
+/// its machine code.
 template<class Chunk, class Real, class Factor>
 EIGEN_DONT_INLINE void RelaxPatch(const RowView<Real>& A,
   const std::array<Index, PatchKernelWidth>& dof, const Factor& V, const Real* b, Real* x,
@@ -46,10 +46,10 @@ EIGEN_DONT_INLINE void RelaxPatch(const RowView<Real>& A,
   }
 }
 
-/// So many unknowns a group may have: what a thread has of one while it relaxes it.
+/// Largest number of unknowns of a group. A thread holds this many while it relaxes a group.
 constexpr int LargestGroup = 64;
 
-/// The same on a group of any size.
+/// x += Vᵀ V (b - A x) on a group of any size.
 template<class Chunk, class Real>
 EIGEN_DONT_INLINE void RelaxGroup(
   const RowView<Real>& A, const GroupFactor& group, const Real* b, Real* x, Chunk chunk)
@@ -81,32 +81,32 @@ EIGEN_DONT_INLINE void RelaxGroup(
   }
 }
 
-/// Vᵀ V of every patch. Patches of PatchKernelWidth unknowns have it in single precision where the
-/// options and the numbers allow it, those of any other size always in double.
+/// Vᵀ V of every patch. Patches of PatchKernelWidth unknowns store it in single precision where the
+/// options and the numbers allow. Patches of any other size always store it in double.
 class PatchInverses
 {
 public:
-  /// @param precision  none: for vectors in single precision; what that does not hold or resolve is
-  ///                   left out
-  /// Throws InvalidInput where patches have more than LargestGroup unknowns.
+  /// @param precision  none: for vectors in single precision, without the directions that single
+  ///   precision does not hold or resolve
+  /// Throws InvalidInput if patches have more than LargestGroup unknowns.
   PatchInverses(const SparseMatrix& A, const UnknownGroups& patches, int threads,
     std::optional<FactorPrecision> precision);
 
   Id Count() const { return static_cast<Id>(patches_.size() + groups_.size()); }
 
-  /// Unknowns in the order of the factor. Unused places repeat one that is used.
+  /// Unknowns in the order of the factor. Unused places repeat a used one.
   UnknownGroup Unknowns(Id p) const
   {
     return groups_.empty() ? UnknownGroup(patches_[p].dof.data(), PatchKernelWidth)
                            : UnknownGroup(groups_[p].unknown.data(), Id(groups_[p].unknown.size()));
   }
 
-  /// Whether patches have PatchKernelWidth unknowns. Loops over many patches ask once: asked for
-  /// each of them, sweeps over eight columns in double precision take 15 % longer.
+  /// Whether patches have PatchKernelWidth unknowns. Loops over many patches ask once. A test in
+  /// every patch makes sweeps over eight columns in double precision 15 % slower.
   bool HaveKernels() const { return groups_.empty(); }
 
   /// x += Vᵀ V (b - A x) on the patch, for a chunk of columns.
-  /// @param Real  float where the inverses are for vectors in single precision, else double
+  /// @param Real  float if the inverses are for vectors in single precision, else double
   template<class Real, class Chunk>
   EIGEN_ALWAYS_INLINE void Relax(
     Id p, const RowView<Real>& A, const Real* b, Real* x, Chunk chunk) const
@@ -121,7 +121,7 @@ public:
     }
   }
 
-  /// The same where patches have kernels.
+  /// Relax for patches that have kernels.
   template<class Real, class Chunk>
   EIGEN_ALWAYS_INLINE void RelaxByKernel(
     Id p, const RowView<Real>& A, const Real* b, Real* x, Chunk chunk) const
@@ -144,7 +144,7 @@ public:
     }
   }
 
-  /// Asks for the rows of a patch that is visited soon; there may be none.
+  /// Prefetches the rows of a patch that is visited soon. p may be out of range.
   template<class Real>
   EIGEN_ALWAYS_INLINE void FetchRows(const RowView<Real>& A, Id p) const
   {
@@ -157,7 +157,7 @@ public:
     }
   }
 
-  /// Asks for what vectors of many columns have in these rows.
+  /// Prefetches these rows of b and x, for many columns.
   template<class Real, class Chunk>
   EIGEN_ALWAYS_INLINE void FetchVectors(Id p, const Real* b, const Real* x, Chunk chunk) const
   {
@@ -172,7 +172,7 @@ public:
     }
   }
 
-  /// Asks for the patch itself, with a given precision, for orders that are not that of memory.
+  /// Prefetches the patch itself and its factor, for orders that differ from the order in memory.
   EIGEN_ALWAYS_INLINE void FetchInverse(Id p) const
   {
     if (groups_.empty())
@@ -183,7 +183,7 @@ public:
   }
 
   bool HasSingle() const;
-  /// Those whose directions single precision does not all resolve, where it has to.
+  /// Number of patches with directions that vectors in single precision do not resolve.
   Id Unresolved() const { return unresolved_; }
   std::size_t Memory() const;
 
@@ -191,7 +191,7 @@ private:
   struct Patch
   {
     std::array<Index, PatchKernelWidth> dof;
-    Index kind; // of its factor
+    Index kind; // kind of its factor
   };
   enum Kind : Index
   {
@@ -201,18 +201,18 @@ private:
     Packed // in single precision, for many columns
   };
 
-  /// Both return how many are unresolved.
+  /// Both return the number of unresolved patches.
   Id FillPatches(const SparseMatrix& A, const UnknownGroups& patches, int threads,
     std::optional<FactorPrecision> precision);
   Id FillGroups(const SparseMatrix& A, const UnknownGroups& patches, int threads, bool isSingle);
-  /// Returns false where the patch is left out in part or as a whole.
+  /// Returns false if the patch is left out in part or as a whole.
   bool Set(Id p, const PatchFactor& factor, std::optional<FactorPrecision> precision);
 
   Id unresolved_ = 0;
-  std::vector<GroupFactor> groups_; // where patches have another size than PatchKernelWidth
-  Array<Patch> patches_;            // where they have this one
-  // The factor of patch p is entry p of one of them. What is not used is never touched, and so
-  // takes no memory.
+  std::vector<GroupFactor> groups_; // if patches have another size than PatchKernelWidth
+  Array<Patch> patches_;            // if patches have that size
+  // The factor of patch p is entry p of one of these arrays. Unused entries are never touched and
+  // so take no memory.
   Array<MirroredFactor<float>> single_;
   Array<MirroredFactor<double>> double_;
   Array<PackedFactor<float>> packed_;

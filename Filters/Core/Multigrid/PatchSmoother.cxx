@@ -8,7 +8,7 @@ namespace gridfem
 namespace
 {
 
-/// Patches in visiting order.
+/// Relaxes the patches in visiting order.
 template<class Real>
 class PatchSmoother : public BasicSmoother<Real>
 {
@@ -36,7 +36,8 @@ public:
     sweep(
       [&](Id p, auto chunk)
       {
-        // What takes longest to come: the rows of the matrix, or those of many columns.
+        // Prefetches the data with the longest latency: the rows of the matrix, or the vectors if
+        // there are many columns.
         if constexpr (decltype(chunk)::Width < WidestPanel)
         {
           inverses_.FetchRows(rows, p + 2 * next);

@@ -9,7 +9,7 @@ namespace gridfem
 namespace
 {
 
-/// Slabs are as many as this, where slices allow: more than there are threads.
+/// Number of slabs, where there are slices enough: more than there are threads.
 constexpr Id MostSlabs = 64;
 
 class SliceGaussSeidel : public Smoother
@@ -27,7 +27,8 @@ public:
   }
 
 private:
-  /// Slices first .. last - 1 in sweep number `sweep` of a slab or of the boundary below one.
+  /// Slices first .. last - 1 that sweep number `sweep` visits in a slab, or at the boundary below
+  /// a slab.
   struct Range
   {
     Id first;
@@ -103,7 +104,8 @@ void SliceGaussSeidel::SortBySlice(const std::vector<Index>& slice)
   ExclusiveScan(sliceBegin_);
 }
 
-/// The lowest and the highest slab have nothing to leave out at the end of the surface.
+/// Slices of a slab in one sweep. The lowest and the highest slab leave out nothing at the ends of
+/// the surface.
 SliceGaussSeidel::Range SliceGaussSeidel::SlabSlices(Id slab, int sweep) const
 {
   const Id below = slab > 0 ? sweep : 0;
@@ -170,7 +172,7 @@ std::vector<Index> SlabBoundaries(const std::vector<Index>& slice, int sweeps)
     return boundaries;
   }
   const auto [lowest, highest] = std::minmax_element(slice.begin(), slice.end());
-  std::vector<Id> before(*highest - *lowest + 2, 0); // unknowns below each slice
+  std::vector<Id> before(*highest - *lowest + 2, 0); // number of unknowns below each slice
   for (const Index height : slice)
   {
     ++before[height - *lowest];

@@ -9,7 +9,8 @@ namespace gridfem
 namespace
 {
 
-/// True for 0 = begin[0] <= begin[1] <= ... <= begin[last] = count; may be empty when count is 0.
+/// True for 0 = begin[0] <= begin[1] <= ... <= begin[last] = count. `begin` may be empty when count
+/// is 0.
 bool Covers(const std::vector<Id>& begin, Id count)
 {
   if (begin.empty())

@@ -1,4 +1,4 @@
-// Several smoothers as one.
+// Several smoothers combined to one.
 #ifndef GridFEM_SmootherSequence_h
 #define GridFEM_SmootherSequence_h
 
@@ -7,8 +7,8 @@
 namespace gridfem
 {
 
-/// A forward sweep runs all forward, first to last; a backward sweep all backward, last to first:
-/// the adjoint.
+/// A forward sweep runs all smoothers forward, first to last. A backward sweep is its adjoint: all
+/// smoothers backward, last to first.
 template<class Real>
 std::unique_ptr<BasicSmoother<Real>> MakeSmootherSequence(
   std::vector<std::unique_ptr<BasicSmoother<Real>>> smoothers);

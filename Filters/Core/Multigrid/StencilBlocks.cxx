@@ -18,13 +18,14 @@ constexpr int N = StencilBlocks::N;
 static_assert(N == PatchKernelWidth);
 constexpr Index None = -1;
 
-/// What share of patches may have smaller pivots than single precision bears. They are relaxed once
-/// more in double precision. Beyond, sweeps gain little, and iterations to small tolerances grow:
-/// with 4 % of a part with many walls (cheese, depth 6) from 41 to 51 to 1e-10, in seven eighths of
-/// the time.
+/// Largest share of patches with smaller pivots than single precision resolves. These patches are
+/// relaxed once more in double precision. With a larger share, sweeps gain little and iterations to
+/// small tolerances grow. On a part with many walls (cheese, depth 6) a share of 4 % raised the
+/// iterations to 1e-10 from 41 to 51, in seven eighths of the time.
 constexpr double UnresolvedShare = 0.1;
 
-/// Where the entry of a column stands in a row: PatchOrder::corner of both differ by -17 to 17.
+/// Place of the diagonal entry in a row. The corners (PatchOrder::corner) of row and column differ
+/// by -17 to 17.
 constexpr unsigned Centre = 17;
 
 /// The offset of PatchOrder::corner at a corner of a cell.
@@ -65,18 +66,18 @@ void ForEachPlace(const SparseMatrix& A, const std::vector<Index>& corner, Index
   }
 }
 
-/// The highest bit of each 16 that are not all zero.
+/// Sets the highest bit of every 16-bit number that is not zero.
 constexpr std::uint64_t IsSet(std::uint64_t word)
 {
   constexpr std::uint64_t low = 0x7fff7fff7fff7fff;
   return (((word & low) + low) | word) & ~low;
 }
 
-/// Roots of diagonals between Range and its inverse leave the products of entries with corrections
-/// in the range of single precision.
+/// If the square roots of diagonals are between Range and 1 / Range, products of entries with
+/// corrections stay in the range of single precision.
 constexpr double Range = 1e-15;
 
-/// A power of two near the root of the diagonal where that is out of range, else 1.
+/// A power of two near the square root of the diagonal if the root is out of range, else 1.
 double RangeWeight(const BlockSource::Row& row)
 {
   const bool isInRange = row.scale > Range && row.scale < 1.0 / Range;
@@ -90,16 +91,16 @@ bool IsPlace(unsigned place)
 
 } // namespace
 
-/// A block while its unknowns are numbered.
+/// A block while its unknowns are being numbered.
 struct StencilBlocks::Draft
 {
-  std::vector<Index> unknowns{ None }; // by their number, own first
+  std::vector<Index> unknowns{ None }; // by their number, own unknowns first
   Index own = 0;
-  Index rows = 0;            // the zero row, own, and those of patches with extras
+  Index rows = 0;            // zero row, own rows, and rows of patches with extras
   std::vector<Extra> extras; // of all its patches, without values
   bool fits = true;
 
-  /// @param number  per unknown of the level 0, and 0 again afterwards
+  /// @param number  per unknown of the level: 0, and 0 again afterwards
   Draft(const SparseMatrix& A, const PatchOrder& order, Id begin, Id end,
     std::vector<Index>& number, Patch* patches)
   {
@@ -117,11 +118,11 @@ struct StencilBlocks::Draft
   }
 
 private:
-  /// Numbers of the unknowns of a row by place; a run of four is a word. 0: none.
+  /// Numbers of a row's unknowns, by place. A run of four numbers is one word. 0: none.
   struct Neighbours
   {
     std::array<std::uint64_t, StencilRow::Size / 4> run{};
-    bool areMany = false; // two at one place
+    bool areMany = false; // two unknowns at one place
 
     void Set(unsigned place, Local number)
     {
@@ -174,9 +175,9 @@ private:
     }
   }
 
-  /// Functions that share a corner cannot both have its slot: it is the patch's own, or that of the
-  /// first row which is coupled to one. Rows that are coupled to others get a copy of their own,
-  /// without these, which become extras.
+  /// Chooses the unknown of each slot. Functions that share a corner cannot both have its slot. The
+  /// patch's own function has it, or else the function of the first row coupled to one of them.
+  /// Rows coupled to another function get their own copy without its entries, which become extras.
   void TakeSlots(const SparseMatrix& A, const PatchOrder& order, UnknownGroup dof,
     const std::vector<Index>& number, Patch& patch)
   {
@@ -203,7 +204,7 @@ private:
     {
       patch.slot[k] = static_cast<Local>(slots[k / 4] >> 16 * (k % 4) & 0xffff);
     }
-    patch.firstExtra = static_cast<Index>(extras.size()); // of the block
+    patch.firstExtra = static_cast<Index>(extras.size()); // counted from the block's first
     for (int c = 0; c < N; ++c)
     {
       std::uint64_t foreign = neighbours_[number[dof[c]]].areMany ? 1 : 0;
@@ -325,6 +326,7 @@ bool StencilBlocks::Lay(const SparseMatrix& A, const PatchOrder& order, int thre
   return true;
 }
 
+/// Fills weights and factors.
 /// @return whether single precision resolves enough of the patches
 bool StencilBlocks::FillFactors(const SparseMatrix& A, const PatchOrder& order, int threads)
 {
@@ -356,7 +358,8 @@ bool StencilBlocks::FillFactors(const SparseMatrix& A, const PatchOrder& order, 
   return double(unresolved_.size()) <= UnresolvedShare * double(this->NumberOfPatches());
 }
 
-/// @return whether single precision resolves all directions; those that it does not are left out
+/// Stores the factor of a patch, without directions that single precision does not resolve.
+/// @return whether single precision resolves all directions
 bool StencilBlocks::SetFactor(const PatchFactor& factor, UnknownGroup dof, Patch& patch) const
 {
   std::array<double, N> weight;
@@ -368,7 +371,7 @@ bool StencilBlocks::SetFactor(const PatchFactor& factor, UnknownGroup dof, Patch
   }
   for (int k = 0; k < N * N; ++k)
   {
-    // Of the lower triangle column j belongs to unknown j; the upper one is its mirror image.
+    // In the lower triangle, column j belongs to unknown j. The upper triangle is its mirror image.
     patch.factor[k] = static_cast<float>(factor.V.data()[k] * weight[std::min(k / N, k % N)]);
   }
   return factor.isComplete;
@@ -415,7 +418,8 @@ void StencilBlocks::FillRows(const SparseMatrix& A, const PatchOrder& order, int
     });
 }
 
-/// Rows of a patch that are not the block's: entries whose column has no slot are extras.
+/// Fills the rows that a patch does not share with the block. Entries whose column has no slot
+/// become extras.
 void StencilBlocks::FillOwnRows(
   const SparseMatrix& A, const PatchOrder& order, const Block& block, const Patch& patch)
 {

@@ -1,5 +1,5 @@
-// A level's matrix and patches in the form in which a sweep in single precision reads them: block
-// by block, every row as a stencil of the grid, 27 numbers that need no column indices.
+// A level's matrix and patches in the form that a sweep in single precision reads. They are stored
+// block by block. Every row is a stencil of the grid, 27 numbers that need no column indices.
 #ifndef GridFEM_StencilBlocks_h
 #define GridFEM_StencilBlocks_h
 
@@ -13,17 +13,17 @@
 namespace gridfem
 {
 
-/// Entries of a row by the corner of their column: nine runs along x of three neighbours and one
-/// place that stays zero; x fastest.
+/// Entries of a row by the grid corner of their column, x fastest. A row has nine runs along x, of
+/// three neighbors and one place that stays zero.
 struct StencilRow
 {
   static constexpr int Size = 36;
   std::array<float, Size> value;
 };
 
-/// Blocks of a PatchOrder with what their sweep needs beside each other in memory. Unknowns have
-/// numbers of their own in each block: 0 is none, whose row and value are zero; then come those of
-/// its patches, then those they are coupled to.
+/// Blocks of a PatchOrder. The data of a block's sweep are adjacent in memory. Every block numbers
+/// its unknowns: number 0 means none and has a zero row and value. The unknowns of its patches come
+/// next, then the unknowns they are coupled to.
 class StencilBlocks
 {
 public:
@@ -34,25 +34,25 @@ public:
 
   struct Block
   {
-    Id firstUnknown; // where Unknowns() begin
-    Id firstRow;     // where Rows() begin
-    Index own;       // unknowns of its patches: numbers 1 to `own`, which have rows
-    Index count;     // numbers, with 0
+    Id firstUnknown; // index where Unknowns() begin
+    Id firstRow;     // index where Rows() begin
+    Index own;       // its patches' unknowns, which have rows: numbers 1 to `own`
+    Index count;     // how many numbers there are, with 0
   };
 
   struct Patch
   {
     std::array<Local, Slots> slot;      // the unknown at each corner that its rows are coupled to
-    std::array<Local, N> row;           // of each corner's unknown, in the block
-    std::array<Local, N> unknown;       // in the order of the factor
-    std::array<std::uint8_t, N> corner; // of each of these
+    std::array<Local, N> row;           // row of each corner's unknown, in the block
+    std::array<Local, N> unknown;       // its unknowns in the order of the factor
+    std::array<std::uint8_t, N> corner; // corner of each of these unknowns
     std::array<float, N * N> factor;    // V of PatchFactor, column by column
-    Index firstExtra;                   // in Extras()
+    Index firstExtra;                   // index in Extras()
     Index extras;
   };
 
-  /// An entry whose column has a slot that another unknown of the same grid corner takes: one of
-  /// two functions that have been split.
+  /// An entry whose column cannot have the slot of its grid corner, because another unknown has it.
+  /// The two unknowns are functions that have been split.
   struct Extra
   {
     float value;
@@ -60,13 +60,13 @@ public:
     Local column;
   };
 
-  /// An unknown of a block whose numbers would leave the range of single precision, as those of a
-  /// function on a sliver of a cell do: `weight` times its value takes the place of the value, in
-  /// rows and factors as well.
+  /// An unknown of a block whose numbers would leave the range of single precision, such as a
+  /// function on a sliver of a cell. The block holds `weight` times its value, and its rows and
+  /// factors are scaled accordingly.
   struct Scaled
   {
     Index number;
-    double weight; // a power of two near the root of the diagonal
+    double weight; // a power of two near the square root of the diagonal
   };
 
   /// The slot of a patch's own unknown.
@@ -75,29 +75,30 @@ public:
     return 21 + corner % 2 + 4 * (corner / 2 % 2) + 16 * (corner / 4);
   }
 
-  /// Empty where the order has no corners, a patch is not a cell's, a block has too many unknowns,
-  /// so many functions share corners that half of the rows would be single patches', or single
-  /// precision does not resolve all directions of more than a tenth of the patches.
+  /// Numbers the blocks. They stay empty if the order has no corners, a patch is not a cell's, or a
+  /// block has too many unknowns. They stay empty if so many functions share corners that half of
+  /// the rows would be for single patches. Finally, they stay empty if single precision does not
+  /// resolve all directions of more than a tenth of the patches.
   StencilBlocks(const SparseMatrix& A, const PatchOrder& order, int threads);
 
   /// Takes the values of a matrix with the same pattern.
-  /// @return false where the new blocks would be empty; then these must not be used any more
+  /// @return false if the new blocks would be empty; the old ones must not be used any more
   bool Refill(const SparseMatrix& A, const PatchOrder& order, int threads);
 
   bool IsEmpty() const { return blocks_.empty(); }
-  /// False where they are empty for any values of the matrix.
+  /// False if the blocks are empty for any values of the matrix.
   bool PatternFits() const { return patternFits_; }
   const Block& BlockAt(Id block) const { return blocks_[block]; }
-  /// Of the level, by their number in the block.
+  /// Unknowns of the level, by their number in the block.
   const Index* Unknowns(const Block& block) const { return &unknowns_[block.firstUnknown]; }
-  /// By the number of the unknown, then those of single patches.
+  /// Rows by the number of the unknown, then the rows of single patches.
   const StencilRow* Rows(const Block& block) const { return rows_.data() + block.firstRow; }
   const Patch& PatchAt(Id patch) const { return patches_[patch]; }
   const Extra* Extras(const Patch& patch) const { return extras_.data() + patch.firstExtra; }
-  /// The unknowns of a block that are scaled; of most blocks none.
+  /// The scaled unknowns of a block. Most blocks have none.
   const std::vector<Scaled>& ScaledOf(Id block) const { return scaled_[block]; }
-  /// Patches, ascending, with directions that single precision does not resolve: their factors
-  /// leave these out.
+  /// Patches, ascending, with directions that single precision does not resolve. Their factors
+  /// leave these directions out.
   const std::vector<Id>& Unresolved() const { return unresolved_; }
   Id NumberOfPatches() const { return static_cast<Id>(patches_.size()); }
   std::size_t Memory() const;

@@ -15,13 +15,13 @@ namespace
 constexpr int N = StencilBlocks::N;
 using Patch = StencilBlocks::Patch;
 
-/// What an unknown of a block has in `Width` columns.
+/// The numbers of an unknown in `Width` columns of a block.
 template<int Width>
 using Numbers = std::conditional_t<Width == 1, float, Eigen::Array<float, Width, 1>>;
 
 using Run = Eigen::Array<float, 4, 1>;
 
-/// The sums of four runs.
+/// The sum of each of four runs.
 EIGEN_ALWAYS_INLINE Run SumOfEach(const Run* run)
 {
   using Four = float __attribute__((vector_size(16)));
@@ -42,8 +42,9 @@ EIGEN_ALWAYS_INLINE Run SumOfEach(const Run* run)
   return result;
 }
 
-/// r -= A x for one column: vectors run along a run of a row. The row of an upper corner along x
-/// begins one place earlier, at the zero that ends the run before, so that it meets the same slots.
+/// r -= A x for one column, with vector instructions along the runs of a row. The row of an upper
+/// corner along x begins one place earlier, at the zero that ends the run before, so that it meets
+/// the same slots.
 EIGEN_ALWAYS_INLINE void SubtractProducts(
   const Patch& patch, const StencilRow* rows, const float* x, float (&r)[N])
 {
@@ -75,7 +76,7 @@ EIGEN_ALWAYS_INLINE void SubtractProducts(
   }
 }
 
-/// The same for several columns: vectors run along them.
+/// r -= A x for several columns, with vector instructions along the columns.
 template<class Lanes>
 EIGEN_ALWAYS_INLINE void SubtractProducts(
   const Patch& patch, const StencilRow* rows, const Lanes* x, Lanes (&r)[N])
@@ -138,9 +139,9 @@ inline void Relax(const Patch& patch, const StencilRow* rows, const StencilBlock
   }
 }
 
-/// Columns first .. first + columns - 1 of the unknowns of a block, by their numbers: `Width` for
-/// each, of which those beyond `columns` are zero, as is all of number 0. What is out of range, as
-/// unknowns that are scaled may be, becomes the largest number.
+/// Loads the columns first .. first + columns - 1 of a block's unknowns, `Width` numbers for each
+/// unknown. Numbers beyond `columns` are zero, as are all numbers of unknown 0. Values out of range
+/// become the largest number; only scaled unknowns can have such values.
 template<int Width>
 void Load(const MultiVector& from, const Index* unknowns, Index count, Id first, Id columns,
   bool isInRange, float* to)
@@ -220,7 +221,8 @@ public:
   }
 
 private:
-  /// In double precision, patches that single precision does not resolve; null without any.
+  /// A smoother in double precision for the patches that single precision does not resolve; null
+  /// without such patches.
   std::unique_ptr<Smoother> MakeRest(
     const SparseMatrix& A, const PatchOrder& order, int threads) const
   {
@@ -249,7 +251,8 @@ private:
   {
     const int wanted = omp_in_parallel() ? 1 : threads;
     const int team = ThreadsFor(64 * x.cols() * blocks_.NumberOfPatches(), wanted);
-    // For the numbers of a block, of each thread: no exception leaves their parallel region.
+    // Each thread's room for the numbers of a block. It is allocated here, because no exception may
+    // leave a parallel region.
     std::vector<Numbers<4>> room(roomOfBlock_ * NumberOfThreads(team));
     VisitBlocks(ranges_, direction, team,
       [&](Id block)
@@ -271,7 +274,7 @@ private:
       });
   }
 
-  /// Asks for the patch that is the fourth to come, and for the rows of the second.
+  /// Prefetches the patch four steps ahead and the rows of the patch two steps ahead.
   EIGEN_ALWAYS_INLINE void FetchAhead(const StencilRow* rows, Id second, Id fourth) const
   {
     FetchAll(blocks_.PatchAt(fourth));
@@ -289,7 +292,7 @@ private:
     const bool forward = direction == SweepDirection::Forward;
     const Id begin = ranges_.blockBegin[index];
     const Id last = ranges_.blockBegin[index + 1] - 1;
-    const auto patchAt = [&](Id step) // or the last one
+    const auto patchAt = [&](Id step) // the last patch beyond the end
     { return forward ? std::min(begin + step, last) : std::max(last - step, begin); };
     for (Id step = 0; step <= last - begin; ++step)
     {
@@ -299,7 +302,7 @@ private:
     }
   }
 
-  /// Numbers of one block, in single precision from when they are loaded until they are stored.
+  /// Relaxes one block. Its numbers are in single precision from loading until storing.
   template<int Width>
   void RelaxBlock(Id index, const MultiVector& b, MultiVector& x, Id first, Id columns,
     SweepDirection direction, Numbers<Width>* load) const
@@ -342,7 +345,7 @@ private:
   Index rows_;
   BlockRanges ranges_;
   StencilBlocks blocks_;
-  Id roomOfBlock_ = 0; // numbers of the largest one
+  Id roomOfBlock_ = 0; // room for the largest block
   std::unique_ptr<Smoother> rest_;
 };
 

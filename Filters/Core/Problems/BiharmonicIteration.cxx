@@ -11,16 +11,16 @@ namespace gridfem
 namespace
 {
 
-/// Of the constraints in K: enough to condition S. With more, values as dense as functions take
-/// longer to settle.
+/// Penalty of the constraints in K. It is enough to condition S. With a larger one, values as dense
+/// as the functions take longer to settle.
 constexpr double Penalty = 30.0;
 
-/// Of the solves with K, and of the multipliers, where no larger one is wanted.
+/// Tolerances of the solves with K and of the multipliers, unless larger ones are wanted.
 constexpr double InnerTolerance = 1e-7;
 constexpr double OuterTolerance = 1e-5;
 constexpr double OuterOverInner = OuterTolerance / InnerTolerance;
 
-/// The products with S and their parts.
+/// Products with S and with its factors.
 class NodalProducts
 {
 public:
@@ -79,7 +79,7 @@ public:
     return this->Weighted(this->AtPoints(this->Invert(this->MassOf(this->Spread(multipliers)))));
   }
 
-  /// What the rows of S sum to: the area around each point.
+  /// The row sums of S: the area around each point.
   std::vector<double> Areas()
   {
     const Eigen::Map<const Eigen::VectorXd> integrals(
@@ -89,12 +89,12 @@ public:
     std::vector<double> areas(area.rows());
     for (Id k = 0; k < area.rows(); ++k)
     {
-      areas[k] = std::max(area(k, 0), 1e-6 * mean); // a point among others may have next to none
+      areas[k] = std::max(area(k, 0), 1e-6 * mean); // a point among others may have almost no area
     }
     return areas;
   }
 
-  SolveReport inner; // the worst
+  SolveReport inner; // the worst report of the solves with K
 
 private:
   const FiniteElementSpace& space_;
@@ -106,7 +106,7 @@ private:
   Progress progress_;
 };
 
-/// Of S, with the areas around the points as preconditioner.
+/// Solves with S, with the areas around the points as preconditioner.
 SolveReport SolveForMultipliers(NodalProducts& products, Id points, int threads,
   const MultiVector& right, const SolveOptions& options, MultiVector& multipliers,
   const Progress& progress)
@@ -140,7 +140,7 @@ ConstrainedSolution IterateBiharmonic(const FiniteElementSpace& space, const Spa
     space, 0.0, 1.0, rows, Penalty, options.multigrid, progress.Part(0.0, 0.03));
   const ConstrainedHierarchy strict(space, 0.0, 1.0, rows, options.constraints.penalty,
     options.multigrid, progress.Part(0.03, 0.06));
-  // Values that contradict each other would keep conjugate gradients from an end.
+  // Contradictory values would keep conjugate gradients from converging.
   ConstrainedSolution solution = SolveConstrained(
     space, 0.0, strict, {}, values, options.constraints, options.solve, progress.Part(0.06, 0.1));
   MultiVector wanted = values;

@@ -20,15 +20,15 @@ namespace
 /// Rows that are combined at a time.
 constexpr Id RowsAtOnce = 512;
 
-/// Orthonormal columns have a mass of 1 up to this. The mass of others is rounding: they are
-/// functions that almost vanish, as on a sliver.
+/// Orthonormal columns have a mass of 1 up to this error. The mass of any other column is rounding.
+/// Such columns are functions that almost vanish, as on a sliver.
 constexpr double LargestMassError = 1e-3;
 constexpr double NotANumber = std::numeric_limits<double>::quiet_NaN();
 
-/// Columns that are projected together: the partial sums of a thousand would take 200 MB.
+/// Columns that are projected together. The partial sums of a thousand columns would take 200 MB.
 constexpr Id ColumnsAtOnce = 128;
 
-/// Constants and the first `others` pairs side by side, in double precision.
+/// Puts the constants and the first `others` pairs side by side, in double precision.
 template<class Real>
 MultiVector SideBySide(
   const MultiVector& constants, const BlockBuffer<Real>& vectors, Id others, int threads)
@@ -45,8 +45,8 @@ MultiVector SideBySide(
   return all;
 }
 
-/// One step of Newton's method for columns that are orthonormal up to rounding to single precision:
-/// it squares what is missing. [X (3 - XᵀMX) / 2]
+/// One step of Newton's method for columns that are orthonormal up to rounding to single precision.
+/// It squares the error. [X (3 - XᵀMX) / 2]
 void Orthonormalize(
   const SparseMatrix& mass, const DividedRows* divided, Block<double> X, const Job& job)
 {
@@ -70,7 +70,8 @@ void Orthonormalize(
     RowsAtOnce);
 }
 
-/// Every column times its factor, in the given order, which may leave some out.
+/// Multiplies every column by its factor and puts the columns in the given order, which may leave
+/// some out.
 void ScaleAndOrder(
   const Eigen::RowVectorXd& factor, const std::vector<Index>& order, MultiVector& X, int threads)
 {
@@ -111,7 +112,7 @@ Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs<Rea
   spectrum.numberOfConstants = constants.Count();
   spectrum.vectors = SideBySide(constants.Vectors(zeros), pairs.vectors, others, problem.threads);
   pairs.vectors = {};
-  if (others > 0) // what remains of a constant that has come back, as on a sliver, has no mass
+  if (others > 0) // the rest of a constant that has come back, as on a sliver, has no mass
   {
     constants.Remove<double>(spectrum.vectors.rightCols(others));
   }
@@ -131,7 +132,7 @@ Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs<Rea
     factor[j] = (facts.largest[j] < 0.0 ? -1.0 : 1.0) / std::sqrt(mass);
     if (j >= zeros)
     {
-      // Below 0 there is only rounding, where a sliver has functions that almost vanish.
+      // Values below 0 are rounding, from functions on slivers that almost vanish.
       values[j] = isNormal(j) ? std::max(facts.energy[j] / mass, 0.0) : NotANumber;
     }
   }

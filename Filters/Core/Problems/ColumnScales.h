@@ -1,4 +1,4 @@
-// Scales that keep the squares of all numbers of a problem in the range of numbers.
+// Scales that keep the squares of all numbers of a problem within the range of floating point.
 #ifndef GridFEM_ColumnScales_h
 #define GridFEM_ColumnScales_h
 
@@ -8,19 +8,19 @@
 namespace gridfem
 {
 
-/// Per column the power of two that brings its largest entry in both blocks to about 1: not one bit
-/// of a solution changes. 1 for columns of zeros and for those that are not finite. A block may
-/// have no rows.
-/// @param divided  where processes hold the rows together, the same scales in all of them
+/// The power of two per column that brings its largest entry in both blocks to about 1. Powers of
+/// two change no bit of a solution. Columns of zeros and columns that are not finite get 1. A block
+/// may have no rows.
+/// @param divided  if processes share the rows: all processes get the same scales
 Eigen::RowVectorXd ScalesOf(
   const MultiVector& first, const MultiVector& second, const DividedRows* divided = nullptr);
 
-/// Takes the scales out of a solution. Where that leaves the range of numbers, because its data are
-/// near the largest one, it has not converged: SolveEnd::Breakdown.
+/// Takes the scales out of a solution. If the data are near the largest number, the result may
+/// leave the range of numbers. The report then says not converged, with SolveEnd::Breakdown.
 void RemoveScales(const Eigen::RowVectorXd& scale, MultiVector& solution, SolveReport& report,
   const DividedRows* divided = nullptr);
 
-/// How many numbers of each column are not finite, over all processes.
+/// Number of entries of each column that are not finite, over all processes.
 Columns CountNotFinite(const MultiVector& x, const DividedRows* divided = nullptr);
 
 } // namespace gridfem

@@ -23,7 +23,7 @@ double DistanceFromSegment(const Vec3& position, const Vec3& from, const Vec3& t
   return (position - from - t * along).norm();
 }
 
-/// Points take over the segments of their neighbours, the nearest first.
+/// Spreads distances: points take over the segments of their neighbors, the nearest first.
 class Spread
 {
 public:
@@ -87,7 +87,7 @@ private:
     Index place;
     Index segment;
 
-    /// The largest of a queue is the nearest.
+    /// Reversed, so that the top of a priority queue is the nearest entry.
     bool operator<(const Entry& other) const
     {
       return distance != other.distance ? distance > other.distance
@@ -115,7 +115,8 @@ private:
     return DistanceFromSegment(mesh_.points[place], ends_[segment][0], ends_[segment][1]);
   }
 
-  /// Along the curve, from segment to segment of triangles that touch, as long as it gets nearer.
+  /// Follows the curve to a nearer segment, over triangles that touch, as long as the distance
+  /// falls.
   Index NearestFrom(Index segment, Index place) const
   {
     double least = this->DistanceFrom(segment, place);
@@ -140,7 +141,8 @@ private:
     return segment;
   }
 
-  /// @param least  a segment that is nearer is on the other side of a fold
+  /// Offers a point the best segment near `start`.
+  /// @param least  a segment that is nearer than this is on the other side of a fold
   void Offer(Index place, Index start, double least, double most)
   {
     const Index segment = this->NearestFrom(start, place);

@@ -1,5 +1,5 @@
-// The distance from a curve close to it, where the surface is nearly flat: what a distance along
-// the surface starts from on both sides.
+// The distance from a curve in its neighborhood, where the surface is nearly flat. A distance along
+// the surface starts from it on both sides.
 #ifndef GridFEM_CurveDistance_h
 #define GridFEM_CurveDistance_h
 
@@ -10,11 +10,12 @@
 namespace gridfem
 {
 
-/// Per point the distance through space from the nearest segment of the curve, with the sign of its
-/// side; NaN where it is more than the limit, but for the corners of triangles that the curve runs
-/// through. Segments are handed from point to point, as long as the distance grows, and from each
-/// the next one along the curve is taken as long as it is nearer: sheets that are near in space do
-/// not feel each other.
+/// The distance per point through space from the nearest segment of the curve, with the sign of the
+/// point's side. It is NaN beyond the limit, except at corners of triangles that the curve runs
+/// through.
+/// Points hand their nearest segment to their neighbors as long as the distance grows. Each point
+/// then follows the curve from that segment as long as it gets nearer. Sheets that are close in
+/// space therefore do not affect each other.
 /// @param limit  world units
 /// Cost O(segments + k log k) for k points within the limit.
 std::vector<double> DistancesNear(

@@ -12,8 +12,8 @@ namespace gridfem
 namespace
 {
 
-/// Estimates on coarse grids may be too large by far, and a depth less on the way costs a
-/// sixteenth.
+/// Largest step of the depth. Estimates on coarse grids may be far too large, and an additional
+/// depth on the way costs a sixteenth.
 constexpr int LongestStep = 2;
 
 } // namespace

@@ -15,13 +15,14 @@ namespace
 
 constexpr double Infinite = std::numeric_limits<double>::infinity();
 
-/// Less is lost among numbers that are no longer held to all digits, and is taken for 0.
+/// Heat below this counts as 0. It leaves room above the numbers that do not hold all their digits.
 constexpr double SmallestHeat = 1e-290;
 
-/// So many layers are relaxed together: heat from farther off is less than rounding of a direction.
+/// Number of layers that are relaxed together. Heat from farther away changes a direction by less
+/// than rounding.
 constexpr Id LayersAtOnce = 16;
 
-/// The first march is there for the order of the next.
+/// Tolerance of the first march, which only finds the order for the next one.
 constexpr double RoughChange = 0.5;
 
 constexpr int MostMarches = 12;
@@ -29,8 +30,8 @@ constexpr int MostSweepsPerStep = 100;
 
 } // namespace
 
-/// Of patches that are relaxed soon after patch k of the order: they may lie anywhere in memory,
-/// and which rows a patch has is known only when it is there.
+/// Prefetches the patches that come soon after patch k of the order. They may lie anywhere in
+/// memory, and the rows of a patch are known only when the patch is in the cache.
 EIGEN_ALWAYS_INLINE void DistantHeat::FetchAfter(const Layers& layers, Id k) const
 {
   constexpr Id Ahead = 3;
@@ -79,7 +80,8 @@ void DistantHeat::Factor(const UnknownGroups& patches, int threads)
   patches_.emplace(A_, patches, threads, FactorPrecision::Mixed);
 }
 
-/// Per function, over how many others heat comes to it; -1 on components without a source.
+/// The number of functions on the way of the heat to each function; -1 on components without a
+/// source.
 std::vector<Index> DistantHeat::StepsFromSources(
   const MultiVector& load, const MultiVector& u) const
 {
@@ -109,7 +111,8 @@ std::vector<Index> DistantHeat::StepsFromSources(
   return steps;
 }
 
-/// A layer is what has a rank between two whole numbers; patches with an infinite rank have none.
+/// Cuts patches into layers by rank. A layer holds the ranks between two whole numbers. Patches
+/// with an infinite rank are left out.
 DistantHeat::Layers DistantHeat::LayersByRank(const std::vector<double>& rank) const
 {
   Layers layers;
@@ -148,7 +151,7 @@ DistantHeat::Layers DistantHeat::LayersBySteps(const std::vector<Index>& steps) 
   return this->LayersByRank(rank);
 }
 
-/// From the most heat to the least, in about `count` layers.
+/// Orders patches from the most heat to the least, in about `count` layers.
 DistantHeat::Layers DistantHeat::LayersByHeat(
   const MultiVector& u, Id count, const std::vector<Index>& patches) const
 {
@@ -179,6 +182,7 @@ double DistantHeat::HeatOf(Index patch, const MultiVector& u) const
   return heat;
 }
 
+/// Relaxes one patch.
 /// @return  the largest change over the heat of the patch
 double DistantHeat::Relax(Index patch, const MultiVector& b, MultiVector& u) const
 {
@@ -202,7 +206,8 @@ double DistantHeat::Relax(Index patch, const MultiVector& b, MultiVector& u) con
   return change / heat;
 }
 
-/// @return  how many patches were relaxed
+/// Relaxes the patches layer after layer, until they settle.
+/// @return  number of relaxations
 Id DistantHeat::March(
   const Layers& layers, double change, const MultiVector& b, MultiVector& u, const Job& job) const
 {
@@ -254,7 +259,8 @@ Id DistantHeat::CountUnreached(const Layers& layers, const MultiVector& u) const
   return std::count(isUnreached.begin(), isUnreached.end(), 1);
 }
 
-/// @param before  what there is already; 0: nothing
+/// Solves on the level.
+/// @param before  heat that is already there; 0: none
 HeatField DistantHeat::OnLevel(const MultiVector& load, MultiVector before, const Job& job) const
 {
   const MultiVector b = load / t_;
@@ -276,7 +282,7 @@ HeatField DistantHeat::OnLevel(const MultiVector& load, MultiVector before, cons
   double done = 0.2;
   for (int march = 0; march < MostMarches && !heat.converged; ++march)
   {
-    // Most often one is enough; heat that came from behind its front needs another order.
+    // One march is usually enough. Heat that came from behind its front needs another order.
     const double next = 1.0 - 0.2 * (1.0 - done);
     const Layers byHeat = this->LayersByHeat(u, bySteps.Count(), bySteps.patch);
     relaxed += this->March(byHeat, change_, b, u, job.Part(done, next));

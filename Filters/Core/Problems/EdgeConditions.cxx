@@ -21,7 +21,7 @@ void CheckValues(const TriangleMesh& mesh, const MultiVector& values)
   }
 }
 
-/// The values of a linear function at the samples.
+/// The values of a function at the samples. It is linear along the edges.
 MultiVector AtSamples(const EdgeSamples& samples, const TriangleMesh& mesh,
   const std::vector<TriangleEdge>& edges, const MultiVector& values)
 {

@@ -34,17 +34,17 @@ public:
 
   Index Count() const { return static_cast<Index>(begin_.size()) - 1; }
 
-  /// Of a triangle: from each corner to the next; None on one with equal corners.
+  /// The edges of a triangle, from each corner to the next. An edge with equal ends is None.
   const std::array<Index, 3>& EdgesOf(Id triangle) const { return edgeOf_[triangle]; }
 
   Index Low(Index edge) const { return sides_[begin_[edge]].low; }
   Index High(Index edge) const { return sides_[begin_[edge]].high; }
   bool IsBorder(Index edge) const { return begin_[edge + 1] - begin_[edge] == 1; }
 
-  /// Of all edges.
+  /// Total number of sides of all edges.
   Index NumberOfSides() const { return static_cast<Index>(sides_.size()); }
 
-  /// body(side, triangle)
+  /// Calls body(side, triangle) for every side of an edge.
   template<class Body>
   void ForSides(Index edge, Body&& body) const
   {
@@ -54,7 +54,7 @@ public:
     }
   }
 
-  /// None where they share no edge.
+  /// The edge that two triangles share; None if they share none.
   Index EdgeBetween(Id a, Id b) const
   {
     for (const Index edge : edgeOf_[a])
@@ -70,7 +70,7 @@ public:
 private:
   std::vector<TriangleSide> sides_;
   std::vector<std::array<Index, 3>> edgeOf_;
-  std::vector<Index> begin_; // sides of each edge
+  std::vector<Index> begin_; // first side of each edge
 };
 
 } // namespace gridfem

@@ -19,14 +19,14 @@ namespace gridfem
 namespace
 {
 
-/// How far from a curve the distance through space counts, in √t. Nearer than that, heat on a grid
-/// has no sure direction; much farther, surfaces are not flat.
+/// Reach of the distance through space around a curve, in √t. At smaller distances, heat on a grid
+/// has no reliable direction; at much larger ones, surfaces are not flat.
 constexpr double NearReach = 2.0;
 
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
-/// How far functions that overlap are from each other, in units of length of the space: a mean over
-/// pairs, weighted by their overlap ∫ b_i b_j, so that large elements count as the area they have.
+/// Mean distance between functions that overlap, in units of length of the space. Pairs are
+/// weighted by their overlap ∫ b_i b_j, so that large elements count by their area.
 double MeanSpacing(const FiniteElementSpace& space, const Job& job)
 {
   const auto [sum, weights] =
@@ -40,8 +40,8 @@ const FiniteElementSpace& HeatSpace(const FiniteElementSpace& space)
   return nested ? *nested : space;
 }
 
-/// Functions of the next level are twice as far from each other: the coarsest level on which √t is
-/// as long as by default on the finest.
+/// The coarsest level on which √t is as long as by default on the finest level. Functions of the
+/// next coarser level are twice as far from each other.
 std::size_t LevelFor(double smoothing, const FiniteElementSpace& space)
 {
   const double coarser = std::floor(std::log2(smoothing / DistanceOptions().smoothing));
@@ -83,9 +83,9 @@ MultiVector LoadOfCurve(const FiniteElementSpace& space, const SurfaceCurve& cur
   return IntegrateAlong(samples, MultiVector::Ones(samples.rows.rows, 1));
 }
 
-/// 1 on triangles where the distances near a curve are known and grow as distances do, else 0: not
-/// where they come from two parts of the curve, or around a sharp edge. Triangles with a part of
-/// the curve always count.
+/// 1 on triangles where the distances near a curve are known and have the slope of a distance, else
+/// 0. The slope fails where distances come from two parts of the curve, or around a sharp edge.
+/// Triangles with a part of the curve always count.
 Field NearTriangles(
   const TriangleMesh& mesh, const SurfaceCurve& curve, const std::vector<double>& near)
 {
@@ -98,7 +98,7 @@ Field NearTriangles(
     MultiVector::Zero(static_cast<Id>(mesh.triangles.size()), 1) };
   for (Id t = 0; t < isNear.values.rows(); ++t)
   {
-    const double slope = gradient.values.row(t).norm(); // NaN beyond
+    const double slope = gradient.values.row(t).norm(); // NaN beyond the reach
     isNear.values(t, 0) = slope > Least && slope < Most ? 1.0 : 0.0;
   }
   for (const TriangleSegment& segment : curve.segments)
@@ -108,12 +108,14 @@ Field NearTriangles(
   return isNear;
 }
 
-/// Errors of a distance from the one on functions twice as far from each other.
+/// Estimates the errors of a distance by comparing it with the distance on functions twice as far
+/// from each other.
 void CompareDistances(
   const TriangleMesh& mesh, const std::vector<double>& coarser, DistanceField& field)
 {
-  // Errors fall by this much less 1 from depth to depth: of scans by 1.3 to 2 (armadillo, fandisk,
-  // genus3, happy buddha, knot, neptune, raptor, turbine; three sources each, against exact ones).
+  // Errors fall by this factor plus 1 from depth to depth; on scans by 1.3 to 2 (armadillo,
+  // fandisk, genus3, happy buddha, knot, neptune, raptor, turbine; three sources each, against
+  // exact distances).
   constexpr double DifferenceOverError = 0.6;
   double area = 0.0;
   double mean = 0.0;
@@ -217,7 +219,7 @@ GeodesicDistance::GeodesicDistance(std::shared_ptr<const FiniteElementSpace> spa
     ComponentsOfPoints(*space_, space_->ComponentsOf(0, job.Part(0.9, 0.95)), job.Part(0.95, 1.0));
 }
 
-/// ∫ <X, ∇b_i>; X = 0 on triangles that belong to sources.
+/// ∫ <X, ∇b_i>, with X = 0 on triangles that belong to sources.
 MultiVector GeodesicDistance::LoadOfDistance(
   const MultiVector& heat, const std::vector<char>& isSource, const Job& job) const
 {
@@ -251,8 +253,9 @@ std::vector<double> GeodesicDistance::ShiftedToSources(
   return ShiftedToZero(value, component_, sum, isSource);
 }
 
-/// Where X points outwards away from the curve and towards it inside: the gradient of the distance
-/// near it, else that of the heat with the sign of the side.
+/// ∫ <X, ∇b_i>, where X points away from the curve outside and towards it inside. Near the curve, X
+/// is the gradient of the distance through space; farther away, the direction of the heat with the
+/// sign of the side.
 MultiVector GeodesicDistance::LoadOfSignedDistance(const MultiVector& heat,
   const SurfaceCurve& curve, const std::vector<double>& near, const Job& job) const
 {
@@ -272,7 +275,7 @@ MultiVector GeodesicDistance::LoadOfSignedDistance(const MultiVector& heat,
          space_->LoadOfGradientsOf(known, &isNear, job.Part(0.5, 1.0));
 }
 
-/// Per component the mean over the curve; NaN where there is none of it.
+/// The mean over the curve on each component; NaN if the curve does not touch it.
 std::vector<double> GeodesicDistance::ZeroesOnCurve(
   const MultiVector& distance, const SurfaceCurve& curve) const
 {
@@ -332,7 +335,8 @@ std::vector<double> GeodesicDistance::ShiftedToCurve(const MultiVector& distance
   return shifted;
 }
 
-/// @return  φ of L φ = load, its report into the field
+/// Solves L φ = load.
+/// @return  φ; its report goes into the field
 MultiVector GeodesicDistance::Solve(const MultiVector& load, const SolveOptions& solve,
   DistanceField& field, const Progress& progress) const
 {
@@ -346,7 +350,8 @@ MultiVector GeodesicDistance::Solve(const MultiVector& load, const SolveOptions&
   return std::move(solution.coefficients);
 }
 
-/// What heat spreads from, what its gradient is turned into, and where the distance is 0.
+/// The differences between a distance from points and one from a curve: the source of the heat, the
+/// use of its gradient, and the place where the distance is 0.
 struct GeodesicDistance::Sources
 {
   MultiVector heat; // per function of the space of the heat
@@ -372,7 +377,7 @@ DistanceField GeodesicDistance::FromAll(
   return field;
 }
 
-/// All of it once more on the next coarser level.
+/// Computes the distance once more on the next coarser level.
 void GeodesicDistance::EstimateErrors(
   const Sources& sources, DistanceField& field, const Job& job) const
 {

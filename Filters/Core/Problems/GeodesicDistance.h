@@ -1,7 +1,6 @@
-// The distance along the surface from the nearest of some points, by the heat method: heat spreads
-// from the sources for a short time, its gradient gives the directions X, and the distance is the
-// function whose gradient is nearest to them. Crane, Weischedel, Wardetzky: Geodesics in Heat,
-// 2013.
+// The distance along the surface from the nearest of some points, by the heat method. Heat spreads
+// from the sources for a short time, and its gradient gives the directions X. The distance is the
+// function whose gradient is nearest to X. Crane, Weischedel, Wardetzky: Geodesics in Heat, 2013.
 #ifndef GridFEM_GeodesicDistance_h
 #define GridFEM_GeodesicDistance_h
 
@@ -21,31 +20,32 @@ namespace gridfem
 
 struct DistanceOptions
 {
-  /// sqrt(t) over the mean distance between functions that overlap, which is 1.2 cells. With much
-  /// less the heat of discrete functions oscillates; more rounds off where fronts meet and where
-  /// sources are near to each other, by about sqrt(t) / 2, and takes more time.
+  /// sqrt(t) over the mean distance between functions that overlap, which is 1.2 cells. With a much
+  /// smaller value, the heat of discrete functions oscillates. A larger value takes more time. It
+  /// also rounds off the distance where fronts meet and between near sources, by about sqrt(t) / 2.
   double smoothing = 1.75;
   MultigridOptions multigrid;
-  bool estimateErrors = false; // of every distance, for a sixth to two fifths more time
-  double heatChange = DistantHeat::SmallChange; // how exact the heat is
+  bool estimateErrors = false; // of every distance; takes a sixth to two fifths more time
+  double heatChange = DistantHeat::SmallChange; // accuracy of the heat
 };
 
 struct DistanceField
 {
-  /// Per point of the mesh, world units: 0 at sources, at least 0 elsewhere, but for the inside of
-  /// a curve, where it is at most 0; NaN where no function reaches or the component has no source.
+  /// Distance of each point of the mesh, world units. It is 0 at sources and at least 0 elsewhere;
+  /// inside a curve it is at most 0. NaN if no function reaches the point or its component has no
+  /// source.
   std::vector<double> atPoints;
   SolveReport report; // of the distance; not converged if the heat was not
   bool heatConverged = false;
   double heatSweeps = 0.0; // see HeatField
-  Id unreached = 0;        // functions that are too far for numbers: their distances are wrong
-  /// Unknown unless it was wanted. From the distance on functions twice as far from each other;
-  /// within a factor of four on real meshes, mostly of two. The largest error is in world units.
-  /// Trusted where all heat came and converged.
+  Id unreached = 0;        // functions too far for any heat; their distances are wrong
+  /// Unknown unless it was asked for. It compares with the distance on functions twice as far from
+  /// each other. On real meshes it is within a factor of four, mostly of two. The largest error is
+  /// in world units. Trusted if heat reached every function and converged.
   SolutionAccuracy accuracy;
 };
 
-/// How distances from points are found.
+/// A method to find distances from points.
 class DistanceMethod
 {
 public:
@@ -55,40 +55,42 @@ public:
     const std::vector<Id>& sources, const SolveOptions& solve, const Job& job = {}) const = 0;
 };
 
-/// (M + t L) u = Σ b_i(source), X = -∇u / |∇u|, L φ = ∫ <X, ∇b_i>, and φ is shifted so that its
-/// mean over the sources of a component is 0. All but the sources is kept, so that other sources
-/// cost the solves alone. The heat flows on the nested levels of a space that has such: hats on
-/// them may be slivers, or much farther from each other than t allows. Distances are exact to the
-/// size of a few functions where one front comes; where fronts meet, and within sqrt(t) of
-/// boundaries, errors are sqrt(t) / 2 to sqrt(t).
+/// Distance by the heat method: (M + t L) u = Σ b_i(source), X = -∇u / |∇u|, L φ = ∫ <X, ∇b_i>.
+/// Then φ is shifted so that its mean over the sources of each component is 0. Everything but the
+/// sources is kept, so other sources cost only the solves.
+/// Heat flows on the nested levels of a space that has such levels. Hats above them may be slivers,
+/// or much farther from each other than t allows. Distances are exact to the size of a few
+/// functions where a single front arrives. Errors are sqrt(t) / 2 to sqrt(t) where fronts meet, and
+/// within sqrt(t) of boundaries.
 class GeodesicDistance : public DistanceMethod
 {
 public:
-  /// @param mesh  what the space was made from
+  /// @param mesh  the mesh that the space was made from
   /// Throws InvalidInput when the smoothing is not a positive number, and Aborted.
   GeodesicDistance(std::shared_ptr<const FiniteElementSpace> space,
     std::shared_ptr<const TriangleMesh> mesh, const DistanceOptions& options, const Job& job = {});
 
-  /// @param sources  points of the mesh; one that no function reaches is the source of nothing. A
-  ///   triangle whose corners are all sources belongs to a source as a whole.
-  /// @param solve  of the distance from its gradient
-  /// Throws InvalidInput when there is none or one is no point, and Aborted. Same bits for any
-  /// number of threads.
+  /// @param sources  points of the mesh. A point that no function reaches has no effect. A triangle
+  ///   whose corners are all sources belongs to a source as a whole.
+  /// @param solve    of the distance from its gradient
+  /// Throws InvalidInput when there are no sources or a source is not a point, and Aborted. Same
+  /// bits for any number of threads.
   DistanceField From(
     const std::vector<Id>& sources, const SolveOptions& solve, const Job& job = {}) const override;
 
-  /// The distance from a curve, negative inside: L φ = ∫ <X, ∇b_i>, where X points away from the
-  /// curve outside and towards it inside, so that φ has no crease there. Near the curve X is the
-  /// gradient of the distance through space (DistancesNear), and so is the result, the more the
-  /// nearer; farther off heat that starts everywhere on the curve gives the direction. φ is shifted
-  /// so that its mean over the curve is 0 on each component. Close to the curve the error is that
-  /// of linear functions on the triangles, farther off that of From.
-  /// Throws InvalidInput when the curve is not of this mesh, and Aborted. Same bits for any number
-  /// of threads.
+  /// The distance from a curve, negative inside: L φ = ∫ <X, ∇b_i>. X points away from the curve
+  /// outside and towards it inside, so φ has no crease at the curve.
+  /// Near the curve X is the gradient of the distance through space (DistancesNear). The result
+  /// blends into this distance too, the more the nearer. Farther away the direction comes from heat
+  /// that starts everywhere on the curve. φ is shifted so that its mean over the curve is 0 on each
+  /// component.
+  /// Close to the curve the error is that of linear functions on the triangles, farther away that
+  /// of From. Throws InvalidInput when the curve is not of this mesh, and Aborted. Same bits for
+  /// any number of threads.
   DistanceField FromCurve(
     const SurfaceCurve& curve, const SolveOptions& solve, const Job& job = {}) const;
 
-  /// t, squared units of length of the space.
+  /// t, in squared units of length of the space.
   double Time() const { return time_; }
 
 private:
@@ -110,29 +112,28 @@ private:
   std::shared_ptr<const FiniteElementSpace> space_;
   std::shared_ptr<const TriangleMesh> mesh_;
   DistanceOptions options_;
-  std::vector<Index> component_; // of every point; -1 where no function reaches
+  std::vector<Index> component_; // of every point; -1 if no function reaches it
   double time_ = 0.0;
   std::unique_ptr<DistantHeat> heat_;
-  std::unique_ptr<DistantHeat> coarserHeat_; // null: no errors are estimated
+  std::unique_ptr<DistantHeat> coarserHeat_; // null: errors are not estimated
   std::unique_ptr<Multigrid> poisson_;       // of L
 };
 
-///@{ Steps that processes which hold the surface together take as well, each on its own part.
+/// ///@{ Steps shared with the distance on several processes, which take them on their own parts.
 
-/// With a smoothing below this heat flows on the finest level.
+/// With a smoothing below this value heat flows on the finest level.
 constexpr double MostSmoothing = 3.5; // twice the default
 
-/// Σ w d² and Σ w over pairs of functions: w is their overlap, d how far they are from each other.
-/// The root of the quotient is the mean spacing.
+/// Σ w d² and Σ w over pairs of functions, where w is their overlap and d their distance. The root
+/// of the quotient is the mean spacing.
 std::array<double, 2> SpacingSums(const SparseMatrix& mass, const MultiVector& place);
 
-/// -1 on triangles, what the direction of the heat counts; 0 on those whose corners are all
-/// sources.
+/// The factor of the heat's direction on each triangle: -1, or 0 if all corners are sources.
 Field AwayFromSources(const TriangleMesh& mesh, const std::vector<char>& isSource);
 
-/// A distance at points from its values there: 0 at sources, elsewhere at least 0.
-/// @param component  of every point; -1 where no function reaches
-/// @param zero       what is 0 on each component; NaN where it has no source
+/// Shifts values at points to a distance: 0 at sources, elsewhere at least 0.
+/// @param component  of every point; -1 if no function reaches it
+/// @param zero       the value on each component that becomes 0; NaN if it has no source
 std::vector<double> ShiftedToZero(const MultiVector& value, const std::vector<Index>& component,
   const std::vector<double>& zero, const std::vector<char>& isSource);
 ///@}

@@ -16,7 +16,7 @@ namespace gridfem
 namespace
 {
 
-/// L⁺ of every column, or that of the next coarser level; keeps the worst report.
+/// Applies L⁺ to every column, or L⁺ of the next coarser level. Keeps the worst report.
 class InverseLaplacian
 {
 public:
@@ -72,7 +72,7 @@ MultiVector DenseTranspose(const SparseMatrix& rows)
   return dense;
 }
 
-/// Solves [S B; Bᵀ 0] for a symmetric matrix that may be singular: least squares.
+/// Solves a symmetric system [S B; Bᵀ 0] that may be singular, by least squares.
 Eigen::MatrixXd SolveSymmetric(const Eigen::MatrixXd& system, const Eigen::MatrixXd& right)
 {
   constexpr double Rounding = 1e-10;
@@ -84,7 +84,7 @@ Eigen::MatrixXd SolveSymmetric(const Eigen::MatrixXd& system, const Eigen::Matri
          (eigen.eigenvectors().transpose() * right);
 }
 
-/// One column per component that has a point, with 1 at its points.
+/// One column per component with points, with 1 at its points.
 struct PointsOfComponents
 {
   Eigen::MatrixXd ones;
@@ -117,7 +117,7 @@ PointsOfComponents GroupPoints(const SparseMatrix& rows, const Components& compo
   return points;
 }
 
-/// G μ + c; NaN on components without a point.
+/// Computes G μ + c; NaN on components without a point.
 /// @param inverse  L⁺
 template<class Inverse>
 MultiVector FitBiharmonic(const Components& components, const PointsOfComponents& points,
@@ -155,7 +155,7 @@ MultiVector FitBiharmonic(const Components& components, const PointsOfComponents
   return coefficients;
 }
 
-/// From the function that the next coarser level gives.
+/// The errors of a solution, by comparison with the function from the next coarser level.
 SolutionAccuracy AccuracyOf(const FiniteElementSpace& space, const Components& components,
   const std::vector<char>& isHeld, MultiVector fine, MultiVector coarser, int threads)
 {
@@ -202,7 +202,7 @@ ConstrainedSolution Biharmonic(const FiniteElementSpace& space, const SparseMatr
   return solution;
 }
 
-/// How far a solution is from its values, and whether that is more than its tolerance.
+/// Measures the difference between a solution and its values, and whether it exceeds the tolerance.
 void MeasureMisfit(const SparseMatrix& rows, const MultiVector& values, double tolerance,
   int threads, ConstrainedSolution& solution)
 {
@@ -223,7 +223,7 @@ void MeasureMisfit(const SparseMatrix& rows, const MultiVector& values, double t
   solution.isExact = solution.relativeMisfit <= tolerance;
 }
 
-/// NaN on components without a point.
+/// Sets the solution to NaN on components without a point.
 void ForgetFree(const FiniteElementSpace& space, int threads, ConstrainedSolution& solution)
 {
   const MultiVector unknown = MultiVector::Constant(static_cast<Id>(solution.isHeld.size()),
@@ -262,7 +262,7 @@ ConstrainedSolution InterpolateHarmonically(const FiniteElementSpace& space,
     ForgetFree(space, options.multigrid.threads, solution);
     return solution;
   }
-  constexpr double Tolerance = 1e-4; // dense multipliers carry the tolerance of the solves
+  constexpr double Tolerance = 1e-4; // dense multipliers inherit the tolerance of the solves
   ConstrainedSolution solution = Biharmonic(space, rows, values, options, progress);
   MeasureMisfit(rows, values, Tolerance, options.multigrid.threads, solution);
   return solution;

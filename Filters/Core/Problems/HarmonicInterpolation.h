@@ -10,30 +10,30 @@ namespace gridfem
 
 enum class Smoothness
 {
-  Harmonic,  // the least ∫ |∇u|²: never beyond the values, with a peak at lonely points
+  Harmonic,  // the least ∫ |∇u|²: never beyond the values, with peaks at isolated points
   Biharmonic // the least ∫ |Δu|²: smooth at the points, may overshoot
 };
 
 struct InterpolationOptions
 {
   Smoothness smoothness = Smoothness::Harmonic;
-  ConstraintOptions constraints; // of the harmonic one
+  ConstraintOptions constraints; // of harmonic functions
   MultigridOptions multigrid;
   SolveOptions solve;
-  /// Biharmonic functions of up to so many points are found at once, by a solve and a vector for
-  /// each; of more by iteration (BiharmonicIteration.h).
+  /// Biharmonic functions of up to this many points are found directly, with one solve and one
+  /// vector per point. More points are solved by iteration (BiharmonicIteration.h).
   Id mostAtOnce = 256;
 };
 
-/// The result is NaN on components without a point. Errors are estimated, but not for biharmonic
-/// functions of many points. Biharmonic: u = G μ + c with the Green's function G = L⁺ M L⁺ of the
-/// points, c constant on each connected component; the multipliers μ solve (C G Cᵀ) μ + c = g, Σ μ
-/// = 0. Values that contradict each other are met in the mean. From many points: see
-/// IterateBiharmonic.
+/// Interpolates values at points. The result is NaN on components without a point. Errors are
+/// estimated, except for biharmonic functions of many points.
+/// Biharmonic: u = G μ + c with the Green's function G = L⁺ M L⁺ of the points, c constant on each
+/// connected component. The multipliers μ solve (C G Cᵀ) μ + c = g, Σ μ = 0. Contradictory values
+/// are met in the mean. For many points see IterateBiharmonic.
 /// @param rows    RowsAtPoints of the points
 /// @param values  rows = points, one column per component
-/// Throws InvalidInput when there is no point or shapes do not fit, and Aborted. Same
-/// bits for any number of threads.
+/// Throws InvalidInput when there is no point or shapes do not fit, and Aborted. Same bits for any
+/// number of threads.
 ConstrainedSolution InterpolateHarmonically(const FiniteElementSpace& space,
   const SparseMatrix& rows, const MultiVector& values, const InterpolationOptions& options,
   const Progress& progress = {});

@@ -52,7 +52,7 @@ HeatDiffusion::HeatDiffusion(std::shared_ptr<const SpaceLevels> space, MultiVect
     BuildMultigrid(*space_, 1.0 / stageStep_, 1.0, options_.multigrid, job.progress));
 }
 
-/// (M + γδ L) U = load, where nothing is held.
+/// Solves (M + γδ L) U = load, with the held values if there are any.
 PoissonSolution HeatDiffusion::Solve(const MultiVector& load, const Job& job)
 {
   if (constrained_)
@@ -72,7 +72,7 @@ PoissonSolution HeatDiffusion::Solve(const MultiVector& load, const Job& job)
   return SolvePoisson(*space_, *multigrid_, load, {}, options, job.progress);
 }
 
-/// ∫ u b_i.
+/// ∫ u b_i for the function u with these coefficients.
 MultiVector HeatDiffusion::IntegralsOf(const MultiVector& coefficients, const Job& job) const
 {
   MultiVector integrals;

@@ -9,12 +9,12 @@ namespace gridfem
 namespace
 {
 
-/// β, per unit of length. A catenoid on grids of depth 4 to 6 comes to rest as near to the exact
-/// one from 10 to 1,000, and not with 3 or less. On coarse meshes with many holes the boundary is
-/// off by half as much with 100 as with 30; iterations do not grow.
+/// β, per unit of length. On grids of depth 4 to 6, a catenoid comes to rest equally close to the
+/// exact one for 10 to 1,000, but not for 3 or less. On coarse meshes with many holes the boundary
+/// is off by half as much with 100 as with 30. Iterations do not grow.
 constexpr double Stiffness = 100.0;
 
-/// The outward unit normal of an edge in the plane of its triangle; 0 where that has no area.
+/// The outward unit normal of an edge in the plane of its triangle; 0 if the triangle has no area.
 Vec3 Conormal(const TriangleEdge& edge, const std::vector<Vec3>& points,
   const std::vector<std::array<Id, 3>>& triangles)
 {

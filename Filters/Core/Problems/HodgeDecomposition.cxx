@@ -13,7 +13,7 @@ namespace gridfem
 namespace
 {
 
-/// Means over the triangles of the part along them.
+/// Means over the triangles of the tangential part of v.
 MultiVector TangentialMeans(
   const TriangleMesh& mesh, const std::vector<Vec3>& normals, const Field& v)
 {
@@ -44,7 +44,7 @@ MultiVector LoadOfRotation(const FiniteElementSpace& space, const Field& v,
   return -space.LoadOfTurnedGradients(facing, job);
 }
 
-/// L x = load without a condition at boundaries; each column has the mean 0.
+/// Solves L x = load without a condition at boundaries. Each column has mean 0.
 MultiVector SolveFree(const FiniteElementSpace& space, const MultiVector& load,
   const HodgeOptions& options, HodgeDecomposition& parts, const Job& job)
 {
@@ -59,10 +59,10 @@ MultiVector SolveFree(const FiniteElementSpace& space, const MultiVector& load,
   return std::move(solution.coefficients);
 }
 
-/// Of the energy residual, where the tolerance is 0.
+/// Tolerance of the energy residual if the option is 0.
 constexpr double HeldTolerance = 1e-4;
 
-/// The same with the value 0 on some edges.
+/// Solves L x = load with the value 0 on some edges.
 MultiVector SolveHeld(const FiniteElementSpace& space, SparseMatrix rows, const MultiVector& load,
   const HodgeOptions& options, HodgeDecomposition& parts, const Job& job)
 {
@@ -70,7 +70,7 @@ MultiVector SolveHeld(const FiniteElementSpace& space, SparseMatrix rows, const 
   solve.tolerance = solve.tolerance > 0.0 ? solve.tolerance : HeldTolerance;
   ConstraintOptions constraints;
   constraints.tolerance = std::max(constraints.tolerance, solve.tolerance);
-  constraints.maximumSteps = 3; // what is left then, functions cannot meet
+  constraints.maximumSteps = 3; // functions cannot meet the rest
   constraints.estimateOn = &space;
   const MultiVector zero = MultiVector::Zero(rows.rows, load.cols());
   const ConstrainedHierarchy hierarchy(space, 0.0, 1.0, std::move(rows), constraints.penalty,
@@ -85,7 +85,7 @@ MultiVector SolveHeld(const FiniteElementSpace& space, SparseMatrix rows, const 
   return std::move(solution.coefficients);
 }
 
-/// Coefficients of u and of w, which is 0 where the surface ends.
+/// Coefficients of u and of w. w is 0 where the surface ends.
 MultiVector SolvePotentials(const FiniteElementSpace& space, const TriangleMesh& mesh,
   const SurfaceEdges& edges, const MultiVector& load, const HodgeOptions& options,
   HodgeDecomposition& parts, const Job& job)

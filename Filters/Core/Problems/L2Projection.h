@@ -1,4 +1,4 @@
-// Functions of a space that are nearest to given ones.
+// Projects given fields to the nearest functions of a space.
 #ifndef GridFEM_L2Projection_h
 #define GridFEM_L2Projection_h
 
@@ -10,8 +10,8 @@ namespace gridfem
 {
 
 /// Solves (M + δL) u = load for any number of columns, and keeps the worst report and the worst
-/// errors. Without δ functions that hide in a flat surface are not known. Waves ten cells long lose
-/// 4 %, about what the space itself has as error in their gradients.
+/// errors. Without δ, functions that vanish on a flat surface would be undetermined. Waves ten
+/// cells long lose 4 %, about the error of the space in their gradients.
 class L2Projection
 {
 public:
@@ -23,7 +23,7 @@ public:
     report.converged = true;
   }
 
-  /// @param values, gradients  integrals of a field and of its gradient, which may have no rows
+  /// @param values, gradients  integrals of a field and of its gradient; gradients may have no rows
   MultiVector Solve(const MultiVector& values, const MultiVector& gradients, const Job& job)
   {
     PoissonSolution solution =

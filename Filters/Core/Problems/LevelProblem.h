@@ -10,9 +10,10 @@
 namespace gridfem
 {
 
-/// Steps that a block may take at least where it has fewer start vectors than wanted pairs.
+/// Lower limit on the allowed steps of a block that has fewer start vectors than wanted pairs.
 constexpr int RandomStartIterations = 40;
 
+/// The constants of a level.
 /// @param mass  of this level
 inline Constants ConstantsOnLevel(
   const SpaceLevels& space, std::size_t level, const SparseMatrix& mass, int threads)
@@ -22,8 +23,9 @@ inline Constants ConstantsOnLevel(
     mass, std::move(components.ofFunction), components.count, threads, space.Divided(level));
 }
 
-/// Without a preconditioner, which is not needed where the list ends among the constants.
-/// @param constants  of this level; have to outlive the problem
+/// The eigenproblem of a level, without a preconditioner. Lists that end among the constants need
+/// none.
+/// @param constants  of this level; they have to outlive the problem
 template<class Real>
 SpectralProblem<Real> ProblemOnLevel(const SpaceLevels& space, std::size_t level,
   const Constants& constants, SparseMatrix mass, int threads)

@@ -17,7 +17,7 @@ std::string TextOf(const Vec3& position)
   return text.str();
 }
 
-/// Weights of the corners of a triangle for a point in it.
+/// Barycentric weights of a point in a triangle.
 Vec3 WeightsOf(const TriangleMesh& mesh, Id triangle, const Vec3& position)
 {
   const auto& corner = mesh.triangles[triangle];
@@ -41,7 +41,8 @@ LineTracer::LineTracer(const TriangleMesh& mesh, const EdgeGraph& graph, const A
   reach_ = 100.0 * resolution_;
 }
 
-/// Where triangles are reached from over such edges, until one is the wanted one.
+/// Explores the triangles that can be reached over edges with mayCross, until isThere holds for
+/// one. Returns this triangle, or -1, and the origin of each triangle reached.
 template<class MayCross, class IsThere>
 std::pair<Id, LineTracer::Origins> LineTracer::Explore(
   Id start, const MayCross& mayCross, const IsThere& isThere) const
@@ -73,7 +74,8 @@ std::pair<Id, LineTracer::Origins> LineTracer::Explore(
   return { -1, origins };
 }
 
-/// Crosses the edges on the shortest way over such edges to such a triangle, if there is one.
+/// Crosses the edges on the shortest path over edges with mayCross to a triangle with isThere.
+/// Returns false if there is no path.
 template<class MayCross, class IsThere>
 bool LineTracer::Walk(Id start, const MayCross& mayCross, const IsThere& isThere)
 {
@@ -147,7 +149,7 @@ void LineTracer::RequireNoEnds() const
 
 void LineTracer::RequireClosed(const std::vector<char>& isDivided) const
 {
-  std::map<std::array<double, 3>, std::pair<Id, int>> ends; // a triangle, and how many
+  std::map<std::array<double, 3>, std::pair<Id, int>> ends; // a triangle, and the number of ends
   for (const SurfacePlace& end : ends_)
   {
     const Vec3& at = end.position;
@@ -192,8 +194,8 @@ bool LineTracer::IsOdd(Id triangle) const
   return crossings % 2 == 1;
 }
 
-/// Where more than two triangles meet, a line of each of them may end at the edge: it is crossed
-/// where it is from any.
+/// Whether an edge is crossed from any of its triangles. If more than two triangles meet at an
+/// edge, a line in each of them may end there.
 bool LineTracer::IsCrossed(Index edge) const
 {
   bool isCrossed = false;
@@ -207,9 +209,10 @@ void LineTracer::Cross(Index edge, Id from, Id to)
     { isCrossedFrom_[side] ^= triangle == from || triangle == to ? 1 : 0; });
 }
 
-/// The pieces between two points of a line: in each triangle from edge to edge of which they
-/// lead, else in one that has both, else from one to another.
-/// @param at  where the line is; its part of the surface goes first
+/// The possible pieces between two points of a line. Triangles that the piece crosses from edge to
+/// edge come first. If there are none, the piece is in one triangle that has both points. If there
+/// is none either, it leads from one triangle to another.
+/// @param at  the place that the line has reached; its part of the surface goes first
 std::vector<LineTracer::Piece> LineTracer::ChoicesOf(
   const Places& from, const Places& to, const std::optional<SurfacePlace>& at) const
 {
@@ -254,8 +257,7 @@ std::vector<LineTracer::Piece> LineTracer::ChoicesOf(
   return choices;
 }
 
-/// Which of the choices is that of a piece which may have been there before; -1 where another
-/// line has taken them all.
+/// The choice for a piece that may have occurred before; -1 if another line has taken them all.
 Id LineTracer::TurnOf(const Vec3& from, const Vec3& to, Id choices)
 {
   std::array<double, 6> key = { from[0], from[1], from[2], to[0], to[1], to[2] };
@@ -276,8 +278,8 @@ bool LineTracer::IsAtEdge(Id triangle, const Places& places) const
     [&](Index edge) { return this->IsNear(edge, places.front().position); });
 }
 
-/// Of the triangles of these places that can be reached over edges there, the first one: where
-/// lines of all of them meet.
+/// The first triangle that can be reached over edges at these places. Lines in all of these
+/// triangles meet there.
 Id LineTracer::AnchorOf(Id triangle, const Places& places) const
 {
   Id first = triangle;
@@ -300,7 +302,8 @@ SurfacePlace LineTracer::MovedToAnchor(const SurfacePlace& place, const Places& 
   return { anchor, places.front().position };
 }
 
-/// Of the places nearest to a point between two others, one that is next to one of them.
+/// The place nearest to a point between two others, preferably in one of their triangles or next to
+/// one.
 SurfacePlace LineTracer::PlaceBetween(
   const Vec3& middle, const SurfacePlace& a, const SurfacePlace& b) const
 {
@@ -317,7 +320,7 @@ SurfacePlace LineTracer::PlaceBetween(
   return found != places.end() ? *found : places.front();
 }
 
-/// Halves the way until its ends are in one triangle or in neighbours.
+/// Connects two places by halving the path, until its ends are in one triangle or in neighbors.
 void LineTracer::Connect(
   const SurfacePlace& a, const Vec3& fromA, const SurfacePlace& b, const Vec3& fromB)
 {
@@ -364,7 +367,7 @@ void LineTracer::Append(Id triangle, const Vec3& from, const Vec3& to)
   }
 }
 
-/// The shortest way over the edge.
+/// The point where the shortest path between two points crosses an edge.
 Vec3 LineTracer::CrossingOf(Index edge, const Vec3& a, const Vec3& b) const
 {
   const Vec3& low = mesh_.points[graph_.Low(edge)];
@@ -380,7 +383,7 @@ Vec3 LineTracer::CrossingOf(Index edge, const Vec3& a, const Vec3& b) const
   return low + std::clamp(t, 0.0, 1.0) * along;
 }
 
-/// From triangle to triangle where a line goes through a point of the mesh.
+/// Walks from triangle to triangle where a line passes through a point of the mesh.
 void LineTracer::WalkAround(const SurfacePlace& a, const SurfacePlace& b)
 {
   const bool arrives = this->Walk(
@@ -401,13 +404,14 @@ double LineTracer::DistanceFrom(Index edge, const Vec3& position) const
   return (position - this->CrossingOf(edge, position, position)).norm();
 }
 
-/// An edge of a triangle that a line goes through within its resolution.
+/// Whether an edge of a triangle is within reach of a position.
 bool LineTracer::IsNear(Index edge, const Vec3& position) const
 {
   return edge != EdgeGraph::None && this->DistanceFrom(edge, position) <= reach_;
 }
 
-/// Over the nearest border edge of its triangle, else around the nearest corner to one.
+/// Leaves the surface over the nearest border edge of the triangle, or else around its nearest
+/// corner to a border edge.
 void LineTracer::Leave(const SurfacePlace& end)
 {
   Index leaving = this->NearestBorderEdge(end.triangle, end.position);
@@ -427,7 +431,8 @@ void LineTracer::Leave(const SurfacePlace& end)
   this->CrossBorder(leaving);
 }
 
-/// Whether an end is on the border. Two in one place leave and come back.
+/// Leaves the surface if a line ends on the border, and returns whether it does. Two ends in one
+/// place leave it and come back.
 bool LineTracer::LeaveOnBorder(const SurfacePlace& end)
 {
   Index leaving = EdgeGraph::None;
@@ -466,7 +471,7 @@ Index LineTracer::NearestBorderEdge(Id triangle, const Vec3& position) const
   return nearest;
 }
 
-/// Its place.
+/// The place of the nearest corner.
 Index LineTracer::NearestCorner(const SurfacePlace& end) const
 {
   Index nearest = EdgeGraph::None;

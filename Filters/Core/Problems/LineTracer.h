@@ -15,7 +15,7 @@
 namespace gridfem
 {
 
-/// Follows lines as DivideByLines has it, and says how often they cross each edge. Keeps
+/// Follows lines as DivideByLines describes, and counts how often they cross each edge. Keeps
 /// references.
 class LineTracer
 {
@@ -23,25 +23,26 @@ public:
   LineTracer(const TriangleMesh& mesh, const EdgeGraph& graph, const Array<Index>& place,
     const NearestPlaces& nearest);
 
-  /// Adds a line. Throws InvalidInput where it jumps from one part of the surface to another.
+  /// Adds a line. Throws InvalidInput if it jumps from one part of the surface to another.
   /// @param line  at least one point
   void Follow(const std::vector<Vec3>& line);
 
-  /// Lines that end on the border of the surface, or else in triangles at it, leave it there.
+  /// Lets lines that end on the border of the surface, or in triangles next to it, leave the
+  /// surface there.
   void LeaveAtBorders();
 
-  /// Throws InvalidInput where a line ends, or three meet, within the surface.
+  /// Throws InvalidInput if a line ends, or three lines meet, within the surface.
   void RequireNoEnds() const;
 
-  /// Where lines are on components that none divides, within a triangle: throws InvalidInput where
-  /// one is not closed.
+  /// Throws InvalidInput for a line within a triangle that is not closed. It checks the components
+  /// that no line divides.
   /// @param isDivided  per place
   void RequireClosed(const std::vector<char>& isDivided) const;
 
-  /// Per edge.
+  /// Whether each edge is crossed an odd number of times.
   std::vector<char> Crossed() const;
 
-  /// Per place: whether a line leads through it.
+  /// Whether a line passes through each place.
   const std::vector<char>& IsOnLine() const { return isOnLine_; }
 
   std::vector<TriangleSegment> segments;
@@ -49,7 +50,7 @@ public:
 private:
   using Places = std::vector<SurfacePlace>;
 
-  /// From point to point of a line.
+  /// The part of a line from one point to the next.
   struct Piece
   {
     SurfacePlace begin;
@@ -66,7 +67,7 @@ private:
   struct Repeated
   {
     Id count;
-    Id line; // the last one
+    Id line; // the last line that contains it
   };
 
   Vec3 CentreOf(Id triangle) const;
@@ -100,13 +101,13 @@ private:
   const EdgeGraph& graph_;
   const Array<Index>& place_;
   const NearestPlaces& nearest_;
-  std::vector<char> isCrossedFrom_; // per side of an edge, from its triangle
+  std::vector<char> isCrossedFrom_; // per side of an edge: crossed from its triangle
   std::vector<char> isOnLine_;
   std::map<std::array<double, 6>, Repeated> seen_;
   std::vector<SurfacePlace> ends_;
   Id line_ = 0;
   double resolution_;
-  double reach_; // of what is at a place, or an edge
+  double reach_; // distance within which a line touches a place or an edge
 };
 
 } // namespace gridfem

@@ -14,9 +14,9 @@ namespace
 
 constexpr double Unreached = std::numeric_limits<double>::infinity();
 
-/// The distance at a corner of a triangle from those at the two others: of the straight front that
-/// has them, where it crosses the triangle to get here, else along an edge.
-/// @param a, b  the other corners, as seen from this one
+/// The distance at a corner of a triangle, given the distances at the two others. A straight front
+/// with these distances arrives across the triangle, or else along an edge.
+/// @param a, b  the other corners, relative to this one
 double CrossTriangle(const Vec3& a, double distanceA, const Vec3& b, double distanceB)
 {
   const double alongEdges = std::min(distanceA + a.norm(), distanceB + b.norm());
@@ -24,8 +24,8 @@ double CrossTriangle(const Vec3& a, double distanceA, const Vec3& b, double dist
   {
     return alongEdges;
   }
-  // The gradient Σ w_k (d_k - d) of the front, w dual to the edges, is of length 1: a quadratic in
-  // d.
+  // The gradient Σ w_k (d_k - d) of the front has length 1, with w dual to the edges. This is a
+  // quadratic equation in d.
   Eigen::Matrix2d products;
   products << a.dot(a), a.dot(b), a.dot(b), b.dot(b);
   const Eigen::Matrix2d dual = products.inverse();
@@ -43,7 +43,7 @@ double CrossTriangle(const Vec3& a, double distanceA, const Vec3& b, double dist
   return cameFrom.minCoeff() > 0.0 ? std::min(distance, alongEdges) : alongEdges;
 }
 
-/// Distances at the functions of the mesh, and the points that the front comes to next.
+/// Distances at the functions of the mesh, and the functions that the front reaches next.
 class Front
 {
 public:

@@ -16,7 +16,7 @@ namespace gridfem
 namespace
 {
 
-/// Of the area of the start: below, what is left of the shape is rounding.
+/// Fraction of the start's area below which the rest of the shape is rounding.
 constexpr double VanishedArea = 1e-20;
 
 void CheckOptions(const FlowOptions& options)
@@ -43,7 +43,7 @@ void CheckBoundary(const FlowOptions& options)
   }
 }
 
-/// x = centre + scale (x - centre) in each row.
+/// Sets x = center + scale (x - center) in each row.
 void ScaleAbout(const Vec3& centre, double scale, MultiVector& positions, int threads)
 {
   ParallelRanges(positions.rows(), threads,
@@ -62,8 +62,8 @@ bool IsBroken(const StepSolution& solution)
          !solution.embedding.allFinite();
 }
 
-/// From the embedding, and from there on from where the coarser levels lead; how far they are from
-/// the result tells its error.
+/// Solves one step. The start is the embedding plus the displacement from the coarser levels. Its
+/// distance from the result tells the error.
 void SolveStep(const FiniteElementSpace& space, const Multigrid& multigrid, const MultiVector& b,
   const SolveOptions& options, const Projection& project, const Job& job, StepSolution& solution)
 {
@@ -83,7 +83,8 @@ void SolveStep(const FiniteElementSpace& space, const Multigrid& multigrid, cons
   const AccuracyWatch watch(space, solution.embedding, lastStep, 0.0, job.threads);
   solution.report = SolveWithFallback(IterationType::ConjugateGradients, A,
     CycleWithFallback(multigrid), b, solution.embedding, options, project, job.progress);
-  // Errors of all coordinates in the length of the way, however the surface is turned.
+  // Errors of all coordinates are relative to the length of the displacement, so the orientation of
+  // the surface does not matter.
   const Columns squares = space.SquaredNorms(solution.embedding - before, job.threads);
   const Columns length = Columns::Constant(squares.size(), std::sqrt(squares.max(0.0).sum()));
   solution.accuracy = watch.Result(solution.embedding, length,
@@ -171,13 +172,14 @@ std::vector<Vec3> MeanCurvatureFlow::Points(const Job& job) const
   return points;
 }
 
-/// Functions and metric of the step to come; no functions where they cannot be made anew.
-/// @return  singular samples
+/// Prepares functions and metric for the next step. moving_ stays empty if the functions cannot be
+/// made anew.
+/// @return  number of singular samples
 Id MeanCurvatureFlow::Prepare(MultiVector& embedding, const Job& job)
 {
   if (step_ == 0)
   {
-    moving_ = start_->Copy(); // its own metric, not that of its embedding, which has been rounded
+    moving_ = start_->Copy(); // its own metric, because the metric of its embedding is rounded
     embedding = moving_->EmbeddingOfMesh(job);
     return 0;
   }
@@ -252,9 +254,9 @@ void MeanCurvatureFlow::UpdateHierarchy(double timeStep, const Job& job)
   }
 }
 
-/// (M + δL) X⁺ = M X, and the terms of a boundary that stays. Where none does, constants keep their
-/// means. They are left out either way, so that the tolerance is on the shape and not on its
-/// distance from the origin.
+/// Solves (M + δL) X⁺ = M X, with the terms of a fixed boundary if there is one. Otherwise
+/// constants keep their means. The constants are left out in both cases, so that the tolerance
+/// applies to the shape and not to its distance from the origin.
 StepSolution MeanCurvatureFlow::Solve(const MultiVector& embedding, const Job& job) const
 {
   const Components components = moving_->ComponentsOf(0, job.threads);
@@ -287,7 +289,7 @@ StepSolution MeanCurvatureFlow::Solve(const MultiVector& embedding, const Job& j
   return solution;
 }
 
-/// The factor that keeps what is to be kept; none where it is lost.
+/// The factor that keeps the area or the volume; none if the volume is lost.
 std::optional<double> MeanCurvatureFlow::ScaleOf(double area, double volume) const
 {
   switch (options_.rescaling)
@@ -306,7 +308,7 @@ std::optional<double> MeanCurvatureFlow::ScaleOf(double area, double volume) con
 FlowStep MeanCurvatureFlow::Start(const Job& job) const
 {
   FlowStep start = Describe(SizeOf(mesh_->points, mesh_->triangles, job.threads));
-  start.accuracy.discretization = 0.0; // it is the input
+  start.accuracy.discretization = 0.0; // the start is the input
   start.accuracy.largest = 0.0;
   start.accuracy.isTrusted = true;
   return start;
@@ -342,7 +344,8 @@ FlowStep MeanCurvatureFlow::Advance(const Job& job)
     stopped.end = FlowEnd::Vanished;
     return stopped;
   }
-  // Every step of the flow takes area away: one that has not converged and adds some is none.
+  // Every step of the flow reduces the area. A step that has not converged and adds area is
+  // invalid.
   const auto areaBefore = [&]
   {
     return SizeOf(

@@ -1,4 +1,4 @@
-// A surface that moves by its mean curvature, step by step: its functions stay, and only the
+// A surface that moves by its mean curvature, step by step. Its functions stay, and only the
 // numbers in their matrices follow the metric. [T §5.1, §6.2.3; DESIGN §3]
 #ifndef GridFEM_MeanCurvatureFlow_h
 #define GridFEM_MeanCurvatureFlow_h
@@ -17,7 +17,7 @@
 namespace gridfem
 {
 
-/// What each step is scaled to, about the centroid of the area.
+/// The quantity that each step is scaled to, about the centroid of the area.
 enum class Rescaling
 {
   None = 0,
@@ -28,25 +28,25 @@ enum class Rescaling
 struct FlowOptions
 {
   double timeStep = 1e-3; // δ > 0, squared units of length of the space
-  /// The stiffness stays that of the start: (M_t + δ L_0) X⁺ = M_t X [T (6.2)], so that the map
-  /// from the start tends to a conformal one.
+  /// The stiffness stays that of the start: (M_t + δ L_0) X⁺ = M_t X [T (6.2)]. The map from the
+  /// start then tends to a conformal map.
   bool conformalized = false;
   Rescaling rescaling = Rescaling::None;
-  /// What stays where it is; empty: the boundary moves freely. Not for the conformalised flow, nor
-  /// with a rescaling.
+  /// The part of the surface that stays in place; empty: the boundary moves freely. Not for the
+  /// conformalized flow, nor with a rescaling.
   SurfaceBoundary fixed;
   MultigridOptions multigrid;
   SolveOptions solve;
 
-  /// Functions of the moved mesh, made anew in every step. Empty: those of the start are kept, and
-  /// the metric is tracked on them. Not for the conformalised flow.
+  /// Makes the functions of the moved mesh anew in every step. Empty: the functions of the start
+  /// are kept, and the metric is tracked on them. Not for the conformalized flow.
   std::function<std::unique_ptr<FiniteElementSpace>(const TriangleMesh& moved, const Job& job)>
     rebuild;
 
   FlowOptions()
   {
-    solve.tolerance = 5e-4;         // of the thesis
-    multigrid.cycle = CycleType::V; // a step takes one or two of either, and these take less time
+    solve.tolerance = 5e-4;         // from the thesis
+    multigrid.cycle = CycleType::V; // takes less time; a step needs one or two cycles
   }
 };
 
@@ -55,26 +55,26 @@ enum class FlowEnd
 {
   None,
   Vanished,   // the surface has shrunk to less than 1e-10 of its size
-  Breakdown,  // a matrix is not positive, numbers leave their range, or a solve goes astray
-  VolumeLost, // there is none left to keep constant
-  Unfit       // no functions can be made anew on the moved mesh
+  Breakdown,  // the matrix is not positive, numbers leave their range, or a solve fails
+  VolumeLost, // no volume is left to keep constant
+  Unfit       // no functions can be made on the moved mesh
 };
 
-/// What one step came to.
+/// The result of one step.
 struct FlowStep
 {
-  FlowEnd end = FlowEnd::None; // else the step was not made, and the rest says nothing
+  FlowEnd end = FlowEnd::None; // otherwise the step was not made, and the rest is meaningless
   int step = 0;                // counts from 1; 0 is the start
-  double time = 0.0;           // squared units of length of the space, without regard to scaling
-  double area = 0.0;           // of the moved mesh, world units; as the next two
+  double time = 0.0;           // squared units of length of the space, regardless of scaling
+  double area = 0.0;           // of the moved mesh, world units; so are the next two
   double volume = 0.0;
   double sphericity = 0.0; // SurfaceSize::Sphericity
   int iterations = 0;
-  Id lockedSamples = 0; // whose metric was singular when the step began (SetMetric)
+  Id lockedSamples = 0; // samples with a singular metric when the step began (SetMetric)
   bool converged = true;
-  /// Of the way of this step: relative to its length in the mean square; the largest error in world
-  /// units; that of the iteration is not known. Errors of the steps before are not among it, nor
-  /// that a step takes finite time.
+  /// Errors of this step's displacement. They are relative to its length in the mean square; the
+  /// largest error is in world units. The error of the iteration is unknown. Errors of earlier
+  /// steps and of the finite time step are not included.
   SolutionAccuracy accuracy;
 };
 
@@ -85,44 +85,44 @@ struct StepSolution
   SolutionAccuracy accuracy; // as in FlowStep
 };
 
-/// One step solves (M_t + δ L_t) X⁺ = M_t X for the three coordinates at once, from the last X and
-/// the way that the coarser levels go from there.
-/// From the second step on patterns, prolongations and orders are those of the first, unless
-/// the functions are made anew. A boundary that is fixed takes part as HeldBoundary says. Same bits
-/// for any number of threads, and for any way to a step. Hold a MemoryReuse over several steps.
+/// One step solves (M_t + δ L_t) X⁺ = M_t X for the three coordinates at once. The solve starts
+/// from the last X plus the displacement that the coarser levels find.
+/// From the second step on, patterns, prolongations and orders are those of the first, unless the
+/// functions are made anew. HeldBoundary describes the terms of a fixed boundary. Same bits for any
+/// number of threads, and for any path to a step. Hold a MemoryReuse over several steps.
 class MeanCurvatureFlow
 {
 public:
-  /// @param mesh  what the space was made from
-  /// Throws InvalidInput for a time step that is not positive, a conformalised flow with functions
-  /// that are made anew, fixed points that something else moves, and where there is no volume to be
-  /// kept.
+  /// @param mesh  the mesh that the space was made from
+  /// Throws InvalidInput for a time step that is not positive and for a conformalized flow with
+  /// functions that are made anew. It also throws for fixed points that another option would move,
+  /// and if there is no volume to keep.
   MeanCurvatureFlow(std::shared_ptr<const FiniteElementSpace> space,
     std::shared_ptr<const TriangleMesh> mesh, FlowOptions options);
 
-  /// Makes the next step. A step that cannot be made leaves the flow where it is, and so does
-  /// Aborted, which it throws.
+  /// Makes the next step. If the step cannot be made or is aborted (throws Aborted), the flow stays
+  /// where it is.
   FlowStep Advance(const Job& job);
 
-  /// The number of the step that the flow has come to.
+  /// The number of the current step.
   int Step() const { return step_; }
 
-  /// All that the next step depends on: the coefficients of the embedding, or the points when
-  /// the functions are made anew; in units of length from the origin of the space.
+  /// Everything that the next step depends on: the coefficients of the embedding, or the points if
+  /// the functions are made anew. In units of length from the origin of the space.
   const MultiVector& Shape() const { return shape_; }
 
-  /// Returns to a step by its shape.
+  /// Returns to a step, given its shape.
   void GoTo(int step, MultiVector shape);
   void GoToStart();
 
-  /// The points of the moved mesh, world units; those that are fixed and those that no function
-  /// reaches stay.
+  /// The points of the moved mesh, world units. Fixed points and points that no function reaches
+  /// stay.
   std::vector<Vec3> Points(const Job& job = {}) const;
 
   /// The start as a step.
   FlowStep Start(const Job& job = {}) const;
 
-  /// The space in the metric that the last step used; null before the first.
+  /// The space in the metric of the last step; null before the first.
   const FiniteElementSpace* Space() const { return moving_.get(); }
 
 private:
@@ -146,7 +146,7 @@ private:
   MultiVector shape_;
   std::unique_ptr<FiniteElementSpace> moving_;
   std::unique_ptr<Multigrid> multigrid_;
-  std::unique_ptr<HeldBoundary> boundary_; // of functions as they are; null where nothing is held
+  std::unique_ptr<HeldBoundary> boundary_; // on the current functions; null if nothing is held
   SparseMatrix mass_;                      // M_t
 };
 

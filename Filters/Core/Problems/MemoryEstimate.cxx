@@ -19,32 +19,32 @@ namespace gridfem
 namespace
 {
 
-// Bytes that live at the peak, fitted to the growth of the process (Testing/Benchmarks, group
-// `memory`); the sizes of the arrays, in brackets, explain all but the slack of growing vectors and
-// the memory that is freed but not yet used again.
+// Bytes in use at the peak, fitted to the growth of the process (Testing/Benchmarks, group
+// `memory`). The sizes of the arrays are in brackets. They explain all but two parts: the slack of
+// growing vectors, and freed memory that is not yet used again.
 
-// While clipping:
+// Memory while clipping:
 constexpr double ClipPerPoint = 70.0;    // position, the same on planes, welded id, sort entry (68)
 constexpr double ClipPerTriangle = 40.0; // its sides and the pieces along them (36)
-constexpr double ClipPerPiece = 102.0;   // pieces, corners and links, by thread and joined, and
-                                         // cut points
-// Kept ever after:
+// Pieces, corners and links, by thread and joined, and cut points.
+constexpr double ClipPerPiece = 102.0;
+// Memory that stays:
 constexpr double HeldPerPoint = 28.0; // position, patch (28)
 constexpr double HeldPerPiece = 50.0; // piece 12, corners 4 each, cut points 48 (49)
-// Function space, system and hierarchy, all levels (4/3 of the finest): tables 150, element
+// Function space, system and hierarchy, for all levels (4/3 of the finest): tables 150, element
 // matrices 770, patterns and matrices of 2 functions with 18 entries each 600, stencils and
 // inverses 1110 (inverses alone 390 to 770), prolongations and their transposes 240.
 constexpr double HeldPerPatch = 3300.0;
-// For one right-hand side: ten vectors.
+// Ten vectors for one right-hand side.
 constexpr double HeldPerFunction = 80.0;
 
-// Hats, whose points have six neighbours: their tables 40, matrices with 7 entries per row 160, the
-// same combined and ordered 130, the transfer of 8 entries and its transpose 210, groups of eight
-// and their factors 60, vectors 80.
+// Hats, whose points have six neighbors: tables 40, matrices with 7 entries per row 160, the
+// combined and ordered matrices 130, the transfer of 8 entries and its transpose 210, groups of
+// eight and their factors 60, vectors 80.
 constexpr double HatsPerPoint = 680.0;
 constexpr double HatsPerFunction = 10.0;
 
-/// Of what a container's use counts, those that the system gives back when memory is asked for.
+/// Bytes of cached files in a container's use. The system frees them when memory is needed.
 double BytesOfFiles()
 {
   std::ifstream statistics("/sys/fs/cgroup/memory.stat");
@@ -61,7 +61,7 @@ double BytesOfFiles()
 
 } // namespace
 
-/// A mesh whose triangles share no points is welded: two triangles to a point, whatever it has.
+/// If triangles share no points, the mesh is counted as welded: two triangles per point.
 double WeldedPoints(const TriangleMesh& mesh)
 {
   const double welded = 0.5 * static_cast<double>(mesh.triangles.size()) + 3.0;
@@ -80,10 +80,9 @@ MemoryEstimate EstimateMemory(const TriangleMesh& mesh, int depth)
 
 MemoryEstimate EstimateMemory(const TriangleMesh& mesh, const Grid& grid)
 {
-  // Lines are the stretches along which planes cut a triangle; crossings the points where two
-  // planes do. A triangle falls into 1 + lines + crossings pieces and 1 + 2 (lines + crossings)
-  // triangles. The number of crossings is the triangle's area projected along each axis, on
-  // average.
+  // Counts the lines in which planes cut a triangle, and the crossings of two planes in it. A
+  // triangle falls into 1 + lines + crossings pieces and 1 + 2 (lines + crossings) triangles. The
+  // number of crossings is, on average, the triangle's area projected along each axis.
   double lines = 0.0;
   double crossings = 0.0;
   for (const auto& triangle : mesh.triangles)
@@ -103,7 +102,7 @@ MemoryEstimate EstimateMemory(const TriangleMesh& mesh, const Grid& grid)
   const double triangles = static_cast<double>(mesh.triangles.size());
   const double pieces = triangles + lines + crossings;
   estimate.clippedTriangles = triangles + 2.0 * (lines + crossings);
-  // A plane meets as many cells as grid lines cross it; a surface has at least one patch.
+  // A plane meets as many cells as grid lines cross it. A surface has at least one patch.
   estimate.patches = crossings + 1.0;
   estimate.functions = FunctionsOfPatches(estimate.patches);
   const double points = static_cast<double>(mesh.points.size());
@@ -157,7 +156,7 @@ double MemoryOfMachine()
     }
     info.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
   }
-  // A container may allow less than the machine has. Files that it has read are no obstacle.
+  // A container may allow less memory than the machine has. Files that it has read do not count.
   double limit = 0.0;
   double used = 0.0;
   if (std::ifstream("/sys/fs/cgroup/memory.max") >> limit &&

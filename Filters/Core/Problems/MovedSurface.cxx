@@ -30,7 +30,7 @@ std::vector<double> Areas(const TriangleMesh& mesh, int threads)
   return area;
 }
 
-/// Area, and the moment of the area about a point.
+/// The area, and the moment of the area about a point.
 Eigen::Vector4d AreaMoments(const std::vector<Vec3>& points,
   const std::vector<std::array<Id, 3>>& triangles, const Vec3& about, int threads)
 {
@@ -66,18 +66,19 @@ double VolumeAbout(const Vec3& centre, const std::vector<Vec3>& points,
   return ParallelSum(static_cast<Id>(triangles.size()), threads, 0.0, sum);
 }
 
-/// Larger over smaller singular value of the map between two triangles: with its metric's trace T
-/// and the ratio D of the areas, the quotient of (√(T + 2D) ± √(T - 2D)) / 2.
+/// The larger over the smaller singular value of the map between two triangles. With the trace T of
+/// its metric and the ratio D of the areas, they are (√(T + 2D) ± √(T - 2D)) / 2.
 double StretchRatio(const Vec3& u, const Vec3& v, double ratio, const Vec3& a, const Vec3& b)
 {
-  // The metric's trace in the triangle's plane: (|a|²|v|² - 2 <a,b><u,v> + |b|²|u|²) / |u × v|².
+  // The trace of the metric in the triangle's plane: (|a|²|v|² - 2 <a,b><u,v> + |b|²|u|²) / |u ×
+  // v|².
   const double square = u.cross(v).squaredNorm();
   const double trace = (a.squaredNorm() * v.squaredNorm() - 2.0 * a.dot(b) * u.dot(v) +
                          b.squaredNorm() * u.squaredNorm()) /
                        square;
   const double plus = std::sqrt(std::max(trace + 2.0 * ratio, 0.0));
   const double minus = std::sqrt(std::max(trace - 2.0 * ratio, 0.0));
-  // The smaller stretch by their product, which is the ratio, without cancellation.
+  // The product of both stretches is the ratio. It gives the smaller one without cancellation.
   const double larger = 0.5 * (plus + minus);
   const double quotient = larger * larger / ratio;
   return quotient < MapDistortion::LargestRatio ? std::max(quotient, 1.0)

@@ -15,7 +15,8 @@ namespace
 
 constexpr Index None = -1;
 
-/// Where the distance of a point comes from: between two others, from the second by `share`.
+/// The origin of a point's distance: a place between two other points, at `share` of the way to the
+/// second.
 struct Origin
 {
   Index first = None;
@@ -24,7 +25,7 @@ struct Origin
   double slope = 0.0;
 };
 
-/// Hands numbers of sources from point to point, in the order of the distance.
+/// Passes the numbers of sources from point to point, in the order of the distance.
 class Descent
 {
 public:
@@ -62,9 +63,9 @@ public:
     }
   }
 
-  /// All points from the nearest to the farthest. One that is nearer than all around it, though no
-  /// source, as where distances are 0 because they came out below it, waits for a neighbour that
-  /// knows.
+  /// Visits all points from the nearest to the farthest. A point that is no source may be nearer
+  /// than all points around it, for example where distances were clamped to 0. Such a point waits
+  /// for a neighbor that knows its source.
   void Run(const Job& job)
   {
     const std::vector<Index> order = this->PlacesByDistance();
@@ -109,7 +110,8 @@ private:
     return place;
   }
 
-  /// Of places the least of their points': sheets that touch in a point alone have each their own.
+  /// The distance of a place is the least distance of its points. Sheets that touch only in a point
+  /// have separate distances there.
   static std::vector<double> DistancesOf(
     const std::vector<Index>& place, const std::vector<double>& atPoints)
   {
@@ -121,7 +123,7 @@ private:
     return distance;
   }
 
-  /// Sources first.
+  /// All places with a distance, sources first.
   std::vector<Index> PlacesByDistance() const
   {
     std::vector<Index> order;
@@ -172,8 +174,8 @@ private:
     }
   }
 
-  /// -∇ of the linear function = α (a - place) + β (b - place); it leads between a and b where both
-  /// are positive.
+  /// -∇ of the linear function is α (a - place) + β (b - place). It leads between a and b if both
+  /// factors are positive.
   void AcrossTriangle(Index place, Index a, Index b, Origin& best) const
   {
     if (!this->IsNearer(a, place) || !this->IsNearer(b, place))
@@ -218,14 +220,14 @@ private:
     {
       number |= share_(place, digit) > 0.5 ? Index(1) << digit : 0;
     }
-    // Where three regions meet the digits may be those of another one.
+    // The digits may be those of another source where three regions meet.
     const bool isKnown = number == number_[origin.first] || number == number_[origin.second];
     number_[place] = isKnown               ? number
                      : origin.share <= 0.5 ? number_[origin.first]
                                            : number_[origin.second];
   }
 
-  /// To neighbours that wait, and to theirs.
+  /// Passes the number of a place back to waiting neighbors, and on to theirs.
   void HandBack(Index from)
   {
     std::vector<Index> reached = { from };
@@ -258,13 +260,13 @@ private:
   }
 
   const TriangleMesh& mesh_;
-  std::vector<Index> place_;     // per point the first one in its place
+  std::vector<Index> place_;     // per point, the first one in its place
   std::vector<double> distance_; // per place
   Groups corners_;               // per place: 3 triangle + corner
-  std::vector<Index> rank_;      // in the order of the distance
+  std::vector<Index> rank_;      // rank in the order of the distance
   std::vector<Id> sources_;      // without repeats
-  std::vector<Index> number_;    // per place, of its source
-  MultiVector share_;            // per place, of the digits of numbers
+  std::vector<Index> number_;    // per place, the number of its source
+  MultiVector share_;            // per place, shares of the digits of numbers
   int digits_ = 0;
 };
 

@@ -32,7 +32,7 @@ std::vector<double> WeightsOfTriangles(const Field* weight, const TriangleMesh& 
   return ofTriangle;
 }
 
-/// Which rows have no NaN; those that have become 0.
+/// Sets rows with NaN to 0. Returns the rows that have none.
 std::vector<char> TakeOutUnknown(MultiVector& rows)
 {
   std::vector<char> isKnown(rows.rows());
@@ -76,7 +76,7 @@ Id CountIgnoredPoints(
   {
     return 0;
   }
-  // Known triangles around each point, and the processes that have it.
+  // The number of known triangles around each point, and of the processes that have the point.
   MultiVector around = MultiVector::Zero(static_cast<Id>(mesh.points.size()), 2);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
   {

@@ -18,7 +18,7 @@ namespace gridfem
 namespace
 {
 
-/// Parts of a vector become the vector.
+/// Adds up the parts of a vector over the processes.
 void SumParts(const DividedRows* divided, std::vector<double>& x)
 {
   if (divided)
@@ -27,14 +27,14 @@ void SumParts(const DividedRows* divided, std::vector<double>& x)
   }
 }
 
-/// Penalties: relative to the diagonal at a point's functions, shared by the constraints that they
-/// have in common.
+/// Penalties of the constraints. They are relative to the diagonal at a point's functions, and
+/// divided among the constraints that share functions.
 std::vector<double> WeightsOfRows(
   const SparseMatrix& rows, const SparseMatrix& A, double penalty, const DividedRows* divided)
 {
   std::vector<double> diagonal = A.Diagonal();
   SumParts(divided, diagonal);
-  std::vector<double> touched(A.rows, 0.0); // Σ of the rows at each function
+  std::vector<double> touched(A.rows, 0.0); // sum over all rows at each function
   for (std::size_t k = 0; k < rows.column.size(); ++k)
   {
     touched[rows.column[k]] += rows.value[k];
@@ -115,26 +115,27 @@ public:
       return false;
     }
     load_ += this->LoadOf(rest);
-    // The next step starts near its solution, whose last digits the misfit asks for. A misfit that
-    // falls slowly, because constraints are more than functions can meet, asks for no more.
+    // The next step starts near its solution, so its tolerance is on the last digits, as the misfit
+    // requires. A misfit that falls slowly needs no smaller tolerance: there are more constraints
+    // than functions can meet.
     share_ *= solution.steps == 1 || solution.relativeMisfit < 0.1 * before ? 0.1 : 1.0;
     return true;
   }
 
-  /// @param size, scale  as AccuracyWatch::Result has them
+  /// @param size, scale  as in AccuracyWatch::Result
   SolutionAccuracy Accuracy(const Columns& size, const Eigen::RowVectorXd& scale) const
   {
     return watch_ ? watch_->Result(x, size, scale, ErrorOrder::Observed) : SolutionAccuracy();
   }
 
   MultiVector x;
-  Eigen::RowVectorXd misfit; // largest of each column
+  Eigen::RowVectorXd misfit; // largest misfit of each column
 
 private:
   static constexpr double SmallestTolerance = 1e-13;
 
-  /// Solves on the coarser levels for the load of the step, with which they meet the values nearly
-  /// as well: a start, and what an error is estimated from.
+  /// Solves on the coarser levels for the load of the step. Their solution meets the values nearly
+  /// as well. It serves as a start and for the estimate of an error.
   void Start(bool isStart, const SpaceLevels* estimateOn)
   {
     const Multigrid& multigrid = hierarchy_.GetMultigrid();
@@ -198,7 +199,7 @@ private:
     return relative;
   }
 
-  /// Of points that functions reach.
+  /// The misfits at points that functions reach; 0 at others.
   MultiVector Misfits(const MultiVector& atPoints) const
   {
     MultiVector rest = values_ - atPoints;
@@ -221,7 +222,7 @@ private:
   const Projection& project_;
   MultiVector load_;
   Eigen::RowVectorXd range_;
-  double share_ = 1.0;                 // of the tolerance, for a step
+  double share_ = 1.0;                 // of the tolerance, in a step
   std::optional<AccuracyWatch> watch_; // of the last step
 };
 
@@ -301,7 +302,7 @@ std::vector<MultigridLevel> ConstrainedHierarchy::BuildLevels(const SpaceLevels&
       continue;
     }
     penalty_.AddTo(l, levels[l].A, options.threads);
-    if (divided) // what crosses borders is made from the matrix
+    if (divided) // terms across borders of processes are made from the matrix
     {
       levels[l].divided = space.Divide(l, levels[l].A, options);
     }
@@ -309,7 +310,7 @@ std::vector<MultigridLevel> ConstrainedHierarchy::BuildLevels(const SpaceLevels&
   return levels;
 }
 
-/// Of a level that all processes hold whole.
+/// Adds the penalty on a level that all processes hold whole.
 void ConstrainedHierarchy::AddWholePenalty(
   std::size_t level, const DividedRows& divided, SparseMatrix& A, int threads) const
 {
@@ -324,7 +325,7 @@ void ConstrainedHierarchy::AddWholePenalty(
 std::vector<char> HeldComponents(
   const SpaceLevels& space, double a, const SparseMatrix& rows, const Components& components)
 {
-  std::vector<double> holders(components.count, 0.0); // what holds a component, in this process
+  std::vector<double> holders(components.count, 0.0); // number of holders in this process
   for (const Index function : rows.column)
   {
     holders[components.ofFunction[function]] += 1.0;
@@ -387,7 +388,7 @@ ConstrainedSolution SolveConstrained(const SpaceLevels& space, double a,
   const FreeConstants free(components, solution.isHeld, threads, divided);
   const Projection project = free.AsProjection();
 
-  // Constants are solved for at once, so that tolerances are on what differs from them.
+  // Constants are solved for directly, so that tolerances apply to the deviation from them.
   const MultiVector constant = ConstantsOf(space, a, load, componentOfRow, values, components);
   MultiVector rest =
     load.rows() > 0

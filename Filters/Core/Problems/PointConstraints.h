@@ -1,4 +1,4 @@
-// Values that the solution of an equation has at given points, on any space. [DESIGN §3]
+// Values that the solution of an equation takes at given points, on any space. [DESIGN §3]
 #ifndef GridFEM_PointConstraints_h
 #define GridFEM_PointConstraints_h
 
@@ -12,23 +12,24 @@ namespace gridfem
 
 struct ConstraintOptions
 {
-  /// How strongly a misfit counts, relative to the diagonal of the matrix: what is left of it falls
-  /// by about this factor in a step, and the iterations of a step grow with it slowly. > 0
+  /// Weight of a misfit, relative to the diagonal of the matrix. Each step divides the misfit by
+  /// about this factor. The iterations of a step grow slowly with it. > 0
   double penalty = 1e3;
-  /// Steps end when the largest misfit is this part of the range of the values, or of the root mean
-  /// square of the solution where that is more. > 0
+  /// Steps end when the largest misfit is this fraction of the range of the values, or of the root
+  /// mean square of the solution if that is larger. > 0
   double tolerance = 1e-7;
   int maximumSteps = 12; // >= 1
   /// Errors are estimated on the surface of this space, which has the same functions with the mass
-  /// of the mesh; null: they are not.
+  /// of the mesh. Null: errors are not estimated.
   const SpaceLevels* estimateOn = nullptr;
 };
 
-/// The hierarchy of a M + b L + Cᵀ W C for values that are held at points.
+/// The hierarchy of a M + b L + Cᵀ W C for held values at points.
 class ConstrainedHierarchy
 {
 public:
-  /// @param rows  RowsAtPoints of the constrained points; a point without functions has none
+  /// @param rows  RowsAtPoints of the constrained points; the row of a point without functions is
+  ///   empty
   ConstrainedHierarchy(const SpaceLevels& space, double a, double b, SparseMatrix rows,
     double penalty, const MultigridOptions& options, const Progress& progress = {});
 
@@ -49,31 +50,30 @@ private:
 struct ConstrainedSolution
 {
   MultiVector coefficients;  // up to a constant on components that nothing holds (SetMeans)
-  SolveReport report;        // of all steps, one after the other
-  SolutionAccuracy accuracy; // of components that something holds; unknown unless asked for
+  SolveReport report;        // of all steps, in sequence
+  SolutionAccuracy accuracy; // of held components; unknown unless asked for
   int steps = 0;
   /// Largest difference from the given values, over all points and columns.
   double misfit = 0.0;
-  double relativeMisfit = 0.0; // as ConstraintOptions::tolerance has it, of the worst column
-  /// All constraints are met. Else they contradict each other, or are more than the functions can
-  /// meet, and the solution is the one with the least (weighted) squares of the misfits.
+  double relativeMisfit = 0.0; // relative as the tolerance is; of the worst column
+  /// All constraints are met. Otherwise they contradict each other, or are more than the functions
+  /// can meet. The solution is then the one with the least (weighted) squares of the misfits.
   bool isExact = true;
   std::vector<char> isHeld; // per component of the functions
-  double wanted = 0.0;      // tolerance of the report; 0: that of the options
+  double wanted = 0.0;      // tolerance of the report; 0: as in the options
 };
 
-/// Means of components, 0 for those that something holds.
+/// The means of components, with 0 for held components.
 MultiVector MeansOfFree(const std::vector<char>& isHeld, MultiVector means);
 
-/// Removes the constants of components that nothing holds. Keeps references to what it is made
-/// from.
+/// Removes the constants of components that nothing holds. Keeps references to its arguments.
 class FreeConstants
 {
 public:
   FreeConstants(const Components& components, const std::vector<char>& isHeld, int threads,
     const DividedRows* divided = nullptr);
 
-  /// Empty where all are held; else to be used while this lives.
+  /// The removal as a projection; empty if all components are held. This object has to outlive it.
   Projection AsProjection() const;
 
 private:
@@ -82,39 +82,38 @@ private:
   const ComponentMeans means_;
 };
 
-/// Per component of the functions: whether a constraint or mass holds it.
+/// Whether a constraint or mass holds each component of the functions.
 std::vector<char> HeldComponents(
   const SpaceLevels& space, double a, const SparseMatrix& rows, const Components& components);
 
-/// A constant for each component near what the solution has there: the means of its constraints, or
-/// of the values in the load.
-/// @param load            as SolveConstrained has it
+/// A constant for each component near the solution there: the mean of its constraints, or of the
+/// values in the load.
+/// @param load            as in SolveConstrained
 /// @param componentOfRow  of the constraints (ComponentsOfRows)
 MultiVector ConstantsOf(const SpaceLevels& space, double a, const MultiVector& load,
   const std::vector<Index>& componentOfRow, const MultiVector& values,
   const Components& components);
 
-/// Minimises ½ uᵀ (a M + b L) u - loadᵀ u among the functions with these values at the points, by
-/// an augmented Lagrangian: each step solves with the misfit's penalty and adds the misfit that is
-/// left to the load. Components that have neither a constraint nor mass are not determined. Where
-/// processes hold the surface together, all of them call it, as SolvePoisson, each with constraints
-/// of its own.
-/// @param load    right-hand side: rows = functions; may have no rows for 0
+/// Minimizes ½ uᵀ (a M + b L) u - loadᵀ u among the functions with these values at the points. The
+/// method is an augmented Lagrangian: each step solves with the penalty of the misfit and adds the
+/// remaining misfit to the load. Components that have neither a constraint nor mass are
+/// undetermined. Collective; each process has constraints of its own.
+/// @param load    right-hand side: rows = functions; no rows: 0
 /// @param values  rows = rows of C, one column per component
 /// Throws InvalidInput when shapes do not fit, and Aborted. Same bits for any number of threads.
 ConstrainedSolution SolveConstrained(const SpaceLevels& space, double a,
   const ConstrainedHierarchy& hierarchy, const MultiVector& load, const MultiVector& values,
   const ConstraintOptions& constraints, const SolveOptions& options, const Progress& progress = {});
 
-/// |u| without its mean over the components that something holds.
-/// @param rest      functions that constants have to be added to, one for each component
-/// @param constant  of each component
+/// |u| without its mean over the held components.
+/// @param rest      u minus a constant on each component
+/// @param constant  these constants
 Columns SizeOfSolution(const SpaceLevels& surface, const Components& components,
   const std::vector<char>& isHeld, const MultiVector& rest, const MultiVector& constant,
   int threads);
 
-/// Adds constants on components that nothing holds, so that they have these means; a mean of NaN
-/// makes all of the component NaN.
+/// Adds constants on components that nothing holds, to give them these means. A mean of NaN makes
+/// the whole component NaN.
 /// @param space  with the mass of the mesh
 /// @param means  rows = components of the functions, one column per component of the values
 void SetMeans(const SpaceLevels& space, const std::vector<char>& isHeld, const MultiVector& means,

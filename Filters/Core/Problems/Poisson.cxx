@@ -49,10 +49,10 @@ void CheckInput(const SpaceLevels& space, const MultiVector& values, const Multi
   }
 }
 
-/// Of the energy residual, for solutions that coarser levels contain.
+/// Tolerance of the energy residual, for solutions that coarser levels contain.
 constexpr double RoundingTolerance = 1e-9;
 
-/// NaN is let through: it stays in its column and is reported there.
+/// Accepts NaN, which stays in its column and is reported there.
 void RequireInRange(const Eigen::RowVectorXd& size)
 {
   constexpr double Largest = 1e150;
@@ -68,7 +68,7 @@ Eigen::RowVectorXd NormsOf(const LinearOperator& A, const MultiVector& x)
   return A.products(x, x).sqrt().matrix().transpose();
 }
 
-/// What is left in a column after the means are taken out can be rounding alone: then it is 0.
+/// Sets a column to 0 if nothing but rounding is left after the means are taken out.
 void DropRounding(const LinearOperator& A, const Eigen::RowVectorXd& size, MultiVector& rest)
 {
   constexpr double Relative = 8.0 * std::numeric_limits<double>::epsilon();
@@ -82,7 +82,7 @@ void DropRounding(const LinearOperator& A, const Eigen::RowVectorXd& size, Multi
   }
 }
 
-/// About the error that leaves the residual r, in z, and its size as convergence is measured.
+/// Computes an approximate error z for the residual r, and its size in the measure of convergence.
 Columns MeasureError(
   const Multigrid& multigrid, const Projection& project, MultiVector r, MultiVector& z)
 {
@@ -92,7 +92,7 @@ Columns MeasureError(
   return OperatorOf(multigrid).products(r, z).abs().sqrt();
 }
 
-/// sqrt(λ ∫ m²) of the means m of a field.
+/// sqrt(λ ∫ m²) for the means m of a field.
 Columns EnergyOfMeans(
   const LinearOperator& A, double lambda, const ComponentMeans& means, const MultiVector& values)
 {
@@ -101,11 +101,11 @@ Columns EnergyOfMeans(
   return (lambda * A.products(constants, values)).abs().sqrt();
 }
 
-/// Pieces that lie on each other have integrals that differ by what clipping rounds, some 1e-10 of
-/// a cell: so fields that cancel there leave a load of that size, which no function need have. It
-/// is dropped where its solution would be as small beside the means, in the energy. Whether a
-/// column was.
-/// @param energyOfMeans  its square root, of every column
+/// Overlapping sheets: clipping perturbs their integrals by about 1e-10 cells. Opposite fields on
+/// them therefore leave a spurious load of that size, which no function needs to match. A column is
+/// dropped if the energy of its solution is equally small beside that of the means.
+/// @param energyOfMeans  the square root of this energy, of every column
+/// @return               whether a column was dropped
 bool DropCancelled(const Multigrid& multigrid, const Projection& project,
   const Columns& energyOfMeans, MultiVector& rest)
 {
@@ -139,7 +139,7 @@ double NormOfDiagonal(const Multigrid& multigrid, const DividedRows* divided)
   return NormsOf(OperatorOf(multigrid), diagonal)[0];
 }
 
-/// Starts columns that hold NaN from zero.
+/// The start by nested iteration. Columns with NaN start from zero.
 MultiVector NestedStart(const Multigrid& multigrid, const MultiVector& load,
   const DividedRows* divided, MultiVector* lastStep)
 {
@@ -156,7 +156,7 @@ MultiVector NestedStart(const Multigrid& multigrid, const MultiVector& load,
   return start;
 }
 
-/// The given start, where it fits and is finite; else no rows.
+/// The given start if it fits and is finite; otherwise no rows.
 MultiVector GivenStart(
   const MultiVector& load, const MultiVector* given, const Eigen::RowVectorXd& scale)
 {
@@ -171,9 +171,10 @@ MultiVector GivenStart(
   return {};
 }
 
-/// Whether every column is solved, or the numbers do not determine it to the tolerance: rounding of
-/// the entries of A, against the error that is left, makes one that is larger.
-/// @param isStuck  else more iterations help where rounding makes less than what is left
+/// Whether every column is either solved or not determined to the tolerance by the numbers. The
+/// test compares the remaining error with the error by rounding of the entries of A.
+/// @param isStuck  false: more iterations help where the error by rounding is smaller than the
+///   remaining error
 bool IsRounding(const Multigrid& multigrid, const DividedRows* divided, const MultiVector& b,
   const MultiVector& x, double tolerance, bool isStuck, const Projection& project)
 {
@@ -204,7 +205,7 @@ bool IsRounding(const Multigrid& multigrid, const DividedRows* divided, const Mu
   return (left <= wanted || undetermined > least).all();
 }
 
-/// The part of the solution without means, and what is known of its errors.
+/// Solves for the part without means, and estimates its errors.
 /// @param squaredSpread  of the means that are left out
 /// @param scale          of the columns of the load
 PoissonSolution SolveWithoutMeans(const SpaceLevels& space, const Multigrid& multigrid,
@@ -275,8 +276,8 @@ PoissonSolution SolvePoisson(const SpaceLevels& space, const Multigrid& multigri
     components.ofFunction, space.Integrals(), components.count, threads, divided);
   const LinearOperator A = OperatorOf(multigrid);
 
-  // λM + L maps the functions of zero mean to the vectors of zero sum and the constants to M's, so
-  // the two parts of the equation can be solved apart.
+  // λM + L maps functions of zero mean to vectors of zero sum, and constants to M times constants.
+  // The two parts of the equation can therefore be solved separately.
   const auto removeMeans = [&means](MultiVector& coefficients)
   { means.AddConstants(-means.OfFunction(coefficients), coefficients); };
   const auto removeSums = [&means](MultiVector& load)
@@ -290,7 +291,7 @@ PoissonSolution SolvePoisson(const SpaceLevels& space, const Multigrid& multigri
   rest *= lambda;
   if (meanOfField.rows() > 0)
   {
-    // The constants cancel to rounding in every row, in the matrix and in ∫ <∇f, ∇b_i> alike.
+    // The constants cancel to rounding in every row, both in the matrix and in ∫ <∇f, ∇b_i>.
     size += NormOfDiagonal(multigrid, divided) * meanOfField.cwiseAbs().colwise().maxCoeff();
   }
   if (gradients.cols() != 0)
@@ -300,7 +301,7 @@ PoissonSolution SolvePoisson(const SpaceLevels& space, const Multigrid& multigri
     size += NormsOf(A, scaled);
   }
   RequireInRange(size);
-  // ∫ <s, ∇b_i> sums to 0 over a component but for rounding, which a small λ would blow up.
+  // ∫ <s, ∇b_i> sums to 0 over a component up to rounding, which a small λ would amplify.
   removeSums(rest);
   DropRounding(A, size, rest);
 

@@ -19,7 +19,7 @@ namespace
 
 constexpr double HalfTurn = 3.14159265358979323846;
 
-/// A symmetric tensor across a normal.
+/// A symmetric tensor in the plane across a normal.
 using Tensor = Eigen::Matrix3d;
 
 void RequireHats(const TriangleMesh& mesh, const HatFunctions& hats)
@@ -70,11 +70,11 @@ Vec3 NormalOf(const TriangleMesh& mesh, const HatFunctions& hats, Id function)
   return (sum.norm() > Cancelled * size ? sum : first).stableNormalized();
 }
 
-/// The functions around one: those at the other corners of its triangles, each once.
+/// The neighbors of a function: the functions at the other corners of its triangles, each once.
 struct Neighbours
 {
   std::vector<Index> all;
-  bool isAtBoundary = false; // an edge has one triangle only
+  bool isAtBoundary = false; // some edge has only one triangle
 
   void Collect(const TriangleMesh& mesh, const HatFunctions& hats, Id function)
   {
@@ -98,7 +98,7 @@ struct Neighbours
   }
 };
 
-/// A point of the mesh for each function: any of those that share it.
+/// One mesh point for each function, any of the points that share it.
 std::vector<Index> PointsOfFunctions(const HatFunctions& hats)
 {
   std::vector<Index> point(hats.Count());
@@ -112,9 +112,9 @@ std::vector<Index> PointsOfFunctions(const HatFunctions& hats)
   return point;
 }
 
-/// Normals at a boundary, whose triangles are all on one side. Along an edge of a quadratic surface
-/// the mean of the normals at its ends is across it; the edges to points that are known say what
-/// the normal is.
+/// Corrects normals at a boundary, whose triangles are all on one side. On a quadratic surface, the
+/// mean of the normals at the ends of an edge is perpendicular to the edge. Edges to points with
+/// known normals therefore determine the normal.
 class BoundaryNormals
 {
 public:
@@ -127,7 +127,7 @@ public:
   void Correct(int threads)
   {
     const std::vector<Index> boundary = this->Find(threads);
-    // Corners come later than those that they are next to.
+    // Corners come later than the points next to them.
     constexpr int Passes = 4;
     for (int pass = 0; pass < Passes; ++pass)
     {
@@ -176,7 +176,7 @@ private:
     return boundary;
   }
 
-  /// @return  false where the known neighbours lie along one line
+  /// @return  false if the known neighbors lie along one line
   bool Fit(Index function, const std::vector<Index>& neighbours, Vec3& normal) const
   {
     constexpr double SmallestSpread = 1e-3;
@@ -213,17 +213,17 @@ private:
   std::vector<char> known_;
 };
 
-/// 1, or -1 where a normal points to the other side of a triangle.
+/// 1, or -1 if a normal points to the other side of a triangle.
 double SideOf(const Vec3& normal, const Vec3& ofTriangle)
 {
   return normal.dot(ofTriangle) < 0.0 ? -1.0 : 1.0;
 }
 
-/// The second fundamental form that fits the differences of the normals along the edges best.
+/// The second fundamental form that best fits the differences of the normals along the edges.
 /// [Rusinkiewicz 2004, §2]
 Tensor FitTriangle(const HatTriangle& triangle, const std::array<Vec3, 3>& normals)
 {
-  constexpr double Regularisation = 1e-14; // for the height of needles, which cannot be known
+  constexpr double Regularisation = 1e-14; // for the unknown height of needles
   const Vec3 normal = triangle.areaVector.normalized();
   const Vec3 first = triangle.edge[0].normalized();
   const Vec3 second = normal.cross(first);
@@ -252,11 +252,11 @@ Tensor FitTriangle(const HatTriangle& triangle, const std::array<Vec3, 3>& norma
          form[1] * (first * second.transpose() + second * first.transpose());
 }
 
-/// The part of a triangle's area that is nearest to a corner; of obtuse ones half belongs to the
-/// obtuse corner and a quarter to each of the others. [Meyer, Desbrun, Schröder, Barr 2002]
+/// The part of a triangle's area that is nearest to a corner. In an obtuse triangle, half belongs
+/// to the obtuse corner and a quarter to each of the others. [Meyer, Desbrun, Schröder, Barr 2002]
 double NearestArea(const HatTriangle& triangle, int corner)
 {
-  std::array<double, 3> cosine; // times both edges
+  std::array<double, 3> cosine; // times the lengths of both edges
   int obtuse = -1;
   for (int k = 0; k < 3; ++k)
   {
@@ -301,7 +301,7 @@ std::vector<Tensor> FitTriangles(
   return tensors;
 }
 
-/// The mean tensor of a point's triangles in its tangent plane.
+/// The mean tensor of a point's triangles, rotated into its tangent plane.
 Tensor GatherTensor(const TriangleMesh& mesh, const HatFunctions& hats,
   const std::vector<Tensor>& tensors, Id function, const Vec3& normal)
 {
@@ -321,7 +321,7 @@ Tensor GatherTensor(const TriangleMesh& mesh, const HatFunctions& hats,
   return area > 0.0 ? Tensor(sum / area) : sum;
 }
 
-/// Eigenvalues, ascending, and eigenvectors of a tensor across a normal.
+/// Ascending eigenvalues and the eigenvectors of a tensor across a normal.
 struct PrincipalFrame
 {
   std::array<double, 2> curvature;
@@ -336,7 +336,7 @@ struct PrincipalFrame
     const double c = second.dot(tensor * second);
     const double mean = 0.5 * (a + c);
     const double difference = std::hypot(0.5 * (a - c), b);
-    const double angle = 0.5 * std::atan2(b, 0.5 * (a - c)); // of the maximum
+    const double angle = 0.5 * std::atan2(b, 0.5 * (a - c)); // angle of the maximum
     curvature = { mean - difference, mean + difference };
     direction[1] = std::cos(angle) * first + std::sin(angle) * second;
     direction[0] = normal.cross(direction[1]);

@@ -15,7 +15,7 @@ namespace gridfem
 namespace
 {
 
-/// Of all that a filter makes on the grid.
+/// Bytes of everything that a filter makes on the grid.
 double BytesOf(const TriangleMesh& mesh, const MemoryEstimate& grid, FunctionKind kind)
 {
   return grid.bytes + (kind == FunctionKind::Hats ? EstimateHatMemory(mesh, grid.functions) : 0.0);

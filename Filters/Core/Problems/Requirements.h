@@ -1,4 +1,4 @@
-// The one place that decides whether a surface can be computed on, and says why not.
+// Decides in one place whether a surface can be computed on, and explains why not.
 #ifndef GridFEM_Requirements_h
 #define GridFEM_Requirements_h
 
@@ -11,35 +11,36 @@
 namespace gridfem
 {
 
-/// Throws InvalidInput, naming the property, when its value is NaN, which passes every clamp.
+/// Throws InvalidInput, naming the property, if its value is NaN. NaN passes every clamp.
 void RequireNumber(const char* property, double value);
 
-/// The same for a value that is not finite or below `least`.
+/// Throws InvalidInput, naming the property, if its value is not finite or below `least`.
 void RequireAtLeast(const char* property, double value, double least);
 
-/// Whether all that a solver makes at this depth should fit into memory.
+/// Whether everything that a solver makes at this depth should fit into memory.
 bool FitsMemory(const TriangleMesh& mesh, int depth, FunctionKind kind = FunctionKind::Grid);
 
 /// The finest depth from `most` down that fits into memory, or `least`.
 int FittingDepth(
   const TriangleMesh& mesh, int most, int least, FunctionKind kind = FunctionKind::Grid);
 
-/// In the place of a depth: the suggested one, or a smaller one that fits into memory.
+/// A value in place of a depth. It stands for the suggested depth, or for a smaller one that fits
+/// into memory.
 inline constexpr int AutomaticDepth = 0;
 
-///@{ How many functions a grid below hat functions has for each point of the mesh, at most. More of
-/// them make every step dearer and save none (Testing/Benchmarks/README.md).
+/// ///@{ Largest number of functions per point of the mesh for a grid below hat functions. More
+/// functions make every step more expensive and save none (Testing/Benchmarks/README.md).
 inline constexpr double EnoughToPrecondition = 1.0;
-inline constexpr double EnoughToEstimate = 4.0; // the hats' errors, beside which its own are small
+inline constexpr double EnoughToEstimate = 4.0; // its errors are small beside the hats'
 inline constexpr double AsManyAsWanted = std::numeric_limits<double>::infinity(); // to solve on it
 ///@}
 
-/// The depth to compute at where `wanted` is asked for: another one where that is automatic, and
-/// below hat functions a coarser one where that is enough.
-/// @param perPoint  of the grid below the hat functions, if there are any
+/// The depth to compute at, given the `wanted` depth. An automatic depth is replaced by a suitable
+/// one. Below hat functions a coarser depth is taken if it is enough.
+/// @param perPoint  functions per point of the grid below the hat functions, if there are any
 int ChooseDepth(const TriangleMesh& mesh, int wanted, FunctionKind kind, double perPoint);
 
-/// What a job needs memory for, and what to do when there is not enough of it.
+/// The memory that a job needs, and advice if there is not enough of it.
 struct MemoryNeed
 {
   double bytes;
@@ -50,21 +51,21 @@ struct MemoryNeed
 inline constexpr const char* CoarserGrid =
   "Every step down in Depth takes a quarter of the memory.";
 
-/// Of so many eigenvectors.
+/// The memory for this number of eigenvectors.
 MemoryNeed NeedOfModes(Id functions, Id modes, int threads);
 
 /// Throws InvalidInput when a job needs more bytes than are available.
-/// @param where  as in " on this machine", for the message
+/// @param where  for the message, such as " on this machine"
 void RequireMemory(const MemoryNeed& need, double available, const std::string& where = {});
 
 /// Throws InvalidInput, with the estimate, when this depth needs more memory than there is.
 void RequireMemory(const TriangleMesh& mesh, int depth, FunctionKind kind = FunctionKind::Grid);
 
-/// The same for hat functions above a grid with so many functions, which is there.
+/// The same for hat functions above an existing grid with this number of functions.
 void RequireMemoryForHats(const TriangleMesh& mesh, Id functions);
 
-/// Throws InvalidInput, with the estimate, when so many eigenvectors need more memory than there
-/// is.
+/// Throws InvalidInput, with the estimate, when this number of eigenvectors needs more memory than
+/// there is.
 void RequireMemoryForModes(Id functions, Id modes, int threads);
 
 } // namespace gridfem

@@ -13,7 +13,7 @@ namespace gridfem
 namespace
 {
 
-/// C P, without entries that are rounding.
+/// C P, without entries that are only rounding.
 SparseMatrix RowsOnCoarser(const SparseMatrix& rows, const SparseMatrix& prolongation)
 {
   constexpr double Rounding = 1e-13;
@@ -35,7 +35,7 @@ SparseMatrix RowsOnCoarser(const SparseMatrix& rows, const SparseMatrix& prolong
   return coarse.Finish(prolongation.columns);
 }
 
-/// The sums of rows become those of `wanted`; rows whose sum is 0 stay.
+/// Scales rows to the sums of the rows of `wanted`. Rows whose sum is 0 stay.
 void TakeRowSums(const SparseMatrix& wanted, SparseMatrix& rows)
 {
   const MultiVector sum = RowSums(rows);
@@ -43,7 +43,7 @@ void TakeRowSums(const SparseMatrix& wanted, SparseMatrix& rows)
   DivideRows((sum.array() == 0.0).select(1.0, by), rows);
 }
 
-/// Place of an entry, or -1.
+/// The place of an entry, or -1.
 Id FindEntry(const SparseMatrix& A, Index row, Index column)
 {
   const Index* const begin = A.column.data() + A.rowBegin[row];
@@ -58,7 +58,7 @@ RowPenalty::RowPenalty(
   const SpaceLevels& space, SparseMatrix rows, std::vector<double> weight, int threads)
   : weight_(std::move(weight))
 {
-  const std::size_t functions = space.Integrals().size(); // in this process
+  const std::size_t functions = space.Integrals().size(); // number of functions in this process
   if (static_cast<std::size_t>(rows.columns) != functions)
   {
     throw InvalidInput("The constraints are rows of " + std::to_string(rows.columns) +
@@ -69,7 +69,7 @@ RowPenalty::RowPenalty(
   {
     SparseMatrix coarse = RowsOnCoarser(levels_.back().rows, space.Prolongation(l - 1));
     const DividedRows* const divided = space.Divided(l - 1);
-    if (divided && divided->ArePartsProlonged()) // the part of this process stands for the whole
+    if (divided && divided->ArePartsProlonged()) // this process's part stands for the whole
     {
       TakeRowSums(levels_.back().rows, coarse);
     }

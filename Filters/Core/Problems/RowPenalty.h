@@ -1,4 +1,4 @@
-// A penalty on what functions are at places of the surface, on all levels of a hierarchy.
+// A penalty on the values of functions at places of the surface, on all levels of a hierarchy.
 #ifndef GridFEM_RowPenalty_h
 #define GridFEM_RowPenalty_h
 
@@ -9,30 +9,30 @@
 namespace gridfem
 {
 
-/// Cᵀ W C: each row of C holds the values of all functions at a place, W one weight for each. A
-/// place adds a term of rank one on the functions of one patch, which the patch smoother inverts;
-/// on coarser levels C has the rows C P. Where processes hold the functions together, each has rows
-/// of its own, of functions that it has: what they add is its part.
+/// The matrix Cᵀ W C. Each row of C holds the values of all functions at one place, and W has one
+/// weight per place. A place adds a rank-one term on the functions of one patch, which the patch
+/// smoother inverts. On coarser levels C has the rows C P. If several processes hold the functions,
+/// each has rows of its own, on its own functions; together they add up to the whole.
 class RowPenalty
 {
 public:
   RowPenalty() = default;
 
-  /// @param rows  a place without functions has an empty one
+  /// @param rows  a place without functions has an empty row
   /// Throws InvalidInput when the rows are not of this space.
   RowPenalty(const SpaceLevels& space, SparseMatrix rows, std::vector<double> weight, int threads);
 
-  /// C, and W of each row.
+  /// C.
   const SparseMatrix& Rows() const { return levels_.front().rows; }
 
-  /// W r for values at the places.
+  /// W r for values r at the places.
   MultiVector Weighted(const MultiVector& values) const;
 
-  /// A += Cᵀ W C. What the pattern has no place for goes to the diagonal, so that the sum stays
-  /// positive: that happens only below hats, on a level that preconditions.
+  /// A += Cᵀ W C. Terms without a place in the pattern go to the diagonal, so that the sum stays
+  /// positive. That happens only below hats, on a level that preconditions.
   void AddTo(std::size_t level, SparseMatrix& A, int threads) const;
 
-  /// Cᵀ W r for values at the places: rows = functions.
+  /// Cᵀ W r for values r at the places: rows = functions.
   MultiVector LoadOf(const MultiVector& values, int threads) const;
 
 private:

@@ -8,29 +8,30 @@ namespace gridfem
 namespace
 {
 
-/// No cycle is better than this.
+/// Best reduction of a cycle that is taken for real.
 constexpr double LeastReduction = 0.05;
 
-/// Corrections before anything ends: the first one leads from the coarser level to this one and
-/// says nothing about what is slow.
+/// Corrections before an iteration may end. The first one leads from the coarser level to this one
+/// and says nothing about slow components.
 constexpr int FirstJudgement = 3;
 
-/// A solution that is better than this, relative to its size, is not asked to be better still: the
-/// coarser level may contain the solution.
+/// Relative error below which no better solution is asked for, because the coarser level may
+/// contain the solution.
 constexpr double FinestError = 1e-8;
 
-/// The ratio of two errors of neighbouring levels, of which one has four times the functions, is 4
+/// Range of the ratio of errors on neighboring levels, scaled to four times the functions. It is 4
 /// at second order.
 constexpr double SmallestRate = 2.0;
 constexpr double LargestRate = 8.0;
 
-/// Differences of two levels over the error of the finer one, where the rate is what they show.
+/// Range of the difference of two levels over the error of the finer one, if it follows from the
+/// observed rate.
 constexpr double LeastObserved = 0.5;
 constexpr double MostObserved = 5.0;
 
-/// With errors that fall with the number of functions: difference of the solutions of two levels
-/// over the error of the finer one. Where the finer one has not many more functions, as hats over a
-/// fine grid, the difference is about its own error.
+/// The difference of the solutions of two levels over the error of the finer one. Errors are
+/// assumed to fall with the number of functions. If the finer level has few more functions, such as
+/// hats over a fine grid, the difference is about its own error.
 double DifferenceOverError(Index fine, Index coarse)
 {
   return std::max(1.0, double(fine) / double(std::max<Index>(1, coarse)) - 1.0);
@@ -41,15 +42,15 @@ double Worst(const Columns& values)
   return values.size() == 0 ? SolutionAccuracy::Unknown : values.maxCoeff<Eigen::PropagateNaN>();
 }
 
-/// 0 for columns of size 0.
+/// Relative errors; 0 for columns of size 0.
 Columns Relative(const Columns& error, const Columns& size)
 {
   return (size > 0.0).select(error / size, 0.0);
 }
 
-/// What the last correction leaves, as a part of it: of what is slowest a cycle leaves 1 - θ, with
-/// the smallest Ritz value θ, and corrections shrink by as much as the error does. Both may be too
-/// small after few iterations, so the larger counts (Testing/Benchmarks/README.md).
+/// The fraction of the last correction that is left as an error. A cycle leaves 1 - θ of the
+/// slowest component, with the smallest Ritz value θ. Corrections shrink as fast as the error does.
+/// Both may be too small after few iterations, so the larger counts (Testing/Benchmarks/README.md).
 Columns Reductions(const Columns& step, const Columns& lastStep, const Columns& slowest)
 {
   Columns reduction(step.size());
@@ -101,7 +102,7 @@ Columns AccuracyWatch::Norms(const MultiVector& u) const
 ColumnMeasures AccuracyWatch::operator()(const Iterate& iterate)
 {
   ++calls_;
-  if (calls_ <= FirstJudgement) // what comes later adds less to the difference than is known of it
+  if (calls_ <= FirstJudgement) // later corrections change the difference by less than its accuracy
   {
     const MultiVector corrected = iterate.x + iterate.correction;
     size_ = this->Norms(corrected);
@@ -112,17 +113,16 @@ ColumnMeasures AccuracyWatch::operator()(const Iterate& iterate)
   }
   const Columns step = this->Norms(iterate.correction);
   const Columns left = step * Reductions(step, lastStep_, iterate.slowest);
-  algebraic_ = (step > 0.0).select(left, algebraic_); // columns that are done have no correction
+  algebraic_ = (step > 0.0).select(left, algebraic_); // finished columns have no correction
   lastStep_ = step;
-  const Columns none = Columns::Zero(left.size()); // nothing of a correction is on the surface
+  const Columns none = Columns::Zero(left.size()); // no part of a correction is on the surface
   const Columns wanted =
     accuracy_ > 0.0 ? accuracy_ * Relative(discretization_, size_).max(FinestError) : none;
   return { Relative(left, size_), calls_ < FirstJudgement ? Columns(none - 1.0) : wanted };
 }
 
-/// Errors of two levels, as they would be with four times the functions; empty where it is not
-/// known.
-/// @param step  by how much the finest level differs from the next
+/// Ratios of the errors of two levels, scaled to four times the functions. Empty if unknown.
+/// @param step  the difference between the finest level and the next
 Columns AccuracyWatch::Rates(const Columns& step) const
 {
   if (coarserError_.size() == 0 || space_.NestedLevels())
@@ -154,7 +154,7 @@ SolutionAccuracy AccuracyWatch::Result(const MultiVector& solution, const Column
   result.algebraic = Worst(Relative(algebraic_, size));
   const MultiVector atPoints = space_.ValuesAtPoints(
     difference * (scale.transpose().array() * overError).inverse().matrix().asDiagonal(), threads_);
-  // Of values near the largest number the error may lie beyond it.
+  // If values are near the largest number, the error may exceed it.
   const double largest = atPoints.size() > 0 ? atPoints.cwiseAbs().maxCoeff() : 0.0;
   result.largest = std::isinf(largest) ? SolutionAccuracy::Unknown : largest;
   if (rate.size() > 0)

@@ -34,7 +34,7 @@ const char* ReasonOf(FlowEnd end)
          "range. A smaller TimeStep may help";
 }
 
-/// Why a wanted error is not reached by a choice of the depth.
+/// Why no choice of the depth reaches the wanted error.
 const char* ReasonOfError(FunctionKind kind)
 {
   return IsRefinedByDepth(kind)

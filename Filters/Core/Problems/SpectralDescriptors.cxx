@@ -17,15 +17,15 @@ namespace
 /// An eigenvalue below this fraction of the largest is zero.
 constexpr double ZeroFraction = 1e-9;
 
-/// Zero modes that differ by less than this fraction of their largest value are equal: single
-/// precision, with room.
+/// Zero modes are equal if they differ by less than this fraction of their largest value. It is the
+/// rounding of single precision, with room.
 constexpr double EqualZeroModes = 1e-5;
 
-/// The Gram matrix of modes has unit diagonal up to the error between points: a pivot below this
+/// The Gram matrix of modes has unit diagonal up to the error between points. A pivot below this
 /// means that a mode is a sum of others at the points.
 constexpr double SmallestPivot = 1e-6;
 
-/// Triangles whose products are summed at a time, and sums that are held at most.
+/// Triangles whose products are summed at a time, and the largest number of sums in memory.
 constexpr Id TriangleBlock = 256;
 constexpr Id LargestParts = 16;
 
@@ -71,7 +71,8 @@ void CheckSources(const PointModes& modes, const std::vector<Id>& sources)
   }
 }
 
-/// Smallest over the sources of Σ weight (φ(x) - φ(y))², infinite where no source is reachable.
+/// The smallest value over the sources of Σ weight (φ(x) - φ(y))²; infinite if no source is
+/// reachable.
 template<class Reachable>
 std::vector<double> SquaredDistance(const PointModes& modes, const Eigen::RowVectorXd& weights,
   const std::vector<Id>& sources, int threads, Reachable&& reachable)
@@ -96,9 +97,9 @@ std::vector<double> SquaredDistance(const PointModes& modes, const Eigen::RowVec
   return result;
 }
 
-/// Corner values of the triangles begin .. end and their sums, scaled so that the product of the
-/// rows of two functions is the integral of their product: on a triangle of area A with corner
-/// values p, q, r that is A/12 (pᵀp + qᵀq + rᵀr + (p+q+r)ᵀ(p+q+r)).
+/// Corner values of the triangles begin .. end and their sums. They are scaled so that the product
+/// of the rows of two functions is the integral of their product. On a triangle of area A with
+/// corner values p, q, r the integral is A/12 (pᵀp + qᵀq + rᵀr + (p+q+r)ᵀ(p+q+r)).
 MultiVector CornerRows(const TriangleMesh& mesh, const MultiVector& values, Id begin, Id end)
 {
   MultiVector rows(4 * (end - begin), values.cols());
@@ -117,8 +118,8 @@ MultiVector CornerRows(const TriangleMesh& mesh, const MultiVector& values, Id b
   return rows;
 }
 
-/// ∫ aᵀb for functions that are linear on every triangle: a column of `values` per function; the
-/// first `count` of them are a, all are b.
+/// ∫ aᵀb for functions that are linear on every triangle, one column of `values` per function. The
+/// first `count` functions are a, all are b.
 Eigen::MatrixXd Products(const TriangleMesh& mesh, const MultiVector& values, Id count, int threads)
 {
   const Id triangles = static_cast<Id>(mesh.triangles.size());
@@ -208,7 +209,7 @@ WaveBands WaveEnergies(const PointModes& modes, int count)
   const double first = std::log(modes.eigenvalues[CountZeroModes(modes)]);
   const double range = std::log(modes.eigenvalues.back()) - first;
   WaveBands bands;
-  // A single multiplet has no range: its band is as wide as a factor e.
+  // A single multiplet has no range. Its band is as wide as a factor e.
   bands.width = range > 1e-3 ? 7.0 / 128.0 * range : 1.0;
   const double inside = range > 1e-3 ? range - 4.0 * bands.width : 0.0;
   for (int j = 0; j < count; ++j)
@@ -235,7 +236,7 @@ MultiVector WaveKernelSignature(const PointModes& modes, const WaveBands& bands,
       const double distance = (bands.energies[j] - std::log(modes.eigenvalues[k])) / bands.width;
       exponent[k - zeros] = -0.5 * distance * distance;
     }
-    // Relative to the nearest mode, so that no band is empty.
+    // Weights are relative to the nearest mode, so that no band is empty.
     const Eigen::VectorXd weight = (exponent.array() - exponent.maxCoeff()).exp();
     weights.col(j).tail(weight.size()) = weight / weight.sum();
   }

@@ -1,6 +1,6 @@
-// What is made of eigenfunctions once they are known at the points of a mesh: signatures of points,
-// distances between points, and the parts of a function in a band of frequencies. All sums over
-// modes; nothing here solves an eigenproblem.
+// Descriptors made of eigenfunctions at the points of a mesh: signatures of points, distances
+// between points, and the parts of a function in a band of frequencies. All are sums over modes;
+// this file solves no eigenproblem.
 // HKS: Sun, Ovsjanikov, Guibas 2009. WKS: Aubry, Schlickewei, Cremers 2011. Biharmonic distance:
 // Lipman, Rustamov, Funkhouser 2010. Diffusion distance: Coifman, Lafon 2006.
 #ifndef GridFEM_SpectralDescriptors_h
@@ -23,22 +23,23 @@ struct PointModes
   double area = 0.0;               // of the surface, L²
 };
 
-/// The number of leading modes with eigenvalue zero, one per connected component: all below 1e-9 of
-/// the largest. Throws InvalidInput when shapes or values do not fit (NaN, not ascending, area not
-/// positive), or when every eigenvalue is zero.
+/// The number of leading modes with eigenvalue zero, one per connected component. An eigenvalue is
+/// zero if it is below 1e-9 of the largest. Throws InvalidInput when shapes or values do not fit
+/// (NaN, not ascending, area not positive), or when every eigenvalue is zero.
 Index CountZeroModes(const PointModes& modes);
 
 /// `count` >= 1 times (L²) in geometric order between 4 ln 10 / λ of the last mode and of the first
-/// one that is not constant: from where the last mode has faded to where the first has.
+/// mode that is not constant. They range from the fading of the last mode to that of the first.
 std::vector<double> HeatTimes(const PointModes& modes, int count);
 
-/// What is left at x of the heat put there, times the area: area Σ exp(-λ t) φ(x)². Rows = points,
-/// a column per time. No unit: the same for a scaled mesh and scaled times, and 1 for long times on
-/// a connected surface.
+/// The heat that remains at x, if it was put there, times the area: area Σ exp(-λ t) φ(x)². Rows =
+/// points, a column per time. It has no unit: scaling the mesh and the times changes nothing. On a
+/// connected surface it is 1 for long times.
 MultiVector HeatKernelSignature(
   const PointModes& modes, const std::vector<double>& times, const Job& job = {});
 
-/// Energies are logarithms of eigenvalues (of λ L²); `width` is the standard deviation of a band.
+/// Bands of the wave kernel. Energies are logarithms of eigenvalues (of λ L²); `width` is the
+/// standard deviation of a band.
 struct WaveBands
 {
   std::vector<double> energies;
@@ -46,38 +47,39 @@ struct WaveBands
 };
 
 /// `count` >= 1 energies, evenly between those of the first mode that is not constant and of the
-/// last, two widths inside; the width is 7/128 of that range (which is seven steps of the hundred
-/// that the authors take).
+/// last mode, two widths inside. The width is 7/128 of that range, which is seven steps of the
+/// hundred that the authors take.
 WaveBands WaveEnergies(const PointModes& modes, int count);
 
-/// The weighted mean of area φ(x)² over the modes of a band, with weights
-/// exp(-(E - log λ)² / (2 width²)); constant modes do not count. Rows = points, a column per
-/// energy. No unit; its mean over the surface is 1.
+/// The weighted mean of area φ(x)² over the modes of a band, with weights exp(-(E - log λ)² / (2
+/// width²)). Constant modes do not count. Rows = points, a column per energy. It has no unit; its
+/// mean over the surface is 1.
 MultiVector WaveKernelSignature(
   const PointModes& modes, const WaveBands& bands, const Job& job = {});
 
 /// The distance of every point to the nearest of `sources`, in L: sqrt(Σ (φ(x) - φ(y))² / λ²).
-/// Points on a component without a source get NaN: their distance is infinite.
-/// Throws InvalidInput when there is no source, or naming one that is no point.
+/// Points on a component without a source get NaN, because their distance is infinite. Throws
+/// InvalidInput when there is no source, or naming a source that is no point.
 std::vector<double> BiharmonicDistance(
   const PointModes& modes, const std::vector<Id>& sources, int threads = 0);
 
-/// The same for sqrt(area Σ exp(-2 λ t) (φ(x) - φ(y))²): how differently heat from x and y is
-/// spread after the time t >= 0 (L²). No unit; finite between components, too.
+/// The same for sqrt(area Σ exp(-2 λ t) (φ(x) - φ(y))²). It measures how differently heat from x
+/// and y has spread after the time t >= 0 (L²). It has no unit, and is finite between components,
+/// too.
 std::vector<double> DiffusionDistance(
   const PointModes& modes, const std::vector<Id>& sources, double time, int threads = 0);
 
 /// The share of every mode in a function, rows = modes, columns as `f` (rows = points). The
-/// function and the modes are taken as linear on every triangle, with the exact integrals of their
-/// products: c = (ΦᵀMΦ)⁻¹ ΦᵀM f. The inverse makes up for the modes being orthonormal between their
-/// points, too: a mode has the share 1 in itself and 0 in the others, to rounding. Throws
-/// InvalidInput when the mesh has too few points to tell the modes apart.
-/// @param divided  where several processes hold the surface, each with the mesh of its triangles;
-///                 all call it
+/// function and the modes are linear on every triangle, and their products are integrated exactly:
+/// c = (ΦᵀMΦ)⁻¹ ΦᵀM f. The inverse is needed because modes are orthonormal as functions of the
+/// space, not as linear functions between the points. A mode has the share 1 in itself and 0 in the
+/// others, to rounding. Throws InvalidInput when the mesh has too few points to tell the modes
+/// apart.
+/// @param divided  for several processes, each with the mesh of its triangles; collective
 MultiVector ModeShares(const TriangleMesh& mesh, const PointModes& modes, const MultiVector& f,
   int threads = 0, const DividedRows* divided = nullptr);
 
-/// Σ shares φ over the modes first .. last (an empty sum is 0). Rows = points.
+/// Σ shares φ over the modes first .. last; an empty sum is 0. Rows = points.
 MultiVector SumOfModes(
   const PointModes& modes, const MultiVector& shares, Index first, Index last, int threads = 0);
 

@@ -20,27 +20,29 @@ namespace gridfem
 namespace
 {
 
-/// Accuracy of the eigenvalues on coarser levels, whose discretisation error is far larger. The
-/// level below the finest also serves the estimate of the error.
+/// Accuracy of the eigenvalues on coarser levels, whose discretization error is far larger. The
+/// level below the finest also serves the error estimate.
 constexpr double CoarseTolerance = 3e-4;
 constexpr double SecondTolerance = 3e-5;
 constexpr int CoarseIterations = 3;
 
-/// Wanted errors from which on blocks are in single precision. Rounding them makes an error of
-/// 1e-14 times the ratio of the largest eigenvalue to the lowest, below 1e-9 at depth 8.
+/// Smallest wanted error with blocks in single precision. Rounding the blocks makes an error of
+/// 1e-14 times the ratio of the largest to the lowest eigenvalue, which is below 1e-9 at depth 8.
 constexpr double SmallestSingleTolerance = 1e-7;
 
-/// Steps in single precision; where they do not suffice all is done again in double.
+/// Steps in single precision. If they do not suffice, everything is repeated in double precision.
 constexpr int SingleIterations = 40;
 
-/// No process has the matrices of a level that several divide.
+/// Whether a level can be solved densely. A level that processes divide cannot, because no process
+/// has its matrices.
 bool CanBeDense(const SpaceLevels& space, std::size_t level, Index blockSize)
 {
   return !space.Divided(level) && IsDense(space.NumberOfFunctions(level), blockSize);
 }
 
-/// The level below the finest if the finest is solved densely. Else the coarsest level with enough
-/// functions, or the one above it when that is too large for a dense solve.
+/// The level where the iteration starts. If the finest level is solved densely, it is the level
+/// below. Otherwise it is the coarsest level with enough functions, or the level below that one if
+/// it is too large for a dense solve.
 std::size_t StartLevel(const SpaceLevels& space, Index blockSize)
 {
   const std::size_t levels = space.NumberOfLevels();
@@ -63,7 +65,7 @@ void Append(std::vector<double>& list, const std::vector<double>& more)
   list.insert(list.end(), more.begin(), more.end());
 }
 
-/// Work grows by four per level: each level gets its share.
+/// The share of a level in the progress. Work grows by four per level.
 Progress LevelPart(const Progress& progress, std::size_t level)
 {
   const double setUp = 0.1;
@@ -72,7 +74,7 @@ Progress LevelPart(const Progress& progress, std::size_t level)
   return progress.Part(setUp + (1.0 - setUp) * begin, setUp + (1.0 - setUp) * end);
 }
 
-/// The list ends among the constants.
+/// The result of a list that ends among the constants.
 Spectrum OnlyConstants(const Constants& zeroModes, const SpectralProblem<double>& problem,
   const SpectrumOptions& options)
 {
@@ -83,7 +85,7 @@ Spectrum OnlyConstants(const Constants& zeroModes, const SpectralProblem<double>
   return spectrum;
 }
 
-/// The nested iteration with blocks of one precision: holds what the levels share.
+/// The nested iteration with blocks of one precision, and the data that its levels share.
 template<class Real>
 class NestedIteration
 {
@@ -111,7 +113,7 @@ private:
   SpectrumCycle& cycle_;
   const double shift_;
   Index zeros_ = 0;
-  Index coarserConstants_ = 0; // of the level that the pairs come from
+  Index coarserConstants_ = 0; // number on the level that the pairs come from
   EigenPairs<Real> pairs_;
   bool isDense_ = false; // the finest level was solved densely
   bool cutsMultiplet_ = false;
@@ -143,9 +145,9 @@ BlockOptions NestedIteration<Real>::Options(std::size_t level, Index wanted) con
   return block;
 }
 
-/// Brings the pairs to a finer level. The spaces are nested, so they stay Ritz pairs, but where
-/// components part that were one on the coarser level, of which plain functions know nothing: there
-/// are more constants then to be taken out.
+/// Brings the pairs to a finer level. They stay Ritz pairs, because the spaces are nested. The
+/// exception is a component of the coarser level that splits, because plain functions ignore
+/// connectivity. The finer level then has more constants to take out.
 template<class Real>
 void NestedIteration<Real>::Prolong(
   std::size_t level, const Constants& constants, BlockOptions& block)
@@ -167,7 +169,8 @@ void NestedIteration<Real>::Prolong(
   }
 }
 
-/// Values that come from a dense solve and are fewer than the block has room for are all there are.
+/// Completes the list. Values of a dense solve are all there are if they are fewer than the block
+/// has room for.
 template<class Real>
 BlockReport NestedIteration<Real>::FinishList(
   const SpectralProblem<Real>& problem, const BlockOptions& block, const Progress& progress)
@@ -181,7 +184,8 @@ BlockReport NestedIteration<Real>::FinishList(
   return report.block;
 }
 
-/// Pairs of a level from those of the next coarser one, or from nothing on level `start`.
+/// Computes the pairs of a level from those of the next coarser one, or from nothing on level
+/// `start`.
 template<class Real>
 BlockReport NestedIteration<Real>::ImproveLevel(std::size_t level, std::size_t start,
   const SpectralProblem<Real>& problem, const Progress& progress)
@@ -202,7 +206,7 @@ BlockReport NestedIteration<Real>::ImproveLevel(std::size_t level, std::size_t s
   {
     this->Prolong(level, *problem.constants, block);
   }
-  else // thousands of components: no small level, but B is nearly exact there
+  else // thousands of components: no level is small, but B is nearly exact there
   {
     block.maximumIterations = std::max(RandomStartIterations, options_.maximumIterations);
   }
@@ -233,7 +237,7 @@ Spectrum NestedIteration<Real>::Run(
   Spectrum spectrum =
     CollectSpectrum(zeroModes, zeros_, pairs_, report, options_.tolerance, problem, progress);
   Append(spectrum.estimatedErrors, errors);
-  // Pairs without mass, which were dropped, are the last: their values are the largest.
+  // The dropped pairs without mass are the last, because their values are the largest.
   spectrum.estimatedErrors.resize(spectrum.eigenvalues.size());
   spectrum.truncated = static_cast<Index>(spectrum.eigenvalues.size()) < options_.numberOfModes;
   spectrum.cutsMultiplet = cutsMultiplet_;
@@ -247,7 +251,7 @@ Spectrum ComputeOnNestedLevels(
   const SpaceLevels& space, const SpectrumOptions& options, const Progress& progress)
 {
   Validate(options);
-  const MemoryReuse reuse; // the blocks of a level take the place of those of the one before
+  const MemoryReuse reuse; // the blocks of a level reuse the memory of the level before
   const int threads = options.multigrid.threads;
   SparseMatrix mass = space.Matrix(0, 1.0, 0.0, threads);
   const Constants zeroModes = ConstantsOnLevel(space, 0, mass, threads);
@@ -328,14 +332,15 @@ Spectrum ComputeSpectrum(
 double EstimateSpectrumMemory(Id functions, Id modes, int threads)
 {
   // Bytes per function, fitted to the growth of the process (Testing/Benchmarks, group `memory`).
-  constexpr double matrices = 850.0; // two of 18 entries per row; a hierarchy of floats and factors
-  constexpr double panels = 512.0;   // of each cycle at work: 4 of 32 floats
+  // Two matrices with 18 entries per row, and a hierarchy of floats and factors.
+  constexpr double matrices = 850.0;
+  constexpr double panels = 512.0; // of each active cycle: 4 panels of 32 floats
   const Id columns = std::min(functions, modes);
   const Id cycles =
     std::min<Id>(NumberOfThreads(threads), (columns + WidestPanel - 1) / WidestPanel);
   const double blocks = sizeof(float) * double(HeldColumns(static_cast<Index>(columns)));
   const double result = double(sizeof(float) + sizeof(double)) * double(columns);
-  const double products = sizeof(double) * double(columns) * double(columns); // of all modes
+  const double products = sizeof(double) * double(columns) * double(columns); // of all mode pairs
   return double(functions) * (matrices + panels * double(cycles) + std::max(blocks, result)) +
          products;
 }

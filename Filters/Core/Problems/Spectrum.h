@@ -14,10 +14,10 @@ struct SpectrumOptions
   /// The error of the space is far larger at any depth that fits into memory.
   double tolerance = 1e-6;     // in (0, 1)
   int maximumIterations = 100; // per level, >= 0
-  /// Go on behind numberOfModes to the end of the multiplet that is cut there, but not to that of
-  /// the constants: ten thousand components have ten thousand.
+  /// Continues beyond numberOfModes to the end of the multiplet that is cut there. The constants
+  /// are not completed, because ten thousand components have ten thousand of them.
   bool completeMultiplets = false;
-  /// V: the few steps that are needed are at most one more than with W, and a cycle costs a quarter
+  /// V: it needs at most one more step than W, and few steps are needed. A cycle costs a quarter
   /// less.
   MultigridOptions multigrid{ CycleType::V };
 };
@@ -33,51 +33,55 @@ struct Spectrum
   bool converged = false;          // all pairs reached the tolerance
   int numberOfConverged = 0;       // how many did
   int iterations = 0;              // on the finest level
-  bool singlePrecision = false;    // of all cycles, see SpectrumCycle; the result is in double
+  bool singlePrecision = false;    // of all cycles (SpectrumCycle); the result is in double
   bool truncated = false;          // fewer modes exist than were asked for
-  Index numberOfConstants = 0;     // that exist: one per connected component
+  Index numberOfConstants = 0;     // how many exist: one per connected component
   bool cutsMultiplet = false;      // the next eigenvalue belongs to the multiplet of the last
-  /// Per pair: the relative error of the eigenvalue, as that of the space, from the next coarser
-  /// level, whose error is four times as large; 1 (unknown) where that level has no such pair.
+  /// The relative error of each eigenvalue, as the error of the space. It follows from the next
+  /// coarser level, whose error is four times as large. It is 1 (unknown) if that level has no such
+  /// pair.
   std::vector<double> estimatedErrors;
 };
 
-/// Dense problem on a coarse level, prolongation, block iterations with one multigrid cycle of
-/// L + σM per level, rank-revealing Rayleigh-Ritz (M may be singular). The zero modes, one constant
-/// per connected component in the order of the components, are exact. Fixed start and sign (the
-/// entry of largest magnitude of M x is positive, near ties to the lowest index): same bits for any
-/// number of threads. Where cycles are in single precision and the tolerance is at least 1e-7, so
-/// are the vectors that are worked on: half the memory; the result is orthonormal and its values
-/// are Rayleigh quotients in double. Throws InvalidInput for options out of range, and Aborted.
-/// Where the finest level does not contain the next coarser one the two steps below are taken.
+/// Computes the smallest eigenpairs by a dense problem on a coarse level, prolongation, and block
+/// iterations on each level. These use one multigrid cycle of L + σM and a rank-revealing
+/// Rayleigh-Ritz (M may be singular). The zero modes are exact: one constant per connected
+/// component, in the order of the components.
+/// Start and sign are fixed: the entry of largest magnitude of M x is positive, near ties go to the
+/// lowest index. Same bits for any number of threads. The blocks are in single precision if the
+/// cycles are and the tolerance is at least 1e-7; this halves the memory. The result is orthonormal
+/// and its values are Rayleigh quotients, in double precision.
+/// Throws InvalidInput for options out of range, and Aborted. If the finest level does not contain
+/// the next coarser one, the two steps below are taken.
 Spectrum ComputeSpectrum(
   const SurfaceSpace& space, const SpectrumOptions& options, const Progress& progress = {});
 
-/// The same where all levels are nested, whatever lies on them. Where processes divide levels, all
-/// of them call it, with a progress that is aborted for all or none; vectors have the rows of this
-/// process, and values are the same everywhere.
+/// The same where all levels are nested, with any functions on them. Collective; progress is
+/// aborted for all processes or none. Vectors have the rows of this process, and values are the
+/// same everywhere.
 Spectrum ComputeOnNestedLevels(
   const SpaceLevels& space, const SpectrumOptions& options, const Progress& progress = {});
 
-/// The first step: the spectrum of the nested levels, which is the result where all are nested.
-/// Else it has guards behind the wanted modes, to a loose tolerance.
+/// The first step: the spectrum of the nested levels. It is the result if all levels are nested.
+/// Otherwise it has guards beyond the wanted modes, to a loose tolerance.
 Spectrum ComputeNestedSpectrum(
   const SurfaceSpace& space, const SpectrumOptions& options, const Progress& progress = {});
 
-/// The second: nothing where all levels are nested. Else carries the pairs over to the finest level
-/// and improves them by block iterations with one cycle of the whole hierarchy. Estimated errors
-/// are those of the nested levels, and what the finest level lies above them: no space has
-/// eigenvalues below the surface's, so this is the error of the worse of the two.
-/// @param nested  fewer modes than asked for do, too, at the price of more iterations
+/// The second step. It does nothing if all levels are nested. Otherwise it prolongs the pairs to
+/// the finest level and improves them by block iterations with one cycle of the whole hierarchy.
+/// Estimated errors are those of the nested levels plus the excess of the finest level's values
+/// over theirs. No space has eigenvalues below those of the surface, so the sum is the error of the
+/// worse of the two.
+/// @param nested  may have fewer modes than asked for, at the price of more iterations
 Spectrum FinishSpectrum(const SurfaceSpace& space, Spectrum nested, const SpectrumOptions& options,
   const Progress& progress = {});
 
-/// Bytes that it takes beyond the space, for so many functions on the finest level, in
-/// single precision: within a fifth, from 20 to 1,000 modes.
+/// Bytes of the computation beyond the space, for this number of functions on the finest level, in
+/// single precision. Within a fifth, from 20 to 1,000 modes.
 double EstimateSpectrumMemory(Id functions, Id modes, int threads = 0);
 
-/// Seconds that it takes from a hundred modes on, on a processor of 2023: what grows with the
-/// square of the number of modes. Within a factor of three.
+/// Seconds of the computation from a hundred modes on, on a processor of 2023: the part that grows
+/// with the square of the number of modes. Within a factor of three.
 double EstimateSpectrumSeconds(Id functions, Id modes, int threads = 0);
 
 } // namespace gridfem

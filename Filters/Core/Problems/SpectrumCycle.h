@@ -1,4 +1,4 @@
-// The cycles that precondition an eigenproblem on all its levels, in the precision that it needs.
+// The cycles that precondition an eigenproblem on all its levels, in the necessary precision.
 #ifndef GridFEM_SpectrumCycle_h
 #define GridFEM_SpectrumCycle_h
 
@@ -10,21 +10,22 @@
 namespace gridfem
 {
 
-/// Cycles of L + σM. Single precision where patches are relaxed, as they are by default, and it
-/// resolves the operator: it takes half of the time and memory, and the pairs that are found are
-/// the same. Else double. The space has to outlive it.
+/// Cycles of L + σM. They are in single precision if patches are relaxed, which is the default, and
+/// if single precision resolves the operator. This takes half of the time and memory and finds the
+/// same pairs. Otherwise they are in double precision. The space has to outlive the cycles.
 class SpectrumCycle
 {
 public:
   SpectrumCycle(const SpaceLevels& space, double shift, const MultigridOptions& options,
     const Progress& progress = {});
 
-  /// Of the hierarchy that begins at `level`. The one in double is built once, when it is first
-  /// asked for, which must not be from several threads. This has to outlive what it gives.
+  /// The preconditioner of the hierarchy that begins at `level`. The one in double precision is
+  /// built once, at its first use, which must not be from several threads. This object has to
+  /// outlive the preconditioner.
   template<class Real>
   WithFallback<BlockPreconditioner<Real>> From(std::size_t level);
 
-  /// Whether double was never needed.
+  /// Whether double precision was never needed.
   bool IsSingle() const { return !double_; }
 
 private:

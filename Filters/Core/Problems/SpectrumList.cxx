@@ -11,15 +11,15 @@ namespace gridfem
 namespace
 {
 
-/// Whether the pair behind the first `count` belongs to the multiplet of the last of them, when its
-/// value is too large by the relative error.
+/// Whether the pair behind the first `count` belongs to the multiplet of the last of them. Its
+/// value may be too large by the relative error.
 bool EndsInside(const Eigen::VectorXd& values, Id count, double error, Index zeros)
 {
   return count < values.size() &&
          IsMultiplet(values[count - 1], (1.0 - error) * values[count], zeros + count);
 }
 
-/// Leaves out all pairs but the first.
+/// Keeps only the first `count` pairs in the report.
 void Shorten(BlockReport& report, Id count, double tolerance)
 {
   report.residuals.resize(std::min<std::size_t>(count, report.residuals.size()));
@@ -27,7 +27,7 @@ void Shorten(BlockReport& report, Id count, double tolerance)
     report.residuals.end(), [&](double residual) { return residual * residual <= tolerance; }));
 }
 
-/// An iteration would only find rounding.
+/// Measures pairs without an iteration, which would only find rounding.
 template<class Real>
 ListReport MeasureAll(const SpectralProblem<Real>& problem, BlockOptions block, const ListEnd& end,
   EigenPairs<Real>& pairs, const Progress& progress)
@@ -48,8 +48,8 @@ ListReport MeasureAll(const SpectralProblem<Real>& problem, BlockOptions block, 
 
 } // namespace
 
-/// The pair behind the list tells whether a multiplet is cut: its value can only fall, by its
-/// measure, so that it has to converge as well only when that is in doubt.
+/// The pair behind the list tells whether a multiplet is cut. Its value can only fall, at most by
+/// its measure. It therefore has to converge only if the answer is in doubt.
 template<class Real>
 ListReport FinishList(const SpectralProblem<Real>& problem, BlockOptions block, const ListEnd& end,
   EigenPairs<Real>& pairs, const Progress& progress)

@@ -1,5 +1,5 @@
-// The end of a list of eigenpairs on the finest level: iterations until the wanted ones have
-// converged, and where a multiplet ends.
+// Completes a list of eigenpairs on the finest level. It iterates until the wanted pairs have
+// converged, and decides whether the list ends inside a multiplet.
 #ifndef GridFEM_SpectrumList_h
 #define GridFEM_SpectrumList_h
 
@@ -10,9 +10,9 @@ namespace gridfem
 
 struct ListEnd
 {
-  Index zeros = 0;                 // values that are 0, in front of the pairs
-  bool isAll = false;              // the pairs are all there are
-  bool completeMultiplets = false; // more of them, until the multiplet at their end is whole
+  Index zeros = 0;                 // number of zero values in front of the pairs
+  bool isAll = false;              // no pairs exist beyond these
+  bool completeMultiplets = false; // add pairs until the multiplet at the end is complete
 };
 
 struct ListReport
@@ -21,7 +21,7 @@ struct ListReport
   bool cutsMultiplet = false; // the next eigenvalue belongs to the multiplet of the last
 };
 
-/// Pairs on the finest level from approximations.
+/// Improves approximate pairs on the finest level to the final list.
 /// @param block  as for ImproveManyEigenPairs; `wanted` is the length of the list without zeros
 template<class Real>
 ListReport FinishList(const SpectralProblem<Real>& problem, BlockOptions block, const ListEnd& end,

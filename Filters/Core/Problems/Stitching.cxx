@@ -17,8 +17,8 @@ namespace gridfem
 namespace
 {
 
-/// Of what stitching changes, per squared unit of length: 1 / (2 cells)². It is harmonic inside a
-/// scan, and what the functions cannot show of the colours is finer than that.
+/// Weight of the change by stitching, per squared unit of length: 1 / (2 cells)². The change is
+/// harmonic inside a scan; details of the colors that functions cannot represent are finer.
 constexpr double DetailWeight = 0.25;
 
 void RequireLabels(const ScanLabels& labels, const TriangleMesh& mesh)
@@ -36,8 +36,8 @@ void RequireLabels(const ScanLabels& labels, const TriangleMesh& mesh)
   }
 }
 
-/// The scan of a triangle with labels on points; of a colour on the triangle itself the one that
-/// most of its corners have.
+/// The scan of a triangle with labels on points. For a color on the triangle itself, it is the
+/// label of most corners.
 Index ScanOfCorners(const std::array<Index, 3>& label, bool isMajority)
 {
   if (label[0] == label[1] && label[0] == label[2])
@@ -90,15 +90,15 @@ std::vector<Index> ScansOfTriangles(
   return scan;
 }
 
-/// A corner of a triangle that is no seam, by place and scan.
+/// A corner of a triangle that is not a seam, by place and scan.
 struct ScanCorner
 {
-  Index place; // the welded id of its point
+  Index place; // welded id of its point
   Index scan;
   Id corner; // 3 triangle of the pieces + corner
 };
 
-/// Numbers the points of the pieces: one for each place and scan.
+/// Numbers the points of the pieces. Each place has one point per scan.
 void NumberPoints(const TriangleMesh& mesh, ScanCut& cut)
 {
   const Array<Index> place = WeldCoincidentPoints(mesh.points, UsedPoints(mesh));
@@ -131,7 +131,7 @@ void NumberPoints(const TriangleMesh& mesh, ScanCut& cut)
   }
 }
 
-/// Means of values on the triangles around each point of the pieces, weighted by area.
+/// Means of the values on the triangles around each point of the pieces, weighted by area.
 MultiVector MeansAtPoints(const ScanCut& cut, const MultiVector& onTriangles)
 {
   const auto points = static_cast<Id>(cut.pieces.points.size());
@@ -196,7 +196,7 @@ MultiVector GradientsOnTriangles(const ScanCut& cut, const MultiVector& atPoints
   return gradient;
 }
 
-/// ∫ <s, ∇b_i> with the gradients that are to be kept.
+/// ∫ <s, ∇b_i> with the gradients that are kept.
 MultiVector LoadOfKeptGradients(const FiniteElementSpace& space, const ScanCut& cut,
   const std::vector<double>& share, const Field& colors, const Job& job)
 {
@@ -211,8 +211,8 @@ MultiVector LoadOfKeptGradients(const FiniteElementSpace& space, const ScanCut& 
   return space.LoadOfGradientsOf(colors, &kept, job);
 }
 
-/// Per point of the mesh: whether it is a corner of a seam, or of triangles of two scans.
-/// @param hats  coincident points have the same one
+/// Whether each point of the mesh is a corner of a seam, or of triangles of two scans.
+/// @param hats  coincident points have the same function
 std::vector<char> PointsOnSeams(
   const TriangleMesh& mesh, const HatFunctions& hats, const ScanCut& cut)
 {
@@ -225,7 +225,7 @@ std::vector<char> PointsOnSeams(
     {
       if (hats.ofPoint[point] < 0)
       {
-        continue; // of flat triangles alone
+        continue; // has only flat triangles
       }
       Index& known = scan[hats.ofPoint[point]];
       known =
@@ -240,7 +240,7 @@ std::vector<char> PointsOnSeams(
   return isOnSeam;
 }
 
-/// Rows at the colours' places as rows of the pieces.
+/// Rows at the colors' points or triangles, as rows of the pieces.
 Field OnPieces(const ScanCut& cut, FieldAssociation association, const MultiVector& rows)
 {
   Field field{ association, {} };
@@ -264,7 +264,8 @@ Field OnPieces(const ScanCut& cut, FieldAssociation association, const MultiVect
   return field;
 }
 
-/// Per row of the colours how much of its details is kept: as much as of the gradients around it.
+/// The share of details that is kept in each row of the colors. It is the share of the gradients
+/// around the row.
 std::vector<double> SharesOfRows(
   const ScanCut& cut, FieldAssociation association, const std::vector<double>& share)
 {
@@ -282,8 +283,8 @@ std::vector<double> SharesOfRows(
   return ofRow;
 }
 
-/// Values that stitching has changed become the colours plus that change, smoothed within scans, as
-/// far as details are kept. Where there is no piece they stay.
+/// Restores details. The new values are the colors plus the smoothed change within scans, to the
+/// extent that details are kept. Values without a piece stay.
 SolveReport KeepDetails(const FiniteElementSpace& details, const ScanCut& cut,
   const std::vector<double>& shareOfRow, const Field& colors, const PoissonOptions& solver,
   const Job& job, MultiVector& values)
@@ -315,7 +316,7 @@ SolveReport KeepDetails(const FiniteElementSpace& details, const ScanCut& cut,
   return std::move(solution.report);
 }
 
-/// The function at the colours' own places: points without a function keep their colour.
+/// The function at the colors' own points or triangles. Points without a function keep their color.
 MultiVector AtColors(const FiniteElementSpace& space, const TriangleMesh& mesh, const Field& colors,
   const MultiVector& coefficients, const Job& job)
 {
@@ -335,7 +336,7 @@ MultiVector AtColors(const FiniteElementSpace& space, const TriangleMesh& mesh, 
   return values;
 }
 
-/// Adds constants, so that on every component the reference has the mean of its own colours.
+/// Adds constants, so that on every component the reference keeps the mean of its own colors.
 void KeepMeanOf(Index reference, const FiniteElementSpace& space, const TriangleMesh& mesh,
   const ScanCut& cut, const Field& colors, const Job& job, MultiVector& values)
 {

@@ -30,7 +30,8 @@ Array<Index> PlacesOf(const TriangleMesh& mesh, bool weld)
 //--------------------------------------------------------------------------------------------------
 // Regions.
 
-/// Per place: -1 where all that meets there is inside, 1 where all is outside, 0 where both are.
+/// The side of each place: -1 if everything that meets there is inside, 1 if everything is outside,
+/// 0 if both meet.
 std::vector<signed char> SidesOfPlaces(
   const TriangleMesh& mesh, const Field& isInside, const Array<Index>& place)
 {
@@ -51,7 +52,8 @@ std::vector<signed char> SidesOfPlaces(
   return side;
 }
 
-/// Half way along the edges from inside to outside, and through corners that are both.
+/// Cuts a triangle halfway along the edges from inside to outside, and through corners on both
+/// sides.
 void CutTriangle(
   Id triangle, const std::array<signed char, 3>& side, std::vector<TriangleSegment>& segments)
 {
@@ -90,7 +92,7 @@ std::vector<TriangleSegment> CutTriangles(
   return segments;
 }
 
-/// Of triangles: the edges between those inside and those outside.
+/// The border of a region of triangles: edges between triangles inside and outside.
 std::vector<TriangleSegment> EdgesBetween(
   const TriangleMesh& mesh, const Field& isInside, const Array<Index>& place)
 {
@@ -111,7 +113,7 @@ std::vector<TriangleSegment> EdgesBetween(
 //--------------------------------------------------------------------------------------------------
 // Lines.
 
-/// Spreads sides over the surface; they change across edges that are crossed.
+/// Spreads sides over the surface. They change across crossed edges.
 class SideFinder
 {
 public:
@@ -133,13 +135,13 @@ public:
     {
       for (const Id point : mesh.triangles[t])
       {
-        const double share = isOnLine[place[point]] ? 0.0 : 1.0 / 3.0; // on neither side
+        const double share = isOnLine[place[point]] ? 0.0 : 1.0 / 3.0; // counts for neither side
         area_[place[point]] += share * AreaOf(mesh, static_cast<Id>(t));
       }
     }
   }
 
-  /// Per place.
+  /// The side of every place.
   const std::vector<signed char>& Find()
   {
     for (Index start = 0; start < static_cast<Index>(side_.size()); ++start)
@@ -152,7 +154,7 @@ public:
     return side_;
   }
 
-  /// Per place: whether its component has two sides. After Find.
+  /// Whether the component of each place has two sides. Valid after Find.
   const std::vector<char>& IsDivided() const { return isDivided_; }
 
 private:

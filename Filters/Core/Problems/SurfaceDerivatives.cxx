@@ -9,7 +9,7 @@ namespace gridfem
 namespace
 {
 
-/// Σ ∂_k of component k, for each vector: rows of nine numbers become one.
+/// Σ ∂_k of component k, for each vector. Nine numbers of a row become one.
 MultiVector Divergence(const MultiVector& gradients)
 {
   const Id vectors = gradients.cols() / 9;
@@ -21,7 +21,7 @@ MultiVector Divergence(const MultiVector& gradients)
   return divergence;
 }
 
-/// n · (∇ × v) for the gradients of v in rows of nine numbers, and a unit normal for each.
+/// n · (∇ × v), from the gradients of v in rows of nine numbers and a unit normal for each row.
 MultiVector Curl(const MultiVector& gradients, const std::vector<Vec3>& normals)
 {
   MultiVector curl(gradients.rows(), 1);

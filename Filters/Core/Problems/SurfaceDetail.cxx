@@ -17,8 +17,8 @@ namespace gridfem
 namespace
 {
 
-/// The directions of the corners, each weighted by how much it is one; their signs are those of the
-/// corner where it is most.
+/// The mean of the corners' directions, each weighted by how distinct it is. Their signs follow the
+/// corner with the most distinct direction.
 Vec3 MeanDirection(const std::array<Id, 3>& corners, const PrincipalCurvatures& curvatures)
 {
   const auto strength = [&](Id point)

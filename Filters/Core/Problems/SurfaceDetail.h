@@ -1,9 +1,9 @@
-// Detail of a surface or of an array on it, amplified or damped: the screened Poisson equation with
-// the gradients of the signal times σ, in a metric that depends on the principal curvatures.
-// [T §5.2]
-// As the signal f is a function of the space, the solution of (λM + L) u = λ f + div σ∇f is f + v
-// with (λM + L) v = StiffnessTimes(f, σ - 1): so σ = 1 changes nothing whatever the metric and the
-// tolerance, and a tolerance is one on the change.
+// Amplifies or damps the detail of a surface or of an array on it. It solves the screened Poisson
+// equation with the gradients of the signal times σ, in a metric that depends on the principal
+// curvatures. [T §5.2]
+// The signal f is a function of the space. The solution of (λM + L) u = λ f + div σ∇f is therefore
+// f + v with (λM + L) v = StiffnessTimes(f, σ - 1). So σ = 1 changes nothing, for any metric and
+// tolerance, and the tolerance applies to the change.
 #ifndef GridFEM_SurfaceDetail_h
 #define GridFEM_SurfaceDetail_h
 
@@ -15,39 +15,40 @@
 namespace gridfem
 {
 
-/// The curvatures of every triangle, the means of its points', and the direction of the larger one.
+/// The curvatures of every triangle, which are the means of its points', and the direction of the
+/// larger curvature.
 struct TriangleCurvatures
 {
   MultiVector values;          // triangles x 2, per world length: maximum, minimum
-  std::vector<Vec3> direction; // of the maximum; 0 where there is none
+  std::vector<Vec3> direction; // of the maximum; 0 if there is none
 };
 
 TriangleCurvatures CurvaturesOnTriangles(
   const TriangleMesh& mesh, const PrincipalCurvatures& curvatures, int threads = 0);
 
-/// What the absolute curvatures do not exceed on nine tenths of the area; 0 for a plane.
+/// The bound of the absolute curvatures on nine tenths of the area; 0 for a plane.
 double UsualCurvature(const TriangleMesh& mesh, const TriangleCurvatures& curvatures);
 
-/// How lengths along a principal direction count, for its curvature. Above 0 and finite; 1 for the
-/// metric of the surface.
+/// The length factor along a principal direction, as a function of its curvature. Above 0 and
+/// finite; 1 for the metric of the surface.
 using TransferFunction = std::function<double(double curvature)>;
 
-/// Which curvatures are enlarged.
+/// The curvatures that are enlarged.
 enum class CurvatureTransfer
 {
   Isotropic,
   LargeNegative,
   LargePositive,
   LargeAbsolute,
-  Custom // what part of the way is the caller's; here the absolute, in a straight line
+  Custom // the caller's choice; in LengthOf, linear in the absolute curvature
 };
 
-/// How a length along a curvature counts: 1 for small ones, `largest` from 1 and -1 on, as far as
-/// they are enlarged.
-/// @param curvature  in units of the usual one
+/// The length factor for a curvature: 1 for small curvatures, `largest` from 1 and -1 on, if
+/// `transfer` enlarges curvatures of that sign.
+/// @param curvature  in units of the usual curvature
 double LengthOf(CurvatureTransfer transfer, double curvature, double largest);
 
-/// From 0 to 1 as x does, without a kink at its ends.
+/// Rises from 0 to 1 like x, without a kink at its ends.
 double SmoothStep(double x);
 
 /// The weights of the elements in the metric diag(α(κ₁)², α(κ₂)²). [T (5.16), (5.17)]
@@ -56,24 +57,24 @@ double SmoothStep(double x);
 std::vector<ElementWeights> WeightsOfMetric(
   const MultiVector& curvatures, const TransferFunction& alpha);
 
-/// A signal in the space: as a function of it, and what of it no function has.
+/// A signal in the space: its best function, and the remainder that no function has.
 struct SignalInSpace
 {
   MultiVector coefficients;
-  MultiVector remainder; // points x columns: values less those of the function
+  MultiVector remainder; // points x columns: values minus those of the function
   SolveReport report;    // of the projection
 };
 
-/// The coordinates are functions of every space, and have no remainder. In world units from the
-/// origin of the space.
+/// The coordinates of the surface. They are functions of every space, and have no remainder. In
+/// world units from the origin of the space.
 SignalInSpace ShapeInSpace(const FiniteElementSpace& space, const Job& job = {});
 
-/// A field on points is projected, with its gradients, as for SurfaceDerivatives.
+/// Projects a field on points together with its gradients, as for SurfaceDerivatives.
 SignalInSpace ProjectSignal(const FiniteElementSpace& space, const Field& f,
   const MultigridOptions& multigrid, const SolveOptions& solve, const Job& job = {});
 
-/// Scales points of a moved mesh about their centroid to the volume of the mesh; leaves them alone
-/// where that is not possible, because a volume is 0 or has turned over.
+/// Scales the points of a moved mesh about their centroid to the volume of the mesh. Leaves them
+/// alone if that is impossible, because a volume is 0 or has turned inside out.
 void ScaleToVolume(const TriangleMesh& mesh, std::vector<Vec3>& points, int threads = 0);
 
 } // namespace gridfem

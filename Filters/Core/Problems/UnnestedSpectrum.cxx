@@ -15,11 +15,11 @@ namespace gridfem
 namespace
 {
 
-/// Far below what the two discretisations differ by.
+/// Far below the difference of the two discretizations.
 constexpr double StartTolerance = 1e-4;
 
 /// Whether the value behind the first `count` belongs to the multiplet of the last of them.
-/// @param before  how many values precede these
+/// @param before  number of values before these
 template<class Values>
 bool EndsInside(const Values& values, Index before, Index count)
 {
@@ -27,7 +27,7 @@ bool EndsInside(const Values& values, Index before, Index count)
          IsMultiplet(values[count - 1], values[count], before + count);
 }
 
-/// How many modes of the start make up the list.
+/// The number of the start's modes that form the list.
 Index ListLength(const Spectrum& start, const SpectrumOptions& options)
 {
   Index count = options.numberOfModes;
@@ -38,8 +38,9 @@ Index ListLength(const Spectrum& start, const SpectrumOptions& options)
   return count;
 }
 
-/// About the lowest value: far above it, a shift would cost digits; far below, as by the values
-/// that rounding gives a piece without an area, constants would drown all else.
+/// Approximate lowest value, used as the shift. A shift far above it would cost digits. With a
+/// shift far below it, constants would drown everything else; rounding gives such values to a piece
+/// without an area.
 double LowestValue(const Spectrum& start)
 {
   constexpr double Rounding = 1e-10;
@@ -49,8 +50,8 @@ double LowestValue(const Spectrum& start)
   return first == start.eigenvalues.end() ? 1.0 : *first;
 }
 
-/// Of constants among the columns rounding is left, which may be constant again, and scaled would
-/// count as one more mode: it becomes zero.
+/// Removes constants from the columns. A column that was constant leaves only rounding, which may
+/// be constant again. Scaled, it would count as one more mode, so it becomes zero.
 void RemoveConstants(const Constants& constants, const DividedRows* divided, Block<double> columns)
 {
   constexpr double Rounding = 1e-10;
@@ -73,7 +74,8 @@ void RemoveConstants(const Constants& constants, const DividedRows* divided, Blo
   }
 }
 
-/// One cycle, and one with factors in double precision, which are made once.
+/// One cycle, and a cycle with factors in double precision as its fallback. The latter is made
+/// once.
 WithFallback<BlockPreconditioner<double>> BlockCycleWithFallback(const Multigrid& multigrid)
 {
   WithFallback<BlockPreconditioner<double>> B{ CyclePreconditioner<double>(multigrid, 0), {} };
@@ -91,8 +93,8 @@ WithFallback<BlockPreconditioner<double>> BlockCycleWithFallback(const Multigrid
   return B;
 }
 
-/// The wanted pairs, at most `all`; more until the multiplet at their end is whole, if that is
-/// asked for.
+/// Finds the wanted pairs, at most `all`. If asked to, it adds pairs until the multiplet at the end
+/// is complete.
 BlockReport FindPairs(const SpectralProblem<double>& problem, const SpectrumOptions& options,
   Index wanted, Index all, EigenPairs<double>& pairs, const Progress& progress)
 {
@@ -121,7 +123,7 @@ BlockReport FindPairs(const SpectralProblem<double>& problem, const SpectrumOpti
   return report;
 }
 
-/// Relative errors as eigenvalues of the surface; 1 (unknown) where the start has no such value.
+/// Relative errors as eigenvalues of the surface; 1 (unknown) if the start has no such value.
 std::vector<double> EstimateErrorsBeyond(const std::vector<double>& values, const Spectrum& start)
 {
   std::vector<double> errors(values.size(), 0.0);

@@ -1,5 +1,5 @@
-// The smallest eigenpairs on a finest level that does not contain the levels below it, found
-// through those.
+// Finds the smallest eigenpairs on a finest level that does not contain the levels below it, with
+// the help of those levels.
 #ifndef GridFEM_UnnestedSpectrum_h
 #define GridFEM_UnnestedSpectrum_h
 
@@ -8,12 +8,12 @@
 namespace gridfem
 {
 
-/// What to ask the nested levels for to get a good start: guards behind the wanted modes, to a
-/// loose tolerance.
+/// Options of the nested levels that give a good start: guards beyond the wanted modes, and a loose
+/// tolerance.
 SpectrumOptions StartOptions(SpectrumOptions options);
 
-/// The second step of ComputeSpectrum. The result is that of any solver for the finest matrices;
-/// constants of the components are exact. Same bits for any number of threads. Throws Aborted.
+/// The second step of ComputeSpectrum. The result is that of any solver for the finest matrices.
+/// Constants of the components are exact. Same bits for any number of threads. Throws Aborted.
 /// @param start  of the nested levels, with StartOptions
 Spectrum ImproveSpectrum(const SurfaceSpace& space, const Spectrum& start,
   const SpectrumOptions& options, const Progress& progress = {});

@@ -44,7 +44,7 @@ SolveOptions Tolerance(double tolerance, int maximumIterations = 100)
   return options;
 }
 
-/// Constants are orthogonal to the range of a pure Neumann matrix; the same map serves both sides.
+/// Constants are orthogonal to the range of a pure Neumann matrix. The same map serves both sides.
 void RemoveMean(MultiVector& x)
 {
   const Eigen::RowVectorXd mean = x.colwise().mean();
@@ -75,7 +75,8 @@ TEST_P(Solvers, FindTheSolution)
   EXPECT_LE(report.iterations, 25);
   EXPECT_GT(report.convergenceFactor, 0.0);
   EXPECT_LT(report.convergenceFactor, 0.4);
-  // sqrt(rᵀBr) is the energy norm of the error up to the quality of B; condition number some 100.
+  // sqrt(rᵀBr) is the energy norm of the error up to the quality of B; the condition number is
+  // about 100.
   EXPECT_LT(RelativeDifference(x, exact), 1e-8);
 }
 
@@ -103,7 +104,7 @@ TEST_P(Solvers, HistoryIsWhatItSays)
   multigrid.Precondition(r, Br);
   multigrid.Precondition(b, Bb);
   const double energy = std::sqrt(r.cwiseProduct(Br).sum() / b.cwiseProduct(Bb).sum());
-  // The updated residual differs from the true one by rounding, 1e-16 of b against 1e-6; the cycle
+  // The updated residual differs from the true one by rounding, 1e-16 of b against 1e-6. The cycle
   // rounds to single precision.
   EXPECT_NEAR(report.history.back().energy / energy, 1.0, 1e-7);
   EXPECT_NEAR(report.history.back().residual * b.norm() / r.norm(), 1.0, 1e-8);
@@ -137,7 +138,7 @@ TEST_P(Solvers, StartFromAGuess)
   EXPECT_LT(2 * fromGuess.iterations, fromZero.iterations);
   EXPECT_LT(fromGuess.history.front().energy, 1e-3);
   EXPECT_EQ(Solve(multigrid, b, done, Tolerance(1e-8)).iterations, 0);
-  EXPECT_LT(RelativeDifference(done, exact), 1e-13); // condition number some 100
+  EXPECT_LT(RelativeDifference(done, exact), 1e-13); // the condition number is about 100
 }
 
 double EnergyOf(const Multigrid& multigrid, const MultiVector& x)
@@ -153,13 +154,13 @@ TEST_P(Solvers, LastCorrectionLowersTheError)
   MultiVector corrected = measured;
   const MultiVector b = Applied(multigrid, exact);
   const SolveReport report = Solve(multigrid, b, corrected, Tolerance(1e-6));
-  SolveOptions options = Tolerance(1e-300, report.iterations); // the same iterations, not converged
+  SolveOptions options = Tolerance(1e-300, report.iterations); // as many iterations, not converged
   Solve(multigrid, b, measured, options);
   MultiVector correction;
   multigrid.Precondition(b - Applied(multigrid, measured), correction);
-  // The correction is 1e-6 of x or so, and in single precision.
+  // The correction is about 1e-6 of x, and in single precision.
   EXPECT_LT(RelativeDifference(corrected, measured + correction), 1e-12);
-  // A cycle reduces the energy of every error; on a solid by more than a factor of five.
+  // A cycle reduces the energy of every error, on a solid by more than a factor of five.
   EXPECT_LT(5.0 * EnergyOf(multigrid, corrected - exact), EnergyOf(multigrid, measured - exact));
 }
 
@@ -179,7 +180,7 @@ TEST_P(Solvers, ReferenceOfAStartIsAboveNoneAndBelowTheSolution)
     return std::sqrt(r.cwiseProduct(Br).sum()) /
            Solve(multigrid, b, x, Tolerance(1e-6)).history.front().energy;
   };
-  // A multiple of the solution meets the bound of Cauchy and Schwarz.
+  // A multiple of the solution reaches the Cauchy-Schwarz bound.
   EXPECT_NEAR(referenceOf(0.6 * exact) / EnergyOf(multigrid, exact), 1.0, 1e-12);
   const MultiVector near = exact + 0.1 * RandomVectors(b.rows(), 1, 2);
   EXPECT_LT(referenceOf(near), EnergyOf(multigrid, exact));
@@ -196,7 +197,7 @@ TEST_P(Solvers, StartFromZeroWhereTheStartIsFarBeyond)
   const MultiVector b = Applied(multigrid, RandomVectors(multigrid.Matrix().rows, 1, 1));
   MultiVector fromZero = MultiVector::Zero(b.rows(), 1);
   const SolveReport expected = Solve(multigrid, b, fromZero, Tolerance(1e-6));
-  MultiVector x = 1e12 * RandomVectors(b.rows(), 1, 3); // would end the iteration as a divergence
+  MultiVector x = 1e12 * RandomVectors(b.rows(), 1, 3); // would end the iteration as divergence
   const SolveReport report = Solve(multigrid, b, x, Tolerance(1e-6));
   EXPECT_TRUE(report.converged);
   EXPECT_EQ(report.iterations, expected.iterations);
@@ -219,7 +220,7 @@ TEST_P(Solvers, ManyColumnsEqualOneByOne)
     {
       MultiVector alone = MultiVector::Zero(b.rows(), 1);
       worst = std::max(worst, Solve(multigrid, b.col(c), alone, Tolerance(1e-8)).iterations);
-      // The same steps in another order of summation.
+      // The same steps, with another order of summation.
       EXPECT_LT(RelativeDifference(together.col(c), alone), 1e-11);
     }
     EXPECT_TRUE(report.converged);
@@ -250,7 +251,7 @@ TEST_P(Solvers, SingularSystemsWithAProjection)
   const Multigrid multigrid = SolidProblem(0.0);
   MultiVector exact = RandomVectors(multigrid.Matrix().rows, 2);
   RemoveMean(exact);
-  // An inconsistent part of b is removed with the projection.
+  // The projection removes an inconsistent part of b.
   const MultiVector b = Applied(multigrid, exact).array() + 0.5;
   MultiVector x = MultiVector::Zero(b.rows(), 2);
   const SolveReport report = Solve(multigrid, b, x, Tolerance(1e-10), { RemoveMean, RemoveMean });
@@ -304,7 +305,7 @@ TEST_P(Solvers, NaNInOneColumnIsReportedAndStaysThere)
 
 TEST_P(Solvers, UnsolvableSystemsAreNotCalledConverged)
 {
-  // The functions above the flat square have zero rows; their b is not zero.
+  // The functions above the flat square have zero rows, but their b is not zero.
   const Multigrid multigrid = Make(testing::FlatSquare(3), 3, 0.1);
   MultiVector b = MultiVector::Zero(multigrid.Matrix().rows, 1);
   const std::vector<double> diagonal = multigrid.Matrix().Diagonal();
@@ -340,7 +341,7 @@ TEST_P(Solvers, TooFewIterationsAreNotSuccess)
 
 TEST_P(Solvers, ImpossibleTolerancesAreNotCalledReached)
 {
-  // Rounding bounds the true residual from below; an updated one would go on falling.
+  // Rounding bounds the true residual from below. An updated residual would keep falling.
   const Multigrid multigrid = SolidProblem(1e-6);
   const MultiVector b = RandomVectors(multigrid.Matrix().rows, 1);
   MultiVector x = MultiVector::Zero(b.rows(), 1);
@@ -393,7 +394,7 @@ TEST_P(Solvers, NoColumnsIsSolvedAtOnce)
   EXPECT_TRUE(Solve(multigrid, x, x, Tolerance(1e-8)).converged);
 }
 
-/// A diagonal with four values, without a matrix.
+/// A diagonal matrix with four values, as an operator without a matrix.
 LinearOperator FourValues(Id rows)
 {
   LinearOperator A;
@@ -430,7 +431,8 @@ TEST(ConjugateGradients, EndAfterAsManyStepsAsAnyOperatorHasValues)
   EXPECT_LT(RelativeDifference(x, exact), 1e-12);
 }
 
-// A step along what the preconditioner blows up leaves more than the rounding that it was made of.
+// A step along a direction that the preconditioner amplifies would leave more than the rounding it
+// was made of.
 TEST(ConjugateGradients, TakeNoStepThatNobodyLooksAt)
 {
   const LinearOperator A = FourValues(1000);
@@ -457,8 +459,8 @@ INSTANTIATE_TEST_SUITE_P(Both, Solvers, ::testing::Values(&SolveConjugateGradien
 
 TEST(ConjugateGradients, IterationsGrowSlowlyOnASurface)
 {
-  // One W(1,1) cycle of patches. An error with all frequencies on a plane that is nearly parallel
-  // to the grid is the hard case: the growth per level is bounded, not absent. [NUMERICS §1]
+  // One W(1,1) cycle of patches. The hard case is an error with all frequencies on a plane nearly
+  // parallel to the grid. Its growth per level is bounded, but not zero. [NUMERICS §1]
   int before = 12;
   for (const int depth : { 3, 4, 5 })
   {

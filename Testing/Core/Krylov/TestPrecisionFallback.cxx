@@ -1,4 +1,4 @@
-// Solves that single precision spoils go on in double precision.
+// Solves that fail in single precision go on in double precision.
 #include "Krylov/PrecisionFallback.h"
 #include "Krylov/Stagnation.h"
 #include "PrecisionChecks.h"
@@ -16,8 +16,8 @@ namespace
 
 using testing::RandomVectors;
 
-/// Patches that do not overlap, with nothing coarser: a cycle solves them one by one. Each has rank
-/// `seen` but for `hidden`, as functions on a piece of surface that is nearly flat.
+/// Patches that do not overlap, without a coarser level. A cycle solves them one by one. Each has
+/// rank `seen` except for `hidden`, like functions on a nearly flat piece of surface.
 Multigrid NearlyDependentPatches(int seen, double hidden, FactorPrecision precision)
 {
   constexpr int Count = 100;
@@ -67,7 +67,7 @@ SolveOptions Tolerance(double tolerance, int maximumIterations)
   return options;
 }
 
-/// |x - exact| over |exact|, both in the energy norm.
+/// |x - exact| / |exact|, both in the energy norm.
 double Error(const Multigrid& multigrid, const MultiVector& x, const MultiVector& exact)
 {
   const MultiVector error = x - exact;
@@ -110,8 +110,8 @@ void ExpectOneHistory(const SolveReport& report)
 
 TEST_P(Fallback, FactorsThatAreNotPositiveAnyMore)
 {
-  // Rounding of 6e-8 / sqrt(1e-13): local solves overshoot, and the cycle is indefinite. In double
-  // precision a cycle is exact but for 1e-16 / sqrt(1e-13).
+  // Rounding is 6e-8 / sqrt(1e-13): local solves overshoot, and the cycle is indefinite. In double
+  // precision a cycle is exact up to 1e-16 / sqrt(1e-13).
   const Multigrid single = NearlyDependentPatches(1, 1e-13, FactorPrecision::Single);
   const MultiVector exact = RandomVectors(single.Matrix().rows, 2);
   const MultiVector b = Applied(single, exact);
@@ -128,8 +128,8 @@ TEST_P(Fallback, FactorsThatAreNotPositiveAnyMore)
 
 TEST_P(Fallback, FactorsThatSlowDown)
 {
-  // In single precision conjugate gradients need 60 iterations and end 8e-4 off, since rounding of
-  // their steps adds up; 1000 cycles do not suffice.
+  // In single precision conjugate gradients need 60 iterations and end 8e-4 off, because rounding
+  // of their steps adds up. 1000 cycles do not suffice.
   const Multigrid single = NearlyDependentPatches(1, 2e-13, FactorPrecision::Single);
   const MultiVector exact = RandomVectors(single.Matrix().rows, 2);
   const MultiVector b = Applied(single, exact);
@@ -152,7 +152,7 @@ TEST_P(Fallback, ThreadsDoNotChangeABit)
     MultigridOptions options;
     options.threads = threads;
     const Multigrid multigrid = Plane(options);
-    // Below rounding: both precisions are too slow for that.
+    // The tolerance is below rounding, so both precisions are too slow.
     report.push_back(
       WithFallback(multigrid, Applied(multigrid, RandomVectors(multigrid.Matrix().rows, 3)),
         x[threads - 1], Tolerance(1e-40, 30)));
@@ -178,7 +178,7 @@ TEST_P(Fallback, IsNotThereForWhatConverges)
 
 TEST_P(Fallback, EndsAtAStandstill)
 {
-  // Rounding ends the one after the other, long before the limit.
+  // Rounding ends both iterations, long before the limit.
   const Multigrid multigrid = Plane({});
   const MultiVector b = Applied(multigrid, RandomVectors(multigrid.Matrix().rows, 1));
   MultiVector x;

@@ -1,4 +1,4 @@
-// The smallest Ritz value of conjugate gradients against eigenvalues that are known.
+// The smallest Ritz value of conjugate gradients against known eigenvalues.
 #include "Krylov/ConjugateGradients.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace gridfem
 namespace
 {
 
-/// A diagonal matrix.
+/// A diagonal matrix as an operator.
 LinearOperator Diagonal(const Eigen::ArrayXd& values)
 {
   LinearOperator A;
@@ -24,7 +24,7 @@ LinearOperator Diagonal(const Eigen::ArrayXd& values)
   return A;
 }
 
-/// The smallest Ritz values before each iteration and at the end, of each column.
+/// The smallest Ritz values of each column, before each iteration and at the end.
 std::vector<Columns> SmallestOnTheWay(const Eigen::ArrayXd& values, const MultiVector& b)
 {
   std::vector<Columns> smallest;

@@ -1,4 +1,4 @@
-// When an iteration counts as too slow, and when as standing still.
+// Tests when an iteration counts as too slow, and when as a standstill.
 #include "Krylov/Stagnation.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace
 
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
-/// Measures 1, q, q², ... of the start and so many iterations.
+/// The measures 1, q, q², ... of the start and of this number of iterations.
 Stagnation AfterIterations(int iterations, double q, double tolerance, int maximumIterations)
 {
   Stagnation stagnation(tolerance, maximumIterations);
@@ -59,7 +59,7 @@ TEST(Stagnation, SaysNothingWhenNoIterationsAreLeft)
 
 TEST(Stagnation, LooksAtTheLastIterationsAlone)
 {
-  // Fast to 1e-4, then no further; and the other way round.
+  // One falls fast to 1e-4, then no further. The other does the opposite.
   Stagnation stalls(1e-6, 200);
   Stagnation accelerates(1e-6, 200);
   for (int i = 0; i <= 60; ++i)
@@ -74,7 +74,8 @@ TEST(Stagnation, LooksAtTheLastIterationsAlone)
 
 TEST(Stagnation, CountsTheLowestMeasure)
 {
-  // Up and down by a factor of 100, as conjugate gradients; a tenth every ten iterations.
+  // It goes up and down by a factor of 100, like conjugate gradients, and falls to a tenth every
+  // ten iterations.
   Stagnation wild(1e-6, 100);
   for (int i = 0; i <= 60; ++i)
   {

@@ -43,7 +43,7 @@ TEST(PivotedCholesky, FindsRankAndFactorAcrossPanels)
       {
         for (Id j = 0; j < rank; ++j)
         {
-          // Backward stable: some n eps of the largest entry.
+          // Backward stable: the error is a multiple of n eps of the largest entry.
           EXPECT_NEAR(product(i, j), S(pivots[i], pivots[j]), 1e-13 * S.diagonal().maxCoeff());
         }
       }
@@ -57,7 +57,7 @@ TEST(CoarseSolver, SolvesRegularSystems)
   const MultiVector exact = RandomVectors(200, 3);
   MultiVector x;
   CoarseSolver(Sparse(D)).Solve(D * exact, x);
-  // Condition number below 300.
+  // The condition number is below 300.
   EXPECT_LT(RelativeDifference(x, exact), 1e-12);
 }
 
@@ -94,7 +94,7 @@ TEST(CoarseSolver, IsSymmetricAndSemiDefiniteOnInconsistentDataToo)
 
 TEST(CoarseSolver, ThousandsOfComponentsAreSolvedOneByOne)
 {
-  // Interleaved chains of three unknowns; one dense factor would take 2 GB.
+  // Interleaved chains of three unknowns. One dense factor would take 2 GB.
   const Index chains = 5000;
   testing::SparseRows rows;
   for (Index row = 0; row < 3 * chains; ++row)

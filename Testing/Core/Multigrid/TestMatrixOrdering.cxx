@@ -17,7 +17,7 @@ using namespace gridfem::testing;
 namespace
 {
 
-/// The blocks of an order that have each unknown.
+/// The blocks of an order that contain each unknown.
 std::vector<std::set<Id>> BlocksOfUnknowns(const PatchOrder& order, Index unknowns)
 {
   std::vector<std::set<Id>> blocks(unknowns);
@@ -37,12 +37,12 @@ std::vector<std::set<Id>> BlocksOfUnknowns(const PatchOrder& order, Index unknow
   return blocks;
 }
 
-/// Blocks of one colour are relaxed at the same time.
+/// Blocks of one color are relaxed at the same time.
 void ExpectColoursSeparateBlocks(const PatchOrder& order, const SparseMatrix& A)
 {
   const std::vector<std::set<Id>> blocks = BlocksOfUnknowns(order, A.rows);
   std::vector<std::size_t> colour(order.blockBegin.size() - 1);
-  EXPECT_GE(colour.size(), 6u); // there is something to colour
+  EXPECT_GE(colour.size(), 6u); // there is something to color
   for (std::size_t c = 0; c + 1 < order.colourBegin.size(); ++c)
   {
     std::fill(colour.begin() + order.colourBegin[c], colour.begin() + order.colourBegin[c + 1], c);
@@ -101,7 +101,7 @@ TEST(HatOrdering, GroupsReachEveryUnknownAndSeparateBlocksOfAColour)
       EXPECT_TRUE(std::none_of(
         blocks.begin(), blocks.end(), [](const std::set<Id>& b) { return b.empty(); }));
       EXPECT_TRUE(std::any_of(blocks.begin(), blocks.end(),
-        [](const std::set<Id>& b) { return b.size() > 1; })); // some reach over borders
+        [](const std::set<Id>& b) { return b.size() > 1; })); // some groups cross borders
       ExpectColoursSeparateBlocks(groups, A);
     }
   }
@@ -121,8 +121,8 @@ TEST(HatOrdering, ThreadsDoNotChangeABitOfGroupsOfAnySize)
 
 TEST(HatOrdering, GroupsFollowStrongCouplings)
 {
-  // Triangles four times as long along the ring as around the tube: all 18 points at one place are
-  // coupled strongly, so that no group of eight leaves it.
+  // Triangles are four times as long along the ring as around the tube. All 18 points at one place
+  // are strongly coupled, so no group of eight leaves the place.
   constexpr double Pi = 3.14159265358979323846;
   constexpr int Along = 150;
   const TriangleMesh mesh = Ring(Along);

@@ -1,4 +1,4 @@
-// The cycle alone, on matrices that have no mesh behind them.
+// The cycle alone, on matrices without a mesh.
 #include "Base/Errors.h"
 #include "Dense.h"
 #include "Krylov/ConjugateGradients.h"
@@ -32,7 +32,7 @@ MultiVector Applied(const SparseMatrix& A, const MultiVector& x)
   return y;
 }
 
-/// Energy norm of the error after each of some cycles from a random error, A x = 0.
+/// Energy norm of the error after each cycle, from a random error with A x = 0.
 std::vector<double> ErrorHistory(const Multigrid& multigrid, int cycles)
 {
   const SparseMatrix& A = multigrid.Matrix();
@@ -81,7 +81,7 @@ TEST(Multigrid, OneLevelIsADirectSolve)
   const MultiVector exact = RandomVectors(multigrid.Matrix().rows, 2);
   MultiVector x;
   multigrid.Precondition(Applied(multigrid.Matrix(), exact), x);
-  // Condition number below 1e3.
+  // The condition number is below 1e3.
   EXPECT_LT(RelativeDifference(x, exact), 1e-12);
 }
 
@@ -149,7 +149,7 @@ protected:
     return options;
   }
 
-  /// Where the numbers allow it, as here.
+  /// Single precision is used if the numbers allow it, as they do here.
   static bool IsSingle() { return GetParam().smoother == SmootherType::Patch; }
 };
 
@@ -164,8 +164,8 @@ TEST_P(Variants, PreconditionerIsSymmetric)
     MultiVector Bb;
     multigrid.Precondition(a, Ba);
     multigrid.Precondition(b, Bb);
-    // Local inverses as large as 1e10 times 1e-16 are the worst that rounding does, and only in
-    // directions of little weight; in single precision 6e-8 of each number.
+    // The worst rounding is that of local inverses of 1e10 times 1e-16, and only in directions of
+    // little weight. In single precision it is 6e-8 of each number.
     EXPECT_LT(std::abs(b.cwiseProduct(Ba).sum() - a.cwiseProduct(Bb).sum()),
       (IsSingle() ? 1e-7 : 1e-9) * b.norm() * Ba.norm());
     EXPECT_GT(a.cwiseProduct(Ba).sum(), 0.0);
@@ -177,7 +177,7 @@ TEST_P(Variants, PreconditionerIsACycleFromZero)
   const Multigrid multigrid = Make(testing::SolidCube(3), 3, Options());
   const MultiVector b = RandomVectors(multigrid.Matrix().rows, 3);
   MultiVector x = MultiVector::Zero(b.rows(), b.cols());
-  MultiVector Bb = RandomVectors(2, 1); // what it holds before must not matter
+  MultiVector Bb = RandomVectors(2, 1); // its previous contents must not matter
   multigrid.Cycle(b, x);
   multigrid.Precondition(b, Bb);
   EXPECT_EQ(x, Bb);
@@ -211,7 +211,7 @@ TEST_P(Variants, ColumnsDoNotSeeEachOther)
     {
       MultiVector alone;
       multigrid.Precondition(b.col(c), alone);
-      // Sums in another order; a few hundred operations deep.
+      // Sums in another order, a few hundred operations deep.
       EXPECT_LT(RelativeDifference(together.col(c), alone), IsSingle() ? 1e-6 : 1e-12);
     }
   }
@@ -255,7 +255,7 @@ INSTANTIATE_TEST_SUITE_P(All, Variants,
 
 TEST(Multigrid, PatchesBeatGaussSeidelOnATiltedPlane)
 {
-  // The reason for the patch smoother: on a surface, functions are nearly dependent.
+  // The reason for the patch smoother: functions on a surface are nearly dependent.
   MultigridOptions options;
   const auto samples = testing::TiltedPlane(6, 2.37, 0.02);
   const std::vector<double> patch = ErrorHistory(Make(samples, 6, options, 1e-3), 10);

@@ -1,4 +1,5 @@
-// Hierarchies in single precision against those in double, and who decides between the two.
+// Hierarchies in single precision against those in double precision, and the choice between the
+// two.
 #include "Algebra/BlockVectors.h"
 #include "Base/Errors.h"
 #include "Base/Parallel.h"
@@ -63,7 +64,7 @@ std::vector<MultigridOptions> OtherCycles()
   return all;
 }
 
-/// The preconditioner on a block that is stored.
+/// Applies the preconditioner to a stored block.
 template<class Real>
 ResidualMeasures Apply(
   const BlockPreconditioner<Real>& precondition, const Vectors<Real>& r, Vectors<Real>& z)
@@ -111,7 +112,8 @@ TEST(SingleMultigrid, IsTheDoubleOneUpToSinglePrecision)
       const ResidualMeasures mine = Apply(single, level, r, z);
       const ResidualMeasures exact =
         Apply<double>(CyclePreconditioner<double>(multigrid, level), r, reference);
-      // Patches have pivots down to 1e-5, whose root times 6e-8 is 2e-5, and corrections add up.
+      // Patches have pivots down to 1e-5. The square root times 6e-8 is 2e-5, and corrections add
+      // up.
       EXPECT_LT((z - reference).norm(), 1e-3 * reference.norm());
       EXPECT_LT((mine.energy - exact.energy).norm(), 1e-4 * exact.energy.norm());
       EXPECT_LT((mine.norm - exact.norm).norm(), 1e-6 * exact.norm.norm());
@@ -119,7 +121,7 @@ TEST(SingleMultigrid, IsTheDoubleOneUpToSinglePrecision)
   }
 }
 
-/// The energy, which follows from half of the cycle, is that of the whole.
+/// The energy follows from half of the cycle and equals that of the whole cycle.
 TEST(SingleMultigrid, EveryCycleKnowsItsEnergy)
 {
   const Discretisation on = Discretise(Torus(64, 32, 1.0, 0.4), 5);
@@ -227,7 +229,7 @@ TEST(SingleMultigrid, IsReliableWhereFunctionsDoNotAlmostVanish)
   EXPECT_FALSE(MakeSingle(Discretise(TiltedBox(0.0), 5)).IsReliable());
 }
 
-/// Two threads in one hierarchy at the same time, and one after the other.
+/// Two threads use one hierarchy, at the same time and one after the other.
 TEST(SingleMultigrid, SeveralThreadsMayCycleAtTheSameTime)
 {
   const Discretisation on = Discretise(Torus(64, 32, 1.0, 0.4), 5);
@@ -266,7 +268,7 @@ TEST(SpectrumCycle, IsDoubleWhereSinglePrecisionWouldNotDoAndSingleForAnyCycle)
   EXPECT_TRUE(inDouble.converged);
   EXPECT_FALSE(inDouble.singlePrecision);
   std::vector<MultigridOptions> cycles = OtherCycles();
-  cycles.back() = Standard; // in place of no sweeps
+  cycles.back() = Standard; // replaces the cycle without sweeps
   for (const MultigridOptions& options : cycles)
   {
     const Spectrum single = Solve(sphere, options);
@@ -290,11 +292,11 @@ TEST(SpectrumCycle, LooksAtHowEveryLevelIsRelaxed)
   EXPECT_FALSE(FitSinglePrecision(levels, Standard));
   levels.front().smoothing->smoother = SmootherType::Patch;
   EXPECT_TRUE(FitSinglePrecision(levels, Standard));
-  levels.back().smoothing = LevelSmoothing{}; // is solved directly
+  levels.back().smoothing = LevelSmoothing{}; // the coarsest level is solved directly
   EXPECT_TRUE(FitSinglePrecision(levels, Standard));
 }
 
-/// The finest level, without a preconditioner.
+/// The eigenproblem of the finest level, without a preconditioner.
 template<class Real>
 SpectralProblem<Real> ProblemOn(const Discretisation& on, const Constants& constants)
 {
@@ -306,7 +308,7 @@ SpectralProblem<Real> ProblemOn(const Discretisation& on, const Constants& const
   return problem;
 }
 
-/// Some functions of this space have hardly any mass: after some steps in single precision,
+/// Some functions of this space have hardly any mass. After some steps in single precision,
 /// products of vectors that follow from coefficients are wrong in the second digit.
 TEST(BlockIteration, PairsForAFinerLevelAreRenewed)
 {
@@ -336,7 +338,7 @@ TEST(BlockIteration, PairsForAFinerLevelAreRenewed)
   EXPECT_LT((products.rightCols(72) - one).cwiseAbs().maxCoeff(), 1e-5);
 }
 
-/// A preconditioner that is no better than none, with the cycle to fall back to.
+/// A preconditioner that is no better than none, with the cycle as its fallback.
 TEST(BlockIteration, FallsBackToABetterPreconditionerWhenItStagnates)
 {
   const Discretisation on = Discretise(Torus(64, 32, 1.0, 0.4), 5);

@@ -1,4 +1,4 @@
-// Gauss-Seidel over slabs of slices equals sweeps one after the other [T Fig. 4.3].
+// Gauss-Seidel over slabs of slices equals successive sweeps [T Fig. 4.3].
 #include "Base/Errors.h"
 #include "Multigrid/Multigrid.h"
 #include "SampledHierarchy.h"
@@ -22,14 +22,14 @@ MultigridLevel SteepPlane()
     testing::SampledHierarchy(testing::TiltedPlane(6, 3.3, 0.9), 6, 6, 0.1, 1.0).front());
 }
 
-/// In sweep `sweep` (0, 1, ...), whether a slice waits until the slabs are done.
+/// Whether a slice waits until the slabs are done, in sweep `sweep` (0, 1, ...).
 bool IsLeftOut(Index slice, const std::vector<Index>& boundaries, int sweep)
 {
   return std::any_of(boundaries.begin(), boundaries.end(),
     [&](Index boundary) { return slice >= boundary - sweep - 1 && slice < boundary + sweep; });
 }
 
-/// One plain sweep over all unknowns, by slices: first those of the slabs.
+/// One plain sweep over all unknowns, slice by slice, starting with the slabs' slices.
 std::unique_ptr<Smoother> SequentialSweep(
   const MultigridLevel& level, const std::vector<Index>& boundaries, int sweep)
 {
@@ -127,7 +127,7 @@ TEST(SliceGaussSeidelSlabs, CyclesAsTheColouredOneDoes)
   {
     const double before = energy();
     multigrid.Cycle(zero, x);
-    EXPECT_LT(energy(), 0.4 * before); // the bound of TestMultigrid for two coloured sweeps
+    EXPECT_LT(energy(), 0.4 * before); // the bound of TestMultigrid for two colored sweeps
   }
 }
 

@@ -1,4 +1,4 @@
-// Both smoothers, on matrices with and without a grid behind them.
+// Both smoothers, on matrices with and without a grid.
 #include "Base/Errors.h"
 #include "Dense.h"
 #include "Multigrid/Smoother.h"
@@ -25,7 +25,7 @@ using testing::RelativeDifference;
 using testing::Sparse;
 using Group = std::array<Index, PatchKernelWidth>;
 
-/// One block, one colour.
+/// One block of one color.
 PatchOrder OneBlock(const UnknownGroups& groups)
 {
   PatchOrder order;
@@ -53,7 +53,7 @@ SparseMatrix Laplacian1D(Index size)
   return Sparse(A);
 }
 
-/// Symmetric and well conditioned: eigenvalues between 1 and 2 or so.
+/// A symmetric, well-conditioned matrix with eigenvalues between 1 and about 2.
 Eigen::MatrixXd RandomSpd(Id size)
 {
   const Eigen::MatrixXd R = RandomVectors(size, size, 3);
@@ -88,7 +88,7 @@ TEST(GaussSeidel, EqualsTheTextbookOnA1DLaplacian)
     relax(forward, i);
     relax(backward, n - 1 - i);
   }
-  // Ten steps of numbers up to 2, each right to rounding.
+  // Ten steps with numbers up to 2, each accurate to rounding.
   EXPECT_LT((Swept(*smoother, A, b, start) - forward).cwiseAbs().maxCoeff(), 1e-14);
   EXPECT_LT((Swept(*smoother, A, b, start, SweepDirection::Backward) - backward).norm(), 1e-14);
 }
@@ -128,7 +128,7 @@ TEST(PatchSmoother, SolvesExactlyWhenOnePatchCoversEverything)
   const auto smoother = MakePatchSmoother(A, OneBlock({ { 7, 0, 3, 2, 6, 5, 1, 4 } }));
   const MultiVector exact = RandomVectors(8, 3, 1);
   const MultiVector x = Swept(*smoother, A, Dense(A) * exact, RandomVectors(8, 3, 2));
-  // Factors are in single precision, 6e-8; the condition number is below 10.
+  // Factors are in single precision, 6e-8. The condition number is below 10.
   EXPECT_LT(RelativeDifference(x, exact), 1e-6);
 }
 
@@ -146,7 +146,7 @@ TEST(PatchSmoother, IsMultiplicativeSchwarz)
   EXPECT_LT((Swept(*smoother, A, b, start) - x).cwiseAbs().maxCoeff(), 1e-6); // single precision
 }
 
-/// The textbook, with a dense matrix.
+/// The textbook sweep, with a dense matrix.
 MultiVector SweptInBlocks(const Eigen::MatrixXd& D, const UnknownGroups& groups,
   const MultiVector& b, MultiVector x, SweepDirection direction)
 {
@@ -168,7 +168,7 @@ MultiVector SweptInBlocks(const Eigen::MatrixXd& D, const UnknownGroups& groups,
   return x;
 }
 
-/// Groups overlap, have unused places and one place twice, and come in no order.
+/// Overlapping groups in random order, with unused places and one place twice.
 UnknownGroups RandomGroups(Index unknowns, int size)
 {
   UnknownGroups groups(size);
@@ -185,7 +185,7 @@ UnknownGroups RandomGroups(Index unknowns, int size)
   return groups;
 }
 
-/// Patches of trilinear functions have 8, of quadratic B-splines 27, of cubic ones 64.
+/// Sizes of patches: 8 for trilinear functions, 27 for quadratic B-splines, 64 for cubic ones.
 class GroupsOfAnySize : public ::testing::TestWithParam<int>
 {
 };
@@ -231,9 +231,9 @@ TEST_P(GroupsOfAnySize, SolveForWhatCanBeSolvedFor)
   std::vector<Index> group(size);
   std::iota(group.begin(), group.end(), 0);
   groups.Add(group);
-  std::iota(group.begin(), group.end(), 3); // the three last ones among them
+  std::iota(group.begin(), group.end(), 3); // includes the last three unknowns
   groups.Add(group);
-  groups.Add(std::vector<Index>(size, size)); // nothing
+  groups.Add(std::vector<Index>(size, size)); // no unknown can be solved for
   groups.Add(std::vector<Index>(size, -1));
   const MultiVector b = MultiVector::Constant(size + 3, 1, 2.0);
   const MultiVector x =
@@ -277,7 +277,7 @@ TEST(PatchSmoother, RefusesGroupsThatAreTooLarge)
   EXPECT_THROW(MakePatchSmoother(A, OneBlock(UnknownGroups(65))), InvalidInput);
 }
 
-/// Rank 4 out of 8, as eight functions act like four on a plane, and the rest at size `hidden`.
+/// Rank 4 out of 8, plus a rest of size `hidden`: eight functions on a plane act like four.
 Eigen::MatrixXd NearlyDependent(double hidden)
 {
   const Eigen::MatrixXd R = RandomVectors(8, 8, 1);
@@ -293,8 +293,8 @@ TEST(PatchSmoother, RoundingOfTheFactorsIsHarmlessHoweverDependentFunctionsAre)
     const auto smoother = MakePatchSmoother(Sparse(D), OneBlock({ { 0, 1, 2, 3, 4, 5, 6, 7 } }));
     for (const int width : { 1, 3 })
     {
-      // The zero right-hand side: what a sweep leaves of x is the error. Without double precision
-      // for small pivots half of the energy is left at 1e-13.
+      // With a zero right-hand side, x after a sweep is the error. Without double precision for
+      // small pivots, half of the energy would be left at 1e-13.
       const MultiVector start = RandomVectors(8, width, 2);
       const MultiVector x = Swept(*smoother, Sparse(D), MultiVector::Zero(8, width), start);
       const double left = (x.transpose() * D * x).trace() / (start.transpose() * D * start).trace();
@@ -310,7 +310,7 @@ TEST(PatchSmoother, SolvesSingularPatchesOnTheirRange)
   const auto smoother = MakePatchSmoother(A, OneBlock({ { 0, 1, 2, 3, 4, 5, 6, 7 } }));
   const MultiVector b = D * RandomVectors(8, 1, 2);
   const MultiVector x = Swept(*smoother, A, b, MultiVector::Zero(8, 1));
-  // The four kept pivots are above 1e-2; single precision.
+  // The four kept pivots are above 1e-2, in single precision.
   EXPECT_LT(RelativeDifference(D * x, b), 1e-5);
 }
 
@@ -325,7 +325,7 @@ TEST(PatchSmoother, LocalInverseDoesNotDependOnTheScaleOfFunctions)
   const MultiVector b = scale.asDiagonal() * (D * exact);
   const MultiVector x = Swept(*smoother, A, b, MultiVector::Zero(8, 1));
   EXPECT_LT(RelativeDifference(scale.asDiagonal() * x, exact), 1e-6);
-  // Diagonals that single precision cannot hold: double precision takes over.
+  // Single precision cannot hold these diagonals, so double precision takes over.
   const SparseMatrix huge = Sparse(1e100 * D);
   const auto exactly = MakePatchSmoother(huge, OneBlock({ { 0, 1, 2, 3, 4, 5, 6, 7 } }));
   const MultiVector y = Swept(*exactly, huge, 1e100 * (D * exact), MultiVector::Zero(8, 1));
@@ -380,7 +380,7 @@ protected:
 
 TEST_P(BothSmoothers, BackwardSweepIsTheAdjointOfTheForwardOne)
 {
-  // With zero start a sweep is x = S b; the backward one has to be Sᵀ.
+  // From a zero start a sweep is x = S b. The backward sweep has to be Sᵀ.
   const MultigridLevel level = Finest(testing::TiltedPlane(4, 1.3, 0.7), 4);
   const auto smoother = Make(level);
   const MultiVector a = RandomVectors(level.A.rows, 1, 1);
@@ -390,7 +390,7 @@ TEST_P(BothSmoothers, BackwardSweepIsTheAdjointOfTheForwardOne)
   const MultiVector backward = Swept(*smoother, level.A, b, zero, SweepDirection::Backward);
   const double left = (b.transpose() * forward)(0, 0);
   const double right = (a.transpose() * backward)(0, 0);
-  // Rounding of local inverses up to 1e10 large, over norms of the vectors in the products.
+  // Rounding of local inverses up to 1e10, relative to the norms of the vectors in the products.
   EXPECT_LT(std::abs(left - right), 1e-12 * b.norm() * forward.norm());
 }
 
@@ -420,7 +420,7 @@ TEST_P(BothSmoothers, ColumnsDoNotSeeEachOther)
   const MultiVector together = Swept(*smoother, level.A, b, start);
   for (Id c = 0; c < b.cols(); ++c)
   {
-    // Sums of 27 terms in another order, some 30 patches one after the other.
+    // Sums of 27 terms in another order, in about 30 successive patches.
     EXPECT_LT(
       RelativeDifference(together.col(c), Swept(*smoother, level.A, b.col(c), start.col(c))),
       1e-13);
@@ -471,7 +471,7 @@ INSTANTIATE_TEST_SUITE_P(Widths, BothSmoothers,
   [](const auto& test)
   { return (test.param.isPatch ? "Patch" : "GaussSeidel") + std::to_string(test.param.width); });
 
-/// Two blocks of one colour are neither the same unknowns nor coupled by the matrix.
+/// Two blocks of one color neither share unknowns nor are coupled by the matrix.
 void ExpectUncoupled(const SparseMatrix& A, const PatchOrder& order)
 {
   for (std::size_t colour = 0; colour + 1 < order.colourBegin.size(); ++colour)

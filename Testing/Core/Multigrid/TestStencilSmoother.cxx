@@ -1,4 +1,4 @@
-// Patches relaxed on stencils of the grid in single precision, beside the same in double.
+// Patches relaxed on stencils of the grid in single precision, compared with double precision.
 #include "Discretisation.h"
 #include "Meshes.h"
 #include "Multigrid/StencilBlocks.h"
@@ -32,8 +32,8 @@ Multigrid Hierarchy(
   return BuildMultigrid(testing::ViewOf(functions, operators), lambda, 1.0, options);
 }
 
-/// Curved, with sheets nearer than a cell, so that functions of one corner differ; and with flat
-/// faces that no grid plane is parallel to.
+/// A curved mesh; one with sheets closer than a cell, so that functions of one corner differ; and
+/// meshes with flat faces that are not parallel to a grid plane.
 std::vector<TriangleMesh> Meshes()
 {
   const TriangleMesh sphere = testing::GeodesicSphere(4);
@@ -42,7 +42,7 @@ std::vector<TriangleMesh> Meshes()
     testing::Unweld(testing::Pulley(24, 0.1)) };
 }
 
-/// A right-hand side of a function: hidden directions have little of it.
+/// A right-hand side that comes from a function: hidden directions have little of it.
 MultiVector LoadOf(const SparseMatrix& A, Id columns)
 {
   MultiVector b;
@@ -50,7 +50,7 @@ MultiVector LoadOf(const SparseMatrix& A, Id columns)
   return b;
 }
 
-/// What a sweep does to the energy of the error.
+/// The energy of the error after a sweep.
 double EnergyAfter(const MultigridLevel& level, const Smoother& smoother, const MultiVector& exact,
   SweepDirection direction)
 {
@@ -83,8 +83,8 @@ TEST(StencilSmoother, SweepsAsInDoublePrecision)
         const MultiVector exact = RandomVectors(level.A.rows, 1, 4);
         const double inDouble = EnergyAfter(level, *level.smoother, exact, direction);
         const double inSingle = EnergyAfter(level, *smoother, exact, direction);
-        // Single precision leaves 1e-7 / sqrt(1e-6) of a direction, in the worst case. What is
-        // relaxed twice has less energy in the end.
+        // In the worst case, single precision leaves 1e-7 / sqrt(1e-6) of a direction. Patches that
+        // are relaxed twice end with less energy.
         EXPECT_LE(inSingle, 1.001 * inDouble) << "level " << l;
         if (StencilBlocks(level.A, level.order, 1).Unresolved().empty())
         {
@@ -108,7 +108,7 @@ TEST(StencilSmoother, TakesAnyNumberOfColumnsAndThreads)
   {
     MultiVector x = MultiVector::Zero(b.rows(), columns);
     smoother->Sweep(level.A, b.leftCols(columns), x, SweepDirection::Forward, 1);
-    // Columns are added up in another order where there is one alone.
+    // A single column is added up in another order.
     EXPECT_LT(RelativeDifference(x, all.leftCols(columns)), 1e-4) << columns;
     MultiVector again = MultiVector::Zero(b.rows(), columns);
     smoother->Sweep(level.A, b.leftCols(columns), again, SweepDirection::Forward, 3);
@@ -190,7 +190,7 @@ TEST(StencilSmoother, CyclesFromAnyStartReachDoublePrecision)
   EXPECT_LT(r.norm(), 1e-10 * b.norm());
 }
 
-/// As on a rank, which relaxes the others with its neighbours.
+/// A rank relaxes only some patches, and the others together with its neighbors.
 TEST(StencilSmoother, RelaxesSomeOfThePatches)
 {
   for (const TriangleMesh& mesh : Meshes())
@@ -261,7 +261,7 @@ TEST(StencilSmoother, IsNotMadeWhereItDoesNotServe)
   EXPECT_FALSE(patternFits);
 }
 
-/// A mesh that touches a cell with the tip of a triangle has a function of next to nothing.
+/// A mesh that touches a cell only with the tip of a triangle has an almost empty function.
 TEST(StencilSmoother, FunctionsOfAnySizeCount)
 {
   const Multigrid built = Hierarchy(Meshes()[1], 5, FactorPrecision::Double);
@@ -277,7 +277,7 @@ TEST(StencilSmoother, FunctionsOfAnySizeCount)
     MultiVector exact = RandomVectors(A.rows, 3, 4);
     for (Index row = 0; row < A.rows; ++row)
     {
-      exact.row(row) /= sizeOf[row]; // as much energy as others have
+      exact.row(row) /= sizeOf[row]; // as much energy as the others
       for (Id k = A.rowBegin[row]; k < A.rowBegin[row + 1]; ++k)
       {
         A.value[k] *= sizeOf[row] * sizeOf[A.column[k]];

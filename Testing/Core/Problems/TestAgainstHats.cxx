@@ -1,4 +1,4 @@
-// Solutions and spectra on real meshes against an independent discretisation of the same equations:
+// Solutions and spectra on real meshes against an independent discretization of the same equations:
 // hat functions with cotangent weights, factored directly.
 #include "Integrals/Evaluation.h"
 #include "Integrals/LoadVector.h"
@@ -19,7 +19,7 @@ using namespace gridfem::testing;
 namespace
 {
 
-/// A smooth function of the position that is no polynomial and has no symmetry.
+/// A smooth function of the position that is not a polynomial and has no symmetry.
 MultiVector Waves(const TriangleMesh& mesh)
 {
   const Grid grid = EmbedInGrid(mesh.points, UsedPoints(mesh), 2);
@@ -48,7 +48,7 @@ MultiVector SolveGridPoisson(
   return EvaluateAtPoints(d.space, solution.coefficients);
 }
 
-/// Norm of hat coefficients in L2 over the surface.
+/// L2 norm over the surface of a function with these hat coefficients.
 double SurfaceNorm(const HatSystem& hats, const TriangleMesh& mesh, const Eigen::MatrixXd& values)
 {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(hats.mass.rows());
@@ -64,7 +64,8 @@ double SurfaceNorm(const HatSystem& hats, const TriangleMesh& mesh, const Eigen:
 
 } // namespace
 
-/// A real mesh, how often its hats are refined in the plane, and how many eigenvalues are compared.
+/// A real mesh, the number of refinements of its hats in the plane, and the number of eigenvalues
+/// to compare.
 struct HatCase
 {
   const char* file;
@@ -110,7 +111,7 @@ TEST_P(AgainstHats, Poisson)
     const double error =
       SurfaceNorm(hats, mesh, u - reference) /
       SurfaceNorm(hats, mesh, Eigen::MatrixXd(reference.array() - reference.mean()));
-    // Two second-order discretisations of a function that varies over about a tenth of the mesh.
+    // Two second-order discretizations of a function that varies over about a tenth of the mesh.
     EXPECT_LT(error, depth == 6 ? 2e-2 : 1e-2) << depth;
     EXPECT_TRUE(depth == 6 || error < 1.05 * coarse) << coarse << " " << error;
     coarse = error;
@@ -135,7 +136,8 @@ TEST_P(AgainstHats, Spectrum)
   }
 }
 
-// The hats of neptune as it is are off by 3 % at the twentieth eigenvalue; bones has 26 components.
+// The hats of the original neptune mesh are off by 3 % at the twentieth eigenvalue. The bones mesh
+// has 26 components.
 INSTANTIATE_TEST_SUITE_P(RealMeshes, AgainstHats,
   ::testing::Values(HatCase{ "rocker_arm.ply", 0, 20 }, HatCase{ "genus3_13k.ply", 0, 20 },
     HatCase{ "knot2_12k.ply", 0, 20 }, HatCase{ "fandisk_32k.ply", 0, 20 },

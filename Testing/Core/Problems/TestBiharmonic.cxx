@@ -1,4 +1,4 @@
-// Biharmonic functions through many points, found by iteration, against those found at once.
+// Biharmonic functions through many points, found by iteration, against functions found directly.
 #include "Problems/HarmonicInterpolation.h"
 
 #include "EitherSpace.h"
@@ -62,7 +62,7 @@ double LargestDifference(
 
 } // namespace
 
-/// Points that lie dense and points that lie far apart, and several columns.
+/// Dense points and points far apart, in several columns.
 TEST(Biharmonic, ByIterationIsThatFoundAtOnce)
 {
   const TriangleMesh sphere = GeodesicSphere(16);
@@ -71,7 +71,7 @@ TEST(Biharmonic, ByIterationIsThatFoundAtOnce)
   {
     for (const TriangleMesh& mesh : { sphere, flat })
     {
-      // Points that are denser than functions would contradict each other.
+      // Points denser than the functions would contradict each other.
       const auto space = BuildEither(mesh, isOnHats, isOnHats ? 4 : 5, 1e-2);
       std::vector<Id> points = EveryPoint(mesh, 60);
       for (Id i = 0; i < 12; ++i)
@@ -133,7 +133,7 @@ TEST(Biharmonic, EndsEarlierForALargerToleranceAndSaysWhichItWanted)
   EXPECT_LT(coarse.relativeMisfit, 1e-6);
 }
 
-/// Two values at each of some points: the mean of both, and the flag that says so.
+/// Two values at each of some points: the solution meets the mean of both, and sets the flag.
 TEST(Biharmonic, MeetsValuesThatContradictEachOtherInTheMean)
 {
   const TriangleMesh mesh = GeodesicSphere(12);

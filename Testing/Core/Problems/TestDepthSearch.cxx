@@ -1,4 +1,4 @@
-// The depth for a wanted error, with errors that are made up.
+// The depth for a wanted error, with invented errors.
 #include "Problems/DepthSearch.h"
 
 #include "Grid/Grid.h"
@@ -23,7 +23,7 @@ SolutionAccuracy Errors(double discretization, bool isTrusted)
   return errors;
 }
 
-/// The depths that are tried when the error is known at every depth.
+/// The depths that are tried if the error is known at every depth.
 template<class ErrorsAt>
 std::vector<int> DepthsTried(double wanted, ErrorsAt&& errorsAt)
 {

@@ -1,5 +1,5 @@
-// Flows of scans and parts over many steps: nothing breaks down, and what is like a sphere becomes
-// one. [T Figures 5.2, 5.3, 6.8]
+// Flows of scans and parts over many steps: nothing breaks down, and sphere-like surfaces become
+// spheres. [T Figures 5.2, 5.3, 6.8]
 #include "Problems/MeanCurvatureFlow.h"
 
 #include "Base/LargeMemory.h"
@@ -27,7 +27,7 @@ struct RealFlow
     space = std::make_shared<const GridSpace>(BuildGridSpace(surface, grid));
   }
 
-  /// @param share  the time step, of the area
+  /// @param share  the time step relative to the area
   MeanCurvatureFlow Make(double share)
   {
     options.timeStep = share * SurfaceArea(*mesh) / std::pow(space->UnitLength(), 2);
@@ -39,7 +39,7 @@ struct RealFlow
   FlowOptions options;
 };
 
-/// Of the distances of the surface from its centroid, relative to their mean.
+/// Variance of the distances of the surface from its centroid, relative to their mean.
 double RadiusVariance(const TriangleMesh& mesh, const std::vector<Vec3>& points)
 {
   const Vec3 centroid = SizeOf(points, mesh.triangles).centroid;
@@ -62,7 +62,7 @@ struct Scan
 {
   const char* name;
   int depth;
-  double distortion; // mean over the surface, at most
+  double distortion; // largest mean over the surface
 };
 
 void PrintTo(const Scan& scan, std::ostream* stream)
@@ -74,7 +74,7 @@ class ConformalFlow : public ::testing::TestWithParam<Scan>
 {
 };
 
-/// The first step may make limbs longer before they are drawn in.
+/// The first step may lengthen limbs before they are drawn in.
 TEST_P(ConformalFlow, OfARealMeshWithoutHandlesEndsRound)
 {
   const std::string path = RealMesh(GetParam().name);
@@ -108,8 +108,8 @@ TEST_P(ConformalFlow, OfARealMeshWithoutHandlesEndsRound)
   EXPECT_LT(MeanOverSurface(*on.mesh, map.stretchRatio), GetParam().distortion);
 }
 
-// Limbs end in parts of the sphere that are smaller than what the functions of the start resolve:
-// the mean of the armadillo is more than that of a part, and the raptor's is of its claws alone.
+// Limbs end in parts of the sphere smaller than the resolution of the start's functions. The
+// armadillo's mean therefore exceeds that of a part, and the raptor's comes from its claws alone.
 INSTANTIATE_TEST_SUITE_P(Scans, ConformalFlow,
   ::testing::Values(Scan{ "fandisk_32k.ply", 6, 1.05 }, Scan{ "armadillo_100k.ply", 6, 1.2 },
     Scan{ "raptor_18k.ply", 6, INFINITY }));
@@ -118,7 +118,7 @@ struct LongFlow
 {
   const char* name;
   bool isSoup;
-  double timeStep; // of the area
+  double timeStep; // relative to the area
   int steps;
 };
 
@@ -131,7 +131,8 @@ class ManySteps : public ::testing::TestWithParam<LongFlow>
 {
 };
 
-/// A sphere vanishes at 1 / 16 π of its area, the fortieth step of 5e-4: there the flow may end.
+/// A sphere vanishes at 1 / 16 π of its area, which is the fortieth step of 5e-4. The flow may end
+/// there.
 TEST_P(ManySteps, TakeAreaAwayUntilNothingIsLeft)
 {
   const std::string path = RealMesh(GetParam().name);

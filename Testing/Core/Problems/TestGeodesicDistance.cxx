@@ -1,4 +1,4 @@
-// Distances against exact ones on surfaces where those are known, on both kinds of space.
+// Distances against exact ones on surfaces with known distances, on both kinds of space.
 #include "Problems/GeodesicDistance.h"
 
 #include "Base/Errors.h"
@@ -99,7 +99,7 @@ std::vector<double> DistancesInSpace(const TriangleMesh& mesh, const std::vector
     });
 }
 
-/// Largest error over half the great circle, from one point.
+/// Largest error from one point over half the great circle.
 double ErrorOnSphere(bool isOnHats, int depth, int fineness)
 {
   constexpr double Radius = 2.0;
@@ -110,7 +110,7 @@ double ErrorOnSphere(bool isOnHats, int depth, int fineness)
   return LargestError(Distances(mesh, { 17 }, isOnHats, depth), exact) / (Pi * Radius);
 }
 
-/// Largest error over the diagonal of a square with four sources, two of them near to each other.
+/// Largest error over the diagonal of a square with four sources, two of them close to each other.
 double ErrorOnSquare(bool isOnHats, int depth, int fineness)
 {
   TriangleMesh mesh = FlatRectangle(fineness, fineness);
@@ -125,7 +125,7 @@ double ErrorOnSquare(bool isOnHats, int depth, int fineness)
   return LargestError(Distances(mesh, sources, isOnHats, depth), exact) / (4.0 * std::sqrt(2.0));
 }
 
-/// A strip of the given length, bent so that its point at length s comes to (x(s), y, z(s)).
+/// A strip of the given length, bent so that its point at length s moves to (x(s), y, z(s)).
 TriangleMesh BentStrip(
   int along, int across, double length, double width, const std::function<Vec3(double)>& place)
 {
@@ -137,13 +137,13 @@ TriangleMesh BentStrip(
   return mesh;
 }
 
-/// Exact distances on a strip before it was bent, which keeps them.
+/// Exact distances on a flat strip. Bending keeps them.
 std::vector<double> DistancesOnStrip(int along, int across, double length, double width, Id source)
 {
   return DistancesInSpace(FlatRectangle(along, across, length, width), { source });
 }
 
-/// Values of all functions there.
+/// The values of all functions at a point.
 MultiVector LoadOfPoint(const FiniteElementSpace& space, Id point)
 {
   const SparseMatrix row = space.RowsAtPoints({ point });
@@ -176,7 +176,7 @@ TEST(GeodesicDistance, OnASphereAtTheDefaultDepthIsWithinOnePercent)
 
 TEST(GeodesicDistance, SaysHowFarItIsOff)
 {
-  // Great circles; and from two points of a square, whose fronts meet at a crease.
+  // Great circles on a sphere, and two sources on a square, whose fronts meet at a crease.
   TriangleMesh sphere = GeodesicSphere(40);
   TriangleMesh square = FlatRectangle(100, 100);
   const std::vector<Id> ofSquare = { NearestPoint(square, { 0.2, 0.3, 0.0 }),
@@ -248,7 +248,7 @@ TEST(GeodesicDistance, DoesNotDependOnTheTriangles)
   EXPECT_LT(LargestError({ expected, {}, 0, 0, 0, {} }, at(soup)), 2e-3);
 }
 
-/// Two sheets a third of a cell apart, joined at one edge: the way leads around it.
+/// Two sheets a third of a cell apart, joined at one edge. The path leads around this edge.
 TEST(GeodesicDistance, DoesNotJumpBetweenSheetsThatAreNearerThanACell)
 {
   const double gap = 0.01;
@@ -269,7 +269,7 @@ TEST(GeodesicDistance, DoesNotJumpBetweenSheetsThatAreNearerThanACell)
   }
 }
 
-/// Sixty widths and five extents long: heat falls by 1e-100 and more.
+/// Sixty widths and five extents long, so that heat falls by 1e-100 and more.
 TEST(GeodesicDistance, IsRightFarAwayOnALongRoll)
 {
   constexpr double Length = 8.0;
@@ -304,7 +304,7 @@ TEST(GeodesicDistance, FromARegionIsThatFromItsRim)
     ExactOf(mesh, [&](const Vec3& p) { return std::max(0.0, (p - centre).norm() - Radius); });
   for (const bool isOnHats : { false, true })
   {
-    // sqrt(t) is 0.033 on the grid, 0.016 on the hats, near whose corners fronts end.
+    // sqrt(t) is 0.033 on the grid and 0.016 on the hats. Fronts end near their corners.
     EXPECT_LT(LargestError(Distances(mesh, sources, isOnHats, 6), exact), 0.033) << isOnHats;
   }
 }
@@ -339,8 +339,8 @@ TEST(GeodesicDistance, ScalesWithTheMesh)
   }
 }
 
-/// Heat that comes far is smooth, and what it gives is rounded by some sqrt(t); on the coarsest
-/// level it is everywhere.
+/// Heat that comes from far is smooth, and distances from it are rounded by about sqrt(t). On the
+/// coarsest level heat is everywhere.
 TEST(GeodesicDistance, IsFoundHoweverFarTheHeatComes)
 {
   const auto mesh = std::make_shared<const TriangleMesh>(GeodesicSphere(30));
@@ -393,7 +393,7 @@ TEST(GeodesicDistance, RefusesWhatIsNoSourceAndNoSmoothing)
   }
 }
 
-/// Each equation holds to 1 % of its own terms, where u is 1 and where it is 1e-60.
+/// Each equation holds to 1 % of its own terms, both where u is 1 and where it is 1e-60.
 TEST(DistantHeat, IsAccurateRelativeToWhatArrives)
 {
   const TriangleMesh mesh = FlatRectangle(400, 10, 1.0, 0.02);
@@ -420,7 +420,7 @@ TEST(DistantHeat, IsAccurateRelativeToWhatArrives)
   }
 }
 
-/// Near the sources a direct solver is right, too.
+/// Near the sources a direct solver is accurate, too.
 TEST(DistantHeat, IsTheSolutionOfTheEquation)
 {
   for (const TriangleMesh& mesh :
@@ -439,7 +439,7 @@ TEST(DistantHeat, IsTheSolutionOfTheEquation)
   }
 }
 
-/// Every patch with what the row of its first function is coupled to, up to 27 functions.
+/// Every patch, extended by the functions coupled to its first function, up to 27 functions.
 UnknownGroups WidePatches(const SparseMatrix& A, const UnknownGroups& patches)
 {
   UnknownGroups wide(27);
@@ -475,7 +475,7 @@ TEST(DistantHeat, TakesPatchesOfAnySize)
   EXPECT_LT((heat.coefficients.col(0) - exact).norm(), 3e-3 * exact.norm());
 }
 
-/// Heat that would be less than the smallest number is missed and counted.
+/// Heat below the smallest number is lost, and counted.
 TEST(DistantHeat, SaysWhereItDoesNotArrive)
 {
   const TriangleMesh mesh = FlatRectangle(400, 10, 1.0, 0.02);

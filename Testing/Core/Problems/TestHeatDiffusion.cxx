@@ -1,4 +1,4 @@
-// Diffusion against exact decay on a sphere, and what it keeps, on both kinds of space.
+// Diffusion against exact decay on a sphere, and its invariants, on both kinds of space.
 #include "Problems/HeatDiffusion.h"
 
 #include "Base/Errors.h"
@@ -37,8 +37,8 @@ Field OnPoints(MultiVector values)
   return { FieldAssociation::Points, std::move(values) };
 }
 
-/// How much of f = x y is left on a sphere of radius 1 after a time, in so many steps: exactly
-/// exp(-6 time).
+/// The rest of f = x y on a sphere of radius 1 after a time, in this number of steps. The exact
+/// rest is exp(-6 time).
 double LeftOnSphere(bool isOnHats, TimeScheme scheme, double time, int steps)
 {
   const TriangleMesh mesh = Transform(GeodesicSphere(40), { 1, 2, 3 }, 0.4);
@@ -76,7 +76,8 @@ TEST(HeatDiffusion, LetsHarmonicsOfASphereDecayAsTheyDo)
   }
 }
 
-/// Each step multiplies by a known rational function of z = 6 δ; what is more comes from the space.
+/// Each step multiplies by a known rational function of z = 6 δ. The rest of the error comes from
+/// the space.
 TEST(HeatDiffusion, HasTheOrdersOfItsSchemes)
 {
   const auto error = [](TimeScheme scheme, int steps)
@@ -123,7 +124,7 @@ TEST(HeatDiffusion, KeepsTheIntegralOnEveryComponentAndAddsThatOfSources)
   }
 }
 
-/// A square whose rim is held at 0: sin(πx) sin(πy) decays by exp(-2π² t).
+/// A square whose rim is held at 0: sin(πx) sin(πy) decays like exp(-2π² t).
 TEST(HeatDiffusion, LetsHeatGoWhereValuesAreHeld)
 {
   const double pi = std::acos(-1.0);
@@ -161,7 +162,7 @@ TEST(HeatDiffusion, LetsHeatGoWhereValuesAreHeld)
   }
 }
 
-/// Held at 0 and 1 at the ends of a strip, heat comes to rest on a line in between.
+/// If the ends of a strip are held at 0 and 1, heat comes to rest on the line between them.
 TEST(HeatDiffusion, ComesToRestOnTheHarmonicFunctionOfWhatIsHeld)
 {
   const TriangleMesh mesh = Transform(FlatRectangle(30, 10, 3.0, 1.0), { 1, 2, 3 }, 0.3);
@@ -240,5 +241,5 @@ TEST(HeatDiffusion, RefusesWhatDoesNotFit)
   EXPECT_THROW(HeatDiffusion(space, load, load.leftCols(1), options), InvalidInput);
   DiffusionOptions held = options;
   held.held = HoldPoints(*space, { 0, 1 }, MultiVector::Ones(2, 1));
-  EXPECT_THROW(HeatDiffusion(space, load, {}, held), InvalidInput); // a column of two
+  EXPECT_THROW(HeatDiffusion(space, load, {}, held), InvalidInput); // two columns for one
 }

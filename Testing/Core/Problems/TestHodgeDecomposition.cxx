@@ -1,4 +1,4 @@
-// Fields of vectors whose parts are known, on both kinds of space.
+// Vector fields with known parts, on both kinds of space.
 #include "Problems/HodgeDecomposition.h"
 
 #include "Base/Errors.h"
@@ -68,8 +68,8 @@ HodgeDecomposition Decompose(const TriangleMesh& mesh, const Field& v, bool isOn
   return parts;
 }
 
-/// How much of each part is there, and each pair's product, relative to the field; each part
-/// compared with a field that it should be.
+/// Compares each part with the expected field, and checks the sum and the product of each pair,
+/// relative to the field.
 void ExpectParts(const TriangleMesh& mesh, const HodgeDecomposition& parts,
   const VectorField& gradient, const VectorField& rotation, const VectorField& rest,
   double tolerance)
@@ -120,7 +120,7 @@ const VectorField Zero = [](const Vec3&) { return Vec3(Vec3::Zero()); };
 class Hodge : public ::testing::TestWithParam<bool>
 {
 protected:
-  /// Products of means on triangles are those of functions on hats alone.
+  /// Means on triangles have the products of the functions only on hats.
   double Orthogonality() const { return GetParam() ? 1e-7 : 5e-3; }
 };
 
@@ -137,7 +137,7 @@ Vec3 TurnedOnSphere(const Vec3& p)
   return p.normalized().cross(SlopeOnSphere(p));
 }
 
-/// The torus around z of radius 1: the gradient of the angle around z, which is harmonic.
+/// On the torus of radius 1 around z: the gradient of the angle around z, which is harmonic.
 Vec3 AroundAxis(const Vec3& p)
 {
   return Vec3(-p[1], p[0], 0.0) / (p[0] * p[0] + p[1] * p[1]);
@@ -149,7 +149,7 @@ Vec3 TorusNormal(const Vec3& p)
   return (p - middle).normalized();
 }
 
-/// A ring in the plane z = 0, radii 1 and 2.
+/// A ring in the plane z = 0, with radii 1 and 2.
 TriangleMesh Ring(Id around, Id across)
 {
   TriangleMesh mesh = FlatRectangle(static_cast<int>(across), static_cast<int>(around));
@@ -158,7 +158,7 @@ TriangleMesh Ring(Id around, Id across)
     const double angle = 2 * M_PI * p[1];
     p = (1.0 + p[0]) * Vec3(std::cos(angle), std::sin(angle), 0.0);
   }
-  // The two ends of the rectangle meet: one row of points, so that the angle needs no welding.
+  // The two ends of the rectangle share one row of points, so the angle needs no welding.
   for (auto& triangle : mesh.triangles)
   {
     for (Id& corner : triangle)
@@ -206,7 +206,7 @@ TEST_P(Hodge, LeavesTheTwoHarmonicFieldsOfATorus)
   ExpectOrthogonal(mesh, parts, this->Orthogonality());
 }
 
-/// A ring: what streams through is a gradient, what goes around the hole is neither, and an eddy
+/// A ring: the flow through it is a gradient, the flow around the hole is neither part, and an eddy
 /// that is 0 at the boundary is a rotation.
 TEST_P(Hodge, KeepsWhatGoesAroundAHole)
 {
@@ -225,7 +225,7 @@ TEST_P(Hodge, KeepsWhatGoesAroundAHole)
   }
 }
 
-/// The parts are right although triangles face this way and that, and although points are apart.
+/// The parts are right although triangles have different orientations and points are not shared.
 TEST_P(Hodge, DoesNotDependOnTheOrientationOfTriangles)
 {
   TriangleMesh mesh = GeodesicSphere(24);
@@ -243,7 +243,7 @@ TEST_P(Hodge, DoesNotDependOnTheOrientationOfTriangles)
   }
 }
 
-/// Three sheets that meet in an edge: each a component of its own, held at the edge.
+/// Three sheets that meet in an edge. Each is a component of its own, held at the edge.
 TEST_P(Hodge, IsOrthogonalWhereSheetsBranch)
 {
   const TriangleMesh sheet = FlatRectangle(48, 48);

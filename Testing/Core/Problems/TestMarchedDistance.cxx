@@ -1,4 +1,4 @@
-// Distances by a marching front against exact ones, and where it stops.
+// Distances by a marching front against exact distances, and the limit where it stops.
 #include "Meshes.h"
 
 #include "Problems/MarchedDistance.h"
@@ -28,7 +28,7 @@ std::vector<double> DistanceFrom(
 
 } // namespace
 
-/// A straight front stays straight on any triangles, also on needles.
+/// A straight front stays straight on any triangles, even on needles.
 TEST(MarchedDistance, FromAnEdgeOfAPlaneIsExact)
 {
   for (const TriangleMesh& mesh : { FlatRectangle(20, 20), FlatRectangle(40, 5),
@@ -45,7 +45,7 @@ TEST(MarchedDistance, FromAnEdgeOfAPlaneIsExact)
   }
 }
 
-/// The error of a front that starts at a point is of first order, and falls with the mesh.
+/// The error of a front that starts at a point is of first order, and falls with the mesh size.
 TEST(MarchedDistance, FromAPointOfASphereConverges)
 {
   double last = 1.0;
@@ -84,7 +84,7 @@ TEST(MarchedDistance, EndsAtTheLimit)
   EXPECT_EQ(std::count(none.begin(), none.end(), INFINITY), std::ptrdiff_t(none.size() - 1));
 }
 
-/// Along the surface and not through space; a triangle soup is one surface where it is welded.
+/// The front runs along the surface and not through space. A welded triangle soup is one surface.
 TEST(MarchedDistance, StaysOnTheSurface)
 {
   const TriangleMesh sheets = TwoSheets(8, 0.01);

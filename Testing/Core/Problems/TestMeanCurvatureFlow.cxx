@@ -1,4 +1,5 @@
-// Mean-curvature flow: exact solutions, what never grows, and what happens where it cannot go on.
+// Mean-curvature flow: exact solutions, quantities that never grow, and the end of flows that
+// cannot go on.
 #include "Problems/MeanCurvatureFlow.h"
 
 #include "Base/Errors.h"
@@ -28,7 +29,7 @@ TriangleMesh OpenCylinder(int around, int along, double halfHeight)
   {
     p = Vec3(std::cos(p[0]), std::sin(p[0]), p[1] - halfHeight);
   }
-  const auto column = static_cast<Id>(around) + 1; // the last one is the first
+  const auto column = static_cast<Id>(around) + 1; // the last column is the first
   for (auto& triangle : mesh.triangles)
   {
     for (Id& point : triangle)
@@ -39,7 +40,7 @@ TriangleMesh OpenCylinder(int around, int along, double halfHeight)
   return mesh;
 }
 
-/// A flow on a mesh; times in squared world units.
+/// A flow on a mesh, with times in squared world units.
 class FlowOnMesh
 {
 public:
@@ -57,7 +58,7 @@ public:
 
   void SetTimeStep(double world) { options.timeStep = world / std::pow(space->UnitLength(), 2); }
 
-  /// As a share of the area.
+  /// Sets the time step relative to the area.
   void SetRelativeTimeStep(double share) { this->SetTimeStep(share * SurfaceArea(*mesh)); }
 
   void ClipAgain()
@@ -67,7 +68,7 @@ public:
 
   MeanCurvatureFlow Make() const { return { space, mesh, options }; }
 
-  /// The area that the space sees when the surface has gone there.
+  /// The area of the surface with this shape, as the space sees it.
   double AreaAt(const MultiVector& shape) const
   {
     const std::unique_ptr<FiniteElementSpace> copy = space->Copy();
@@ -139,7 +140,7 @@ TEST_P(MeanCurvatureFlows, ASphereShrinksByItsLaw)
     }
     errors.push_back(MeanSquareRadius(flow.Points()) - (1.0 - 4.0 * end));
   }
-  // First order in time; the differences are free of the error in space.
+  // First order in time. The differences are free of the error in space.
   EXPECT_LT(std::abs(errors[2]), 0.02);
   EXPECT_NEAR((errors[0] - errors[1]) / (errors[1] - errors[2]), 2.0, 0.25);
 }
@@ -176,7 +177,7 @@ TEST_P(MeanCurvatureFlows, TheTrackedMetricIsTheStaticOneAtTheStart)
 
 TEST_P(MeanCurvatureFlows, TrackingIsNearClippingAgain)
 {
-  // The mesh is finer than the grid: edges that a grid resolves flow faster than faces.
+  // The mesh is finer than the grid. Edges that a grid resolves flow faster than faces.
   FlowOnMesh on(Transform(Torus(60, 24, 1.0, 0.4), { 1, 2, 0 }, 0.4), GetParam(), 4);
   on.SetTimeStep(0.005);
   MeanCurvatureFlow tracked = on.Make();
@@ -259,7 +260,7 @@ TEST_P(MeanCurvatureFlows, TheConformalisedFlowEndsRound)
     const FlowStep step = flow.Advance({});
     ASSERT_EQ(step.end, FlowEnd::None);
     EXPECT_NEAR(step.area, area, 1e-9 * area);
-    // The first steps of this size make it thinner: the lowest frequency is that along its axis.
+    // The first steps of this size make it thinner, because the lowest frequency is along its axis.
     EXPECT_TRUE(k < 3 || step.sphericity > sphericity - 1e-4) << k;
     sphericity = step.sphericity;
   }
@@ -365,7 +366,7 @@ TEST_P(MeanCurvatureFlows, BackAndForthAndThreadsGiveTheSameBits)
 namespace
 {
 
-/// On both kinds of functions, and the file of a real mesh.
+/// Flows on both kinds of functions, with the file of a real mesh.
 class FlowsOfRealMesh : public ::testing::TestWithParam<std::tuple<bool, std::string>>
 {
 };
@@ -429,7 +430,8 @@ TEST_P(MeanCurvatureFlows, ASoupOfOpenPiecesStaysFinite)
 TEST_P(MeanCurvatureFlows, AFixedBoundaryHoldsACatenoid)
 {
   constexpr double HalfHeight = 0.5;
-  constexpr double Neck = 0.848338; // Neck cosh(HalfHeight / Neck) = 1, the radius of the circles
+  // Neck solves Neck cosh(HalfHeight / Neck) = 1, the radius of the circles.
+  constexpr double Neck = 0.848338;
   const double area =
     2.0 * M_PI * Neck * (HalfHeight + 0.5 * Neck * std::sinh(2.0 * HalfHeight / Neck));
   FlowOnMesh on(Transform(OpenCylinder(64, 24, HalfHeight), { 0, 1, 0 }, 0.3), GetParam(), 4);
@@ -447,7 +449,7 @@ TEST_P(MeanCurvatureFlows, AFixedBoundaryHoldsACatenoid)
     EXPECT_LE(done.area, before * (1.0 + 1e-6));
     before = done.area;
   }
-  EXPECT_NEAR(before, area, 4e-3 * area); // of the cylinder: 2 π, 5 % more
+  EXPECT_NEAR(before, area, 4e-3 * area); // area of the cylinder: 2 π, 5 % more
   const std::vector<Vec3> points = flow.Points();
   for (const Id point : on.options.fixed.points)
   {
@@ -480,7 +482,7 @@ TEST_P(MeanCurvatureFlows, AFlatSurfaceWithAFixedBoundaryStays)
   }
 }
 
-/// A dented plane becomes flatter within its boundary; a sphere beside it shrinks as if alone.
+/// A dented plane becomes flatter within its boundary. A sphere next to it shrinks as if alone.
 TEST_P(MeanCurvatureFlows, WhatIsHeldIsAComponentsOwnMatter)
 {
   TriangleMesh dented = FlatRectangle(24, 24);
@@ -509,18 +511,18 @@ TEST_P(MeanCurvatureFlows, WhatIsHeldIsAComponentsOwnMatter)
   {
     if (static_cast<Id>(k) < first)
     {
-      EXPECT_LT(std::abs(points[k][2]), 0.6 * 0.2); // of small waves 1.25^-3 would be left
+      EXPECT_LT(std::abs(points[k][2]), 0.6 * 0.2); // of small waves, 1.25^-3 would be left
     }
     else
     {
       centre += (points[k] - on.mesh->points[k]) / double(points.size() - first);
     }
   }
-  EXPECT_LT(centre.norm(), 1e-3); // the sphere shrinks where it is
+  EXPECT_LT(centre.norm(), 1e-3); // the sphere shrinks in place
   double radius = 0.3;
   for (int step = 0; step < 3; ++step)
   {
-    radius /= 1.0 + 2.0 * 5e-3 / (radius * radius); // what a step does to a sphere
+    radius /= 1.0 + 2.0 * 5e-3 / (radius * radius); // effect of a step on a sphere
   }
   EXPECT_NEAR((points.back() - Vec3(0.5, 0.5, 2.0)).norm(), radius, 0.01 * radius);
 }

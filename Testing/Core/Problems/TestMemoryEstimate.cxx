@@ -1,4 +1,4 @@
-// The estimate of memory against what is really built.
+// The memory estimate against the sizes that are really built.
 #include "Discretisation.h"
 #include "Meshes.h"
 #include "Problems/MemoryEstimate.h"
@@ -23,7 +23,7 @@ struct Case
   std::string name;
   TriangleMesh mesh;
   int depth;
-  std::string file = {}; ///< a real mesh instead, read by the tests that need it
+  std::string file = {}; ///< a real mesh instead; the tests that need it read it
 };
 
 void PrintTo(const Case& item, std::ostream* stream)
@@ -31,7 +31,7 @@ void PrintTo(const Case& item, std::ostream* stream)
   *stream << item.name;
 }
 
-/// Coarse and fine meshes: many cells per triangle, and many triangles per cell.
+/// Coarse and fine meshes, with many cells per triangle or many triangles per cell.
 std::vector<Case> Cases()
 {
   using namespace testing;
@@ -49,7 +49,7 @@ std::vector<Case> Cases()
   };
 }
 
-/// On each of the meshes.
+/// Tests on each of the meshes.
 class MemoryEstimates : public ::testing::TestWithParam<Case>
 {
 protected:
@@ -101,7 +101,7 @@ double Bytes(const GridFunctions& space)
   return bytes;
 }
 
-/// Without what the hierarchy shares: prolongations and their transposes.
+/// Bytes without the prolongations and their transposes, which the hierarchy shares.
 double Bytes(const LevelOperators& system)
 {
   double bytes = Bytes(system.integral);
@@ -121,9 +121,9 @@ GridFunctions BuildSpace(const TriangleMesh& mesh, int depth)
   return BuildGridFunctions(mesh, options);
 }
 
-/// Sizes are exact on average over positions of the grid, but for what depends on curves on the
-/// surface rather than on areas (rims, creases, rows of cells beside faces on grid planes): at most
-/// this share.
+/// Sizes are exact on average over positions of the grid, except for contributions of curves on the
+/// surface. These are rims, creases, and rows of cells next to faces on grid planes. Their share is
+/// at most this.
 double ShareOfCurves(int depth)
 {
   return 4.0 / double(1 << depth);
@@ -150,8 +150,8 @@ TEST_P(MemoryEstimates, HoldsWhatIsBuiltAndNotMuchMore)
   const Multigrid multigrid =
     BuildMultigrid(gridfem::testing::ViewOf(space, system), 0.01, 1.0, {});
   const double arrays = Bytes(space) + Bytes(system) + static_cast<double>(multigrid.Memory());
-  // The arrays that are held at the end; rims and coarse levels have a few more functions than
-  // areas tell. The peak of clipping is up to twice what clipping leaves.
+  // The arrays at the end. Rims and coarse levels have a few more functions than areas tell. The
+  // peak of clipping is up to twice the size of its result.
   EXPECT_GT(estimate.bytes, (1.0 - ShareOfCurves(depth)) * arrays);
   EXPECT_LT(estimate.bytes, 2.5 * arrays);
 }
@@ -209,7 +209,7 @@ TEST(MemoryEstimate, TheDepthForPointsIsTheFinestThatHasNoMoreFunctionsForEach)
       const auto functionsAt = [&](int depth)
       { return BuildSpace(mesh, depth).Finest().numberOfFunctions; };
       const int depth = DepthForPoints(mesh, MaximumDepth, perPoint);
-      // Estimates are good to some per cent; rims have more functions than areas tell.
+      // Estimates are good to a few percent. Rims have more functions than areas tell.
       EXPECT_LT(functionsAt(depth), 1.2 * perPoint * points);
       EXPECT_GT(functionsAt(depth + 1), 0.95 * perPoint * points);
       EXPECT_EQ(DepthForPoints(mesh, depth - 1, perPoint), depth - 1);
@@ -241,10 +241,10 @@ TEST_P(MemoryEstimates, GrowsWithDepth)
     const MemoryEstimate coarse = EstimateMemory(mesh, level);
     const MemoryEstimate fine = EstimateMemory(mesh, level + 1);
     EXPECT_GT(fine.bytes, coarse.bytes);
-    // Areas grow by 4, all else by less.
+    // Areas grow by 4, everything else by less.
     EXPECT_LE(fine.bytes, 4.0 * coarse.bytes);
   }
-  // Deep enough, areas are all that counts.
+  // At large depths only areas count.
   EXPECT_NEAR(EstimateMemory(mesh, 14).bytes / EstimateMemory(mesh, 13).bytes, 4.0, 0.2);
 }
 

@@ -57,7 +57,7 @@ std::vector<double> ExactDistances(
   return distance;
 }
 
-/// By how much a point's source is farther than the nearest one; the largest.
+/// The largest excess of the distance from a point's source over that from its nearest source.
 double LargestDetour(const TriangleMesh& mesh, const std::vector<Id>& nearest,
   const std::vector<Id>& sources, const Exact& exact)
 {
@@ -108,8 +108,8 @@ TEST(NearestSource, OfComputedDistancesIsRightToThreeCells)
   }
 }
 
-/// Distances beside the second source have come out below 0, and are 0; no point there comes after
-/// it.
+/// Distances around the second source were negative and are set to 0. No point there comes after
+/// the source.
 TEST(NearestSource, KnowsASourceWhoseSurroundingsAreAsNear)
 {
   const TriangleMesh mesh = FlatRectangle(40, 1, 1.0, 0.025);
@@ -123,7 +123,7 @@ TEST(NearestSource, KnowsASourceWhoseSurroundingsAreAsNear)
   EXPECT_LT(LargestDetour(mesh, nearest, sources, InSpace), 0.05);
 }
 
-/// Neither the order of points nor edges that are no edges of the surface matter.
+/// Neither the order of points nor unwelded edges matter.
 TEST(NearestSource, GoesAcrossUnweldedEdgesWhereTheyAreWelded)
 {
   const TriangleMesh mesh = FlatRectangle(20, 20);
@@ -133,7 +133,7 @@ TEST(NearestSource, GoesAcrossUnweldedEdgesWhereTheyAreWelded)
   const std::vector<Id> nearest = NearestSources(soup, distance, sources, true);
   EXPECT_LT(LargestDetour(soup, nearest, sources, InSpace), 1.5 / 20);
   const std::vector<Id> torn = NearestSources(soup, distance, sources, false);
-  EXPECT_GT(std::count(torn.begin(), torn.end(), -1), 1000); // no triangle knows of another
+  EXPECT_GT(std::count(torn.begin(), torn.end(), -1), 1000); // no triangle is connected to another
 }
 
 TEST(NearestSource, GoesThroughAPointThatLiesOnAnotherSheet)

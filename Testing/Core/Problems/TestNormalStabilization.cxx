@@ -1,5 +1,5 @@
-// The weight of the normal derivative: iterations that do not grow, the rate of the error, and
-// coordinates that stay what they are.
+// The weight of the normal derivative: the iterations do not grow, the rate of the error stays, and
+// coordinates do not change.
 #include "Discretisation.h"
 #include "Integrals/Evaluation.h"
 #include "Integrals/LoadVector.h"
@@ -74,7 +74,7 @@ TEST(NormalStabilization, KeepsIterationsFlatAndTheRateOfTheError)
     RecordProperty("error" + std::to_string(depth), std::to_string(error));
     if (last > 0.0)
     {
-      EXPECT_GT(last / error, 2.8) << depth; // as without the weight
+      EXPECT_GT(last / error, 2.8) << depth; // the rate without the weight
     }
     last = error;
   }
@@ -101,7 +101,7 @@ TEST(NormalStabilization, GivesTheCoordinatesBackFromTheirGradients)
 
 TEST(NormalStabilization, IsTheWeightOfTheNormalDerivative)
 {
-  // On the plane z = 0 of the grid, functions of z have no tangential gradient: their energy is s
+  // On the plane z = 0 of the grid, functions of z have no tangential gradient. Their energy is s
   // times the area.
   const TriangleMesh mesh = FlatRectangle(4, 4);
   for (const double weight : { 1e-6, Recommended, 1.0 })
@@ -111,7 +111,7 @@ TEST(NormalStabilization, IsTheWeightOfTheNormalDerivative)
     MultiVector Lz;
     Multiply(StiffnessMatrix(problem.space, problem.system), z, Lz);
     const double area = std::pow(1.0 / problem.space.GetGrid().spacing, 2);
-    EXPECT_NEAR((z.transpose() * Lz)(0, 0) / (weight * area), 1.0, 1e-8); // 1e-16 / weight, at most
+    EXPECT_NEAR((z.transpose() * Lz)(0, 0) / (weight * area), 1.0, 1e-8); // at most 1e-16 / weight
   }
   EXPECT_THROW(Problem(mesh, 3, 1.0, 0.0), InvalidInput);
   EXPECT_THROW(Problem(mesh, 3, 1.0, 1.5), InvalidInput);

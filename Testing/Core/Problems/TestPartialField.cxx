@@ -1,4 +1,4 @@
-// Fields of which some values are unknown, against sums over the triangles.
+// Fields with some unknown values, against sums over the triangles.
 #include "Problems/PartialField.h"
 
 #include "Base/Errors.h"
@@ -20,7 +20,7 @@ namespace
 
 constexpr double Unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// Three spheres: all of the first is known, parts of the second, and nothing of the third.
+/// Three spheres: the first is known, the second in part, the third is unknown.
 TriangleMesh Spheres()
 {
   const TriangleMesh sphere = GeodesicSphere(12);
@@ -30,8 +30,8 @@ TriangleMesh Spheres()
   return Join(Join(sphere, moved(3.0)), moved(6.0));
 }
 
-/// Two columns, of which an unknown one makes the row unknown. Islands of known points are without
-/// a triangle.
+/// Two columns; an unknown value in one makes the row unknown. Islands of known points have no
+/// known triangle.
 Field PartlyKnown(const TriangleMesh& mesh)
 {
   Field f{ FieldAssociation::Points, PointCoordinates(mesh).leftCols(2) };
@@ -107,11 +107,11 @@ TEST(PartialField, CountsKnownPointsWithoutAKnownTriangle)
   const auto space = BuildEither(mesh, false, 4, 1e-2);
   EXPECT_GT(ignored, 10);
   EXPECT_EQ(CountIgnoredPoints(*space, split, mesh), ignored);
-  split.values.association = FieldAssociation::Triangles; // each counts by itself
+  split.values.association = FieldAssociation::Triangles; // each triangle counts by itself
   EXPECT_EQ(CountIgnoredPoints(*space, split, mesh), 0);
 }
 
-/// Values are linear on triangles, so that their means are known; weights do not count.
+/// Values are linear on triangles, so their means are known. Weights do not count.
 TEST(PartialField, HasTheMeansOfWhatIsKnownOnEachComponent)
 {
   const TriangleMesh mesh = Spheres();

@@ -26,7 +26,7 @@ std::unique_ptr<FiniteElementSpace> Build(
   options.functions.depth = depth;
   options.functions.threads = threads;
   options.coarsestSize = 32;
-  options.normalStabilization = 1e-2; // so that a dense solver knows all functions
+  options.normalStabilization = 1e-2; // a dense solver then determines all functions
   return BuildEither(mesh, isOnHats, options);
 }
 
@@ -38,7 +38,7 @@ SolveOptions Solver(double tolerance = 1e-8)
   return options;
 }
 
-/// Every so many-th point.
+/// Every step-th point.
 std::vector<Id> Every(Id step, Id points)
 {
   std::vector<Id> chosen;
@@ -147,8 +147,8 @@ TEST_P(PointConstraints, OfAHundredThousandPointsAreMet)
   EXPECT_LT(found.misfit, 2e-6); // 1e-6 of the range, which is 2
 }
 
-/// The harmonic function exp(π(x - 1)) sin(πy) + x on a square from its values on the rim: with
-/// each level a quarter of the error.
+/// The harmonic function exp(π(x - 1)) sin(πy) + x on a square, from its values on the rim. Each
+/// level has a quarter of the error.
 TEST(BoundaryConstraints, HaveErrorsOfSecondOrder)
 {
   const double pi = std::acos(-1.0);

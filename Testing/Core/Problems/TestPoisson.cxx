@@ -89,7 +89,7 @@ class PoissonOnSpaces : public ::testing::TestWithParam<SpaceCase>
 
 TEST_P(PoissonAtWeight, ReturnsAFieldThatIsGivenWithItsGradient)
 {
-  // s = ∇f gives u = f for every λ; f: the coordinates and a linear function of them. λ is in
+  // s = ∇f gives u = f for every λ. f has the coordinates and a linear function of them. λ is in
   // units of the mesh, which has size 2.
   for (const bool connectivityAware : { true, false })
   {
@@ -102,7 +102,7 @@ TEST_P(PoissonAtWeight, ReturnsAFieldThatIsGivenWithItsGradient)
     const PoissonSolution solution = problem.Solve(problem.Values(f), problem.Gradients(f));
     EXPECT_TRUE(solution.report.converged);
     const MultiVector u = EvaluateAtPoints(problem.space, solution.coefficients);
-    EXPECT_LT((u - f).cwiseAbs().maxCoeff(), 1e-8); // tolerance of the solve, 1e-11 in energy
+    EXPECT_LT((u - f).cwiseAbs().maxCoeff(), 1e-8); // the solve has a tolerance of 1e-11 in energy
   }
 }
 
@@ -156,7 +156,7 @@ INSTANTIATE_TEST_SUITE_P(Spaces, PoissonOnSpaces, ::testing::ValuesIn(AllSpaces(
 namespace
 {
 
-/// Solves for the coordinates from their values and gradients.
+/// Solves for the coordinates, given their values and gradients, and expects them back.
 void ExpectCoordinatesBack(const TriangleMesh& mesh, int depth)
 {
   for (const bool connectivityAware : { true, false })
@@ -174,7 +174,8 @@ void ExpectCoordinatesBack(const TriangleMesh& mesh, int depth)
       const bool isUsed = problem.space.pointPatch[i] >= 0;
       worst = std::max(worst, isUsed ? (u.row(i) - f.row(i)).norm() : 0.0);
     }
-    // The tolerance bounds the energy; largest pointwise errors are some hundred times that.
+    // The tolerance bounds the energy. The largest pointwise errors are some hundred times the
+    // tolerance.
     EXPECT_LT(worst, 1e-5 * problem.space.GetGrid().spacing);
   }
 }
@@ -183,7 +184,7 @@ void ExpectCoordinatesBack(const TriangleMesh& mesh, int depth)
 
 TEST(Poisson, IsNotFooledByRoundingOnGridPlanes)
 {
-  // The large faces lie on planes of the grid but for rounding: functions that vanish on them must
+  // The large faces lie on planes of the grid up to rounding. Functions that vanish on them must
   // not get energies of squared rounding errors.
   for (const double noise : { 0.0, 1e-14, 1e-11, 1e-8 })
   {
@@ -223,7 +224,7 @@ TEST(Poisson, AgreesWithADenseSolve)
     const Eigen::MatrixXd A = lambda * Dense(MassMatrix(problem.space, problem.system)) +
                               Dense(StiffnessMatrix(problem.space, problem.system));
     const Eigen::MatrixXd b = lambda * problem.Values(f) + problem.Gradients(g);
-    // A is nearly singular normal to the surface, so compare values on it.
+    // A is nearly singular normal to the surface, so values are compared on the surface.
     const MultiVector exact = LeastSquares(A, b);
     EXPECT_LT((EvaluateAtPoints(problem.space, solution.coefficients) -
                 EvaluateAtPoints(problem.space, exact))
@@ -235,9 +236,9 @@ TEST(Poisson, AgreesWithADenseSolve)
 
 TEST(Poisson, ConvergesAtSecondOrderToASphericalHarmonic)
 {
-  // f = x⁴ - 6x²y² + y⁴ is a harmonic of degree l = 4: Δf = -l (l + 1) f on the unit sphere. With
-  // s = 0 the solution of λu - Δu = λf is λ / (λ + 20) f.
-  const TriangleMesh mesh = GeodesicSphere(160); // its own error shows at depth 6 only
+  // f = x⁴ - 6x²y² + y⁴ is a harmonic of degree l = 4: Δf = -l (l + 1) f on the unit sphere. With s
+  // = 0 the solution of λu - Δu = λf is λ / (λ + 20) f.
+  const TriangleMesh mesh = GeodesicSphere(160); // its own error shows only at depth 6
   MultiVector f(mesh.points.size(), 1);
   for (std::size_t i = 0; i < mesh.points.size(); ++i)
   {
@@ -278,7 +279,7 @@ TEST(Poisson, IsSolvedByCyclesAloneAsWell)
   EXPECT_TRUE(cycles.report.converged);
   EXPECT_GT(cycles.report.iterations, krylov.report.iterations);
   const MultiVector values = EvaluateAtPoints(problem.space, krylov.coefficients);
-  // sqrt(rᵀBr) underestimates the error of slow cycles by their number.
+  // sqrt(rᵀBr) underestimates the error of slow cycles by a factor of their number.
   EXPECT_LT(
     (EvaluateAtPoints(problem.space, cycles.coefficients) - values).norm(), 1e-6 * values.norm());
 }
@@ -326,8 +327,8 @@ TEST(Poisson, GivesAConstantBackAtOnce)
 
 TEST(Poisson, StaysFiniteOnComponentsWithoutArea)
 {
-  // A triangle on a line: cut points may give its pieces an area of some roundings, of which a mean
-  // can still be taken; without any area the coefficients are 0.
+  // A triangle on a line. Cut points may give its pieces an area of a few roundings, which still
+  // has a mean. Without any area the coefficients are 0.
   TriangleMesh mesh = FlatRectangle(4, 4);
   const Id first = static_cast<Id>(mesh.points.size());
   mesh.points.insert(
@@ -341,14 +342,14 @@ TEST(Poisson, StaysFiniteOnComponentsWithoutArea)
       problem.Solve(problem.Values(RandomValues(mesh.points.size(), 2)), {});
     EXPECT_TRUE(solution.report.converged);
     const MultiVector u = EvaluateAtPoints(problem.space, solution.coefficients);
-    EXPECT_LE(u.cwiseAbs().maxCoeff(), 1.0); // the bounds of f
+    EXPECT_LE(u.cwiseAbs().maxCoeff(), 1.0); // f has these bounds
   }
 }
 
 TEST(Poisson, IsRightAtPointsOfTrianglesWithoutArea)
 {
   // The second triangle lies on a line and meets the first in a point. Its functions there have no
-  // equation; the point belongs to the first.
+  // equation. The point belongs to the first triangle.
   const TriangleMesh mesh = { { { 0, 0, 0 }, { 1, .3, .2 }, { .1, 1, .7 }, { -1, -.5, -.3 },
                                 { -.5, -.25, -.15 } },
     { { 0, 1, 2 }, { 0, 3, 4 } } };
@@ -393,8 +394,8 @@ TEST(Poisson, SolutionsBeyondTheLargestNumberHaveNotConverged)
 
 TEST(Poisson, SaysWhereRoundingIsTheEnd)
 {
-  // A triangle of 1 % of a cell: functions that differ in it are known by their normal derivative
-  // alone, whose weight is 1e-12.
+  // A triangle of 1 % of a cell. Functions that differ in it are determined by their normal
+  // derivative alone, whose weight is 1e-12.
   TriangleMesh mesh;
   for (const Vec3& corner : { Vec3(0.1, 0.2, 0.3), Vec3(1.1, 0.7, 0.4), Vec3(0.3, 1.2, 0.9) })
   {
@@ -419,9 +420,9 @@ TEST(Poisson, SaysWhereRoundingIsTheEnd)
 
 TEST(Poisson, SaysWhereNumbersDoNotDetermineTheSolution)
 {
-  // Two triangles a billionth as high as long. Their functions differ by energies of 1e-12, of
-  // which rounding of the matrix leaves four digits: the tolerance is out of reach for a residual
-  // that is far from rounding itself.
+  // Two triangles whose height is a billionth of their length. Their functions differ by energies
+  // of 1e-12, and rounding of the matrix leaves four digits of these. The tolerance is out of
+  // reach, although the residual is far from rounding.
   const Vec3 from[] = { { -0.8, -0.5, 0.3 }, { 0.7, -0.6, 0.2 } };
   const Vec3 to[] = { { 0.9, 0.6, -0.4 }, { -0.5, 0.8, -0.9 } };
   const Vec3 height[] = { { 0.3e-9, 0.2e-9, 0.8e-9 }, { 0.1e-9, 0.7e-9, -0.4e-9 } };
@@ -438,8 +439,8 @@ TEST(Poisson, SaysWhereNumbersDoNotDetermineTheSolution)
     EXPECT_TRUE(solution.report.converged || solution.isAtRounding) << seed;
   }
 
-  // Functions that differ beside the faces have no energy but 1e-6 of the others here, with all the
-  // digits: what stands still is the iteration.
+  // Functions that differ next to the faces have 1e-6 of the others' energy, but with all digits.
+  // Here the iteration itself stagnates.
   const TriangleMesh octahedron = GeodesicSphere(1);
   Problem slow(octahedron, AtDepth(4), 8e5);
   slow.options.solve.tolerance = 1e-6;
@@ -449,10 +450,11 @@ TEST(Poisson, SaysWhereNumbersDoNotDetermineTheSolution)
 
 TEST(Poisson, LeavesOutWhatCancelsBetweenPiecesThatLieOnEachOther)
 {
-  // Two fields on one triangle and a copy of it, which functions that are not connectivity-aware do
-  // not tell apart, have the mean as their solution. Sides that run there and back make the cut
-  // points of the two differ by rounding, and a load of that size need not be an energy at all.
-  for (const unsigned seed : { 371, 453, 459, 846, 920, 993 }) // of which the iteration broke down
+  // Two fields on one triangle and on a copy of it. Functions that are not connectivity-aware do
+  // not tell the two apart, so the solution is the mean. The copies' sides run in opposite
+  // directions, so their cut points differ by rounding. A load of that size need not be an energy
+  // at all.
+  for (const unsigned seed : { 371, 453, 459, 846, 920, 993 }) // the iteration broke down for these
   {
     const MultiVector random = RandomValues(4, 3, seed);
     TriangleMesh mesh;

@@ -39,7 +39,7 @@ PrincipalCurvatures Curvatures(const TriangleMesh& mesh, int threads = 0)
   return ComputeCurvatures(mesh, hats, PointNormals(mesh, hats, threads), threads);
 }
 
-/// The largest error of the curvatures, relative to the larger one, and of the directions.
+/// The largest error of the curvatures, relative to the larger curvature, and of the directions.
 struct Errors
 {
   double curvature = 0.0;
@@ -72,8 +72,8 @@ Errors Compare(
   return errors;
 }
 
-/// A flat rectangle [-1, 1]² with other places for its points; jitter moves them in the plane by so
-/// many sides of a square.
+/// A flat rectangle [-1, 1]² whose points are moved to other places. Jitter moves them in the
+/// plane, in units of a square's side.
 TriangleMesh Bend(int n, const std::function<Vec3(double, double)>& place, double jitter = 0.0)
 {
   TriangleMesh mesh = FlatRectangle(n, n, 2.0, 2.0);
@@ -102,7 +102,8 @@ Vec3 OnSaddle(double x, double y)
   return { x, y, 0.5 * (x * x - y * y) };
 }
 
-/// Of the graph of (x² - y²) / 2, seen from above: negative where it opens upwards.
+/// Exact curvatures of the graph of (x² - y²) / 2, seen from above: negative where it opens
+/// upwards.
 Exact OfSaddle(const Vec3& p)
 {
   const Vec3 u(1.0, 0.0, p[0]);
@@ -162,8 +163,8 @@ TEST(PrincipalCurvatures, OfCylinderTorusAndSaddleUpToTheBoundary)
   }
 }
 
-/// The normals of irregular triangles err by their size, so their differences do not get better
-/// with it; a little smoothing takes that away.
+/// The normals of irregular triangles have errors of the triangles' size, so finer meshes do not
+/// improve the differences. A little smoothing removes these errors.
 TEST(PrincipalCurvatures, OfIrregularTrianglesAreBetterSmoothed)
 {
   constexpr int Squares = 60;
@@ -191,7 +192,7 @@ TEST(PrincipalCurvatures, OfIrregularTrianglesAreBetterSmoothed)
   }
 }
 
-/// Noise of a hundredth of an edge in a sphere's points.
+/// Noise of a hundredth of an edge in the points of a sphere.
 TEST(PrincipalCurvatures, OfANoisySphereAreFoundWithSmoothing)
 {
   TriangleMesh mesh = GeodesicSphere(40, 2.0); // edges of about 0.07
@@ -241,8 +242,8 @@ TEST(PrincipalCurvatures, DoNotDependOnOrderSizeOrThreads)
   }
 }
 
-/// Triangles without area, points without triangles, edges with three triangles, triangles turned
-/// the other way, one triangle alone, nothing at all.
+/// Triangles without area, points without triangles, edges with three triangles, triangles of the
+/// opposite orientation, a single triangle, and an empty mesh.
 TEST(PrincipalCurvatures, OfBadMeshesAreFinite)
 {
   TriangleMesh bad = GeodesicSphere(6);
@@ -272,10 +273,10 @@ TEST(PrincipalCurvatures, OfBadMeshesAreFinite)
   {
     changed += std::abs(c.maximum[p] - good.maximum[p]) > 1e-9;
   }
-  EXPECT_LE(changed, 20); // what is around the two triangles
+  EXPECT_LE(changed, 20); // points around the two triangles
 }
 
-/// One point in a hundred is a needle's end: half of the others still lie beyond ±0.5.
+/// One point in a hundred is the end of a needle. Half of the others still lie beyond ±0.5.
 TEST(PrincipalCurvatures, BendingShowsMostPointsWhateverTheExtremes)
 {
   std::vector<double> curvature;
@@ -292,7 +293,7 @@ TEST(PrincipalCurvatures, BendingShowsMostPointsWhateverTheExtremes)
     EXPECT_LT(std::abs(bending[k]), 1.0);
     EXPECT_GT(bending[k] * curvature[k], 0.0);
   }
-  EXPECT_NEAR(BendingOf({ 1e-9, -1e-9, 1e-9 }, 4.0).front(), 0.0, 1e-8); // flat but for rounding
+  EXPECT_NEAR(BendingOf({ 1e-9, -1e-9, 1e-9 }, 4.0).front(), 0.0, 1e-8); // flat up to rounding
   EXPECT_TRUE(BendingOf({}, 0.0).empty());
   const double infinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(BendingOf({ infinity, 0.0, -infinity }, 0.0), (std::vector<double>{ 1.0, 0.0, -1.0 }));

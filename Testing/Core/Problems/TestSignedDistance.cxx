@@ -24,7 +24,7 @@ namespace
 constexpr double Pi = 3.14159265358979323846;
 using Distance = std::function<double(const Vec3&)>;
 
-/// By looking at every triangle that is near enough.
+/// Finds nearest places by a search over all triangles that are near enough.
 class NearestOn
 {
 public:
@@ -110,7 +110,7 @@ private:
 
   const TriangleMesh& mesh_;
   std::vector<Vec3> centre_;
-  double radius_ = 0.0; // of the largest
+  double radius_ = 0.0; // of the largest triangle
 };
 
 SurfaceCurve DivideBy(const TriangleMesh& mesh, const std::vector<std::vector<Vec3>>& lines)
@@ -118,7 +118,7 @@ SurfaceCurve DivideBy(const TriangleMesh& mesh, const std::vector<std::vector<Ve
   return DivideByLines(mesh, lines, NearestOn(mesh), true);
 }
 
-/// The points where a function is negative.
+/// Marks the points where a function is negative.
 Field Inside(const TriangleMesh& mesh, const Distance& distance)
 {
   Field inside{ FieldAssociation::Points, MultiVector(static_cast<Id>(mesh.points.size()), 1) };
@@ -142,7 +142,7 @@ std::vector<double> Distances(
   return field.atPoints;
 }
 
-/// The largest among points whose exact distance is at most a limit.
+/// The largest error among points whose exact distance is within a limit.
 double LargestError(const TriangleMesh& mesh, const std::vector<double>& found,
   const Distance& exact, double limit = std::numeric_limits<double>::infinity())
 {
@@ -168,7 +168,7 @@ std::vector<std::vector<Vec3>> Slice(const TriangleMesh& mesh, const Distance& h
     std::vector<Vec3> line;
     for (int k = 0; k < 3; ++k)
     {
-      // From the lower id, so that neighbours have the same point.
+      // From the lower id, so that neighbors have the same point.
       const Vec3& a = mesh.points[std::min(corner[k], corner[(k + 1) % 3])];
       const Vec3& b = mesh.points[std::max(corner[k], corner[(k + 1) % 3])];
       if ((height(a) < 0.0) != (height(b) < 0.0))
@@ -184,8 +184,8 @@ std::vector<std::vector<Vec3>> Slice(const TriangleMesh& mesh, const Distance& h
   return lines;
 }
 
-/// Whether points are on different sides of a curve just where they are on different sides of a
-/// plane.
+/// Expects points to be on different sides of a curve exactly where they are on different sides of
+/// a plane.
 void ExpectSidesOf(const TriangleMesh& mesh, const Distance& height, const SurfaceCurve& curve)
 {
   for (const auto& corner : mesh.triangles)
@@ -215,11 +215,12 @@ std::vector<Vec3> Circle(const Vec3& centre, double radius, int count)
 
 } // namespace
 
-/// A line from border to border: errors are those of heat at the ends, where it leaves obliquely.
+/// A line from border to border. The errors are those of heat at the ends, where it leaves
+/// obliquely.
 TEST(SignedDistance, FromALineOnASquareIsTheDistanceFromItAndErrorsFallWithDepth)
 {
   const Distance exact = [](const Vec3& p)
-  { return (p[0] - 0.37 - 0.2 * p[1]) / std::sqrt(1.04); }; // the left part is the smaller one
+  { return (p[0] - 0.37 - 0.2 * p[1]) / std::sqrt(1.04); }; // the left part is smaller
   const TriangleMesh mesh = FlatRectangle(100, 100);
   const SurfaceCurve curve = DivideBy(mesh, { { { 0.37, 0, 0 }, { 0.57, 1, 0 } } });
   for (const bool isOnHats : { false, true })
@@ -228,7 +229,7 @@ TEST(SignedDistance, FromALineOnASquareIsTheDistanceFromItAndErrorsFallWithDepth
     const std::vector<double> fine = Distances(mesh, curve, isOnHats, 7);
     EXPECT_LT(LargestError(mesh, coarse, exact), 0.03); // sqrt(t) is 0.066 and 0.016
     EXPECT_LT(LargestError(mesh, fine, exact), 0.5 * LargestError(mesh, coarse, exact));
-    // Next to the line, also half way between points of the mesh: no dots.
+    // Next to the line, even halfway between points of the mesh: the distance has no dots.
     EXPECT_LT(LargestError(mesh, fine, exact, 0.015), 0.002) << isOnHats; // a fifth of an edge
   }
 }
@@ -242,7 +243,7 @@ TEST(SignedDistance, FromACircleIsNegativeInside)
   {
     const std::vector<double> coarse = Distances(mesh, curve, isOnHats, 5);
     const std::vector<double> fine = Distances(mesh, curve, isOnHats, 7);
-    EXPECT_LT(LargestError(mesh, fine, exact), 0.02); // in the centre, where fronts meet
+    EXPECT_LT(LargestError(mesh, fine, exact), 0.02); // in the center, where fronts meet
     EXPECT_LT(LargestError(mesh, fine, exact), 0.55 * LargestError(mesh, coarse, exact));
     EXPECT_LT(LargestError(mesh, fine, exact, 0.02), 0.002) << isOnHats;
     for (std::size_t i = 0; i < fine.size(); ++i)
@@ -269,7 +270,7 @@ TEST(SignedDistance, FromTheEquatorIsTheLatitude)
     }
     const SurfaceCurve curve = DivideBy(mesh, { equator });
     std::vector<double> found = Distances(mesh, curve, isOnHats, depth);
-    // Both halves are of the same area: the first point is outside.
+    // Both halves have the same area: the first point is outside.
     const double sign = (mesh.points[0] - Vec3(4, 5, 6)).dot(axis.points[0]) > 0.0 ? 1.0 : -1.0;
     return LargestError(mesh, found,
       [&](const Vec3& p)
@@ -287,8 +288,8 @@ TEST(SignedDistance, FromTheEquatorIsTheLatitude)
   }
 }
 
-/// From the border of a region of points, which lies half an edge beside the circle, and of
-/// triangles, which is jagged by an edge.
+/// The border of a region of points lies half an edge next to the circle. The border of a region of
+/// triangles is jagged by an edge.
 TEST(SignedDistance, FromTheBorderOfARegionIsAsExactAsItsEdges)
 {
   constexpr double Edge = 0.01;
@@ -327,7 +328,7 @@ TEST(SignedDistance, TheBorderOfALabelIsThatOfItsRegion)
   {
     const bool isInside = circle(mesh.points[i]) < 0.0;
     inside.values(i, 0) = isInside ? 1.0 : 0.0;
-    labels.values(i, 0) = isInside ? -2.0 : double(i % 5); // outside are several
+    labels.values(i, 0) = isInside ? -2.0 : double(i % 5); // several labels outside
   }
   const SurfaceCurve curve = BorderOfLabel(mesh, labels, -2, true);
   const SurfaceCurve expected = BorderOfRegion(mesh, inside, true);
@@ -340,7 +341,8 @@ TEST(SignedDistance, TheBorderOfALabelIsThatOfItsRegion)
   }
 }
 
-/// Two rings around a tube divide it into a short and a long part; each component has its own.
+/// Two rings around a tube divide it into a short and a long part. Each component has rings of its
+/// own.
 TEST(SignedDistance, TakesSeveralCurvesOnSeveralComponents)
 {
   constexpr double Tube = 0.2;
@@ -349,7 +351,7 @@ TEST(SignedDistance, TakesSeveralCurvesOnSeveralComponents)
   };
   const Vec3 shift(0, 0, 1.5);
   const TriangleMesh mesh = Join(torus(Vec3::Zero()), torus(shift));
-  // Meridians of the torus at two angles: the plane through the axis.
+  // Meridians of the torus at two angles: intersections with a plane through the axis.
   const auto meridian = [](double angle, const Vec3& at)
   {
     const Vec3 outwards(std::cos(angle), std::sin(angle), 0);
@@ -369,12 +371,12 @@ TEST(SignedDistance, TakesSeveralCurvesOnSeveralComponents)
   for (std::size_t i = 0; i < found.size(); ++i)
   {
     const Vec3& p = mesh.points[i];
-    const double angle = std::remainder(std::atan2(p[1], p[0]) - 1.1, 2.0 * Pi); // of the middle
+    const double angle = std::remainder(std::atan2(p[1], p[0]) - 1.1, 2.0 * Pi); // from the middle
     if (std::abs(std::abs(angle) - 0.6) > 1e-3)
     {
       ASSERT_EQ(found[i] > 0.0, std::abs(angle) > 0.6) << i;
     }
-    // Around the outside a way is longer than straight on, around the inside shorter.
+    // A path around the outside is longer than the straight one, around the inside shorter.
     if (std::hypot(p[0], p[1]) > 1.0 + 0.99 * Tube && std::abs(angle) < 0.9)
     {
       ASSERT_NEAR(found[i], (1.0 + Tube) * (std::abs(angle) - 0.6), 0.08) << i;
@@ -417,7 +419,7 @@ TEST(SignedDistance, IsTheSameOnASoupAndWithNeedles)
   }
 }
 
-/// Two sheets a third of a cell apart, joined at one edge: the line is on one of them.
+/// Two sheets a third of a cell apart, joined at one edge. The line is on one of them.
 TEST(SignedDistance, DoesNotJumpBetweenSheetsThatAreNearerThanACell)
 {
   constexpr double Gap = 0.01;
@@ -465,7 +467,7 @@ TEST(SignedDistance, IsTheSameBitForBitWithAnyNumberOfThreads)
   }
 }
 
-/// Lines along edges of the mesh, through its points, in pieces, and twice the same.
+/// Lines along edges of the mesh, through its points, in pieces, and repeated.
 TEST(SignedDistance, FollowsLinesAlongEdgesAndInPieces)
 {
   const TriangleMesh mesh = FlatRectangle(10, 10);
@@ -488,11 +490,11 @@ TEST(SignedDistance, FollowsLinesAlongEdgesAndInPieces)
     };
     length += (at(1.0) - at(0.0)).norm();
   }
-  EXPECT_NEAR(length, 1.0, 1e-5); // but for the resolution at points of the mesh
+  EXPECT_NEAR(length, 1.0, 1e-5); // up to the resolution at points of the mesh
 }
 
-/// Boxes that stand on each other, and sheets upon each other: the nearest triangle of a point of a
-/// slice is now of one part, now of the other.
+/// Boxes that stand on each other, and sheets on top of each other. The nearest triangle of a point
+/// of a slice belongs sometimes to one part, sometimes to the other.
 TEST(SignedDistance, TakesSlicesOfPartsThatTouch)
 {
   const std::vector<TriangleMesh> meshes = {
@@ -511,7 +513,7 @@ TEST(SignedDistance, TakesSlicesOfPartsThatTouch)
   }
 }
 
-/// Triangles that are there twice, turned over, as pockets, and sheets that cross in an edge.
+/// Doubled triangles with the opposite orientation, as pockets, and sheets that cross in an edge.
 TEST(SignedDistance, TakesSlicesOfSurfacesThatAreNotManifold)
 {
   TriangleMesh doubled = GeodesicSphere(12);
@@ -538,7 +540,7 @@ TEST(SignedDistance, TakesSlicesOfSurfacesThatAreNotManifold)
   TriangleMesh crossing = Join(FlatRectangle(10, 10), upright);
   for (Vec3& point : crossing.points)
   {
-    point = (10.0 * point).array().round() / 10.0; // points of the common edge are the same
+    point = (10.0 * point).array().round() / 10.0; // points of the common edge coincide
   }
   for (const TriangleMesh& mesh : { doubled, pockets, crossing })
   {
@@ -561,7 +563,7 @@ TEST(SignedDistance, TakesALineThatIsThereTwiceOnce)
   EXPECT_EQ(once.segments.size(), twice.segments.size());
 }
 
-/// Within one triangle: over the two borders that meet there, around nothing, and open.
+/// Lines within one triangle: across two adjacent borders, closed around no point, and open.
 TEST(SignedDistance, TakesLinesWithinATriangle)
 {
   const TriangleMesh triangle{ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, { { 0, 1, 2 } } };

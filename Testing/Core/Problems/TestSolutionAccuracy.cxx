@@ -1,5 +1,5 @@
-// Estimated errors against true ones: of the space from a grid two levels finer, of the iteration
-// from the solution of the discrete equations.
+// Estimated errors against true errors. The true error of the space comes from a grid two levels
+// finer, that of the iteration from the solution of the discrete equations.
 #include "Problems/Poisson.h"
 
 #include "Grid/SurfaceEdges.h"
@@ -49,7 +49,7 @@ MultiVector AtPoints(const TriangleMesh& mesh, const Data& data)
   return f;
 }
 
-/// One equation on one space; without values that of their gradients.
+/// One equation on one space. Without values, it is the equation of their gradients.
 struct Equation
 {
   Equation(const FiniteElementSpace& onSpace, double lambda)
@@ -75,7 +75,7 @@ struct Equation
   Multigrid multigrid;
 };
 
-/// What the default solve of an equation says, and what is true, over the points of a mesh.
+/// Estimates of the default solve of an equation and the true errors, over the points of a mesh.
 struct Comparison
 {
   Comparison(const TriangleMesh& mesh, const FiniteElementSpace& space, const MultiVector& f,
@@ -172,7 +172,7 @@ struct HeldCase
   Hold hold;
 };
 
-/// Values of the first data at some points.
+/// Holds the values of the first data at some points.
 Hold HoldAt(const TriangleMesh& mesh, std::vector<Id> points)
 {
   MultiVector values(static_cast<Id>(points.size()), 1);
@@ -251,7 +251,7 @@ TEST(SolutionAccuracy, IsKnownWhereValuesAreHeld)
       const double ratio =
         solution.accuracy.discretization / (norm(values - truth) / norm(truth.array() - mean));
       EXPECT_TRUE(solution.report.converged);
-      // Harmonic functions peak at lonely points without an end.
+      // Harmonic functions have unbounded peaks at isolated points.
       EXPECT_GT(ratio, lambda > 0.0 ? 0.33 : 0.2);
       EXPECT_LT(ratio, solution.accuracy.isTrusted ? 2.5 : 8.0);
       EXPECT_LT(solution.accuracy.algebraic, 1e-2 * solution.accuracy.discretization);
@@ -261,7 +261,8 @@ TEST(SolutionAccuracy, IsKnownWhereValuesAreHeld)
 
 TEST(SolutionAccuracy, OfHeldValuesKnowsAHarmonicFunction)
 {
-  // The boundary decides it: errors are those of the space, and fall by four from depth to depth.
+  // The boundary determines the solution. Errors are those of the space, and fall by four from
+  // depth to depth.
   TriangleMesh mesh = FlatRectangle(60, 50, 2.0, 1.5);
   MultiVector exact(static_cast<Id>(mesh.points.size()), 1);
   for (std::size_t i = 0; i < mesh.points.size(); ++i)
@@ -294,7 +295,8 @@ TEST(SolutionAccuracy, OfHeldValuesKnowsAHarmonicFunction)
 
 TEST(SolutionAccuracy, IsKnownOnHats)
 {
-  // A linear function is the same on all subdivisions of a mesh, so their solutions compare.
+  // A linear function is the same on all subdivisions of a mesh, so their solutions can be
+  // compared.
   const Data linear{ "linear", true, [](const Vec3& p) { return p[0] + 0.5 * p[1] - 0.2 * p[2]; } };
   for (const TriangleMesh& mesh :
     { GeodesicSphere(16), Transform(Torus(60, 24, 1.0, 0.4), { 1, 0, 1 }, 0.3) })
@@ -326,8 +328,8 @@ TEST(SolutionAccuracy, IsKnownOnHats)
 
 TEST(SolutionAccuracy, IsRelativeToTheWholeSurface)
 {
-  // Two spheres apart, on which a linear function has two means: between them it varies more than
-  // on them.
+  // Two spheres apart, on which a linear function has two means. It varies more between the spheres
+  // than on them.
   const TriangleMesh mesh =
     Join(GeodesicSphere(20), Transform(GeodesicSphere(20), { 0, 0, 1 }, 0.0, 1.0, { 6, 1, 0 }));
   const Data data{ "drifting", true,
@@ -340,7 +342,7 @@ TEST(SolutionAccuracy, IsRelativeToTheWholeSurface)
     SCOPED_TRACE(lambda);
     const MultiVector truth = finer.ValuesAtPoints(
       Equation(finer, lambda).Solve({ FieldAssociation::Points, f }, 0.0, 1e-9).coefficients);
-    // Errors of 1e-4 are seen on the finer grid with some of its own.
+    // Errors of 1e-4 are measured on the finer grid with some of that grid's own error.
     ExpectRightEstimates(Comparison(mesh, space, f, lambda, truth), false);
   }
 }

@@ -1,4 +1,4 @@
-// What a user is told: nothing where all is well, and else the cause.
+// The messages for a user: none if all is well, otherwise the cause.
 #include "Problems/SolveWarnings.h"
 
 #include <gtest/gtest.h>
@@ -74,7 +74,7 @@ TEST(SolveWarnings, OfSpectraNameWhatIsMissing)
   EXPECT_EQ(TextOf(truncated, 9), "Only 3 of the 9 modes exist at Depth 7.");
 
   EXPECT_TRUE(Has(TextOf(SpectrumOf({ 0, 0, 0 }, 3), 3), "3 connected components"));
-  EXPECT_EQ(TextOf(SpectrumOf({ 0 }, 1), 1), ""); // who asks for one knows
+  EXPECT_EQ(TextOf(SpectrumOf({ 0 }, 1), 1), ""); // a user who asks for one mode knows
 
   Spectrum cut = SpectrumOf({ 0, 1, 1 }, 1);
   cut.cutsMultiplet = true;

@@ -1,6 +1,6 @@
 // Signatures, distances and filters on exact modes: the spherical harmonics up to degree 2 at the
 // points of the unit sphere. Their squares add up to (2l + 1) / 4π, and their products to Legendre
-// polynomials, so that every result is known in closed form.
+// polynomials. Every result is therefore known in closed form.
 #include "Base/Errors.h"
 #include "Meshes.h"
 #include "Problems/SpectralDescriptors.h"
@@ -40,7 +40,7 @@ PointModes SphericalHarmonics(const TriangleMesh& sphere)
   return modes;
 }
 
-/// The same on a sphere of another radius.
+/// The modes on a sphere of another radius.
 PointModes Scaled(PointModes modes, double radius)
 {
   for (double& value : modes.eigenvalues)
@@ -85,7 +85,7 @@ TEST_F(ModeSums, TimesSpanTheSpectrum)
 
 TEST_F(ModeSums, WaveKernelOfASphereIsOne)
 {
-  // Whole multiplets have constant sums of squares, whatever their weights.
+  // Complete multiplets have constant sums of squares, for any weights.
   for (const int count : { 1, 7 })
   {
     const MultiVector signature = WaveKernelSignature(modes, WaveEnergies(modes, count));
@@ -99,8 +99,9 @@ TEST_F(ModeSums, WaveKernelOfASphereIsOne)
 
 TEST_F(ModeSums, WaveKernelIsTheWeightedMeanOfSquares)
 {
-  // Modes that belong to no sphere: eigenvalues that all differ, values that add up to nothing. The
-  // sums are written out here, the width as seven of 128 steps from the lowest to the highest.
+  // Modes that belong to no sphere: all eigenvalues differ, and the values have no constant sums.
+  // The sums are written out here, with a width of seven of 128 steps from the lowest to the
+  // highest.
   modes.eigenvalues = { 0, 1, 1.5, 2.5, 4, 5, 7, 8, 12 };
   const double width = 7.0 / 128.0 * std::log(12.0);
   const WaveBands bands = WaveEnergies(modes, 4);
@@ -125,7 +126,7 @@ TEST_F(ModeSums, WaveKernelIsTheWeightedMeanOfSquares)
       spread = std::max(spread, std::abs(above / below - 1.0));
     }
   }
-  EXPECT_GT(spread, 0.5); // else a signature of ones would pass
+  EXPECT_GT(spread, 0.5); // otherwise a signature of ones would pass
 }
 
 TEST_F(ModeSums, DistancesOnASphereAreTheirSeries)
@@ -179,7 +180,7 @@ TEST_F(ModeSums, ScalesWithTheMesh)
 
 TEST_F(ModeSums, ComponentsWithoutASourceAreInfinitelyFar)
 {
-  // The second half of the points is a component of its own: two constants in place of one.
+  // The second half of the points is a component of its own, with two constants in place of one.
   const Id half = modes.values.rows() / 2;
   MultiVector values(modes.values.rows(), 10);
   values.rightCols(9) = modes.values;
@@ -213,8 +214,8 @@ TEST_F(ModeSums, EveryModeIsItsOwnShare)
 
 TEST_F(ModeSums, TheShareOfTheConstantIsTheMeanOverTheSurface)
 {
-  // Unequal triangles: a mean over points would be another one. x² at the points is linear between
-  // them, so that its mean over a strip is that of both ends.
+  // Unequal triangles: a mean over points would be different. The values of x² at the points are
+  // interpolated linearly, so the mean over a strip is that of its ends.
   TriangleMesh strip = FlatRectangle(4, 1);
   double exact = 0.0;
   const double ends[5] = { 0.0, 0.1, 0.15, 0.7, 1.0 };
@@ -263,7 +264,7 @@ TEST_F(ModeSums, RefusesWhatDoesNotFit)
   PointModes wrong = modes;
   wrong.eigenvalues[3] = std::nan("");
   EXPECT_THROW(HeatKernelSignature(wrong, { 0.1 }), InvalidInput);
-  wrong.eigenvalues.assign(9, 0.0); // nothing but constants
+  wrong.eigenvalues.assign(9, 0.0); // only constants
   EXPECT_THROW(WaveEnergies(wrong, 3), InvalidInput);
 }
 

@@ -45,7 +45,7 @@ TEST(Spectrum, NestedIterationEqualsDenseReference)
 
 TEST(Spectrum, ManyModesComeInWindows)
 {
-  // Two windows, the second of which has few vectors to start from: the coarser level is small. The
+  // Two windows. The second has few vectors to start from, because the coarser level is small. The
   // dense solver shows that no pair is missed.
   const Discretisation on = DiscretiseExactly(TrefoilTube(120, 16, 0.12), 4);
   ASSERT_GT(on.space.Finest().numberOfFunctions, 700);
@@ -70,13 +70,13 @@ TEST(Spectrum, UnitSphere)
   for (const int depth : { 4, 5, 6 })
   {
     const Discretisation on = DiscretiseExactly(mesh, depth);
-    const Spectrum spectrum = Solve(on, 100, 1e-6); // far below the discretisation error
+    const Spectrum spectrum = Solve(on, 100, 1e-6); // far below the discretization error
     EXPECT_TRUE(spectrum.converged);
     CheckPairs(on, spectrum);
     errors[depth - 4] = LargestError(WorldValues(on, spectrum), exact);
   }
   EXPECT_LT(errors[1], 0.015);
-  EXPECT_GT(errors[0] / errors[1], 3.0); // order two is a factor of four
+  EXPECT_GT(errors[0] / errors[1], 3.0); // second order gives a factor of four
   EXPECT_GT(errors[1] / errors[2], 3.0); // the facets' own error is a thirtieth of the last
 }
 
@@ -93,13 +93,13 @@ TEST(Spectrum, FlatSquare)
   }
   std::sort(exact.begin(), exact.end());
   exact.resize(30);
-  // Bilinear elements are (π k h)² / 12 too high; k = 5 and h = 1/32 are the worst: 2 %.
+  // Bilinear elements are (π k h)² / 12 too high. The worst case is k = 5 and h = 1/32: 2 %.
   const Discretisation flat = DiscretiseExactly(mesh, 5);
   const Spectrum spectrum = Solve(flat, 30);
   EXPECT_TRUE(spectrum.converged);
   CheckPairs(flat, spectrum);
   EXPECT_LT(LargestError(WorldValues(flat, spectrum), exact), 0.021);
-  // Out of the grid's planes and diagonals the eight functions of a cell act like four.
+  // Away from the grid's planes and diagonals, the eight functions of a cell act like four.
   const Discretisation tilted = DiscretiseExactly(Transform(mesh, { 1, 2, 3 }, 0.7), 5);
   EXPECT_LT(LargestError(WorldValues(tilted, Solve(tilted, 30)), exact), 0.021);
 }
@@ -107,7 +107,7 @@ TEST(Spectrum, FlatSquare)
 TEST(Spectrum, ComponentsWithoutAreaHaveNoModes)
 {
   // A triangle of collinear points, one of equal points, and an oblique line whose pieces have an
-  // area of rounding, far from the sphere.
+  // area of rounding, all far from the sphere.
   TriangleMesh mesh = GeodesicSphere(16);
   const Index first = static_cast<Index>(mesh.points.size());
   for (const double x : { 0.0, 0.1, 0.2, 0.3 })
@@ -133,7 +133,8 @@ TEST(Spectrum, ComponentsWithoutAreaHaveNoModes)
 
 TEST(Spectrum, MoreModesThanExist)
 {
-  // A flat square in a grid plane, 4 x 4 cells: 25 functions of the plane, the rest is null.
+  // A flat square in a grid plane, 4 x 4 cells, has 25 functions of the plane. The others vanish on
+  // it.
   const Discretisation on = DiscretiseExactly(FlatRectangle(4, 4), 2);
   const Spectrum spectrum = Solve(on, 100);
   EXPECT_TRUE(spectrum.truncated);
@@ -161,7 +162,7 @@ TEST(Spectrum, ReturnsNoMoreModesThanAskedAndAllWithAMass)
   }
 }
 
-/// Fifty take two panels of columns, which three threads share.
+/// Fifty modes take two panels of columns, which three threads share.
 TEST(Spectrum, RepeatsBitForBitOnAnyNumberOfThreads)
 {
   for (const auto& [modes, depth, tolerance] : { std::tuple(20, 4, 1e-8), std::tuple(50, 5, 1e-6) })
@@ -194,7 +195,7 @@ TEST(Spectrum, ScalesWithTheInverseSquareOfLength)
 
 TEST(Spectrum, HasEveryConstantOnceOnTrianglesMuchSmallerThanCells)
 {
-  // Three triangles, each 2 % of a cell long: no more than a few functions can be told apart.
+  // Three triangles, each 2 % of a cell long. Only a few functions can be told apart.
   TriangleMesh mesh;
   for (const Vec3& corner :
     { Vec3(0.97, -0.54, 0.33), Vec3(-0.71, -0.14, -0.04), Vec3(-0.2, -0.8, -0.8) })

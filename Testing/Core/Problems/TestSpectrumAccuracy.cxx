@@ -1,4 +1,4 @@
-// Estimated errors of eigenvalues, and the depth for a wanted one.
+// Estimated errors of eigenvalues, and the depth for a wanted error.
 #include "Meshes.h"
 #include "Problems/SpectrumAccuracy.h"
 #include "SpectrumChecks.h"
@@ -21,11 +21,11 @@ TEST(Spectrum, EstimatedErrorsAreTheTrueOnesWithinAFactorOfTwo)
   const Spectrum spectrum = Solve(on, 100);
   const std::vector<double> values = WorldValues(on, spectrum);
   EXPECT_EQ(spectrum.estimatedErrors[0], 0.0);
-  const double areaOfFacets = SurfaceArea(mesh) / (4 * Pi); // most of their own error
+  const double areaOfFacets = SurfaceArea(mesh) / (4 * Pi); // most of the facets' own error
   for (int j = 1; j < 100; ++j)
   {
-    // A factor of two: members of a multiplet may change places between the levels. The facets'
-    // error beyond their area is 2e-4.
+    // A factor of two, because members of a multiplet may change places between the levels. The
+    // facets' error beyond their area is 2e-4.
     const double error = values[j] * areaOfFacets / exact[j] - 1.0;
     EXPECT_LE(spectrum.estimatedErrors[j], 2.0 * error + 2e-4) << "mode " << j;
     EXPECT_GE(spectrum.estimatedErrors[j], 0.5 * error - 2e-4) << "mode " << j;
@@ -48,7 +48,7 @@ TEST(Spectrum, TheDepthFollowsFromTheWantedAccuracy)
       spectrum = Solve(on, 36);
     }
     EXPECT_LE(LargestError(WorldValues(on, spectrum), exact), 1.2 * accuracy);
-    EXPECT_LE(depth, 5); // 0.3 % at depth 5: no deeper than needed
+    EXPECT_LE(depth, 5); // 0.3 % at depth 5: no deeper than necessary
   }
 }
 

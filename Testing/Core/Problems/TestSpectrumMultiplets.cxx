@@ -1,4 +1,4 @@
-// Equal eigenvalues: symmetric surfaces, equal components, lists that end among them.
+// Equal eigenvalues: symmetric surfaces, equal components, and lists that end among them.
 #include "Meshes.h"
 #include "SpectrumChecks.h"
 
@@ -22,8 +22,8 @@ Spectrum SolveWhole(const Discretisation& on, int modes)
 
 TEST(Spectrum, ComponentsThatPartOnTheFinestLevelKeepTheirPairs)
 {
-  // The gap is wide enough for the finest cells. Coarser plain functions reach over it: what is
-  // nearly constant on both boxes there is none of the finer pairs.
+  // The gap is wide enough for the finest cells. Coarser plain functions reach over it. A function
+  // that is nearly constant on both boxes there is none of the finer pairs.
   const TriangleMesh boxes =
     testing::Join(Box(6, { 0, 0, 0 }, { 1, 1, 0.3 }), Box(6, { 0, 0, 0.41 }, { 1, 1, 0.71 }));
   const Discretisation plain = DiscretiseExactly(boxes, 5, false);
@@ -32,7 +32,7 @@ TEST(Spectrum, ComponentsThatPartOnTheFinestLevelKeepTheirPairs)
   const std::vector<Index> coarse = FunctionComponents(plain.space.levels[2]);
   ASSERT_EQ(*std::max_element(coarse.begin(), coarse.end()), 0);
   ASSERT_EQ(plain.space.Finest().numberOfFunctions, aware.space.Finest().numberOfFunctions);
-  for (const double tolerance : { 1e-6, 1e-10 }) // vectors in single, in double precision
+  for (const double tolerance : { 1e-6, 1e-10 }) // vectors in single and in double precision
   {
     const Spectrum spectrum = Solve(plain, 24, tolerance);
     const Spectrum expected = Solve(aware, 24, tolerance);
@@ -47,7 +47,7 @@ TEST(Spectrum, ComponentsThatPartOnTheFinestLevelKeepTheirPairs)
 
 TEST(Spectrum, AxisAlignedCubeHasItsMultiplicities)
 {
-  // On grid planes half of the functions of a cell are null on the surface: M is singular.
+  // On grid planes, half of the functions of a cell vanish on the surface, so M is singular.
   const Discretisation on = DiscretiseExactly(Box(4), 4);
   const Spectrum spectrum = Solve(on, 20, 1e-10);
   EXPECT_TRUE(spectrum.converged);
@@ -87,8 +87,8 @@ TEST(Spectrum, EqualSpheresShareEveryEigenvalue)
 
 TEST(Spectrum, SpheresInEqualCellsShareEveryEigenvalueExactly)
 {
-  // Three spheres of radius 1 in a cube of side 8 and 32 cells a side: 12 cells apart, so that all
-  // lie equally in the grid and every eigenvalue comes in threes.
+  // Three spheres of radius 1 in a cube of side 8 with 32 cells a side. They are 12 cells apart, so
+  // that all have the same position in the grid. Every eigenvalue is therefore triple.
   TriangleMesh mesh = GeodesicSphere(8);
   for (const double x : { 3.0, 6.0 })
   {
@@ -124,7 +124,7 @@ TEST(Spectrum, AMultipletAtTheEndIsCompletedOrReported)
 
 TEST(Spectrum, AMultipletLongerThanTheGuardsIsCompleted)
 {
-  // The first value of 8 equal cubes is 24-fold, more than guards reach.
+  // The first value of 8 equal cubes is 24-fold, more than the guards cover.
   const Discretisation on = DiscretiseExactly(CubeArray(2, 2, 1.0), 4);
   ASSERT_EQ(on.space.numberOfComponents, 8);
   EXPECT_EQ(SolveWhole(on, 3).eigenvalues.size(), 3u); // constants are not completed
@@ -139,7 +139,7 @@ TEST(Spectrum, AMultipletLongerThanTheGuardsIsCompleted)
 
 TEST(Spectrum, ManyComponentsHaveNoSmallLevel)
 {
-  // A cube has 4 cells a side and a period of 6: all lie equally in the grid.
+  // A cube has 4 cells a side and a period of 6 cells, so all have the same position in the grid.
   const Discretisation on = DiscretiseExactly(CubeArray(3, 2, 0.5), 4);
   ASSERT_EQ(on.space.numberOfComponents, 27);
   ASSERT_GT(on.space.levels[on.system.elements.size() - 1].numberOfFunctions, 600);
@@ -147,7 +147,7 @@ TEST(Spectrum, ManyComponentsHaveNoSmallLevel)
   EXPECT_TRUE(spectrum.converged);
   CheckPairs(on, spectrum);
   EXPECT_EQ(std::count(spectrum.eigenvalues.begin(), spectrum.eigenvalues.end(), 0.0), 27);
-  // The first value of a cube is threefold, that of 27 cubes 81-fold.
+  // The first value of a cube is threefold, that of 27 cubes is 81-fold.
   EXPECT_NEAR(spectrum.eigenvalues.back() / spectrum.eigenvalues[27], 1.0, 1e-7);
 }
 

@@ -1,5 +1,5 @@
-// Blocks of vectors in single precision, which take over from tolerances of 1e-7 on, against those
-// in double.
+// Blocks of vectors in single precision, which are used for tolerances of at least 1e-7, against
+// blocks in double precision.
 #include "Meshes.h"
 #include "SpectrumChecks.h"
 
@@ -22,7 +22,7 @@ TEST(SpectrumPrecision, PairsAreThoseOfDoublePrecision)
     { GeodesicSphere(32), Torus(64, 32, 1.0, 0.4), TrefoilTube(120, 16, 0.12) })
   {
     const Discretisation on = DiscretiseExactly(mesh, 5);
-    ASSERT_GT(on.space.Finest().numberOfFunctions, 1200); // or it would be solved densely
+    ASSERT_GT(on.space.Finest().numberOfFunctions, 1200); // otherwise it would be solved densely
     const Spectrum single = Solve(on, 60, Single);
     const Spectrum wide = Solve(on, 60, Double);
     EXPECT_TRUE(single.converged);
@@ -55,7 +55,7 @@ TEST(SpectrumPrecision, NoPairIsMissedInWindows)
   EXPECT_EQ(spectrum.residuals, again.residuals);
 }
 
-/// Rounding the vectors disturbs the lowest values most, the more the deeper the grid.
+/// Rounding the vectors disturbs the lowest values most, and more on deeper grids.
 TEST(SpectrumPrecision, LowValuesOfDeepGridsKeepTheirDigits)
 {
   const Discretisation on = DiscretiseExactly(Torus(64, 32, 1.0, 0.05), 8);

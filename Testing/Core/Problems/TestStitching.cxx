@@ -1,4 +1,4 @@
-// Colours of scans with different gains and offsets become one, on both kinds of space.
+// Colors of scans with different gains and offsets become one, on both kinds of space.
 #include "Problems/Stitching.h"
 
 #include "Base/Errors.h"
@@ -18,21 +18,21 @@ namespace
 
 constexpr int NumberOfScans = 5;
 
-/// Sectors around the axis z.
+/// The scan of a point: sectors around the z axis.
 Index ScanAt(const Vec3& p)
 {
   const double turn = std::atan2(p[1], p[0]) / (2.0 * EIGEN_PI) + 0.5;
   return std::min(NumberOfScans - 1, static_cast<int>(NumberOfScans * turn));
 }
 
-/// Large shapes and detail of a few triangles.
+/// Large shapes, and detail of a few triangles.
 Vec3 ColorAt(const Vec3& p)
 {
   return { 0.5 + 0.3 * std::sin(3 * p[0] + p[1]) + 0.03 * std::sin(40 * p[2]),
     0.5 + 0.2 * p[2] + 0.03 * std::sin(35 * p[0] + 20 * p[1]), 0.4 + 0.2 * std::cos(4 * p[1]) };
 }
 
-/// What a scanner makes of a colour.
+/// A color as a scanner sees it.
 Vec3 Seen(Index scan, const Vec3& color)
 {
   const double gain[] = { 1.0, 0.92, 1.07, 0.95, 1.04 };
@@ -66,7 +66,7 @@ Vec3 CentreOf(const TriangleMesh& mesh, Id triangle)
   return (mesh.points[corner[0]] + mesh.points[corner[1]] + mesh.points[corner[2]]) / 3.0;
 }
 
-/// A mesh in five scans with their colours at its points.
+/// A mesh in five scans with their colors at its points.
 struct Scans
 {
   explicit Scans(TriangleMesh scanned) : mesh(std::move(scanned))
@@ -84,8 +84,8 @@ struct Scans
   Field colors;
 };
 
-/// Root mean square over the edges of triangles whose ends are of different scans (or of the same
-/// one), of the difference of a column's values at the ends.
+/// Root mean square of the difference of a column's values at the ends of triangle edges. The ends
+/// are in different scans (or in the same scan).
 double EdgeDifference(const Scans& scans, const MultiVector& values, bool isSeam)
 {
   double sum = 0.0;
@@ -127,7 +127,7 @@ TEST_P(Stitching, RemovesJumpsAndKeepsGradients)
   const Scans scans(Transform(GeodesicSphere(50), { 1, 2, 3 }, 0.3));
   const StitchedColors stitched = Stitch(scans, GetParam(), 5, Options());
   EXPECT_TRUE(stitched.report.converged);
-  // What the colours themselves change along an edge is no jump.
+  // The change of the colors themselves along an edge is no jump.
   MultiVector truth = scans.colors.values;
   for (Id i = 0; i < truth.rows(); ++i)
   {
@@ -140,7 +140,7 @@ TEST_P(Stitching, RemovesJumpsAndKeepsGradients)
   EXPECT_LT(change, 0.05 * EdgeDifference(scans, scans.colors.values, false));
 }
 
-/// Scans that darken towards their borders: what the margins show is left out.
+/// Scans that darken towards their borders. The colors of these margins are left out.
 TEST_P(Stitching, BlendsOverMarginsThatAreWrong)
 {
   constexpr double Margin = 0.12;
@@ -155,7 +155,7 @@ TEST_P(Stitching, BlendsOverMarginsThatAreWrong)
       share(point, 0) = std::max(share(point, 0), near[t]);
     }
   }
-  for (Id i = 0; i < share.rows(); ++i) // the same colour everywhere, seen darker at the rim
+  for (Id i = 0; i < share.rows(); ++i) // the same color everywhere, seen darker at the rim
   {
     const double dark = 0.2 * std::max(0.0, 1.0 - 2.0 * share(i, 0));
     SetRow(scans.colors.values, i,
@@ -175,8 +175,8 @@ TEST_P(Stitching, BlendsOverMarginsThatAreWrong)
   EXPECT_LT(blended, 0.6 * sharp);
 }
 
-/// Colours of points and of triangles; one scan shows what is right, and the others become as it
-/// is.
+/// Colors of points and of triangles. One scan shows the right colors, and the others are adjusted
+/// to it.
 TEST_P(Stitching, TakesOtherScansToAReference)
 {
   constexpr Index Reference = 2;
@@ -199,7 +199,7 @@ TEST_P(Stitching, TakesOtherScansToAReference)
     options.reference = Reference;
     const StitchedColors stitched = Stitch(scans, GetParam(), 5, options);
     EXPECT_TRUE(stitched.report.converged);
-    // What is left of a difference to what the reference sees everywhere, and what it was.
+    // The remaining and the original difference from the colors that the reference sees everywhere.
     double before = 0.0;
     double after = 0.0;
     Eigen::RowVector3d drift = Eigen::RowVector3d::Zero();
@@ -244,7 +244,7 @@ TEST(KeptShares, RiseFromNothingAtTheSeamToAllBeyondTheWidth)
     between += wide[t] > 0.1 && wide[t] < 0.9 ? 1 : 0;
   }
   EXPECT_GT(between, 500);
-  // Triangles with colours of their own jump on edges, which have no triangles.
+  // Triangles with colors of their own jump on edges, which have no triangles.
   const ScanCut onTriangles = CutAtSeams(scans.mesh, scans.labels, FieldAssociation::Triangles);
   const std::vector<double> atEdges = KeptShares(scans.mesh, onTriangles, 0.3);
   EXPECT_LT(*std::min_element(atEdges.begin(), atEdges.end()), 0.1);
@@ -259,7 +259,8 @@ TEST_P(Stitching, OfOneScanChangesNothing)
   Scans scans(GeodesicSphere(12));
   std::fill(scans.labels.values.begin(), scans.labels.values.end(), 7);
   const StitchedColors stitched = Stitch(scans, GetParam(), 4, Options());
-  // On the grid the change is what it cannot show, smoothed: 1 % of the details' 0.03.
+  // On the grid, the change is the smoothed part that the grid cannot represent: 1 % of the
+  // details' 0.03.
   EXPECT_LT(
     (stitched.values - scans.colors.values).cwiseAbs().maxCoeff(), GetParam() ? 1e-4 : 0.01);
 }

@@ -33,8 +33,8 @@ std::unique_ptr<FiniteElementSpace> Build(
   return BuildEither(mesh, isOnHats, options);
 }
 
-/// Relative root mean squares of the errors for f = x y on a sphere of radius 2, whose gradient is
-/// (y, x, 0) without its normal part, and whose Laplacian is -6 / r² f.
+/// Relative root mean squares of the errors for f = x y on a sphere of radius 2. Its gradient is
+/// (y, x, 0) without the normal part, and its Laplacian is -6 / r² f.
 struct Errors
 {
   double gradient = 0.0;
@@ -105,8 +105,8 @@ TEST(SurfaceDerivatives, OnHatsConvergeToThoseOfTheSphere)
   EXPECT_LT(fine.laplacian, 0.75 * coarse.laplacian); // a second derivative of linear functions
 }
 
-/// A linear function on a flat sheet with boundaries: constant gradient, Laplacian 0 up to the
-/// edge.
+/// A linear function on a flat sheet with boundaries: the gradient is constant, the Laplacian 0 up
+/// to the edge.
 TEST(SurfaceDerivatives, OfALinearFunctionAreExactUpToTheBoundary)
 {
   const TriangleMesh mesh = Transform(TwoSheets(8, 0.4), { 1, 2, 3 }, 0.5, 3.0, { 7, 8, 9 });
@@ -172,8 +172,8 @@ TEST(SurfaceDerivatives, ScaleWithTheMeshAndTakeColumnsApart)
   }
 }
 
-/// The vectors p + w x p at p are linear, so both spaces hold them: on every surface their
-/// divergence is 2, of p alone, and n · rot is 2 w · n, of the rotation alone.
+/// The vectors p + w x p at points p are linear, so both spaces contain them. On every surface
+/// their divergence is 2, from p alone, and n · rot is 2 w · n, from the rotation alone.
 TEST(SurfaceDerivatives, OfARotationAndAScalingAreItsAxisAndTwo)
 {
   const Vec3 axis(0.3, -0.5, 0.8);
@@ -200,7 +200,7 @@ TEST(SurfaceDerivatives, OfARotationAndAScalingAreItsAxisAndTwo)
   }
 }
 
-/// At points the curl is that of smoothed gradients, along mean normals.
+/// At points, the curl is that of smoothed gradients along mean normals.
 TEST(SurfaceDerivatives, HaveTheCurlOfARotationAtPointsOfASphere)
 {
   const Vec3 axis(0.3, -0.5, 0.8);

@@ -1,5 +1,4 @@
-// Detail against dense solutions of the equation, and what it must never do, on both kinds of
-// space.
+// Detail against dense solutions of the equation, and its invariants, on both kinds of space.
 #include "Problems/SurfaceDetail.h"
 
 #include "Base/Errors.h"
@@ -22,7 +21,7 @@ namespace
 
 constexpr double Lambda = 0.05; // per squared cell
 
-/// A space with its mesh's curvatures.
+/// A space and the curvatures of its mesh.
 struct DetailCase
 {
   DetailCase(const TriangleMesh& inputMesh, bool isOnHats) : mesh(inputMesh)
@@ -50,7 +49,7 @@ struct DetailCase
   TriangleCurvatures curvatures;
 };
 
-/// What changes for the shape.
+/// Solves for the change of the shape.
 PoissonSolution Solve(const FiniteElementSpace& space, const std::vector<double>& scaleLessOne)
 {
   PoissonOptions options;
@@ -105,7 +104,7 @@ TEST_P(SurfaceDetail, SolvesTheEquation)
     const std::vector<double> scale(random.data(), random.data() + random.size());
     const PoissonSolution change = Solve(*space, scale);
     ASSERT_TRUE(change.report.converged);
-    // Another way to the same: (λM + L) u = λ M f + L σ f.
+    // Another way to the same solution: (λM + L) u = λ M f + L σ f.
     const MultiVector f = ShapeInSpace(*space).coefficients;
     const MultiVector u = f + change.coefficients;
     std::vector<double> sigma = scale;
@@ -265,7 +264,7 @@ TEST(LengthOf, RisesFromOneToTheLargestOnTheSideThatIsEnlarged)
     EXPECT_EQ(lengthOf(CurvatureTransfer::Custom, -k), 1.0 + (Largest - 1.0) * std::min(k, 1.0));
   }
   EXPECT_EQ(last, Largest);
-  // No kinks: from both ends it leaves with the square.
+  // It has no kinks: it leaves both ends with the square.
   constexpr double Step = 1e-3;
   EXPECT_LT(SmoothStep(Step), 3.0 * Step * Step);
   EXPECT_LT(1.0 - SmoothStep(1.0 - Step), 3.0 * Step * Step);

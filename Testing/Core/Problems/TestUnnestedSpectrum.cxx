@@ -29,7 +29,7 @@ struct Modes
     unit2 = std::pow(space.UnitLength(), 2);
   }
 
-  /// World units.
+  /// Eigenvalue of a mode, in world units.
   double Value(int mode) const { return spectrum.eigenvalues[mode] / unit2; }
 
   HatMatrices matrices;
@@ -68,7 +68,7 @@ TEST(UnnestedSpectrum, IsThatOfADenseSolver)
       ASSERT_EQ(modes.spectrum.eigenvalues.size(), 25u);
       for (int k = 0; k < 25; ++k)
       {
-        // The error of a value is the square of the measure: the tolerance.
+        // The error of a value is the square of the measure, which is the tolerance.
         EXPECT_NEAR(modes.Value(k), expected[k], 1e-8 * expected[24]) << k;
       }
     }
@@ -77,7 +77,7 @@ TEST(UnnestedSpectrum, IsThatOfADenseSolver)
 
 TEST(UnnestedSpectrum, ABoxOfWholeNumbersHasOneConstantOnly)
 {
-  // Nothing is rounded there: what is left of the constant is constant to the last bit.
+  // Nothing is rounded there: the rest of the constant is constant to the last bit.
   for (const int n : { 4, 8 })
   {
     const TriangleMesh mesh = Box(n, { 0, 0, 0 }, Vec3::Constant(n));
@@ -105,14 +105,15 @@ TEST(UnnestedSpectrum, VectorsAreEigenvectors)
   for (int k = 0; k < 15; ++k)
   {
     const double value = modes.spectrum.eigenvalues[k];
-    // The residual is the root of the error of the value, 1e-10, times the largest value there is.
+    // The residual is the square root of the value's error, 1e-10, times the largest value.
     EXPECT_LT((LX.col(k) - value * MX.col(k)).norm(), 1e-4 * LX.col(14).norm()) << k;
   }
 }
 
 TEST(UnnestedSpectrum, GoesOnToTheEndOfAMultipletOrSaysThatItIsCut)
 {
-  const TriangleMesh mesh = Transform(GeodesicSphere(24), { 1, 2, 3 }, 0.4); // 1, 3, 5, ... equal
+  // Its eigenvalues are equal in groups of 1, 3, 5, ...
+  const TriangleMesh mesh = Transform(GeodesicSphere(24), { 1, 2, 3 }, 0.4);
   SpectrumOptions options = Options(6, 1e-8);
   const Modes cut(mesh, 5, options);
   EXPECT_EQ(cut.spectrum.eigenvalues.size(), 6u);
@@ -143,7 +144,7 @@ TEST(UnnestedSpectrum, ZerosOfEqualComponentsAreAMultiplet)
 TEST(UnnestedSpectrum, EstimatesTheErrorOfTheWorseOfBothSpaces)
 {
   const TriangleMesh mesh = Transform(GeodesicSphere(5), { 1, 2, 3 }, 0.4);
-  // The same surface with hats of an eighth of the size: a 64th of the error.
+  // The same surface with hats of an eighth of the size has a 64th of the error.
   TriangleMesh fine = mesh;
   for (int k = 0; k < 3; ++k)
   {
