@@ -93,10 +93,10 @@ KnownRows Given::KnownValues(const GivenArray* mask) const
   return known;
 }
 
-Field Given::FieldOf(const std::string& name, bool keepsNaN) const
+gridfem::Field Given::FieldOf(const std::string& name, bool keepsNaN) const
 {
   const GivenArray& array = arrays.at(name);
-  Field field;
+  gridfem::Field field;
   field.association = array.isOnPoints ? FieldAssociation::Points : FieldAssociation::Triangles;
   const Id rows =
     array.isOnPoints ? static_cast<Id>(mesh->points.size()) : static_cast<Id>(sourceCell.size());
@@ -118,6 +118,47 @@ Field Given::FieldOf(const std::string& name, bool keepsNaN) const
     }
   }
   return field;
+}
+
+GivenField Given::Field(const std::string& name) const
+{
+  GivenField field;
+  if (const GivenArray* array = this->Find(name))
+  {
+    field.name = name;
+    field.association = array->isOnPoints ? FieldAssociation::Points : FieldAssociation::Triangles;
+    field.components = array->values.cols();
+    field.read = [this, name](NaNs nans) { return this->FieldOf(name, nans == NaNs::Kept); };
+  }
+  return field;
+}
+
+GivenConstraints Given::Constraints(const std::string& mask) const
+{
+  GivenConstraints constraints;
+  if (const GivenArray* array = this->Find(mask))
+  {
+    constraints.property = "ConstraintArray";
+    constraints.find = [this, array]
+    {
+      const KnownRows known = this->KnownValues(array);
+      return PointValues{ known.points, known.values };
+    };
+  }
+  return constraints;
+}
+
+void Given::KeepUnsolved(
+  const std::string& name, const std::vector<char>& isReached, MultiVector& values) const
+{
+  const MultiVector given = this->RowsAtPoints(name);
+  for (Id point = 0; point < values.rows(); ++point)
+  {
+    if (!isReached[point])
+    {
+      values.row(point) = given.row(point);
+    }
+  }
 }
 
 MultiVector Given::MeansOnCells(const MultiVector& onTriangles) const

@@ -6,6 +6,7 @@
 
 #include "Problems/Poisson.h"
 #include "Problems/Requirements.h"
+#include "Solvers/GivenField.h"
 #include "Spaces/SpaceChoice.h"
 
 #include <map>
@@ -55,7 +56,19 @@ struct Given
 
   /// The array as Core integrates it. Throws InvalidInput naming the first point or cell with an
   /// infinite value, or a NaN unless it keeps these; values that no cell uses are 0.
-  Field FieldOf(const std::string& name, bool keepsNaN = false) const;
+  gridfem::Field FieldOf(const std::string& name, bool keepsNaN = false) const;
+
+  /// The array for a solver; without components when it is not given.
+  /// @param name  of the array, which messages give, too
+  GivenField Field(const std::string& name) const;
+
+  /// The points where the array `mask` holds the solution at the value of `values`, or where no
+  /// mask is given none.
+  GivenConstraints Constraints(const std::string& mask) const;
+
+  /// Gives the rows of points that no function reaches what they were given (RowsAtPoints).
+  void KeepUnsolved(
+    const std::string& name, const std::vector<char>& isReached, MultiVector& values) const;
 
   /// Means over the cells of values on triangles, weighted by area.
   MultiVector MeansOnCells(const MultiVector& onTriangles) const;

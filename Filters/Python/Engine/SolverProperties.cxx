@@ -1,0 +1,55 @@
+#include "SolverProperties.h"
+
+#include "Integrals/QuadratureRule.h"
+
+#include <limits>
+
+namespace gridfem
+{
+
+double TakeProperty::Number(const char* name, double standard, const Range& range) const
+{
+  if (range.isClamped)
+  {
+    return properties.Number(name, standard, range.least, range.most);
+  }
+  return range.least == std::numeric_limits<double>::lowest()
+           ? properties.FiniteNumber(name, standard)
+           : properties.NumberFrom(name, standard, range.least);
+}
+
+void TakeProperty::operator()(EquationOptions& equation) const
+{
+  const bool hasAccuracy = equation.solve.tolerance == 0.0;
+  equation.solve.tolerance =
+    properties.Number("Tolerance", equation.solve.tolerance, hasAccuracy ? 0.0 : 1e-16, 0.999);
+  if (hasAccuracy)
+  {
+    const double wanted = properties.Number("Accuracy", equation.accuracy, 1e-6, 1.0);
+    equation.accuracy = equation.solve.tolerance == 0.0 ? wanted : 0.0;
+  }
+  equation.solve.maximumIterations = properties.Integer(
+    "MaximumIterations", equation.solve.maximumIterations, 1, std::numeric_limits<int>::max());
+}
+
+void TakeSurfaceOptions(Properties& properties, SurfaceOptions& options)
+{
+  constexpr int Largest = std::numeric_limits<int>::max();
+  options.space.depth = properties.Integer("Depth", options.space.depth, 0, MaximumDepth);
+  options.space.connectivityAware =
+    properties.Switch("ConnectivityAware", options.space.connectivityAware);
+  options.space.weldCoincidentPoints =
+    properties.Switch("WeldCoincidentPoints", options.space.weldCoincidentPoints);
+  options.space.threads = properties.Integer("NumberOfThreads", options.space.threads, 0, 1024);
+  options.choice.kind = static_cast<FunctionKind>(
+    properties.Integer("FunctionSpace", static_cast<int>(options.choice.kind), 0, 1));
+  options.choice.quadratureDegree =
+    properties.Integer("QuadratureDegree", options.choice.quadratureDegree, -Largest, Largest);
+  TriangleRule(options.choice.quadratureDegree); // refuses a wrong degree before the long work
+  options.choice.normalStabilization =
+    properties.Number("NormalStabilization", options.choice.normalStabilization, 1e-14, 1.0);
+  options.parameterUnits = static_cast<ParameterUnits>(
+    properties.Integer("ParameterUnits", static_cast<int>(options.parameterUnits), 0, 2));
+}
+
+} // namespace gridfem
