@@ -34,7 +34,7 @@ void LocalSurface::Build(const SurfaceOptions& asked, const Progress& progress)
   stages.Run(SpaceStage, key,
     [&]
     {
-      space_ = nullptr; // frees its memory first
+      space_ = nullptr;                            // frees its memory first
       TriangleRule(asked.choice.quadratureDegree); // refuses a wrong degree before the long work
       RequireSurface(*mesh_);
       used_ = asked;

@@ -43,6 +43,28 @@ constexpr Range AnyValue()
   return {};
 }
 
+/// An equation that ends when its algebraic error is estimated to be a tenth of the space's error.
+inline EquationOptions EndedByAccuracy()
+{
+  EquationOptions equation;
+  equation.solve.tolerance = 0.0;
+  equation.solve.maximumIterations = 200;
+  equation.accuracy = 0.1;
+  return equation;
+}
+
+/// The key of all that a solution depends on besides its equation. The number of threads changes no
+/// bit.
+inline StageKey KeyOf(const EquationOptions& equation)
+{
+  const MultigridOptions& multigrid = equation.multigrid;
+  StageKey key;
+  key.Add(multigrid.cycle).Add(multigrid.smoother).Add(multigrid.preSweeps);
+  key.Add(multigrid.postSweeps).Add(multigrid.sweepsPerSynchronisation);
+  key.Add(equation.solve.tolerance).Add(equation.solve.maximumIterations).Add(equation.accuracy);
+  return key;
+}
+
 /// An options struct names all its fields in a static function template
 ///
 ///   template<class Self, class Visit>
@@ -67,14 +89,7 @@ struct AddToKey
     key.Add(value);
   }
 
-  void operator()(const EquationOptions& equation) const
-  {
-    const MultigridOptions& multigrid = equation.multigrid; // threads change no bit
-    key.Add(multigrid.cycle).Add(multigrid.smoother).Add(multigrid.preSweeps);
-    key.Add(multigrid.postSweeps).Add(multigrid.sweepsPerSynchronisation);
-    key.Add(equation.solve.tolerance).Add(equation.solve.maximumIterations);
-    key.Add(equation.accuracy);
-  }
+  void operator()(const EquationOptions& equation) const { key.Add(KeyOf(equation)); }
 };
 
 struct RequireInRange

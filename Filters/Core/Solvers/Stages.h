@@ -1,4 +1,5 @@
-// The steps of a solver. Each remembers what it was made from and runs again only when this changes.
+// The steps of a solver. Each remembers what it was made from and runs again only when this
+// changes.
 #ifndef GridFEM_Stages_h
 #define GridFEM_Stages_h
 

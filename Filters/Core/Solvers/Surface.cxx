@@ -28,8 +28,7 @@ double Surface::LengthInWorldUnits(double length) const
   return length * this->Space().UnitLength() / std::sqrt(this->WeightInSpaceUnits(1.0));
 }
 
-MultiVector Surface::ValuesAtPoints(
-  const MultiVector& coefficients, const Progress& progress) const
+MultiVector Surface::ValuesAtPoints(const MultiVector& coefficients, const Progress& progress) const
 {
   MultiVector values = this->Space().ValuesAtPoints(coefficients, this->MakeJob(progress));
   this->FillCopies(values);

@@ -37,7 +37,8 @@ public:
   /// The stages of the surface and of the solver that works on it.
   Stages& GetStages() const { return stages_; }
 
-  /// Changes when functions are added, removed or renumbered, so that a hierarchy cannot be updated.
+  /// Changes when functions are added, removed or renumbered, so that a hierarchy cannot be
+  /// updated.
   virtual std::int64_t StructureVersion() const = 0;
 
   /// With the depth, the threads and the support that are in use.

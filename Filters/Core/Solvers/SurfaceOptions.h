@@ -19,8 +19,8 @@ enum class ParameterUnits
 
 struct SurfaceOptions
 {
-  SpaceOptions space; // depth 0: automatic
-  SpaceChoice choice; // of the functions
+  SpaceOptions space;                              // depth 0: automatic
+  SpaceChoice choice;                              // of the functions
   double functionsPerPoint = EnoughToPrecondition; // of the grid below hat functions, at most
   ParameterUnits parameterUnits = ParameterUnits::UnitArea;
 };

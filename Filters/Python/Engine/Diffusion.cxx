@@ -1,8 +1,9 @@
-#include "Held.h"
+#include "EngineSurface.h"
+#include "Problem.h"
+#include "SolverProperties.h"
 
-#include "Base/Errors.h"
-#include "Problems/HeatDiffusion.h"
-#include "Problems/SolveWarnings.h"
+#include "Solvers/DiffusionSolver.h"
+#include "Solvers/LocalSurface.h"
 
 namespace gridfem
 {
@@ -13,58 +14,30 @@ class DiffusionProblem : public Problem
 {
 public:
   explicit DiffusionProblem(Properties& properties)
-    : options_(properties, { 0.0, 200, 1e-2 }),
-      time_(properties.NumberFrom("DiffusionTime", 0.001, 0.0)),
-      steps_(properties.Integer("NumberOfSteps", 1, 1, 10000)),
-      scheme_(static_cast<TimeScheme>(properties.Integer("Scheme", 1, 0, 1))),
-      holdsBoundary_(properties.Switch("BoundaryValues", false))
   {
-    if (time_ == 0.0)
-    {
-      throw InvalidInput("DiffusionTime is 0: nothing spreads. It must be above 0.");
-    }
+    TakeSurfaceOptions(properties, surface_);
+    TakeOptions(properties, options_);
   }
 
   Results Solve(const Given& given, const Progress& progress) const override
   {
-    CheckHeld(given, holdsBoundary_);
-    const EngineSurface surface(given, options_, progress.Part(0.0, 0.3));
-    const Field start = given.FieldOf("values");
+    Stages stages;
+    LocalSurface surface(stages, given.mesh, surface_);
+    DiffusionSolver solver;
+    const DiffusionSolver::Result& result = solver.Update(surface,
+      { given.Field("values"), given.Field("source"), given.Constraints("held") }, options_,
+      { 0, progress });
     Results results;
-    DiffusionOptions options{ options_, time_ / steps_ / surface.WeightInSpaceUnits(1.0), scheme_,
-      {} };
-    if (given.Find("held") || holdsBoundary_)
-    {
-      options.held = FindHeld(given, surface, options_, start, holdsBoundary_, results);
-    }
-    if ((steps_ > 1 || options.held.values.rows() > 0) && options.solve.tolerance == 0.0)
-    {
-      options.accuracy = 0.0;
-      options.solve.tolerance = ToleranceOfSteps;
-    }
-    HeatDiffusion diffusion(surface.space,
-      surface.space->LoadOfValues(start, surface.MakeJob(progress.Part(0.3, 0.4))), {}, options,
-      surface.MakeJob(progress.Part(0.4, 0.5)));
-    SolveReport last;
-    for (int step = 0; step < steps_; ++step)
-    {
-      const double share = 0.45 / steps_;
-      last = diffusion.Advance(
-        surface.MakeJob(progress.Part(0.5 + step * share, 0.5 + (step + 1) * share)));
-    }
-    results.arrays["Diffused"] =
-      surface.AtPoints(diffusion.Coefficients(), given.RowsAtPoints("values"));
-    results.Warn(WarningOf(last, diffusion.Accuracy(), options.solve.tolerance));
-    results.Warn(WarningOfConstraints(diffusion.Held()));
+    MultiVector diffused = result.steps.back().atPoints;
+    given.KeepUnsolved("values", result.isReached, diffused);
+    results.arrays["Diffused"] = std::move(diffused);
+    results.Warn(solver.Warnings(options_.numberOfSteps));
     return results;
   }
 
 private:
-  EngineOptions options_;
-  double time_;
-  int steps_;
-  TimeScheme scheme_;
-  bool holdsBoundary_;
+  SurfaceOptions surface_ = DiffusionSolver::SurfaceDefaults();
+  DiffusionSolver::Options options_;
 };
 
 } // namespace

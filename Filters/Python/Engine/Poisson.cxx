@@ -38,16 +38,16 @@ public:
     }
     else
     {
-      this->SolveOn(
-        EngineSurface(given, options_, progress.Part(0.0, 0.5)), given, results, progress.Part(0.5, 1.0));
+      this->SolveOn(EngineSurface(given, options_, progress.Part(0.0, 0.5)), given, results,
+        progress.Part(0.5, 1.0));
     }
     return results;
   }
 
 private:
   void SolveAccurately(const Given& given, Results& results, const Progress& progress) const;
-  SolutionAccuracy SolveOn(
-    const EngineSurface& surface, const Given& given, Results& results, const Progress& progress) const;
+  SolutionAccuracy SolveOn(const EngineSurface& surface, const Given& given, Results& results,
+    const Progress& progress) const;
   bool IsConstrained(const Given& given) const
   {
     return fillsUnknown_ || holdsBoundary_ || given.Find("weights") || given.Find("held");
@@ -57,10 +57,10 @@ private:
   Field ValuesOf(const Given& given) const;
   MultiVector Gradients(
     const Given& given, const EngineSurface& surface, const Field& value, const Job& job) const;
-  PoissonSolution SolveEquation(
-    const Given& given, const EngineSurface& surface, Results& results, const Progress& progress) const;
-  PoissonSolution SolveConstrainedEquation(
-    const Given& given, const EngineSurface& surface, Results& results, const Progress& progress) const;
+  PoissonSolution SolveEquation(const Given& given, const EngineSurface& surface, Results& results,
+    const Progress& progress) const;
+  PoissonSolution SolveConstrainedEquation(const Given& given, const EngineSurface& surface,
+    Results& results, const Progress& progress) const;
 
   EngineOptions options_;
   double weight_;
@@ -118,8 +118,8 @@ void PoissonProblem::SolveAccurately(
   }
 }
 
-SolutionAccuracy PoissonProblem::SolveOn(
-  const EngineSurface& surface, const Given& given, Results& results, const Progress& progress) const
+SolutionAccuracy PoissonProblem::SolveOn(const EngineSurface& surface, const Given& given,
+  Results& results, const Progress& progress) const
 {
   PoissonSolution solution;
   if (this->IsConstrained(given))
@@ -145,8 +145,8 @@ Field PoissonProblem::ValuesOf(const Given& given) const
   return given.Find("values") ? given.FieldOf("values", fillsUnknown_) : CoordinatesOf(*given.mesh);
 }
 
-PoissonSolution PoissonProblem::SolveEquation(
-  const Given& given, const EngineSurface& surface, Results& results, const Progress& progress) const
+PoissonSolution PoissonProblem::SolveEquation(const Given& given, const EngineSurface& surface,
+  Results& results, const Progress& progress) const
 {
   const FiniteElementSpace& space = surface.Space();
   const Job job = surface.MakeJob(progress.Part(0.0, 0.2));
@@ -171,8 +171,8 @@ PoissonSolution PoissonProblem::SolveEquation(
   return solution;
 }
 
-PoissonSolution PoissonProblem::SolveConstrainedEquation(
-  const Given& given, const EngineSurface& surface, Results& results, const Progress& progress) const
+PoissonSolution PoissonProblem::SolveConstrainedEquation(const Given& given,
+  const EngineSurface& surface, Results& results, const Progress& progress) const
 {
   constexpr double ConstrainedTolerance = 1e-6; // where no Tolerance is given
   const FiniteElementSpace& space = surface.Space();

@@ -21,6 +21,14 @@ struct Results
       warnings.push_back(text);
     }
   }
+
+  void Warn(const std::vector<std::string>& texts)
+  {
+    for (const std::string& text : texts)
+    {
+      this->Warn(text);
+    }
+  }
 };
 
 class Problem

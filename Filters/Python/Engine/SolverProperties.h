@@ -41,8 +41,8 @@ private:
   double Number(const char* name, double standard, const Range& range) const;
 };
 
-/// Replaces the defaults of a solver's options by the properties that are given. Throws InvalidInput
-/// for a value that is refused.
+/// Replaces the defaults of a solver's options by the properties that are given. Throws
+/// InvalidInput for a value that is refused.
 template<class Options>
 void TakeOptions(Properties& properties, Options& options)
 {

@@ -124,7 +124,8 @@ private:
     return BuildSpace(cut.pieces, functions, choice, progress);
   }
 
-  static MultiVector KeepUnsolved(const EngineSurface& surface, const Given& given, MultiVector values)
+  static MultiVector KeepUnsolved(
+    const EngineSurface& surface, const Given& given, MultiVector values)
   {
     surface.KeepUnsolved(given.arrays.at("colors").values, values);
     return values;

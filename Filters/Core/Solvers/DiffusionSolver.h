@@ -1,0 +1,92 @@
+// Heat that spreads from a given field over a surface, in equal time steps.
+#ifndef GridFEM_DiffusionSolver_h
+#define GridFEM_DiffusionSolver_h
+
+#include "Problems/HeatDiffusion.h"
+#include "Solvers/OptionFields.h"
+#include "Solvers/SurfaceFields.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gridfem
+{
+
+/// Solves du/dt = Δu + s. Steps are kept: more steps of the same length continue from the last one.
+class DiffusionSolver
+{
+public:
+  struct Options
+  {
+    EquationOptions equation = EndedByAccuracy();
+    double diffusionTime = 0.001; // squared parameter units, above 0
+    int numberOfSteps = 1;
+    bool boundaryValues = false; // values on the boundary stay
+
+    template<class Self, class Visit>
+    static void ForEach(Self& self, Visit&& visit)
+    {
+      visit(self.equation);
+      visit("DiffusionTime", self.diffusionTime, AtLeast(0.0));
+      visit("NumberOfSteps", self.numberOfSteps, Clamped(1, 10000));
+      visit("BoundaryValues", self.boundaryValues, AnyValue());
+    }
+  };
+
+  struct Input
+  {
+    GivenField values;            // at time 0; none: the coordinates
+    GivenField source;            // added per unit of time, as many components
+    GivenConstraints constraints; // where the values stay
+  };
+
+  struct Step
+  {
+    MultiVector atPoints;
+    SolveReport report;
+    SolutionAccuracy accuracy;
+    ConstrainedSolution met; // how the held values are met; isHeld is empty without any
+  };
+
+  struct Result
+  {
+    std::vector<Step> steps;     // the first is step 1
+    std::vector<char> isReached; // per point: a function reaches it
+    double stepLength = 0.0;     // squared world units
+    EquationOptions equation;    // with the tolerance that was used
+    std::string warning;         // about what was given; empty: none
+  };
+
+  /// What the solver wants of a surface by default.
+  static SurfaceOptions SurfaceDefaults();
+
+  /// Makes the steps that are missing. After an abort the steps so far are kept. Collective. Throws
+  /// InvalidInput and Aborted.
+  const Result& Update(
+    Surface& surface, const Input& input, const Options& options, const Job& job);
+
+  /// The warnings about a step of the last update, from 1; empty: there are none.
+  std::vector<std::string> Warnings(int step) const;
+
+  /// All steps on a mesh of this process.
+  static Result Solve(std::shared_ptr<const TriangleMesh> mesh, const Input& input,
+    const Options& options, const SurfaceOptions& surfaceOptions = SurfaceDefaults(),
+    const Job& job = {});
+
+private:
+  void UpdateLoads(
+    const Surface& surface, const Input& input, const Options& options, const Job& job);
+  void UpdateHierarchy(const Surface& surface, const Options& options, const Job& job);
+  void MakeSteps(const Surface& surface, const Options& options, const Job& job);
+
+  MultiVector start_;
+  MultiVector sources_;
+  HeldValues held_;
+  std::unique_ptr<HeatDiffusion> diffusion_;
+  Result result_;
+};
+
+} // namespace gridfem
+
+#endif

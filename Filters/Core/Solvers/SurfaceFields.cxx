@@ -1,0 +1,76 @@
+#include "Solvers/SurfaceFields.h"
+
+#include "Base/Errors.h"
+
+namespace gridfem
+{
+namespace
+{
+
+Field UsedCoordinates(const TriangleMesh& mesh)
+{
+  const std::vector<char> used = UsedPoints(mesh);
+  Field field;
+  field.values = MultiVector::Zero(static_cast<Id>(mesh.points.size()), 3);
+  for (std::size_t point = 0; point < used.size(); ++point)
+  {
+    if (used[point])
+    {
+      field.values.row(point) = mesh.points[point].transpose();
+    }
+  }
+  return field;
+}
+
+std::string NameOf(const GivenField& values)
+{
+  return values ? values.name : "coordinates";
+}
+
+} // namespace
+
+Field ReadField(const Surface& surface, const GivenField& field, NaNs nans)
+{
+  if (!field)
+  {
+    return UsedCoordinates(surface.CurrentMesh());
+  }
+  Field read;
+  surface.Together([&] { read = field.read(nans); });
+  return read;
+}
+
+std::unique_ptr<const Field> ReadOptional(const Surface& surface, const GivenField& field)
+{
+  return field ? std::make_unique<const Field>(ReadField(surface, field)) : nullptr;
+}
+
+void RequireHoldable(const GivenField& values, const GivenConstraints& constraints, bool onBoundary)
+{
+  if ((constraints || onBoundary) && !values.IsOnPoints())
+  {
+    throw InvalidInput((constraints ? constraints.property : std::string("BoundaryValues")) +
+                       " needs values at points, but '" + values.name +
+                       "' is a cell array. Cell Data to Point Data converts it.");
+  }
+}
+
+HeldValues HoldConstraints(
+  const Surface& surface, const GivenField& values, const GivenConstraints& constraints)
+{
+  PointValues known;
+  known.values.resize(0, ComponentsOf(values));
+  if (!constraints)
+  {
+    return surface.Hold(known.points, known.values);
+  }
+  surface.Together([&] { known = constraints.find(); });
+  if (!surface.Any(!known.points.empty()))
+  {
+    throw InvalidInput("No value of '" + NameOf(values) +
+                       "' is known at a point of a polygon: all are NaN, masked, or not selected.");
+  }
+  return surface.Hold(known.points, known.values);
+}
+
+} // namespace gridfem

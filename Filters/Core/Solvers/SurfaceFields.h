@@ -1,0 +1,42 @@
+// Given fields and constraints as the integrals and rows of a surface. Collective on a shared
+// surface.
+#ifndef GridFEM_SurfaceFields_h
+#define GridFEM_SurfaceFields_h
+
+#include "Solvers/GivenField.h"
+#include "Solvers/Surface.h"
+
+#include <memory>
+
+#include <string>
+#include <vector>
+
+namespace gridfem
+{
+
+/// The field, or the coordinates of the current mesh where none is given (0 at points that no
+/// triangle uses). Throws InvalidInput for values that are refused.
+Field ReadField(const Surface& surface, const GivenField& field, NaNs nans = NaNs::Refused);
+
+/// The same for one that may be left out: null where it is not given.
+std::unique_ptr<const Field> ReadOptional(const Surface& surface, const GivenField& field);
+
+/// Throws InvalidInput when values on cells are to be held at points or on the boundary.
+void RequireHoldable(
+  const GivenField& values, const GivenConstraints& constraints, bool onBoundary);
+
+/// Rows and values of the constraints; no rows where none are given. Throws InvalidInput when
+/// constraints are given and no process knows a value.
+/// @param values  the field that is held, for the message and the number of columns
+HeldValues HoldConstraints(
+  const Surface& surface, const GivenField& values, const GivenConstraints& constraints);
+
+/// The number of components of a field, or of the coordinates.
+inline Id ComponentsOf(const GivenField& values)
+{
+  return values ? values.components : 3;
+}
+
+} // namespace gridfem
+
+#endif
