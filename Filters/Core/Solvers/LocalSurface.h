@@ -15,6 +15,7 @@ public:
 
   void Prepare(const Progress& progress) override;
   void PrepareAtDepth(int depth, const Progress& progress) override;
+  StageKey InputKey() const override { return {}; } // neither changes
   std::int64_t StructureVersion() const override { return structure_; }
   const SurfaceOptions& UsedOptions() const override { return used_; }
   const TriangleMesh& Mesh() const override { return *mesh_; }

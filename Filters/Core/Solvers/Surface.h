@@ -34,6 +34,12 @@ public:
   /// The same at a depth of the solver's choice.
   virtual void PrepareAtDepth(int depth, const Progress& progress) = 0;
 
+  /// The key of the mesh and of all that is asked of its functions, except their depth.
+  virtual StageKey InputKey() const = 0;
+
+  /// Whether the functions are given, so that the solver cannot choose their depth.
+  virtual bool AreFunctionsGiven() const { return false; }
+
   /// The stages of the surface and of the solver that works on it.
   Stages& GetStages() const { return stages_; }
 
