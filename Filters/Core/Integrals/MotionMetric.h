@@ -21,10 +21,6 @@ std::optional<TriangleMetric> MetricOfMotion(const TriangleMesh& mesh, const Tri
 /// @return   on triangles, or on corners where s is on points
 Field PullBack(const TriangleMesh& mesh, const TriangleMesh& moved, const Field& s);
 
-/// J⁻ᵀ s: gradients on the triangles of the mesh, 3 C columns, as those on the moved ones.
-MultiVector PushForward(
-  const TriangleMesh& mesh, const TriangleMesh& moved, const MultiVector& gradients);
-
 } // namespace gridfem
 
 #endif

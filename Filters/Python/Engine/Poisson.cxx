@@ -19,12 +19,10 @@ public:
     : options_(properties, { 0.0, 200 }),
       weight_(properties.NumberFrom("ScreeningWeight", 100.0, 0.0)),
       gradientScale_(properties.FiniteNumber("GradientScale", 1.0)),
-      iteration_(static_cast<IterationType>(properties.Integer("Iteration", 0, 0, 1))),
       usesValueGradient_(properties.Switch("UseValueGradient", false)),
       fillsUnknown_(properties.Switch("FillUnknown", false)),
       holdsBoundary_(properties.Switch("BoundaryValues", false)),
-      isAccuracyDriven_(properties.Switch("AccuracyDriven", false)),
-      wantedError_(properties.Number("WantedError", 0.01, 1e-6, 0.5))
+      wantedError_(properties.Number("WantedError", 0.0, 0.0, 0.5))
   {
   }
 
@@ -32,7 +30,7 @@ public:
   {
     this->Check(given);
     Results results;
-    if (isAccuracyDriven_ && IsRefinedByDepth(options_.choice.kind))
+    if (wantedError_ > 0.0 && IsRefinedByDepth(options_.choice.kind))
     {
       this->SolveAccurately(given, results, progress);
     }
@@ -65,12 +63,10 @@ private:
   SurfaceOptions options_;
   double weight_;
   double gradientScale_;
-  IterationType iteration_;
   bool usesValueGradient_;
   bool fillsUnknown_;
   bool holdsBoundary_;
-  bool isAccuracyDriven_;
-  double wantedError_;
+  double wantedError_; // 0: the depth is given
 };
 
 void PoissonProblem::Check(const Given& given) const
@@ -94,11 +90,6 @@ void PoissonProblem::Check(const Given& given) const
     RequirePointValues("UseValueGradient", values);
   }
   CheckHeld(given, holdsBoundary_);
-  if (this->IsConstrained(given) && iteration_ != IterationType::ConjugateGradients)
-  {
-    throw InvalidInput("Constraints, weights and unknown values need Iteration to be "
-                       "ConjugateGradients.");
-  }
 }
 
 /// Results at one depth replace those of the one before.
@@ -131,7 +122,7 @@ SolutionAccuracy PoissonProblem::SolveOn(
     solution = this->SolveEquation(given, surface, results, progress.Part(0.0, 0.9));
   }
   const double error = solution.accuracy.discretization;
-  if (isAccuracyDriven_ && !(error <= wantedError_))
+  if (wantedError_ > 0.0 && !(error <= wantedError_))
   {
     results.Warn(WarningOfWantedError(wantedError_, error, options_.choice.kind));
   }
@@ -162,7 +153,9 @@ PoissonSolution PoissonProblem::SolveEquation(
     gradients = given.Find("values") ? space.LoadOfGradientsOf(value, nullptr, job)
                                      : space.LoadOfGradientsOfCoordinates(nullptr, job);
   }
-  const PoissonOptions options{ options_, surface.WeightInSpaceUnits(weight_), iteration_, true };
+  PoissonOptions options{ options_ };
+  options.screeningWeight = surface.WeightInSpaceUnits(weight_);
+  options.estimateErrors = true;
   const Multigrid multigrid =
     BuildMultigrid(space, options.screeningWeight, 1.0, options.multigrid, progress.Part(0.2, 0.4));
   PoissonSolution solution = SolvePoisson(

@@ -113,12 +113,6 @@ MultiVector SurfaceConstrainedPoisson::BalancedFlux(const SurfaceSolverState& st
   return balanced;
 }
 
-MultiVector SurfaceConstrainedPoisson::Gradients(const SurfaceSolverState& state) const
-{
-  return state.OnCurrent(
-    state.SolverSpace()->GradientsOnTriangles(solution_.coefficients, state.options.space.threads));
-}
-
 MultiVector SurfaceConstrainedPoisson::Values(const SurfaceSolverState& state) const
 {
   return state.ValuesAtPoints(solution_.coefficients);

@@ -39,9 +39,6 @@ public:
   /// At the points of the mesh; NaN on components of which nothing is known.
   MultiVector Values(const SurfaceSolverState& state) const;
 
-  /// On the triangles of the mesh, per world length.
-  MultiVector Gradients(const SurfaceSolverState& state) const;
-
   /// The largest difference from a value that is to be held.
   double Misfit() const { return solution_.misfit; }
 

@@ -79,17 +79,16 @@ void SurfacePoisson::Solve(
 {
   StageKey key;
   key.Add(state.stages.Version(HierarchyStage)).Add(state.stages.Version(RightHandSideStage));
-  key.Add(request.gradientScale).Add(static_cast<int>(request.iteration));
-  key.Add(request.attempt);
+  key.Add(request.gradientScale);
   AddSolver(key, state.options);
   state.stages.Run(SolveStage, key,
     [&]
     {
-      PoissonOptions options{ state.options, state.WeightInGridUnits(request.weight),
-        request.iteration, request.estimateErrors };
+      PoissonOptions options{ state.options };
+      options.screeningWeight = state.WeightInGridUnits(request.weight);
+      options.estimateErrors = true;
       StageKey solver = shape_; // other options show their own iterations, from the usual start
       solver.Add(state.stages.Version(SystemStage)).Add(request.numbers);
-      solver.Add(static_cast<int>(request.iteration));
       AddSolver(solver, state.options);
       MultiVector resized;
       options.start =
@@ -108,12 +107,6 @@ void SurfacePoisson::Solve(
       }
       solvedWith_ = solver;
     });
-}
-
-MultiVector SurfacePoisson::Gradients(const SurfaceSolverState& state) const
-{
-  return state.OnCurrent(
-    state.SolverSpace()->GradientsOnTriangles(solution_.coefficients, state.options.space.threads));
 }
 
 MultiVector SurfacePoisson::Values(const SurfaceSolverState& state) const

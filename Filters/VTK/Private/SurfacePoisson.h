@@ -27,16 +27,13 @@ struct PoissonRequest
 {
   double weight = 1.0;        // λ in parameter units
   double gradientScale = 1.0; // σ: a factor on the gradients, which are not integrated again
-  IterationType iteration = IterationType::ConjugateGradients;
-  bool estimateErrors = true;
   /// In place of the state's space a copy of it with numbers of its own, and what they depend on;
   /// not where ranks compute together.
   const SurfaceSpace* space = nullptr;
   StageKey numbers;
   /// Start from the last solution, finished or not, whatever has changed but the functions; columns
-  /// that it does not have start at zero. Another `attempt` goes on where nothing has changed.
+  /// that it does not have start at zero.
   bool goesOn = false;
-  std::int64_t attempt = 0;
 };
 
 /// Every stage is repeated only when something it depends on has changed. A change of the weight or
@@ -56,9 +53,6 @@ public:
 
   /// At the points of the mesh.
   MultiVector Values(const SurfaceSolverState& state) const;
-
-  /// On the triangles of the mesh, per world length.
-  MultiVector Gradients(const SurfaceSolverState& state) const;
 
   const SolveReport& Report() const { return solution_.report; }
   const SolutionAccuracy& Accuracy() const { return solution_.accuracy; }

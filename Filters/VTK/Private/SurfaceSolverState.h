@@ -123,9 +123,6 @@ public:
   /// A gradient that is given on the current mesh, for integrals over `mesh`.
   Field OnReference(Field gradients) const;
 
-  /// Gradients on the triangles of `mesh`, on those of the current one.
-  MultiVector OnCurrent(MultiVector gradients) const;
-
   /// Adds what trackMetric has done to the field arrays of an output.
   void WriteTracking(vtkPolyData* output) const;
 
