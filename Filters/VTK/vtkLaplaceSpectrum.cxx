@@ -55,7 +55,7 @@ vtkLaplaceSpectrum::vtkLaplaceSpectrum() : Data(std::make_unique<Internals>())
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
   this->Tolerance = 1e-6;
-  this->Cycle = VCycle;
+  this->State->options.multigrid.cycle = gridfem::CycleType::V;
 }
 
 vtkLaplaceSpectrum::~vtkLaplaceSpectrum() = default;

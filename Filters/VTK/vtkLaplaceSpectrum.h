@@ -42,8 +42,8 @@
  *
  * Tolerance (default 1e-6) is the wanted relative error of the eigenvalues as those of the space;
  * Depth, or Accuracy, decides about the error of the space. All shared properties
- * but ParameterUnits are used. Cycles with the patch smoother, the default, run in single precision
- * where that resolves the surface; eigenvalues and modes are always double.
+ * but ParameterUnits are used. Cycles run in single precision where that resolves the surface;
+ * eigenvalues and modes are always double.
  */
 #ifndef vtkLaplaceSpectrum_h
 #define vtkLaplaceSpectrum_h
@@ -119,8 +119,8 @@ public:
    * each other later do not feel each other. So results depend, within the error of the space, on
    * the time step that was computed first, or at the last change of Depth and the like: the field
    * array `ReferenceTime` says which, where the input has times, and `LargestStretchRatio` how far
-   * the map from there is from keeping angles, which is 1. Needs KeepStages, and does not go with
-   * MetricArray. Without effect with AccuracyDriven. Default off.
+   * the map from there is from keeping angles, which is 1. Needs ReleaseDataFlagOff, the default,
+   * and does not go with MetricArray. Without effect with AccuracyDriven. Default off.
    */
   vtkSetMacro(TrackMetric, bool);
   vtkGetMacro(TrackMetric, bool);

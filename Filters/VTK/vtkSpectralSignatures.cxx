@@ -116,7 +116,7 @@ vtkSpectralSignatures::vtkSpectralSignatures() : Data(std::make_unique<Internals
   this->SetNumberOfInputPorts(3);
   this->SetNumberOfOutputPorts(2);
   this->Tolerance = 1e-6;
-  this->Cycle = VCycle;
+  this->State->options.multigrid.cycle = gridfem::CycleType::V;
 }
 
 vtkSpectralSignatures::~vtkSpectralSignatures() = default;

@@ -39,6 +39,12 @@
  * Time: outputs have the time steps of the input, and the input is asked for the time that they are
  * asked for. A filter with time steps of its own, such as modes, has these instead, and asks its
  * inputs for one fixed time: the one they were asked for last, else the one they have.
+ *
+ * Memory: a filter keeps the results of its steps, so that a change repeats only the steps that
+ * depend on it. It holds the clipped mesh, its functions, element and level matrices, the hierarchy
+ * with its smoothers, and the last result. With ReleaseDataFlagOn it frees them after every run:
+ * least memory, but every change, of the time step as well, repeats all steps. Filters that share
+ * its basis then read the basis from its arrays.
  */
 #ifndef vtkSurfaceFEMAlgorithm_h
 #define vtkSurfaceFEMAlgorithm_h
@@ -127,65 +133,6 @@ public:
   vtkGetMacro(QuadratureDegree, int);
   ///@}
 
-  enum CycleType
-  {
-    VCycle = 0,
-    WCycle = 1
-  };
-  ///@{
-  /**
-   * How the multigrid cycle visits the coarser levels. Default WCycle; VCycle for spectra, which
-   * need few iterations.
-   */
-  vtkSetClampMacro(Cycle, int, VCycle, WCycle);
-  vtkGetMacro(Cycle, int);
-  ///@}
-
-  enum SmootherType
-  {
-    PatchSmoother = 0,
-    GaussSeidelSmoother = 1,
-    SliceGaussSeidelSmoother = 2
-  };
-  ///@{
-  /**
-   * How a level is relaxed: the patch smoother converges for every orientation of the surface.
-   * Gauss-Seidel is cheaper per sweep, but stalls on surfaces nearly aligned with the grid, and on
-   * smooth surfaces as well the finer the grid is. SliceGaussSeidelSmoother is the same with slabs
-   * of slices in parallel, whose threads wait for each other once in SweepsPerSynchronisation
-   * sweeps. Default PatchSmoother. The hat functions of a mesh are always relaxed by Gauss-Seidel.
-   */
-  vtkSetClampMacro(Smoother, int, PatchSmoother, SliceGaussSeidelSmoother);
-  vtkGetMacro(Smoother, int);
-  ///@}
-
-  ///@{
-  /**
-   * Sweeps of the smoother on a level before and after the correction by the coarser ones; twice as
-   * many on the hat functions of a mesh. 1..100, default 1.
-   */
-  vtkSetClampMacro(NumberOfSweeps, int, 1, 100);
-  vtkGetMacro(NumberOfSweeps, int);
-  ///@}
-
-  ///@{
-  /**
-   * Of SliceGaussSeidelSmoother: one of the NumberOfSweeps is so many. 1..100, default 1.
-   */
-  vtkSetClampMacro(SweepsPerSynchronisation, int, 1, 100);
-  vtkGetMacro(SweepsPerSynchronisation, int);
-  ///@}
-
-  ///@{
-  /**
-   * The coarsest level, which is solved directly, is the finest that has no more functions than
-   * this on any connected component. The direct solver takes time with its cube, memory with its
-   * square. 1..4096, default 256.
-   */
-  vtkSetClampMacro(CoarsestSize, int, 1, 4096);
-  vtkGetMacro(CoarsestSize, int);
-  ///@}
-
   ///@{
   /**
    * The weight s of the squared normal derivative in the operator on a grid, which no function of
@@ -238,20 +185,6 @@ public:
   vtkSetMacro(BlocksAsOne, bool);
   vtkGetMacro(BlocksAsOne, bool);
   vtkBooleanMacro(BlocksAsOne, bool);
-  ///@}
-
-  ///@{
-  /**
-   * When on (default), what a run has made is kept, so that a change repeats only the steps that
-   * depend on it. When off, it is freed after every run: least memory, but every change, of the
-   * time step as well, repeats all steps. Filters that share a basis then read it from its arrays.
-   * What is held when on: the clipped mesh, its functions, element and level matrices, the
-   * hierarchy with its smoothers, and the last result. A filter whose output is released after use
-   * (ReleaseDataFlagOn) keeps nothing either.
-   */
-  vtkSetMacro(KeepStages, bool);
-  vtkGetMacro(KeepStages, bool);
-  vtkBooleanMacro(KeepStages, bool);
   ///@}
 
   enum ParameterUnitsType
@@ -322,7 +255,7 @@ protected:
   virtual bool ComputeTogether(vtkInformationVector** inputs, vtkInformationVector* outputs);
 
   /**
-   * Whether what a run has made stays for the next one: KeepStages, and no ReleaseDataFlag.
+   * Whether the results of a run stay for the next one: without ReleaseDataFlag.
    */
   bool KeepsStages();
 
@@ -341,18 +274,12 @@ protected:
   bool WeldCoincidentPoints = true;
   int FunctionSpace = Grid;
   int QuadratureDegree = 2;
-  int Cycle = WCycle;
-  int Smoother = PatchSmoother;
-  int NumberOfSweeps = 1;
-  int SweepsPerSynchronisation = 1;
-  int CoarsestSize = 256;
   double NormalStabilization = 1e-12;
   double Tolerance = 1e-8;
   int MaximumIterations = 100;
   int NumberOfThreads = 0;
   int ParameterUnits = UnitArea;
   bool BlocksAsOne = false;
-  bool KeepStages = true;
 
   std::unique_ptr<gridfem::SurfaceSolverState> State;
 

@@ -77,7 +77,7 @@ class Engines(unittest.TestCase):
 
     def test_the_depth_for_an_accuracy(self):
         self.compare(lambda g, p, c, **o: g.poisson(
-            p, c, numpy.sin(4 * p[:, 0]), AccuracyDriven=True, WantedError=0.03, **o))
+            p, c, numpy.sin(4 * p[:, 0]), WantedError=0.03, **o))
         self.compare(lambda g, p, c, **o: g.spectrum(
             p, c, 5, **{**o, "AccuracyDriven": True, "Accuracy": 0.03})[0])
 
@@ -182,7 +182,7 @@ class Engines(unittest.TestCase):
             "degree": lambda g: g.flow(points, triangles, QuadratureDegree=3),
             "gradients": lambda g: g.poisson(points, triangles, points, points),
             "error": lambda g: g.poisson(
-                points, triangles, points, FunctionSpace=1, AccuracyDriven=1, WantedError=1e-6),
+                points, triangles, points, FunctionSpace=1, WantedError=1e-6),
             "accuracy": lambda g: g.spectrum(
                 points, triangles, 5, FunctionSpace=1, AccuracyDriven=1, Accuracy=2e-3),
             "plane": lambda g: g.spectrum(points * [1, 1, 0] * 0, triangles),

@@ -51,7 +51,7 @@ class TestTime(unittest.TestCase):
 
     def test_every_filter_follows_the_surface(self):
         own = {"LaplaceSpectrum": {"AllModes": 1, "NumberOfModes": 9},
-               "ScreenedPoisson": {"MovePoints": 0},
+               "ScreenedPoisson": {"ValueArray": ["POINTS", "f"]},
                "SpectralSignatures": {"NumberOfModes": 9}, **plugin.CHOICES}
         surface = plugin.with_arrays(self.surface)
         for name in plugin.PROXIES:

@@ -78,8 +78,7 @@ class Distributed(unittest.TestCase):
         ranks.check(self, [f"point {p}" for p in differ])
 
     def test_rank_0_gathers_what_is_left_to_it(self):
-        for properties in ({"Smoother": 1}, {"Iteration": 1},
-                           {"TrackMetric": True}):
+        for properties in ({"WantedError": 0.2}, {"TrackMetric": True}):
             output = ranks.run(made(**properties), ranks.piece(ranks.bowl(), "contiguous"))[0]
             ranks.check(self, [] if number(output, "Distributed") is None and
                         number(output, "Converged") == 1 else [str(properties)])

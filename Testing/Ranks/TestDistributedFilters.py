@@ -19,15 +19,15 @@ CASES = {
     "heat": ("HeatDiffusion", {"DiffusionTime": 0.01}, 1e-8),
     "heat of first order": ("HeatDiffusion", {"Scheme": 0, "arrays": {1: "f"}}, 1e-8),
     "heat, held": ("HeatDiffusion", {"DiffusionTime": 0.01, "arrays": {2: "mask"}}, 1e-7),
-    "poisson": ("ScreenedPoisson", {"SolutionGradient": True}, 1e-8),
+    "poisson": ("ScreenedPoisson", {}, 1e-8),
     "poisson, held": (
-        "ScreenedPoisson", {"UseValueGradient": True, "SolutionGradient": True,
+        "ScreenedPoisson", {"UseValueGradient": True,
                             "arrays": {0: "v", 4: "mask"}}, 1e-7),
     "interpolation": ("ScreenedPoisson", {"ScreeningWeight": 0.0, "arrays": {4: "mask"}}, 1e-7),
     "poisson, weighed": (
         "ScreenedPoisson", {"UseValueGradient": True, "arrays": {3: "c"}}, 1e-8),
     "poisson, unknown": (
-        "ScreenedPoisson", {"FillUnknown": True, "UseValueGradient": True, "SolutionGradient": True,
+        "ScreenedPoisson", {"FillUnknown": True, "UseValueGradient": True,
                             "arrays": {0: "hole"}}, 1e-8),
     "poisson, unknown means": (
         "ScreenedPoisson", {"FillUnknown": True, "ScreeningWeight": 0.0, "arrays": {0: "hole"}}, 1e-8),
@@ -50,7 +50,7 @@ CASES = {
     "gradient, hats": ("SurfaceGradient", {"FunctionSpace": 1}, 1e-8),
     "heat, hats": ("HeatDiffusion", {"FunctionSpace": 1, "DiffusionTime": 0.01}, 1e-8),
     "heat, hats, boundary": ("HeatDiffusion", {"FunctionSpace": 1, "DiffusionTime": 0.01, "BoundaryValues": True}, 1e-7),
-    "poisson, hats": ("ScreenedPoisson", {"FunctionSpace": 1, "SolutionGradient": True}, 1e-8),
+    "poisson, hats": ("ScreenedPoisson", {"FunctionSpace": 1}, 1e-8),
     "poisson, hats, all at once": (
         "ScreenedPoisson", {"FunctionSpace": 1, "BoundaryValues": True, "FillUnknown": True,
                             "arrays": {0: "hole", 3: "f2", 4: "mask", 6: "f"}}, 1e-7),
@@ -334,8 +334,7 @@ class DistributedFilters(unittest.TestCase):
                 ("poisson", {"TrackMetric": True}, "TrackMetric"),
                 ("signatures", {"FunctionSpace": 1, "WeldCoincidentPoints": False}, "not welded"),
                 ("heat", {"WeldCoincidentPoints": False}, "not welded"),
-                ("distance", {"NearestSource": True}, "NearestSource"),
-                ("gradient", {"Smoother": 1}, "smoother")):
+                ("distance", {"NearestSource": True}, "NearestSource")):
             filter_ = made(case, Distributed=True, **properties)
             warnings = ranks.heard(filter_, "WarningEvent")
             mine = with_vectors(ranks.piece(ranks.bowl(), "contiguous"))

@@ -57,7 +57,7 @@ class Stages(unittest.TestCase):
             self.expect_runs(filter_, {"Space": 2, "System": 2})
 
     def test_without_kept_stages_the_answer_is_the_same(self):
-        filter_ = ranks.make("ScreenedPoisson", KeepStages=False)
+        filter_ = ranks.make("ScreenedPoisson", ReleaseDataFlag=True)
         data = self.piece()
         problems = []
         values = []

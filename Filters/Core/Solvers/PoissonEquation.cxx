@@ -2,6 +2,7 @@
 
 #include "Solvers/OptionFields.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace gridfem
@@ -58,6 +59,27 @@ void PoissonEquation::UpdateHierarchy(const Surface& surface, const PoissonReque
     });
 }
 
+/// Null where there is no solution to start from.
+/// @param resized  holds the start when the last solution has another number of columns
+const MultiVector* PoissonEquation::Start(
+  const PoissonRequest& request, bool isSameSolver, MultiVector& resized) const
+{
+  const MultiVector& last = solution_.coefficients;
+  const Id columns = load_.values.cols();
+  if (last.cols() == columns)
+  {
+    return isSameSolver || request.startsFromLast ? &last : nullptr;
+  }
+  if (!request.startsFromLast || last.cols() == 0)
+  {
+    return nullptr;
+  }
+  resized = last;
+  resized.conservativeResize(Eigen::NoChange, columns);
+  resized.rightCols(std::max<Id>(columns - last.cols(), 0)).setZero();
+  return &resized;
+}
+
 void PoissonEquation::Solve(const Surface& surface, const PoissonRequest& request,
   const EquationOptions& options, const Progress& progress)
 {
@@ -71,12 +93,12 @@ void PoissonEquation::Solve(const Surface& surface, const PoissonRequest& reques
       PoissonOptions ofSolve;
       static_cast<EquationOptions&>(ofSolve) = options;
       ofSolve.screeningWeight = surface.WeightInSpaceUnits(request.weight);
-      ofSolve.estimateErrors = request.estimateErrors;
+      ofSolve.estimateErrors = true;
       StageKey solver = shape_; // other options show their own iterations, from the usual start
       solver.Add(stages.Version(SystemStage)).Add(request.numbers).Add(KeyOf(options));
-      const bool goesOn = !surface.IsShared() && solvedWith_ == solver &&
-                          solution_.coefficients.cols() == load_.values.cols();
-      ofSolve.start = goesOn ? &solution_.coefficients : nullptr;
+      MultiVector resized;
+      ofSolve.start =
+        surface.IsShared() ? nullptr : this->Start(request, solvedWith_ == solver, resized);
       MultiVector scaled;
       if (request.gradientScale != 1.0)
       {

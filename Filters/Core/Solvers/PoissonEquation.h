@@ -22,11 +22,13 @@ struct PoissonRequest
 {
   double weight = 1.0;        // λ in parameter units
   double gradientScale = 1.0; // σ: a factor on the gradients, which are not integrated again
-  bool estimateErrors = true;
   /// Stands in for the surface's space: a copy of it with numbers of its own, and the key of these.
   /// Not on a shared surface.
   const SurfaceSpace* space = nullptr;
   StageKey numbers;
+  /// Starts from the last solution whatever has changed besides the functions. Columns that it does
+  /// not have start at zero.
+  bool startsFromLast = false;
 };
 
 /// Repeats a stage only when something it depends on has changed. After a change of the weight or
@@ -49,6 +51,8 @@ public:
 private:
   void UpdateHierarchy(const Surface& surface, const PoissonRequest& request,
     const EquationOptions& options, const Progress& progress);
+  const MultiVector* Start(
+    const PoissonRequest& request, bool isSameSolver, MultiVector& resized) const;
   void Solve(const Surface& surface, const PoissonRequest& request, const EquationOptions& options,
     const Progress& progress);
 

@@ -69,9 +69,6 @@ public:
   /// A gradient given on the current mesh, for integrals over Mesh().
   virtual Field OnReference(Field gradients) const { return gradients; }
 
-  /// Gradients on the triangles of Mesh(), as gradients on the current mesh.
-  virtual MultiVector OnCurrent(MultiVector gradients) const { return gradients; }
-
   /// Whether coincident points of the mesh count as one.
   virtual bool AreCoincidentPointsWelded() const = 0;
 
@@ -113,9 +110,6 @@ public:
 
   /// A solution at the points of this process: a row for each.
   MultiVector ValuesAtPoints(const MultiVector& coefficients, const Progress& progress = {}) const;
-
-  /// Surface gradients on the triangles of this process, on the current mesh, per world length.
-  MultiVector GradientsOnTriangles(const MultiVector& coefficients) const;
   ///@}
 
 protected:

@@ -60,8 +60,6 @@ std::string ObstacleHere(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** 
   return FirstObstacle({ { filter->GetBlocksAsOne(), "BlocksAsOne" },
     // Pieces would be apart along their borders: nothing else tells which points are one.
     { !filter->GetWeldCoincidentPoints(), "points that are not welded" },
-    { filter->GetSmoother() != vtkSurfaceFEMAlgorithm::PatchSmoother,
-      "a smoother other than that of patches" },
     { isGiven && !WeldsCoincidentPoints(basis), "a basis whose points are not welded" },
     { isGiven && basis == piece && filter->GetFunctionSpace() != vtkSurfaceFEMAlgorithm::Grid,
       "hat functions on a basis" },

@@ -510,12 +510,6 @@ Field SurfaceSolverState::OnReference(Field gradients) const
                            : std::move(gradients);
 }
 
-MultiVector SurfaceSolverState::OnCurrent(MultiVector gradients) const
-{
-  return tracked_.Metric() ? PushForward(*mesh.triangles, *tracked_.Moved().triangles, gradients)
-                           : std::move(gradients);
-}
-
 void SurfaceSolverState::WriteTracking(vtkPolyData* output) const
 {
   if (!options.trackMetric)

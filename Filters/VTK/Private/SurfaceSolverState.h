@@ -60,7 +60,6 @@ public:
   std::shared_ptr<const SurfaceSpace> SharedSpace() const override;
   std::shared_ptr<const FiniteElementSpace> WholeSpace() const override;
   Field OnReference(Field gradients) const override;
-  MultiVector OnCurrent(MultiVector gradients) const override;
   bool AreCoincidentPointsWelded() const override;
   double Area() const override;
   double LongestSide() const override;
