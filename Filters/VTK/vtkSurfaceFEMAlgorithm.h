@@ -110,9 +110,8 @@ public:
    * same system, and the grid only speeds up the iteration. So it is coarser than Depth, or a basis
    * that is given, asks for where it would have more functions than the mesh has points; for
    * spectra, which take their estimated errors from it, more than four for each; not where its own
-   * solution counts: for distances, for details of stitched colours, where AccuracyDriven or
-   * CompareFunctionSpaces is on. The field array `UsedDepth` says how fine it is. Only the solvers
-   * use it.
+   * solution counts: for distances, for details of stitched colours, for a wanted accuracy.
+   * The field array `UsedDepth` says how fine it is. Only the solvers use it.
    */
   vtkSetClampMacro(FunctionSpace, int, Grid, HatFunctions);
   vtkGetMacro(FunctionSpace, int);

@@ -33,7 +33,7 @@ MANY_VALUES = 60.0
 
 # What a random choice must not set: where output goes, how long a run may take.
 NEVER_SET = {"Depth", "NumberOfModes", "NumberOfSteps", "NumberOfThreads", "MaximumIterations",
-             "AccuracyDriven", "QuadratureDegree", "ErrorCode", "AbortExecute", "ReferenceCount",
+             "Accuracy", "AccuracyDriven", "QuadratureDegree", "ErrorCode", "AbortExecute", "ReferenceCount",
              "Debug", "ReleaseDataFlag", "Progress", "NumberOfScales"}
 # What filters make the active scalars, but for what is not a number where nothing reaches.
 MADE = {"Solution", "NormalDisplacement", "Filtered", "Mode", "Mode000", "Diffused", "Laplacian", "Bending",

@@ -37,7 +37,7 @@ def build():
         SweepsPerSynchronisation=2, NumberOfSweeps=3, CoarsestSize=100)
     both = simple.LaplaceSpectrum(
         Input=values, Depth=4, NumberOfModes=5, Mode=2, FunctionSpace="Hat Functions",
-        CompareFunctionSpaces=1)
+        Accuracy=0.4)
     labels = simple.Calculator(Input=values, ResultArrayName="label", Function="floor(coordsZ)")
     stitch = simple.StitchColors(
         Input=labels, Basis=basis, ColorArray=["POINTS", "Normals"], LabelArray=["POINTS", "label"],

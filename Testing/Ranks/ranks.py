@@ -242,8 +242,7 @@ def piece(mesh, kind, global_ids=False):
 # compared of.
 CHOICES = {
     "ScreenedPoisson": {"ScreeningWeight": 100.0},
-    "LaplaceSpectrum": {"NumberOfModes": 5, "AllModes": True, "Tolerance": 1e-12,
-                        "CompleteMultiplets": False},
+    "LaplaceSpectrum": {"NumberOfModes": 5, "AllModes": True, "Tolerance": 1e-12},
     "SpectralSignatures": {"NumberOfModes": 8, "Tolerance": 1e-12},
     "MeanCurvatureFlow": {"NumberOfSteps": 2},
     "HeatDiffusion": {"NumberOfSteps": 2}}

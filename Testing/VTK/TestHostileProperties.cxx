@@ -52,16 +52,8 @@ const HostileCase Cases[] = {
     } },
   { "GradientScale", [](double value)
     { return With<vtkScreenedPoisson>([=](auto* filter) { filter->SetGradientScale(value); }); } },
-  { "Accuracy",
-    [](double value)
-    {
-      return With<vtkLaplaceSpectrum>(
-        [=](auto* filter)
-        {
-          filter->AccuracyDrivenOn();
-          filter->SetAccuracy(value);
-        });
-    } },
+  { "Accuracy", [](double value)
+    { return With<vtkLaplaceSpectrum>([=](auto* filter) { filter->SetAccuracy(value); }); } },
   { "TimeStep", [](double value)
     { return With<vtkMeanCurvatureFlow>([=](auto* filter) { filter->SetTimeStep(value); }); } },
   { "Tolerance", [](double value)

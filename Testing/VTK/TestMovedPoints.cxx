@@ -41,7 +41,6 @@ vtkSmartPointer<vtkPolyData> WithModes(vtkPolyData* data, int modes, int depth =
   spectrum->SetDepth(depth);
   spectrum->SetNumberOfModes(modes);
   spectrum->AllModesOn();
-  spectrum->CompleteMultipletsOff();
   spectrum->Update();
   return spectrum->GetOutput();
 }

@@ -129,9 +129,6 @@ public:
   /// Adds what trackMetric has done to the field arrays of an output.
   void WriteTracking(vtkPolyData* output) const;
 
-  /// The space on the same basis whose functions were not chosen.
-  std::shared_ptr<const FiniteElementSpace> OtherSpace(const Progress& progress) const;
-
   /// Frees all that the stages have made.
   void Free();
 
