@@ -98,12 +98,12 @@ class Engines(unittest.TestCase):
 
     def test_distance(self):
         self.compare(lambda g, p, c, **o: g.distance(p, c, [0, len(p) // 2], **o))
-        self.compare(lambda g, p, c, **o: g.distance(p, c, 5, Smoothing=3.0, Unreachable=1, **o))
+        self.compare(lambda g, p, c, **o: g.distance(p, c, 5, Smoothing=3.0, **o))
 
     def test_signed_distance(self):
         self.compare(lambda g, p, c, **o: g.signed_distance(p, c, p[:, 0] > 0.1, **o))
         self.compare(lambda g, p, c, **o: g.signed_distance(
-            p, c, 5 * (p[c[:, 0], 0] > 0.1), 0, ReverseSign=True, **o))
+            p, c, 5 * (p[c[:, 0], 0] > 0.1), 0, **o))
 
     def test_diffuse(self):
         self.compare(lambda g, p, c, **o: g.diffuse(p, c, p[:, 2], 0.01, **o))

@@ -29,7 +29,7 @@ def build():
         SourcePointIds=[3, 4], FilterType="Low Pass", LastMode=4, ValueArray=["POINTS", "f"])
     distance = simple.GeodesicDistance(
         Input=values, Depth=4, Sources=surface, SourcePointIds=[3, 4], Smoothing=2.5,
-        SourceArray=["POINTS", "f"], Unreachable="Infinity",
+        SourceArray=["POINTS", "f"],
         Selection=plugin.selected_points(7))
     hats = simple.ScreenedPoisson(
         Input=values, Depth=4, ValueArray=["POINTS", "f"], FunctionSpace="Hat Functions",
