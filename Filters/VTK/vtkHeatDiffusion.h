@@ -3,9 +3,10 @@
  * @brief   an array that spreads along a surface as heat does, in time steps
  *
  * Solves du/dt = div grad u + s on the surface, from the array at time 0 to the DiffusionTime, in
- * NumberOfSteps equal steps, each of which is a time step of the output. No heat flows over
- * boundaries: the integral over every connected component is kept, but for what the source adds;
- * unless values are held, where heat comes and goes.
+ * NumberOfSteps equal steps, each of which is a time step of the output. They are of second order
+ * in their length, with two solves each, and stable for any length. No heat flows over boundaries:
+ * the integral over every connected component is kept, but for what the source adds; unless values
+ * are held, where heat comes and goes.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
  * vtkConnectivityAwareBasis. Input port 1 (optional): the output of vtkConnectivityAwareBasis for
@@ -18,7 +19,9 @@
  *
  * Output port 0 (vtkPolyData): the input with
  * - point data, double: `Diffused` (C components). Points that no polygon uses keep the array if it
- *   is a point array, else get 0.
+ *   is a point array, else get 0. Without an array the points move to where their coordinates have
+ *   spread: `Displacement` and `NormalDisplacement` are added, normals follow, and clip, basis and
+ *   modes, which belong to the old shape, are left out.
  * - field data: `Step` (int, 1), `DiffusionTime` (double, 1; squared world length), `Converged`,
  *   `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor` and the estimated errors
  *   of vtkPoissonAlgorithm, all of the solves of the step that is shown; `Misfit` (double, 1) where
@@ -69,31 +72,6 @@ public:
   vtkGetMacro(NumberOfSteps, int);
   ///@}
 
-  enum SchemeType
-  {
-    BackwardEuler = 0,
-    SecondOrder = 1
-  };
-  ///@{
-  /**
-   * BackwardEuler is of first order in the length of a step, and does not overshoot. SecondOrder
-   * (default) takes two solves per step. Both are stable for any step.
-   */
-  vtkSetClampMacro(Scheme, int, BackwardEuler, SecondOrder);
-  vtkGetMacro(Scheme, int);
-  ///@}
-
-  ///@{
-  /**
-   * When on (default), and no Array is chosen, the points move to where their coordinates have
-   * spread: point arrays Displacement and NormalDisplacement are added, normals follow, and clip,
-   * basis and modes, which belong to the old shape, are left out.
-   */
-  vtkSetMacro(MovePoints, bool);
-  vtkGetMacro(MovePoints, bool);
-  vtkBooleanMacro(MovePoints, bool);
-  ///@}
-
   ///@{
   /**
    * When on, values stay where the surface ends as well. Default off.
@@ -107,7 +85,7 @@ public:
   /**
    * On several MPI ranks: when on, all ranks compute, and none gathers the surface, which may be
    * larger than one machine. Possible on a grid or on hats, of welded points, with
-   * the patch smoother; not with MovePoints where the coordinates spread, or BlocksAsOne.
+   * the patch smoother; not where the coordinates spread, or with BlocksAsOne.
    * Where it is not, rank 0 gathers as ever, and warns. The field array `Distributed`
    * says which. Needs a build with MPI. Default off.
    */
@@ -138,8 +116,6 @@ protected:
 
   double DiffusionTime = 0.001;
   int NumberOfSteps = 1;
-  int Scheme = SecondOrder;
-  bool MovePoints = true;
   bool BoundaryValues = false;
   bool Distributed = false;
 

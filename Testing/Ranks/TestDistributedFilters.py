@@ -17,7 +17,7 @@ CASES = {
     "gradient of vectors": ("SurfaceGradient", {"arrays": {0: "v"}}, 1e-8),
     "gradient of cells": ("SurfaceGradient", {"arrays": {0: "c"}}, 1e-8),
     "heat": ("HeatDiffusion", {"DiffusionTime": 0.01}, 1e-8),
-    "heat of first order": ("HeatDiffusion", {"Scheme": 0, "arrays": {1: "f"}}, 1e-8),
+    "heat with a source": ("HeatDiffusion", {"arrays": {1: "f"}}, 1e-8),
     "heat, held": ("HeatDiffusion", {"DiffusionTime": 0.01, "arrays": {2: "mask"}}, 1e-7),
     "poisson": ("ScreenedPoisson", {"SolutionGradient": True}, 1e-8),
     "poisson, held": (
@@ -40,8 +40,8 @@ CASES = {
         "ScreenedPoisson", {"BoundaryValues": True, "FillUnknown": True,
                             "arrays": {0: "hole", 3: "f2", 4: "mask", 6: "f"}}, 1e-7),
     # A boundary that functions cannot meet takes 500 iterations to 1e-13, on one rank 450. The two stages of
-    # two steps exchange 70,000 messages, for each of which three ranks on two busy processors wait.
-    "heat, boundary": ("HeatDiffusion", {"DiffusionTime": 0.01, "BoundaryValues": True, "Scheme": 0,
+    # a step exchange 35,000 messages, for each of which three ranks on two busy processors wait.
+    "heat, boundary": ("HeatDiffusion", {"DiffusionTime": 0.01, "BoundaryValues": True,
                                          "NumberOfSteps": 1, "Tolerance": 1e-8}, 1e-7),
     # Heat is relaxed until distances are right to some 1e-4.
     "distance": ("GeodesicDistance", {}, 2e-3),

@@ -16,7 +16,6 @@ public:
     : options_(properties, { 0.0, 200, 1e-2 }),
       time_(properties.NumberFrom("DiffusionTime", 0.001, 0.0)),
       steps_(properties.Integer("NumberOfSteps", 1, 1, 10000)),
-      scheme_(static_cast<TimeScheme>(properties.Integer("Scheme", 1, 0, 1))),
       holdsBoundary_(properties.Switch("BoundaryValues", false))
   {
     if (time_ == 0.0)
@@ -31,8 +30,8 @@ public:
     const Surface surface(given, options_, progress.Part(0.0, 0.3));
     const Field start = given.FieldOf("values");
     Results results;
-    DiffusionOptions options{ options_, time_ / steps_ / surface.WeightInSpaceUnits(1.0), scheme_,
-      {} };
+    DiffusionOptions options{ options_, time_ / steps_ / surface.WeightInSpaceUnits(1.0),
+      TimeScheme::SecondOrder, {} };
     if (given.Find("held") || holdsBoundary_)
     {
       options.held = FindHeld(given, surface, options_, start, holdsBoundary_, results);
@@ -63,7 +62,6 @@ private:
   SurfaceOptions options_;
   double time_;
   int steps_;
-  TimeScheme scheme_;
   bool holdsBoundary_;
 };
 
