@@ -139,13 +139,13 @@ class Client(unittest.TestCase):
         modes = simple.LaplaceSpectrum(Input=self.surface, Depth=DEPTH, NumberOfModes=6)
         modes.UpdatePipeline()
         modes.UpdatePipelineInformation()
-        self.assertEqual(list(modes.TimestepValues), [1, 2, 3, 4, 5, 6, 7, 8])
+        self.assertEqual(list(modes.TimestepValues), [1, 2, 3, 4, 5])
         ranges = set()
-        for mode in (1.0, 4.0, 7.0):
+        for mode in (1.0, 3.0, 5.0):
             modes.UpdatePipeline(mode)
             ranges.add(servermanager.Fetch(modes).GetPointData().GetArray("Mode").GetRange())
         self.assertEqual(len(ranges), 3)
-        self.assertEqual(servermanager.Fetch(modes, idx=1).GetNumberOfRows(), 9)
+        self.assertEqual(servermanager.Fetch(modes, idx=1).GetNumberOfRows(), 6)
 
     def test_a_chain_with_a_basis(self):
         basis = simple.ConnectivityAwareBasis(Input=self.surface, Depth=DEPTH)
