@@ -158,7 +158,7 @@ TEST(HostileProperties, AccuracyIsClampedToItsLimits)
   filter->SetAccuracy(Infinity);
   EXPECT_EQ(filter->GetAccuracy(), 0.5);
   filter->SetAccuracy(-Infinity);
-  EXPECT_EQ(filter->GetAccuracy(), 1e-6);
+  EXPECT_EQ(filter->GetAccuracy(), 0.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(BothSpaces, HostileProperties,
