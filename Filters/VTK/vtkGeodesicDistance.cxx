@@ -351,11 +351,9 @@ bool vtkGeodesicDistance::ComputeTogether(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   gridfem::SurfaceSolverState& state = *this->State;
-  const std::string obstacle =
-    gridfem::FirstObstacle({ { !this->Data->SourceIds.empty(), "SourcePointIds" },
-      { this->Signed, "Signed" }, { this->NearestSource, "NearestSource" },
-      { this->Smoothing >= gridfem::MostSmoothing, "a Smoothing of 3.5 or more" } });
-  if (!this->Distributed || !gridfem::CanDistribute(this, inputs, obstacle))
+  const bool needsAll = !this->Data->SourceIds.empty() || this->Signed || this->NearestSource ||
+                        this->Smoothing >= gridfem::MostSmoothing;
+  if (!gridfem::CanDistribute(this, inputs, needsAll))
   {
     return false;
   }
@@ -455,5 +453,4 @@ void vtkGeodesicDistance::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NearestSource: " << this->NearestSource << "\n";
   os << indent << "Signed: " << this->Signed << "\n";
   os << indent << "InsideLabel: " << this->InsideLabel << "\n";
-  os << indent << "Distributed: " << this->Distributed << "\n";
 }

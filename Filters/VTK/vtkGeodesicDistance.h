@@ -43,6 +43,10 @@
  * heat is always solved to the same relative accuracy everywhere. NormalStabilization is 0.1 by
  * default: with less, functions that hide in the surface spoil small numbers. All shared properties
  * but ParameterUnits are used.
+ *
+ * All ranks of MPI compute together from the points of a SourceArray and of a selection, or from
+ * the first one. SourcePointIds, which count through the gathered surface, Sources, Signed,
+ * NearestSource and a Smoothing of 3.5 or more are left to rank 0.
  */
 #ifndef vtkGeodesicDistance_h
 #define vtkGeodesicDistance_h
@@ -116,21 +120,6 @@ public:
   vtkGetMacro(InsideLabel, int);
   ///@}
 
-  ///@{
-  /**
-   * On several MPI ranks: when on, all ranks compute, and none gathers the surface, which may be
-   * larger than one machine. Possible on a grid or on hats, of welded points, with
-   * the patch smoother, from the points of a SourceArray and of a selection, or from the first one;
-   * not with SourcePointIds, which count through the gathered surface, Sources, Signed,
-   * NearestSource, a Smoothing of 3.5 or more, or BlocksAsOne. Where it is not,
-   * rank 0 gathers as ever, and warns. The field array `Distributed` says which. Needs a build with
-   * MPI. Default off.
-   */
-  vtkSetMacro(Distributed, bool);
-  vtkGetMacro(Distributed, bool);
-  vtkBooleanMacro(Distributed, bool);
-  ///@}
-
   /**
    * The input of port 1: the basis.
    */
@@ -159,7 +148,6 @@ protected:
   bool NearestSource = false;
   bool Signed = false;
   int InsideLabel = 1;
-  bool Distributed = false;
 
 private:
   vtkGeodesicDistance(const vtkGeodesicDistance&) = delete;

@@ -301,9 +301,8 @@ void vtkHeatDiffusion::Compute(vtkInformationVector** inputs, vtkInformationVect
 bool vtkHeatDiffusion::ComputeTogether(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   gridfem::SurfaceSolverState& state = *this->State;
-  const std::string obstacle =
-    gridfem::FirstObstacle({ { !gridfem::IsArrayChosen(this, 0), "points that move" } });
-  if (!this->Distributed || !gridfem::CanDistribute(this, inputs, obstacle))
+  const bool moves = !gridfem::IsArrayChosen(this, 0);
+  if (!gridfem::CanDistribute(this, inputs, moves))
   {
     return false;
   }
@@ -352,5 +351,4 @@ void vtkHeatDiffusion::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "DiffusionTime: " << this->DiffusionTime << "\n";
   os << indent << "NumberOfSteps: " << this->NumberOfSteps << "\n";
   os << indent << "BoundaryValues: " << this->BoundaryValues << "\n";
-  os << indent << "Distributed: " << this->Distributed << "\n";
 }

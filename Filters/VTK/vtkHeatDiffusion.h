@@ -35,6 +35,8 @@
  * Tolerance, 1e-6 where it is 0, and have no estimates; and so are steps with values that are held.
  * NormalStabilization is 1e-2 by default. All shared properties are used; DiffusionTime is in the
  * squared unit of length of ParameterUnits, the source is per squared world length.
+ *
+ * All ranks of MPI compute together where an array spreads; coordinates are left to rank 0.
  */
 #ifndef vtkHeatDiffusion_h
 #define vtkHeatDiffusion_h
@@ -81,19 +83,6 @@ public:
   vtkBooleanMacro(BoundaryValues, bool);
   ///@}
 
-  ///@{
-  /**
-   * On several MPI ranks: when on, all ranks compute, and none gathers the surface, which may be
-   * larger than one machine. Possible on a grid or on hats, of welded points, with
-   * the patch smoother; not where the coordinates spread, or with BlocksAsOne.
-   * Where it is not, rank 0 gathers as ever, and warns. The field array `Distributed`
-   * says which. Needs a build with MPI. Default off.
-   */
-  vtkSetMacro(Distributed, bool);
-  vtkGetMacro(Distributed, bool);
-  vtkBooleanMacro(Distributed, bool);
-  ///@}
-
   /**
    * The input of port 1: the basis.
    */
@@ -117,7 +106,6 @@ protected:
   double DiffusionTime = 0.001;
   int NumberOfSteps = 1;
   bool BoundaryValues = false;
-  bool Distributed = false;
 
 private:
   vtkHeatDiffusion(const vtkHeatDiffusion&) = delete;

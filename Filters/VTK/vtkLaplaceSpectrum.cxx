@@ -211,14 +211,10 @@ void vtkLaplaceSpectrum::Compute(vtkInformationVector** inputs, vtkInformationVe
 bool vtkLaplaceSpectrum::ComputeTogether(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  if (!this->Distributed)
-  {
-    return false;
-  }
-  const std::string obstacle = gridfem::FirstObstacle({ { this->Accuracy > 0.0, "an Accuracy" },
-    { this->TrackMetric, "TrackMetric" }, { gridfem::IsArrayChosen(this, 5), "a MetricArray" } });
+  const bool needsAll =
+    this->Accuracy > 0.0 || this->TrackMetric || gridfem::IsArrayChosen(this, 5);
   gridfem::SurfaceSolverState& state = *this->State;
-  if (!gridfem::CanDistribute(this, inputs, obstacle))
+  if (!gridfem::CanDistribute(this, inputs, needsAll))
   {
     return false;
   }
@@ -267,6 +263,5 @@ void vtkLaplaceSpectrum::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Mode: " << this->Mode << "\n";
   os << indent << "AllModes: " << this->AllModes << "\n";
   os << indent << "TrackMetric: " << this->TrackMetric << "\n";
-  os << indent << "Distributed: " << this->Distributed << "\n";
   os << indent << "Accuracy: " << this->Accuracy << "\n";
 }

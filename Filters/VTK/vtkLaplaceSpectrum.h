@@ -40,6 +40,10 @@
  * Depth, or Accuracy, decides about the error of the space. All shared properties
  * but ParameterUnits are used. Cycles with the patch smoother, the default, run in single precision
  * where that resolves the surface; eigenvalues and modes are always double.
+ *
+ * All ranks of MPI compute together unless Accuracy is above 0, TrackMetric is on or a MetricArray
+ * is chosen. Zero modes of several components may come in another order, and modes with the other
+ * sign.
  */
 #ifndef vtkLaplaceSpectrum_h
 #define vtkLaplaceSpectrum_h
@@ -115,20 +119,6 @@ public:
   vtkGetMacro(Accuracy, double);
   ///@}
 
-  ///@{
-  /**
-   * On several MPI ranks: when on, all ranks compute, and none gathers the surface, which may be
-   * larger than one machine. Possible on a grid or on hats, of welded points, with
-   * the patch smoother; not with an Accuracy above 0, TrackMetric, a MetricArray, or BlocksAsOne.
-   * Where it is not, rank 0 gathers as ever, and warns. The field array `Distributed` says which.
-   * Zero modes of several components may come in another order, and modes with the other sign.
-   * Needs a build with MPI. Default off.
-   */
-  vtkSetMacro(Distributed, bool);
-  vtkGetMacro(Distributed, bool);
-  vtkBooleanMacro(Distributed, bool);
-  ///@}
-
   /**
    * The input of port 1: the basis.
    */
@@ -148,7 +138,6 @@ protected:
   int Mode = -1;
   bool AllModes = false;
   bool TrackMetric = false;
-  bool Distributed = false;
   double Accuracy = 0.0;
 
 private:

@@ -474,16 +474,10 @@ void vtkScreenedPoisson::WriteTables(vtkInformationVector* outputs)
 bool vtkScreenedPoisson::ComputeTogether(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  if (!this->Distributed)
-  {
-    return false;
-  }
-  const std::string obstacle =
-    gridfem::FirstObstacle({ { this->Iteration != ConjugateGradients, "cycles as Iteration" },
-      { this->AccuracyDriven, "AccuracyDriven" }, { this->TrackMetric, "TrackMetric" },
-      { gridfem::IsArrayChosen(this, 5), "a MetricArray" },
-      { this->MovePoints && !gridfem::IsArrayChosen(this, 0), "MovePoints of the coordinates" } });
-  if (!gridfem::CanDistribute(this, inputs, obstacle))
+  const bool moves = this->MovePoints && !gridfem::IsArrayChosen(this, 0);
+  const bool needsAll = this->Iteration != ConjugateGradients || this->AccuracyDriven ||
+                        this->TrackMetric || gridfem::IsArrayChosen(this, 5) || moves;
+  if (!gridfem::CanDistribute(this, inputs, needsAll))
   {
     return false;
   }
@@ -605,6 +599,5 @@ void vtkScreenedPoisson::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MovePoints: " << this->MovePoints << "\n";
   os << indent << "BoundaryValues: " << this->BoundaryValues << "\n";
   os << indent << "SolutionGradient: " << this->SolutionGradient << "\n";
-  os << indent << "Distributed: " << this->Distributed << "\n";
   os << indent << "UseValueGradient: " << this->UseValueGradient << "\n";
 }

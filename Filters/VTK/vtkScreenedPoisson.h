@@ -73,6 +73,9 @@
  * MaximumIterations is 200 by default. All shared properties are used; with HatFunctions as
  * FunctionSpace, QuadratureDegree touches the preconditioner alone, because all integrals over hat
  * functions are exact.
+ *
+ * All ranks of MPI compute together; Iteration Cycles, AccuracyDriven, a metric, TrackMetric and
+ * points that move are left to rank 0.
  */
 #ifndef vtkScreenedPoisson_h
 #define vtkScreenedPoisson_h
@@ -206,19 +209,6 @@ public:
   vtkBooleanMacro(SolutionGradient, bool);
   ///@}
 
-  ///@{
-  /**
-   * On several MPI ranks: when on, all ranks compute, and none gathers the surface, which may be
-   * larger than one machine. Possible on a grid or on hats, of welded points, with
-   * the patch smoother; not with Iteration Cycles, AccuracyDriven, a metric, TrackMetric, moved
-   * points, or BlocksAsOne. Where it is not, rank 0 gathers as ever, and warns. The
-   * field array `Distributed` says which. Needs a build with MPI. Default off.
-   */
-  vtkSetMacro(Distributed, bool);
-  vtkGetMacro(Distributed, bool);
-  vtkBooleanMacro(Distributed, bool);
-  ///@}
-
   enum IterationType
   {
     ConjugateGradients = 0,
@@ -263,7 +253,6 @@ protected:
   bool MovePoints = true;
   bool BoundaryValues = false;
   bool SolutionGradient = false;
-  bool Distributed = false;
   int Iteration = ConjugateGradients;
 
 private:

@@ -414,9 +414,7 @@ bool vtkSpectralSignatures::ComputeTogether(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   const bool moves = this->FilterType != NoFilter && !gridfem::IsArrayChosen(this, 0);
-  const std::string obstacle = gridfem::FirstObstacle(
-    { { !this->Data->SourceIds.empty(), "SourcePointIds" }, { moves, "points that move" } });
-  if (!this->Distributed || !gridfem::CanDistribute(this, inputs, obstacle))
+  if (!gridfem::CanDistribute(this, inputs, moves || !this->Data->SourceIds.empty()))
   {
     return false;
   }
@@ -552,7 +550,7 @@ void vtkSpectralSignatures::WriteDistributed(vtkPolyData* piece, vtkInformationV
     const gridfem::InputMesh whole = this->State->together.WithCopies(data.Mesh);
     this->WriteFiltered(gridfem::UsedPoints(*whole.triangles), piece, output);
   }
-  gridfem::AddFieldInt(output, "Distributed", 1);
+  gridfem::AddFieldInt(output, gridfem::DistributedName, 1);
   if (data.WasSolved)
   {
     gridfem::AddFieldInt(output, "UsedDepth", this->State->together.Depth());
@@ -591,5 +589,4 @@ void vtkSpectralSignatures::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "FilterType: " << this->FilterType << "\n";
   os << indent << "FirstMode: " << this->FirstMode << "\n";
   os << indent << "LastMode: " << this->LastMode << "\n";
-  os << indent << "Distributed: " << this->Distributed << "\n";
 }

@@ -46,6 +46,9 @@
  * Arrays: SetInputArrayToProcess index 0, `ValueArray`: a point array with any number of components
  * to be filtered; without it the coordinates. All shared properties are used; ParameterUnits is the
  * unit of DiffusionTime, as squared length.
+ *
+ * All ranks of MPI compute together, also with the modes of the input. Sources of distances, and
+ * coordinates that are filtered, are left to rank 0.
  */
 #ifndef vtkSpectralSignatures_h
 #define vtkSpectralSignatures_h
@@ -140,20 +143,6 @@ public:
   vtkGetMacro(LastMode, int);
   ///@}
 
-  ///@{
-  /**
-   * On several MPI ranks: when on, all ranks compute, and none gathers the surface, which may be
-   * larger than one machine. Possible on a grid or on hats, of welded points, with
-   * the patch smoother, or with the modes of the input; not with sources of distances, where
-   * the coordinates are filtered, or with BlocksAsOne. Where it is not,
-   * rank 0 gathers as ever, and warns. The field array `Distributed` says which. Needs a build with
-   * MPI. Default off.
-   */
-  vtkSetMacro(Distributed, bool);
-  vtkGetMacro(Distributed, bool);
-  vtkBooleanMacro(Distributed, bool);
-  ///@}
-
   /**
    * The input of port 1: the basis.
    */
@@ -180,7 +169,6 @@ protected:
   int FilterType = NoFilter;
   int FirstMode = 1;
   int LastMode = 20;
-  bool Distributed = false;
 
 private:
   vtkSpectralSignatures(const vtkSpectralSignatures&) = delete;

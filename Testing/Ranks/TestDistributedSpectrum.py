@@ -1,5 +1,5 @@
 """Laplace Spectrum by all ranks together: the modes of one rank on every rank's own piece, where they
-can be had so; else rank 0 gathers, as without the property."""
+can be had so; else rank 0 gathers."""
 import unittest
 
 import numpy
@@ -12,7 +12,7 @@ MODES = 8
 
 def made(**properties):
     return ranks.make("LaplaceSpectrum", 4, **{
-        "Distributed": True, "NumberOfModes": MODES, "Tolerance": 1e-11, **properties})
+        "NumberOfModes": MODES, "Tolerance": 1e-11, **properties})
 
 
 def number(output, name):
@@ -102,7 +102,7 @@ class DistributedSpectrum(unittest.TestCase):
                         number(output, "Converged") == 1 else [str(properties)])
         filter_ = made()
         for together in (True, False, True):
-            filter_.SetDistributed(together)
+            filter_.SetBlocksAsOne(not together)
             output = ranks.run(filter_, ranks.piece(ranks.bowl(), "ghosts"))[0]
             ranks.check(self, [] if (number(output, "Distributed") == 1) == together and
                         number(output, "Converged") == 1 else [str(together)])

@@ -1,4 +1,4 @@
-"""What is kept between runs, and steps in time."""
+"""What is kept between runs where rank 0 gathers the surface, and steps in time."""
 import unittest
 
 import numpy
@@ -26,7 +26,7 @@ class Stages(unittest.TestCase):
         return ranks.piece(ranks.ellipsoid(), "ghosts")
 
     def test_an_unchanged_input_repeats_nothing(self):
-        filter_ = ranks.make("ScreenedPoisson")
+        filter_ = ranks.make("ScreenedPoisson", gathers=True)
         data = self.piece()
         ranks.run(filter_, data)
         once = dict.fromkeys(STAGES, 1)
@@ -42,7 +42,7 @@ class Stages(unittest.TestCase):
 
     def test_a_change_on_one_rank_repeats_what_depends_on_it(self):
         for rank in {0, ranks.RANKS - 1}:
-            filter_ = ranks.make("ScreenedPoisson")
+            filter_ = ranks.make("ScreenedPoisson", gathers=True)
             ranks.run(filter_, self.piece())
             data = self.piece()
             if ranks.RANK == rank:
@@ -57,7 +57,7 @@ class Stages(unittest.TestCase):
             self.expect_runs(filter_, {"Space": 2, "System": 2})
 
     def test_without_kept_stages_the_answer_is_the_same(self):
-        filter_ = ranks.make("ScreenedPoisson", KeepStages=False)
+        filter_ = ranks.make("ScreenedPoisson", gathers=True, KeepStages=False)
         data = self.piece()
         problems = []
         values = []
@@ -71,7 +71,7 @@ class Stages(unittest.TestCase):
         self.expect_runs(filter_, {"Space": 2, "Solve": 2})
 
     def test_an_empty_input_frees_and_a_new_one_is_computed(self):
-        filter_ = ranks.make("ScreenedPoisson")
+        filter_ = ranks.make("ScreenedPoisson", gathers=True)
         ranks.run(filter_, self.piece())
         output = ranks.run(filter_, vtkPolyData())[0]
         ranks.check(self, ["not empty"] if output.GetNumberOfPoints() else [])
