@@ -457,15 +457,9 @@ void vtkScreenedPoisson::WriteTables(vtkInformationVector* outputs)
 bool vtkScreenedPoisson::ComputeTogether(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  if (!this->Distributed)
-  {
-    return false;
-  }
-  const std::string obstacle =
-    gridfem::FirstObstacle({ { this->WantedError != 0.0, "a WantedError" },
-      { this->TrackMetric, "TrackMetric" }, { gridfem::IsArrayChosen(this, 5), "a MetricArray" },
-      { !gridfem::IsArrayChosen(this, 0), "points that move" } });
-  if (!gridfem::CanDistribute(this, inputs, obstacle))
+  const bool needsAll = this->WantedError > 0.0 || this->TrackMetric ||
+                        gridfem::IsArrayChosen(this, 5) || !gridfem::IsArrayChosen(this, 0);
+  if (!gridfem::CanDistribute(this, inputs, needsAll))
   {
     return false;
   }
@@ -572,6 +566,5 @@ void vtkScreenedPoisson::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "WantedError: " << this->WantedError << "\n";
   os << indent << "FillUnknown: " << this->FillUnknown << "\n";
   os << indent << "BoundaryValues: " << this->BoundaryValues << "\n";
-  os << indent << "Distributed: " << this->Distributed << "\n";
   os << indent << "UseValueGradient: " << this->UseValueGradient << "\n";
 }

@@ -72,6 +72,9 @@
  * MaximumIterations is 200 by default. All shared properties are used; with HatFunctions as
  * FunctionSpace, QuadratureDegree touches the preconditioner alone, because all integrals over hat
  * functions are exact.
+ *
+ * All ranks of MPI compute together. A WantedError, a metric, TrackMetric and
+ * points that move are left to rank 0.
  */
 #ifndef vtkScreenedPoisson_h
 #define vtkScreenedPoisson_h
@@ -177,19 +180,6 @@ public:
   vtkBooleanMacro(BoundaryValues, bool);
   ///@}
 
-  ///@{
-  /**
-   * On several MPI ranks: when on, all ranks compute, and none gathers the surface, which may be
-   * larger than one machine. Possible on a grid or on hats, of welded points; not with a
-   * WantedError, a metric, TrackMetric, moved points, or BlocksAsOne. Where it is not, rank 0
-   * gathers as ever, and warns. The field array `Distributed` says which. Needs a build with MPI.
-   * Default off.
-   */
-  vtkSetMacro(Distributed, bool);
-  vtkGetMacro(Distributed, bool);
-  vtkBooleanMacro(Distributed, bool);
-  ///@}
-
   /**
    * The input of port 1: the basis.
    */
@@ -217,7 +207,6 @@ protected:
   bool UseValueGradient = false;
   bool FillUnknown = false;
   bool BoundaryValues = false;
-  bool Distributed = false;
 
 private:
   vtkScreenedPoisson(const vtkScreenedPoisson&) = delete;

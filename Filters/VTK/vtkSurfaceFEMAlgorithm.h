@@ -24,12 +24,14 @@
  * vtkGhostType marks as hidden or as duplicates take no part; the solvers pass them on, the clip
  * leaves them out. Computation is in double precision. Results do not depend on NumberOfThreads.
  *
- * On several MPI ranks the surface is gathered on rank 0, which computes with its threads and has
- * to hold all of it; the others sleep. Ghost cells count once, and points on borders are joined by
+ * On several MPI ranks all compute where they can, and none gathers the surface, which may be
+ * larger than one machine: the field array `Distributed` is 1 then. They can on welded points, with
+ * the patch smoother, without BlocksAsOne, and in most solvers, as the page of each filter says.
+ * Where they cannot, the surface is gathered on rank 0, which computes with its threads and has to
+ * hold all of it; the others sleep. Ghost cells count once, and points on borders are joined by
  * global point ids, or else by their coordinates with WeldCoincidentPoints. Port 0 is each rank's
  * own input plus arrays, borders and ghosts included; outputs with cells of their own, and tables,
  * are on rank 0. Ids, such as those of sources and in messages, count through the gathered surface.
- * Filters with the property Distributed can compute on all ranks together, and gather nothing then.
  * The same ranks have to run the filter together. When one fails, all do, with one message.
  *
  * A solver filter finds its function space in this order: on input port 0, when that is the output
@@ -116,9 +118,8 @@ public:
    * same system, and the grid only speeds up the iteration. So it is coarser than Depth, or a basis
    * that is given, asks for where it would have more functions than the mesh has points; for
    * spectra, which take their estimated errors from it, more than four for each; not where its own
-   * solution counts: for distances, for details of stitched colours, where AccuracyDriven or
-   * CompareFunctionSpaces is on. The field array `UsedDepth` says how fine it is. Only the solvers
-   * use it.
+   * solution counts: for distances, for details of stitched colours, for a wanted accuracy.
+   * The field array `UsedDepth` says how fine it is. Only the solvers use it.
    */
   vtkSetClampMacro(FunctionSpace, int, Grid, HatFunctions);
   vtkGetMacro(FunctionSpace, int);

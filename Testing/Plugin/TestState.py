@@ -29,14 +29,14 @@ def build():
         SourcePointIds=[3, 4], FilterType="Low Pass", LastMode=4, ValueArray=["POINTS", "f"])
     distance = simple.GeodesicDistance(
         Input=values, Depth=4, Sources=surface, SourcePointIds=[3, 4], Smoothing=2.5,
-        SourceArray=["POINTS", "f"], Unreachable="Infinity",
+        SourceArray=["POINTS", "f"],
         Selection=plugin.selected_points(7))
     hats = simple.ScreenedPoisson(
         Input=values, Depth=4, ValueArray=["POINTS", "f"], FunctionSpace="Hat Functions",
         WantedError=0.4, Accuracy=0.2)
     both = simple.LaplaceSpectrum(
         Input=values, Depth=4, NumberOfModes=5, Mode=2, FunctionSpace="Hat Functions",
-        CompareFunctionSpaces=1)
+        Accuracy=0.4)
     labels = simple.Calculator(Input=values, ResultArrayName="label", Function="floor(coordsZ)")
     stitch = simple.StitchColors(
         Input=labels, Basis=basis, ColorArray=["POINTS", "Normals"], LabelArray=["POINTS", "label"],

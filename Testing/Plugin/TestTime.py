@@ -110,13 +110,6 @@ class TestTime(unittest.TestCase):
         self.assertLess(sizes[3.0], sizes[2.0])
         self.assertEqual(plugin.runs(flow)["Space"], 1)
 
-    def test_modes_that_complete_a_group_are_time_steps(self):
-        modes = simple.LaplaceSpectrum(
-            Input=self.surface, Depth=DEPTH, NumberOfModes=6)
-        modes.UpdatePipeline()
-        modes.UpdatePipelineInformation()
-        self.assertEqual(list(modes.TimestepValues), [1, 2, 3, 4, 5, 6, 7, 8])
-
 
 if __name__ == "__main__":
     plugin.load()

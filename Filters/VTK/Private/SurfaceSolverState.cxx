@@ -542,15 +542,6 @@ void SurfaceSolverState::Free()
   stages.Forget();
 }
 
-std::shared_ptr<const FiniteElementSpace> SurfaceSolverState::OtherSpace(
-  const Progress& progress) const
-{
-  SpaceChoice other = options.choice;
-  other.kind = OtherThan(other.kind);
-  return this->InMetric(
-    MakeSpace(basis, other, this->MakeJob(progress.Part(0.0, 0.6))), progress.Part(0.6, 1.0));
-}
-
 double SurfaceSolverState::Area() const
 {
   if (together.IsUsed())

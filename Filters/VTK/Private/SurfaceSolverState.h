@@ -21,7 +21,9 @@ namespace gridfem
 {
 
 /// The shared properties in Core's terms.
-struct FilterOptions : EquationOptions, SurfaceOptions
+struct FilterOptions
+  : EquationOptions
+  , SurfaceOptions
 {
   bool trackMetric = false; // of a mesh that has only moved since its functions were made
 };
@@ -121,16 +123,13 @@ public:
   /// Adds what trackMetric has done to the field arrays of an output.
   void WriteTracking(vtkPolyData* output) const;
 
-  /// The space on the same basis whose functions were not chosen.
-  std::shared_ptr<const FiniteElementSpace> OtherSpace(const Progress& progress) const;
-
   /// Frees all that the stages have made.
   void Free();
 
   /// The functions of the grid.
   const GridFunctions& Functions() const { return *basis.space; }
 
-  FilterOptions options; // what is asked for
+  FilterOptions options;  // what is asked for
   InputArray metricArray; // of the input; none: the metric of the mesh
   Stages stages;
   InputMesh mesh;
@@ -158,7 +157,7 @@ private:
   vtkPolyData* input_ = nullptr; // of this run
   vtkPolyData* basisData_ = nullptr;
   SurfaceOptions used_;
-  bool isTogether_ = false; // within RunTogether
+  bool isTogether_ = false;     // within RunTogether
   int wanted_ = AutomaticDepth; // of the grid, before it gives way
   TrackedMesh tracked_;
   StageKey structureKey_;
