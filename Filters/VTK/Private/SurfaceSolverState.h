@@ -21,7 +21,9 @@ namespace gridfem
 {
 
 /// The shared properties in Core's terms.
-struct FilterOptions : EquationOptions, SurfaceOptions
+struct FilterOptions
+  : EquationOptions
+  , SurfaceOptions
 {
   bool trackMetric = false; // of a mesh that has only moved since its functions were made
 };
@@ -53,9 +55,10 @@ public:
   ///@{ Surface.
   void Prepare(const Progress& progress) override;
   void PrepareAtDepth(int depth, const Progress& progress) override;
+  void PrepareMesh(const Progress& progress) override;
   std::int64_t StructureVersion() const override { return structure_; }
   const SurfaceOptions& UsedOptions() const override { return used_; }
-  const TriangleMesh& Mesh() const override { return *mesh.triangles; }
+  std::shared_ptr<const TriangleMesh> SharedMesh() const override { return mesh.triangles; }
   const TriangleMesh& CurrentMesh() const override { return *this->CurrentInput().triangles; }
   std::shared_ptr<const SurfaceSpace> SharedSpace() const override;
   std::shared_ptr<const FiniteElementSpace> WholeSpace() const override;
@@ -131,7 +134,7 @@ public:
   /// The functions of the grid.
   const GridFunctions& Functions() const { return *basis.space; }
 
-  FilterOptions options; // what is asked for
+  FilterOptions options;  // what is asked for
   InputArray metricArray; // of the input; none: the metric of the mesh
   Stages stages;
   InputMesh mesh;
@@ -147,6 +150,7 @@ private:
     const std::function<void()>& release);
   void RequireBasisTogether(const std::vector<double>& told) const;
   int DepthFor(int wanted) const;
+  void NoteFunctions();
   void TakeEnough(const Progress& progress);
 
   std::shared_ptr<const FiniteElementSpace> InMetric(
@@ -159,7 +163,7 @@ private:
   vtkPolyData* input_ = nullptr; // of this run
   vtkPolyData* basisData_ = nullptr;
   SurfaceOptions used_;
-  bool isTogether_ = false; // within RunTogether
+  bool isTogether_ = false;     // within RunTogether
   int wanted_ = AutomaticDepth; // of the grid, before it gives way
   TrackedMesh tracked_;
   StageKey structureKey_;
