@@ -39,6 +39,12 @@ public:
   /// of an earlier run may be freed. Not on a shared surface. Throws InvalidInput and Aborted.
   virtual void PrepareMesh(const Progress& progress) = 0;
 
+  /// The key of the mesh and of all that is asked of its functions, except their depth.
+  virtual StageKey InputKey() const = 0;
+
+  /// Whether the functions are given, so that the solver cannot choose their depth.
+  virtual bool AreFunctionsGiven() const { return false; }
+
   /// The stages of the surface and of the solver that works on it.
   Stages& GetStages() const { return stages_; }
 
@@ -68,9 +74,6 @@ public:
 
   /// A gradient given on the current mesh, for integrals over Mesh().
   virtual Field OnReference(Field gradients) const { return gradients; }
-
-  /// Gradients on the triangles of Mesh(), as gradients on the current mesh.
-  virtual MultiVector OnCurrent(MultiVector gradients) const { return gradients; }
 
   /// Whether coincident points of the mesh count as one.
   virtual bool AreCoincidentPointsWelded() const = 0;
@@ -113,9 +116,6 @@ public:
 
   /// A solution at the points of this process: a row for each.
   MultiVector ValuesAtPoints(const MultiVector& coefficients, const Progress& progress = {}) const;
-
-  /// Surface gradients on the triangles of this process, on the current mesh, per world length.
-  MultiVector GradientsOnTriangles(const MultiVector& coefficients) const;
   ///@}
 
 protected:

@@ -18,9 +18,7 @@ public:
   explicit SpectrumProblem(Properties& properties)
     : options_(properties, { 1e-6, 100, 1e-12, CycleType::V }),
       modes_(properties.Integer("NumberOfModes", 20, 1, 100000)),
-      completes_(properties.Switch("CompleteMultiplets", true)),
-      isAccuracyDriven_(properties.Switch("AccuracyDriven", false)),
-      accuracy_(properties.Number("Accuracy", 0.01, 1e-6, 0.5))
+      accuracy_(properties.Number("Accuracy", 0.0, 0.0, 0.5))
   {
     options_.functionsPerPoint = EnoughToEstimate;
   }
@@ -28,7 +26,7 @@ public:
   Results Solve(const Given& given, const Progress& progress) const override
   {
     EngineOptions options = options_;
-    if (isAccuracyDriven_)
+    if (accuracy_ > 0.0)
     {
       RequireSurface(*given.mesh);
       options =
@@ -36,7 +34,7 @@ public:
     }
     for (double done = 0.0;; done = 0.5 + 0.5 * done)
     {
-      const Progress part = progress.Part(done, isAccuracyDriven_ ? 0.5 + 0.5 * done : 1.0);
+      const Progress part = progress.Part(done, accuracy_ > 0.0 ? 0.5 + 0.5 * done : 1.0);
       const EngineSurface surface(given, options, part.Part(0.0, 0.5));
       const SpectrumOptions solver = this->SolverOptions(surface.Space());
       Spectrum nested = ComputeNestedSpectrum(surface.Space(), solver, part.Part(0.5, 0.7));
@@ -60,7 +58,6 @@ private:
     options.tolerance = options_.solve.tolerance;
     options.maximumIterations = options_.solve.maximumIterations;
     options.multigrid = options_.multigrid;
-    options.completeMultiplets = completes_;
     return options;
   }
 
@@ -72,7 +69,7 @@ private:
     {
       errors.resize(std::min<std::size_t>(errors.size(), modes_));
     }
-    return isAccuracyDriven_
+    return accuracy_ > 0.0
              ? NextDepthForModes(surface.Mesh(), errors, depth, accuracy_, options_.choice.kind)
              : depth;
   }
@@ -93,7 +90,7 @@ private:
     results.warnings = WarningsOf(spectrum, modes_, PlaceOf(kind, depth), true);
     const std::vector<double>& errors = spectrum.estimatedErrors;
     const double error = errors.empty() ? 0.0 : *std::max_element(errors.begin(), errors.end());
-    if (isAccuracyDriven_ && !(error <= accuracy_))
+    if (accuracy_ > 0.0 && !(error <= accuracy_))
     {
       results.Warn(WarningOfAccuracy(accuracy_, error, kind, depth));
     }
@@ -102,8 +99,6 @@ private:
 
   EngineOptions options_;
   int modes_;
-  bool completes_;
-  bool isAccuracyDriven_;
   double accuracy_;
 };
 

@@ -63,7 +63,6 @@ public:
   std::shared_ptr<const SurfaceSpace> SharedSpace() const override;
   std::shared_ptr<const FiniteElementSpace> WholeSpace() const override;
   Field OnReference(Field gradients) const override;
-  MultiVector OnCurrent(MultiVector gradients) const override;
   bool AreCoincidentPointsWelded() const override;
   double Area() const override;
   double LongestSide() const override;
@@ -124,9 +123,6 @@ public:
 
   /// Adds what trackMetric has done to the field arrays of an output.
   void WriteTracking(vtkPolyData* output) const;
-
-  /// The space on the same basis whose functions were not chosen.
-  std::shared_ptr<const FiniteElementSpace> OtherSpace(const Progress& progress) const;
 
   /// Frees all that the stages have made.
   void Free();
