@@ -49,6 +49,10 @@ const GradientSolver::Result& GradientSolver::Update(
   result_.report = ofDerivatives_.report;
   result_.accuracy = ofDerivatives_.accuracy;
   result_.warnings.clear();
+  if (options.hodgeDecomposition == result_.parts.empty())
+  {
+    result_.parts.swap(hiddenParts_);
+  }
   if (options.hodgeDecomposition)
   {
     this->Decompose(

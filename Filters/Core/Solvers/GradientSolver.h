@@ -48,7 +48,7 @@ public:
   struct Result
   {
     std::vector<Derived> derivatives; // Gradient, Laplacian; of given vectors Divergence, Curl
-    std::vector<Derived> parts;       // only with hodgeDecomposition; else of an earlier update
+    std::vector<Derived> parts;       // only with hodgeDecomposition
     SolveReport report;               // of the solve with the most iterations
     SolutionAccuracy accuracy;        // of the worst solve
     std::vector<std::string> warnings;
@@ -80,6 +80,7 @@ private:
   void Decompose(const Surface& surface, const Input& input, const StageKey& key,
     const EquationOptions& equation, const Job& job);
 
+  std::vector<Derived> hiddenParts_; // while hodgeDecomposition is off
   Outcome ofDerivatives_;
   Outcome ofParts_;
   Result result_;

@@ -112,7 +112,7 @@ TEST(GradientSolver, RunsOnlyTheStageThatAChangeAsksFor)
   for (const bool on : { true, false, true })
   {
     options.hodgeDecomposition = on;
-    solver.Update(surface, input, options, {});
+    EXPECT_EQ(solver.Update(surface, input, options, {}).parts.size(), on ? 5u : 0u);
   }
   EXPECT_EQ(stages.Runs(SolveStage), 1);
   EXPECT_EQ(stages.Runs(HodgeStage), 1);
