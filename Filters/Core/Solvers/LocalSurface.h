@@ -15,11 +15,8 @@ public:
 
   void Prepare(const Progress& progress) override;
   void PrepareAtDepth(int depth, const Progress& progress) override;
-<<<<<<< HEAD
   void PrepareMesh(const Progress& progress) override;
-=======
   StageKey InputKey() const override { return {}; } // neither changes
->>>>>>> main
   std::int64_t StructureVersion() const override { return structure_; }
   const SurfaceOptions& UsedOptions() const override { return used_; }
   std::shared_ptr<const TriangleMesh> SharedMesh() const override { return mesh_; }
