@@ -53,7 +53,7 @@ public:
     std::vector<std::string> warnings;
   };
 
-  /// What the smoothing wants of a surface by default.
+  /// The default options of the surface.
   static SurfaceOptions SurfaceDefaults();
 
   /// Fits again if the mesh or an option that counts has changed. Without smoothing the surface

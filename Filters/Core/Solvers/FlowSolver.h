@@ -19,8 +19,8 @@ namespace gridfem
 /// The stage that makes one more step, or makes one again.
 inline constexpr const char* StepStage = "Step";
 
-/// More steps of the same length continue from the last one; fewer compute nothing. Hold a
-/// MemoryReuse over an update.
+/// More steps of the same length continue from the last one, and fewer compute nothing. A caller
+/// holds a MemoryReuse over an update.
 class FlowSolver
 {
 public:
@@ -67,22 +67,22 @@ public:
     std::vector<std::string> warnings; // about the steps that this update has made
   };
 
-  /// @param cacheBytes  memory for shapes of steps that are kept; the last one always is
+  /// @param cacheBytes  memory for the shapes of kept steps; the last shape is always kept
   explicit FlowSolver(double cacheBytes = 1e9) : cacheBytes_(cacheBytes) {}
 
   /// Makes the steps that are missing. After an abort the steps so far are kept. Throws
   /// InvalidInput and Aborted.
   const Result& Update(Surface& surface, const Options& options, const Job& job);
 
-  /// The points of the mesh at a step of the last result. A step that is not kept is made again,
-  /// from the nearest one before it that is. The same bits whichever are kept.
+  /// The points of the mesh at a step of the last result. A step that is not kept is made again
+  /// from the nearest kept step before it. The bits do not depend on which steps are kept.
   std::vector<Vec3> PointsAt(int step, const Surface& surface, const Progress& progress = {});
 
   /// Whether all wanted steps were made, and those up to this one have converged.
   bool HasConverged(int step) const;
 
   /// All steps on a mesh of this process.
-  /// @param points  gets those after the last step
+  /// @param points  receives the points after the last step
   static Result Solve(std::shared_ptr<const TriangleMesh> mesh, const Options& options,
     std::vector<Vec3>& points, const SurfaceOptions& surfaceOptions = {}, const Job& job = {});
 
@@ -103,7 +103,7 @@ private:
   std::unique_ptr<MeanCurvatureFlow> flow_;
   std::vector<Step> made_; // the start and all steps made
   FlowEnd end_ = FlowEnd::None;
-  std::map<int, MultiVector> kept_; // shapes; the last step's is always there
+  std::map<int, MultiVector> kept_; // shapes; that of the last step is always there
   int stride_ = 1;                  // of the steps that are kept
   std::int64_t advances_ = 0;
   Result result_;

@@ -54,7 +54,7 @@ public:
     std::vector<std::string> warnings;
   };
 
-  /// What the solver wants of a surface by default.
+  /// The default options of the surface.
   static SurfaceOptions SurfaceDefaults();
 
   /// Computes what has changed. Collective. Throws InvalidInput and Aborted.
@@ -67,7 +67,7 @@ public:
     const Job& job = {});
 
 private:
-  /// What a stage tells besides its fields.
+  /// The results of a stage besides its fields.
   struct Outcome
   {
     SolveReport report;
