@@ -34,6 +34,7 @@ const std::map<std::string, MakeProblem> Problems = {
   { "ScreenedPoisson", &MakePoisson },
   { "StitchColors", &MakeStitching },
   { "SurfaceDetail", &MakeDetail },
+  { "SurfaceGradient", &MakeGradient },
 };
 
 /// Looks for Ctrl-C every tenth of a second.

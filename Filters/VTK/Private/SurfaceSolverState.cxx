@@ -109,9 +109,7 @@ void SurfaceSolverState::UpdateSpace(
 {
   RequireNumber("Tolerance", options.solve.tolerance);
   RequireNumber("Accuracy", options.accuracy);
-  const int lastDepth = used_.space.depth; // of functions that may stay
   used_ = options;
-  used_.space.depth = lastDepth;
   const std::int64_t meshNumber = meshVersion.Of(input, mesh, options.space.threads);
   const int wanted = options.space.depth;
   if (options.trackMetric &&
@@ -119,12 +117,14 @@ void SurfaceSolverState::UpdateSpace(
         SpaceStage, this->SpaceKey(input, basisData, tracked_.ReferenceVersion(), wanted)) &&
       tracked_.Follow(input, mesh))
   {
+    this->NoteFunctions();
     return;
   }
   tracked_.Stop();
   const bool carries = CarriesBasis(input);
   const auto update = [&]
   {
+    stages.Forget(MeshStage); // reads the mesh itself
     if (!carries && !basisData)
     {
       this->BuildSpace(input, progress);
@@ -154,6 +154,14 @@ void SurfaceSolverState::UpdateSpace(
   {
     tracked_.Refer(input, meshNumber);
   }
+  this->NoteFunctions();
+}
+
+/// Functions that were given or have stayed may differ from the options.
+void SurfaceSolverState::NoteFunctions()
+{
+  used_.space.depth = this->Functions().GetGrid().depth;
+  used_.space.connectivityAware = this->Functions().support == FunctionSupport::ConnectivityAware;
 }
 
 int SurfaceSolverState::DepthFor(int wanted) const
@@ -679,6 +687,23 @@ void SurfaceSolverState::Prepare(const Progress& progress)
   this->UpdateSpace(input_, basisData_, progress.Part(0.0, 0.6));
   progress.Check(0.6);
   this->UpdateSystem(progress.Part(0.6, 1.0));
+}
+
+void SurfaceSolverState::PrepareMesh(const Progress& progress)
+{
+  if (basis.space)
+  {
+    this->Free();
+  }
+  used_ = options;
+  StageKey key;
+  AddMesh(key, input_);
+  stages.Run(MeshStage, key,
+    [&]
+    {
+      mesh = ReadInputMesh(input_, options.space.threads, progress);
+      RequireSurface(*mesh.triangles);
+    });
 }
 
 void SurfaceSolverState::PrepareAtDepth(int depth, const Progress& progress)
