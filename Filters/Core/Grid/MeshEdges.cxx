@@ -18,7 +18,7 @@ namespace
 constexpr Index PointsPerBucket = 512;
 
 /// Ranges of triangles that the partition treats in parallel: few, because each counts all buckets.
-constexpr Id MostRanges = 64;
+constexpr Id MostEdgeRanges = 64;
 constexpr Id SmallestRange = Id{ 1 } << 14;
 
 /// One side of an edge: the triangle's edge from a corner to the next.
@@ -75,7 +75,7 @@ private:
 void EdgeFinder::Partition()
 {
   const Id triangles = static_cast<Id>(triangles_.size());
-  const Id size = std::max(SmallestRange, (triangles + MostRanges - 1) / MostRanges);
+  const Id size = std::max(SmallestRange, (triangles + MostEdgeRanges - 1) / MostEdgeRanges);
   const Id ranges = (triangles + size - 1) / size;
   std::vector<Index> next(ranges * buckets_, 0);
   const auto forSides = [&](const auto& visit)
