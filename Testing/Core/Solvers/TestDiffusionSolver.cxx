@@ -62,15 +62,15 @@ TEST(DiffusionSolver, MoreStepsOfTheSameLengthGoOnFromTheLast)
   Stages stages;
   LocalSurface surface(stages, mesh, InWorldUnits(4));
   DiffusionSolver solver;
-  solver.Update(surface, input, For(0.2, 2), {});
+  solver.Update(surface, input, For(0.25, 2), {});
   EXPECT_EQ(stages.Runs(SolveStage), 2);
-  const MultiVector six = solver.Update(surface, input, For(0.6, 6), {}).steps.back().atPoints;
+  const MultiVector six = solver.Update(surface, input, For(0.75, 6), {}).steps.back().atPoints;
   EXPECT_EQ(stages.Runs(SolveStage), 6);
   EXPECT_EQ(stages.Runs(HierarchyStage), 1);
   const DiffusionSolver::Result fresh =
-    DiffusionSolver::Solve(mesh, input, For(0.6, 6), InWorldUnits(4));
+    DiffusionSolver::Solve(mesh, input, For(0.75, 6), InWorldUnits(4));
   EXPECT_EQ(six, fresh.steps.back().atPoints);
-  solver.Update(surface, input, For(0.3, 6), {});
+  solver.Update(surface, input, For(0.375, 6), {});
   EXPECT_EQ(stages.Runs(HierarchyStage), 2);
 }
 
