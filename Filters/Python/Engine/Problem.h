@@ -31,6 +31,14 @@ struct Results
   }
 };
 
+/// Ids as a column of numbers.
+inline MultiVector ColumnOf(const std::vector<Id>& ids)
+{
+  return Eigen::Map<const Eigen::Matrix<Id, Eigen::Dynamic, 1>>(
+    ids.data(), static_cast<Eigen::Index>(ids.size()))
+    .cast<double>();
+}
+
 class Problem
 {
 public:
