@@ -55,6 +55,7 @@ std::unique_ptr<Problem> MakeCurvatures(Properties& properties);
 std::unique_ptr<Problem> MakeDetail(Properties& properties);
 std::unique_ptr<Problem> MakeDiffusion(Properties& properties);
 std::unique_ptr<Problem> MakeDistance(Properties& properties);
+std::unique_ptr<Problem> MakeFarthestPoints(Properties& properties);
 std::unique_ptr<Problem> MakeFlow(Properties& properties);
 std::unique_ptr<Problem> MakeGradient(Properties& properties);
 std::unique_ptr<Problem> MakeInterpolation(Properties& properties);
