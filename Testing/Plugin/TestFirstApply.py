@@ -12,6 +12,7 @@ DEPTH = 4
 COLORED_BY = {
     "ClipToOctree": ("CELLS", "OctreeCellColor"),
     "ConnectivityAwareBasis": ("CELLS", "PatchColor"),
+    "FarthestPoints": ("POINTS", "Distance"),
     "GeodesicDistance": ("POINTS", "Distance"),
     "HarmonicInterpolation": ("POINTS", "Interpolated"),
     "HeatDiffusion": ("POINTS", "NormalDisplacement"),

@@ -90,6 +90,13 @@ class Numpy(unittest.TestCase):
         self.assertEqual(distances[0], 0)
         self.assertLess(numpy.abs(distances - exact).max(), 0.06)
 
+    def test_the_point_farthest_from_a_pole_is_the_other_one(self):
+        ids, nearest, distances = gridfem.farthest_points(*self.mesh, 2, FirstPointId=0, **OPTIONS)
+        self.assertEqual(ids[0], 0)
+        numpy.testing.assert_allclose(self.points[ids[1]], -self.points[0], atol=0.1)
+        numpy.testing.assert_array_equal(nearest[ids], ids)
+        self.assertLess(abs(distances.max() - numpy.pi / 2), 0.06)
+
     def test_latitude_is_signed(self):
         labels = numpy.where(self.points[:, 2] > -1e-9, 4, 2)  # half a ring below the equator
         latitude = numpy.arcsin(numpy.clip(self.points[:, 2], -1, 1)) + numpy.pi / 60

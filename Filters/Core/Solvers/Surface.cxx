@@ -1,5 +1,7 @@
 #include "Solvers/Surface.h"
 
+#include "Problems/GeodesicDistance.h"
+
 #include <cmath>
 
 namespace gridfem
@@ -26,6 +28,12 @@ double Surface::WeightInSpaceUnits(double weight) const
 double Surface::LengthInWorldUnits(double length) const
 {
   return length * this->Space().UnitLength() / std::sqrt(this->WeightInSpaceUnits(1.0));
+}
+
+std::unique_ptr<DistanceMethod> Surface::MakeDistance(
+  const DistanceOptions& options, const Job& job) const
+{
+  return std::make_unique<GeodesicDistance>(this->WholeSpace(), this->SharedMesh(), options, job);
 }
 
 MultiVector Surface::ValuesAtPoints(const MultiVector& coefficients, const Progress& progress) const

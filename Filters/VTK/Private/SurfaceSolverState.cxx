@@ -6,8 +6,10 @@
 #include "InputValidation.h"
 #include "Integrals/QuadratureRule.h"
 #include "MetricArray.h"
+#include "Problems/GeodesicDistance.h"
 #include "Problems/MemoryEstimate.h"
 #include "Problems/MovedSurface.h"
+#include "Ranks.h"
 #include "SelectedPoints.h"
 #include "SolverOutput.h"
 
@@ -443,6 +445,22 @@ double SurfaceSolverState::Largest(double own) const
   return together.IsUsed() ? together.Largest(own) : own;
 }
 
+bool SurfaceSolverState::IsFirst(bool holds) const
+{
+  if (!together.IsUsed())
+  {
+    return holds;
+  }
+  const double own = Ranks().Own();
+  std::vector<double> first;
+  if (holds)
+  {
+    first.push_back(own);
+  }
+  together.Agree(first);
+  return holds && first.front() == own;
+}
+
 bool SurfaceSolverState::AreCoincidentPointsWelded() const
 {
   return together.IsUsed() ? used_.space.weldCoincidentPoints : basis.weldCoincidentPoints;
@@ -499,6 +517,13 @@ void SurfaceSolverState::FillCopies(MultiVector& atPoints) const
   {
     together.FillCopies(atPoints);
   }
+}
+
+std::unique_ptr<DistanceMethod> SurfaceSolverState::MakeDistance(
+  const DistanceOptions& asked, const Job& job) const
+{
+  return together.IsUsed() ? together.MakeDistance(mesh, asked, job)
+                           : Surface::MakeDistance(asked, job);
 }
 
 std::vector<char> SurfaceSolverState::PointsWithFunctions() const

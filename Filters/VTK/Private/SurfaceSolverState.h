@@ -77,8 +77,11 @@ public:
   bool IsShared() const override { return together.IsUsed(); }
   void Together(const std::function<void()>& body) const override;
   double Largest(double own) const override;
+  bool IsFirst(bool holds) const override;
   HeldValues Hold(const std::vector<Id>& points, const MultiVector& values) const override;
   BoundaryTerms OnBoundary(const MultiVector* flux, const MultiVector* values) const override;
+  std::unique_ptr<DistanceMethod> MakeDistance(
+    const DistanceOptions& options, const Job& job) const override;
   std::vector<char> PointsWithFunctions() const override;
   void FillCopies(MultiVector& atPoints) const override;
   ///@}

@@ -1,6 +1,9 @@
 // Every field of a solver's options is named once, and counts in the keys of stages.
 #include "EachOption.h"
 #include "Solvers/DiffusionSolver.h"
+#include "Solvers/DistanceSolver.h"
+#include "Solvers/FarthestPointsSolver.h"
+#include "Solvers/InterpolationSolver.h"
 #include "Solvers/PoissonSolver.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +33,8 @@ class OptionFields : public ::testing::Test
 {
 };
 
-using AllOptions = ::testing::Types<DiffusionSolver::Options, PoissonSolver::Options>;
+using AllOptions = ::testing::Types<DiffusionSolver::Options, DistanceSolver::Options,
+  FarthestPointsSolver::Options, InterpolationSolver::Options, PoissonSolver::Options>;
 TYPED_TEST_SUITE(OptionFields, AllOptions);
 
 } // namespace
