@@ -1,5 +1,7 @@
 #include "Solvers/Surface.h"
 
+#include "Problems/MemoryEstimate.h"
+
 #include <cmath>
 
 namespace gridfem
@@ -26,6 +28,11 @@ double Surface::WeightInSpaceUnits(double weight) const
 double Surface::LengthInWorldUnits(double length) const
 {
   return length * this->Space().UnitLength() / std::sqrt(this->WeightInSpaceUnits(1.0));
+}
+
+void Surface::Require(const MemoryNeed& own) const
+{
+  RequireMemory(own, AvailableMemory());
 }
 
 MultiVector Surface::ValuesAtPoints(const MultiVector& coefficients, const Progress& progress) const

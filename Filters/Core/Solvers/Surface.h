@@ -34,6 +34,11 @@ public:
   /// The same at a depth of the solver's choice.
   virtual void PrepareAtDepth(int depth, const Progress& progress) = 0;
 
+  ///@{ The triangles that Prepare works on, before it does: for the choice of a depth.
+  virtual std::shared_ptr<const TriangleMesh> ReadMesh() const = 0;
+  virtual StageKey KeyOfMesh() const = 0; // changes with them
+  ///@}
+
   /// The stages of the surface and of the solver that works on it.
   Stages& GetStages() const { return stages_; }
 
@@ -87,6 +92,12 @@ public:
 
   /// Runs a body that can throw on one process alone; then it throws on all.
   virtual void Together(const std::function<void()>& body) const { body(); }
+
+  /// Throws InvalidInput where one process has less memory than it needs.
+  virtual void Require(const MemoryNeed& own) const;
+
+  /// For sums of numbers that each process has a part of; null: this process has all.
+  virtual const DividedRows* SumsOverProcesses() const { return nullptr; }
 
   /// The largest number of all processes; NaN where one is NaN.
   virtual double Largest(double own) const { return own; }

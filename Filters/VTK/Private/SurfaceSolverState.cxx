@@ -425,6 +425,33 @@ std::shared_ptr<const FiniteElementSpace> SurfaceSolverState::WholeSpace() const
   return space;
 }
 
+std::shared_ptr<const TriangleMesh> SurfaceSolverState::ReadMesh() const
+{
+  return ReadInputMesh(input_, options.space.threads).triangles;
+}
+
+StageKey SurfaceSolverState::KeyOfMesh() const
+{
+  StageKey key;
+  AddMesh(key, input_);
+  return key;
+}
+
+void SurfaceSolverState::Require(const MemoryNeed& own) const
+{
+  if (together.IsUsed())
+  {
+    together.Require(own);
+    return;
+  }
+  Surface::Require(own);
+}
+
+const DividedRows* SurfaceSolverState::SumsOverProcesses() const
+{
+  return isTogether_ ? &together.Numbers() : nullptr;
+}
+
 double SurfaceSolverState::Largest(double own) const
 {
   return together.IsUsed() ? together.Largest(own) : own;

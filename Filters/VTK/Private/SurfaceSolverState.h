@@ -21,7 +21,9 @@ namespace gridfem
 {
 
 /// The shared properties in Core's terms.
-struct FilterOptions : EquationOptions, SurfaceOptions
+struct FilterOptions
+  : EquationOptions
+  , SurfaceOptions
 {
   bool trackMetric = false; // of a mesh that has only moved since its functions were made
 };
@@ -53,6 +55,8 @@ public:
   ///@{ Surface.
   void Prepare(const Progress& progress) override;
   void PrepareAtDepth(int depth, const Progress& progress) override;
+  std::shared_ptr<const TriangleMesh> ReadMesh() const override;
+  StageKey KeyOfMesh() const override;
   std::int64_t StructureVersion() const override { return structure_; }
   const SurfaceOptions& UsedOptions() const override { return used_; }
   const TriangleMesh& Mesh() const override { return *mesh.triangles; }
@@ -66,6 +70,8 @@ public:
   double LongestSide() const override;
   bool IsShared() const override { return together.IsUsed(); }
   void Together(const std::function<void()>& body) const override;
+  void Require(const MemoryNeed& own) const override;
+  const DividedRows* SumsOverProcesses() const override;
   double Largest(double own) const override;
   HeldValues Hold(const std::vector<Id>& points, const MultiVector& values) const override;
   BoundaryTerms OnBoundary(const MultiVector* flux, const MultiVector* values) const override;
@@ -131,7 +137,7 @@ public:
   /// The functions of the grid.
   const GridFunctions& Functions() const { return *basis.space; }
 
-  FilterOptions options; // what is asked for
+  FilterOptions options;  // what is asked for
   InputArray metricArray; // of the input; none: the metric of the mesh
   Stages stages;
   InputMesh mesh;
@@ -159,7 +165,7 @@ private:
   vtkPolyData* input_ = nullptr; // of this run
   vtkPolyData* basisData_ = nullptr;
   SurfaceOptions used_;
-  bool isTogether_ = false; // within RunTogether
+  bool isTogether_ = false;     // within RunTogether
   int wanted_ = AutomaticDepth; // of the grid, before it gives way
   TrackedMesh tracked_;
   StageKey structureKey_;
