@@ -35,7 +35,7 @@ public:
   void AddPart(const std::string& name, double seconds);
 
   /// A table: seconds of every step, the largest memory the process had used when it ended, and
-  /// what it held then: all filters keep what they made, for the next change (KeepStages).
+  /// what it held then: all filters keep what they made, for the next change.
   void Print(std::ostream& out) const;
 
 private:

@@ -31,7 +31,7 @@ def main():
         Function=f"sin({6.2832 * STRIPES / (high - low)}*(coordsY-({low}))) > 0 ? 1 : -1")
     diffusion = HeatDiffusion(
         Input=stripes, Depth=int(sys.argv[2]), Array=["POINTS", "stripes"], DiffusionTime=4e-3,
-        NumberOfSteps=max(SHOWN), Scheme="Backward Euler")
+        NumberOfSteps=max(SHOWN))
     tiles = []
     for step in SHOWN:
         diffusion.UpdatePipeline(float(step))

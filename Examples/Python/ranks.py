@@ -28,7 +28,7 @@ def main():
 
     # All ranks compute, and none gathers the surface; each gets its piece back, with arrays.
     modes = simple.LaplaceSpectrum(
-        Input=pieces, Depth=int(sys.argv[2]), NumberOfModes=MODE + 1, AllModes=1, Distributed=1)
+        Input=pieces, Depth=int(sys.argv[2]), NumberOfModes=MODE + 1, AllModes=1)
     simple.SaveData(sys.argv[3], proxy=modes)
 
     mesh = required(servermanager.Fetch(simple.ProcessIdScalars(Input=modes)))

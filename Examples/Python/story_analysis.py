@@ -30,9 +30,19 @@ def mesh_of(proxy):
     return required(servermanager.Fetch(proxy))
 
 
+def add_heat(mesh):
+    """The point array Heat: the heat kernel signature at one of its times."""
+    signature = mesh.GetPointData().GetArray("HeatKernelSignature")
+    heat = vtkDoubleArray()
+    heat.SetName("Heat")
+    heat.SetNumberOfTuples(mesh.GetNumberOfPoints())
+    heat.CopyComponent(0, signature, SCALE)
+    mesh.GetPointData().AddArray(heat)
+
+
 def summits(mesh):
     """The points that keep more heat than their neighbours, the hottest first."""
-    heat = mesh.GetPointData().GetArray("Signature").GetValue
+    heat = mesh.GetPointData().GetArray("Heat").GetValue
     is_summit = [True] * mesh.GetNumberOfPoints()
     for k in range(mesh.GetNumberOfCells()):
         cell = mesh.GetCell(k)
@@ -43,9 +53,9 @@ def summits(mesh):
     return sorted((p for p, found in enumerate(is_summit) if found), key=heat, reverse=True)
 
 
-def find_tips(signatures, depth, count):
+def find_tips(signatures, mesh, depth, count):
     """The hottest summits, each far from those before; the filter with the distances from them."""
-    candidates = summits(mesh_of(signatures))
+    candidates = summits(mesh)
     tips = [candidates[0]]
     distance = GeodesicDistance(Input=signatures, Depth=depth, SourcePointIds=tips, NearestSource=1)
     longest = mesh_of(distance).GetPointData().GetArray("Distance").GetRange()[1]
@@ -87,17 +97,18 @@ def main():
     simple.LoadDistributedPlugin("GridFEM", remote=False, ns=globals())
     depth, count = int(sys.argv[2]), int(sys.argv[3])
     scan = simple.OpenDataFile(sys.argv[1])
-    signatures = SpectralSignatures(Input=scan, Depth=depth, NumberOfModes=MODES, ShownScale=SCALE)
+    signatures = SpectralSignatures(Input=scan, Depth=depth, NumberOfModes=MODES)
     mesh = mesh_of(signatures)
-    low, high = mesh.GetPointData().GetArray("Signature").GetRange()
+    add_heat(mesh)
+    low, high = mesh.GetPointData().GetArray("Heat").GetRange()
     view = from_the_front(mesh, 1.05)
-    tips, distance = find_tips(signatures, depth, count)
+    tips, distance = find_tips(signatures, mesh, depth, count)
     print("tips:", *tips)
     split = mesh_of(distance)
     add_regions(split, tips)
     smooth = SpectralSignatures(Input=scan, Depth=depth, NumberOfModes=MODES, FilterType=1, LastMode=30)
     tiles = [
-        Tile("heat that stays", view, [Layer(mesh, "Signature", low, 0.5 * (low + high))]),
+        Tile("heat that stays", view, [Layer(mesh, "Heat", low, 0.5 * (low + high))]),
         Tile(f"{len(tips)} tips", view, [Layer(mesh), Layer(balls(mesh, tips), color=(0.76, 0.16, 0.15))]),
         Tile("regions of the tips", view, [Layer(split, "Region", shuffled=True)]),
         Tile("the shape of 31 modes", view, [Layer(mesh_of(smooth))]),

@@ -28,8 +28,7 @@ stripes = simple.Calculator(
     Function=f"sin({20 / (high_y - low_y)}*(coordsY-({low_y}))) > 0 ? 1 : -1")
 simple.RenameSource("Stripes", stripes)
 diffused = HeatDiffusion(
-    Input=stripes, Depth=6, Array=["POINTS", "Stripes"], DiffusionTime=4e-3, NumberOfSteps=20,
-    Scheme="Backward Euler")
+    Input=stripes, Depth=6, Array=["POINTS", "Stripes"], DiffusionTime=4e-3, NumberOfSteps=20)
 simple.RenameSource("Diffused", diffused)
 
 layout = simple.CreateLayout("Diffusion")

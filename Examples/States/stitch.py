@@ -6,7 +6,7 @@ In ParaView: File > Load State (with the plugin loaded), or with a mesh of your 
     GRIDFEM_MESH=scan.ply paraview --script=stitch.py
 
 GRIDFEM_MESH names a file that ParaView reads; without it a ring with waves is shown. Change
-Blend Width or Kept Mean of Stitched.
+Blend Width or Reference Label of Stitched.
 """
 
 import os

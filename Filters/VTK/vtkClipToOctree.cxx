@@ -132,7 +132,7 @@ void vtkClipToOctree::ClipTogether(vtkPolyData* piece)
 bool vtkClipToOctree::ComputeTogether(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   gridfem::SurfaceSolverState& state = *this->State;
-  if (!this->Distributed || !gridfem::CanDistribute(this, inputs, ""))
+  if (!gridfem::CanDistribute(this, inputs, false))
   {
     if (this->Data->OfRanks)
     {
@@ -183,7 +183,6 @@ void vtkClipToOctree::FreeStages()
 void vtkClipToOctree::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Distributed: " << this->Distributed << "\n";
   os << indent << "GenerateQuadraturePoints: " << this->GenerateQuadraturePoints << "\n";
   os << indent << "Level: " << this->Level << "\n";
 }

@@ -30,6 +30,11 @@
  *
  * Used shared properties: Depth, WeldCoincidentPoints, QuadratureDegree (changes only output port
  * 1), NumberOfThreads.
+ *
+ * On several MPI ranks each puts out the triangles in its own cells of the octree, wherever their
+ * polygons came from. One rank after the other, they are the triangles of one rank. Points are
+ * those that triangles use: the input's first, in another order. `OctreeCells` are those of all
+ * ranks on each. Arrays are those that the pieces of all ranks have.
  */
 #ifndef vtkClipToOctree_h
 #define vtkClipToOctree_h
@@ -69,21 +74,6 @@ public:
   vtkBooleanMacro(GenerateQuadraturePoints, int);
   ///@}
 
-  ///@{
-  /**
-   * On several MPI ranks: when on, all ranks compute, and none gathers the surface, which may be
-   * larger than one machine. Each puts out the triangles in its own cells of the octree, wherever
-   * their polygons came from: one rank after the other, the triangles of one rank. Of points
-   * those are there that triangles use: the input's first, in another order. `OctreeCells` are
-   * those of all ranks on each. Arrays are those that the pieces of all ranks have. Possible with
-   * welded points; not with BlocksAsOne. Where it is not, rank 0 gathers as ever, and warns. The
-   * field array `Distributed` says which. Needs a build with MPI. Default off.
-   */
-  vtkSetMacro(Distributed, bool);
-  vtkGetMacro(Distributed, bool);
-  vtkBooleanMacro(Distributed, bool);
-  ///@}
-
 protected:
   vtkClipToOctree();
   ~vtkClipToOctree() override;
@@ -93,7 +83,6 @@ protected:
   bool ComputeTogether(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   void FreeStages() override;
 
-  bool Distributed = false;
   int GenerateQuadraturePoints = QuadraturePointsAutomatic;
   int Level = 14;
 

@@ -180,7 +180,7 @@ bool vtkConnectivityAwareBasis::ComputeTogether(
 {
   gridfem::SurfaceSolverState& state = *this->State;
   vtkPolyData* piece = vtkPolyData::GetData(inputs[0]);
-  if (!this->Distributed || !gridfem::CanDistribute(this, inputs, ""))
+  if (!gridfem::CanDistribute(this, inputs, false))
   {
     return false;
   }
@@ -231,7 +231,6 @@ void vtkConnectivityAwareBasis::FreeStages()
 void vtkConnectivityAwareBasis::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Distributed: " << this->Distributed << "\n";
   os << indent << "Level: " << this->Level << "\n";
   os << indent << "BasisId: " << this->BasisId << "\n";
 }

@@ -28,6 +28,12 @@
  * Used shared properties: Depth (of a mesh that is not clipped yet), ConnectivityAware,
  * WeldCoincidentPoints (of a mesh that is clipped as well, whatever the clip was made with),
  * NumberOfThreads.
+ *
+ * On several MPI ranks each puts out the triangles in its own cells of the octree, wherever their
+ * polygons came from. One rank after the other, they are the triangles of one rank. The tables of
+ * the basis are whole on all, and so are coarse levels, whose functions are shown on the first
+ * rank. Arrays are those that the pieces of all ranks have. Triangles that were clipped before, by
+ * all ranks or by one, stay on the ranks that have them.
  */
 #ifndef vtkConnectivityAwareBasis_h
 #define vtkConnectivityAwareBasis_h
@@ -59,22 +65,6 @@ public:
   vtkGetMacro(BasisId, vtkIdType);
   ///@}
 
-  ///@{
-  /**
-   * On several MPI ranks: when on, all ranks compute, and none gathers the surface, which may be
-   * larger than one machine. Each puts out the triangles in its own cells of the octree, wherever
-   * their polygons came from: one rank after the other, the triangles of one rank. The tables of
-   * the basis are whole on all, and so are levels that are coarse: their functions are shown on the
-   * first rank. Arrays are those that the pieces of all ranks have. Triangles that were clipped
-   * before, by all ranks or by one, stay on the ranks that have them. Possible with welded points;
-   * not with BlocksAsOne. Where it is not, rank 0 gathers as ever, and warns. The field array
-   * `Distributed` says which. Needs a build with MPI. Default off.
-   */
-  vtkSetMacro(Distributed, bool);
-  vtkGetMacro(Distributed, bool);
-  vtkBooleanMacro(Distributed, bool);
-  ///@}
-
 protected:
   vtkConnectivityAwareBasis();
   ~vtkConnectivityAwareBasis() override;
@@ -84,7 +74,6 @@ protected:
   bool ComputeTogether(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   void FreeStages() override;
 
-  bool Distributed = false;
   int Level = 14;
   vtkIdType BasisId = -1;
 

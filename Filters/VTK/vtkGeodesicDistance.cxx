@@ -27,8 +27,6 @@
 #include "vtkSelection.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 vtkStandardNewMacro(vtkGeodesicDistance);
 
@@ -173,7 +171,6 @@ void vtkGeodesicDistance::UpdateHierarchies(const gridfem::Progress& progress)
   Internals& data = *this->Data;
   gridfem::StageKey key;
   key.Add(state.stages.Version(gridfem::SystemStage)).Add(this->Smoothing);
-  key.Add(this->EstimateErrors);
   gridfem::AddMultigrid(key, state.options.multigrid);
   state.stages.Run(gridfem::HierarchyStage, key,
     [&]
@@ -183,7 +180,6 @@ void vtkGeodesicDistance::UpdateHierarchies(const gridfem::Progress& progress)
       gridfem::DistanceOptions options;
       options.smoothing = this->Smoothing;
       options.multigrid = state.options.multigrid;
-      options.estimateErrors = this->EstimateErrors;
       const gridfem::Job job = state.MakeJob(progress.Part(0.3, 0.4));
       if (state.together.IsUsed())
       {
@@ -282,25 +278,12 @@ void vtkGeodesicDistance::UpdateSignedDistance()
 void vtkGeodesicDistance::WriteDistance(vtkPolyData* output)
 {
   const gridfem::DistanceField& field = this->Data->Field;
-  std::vector<double> values = field.atPoints;
-  if (this->Signed && this->ReverseSign)
-  {
-    std::transform(
-      values.begin(), values.end(), values.begin(), [](double value) { return 0.0 - value; });
-  }
-  if (this->Unreachable == Infinity)
-  {
-    std::replace_if(
-      values.begin(), values.end(), [](double value) { return std::isnan(value); },
-      std::numeric_limits<double>::infinity());
-  }
   const Eigen::Map<const Eigen::VectorXd> column(
-    values.data(), static_cast<Eigen::Index>(values.size()));
+    field.atPoints.data(), static_cast<Eigen::Index>(field.atPoints.size()));
   output->GetPointData()->AddArray(gridfem::MakePointArray("Distance", column, VTK_DOUBLE));
   output->GetPointData()->SetActiveScalars("Distance");
   gridfem::AddReport(field.report, output);
   gridfem::AddFieldNumber(output, "HeatSweeps", field.heatSweeps);
-  gridfem::AddAccuracy(field.accuracy, output);
 }
 
 void vtkGeodesicDistance::WriteNearestSource(
@@ -368,11 +351,9 @@ bool vtkGeodesicDistance::ComputeTogether(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   gridfem::SurfaceSolverState& state = *this->State;
-  const std::string obstacle = gridfem::FirstObstacle(
-    { { !this->Data->SourceIds.empty(), "SourcePointIds" }, { this->Signed, "Signed" },
-      { this->NearestSource, "NearestSource" }, { this->EstimateErrors, "EstimateErrors" },
-      { this->Smoothing >= gridfem::MostSmoothing, "a Smoothing of 3.5 or more" } });
-  if (!this->Distributed || !gridfem::CanDistribute(this, inputs, obstacle))
+  const bool needsAll = !this->Data->SourceIds.empty() || this->Signed || this->NearestSource ||
+                        this->Smoothing >= gridfem::MostSmoothing;
+  if (!gridfem::CanDistribute(this, inputs, needsAll))
   {
     return false;
   }
@@ -469,11 +450,7 @@ void vtkGeodesicDistance::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "SourcePointIds: " << this->GetNumberOfSourcePointIds() << "\n";
   os << indent << "Smoothing: " << this->Smoothing << "\n";
-  os << indent << "Unreachable: " << this->Unreachable << "\n";
   os << indent << "NearestSource: " << this->NearestSource << "\n";
   os << indent << "Signed: " << this->Signed << "\n";
   os << indent << "InsideLabel: " << this->InsideLabel << "\n";
-  os << indent << "ReverseSign: " << this->ReverseSign << "\n";
-  os << indent << "EstimateErrors: " << this->EstimateErrors << "\n";
-  os << indent << "Distributed: " << this->Distributed << "\n";
 }

@@ -28,15 +28,12 @@
  *
  * Output port 0 (vtkPolyData): the input with
  * - point data, double: `Distance`, in the unit of the points; 0 at sources, never negative but
- *   inside a curve. Points that cannot be reached have what Unreachable says: those on a component
- * without a source, and those that no polygon uses.
+ *   inside a curve. Points that cannot be reached have NaN: those on a component without a source,
+ *   and those that no polygon uses.
  * - point data, vtkIdType, with NearestSource on: `NearestSource`, the id of the source that the
  *   distance is from; -1 where there is none
  * - field data: `Converged`, `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor`
- *   of the solution of the distance, `HeatSweeps` (double, 1); `DiscretizationError`,
- *   `LargestDiscretizationError`, `AlgebraicError` and `TrustedEstimate` of vtkPoissonAlgorithm,
- * not numbers unless EstimateErrors is on: the first two within a factor of three on real meshes;
- * the last is 0 where heat does not come or has not converged
+ *   of the solution of the distance, `HeatSweeps` (double, 1)
  *
  * Errors fall with the size of the functions, in proportion. They are sqrt(t) / 2 to sqrt(t) where
  * fronts meet, and near boundaries; a small fraction of that elsewhere. Sheets nearer to each other
@@ -46,6 +43,10 @@
  * heat is always solved to the same relative accuracy everywhere. NormalStabilization is 0.1 by
  * default: with less, functions that hide in the surface spoil small numbers. All shared properties
  * but ParameterUnits are used.
+ *
+ * All ranks of MPI compute together from the points of a SourceArray and of a selection, or from
+ * the first one. SourcePointIds, which count through the gathered surface, Sources, Signed,
+ * NearestSource and a Smoothing of 3.5 or more are left to rank 0.
  */
 #ifndef vtkGeodesicDistance_h
 #define vtkGeodesicDistance_h
@@ -91,20 +92,6 @@ public:
   vtkGetMacro(Smoothing, double);
   ///@}
 
-  enum UnreachableType
-  {
-    NotANumber = 0,
-    Infinity = 1
-  };
-  ///@{
-  /**
-   * The distance of points that cannot be reached. Default NotANumber, which ParaView shows in a
-   * colour of its own.
-   */
-  vtkSetClampMacro(Unreachable, int, NotANumber, Infinity);
-  vtkGetMacro(Unreachable, int);
-  ///@}
-
   ///@{
   /**
    * Whether the point array `NearestSource` is put out: regions whose points have the same nearest
@@ -133,40 +120,6 @@ public:
   vtkGetMacro(InsideLabel, int);
   ///@}
 
-  ///@{
-  /**
-   * Whether the outside of curves is negative instead of the inside. Off by default.
-   */
-  vtkSetMacro(ReverseSign, bool);
-  vtkGetMacro(ReverseSign, bool);
-  vtkBooleanMacro(ReverseSign, bool);
-  ///@}
-
-  ///@{
-  /**
-   * Whether errors are estimated, from the distance on functions twice as far from each other: for
-   * a sixth to two fifths more time. Off by default.
-   */
-  vtkSetMacro(EstimateErrors, bool);
-  vtkGetMacro(EstimateErrors, bool);
-  vtkBooleanMacro(EstimateErrors, bool);
-  ///@}
-
-  ///@{
-  /**
-   * On several MPI ranks: when on, all ranks compute, and none gathers the surface, which may be
-   * larger than one machine. Possible on a grid or on hats, of welded points, with
-   * the patch smoother, from the points of a SourceArray and of a selection, or from the first one;
-   * not with SourcePointIds, which count through the gathered surface, Sources, Signed,
-   * NearestSource, EstimateErrors, a Smoothing of 3.5 or more, or BlocksAsOne. Where it is not,
-   * rank 0 gathers as ever, and warns. The field array `Distributed` says which. Needs a build with
-   * MPI. Default off.
-   */
-  vtkSetMacro(Distributed, bool);
-  vtkGetMacro(Distributed, bool);
-  vtkBooleanMacro(Distributed, bool);
-  ///@}
-
   /**
    * The input of port 1: the basis.
    */
@@ -192,13 +145,9 @@ protected:
   void FreeStages() override;
 
   double Smoothing = 1.75;
-  int Unreachable = NotANumber;
   bool NearestSource = false;
   bool Signed = false;
   int InsideLabel = 1;
-  bool ReverseSign = false;
-  bool EstimateErrors = false;
-  bool Distributed = false;
 
 private:
   vtkGeodesicDistance(const vtkGeodesicDistance&) = delete;

@@ -172,13 +172,13 @@ void vtkHeatDiffusion::UpdateSteps(const gridfem::Progress& progress)
   Internals& data = *this->Data;
   const double step = this->GridStep();
   gridfem::StageKey key;
-  key.Add(state.stages.Version(gridfem::RightHandSideStage)).Add(step).Add(this->Scheme);
+  key.Add(state.stages.Version(gridfem::RightHandSideStage)).Add(step);
   gridfem::AddSolver(key, state.options);
   state.stages.Run(gridfem::HierarchyStage, key,
     [&]
     {
       const gridfem::DiffusionOptions options{ state.options, step,
-        static_cast<gridfem::TimeScheme>(this->Scheme), data.Held };
+        gridfem::TimeScheme::SecondOrder, data.Held };
       data.Steps.clear();
       data.Diffusion.reset(); // frees its memory first
       data.Diffusion = std::make_unique<gridfem::HeatDiffusion>(state.SharedSpace(), data.Start,
@@ -228,7 +228,7 @@ void vtkHeatDiffusion::WriteStep(int shown, vtkPolyData* input, vtkPolyData* out
   }
   output->GetPointData()->AddArray(diffused);
   output->GetPointData()->SetActiveScalars("Diffused");
-  if (!data.Array.array && this->MovePoints)
+  if (!data.Array.array)
   {
     gridfem::MoveSurface(*state.mesh.triangles, values,
       gridfem::OutputPrecision(input->GetPoints()), this->NumberOfThreads, output);
@@ -301,9 +301,8 @@ void vtkHeatDiffusion::Compute(vtkInformationVector** inputs, vtkInformationVect
 bool vtkHeatDiffusion::ComputeTogether(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   gridfem::SurfaceSolverState& state = *this->State;
-  const std::string obstacle = gridfem::FirstObstacle(
-    { { this->MovePoints && !gridfem::IsArrayChosen(this, 0), "MovePoints of the coordinates" } });
-  if (!this->Distributed || !gridfem::CanDistribute(this, inputs, obstacle))
+  const bool moves = !gridfem::IsArrayChosen(this, 0);
+  if (!gridfem::CanDistribute(this, inputs, moves))
   {
     return false;
   }
@@ -351,8 +350,5 @@ void vtkHeatDiffusion::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "DiffusionTime: " << this->DiffusionTime << "\n";
   os << indent << "NumberOfSteps: " << this->NumberOfSteps << "\n";
-  os << indent << "MovePoints: " << this->MovePoints << "\n";
-  os << indent << "Scheme: " << this->Scheme << "\n";
   os << indent << "BoundaryValues: " << this->BoundaryValues << "\n";
-  os << indent << "Distributed: " << this->Distributed << "\n";
 }

@@ -3,9 +3,10 @@
  * @brief   an array that spreads along a surface as heat does, in time steps
  *
  * Solves du/dt = div grad u + s on the surface, from the array at time 0 to the DiffusionTime, in
- * NumberOfSteps equal steps, each of which is a time step of the output. No heat flows over
- * boundaries: the integral over every connected component is kept, but for what the source adds;
- * unless values are held, where heat comes and goes.
+ * NumberOfSteps equal steps, each of which is a time step of the output. They are of second order
+ * in their length, with two solves each, and stable for any length. No heat flows over boundaries:
+ * the integral over every connected component is kept, but for what the source adds; unless values
+ * are held, where heat comes and goes.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
  * vtkConnectivityAwareBasis. Input port 1 (optional): the output of vtkConnectivityAwareBasis for
@@ -18,7 +19,9 @@
  *
  * Output port 0 (vtkPolyData): the input with
  * - point data, double: `Diffused` (C components). Points that no polygon uses keep the array if it
- *   is a point array, else get 0.
+ *   is a point array, else get 0. Without an array the points move to where their coordinates have
+ *   spread: `Displacement` and `NormalDisplacement` are added, normals follow, and clip, basis and
+ *   modes, which belong to the old shape, are left out.
  * - field data: `Step` (int, 1), `DiffusionTime` (double, 1; squared world length), `Converged`,
  *   `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor` and the estimated errors
  *   of vtkPoissonAlgorithm, all of the solves of the step that is shown; `Misfit` (double, 1) where
@@ -32,6 +35,8 @@
  * Tolerance, 1e-6 where it is 0, and have no estimates; and so are steps with values that are held.
  * NormalStabilization is 1e-2 by default. All shared properties are used; DiffusionTime is in the
  * squared unit of length of ParameterUnits, the source is per squared world length.
+ *
+ * All ranks of MPI compute together where an array spreads; coordinates are left to rank 0.
  */
 #ifndef vtkHeatDiffusion_h
 #define vtkHeatDiffusion_h
@@ -69,31 +74,6 @@ public:
   vtkGetMacro(NumberOfSteps, int);
   ///@}
 
-  enum SchemeType
-  {
-    BackwardEuler = 0,
-    SecondOrder = 1
-  };
-  ///@{
-  /**
-   * BackwardEuler is of first order in the length of a step, and does not overshoot. SecondOrder
-   * (default) takes two solves per step. Both are stable for any step.
-   */
-  vtkSetClampMacro(Scheme, int, BackwardEuler, SecondOrder);
-  vtkGetMacro(Scheme, int);
-  ///@}
-
-  ///@{
-  /**
-   * When on (default), and no Array is chosen, the points move to where their coordinates have
-   * spread: point arrays Displacement and NormalDisplacement are added, normals follow, and clip,
-   * basis and modes, which belong to the old shape, are left out.
-   */
-  vtkSetMacro(MovePoints, bool);
-  vtkGetMacro(MovePoints, bool);
-  vtkBooleanMacro(MovePoints, bool);
-  ///@}
-
   ///@{
   /**
    * When on, values stay where the surface ends as well. Default off.
@@ -101,19 +81,6 @@ public:
   vtkSetMacro(BoundaryValues, bool);
   vtkGetMacro(BoundaryValues, bool);
   vtkBooleanMacro(BoundaryValues, bool);
-  ///@}
-
-  ///@{
-  /**
-   * On several MPI ranks: when on, all ranks compute, and none gathers the surface, which may be
-   * larger than one machine. Possible on a grid or on hats, of welded points, with
-   * the patch smoother; not with MovePoints where the coordinates spread, or BlocksAsOne.
-   * Where it is not, rank 0 gathers as ever, and warns. The field array `Distributed`
-   * says which. Needs a build with MPI. Default off.
-   */
-  vtkSetMacro(Distributed, bool);
-  vtkGetMacro(Distributed, bool);
-  vtkBooleanMacro(Distributed, bool);
   ///@}
 
   /**
@@ -138,10 +105,7 @@ protected:
 
   double DiffusionTime = 0.001;
   int NumberOfSteps = 1;
-  int Scheme = SecondOrder;
-  bool MovePoints = true;
   bool BoundaryValues = false;
-  bool Distributed = false;
 
 private:
   vtkHeatDiffusion(const vtkHeatDiffusion&) = delete;

@@ -45,9 +45,8 @@ int FirstTimeStep(int numberOfModes)
 struct vtkLaplaceSpectrum::Internals : gridfem::SurfaceSpectrum
 {
   std::int64_t WarnedRun = 0; // the last solve whose cut multiplet was told of: not every time step
-  /// NumberOfModes and CompleteMultiplets of the last solve: how many modes these give is known.
+  /// NumberOfModes of the last solve: how many modes it gives is known.
   int SolvedModes = 0;
-  bool SolvedWhole = false;
 };
 
 vtkLaplaceSpectrum::vtkLaplaceSpectrum() : Data(std::make_unique<Internals>())
@@ -55,7 +54,7 @@ vtkLaplaceSpectrum::vtkLaplaceSpectrum() : Data(std::make_unique<Internals>())
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
   this->Tolerance = 1e-6;
-  this->Cycle = VCycle;
+  this->State->options.multigrid.cycle = gridfem::CycleType::V;
 }
 
 vtkLaplaceSpectrum::~vtkLaplaceSpectrum() = default;
@@ -73,8 +72,7 @@ std::vector<double> vtkLaplaceSpectrum::OwnTimeSteps()
   {
     return times;
   }
-  const bool isSolved = this->Data->SolvedModes == this->NumberOfModes &&
-                        this->Data->SolvedWhole == this->CompleteMultiplets;
+  const bool isSolved = this->Data->SolvedModes == this->NumberOfModes;
   const int count = isSolved ? this->Data->NumberOfModes() : this->NumberOfModes;
   for (int mode = FirstTimeStep(count); mode < count; ++mode)
   {
@@ -148,8 +146,6 @@ void vtkLaplaceSpectrum::WriteModes(vtkPolyData* input, vtkInformation* info, vt
   output->GetFieldData()->AddArray(eigenvalues);
   const bool converged = this->Data->spectrum.converged && this->IsAccurate();
   gridfem::AddFieldInt(output, "Converged", converged ? 1 : 0);
-  gridfem::AddFieldInt(output, gridfem::CompletedModesName,
-    std::max(0, this->Data->NumberOfModes() - this->NumberOfModes));
   state.WriteTracking(output);
 }
 
@@ -164,35 +160,11 @@ void vtkLaplaceSpectrum::WriteTable(vtkTable* table)
   gridfem::AddColumn(table, "Eigenvalue", this->Data->eigenvalues);
   gridfem::AddColumn(table, "Residual", this->Data->spectrum.residuals);
   gridfem::AddColumn(table, "EstimatedError", this->Data->spectrum.estimatedErrors);
-  if (this->CompareFunctionSpaces)
-  {
-    this->WriteComparison(table);
-  }
-}
-
-void vtkLaplaceSpectrum::WriteComparison(vtkTable* table)
-{
-  const auto all = this->Data->eigenvalues.size();
-  std::vector<double> onGrid = this->Data->EigenvaluesOf(gridfem::FunctionKind::Grid);
-  std::vector<double> onHats = this->Data->EigenvaluesOf(gridfem::FunctionKind::Hats);
-  onGrid.resize(all, std::nan(""));
-  onHats.resize(all, std::nan(""));
-  std::vector<double> difference(all, 0.0);
-  for (std::size_t mode = 0; mode < all; ++mode)
-  {
-    if (onHats[mode] != onGrid[mode])
-    {
-      difference[mode] = (onHats[mode] - onGrid[mode]) / std::max(onHats[mode], onGrid[mode]);
-    }
-  }
-  gridfem::AddColumn(table, "GridEigenvalue", onGrid);
-  gridfem::AddColumn(table, "HatEigenvalue", onHats);
-  gridfem::AddColumn(table, "RelativeDifference", difference);
 }
 
 bool vtkLaplaceSpectrum::IsAccurate() const
 {
-  return !this->AccuracyDriven || this->Data->LargestEstimatedError() <= this->Accuracy;
+  return this->Accuracy == 0.0 || this->Data->LargestEstimatedError() <= this->Accuracy;
 }
 
 void vtkLaplaceSpectrum::Warn()
@@ -206,11 +178,6 @@ void vtkLaplaceSpectrum::Warn()
     vtkWarningMacro(<< warning);
   }
   this->Data->WarnedRun = run;
-  if (this->CompareFunctionSpaces && !this->Data->otherConverged)
-  {
-    vtkWarningMacro("The eigenvalues in the function space that they are compared with have not "
-                    "converged; they are too large. Raise MaximumIterations.");
-  }
   if (!this->IsAccurate())
   {
     vtkWarningMacro(<< gridfem::WarningOfAccuracy(this->Accuracy,
@@ -229,15 +196,12 @@ void vtkLaplaceSpectrum::Compute(vtkInformationVector** inputs, vtkInformationVe
   }
   gridfem::SpectrumRequest request;
   request.numberOfModes = this->NumberOfModes;
-  request.completeMultiplets = this->CompleteMultiplets;
-  request.compare = this->CompareFunctionSpaces;
-  request.accuracy = this->AccuracyDriven ? this->Accuracy : 0.0;
+  request.accuracy = this->Accuracy;
   this->State->metricArray = gridfem::FindInputArray(this, 5, input, "MetricArray");
-  this->State->options.trackMetric = this->TrackMetric && !this->AccuracyDriven;
+  this->State->options.trackMetric = this->TrackMetric && this->Accuracy == 0.0;
   this->Data->SolvedModes = 0;
   this->Data->Update(*this->State, input, vtkPolyData::GetData(inputs[1]), request);
   this->Data->SolvedModes = this->NumberOfModes;
-  this->Data->SolvedWhole = this->CompleteMultiplets;
   this->WriteModes(input, outputs->GetInformationObject(0), vtkPolyData::GetData(outputs, 0));
   this->WriteTable(vtkTable::GetData(outputs, 1));
   this->Warn();
@@ -247,15 +211,10 @@ void vtkLaplaceSpectrum::Compute(vtkInformationVector** inputs, vtkInformationVe
 bool vtkLaplaceSpectrum::ComputeTogether(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  if (!this->Distributed)
-  {
-    return false;
-  }
-  const std::string obstacle = gridfem::FirstObstacle({ { this->AccuracyDriven, "AccuracyDriven" },
-    { this->CompareFunctionSpaces, "CompareFunctionSpaces" }, { this->TrackMetric, "TrackMetric" },
-    { gridfem::IsArrayChosen(this, 5), "a MetricArray" } });
+  const bool needsAll =
+    this->Accuracy > 0.0 || this->TrackMetric || gridfem::IsArrayChosen(this, 5);
   gridfem::SurfaceSolverState& state = *this->State;
-  if (!gridfem::CanDistribute(this, inputs, obstacle))
+  if (!gridfem::CanDistribute(this, inputs, needsAll))
   {
     return false;
   }
@@ -264,7 +223,6 @@ bool vtkLaplaceSpectrum::ComputeTogether(
   state.options.functionsPerPoint = gridfem::EnoughToEstimate;
   gridfem::SpectrumRequest request;
   request.numberOfModes = this->NumberOfModes;
-  request.completeMultiplets = this->CompleteMultiplets;
   this->Data->SolvedModes = 0;
   state.RunTogether(
     [&](const gridfem::Progress& progress)
@@ -272,7 +230,6 @@ bool vtkLaplaceSpectrum::ComputeTogether(
       state.UpdateTogether(piece, vtkPolyData::GetData(inputs[1]));
       this->Data->UpdateTogether(state, request, progress.Part(0.3, 1.0));
       this->Data->SolvedModes = this->NumberOfModes;
-      this->Data->SolvedWhole = this->CompleteMultiplets;
       state.together.Together([&] { this->WriteDistributed(piece, outputs); });
     });
   return true;
@@ -305,10 +262,6 @@ void vtkLaplaceSpectrum::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfModes: " << this->NumberOfModes << "\n";
   os << indent << "Mode: " << this->Mode << "\n";
   os << indent << "AllModes: " << this->AllModes << "\n";
-  os << indent << "CompleteMultiplets: " << this->CompleteMultiplets << "\n";
-  os << indent << "CompareFunctionSpaces: " << this->CompareFunctionSpaces << "\n";
-  os << indent << "AccuracyDriven: " << this->AccuracyDriven << "\n";
   os << indent << "TrackMetric: " << this->TrackMetric << "\n";
-  os << indent << "Distributed: " << this->Distributed << "\n";
   os << indent << "Accuracy: " << this->Accuracy << "\n";
 }

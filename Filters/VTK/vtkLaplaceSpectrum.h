@@ -22,7 +22,6 @@
  *   integral of a squared mode over the surface is 1 in world units. Points that no polygon uses
  *   get 0. Such arrays of the input are left out.
  * - field data: `Eigenvalues` (double, 1; a tuple per mode, one over squared world length),
- *   `CompletedModes` (int, 1): how many modes CompleteMultiplets has added to NumberOfModes,
  *   `Converged` (int, 1), `UsedDepth` (int, 1): the depth of the space
  *
  * Output port 1 (vtkTable): a row per mode with `Mode` (int), `Eigenvalue` (double), `Residual`
@@ -30,20 +29,21 @@
  * `EstimatedError` (double): the relative error of the eigenvalue as one of the surface, estimated
  * from the space of half the resolution, whose errors are four times as large; 1 where that space
  * has no such mode. With HatFunctions as FunctionSpace what the hat functions lie above the grid is
- * added: both are upper bounds, so this is the error of the worse of the two. With
- * CompareFunctionSpaces also `GridEigenvalue`, `HatEigenvalue` (double; NaN where there are fewer)
- * and `RelativeDifference` (double): hat minus grid over the larger of the two.
+ * added: both are upper bounds, so this is the error of the worse of the two.
  *
  * Time: unless AllModes is on or Mode is fixed, every mode but mode 0 is a time step, with its
  * index as time value. Mode 0 is constant, so there is nothing to see; Mode = 0 shows it. All modes
  * are computed once; a change of time or of Mode computes nothing. The modes are those of the input
- * at one time, which stays the same. Modes that CompleteMultiplets adds are time steps as soon as
- * they are known, after the first run. With AllModes on or Mode fixed, the times are the input's.
+ * at one time, which stays the same. With AllModes on or Mode fixed, the times are the input's.
  *
  * Tolerance (default 1e-6) is the wanted relative error of the eigenvalues as those of the space;
  * Depth, or Accuracy, decides about the error of the space. All shared properties
- * but ParameterUnits are used. Cycles with the patch smoother, the default, run in single precision
- * where that resolves the surface; eigenvalues and modes are always double.
+ * but ParameterUnits are used. Cycles run in single precision where that resolves the surface;
+ * eigenvalues and modes are always double.
+ *
+ * All ranks of MPI compute together unless Accuracy is above 0, TrackMetric is on or a MetricArray
+ * is chosen. Zero modes of several components may come in another order, and modes with the other
+ * sign.
  */
 #ifndef vtkLaplaceSpectrum_h
 #define vtkLaplaceSpectrum_h
@@ -61,7 +61,9 @@ public:
 
   ///@{
   /**
-   * How many modes to compute; when fewer exist, a warning says so. 1..100000, default 20.
+   * How many modes to compute. A warning says when fewer exist, and when the last of them belongs
+   * to a group of equal eigenvalues that is cut. Eigenvalues count as equal when they differ by
+   * less than 1 % and by less than a quarter of their mean distance. 1..100000, default 20.
    */
   vtkSetClampMacro(NumberOfModes, int, 1, 100000);
   vtkGetMacro(NumberOfModes, int);
@@ -88,28 +90,6 @@ public:
 
   ///@{
   /**
-   * When on (default), a group of equal eigenvalues that NumberOfModes would cut is put out whole,
-   * so that there may be more modes than were asked for. When off, a warning says that a group is
-   * cut. Eigenvalues count as equal when they differ by less than 1 % and by less than a quarter of
-   * their mean distance: the grid splits groups a little.
-   */
-  vtkSetMacro(CompleteMultiplets, bool);
-  vtkGetMacro(CompleteMultiplets, bool);
-  vtkBooleanMacro(CompleteMultiplets, bool);
-  ///@}
-
-  ///@{
-  /**
-   * When on, the table gets the eigenvalues in the other function space, too: two discretisations
-   * of one surface. That takes about as long again. Default off.
-   */
-  vtkSetMacro(CompareFunctionSpaces, bool);
-  vtkGetMacro(CompareFunctionSpaces, bool);
-  vtkBooleanMacro(CompareFunctionSpaces, bool);
-  ///@}
-
-  ///@{
-  /**
    * When on, and only points of the surface have moved since its functions were made, as in the
    * next time step of an animation, the functions stay: the grid, the clip and the patterns are
    * those of the surface seen first, and integrals are in the metric of where it is now. Faster
@@ -119,8 +99,8 @@ public:
    * each other later do not feel each other. So results depend, within the error of the space, on
    * the time step that was computed first, or at the last change of Depth and the like: the field
    * array `ReferenceTime` says which, where the input has times, and `LargestStretchRatio` how far
-   * the map from there is from keeping angles, which is 1. Needs KeepStages, and does not go with
-   * MetricArray. Without effect with AccuracyDriven. Default off.
+   * the map from there is from keeping angles, which is 1. Needs ReleaseDataFlagOff, the default,
+   * and does not go with MetricArray. It has no effect with an Accuracy above 0. Default off.
    */
   vtkSetMacro(TrackMetric, bool);
   vtkGetMacro(TrackMetric, bool);
@@ -129,37 +109,14 @@ public:
 
   ///@{
   /**
-   * When on, the depth is chosen such that the estimated error of every eigenvalue is at most
-   * Accuracy; Depth is not used. When off (default), Depth is used. The warning, and `Converged` =
-   * 0, say when the accuracy is not reached: with a basis that is given, for want of memory, or
-   * with HatFunctions on a mesh that is too coarse, whose error no depth changes.
+   * The wanted relative error of the eigenvalues as those of the surface. Above 0 it chooses the
+   * depth, and Depth is not used: the estimated error of every eigenvalue is at most Accuracy. A
+   * warning, and `Converged` = 0, say when it is not reached: with a basis that is given, or for
+   * want of memory. With HatFunctions the mesh may be too coarse, and no depth changes its error.
+   * At 0 (default) Depth is used. 0..0.5.
    */
-  vtkSetMacro(AccuracyDriven, bool);
-  vtkGetMacro(AccuracyDriven, bool);
-  vtkBooleanMacro(AccuracyDriven, bool);
-  ///@}
-
-  ///@{
-  /**
-   * The wanted relative error of the eigenvalues as those of the surface, with AccuracyDriven on.
-   * 1e-6..0.5, default 0.01.
-   */
-  vtkSetClampMacro(Accuracy, double, 1e-6, 0.5);
+  vtkSetClampMacro(Accuracy, double, 0.0, 0.5);
   vtkGetMacro(Accuracy, double);
-  ///@}
-
-  ///@{
-  /**
-   * On several MPI ranks: when on, all ranks compute, and none gathers the surface, which may be
-   * larger than one machine. Possible on a grid or on hats, of welded points, with
-   * the patch smoother; not with AccuracyDriven, CompareFunctionSpaces, TrackMetric, a MetricArray,
-   * or BlocksAsOne. Where it is not, rank 0 gathers as ever, and warns. The field
-   * array `Distributed` says which. Zero modes of several components may come in another order, and
-   * modes with the other sign. Needs a build with MPI. Default off.
-   */
-  vtkSetMacro(Distributed, bool);
-  vtkGetMacro(Distributed, bool);
-  vtkBooleanMacro(Distributed, bool);
   ///@}
 
   /**
@@ -180,12 +137,8 @@ protected:
   int NumberOfModes = 20;
   int Mode = -1;
   bool AllModes = false;
-  bool CompleteMultiplets = true;
-  bool CompareFunctionSpaces = false;
-  bool AccuracyDriven = false;
   bool TrackMetric = false;
-  bool Distributed = false;
-  double Accuracy = 0.01;
+  double Accuracy = 0.0;
 
 private:
   vtkLaplaceSpectrum(const vtkLaplaceSpectrum&) = delete;
@@ -196,7 +149,6 @@ private:
   int ShownMode(vtkInformation* output);
   void WriteModes(vtkPolyData* input, vtkInformation* info, vtkPolyData* output);
   void WriteTable(vtkTable* table);
-  void WriteComparison(vtkTable* table);
   void Warn();
 
   struct Internals;

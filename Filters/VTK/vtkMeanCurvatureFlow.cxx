@@ -51,7 +51,7 @@ vtkMeanCurvatureFlow::vtkMeanCurvatureFlow() : Data(std::make_unique<Internals>(
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
   this->Tolerance = 5e-4;
-  this->Cycle = VCycle;
+  this->State->options.multigrid.cycle = gridfem::CycleType::V;
 }
 
 vtkMeanCurvatureFlow::~vtkMeanCurvatureFlow() = default;
@@ -138,7 +138,7 @@ void vtkMeanCurvatureFlow::Compute(vtkInformationVector** inputs, vtkInformation
   request.trackMetric = this->TrackMetric;
   request.fixedBoundary = this->FixedBoundary;
   request.rescaling = rescaling;
-  request.cacheBytes = 1e6 * this->CacheMegabytes;
+  request.keptBytes = this->KeptBytes;
   const bool isNew = this->Data->Update(state, request, progress.Part(0.2, 0.9));
 
   const std::vector<gridfem::FlowRow> rows = this->Data->Rows();
@@ -175,5 +175,4 @@ void vtkMeanCurvatureFlow::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "TrackMetric: " << this->TrackMetric << "\n";
   os << indent << "FixedBoundary: " << this->FixedBoundary << "\n";
   os << indent << "Rescale: " << this->Rescale << "\n";
-  os << indent << "CacheMegabytes: " << this->CacheMegabytes << "\n";
 }

@@ -45,13 +45,14 @@
  *
  * Time: every step is a time step, with its number as time value, from 0, the input. A request
  * without a time gets the last step. All steps are made once; a change of NumberOfSteps continues.
- * Steps are kept within CacheMegabytes, evenly spread; the others are made again from the nearest
- * kept step before them when they are shown, with the same bits.
+ * Steps are kept within a gigabyte, evenly spread, at 24 bytes for each function; the last is
+ * always kept. The others are made again from the nearest kept step before them when they are
+ * shown, with the same bits.
  *
  * A step that cannot be made (the surface has vanished, a matrix is not positive) ends the flow
  * with a warning; later times show the last step. Tolerance (default 5e-4) is on the energy of a
- * step's error, relative to the shape's; Cycle is VCycle. All shared properties are used; TimeStep
- * is in the squared unit of length of ParameterUnits.
+ * step's error, relative to the shape's. All shared properties are used; TimeStep is in the
+ * squared unit of length of ParameterUnits.
  */
 #ifndef vtkMeanCurvatureFlow_h
 #define vtkMeanCurvatureFlow_h
@@ -134,15 +135,6 @@ public:
   vtkGetMacro(Rescale, int);
   ///@}
 
-  ///@{
-  /**
-   * Memory for steps that are kept, in millions of bytes; the last is always kept. A step takes 24
-   * bytes for each function. 0 or more, default 1000.
-   */
-  vtkSetClampMacro(CacheMegabytes, int, 0, VTK_INT_MAX);
-  vtkGetMacro(CacheMegabytes, int);
-  ///@}
-
   /**
    * The input of port 1: the basis.
    */
@@ -163,7 +155,7 @@ protected:
   bool TrackMetric = true;
   bool FixedBoundary = false;
   int Rescale = Automatic;
-  int CacheMegabytes = 1000;
+  double KeptBytes = 1e9; // memory for steps that are kept
 
 private:
   vtkMeanCurvatureFlow(const vtkMeanCurvatureFlow&) = delete;

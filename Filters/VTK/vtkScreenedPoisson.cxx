@@ -15,8 +15,6 @@
 #include "Base/Errors.h"
 #include "Problems/DepthSearch.h"
 
-#include "vtkCellArray.h"
-#include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -61,10 +59,9 @@ struct vtkScreenedPoisson::Internals
   {
     gridfem::MultiVector Values;
     std::vector<char> IsSolved;
-    gridfem::MultiVector Gradients;
   } Together;
 
-  gridfem::DepthSearch Search; // of AccuracyDriven
+  gridfem::DepthSearch Search; // for the WantedError
   gridfem::StageKey Searched;  // all that its answer depends on
   gridfem::SurfacePoisson Equation;
   gridfem::SurfaceConstrainedPoisson Constrained;
@@ -147,11 +144,6 @@ void vtkScreenedPoisson::FindConstraints(vtkPolyData* input)
     gridfem::RequireValuesAtPoints(data.Value, data.Constraint, *this->Selection);
   }
   this->FindFlux(input);
-  if (this->IsConstrained() && this->Iteration != ConjugateGradients)
-  {
-    throw gridfem::InvalidInput("Constraints, weights and unknown values need Iteration to be "
-                                "ConjugateGradients.");
-  }
 }
 
 void vtkScreenedPoisson::FindFlux(vtkPolyData* input)
@@ -307,7 +299,6 @@ void vtkScreenedPoisson::Solve(const gridfem::Progress& progress)
   gridfem::PoissonRequest request;
   request.weight = this->ScreeningWeight;
   request.gradientScale = this->GradientScale;
-  request.iteration = static_cast<gridfem::IterationType>(this->Iteration);
   if (this->IsConstrained())
   {
     if (this->Tolerance == 0.0)
@@ -349,21 +340,13 @@ void vtkScreenedPoisson::WriteSolution(vtkPolyData* input, vtkPolyData* output)
   output->ShallowCopy(input);
   output->GetPointData()->AddArray(solution);
   output->GetPointData()->SetActiveScalars("Solution");
-  if (!data.Value.array && this->MovePoints)
+  if (!data.Value.array)
   {
     gridfem::MoveSurface(*state.CurrentInput().triangles, values,
       gridfem::OutputPrecision(input->GetPoints()), this->NumberOfThreads, output);
   }
   gridfem::AddReport(this->Report(), output);
   gridfem::AddAccuracy(this->EstimatedErrors(), output);
-  if (this->SolutionGradient)
-  {
-    output->GetCellData()->AddArray(gridfem::MakePointArray("SolutionGradient",
-      gridfem::MeansOnCells(state.CurrentInput(),
-        this->IsConstrained() ? data.Constrained.Gradients(state) : data.Equation.Gradients(state),
-        input->GetNumberOfCells()),
-      VTK_DOUBLE));
-  }
   state.WriteTracking(output);
   if (this->HoldsValues())
   {
@@ -411,7 +394,7 @@ void vtkScreenedPoisson::SolveAccurately(vtkPolyData* input, const gridfem::Prog
 
 bool vtkScreenedPoisson::IsAccurate() const
 {
-  return !this->AccuracyDriven || this->EstimatedErrors().discretization <= this->WantedError;
+  return this->WantedError == 0.0 || this->EstimatedErrors().discretization <= this->WantedError;
 }
 
 void vtkScreenedPoisson::Warn()
@@ -439,12 +422,12 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
   const gridfem::Progress progress = this->State->bridge.GetProgress();
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
-  this->State->options.trackMetric = this->TrackMetric && !this->AccuracyDriven;
+  this->State->options.trackMetric = this->TrackMetric && this->WantedError == 0.0;
   this->FindArrays(input);
   this->Selection->Update(vtkSelection::GetData(inputs[2]), input);
   this->FindConstraints(input);
   const bool hasBasis = basis || gridfem::CarriesBasis(input);
-  if (this->AccuracyDriven && !hasBasis &&
+  if (this->WantedError > 0.0 && !hasBasis &&
       gridfem::IsRefinedByDepth(this->State->options.choice.kind))
   {
     this->SolveAccurately(input, progress.Part(0.0, 0.95));
@@ -474,16 +457,9 @@ void vtkScreenedPoisson::WriteTables(vtkInformationVector* outputs)
 bool vtkScreenedPoisson::ComputeTogether(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  if (!this->Distributed)
-  {
-    return false;
-  }
-  const std::string obstacle =
-    gridfem::FirstObstacle({ { this->Iteration != ConjugateGradients, "cycles as Iteration" },
-      { this->AccuracyDriven, "AccuracyDriven" }, { this->TrackMetric, "TrackMetric" },
-      { gridfem::IsArrayChosen(this, 5), "a MetricArray" },
-      { this->MovePoints && !gridfem::IsArrayChosen(this, 0), "MovePoints of the coordinates" } });
-  if (!gridfem::CanDistribute(this, inputs, obstacle))
+  const bool needsAll = this->WantedError > 0.0 || this->TrackMetric ||
+                        gridfem::IsArrayChosen(this, 5) || !gridfem::IsArrayChosen(this, 0);
+  if (!gridfem::CanDistribute(this, inputs, needsAll))
   {
     return false;
   }
@@ -530,12 +506,6 @@ void vtkScreenedPoisson::SolveTogether(
   data.Together.Values =
     this->IsConstrained() ? data.Constrained.Values(state) : data.Equation.Values(state);
   data.Together.IsSolved = state.PointsWithFunctions();
-  if (this->SolutionGradient)
-  {
-    data.Together.Gradients = state.MeansOnCells(
-      this->IsConstrained() ? data.Constrained.Gradients(state) : data.Equation.Gradients(state),
-      piece ? piece->GetNumberOfCells() : 0);
-  }
   state.together.Together([&] { this->WriteDistributed(piece, outputs); });
   data.Together = {};
 }
@@ -564,11 +534,6 @@ void vtkScreenedPoisson::WriteDistributed(vtkPolyData* piece, vtkInformationVect
     }
     output->GetPointData()->AddArray(array);
     output->GetPointData()->SetActiveScalars("Solution");
-    if (this->SolutionGradient)
-    {
-      output->GetCellData()->AddArray(
-        gridfem::MakePointArray("SolutionGradient", data.Together.Gradients, VTK_DOUBLE));
-    }
   }
   gridfem::AddReport(this->Report(), output);
   gridfem::AddAccuracy(this->EstimatedErrors(), output);
@@ -597,14 +562,9 @@ void vtkScreenedPoisson::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "ScreeningWeight: " << this->ScreeningWeight << "\n";
   os << indent << "GradientScale: " << this->GradientScale << "\n";
-  os << indent << "AccuracyDriven: " << this->AccuracyDriven << "\n";
   os << indent << "TrackMetric: " << this->TrackMetric << "\n";
   os << indent << "WantedError: " << this->WantedError << "\n";
-  os << indent << "Iteration: " << this->Iteration << "\n";
   os << indent << "FillUnknown: " << this->FillUnknown << "\n";
-  os << indent << "MovePoints: " << this->MovePoints << "\n";
   os << indent << "BoundaryValues: " << this->BoundaryValues << "\n";
-  os << indent << "SolutionGradient: " << this->SolutionGradient << "\n";
-  os << indent << "Distributed: " << this->Distributed << "\n";
   os << indent << "UseValueGradient: " << this->UseValueGradient << "\n";
 }

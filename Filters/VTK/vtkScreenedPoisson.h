@@ -19,8 +19,7 @@
  *
  * Arrays, of any numeric type, as point or cell data of input port 0, chosen by
  * SetInputArrayToProcess:
- * - index 0, `ValueArray`: f, any number of components C; without it the coordinates, and with
- *   MovePoints the output has the points at the solution
+ * - index 0, `ValueArray`: f, any number of components C; without it f is the coordinates
  * - index 1, `GradientArray` (optional): g in world units, 3 C components: the three of the first
  *   component of f, then those of the second, ...
  * - index 2, `GradientScaleArray` (optional): one component, multiplies GradientScale
@@ -46,8 +45,8 @@
  * - point data: `Solution` (C components, named as those of f; float if f or the coordinates that
  *   stand in for it are float, else double). Points that no polygon uses (with HatFunctions: none
  * with an area) keep f if that is a point array, else get 0.
- * - cell data, with SolutionGradient: `SolutionGradient` (double, 3 C components, the three of
- *   component 0 first; per unit of length), of a polygon the mean over its triangles
+ * - without a ValueArray: the points are at the solution, and have the point arrays `Displacement`
+ *   and `NormalDisplacement`. Normals follow; clip, basis and modes of the old shape are left out.
  * - field data: `Converged` (int, 1), `Iterations` (int, 1), `UsedDepth` (int, 1), `Residual`
  * (double, 1): the norm of the residual vector relative to the right-hand side, which is not the
  * measure that Tolerance is on; `ConvergenceFactor` (double, 1): mean reduction of the energy
@@ -73,6 +72,9 @@
  * MaximumIterations is 200 by default. All shared properties are used; with HatFunctions as
  * FunctionSpace, QuadratureDegree touches the preconditioner alone, because all integrals over hat
  * functions are exact.
+ *
+ * All ranks of MPI compute together. A WantedError, a metric, TrackMetric and
+ * points that move are left to rank 0.
  */
 #ifndef vtkScreenedPoisson_h
 #define vtkScreenedPoisson_h
@@ -137,8 +139,9 @@ public:
    * each other later do not feel each other. So results depend, within the error of the space, on
    * the time step that was computed first, or at the last change of Depth and the like: the field
    * array `ReferenceTime` says which, where the input has times, and `LargestStretchRatio` how far
-   * the map from there is from keeping angles, which is 1. Needs KeepStages, and does not go with
-   * MetricArray or BoundaryFluxArray. Without effect with AccuracyDriven. Default off.
+   * the map from there is from keeping angles, which is 1. Needs ReleaseDataFlagOff, the default,
+   * and does not go with MetricArray or BoundaryFluxArray. Without effect with a WantedError.
+   * Default off.
    */
   vtkSetMacro(TrackMetric, bool);
   vtkGetMacro(TrackMetric, bool);
@@ -147,22 +150,13 @@ public:
 
   ///@{
   /**
-   * When on, Depth is chosen such that the estimated error of the function space, relative to the
-   * solution without its mean, is at most WantedError; the field array `UsedDepth` says which. Not
-   * used with a given basis. The error of HatFunctions is that of the mesh: where it is too large,
-   * a warning says so, as it does where the next depth does not fit into memory; `Converged` is 0
-   * then. Default off.
+   * Above 0, Depth is chosen such that the estimated error of the function space, relative to the
+   * solution without its mean, is at most this; the field array `UsedDepth` says which. Not used
+   * with a given basis. The error of HatFunctions is that of the mesh: where it is too large, a
+   * warning says so, as it does where the next depth does not fit into memory; `Converged` is 0
+   * then. 0..0.5, default 0: Depth counts.
    */
-  vtkSetMacro(AccuracyDriven, bool);
-  vtkGetMacro(AccuracyDriven, bool);
-  vtkBooleanMacro(AccuracyDriven, bool);
-  ///@}
-
-  ///@{
-  /**
-   * Of AccuracyDriven. 1e-6..0.5, default 0.01.
-   */
-  vtkSetClampMacro(WantedError, double, 1e-6, 0.5);
+  vtkSetClampMacro(WantedError, double, 0.0, 0.5);
   vtkGetMacro(WantedError, double);
   ///@}
 
@@ -178,59 +172,12 @@ public:
 
   ///@{
   /**
-   * When on (default), and no ValueArray is chosen, the points move to the solution, which is the
-   * new shape: point arrays Displacement and NormalDisplacement are added, normals follow, and
-   * clip, basis and modes, which belong to the old shape, are left out.
-   */
-  vtkSetMacro(MovePoints, bool);
-  vtkGetMacro(MovePoints, bool);
-  vtkBooleanMacro(MovePoints, bool);
-  ///@}
-
-  ///@{
-  /**
    * When on, the solution has the values f where the surface ends: along the edges of one triangle,
    * but for those with an unknown value. f must be point data then. Default off.
    */
   vtkSetMacro(BoundaryValues, bool);
   vtkGetMacro(BoundaryValues, bool);
   vtkBooleanMacro(BoundaryValues, bool);
-  ///@}
-
-  ///@{
-  /**
-   * When on, the gradient of the solution is put out on cells. Default off.
-   */
-  vtkSetMacro(SolutionGradient, bool);
-  vtkGetMacro(SolutionGradient, bool);
-  vtkBooleanMacro(SolutionGradient, bool);
-  ///@}
-
-  ///@{
-  /**
-   * On several MPI ranks: when on, all ranks compute, and none gathers the surface, which may be
-   * larger than one machine. Possible on a grid or on hats, of welded points, with
-   * the patch smoother; not with Iteration Cycles, AccuracyDriven, a metric, TrackMetric, moved
-   * points, or BlocksAsOne. Where it is not, rank 0 gathers as ever, and warns. The
-   * field array `Distributed` says which. Needs a build with MPI. Default off.
-   */
-  vtkSetMacro(Distributed, bool);
-  vtkGetMacro(Distributed, bool);
-  vtkBooleanMacro(Distributed, bool);
-  ///@}
-
-  enum IterationType
-  {
-    ConjugateGradients = 0,
-    Cycles = 1
-  };
-  ///@{
-  /**
-   * ConjugateGradients (default): with a multigrid cycle as preconditioner. Cycles: the cycle
-   * alone, which needs more iterations, and shows how good it is.
-   */
-  vtkSetClampMacro(Iteration, int, ConjugateGradients, Cycles);
-  vtkGetMacro(Iteration, int);
   ///@}
 
   /**
@@ -254,17 +201,12 @@ protected:
   void FreeStages() override;
 
   double ScreeningWeight = 100.0;
-  bool AccuracyDriven = false;
   bool TrackMetric = false;
-  double WantedError = 0.01;
+  double WantedError = 0.0;
   double GradientScale = 1.0;
   bool UseValueGradient = false;
   bool FillUnknown = false;
-  bool MovePoints = true;
   bool BoundaryValues = false;
-  bool SolutionGradient = false;
-  bool Distributed = false;
-  int Iteration = ConjugateGradients;
 
 private:
   vtkScreenedPoisson(const vtkScreenedPoisson&) = delete;

@@ -116,7 +116,7 @@ vtkSpectralSignatures::vtkSpectralSignatures() : Data(std::make_unique<Internals
   this->SetNumberOfInputPorts(3);
   this->SetNumberOfOutputPorts(2);
   this->Tolerance = 1e-6;
-  this->Cycle = VCycle;
+  this->State->options.multigrid.cycle = gridfem::CycleType::V;
 }
 
 vtkSpectralSignatures::~vtkSpectralSignatures() = default;
@@ -236,10 +236,9 @@ void vtkSpectralSignatures::WriteSignatures(
   const gridfem::MultiVector heat =
     gridfem::HeatKernelSignature(modes, times, { threads, progress.Part(0.5, 1.0) });
   AddSignature(output, "HeatKernelSignature", heat, "t", times, precision);
-  const auto scales = static_cast<gridfem::Id>(times.size());
-  const gridfem::Id shown = this->ShownScale < 0 ? scales / 2 : this->ShownScale;
+  const auto middle = static_cast<gridfem::Id>(times.size() / 2);
   output->GetPointData()->AddArray(
-    gridfem::MakePointArray("Signature", heat.col(std::min(shown, scales - 1)), precision));
+    gridfem::MakePointArray("Signature", heat.col(middle), precision));
   output->GetPointData()->SetActiveScalars("Signature");
   AddFieldNumbers(output, "HeatTimes", times);
   AddFieldNumbers(output, "WaveEnergies", bands.energies);
@@ -329,7 +328,7 @@ void vtkSpectralSignatures::WriteFiltered(
   }
   output->GetPointData()->AddArray(array);
   output->GetPointData()->SetActiveScalars("Filtered");
-  if (!data.Value.array && this->MovePoints)
+  if (!data.Value.array)
   {
     gridfem::MoveSurface(*data.Mesh.triangles, data.Filtered,
       gridfem::OutputPrecision(input->GetPoints()), this->NumberOfThreads, output);
@@ -414,12 +413,8 @@ void vtkSpectralSignatures::Compute(vtkInformationVector** inputs, vtkInformatio
 bool vtkSpectralSignatures::ComputeTogether(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  const bool moves =
-    this->FilterType != NoFilter && this->MovePoints && !gridfem::IsArrayChosen(this, 0);
-  const std::string obstacle =
-    gridfem::FirstObstacle({ { !this->Data->SourceIds.empty(), "SourcePointIds" },
-      { moves, "MovePoints of the coordinates" } });
-  if (!this->Distributed || !gridfem::CanDistribute(this, inputs, obstacle))
+  const bool moves = this->FilterType != NoFilter && !gridfem::IsArrayChosen(this, 0);
+  if (!gridfem::CanDistribute(this, inputs, moves || !this->Data->SourceIds.empty()))
   {
     return false;
   }
@@ -555,7 +550,7 @@ void vtkSpectralSignatures::WriteDistributed(vtkPolyData* piece, vtkInformationV
     const gridfem::InputMesh whole = this->State->together.WithCopies(data.Mesh);
     this->WriteFiltered(gridfem::UsedPoints(*whole.triangles), piece, output);
   }
-  gridfem::AddFieldInt(output, "Distributed", 1);
+  gridfem::AddFieldInt(output, gridfem::DistributedName, 1);
   if (data.WasSolved)
   {
     gridfem::AddFieldInt(output, "UsedDepth", this->State->together.Depth());
@@ -589,12 +584,9 @@ void vtkSpectralSignatures::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "NumberOfModes: " << this->NumberOfModes << "\n";
   os << indent << "NumberOfScales: " << this->NumberOfScales << "\n";
-  os << indent << "ShownScale: " << this->ShownScale << "\n";
   os << indent << "SourcePointIds: " << this->GetNumberOfSourcePointIds() << "\n";
   os << indent << "DiffusionTime: " << this->DiffusionTime << "\n";
   os << indent << "FilterType: " << this->FilterType << "\n";
   os << indent << "FirstMode: " << this->FirstMode << "\n";
   os << indent << "LastMode: " << this->LastMode << "\n";
-  os << indent << "MovePoints: " << this->MovePoints << "\n";
-  os << indent << "Distributed: " << this->Distributed << "\n";
 }

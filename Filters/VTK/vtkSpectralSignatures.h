@@ -30,12 +30,14 @@
  * Output port 0 (vtkPolyData): the input with
  * - point data, in the precision of the points (double when they are integers):
  *   `HeatKernelSignature` and `WaveKernelSignature` (NumberOfScales components; no unit), and the
- *   first at ShownScale as `Signature`;
+ *   first at its middle scale as `Signature`;
  *   with sources `BiharmonicDistance` (1 component, world length; NaN on components of the surface
  *   without a source) and `DiffusionDistance` (1 component, no unit). Points that no polygon uses
  *   get 0, and NaN for the biharmonic distance.
  * - point data, with a FilterType: `Filtered` (the components of the array; float if that is float,
- *   else double; points that no polygon uses keep their value)
+ *   else double; points that no polygon uses keep their value). When the coordinates are filtered,
+ * the points move to their filtered places: `Displacement` and `NormalDisplacement` are added,
+ * normals follow, and clip, basis and modes, which belong to the old shape, are left out.
  * - field data: `HeatTimes` (double, world length squared), `WaveEnergies` (double, logarithms of
  *   eigenvalues in world units), one tuple per scale; `Converged` (int, 1) when modes were computed
  *
@@ -44,6 +46,9 @@
  * Arrays: SetInputArrayToProcess index 0, `ValueArray`: a point array with any number of components
  * to be filtered; without it the coordinates. All shared properties are used; ParameterUnits is the
  * unit of DiffusionTime, as squared length.
+ *
+ * All ranks of MPI compute together, also with the modes of the input. Sources of distances, and
+ * coordinates that are filtered, are left to rank 0.
  */
 #ifndef vtkSpectralSignatures_h
 #define vtkSpectralSignatures_h
@@ -81,15 +86,6 @@ public:
    */
   vtkSetClampMacro(NumberOfScales, int, 1, 1000);
   vtkGetMacro(NumberOfScales, int);
-  ///@}
-
-  ///@{
-  /**
-   * The scale, from 0, at which the heat kernel signature is the array `Signature` as well; -1
-   * (default) for the middle one; beyond the last: the last.
-   */
-  vtkSetClampMacro(ShownScale, int, -1, 999);
-  vtkGetMacro(ShownScale, int);
   ///@}
 
   ///@{
@@ -147,31 +143,6 @@ public:
   vtkGetMacro(LastMode, int);
   ///@}
 
-  ///@{
-  /**
-   * When on (default), and the coordinates are filtered, the points move to their filtered places:
-   * point arrays Displacement and NormalDisplacement are added, normals follow, and clip, basis and
-   * modes, which belong to the old shape, are left out.
-   */
-  vtkSetMacro(MovePoints, bool);
-  vtkGetMacro(MovePoints, bool);
-  vtkBooleanMacro(MovePoints, bool);
-  ///@}
-
-  ///@{
-  /**
-   * On several MPI ranks: when on, all ranks compute, and none gathers the surface, which may be
-   * larger than one machine. Possible on a grid or on hats, of welded points, with
-   * the patch smoother, or with the modes of the input; not with sources of distances, with
-   * MovePoints where the coordinates are filtered, or BlocksAsOne. Where it is not,
-   * rank 0 gathers as ever, and warns. The field array `Distributed` says which. Needs a build with
-   * MPI. Default off.
-   */
-  vtkSetMacro(Distributed, bool);
-  vtkGetMacro(Distributed, bool);
-  vtkBooleanMacro(Distributed, bool);
-  ///@}
-
   /**
    * The input of port 1: the basis.
    */
@@ -194,13 +165,10 @@ protected:
 
   int NumberOfModes = 100;
   int NumberOfScales = 16;
-  int ShownScale = -1;
   double DiffusionTime = 0.01;
   int FilterType = NoFilter;
   int FirstMode = 1;
   int LastMode = 20;
-  bool MovePoints = true;
-  bool Distributed = false;
 
 private:
   vtkSpectralSignatures(const vtkSpectralSignatures&) = delete;

@@ -30,6 +30,7 @@ namespace
 {
 
 constexpr const char* CutStage = "Cut"; // the scans and a space on each
+constexpr int WholeSurface = -1;        // as ReferenceLabel
 
 /// As readers of scans give them.
 bool AreColors(vtkDataArray* array)
@@ -237,7 +238,7 @@ void vtkStitchColors::Solve(const gridfem::InputArray& colors, const gridfem::Pr
   gridfem::SurfaceSolverState& state = *this->State;
   gridfem::StitchOptions options{ state.options,
     this->BlendWidth * state.space->Extent() * state.space->UnitLength(), {} };
-  if (this->KeptMean == ReferenceScan)
+  if (this->ReferenceLabel != WholeSurface)
   {
     options.reference = NumberOf(data.Labels, this->ReferenceLabel);
     if (!std::binary_search(data.Labels.begin(), data.Labels.end(), this->ReferenceLabel))
@@ -248,7 +249,7 @@ void vtkStitchColors::Solve(const gridfem::InputArray& colors, const gridfem::Pr
   }
   gridfem::StageKey key;
   key.Add(state.stages.Version(CutStage)).Add(colors.array);
-  key.Add(this->BlendWidth).Add(this->KeptMean).Add(options.reference.value_or(-1));
+  key.Add(this->BlendWidth).Add(options.reference.value_or(-1));
   gridfem::AddSolver(key, state.options);
   state.stages.Run(gridfem::SolveStage, key,
     [&]
@@ -308,7 +309,6 @@ void vtkStitchColors::FreeStages()
 void vtkStitchColors::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "KeptMean: " << this->KeptMean << "\n";
   os << indent << "ReferenceLabel: " << this->ReferenceLabel << "\n";
   os << indent << "KeepDetails: " << this->KeepDetails << "\n";
   os << indent << "BlendWidth: " << this->BlendWidth << "\n";

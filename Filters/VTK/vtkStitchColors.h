@@ -51,24 +51,10 @@ public:
   vtkTypeMacro(vtkStitchColors, vtkPoissonAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  enum MeanType
-  {
-    WholeSurface = 0,
-    ReferenceScan = 1
-  };
   ///@{
   /**
-   * Gradients leave a constant open. WholeSurface (default): every connected component keeps its
-   * mean colour. ReferenceScan: the scan ReferenceLabel keeps its own; components without it as
-   * before.
-   */
-  vtkSetClampMacro(KeptMean, int, WholeSurface, ReferenceScan);
-  vtkGetMacro(KeptMean, int);
-  ///@}
-
-  ///@{
-  /**
-   * The label of the scan whose mean is kept. Default 0.
+   * Gradients leave a constant open. -1 (default): every connected component keeps its mean colour.
+   * Any other label: the scan with this label keeps its own; components without it as before.
    */
   vtkSetMacro(ReferenceLabel, int);
   vtkGetMacro(ReferenceLabel, int);
@@ -107,8 +93,7 @@ protected:
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   void FreeStages() override;
 
-  int KeptMean = WholeSurface;
-  int ReferenceLabel = 0;
+  int ReferenceLabel = -1;
   bool KeepDetails = true;
   double BlendWidth = 0.0;
 

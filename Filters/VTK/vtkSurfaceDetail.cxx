@@ -114,7 +114,6 @@ struct vtkSurfaceDetail::Internals
   /// Its load has blocks of columns, one for each of: the scale 1; the scale array; the same times
   /// the fade. Of a solution for other columns the first are still good.
   gridfem::SurfacePoisson Equation;
-  std::int64_t Continuations = 0; // runs that went on from an unfinished solution
 
   const gridfem::FiniteElementSpace& Space(const gridfem::SurfaceSolverState& state) const
   {
@@ -385,13 +384,6 @@ void vtkSurfaceDetail::Solve(const gridfem::Progress& progress)
   request.space = &data.Space(state);
   request.numbers.Add(data.IsWeighed ? state.stages.Version(WeightsStage) : -1);
   request.goesOn = true;
-  request.estimateErrors = this->CyclesPerApply == 0;
-  if (this->CyclesPerApply > 0)
-  {
-    state.options.solve.maximumIterations = this->CyclesPerApply;
-    data.Continuations += data.Equation.Report().converged ? 0 : 1;
-  }
-  request.attempt = data.Continuations;
   const auto integrate = [this](const gridfem::SurfaceSpace&, const gridfem::Job& job)
   { return this->Integrate(job); };
   data.Equation.Update(state, fields, integrate, request, progress);
@@ -457,8 +449,7 @@ void vtkSurfaceDetail::WriteReport(vtkPolyData* output)
   {
     gridfem::AddFieldNumber(output, "UsualCurvature", data.UsualCurvature);
   }
-  const bool isToGoOn = this->CyclesPerApply > 0 && report.end == gridfem::SolveEnd::IterationLimit;
-  if (!report.converged && !isToGoOn)
+  if (!report.converged)
   {
     vtkWarningMacro(<< gridfem::WarningOf(report, this->Tolerance));
   }
@@ -510,5 +501,4 @@ void vtkSurfaceDetail::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "CustomTransferFunction: " << this->CustomTransferFunction.GetPointer() << "\n";
   os << indent << "SmoothingScale: " << this->SmoothingScale << "\n";
   os << indent << "KeepVolume: " << this->KeepVolume << "\n";
-  os << indent << "CyclesPerApply: " << this->CyclesPerApply << "\n";
 }

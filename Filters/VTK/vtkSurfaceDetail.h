@@ -37,8 +37,8 @@
  * - with a selection the point array `Selected` (double, 1 component): 1 where it takes points,
  *   falling to 0 within the TransitionWidth
  * - field data: `DiscretizationError`, `LargestDiscretizationError`, `AlgebraicError` and
- *   `TrustedEstimate` of vtkPoissonAlgorithm, of what the filter changes and relative to that, not
- *   numbers with CyclesPerApply: with a selection or a scale array the second is a bound
+ *   `TrustedEstimate` of vtkPoissonAlgorithm, of what the filter changes and relative to that:
+ *   with a selection or a scale array the second is a bound
  * - field data: `Converged`, `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor`
  *   as in vtkScreenedPoisson; `UsualCurvature` (double, 1) with a TransferFunction
  *
@@ -165,16 +165,6 @@ public:
   vtkBooleanMacro(KeepVolume, bool);
   ///@}
 
-  ///@{
-  /**
-   * 0 (default): every run solves to the Tolerance. n: it makes n iterations from the last solution
-   * on, for a result that follows a slider at once, and the next run goes on from there. Where the
-   * Tolerance is not reached yet, `Converged` is 0, without a warning. 0..1000.
-   */
-  vtkSetClampMacro(CyclesPerApply, int, 0, 1000);
-  vtkGetMacro(CyclesPerApply, int);
-  ///@}
-
   /**
    * The input of port 1: the basis.
    */
@@ -202,7 +192,6 @@ protected:
   vtkSmartPointer<vtkPiecewiseFunction> CustomTransferFunction;
   double SmoothingScale = 0.005;
   bool KeepVolume = false;
-  int CyclesPerApply = 0;
 
 private:
   vtkSurfaceDetail(const vtkSurfaceDetail&) = delete;

@@ -153,13 +153,7 @@ int vtkSurfaceFEMAlgorithm::RequestData(
   options.choice.kind =
     this->FunctionSpace == HatFunctions ? gridfem::FunctionKind::Hats : gridfem::FunctionKind::Grid;
   options.choice.quadratureDegree = this->QuadratureDegree;
-  options.choice.coarsestSize = this->CoarsestSize;
   options.choice.normalStabilization = this->NormalStabilization;
-  options.multigrid.cycle = static_cast<gridfem::CycleType>(this->Cycle);
-  options.multigrid.smoother = static_cast<gridfem::SmootherType>(this->Smoother);
-  options.multigrid.preSweeps = this->NumberOfSweeps;
-  options.multigrid.postSweeps = this->NumberOfSweeps;
-  options.multigrid.sweepsPerSynchronisation = this->SweepsPerSynchronisation;
   options.multigrid.threads = this->NumberOfThreads;
   options.solve.tolerance = this->Tolerance;
   options.solve.maximumIterations = this->MaximumIterations;
@@ -418,7 +412,7 @@ bool vtkSurfaceFEMAlgorithm::ComputeTogether(vtkInformationVector**, vtkInformat
 
 bool vtkSurfaceFEMAlgorithm::KeepsStages()
 {
-  return this->KeepStages && !this->GetReleaseDataFlag();
+  return !this->GetReleaseDataFlag();
 }
 
 void vtkSurfaceFEMAlgorithm::FreeStages()
@@ -455,16 +449,10 @@ void vtkSurfaceFEMAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "WeldCoincidentPoints: " << this->WeldCoincidentPoints << "\n";
   os << indent << "FunctionSpace: " << this->FunctionSpace << "\n";
   os << indent << "QuadratureDegree: " << this->QuadratureDegree << "\n";
-  os << indent << "Cycle: " << this->Cycle << "\n";
-  os << indent << "Smoother: " << this->Smoother << "\n";
-  os << indent << "NumberOfSweeps: " << this->NumberOfSweeps << "\n";
-  os << indent << "SweepsPerSynchronisation: " << this->SweepsPerSynchronisation << "\n";
   os << indent << "NormalStabilization: " << this->NormalStabilization << "\n";
-  os << indent << "CoarsestSize: " << this->CoarsestSize << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "ParameterUnits: " << this->ParameterUnits << "\n";
   os << indent << "BlocksAsOne: " << this->BlocksAsOne << "\n";
-  os << indent << "KeepStages: " << this->KeepStages << "\n";
 }

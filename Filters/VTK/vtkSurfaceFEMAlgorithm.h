@@ -24,12 +24,14 @@
  * vtkGhostType marks as hidden or as duplicates take no part; the solvers pass them on, the clip
  * leaves them out. Computation is in double precision. Results do not depend on NumberOfThreads.
  *
- * On several MPI ranks the surface is gathered on rank 0, which computes with its threads and has
- * to hold all of it; the others sleep. Ghost cells count once, and points on borders are joined by
+ * On several MPI ranks all compute where they can, and none gathers the surface, which may be
+ * larger than one machine: the field array `Distributed` is 1 then. They can on welded points, with
+ * the patch smoother, without BlocksAsOne, and in most solvers, as the page of each filter says.
+ * Where they cannot, the surface is gathered on rank 0, which computes with its threads and has to
+ * hold all of it; the others sleep. Ghost cells count once, and points on borders are joined by
  * global point ids, or else by their coordinates with WeldCoincidentPoints. Port 0 is each rank's
  * own input plus arrays, borders and ghosts included; outputs with cells of their own, and tables,
  * are on rank 0. Ids, such as those of sources and in messages, count through the gathered surface.
- * Filters with the property Distributed can compute on all ranks together, and gather nothing then.
  * The same ranks have to run the filter together. When one fails, all do, with one message.
  *
  * A solver filter finds its function space in this order: on input port 0, when that is the output
@@ -39,6 +41,12 @@
  * Time: outputs have the time steps of the input, and the input is asked for the time that they are
  * asked for. A filter with time steps of its own, such as modes, has these instead, and asks its
  * inputs for one fixed time: the one they were asked for last, else the one they have.
+ *
+ * Memory: a filter keeps the results of its steps, so that a change repeats only the steps that
+ * depend on it. It holds the clipped mesh, its functions, element and level matrices, the hierarchy
+ * with its smoothers, and the last result. With ReleaseDataFlagOn it frees them after every run:
+ * least memory, but every change, of the time step as well, repeats all steps. Filters that share
+ * its basis then read the basis from its arrays.
  */
 #ifndef vtkSurfaceFEMAlgorithm_h
 #define vtkSurfaceFEMAlgorithm_h
@@ -110,9 +118,8 @@ public:
    * same system, and the grid only speeds up the iteration. So it is coarser than Depth, or a basis
    * that is given, asks for where it would have more functions than the mesh has points; for
    * spectra, which take their estimated errors from it, more than four for each; not where its own
-   * solution counts: for distances, for details of stitched colours, where AccuracyDriven or
-   * CompareFunctionSpaces is on. The field array `UsedDepth` says how fine it is. Only the solvers
-   * use it.
+   * solution counts: for distances, for details of stitched colours, for a wanted accuracy.
+   * The field array `UsedDepth` says how fine it is. Only the solvers use it.
    */
   vtkSetClampMacro(FunctionSpace, int, Grid, HatFunctions);
   vtkGetMacro(FunctionSpace, int);
@@ -125,65 +132,6 @@ public:
    */
   vtkSetMacro(QuadratureDegree, int);
   vtkGetMacro(QuadratureDegree, int);
-  ///@}
-
-  enum CycleType
-  {
-    VCycle = 0,
-    WCycle = 1
-  };
-  ///@{
-  /**
-   * How the multigrid cycle visits the coarser levels. Default WCycle; VCycle for spectra, which
-   * need few iterations.
-   */
-  vtkSetClampMacro(Cycle, int, VCycle, WCycle);
-  vtkGetMacro(Cycle, int);
-  ///@}
-
-  enum SmootherType
-  {
-    PatchSmoother = 0,
-    GaussSeidelSmoother = 1,
-    SliceGaussSeidelSmoother = 2
-  };
-  ///@{
-  /**
-   * How a level is relaxed: the patch smoother converges for every orientation of the surface.
-   * Gauss-Seidel is cheaper per sweep, but stalls on surfaces nearly aligned with the grid, and on
-   * smooth surfaces as well the finer the grid is. SliceGaussSeidelSmoother is the same with slabs
-   * of slices in parallel, whose threads wait for each other once in SweepsPerSynchronisation
-   * sweeps. Default PatchSmoother. The hat functions of a mesh are always relaxed by Gauss-Seidel.
-   */
-  vtkSetClampMacro(Smoother, int, PatchSmoother, SliceGaussSeidelSmoother);
-  vtkGetMacro(Smoother, int);
-  ///@}
-
-  ///@{
-  /**
-   * Sweeps of the smoother on a level before and after the correction by the coarser ones; twice as
-   * many on the hat functions of a mesh. 1..100, default 1.
-   */
-  vtkSetClampMacro(NumberOfSweeps, int, 1, 100);
-  vtkGetMacro(NumberOfSweeps, int);
-  ///@}
-
-  ///@{
-  /**
-   * Of SliceGaussSeidelSmoother: one of the NumberOfSweeps is so many. 1..100, default 1.
-   */
-  vtkSetClampMacro(SweepsPerSynchronisation, int, 1, 100);
-  vtkGetMacro(SweepsPerSynchronisation, int);
-  ///@}
-
-  ///@{
-  /**
-   * The coarsest level, which is solved directly, is the finest that has no more functions than
-   * this on any connected component. The direct solver takes time with its cube, memory with its
-   * square. 1..4096, default 256.
-   */
-  vtkSetClampMacro(CoarsestSize, int, 1, 4096);
-  vtkGetMacro(CoarsestSize, int);
   ///@}
 
   ///@{
@@ -238,20 +186,6 @@ public:
   vtkSetMacro(BlocksAsOne, bool);
   vtkGetMacro(BlocksAsOne, bool);
   vtkBooleanMacro(BlocksAsOne, bool);
-  ///@}
-
-  ///@{
-  /**
-   * When on (default), what a run has made is kept, so that a change repeats only the steps that
-   * depend on it. When off, it is freed after every run: least memory, but every change, of the
-   * time step as well, repeats all steps. Filters that share a basis then read it from its arrays.
-   * What is held when on: the clipped mesh, its functions, element and level matrices, the
-   * hierarchy with its smoothers, and the last result. A filter whose output is released after use
-   * (ReleaseDataFlagOn) keeps nothing either.
-   */
-  vtkSetMacro(KeepStages, bool);
-  vtkGetMacro(KeepStages, bool);
-  vtkBooleanMacro(KeepStages, bool);
   ///@}
 
   enum ParameterUnitsType
@@ -322,7 +256,7 @@ protected:
   virtual bool ComputeTogether(vtkInformationVector** inputs, vtkInformationVector* outputs);
 
   /**
-   * Whether what a run has made stays for the next one: KeepStages, and no ReleaseDataFlag.
+   * Whether the results of a run stay for the next one: without ReleaseDataFlag.
    */
   bool KeepsStages();
 
@@ -341,18 +275,12 @@ protected:
   bool WeldCoincidentPoints = true;
   int FunctionSpace = Grid;
   int QuadratureDegree = 2;
-  int Cycle = WCycle;
-  int Smoother = PatchSmoother;
-  int NumberOfSweeps = 1;
-  int SweepsPerSynchronisation = 1;
-  int CoarsestSize = 256;
   double NormalStabilization = 1e-12;
   double Tolerance = 1e-8;
   int MaximumIterations = 100;
   int NumberOfThreads = 0;
   int ParameterUnits = UnitArea;
   bool BlocksAsOne = false;
-  bool KeepStages = true;
 
   std::unique_ptr<gridfem::SurfaceSolverState> State;
 

@@ -189,9 +189,7 @@ bool vtkSurfaceGradient::ComputeTogether(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   gridfem::SurfaceSolverState& state = *this->State;
-  const std::string obstacle =
-    gridfem::FirstObstacle({ { this->HodgeDecomposition, "HodgeDecomposition" } });
-  if (!this->Distributed || !gridfem::CanDistribute(this, inputs, obstacle))
+  if (!gridfem::CanDistribute(this, inputs, this->HodgeDecomposition))
   {
     return false;
   }
@@ -233,5 +231,4 @@ void vtkSurfaceGradient::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "HodgeDecomposition: " << this->HodgeDecomposition << "\n";
-  os << indent << "Distributed: " << this->Distributed << "\n";
 }

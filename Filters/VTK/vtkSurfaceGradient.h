@@ -41,6 +41,8 @@
  * Accuracy, or a Tolerance, is that of the projections and potentials; a StreamFunction that is
  * held at boundaries is solved for to a Tolerance, 1e-4 where it is 0. NormalStabilization is 1e-2
  * by default. All shared properties but ParameterUnits are used.
+ *
+ * All ranks of MPI compute together; a HodgeDecomposition is left to rank 0.
  */
 #ifndef vtkSurfaceGradient_h
 #define vtkSurfaceGradient_h
@@ -70,19 +72,6 @@ public:
   vtkBooleanMacro(HodgeDecomposition, bool);
   ///@}
 
-  ///@{
-  /**
-   * On several MPI ranks: when on, all ranks compute, and none gathers the surface, which may be
-   * larger than one machine. Possible on a grid or on hats, of welded points, with
-   * the patch smoother; not with HodgeDecomposition, or BlocksAsOne. Where it is
-   * not, rank 0 gathers as ever, and warns. The field array `Distributed` says which. Needs a build
-   * with MPI. Default off.
-   */
-  vtkSetMacro(Distributed, bool);
-  vtkGetMacro(Distributed, bool);
-  vtkBooleanMacro(Distributed, bool);
-  ///@}
-
   /**
    * The input of port 1: the basis.
    */
@@ -97,7 +86,6 @@ protected:
   void FreeStages() override;
 
   bool HodgeDecomposition = false;
-  bool Distributed = false;
 
 private:
   vtkSurfaceGradient(const vtkSurfaceGradient&) = delete;

@@ -56,13 +56,9 @@ def main():
     measure("DetailScale", setting("DetailScale", 0.5, 0.1))
     measure("ScreeningWeight", setting("ScreeningWeight", 2000, 100))
     measure("Selection", select)
-    detail.CyclesPerApply = 1
-    measure("Selection, one cycle", lambda k: select(k + REPEATS))
-    simple.SetProperties(detail, Selection=None, CyclesPerApply=0, TransferFunction="Large Positive")
+    simple.SetProperties(detail, Selection=None, TransferFunction="Large Positive")
     detail.UpdatePipeline()
     measure("Anisotropy", setting("Anisotropy", 3, 0.5))
-    detail.CyclesPerApply = 1
-    measure("Anisotropy, one cycle", setting("Anisotropy", 3.2, 0.5))
     simple.Delete(view)
 
 

@@ -73,13 +73,13 @@ class Engines(unittest.TestCase):
 
     def test_spectrum(self):
         self.compare(lambda g, p, c, **o: g.spectrum(p, c, 8, **o)[0])
-        self.compare(lambda g, p, c, **o: g.spectrum(p, c, 8, CompleteMultiplets=False, **o)[1])
+        self.compare(lambda g, p, c, **o: g.spectrum(p, c, 8, **o)[1])
 
     def test_the_depth_for_an_accuracy(self):
         self.compare(lambda g, p, c, **o: g.poisson(
-            p, c, numpy.sin(4 * p[:, 0]), AccuracyDriven=True, WantedError=0.03, **o))
+            p, c, numpy.sin(4 * p[:, 0]), WantedError=0.03, **o))
         self.compare(lambda g, p, c, **o: g.spectrum(
-            p, c, 5, **{**o, "AccuracyDriven": True, "Accuracy": 0.03})[0])
+            p, c, 5, **{**o, "Accuracy": 0.03})[0])
 
     def test_poisson(self):
         self.compare(lambda g, p, c, **o: g.poisson(p, c, p[:, 2], **o))
@@ -98,12 +98,12 @@ class Engines(unittest.TestCase):
 
     def test_distance(self):
         self.compare(lambda g, p, c, **o: g.distance(p, c, [0, len(p) // 2], **o))
-        self.compare(lambda g, p, c, **o: g.distance(p, c, 5, Smoothing=3.0, Unreachable=1, **o))
+        self.compare(lambda g, p, c, **o: g.distance(p, c, 5, Smoothing=3.0, **o))
 
     def test_signed_distance(self):
         self.compare(lambda g, p, c, **o: g.signed_distance(p, c, p[:, 0] > 0.1, **o))
         self.compare(lambda g, p, c, **o: g.signed_distance(
-            p, c, 5 * (p[c[:, 0], 0] > 0.1), 0, ReverseSign=True, **o))
+            p, c, 5 * (p[c[:, 0], 0] > 0.1), 0, **o))
 
     def test_diffuse(self):
         self.compare(lambda g, p, c, **o: g.diffuse(p, c, p[:, 2], 0.01, **o))
@@ -182,9 +182,9 @@ class Engines(unittest.TestCase):
             "degree": lambda g: g.flow(points, triangles, QuadratureDegree=3),
             "gradients": lambda g: g.poisson(points, triangles, points, points),
             "error": lambda g: g.poisson(
-                points, triangles, points, FunctionSpace=1, AccuracyDriven=1, WantedError=1e-6),
+                points, triangles, points, FunctionSpace=1, WantedError=1e-6),
             "accuracy": lambda g: g.spectrum(
-                points, triangles, 5, FunctionSpace=1, AccuracyDriven=1, Accuracy=2e-3),
+                points, triangles, 5, FunctionSpace=1, Accuracy=2e-3),
             "plane": lambda g: g.spectrum(points * [1, 1, 0] * 0, triangles),
             "iterations": lambda g: g.spectrum(
                 points, triangles, 9, Depth=4, MaximumIterations=1, Tolerance=1e-14)}

@@ -23,8 +23,8 @@ def resident():
         return 1024 * int(re.search(r"VmRSS:\s+(\d+)", status.read()).group(1))
 
 
-def make(name, surface, **properties):
-    return getattr(simple, name)(Input=surface, Depth=6, **OPTIONS.get(name, {}), **properties)
+def make(name, surface):
+    return getattr(simple, name)(Input=surface, Depth=6, **OPTIONS.get(name, {}))
 
 
 def update_all_ports(proxy):
@@ -62,7 +62,8 @@ class TestMemory(unittest.TestCase):
             with self.subTest(proxy=name):
                 for _ in range(2):
                     before = resident()
-                    proxy = make(name, self.surface, KeepStages=0)
+                    proxy = make(name, self.surface)
+                    proxy.GetClientSideObject().ReleaseDataFlagOn()
                     update_all_ports(proxy)
                     held = resident() - before
                     ports = range(proxy.SMProxy.GetNumberOfOutputPorts())

@@ -164,11 +164,11 @@ class TestPipeline(unittest.TestCase):
 
     def test_modes_are_time_steps(self):
         spectrum = simple.LaplaceSpectrum(
-            Input=self.surface, Depth=DEPTH, NumberOfModes=6, CompleteMultiplets=0)
+            Input=self.surface, Depth=DEPTH, NumberOfModes=6)
         plugin.data(spectrum)
         self.assertEqual(list(spectrum.TimestepValues), [1, 2, 3, 4, 5])
         every = simple.LaplaceSpectrum(
-            Input=self.surface, Depth=DEPTH, NumberOfModes=6, CompleteMultiplets=0, AllModes=1)
+            Input=self.surface, Depth=DEPTH, NumberOfModes=6, AllModes=1)
         expected = plugin.data(every).GetPointData()
         for mode in (3, 1, 5):
             spectrum.UpdatePipeline(float(mode))
@@ -268,22 +268,10 @@ class TestPipeline(unittest.TestCase):
         spectrum = simple.LaplaceSpectrum(Input=self.surface, Depth=DEPTH, NumberOfModes=6)
         self.assertLessEqual({"Mode", "Eigenvalue", "Residual"},
                              set(columns(plugin.data(spectrum, 1))))
-        self.assertEqual(plugin.data(spectrum, 1).GetNumberOfRows(), 9)  # 1 + 3 + 5
+        self.assertEqual(plugin.data(spectrum, 1).GetNumberOfRows(), 6)
         poisson = simple.ScreenedPoisson(Input=self.surface, Depth=DEPTH)
         self.assertLessEqual({"Iteration", "EnergyResidual", "Residual"},
                              set(columns(plugin.data(poisson, 1))))
-
-    def test_both_spectra_in_table_and_chart(self):
-        spectrum = simple.LaplaceSpectrum(
-            Input=self.surface, Depth=DEPTH, NumberOfModes=6, FunctionSpace="Hat Functions",
-            CompareFunctionSpaces=1)
-        table = plugin.data(spectrum, 1)
-        hats, chosen = (table.GetColumnByName(name) for name in ("HatEigenvalue", "Eigenvalue"))
-        self.assertEqual([hats.GetValue(row) for row in range(6)],
-                         [chosen.GetValue(row) for row in range(6)])
-        chart = simple.Show(simple.OutputPort(spectrum, 1), simple.CreateView("XYChartView"))
-        self.assertEqual(list(chart.SeriesVisibility),
-                         ["Eigenvalue", "GridEigenvalue", "HatEigenvalue"])
 
     def test_charts_draw_what_tells(self):
         drawn = {

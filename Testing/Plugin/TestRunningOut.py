@@ -25,9 +25,11 @@ class TestRunningOut(unittest.TestCase):
         sphere = simple.Sphere(Radius=1.0, ThetaResolution=120, PhiResolution=120)
         options = {**plugin.CHOICES.get(name, {}), **OPTIONS.get(name, {})}
         proxy = getattr(simple, name)(
-            Input=plugin.with_arrays(sphere), Depth=5, KeepStages=0, **options)
+            Input=plugin.with_arrays(sphere), Depth=5, **options)
+        algorithm = proxy.GetClientSideObject()
+        algorithm.ReleaseDataFlagOn()  # so that every run is the same
         proxy.UpdatePipeline()  # without a limit: loads libraries and makes threads
-        return proxy.GetClientSideObject()
+        return algorithm
 
     def tearDown(self):
         simple.ResetSession()

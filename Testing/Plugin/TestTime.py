@@ -51,7 +51,7 @@ class TestTime(unittest.TestCase):
 
     def test_every_filter_follows_the_surface(self):
         own = {"LaplaceSpectrum": {"AllModes": 1, "NumberOfModes": 9},
-               "ScreenedPoisson": {"MovePoints": 0},
+               "ScreenedPoisson": {"ValueArray": ["POINTS", "f"]},
                "SpectralSignatures": {"NumberOfModes": 9}, **plugin.CHOICES}
         surface = plugin.with_arrays(self.surface)
         for name in plugin.PROXIES:
@@ -109,13 +109,6 @@ class TestTime(unittest.TestCase):
         self.assertLess(sizes[2.0], sizes[1.0])
         self.assertLess(sizes[3.0], sizes[2.0])
         self.assertEqual(plugin.runs(flow)["Space"], 1)
-
-    def test_modes_that_complete_a_group_are_time_steps(self):
-        modes = simple.LaplaceSpectrum(
-            Input=self.surface, Depth=DEPTH, NumberOfModes=6)
-        modes.UpdatePipeline()
-        modes.UpdatePipelineInformation()
-        self.assertEqual(list(modes.TimestepValues), [1, 2, 3, 4, 5, 6, 7, 8])
 
 
 if __name__ == "__main__":

@@ -30,7 +30,7 @@ CHANGES = {
     "HarmonicInterpolation": ("MaskArray", "label"), "HeatDiffusion": ("NumberOfSteps", "3"),
     "LaplaceSpectrum": ("NumberOfModes", "12"), "MeanCurvatureFlow": ("NumberOfSteps", "12"),
     "PrincipalCurvatures": ("SmoothingScale", "0.05"), "ScreenedPoisson": ("ScreeningWeight", "50"),
-    "SpectralSignatures": ("ShownScale", "0"), "StitchColors": ("KeptMean", "1"),
+    "SpectralSignatures": ("NumberOfScales", "5"), "StitchColors": ("ReferenceLabel", "1"),
     "SurfaceDetail": ("DetailScale", "3"), "SurfaceGradient": ("Array", "height")}
 
 STAGES = ("Space", "System", "Hierarchy", "RightHandSide", "Solve")

@@ -46,7 +46,7 @@ class BlocksAsOne(unittest.TestCase):
     def problems(self, name, mesh, cells, reference, is_first_rank, **properties):
         tolerance = every.tolerance_of(name)
         data, parts = blocks(mesh, cells)
-        filter_ = ranks.make(name, BlocksAsOne=True, **properties)
+        filter_ = ranks.make(name, gathers=True, **properties)
         outputs = ranks.run(filter_, data)
         problems = []
         if outputs[0].GetBlock(1) and outputs[0].GetBlock(1).GetNumberOfPoints():
@@ -96,7 +96,7 @@ class BlocksAsOne(unittest.TestCase):
     def test_nothing_is_gathered_again(self):
         mesh = ranks.ellipsoid()
         data, _ = blocks(mesh, self.own_cells(mesh))
-        filter_ = ranks.make("ScreenedPoisson", BlocksAsOne=True)
+        filter_ = ranks.make("ScreenedPoisson", gathers=True)
         ranks.run(filter_, data)
         filter_.SetScreeningWeight(3.0)
         ranks.run(filter_, data)

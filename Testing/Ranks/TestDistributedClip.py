@@ -16,7 +16,7 @@ TABLES = ("OctreeCells", "PatchCellId", "PatchBasisIds", "NumberOfBasisFunctions
 
 
 def made(name, **properties):
-    return ranks.make(name, 4, Distributed=True, **properties)
+    return ranks.make(name, 4, **properties)
 
 
 def field(output, name):
@@ -178,7 +178,7 @@ class DistributedClip(unittest.TestCase):
     def test_a_solver_that_gathers_takes_the_basis(self):
         mesh = ranks.ellipsoid()
         basis = ranks.run(made("ConnectivityAwareBasis"), ranks.piece(mesh, "contiguous"))[0]
-        output = ranks.run(ranks.make("ScreenedPoisson", 7), basis)[0]
+        output = ranks.run(ranks.make("ScreenedPoisson", 7, gathers=True), basis)[0]
         problems = self.same_solution(output, self.solved_alone(mesh), "gathered")
         ranks.check(self, [problem for problem in problems if "Distributed" not in problem])
 
@@ -215,9 +215,9 @@ class DistributedClip(unittest.TestCase):
             data = ranks.piece(mesh, "contiguous")
             basis = made("ConnectivityAwareBasis")
             clipped = ranks.run(basis, data)[0]
-            solver = ranks.make("ScreenedPoisson", 6, Distributed=True)
+            solver = ranks.make("ScreenedPoisson", 6)
             problems = self.same_solution(ranks.run(solver, clipped)[0], whole, "on the clip")
-            beside = ranks.make("ScreenedPoisson", 6, Distributed=True)
+            beside = ranks.make("ScreenedPoisson", 6)
             beside.SetInputDataObject(1, clipped)
             problems += self.same_solution(ranks.run(beside, data)[0], whole, "beside")
             ranks.check(self, problems)
@@ -226,7 +226,7 @@ class DistributedClip(unittest.TestCase):
         mesh = ranks.ellipsoid()
         data = ranks.piece(mesh, "contiguous")
         clipped = ranks.run(made("ConnectivityAwareBasis"), data)[0]
-        beside = ranks.make("ScreenedPoisson", 6, hats=True, Distributed=True)
+        beside = ranks.make("ScreenedPoisson", 6, hats=True)
         beside.SetInputDataObject(1, clipped)
         whole = ranks.alone(lambda: ranks.run(
             ranks.make("ScreenedPoisson", 4, hats=True), ranks.whole(mesh))[0])
@@ -234,7 +234,7 @@ class DistributedClip(unittest.TestCase):
 
     def test_a_basis_of_another_mesh_is_refused(self):
         other = ranks.run(made("ConnectivityAwareBasis"), ranks.piece(ranks.bowl(), "contiguous"))[0]
-        solver = ranks.make("ScreenedPoisson", 6, Distributed=True)
+        solver = ranks.make("ScreenedPoisson", 6)
         solver.SetInputDataObject(1, other)
         messages = ranks.heard(solver)
         output = ranks.run(solver, ranks.piece(ranks.ellipsoid(), "contiguous"))[0]
@@ -290,7 +290,7 @@ class DistributedClip(unittest.TestCase):
                     problems = self.wrong_tables(output, basis, kind, case)
                     if spread is not None and not single:
                         problems += self.wrong_spread(output, spread, case)
-                    solver = ranks.make("ScreenedPoisson", 6, Distributed=True)
+                    solver = ranks.make("ScreenedPoisson", 6)
                     problems += self.same_solution(
                         ranks.run(solver, self.part_of(basis, kind))[0], solved, case)
                     ranks.check(self, problems)
@@ -332,7 +332,7 @@ class DistributedClip(unittest.TestCase):
         clip = ranks.run(made("ClipToOctree"), ranks.piece(ranks.ellipsoid(), "contiguous"))[0]
         for depth in (0, 9):
             output = ranks.run(
-                ranks.make("ConnectivityAwareBasis", depth, Distributed=True), clip)[0]
+                ranks.make("ConnectivityAwareBasis", depth), clip)[0]
             found = field(output, "UsedDepth")
             ranks.check(self, [] if found is not None and found[0] == 4 else [f"depth {found}"])
 
@@ -356,7 +356,7 @@ class DistributedClip(unittest.TestCase):
             arrays.RemoveArray(k)
         data.SetVerts(vertices)
         together = ranks.run(made("ClipToOctree"), data)[0]
-        gathered = ranks.run(ranks.make("ClipToOctree", 4), data)[0]
+        gathered = ranks.run(ranks.make("ClipToOctree", 4, gathers=True), data)[0]
 
         def sources(output):
             array = output.GetCellData().GetArray("SourceCellId")
@@ -370,7 +370,7 @@ class DistributedClip(unittest.TestCase):
 
     def test_what_a_filter_that_gathers_makes_is_not_of_all(self):
         clip = ranks.run(made("ClipToOctree"), ranks.piece(ranks.ellipsoid(), "contiguous"))[0]
-        output = ranks.run(ranks.make("HeatDiffusion", 4), clip)[0]
+        output = ranks.run(ranks.make("HeatDiffusion", 4, gathers=True), clip)[0]
         ranks.check(self, ["Distributed is still there"] if field(output, "Distributed") is not None
                     else [])
 

@@ -1,5 +1,5 @@
 """Laplace Spectrum by all ranks together: the modes of one rank on every rank's own piece, where they
-can be had so; else rank 0 gathers, as without the property."""
+can be had so; else rank 0 gathers."""
 import unittest
 
 import numpy
@@ -12,7 +12,7 @@ MODES = 8
 
 def made(**properties):
     return ranks.make("LaplaceSpectrum", 4, **{
-        "Distributed": True, "NumberOfModes": MODES, "Tolerance": 1e-11, **properties})
+        "NumberOfModes": MODES, "Tolerance": 1e-11, **properties})
 
 
 def number(output, name):
@@ -25,7 +25,7 @@ def values_of(output):
 
 
 class DistributedSpectrum(unittest.TestCase):
-    def same_as_alone(self, mesh, kind, completed=0, **properties):
+    def same_as_alone(self, mesh, kind, **properties):
         mine = ranks.piece(mesh, kind)
         output, table = ranks.run(made(**properties), mine)
         whole = ranks.alone(lambda: ranks.run(made(**properties), ranks.whole(mesh))[0])
@@ -33,8 +33,6 @@ class DistributedSpectrum(unittest.TestCase):
         problems += [] if number(output, "Converged") == 1 else ["not converged"]
         expected = values_of(whole)
         found = values_of(output)
-        if number(output, "CompletedModes") != completed:
-            problems.append(f"CompletedModes is {number(output, 'CompletedModes')}")
         if found.shape != expected.shape or ranks.apart(found, expected) > 1e-8 * expected.max():
             problems.append(f"values {found} instead of {expected}")
         if mine.GetNumberOfPoints():
@@ -69,15 +67,6 @@ class DistributedSpectrum(unittest.TestCase):
         for mesh, kind in ((ranks.ellipsoid(), "contiguous"), (ranks.bowl(), "ghosts")):
             self.same_as_alone(mesh, kind, FunctionSpace=1)
 
-    def test_all_ranks_say_that_a_group_was_completed(self):
-        points, triangles = ranks.ellipsoid(16, 8)
-        twins = (numpy.concatenate([points, points + (2.5, 0, 0)]),
-                 numpy.concatenate([triangles, triangles + len(points)]))
-        for kind in ("contiguous", "one rank is empty"):
-            # Two constants, and one of the two first modes of the twins.
-            self.same_as_alone(twins, kind, FunctionSpace=1, NumberOfModes=3, CompleteMultiplets=True,
-                               completed=1)
-
     def test_time_steps_compute_nothing(self):
         filter_ = made(AllModes=False)
         mine = ranks.piece(ranks.ellipsoid(), "contiguous")
@@ -107,13 +96,13 @@ class DistributedSpectrum(unittest.TestCase):
         ranks.check(self, problems)
 
     def test_rank_0_gathers_what_is_left_to_it(self):
-        for properties in ({"Smoother": 1}, {"CompareFunctionSpaces": True}):
+        for properties in ({"WeldCoincidentPoints": False}, {"Accuracy": 0.4}):
             output = ranks.run(made(**properties), ranks.piece(ranks.bowl(), "contiguous"))[0]
             ranks.check(self, [] if number(output, "Distributed") is None and
                         number(output, "Converged") == 1 else [str(properties)])
         filter_ = made()
         for together in (True, False, True):
-            filter_.SetDistributed(together)
+            filter_.SetBlocksAsOne(not together)
             output = ranks.run(filter_, ranks.piece(ranks.bowl(), "ghosts"))[0]
             ranks.check(self, [] if (number(output, "Distributed") == 1) == together and
                         number(output, "Converged") == 1 else [str(together)])

@@ -1,4 +1,4 @@
-"""Every filter on several ranks, compared with the same filter on one."""
+"""Every filter on several ranks, whose surface rank 0 gathers, compared with the same filter on one."""
 import unittest
 
 import numpy
@@ -125,7 +125,7 @@ class EveryFilter(unittest.TestCase):
         reference = ranks.make(name, hats=hats)
         references = ranks.alone(
             lambda: ranks.run(reference, ranks.prepare(ranks.whole(mesh(), global_ids))))
-        filter_ = ranks.make(name, hats=hats)
+        filter_ = ranks.make(name, hats=hats, gathers=True)
         data = ranks.prepare(ranks.piece(mesh(), kind, global_ids))
         outputs = ranks.run(filter_, data)
         problems = compare(name, outputs, references, data, tolerance)
@@ -178,7 +178,7 @@ class EveryFilter(unittest.TestCase):
             for hats in (False, True):
                 data = ranks.piece(ranks.ellipsoid(), kind)
                 ranks.check(self, self.border_problems(
-                    data, ranks.make("ScreenedPoisson", hats=hats), "Solution"))
+                    data, ranks.make("ScreenedPoisson", hats=hats, gathers=True), "Solution"))
 
     def test_arrays_of_one_side_keep_border_points_apart_and_make_no_slit(self):
         """As normals do that a filter made on every rank alone."""
@@ -186,7 +186,7 @@ class EveryFilter(unittest.TestCase):
             data = ranks.piece(ranks.ellipsoid(), "contiguous")
             ranks.add(data.GetPointData(), "side", numpy.full(data.GetNumberOfPoints(),
                                                               float(ranks.RANK)))
-            filter_ = ranks.make("ScreenedPoisson", hats=hats)
+            filter_ = ranks.make("ScreenedPoisson", hats=hats, gathers=True)
             problems = self.border_problems(data, filter_, "Solution")
             reference = ranks.make("ScreenedPoisson", hats=hats)
             references = ranks.alone(lambda: ranks.run(reference, ranks.whole(ranks.ellipsoid())))
@@ -202,7 +202,7 @@ class EveryFilter(unittest.TestCase):
         for name in ("c", "originCell", vtkDataSetAttributes.GhostArrayName()):
             values = numpy_support.vtk_to_numpy(arrays.GetArray(name))
             ranks.add(arrays, name, numpy.concatenate([[0], values]).astype(values.dtype))
-        output = ranks.run(ranks.make("SurfaceGradient"), data)[0]
+        output = ranks.run(ranks.make("SurfaceGradient", gathers=True), data)[0]
         alone = ranks.alone(
             lambda: ranks.run(ranks.make("SurfaceGradient"), ranks.whole(ranks.ellipsoid()))[0])
         ours, theirs = (numpy_support.vtk_to_numpy(surface.GetCellData().GetArray("Gradient"))
@@ -223,7 +223,7 @@ class EveryFilter(unittest.TestCase):
         for attributes in (data.GetPointData(), data.GetCellData()):
             if attributes.GetGlobalIds():
                 numpy_support.vtk_to_numpy(attributes.GetGlobalIds())[:] += large
-        output = ranks.run(ranks.make("ScreenedPoisson"), data)[0]
+        output = ranks.run(ranks.make("ScreenedPoisson", gathers=True), data)[0]
         reference = ranks.alone(
             lambda: ranks.run(ranks.make("ScreenedPoisson"), ranks.whole(ranks.ellipsoid())))
         ranks.check(self, compare("ScreenedPoisson", [output], reference[:1], data, 0.0))

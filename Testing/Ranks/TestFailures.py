@@ -1,4 +1,4 @@
-"""What goes wrong on one rank ends the run on all, with one message of rank 0."""
+"""What goes wrong on one rank ends the run on all, with one message of rank 0, which gathers the surface."""
 import unittest
 
 import numpy
@@ -42,7 +42,7 @@ class Failures(unittest.TestCase):
         return ranks.piece(ranks.ellipsoid(), "contiguous")
 
     def test_a_bad_number_on_one_rank(self):
-        filter_ = ranks.make("ScreenedPoisson")
+        filter_ = ranks.make("ScreenedPoisson", gathers=True)
         data = self.good()
         if ranks.RANK == LAST:
             numpy_support.vtk_to_numpy(data.GetPointData().GetArray("f"))[9] = numpy.nan
@@ -50,7 +50,7 @@ class Failures(unittest.TestCase):
         self.computed(filter_, self.good())
 
     def test_more_than_the_first_rank_can_gather(self):
-        filter_ = ranks.make("ScreenedPoisson")
+        filter_ = ranks.make("ScreenedPoisson", gathers=True)
         data = ranks.piece(ranks.ellipsoid(300, 150), "last")
         with ranks.growing_by(4 << 20 if ranks.RANK == 0 else None):  # the surface takes 6 MB
             self.refused(filter_, data, "What rank 0 gathers needs about")
@@ -67,14 +67,14 @@ class Failures(unittest.TestCase):
         selection = vtkSelection()
         selection.AddNode(node)
         for name, port in (("SurfaceDetail", 2), ("GeodesicDistance", 3)):
-            filter_ = ranks.make(name)
+            filter_ = ranks.make(name, gathers=True)
             filter_.SetInputDataObject(port, selection)
             self.refused(filter_, self.good(), "one MPI rank only")
             filter_.SetInputDataObject(port, None)
             self.computed(filter_, self.good())
 
     def test_an_array_that_one_rank_lacks(self):
-        filter_ = ranks.make("ScreenedPoisson")
+        filter_ = ranks.make("ScreenedPoisson", gathers=True)
         data = self.good()
         if ranks.RANK == LAST:
             data.GetPointData().RemoveArray("f")
@@ -85,12 +85,12 @@ class Failures(unittest.TestCase):
         self.computed(filter_, data)  # not asked for
 
     def test_an_array_that_nobody_has(self):
-        filter_ = ranks.make("ScreenedPoisson")
+        filter_ = ranks.make("ScreenedPoisson", gathers=True)
         filter_.SetInputArrayToProcess(0, 0, 0, ranks.POINTS, "nothing")
         self.refused(filter_, self.good(), "'nothing' does not exist")
 
     def test_a_wrong_property(self):
-        filter_ = ranks.make("ScreenedPoisson", QuadratureDegree=3)
+        filter_ = ranks.make("ScreenedPoisson", gathers=True, QuadratureDegree=3)
         self.refused(filter_, self.good(), "3")
         filter_.SetQuadratureDegree(2)
         self.computed(filter_, self.good())
@@ -101,22 +101,22 @@ class Failures(unittest.TestCase):
             data.GetPolys().InsertNextCell(3, [0, 1, 100000])
             for name in ("c", "originCell"):
                 data.GetCellData().RemoveArray(name)
-        self.refused(ranks.make("ClipToOctree"), data, f"On rank {LAST}: ")
+        self.refused(ranks.make("ClipToOctree", gathers=True), data, f"On rank {LAST}: ")
 
     def test_global_ids_of_two_places(self):
         data = ranks.piece(ranks.ellipsoid(), "contiguous", global_ids=True)
         if ranks.RANK == LAST:
             numbers = numpy_support.vtk_to_numpy(data.GetPointData().GetGlobalIds())
             numbers[:] = numbers[::-1].copy()
-        self.refused(ranks.make("ScreenedPoisson"), data, "global point id")
+        self.refused(ranks.make("ScreenedPoisson", gathers=True), data, "global point id")
 
     def test_no_surface_anywhere(self):
         data = self.good()
         data.SetPolys(None)
         for name in ("c", "originCell"):
             data.GetCellData().RemoveArray(name)
-        self.refused(ranks.make("ScreenedPoisson"), data, "no polygons")
-        filter_ = ranks.make("ScreenedPoisson")
+        self.refused(ranks.make("ScreenedPoisson", gathers=True), data, "no polygons")
+        filter_ = ranks.make("ScreenedPoisson", gathers=True)
         messages, is_empty = self.run_and_listen(filter_, vtkPolyData())
         ranks.check(self, messages + ([] if is_empty else ["not empty"]))
 
@@ -127,7 +127,7 @@ class Failures(unittest.TestCase):
             points.InsertNextPoint(corner[0] + ranks.RANK, *corner[1:])
         volume.SetPoints(points)
         volume.InsertNextCell(VTK_TETRA, 4, range(4))
-        filter_ = ranks.make("ClipToOctree")
+        filter_ = ranks.make("ClipToOctree", gathers=True)
         self.refused(filter_, volume, "Extract Surface")
         if ranks.RANK > 0:
             volume = vtkUnstructuredGrid()
@@ -137,7 +137,7 @@ class Failures(unittest.TestCase):
 
     def test_an_abort_on_one_rank(self):
         for rank in {0, LAST}:
-            filter_ = ranks.make("ScreenedPoisson")
+            filter_ = ranks.make("ScreenedPoisson", gathers=True)
             filter_.SetAbortExecute(1 if ranks.RANK == rank else 0)
             messages, is_empty = self.run_and_listen(filter_, self.good())
             ranks.check(self, messages + ([] if is_empty else ["not empty"]))
@@ -145,7 +145,7 @@ class Failures(unittest.TestCase):
             self.computed(filter_, self.good())
 
     def test_an_abort_while_the_first_rank_computes(self):
-        filter_ = ranks.make("ScreenedPoisson")
+        filter_ = ranks.make("ScreenedPoisson", gathers=True)
         aborted_at = []
 
         def abort(*_):
@@ -165,7 +165,7 @@ class Failures(unittest.TestCase):
         for name in ("ScreenedPoisson", "LaplaceSpectrum", "SpectralSignatures", "SurfaceGradient",
                      "HeatDiffusion", "GeodesicDistance", "ClipToOctree", "ConnectivityAwareBasis"):
             for rank in {0, LAST}:
-                filter_ = ranks.make(name, Distributed=True)
+                filter_ = ranks.make(name)
                 aborted_at = []
 
                 def abort(*_, filter_=filter_, aborted_at=aborted_at, rank=rank):

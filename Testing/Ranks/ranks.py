@@ -242,8 +242,7 @@ def piece(mesh, kind, global_ids=False):
 # compared of.
 CHOICES = {
     "ScreenedPoisson": {"ScreeningWeight": 100.0},
-    "LaplaceSpectrum": {"NumberOfModes": 5, "AllModes": True, "Tolerance": 1e-12,
-                        "CompleteMultiplets": False},
+    "LaplaceSpectrum": {"NumberOfModes": 5, "AllModes": True, "Tolerance": 1e-12},
     "SpectralSignatures": {"NumberOfModes": 8, "Tolerance": 1e-12},
     "MeanCurvatureFlow": {"NumberOfSteps": 2},
     "HeatDiffusion": {"NumberOfSteps": 2}}
@@ -253,12 +252,16 @@ ARRAYS = {
 KEEP_NO_CELLS = ("ClipToOctree", "ConnectivityAwareBasis")
 
 
-def make(name, depth=4, hats=False, **properties):
-    """A filter of the plugin."""
+def make(name, depth=4, hats=False, gathers=False, **properties):
+    """A filter of the plugin.
+
+    gathers: rank 0 gathers the surface, where ranks could compute together.
+    """
     made = getattr(vtkGridFEMFilters, "vtk" + name)()
     made.SetDepth(depth)
     made.SetNumberOfThreads(1)
     made.SetMaximumIterations(500)
+    made.SetBlocksAsOne(gathers)
     if hats:
         made.SetFunctionSpace(made.HatFunctions)
     for key, value in {"Tolerance": 1e-13, **CHOICES.get(name, {}), **properties}.items():

@@ -14,7 +14,7 @@ MEGABYTE = 1 << 20
 def run(depth, mesh, room=None, limited=lambda rank: rank == ranks.RANKS - 1):
     """The messages of a run, and what its output says."""
     piece = ranks.piece(mesh, "contiguous")
-    filter_ = ranks.make("ScreenedPoisson", depth, Distributed=True, Tolerance=1e-8)
+    filter_ = ranks.make("ScreenedPoisson", depth, Tolerance=1e-8)
     messages = ranks.heard(filter_)
     with ranks.growing_by(room if limited(ranks.RANK) else None):
         output = ranks.run(filter_, piece)[0]

@@ -138,7 +138,7 @@ TEST_P(Abort, IsServedAtOnceAtAnyStage)
   auto filter = GetParam().make();
   filter->SetInputData(sphere);
   filter->SetNumberOfThreads(1);
-  filter->KeepStagesOff(); // so that every run is the same
+  filter->ReleaseDataFlagOn(); // so that every run is the same
   filter->SetDepth(6);
   const Messages messages(filter);
   int aborts = 0;

@@ -415,7 +415,7 @@ TEST_F(BlocksAsOne, UnchangedInputRebuildsNothing)
 
 TEST_F(BlocksAsOne, WithoutKeepingStagesTheyAreComputedOnceAnExecution)
 {
-  filter->KeepStagesOff();
+  filter->ReleaseDataFlagOn();
   filter->SetInputDataObject(this->Nested());
   filter->Update();
   EXPECT_EQ(filter->GetNumberOfRuns("Space"), 1);

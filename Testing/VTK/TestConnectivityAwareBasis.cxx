@@ -218,7 +218,7 @@ TEST(ConnectivityAwareBasis, IsReadForAMeshWithATriangleThatIsALine)
   vtkSmartPointer<vtkPolyData> data = ToPolyData(mesh);
   vtkNew<vtkConnectivityAwareBasis> basis;
   basis->SetDepth(4);
-  basis->KeepStagesOff(); // so that it is read from its arrays
+  basis->ReleaseDataFlagOn(); // so that it is read from its arrays
   basis->SetInputData(data);
   vtkNew<vtkScreenedPoisson> alone;
   vtkNew<vtkScreenedPoisson> given;
@@ -228,7 +228,6 @@ TEST(ConnectivityAwareBasis, IsReadForAMeshWithATriangleThatIsALine)
     solver->SetDepth(4);
     solver->SetTolerance(1e-12);
     solver->SetInputData(data);
-    solver->MovePointsOff();
     solver->Update();
   }
   EXPECT_EQ(given->GetErrorCode(), 0UL);

@@ -1,7 +1,6 @@
 // Screened Poisson where values are unknown, weighed or held exactly.
 #include "FilterSupport.h"
 
-#include "Grid/TriangleArea.h"
 #include "vtkScreenedPoisson.h"
 
 #include <gtest/gtest.h>
@@ -168,19 +167,10 @@ TEST_P(ConstrainedPoisson, SolvesForValuesHeldAtTheBoundary)
     filter->SetScreeningWeight(0.0);
     filter->SetTolerance(1e-8);
     filter->BoundaryValuesOn();
-    filter->SolutionGradientOn();
     messages.warnings.clear();
     const auto found = this->Solution();
     EXPECT_TRUE(messages.warnings.empty()) << messages.warnings[0];
     EXPECT_LT(Difference(found, PointValues(data, "exact")), fineness == 8 ? 0.04 : 0.025);
-    vtkDataArray* gradient = filter->GetOutput()->GetCellData()->GetArray("SolutionGradient");
-    ASSERT_TRUE(gradient);
-    double square = 0.0; // ∫ |∇u|² over the disc: 2 π r⁴
-    for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell)
-    {
-      square += AreaOf(disc, cell) * 1.5 * 1.5 * Vec3(gradient->GetTuple3(cell)).squaredNorm();
-    }
-    EXPECT_NEAR(square / (2 * M_PI * std::pow(1.5, 4)), 1.0, fineness == 8 ? 0.1 : 0.02);
   }
 }
 
@@ -276,9 +266,6 @@ TEST_P(ConstrainedPoisson, RefusesWhatItCannotUse)
   filter->SetInputArrayToProcess(0, 0, 0, Points, "holes");
   this->ExpectRefused("NaN"); // FillUnknown is off
   filter->FillUnknownOn();
-  filter->SetIteration(vtkScreenedPoisson::Cycles);
-  this->ExpectRefused("ConjugateGradients");
-  filter->SetIteration(vtkScreenedPoisson::ConjugateGradients);
   AddPointArray(input, "negative", 1, [](const Vec3& p, int) { return p[0]; });
   filter->SetInputArrayToProcess(3, 0, 0, Points, "negative");
   this->ExpectRefused("0 or more");

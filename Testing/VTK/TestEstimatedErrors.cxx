@@ -2,7 +2,6 @@
 
 #include "FilterSupport.h"
 
-#include "vtkGeodesicDistance.h"
 #include "vtkHarmonicInterpolation.h"
 #include "vtkHeatDiffusion.h"
 #include "vtkMeanCurvatureFlow.h"
@@ -112,14 +111,6 @@ const Case Cases[] = {
       return filter;
     },
     "Displacement", 4.0 },
-  { "GeodesicDistance",
-    []
-    {
-      auto filter = vtkSmartPointer<vtkGeodesicDistance>::New();
-      filter->EstimateErrorsOn();
-      return filter;
-    },
-    "Distance", 4.0 },
 };
 
 class EstimatedErrors : public ::testing::TestWithParam<Case>

@@ -577,36 +577,23 @@ TEST_P(FailureRule, MemoryIsFreedOnAnEmptyInput)
   EXPECT_EQ(filter->GetNumberOfRuns("Space"), 2);
 }
 
-TEST_P(FailureRule, WithoutKeptStagesEveryRunIsAFirstOne)
-{
-  auto data = Surface(GeodesicSphere(4));
-  this->ExpectComputed(data);
-  const std::vector<Contents> kept = this->OutputContents();
-  filter->KeepStagesOff();
-  for (int run = 1; run < 3; ++run)
-  {
-    filter->Modified();
-    this->ExpectComputed(data);
-    this->ExpectOutputs(kept);
-  }
-  EXPECT_GE(filter->GetNumberOfRuns("Space"), 2);
-}
-
 TEST_P(FailureRule, AReleasedOutputLeavesNothingToGoOnFrom)
 {
   auto data = Surface(GeodesicSphere(4));
   filter->ReleaseDataFlagOn();
-  for (int run = 1; run < 3; ++run)
+  this->ExpectComputed(data);
+  const std::vector<Contents> first = this->OutputContents();
+  filter->Modified();
+  this->ExpectComputed(data);
+  this->ExpectOutputs(first);
+  EXPECT_EQ(filter->GetNumberOfRuns("Space"), 2);
+  filter->ReleaseDataFlagOff();
+  for (int run = 0; run < 2; ++run)
   {
     filter->Modified();
     this->ExpectComputed(data);
-    EXPECT_EQ(filter->GetNumberOfRuns("Space"), run);
+    this->ExpectOutputs(first);
   }
-  filter->ReleaseDataFlagOff();
-  filter->Modified();
-  this->ExpectComputed(data);
-  filter->Modified();
-  this->ExpectComputed(data);
   EXPECT_EQ(filter->GetNumberOfRuns("Space"), 3);
 }
 

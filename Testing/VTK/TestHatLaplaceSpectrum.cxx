@@ -1,5 +1,5 @@
 // Laplace Spectrum on hat functions: the spectrum of a direct solver at every depth and for every
-// kind of input, and both spectra side by side.
+// kind of input.
 
 #include "FilterSupport.h"
 #include "Support/HatSystem.h"
@@ -98,10 +98,6 @@ TEST_F(HatLaplaceSpectrum, TheGridIsAsFineAsTheEstimateOfErrorsNeeds)
   poisson->SetInputData(ToPolyData(mesh));
   poisson->Update();
   EXPECT_EQ(FieldValue(poisson->GetOutput(), "UsedDepth"), enough - 1);
-  filter->CompareFunctionSpacesOn(); // the grid's values are asked for
-  filter->SetDepth(6);
-  filter->Update();
-  EXPECT_EQ(FieldValue(filter->GetOutput(), "UsedDepth"), 6);
 }
 
 TEST_F(HatLaplaceSpectrum, ModesAreOrthonormalInTheMassOfTheMesh)
@@ -189,14 +185,13 @@ TEST_F(HatLaplaceSpectrum, TakesABasisOrTheClippedMesh)
   }
 }
 
-TEST_F(HatLaplaceSpectrum, ACutMultipletIsCompletedOrReported)
+TEST_F(HatLaplaceSpectrum, ACutMultipletIsReported)
 {
   filter->SetNumberOfModes(6);
-  filter->CompleteMultipletsOff();
   EXPECT_EQ(this->Eigenvalues().size(), 6u);
   ASSERT_EQ(messages.warnings.size(), 1u);
-  EXPECT_NE(messages.warnings[0].find("CompleteMultiplets"), std::string::npos);
-  filter->CompleteMultipletsOn();
+  EXPECT_NE(messages.warnings[0].find("larger NumberOfModes"), std::string::npos);
+  filter->SetNumberOfModes(9);
   EXPECT_EQ(this->Eigenvalues().size(), 9u); // 1 + 3 + 5
   EXPECT_EQ(messages.warnings.size(), 1u);
 }
@@ -222,7 +217,6 @@ TEST_F(HatLaplaceSpectrum, NotConvergedWarnsAndKeepsTheResult)
 TEST_F(HatLaplaceSpectrum, AnAccuracyThatTheMeshDoesNotHaveIsReported)
 {
   // The ninth eigenvalue of 512 flat triangles is good to 3 %.
-  filter->AccuracyDrivenOn();
   filter->SetAccuracy(0.1);
   this->Eigenvalues();
   EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 1);
@@ -243,48 +237,6 @@ TEST_F(HatLaplaceSpectrum, ThreadsDoNotChangeABit)
   filter->SetNumberOfThreads(2);
   filter->Update();
   EXPECT_EQ(PointValues(filter->GetOutput(), "Mode"), one);
-}
-
-TEST_F(HatLaplaceSpectrum, BothSpectraStandSideBySide)
-{
-  const auto hats = this->Eigenvalues();
-  auto* table = vtkTable::SafeDownCast(filter->GetOutputDataObject(1));
-  EXPECT_FALSE(table->GetColumnByName("GridEigenvalue")); // unless asked for
-  filter->SetFunctionSpace(Spectrum::Grid);
-  const auto grid = this->Eigenvalues();
-  const double accuracy = 1e-8 * grid.back(); // of both, by the tolerance
-  EXPECT_GT(Difference(grid, hats), 1e-3 * grid.back());
-  const vtkIdType runs = filter->GetNumberOfRuns("Solve");
-  filter->CompareFunctionSpacesOn();
-  EXPECT_EQ(this->Eigenvalues(), grid);
-  EXPECT_EQ(filter->GetNumberOfRuns("Solve"), runs);
-  EXPECT_EQ(Column(filter, "GridEigenvalue"), grid);
-  EXPECT_LT(Difference(Column(filter, "HatEigenvalue"), hats), accuracy);
-  filter->SetFunctionSpace(Spectrum::HatFunctions);
-  filter->Update();
-  EXPECT_EQ(Column(filter, "Eigenvalue"), Column(filter, "HatEigenvalue"));
-  EXPECT_LT(Difference(Column(filter, "GridEigenvalue"), grid), accuracy);
-  const auto difference = Column(filter, "RelativeDifference");
-  for (int k = 0; k < Modes; ++k)
-  {
-    const double expected = k == 0 ? 0.0 : (hats[k] - grid[k]) / std::max(hats[k], grid[k]);
-    EXPECT_NEAR(difference[k], expected, 1e-7);
-  }
-}
-
-TEST_F(HatLaplaceSpectrum, AComparisonWithASmallerSpaceHasHoles)
-{
-  filter->SetInputData(ToPolyData(GeodesicSphere(1))); // 6 hats
-  filter->SetFunctionSpace(Spectrum::Grid);
-  filter->CompareFunctionSpacesOn();
-  EXPECT_EQ(this->Eigenvalues().size(), std::size_t(Modes));
-  const auto hats = Column(filter, "HatEigenvalue");
-  const auto difference = Column(filter, "RelativeDifference");
-  for (int k = 0; k < Modes; ++k)
-  {
-    EXPECT_EQ(std::isnan(hats[k]), k >= 6);
-    EXPECT_EQ(std::isnan(difference[k]), k >= 6);
-  }
 }
 
 TEST_F(HatLaplaceSpectrum, SignaturesAreThoseOfItsModes)

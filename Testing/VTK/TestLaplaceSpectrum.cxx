@@ -261,26 +261,22 @@ TEST_F(LaplaceSpectrum, NotConvergedWarnsAndKeepsTheResult)
   EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 0);
 }
 
-TEST_F(LaplaceSpectrum, ACutMultipletIsCompletedOrReported)
+TEST_F(LaplaceSpectrum, ACutMultipletIsReported)
 {
   filter->SetNumberOfModes(6);
-  filter->CompleteMultipletsOff();
   EXPECT_EQ(this->Eigenvalues().size(), 6u);
   ASSERT_EQ(messages.warnings.size(), 1u);
-  EXPECT_NE(messages.warnings[0].find("CompleteMultiplets"), std::string::npos);
-  EXPECT_EQ(FieldValue(filter->GetOutput(), "CompletedModes"), 0);
+  EXPECT_NE(messages.warnings[0].find("larger NumberOfModes"), std::string::npos);
   this->ModeAt(4);
   EXPECT_EQ(messages.warnings.size(), 1u); // not at every time step
-  filter->CompleteMultipletsOn();
+  filter->SetNumberOfModes(9);
   EXPECT_EQ(this->Eigenvalues().size(), 9u); // 1 + 3 + 5
-  EXPECT_EQ(FieldValue(filter->GetOutput(), "CompletedModes"), 3);
   EXPECT_EQ(messages.warnings.size(), 1u);
 }
 
 TEST_F(LaplaceSpectrum, TheDepthFollowsFromTheAccuracy)
 {
   filter->SetInputData(ToPolyData(GeodesicSphere(32)));
-  filter->AccuracyDrivenOn();
   int depth = 0;
   for (const double accuracy : { 0.1, 0.003 })
   {
@@ -315,7 +311,6 @@ TEST_F(LaplaceSpectrum, AnAccuracyOutOfReachIsReported)
   basis->SetInputData(filter->GetInput());
   basis->SetDepth(4);
   filter->SetBasisConnection(basis->GetOutputPort());
-  filter->AccuracyDrivenOn();
   filter->SetAccuracy(1e-5);
   EXPECT_EQ(this->Eigenvalues().size(), 9u);
   ASSERT_EQ(messages.warnings.size(), 1u);

@@ -73,7 +73,7 @@ protected:
     filter->SetInputData(TenThousandTetrahedra());
     filter->SetDepth(8);
     filter->SetNumberOfThreads(1);
-    filter->KeepStagesOff(); // so that every run is the same
+    filter->ReleaseDataFlagOn(); // so that every run is the same
   }
 
   /// The reports of a run that is aborted at a fraction.

@@ -7,6 +7,7 @@
 
 #include "vtkFloatArray.h"
 #include "vtkInformation.h"
+#include "vtkObjectFactory.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 
@@ -18,7 +19,20 @@ using namespace gridfem::testing;
 namespace
 {
 
-using Flow = vtkMeanCurvatureFlow;
+class Flow : public vtkMeanCurvatureFlow
+{
+public:
+  static Flow* New();
+  vtkTypeMacro(Flow, vtkMeanCurvatureFlow);
+
+  void KeepOnlyTheLastStep()
+  {
+    this->KeptBytes = 0.0;
+    this->Modified();
+  }
+};
+
+vtkStandardNewMacro(Flow);
 
 class MeanCurvatureFlowFilter : public ::testing::TestWithParam<int>
 {
@@ -86,7 +100,7 @@ TEST_P(MeanCurvatureFlowFilter, BackAndForthGivesTheSameBitsWhateverIsKept)
     steps.push_back(this->PointsAt(step));
   }
   EXPECT_EQ(filter->GetNumberOfRuns("Step"), 5);
-  filter->SetCacheMegabytes(0);
+  filter->KeepOnlyTheLastStep();
   for (const int step : { 3, 4, 1, 5, 2, 0, 5 })
   {
     EXPECT_EQ(this->PointsAt(step), steps[step]) << step;

@@ -226,7 +226,7 @@ TEST_F(Pipeline, ANaNInAnUnusedPointDoesNotDefeatASharedBasis)
 TEST_F(Pipeline, WithoutKeptStagesABasisIsReadFromItsArrays)
 {
   const auto alone = this->Solve(input);
-  directBasis->KeepStagesOff();
+  directBasis->ReleaseDataFlagOn();
   directBasis->Update();
   EXPECT_LT(Difference(this->Solve(input, directBasis->GetOutput()), alone), SameAnswer);
   EXPECT_LT(Difference(this->Solve(directBasis->GetOutput()), alone), SameAnswer);

@@ -4,7 +4,6 @@
 #include "FilterSupport.h"
 
 #include "vtkConnectivityAwareBasis.h"
-#include "vtkLaplaceSpectrum.h"
 #include "vtkScreenedPoisson.h"
 
 #include <gtest/gtest.h>
@@ -66,59 +65,6 @@ protected:
   std::vector<double> solution;
 };
 
-TEST_P(SolverProperties, MoreSweepsNeedFewerIterations)
-{
-  for (const int smoother : { Poisson::PatchSmoother, Poisson::GaussSeidelSmoother })
-  {
-    filter->SetSmoother(smoother);
-    filter->SetNumberOfSweeps(1);
-    const double one = this->Iterations();
-    filter->SetNumberOfSweeps(5);
-    EXPECT_LT(this->Iterations(), one) << smoother;
-  }
-}
-
-TEST_P(SolverProperties, SweepsBetweenSynchronisationsCountAsSweeps)
-{
-  filter->SetSmoother(Poisson::SliceGaussSeidelSmoother);
-  const double one = this->Iterations();
-  filter->SetSweepsPerSynchronisation(3);
-  const double three = this->Iterations();
-  EXPECT_LE(three, one);
-  EXPECT_EQ(three < one, this->GetParam() == Poisson::Grid); // those of the hats are others
-  // More sweeps than there are slices: the slabs become one.
-  filter->SetSweepsPerSynchronisation(100);
-  EXPECT_LE(this->Iterations(), three);
-}
-
-TEST_P(SolverProperties, CyclesAloneConvergeMoreSlowly)
-{
-  const double conjugateGradients = this->Iterations();
-  const Counts before = Runs(filter);
-  filter->SetIteration(Poisson::Cycles);
-  EXPECT_GT(this->Iterations(), conjugateGradients);
-  Counts expected = before;
-  ++expected["Solve"];
-  EXPECT_EQ(Runs(filter), expected);
-}
-
-TEST_P(SolverProperties, AnyCoarsestSizeSolves)
-{
-  this->Iterations();
-  Counts expected = Runs(filter);
-  filter->SetCoarsestSize(1);
-  this->Iterations();
-  for (const char* stage : { "System", "Hierarchy", "RightHandSide", "Solve" })
-  {
-    ++expected[stage];
-  }
-  EXPECT_EQ(Runs(filter), expected);
-  // Hats stay above the grid, which is then solved directly.
-  filter->SetCoarsestSize(4096);
-  const double direct = this->Iterations();
-  EXPECT_EQ(direct <= 2, this->GetParam() == Poisson::Grid);
-}
-
 TEST_P(SolverProperties, NormalStabilizationChangesTheSystemOfTheGrid)
 {
   this->Iterations();
@@ -137,49 +83,6 @@ TEST_P(SolverProperties, NormalStabilizationChangesTheSystemOfTheGrid)
   const bool isGrid = this->GetParam() == Poisson::Grid;
   EXPECT_GT(change, isGrid ? 1e-5 : -1.0);
   EXPECT_LT(change, isGrid ? 0.1 : 1e-5);
-}
-
-TEST_P(SolverProperties, ASweepCountRebuildsTheHierarchyAlone)
-{
-  this->Iterations();
-  Counts expected = Runs(filter);
-  filter->SetNumberOfSweeps(2);
-  this->Iterations();
-  ++expected["Hierarchy"];
-  ++expected["Solve"];
-  EXPECT_EQ(Runs(filter), expected);
-}
-
-TEST_P(SolverProperties, NoneChangesTheSpectrum)
-{
-  vtkNew<vtkLaplaceSpectrum> spectrum;
-  spectrum->SetFunctionSpace(this->GetParam());
-  spectrum->SetInputData(Surface());
-  spectrum->SetDepth(5);
-  spectrum->SetNumberOfModes(9);
-  spectrum->SetTolerance(1e-9);
-  spectrum->SetMaximumIterations(500);
-  const auto eigenvalues = [&]
-  {
-    spectrum->Update();
-    EXPECT_EQ(FieldValue(spectrum->GetOutput(), "Converged"), 1);
-    return Values(spectrum->GetOutput()->GetFieldData()->GetArray("Eigenvalues"));
-  };
-  const auto expected = eigenvalues();
-  const double accuracy = 1e-8 * expected.back();
-  vtkIdType runs = spectrum->GetNumberOfRuns("Solve");
-  const auto expectSame = [&](const char* what)
-  {
-    EXPECT_LT(Difference(eigenvalues(), expected), accuracy) << what;
-    EXPECT_EQ(spectrum->GetNumberOfRuns("Solve"), ++runs) << what;
-  };
-  spectrum->SetNumberOfSweeps(3);
-  expectSame("sweeps");
-  spectrum->SetSmoother(Poisson::SliceGaussSeidelSmoother);
-  spectrum->SetSweepsPerSynchronisation(2);
-  expectSame("slices");
-  spectrum->SetCoarsestSize(16);
-  expectSame("small coarsest level");
 }
 
 INSTANTIATE_TEST_SUITE_P(BothSpaces, SolverProperties,
@@ -237,41 +140,38 @@ TEST(SolverProperty, FiltersOnOneBasisMayDifferInTheirSystems)
   vtkNew<vtkConnectivityAwareBasis> basis;
   basis->SetDepth(4);
   basis->SetInputData(Surface());
-  const auto solution = [&](int coarsestSize, vtkAlgorithmOutput* shared, double weight = 1e-12)
+  const auto solution = [&](vtkAlgorithmOutput* shared, double weight)
   {
     vtkNew<Poisson> filter;
     filter->SetInputData(basis->GetInput());
     filter->SetInputArrayToProcess(0, 0, 0, Points, "f");
     filter->SetDepth(4);
     filter->SetTolerance(1e-4); // far from the solution, so that a difference shows
-    filter->SetCoarsestSize(coarsestSize);
     filter->SetNormalStabilization(weight);
     filter->SetBasisConnection(shared);
     filter->Update();
     return PointValues(filter->GetOutput(), "Solution");
   };
-  for (const int size : { 256, 16 })
+  for (const double weight : { 1e-12, 1e-2 })
   {
-    EXPECT_EQ(solution(size, basis->GetOutputPort()), solution(size, nullptr)) << size;
+    EXPECT_EQ(solution(basis->GetOutputPort(), weight), solution(nullptr, weight)) << weight;
   }
-  EXPECT_NE(solution(256, nullptr), solution(16, nullptr));
-  EXPECT_EQ(solution(256, basis->GetOutputPort(), 1e-2), solution(256, nullptr, 1e-2));
-  EXPECT_NE(solution(256, nullptr, 1e-2), solution(256, nullptr));
+  EXPECT_NE(solution(nullptr, 1e-2), solution(nullptr, 1e-12));
 }
 
 TEST(SolverProperty, ValuesOutOfRangeAreClamped)
 {
   vtkNew<Poisson> filter;
-  filter->SetNumberOfSweeps(0);
-  EXPECT_EQ(filter->GetNumberOfSweeps(), 1);
-  filter->SetSweepsPerSynchronisation(-1);
-  EXPECT_EQ(filter->GetSweepsPerSynchronisation(), 1);
-  filter->SetCoarsestSize(1 << 30);
-  EXPECT_EQ(filter->GetCoarsestSize(), 4096);
-  filter->SetSmoother(3);
-  EXPECT_EQ(filter->GetSmoother(), int(Poisson::SliceGaussSeidelSmoother));
-  filter->SetIteration(2);
-  EXPECT_EQ(filter->GetIteration(), int(Poisson::Cycles));
+  filter->SetMaximumIterations(0);
+  EXPECT_EQ(filter->GetMaximumIterations(), 1);
+  filter->SetNumberOfThreads(-1);
+  EXPECT_EQ(filter->GetNumberOfThreads(), 0);
+  filter->SetNormalStabilization(0.0);
+  EXPECT_EQ(filter->GetNormalStabilization(), 1e-14);
+  filter->SetWantedError(-1.0);
+  EXPECT_EQ(filter->GetWantedError(), 0.0);
+  filter->SetWantedError(1.0);
+  EXPECT_EQ(filter->GetWantedError(), 0.5);
   filter->SetFunctionSpace(2);
   EXPECT_EQ(filter->GetFunctionSpace(), int(Poisson::HatFunctions));
 }

@@ -218,21 +218,14 @@ TEST_F(SpectralSignaturesFilter, AModeInsideTheBandPassesUnchanged)
   expect(Signatures::BandPass, 8, 1000, nothing);
 }
 
-TEST_F(SpectralSignaturesFilter, OneScaleIsShown)
+TEST_F(SpectralSignaturesFilter, TheMiddleScaleIsShown)
 {
   const auto all = this->Run("HeatKernelSignature");
-  const auto expectShown = [&](int property, std::size_t scale)
+  const auto shown = this->Run("Signature");
+  for (std::size_t k = 0; k < shown.size(); ++k)
   {
-    filter->SetShownScale(property);
-    const auto shown = this->Run("Signature");
-    for (std::size_t k = 0; k < shown.size(); ++k)
-    {
-      ASSERT_EQ(shown[k], all[4 * k + scale]);
-    }
-  };
-  expectShown(-1, 2);
-  expectShown(0, 0);
-  expectShown(999, 3);
+    ASSERT_EQ(shown[k], all[4 * k + 2]);
+  }
   EXPECT_STREQ(filter->GetOutput()->GetPointData()->GetScalars()->GetName(), "Signature");
   filter->AddSourcePointId(3);
   filter->Update();
@@ -257,9 +250,6 @@ TEST_F(SpectralSignaturesFilter, TheShapeItselfIsFiltered)
   filter->SetLastMode(0);
   filter->Update();
   EXPECT_LT(Vec3(filter->GetOutput()->GetPoint(9)).norm(), 1e-6);
-  filter->MovePointsOff();
-  filter->Update();
-  EXPECT_EQ(Vec3(filter->GetOutput()->GetPoint(9)), sphere.points[9]);
 }
 
 TEST_F(SpectralSignaturesFilter, OnlyWhatDependsOnAChangeIsComputedAgain)

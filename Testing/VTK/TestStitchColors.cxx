@@ -134,7 +134,6 @@ TEST_P(StitchColors, KeepsTheMeanOfOneScan)
   AddScans(data, [](const Vec3&, int) { return 100.0; }); // constant in every scan
   const auto filter = Stitch(data, "Seen", 4);
   filter->SetFunctionSpace(this->GetParam());
-  filter->SetKeptMean(vtkStitchColors::ReferenceScan);
   filter->SetReferenceLabel(10); // scan 3: 0.95 x 100 + 25
   filter->Update();
   const auto stitched = PointValues(filter->GetOutput(), "StitchedColors");
@@ -384,7 +383,6 @@ TEST(StitchColorsFilter, RefusesWhatIsNoColorOrNoLabel)
   expectRefused("Hole", "Scan", "NaN");
   expectRefused("Seen", "Hole", "NaN");
   const auto filter = Stitch(data, "Seen", 3);
-  filter->SetKeptMean(vtkStitchColors::ReferenceScan);
   filter->SetReferenceLabel(3);
   Messages messages(filter);
   EXPECT_EQ(filter->GetExecutive()->Update(), 0);

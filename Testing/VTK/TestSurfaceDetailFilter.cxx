@@ -359,46 +359,6 @@ TEST_P(SurfaceDetailFilter, InsideAndOutsideAddUp)
   EXPECT_EQ(filter->GetNumberOfRuns("Solve"), 1);
 }
 
-/// A cycle each time that something is asked for, from where the last one has come to.
-TEST_P(SurfaceDetailFilter, OneCycleAfterTheOtherComesToTheSolution)
-{
-  const auto sphere = WavySphere();
-  const auto exact = DetailOf(sphere, GetParam());
-  exact->SetTolerance(1e-10);
-  const std::vector<double> solution = PositionsFrom(exact);
-  const auto filter = DetailOf(sphere, GetParam());
-  filter->SetTolerance(1e-8);
-  filter->SetCyclesPerApply(1);
-  const Messages messages(filter);
-  std::vector<double> errors;
-  int converged = 0;
-  for (int run = 0; run < 60 && !converged; ++run)
-  {
-    filter->Modified();
-    errors.push_back(Difference(PositionsFrom(filter), solution));
-    converged = int(FieldValue(filter->GetOutput(), "Converged"));
-    EXPECT_LE(FieldValue(filter->GetOutput(), "Iterations"), 1.0);
-    EXPECT_EQ(filter->GetNumberOfRuns("Hierarchy"), 1);
-  }
-  EXPECT_EQ(converged, 1);
-  EXPECT_GT(errors.size(), 2u); // one cycle is not enough, and that is said
-  EXPECT_LT(errors[errors.size() / 2], 0.2 * errors[0]);
-  EXPECT_LT(errors.back(), 1e-6);
-  EXPECT_TRUE(messages.warnings.empty());
-
-  // What is solved stays so, and a new right-hand side starts from it.
-  const vtkIdType solves = filter->GetNumberOfRuns("Solve");
-  filter->Modified();
-  filter->Update();
-  EXPECT_EQ(filter->GetNumberOfRuns("Solve"), solves);
-  filter->SetInputDataObject(2, Above(sphere, 0.0));
-  filter->Update();
-  EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 0);
-  filter->SetCyclesPerApply(0);
-  filter->Update();
-  EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 1);
-}
-
 /// What a new selection leaves as it is, is not solved again; the result is as if it were.
 TEST_P(SurfaceDetailFilter, OneSelectionAfterTheOtherGivesWhatEachGives)
 {

@@ -177,7 +177,6 @@ TEST_F(TrackMetric, OnHatFunctionsItIsTheSolutionOfTheMovedMesh)
     {
       filter->UseValueGradientOn();
       filter->SetGradientScale(1.5);
-      filter->SolutionGradientOn();
     },
     [](vtkScreenedPoisson* filter) { filter->SetInputArrayToProcess(1, 0, 0, Points, "s"); },
     [](vtkScreenedPoisson* filter) // the coordinates, and the shape they make
@@ -211,9 +210,6 @@ TEST_F(TrackMetric, OnHatFunctionsItIsTheSolutionOfTheMovedMesh)
         1e-9)
         << k;
     }
-    const auto gradient = [](vtkScreenedPoisson* filter)
-    { return Values(filter->GetOutput()->GetCellData()->GetArray("SolutionGradient")); };
-    EXPECT_LT(Difference(gradient(poisson), gradient(fresh)), 1e-8) << k;
     EXPECT_GT(FieldValue(poisson->GetOutput(), "LargestStretchRatio"), 1.1);
   }
 }

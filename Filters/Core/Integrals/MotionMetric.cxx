@@ -66,14 +66,4 @@ Field PullBack(const TriangleMesh& mesh, const TriangleMesh& moved, const Field&
     { return MapOf(TriangleFrame(mesh, t), TriangleFrame(moved, t)).transpose(); });
 }
 
-MultiVector PushForward(
-  const TriangleMesh& mesh, const TriangleMesh& moved, const MultiVector& gradients)
-{
-  RequireSameTriangles(mesh, moved);
-  return MapVectors(mesh, { FieldAssociation::Triangles, gradients },
-    [&](Id t) -> Eigen::Matrix3d
-    { return MapOf(TriangleFrame(moved, t), TriangleFrame(mesh, t)).transpose(); })
-    .values;
-}
-
 } // namespace gridfem

@@ -22,11 +22,6 @@ std::optional<TriangleMetric> MetricOfMotion(const TriangleMesh& mesh, const Tri
 /// @return   on triangles, or on corners if s is on points
 Field PullBack(const TriangleMesh& mesh, const TriangleMesh& moved, const Field& s);
 
-/// Returns J⁻ᵀ s: gradients on the triangles of the mesh become gradients on the moved ones; 3 C
-/// columns.
-MultiVector PushForward(
-  const TriangleMesh& mesh, const TriangleMesh& moved, const MultiVector& gradients);
-
 } // namespace gridfem
 
 #endif

@@ -192,7 +192,7 @@ std::vector<std::string> WarningsOf(
   else if (spectrum.cutsMultiplet && tellOfGroup)
   {
     sentences.push_back("The list ends inside a group of equal eigenvalues: the last of its "
-                        "eigenfunctions are missing. CompleteMultiplets adds them.");
+                        "eigenfunctions are missing. A larger NumberOfModes adds them.");
   }
   if (!spectrum.converged)
   {

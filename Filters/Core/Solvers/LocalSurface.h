@@ -15,8 +15,8 @@ public:
 
   void Prepare(const Progress& progress) override;
   void PrepareAtDepth(int depth, const Progress& progress) override;
+  StageKey InputKey() const override { return {}; } // neither changes
   std::shared_ptr<const TriangleMesh> ReadMesh() const override { return mesh_; }
-  StageKey KeyOfMesh() const override { return {}; } // it stays
   std::int64_t StructureVersion() const override { return structure_; }
   const SurfaceOptions& UsedOptions() const override { return used_; }
   const TriangleMesh& Mesh() const override { return *mesh_; }

@@ -93,7 +93,7 @@ const SpectrumSolver::Result& SpectrumSolver::Update(
   Surface& surface, const Input& input, const Options& options, const Job& job)
 {
   RequireOptions(options);
-  const double accuracy = input.isDepthGiven ? 0.0 : options.accuracy;
+  const double accuracy = surface.AreFunctionsGiven() ? 0.0 : options.accuracy;
   const bool choose = accuracy > 0.0;
   const std::int64_t runs = surface.GetStages().Runs(SolveStage);
   int depth = choose ? this->FirstDepth(surface, options) : 0;
@@ -128,17 +128,15 @@ const SpectrumSolver::Result& SpectrumSolver::Update(
 /// The depth that was found last time for the same mesh and wishes, else a first guess.
 int SpectrumSolver::FirstDepth(Surface& surface, const Options& options)
 {
-  const SurfaceOptions& used = surface.UsedOptions();
-  StageKey key = surface.KeyOfMesh();
+  StageKey key = surface.InputKey();
   key.Add(options.numberOfModes).Add(options.accuracy);
-  key.Add(used.space.connectivityAware).Add(used.space.weldCoincidentPoints);
   if (key != depthKey_)
   {
     depthKey_ = key;
     const std::shared_ptr<const TriangleMesh> mesh = surface.ReadMesh();
     RequireSurface(*mesh);
-    chosenDepth_ =
-      FirstDepthForModes(*mesh, options.numberOfModes, options.accuracy, used.choice.kind);
+    chosenDepth_ = FirstDepthForModes(
+      *mesh, options.numberOfModes, options.accuracy, surface.UsedOptions().choice.kind);
   }
   return chosenDepth_;
 }
@@ -160,7 +158,7 @@ void SpectrumSolver::UpdateModes(
   const bool isNested = !space.NestedLevels();
   Options ofModes = options;
   // What is improved after the nested levels waits for the depth that the accuracy asks for.
-  ofModes.accuracy = isNested || input.isDepthGiven ? 0.0 : options.accuracy;
+  ofModes.accuracy = isNested || surface.AreFunctionsGiven() ? 0.0 : options.accuracy;
   StageKey key;
   key.Add(surface.GetStages().Version(SystemStage)).Add(input.completesMultiplets);
   key.Add(KeyOfOptions(ofModes));

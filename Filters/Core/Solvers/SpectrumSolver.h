@@ -25,8 +25,8 @@ public:
   {
     EquationOptions equation = EquationOfModes();
     int numberOfModes = 20;
-    /// The wanted relative error of the eigenvalues as those of the surface, which chooses the
-    /// depth; 0: the surface has its own depth.
+    /// The wanted relative error of the eigenvalues as those of the surface. Above 0 it chooses the
+    /// depth, unless functions are given; processes that share a surface cannot choose.
     double accuracy = 0.0;
 
     template<class Self, class Visit>
@@ -43,9 +43,6 @@ public:
 
   struct Input
   {
-    /// A basis is given, whose depth no wanted accuracy changes. Surfaces that several processes
-    /// share have to be given one depth as well.
-    bool isDepthGiven = false;
     /// There may be more modes than asked for: the last group of equal eigenvalues is whole.
     bool completesMultiplets = false;
     Announcement announce;

@@ -42,9 +42,4 @@ MultiVector Surface::ValuesAtPoints(const MultiVector& coefficients, const Progr
   return values;
 }
 
-MultiVector Surface::GradientsOnTriangles(const MultiVector& coefficients) const
-{
-  return this->OnCurrent(this->Space().GradientsOnTriangles(coefficients, this->Threads()));
-}
-
 } // namespace gridfem

@@ -34,10 +34,14 @@ public:
   /// The same at a depth of the solver's choice.
   virtual void PrepareAtDepth(int depth, const Progress& progress) = 0;
 
-  ///@{ The triangles that Prepare works on, before it does: for the choice of a depth.
+  /// The key of the mesh and of all that is asked of its functions, except their depth.
+  virtual StageKey InputKey() const = 0;
+
+  /// Whether the functions are given, so that the solver cannot choose their depth.
+  virtual bool AreFunctionsGiven() const { return false; }
+
+  /// The triangles that Prepare works on, before it does: for the choice of a depth.
   virtual std::shared_ptr<const TriangleMesh> ReadMesh() const = 0;
-  virtual StageKey KeyOfMesh() const = 0; // changes with them
-  ///@}
 
   /// The stages of the surface and of the solver that works on it.
   Stages& GetStages() const { return stages_; }
@@ -67,9 +71,6 @@ public:
 
   /// A gradient given on the current mesh, for integrals over Mesh().
   virtual Field OnReference(Field gradients) const { return gradients; }
-
-  /// Gradients on the triangles of Mesh(), as gradients on the current mesh.
-  virtual MultiVector OnCurrent(MultiVector gradients) const { return gradients; }
 
   /// Whether coincident points of the mesh count as one.
   virtual bool AreCoincidentPointsWelded() const = 0;
@@ -118,9 +119,6 @@ public:
 
   /// A solution at the points of this process: a row for each.
   MultiVector ValuesAtPoints(const MultiVector& coefficients, const Progress& progress = {}) const;
-
-  /// Surface gradients on the triangles of this process, on the current mesh, per world length.
-  MultiVector GradientsOnTriangles(const MultiVector& coefficients) const;
   ///@}
 
 protected:

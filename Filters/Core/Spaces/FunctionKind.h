@@ -19,11 +19,6 @@ constexpr bool IsRefinedByDepth(FunctionKind kind)
   return kind == FunctionKind::Grid;
 }
 
-constexpr FunctionKind OtherThan(FunctionKind kind)
-{
-  return kind == FunctionKind::Grid ? FunctionKind::Hats : FunctionKind::Grid;
-}
-
 } // namespace gridfem
 
 #endif

@@ -19,8 +19,7 @@ public:
       transfer_(static_cast<CurvatureTransfer>(properties.Integer("TransferFunction", 0, 0, 4))),
       anisotropy_(properties.Number("Anisotropy", 5.0, 1e-3, 1e3)),
       smoothingScale_(properties.NumberFrom("SmoothingScale", 0.005, 0.0)),
-      keepsVolume_(properties.Switch("KeepVolume", false)),
-      cycles_(properties.Integer("CyclesPerApply", 0, 0, 1000))
+      keepsVolume_(properties.Switch("KeepVolume", false))
   {
   }
 
@@ -32,12 +31,8 @@ public:
     const Job job = surface.MakeJob(progress.Part(0.5, 0.6));
     const SignalInSpace shape = ShapeInSpace(*surface.space, job);
     const MultiVector load = space->StiffnessTimes(shape.coefficients, {}, job);
-    PoissonOptions options{ { options_.multigrid, options_.solve },
+    const PoissonOptions options{ { options_.multigrid, options_.solve },
       surface.WeightInSpaceUnits(weight_) };
-    if (cycles_ > 0)
-    {
-      options.solve.maximumIterations = cycles_;
-    }
     const Multigrid multigrid = BuildMultigrid(
       *space, options.screeningWeight, 1.0, options.multigrid, progress.Part(0.6, 0.7));
     const PoissonSolution solution = SolvePoisson(*space, multigrid,
@@ -56,8 +51,7 @@ public:
     }
     Results results;
     results.arrays["Points"] = RowsOf(points);
-    const bool isToGoOn = cycles_ > 0 && solution.report.end == SolveEnd::IterationLimit;
-    if (!solution.report.converged && !isToGoOn)
+    if (!solution.report.converged)
     {
       results.Warn(WarningOf(solution.report, options_.solve.tolerance));
     }
@@ -102,7 +96,6 @@ private:
   double anisotropy_;
   double smoothingScale_;
   bool keepsVolume_;
-  int cycles_;
 };
 
 } // namespace

@@ -5,7 +5,6 @@
 #include "Problems/SolveWarnings.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace gridfem
@@ -19,10 +18,8 @@ public:
   explicit DistanceProblem(Properties& properties)
     : options_(properties, { 1e-4, 200, 0.1 }),
       smoothing_(properties.Number("Smoothing", 1.75, 0.5, 1000.0)),
-      toInfinity_(properties.Integer("Unreachable", 0, 0, 1) == 1),
       isSigned_(properties.Switch("Signed", false)),
-      insideLabel_(properties.Integer("InsideLabel", 1, -Largest, Largest)),
-      isReversed_(properties.Switch("ReverseSign", false))
+      insideLabel_(properties.Integer("InsideLabel", 1, -Largest, Largest))
   {
     options_.functions.joinAtPoints = true;      // paths lead through points where sheets touch
     options_.functionsPerPoint = AsManyAsWanted; // heat flows on the grid
@@ -38,13 +35,7 @@ public:
     Results results;
     MultiVector& distance = results.arrays["Distance"];
     distance.resize(static_cast<Id>(field.atPoints.size()), 1);
-    std::transform(field.atPoints.begin(), field.atPoints.end(), distance.data(),
-      [this](double value)
-      {
-        return toInfinity_ && std::isnan(value) ? std::numeric_limits<double>::infinity()
-               : isSigned_ && isReversed_       ? 0.0 - value
-                                                : value;
-      });
+    std::copy(field.atPoints.begin(), field.atPoints.end(), distance.data());
     results.warnings = WarningsOf(field, options_.solve.tolerance);
     return results;
   }
@@ -90,10 +81,8 @@ private:
 
   EngineOptions options_;
   double smoothing_;
-  bool toInfinity_;
   bool isSigned_;
   int insideLabel_;
-  bool isReversed_;
 };
 
 } // namespace

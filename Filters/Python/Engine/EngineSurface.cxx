@@ -191,15 +191,9 @@ EngineOptions::EngineOptions(Properties& properties, const SharedDefaults& defau
   choice.kind = static_cast<FunctionKind>(properties.Integer("FunctionSpace", 0, 0, 1));
   choice.quadratureDegree = properties.Integer("QuadratureDegree", 2, -Largest, Largest);
   TriangleRule(choice.quadratureDegree); // refuses a wrong degree before the long work
-  choice.coarsestSize = properties.Integer("CoarsestSize", 256, 1, 4096);
   choice.normalStabilization =
     properties.Number("NormalStabilization", defaults.normalStabilization, 1e-14, 1.0);
-  multigrid.cycle =
-    static_cast<CycleType>(properties.Integer("Cycle", static_cast<int>(defaults.cycle), 0, 1));
-  multigrid.smoother = static_cast<SmootherType>(properties.Integer("Smoother", 0, 0, 2));
-  multigrid.preSweeps = properties.Integer("NumberOfSweeps", 1, 1, 100);
-  multigrid.postSweeps = multigrid.preSweeps;
-  multigrid.sweepsPerSynchronisation = properties.Integer("SweepsPerSynchronisation", 1, 1, 100);
+  multigrid.cycle = defaults.cycle;
   multigrid.threads = functions.threads;
   const bool hasAccuracy = defaults.tolerance == 0.0;
   solve.tolerance =

@@ -52,8 +52,7 @@ class StitchingProblem : public Problem
 public:
   explicit StitchingProblem(Properties& properties)
     : options_(properties, { 0.0, 200, 1e-2 }),
-      keepsReference_(properties.Integer("KeptMean", 0, 0, 1) == 1),
-      referenceLabel_(properties.Integer("ReferenceLabel", 0, -Largest, Largest)),
+      referenceLabel_(properties.Integer("ReferenceLabel", WholeSurface, -Largest, Largest)),
       keepsDetails_(properties.Switch("KeepDetails", true)),
       blendWidth_(properties.Number("BlendWidth", 0.0, 0.0, 1.0))
   {
@@ -72,7 +71,7 @@ public:
       this->SpaceOfDetails(surface.options, cut, progress.Part(0.35, 0.6));
     StitchOptions options{ options_,
       blendWidth_ * surface.space->Extent() * surface.space->UnitLength(), {} };
-    if (keepsReference_)
+    if (referenceLabel_ != WholeSurface)
     {
       options.reference = scans.NumberOf(referenceLabel_);
       if (!std::binary_search(scans.distinct.begin(), scans.distinct.end(), referenceLabel_))
@@ -93,6 +92,7 @@ public:
 
 private:
   static constexpr int Largest = std::numeric_limits<int>::max();
+  static constexpr int WholeSurface = -1; // as ReferenceLabel
 
   static void Check(const Given& given)
   {
@@ -132,7 +132,6 @@ private:
   }
 
   EngineOptions options_;
-  bool keepsReference_;
   int referenceLabel_;
   bool keepsDetails_;
   double blendWidth_;

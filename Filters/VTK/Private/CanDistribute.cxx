@@ -13,8 +13,6 @@
 #include "vtkMPIController.h"
 #endif
 
-#include <algorithm>
-
 namespace gridfem
 {
 namespace
@@ -48,8 +46,8 @@ bool IsFurtherPortConnected(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector
   return false;
 }
 
-/// What keeps this rank from taking part.
-std::string ObstacleHere(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs)
+/// Whether something keeps this rank from taking part.
+bool HasObstacle(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs)
 {
   vtkPolyData* const piece = vtkPolyData::GetData(inputs[0]);
   // To filters with one port a basis is a surface, or a clip.
@@ -57,15 +55,12 @@ std::string ObstacleHere(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** 
   vtkPolyData* const basis =
     isSolver && !CarriesBasis(piece) ? vtkPolyData::GetData(inputs[1]) : piece;
   const bool isGiven = isSolver && CarriesBasis(basis);
-  return FirstObstacle({ { filter->GetBlocksAsOne(), "BlocksAsOne" },
-    // Pieces would be apart along their borders: nothing else tells which points are one.
-    { !filter->GetWeldCoincidentPoints(), "points that are not welded" },
-    { filter->GetSmoother() != vtkSurfaceFEMAlgorithm::PatchSmoother,
-      "a smoother other than that of patches" },
-    { isGiven && !WeldsCoincidentPoints(basis), "a basis whose points are not welded" },
-    { isGiven && basis == piece && filter->GetFunctionSpace() != vtkSurfaceFEMAlgorithm::Grid,
-      "hat functions on a basis" },
-    { IsFurtherPortConnected(filter, inputs), "a further input" } });
+  return filter->GetBlocksAsOne() ||
+         // Pieces would be apart along their borders: nothing else tells which points are one.
+         !filter->GetWeldCoincidentPoints() || (isGiven && !WeldsCoincidentPoints(basis)) ||
+         (isGiven && basis == piece &&
+           filter->GetFunctionSpace() != vtkSurfaceFEMAlgorithm::Grid) ||
+         IsFurtherPortConnected(filter, inputs);
 }
 
 } // namespace
@@ -76,36 +71,11 @@ bool IsArrayChosen(vtkSurfaceFEMAlgorithm* filter, int index)
   return name && *name && std::string(name) != "None";
 }
 
-std::string FirstObstacle(std::initializer_list<Obstacle> obstacles)
-{
-  const auto* first = std::find_if(
-    obstacles.begin(), obstacles.end(), [](const Obstacle& one) { return one.isThere; });
-  return first == obstacles.end() ? "" : first->name;
-}
-
-bool CanDistribute(
-  vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs, const std::string& obstacle)
+bool CanDistribute(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs, bool needsAll)
 {
   const Ranks ranks;
-  if (!ranks.Any(HasPolygons(vtkPolyData::GetData(inputs[0]))))
-  {
-    return false;
-  }
-  std::string reason = HasMpi() ? "" : "needs a build with MPI";
-  const std::string own = obstacle.empty() ? ObstacleHere(filter, inputs) : obstacle;
-  for (const std::string& other : ranks.Exchange(own))
-  {
-    if (reason.empty() && !other.empty())
-    {
-      reason = "does not go with " + other;
-    }
-  }
-  if (!reason.empty() && ranks.IsFirst())
-  {
-    vtkWarningWithObjectMacro(
-      filter, << "Distributed " << reason << ": rank 0 gathers the surface.");
-  }
-  return reason.empty();
+  return HasMpi() && ranks.Any(HasPolygons(vtkPolyData::GetData(inputs[0]))) &&
+         !ranks.Any(needsAll || HasObstacle(filter, inputs));
 }
 
 } // namespace gridfem

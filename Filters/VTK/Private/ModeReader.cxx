@@ -83,7 +83,6 @@ void RemoveModes(vtkPolyData* data)
     }
   }
   data->GetFieldData()->RemoveArray(EigenvaluesName);
-  data->GetFieldData()->RemoveArray(CompletedModesName);
 }
 
 void AddModeArrays(StageKey& key, vtkPolyData* input)

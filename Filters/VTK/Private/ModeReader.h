@@ -14,8 +14,6 @@ class vtkPolyData;
 namespace gridfem
 {
 
-constexpr const char* CompletedModesName = "CompletedModes"; // field data
-
 /// Mode000, Mode001, ...
 std::string ModeName(int mode);
 
@@ -23,7 +21,7 @@ std::string ModeName(int mode);
 bool CarriesModes(vtkPolyData* input);
 
 /// Takes modes away: the point arrays Mode, Mode000, ..., however many there are, and the field
-/// arrays Eigenvalues and CompletedModes.
+/// array Eigenvalues.
 void RemoveModes(vtkPolyData* data);
 
 /// Adds the arrays of the modes.

@@ -75,7 +75,7 @@ void RequireRoom(double bytesOfMessages)
     return;
   }
   RequireMemory({ WithSurface * bytesOfMessages, "What rank 0 gathers",
-                  "Distributed, where a filter has it, leaves the pieces where they are." },
+                  "Most filters leave the pieces where they are: see the page about ranks." },
     AvailableMemory());
 }
 

@@ -78,7 +78,7 @@ void SurfaceFlow::KeepBudget()
   const auto fits = [this]
   {
     const double each = kept_.empty() ? 0.0 : 8.0 * double(kept_.begin()->second.size());
-    return kept_.size() <= 1 || each * double(kept_.size()) <= request_.cacheBytes;
+    return kept_.size() <= 1 || each * double(kept_.size()) <= request_.keptBytes;
   };
   while (!fits())
   {

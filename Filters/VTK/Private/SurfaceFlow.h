@@ -26,7 +26,7 @@ struct FlowRequest
   bool trackMetric = true;
   bool fixedBoundary = false;
   Rescaling rescaling = Rescaling::None;
-  double cacheBytes = 1e9; // for steps that are kept
+  double keptBytes = 1e9; // for steps that are kept
 };
 
 /// A row of the table.

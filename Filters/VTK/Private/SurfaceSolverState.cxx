@@ -430,13 +430,6 @@ std::shared_ptr<const TriangleMesh> SurfaceSolverState::ReadMesh() const
   return ReadInputMesh(input_, options.space.threads).triangles;
 }
 
-StageKey SurfaceSolverState::KeyOfMesh() const
-{
-  StageKey key;
-  AddMesh(key, input_);
-  return key;
-}
-
 void SurfaceSolverState::Require(const MemoryNeed& own) const
 {
   if (together.IsUsed())
@@ -537,12 +530,6 @@ Field SurfaceSolverState::OnReference(Field gradients) const
                            : std::move(gradients);
 }
 
-MultiVector SurfaceSolverState::OnCurrent(MultiVector gradients) const
-{
-  return tracked_.Metric() ? PushForward(*mesh.triangles, *tracked_.Moved().triangles, gradients)
-                           : std::move(gradients);
-}
-
 void SurfaceSolverState::WriteTracking(vtkPolyData* output) const
 {
   if (!options.trackMetric)
@@ -573,15 +560,6 @@ void SurfaceSolverState::Free()
   metric_ = {};
   together.Free();
   stages.Forget();
-}
-
-std::shared_ptr<const FiniteElementSpace> SurfaceSolverState::OtherSpace(
-  const Progress& progress) const
-{
-  SpaceChoice other = options.choice;
-  other.kind = OtherThan(other.kind);
-  return this->InMetric(
-    MakeSpace(basis, other, this->MakeJob(progress.Part(0.0, 0.6))), progress.Part(0.6, 1.0));
 }
 
 double SurfaceSolverState::Area() const

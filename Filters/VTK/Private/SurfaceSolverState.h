@@ -56,7 +56,6 @@ public:
   void Prepare(const Progress& progress) override;
   void PrepareAtDepth(int depth, const Progress& progress) override;
   std::shared_ptr<const TriangleMesh> ReadMesh() const override;
-  StageKey KeyOfMesh() const override;
   std::int64_t StructureVersion() const override { return structure_; }
   const SurfaceOptions& UsedOptions() const override { return used_; }
   const TriangleMesh& Mesh() const override { return *mesh.triangles; }
@@ -64,7 +63,6 @@ public:
   std::shared_ptr<const SurfaceSpace> SharedSpace() const override;
   std::shared_ptr<const FiniteElementSpace> WholeSpace() const override;
   Field OnReference(Field gradients) const override;
-  MultiVector OnCurrent(MultiVector gradients) const override;
   bool AreCoincidentPointsWelded() const override;
   double Area() const override;
   double LongestSide() const override;
@@ -127,9 +125,6 @@ public:
 
   /// Adds what trackMetric has done to the field arrays of an output.
   void WriteTracking(vtkPolyData* output) const;
-
-  /// The space on the same basis whose functions were not chosen.
-  std::shared_ptr<const FiniteElementSpace> OtherSpace(const Progress& progress) const;
 
   /// Frees all that the stages have made.
   void Free();

@@ -158,26 +158,6 @@ int SurfaceSpectrum::NextDepth(const SurfaceSolverState& state, double accuracy)
                         : now;
 }
 
-/// As many eigenvalues as there are modes, in the function space that was not chosen.
-void SurfaceSpectrum::Compare(SurfaceSolverState& state, const Progress& progress)
-{
-  StageKey key;
-  key.Add(state.stages.Version(SolveStage));
-  if (key == compared_)
-  {
-    return;
-  }
-  compared_ = {};
-  const SpectrumOptions options = SolverOptions(state.options, this->NumberOfModes());
-  const auto space = state.OtherSpace(progress.Part(0.0, 0.1));
-  RequireMemoryForModes(NumberOfUnknowns(*space), options.numberOfModes, options.multigrid.threads);
-  const Spectrum other = ComputeSpectrum(*space, options, progress.Part(0.1, 1.0));
-  kind_ = state.options.choice.kind;
-  otherEigenvalues_ = InWorldUnits(other.eigenvalues, space->UnitLength());
-  otherConverged = other.converged;
-  compared_ = key;
-}
-
 /// The depth that was found last time for the same mesh and wishes, else a first guess.
 void SurfaceSpectrum::ChooseDepth(
   SurfaceSolverState& state, vtkPolyData* input, const SpectrumRequest& request)
@@ -200,14 +180,14 @@ void SurfaceSpectrum::ChooseDepth(
 void SurfaceSpectrum::Update(SurfaceSolverState& state, vtkPolyData* input, vtkPolyData* basisData,
   const SpectrumRequest& request)
 {
-  const Progress all = state.bridge.GetProgress().Part(0.0, request.compare ? 0.5 : 1.0);
+  const Progress all = state.bridge.GetProgress();
   SpectrumRequest wanted = request;
   if (basisData || CarriesBasis(input))
   {
     wanted.accuracy = 0.0;
   }
   const bool choose = wanted.accuracy > 0.0;
-  state.options.functionsPerPoint = choose || request.compare ? AsManyAsWanted : EnoughToEstimate;
+  state.options.functionsPerPoint = choose ? AsManyAsWanted : EnoughToEstimate;
   if (choose)
   {
     this->ChooseDepth(state, input, wanted);
@@ -228,10 +208,6 @@ void SurfaceSpectrum::Update(SurfaceSolverState& state, vtkPolyData* input, vtkP
     }
     done = 0.5 + 0.45 * done;
     state.options.space.depth = nextDepth_;
-  }
-  if (request.compare)
-  {
-    this->Compare(state, state.bridge.GetProgress().Part(0.5, 0.95));
   }
 }
 

@@ -7,7 +7,6 @@
 #include "SurfaceSolverState.h"
 
 #include "Problems/Spectrum.h"
-#include "Spaces/FunctionKind.h"
 
 #include <vector>
 
@@ -20,7 +19,6 @@ struct SpectrumRequest
   bool completeMultiplets = false;
   /// Wanted relative accuracy of the eigenvalues, which chooses the depth; 0 keeps the depth.
   double accuracy = 0.0;
-  bool compare = false; // compute the eigenvalues in the other function space, too
 };
 
 class SurfaceSpectrum
@@ -32,18 +30,11 @@ public:
   void Update(SurfaceSolverState& state, vtkPolyData* input, vtkPolyData* basisData,
     const SpectrumRequest& request);
 
-  /// The same by all ranks together, whose space is up to date; at the depth of the space, without
-  /// a comparison.
+  /// The same by all ranks together, whose space is up to date, at the depth of the space.
   void UpdateTogether(
     SurfaceSolverState& state, const SpectrumRequest& request, const Progress& progress);
 
   int NumberOfModes() const { return static_cast<int>(eigenvalues.size()); }
-
-  /// With request.compare, of either function space, world units.
-  const std::vector<double>& EigenvaluesOf(FunctionKind kind) const
-  {
-    return kind == kind_ ? eigenvalues : otherEigenvalues_;
-  }
 
   /// Of all modes: the largest residual and the largest estimated error.
   double LargestResidual() const;
@@ -56,12 +47,9 @@ public:
   /// a column per mode, world units. Else without columns.
   MultiVector atPoints;
 
-  bool otherConverged = true; // with request.compare, in the function space that was not chosen
-
 private:
   StageKey KeyOf(const SurfaceSolverState& state, const SpectrumRequest& request) const;
   void Solve(SurfaceSolverState& state, const SpectrumRequest& request, const Progress& progress);
-  void Compare(SurfaceSolverState& state, const Progress& progress);
   void ChooseDepth(SurfaceSolverState& state, vtkPolyData* input, const SpectrumRequest& request);
 
   int NextDepth(const SurfaceSolverState& state, double accuracy) const;
@@ -69,9 +57,6 @@ private:
   std::vector<double> gridErrors_; // estimated, of the wanted modes on the grid
   int nextDepth_ = 0;              // that they ask for; the depth they were found at: they suffice
   StageKey asked_;                 // what `depth` was chosen for
-  StageKey compared_;              // what `otherEigenvalues_` stand beside
-  FunctionKind kind_ = FunctionKind::Grid; // of `eigenvalues`
-  std::vector<double> otherEigenvalues_;   // may be fewer
 };
 
 /// What a filter's options ask of the solver.

@@ -89,12 +89,11 @@ TEST_P(MotionMetric, HasTheEnergyOfTheMovedMesh)
   }
 }
 
-TEST_P(MotionMetric, GradientsGoForthAndBack)
+TEST_P(MotionMetric, GradientsGoBack)
 {
   const Field f = ValuesOf(mesh);
   const Field here = GradientsOf(mesh, f);
   const Field there = GradientsOf(moved, f);
-  EXPECT_LT((PushForward(mesh, moved, here.values) - there.values).cwiseAbs().maxCoeff(), 1e-11);
   EXPECT_LT((PullBack(mesh, moved, there).values - here.values).cwiseAbs().maxCoeff(), 1e-11);
   // Vectors at points are mapped to corners.
   Field constant;

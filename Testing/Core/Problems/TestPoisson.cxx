@@ -284,6 +284,40 @@ TEST(Poisson, IsSolvedByCyclesAloneAsWell)
     (EvaluateAtPoints(problem.space, cycles.coefficients) - values).norm(), 1e-6 * values.norm());
 }
 
+TEST(Poisson, IsTheSameWithEveryCycleAndSmoother)
+{
+  const TriangleMesh mesh = Torus(40, 20, 1.0, 0.4);
+  Problem problem(mesh, AtDepth(5), 0.1);
+  const MultiVector load = problem.Values(RandomValues(mesh.points.size(), 1));
+  problem.options.solve.maximumIterations = 1000;
+  const MultiVector expected =
+    EvaluateAtPoints(problem.space, problem.Solve(load, {}).coefficients);
+  const auto iterations = [&](CycleType cycle, SmootherType smoother, int sweeps, int between = 1)
+  {
+    problem.options.multigrid.cycle = cycle;
+    problem.options.multigrid.smoother = smoother;
+    problem.options.multigrid.preSweeps = problem.options.multigrid.postSweeps = sweeps;
+    problem.options.multigrid.sweepsPerSynchronisation = between;
+    const PoissonSolution solution = problem.Solve(load, {});
+    EXPECT_TRUE(solution.report.converged);
+    const MultiVector found = EvaluateAtPoints(problem.space, solution.coefficients);
+    EXPECT_LT((found - expected).norm(), 1e-6 * expected.norm());
+    return solution.report.iterations;
+  };
+  for (const CycleType cycle : { CycleType::V, CycleType::W })
+  {
+    for (const SmootherType smoother : { SmootherType::Patch, SmootherType::GaussSeidel })
+    {
+      EXPECT_LT(iterations(cycle, smoother, 5), iterations(cycle, smoother, 1));
+    }
+  }
+  const int one = iterations(CycleType::W, SmootherType::SliceGaussSeidel, 1);
+  const int three = iterations(CycleType::W, SmootherType::SliceGaussSeidel, 1, 3);
+  EXPECT_LT(three, one);
+  // More sweeps than there are slices: the slabs become one.
+  EXPECT_LE(iterations(CycleType::W, SmootherType::SliceGaussSeidel, 1, 100), three);
+}
+
 TEST(Poisson, IsTheSameBitsForAnyNumberOfThreads)
 {
   const TriangleMesh mesh = Torus(60, 24, 1.0, 0.4);

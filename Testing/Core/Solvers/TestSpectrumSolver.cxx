@@ -101,12 +101,19 @@ TEST_F(Spectra, TheAccuracyChoosesTheDepth)
   }
 }
 
+/// A surface whose functions a basis gives.
+class GivenSurface : public LocalSurface
+{
+public:
+  using LocalSurface::LocalSurface;
+  bool AreFunctionsGiven() const override { return true; }
+};
+
 TEST_F(Spectra, ADepthThatIsGivenStaysAndTheAccuracyIsReported)
 {
   options.accuracy = 1e-5;
-  SpectrumSolver::Input input;
-  input.isDepthGiven = true;
-  const SpectrumSolver::Result result = SpectrumSolver::Solve(mesh, input, options, asked);
+  GivenSurface surface(stages, mesh, asked);
+  const SpectrumSolver::Result& result = solver.Update(surface, {}, options, {});
   EXPECT_EQ(result.depth, 4);
   EXPECT_FALSE(result.isAccurate);
   EXPECT_EQ(result.warnings.size(), 1u);

@@ -1,45 +1,50 @@
-#include "SurfaceConstrainedPoisson.h"
+#include "Solvers/ConstrainedEquation.h"
 
-#include "SolverOutput.h"
+#include "Problems/SolveWarnings.h"
+#include "Solvers/OptionFields.h"
 
 #include <algorithm>
 
 namespace gridfem
 {
 
-void SurfaceConstrainedPoisson::Update(SurfaceSolverState& state, const StageKey& fields,
-  const Integrate& integrate, const PoissonRequest& request, const Progress& progress)
+void ConstrainedEquation::Update(const Surface& surface, const StageKey& fields,
+  const Integrate& integrate, const PoissonRequest& request, EquationOptions options,
+  const Progress& progress)
 {
-  this->UpdateSystem(state, fields, integrate, progress.Part(0.0, 0.3));
+  options.multigrid.threads = surface.Threads();
+  this->UpdateSystem(surface, fields, integrate, progress.Part(0.0, 0.3));
   progress.Check(0.3);
-  const double weight = state.WeightInSpaceUnits(request.weight);
+  const double weight = surface.WeightInSpaceUnits(request.weight);
   StageKey key;
-  key.Add(state.stages.Version(RightHandSideStage)).Add(weight);
-  AddMultigrid(key, state.options.multigrid);
+  key.Add(surface.GetStages().Version(RightHandSideStage)).Add(weight);
+  EquationOptions ofHierarchy;
+  ofHierarchy.multigrid = options.multigrid;
+  key.Add(KeyOf(ofHierarchy));
   const ConstraintOptions constraints;
-  state.stages.Run(HierarchyStage, key,
+  surface.GetStages().Run(HierarchyStage, key,
     [&]
     {
       hierarchy_.reset(); // frees its memory first
       hierarchy_ = std::make_unique<ConstrainedHierarchy>(*weighted_, weight, 1.0, load_.held.rows,
-        constraints.penalty, state.options.multigrid, progress.Part(0.3, 0.5));
+        constraints.penalty, options.multigrid, progress.Part(0.3, 0.5));
     });
   progress.Check(0.5);
-  this->Solve(state, request, progress.Part(0.5, 1.0));
+  this->Solve(surface, request, options, progress.Part(0.5, 1.0));
 }
 
-void SurfaceConstrainedPoisson::UpdateSystem(
-  SurfaceSolverState& state, StageKey fields, const Integrate& integrate, const Progress& progress)
+void ConstrainedEquation::UpdateSystem(
+  const Surface& surface, StageKey fields, const Integrate& integrate, const Progress& progress)
 {
-  fields.Add(state.stages.Version(SystemStage)).Add(true); // not that of SurfacePoisson
-  state.stages.Run(RightHandSideStage, fields,
+  fields.Add(surface.GetStages().Version(SystemStage)).Add(true); // not that of SurfacePoisson
+  surface.GetStages().Run(RightHandSideStage, fields,
     [&]
     {
       hierarchy_.reset();
       weighted_.reset();
-      load_ = integrate(state.MakeJob(progress.Part(0.0, 0.4)));
-      const Job job = state.MakeJob(progress.Part(0.4, 1.0));
-      const std::shared_ptr<const SurfaceSpace> space = state.SharedSpace();
+      load_ = integrate(surface.MakeJob(progress.Part(0.0, 0.4)));
+      const Job job = surface.MakeJob(progress.Part(0.4, 1.0));
+      const std::shared_ptr<const SurfaceSpace> space = surface.SharedSpace();
       values_ =
         space->LoadOfWeightedValues(load_.field.values, load_.field.weight, job.Part(0.0, 0.2));
       meanOfField_ = MeansOfKnown(*space, load_.field, job.Part(0.2, 0.5));
@@ -48,16 +53,16 @@ void SurfaceConstrainedPoisson::UpdateSystem(
     });
 }
 
-void SurfaceConstrainedPoisson::Solve(
-  SurfaceSolverState& state, const PoissonRequest& request, const Progress& progress)
+void ConstrainedEquation::Solve(const Surface& surface, const PoissonRequest& request,
+  const EquationOptions& options, const Progress& progress)
 {
   StageKey key;
-  key.Add(state.stages.Version(HierarchyStage)).Add(request.gradientScale);
-  key.Add(state.options.solve.tolerance).Add(state.options.solve.maximumIterations);
-  state.stages.Run(SolveStage, key,
+  key.Add(surface.GetStages().Version(HierarchyStage)).Add(request.gradientScale);
+  key.Add(KeyOf(options));
+  surface.GetStages().Run(SolveStage, key,
     [&]
     {
-      const double weight = state.WeightInSpaceUnits(request.weight);
+      const double weight = surface.WeightInSpaceUnits(request.weight);
       MultiVector load = weight * values_;
       if (load_.gradients.rows() > 0)
       {
@@ -65,28 +70,24 @@ void SurfaceConstrainedPoisson::Solve(
       }
       if (load_.flux.cols() > 0) // also on a rank without functions
       {
-        load += this->BalancedFlux(state, weight);
+        load += this->BalancedFlux(surface, weight);
       }
       ConstraintOptions constraints;
-      const std::shared_ptr<const SurfaceSpace> space = state.SharedSpace();
+      const std::shared_ptr<const SurfaceSpace> space = surface.SharedSpace();
       constraints.estimateOn = space.get();
       solution_ = SolveConstrained(*weighted_, weight, *hierarchy_, load, load_.held.values,
-        constraints, state.options.solve, progress);
-      if (state.together.IsUsed())
-      {
-        solution_.accuracy.largest = state.together.Largest(solution_.accuracy.largest);
-      }
-      SetMeans(*space, solution_.isHeld, meanOfField_, solution_.coefficients,
-        state.options.multigrid.threads);
+        constraints, options.solve, progress);
+      solution_.accuracy.largest = surface.Largest(solution_.accuracy.largest);
+      SetMeans(*space, solution_.isHeld, meanOfField_, solution_.coefficients, surface.Threads());
     });
 }
 
 /// Where nothing holds the solution, what flows in has to flow out: the rest does so evenly.
-MultiVector SurfaceConstrainedPoisson::BalancedFlux(const SurfaceSolverState& state, double weight)
+MultiVector ConstrainedEquation::BalancedFlux(const Surface& surface, double weight)
 {
   constexpr double Visible = 1e-3;
-  const std::shared_ptr<const SurfaceSpace> space = state.SharedSpace();
-  const int threads = state.Threads();
+  const std::shared_ptr<const SurfaceSpace> space = surface.SharedSpace();
+  const int threads = surface.Threads();
   const DividedRows* const divided = space->Divided(0);
   const Components components = space->ComponentsOf(0, threads);
   const std::vector<char> isHeld = HeldComponents(*weighted_, weight, load_.held.rows, components);
@@ -113,18 +114,7 @@ MultiVector SurfaceConstrainedPoisson::BalancedFlux(const SurfaceSolverState& st
   return balanced;
 }
 
-MultiVector SurfaceConstrainedPoisson::Gradients(const SurfaceSolverState& state) const
-{
-  return state.OnCurrent(
-    state.SharedSpace()->GradientsOnTriangles(solution_.coefficients, state.Threads()));
-}
-
-MultiVector SurfaceConstrainedPoisson::Values(const SurfaceSolverState& state) const
-{
-  return state.ValuesAtPoints(solution_.coefficients);
-}
-
-std::string SurfaceConstrainedPoisson::Warning(double tolerance) const
+std::string ConstrainedEquation::Warning(double tolerance) const
 {
   std::vector<std::string> sentences = WarningsOf(solution_, tolerance);
   if (unbalanced_ > 0)

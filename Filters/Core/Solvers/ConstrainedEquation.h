@@ -1,0 +1,70 @@
+// The screened Poisson equation of a surface with its stages where some values are unknown, count
+// differently, or are held exactly.
+#ifndef GridFEM_ConstrainedEquation_h
+#define GridFEM_ConstrainedEquation_h
+
+#include "Problems/EdgeConditions.h"
+#include "Problems/PartialField.h"
+#include "Problems/PointConstraints.h"
+#include "Solvers/PoissonEquation.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace gridfem
+{
+
+/// What is known, and the gradients.
+struct ConstrainedLoad
+{
+  PartialField field;
+  bool isWeighed = true; // false: all values are known and count 1, in all processes
+  MultiVector gradients; // may have no rows
+  MultiVector flux;      // integrals over the boundary; may have no rows
+  HeldValues held;       // values that the solution has exactly
+  std::string warning;   // about what was given; may be empty
+};
+
+/// Repeats a stage only when something it depends on has changed. Collective.
+class ConstrainedEquation
+{
+public:
+  using Integrate = std::function<ConstrainedLoad(const Job&)>;
+
+  /// As PoissonEquation::Update. The request's weight and scale of the gradients count.
+  void Update(const Surface& surface, const StageKey& fields, const Integrate& integrate,
+    const PoissonRequest& request, EquationOptions options, const Progress& progress);
+
+  /// NaN on components where nothing is known.
+  const MultiVector& Coefficients() const { return solution_.coefficients; }
+
+  /// The largest difference from a value that is to be held.
+  double Misfit() const { return solution_.misfit; }
+
+  const SolveReport& Report() const { return solution_.report; }
+  const SolutionAccuracy& Accuracy() const { return solution_.accuracy; }
+
+  /// The warning about the last update; empty when there is none.
+  /// @param tolerance  that the update had
+  std::string Warning(double tolerance) const;
+
+private:
+  MultiVector BalancedFlux(const Surface& surface, double weight);
+  void UpdateSystem(
+    const Surface& surface, StageKey fields, const Integrate& integrate, const Progress& progress);
+  void Solve(const Surface& surface, const PoissonRequest& request, const EquationOptions& options,
+    const Progress& progress);
+
+  ConstrainedLoad load_;
+  MultiVector values_;                              // ∫ w f b_i
+  MultiVector meanOfField_;                         // of components
+  std::shared_ptr<const SurfaceSpace> weighted_;    // the space with the mass of what is known
+  std::unique_ptr<ConstrainedHierarchy> hierarchy_; // refers to it
+  ConstrainedSolution solution_;
+  Id unbalanced_ = 0; // components that nothing holds with a flux that does not add up to 0
+};
+
+} // namespace gridfem
+
+#endif
