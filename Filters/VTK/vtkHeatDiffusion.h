@@ -45,8 +45,6 @@
 
 namespace gridfem
 {
-struct HeldValues;
-class Progress;
 class SelectedPoints;
 } // namespace gridfem
 
@@ -100,7 +98,7 @@ protected:
   int FillInputPortInformation(int port, vtkInformation* info) override;
   std::vector<double> OwnTimeSteps() override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
-  bool ComputeTogether(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  bool NeedsWholeSurface() override;
   void FreeStages() override;
 
   double DiffusionTime = 0.001;
@@ -111,16 +109,7 @@ private:
   vtkHeatDiffusion(const vtkHeatDiffusion&) = delete;
   void operator=(const vtkHeatDiffusion&) = delete;
 
-  void RequireTime() const;
-  bool HoldsValues() const;
-  gridfem::HeldValues FindHeldValues(vtkPolyData* input);
-  void UpdateLoads(vtkPolyData* input, const gridfem::Progress& progress);
-  void UpdateSteps(const gridfem::Progress& progress);
-  double GridStep() const;
-  void ChooseTolerance();
   void WriteStep(int shown, vtkPolyData* input, vtkPolyData* output);
-  void WriteFacts(int shown, vtkPolyData* output);
-  void WriteDistributed(vtkPolyData* piece, vtkInformationVector* outputs);
 
   struct Internals;
   std::unique_ptr<Internals> Data;

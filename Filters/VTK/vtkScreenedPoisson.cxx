@@ -1,19 +1,16 @@
 #include "vtkScreenedPoisson.h"
 
 #include "Private/CanDistribute.h"
-#include "Private/ClippedArrays.h"
-#include "Private/ClippedMeshWriter.h"
 #include "Private/InputArray.h"
-#include "Private/InputValidation.h"
 #include "Private/MovedMeshWriter.h"
 #include "Private/Ranks.h"
 #include "Private/SelectedPoints.h"
 #include "Private/SolverOutput.h"
-#include "Private/SurfaceConstrainedPoisson.h"
-#include "Private/SurfacePoisson.h"
+#include "Private/SurfaceSolverState.h"
 
 #include "Base/Errors.h"
-#include "Problems/DepthSearch.h"
+#include "Integrals/QuadratureRule.h"
+#include "Solvers/PoissonSolver.h"
 
 #include "vtkDataArray.h"
 #include "vtkInformation.h"
@@ -25,46 +22,18 @@
 #include "vtkSelection.h"
 #include "vtkTable.h"
 
-#include <cmath>
-#include <optional>
-
 vtkStandardNewMacro(vtkScreenedPoisson);
-
-namespace
-{
-
-/// Of the energy residual, where no Tolerance is given.
-constexpr double ConstrainedTolerance = 1e-6;
-
-} // namespace
 
 struct vtkScreenedPoisson::Internals
 {
-  gridfem::InputArray Value;
+  gridfem::InputArray Value; // none: the coordinates
   gridfem::InputArray Gradient;
   gridfem::InputArray Scale;
   gridfem::InputArray Weight;
   gridfem::InputArray Constraint;
   gridfem::InputArray Flux;
-  gridfem::InputArray Coordinates; // stand in for Value
-
-  /// The factor on the gradients at points or cells, if one is chosen.
-  std::optional<gridfem::Field> ReadScale(const gridfem::SurfaceSolverState& state) const
-  {
-    return this->Scale.array ? std::make_optional(state.Read(this->Scale)) : std::nullopt;
-  }
-
-  /// Of all ranks together, on this one's piece, until they are written.
-  struct
-  {
-    gridfem::MultiVector Values;
-    std::vector<char> IsSolved;
-  } Together;
-
-  gridfem::DepthSearch Search; // for the WantedError
-  gridfem::StageKey Searched;  // all that its answer depends on
-  gridfem::SurfacePoisson Equation;
-  gridfem::SurfaceConstrainedPoisson Constrained;
+  gridfem::PoissonSolver Solver;
+  const gridfem::PoissonSolver::Result* Result = nullptr; // of this run
 };
 
 vtkScreenedPoisson::vtkScreenedPoisson()
@@ -92,79 +61,35 @@ int vtkScreenedPoisson::FillOutputPortInformation(int port, vtkInformation* info
   return 1;
 }
 
-void vtkScreenedPoisson::FindArrays(vtkPolyData* input)
+bool vtkScreenedPoisson::NeedsWholeSurface()
 {
-  Internals& data = *this->Data;
-  data.Value = gridfem::FindInputArray(this, 0, input, "ValueArray");
-  data.Gradient = gridfem::FindInputArray(this, 1, input, "GradientArray");
-  data.Scale = gridfem::FindInputArray(this, 2, input, "GradientScaleArray");
-  this->State->metricArray = gridfem::FindInputArray(this, 5, input, "MetricArray");
-  const int components = data.Value.array ? data.Value.array->GetNumberOfComponents() : 3;
-  if (data.Gradient.array && data.Gradient.array->GetNumberOfComponents() != 3 * components)
-  {
-    throw gridfem::InvalidInput("GradientArray '" + data.Gradient.name + "' has " +
-                                std::to_string(data.Gradient.array->GetNumberOfComponents()) +
-                                " components. The values have " + std::to_string(components) +
-                                ", so " + std::to_string(3 * components) +
-                                " are needed: a vector for each.");
-  }
-  if (data.Scale.array && data.Scale.array->GetNumberOfComponents() != 1)
-  {
-    throw gridfem::InvalidInput(
-      "GradientScaleArray '" + data.Scale.name + "' must have one component.");
-  }
-  if (this->UseValueGradient && !data.Gradient.array &&
-      data.Value.association != gridfem::FieldAssociation::Points)
-  {
-    throw gridfem::InvalidInput("UseValueGradient needs values at points, but '" + data.Value.name +
-                                "' is a cell array. Cell Data to Point Data converts it.");
-  }
-  gridfem::RequireNumber("WantedError", this->WantedError);
-  gridfem::RequireAtLeast("ScreeningWeight", this->ScreeningWeight, 0.0);
-  if (!std::isfinite(this->GradientScale))
-  {
-    throw gridfem::InvalidInput("GradientScale must be a finite number.");
-  }
+  return this->WantedError > 0.0 || this->TrackMetric || gridfem::IsArrayChosen(this, 5) ||
+         !gridfem::IsArrayChosen(this, 0);
 }
 
-void vtkScreenedPoisson::FindConstraints(vtkPolyData* input)
+void vtkScreenedPoisson::FindArrays()
 {
   Internals& data = *this->Data;
-  data.Weight = gridfem::FindInputArray(this, 3, input, "ValueWeightArray");
-  data.Constraint = gridfem::FindInputArray(this, 4, input, "ConstraintArray");
-  data.Coordinates.array = input->GetPoints()->GetData();
-  data.Coordinates.name = "coordinates";
-  if (data.Weight.array && data.Weight.array->GetNumberOfComponents() != 1)
-  {
-    throw gridfem::InvalidInput(
-      "ValueWeightArray '" + data.Weight.name + "' must have one component.");
-  }
-  if (this->HoldsValues())
-  {
-    gridfem::RequireValuesAtPoints(data.Value, data.Constraint, *this->Selection);
-  }
-  this->FindFlux(input);
+  gridfem::SurfaceSolverState& state = *this->State;
+  data.Value = state.Find(0, "ValueArray");
+  data.Gradient = state.Find(1, "GradientArray");
+  data.Scale = state.Find(2, "GradientScaleArray");
+  data.Weight = state.Find(3, "ValueWeightArray");
+  data.Constraint = state.Find(4, "ConstraintArray");
+  state.metricArray = state.Find(5, "MetricArray");
+  data.Flux = state.Find(6, "BoundaryFluxArray");
+  this->RequireFluxFits();
 }
 
-void vtkScreenedPoisson::FindFlux(vtkPolyData* input)
+void vtkScreenedPoisson::RequireFluxFits() const
 {
-  Internals& data = *this->Data;
-  data.Flux = gridfem::FindInputArray(this, 6, input, "BoundaryFluxArray");
-  const int components = data.Value.array ? data.Value.array->GetNumberOfComponents() : 3;
-  if (data.Flux.array && (data.Flux.association != gridfem::FieldAssociation::Points ||
-                           data.Flux.array->GetNumberOfComponents() != components))
-  {
-    throw gridfem::InvalidInput("BoundaryFluxArray '" + data.Flux.name +
-                                "' must be a point array with as many components as the values, " +
-                                std::to_string(components) + ".");
-  }
-  if (data.Flux.array && this->State->options.trackMetric)
+  if (this->Data->Flux.array && this->State->options.trackMetric)
   {
     throw gridfem::InvalidInput(
       "BoundaryFluxArray and TrackMetric do not go together: a flux is per "
       "length of the boundary as it was when the functions were made.");
   }
-  if (data.Flux.array && this->State->metricArray.array)
+  if (this->Data->Flux.array && this->State->metricArray.array)
   {
     throw gridfem::InvalidInput(
       "BoundaryFluxArray and MetricArray do not go together: a flux is per "
@@ -172,167 +97,74 @@ void vtkScreenedPoisson::FindFlux(vtkPolyData* input)
   }
 }
 
-bool vtkScreenedPoisson::HoldsPoints() const
+void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  return this->Data->Constraint.array || this->Selection->IsGiven();
-}
-
-bool vtkScreenedPoisson::HoldsValues() const
-{
-  return this->BoundaryValues || this->HoldsPoints();
-}
-
-bool vtkScreenedPoisson::IsConstrained() const
-{
-  return this->FillUnknown || this->Data->Weight.array || this->Data->Flux.array ||
-         this->HoldsValues();
-}
-
-const gridfem::SolveReport& vtkScreenedPoisson::Report() const
-{
-  return this->IsConstrained() ? this->Data->Constrained.Report() : this->Data->Equation.Report();
-}
-
-gridfem::SolutionAccuracy vtkScreenedPoisson::EstimatedErrors() const
-{
-  return this->IsConstrained() ? this->Data->Constrained.Accuracy()
-                               : this->Data->Equation.Accuracy();
-}
-
-gridfem::ConstrainedLoad vtkScreenedPoisson::IntegrateConstrained(const gridfem::Job& job)
-{
-  const Internals& data = *this->Data;
-  const gridfem::SurfaceSolverState& state = *this->State;
-  const gridfem::SurfaceSpace& space = *state.SharedSpace();
-  const gridfem::TriangleMesh& triangles = *state.mesh.triangles;
-  const auto weight =
-    data.Weight.array ? std::make_optional(state.Read(data.Weight)) : std::nullopt;
-  const gridfem::Field value =
-    data.Value.array
-      ? state.Read(data.Value, this->FillUnknown ? gridfem::NaNs::Kept : gridfem::NaNs::Refused)
-      : gridfem::CoordinatesField(state.CurrentInput());
-  gridfem::ConstrainedLoad load;
-  load.isWeighed = weight || this->FillUnknown;
-  state.Together(
-    [&] { load.field = gridfem::SplitField(value, weight ? &*weight : nullptr, triangles); });
-  load.field.numberOfIgnoredPoints = gridfem::CountIgnoredPoints(space, load.field, triangles);
-  load.held = state.HoldKnown(data.Value.array ? data.Value : data.Coordinates, data.Constraint,
-    *this->Selection, value.values.cols());
-  if (this->BoundaryValues || data.Flux.array)
-  {
-    this->AddBoundary(value, load);
-  }
-  const auto factor = data.ReadScale(state);
-  if (data.Gradient.array)
-  {
-    load.gradients = space.LoadOfGradients(
-      state.OnReference(state.Read(data.Gradient)), factor ? &*factor : nullptr, job);
-  }
-  else if (this->UseValueGradient)
-  {
-    // Where a corner is unknown there is no gradient.
-    gridfem::Field known;
-    state.Together(
-      [&] { known = gridfem::ScaleOfKnown(load.field, factor ? &*factor : nullptr, triangles); });
-    load.gradients = space.LoadOfGradientsOf(load.field.values, &known, job);
-  }
-  return load;
-}
-
-void vtkScreenedPoisson::AddBoundary(const gridfem::Field& value, gridfem::ConstrainedLoad& load)
-{
-  const Internals& data = *this->Data;
-  const gridfem::SurfaceSolverState& state = *this->State;
-  gridfem::MultiVector flux;
-  if (data.Flux.array)
-  {
-    flux = state.Read(data.Flux).values;
-  }
-  gridfem::BoundaryTerms terms = state.OnBoundary(
-    data.Flux.array ? &flux : nullptr, this->BoundaryValues ? &value.values : nullptr);
-  if (!terms.isThere)
-  {
-    load.warning = "The surface has no boundary for BoundaryValues or a BoundaryFluxArray.";
-    return;
-  }
-  load.flux = std::move(terms.load);
-  if (this->BoundaryValues)
-  {
-    state.Together([&] { load.held = gridfem::Join(load.held, terms.held); });
-  }
-}
-
-gridfem::PoissonLoad vtkScreenedPoisson::Integrate(
-  const gridfem::SurfaceSpace& space, const gridfem::Job& job)
-{
-  const Internals& data = *this->Data;
-  const gridfem::SurfaceSolverState& state = *this->State;
-  const gridfem::Field value =
-    data.Value.array ? state.Read(data.Value) : gridfem::CoordinatesField(state.CurrentInput());
-  const std::optional<gridfem::Field> factor = data.ReadScale(state);
-  const gridfem::Field* scale = factor ? &*factor : nullptr;
-  gridfem::PoissonLoad load;
-  load.values = space.LoadOfValues(value, job.Part(0.0, 0.5));
-  if (data.Gradient.array)
-  {
-    load.gradients = space.LoadOfGradients(
-      state.OnReference(state.Read(data.Gradient)), scale, job.Part(0.5, 1.0));
-  }
-  else if (this->UseValueGradient)
-  {
-    const bool isValue = data.Value.array || &state.CurrentInput() != &state.mesh;
-    load.gradients = isValue ? space.LoadOfGradientsOf(value, scale, job.Part(0.5, 1.0))
-                             : space.LoadOfGradientsOfCoordinates(scale, job.Part(0.5, 1.0));
-  }
-  return load;
-}
-
-void vtkScreenedPoisson::Solve(const gridfem::Progress& progress)
-{
+  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
+  vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
   Internals& data = *this->Data;
-  gridfem::StageKey fields;
-  fields.Add(this->UseValueGradient);
-  for (const gridfem::InputArray* array : { &data.Value, &data.Gradient, &data.Scale })
-  {
-    fields.Add(array->array).Add(static_cast<int>(array->association));
-  }
-  gridfem::PoissonRequest request;
-  request.weight = this->ScreeningWeight;
-  request.gradientScale = this->GradientScale;
-  if (this->IsConstrained())
-  {
-    if (this->Tolerance == 0.0)
+  gridfem::SurfaceSolverState& state = *this->State;
+  gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
+  state.options.trackMetric = this->TrackMetric && !(this->WantedError > 0.0);
+  state.SetInput(input, vtkPolyData::GetData(inputs[1]));
+  state.Select(*this->Selection, vtkSelection::GetData(inputs[2]));
+  this->FindArrays();
+
+  gridfem::PoissonSolver::Options options;
+  options.equation = state.options;
+  options.screeningWeight = this->ScreeningWeight;
+  options.gradientScale = this->GradientScale;
+  options.useValueGradient = this->UseValueGradient;
+  options.fillUnknown = this->FillUnknown;
+  options.boundaryValues = this->BoundaryValues;
+  options.wantedError = this->WantedError;
+  const gridfem::Progress progress = state.GetProgress();
+  const gridfem::PoissonSolver::Result& result = data.Solver.Update(state,
+    { state.Given(data.Value), state.Given(data.Gradient), state.Given(data.Scale),
+      state.Given(data.Weight), state.Given(data.Flux),
+      state.ConstraintsOf(data.Value, data.Constraint, *this->Selection) },
+    options, { state.Threads(), progress.Part(0.0, 0.95) });
+  data.Result = &result;
+  state.Together(
+    [&]
     {
-      this->State->options.solve.tolerance = ConstrainedTolerance;
-    }
-    fields.Add(data.Weight.array).Add(static_cast<int>(data.Weight.association));
-    fields.Add(data.Constraint.array).Add(this->FillUnknown);
-    fields.Add(data.Flux.array).Add(this->BoundaryValues).Add(this->Selection->Version());
-    data.Constrained.Update(
-      *this->State, fields,
-      [this](const gridfem::Job& job) { return this->IntegrateConstrained(job); }, request,
-      progress);
-    return;
-  }
-  data.Equation.Update(
-    *this->State, fields,
-    [this](const gridfem::SurfaceSpace& space, const gridfem::Job& job)
-    { return this->Integrate(space, job); },
-    request, progress);
+      if (input && input->GetPoints())
+      {
+        this->WriteSolution(input, output);
+      }
+      gridfem::AddReport(result.report, output);
+      gridfem::AddAccuracy(result.accuracy, output);
+      state.WriteTracking(output);
+      if (result.holdsValues)
+      {
+        gridfem::AddFieldNumber(output, "Misfit", result.misfit);
+      }
+      if (!result.isAccurate)
+      {
+        gridfem::AddFieldInt(output, "Converged", 0);
+      }
+      if (gridfem::Ranks().IsFirst())
+      {
+        vtkTable* table = vtkTable::GetData(outputs, 1);
+        gridfem::WriteHistory(result.report, table);
+        gridfem::AddErrors(result.report, result.accuracy, table);
+      }
+    });
+  this->Warn(result.warnings);
+  progress.Check(1.0);
 }
 
 void vtkScreenedPoisson::WriteSolution(vtkPolyData* input, vtkPolyData* output)
 {
   const Internals& data = *this->Data;
   const gridfem::SurfaceSolverState& state = *this->State;
-  gridfem::MultiVector values =
-    this->IsConstrained() ? data.Constrained.Values(state) : data.Equation.Values(state);
+  gridfem::MultiVector values = data.Result->atPoints;
   vtkDataArray* given = data.Value.array ? data.Value.array : input->GetPoints()->GetData();
   if (data.Value.association == gridfem::FieldAssociation::Points)
   {
-    gridfem::KeepUnsolved(state.space->PointsWithFunctions(), given, values);
+    gridfem::KeepUnsolved(data.Result->isReached, given, values);
   }
-  auto solution = gridfem::MakePointArray("Solution", values, given->GetDataType());
+  auto solution = gridfem::MakePointArray(
+    "Solution", values, data.Value.array ? state.DataTypeOf(0, data.Value) : given->GetDataType());
   if (data.Value.array)
   {
     solution->CopyComponentNames(data.Value.array);
@@ -342,209 +174,8 @@ void vtkScreenedPoisson::WriteSolution(vtkPolyData* input, vtkPolyData* output)
   output->GetPointData()->SetActiveScalars("Solution");
   if (!data.Value.array)
   {
-    gridfem::MoveSurface(*state.CurrentInput().triangles, values,
-      gridfem::OutputPrecision(input->GetPoints()), this->NumberOfThreads, output);
-  }
-  gridfem::AddReport(this->Report(), output);
-  gridfem::AddAccuracy(this->EstimatedErrors(), output);
-  state.WriteTracking(output);
-  if (this->HoldsValues())
-  {
-    gridfem::AddFieldNumber(output, "Misfit", data.Constrained.Misfit());
-  }
-}
-
-void vtkScreenedPoisson::SolveAtDepth(
-  vtkPolyData* input, vtkPolyData* basis, const gridfem::Progress& progress)
-{
-  gridfem::SurfaceSolverState& state = *this->State;
-  state.UpdateSpace(input, basis, progress.Part(0.0, 0.3));
-  progress.Check(0.3);
-  state.UpdateSystem(progress.Part(0.3, 0.5));
-  progress.Check(0.5);
-  this->Solve(progress.Part(0.5, 1.0));
-}
-
-void vtkScreenedPoisson::SolveAccurately(vtkPolyData* input, const gridfem::Progress& progress)
-{
-  Internals& data = *this->Data;
-  gridfem::SurfaceSolverState& state = *this->State;
-  gridfem::StageKey asked;
-  gridfem::AddMesh(asked, input);
-  asked.Add(static_cast<std::int64_t>(this->GetMTime())).Add(this->Selection->Version());
-  for (const gridfem::InputArray* array : { &data.Value, &data.Gradient, &data.Scale, &data.Weight,
-         &data.Constraint, &data.Flux, &state.metricArray })
-  {
-    asked.Add(array->array).Add(static_cast<int>(array->association));
-  }
-  if (!(data.Search.IsFound() && asked == data.Searched))
-  {
-    data.Search = {};
-    data.Searched = asked;
-  }
-  int solved = 0;
-  for (double done = 0.0; solved != data.Search.Depth(); done = 0.5 + 0.5 * done)
-  {
-    solved = data.Search.Depth();
-    state.options.space.depth = solved;
-    this->SolveAtDepth(input, nullptr, progress.Part(done, 0.5 + 0.5 * done));
-    data.Search.Judge(*state.mesh.triangles, this->EstimatedErrors(), this->WantedError);
-  }
-}
-
-bool vtkScreenedPoisson::IsAccurate() const
-{
-  return this->WantedError == 0.0 || this->EstimatedErrors().discretization <= this->WantedError;
-}
-
-void vtkScreenedPoisson::Warn()
-{
-  const Internals& data = *this->Data;
-  const std::string warning =
-    this->IsConstrained()
-      ? data.Constrained.Warning(this->State->options.solve.tolerance)
-      : gridfem::WarningOf(data.Equation.Report(), data.Equation.Accuracy(), this->Tolerance);
-  if (!warning.empty())
-  {
-    vtkWarningMacro(<< warning);
-  }
-  if (!this->IsAccurate())
-  {
-    vtkWarningMacro(<< gridfem::WarningOfWantedError(this->WantedError,
-                      this->EstimatedErrors().discretization, this->State->options.choice.kind));
-  }
-}
-
-void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
-{
-  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
-  vtkPolyData* basis = vtkPolyData::GetData(inputs[1]);
-  vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
-  const gridfem::Progress progress = this->State->bridge.GetProgress();
-  gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
-  this->State->options.trackMetric = this->TrackMetric && this->WantedError == 0.0;
-  this->FindArrays(input);
-  this->Selection->Update(vtkSelection::GetData(inputs[2]), input);
-  this->FindConstraints(input);
-  const bool hasBasis = basis || gridfem::CarriesBasis(input);
-  if (this->WantedError > 0.0 && !hasBasis &&
-      gridfem::IsRefinedByDepth(this->State->options.choice.kind))
-  {
-    this->SolveAccurately(input, progress.Part(0.0, 0.95));
-  }
-  else
-  {
-    this->SolveAtDepth(input, basis, progress.Part(0.0, 0.95));
-  }
-  this->WriteSolution(input, output);
-  if (!this->IsAccurate())
-  {
-    gridfem::AddFieldInt(output, "Converged", 0);
-  }
-  this->WriteTables(outputs);
-  progress.Check(1.0);
-}
-
-/// The history, and what it gives reason to warn of.
-void vtkScreenedPoisson::WriteTables(vtkInformationVector* outputs)
-{
-  vtkTable* table = vtkTable::GetData(outputs, 1);
-  gridfem::WriteHistory(this->Report(), table);
-  gridfem::AddErrors(this->Report(), this->EstimatedErrors(), table);
-  this->Warn();
-}
-
-bool vtkScreenedPoisson::ComputeTogether(
-  vtkInformationVector** inputs, vtkInformationVector* outputs)
-{
-  const bool needsAll = this->WantedError > 0.0 || this->TrackMetric ||
-                        gridfem::IsArrayChosen(this, 5) || !gridfem::IsArrayChosen(this, 0);
-  if (!gridfem::CanDistribute(this, inputs, needsAll))
-  {
-    return false;
-  }
-  vtkPolyData* piece = vtkPolyData::GetData(inputs[0]);
-  this->State->RunTogether(
-    [&](const gridfem::Progress& progress)
-    {
-      this->Selection->UpdateTogether(
-        this->State->together, vtkSelection::GetData(inputs[2]), piece);
-      this->SolveTogether(inputs, outputs, progress);
-    });
-  return true;
-}
-
-/// Port 0 is the rank's own piece with the solution; the table is on the first rank.
-void vtkScreenedPoisson::SolveTogether(
-  vtkInformationVector** inputs, vtkInformationVector* outputs, const gridfem::Progress& progress)
-{
-  Internals& data = *this->Data;
-  gridfem::SurfaceSolverState& state = *this->State;
-  state.options.trackMetric = false;
-  vtkPolyData* piece = vtkPolyData::GetData(inputs[0]);
-  state.UpdateTogether(piece, vtkPolyData::GetData(inputs[1]));
-  progress.Check(0.4);
-  state.together.Together(
-    [&]
-    {
-      data.Value = data.Gradient = data.Scale = {};
-      data.Weight = data.Constraint = data.Flux = data.Coordinates = {};
-      if (!state.mesh.triangles->triangles.empty())
-      {
-        this->FindArrays(piece);
-        this->FindConstraints(piece);
-      }
-    });
-  state.together.Agree(0, data.Value);
-  state.together.Agree(1, data.Gradient);
-  state.together.Agree(2, data.Scale);
-  state.together.Agree(3, data.Weight);
-  state.together.Agree(4, data.Constraint);
-  state.together.Agree(6, data.Flux);
-  this->Solve(progress.Part(0.4, 1.0));
-
-  data.Together.Values =
-    this->IsConstrained() ? data.Constrained.Values(state) : data.Equation.Values(state);
-  data.Together.IsSolved = state.PointsWithFunctions();
-  state.together.Together([&] { this->WriteDistributed(piece, outputs); });
-  data.Together = {};
-}
-
-void vtkScreenedPoisson::WriteDistributed(vtkPolyData* piece, vtkInformationVector* outputs)
-{
-  Internals& data = *this->Data;
-  vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
-  if (piece)
-  {
-    output->ShallowCopy(piece);
-    vtkDataArray* given = data.Value.array     ? data.Value.array
-                          : piece->GetPoints() ? piece->GetPoints()->GetData()
-                                               : nullptr;
-    if (given && data.Value.association == gridfem::FieldAssociation::Points)
-    {
-      gridfem::KeepUnsolved(data.Together.IsSolved, given, data.Together.Values);
-    }
-    auto array = gridfem::MakePointArray("Solution", data.Together.Values,
-      data.Value.array ? this->State->together.DataTypeOf(0)
-      : given          ? given->GetDataType()
-                       : VTK_DOUBLE);
-    if (data.Value.array)
-    {
-      array->CopyComponentNames(data.Value.array);
-    }
-    output->GetPointData()->AddArray(array);
-    output->GetPointData()->SetActiveScalars("Solution");
-  }
-  gridfem::AddReport(this->Report(), output);
-  gridfem::AddAccuracy(this->EstimatedErrors(), output);
-  if (this->HoldsValues())
-  {
-    gridfem::AddFieldNumber(output, "Misfit", data.Constrained.Misfit());
-  }
-  gridfem::AddDistributed(this->State->together.Depth(), output);
-  if (gridfem::Ranks().IsFirst())
-  {
-    this->WriteTables(outputs);
+    gridfem::MoveSurface(state.CurrentMesh(), values, gridfem::OutputPrecision(input->GetPoints()),
+      this->NumberOfThreads, output);
   }
 }
 
@@ -552,9 +183,7 @@ void vtkScreenedPoisson::FreeStages()
 {
   this->Superclass::FreeStages();
   this->Selection->Free();
-  this->Data->Search = {};
-  this->Data->Equation = {};
-  this->Data->Constrained = {};
+  *this->Data = Internals();
 }
 
 void vtkScreenedPoisson::PrintSelf(ostream& os, vtkIndent indent)

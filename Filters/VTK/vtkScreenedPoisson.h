@@ -83,14 +83,7 @@
 
 namespace gridfem
 {
-struct ConstrainedLoad;
-struct Field;
-struct InputMesh;
-struct Job;
-struct PoissonLoad;
-class Progress;
 class SelectedPoints;
-class SurfaceSpace;
 } // namespace gridfem
 
 class VTKGRIDFEMFILTERS_EXPORT vtkScreenedPoisson : public vtkPoissonAlgorithm
@@ -197,7 +190,7 @@ protected:
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
-  bool ComputeTogether(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  bool NeedsWholeSurface() override;
   void FreeStages() override;
 
   double ScreeningWeight = 100.0;
@@ -212,26 +205,8 @@ private:
   vtkScreenedPoisson(const vtkScreenedPoisson&) = delete;
   void operator=(const vtkScreenedPoisson&) = delete;
 
-  void FindArrays(vtkPolyData* input);
-  gridfem::PoissonLoad Integrate(const gridfem::SurfaceSpace& space, const gridfem::Job& job);
-  gridfem::ConstrainedLoad IntegrateConstrained(const gridfem::Job& job);
-  void AddBoundary(const gridfem::Field& value, gridfem::ConstrainedLoad& load);
-  bool IsConstrained() const;
-  bool HoldsPoints() const;
-  bool HoldsValues() const;
-  const gridfem::SolveReport& Report() const;
-  gridfem::SolutionAccuracy EstimatedErrors() const;
-  void FindConstraints(vtkPolyData* input);
-  void FindFlux(vtkPolyData* input);
-  void Solve(const gridfem::Progress& progress);
-  void SolveAtDepth(vtkPolyData* input, vtkPolyData* basis, const gridfem::Progress& progress);
-  void SolveAccurately(vtkPolyData* input, const gridfem::Progress& progress);
-  bool IsAccurate() const;
-  void SolveTogether(vtkInformationVector** inputs, vtkInformationVector* outputs,
-    const gridfem::Progress& progress);
-  void WriteDistributed(vtkPolyData* piece, vtkInformationVector* outputs);
-  void WriteTables(vtkInformationVector* outputs);
-  void Warn();
+  void FindArrays();
+  void RequireFluxFits() const;
   void WriteSolution(vtkPolyData* input, vtkPolyData* output);
 
   struct Internals;

@@ -7,13 +7,13 @@
 #include "Private/SelectedPoints.h"
 #include "Private/SolverOutput.h"
 #include "Private/SurfaceCurvatures.h"
-#include "Private/SurfacePoisson.h"
 #include "Private/SurfaceSolverState.h"
 
 #include "Base/Errors.h"
 #include "Problems/MarchedDistance.h"
 #include "Problems/MovedSurface.h"
 #include "Problems/SurfaceDetail.h"
+#include "Solvers/PoissonEquation.h"
 
 #include "vtkDataArray.h"
 #include "vtkInformation.h"
@@ -113,7 +113,7 @@ struct vtkSurfaceDetail::Internals
   std::optional<gridfem::Field> Fade; // of the selection
   /// Its load has blocks of columns, one for each of: the scale 1; the scale array; the same times
   /// the fade. Of a solution for other columns the first are still good.
-  gridfem::SurfacePoisson Equation;
+  gridfem::PoissonEquation Equation;
 
   const gridfem::FiniteElementSpace& Space(const gridfem::SurfaceSolverState& state) const
   {
@@ -383,10 +383,10 @@ void vtkSurfaceDetail::Solve(const gridfem::Progress& progress)
   request.weight = this->ScreeningWeight;
   request.space = &data.Space(state);
   request.numbers.Add(data.IsWeighed ? state.stages.Version(WeightsStage) : -1);
-  request.goesOn = true;
+  request.startsFromLast = true;
   const auto integrate = [this](const gridfem::SurfaceSpace&, const gridfem::Job& job)
   { return this->Integrate(job); };
-  data.Equation.Update(state, fields, integrate, request, progress);
+  data.Equation.Update(state, fields, integrate, request, state.options, progress);
 }
 
 void vtkSurfaceDetail::WriteShape(vtkPolyData* input, vtkPolyData* output)

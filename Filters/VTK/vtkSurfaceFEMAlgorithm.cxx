@@ -1,6 +1,7 @@
 #include "vtkSurfaceFEMAlgorithm.h"
 
 #include "Private/BlockTables.h"
+#include "Private/CanDistribute.h"
 #include "Private/FailureDump.h"
 #include "Private/InputArray.h"
 #include "Private/InputBlocks.h"
@@ -9,6 +10,7 @@
 #include "Private/PipelineTime.h"
 #include "Private/RankedOutput.h"
 #include "Private/RankedSurface.h"
+#include "Private/Ranks.h"
 #include "Private/SolverOutput.h"
 #include "Private/SurfaceInput.h"
 #include "Private/SurfaceSolverState.h"
@@ -392,7 +394,13 @@ bool vtkSurfaceFEMAlgorithm::TryTogether(
 {
   try
   {
-    return this->ComputeTogether(inputs, outputs);
+    if (!gridfem::CanDistribute(this, inputs, this->NeedsWholeSurface()))
+    {
+      return this->ComputeTogether(inputs, outputs);
+    }
+    this->State->RunTogether([&](const gridfem::Progress&) { this->Compute(inputs, outputs); });
+    gridfem::AddDistributed(this->State->together.Depth(), vtkPolyData::GetData(outputs));
+    return true;
   }
   catch (const gridfem::Aborted&)
   {
@@ -402,6 +410,22 @@ bool vtkSurfaceFEMAlgorithm::TryTogether(
   {
     this->FreeStages();
     throw;
+  }
+}
+
+bool vtkSurfaceFEMAlgorithm::NeedsWholeSurface()
+{
+  return true;
+}
+
+void vtkSurfaceFEMAlgorithm::Warn(const std::vector<std::string>& warnings)
+{
+  if (gridfem::Ranks().IsFirst())
+  {
+    for (const std::string& warning : warnings)
+    {
+      vtkWarningMacro(<< warning);
+    }
   }
 }
 

@@ -55,6 +55,7 @@
 #include "vtkPolyDataAlgorithm.h"
 
 #include <memory> // for std::unique_ptr
+#include <string> // for std::string
 #include <vector> // for std::vector
 
 namespace gridfem
@@ -247,6 +248,18 @@ protected:
    * What the filter does with a non-empty input. Throws on unusable input and on abort.
    */
   virtual void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) = 0;
+
+  /**
+   * Whether the filter, as it is set, needs the whole surface in one process. Where it does not,
+   * Compute runs on all MPI ranks, each with its own piece, which may be null on port 0. Default
+   * true: rank 0 gathers the surface.
+   */
+  virtual bool NeedsWholeSurface();
+
+  /**
+   * Prints the warnings, on the first of several MPI ranks.
+   */
+  void Warn(const std::vector<std::string>& warnings);
 
   /**
    * Called on every one of several MPI ranks, with its own piece, before the surface is gathered.

@@ -266,7 +266,12 @@ void SurfaceSolverState::RunTogether(const DistributedSurface::Body& body)
   stages.DecideTogether([this](bool holds) { return together.Any(holds); });
   try
   {
-    together.Run(bridge.GetProgress(), body);
+    together.Run(bridge.GetProgress(),
+      [&](const Progress& ofAll)
+      {
+        progressOfAll_ = ofAll;
+        body(ofAll);
+      });
   }
   catch (...)
   {
@@ -585,6 +590,97 @@ double SurfaceSolverState::LongestSide() const
   }
   const Grid& grid = basis.space->GetGrid();
   return grid.spacing * grid.CellsPerSide();
+}
+
+StageKey SurfaceSolverState::InputKey() const
+{
+  StageKey key;
+  if (input_)
+  {
+    AddMesh(key, input_);
+  }
+  key.Add(options.space.connectivityAware).Add(options.space.weldCoincidentPoints);
+  key.Add(options.space.joinAtPoints).Add(options.functionsPerPoint);
+  key.Add(options.choice.kind).Add(options.choice.quadratureDegree);
+  key.Add(options.choice.coarsestSize).Add(options.choice.normalStabilization);
+  key.Add(options.parameterUnits).Add(options.trackMetric);
+  key.Add(metricArray.array).Add(metricArray.association);
+  return key;
+}
+
+bool SurfaceSolverState::AreFunctionsGiven() const
+{
+  return basisData_ || (input_ && CarriesBasis(input_));
+}
+
+InputArray SurfaceSolverState::Find(int index, const std::string& property)
+{
+  if (!isTogether_)
+  {
+    return FindInputArray(algorithm_, index, input_, property);
+  }
+  this->Prepare(progressOfAll_);
+  return together.Find(algorithm_, index, input_, mesh, property);
+}
+
+int SurfaceSolverState::DataTypeOf(int index, const InputArray& array) const
+{
+  return isTogether_ ? together.DataTypeOf(index) : array.array->GetDataType();
+}
+
+void SurfaceSolverState::Select(
+  SelectedPoints& points, vtkSelection* selection, const JoinedBlocks* joined) const
+{
+  if (isTogether_)
+  {
+    points.UpdateTogether(together, selection, input_);
+    return;
+  }
+  points.Update(selection, input_, joined);
+}
+
+GivenField SurfaceSolverState::Given(const InputArray& array) const
+{
+  GivenField field;
+  if (array.array)
+  {
+    field.name = array.name;
+    field.association = array.association;
+    field.components = array.array->GetNumberOfComponents();
+    field.version.Add(array.array);
+    field.read = [this, array](NaNs nans) { return ReadField(array, mesh, nans); };
+  }
+  return field;
+}
+
+GivenConstraints SurfaceSolverState::ConstraintsOf(
+  const InputArray& values, const InputArray& mask, const SelectedPoints& selection) const
+{
+  GivenConstraints constraints;
+  if (!mask.array && !selection.IsGiven())
+  {
+    return constraints;
+  }
+  InputArray held = values;
+  if (!held.array)
+  {
+    held.array = input_ && input_->GetPoints() ? input_->GetPoints()->GetData() : nullptr;
+    held.name = "coordinates";
+  }
+  constraints.property = mask.array ? "ConstraintArray" : "A Selection";
+  constraints.version.Add(mask.array).Add(selection.Version());
+  constraints.find = [this, held, mask, &selection]
+  {
+    PointValues known;
+    known.values.resize(0, held.array ? held.array->GetNumberOfComponents() : 3);
+    if (!mesh.triangles->triangles.empty())
+    {
+      GivenValues given = FindKnownValues(held, mask, selection, *mesh.triangles);
+      known = { std::move(given.points), std::move(given.values) };
+    }
+    return known;
+  };
+  return constraints;
 }
 
 void SurfaceSolverState::SetInput(vtkPolyData* input, vtkPolyData* basisData)

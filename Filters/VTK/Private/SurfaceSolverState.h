@@ -16,9 +16,12 @@
 #include "TrackedMesh.h"
 
 class vtkPolyData;
+class vtkSelection;
 
 namespace gridfem
 {
+
+class JoinedBlocks;
 
 /// The shared properties in Core's terms.
 struct FilterOptions
@@ -47,7 +50,10 @@ void AddBasisArrays(StageKey& key, vtkPolyData* data);
 class SurfaceSolverState : public Surface
 {
 public:
-  explicit SurfaceSolverState(vtkAlgorithm* algorithm) : Surface(stages), bridge(algorithm) {}
+  explicit SurfaceSolverState(vtkAlgorithm* algorithm)
+    : Surface(stages), bridge(algorithm), algorithm_(algorithm)
+  {
+  }
 
   /// What Prepare works on, until another call. With null the next run has to say it again.
   void SetInput(vtkPolyData* input, vtkPolyData* basisData);
@@ -55,6 +61,8 @@ public:
   ///@{ Surface.
   void Prepare(const Progress& progress) override;
   void PrepareAtDepth(int depth, const Progress& progress) override;
+  StageKey InputKey() const override;
+  bool AreFunctionsGiven() const override;
   std::shared_ptr<const TriangleMesh> ReadMesh() const override;
   std::int64_t StructureVersion() const override { return structure_; }
   const SurfaceOptions& UsedOptions() const override { return used_; }
@@ -96,7 +104,8 @@ public:
   ///@{ On several MPI ranks that compute together. Collective; the words of DistributedSurface
   /// hold here, too.
 
-  /// Runs a body with stages that run on all ranks where they have to on one.
+  /// Runs a body with stages that run on all ranks where they have to on one. GetProgress is that
+  /// of all ranks in it.
   void RunTogether(const DistributedSurface::Body& body);
 
   /// As UpdateSpace and UpdateSystem, on the pieces of all ranks. Of a basis the grid counts, and
@@ -109,6 +118,32 @@ public:
   /// @param release    called before another space is made: lets go what holds the one that was
   void BuildTogether(
     vtkPolyData* piece, bool isClipped, const std::function<void()>& release = [] {});
+  ///@}
+
+  ///@{ The input of a solver, on one process and on several. Collective.
+
+  /// Of the filter's run, or of all ranks together.
+  Progress GetProgress() { return isTogether_ ? progressOfAll_ : bridge.GetProgress(); }
+
+  /// The array that SetInputArrayToProcess(index, ...) names; a null array when none is chosen. On
+  /// several ranks it prepares the surface, because ranks without polygons need not have the array.
+  InputArray Find(int index, const std::string& property);
+
+  /// The VTK type of results for an array from Find, the same on all ranks.
+  int DataTypeOf(int index, const InputArray& array) const;
+
+  /// The points that a selection takes.
+  /// @param joined  the blocks that the surface is joined of; null: it is of one block
+  void Select(
+    SelectedPoints& points, vtkSelection* selection, const JoinedBlocks* joined = nullptr) const;
+
+  /// The array as a solver takes it.
+  GivenField Given(const InputArray& array) const;
+
+  /// The values of an array where a mask or a selection takes the point. Refers to the selection.
+  /// @param values  null array: the coordinates
+  GivenConstraints ConstraintsOf(
+    const InputArray& values, const InputArray& mask, const SelectedPoints& selection) const;
   ///@}
 
   Field Read(const InputArray& array, NaNs nans = NaNs::Refused) const;
@@ -157,6 +192,8 @@ private:
   StageKey SpaceKey(
     vtkPolyData* input, vtkPolyData* basisData, std::int64_t meshNumber, int depth) const;
 
+  vtkAlgorithm* algorithm_;
+  Progress progressOfAll_;
   vtkPolyData* input_ = nullptr; // of this run
   vtkPolyData* basisData_ = nullptr;
   SurfaceOptions used_;
