@@ -175,12 +175,6 @@ void SignatureSolver::Filter(
   }
 }
 
-void SignatureSolver::Free()
-{
-  spectrum_.Free();
-  result_ = {};
-}
-
 SignatureSolver::Result SignatureSolver::Solve(std::shared_ptr<const TriangleMesh> mesh,
   const Input& input, const Options& options, const SurfaceOptions& surfaceOptions, const Job& job)
 {

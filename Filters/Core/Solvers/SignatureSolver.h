@@ -94,9 +94,6 @@ public:
   const Result& Update(
     Surface& surface, const Input& input, const Options& options, const Job& job);
 
-  /// Frees modes and sums.
-  void Free();
-
   static Result Solve(std::shared_ptr<const TriangleMesh> mesh, const Input& input,
     const Options& options, const SurfaceOptions& surfaceOptions = SurfaceDefaults(),
     const Job& job = {});

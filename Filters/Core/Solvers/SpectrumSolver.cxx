@@ -100,7 +100,7 @@ const SpectrumSolver::Result& SpectrumSolver::Update(
   double done = 0.0;
   while (true)
   {
-    const double end = choose ? 0.5 + 0.45 * done : 0.95;
+    const double end = choose ? 0.5 + 0.5 * done : 1.0;
     const Progress progress = job.progress.Part(done, end);
     if (choose)
     {

@@ -26,7 +26,7 @@ public:
     results.arrays["Modes"] = std::move(spectrum.atPoints);
     results.arrays["Eigenvalues"] =
       Eigen::Map<const Eigen::VectorXd>(spectrum.eigenvalues.data(), spectrum.NumberOfModes());
-    results.warnings = std::move(spectrum.warnings);
+    results.Warn(spectrum.warnings);
     return results;
   }
 

@@ -109,9 +109,7 @@ void SurfaceSolverState::UpdateSpace(
 {
   RequireNumber("Tolerance", options.solve.tolerance);
   RequireNumber("Accuracy", options.accuracy);
-  const int lastDepth = used_.space.depth; // of functions that may stay
   used_ = options;
-  used_.space.depth = lastDepth;
   const std::int64_t meshNumber = meshVersion.Of(input, mesh, options.space.threads);
   const int wanted = options.space.depth;
   if (options.trackMetric &&
@@ -119,6 +117,7 @@ void SurfaceSolverState::UpdateSpace(
         SpaceStage, this->SpaceKey(input, basisData, tracked_.ReferenceVersion(), wanted)) &&
       tracked_.Follow(input, mesh))
   {
+    this->NoteFunctions();
     return;
   }
   tracked_.Stop();
@@ -154,6 +153,14 @@ void SurfaceSolverState::UpdateSpace(
   {
     tracked_.Refer(input, meshNumber);
   }
+  this->NoteFunctions();
+}
+
+/// Functions that were given or have stayed may differ from the options.
+void SurfaceSolverState::NoteFunctions()
+{
+  used_.space.depth = this->Functions().GetGrid().depth;
+  used_.space.connectivityAware = this->Functions().support == FunctionSupport::ConnectivityAware;
 }
 
 int SurfaceSolverState::DepthFor(int wanted) const
@@ -411,6 +418,7 @@ void SurfaceSolverState::BuildShared(vtkPolyData* piece, bool isClipped,
       release();
       together.BuildSpace(piece, used_, isClipped, mesh);
     });
+  used_.space.depth = together.Depth();
   key = {};
   key.Add(stages.Version(SpaceStage));
   stages.Run(SystemStage, key, [] {}); // ranks make it with the space
@@ -452,7 +460,7 @@ const DividedRows* SurfaceSolverState::SumsOverProcesses() const
 
 double SurfaceSolverState::Largest(double own) const
 {
-  return together.IsUsed() ? together.Largest(own) : own;
+  return isTogether_ ? together.Largest(own) : own;
 }
 
 bool SurfaceSolverState::AreCoincidentPointsWelded() const
@@ -462,7 +470,7 @@ bool SurfaceSolverState::AreCoincidentPointsWelded() const
 
 void SurfaceSolverState::Together(const std::function<void()>& body) const
 {
-  if (together.IsUsed())
+  if (isTogether_)
   {
     together.Together(body);
     return;
@@ -615,12 +623,18 @@ bool SurfaceSolverState::AreFunctionsGiven() const
 
 InputArray SurfaceSolverState::Find(int index, const std::string& property)
 {
-  if (!isTogether_)
+  if (isTogether_)
   {
-    return FindInputArray(algorithm_, index, input_, property);
+    this->Prepare(progressOfAll_);
   }
-  this->Prepare(progressOfAll_);
-  return together.Find(algorithm_, index, input_, mesh, property);
+  return this->FindOn(mesh, index, property);
+}
+
+InputArray SurfaceSolverState::FindOn(
+  const InputMesh& onMesh, int index, const std::string& property)
+{
+  return isTogether_ ? together.Find(algorithm_, index, input_, onMesh, property)
+                     : FindInputArray(algorithm_, index, input_, property);
 }
 
 int SurfaceSolverState::DataTypeOf(int index, const InputArray& array) const
@@ -687,6 +701,7 @@ void SurfaceSolverState::SetInput(vtkPolyData* input, vtkPolyData* basisData)
 {
   input_ = input;
   basisData_ = basisData;
+  used_ = options;
 }
 
 void SurfaceSolverState::Prepare(const Progress& progress)
