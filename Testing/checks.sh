@@ -15,6 +15,8 @@ Usage: Testing/checks.sh STEP...
              build-sanitize/; GRIDFEM_CASES: how many, of GRIDFEM_SEED on (default: 1000 from 1)
   threads    ThreadSanitizer, with clang, on the tests of Core and random problems, in build-threads/
   coverage   which lines of Core its tests run, in build-coverage/; fails where they are less than nine in ten
+  long       the tests that continuous integration leaves out: limits of memory, upgrades, the wheel, a user
+             without a home folder, and 8,000 more random problems
   ranks      the tests of ranks on two and four of them; every other run has them on three
   valgrind   leaks and wrong memory on some tests of Core and of the filters, and on random problems, in
              build-valgrind/
@@ -92,7 +94,7 @@ Threads()
   # Without libomp's archer every barrier is a false alarm.
   export OMP_TOOL_LIBRARIES=libarcher.so
   export TSAN_OPTIONS=ignore_noninstrumented_modules=1
-  ctest --test-dir "$folder" --output-on-failure -j "$JOBS" -E "^Rules[.]|^Fuzz[.]Core$" < /dev/null
+  ctest --test-dir "$folder" --output-on-failure -j "$JOBS" -E "^Rules[.]|^Fuzz[.](Core|More)$" < /dev/null
   "$folder/bin/FuzzCore" 1 500
 }
 
@@ -105,6 +107,13 @@ Sanitize()
   Say "Building in $folder"
   Quietly "$folder/build.log" cmake --build "$folder" --target FuzzCore -j "$JOBS"
   "$folder/bin/FuzzCore" "${GRIDFEM_SEED:-1}" "${GRIDFEM_CASES:-1000}"
+}
+
+Long()
+{
+  InstallMissing "${BUILD_PACKAGES[@]}" "${TEST_PACKAGES[@]}"
+  BuildTree all -DGRIDFEM_BUILD_PYTHON=ON
+  ctest --test-dir "$BUILD" --output-on-failure --timeout 300 -j "$JOBS" -L "^Long$" < /dev/null
 }
 
 Ranks()
@@ -148,6 +157,7 @@ for step in "$@"; do
     sanitize) Sanitize ;;
     threads) Threads ;;
     coverage) "$SOURCE/Testing/coverage.sh" ;;
+    long) Long ;;
     ranks) Ranks ;;
     valgrind) Valgrind ;;
     all)
@@ -156,6 +166,7 @@ for step in "$@"; do
       Sanitize
       Threads
       "$SOURCE/Testing/coverage.sh"
+      Long
       Ranks
       Valgrind
       ;;

@@ -26,8 +26,9 @@ try:
 except ImportError:
     from ._with_vtk import solve as _solve, surface
 
-__all__ = ["Error", "arrays", "curvatures", "detail", "diffuse", "distance", "flow", "interpolate",
-           "poisson", "signatures", "signed_distance", "spectrum", "stitch"]
+__all__ = ["Error", "arrays", "curvatures", "decompose", "detail", "diffuse", "distance",
+           "divergence", "flow", "gradient", "interpolate", "poisson", "signatures",
+           "signed_distance", "spectrum", "stitch"]
 
 
 def spectrum(points, cells, number=20, **properties):
@@ -121,6 +122,38 @@ def curvatures(points, cells, **properties):
     return tuple(results[name] for name in (
         "MinimumCurvature", "MaximumCurvature", "MinimumCurvatureDirection",
         "MaximumCurvatureDirection"))
+
+
+def gradient(points, cells, values=None, **properties):
+    """The gradient along the surface and the Laplacian of values, both at the points.
+
+    values: N or M rows; None takes the coordinates. Returns arrays of the shapes (N, 3 C) and (N, C)
+    for C columns of values, with the gradient of the first column first.
+    """
+    results = _solve("SurfaceGradient", points, cells, {"values": values}, properties)
+    return results["Gradient"], results["Laplacian"]
+
+
+def divergence(points, cells, vectors, **properties):
+    """The divergence of vectors along the surface and their curl about its normal, at the points.
+
+    vectors: N or M rows of three numbers.
+    """
+    if numpy.shape(vectors)[1:] != (3,):
+        raise Error(f"vectors must have three columns; their shape is {numpy.shape(vectors)}")
+    results = _solve("SurfaceGradient", points, cells, {"values": vectors}, properties)
+    return results["Divergence"], results["Curl"]
+
+
+def decompose(points, cells, vectors, **properties):
+    """The three parts of vectors along the surface, at the points (N, 3).
+
+    The first part flows out of sources, the second turns in eddies, and the third runs around
+    handles and holes. vectors: N or M rows of three numbers.
+    """
+    results = _solve("SurfaceGradient", points, cells, {"values": vectors},
+                     {"HodgeDecomposition": True, **properties})
+    return results["GradientPart"], results["RotationPart"], results["HarmonicPart"]
 
 
 def detail(points, cells, scale=2.0, **properties):

@@ -1,6 +1,7 @@
 #include "vtkHeatDiffusion.h"
 
 #include "Private/CanDistribute.h"
+#include "Private/ClippedMeshWriter.h"
 #include "Private/InputArray.h"
 #include "Private/MovedMeshWriter.h"
 #include "Private/PipelineTime.h"

@@ -59,8 +59,6 @@
 
 #include "vtkSurfaceFEMAlgorithm.h"
 
-class vtkTable;
-
 class VTKGRIDFEMFILTERS_EXPORT vtkMeanCurvatureFlow : public vtkSurfaceFEMAlgorithm
 {
 public:
@@ -155,13 +153,10 @@ protected:
   bool TrackMetric = true;
   bool FixedBoundary = false;
   int Rescale = Automatic;
-  double KeptBytes = 1e9; // memory for steps that are kept
 
 private:
   vtkMeanCurvatureFlow(const vtkMeanCurvatureFlow&) = delete;
   void operator=(const vtkMeanCurvatureFlow&) = delete;
-
-  void WriteTable(vtkTable* table);
 
   struct Internals;
   std::unique_ptr<Internals> Data;

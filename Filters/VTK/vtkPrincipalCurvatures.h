@@ -39,11 +39,6 @@
 
 #include "vtkSurfaceFEMAlgorithm.h"
 
-namespace gridfem
-{
-class Progress;
-}
-
 class VTKGRIDFEMFILTERS_EXPORT vtkPrincipalCurvatures : public vtkSurfaceFEMAlgorithm
 {
 public:
@@ -73,9 +68,6 @@ protected:
 private:
   vtkPrincipalCurvatures(const vtkPrincipalCurvatures&) = delete;
   void operator=(const vtkPrincipalCurvatures&) = delete;
-
-  void Fit(vtkPolyData* input, const gridfem::Progress& progress);
-  void WriteArrays(vtkPolyData* input, vtkPolyData* output);
 
   struct Internals;
   std::unique_ptr<Internals> Data;

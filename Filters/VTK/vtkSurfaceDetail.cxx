@@ -6,13 +6,13 @@
 #include "Private/MovedMeshWriter.h"
 #include "Private/SelectedPoints.h"
 #include "Private/SolverOutput.h"
-#include "Private/SurfaceCurvatures.h"
 #include "Private/SurfaceSolverState.h"
 
 #include "Base/Errors.h"
 #include "Problems/MarchedDistance.h"
 #include "Problems/MovedSurface.h"
 #include "Problems/SurfaceDetail.h"
+#include "Solvers/CurvatureSolver.h"
 #include "Solvers/PoissonEquation.h"
 
 #include "vtkDataArray.h"
@@ -280,8 +280,8 @@ void vtkSurfaceDetail::UpdateMetric(const gridfem::Progress& progress)
       const gridfem::TriangleMesh& mesh = *state.mesh.triangles;
       gridfem::SolveReport report; // of the smoothing: to a tolerance far below its own error
       data.Curvatures = gridfem::CurvaturesOnTriangles(mesh,
-        gridfem::CurvaturesOfSurface(
-          state, mesh, this->SmoothingScale, report, progress.Part(0.0, 0.5)),
+        gridfem::CurvaturesOf(state, this->SmoothingScale, state.options, report,
+          state.MakeJob(progress.Part(0.0, 0.5))),
         this->NumberOfThreads);
       data.UsualCurvature = gridfem::UsualCurvature(mesh, data.Curvatures);
       data.OnElements = state.space->MeansOnElements(data.Curvatures.values, this->NumberOfThreads);

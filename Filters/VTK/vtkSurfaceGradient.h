@@ -49,12 +49,6 @@
 
 #include "vtkPoissonAlgorithm.h"
 
-namespace gridfem
-{
-struct InputArray;
-class Progress;
-} // namespace gridfem
-
 class VTKGRIDFEMFILTERS_EXPORT vtkSurfaceGradient : public vtkPoissonAlgorithm
 {
 public:
@@ -82,7 +76,7 @@ protected:
   ~vtkSurfaceGradient() override;
 
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
-  bool ComputeTogether(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  bool NeedsWholeSurface() override;
   void FreeStages() override;
 
   bool HodgeDecomposition = false;
@@ -90,12 +84,6 @@ protected:
 private:
   vtkSurfaceGradient(const vtkSurfaceGradient&) = delete;
   void operator=(const vtkSurfaceGradient&) = delete;
-
-  void Derive(const gridfem::InputArray& array, const gridfem::Progress& progress);
-  void CollectArrays(bool hasArray, vtkPolyData* input);
-  void WriteArrays(vtkPolyData* output);
-  void Decompose(const gridfem::InputArray& array, const gridfem::Progress& progress);
-  void CollectParts(vtkPolyData* input);
 
   struct Internals;
   std::unique_ptr<Internals> Data;

@@ -144,6 +144,14 @@ class Engines(unittest.TestCase):
         self.compare(lambda g, p, c, **o: g.flow(p, c, 3, **o))
         self.compare(lambda g, p, c, **o: g.flow(p, c, 3, Conformalized=True, **o))
         self.compare(lambda g, p, c, **o: g.flow(p, c, 2, TrackMetric=False, **o))
+        self.compare(lambda g, p, c, **o: g.flow(p, c, 2, FixedBoundary=True, **o))
+
+    def test_gradient(self):
+        self.compare(lambda g, p, c, **o: g.gradient(p, c, p[:, :2] ** 2, **o))
+        self.compare(lambda g, p, c, **o: g.gradient(p, c, p[c[:, 0], 0], Tolerance=1e-6, **o))
+        self.compare(lambda g, p, c, **o: g.gradient(p, c, **o))
+        self.compare(lambda g, p, c, **o: g.divergence(p, c, p[:, [1, 2, 0]], **o))
+        self.compare(lambda g, p, c, **o: g.decompose(p, c, p[:, [1, 2, 0]], **o))
 
     def test_polygons(self):
         angles = numpy.linspace(0, 2 * numpy.pi, 10, endpoint=False)
@@ -159,7 +167,8 @@ class Engines(unittest.TestCase):
         module = sys.modules["gridfem_core._without_vtk"]._core
         for name in ("GeodesicDistance", "HarmonicInterpolation", "HeatDiffusion",
                      "LaplaceSpectrum", "MeanCurvatureFlow", "PrincipalCurvatures",
-                     "ScreenedPoisson", "SpectralSignatures", "StitchColors", "SurfaceDetail"):
+                     "ScreenedPoisson", "SpectralSignatures", "StitchColors",
+                     "SurfaceDetail", "SurfaceGradient"):
             algorithm = getattr(vtkGridFEMFilters, "vtk" + name)()
             for key, (standard, least, most) in module.properties(name).items():
                 with self.subTest(filter=name, property=key):

@@ -117,6 +117,18 @@ class Numpy(unittest.TestCase):
         numpy.testing.assert_allclose(highest, 1, atol=0.02)
         numpy.testing.assert_allclose(numpy.sum(first * second, axis=1), 0, atol=1e-9)
 
+    def test_derivatives_on_the_sphere(self):
+        slope = numpy.array([0, 0, 1]) - self.points[:, 2:] * self.points  # of z
+        gradient, laplacian = gridfem.gradient(*self.mesh, self.points[:, 2], **OPTIONS)
+        numpy.testing.assert_allclose(gradient, slope, atol=0.05)
+        numpy.testing.assert_allclose(laplacian, -2 * self.points[:, 2], atol=0.2)
+        divergence, curl = gridfem.divergence(*self.mesh, slope, **OPTIONS)
+        numpy.testing.assert_allclose(divergence, -2 * self.points[:, 2], atol=0.2)
+        numpy.testing.assert_allclose(curl, 0, atol=0.2)
+        parts = gridfem.decompose(*self.mesh, slope, **OPTIONS)
+        for part, expected in zip(parts, (slope, 0, 0)):
+            numpy.testing.assert_allclose(part, expected + 0 * slope, atol=0.05)
+
     def test_scans_of_one_colour(self):
         labels = (self.points[:, 2] > 0.01).astype(int)
         colors = numpy.where(labels[:, None] == 1, [200.0, 100.0, 50.0], [100.0, 50.0, 100.0])

@@ -63,6 +63,16 @@ class TestPipeline(unittest.TestCase):
         # coordinates, 1e-7. A basis of another depth is off by 1e-3.
         self.assertLess(self.largest_difference(alone, chained, "Solution"), 1e-6)
 
+    def test_every_filter_on_the_one_before(self):
+        few = {"LaplaceSpectrum": {"NumberOfModes": 8}, "SpectralSignatures": {"NumberOfModes": 8}}
+        last = plugin.with_arrays(simple.ClipToOctree(Input=self.surface, Depth=DEPTH))
+        for name in [name for name in plugin.PROXIES if name != "ClipToOctree"]:
+            last = getattr(simple, name)(Input=last, **plugin.CHOICES.get(name, {}), **few.get(name, {}))
+            self.assertGreater(plugin.data(last).GetNumberOfPoints(), 0, name)
+        arrays = plugin.data(last).GetPointData()
+        for array in ("Distance", "Interpolated", "Diffused", "Solution", "StitchedColors"):
+            self.assertTrue(arrays.HasArray(array), array)
+
     def test_two_solvers_share_a_basis(self):
         basis = simple.ConnectivityAwareBasis(Input=self.surface, Depth=DEPTH)
         poisson = simple.ScreenedPoisson(

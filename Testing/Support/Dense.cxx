@@ -20,6 +20,26 @@ Eigen::MatrixXd Dense(const SparseMatrix& A)
   return dense;
 }
 
+MultiVector Product(const Eigen::MatrixXd& A, const MultiVector& x)
+{
+  return A * x;
+}
+
+Eigen::MatrixXd Product(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B)
+{
+  return A * B;
+}
+
+Eigen::MatrixXd ProductWithTransposed(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B)
+{
+  return A * B.transpose();
+}
+
+Eigen::MatrixXd Congruent(const Eigen::MatrixXd& A, const Eigen::MatrixXd& V)
+{
+  return V.transpose() * Product(A, V);
+}
+
 Eigen::MatrixXd DenseSolution(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b)
 {
   return A.ldlt().solve(b);

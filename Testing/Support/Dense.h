@@ -1,5 +1,5 @@
-// Dense matrices, for references that are computed densely. Eigen's dense solvers take long to
-// compile, so they are compiled once for all tests.
+// Dense matrices, for references that are computed densely. Eigen's dense solvers and products
+// take long to compile, so they are compiled once for all tests.
 #ifndef GridFEM_Testing_Dense_h
 #define GridFEM_Testing_Dense_h
 
@@ -11,6 +11,16 @@ namespace gridfem::testing
 {
 
 Eigen::MatrixXd Dense(const SparseMatrix& A);
+
+/// A x
+MultiVector Product(const Eigen::MatrixXd& A, const MultiVector& x);
+Eigen::MatrixXd Product(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
+
+/// A Bᵀ
+Eigen::MatrixXd ProductWithTransposed(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
+
+/// Vᵀ A V
+Eigen::MatrixXd Congruent(const Eigen::MatrixXd& A, const Eigen::MatrixXd& V);
 
 /// Returns A⁻¹ b for a symmetric positive definite A.
 Eigen::MatrixXd DenseSolution(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b);

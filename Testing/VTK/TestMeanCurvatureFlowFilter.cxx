@@ -7,7 +7,6 @@
 
 #include "vtkFloatArray.h"
 #include "vtkInformation.h"
-#include "vtkObjectFactory.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 
@@ -19,20 +18,7 @@ using namespace gridfem::testing;
 namespace
 {
 
-class Flow : public vtkMeanCurvatureFlow
-{
-public:
-  static Flow* New();
-  vtkTypeMacro(Flow, vtkMeanCurvatureFlow);
-
-  void KeepOnlyTheLastStep()
-  {
-    this->KeptBytes = 0.0;
-    this->Modified();
-  }
-};
-
-vtkStandardNewMacro(Flow);
+using Flow = vtkMeanCurvatureFlow;
 
 class MeanCurvatureFlowFilter : public ::testing::TestWithParam<int>
 {
@@ -92,20 +78,18 @@ TEST_P(MeanCurvatureFlowFilter, StepsAreTimeStepsFromTheInputOn)
   EXPECT_TRUE(messages.errors.empty() && messages.warnings.empty());
 }
 
-TEST_P(MeanCurvatureFlowFilter, BackAndForthGivesTheSameBitsWhateverIsKept)
+TEST_P(MeanCurvatureFlowFilter, BackAndForthGivesTheSameBitsOfTheSameSteps)
 {
   std::vector<std::vector<double>> steps;
   for (int step = 0; step <= 5; ++step)
   {
     steps.push_back(this->PointsAt(step));
   }
-  EXPECT_EQ(filter->GetNumberOfRuns("Step"), 5);
-  filter->KeepOnlyTheLastStep();
   for (const int step : { 3, 4, 1, 5, 2, 0, 5 })
   {
     EXPECT_EQ(this->PointsAt(step), steps[step]) << step;
   }
-  EXPECT_GT(filter->GetNumberOfRuns("Step"), 5);
+  EXPECT_EQ(filter->GetNumberOfRuns("Step"), 5);
   vtkNew<Flow> again;
   again->SetFunctionSpace(this->GetParam());
   again->SetDepth(4);

@@ -19,7 +19,7 @@ constexpr Index PointsPerBucket = 512;
 
 /// Most ranges of triangles that the partition processes in parallel. There are few, because each
 /// range counts all buckets.
-constexpr Id MostRanges = 64;
+constexpr Id MostEdgeRanges = 64;
 constexpr Id SmallestRange = Id{ 1 } << 14;
 
 /// One side of an edge, from a corner of the triangle to the next.
@@ -77,7 +77,7 @@ private:
 void EdgeFinder::Partition()
 {
   const Id triangles = static_cast<Id>(triangles_.size());
-  const Id size = std::max(SmallestRange, (triangles + MostRanges - 1) / MostRanges);
+  const Id size = std::max(SmallestRange, (triangles + MostEdgeRanges - 1) / MostEdgeRanges);
   const Id ranges = (triangles + size - 1) / size;
   std::vector<Index> next(ranges * buckets_, 0);
   const auto forSides = [&](const auto& visit)

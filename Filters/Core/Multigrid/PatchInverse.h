@@ -39,17 +39,18 @@ template<bool IsLower, class Real, class Number>
 EIGEN_ALWAYS_INLINE Eigen::Array<Number, PatchKernelWidth, 1> MultiplyTriangle(
   const Real* mirrored, const Number* x)
 {
-  constexpr int N = PatchKernelWidth;
-  using Vector = Eigen::Array<Number, N, 1>;
+  constexpr int Size = PatchKernelWidth;
+  using Vector = Eigen::Array<Number, Size, 1>;
   const auto column = [&](int j)
   {
-    return Eigen::Map<const Eigen::Array<Real, N, 1>>(mirrored + N * j).template cast<Number>() *
-           (Eigen::Map<const Vector>(OnesOf<Number, IsLower>.value + N * j) * x[j]);
+    return Eigen::Map<const Eigen::Array<Real, Size, 1>>(mirrored + Size * j)
+             .template cast<Number>() *
+           (Eigen::Map<const Vector>(OnesOf<Number, IsLower>.value + Size * j) * x[j]);
   };
   Vector even = column(0);
   Vector odd = column(1);
 #pragma GCC unroll 3
-  for (int j = 2; j < N; j += 2)
+  for (int j = 2; j < Size; j += 2)
   {
     even += column(j);
     odd += column(j + 1);
@@ -81,11 +82,11 @@ EIGEN_ALWAYS_INLINE Real EntryOf(const PackedFactor<Real>& V, int i, int j)
 template<class Factor, class Lanes>
 EIGEN_ALWAYS_INLINE void ApplyAlongColumns(const Factor& V, Lanes (&r)[PatchKernelWidth])
 {
-  constexpr int N = PatchKernelWidth;
+  constexpr int Size = PatchKernelWidth;
   using Number = typename Eigen::NumTraits<Lanes>::Literal;
   const auto entry = [&](int i, int j) { return static_cast<Number>(EntryOf(V, i, j)); };
 #pragma GCC unroll 8
-  for (int i = N - 1; i >= 0; --i)
+  for (int i = Size - 1; i >= 0; --i)
   {
     r[i] *= entry(i, i);
 #pragma GCC unroll 8
@@ -95,11 +96,11 @@ EIGEN_ALWAYS_INLINE void ApplyAlongColumns(const Factor& V, Lanes (&r)[PatchKern
     }
   }
 #pragma GCC unroll 8
-  for (int i = 0; i < N; ++i)
+  for (int i = 0; i < Size; ++i)
   {
     r[i] *= entry(i, i);
 #pragma GCC unroll 8
-    for (int j = i + 1; j < N; ++j)
+    for (int j = i + 1; j < Size; ++j)
     {
       r[i] += entry(j, i) * r[j];
     }

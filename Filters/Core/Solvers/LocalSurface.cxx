@@ -26,6 +26,11 @@ void LocalSurface::PrepareAtDepth(int depth, const Progress& progress)
   this->Build(asked, progress);
 }
 
+void LocalSurface::PrepareMesh(const Progress& /*progress*/)
+{
+  this->GetStages().Run(MeshStage, StageKey(), [&] { RequireSurface(*mesh_); });
+}
+
 void LocalSurface::Build(const SurfaceOptions& asked, const Progress& progress)
 {
   StageKey key;

@@ -15,11 +15,12 @@ public:
 
   void Prepare(const Progress& progress) override;
   void PrepareAtDepth(int depth, const Progress& progress) override;
+  void PrepareMesh(const Progress& progress) override;
   StageKey InputKey() const override { return {}; } // neither changes
   std::shared_ptr<const TriangleMesh> ReadMesh() const override { return mesh_; }
   std::int64_t StructureVersion() const override { return structure_; }
   const SurfaceOptions& UsedOptions() const override { return used_; }
-  const TriangleMesh& Mesh() const override { return *mesh_; }
+  std::shared_ptr<const TriangleMesh> SharedMesh() const override { return mesh_; }
   std::shared_ptr<const SurfaceSpace> SharedSpace() const override { return space_; }
   std::shared_ptr<const FiniteElementSpace> WholeSpace() const override { return space_; }
   bool AreCoincidentPointsWelded() const override { return used_.space.weldCoincidentPoints; }

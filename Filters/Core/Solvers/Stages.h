@@ -66,6 +66,9 @@ public:
     }
   }
 
+  /// The same for one stage.
+  void Forget(const std::string& stage) { entries_[stage].valid = false; }
+
   /// Changes with every new result: part of the keys of later stages.
   std::int64_t Version(const std::string& stage) const { return this->Find(stage).version; }
 

@@ -13,6 +13,7 @@ namespace gridfem
 {
 
 /// The stages that all solvers have.
+inline constexpr const char* MeshStage = "Mesh";     // of solvers that need no functions
 inline constexpr const char* SpaceStage = "Space";   // mesh, clipping, patches, levels
 inline constexpr const char* SystemStage = "System"; // element matrices, patterns, prolongations
 inline constexpr const char* HierarchyStage = "Hierarchy";         // level matrices, smoothers
@@ -33,6 +34,10 @@ public:
 
   /// The same at a depth of the solver's choice.
   virtual void PrepareAtDepth(int depth, const Progress& progress) = 0;
+
+  /// Brings the mesh alone up to date (MeshStage), for a solver that needs no functions. Functions
+  /// of an earlier run may be freed. Not on a shared surface. Throws InvalidInput and Aborted.
+  virtual void PrepareMesh(const Progress& progress) = 0;
 
   /// The key of the mesh and of all that is asked of its functions, except their depth.
   virtual StageKey InputKey() const = 0;
@@ -57,7 +62,8 @@ public:
   Job MakeJob(const Progress& progress) const { return { this->Threads(), progress }; }
 
   /// The triangles of this process on which the functions were made.
-  virtual const TriangleMesh& Mesh() const = 0;
+  virtual std::shared_ptr<const TriangleMesh> SharedMesh() const = 0;
+  const TriangleMesh& Mesh() const { return *this->SharedMesh(); }
 
   /// The same triangles where they have moved to since (TrackMetric); else Mesh().
   virtual const TriangleMesh& CurrentMesh() const { return this->Mesh(); }

@@ -35,6 +35,7 @@ const std::map<std::string, MakeProblem> Problems = {
   { "SpectralSignatures", &MakeSignatures },
   { "StitchColors", &MakeStitching },
   { "SurfaceDetail", &MakeDetail },
+  { "SurfaceGradient", &MakeGradient },
 };
 
 /// Looks for Ctrl-C every tenth of a second.

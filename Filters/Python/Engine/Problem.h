@@ -48,6 +48,7 @@ std::unique_ptr<Problem> MakeDetail(Properties& properties);
 std::unique_ptr<Problem> MakeDiffusion(Properties& properties);
 std::unique_ptr<Problem> MakeDistance(Properties& properties);
 std::unique_ptr<Problem> MakeFlow(Properties& properties);
+std::unique_ptr<Problem> MakeGradient(Properties& properties);
 std::unique_ptr<Problem> MakeInterpolation(Properties& properties);
 std::unique_ptr<Problem> MakePoisson(Properties& properties);
 std::unique_ptr<Problem> MakeSignatures(Properties& properties);

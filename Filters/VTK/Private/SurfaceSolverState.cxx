@@ -124,6 +124,7 @@ void SurfaceSolverState::UpdateSpace(
   const bool carries = CarriesBasis(input);
   const auto update = [&]
   {
+    stages.Forget(MeshStage); // reads the mesh itself
     if (!carries && !basisData)
     {
       this->BuildSpace(input, progress);
@@ -714,6 +715,23 @@ void SurfaceSolverState::Prepare(const Progress& progress)
   this->UpdateSpace(input_, basisData_, progress.Part(0.0, 0.6));
   progress.Check(0.6);
   this->UpdateSystem(progress.Part(0.6, 1.0));
+}
+
+void SurfaceSolverState::PrepareMesh(const Progress& progress)
+{
+  if (basis.space)
+  {
+    this->Free();
+  }
+  used_ = options;
+  StageKey key;
+  AddMesh(key, input_);
+  stages.Run(MeshStage, key,
+    [&]
+    {
+      mesh = ReadInputMesh(input_, options.space.threads, progress);
+      RequireSurface(*mesh.triangles);
+    });
 }
 
 void SurfaceSolverState::PrepareAtDepth(int depth, const Progress& progress)

@@ -62,12 +62,13 @@ public:
   ///@{ Surface.
   void Prepare(const Progress& progress) override;
   void PrepareAtDepth(int depth, const Progress& progress) override;
+  void PrepareMesh(const Progress& progress) override;
   StageKey InputKey() const override;
   bool AreFunctionsGiven() const override;
   std::shared_ptr<const TriangleMesh> ReadMesh() const override;
   std::int64_t StructureVersion() const override { return structure_; }
   const SurfaceOptions& UsedOptions() const override { return used_; }
-  const TriangleMesh& Mesh() const override { return *mesh.triangles; }
+  std::shared_ptr<const TriangleMesh> SharedMesh() const override { return mesh.triangles; }
   const TriangleMesh& CurrentMesh() const override { return *this->CurrentInput().triangles; }
   std::shared_ptr<const SurfaceSpace> SharedSpace() const override;
   std::shared_ptr<const FiniteElementSpace> WholeSpace() const override;
@@ -188,6 +189,7 @@ private:
   void RequireBasisTogether(const std::vector<double>& told) const;
   void NoteFunctions();
   int DepthFor(int wanted) const;
+  void NoteFunctions();
   void TakeEnough(const Progress& progress);
 
   std::shared_ptr<const FiniteElementSpace> InMetric(

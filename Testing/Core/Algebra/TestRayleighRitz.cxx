@@ -3,6 +3,7 @@
 #include "Algebra/BlockProducts.h"
 #include "Algebra/RayleighRitz.h"
 #include "Base/Errors.h"
+#include "Dense.h"
 #include "SparseRows.h"
 
 #include <gtest/gtest.h>
@@ -15,6 +16,10 @@ namespace gridfem
 {
 namespace
 {
+
+using testing::Congruent;
+using testing::Product;
+using testing::ProductWithTransposed;
 
 Eigen::MatrixXd Random(Index rows, Index columns, unsigned seed)
 {
@@ -38,7 +43,7 @@ struct Pencil
 };
 Pencil MakePencil(const Eigen::MatrixXd& T, const Eigen::VectorXd& values)
 {
-  return { T * values.asDiagonal() * T.transpose(), T * T.transpose() };
+  return { ProductWithTransposed(T * values.asDiagonal(), T), ProductWithTransposed(T, T) };
 }
 
 Eigen::VectorXd Ramp(Index size)
@@ -55,9 +60,9 @@ TEST(SolvePencil, FindsTheLowestPairsInOrder)
   // A random 30 x 30 matrix has a condition number near 1e3. Its square times rounding is 1e-10.
   EXPECT_LT((pairs.values - Ramp(7)).norm(), 1e-9);
   const Eigen::MatrixXd& C = pairs.coefficients;
-  EXPECT_LT((C.transpose() * pencil.mass * C - Eigen::MatrixXd::Identity(7, 7)).norm(), 1e-9);
+  EXPECT_LT((Congruent(pencil.mass, C) - Eigen::MatrixXd::Identity(7, 7)).norm(), 1e-9);
   const Eigen::MatrixXd residual =
-    pencil.stiffness * C - pencil.mass * C * pairs.values.asDiagonal();
+    Product(pencil.stiffness, C) - Product(pencil.mass, C) * pairs.values.asDiagonal();
   EXPECT_LT(residual.norm(), 1e-8 * pencil.stiffness.norm());
 }
 
@@ -77,8 +82,8 @@ TEST(SolvePencil, DirectionsWithoutMassAreNoPairs)
   const Eigen::MatrixXd Q = Random(8, 8, 3);
   Eigen::VectorXd mass = Eigen::VectorXd::Zero(8);
   mass.head(3) << 1.0, 0.5, 0.25;
-  const RitzPairs pairs =
-    SolvePencil(Q * Q.transpose(), Q * mass.asDiagonal() * Q.transpose(), 0.5, 8);
+  const RitzPairs pairs = SolvePencil(
+    ProductWithTransposed(Q, Q), ProductWithTransposed(Q * mass.asDiagonal(), Q), 0.5, 8);
   ASSERT_EQ(pairs.values.size(), 3);
   EXPECT_NEAR(pairs.values[0], 1.0, 1e-10);
   EXPECT_NEAR(pairs.values[1], 2.0, 1e-10);
@@ -135,7 +140,7 @@ TEST(Products, EqualPlainOnesAndDoNotDependOnThreads)
   image.leftCols(23) = part;
   Multiply(B, Y, part);
   image.rightCols(23) = part;
-  const Eigen::MatrixXd plain = basis.transpose() * image;
+  const Eigen::MatrixXd plain = Product(basis.transpose(), Eigen::MatrixXd(image));
   const BasisParts<double> parts = { X, empty, Z };
   const Eigen::MatrixXd pair = ProjectPair<double>(parts, A, B, Y, 1);
   EXPECT_LT((pair - plain).norm(), 1e-12 * plain.norm());
@@ -144,7 +149,7 @@ TEST(Products, EqualPlainOnesAndDoNotDependOnThreads)
   const Eigen::MatrixXd C = Random(170, 23, 6);
   MultiVector rest = Y;
   SubtractCombination<double>(parts, C, rest, 1);
-  const MultiVector plainRest = Y - basis * C;
+  const MultiVector plainRest = Y - MultiVector(Product(basis, C));
   EXPECT_LT((rest - plainRest).norm(), 1e-12 * plainRest.norm());
 
   EXPECT_TRUE(pair == ProjectPair<double>(parts, A, B, Y, 3));

@@ -18,8 +18,11 @@ namespace gridfem
 namespace
 {
 
+using testing::Congruent;
 using testing::Dense;
 using testing::DenseSolution;
+using testing::Product;
+using testing::ProductWithTransposed;
 using testing::RandomVectors;
 using testing::RelativeDifference;
 using testing::Sparse;
@@ -57,7 +60,7 @@ SparseMatrix Laplacian1D(Index size)
 Eigen::MatrixXd RandomSpd(Id size)
 {
   const Eigen::MatrixXd R = RandomVectors(size, size, 3);
-  return Eigen::MatrixXd::Identity(size, size) + R * R.transpose() / double(size);
+  return Eigen::MatrixXd::Identity(size, size) + ProductWithTransposed(R, R) / double(size);
 }
 
 MultiVector Swept(const Smoother& smoother, const SparseMatrix& A, const MultiVector& b,
@@ -124,10 +127,11 @@ TEST(GaussSeidel, LeavesRowsWithoutPositiveDiagonalAlone)
 
 TEST(PatchSmoother, SolvesExactlyWhenOnePatchCoversEverything)
 {
-  const SparseMatrix A = Sparse(RandomSpd(8));
+  const Eigen::MatrixXd D = RandomSpd(8);
+  const SparseMatrix A = Sparse(D);
   const auto smoother = MakePatchSmoother(A, OneBlock({ { 7, 0, 3, 2, 6, 5, 1, 4 } }));
   const MultiVector exact = RandomVectors(8, 3, 1);
-  const MultiVector x = Swept(*smoother, A, Dense(A) * exact, RandomVectors(8, 3, 2));
+  const MultiVector x = Swept(*smoother, A, Product(D, exact), RandomVectors(8, 3, 2));
   // Factors are in single precision, 6e-8. The condition number is below 10.
   EXPECT_LT(RelativeDifference(x, exact), 1e-6);
 }
@@ -157,7 +161,7 @@ MultiVector SweptInBlocks(const Eigen::MatrixXd& D, const UnknownGroups& groups,
     std::set<Index> used(group.begin(), group.end());
     used.erase(-1);
     const std::vector<Index> unknowns(used.begin(), used.end());
-    const Eigen::MatrixXd rest = b - D * x;
+    const Eigen::MatrixXd rest = b - Product(D, x);
     const Eigen::MatrixXd correction =
       DenseSolution(D(unknowns, unknowns), rest(unknowns, Eigen::all));
     for (std::size_t i = 0; i < unknowns.size(); ++i)
@@ -256,8 +260,8 @@ TEST_P(GroupsOfAnySize, ThatSinglePrecisionDoesNotHoldAreLeftAlone)
   const Eigen::MatrixXd D = RandomSpd(size);
   const SparseMatrix huge = Sparse(1e100 * D);
   const MultiVector exact = RandomVectors(size, 2, 1);
-  const MultiVector x = Swept(*MakePatchSmoother(huge, OneBlock(groups)), huge, 1e100 * (D * exact),
-    MultiVector::Zero(size, 2));
+  const MultiVector x = Swept(*MakePatchSmoother(huge, OneBlock(groups)), huge,
+    1e100 * Product(D, exact), MultiVector::Zero(size, 2));
   EXPECT_LT(RelativeDifference(x, exact), 1e-13);
   const auto single = MakeSinglePatchSmoother(huge, OneBlock(groups));
   EXPECT_EQ(single->UnresolvedPatches(), 1);
@@ -281,8 +285,8 @@ TEST(PatchSmoother, RefusesGroupsThatAreTooLarge)
 Eigen::MatrixXd NearlyDependent(double hidden)
 {
   const Eigen::MatrixXd R = RandomVectors(8, 8, 1);
-  const Eigen::MatrixXd seen = R.leftCols(4) * R.leftCols(4).transpose();
-  return seen + hidden * (R.rightCols(4) * R.rightCols(4).transpose());
+  const Eigen::MatrixXd seen = ProductWithTransposed(R.leftCols(4), R.leftCols(4));
+  return seen + hidden * ProductWithTransposed(R.rightCols(4), R.rightCols(4));
 }
 
 TEST(PatchSmoother, RoundingOfTheFactorsIsHarmlessHoweverDependentFunctionsAre)
@@ -297,7 +301,7 @@ TEST(PatchSmoother, RoundingOfTheFactorsIsHarmlessHoweverDependentFunctionsAre)
       // small pivots, half of the energy would be left at 1e-13.
       const MultiVector start = RandomVectors(8, width, 2);
       const MultiVector x = Swept(*smoother, Sparse(D), MultiVector::Zero(8, width), start);
-      const double left = (x.transpose() * D * x).trace() / (start.transpose() * D * start).trace();
+      const double left = Congruent(D, x).trace() / Congruent(D, start).trace();
       EXPECT_LT(std::sqrt(left), 0.05) << hidden;
     }
   }
@@ -308,10 +312,10 @@ TEST(PatchSmoother, SolvesSingularPatchesOnTheirRange)
   const Eigen::MatrixXd D = NearlyDependent(0.0);
   const SparseMatrix A = Sparse(D);
   const auto smoother = MakePatchSmoother(A, OneBlock({ { 0, 1, 2, 3, 4, 5, 6, 7 } }));
-  const MultiVector b = D * RandomVectors(8, 1, 2);
+  const MultiVector b = Product(D, RandomVectors(8, 1, 2));
   const MultiVector x = Swept(*smoother, A, b, MultiVector::Zero(8, 1));
   // The four kept pivots are above 1e-2, in single precision.
-  EXPECT_LT(RelativeDifference(D * x, b), 1e-5);
+  EXPECT_LT(RelativeDifference(Product(D, x), b), 1e-5);
 }
 
 TEST(PatchSmoother, LocalInverseDoesNotDependOnTheScaleOfFunctions)
@@ -322,13 +326,13 @@ TEST(PatchSmoother, LocalInverseDoesNotDependOnTheScaleOfFunctions)
   const SparseMatrix A = Sparse(scale.asDiagonal() * D * scale.asDiagonal());
   const auto smoother = MakePatchSmoother(A, OneBlock({ { 0, 1, 2, 3, 4, 5, 6, 7 } }));
   const MultiVector exact = RandomVectors(8, 1, 1);
-  const MultiVector b = scale.asDiagonal() * (D * exact);
+  const MultiVector b = scale.asDiagonal() * Product(D, exact);
   const MultiVector x = Swept(*smoother, A, b, MultiVector::Zero(8, 1));
   EXPECT_LT(RelativeDifference(scale.asDiagonal() * x, exact), 1e-6);
   // Single precision cannot hold these diagonals, so double precision takes over.
   const SparseMatrix huge = Sparse(1e100 * D);
   const auto exactly = MakePatchSmoother(huge, OneBlock({ { 0, 1, 2, 3, 4, 5, 6, 7 } }));
-  const MultiVector y = Swept(*exactly, huge, 1e100 * (D * exact), MultiVector::Zero(8, 1));
+  const MultiVector y = Swept(*exactly, huge, 1e100 * Product(D, exact), MultiVector::Zero(8, 1));
   EXPECT_LT(RelativeDifference(y, exact), 1e-13);
 }
 

@@ -87,8 +87,8 @@ TEST_P(EverySpace, HasALoadOfOneThatAddsUpToTheArea)
       ASSERT_NEAR(load(i, 0), on.space->Integrals()[i], 1e-11 * area);
     }
     const MultiVector ones = MultiVector::Ones(load.rows(), 1);
-    EXPECT_LT((DenseOf(*on.space, 1, 0) * ones - load).norm(), 1e-11 * load.norm());
-    EXPECT_LT((DenseOf(*on.space, 0, 1) * ones).norm(), 1e-9);
+    EXPECT_LT((Product(DenseOf(*on.space, 1, 0), ones) - load).norm(), 1e-11 * load.norm());
+    EXPECT_LT(Product(DenseOf(*on.space, 0, 1), ones).norm(), 1e-9);
   }
 }
 
@@ -187,7 +187,8 @@ TEST_P(EverySpace, IntegratesGradientsAsItsStiffnessDoes)
   for (const TriangleMesh& mesh : Meshes())
   {
     const SpaceOnMesh on = this->Build(mesh);
-    const MultiVector expected = DenseOf(*on.space, 0, 1) * on.coordinates * on.space->UnitLength();
+    const MultiVector expected =
+      Product(DenseOf(*on.space, 0, 1), on.coordinates) * on.space->UnitLength();
     const Field points{ FieldAssociation::Points, PointCoordinates(mesh) };
     const MultiVector load = on.space->LoadOfGradientsOf(points, nullptr);
     EXPECT_LT((load - expected).norm(), 1e-6 * expected.norm());
@@ -360,7 +361,7 @@ TEST_P(EverySpace, AMetricOfTheMassAloneLeavesTheStiffness)
       EXPECT_EQ(Dense(mass->Matrix(level, 0, 1)), Dense(on.space->Matrix(level, 0, 1)));
     }
     EXPECT_EQ(mass->Integrals(), both->Integrals());
-    const MultiVector load = DenseOf(*mass, 0, 1) * moved;
+    const MultiVector load = Product(DenseOf(*mass, 0, 1), moved);
     EXPECT_LT(RelativeDifference(mass->StiffnessTimes(moved, {}), load), 1e-10);
     mass->SetMetric(moved);
     EXPECT_LT(RelativeDifference(DenseOf(*mass, 2, 3), DenseOf(*both, 2, 3)), 1e-14);
@@ -477,13 +478,13 @@ TEST_P(EverySpace, MultipliesItsOwnFunctionsByItsElements)
   {
     const SpaceOnMesh on = this->Build(mesh);
     const MultiVector u = RandomValues(on.space->NumberOfFunctions(0), 5);
-    const MultiVector expected = DenseOf(*on.space, 0.0, 1.0) * u;
+    const MultiVector expected = Product(DenseOf(*on.space, 0.0, 1.0), u);
     EXPECT_LE(RelativeDifference(on.space->StiffnessTimes(u, {}), expected), 1e-13);
     EXPECT_EQ(on.space->StiffnessTimes(u, {}, 1), on.space->StiffnessTimes(u, {}, 2));
 
     // The coordinates, once as functions of the space and once as a field that is integrated.
     const MultiVector world = on.coordinates * on.space->UnitLength();
-    EXPECT_LE(RelativeDifference(DenseOf(*on.space, 1.0, 0.0) * world,
+    EXPECT_LE(RelativeDifference(Product(DenseOf(*on.space, 1.0, 0.0), world),
                 on.space->LoadOfValues({ FieldAssociation::Points, PointCoordinates(mesh) })),
       1e-12);
     EXPECT_LE(RelativeDifference(on.space->StiffnessTimes(world, {}),
@@ -517,7 +518,7 @@ TEST_P(EverySpace, MultipliesByItsStiffnessInItsOwnMetric)
   const MultiVector u = RandomValues(on.space->NumberOfFunctions(0), 2);
   const auto agrees = [&](const FiniteElementSpace& space)
   {
-    const MultiVector expected = DenseOf(space, 0.0, 1.0) * u;
+    const MultiVector expected = Product(DenseOf(space, 0.0, 1.0), u);
     return RelativeDifference(space.StiffnessTimes(u, {}), expected);
   };
   const auto weighed = on.space->Copy();

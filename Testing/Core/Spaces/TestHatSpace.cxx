@@ -40,7 +40,7 @@ TEST(HatSpace, IsASymmetricPositivePreconditioner)
     const MultiVector x = RandomValues(hybrid.space.NumberOfFunctions(0), 6);
     MultiVector Bx;
     multigrid.Precondition(x, Bx);
-    const Eigen::MatrixXd products = x.transpose() * Bx;
+    const Eigen::MatrixXd products = Product(x.transpose(), Eigen::MatrixXd(Bx));
     // The levels below the hats use single precision.
     EXPECT_LT(RelativeDifference(products, products.transpose()), 1e-6);
     EXPECT_GT(products.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0.0);
@@ -307,9 +307,9 @@ std::pair<double, double> ExtremesOfPreconditioned(const Hybrid& hybrid, double 
   multigrid.Precondition(MultiVector::Identity(count, count), B);
   const Eigen::MatrixXd A = Dense(multigrid.Matrix());
   const DenseEigenPairs pairs = DenseEigen(A);
-  const Eigen::MatrixXd root =
-    pairs.vectors * pairs.values.cwiseMax(0.0).cwiseSqrt().asDiagonal() * pairs.vectors.transpose();
-  const Eigen::VectorXd values = DenseEigen(root * (0.5 * (B + B.transpose())) * root).values;
+  const Eigen::MatrixXd root = ProductWithTransposed(
+    pairs.vectors * pairs.values.cwiseMax(0.0).cwiseSqrt().asDiagonal(), pairs.vectors);
+  const Eigen::VectorXd values = DenseEigen(Congruent(0.5 * (B + B.transpose()), root)).values;
   return { values[0], values[count - 1] };
 }
 

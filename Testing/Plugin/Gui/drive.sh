@@ -13,10 +13,3 @@ Play() {
     --plugins GridFEM --plugin-search-paths "$(dirname "$GRIDFEM_PLUGIN")" \
     --test-directory="$work" --test-script="$1" --exit
 }
-
-# Drive EVENTS.xml CHECK.py [OPTION OF PARAVIEW...]
-Drive() {
-  sed "s|@STATE@|$work/gui.pvsm|" "$here/Gui/$1" > "$work/events.xml"
-  Play "$work/events.xml" "${@:3}"
-  pvpython "$here/Gui/$2" "$work/gui.pvsm"
-}

@@ -1,0 +1,113 @@
+#include "Solvers/CurvatureSolver.h"
+
+#include "Base/VectorRows.h"
+#include "Problems/SolveWarnings.h"
+#include "Solvers/LocalSurface.h"
+
+namespace gridfem
+{
+namespace
+{
+
+/// The columns that CurvatureSolver::Numbers names.
+MultiVector NumbersOf(const PrincipalCurvatures& curvatures, double area)
+{
+  MultiVector numbers(
+    static_cast<Id>(curvatures.minimum.size()), static_cast<Id>(CurvatureSolver::Numbers.size()));
+  std::vector<double> mean(curvatures.minimum.size());
+  for (Id point = 0; point < numbers.rows(); ++point)
+  {
+    const double least = curvatures.minimum[point];
+    const double most = curvatures.maximum[point];
+    mean[point] = 0.5 * (least + most);
+    numbers.row(point) << least, most, mean[point], least * most, ShapeIndex(least, most), 0.0;
+  }
+  const std::vector<double> bending = BendingOf(mean, area);
+  numbers.rightCols(1) = Eigen::Map<const Eigen::VectorXd>(bending.data(), numbers.rows());
+  return numbers;
+}
+
+} // namespace
+
+PrincipalCurvatures CurvaturesOf(const Surface& surface, double smoothingScale,
+  const EquationOptions& equation, SolveReport& report, const Job& job)
+{
+  NormalSmoothing smoothing;
+  smoothing.multigrid = equation.multigrid;
+  smoothing.multigrid.threads = job.threads;
+  smoothing.solve = equation.solve;
+  std::shared_ptr<const FiniteElementSpace> space;
+  if (smoothingScale > 0.0)
+  {
+    space = surface.WholeSpace();
+    smoothing.scale = surface.LengthInWorldUnits(smoothingScale);
+  }
+  return CurvaturesOfSurface(surface.Mesh(), surface.UsedOptions().space.weldCoincidentPoints,
+    space.get(), smoothing, report, job);
+}
+
+EquationOptions CurvatureSolver::OfSmoothing()
+{
+  EquationOptions equation;
+  equation.solve.tolerance = 1e-4;
+  equation.solve.maximumIterations = 200;
+  return equation;
+}
+
+SurfaceOptions CurvatureSolver::SurfaceDefaults()
+{
+  SurfaceOptions options;
+  options.choice.normalStabilization = 1e-2;
+  return options;
+}
+
+const CurvatureSolver::Result& CurvatureSolver::Update(
+  Surface& surface, const Options& options, const Job& job)
+{
+  RequireOptions(options);
+  const bool isSmoothed = options.smoothingScale > 0.0;
+  StageKey key;
+  if (isSmoothed)
+  {
+    surface.Prepare(job.progress.Part(0.0, 0.6));
+    key.Add(surface.GetStages().Version(SystemStage)).Add(KeyOfOptions(options));
+    key.Add(surface.LengthInWorldUnits(options.smoothingScale));
+  }
+  else
+  {
+    surface.PrepareMesh(job.progress.Part(0.0, 0.6));
+    key.Add(surface.GetStages().Version(MeshStage));
+  }
+  key.Add(isSmoothed).Add(surface.UsedOptions().space.weldCoincidentPoints);
+  surface.GetStages().Run(SolveStage, key,
+    [&] {
+      this->Fit(surface, options, { surface.Threads(), job.progress.Part(0.6, 1.0) });
+    });
+  return result_;
+}
+
+void CurvatureSolver::Fit(const Surface& surface, const Options& options, const Job& job)
+{
+  result_ = {};
+  result_.isSmoothed = options.smoothingScale > 0.0;
+  const PrincipalCurvatures curvatures =
+    CurvaturesOf(surface, options.smoothingScale, options.equation, result_.report, job);
+  result_.numbers = NumbersOf(curvatures, SurfaceArea(surface.Mesh()));
+  result_.minimumDirection = RowsOf(curvatures.minimumDirection);
+  result_.maximumDirection = RowsOf(curvatures.maximumDirection);
+  if (result_.isSmoothed && !result_.report.converged)
+  {
+    result_.warnings.push_back(WarningOf(result_.report, options.equation.solve.tolerance));
+  }
+}
+
+CurvatureSolver::Result CurvatureSolver::Solve(std::shared_ptr<const TriangleMesh> mesh,
+  const Options& options, const SurfaceOptions& surfaceOptions, const Job& job)
+{
+  Stages stages;
+  LocalSurface surface(stages, std::move(mesh), surfaceOptions);
+  CurvatureSolver solver;
+  return solver.Update(surface, options, job);
+}
+
+} // namespace gridfem

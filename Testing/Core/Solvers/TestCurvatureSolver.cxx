@@ -1,0 +1,83 @@
+// Curvatures of a surface, which need functions only where normals are smoothed.
+#include "Solvers/CurvatureSolver.h"
+
+#include "Base/Errors.h"
+#include "Meshes.h"
+#include "Solvers/LocalSurface.h"
+
+#include <gtest/gtest.h>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+std::shared_ptr<const TriangleMesh> Sphere(double radius)
+{
+  return std::make_shared<const TriangleMesh>(GeodesicSphere(12, radius));
+}
+
+SurfaceOptions At(int depth)
+{
+  SurfaceOptions options = CurvatureSolver::SurfaceDefaults();
+  options.space.depth = depth;
+  return options;
+}
+
+} // namespace
+
+TEST(CurvatureSolver, KnowsTheCurvaturesOfASphere)
+{
+  constexpr double Radius = 20.0;
+  const double expected[] = { 1.0 / Radius, 1.0 / Radius, 1.0 / Radius, 1.0 / Radius / Radius, 1.0,
+    0.5 };
+  for (const double scale : { 0.0, 0.05 })
+  {
+    CurvatureSolver::Options options;
+    options.smoothingScale = scale;
+    const auto result = CurvatureSolver::Solve(Sphere(Radius), options, At(5));
+    ASSERT_EQ(result.numbers.cols(), static_cast<Id>(CurvatureSolver::Numbers.size()));
+    for (Id column = 0; column < result.numbers.cols(); ++column)
+    {
+      const double error = (result.numbers.col(column).array() - expected[column]).abs().maxCoeff();
+      EXPECT_LT(error, 0.02 * expected[column]) << CurvatureSolver::Numbers[column] << " " << scale;
+    }
+    EXPECT_EQ(result.isSmoothed, scale > 0.0);
+    EXPECT_TRUE(result.warnings.empty());
+  }
+}
+
+TEST(CurvatureSolver, FitsAgainOnlyAfterAChangeThatCounts)
+{
+  Stages stages;
+  LocalSurface surface(stages, Sphere(1.0), At(4));
+  CurvatureSolver solver;
+  CurvatureSolver::Options options;
+  solver.Update(surface, options, {});
+  options.equation.solve.tolerance = 1e-5; // of a smoothing that does not take place
+  solver.Update(surface, options, {});
+  EXPECT_EQ(stages.Runs(SolveStage), 1);
+  EXPECT_EQ(stages.Runs(SpaceStage), 0);
+
+  for (const double scale : { 0.1, 0.2, 0.2 })
+  {
+    options.smoothingScale = scale;
+    solver.Update(surface, options, {});
+  }
+  EXPECT_EQ(stages.Runs(SolveStage), 3);
+  EXPECT_EQ(stages.Runs(SystemStage), 1);
+  const MultiVector oneShot = CurvatureSolver::Solve(Sphere(1.0), options, At(4)).numbers;
+  EXPECT_EQ(solver.Update(surface, options, {}).numbers, oneShot);
+}
+
+TEST(CurvatureSolver, RefusesANegativeScaleAndWarnsOfAnEarlyEnd)
+{
+  CurvatureSolver::Options options;
+  options.smoothingScale = -1.0;
+  EXPECT_THROW(CurvatureSolver::Solve(Sphere(1.0), options, At(4)), InvalidInput);
+  options.smoothingScale = 0.5;
+  options.equation.solve.tolerance = 1e-12;
+  options.equation.solve.maximumIterations = 1;
+  EXPECT_EQ(CurvatureSolver::Solve(Sphere(1.0), options, At(4)).warnings.size(), 1u);
+}

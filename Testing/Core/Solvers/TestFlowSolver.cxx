@@ -1,0 +1,128 @@
+// The steps of a flow on a surface: made once, continued, and made again with the same bits.
+#include "Solvers/FlowSolver.h"
+
+#include "Base/Errors.h"
+#include "Meshes.h"
+#include "Solvers/LocalSurface.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+std::shared_ptr<const TriangleMesh> Shared(TriangleMesh mesh)
+{
+  return std::make_shared<const TriangleMesh>(std::move(mesh));
+}
+
+std::shared_ptr<const TriangleMesh> TurnedTorus()
+{
+  return Shared(Transform(Torus(24, 12, 1.0, 0.4), { 1, 2, 0 }, 0.4));
+}
+
+SurfaceOptions At(int depth, FunctionKind kind = FunctionKind::Grid)
+{
+  SurfaceOptions options;
+  options.space.depth = depth;
+  options.choice.kind = kind;
+  return options;
+}
+
+FlowSolver::Options Steps(int number, double timeStep = 1e-3)
+{
+  FlowSolver::Options options;
+  options.numberOfSteps = number;
+  options.timeStep = timeStep;
+  return options;
+}
+
+} // namespace
+
+TEST(FlowSolver, ContinuesWithTheBitsOfOneShot)
+{
+  for (const FunctionKind kind : { FunctionKind::Grid, FunctionKind::Hats })
+  {
+    Stages stages;
+    LocalSurface surface(stages, TurnedTorus(), At(4, kind));
+    FlowSolver solver;
+    solver.Update(surface, Steps(2), {});
+    const auto second = solver.PointsAt(2, surface);
+    EXPECT_EQ(solver.Update(surface, Steps(4), {}).steps.size(), 5u);
+    EXPECT_EQ(stages.Runs(StepStage), 4);
+    std::vector<Vec3> expected;
+    FlowSolver::Solve(TurnedTorus(), Steps(4), expected, At(4, kind));
+    EXPECT_EQ(solver.PointsAt(4, surface), expected);
+
+    EXPECT_EQ(solver.Update(surface, Steps(2), {}).steps.size(), 3u);
+    EXPECT_EQ(solver.PointsAt(2, surface), second);
+    EXPECT_EQ(stages.Runs(StepStage), 4);
+    solver.Update(surface, Steps(2, 2e-3), {});
+    EXPECT_NE(solver.PointsAt(2, surface), second);
+    EXPECT_EQ(stages.Runs(StepStage), 6);
+    EXPECT_EQ(stages.Runs(SystemStage), 1);
+  }
+}
+
+TEST(FlowSolver, ShowsAStepWithTheSameBitsWhetherItIsKeptOrNot)
+{
+  constexpr double OneShape = 1.0; // the last step alone is kept
+  Stages stages;
+  LocalSurface surface(stages, TurnedTorus(), At(4));
+  FlowSolver keeping;
+  keeping.Update(surface, Steps(5), {});
+  Stages otherStages;
+  LocalSurface other(otherStages, TurnedTorus(), At(4));
+  FlowSolver forgetting(OneShape);
+  forgetting.Update(other, Steps(5), {});
+  for (const int step : { 3, 4, 1, 5, 2, 0, 5 })
+  {
+    EXPECT_EQ(forgetting.PointsAt(step, other), keeping.PointsAt(step, surface)) << step;
+  }
+  EXPECT_EQ(stages.Runs(StepStage), 5);
+  EXPECT_GT(otherStages.Runs(StepStage), 5);
+}
+
+TEST(FlowSolver, ShrinksASphereByTheRateOfItsImplicitStep)
+{
+  constexpr double Step = 0.01;
+  SurfaceOptions options = At(5);
+  options.parameterUnits = ParameterUnits::World;
+  std::vector<Vec3> points;
+  const auto result =
+    FlowSolver::Solve(Shared(GeodesicSphere(32)), Steps(5, Step), points, options);
+  double radius = 1.0;
+  for (int step = 0; step < 5; ++step)
+  {
+    radius /= 1.0 + 2.0 * Step / (radius * radius); // the Laplacian of x is -2 x / r²
+  }
+  for (const Vec3& point : points)
+  {
+    ASSERT_NEAR(point.norm(), radius, 1e-3); // the square of an edge is 2e-3
+  }
+  EXPECT_NEAR(result.steps.back().time, 5 * Step, 1e-12);
+  EXPECT_TRUE(result.warnings.empty());
+}
+
+TEST(FlowSolver, RefusesOptionsThatContradictEachOther)
+{
+  Stages stages;
+  LocalSurface surface(stages, TurnedTorus(), At(4));
+  FlowSolver solver;
+  FlowSolver::Options options = Steps(1);
+  options.conformalized = true;
+  options.trackMetric = false;
+  EXPECT_THROW(solver.Update(surface, options, {}), InvalidInput);
+  options = Steps(1);
+  options.fixedBoundary = true;
+  options.rescale = FlowSolver::Rescale::ConstantVolume;
+  EXPECT_THROW(solver.Update(surface, options, {}), InvalidInput);
+  for (const double timeStep : { 0.0, -1.0, std::nan(""), HUGE_VAL })
+  {
+    EXPECT_THROW(solver.Update(surface, Steps(1, timeStep), {}), InvalidInput) << timeStep;
+  }
+}
