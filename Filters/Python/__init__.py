@@ -27,7 +27,7 @@ except ImportError:
     from ._with_vtk import solve as _solve, surface
 
 __all__ = ["Error", "arrays", "curvatures", "decompose", "detail", "diffuse", "distance",
-           "divergence", "farthest_points", "flow", "gradient", "interpolate", "poisson",
+           "divergence", "farthest_points", "flow", "gradient", "interpolate", "poisson", "signatures",
            "signed_distance", "spectrum", "stitch"]
 
 
@@ -40,6 +40,16 @@ def spectrum(points, cells, number=20, **properties):
     """
     results = _solve("LaplaceSpectrum", points, cells, {}, {"NumberOfModes": number, **properties})
     return results["Eigenvalues"], results["Modes"]
+
+
+def signatures(points, cells, number=100, **properties):
+    """The heat kernel and the wave kernel signature of every point, from `number` modes.
+
+    Both have a column for each of NumberOfScales times or frequencies, from small features to the
+    whole shape.
+    """
+    results = _solve("SpectralSignatures", points, cells, {}, {"NumberOfModes": number, **properties})
+    return results["HeatKernelSignature"], results["WaveKernelSignature"]
 
 
 def poisson(points, cells, values=None, gradients=None, weights=None, held=None, **properties):

@@ -2,21 +2,17 @@
 
 #include "Private/CanDistribute.h"
 #include "Private/ClippedMeshWriter.h"
-#include "Private/InputArray.h"
 #include "Private/InputValidation.h"
 #include "Private/ModeReader.h"
 #include "Private/Ranks.h"
 #include "Private/SolverOutput.h"
 #include "Private/SurfaceSolverState.h"
-#include "Private/SurfaceSpectrum.h"
 
 #include "Base/Errors.h"
 #include "Integrals/QuadratureRule.h"
-#include "Problems/SolveWarnings.h"
+#include "Solvers/SpectrumSolver.h"
 
 #include "vtkDataArray.h"
-#include "vtkDoubleArray.h"
-#include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
@@ -28,6 +24,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 vtkStandardNewMacro(vtkLaplaceSpectrum);
 
@@ -42,19 +39,23 @@ int FirstTimeStep(int numberOfModes)
 
 } // namespace
 
-struct vtkLaplaceSpectrum::Internals : gridfem::SurfaceSpectrum
+struct vtkLaplaceSpectrum::Internals
 {
-  std::int64_t WarnedRun = 0; // the last solve whose cut multiplet was told of: not every time step
-  /// NumberOfModes of the last solve: how many modes it gives is known.
-  int SolvedModes = 0;
+  gridfem::SpectrumSolver Solver;
+  const gridfem::SpectrumSolver::Result* Result = nullptr; // of this run
+  ///@{ How many modes NumberOfModes has given; they are time steps also when the modes are freed.
+  int WantedModes = 0;
+  int FoundModes = 0;
+  ///@}
 };
 
 vtkLaplaceSpectrum::vtkLaplaceSpectrum() : Data(std::make_unique<Internals>())
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
-  this->Tolerance = 1e-6;
-  this->State->options.multigrid.cycle = gridfem::CycleType::V;
+  const gridfem::EquationOptions equation = gridfem::EquationOfModes();
+  this->Tolerance = equation.solve.tolerance;
+  this->State->options.multigrid.cycle = equation.multigrid.cycle;
 }
 
 vtkLaplaceSpectrum::~vtkLaplaceSpectrum() = default;
@@ -72,8 +73,8 @@ std::vector<double> vtkLaplaceSpectrum::OwnTimeSteps()
   {
     return times;
   }
-  const bool isSolved = this->Data->SolvedModes == this->NumberOfModes;
-  const int count = isSolved ? this->Data->NumberOfModes() : this->NumberOfModes;
+  const bool isSolved = this->Data->WantedModes == this->NumberOfModes;
+  const int count = isSolved ? this->Data->FoundModes : this->NumberOfModes;
   for (int mode = FirstTimeStep(count); mode < count; ++mode)
   {
     times.push_back(mode);
@@ -81,9 +82,65 @@ std::vector<double> vtkLaplaceSpectrum::OwnTimeSteps()
   return times;
 }
 
-int vtkLaplaceSpectrum::ShownMode(vtkInformation* output)
+bool vtkLaplaceSpectrum::NeedsWholeSurface()
 {
-  const int count = this->Data->NumberOfModes();
+  return this->Accuracy > 0.0 || this->TrackMetric || gridfem::IsArrayChosen(this, 5);
+}
+
+void vtkLaplaceSpectrum::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
+  vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
+  gridfem::SurfaceSolverState& state = *this->State;
+  gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
+  if (!this->AllModes)
+  {
+    gridfem::RequireAtLeast("Mode", this->Mode, -1);
+  }
+  state.options.trackMetric = this->TrackMetric && this->Accuracy == 0.0;
+  state.SetInput(input, vtkPolyData::GetData(inputs[1]));
+  const bool choosesDepth = this->Accuracy > 0.0 && !state.AreFunctionsGiven();
+  state.options.functionsPerPoint =
+    choosesDepth ? gridfem::AsManyAsWanted
+                 : gridfem::SpectrumSolver::SurfaceDefaults().functionsPerPoint;
+  state.metricArray = state.Find(5, "MetricArray");
+  this->Solve();
+
+  const vtkNew<vtkPolyData> nothing; // field arrays are on all ranks
+  this->WriteModes(input ? input : nothing, outputs->GetInformationObject(0), output);
+  state.Together(
+    [&]
+    {
+      this->WriteFields(output);
+      if (gridfem::Ranks().IsFirst())
+      {
+        this->WriteTable(vtkTable::GetData(outputs, 1));
+      }
+    });
+  this->Warn(this->Data->Result->warnings);
+  state.GetProgress().Check(1.0);
+}
+
+void vtkLaplaceSpectrum::Solve()
+{
+  gridfem::SurfaceSolverState& state = *this->State;
+  gridfem::SpectrumSolver::Options options;
+  options.equation = state.options;
+  options.numberOfModes = this->NumberOfModes;
+  options.accuracy = this->Accuracy;
+  gridfem::SpectrumSolver::Input input;
+  input.announce = [&](const std::string& cost, bool takesHours)
+  { state.bridge.Announce(cost, takesHours); };
+  this->Data->WantedModes = 0;
+  this->Data->Result = &this->Data->Solver.Update(
+    state, input, options, { state.Threads(), state.GetProgress().Part(0.0, 0.95) });
+  this->Data->WantedModes = this->NumberOfModes;
+  this->Data->FoundModes = this->Data->Result->NumberOfModes();
+}
+
+int vtkLaplaceSpectrum::ShownMode(vtkInformation* output) const
+{
+  const int count = this->Data->FoundModes;
   if (this->Mode >= count)
   {
     throw gridfem::InvalidInput("Mode " + std::to_string(this->Mode) +
@@ -107,153 +164,63 @@ int vtkLaplaceSpectrum::ShownMode(vtkInformation* output)
   return static_cast<int>(std::lround(std::min(time, double(count - 1))));
 }
 
+/// One mode at a time, because all of them may need much memory. Collective.
 void vtkLaplaceSpectrum::WriteModes(vtkPolyData* input, vtkInformation* info, vtkPolyData* output)
 {
-  const gridfem::SurfaceSolverState& state = *this->State;
-  const int precision = input->GetPoints() // an empty piece of a surface on several ranks has none
-                          ? gridfem::OutputPrecision(input->GetPoints())
-                          : VTK_DOUBLE;
   output->ShallowCopy(input);
   gridfem::RemoveModes(output); // an earlier run may have had more
-  const auto addMode = [&](int mode, const std::string& name)
-  {
-    const gridfem::MultiVector values =
-      this->Data->atPoints.cols() > 0
-        ? gridfem::MultiVector(this->Data->atPoints.col(mode))
-        : gridfem::EvaluateModes(state, this->Data->spectrum, mode, 1);
-    output->GetPointData()->AddArray(gridfem::MakePointArray(name.c_str(), values, precision));
-    return name;
-  };
-  std::string shown;
-  if (this->AllModes)
-  {
-    for (int mode = 0; mode < this->Data->NumberOfModes(); ++mode)
-    {
-      addMode(mode, gridfem::ModeName(mode));
-    }
-    shown = gridfem::ModeName(0);
-  }
-  else
-  {
-    shown = addMode(this->ShownMode(info), "Mode");
-  }
-  output->GetPointData()->SetActiveScalars(shown.c_str());
-  vtkNew<vtkDoubleArray> eigenvalues;
-  eigenvalues->SetName("Eigenvalues");
-  eigenvalues->SetNumberOfTuples(this->Data->NumberOfModes());
-  std::copy(
-    this->Data->eigenvalues.begin(), this->Data->eigenvalues.end(), eigenvalues->GetPointer(0));
-  output->GetFieldData()->AddArray(eigenvalues);
-  const bool converged = this->Data->spectrum.converged && this->IsAccurate();
-  gridfem::AddFieldInt(output, "Converged", converged ? 1 : 0);
-  state.WriteTracking(output);
-}
-
-void vtkLaplaceSpectrum::WriteTable(vtkTable* table)
-{
-  std::vector<int> modes(this->Data->NumberOfModes());
-  for (int mode = 0; mode < this->Data->NumberOfModes(); ++mode)
-  {
-    modes[mode] = mode;
-  }
-  gridfem::AddColumn(table, "Mode", modes);
-  gridfem::AddColumn(table, "Eigenvalue", this->Data->eigenvalues);
-  gridfem::AddColumn(table, "Residual", this->Data->spectrum.residuals);
-  gridfem::AddColumn(table, "EstimatedError", this->Data->spectrum.estimatedErrors);
-}
-
-bool vtkLaplaceSpectrum::IsAccurate() const
-{
-  return this->Accuracy == 0.0 || this->Data->LargestEstimatedError() <= this->Accuracy;
-}
-
-void vtkLaplaceSpectrum::Warn()
-{
-  const gridfem::FunctionKind kind = this->State->options.choice.kind;
-  const std::string where = gridfem::PlaceOf(kind, this->Data->depth);
-  const std::int64_t run = this->State->stages.Runs(gridfem::SolveStage);
-  for (const std::string& warning : gridfem::WarningsOf(
-         this->Data->spectrum, this->NumberOfModes, where, run != this->Data->WarnedRun))
-  {
-    vtkWarningMacro(<< warning);
-  }
-  this->Data->WarnedRun = run;
-  if (!this->IsAccurate())
-  {
-    vtkWarningMacro(<< gridfem::WarningOfAccuracy(this->Accuracy,
-                      this->Data->LargestEstimatedError(), kind, this->Data->depth));
-  }
-}
-
-void vtkLaplaceSpectrum::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
-{
-  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
-  gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
-  gridfem::RequireNumber("Accuracy", this->Accuracy);
   if (!this->AllModes)
   {
-    gridfem::RequireAtLeast("Mode", this->Mode, -1);
+    int shown = 0;
+    this->State->Together([&] { shown = this->ShownMode(info); });
+    this->AddMode(shown, "Mode", output);
+    output->GetPointData()->SetActiveScalars("Mode");
+    return;
   }
-  gridfem::SpectrumRequest request;
-  request.numberOfModes = this->NumberOfModes;
-  request.accuracy = this->Accuracy;
-  this->State->metricArray = gridfem::FindInputArray(this, 5, input, "MetricArray");
-  this->State->options.trackMetric = this->TrackMetric && this->Accuracy == 0.0;
-  this->Data->SolvedModes = 0;
-  this->Data->Update(*this->State, input, vtkPolyData::GetData(inputs[1]), request);
-  this->Data->SolvedModes = this->NumberOfModes;
-  this->WriteModes(input, outputs->GetInformationObject(0), vtkPolyData::GetData(outputs, 0));
-  this->WriteTable(vtkTable::GetData(outputs, 1));
-  this->Warn();
-  this->State->bridge.GetProgress().Check(1.0);
+  for (int mode = 0; mode < this->Data->FoundModes; ++mode)
+  {
+    this->AddMode(mode, gridfem::ModeName(mode), output);
+  }
+  output->GetPointData()->SetActiveScalars(gridfem::ModeName(0).c_str());
 }
 
-bool vtkLaplaceSpectrum::ComputeTogether(
-  vtkInformationVector** inputs, vtkInformationVector* outputs)
+void vtkLaplaceSpectrum::AddMode(int mode, const std::string& name, vtkPolyData* output)
 {
-  const bool needsAll =
-    this->Accuracy > 0.0 || this->TrackMetric || gridfem::IsArrayChosen(this, 5);
-  gridfem::SurfaceSolverState& state = *this->State;
-  if (!gridfem::CanDistribute(this, inputs, needsAll))
-  {
-    return false;
-  }
-  vtkPolyData* piece = vtkPolyData::GetData(inputs[0]);
-  state.options.trackMetric = false;
-  state.options.functionsPerPoint = gridfem::EnoughToEstimate;
-  gridfem::SpectrumRequest request;
-  request.numberOfModes = this->NumberOfModes;
-  this->Data->SolvedModes = 0;
-  state.RunTogether(
-    [&](const gridfem::Progress& progress)
+  const gridfem::MultiVector values = this->Data->Solver.ModesAtPoints(*this->State, mode, 1);
+  this->State->Together(
+    [&]
     {
-      state.UpdateTogether(piece, vtkPolyData::GetData(inputs[1]));
-      this->Data->UpdateTogether(state, request, progress.Part(0.3, 1.0));
-      this->Data->SolvedModes = this->NumberOfModes;
-      state.together.Together([&] { this->WriteDistributed(piece, outputs); });
+      const int precision = output->GetPoints() // an empty piece of a surface has none
+                              ? gridfem::OutputPrecision(output->GetPoints())
+                              : VTK_DOUBLE;
+      output->GetPointData()->AddArray(gridfem::MakePointArray(name.c_str(), values, precision));
     });
-  return true;
 }
 
-/// Port 0 is the rank's own piece with its modes; the table is on the first rank.
-void vtkLaplaceSpectrum::WriteDistributed(vtkPolyData* piece, vtkInformationVector* outputs)
+void vtkLaplaceSpectrum::WriteFields(vtkPolyData* output) const
 {
-  vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
-  const vtkNew<vtkPolyData> nothing; // field arrays are on all ranks
-  this->WriteModes(piece ? piece : nothing, outputs->GetInformationObject(0), output);
-  gridfem::AddDistributed(this->State->together.Depth(), output);
-  if (gridfem::Ranks().IsFirst())
-  {
-    this->WriteTable(vtkTable::GetData(outputs, 1));
-    this->Warn();
-  }
+  const gridfem::SpectrumSolver::Result& result = *this->Data->Result;
+  gridfem::AddFieldNumbers(output, "Eigenvalues", result.eigenvalues);
+  const bool converged = result.spectrum.converged && result.isAccurate;
+  gridfem::AddFieldInt(output, "Converged", converged ? 1 : 0);
+  this->State->WriteTracking(output);
+}
+
+void vtkLaplaceSpectrum::WriteTable(vtkTable* table) const
+{
+  const gridfem::SpectrumSolver::Result& result = *this->Data->Result;
+  std::vector<int> modes(static_cast<std::size_t>(result.NumberOfModes()));
+  std::iota(modes.begin(), modes.end(), 0);
+  gridfem::AddColumn(table, "Mode", modes);
+  gridfem::AddColumn(table, "Eigenvalue", result.eigenvalues);
+  gridfem::AddColumn(table, "Residual", result.spectrum.residuals);
+  gridfem::AddColumn(table, "EstimatedError", result.spectrum.estimatedErrors);
 }
 
 void vtkLaplaceSpectrum::FreeStages()
 {
   this->Superclass::FreeStages();
-  this->Data->spectrum = {};
-  this->Data->atPoints = {};
+  this->Data->Solver.Free();
 }
 
 void vtkLaplaceSpectrum::PrintSelf(ostream& os, vtkIndent indent)

@@ -130,8 +130,8 @@ protected:
 
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   std::vector<double> OwnTimeSteps() override;
+  bool NeedsWholeSurface() override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
-  bool ComputeTogether(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   void FreeStages() override;
 
   int NumberOfModes = 20;
@@ -144,12 +144,12 @@ private:
   vtkLaplaceSpectrum(const vtkLaplaceSpectrum&) = delete;
   void operator=(const vtkLaplaceSpectrum&) = delete;
 
-  void WriteDistributed(vtkPolyData* piece, vtkInformationVector* outputs);
-  bool IsAccurate() const;
-  int ShownMode(vtkInformation* output);
+  void Solve();
+  int ShownMode(vtkInformation* output) const;
+  void AddMode(int mode, const std::string& name, vtkPolyData* output);
   void WriteModes(vtkPolyData* input, vtkInformation* info, vtkPolyData* output);
-  void WriteTable(vtkTable* table);
-  void Warn();
+  void WriteFields(vtkPolyData* output) const;
+  void WriteTable(vtkTable* table) const;
 
   struct Internals;
   std::unique_ptr<Internals> Data;

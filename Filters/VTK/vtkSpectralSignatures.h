@@ -58,11 +58,6 @@
 class vtkDataSet;
 class vtkTable;
 
-namespace gridfem
-{
-class Progress;
-}
-
 class VTKGRIDFEMFILTERS_EXPORT vtkSpectralSignatures : public vtkSurfaceFEMAlgorithm
 {
 public:
@@ -159,8 +154,8 @@ protected:
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
+  bool NeedsWholeSurface() override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
-  bool ComputeTogether(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   void FreeStages() override;
 
   int NumberOfModes = 100;
@@ -174,20 +169,13 @@ private:
   vtkSpectralSignatures(const vtkSpectralSignatures&) = delete;
   void operator=(const vtkSpectralSignatures&) = delete;
 
-  void UpdateModes(vtkPolyData* input, vtkPolyData* basis);
-  bool TakeModes(vtkPolyData* input);
-  void ComputeModes(vtkPolyData* input, vtkPolyData* basis);
-  void WriteSignatures(int precision, const gridfem::Progress& progress, vtkPolyData* output);
-  void WriteDistances(vtkDataSet* sources, int precision, vtkPolyData* output);
-  void WriteFiltered(const std::vector<char>& isUsed, vtkPolyData* input, vtkPolyData* output);
-  void UpdateModesTogether(vtkInformationVector** inputs, const gridfem::Progress& progress);
-  bool TakeModesTogether(vtkPolyData* piece);
-  void ComputeModesTogether(vtkInformationVector** inputs, const gridfem::Progress& progress);
-  void FilterTogether(vtkPolyData* piece);
-  void WriteDistributed(vtkPolyData* piece, vtkInformationVector* outputs);
+  void Solve(vtkDataSet* sources);
+  void FindValues();
+  void Write(vtkPolyData* input, vtkPolyData* output);
+  void WriteSignatures(int precision, vtkPolyData* output);
+  void WriteDistances(int precision, vtkPolyData* output);
+  void WriteFiltered(vtkPolyData* input, vtkPolyData* output);
   void WriteTable(vtkTable* table);
-  void Warn();
-  double WorldDiffusionTime();
 
   struct Internals;
   std::unique_ptr<Internals> Data;

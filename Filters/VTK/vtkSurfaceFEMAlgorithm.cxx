@@ -399,7 +399,12 @@ bool vtkSurfaceFEMAlgorithm::TryTogether(
       return this->ComputeTogether(inputs, outputs);
     }
     this->State->RunTogether([&](const gridfem::Progress&) { this->Compute(inputs, outputs); });
-    gridfem::AddDistributed(this->State->together.Depth(), vtkPolyData::GetData(outputs));
+    vtkPolyData* output = vtkPolyData::GetData(outputs);
+    gridfem::AddFieldInt(output, gridfem::DistributedName, 1);
+    if (this->State->together.IsUsed())
+    {
+      gridfem::AddFieldInt(output, "UsedDepth", this->State->together.Depth());
+    }
     return true;
   }
   catch (const gridfem::Aborted&)

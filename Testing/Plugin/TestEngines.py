@@ -75,6 +75,9 @@ class Engines(unittest.TestCase):
         self.compare(lambda g, p, c, **o: g.spectrum(p, c, 8, **o)[0])
         self.compare(lambda g, p, c, **o: g.spectrum(p, c, 8, **o)[1])
 
+    def test_signatures(self):
+        self.compare(lambda g, p, c, **o: g.signatures(p, c, 10, NumberOfScales=3, **o))
+
     def test_the_depth_for_an_accuracy(self):
         self.compare(lambda g, p, c, **o: g.poisson(
             p, c, numpy.sin(4 * p[:, 0]), WantedError=0.03, **o))
@@ -171,8 +174,8 @@ class Engines(unittest.TestCase):
         module = sys.modules["gridfem_core._without_vtk"]._core
         for name in ("FarthestPoints", "GeodesicDistance", "HarmonicInterpolation", "HeatDiffusion",
                      "LaplaceSpectrum", "MeanCurvatureFlow", "PrincipalCurvatures",
-                     "ScreenedPoisson", "StitchColors", "SurfaceDetail",
-                     "SurfaceGradient"):
+                     "ScreenedPoisson", "SpectralSignatures", "StitchColors",
+                     "SurfaceDetail", "SurfaceGradient"):
             algorithm = getattr(vtkGridFEMFilters, "vtk" + name)()
             for key, (standard, least, most) in module.properties(name).items():
                 with self.subTest(filter=name, property=key):

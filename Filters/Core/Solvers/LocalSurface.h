@@ -17,6 +17,7 @@ public:
   void PrepareAtDepth(int depth, const Progress& progress) override;
   void PrepareMesh(const Progress& progress) override;
   StageKey InputKey() const override { return {}; } // neither changes
+  std::shared_ptr<const TriangleMesh> ReadMesh() const override { return mesh_; }
   std::int64_t StructureVersion() const override { return structure_; }
   const SurfaceOptions& UsedOptions() const override { return used_; }
   std::shared_ptr<const TriangleMesh> SharedMesh() const override { return mesh_; }

@@ -1,6 +1,7 @@
 #include "Solvers/Surface.h"
 
 #include "Problems/GeodesicDistance.h"
+#include "Problems/MemoryEstimate.h"
 
 #include <cmath>
 
@@ -34,6 +35,11 @@ std::unique_ptr<DistanceMethod> Surface::MakeDistance(
   const DistanceOptions& options, const Job& job) const
 {
   return std::make_unique<GeodesicDistance>(this->WholeSpace(), this->SharedMesh(), options, job);
+}
+
+void Surface::Require(const MemoryNeed& own) const
+{
+  RequireMemory(own, AvailableMemory());
 }
 
 MultiVector Surface::ValuesAtPoints(const MultiVector& coefficients, const Progress& progress) const

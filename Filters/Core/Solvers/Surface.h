@@ -48,6 +48,9 @@ public:
   /// Whether the functions are given, so that the solver cannot choose their depth.
   virtual bool AreFunctionsGiven() const { return false; }
 
+  /// The triangles that Prepare works on, before it does: for the choice of a depth.
+  virtual std::shared_ptr<const TriangleMesh> ReadMesh() const = 0;
+
   /// The stages of the surface and of the solver that works on it.
   Stages& GetStages() const { return stages_; }
 
@@ -99,6 +102,12 @@ public:
 
   /// Runs a body that can throw on one process alone; then it throws on all.
   virtual void Together(const std::function<void()>& body) const { body(); }
+
+  /// Throws InvalidInput where one process has less memory than it needs.
+  virtual void Require(const MemoryNeed& own) const;
+
+  /// For sums of numbers that each process has a part of; null: this process has all.
+  virtual const DividedRows* SumsOverProcesses() const { return nullptr; }
 
   /// The largest number of all processes; NaN where one is NaN.
   virtual double Largest(double own) const { return own; }

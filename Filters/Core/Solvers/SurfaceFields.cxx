@@ -7,6 +7,13 @@ namespace gridfem
 namespace
 {
 
+std::string NameOf(const GivenField& values)
+{
+  return values ? values.name : "coordinates";
+}
+
+} // namespace
+
 Field UsedCoordinates(const TriangleMesh& mesh)
 {
   const std::vector<char> used = UsedPoints(mesh);
@@ -21,13 +28,6 @@ Field UsedCoordinates(const TriangleMesh& mesh)
   }
   return field;
 }
-
-std::string NameOf(const GivenField& values)
-{
-  return values ? values.name : "coordinates";
-}
-
-} // namespace
 
 Field ReadField(const Surface& surface, const GivenField& field, NaNs nans)
 {

@@ -14,6 +14,9 @@
 namespace gridfem
 {
 
+/// The coordinates of a mesh; 0 at points that no triangle uses.
+Field UsedCoordinates(const TriangleMesh& mesh);
+
 /// The field, or the coordinates of the current mesh where none is given (0 at points that no
 /// triangle uses). Throws InvalidInput for values that are refused.
 Field ReadField(const Surface& surface, const GivenField& field, NaNs nans = NaNs::Refused);

@@ -33,6 +33,7 @@ const std::map<std::string, MakeProblem> Problems = {
   { "MeanCurvatureFlow", &MakeFlow },
   { "PrincipalCurvatures", &MakeCurvatures },
   { "ScreenedPoisson", &MakePoisson },
+  { "SpectralSignatures", &MakeSignatures },
   { "StitchColors", &MakeStitching },
   { "SurfaceDetail", &MakeDetail },
   { "SurfaceGradient", &MakeGradient },

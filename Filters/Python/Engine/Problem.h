@@ -60,6 +60,7 @@ std::unique_ptr<Problem> MakeFlow(Properties& properties);
 std::unique_ptr<Problem> MakeGradient(Properties& properties);
 std::unique_ptr<Problem> MakeInterpolation(Properties& properties);
 std::unique_ptr<Problem> MakePoisson(Properties& properties);
+std::unique_ptr<Problem> MakeSignatures(Properties& properties);
 std::unique_ptr<Problem> MakeSpectrum(Properties& properties);
 std::unique_ptr<Problem> MakeStitching(Properties& properties);
 

@@ -20,14 +20,13 @@ void ProgressBridge::Restart()
   algorithm_->SetProgressText(nullptr);
 }
 
-void ProgressBridge::Say(const std::string& text)
+void ProgressBridge::Announce(const std::string& cost, bool takesHours)
 {
-  algorithm_->SetProgressText(text.c_str());
-}
-
-void ProgressBridge::Warn(const std::string& text)
-{
-  vtkWarningWithObjectMacro(algorithm_, << text);
+  algorithm_->SetProgressText(cost.c_str());
+  if (takesHours)
+  {
+    vtkWarningWithObjectMacro(algorithm_, << cost << ". An abort ends it at any time.");
+  }
 }
 
 Progress ProgressBridge::GetProgress()

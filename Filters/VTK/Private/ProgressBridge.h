@@ -23,11 +23,8 @@ public:
   /// A new run starts: the next report is passed on at once.
   void Restart();
 
-  /// What is shown beside the progress, until the next run.
-  void Say(const std::string& text);
-
-  /// A warning of the algorithm.
-  void Warn(const std::string& text);
+  /// Shows a cost beside the progress until the next run, and warns of hours.
+  void Announce(const std::string& cost, bool takesHours);
 
   /// Refers to this bridge, which has to live as long.
   Progress GetProgress();

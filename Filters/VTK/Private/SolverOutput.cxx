@@ -72,9 +72,15 @@ void AddDistributed(int depth, vtkPolyData* output)
 
 void AddFieldNumber(vtkPolyData* output, const char* name, double value)
 {
+  AddFieldNumbers(output, name, { value });
+}
+
+void AddFieldNumbers(vtkPolyData* output, const char* name, const std::vector<double>& values)
+{
   vtkNew<vtkDoubleArray> array;
   array->SetName(name);
-  array->InsertNextValue(value);
+  SetTuples(array, static_cast<vtkIdType>(values.size()));
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
   output->GetFieldData()->AddArray(array);
 }
 

@@ -46,8 +46,10 @@ constexpr const char* DistributedName = "Distributed";
 /// Adds the field arrays UsedDepth and Distributed, of a solution by all ranks together.
 void AddDistributed(int depth, vtkPolyData* output);
 
-/// Adds a field array with one number.
+///@{ Adds a field array with one number, or with some.
 void AddFieldNumber(vtkPolyData* output, const char* name, double value);
+void AddFieldNumbers(vtkPolyData* output, const char* name, const std::vector<double>& values);
+///@}
 
 /// The columns Iteration, EnergyResidual, Residual, ConvergenceFactor (energy residual over that of
 /// the row before; 1 in the first), Log10EnergyResidual, Log10Residual.

@@ -421,6 +421,7 @@ void SurfaceSolverState::BuildShared(vtkPolyData* piece, bool isClipped,
       release();
       together.BuildSpace(piece, used_, isClipped, mesh);
     });
+  used_.space.depth = together.Depth();
   key = {};
   key.Add(stages.Version(SpaceStage));
   stages.Run(SystemStage, key, [] {}); // ranks make it with the space
@@ -440,9 +441,29 @@ std::shared_ptr<const FiniteElementSpace> SurfaceSolverState::WholeSpace() const
   return space;
 }
 
+std::shared_ptr<const TriangleMesh> SurfaceSolverState::ReadMesh() const
+{
+  return ReadInputMesh(input_, options.space.threads).triangles;
+}
+
+void SurfaceSolverState::Require(const MemoryNeed& own) const
+{
+  if (together.IsUsed())
+  {
+    together.Require(own);
+    return;
+  }
+  Surface::Require(own);
+}
+
+const DividedRows* SurfaceSolverState::SumsOverProcesses() const
+{
+  return isTogether_ ? &together.Numbers() : nullptr;
+}
+
 double SurfaceSolverState::Largest(double own) const
 {
-  return together.IsUsed() ? together.Largest(own) : own;
+  return isTogether_ ? together.Largest(own) : own;
 }
 
 bool SurfaceSolverState::IsFirst(bool holds) const
@@ -468,7 +489,7 @@ bool SurfaceSolverState::AreCoincidentPointsWelded() const
 
 void SurfaceSolverState::Together(const std::function<void()>& body) const
 {
-  if (together.IsUsed())
+  if (isTogether_)
   {
     together.Together(body);
     return;
@@ -628,12 +649,18 @@ bool SurfaceSolverState::AreFunctionsGiven() const
 
 InputArray SurfaceSolverState::Find(int index, const std::string& property)
 {
-  if (!isTogether_)
+  if (isTogether_)
   {
-    return FindInputArray(algorithm_, index, input_, property);
+    this->Prepare(progressOfAll_);
   }
-  this->Prepare(progressOfAll_);
-  return together.Find(algorithm_, index, input_, mesh, property);
+  return this->FindOn(mesh, index, property);
+}
+
+InputArray SurfaceSolverState::FindOn(
+  const InputMesh& onMesh, int index, const std::string& property)
+{
+  return isTogether_ ? together.Find(algorithm_, index, input_, onMesh, property)
+                     : FindInputArray(algorithm_, index, input_, property);
 }
 
 int SurfaceSolverState::DataTypeOf(int index, const InputArray& array) const
@@ -700,6 +727,7 @@ void SurfaceSolverState::SetInput(vtkPolyData* input, vtkPolyData* basisData)
 {
   input_ = input;
   basisData_ = basisData;
+  used_ = options;
 }
 
 void SurfaceSolverState::Prepare(const Progress& progress)

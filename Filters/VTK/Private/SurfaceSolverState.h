@@ -55,7 +55,8 @@ public:
   {
   }
 
-  /// What Prepare works on, until another call. With null the next run has to say it again.
+  /// What Prepare works on with the options as they are, until another call. With null the next run
+  /// has to say it again.
   void SetInput(vtkPolyData* input, vtkPolyData* basisData);
 
   ///@{ Surface.
@@ -64,6 +65,7 @@ public:
   void PrepareMesh(const Progress& progress) override;
   StageKey InputKey() const override;
   bool AreFunctionsGiven() const override;
+  std::shared_ptr<const TriangleMesh> ReadMesh() const override;
   std::int64_t StructureVersion() const override { return structure_; }
   const SurfaceOptions& UsedOptions() const override { return used_; }
   std::shared_ptr<const TriangleMesh> SharedMesh() const override { return mesh.triangles; }
@@ -74,8 +76,10 @@ public:
   bool AreCoincidentPointsWelded() const override;
   double Area() const override;
   double LongestSide() const override;
-  bool IsShared() const override { return together.IsUsed(); }
+  bool IsShared() const override { return isTogether_; }
   void Together(const std::function<void()>& body) const override;
+  void Require(const MemoryNeed& own) const override;
+  const DividedRows* SumsOverProcesses() const override;
   double Largest(double own) const override;
   bool IsFirst(bool holds) const override;
   HeldValues Hold(const std::vector<Id>& points, const MultiVector& values) const override;
@@ -130,6 +134,9 @@ public:
   /// several ranks it prepares the surface, because ranks without polygons need not have the array.
   InputArray Find(int index, const std::string& property);
 
+  /// The same on a mesh that has been read, without the surface.
+  InputArray FindOn(const InputMesh& onMesh, int index, const std::string& property);
+
   /// The VTK type of results for an array from Find, the same on all ranks.
   int DataTypeOf(int index, const InputArray& array) const;
 
@@ -183,6 +190,7 @@ private:
   void BuildShared(vtkPolyData* piece, bool isClipped, const SurfaceOptions& asked,
     const std::function<void()>& release);
   void RequireBasisTogether(const std::vector<double>& told) const;
+  void NoteFunctions();
   int DepthFor(int wanted) const;
   void NoteFunctions();
   void TakeEnough(const Progress& progress);

@@ -1,0 +1,187 @@
+#include "Solvers/SignatureSolver.h"
+
+#include "Base/Errors.h"
+#include "Grid/Grid.h"
+#include "Solvers/LocalSurface.h"
+#include "Solvers/SurfaceFields.h"
+
+#include <cmath>
+#include <utility>
+
+namespace gridfem
+{
+namespace
+{
+
+///@{ Stages.
+constexpr const char* ModesStage = "Modes"; // at the points
+constexpr const char* SignaturesStage = "Signatures";
+constexpr const char* DistancesStage = "Distances";
+constexpr const char* FilterStage = "Filter";
+///@}
+
+/// Throws InvalidInput where all modes are constants and more exist: that says how many it takes.
+void RequireNonConstant(const Spectrum& spectrum)
+{
+  const auto modes = static_cast<Index>(spectrum.eigenvalues.size());
+  if (modes <= spectrum.numberOfConstants && !spectrum.truncated)
+  {
+    const std::string components = std::to_string(spectrum.numberOfConstants);
+    throw InvalidInput("All " + std::to_string(modes) + " modes are constants: the surface has " +
+                       components + " connected components, each with one. Signatures need a " +
+                       "NumberOfModes above " + components + ".");
+  }
+}
+
+/// The square of the parameter unit, world units.
+double SquaredUnit(ParameterUnits units, const TriangleMesh& mesh, double area)
+{
+  if (units == ParameterUnits::UnitArea)
+  {
+    return area;
+  }
+  if (units == ParameterUnits::UnitCube)
+  {
+    const Grid grid = EmbedInGrid(mesh.points, UsedPoints(mesh), MinimumDepth);
+    return std::pow(grid.spacing * grid.CellsPerSide(), 2);
+  }
+  return 1.0;
+}
+
+void RequireOnPoints(const GivenField& values)
+{
+  if (values && !values.IsOnPoints())
+  {
+    throw InvalidInput("ValueArray '" + values.name +
+                       "' must be a point array. Cell Data to Point Data converts it.");
+  }
+}
+
+} // namespace
+
+const SignatureSolver::Result& SignatureSolver::Update(
+  Surface& surface, const Input& input, const Options& options, const Job& job)
+{
+  RequireOptions(options);
+  if (options.filterType != ModeFilter::None)
+  {
+    RequireOnPoints(input.values);
+  }
+  job.Check(0.0);
+  this->UpdateModes(surface, input, options, job.progress.Part(0.0, 0.97));
+  job.Check(0.97);
+  this->UpdateSums(surface, input, options, job.progress.Part(0.97, 1.0));
+  return result_;
+}
+
+void SignatureSolver::UpdateModes(
+  Surface& surface, const Input& input, const Options& options, const Progress& progress)
+{
+  Stages& stages = surface.GetStages();
+  StageKey key;
+  key.Add(static_cast<bool>(input.modes));
+  if (input.modes)
+  {
+    stages.Run(ModesStage, key.Add(input.modes.version),
+      [&]
+      {
+        result_ = {};
+        result_.modes = input.modes.modes;
+      });
+    return;
+  }
+  SpectrumSolver::Input ofSpectrum;
+  ofSpectrum.completesMultiplets = true;
+  ofSpectrum.announce = input.announce;
+  const SpectrumSolver::Result& solved = spectrum_.Update(surface, ofSpectrum,
+    { options.equation, options.numberOfModes }, { surface.Threads(), progress.Part(0.0, 0.98) });
+  RequireNonConstant(solved.spectrum);
+  stages.Run(ModesStage, key.Add(stages.Version(SolveStage)),
+    [&]
+    {
+      result_ = {};
+      auto modes = std::make_shared<PointModes>();
+      modes->eigenvalues = solved.eigenvalues;
+      modes->area = surface.Area();
+      modes->values =
+        spectrum_.ModesAtPoints(surface, 0, solved.NumberOfModes(), progress.Part(0.98, 1.0));
+      result_.modes = std::move(modes);
+    });
+  result_.isConverged = solved.spectrum.converged;
+  result_.warnings = solved.warnings;
+}
+
+void SignatureSolver::UpdateSums(
+  const Surface& surface, const Input& input, const Options& options, const Progress& progress)
+{
+  const PointModes& modes = *result_.modes;
+  const TriangleMesh& mesh = input.modes ? *input.modes.mesh : surface.Mesh();
+  const int threads = surface.Threads();
+  StageKey key;
+  key.Add(surface.GetStages().Version(ModesStage)).Add(options.numberOfScales);
+  surface.GetStages().Run(SignaturesStage, key,
+    [&]
+    {
+      result_.waveBands = WaveEnergies(modes, options.numberOfScales);
+      result_.waveKernel =
+        WaveKernelSignature(modes, result_.waveBands, { threads, progress.Part(0.0, 0.4) });
+      result_.heatTimes = HeatTimes(modes, options.numberOfScales);
+      result_.heatKernel =
+        HeatKernelSignature(modes, result_.heatTimes, { threads, progress.Part(0.4, 0.8) });
+    });
+  const ParameterUnits units = surface.UsedOptions().parameterUnits;
+  key = {};
+  key.Add(surface.GetStages().Version(ModesStage)).Add(input.sources);
+  key.Add(options.diffusionTime).Add(units);
+  surface.GetStages().Run(DistancesStage, key,
+    [&]
+    {
+      result_.diffusionDistance.clear();
+      result_.biharmonicDistance.clear();
+      if (!input.sources.empty())
+      {
+        const double time = options.diffusionTime * SquaredUnit(units, mesh, modes.area);
+        result_.diffusionDistance = DiffusionDistance(modes, input.sources, time, threads);
+        result_.biharmonicDistance = BiharmonicDistance(modes, input.sources, threads);
+      }
+    });
+  key = {};
+  key.Add(surface.GetStages().Version(ModesStage)).Add(KeyOf(input.values));
+  key.Add(options.filterType).Add(options.firstMode).Add(options.lastMode);
+  surface.GetStages().Run(FilterStage, key, [&] { this->Filter(surface, mesh, input, options); });
+}
+
+/// The part of the values in the modes that pass.
+void SignatureSolver::Filter(
+  const Surface& surface, const TriangleMesh& mesh, const Input& input, const Options& options)
+{
+  result_.filtered.resize(0, 0);
+  if (options.filterType == ModeFilter::None)
+  {
+    return;
+  }
+  const PointModes& modes = *result_.modes;
+  const int threads = surface.Threads();
+  const MultiVector values =
+    input.values ? ReadField(surface, input.values).values : UsedCoordinates(mesh).values;
+  const MultiVector shares = ModeShares(mesh, modes, values, threads, surface.SumsOverProcesses());
+  const bool isHigh = options.filterType == ModeFilter::HighPass;
+  const int first = options.filterType == ModeFilter::BandPass ? options.firstMode : 0;
+  const int last = isHigh ? options.firstMode - 1 : options.lastMode;
+  result_.filtered = SumOfModes(modes, shares, first, last, threads);
+  if (isHigh)
+  {
+    result_.filtered = values - result_.filtered;
+  }
+}
+
+SignatureSolver::Result SignatureSolver::Solve(std::shared_ptr<const TriangleMesh> mesh,
+  const Input& input, const Options& options, const SurfaceOptions& surfaceOptions, const Job& job)
+{
+  Stages stages;
+  LocalSurface surface(stages, std::move(mesh), surfaceOptions);
+  SignatureSolver solver;
+  return solver.Update(surface, input, options, job);
+}
+
+} // namespace gridfem

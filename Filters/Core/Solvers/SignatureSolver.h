@@ -1,0 +1,115 @@
+// Descriptors of the points and of the shape of a surface, as sums over its modes: computed ones or
+// those that the mesh carries.
+#ifndef GridFEM_SignatureSolver_h
+#define GridFEM_SignatureSolver_h
+
+#include "Problems/SpectralDescriptors.h"
+#include "Solvers/GivenField.h"
+#include "Solvers/SpectrumSolver.h"
+
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gridfem
+{
+
+/// Modes on the points of a mesh, or none.
+struct GivenModes
+{
+  explicit operator bool() const { return modes != nullptr; }
+
+  std::shared_ptr<const TriangleMesh> mesh; // of this process
+  std::shared_ptr<const PointModes> modes;
+  StageKey version; // another one for each content
+};
+
+/// The modes of a field that are kept.
+enum class ModeFilter
+{
+  None,
+  LowPass,  // up to the last mode
+  HighPass, // all but those below the first mode, also the rest that no mode shows
+  BandPass  // from the first mode to the last
+};
+
+class SignatureSolver
+{
+public:
+  struct Options
+  {
+    EquationOptions equation = EquationOfModes();
+    int numberOfModes = 100;     // a group of equal eigenvalues is completed
+    int numberOfScales = 16;     // times and bands
+    double diffusionTime = 0.01; // squared parameter units
+    ModeFilter filterType = ModeFilter::None;
+    int firstMode = 1;
+    int lastMode = 20;
+
+    template<class Self, class Visit>
+    static void ForEach(Self& self, Visit&& visit)
+    {
+      constexpr int Largest = std::numeric_limits<int>::max();
+      visit(self.equation);
+      visit("NumberOfModes", self.numberOfModes, Clamped(2, 100000));
+      visit("NumberOfScales", self.numberOfScales, Clamped(1, 1000));
+      visit("DiffusionTime", self.diffusionTime, AtLeast(0.0));
+      visit("FilterType", self.filterType, Clamped(0, 3));
+      visit("FirstMode", self.firstMode, Clamped(0, Largest));
+      visit("LastMode", self.lastMode, Clamped(0, Largest));
+    }
+  };
+
+  struct Input
+  {
+    GivenModes modes;        // none: they are computed
+    GivenField values;       // to be filtered, on points; none: the coordinates
+    std::vector<Id> sources; // points that distances start at
+    SpectrumSolver::Announcement announce;
+  };
+
+  /// Rows are the points of this process.
+  struct Result
+  {
+    std::shared_ptr<const PointModes> modes;
+    std::vector<double> heatTimes; // squared world units
+    MultiVector heatKernel;        // a column per time
+    WaveBands waveBands;
+    MultiVector waveKernel; // a column per band
+    ///@{ One number per point where there are sources, else none.
+    std::vector<double> diffusionDistance;
+    std::vector<double> biharmonicDistance;
+    ///@}
+    MultiVector filtered; // no columns without a filter
+    bool isConverged = true;
+    std::vector<std::string> warnings;
+  };
+
+  /// What the solver wants of a surface by default.
+  static SurfaceOptions SurfaceDefaults() { return SpectrumSolver::SurfaceDefaults(); }
+
+  /// With given modes the surface is not prepared: its threads, units and stages count. Collective.
+  /// Throws InvalidInput and Aborted.
+  const Result& Update(
+    Surface& surface, const Input& input, const Options& options, const Job& job);
+
+  static Result Solve(std::shared_ptr<const TriangleMesh> mesh, const Input& input,
+    const Options& options, const SurfaceOptions& surfaceOptions = SurfaceDefaults(),
+    const Job& job = {});
+
+private:
+  void UpdateModes(
+    Surface& surface, const Input& input, const Options& options, const Progress& progress);
+  void UpdateSums(
+    const Surface& surface, const Input& input, const Options& options, const Progress& progress);
+  void Filter(
+    const Surface& surface, const TriangleMesh& mesh, const Input& input, const Options& options);
+
+  SpectrumSolver spectrum_;
+  Result result_;
+};
+
+} // namespace gridfem
+
+#endif

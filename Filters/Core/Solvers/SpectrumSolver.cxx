@@ -1,0 +1,224 @@
+#include "Solvers/SpectrumSolver.h"
+
+#include "Problems/DepthSearch.h"
+#include "Problems/SolveWarnings.h"
+#include "Solvers/LocalSurface.h"
+
+#include <algorithm>
+#include <iomanip>
+#include <sstream>
+#include <utility>
+
+namespace gridfem
+{
+namespace
+{
+
+/// In this process; for which vectors are held at the same time.
+Id NumberOfUnknowns(const SurfaceSpace& space)
+{
+  const std::size_t nested = space.NestedLevels() ? space.NestedLevels()->Integrals().size() : 0;
+  return static_cast<Id>(space.Integrals().size() + nested);
+}
+
+void RequireMemoryOfModes(const Surface& surface, int modes)
+{
+  MemoryNeed need = NeedOfModes(NumberOfUnknowns(surface.Space()), modes, surface.Threads());
+  if (surface.IsShared())
+  {
+    need.subject = "NumberOfModes " + std::to_string(modes); // functions differ
+  }
+  surface.Require(need);
+}
+
+/// Says the cost of many modes before anything is computed.
+void AnnounceCost(const Surface& surface, const SpectrumSolver::Input& input, Id modes)
+{
+  constexpr double Minute = 60.0;
+  constexpr double Hour = 3600.0;
+  const Id functions = NumberOfUnknowns(surface.Space());
+  const double seconds = EstimateSpectrumSeconds(functions, modes, surface.Threads());
+  if (seconds < Minute || !input.announce || surface.IsShared())
+  {
+    return;
+  }
+  std::ostringstream text;
+  text << std::setprecision(2) << modes << " modes of " << functions << " functions: about "
+       << (seconds < Hour ? seconds / Minute : seconds / Hour)
+       << (seconds < Hour ? " minutes" : " hours");
+  input.announce(text.str(), seconds >= Hour);
+}
+
+SpectrumOptions OptionsOfSpectrum(const Surface& surface, const SpectrumSolver::Input& input,
+  const SpectrumSolver::Options& options)
+{
+  SpectrumOptions ofSpectrum;
+  ofSpectrum.numberOfModes = options.numberOfModes;
+  ofSpectrum.tolerance = options.equation.solve.tolerance;
+  ofSpectrum.maximumIterations = options.equation.solve.maximumIterations;
+  ofSpectrum.completeMultiplets = input.completesMultiplets;
+  ofSpectrum.multigrid = options.equation.multigrid;
+  ofSpectrum.multigrid.threads = surface.Threads();
+  return ofSpectrum;
+}
+
+std::vector<double> InWorldUnits(std::vector<double> eigenvalues, double unitLength)
+{
+  for (double& eigenvalue : eigenvalues)
+  {
+    eigenvalue /= unitLength * unitLength;
+  }
+  return eigenvalues;
+}
+
+} // namespace
+
+EquationOptions EquationOfModes()
+{
+  EquationOptions equation;
+  equation.multigrid.cycle = CycleType::V;
+  equation.solve.tolerance = 1e-6;
+  equation.solve.maximumIterations = 100;
+  return equation;
+}
+
+SurfaceOptions SpectrumSolver::SurfaceDefaults()
+{
+  SurfaceOptions options;
+  options.functionsPerPoint = EnoughToEstimate;
+  return options;
+}
+
+const SpectrumSolver::Result& SpectrumSolver::Update(
+  Surface& surface, const Input& input, const Options& options, const Job& job)
+{
+  RequireOptions(options);
+  const double accuracy = surface.AreFunctionsGiven() ? 0.0 : options.accuracy;
+  const bool choose = accuracy > 0.0;
+  const std::int64_t runs = surface.GetStages().Runs(SolveStage);
+  int depth = choose ? this->FirstDepth(surface, options) : 0;
+  double done = 0.0;
+  while (true)
+  {
+    const double end = choose ? 0.5 + 0.5 * done : 1.0;
+    const Progress progress = job.progress.Part(done, end);
+    if (choose)
+    {
+      surface.PrepareAtDepth(depth, progress.Part(0.0, 0.5));
+    }
+    else
+    {
+      surface.Prepare(progress.Part(0.0, 0.5));
+    }
+    progress.Check(0.5);
+    this->UpdateModes(surface, input, options, progress.Part(0.5, 1.0));
+    result_.depth = surface.UsedOptions().space.depth;
+    depth = this->NextDepth(surface, accuracy);
+    if (depth == result_.depth)
+    {
+      break;
+    }
+    done = end;
+  }
+  chosenDepth_ = choose ? depth : chosenDepth_;
+  this->Judge(surface, options, surface.GetStages().Runs(SolveStage) != runs);
+  return result_;
+}
+
+/// The depth that was found last time for the same mesh and wishes, else a first guess.
+int SpectrumSolver::FirstDepth(Surface& surface, const Options& options)
+{
+  StageKey key = surface.InputKey();
+  key.Add(options.numberOfModes).Add(options.accuracy);
+  if (key != depthKey_)
+  {
+    depthKey_ = key;
+    const std::shared_ptr<const TriangleMesh> mesh = surface.ReadMesh();
+    RequireSurface(*mesh);
+    chosenDepth_ = FirstDepthForModes(
+      *mesh, options.numberOfModes, options.accuracy, surface.UsedOptions().choice.kind);
+  }
+  return chosenDepth_;
+}
+
+/// The depth at which the errors on the grid should be small enough, if that fits into memory; else
+/// this one. With accuracy 0 any error is.
+int SpectrumSolver::NextDepth(const Surface& surface, double accuracy) const
+{
+  const SurfaceOptions& used = surface.UsedOptions();
+  return accuracy > 0.0 ? NextDepthForModes(surface.Mesh(), gridErrors_, used.space.depth, accuracy,
+                            used.choice.kind)
+                        : used.space.depth;
+}
+
+void SpectrumSolver::UpdateModes(
+  const Surface& surface, const Input& input, const Options& options, const Progress& progress)
+{
+  const SurfaceSpace& space = surface.Space();
+  const bool isNested = !space.NestedLevels();
+  Options ofModes = options;
+  // What is improved after the nested levels waits for the depth that the accuracy asks for.
+  ofModes.accuracy = isNested || surface.AreFunctionsGiven() ? 0.0 : options.accuracy;
+  StageKey key;
+  key.Add(surface.GetStages().Version(SystemStage)).Add(input.completesMultiplets);
+  key.Add(KeyOfOptions(ofModes));
+  surface.GetStages().Run(SolveStage, key,
+    [&]
+    {
+      result_.spectrum = {}; // frees its memory first
+      RequireMemoryOfModes(surface, options.numberOfModes);
+      AnnounceCost(surface, input, options.numberOfModes);
+      const SpectrumOptions ofSpectrum = OptionsOfSpectrum(surface, input, options);
+      const double split = isNested ? 1.0 : 0.3;
+      Spectrum nested = ComputeNestedSpectrum(space, ofSpectrum, progress.Part(0.0, split));
+      gridErrors_ = nested.estimatedErrors;
+      if (!isNested) // guards have been computed, too
+      {
+        gridErrors_.resize(std::min<std::size_t>(gridErrors_.size(), options.numberOfModes));
+      }
+      if (isNested ||
+          this->NextDepth(surface, ofModes.accuracy) == surface.UsedOptions().space.depth)
+      {
+        result_.spectrum =
+          FinishSpectrum(space, std::move(nested), ofSpectrum, progress.Part(split, 1.0));
+      }
+      result_.eigenvalues = InWorldUnits(result_.spectrum.eigenvalues, space.UnitLength());
+    });
+}
+
+/// The warnings, and whether the eigenvalues are as accurate as wanted.
+void SpectrumSolver::Judge(const Surface& surface, const Options& options, bool isNew)
+{
+  const FunctionKind kind = surface.UsedOptions().choice.kind;
+  result_.warnings =
+    WarningsOf(result_.spectrum, options.numberOfModes, PlaceOf(kind, result_.depth), isNew);
+  const std::vector<double>& errors = result_.spectrum.estimatedErrors;
+  const double error = errors.empty() ? 0.0 : *std::max_element(errors.begin(), errors.end());
+  result_.isAccurate = options.accuracy == 0.0 || error <= options.accuracy;
+  if (!result_.isAccurate)
+  {
+    result_.warnings.push_back(WarningOfAccuracy(options.accuracy, error, kind, result_.depth));
+  }
+}
+
+MultiVector SpectrumSolver::ModesAtPoints(
+  const Surface& surface, Id first, Id count, const Progress& progress) const
+{
+  // The integral over the space's units is UnitLength² times smaller than the one over world units.
+  const MultiVector coefficients =
+    result_.spectrum.vectors.middleCols(first, count) / surface.Space().UnitLength();
+  return surface.ValuesAtPoints(coefficients, progress);
+}
+
+SpectrumSolver::Result SpectrumSolver::Solve(std::shared_ptr<const TriangleMesh> mesh,
+  const Input& input, const Options& options, const SurfaceOptions& surfaceOptions, const Job& job)
+{
+  Stages stages;
+  LocalSurface surface(stages, std::move(mesh), surfaceOptions);
+  SpectrumSolver solver;
+  Result result = solver.Update(surface, input, options, job);
+  result.atPoints = solver.ModesAtPoints(surface, 0, result.NumberOfModes());
+  return result;
+}
+
+} // namespace gridfem

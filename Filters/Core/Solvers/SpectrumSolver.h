@@ -1,0 +1,100 @@
+// The smallest eigenvalues of the Laplace operator of a surface, and their eigenfunctions.
+#ifndef GridFEM_SpectrumSolver_h
+#define GridFEM_SpectrumSolver_h
+
+#include "Problems/Spectrum.h"
+#include "Solvers/OptionFields.h"
+#include "Solvers/Surface.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace gridfem
+{
+
+/// The options of an equation for modes: the tolerance is the relative error of the eigenvalues as
+/// those of the space, and a V-cycle costs less than a W-cycle.
+EquationOptions EquationOfModes();
+
+/// Computes the modes at the depth of the surface, or at the one that a wanted accuracy needs.
+class SpectrumSolver
+{
+public:
+  struct Options
+  {
+    EquationOptions equation = EquationOfModes();
+    int numberOfModes = 20;
+    /// The wanted relative error of the eigenvalues as those of the surface. Above 0 it chooses the
+    /// depth, unless functions are given; processes that share a surface cannot choose.
+    double accuracy = 0.0;
+
+    template<class Self, class Visit>
+    static void ForEach(Self& self, Visit&& visit)
+    {
+      visit(self.equation);
+      visit("NumberOfModes", self.numberOfModes, Clamped(1, 100000));
+      visit("Accuracy", self.accuracy, Clamped(0.0, 0.5));
+    }
+  };
+
+  /// Gets the cost of a computation of a minute or more, before it begins.
+  using Announcement = std::function<void(const std::string& cost, bool takesHours)>;
+
+  struct Input
+  {
+    /// There may be more modes than asked for: the last group of equal eigenvalues is whole.
+    bool completesMultiplets = false;
+    Announcement announce;
+  };
+
+  struct Result
+  {
+    Spectrum spectrum;               // in units of the space
+    std::vector<double> eigenvalues; // per squared world length
+    MultiVector atPoints;            // of Solve alone: a column per mode (ModesAtPoints)
+    int depth = 0;                   // of the grid
+    bool isAccurate = true;          // as accurate as wanted
+    /// The warning about a cut group of equal eigenvalues comes once for each computation.
+    std::vector<std::string> warnings;
+
+    int NumberOfModes() const { return static_cast<int>(eigenvalues.size()); }
+  };
+
+  /// What the solver wants of a surface by default.
+  static SurfaceOptions SurfaceDefaults();
+
+  /// With a wanted accuracy the depth is raised until the estimated errors on the grid are small
+  /// enough, or the next depth does not fit into memory. Collective. Throws InvalidInput and
+  /// Aborted.
+  const Result& Update(
+    Surface& surface, const Input& input, const Options& options, const Job& job);
+
+  /// The modes `first` and following at the points of this process: a column per mode, whose square
+  /// has the integral 1 in world units. Collective.
+  MultiVector ModesAtPoints(
+    const Surface& surface, Id first, Id count, const Progress& progress = {}) const;
+
+  /// Frees the modes; how many there were stays known.
+  void Free() { result_.spectrum = {}; }
+
+  static Result Solve(std::shared_ptr<const TriangleMesh> mesh, const Input& input,
+    const Options& options, const SurfaceOptions& surfaceOptions = SurfaceDefaults(),
+    const Job& job = {});
+
+private:
+  int FirstDepth(Surface& surface, const Options& options);
+  int NextDepth(const Surface& surface, double accuracy) const;
+  void UpdateModes(
+    const Surface& surface, const Input& input, const Options& options, const Progress& progress);
+  void Judge(const Surface& surface, const Options& options, bool isNew);
+
+  std::vector<double> gridErrors_; // estimated, of the wanted modes on the grid
+  StageKey depthKey_;              // of the mesh and the wishes that a depth was chosen for
+  int chosenDepth_ = 0;
+  Result result_;
+};
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,141 @@
+// The solver of signatures: exact values on a sphere, given modes, and what runs again.
+#include "Meshes.h"
+
+#include "Solvers/LocalSurface.h"
+#include "Solvers/SignatureSolver.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gridfem
+{
+namespace
+{
+
+using namespace gridfem::testing;
+
+class Signatures : public ::testing::Test
+{
+protected:
+  Signatures()
+  {
+    asked.space.depth = 5;
+    options.numberOfModes = 25;
+    options.numberOfScales = 4;
+    input.sources = { 7 };
+  }
+
+  GivenField PointField(MultiVector values) const
+  {
+    return GivenField::Of("p", Field{ FieldAssociation::Points, std::move(values) });
+  }
+
+  const std::shared_ptr<const TriangleMesh> mesh =
+    std::make_shared<const TriangleMesh>(GeodesicSphere(16));
+  SurfaceOptions asked = SignatureSolver::SurfaceDefaults();
+  SignatureSolver::Options options;
+  SignatureSolver::Input input;
+  Stages stages;
+  SignatureSolver solver;
+};
+
+TEST_F(Signatures, ASphereHasItsSeriesEverywhere)
+{
+  const SignatureSolver::Result result = SignatureSolver::Solve(mesh, input, options, asked);
+  ASSERT_EQ(result.heatKernel.cols(), 4);
+  ASSERT_EQ(result.heatKernel.rows(), static_cast<Id>(mesh->points.size()));
+  for (Id scale = 0; scale < 4; ++scale)
+  {
+    double series = 0.0;
+    for (int l = 0; l < 5; ++l)
+    {
+      series += (2 * l + 1) * std::exp(-l * (l + 1) * result.heatTimes[scale]);
+    }
+    // 1,000 flat triangles and cells of 1/16 of the radius: 2 % for the fourth degree
+    EXPECT_LT((result.heatKernel.col(scale).array() / series - 1.0).abs().maxCoeff(), 0.02);
+    EXPECT_LT((result.waveKernel.col(scale).array() - 1.0).abs().maxCoeff(), 0.02);
+  }
+  EXPECT_EQ(result.biharmonicDistance[7], 0.0);
+  EXPECT_EQ(result.diffusionDistance[7], 0.0);
+  EXPECT_EQ(result.filtered.cols(), 0);
+  EXPECT_TRUE(result.warnings.empty());
+}
+
+TEST_F(Signatures, OneShotIsStepwiseAndGivenModesAreTaken)
+{
+  options.filterType = ModeFilter::LowPass;
+  const SignatureSolver::Result once = SignatureSolver::Solve(mesh, input, options, asked);
+  LocalSurface surface(stages, mesh, asked);
+  input.modes = { mesh, once.modes, {} };
+  const SignatureSolver::Result given = solver.Update(surface, input, options, {});
+  EXPECT_EQ(stages.Runs(SpaceStage), 0);
+  EXPECT_EQ(stages.Runs(SolveStage), 0);
+  input.modes = {};
+  const SignatureSolver::Result stepwise = solver.Update(surface, input, options, {});
+  EXPECT_EQ(stages.Runs(SolveStage), 1);
+  for (const SignatureSolver::Result* result : { &given, &stepwise })
+  {
+    EXPECT_EQ(result->heatKernel, once.heatKernel);
+    EXPECT_EQ(result->waveKernel, once.waveKernel);
+    EXPECT_EQ(result->biharmonicDistance, once.biharmonicDistance);
+    EXPECT_EQ(result->diffusionDistance, once.diffusionDistance);
+    EXPECT_EQ(result->filtered, once.filtered);
+  }
+}
+
+TEST_F(Signatures, OnlyWhatDependsOnAChangeRunsAgain)
+{
+  LocalSurface surface(stages, mesh, asked);
+  const auto runs = [&]
+  {
+    solver.Update(surface, input, options, {});
+    return std::array<std::int64_t, 4>{ stages.Runs(SolveStage), stages.Runs("Signatures"),
+      stages.Runs("Distances"), stages.Runs("Filter") };
+  };
+  using Runs = std::array<std::int64_t, 4>;
+  EXPECT_EQ(runs(), (Runs{ 1, 1, 1, 1 }));
+  EXPECT_EQ(runs(), (Runs{ 1, 1, 1, 1 }));
+  options.numberOfScales = 9;
+  EXPECT_EQ(runs(), (Runs{ 1, 2, 1, 1 }));
+  input.sources.push_back(3);
+  EXPECT_EQ(runs(), (Runs{ 1, 2, 2, 1 }));
+  options.filterType = ModeFilter::HighPass;
+  EXPECT_EQ(runs(), (Runs{ 1, 2, 2, 2 }));
+  options.numberOfModes = 16;
+  EXPECT_EQ(runs(), (Runs{ 2, 3, 3, 3 }));
+}
+
+TEST_F(Signatures, LowAndHighPassAddUpAndAModePasses)
+{
+  LocalSurface surface(stages, mesh, asked);
+  const PointModes modes = *solver.Update(surface, input, options, {}).modes;
+  MultiVector values(modes.values.rows(), 2);
+  for (Id point = 0; point < values.rows(); ++point)
+  {
+    values(point, 0) = std::sin(3.0 * mesh->points[point].x());
+  }
+  values.col(1) = modes.values.col(7);
+  input.values = this->PointField(values);
+  options.filterType = ModeFilter::LowPass;
+  options.lastMode = 7;
+  const MultiVector low = solver.Update(surface, input, options, {}).filtered;
+  options.filterType = ModeFilter::HighPass;
+  options.firstMode = 8;
+  const MultiVector high = solver.Update(surface, input, options, {}).filtered;
+  EXPECT_LT((low + high - values).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT(high.col(1).cwiseAbs().maxCoeff(), 1e-8); // shares are exact to rounding
+}
+
+TEST_F(Signatures, WrongInputIsRefused)
+{
+  options.filterType = ModeFilter::LowPass;
+  const auto triangles = static_cast<Id>(mesh->triangles.size());
+  input.values =
+    GivenField::Of("c", Field{ FieldAssociation::Triangles, MultiVector::Zero(triangles, 1) });
+  EXPECT_THROW(SignatureSolver::Solve(mesh, input, options, asked), InvalidInput);
+  options.diffusionTime = -1.0;
+  EXPECT_THROW(SignatureSolver::Solve(mesh, {}, options, asked), InvalidInput);
+}
+
+} // namespace
+} // namespace gridfem

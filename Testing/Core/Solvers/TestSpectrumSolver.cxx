@@ -1,0 +1,137 @@
+// The solver of a spectrum: the eigenvalues of a sphere, what runs again, and the depth that a
+// wanted accuracy needs.
+#include "Meshes.h"
+
+#include "Solvers/LocalSurface.h"
+#include "Solvers/SpectrumSolver.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gridfem
+{
+namespace
+{
+
+using namespace gridfem::testing;
+
+class Spectra : public ::testing::Test
+{
+protected:
+  Spectra()
+  {
+    asked.space.depth = 4;
+    options.numberOfModes = 9;
+  }
+
+  const std::shared_ptr<const TriangleMesh> mesh =
+    std::make_shared<const TriangleMesh>(GeodesicSphere(16, 2.0));
+  SurfaceOptions asked = SpectrumSolver::SurfaceDefaults();
+  SpectrumSolver::Options options;
+  Stages stages;
+  SpectrumSolver solver;
+};
+
+TEST_F(Spectra, OneShotIsStepwiseAndGivesTheSphere)
+{
+  asked.space.depth = 5;
+  const SpectrumSolver::Result once = SpectrumSolver::Solve(mesh, {}, options, asked);
+  LocalSurface surface(stages, mesh, asked);
+  const SpectrumSolver::Result& stepwise = solver.Update(surface, {}, options, {});
+  EXPECT_EQ(once.eigenvalues, stepwise.eigenvalues);
+  EXPECT_EQ(once.atPoints.col(3), solver.ModesAtPoints(surface, 3, 1).col(0));
+  EXPECT_EQ(once.depth, 5);
+  ASSERT_EQ(once.NumberOfModes(), 9);
+  EXPECT_TRUE(once.warnings.empty());
+  for (int k = 1; k < 9; ++k)
+  {
+    // l (l + 1) / r²; depth 5 and a sphere of flat triangles are good for two percent
+    const double exact = (k < 4 ? 2.0 : 6.0) / 4.0;
+    EXPECT_NEAR(once.eigenvalues[k], exact, 0.02 * exact);
+  }
+  // Mode 0 is constant, and the integral of its square is 1.
+  EXPECT_NEAR(once.atPoints(0, 0), 1.0 / std::sqrt(SurfaceArea(*mesh)), 1e-9);
+}
+
+TEST_F(Spectra, OnlyTheSolveRunsAgain)
+{
+  LocalSurface surface(stages, mesh, asked);
+  solver.Update(surface, {}, options, {});
+  solver.Update(surface, {}, options, {});
+  EXPECT_EQ(stages.Runs(SolveStage), 1);
+  options.equation.solve.tolerance = 1e-4;
+  solver.Update(surface, {}, options, {});
+  options.numberOfModes = 4;
+  EXPECT_EQ(solver.Update(surface, {}, options, {}).NumberOfModes(), 4);
+  EXPECT_EQ(stages.Runs(SolveStage), 3);
+  EXPECT_EQ(stages.Runs(SpaceStage), 1);
+}
+
+TEST_F(Spectra, ACutGroupIsReportedOnceOrCompleted)
+{
+  options.numberOfModes = 6;
+  LocalSurface surface(stages, mesh, asked);
+  EXPECT_EQ(solver.Update(surface, {}, options, {}).warnings.size(), 1u);
+  EXPECT_TRUE(solver.Update(surface, {}, options, {}).warnings.empty());
+  SpectrumSolver::Input input;
+  input.completesMultiplets = true;
+  const SpectrumSolver::Result& whole = solver.Update(surface, input, options, {});
+  EXPECT_EQ(whole.NumberOfModes(), 9); // 1 + 3 + 5
+  EXPECT_TRUE(whole.warnings.empty());
+}
+
+TEST_F(Spectra, TheAccuracyChoosesTheDepth)
+{
+  for (const FunctionKind kind : { FunctionKind::Grid, FunctionKind::Hats })
+  {
+    asked.choice.kind = kind;
+    options.accuracy = 0.05;
+    Stages own;
+    LocalSurface surface(own, mesh, asked);
+    SpectrumSolver spectra;
+    const SpectrumSolver::Result result = spectra.Update(surface, {}, options, {});
+    EXPECT_TRUE(result.isAccurate);
+    const std::vector<double>& errors = result.spectrum.estimatedErrors;
+    EXPECT_LE(*std::max_element(errors.begin(), errors.end()), 0.05);
+    const std::int64_t runs = own.Runs(SolveStage);
+    EXPECT_EQ(spectra.Update(surface, {}, options, {}).depth, result.depth);
+    EXPECT_EQ(own.Runs(SolveStage), runs);
+    options.accuracy = 0.005;
+    EXPECT_GT(spectra.Update(surface, {}, options, {}).depth, result.depth);
+  }
+}
+
+/// A surface whose functions a basis gives.
+class GivenSurface : public LocalSurface
+{
+public:
+  using LocalSurface::LocalSurface;
+  bool AreFunctionsGiven() const override { return true; }
+};
+
+TEST_F(Spectra, ADepthThatIsGivenStaysAndTheAccuracyIsReported)
+{
+  options.accuracy = 1e-5;
+  GivenSurface surface(stages, mesh, asked);
+  const SpectrumSolver::Result& result = solver.Update(surface, {}, options, {});
+  EXPECT_EQ(result.depth, 4);
+  EXPECT_FALSE(result.isAccurate);
+  EXPECT_EQ(result.warnings.size(), 1u);
+}
+
+TEST_F(Spectra, TheCostOfManyModesIsAnnounced)
+{
+  const std::shared_ptr<const TriangleMesh> large =
+    std::make_shared<const TriangleMesh>(GeodesicSphere(8));
+  asked.space.depth = 7;
+  options.numberOfModes = 5000;
+  std::string cost;
+  SpectrumSolver::Input input;
+  input.announce = [&](const std::string& text, bool) { cost = text; };
+  const Progress aborts([&](double) { return cost.empty(); });
+  EXPECT_THROW(SpectrumSolver::Solve(large, input, options, asked, { 0, aborts }), Aborted);
+  EXPECT_NE(cost.find("5000 modes"), std::string::npos);
+}
+
+} // namespace
+} // namespace gridfem
