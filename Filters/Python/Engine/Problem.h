@@ -3,7 +3,7 @@
 #ifndef GridFEM_Problem_h
 #define GridFEM_Problem_h
 
-#include "EngineSurface.h"
+#include "Given.h"
 
 namespace gridfem
 {
