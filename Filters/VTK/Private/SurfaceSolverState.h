@@ -187,7 +187,6 @@ private:
   void BuildShared(vtkPolyData* piece, bool isClipped, const SurfaceOptions& asked,
     const std::function<void()>& release);
   void RequireBasisTogether(const std::vector<double>& told) const;
-  void NoteFunctions();
   int DepthFor(int wanted) const;
   void NoteFunctions();
   void TakeEnough(const Progress& progress);
