@@ -5,6 +5,8 @@
 
 #include "Given.h"
 
+#include "Base/Progress.h"
+
 namespace gridfem
 {
 
