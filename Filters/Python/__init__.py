@@ -35,8 +35,7 @@ def spectrum(points, cells, number=20, **properties):
     """The smallest eigenvalues of the Laplace operator, and the eigenfunctions.
 
     Returns eigenvalues (K), in one over squared length, and their functions at the points (N, K),
-    of mean square one over the area. K may be larger than `number`, because groups of equal
-    eigenvalues are not cut.
+    of mean square one over the area. K is `number`, or less on a surface with fewer functions.
     """
     results = _solve("LaplaceSpectrum", points, cells, {}, {"NumberOfModes": number, **properties})
     return results["Eigenvalues"], results["Modes"]

@@ -113,7 +113,7 @@ gridfem::GivenConstraints vtkHarmonicInterpolation::FindValues(
     array = FindArrayOf(this, places);
     values.find = [array, places, &state]
     {
-      gridfem::GivenValues given = gridfem::ValuesOfPlaces(array, state.Mesh(), places);
+      gridfem::PointValues given = gridfem::ValuesOfPlaces(array, state.Mesh(), places);
       return gridfem::PointValues{ std::move(given.points), std::move(given.values) };
     };
     return values;
@@ -124,7 +124,7 @@ gridfem::GivenConstraints vtkHarmonicInterpolation::FindValues(
   const gridfem::InputArray mask = state.Find(1, "MaskArray");
   values.find = [this, array, mask]
   {
-    gridfem::GivenValues given =
+    gridfem::PointValues given =
       gridfem::KnownValues(array, mask, *this->Selection, this->State->Mesh());
     return gridfem::PointValues{ std::move(given.points), std::move(given.values) };
   };

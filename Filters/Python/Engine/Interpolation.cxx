@@ -1,4 +1,4 @@
-#include "EngineSurface.h"
+#include "Given.h"
 #include "Problem.h"
 #include "SolverProperties.h"
 
@@ -21,11 +21,7 @@ public:
   Results Solve(const Given& given, const Progress& progress) const override
   {
     InterpolationSolver::Input input;
-    input.values.find = [&given]
-    {
-      const KnownRows known = given.KnownValues(nullptr);
-      return PointValues{ known.points, known.values };
-    };
+    input.values.find = [&given] { return given.KnownValues(nullptr); };
     const InterpolationSolver::Result result =
       InterpolationSolver::Solve(given.mesh, input, options_, surface_, { 0, progress });
     Results results;

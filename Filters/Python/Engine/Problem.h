@@ -3,7 +3,9 @@
 #ifndef GridFEM_Problem_h
 #define GridFEM_Problem_h
 
-#include "EngineSurface.h"
+#include "Given.h"
+
+#include "Base/Progress.h"
 
 namespace gridfem
 {

@@ -48,20 +48,6 @@ void AddMesh(StageKey& key, vtkPolyData* data)
   key.Add(std::int64_t{ data->GetNumberOfVerts() }).Add(std::int64_t{ data->GetNumberOfLines() });
 }
 
-void AddMultigrid(StageKey& key, const MultigridOptions& options)
-{
-  key.Add(static_cast<int>(options.cycle)).Add(static_cast<int>(options.smoother));
-  key.Add(options.preSweeps)
-    .Add(options.postSweeps)
-    .Add(options.sweepsPerSynchronisation); // the number of threads changes no bit
-}
-
-void AddSolver(StageKey& key, const FilterOptions& options)
-{
-  AddMultigrid(key, options.multigrid);
-  key.Add(options.solve.tolerance).Add(options.solve.maximumIterations).Add(options.accuracy);
-}
-
 void AddClipArrays(StageKey& key, vtkPolyData* data)
 {
   for (const char* name : { SourceCellIdName, OctreeCellIdName })
@@ -497,31 +483,9 @@ void SurfaceSolverState::Together(const std::function<void()>& body) const
   body();
 }
 
-Field SurfaceSolverState::Read(const InputArray& array, NaNs nans) const
-{
-  Field field;
-  this->Together([&] { field = ReadField(array, mesh, nans); });
-  return field;
-}
-
 HeldValues SurfaceSolverState::Hold(const std::vector<Id>& points, const MultiVector& values) const
 {
   return together.IsUsed() ? together.Hold(points, values) : HoldPoints(*space, points, values);
-}
-
-HeldValues SurfaceSolverState::HoldKnown(const InputArray& array, const InputArray& mask,
-  const SelectedPoints& selection, Id components) const
-{
-  if (!mask.array && !selection.IsGiven())
-  {
-    return this->Hold({}, MultiVector(0, components));
-  }
-  if (together.IsUsed())
-  {
-    return together.HoldKnown(array, mask, selection, mesh);
-  }
-  const GivenValues given = KnownValues(array, mask, selection, *mesh.triangles);
-  return this->Hold(given.points, given.values);
 }
 
 BoundaryTerms SurfaceSolverState::OnBoundary(
@@ -715,7 +679,7 @@ GivenConstraints SurfaceSolverState::ConstraintsOf(
     known.values.resize(0, held.array ? held.array->GetNumberOfComponents() : 3);
     if (!mesh.triangles->triangles.empty())
     {
-      GivenValues given = FindKnownValues(held, mask, selection, *mesh.triangles);
+      PointValues given = FindKnownValues(held, mask, selection, *mesh.triangles);
       known = { std::move(given.points), std::move(given.values) };
     }
     return known;

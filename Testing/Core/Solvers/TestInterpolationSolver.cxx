@@ -39,7 +39,8 @@ InterpolationSolver::Input Values(const std::vector<double>& values)
 
 } // namespace
 
-/// The two short sides of a rectangle hold x, which is harmonic. The functions of the grid reproduce it.
+/// The two short sides of a rectangle hold x, which is harmonic. The functions of the grid
+/// reproduce it.
 TEST(InterpolationSolver, BetweenTwoSidesOfARectangleIsLinear)
 {
   const auto mesh = std::make_shared<const TriangleMesh>(FlatRectangle(24, 12, 2.0, 1.0));

@@ -4,7 +4,10 @@
 #include "Solvers/LocalSurface.h"
 #include "Solvers/SignatureSolver.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace gridfem

@@ -5,6 +5,8 @@
 #include "Solvers/LocalSurface.h"
 #include "Solvers/SpectrumSolver.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 
