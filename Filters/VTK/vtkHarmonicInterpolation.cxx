@@ -112,10 +112,7 @@ gridfem::GivenConstraints vtkHarmonicInterpolation::FindValues(
   {
     array = FindArrayOf(this, places);
     values.find = [array, places, &state]
-    {
-      gridfem::PointValues given = gridfem::ValuesOfPlaces(array, state.Mesh(), places);
-      return gridfem::PointValues{ std::move(given.points), std::move(given.values) };
-    };
+    { return gridfem::ValuesOfPlaces(array, state.Mesh(), places); };
     return values;
   }
   array = FindValueArray(this, input);
@@ -123,11 +120,7 @@ gridfem::GivenConstraints vtkHarmonicInterpolation::FindValues(
     "values at some points, with NaN, a MaskArray or a Selection for the others");
   const gridfem::InputArray mask = state.Find(1, "MaskArray");
   values.find = [this, array, mask]
-  {
-    gridfem::PointValues given =
-      gridfem::KnownValues(array, mask, *this->Selection, this->State->Mesh());
-    return gridfem::PointValues{ std::move(given.points), std::move(given.values) };
-  };
+  { return gridfem::KnownValues(array, mask, *this->Selection, this->State->Mesh()); };
   return values;
 }
 
