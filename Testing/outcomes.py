@@ -22,7 +22,7 @@ WAYS = ({"Depth": 5}, {"Depth": 6}, {"Depth": 5, "FunctionSpace": 1})
 WORDS = ("converged", "in part", "warned", "refused", "NaN", "crashed")
 
 # Whose values are no numbers on components where nothing is known.
-IN_PARTS = ("GeodesicDistance", "HarmonicInterpolation")
+IN_PARTS = ("FarthestPoints", "GeodesicDistance", "HarmonicInterpolation")
 
 PAGE = """# On real meshes
 

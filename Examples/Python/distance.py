@@ -1,5 +1,5 @@
 """Distances along a surface, in ParaView's Python: isolines from one point and from four, and the
-regions of eight.
+regions of eight. Each point is as far as it can be from those before.
 
     PV_PLUGIN_CONFIG_FILE=build/lib/paraview-5.11/plugins/gridfem.plugins.xml \\
         xvfb-run -a pvpython distance.py MESH DEPTH PICTURE.png
@@ -35,17 +35,9 @@ def isolines(mesh, largest):
     return tubes.GetOutput()
 
 
-def farthest(mesh):
-    """The point farthest from the sources, and how far that is."""
-    distance = mesh.GetPointData().GetArray("Distance")
-    reached = (p for p in range(mesh.GetNumberOfPoints()) if distance.GetValue(p) >= 0.0)
-    point = max(reached, key=distance.GetValue)
-    return point, distance.GetValue(point)
-
-
 def add_regions(mesh, sources):
     """The point array Region: the number of the nearest source in the list, for few colours."""
-    nearest = mesh.GetPointData().GetArray("NearestSource")
+    nearest = mesh.GetPointData().GetArray("NearestPoint")
     number = {source: k for k, source in enumerate(sources)}
     region = vtkIntArray()
     region.SetName("Region")
@@ -59,22 +51,19 @@ def main():
         sys.exit(__doc__)
     simple.LoadDistributedPlugin("GridFEM", remote=False, ns=globals())
     surface = simple.OpenDataFile(sys.argv[1])
-    distance = GeodesicDistance(Input=surface, Depth=int(sys.argv[2]))
-    sources, tiles = [], []
+    distance = FarthestPoints(Input=surface, Depth=int(sys.argv[2]))
+    tiles = []
     for count, label in ((1, "distance from one point"), (4, "from four points"),
                          (8, "nearest of eight points")):
-        while len(sources) < count:  # each as far as it can be from those before
-            mesh = required(servermanager.Fetch(distance))
-            sources.append(farthest(mesh)[0])
-            distance.SourcePointIds = sources
-            distance.NearestSource = count == 8
-            distance.UpdatePipeline()
-        mesh = servermanager.Fetch(distance)
-        largest = farthest(mesh)[1]
+        distance.NumberOfPoints = count
+        distance.UpdatePipeline()
+        mesh = required(servermanager.Fetch(distance))
+        largest = mesh.GetFieldData().GetArray("Radius").GetValue(0)
         print(f"{label}: at most {largest:.4g}")
         colors = Layer(mesh, "Distance", 0.0, largest)
-        if distance.NearestSource:
-            add_regions(mesh, sources)
+        if count == 8:
+            points = mesh.GetFieldData().GetArray("FarthestPoints")
+            add_regions(mesh, [points.GetValue(k) for k in range(points.GetNumberOfTuples())])
             colors = Layer(mesh, "Region", shuffled=True)
         layers = [colors,
                   Layer(isolines(mesh, largest), color=(0.1, 0.1, 0.1))]

@@ -27,7 +27,7 @@ except ImportError:
     from ._with_vtk import solve as _solve, surface
 
 __all__ = ["Error", "arrays", "curvatures", "decompose", "detail", "diffuse", "distance",
-           "divergence", "flow", "gradient", "interpolate", "poisson", "signatures",
+           "divergence", "farthest_points", "flow", "gradient", "interpolate", "poisson", "signatures",
            "signed_distance", "spectrum", "stitch"]
 
 
@@ -35,8 +35,7 @@ def spectrum(points, cells, number=20, **properties):
     """The smallest eigenvalues of the Laplace operator, and the eigenfunctions.
 
     Returns eigenvalues (K), in one over squared length, and their functions at the points (N, K),
-    of mean square one over the area. K may be larger than `number`, because groups of equal
-    eigenvalues are not cut.
+    of mean square one over the area. K is `number`, or less on a surface with fewer functions.
     """
     results = _solve("LaplaceSpectrum", points, cells, {}, {"NumberOfModes": number, **properties})
     return results["Eigenvalues"], results["Modes"]
@@ -64,12 +63,19 @@ def poisson(points, cells, values=None, gradients=None, weights=None, held=None,
     return _solve("ScreenedPoisson", points, cells, given, properties)["Solution"]
 
 
-def distance(points, cells, sources, **properties):
-    """The distance along the surface from the nearest of the points with the ids `sources`."""
+def distance(points, cells, sources, nearest=False, **properties):
+    """The distance along the surface from the nearest of the points with the ids `sources`.
+
+    nearest: returns the id of this source, too, or -1 where nothing leads to one.
+    """
     sources = _inputs.ids("sources", sources)
     if sources.size == 0:
         raise Error("no sources")
-    return _solve("GeodesicDistance", points, cells, {}, properties, sources)["Distance"]
+    results = _solve("GeodesicDistance", points, cells, {},
+                     {"NearestSource": bool(nearest), **properties}, sources)
+    if nearest:
+        return results["Distance"], results["NearestSource"].astype(numpy.int64)
+    return results["Distance"]
 
 
 def signed_distance(points, cells, labels, inside=1, **properties):
@@ -79,6 +85,17 @@ def signed_distance(points, cells, labels, inside=1, **properties):
     """
     return _solve("GeodesicDistance", points, cells, {"labels": labels},
                   {"Signed": True, "InsideLabel": int(_inputs.whole("inside", inside)), **properties})["Distance"]
+
+
+def farthest_points(points, cells, number, **properties):
+    """Points spread evenly over the surface, each as far as possible from those before it.
+
+    Returns their ids in the order in which they were found, and for each point of the mesh the id
+    of the nearest of them and the distance from it. FirstPointId is the first of them.
+    """
+    results = _solve("FarthestPoints", points, cells, {}, {"NumberOfPoints": number, **properties})
+    ids, nearest = (results[name].astype(numpy.int64) for name in ("FarthestPoints", "NearestPoint"))
+    return ids, nearest, results["Distance"]
 
 
 def diffuse(points, cells, values, time, held=None, **properties):

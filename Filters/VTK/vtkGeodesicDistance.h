@@ -53,14 +53,10 @@
 
 #include "vtkSurfaceFEMAlgorithm.h"
 
-#include <string>
-#include <vector>
-
 class vtkDataSet;
 
 namespace gridfem
 {
-class Progress;
 class SelectedPoints;
 } // namespace gridfem
 
@@ -141,7 +137,7 @@ protected:
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
-  bool ComputeTogether(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  bool NeedsWholeSurface() override;
   void FreeStages() override;
 
   double Smoothing = 1.75;
@@ -153,17 +149,9 @@ private:
   vtkGeodesicDistance(const vtkGeodesicDistance&) = delete;
   void operator=(const vtkGeodesicDistance&) = delete;
 
-  std::vector<vtkIdType> FindSourcesTogether(vtkPolyData* piece);
-  void SolveTogether(vtkInformationVector** inputs, vtkInformationVector* outputs,
-    const gridfem::Progress& progress);
-  void UpdateHierarchies(const gridfem::Progress& progress);
-  void UpdateDistance(const std::vector<vtkIdType>& sources, const gridfem::Progress& progress);
-  void UpdateCurve(vtkPolyData* input, vtkDataSet* lines);
-  void UpdateSignedDistance();
-  void RefusePoints(const std::string& sourceArray) const;
-  void WriteDistance(vtkPolyData* output);
-  void WriteNearestSource(const std::vector<vtkIdType>& sources, vtkPolyData* output);
-  void Warn();
+  void FindSources(vtkDataSet* places);
+  void FindCurve(vtkDataSet* lines);
+  void Write(vtkPolyData* input, vtkPolyData* output);
 
   struct Internals;
   std::unique_ptr<Internals> Data;

@@ -6,8 +6,7 @@
 #include "Private/SolverOutput.h"
 #include "Private/SurfaceSolverState.h"
 
-#include "Base/Errors.h"
-#include "Problems/HarmonicInterpolation.h"
+#include "Solvers/InterpolationSolver.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
@@ -18,9 +17,7 @@
 #include "vtkPolyData.h"
 #include "vtkSelection.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 vtkStandardNewMacro(vtkHarmonicInterpolation);
 
@@ -81,9 +78,7 @@ gridfem::InputArray FindValueArray(vtkAlgorithm* algorithm, vtkDataSet* input)
 struct vtkHarmonicInterpolation::Internals
 {
   gridfem::InputArray Array; // where the values come from
-  gridfem::GivenValues Given;
-  int GivenVersion = 0; // changes when they do
-  gridfem::ConstrainedSolution Solution;
+  gridfem::InterpolationSolver Solver;
 };
 
 vtkHarmonicInterpolation::vtkHarmonicInterpolation()
@@ -107,117 +102,67 @@ int vtkHarmonicInterpolation::FillInputPortInformation(int port, vtkInformation*
   return 1;
 }
 
-void vtkHarmonicInterpolation::FindValues(vtkPolyData* input, vtkDataSet* values)
+gridfem::GivenConstraints vtkHarmonicInterpolation::FindValues(
+  vtkPolyData* input, vtkDataSet* places)
 {
-  Internals& data = *this->Data;
-  const gridfem::InputMesh& mesh = this->State->mesh;
-  gridfem::GivenValues given;
-  if (values)
-  {
-    data.Array = FindArrayOf(this, values);
-    given = gridfem::ValuesOfPlaces(data.Array, *mesh.triangles, values);
-  }
-  else
-  {
-    const gridfem::InputArray mask = gridfem::FindInputArray(this, 1, input, "MaskArray");
-    given = gridfem::KnownValues(data.Array, mask, *this->Selection, *mesh.triangles);
-  }
-  const bool isSame = given.points == data.Given.points &&
-                      given.values.cols() == data.Given.values.cols() &&
-                      given.values == data.Given.values;
-  data.GivenVersion += !isSame;
-  data.Given = std::move(given);
-}
-
-void vtkHarmonicInterpolation::Solve(const gridfem::Progress& progress)
-{
-  Internals& data = *this->Data;
+  gridfem::InputArray& array = this->Data->Array;
   gridfem::SurfaceSolverState& state = *this->State;
-  gridfem::StageKey key;
-  key.Add(state.stages.Version(gridfem::SystemStage)).Add(data.GivenVersion);
-  key.Add(this->Smoothness).Add(this->Tolerance).Add(this->MaximumIterations);
-  gridfem::AddMultigrid(key, state.options.multigrid);
-  state.stages.Run(gridfem::SolveStage, key,
-    [&]
-    {
-      gridfem::InterpolationOptions options;
-      options.smoothness = static_cast<gridfem::Smoothness>(this->Smoothness);
-      options.multigrid = state.options.multigrid;
-      options.solve = state.options.solve;
-      data.Solution = gridfem::InterpolateHarmonically(*state.space,
-        state.space->RowsAtPoints(data.Given.points), data.Given.values, options, progress);
-    });
-}
-
-void vtkHarmonicInterpolation::Write(vtkPolyData* input, vtkPolyData* output)
-{
-  const Internals& data = *this->Data;
-  const gridfem::SurfaceSolverState& state = *this->State;
-  gridfem::MultiVector values =
-    state.space->ValuesAtPoints(data.Solution.coefficients, state.Threads());
-  const std::vector<char> has = state.space->PointsWithFunctions();
-  for (gridfem::Id point = 0; point < values.rows(); ++point)
+  gridfem::GivenConstraints values;
+  if (places)
   {
-    if (!has[point])
+    array = FindArrayOf(this, places);
+    values.find = [array, places, &state]
     {
-      values.row(point).setConstant(std::numeric_limits<double>::quiet_NaN());
-    }
+      gridfem::PointValues given = gridfem::ValuesOfPlaces(array, state.Mesh(), places);
+      return gridfem::PointValues{ std::move(given.points), std::move(given.values) };
+    };
+    return values;
   }
-  auto array = gridfem::MakePointArray("Interpolated", values, data.Array.array->GetDataType());
-  array->CopyComponentNames(data.Array.array);
-  output->ShallowCopy(input);
-  output->GetPointData()->AddArray(array);
-  output->GetPointData()->SetActiveScalars("Interpolated");
-  gridfem::AddReport(data.Solution.report, output);
-  gridfem::AddAccuracy(data.Solution.accuracy, output);
-  gridfem::AddFieldNumber(output, "Misfit", data.Solution.misfit);
+  array = FindValueArray(this, input);
+  gridfem::RequirePointArray(array, "ValueArray",
+    "values at some points, with NaN, a MaskArray or a Selection for the others");
+  const gridfem::InputArray mask = state.Find(1, "MaskArray");
+  values.find = [this, array, mask]
+  {
+    gridfem::PointValues given =
+      gridfem::KnownValues(array, mask, *this->Selection, this->State->Mesh());
+    return gridfem::PointValues{ std::move(given.points), std::move(given.values) };
+  };
+  return values;
 }
 
 void vtkHarmonicInterpolation::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
+  vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
+  Internals& data = *this->Data;
   gridfem::SurfaceSolverState& state = *this->State;
-  const gridfem::Progress progress = state.bridge.GetProgress();
-  if (!vtkDataSet::GetData(inputs[2]))
-  {
-    // Before the long work.
-    this->Data->Array = FindValueArray(this, input);
-    gridfem::RequirePointArray(this->Data->Array, "ValueArray",
-      "values at some points, with NaN, a MaskArray or a Selection for the others");
-    gridfem::FindInputArray(this, 1, input, "MaskArray");
-  }
-  state.UpdateSpace(input, vtkPolyData::GetData(inputs[1]), progress.Part(0.0, 0.3));
-  state.UpdateSystem(progress.Part(0.3, 0.5));
-  this->Selection->Update(vtkSelection::GetData(inputs[3]), input, this->JoinedInput());
-  this->FindValues(input, vtkDataSet::GetData(inputs[2]));
-  this->Solve(progress.Part(0.5, 0.95));
-  this->Write(input, vtkPolyData::GetData(outputs, 0));
+  state.SetInput(input, vtkPolyData::GetData(inputs[1]));
+  state.Select(*this->Selection, vtkSelection::GetData(inputs[3]), this->JoinedInput());
+  const gridfem::GivenConstraints values = this->FindValues(input, vtkDataSet::GetData(inputs[2]));
+  gridfem::InterpolationSolver::Options options;
+  options.equation = state.options;
+  options.smoothness = static_cast<gridfem::Smoothness>(this->Smoothness);
+  const gridfem::InterpolationSolver::Result& result =
+    data.Solver.Update(state, { values }, options, { 0, state.GetProgress() });
 
-  const gridfem::ConstrainedSolution& solution = this->Data->Solution;
-  if (!solution.report.converged)
-  {
-    vtkWarningMacro(<< gridfem::WarningOf(
-                      solution.report, solution.wanted > 0.0 ? solution.wanted : this->Tolerance));
-  }
-  const std::string warning = gridfem::WarningOfConstraints(solution);
-  if (!warning.empty())
-  {
-    vtkWarningMacro(<< warning);
-  }
-  const auto free = std::count(solution.isHeld.begin(), solution.isHeld.end(), 0);
-  if (free > 0)
-  {
-    vtkWarningMacro(<< free << " of " << solution.isHeld.size()
-                    << " connected components of the surface have no value: they are NaN.");
-  }
-  progress.Check(1.0);
+  auto array =
+    gridfem::MakePointArray("Interpolated", result.atPoints, data.Array.array->GetDataType());
+  array->CopyComponentNames(data.Array.array);
+  output->ShallowCopy(input);
+  output->GetPointData()->AddArray(array);
+  output->GetPointData()->SetActiveScalars("Interpolated");
+  gridfem::AddReport(result.report, output);
+  gridfem::AddAccuracy(result.accuracy, output);
+  gridfem::AddFieldNumber(output, "Misfit", result.misfit);
+  this->Warn(result.warnings);
 }
 
 void vtkHarmonicInterpolation::FreeStages()
 {
   this->Superclass::FreeStages();
   this->Selection->Free();
-  *this->Data = {};
+  *this->Data = Internals();
 }
 
 void vtkHarmonicInterpolation::PrintSelf(ostream& os, vtkIndent indent)

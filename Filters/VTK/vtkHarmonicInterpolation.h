@@ -45,8 +45,8 @@ class vtkDataSet;
 
 namespace gridfem
 {
-class Progress;
 class SelectedPoints;
+struct GivenConstraints;
 } // namespace gridfem
 
 class VTKGRIDFEMFILTERS_EXPORT vtkHarmonicInterpolation : public vtkSurfaceFEMAlgorithm
@@ -100,9 +100,7 @@ private:
   vtkHarmonicInterpolation(const vtkHarmonicInterpolation&) = delete;
   void operator=(const vtkHarmonicInterpolation&) = delete;
 
-  void FindValues(vtkPolyData* input, vtkDataSet* values);
-  void Solve(const gridfem::Progress& progress);
-  void Write(vtkPolyData* input, vtkPolyData* output);
+  gridfem::GivenConstraints FindValues(vtkPolyData* input, vtkDataSet* places);
 
   struct Internals;
   std::unique_ptr<Internals> Data;

@@ -1,9 +1,5 @@
 #include "vtkPoissonAlgorithm.h"
 
-#include "Private/Ranks.h"
-#include "Private/SolverOutput.h"
-#include "Private/SurfaceSolverState.h"
-
 vtkPoissonAlgorithm::vtkPoissonAlgorithm()
 {
   this->Tolerance = 0.0;
@@ -22,19 +18,6 @@ void vtkPoissonAlgorithm::SetTolerance(double tolerance)
   {
     this->Tolerance = 0.0;
     this->Modified();
-  }
-}
-
-void vtkPoissonAlgorithm::WriteReport(const gridfem::SolveReport& report,
-  const gridfem::SolutionAccuracy& accuracy, vtkPolyData* output)
-{
-  gridfem::AddReport(report, output);
-  gridfem::AddAccuracy(accuracy, output);
-  const std::string warning =
-    gridfem::WarningOf(report, accuracy, this->State->options.solve.tolerance);
-  if (!warning.empty() && gridfem::Ranks().IsFirst())
-  {
-    vtkWarningMacro(<< warning);
   }
 }
 

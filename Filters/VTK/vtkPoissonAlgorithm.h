@@ -20,12 +20,6 @@
 
 #include "vtkSurfaceFEMAlgorithm.h"
 
-namespace gridfem
-{
-struct SolutionAccuracy;
-struct SolveReport;
-} // namespace gridfem
-
 class VTKGRIDFEMFILTERS_EXPORT vtkPoissonAlgorithm : public vtkSurfaceFEMAlgorithm
 {
 public:
@@ -55,10 +49,6 @@ protected:
   ~vtkPoissonAlgorithm() override;
 
   double WantedAccuracy() const override { return this->Tolerance == 0.0 ? this->Accuracy : 0.0; }
-
-  /// Adds the field data and warns when the solve has not converged.
-  void WriteReport(const gridfem::SolveReport& report, const gridfem::SolutionAccuracy& accuracy,
-    vtkPolyData* output);
 
   double Accuracy = 0.1;
 

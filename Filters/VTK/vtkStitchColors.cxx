@@ -9,7 +9,7 @@
 #include "Private/SurfaceSolverState.h"
 
 #include "Base/Errors.h"
-#include "Problems/Stitching.h"
+#include "Solvers/StitchSolver.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -28,9 +28,6 @@ vtkStandardNewMacro(vtkStitchColors);
 
 namespace
 {
-
-constexpr const char* CutStage = "Cut"; // the scans and a space on each
-constexpr int WholeSurface = -1;        // as ReferenceLabel
 
 /// As readers of scans give them.
 bool AreColors(vtkDataArray* array)
@@ -75,13 +72,7 @@ gridfem::InputArray FindColors(vtkAlgorithm* algorithm, vtkPolyData* input)
   }
   if (!colors.array)
   {
-    throw gridfem::InvalidInput("Choose a ColorArray: the colours of the scans.");
-  }
-  if (colors.array->GetNumberOfComponents() > 4 || colors.array->GetNumberOfComponents() < 1)
-  {
-    throw gridfem::InvalidInput("ColorArray '" + colors.name + "' has " +
-                                std::to_string(colors.array->GetNumberOfComponents()) +
-                                " components; colours have 1 to 4.");
+    throw gridfem::InvalidInput("Choose a ColorArray: the colors of the scans.");
   }
   return colors;
 }
@@ -97,41 +88,9 @@ gridfem::InputArray FindLabels(vtkAlgorithm* algorithm, vtkPolyData* input, vtkD
   }
   if (!labels.array)
   {
-    throw gridfem::InvalidInput("Choose a LabelArray: it says which scan a colour comes from.");
-  }
-  if (labels.array->GetNumberOfComponents() != 1)
-  {
-    throw gridfem::InvalidInput("LabelArray '" + labels.name + "' must have one component.");
+    throw gridfem::InvalidInput("Choose a LabelArray: it says which scan a color comes from.");
   }
   return labels;
-}
-
-/// What each label stands for: numbers, ascending.
-std::vector<double> DistinctLabels(const gridfem::InputArray& labels, const gridfem::Field& field)
-{
-  std::vector<double> distinct;
-  for (gridfem::Id row = 0; row < field.values.rows(); ++row)
-  {
-    const double label = field.values(row, 0);
-    if (label != std::floor(label))
-    {
-      throw gridfem::InvalidInput("LabelArray '" + labels.name + "' has the value " +
-                                  std::to_string(label) + "; labels must be integers.");
-    }
-    if (distinct.empty() || distinct.back() != label)
-    {
-      distinct.push_back(label);
-    }
-  }
-  std::sort(distinct.begin(), distinct.end());
-  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
-  return distinct;
-}
-
-gridfem::Index NumberOf(const std::vector<double>& distinct, double label)
-{
-  return static_cast<gridfem::Index>(
-    std::lower_bound(distinct.begin(), distinct.end(), label) - distinct.begin());
 }
 
 /// The least and the largest value of a stitched colour.
@@ -179,110 +138,42 @@ vtkSmartPointer<vtkDataArray> WithValues(
 
 struct vtkStitchColors::Internals
 {
-  std::vector<double> Labels; // distinct ones, ascending; scans are their numbers
-  gridfem::ScanCut Cut;
-  std::unique_ptr<gridfem::FiniteElementSpace> Details;
-  gridfem::StitchedColors Stitched;
+  gridfem::StitchSolver Solver;
 };
 
 vtkStitchColors::vtkStitchColors() : Data(std::make_unique<Internals>())
 {
   this->SetNumberOfInputPorts(2);
-  this->NormalStabilization = 1e-2;
+  this->NormalStabilization = gridfem::StitchSolver::SurfaceDefaults().choice.normalStabilization;
 }
 
 vtkStitchColors::~vtkStitchColors() = default;
-
-void vtkStitchColors::UpdateCut(const gridfem::InputArray& colors,
-  const gridfem::InputArray& labels, const gridfem::Progress& progress)
-{
-  Internals& data = *this->Data;
-  gridfem::SurfaceSolverState& state = *this->State;
-  gridfem::StageKey key;
-  key.Add(state.stages.Version(gridfem::SystemStage)).Add(labels.array);
-  key.Add(static_cast<int>(labels.association)).Add(static_cast<int>(colors.association));
-  key.Add(this->KeepDetails);
-  state.stages.Run(CutStage, key,
-    [&]
-    {
-      const gridfem::Field field = gridfem::ReadField(labels, state.mesh);
-      data.Labels = DistinctLabels(labels, field);
-      progress.Check(0.0);
-      gridfem::ScanLabels scans;
-      scans.association = labels.association;
-      for (gridfem::Id row = 0; row < field.values.rows(); ++row)
-      {
-        scans.values.push_back(NumberOf(data.Labels, field.values(row, 0)));
-      }
-      data.Cut = gridfem::CutAtSeams(*state.mesh.triangles, scans, colors.association);
-      progress.Check(0.1);
-      data.Details.reset();
-      if (this->KeepDetails && gridfem::SurfaceArea(data.Cut.pieces) > 0.0)
-      {
-        gridfem::SpaceOptions functions = state.options.space;
-        functions.depth = state.Functions().GetGrid().depth;
-        functions.connectivityAware = true;
-        functions.weldCoincidentPoints = false; // points of two scans stay two
-        gridfem::SpaceChoice choice = state.options.choice;
-        choice.kind = gridfem::FunctionKind::Grid; // the change is smooth
-        gridfem::RequireMemory(data.Cut.pieces, functions.depth);
-        data.Details =
-          gridfem::BuildSpace(data.Cut.pieces, functions, choice, progress.Part(0.1, 1.0));
-      }
-    });
-}
-
-void vtkStitchColors::Solve(const gridfem::InputArray& colors, const gridfem::Progress& progress)
-{
-  Internals& data = *this->Data;
-  gridfem::SurfaceSolverState& state = *this->State;
-  gridfem::StitchOptions options{ state.options,
-    this->BlendWidth * state.space->Extent() * state.space->UnitLength(), {} };
-  if (this->ReferenceLabel != WholeSurface)
-  {
-    options.reference = NumberOf(data.Labels, this->ReferenceLabel);
-    if (!std::binary_search(data.Labels.begin(), data.Labels.end(), this->ReferenceLabel))
-    {
-      throw gridfem::InvalidInput(
-        "There is no scan with the ReferenceLabel " + std::to_string(this->ReferenceLabel) + ".");
-    }
-  }
-  gridfem::StageKey key;
-  key.Add(state.stages.Version(CutStage)).Add(colors.array);
-  key.Add(this->BlendWidth).Add(options.reference.value_or(-1));
-  gridfem::AddSolver(key, state.options);
-  state.stages.Run(gridfem::SolveStage, key,
-    [&]
-    {
-      data.Stitched = gridfem::StitchColors(*state.space, *state.mesh.triangles, data.Cut,
-        gridfem::ReadField(colors, state.mesh), options, data.Details.get(),
-        state.MakeJob(progress));
-    });
-}
 
 void vtkStitchColors::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
   gridfem::SurfaceSolverState& state = *this->State;
-  const gridfem::Progress progress = state.bridge.GetProgress();
+  state.SetInput(input, vtkPolyData::GetData(inputs[1]));
   const gridfem::InputArray colors = FindColors(this, input);
   const gridfem::InputArray labels = FindLabels(this, input, colors.array);
-  // Details are kept on the grid.
-  state.options.functionsPerPoint =
-    this->KeepDetails ? gridfem::AsManyAsWanted : gridfem::EnoughToPrecondition;
-  state.UpdateSpace(input, vtkPolyData::GetData(inputs[1]), progress.Part(0.0, 0.2));
-  state.UpdateSystem(progress.Part(0.2, 0.35));
-  this->UpdateCut(colors, labels, progress.Part(0.35, 0.6));
-  this->Solve(colors, progress.Part(0.6, 0.95));
 
-  const gridfem::StitchedColors& stitched = this->Data->Stitched;
+  gridfem::StitchSolver::Options options;
+  options.equation = state.options;
+  options.referenceLabel = this->ReferenceLabel;
+  options.keepDetails = this->KeepDetails;
+  options.blendWidth = this->BlendWidth;
+  state.options.functionsPerPoint = gridfem::StitchSolver::FunctionsPerPoint(options);
+  const gridfem::Progress progress = state.GetProgress();
+  const gridfem::StitchSolver::Result& stitched =
+    this->Data->Solver.Update(state, { state.Given(colors), state.Given(labels) }, options,
+      { state.Threads(), progress.Part(0.0, 0.95) });
+
   output->ShallowCopy(input);
   vtkDataSetAttributes* attributes = output->GetPointData();
   if (colors.association == gridfem::FieldAssociation::Points)
   {
-    attributes->AddArray(
-      WithValues(colors.array, stitched.values, state.space->PointsWithFunctions()));
+    attributes->AddArray(WithValues(colors.array, stitched.values, stitched.isReached));
   }
   else
   {
@@ -296,14 +187,16 @@ void vtkStitchColors::Compute(vtkInformationVector** inputs, vtkInformationVecto
       gridfem::MeansOnCells(state.mesh, stitched.values, input->GetNumberOfCells()), hasTriangles));
   }
   attributes->SetActiveScalars("StitchedColors");
-  this->WriteReport(stitched.report, stitched.accuracy, output);
+  gridfem::AddReport(stitched.report, output);
+  gridfem::AddAccuracy(stitched.accuracy, output);
+  this->Warn(stitched.warnings);
   progress.Check(1.0);
 }
 
 void vtkStitchColors::FreeStages()
 {
   this->Superclass::FreeStages();
-  *this->Data = {};
+  *this->Data = Internals();
 }
 
 void vtkStitchColors::PrintSelf(ostream& os, vtkIndent indent)

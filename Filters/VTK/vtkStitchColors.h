@@ -37,13 +37,6 @@
 
 #include "vtkPoissonAlgorithm.h"
 
-namespace gridfem
-{
-struct Field;
-struct InputArray;
-class Progress;
-} // namespace gridfem
-
 class VTKGRIDFEMFILTERS_EXPORT vtkStitchColors : public vtkPoissonAlgorithm
 {
 public:
@@ -100,10 +93,6 @@ protected:
 private:
   vtkStitchColors(const vtkStitchColors&) = delete;
   void operator=(const vtkStitchColors&) = delete;
-
-  void UpdateCut(const gridfem::InputArray& colors, const gridfem::InputArray& labels,
-    const gridfem::Progress& progress);
-  void Solve(const gridfem::InputArray& colors, const gridfem::Progress& progress);
 
   struct Internals;
   std::unique_ptr<Internals> Data;

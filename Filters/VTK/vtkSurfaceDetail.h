@@ -59,9 +59,6 @@ class vtkPiecewiseFunction;
 
 namespace gridfem
 {
-struct Job;
-struct PoissonLoad;
-class Progress;
 class SelectedPoints;
 } // namespace gridfem
 
@@ -197,16 +194,8 @@ private:
   vtkSurfaceDetail(const vtkSurfaceDetail&) = delete;
   void operator=(const vtkSurfaceDetail&) = delete;
 
-  void CheckProperties() const;
-  void FindArrays(vtkPolyData* input);
-  double LengthOf(double relativeCurvature) const;
-  void UpdateMetric(const gridfem::Progress& progress);
-  void UpdateSignal(const gridfem::Progress& progress);
-  gridfem::PoissonLoad Integrate(const gridfem::Job& job);
-  void Solve(const gridfem::Progress& progress);
-  void WriteShape(vtkPolyData* input, vtkPolyData* output);
-  void WriteArray(vtkPolyData* input, vtkPolyData* output);
-  void WriteReport(vtkPolyData* output);
+  void WriteArray(vtkPolyData* output);
+  void WriteFacts(vtkPolyData* output);
 
   struct Internals;
   std::unique_ptr<Internals> Data;

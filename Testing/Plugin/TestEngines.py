@@ -103,6 +103,13 @@ class Engines(unittest.TestCase):
         self.compare(lambda g, p, c, **o: g.distance(p, c, [0, len(p) // 2], **o))
         self.compare(lambda g, p, c, **o: g.distance(p, c, 5, Smoothing=3.0, **o))
 
+    def test_nearest_source(self):
+        self.compare(lambda g, p, c, **o: g.distance(p, c, [0, len(p) // 2], nearest=True, **o))
+
+    def test_farthest_points(self):
+        self.compare(lambda g, p, c, **o: g.farthest_points(p, c, 6, **o))
+        self.compare(lambda g, p, c, **o: g.farthest_points(p, c, 3, FirstPointId=7, **o))
+
     def test_signed_distance(self):
         self.compare(lambda g, p, c, **o: g.signed_distance(p, c, p[:, 0] > 0.1, **o))
         self.compare(lambda g, p, c, **o: g.signed_distance(
@@ -165,7 +172,7 @@ class Engines(unittest.TestCase):
 
     def test_properties_have_the_defaults_and_ranges_of_the_filters(self):
         module = sys.modules["gridfem_core._without_vtk"]._core
-        for name in ("GeodesicDistance", "HarmonicInterpolation", "HeatDiffusion",
+        for name in ("FarthestPoints", "GeodesicDistance", "HarmonicInterpolation", "HeatDiffusion",
                      "LaplaceSpectrum", "MeanCurvatureFlow", "PrincipalCurvatures",
                      "ScreenedPoisson", "SpectralSignatures", "StitchColors",
                      "SurfaceDetail", "SurfaceGradient"):

@@ -60,15 +60,16 @@ class TestMemory(unittest.TestCase):
     def test_without_kept_stages_only_data_stays(self):
         for name in plugin.PROXIES:
             with self.subTest(proxy=name):
-                for _ in range(2):
+                data = 0
+                for releases in (False, True):  # a filter that releases its data cannot say how large they were
                     before = resident()
                     proxy = make(name, self.surface)
-                    proxy.GetClientSideObject().ReleaseDataFlagOn()
+                    proxy.GetClientSideObject().SetReleaseDataFlag(releases)
                     update_all_ports(proxy)
                     held = resident() - before
                     ports = range(proxy.SMProxy.GetNumberOfOutputPorts())
-                    data = sum(1024 * proxy.GetClientSideObject().GetOutputDataObject(port)
-                               .GetActualMemorySize() for port in ports)
+                    data = max(data, sum(1024 * proxy.GetClientSideObject().GetOutputDataObject(port)
+                                         .GetActualMemorySize() for port in ports))
                     simple.Delete(proxy)
                     del proxy
                 print(f"{name}: {held / MEGABYTE:.0f} MB held, {data / MEGABYTE:.0f} of data")

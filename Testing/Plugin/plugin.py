@@ -27,6 +27,7 @@ CHOICES = {
 # What is changed of a filter in the window, and the value as it stands in a state; else its depth.
 CHANGES = {
     "ConnectivityAwareBasis": ("ConnectivityAware", "0"), "GeodesicDistance": ("SourceArray", "label"),
+    "FarthestPoints": ("NumberOfPoints", "4"),
     "HarmonicInterpolation": ("MaskArray", "label"), "HeatDiffusion": ("NumberOfSteps", "3"),
     "LaplaceSpectrum": ("NumberOfModes", "12"), "MeanCurvatureFlow": ("NumberOfSteps", "12"),
     "PrincipalCurvatures": ("SmoothingScale", "0.05"), "ScreenedPoisson": ("ScreeningWeight", "50"),

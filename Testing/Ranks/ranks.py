@@ -312,11 +312,13 @@ def alone(compute):
 # --- comparison -------------------------------------------------------------------------------
 
 def arrays(attributes):
-    """Arrays by their names, but for ghost flags and what tells the time."""
+    """Arrays by their names, but for ghost flags, what tells the time, and ids of points, which count through
+    the gathered surface."""
     wrapped = dataset_adapter.DataSetAttributes(attributes, None, None)
     names = [attributes.GetArrayName(k) for k in range(attributes.GetNumberOfArrays())]
     return {name: numpy.array(wrapped[name], dtype=float) for name in names
-            if name not in (vtkDataSetAttributes.GhostArrayName(), "global", "Seconds")}
+            if name not in (vtkDataSetAttributes.GhostArrayName(), "global", "Seconds", "NearestPoint",
+                            "FarthestPoints")}
 
 
 def apart(ours, theirs):

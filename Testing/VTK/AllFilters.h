@@ -6,6 +6,7 @@
 
 #include "vtkClipToOctree.h"
 #include "vtkConnectivityAwareBasis.h"
+#include "vtkFarthestPoints.h"
 #include "vtkGeodesicDistance.h"
 #include "vtkHarmonicInterpolation.h"
 #include "vtkHeatDiffusion.h"
@@ -95,6 +96,7 @@ inline auto AllFilters()
 {
   return ::testing::Values(FilterCase{ "ClipToOctree", &Make<vtkClipToOctree> },
     FilterCase{ "ConnectivityAwareBasis", &Make<vtkConnectivityAwareBasis> },
+    FilterCase{ "FarthestPoints", &Make<vtkFarthestPoints> },
     FilterCase{ "GeodesicDistance", &Make<vtkGeodesicDistance> },
     FilterCase{ "HarmonicInterpolation", &MakeInterpolation },
     FilterCase{ "HeatDiffusion", &Make<vtkHeatDiffusion> },

@@ -12,6 +12,7 @@
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <stdexcept>
 #include <string>
 
 namespace gridfem
@@ -192,6 +193,12 @@ std::vector<double> ShiftedToZero(const MultiVector& value, const std::vector<In
     }
   }
   return shifted;
+}
+
+DistanceField DistanceMethod::FromCurve(
+  const SurfaceCurve& /*curve*/, const SolveOptions& /*solve*/, const Job& /*job*/) const
+{
+  throw std::logic_error("Several processes find no distances from curves.");
 }
 
 GeodesicDistance::GeodesicDistance(std::shared_ptr<const FiniteElementSpace> space,

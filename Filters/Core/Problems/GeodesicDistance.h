@@ -53,6 +53,10 @@ public:
 
   virtual DistanceField From(
     const std::vector<Id>& sources, const SolveOptions& solve, const Job& job = {}) const = 0;
+
+  /// Throws std::logic_error unless one process holds the surface.
+  virtual DistanceField FromCurve(
+    const SurfaceCurve& curve, const SolveOptions& solve, const Job& job = {}) const;
 };
 
 /// Distance by the heat method: (M + t L) u = Σ b_i(source), X = -∇u / |∇u|, L φ = ∫ <X, ∇b_i>.
@@ -88,7 +92,7 @@ public:
   /// of From. Throws InvalidInput when the curve is not of this mesh, and Aborted. Same bits for
   /// any number of threads.
   DistanceField FromCurve(
-    const SurfaceCurve& curve, const SolveOptions& solve, const Job& job = {}) const;
+    const SurfaceCurve& curve, const SolveOptions& solve, const Job& job = {}) const override;
 
   /// t, in squared units of length of the space.
   double Time() const { return time_; }

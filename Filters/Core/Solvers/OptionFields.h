@@ -53,6 +53,15 @@ inline EquationOptions EndedByAccuracy()
   return equation;
 }
 
+/// An equation that ends at a tolerance.
+inline EquationOptions EndedByTolerance(double tolerance)
+{
+  EquationOptions equation;
+  equation.solve.tolerance = tolerance;
+  equation.solve.maximumIterations = 200;
+  return equation;
+}
+
 /// The key of all that a solution depends on besides its equation. The number of threads changes no
 /// bit.
 inline StageKey KeyOf(const EquationOptions& equation)

@@ -1,5 +1,6 @@
 #include "Solvers/Surface.h"
 
+#include "Problems/GeodesicDistance.h"
 #include "Problems/MemoryEstimate.h"
 
 #include <cmath>
@@ -28,6 +29,12 @@ double Surface::WeightInSpaceUnits(double weight) const
 double Surface::LengthInWorldUnits(double length) const
 {
   return length * this->Space().UnitLength() / std::sqrt(this->WeightInSpaceUnits(1.0));
+}
+
+std::unique_ptr<DistanceMethod> Surface::MakeDistance(
+  const DistanceOptions& options, const Job& job) const
+{
+  return std::make_unique<GeodesicDistance>(this->WholeSpace(), this->SharedMesh(), options, job);
 }
 
 void Surface::Require(const MemoryNeed& own) const

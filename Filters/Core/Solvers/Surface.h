@@ -12,6 +12,9 @@
 namespace gridfem
 {
 
+class DistanceMethod;
+struct DistanceOptions;
+
 /// The stages that all solvers have.
 inline constexpr const char* MeshStage = "Mesh";     // of solvers that need no functions
 inline constexpr const char* SpaceStage = "Space";   // mesh, clipping, patches, levels
@@ -109,6 +112,9 @@ public:
   /// The largest number of all processes; NaN where one is NaN.
   virtual double Largest(double own) const { return own; }
 
+  /// Whether this process is the first one where something holds.
+  virtual bool IsFirst(bool holds) const { return holds; }
+
   bool Any(bool holds) const { return this->Largest(holds ? 1.0 : 0.0) > 0.0; }
 
   /// Rows and values that hold a solution at points of this process.
@@ -116,6 +122,10 @@ public:
 
   /// What the boundary of the whole surface adds to an equation (TermsOnBoundary).
   virtual BoundaryTerms OnBoundary(const MultiVector* flux, const MultiVector* values) const = 0;
+
+  /// Distances on this surface as it is now. Throws InvalidInput and Aborted.
+  virtual std::unique_ptr<DistanceMethod> MakeDistance(
+    const DistanceOptions& options, const Job& job) const;
 
   /// Per point of this process: 1 where a function reaches it.
   virtual std::vector<char> PointsWithFunctions() const = 0;

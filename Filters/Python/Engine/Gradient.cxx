@@ -1,4 +1,4 @@
-#include "EngineSurface.h"
+#include "Given.h"
 #include "Problem.h"
 #include "SolverProperties.h"
 

@@ -1,11 +1,8 @@
+#include "Given.h"
 #include "Problem.h"
+#include "SolverProperties.h"
 
-#include "Base/Errors.h"
-#include "Problems/HarmonicInterpolation.h"
-#include "Problems/SolveWarnings.h"
-
-#include <algorithm>
-#include <limits>
+#include "Solvers/InterpolationSolver.h"
 
 namespace gridfem
 {
@@ -16,44 +13,26 @@ class InterpolationProblem : public Problem
 {
 public:
   explicit InterpolationProblem(Properties& properties)
-    : options_(properties, { 1e-6, 200, 1e-2 }),
-      smoothness_(static_cast<Smoothness>(properties.Integer("Smoothness", 0, 0, 1)))
   {
+    TakeSurfaceOptions(properties, surface_);
+    TakeOptions(properties, options_);
   }
 
   Results Solve(const Given& given, const Progress& progress) const override
   {
-    const EngineSurface surface(given, options_, progress.Part(0.0, 0.5));
-    const FiniteElementSpace& space = surface.Space();
-    const KnownRows known = given.KnownValues(nullptr);
-    InterpolationOptions options;
-    options.smoothness = smoothness_;
-    options.multigrid = options_.multigrid;
-    options.solve = options_.solve;
-    const ConstrainedSolution solution = InterpolateHarmonically(
-      space, space.RowsAtPoints(known.points), known.values, options, progress.Part(0.5, 0.95));
-    const MultiVector unknown = MultiVector::Constant(static_cast<Id>(given.mesh->points.size()),
-      known.values.cols(), std::numeric_limits<double>::quiet_NaN());
+    InterpolationSolver::Input input;
+    input.values.find = [&given] { return given.KnownValues(nullptr); };
+    const InterpolationSolver::Result result =
+      InterpolationSolver::Solve(given.mesh, input, options_, surface_, { 0, progress });
     Results results;
-    results.arrays["Interpolated"] = surface.AtPoints(solution.coefficients, unknown);
-    if (!solution.report.converged)
-    {
-      results.Warn(WarningOf(
-        solution.report, solution.wanted > 0.0 ? solution.wanted : options_.solve.tolerance));
-    }
-    results.Warn(WarningOfConstraints(solution));
-    const auto free = std::count(solution.isHeld.begin(), solution.isHeld.end(), 0);
-    if (free > 0)
-    {
-      results.Warn(std::to_string(free) + " of " + std::to_string(solution.isHeld.size()) +
-                   " connected components of the surface have no value: they are NaN.");
-    }
+    results.arrays["Interpolated"] = result.atPoints;
+    results.warnings = result.warnings;
     return results;
   }
 
 private:
-  EngineOptions options_;
-  Smoothness smoothness_;
+  SurfaceOptions surface_ = InterpolationSolver::SurfaceDefaults();
+  InterpolationSolver::Options options_;
 };
 
 } // namespace

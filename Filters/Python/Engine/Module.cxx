@@ -25,6 +25,7 @@ using Arrays = std::map<std::string, std::pair<MultiVector, bool>>;
 using Numbers = std::map<std::string, double>;
 
 const std::map<std::string, MakeProblem> Problems = {
+  { "FarthestPoints", &MakeFarthestPoints },
   { "GeodesicDistance", &MakeDistance },
   { "HarmonicInterpolation", &MakeInterpolation },
   { "HeatDiffusion", &MakeDiffusion },

@@ -3,7 +3,9 @@
 #ifndef GridFEM_Problem_h
 #define GridFEM_Problem_h
 
-#include "EngineSurface.h"
+#include "Given.h"
+
+#include "Base/Progress.h"
 
 namespace gridfem
 {
@@ -31,6 +33,14 @@ struct Results
   }
 };
 
+/// Ids as a column of numbers.
+inline MultiVector ColumnOf(const std::vector<Id>& ids)
+{
+  return Eigen::Map<const Eigen::Matrix<Id, Eigen::Dynamic, 1>>(
+    ids.data(), static_cast<Eigen::Index>(ids.size()))
+    .cast<double>();
+}
+
 class Problem
 {
 public:
@@ -47,6 +57,7 @@ std::unique_ptr<Problem> MakeCurvatures(Properties& properties);
 std::unique_ptr<Problem> MakeDetail(Properties& properties);
 std::unique_ptr<Problem> MakeDiffusion(Properties& properties);
 std::unique_ptr<Problem> MakeDistance(Properties& properties);
+std::unique_ptr<Problem> MakeFarthestPoints(Properties& properties);
 std::unique_ptr<Problem> MakeFlow(Properties& properties);
 std::unique_ptr<Problem> MakeGradient(Properties& properties);
 std::unique_ptr<Problem> MakeInterpolation(Properties& properties);

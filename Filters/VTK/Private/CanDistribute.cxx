@@ -27,11 +27,6 @@ bool HasMpi()
 #endif
 }
 
-bool HasPolygons(vtkPolyData* piece)
-{
-  return piece && piece->GetNumberOfPolys() + piece->GetNumberOfStrips() > 0;
-}
-
 /// But for a selection, of which every rank evaluates its part. Port 1 is that of a basis.
 bool IsFurtherPortConnected(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs)
 {
@@ -64,6 +59,11 @@ bool HasObstacle(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs)
 }
 
 } // namespace
+
+bool HasPolygons(vtkPolyData* piece)
+{
+  return piece && piece->GetNumberOfPolys() + piece->GetNumberOfStrips() > 0;
+}
 
 bool IsArrayChosen(vtkSurfaceFEMAlgorithm* filter, int index)
 {

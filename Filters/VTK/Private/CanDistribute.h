@@ -3,6 +3,7 @@
 #define GridFEM_CanDistribute_h
 
 class vtkInformationVector;
+class vtkPolyData;
 class vtkSurfaceFEMAlgorithm;
 
 namespace gridfem
@@ -13,6 +14,9 @@ namespace gridfem
 /// they cannot, rank 0 gathers the surface.
 /// @param needsAll  the filter is asked for something that needs the whole surface on one rank
 bool CanDistribute(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs, bool needsAll);
+
+/// Whether a piece, which may be null, has polygons or strips.
+bool HasPolygons(vtkPolyData* piece);
 
 /// Whether SetInputArrayToProcess(index, ...) names an array.
 bool IsArrayChosen(vtkSurfaceFEMAlgorithm* filter, int index);

@@ -1,5 +1,6 @@
 #include "CarriedModes.h"
 
+#include "CanDistribute.h"
 #include "ModeCheck.h"
 #include "ModeReader.h"
 #include "SurfaceSolverState.h"
@@ -10,16 +11,6 @@
 
 namespace gridfem
 {
-namespace
-{
-
-bool HasPolygons(vtkPolyData* piece)
-{
-  return piece && piece->GetNumberOfPolys() + piece->GetNumberOfStrips() > 0;
-}
-
-} // namespace
-
 GivenModes CarriedModes::Update(SurfaceSolverState& state, vtkPolyData* input)
 {
   const bool isAsked = !state.IsShared() || HasPolygons(input);

@@ -406,23 +406,6 @@ std::unique_ptr<DistanceMethod> DistributedSurface::MakeDistance(
   return std::make_unique<RankDistance>(ranks_->whole->Levels(), mesh.triangles, options, job);
 }
 
-HeldValues DistributedSurface::HoldKnown(const InputArray& array, const InputArray& mask,
-  const SelectedPoints& selection, const InputMesh& mesh) const
-{
-  GivenValues given;
-  this->Together(
-    [&]
-    {
-      given.values.resize(0, array.array ? array.array->GetNumberOfComponents() : 3);
-      if (!mesh.triangles->triangles.empty())
-      {
-        given = FindKnownValues(array, mask, selection, *mesh.triangles);
-      }
-    });
-  RequireKnown(this->Any(!given.points.empty()), array);
-  return this->Hold(given.points, given.values);
-}
-
 } // namespace gridfem
 
 #else
@@ -561,12 +544,6 @@ BoundaryTerms DistributedSurface::OnBoundary(bool, const MultiVector*, const Mul
 
 std::unique_ptr<DistanceMethod> DistributedSurface::MakeDistance(
   const InputMesh&, const DistanceOptions&, const Job&) const
-{
-  RefuseWithoutMpi();
-}
-
-HeldValues DistributedSurface::HoldKnown(
-  const InputArray&, const InputArray&, const SelectedPoints&, const InputMesh&) const
 {
   RefuseWithoutMpi();
 }

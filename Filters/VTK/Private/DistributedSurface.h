@@ -136,12 +136,6 @@ public:
   std::unique_ptr<DistanceMethod> MakeDistance(
     const InputMesh& mesh, const DistanceOptions& options, const Job& job) const;
 
-  /// The known values of an array, which are held (KnownValues, HoldPoints).
-  /// @param array  agreed on, or of the coordinates; null on ranks without these
-  /// @param mesh   as BuildSpace has given it
-  HeldValues HoldKnown(const InputArray& array, const InputArray& mask,
-    const SelectedPoints& selection, const InputMesh& mesh) const;
-
   struct Internals;
   const Internals& Parts() const { return *ranks_; }
   const InputMesh& CopiedTriangles() const { return copies_; }

@@ -70,20 +70,7 @@ void RequirePointArray(
   }
 }
 
-void RequireValuesAtPoints(
-  const InputArray& array, const InputArray& mask, const SelectedPoints& selection)
-{
-  if (array.association != FieldAssociation::Points)
-  {
-    const std::string holder = mask.array            ? "ConstraintArray"
-                               : selection.IsGiven() ? "A Selection"
-                                                     : "BoundaryValues";
-    throw InvalidInput(holder + " needs values at points, but '" + array.name +
-                       "' is a cell array. Cell Data to Point Data converts it.");
-  }
-}
-
-GivenValues FindKnownValues(const InputArray& array, const InputArray& mask,
+PointValues FindKnownValues(const InputArray& array, const InputArray& mask,
   const SelectedPoints& selection, const TriangleMesh& mesh)
 {
   if (mask.array &&
@@ -92,7 +79,7 @@ GivenValues FindKnownValues(const InputArray& array, const InputArray& mask,
     throw InvalidInput("MaskArray '" + mask.name + "' must be a point array with one component.");
   }
   const std::vector<char> used = UsedPoints(mesh);
-  GivenValues given;
+  PointValues given;
   for (Id point = 0; point < static_cast<Id>(used.size()); ++point)
   {
     if (used[point] && IsChosen(point, mask, selection) && !HasNaN(array.array, point))
@@ -117,21 +104,21 @@ void RequireKnown(bool isAnyKnown, const InputArray& array)
   }
 }
 
-GivenValues KnownValues(const InputArray& array, const InputArray& mask,
+PointValues KnownValues(const InputArray& array, const InputArray& mask,
   const SelectedPoints& selection, const TriangleMesh& mesh)
 {
-  GivenValues given = FindKnownValues(array, mask, selection, mesh);
+  PointValues given = FindKnownValues(array, mask, selection, mesh);
   RequireKnown(!given.points.empty(), array);
   return given;
 }
 
-GivenValues ValuesOfPlaces(const InputArray& array, const TriangleMesh& mesh, vtkDataSet* places)
+PointValues ValuesOfPlaces(const InputArray& array, const TriangleMesh& mesh, vtkDataSet* places)
 {
   if (places->GetNumberOfPoints() == 0)
   {
     throw InvalidInput("The input Values has no points.");
   }
-  GivenValues given;
+  PointValues given;
   given.points = NearestPoints(mesh, places, "Values");
   given.values.resize(static_cast<Id>(given.points.size()), array.array->GetNumberOfComponents());
   for (Id row = 0; row < given.values.rows(); ++row)

@@ -15,29 +15,18 @@ namespace gridfem
 
 class SelectedPoints;
 
-struct GivenValues
-{
-  std::vector<Id> points; // of the mesh
-  MultiVector values;     // a row for each
-};
-
 /// Throws InvalidInput when no array is chosen, saying what it should hold, or it is cell data.
 void RequirePointArray(
   const InputArray& array, const std::string& property, const std::string& wanted);
 
-/// Throws InvalidInput for cell data, which says nothing of points where values are held: by the
-/// mask, by the selection, else by BoundaryValues.
-void RequireValuesAtPoints(
-  const InputArray& array, const InputArray& mask, const SelectedPoints& selection);
-
 /// Tuples without a NaN, at points that a triangle uses and where the mask is neither 0 nor NaN, or
 /// that are selected; at all points without mask and selection. Throws InvalidInput for an infinite
 /// value, a mask that does not fit, and when nothing is known (RequireKnown).
-GivenValues KnownValues(const InputArray& array, const InputArray& mask,
+PointValues KnownValues(const InputArray& array, const InputArray& mask,
   const SelectedPoints& selection, const TriangleMesh& mesh);
 
 /// The same where nothing may be known, as on one of several ranks.
-GivenValues FindKnownValues(const InputArray& array, const InputArray& mask,
+PointValues FindKnownValues(const InputArray& array, const InputArray& mask,
   const SelectedPoints& selection, const TriangleMesh& mesh);
 
 /// Throws InvalidInput when nothing is known.
@@ -45,7 +34,7 @@ void RequireKnown(bool isAnyKnown, const InputArray& array);
 
 /// The values of all points of a data set, each at the nearest point of the mesh that a triangle
 /// uses. Throws InvalidInput when there are none or one is not finite.
-GivenValues ValuesOfPlaces(const InputArray& array, const TriangleMesh& mesh, vtkDataSet* places);
+PointValues ValuesOfPlaces(const InputArray& array, const TriangleMesh& mesh, vtkDataSet* places);
 
 } // namespace gridfem
 

@@ -193,20 +193,4 @@ Field ReadField(const InputArray& input, const InputMesh& mesh, NaNs nans)
   return field;
 }
 
-Field CoordinatesField(const InputMesh& mesh)
-{
-  const TriangleMesh& triangles = *mesh.triangles;
-  const std::vector<char> used = UsedPoints(triangles);
-  Field field;
-  field.values = MultiVector::Zero(static_cast<Id>(triangles.points.size()), 3);
-  for (std::size_t point = 0; point < used.size(); ++point)
-  {
-    if (used[point])
-    {
-      field.values.row(point) = triangles.points[point].transpose();
-    }
-  }
-  return field;
-}
-
 } // namespace gridfem

@@ -54,9 +54,6 @@ InputArray OnlyArray(
 /// are taken as 0.
 Field ReadField(const InputArray& input, const InputMesh& mesh, NaNs nans = NaNs::Refused);
 
-/// The coordinates as a field with three components; 0 at points that no polygon uses.
-Field CoordinatesField(const InputMesh& mesh);
-
 } // namespace gridfem
 
 #endif

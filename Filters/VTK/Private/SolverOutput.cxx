@@ -5,6 +5,7 @@
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
+#include "vtkIdTypeArray.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
@@ -44,6 +45,15 @@ vtkSmartPointer<vtkDataArray> MakePointArray(
 {
   return dataType == VTK_FLOAT ? CopyRows<vtkFloatArray>(name, values)
                                : CopyRows<vtkDoubleArray>(name, values);
+}
+
+vtkSmartPointer<vtkDataArray> MakeIdArray(const char* name, const std::vector<Id>& ids)
+{
+  auto array = vtkSmartPointer<vtkIdTypeArray>::New();
+  array->SetName(name);
+  SetTuples(array, static_cast<vtkIdType>(ids.size()));
+  std::copy(ids.begin(), ids.end(), array->GetPointer(0));
+  return array;
 }
 
 void AddFieldInt(vtkPolyData* output, const char* name, int value)

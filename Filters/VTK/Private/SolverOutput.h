@@ -21,6 +21,9 @@ namespace gridfem
 vtkSmartPointer<vtkDataArray> MakePointArray(
   const char* name, const MultiVector& values, int dataType);
 
+/// An array of ids of points.
+vtkSmartPointer<vtkDataArray> MakeIdArray(const char* name, const std::vector<Id>& ids);
+
 /// Gives the rows of points that no function reaches the values they came with.
 /// @param isSolved  per point
 /// @param given     as many components as `values` has columns

@@ -136,32 +136,12 @@ private:
 
 } // namespace
 
-SurfaceCurve BorderOfLabel(
-  const InputArray& labels, int inside, const InputMesh& mesh, bool weldCoincidentPoints)
-{
-  if (labels.array->GetNumberOfComponents() != 1)
-  {
-    throw InvalidInput("LabelArray '" + labels.name + "' must have one component.");
-  }
-  const Field field = ReadField(labels, mesh);
-  try
-  {
-    return gridfem::BorderOfLabel(*mesh.triangles, field, inside, weldCoincidentPoints);
-  }
-  catch (const InvalidInput& error)
-  {
-    throw InvalidInput("LabelArray '" + labels.name + "' and InsideLabel " +
-                       std::to_string(inside) + ": " + error.what());
-  }
-}
-
 SurfaceCurve CurveOfLines(vtkDataSet* lines, const TriangleMesh& mesh, bool weldCoincidentPoints)
 {
   const std::vector<std::vector<Vec3>> polylines = ReadLines(lines);
   if (polylines.empty())
   {
-    throw InvalidInput("A signed distance is that from a curve: choose a LabelArray, or give lines "
-                       "on the surface as Sources, such as a Slice or a Contour of it.");
+    return {};
   }
   const TriangleLocator locator(mesh);
   return DivideByLines(

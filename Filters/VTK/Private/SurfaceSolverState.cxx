@@ -6,8 +6,10 @@
 #include "InputValidation.h"
 #include "Integrals/QuadratureRule.h"
 #include "MetricArray.h"
+#include "Problems/GeodesicDistance.h"
 #include "Problems/MemoryEstimate.h"
 #include "Problems/MovedSurface.h"
+#include "Ranks.h"
 #include "SelectedPoints.h"
 #include "SolverOutput.h"
 
@@ -44,20 +46,6 @@ void AddMesh(StageKey& key, vtkPolyData* data)
   key.Add(data->GetCellData()->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()));
   // Cells of these kinds come first and shift the ids of the polygons.
   key.Add(std::int64_t{ data->GetNumberOfVerts() }).Add(std::int64_t{ data->GetNumberOfLines() });
-}
-
-void AddMultigrid(StageKey& key, const MultigridOptions& options)
-{
-  key.Add(static_cast<int>(options.cycle)).Add(static_cast<int>(options.smoother));
-  key.Add(options.preSweeps)
-    .Add(options.postSweeps)
-    .Add(options.sweepsPerSynchronisation); // the number of threads changes no bit
-}
-
-void AddSolver(StageKey& key, const FilterOptions& options)
-{
-  AddMultigrid(key, options.multigrid);
-  key.Add(options.solve.tolerance).Add(options.solve.maximumIterations).Add(options.accuracy);
 }
 
 void AddClipArrays(StageKey& key, vtkPolyData* data)
@@ -464,6 +452,22 @@ double SurfaceSolverState::Largest(double own) const
   return isTogether_ ? together.Largest(own) : own;
 }
 
+bool SurfaceSolverState::IsFirst(bool holds) const
+{
+  if (!together.IsUsed())
+  {
+    return holds;
+  }
+  const double own = Ranks().Own();
+  std::vector<double> first;
+  if (holds)
+  {
+    first.push_back(own);
+  }
+  together.Agree(first);
+  return holds && first.front() == own;
+}
+
 bool SurfaceSolverState::AreCoincidentPointsWelded() const
 {
   return together.IsUsed() ? used_.space.weldCoincidentPoints : basis.weldCoincidentPoints;
@@ -479,31 +483,9 @@ void SurfaceSolverState::Together(const std::function<void()>& body) const
   body();
 }
 
-Field SurfaceSolverState::Read(const InputArray& array, NaNs nans) const
-{
-  Field field;
-  this->Together([&] { field = ReadField(array, mesh, nans); });
-  return field;
-}
-
 HeldValues SurfaceSolverState::Hold(const std::vector<Id>& points, const MultiVector& values) const
 {
   return together.IsUsed() ? together.Hold(points, values) : HoldPoints(*space, points, values);
-}
-
-HeldValues SurfaceSolverState::HoldKnown(const InputArray& array, const InputArray& mask,
-  const SelectedPoints& selection, Id components) const
-{
-  if (!mask.array && !selection.IsGiven())
-  {
-    return this->Hold({}, MultiVector(0, components));
-  }
-  if (together.IsUsed())
-  {
-    return together.HoldKnown(array, mask, selection, mesh);
-  }
-  const GivenValues given = KnownValues(array, mask, selection, *mesh.triangles);
-  return this->Hold(given.points, given.values);
 }
 
 BoundaryTerms SurfaceSolverState::OnBoundary(
@@ -520,6 +502,13 @@ void SurfaceSolverState::FillCopies(MultiVector& atPoints) const
   {
     together.FillCopies(atPoints);
   }
+}
+
+std::unique_ptr<DistanceMethod> SurfaceSolverState::MakeDistance(
+  const DistanceOptions& asked, const Job& job) const
+{
+  return together.IsUsed() ? together.MakeDistance(mesh, asked, job)
+                           : Surface::MakeDistance(asked, job);
 }
 
 std::vector<char> SurfaceSolverState::PointsWithFunctions() const
@@ -690,7 +679,7 @@ GivenConstraints SurfaceSolverState::ConstraintsOf(
     known.values.resize(0, held.array ? held.array->GetNumberOfComponents() : 3);
     if (!mesh.triangles->triangles.empty())
     {
-      GivenValues given = FindKnownValues(held, mask, selection, *mesh.triangles);
+      PointValues given = FindKnownValues(held, mask, selection, *mesh.triangles);
       known = { std::move(given.points), std::move(given.values) };
     }
     return known;

@@ -35,12 +35,6 @@ struct FilterOptions
 /// one after every hop through ParaView.
 void AddMesh(StageKey& key, vtkPolyData* data);
 
-/// Adds what a hierarchy depends on besides its matrices.
-void AddMultigrid(StageKey& key, const MultigridOptions& options);
-
-/// Adds what a solution depends on besides its equation.
-void AddSolver(StageKey& key, const FilterOptions& options);
-
 /// Adds the arrays of the clip.
 void AddClipArrays(StageKey& key, vtkPolyData* data);
 
@@ -81,8 +75,11 @@ public:
   void Require(const MemoryNeed& own) const override;
   const DividedRows* SumsOverProcesses() const override;
   double Largest(double own) const override;
+  bool IsFirst(bool holds) const override;
   HeldValues Hold(const std::vector<Id>& points, const MultiVector& values) const override;
   BoundaryTerms OnBoundary(const MultiVector* flux, const MultiVector* values) const override;
+  std::unique_ptr<DistanceMethod> MakeDistance(
+    const DistanceOptions& options, const Job& job) const override;
   std::vector<char> PointsWithFunctions() const override;
   void FillCopies(MultiVector& atPoints) const override;
   ///@}
@@ -151,12 +148,6 @@ public:
     const InputArray& values, const InputArray& mask, const SelectedPoints& selection) const;
   ///@}
 
-  Field Read(const InputArray& array, NaNs nans = NaNs::Refused) const;
-  /// The known values of an array where a mask or a selection is given, else none (KnownValues).
-  /// Collective.
-  /// @param components  of the values
-  HeldValues HoldKnown(const InputArray& array, const InputArray& mask,
-    const SelectedPoints& selection, Id components) const;
   /// Means on the cells of this process of values on the triangles of `mesh`. Collective.
   MultiVector MeansOnCells(const MultiVector& onTriangles, Id cells) const;
 

@@ -1,7 +1,17 @@
 // Every field of a solver's options is named once, and counts in the keys of stages.
 #include "EachOption.h"
+#include "Solvers/CurvatureSolver.h"
+#include "Solvers/DetailSolver.h"
 #include "Solvers/DiffusionSolver.h"
+#include "Solvers/DistanceSolver.h"
+#include "Solvers/FarthestPointsSolver.h"
+#include "Solvers/FlowSolver.h"
+#include "Solvers/GradientSolver.h"
+#include "Solvers/InterpolationSolver.h"
 #include "Solvers/PoissonSolver.h"
+#include "Solvers/SignatureSolver.h"
+#include "Solvers/SpectrumSolver.h"
+#include "Solvers/StitchSolver.h"
 
 #include <gtest/gtest.h>
 
@@ -30,7 +40,10 @@ class OptionFields : public ::testing::Test
 {
 };
 
-using AllOptions = ::testing::Types<DiffusionSolver::Options, PoissonSolver::Options>;
+using AllOptions = ::testing::Types<CurvatureSolver::Options, DetailSolver::Options,
+  DiffusionSolver::Options, DistanceSolver::Options, FarthestPointsSolver::Options,
+  FlowSolver::Options, GradientSolver::Options, InterpolationSolver::Options,
+  PoissonSolver::Options, SignatureSolver::Options, SpectrumSolver::Options, StitchSolver::Options>;
 TYPED_TEST_SUITE(OptionFields, AllOptions);
 
 } // namespace

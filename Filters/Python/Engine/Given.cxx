@@ -1,14 +1,10 @@
-#include "EngineSurface.h"
+#include "Given.h"
 
 #include "Base/Errors.h"
 #include "Base/VectorRows.h"
-#include "Grid/Grid.h"
 #include "Grid/PolygonTriangles.h"
-#include "Integrals/QuadratureRule.h"
-#include "Problems/Requirements.h"
 
 #include <cmath>
-#include <limits>
 
 namespace gridfem
 {
@@ -62,11 +58,11 @@ MultiVector Given::RowsAtPoints(const std::string& name) const
            : MultiVector::Zero(static_cast<Id>(mesh->points.size()), array->values.cols());
 }
 
-KnownRows Given::KnownValues(const GivenArray* mask) const
+PointValues Given::KnownValues(const GivenArray* mask) const
 {
   const MultiVector& given = arrays.at("values").values;
   const std::vector<char> used = UsedPoints(*mesh);
-  KnownRows known;
+  PointValues known;
   for (Id point = 0; point < given.rows(); ++point)
   {
     const double chosen = mask ? mask->values(point, 0) : 1.0;
@@ -139,11 +135,7 @@ GivenConstraints Given::Constraints(const std::string& mask) const
   if (const GivenArray* array = this->Find(mask))
   {
     constraints.property = "ConstraintArray";
-    constraints.find = [this, array]
-    {
-      const KnownRows known = this->KnownValues(array);
-      return PointValues{ known.points, known.values };
-    };
+    constraints.find = [this, array] { return this->KnownValues(array); };
   }
   return constraints;
 }
@@ -179,100 +171,6 @@ MultiVector Given::MeansOnCells(const MultiVector& onTriangles) const
     mean.row(cell) *= area[cell] > 0.0 ? 1.0 / area[cell] : 0.0;
   }
   return mean;
-}
-
-EngineOptions::EngineOptions(Properties& properties, const SharedDefaults& defaults)
-{
-  constexpr int Largest = std::numeric_limits<int>::max();
-  functions.depth = properties.Integer("Depth", 7, 0, MaximumDepth);
-  functions.connectivityAware = properties.Switch("ConnectivityAware", true);
-  functions.weldCoincidentPoints = properties.Switch("WeldCoincidentPoints", true);
-  functions.threads = properties.Integer("NumberOfThreads", 0, 0, 1024);
-  choice.kind = static_cast<FunctionKind>(properties.Integer("FunctionSpace", 0, 0, 1));
-  choice.quadratureDegree = properties.Integer("QuadratureDegree", 2, -Largest, Largest);
-  TriangleRule(choice.quadratureDegree); // refuses a wrong degree before the long work
-  choice.normalStabilization =
-    properties.Number("NormalStabilization", defaults.normalStabilization, 1e-14, 1.0);
-  multigrid.cycle = defaults.cycle;
-  multigrid.threads = functions.threads;
-  const bool hasAccuracy = defaults.tolerance == 0.0;
-  solve.tolerance =
-    properties.Number("Tolerance", defaults.tolerance, hasAccuracy ? 0.0 : 1e-16, 0.999);
-  if (hasAccuracy)
-  {
-    const double wanted = properties.Number("Accuracy", 0.1, 1e-6, 1.0);
-    accuracy = solve.tolerance == 0.0 ? wanted : 0.0;
-  }
-  solve.maximumIterations =
-    properties.Integer("MaximumIterations", defaults.maximumIterations, 1, Largest);
-  parameterUnits = properties.Integer("ParameterUnits", 1, 0, 2);
-}
-
-EngineOptions EngineOptions::AtDepth(int depth) const
-{
-  EngineOptions options = *this;
-  options.functions.depth = depth;
-  options.functionsPerPoint = AsManyAsWanted;
-  return options;
-}
-
-namespace
-{
-
-EngineOptions WithDepth(const EngineOptions& options, const TriangleMesh& mesh)
-{
-  RequireSurface(mesh);
-  return options.AtDepth(
-    ChooseDepth(mesh, options.functions.depth, options.choice.kind, options.functionsPerPoint));
-}
-
-} // namespace
-
-EngineSurface::EngineSurface(const Given& given, const EngineOptions& own, const Progress& progress)
-  : options(WithDepth(own, *given.mesh)), mesh(given.mesh)
-{
-  RequireMemory(*mesh, options.functions.depth, options.choice.kind);
-  space = BuildSpace(*mesh, options.functions, options.choice, progress);
-}
-
-double EngineSurface::WeightInSpaceUnits(double weight) const
-{
-  const double unit = space->UnitLength();
-  double length2 = 1.0; // the squared unit of length, world units
-  if (options.parameterUnits == 1)
-  {
-    length2 = SurfaceArea(*mesh);
-  }
-  else if (options.parameterUnits == 2)
-  {
-    const double side = unit * (1 << options.functions.depth);
-    length2 = side * side;
-  }
-  return weight / length2 * unit * unit;
-}
-
-double EngineSurface::LengthInWorldUnits(double length) const
-{
-  return length * space->UnitLength() / std::sqrt(this->WeightInSpaceUnits(1.0));
-}
-
-void EngineSurface::KeepUnsolved(const MultiVector& given, MultiVector& values) const
-{
-  const std::vector<char> isSolved = space->PointsWithFunctions();
-  for (Id point = 0; point < values.rows(); ++point)
-  {
-    if (!isSolved[point])
-    {
-      values.row(point) = given.row(point);
-    }
-  }
-}
-
-MultiVector EngineSurface::AtPoints(const MultiVector& coefficients, const MultiVector& given) const
-{
-  MultiVector values = space->ValuesAtPoints(coefficients, options.functions.threads);
-  this->KeepUnsolved(given, values);
-  return values;
 }
 
 } // namespace gridfem

@@ -1,0 +1,46 @@
+"""A ParaView state: points spread evenly over a surface. The left view has their regions, the right one the
+distance from the nearest of them.
+
+In ParaView: File > Load State (with the plugin loaded), or with a mesh of your own
+
+    GRIDFEM_MESH=scan.ply paraview --script=farthest.py
+
+GRIDFEM_MESH names a file that ParaView reads; without it a ring with waves is shown. Change Number Of Points
+of Points.
+"""
+
+import os
+
+from paraview import simple
+
+simple.LoadDistributedPlugin("GridFEM", remote=False, ns=globals())
+
+path = os.environ.get("GRIDFEM_MESH")
+ring = simple.Superquadric(Toroidal=1, ThetaResolution=192, PhiResolution=96)
+waves = "0.25*sin(11*coordsX+1)*cos(9*coordsZ)"
+mesh = simple.OpenDataFile(path) if path else simple.Calculator(
+    Input=ring, CoordinateResults=1, Function=f"coords*(1+{waves})")
+simple.RenameSource("Mesh", mesh)
+points = FarthestPoints(Input=mesh, NumberOfPoints=12, Depth=6)
+simple.RenameSource("Points", points)
+points.UpdatePipeline()
+
+layout = simple.CreateLayout("Farthest points")
+layout.SplitHorizontal(0, 0.5)
+views = [simple.CreateRenderView(), simple.CreateRenderView()]
+for cell, view, array in zip((1, 2), views, ("NearestPoint", "Distance")):
+    layout.AssignView(cell, view)
+    display = simple.Show(points, view)
+    simple.ColorBy(display, ("POINTS", array), separate=True)
+    display.RescaleTransferFunctionToDataRange(False, True)
+    display.SetScalarBarVisibility(view, True)
+
+simple.AddCameraLink(views[0], views[1], "Farthest points")
+views[0].CameraPosition = [0.4, 0.5, -1.0]
+views[0].CameraFocalPoint = [0.0, 0.0, 0.0]
+views[0].CameraViewUp = [0.0, 1.0, 0.0]
+simple.ResetCamera(views[0])
+views[0].CameraParallelProjection = 1
+for view in views:
+    simple.Render(view)
+simple.SetActiveSource(points)

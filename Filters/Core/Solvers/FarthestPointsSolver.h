@@ -1,0 +1,70 @@
+// Points spread evenly over a surface: each is the one farthest from those before it.
+#ifndef GridFEM_FarthestPointsSolver_h
+#define GridFEM_FarthestPointsSolver_h
+
+#include "Problems/GeodesicDistance.h"
+#include "Solvers/OptionFields.h"
+#include "Solvers/Surface.h"
+
+namespace gridfem
+{
+
+/// Samples the farthest points by geodesic distance. [Moenning and Dodgson 2003]
+/// The largest distance that remains is at most twice that of the best choice of as many points.
+/// [Gonzalez 1985]
+/// Each point takes one solution. More points continue from those that are there. The solver needs
+/// a surface that one process holds.
+class FarthestPointsSolver
+{
+public:
+  struct Options
+  {
+    EquationOptions equation = EndedByTolerance(1e-4); // of each distance
+    int numberOfPoints = 10;
+    int firstPointId = -1; // -1: the first point of the first triangle
+
+    template<class Self, class Visit>
+    static void ForEach(Self& self, Visit&& visit)
+    {
+      visit(self.equation);
+      visit("NumberOfPoints", self.numberOfPoints, Clamped(1, 100000));
+      visit("FirstPointId", self.firstPointId, Clamped(-1, std::numeric_limits<int>::max()));
+    }
+  };
+
+  struct Result
+  {
+    std::vector<Id> points;  // in the order in which they were found
+    MultiVector atPoints;    // distance from the nearest of them, world units
+    std::vector<Id> nearest; // this one, per point of the mesh; -1: nothing leads to one
+    double radius = 0.0;     // the largest distance
+    std::vector<std::string> warnings;
+  };
+
+  static SurfaceOptions SurfaceDefaults();
+
+  /// Throws InvalidInput when the first point is no point of a triangle, and Aborted, which keeps
+  /// the points that were found.
+  const Result& Update(Surface& surface, const Options& options, const Job& job = {});
+
+  /// The result of the last update.
+  const Result& GetResult() const { return result_; }
+
+  static Result Solve(std::shared_ptr<const TriangleMesh> mesh, const Options& options,
+    const SurfaceOptions& surfaceOptions = SurfaceDefaults(), const Job& job = {});
+
+private:
+  void Restart(const Surface& surface, const Options& options);
+  void AddPoint(const Surface& surface, const SolveOptions& solve, const Progress& progress);
+  void FindNext(double side);
+  void AddPoints(const Surface& surface, const Options& options, const Progress& progress);
+
+  std::unique_ptr<DistanceMethod> method_;
+  Id next_ = -1; // the point to add; -1: there is no other
+  int restarts_ = 0;
+  Result result_;
+};
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,67 @@
+// The smoothest function on a surface with given values at some of its points.
+#ifndef GridFEM_InterpolationSolver_h
+#define GridFEM_InterpolationSolver_h
+
+#include "Problems/HarmonicInterpolation.h"
+#include "Solvers/GivenField.h"
+#include "Solvers/OptionFields.h"
+#include "Solvers/Surface.h"
+
+namespace gridfem
+{
+
+/// Needs a surface that one process holds.
+class InterpolationSolver
+{
+public:
+  struct Options
+  {
+    EquationOptions equation = EndedByTolerance(1e-6);
+    Smoothness smoothness = Smoothness::Harmonic;
+
+    template<class Self, class Visit>
+    static void ForEach(Self& self, Visit&& visit)
+    {
+      visit(self.equation);
+      visit("Smoothness", self.smoothness, Clamped(0, 1));
+    }
+  };
+
+  struct Input
+  {
+    /// Found in every update; the solution is made again when they are others. Their version does
+    /// not count. Throws InvalidInput when no value is known.
+    GivenConstraints values;
+  };
+
+  struct Result
+  {
+    MultiVector atPoints;        // NaN on components without a value, and where no function reaches
+    std::vector<char> isReached; // per point: 1 where a function does
+    SolveReport report;
+    SolutionAccuracy accuracy; // unknown for biharmonic functions of many points
+    double misfit = 0.0;       // the largest difference from a given value
+    std::vector<std::string> warnings;
+  };
+
+  static SurfaceOptions SurfaceDefaults();
+
+  const Result& Update(
+    Surface& surface, const Input& input, const Options& options, const Job& job = {});
+
+  static Result Solve(std::shared_ptr<const TriangleMesh> mesh, const Input& input,
+    const Options& options, const SurfaceOptions& surfaceOptions = SurfaceDefaults(),
+    const Job& job = {});
+
+private:
+  void TakeValues(PointValues given);
+  void Take(ConstrainedSolution solution, const Surface& surface, const Options& options);
+
+  PointValues given_;
+  int version_ = 0; // of what is given
+  Result result_;
+};
+
+} // namespace gridfem
+
+#endif

@@ -1,0 +1,146 @@
+// Detail of a surface: what scales do to it, and what a change of an option repeats.
+#include "EachOption.h"
+#include "Meshes.h"
+#include "Solvers/DetailSolver.h"
+#include "Solvers/LocalSurface.h"
+#include "Spaces.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+/// A closed surface with curvatures of both signs.
+std::shared_ptr<const TriangleMesh> Ring()
+{
+  return std::make_shared<const TriangleMesh>(Transform(Torus(24, 12, 1.0, 0.4), { 1, 2, 3 }, 0.3));
+}
+
+/// A selection of the half with x > 0, and a curve for Custom.
+DetailSolver::Input HalfSelected(const TriangleMesh& mesh)
+{
+  DetailSolver::Input input;
+  input.hasSelection = true;
+  for (const Vec3& point : mesh.points)
+  {
+    input.selected.push_back(point.x() > 0.0 ? 1 : 0);
+  }
+  input.custom = [](double curvature) { return std::min(std::abs(curvature), 1.0); };
+  return input;
+}
+
+SurfaceOptions Coarse()
+{
+  SurfaceOptions options = DetailSolver::SurfaceDefaults();
+  options.space.depth = 4;
+  return options;
+}
+
+DetailSolver::Options ByCurvature()
+{
+  DetailSolver::Options options;
+  options.equation.solve.tolerance = 1e-11;
+  options.transferFunction = CurvatureTransfer::LargeAbsolute;
+  options.outsideScale = 0.7;
+  options.transitionWidth = 0.1;
+  return options;
+}
+
+double LargestMove(const std::vector<Vec3>& a, const std::vector<Vec3>& b)
+{
+  double largest = 0.0;
+  for (std::size_t point = 0; point < a.size(); ++point)
+  {
+    const double move = (a[point] - b[point]).norm();
+    largest = move <= largest ? largest : move; // NaN counts as a move
+  }
+  return largest;
+}
+
+} // namespace
+
+TEST(DetailSolver, AScaleOfOneChangesNothing)
+{
+  const auto mesh = Ring();
+  DetailSolver::Options options;
+  options.detailScale = 1.0;
+  const DetailSolver::Result result = DetailSolver::Solve(mesh, {}, options, Coarse());
+  EXPECT_LT(LargestMove(result.points, mesh->points), 1e-12);
+}
+
+TEST(DetailSolver, AScaleOfZeroMakesASphereSmallerAsTheEquationSays)
+{
+  const auto mesh = std::make_shared<const TriangleMesh>(GeodesicSphere(32));
+  DetailSolver::Options options;
+  options.equation.solve.tolerance = 1e-10;
+  options.detailScale = 0.0;
+  options.screeningWeight = 6.0;
+  SurfaceOptions surface = Coarse();
+  surface.space.depth = 5;
+  surface.parameterUnits = ParameterUnits::World;
+  const DetailSolver::Result result = DetailSolver::Solve(mesh, {}, options, surface);
+  for (const Vec3& point : result.points)
+  {
+    EXPECT_NEAR(point.norm(), 6.0 / (6.0 + 2.0), 5e-3); // coordinates have the eigenvalue 2
+  }
+}
+
+TEST(DetailSolver, AnArrayIsScaledAsTheCoordinatesAre)
+{
+  const auto mesh = Ring();
+  DetailSolver::Options options;
+  options.equation.solve.tolerance = 1e-10;
+  const DetailSolver::Result shape = DetailSolver::Solve(mesh, {}, options, Coarse());
+  DetailSolver::Input input;
+  input.values = GivenField::Of("xyz", { FieldAssociation::Points, PointCoordinates(*mesh) });
+  const DetailSolver::Result array = DetailSolver::Solve(mesh, input, options, Coarse());
+  EXPECT_TRUE(array.points.empty());
+  const double difference =
+    (array.change - shape.change).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+  EXPECT_LT(difference, 1e-4); // the projection of the array is solved to a tolerance
+}
+
+TEST(DetailSolver, EachOptionChangesTheResultAsInANewSolver)
+{
+  const auto mesh = Ring();
+  const DetailSolver::Input input = HalfSelected(*mesh);
+  const DetailSolver::Options options = ByCurvature();
+  Stages stages;
+  LocalSurface surface(stages, mesh, Coarse());
+  DetailSolver solver;
+  const std::vector<Vec3> first = solver.Update(surface, input, options, {}).points;
+  for (const auto& [name, changed] : EachChanged(options))
+  {
+    const std::vector<Vec3> here = solver.Update(surface, input, changed, {}).points;
+    const std::vector<Vec3> fresh = DetailSolver::Solve(mesh, input, changed, Coarse()).points;
+    EXPECT_LT(LargestMove(here, fresh), name == "the equation" ? 0.5 : 1e-7) << name;
+    EXPECT_GT(LargestMove(here, first), name == "the equation" ? -1.0 : 1e-6) << name;
+    EXPECT_LT(LargestMove(solver.Update(surface, input, options, {}).points, first), 1e-7) << name;
+  }
+}
+
+TEST(DetailSolver, AChangeOfTheScalesSolvesNothingAgain)
+{
+  const auto mesh = Ring();
+  const DetailSolver::Input input = HalfSelected(*mesh);
+  DetailSolver::Options options = ByCurvature();
+  Stages stages;
+  LocalSurface surface(stages, mesh, Coarse());
+  DetailSolver solver;
+  solver.Update(surface, input, options, {});
+  options.detailScale = 5.0;
+  options.outsideScale = 0.0;
+  solver.Update(surface, input, options, {});
+  EXPECT_EQ(stages.Runs(SolveStage), 1);
+  options.anisotropy = 2.0;
+  solver.Update(surface, input, options, {});
+  EXPECT_EQ(stages.Runs("Metric"), 1);
+  EXPECT_EQ(stages.Runs("Weights"), 2);
+  EXPECT_EQ(stages.Runs(SolveStage), 2);
+}

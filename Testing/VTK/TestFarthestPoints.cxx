@@ -1,0 +1,90 @@
+// Farthest Points as a user of VTK sees it.
+#include "FilterSupport.h"
+
+#include "vtkFarthestPoints.h"
+#include "vtkGeodesicDistance.h"
+
+#include <gtest/gtest.h>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+vtkSmartPointer<vtkFarthestPoints> Spread(vtkPolyData* surface, int points)
+{
+  auto filter = vtkSmartPointer<vtkFarthestPoints>::New();
+  filter->SetInputData(surface);
+  filter->SetDepth(4);
+  filter->SetNumberOfPoints(points);
+  return filter;
+}
+
+std::vector<double> Ids(vtkFarthestPoints* filter)
+{
+  return Values(filter->GetOutput()->GetFieldData()->GetArray("FarthestPoints"));
+}
+
+} // namespace
+
+/// One point is the source of a Geodesic Distance, and the second one is where this is largest.
+TEST(FarthestPoints, FollowsTheGeodesicDistance)
+{
+  const auto surface = ToPolyData(Torus(40, 16, 2.0, 0.6));
+  vtkNew<vtkGeodesicDistance> distance;
+  distance->SetInputData(surface);
+  distance->SetDepth(4);
+  distance->AddSourcePointId(5);
+  distance->Update();
+  const std::vector<double> exact = PointValues(distance->GetOutput(), "Distance");
+  const auto filter = Spread(surface, 1);
+  filter->SetFirstPointId(5);
+  filter->Update();
+  EXPECT_EQ(PointValues(filter->GetOutput(), "Distance"), exact);
+  const auto largest = std::max_element(exact.begin(), exact.end());
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "Radius"), *largest);
+  filter->SetNumberOfPoints(2);
+  filter->Update();
+  EXPECT_EQ(Ids(filter), (std::vector<double>{ 5.0, double(largest - exact.begin()) }));
+}
+
+TEST(FarthestPoints, RegionsAreThoseOfThePoints)
+{
+  const auto filter = Spread(ToPolyData(GeodesicSphere(16)), 6);
+  filter->Update();
+  std::vector<double> regions = PointValues(filter->GetOutput(), "NearestPoint");
+  std::vector<double> points = Ids(filter);
+  for (const double point : points)
+  {
+    EXPECT_EQ(regions[static_cast<std::size_t>(point)], point);
+  }
+  std::sort(regions.begin(), regions.end());
+  regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
+  std::sort(points.begin(), points.end());
+  EXPECT_EQ(regions, points);
+}
+
+TEST(FarthestPoints, MorePointsKeepThoseThatAreThere)
+{
+  const auto filter = Spread(ToPolyData(GeodesicSphere(12)), 3);
+  filter->Update();
+  const std::vector<double> three = Ids(filter);
+  filter->SetNumberOfPoints(5);
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfRuns("Solve"), 2);
+  EXPECT_EQ(filter->GetNumberOfRuns("Hierarchy"), 1);
+  const std::vector<double> five = Ids(filter);
+  EXPECT_TRUE(std::equal(three.begin(), three.end(), five.begin()));
+}
+
+TEST(FarthestPoints, AFirstPointOutsideTheMeshIsRefused)
+{
+  const auto surface = ToPolyData(GeodesicSphere(8));
+  const auto filter = Spread(surface, 2);
+  filter->SetFirstPointId(static_cast<int>(surface->GetNumberOfPoints()));
+  const Messages messages(filter);
+  filter->Update();
+  EXPECT_EQ(messages.errors.size(), 1u);
+  EXPECT_TRUE(IsEmptyData(filter->GetOutput()));
+}
