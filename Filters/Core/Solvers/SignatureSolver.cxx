@@ -48,6 +48,13 @@ double SquaredUnit(ParameterUnits units, const TriangleMesh& mesh, double area)
   return 1.0;
 }
 
+/// The progress of work that each process does on its own points. On a shared surface it is silent,
+/// because all processes report together.
+Progress OfOwnPoints(const Surface& surface, const Progress& progress)
+{
+  return surface.IsShared() ? Progress() : progress;
+}
+
 void RequireOnPoints(const GivenField& values)
 {
   if (values && !values.IsOnPoints())
@@ -70,7 +77,7 @@ const SignatureSolver::Result& SignatureSolver::Update(
   job.Check(0.0);
   this->UpdateModes(surface, input, options, job.progress.Part(0.0, 0.97));
   job.Check(0.97);
-  this->UpdateSums(surface, input, options, job.progress.Part(0.97, 1.0));
+  this->UpdateSums(surface, input, options, OfOwnPoints(surface, job.progress.Part(0.97, 1.0)));
   return result_;
 }
 
@@ -103,8 +110,8 @@ void SignatureSolver::UpdateModes(
       auto modes = std::make_shared<PointModes>();
       modes->eigenvalues = solved.eigenvalues;
       modes->area = surface.Area();
-      modes->values =
-        spectrum_.ModesAtPoints(surface, 0, solved.NumberOfModes(), progress.Part(0.98, 1.0));
+      modes->values = spectrum_.ModesAtPoints(
+        surface, 0, solved.NumberOfModes(), OfOwnPoints(surface, progress.Part(0.98, 1.0)));
       result_.modes = std::move(modes);
     });
   result_.isConverged = solved.spectrum.converged;
