@@ -48,7 +48,8 @@ def enter(prop, value):
     elif prop.FindDomain("vtkSMBooleanDomain"):
         event(f"{widget}/CheckBox", "set_boolean", "true" if value == "1" else "false")
     elif not numbers:
-        event(f"{widget}/IntRangeWidget/LineEdit", command, value)
+        has_range = prop.FindDomain("vtkSMIntRangeDomain").GetMaximumExists(0)
+        event(f"{widget}/IntRangeWidget/LineEdit" if has_range else f"{widget}/LineEdit0", command, value)
     elif numbers.GetMaximumExists(0):
         event(f"{widget}/DoubleRangeWidget/DoubleLineEdit", command, value)
     else:
