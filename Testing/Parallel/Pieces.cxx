@@ -101,7 +101,8 @@ void ExpectRows(const char* name, const MultiVector& found, const MultiVector& w
   SCOPED_TRACE(name);
   ASSERT_EQ(found.rows(), static_cast<Id>(places.size()));
   ASSERT_EQ(found.cols(), whole.cols());
-  const double allowed = 1e-8 * whole.array().isNaN().select(0.0, whole.array().abs()).maxCoeff();
+  const double allowed =
+    1e-8 * whole.array().isNaN().select(0.0, whole.array().abs()).maxCoeff<Eigen::PropagateNaN>();
   for (Id k = 0; k < found.rows(); ++k)
   {
     if (!isCompared.empty() && !isCompared[places[k]])

@@ -162,7 +162,7 @@ MultiVector MomentsOf(
 /// The largest number of all ranks that is not NaN; 0 if there is none.
 double LargestOf(const Communicator& ranks, const MultiVector& values)
 {
-  double largest = values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0.0;
+  double largest = values.size() > 0 ? values.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() : 0.0;
   ranks.Maximum(&largest, 1);
   return largest;
 }
@@ -191,7 +191,8 @@ TEST(RankConditions, AFluxIsThatOfOneRank)
       EXPECT_EQ(found.held.values.rows(), 0);
       const MultiVector moments = MomentsOf(alone, alone, expected.load);
       const MultiVector ours = MomentsOf(levels, levels.Own(), found.load);
-      EXPECT_LE((ours - moments).cwiseAbs().maxCoeff(), 1e-9 * moments.cwiseAbs().maxCoeff());
+      EXPECT_LE((ours - moments).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(),
+        1e-9 * moments.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
 
       if (surface.name != "soup" && surface.name != "half a sphere")
       {
@@ -256,8 +257,8 @@ TEST(RankConditions, TheBoundaryIsHeldAsOnOneRank)
       {
         EXPECT_EQ(held, static_cast<double>(expected.held.values.rows()));
       }
-      EXPECT_NEAR(
-        LargestOf(ranks, found.held.values), expected.held.values.cwiseAbs().maxCoeff(), 1e-12);
+      EXPECT_NEAR(LargestOf(ranks, found.held.values),
+        expected.held.values.cwiseAbs().maxCoeff<Eigen::PropagateNaN>(), 1e-12);
 
       if (surface.name == "on planes")
       {

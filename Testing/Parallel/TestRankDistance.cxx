@@ -1,4 +1,5 @@
 // Distances along the pieces of several ranks are those of one rank.
+#include "Largest.h"
 #include "Parallel/RankDistance.h"
 #include "Pieces.h"
 #include "Spaces/GridSpace.h"
@@ -168,12 +169,12 @@ TEST(RankDistance, AreAsExactAsThoseOfOneRank)
   double error = 0.0;
   for (std::size_t k = 0; k < piece.points.size(); ++k)
   {
-    error = std::max(error, std::abs(found(static_cast<Id>(k), 0) - exact(piece.points[k], 0)));
+    error = Larger(error, std::abs(found(static_cast<Id>(k), 0) - exact(piece.points[k], 0)));
   }
   ranks.Maximum(&error, 1);
-  const double errorOfOne = (ofOne - exact).cwiseAbs().maxCoeff();
+  const double errorOfOne = (ofOne - exact).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
   EXPECT_GT(errorOfOne, 0.0);
-  EXPECT_LE(error, 2.0 * errorOfOne + 2e-4 * exact.maxCoeff()) << errorOfOne;
+  EXPECT_LE(error, 2.0 * errorOfOne + 2e-4 * exact.maxCoeff<Eigen::PropagateNaN>()) << errorOfOne;
   RecordProperty("ErrorOfOne", std::to_string(errorOfOne));
   RecordProperty("Error", std::to_string(error));
 }

@@ -1,5 +1,6 @@
 // The space on several ranks is that of one rank, with the same patches and functions on every
 // level, and the same entries of M, L and the prolongations.
+#include "Largest.h"
 #include "Meshes.h"
 #include "Parallel/RankLevels.h"
 #include "Problems/MemoryEstimate.h"
@@ -153,7 +154,7 @@ void CompareEntries(std::vector<Entry> entries, const SparseMatrix& whole, const
   double largest = 0.0;
   for (const double value : whole.value)
   {
-    largest = std::max(largest, std::abs(value));
+    largest = Larger(largest, std::abs(value));
   }
   for (Entry& entry : entries)
   {

@@ -188,6 +188,14 @@ class Tests(Rule):
                      if not p.name.startswith("Test") and not self.is_used(p)]
         self.assertNothing(offences, "These are not found by the build (Test<Concept>.cxx):")
 
+    def test_comparisons_see_nan(self):
+        """std::max(a, NaN) is a, and so is Eigen's maxCoeff(): a result of NaN would have no error."""
+        blind = re.compile(r"= std::max\([^;]*(?:std::abs|\.norm\()|\.maxCoeff\(\)")
+        offences = [f"{relative(p)}:{number}" for folder in ("Core", "Parallel", "Support", "VTK")
+                    for p in sources(f"Testing/{folder}")
+                    for number, line in enumerate(p.read_text().split("\n"), 1) if blind.search(line)]
+        self.assertNothing(offences, "These drop NaN; Larger (Support/Largest.h) and PropagateNaN do not:")
+
     def is_used(self, module):
         """Whether another file of the folder imports or runs this one."""
         return any(re.search(rf"\b{module.stem}\b", other.read_text())

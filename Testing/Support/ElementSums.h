@@ -3,6 +3,7 @@
 #define GridFEM_Testing_ElementSums_h
 
 #include "Integrals/ElementMatrices.h"
+#include "Largest.h"
 
 #include <gtest/gtest.h>
 
@@ -27,7 +28,7 @@ inline double LargestEntry(const Array<ElementMatrix>& matrices)
   {
     for (const double entry : matrix)
     {
-      largest = std::max(largest, std::abs(entry));
+      largest = Larger(largest, std::abs(entry));
     }
   }
   return largest;
@@ -42,7 +43,7 @@ inline double LargestDifference(const Array<ElementMatrix>& a, const Array<Eleme
   {
     for (int k = 0; k < ElementEntries; ++k)
     {
-      difference = std::max(difference, std::abs(a[patch][k] - b[patch][k]));
+      difference = Larger(difference, std::abs(a[patch][k] - b[patch][k]));
     }
   }
   return difference;

@@ -112,7 +112,8 @@ std::vector<double> HatEigenvalues(const HatSystem& system, int count)
     const Eigen::MatrixXd projectedStiffness = y.transpose() * (system.stiffness * y);
     const DenseEigenPairs dense = DenseEigen(projectedStiffness, projectedMass);
     x = y * dense.vectors;
-    const double change = (dense.values - values).head(count).cwiseAbs().maxCoeff();
+    const double change =
+      (dense.values - values).head(count).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
     values = dense.values;
     if (change < 1e-8 * values[count - 1])
     {

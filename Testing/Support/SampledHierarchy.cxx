@@ -255,7 +255,8 @@ MultiVector RandomVectors(Id rows, Id columns, std::uint32_t seed)
 
 double RelativeDifference(const MultiVector& a, const MultiVector& b)
 {
-  return (a - b).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / b.cwiseAbs().maxCoeff();
+  return (a - b).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() /
+         b.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
 }
 
 SparseMatrix Sparse(const Eigen::MatrixXd& A)

@@ -137,7 +137,8 @@ inline MultiVector RandomValues(Id rows, Id columns, unsigned seed = 1)
 /// Returns the largest difference, relative to the largest entry of the second matrix.
 inline double RelativeDifference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
 {
-  return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
+  return (a - b).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() /
+         b.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
 }
 
 } // namespace gridfem::testing

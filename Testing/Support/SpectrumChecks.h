@@ -5,6 +5,7 @@
 
 #include "Dense.h"
 #include "Discretisation.h"
+#include "Largest.h"
 #include "Problems/Spectrum.h"
 
 #include <gtest/gtest.h>
@@ -66,7 +67,9 @@ inline void CheckPairs(const Discretisation& on, const Spectrum& spectrum)
   Multiply(mass, spectrum.vectors, massX);
   Multiply(stiffness, spectrum.vectors, stiffnessX);
   const Eigen::MatrixXd gram = spectrum.vectors.transpose() * massX;
-  EXPECT_LT((gram - Eigen::MatrixXd::Identity(count, count)).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT(
+    (gram - Eigen::MatrixXd::Identity(count, count)).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(),
+    1e-9);
   for (Id j = 0; j < count; ++j)
   {
     const Eigen::VectorXd r = stiffnessX.col(j) - spectrum.eigenvalues[j] * massX.col(j);
@@ -74,7 +77,8 @@ inline void CheckPairs(const Discretisation& on, const Spectrum& spectrum)
     const double bound = 10.0 * spectrum.residuals[j] * std::sqrt(spectrum.eigenvalues[j]);
     EXPECT_LT(r.norm(), bound + 1e-9) << "mode " << j;
     // Among entries of about the same magnitude, the first one decides the sign.
-    EXPECT_GT(massX.col(j).maxCoeff(), (1.0 - 3e-6) * massX.col(j).cwiseAbs().maxCoeff());
+    EXPECT_GT(massX.col(j).maxCoeff<Eigen::PropagateNaN>(),
+      (1.0 - 3e-6) * massX.col(j).cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
   }
 }
 
@@ -84,7 +88,7 @@ inline double LargestError(const std::vector<double>& values, const std::vector<
   double error = 0.0;
   for (std::size_t j = 0; j < values.size(); ++j)
   {
-    error = std::max(error, exact[j] > 0.0 ? std::abs(values[j] / exact[j] - 1.0) : values[j]);
+    error = Larger(error, exact[j] > 0.0 ? std::abs(values[j] / exact[j] - 1.0) : values[j]);
   }
   return error;
 }

@@ -2,6 +2,7 @@
 #ifndef GridFEM_Testing_FilterSupport_h
 #define GridFEM_Testing_FilterSupport_h
 
+#include "Largest.h"
 #include "Meshes.h"
 
 #include "vtkAlgorithm.h"
@@ -148,7 +149,8 @@ inline double Difference(const std::vector<double>& a, const std::vector<double>
   double largest = 0.0;
   for (std::size_t k = 0; k < a.size(); ++k)
   {
-    largest = std::max(largest, std::abs(a[k] - b[k]));
+    const bool areUnknown = std::isnan(a[k]) && std::isnan(b[k]);
+    largest = Larger(largest, areUnknown ? 0.0 : std::abs(a[k] - b[k]));
   }
   return largest;
 }

@@ -2,6 +2,7 @@
 
 #include "FilterSupport.h"
 #include "GrowingSphere.h"
+#include "Largest.h"
 
 #include "vtkClipToOctree.h"
 #include "vtkGeodesicDistance.h"
@@ -145,10 +146,9 @@ protected:
       {
         for (int c = 0; c < values->GetNumberOfComponents(); ++c)
         {
-          apart = std::max(apart,
-            std::abs(
-              values->GetComponent(k, c) -
-              expected->GetComponent(static_cast<vtkIdType>(origin->GetComponent(k, 0)), c)));
+          apart = Larger(apart, std::abs(values->GetComponent(k, c) -
+                                         expected->GetComponent(
+                                           static_cast<vtkIdType>(origin->GetComponent(k, 0)), c)));
         }
       }
     }
@@ -345,7 +345,7 @@ TEST_F(BlocksAsOne, DistancesGoAcrossBlocks)
   {
     for (const double value : PointValues(leaf, "Distance"))
     {
-      farthest = std::max(farthest, value);
+      farthest = Larger(farthest, value);
     }
   }
   EXPECT_NEAR(farthest, M_PI, 0.15); // the other side
@@ -541,7 +541,7 @@ TEST_F(BlocksAsOne, MoveTogetherThroughTheStepsOfAFlow)
         const auto origin =
           static_cast<vtkIdType>(leaf->GetPointData()->GetArray("origin")->GetComponent(k, 0));
         const Vec3 expected(reference->GetOutput()->GetPoint(origin));
-        apart = std::max(apart, (Vec3(leaf->GetPoint(k)) - expected).norm());
+        apart = Larger(apart, (Vec3(leaf->GetPoint(k)) - expected).norm());
       }
     }
     EXPECT_LT(apart, 1e-9) << step;

@@ -157,7 +157,7 @@ TEST(ClipToOctree, EveryTriangleLiesInItsCell)
     {
       const Vec3 local = (Vec3(output->GetPoint(point)) - origin) / spacing - low;
       EXPECT_GE(local.minCoeff(), -1e-9);
-      EXPECT_LE(local.maxCoeff(), 1 + 1e-9);
+      EXPECT_LE(local.maxCoeff<Eigen::PropagateNaN>(), 1 + 1e-9);
     }
   }
 }

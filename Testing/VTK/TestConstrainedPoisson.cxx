@@ -1,5 +1,6 @@
 // Screened Poisson where values are unknown, weighed or held exactly.
 #include "FilterSupport.h"
+#include "Largest.h"
 
 #include "vtkScreenedPoisson.h"
 
@@ -137,8 +138,8 @@ TEST_P(ConstrainedPoisson, HoldsValuesExactly)
   double after = 0.0;
   for (std::size_t k = 0; k < given.size(); ++k)
   {
-    before = std::max(before, mask[k / 2] * std::abs(free[k] - given[k]));
-    after = std::max(after, mask[k / 2] * std::abs(held[k] - given[k]));
+    before = Larger(before, mask[k / 2] * std::abs(free[k] - given[k]));
+    after = Larger(after, mask[k / 2] * std::abs(held[k] - given[k]));
   }
   EXPECT_GT(before, 0.02);
   // On the grid there are more points in a cell than functions.
@@ -155,7 +156,7 @@ TEST_P(ConstrainedPoisson, SolvesForValuesHeldAtTheBoundary)
     for (Vec3& p : disc.points) // every square ring becomes a round one
     {
       const Vec3 q = p - Vec3(1, 1, 0);
-      p = q.norm() > 0.0 ? Vec3(q * (q.cwiseAbs().maxCoeff() / q.norm())) : q;
+      p = q.norm() > 0.0 ? Vec3(q * (q.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / q.norm())) : q;
     }
     const auto data = ToPolyData(Transform(disc, { 1, 2, 3 }, 0.0, 1.5));
     const auto exact = [](const Vec3& p) { return 4.0 + p[0] * p[0] - p[1] * p[1]; };

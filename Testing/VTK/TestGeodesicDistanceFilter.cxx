@@ -1,5 +1,6 @@
 // Geodesic Distance as a user of VTK sees it.
 #include "FilterSupport.h"
+#include "Largest.h"
 
 #include "vtkCellArray.h"
 #include "vtkConnectivityAwareBasis.h"
@@ -66,7 +67,7 @@ TEST(GeodesicDistanceFilter, OnHatFunctionsTheGridIsAsFineAsDepthSays)
     double error = 0.0;
     for (std::size_t i = 0; i < distance.size(); ++i)
     {
-      error = std::max(error, std::abs(distance[i] - (mesh.points[i] - mesh.points[0]).norm()));
+      error = Larger(error, std::abs(distance[i] - (mesh.points[i] - mesh.points[0]).norm()));
     }
     EXPECT_EQ(FieldValue(filter->GetOutput(), "UsedDepth"), depth);
     EXPECT_LT(error, 0.8 * before) << depth;

@@ -166,8 +166,8 @@ TEST_P(HarmonicInterpolation, TakesPointsOfAnotherDataSet)
 {
   const auto sphere = ToPolyData(GeodesicSphere(12));
   AddPointArray(sphere, "Value", 3, [](const Vec3& p, int c) { return p[c]; });
-  AddPointArray(
-    sphere, "Mask", 1, [](const Vec3& p, int) { return p.cwiseAbs().maxCoeff() > 0.9999; });
+  AddPointArray(sphere, "Mask", 1,
+    [](const Vec3& p, int) { return p.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() > 0.9999; });
   const auto by_mask = Interpolate(sphere, "Value");
   by_mask->SetInputArrayToProcess(1, 0, 0, Points, "Mask");
   by_mask->SetFunctionSpace(this->GetParam());

@@ -2,6 +2,7 @@
 // basis.
 
 #include "FilterSupport.h"
+#include "Largest.h"
 #include "Support/HatSystem.h"
 
 #include "vtkConnectivityAwareBasis.h"
@@ -130,7 +131,7 @@ TEST_F(HatPoisson, SoupIsWeldedUnlessToldOtherwise)
   const Array<Index> welded = WeldCoincidentPoints(soup.points);
   for (std::size_t point = 0; point < welded.size(); ++point)
   {
-    jump = std::max(jump, std::abs(apart[point] - apart[welded[point]]));
+    jump = Larger(jump, std::abs(apart[point] - apart[welded[point]]));
   }
   EXPECT_GT(jump, 1e-2);
 }

@@ -1,6 +1,7 @@
 // Mean Curvature Flow: steps as time, kept and made again, continued, and the failure rule.
 
 #include "FilterSupport.h"
+#include "Largest.h"
 
 #include "vtkConnectivityAwareBasis.h"
 #include "vtkMeanCurvatureFlow.h"
@@ -290,7 +291,7 @@ TEST_P(MeanCurvatureFlowFilter, AFixedBoundaryStaysInEveryStepAndAllElseMoves)
       double moved = 0.0;
       for (int axis = 0; axis < 3; ++axis)
       {
-        moved = std::max(moved, std::abs(end[3 * k + axis] - start[3 * k + axis]));
+        moved = Larger(moved, std::abs(end[3 * k + axis] - start[3 * k + axis]));
       }
       EXPECT_EQ(moved == 0.0, isFixed) << k;
     }

@@ -2,6 +2,7 @@
 // is refused.
 
 #include "FilterSupport.h"
+#include "Largest.h"
 
 #include "Grid/TriangleMesh.h"
 
@@ -243,7 +244,7 @@ TEST_F(SpectralSignaturesFilter, TheShapeItselfIsFiltered)
   for (std::size_t k = 0; k < sphere.points.size(); ++k)
   {
     const Vec3 moved(filter->GetOutput()->GetPoint(k));
-    largest = std::max(largest, (moved - sphere.points[k]).norm());
+    largest = Larger(largest, (moved - sphere.points[k]).norm());
   }
   EXPECT_LT(largest, 0.02);
   EXPECT_GT(largest, 0.0);

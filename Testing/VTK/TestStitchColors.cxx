@@ -1,5 +1,6 @@
 // Stitch Colors as a user of VTK sees it.
 #include "FilterSupport.h"
+#include "Largest.h"
 
 #include "vtkConnectivityAwareBasis.h"
 #include "vtkStitchColors.h"
@@ -304,7 +305,7 @@ TEST(StitchColorsFilter, TakesColorsAndLabelsOfCells)
     const Index own = ScanAt(middle);
     scan->InsertNextValue(float(own));
     color->InsertNextValue(float(0.5 + 0.1 * (own - 2) + 0.1 * middle[2]));
-    jump = std::max(jump, 0.1 * own);
+    jump = Larger(jump, 0.1 * own);
   }
   data->GetCellData()->AddArray(color);
   data->GetCellData()->AddArray(scan);
@@ -321,7 +322,7 @@ TEST(StitchColorsFilter, TakesColorsAndLabelsOfCells)
   {
     double bounds[6];
     data->GetCellBounds(cell, bounds);
-    error = std::max(error, std::abs(stitched[cell] - 0.5 - 0.1 * (bounds[4] + bounds[5])));
+    error = Larger(error, std::abs(stitched[cell] - 0.5 - 0.1 * (bounds[4] + bounds[5])));
   }
   EXPECT_LT(error, 0.1 * jump);
 }

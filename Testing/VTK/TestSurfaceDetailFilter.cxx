@@ -1,5 +1,6 @@
 // Surface Detail as a user of VTK sees it.
 #include "FilterSupport.h"
+#include "Largest.h"
 
 #include "vtkConnectivityAwareBasis.h"
 #include "vtkSurfaceDetail.h"
@@ -283,7 +284,7 @@ TEST_P(SurfaceDetailFilter, ChangesWhereTheSelectionIs)
   for (std::size_t k = 0; k < half.size(); ++k)
   {
     const double z = before[k - k % 3 + 2];
-    moved = std::max(moved, std::abs(whole[k] - before[k]));
+    moved = Larger(moved, std::abs(whole[k] - before[k]));
     differenceInside =
       z > 0.3 ? std::max(differenceInside, std::abs(half[k] - whole[k])) : differenceInside;
     movedOutside = z < -0.5 ? std::max(movedOutside, std::abs(half[k] - before[k])) : movedOutside;

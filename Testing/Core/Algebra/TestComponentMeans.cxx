@@ -68,10 +68,11 @@ TEST_P(Means, OfConstantsAreTheConstants)
     means.AddConstants(constants, x);
     constants.bottomRows(1).setZero(); // no area, no mean
     // Each value is a sum of up to 20,000 numbers.
-    EXPECT_LT((means.OfFunction(x) - constants).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_LT((means.OfFunction(x) - constants).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(), 1e-12);
     MultiVector load = MultiVector::Zero(60000, GetParam());
     means.SubtractIntegrals(-constants, load);
-    EXPECT_LT((means.OfIntegrals(load) - constants).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_LT(
+      (means.OfIntegrals(load) - constants).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(), 1e-12);
   }
 }
 

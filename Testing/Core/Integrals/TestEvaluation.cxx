@@ -22,7 +22,7 @@ protected:
   GridFunctions space = GetParam().Build();
   MultiVector coordinates = CoordinateCoefficients(space);
   /// Rounding of world coordinates, from which grid coordinates and spacing are computed.
-  double tolerance = 1e-14 * coordinates.cwiseAbs().maxCoeff();
+  double tolerance = 1e-14 * coordinates.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
 };
 
 /// Returns the value at a point (in grid units) of a patch of the finest level.
@@ -47,7 +47,7 @@ TEST_P(EvaluationOnSpaces, CoordinatesAreReproducedAtTheInputsPoints)
   const MultiVector values = EvaluateAtPoints(space, coordinates);
   const MultiVector points = PointCoordinates(GetParam().mesh);
   ASSERT_EQ(values.rows(), points.rows());
-  EXPECT_LT((values - points).cwiseAbs().maxCoeff(), tolerance);
+  EXPECT_LT((values - points).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(), tolerance);
 }
 
 TEST_P(EvaluationOnSpaces, CoordinatesAreReproducedAtAllClippedPoints)

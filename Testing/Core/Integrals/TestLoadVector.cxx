@@ -53,7 +53,8 @@ protected:
   const QuadratureRule& rule = TriangleRule(2);
   /// Rounding of world coordinates, measured in cells.
   double rounding =
-    1e-14 * (1.0 + CoordinateCoefficients(space).cwiseAbs().maxCoeff() / space.GetGrid().spacing);
+    1e-14 * (1.0 + CoordinateCoefficients(space).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() /
+                     space.GetGrid().spacing);
 };
 
 /// Returns ∇f of a field that is linear on triangles, computed from world coordinates.
@@ -126,7 +127,8 @@ TEST_P(LoadsOnSpaces, OfAnyGradientAreThoseOfTheVectorFieldItIs)
   const MultiVector b = IntegrateGradients(space, mesh, s, nullptr, rule);
   EXPECT_LT(RelativeDifference(a, b), 10.0 * rounding);
   // Integrals of gradients against constants vanish.
-  EXPECT_LT(a.colwise().sum().cwiseAbs().maxCoeff(), 1e-12 * a.cwiseAbs().sum());
+  EXPECT_LT(
+    a.colwise().sum().cwiseAbs().maxCoeff<Eigen::PropagateNaN>(), 1e-12 * a.cwiseAbs().sum());
 }
 
 TEST_P(LoadsOnSpaces, IgnoreThePartOfAVectorFieldAlongTheNormal)

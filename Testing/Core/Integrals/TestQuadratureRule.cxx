@@ -1,6 +1,7 @@
 // Tests that rules are exact on every monomial of their degree, with positive weights at inner
 // points.
 #include "Integrals/QuadratureRule.h"
+#include "Largest.h"
 
 #include "Base/Errors.h"
 
@@ -63,7 +64,7 @@ TEST_P(TriangleRules, AreNotExactBeyondTheirDegree)
   {
     const double error =
       Moment(rule, i, rule.degree + 1 - i, 0) - ExactMoment(i, rule.degree + 1 - i, 0);
-    worst = std::max(worst, std::abs(error));
+    worst = Larger(worst, std::abs(error));
   }
   EXPECT_GT(worst, 1e-9);
 }

@@ -34,7 +34,8 @@ TEST(PivotedCholesky, FindsRankAndFactorAcrossPanels)
     {
       const Eigen::MatrixXd S = RandomSemiDefinite(size, rank);
       Eigen::MatrixXd factor = S;
-      const std::vector<Index> pivots = PivotedCholesky(factor, 1e-10 * S.diagonal().maxCoeff());
+      const std::vector<Index> pivots =
+        PivotedCholesky(factor, 1e-10 * S.diagonal().maxCoeff<Eigen::PropagateNaN>());
       ASSERT_EQ(Id(pivots.size()), rank) << size;
       const Eigen::MatrixXd L =
         factor.topLeftCorner(rank, rank).triangularView<Eigen::Lower>().toDenseMatrix();
@@ -44,7 +45,8 @@ TEST(PivotedCholesky, FindsRankAndFactorAcrossPanels)
         for (Id j = 0; j < rank; ++j)
         {
           // Backward stable: the error is a multiple of n eps of the largest entry.
-          EXPECT_NEAR(product(i, j), S(pivots[i], pivots[j]), 1e-13 * S.diagonal().maxCoeff());
+          EXPECT_NEAR(product(i, j), S(pivots[i], pivots[j]),
+            1e-13 * S.diagonal().maxCoeff<Eigen::PropagateNaN>());
         }
       }
     }
@@ -88,8 +90,9 @@ TEST(CoarseSolver, IsSymmetricAndSemiDefiniteOnInconsistentDataToo)
   const Eigen::MatrixXd D = RandomSemiDefinite(40, 25);
   MultiVector B;
   CoarseSolver(Sparse(D)).Solve(MultiVector::Identity(40, 40), B);
-  EXPECT_LT((B - B.transpose()).cwiseAbs().maxCoeff(), 1e-13 * B.cwiseAbs().maxCoeff());
-  EXPECT_GT(DenseEigen(B).values[0], -1e-12 * B.cwiseAbs().maxCoeff());
+  EXPECT_LT((B - B.transpose()).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(),
+    1e-13 * B.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
+  EXPECT_GT(DenseEigen(B).values[0], -1e-12 * B.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
 }
 
 TEST(CoarseSolver, ThousandsOfComponentsAreSolvedOneByOne)
@@ -132,7 +135,7 @@ TEST(CoarseSolver, LeavesOutUselessRows)
   CoarseSolver(Sparse(D)).Solve(MultiVector::Ones(5, 1), x);
   Eigen::VectorXd expected(5);
   expected << 0.5, 0.0, 0.0, 0.0, 0.25;
-  EXPECT_LT((x - expected).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_LT((x - expected).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(), 1e-15);
 }
 
 TEST(CoarseSolver, BadShapesAreRefusedAndNothingIsFine)

@@ -334,8 +334,8 @@ TEST(BlockIteration, PairsForAFinerLevelAreRenewed)
   const Eigen::MatrixXd stiffness = scale.asDiagonal() * products.leftCols(72) * scale.asDiagonal();
   const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(72, 72);
   // Sums of products that are rounded to 6e-8.
-  EXPECT_LT((stiffness - one).cwiseAbs().maxCoeff(), 1e-5);
-  EXPECT_LT((products.rightCols(72) - one).cwiseAbs().maxCoeff(), 1e-5);
+  EXPECT_LT((stiffness - one).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(), 1e-5);
+  EXPECT_LT((products.rightCols(72) - one).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(), 1e-5);
 }
 
 /// A preconditioner that is no better than none, with the cycle as its fallback.

@@ -92,7 +92,8 @@ TEST(GaussSeidel, EqualsTheTextbookOnA1DLaplacian)
     relax(backward, n - 1 - i);
   }
   // Ten steps with numbers up to 2, each accurate to rounding.
-  EXPECT_LT((Swept(*smoother, A, b, start) - forward).cwiseAbs().maxCoeff(), 1e-14);
+  EXPECT_LT(
+    (Swept(*smoother, A, b, start) - forward).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(), 1e-14);
   EXPECT_LT((Swept(*smoother, A, b, start, SweepDirection::Backward) - backward).norm(), 1e-14);
 }
 
@@ -107,7 +108,10 @@ TEST(GaussSeidel, VisitsUnknownsInTheOrderOfTheirFirstPatch)
   {
     x[i] += (b(i, 0) - Dense(A).row(i) * x) / A.Coefficient(i, i);
   }
-  EXPECT_LT((Swept(*smoother, A, b, MultiVector::Zero(7, 1)) - x).cwiseAbs().maxCoeff(), 1e-14);
+  EXPECT_LT((Swept(*smoother, A, b, MultiVector::Zero(7, 1)) - x)
+              .cwiseAbs()
+              .maxCoeff<Eigen::PropagateNaN>(),
+    1e-14);
 }
 
 TEST(GaussSeidel, LeavesRowsWithoutPositiveDiagonalAlone)
@@ -147,7 +151,8 @@ TEST(PatchSmoother, IsMultiplicativeSchwarz)
   const MultiVector start = x;
   x.head(3) += DenseSolution(D.topLeftCorner(3, 3), (b - D * x).topRows(3));
   x.tail(4) += DenseSolution(D.bottomRightCorner(4, 4), (b - D * x).bottomRows(4));
-  EXPECT_LT((Swept(*smoother, A, b, start) - x).cwiseAbs().maxCoeff(), 1e-6); // single precision
+  EXPECT_LT((Swept(*smoother, A, b, start) - x).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(),
+    1e-6); // single precision
 }
 
 /// The textbook sweep, with a dense matrix.
@@ -348,7 +353,7 @@ TEST(PatchSmoother, LeavesOutUnknownsThatCannotBeSolvedFor)
     Swept(*smoother, A, MultiVector::Ones(8, 1), MultiVector::Constant(8, 1, 0.25));
   Eigen::VectorXd expected(8);
   expected << 0.5, 0.25, 0.25, 0.25, 0.25, 0.25, 0.2, 0.125;
-  EXPECT_LT((x - expected).cwiseAbs().maxCoeff(), 1e-7); // single precision
+  EXPECT_LT((x - expected).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(), 1e-7); // single precision
 }
 
 TEST(PatchSmoother, NaNOffTheDiagonalDoesNotReachTheInverse)

@@ -1,4 +1,5 @@
 // Voronoi regions against those of exact distances.
+#include "Largest.h"
 #include "Problems/NearestSource.h"
 
 #include "Base/Errors.h"
@@ -65,7 +66,7 @@ double LargestDetour(const TriangleMesh& mesh, const std::vector<Id>& nearest,
   double largest = 0.0;
   for (std::size_t i = 0; i < nearest.size(); ++i)
   {
-    largest = std::max(largest, exact(mesh.points[nearest[i]], mesh.points[i]) - least[i]);
+    largest = Larger(largest, exact(mesh.points[nearest[i]], mesh.points[i]) - least[i]);
   }
   return largest;
 }

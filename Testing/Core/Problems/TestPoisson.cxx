@@ -1,4 +1,5 @@
 // The screened Poisson equation: exact solutions, means, rates, repeatability.
+#include "Largest.h"
 #include "Problems/Poisson.h"
 
 #include "Dense.h"
@@ -102,7 +103,8 @@ TEST_P(PoissonAtWeight, ReturnsAFieldThatIsGivenWithItsGradient)
     const PoissonSolution solution = problem.Solve(problem.Values(f), problem.Gradients(f));
     EXPECT_TRUE(solution.report.converged);
     const MultiVector u = EvaluateAtPoints(problem.space, solution.coefficients);
-    EXPECT_LT((u - f).cwiseAbs().maxCoeff(), 1e-8); // the solve has a tolerance of 1e-11 in energy
+    EXPECT_LT((u - f).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(),
+      1e-8); // the solve has a tolerance of 1e-11 in energy
   }
 }
 
@@ -145,8 +147,10 @@ TEST_P(PoissonOnSpaces, KeepsTheMeanOfTheFieldForEveryWeight)
     problem.options.screeningWeight = lambda;
     const PoissonSolution solution = problem.Solve(load, sources);
     EXPECT_TRUE(solution.report.converged) << lambda;
-    EXPECT_LT(
-      (ComponentMeansOf(problem, solution.coefficients) - expected).cwiseAbs().maxCoeff(), 1e-12)
+    EXPECT_LT((ComponentMeansOf(problem, solution.coefficients) - expected)
+                .cwiseAbs()
+                .maxCoeff<Eigen::PropagateNaN>(),
+      1e-12)
       << lambda;
   }
 }
@@ -172,7 +176,7 @@ void ExpectCoordinatesBack(const TriangleMesh& mesh, int depth)
     for (Id i = 0; i < u.rows(); ++i)
     {
       const bool isUsed = problem.space.pointPatch[i] >= 0;
-      worst = std::max(worst, isUsed ? (u.row(i) - f.row(i)).norm() : 0.0);
+      worst = Larger(worst, isUsed ? (u.row(i) - f.row(i)).norm() : 0.0);
     }
     // The tolerance bounds the energy. The largest pointwise errors are some hundred times the
     // tolerance.
@@ -229,7 +233,7 @@ TEST(Poisson, AgreesWithADenseSolve)
     EXPECT_LT((EvaluateAtPoints(problem.space, solution.coefficients) -
                 EvaluateAtPoints(problem.space, exact))
                 .cwiseAbs()
-                .maxCoeff(),
+                .maxCoeff<Eigen::PropagateNaN>(),
       1e-8);
   }
 }
@@ -356,7 +360,8 @@ TEST(Poisson, GivesAConstantBackAtOnce)
     problem.Solve(problem.Values(MultiVector::Constant(mesh.points.size(), 1, 1e6)), {});
   EXPECT_TRUE(solution.report.converged);
   EXPECT_EQ(solution.report.iterations, 0);
-  EXPECT_LT((solution.coefficients.array() / 1e6 - 1.0).abs().maxCoeff(), 1e-13);
+  EXPECT_LT(
+    (solution.coefficients.array() / 1e6 - 1.0).abs().maxCoeff<Eigen::PropagateNaN>(), 1e-13);
 }
 
 TEST(Poisson, StaysFiniteOnComponentsWithoutArea)
@@ -376,7 +381,7 @@ TEST(Poisson, StaysFiniteOnComponentsWithoutArea)
       problem.Solve(problem.Values(RandomValues(mesh.points.size(), 2)), {});
     EXPECT_TRUE(solution.report.converged);
     const MultiVector u = EvaluateAtPoints(problem.space, solution.coefficients);
-    EXPECT_LE(u.cwiseAbs().maxCoeff(), 1.0); // f has these bounds
+    EXPECT_LE(u.cwiseAbs().maxCoeff<Eigen::PropagateNaN>(), 1.0); // f has these bounds
   }
 }
 
@@ -391,7 +396,7 @@ TEST(Poisson, IsRightAtPointsOfTrianglesWithoutArea)
   const PoissonSolution solution = problem.Solve(problem.Values(MultiVector::Ones(5, 1)), {});
   EXPECT_TRUE(solution.report.converged);
   const MultiVector atInput = EvaluateAtPoints(problem.space, solution.coefficients);
-  EXPECT_LT((atInput.topRows(3).array() - 1.0).abs().maxCoeff(), 1e-9);
+  EXPECT_LT((atInput.topRows(3).array() - 1.0).abs().maxCoeff<Eigen::PropagateNaN>(), 1e-9);
   const MultiVector atAll = EvaluateAtClippedPoints(problem.space, solution.coefficients);
   EXPECT_EQ(atAll.topRows(5), atInput);
 }
@@ -510,7 +515,10 @@ TEST(Poisson, LeavesOutWhatCancelsBetweenPiecesThatLieOnEachOther)
       space, multigrid, space.LoadOfValues({ FieldAssociation::Triangles, values }), {}, options);
     EXPECT_TRUE(solution.report.converged) << seed;
     const double mean = 0.5 * (random(3, 0) + random(3, 1));
-    EXPECT_LT((space.ValuesAtPoints(solution.coefficients).array() - mean).abs().maxCoeff(), 1e-9)
+    EXPECT_LT((space.ValuesAtPoints(solution.coefficients).array() - mean)
+                .abs()
+                .maxCoeff<Eigen::PropagateNaN>(),
+      1e-9)
       << seed;
   }
 }
@@ -556,7 +564,8 @@ TEST(Poisson, KeepsNaNInItsColumnAndSaysSo)
   f(3, 1) = std::numeric_limits<double>::quiet_NaN();
   const PoissonSolution solution = problem.Solve(problem.Values(f), {});
   EXPECT_FALSE(solution.report.converged);
-  EXPECT_LT((solution.coefficients.col(0) - clean.col(0)).cwiseAbs().maxCoeff(), 1e-8);
+  EXPECT_LT(
+    (solution.coefficients.col(0) - clean.col(0)).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(), 1e-8);
 }
 
 TEST(Poisson, RefusesWhatDoesNotFit)

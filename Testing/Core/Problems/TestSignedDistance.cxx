@@ -1,4 +1,5 @@
 // Signed distances from curves against exact ones, on both kinds of space.
+#include "Largest.h"
 #include "Problems/CurveDistance.h"
 #include "Problems/GeodesicDistance.h"
 
@@ -36,7 +37,7 @@ public:
         (mesh.points[corner[0]] + mesh.points[corner[1]] + mesh.points[corner[2]]) / 3.0);
       for (const Id point : corner)
       {
-        radius_ = std::max(radius_, (mesh.points[point] - centre_.back()).norm());
+        radius_ = Larger(radius_, (mesh.points[point] - centre_.back()).norm());
       }
     }
   }
@@ -153,7 +154,7 @@ double LargestError(const TriangleMesh& mesh, const std::vector<double>& found,
     if (std::abs(wanted) <= limit)
     {
       const double error = std::abs(found[i] - wanted);
-      largest = error <= largest ? largest : error; // NaN stays
+      largest = Larger(largest, error);
     }
   }
   return largest;

@@ -97,7 +97,7 @@ struct Comparison
     discretization = norm(exact - truth) / size;
     algebraic = norm(values - exact) / size;
     total = norm(values - truth) / size;
-    largest = (exact - truth).cwiseAbs().maxCoeff();
+    largest = (exact - truth).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
   }
 
   SolveReport report;
@@ -403,8 +403,10 @@ TEST(SolutionAccuracy, StopsAtRoundingWhereCoarserLevelsAreExact)
     space.LoadOfValues({ FieldAssociation::Points, coordinates }),
     space.LoadOfGradientsOfCoordinates(nullptr), options);
   EXPECT_TRUE(solution.report.converged);
-  EXPECT_LT(
-    (space.ValuesAtPoints(solution.coefficients) - coordinates).cwiseAbs().maxCoeff(), 1e-7);
+  EXPECT_LT((space.ValuesAtPoints(solution.coefficients) - coordinates)
+              .cwiseAbs()
+              .maxCoeff<Eigen::PropagateNaN>(),
+    1e-7);
   EXPECT_LT(solution.accuracy.discretization, 1e-7);
 }
 

@@ -167,7 +167,9 @@ TEST_P(Stitching, BlendsOverMarginsThatAreWrong)
     options.blendWidth = width;
     const StitchedColors stitched = Stitch(scans, this->GetParam(), 5, options);
     EXPECT_TRUE(stitched.report.converged);
-    return (stitched.values.colwise().maxCoeff() - stitched.values.colwise().minCoeff()).maxCoeff();
+    return (stitched.values.colwise().maxCoeff<Eigen::PropagateNaN>() -
+            stitched.values.colwise().minCoeff())
+      .maxCoeff<Eigen::PropagateNaN>();
   };
   const double sharp = spread(0.0);
   const double blended = spread(2.0 * Margin);
@@ -261,8 +263,8 @@ TEST_P(Stitching, OfOneScanChangesNothing)
   const StitchedColors stitched = Stitch(scans, GetParam(), 4, Options());
   // On the grid, the change is the smoothed part that the grid cannot represent: 1 % of the
   // details' 0.03.
-  EXPECT_LT(
-    (stitched.values - scans.colors.values).cwiseAbs().maxCoeff(), GetParam() ? 1e-4 : 0.01);
+  EXPECT_LT((stitched.values - scans.colors.values).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(),
+    GetParam() ? 1e-4 : 0.01);
 }
 
 INSTANTIATE_TEST_SUITE_P(BothSpaces, Stitching, ::testing::Bool());

@@ -1,5 +1,6 @@
 // Detail of a surface: what scales do to it, and what a change of an option repeats.
 #include "EachOption.h"
+#include "Largest.h"
 #include "Meshes.h"
 #include "Solvers/DetailSolver.h"
 #include "Solvers/LocalSurface.h"
@@ -57,8 +58,7 @@ double LargestMove(const std::vector<Vec3>& a, const std::vector<Vec3>& b)
   double largest = 0.0;
   for (std::size_t point = 0; point < a.size(); ++point)
   {
-    const double move = (a[point] - b[point]).norm();
-    largest = move <= largest ? largest : move; // NaN counts as a move
+    largest = Larger(largest, (a[point] - b[point]).norm());
   }
   return largest;
 }

@@ -1,5 +1,6 @@
 // Tests the numbering of hat functions, and their mass and stiffness: an independent assembly, and
 // degenerate input.
+#include "Largest.h"
 #include "Spaces/HatMatrices.h"
 
 #include "Dense.h"
@@ -81,7 +82,7 @@ double Difference(const SparseMatrix& A, const Eigen::SparseMatrix<double>& refe
     for (Id k = A.rowBegin[i]; k < A.rowBegin[i + 1]; ++k)
     {
       const double expected = factor * reference.coeff(rowOfHat[i], rowOfHat[A.column[k]]);
-      worst = std::max(worst, std::abs(A.value[k] - expected) / diagonal);
+      worst = Larger(worst, std::abs(A.value[k] - expected) / diagonal);
     }
   }
   return worst;
