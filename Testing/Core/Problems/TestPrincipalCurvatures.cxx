@@ -1,4 +1,5 @@
 // Curvatures and their directions against exact ones, on good, irregular and bad triangles.
+#include "Largest.h"
 #include "Problems/PrincipalCurvatures.h"
 
 #include "Base/Errors.h"
@@ -59,14 +60,16 @@ Errors Compare(
     }
     const Exact at = exact(mesh.points[p]);
     const double size = std::max(std::abs(at.minimum), std::abs(at.maximum));
-    errors.curvature =
-      std::max({ errors.curvature, std::abs(computed.minimum[p] - at.minimum) / size,
-        std::abs(computed.maximum[p] - at.maximum) / size });
+    for (const double difference :
+      { computed.minimum[p] - at.minimum, computed.maximum[p] - at.maximum })
+    {
+      errors.curvature = Larger(errors.curvature, std::abs(difference) / size);
+    }
     if (!at.maximumDirection.isZero())
     {
       const double cosine =
         std::abs(computed.maximumDirection[p].dot(at.maximumDirection.normalized()));
-      errors.degrees = std::max(errors.degrees, std::acos(std::min(1.0, cosine)) * 180.0 / Pi);
+      errors.degrees = Larger(errors.degrees, std::acos(cosine >= 1.0 ? 1.0 : cosine) * 180.0 / Pi);
     }
   }
   return errors;
