@@ -7,8 +7,8 @@
 namespace gridfem::testing
 {
 
-/// The larger number; NaN if one of them is NaN. std::max(a, NaN) is a, so a result of NaN would have
-/// no error.
+/// The larger number; NaN if one of them is NaN. std::max(a, NaN) is a, so a result of NaN would
+/// have no error.
 inline double Larger(double a, double b)
 {
   return std::isnan(a) || a >= b ? a : b;
