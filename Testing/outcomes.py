@@ -32,8 +32,9 @@ high genus, not manifold, not oriented or unwelded, and some have slivers or onl
 
 The table counts the surfaces on which a filter converged, warned or refused, with all other properties
 as in its panel. A number alone counts the surfaces on which it converged. "In part" means that some
-values are not a number, as expected: distances on components without a source, interpolated values on
-components without a known value, and both at points that only triangles without area use.
+values are not a number, as expected. Distances are missing on components without a source. Interpolated
+values are missing on components without a known value. Both are missing at points that only triangles
+without area use.
 
 {counts}
 
