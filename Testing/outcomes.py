@@ -26,17 +26,20 @@ IN_PARTS = ("FarthestPoints", "GeodesicDistance", "HarmonicInterpolation")
 
 PAGE = """# On real meshes
 
-Scans, machine parts, terrain, anatomy and broken files: {surfaces} surfaces of {fewest:,} to {most:,} triangles
-and of up to {components:,} components, closed and open, of high genus, not manifold, not oriented, unwelded,
-with slivers, and some of slivers alone. Every filter, with all other properties as in its panel, on how many
-it converged, warned or refused. In part: distances are not a number on components without a source,
-interpolated values on those where nothing is known, and both at points that only triangles without area use.
-A number alone: so many converged.
+This page shows how all filters cope with {surfaces} real surfaces of {fewest:,} to {most:,} triangles: scans, machine
+parts, terrain, anatomy and broken files. They have up to {components:,} components. They are closed and open, of
+high genus, not manifold, not oriented or unwelded, and some have slivers or only slivers.
+
+The table counts the surfaces on which a filter converged, warned or refused, with all other properties
+as in its panel. A number alone counts the surfaces on which it converged. "In part" means that some
+values are not a number, as expected. Distances are missing on components without a source. Interpolated
+values are missing on components without a known value. Both are missing at points that only triangles
+without area use.
 
 {counts}
 
-A flow ends early where a part of the surface has shrunk to a point or a line before the ten steps are over.
-Numbers that differ from surface to surface are three dots.
+A flow ends early if a part of the surface shrinks to a point or a line within the ten steps. Three dots
+stand for numbers that differ from surface to surface.
 
 | filter | | what it says | where |
 |---|---|---|---|

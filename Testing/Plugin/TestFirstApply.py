@@ -84,7 +84,7 @@ class FirstApply(unittest.TestCase):
 
     def test_axes_of_charts_have_titles_and_keep_those_of_the_user(self):
         for name, bottom, left in (("LaplaceSpectrum", "Mode", "Eigenvalue"),
-                                   ("MeanCurvatureFlow", "Time of the flow", "Sphericity"),
+                                   ("MeanCurvatureFlow", "Flow time", "Sphericity"),
                                    ("ScreenedPoisson", "Iteration", "log10 of the relative error")):
             proxy = self.apply(name)
             for own in ("", "mine"):

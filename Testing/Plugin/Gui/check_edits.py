@@ -38,7 +38,7 @@ shown = set()  # arrays, so far
 # The series of a chart that opens beside a filter, and the titles of its axes.
 CHARTS = {"LaplaceSpectrum": ["Eigenvalue"], "MeanCurvatureFlow": ["Sphericity"]}
 TITLES = {"LaplaceSpectrum": ("Mode", "Eigenvalue"),
-          "MeanCurvatureFlow": ("Time of the flow", "Sphericity")}
+          "MeanCurvatureFlow": ("Flow time", "Sphericity")}
 
 
 def visible(view_type):
