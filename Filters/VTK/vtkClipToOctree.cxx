@@ -50,6 +50,7 @@ void vtkClipToOctree::Compute(vtkInformationVector** inputs, vtkInformationVecto
 {
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   gridfem::SurfaceSolverState& state = *this->State;
+  state.SetInput(input, nullptr);
   const gridfem::SpaceOptions& options = state.options.space;
   const gridfem::Progress progress = state.bridge.GetProgress();
   const gridfem::QuadratureRule& rule = gridfem::TriangleRule(this->QuadratureDegree);
@@ -67,8 +68,9 @@ void vtkClipToOctree::Compute(vtkInformationVector** inputs, vtkInformationVecto
     state.mesh = gridfem::ReadInputMesh(input, options.threads, progress.Part(0.0, 0.1));
     gridfem::RequireSurface(*state.mesh.triangles);
     state.ChooseDepth();
-    gridfem::RequireMemory(*state.mesh.triangles, options.depth);
-    this->Data->Clipped = gridfem::Clip(*state.mesh.triangles, options, progress.Part(0.1, 0.7));
+    const gridfem::SpaceOptions& used = state.UsedOptions().space;
+    gridfem::RequireMemory(*state.mesh.triangles, used.depth);
+    this->Data->Clipped = gridfem::Clip(*state.mesh.triangles, used, progress.Part(0.1, 0.7));
     gridfem::WriteClippedFrame(input, state.mesh, this->Data->Clipped, options.weldCoincidentPoints,
       options.threads, this->Data->Frame);
   };
@@ -102,11 +104,11 @@ bool vtkClipToOctree::WantsQuadraturePoints(double triangles) const
 }
 
 /// The pieces of all ranks, as they are now.
-void vtkClipToOctree::ClipTogether(vtkPolyData* piece)
+void vtkClipToOctree::ClipTogether(vtkPolyData* piece, int threads)
 {
   gridfem::SurfaceSolverState& state = *this->State;
-  gridfem::SurfaceOptions& options = state.options;
-  options.space.threads = state.together.ThreadsOfRank(options.space.threads);
+  gridfem::SurfaceOptions options = state.options;
+  options.space.threads = threads;
   gridfem::StageKey key;
   state.together.Together(
     [&]
@@ -144,10 +146,10 @@ bool vtkClipToOctree::ComputeTogether(vtkInformationVector** inputs, vtkInformat
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
   const auto compute = [&](const gridfem::Progress& progress)
   {
-    this->ClipTogether(piece);
+    const int threads = state.together.ThreadsOfRank(this->NumberOfThreads);
+    this->ClipTogether(piece, threads);
     progress.Check(0.7);
     const gridfem::DistributedClip& clip = *this->Data->OfRanks;
-    const int threads = state.Threads();
     clip.WriteMesh(piece, state.mesh, threads, output);
     progress.Check(0.8);
     auto triangles = static_cast<double>(clip.Clipped().NumberOfTriangles());

@@ -91,7 +91,7 @@ private:
   void operator=(const vtkClipToOctree&) = delete;
 
   bool WantsQuadraturePoints(double triangles) const;
-  void ClipTogether(vtkPolyData* piece);
+  void ClipTogether(vtkPolyData* piece, int threads);
 
   struct Internals;
   std::unique_ptr<Internals> Data;

@@ -135,6 +135,23 @@ TEST(ClipToOctree, InputPointsComeFirstAndAreasAddUp)
   }
 }
 
+TEST(ClipToOctree, AnAutomaticDepthClipsAsTheSameDepthDoes)
+{
+  auto input = ToPolyData(Torus(40, 20, 1.0, 0.4));
+  vtkNew<vtkClipToOctree> automatic;
+  automatic->SetDepth(0);
+  automatic->SetInputData(input);
+  vtkPolyData* output = Clipped(automatic);
+  const double depth = FieldValue(output, "GridDepth");
+  ASSERT_GE(depth, 2);
+  vtkNew<vtkClipToOctree> given;
+  given->SetDepth(static_cast<int>(depth));
+  given->SetInputData(input);
+  EXPECT_EQ(output->GetNumberOfCells(), Clipped(given)->GetNumberOfCells());
+  EXPECT_EQ(
+    Values(output->GetPoints()->GetData()), Values(given->GetOutput()->GetPoints()->GetData()));
+}
+
 TEST(ClipToOctree, EveryTriangleLiesInItsCell)
 {
   vtkNew<vtkClipToOctree> filter;
