@@ -203,6 +203,7 @@ void vtkLaplaceSpectrum::WriteFields(vtkPolyData* output) const
   gridfem::AddFieldNumbers(output, "Eigenvalues", result.eigenvalues);
   const bool converged = result.spectrum.converged && result.isAccurate;
   gridfem::AddFieldInt(output, "Converged", converged ? 1 : 0);
+  gridfem::AddFieldInt(output, "CutsGroup", result.spectrum.cutsMultiplet ? 1 : 0);
   this->State->WriteTracking(output);
 }
 

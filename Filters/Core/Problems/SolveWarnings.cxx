@@ -171,8 +171,7 @@ std::string WarningOf(const PartialField& field)
                "not count. ConstraintArray can hold them.";
 }
 
-std::vector<std::string> WarningsOf(
-  const Spectrum& spectrum, int wanted, const std::string& where, bool tellOfGroup)
+std::vector<std::string> WarningsOf(const Spectrum& spectrum, int wanted, const std::string& where)
 {
   std::vector<std::string> sentences;
   const std::size_t modes = spectrum.eigenvalues.size();
@@ -188,11 +187,6 @@ std::vector<std::string> WarningsOf(
     sentences.push_back("All " + std::to_string(modes) + " modes are constants: the surface has " +
                         components + " connected components, each with one. Others need a " +
                         "NumberOfModes above " + components + ".");
-  }
-  else if (spectrum.cutsMultiplet && tellOfGroup)
-  {
-    sentences.push_back("The list ends inside a group of equal eigenvalues: the last of its "
-                        "eigenfunctions are missing. A larger NumberOfModes adds them.");
   }
   if (!spectrum.converged)
   {

@@ -52,13 +52,10 @@ std::vector<std::string> WarningsOf(const ConstrainedSolution& solution, double 
 /// The warning about known values without effect; empty if all have an effect.
 std::string WarningOf(const PartialField& field);
 
-/// The warnings about a spectrum that is too short, has only constants, ends inside a group of
-/// equal eigenvalues, or has not converged.
+/// The warnings about a spectrum that is too short, has only constants, or has not converged.
 /// @param wanted  number of modes
-/// @param where   the space, such as "at Depth 7"
-/// @param tellOfGroup  false: no warning about a list that ends inside a group
-std::vector<std::string> WarningsOf(
-  const Spectrum& spectrum, int wanted, const std::string& where, bool tellOfGroup);
+/// @param where   the space, as in "at Depth 7"
+std::vector<std::string> WarningsOf(const Spectrum& spectrum, int wanted, const std::string& where);
 
 std::vector<std::string> WarningsOf(const DistanceField& field, double tolerance);
 

@@ -95,7 +95,6 @@ const SpectrumSolver::Result& SpectrumSolver::Update(
   RequireOptions(options);
   const double accuracy = surface.AreFunctionsGiven() ? 0.0 : options.accuracy;
   const bool choose = accuracy > 0.0;
-  const std::int64_t runs = surface.GetStages().Runs(SolveStage);
   int depth = choose ? this->FirstDepth(surface, options) : 0;
   double done = 0.0;
   while (true)
@@ -121,7 +120,7 @@ const SpectrumSolver::Result& SpectrumSolver::Update(
     done = end;
   }
   chosenDepth_ = choose ? depth : chosenDepth_;
-  this->Judge(surface, options, surface.GetStages().Runs(SolveStage) != runs);
+  this->Judge(surface, options);
   return result_;
 }
 
@@ -187,11 +186,11 @@ void SpectrumSolver::UpdateModes(
 }
 
 /// The warnings, and whether the eigenvalues are as accurate as wanted.
-void SpectrumSolver::Judge(const Surface& surface, const Options& options, bool isNew)
+void SpectrumSolver::Judge(const Surface& surface, const Options& options)
 {
   const FunctionKind kind = surface.UsedOptions().choice.kind;
   result_.warnings =
-    WarningsOf(result_.spectrum, options.numberOfModes, PlaceOf(kind, result_.depth), isNew);
+    WarningsOf(result_.spectrum, options.numberOfModes, PlaceOf(kind, result_.depth));
   const std::vector<double>& errors = result_.spectrum.estimatedErrors;
   const double error = errors.empty() ? 0.0 : *std::max_element(errors.begin(), errors.end());
   result_.isAccurate = options.accuracy == 0.0 || error <= options.accuracy;

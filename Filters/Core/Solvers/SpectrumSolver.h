@@ -55,7 +55,6 @@ public:
     MultiVector atPoints;            // of Solve alone: a column per mode (ModesAtPoints)
     int depth = 0;                   // of the grid
     bool isAccurate = true;          // as accurate as wanted
-    /// The warning about a cut group of equal eigenvalues comes once for each computation.
     std::vector<std::string> warnings;
 
     int NumberOfModes() const { return static_cast<int>(eigenvalues.size()); }
@@ -87,7 +86,7 @@ private:
   int NextDepth(const Surface& surface, double accuracy) const;
   void UpdateModes(
     const Surface& surface, const Input& input, const Options& options, const Progress& progress);
-  void Judge(const Surface& surface, const Options& options, bool isNew);
+  void Judge(const Surface& surface, const Options& options);
 
   std::vector<double> gridErrors_; // estimated, of the wanted modes on the grid
   StageKey depthKey_;              // of the mesh and the wishes that a depth was chosen for

@@ -25,9 +25,9 @@ Spectrum SpectrumOf(std::vector<double> values, Index constants)
   return spectrum;
 }
 
-std::string TextOf(const Spectrum& spectrum, int wanted, bool tellOfGroup = true)
+std::string TextOf(const Spectrum& spectrum, int wanted)
 {
-  return Joined(WarningsOf(spectrum, wanted, "at Depth 7", tellOfGroup));
+  return Joined(WarningsOf(spectrum, wanted, "at Depth 7"));
 }
 
 } // namespace
@@ -75,11 +75,6 @@ TEST(SolveWarnings, OfSpectraNameWhatIsMissing)
 
   EXPECT_TRUE(Has(TextOf(SpectrumOf({ 0, 0, 0 }, 3), 3), "3 connected components"));
   EXPECT_EQ(TextOf(SpectrumOf({ 0 }, 1), 1), ""); // a user who asks for one mode knows
-
-  Spectrum cut = SpectrumOf({ 0, 1, 1 }, 1);
-  cut.cutsMultiplet = true;
-  EXPECT_TRUE(Has(TextOf(cut, 3), "inside a group of equal eigenvalues"));
-  EXPECT_EQ(TextOf(cut, 3, false), "");
 
   Spectrum open = SpectrumOf({ 0, 1, 2 }, 1);
   open.converged = false;
