@@ -18,8 +18,8 @@
  * - index 0, `ValueArray`: point data of port 0. A tuple with a NaN is unknown. If none is chosen,
  *   the filter takes the only point array that has a NaN at some points and values at others.
  * - index 1, `MaskArray` (optional): point data of port 0, one component. Values are known where it
- *   is neither 0 nor NaN. With a mask or a selection, values are known there, at selected points,
- *   and nowhere else.
+ *   is neither 0 nor NaN. With a mask or a selection, only masked and selected points have known
+ *   values.
  * - index 2 (optional): point data of port 2, if that is connected. If none is chosen, the filter
  *   takes the array of port 2 with the name of ValueArray, or the active scalars if ValueArray is
  *   not chosen either. The MaskArray and the selection are not used then.
