@@ -33,8 +33,8 @@
  * - field data: `Step` (int, 1); `FlowTime` (double, 1; squared world length).
  * - field data: `Converged` (int, 1). It is 0 if this step or one before it has not converged, or
  *   if the flow has ended before NumberOfSteps.
- * - field data: `DiscretizationError` (double, 1), the estimated error that the function space
- *   makes in the path of this step, relative to the length of the path.
+ * - field data: `DiscretizationError` (double, 1), the estimated error of the function space in the
+ *   displacement of this step, relative to the displacement.
  * - field data: `LargestDiscretizationError` (double, 1), the largest such error at a point, in
  *   world units.
  * - field data: `TrustedEstimate` (int, 1). It is 1 where the levels differ as they do on a grid
