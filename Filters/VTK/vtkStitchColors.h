@@ -57,9 +57,9 @@ public:
 
   ///@{
   /**
-   * When on (default), details finer than the functions stay as they are. The filter smooths the
-   * change by stitching over two cells inside each scan and adds it to the colors. When off, the
-   * result is the function itself.
+   * When on (default), details finer than the functions stay as they are. The filter adds only the
+   * change to the colors, smoothed over two cells inside each scan. When off, the result is the
+   * function itself.
    */
   vtkSetMacro(KeepDetails, bool);
   vtkGetMacro(KeepDetails, bool);
