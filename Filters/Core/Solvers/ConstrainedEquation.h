@@ -1,6 +1,5 @@
 // Solves the screened Poisson equation of a surface if some values are unknown, count differently,
-// or
-// are held exactly.
+// or are held exactly.
 #ifndef GridFEM_ConstrainedEquation_h
 #define GridFEM_ConstrainedEquation_h
 

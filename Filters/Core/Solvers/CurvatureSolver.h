@@ -56,8 +56,7 @@ public:
   static SurfaceOptions SurfaceDefaults();
 
   /// Fits again if the mesh or a relevant option has changed. Without smoothing, the surface makes
-  /// no
-  /// functions. Throws InvalidInput and Aborted.
+  /// no functions. Throws InvalidInput and Aborted.
   const Result& Update(Surface& surface, const Options& options, const Job& job);
 
   /// Runs all steps at once, on a mesh of this process.

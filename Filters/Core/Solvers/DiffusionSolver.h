@@ -14,8 +14,7 @@ namespace gridfem
 {
 
 /// Solves the heat equation du/dt = Δu + s. It keeps the steps: more steps of the same length
-/// continue
-/// from the last one.
+/// continue from the last one.
 class DiffusionSolver
 {
 public:

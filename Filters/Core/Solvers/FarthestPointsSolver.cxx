@@ -41,8 +41,7 @@ SurfaceOptions FarthestPointsSolver::SurfaceDefaults()
 }
 
 /// Starts without a point. Everything that functions reach is infinitely far, so that each
-/// component
-/// gets a point before any component gets a second one.
+/// component gets a point before any component gets a second one.
 void FarthestPointsSolver::Restart(const Surface& surface, const Options& options)
 {
   next_ = FirstPoint(surface.Mesh(), options.firstPointId);
@@ -80,8 +79,7 @@ void FarthestPointsSolver::AddPoint(
 }
 
 /// Picks the first of the points that are equally far up to rounding, so that symmetric surfaces
-/// have
-/// the same points everywhere.
+/// have the same points everywhere.
 void FarthestPointsSolver::FindNext(double side)
 {
   constexpr double Rounding = 1e-9;

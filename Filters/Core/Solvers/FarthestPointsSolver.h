@@ -13,8 +13,7 @@ namespace gridfem
 /// The largest distance that remains is at most twice that of the best choice of as many points.
 /// [Gonzalez 1985]
 /// Each point takes one solution. More points continue from the existing ones. One process has to
-/// hold
-/// the surface.
+/// hold the surface.
 class FarthestPointsSolver
 {
 public:
@@ -45,8 +44,7 @@ public:
   static SurfaceOptions SurfaceDefaults();
 
   /// Finds the points that are missing. Throws InvalidInput if no triangle uses the first point.
-  /// Throws
-  /// Aborted, and keeps the points found so far.
+  /// Throws Aborted, and keeps the points found so far.
   const Result& Update(Surface& surface, const Options& options, const Job& job = {});
 
   /// The result of the last update.

@@ -1,6 +1,5 @@
 // Computes the mean-curvature flow of a surface. It keeps some of the steps, so that any step can
-// be
-// shown again.
+// be shown again.
 #ifndef GridFEM_FlowSolver_h
 #define GridFEM_FlowSolver_h
 

@@ -30,8 +30,7 @@ public:
   struct Input
   {
     /// The known values. They are found in every update, and other values repeat the solve. Their
-    /// version
-    /// does not count. Throws InvalidInput if no value is known.
+    /// version does not count. Throws InvalidInput if no value is known.
     GivenConstraints values;
   };
 

@@ -28,24 +28,20 @@ struct PoissonRequest
   const SurfaceSpace* space = nullptr;
   StageKey numbers;
   /// Starts from the last solution, whatever has changed besides the functions. Columns that the
-  /// last
-  /// solution lacks start at zero.
+  /// last solution lacks start at zero.
   bool startsFromLast = false;
 };
 
 /// Repeats a stage only if something it depends on has changed. After a change of the weight or of
-/// the
-/// load, the iteration starts from the last solution, but not on a shared surface. The equation
-/// builds
-/// the hierarchy with the weight it solves with. Collective.
+/// the load, the iteration starts from the last solution, but not on a shared surface. The equation
+/// builds the hierarchy with the weight it solves with. Collective.
 class PoissonEquation
 {
 public:
   using Integrate = std::function<PoissonLoad(const SurfaceSpace&, const Job&)>;
 
   /// Integrates the load if `fields` or the space has changed, and solves. The load depends on
-  /// nothing
-  /// else. The surface has to be prepared. Throws InvalidInput and Aborted.
+  /// nothing else. The surface has to be prepared. Throws InvalidInput and Aborted.
   void Update(const Surface& surface, StageKey fields, const Integrate& integrate,
     const PoissonRequest& request, EquationOptions options, const Progress& progress);
 

@@ -11,8 +11,7 @@ namespace gridfem
 {
 
 /// Holds only the thing that was requested last. The others live as long as their users. Safe to
-/// call
-/// from several threads.
+/// call from several threads.
 template<class Key, class Value>
 class SharedStore
 {

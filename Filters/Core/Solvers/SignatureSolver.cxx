@@ -21,8 +21,7 @@ constexpr const char* FilterStage = "Filter";
 ///@}
 
 /// Throws InvalidInput if all modes are constants and more modes exist. The message says how many
-/// modes
-/// it takes.
+/// modes it takes.
 void RequireNonConstant(const Spectrum& spectrum)
 {
   const auto modes = static_cast<Index>(spectrum.eigenvalues.size());

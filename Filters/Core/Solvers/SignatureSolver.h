@@ -90,8 +90,7 @@ public:
   static SurfaceOptions SurfaceDefaults() { return SpectrumSolver::SurfaceDefaults(); }
 
   /// Computes the descriptors. Given modes need no preparation of the surface: only its threads,
-  /// units
-  /// and stages are used. Collective. Throws InvalidInput and Aborted.
+  /// units and stages are used. Collective. Throws InvalidInput and Aborted.
   const Result& Update(
     Surface& surface, const Input& input, const Options& options, const Job& job);
 

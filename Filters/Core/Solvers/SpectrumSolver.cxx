@@ -143,8 +143,7 @@ int SpectrumSolver::FirstDepth(Surface& surface, const Options& options)
 }
 
 /// Returns the depth at which the errors on the grid should be small enough, if that fits into
-/// memory,
-/// else this depth. With accuracy 0 any error is small enough.
+/// memory, else this depth. With accuracy 0 any error is small enough.
 int SpectrumSolver::NextDepth(const Surface& surface, double accuracy) const
 {
   const SurfaceOptions& used = surface.UsedOptions();

@@ -26,8 +26,7 @@ public:
     EquationOptions equation = EquationOfModes();
     int numberOfModes = 20;
     /// The wanted relative error of the eigenvalues as those of the surface. Above 0 it chooses the
-    /// depth,
-    /// unless functions are given. Processes that share a surface cannot choose.
+    /// depth, unless functions are given. Processes that share a surface cannot choose.
     double accuracy = 0.0;
 
     template<class Self, class Visit>
@@ -66,16 +65,13 @@ public:
   static SurfaceOptions SurfaceDefaults();
 
   /// Computes the modes. With a wanted accuracy it raises the depth until the estimated errors on
-  /// the grid
-  /// are small enough, or the next depth does not fit into memory. Collective. Throws InvalidInput
-  /// and
-  /// Aborted.
+  /// the grid are small enough, or the next depth does not fit into memory. Collective. Throws
+  /// InvalidInput and Aborted.
   const Result& Update(
     Surface& surface, const Input& input, const Options& options, const Job& job);
 
   /// The modes `first` and following at the points of this process. Each column is a mode, whose
-  /// square
-  /// has the integral 1 in world units. Collective.
+  /// square has the integral 1 in world units. Collective.
   MultiVector ModesAtPoints(
     const Surface& surface, Id first, Id count, const Progress& progress = {}) const;
 

@@ -1,6 +1,5 @@
 // Identifies what the result of a stage depends on. The numbers of a key change if the stage has to
-// run
-// again.
+// run again.
 #ifndef GridFEM_StageKey_h
 #define GridFEM_StageKey_h
 

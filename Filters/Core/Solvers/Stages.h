@@ -16,8 +16,7 @@ namespace gridfem
 {
 
 /// Runs stages if their keys change, counts the runs and measures their time. The name of a stage
-/// is
-/// its identity.
+/// is its identity.
 class Stages
 {
 public:

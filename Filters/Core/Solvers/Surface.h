@@ -39,8 +39,7 @@ public:
   virtual void PrepareAtDepth(int depth, const Progress& progress) = 0;
 
   /// Brings only the mesh up to date (MeshStage), for a solver that needs no functions. Functions
-  /// of an
-  /// earlier run may be freed. Not on a shared surface. Throws InvalidInput and Aborted.
+  /// of an earlier run may be freed. Not on a shared surface. Throws InvalidInput and Aborted.
   virtual void PrepareMesh(const Progress& progress) = 0;
 
   /// The key of the mesh and of all requests to its functions, except their depth.

@@ -18,8 +18,7 @@ using OperatorStore = SharedStore<std::tuple<int, Index, double>, LevelOperators
 using HatStore = SharedStore<bool, HatLevel>;
 
 /// The basis of a surface. It is immutable except for the stores, so that filters and threads may
-/// share
-/// it.
+/// share it.
 struct SurfaceBasis
 {
   std::shared_ptr<const TriangleMesh> mesh; // the mesh of the pieces' source triangles

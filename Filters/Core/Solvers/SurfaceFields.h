@@ -1,6 +1,5 @@
 // Turns given fields and constraints into the integrals and rows of a surface. Collective on a
-// shared
-// surface.
+// shared surface.
 #ifndef GridFEM_SurfaceFields_h
 #define GridFEM_SurfaceFields_h
 
@@ -19,8 +18,7 @@ namespace gridfem
 Field UsedCoordinates(const TriangleMesh& mesh);
 
 /// Returns the field. Without one it returns the coordinates of the current mesh, which are 0 at
-/// points
-/// that no triangle uses. Throws InvalidInput for values that are refused.
+/// points that no triangle uses. Throws InvalidInput for values that are refused.
 Field ReadField(const Surface& surface, const GivenField& field, NaNs nans = NaNs::Refused);
 
 /// Returns an optional field, or null if it is not given.

@@ -1,6 +1,6 @@
 // Allocates memory for VTK's arrays. VTK ends the process if it finds no memory, unless it was
-// compiled
-// with NDEBUG, which Debian's is not. These functions therefore try first and throw std::bad_alloc.
+// compiled with NDEBUG, which Debian's is not. These functions therefore try first and throw
+// std::bad_alloc.
 #ifndef GridFEM_Allocation_h
 #define GridFEM_Allocation_h
 

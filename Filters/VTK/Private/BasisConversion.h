@@ -1,8 +1,7 @@
 // Shows one function space on the mesh before and on the mesh after clipping.
 // On the clipped mesh, every clipped triangle is its own source and every point is an input point.
-// On
-// the source mesh, pieces refer to the triangles they were cut from. Patches and functions are the
-// same.
+// On the source mesh, pieces refer to the triangles they were cut from. Patches and functions are
+// the same.
 #ifndef GridFEM_BasisConversion_h
 #define GridFEM_BasisConversion_h
 
@@ -13,8 +12,7 @@ namespace gridfem
 {
 
 /// Returns the same space on its clipped triangles, in the order of the fans of its pieces. Shares
-/// the
-/// operators.
+/// the operators.
 SurfaceBasis OnClippedMesh(const SurfaceBasis& basis);
 
 /// Returns the same space on the mesh that was clipped.

@@ -23,8 +23,7 @@ GivenCells ReadGivenCells(vtkPolyData* data, const InputMesh& mesh);
 /// @param mesh  is ReadInputMesh(data)
 /// @param weldCoincidentPoints  makes coincident points count as one for the links
 /// Throws InvalidInput naming an array that is missing or does not fit, or the first triangle
-/// outside
-/// its cell.
+/// outside its cell.
 ClippedMesh ReadClippedMesh(vtkPolyData* data, const InputMesh& mesh, bool weldCoincidentPoints,
   const Progress& progress = {});
 
@@ -36,15 +35,14 @@ struct BasisFacts
   bool isConnectivityAware = true;
 };
 
-/// Throws InvalidInput naming an array that is missing or does not fit.
+/// Reads the tables. Throws InvalidInput naming an array that is missing or does not fit.
 BasisFacts ReadBasisFacts(vtkPolyData* data);
 
 /// Whether coincident points counted as one when the basis of `data` was made.
 bool WeldsCoincidentPoints(vtkPolyData* data);
 
 /// Returns the basis on the triangles of `data`. It takes the shortcut in memory if that fits, else
-/// it
-/// reads the arrays. Throws like ReadClippedMesh.
+/// it reads the arrays. Throws like ReadClippedMesh.
 SurfaceBasis ReadBasis(vtkPolyData* data, const InputMesh& mesh, const Progress& progress = {});
 
 /// Returns the basis of `data` on the mesh it was made from. Throws InvalidInput for another mesh.

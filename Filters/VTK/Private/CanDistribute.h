@@ -10,10 +10,8 @@ namespace gridfem
 {
 
 /// Whether all ranks can compute together, each with its piece on port 0. Otherwise rank 0 gathers
-/// the
-/// surface. Only a basis and a selection may be connected to other ports, because ranks together
-/// know
-/// no other inputs. Collective.
+/// the surface. Only a basis and a selection may be connected to other ports, because ranks
+/// together know no other inputs. Collective.
 /// @param needsAll  the filter has to do something that needs the whole surface on one rank
 bool CanDistribute(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs, bool needsAll);
 

@@ -1,6 +1,5 @@
 // Reads the modes that the input of a filter carries, again if they change, in one process or on
-// all
-// ranks together.
+// all ranks together.
 #ifndef GridFEM_CarriedModes_h
 #define GridFEM_CarriedModes_h
 
@@ -21,8 +20,7 @@ class CarriedModes
 {
 public:
   /// Returns no modes if the input carries none, or carries those of another shape. Collective.
-  /// Throws
-  /// InvalidInput for arrays that do not fit.
+  /// Throws InvalidInput for arrays that do not fit.
   /// @param input  the rank's own piece, which may be null
   GivenModes Update(SurfaceSolverState& state, vtkPolyData* input);
 

@@ -10,11 +10,9 @@ namespace gridfem
 {
 
 /// Returns the part of a clipped mesh that does not depend on the input's arrays: triangles,
-/// points, and
-/// the clip's own cell and field arrays. The input points come first, in the input's precision
-/// (double
-/// for integer points), then the cut points. Kept between runs, so that later filters see unchanged
-/// arrays.
+/// points, and the clip's own cell and field arrays. The input points come first, in the input's
+/// precision (double for integer points), then the cut points. Kept between runs, so that later
+/// filters see unchanged arrays.
 void WriteClippedFrame(vtkPolyData* input, const InputMesh& mesh, const ClippedMesh& clipped,
   bool weldCoincidentPoints, int threads, vtkPolyData* frame);
 

@@ -1,6 +1,5 @@
 // Packs surfaces and arrays of VTK into bytes that travel between ranks, with all their digits.
-// VTK's
-// own messages are files in its legacy format, which cuts ids to 32 bits.
+// VTK's own messages are files in its legacy format, which cuts ids to 32 bits.
 #ifndef GridFEM_DataMessage_h
 #define GridFEM_DataMessage_h
 
@@ -61,8 +60,7 @@ public:
   vtkSmartPointer<vtkAbstractArray> TakeArray();
 
   /// Puts in the arrays that can travel and have so many tuples, and which of them are active. -1
-  /// means
-  /// any number of tuples.
+  /// means any number of tuples.
   void PutArrays(vtkFieldData* arrays, vtkIdType tuples);
   /// Takes out arrays and adds them to the existing ones.
   void TakeArrays(vtkFieldData* arrays);
