@@ -82,7 +82,7 @@ private:
 /// Whether an array can travel. Numbers and strings can, variants cannot.
 bool CanTravel(vtkAbstractArray* array);
 
-/// Whether two arrays (either may be null) have the same type, name, shape and bits.
+/// Whether two arrays have the same type, name, shape and bits. Either may be null.
 bool HaveSameContents(vtkAbstractArray* a, vtkAbstractArray* b);
 
 } // namespace gridfem
