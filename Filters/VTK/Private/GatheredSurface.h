@@ -49,8 +49,8 @@ void RequireGoodCells(vtkPolyData* surface);
 ///   double. Field arrays are those of the first owner that has them.
 /// - A piece that equals an earlier owner's piece, bit by bit, counts once.
 /// - If only one piece has points, it is taken unchanged, with its arrays.
-/// @param owners  the names of the owners in messages, such as "rank 3" Throws InvalidInput if two
-/// points with the same global id have different coordinates.
+/// @param owners  the names of the owners in messages, such as "rank 3"
+/// Throws InvalidInput if two points with the same global id have different coordinates.
 GatheredSurface JoinPieces(const std::vector<vtkSmartPointer<vtkPolyData>>& pieces,
   const std::vector<std::string>& owners, bool weldCoincidentPoints);
 

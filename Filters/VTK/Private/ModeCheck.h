@@ -16,8 +16,8 @@ namespace gridfem
 /// Rayleigh quotient has to be its eigenvalue. A coarse mesh is not held against a mode. The
 /// integral by corners and the exact one lie on both sides of the true mode's integral. Their
 /// difference bounds the distance of the true mode. Modes with few points per wave are not checked.
-/// @param modes  rows are the points of the mesh Cost O(triangles · modes); the same for any number
-/// of threads.
+/// @param modes  rows are the points of the mesh
+/// Cost O(triangles · modes); the same for any number of threads.
 /// @param divided  given if several processes hold the surface, each with the mesh of its
 /// triangles; all call it
 std::string FindMisfit(const TriangleMesh& mesh, const PointModes& modes, int threads,
