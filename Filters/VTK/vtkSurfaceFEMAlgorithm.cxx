@@ -385,7 +385,7 @@ void vtkSurfaceFEMAlgorithm::ComputeOnRanks(
       gridfem::StampTime(!this->OwnTimeSteps().empty(), gathered[0], results);
       return this->OwnTimeSteps();
     });
-  // What an earlier filter has said of itself.
+  // The array would otherwise be that of an earlier filter.
   vtkPolyData::GetData(outputs)->GetFieldData()->RemoveArray(gridfem::DistributedName);
 }
 
