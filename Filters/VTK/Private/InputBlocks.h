@@ -1,5 +1,5 @@
-// Aligns composite inputs. The pipeline runs a filter block by block and skips missing blocks. Of
-// several MPI ranks, one without a block would leave the others waiting for it.
+// Aligns composite inputs. The pipeline runs a filter block by block and skips missing blocks. A
+// rank without a block would leave the other MPI ranks waiting for it.
 #ifndef GridFEM_InputBlocks_h
 #define GridFEM_InputBlocks_h
 

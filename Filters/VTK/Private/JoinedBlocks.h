@@ -24,8 +24,8 @@ class vtkPolyData;
 namespace gridfem
 {
 
-/// The blocks of an input. They are joined as the pieces of several ranks are. Of several ranks,
-/// every one joins its own blocks, and the result is its piece. The surface stays for the next
+/// The blocks of an input. They are joined as the pieces of several ranks are. Each of several
+/// ranks joins its own blocks, and the result is its piece. The surface stays for the next
 /// execution, until a block changes.
 class JoinedBlocks
 {

@@ -116,8 +116,8 @@ std::vector<double> AreasOfLevel(
   return area;
 }
 
-/// Returns the connected component of every patch of a level, numbered as on the finest level.
-/// Where the plain space joins several components, it is the lowest. Patches on other ranks have
+/// Returns the connected component of every patch of a level, numbered as on the finest level. If
+/// the plain space joins several components, the lowest number counts. Patches on other ranks have
 /// the greatest number.
 std::vector<Index> PatchComponents(
   const std::vector<PatchLevel>& levels, const std::vector<Index>& ofFunction, std::size_t level)

@@ -166,7 +166,7 @@ void TakeAttributes(DataMessage& message, vtkDataSetAttributes* data)
   TakeActive(message, data);
 }
 
-/// Puts in the field arrays. Those of the input only go to ranks that have none themselves.
+/// Puts in the field arrays. The input's arrays only go to ranks that have none themselves.
 void PutFieldArrays(vtkFieldData* output, vtkFieldData* input, bool hasCells,
   GivenFieldArrays sharing, DataMessage& message)
 {
