@@ -1,4 +1,4 @@
-"""Inputs on other ports, chains of filters, and composite data."""
+"""Tests inputs on other ports, chains of filters, and composite data."""
 import os
 import tempfile
 import unittest
@@ -26,7 +26,7 @@ def result(output, name):
 
 
 def expect(output, reference, name, data, tolerance=ROUNDING):
-    """Problems with an array at the points of `data`."""
+    """Returns problems with an array at the points of `data`."""
     if data.GetNumberOfPoints() == 0:
         return []
     if not output.GetPointData().HasArray(name):
@@ -38,7 +38,7 @@ def expect(output, reference, name, data, tolerance=ROUNDING):
 
 
 def places(points, values=()):
-    """Points of an unstructured grid, with values."""
+    """Makes points of an unstructured grid, with values."""
     grid = vtkUnstructuredGrid()
     where = vtkPoints()
     where.SetDataTypeToDouble()
@@ -86,7 +86,7 @@ class OtherPorts(unittest.TestCase):
                 ranks.check(self, expect(output, reference, "Solution", data))
 
     def test_a_basis_that_was_saved(self):
-        """By all ranks or one, and read by all or one."""
+        """All ranks or one make the basis, and all or one read it."""
         mesh = ranks.ellipsoid()
         data = ranks.piece(mesh, "contiguous")
         reference = ranks.alone(
