@@ -60,7 +60,7 @@ CASES = {
 }
 KINDS = ("last", "contiguous", "ghosts", "scattered", "one rank is empty", "all on all")
 POINT_NAMES = ("f", "f2", "v", "mask", "spots", "hole")
-# Of the bowl, which has a boundary; what they warn of is the same on one rank.
+# Filters on the bowl, which has a boundary. Their warnings are the same on one rank.
 OF_BOUNDARIES = ("poisson, flux", "poisson, flux in balance", "poisson, boundary",
                  "poisson, all at once", "heat, boundary", "heat, hats, boundary",
                  "poisson, hats, all at once")

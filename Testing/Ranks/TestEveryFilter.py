@@ -91,7 +91,7 @@ def compare_tables(ours, theirs, tolerance):
                          None, tolerance, "table")
 
 
-# Of the iteration: rounding decides about the last one, and what is left after it.
+# Numbers of the iteration. Rounding decides about the last iteration and the error it leaves.
 OF_ITERATION = ("Residual", "ConvergenceFactor", "Iterations", "DoublePrecisionSince", "Misfit",
                 "AlgebraicError", "GlobalIds", "Residuals")
 

@@ -220,7 +220,7 @@ class Arrays(unittest.TestCase):
 
 class Composite(unittest.TestCase):
     MESHES = (ranks.ellipsoid, ranks.bowl, ranks.two)
-    # What all ranks compute together, to the tolerance of the solver, and what rank 0 gathers.
+    # Results of all ranks together, to the tolerance of the solver, and results that rank 0 gathers.
     RESULTS = {"ScreenedPoisson": ("Solution", 1e-8), "HarmonicInterpolation": ("Interpolated", ROUNDING)}
 
     def references(self, name="ScreenedPoisson"):

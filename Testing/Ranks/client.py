@@ -1,7 +1,6 @@
 """Checks the filters on the ranks of a server, seen from a client. TestServer.sh runs it.
 
     pvpython client.py PORT RANKS FOLDER
-
 """
 import os
 import re

@@ -255,7 +255,7 @@ KEEP_NO_CELLS = ("ClipToOctree", "ConnectivityAwareBasis")
 def make(name, depth=4, hats=False, gathers=False, **properties):
     """Makes a filter of the plugin.
 
-        gathers: rank 0 gathers the surface, although ranks could compute together.
+    gathers: rank 0 gathers the surface, although ranks could compute together.
     """
     made = getattr(vtkGridFEMFilters, "vtk" + name)()
     made.SetDepth(depth)
