@@ -91,9 +91,9 @@ def signed_distance(points, cells, labels, inside=1, **properties):
 def farthest_points(points, cells, number, **properties):
     """Finds points spread evenly over the surface, each as far as possible from those before it.
 
-    Returns three arrays: the ids of the found points in the order in which they were found, and, for
-    each point of the mesh, the id of the nearest found point and the distance from it. FirstPointId is
-    the first found point.
+    Returns three arrays. The first has the ids of the found points in the order in which they were
+    found. The others have, for each point of the mesh, the id of the nearest found point and the
+    distance from it. FirstPointId is the first found point.
     """
     results = _solve("FarthestPoints", points, cells, {}, {"NumberOfPoints": number, **properties})
     ids, nearest = (results[name].astype(numpy.int64) for name in ("FarthestPoints", "NearestPoint"))

@@ -8,17 +8,21 @@
  * equations. It keeps everything that does not depend on the sources, so that other sources repeat
  * only the two solves.
  *
- * All of the following points together are the sources: the points in SourcePointIds, the points
- * where the SourceArray is not 0, the mesh points nearest to the points of input port 2, and the
- * points in the selection of port 3. If none of the four is given, the first point of the first
- * polygon is the source. A triangle whose corners are all sources is at distance 0 as a whole.
+ * The sources are all of the following points together:
+ * - the points in SourcePointIds;
+ * - the points where the SourceArray is not 0;
+ * - the mesh points nearest to the points of input port 2;
+ * - the points in the selection of port 3.
+ *
+ * If none of the four is given, the first point of the first polygon is the source. A triangle
+ * whose corners are all sources is at distance 0 as a whole.
  *
  * With Signed on, distances are from a curve instead, and they are negative inside. The curve is
  * the border of the points or cells whose LabelArray is InsideLabel. If no LabelArray is chosen, it
  * consists of the lines of input port 2, moved to the nearest places of the surface. Lines may come
- * in pieces. They have to divide the surface: each closed curve or border-to-border curve does. On
- * each connected component the smaller part is inside. Every part of a curve is a source, not only
- * its points.
+ * in pieces. They have to divide the surface: each curve is closed or goes from border to border.
+ * On each connected component the smaller part is inside. Every part of a curve is a source, not
+ * only its points.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
  * vtkConnectivityAwareBasis.

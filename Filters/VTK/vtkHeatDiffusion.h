@@ -6,7 +6,7 @@
  * time is cut into NumberOfSteps equal steps, and each is a time step of the output. A step takes
  * two solves, is of second order in its length, and is stable for any length. No heat flows over
  * boundaries. The integral over every connected component changes only by what the source adds.
- * Where values are held, however, heat enters and leaves.
+ * Held values, however, let heat enter and leave.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
  * vtkConnectivityAwareBasis.
@@ -18,8 +18,8 @@
  *   the filter takes the coordinates.
  * - index 1: the source, which is added per unit of time, point or cell data with C components.
  *   Without it the source is 0.
- * - index 2, the ConstraintArray: point data with one component. Where it is not 0, the value stays
- *   that of time 0. The array at time 0 must be point data then.
+ * - index 2, the ConstraintArray: point data with one component. Points at which it is not 0 keep
+ *   the value of time 0. The array at time 0 must be point data then.
  *
  * Output port 0 (vtkPolyData): the input with the following arrays.
  * - point data, double: `Diffused` (C components). Points that no polygon uses keep the array if it

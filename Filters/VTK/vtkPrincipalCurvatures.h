@@ -18,7 +18,7 @@
  * - `MinimumCurvature`, `MaximumCurvature` (1 component each): the smaller and the larger
  *   curvature, with their signs.
  * - `MinimumCurvatureDirection`, `MaximumCurvatureDirection` (3): unit vectors perpendicular to the
- *   normal, of no particular sign. Any two where the curvatures are equal.
+ *   normal, of no particular sign. They are any two such vectors where the curvatures are equal.
  * - `MeanCurvature` (1): half of the sum of the curvatures.
  * - `GaussianCurvature` (1; per squared unit of length): their product.
  * - `ShapeIndex` (1; no unit): -1 cup, -0.5 rut, 0 saddle or plane, 0.5 ridge, 1 cap.

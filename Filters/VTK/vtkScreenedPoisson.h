@@ -26,8 +26,8 @@
  * - index 2, `GradientScaleArray` (optional): one component, which multiplies GradientScale.
  * - index 3, `ValueWeightArray` (optional): one component, 0 or more, which multiplies
  *   ScreeningWeight. A triangle takes the mean of a point array.
- * - index 4, `ConstraintArray` (optional): point data, one component. Where it is neither 0 nor
- *   NaN, the solution has the value exactly. The values must be point data then.
+ * - index 4, `ConstraintArray` (optional): point data, one component. The solution has the value
+ *   exactly at points where it is neither 0 nor NaN. The values must be point data then.
  * - index 5, `MetricArray` (optional): a symmetric tensor of six components (XX, YY, ZZ, XY, YZ,
  *   XZ) or nine. It is the metric of all integrals and gradients and of the area in ParameterUnits,
  *   as if the surface had been moved to a shape with this metric. Use J^T J for a map with the

@@ -15,8 +15,8 @@
  * selected points (MarchDistance in Core). The selection has no effect beyond this distance.
  *
  * With a TransferFunction, curvature changes the lengths that the filter uses. Along a principal
- * direction with curvature k, lengths are a(k) times as long. Where a is more than 1, the input is
- * kept. LargePositive, for example, leaves ridges as they are across them. Curvatures come from
+ * direction with curvature k, lengths are a(k) times as long. The input is kept where a is more
+ * than 1. LargePositive, for example, leaves ridges as they are across them. Curvatures come from
  * vtkPrincipalCurvatures, relative to their usual size, which nine tenths of the area do not
  * exceed. Every element of the function space has the mean of its own curvatures.
  *

@@ -273,7 +273,7 @@ protected:
   virtual bool NeedsWholeSurface();
 
   /**
-   * Prints the warnings. Of several MPI ranks, only the first prints.
+   * Prints the warnings. Only the first of several MPI ranks prints.
    */
   void Warn(const std::vector<std::string>& warnings);
 

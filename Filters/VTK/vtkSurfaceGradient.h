@@ -36,10 +36,10 @@
  *   follow the array, its gradient and its Laplacian. The worst of them counts.
  *
  * The Hodge decomposition writes the part v of the vectors along the surface as grad u + n x grad w
- * + h. n is the normal, u the Potential, w the StreamFunction, and h the rest. h has neither
- * sources nor eddies: it goes around handles and holes, and holds everything that the functions
- * cannot follow. The three parts are orthogonal: their squares integrate to that of v. On cells
- * they add up to v. At points they are projected like the gradient.
+ * + h. Here n is the normal, u the Potential, w the StreamFunction, and h the rest. The rest has
+ * neither sources nor eddies. It goes around handles and holes, and holds everything that the
+ * functions cannot follow. The three parts are orthogonal: their squares integrate to that of v. On
+ * cells they add up to v. At points they are projected like the gradient.
  *
  * w is 0 along boundaries, so h does not cross the boundary. Flow across the boundary is in the
  * gradient part. Edges of more than two triangles count as a boundary for w. Triangles may face

@@ -104,7 +104,7 @@ TEST(ClipToOctree, PolygonsWithManyCornersAreCutInSecondsOrRefused)
   for (const auto& [size, depth] : { std::pair(100000, 0.0), std::pair(4000, 0.2) })
   {
     const double area =
-      0.5 * size * (1.0 - depth) * std::sin(2.0 * M_PI / size); // of triangles to the centre
+      0.5 * size * (1.0 - depth) * std::sin(2.0 * M_PI / size); // of triangles to the center
     filter->SetInputData(Star(size, depth));
     EXPECT_NEAR(AreaBySource(Clipped(filter), 1)[0], area, 1e-9);
   }

@@ -129,7 +129,7 @@ bool CopyTriangles(const Corner* corners, Id numberOfPoints, int threads, Triang
   return wrong == 0;
 }
 
-/// Copies the triangles of a cell array. Also returns false if its corners are no plain array of
+/// Copies the triangles of a cell array. It also returns false if its corners are no plain array of
 /// either size, which VTK allows from 9.6 on.
 bool CopyTriangles(vtkCellArray* polys, Id numberOfPoints, int threads, TriangleMesh& mesh)
 {

@@ -1,5 +1,5 @@
-// Checks whether a filter can compute on a data set. Also gives access to Core's checks of meshes
-// and numbers.
+// Checks whether a filter can compute on a data set. It also gives access to Core's checks of
+// meshes and numbers.
 #ifndef GridFEM_InputValidation_h
 #define GridFEM_InputValidation_h
 

@@ -57,7 +57,8 @@ vtkDataSetAttributes* CellDataOf(vtkPolyData* piece);
 /// Returns the ghost flags. Null if there are none.
 vtkUnsignedCharArray* GhostsOf(vtkDataSetAttributes* data, vtkIdType tuples);
 
-/// Numbers the points, or cells, of all pieces. Those of piece p are first[p] .. first[p + 1].
+/// Numbers the points, or cells, of all pieces. The numbers of piece p are first[p] .. first[p +
+/// 1].
 struct Numbering
 {
   std::vector<vtkIdType> first{ 0 };

@@ -43,7 +43,7 @@ public:
   void Update(vtkSelection* selection, vtkPolyData* surface, const JoinedBlocks* joined = nullptr);
 
   /// Selects points of this rank's own piece, which the rank evaluates alone. The selection of one
-  /// rank applies on all. Collective, within DistributedSurface::Run. Also throws for a query,
+  /// rank applies on all. Collective, within DistributedSurface::Run. It also throws for a query,
   /// which may depend on the data of other ranks.
   /// @param piece  as `surface`; may be null
   void UpdateTogether(

@@ -50,7 +50,7 @@ def visible(view_type):
 
 
 def check_picture(name):
-    """Checks that the window's layout shows a lit surface, and more than the surface."""
+    """Checks that the window's layout shows a lit surface, which does not fill it."""
     os.makedirs("Shown", exist_ok=True)
     path = f"Shown/{name}.png"
     simple.SaveScreenshot(path, simple.GetLayout(), ImageResolution=[800, 500])
