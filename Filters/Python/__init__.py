@@ -1,19 +1,19 @@
-"""Equations on the surface of a mesh, with numpy arrays in and out.
+"""Solves equations on the surface of a mesh, with numpy arrays in and out.
 
     import gridfem
     eigenvalues, modes = gridfem.spectrum(points, cells, 50)
 
-`points` is an array of N rows with three coordinates, `cells` one of M rows with the point ids of a
-polygon each: triangles, or any other number of corners. `gridfem.arrays(mesh)` gives both for a mesh
-of PyVista, trimesh or meshio. Values belong to points when they have N rows, else to cells when they
-have M. Names in capitals are properties of the filter that does the work, which the pages in
-Plugin/Documentation describe: `Depth=8`, `FunctionSpace=1`.
+`points` is an array of N rows with three coordinates. `cells` is an array of M rows with the point ids
+of a polygon each: triangles, or any other number of corners. `gridfem.arrays(mesh)` gives both for a
+mesh of PyVista, trimesh or meshio. Values with N rows belong to points, values with M rows to cells.
+Keyword arguments in capitals, such as `Depth=8` or `FunctionSpace=1`, are properties of the filter that
+does the work. The pages in Plugin/Documentation describe them.
 
-The package comes in two forms with the same functions and results. Beside ParaView's plugin it runs
-the filters; on several MPI ranks each rank computes alone, on the arrays that it gives. The filters
-themselves, for pipelines of VTK, are in gridfem.vtkGridFEMFilters; they work on the pieces of all
-ranks together. The form that pip installs has the numerics compiled in, and needs numpy alone. It
-takes the properties that change what a function returns.
+The package comes in two forms with the same functions and results. The form beside ParaView's plugin
+runs the filters. On several MPI ranks each rank computes alone, on its own arrays. The filters
+themselves, for pipelines of VTK, are in gridfem.vtkGridFEMFilters. They work on the pieces of all ranks
+together. The form that pip installs has the numerics compiled in, and needs only numpy. It takes the
+properties that change the result of a function.
 """
 
 import numpy
@@ -32,41 +32,42 @@ __all__ = ["Error", "arrays", "curvatures", "decompose", "detail", "diffuse", "d
 
 
 def spectrum(points, cells, number=20, **properties):
-    """The smallest eigenvalues of the Laplace operator, and the eigenfunctions.
+    """Computes the smallest eigenvalues of the Laplace operator, and the eigenfunctions.
 
-    Returns eigenvalues (K), in one over squared length, and their functions at the points (N, K),
-    of mean square one over the area. K is `number`, or less on a surface with fewer functions.
+    Returns the eigenvalues (K), in one over squared length, and their functions at the points (N, K).
+    The mean square of a function is one over the area. K is `number`, or less on a surface with fewer
+    functions.
     """
     results = _solve("LaplaceSpectrum", points, cells, {}, {"NumberOfModes": number, **properties})
     return results["Eigenvalues"], results["Modes"]
 
 
 def signatures(points, cells, number=100, **properties):
-    """The heat kernel and the wave kernel signature of every point, from `number` modes.
+    """Computes the heat kernel and the wave kernel signature of every point, from `number` modes.
 
-    Both have a column for each of NumberOfScales times or frequencies, from small features to the
-    whole shape.
+    Both have a column for each of NumberOfScales times or frequencies, from small features to the whole
+    shape.
     """
     results = _solve("SpectralSignatures", points, cells, {}, {"NumberOfModes": number, **properties})
     return results["HeatKernelSignature"], results["WaveKernelSignature"]
 
 
 def poisson(points, cells, values=None, gradients=None, weights=None, held=None, **properties):
-    """The function nearest to values whose gradients are nearest to given ones.
+    """Computes the function nearest to values whose gradients are nearest to given ones.
 
-    values: N or M rows; None takes the coordinates. gradients: a vector for each of their columns;
-    None takes zero, which smooths. weights: of the values. held: where it is true at the points,
-    the values stay. ScreeningWeight says how much values count, UseValueGradient and GradientScale
-    sharpen, FillUnknown fills in NaN.
+    values: N or M rows; None takes the coordinates. gradients: a vector for each column of the values;
+    None takes zero, which smooths. weights: weights of the values. held: where it is true at the
+    points, the values stay. ScreeningWeight determines how much values count. UseValueGradient and
+    GradientScale sharpen. FillUnknown fills in NaN.
     """
     given = {"values": values, "gradients": gradients, "weights": weights, "held": held}
     return _solve("ScreenedPoisson", points, cells, given, properties)["Solution"]
 
 
 def distance(points, cells, sources, nearest=False, **properties):
-    """The distance along the surface from the nearest of the points with the ids `sources`.
+    """Computes the distance along the surface from the nearest of the points with the ids `sources`.
 
-    nearest: returns the id of this source, too, or -1 where nothing leads to one.
+    nearest: also returns the id of the nearest source. It is -1 at points that no source reaches.
     """
     sources = _inputs.ids("sources", sources)
     if sources.size == 0:
@@ -79,19 +80,20 @@ def distance(points, cells, sources, nearest=False, **properties):
 
 
 def signed_distance(points, cells, labels, inside=1, **properties):
-    """The distance along the surface from the border of a label, negative inside.
+    """Computes the distance along the surface from the border of a label, negative inside.
 
-    labels: integers on points or cells; `inside` is that of the inside.
+    labels: integers on points or cells. inside: the label of the inside.
     """
     return _solve("GeodesicDistance", points, cells, {"labels": labels},
                   {"Signed": True, "InsideLabel": int(_inputs.whole("inside", inside)), **properties})["Distance"]
 
 
 def farthest_points(points, cells, number, **properties):
-    """Points spread evenly over the surface, each as far as possible from those before it.
+    """Finds points spread evenly over the surface, each as far as possible from those before it.
 
-    Returns their ids in the order in which they were found, and for each point of the mesh the id
-    of the nearest of them and the distance from it. FirstPointId is the first of them.
+    Returns three arrays. The first has the ids of the found points in the order in which they were
+    found. The others have, for each point of the mesh, the id of the nearest found point and the
+    distance from it. FirstPointId is the first found point.
     """
     results = _solve("FarthestPoints", points, cells, {}, {"NumberOfPoints": number, **properties})
     ids, nearest = (results[name].astype(numpy.int64) for name in ("FarthestPoints", "NearestPoint"))
@@ -99,16 +101,17 @@ def farthest_points(points, cells, number, **properties):
 
 
 def diffuse(points, cells, values, time, held=None, **properties):
-    """Values after heat has spread for a time, a squared length in ParameterUnits, in 8 steps.
+    """Computes values after heat has spread for a time, a squared length in ParameterUnits, in 8 steps.
 
-    held: where it is true at the points, the values stay; with BoundaryValues where the surface ends.
+    held: where it is true at the points, the values stay. With BoundaryValues they also stay along the
+    boundary.
     """
     return _solve("HeatDiffusion", points, cells, {"values": values, "held": held},
                   {"DiffusionTime": time, "NumberOfSteps": 8, **properties})["Diffused"]
 
 
 def interpolate(points, cells, ids, values, **properties):
-    """The smoothest function with the given values at the points with the given ids."""
+    """Computes the smoothest function with the given values at the points with the given ids."""
     ids = _inputs.ids("ids", ids)
     values = numpy.atleast_1d(_inputs.numbers("values", values).astype(float))
     if len(ids) != len(values):
@@ -119,21 +122,21 @@ def interpolate(points, cells, ids, values, **properties):
     known = numpy.full((len(points), *values.shape[1:]), numpy.nan)
     known[ids] = 0.0
     numpy.add.at(known, ids, values)
-    known.T[..., ids] /= numpy.bincount(ids)[ids]  # the mean of several at one point
+    known.T[..., ids] /= numpy.bincount(ids)[ids]  # the mean of several values at one point
     return _solve(
         "HarmonicInterpolation", points, cells, {"values": known}, properties)["Interpolated"]
 
 
 def stitch(points, cells, colors, labels, **properties):
-    """Colours of several scans without the jumps between them; `labels` says which scan."""
+    """Computes colors of several scans without the jumps between them. `labels` numbers the scans."""
     return _solve("StitchColors", points, cells, {"colors": colors, "labels": labels},
                   properties)["StitchedColors"]
 
 
 def curvatures(points, cells, **properties):
-    """Minimum and maximum curvature at the points, in one over length, and their directions.
+    """Computes minimum and maximum curvature at the points, in one over length, and their directions.
 
-    Returns arrays of the shapes (N), (N), (N, 3), (N, 3); convex is positive.
+    Returns arrays of the shapes (N), (N), (N, 3), (N, 3). Convex is positive.
     """
     results = _solve("PrincipalCurvatures", points, cells, {}, properties)
     return tuple(results[name] for name in (
@@ -142,17 +145,17 @@ def curvatures(points, cells, **properties):
 
 
 def gradient(points, cells, values=None, **properties):
-    """The gradient along the surface and the Laplacian of values, both at the points.
+    """Computes the gradient along the surface and the Laplacian of values, both at the points.
 
     values: N or M rows; None takes the coordinates. Returns arrays of the shapes (N, 3 C) and (N, C)
-    for C columns of values, with the gradient of the first column first.
+    for C columns of values. The gradient of the first column comes first.
     """
     results = _solve("SurfaceGradient", points, cells, {"values": values}, properties)
     return results["Gradient"], results["Laplacian"]
 
 
 def divergence(points, cells, vectors, **properties):
-    """The divergence of vectors along the surface and their curl about its normal, at the points.
+    """Computes the divergence of vectors along the surface and their curl about its normal, at points.
 
     vectors: N or M rows of three numbers.
     """
@@ -163,10 +166,10 @@ def divergence(points, cells, vectors, **properties):
 
 
 def decompose(points, cells, vectors, **properties):
-    """The three parts of vectors along the surface, at the points (N, 3).
+    """Splits vectors along the surface into three parts, at the points (N, 3).
 
-    The first part flows out of sources, the second turns in eddies, and the third runs around
-    handles and holes. vectors: N or M rows of three numbers.
+    The first part flows out of sources, the second turns in eddies, and the third runs around handles
+    and holes. vectors: N or M rows of three numbers.
     """
     results = _solve("SurfaceGradient", points, cells, {"values": vectors},
                      {"HodgeDecomposition": True, **properties})
@@ -174,12 +177,12 @@ def decompose(points, cells, vectors, **properties):
 
 
 def detail(points, cells, scale=2.0, **properties):
-    """The points of the surface with its details enlarged (scale above 1) or taken away (0)."""
+    """Moves the points of the surface so that details grow (scale above 1) or vanish (scale 0)."""
     return _solve(
         "SurfaceDetail", points, cells, {}, {"DetailScale": scale, **properties})["Points"]
 
 
 def flow(points, cells, steps=10, **properties):
-    """The points of the surface after steps of mean-curvature flow, each of length TimeStep."""
+    """Moves the points of the surface by steps of mean-curvature flow, each of length TimeStep."""
     return _solve(
         "MeanCurvatureFlow", points, cells, {}, {"NumberOfSteps": steps, **properties})["Points"]

@@ -1,14 +1,14 @@
-"""What the functions take: meshes of other libraries, and checks of arrays."""
+"""Converts meshes of other libraries, and checks arrays."""
 
 import numpy
 
 
 class Error(ValueError):
-    """An input that cannot be computed on; the message says why."""
+    """An unusable input. The message gives the reason."""
 
 
 def numbers(name, values):
-    """As an array of numbers, without the kinds that VTK or Core do not know. What a mask hides is
+    """Returns an array of numbers, without the types that VTK or Core do not know. Masked values become
     NaN."""
     try:
         array = numpy.ma.asanyarray(values) if numpy.ma.isMaskedArray(values) else numpy.asarray(values)
@@ -26,7 +26,7 @@ def numbers(name, values):
 
 
 def whole(name, values):
-    """Whole numbers as 64-bit integers; a mask is none."""
+    """Returns whole numbers as 64-bit integers. A mask is refused."""
     array = numbers(name, values)
     if array.dtype.kind == "b":
         raise Error(f"{name} must be whole numbers, not true and false; numpy.flatnonzero gives the "
@@ -40,7 +40,7 @@ def whole(name, values):
 
 
 def ids(name, values):
-    """Ids of points in a row, or one of them."""
+    """Returns ids of points as a one-dimensional array. A single id is accepted."""
     array = numpy.atleast_1d(whole(name, values))
     if array.ndim != 1:
         raise Error(f"{name} must be ids in a row; their shape is {array.shape}")
@@ -48,7 +48,7 @@ def ids(name, values):
 
 
 def checked(points, cells):
-    """Both as arrays of the right kind and shape."""
+    """Returns points and cells as arrays of the right type and shape."""
     points = numbers("points", points).astype(float, copy=False)
     cells = whole("cells", cells)
     if points.ndim != 2 or points.shape[1] != 3:
@@ -61,7 +61,8 @@ def checked(points, cells):
 
 
 def placed(name, values, points, cells):
-    """Values as an array, and whether they belong to the points; else they do to the cells."""
+    """Returns values as an array, and whether they belong to the points. Otherwise they belong to the
+    cells."""
     values = numbers(name, values)
     if values.dtype == bool:
         values = values.astype(numpy.uint8)
@@ -75,7 +76,8 @@ def placed(name, values, points, cells):
 
 
 def _from_counted(faces):
-    """Rows of ids from a list in which the number of corners stands before the ids of each face."""
+    """Returns rows of ids from a list in which the number of corners stands before the ids of each
+    face."""
     faces = numpy.asarray(faces).ravel()
     polygons = []
     place = 0
@@ -86,7 +88,7 @@ def _from_counted(faces):
 
 
 def _rows(polygons):
-    """One array of the polygons; of different ones, their triangles as fans."""
+    """Returns one array of the polygons. Polygons of different sizes become triangles, as fans."""
     polygons = [numpy.asarray(polygon) for polygon in polygons]
     if len({len(polygon) for polygon in polygons}) > 1:
         polygons = [polygon[[0, k, k + 1]] for polygon in polygons
@@ -95,7 +97,7 @@ def _rows(polygons):
 
 
 def arrays(mesh):
-    """The points and cells of a mesh of PyVista, trimesh or meshio, or of a vtkPolyData.
+    """Returns the points and cells of a mesh of PyVista, trimesh or meshio, or of a vtkPolyData.
 
     Polygons of different numbers of corners become triangles.
     """
@@ -117,7 +119,7 @@ def arrays(mesh):
         raise Error(f"{type(mesh).__name__} is no mesh with points and faces, vertices and faces, "
                     "or points and cells")
     points = numpy.asarray(points, dtype=float)
-    if points.ndim == 2 and points.shape[1] == 2:  # as meshio has them in the plane
+    if points.ndim == 2 and points.shape[1] == 2:  # meshio's form in the plane
         points = numpy.column_stack([points, numpy.zeros(len(points))])
     cells = numpy.asarray(cells, dtype=numpy.int64)
     if cells.size == 0:

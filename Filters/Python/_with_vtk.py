@@ -1,4 +1,4 @@
-"""The filters do the work, in the VTK that they were built with."""
+"""Calls the filters, in the VTK that they were built with."""
 
 import contextlib
 import warnings
@@ -16,13 +16,13 @@ from ._inputs import Error, checked, placed
 _POINTS = vtkDataObject.FIELD_ASSOCIATION_POINTS
 _CELLS = vtkDataObject.FIELD_ASSOCIATION_CELLS
 
-# Of SetInputArrayToProcess.
+# The indices of SetInputArrayToProcess.
 _INDICES = {"values": 0, "gradients": 1, "weights": 3, "colors": 0, "labels": 1}
 _HELD_INDICES = {"ScreenedPoisson": 4, "HeatDiffusion": 2}
 
 
 def surface(points, cells):
-    """A vtkPolyData of polygons."""
+    """Makes a vtkPolyData of polygons."""
     points, cells = checked(points, cells)
     coordinates = vtkPoints()
     coordinates.SetData(numpy_to_vtk(points, deep=True))
@@ -36,7 +36,7 @@ def surface(points, cells):
 
 @contextlib.contextmanager
 def _alone():
-    """Without the other MPI ranks."""
+    """Computes without the other MPI ranks."""
     everybody = vtkMultiProcessController.GetGlobalController()
     vtkMultiProcessController.SetGlobalController(vtkDummyController())
     try:
@@ -59,7 +59,7 @@ class _Collector:
 
 
 class _Results:
-    """The arrays of an output by their names."""
+    """Gives the arrays of an output by their names."""
 
     def __init__(self, output):
         self.output = output
@@ -77,9 +77,9 @@ class _Results:
 
 
 def solve(name, points, cells, arrays, properties, sources=()):
-    """The arrays that the filter gives, by their names.
+    """Returns the arrays that the filter gives, by their names.
 
-    arrays: per name the values, which may be None.
+    arrays: the values by name; they may be None.
     """
     algorithm = getattr(vtkGridFEMFilters, "vtk" + name)()
     messages = []

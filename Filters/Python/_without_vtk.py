@@ -1,4 +1,4 @@
-"""The numerics do the work, compiled into the module _core; VTK is not needed."""
+"""Calls the numerics, which are compiled into the module _core. VTK is not needed."""
 
 import importlib
 import warnings
@@ -9,7 +9,7 @@ from ._inputs import Error, checked, placed
 
 
 def _levels():
-    """Of x86-64, what this processor has, the best first."""
+    """Returns the x86-64 levels of this processor, the best first."""
     try:
         from numpy._core._multiarray_umath import __cpu_features__ as features
     except ImportError:
@@ -22,7 +22,7 @@ def _levels():
 
 
 def _load():
-    """The module for this machine, or the best of those for kinds of processors."""
+    """Returns the module for this machine, or the best of the modules for kinds of processors."""
     for folder in ("", *(level + "." for level in _levels())):
         try:
             return importlib.import_module(f".{folder}_core", __package__)
@@ -39,7 +39,7 @@ def _matrix(values):
 
 
 def _colors(stitched, given):
-    """Of the type and in the range of the given ones."""
+    """Returns an array with the type and in the range of the given array."""
     if numpy.issubdtype(given.dtype, numpy.integer):
         limits = numpy.iinfo(given.dtype)
         stitched = numpy.round(numpy.clip(stitched, limits.min, limits.max))
@@ -56,9 +56,9 @@ def _number(name, value):
 
 
 def solve(name, points, cells, arrays, properties, sources=()):
-    """The arrays that the filter of this name would give, by their names.
+    """Returns the arrays that the filter of this name would give, by their names.
 
-    arrays: per name the values, which may be None.
+    arrays: the values by name; they may be None.
     """
     points, cells = checked(points, cells)
     given = {array: placed(array, values, points, cells)
@@ -78,7 +78,7 @@ def solve(name, points, cells, arrays, properties, sources=()):
         warnings.warn(text, RuntimeWarning, stacklevel=3)
     results = {array: values[:, 0] if values.shape[1] == 1 and array != "Modes" else values
                for array, values in results.items()}
-    for array in ("Solution", "Interpolated"):  # of the type of the given values
+    for array in ("Solution", "Interpolated"):  # they have the type of the given values
         if array in results and "values" in given and given["values"][0].dtype == numpy.float32:
             results[array] = results[array].astype(numpy.float32)
     if "StitchedColors" in results:

@@ -30,7 +30,7 @@ struct vtkClipToOctree::Internals
 {
   gridfem::ClippedMesh Clipped;
   vtkNew<vtkPolyData> Frame;
-  std::unique_ptr<gridfem::DistributedClip> OfRanks; // null where one clips all
+  std::unique_ptr<gridfem::DistributedClip> OfRanks; // null if one clips all
 };
 
 vtkClipToOctree::vtkClipToOctree() : Data(std::make_unique<Internals>())
@@ -103,7 +103,7 @@ bool vtkClipToOctree::WantsQuadraturePoints(double triangles) const
            perTriangle * triangles <= MostAutomaticPoints);
 }
 
-/// The pieces of all ranks, as they are now.
+/// Clips the pieces of all ranks together.
 void vtkClipToOctree::ClipTogether(vtkPolyData* piece, int threads)
 {
   gridfem::SurfaceSolverState& state = *this->State;

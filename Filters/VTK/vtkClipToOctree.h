@@ -3,38 +3,45 @@
  * @brief   cut a surface along the cells of an octree
  *
  * Lays the surface into a cube of 2^Depth cells per side and cuts every polygon along the cell
- * faces, so that every triangle of the output lies in one cell. All surface finite element filters
- * integrate on this mesh; the output is also the input of vtkConnectivityAwareBasis.
+ * faces. Every triangle of the output lies in one cell. All surface finite element filters
+ * integrate on this mesh. The output is also the input of vtkConnectivityAwareBasis.
  *
  * Input: vtkPolyData with polygons of any size, concave ones too, or triangle strips. Vertices and
  * lines are left out.
  *
- * Output port 0 (vtkPolyData), the clipped mesh: triangles; the input's points first, in the same
- * order and precision (double when they are integers), then the cut points.
- * - point data: the input's arrays; real numbers interpolated to double, colours (unsigned char, 3
- *   or 4) interpolated and rounded, other integers and text from the nearest corner; global and
- *   pedigree ids are left out, because a cut point has none
- * - cell data: the input's arrays; `SourceCellId` (vtkIdType, 1): the input's cell; `OctreeCellId`
- *   (vtkIdType, 1): index into `OctreeCells`; `OctreeCellColor` (signed char, 1): 0 to 7, not the
- *   same for two cells that touch, to tell them apart by eye
- * - field data: the input's arrays; `OctreeCells` (int, 3): (i,j,k) of every cell, in Morton order;
- *   `GridOrigin` (double, 3), `GridSpacing` (double, 1), `GridDepth` (int, 1): the cube's lowest
- *   corner, the side of a cell, Depth; `WeldCoincidentPoints` (int, 1): the property
+ * Output port 0 (vtkPolyData) is the clipped mesh, made of triangles. Its points are the input's
+ * points first, in the same order and precision (double when they are integers), then the cut
+ * points.
+ * - point data: the input's arrays. Real numbers are interpolated to double. Colors (unsigned char,
+ *   3 or 4 components) are interpolated and rounded. Other integers and text come from the nearest
+ *   corner. Global and pedigree ids are left out, because a cut point has none.
+ * - cell data: the input's arrays.
+ * - cell data: `SourceCellId` (vtkIdType, 1) is the input's cell.
+ * - cell data: `OctreeCellId` (vtkIdType, 1) is an index into `OctreeCells`.
+ * - cell data: `OctreeCellColor` (signed char, 1) is 0 to 7. Cells that touch have different
+ *   colors, so that you can tell them apart by eye.
+ * - field data: the input's arrays.
+ * - field data: `OctreeCells` (int, 3) is the (i,j,k) of every cell, in Morton order.
+ * - field data: `GridOrigin` (double, 3) is the lowest corner of the cube, `GridSpacing` (double,
+ *   1) is the side of a cell, and `GridDepth` (int, 1) is Depth.
+ * - field data: `WeldCoincidentPoints` (int, 1) is the property.
  *
- * Output port 1 (vtkPolyData), as GenerateQuadraturePoints says: the quadrature points, one vertex
- * each, with the point arrays `Weight` (double, 1), the surface area it stands for, and
- * `SourceCellId` (vtkIdType, 1).
+ * Output port 1 (vtkPolyData) holds the quadrature points, one vertex each, if
+ * GenerateQuadraturePoints asks for them.
+ * - point data: `Weight` (double, 1) is the surface area that the point stands for.
+ * - point data: `SourceCellId` (vtkIdType, 1) is the input's cell.
  *
- * Output port 2 (vtkUnstructuredGrid), the octree: a voxel for every cell that holds surface, with
- * the cell array `Level` (int, 1): 0 is the whole cube, Depth the finest level.
+ * Output port 2 (vtkUnstructuredGrid) is the octree: a voxel for every cell that holds surface.
+ * - cell data: `Level` (int, 1) is 0 for the whole cube and Depth for the finest level.
  *
- * Used shared properties: Depth, WeldCoincidentPoints, QuadratureDegree (changes only output port
- * 1), NumberOfThreads.
+ * The filter uses the shared properties Depth, WeldCoincidentPoints, NumberOfThreads and
+ * QuadratureDegree. QuadratureDegree changes only output port 1.
  *
- * On several MPI ranks each puts out the triangles in its own cells of the octree, wherever their
- * polygons came from. One rank after the other, they are the triangles of one rank. Points are
- * those that triangles use: the input's first, in another order. `OctreeCells` are those of all
- * ranks on each. Arrays are those that the pieces of all ranks have.
+ * On several MPI ranks, each rank outputs the triangles in its own cells of the octree, wherever
+ * their polygons came from. The triangles of all ranks, in rank order, are those that one rank
+ * would output. Each rank has only the points that its triangles use: the input's points first, in
+ * another order. `OctreeCells` lists the cells of all ranks, on each rank. Only arrays that the
+ * pieces of all ranks have are output.
  */
 #ifndef vtkClipToOctree_h
 #define vtkClipToOctree_h
@@ -50,8 +57,8 @@ public:
 
   ///@{
   /**
-   * The level that output port 2 shows: 0..14, where a level beyond Depth means the finest, or -1
-   * for all levels. Default 14: the finest.
+   * The level that output port 2 shows. The range is -1..14: -1 shows all levels, and a level
+   * beyond Depth shows the finest. Default 14: the finest.
    */
   vtkSetClampMacro(Level, int, -1, 14);
   vtkGetMacro(Level, int);
@@ -65,9 +72,9 @@ public:
   };
   ///@{
   /**
-   * Whether output port 1 has the quadrature points: three and more for every clipped triangle,
-   * several times the memory of the clipped mesh. Off: it is empty. Automatic (default): it has
-   * them where they are at most a million.
+   * Whether output port 1 has the quadrature points. Every clipped triangle has at least three, so
+   * they take several times the memory of the clipped mesh. Off leaves the port empty. Automatic
+   * (default) fills it if there are at most a million points.
    */
   vtkSetClampMacro(GenerateQuadraturePoints, int, QuadraturePointsOff, QuadraturePointsAutomatic);
   vtkGetMacro(GenerateQuadraturePoints, int);

@@ -2,38 +2,41 @@
  * @class   vtkConnectivityAwareBasis
  * @brief   build the basis functions of a surface, one per connected piece of a support
  *
- * Groups the clipped triangles of every octree cell to connected patches and gives every patch its
- * eight trilinear basis functions. Functions of a grid corner whose support meets the surface in
- * several connected pieces are split, unless ConnectivityAware is off. The output of port 0 can be
- * the input of any number of solver filters, which then share one basis.
+ * Groups the clipped triangles of every octree cell into connected patches and gives every patch
+ * its eight trilinear basis functions. If the support of a function meets the surface in several
+ * connected pieces, the function is split into one per piece, unless ConnectivityAware is off. The
+ * output of port 0 can be the input of any number of solver filters, which then share one basis.
  *
- * Input: the output of vtkClipToOctree, whose grid is taken, or any vtkPolyData with polygons,
- * which is clipped first.
+ * Input: the output of vtkClipToOctree, or any vtkPolyData with polygons. The filter takes the grid
+ * of a clipped mesh and clips any other input first.
  *
- * Output port 0 (vtkPolyData), the clipped mesh with all arrays of vtkClipToOctree, and
- * - cell data: `PatchId` (vtkIdType, 1): index into `PatchBasisIds`; `PatchColor` (signed char, 1):
- *   0 to 7, and 8 to 15 on all patches of an octree cell but its first; not the same where patches
- *   of two cells touch
- * - field data: `PatchCellId` (vtkIdType, 1) and `PatchBasisIds` (vtkIdType, 8): a patch's octree
- *   cell and its eight functions, corner order x fastest; `NumberOfBasisFunctions` (int, 1);
- *   `ConnectivityAware` (int, 1): the property
- * - point data: `BasisFunction` (double, 1), the function BasisId, when that is not negative
+ * Output port 0 (vtkPolyData) is the clipped mesh with all arrays of vtkClipToOctree and the
+ * following ones.
+ * - cell data: `PatchId` (vtkIdType, 1) is an index into `PatchBasisIds`.
+ * - cell data: `PatchColor` (signed char, 1) differs where patches of two cells touch. The first
+ *   patch of an octree cell has 0 to 7, the cell's other patches have 8 to 15.
+ * - field data: `PatchCellId` (vtkIdType, 1) is the octree cell of a patch.
+ * - field data: `PatchBasisIds` (vtkIdType, 8) lists the eight functions of a patch, corner order x
+ *   fastest.
+ * - field data: `NumberOfBasisFunctions` (int, 1); `ConnectivityAware` (int, 1), the property.
+ * - point data: `BasisFunction` (double, 1) is the function BasisId, if BasisId is not negative.
  *
- * Output port 1 (vtkUnstructuredGrid), the basis of one level: a voxel for every patch, whose
- * points are the functions (split functions are coincident points).
- * - point data: `BasisId` (vtkIdType, 1); `SupportArea` (double, 1): area of the patches that the
- *   function touches; `Component` (vtkIdType, 1): the connected component it lives on
- * - cell data: `PatchId` (vtkIdType, 1), `Level` (int, 1)
+ * Output port 1 (vtkUnstructuredGrid) is the basis of one level: a voxel for every patch. Its
+ * points are the functions. Split functions are coincident points.
+ * - point data: `BasisId` (vtkIdType, 1) is the id of the function.
+ * - point data: `SupportArea` (double, 1) is the area of the patches that the function touches.
+ * - point data: `Component` (vtkIdType, 1) is the connected component that the function lives on.
+ * - cell data: `PatchId` (vtkIdType, 1), `Level` (int, 1).
  *
- * Used shared properties: Depth (of a mesh that is not clipped yet), ConnectivityAware,
- * WeldCoincidentPoints (of a mesh that is clipped as well, whatever the clip was made with),
- * NumberOfThreads.
+ * The filter uses the shared properties Depth, ConnectivityAware, WeldCoincidentPoints and
+ * NumberOfThreads. Depth has no effect on a clipped mesh. WeldCoincidentPoints has its effect on a
+ * clipped mesh too, whatever the clip was made with.
  *
- * On several MPI ranks each puts out the triangles in its own cells of the octree, wherever their
- * polygons came from. One rank after the other, they are the triangles of one rank. The tables of
- * the basis are whole on all, and so are coarse levels, whose functions are shown on the first
- * rank. Arrays are those that the pieces of all ranks have. Triangles that were clipped before, by
- * all ranks or by one, stay on the ranks that have them.
+ * On several MPI ranks, each rank outputs the triangles in its own cells of the octree, wherever
+ * their polygons came from. The triangles of all ranks, in rank order, are those that one rank
+ * would output. Every rank has the whole tables of the basis, coarse levels included. The first
+ * rank shows the functions of coarse levels. Only arrays that the pieces of all ranks have are
+ * output. Triangles that were clipped before, by all ranks or by one, stay on their ranks.
  */
 #ifndef vtkConnectivityAwareBasis_h
 #define vtkConnectivityAwareBasis_h
@@ -49,7 +52,7 @@ public:
 
   ///@{
   /**
-   * The level that output port 1 shows and that BasisId counts in: 0 is the whole cube; a level
+   * The level that output port 1 shows and that BasisId refers to. 0 is the whole cube, and a level
    * beyond Depth means the finest. 0..14, default 14: the finest.
    */
   vtkSetClampMacro(Level, int, 0, 14);
@@ -58,8 +61,8 @@ public:
 
   ///@{
   /**
-   * The function of Level to evaluate as the point array `BasisFunction` of output port 0; -1 for
-   * none. Default -1.
+   * The function of Level to evaluate as the point array `BasisFunction` of output port 0. -1
+   * (default) evaluates none.
    */
   vtkSetClampMacro(BasisId, vtkIdType, -1, VTK_ID_MAX);
   vtkGetMacro(BasisId, vtkIdType);

@@ -2,28 +2,28 @@
  * @class   vtkFarthestPoints
  * @brief   points spread evenly over a surface, and the region of each
  *
- * Each point is the one that is farthest along the surface from all points before it. So every
- * point of the surface is nearly as near to one of them as with the best choice of as many points:
- * within a factor of two. A connected component gets a point before any gets a second one. Points
- * are found one after the other, each with a solution of vtkGeodesicDistance; a larger
- * NumberOfPoints continues from those that are there.
+ * Finds points one after the other. Each is the point that is farthest along the surface from all
+ * points before it. The largest distance to a found point is therefore at most twice that of the
+ * best choice of as many points. Every connected component gets a point before any component gets a
+ * second one. Each point takes one solution of vtkGeodesicDistance. A larger NumberOfPoints
+ * continues from the points found before.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
- * vtkConnectivityAwareBasis. Input port 1 (optional): the output of vtkConnectivityAwareBasis for
- * the mesh of port 0.
+ * vtkConnectivityAwareBasis.
+ * Input port 1 (optional): the output of vtkConnectivityAwareBasis for the mesh of port 0.
  *
- * Output port 0 (vtkPolyData): the input with
- * - point data, double: `Distance` from the nearest of the points, in the unit of the points. It is
+ * Output port 0 (vtkPolyData): the input with the following arrays.
+ * - point data, double: `Distance` from the nearest found point, in the unit of the points. It is
  *   NaN at points that no polygon uses.
- * - point data, vtkIdType: `NearestPoint`, the id of the nearest of the points. It is -1 where
+ * - point data, vtkIdType: `NearestPoint`, the id of the nearest found point. It is -1 where
  *   Distance is NaN.
  * - field data: `FarthestPoints` (vtkIdType), the ids in the order in which they were found. There
- *   are fewer than NumberOfPoints where the surface has fewer points.
- * - field data: `Radius` (double, 1), the largest Distance
+ *   are fewer than NumberOfPoints if the surface has fewer points.
+ * - field data: `Radius` (double, 1), the largest Distance.
  *
  * Tolerance, NormalStabilization and MaximumIterations have the defaults of vtkGeodesicDistance,
- * and so errors have the same size. All shared properties but ParameterUnits are used. Several
- * ranks of MPI gather the surface.
+ * and so errors have the same size. The filter uses all shared properties but ParameterUnits. On
+ * several MPI ranks the surface is gathered.
  */
 #ifndef vtkFarthestPoints_h
 #define vtkFarthestPoints_h
@@ -39,7 +39,7 @@ public:
 
   ///@{
   /**
-   * How many points there are. 1..100000, default 10.
+   * How many points to find. 1..100000, default 10.
    */
   vtkSetClampMacro(NumberOfPoints, int, 1, 100000);
   vtkGetMacro(NumberOfPoints, int);
@@ -47,8 +47,8 @@ public:
 
   ///@{
   /**
-   * The id of the first point; -1 (default) takes the first point of the first polygon. An id that
-   * is no point of a polygon is refused when the filter runs.
+   * The id of the first point. -1 (default) takes the first point of the first polygon. The filter
+   * refuses an id that no polygon uses when it runs.
    */
   vtkSetClampMacro(FirstPointId, int, -1, VTK_INT_MAX);
   vtkGetMacro(FirstPointId, int);

@@ -2,51 +2,60 @@
  * @class   vtkGeodesicDistance
  * @brief   distance along a surface from the nearest of some points
  *
- * The heat method (Crane, Weischedel, Wardetzky 2013): heat spreads from the sources for a short
- * time t, the direction in which it falls is that in which the distance grows, and the distance is
- * the function whose gradient is nearest to these directions. Two equations are solved; all but the
- * sources is kept, so that other sources cost the solutions alone.
+ * Computes the distance by the heat method (Crane, Weischedel, Wardetzky 2013). Heat spreads from
+ * the sources for a short time t. The distance grows in the direction in which the heat falls. The
+ * result is the function whose gradient is nearest to these directions. The filter solves two
+ * equations. It keeps everything that does not depend on the sources, so that other sources repeat
+ * only the two solves.
  *
- * Sources are the points in SourcePointIds, those where the SourceArray is not 0, those nearest to
- * the points of input port 2, and those that the selection of port 3 takes, all together. When none
- * of the four is given, the first point of the first polygon is the source. A triangle whose
- * corners are all sources is at distance 0 as a whole.
+ * The sources are all of the following points together:
+ * - the points in SourcePointIds;
+ * - the points where the SourceArray is not 0;
+ * - the mesh points nearest to the points of input port 2;
+ * - the points in the selection of port 3.
  *
- * With Signed on, distances are from a curve instead, negative inside: from the border of the
- * points or cells whose LabelArray is InsideLabel, or, when no LabelArray is chosen, from the lines
- * of input port 2, moved to the nearest places of the surface. Lines may come in pieces, and have
- * to divide the surface: closed, or from border to border. On each connected component the smaller
- * part is inside. Every part of a curve is a source, not its points.
+ * If none of the four is given, the first point of the first polygon is the source. A triangle
+ * whose corners are all sources is at distance 0 as a whole.
+ *
+ * With Signed on, distances are from a curve instead, and they are negative inside. The curve is
+ * the border of the points or cells whose LabelArray is InsideLabel. If no LabelArray is chosen, it
+ * consists of the lines of input port 2, moved to the nearest places of the surface. Lines may come
+ * in pieces. They have to divide the surface: each curve is closed or goes from border to border.
+ * On each connected component the smaller part is inside. Every part of a curve is a source, not
+ * only its points.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
- * vtkConnectivityAwareBasis. Input port 1 (optional): the output of vtkConnectivityAwareBasis for
- * the mesh of port 0. Input port 2 (optional): vtkDataSet whose points are sources, each at the
- * nearest point of the mesh. Input port 3 (optional): vtkSelection of points or cells of port 0; a
- * cell takes its points. The SourceArray is chosen by SetInputArrayToProcess(0, ...): point
- * data with one component. The LabelArray is SetInputArrayToProcess(1, ...): integers on points or
- * cells.
+ * vtkConnectivityAwareBasis.
+ * Input port 1 (optional): the output of vtkConnectivityAwareBasis for the mesh of port 0.
+ * Input port 2 (optional): vtkDataSet whose points are sources, each at the nearest point of the
+ * mesh.
+ * Input port 3 (optional): vtkSelection of points or cells of port 0. A selected cell selects its
+ * points.
  *
- * Output port 0 (vtkPolyData): the input with
- * - point data, double: `Distance`, in the unit of the points; 0 at sources, never negative but
- *   inside a curve. Points that cannot be reached have NaN: those on a component without a source,
- *   and those that no polygon uses.
+ * SetInputArrayToProcess(0, ...) chooses the SourceArray: point data with one component.
+ * SetInputArrayToProcess(1, ...) chooses the LabelArray: integers on points or cells.
+ *
+ * Output port 0 (vtkPolyData): the input with the following arrays.
+ * - point data, double: `Distance`, in the unit of the points. It is 0 at sources and negative only
+ *   inside a curve. It is NaN on a component without a source and at points that no polygon uses.
  * - point data, vtkIdType, with NearestSource on: `NearestSource`, the id of the source that the
- *   distance is from; -1 where there is none
- * - field data: `Converged`, `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor`
- *   of the solution of the distance, `HeatSweeps` (double, 1)
+ *   distance is from. It is -1 where there is none.
+ * - field data, of the solve for the distance: `Converged`, `Iterations`, `DoublePrecisionSince`,
+ *   `Residual`, `ConvergenceFactor`.
+ * - field data: `HeatSweeps` (double, 1).
  *
- * Errors fall with the size of the functions, in proportion. They are sqrt(t) / 2 to sqrt(t) where
- * fronts meet, and near boundaries; a small fraction of that elsewhere. Sheets nearer to each other
- * than a cell do not feel each other as long as ConnectivityAware is on.
+ * Errors are proportional to the size of the functions. They are sqrt(t) / 2 to sqrt(t) near
+ * boundaries and where fronts meet, and a small fraction of that elsewhere. Sheets that are nearer
+ * to each other than a cell do not influence each other while ConnectivityAware is on.
  *
- * Tolerance (default 1e-4) is that of the distance from its gradient, as in vtkScreenedPoisson; the
- * heat is always solved to the same relative accuracy everywhere. NormalStabilization is 0.1 by
- * default: with less, functions that hide in the surface spoil small numbers. All shared properties
- * but ParameterUnits are used.
+ * Tolerance (default 1e-4) is on the solve for the distance from its gradient, as in
+ * vtkScreenedPoisson. The heat is always solved to the same relative accuracy everywhere.
+ * NormalStabilization is 0.1 by default: with less, functions that hide in the surface spoil small
+ * numbers. The filter uses all shared properties but ParameterUnits.
  *
- * All ranks of MPI compute together from the points of a SourceArray and of a selection, or from
- * the first one. SourcePointIds, which count through the gathered surface, Sources, Signed,
- * NearestSource and a Smoothing of 3.5 or more are left to rank 0.
+ * All MPI ranks compute together if the sources are a SourceArray, a selection or the first point.
+ * Rank 0 gathers the surface and computes alone with SourcePointIds, Sources, Signed,
+ * NearestSource, or a Smoothing of 3.5 or more. SourcePointIds count through the gathered surface.
  */
 #ifndef vtkGeodesicDistance_h
 #define vtkGeodesicDistance_h
@@ -69,8 +78,8 @@ public:
 
   ///@{
   /**
-   * Points that distances start from, besides those of the SourceArray and of port 2. None by
-   * default. An id that is no point of a polygon is refused when the filter runs.
+   * Points that distances start from, besides those of the SourceArray, of port 2 and of port 3.
+   * None by default. The filter refuses an id that no polygon uses when it runs.
    */
   void AddSourcePointId(vtkIdType id);
   void ClearSourcePointIds();
@@ -80,9 +89,9 @@ public:
 
   ///@{
   /**
-   * sqrt(t) in mean distances between functions of the grid that overlap, which is 1.2 cells. More
-   * rounds the distance off where fronts meet, and takes somewhat longer; much less makes the heat
-   * oscillate. 0.5..1000, default 1.75.
+   * sqrt(t), in units of the mean distance between grid functions that overlap, which is 1.2 cells.
+   * A larger value rounds the distance off where fronts meet and takes somewhat longer. A much
+   * smaller one makes the heat oscillate. 0.5..1000, default 1.75.
    */
   vtkSetClampMacro(Smoothing, double, 0.5, 1000.0);
   vtkGetMacro(Smoothing, double);
@@ -90,8 +99,9 @@ public:
 
   ///@{
   /**
-   * Whether the point array `NearestSource` is put out: regions whose points have the same nearest
-   * source. Their borders are right to some cells. Off by default.
+   * Whether to output the point array `NearestSource`. It divides the surface into regions whose
+   * points have the same nearest source. The borders of the regions are right to within some cells.
+   * Off by default.
    */
   vtkSetMacro(NearestSource, bool);
   vtkGetMacro(NearestSource, bool);
@@ -101,7 +111,7 @@ public:
   ///@{
   /**
    * Whether distances are from curves, negative inside. SourcePointIds, SourceArray, a selection
-   * and NearestSource are of points and are refused then. Off by default.
+   * and NearestSource need points as sources, and are refused then. Off by default.
    */
   vtkSetMacro(Signed, bool);
   vtkGetMacro(Signed, bool);

@@ -24,8 +24,8 @@ vtkStandardNewMacro(vtkHarmonicInterpolation);
 namespace
 {
 
-/// The array chosen for the second data set, else the one chosen for the first, else the active
-/// scalars.
+/// Returns the array chosen for the second data set, or else the one chosen for the first, or else
+/// the active scalars.
 gridfem::InputArray FindArrayOf(vtkAlgorithm* algorithm, vtkDataSet* values)
 {
   gridfem::InputArray array = gridfem::FindInputArray(algorithm, 2, values, "SourceArray");
@@ -61,7 +61,8 @@ bool KnowsSome(vtkDataArray* array)
   return unknown > 0 && unknown < array->GetNumberOfTuples();
 }
 
-/// ValueArray, or where none is chosen the only point array that says itself what is not known.
+/// Returns ValueArray. If none is chosen, it returns the only point array whose NaN mark the
+/// unknown values.
 gridfem::InputArray FindValueArray(vtkAlgorithm* algorithm, vtkDataSet* input)
 {
   gridfem::InputArray array = gridfem::FindInputArray(algorithm, 0, input, "ValueArray");

@@ -2,39 +2,43 @@
  * @class   vtkHarmonicInterpolation
  * @brief   spread values from a few points over a whole surface
  *
- * From values at some points to the smoothest function on the surface that has them: harmonic,
- * which stays between the values and has a peak at a lonely point, or biharmonic, which is smooth
- * there.
+ * Finds the smoothest function on the surface that has the given values at some points. A harmonic
+ * function stays between the values and has a peak at an isolated point. A biharmonic function is
+ * smooth there.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
- * vtkConnectivityAwareBasis. Input port 1 (optional): the output of vtkConnectivityAwareBasis for
- * the mesh of port 0. Input port 2 (optional, `Values`): any data set with points, such as
- * extracted selections or probes, whose values count at the nearest point of the surface that a
- * polygon uses. Input port 3 (optional): vtkSelection of points or cells of port 0; a cell takes
- * its points.
+ * vtkConnectivityAwareBasis.
+ * Input port 1 (optional): the output of vtkConnectivityAwareBasis for the mesh of port 0.
+ * Input port 2 (optional, `Values`): any data set with points, such as extracted selections or
+ * probes. Its values count at the nearest point of the surface that a polygon uses.
+ * Input port 3 (optional): vtkSelection of points or cells of port 0. A selected cell selects its
+ * points.
  *
- * Arrays, chosen by SetInputArrayToProcess, with any number of components:
- * - index 0, `ValueArray`: point data of port 0. A tuple with a NaN is unknown. Where none is
- *   chosen and only one point array has a NaN for some points and values for others, it is that.
- * - index 1, `MaskArray` (optional): point data of port 0, one component. With it or a selection,
- *   values are known where it is neither 0 nor NaN and at selected points, and nowhere else.
- * - index 2 (optional): point data of port 2, where that is connected. Without it the array there
- *   with the name of ValueArray, or the active scalars when none is chosen. MaskArray and
- *   the selection are not used then.
- * Several values at one point are met in the mean, and the filter warns when they differ.
+ * Arrays have any number of components. SetInputArrayToProcess chooses them:
+ * - index 0, `ValueArray`: point data of port 0. A tuple with a NaN is unknown. If none is chosen,
+ *   the filter takes the only point array that has a NaN at some points and values at others.
+ * - index 1, `MaskArray` (optional): point data of port 0, one component. Values are known where it
+ *   is neither 0 nor NaN. With a mask or a selection, only masked and selected points have known
+ *   values.
+ * - index 2 (optional): point data of port 2, if that is connected. If none is chosen, the filter
+ *   takes the array of port 2 with the name of ValueArray, or the active scalars if ValueArray is
+ *   not chosen either. The MaskArray and the selection are not used then.
  *
- * Output port 0 (vtkPolyData): the input with
- * - point data: `Interpolated`, components as the values; float where they are float, else double.
- *   NaN on connected components of the surface without any value, of which the filter warns once,
- *   and at points that no polygon uses.
- * - field data: `Misfit` (double, 1): the largest difference from a given value; `Converged`,
- *   `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor`; `DiscretizationError`,
- *   `LargestDiscretizationError`, `AlgebraicError` and `TrustedEstimate` of vtkPoissonAlgorithm,
- *   not numbers for biharmonic functions of more than 256 points
+ * Several values at one point are met in the mean. The filter warns if they differ.
  *
- * Tolerance (default 1e-6) is on the energy residual, as in vtkScreenedPoisson; values are met to
+ * Output port 0 (vtkPolyData): the input with the following arrays.
+ * - point data: `Interpolated`, with the components of the values. It is float if they are float,
+ *   else double. It is NaN at points that no polygon uses, and on connected components without any
+ *   value. The filter warns once of such components.
+ * - field data: `Misfit` (double, 1), the largest difference from a given value.
+ * - field data: `Converged`, `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor`.
+ * - field data: `DiscretizationError`, `LargestDiscretizationError`, `AlgebraicError` and
+ *   `TrustedEstimate` of vtkPoissonAlgorithm. They are NaN for biharmonic functions of more than
+ *   256 points.
+ *
+ * Tolerance (default 1e-6) is on the energy residual, as in vtkScreenedPoisson. Values are met to
  * 1e-7 of their range wherever the functions can meet them. NormalStabilization is 1e-2 and
- * MaximumIterations 200 by default. All shared properties but ParameterUnits are used.
+ * MaximumIterations 200 by default. The filter uses all shared properties but ParameterUnits.
  */
 #ifndef vtkHarmonicInterpolation_h
 #define vtkHarmonicInterpolation_h
@@ -63,9 +67,9 @@ public:
   };
   ///@{
   /**
-   * Harmonic (default): the least integral of the squared gradient.
-   * Biharmonic: the least integral of the squared Laplacian. Up to 256 points cost a solve and a
-   * vector each, more of them some fifty to a hundred solves, however many they are.
+   * Harmonic (default) minimizes the integral of the squared gradient. Biharmonic minimizes the
+   * integral of the squared Laplacian. It costs a solve and a vector for each point, up to 256
+   * points. More points cost some fifty to a hundred solves, however many they are.
    */
   vtkSetClampMacro(Smoothness, int, Harmonic, Biharmonic);
   vtkGetMacro(Smoothness, int);

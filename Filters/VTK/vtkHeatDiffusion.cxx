@@ -61,7 +61,7 @@ std::vector<double> vtkHeatDiffusion::OwnTimeSteps()
   return steps;
 }
 
-/// Points that move have normals and arrays that follow them on the whole surface.
+/// Moved points need the whole surface: their normals and the arrays that follow them come from it.
 bool vtkHeatDiffusion::NeedsWholeSurface()
 {
   return !gridfem::IsArrayChosen(this, 0);

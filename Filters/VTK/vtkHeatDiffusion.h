@@ -2,41 +2,47 @@
  * @class   vtkHeatDiffusion
  * @brief   an array that spreads along a surface as heat does, in time steps
  *
- * Solves du/dt = div grad u + s on the surface, from the array at time 0 to the DiffusionTime, in
- * NumberOfSteps equal steps, each of which is a time step of the output. They are of second order
- * in their length, with two solves each, and stable for any length. No heat flows over boundaries:
- * the integral over every connected component is kept, but for what the source adds; unless values
- * are held, where heat comes and goes.
+ * Solves du/dt = div grad u + s on the surface, from the array at time 0 to the DiffusionTime. The
+ * time is cut into NumberOfSteps equal steps, and each is a time step of the output. A step takes
+ * two solves, is of second order in its length, and is stable for any length. No heat flows over
+ * boundaries. The integral over every connected component changes only by what the source adds.
+ * Held values, however, let heat enter and leave.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
- * vtkConnectivityAwareBasis. Input port 1 (optional): the output of vtkConnectivityAwareBasis for
- * the mesh of port 0. Input port 2 (optional): vtkSelection of points or cells of port 0, whose
- * values are held. The array at time 0 is chosen by SetInputArrayToProcess(0, ...): point or cell
- * data with any number of components C; none: the coordinates. The source, what is added per unit
- * of time, by SetInputArrayToProcess(1, ...): point or cell data with C components; none: 0. The
- * ConstraintArray, by SetInputArrayToProcess(2, ...): point data with one component; where it is
- * not 0 the value stays that of time 0, which must be point data then.
+ * vtkConnectivityAwareBasis.
+ * Input port 1 (optional): the output of vtkConnectivityAwareBasis for the mesh of port 0.
+ * Input port 2 (optional): vtkSelection of points or cells of port 0, whose values are held.
  *
- * Output port 0 (vtkPolyData): the input with
+ * SetInputArrayToProcess chooses the arrays:
+ * - index 0: the array at time 0, point or cell data with any number of components C. Without it
+ *   the filter takes the coordinates.
+ * - index 1: the source, which is added per unit of time, point or cell data with C components.
+ *   Without it the source is 0.
+ * - index 2, the ConstraintArray: point data with one component. Points at which it is not 0 keep
+ *   the value of time 0. The array at time 0 must be point data then.
+ *
+ * Output port 0 (vtkPolyData): the input with the following arrays.
  * - point data, double: `Diffused` (C components). Points that no polygon uses keep the array if it
- *   is a point array, else get 0. Without an array the points move to where their coordinates have
- *   spread: `Displacement` and `NormalDisplacement` are added, normals follow, and clip, basis and
- *   modes, which belong to the old shape, are left out.
- * - field data: `Step` (int, 1), `DiffusionTime` (double, 1; squared world length), `Converged`,
- *   `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor` and the estimated errors
- *   of vtkPoissonAlgorithm, all of the solves of the step that is shown; `Misfit` (double, 1) where
- *   values are held: by how much they are missed at most
+ *   is a point array, else get 0. Without an array, the points move to their spread coordinates.
+ *   The output then has `Displacement` and `NormalDisplacement`, and normals follow. The clip,
+ *   basis and modes belong to the old shape and are left out.
+ * - field data: `Step` (int, 1).
+ * - field data: `DiffusionTime` (double, 1; squared world length).
+ * - field data, of all solves of the shown step: `Converged`, `Iterations`, `DoublePrecisionSince`,
+ *   `Residual`, `ConvergenceFactor` and the estimated errors of vtkPoissonAlgorithm.
+ * - field data, if values are held: `Misfit` (double, 1), the largest difference from a held value.
  *
  * Time: the steps are the time steps 1 .. NumberOfSteps. A request without a time gets the last.
- * Steps are made once and kept; more steps of the same length, DiffusionTime / NumberOfSteps, are
- * not made again.
+ * Steps are computed once and kept. If you ask for more steps of the same length, DiffusionTime /
+ * NumberOfSteps, the filter computes only the new ones.
  *
- * Accuracy ends the solves of a single step. The errors of several add up: they are solved to a
- * Tolerance, 1e-6 where it is 0, and have no estimates; and so are steps with values that are held.
- * NormalStabilization is 1e-2 by default. All shared properties are used; DiffusionTime is in the
- * squared unit of length of ParameterUnits, the source is per squared world length.
+ * Accuracy ends the solves of a single step. The errors of several steps add up. Several steps, and
+ * steps with held values, are therefore solved to a Tolerance, which is 1e-6 if the property is 0,
+ * and have no estimated errors. NormalStabilization is 1e-2 by default. The filter uses all shared
+ * properties. DiffusionTime is in the squared unit of length of ParameterUnits, and the source is
+ * per squared world length.
  *
- * All ranks of MPI compute together where an array spreads; coordinates are left to rank 0.
+ * All MPI ranks compute together if an array spreads. Rank 0 computes alone if the coordinates do.
  */
 #ifndef vtkHeatDiffusion_h
 #define vtkHeatDiffusion_h
@@ -57,8 +63,8 @@ public:
 
   ///@{
   /**
-   * How long heat spreads, in the squared unit of length of ParameterUnits: details smaller than
-   * about its root vanish. Above 0, default 0.001.
+   * How long heat spreads, in the squared unit of length of ParameterUnits. Details smaller than
+   * about its square root vanish. Above 0, default 0.001.
    */
   vtkSetMacro(DiffusionTime, double);
   vtkGetMacro(DiffusionTime, double);
@@ -66,7 +72,7 @@ public:
 
   ///@{
   /**
-   * Equal steps that the time is cut into. 1..10000, default 1.
+   * The number of equal steps that the time is cut into. 1..10000, default 1.
    */
   vtkSetClampMacro(NumberOfSteps, int, 1, 10000);
   vtkGetMacro(NumberOfSteps, int);
@@ -74,7 +80,7 @@ public:
 
   ///@{
   /**
-   * When on, values stay where the surface ends as well. Default off.
+   * When on, values are also held along the boundary of the surface. Default off.
    */
   vtkSetMacro(BoundaryValues, bool);
   vtkGetMacro(BoundaryValues, bool);
@@ -87,7 +93,7 @@ public:
   void SetBasisConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
 
   /**
-   * The input of port 2: a selection of points that are held.
+   * The input of port 2: a selection of points whose values are held.
    */
   void SetSelectionConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(2, output); }
 

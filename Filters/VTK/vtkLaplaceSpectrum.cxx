@@ -31,7 +31,7 @@ vtkStandardNewMacro(vtkLaplaceSpectrum);
 namespace
 {
 
-/// The first mode that is a time step: mode 0 is constant, so there is nothing to see.
+/// The first mode that is a time step. Mode 0 is constant and shows nothing.
 int FirstTimeStep(int numberOfModes)
 {
   return std::min(1, numberOfModes - 1);
@@ -43,7 +43,7 @@ struct vtkLaplaceSpectrum::Internals
 {
   gridfem::SpectrumSolver Solver;
   const gridfem::SpectrumSolver::Result* Result = nullptr; // of this run
-  ///@{ How many modes NumberOfModes has given; they are time steps also when the modes are freed.
+  ///@{ The number of modes that NumberOfModes has given. It stays when the modes are freed.
   int WantedModes = 0;
   int FoundModes = 0;
   ///@}
@@ -164,7 +164,7 @@ int vtkLaplaceSpectrum::ShownMode(vtkInformation* output) const
   return static_cast<int>(std::lround(std::min(time, double(count - 1))));
 }
 
-/// One mode at a time, because all of them may need much memory. Collective.
+/// Adds one mode at a time, because all of them may need much memory. Collective.
 void vtkLaplaceSpectrum::WriteModes(vtkPolyData* input, vtkInformation* info, vtkPolyData* output)
 {
   output->ShallowCopy(input);

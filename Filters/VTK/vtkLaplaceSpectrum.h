@@ -7,43 +7,51 @@
  * Nothing flows across boundaries.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
- * vtkConnectivityAwareBasis. Input port 1 (optional): the output of vtkConnectivityAwareBasis for
- * the mesh of port 0.
+ * vtkConnectivityAwareBasis.
+ * Input port 1 (optional): the output of vtkConnectivityAwareBasis for the mesh of port 0.
  *
- * SetInputArrayToProcess(5, ...), as in vtkScreenedPoisson, chooses the `MetricArray` (optional),
- * point or cell data: a symmetric tensor of six components (XX, YY, ZZ, XY, YZ, XZ) or nine, the
- * metric in place of the surface's own; J^T J for the surface that a map with the Jacobian J would
- * move it to. Only its part in the plane of each triangle counts, which must be positive definite;
- * on points its mean over a triangle. The integral of a squared mode is taken in it as well.
+ * SetInputArrayToProcess(5, ...), as in vtkScreenedPoisson, chooses the optional `MetricArray`,
+ * point or cell data. A symmetric tensor of six components (XX, YY, ZZ, XY, YZ, XZ) or nine
+ * replaces the surface's own metric. If a map with the Jacobian J moves the surface, J^T J gives
+ * the modes of the moved surface. Only the tensor's part in the plane of each triangle counts, and
+ * that part must be positive definite. A triangle takes the mean of a point array. The integral of
+ * a squared mode is taken in this metric as well.
  *
- * Output port 0 (vtkPolyData): the input with
+ * Output port 0 (vtkPolyData): the input with the following arrays.
  * - point data, in the precision of the points (double when they are integers): `Mode` (1
- *   component), the mode that is shown; or, with AllModes on, `Mode000`, `Mode001`, ... The
- *   integral of a squared mode over the surface is 1 in world units. Points that no polygon uses
- *   get 0. Such arrays of the input are left out.
- * - field data: `Eigenvalues` (double, 1; a tuple per mode, one over squared world length),
- *   `Converged` (int, 1), `UsedDepth` (int, 1): the depth of the space
+ *   component), the shown mode. With AllModes on, the output has `Mode000`, `Mode001`, ... instead.
+ *   The integral of a squared mode over the surface is 1 in world units. Points that no polygon
+ *   uses get 0. Arrays of the input with such names are left out.
+ * - field data: `Eigenvalues` (double, 1), one tuple per mode, in one over squared world length.
+ * - field data: `Converged` (int, 1).
+ * - field data: `CutsGroup` (int, 1): 1 if the last modes are part of a longer group of equal
+ *   eigenvalues. A larger NumberOfModes has all of it. Eigenvalues count as equal if they differ by
+ *   less than 1 % and by less than a quarter of their mean distance.
+ * - field data: `UsedDepth` (int, 1), the depth of the space.
  *
- * Output port 1 (vtkTable): a row per mode with `Mode` (int), `Eigenvalue` (double), `Residual`
- * (double), whose square estimates the relative error of the eigenvalue as one of the space, and
- * `EstimatedError` (double): the relative error of the eigenvalue as one of the surface, estimated
- * from the space of half the resolution, whose errors are four times as large; 1 where that space
- * has no such mode. With HatFunctions as FunctionSpace what the hat functions lie above the grid is
- * added: both are upper bounds, so this is the error of the worse of the two.
+ * Output port 1 (vtkTable) has a row per mode.
+ * - `Mode` (int) and `Eigenvalue` (double).
+ * - `Residual` (double): its square estimates the relative error of the eigenvalue as one of the
+ *   space.
+ * - `EstimatedError` (double): the estimated relative error of the eigenvalue as one of the
+ *   surface. The estimate comes from the space of half the resolution, whose errors are four times
+ *   as large. It is 1 if that space has no such mode. With HatFunctions it also includes how far
+ *   the eigenvalue of the hat functions lies above that of the grid. Both are upper bounds, so this
+ *   is the error of the worse of the two.
  *
- * Time: unless AllModes is on or Mode is fixed, every mode but mode 0 is a time step, with its
- * index as time value. Mode 0 is constant, so there is nothing to see; Mode = 0 shows it. All modes
- * are computed once; a change of time or of Mode computes nothing. The modes are those of the input
- * at one time, which stays the same. With AllModes on or Mode fixed, the times are the input's.
+ * Time: every mode but mode 0 is a time step, with its index as time value, unless AllModes is on
+ * or Mode is fixed. Mode 0 is constant and shows nothing; set Mode to 0 to see it. All modes are
+ * computed once. A change of time or of Mode computes nothing. The modes are those of the input at
+ * one time, which stays the same. With AllModes on or Mode fixed, the times are the input's.
  *
- * Tolerance (default 1e-6) is the wanted relative error of the eigenvalues as those of the space;
- * Depth, or Accuracy, decides about the error of the space. All shared properties
- * but ParameterUnits are used. Cycles run in single precision where that resolves the surface;
- * eigenvalues and modes are always double.
+ * Tolerance (default 1e-6) is the wanted relative error of the eigenvalues as those of the space.
+ * Depth or Accuracy determines the error of the space itself. The filter uses all shared properties
+ * but ParameterUnits. Cycles run in single precision if that resolves the surface. Eigenvalues and
+ * modes are always double.
  *
- * All ranks of MPI compute together unless Accuracy is above 0, TrackMetric is on or a MetricArray
- * is chosen. Zero modes of several components may come in another order, and modes with the other
- * sign.
+ * All MPI ranks compute together unless Accuracy is above 0, TrackMetric is on or a MetricArray is
+ * chosen. They may order the zero modes of several components differently and may flip the sign of
+ * a mode.
  */
 #ifndef vtkLaplaceSpectrum_h
 #define vtkLaplaceSpectrum_h
@@ -61,9 +69,7 @@ public:
 
   ///@{
   /**
-   * How many modes to compute. A warning says when fewer exist, and when the last of them belongs
-   * to a group of equal eigenvalues that is cut. Eigenvalues count as equal when they differ by
-   * less than 1 % and by less than a quarter of their mean distance. 1..100000, default 20.
+   * How many modes to compute. A warning says if fewer exist. 1..100000, default 20.
    */
   vtkSetClampMacro(NumberOfModes, int, 1, 100000);
   vtkGetMacro(NumberOfModes, int);
@@ -71,9 +77,9 @@ public:
 
   ///@{
   /**
-   * The mode to show, from 0; -1 (default) shows the mode of the time that is asked for, the first
-   * time step when none is. A mode that does not exist is refused when the filter runs; AllModes
-   * ignores this property.
+   * The mode to show, from 0. With -1 (default) the requested time chooses the mode. Without a
+   * requested time the filter shows the first time step. The filter refuses a mode that does not
+   * exist when it runs. AllModes ignores this property.
    */
   vtkSetMacro(Mode, int);
   vtkGetMacro(Mode, int);
@@ -90,17 +96,22 @@ public:
 
   ///@{
   /**
-   * When on, and only points of the surface have moved since its functions were made, as in the
-   * next time step of an animation, the functions stay: the grid, the clip and the patterns are
-   * those of the surface seen first, and integrals are in the metric of where it is now. Faster
-   * than to start again, as when cells have changed or a triangle has lost its area. The functions
-   * move with the surface: they are as good as on the surface seen first where the motion bends,
-   * and become poorer where it stretches one direction more than another; parts that come near to
-   * each other later do not feel each other. So results depend, within the error of the space, on
-   * the time step that was computed first, or at the last change of Depth and the like: the field
-   * array `ReferenceTime` says which, where the input has times, and `LargestStretchRatio` how far
-   * the map from there is from keeping angles, which is 1. Needs ReleaseDataFlagOff, the default,
-   * and does not go with MetricArray. It has no effect with an Accuracy above 0. Default off.
+   * When on, the functions stay as long as only points of the surface move, as in the next time
+   * step of an animation. This is faster than starting again. The grid, the clip and the patterns
+   * are those of the surface seen first, and integrals are in the metric of the current surface.
+   * The filter starts again if cells have changed or a triangle has lost its area.
+   *
+   * The functions move with the surface. They stay as good as on the surface seen first where the
+   * motion bends it. They become poorer where the motion stretches one direction more than another.
+   * Parts that come near to each other later do not influence each other.
+   *
+   * Results therefore depend, within the error of the space, on the time step that was computed
+   * first. A change of Depth and the like makes the next step the first. The field array
+   * `ReferenceTime` names this time step if the input has times. The field array
+   * `LargestStretchRatio` measures how far the map from there is from keeping angles; 1 keeps them.
+   *
+   * Needs ReleaseDataFlagOff, the default, and excludes MetricArray. It has no effect with an
+   * Accuracy above 0. Default off.
    */
   vtkSetMacro(TrackMetric, bool);
   vtkGetMacro(TrackMetric, bool);
@@ -109,11 +120,11 @@ public:
 
   ///@{
   /**
-   * The wanted relative error of the eigenvalues as those of the surface. Above 0 it chooses the
-   * depth, and Depth is not used: the estimated error of every eigenvalue is at most Accuracy. A
-   * warning, and `Converged` = 0, say when it is not reached: with a basis that is given, or for
-   * want of memory. With HatFunctions the mesh may be too coarse, and no depth changes its error.
-   * At 0 (default) Depth is used. 0..0.5.
+   * The wanted relative error of the eigenvalues as those of the surface. Above 0, it replaces
+   * Depth: the filter chooses the depth at which the estimated error of every eigenvalue is at most
+   * Accuracy. If the depth does not fit into memory or a basis is given, Accuracy may not be
+   * reached. A warning says so, and `Converged` is 0. With HatFunctions the mesh may be too coarse,
+   * and no depth changes its error. 0..0.5, default 0: Depth is used.
    */
   vtkSetClampMacro(Accuracy, double, 0.0, 0.5);
   vtkGetMacro(Accuracy, double);

@@ -2,18 +2,23 @@
  * @class   vtkPoissonAlgorithm
  * @brief   base class of filters that solve Poisson equations to the accuracy of their space
  *
- * The iteration ends when its own error is estimated to be a part, Accuracy, of the error that the
- * function space has anyway. With a Tolerance above 0 it ends by the energy residual instead.
+ * The function space has an error whatever the iteration does. The iteration ends when its own
+ * estimated error is at most Accuracy times the error of the space. With a Tolerance above 0, it
+ * ends by the energy residual instead.
  *
- * Such filters add to the field data of output port 0, besides `Converged`, `Iterations`,
- * `DoublePrecisionSince`, `Residual` and `ConvergenceFactor`:
- * - `DiscretizationError` (double, 1): the estimated error of the function space, relative to the
- *   solution without its mean, in the mean square over the surface; `LargestDiscretizationError`
- *   (double, 1): the largest at a point, in units of the solution; `AlgebraicError` (double, 1):
- *   what the iteration has left, relative as the first. Of several components or solves the worst;
- *   not a number where nothing is known, as without coarser levels.
- * - `TrustedEstimate` (int, 1): 0 where levels do not differ as they do on a resolved surface: the
- *   first may be too small then.
+ * Such filters add the following arrays to the field data of output port 0, besides `Converged`,
+ * `Iterations`, `DoublePrecisionSince`, `Residual` and `ConvergenceFactor`.
+ * - `DiscretizationError` (double, 1): the estimated error of the function space in the mean square
+ *   over the surface, relative to the solution without its mean.
+ * - `LargestDiscretizationError` (double, 1): the largest error at a point, in units of the
+ *   solution.
+ * - `AlgebraicError` (double, 1): the error that the iteration has left, relative as
+ *   `DiscretizationError`.
+ * - `TrustedEstimate` (int, 1): 0 if levels do not differ as they do on a resolved surface.
+ *   `DiscretizationError` may be too small then.
+ *
+ * Several components or solves give the worst value. An unknown error, for example without coarser
+ * levels, is NaN.
  */
 #ifndef vtkPoissonAlgorithm_h
 #define vtkPoissonAlgorithm_h
@@ -28,9 +33,9 @@ public:
 
   ///@{
   /**
-   * How good the solution is to be as that of the discrete equations: the iteration ends when its
-   * own error is estimated to be this part of the error that the function space has anyway. Above
-   * 0, at most 1, default 0.1; used where Tolerance is 0. The estimates are in the field data.
+   * How well to solve the discrete equations. The iteration ends when its own estimated error is
+   * this part of the error that the function space has anyway. Above 0, at most 1, default 0.1.
+   * Used if Tolerance is 0. The estimates are in the field data.
    */
   vtkSetClampMacro(Accuracy, double, 1e-6, 1.0);
   vtkGetMacro(Accuracy, double);
@@ -38,7 +43,8 @@ public:
 
   ///@{
   /**
-   * As in every solver, but that 0 (default) is allowed: Accuracy decides then.
+   * The Tolerance of every solver, which may be 0 here. With 0 (default) Accuracy ends the
+   * iteration.
    */
   void SetTolerance(double tolerance) override;
   double GetToleranceMinValue() override { return 0.0; }

@@ -35,7 +35,7 @@ vtkStandardNewMacro(vtkSpectralSignatures);
 namespace
 {
 
-/// A point array whose components are named by their scales.
+/// Adds a point array whose components are named by their scales.
 void AddSignature(vtkPolyData* output, const char* name, const gridfem::MultiVector& values,
   const char* symbol, const std::vector<double>& scales, int precision)
 {
@@ -66,8 +66,8 @@ struct vtkSpectralSignatures::Internals
   gridfem::SignatureSolver Solver;
   gridfem::SignatureSolver::Input Given;                    // in this run
   const gridfem::SignatureSolver::Result* Result = nullptr; // of this run
-  gridfem::InputMesh Mesh;   // of the modes, with the copies that a rank has of others' triangles
-  gridfem::InputArray Value; // that is filtered; none: the coordinates
+  gridfem::InputMesh Mesh;   // of the modes, with a rank's copies of others' triangles
+  gridfem::InputArray Value; // to be filtered; none: the coordinates
 };
 
 vtkSpectralSignatures::vtkSpectralSignatures() : Data(std::make_unique<Internals>())
@@ -123,8 +123,8 @@ vtkIdType vtkSpectralSignatures::GetSourcePointId(vtkIdType index)
                                                                  : -1;
 }
 
-/// A rank knows only its own points, so that the sources of other ranks are missing. Points that
-/// move have normals and arrays that follow them on the whole surface.
+/// A rank knows only its own points, so that the sources of other ranks are missing. Moved points
+/// need the whole surface, because their normals and the arrays that follow them come from it.
 bool vtkSpectralSignatures::NeedsWholeSurface()
 {
   const bool moves = this->FilterType != NoFilter && !gridfem::IsArrayChosen(this, 0);
@@ -192,7 +192,7 @@ void vtkSpectralSignatures::Solve(vtkDataSet* sources)
     &data.Solver.Update(state, data.Given, options, { state.Threads(), progress.Part(0.0, 0.99) });
 }
 
-/// On several ranks copies of triangles have values of their own.
+/// Copies of triangles have their own values on several ranks.
 void vtkSpectralSignatures::FindValues()
 {
   gridfem::SurfaceSolverState& state = *this->State;

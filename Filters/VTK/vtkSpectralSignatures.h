@@ -2,53 +2,62 @@
  * @class   vtkSpectralSignatures
  * @brief   what the eigenfunctions of a surface tell about its points and its shape
  *
- * Signatures of every point, distances from chosen points, frequency filters, and a fingerprint of
- * the shape, all as sums over the modes of Laplace Spectrum:
+ * Computes signatures of every point, distances from chosen points, frequency filters, and a
+ * fingerprint of the shape. All are sums over the modes of vtkLaplaceSpectrum, with the eigenvalue
+ * l and the mode p:
  *
- * - Heat kernel signature: area * sum exp(-l t) p(x)^2, with the eigenvalue l and the mode p, for
- *   NumberOfScales times t between 4 ln 10 / l of the last mode and 4 ln 10 / l of the first one
- *   that is not constant. Small times see details, large ones the whole shape.
+ * - Heat kernel signature: area * sum exp(-l t) p(x)^2 for NumberOfScales times t. They lie between
+ *   4 ln 10 / l of the last mode and 4 ln 10 / l of the first one that is not constant. Small times
+ *   show details, large ones the whole shape.
  * - Wave kernel signature: the mean of area * p(x)^2 over bands of log l.
- * - Biharmonic distance: sqrt(sum (p(x) - p(y))^2 / l^2). Diffusion distance: sqrt(area * sum
- *   exp(-2 l t) (p(x) - p(y))^2) with t = DiffusionTime. From every point to the nearest source.
+ * - Biharmonic distance: sqrt(sum (p(x) - p(y))^2 / l^2), from every point to the nearest source.
+ * - Diffusion distance: sqrt(area * sum exp(-2 l t) (p(x) - p(y))^2) with t = DiffusionTime, from
+ *   every point to the nearest source.
  * - Low, high and band pass: the sum of the shares of a point array, or of the shape itself, in
- * some of the modes. Function and modes are taken as linear on every triangle, and their products
- * are integrated exactly.
+ *   some of the modes. Function and modes are linear on every triangle, and their products are
+ *   integrated exactly.
  * - Shape-DNA: area * l, the same for a scaled shape.
  *
- * Input port 0: vtkPolyData with polygons or triangle strips. When it carries the output of Laplace
- * Spectrum with AllModes on (the field array `Eigenvalues` and the point arrays `Mode000`,
- * `Mode001`, ...), these modes are taken, and nothing is solved; NumberOfModes, the basis and the
- * solver's properties are not used then. Else the modes are computed as Laplace Spectrum does; the
- * last group of equal eigenvalues is completed, because signatures and distances need whole groups.
- * Modes that are not of this mesh are recognised (the integral of a squared mode is not 1, or its
- * Rayleigh quotient not the eigenvalue): a warning says so, they are left out and computed anew.
- * Input port 1 (optional): the output of vtkConnectivityAwareBasis for the mesh of port 0. Input
- * port 2 (optional): any vtkDataSet, for example an extracted selection; the mesh points nearest to
- * its points are sources.
+ * Input port 0: vtkPolyData with polygons or triangle strips.
+ * Input port 1 (optional): the output of vtkConnectivityAwareBasis for the mesh of port 0.
+ * Input port 2 (optional): any vtkDataSet, for example an extracted selection. The mesh points
+ * nearest to its points are sources.
  *
- * Output port 0 (vtkPolyData): the input with
+ * If port 0 carries the output of vtkLaplaceSpectrum with AllModes on, the filter takes these modes
+ * and solves nothing. Such an input has the field array `Eigenvalues` and the point arrays
+ * `Mode000`, `Mode001`, ... NumberOfModes, the basis and the solver's properties are not used then.
+ *
+ * Otherwise the filter computes the modes as vtkLaplaceSpectrum does. It completes the last group
+ * of equal eigenvalues, because signatures and distances need whole groups. It recognizes modes of
+ * another mesh: the integral of a squared mode is not 1, or its Rayleigh quotient is not the
+ * eigenvalue. The filter then warns, leaves the modes out and computes new ones.
+ *
+ * Output port 0 (vtkPolyData): the input with the following arrays. Points that no polygon uses get
+ * 0 unless noted.
  * - point data, in the precision of the points (double when they are integers):
- *   `HeatKernelSignature` and `WaveKernelSignature` (NumberOfScales components; no unit), and the
- *   first at its middle scale as `Signature`;
- *   with sources `BiharmonicDistance` (1 component, world length; NaN on components of the surface
- *   without a source) and `DiffusionDistance` (1 component, no unit). Points that no polygon uses
- *   get 0, and NaN for the biharmonic distance.
- * - point data, with a FilterType: `Filtered` (the components of the array; float if that is float,
- *   else double; points that no polygon uses keep their value). When the coordinates are filtered,
- * the points move to their filtered places: `Displacement` and `NormalDisplacement` are added,
- * normals follow, and clip, basis and modes, which belong to the old shape, are left out.
- * - field data: `HeatTimes` (double, world length squared), `WaveEnergies` (double, logarithms of
- *   eigenvalues in world units), one tuple per scale; `Converged` (int, 1) when modes were computed
+ *   `HeatKernelSignature` and `WaveKernelSignature` (NumberOfScales components; no unit).
+ * - point data, in the same precision: `Signature`, the heat kernel signature at its middle scale.
+ * - point data, with sources: `BiharmonicDistance` (1 component, world length). It is NaN on
+ *   components of the surface without a source and at points that no polygon uses.
+ * - point data, with sources: `DiffusionDistance` (1 component, no unit).
+ * - point data, with a FilterType: `Filtered`, with the components of the array. It is float if the
+ *   array is float, else double. Points that no polygon uses keep their value. If the coordinates
+ *   are filtered, the points move to their filtered places. The output then has `Displacement` and
+ *   `NormalDisplacement`, and normals follow. The clip, basis and modes belong to the old shape and
+ *   are left out.
+ * - field data, one tuple per scale: `HeatTimes` (double, world length squared) and `WaveEnergies`
+ *   (double, logarithms of eigenvalues in world units).
+ * - field data: `Converged` (int, 1), if modes were computed.
  *
- * Output port 1 (vtkTable): a row per mode with `Mode` (int), `Eigenvalue` and `ShapeDNA` (double).
+ * Output port 1 (vtkTable) has a row per mode with `Mode` (int), `Eigenvalue` and `ShapeDNA`
+ * (double).
  *
- * Arrays: SetInputArrayToProcess index 0, `ValueArray`: a point array with any number of components
- * to be filtered; without it the coordinates. All shared properties are used; ParameterUnits is the
- * unit of DiffusionTime, as squared length.
+ * SetInputArrayToProcess(0, ...) chooses the `ValueArray` to filter: a point array with any number
+ * of components. Without it the filter takes the coordinates. The filter uses all shared
+ * properties. DiffusionTime is in the squared unit of length of ParameterUnits.
  *
- * All ranks of MPI compute together, also with the modes of the input. Sources of distances, and
- * coordinates that are filtered, are left to rank 0.
+ * All MPI ranks compute together, also with the modes of the input. Rank 0 computes alone if there
+ * are sources of distances or if coordinates are filtered.
  */
 #ifndef vtkSpectralSignatures_h
 #define vtkSpectralSignatures_h
@@ -67,8 +76,8 @@ public:
 
   ///@{
   /**
-   * How many modes to compute when the input has none; at least, a group of equal eigenvalues is
-   * not cut. 2..100000, default 100.
+   * The least number of modes to compute if the input has none. The filter computes more rather
+   * than cut a group of equal eigenvalues. 2..100000, default 100.
    */
   vtkSetClampMacro(NumberOfModes, int, 2, 100000);
   vtkGetMacro(NumberOfModes, int);
@@ -76,8 +85,8 @@ public:
 
   ///@{
   /**
-   * Times of the heat kernel signature, and bands of the wave kernel signature. 1..1000, default
-   * 16.
+   * The number of times of the heat kernel signature, and of bands of the wave kernel signature.
+   * 1..1000, default 16.
    */
   vtkSetClampMacro(NumberOfScales, int, 1, 1000);
   vtkGetMacro(NumberOfScales, int);
@@ -85,8 +94,8 @@ public:
 
   ///@{
   /**
-   * Points that distances are measured from, besides those of port 2. None by default. An id that
-   * is no point of a polygon is refused when the filter runs.
+   * Points that distances are measured from, besides those of port 2. None by default. The filter
+   * refuses an id that no polygon uses when it runs.
    */
   void AddSourcePointId(vtkIdType id);
   void ClearSourcePointIds();
@@ -96,9 +105,9 @@ public:
 
   ///@{
   /**
-   * The time of the diffusion distance, squared length of ParameterUnits: features smaller than
-   * about its root are blurred. 0 or more, default 0.01. A negative one is refused when the filter
-   * runs.
+   * The time of the diffusion distance, in the squared unit of length of ParameterUnits. Features
+   * smaller than about its square root are blurred. 0 or more, default 0.01. The filter refuses a
+   * negative one when it runs.
    */
   vtkSetMacro(DiffusionTime, double);
   vtkGetMacro(DiffusionTime, double);
@@ -113,9 +122,12 @@ public:
   };
   ///@{
   /**
-   * What becomes of the ValueArray: nothing (NoFilter, default); modes 0..LastMode are kept
-   * (LowPass); modes 0..FirstMode - 1 are taken away, and all the rest is kept, also what none of
-   * the modes shows (HighPass); modes FirstMode..LastMode are kept (BandPass).
+   * What to do with the ValueArray.
+   * - NoFilter (default): nothing.
+   * - LowPass: keep modes 0..LastMode.
+   * - HighPass: remove modes 0..FirstMode - 1 and keep all the rest, also the part that no mode
+   *   shows.
+   * - BandPass: keep modes FirstMode..LastMode.
    */
   vtkSetClampMacro(FilterType, int, NoFilter, BandPass);
   vtkGetMacro(FilterType, int);
@@ -131,8 +143,8 @@ public:
 
   ///@{
   /**
-   * The last mode that passes, for LowPass and BandPass; beyond the last mode there is: that one. 0
-   * or more, default 20.
+   * The last mode that passes, for LowPass and BandPass. A larger number means the last mode there
+   * is. 0 or more, default 20.
    */
   vtkSetClampMacro(LastMode, int, 0, VTK_INT_MAX);
   vtkGetMacro(LastMode, int);

@@ -29,14 +29,14 @@ vtkStandardNewMacro(vtkStitchColors);
 namespace
 {
 
-/// As readers of scans give them.
+/// Whether an array has the form in which readers of scans give colors.
 bool AreColors(vtkDataArray* array)
 {
   return array->GetDataType() == VTK_UNSIGNED_CHAR && array->GetNumberOfComponents() >= 3 &&
          array->GetNumberOfComponents() <= 4;
 }
 
-/// What numbers or marks points and cells for other ends than to tell scans.
+/// Whether an array numbers or marks points and cells for another purpose than to tell scans apart.
 bool IsForOtherEnds(vtkDataArray* array, vtkDataSetAttributes* attributes)
 {
   const char* name = array->GetName();
@@ -45,7 +45,7 @@ bool IsForOtherEnds(vtkDataArray* array, vtkDataSetAttributes* attributes)
                     gridfem::IsClipCellArray(name)));
 }
 
-/// Integers, of which each is there twice in the mean at least.
+/// Whether an array has integers that each appear at least twice on average.
 bool AreLabels(vtkDataArray* array)
 {
   constexpr std::size_t MostScans = 1000;
@@ -93,7 +93,7 @@ gridfem::InputArray FindLabels(vtkAlgorithm* algorithm, vtkPolyData* input, vtkD
   return labels;
 }
 
-/// The least and the largest value of a stitched colour.
+/// The least and the largest value of a stitched color.
 std::pair<double, double> RangeOf(vtkDataArray* colors)
 {
   if (colors->GetDataType() != VTK_FLOAT && colors->GetDataType() != VTK_DOUBLE)
@@ -111,7 +111,7 @@ std::pair<double, double> RangeOf(vtkDataArray* colors)
   return { 0.0, 1.0 };
 }
 
-/// A copy of the colours with new values where `isNew`.
+/// Returns a copy of the colors with new values where `isNew`.
 vtkSmartPointer<vtkDataArray> WithValues(
   vtkDataArray* colors, const gridfem::MultiVector& values, const std::vector<char>& isNew)
 {

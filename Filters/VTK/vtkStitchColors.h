@@ -1,36 +1,37 @@
 /**
  * @class   vtkStitchColors
- * @brief   make one colouring of the colours of several scans
+ * @brief   make one coloring of the colors of several scans
  *
- * Scans of one surface differ in exposure, so that their colours jump where they meet. The result
- * has the gradients that the colours have inside the scans, and no jumps: a Poisson equation for
- * all components at once.
+ * Scans of one surface differ in exposure, so that their colors jump where they meet. The result
+ * has the gradients that the colors have inside the scans, and no jumps. It solves one Poisson
+ * equation for all components at once.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
- * vtkConnectivityAwareBasis. Input port 1 (optional): the output of vtkConnectivityAwareBasis for
- * the mesh of port 0.
+ * vtkConnectivityAwareBasis.
+ * Input port 1 (optional): the output of vtkConnectivityAwareBasis for the mesh of port 0.
  *
- * Arrays, as point or cell data of input port 0, chosen by SetInputArrayToProcess:
- * - index 0, `ColorArray`: 1 to 4 components of any numeric type. Where none is chosen, the only
- *   array of bytes with three or four components.
- * - index 1, `LabelArray`: one component, integers: the scan. Points with one label may be
- *   anywhere. Where none is chosen, the only other array of an integer type with 2 to
- *   1,000 values, each of them there twice in the mean, that is no ids, ghosts or cells of a clip.
+ * Arrays are point or cell data of input port 0. SetInputArrayToProcess chooses them:
+ * - index 0, `ColorArray`: 1 to 4 components of any numeric type. If none is chosen, the filter
+ *   takes the only array of bytes with three or four components.
+ * - index 1, `LabelArray`: one component, integers, the number of the scan. Points with one label
+ *   may be anywhere. If none is chosen, the filter takes the only other array of an integer type
+ *   with 2 to 1,000 values that each appear at least twice on average. It ignores ids, ghosts and
+ *   the cells of a clip.
  *
- * Output port 0 (vtkPolyData): the input with
- * - point or cell data, as ColorArray: `StitchedColors`, same type and components. Integers are
- *   rounded and stay in the range of their type; numbers with a point that lie in 0..1 stay there.
- *   Points and cells that no polygon uses keep their colour.
+ * Output port 0 (vtkPolyData): the input with the following arrays.
+ * - point or cell data, as ColorArray: `StitchedColors`, with the same type and components.
+ *   Integers are rounded and stay in the range of their type. Real numbers that lie in 0..1 stay
+ *   there. Points and cells that no polygon uses keep their color.
  * - field data: `Converged`, `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor`
- *   and the estimated errors of vtkPoissonAlgorithm: those of the function that KeepDetails adds
- *   details to
+ *   and the estimated errors of vtkPoissonAlgorithm. They are those of the function before
+ *   KeepDetails adds details.
  *
- * Colours at points are linear on triangles; triangles that touch two scans are seams, whose
+ * Colors at points are linear on triangles. Triangles that touch two scans are seams, whose
  * gradients are left out. Scans whose borders coincide without sharing points are stitched as well
- * (WeldCoincidentPoints); with ConnectivityAware off, a grid stitches across gaps narrower than a
- * cell, too, but sheets that lie as close then feel each other.
+ * (WeldCoincidentPoints). With ConnectivityAware off, a grid also stitches across gaps narrower
+ * than a cell, but then sheets that lie as close influence each other.
  *
- * NormalStabilization is 1e-2 by default. All shared properties but ParameterUnits are used.
+ * NormalStabilization is 1e-2 by default. The filter uses all shared properties but ParameterUnits.
  */
 #ifndef vtkStitchColors_h
 #define vtkStitchColors_h
@@ -46,8 +47,9 @@ public:
 
   ///@{
   /**
-   * Gradients leave a constant open. -1 (default): every connected component keeps its mean colour.
-   * Any other label: the scan with this label keeps its own; components without it as before.
+   * The scan that keeps its own colors, since gradients determine colors only up to a constant. -1
+   * (default): every connected component keeps its mean color. Any other label: the scan with this
+   * label keeps its own mean. Components without the label keep theirs.
    */
   vtkSetMacro(ReferenceLabel, int);
   vtkGetMacro(ReferenceLabel, int);
@@ -55,8 +57,8 @@ public:
 
   ///@{
   /**
-   * When on (default), details finer than the functions stay as they are: what stitching changes is
-   * added to the colours, smoothed over two cells inside each scan. When off, the result is the
+   * When on (default), details finer than the functions stay as they are. The filter adds only the
+   * change to the colors, smoothed over two cells inside each scan. When off, the result is the
    * function itself.
    */
   vtkSetMacro(KeepDetails, bool);
@@ -66,9 +68,10 @@ public:
 
   ///@{
   /**
-   * How far along the surface from a seam gradients are kept in part: none at the seam, all from
-   * here on. For scans whose colours are poor near their borders. A part of the longest side of the
-   * surface, 0..1; 0 (default): all up to the seam.
+   * The distance from a seam along the surface within which gradients count only in part: not at
+   * all at the seam, fully from this distance on. Use it for scans whose colors are poor near their
+   * borders. A part of the longest side of the surface, 0..1; 0 (default) counts all gradients
+   * fully up to the seam.
    */
   vtkSetClampMacro(BlendWidth, double, 0.0, 1.0);
   vtkGetMacro(BlendWidth, double);

@@ -56,7 +56,7 @@ vtkSurfaceFEMAlgorithm::vtkSurfaceFEMAlgorithm()
     Joined(std::make_unique<gridfem::JoinedBlocks>()),
     Tables(std::make_unique<gridfem::BlockTables>())
 {
-  // On several ranks blocks that only some of them have would leave the others waiting.
+  // Ranks without a block would leave the others waiting. All ranks therefore get the same blocks.
   vtkNew<vtkCallbackCommand> beginBlocks;
   beginBlocks->SetClientData(this);
   beginBlocks->SetCallback(
@@ -69,8 +69,8 @@ vtkSurfaceFEMAlgorithm::vtkSurfaceFEMAlgorithm()
     });
   this->AddObserver(vtkCommand::StartEvent, beginBlocks);
 
-  // A run may find other steps; and of composite data the pipeline hands the input's times on once
-  // more when all blocks are done.
+  // A run may find other steps. For composite data, the pipeline also passes on the input's times
+  // once more after the last block.
   vtkNew<vtkCallbackCommand> keepTimes;
   keepTimes->SetClientData(this);
   keepTimes->SetCallback(
@@ -118,7 +118,7 @@ std::vector<double> vtkSurfaceFEMAlgorithm::TimeSteps()
   return this->Ranked->StepsOf(this->OwnTimeSteps());
 }
 
-/// The pipeline has handed the input's time steps on already.
+/// Replaces the input's time steps, which the pipeline has already passed on.
 int vtkSurfaceFEMAlgorithm::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
@@ -185,7 +185,7 @@ bool vtkSurfaceFEMAlgorithm::HasNoPoints(vtkInformationVector** inputs) const
                              : gridfem::IsEmpty(vtkDataSet::GetData(inputs[0]));
 }
 
-/// What RequestData returns.
+/// Returns the result of RequestData.
 int vtkSurfaceFEMAlgorithm::RunCompute(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   const gridfem::MemoryReuse reuse;
@@ -207,7 +207,7 @@ int vtkSurfaceFEMAlgorithm::RunCompute(vtkInformationVector** inputs, vtkInforma
   }
   catch (const gridfem::FailedElsewhere&)
   {
-    // The first rank says why.
+    // The first rank reports the error.
   }
   catch (const gridfem::Aborted&)
   {
@@ -216,7 +216,7 @@ int vtkSurfaceFEMAlgorithm::RunCompute(vtkInformationVector** inputs, vtkInforma
   }
   catch (const std::bad_alloc&)
   {
-    this->FreeStages(); // of which the next run, and the message, may need the memory
+    this->FreeStages(); // the next run and the message may need the memory
     vtkErrorMacro(
       "Out of memory at Depth " << this->State->options.space.depth << ": choose a smaller Depth.");
   }
@@ -256,7 +256,7 @@ const gridfem::JoinedBlocks* vtkSurfaceFEMAlgorithm::JoinedInput() const
   return this->BlocksAsOne && this->Blocks->Whole() ? this->Joined.get() : nullptr;
 }
 
-/// One block of those that are one surface: the first one computes for all.
+/// Computes one block of a surface of several blocks. The first block computes for all.
 void vtkSurfaceFEMAlgorithm::ComputeBlock(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
@@ -323,7 +323,8 @@ void vtkSurfaceFEMAlgorithm::ComputeJoinedBlocks(vtkInformationVector** inputs)
   }
 }
 
-/// Compute, and what all outputs say: the depth of the grid, where there is one.
+/// Calls Compute and adds the field array that all outputs have: the depth of the grid, if there is
+/// one.
 void vtkSurfaceFEMAlgorithm::ComputeSurface(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
@@ -339,7 +340,7 @@ void vtkSurfaceFEMAlgorithm::ComputeSurface(
   }
 }
 
-/// The same on several MPI ranks: all of them come here, also those without a piece of the surface.
+/// Computes on several MPI ranks. All of them call it, also those without a piece of the surface.
 void vtkSurfaceFEMAlgorithm::ComputeOnRanks(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
@@ -384,11 +385,12 @@ void vtkSurfaceFEMAlgorithm::ComputeOnRanks(
       gridfem::StampTime(!this->OwnTimeSteps().empty(), gathered[0], results);
       return this->OwnTimeSteps();
     });
-  // What an earlier filter has said of itself.
+  // The array would otherwise be that of an earlier filter.
   vtkPolyData::GetData(outputs)->GetFieldData()->RemoveArray(gridfem::DistributedName);
 }
 
-/// After a failure what one rank has made may not fit what others have: all start anew.
+/// Starts all ranks anew after a failure, because the data of one rank may not fit those of the
+/// others.
 bool vtkSurfaceFEMAlgorithm::TryTogether(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
@@ -454,7 +456,7 @@ void vtkSurfaceFEMAlgorithm::FreeStages()
 void vtkSurfaceFEMAlgorithm::FinishAbort(vtkInformationVector* outputs)
 {
   EmptyOutputs(outputs);
-  this->AbortExecute = 0; // the request is served; left standing, it would empty the next run
+  this->AbortExecute = 0; // the request is served; it would empty the next run
 #if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20230111)
   this->SetAbortOutput(true); // the pipeline marks the outputs, so that nothing runs on them
 #endif

@@ -2,51 +2,55 @@
  * @class   vtkSurfaceFEMAlgorithm
  * @brief   what all surface finite element filters share
  *
- * The surface is laid into a cube of 2^Depth cells per side; the functions are the trilinear
- * B-splines of the grid corners, restricted to the surface. This class holds the properties that
- * have the same name and meaning in every filter, the stages that are run again only when what they
- * depend on has changed, and the rule by which every filter fails:
+ * Holds the properties that have the same name and meaning in every filter. It also holds the
+ * stages, which run again only if something they depend on has changed. The surface lies in a cube
+ * of 2^Depth cells per side. The functions are the trilinear B-splines of the grid corners,
+ * restricted to the surface.
  *
+ * Every filter fails by the same rule:
  * - An input without points gives empty outputs, silently.
- * - An unusable input gives one error message, empty outputs, and RequestData returns 0; the error
- *   code is vtkErrorCode::UnknownError then, and the pipeline prints nothing of its own.
+ * - An unusable input gives one error message and empty outputs. RequestData returns 0, and the
+ *   error code is vtkErrorCode::UnknownError. The pipeline prints no message of its own.
  * - A solver that does not converge warns, keeps its result, and sets the field array `Converged`
  *   (int, one value) to 0.
- * - An abort gives empty outputs, which are marked as aborted, so that filters behind do not run
- *   (VTK 9.3 and later). The filter switches AbortExecute off again, so that the next run, after a
- *   change, is a full one.
+ * - An abort gives empty outputs, which are marked as aborted, so that downstream filters do not
+ *   run (VTK 9.3 and later). The filter resets AbortExecute, so that the next run, after a change,
+ *   is a full one.
  *
- * Input port 0 takes vtkPolyData with polygons of any size or triangle strips. Of any other
- * vtkDataSet the surface is taken, by vtkDataSetSurfaceFilter: outputs lie on it, with the arrays
- * `vtkOriginalPointIds` and `vtkOriginalCellIds`. A composite input is taken leaf by leaf, each as
- * a surface by itself, or all leaves as one surface with BlocksAsOne; a leaf that lacks an array
- * which another one has is passed on as it is, with a warning. Vertices, lines, and cells that
- * vtkGhostType marks as hidden or as duplicates take no part; the solvers pass them on, the clip
- * leaves them out. Computation is in double precision. Results do not depend on NumberOfThreads.
+ * Input port 0 takes vtkPolyData with polygons of any size or triangle strips.
+ * vtkDataSetSurfaceFilter extracts the surface of any other vtkDataSet. The outputs then lie on
+ * this surface and have the arrays `vtkOriginalPointIds` and `vtkOriginalCellIds`. Each leaf of a
+ * composite input is a surface by itself. With BlocksAsOne, all leaves are one surface. A leaf that
+ * lacks an array of another leaf is passed on unchanged, with a warning. Vertices and lines take no
+ * part, nor do cells that vtkGhostType marks as hidden or as duplicates. The solvers pass them on,
+ * and the clip leaves them out. Computation is in double precision. Results do not depend on
+ * NumberOfThreads.
  *
- * On several MPI ranks all compute where they can, and none gathers the surface, which may be
- * larger than one machine: the field array `Distributed` is 1 then. They can on welded points, with
- * the patch smoother, without BlocksAsOne, and in most solvers, as the page of each filter says.
- * Where they cannot, the surface is gathered on rank 0, which computes with its threads and has to
- * hold all of it; the others sleep. Ghost cells count once, and points on borders are joined by
+ * On several MPI ranks, all ranks compute together if they can, and none gathers the surface, which
+ * may be larger than one machine. The field array `Distributed` is 1 then. This needs welded points
+ * and the patch smoother, excludes BlocksAsOne, and works in most solvers; the page of each filter
+ * gives details. Otherwise, rank 0 gathers the surface, has to hold all of it, and computes with
+ * its threads. The other ranks sleep. Ghost cells count once. Points on borders are joined by
  * global point ids, or else by their coordinates with WeldCoincidentPoints. Port 0 is each rank's
- * own input plus arrays, borders and ghosts included; outputs with cells of their own, and tables,
+ * own input plus arrays, borders and ghosts included. Outputs with cells of their own, and tables,
  * are on rank 0. Ids, such as those of sources and in messages, count through the gathered surface.
- * The same ranks have to run the filter together. When one fails, all do, with one message.
+ * The same ranks have to run the filter together. If one fails, all fail with one message.
  *
- * A solver filter finds its function space in this order: on input port 0, when that is the output
- * of vtkConnectivityAwareBasis; on the optional input port 1, when that is connected, which must be
- * the output of vtkConnectivityAwareBasis for the mesh of port 0; else it builds the space itself.
+ * A solver filter looks for its function space in this order:
+ * - on input port 0, if that is the output of vtkConnectivityAwareBasis;
+ * - on the optional input port 1, if that is connected. It must be the output of
+ *   vtkConnectivityAwareBasis for the mesh of port 0.
+ * - Otherwise the filter builds the space itself.
  *
- * Time: outputs have the time steps of the input, and the input is asked for the time that they are
- * asked for. A filter with time steps of its own, such as modes, has these instead, and asks its
- * inputs for one fixed time: the one they were asked for last, else the one they have.
+ * Time: outputs have the time steps of the input. A filter asks its input for the time that its
+ * outputs are asked for. Some filters have time steps of their own, such as modes. They ask their
+ * inputs for one fixed time: the last one that was requested, or else the one the inputs have.
  *
  * Memory: a filter keeps the results of its steps, so that a change repeats only the steps that
  * depend on it. It holds the clipped mesh, its functions, element and level matrices, the hierarchy
- * with its smoothers, and the last result. With ReleaseDataFlagOn it frees them after every run:
- * least memory, but every change, of the time step as well, repeats all steps. Filters that share
- * its basis then read the basis from its arrays.
+ * with its smoothers, and the last result. With ReleaseDataFlagOn it frees them after every run.
+ * This takes the least memory, but every change, even of the time step, repeats all steps. Filters
+ * that share its basis then read the basis from its arrays.
  */
 #ifndef vtkSurfaceFEMAlgorithm_h
 #define vtkSurfaceFEMAlgorithm_h
@@ -78,9 +82,10 @@ public:
 
   ///@{
   /**
-   * 2^Depth cells lie along the longest side of the bounding box. 2..14, default 7; 0: automatic,
-   * the finest grid with no more functions than the surface has points, from 6 on, that fits into
-   * memory. 1 is refused when the filter runs. The field array `UsedDepth` says which.
+   * 2^Depth cells lie along the longest side of the bounding box. 2..14, default 7. With 0, the
+   * filter chooses the finest grid, from 6 on, that has no more functions than the surface has
+   * points and that fits into memory. The filter refuses 1 when it runs. The field array
+   * `UsedDepth` gives the depth.
    */
   vtkSetClampMacro(Depth, int, 0, 14);
   vtkGetMacro(Depth, int);
@@ -88,8 +93,9 @@ public:
 
   ///@{
   /**
-   * When on, a function whose support meets the surface in several connected pieces is split, one
-   * function per piece, so that sheets that are close in space do not feel each other. Default on.
+   * When on, a function is split if its support meets the surface in several connected pieces. Each
+   * piece gets a function, so that sheets that are close in space do not influence each other.
+   * Default on.
    */
   vtkSetMacro(ConnectivityAware, bool);
   vtkGetMacro(ConnectivityAware, bool);
@@ -98,8 +104,8 @@ public:
 
   ///@{
   /**
-   * When on, coincident points count as one for connectivity, as they have to in meshes from STL
-   * files. The output keeps the input's points either way. Default on.
+   * When on, coincident points count as one for connectivity. Meshes from STL files need it. The
+   * output keeps the input's points either way. Default on.
    */
   vtkSetMacro(WeldCoincidentPoints, bool);
   vtkGetMacro(WeldCoincidentPoints, bool);
@@ -113,14 +119,17 @@ public:
   };
   ///@{
   /**
-   * What solutions are made of. Grid (default): the functions of the grid, of which Depth says how
-   * fine they are. HatFunctions: the piecewise linear functions of the mesh itself, with cotangent
-   * stiffness and consistent area mass; the result at the points is that of a direct solver for the
-   * same system, and the grid only speeds up the iteration. So it is coarser than Depth, or a basis
-   * that is given, asks for where it would have more functions than the mesh has points; for
-   * spectra, which take their estimated errors from it, more than four for each; not where its own
-   * solution counts: for distances, for details of stitched colours, for a wanted accuracy.
-   * The field array `UsedDepth` says how fine it is. Only the solvers use it.
+   * The functions that solutions are made of. Only solvers use this property.
+   *
+   * Grid (default) takes the functions of the grid. Depth determines how fine they are.
+   *
+   * HatFunctions takes the piecewise linear functions of the mesh itself, with cotangent stiffness
+   * and consistent area mass. The result at the points is that of a direct solver for the same
+   * system. The grid only speeds up the iteration. It therefore becomes coarser than Depth, or a
+   * given basis, asks for if it would have more functions than the mesh has points. Spectra allow
+   * up to four functions for each point, because they take their estimated errors from the grid.
+   * The grid keeps its depth if its own solution counts: for distances, for details of stitched
+   * colors, or for a wanted accuracy. The field array `UsedDepth` gives the depth.
    */
   vtkSetClampMacro(FunctionSpace, int, Grid, HatFunctions);
   vtkGetMacro(FunctionSpace, int);
@@ -129,7 +138,7 @@ public:
   ///@{
   /**
    * Polynomials up to this degree are integrated exactly on every clipped triangle: 2, 4, 6, 10 or
-   * 12; default 2 (three points). Another degree is refused when the filter runs.
+   * 12; default 2 (three points). The filter refuses another degree when it runs.
    */
   vtkSetMacro(QuadratureDegree, int);
   vtkGetMacro(QuadratureDegree, int);
@@ -137,11 +146,11 @@ public:
 
   ///@{
   /**
-   * The weight s of the squared normal derivative in the operator on a grid, which no function of
-   * the surface has. The default of 1e-12 only makes functions known that hide in flat parts of the
-   * surface. With 1e-2 iterations to small tolerances stay few on any surface and for any Depth,
-   * for an error of the space that is 1.1 to 1.4 times as large on scans and parts, two to four
-   * times on spheres and cubes. 1e-14..1. Hat functions have none.
+   * The weight s of the squared normal derivative in the operator on a grid. Functions of the
+   * surface have no such derivative. The default of 1e-12 only determines functions that hide in
+   * flat parts of the surface. With 1e-2, iterations to small tolerances stay few on any surface
+   * and for any Depth. The error of the space is then 1.1 to 1.4 times as large on scans and parts,
+   * and two to four times on spheres and cubes. 1e-14..1. Hat functions have none.
    */
   vtkSetClampMacro(NormalStabilization, double, 1e-14, 1.0);
   vtkGetMacro(NormalStabilization, double);
@@ -149,8 +158,8 @@ public:
 
   ///@{
   /**
-   * The solver stops when its error measure has fallen by this factor. What is measured is said by
-   * the filter. Above 0, below 1.
+   * The solver stops when its error measure has fallen by this factor. Each filter documents its
+   * measure. Above 0, below 1.
    */
   vtkSetClampMacro(Tolerance, double, 1e-16, 0.999);
   vtkGetMacro(Tolerance, double);
@@ -158,8 +167,8 @@ public:
 
   ///@{
   /**
-   * The solver stops after this number of iterations and warns. At least 1; the filter says
-   * the default.
+   * The solver stops after this number of iterations and warns. At least 1. Each filter has its own
+   * default.
    */
   vtkSetClampMacro(MaximumIterations, int, 1, VTK_INT_MAX);
   vtkGetMacro(MaximumIterations, int);
@@ -167,7 +176,7 @@ public:
 
   ///@{
   /**
-   * Threads to use; 0 (default) takes all processors. Results are the same for any number.
+   * The number of threads. 0 (default) takes all processors. Results are the same for any number.
    */
   vtkSetClampMacro(NumberOfThreads, int, 0, 1024);
   vtkGetMacro(NumberOfThreads, int);
@@ -175,14 +184,17 @@ public:
 
   ///@{
   /**
-   * When on, the leaves of a composite input are one surface, joined at points with the same
-   * coordinates as WeldCoincidentPoints says, or the same global ids. It is computed on once, and
-   * every leaf gets its points, cells and results back; points of several leaves have one result.
-   * Field arrays are those of the one surface; outputs with cells of their own, and tables, are in
-   * the first leaf. Ids, such as those of sources and in messages, count through all leaves, points
-   * that are joined once. Only arrays that all leaves have can be chosen; leaves without a chosen
-   * one that others have are passed on as they are, with a warning. When off (default), every leaf
-   * is a surface by itself. Without effect on other inputs.
+   * When on, the leaves of a composite input are one surface. It is joined at points with the same
+   * coordinates if WeldCoincidentPoints is on, or with the same global ids. The filter computes on
+   * it once, and every leaf gets its points, cells and results back. Points of several leaves have
+   * one result. Field arrays are those of the one surface. Outputs with cells of their own, and
+   * tables, are in the first leaf.
+   *
+   * Ids, such as those of sources and in messages, count through all leaves. Joined points count
+   * once. Only arrays that all leaves have can be chosen. A leaf without a chosen array that others
+   * have is passed on unchanged, with a warning.
+   *
+   * When off (default), every leaf is a surface by itself. Without effect on other inputs.
    */
   vtkSetMacro(BlocksAsOne, bool);
   vtkGetMacro(BlocksAsOne, bool);
@@ -197,24 +209,27 @@ public:
   };
   ///@{
   /**
-   * The length unit of weights and times that are given as properties: World takes the units of the
-   * points, UnitArea (default) those of the surface scaled to area 1, UnitCube those of the surface
-   * scaled to a longest side of 1. Results are always in world units.
+   * The length unit of weights and times that are given as properties. World takes the units of the
+   * points. UnitArea (default) takes those of the surface scaled to area 1, and UnitCube those of
+   * the surface scaled to a longest side of 1. Results are always in world units.
    */
   vtkSetClampMacro(ParameterUnits, int, World, UnitCube);
   vtkGetMacro(ParameterUnits, int);
   ///@}
 
   /**
-   * How often this filter has run a stage since it was made; a stage is repeated only when
-   * something it depends on has changed. The stages of solvers are Space (mesh, clipping, patches,
-   * levels), System (element matrices, patterns, prolongations), RightHandSide (integrals of the
-   * given arrays), Hierarchy (level matrices, smoothers) and Solve. 0 for an unknown stage.
+   * How often this filter has run a stage since it was made. A stage is repeated only if something
+   * it depends on has changed. 0 for an unknown stage. Solvers have these stages:
+   * - Space: mesh, clipping, patches, levels
+   * - System: element matrices, patterns, prolongations
+   * - RightHandSide: integrals of the given arrays
+   * - Hierarchy: level matrices, smoothers
+   * - Solve
    */
   vtkIdType GetNumberOfRuns(const char* stage);
 
   /**
-   * Seconds the last run of a stage took; 0 when it has not run.
+   * The seconds that the last run of a stage took. 0 if it has not run.
    */
   double GetStageSeconds(const char* stage);
 
@@ -230,12 +245,13 @@ protected:
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) final;
 
   /**
-   * The time steps, ascending, of a filter that shows something of its own by time; empty (default)
-   * where the times are those of the input. Asked again after Compute, which may find other steps.
+   * The ascending time steps of a filter that shows its own results by time. Empty (default) if the
+   * times are those of the input. Called again after Compute, which may find other steps.
    */
   virtual std::vector<double> OwnTimeSteps();
 
-  /// The part of the error of the function space that the solver may leave; 0: to the Tolerance.
+  /// The solver may leave this part of the error of the function space. 0 means it solves to the
+  /// Tolerance.
   virtual double WantedAccuracy() const { return 0.0; }
 
   /**
@@ -245,41 +261,42 @@ protected:
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) final;
 
   /**
-   * What the filter does with a non-empty input. Throws on unusable input and on abort.
+   * Computes the outputs from a non-empty input. Throws on unusable input and on abort.
    */
   virtual void Compute(vtkInformationVector** inputs, vtkInformationVector* outputs) = 0;
 
   /**
-   * Whether the filter, as it is set, needs the whole surface in one process. Where it does not,
-   * Compute runs on all MPI ranks, each with its own piece, which may be null on port 0. Default
-   * true: rank 0 gathers the surface.
+   * Whether the filter, with its current properties, needs the whole surface in one process. Then
+   * (default) rank 0 gathers the surface. Otherwise Compute runs on all MPI ranks, each with its
+   * own piece, which may be null on port 0.
    */
   virtual bool NeedsWholeSurface();
 
   /**
-   * Prints the warnings, on the first of several MPI ranks.
+   * Prints the warnings. Only the first of several MPI ranks prints.
    */
   void Warn(const std::vector<std::string>& warnings);
 
   /**
-   * Called on every one of several MPI ranks, with its own piece, before the surface is gathered.
-   * Returns, the same on all, whether they have filled their outputs together, so that nothing is
-   * gathered. Collective. By default there is no such way.
+   * Fills the outputs of several MPI ranks together, before the surface is gathered. Each rank
+   * calls it with its own piece. Returns the same on all ranks: true if the outputs are filled, so
+   * that nothing is gathered. Collective. The default returns false.
    */
   virtual bool ComputeTogether(vtkInformationVector** inputs, vtkInformationVector* outputs);
 
   /**
-   * Whether the results of a run stay for the next one: without ReleaseDataFlag.
+   * Whether the results of a run stay for the next one. They do without ReleaseDataFlag.
    */
   bool KeepsStages();
 
   /**
-   * The blocks that the surface is joined of; null when it is not.
+   * The blocks that the surface is joined from. Null if it is not joined.
    */
   const gridfem::JoinedBlocks* JoinedInput() const;
 
   /**
-   * Frees all that was made for the next runs. A filter adds what it keeps itself.
+   * Frees everything that the next runs could use. A derived filter also frees the stages it keeps
+   * itself.
    */
   virtual void FreeStages();
 

@@ -27,7 +27,7 @@ namespace
 
 using Derived = gridfem::GradientSolver::Derived;
 
-/// Means on the cells of the input; no columns for a field at points alone. Collective.
+/// Returns means on the cells of the input. A field at points alone has no columns. Collective.
 std::vector<gridfem::MultiVector> OnCells(const std::vector<Derived>& fields,
   const gridfem::SurfaceSolverState& state, gridfem::Id numberOfCells)
 {

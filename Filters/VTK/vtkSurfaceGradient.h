@@ -2,47 +2,55 @@
  * @class   vtkSurfaceGradient
  * @brief   gradient and Laplacian of an array along a surface
  *
- * The derivatives are those of the array's projection into the function space, in the weak sense:
- * the gradient on cells is projected to be one at points, and the Laplacian is the divergence of
- * that. So they do not depend on how the triangles lie, noise below the resolution of the space is
- * left out, and no condition is made at boundaries.
+ * Computes the derivatives of the array's projection into the function space, in the weak sense.
+ * The gradient on cells is projected to points, and the Laplacian is the divergence of this
+ * projection. The derivatives therefore do not depend on the layout of the triangles. Noise below
+ * the resolution of the space is left out. Boundaries impose no condition.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
- * vtkConnectivityAwareBasis. Input port 1 (optional): the output of vtkConnectivityAwareBasis for
- * the mesh of port 0. The array is chosen by SetInputArrayToProcess(0, ...): point or cell data
- * with any number of components C; none: the coordinates, whose Laplacian is the mean curvature
+ * vtkConnectivityAwareBasis.
+ * Input port 1 (optional): the output of vtkConnectivityAwareBasis for the mesh of port 0.
+ *
+ * SetInputArrayToProcess(0, ...) chooses the array: point or cell data with any number of
+ * components C. Without it the filter takes the coordinates. Their Laplacian is the mean curvature
  * vector (twice the mean curvature along the normal).
  *
- * Output port 0 (vtkPolyData): the input with
+ * Output port 0 (vtkPolyData): the input with the following arrays. Cells that are no polygons and
+ * points that no polygon uses get 0. A polygon has the mean of its triangles, weighted by area.
  * - point and cell data, double: `Gradient` (3 C components, the three of component 0 first; per
- *   unit of length) and `Laplacian` (C; per unit of length squared, negative at a maximum). Cells
- *   that are no polygons and points that no polygon uses get 0. A polygon has the mean of its
- *   triangles, weighted by area.
- *   Of an array of vectors (C = 3) also `Divergence` along the surface, where a part along the
- * normal counts with the curvature, and `Curl` (one component each; per unit of length): the part
- * of the rotation along the normal, positive counterclockwise seen from outside
- * - with HodgeDecomposition, of an array of vectors, point and cell data, double: `GradientPart`,
- *   `RotationPart` and `HarmonicPart` (three components each, in the unit of the array), and point
- *   data `Potential` and `StreamFunction` (one component, times a length), see below
- * - field data: `Converged`, `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor`
- *   of the solve that took most iterations, and the estimated errors of vtkPoissonAlgorithm: how
- *   well the functions follow the array, its gradient and its Laplacian, the worst of them
+ *   unit of length).
+ * - point and cell data, double: `Laplacian` (C components; per unit of length squared, negative at
+ *   a maximum).
+ * - the same, for an array of vectors (C = 3): `Divergence` (1; per unit of length) along the
+ *   surface. A part along the normal counts with the curvature.
+ * - the same, for an array of vectors: `Curl` (1; per unit of length), the part of the rotation
+ *   along the normal. It is positive counterclockwise seen from outside.
+ * - point and cell data, double, for an array of vectors with HodgeDecomposition: `GradientPart`,
+ *   `RotationPart` and `HarmonicPart` (3 components each, in the unit of the array). They are
+ *   described below.
+ * - point data, double, for an array of vectors with HodgeDecomposition: `Potential` and
+ *   `StreamFunction` (1 component each, in the unit of the array times a length).
+ * - field data, of the solve that took most iterations: `Converged`, `Iterations`,
+ *   `DoublePrecisionSince`, `Residual`, `ConvergenceFactor`.
+ * - field data: the estimated errors of vtkPoissonAlgorithm. They measure how well the functions
+ *   follow the array, its gradient and its Laplacian. The worst of them counts.
  *
- * The Hodge decomposition: the part v of the vectors along the surface is grad u + n x grad w + h
- * with the normal n, the Potential u, the StreamFunction w, and the rest h, which has neither
- * sources nor eddies: it goes around handles and holes, and holds what the functions cannot follow.
- * The three are orthogonal: their squares integrate to that of v. On cells they add up to v, at
- * points they are projected like the gradient. Where the surface ends w is 0, so h does not cross
- * the boundary, and what does is in the gradient. Triangles that face this way and that are taken
- * to face as most of their component's area does; on components without two sides, as a Moebius
- * strip, there is no rotation part, and the filter warns. Edges of more than two triangles count
- * as a boundary for w.
+ * The Hodge decomposition writes the part v of the vectors along the surface as grad u + n x grad w
+ * + h. Here n is the normal, u the Potential, w the StreamFunction, and h the rest. The rest has
+ * neither sources nor eddies. It goes around handles and holes, and holds everything that the
+ * functions cannot follow. The three parts are orthogonal: their squares integrate to that of v. On
+ * cells they add up to v. At points they are projected like the gradient.
  *
- * Accuracy, or a Tolerance, is that of the projections and potentials; a StreamFunction that is
- * held at boundaries is solved for to a Tolerance, 1e-4 where it is 0. NormalStabilization is 1e-2
- * by default. All shared properties but ParameterUnits are used.
+ * w is 0 along boundaries, so h does not cross the boundary. Flow across the boundary is in the
+ * gradient part. Edges of more than two triangles count as a boundary for w. Triangles may face
+ * either way: each is taken to face as most of its component's area does. Components without two
+ * sides, such as a Moebius strip, have no rotation part, and the filter warns.
  *
- * All ranks of MPI compute together; a HodgeDecomposition is left to rank 0.
+ * Accuracy, or a Tolerance, is that of the projections and potentials. A StreamFunction that is
+ * held at boundaries is solved for to a Tolerance, which is 1e-4 if the property is 0.
+ * NormalStabilization is 1e-2 by default. The filter uses all shared properties but ParameterUnits.
+ *
+ * All MPI ranks compute together. Rank 0 computes a HodgeDecomposition alone.
  */
 #ifndef vtkSurfaceGradient_h
 #define vtkSurfaceGradient_h
@@ -58,8 +66,8 @@ public:
 
   ///@{
   /**
-   * When on, an array of vectors is taken apart: gradient, rotation, rest. Any other array is
-   * refused then. Default off.
+   * When on, the filter splits an array of vectors into gradient, rotation and rest. It then
+   * refuses any other array. Default off.
    */
   vtkSetMacro(HodgeDecomposition, bool);
   vtkGetMacro(HodgeDecomposition, bool);

@@ -1,4 +1,5 @@
-"""What the lists of arrays in the panels offer: all that the filter can take, and nothing else."""
+"""Tests that the lists of arrays in the panels offer all arrays that the filter can take, and no
+others."""
 import unittest
 
 import gridfem.vtkGridFEMFilters  # before the plugin, which makes objects of its classes

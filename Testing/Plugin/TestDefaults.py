@@ -1,4 +1,4 @@
-"""The XML says what the classes say: defaults, ranges, and words for everything."""
+"""Tests that the XML agrees with the classes: defaults, ranges, and a text for everything."""
 import unittest
 
 import gridfem.vtkGridFEMFilters as filters  # before the plugin, which makes objects of its classes
@@ -23,7 +23,7 @@ REFUSED_BELOW = {"ScreeningWeight": 0, "Mode": -1, "DiffusionTime": 0, "Smoothin
 
 
 def is_shown(proxy, decorator):
-    """Whether a decorator of the panel lets its property be seen, on a surface without blocks."""
+    """Whether a decorator of the panel shows its property, on a surface without blocks."""
     kind, words = decorator.GetAttribute("type"), decorator.GetAttribute
     if kind == "CompositeDecorator":
         expression = decorator.FindNestedElementByName("Expression")
@@ -38,7 +38,8 @@ def is_shown(proxy, decorator):
 
 
 def shown_properties(proxy):
-    """The properties in the panel of a filter, without inputs and what is advanced or hidden by another."""
+    """Returns the properties in the panel of a filter, without inputs, advanced properties and those
+    that another one hides."""
     for key in proxy.ListProperties():
         prop = proxy.SMProxy.GetProperty(key)
         if (prop.IsA("vtkSMInputProperty") or prop.GetInformationOnly()
@@ -53,7 +54,7 @@ def shown_properties(proxy):
 
 
 def arrays_of(proxy):
-    """The properties that choose arrays, in the order of the panel."""
+    """Returns the properties that choose arrays, in the order of the panel."""
     properties = vtkSMOrderedPropertyIterator()
     properties.SetProxy(proxy.SMProxy)
     properties.Begin()
@@ -75,14 +76,14 @@ class TestDefaults(unittest.TestCase):
         simple.Delete(self.surface)
 
     def properties(self):
-        """Proxy name, a new object of the class, property name, property."""
+        """Yields the proxy name, a new object of the class, the property name and the property."""
         for name, proxy in self.proxies.items():
             instance = getattr(filters, "vtk" + name)()
             for key in proxy.ListProperties():
                 yield name, instance, key, proxy.SMProxy.GetProperty(key)
 
     def values(self):
-        """Those whose value a getter of the class gives."""
+        """Yields those whose value a getter of the class gives."""
         for name, instance, key, prop in self.properties():
             if not (prop.IsA("vtkSMProxyProperty") or prop.GetInformationOnly() or prop.GetRepeatable()
                     or prop.GetCommand() == "SetInputArrayToProcess"):

@@ -1,4 +1,4 @@
-"""The package without VTK gives what the filters give, for the same calls."""
+"""Tests that the package without VTK gives the results of the filters, for the same calls."""
 import importlib.util
 import os
 import sys
@@ -13,7 +13,7 @@ from TestNumpy import misuses, unit_sphere
 
 
 def load(name, folder):
-    """The package in a folder, under a name of its own."""
+    """Loads the package in a folder, under a name of its own."""
     spec = importlib.util.spec_from_file_location(
         name, os.path.join(folder, "__init__.py"), submodule_search_locations=[folder])
     module = importlib.util.module_from_spec(spec)
@@ -23,7 +23,7 @@ def load(name, folder):
 
 
 def open_torus(around=40, across=20):
-    """Points and quads of a torus that lacks a piece, so that it has a boundary."""
+    """Returns points and quads of a torus that lacks a piece, so that it has a boundary."""
     u = numpy.linspace(0, 1.7 * numpy.pi, around)
     v = numpy.linspace(0, 2 * numpy.pi, across, endpoint=False)
     u, v = numpy.meshgrid(u, v, indexing="ij")
@@ -37,7 +37,7 @@ def open_torus(around=40, across=20):
 
 
 def soup(points, cells):
-    """The same surface with points of its own for each cell, as in an STL file."""
+    """Returns the same surface with separate points for each cell, as in an STL file."""
     return points[cells].reshape(-1, 3), numpy.arange(cells.size).reshape(cells.shape)
 
 
@@ -51,10 +51,10 @@ class Engines(unittest.TestCase):
                       "soup": soup(*open_torus(30, 16))}
 
     def compare(self, call):
-        """call: of a package, a mesh, and options.
+        """call: takes a package, a mesh, and options.
 
-        Both round in the same way but for the last digit; where single precision corrects a
-        solution, such a digit becomes 6e-8 of the last correction, which is small itself.
+        Both round in the same way except for the last digit. If single precision corrects a solution,
+        such a digit becomes 6e-8 of the last correction, which is small itself.
         """
         for name, (points, cells) in self.meshes.items():
             for space in (0, 1):

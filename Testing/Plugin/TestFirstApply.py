@@ -1,4 +1,4 @@
-"""What a filter shows when it is dropped on a mesh and nothing is touched but Apply."""
+"""Tests the first view of a filter that is applied to a mesh with all its defaults."""
 import unittest
 
 from paraview import servermanager, simple
@@ -151,7 +151,7 @@ class FirstApply(unittest.TestCase):
         self.assertEqual(len(ranges), 3)
 
     def test_blocks_as_one_surface(self):
-        """Halves of a sphere: every filter gives each half back, and distances go across."""
+        """Halves of a sphere: every filter returns each half, and distances cross the border."""
         middle = simple.PointDatatoCellData(Input=simple.Calculator(
             Input=self.surface, ResultArrayName="z", Function="coordsZ"))
         blocks = simple.GroupDatasets(Input=[
@@ -185,7 +185,7 @@ class FirstApply(unittest.TestCase):
 
 
 class ColorMaps(unittest.TestCase):
-    """The colours of the arrays: a map for each name, made when a filter first has the array."""
+    """The colors of the arrays: a map for each name, made when a filter first has the array."""
 
     def setUp(self):
         self.view = simple.CreateRenderView()

@@ -1,4 +1,4 @@
-"""The help that the plugin brings along: a page for every filter, and no link that leads nowhere."""
+"""Tests the help of the plugin: every filter has a page, and every link leads to one."""
 import os
 import re
 import sqlite3
@@ -24,7 +24,7 @@ class TestHelp(unittest.TestCase):
         self.database.close()
 
     def of_filters(self):
-        """Name and page of every filter."""
+        """Returns name and page of every filter."""
         for panel in os.listdir(PANELS):
             name, extension = os.path.splitext(panel)
             if extension == ".xml":

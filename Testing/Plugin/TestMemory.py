@@ -1,5 +1,5 @@
-"""What filters hold is given back: when they are deleted, and after every run where that is asked
-for. Memory is the process' own, as the system counts it, beside that of the data in the pipeline."""
+"""Tests that filters free their memory when they are deleted, and after every run if asked to. It
+counts the process' own memory, as the system reports it, beyond the data in the pipeline."""
 import re
 import unittest
 
@@ -18,7 +18,7 @@ OPTIONS = {
 
 
 def resident():
-    """Bytes of the process that are in memory."""
+    """Returns the bytes of the process that are in memory."""
     with open("/proc/self/status") as status:
         return 1024 * int(re.search(r"VmRSS:\s+(\d+)", status.read()).group(1))
 

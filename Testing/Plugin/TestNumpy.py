@@ -1,4 +1,4 @@
-"""The functions of the Python package: numpy arrays in, numpy arrays out, exceptions for misuse."""
+"""Tests the functions of the Python package: numpy arrays in, numpy arrays out, exceptions for misuse."""
 import types
 import unittest
 import warnings
@@ -11,7 +11,7 @@ OPTIONS = {"Depth": 5}
 
 
 def unit_sphere(rings=30, sectors=60):
-    """Points and triangles; the first point is the north pole, the last one the south pole."""
+    """Returns points and triangles. The first point is the north pole, the last one the south pole."""
     polar = numpy.linspace(0, numpy.pi, rings + 1)[1:-1]
     around = numpy.linspace(0, 2 * numpy.pi, sectors, endpoint=False)
     theta, phi = numpy.meshgrid(polar, around, indexing="ij")
@@ -31,7 +31,7 @@ def unit_sphere(rings=30, sectors=60):
 
 
 def misuses(package, points, triangles):
-    """Per message a call that has to raise it."""
+    """Yields messages, each with a call that has to raise it."""
     f = points[:, 2]
     none = numpy.zeros((0, 3))
     return {
@@ -198,7 +198,7 @@ class Numpy(unittest.TestCase):
                 call()
 
     def test_arrays_of_other_kinds(self):
-        """Whatever holds the same numbers gives the same result."""
+        """Any container with the same numbers gives the same result."""
         points, triangles = self.mesh
         values = points[:, 2].astype("f4")
         expected = gridfem.poisson(points, triangles, values, **OPTIONS)

@@ -1,4 +1,4 @@
-"""The examples on the pages: each runs as it stands, and everything that it makes holds something."""
+"""Tests the examples on the pages: each runs unchanged, and all its outputs contain data."""
 import os
 import pathlib
 import re
@@ -13,8 +13,9 @@ PAGES = pathlib.Path(os.environ["GRIDFEM_SOURCE_DIR"]) / "Plugin" / "Documentati
 
 
 def surface():
-    """A spindle with the arrays that the examples name. It meets a tenth of the cells that a sphere would:
-    the examples have the depth that filters have by themselves, and are the same for any surface."""
+    """Makes a spindle with the arrays that the examples name. It meets a tenth of the cells that a
+    sphere would. The examples have the default depth of the filters, and are the same for any
+    surface."""
     spindle = simple.Calculator(
         Input=plugin.sphere(), CoordinateResults=1, Function="0.1*(coordsX*iHat+coordsY*jHat)+coordsZ*kHat")
     mesh = simple.Calculator(
@@ -44,7 +45,7 @@ class Pages(unittest.TestCase):
                         self.check(key, names[key])
 
     def check(self, key, made):
-        """What was made: a proxy, or one of its ports."""
+        """The made object: a proxy, or one of its ports."""
         data = plugin.data(getattr(made, "Proxy", made), getattr(made, "Port", 0))
         sizes = [data.GetNumberOfElements(kind) for kind in (vtkDataObject.POINT, vtkDataObject.ROW)]
         self.assertGreater(max(sizes), 0, key)

@@ -1,4 +1,4 @@
-"""The three ways of working: a filter on a mesh, a chain, one basis for several filters."""
+"""Tests three ways of working: a filter on a mesh, a chain, one basis for several filters."""
 import math
 import unittest
 
@@ -13,7 +13,7 @@ DEPTH = 4
 
 
 def outputs(proxy):
-    """The class of every output port's data."""
+    """Returns the class of every output port's data."""
     ports = range(proxy.SMProxy.GetNumberOfOutputPorts())
     return [plugin.data(proxy, port).GetClassName() for port in ports]
 
@@ -155,7 +155,7 @@ class TestPipeline(unittest.TestCase):
         values = simple.Calculator(Input=self.surface, ResultArrayName="f", Function="coordsX")
         plugin.data(values)
         poisson = simple.ScreenedPoisson(Input=values, Depth=DEPTH)
-        self.assertEqual(components(poisson), 3)  # the coordinates, whatever arrays there are
+        self.assertEqual(components(poisson), 3)  # the coordinates, although there are arrays
         poisson.ValueArray = ["POINTS", "f"]
         self.assertEqual(components(poisson), 1)
 

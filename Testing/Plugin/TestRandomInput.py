@@ -1,9 +1,9 @@
-"""Filters on random meshes with random arrays, further inputs and properties: a result, or a message that
-says why not.
+"""Tests filters on random meshes with random arrays, further inputs and properties. Each gives a
+result, or a message with the reason.
 
     pvpython TestRandomInput.py [FIRST_SEED NUMBER]
 
-A crash ends the process; its seed is in the last line that was written.
+A crash ends the process. Its seed is in the last line that was written.
 """
 import os
 import random
@@ -85,7 +85,7 @@ def far_away(choice):
 
 
 def folded(choice):
-    """Cells that lie upon others, turned over or not, or a hair apart."""
+    """Makes cells that lie upon others, flipped or not, or a hair apart."""
     points, cells = sphere(choice)
     other = points * (1 + choice.choice((0.0, 1e-8, 1e-3)))
     more = [[k + len(points) for k in cell] for cell in cells]
@@ -137,7 +137,7 @@ ABSURD_NAMES = ("", None, " ", "%s%n%d", "a\nb", "\u03bb \u222b", "x" * 10000, "
 
 
 def odd_values(choice, rows, columns):
-    """An array of a type that few files have."""
+    """Makes an array of a rare type."""
     kind = choice.choice(("i8", "u8", "i1", "u2", "f4", "ids", "strings", "bits", "variants"))
     numbers = [choice.choice((0, 1, 2, 7, rows, -1, 2**40)) for _ in range(rows * columns)]
     if kind in ("strings", "bits", "variants", "ids"):
@@ -153,7 +153,7 @@ def odd_values(choice, rows, columns):
 
 
 def add_odd_arrays(choice, data):
-    """Of wrong lengths, odd types and absurd names, on points, cells and the data set."""
+    """Adds arrays of wrong lengths, odd types and absurd names, on points, cells and the data set."""
     attributes = (data.GetPointData(), data.GetCellData(), data.GetFieldData())
     for _ in range(choice.choice((0, 0, 1, 3, 6))):
         where = choice.randrange(3)
@@ -170,7 +170,7 @@ def add_odd_arrays(choice, data):
 
 
 def set_cells(choice, data, cells):
-    """As vertices, lines and polygons by their lengths; or all as polygons; or as strips."""
+    """Stores cells as vertices, lines and polygons by their lengths, or all as polygons, or as strips."""
     kinds = {1: vtkCellArray(), 2: vtkCellArray(), 3: vtkCellArray(), 4: vtkCellArray()}
     style = choice.choice(("by length", "by length", "polygons", "strips", "mixed"))
     for cell in cells:
@@ -214,7 +214,7 @@ def with_arrays(choice, points, cells):
 
 
 def block(choice):
-    """One of composite data: nothing, a surface, or a data set that is none."""
+    """Makes a block of composite data: nothing, a surface, or a data set that is none."""
     kind = choice.choice(("none", "surface", "surface", "surface", "grid", "image"))
     if kind == "none":
         return None
@@ -262,7 +262,7 @@ def selection(choice):
 
 
 def further_input(choice, algorithm, port, data):
-    """What a port beyond the first gets; its kind, to be told."""
+    """Makes the input of a port beyond the first. Returns its kind, for the report."""
     wanted = algorithm.GetInputPortInformation(port).Get(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE())
     if wanted == "vtkSelection":
         algorithm.SetInputDataObject(port, selection(choice))
@@ -284,7 +284,7 @@ def further_input(choice, algorithm, port, data):
 
 
 def set_at_random(choice, algorithm):
-    """Returns what was set, to be told."""
+    """Sets properties. Returns the values, for the report."""
     told = []
     never = NEVER_SET | ({"Accuracy"} if algorithm.IsA("vtkLaplaceSpectrum") else set())  # it chooses the depth
     algorithm.SetDepth(choice.choice((2, 3, 4)))

@@ -1,6 +1,7 @@
-"""Memory that runs out: under every limit a filter gives one message and empty outputs, or its result,
-and goes on to work when there is room again. The limit is that of `ulimit -d`, counted from what the
-process has when the filter starts; small ones stop the first stages, larger ones the last."""
+"""Tests filters that run out of memory. Under every limit a filter gives one message and empty outputs,
+or its result, and works again when there is room. The limit is that of `ulimit -d`, counted from the
+memory of the process at the filter's start. Small limits stop the first stages, larger ones the
+last."""
 import os
 import pathlib
 import subprocess
@@ -35,7 +36,7 @@ class TestRunningOut(unittest.TestCase):
         simple.ResetSession()
 
     def run_out(self, algorithm, room):
-        """Whether so much room is too little; then one message and empty outputs are what it gives."""
+        """Whether this room is too small. Then the filter must give one message and empty outputs."""
         outcome = Outcome(algorithm, room, plugin.STAGES)
         if not outcome.errors:
             self.assertFalse(outcome.is_empty, room)

@@ -1,4 +1,4 @@
-"""Selections of ParaView as inputs of filters: of points and cells, by the mouse and by a query."""
+"""Tests selections of ParaView as inputs of filters: of points and cells, by the mouse and by a query."""
 import unittest
 
 import gridfem.vtkGridFEMFilters  # before the plugin, which makes objects of its classes

@@ -1,4 +1,4 @@
-"""A pipeline of all filters survives a state file, in ParaView's format and as Python."""
+"""Tests that a pipeline of all filters survives a state file, in ParaView's format and as Python."""
 import os
 import pathlib
 import tempfile
@@ -11,8 +11,8 @@ import plugin
 
 
 def build():
-    """Names of filters that are connected, with properties that are not the defaults; and of those of the
-    plugin that are not among them, as they are."""
+    """Returns names of connected filters, with properties that are not the defaults. The other filters
+    of the plugin keep their defaults."""
     surface = plugin.sphere()
     simple.RenameSource("surface", surface)
     values = simple.Calculator(Input=surface, ResultArrayName="f", Function="coordsX*coordsY")
@@ -65,7 +65,7 @@ def build():
 
 
 def results(names):
-    """Every setting and the range of every point array, to compare before and after."""
+    """Returns every setting and the range of every point array, to compare before and after."""
     found = {}
     for name in names:
         proxy = simple.FindSource(name)
@@ -83,7 +83,8 @@ def results(names):
 
 
 def settings(path):
-    """The numbers and words of every filter of the plugin in a state file, by name and property."""
+    """Returns the numbers and words of every filter of the plugin in a state file, by name and
+    property."""
     root = ElementTree.parse(path)
     names = {item.get("id"): item.get("name")
              for item in root.findall(".//ProxyCollection[@name='sources']/Item")}

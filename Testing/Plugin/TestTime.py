@@ -1,4 +1,4 @@
-"""A surface that grows with time, through every filter, forwards and backwards."""
+"""Tests a surface that grows with time, through every filter, forwards and backwards."""
 import unittest
 
 import gridfem.vtkGridFEMFilters  # before the plugin, which makes objects of its classes
@@ -34,7 +34,7 @@ self.GetPolyDataOutput().GetInformation().Set(vtkDataObject.DATA_TIME_STEP(), ti
 
 
 def growing_sphere():
-    """At the times 1, 2 and 3 a sphere whose radius is the time."""
+    """Makes, at the times 1, 2 and 3, a sphere whose radius is the time."""
     return simple.ProgrammableSource(
         OutputDataSetType="vtkPolyData", Script=SPHERE, ScriptRequestInformation=STEPS)
 

@@ -1,4 +1,4 @@
-"""What the plugin's tests share: the plugin, a surface, and access to filters and their data."""
+"""Shared by the plugin's tests: the plugin, a surface, and access to filters and their data."""
 import os
 import pathlib
 import re
@@ -7,7 +7,7 @@ from paraview import servermanager, simple
 
 
 def _panels():
-    """The XML of every filter of the plugin, by its name."""
+    """Returns the XML of every filter of the plugin, by its name."""
     folder = pathlib.Path(os.environ["GRIDFEM_SOURCE_DIR"]) / "Plugin"
     texts = [path.read_text() for path in sorted(folder.glob("*.xml"))]
     return {re.search(r'<SourceProxy name="(\w+)"', text).group(1): text for text in texts}
@@ -38,52 +38,53 @@ STAGES = ("Space", "System", "Hierarchy", "RightHandSide", "Solve")
 
 
 def change_of(name):
-    """The property of a filter that is changed, and its new value."""
+    """Returns the property of a filter that the tests change, and its new value."""
     return CHANGES.get(name, ("Depth", "5"))
 
 
 def colors_of(name):
-    """By which array the hints of a filter's panel colour it first, and how; empty where they say nothing."""
+    """Returns the array that colors a new filter, from the hints of its panel, and how. Empty if there
+    is no hint."""
     hint = re.search(r'class="vtkSM(?:ArrayColors|ColorsLater)" array="(\w+)"(?: colors="(\w+)")?', _PANELS[name])
     return hint.groups("") if hint else ("", "")
 
 
 def load():
-    """Loads the plugin; its filters become functions of paraview.simple."""
+    """Loads the plugin. Its filters become functions of paraview.simple."""
     simple.LoadPlugin(os.environ["GRIDFEM_PLUGIN"], remote=False, ns=vars(simple))
 
 
 def sphere():
-    """A sphere of radius 1."""
+    """Makes a sphere of radius 1."""
     return simple.Sphere(Radius=1.0, ThetaResolution=40, PhiResolution=20)
 
 
 def with_arrays(surface):
-    """The surface with the point arrays that CHOICES names."""
+    """Returns the surface with the point arrays that CHOICES names."""
     values = simple.Calculator(Input=surface, ResultArrayName="f", Function="coordsX*coordsY")
     return simple.Calculator(Input=values, ResultArrayName="label", Function="floor(coordsZ)")
 
 
 def selected_points(*ids):
-    """A selection of points, as the mouse makes it."""
+    """Makes a selection of points, as the mouse does."""
     return simple.IDSelectionSource(
         FieldType="POINT", IDs=[number for point in ids for number in (0, point)])
 
 
 def data(proxy, port=0):
-    """The data object of an output port, brought up to date."""
+    """Returns the data object of an output port, brought up to date."""
     proxy.UpdatePipeline()
     return servermanager.Fetch(proxy, idx=port)
 
 
 def runs(proxy):
-    """How often the filter behind a proxy has run each stage."""
+    """Returns how often the filter behind a proxy has run each stage."""
     counts = proxy.GetClientSideObject()
     return {stage: counts.GetNumberOfRuns(stage) for stage in STAGES}
 
 
 def reruns(proxy, change):
-    """The stages that run again after `change`."""
+    """Returns the stages that run again after `change`."""
     before = runs(proxy)
     change()
     proxy.UpdatePipeline()

@@ -1,9 +1,10 @@
-"""A filter while the process cannot grow: the limit, and what a run under it gives.
+"""Runs a filter while the process cannot grow, and returns the outcome.
 
     pvpython running_out.py MEGABYTES
 
-is what a new process does: no thread has been started yet, no memory is left from before, and ParaView's
-proxies, which take a second to load, are not there."""
+runs it as a new process does. No thread has been started yet, no memory is left from before, and
+ParaView's proxies, which take a second to load, are not there.
+"""
 import ctypes
 import os
 import resource
@@ -18,20 +19,20 @@ M_MMAP_THRESHOLD = -3  # of malloc.h
 
 
 def take_arrays_from_the_system():
-    """From now on malloc asks for each array by itself. By default it serves them from what earlier runs
-    have left, as long as that is enough: then whether a small filter feels a limit is a matter of luck."""
+    """Makes malloc request each array by itself from now on. By default it serves arrays from memory
+    that earlier runs have left. A small filter would then meet the limit only by chance."""
     ctypes.CDLL(None).mallopt(M_MMAP_THRESHOLD, 1 << 15)
 
 
 def data_size():
-    """Bytes that the process may write to, which is what the limit counts."""
+    """Returns the bytes that the process may write to, which the limit counts."""
     with open("/proc/self/status", encoding="ascii") as status:
         return next(int(line.split()[1]) for line in status if line.startswith("VmData:")) * 1024
 
 
 class Limit:
-    """While it holds, the process can grow by so many bytes. Not that of `ulimit -v`: it is looked at before
-    anything is computed, and a run that needs more is refused."""
+    """Limits the growth of the process to so many bytes. The limit is not that of `ulimit -v`: filters
+    check that one before they compute, and refuse a run that needs more."""
 
     def __init__(self, room):
         self.room = room
@@ -44,7 +45,8 @@ class Limit:
 
 
 class Outcome:
-    """What one run gave: its messages, whether all outputs are empty, how many of the stages were done."""
+    """The outcome of one run: its messages, whether all outputs are empty, and the number of finished
+    stages."""
 
     def __init__(self, algorithm, room=None, stages=()):
         self.errors = []

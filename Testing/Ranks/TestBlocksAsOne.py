@@ -1,5 +1,5 @@
-"""Blocks as one surface: every filter, on several ranks with blocks of their own and on one rank,
-gives what it gives on the whole surface."""
+"""Tests blocks as one surface. Every filter, on one rank or on several with blocks of their own, gives
+its result on the whole surface."""
 import unittest
 
 import numpy
@@ -10,7 +10,7 @@ import TestEveryFilter as every
 
 
 def part(mesh, cells):
-    """Some cells of a mesh with their points."""
+    """Returns some cells of a mesh with their points."""
     points, triangles = mesh
     point_ids, corners = numpy.unique(triangles[cells], return_inverse=True)
     return ranks.prepare(
@@ -18,7 +18,7 @@ def part(mesh, cells):
 
 
 def blocks(mesh, cells):
-    """Two blocks with the cells, one of them in a group, and an empty one."""
+    """Makes two blocks with the cells, one of them in a group, and an empty block."""
     parts = [part(mesh, half) for half in numpy.array_split(cells, 2)]
     group = vtkMultiBlockDataSet()
     group.SetBlock(0, parts[1])

@@ -1,5 +1,5 @@
-"""Screened Poisson by all ranks together: the solution of one rank on every rank's own piece, where it
-can be had so; else rank 0 gathers."""
+"""Tests Screened Poisson by all ranks together. Every rank's own piece has the solution of one rank. If
+the ranks cannot compute together, rank 0 gathers."""
 import unittest
 
 import numpy

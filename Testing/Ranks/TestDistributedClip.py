@@ -1,5 +1,5 @@
-"""The clip and the basis by all ranks together: one rank after the other, the triangles, octree cells,
-quadrature points and functions of one rank."""
+"""Tests the clip and the basis by all ranks together. In rank order, they have the triangles, octree
+cells, quadrature points and functions of one rank."""
 import unittest
 
 import numpy
@@ -25,7 +25,7 @@ def field(output, name):
 
 
 def rows_of_triangles(output):
-    """Per triangle its cell arrays, and the places and point arrays at its corners."""
+    """Returns, for each triangle, its cell arrays, and the places and point arrays at its corners."""
     if output.GetNumberOfCells() == 0:
         return numpy.zeros((0, 0)), []
     corners = numpy_support.vtk_to_numpy(output.GetPolys().GetConnectivityArray()).reshape(-1, 3)
@@ -48,7 +48,7 @@ def rows_of_triangles(output):
 
 
 def of_all_ranks(rows):
-    """The rows of all ranks, one rank after the other; ranks without any do not know how long they are."""
+    """Returns the rows of all ranks in rank order. Ranks without rows do not know their length."""
     width = int(ranks.gathered([rows.shape[1]]).max())
     return ranks.gathered(rows.ravel()).reshape(-1, max(width, 1))
 
@@ -66,7 +66,7 @@ def apart(ours, theirs, what, tolerance=1e-12):
 
 class DistributedClip(unittest.TestCase):
     def compare_meshes(self, output, whole, kind, case):
-        """Triangles in the order of one rank's where the pieces have that of the mesh."""
+        """Triangles have the order of one rank if the pieces have that of the mesh."""
         theirs, names = rows_of_triangles(whole)
         ours = of_all_ranks(rows_of_triangles(output)[0])
         problems = []
@@ -121,7 +121,8 @@ class DistributedClip(unittest.TestCase):
                                 sorted_rows(octree(whole[2])), f"{case}: octree cells")
 
     def functions(self, output):
-        """Per function its number, place, area and component, once; and the numbers of patches."""
+        """Returns, for each function, its number, place, area and component, once, and the numbers of
+        patches."""
         points = ranks.arrays(output.GetPointData())
         rows = numpy.zeros((0, 6))
         patches = numpy.zeros(0)
@@ -143,7 +144,7 @@ class DistributedClip(unittest.TestCase):
                         ranks.check(self, self.wrong_basis(mesh(), kind, level, case))
 
     def test_plain_functions_have_the_components_of_one_rank(self):
-        """On coarse levels they join sheets, of which each rank sees its own."""
+        """Coarse functions join sheets, of which each rank sees its own."""
         for mesh in (ranks.sheets(), ranks.two()):
             for level in (14, 3, 2, 1):
                 ranks.check(self, self.wrong_basis(
@@ -183,7 +184,7 @@ class DistributedClip(unittest.TestCase):
         ranks.check(self, [problem for problem in problems if "Distributed" not in problem])
 
     def same_solution(self, output, whole, case):
-        """Where both have a point it has one solution; each has those of the surface."""
+        """A point on both ranks has one solution. Each rank has the points of the surface."""
         def solution(data):
             if not data.GetNumberOfPoints():
                 return numpy.zeros((0, 4))
@@ -209,7 +210,7 @@ class DistributedClip(unittest.TestCase):
             ranks.make("ScreenedPoisson", 4, **properties), ranks.whole(mesh))[0])
 
     def test_solvers_take_the_basis_of_all_ranks(self):
-        """On the clipped mesh, which they solve on then, and beside the mesh that it was made of."""
+        """Solves on the clipped mesh, and beside the mesh that it was made of."""
         for mesh in (ranks.ellipsoid(), ranks.sheets(), ranks.two()):
             whole = self.solved_alone(mesh)
             data = ranks.piece(mesh, "contiguous")
@@ -244,7 +245,7 @@ class DistributedClip(unittest.TestCase):
         ranks.check(self, problems)
 
     def part_of(self, whole, kind):
-        """The triangles of a clipped mesh that a rank has read from a file, with their points."""
+        """Returns the triangles of a clipped mesh that a rank has read from a file, with their points."""
         owner = ranks.owners(whole.GetNumberOfCells(), kind)
         own = numpy.flatnonzero((owner == ranks.RANK) | (owner < 0))
         part = vtkPolyData()
@@ -273,7 +274,7 @@ class DistributedClip(unittest.TestCase):
         return part
 
     def test_reads_a_clip_and_a_basis_in_any_pieces(self):
-        """As from a file that another number of ranks has written, in single precision as well."""
+        """Reads as from a file that another number of ranks has written, in single precision as well."""
         for mesh in (ranks.ellipsoid, ranks.sheets, ranks.bowl):
             for single in (False, True):
                 data = ranks.whole(mesh())
@@ -316,7 +317,8 @@ class DistributedClip(unittest.TestCase):
         return problems
 
     def wrong_spread(self, output, spread, case):
-        """A basis function at the points of the piece; numbers of functions follow those of patches."""
+        """Evaluates a basis function at the points of the piece. Numbers of functions follow those of
+        patches."""
         if not output.GetNumberOfPoints() or "scattered" in case:
             return []
 
@@ -328,7 +330,7 @@ class DistributedClip(unittest.TestCase):
         return [] if off <= 1e-12 else [f"{case}: BasisFunction is {off} off"]
 
     def test_a_clip_has_its_own_depth(self):
-        """Whatever Depth says, also 0."""
+        """The depth of the basis counts, whatever Depth is, also 0."""
         clip = ranks.run(made("ClipToOctree"), ranks.piece(ranks.ellipsoid(), "contiguous"))[0]
         for depth in (0, 9):
             output = ranks.run(
@@ -337,8 +339,8 @@ class DistributedClip(unittest.TestCase):
             ranks.check(self, [] if found is not None and found[0] == 4 else [f"depth {found}"])
 
     def test_cells_count_as_in_the_gathered_surface(self):
-        """Vertices come before polygons, also those of a rank that has nothing else; and ids of points are
-        left out."""
+        """Vertices come before polygons, also the vertices of a rank that has nothing else. Ids of
+        points are left out."""
         data = ranks.piece(ranks.bowl(), "one rank is empty", global_ids=True)
         data.GetCellData().SetGlobalIds(None)
         data.GetCellData().RemoveArray("global")
@@ -392,8 +394,8 @@ class DistributedClip(unittest.TestCase):
         ranks.check(self, problems)
 
     def test_arrays_of_any_type(self):
-        """Text and bytes travel as they are; numbers of different types become double; an array that
-        one rank lacks is left out."""
+        """Text and bytes arrive unchanged. Numbers of different types become double. An array that one
+        rank lacks is left out."""
         data = ranks.piece(ranks.bowl(), "contiguous")
         cells = data.GetNumberOfCells()
         if cells:

@@ -1,5 +1,5 @@
-"""Filters by all ranks together: the answers of one rank on every rank's own piece, ghost cells and repeated
-pieces included, and stages that stay. Where they cannot, rank 0 gathers."""
+"""Tests filters by all ranks together. Every rank's own piece has the answers of one rank, ghost cells
+and repeated pieces included, and stages stay. If the ranks cannot compute together, rank 0 gathers."""
 import re
 import unittest
 
@@ -60,7 +60,7 @@ CASES = {
 }
 KINDS = ("last", "contiguous", "ghosts", "scattered", "one rank is empty", "all on all")
 POINT_NAMES = ("f", "f2", "v", "mask", "spots", "hole")
-# Of the bowl, which has a boundary; what they warn of is the same on one rank.
+# Filters on the bowl, which has a boundary. Their warnings are the same on one rank.
 OF_BOUNDARIES = ("poisson, flux", "poisson, flux in balance", "poisson, boundary",
                  "poisson, all at once", "heat, boundary", "heat, hats, boundary",
                  "poisson, hats, all at once")
@@ -79,8 +79,8 @@ def made(case, depth=4, **changes):
 
 
 def with_vectors(data):
-    """`v`: three components, `f2`: squares, `mask`: some points near one end, `spots`: a few far from
-    each other, and `hole`: `f`, of which most is unknown beyond a plane."""
+    """Adds arrays. `v` has three components, `f2` squares. `mask` has some points near one end, `spots`
+    a few far from each other. `hole` is `f`, unknown beyond a plane, where most points lie."""
     if data.GetNumberOfPoints():
         points = numpy_support.vtk_to_numpy(data.GetPoints().GetData())
         origin = numpy_support.vtk_to_numpy(data.GetPointData().GetArray("origin"))
@@ -96,7 +96,7 @@ def with_vectors(data):
 
 
 def selection_of(data, name, kind=vtkSelectionNode.POINT):
-    """The points of this rank where an array is not 0."""
+    """Selects the points of this rank at which an array is not 0."""
     ids = vtkIdTypeArray()
     if data.GetNumberOfPoints():
         array = numpy_support.vtk_to_numpy(data.GetPointData().GetArray(name))
@@ -112,7 +112,7 @@ def selection_of(data, name, kind=vtkSelectionNode.POINT):
 
 
 def numbers_in(warning):
-    """What a warning counts; the rest of it names an object and a file."""
+    """Returns the counted part of a warning. The rest names an object and a file."""
     return re.findall(r"(?:^|\s)(\d+)(?=\s)", warning.rsplit("):", 1)[-1])
 
 
@@ -161,7 +161,7 @@ class DistributedFilters(unittest.TestCase):
 
     @staticmethod
     def parted_points(mine, output, whole):
-        """Where pieces meet, their points have the same bits."""
+        """Points at which pieces meet have the same bits."""
         given = ranks.arrays(mine.GetPointData())
         places = ranks.gathered(given.get("origin", []))
         order = numpy.argsort(places)

@@ -1,5 +1,5 @@
-"""Laplace Spectrum by all ranks together: the modes of one rank on every rank's own piece, where they
-can be had so; else rank 0 gathers."""
+"""Tests Laplace Spectrum by all ranks together. Every rank's own piece has the modes of one rank. If
+the ranks cannot compute together, rank 0 gathers."""
 import unittest
 
 import numpy
@@ -50,7 +50,7 @@ class DistributedSpectrum(unittest.TestCase):
 
     @staticmethod
     def is_simple(values, k):
-        """Far from its neighbours, so that the mode is one up to its sign."""
+        """The mode is far from its neighbors, so that it is unique up to its sign."""
         gaps = numpy.diff(values)
         return 0 < k < len(values) - 1 and min(gaps[k - 1], gaps[k]) > 0.05 * values[k]
 

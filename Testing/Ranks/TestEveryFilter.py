@@ -1,4 +1,5 @@
-"""Every filter on several ranks, whose surface rank 0 gathers, compared with the same filter on one."""
+"""Tests every filter on several ranks, whose surface rank 0 gathers, against the same filter on one
+rank."""
 import unittest
 
 import numpy
@@ -41,7 +42,7 @@ def coordinates(data):
 
 
 def compare_own_cells(ours, theirs, data, tolerance):
-    """Port 0 of filters that keep the points and cells."""
+    """Checks port 0 of filters that keep the points and cells."""
     problems = []
     if (ours.GetNumberOfPoints(), ours.GetNumberOfCells()) != (
             data.GetNumberOfPoints(), data.GetNumberOfCells()):
@@ -90,7 +91,7 @@ def compare_tables(ours, theirs, tolerance):
                          None, tolerance, "table")
 
 
-# Of the iteration: rounding decides about the last one, and what is left after it.
+# Numbers of the iteration. Rounding decides about the last iteration and the error it leaves.
 OF_ITERATION = ("Residual", "ConvergenceFactor", "Iterations", "DoublePrecisionSince", "Misfit",
                 "AlgebraicError", "GlobalIds", "Residuals")
 
@@ -162,7 +163,7 @@ class EveryFilter(unittest.TestCase):
                     self.compare("GeodesicDistance", mesh, kind, hats=True)
 
     def border_problems(self, data, filter_, name):
-        """What differs between the two sides of a border, bit for bit."""
+        """Returns the differences between the two sides of a border, bit for bit."""
         output = ranks.run(filter_, data)[0]
         values = numpy_support.vtk_to_numpy(output.GetPointData().GetArray(name))
         pairs = numpy.column_stack([origin(output, "origin", of_points), values])
@@ -181,7 +182,7 @@ class EveryFilter(unittest.TestCase):
                     data, ranks.make("ScreenedPoisson", hats=hats, gathers=True), "Solution"))
 
     def test_arrays_of_one_side_keep_border_points_apart_and_make_no_slit(self):
-        """As normals do that a filter made on every rank alone."""
+        """The values differ at borders, as normals do that a filter made on every rank alone."""
         for hats in (False, True):
             data = ranks.piece(ranks.ellipsoid(), "contiguous")
             ranks.add(data.GetPointData(), "side", numpy.full(data.GetNumberOfPoints(),

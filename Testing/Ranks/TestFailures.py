@@ -1,4 +1,5 @@
-"""What goes wrong on one rank ends the run on all, with one message of rank 0, which gathers the surface."""
+"""Tests that a failure on one rank ends the run on all, with one message of rank 0, which gathers the
+surface."""
 import unittest
 
 import numpy
@@ -14,7 +15,7 @@ LAST = ranks.RANKS - 1
 
 class Failures(unittest.TestCase):
     def run_and_listen(self, filter_, data):
-        """The messages of a run, and whether all outputs are empty."""
+        """Returns the messages of a run, and whether all outputs are empty."""
         messages = ranks.heard(filter_)
         outputs = ranks.run(filter_, data)
         sizes = [output.GetNumberOfElements(kind) for output in outputs for kind in (0, 1)]
@@ -57,7 +58,7 @@ class Failures(unittest.TestCase):
         self.computed(filter_, self.good())
 
     def test_a_selection(self):
-        """It would be evaluated on what of the surface a rank has."""
+        """A rank would evaluate the query only on its own part of the surface."""
         ids = vtkIdTypeArray()
         ids.InsertNextValue(3)
         node = vtkSelectionNode()

@@ -1,4 +1,4 @@
-"""Inputs on other ports, chains of filters, and composite data."""
+"""Tests inputs on other ports, chains of filters, and composite data."""
 import os
 import tempfile
 import unittest
@@ -26,7 +26,7 @@ def result(output, name):
 
 
 def expect(output, reference, name, data, tolerance=ROUNDING):
-    """Problems with an array at the points of `data`."""
+    """Returns problems with an array at the points of `data`."""
     if data.GetNumberOfPoints() == 0:
         return []
     if not output.GetPointData().HasArray(name):
@@ -38,7 +38,7 @@ def expect(output, reference, name, data, tolerance=ROUNDING):
 
 
 def places(points, values=()):
-    """Points of an unstructured grid, with values."""
+    """Makes points of an unstructured grid, with values."""
     grid = vtkUnstructuredGrid()
     where = vtkPoints()
     where.SetDataTypeToDouble()
@@ -86,7 +86,7 @@ class OtherPorts(unittest.TestCase):
                 ranks.check(self, expect(output, reference, "Solution", data))
 
     def test_a_basis_that_was_saved(self):
-        """By all ranks or one, and read by all or one."""
+        """All ranks or one make the basis, and all or one read it."""
         mesh = ranks.ellipsoid()
         data = ranks.piece(mesh, "contiguous")
         reference = ranks.alone(
@@ -220,7 +220,7 @@ class Arrays(unittest.TestCase):
 
 class Composite(unittest.TestCase):
     MESHES = (ranks.ellipsoid, ranks.bowl, ranks.two)
-    # What all ranks compute together, to the tolerance of the solver, and what rank 0 gathers.
+    # Results of all ranks together, to the tolerance of the solver, and results that rank 0 gathers.
     RESULTS = {"ScreenedPoisson": ("Solution", 1e-8), "HarmonicInterpolation": ("Interpolated", ROUNDING)}
 
     def references(self, name="ScreenedPoisson"):

@@ -1,4 +1,4 @@
-"""What is kept between runs where rank 0 gathers the surface, and steps in time."""
+"""Tests the kept stages if rank 0 gathers the surface, and steps in time."""
 import unittest
 
 import numpy
@@ -16,7 +16,7 @@ class Stages(unittest.TestCase):
         return {stage: filter_.GetNumberOfRuns(stage) for stage in STAGES}
 
     def expect_runs(self, filter_, expected):
-        """On the first rank; the others compute nothing."""
+        """Returns the stages of the first rank. The others compute nothing."""
         if ranks.RANK > 0:
             expected = dict.fromkeys(STAGES, 0)
         runs = self.runs(filter_)
@@ -81,7 +81,7 @@ class Stages(unittest.TestCase):
 
 class Time(unittest.TestCase):
     def steps(self, filter_):
-        """The steps of all ports, which have to be the same on all ranks."""
+        """Returns the steps of all ports, which have to be the same on all ranks."""
         filter_.UpdateInformation()
         steps = []
         for port in range(filter_.GetNumberOfOutputPorts()):

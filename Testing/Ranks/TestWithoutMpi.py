@@ -1,4 +1,4 @@
-"""Filters by all ranks together, in a build that cannot: rank 0 gathers."""
+"""Tests filters on several ranks in a build without MPI: rank 0 gathers."""
 import unittest
 
 import ranks

@@ -1,4 +1,4 @@
-"""Run by TestServer.sh: the filters on the ranks of a server, seen from a client.
+"""Checks the filters on the ranks of a server, seen from a client. TestServer.sh runs it.
 
     pvpython client.py PORT RANKS FOLDER
 """
@@ -28,8 +28,8 @@ def array_of(data, name):
 class Client(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        """A sphere from a file, which one rank reads, divided among all. ParaView's source of
-        spheres would make a slit: each rank rounds the points of the seam in its own way."""
+        """Reads a sphere from a file on one rank and divides it among all. ParaView's source of spheres
+        would make a slit: each rank rounds the points of the seam in its own way."""
         source = vtkSphereSource()
         source.SetRadius(1.0)
         source.SetThetaResolution(40)
@@ -74,7 +74,7 @@ class Client(unittest.TestCase):
                 self.assertEqual(kept, name not in ("ClipToOctree", "ConnectivityAwareBasis"))
 
     def solution_of_one_rank(self):
-        """Points, and the solution at them."""
+        """Returns points, and the solution at them."""
         from gridfem.vtkGridFEMFilters import vtkScreenedPoisson
         alone = vtkPolyData()
         alone.ShallowCopy(self.alone)

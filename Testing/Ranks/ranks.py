@@ -1,7 +1,7 @@
-"""What the tests on several ranks share: surfaces in pieces, filters, and one answer for all ranks.
+"""Shared by the tests on several ranks: surfaces in pieces, filters, and one answer for all ranks.
 
-Every rank runs the whole script. A check is collective: it fails on all ranks when it fails on one,
-so that no rank goes on alone and waits for the others.
+Every rank runs the whole script. A check is collective: it fails on all ranks if it fails on one, so
+that no rank goes on alone and waits for the others.
 """
 import contextlib
 import os
@@ -31,7 +31,7 @@ POINTS = vtkDataObject.FIELD_ASSOCIATION_POINTS
 
 @contextlib.contextmanager
 def growing_by(room):
-    """Within it this process can grow by so many bytes of addresses only; None: as it likes."""
+    """Limits this process: it can grow only by so many bytes of addresses. None sets no limit."""
     free = (resource.RLIM_INFINITY, resource.RLIM_INFINITY)
     if room is not None:
         with open("/proc/self/statm", encoding="ascii") as statm:
@@ -44,14 +44,14 @@ def growing_by(room):
 
 
 def proxies():
-    """The names of all filters of the plugin."""
+    """Returns the names of all filters of the plugin."""
     folder = pathlib.Path(os.environ["GRIDFEM_SOURCE_DIR"]) / "Plugin"
     return [re.search(r'<SourceProxy name="(\w+)"', path.read_text()).group(1)
             for path in sorted(folder.glob("*.xml"))]
 
 
 def total(number):
-    """The sum over the ranks."""
+    """Returns the sum over the ranks."""
     own, result = vtkIntArray(), vtkIntArray()
     own.InsertNextValue(number)
     result.SetNumberOfTuples(1)
@@ -60,7 +60,7 @@ def total(number):
 
 
 def gathered(numbers):
-    """The numbers of all ranks, one after the other."""
+    """Returns the numbers of all ranks in rank order."""
     own, result = vtkDoubleArray(), vtkDoubleArray()
     for number in numbers:
         own.InsertNextValue(number)
@@ -69,14 +69,14 @@ def gathered(numbers):
 
 
 def check(test, problems):
-    """Fails on all ranks when there is a problem on one."""
+    """Fails on all ranks if there is a problem on one."""
     for problem in problems[:10]:
         print(f"rank {RANK} of {RANKS}: {problem}", flush=True)
     test.assertEqual(total(len(problems)), 0, "see above")
 
 
 def main():
-    """Runs the tests of the script. A script that has gone well has to end by itself: MPI wants to
+    """Runs the tests of the script. A successful script has to end by itself, because MPI has to
     finish, too."""
     if not unittest.main(exit=False).result.wasSuccessful():
         sys.exit(1)
@@ -85,7 +85,7 @@ def main():
 # --- surfaces: points, triangles ---------------------------------------------------------------
 
 def ellipsoid(segments=24, rings=12):
-    """Without symmetries, so that its modes are no multiplets."""
+    """Makes a surface without symmetries, so that its modes are no multiplets."""
     points = [(0, 0, 1)]
     for j in range(1, rings):
         angle = numpy.pi * j / rings
@@ -110,26 +110,26 @@ def ellipsoid(segments=24, rings=12):
 
 
 def two():
-    """Two components."""
+    """Makes two components."""
     points, triangles = ellipsoid(16, 8)
     return (numpy.concatenate([points, 0.5 * points + (2.5, 0, 0)]),
             numpy.concatenate([triangles, triangles + len(points)]))
 
 
 def bowl():
-    """Half of it: a boundary."""
+    """Makes half of the surface, which has a boundary."""
     points, triangles = ellipsoid()
     return points, triangles[(points[triangles][:, :, 2] > -0.05).all(axis=1)]
 
 
 def soup():
-    """Triangles with corners of their own, as in files of STL."""
+    """Makes triangles with corners of their own, as in STL files."""
     points, triangles = ellipsoid(16, 8)
     return points[triangles].reshape(-1, 3), numpy.arange(3 * len(triangles)).reshape(-1, 3)
 
 
 def sheets(gap=0.003, segments=12):
-    """Two squares with a thin gap, in planes of the grid."""
+    """Makes two squares with a thin gap, in planes of the grid."""
     steps = numpy.arange(segments + 1) / segments
     x, y = (axis.ravel() for axis in numpy.meshgrid(steps, steps))
     a = (numpy.arange(segments)[:, None] * (segments + 1) + numpy.arange(segments)).ravel()
@@ -142,14 +142,14 @@ def sheets(gap=0.003, segments=12):
 
 
 def triangle():
-    """Fewer cells than ranks."""
+    """Makes fewer cells than there are ranks."""
     return numpy.array([(0.4, 0.0, 0.0), (1.0, 0.1, 0.0), (0.2, 0.9, 0.3)]), numpy.array([(0, 1, 2)])
 
 
 # --- pieces -----------------------------------------------------------------------------------
 
 def owners(cells, kind):
-    """The rank of every cell; -1: all ranks have it."""
+    """Returns the rank of every cell. -1 means that all ranks have it."""
     number = numpy.arange(cells)
     others = [rank for rank in range(RANKS) if rank != 1]
     return {
@@ -179,8 +179,8 @@ def ids(values):
 
 
 def surface(points, triangles, point_ids, cell_ids, global_ids=False):
-    """A surface with the arrays `f` and `label` of its place, `c` of cells, and where its points and
-    cells are in the whole."""
+    """Returns a surface with the arrays `f` and `label`, which depend on the place, `c` of cells, and
+    the places of its points and cells in the whole."""
     data = vtkPolyData()
     places = vtkPoints()
     places.SetDataTypeToDouble()
@@ -213,7 +213,7 @@ def whole(mesh, global_ids=False):
 
 
 def piece(mesh, kind, global_ids=False):
-    """This rank's piece; ghosts are the cells that touch it."""
+    """Returns this rank's piece. Ghosts are the cells that touch it."""
     points, triangles = mesh
     owner = owners(len(triangles), kind)
     own = (owner == RANK) | (owner < 0)
@@ -253,9 +253,9 @@ KEEP_NO_CELLS = ("ClipToOctree", "ConnectivityAwareBasis")
 
 
 def make(name, depth=4, hats=False, gathers=False, **properties):
-    """A filter of the plugin.
+    """Makes a filter of the plugin.
 
-    gathers: rank 0 gathers the surface, where ranks could compute together.
+    gathers: rank 0 gathers the surface, although ranks could compute together.
     """
     made = getattr(vtkGridFEMFilters, "vtk" + name)()
     made.SetDepth(depth)
@@ -272,7 +272,7 @@ def make(name, depth=4, hats=False, gathers=False, **properties):
 
 
 def prepare(data):
-    """`g`: the values of `f` at every seventh point, nothing known at the others."""
+    """Adds `g`: the values of `f` at every seventh point, unknown at the others."""
     if data.GetNumberOfPoints() > 0:
         origin = numpy_support.vtk_to_numpy(data.GetPointData().GetArray("origin"))
         f = numpy_support.vtk_to_numpy(data.GetPointData().GetArray("f"))
@@ -281,8 +281,8 @@ def prepare(data):
 
 
 def run(filter_, data):
-    """Runs a filter and returns its outputs. All ranks have to, also those whose piece is as it
-    was."""
+    """Runs a filter and returns its outputs. All ranks have to call it, also those whose piece is
+    unchanged."""
     filter_.SetInputDataObject(0, data)
     filter_.Modified()
     filter_.Update()
@@ -290,7 +290,7 @@ def run(filter_, data):
 
 
 def heard(filter_, event="ErrorEvent"):
-    """A list that gets the texts of what a filter says from now on."""
+    """Returns a list that receives all messages of a filter from now on."""
     texts = []
 
     def hear(_, __, text=None):
@@ -301,7 +301,7 @@ def heard(filter_, event="ErrorEvent"):
 
 
 def alone(compute):
-    """What a function returns when this process is the only one."""
+    """Returns the result of a function if this process is the only one."""
     vtkMultiProcessController.SetGlobalController(vtkDummyController())
     try:
         return compute()
@@ -312,8 +312,8 @@ def alone(compute):
 # --- comparison -------------------------------------------------------------------------------
 
 def arrays(attributes):
-    """Arrays by their names, but for ghost flags, what tells the time, and ids of points, which count through
-    the gathered surface."""
+    """Returns arrays by their names. Leaves out ghost flags, times, and ids of points, which count
+    through the gathered surface."""
     wrapped = dataset_adapter.DataSetAttributes(attributes, None, None)
     names = [attributes.GetArrayName(k) for k in range(attributes.GetNumberOfArrays())]
     return {name: numpy.array(wrapped[name], dtype=float) for name in names
@@ -322,7 +322,7 @@ def arrays(attributes):
 
 
 def apart(ours, theirs):
-    """The largest difference; infinite where one of two is not a number."""
+    """Returns the largest difference. Infinite if only one of two numbers is NaN."""
     if not ours.size:
         return 0.0
     differences = abs(ours - theirs)
@@ -341,7 +341,7 @@ OF_ESTIMATES = 1e-6
 
 
 def compare(ours, theirs, places, tolerance, what):
-    """Problems with arrays at places of the whole ones; modes may have the other sign."""
+    """Returns problems with arrays at places of the whole arrays. Modes may have the other sign."""
     problems = []
     for name, values in theirs.items():
         if name not in ours:

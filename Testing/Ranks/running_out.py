@@ -1,9 +1,10 @@
-"""Screened Poisson by all ranks together, while the last rank can grow by so many megabytes only, or each
-of them, with a larger surface:
+"""Runs Screened Poisson by all ranks together with little memory: the last rank, or each rank with a
+larger surface, can grow only by so many megabytes.
 
     mpiexec -n 2 pvbatch --symmetric running_out.py MEGABYTES [each]
 
-prints what came of it: "computed", or the message. Whatever it is, all ranks agree and go on."""
+Prints "computed", or the message. In either case all ranks agree and go on.
+"""
 import sys
 
 import ranks
@@ -12,7 +13,7 @@ MEGABYTE = 1 << 20
 
 
 def run(depth, mesh, room=None, limited=lambda rank: rank == ranks.RANKS - 1):
-    """The messages of a run, and what its output says."""
+    """Returns the messages of a run, and the facts in its output."""
     piece = ranks.piece(mesh, "contiguous")
     filter_ = ranks.make("ScreenedPoisson", depth, Tolerance=1e-8)
     messages = ranks.heard(filter_)

@@ -1,4 +1,4 @@
-// Every filter, ready to run on a surface that has the arrays which they need.
+// Makes every filter, ready to run on a surface with the arrays it needs.
 #ifndef GridFEM_Testing_AllFilters_h
 #define GridFEM_Testing_AllFilters_h
 
@@ -77,8 +77,8 @@ inline void PrintTo(const FilterCase& filter, std::ostream* stream)
   *stream << filter.name;
 }
 
-/// Adds the point arrays that they take. "few" has values at a thousandth of the points, and at ten
-/// of a small surface.
+/// Adds the point arrays that the filters use. "few" has values at a thousandth of the points, and
+/// at ten of a small surface.
 inline void AddArraysOfAllFilters(vtkPolyData* surface)
 {
   AddPointArray(surface, "f", 1, Wave);

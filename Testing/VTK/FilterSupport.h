@@ -1,4 +1,4 @@
-// What the filter tests share: meshes as vtkPolyData, collected messages, arrays as vectors.
+// Support shared by the filter tests: meshes as vtkPolyData, collected messages, arrays as vectors.
 #ifndef GridFEM_Testing_FilterSupport_h
 #define GridFEM_Testing_FilterSupport_h
 
@@ -30,7 +30,7 @@ namespace gridfem::testing
 inline constexpr int Points = vtkDataObject::FIELD_ASSOCIATION_POINTS;
 inline constexpr int Cells = vtkDataObject::FIELD_ASSOCIATION_CELLS;
 
-/// Of solvers, in the order in which they depend on each other.
+/// The stages of solvers, in the order in which they depend on each other.
 inline constexpr const char* Stages[] = { "Space", "System", "Hierarchy", "RightHandSide",
   "Solve" };
 
@@ -109,7 +109,7 @@ private:
   vtkNew<vtkCallbackCommand> quiet_;
 };
 
-/// All values of an array; empty without one.
+/// Returns all values of an array. Empty if there is none.
 inline std::vector<double> Values(vtkDataArray* array)
 {
   std::vector<double> values;
@@ -139,7 +139,7 @@ inline bool AllFinite(const std::vector<double>& values)
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 
-/// Largest difference; infinite for different sizes.
+/// Returns the largest difference. Infinite for different sizes.
 inline double Difference(const std::vector<double>& a, const std::vector<double>& b)
 {
   if (a.size() != b.size())

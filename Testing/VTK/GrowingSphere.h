@@ -19,9 +19,9 @@ public:
   static GrowingSphere* New();
   vtkTypeMacro(GrowingSphere, vtkPolyDataAlgorithm);
 
-  /// Of all times that a sphere was asked for, the last.
+  /// The last time that a sphere was requested for.
   double Time = 0.0;
-  /// How often a sphere was made.
+  /// The number of spheres made.
   int Runs = 0;
 
 protected:

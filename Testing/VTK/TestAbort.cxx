@@ -1,7 +1,7 @@
-// On a mesh of 200,000 triangles an abort is served soon at any stage and leaves a filter that
-// works. Progress is told at least as often. Seconds are those that the process computes on one
-// thread, so that other work on the machine does not count. More threads take less time. Times grow
-// with the mesh.
+// Checks, on a mesh of 200,000 triangles, that an abort is served soon at any stage and leaves a
+// working filter. Progress is reported at least as often. Seconds are the computing time of the
+// process on one thread, so that other work on the machine does not count. More threads take less
+// time. Times grow with the mesh.
 
 #include "AllFilters.h"
 
@@ -20,21 +20,22 @@ using namespace gridfem::testing;
 namespace
 {
 
-/// The longest wait for an abort, in times that the same machine takes to make the mesh, which is
-/// 0.04 s. At most 0.7 were measured.
+/// The longest wait for an abort, as a multiple of the time to make the mesh on the same machine,
+/// which is 0.04 s. At most 0.7 were measured.
 constexpr double Longest = 8.0;
 
-/// The same for the time between two reports of progress. At most 5.5 were measured, for a hundred
-/// modes of Spectral Signatures, and 2.7 for all other filters.
+/// The longest time between two reports of progress, in the same unit. At most 5.5 were measured,
+/// for a hundred modes of Spectral Signatures, and 2.7 for all other filters.
 constexpr double LongestSilence = 10.0;
 
-/// Of the whole process.
+/// The computing time of the whole process.
 double SecondsComputed()
 {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-/// The longest time between two reports of progress, and whether each is above the one before.
+/// Records the longest time between two reports of progress, and whether each report is above the
+/// one before.
 class Reports
 {
 public:
@@ -75,7 +76,7 @@ private:
   bool areRising_ = true;
 };
 
-/// Sets a filter's abort flag from another thread when the process has computed for so long.
+/// Sets a filter's abort flag from another thread after a given computing time of the process.
 class Aborter
 {
 public:
@@ -89,7 +90,7 @@ public:
     thread_.join();
   }
 
-  /// How long ago that was; negative where the filter was faster.
+  /// The time since the abort flag was set. Negative if the filter was faster.
   double SecondsSince() const { return at_ < 0.0 ? -1.0 : SecondsComputed() - at_; }
 
 private:

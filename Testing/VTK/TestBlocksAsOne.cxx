@@ -1,4 +1,5 @@
-// All blocks of composite data as one surface: what the whole surface gives, block by block.
+// Checks all blocks of composite data as one surface: each block has the result of the whole
+// surface.
 
 #include "FilterSupport.h"
 #include "GrowingSphere.h"
@@ -36,13 +37,14 @@ namespace
 
 using Algorithm = vtkSurfaceFEMAlgorithm;
 
-/// Which block a triangle of the sphere goes to: eight octants in three parts.
+/// Returns the block that a triangle of the sphere goes to: eight octants in three parts.
 int PartOf(const Vec3& centre)
 {
   return centre[0] > 0.1 ? 0 : centre[1] > 0.0 ? 1 : 2;
 }
 
-/// A part of a surface with the point arrays "f" and "origin", the ids of its points in the whole.
+/// Returns a part of a surface with the point arrays "f" and "origin", the ids of its points in the
+/// whole.
 vtkSmartPointer<vtkPolyData> Part(const TriangleMesh& mesh, int part)
 {
   TriangleMesh own;
@@ -69,7 +71,7 @@ vtkSmartPointer<vtkPolyData> Part(const TriangleMesh& mesh, int part)
   }
   auto data = ToPolyData(own);
   AddPointArray(data, "f", 1, Wave);
-  vtkNew<vtkIntArray> ids; // of a name that does not say that it differs between blocks
+  vtkNew<vtkIntArray> ids; // the name does not reveal that ids differ between blocks
   ids->SetName("origin");
   for (const vtkIdType id : origin)
   {
@@ -111,7 +113,7 @@ protected:
     algorithm->BlocksAsOneOn();
   }
 
-  /// Nested: two parts in a group, a hole, an empty block, and the third part.
+  /// Makes nested blocks: two parts in a group, a hole, an empty block, and the third part.
   vtkSmartPointer<vtkMultiBlockDataSet> Nested() const
   {
     auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
@@ -206,7 +208,7 @@ TEST_F(BlocksAsOne, GiveTheSolutionOfTheWholeSurfaceInBothSpaces)
   EXPECT_TRUE(messages.warnings.empty());
 }
 
-/// As normals of every block do.
+/// The array differs between blocks, as normals of every block do.
 TEST_F(BlocksAsOne, AreOneSurfaceWhereBordersHaveOtherValuesOnBothSides)
 {
   for (int k = 0; k < 3; ++k)
@@ -392,7 +394,7 @@ TEST_F(BlocksAsOne, UnchangedInputRebuildsNothing)
   filter->SetScreeningWeight(7.0);
   filter->Update();
   EXPECT_EQ(runs(), (std::vector<vtkIdType>{ 1, 1, 2, 1, 2 }));
-  // New data objects with the same arrays, as every hop through ParaView makes them.
+  // Every hop through ParaView makes new data objects with the same arrays.
   vtkNew<vtkMultiBlockDataSet> again;
   again->ShallowCopy(this->Nested());
   filter->SetInputDataObject(again);
@@ -457,7 +459,7 @@ TEST_F(BlocksAsOne, WhatIsWrongIsSaidOnce)
   {
     EXPECT_EQ(leaf->GetNumberOfPoints(), 0);
   }
-  // In one block an array of points, in another one of cells: no surface has it.
+  // One block has an array of points, another an array of cells. The surface has neither.
   vtkNew<vtkDoubleArray> cells;
   cells->SetName("f");
   cells->SetNumberOfTuples(parts[2]->GetNumberOfCells());

@@ -1,4 +1,4 @@
-// Clip To Octree: ports, arrays, precision, polygons of every kind.
+// Tests Clip To Octree: ports, arrays, precision, polygons of every kind.
 
 #include "FilterSupport.h"
 
@@ -45,7 +45,7 @@ double Area(vtkPolyData* data, vtkIdType cell)
   return vtkTriangle::TriangleArea(p[0], p[1], p[2]);
 }
 
-/// Area of the clipped triangles by source cell.
+/// Returns the area of the clipped triangles by source cell.
 std::vector<double> AreaBySource(vtkPolyData* clipped, vtkIdType cells)
 {
   std::vector<double> area(cells, 0.0);
@@ -57,7 +57,7 @@ std::vector<double> AreaBySource(vtkPolyData* clipped, vtkIdType cells)
   return area;
 }
 
-/// L-shaped hexagon of area 3 in the plane z = 0.
+/// Makes an L-shaped hexagon of area 3 in the plane z = 0.
 vtkSmartPointer<vtkPolyData> ConcavePolygon(double scale, double shift)
 {
   auto data = vtkSmartPointer<vtkPolyData>::New();
@@ -76,7 +76,7 @@ vtkSmartPointer<vtkPolyData> ConcavePolygon(double scale, double shift)
   return data;
 }
 
-/// A regular polygon whose every second corner is drawn in by a part of the radius.
+/// Makes a regular polygon whose every second corner is drawn in by a part of the radius.
 vtkSmartPointer<vtkPolyData> Star(int size, double depth)
 {
   vtkNew<vtkPoints> points;
@@ -96,7 +96,7 @@ vtkSmartPointer<vtkPolyData> Star(int size, double depth)
   return data;
 }
 
-/// Nothing could stop the triangulation of a polygon that takes hours.
+/// Large polygons must be fast, because an abort cannot stop the triangulation of a polygon.
 TEST(ClipToOctree, PolygonsWithManyCornersAreCutInSecondsOrRefused)
 {
   vtkNew<vtkClipToOctree> filter;
@@ -104,7 +104,7 @@ TEST(ClipToOctree, PolygonsWithManyCornersAreCutInSecondsOrRefused)
   for (const auto& [size, depth] : { std::pair(100000, 0.0), std::pair(4000, 0.2) })
   {
     const double area =
-      0.5 * size * (1.0 - depth) * std::sin(2.0 * M_PI / size); // of triangles to the centre
+      0.5 * size * (1.0 - depth) * std::sin(2.0 * M_PI / size); // of triangles to the center
     filter->SetInputData(Star(size, depth));
     EXPECT_NEAR(AreaBySource(Clipped(filter), 1)[0], area, 1e-9);
   }
@@ -396,7 +396,7 @@ TEST(ClipToOctree, PointArraysAreInterpolatedLinearly)
   EXPECT_EQ(FieldValue(output, "field"), 3);
 }
 
-/// Whether a value is one of the corners' of the source triangle.
+/// Whether a value is that of a corner of the source triangle.
 bool IsOfACorner(vtkPolyData* input, vtkIdType cell, vtkDataArray* array, double value)
 {
   vtkNew<vtkIdList> corners;
@@ -449,7 +449,7 @@ TEST(ClipToOctree, WhatCannotBeAveragedIsNot)
   EXPECT_EQ(arrays->GetScalars(), colors);
   for (vtkIdType k = 0; k < output->GetNumberOfPoints(); ++k)
   {
-    // The colours of the corners were rounded, and so is their mean: half a step each.
+    // The colors of the corners were rounded, and so is their mean: half a step each.
     EXPECT_NEAR(colors->GetTypedComponent(k, 0), 100.0 + 50.0 * output->GetPoint(k)[0], 1.001);
     EXPECT_EQ(colors->GetTypedComponent(k, 1), 255);
   }

@@ -1,4 +1,4 @@
-// Connectivity-Aware Basis: arrays of the basis, its levels, splitting, evaluation.
+// Tests Connectivity-Aware Basis: arrays of the basis, its levels, splitting, evaluation.
 
 #include "FilterSupport.h"
 
@@ -38,8 +38,8 @@ vtkSmartPointer<vtkConnectivityAwareBasis> MakeBasis(const TriangleMesh& mesh, i
   return filter;
 }
 
-/// A sheet in one layer of cells and two in the next: the second patch of a cell stands out, and
-/// the first has the colour of the cell.
+/// There is one sheet in one layer of cells and two in the next. The second patch of a cell stands
+/// out, and the first has the color of the cell.
 TEST(ConnectivityAwareBasis, PatchesThatShareACellHaveTheirOwnColours)
 {
   const TriangleMesh sheet = FlatRectangle(10, 10);
@@ -61,7 +61,7 @@ TEST(ConnectivityAwareBasis, PatchesThatShareACellHaveTheirOwnColours)
   const auto cellColor = Values(cells->GetArray("OctreeCellColor"));
   const auto patchColor = Values(cells->GetArray("PatchColor"));
   const auto patch = Values(cells->GetArray("PatchId"));
-  std::map<double, std::set<double>> patches; // of each colour
+  std::map<double, std::set<double>> patches; // of each color
   for (std::size_t cell = 0; cell < patchColor.size(); ++cell)
   {
     const bool isSecond = patchColor[cell] >= 8;
@@ -209,7 +209,8 @@ TEST(ConnectivityAwareBasis, AClippedInputGivesTheSameBasis)
     Values(direct->GetOutput()->GetCellData()->GetArray("PatchId")));
 }
 
-/// Two corners of a triangle are one point then, and both are of the surface.
+/// The corners coincide: two corners of a triangle are one point then, and both belong to the
+/// surface.
 TEST(ConnectivityAwareBasis, IsReadForAMeshWithATriangleThatIsALine)
 {
   TriangleMesh mesh = Unweld(GeodesicSphere(5));

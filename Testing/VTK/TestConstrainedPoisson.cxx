@@ -1,4 +1,4 @@
-// Screened Poisson where values are unknown, weighed or held exactly.
+// Tests Screened Poisson with unknown, weighted and exactly held values.
 #include "FilterSupport.h"
 #include "Largest.h"
 
@@ -16,7 +16,8 @@ namespace
 
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
-/// In one of 26 caps around the axes, edges and corners of a cube, which cover a fifth of a sphere.
+/// Whether a point lies in one of 26 caps around the axes, edges and corners of a cube. The caps
+/// cover a fifth of a sphere.
 bool IsInHole(const Vec3& p)
 {
   const double cosine = 1.0 - 2.0 * 0.2 / 26.0;
@@ -75,7 +76,7 @@ TEST_P(ConstrainedPoisson, FillsHolesOfASmoothField)
   filter->SetInputArrayToProcess(0, 0, 0, Points, "holes");
   filter->FillUnknownOn();
   const auto filled = this->Solution();
-  // Of a range of 2; harmonic in a hole of radius r: r² / 4 of the Laplacian 2 x.
+  // The range is 2. In a hole of radius r the error is harmonic: r² / 4 of the Laplacian 2 x.
   EXPECT_LT(Difference(filled, PointValues(input, "f")), 0.02 * 2.0);
   EXPECT_TRUE(messages.warnings.empty()) << messages.warnings[0];
   EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 1);
@@ -118,7 +119,7 @@ TEST_P(ConstrainedPoisson, WeightsOfOneChangeNothing)
   filter->SetInputArrayToProcess(3, 0, 0, Points, "weight");
   const auto weighed = this->Solution();
   EXPECT_LT(Difference(weighed, plain), 1e-7);
-  // The same factor on the weights as on the screening weight.
+  // The factor on the weights is the same as on the screening weight.
   AddPointArray(input, "ten", 1, [](const Vec3&, int) { return 10.0; });
   filter->SetScreeningWeight(10.0);
   filter->SetInputArrayToProcess(3, 0, 0, Points, "ten");
@@ -147,7 +148,7 @@ TEST_P(ConstrainedPoisson, HoldsValuesExactly)
   EXPECT_NEAR(FieldValue(filter->GetOutput(), "Misfit"), after, 1e-9);
 }
 
-/// Laplace's equation on a disc: x² - y² from its values at the boundary alone.
+/// Solves Laplace's equation on a disc: x² - y² from its values at the boundary alone.
 TEST_P(ConstrainedPoisson, SolvesForValuesHeldAtTheBoundary)
 {
   for (const int fineness : { 8, 40 }) // edges longer than a cell, and shorter
@@ -175,8 +176,8 @@ TEST_P(ConstrainedPoisson, SolvesForValuesHeldAtTheBoundary)
   }
 }
 
-/// A tube along z: what flows in at the bottom leaves at the top. With screening λ u = Δu instead:
-/// the flux is that of cosh.
+/// On a tube along z, flow enters at the bottom and leaves at the top. With screening, λ u = Δu
+/// holds instead, and the flux is that of cosh.
 TEST_P(ConstrainedPoisson, TakesAFluxAcrossTheBoundary)
 {
   TriangleMesh tube = FlatRectangle(80, 20);

@@ -1,4 +1,4 @@
-// What solver filters say of the error of their functions, against a grid two levels finer.
+// Compares the estimated errors of solver filters with a grid two levels finer.
 
 #include "FilterSupport.h"
 #include "Largest.h"
@@ -29,7 +29,7 @@ struct Case
   std::string name;
   std::function<vtkSmartPointer<Solver>()> make;
   std::string result; // a point array
-  double factor;      // how far the estimate may be off
+  double factor;      // allowed between estimate and error
 
   friend std::ostream& operator<<(std::ostream& os, const Case& test) { return os << test.name; }
 };
@@ -39,7 +39,7 @@ double Waves(const Vec3& p, int)
   return std::sin(5.0 * p[0] + 2.0 * p[1]) + p[2];
 }
 
-/// A filter of the array.
+/// Makes a filter of the array.
 template<class Filter>
 vtkSmartPointer<Filter> OfWaves()
 {
@@ -92,7 +92,7 @@ const Case Cases[] = {
       filter->SetNumberOfSteps(3);
       return filter;
     },
-    "Diffused", 6.0 }, // errors of the steps before count as well
+    "Diffused", 6.0 }, // includes the errors of earlier steps
   { "HeldHeat",
     []
     {

@@ -1,5 +1,5 @@
-// The failure rule of DESIGN §4, for every filter: what is unusable is refused with one message and
-// empty outputs, what is merely odd is computed.
+// Tests the failure rule of DESIGN §4 for every filter. Unusable input is refused with one message
+// and empty outputs. Odd but usable input is computed.
 
 #include "AllFilters.h"
 
@@ -29,7 +29,7 @@ vtkSmartPointer<vtkSurfaceFEMAlgorithm> MakeOnHats()
   return filter;
 }
 
-/// Small, with outputs that are never empty, and with something to compute on the grid.
+/// Makes a small filter whose outputs are never empty, with something to compute on the grid.
 vtkSmartPointer<vtkSurfaceFEMAlgorithm> MakeFilter(const FilterCase& filterCase)
 {
   auto filter = filterCase.make();
@@ -45,7 +45,7 @@ vtkSmartPointer<vtkSurfaceFEMAlgorithm> MakeFilter(const FilterCase& filterCase)
   return filter;
 }
 
-/// The array is "f", unless the filter's case has chosen one.
+/// Chooses the array "f", unless the filter's case has chosen one.
 void ChooseArray(vtkAlgorithm* filter)
 {
   if (!filter->GetInputArrayInformation(0)->Has(vtkDataObject::FIELD_NAME()))
@@ -54,7 +54,8 @@ void ChooseArray(vtkAlgorithm* filter)
   }
 }
 
-/// The point array of output 0 that does not change with the unit, but for modes; empty for none.
+/// The point array of output 0 that does not change with the unit, except for modes. Empty for
+/// none.
 std::string ResultOf(vtkAlgorithm* filter)
 {
   static const std::map<std::string, std::string> results = {
@@ -70,7 +71,7 @@ std::string ResultOf(vtkAlgorithm* filter)
   return found == results.end() ? std::string() : found->second;
 }
 
-/// With the arrays that the filters take.
+/// Returns the mesh with the arrays that the filters use.
 vtkSmartPointer<vtkPolyData> Surface(const TriangleMesh& mesh)
 {
   auto surface = ToPolyData(mesh);
@@ -78,7 +79,7 @@ vtkSmartPointer<vtkPolyData> Surface(const TriangleMesh& mesh)
   return surface;
 }
 
-/// The bytes of arrays, by what the arrays are; without the time that a run took.
+/// Returns the bytes of arrays by type, without the time that a run took.
 using Contents = std::map<std::string, std::string>;
 
 void AddArray(Contents& contents, const std::string& name, vtkDataArray* array)
@@ -188,7 +189,7 @@ protected:
 #endif
   }
 
-  /// Of all outputs.
+  /// The arrays of all outputs.
   std::vector<Contents> OutputContents()
   {
     std::vector<Contents> contents;
@@ -269,8 +270,8 @@ TEST_P(FailureRule, ASliverIsComputedUntilItIsRounding)
   const auto sliver = [](double height) {
     return Surface({ { { 0, 0, 0 }, { 1, 1, 1 }, { 0.5, 0.5, 0.5 + height } }, { { 0, 1, 2 } } });
   };
-  // On hats the long side is what entries leave that are larger by the squared inverse of the
-  // height.
+  // With hats, the limit on the long side allows for entries that are larger by the squared inverse
+  // of the height.
   const bool isOnHats = filter->GetFunctionSpace() == vtkSurfaceFEMAlgorithm::HatFunctions;
   this->ExpectComputed(sliver(isOnHats ? 1e-6 : 1e-9));
   this->ExpectRefused(sliver(1e-12), "no area");
@@ -324,7 +325,7 @@ TEST_P(FailureRule, AnUnreferencedPointMayBeNaN)
   EXPECT_EQ(this->Run(data), 1);
   auto values = PointValues(filter->GetOutputDataObject(0), result.c_str());
   ASSERT_FALSE(values.empty());
-  EXPECT_TRUE(std::isnan(values.back())); // where no triangle is, nothing is interpolated
+  EXPECT_TRUE(std::isnan(values.back())); // no triangle reaches the point
   values.pop_back();
   EXPECT_TRUE(AllFinite(values));
 }
@@ -387,7 +388,7 @@ TEST_P(FailureRule, AnAbortGivesEmptyOutputs)
   this->ExpectComputed(data); // nothing half done is left
 }
 
-/// All that filters have.
+/// The stages of all filters.
 constexpr const char* StagesOfAllFilters[] = { "Space", "System", "Hierarchy", "RightHandSide",
   "Solve", "Step", "HodgeDecomposition", "Metric", "Weights", "Signal", "Curve", "Cut" };
 
@@ -401,14 +402,14 @@ std::int64_t RunsOfStages(vtkSurfaceFEMAlgorithm* filter)
   return runs;
 }
 
-/// What a filter tells on its way, and how many stages it has done by then.
+/// A report of progress, with the number of stages done by then.
 struct Report
 {
   double progress;
   std::int64_t stages;
 };
 
-/// A filter tells at once of so much.
+/// A filter reports this much progress at once.
 constexpr double LeastStep = 0.02;
 
 /// Records the reports of a filter, and aborts it at one of them.
@@ -427,7 +428,7 @@ public:
   Course(const Course&) = delete;
   ~Course() { filter_->RemoveObserver(observer_); }
 
-  /// A new run begins, which is aborted at a report of the last one.
+  /// Begins a new run, which is aborted at a report of the last one.
   void Restart(const Report& abortAt = { 2.0, 0 })
   {
     reports.clear();
@@ -437,13 +438,13 @@ public:
   }
 
   std::vector<Report> reports;
-  double abortedAt = -1.0; ///< the progress; negative for not at all
+  double abortedAt = -1.0; ///< the progress; negative: never
 
 private:
   void Hear(double progress)
   {
     reports.push_back({ progress, RunsOfStages(filter_) - stagesBefore_ });
-    // A slower run may tell of a little less instead, and pass over what comes soon after it.
+    // A slower run may report a little less instead, and skip the reports soon after it.
     if (abortedAt < 0.0 && progress > abortAt_.progress - LeastStep &&
         reports.back().stages >= abortAt_.stages)
     {
@@ -458,7 +459,8 @@ private:
   std::int64_t stagesBefore_ = 0;
 };
 
-/// The first, a middle and the last report in each stage, and in what comes after the last one.
+/// Returns the first, a middle and the last report in each stage, and in the work after the last
+/// stage.
 std::vector<Report> ReportsOfStages(const std::vector<Report>& course)
 {
   std::vector<Report> chosen;
@@ -501,7 +503,7 @@ TEST_P(FailureRule, ProgressRisesStrictlyFromZeroToOne)
   }
 }
 
-/// As many kinds of stages in less time.
+/// Covers as many kinds of stages in less time.
 void Shorten(vtkSurfaceFEMAlgorithm* filter)
 {
   if (auto* flow = vtkMeanCurvatureFlow::SafeDownCast(filter))
@@ -618,8 +620,8 @@ TEST_P(FailureRule, TheInputIsNotChanged)
   ExpectSame(ContentsOf(data), before);
 }
 
-/// An ellipsoid, whose modes are no multiplets, with arrays of it before it was moved, run in its
-/// own place; the values of the result array.
+/// Runs a filter on an ellipsoid that a map has moved, and returns the values of the result array.
+/// The ellipsoid has no multiplets, and has arrays from before the motion.
 std::vector<double> RunMoved(const FilterCase& filterCase, double scale, const Vec3& shift)
 {
   TriangleMesh ellipsoid = GeodesicSphere(6);
@@ -631,7 +633,7 @@ std::vector<double> RunMoved(const FilterCase& filterCase, double scale, const V
   AddPointArray(data, "f", 1, [](const Vec3& p, int) { return p[2] + 0.3 * p[0]; });
   data->SetPoints(ToPolyData(Transform(ellipsoid, { 0, 0, 1 }, 0.0, scale, shift))->GetPoints());
   auto filter = MakeFilter(filterCase);
-  filter->SetTolerance(1e-10); // what is left of the iteration is not compared
+  filter->SetTolerance(1e-10); // the iteration's error is not compared
   ChooseArray(filter);
   filter->SetInputDataObject(0, data);
   filter->Update();

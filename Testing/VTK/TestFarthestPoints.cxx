@@ -28,7 +28,8 @@ std::vector<double> Ids(vtkFarthestPoints* filter)
 
 } // namespace
 
-/// One point is the source of a Geodesic Distance, and the second one is where this is largest.
+/// Compares with Geodesic Distance: the first point is its source, and the second is at its largest
+/// value.
 TEST(FarthestPoints, FollowsTheGeodesicDistance)
 {
   const auto surface = ToPolyData(Torus(40, 16, 2.0, 0.6));

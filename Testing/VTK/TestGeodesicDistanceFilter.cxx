@@ -33,7 +33,7 @@ std::vector<double> DistancesOf(vtkGeodesicDistance* filter)
   return PointValues(filter->GetOutputDataObject(0), "Distance");
 }
 
-/// 1 at one point.
+/// Adds an array that is 1 at one point.
 vtkSmartPointer<vtkPolyData> WithMask(const TriangleMesh& mesh, Id source, double other = 0.0)
 {
   auto data = ToPolyData(mesh);
@@ -55,7 +55,7 @@ void ExpectRefused(vtkGeodesicDistance* filter, const std::string& reason)
 
 TEST(GeodesicDistanceFilter, OnHatFunctionsTheGridIsAsFineAsDepthSays)
 {
-  // Heat flows on it: a finer one is nearer to the truth, also where the mesh has fewer points.
+  // Heat flows on the grid. A finer one is more accurate, even if the mesh has fewer points.
   const TriangleMesh mesh = Transform(FlatRectangle(12, 12), { 1, 2, 0 }, 0.5);
   double before = 1.0;
   for (const int depth : { 3, 5, 7 })
@@ -205,7 +205,7 @@ TEST(GeodesicDistanceFilter, RefusesSourcesThatAreNone)
 namespace
 {
 
-/// The line where a surface is at this height.
+/// Returns the line at which a surface has this height.
 vtkSmartPointer<vtkPolyData> SliceAt(vtkPolyData* surface, double height)
 {
   vtkNew<vtkPlane> plane;
@@ -261,7 +261,7 @@ TEST(GeodesicDistanceFilter, IsSignedOnBothSidesOfASlice)
   filter->SetInputDataObject(2, SliceAt(data, 0.3));
   const std::vector<double> found = DistancesOf(filter);
   ExpectLatitudes(found, mesh, 0.3, 0.02);
-  // The slice lies between the points of the mesh, and no point is 0 for being next to it.
+  // The slice lies between the points of the mesh. Points next to it are not 0.
   EXPECT_EQ(std::count(found.begin(), found.end(), 0.0), 0);
 
   filter->SetInputDataObject(2, SliceAt(data, 0.5));

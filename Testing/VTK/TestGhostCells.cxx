@@ -1,4 +1,4 @@
-// Cells that are hidden or duplicates of cells elsewhere are not computed on.
+// Tests that hidden cells, and duplicates of cells elsewhere, are left out of the computation.
 
 #include "FilterSupport.h"
 
@@ -20,7 +20,7 @@ using namespace gridfem::testing;
 namespace
 {
 
-/// A sphere, and beside it a larger one whose cells are hidden and duplicates in turn.
+/// Makes a sphere, and beside it a larger one whose cells alternate between hidden and duplicate.
 vtkSmartPointer<vtkPolyData> SphereBesideGhosts(const TriangleMesh& sphere)
 {
   auto data =
@@ -41,7 +41,7 @@ vtkSmartPointer<vtkPolyData> SphereBesideGhosts(const TriangleMesh& sphere)
 class GhostCells : public ::testing::Test
 {
 protected:
-  /// The values at the points of the sphere alone.
+  /// Returns the values at the points of the first sphere.
   template<class Filter>
   std::vector<double> Run(Filter* filter, vtkPolyData* input, const char* array)
   {

@@ -74,8 +74,8 @@ TEST_P(HarmonicInterpolation, OfTwoCirclesIsTheLogarithm)
   EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 1);
 }
 
-/// From the poles of a sphere: log tan of half the polar angle, cut off near the poles where the
-/// resolution ends; its level 0 is the equator.
+/// From the poles of a sphere, the function is log tan of half the polar angle. It is cut off near
+/// the poles, where the resolution ends. Its level 0 is the equator.
 TEST_P(HarmonicInterpolation, OfTwoPolesIsOddAndMonotonous)
 {
   const auto sphere = ToPolyData(GeodesicSphere(24));
@@ -114,8 +114,8 @@ TEST_P(HarmonicInterpolation, OfTwoPolesIsOddAndMonotonous)
   }
 }
 
-/// On a sphere x, y and z are eigenfunctions: the biharmonic function through samples of one comes
-/// near it, a harmonic one does not.
+/// x, y and z are eigenfunctions on a sphere. The biharmonic function through samples of one comes
+/// near it. A harmonic one does not.
 TEST_P(HarmonicInterpolation, BiharmonicFunctionsFollowSmoothOnes)
 {
   const auto sphere = ToPolyData(Transform(GeodesicSphere(24), { 1, 2, 3 }, 0.2));
@@ -142,7 +142,7 @@ TEST_P(HarmonicInterpolation, BiharmonicFunctionsFollowSmoothOnes)
   EXPECT_LT(error[1], 0.05);
 }
 
-/// More points than are found at once.
+/// Uses more points than are solved for at once.
 TEST_P(HarmonicInterpolation, BiharmonicFunctionsGoThroughManyPoints)
 {
   const auto sphere = ToPolyData(GeodesicSphere(16));
@@ -266,7 +266,7 @@ TEST(HarmonicInterpolationFilter, RunsOnlyWhatHasChangedAndTakesASharedBasis)
   EXPECT_EQ(filter->GetNumberOfRuns("Space"), 1);
 }
 
-/// What the first Apply does, and that a second array of the kind has to be chosen from.
+/// The first Apply finds the array. With a second array of the kind, one has to be chosen.
 TEST(HarmonicInterpolationFilter, TakesTheOnlyArrayThatIsKnownInPart)
 {
   const auto sphere = ToPolyData(GeodesicSphere(8));

@@ -1,5 +1,5 @@
-// Laplace Spectrum on hat functions: the spectrum of a direct solver at every depth and for every
-// kind of input.
+// Tests Laplace Spectrum on hat functions: it has the spectrum of a direct solver at every depth
+// and for every kind of input.
 
 #include "FilterSupport.h"
 #include "Support/HatSystem.h"
@@ -74,7 +74,7 @@ TEST_F(HatLaplaceSpectrum, IsThatOfADirectSolverAtEveryDepth)
 
 TEST_F(HatLaplaceSpectrum, TheGridIsAsFineAsTheEstimateOfErrorsNeeds)
 {
-  // Of the values of the surface itself: the mesh is what is coarse.
+  // The errors are relative to the values of the surface itself. They come from the coarse mesh.
   vtkNew<Spectrum> exact;
   exact->SetNumberOfModes(Modes);
   exact->SetDepth(8);
@@ -256,7 +256,8 @@ TEST_F(HatLaplaceSpectrum, SignaturesAreThoseOfItsModes)
   chained->Update();
   const auto expected = PointValues(chained->GetOutput(), "HeatKernelSignature");
   ASSERT_FALSE(expected.empty());
-  // Values to 1e-10 and vectors to its root, and the signature is a sum of their squares.
+  // Values are known to 1e-10 and vectors to its square root. The signature is a sum of their
+  // squares.
   EXPECT_LT(Difference(PointValues(own->GetOutput(), "HeatKernelSignature"), expected), 1e-5);
 }
 

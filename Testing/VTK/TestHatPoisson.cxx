@@ -1,5 +1,5 @@
-// Screened Poisson on hat functions: a direct solver's solution, from every kind of array and
-// basis.
+// Tests Screened Poisson on hat functions: it has a direct solver's solution, from every kind of
+// array and basis.
 
 #include "FilterSupport.h"
 #include "Largest.h"
@@ -90,12 +90,12 @@ TEST_F(HatPoisson, TheGridIsNoFinerThanTheMesh)
   const double enough = FieldValue(filter->GetOutput(), "UsedDepth");
   EXPECT_LT(enough, 4); // 258 points
   EXPECT_EQ(filter->GetNumberOfRuns("Space"), 1);
-  filter->SetFunctionSpace(Poisson::Grid); // which has the depth that is wanted
+  filter->SetFunctionSpace(Poisson::Grid); // it has the wanted depth
   this->Solution();
   EXPECT_EQ(FieldValue(filter->GetOutput(), "UsedDepth"), 7);
   EXPECT_EQ(filter->GetNumberOfRuns("Space"), 2);
   filter->SetFunctionSpace(Poisson::HatFunctions);
-  // So is it in place of a basis that is given, whatever that welds.
+  // The same depth replaces a given basis, whatever that basis welds.
   vtkNew<vtkConnectivityAwareBasis> basis;
   basis->SetInputData(input);
   basis->SetDepth(5);
@@ -123,7 +123,7 @@ TEST_F(HatPoisson, SoupIsWeldedUnlessToldOtherwise)
   input->ShallowCopy(ToPolyData(soup));
   AddPointArray(input, "f", 1, Wave);
   EXPECT_LT(Difference(this->Solution(), this->Direct(soup, PointValues(input, "f"))), 1e-8);
-  // Apart, and without gradients to keep, every triangle fits its own values less well: the
+  // Without welding and without gradients to keep, every triangle fits only its own values. The
   // solution then jumps between triangles.
   filter->WeldCoincidentPointsOff();
   const std::vector<double> apart = this->Solution();
@@ -165,7 +165,7 @@ TEST_F(HatPoisson, GradientsMayBeGivenAtPointsOrCells)
 
 TEST_F(HatPoisson, CellValuesCountAsConstantOnTheirTriangles)
 {
-  // The same integrals from a soup whose points carry the values of their triangle.
+  // A soup whose points carry the values of their triangle gives the same integrals.
   this->AddCellArray("cells", 1, [](vtkIdType cell, int) { return double(cell % 7); });
   filter->SetInputArrayToProcess(0, 0, 0, Cells, "cells");
   const std::vector<double> fromCells = this->Solution();
@@ -254,7 +254,7 @@ TEST_F(HatPoisson, AChangeRunsOnlyItsOwnStagesAndGivesTheSameAsAFreshFilter)
   filter->SetFunctionSpace(Poisson::Grid);
   const auto grid = this->Solution();
   EXPECT_EQ(runs(), (Counts{ 1, 1, 3, 2, 3 })); // the grid's system is there already
-  EXPECT_GT(Difference(grid, hats), 1e-4);      // another discretisation
+  EXPECT_GT(Difference(grid, hats), 1e-4);      // another discretization
   filter->SetFunctionSpace(Poisson::HatFunctions);
   EXPECT_EQ(this->Solution(), hats);
 }

@@ -18,7 +18,7 @@ namespace
 
 constexpr double Radius = 2.0;
 
-/// z on a sphere, which decays by exp(-2 t / r²), and 1.
+/// Makes a sphere with the components z, which decays by exp(-2 t / r²), and 1.
 vtkSmartPointer<vtkPolyData> Input()
 {
   auto data = ToPolyData(GeodesicSphere(24, Radius));
@@ -39,7 +39,7 @@ vtkSmartPointer<vtkHeatDiffusion> MakeFilter(double time, int steps)
   return filter;
 }
 
-/// Per point of the sphere, at a step.
+/// Returns the values at the points of the sphere, at a step.
 std::vector<double> DiffusedAt(vtkHeatDiffusion* filter, double step)
 {
   EXPECT_EQ(filter->UpdateTimeStep(step), 1);
@@ -121,7 +121,7 @@ TEST(HeatDiffusionFilter, RefusesASourceOfOtherComponentsAndNoTime)
   EXPECT_NE(messages.errors[0].find("DiffusionTime is 0"), std::string::npos);
 }
 
-/// A square that is 0 where it ends and 1 in the middle at first.
+/// Makes a square that is 0 at its boundary and 1 in the middle at first.
 TEST(HeatDiffusionFilter, HoldsTheBoundary)
 {
   auto input = ToPolyData(Transform(FlatRectangle(20, 20), { 1, 2, 3 }, 0.3));

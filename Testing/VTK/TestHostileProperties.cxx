@@ -1,5 +1,5 @@
-// Numbers that no panel would let through: NaN, infinity and what is far out of range. Each is
-// refused with one message, or clamped, and never makes a result that looks like one.
+// Tests numbers that no panel would let through: NaN, infinity and numbers far out of range. Each
+// is refused with one message, or clamped, and never gives a wrong result.
 
 #include "FilterSupport.h"
 

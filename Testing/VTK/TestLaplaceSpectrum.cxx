@@ -1,4 +1,4 @@
-// Laplace Spectrum: eigenvalues in world units, normalised modes, time steps, caching.
+// Tests Laplace Spectrum: eigenvalues in world units, normalized modes, time steps, caching.
 
 #include "FilterSupport.h"
 

@@ -1,5 +1,5 @@
-// A surface of ten thousand separate components: every filter says how far it is all the way, and
-// serves an abort wherever it is.
+// Tests a surface of ten thousand separate components. Every filter reports progress all the way
+// and serves an abort at any place.
 
 #include "AllFilters.h"
 
@@ -9,7 +9,7 @@ using namespace gridfem::testing;
 namespace
 {
 
-/// Tetrahedra on a square, two and a half cells of depth 8 apart and one cell wide.
+/// Makes tetrahedra on a square, two and a half cells of depth 8 apart and one cell wide.
 vtkSmartPointer<vtkPolyData> TenThousandTetrahedra()
 {
   constexpr int Side = 100;
@@ -32,7 +32,7 @@ vtkSmartPointer<vtkPolyData> TenThousandTetrahedra()
   return surface;
 }
 
-/// Hears of the progress of a filter, and asks for an abort at a fraction of it.
+/// Records the progress of a filter, and requests an abort at a fraction of it.
 class Listener
 {
 public:
@@ -76,7 +76,7 @@ protected:
     filter->ReleaseDataFlagOn(); // so that every run is the same
   }
 
-  /// The reports of a run that is aborted at a fraction.
+  /// Returns the reports of a run that is aborted at a fraction.
   Listener Run(double end)
   {
     filter->RemoveObservers(vtkCommand::ProgressEvent);
@@ -112,7 +112,7 @@ TEST_P(ManyComponents, AreReportedAndCanBeAborted)
   for (const double end : { whole[1], whole[whole.size() / 2] })
   {
     const auto part = this->Run(std::max(end - LeastStep, 1e-6)); // 0 is the pipeline's
-    // The pipeline makes one when all is over.
+    // The pipeline adds a report at the end.
     EXPECT_LE(part.afterAbort, 1) << "aborted at " << end << ", at last "
                                   << ::testing::PrintToString(part.fractions);
     EXPECT_TRUE(succeeded);

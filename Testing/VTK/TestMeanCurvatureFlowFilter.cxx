@@ -1,4 +1,5 @@
-// Mean Curvature Flow: steps as time, kept and made again, continued, and the failure rule.
+// Tests Mean Curvature Flow: steps as time, kept and repeated steps, continuation, and the failure
+// rule.
 
 #include "FilterSupport.h"
 #include "Largest.h"

@@ -1,5 +1,5 @@
-// MetricArray of Screened Poisson and Laplace Spectrum against surfaces that have been moved to
-// where they have that metric.
+// Tests MetricArray of Screened Poisson and Laplace Spectrum against surfaces that have been moved
+// to a shape with that metric.
 
 #include "FilterSupport.h"
 
@@ -20,7 +20,7 @@ namespace
 
 constexpr int MetricIndex = 5;
 
-/// A smooth map that no plane survives, and its Jacobian.
+/// A smooth map that bends every plane, and its Jacobian.
 Vec3 Bend(const Vec3& p)
 {
   return p + Vec3(0.3 * p[1] * p[2], 0.2 * std::sin(2.0 * p[0]), -0.25 * p[0] * p[1]);
@@ -67,7 +67,7 @@ vtkDoubleArray* AddTensors(
   return array;
 }
 
-/// J^T J of the move on every triangle.
+/// Returns J^T J of the move on every triangle.
 std::vector<Eigen::Matrix3d> MetricOfMove(const TriangleMesh& mesh, const TriangleMesh& moved)
 {
   std::vector<Eigen::Matrix3d> tensors;
@@ -116,7 +116,7 @@ std::vector<double> Eigenvalues(
   return Values(filter->GetOutput()->GetFieldData()->GetArray("Eigenvalues"));
 }
 
-/// A mesh with the metric of its move on cells, and the moved one, with the same values.
+/// A mesh with the metric of its move on cells, and the moved mesh, with the same values.
 struct Pair
 {
   explicit Pair(const TriangleMesh& mesh) : moved(Moved(mesh, Bend))
@@ -201,7 +201,8 @@ TEST(MetricArray, OnHatsGivesTheSpectrumOfTheMovedSurface)
   }
 }
 
-/// The grid of the sphere with the metric of an ellipsoid, against hats on the ellipsoid itself.
+/// Compares the grid of the sphere, with the metric of an ellipsoid, with hats on the ellipsoid
+/// itself.
 TEST(MetricArray, GivesTheSpectrumOfAnEllipsoidOnASphere)
 {
   const Vec3 axes(1.0, 1.3, 0.7);

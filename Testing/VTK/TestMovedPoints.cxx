@@ -1,4 +1,4 @@
-// Arrays that belong to a shape do not outlive it: normals, clip, basis and modes of a mesh whose
+// Tests that arrays of a shape do not outlive it: normals, clip, basis and modes of a mesh whose
 // points have moved since, and modes of another mesh.
 
 #include "FilterSupport.h"
@@ -113,7 +113,7 @@ TEST_F(MovedPoints, ModesOfAnotherShapeAreComputedAnew)
   EXPECT_NEAR(doubled[1], given[1] / 4, 1e-3);
   EXPECT_FALSE(signatures->GetOutput()->GetPointData()->HasArray("Mode003"));
   EXPECT_FALSE(signatures->GetOutput()->GetFieldData()->HasArray("Eigenvalues"));
-  // The same area, but another shape: the squares alone do not tell.
+  // The area is the same, but the shape is not: the squares alone do not reveal it.
   this->EigenvaluesFor(Scaled(modes, 1.25, 1.25, 0.64));
   EXPECT_EQ(this->Solves(), 2);
   EXPECT_EQ(this->EigenvaluesFor(modes), given); // and back
@@ -201,7 +201,7 @@ TEST_F(MovedPoints, ABasisMovedByAHundredthOfACellIsRefused)
     poisson->Update();
     ASSERT_EQ(refusals.errors.size(), 1u);
     EXPECT_NE(refusals.errors[0].find("moved"), std::string::npos) << refusals.errors[0];
-    // Less than a thousandth of a cell, for the second way of giving a basis.
+    // The points move by less than a thousandth of a cell, for the second way of giving a basis.
     auto other = vtkSmartPointer<vtkPolyData>::New();
     other->DeepCopy(mesh);
     const Vec3 point = Vec3(mesh->GetPoint(7)) + Vec3(0.01 * shift, 0, 0);

@@ -1,4 +1,4 @@
-// Data sets that are not vtkPolyData: their surface is taken, once.
+// Tests data sets that are not vtkPolyData: their surface is extracted, once.
 
 #include "FilterSupport.h"
 
@@ -20,7 +20,7 @@ using namespace gridfem::testing;
 namespace
 {
 
-/// The same triangles as an unstructured grid, points and cells in the same order.
+/// Returns the same triangles as an unstructured grid, with points and cells in the same order.
 vtkSmartPointer<vtkUnstructuredGrid> AsGrid(vtkPolyData* surface)
 {
   vtkNew<vtkAppendFilter> append;
@@ -76,7 +76,7 @@ TEST_F(OtherDataSets, OnlyWhatDependsOnAChangeIsComputedAgain)
   filter->SetScreeningWeight(7.0);
   filter->Update();
   EXPECT_EQ(filter->GetNumberOfRuns("System"), 1);
-  // Other values on the same cells, as a calculator in front gives them.
+  // A calculator upstream gives other values on the same cells.
   vtkNew<vtkUnstructuredGrid> other;
   other->ShallowCopy(grid);
   other->GetPointData()->RemoveArray("f");
@@ -149,7 +149,7 @@ TEST_F(OtherDataSets, CellsWithoutASurfaceAreRefused)
   EXPECT_NE(messages.errors[0].find("no surface"), std::string::npos) << messages.errors[0];
 }
 
-/// The filter's input as blocks, of which only some have the array.
+/// Makes the filter's input of blocks, only some of which have the array.
 vtkSmartPointer<vtkMultiBlockDataSet> Blocks(vtkPolyData* block, std::initializer_list<bool> have)
 {
   auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();

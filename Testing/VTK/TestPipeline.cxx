@@ -1,5 +1,5 @@
-// The three ways of working (one filter on a mesh; clip, basis, solver in a chain; one basis for
-// several solvers), through memory and through files, give the same answer.
+// Tests that three ways of working give the same answer, through memory and through files. They are
+// one filter on a mesh; clip, basis and solver in a chain; and one basis for several solvers.
 
 #include "FilterSupport.h"
 
@@ -28,7 +28,7 @@ vtkSmartPointer<vtkPolyData> MakeInput(int precision = VTK_DOUBLE)
   return data;
 }
 
-/// What a file keeps: everything but what rides along in memory.
+/// Returns the data that a file keeps: everything but the shortcuts in memory.
 vtkSmartPointer<vtkPolyData> ThroughFile(vtkPolyData* data)
 {
   vtkNew<vtkXMLPolyDataWriter> writer;
@@ -96,8 +96,8 @@ protected:
   Messages messages;
 };
 
-// Clipped triangles are summed in another order and cut points go through world coordinates, so
-// the ways differ by rounding, which the solver's tolerance of 1e-12 does not enlarge much.
+// The ways differ by rounding, because clipped triangles are summed in another order and cut points
+// go through world coordinates. The solver's tolerance of 1e-12 hardly enlarges it.
 constexpr double SameAnswer = 1e-9;
 
 TEST_F(Pipeline, ChainAndSharedBasisGiveTheAnswerOfOneFilter)

@@ -1,5 +1,5 @@
-// Filters that solve to the accuracy of their space: what they leave, what they say of it, and
-// where a tolerance decides.
+// Tests filters that solve to the accuracy of their space: the error they leave, the error they
+// report, and the use of a tolerance.
 
 #include "FilterSupport.h"
 

@@ -1,4 +1,5 @@
-// Small real meshes with every defect that files have: all filters compute or refuse, none crashes.
+// Tests small real meshes with every defect that files have. All filters compute or refuse, and
+// none crashes.
 
 #include "FilterSupport.h"
 
@@ -51,7 +52,7 @@ class BasisOfRealMeshes : public ::testing::TestWithParam<const char*>
 {
 };
 
-/// Triangles without area are in one cell, and may be with a patch of another.
+/// A triangle without area is in one cell, and may belong to a patch of another.
 TEST_P(BasisOfRealMeshes, IsReadFromItsArrays)
 {
   const std::string path = RealMesh(GetParam());

@@ -1,4 +1,4 @@
-// Screened Poisson: values, gradients, units, tables, precision, stages, refusals.
+// Tests Screened Poisson: values, gradients, units, tables, precision, stages, refusals.
 
 #include "FilterSupport.h"
 
@@ -84,7 +84,7 @@ TEST_F(ScreenedPoisson, CoordinatesAreReproducedByTheirOwnGradient)
     for (const double weight : { 0.0, 1e-6, 1.0, 1e6 })
     {
       filter->SetScreeningWeight(weight);
-      // The coordinates lie in the space: what is left is the solver's tolerance.
+      // The coordinates lie in the space. The remaining error is the solver's tolerance.
       EXPECT_LT(Difference(this->Solution(), expected), 1e-6) << weight << " " << stabilization;
       EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 1) << weight;
     }
@@ -220,7 +220,7 @@ TEST_F(ScreenedPoisson, PointsWithoutPolygonsKeepTheirValue)
 
 TEST_F(ScreenedPoisson, WithoutValuesThePointsMoveToTheSolution)
 {
-  input->GetPoints()->InsertNextPoint(5, 6, 7); // of no polygon: stays
+  input->GetPoints()->InsertNextPoint(5, 6, 7); // no polygon uses it: it stays
   AddPointArray(input, "f", 1, Wave);
   AddPointArray(input, "normal", 3, [](const Vec3& p, int c) { return p[c]; });
   input->GetPointData()->SetActiveNormals("normal");
@@ -268,7 +268,7 @@ TEST_F(ScreenedPoisson, EndsByAccuracyAndSaysHowGoodItIs)
   EXPECT_GT(FieldValue(filter->GetOutput(), "Iterations"), 0);
   EXPECT_LE(FieldValue(filter->GetOutput(), "AlgebraicError"), 1.1e-4 * ofSpace);
   filter->SetTolerance(1e-10);
-  filter->SetAccuracy(1.0); // does not count then
+  filter->SetAccuracy(1.0); // has no effect then
   filter->Update();
   auto* longer = vtkTable::SafeDownCast(filter->GetOutputDataObject(1));
   EXPECT_GT(longer->GetNumberOfRows(), loose + 1);
@@ -281,9 +281,9 @@ TEST_F(ScreenedPoisson, TheDepthFollowsFromTheWantedError)
     [](const Vec3& p, int) { return std::pow(std::complex<double>(p[0], p[1]), 12).real(); });
   filter->SetInputData(input);
   filter->SetParameterUnits(Poisson::World);
-  filter->SetScreeningWeight(156.0); // of degree 12: half of it is left
+  filter->SetScreeningWeight(156.0); // half of degree 12 is left
   filter->SetDepth(7);
-  const auto fine = this->Solution(); // its error is a tenth of what is wanted
+  const auto fine = this->Solution(); // its error is a tenth of the wanted one
   const auto solve = [&](double wanted)
   {
     filter->SetWantedError(wanted);
@@ -450,7 +450,7 @@ TEST_F(ScreenedPoisson, AnUpdatedWeightGivesTheSameAsAFreshFilter)
   fresh->SetInputData(input);
   fresh->SetInputArrayToProcess(0, 0, 0, Points, "f");
   fresh->Update();
-  // The fresh one starts from nested iteration, the other from its last solution.
+  // The fresh solve starts from nested iteration, the other from its last solution.
   EXPECT_LT(Difference(updated, PointValues(fresh->GetOutput(), "Solution")), 1e-5);
 }
 

@@ -1,4 +1,4 @@
-// Selections, as ParaView makes them, as inputs of filters.
+// Tests selections, in the form that ParaView makes them, as inputs of filters.
 #include "FilterSupport.h"
 
 #include "vtkGeodesicDistance.h"
@@ -79,7 +79,7 @@ vtkSmartPointer<vtkDoubleArray> Numbers(int components, const std::vector<double
   return array;
 }
 
-/// What a rectangle on the screen takes, seen along z: x and y between the bounds.
+/// Returns the selection by a rectangle on the screen, seen along z: x and y between the bounds.
 vtkSmartPointer<vtkSelection> SelectFrustum(double xLow, double xHigh, double yLow, double yHigh)
 {
   std::vector<double> corners;
@@ -104,7 +104,7 @@ vtkSmartPointer<vtkPolyData> Sphere()
   return data;
 }
 
-/// The points of what stands above the height.
+/// Returns the points above the height.
 std::vector<vtkIdType> PointsAbove(vtkDataSet* data, double height)
 {
   std::vector<vtkIdType> points;
@@ -128,7 +128,7 @@ vtkSmartPointer<vtkSurfaceDetail> DetailOf(vtkDataObject* data, vtkSelection* se
   return filter;
 }
 
-/// The points that a selection takes.
+/// Returns the selected points.
 std::vector<vtkIdType> Selected(vtkPolyData* output)
 {
   const std::vector<double> inside = PointValues(output, "Selected");
@@ -258,7 +258,7 @@ TEST(Selection, OfGlobalIdsAndOfPlacesIsTheirPoints)
   EXPECT_EQ(Selected(sphere, SelectionOf(node)), expected);
 }
 
-/// An array of an earlier extraction is not mixed up with the new one, and stays.
+/// The array of an earlier extraction stays and is not mixed up with the new one.
 TEST(Selection, DoesNotTakeWhatAnotherExtractionHasMarked)
 {
   const auto sphere = Sphere();
@@ -275,7 +275,7 @@ TEST(Selection, DoesNotTakeWhatAnotherExtractionHasMarked)
   EXPECT_TRUE(sphere->GetPointData()->HasArray("vtkInsidedness"));
 }
 
-/// Ids are those of the data set that is clicked on, not those of its surface.
+/// Ids are those of the data set that the user clicks on, not those of its surface.
 TEST(Selection, OfAGridMarksThePointsOfItsSurface)
 {
   vtkNew<vtkImageData> image;
@@ -328,7 +328,7 @@ TEST(Selection, OfAGridMarksThePointsOfItsSurface)
   }
 }
 
-/// An id counts in its block alone; one without a block in all of them.
+/// An id counts only in its block. An id without a block counts in all of them.
 TEST(Selection, OfABlockIsOfThatBlock)
 {
   vtkNew<vtkMultiBlockDataSet> blocks;
@@ -358,7 +358,7 @@ TEST(Selection, OfABlockIsOfThatBlock)
   EXPECT_EQ(all, std::vector<std::size_t>({ std::size_t(Sphere()->GetNumberOfPoints()), 0 }));
 }
 
-/// VTK extracts nothing then, not even a tree of blocks.
+/// Without nodes VTK extracts nothing, not even a tree of blocks.
 TEST(Selection, WithoutNodesTakesNothingOfBlocks)
 {
   vtkNew<vtkCallbackCommand> fail;
@@ -412,7 +412,7 @@ TEST(Selection, OfSourcesOfDistancesIsAMaskOfThem)
   EXPECT_EQ(PointValues(bySelection->GetOutput(), "Distance"),
     PointValues(byMask->GetOutput(), "Distance"));
 
-  // Together with ids; a new selection takes the solution alone.
+  // The selection adds to the ids. A new selection repeats only the solve.
   const auto hierarchies = bySelection->GetNumberOfRuns("Hierarchy");
   bySelection->SetInputDataObject(3, SelectPoints({ 5 }));
   bySelection->AddSourcePointId(100);

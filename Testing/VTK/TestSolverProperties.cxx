@@ -1,5 +1,5 @@
-// The properties of the solver change the way to the result, not the result, and each repeats only
-// the stages that it belongs to.
+// Tests that the properties of the solver change the way to the result, not the result. Each
+// repeats only the stages that it belongs to.
 
 #include "FilterSupport.h"
 
@@ -78,7 +78,7 @@ TEST_P(SolverProperties, NormalStabilizationChangesTheSystemOfTheGrid)
     ++expected[stage];
   }
   EXPECT_EQ(Runs(filter), expected);
-  // The grid's solution changes by about its error, that of the hats by none.
+  // The grid's solution changes by about its error, the hats' solution not at all.
   const double change = Difference(PointValues(filter->GetOutput(), "Solution"), without);
   const bool isGrid = this->GetParam() == Poisson::Grid;
   EXPECT_GT(change, isGrid ? 1e-5 : -1.0);

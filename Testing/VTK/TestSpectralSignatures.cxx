@@ -1,5 +1,5 @@
-// Spectral Signatures: on a sphere against exact series, on modes from Laplace Spectrum, and what
-// is refused.
+// Tests Spectral Signatures: on a sphere against exact series, on modes from Laplace Spectrum, and
+// refusals.
 
 #include "FilterSupport.h"
 #include "Largest.h"
@@ -38,7 +38,7 @@ protected:
     return PointValues(filter->GetOutput(), name);
   }
 
-  /// A mesh that carries its modes.
+  /// Returns a mesh that carries its modes.
   vtkSmartPointer<vtkPolyData> WithModes(int numberOfModes)
   {
     vtkNew<vtkLaplaceSpectrum> spectrum;
@@ -125,7 +125,7 @@ TEST_F(SpectralSignaturesFilter, ShapeDNADoesNotDependOnSizeAndPlace)
     EXPECT_NEAR(plain[k], 2 * area, 0.01 * 2 * area); // 1 % for the first degree
   }
   const auto scaled = fingerprint(Transform(sphere, { 0, 0, 1 }, 0.0, 8.0, { 3, 0, 0 }));
-  // Turned, the surface lies in the grid in another way: an eigenvalue changes by its error.
+  // The turned surface lies in the grid in another way. An eigenvalue changes by its error.
   const auto turned = fingerprint(Transform(sphere, { 1, 2, 3 }, 0.5));
   for (std::size_t k = 1; k < plain.size(); ++k)
   {
@@ -235,8 +235,8 @@ TEST_F(SpectralSignaturesFilter, TheMiddleScaleIsShown)
 
 TEST_F(SpectralSignaturesFilter, TheShapeItselfIsFiltered)
 {
-  // The coordinates of a sphere are modes of degree 1: a low pass at 3 leaves it as it is, to the
-  // error of the grid and of the facets. The mean alone moves all points into the centre.
+  // The coordinates of a sphere are modes of degree 1. A low pass at 3 keeps the sphere up to the
+  // error of the grid and of the facets. The mean alone moves all points into the center.
   filter->SetFilterType(Signatures::LowPass);
   filter->SetLastMode(3);
   filter->Update();

@@ -31,7 +31,7 @@ double ColorAt(const Vec3& p, int c)
   return 120.0 + 50.0 * std::sin(2 * p[c] + p[2]) + 4.0 * std::sin(30 * p[(c + 1) % 3]);
 }
 
-/// What a scanner makes of a colour.
+/// Returns the color that a scanner sees.
 double Seen(Index scan, double color, int c)
 {
   const double gain[] = { 1.0, 0.92, 1.07, 0.95, 1.04 };
@@ -54,7 +54,7 @@ void AddScans(vtkPolyData* data, const std::function<double(const Vec3&, int)>& 
   data->GetPointData()->AddArray(scan);
 }
 
-/// Root mean square of the differences along edges inside scans, or across seams.
+/// Returns the root mean square of the differences along edges inside scans, or across seams.
 double EdgeDifference(vtkPolyData* data, const std::vector<double>& values, bool isSeam)
 {
   const auto scan = PointValues(data, "Scan");
@@ -172,13 +172,14 @@ TEST(StitchColorsFilter, TakesBytesAndLeavesThemInRange)
     mean[0] += bytes->GetValue(k) / double(bytes->GetNumberOfValues());
     mean[1] += stitched->GetValue(k) / double(bytes->GetNumberOfValues());
   }
-  EXPECT_NEAR(mean[1], mean[0], 3.0); // what is cut off at 255 and unequal areas
+  EXPECT_NEAR(mean[1], mean[0], 3.0); // clipping at 255 and unequal areas
 }
 
 namespace
 {
 
-/// Bytes "RGB" of the scans, a byte "Grey" of theirs, and what is no label: an id for each point.
+/// Adds bytes "RGB" and a byte "Grey" of the scans, and an array that is no label: an id for each
+/// point.
 void AddBytes(vtkPolyData* data)
 {
   vtkNew<vtkUnsignedCharArray> bytes;
@@ -213,7 +214,7 @@ void ExpectToBeChosen(vtkStitchColors* filter, const char* property)
 
 } // namespace
 
-/// What the first Apply does, and that one of several has to be chosen.
+/// The first Apply finds the arrays. If there are several candidates, one has to be chosen.
 TEST(StitchColorsFilter, TakesTheOnlyColorsAndTheOnlyLabels)
 {
   const auto sphere = ToPolyData(GeodesicSphere(8));
@@ -222,8 +223,8 @@ TEST(StitchColorsFilter, TakesTheOnlyColorsAndTheOnlyLabels)
   sphere->GetPointData()->RemoveArray("Grey");
   vtkNew<vtkPolyData> plain;
   plain->ShallowCopy(sphere);
-  vtkNew<vtkConnectivityAwareBasis> basis;    // adds numbers and a colour to each cell
-  sphere->GetPointData()->RemoveArray("Ids"); // they are no longer one for each point there
+  vtkNew<vtkConnectivityAwareBasis> basis;    // adds numbers and a color to each cell
+  sphere->GetPointData()->RemoveArray("Ids"); // they no longer differ at each point
   basis->SetInputData(sphere);
   basis->SetDepth(4);
   basis->Update();
@@ -256,7 +257,7 @@ TEST(StitchColorsFilter, TakesNoColorsAndNoIdsForLabels)
   ExpectToBeChosen(filter, "LabelArray");
 }
 
-/// The same borders, but no common points; and a gap that only a plain grid closes.
+/// Borders coincide without common points, or leave a gap that only a plain grid closes.
 TEST(StitchColorsFilter, StitchesUnweldedBordersAndNarrowGaps)
 {
   for (const double gap : { 0.0, 0.03 })
@@ -391,7 +392,7 @@ TEST(StitchColorsFilter, RefusesWhatIsNoColorOrNoLabel)
   EXPECT_NE(messages.errors[0].find("ReferenceLabel 3"), std::string::npos);
 }
 
-/// A real scan with colours, cut into five with other gains and offsets.
+/// A real scan with colors, cut into five scans with other gains and offsets.
 TEST(StitchColorsFilter, StitchesARealScan)
 {
   const std::string path = RealMesh("laurana_colour_50k.ply");

@@ -23,7 +23,7 @@ namespace
 constexpr const char* DetailStages[] = { "Space", "System", "Metric", "Weights", "Signal",
   "Hierarchy", "RightHandSide", "Solve" };
 
-/// A sphere with waves on it, normals and a mask of its upper half.
+/// Makes a sphere with waves on it, normals and a mask of its upper half.
 vtkSmartPointer<vtkPolyData> WavySphere()
 {
   TriangleMesh mesh = Transform(GeodesicSphere(16), { 1, 2, 3 }, 0.4);
@@ -49,7 +49,7 @@ vtkSmartPointer<vtkSurfaceDetail> DetailOf(vtkPolyData* data, int functionSpace)
   return filter;
 }
 
-/// The stages that run again.
+/// Returns the stages that run again.
 std::vector<std::string> Reruns(vtkSurfaceDetail* filter, const std::function<void()>& change)
 {
   std::vector<vtkIdType> before;
@@ -70,7 +70,8 @@ std::vector<std::string> Reruns(vtkSurfaceDetail* filter, const std::function<vo
   return runs;
 }
 
-/// Standard deviation of the distances from the centre, relative to their mean: smoothing shrinks.
+/// Returns the standard deviation of the distances from the center, relative to their mean, because
+/// smoothing shrinks.
 double Roughness(vtkPolyData* data)
 {
   double sum = 0.0;
@@ -96,7 +97,7 @@ std::vector<double> PositionsFrom(vtkSurfaceDetail* filter)
   return Positions(filter->GetOutput());
 }
 
-/// The points of which this is true.
+/// Selects the points for which the condition is true.
 vtkSmartPointer<vtkSelection> Select(
   vtkPolyData* data, const std::function<bool(const Vec3&)>& isSelected)
 {
@@ -117,7 +118,7 @@ vtkSmartPointer<vtkSelection> Select(
   return selection;
 }
 
-/// What is above the height.
+/// Selects the points above the height.
 vtkSmartPointer<vtkSelection> Above(vtkPolyData* data, double height)
 {
   return Select(data, [height](const Vec3& p) { return p[2] > height; });
@@ -188,7 +189,7 @@ TEST_P(SurfaceDetailFilter, RepeatsOnlyWhatDependsOnAChange)
   EXPECT_EQ(Reruns(filter, [&] { filter->SetNumberOfThreads(1); }), Names());
 }
 
-/// What the stages keep gives what a new filter gives.
+/// The kept stages give the result of a new filter.
 TEST_P(SurfaceDetailFilter, GivesTheSameAgainAsAtFirst)
 {
   const auto sphere = WavySphere();
@@ -240,7 +241,8 @@ TEST_P(SurfaceDetailFilter, ChangesWhereTheArraySays)
   EXPECT_LT(farBelow, 0.05 * above);
 }
 
-/// Of selected points 1, 0 farther from them than the width, and in between the less the farther.
+/// The array is 1 at selected points and 0 farther from them than the width. In between it falls
+/// with distance.
 TEST_P(SurfaceDetailFilter, FadesOutWithinTheWidthOfTheTransition)
 {
   const auto plane = ToPolyData(FlatRectangle(40, 40));
@@ -294,8 +296,8 @@ TEST_P(SurfaceDetailFilter, ChangesWhereTheSelectionIs)
   EXPECT_LT(movedOutside, 0.05 * moved);
 }
 
-/// As if there were none where the scales are the same, where it takes all, and where it takes
-/// nothing.
+/// The selection has no effect if the scales are equal, if it takes all points, or if it takes
+/// none.
 TEST_P(SurfaceDetailFilter, WithoutADifferenceTheSelectionDoesNotCount)
 {
   const auto sphere = WavySphere();
@@ -329,7 +331,7 @@ TEST_P(SurfaceDetailFilter, WithoutADifferenceTheSelectionDoesNotCount)
   }
 }
 
-/// The two halves add up: what each of them changes is what both together do.
+/// The two halves add up: the sum of their changes is the change by both together.
 TEST_P(SurfaceDetailFilter, InsideAndOutsideAddUp)
 {
   const auto sphere = WavySphere();
@@ -360,7 +362,7 @@ TEST_P(SurfaceDetailFilter, InsideAndOutsideAddUp)
   EXPECT_EQ(filter->GetNumberOfRuns("Solve"), 1);
 }
 
-/// What a new selection leaves as it is, is not solved again; the result is as if it were.
+/// A new selection that changes nothing does not solve again. The result is the same as if it did.
 TEST_P(SurfaceDetailFilter, OneSelectionAfterTheOtherGivesWhatEachGives)
 {
   const auto sphere = WavySphere();
@@ -387,8 +389,7 @@ TEST_P(SurfaceDetailFilter, OneSelectionAfterTheOtherGivesWhatEachGives)
   EXPECT_LE(Difference(PositionsFrom(changed), PositionsFrom(fresh)), 1e-9);
 }
 
-/// A run that is aborted leaves nothing behind but the last solution, from which the next one
-/// starts.
+/// An aborted run leaves only the last solution, from which the next run starts.
 TEST_P(SurfaceDetailFilter, GoesOnAfterAnAbort)
 {
   const auto sphere = WavySphere();
@@ -418,8 +419,8 @@ TEST_P(SurfaceDetailFilter, GoesOnAfterAnAbort)
   EXPECT_LE(Difference(Positions(filter->GetOutput()), PositionsFrom(fresh)), 1e-9);
 }
 
-/// Points of the curve, by hand: nothing counts more, or as much as a preset where that has no
-/// bend.
+/// The points of the curve are set by hand. The curve has no effect, or that of a preset where the
+/// preset has no bend.
 TEST_P(SurfaceDetailFilter, TakesATransferFunctionOfOnesOwn)
 {
   const auto sphere = WavySphere();
@@ -439,7 +440,7 @@ TEST_P(SurfaceDetailFilter, TakesATransferFunctionOfOnesOwn)
   EXPECT_LE(
     Difference(with(vtkSurfaceDetail::Custom, nothing), with(vtkSurfaceDetail::Isotropic, nullptr)),
     1e-9);
-  vtkNew<vtkPiecewiseFunction> smooth; // as LargeAbsolute has it
+  vtkNew<vtkPiecewiseFunction> smooth; // the curve of LargeAbsolute
   for (int k = -100; k <= 100; ++k)
   {
     const double t = std::abs(k) / 100.0;
@@ -467,7 +468,7 @@ TEST_P(SurfaceDetailFilter, FiltersAnArrayAndKeepsTheShape)
     Difference(PointValues(filter->GetOutput(), "Filtered"), PointValues(sphere, "f")), 0.05);
 }
 
-/// The shape as an array gives the shape.
+/// The coordinates as an array give the result of the shape.
 TEST_P(SurfaceDetailFilter, OfTheCoordinatesAsAnArrayIsTheShape)
 {
   const auto sphere = WavySphere();
@@ -558,7 +559,7 @@ TEST(SurfaceDetailOfVTK, TakesASharedBasis)
   EXPECT_LE(Difference(Positions(shared->GetOutput()), Positions(alone->GetOutput())), 1e-9);
 }
 
-/// A flat surface has no curvature to tell places apart.
+/// A flat surface has the same curvature everywhere.
 TEST(SurfaceDetailOfVTK, OfAPlaneIsAPlane)
 {
   const auto filter = DetailOf(ToPolyData(FlatRectangle(8, 8)), vtkSurfaceFEMAlgorithm::Grid);

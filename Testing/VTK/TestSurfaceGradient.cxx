@@ -12,7 +12,7 @@ using namespace gridfem::testing;
 namespace
 {
 
-/// A square sheet of quadrilaterals and triangles in the plane z = 0, slightly turned.
+/// Makes a square sheet of quadrilaterals and triangles in the plane z = 0, slightly turned.
 vtkSmartPointer<vtkPolyData> MixedSheet(int n)
 {
   auto data = vtkSmartPointer<vtkPolyData>::New();
@@ -95,8 +95,8 @@ TEST_P(SurfaceGradient, OfALinearArrayIsItsSlopeAtPointsAndOnCells)
 
 TEST_P(SurfaceGradient, HasDivergenceAndCurlOfVectors)
 {
-  // On the plane a source and a rotation; on the unit sphere ∇z, whose divergence is -2 z, and the
-  // rotation around z, whose curl is 2 z.
+  // On the plane there are a source and a rotation. On the unit sphere there are ∇z, whose
+  // divergence is -2 z, and the rotation around z, whose curl is 2 z.
   const auto sheet = MixedSheet(12);
   const Eigen::AngleAxisd turn(0.2, Vec3(1, 1, 0.5).normalized());
   AddPointArray(sheet, "v", 3,
@@ -138,7 +138,7 @@ TEST_P(SurfaceGradient, HasDivergenceAndCurlOfVectors)
   check(sphere, "rotation", 0.2, zero, [](const Vec3& p) { return 2 * p[2]; });
 }
 
-/// Of a source, an eddy and a stream around the axis on a torus, at points and on cells.
+/// Decomposes a source, an eddy and a stream around the axis on a torus, at points and on cells.
 TEST_P(SurfaceGradient, TakesVectorsApart)
 {
   const auto torus = ToPolyData(Torus(80, 40, 1.0, 0.4));
@@ -191,7 +191,7 @@ TEST_P(SurfaceGradient, TakesVectorsApart)
   EXPECT_NE(messages.errors[0].find("three components"), std::string::npos);
 }
 
-/// A Möbius strip, where nobody can say which way something turns.
+/// A Möbius strip has no sides, so that rotation has no direction.
 TEST_P(SurfaceGradient, WarnsOfSurfacesWithOneSide)
 {
   TriangleMesh mesh = FlatRectangle(60, 6);

@@ -1,5 +1,5 @@
-// One square in five tessellations, and fields that all of them hold exactly: what filters find on
-// a grid depends on the surface, not on its triangles.
+// Tests one square in five tessellations, and fields that all of them hold exactly. Results on a
+// grid depend on the surface, not on its triangles.
 #include "FilterSupport.h"
 
 #include "vtkHarmonicInterpolation.h"
@@ -28,15 +28,15 @@ std::vector<Tessellation> Tessellations()
     { "triangles in four", SubdivideInPlane(FlatRectangle(4, 6)) } };
 }
 
-/// Corners and centre, which are points of all.
+/// The corners and the center, which are points of all tessellations.
 bool IsCommon(const Vec3& p)
 {
   const bool isCorner = std::abs(p[0] - 0.5) > 0.4999 && std::abs(p[1] - 0.5) > 0.4999;
   return isCorner || (p - Vec3(0.5, 0.5, 0.0)).norm() < 1e-6;
 }
 
-/// Turned, with the point arrays `linear` (three components) and `mask`, at common points and not
-/// all of the same value, and the cell array `side` (1 and 2) with the colours `color`.
+/// Returns the turned mesh with the point arrays `linear` (three components) and `mask`. The mask
+/// is not constant at the common points. The cell array `side` is 1 and 2, with the colors `color`.
 vtkSmartPointer<vtkPolyData> DataOf(const TriangleMesh& flat)
 {
   auto data = ToPolyData(Transform(flat, { 1, 2, 3 }, 0.3));
@@ -67,7 +67,7 @@ vtkSmartPointer<vtkPolyData> DataOf(const TriangleMesh& flat)
   return data;
 }
 
-/// The values of the array at the common points, sorted: a set that all tessellations share.
+/// Returns the sorted values of the array at the points that all tessellations share.
 std::vector<double> AtCommonPoints(vtkPolyData* output, const TriangleMesh& flat, const char* name)
 {
   const std::vector<double> values = PointValues(output, name);
@@ -94,7 +94,7 @@ std::vector<double> AtCommonPoints(vtkPolyData* output, const TriangleMesh& flat
   return found;
 }
 
-/// The same on all tessellations.
+/// Expects the same result on all tessellations.
 /// @param prepare  chooses arrays and properties
 template<class Filter, class Prepare>
 void ExpectTheSame(const char* array, Prepare&& prepare)
@@ -121,7 +121,7 @@ void ExpectTheSame(const char* array, Prepare&& prepare)
     }
   }
   const auto [least, largest] = std::minmax_element(first.begin(), first.end());
-  EXPECT_GT(*largest - *least, 0.01) << array; // there is something to be told apart
+  EXPECT_GT(*largest - *least, 0.01) << array; // the values differ
 }
 
 } // namespace

@@ -1,5 +1,5 @@
-// Surfaces that change with time: no filter shows what belongs to another time, and modes as time
-// steps are those of one surface.
+// Tests surfaces that change with time. No filter shows the result of another time, and modes as
+// time steps are those of one surface.
 
 #include "GrowingSphere.h"
 
@@ -47,7 +47,7 @@ protected:
     filter->SetInputConnection(source->GetOutputPort());
   }
 
-  /// Looks at the output at every time, forwards and backwards.
+  /// Checks the output at every time, forwards and backwards.
   template<class Look>
   void AtEveryTime(vtkSurfaceFEMAlgorithm* filter, Look&& look)
   {

@@ -1,5 +1,5 @@
-// TrackMetric of Screened Poisson and Laplace Spectrum: surfaces of which only the points move keep
-// their functions, and give what the moved surface gives.
+// Tests TrackMetric of Screened Poisson and Laplace Spectrum. If only the points of a surface move,
+// it keeps its functions, and results are those of the moved surface.
 
 #include "FilterSupport.h"
 #include "GrowingSphere.h"
@@ -20,7 +20,7 @@ using Map = std::function<Vec3(const Vec3&)>;
 
 constexpr int Spaces[] = { Algorithm::Grid, Algorithm::HatFunctions };
 
-/// No plane survives it.
+/// Bends every plane.
 Vec3 Bend(const Vec3& p)
 {
   return p + Vec3(0.3 * p[1] * p[2], 0.2 * std::sin(2.0 * p[0]), -0.25 * p[0] * p[1]);
@@ -37,7 +37,7 @@ TriangleMesh MovedMesh(TriangleMesh mesh, const Map& map)
   return mesh;
 }
 
-/// All arrays new, as a reader makes them; the point array "f" is that of the mesh before.
+/// Makes all arrays anew, as a reader does. The point array "f" is that of the mesh before.
 vtkSmartPointer<vtkPolyData> Read(const TriangleMesh& mesh, const Map& map)
 {
   auto data = ToPolyData(mesh);
@@ -102,7 +102,7 @@ protected:
     return PointValues(fresh->GetOutput(), "Solution");
   }
 
-  /// Runs of Space, System and Hierarchy.
+  /// Returns the numbers of runs of Space, System and Hierarchy.
   std::vector<vtkIdType> Runs() const
   {
     return { poisson->GetNumberOfRuns("Space"), poisson->GetNumberOfRuns("System"),
@@ -163,7 +163,7 @@ TEST_F(TrackMetric, AScaledSurfaceScales)
   }
 }
 
-/// Hat functions are those of the moved mesh themselves.
+/// Hat functions are those of the moved mesh itself.
 TEST_F(TrackMetric, OnHatFunctionsItIsTheSolutionOfTheMovedMesh)
 {
   const auto moved = Read(mesh, Bend);
@@ -242,7 +242,7 @@ TEST_F(TrackMetric, OnAGridItIsTheSolutionInTheMetricOfTheMotion)
   const auto inMetric = this->Rebuilt(given, Algorithm::Grid,
     [](vtkScreenedPoisson* filter) { filter->SetInputArrayToProcess(5, 0, 0, Cells, "metric"); });
   EXPECT_LT(Difference(tracked, inMetric), 1e-10);
-  // And near that on a grid of the moved surface.
+  // The result is also near that on a grid of the moved surface.
   EXPECT_LT(Difference(tracked, this->Rebuilt(Read(mesh, Bend), Algorithm::Grid)), 0.02);
 }
 
@@ -263,7 +263,7 @@ TEST_F(TrackMetric, OnlyWhatDependsOnAMotionIsComputedAgain)
   this->Follow(Read(mesh, Turn));
   EXPECT_LT(Difference(this->Follow(Read(mesh, Bend)), bent), 1e-11); // whatever was in between
   EXPECT_EQ(poisson->GetNumberOfRuns("Space"), 1);
-  // Another depth makes the surface that is there the first one.
+  // Another depth makes the current surface the first one.
   poisson->SetDepth(5);
   poisson->Update();
   EXPECT_EQ(poisson->GetNumberOfRuns("Space"), 2);
@@ -340,8 +340,8 @@ TEST_F(TrackMetric, TimeStepsSayWhichOneTheyStandOn)
   EXPECT_EQ(spectrum->GetNumberOfRuns("Solve"), 4);
 }
 
-/// Files: a scan that bends. The grid is not made again, and the solution is that of a new one but
-/// for the errors of both.
+/// Reads a scan that bends from files. The grid stays, and the solution is that of a new grid up to
+/// the errors of both.
 TEST_F(TrackMetric, AScanBends)
 {
   const std::string path = RealMesh("armadillo_100k.ply");

@@ -36,7 +36,7 @@ void ConstrainedEquation::Update(const Surface& surface, const StageKey& fields,
 void ConstrainedEquation::UpdateSystem(
   const Surface& surface, StageKey fields, const Integrate& integrate, const Progress& progress)
 {
-  fields.Add(surface.GetStages().Version(SystemStage)).Add(true); // not that of SurfacePoisson
+  fields.Add(surface.GetStages().Version(SystemStage)).Add(true); // unlike PoissonEquation's key
   surface.GetStages().Run(RightHandSideStage, fields,
     [&]
     {
@@ -82,7 +82,8 @@ void ConstrainedEquation::Solve(const Surface& surface, const PoissonRequest& re
     });
 }
 
-/// Where nothing holds the solution, what flows in has to flow out: the rest does so evenly.
+/// If nothing holds the solution, as much has to flow out as flows in. The surplus flows out
+/// evenly.
 MultiVector ConstrainedEquation::BalancedFlux(const Surface& surface, double weight)
 {
   constexpr double Visible = 1e-3;

@@ -1,5 +1,5 @@
-// The screened Poisson equation of a surface with its stages where some values are unknown, count
-// differently, or are held exactly.
+// Solves the screened Poisson equation of a surface if some values are unknown, count differently,
+// or are held exactly.
 #ifndef GridFEM_ConstrainedEquation_h
 #define GridFEM_ConstrainedEquation_h
 
@@ -15,13 +15,13 @@
 namespace gridfem
 {
 
-/// What is known, and the gradients.
+/// The known values and the gradients.
 struct ConstrainedLoad
 {
   PartialField field;
-  bool isWeighed = true; // false: all values are known and count 1, in all processes
+  bool isWeighed = true; // false: all processes know all values, which count 1
   MultiVector gradients; // may have no rows
-  MultiVector flux;      // integrals over the boundary; may have no rows
+  MultiVector flux;      // boundary integrals; may have no rows
   HeldValues held;       // values that the solution has exactly
   std::string warning;   // about what was given; may be empty
 };
@@ -32,11 +32,11 @@ class ConstrainedEquation
 public:
   using Integrate = std::function<ConstrainedLoad(const Job&)>;
 
-  /// As PoissonEquation::Update. The request's weight and scale of the gradients count.
+  /// Works as PoissonEquation::Update. The request's weight and scale of the gradients count.
   void Update(const Surface& surface, const StageKey& fields, const Integrate& integrate,
     const PoissonRequest& request, EquationOptions options, const Progress& progress);
 
-  /// NaN on components where nothing is known.
+  /// The solution. It is NaN on components where nothing is known.
   const MultiVector& Coefficients() const { return solution_.coefficients; }
 
   /// The largest difference from a value that is to be held.
@@ -45,8 +45,8 @@ public:
   const SolveReport& Report() const { return solution_.report; }
   const SolutionAccuracy& Accuracy() const { return solution_.accuracy; }
 
-  /// The warning about the last update; empty when there is none.
-  /// @param tolerance  that the update had
+  /// The warning about the last update. Empty if there is none.
+  /// @param tolerance  the tolerance of the update
   std::string Warning(double tolerance) const;
 
 private:
@@ -58,11 +58,11 @@ private:
 
   ConstrainedLoad load_;
   MultiVector values_;                              // ∫ w f b_i
-  MultiVector meanOfField_;                         // of components
-  std::shared_ptr<const SurfaceSpace> weighted_;    // the space with the mass of what is known
+  MultiVector meanOfField_;                         // mean of each component
+  std::shared_ptr<const SurfaceSpace> weighted_;    // space with the mass of known values
   std::unique_ptr<ConstrainedHierarchy> hierarchy_; // refers to it
   ConstrainedSolution solution_;
-  Id unbalanced_ = 0; // components that nothing holds with a flux that does not add up to 0
+  Id unbalanced_ = 0; // free components whose flux does not add up to 0
 };
 
 } // namespace gridfem

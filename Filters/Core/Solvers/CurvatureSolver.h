@@ -1,5 +1,5 @@
-// Principal curvatures of a surface and the numbers that follow from them, with or without
-// smoothing.
+// Computes the principal curvatures of a surface and the numbers that follow from them, with or
+// without smoothing.
 #ifndef GridFEM_CurvatureSolver_h
 #define GridFEM_CurvatureSolver_h
 
@@ -15,11 +15,10 @@
 namespace gridfem
 {
 
-/// The principal curvatures of a surface, from start to end, as one part of a solver.
-/// @param surface  its mesh is up to date; with smoothing also its functions, which one process
-///   holds
+/// Computes the principal curvatures of a surface from start to end, as one part of a solver.
+/// @param surface  has an up-to-date mesh; with smoothing also functions, which one process holds
 /// @param smoothingScale  length in parameter units; 0: the normals are not smoothed
-/// @param report   of the smoothing
+/// @param report   describes the smoothing
 PrincipalCurvatures CurvaturesOf(const Surface& surface, double smoothingScale,
   const EquationOptions& equation, SolveReport& report, const Job& job);
 
@@ -56,11 +55,11 @@ public:
   /// The default options of the surface.
   static SurfaceOptions SurfaceDefaults();
 
-  /// Fits again if the mesh or an option that counts has changed. Without smoothing the surface
-  /// makes no functions. Throws InvalidInput and Aborted.
+  /// Fits again if the mesh or a relevant option has changed. Without smoothing, the surface makes
+  /// no functions. Throws InvalidInput and Aborted.
   const Result& Update(Surface& surface, const Options& options, const Job& job);
 
-  /// All at once, on a mesh of this process.
+  /// Runs all steps at once, on a mesh of this process.
   static Result Solve(std::shared_ptr<const TriangleMesh> mesh, const Options& options,
     const SurfaceOptions& surfaceOptions = SurfaceDefaults(), const Job& job = {});
 

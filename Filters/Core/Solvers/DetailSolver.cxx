@@ -19,7 +19,7 @@ constexpr const char* MetricStage = "Metric";   // curvatures, stiffness split b
 constexpr const char* WeightsStage = "Weights"; // of the elements
 constexpr const char* SignalStage = "Signal";   // the input as a function of the space
 
-/// Means over the triangles around the points.
+/// Returns the means over the triangles around the points.
 MultiVector AtPoints(const Field& field, const TriangleMesh& mesh, int threads)
 {
   if (field.association == FieldAssociation::Points)
@@ -32,7 +32,7 @@ MultiVector AtPoints(const Field& field, const TriangleMesh& mesh, int threads)
   return Eigen::Map<const Eigen::VectorXd>(means.data(), static_cast<Eigen::Index>(means.size()));
 }
 
-/// Means over the corners. A field of triangles stays as it is.
+/// Returns the means over the corners. A field of triangles stays as it is.
 MultiVector OnTriangles(const Field& field, const TriangleMesh& mesh)
 {
   MultiVector means(static_cast<Id>(mesh.triangles.size()), 1);
@@ -52,7 +52,7 @@ std::vector<double> OnElements(
   return { means.data(), means.data() + means.size() };
 }
 
-/// 1 at selected points, falling to 0 within the width.
+/// Returns 1 at selected points, falling to 0 within the width.
 Field FadeOut(const Surface& surface, const std::vector<char>& selected, double width)
 {
   HatOptions options;
@@ -262,7 +262,8 @@ void DetailSolver::SolveBlocks(
     request, options.equation, job.progress);
 }
 
-/// The coefficients of the change: linear in the scales inside and outside of the selection.
+/// Returns the coefficients of the change, which is linear in the scales inside and outside of the
+/// selection.
 MultiVector DetailSolver::Change(const Options& options) const
 {
   const MultiVector& solved = equation_.Solution().coefficients;
@@ -290,7 +291,8 @@ MultiVector DetailSolver::ScaleAtPoints(
   return scale_ ? MultiVector(scale.cwiseProduct(AtPoints(*scale_, mesh, threads))) : scale;
 }
 
-/// Relative to the change. The largest error at a point is at most the sum of the blocks' errors.
+/// The errors are relative to the change. The largest error at a point is at most the sum of the
+/// blocks' errors.
 SolutionAccuracy DetailSolver::AccuracyOfChange(const Options& options) const
 {
   const double inside = options.detailScale;
@@ -310,7 +312,7 @@ void DetailSolver::Report(const Surface& surface, const Input& input, const Opti
   result_.points.clear();
   if (input.values)
   {
-    // What no function has is scaled as well.
+    // Details that no function has are scaled as well.
     const MultiVector scale = this->ScaleAtPoints(mesh, options, threads);
     const std::vector<char> isReached = space_->PointsWithFunctions();
     for (Id point = 0; point < result_.change.rows(); ++point)

@@ -73,11 +73,11 @@ public:
   /// The default options of the surface.
   static SurfaceOptions SurfaceDefaults();
 
-  /// A change of the scales repeats no stage. Throws InvalidInput and Aborted.
+  /// Computes the change. Other scales repeat no stage. Throws InvalidInput and Aborted.
   const Result& Update(
     Surface& surface, const Input& input, const Options& options, const Job& job);
 
-  /// All at once, on a mesh of this process.
+  /// Runs all steps at once, on a mesh of this process.
   static Result Solve(std::shared_ptr<const TriangleMesh> mesh, const Input& input,
     const Options& options, const SurfaceOptions& surfaceOptions = SurfaceDefaults(),
     const Job& job = {});
@@ -108,8 +108,8 @@ private:
   SignalInSpace signal_;
   std::optional<Field> scale_;
   std::optional<Field> fade_; // of the selection
-  /// The load has blocks of columns: for the scale 1, for the scale array, and for the fade times
-  /// the array. A solution with fewer blocks is a start for more.
+  /// The load has blocks of columns: one for the scale 1, one for the scale array, and one for the
+  /// product of fade and array. A solution with fewer blocks is a start for more.
   PoissonEquation equation_;
   Result result_;
 };

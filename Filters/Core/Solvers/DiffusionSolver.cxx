@@ -29,8 +29,8 @@ void RequireInput(const DiffusionSolver::Input& input, const DiffusionSolver::Op
   RequireHoldable(input.values, input.constraints, options.boundaryValues);
 }
 
-/// The errors of several steps add up, and held values are met by steps of their own. So neither
-/// ends by an estimated error.
+/// The errors of several steps add up, and held values are met by steps of their own. Neither
+/// therefore ends by an estimated error.
 EquationOptions EquationOfSteps(
   const DiffusionSolver::Options& options, bool holdsValues, int threads)
 {
@@ -101,7 +101,7 @@ void DiffusionSolver::UpdateLoads(
       sources_ = {};
       if (input.source)
       {
-        // Per squared unit of length of the space.
+        // The source is per squared unit of length of the space.
         sources_ = std::pow(space.UnitLength(), 2) *
                    space.LoadOfValues(ReadField(surface, input.source), job.Part(0.5, 1.0));
       }

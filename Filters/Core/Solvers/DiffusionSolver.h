@@ -1,4 +1,4 @@
-// Heat that spreads from a given field over a surface, in equal time steps.
+// Spreads heat from a given field over a surface, in equal time steps.
 #ifndef GridFEM_DiffusionSolver_h
 #define GridFEM_DiffusionSolver_h
 
@@ -13,7 +13,8 @@
 namespace gridfem
 {
 
-/// Solves du/dt = Δu + s. Steps are kept: more steps of the same length continue from the last one.
+/// Solves the heat equation du/dt = Δu + s. It keeps the steps: more steps of the same length
+/// continue from the last one.
 class DiffusionSolver
 {
 public:
@@ -58,7 +59,7 @@ public:
     std::string warning;         // about what was given; empty: none
   };
 
-  /// What the solver wants of a surface by default.
+  /// The default options of the surface.
   static SurfaceOptions SurfaceDefaults();
 
   /// Makes the steps that are missing. After an abort the steps so far are kept. Collective. Throws
@@ -66,10 +67,10 @@ public:
   const Result& Update(
     Surface& surface, const Input& input, const Options& options, const Job& job);
 
-  /// The warnings about a step of the last update, from 1; empty: there are none.
+  /// The warnings about a step of the last update, from 1. Empty if there are none.
   std::vector<std::string> Warnings(int step) const;
 
-  /// All steps on a mesh of this process.
+  /// Runs all steps on a mesh of this process.
   static Result Solve(std::shared_ptr<const TriangleMesh> mesh, const Input& input,
     const Options& options, const SurfaceOptions& surfaceOptions = SurfaceDefaults(),
     const Job& job = {});

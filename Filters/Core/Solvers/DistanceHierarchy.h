@@ -8,9 +8,9 @@
 namespace gridfem
 {
 
-/// Makes the method again when the surface has changed or what the method depends on
-/// (HierarchyStage). Collective. Throws InvalidInput and Aborted.
-/// @param options  with any number of threads; those of the surface are used
+/// Makes the method again if the surface, or an option of the method, has changed (HierarchyStage).
+/// Collective. Throws InvalidInput and Aborted.
+/// @param options  the number of threads has no effect: the surface's threads are used
 void UpdateDistanceMethod(const Surface& surface, DistanceOptions options,
   std::unique_ptr<DistanceMethod>& method, const Progress& progress);
 

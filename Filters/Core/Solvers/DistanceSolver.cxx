@@ -13,7 +13,7 @@ namespace gridfem
 namespace
 {
 
-/// Points have no sides.
+/// Refuses sources that are points, because points have no sides.
 void RefusePoints(const DistanceSolver::Input& input, bool nearestSource)
 {
   const std::string given = !input.ids.empty()      ? "SourcePointIds"
@@ -60,7 +60,7 @@ void RequireUsed(const std::vector<Id>& ids, const TriangleMesh& mesh)
   }
 }
 
-/// The sources of this process, ascending, each once.
+/// Returns the sources of this process, ascending, each once.
 std::vector<Id> CollectSources(const TriangleMesh& mesh, const DistanceSolver::Input& input)
 {
   RequireUsed(input.ids, mesh);

@@ -10,7 +10,7 @@
 namespace gridfem
 {
 
-/// Stages: those of Surface; CurveStage, NearestStage.
+/// Computes distances. Its stages are those of Surface, CurveStage and NearestStage.
 class DistanceSolver
 {
 public:
@@ -37,7 +37,7 @@ public:
     }
   };
 
-  /// Points of this process that are found on the mesh.
+  /// Points of this process, to be found on the mesh.
   struct FoundPoints
   {
     std::string property; // for messages: "a Selection"
@@ -51,7 +51,8 @@ public:
     std::function<SurfaceCurve()> divide; // may find no segments; throws InvalidInput
   };
 
-  /// Sources are all the points together. Without any, it is the first point of the first triangle.
+  /// All given points together are the sources. Without any, the first point of the first triangle
+  /// is.
   struct Input
   {
     std::vector<Id> ids;

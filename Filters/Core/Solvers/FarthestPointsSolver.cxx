@@ -40,8 +40,8 @@ SurfaceOptions FarthestPointsSolver::SurfaceDefaults()
   return DistanceSolver::SurfaceDefaults();
 }
 
-/// Without a point. Everything that functions reach is infinitely far, so that each component gets
-/// a point of its own before any gets a second one.
+/// Starts without a point. Everything that functions reach is infinitely far, so that each
+/// component gets a point before any component gets a second one.
 void FarthestPointsSolver::Restart(const Surface& surface, const Options& options)
 {
   next_ = FirstPoint(surface.Mesh(), options.firstPointId);
@@ -78,8 +78,8 @@ void FarthestPointsSolver::AddPoint(
   this->FindNext(surface.LongestSide());
 }
 
-/// Of points that are as far but for rounding, the first is next, so that symmetric surfaces have
-/// the same points everywhere.
+/// Picks the first of the points that are equally far up to rounding, so that symmetric surfaces
+/// have the same points everywhere.
 void FarthestPointsSolver::FindNext(double side)
 {
   constexpr double Rounding = 1e-9;

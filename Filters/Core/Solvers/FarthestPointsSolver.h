@@ -1,4 +1,4 @@
-// Points spread evenly over a surface: each is the one farthest from those before it.
+// Spreads points evenly over a surface: each is the one farthest from those before it.
 #ifndef GridFEM_FarthestPointsSolver_h
 #define GridFEM_FarthestPointsSolver_h
 
@@ -12,8 +12,8 @@ namespace gridfem
 /// Samples the farthest points by geodesic distance. [Moenning and Dodgson 2003]
 /// The largest distance that remains is at most twice that of the best choice of as many points.
 /// [Gonzalez 1985]
-/// Each point takes one solution. More points continue from those that are there. The solver needs
-/// a surface that one process holds.
+/// Each point takes one solution. More points continue from the existing ones. One process has to
+/// hold the surface.
 class FarthestPointsSolver
 {
 public:
@@ -36,15 +36,15 @@ public:
   {
     std::vector<Id> points;  // in the order in which they were found
     MultiVector atPoints;    // distance from the nearest of them, world units
-    std::vector<Id> nearest; // this one, per point of the mesh; -1: nothing leads to one
+    std::vector<Id> nearest; // nearest found point, per mesh point; -1: none is reachable
     double radius = 0.0;     // the largest distance
     std::vector<std::string> warnings;
   };
 
   static SurfaceOptions SurfaceDefaults();
 
-  /// Throws InvalidInput when the first point is no point of a triangle, and Aborted, which keeps
-  /// the points that were found.
+  /// Finds the points that are missing. Throws InvalidInput if no triangle uses the first point.
+  /// Throws Aborted, and keeps the points found so far.
   const Result& Update(Surface& surface, const Options& options, const Job& job = {});
 
   /// The result of the last update.

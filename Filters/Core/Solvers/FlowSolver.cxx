@@ -110,7 +110,7 @@ FlowStep FlowSolver::Advance(const Surface& surface, const Progress& progress)
   return step;
 }
 
-/// Keeps the step that the flow has come to, for it is the last.
+/// Keeps the step that the flow has reached, because it is the last.
 void FlowSolver::Keep()
 {
   if (!kept_.empty() && kept_.rbegin()->first % stride_ != 0)
@@ -139,7 +139,7 @@ void FlowSolver::KeepBudget()
   }
 }
 
-/// In world units, with what the flow itself does not measure.
+/// Describes a step in world units, with the numbers that the flow itself does not measure.
 FlowSolver::Step FlowSolver::Measured(const FlowStep& made, const Surface& surface) const
 {
   const TriangleMesh& mesh = surface.Mesh();

@@ -1,5 +1,5 @@
-// Mean-curvature flow of a surface: its steps, of which some are kept, so that any of them can be
-// shown again.
+// Computes the mean-curvature flow of a surface. It keeps some of the steps, so that any step can
+// be shown again.
 #ifndef GridFEM_FlowSolver_h
 #define GridFEM_FlowSolver_h
 
@@ -19,8 +19,8 @@ namespace gridfem
 /// The stage that makes one more step, or makes one again.
 inline constexpr const char* StepStage = "Step";
 
-/// More steps of the same length continue from the last one, and fewer compute nothing. A caller
-/// holds a MemoryReuse over an update.
+/// Continues from the last step if more steps of the same length are asked for. Fewer steps compute
+/// nothing. A caller holds a MemoryReuse over an update.
 class FlowSolver
 {
 public:
@@ -78,10 +78,10 @@ public:
   /// from the nearest kept step before it. The bits do not depend on which steps are kept.
   std::vector<Vec3> PointsAt(int step, const Surface& surface, const Progress& progress = {});
 
-  /// Whether all wanted steps were made, and those up to this one have converged.
+  /// Whether all wanted steps were made, and all steps up to this one have converged.
   bool HasConverged(int step) const;
 
-  /// All steps on a mesh of this process.
+  /// Runs all steps on a mesh of this process.
   /// @param points  receives the points after the last step
   static Result Solve(std::shared_ptr<const TriangleMesh> mesh, const Options& options,
     std::vector<Vec3>& points, const SurfaceOptions& surfaceOptions = {}, const Job& job = {});

@@ -1,4 +1,5 @@
-// What a solver is given on a surface: fields and values at points, read when they are needed.
+// The fields and point values that a solver is given on a surface. They are read when they are
+// needed.
 #ifndef GridFEM_GivenField_h
 #define GridFEM_GivenField_h
 
@@ -54,7 +55,7 @@ struct GivenConstraints
   std::function<PointValues()> find; // in this process; may find none. Throws InvalidInput
 };
 
-/// Adds whether the field is there, where it lives and its version.
+/// Adds three facts to a key: whether the field is there, where it lives, and its version.
 StageKey KeyOf(const GivenField& field);
 StageKey KeyOf(const GivenConstraints& constraints);
 

@@ -14,7 +14,7 @@
 namespace gridfem
 {
 
-/// The stage that takes a vector field apart.
+/// The stage that splits a vector field.
 inline constexpr const char* HodgeStage = "HodgeDecomposition";
 
 class GradientSolver
@@ -61,7 +61,7 @@ public:
   const Result& Update(
     Surface& surface, const Input& input, const Options& options, const Job& job);
 
-  /// All at once, on a mesh of this process.
+  /// Runs all steps at once, on a mesh of this process.
   static Result Solve(std::shared_ptr<const TriangleMesh> mesh, const Input& input,
     const Options& options, const SurfaceOptions& surfaceOptions = SurfaceDefaults(),
     const Job& job = {});

@@ -1,4 +1,4 @@
-// The smoothest function on a surface with given values at some of its points.
+// Finds the smoothest function on a surface with given values at some of its points.
 #ifndef GridFEM_InterpolationSolver_h
 #define GridFEM_InterpolationSolver_h
 
@@ -29,8 +29,8 @@ public:
 
   struct Input
   {
-    /// Found in every update; the solution is made again when they are others. Their version does
-    /// not count. Throws InvalidInput when no value is known.
+    /// The known values. They are found in every update, and other values repeat the solve. Their
+    /// version does not count. Throws InvalidInput if no value is known.
     GivenConstraints values;
   };
 

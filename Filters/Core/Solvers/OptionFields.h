@@ -1,5 +1,5 @@
-// The fields of an options struct with their names, defaults and ranges: from them come stage keys,
-// range checks and the properties that Python knows.
+// Lists the fields of an options struct with their names, defaults and ranges. Stage keys, range
+// checks and the properties in Python come from this list.
 #ifndef GridFEM_OptionFields_h
 #define GridFEM_OptionFields_h
 
@@ -37,13 +37,14 @@ constexpr Range Finite()
   return { std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max(), false };
 }
 
-/// What a switch or a list of ids has.
+/// The range of a switch or of a list of ids: any value.
 constexpr Range AnyValue()
 {
   return {};
 }
 
-/// An equation that ends when its algebraic error is estimated to be a tenth of the space's error.
+/// An equation whose iteration ends when its estimated algebraic error is a tenth of the space's
+/// error.
 inline EquationOptions EndedByAccuracy()
 {
   EquationOptions equation;
@@ -53,7 +54,7 @@ inline EquationOptions EndedByAccuracy()
   return equation;
 }
 
-/// An equation that ends at a tolerance.
+/// An equation whose iteration ends at a tolerance.
 inline EquationOptions EndedByTolerance(double tolerance)
 {
   EquationOptions equation;
@@ -62,8 +63,8 @@ inline EquationOptions EndedByTolerance(double tolerance)
   return equation;
 }
 
-/// The key of all that a solution depends on besides its equation. The number of threads changes no
-/// bit.
+/// The key of the options that a solution depends on besides its equation. The number of threads
+/// changes no bit of the solution.
 inline StageKey KeyOf(const EquationOptions& equation)
 {
   const MultigridOptions& multigrid = equation.multigrid;
@@ -147,8 +148,8 @@ StageKey KeyOfOptions(const Options& options)
   return key;
 }
 
-/// Throws InvalidInput, naming the option, for a value that is NaN or out of a range that is not
-/// clamped.
+/// Throws InvalidInput for a value that is NaN, or that is outside an unclamped range. The message
+/// names the option.
 template<class Options>
 void RequireOptions(const Options& options)
 {

@@ -45,7 +45,7 @@ void PoissonEquation::UpdateHierarchy(const Surface& surface, const PoissonReque
   surface.GetStages().Run(HierarchyStage, key,
     [&]
     {
-      // Other threads give the same bits: no reason to run, but used where it runs.
+      // The number of threads changes no bit. It alone does not repeat the stage.
       if (multigrid_ && shape_ == shape && !surface.IsShared() &&
           multigrid_->Options().threads == options.multigrid.threads)
       {

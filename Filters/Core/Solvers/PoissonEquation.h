@@ -1,4 +1,4 @@
-// The screened Poisson equation of a surface with its stages: load, hierarchy, solve.
+// Solves the screened Poisson equation of a surface in stages: load, hierarchy, solve.
 #ifndef GridFEM_PoissonEquation_h
 #define GridFEM_PoissonEquation_h
 
@@ -22,25 +22,26 @@ struct PoissonRequest
 {
   double weight = 1.0;        // λ in parameter units
   double gradientScale = 1.0; // σ: a factor on the gradients, which are not integrated again
-  /// Stands in for the surface's space: a copy of it with numbers of its own, and the key of these.
+  /// Replaces the surface's space by a copy with its own numbers, and gives the key of these
+  /// numbers.
   /// Not on a shared surface.
   const SurfaceSpace* space = nullptr;
   StageKey numbers;
-  /// Starts from the last solution whatever has changed besides the functions. Columns that it does
-  /// not have start at zero.
+  /// Starts from the last solution, whatever has changed besides the functions. Columns that the
+  /// last solution lacks start at zero.
   bool startsFromLast = false;
 };
 
-/// Repeats a stage only when something it depends on has changed. After a change of the weight or
-/// of the load the iteration starts from the last solution; on a shared surface it does not. The
-/// equation builds the hierarchy with the weight it solves with. Collective.
+/// Repeats a stage only if something it depends on has changed. After a change of the weight or of
+/// the load, the iteration starts from the last solution, but not on a shared surface. The equation
+/// builds the hierarchy with the weight it solves with. Collective.
 class PoissonEquation
 {
 public:
   using Integrate = std::function<PoissonLoad(const SurfaceSpace&, const Job&)>;
 
-  /// Integrates the load when `fields` has changed, which is all that it depends on besides the
-  /// space, and solves. The surface has to be prepared. Throws InvalidInput and Aborted.
+  /// Integrates the load if `fields` or the space has changed, and solves. The load depends on
+  /// nothing else. The surface has to be prepared. Throws InvalidInput and Aborted.
   void Update(const Surface& surface, StageKey fields, const Integrate& integrate,
     const PoissonRequest& request, EquationOptions options, const Progress& progress);
 

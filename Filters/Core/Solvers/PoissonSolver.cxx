@@ -66,7 +66,7 @@ void RequireInput(const Input& input, const Options& options)
   }
 }
 
-/// What the load depends on besides the space.
+/// The key of everything that the load depends on besides the space.
 StageKey KeyOfLoad(const Input& input, const Options& options)
 {
   StageKey key;
@@ -131,7 +131,7 @@ void AddGradients(const Surface& surface, const Input& input, const Options& opt
   }
   else if (options.useValueGradient)
   {
-    // Where a corner is unknown there is no gradient.
+    // A triangle with an unknown corner has no gradient.
     Field known;
     surface.Together([&] { known = ScaleOfKnown(load.field, scale.get(), surface.Mesh()); });
     load.gradients = space.LoadOfGradientsOf(load.field.values, &known, job);

@@ -1,4 +1,5 @@
-// Things that several filters make from the same surface, each made once while somebody uses it.
+// Stores things that several filters make from the same surface. Each is made once while somebody
+// uses it.
 #ifndef GridFEM_SharedStore_h
 #define GridFEM_SharedStore_h
 
@@ -9,7 +10,7 @@
 namespace gridfem
 {
 
-/// Holds only the thing that was asked for last; the others live as long as their users. Safe to
+/// Holds only the thing that was requested last. The others live as long as their users. Safe to
 /// call from several threads.
 template<class Key, class Value>
 class SharedStore
@@ -17,14 +18,14 @@ class SharedStore
 public:
   using Pointer = std::shared_ptr<const Value>;
 
-  /// Null when there is none.
+  /// Returns null if there is none.
   Pointer Find(const Key& key)
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     return this->Known(key);
   }
 
-  /// Calls build() if there is none; a second caller waits. What it throws leaves nothing.
+  /// Calls build() if there is none. A second caller waits. If build() throws, nothing is stored.
   template<class Build>
   Pointer Get(const Key& key, Build&& build)
   {

@@ -20,7 +20,8 @@ constexpr const char* DistancesStage = "Distances";
 constexpr const char* FilterStage = "Filter";
 ///@}
 
-/// Throws InvalidInput where all modes are constants and more exist: that says how many it takes.
+/// Throws InvalidInput if all modes are constants and more modes exist. The message says how many
+/// modes it takes.
 void RequireNonConstant(const Spectrum& spectrum)
 {
   const auto modes = static_cast<Index>(spectrum.eigenvalues.size());
@@ -33,7 +34,7 @@ void RequireNonConstant(const Spectrum& spectrum)
   }
 }
 
-/// The square of the parameter unit, world units.
+/// The square of the parameter unit, in world units.
 double SquaredUnit(ParameterUnits units, const TriangleMesh& mesh, double area)
 {
   if (units == ParameterUnits::UnitArea)
@@ -158,7 +159,7 @@ void SignatureSolver::UpdateSums(
   surface.GetStages().Run(FilterStage, key, [&] { this->Filter(surface, mesh, input, options); });
 }
 
-/// The part of the values in the modes that pass.
+/// Returns the part of the values in the modes that pass.
 void SignatureSolver::Filter(
   const Surface& surface, const TriangleMesh& mesh, const Input& input, const Options& options)
 {

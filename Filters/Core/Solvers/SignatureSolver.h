@@ -1,5 +1,5 @@
-// Descriptors of the points and of the shape of a surface, as sums over its modes: computed ones or
-// those that the mesh carries.
+// Computes descriptors of the points and of the shape of a surface. They are sums over its modes,
+// which are computed or come with the mesh.
 #ifndef GridFEM_SignatureSolver_h
 #define GridFEM_SignatureSolver_h
 
@@ -86,11 +86,11 @@ public:
     std::vector<std::string> warnings;
   };
 
-  /// What the solver wants of a surface by default.
+  /// The default options of the surface.
   static SurfaceOptions SurfaceDefaults() { return SpectrumSolver::SurfaceDefaults(); }
 
-  /// With given modes the surface is not prepared: its threads, units and stages count. Collective.
-  /// Throws InvalidInput and Aborted.
+  /// Computes the descriptors. Given modes need no preparation of the surface: only its threads,
+  /// units and stages are used. Collective. Throws InvalidInput and Aborted.
   const Result& Update(
     Surface& surface, const Input& input, const Options& options, const Job& job);
 

@@ -14,7 +14,8 @@ namespace gridfem
 namespace
 {
 
-/// In this process; for which vectors are held at the same time.
+/// Returns the number of unknowns in this process, on all levels whose vectors are held at the same
+/// time.
 Id NumberOfUnknowns(const SurfaceSpace& space)
 {
   const std::size_t nested = space.NestedLevels() ? space.NestedLevels()->Integrals().size() : 0;
@@ -31,7 +32,7 @@ void RequireMemoryOfModes(const Surface& surface, int modes)
   surface.Require(need);
 }
 
-/// Says the cost of many modes before anything is computed.
+/// Reports the cost of many modes before anything is computed.
 void AnnounceCost(const Surface& surface, const SpectrumSolver::Input& input, Id modes)
 {
   constexpr double Minute = 60.0;
@@ -124,7 +125,7 @@ const SpectrumSolver::Result& SpectrumSolver::Update(
   return result_;
 }
 
-/// The depth that was found last time for the same mesh and wishes, else a first guess.
+/// Returns the depth that was found last time for the same mesh and options, else a first guess.
 int SpectrumSolver::FirstDepth(Surface& surface, const Options& options)
 {
   StageKey key = surface.InputKey();
@@ -140,8 +141,8 @@ int SpectrumSolver::FirstDepth(Surface& surface, const Options& options)
   return chosenDepth_;
 }
 
-/// The depth at which the errors on the grid should be small enough, if that fits into memory; else
-/// this one. With accuracy 0 any error is.
+/// Returns the depth at which the errors on the grid should be small enough, if that fits into
+/// memory, else this depth. With accuracy 0 any error is small enough.
 int SpectrumSolver::NextDepth(const Surface& surface, double accuracy) const
 {
   const SurfaceOptions& used = surface.UsedOptions();
@@ -156,7 +157,7 @@ void SpectrumSolver::UpdateModes(
   const SurfaceSpace& space = surface.Space();
   const bool isNested = !space.NestedLevels();
   Options ofModes = options;
-  // What is improved after the nested levels waits for the depth that the accuracy asks for.
+  // Improvement after the nested levels waits for the depth that the accuracy asks for.
   ofModes.accuracy = isNested || surface.AreFunctionsGiven() ? 0.0 : options.accuracy;
   StageKey key;
   key.Add(surface.GetStages().Version(SystemStage)).Add(input.completesMultiplets);

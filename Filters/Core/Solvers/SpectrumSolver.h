@@ -1,4 +1,4 @@
-// The smallest eigenvalues of the Laplace operator of a surface, and their eigenfunctions.
+// Computes the smallest eigenvalues of the Laplace operator of a surface, and their eigenfunctions.
 #ifndef GridFEM_SpectrumSolver_h
 #define GridFEM_SpectrumSolver_h
 
@@ -13,8 +13,8 @@
 namespace gridfem
 {
 
-/// The options of an equation for modes: the tolerance is the relative error of the eigenvalues as
-/// those of the space, and a V-cycle costs less than a W-cycle.
+/// The options of an equation for modes. Its tolerance is the relative error of the eigenvalues as
+/// those of the space. A V-cycle costs less than a W-cycle.
 EquationOptions EquationOfModes();
 
 /// Computes the modes at the depth of the surface, or at the one that a wanted accuracy needs.
@@ -26,7 +26,7 @@ public:
     EquationOptions equation = EquationOfModes();
     int numberOfModes = 20;
     /// The wanted relative error of the eigenvalues as those of the surface. Above 0 it chooses the
-    /// depth, unless functions are given; processes that share a surface cannot choose.
+    /// depth, unless functions are given. Processes that share a surface cannot choose.
     double accuracy = 0.0;
 
     template<class Self, class Visit>
@@ -38,7 +38,7 @@ public:
     }
   };
 
-  /// Gets the cost of a computation of a minute or more, before it begins.
+  /// Receives the cost of a computation of a minute or more, before it begins.
   using Announcement = std::function<void(const std::string& cost, bool takesHours)>;
 
   struct Input
@@ -60,21 +60,21 @@ public:
     int NumberOfModes() const { return static_cast<int>(eigenvalues.size()); }
   };
 
-  /// What the solver wants of a surface by default.
+  /// The default options of the surface.
   static SurfaceOptions SurfaceDefaults();
 
-  /// With a wanted accuracy the depth is raised until the estimated errors on the grid are small
-  /// enough, or the next depth does not fit into memory. Collective. Throws InvalidInput and
-  /// Aborted.
+  /// Computes the modes. With a wanted accuracy it raises the depth until the estimated errors on
+  /// the grid are small enough, or the next depth does not fit into memory. Collective. Throws
+  /// InvalidInput and Aborted.
   const Result& Update(
     Surface& surface, const Input& input, const Options& options, const Job& job);
 
-  /// The modes `first` and following at the points of this process: a column per mode, whose square
-  /// has the integral 1 in world units. Collective.
+  /// The modes `first` and following at the points of this process. Each column is a mode, whose
+  /// square has the integral 1 in world units. Collective.
   MultiVector ModesAtPoints(
     const Surface& surface, Id first, Id count, const Progress& progress = {}) const;
 
-  /// Frees the modes; how many there were stays known.
+  /// Frees the modes, but keeps their number.
   void Free() { result_.spectrum = {}; }
 
   static Result Solve(std::shared_ptr<const TriangleMesh> mesh, const Input& input,

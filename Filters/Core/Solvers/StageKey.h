@@ -1,4 +1,5 @@
-// What the result of a stage depends on: numbers that change when it has to be made again.
+// Identifies what the result of a stage depends on. The numbers of a key change if the stage has to
+// run again.
 #ifndef GridFEM_StageKey_h
 #define GridFEM_StageKey_h
 
@@ -10,7 +11,7 @@
 namespace gridfem
 {
 
-/// A list of numbers. Two keys are equal when their numbers are.
+/// A list of numbers. Two keys are equal if their numbers are.
 class StageKey
 {
 public:
@@ -38,7 +39,7 @@ public:
     return *this;
   }
 
-  /// An object that numbers its changes: its address and that number. May be null.
+  /// Adds an object that numbers its changes: its address and that number. May be null.
   template<class Object>
   auto Add(Object* object) -> decltype(static_cast<void>(object->GetMTime()), *this)
   {
@@ -46,7 +47,7 @@ public:
     return this->Add(static_cast<std::int64_t>(object ? object->GetMTime() : 0));
   }
 
-  /// Any other pointer would count as a bool.
+  /// Deleted, because any other pointer would count as a bool.
   StageKey& Add(const void* object) = delete;
 
   bool operator==(const StageKey& other) const { return parts_ == other.parts_; }

@@ -1,4 +1,4 @@
-// The steps of a solver. Each remembers what it was made from and runs again only when this
+// Runs the steps of a solver. Each remembers what it was made from and runs again only if this
 // changes.
 #ifndef GridFEM_Stages_h
 #define GridFEM_Stages_h
@@ -15,8 +15,8 @@
 namespace gridfem
 {
 
-/// Runs stages when their keys change, counts the runs and takes their time. The name of a stage is
-/// its identity.
+/// Runs stages if their keys change, counts the runs and measures their time. The name of a stage
+/// is its identity.
 class Stages
 {
 public:
@@ -38,8 +38,8 @@ public:
     this->Adopt(stage, key);
   }
 
-  /// Makes Run collective: a stage runs in all processes when it has to run in one.
-  /// @param anywhere  tells whether something holds in one of them; null: this process is alone
+  /// Makes Run collective: a stage runs in all processes if it has to run in one.
+  /// @param anywhere  tells whether a condition holds in one of them; null: this process is alone
   void DecideTogether(std::function<bool(bool)> anywhere) { anywhere_ = std::move(anywhere); }
 
   bool IsCurrent(const std::string& stage, const StageKey& key) const
@@ -48,7 +48,7 @@ public:
     return entry.valid && entry.key == key;
   }
 
-  /// Notes a result that was made elsewhere. This is no run.
+  /// Notes a result that was made elsewhere. This does not count as a run.
   void Adopt(const std::string& stage, const StageKey& key)
   {
     Entry& entry = entries_[stage];
@@ -57,7 +57,7 @@ public:
     ++entry.version;
   }
 
-  /// Every stage has to run again; counts and times stay.
+  /// Makes every stage run again. Counts and times stay.
   void Forget()
   {
     for (auto& [name, entry] : entries_)
@@ -66,13 +66,13 @@ public:
     }
   }
 
-  /// The same for one stage.
+  /// Makes one stage run again.
   void Forget(const std::string& stage) { entries_[stage].valid = false; }
 
-  /// Changes with every new result: part of the keys of later stages.
+  /// Returns a number that changes with every new result. It is part of the keys of later stages.
   std::int64_t Version(const std::string& stage) const { return this->Find(stage).version; }
 
-  /// 0 for a stage that has not run.
+  /// Returns 0 for a stage that has not run.
   std::int64_t Runs(const std::string& stage) const { return this->Find(stage).runs; }
   double Seconds(const std::string& stage) const { return this->Find(stage).seconds; }
 

@@ -57,14 +57,14 @@ public:
   /// The default options of the surface.
   static SurfaceOptions SurfaceDefaults();
 
-  /// How many functions the grid below hat functions has per point, at most.
+  /// The largest number of functions per point of the grid below hat functions.
   static double FunctionsPerPoint(const Options& options);
 
   /// Throws InvalidInput and Aborted.
   const Result& Update(
     Surface& surface, const Input& input, const Options& options, const Job& job);
 
-  /// All at once, on a mesh of this process.
+  /// Runs all steps at once, on a mesh of this process.
   static Result Solve(std::shared_ptr<const TriangleMesh> mesh, const Input& input,
     const Options& options, const SurfaceOptions& surfaceOptions = SurfaceDefaults(),
     const Job& job = {});

@@ -1,4 +1,4 @@
-// What a solver asks of a surface, whether one process holds it or several share it.
+// The interface that solvers use to a surface, whether one process holds it or several share it.
 #ifndef GridFEM_Surface_h
 #define GridFEM_Surface_h
 
@@ -23,9 +23,9 @@ inline constexpr const char* HierarchyStage = "Hierarchy";         // level matr
 inline constexpr const char* RightHandSideStage = "RightHandSide"; // integrals of given fields
 inline constexpr const char* SolveStage = "Solve";
 
-/// A mesh with the functions on it. Where several processes share the surface, all of them call the
-/// methods marked as collective, in the same order; what can throw on one of them alone runs within
-/// Together.
+/// A mesh with the functions on it. If several processes share the surface, all of them call the
+/// methods marked as collective, in the same order. A body that can throw on one of them alone runs
+/// within Together.
 class Surface
 {
 public:
@@ -35,20 +35,20 @@ public:
   /// calls cost next to nothing. Collective. Throws InvalidInput and Aborted.
   virtual void Prepare(const Progress& progress) = 0;
 
-  /// The same at a depth of the solver's choice.
+  /// Prepares the surface in the same way, at a depth of the solver's choice.
   virtual void PrepareAtDepth(int depth, const Progress& progress) = 0;
 
-  /// Brings the mesh alone up to date (MeshStage), for a solver that needs no functions. Functions
+  /// Brings only the mesh up to date (MeshStage), for a solver that needs no functions. Functions
   /// of an earlier run may be freed. Not on a shared surface. Throws InvalidInput and Aborted.
   virtual void PrepareMesh(const Progress& progress) = 0;
 
-  /// The key of the mesh and of all that is asked of its functions, except their depth.
+  /// The key of the mesh and of all requests to its functions, except their depth.
   virtual StageKey InputKey() const = 0;
 
   /// Whether the functions are given, so that the solver cannot choose their depth.
   virtual bool AreFunctionsGiven() const { return false; }
 
-  /// The triangles that Prepare works on, before it does: for the choice of a depth.
+  /// The triangles that Prepare is going to work on, for the choice of a depth.
   virtual std::shared_ptr<const TriangleMesh> ReadMesh() const = 0;
 
   /// The stages of the surface and of the solver that works on it.
@@ -58,7 +58,7 @@ public:
   /// updated.
   virtual std::int64_t StructureVersion() const = 0;
 
-  /// With the depth, the threads and the support that are in use.
+  /// The options, with the depth, the threads and the support that are in use.
   virtual const SurfaceOptions& UsedOptions() const = 0;
 
   int Threads() const { return this->UsedOptions().space.threads; }
@@ -68,7 +68,7 @@ public:
   virtual std::shared_ptr<const TriangleMesh> SharedMesh() const = 0;
   const TriangleMesh& Mesh() const { return *this->SharedMesh(); }
 
-  /// The same triangles where they have moved to since (TrackMetric); else Mesh().
+  /// The triangles of Mesh() at their moved places (TrackMetric). Without a motion it is Mesh().
   virtual const TriangleMesh& CurrentMesh() const { return this->Mesh(); }
 
   virtual std::shared_ptr<const SurfaceSpace> SharedSpace() const = 0;
@@ -78,21 +78,22 @@ public:
   /// the surface is gathered for them. Throws std::logic_error on a shared surface.
   virtual std::shared_ptr<const FiniteElementSpace> WholeSpace() const = 0;
 
-  /// A gradient given on the current mesh, for integrals over Mesh().
+  /// Converts a gradient on the current mesh for integrals over Mesh().
   virtual Field OnReference(Field gradients) const { return gradients; }
 
   /// Whether coincident points of the mesh count as one.
   virtual bool AreCoincidentPointsWelded() const = 0;
 
-  ///@{ Squared world units, and world units.
+  ///@{ Sizes in squared world units, and in world units.
   virtual double Area() const = 0;
   virtual double LongestSide() const = 0;
   ///@}
 
-  /// A weight per squared length of the parameter units, per squared unit of length of the space.
+  /// Converts a weight from the parameter units to the units of the space, per squared unit of
+  /// length.
   double WeightInSpaceUnits(double weight) const;
 
-  /// A length in the parameter units, in the world's.
+  /// Converts a length from the parameter units to world units.
   double LengthInWorldUnits(double length) const;
 
   ///@{ Collective.
@@ -100,19 +101,19 @@ public:
   /// Whether several processes share the surface.
   virtual bool IsShared() const { return false; }
 
-  /// Runs a body that can throw on one process alone; then it throws on all.
+  /// Runs a body that can throw on one process alone. Then it throws on all.
   virtual void Together(const std::function<void()>& body) const { body(); }
 
-  /// Throws InvalidInput where one process has less memory than it needs.
+  /// Throws InvalidInput if one process has less memory than it needs.
   virtual void Require(const MemoryNeed& own) const;
 
-  /// For sums of numbers that each process has a part of; null: this process has all.
+  /// Sums numbers that each process has a part of. Null if this process has all of them.
   virtual const DividedRows* SumsOverProcesses() const { return nullptr; }
 
-  /// The largest number of all processes; NaN where one is NaN.
+  /// The largest number of all processes. NaN if one is NaN.
   virtual double Largest(double own) const { return own; }
 
-  /// Whether this process is the first one where something holds.
+  /// Whether this process is the first of those where a condition holds.
   virtual bool IsFirst(bool holds) const { return holds; }
 
   bool Any(bool holds) const { return this->Largest(holds ? 1.0 : 0.0) > 0.0; }
@@ -127,13 +128,13 @@ public:
   virtual std::unique_ptr<DistanceMethod> MakeDistance(
     const DistanceOptions& options, const Job& job) const;
 
-  /// Per point of this process: 1 where a function reaches it.
+  /// A flag for each point of this process: 1 if a function reaches it.
   virtual std::vector<char> PointsWithFunctions() const = 0;
 
-  /// Gives points that this process has only copies of the rows of their originals.
+  /// Gives copied points the rows of their originals.
   virtual void FillCopies(MultiVector& /*atPoints*/) const {}
 
-  /// A solution at the points of this process: a row for each.
+  /// A solution at the points of this process, with a row for each.
   MultiVector ValuesAtPoints(const MultiVector& coefficients, const Progress& progress = {}) const;
   ///@}
 

@@ -1,5 +1,5 @@
-// The functions of a grid together with the triangles they were made from, what solvers share of
-// them, and the finite element spaces that stand on them.
+// Holds the functions of a grid together with the triangles they were made from, the data that
+// solvers share, and the finite element spaces on top of them.
 #ifndef GridFEM_SurfaceBasis_h
 #define GridFEM_SurfaceBasis_h
 
@@ -17,13 +17,14 @@ namespace gridfem
 using OperatorStore = SharedStore<std::tuple<int, Index, double>, LevelOperators>;
 using HatStore = SharedStore<bool, HatLevel>;
 
-/// Immutable but for the stores, so that it may be shared between filters and threads.
+/// The basis of a surface. It is immutable except for the stores, so that filters and threads may
+/// share it.
 struct SurfaceBasis
 {
-  std::shared_ptr<const TriangleMesh> mesh; // what the pieces' source triangles refer to
+  std::shared_ptr<const TriangleMesh> mesh; // the mesh of the pieces' source triangles
   std::shared_ptr<const GridFunctions> space;
-  /// Element matrices belong to patches, not to triangles: all views of the functions on different
-  /// meshes share one store, so that who asks first changes no bit.
+  /// The element matrices. They belong to patches, not to triangles. All views of the functions on
+  /// different meshes share one store, so that the first user changes no bit.
   std::shared_ptr<OperatorStore> operators;
   std::shared_ptr<HatStore> hats; // by WeldCoincidentPoints
   bool weldCoincidentPoints = true;
@@ -34,7 +35,8 @@ struct SurfaceBasis
 SurfaceBasis MakeSurfaceBasis(
   std::shared_ptr<const TriangleMesh> mesh, GridFunctions space, bool weldCoincidentPoints);
 
-/// The space, or null unless all that it takes has been built already, perhaps by another filter.
+/// Returns the space, or null unless all its parts have been built already, perhaps by another
+/// filter.
 std::shared_ptr<const FiniteElementSpace> FindSpace(
   const SurfaceBasis& basis, const SpaceChoice& choice);
 

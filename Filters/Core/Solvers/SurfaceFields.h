@@ -1,5 +1,5 @@
-// Given fields and constraints as the integrals and rows of a surface. Collective on a shared
-// surface.
+// Turns given fields and constraints into the integrals and rows of a surface. Collective on a
+// shared surface.
 #ifndef GridFEM_SurfaceFields_h
 #define GridFEM_SurfaceFields_h
 
@@ -17,20 +17,20 @@ namespace gridfem
 /// The coordinates of a mesh; 0 at points that no triangle uses.
 Field UsedCoordinates(const TriangleMesh& mesh);
 
-/// The field, or the coordinates of the current mesh where none is given (0 at points that no
-/// triangle uses). Throws InvalidInput for values that are refused.
+/// Returns the field. Without one it returns the coordinates of the current mesh, which are 0 at
+/// points that no triangle uses. Throws InvalidInput for values that are refused.
 Field ReadField(const Surface& surface, const GivenField& field, NaNs nans = NaNs::Refused);
 
-/// The same for one that may be left out: null where it is not given.
+/// Returns an optional field, or null if it is not given.
 std::unique_ptr<const Field> ReadOptional(const Surface& surface, const GivenField& field);
 
-/// Throws InvalidInput when values on cells are to be held at points or on the boundary.
+/// Throws InvalidInput if values on cells are to be held at points or on the boundary.
 void RequireHoldable(
   const GivenField& values, const GivenConstraints& constraints, bool onBoundary);
 
-/// Rows and values of the constraints; no rows where none are given. Throws InvalidInput when
+/// Returns rows and values of the constraints; no rows if none are given. Throws InvalidInput if
 /// constraints are given and no process knows a value.
-/// @param values  the field that is held, for the message and the number of columns
+/// @param values  the held field, for the message and the number of columns
 HeldValues HoldConstraints(
   const Surface& surface, const GivenField& values, const GivenConstraints& constraints);
 

@@ -100,11 +100,11 @@ py::tuple Solve(const std::string& name, const Points& points, const Cells& cell
   }
   catch (const Aborted&)
   {
-    throw py::error_already_set(); // what the signal has raised
+    throw py::error_already_set(); // raised by the signal
   }
 }
 
-/// Per name the default and the range.
+/// Returns the default and the range of each property by name.
 std::map<std::string, std::array<double, 3>> KnownProperties(const std::string& name)
 {
   Properties properties(name, {});

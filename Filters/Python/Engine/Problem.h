@@ -1,5 +1,5 @@
-// The problems that Python can ask for, each with the properties, the defaults and the arrays of
-// the filter of its name.
+// The problems that Python can request. Each has the properties, the defaults and the arrays of the
+// filter of its name.
 #ifndef GridFEM_Problem_h
 #define GridFEM_Problem_h
 
@@ -33,7 +33,7 @@ struct Results
   }
 };
 
-/// Ids as a column of numbers.
+/// Returns ids as a column of numbers.
 inline MultiVector ColumnOf(const std::vector<Id>& ids)
 {
   return Eigen::Map<const Eigen::Matrix<Id, Eigen::Dynamic, 1>>(
@@ -46,7 +46,7 @@ class Problem
 public:
   virtual ~Problem() = default;
 
-  /// Throws InvalidInput for an input that cannot be computed on, and Aborted.
+  /// Solves the problem. Throws InvalidInput for unusable input, and Aborted.
   virtual Results Solve(const Given& given, const Progress& progress) const = 0;
 };
 

@@ -1,4 +1,4 @@
-// The properties of a problem by their names, as the filters have them: what a user gives, with the
+// Holds the properties of a problem by the names that the filters use: the user's values, with the
 // default and the range of each.
 #ifndef GridFEM_Properties_h
 #define GridFEM_Properties_h
@@ -16,32 +16,33 @@ struct Property
   double most;
 };
 
-/// A problem asks for each of its properties once, and then that there are no others.
+/// The properties that the user gives. A problem asks for each of its properties once, and then
+/// checks that there are no others.
 class Properties
 {
 public:
-  /// @param owner  whose properties they are, for messages
+  /// @param owner  the owner of the properties, for messages
   Properties(std::string owner, std::map<std::string, double> given)
     : owner_(std::move(owner)), given_(std::move(given))
   {
   }
 
-  ///@{ What was given, else the default. Throws InvalidInput when it is no number, or no integer
-  /// where one is needed.
+  ///@{ Return the given value, else the default. Throw InvalidInput if it is no number, or no
+  /// integer where one is needed.
   double Number(const std::string& name, double standard, double least, double most);
   int Integer(const std::string& name, int standard, int least, int most);
   bool Switch(const std::string& name, bool standard);
   ///@}
 
-  ///@{ The same without a nearest value: throws InvalidInput for what is out of range.
+  ///@{ Do the same, but throw InvalidInput for a value that is out of range.
   double NumberFrom(const std::string& name, double standard, double least);
   double FiniteNumber(const std::string& name, double standard);
   ///@}
 
-  /// Throws InvalidInput naming the first that nobody has asked for.
+  /// Throws InvalidInput naming the first property that the problem has not asked for.
   void RequireNoOther() const;
 
-  /// All that were asked for.
+  /// The properties that the problem has asked for.
   const std::map<std::string, Property>& Known() const { return known_; }
 
 private:

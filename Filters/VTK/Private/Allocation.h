@@ -1,6 +1,6 @@
-// Memory for VTK's arrays. Where VTK finds none it ends the process, unless it was compiled with
-// NDEBUG, which Debian's is not; so it is tried before, and what is missing is std::bad_alloc as
-// elsewhere.
+// Allocates memory for VTK's arrays. VTK ends the process if it finds no memory, unless it was
+// compiled with NDEBUG, which Debian's is not. These functions therefore try first and throw
+// std::bad_alloc.
 #ifndef GridFEM_Allocation_h
 #define GridFEM_Allocation_h
 
@@ -14,13 +14,13 @@ class vtkCellArray;
 namespace gridfem
 {
 
-/// Throws std::bad_alloc where so many bytes cannot be had at a stretch.
+/// Throws std::bad_alloc if so many contiguous bytes are not available.
 void RequireRoom(std::size_t bytes);
 
-/// Gives an array without values, whose components are set, room for so many tuples.
+/// Reserves so many tuples for an array without values, whose number of components is set.
 void SetTuples(vtkAbstractArray* array, vtkIdType tuples);
 
-/// Gives room for so many cells and for the corners of all of them.
+/// Reserves room for so many cells and for the corners of all of them.
 void ReserveCells(vtkCellArray* cells, vtkIdType count, vtkIdType corners);
 
 } // namespace gridfem

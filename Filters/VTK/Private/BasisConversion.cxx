@@ -14,8 +14,8 @@ namespace gridfem
 namespace
 {
 
-/// A clipped triangle belongs to a source triangle that it is nearer to than this part of a cell:
-/// covers cut points in single precision.
+/// A clipped triangle belongs to a source triangle that is nearer than this part of a cell. The
+/// distance covers cut points in single precision.
 constexpr double SameTriangle = 0.05;
 
 [[noreturn]] void RefuseForeignBasis(const std::string& reason)
@@ -25,8 +25,8 @@ constexpr double SameTriangle = 0.05;
     " Connect the mesh that went into the basis filter, or the output of the basis filter itself.");
 }
 
-/// Corners of the clipped triangles: the fan of every piece. The points are exactly those that the
-/// basis filter puts out in double precision.
+/// Returns the corners of the clipped triangles: the fan of every piece. The points are exactly
+/// those that the basis filter outputs in double precision.
 TriangleMesh FanTriangles(const SurfaceBasis& basis)
 {
   const ClippedMesh& clipped = basis.space->clipped;
@@ -83,8 +83,8 @@ void SplitPieces(const TriangleMesh& mesh, GridFunctions& space)
   clipped.links.clear(); // the levels are built already
 }
 
-/// Barycentric coordinates of the point of the triangle's plane nearest to `position`; the centroid
-/// for a triangle without area.
+/// Returns the barycentric coordinates of the point of the triangle's plane nearest to `position`.
+/// A triangle without area gives its centroid.
 std::array<double, 3> Barycentric(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& position)
 {
   const Vec3 normal = (b - a).cross(c - a);
@@ -114,7 +114,8 @@ double DistanceFromSegment(const Vec3& a, const Vec3& b, const Vec3& position)
   return (a + std::clamp(at, 0.0, 1.0) * along - position).norm();
 }
 
-/// In cells. The edges are asked as well, since barycentric coordinates in slivers are rounding.
+/// Returns the distance in cells. It includes the edges, because barycentric coordinates in slivers
+/// are pure rounding.
 double DistanceFromTriangle(
   const TriangleMesh& mesh, const Grid& grid, Id triangle, const Vec3& position)
 {
@@ -135,8 +136,8 @@ double DistanceFromTriangle(
   return distance;
 }
 
-/// Of the triangles of a source cell the one that contains the piece's centre best. Throws when the
-/// piece does not lie on it.
+/// Returns the triangle of a source cell that contains the piece's center best. Throws if the piece
+/// does not lie on it.
 Id FindSourceTriangle(
   const ClippedMesh& clipped, Id piece, std::pair<Id, Id> candidates, const TriangleMesh& source)
 {
@@ -168,8 +169,9 @@ bool IsStored(const Vec3& stored, const Vec3& given)
   return stored == given || stored == Vec3(given.cast<float>().cast<double>());
 }
 
-/// The corner of a triangle that a stored point is; -1: none. Of several at one place the one with
-/// its number, else the first that the piece does not have yet, among its corners taken .. end.
+/// Returns the corner of a triangle that a stored point is, or -1. It prefers, among several
+/// corners at one place, the one with the point's number. Otherwise it takes the first that the
+/// piece lacks among its corners taken .. end.
 Id FindCorner(Id point, const TriangleMesh& stored, const TriangleMesh& given,
   const std::array<Id, 3>& corners, const Index* taken, const Index* end)
 {
@@ -210,7 +212,7 @@ void RequireSameArea(const TriangleMesh& clipped, const TriangleMesh& source)
 {
   const double clippedArea = SurfaceArea(clipped);
   const double sourceArea = SurfaceArea(source);
-  // Cut points in single precision move areas by far less.
+  // Cut points in single precision change areas by far less.
   if (!(std::abs(clippedArea - sourceArea) <= 1e-3 * sourceArea))
   {
     RefuseForeignBasis("its surface has area " + std::to_string(clippedArea) +
@@ -255,7 +257,7 @@ SurfaceBasis OnSourceMesh(
     clipped.position.push_back(clipped.grid.ToGrid(point));
   }
   std::vector<char> isFound(given.points.size(), 0);
-  std::vector<Index> cutPoint(stored.points.size(), -1); // that a stored point has become
+  std::vector<Index> cutPoint(stored.points.size(), -1); // the cut point of each stored point
   for (Id piece = 0; piece < clipped.NumberOfPieces(); ++piece)
   {
     const Id cell = sourceCell[before.pieceTriangle[piece]];

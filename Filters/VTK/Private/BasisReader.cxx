@@ -21,7 +21,8 @@ namespace gridfem
 namespace
 {
 
-/// How far, in cells, a point may lie outside its cell but for the rounding of its coordinates.
+/// The distance, in cells, that a point may lie outside its cell in addition to the rounding of its
+/// coordinates.
 constexpr double OutsideCell = 1e-9;
 
 vtkDataArray* RequireArray(vtkFieldData* fields, const char* name, int components, Id tuples)
@@ -99,7 +100,7 @@ std::vector<MortonKey> ReadCells(vtkFieldData* fields, const Grid& grid)
   return cells;
 }
 
-/// What a coordinate may be off, relative to its size: it was stored, and then taken to the grid.
+/// Returns the relative error of a coordinate, which was stored and then converted to the grid.
 double RoundingOf(vtkPolyData* data)
 {
   const bool isSingle = data->GetPoints()->GetDataType() == VTK_FLOAT;
@@ -107,7 +108,7 @@ double RoundingOf(vtkPolyData* data)
                   : 8.0 * std::numeric_limits<double>::epsilon();
 }
 
-/// The area, in cells, that a triangle without area may have for the rounding of its corners.
+/// Returns the area, in cells, that rounded corners can give to a triangle without area.
 double LargestRounding(
   vtkPolyData* data, const InputMesh& mesh, const ClippedMesh& clipped, Id piece)
 {
@@ -141,8 +142,8 @@ void RequireInsideCells(const GivenCells& given, const TriangleMesh& mesh, doubl
   }
 }
 
-/// Whether a point of ours, stored, is theirs. Points with NaN, which no triangle uses, are let
-/// through.
+/// Whether one of our points, once stored, equals theirs. Accepts points with NaN, which no
+/// triangle uses.
 bool IsStoredAs(const Vec3& ours, const Vec3& theirs, bool isSingle)
 {
   const Vec3 stored = isSingle ? Vec3(ours.cast<float>().cast<double>()) : ours;
@@ -177,7 +178,7 @@ bool IsMadeFrom(const SurfaceBasis& basis, const InputMesh& source)
   {
     return false;
   }
-  const std::vector<char> used = UsedPoints(theirs); // the others may be NaN, equal to nothing
+  const std::vector<char> used = UsedPoints(theirs); // others may be NaN, which equals nothing
   for (std::size_t point = 0; point < used.size(); ++point)
   {
     if (used[point] && ours.points[point] != theirs.points[point])
@@ -232,7 +233,7 @@ SurfaceBasis RebuildBasis(vtkPolyData* data, const InputMesh& mesh, const Progre
   {
     const vtkIdType cell = mesh.sourceCell[clipped.pieceTriangle[piece]];
     piecePatch.push_back(static_cast<Index>(IntegerIn(patchId, cell, 0, finest.NumberOfPatches())));
-    // Without area it may be with a patch that it shares an edge with.
+    // A triangle without area may belong to a patch that it shares an edge with.
     if (finest.cell[piecePatch.back()] != clipped.cells[pieceCell[piece]] &&
         PieceArea(clipped, piece) > LargestRounding(data, mesh, clipped, piece))
     {

@@ -16,7 +16,7 @@ namespace gridfem
 namespace
 {
 
-/// Of the parts of a block, which are tables or nothing.
+/// The tables of the parts of a block. A part is a table or null.
 struct NamedTables
 {
   std::vector<vtkTable*> tables;
@@ -57,7 +57,7 @@ std::vector<NamedTables> TablesOf(vtkDataObject* output)
   return blocks;
 }
 
-/// One block for each table; null where there is none.
+/// Returns a multi-block with one block for each table. Null if there is no table.
 vtkSmartPointer<vtkDataObject> AsMultiBlock(vtkDataObject* output)
 {
   vtkNew<vtkMultiBlockDataSet> made;

@@ -1,5 +1,5 @@
-// The tables that a filter makes of the blocks of a composite input. ParaView's charts draw those
-// of a multi-block only, not those of a partitioned collection.
+// Handles the tables that a filter makes of the blocks of a composite input. ParaView's charts draw
+// tables of a multi-block only, not of a partitioned collection.
 #ifndef GridFEM_BlockTables_h
 #define GridFEM_BlockTables_h
 
@@ -13,15 +13,15 @@ class vtkInformationVector;
 namespace gridfem
 {
 
-/// Puts multi-blocks in the place of other composite outputs whose blocks are tables, under the
-/// names of the blocks. The pipeline needs its own ones when it fills them again.
+/// Replaces other composite outputs whose blocks are tables by multi-blocks, under the names of the
+/// blocks. The pipeline needs its own outputs again for the next execution.
 class BlockTables
 {
 public:
-  /// At the end of an execution.
+  /// Call it at the end of an execution.
   void Exchange(vtkInformationVector* outputs);
 
-  /// At the start of the next one, unless the pipeline has made new ones by itself.
+  /// Call it at the start of the next one. Does nothing if the pipeline has made new outputs.
   void PutBack(vtkInformationVector* outputs);
 
 private:

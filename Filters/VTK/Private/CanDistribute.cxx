@@ -27,7 +27,8 @@ bool HasMpi()
 #endif
 }
 
-/// But for a selection, of which every rank evaluates its part. Port 1 is that of a basis.
+/// Whether a port from 2 on is connected. A selection does not count, because every rank evaluates
+/// its part. Port 1 is that of a basis.
 bool IsFurtherPortConnected(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs)
 {
   for (int port = 2; port < filter->GetNumberOfInputPorts(); ++port)
@@ -45,13 +46,13 @@ bool IsFurtherPortConnected(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector
 bool HasObstacle(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs)
 {
   vtkPolyData* const piece = vtkPolyData::GetData(inputs[0]);
-  // To filters with one port a basis is a surface, or a clip.
+  // Filters with one port take a basis as a surface, or as a clip.
   const bool isSolver = filter->GetNumberOfInputPorts() > 1;
   vtkPolyData* const basis =
     isSolver && !CarriesBasis(piece) ? vtkPolyData::GetData(inputs[1]) : piece;
   const bool isGiven = isSolver && CarriesBasis(basis);
   return filter->GetBlocksAsOne() ||
-         // Pieces would be apart along their borders: nothing else tells which points are one.
+         // Without welding, pieces would be apart along their borders.
          !filter->GetWeldCoincidentPoints() || (isGiven && !WeldsCoincidentPoints(basis)) ||
          (isGiven && basis == piece &&
            filter->GetFunctionSpace() != vtkSurfaceFEMAlgorithm::Grid) ||

@@ -9,10 +9,10 @@ class vtkSurfaceFEMAlgorithm;
 namespace gridfem
 {
 
-/// Collective. Whether all ranks can compute together, each with its piece on port 0. Only a basis
-/// and a selection may be connected to other ports: ranks together know nothing of the rest. Where
-/// they cannot, rank 0 gathers the surface.
-/// @param needsAll  the filter is asked for something that needs the whole surface on one rank
+/// Whether all ranks can compute together, each with its piece on port 0. Otherwise rank 0 gathers
+/// the surface. Only a basis and a selection may be connected to other ports, because ranks
+/// together know no other inputs. Collective.
+/// @param needsAll  the filter has to do something that needs the whole surface on one rank
 bool CanDistribute(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs, bool needsAll);
 
 /// Whether a piece, which may be null, has polygons or strips.

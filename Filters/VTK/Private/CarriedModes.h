@@ -1,4 +1,4 @@
-// The modes that the input of a filter carries, read again when they change, in one process or on
+// Reads the modes that the input of a filter carries, again if they change, in one process or on
 // all ranks together.
 #ifndef GridFEM_CarriedModes_h
 #define GridFEM_CarriedModes_h
@@ -19,15 +19,15 @@ class SurfaceSolverState;
 class CarriedModes
 {
 public:
-  /// None where the input carries no modes, or those of another shape. Collective. Throws
-  /// InvalidInput for arrays that do not fit.
-  /// @param input  the own piece of a rank, which may be null
+  /// Returns no modes if the input carries none, or carries those of another shape. Collective.
+  /// Throws InvalidInput for arrays that do not fit.
+  /// @param input  the rank's own piece, which may be null
   GivenModes Update(SurfaceSolverState& state, vtkPolyData* input);
 
-  /// Why the modes are those of another shape; empty when they are not.
+  /// The reason why the modes are those of another shape. Empty if they are not.
   const std::string& Misfit() const { return misfit_; }
 
-  /// What the modes were read on.
+  /// The mesh that the modes were read on.
   const InputMesh& Mesh() const { return mesh_; }
 
 private:

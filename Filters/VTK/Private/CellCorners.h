@@ -1,4 +1,4 @@
-// The corners of one cell, for several threads at a time.
+// Returns the corners of one cell. Several threads may call it at a time.
 #ifndef GridFEM_CellCorners_h
 #define GridFEM_CellCorners_h
 
@@ -9,7 +9,7 @@
 namespace gridfem
 {
 
-/// @param storage  one for each thread; `corners` is valid until it is used again
+/// @param storage  one for each thread; `corners` is valid until its next use
 inline void GetCorners(vtkCellArray* cells, vtkIdType cell, vtkIdType& count,
   const vtkIdType*& corners, vtkIdList* storage)
 {

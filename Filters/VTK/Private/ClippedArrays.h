@@ -23,7 +23,7 @@ constexpr const char* GridDepthName = "GridDepth";
 constexpr const char* PatchCellIdName = "PatchCellId";
 constexpr const char* PatchBasisIdsName = "PatchBasisIds";
 constexpr const char* NumberOfBasisFunctionsName = "NumberOfBasisFunctions";
-// With these two the coarse levels are the same after reading back.
+// These two make the coarse levels the same after reading back.
 constexpr const char* ConnectivityAwareName = "ConnectivityAware";
 constexpr const char* WeldCoincidentPointsName = "WeldCoincidentPoints";
 
@@ -31,7 +31,7 @@ constexpr const char* WeldCoincidentPointsName = "WeldCoincidentPoints";
 bool IsClipCellArray(const char* name);
 bool IsClipFieldArray(const char* name);
 
-/// Takes the arrays of the clip and of the basis away.
+/// Removes the arrays of the clip and of the basis.
 void RemoveClipArrays(vtkPolyData* data);
 
 /// Whether the vtkPolyData is the output of Clip To Octree (or of the basis filter).

@@ -8,7 +8,8 @@
 namespace gridfem
 {
 
-/// Calls body(piece, begin, end) for all pieces with their fans: begin .. end among all triangles.
+/// Calls body(piece, begin, end) for all pieces. begin .. end is the piece's fan among all
+/// triangles.
 template<class Body>
 void ForEachFan(const ClippedMesh& clipped, int threads, Body&& body)
 {

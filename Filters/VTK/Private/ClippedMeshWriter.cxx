@@ -55,7 +55,7 @@ void AddInt(vtkPolyData* output, const char* name, int value)
   output->GetFieldData()->AddArray(array);
 }
 
-/// The input's points as they are, then the cut points.
+/// Returns the input's points unchanged, then the cut points.
 template<class Real>
 void FillPoints(vtkPoints* input, const ClippedMesh& clipped, int threads, Real* output)
 {
@@ -92,8 +92,8 @@ vtkSmartPointer<vtkPoints> MakePoints(vtkPolyData* input, const ClippedMesh& cli
   return points;
 }
 
-/// Triangles of the fans, in the order of the pieces. Clip has made sure that 32 bits are enough
-/// for the corners of pieces; those of triangles may be more.
+/// Returns the triangles of the fans, in the order of the pieces. Clip has ensured that 32 bits are
+/// enough for the corners of pieces. Triangles may have more corners.
 template<class Ids>
 vtkSmartPointer<vtkCellArray> MakeTriangles(const ClippedMesh& clipped, int threads)
 {
@@ -124,7 +124,7 @@ vtkSmartPointer<vtkCellArray> MakeTriangles(const ClippedMesh& clipped, int thre
   return cells;
 }
 
-/// Half the size is half the time.
+/// Uses 32 bits, because half the size takes half the time.
 vtkSmartPointer<vtkCellArray> MakeTriangles(const ClippedMesh& clipped, int threads)
 {
   const bool isSmall = 3 * clipped.NumberOfTriangles() <= std::numeric_limits<Index>::max();
@@ -132,7 +132,7 @@ vtkSmartPointer<vtkCellArray> MakeTriangles(const ClippedMesh& clipped, int thre
                  : MakeTriangles<vtkTypeInt64Array>(clipped, threads);
 }
 
-/// Per cell of a part of a clipped mesh its place among those of the whole.
+/// Returns, for each cell of a part of a clipped mesh, its place among those of the whole.
 std::vector<Id> PlacesOfCells(
   const std::vector<MortonKey>& part, const std::vector<MortonKey>& whole)
 {
@@ -254,8 +254,8 @@ std::vector<Id> PatchesOfTriangles(const GridFunctions& space, int threads)
 namespace
 {
 
-/// The colour of the octree cell, and 8 more where the patch is not the first one in its cell:
-/// those are where connectivity tells patches apart.
+/// Returns the color of the octree cell, plus 8 if the patch is not the first in its cell. Such
+/// patches show where connectivity separates the surface.
 std::vector<signed char> ColorsOfPatches(const PatchLevel& level)
 {
   std::vector<signed char> colors(level.NumberOfPatches());

@@ -23,7 +23,7 @@ namespace gridfem
 namespace
 {
 
-/// The array with its values side by side in memory; bits become bytes.
+/// Returns the array with its values side by side in memory. Bits become bytes.
 vtkSmartPointer<vtkDataArray> Contiguous(vtkDataArray* array)
 {
   const bool isBits = array->GetDataType() == VTK_BIT;

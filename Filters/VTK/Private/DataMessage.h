@@ -1,5 +1,5 @@
-// Surfaces and arrays of VTK as bytes that travel between ranks, with all their digits. VTK's own
-// messages are files in its legacy format, which cut ids to 32 bits.
+// Packs surfaces and arrays of VTK into bytes that travel between ranks, with all their digits.
+// VTK's own messages are files in its legacy format, which cuts ids to 32 bits.
 #ifndef GridFEM_DataMessage_h
 #define GridFEM_DataMessage_h
 
@@ -21,14 +21,14 @@ class vtkPolyData;
 namespace gridfem
 {
 
-/// Things are taken out in the order in which they were put in.
+/// A message. Its parts come out in the order in which they were put in.
 class DataMessage
 {
 public:
   DataMessage() = default;
   explicit DataMessage(Bytes bytes) : bytes_(std::move(bytes)) {}
 
-  /// All that was put in; nothing is left.
+  /// Returns all bytes that were put in, and leaves none.
   Bytes Release() { return std::move(bytes_); }
 
   template<class Number>
@@ -55,16 +55,17 @@ public:
   void PutNumbers(const std::vector<double>& numbers);
   std::vector<double> TakeNumbers();
 
-  /// An array that CanTravel, or null.
+  /// Puts in an array that CanTravel, or null.
   void PutArray(vtkAbstractArray* array);
   vtkSmartPointer<vtkAbstractArray> TakeArray();
 
-  /// Arrays that can travel and have so many tuples, any number for -1, and which are active.
+  /// Puts in the arrays that can travel and have so many tuples, and which of them are active. -1
+  /// means any number of tuples.
   void PutArrays(vtkFieldData* arrays, vtkIdType tuples);
-  /// Added to those that are there.
+  /// Takes out arrays and adds them to the existing ones.
   void TakeArrays(vtkFieldData* arrays);
 
-  /// Points, cells and arrays.
+  /// Puts in points, cells and arrays.
   void PutSurface(vtkPolyData* surface);
   vtkSmartPointer<vtkPolyData> TakeSurface();
 
@@ -78,10 +79,10 @@ private:
   std::size_t taken_ = 0;
 };
 
-/// Numbers and strings; arrays of variants do not.
+/// Whether an array can travel. Numbers and strings can, variants cannot.
 bool CanTravel(vtkAbstractArray* array);
 
-/// Whether two arrays (either may be null) have the same type, name, shape and bits.
+/// Whether two arrays have the same type, name, shape and bits. Either may be null.
 bool HaveSameContents(vtkAbstractArray* a, vtkAbstractArray* b);
 
 } // namespace gridfem

@@ -36,8 +36,8 @@ namespace
 
 using CountsOfKinds = std::array<Id, CellKinds>;
 
-/// Collective. Per cell of this rank's piece its number among those of all ranks that are no
-/// copies, as PieceJoiner gives them without global ids.
+/// Returns a number for each cell of this rank's piece. It counts the cells of all ranks that are
+/// no copies, as PieceJoiner numbers them without global ids. Collective.
 std::vector<Id> NumberCells(const Communicator& ranks, vtkPolyData* piece, bool isCounted)
 {
   std::vector<Id> number; // among those of the rank and the kind
@@ -84,7 +84,7 @@ std::vector<Id> NumberCells(const Communicator& ranks, vtkPolyData* piece, bool 
   return number;
 }
 
-/// Collective. The number of the cell that each received triangle comes from.
+/// Returns the number of the cell that each received triangle comes from. Collective.
 std::vector<Id> SourceCells(const Communicator& ranks, const Redistribution& distribution,
   vtkPolyData* piece, bool isCounted, const InputMesh& mesh)
 {
@@ -101,7 +101,7 @@ std::vector<Id> SourceCells(const Communicator& ranks, const Redistribution& dis
   return { received.data(), received.data() + received.size() };
 }
 
-/// The first of the chosen points as a data set.
+/// Returns the first `count` chosen points as a data set.
 vtkSmartPointer<vtkPolyData> SurfaceOfPoints(
   const std::vector<Vec3>& points, const std::vector<vtkIdType>& chosen, Id count, int precision)
 {
@@ -121,7 +121,7 @@ vtkSmartPointer<vtkPolyData> SurfaceOfPoints(
   return surface;
 }
 
-/// The input's points that pieces have, ascending, then all cut points.
+/// Returns the input's points that pieces use, ascending, then all cut points.
 std::vector<vtkIdType> PointsOfPieces(const ClippedMesh& clipped)
 {
   std::vector<char> isUsed(clipped.numberOfInputPoints, 0);
@@ -143,7 +143,7 @@ std::vector<vtkIdType> PointsOfPieces(const ClippedMesh& clipped)
   return points;
 }
 
-/// With these points alone.
+/// Returns the mesh with only these points.
 ClippedMesh WithPoints(const ClippedMesh& clipped, const std::vector<vtkIdType>& points)
 {
   ClippedMesh shown;
@@ -167,7 +167,7 @@ ClippedMesh WithPoints(const ClippedMesh& clipped, const std::vector<vtkIdType>&
   return shown;
 }
 
-/// Per clipped triangle its source triangle.
+/// Returns the source triangle of each clipped triangle.
 vtkSmartPointer<vtkIdTypeArray> TrianglesOfFans(const ClippedMesh& clipped, int threads)
 {
   auto triangles = vtkSmartPointer<vtkIdTypeArray>::New();
@@ -179,8 +179,8 @@ vtkSmartPointer<vtkIdTypeArray> TrianglesOfFans(const ClippedMesh& clipped, int 
   return triangles;
 }
 
-/// The levels of all ranks' functions as this rank has them: the divided ones, with its own patches
-/// and its own numbers of functions, and behind them the shared ones, which are whole.
+/// Returns the levels of all ranks' functions on this rank. The divided levels come first, with the
+/// rank's own patches and its own numbers of functions. The shared levels follow as a whole.
 std::vector<PatchLevel> LevelsOfRank(const RankSpace& space)
 {
   const std::vector<PatchLevel>& own = space.Own().Functions().levels;
@@ -201,7 +201,7 @@ std::vector<PatchLevel> LevelsOfRank(const RankSpace& space)
   return levels;
 }
 
-/// The finest level of all ranks.
+/// Returns the finest level of all ranks.
 PatchLevel GatherFinest(const RankSpace& space)
 {
   const LevelNumbering& numbering = space.Numberings().front();
@@ -255,9 +255,9 @@ private:
   std::vector<MortonKey> cells_;  // of all ranks
   std::vector<MortonKey> before_; // at most one
   int precision_ = VTK_DOUBLE;
-  bool areCut_ = false;           // points, on any rank
-  std::vector<vtkIdType> points_; // of the clipped mesh, that are put out
-  vtkNew<vtkPolyData> frame_;     // what does not depend on arrays of the input
+  bool areCut_ = false;           // there are cut points on some rank
+  std::vector<vtkIdType> points_; // of the clipped mesh, to be output
+  vtkNew<vtkPolyData> frame_;     // independent of the input's arrays
 };
 
 void ClipOfRanks::Build(DistributedSurface& together, vtkPolyData* piece,
@@ -294,7 +294,7 @@ void ClipOfRanks::Take(const DistributedSurface& together, vtkPolyData* piece, b
   this->AddBasis(options);
 }
 
-/// Single where all pieces are.
+/// Chooses single precision if all pieces have it.
 void ClipOfRanks::FindPrecision(
   const DistributedSurface& together, vtkPolyData* piece, const InputMesh& mesh)
 {
@@ -315,7 +315,7 @@ void ClipOfRanks::WriteFrame(const DistributedSurface& together, vtkPolyData* pi
   ranks_.Together(
     [&]
     {
-      // A piece without area may be with a patch of another rank, in a cell that both have then.
+      // A piece without area may belong to a patch of another rank. Both then have its cell.
       std::sort(cells_.begin(), cells_.end());
       cells_.erase(std::unique(cells_.begin(), cells_.end()), cells_.end());
       points_ = PointsOfPieces(*clipped_);
@@ -327,7 +327,7 @@ void ClipOfRanks::WriteFrame(const DistributedSurface& together, vtkPolyData* pi
     });
 }
 
-/// Of lower ranks.
+/// Returns the number of patches of lower ranks.
 Id ClipOfRanks::PatchesBefore() const
 {
   return ranks_.ShareOf(whole_->Space().Own().Functions().Finest().NumberOfPatches()).before;
@@ -350,7 +350,7 @@ void ClipOfRanks::AddBasis(const SurfaceOptions& options)
     });
 }
 
-/// The tables of the basis for triangles that are pieces already.
+/// Adds the tables of the basis to triangles that are already pieces.
 void ClipOfRanks::AddBasisToPiece(
   const InputMesh& mesh, const InputMesh& copies, vtkPolyData* piece)
 {
@@ -358,7 +358,7 @@ void ClipOfRanks::AddBasisToPiece(
   const PatchLevel finest = GatherFinest(space);
   const GridFunctions& own = space.Own().Functions();
   const Id before = this->PatchesBefore();
-  MultiVector patches; // of received triangles, each of which one rank has in its cells
+  MultiVector patches; // of received triangles, each in the cells of one rank
   ranks_.Together(
     [&]
     {
@@ -412,7 +412,7 @@ void ClipOfRanks::WriteMesh(
           output->ShallowCopy(piece);
           if (frame_->GetFieldData()->GetNumberOfArrays() == 0)
           {
-            RemoveClipArrays(output); // of a basis that was there before
+            RemoveClipArrays(output); // of an earlier basis
           }
           PassArrays(frame_, output);
         }

@@ -1,4 +1,4 @@
-// What DistributedSurface holds, for the parts of the filters that are built with MPI.
+// The data of DistributedSurface, for the parts of the filters that are built with MPI.
 #ifndef GridFEM_DistributedInternals_h
 #define GridFEM_DistributedInternals_h
 

@@ -47,7 +47,7 @@ RankSpaceOptions RankOptionsOf(const SurfaceOptions& options)
 namespace
 {
 
-/// Of the bits of what is added, so that things with the same one are the same. FNV-1a.
+/// Hashes the bits of added data, so that equal data have equal digests. FNV-1a.
 class Digest
 {
 public:
@@ -87,7 +87,7 @@ std::uint64_t DigestOf(const std::vector<MortonKey>& cells)
   return digest.Value();
 }
 
-/// Collective. Whether an earlier rank has this piece, too.
+/// Whether an earlier rank has this piece, too. Collective.
 bool IsRepeated(const Communicator& ranks, const TriangleMesh& mesh)
 {
   const bool hasAny = !mesh.triangles.empty();
@@ -130,7 +130,7 @@ void DistributedSurface::Run(const Progress& progress, const Body& body)
     }
     throw InvalidInput("Rank " + std::to_string(failure.rank) + ": " + failure.what());
   }
-  catch (const InvalidInput&) // of what is the same on all ranks
+  catch (const InvalidInput&) // an error that is the same on all ranks
   {
     if (ranks.Rank() > 0)
     {
@@ -168,7 +168,7 @@ Id DistributedSurface::NumberOfFunctions() const
 double DistributedSurface::Largest(double own) const
 {
   constexpr double Unknown = std::numeric_limits<double>::infinity();
-  double largest = std::isnan(own) ? Unknown : own; // MPI does not say what it makes of NaN
+  double largest = std::isnan(own) ? Unknown : own; // MPI does not define the maximum of NaN
   ranks_->ranks.Maximum(&largest, 1);
   return largest == Unknown ? std::nan("") : largest;
 }
@@ -208,7 +208,7 @@ InputMesh DistributedSurface::ReadPieces(vtkPolyData* piece, int threads)
   return mesh;
 }
 
-/// The grid is that of the first rank with triangles.
+/// Builds the space on the grid of the first rank with triangles.
 std::shared_ptr<const GivenCells> DistributedSurface::ReadCells(
   vtkPolyData* piece, const InputMesh& mesh) const
 {
@@ -417,7 +417,7 @@ namespace gridfem
 namespace
 {
 
-/// No filter comes here: CanDistribute says before that they cannot.
+/// Filters never call it, because CanDistribute refuses first.
 [[noreturn]] void RefuseWithoutMpi()
 {
   throw InvalidInput("This build has no MPI.");

@@ -1,5 +1,5 @@
-// The pieces of a surface that several MPI ranks hold, none of which gathers it, with the space of
-// all of them. Without MPI there is no such way.
+// Handles the pieces of a surface that several MPI ranks hold, with the space of all of them. No
+// rank gathers the surface. Needs MPI.
 #ifndef GridFEM_DistributedSurface_h
 #define GridFEM_DistributedSurface_h
 
@@ -32,10 +32,10 @@ struct MemoryNeed;
 struct DistanceOptions;
 struct SurfaceOptions;
 
-/// All functions but Free, IsUsed, Space, Area, Side, Depth, GridOfRanks, NumberOfFunctions, Parts,
-/// CopiedTriangles, IsPieceRepeated, DataTypeOf, Numbers and WithCopies are collective, on the
-/// ranks of VTK's global controller, and but Run are called within Run. What throws on one rank
-/// alone is called within Together.
+/// The surface of all ranks. All functions but Free, IsUsed, Space, Area, Side, Depth, GridOfRanks,
+/// NumberOfFunctions, Parts, CopiedTriangles, IsPieceRepeated, DataTypeOf, Numbers and WithCopies
+/// are collective on the ranks of VTK's global controller. All but Run are called within Run. A
+/// body that can throw on one rank alone is called within Together.
 class DistributedSurface
 {
 public:
@@ -44,95 +44,95 @@ public:
 
   using Body = std::function<void(const Progress& ofAll)>;
 
-  /// Runs a body on all ranks, with a progress that is aborted for all or none. Throws on all when
-  /// it throws on one: Aborted on all, or the error on the first rank and FailedElsewhere on the
-  /// others.
+  /// Runs a body on all ranks. Its progress is aborted for all ranks or none. If it throws on one
+  /// rank, all ranks throw: either Aborted on all, or the error on the first rank and
+  /// FailedElsewhere on the others.
   void Run(const Progress& progress, const Body& body);
 
   void Together(const std::function<void()>& body) const;
 
-  /// Throws on all ranks where the memory of one is not enough.
+  /// Throws on all ranks if the memory of one is not enough.
   void Require(const MemoryNeed& own) const;
   bool Any(bool holds) const;
 
-  /// Reads this rank's piece, which may be null. Cells that vtkGhostType marks as duplicates, and
-  /// pieces that an earlier rank has, too, are copies: they count once.
+  /// Reads this rank's piece, which may be null. Copies count once: cells that vtkGhostType marks
+  /// as duplicates, and pieces that an earlier rank has, too.
   /// @return  the piece without the copies
   InputMesh ReadPieces(vtkPolyData* piece, int threads);
 
   /// Reads the pieces and clips them.
-  /// @param options  threads are those of a rank
+  /// @param options  has the threads of one rank
   /// @param isClipped  the pieces are parts of a clip, whose grid and cells are taken
   /// (ReadGivenCells)
   /// @param mesh     gets the piece without the copies
   void BuildSpace(
     vtkPolyData* piece, const SurfaceOptions& options, bool isClipped, InputMesh& mesh);
 
-  /// The threads that a rank may use: those of a machine are shared.
+  /// Returns the threads that a rank may use. Ranks share those of a machine.
   int ThreadsOfRank(int wanted) const;
 
-  /// What ranks with polygons have found becomes known on the others, as an array of zeros. Throws
-  /// where the ranks' arrays do not fit each other.
+  /// Tells the other ranks of the array that ranks with polygons have found. They get an array of
+  /// zeros. Throws if the ranks' arrays do not fit each other.
   /// @param index  that of SetInputArrayToProcess
   void Agree(int index, InputArray& array);
 
-  /// The array that SetInputArrayToProcess(index, ...) names, agreed on.
-  /// @param mesh      as ReadPieces has given it; without triangles the piece need not have the
-  /// array
-  /// @param property  the name that messages give
+  /// Returns the array that SetInputArrayToProcess(index, ...) names, agreed on by all ranks.
+  /// @param mesh      comes from ReadPieces; a piece without triangles need not have the array
+  /// @param property  the name in messages
   InputArray Find(vtkAlgorithm* filter, int index, vtkPolyData* piece, const InputMesh& mesh,
     const std::string& property);
 
-  /// Of an agreed array that there is: the type that results have on all ranks.
+  /// Returns the type of results for an agreed array, the same on all ranks.
   int DataTypeOf(int index) const;
 
-  /// Numbers become those of the first rank that has any.
+  /// Replaces the numbers by those of the first rank that has any.
   void Agree(std::vector<double>& numbers) const;
 
-  /// The largest number of all ranks; NaN where one is unknown, NaN or infinite.
+  /// Returns the largest number of all ranks. NaN if one is unknown, NaN or infinite.
   double Largest(double own) const;
 
-  /// For sums over ranks; without rows.
+  /// Sums numbers over the ranks; it has no rows.
   const DividedRows& Numbers() const;
 
   void Free();
   bool IsUsed() const { return space_ != nullptr; }
   const std::shared_ptr<const SurfaceSpace>& Space() const { return space_; }
 
-  /// Of the whole surface; and the longest side of the box around it, world units.
+  /// The area of the whole surface, and the longest side of the box around it, in world units.
   double Area() const { return area_; }
   double Side() const { return space_->UnitLength() * space_->Extent(); }
 
-  /// Of the grid, which is coarser below hat functions that do not need it.
+  /// The depth of the grid. It is coarser below hat functions that do not need it.
   int Depth() const { return this->GridOfRanks().depth; }
   const Grid& GridOfRanks() const;
 
-  /// Functions of the finest level, on all ranks.
+  /// The number of functions of the finest level, on all ranks.
   Id NumberOfFunctions() const;
 
-  /// The whole piece.
-  /// @param mesh  as ReadPieces has given it
+  /// Returns values on the whole piece.
+  /// @param mesh  comes from ReadPieces
   InputMesh WithCopies(const InputMesh& mesh) const;
 
-  /// Rows at this rank's points: those of copies become those of the originals.
+  /// Returns rows at this rank's points. Copies get the rows of the originals.
   void FillCopies(MultiVector& atPoints) const;
 
-  /// Means on the cells of this rank's piece, those of copies as well.
-  /// @param mesh  as BuildSpace has given it
+  /// Returns means on the cells of this rank's piece, and of copied cells as well.
+  /// @param mesh  comes from BuildSpace
   MultiVector MeansOnCells(const InputMesh& mesh, const MultiVector& onTriangles, Id cells) const;
 
-  /// Per point of this rank: 1 where a function of any rank reaches it.
+  /// A flag for each point of this rank: 1 if a function of any rank reaches it.
   std::vector<char> PointsWithFunctions() const;
 
   /// Values that are held at this rank's own points (HoldPoints).
   HeldValues Hold(const std::vector<Id>& points, const MultiVector& values) const;
 
-  /// What the boundary of the whole adds to an equation (TermsOnBoundary).
+  /// The terms that the boundary of the whole surface adds to an equation (TermsOnBoundary).
   BoundaryTerms OnBoundary(
     bool weldCoincidentPoints, const MultiVector* flux, const MultiVector* values) const;
 
-  /// Distances from points of the ranks (RankDistance), as long as there is this space.
-  /// @param mesh  as BuildSpace has given it
+  /// Returns the solver of distances from points of the ranks (RankDistance). It is valid as long
+  /// as this space.
+  /// @param mesh  comes from BuildSpace
   std::unique_ptr<DistanceMethod> MakeDistance(
     const InputMesh& mesh, const DistanceOptions& options, const Job& job) const;
 
@@ -150,7 +150,7 @@ private:
     vtkSmartPointer<vtkDataArray> array; // for a rank without polygons
     int dataType = 0;                    // of the first rank that has the array
   };
-  std::unique_ptr<Internals> ranks_; // while it runs, and as long as there is a space
+  std::unique_ptr<Internals> ranks_; // while it runs or has a space
   std::shared_ptr<const SurfaceSpace> space_;
   Progress progress_;
   double area_ = 0.0;

@@ -10,7 +10,7 @@ namespace gridfem
 void FailureDump::Swallow(vtkExecutive* executive)
 {
   this->Print();
-  // An object with an observer of errors does not print them.
+  // An object whose errors are observed does not print them.
   vtkNew<vtkCallbackCommand> silence;
   silence->SetClientData(this);
   silence->SetCallback(

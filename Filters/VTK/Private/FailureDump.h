@@ -1,4 +1,4 @@
-// Keeps the pipeline from adding its own report to a failure that the filter has told of already.
+// Keeps the pipeline from adding its own report to a failure that the filter has already reported.
 #ifndef GridFEM_FailureDump_h
 #define GridFEM_FailureDump_h
 
@@ -9,8 +9,8 @@ class vtkExecutive;
 namespace gridfem
 {
 
-/// When a filter says that it failed, its executive prints the request that it failed at: a page of
-/// keys beside the one message that helps.
+/// Swallows the report that an executive prints if its filter fails. That report is the failed
+/// request: a page of keys beside the one message that helps.
 class FailureDump
 {
 public:
@@ -22,7 +22,7 @@ public:
   /// Swallows the next report of the executive. Observers that others have put on it still get it.
   void Swallow(vtkExecutive* executive);
 
-  /// Reports are printed again.
+  /// Prints reports again.
   void Print();
 
 private:

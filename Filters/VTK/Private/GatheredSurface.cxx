@@ -145,8 +145,8 @@ GatheredSurface JoinPieces(
 {
   const auto count = static_cast<int>(pieces.size());
   Pieces distinct;
-  std::vector<std::string> owned;    // of the distinct pieces, by whom
-  std::vector<int> which(count, -1); // of the distinct pieces, per owner
+  std::vector<std::string> owned;    // owners of the distinct pieces
+  std::vector<int> which(count, -1); // distinct piece of each owner
   for (int owner = 0; owner < count; ++owner)
   {
     if (pieces[owner]->GetNumberOfPoints() == 0)

@@ -1,4 +1,4 @@
-// One surface from the pieces that ranks, or blocks of composite data, hold of it.
+// Makes one surface from the pieces that ranks, or blocks of composite data, hold of it.
 #ifndef GridFEM_GatheredSurface_h
 #define GridFEM_GatheredSurface_h
 
@@ -17,7 +17,7 @@ class vtkPolyData;
 namespace gridfem
 {
 
-/// Where the points and cells of a piece are in the whole; -1 for those that are not there.
+/// The places of a piece's points and cells in the whole. -1 for those that are missing there.
 struct PiecePlaces
 {
   std::vector<vtkIdType> points;
@@ -31,38 +31,38 @@ struct GatheredSurface
   std::vector<std::string> partialArrays; // "'name' (rank 3)": left out, because that one lacks it
 };
 
-/// Adds all that is joined of a surface.
+/// Adds everything that is joined of a surface to a key.
 void AddSurface(StageKey& key, vtkPolyData* surface);
 
-/// Throws InvalidInput for a cell of a point that is not there.
+/// Throws InvalidInput for a cell with a point that does not exist.
 void RequireGoodCells(vtkPolyData* surface);
 
-/// Joins pieces, one for each owner, a rank or a block, empty ones as well:
-/// - Cells that vtkGhostType marks as duplicates are left out, and their points; they are found
-///   again among the others, so that they get the values of those.
-/// - Points with the same global id are one. Without global ids on every piece and when
-///   `weldCoincidentPoints`, a point of one owner and one of another are one when they have the
-///   same coordinates and the same values in all arrays. Points of the same owner stay apart.
+/// Joins pieces, one for each owner, a rank or a block. Empty pieces may be among them.
+/// - Cells that vtkGhostType marks as duplicates are left out, with their points. They are found
+///   among the other cells, so that they get the values of those.
+/// - Points with the same global id are one. If some piece lacks global ids and
+///   `weldCoincidentPoints` is on, points of two owners are one if they agree in coordinates and in
+///   all arrays. Points of the same owner stay apart.
 /// - Points and cells are sorted by their global ids, so that the bits of a result do not depend on
-///   the distribution; without such ids they follow each other as the owners do.
-/// - Arrays are those that all pieces with points have; of different types, they become double.
-///   Field arrays are those of the first owner that has them.
-/// - A piece that is the same as that of an earlier owner, bit by bit, counts once.
-/// - The only piece with points is taken as it is, with its arrays.
-/// @param owners  what messages call them, such as "rank 3"
-/// Throws InvalidInput when two points with the same global id have different coordinates.
+///   the distribution. Without such ids they have the order of the owners.
+/// - Only arrays that all pieces with points have are joined. Arrays of different types become
+///   double. Field arrays are those of the first owner that has them.
+/// - A piece that equals an earlier owner's piece, bit by bit, counts once.
+/// - If only one piece has points, it is taken unchanged, with its arrays.
+/// @param owners  the names of the owners in messages, such as "rank 3"
+/// Throws InvalidInput if two points with the same global id have different coordinates.
 GatheredSurface JoinPieces(const std::vector<vtkSmartPointer<vtkPolyData>>& pieces,
   const std::vector<std::string>& owners, bool weldCoincidentPoints);
 
-/// Adds field arrays whose names are not there yet.
+/// Adds field arrays whose names are new.
 void AddMissing(vtkFieldData* from, vtkFieldData* to);
 
-/// Throws the error again, with the arrays that some pieces lack: the likely reason for one that
-/// does not exist.
+/// Throws the error again, and names the arrays that some pieces lack. They are the likely reason
+/// if a chosen array does not exist.
 [[noreturn]] void ThrowWithPartialArrays(const InvalidInput& error, const GatheredSurface& surface);
 
-/// Takes over the points, cells and arrays of the last surface that are the same in the new one, so
-/// that stages made from them need not run again.
+/// Takes over the points, cells and arrays of the last surface that are unchanged. Stages made from
+/// them need not run again.
 void KeepUnchanged(vtkPolyData* last, vtkPolyData* surface);
 
 } // namespace gridfem

@@ -1,4 +1,4 @@
-// Information of a port with another data object.
+// Copies the information of a port, with another data object.
 #ifndef GridFEM_InformationCopy_h
 #define GridFEM_InformationCopy_h
 
@@ -13,8 +13,9 @@
 namespace gridfem
 {
 
-/// All that `given` says, with `data` in the place of its data. It does not hold the pipeline,
-/// whose garbage collection would not know of this and never free what made the data.
+/// Returns all entries of `given`, with `data` in the place of its data. It does not hold the
+/// pipeline, whose garbage collection would not see this copy and would never free the source of
+/// the data.
 inline vtkSmartPointer<vtkInformation> CopyWith(vtkDataObject* data, vtkInformation* given)
 {
   vtkNew<vtkInformation> information;

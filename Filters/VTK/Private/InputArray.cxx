@@ -49,7 +49,7 @@ std::string ArrayNames(vtkDataSetAttributes* attributes)
   return names.empty() ? "none" : names;
 }
 
-/// The chosen array among one kind of data, or null.
+/// Returns the chosen array among one kind of data, or null.
 vtkAbstractArray* FindAmong(vtkDataSetAttributes* attributes, vtkInformation* choice)
 {
   if (choice->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
@@ -59,7 +59,7 @@ vtkAbstractArray* FindAmong(vtkDataSetAttributes* attributes, vtkInformation* ch
   return attributes->GetAbstractArray(ChosenName(choice).c_str());
 }
 
-/// The chosen array, or null; says whether it is point data.
+/// Returns the chosen array, or null. Tells whether it is point data.
 vtkAbstractArray* FindArray(
   vtkInformation* choice, vtkDataSet* input, const std::string& property, bool& onPoints)
 {
@@ -77,7 +77,7 @@ vtkAbstractArray* FindArray(
   return found || !cells ? found : FindAmong(input->GetCellData(), choice);
 }
 
-/// How many values an array of points or cells has.
+/// Returns the number of values of an array of points or cells.
 vtkIdType TuplesOf(vtkDataSet* input, bool onPoints)
 {
   return onPoints ? input->GetNumberOfPoints() : input->GetNumberOfCells();
@@ -108,7 +108,7 @@ void RequireFound(
   }
 }
 
-/// Copies a tuple into a row; throws when a value is not finite.
+/// Copies a tuple into a row. Throws if a value is not finite.
 void CopyTuple(const InputArray& input, vtkIdType tuple, NaNs nans, MultiVector& values, Id row)
 {
   for (int c = 0; c < input.array->GetNumberOfComponents(); ++c)

@@ -1,4 +1,4 @@
-// Arrays chosen by the user as fields that Core integrates.
+// Reads arrays chosen by the user as fields that Core integrates.
 #ifndef GridFEM_InputArray_h
 #define GridFEM_InputArray_h
 
@@ -18,7 +18,7 @@ class vtkDataSetAttributes;
 namespace gridfem
 {
 
-/// An array of the input; without one, `array` is null.
+/// An array of the input. If there is none, `array` is null.
 struct InputArray
 {
   vtkDataArray* array = nullptr;
@@ -26,7 +26,7 @@ struct InputArray
   std::string name;
 };
 
-/// The input lacks the chosen array.
+/// Thrown if the input lacks the chosen array.
 struct MissingArray : InvalidInput
 {
   MissingArray(const std::string& message, std::string name)
@@ -36,22 +36,22 @@ struct MissingArray : InvalidInput
   std::string array;
 };
 
-/// The array that SetInputArrayToProcess(index, ...) names, null array when none is chosen (an
-/// empty name or "None", unless an array has that name). Throws MissingArray when the chosen array
-/// does not exist, InvalidInput when it is not numeric, is neither point nor cell data, or has the
-/// wrong length; `property` is the name the message gives.
+/// Returns the array that SetInputArrayToProcess(index, ...) names, or a null array if none is
+/// chosen. An empty name or "None" chooses none, unless an array has that name. Throws MissingArray
+/// if the chosen array does not exist. Throws InvalidInput if it is not numeric, is neither point
+/// nor cell data, or has the wrong length. `property` is its name in the message.
 InputArray FindInputArray(
   vtkAlgorithm* algorithm, int index, vtkDataSet* input, const std::string& property);
 
-/// What can be chosen without being asked: the only point or cell array of numbers that has a value
-/// for each and for which `fits`, called with the attributes that it is of, is true; null array
-/// when there is none or a second one.
+/// Returns the only array that can be chosen without being named. It is a point or cell array with
+/// a number for each point or cell, and `fits`, called with its attributes, is true. Null array if
+/// there is none or a second one.
 InputArray OnlyArray(
   vtkDataSet* input, const std::function<bool(vtkDataArray*, vtkDataSetAttributes*)>& fits);
 
-/// The array's values: rows are points, or triangles for cell data. Throws InvalidInput naming the
-/// first point or cell of the surface with a NaN or infinite value; values that no polygon uses
-/// are taken as 0.
+/// Returns the array's values: rows are points, or triangles for cell data. Values that no polygon
+/// uses are taken as 0. Throws InvalidInput naming the first point or cell of the surface with a
+/// NaN or infinite value.
 Field ReadField(const InputArray& input, const InputMesh& mesh, NaNs nans = NaNs::Refused);
 
 } // namespace gridfem

@@ -27,7 +27,7 @@ namespace gridfem
 namespace
 {
 
-constexpr const char* NoBlocks = "one piece"; // stands for all that is not composite
+constexpr const char* NoBlocks = "one piece"; // stands for any input that is not composite
 
 [[noreturn]] void ThrowUnlike()
 {
@@ -94,7 +94,7 @@ void SetChild(vtkDataObject* parent, unsigned int index, vtkDataObject* child)
   }
 }
 
-/// A line for every block that is there: the classes and indices on the way to it.
+/// Writes a line for every existing block: the classes and indices on the path to it.
 void ListBlocks(vtkDataObject* parent, const std::string& path, std::string& lines)
 {
   const std::string here = path + parent->GetClassName() + " ";
@@ -112,7 +112,7 @@ void ListBlocks(vtkDataObject* parent, const std::string& path, std::string& lin
   }
 }
 
-/// What the blocks of an input are, as text.
+/// Describes the blocks of an input as text.
 std::string BlocksOf(vtkDataObject* data)
 {
   auto* composite = vtkCompositeDataSet::SafeDownCast(data);
@@ -126,7 +126,7 @@ std::string BlocksOf(vtkDataObject* data)
     ListBlocks(composite, "", lines);
     return lines;
   }
-  // Blocks of another kind, those of AMR, cannot be added: all ranks have to have the same.
+  // Blocks of another kind, such as AMR, cannot be added: all ranks have to have the same.
   auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
   for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
   {
@@ -135,7 +135,7 @@ std::string BlocksOf(vtkDataObject* data)
   return lines;
 }
 
-/// Adds an empty surface at the end of a path where there is nothing.
+/// Adds an empty surface at the end of a path if nothing is there.
 void AddBlock(vtkDataObject* root, const std::string& path)
 {
   std::istringstream words(path);

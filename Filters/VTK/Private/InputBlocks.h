@@ -1,5 +1,5 @@
-// Composite inputs. The pipeline runs a filter block by block and skips blocks that are not there;
-// on several MPI ranks one without a block would leave the others waiting for it.
+// Aligns composite inputs. The pipeline runs a filter block by block and skips missing blocks. A
+// rank without a block would leave the other MPI ranks waiting for it.
 #ifndef GridFEM_InputBlocks_h
 #define GridFEM_InputBlocks_h
 
@@ -18,27 +18,27 @@ class vtkInformationVector;
 namespace gridfem
 {
 
-/// Gives every rank the same blocks while a filter runs, empty surfaces where it has none, and
-/// knows the whole input while a filter sees a block of it.
+/// Gives every rank the same blocks while a filter runs. A rank without a block gets an empty
+/// surface. Knows the whole input while a filter sees one block of it.
 class InputBlocks
 {
 public:
-  /// At the start of an execution. The pipeline tells of one of its own for every block, too.
-  /// Collective at the outermost one: puts aligned inputs in the place of composite ones. Throws
+  /// Call it at the start of an execution. The pipeline starts one of its own for every block, too.
+  /// The outermost call is collective and replaces composite inputs by aligned ones. Throws
   /// nothing.
   void Begin(vtkInformationVector** inputs, int ports);
 
-  /// At its end: at the outermost one puts the inputs back.
+  /// Call it at the end of an execution. The outermost call puts the inputs back.
   void End();
 
-  /// Whether a block of port 0 has a point or cell array of this name; false outside of composite
-  /// inputs.
+  /// Whether a block of port 0 has a point or cell array of this name. False if the input is not
+  /// composite.
   bool AnyHas(const std::string& array) const;
 
-  /// The whole input of port 0; null outside of composite inputs.
+  /// The whole input of port 0. Null if it is not composite.
   vtkCompositeDataSet* Whole() const { return whole_; }
 
-  /// Throws on all ranks when the inputs cannot be aligned.
+  /// Throws on all ranks if the inputs cannot be aligned.
   void RequireAligned() const;
 
 private:

@@ -107,7 +107,7 @@ std::vector<Vec3> ReadPoints(vtkPolyData* input, int threads)
   return points;
 }
 
-/// Three corners for every triangle; false when one names a point that does not exist.
+/// Copies three corners for every triangle. Returns false if one names a point that does not exist.
 template<class Corner>
 bool CopyTriangles(const Corner* corners, Id numberOfPoints, int threads, TriangleMesh& mesh)
 {
@@ -129,8 +129,8 @@ bool CopyTriangles(const Corner* corners, Id numberOfPoints, int threads, Triang
   return wrong == 0;
 }
 
-/// The same for what stores corners; false also where these are no plain array of either size, as
-/// VTK has them from 9.6 on.
+/// Copies the triangles of a cell array. It also returns false if its corners are no plain array of
+/// either size, which VTK allows from 9.6 on.
 bool CopyTriangles(vtkCellArray* polys, Id numberOfPoints, int threads, TriangleMesh& mesh)
 {
   vtkDataArray* const corners = polys->GetConnectivityArray();
@@ -142,8 +142,8 @@ bool CopyTriangles(vtkCellArray* polys, Id numberOfPoints, int threads, Triangle
   return ids && CopyTriangles(ids->GetPointer(0), numberOfPoints, threads, mesh);
 }
 
-/// The short way for polygons that all are triangles. False, and nothing read, when they are not,
-/// or when something is wrong with one of them.
+/// Takes the short way if all polygons are triangles. Returns false, and reads nothing, if they are
+/// not or if one of them is invalid.
 bool ReadTriangles(
   vtkCellArray* polys, Id firstCell, int threads, InputMesh& mesh, TriangleMesh& triangles)
 {
@@ -185,8 +185,8 @@ void ForEachCell(vtkCellArray* cells, Id firstCell, const Progress& progress, Ad
   }
 }
 
-/// The marks of the cells; null where there are none.
-/// Keeps the triangles of cells that isKept(mark).
+/// Keeps the triangles of cells for which isKept(mark) is true. `ghosts` holds the marks of the
+/// cells; null if there are none.
 template<class IsKept>
 void KeepCells(
   vtkUnsignedCharArray* ghosts, InputMesh& mesh, TriangleMesh& triangles, IsKept&& isKept)
@@ -209,7 +209,7 @@ bool IsShown(int mark)
   return (mark & (vtkDataSetAttributes::HIDDENCELL | vtkDataSetAttributes::DUPLICATECELL)) == 0;
 }
 
-/// Triangles of all cells, those of ghosts as well, into `triangles`.
+/// Reads the triangles of all cells, including ghosts, into `triangles`.
 InputMesh ReadCells(
   vtkPolyData* input, int threads, const Progress& progress, TriangleMesh& triangles)
 {

@@ -1,4 +1,4 @@
-// From vtkPolyData to the triangles that Core computes on.
+// Reads the triangles that Core computes on from vtkPolyData.
 #ifndef GridFEM_InputMesh_h
 #define GridFEM_InputMesh_h
 
@@ -22,22 +22,22 @@ struct InputMesh
   std::vector<Id> sourceCell; // per triangle, ascending: the cell of the vtkPolyData it comes from
 };
 
-/// Decomposes polygons of any size, concave ones too, and strips. Vertices, lines and polygons with
-/// fewer than three corners are left out, and so are cells that vtkGhostType marks as hidden or as
-/// duplicates of cells elsewhere. Throws InvalidInput when nothing is left, or naming the first
-/// cell with a point that does not exist.
+/// Decomposes polygons of any size, concave ones too, and strips. Leaves out vertices, lines,
+/// polygons with fewer than three corners, and cells that vtkGhostType marks as hidden or as
+/// duplicates. Throws InvalidInput if no triangle is left, or naming the first cell with a point
+/// that does not exist.
 InputMesh ReadInputMesh(vtkPolyData* input, int threads, const Progress& progress = {});
 
-/// The piece of a surface that one of several ranks has, which may be null or without polygons. Its
-/// points are all its points. Throws InvalidInput as ReadInputMesh, but not where nothing is left.
+/// Reads the piece of one of several ranks, which may be null or without polygons. The mesh has all
+/// points of the piece. Throws InvalidInput as ReadInputMesh does, but the piece may be empty.
 /// @param copies  gets the triangles of the cells that vtkGhostType marks as duplicates
 InputMesh ReadPiece(vtkPolyData* piece, int threads, InputMesh& copies);
 
-/// The means of values on triangles over the cells they come from, weighted by area; 0 on other
-/// cells.
+/// Returns the means of values on triangles over the cells they come from, weighted by area. Other
+/// cells have 0.
 MultiVector MeansOnCells(const InputMesh& mesh, const MultiVector& onTriangles, Id cells);
 
-/// The triangles of one cell: indices [first, second) into InputMesh::triangles.
+/// Returns the triangles of one cell: indices [first, second) into InputMesh::triangles.
 std::pair<Id, Id> TrianglesOfCell(const InputMesh& mesh, Id cell);
 
 } // namespace gridfem

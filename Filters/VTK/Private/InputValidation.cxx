@@ -26,7 +26,7 @@ void RequireNoVolume(vtkDataSet* piece)
   {
     if (piece->GetCellType(k) == cell->GetCellType())
     {
-      continue; // as the last one, which is no volume
+      continue; // same type as the last cell, which is no volume
     }
     cell->SetCellType(piece->GetCellType(k));
     if (cell->GetCellDimension() == 3)

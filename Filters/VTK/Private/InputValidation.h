@@ -1,4 +1,5 @@
-// Whether a data set can be computed on; with what Core requires of meshes and numbers.
+// Checks whether a filter can compute on a data set. It also gives access to Core's checks of
+// meshes and numbers.
 #ifndef GridFEM_InputValidation_h
 #define GridFEM_InputValidation_h
 
@@ -9,11 +10,11 @@ class vtkDataSet;
 namespace gridfem
 {
 
-/// No points at all: gives empty outputs without a word.
+/// Whether there are no points at all. Outputs are then empty, without a message.
 bool IsEmpty(vtkDataSet* input);
 
-/// Throws InvalidInput for a data set with volume cells, which has a surface of its own in every
-/// piece of it. The data set may be null.
+/// Throws InvalidInput for a data set with volume cells, because every piece of a volume has a
+/// surface of its own. The data set may be null.
 void RequireNoVolume(vtkDataSet* piece);
 
 } // namespace gridfem

@@ -40,7 +40,8 @@ void CopyNames(vtkAbstractArray* from, vtkAbstractArray* to)
   to->CopyComponentNames(from);
 }
 
-/// Colours are bytes with three or four components, and may be mixed; a label may not.
+/// Whether an array holds colors: bytes with three or four components. Colors may be mixed, labels
+/// may not.
 bool IsColor(vtkAbstractArray* array)
 {
   const int components = array->GetNumberOfComponents();
@@ -55,7 +56,7 @@ vtkSmartPointer<vtkDataArray> Interpolate(
   SetTuples(output, static_cast<vtkIdType>(clipped.position.size()));
   const int components = input->GetNumberOfComponents();
   double* values = output->GetPointer(0);
-  // What an array computes by itself may not be asked for by several threads.
+  // Several threads may not read an array that computes its values.
   const int readers = input->HasStandardMemoryLayout() ? threads : 1;
   ParallelRanges(clipped.numberOfInputPoints, readers,
     [&](Id begin, Id end)
@@ -89,7 +90,7 @@ vtkSmartPointer<vtkDataArray> Interpolate(
   return output;
 }
 
-/// Means of bytes lie between them, so that nothing but rounding is to do.
+/// Rounds means of bytes to bytes. They are already in range.
 vtkSmartPointer<vtkDataArray> ToColor(vtkDataArray* values)
 {
   auto color = vtkSmartPointer<vtkUnsignedCharArray>::New();
@@ -106,7 +107,7 @@ vtkSmartPointer<vtkDataArray> ToColor(vtkDataArray* values)
   return color;
 }
 
-/// Values that cannot be averaged.
+/// Takes the nearest values of an array that cannot be averaged.
 vtkSmartPointer<vtkAbstractArray> TakeNearest(
   vtkAbstractArray* input, const TriangleMesh& mesh, const ClippedMesh& clipped)
 {
@@ -162,7 +163,7 @@ void InterpolatePointArrays(vtkPointData* input, const TriangleMesh& mesh,
     }
     else if (array == input->GetGlobalIds() || array == input->GetPedigreeIds())
     {
-      continue; // a cut point is none of the points that they number
+      continue; // cut points have no such number
     }
     else if (IsReal(array) || IsColor(array))
     {

@@ -48,7 +48,7 @@ bool HasArray(vtkPolyData* surface, const std::string& name)
          surface->GetCellData()->HasArray(name.c_str());
 }
 
-/// The whole has the time of its blocks.
+/// Gives the whole the time of its blocks.
 void CopyTime(vtkInformation* from, vtkInformation* to)
 {
   if (from->Has(vtkDataObject::DATA_TIME_STEP()))
@@ -102,7 +102,8 @@ void JoinedBlocks::Read(vtkCompositeDataSet* whole, bool isShared)
   surfaces_.resize(index);
 }
 
-/// A data set without a surface, such as a set of nodes beside the sides, is no block.
+/// Reads a block. A data set without a surface, such as a set of nodes beside the sides, is no
+/// block.
 void JoinedBlocks::ReadBlock(vtkDataSet* data, const std::string& name, std::size_t index)
 {
   surfaces_.resize(std::max(surfaces_.size(), index + 1));
@@ -207,7 +208,7 @@ void JoinedBlocks::HandBack(vtkDataSet* data, vtkInformationVector* outputs) con
     }
     catch (...)
     {
-      throw FailedElsewhere(); // said once
+      throw FailedElsewhere(); // reported only once
     }
   }
   const auto block = std::find_if(

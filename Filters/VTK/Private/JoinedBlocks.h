@@ -1,5 +1,5 @@
-// All blocks of a composite input as one surface, which is computed on once, at the first block
-// that the pipeline comes to; every block gets its part of the outputs.
+// Joins all blocks of a composite input into one surface. The filter computes on it once, at the
+// first block that the pipeline visits. Every block gets its part of the outputs.
 #ifndef GridFEM_JoinedBlocks_h
 #define GridFEM_JoinedBlocks_h
 
@@ -24,13 +24,13 @@ class vtkPolyData;
 namespace gridfem
 {
 
-/// Blocks are joined as the pieces of several ranks are. On several ranks every one joins its own,
-/// and what it has joined is its piece. The surface stays for the next execution, until a block
-/// changes.
+/// The blocks of an input. They are joined as the pieces of several ranks are. Each of several
+/// ranks joins its own blocks, and the result is its piece. The surface stays for the next
+/// execution, until a block changes.
 class JoinedBlocks
 {
 public:
-  /// A block that has points, and where they are in the whole.
+  /// A block that has points, and their places in the whole.
   struct Block
   {
     vtkDataSet* data = nullptr;
@@ -42,41 +42,41 @@ public:
   JoinedBlocks();
   ~JoinedBlocks();
 
-  /// Whether a block of this execution has been computed on, with success or without.
+  /// Whether a block of this execution has been computed on, with or without success.
   bool HasStarted() const { return hasStarted_; }
 
-  /// @param outputs  of the filter: the results have the same types
+  /// @param outputs  the outputs of the filter: the results have the same types
   void Start(vtkInformationVector* outputs);
 
   /// Takes the surfaces of all blocks.
-  /// @param isShared  whether there are blocks elsewhere: no volume can be one of several
+  /// @param isShared  other ranks have blocks, too: then no block may be a volume
   void Read(vtkCompositeDataSet* whole, bool isShared);
 
-  /// How many blocks have points.
+  /// The number of blocks with points.
   static int CountBlocks(vtkCompositeDataSet* whole);
 
-  /// Leaves out the blocks without an array of this name. Returns their names; nothing when all
-  /// have it, or none.
+  /// Leaves out the blocks without an array of this name, and returns their names. Does nothing if
+  /// all blocks have it, or none.
   std::vector<std::string> LeaveOut(const std::string& array);
 
   /// Joins the blocks that are not left out. Returns the inputs with the surface on port 0.
   vtkInformationVector** Inputs(
     vtkInformationVector** inputs, int ports, bool weldCoincidentPoints);
 
-  /// Where the outputs of the whole belong.
+  /// The data objects for the outputs of the whole.
   vtkInformationVector* Results() { return results_; }
 
-  /// Says to the blocks that are still to come why there is nothing.
+  /// Tells the remaining blocks why there is no result.
   void Fail(const std::exception_ptr& failure) { failure_ = failure; }
 
-  /// Fills the outputs of one block. Throws Aborted or FailedElsewhere when the whole has failed.
+  /// Fills the outputs of one block. Throws Aborted or FailedElsewhere if the whole has failed.
   void HandBack(vtkDataSet* data, vtkInformationVector* outputs) const;
 
   const GatheredSurface& Surface() const { return entry_->surface; }
   const std::vector<Block>& Blocks() const { return blocks_; }
   bool IsEmpty() const { return blocks_.empty(); }
 
-  /// After all blocks: frees the results, and the surface, too, unless it is kept.
+  /// Call it after all blocks. Frees the results, and also the surface, unless it is kept.
   void Finish(bool isKept);
 
 private:

@@ -1,4 +1,4 @@
-// Tells a mesh that has changed from one that has only been read again.
+// Tells a changed mesh from one that has only been read again.
 #ifndef GridFEM_MeshVersion_h
 #define GridFEM_MeshVersion_h
 
@@ -9,13 +9,13 @@ namespace gridfem
 {
 
 /// Numbers the meshes that a filter gets. A reader that several filters ask for different times
-/// reads its file again and again; its arrays are new each time, what is in them is not.
+/// reads its file again and again. Its arrays are new each time, but their contents are not.
 class MeshVersion
 {
 public:
-  /// The number of the mesh; that of the last one where the two have the same points and triangles.
-  /// Cost: none for the arrays of last time, O(points + triangles) for new ones.
-  /// @param last  what was read from the mesh of the last call; empty: the mesh counts as new
+  /// Returns the number of the mesh. It is the last number if both meshes have the same points and
+  /// triangles. Cost: none for the arrays of last time, O(points + triangles) for new ones.
+  /// @param last  the triangles read from the mesh of the last call; empty: the mesh counts as new
   std::int64_t Of(vtkPolyData* data, const InputMesh& last, int threads);
 
 private:

@@ -19,7 +19,7 @@ std::string NameOf(const InputArray& input)
   return "MetricArray '" + input.name + "'";
 }
 
-/// Of the array: the point, or the cell that the row's triangle comes from.
+/// Returns the place of a row in the array: the point, or the cell of the row's triangle.
 std::string PlaceOf(const InputArray& input, const InputMesh& mesh, Id row)
 {
   return input.association == FieldAssociation::Points
@@ -27,7 +27,7 @@ std::string PlaceOf(const InputArray& input, const InputMesh& mesh, Id row)
            : "cell " + std::to_string(mesh.sourceCell[row]);
 }
 
-/// Nine components, row by row, as six.
+/// Converts nine components, row by row, to six.
 Field Symmetric(const InputArray& input, const InputMesh& mesh, const Field& nine)
 {
   constexpr double Rounding = 1e-5; // of floats, relative to the largest component
@@ -58,7 +58,7 @@ struct Fault
   std::array<double, 2> eigenvalues;
 };
 
-/// The first row that is not a metric on one of its triangles.
+/// Returns the first row that is not a metric on one of its triangles.
 std::optional<Fault> FindFault(const TriangleMesh& mesh, const Field& tensors)
 {
   std::optional<Fault> fault;

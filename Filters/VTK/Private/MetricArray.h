@@ -1,4 +1,4 @@
-// A metric on the surface, given as an array of tensors.
+// Reads a metric on the surface from an array of tensors.
 #ifndef GridFEM_MetricArray_h
 #define GridFEM_MetricArray_h
 
@@ -9,10 +9,11 @@
 namespace gridfem
 {
 
-/// Tensors of six components (XX, YY, ZZ, XY, YZ, XZ) or nine (row by row) at points or cells; of
-/// those at points the means over the triangles count. Throws InvalidInput for another number of
-/// components, and naming the first point or cell of the surface whose tensor is not finite, not
-/// symmetric, or not positive definite in the planes of its triangles (PlaneTensor::IsMetric).
+/// Reads tensors of six components (XX, YY, ZZ, XY, YZ, XZ) or nine (row by row) at points or
+/// cells. A triangle takes the mean of tensors at points. Throws InvalidInput for another number of
+/// components. A tensor must be finite, symmetric, and positive definite in the planes of its
+/// triangles (PlaneTensor::IsMetric). Otherwise InvalidInput names the first such point or cell of
+/// the surface.
 TriangleMetric ReadMetric(const InputArray& input, const InputMesh& mesh);
 
 } // namespace gridfem

@@ -14,25 +14,25 @@ namespace gridfem
 namespace
 {
 
-/// How far integrals may be off where the mesh resolves a mode well: rounding to single precision
-/// and the quadrature on the grid.
+/// The allowed errors of integrals on a mesh that resolves a mode well. They cover rounding to
+/// single precision and the quadrature on the grid.
 constexpr double MassTolerance = 2e-3;
 constexpr double QuotientTolerance = 0.03;
 
-/// How much farther, as a multiple of what the two integrals differ by.
+/// The additional allowed error, as a multiple of the difference between the two integrals.
 constexpr double CoarsenessAllowance = 4.0;
 
-/// Eigenvalues from this, over the mean squared length of edges, belong to waves that have only a
-/// few points: the points of a mesh may even all lie where such a mode is zero.
+/// From this eigenvalue on, relative to the mean squared length of edges, waves have only a few
+/// points. A mode may then even be zero at all points of the mesh.
 constexpr double Unresolved = 2.0;
 
-/// Triangles flatter than this part of their longest edge make linear functions too steep.
+/// Linear functions are too steep on triangles flatter than this part of their longest edge.
 constexpr double FlatHeight = 0.02;
 
-/// With a larger share of the area in such triangles, Rayleigh quotients say nothing.
+/// Rayleigh quotients say nothing if such triangles have a larger share of the area.
 constexpr double FlatShareAllowed = 0.05;
 
-/// Integrals over some triangles: a row per mode.
+/// Integrals over some triangles, with a row per mode.
 struct ModeIntegrals
 {
   explicit ModeIntegrals(Id modes)

@@ -1,5 +1,5 @@
-// Whether the modes on a mesh are those of this mesh: it may have been moved since, or they may
-// come from another one.
+// Checks whether the modes on a mesh are those of this mesh. It may have been moved since, or they
+// may come from another mesh.
 #ifndef GridFEM_ModeCheck_h
 #define GridFEM_ModeCheck_h
 
@@ -10,17 +10,16 @@
 namespace gridfem
 {
 
-/// Why the modes are not those of the mesh, for a message; empty when they may be.
+/// Returns the reason why the modes are not those of the mesh, for a message. Empty if they may be.
 ///
 /// Every mode is taken as linear on the triangles. Its square has to integrate to 1, and its
-/// Rayleigh quotient has to be its eigenvalue. What the mesh is too coarse for is not held against
-/// a mode: the integral by corners and the exact one lie on both sides of that of the true mode,
-/// and how far they are apart says how far the true mode may be. Modes of few points per wave are
-/// not looked at.
-/// @param modes  rows = points of the mesh
+/// Rayleigh quotient has to be its eigenvalue. A coarse mesh is not held against a mode. The
+/// integral by corners and the exact one lie on both sides of the true mode's integral. Their
+/// difference bounds the distance of the true mode. Modes with few points per wave are not checked.
+/// @param modes  rows are the points of the mesh
 /// Cost O(triangles · modes); the same for any number of threads.
-/// @param divided  where several processes hold the surface, each with the mesh of its triangles;
-///                 all call it
+/// @param divided  given if several processes hold the surface, each with the mesh of its
+/// triangles; all call it
 std::string FindMisfit(const TriangleMesh& mesh, const PointModes& modes, int threads,
   const DividedRows* divided = nullptr);
 

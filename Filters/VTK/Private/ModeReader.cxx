@@ -48,7 +48,7 @@ void ReadMode(vtkPolyData* input, int mode, const std::vector<char>& used, Multi
   }
 }
 
-/// Mode, Mode000, Mode001, ...
+/// Whether a name is Mode, Mode000, Mode001, ...
 bool IsModeName(const std::string& name)
 {
   const std::string prefix = "Mode";

@@ -24,7 +24,8 @@ void AddNumbers(
   output->GetPointData()->AddArray(MakePointArray(name, column, dataType));
 }
 
-/// In place of the active ones at points, on the side of the surface where they are; null without.
+/// Returns normals that replace the active ones at points, on the same side of the surface. Null if
+/// there are none.
 vtkSmartPointer<vtkDataArray> MovedNormals(
   const TriangleMesh& mesh, const std::vector<Vec3>& points, int threads, vtkPolyData* data)
 {
@@ -46,7 +47,7 @@ vtkSmartPointer<vtkDataArray> MovedNormals(
   return MakePointArray(name.c_str(), normals, given->GetDataType());
 }
 
-/// New points, normals and Displacement.
+/// Writes new points, normals and Displacement.
 void Move(const TriangleMesh& mesh, const std::vector<Vec3>& points, int dataType, int threads,
   vtkPolyData* output)
 {

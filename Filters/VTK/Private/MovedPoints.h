@@ -1,4 +1,4 @@
-// What a mesh keeps of its arrays when its points move.
+// Moves the points of a mesh and removes the arrays that no longer fit.
 #ifndef GridFEM_MovedPoints_h
 #define GridFEM_MovedPoints_h
 
@@ -8,9 +8,8 @@ class vtkPolyData;
 namespace gridfem
 {
 
-/// Gives the mesh other places for its points. Arrays that belong to the shape go: the active
-/// normals and tangents of points and cells, the clip, the basis and the modes.
-/// @param coordinates  3 components, a tuple per point
+/// Gives the mesh other places for its points. Removes the arrays that belong to the shape: the
+/// active normals and tangents of points and cells, the clip, the basis and the modes.
 void MovePoints(vtkPolyData* data, vtkDataArray* coordinates);
 
 } // namespace gridfem

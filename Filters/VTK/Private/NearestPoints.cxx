@@ -16,7 +16,7 @@ namespace gridfem
 namespace
 {
 
-/// A locator finds nothing near a point that is nowhere.
+/// Refuses points that are not finite, because a locator finds nothing near them.
 void RequireFinitePoints(vtkDataSet* places, const std::string& input)
 {
   for (vtkIdType k = 0; k < places->GetNumberOfPoints(); ++k)

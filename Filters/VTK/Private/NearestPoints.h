@@ -1,4 +1,4 @@
-// From places in space to points of a mesh.
+// Finds the mesh points nearest to places in space.
 #ifndef GridFEM_NearestPoints_h
 #define GridFEM_NearestPoints_h
 
@@ -11,9 +11,8 @@ class vtkDataSet;
 namespace gridfem
 {
 
-/// For every point of `places` the nearest point of the mesh that a triangle uses. Throws
-/// InvalidInput naming a point of `places` that is not finite; `input` is the name the message
-/// gives.
+/// Returns, for every point of `places`, the nearest point of the mesh that a triangle uses. Throws
+/// InvalidInput naming a point of `places` that is not finite. `input` is the name in the message.
 std::vector<Id> NearestPoints(
   const TriangleMesh& mesh, vtkDataSet* places, const std::string& input);
 

@@ -33,7 +33,7 @@ namespace gridfem
 namespace
 {
 
-/// Of a function without a patch here.
+/// The component of a function without a patch here.
 constexpr Id NoComponent = std::numeric_limits<Index>::max();
 
 vtkSmartPointer<vtkPoints> NewPoints(int precision, Id count)
@@ -53,7 +53,7 @@ vtkSmartPointer<Array> NewArray(const char* name, Id count)
   return array;
 }
 
-/// Cells of `size` points each, whose ids follow each other in `connectivity`.
+/// Makes cells of `size` points each, whose ids follow each other in `connectivity`.
 vtkSmartPointer<vtkCellArray> CellsOfSize(vtkIdTypeArray* connectivity, int size)
 {
   const Id cells = connectivity->GetNumberOfValues() / size;
@@ -67,7 +67,7 @@ vtkSmartPointer<vtkCellArray> CellsOfSize(vtkIdTypeArray* connectivity, int size
   return result;
 }
 
-/// Cells of `size` points each, that no other cell has.
+/// Makes cells of `size` points each, which share no points.
 vtkSmartPointer<vtkCellArray> CellsOfConsecutivePoints(Id cells, int size)
 {
   auto connectivity = NewArray<vtkIdTypeArray>("", cells * size);
@@ -75,7 +75,7 @@ vtkSmartPointer<vtkCellArray> CellsOfConsecutivePoints(Id cells, int size)
   return CellsOfSize(connectivity, size);
 }
 
-/// World position of a cell's corner on a level.
+/// Returns the world position of a cell's corner on a level.
 Vec3 CornerPosition(const Grid& grid, int depth, MortonKey key, int corner)
 {
   const CellIndex cell = MortonDecode(key);
@@ -84,7 +84,7 @@ Vec3 CornerPosition(const Grid& grid, int depth, MortonKey key, int corner)
                                cell[2] + ((corner >> 2) & 1)));
 }
 
-/// Cells of a coarser level: ancestors, once each.
+/// Returns the cells of a coarser level: the ancestors, once each.
 std::vector<MortonKey> AncestorCells(const std::vector<MortonKey>& cells, int generations)
 {
   std::vector<MortonKey> ancestors;
@@ -99,8 +99,8 @@ std::vector<MortonKey> AncestorCells(const std::vector<MortonKey>& cells, int ge
   return ancestors;
 }
 
-/// The surface in every patch of a level.
-/// @param area  in those of the finest
+/// Returns the surface area in every patch of a level.
+/// @param area  the areas in the patches of the finest level
 std::vector<double> AreasOfLevel(
   const std::vector<PatchLevel>& levels, std::vector<double> area, std::size_t level)
 {
@@ -116,8 +116,9 @@ std::vector<double> AreasOfLevel(
   return area;
 }
 
-/// Connected component of every patch of a level, by the numbers of the finest; the lowest where
-/// the plain space joins several. Of patches elsewhere the greatest number.
+/// Returns the connected component of every patch of a level, numbered as on the finest level. If
+/// the plain space joins several components, the lowest number counts. Patches on other ranks have
+/// the greatest number.
 std::vector<Index> PatchComponents(
   const std::vector<PatchLevel>& levels, const std::vector<Index>& ofFunction, std::size_t level)
 {

@@ -82,7 +82,7 @@ bool HaveSameTuples(vtkAbstractArray* a, vtkIdType atA, vtkAbstractArray* b, vtk
   return true;
 }
 
-/// Of the type of all, or double.
+/// Returns an array of the common type, or of double.
 vtkSmartPointer<vtkAbstractArray> NewArrayLike(const ArraysOfPieces& arrays)
 {
   const int type = arrays[0]->GetDataType();

@@ -1,4 +1,4 @@
-// The pieces of a surface that ranks or blocks hold, seen as one list of points, one of cells, and
+// Shows the pieces of a surface that ranks or blocks hold as one list of points, one of cells, and
 // the arrays that all of them have.
 #ifndef GridFEM_PieceArrays_h
 #define GridFEM_PieceArrays_h
@@ -25,7 +25,7 @@ namespace gridfem
 
 using Pieces = std::vector<vtkSmartPointer<vtkPolyData>>;
 
-/// Kinds of cells; the ids of a piece's cells follow each other in this order.
+/// The kinds of cells. The ids of a piece's cells follow each other in this order.
 constexpr int CellKinds = 4;
 
 std::array<vtkCellArray*, CellKinds> CellsOf(vtkPolyData* piece);
@@ -54,10 +54,11 @@ using AttributesOf = vtkDataSetAttributes* (*)(vtkPolyData*);
 vtkDataSetAttributes* PointDataOf(vtkPolyData* piece);
 vtkDataSetAttributes* CellDataOf(vtkPolyData* piece);
 
-/// The ghost flags; null without.
+/// Returns the ghost flags. Null if there are none.
 vtkUnsignedCharArray* GhostsOf(vtkDataSetAttributes* data, vtkIdType tuples);
 
-/// Points, or cells, of all pieces under one number: those of piece p are first[p] .. first[p + 1].
+/// Numbers the points, or cells, of all pieces. The numbers of piece p are first[p] .. first[p +
+/// 1].
 struct Numbering
 {
   std::vector<vtkIdType> first{ 0 };
@@ -67,26 +68,27 @@ struct Numbering
   std::size_t PieceOf(vtkIdType thing) const;
 };
 
-/// The arrays of one name, one of each piece.
+/// The arrays of one name, one for each piece.
 using ArraysOfPieces = std::vector<vtkAbstractArray*>;
 
-/// The global ids of points or of cells; empty unless all pieces have them.
+/// Returns the global ids of points or of cells. Empty unless all pieces have them.
 ArraysOfPieces GlobalIds(const Pieces& pieces, AttributesOf attributesOf);
 
-/// The arrays that all pieces have with as many components and with a tuple for each thing; none
-/// are ghost flags.
-/// @param owners   of the pieces, such as "rank 3"
-/// @param partial  gets "'name' (rank 3)" for each of the others
+/// Returns the arrays that all pieces have, with as many components and a tuple for each thing.
+/// Leaves out ghost flags.
+/// @param owners   the owners of the pieces, such as "rank 3"
+/// @param partial  gets "'name' (rank 3)" for each of the other arrays
 std::vector<ArraysOfPieces> CommonArrays(const Pieces& pieces, AttributesOf attributesOf,
   const Numbering& numbering, const std::vector<std::string>& owners,
   std::vector<std::string>& partial);
 
-/// Whether two things have the same values in all arrays. Ids that tell where something was before
-/// are not compared: they differ between ranks for the same point.
+/// Whether two things have the same values in all arrays. Ids that name an earlier place are not
+/// compared, because they differ between ranks for the same point.
 bool HaveSameValues(const std::vector<ArraysOfPieces>& arrays, const Numbering& numbering,
   vtkIdType thing, vtkIdType other);
 
-/// The tuples of things in the given order; double where the arrays are of different types.
+/// Returns the tuples of things in the given order. They are double if the arrays have different
+/// types.
 vtkSmartPointer<vtkAbstractArray> Pick(
   const ArraysOfPieces& arrays, const Numbering& numbering, const std::vector<vtkIdType>& things);
 

@@ -18,11 +18,11 @@ namespace gridfem
 namespace
 {
 
-/// How many points at one place are compared with another: more are no mesh, and would take time
-/// with their square. They stay apart then, as on one rank.
+/// The largest number of points at one place that are compared with another. More are no mesh and
+/// would take quadratic time. They stay apart then, as on one rank.
 constexpr int MostCompared = 64;
 
-/// Exact; a double would cut it beyond 2^53.
+/// Reads the id exactly. A double would lose digits beyond 2^53.
 vtkIdType IdAt(vtkAbstractArray* ids, vtkIdType tuple)
 {
   return ids->GetVariantValue(tuple).ToLongLong();
@@ -82,7 +82,7 @@ GatheredSurface PieceJoiner::Result()
   return result;
 }
 
-/// Which cells and points are only there as copies of those of another rank.
+/// Finds the cells and points that are only copies of those of another rank.
 void PieceJoiner::FindCopies()
 {
   isCopiedCell_.assign(cells_.Count(), 0);
@@ -110,7 +110,7 @@ void PieceJoiner::FindCopies()
   }
 }
 
-/// Whether a rank says itself that a point is another rank's.
+/// Whether a rank marks a point as another rank's.
 bool PieceJoiner::IsCopiedPoint(vtkIdType point) const
 {
   const std::size_t p = points_.PieceOf(point);
@@ -133,7 +133,8 @@ vtkIdType PieceJoiner::AddPoint(vtkIdType point)
   return pointPlace_[point] = static_cast<vtkIdType>(pointSource_.size()) - 1;
 }
 
-/// A point that another rank has already. Its values are those of the rank that owns it.
+/// Joins a point with one that another rank already has. Its values are those of the rank that owns
+/// it.
 void PieceJoiner::JoinPoint(vtkIdType point, vtkIdType place)
 {
   pointPlace_[point] = place;
@@ -188,7 +189,7 @@ void PieceJoiner::RequireSamePlace(vtkIdType point, vtkIdType other, vtkIdType i
   }
 }
 
-/// Which points have the same coordinates, where anybody asks.
+/// Finds the points that have the same coordinates, if joining needs them.
 void PieceJoiner::FindCoincident(bool weldCoincidentPoints)
 {
   isWelded_ = weldCoincidentPoints;
@@ -214,7 +215,7 @@ vtkIdType PieceJoiner::LowestAt(vtkIdType point) const
   return lowest_.empty() ? point : lowest_[point];
 }
 
-/// Of the same point of an earlier piece; -1 without one.
+/// Returns the place of the same point of an earlier piece. -1 if there is none.
 vtkIdType PieceJoiner::FindPlace(vtkIdType point, const std::vector<ArraysOfPieces>& arrays) const
 {
   const std::size_t piece = points_.PieceOf(point);
@@ -229,7 +230,7 @@ vtkIdType PieceJoiner::FindPlace(vtkIdType point, const std::vector<ArraysOfPiec
   return -1;
 }
 
-/// Of the point that is copied. Another one at the same place is better than none.
+/// Returns the place of the copied point. Another point at the same place is better than none.
 vtkIdType PieceJoiner::FindPlaceOfCopy(
   vtkIdType point, const std::vector<ArraysOfPieces>& arrays) const
 {
@@ -278,7 +279,7 @@ void PieceJoiner::JoinPointsByPlace(const std::vector<ArraysOfPieces>& arrays)
   }
 }
 
-/// Those that are no copies, with their global ids, or 0.
+/// Returns the cells of a kind that are no copies, with their global ids, or 0.
 PieceJoiner::IdsAndThings PieceJoiner::CellsOfKind(int kind, const ArraysOfPieces& ids) const
 {
   IdsAndThings cells;
@@ -318,7 +319,8 @@ void PieceJoiner::JoinCells()
   }
 }
 
-/// Calls body(cell, what its points and those of its copies have in common).
+/// Calls body(cell, places) with the places that the cell's points, and those of its copies, have
+/// in common.
 template<class Body>
 void PieceJoiner::ForEachCellThat(bool isCopied, Body&& body) const
 {
@@ -344,7 +346,7 @@ void PieceJoiner::ForEachCellThat(bool isCopied, Body&& body) const
   }
 }
 
-/// Copies have the place of the cell that they are copies of.
+/// Gives copies the place of the cell that they copy.
 void PieceJoiner::FindCopiedCells()
 {
   using Corners = std::vector<vtkIdType>;
@@ -437,7 +439,7 @@ void PieceJoiner::WriteArrays(const std::vector<ArraysOfPieces>& arrays, const N
   }
 }
 
-/// Cells that are hidden stay, and stay hidden.
+/// Marks hidden cells: they stay, and stay hidden.
 void PieceJoiner::WriteHiddenCells()
 {
   vtkNew<vtkUnsignedCharArray> hidden;

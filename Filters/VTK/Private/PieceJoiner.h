@@ -1,4 +1,4 @@
-// Joins pieces of a surface: which points and cells of them are one.
+// Joins pieces of a surface: it finds their points and cells that are one.
 #ifndef GridFEM_PieceJoiner_h
 #define GridFEM_PieceJoiner_h
 
@@ -13,15 +13,15 @@
 namespace gridfem
 {
 
-/// One use: the constructor joins, Result tells. All pieces have points. What is joined is said by
-/// JoinPieces.
+/// Joins in the constructor; Result returns the result. For one use. All pieces must have points.
+/// JoinPieces documents the rules.
 class PieceJoiner
 {
 public:
-  /// @param owners  of the pieces, for messages
+  /// @param owners  the owners of the pieces, for messages
   PieceJoiner(Pieces pieces, std::vector<std::string> owners, bool weldCoincidentPoints);
 
-  /// Places are those of the pieces given.
+  /// The places refer to the pieces given.
   GatheredSurface Result();
 
 private:
@@ -57,8 +57,8 @@ private:
   std::vector<std::string> owners_;
   Numbering points_;
   Numbering cells_;
-  std::vector<char> isCopiedCell_; // is there only as a ghost
-  std::vector<char> isOwnPoint_;   // of a cell that is no copy, or of no cell
+  std::vector<char> isCopiedCell_; // exists only as a ghost
+  std::vector<char> isOwnPoint_;   // has a cell that is no copy, or no cell
   std::vector<vtkIdType> lowest_;  // point with the same coordinates, per point; may be empty
   bool isWelded_ = false;
   std::vector<vtkIdType> pointPlace_; // in the whole, per point

@@ -37,7 +37,7 @@ std::optional<double> FirstStep(vtkInformation* info)
            : std::nullopt;
 }
 
-/// The time of the data on one output, if it has any.
+/// Returns the time of the data on one output, if it has any.
 std::optional<double> OutputTime(
   bool hasOwnSteps, vtkInformationVector* input, vtkInformation* output)
 {
@@ -46,7 +46,7 @@ std::optional<double> OutputTime(
     return RequestedTime(output);
   }
   const std::optional<double> given = TimeOf(vtkDataObject::GetData(input));
-  // A source that has steps need not say which of them its data is.
+  // A source with steps need not report the step of its data.
   return given || !output->Has(Pipeline::TIME_RANGE()) ? given : RequestedTime(output);
 }
 
@@ -66,7 +66,7 @@ void SetTimeSteps(const std::vector<double>& steps, vtkInformationVector* output
 int ShownStep(vtkInformation* output, int firstStep, int lastStep)
 {
   const double time = RequestedTime(output).value_or(lastStep);
-  // A NaN is not after the first.
+  // NaN is not greater than the first step.
   return time > firstStep ? static_cast<int>(std::lround(std::min(time, double(lastStep))))
                           : firstStep;
 }

@@ -1,5 +1,5 @@
-// Time in the pipeline: which steps a filter has, at which time it asks its inputs, and what its
-// outputs say about theirs.
+// Handles time in the pipeline: the steps of a filter, the time it asks its inputs for, and the
+// time that its outputs report.
 #ifndef GridFEM_PipelineTime_h
 #define GridFEM_PipelineTime_h
 
@@ -12,23 +12,24 @@ class vtkInformationVector;
 namespace gridfem
 {
 
-/// Gives all outputs the time steps of the filter's own. Ascending, at least one.
+/// Gives all outputs the filter's own time steps. They are ascending, at least one.
 void SetTimeSteps(const std::vector<double>& steps, vtkInformationVector* outputs);
 
-/// The step that an output is asked for where steps are whole numbers; the last when none is.
+/// Returns the step that an output is asked for, if steps are whole numbers. The last if none is
+/// asked for.
 int ShownStep(vtkInformation* output, int firstStep, int lastStep);
 
-/// The time at which the inputs of a filter are asked for.
+/// The time that a filter asks its inputs for.
 class InputTime
 {
 public:
-  /// For a filter that hands its input's times on: notes the time that goes to its inputs.
+  /// For a filter that passes on its input's times: notes the time that goes to its inputs.
   void Follow(vtkInformationVector* input);
 
-  /// For a filter with time steps of its own: asks all inputs for the same time whatever the
-  /// outputs are asked for, because mode 3 is one of the surface and not of the input's time 3.
-  /// That is the time last noted, else that of the data the first input has, else its first step;
-  /// it stays until the first input is another one.
+  /// For a filter with time steps of its own: asks all inputs for the same time, whatever time the
+  /// outputs are asked for. Mode 3 belongs to the surface and not to the input's time 3. The time
+  /// is the last one noted, or else that of the first input's data, or else its first step. It
+  /// stays until the first input is another one.
   /// @param ports  number of `inputs`, one vector for each port
   void Fix(vtkInformationVector** inputs, int ports);
 
@@ -39,9 +40,8 @@ private:
   const vtkInformation* input_ = nullptr; // only compared: whose time it is
 };
 
-/// Writes the time of the data on all outputs, without which the pipeline would run the filter
-/// again and again: the time asked for where the steps are the filter's own, else that of the
-/// input.
+/// Writes the time of the data on all outputs. Without it the pipeline would run the filter again
+/// and again. It is the requested time if the steps are the filter's own, else the input's time.
 void StampTime(bool hasOwnSteps, vtkInformationVector* input, vtkInformationVector* outputs);
 
 } // namespace gridfem

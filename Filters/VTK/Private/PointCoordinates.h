@@ -1,4 +1,4 @@
-// The coordinates of vtkPoints as they lie in memory, for loops on several threads.
+// Gives loops on several threads the coordinates of vtkPoints as they lie in memory.
 #ifndef GridFEM_PointCoordinates_h
 #define GridFEM_PointCoordinates_h
 
@@ -11,8 +11,8 @@
 namespace gridfem
 {
 
-/// Calls body with the coordinates, three for a point, as float* or double*. False, without a call,
-/// when they are stored otherwise.
+/// Calls body with the coordinates, three for a point, as float* or double*. Returns false, without
+/// a call, if they are stored otherwise.
 template<class Body>
 bool VisitCoordinates(vtkPoints* points, Body&& body)
 {

@@ -8,7 +8,7 @@ namespace gridfem
 namespace
 {
 
-/// So much more is told at once, so that a short run has a course, too.
+/// This much more progress is reported at once, so that a short run shows progress, too.
 constexpr double LeastStep = 0.02;
 
 } // namespace
@@ -39,7 +39,7 @@ bool ProgressBridge::Report(double fraction)
   const auto now = Clock::now();
   const bool isFirst = lastReport_ == Clock::time_point::min();
   const bool isDue = isFirst || now - lastReport_ >= std::chrono::milliseconds(100);
-  // Passed over are backwards, what is not a number, and both ends, which the pipeline reports.
+  // Skips progress backwards, NaN, and both ends, which the pipeline reports.
   const bool isNews = fraction > furthest_ && fraction < 1.0;
   if (isNews && (isDue || fraction >= furthest_ + LeastStep))
   {

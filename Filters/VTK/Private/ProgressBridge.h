@@ -1,4 +1,4 @@
-// Progress and abort between Core and a VTK algorithm.
+// Passes progress and abort between Core and a VTK algorithm.
 #ifndef GridFEM_ProgressBridge_h
 #define GridFEM_ProgressBridge_h
 
@@ -12,21 +12,21 @@ class vtkAlgorithm;
 namespace gridfem
 {
 
-/// Passes progress on every tenth of a second or fiftieth of the work, always more than before, and
-/// asks the algorithm whether to abort. The two ends are the pipeline's to report. Core calls it
-/// from the thread that called Core, which is the pipeline's.
+/// Reports progress every tenth of a second or fiftieth of the work, always more than before, and
+/// asks the algorithm whether to abort. The pipeline itself reports the two ends. Core calls it on
+/// the thread that called Core, which is the pipeline's.
 class ProgressBridge
 {
 public:
   explicit ProgressBridge(vtkAlgorithm* algorithm) : algorithm_(algorithm) {}
 
-  /// A new run starts: the next report is passed on at once.
+  /// Starts a new run: the next report is passed on at once.
   void Restart();
 
-  /// Shows a cost beside the progress until the next run, and warns of hours.
+  /// Shows a cost beside the progress until the next run. Warns if it is hours.
   void Announce(const std::string& cost, bool takesHours);
 
-  /// Refers to this bridge, which has to live as long.
+  /// Returns the progress for Core. It refers to this bridge, which has to live as long.
   Progress GetProgress();
 
 private:

@@ -25,7 +25,7 @@ namespace gridfem
 namespace
 {
 
-/// Whether the first rank has all of a surface that nobody else has any of.
+/// Whether the first rank has all of a surface, and no other rank has a part.
 bool IsOnFirst(const GatheredSurface& input)
 {
   for (std::size_t rank = 1; rank < input.pieces.size(); ++rank)
@@ -60,7 +60,7 @@ vtkSmartPointer<vtkAbstractArray> NewLike(vtkAbstractArray* array)
   return made;
 }
 
-/// The tuples at some places; what is nowhere is NaN or 0.
+/// Returns the tuples at some places. Missing places give NaN or 0.
 vtkSmartPointer<vtkAbstractArray> TuplesAt(
   vtkAbstractArray* array, const std::vector<vtkIdType>& places)
 {
@@ -128,7 +128,8 @@ bool IsNew(vtkAbstractArray* array, vtkFieldData* input)
   return input->GetAbstractArray(array->GetName()) != array;
 }
 
-/// Arrays at a rank's own points or cells, and the names of those that the filter took away.
+/// Puts in the arrays at a rank's own points or cells, and the names of the arrays that the filter
+/// removed.
 void PutAttributes(vtkDataSetAttributes* output, vtkDataSetAttributes* input,
   const std::vector<vtkIdType>& places, DataMessage& message)
 {
@@ -165,7 +166,7 @@ void TakeAttributes(DataMessage& message, vtkDataSetAttributes* data)
   TakeActive(message, data);
 }
 
-/// Those of the input only help ranks that have none themselves.
+/// Puts in the field arrays. The input's arrays only go to ranks that have none themselves.
 void PutFieldArrays(vtkFieldData* output, vtkFieldData* input, bool hasCells,
   GivenFieldArrays sharing, DataMessage& message)
 {
@@ -193,7 +194,7 @@ void TakeFieldArrays(DataMessage& message, vtkFieldData* fields)
   message.TakeArrays(fields);
 }
 
-/// Of points, cells or rows, whichever the data object has.
+/// Returns the attributes of points, cells or rows, whichever the data object has.
 std::vector<vtkDataSetAttributes*> AllAttributesOf(vtkDataObject* data)
 {
   std::vector<vtkDataSetAttributes*> all;
@@ -207,7 +208,8 @@ std::vector<vtkDataSetAttributes*> AllAttributesOf(vtkDataObject* data)
   return all;
 }
 
-/// The names of the arrays, without a tuple; nothing for the first rank, which has the arrays.
+/// Puts in the names of the arrays, without a tuple. The first rank gets nothing, because it has
+/// the arrays.
 void PutNames(vtkDataObject* output, const GatheredSurface& input, int rank,
   GivenFieldArrays sharing, DataMessage& message)
 {
@@ -242,7 +244,7 @@ void TakeNames(DataMessage& message, vtkDataObject* output)
   TakeFieldArrays(message, output->GetFieldData());
 }
 
-/// Points that are nowhere in the whole stay where they are.
+/// Returns the moved points. Points that are missing in the whole stay where they are.
 vtkSmartPointer<vtkPoints> MovedPoints(vtkDataArray* coordinates, vtkPoints* own)
 {
   for (vtkIdType point = 0; point < coordinates->GetNumberOfTuples(); ++point)
@@ -305,7 +307,7 @@ void ShareFieldArrays(vtkDataObject* input, vtkDataObject* output)
   const vtkNew<vtkFieldData> none;
   vtkFieldData* const given = input ? input->GetFieldData() : none.Get();
   vtkFieldData* const results = output->GetFieldData();
-  std::string own; // names of those of the input that the filter has kept, one per line
+  std::string own; // names of the input's arrays that the filter has kept, one per line
   ranks.Together(
     [&]
     {
@@ -368,7 +370,7 @@ void ShareFieldArrays(vtkDataObject* input, vtkDataObject* output)
     {
       const vtkNew<vtkFieldData> ofAll;
       DataMessage(std::move(merged)).TakeArrays(ofAll);
-      ForEachArray(given, // what the filter has taken away stays away
+      ForEachArray(given, // arrays that the filter removed stay removed
         [&](vtkAbstractArray* array) { ofAll->RemoveArray(array->GetName()); });
       AddMissing(ofAll, results);
     });

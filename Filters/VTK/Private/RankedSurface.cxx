@@ -23,7 +23,7 @@ namespace gridfem
 namespace
 {
 
-/// All that is gathered of a data object.
+/// Adds everything that is gathered of a data object.
 void AddData(StageKey& key, vtkDataObject* data)
 {
   auto* surface = vtkPolyData::SafeDownCast(data);
@@ -46,7 +46,7 @@ StageKey KeyOf(vtkInformationVector** inputs, int ports, bool weldCoincidentPoin
   return key;
 }
 
-/// Of any data set on the other ports filters see the points alone.
+/// Returns the points of a data set on another port. Filters use nothing else of it.
 vtkSmartPointer<vtkPolyData> AsSurface(vtkDataObject* data)
 {
   if (auto* surface = vtkPolyData::SafeDownCast(data))

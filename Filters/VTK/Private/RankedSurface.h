@@ -1,5 +1,5 @@
-// A filter on several MPI ranks: its inputs are gathered on the first rank, which computes, and
-// every rank gets its part of the outputs.
+// Runs a filter on several MPI ranks. Its inputs are gathered on the first rank, which computes,
+// and every rank gets its part of the outputs.
 #ifndef GridFEM_RankedSurface_h
 #define GridFEM_RankedSurface_h
 
@@ -20,38 +20,39 @@ class vtkPolyData;
 namespace gridfem
 {
 
-/// All functions but Free, IsEmpty and StepsOf are collective. What the first rank has gathered
-/// stays for the next run, until the input of one rank changes.
+/// The gathered surface. All functions but Free, IsEmpty and StepsOf are collective. The gathered
+/// inputs stay on the first rank for the next run, until the input of one rank changes.
 class RankedSurface
 {
 public:
   RankedSurface();
   ~RankedSurface();
 
-  /// What the first rank computes: fills the outputs, and returns the time steps of the filter.
+  /// The computation of the first rank. It fills the outputs and returns the time steps of the
+  /// filter.
   using Computation = std::function<std::vector<double>(
     vtkInformationVector** inputs, vtkInformationVector* outputs)>;
 
   /// Brings the gathered inputs up to date, computes, and fills the outputs of all ranks. Does
-  /// nothing when no rank has a point.
+  /// nothing if no rank has a point.
   /// @param inputs  one vector per port; a surface on port 0
   /// @param weldCoincidentPoints  joins the ranks' pieces at points with the same coordinates
   /// @param ownSteps  the time steps of the filter as this rank knows them
-  /// Throws on all ranks when it throws on one.
+  /// Throws on all ranks if it throws on one.
   void Run(vtkInformationVector** inputs, int ports, vtkInformationVector* outputs,
     bool weldCoincidentPoints, const std::vector<double>& ownSteps, const Computation& compute);
 
   /// Whether no rank had a point in the last run.
   bool IsEmpty() const { return isEmpty_; }
 
-  /// That the ranks have computed without a run here.
+  /// Notes that the ranks have computed without a run here.
   void NoteComputed() { isEmpty_ = false; }
 
-  /// The time steps of the first rank, which may know more of them after a run; those of this rank
-  /// where its properties have changed since.
+  /// Returns the time steps of the first rank, which may know more of them after a run. If this
+  /// rank's properties have changed since, it returns those of this rank.
   const std::vector<double>& StepsOf(const std::vector<double>& own) const;
 
-  /// Frees what is gathered.
+  /// Frees the gathered inputs.
   void Free();
 
 private:

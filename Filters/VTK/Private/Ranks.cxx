@@ -28,7 +28,7 @@ enum Tag
   ScatterTag
 };
 
-/// What is told of an error that another rank prints.
+/// Returns the text of an error that another rank prints.
 std::string TextOf(const std::exception_ptr& failure)
 {
   try
@@ -65,10 +65,11 @@ bool IsAbort(const std::exception_ptr& failure)
   }
 }
 
-/// Before they are touched: the system kills processes that take more than it has.
+/// Checks the memory for messages before it is touched. The system kills processes that take more
+/// than it has.
 void RequireRoom(double bytesOfMessages)
 {
-  constexpr double WithSurface = 2.0; // that is read from them
+  constexpr double WithSurface = 2.0; // which is read from the messages
   constexpr double Few = 1e6;
   if (bytesOfMessages < Few)
   {
@@ -79,7 +80,8 @@ void RequireRoom(double bytesOfMessages)
     AvailableMemory());
 }
 
-/// MPI waits with all the power of a processor, which the first rank can use better.
+/// Sleeps until a message arrives. MPI would wait with all the power of a processor, which the
+/// first rank can use better.
 void SleepUntilMessage(vtkMultiProcessController* controller, int tag)
 {
 #if VTK_MODULE_ENABLE_VTK_ParallelMPI
@@ -190,7 +192,7 @@ std::vector<Bytes> Ranks::Gather(const Bytes& own) const
 {
   const std::vector<vtkIdType> lengths = this->Lengths(own.size());
   std::vector<Bytes> messages;
-  this->Together( // there is memory for all, or nobody sends
+  this->Together( // all have memory, or nobody sends
     [&]
     {
       if (this->IsFirst())

@@ -1,4 +1,4 @@
-// The MPI ranks that a filter runs on: decisions taken together, and messages between them.
+// Provides decisions that the MPI ranks of a filter make together, and messages between them.
 #ifndef GridFEM_Ranks_h
 #define GridFEM_Ranks_h
 
@@ -14,7 +14,7 @@ class vtkMultiProcessController;
 namespace gridfem
 {
 
-/// Thrown beside the rank that tells what went wrong: says nothing itself.
+/// Thrown on the ranks besides the one that reports the error. Prints nothing itself.
 struct FailedElsewhere : std::runtime_error
 {
   FailedElsewhere() : std::runtime_error("failed on another rank") {}
@@ -23,7 +23,7 @@ struct FailedElsewhere : std::runtime_error
 using Bytes = std::vector<char>;
 
 /// The ranks of VTK's global controller. Every function but the first five is collective: all ranks
-/// call it, in the same order, or wait for each other for ever.
+/// have to call it, in the same order. Otherwise they wait for each other forever.
 class Ranks
 {
 public:
@@ -37,15 +37,15 @@ public:
   /// Whether this is the rank that computes.
   bool IsFirst() const { return own_ == 0; }
 
-  /// Whether it holds on one rank at least.
+  /// Whether a condition holds on at least one rank.
   bool Any(bool holds) const;
 
-  /// On how many ranks it holds.
+  /// The number of ranks on which a condition holds.
   int Number(bool holds) const;
 
-  /// Runs the body, which is not collective, on all ranks. When one throws, all do: Aborted on all
-  /// if that was thrown; else the first rank the error, naming the rank that failed, and the others
-  /// FailedElsewhere.
+  /// Runs the body, which is not collective, on all ranks. If one rank throws, all do. All throw
+  /// Aborted if that was thrown. Otherwise the first rank throws the error, naming the rank that
+  /// failed, and the others throw FailedElsewhere.
   template<class Body>
   void Together(Body&& body) const
   {
@@ -61,7 +61,7 @@ public:
     this->ThrowTogether(failure);
   }
 
-  /// The same for a body that the first rank runs for a long time while the others sleep.
+  /// Does the same for a body that the first rank runs for a long time while the others sleep.
   template<class Body>
   void OnFirst(Body&& body) const
   {
@@ -78,13 +78,13 @@ public:
       });
   }
 
-  /// The messages of all ranks, on the first one; empty on the others.
+  /// Returns the messages of all ranks on the first one. Empty on the others.
   std::vector<Bytes> Gather(const Bytes& own) const;
 
-  /// The message for this rank, of those of the first rank, one for each.
+  /// Returns the message for this rank. The first rank gives one for each.
   Bytes Scatter(const std::vector<Bytes>& messages) const;
 
-  /// The texts of all ranks, on all of them.
+  /// Returns the texts of all ranks, on all of them.
   std::vector<std::string> Exchange(const std::string& own) const;
 
 private:

@@ -19,7 +19,7 @@ namespace gridfem
 namespace
 {
 
-/// What ranks have to agree on of an array.
+/// The properties of an array that ranks have to agree on.
 struct ArrayKind
 {
   std::string name;
@@ -34,14 +34,14 @@ bool IsSent(vtkAbstractArray* array, vtkIdType tuples)
          array->GetNumberOfTuples() == tuples && name != vtkDataSetAttributes::GhostArrayName();
 }
 
-/// Ids of points, which no cut point has.
+/// Whether an array holds ids of points. Cut points have none.
 bool NumbersPoints(vtkDataSetAttributes* arrays, vtkAbstractArray* array)
 {
   return vtkPointData::SafeDownCast(arrays) &&
          (array == arrays->GetGlobalIds() || array == arrays->GetPedigreeIds());
 }
 
-/// One array per line, the name last, because it may have blanks.
+/// Describes one array per line. The name is last, because it may have blanks.
 std::string Describe(vtkDataSetAttributes* arrays, vtkIdType tuples)
 {
   std::ostringstream text;
@@ -69,7 +69,7 @@ std::vector<ArrayKind> ReadKinds(const std::string& text)
   return kinds;
 }
 
-/// The arrays that both have; of numbers, which both can be, the type may differ.
+/// Returns the arrays that both have. Arrays of numbers may differ in type.
 std::vector<ArrayKind> CommonKinds(
   const std::vector<ArrayKind>& kinds, const std::vector<ArrayKind>& others)
 {
@@ -91,7 +91,7 @@ std::vector<ArrayKind> CommonKinds(
   return common;
 }
 
-/// Collective. The arrays that all ranks with triangles have.
+/// Returns the arrays that all ranks with triangles have. Collective.
 std::vector<ArrayKind> Agree(const Communicator& ranks, const std::string& own, bool hasTriangles)
 {
   const std::vector<Id> lengths =
@@ -141,8 +141,8 @@ void PutTuples(vtkDataSetAttributes* from, const std::vector<ArrayKind>& kinds,
 }
 
 /// Takes arrays out of the messages of all ranks that have sent any tuples.
-/// @param counts  of tuples, by rank
-/// @param order   per tuple of the result its place among all that have come
+/// @param counts  the number of tuples of each rank
+/// @param order   the place of each tuple of the result among all received ones
 void TakeTuples(std::vector<DataMessage>& messages, const std::vector<Id>& counts,
   const std::vector<ArrayKind>& kinds, const std::vector<vtkIdType>& order,
   vtkDataSetAttributes* to)

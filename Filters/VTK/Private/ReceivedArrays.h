@@ -1,4 +1,4 @@
-// The arrays of the pieces that ranks were given, on the triangles that each has received of all.
+// Puts the arrays of the ranks' pieces on the triangles that each rank has received.
 #ifndef GridFEM_ReceivedArrays_h
 #define GridFEM_ReceivedArrays_h
 
@@ -13,11 +13,11 @@ class vtkPolyData;
 namespace gridfem
 {
 
-/// Collective. The point and cell arrays that the pieces of all ranks with triangles have, alike,
-/// at the points and on the triangles of the received mesh; double where they are of different
-/// types. Ghost flags are left out, ids of points, and arrays of variants.
-/// @param piece  this rank's; may be null
-/// @param mesh   its triangles
+/// Returns the point and cell arrays that the pieces of all ranks with triangles have, at the
+/// points and on the triangles of the received mesh. Arrays of different types become double.
+/// Leaves out ghost flags, ids of points, and arrays of variants. Collective.
+/// @param piece  this rank's piece; may be null
+/// @param mesh   the triangles of the piece
 void SendArrays(const Communicator& ranks, const Redistribution& distribution, vtkPolyData* piece,
   const InputMesh& mesh, vtkPointData* atPoints, vtkCellData* onTriangles);
 

@@ -38,7 +38,7 @@ namespace gridfem
 namespace
 {
 
-/// Find Data of ParaView makes queries, which its own selector evaluates.
+/// Evaluates queries with ParaView's own selector, because its Find Data makes them.
 class Extraction : public vtkExtractSelection
 {
 public:
@@ -70,7 +70,7 @@ vtkSmartPointer<vtkCompositeDataIterator> LeavesOf(vtkCompositeDataSet* data)
   return vtkSmartPointer<vtkCompositeDataIterator>::Take(data->NewIterator());
 }
 
-/// Of an earlier extraction, which would be mixed up with the new one.
+/// Removes the marks of an earlier extraction, which would be mixed up with the new one.
 void RemoveInsidedness(vtkDataObject* data)
 {
   if (auto* dataSet = vtkDataSet::SafeDownCast(data))
@@ -100,7 +100,7 @@ vtkSmartPointer<vtkDataObject> CopyOf(vtkDataObject* data)
   return copy;
 }
 
-/// Whether points or cells come out; POINT or CELL.
+/// Returns whether the node selects points or cells: POINT or CELL.
 int KindOf(vtkSelectionNode* node)
 {
   const int kind = node->GetFieldType();
@@ -115,7 +115,7 @@ int KindOf(vtkSelectionNode* node)
   return takesCells ? static_cast<int>(vtkSelectionNode::CELL) : kind;
 }
 
-/// A rank evaluates only what of the data it has.
+/// Refuses a selection on several ranks, because each evaluates only its own data.
 void RequireOneProcess(const std::string& what)
 {
   if (Ranks::AreSeveral())
@@ -126,7 +126,7 @@ void RequireOneProcess(const std::string& what)
   }
 }
 
-/// What vtkExtractSelection stumbles over.
+/// Refuses selections that vtkExtractSelection cannot handle.
 void Validate(vtkSelection* selection)
 {
   for (unsigned int k = 0; k < selection->GetNumberOfNodes(); ++k)
@@ -157,7 +157,7 @@ void Validate(vtkSelection* selection)
   }
 }
 
-/// The part of extracted data that stands where the block stands in the whole; null: nowhere.
+/// Returns the part of extracted data at the block's place in the whole. Null if it has none.
 vtkDataObject* BlockOf(
   vtkCompositeDataSet* extracted, vtkCompositeDataSet* whole, vtkDataObject* block)
 {
@@ -172,7 +172,8 @@ vtkDataObject* BlockOf(
   return nullptr;
 }
 
-/// Ids of the surface's points or cells in the data set that it is the surface of; null: the same.
+/// Returns the ids of the surface's points or cells in the data set that it was extracted from.
+/// Null if the ids are the same.
 vtkDataArray* OriginalIds(
   vtkDataSetAttributes* attributes, const char* name, vtkIdType surface, vtkIdType original)
 {
@@ -197,7 +198,7 @@ std::vector<char> SelectedOf(vtkDataArray* inside, vtkDataArray* originalIds, vt
   return isSelected;
 }
 
-/// @param part  the data set that the surface is of, with `vtkInsidedness`
+/// @param part  the data set that the surface was extracted from, with `vtkInsidedness`
 std::vector<char> PointsOf(vtkDataSet* part, vtkPolyData* surface)
 {
   const bool isSurfaceItself = vtkPolyData::SafeDownCast(part) != nullptr;
@@ -241,7 +242,7 @@ void SelectedPoints::Extract(vtkSelection* selection)
   this->ExtractFrom(whole_ ? whole_.GetPointer() : filter_->GetInputDataObject(0, 0), selection);
 }
 
-/// A data set of the input, with `vtkInsidedness`; null where nothing of it is selected.
+/// Returns a data set of the input, with `vtkInsidedness`. Null if nothing of it is selected.
 vtkDataSet* SelectedPoints::PartOf(vtkDataObject* block) const
 {
   auto* whole = vtkCompositeDataSet::SafeDownCast(whole_);
@@ -273,7 +274,7 @@ std::vector<char> SelectedPoints::PointsOfBlocks(const JoinedBlocks& joined) con
   return isSelected;
 }
 
-/// Only where data or selection are not those of last time.
+/// Extracts again only if data or selection have changed.
 void SelectedPoints::ExtractFrom(vtkDataObject* data, vtkSelection* selection)
 {
   const auto dataTime = static_cast<std::int64_t>(data->GetMTime());
@@ -283,7 +284,7 @@ void SelectedPoints::ExtractFrom(vtkDataObject* data, vtkSelection* selection)
     return;
   }
   extracted_ = nullptr;
-  auto own = vtkSmartPointer<vtkSelection>::New(); // it stays that of its own pipeline
+  auto own = vtkSmartPointer<vtkSelection>::New(); // it stays with its own pipeline
   own->ShallowCopy(selection);
   std::string error;
   vtkNew<vtkCallbackCommand> listen;
@@ -310,7 +311,8 @@ void SelectedPoints::ExtractFrom(vtkDataObject* data, vtkSelection* selection)
 
 SelectedPoints::SelectedPoints(vtkAlgorithm* filter) : filter_(filter)
 {
-  // Before and after all blocks the input is the whole of them, and in between one after the other.
+  // Before and after all blocks, the input is the whole. In between it is one block after the
+  // other.
   const auto noteWhole = [](vtkObject* caller, unsigned long event, void* client, void*)
   {
     vtkDataObject* data = static_cast<vtkAlgorithm*>(caller)->GetInputDataObject(0, 0);
@@ -376,7 +378,7 @@ void SelectedPoints::UpdateTogether(
 std::vector<char> SelectedPoints::Evaluate(
   vtkSelection* selection, vtkPolyData* surface, const JoinedBlocks* joined)
 {
-  if (selection->GetNumberOfNodes() == 0) // of blocks VTK makes an error of it, or loses them
+  if (selection->GetNumberOfNodes() == 0) // VTK fails on blocks without nodes, or loses the blocks
   {
     vtkPolyData* whole = joined ? joined->Surface().whole.GetPointer() : surface;
     return std::vector<char>(whole->GetNumberOfPoints(), 0);

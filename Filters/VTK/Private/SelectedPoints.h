@@ -1,5 +1,4 @@
-// The points of a surface that a selection takes, as ParaView makes them with the mouse or by a
-// query.
+// Finds the points of a surface in a selection that ParaView makes with the mouse or by a query.
 #ifndef GridFEM_SelectedPoints_h
 #define GridFEM_SelectedPoints_h
 
@@ -23,9 +22,9 @@ namespace gridfem
 class DistributedSurface;
 class JoinedBlocks;
 
-/// Evaluated by vtkExtractSelection on the data set of the filter's input port 0, of composite data
-/// on the whole of it, so that ids count in the block that they are of. A selected cell takes its
-/// points.
+/// The selected points. vtkExtractSelection evaluates the selection on the data set of the filter's
+/// input port 0. For composite data it takes the whole input, so that ids refer to their block. A
+/// selected cell selects its points.
 class SelectedPoints
 {
 public:
@@ -34,35 +33,36 @@ public:
   SelectedPoints(const SelectedPoints&) = delete;
   SelectedPoints& operator=(const SelectedPoints&) = delete;
 
+  /// Evaluates a selection.
   /// @param selection  null: there is none
-  /// @param surface    what the filter computes on: its input, or the surface of it with
-  ///                   `vtkOriginalPointIds` and `vtkOriginalCellIds`
-  /// @param joined     the blocks that the surface is joined of; null: it is of one block
-  /// Throws InvalidInput for a selection of something else than points or cells, or of a kind that
-  /// cannot be evaluated.
+  /// @param surface    the filter's input, or the surface of it with `vtkOriginalPointIds` and
+  /// `vtkOriginalCellIds`
+  /// @param joined     the blocks that the surface is joined from; null: it is one block
+  /// Throws InvalidInput for a selection of anything but points or cells, or of a kind that cannot
+  /// be evaluated.
   void Update(vtkSelection* selection, vtkPolyData* surface, const JoinedBlocks* joined = nullptr);
 
-  /// Collective, within DistributedSurface::Run: the points of this rank's own piece, which it
-  /// evaluates alone. What one rank selects is a selection of all. Throws also for a query, which
-  /// may look at what other ranks have.
+  /// Selects points of this rank's own piece, which the rank evaluates alone. The selection of one
+  /// rank applies on all. Collective, within DistributedSurface::Run. It also throws for a query,
+  /// which may depend on the data of other ranks.
   /// @param piece  as `surface`; may be null
   void UpdateTogether(
     const DistributedSurface& together, vtkSelection* selection, vtkPolyData* piece);
 
-  /// Frees what the next update could take over.
+  /// Frees the data that the next update could reuse.
   void Free();
 
-  /// Whether there is a selection, be it of nothing.
+  /// Whether there is a selection. It may select nothing.
   bool IsGiven() const { return isGiven_; }
 
-  /// Per point of the surface; empty without a selection.
+  /// A flag for each point of the surface. Empty without a selection.
   const std::vector<char>& Points() const { return isSelected_; }
 
-  /// The selected points that a triangle uses, ascending.
-  /// @param mesh  of the surface
+  /// Returns the selected points that a triangle uses, ascending.
+  /// @param mesh  the mesh of the surface
   std::vector<Id> Ids(const TriangleMesh& mesh) const;
 
-  /// Changes when the points do.
+  /// A number that changes if the points do.
   std::int64_t Version() const { return version_; }
 
 private:

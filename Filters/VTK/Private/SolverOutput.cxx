@@ -32,7 +32,8 @@ vtkSmartPointer<vtkDataArray> CopyRows(const char* name, const MultiVector& valu
   return array;
 }
 
-/// An exact zero is shown as the smallest number instead of minus infinity.
+/// Returns the logarithm. An exact zero gives that of the smallest number instead of minus
+/// infinity.
 double SafeLog10(double value)
 {
   return std::log10(std::max(value, std::numeric_limits<double>::min()));

@@ -1,4 +1,4 @@
-// Solutions and reports of Core as VTK arrays and tables.
+// Writes solutions and reports of Core as VTK arrays and tables.
 #ifndef GridFEM_SolverOutput_h
 #define GridFEM_SolverOutput_h
 
@@ -17,33 +17,34 @@ class vtkTable;
 namespace gridfem
 {
 
-/// An array with one tuple per row: float when `dataType` is VTK_FLOAT, else double.
+/// Returns an array with one tuple per row. It is float if `dataType` is VTK_FLOAT, else double.
 vtkSmartPointer<vtkDataArray> MakePointArray(
   const char* name, const MultiVector& values, int dataType);
 
-/// An array of ids of points.
+/// Returns an array of ids of points.
 vtkSmartPointer<vtkDataArray> MakeIdArray(const char* name, const std::vector<Id>& ids);
 
-/// Gives the rows of points that no function reaches the values they came with.
-/// @param isSolved  per point
-/// @param given     as many components as `values` has columns
+/// Restores the given values at points that no function reaches.
+/// @param isSolved  a flag for each point
+/// @param given     has as many components as `values` has columns
 void KeepUnsolved(const std::vector<char>& isSolved, vtkDataArray* given, MultiVector& values);
 
 /// Adds the field arrays Converged, Iterations, DoublePrecisionSince (iteration of the fall-back;
 /// -1: none), Residual and ConvergenceFactor (mean per iteration).
 void AddReport(const SolveReport& report, vtkPolyData* output);
 
-/// Adds the field arrays DiscretizationError, LargestDiscretizationError, AlgebraicError (relative,
-/// in units of the solution, relative; not a number where unknown) and TrustedEstimate.
+/// Adds the field arrays DiscretizationError, LargestDiscretizationError, AlgebraicError and
+/// TrustedEstimate. The second is in units of the solution, the first and the third are relative.
+/// Unknown errors are NaN.
 void AddAccuracy(const SolutionAccuracy& accuracy, vtkPolyData* output);
 
 /// Adds a field array with one int.
 void AddFieldInt(vtkPolyData* output, const char* name, int value);
 
-/// Field data: 1 where ranks have computed together.
+/// The field array that is 1 if ranks have computed together.
 constexpr const char* DistributedName = "Distributed";
 
-/// Adds the field arrays UsedDepth and Distributed, of a solution by all ranks together.
+/// Adds the field arrays UsedDepth and Distributed for a solution by all ranks together.
 void AddDistributed(int depth, vtkPolyData* output);
 
 ///@{ Adds a field array with one number, or with some.
@@ -51,11 +52,12 @@ void AddFieldNumber(vtkPolyData* output, const char* name, double value);
 void AddFieldNumbers(vtkPolyData* output, const char* name, const std::vector<double>& values);
 ///@}
 
-/// The columns Iteration, EnergyResidual, Residual, ConvergenceFactor (energy residual over that of
-/// the row before; 1 in the first), Log10EnergyResidual, Log10Residual.
+/// Adds the columns Iteration, EnergyResidual, Residual, ConvergenceFactor, Log10EnergyResidual and
+/// Log10Residual. ConvergenceFactor is the energy residual over that of the row before; 1 in the
+/// first row.
 void WriteHistory(const SolveReport& report, vtkTable* table);
 
-/// Adds the columns AlgebraicError, after the correction of each row, DiscretizationError, and
+/// Adds the columns AlgebraicError, after the correction of each row, and DiscretizationError, with
 /// their logarithms.
 void AddErrors(const SolveReport& report, const SolutionAccuracy& accuracy, vtkTable* table);
 

@@ -1,4 +1,4 @@
-// The points of a mesh that distances start from.
+// Finds the points of a mesh that distances start from.
 #ifndef GridFEM_SourcePoints_h
 #define GridFEM_SourcePoints_h
 
@@ -11,9 +11,9 @@ class vtkDataSet;
 namespace gridfem
 {
 
-/// The given point ids, and the points of the mesh nearest to those of `places` (may be null);
+/// Returns the given point ids and the mesh points nearest to those of `places` (may be null),
 /// ascending, every point once. Points that no polygon uses do not count. Throws InvalidInput
-/// naming an id that is no point of a polygon, or a point of `places` that is not finite.
+/// naming an id that no polygon uses, or a point of `places` that is not finite.
 std::vector<Id> SourcePoints(
   const TriangleMesh& mesh, const std::vector<Id>& ids, vtkDataSet* places);
 

@@ -60,7 +60,7 @@ public:
     SetTuples(points->GetData(), static_cast<vtkIdType>(mesh.points.size()));
     for (std::size_t k = 0; k < mesh.points.size(); ++k)
     {
-      // What no triangle uses may be nowhere.
+      // Points that no triangle uses need not be finite.
       const Vec3 position = mesh.points[k].allFinite() ? mesh.points[k] : Vec3::Zero();
       points->SetPoint(static_cast<vtkIdType>(k), position.data());
     }

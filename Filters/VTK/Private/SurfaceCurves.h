@@ -1,4 +1,4 @@
-// Curves that divide a surface, from lines of VTK.
+// Makes curves that divide a surface from lines of VTK.
 #ifndef GridFEM_SurfaceCurves_h
 #define GridFEM_SurfaceCurves_h
 
@@ -9,10 +9,10 @@ class vtkDataSet;
 namespace gridfem
 {
 
-/// The lines of a data set, moved to their nearest places on the surface.
+/// Returns the lines of a data set, moved to their nearest places on the surface.
 /// @param lines  may be null
-/// @return       without segments when there are no lines
-/// Throws InvalidInput naming a point that is not finite, and as DivideByLines.
+/// @return       no segments if there are no lines
+/// Throws InvalidInput naming a point that is not finite, and as DivideByLines does.
 SurfaceCurve CurveOfLines(vtkDataSet* lines, const TriangleMesh& mesh, bool weldCoincidentPoints);
 
 } // namespace gridfem

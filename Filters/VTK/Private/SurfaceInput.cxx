@@ -45,7 +45,7 @@ vtkPolyData* SurfaceInput::Of(vtkDataSet* data)
   return surface_;
 }
 
-/// Only where the data set is not that of last time: no two have the same time of change.
+/// Extracts the surface only if the data set has changed: no two have the same time of change.
 void SurfaceInput::Extract(vtkDataSet* data)
 {
   if (extracted_ == data->GetMTime())
@@ -53,7 +53,7 @@ void SurfaceInput::Extract(vtkDataSet* data)
     return;
   }
   auto copy = vtkSmartPointer<vtkDataSet>::Take(data->NewInstance());
-  copy->ShallowCopy(data); // the data set stays that of its own pipeline
+  copy->ShallowCopy(data); // the data set stays with its own pipeline
   vtkNew<vtkDataSetSurfaceFilter> filter;
   filter->SetInputData(copy);
   filter->PassThroughPointIdsOn();

@@ -1,4 +1,4 @@
-// The surface that a filter computes on, whatever data set it is given.
+// Provides the surface that a filter computes on, whatever data set it is given.
 #ifndef GridFEM_SurfaceInput_h
 #define GridFEM_SurfaceInput_h
 
@@ -14,21 +14,21 @@ class vtkPolyData;
 namespace gridfem
 {
 
-/// Hands vtkPolyData on, and takes the surface of any other data set: its two-dimensional cells and
-/// the outer faces of its volume cells, with their arrays and with `vtkOriginalPointIds` and
-/// `vtkOriginalCellIds`.
+/// Passes vtkPolyData on, and extracts the surface of any other data set. The surface has its
+/// two-dimensional cells and the outer faces of its volume cells, with their arrays and with
+/// `vtkOriginalPointIds` and `vtkOriginalCellIds`.
 class SurfaceInput
 {
 public:
   SurfaceInput();
   ~SurfaceInput();
 
-  /// @param inputs  one vector per port; valid as long as the result is used
-  /// @return the same, with the surface on port 0 where that has none itself
+  /// Returns the inputs, with the surface on port 0.
+  /// @param inputs  one vector per port; they have to live as long as the result is used
   /// Throws InvalidInput for a data set without a surface.
   vtkInformationVector** Of(vtkInformationVector** inputs, int numberOfPorts);
 
-  /// The surface of a data set; that itself, where it is one. Empty for one without a surface.
+  /// Returns the surface of a data set. vtkPolyData is its own surface. Empty if there is none.
   vtkPolyData* Of(vtkDataSet* data);
 
   /// Frees the surface.

@@ -112,7 +112,7 @@ void SurfaceSolverState::UpdateSpace(
   const bool carries = CarriesBasis(input);
   const auto update = [&]
   {
-    stages.Forget(MeshStage); // reads the mesh itself
+    stages.Forget(MeshStage); // this function reads the mesh itself
     if (!carries && !basisData)
     {
       this->BuildSpace(input, progress);
@@ -136,7 +136,7 @@ void SurfaceSolverState::UpdateSpace(
     [&]
     {
       update();
-      key = this->SpaceKey(input, basisData, meshNumber, wanted); // of the mesh that is known now
+      key = this->SpaceKey(input, basisData, meshNumber, wanted); // of the current mesh
     });
   if (tracked_.ReferenceVersion() != meshNumber)
   {
@@ -145,7 +145,7 @@ void SurfaceSolverState::UpdateSpace(
   this->NoteFunctions();
 }
 
-/// Functions that were given or have stayed may differ from the options.
+/// Notes the properties of the functions. Given or kept functions may differ from the options.
 void SurfaceSolverState::NoteFunctions()
 {
   used_.space.depth = this->Functions().GetGrid().depth;
@@ -158,7 +158,7 @@ int SurfaceSolverState::DepthFor(int wanted) const
     *mesh.triangles, wanted, options.choice.kind, options.functionsPerPoint);
 }
 
-/// Whether the grid that was last wanted is finer than hat functions need.
+/// Whether the wanted grid is finer than hat functions need.
 bool SurfaceSolverState::GivesWay() const
 {
   return !IsRefinedByDepth(options.choice.kind) && mesh.triangles &&
@@ -172,7 +172,7 @@ void SurfaceSolverState::ChooseDepth()
   used_.space.depth = this->DepthFor(options.space.depth);
 }
 
-/// Hat functions on a basis that is given and finer than is of use to them get a coarser one.
+/// Replaces a given basis that is finer than hat functions need by a coarser one.
 void SurfaceSolverState::TakeEnough(const Progress& progress)
 {
   wanted_ = this->Functions().GetGrid().depth;
@@ -282,8 +282,8 @@ void SurfaceSolverState::RunTogether(const DistributedSurface::Body& body)
 namespace
 {
 
-/// What ranks tell each other of a basis: origin, side and depth of the grid, functions, and
-/// whether they are aware of connectivity.
+/// The numbers of a basis that ranks exchange: origin, side and depth of the grid, the number of
+/// functions, and whether they are aware of connectivity.
 enum BasisNumber
 {
   OriginX,
@@ -298,7 +298,7 @@ enum BasisNumber
 
 } // namespace
 
-/// Asks for the functions of a basis that any rank has.
+/// Requests the functions of a basis that any rank has.
 std::vector<double> SurfaceSolverState::TakeBasisTogether(
   vtkPolyData* basisData, SurfaceOptions& asked) const
 {
@@ -328,14 +328,14 @@ std::vector<double> SurfaceSolverState::TakeBasisTogether(
   return told;
 }
 
-/// That the functions are those of the basis, as far as numbers tell.
+/// Requires that the functions are those of the basis, as far as the numbers tell.
 void SurfaceSolverState::RequireBasisTogether(const std::vector<double>& told) const
 {
   const Grid& grid = together.GridOfRanks();
   const bool isSameCube = grid.origin == Vec3(told[OriginX], told[OriginY], told[OriginZ]) &&
                           grid.spacing * grid.CellsPerSide() == told[Side];
-  // Below hats the grid may be coarser.
-  // Points of a clip in single precision may make a few functions more.
+  // The grid may be coarser below hat functions. Points of a clip in single precision may make a
+  // few functions more.
   const double more = static_cast<double>(together.NumberOfFunctions()) - told[AllFunctions];
   const bool isSameSpace =
     !IsRefinedByDepth(options.choice.kind) || std::abs(more) <= 0.01 * told[AllFunctions];

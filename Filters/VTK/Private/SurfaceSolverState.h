@@ -1,5 +1,5 @@
-// What a filter keeps between runs: its input mesh, function space and system, and the stages that
-// made them.
+// Holds the data that a filter keeps between runs: its input mesh, function space and system, and
+// the stages that made them.
 #ifndef GridFEM_SurfaceSolverState_h
 #define GridFEM_SurfaceSolverState_h
 
@@ -28,11 +28,11 @@ struct FilterOptions
   : EquationOptions
   , SurfaceOptions
 {
-  bool trackMetric = false; // of a mesh that has only moved since its functions were made
+  bool trackMetric = false; // keep the functions of a mesh that has only moved
 };
 
-/// Adds all that the triangles of the mesh depend on; never the vtkPolyData itself, which is a new
-/// one after every hop through ParaView.
+/// Adds everything that the triangles of the mesh depend on, but never the vtkPolyData itself,
+/// which is a new one after every hop through ParaView.
 void AddMesh(StageKey& key, vtkPolyData* data);
 
 /// Adds the arrays of the clip.
@@ -49,11 +49,11 @@ public:
   {
   }
 
-  /// What Prepare works on with the options as they are, until another call. With null the next run
-  /// has to say it again.
+  /// Sets the input that Prepare works on with the current options, until another call. After null,
+  /// the next run has to set it again.
   void SetInput(vtkPolyData* input, vtkPolyData* basisData);
 
-  ///@{ Surface.
+  ///@{ The functions of the base class Surface.
   void Prepare(const Progress& progress) override;
   void PrepareAtDepth(int depth, const Progress& progress) override;
   void PrepareMesh(const Progress& progress) override;
@@ -84,86 +84,88 @@ public:
   void FillCopies(MultiVector& atPoints) const override;
   ///@}
 
-  /// Brings the mesh and the function space up to date: from `input` where it carries a basis, else
-  /// from `basisData` where it is not null, else built. With trackMetric they stay where only
-  /// points have moved, and UpdateSystem gives them the metric of the moved surface. Throws
-  /// InvalidInput and Aborted.
+  /// Brings the mesh and the function space up to date. The space comes from `input` if it carries
+  /// a basis, or else from `basisData` if that is not null, or else it is built. With trackMetric
+  /// both stay as long as only points move, and UpdateSystem gives them the metric of the moved
+  /// surface. Throws InvalidInput and Aborted.
   void UpdateSpace(vtkPolyData* input, vtkPolyData* basisData, const Progress& progress);
 
-  /// Decides on the depth for `mesh`.
+  /// Chooses the depth for `mesh`.
   void ChooseDepth();
 
-  /// Builds the function space of a mesh and clips it before. Validates the mesh.
+  /// Validates and clips a mesh, and builds its function space.
   void BuildSpace(vtkPolyData* input, const Progress& progress);
 
-  /// Brings the finite element space up to date, in the metric of `metricArray`. One in that of the
-  /// mesh that another filter has built on the same basis is taken over without a run.
+  /// Brings the finite element space up to date, in the metric of `metricArray`. In the mesh's own
+  /// metric, a space that another filter has built on the same basis is reused without a run.
   void UpdateSystem(const Progress& progress);
 
   ///@{ On several MPI ranks that compute together. Collective; the words of DistributedSurface
   /// hold here, too.
 
-  /// Runs a body with stages that run on all ranks where they have to on one. GetProgress is that
-  /// of all ranks in it.
+  /// Runs a body with stages. A stage runs on all ranks if it has to run on one. Inside the body,
+  /// GetProgress is the progress of all ranks.
   void RunTogether(const DistributedSurface::Body& body);
 
-  /// As UpdateSpace and UpdateSystem, on the pieces of all ranks. Of a basis the grid counts, and
-  /// the cells where the piece carries it: on the same surface that gives the same functions.
+  /// Works as UpdateSpace and UpdateSystem, on the pieces of all ranks. A basis gives its grid, and
+  /// also its cells if the piece carries it. On the same surface this gives the same functions.
   /// @param piece, basisData  may be null
   void UpdateTogether(vtkPolyData* piece, vtkPolyData* basisData);
 
-  /// The same with the functions that the properties ask for.
+  /// Does the same with the functions that the properties ask for.
   /// @param isClipped  the pieces are parts of a clip, whose grid and cells are taken
-  /// @param release    called before another space is made: lets go what holds the one that was
+  /// @param release    called before another space is made: frees everything that holds the old one
   void BuildTogether(
     vtkPolyData* piece, bool isClipped, const std::function<void()>& release = [] {});
   ///@}
 
   ///@{ The input of a solver, on one process and on several. Collective.
 
-  /// Of the filter's run, or of all ranks together.
+  /// The surface of the filter's run, or of all ranks together.
   Progress GetProgress() { return isTogether_ ? progressOfAll_ : bridge.GetProgress(); }
 
-  /// The array that SetInputArrayToProcess(index, ...) names; a null array when none is chosen. On
-  /// several ranks it prepares the surface, because ranks without polygons need not have the array.
+  /// Returns the array that SetInputArrayToProcess(index, ...) names, or a null array if none is
+  /// chosen. On several ranks it prepares the surface, because ranks without polygons need not have
+  /// the array.
   InputArray Find(int index, const std::string& property);
 
-  /// The same on a mesh that has been read, without the surface.
+  /// Does the same on a mesh that has been read, without the surface.
   InputArray FindOn(const InputMesh& onMesh, int index, const std::string& property);
 
-  /// The VTK type of results for an array from Find, the same on all ranks.
+  /// Returns the VTK type of results for an array from Find, the same on all ranks.
   int DataTypeOf(int index, const InputArray& array) const;
 
-  /// The points that a selection takes.
-  /// @param joined  the blocks that the surface is joined of; null: it is of one block
+  /// Returns the selected points.
+  /// @param joined  the blocks that the surface is joined from; null: it is one block
   void Select(
     SelectedPoints& points, vtkSelection* selection, const JoinedBlocks* joined = nullptr) const;
 
-  /// The array as a solver takes it.
+  /// Returns the array in the form that solvers take.
   GivenField Given(const InputArray& array) const;
 
-  /// The values of an array where a mask or a selection takes the point. Refers to the selection.
+  /// Returns the values of an array where a mask or a selection includes the point. Refers to the
+  /// selection.
   /// @param values  null array: the coordinates
   GivenConstraints ConstraintsOf(
     const InputArray& values, const InputArray& mask, const SelectedPoints& selection) const;
   ///@}
 
-  /// Means on the cells of this process of values on the triangles of `mesh`. Collective.
+  /// Returns means on the cells of this process of values on the triangles of `mesh`. Collective.
   MultiVector MeansOnCells(const MultiVector& onTriangles, Id cells) const;
 
-  /// The mesh of the input: `mesh`, or where that has moved to.
+  /// The current mesh of the input: `mesh`, or the moved mesh.
   const InputMesh& CurrentInput() const;
 
-  /// Adds what trackMetric has done to the field arrays of an output.
+  /// Adds the field arrays of trackMetric to an output.
   void WriteTracking(vtkPolyData* output) const;
 
-  /// Frees all that the stages have made.
+  /// Frees everything that the stages have made.
   void Free();
 
   /// The functions of the grid.
   const GridFunctions& Functions() const { return *basis.space; }
 
-  FilterOptions options;  // what is asked for
+  FilterOptions options;  // the requested options
   InputArray metricArray; // of the input; none: the metric of the mesh
   Stages stages;
   InputMesh mesh;

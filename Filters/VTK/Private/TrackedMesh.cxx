@@ -46,7 +46,7 @@ void TrackedMesh::Refer(vtkPolyData* data, std::int64_t version)
   for (int kind = 0; kind < 2; ++kind)
   {
     vtkCellArray* given = kind == 0 ? data->GetPolys() : data->GetStrips();
-    cells_[kind] = vtkSmartPointer<vtkCellArray>::New(); // a later change of theirs is none of ours
+    cells_[kind] = vtkSmartPointer<vtkCellArray>::New(); // later changes of the data stay out
     if (given && given->GetNumberOfCells() > 0)
     {
       cells_[kind]->ShallowCopy(given);

@@ -18,38 +18,38 @@ class vtkCellArray;
 namespace gridfem
 {
 
-/// The mesh that functions were made on, and one with the same cells at other places.
+/// Holds the mesh that functions were made on, and one with the same cells at other places.
 class TrackedMesh
 {
 public:
   TrackedMesh();
   ~TrackedMesh();
 
-  /// Takes a mesh as the one that functions are made on; nothing has moved.
-  /// @param version  MeshVersion's number of it
+  /// Takes a mesh as the one that functions are made on. Nothing has moved then.
+  /// @param version  the mesh's number from MeshVersion
   void Refer(vtkPolyData* data, std::int64_t version);
 
-  /// What Refer was told; -1 without.
+  /// The version that Refer was given. -1 if none.
   std::int64_t ReferenceVersion() const { return version_; }
 
-  /// Takes a mesh as the reference after a motion. False, and nothing has moved, when its cells are
+  /// Treats a mesh as the moved reference. Returns false, and nothing has moved, if its cells are
   /// others or a triangle has gained or lost its area.
-  /// @param reference  what was read from the mesh of Refer
+  /// @param reference  the triangles read from the mesh of Refer
   bool Follow(vtkPolyData* data, const InputMesh& reference);
 
-  /// Null where nothing has moved.
+  /// The metric of the moved mesh. Null if nothing has moved.
   const std::shared_ptr<const TriangleMetric>& Metric() const { return metric_; }
 
-  /// The triangles of the reference where they are now.
+  /// The triangles of the reference at their current places.
   const InputMesh& Moved() const { return moved_; }
 
-  /// Another one for each motion; 0 where nothing has moved.
+  /// A number for each motion. 0 if nothing has moved.
   std::int64_t Motion() const { return metric_ ? motion_ : 0; }
 
-  /// The time of the mesh that functions are made on, where its data say one.
+  /// The time of the mesh that functions are made on, if its data have one.
   std::optional<double> ReferenceTime() const { return time_; }
 
-  /// Nothing has moved.
+  /// Forgets the motion.
   void Stop();
 
 private:

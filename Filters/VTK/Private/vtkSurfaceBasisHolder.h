@@ -1,5 +1,5 @@
-// The in-memory shortcut of the basis: rides on the field array PatchBasisIds, by an information
-// key, so that it survives shallow copies from filter to filter. It holds nothing that cannot be
+// Holds the in-memory shortcut of the basis. An information key attaches it to the field array
+// PatchBasisIds, so that it survives shallow copies from filter to filter. Everything in it can be
 // rebuilt from the arrays.
 #ifndef vtkSurfaceBasisHolder_h
 #define vtkSurfaceBasisHolder_h
@@ -27,10 +27,10 @@ public:
   /// The holder on the array, or null. The array may be null.
   static vtkSurfaceBasisHolder* Find(vtkAbstractArray* array);
 
-  /// On the mesh the basis filter was given.
+  /// The basis on the mesh that the basis filter was given.
   const gridfem::SurfaceBasis& OnSourceMesh() const { return this->Source; }
 
-  /// On the basis filter's output; converted when first asked for.
+  /// The basis on the basis filter's output. It is converted on the first request.
   gridfem::SurfaceBasis OnClippedMesh();
 
 protected:

@@ -1,7 +1,8 @@
-"""Whether a filter was shown alone, coloured by what it is for over the range of that, with its chart and
-the titles of that, at the time of its result; had its first value again after undo, the second after
-redo, where its state loads and computes; nothing but the file is left after all were deleted, and a state
-brings all of it back into the window. What the first Apply has shown is in Shown/ of the current folder."""
+"""Checks the filters after TestGuiEdits.sh. Each was shown alone, colored by its result over the range
+of that array, with its chart and titles, at the time of its result. It had its first value again
+after undo and the second after redo, and its state loads and computes. After all were deleted, only
+the file is left, and a state brings all of it back into the window. Shown/ in the current folder has
+the views after the first Apply."""
 import math
 import os
 import sys
@@ -21,7 +22,7 @@ folder = sys.argv[1]
 
 
 def sources(path):
-    """Names and proxies of the pipeline in a state."""
+    """Returns names and proxies of the pipeline in a state."""
     root = ElementTree.parse(path)
     proxies = {proxy.get("id"): proxy for proxy in root.iter("Proxy") if proxy.get("type")}
     items = root.findall(".//ProxyCollection[@name='sources']/Item")
@@ -29,7 +30,8 @@ def sources(path):
 
 
 def value_of(proxy, name):
-    """Of a property of one value, or of one that chooses an array, whose name comes last."""
+    """Returns the value of a property with one value. If the property chooses an array, the array's
+    name comes last."""
     return proxy.findall(f"Property[@name='{name}']/Element")[-1].get("value")
 
 
@@ -42,13 +44,13 @@ TITLES = {"LaplaceSpectrum": ("Mode", "Eigenvalue"),
 
 
 def visible(view_type):
-    """The representations that are seen in views of a type."""
+    """Returns the representations that are visible in views of a type."""
     return [part for view in simple.GetViews() if view.SMProxy.GetXMLName() == view_type
             for part in view.Representations if getattr(part, "Visibility", 0)]
 
 
 def check_picture(name):
-    """The window's layout holds a surface that is lit, and is not full of it."""
+    """Checks that the window's layout shows a lit surface, which does not fill it."""
     os.makedirs("Shown", exist_ok=True)
     path = f"Shown/{name}.png"
     simple.SaveScreenshot(path, simple.GetLayout(), ImageResolution=[800, 500])
@@ -88,7 +90,7 @@ def check_shown(name):
         sys.exit(f"{name}: shown as {surfaces[0].Representation}")
     if name == "StitchColors" and (surfaces[0].MapScalars or len(seen) != 1):
         sys.exit(f"{name}: the colours are not shown as they are")
-    if not array or not surfaces[0].MapScalars:  # the shape alone, or colours as they are
+    if not array or not surfaces[0].MapScalars:  # the shape alone, or unchanged colors
         simple.ResetSession()
         return
     if len(seen) != 2:
@@ -102,7 +104,7 @@ def check_shown(name):
         wanted = (-largest, largest)
     points = surfaces[0].LookupTable.RGBPoints
     between = (points[0], points[-4])
-    if array in shown:  # its colours grow by what has it
+    if array in shown:  # its color map grows with the filters that have it
         wanted = (min(wanted[0], between[0]), max(wanted[1], between[1]))
     shown.add(array)
     if not all(math.isclose(a, b, rel_tol=1e-5, abs_tol=1e-9) for a, b in zip(wanted, between)):

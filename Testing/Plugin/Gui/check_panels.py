@@ -1,4 +1,4 @@
-"""Whether the states of UsePanels.xml hold what was chosen with the mouse, and compute with it."""
+"""Checks that the states of UsePanels.xml hold the choices made with the mouse, and compute with them."""
 import os
 import sys
 
@@ -10,7 +10,7 @@ import plugin
 
 
 def load(name):
-    """The filters of a state, in the order of the pipeline."""
+    """Returns the filters of a state, in the order of the pipeline."""
     simple.ResetSession()
     simple.LoadState(f"{sys.argv[1]}/{name}.pvsm")
     return [proxy for proxy in simple.GetSources().values() if proxy.SMProxy.GetXMLName() in plugin.PROXIES]
@@ -24,7 +24,8 @@ def only(filters, name):
 
 
 def check_selection():
-    """Distances start from the selected points, which are sharpened, and the curve has the point drawn."""
+    """Distances start from the selected points, and these points are sharpened. The curve has the drawn
+    point."""
     detail = only(load("selection"), "SurfaceDetail")
     arrays = plugin.data(detail).GetPointData()
     selected, distance, moved = (
@@ -46,7 +47,7 @@ def check_selection():
 
 
 def check_arrays():
-    """The chosen arrays are those that were computed on, and stitched colors are shown as they are."""
+    """The filters have computed on the chosen arrays, and stitched colors are shown unchanged."""
     filters = load("arrays")
     stitched = only(filters, "StitchColors")
     steep = stitched.Input
@@ -85,7 +86,7 @@ def check_chain():
 
 
 def check_blocks():
-    """The box in the panel has made one surface of the blocks."""
+    """The check box in the panel has made one surface of the blocks."""
     distance = only(load("blocks"), "GeodesicDistance")
     if not distance.BlocksAsOne:
         sys.exit("the box is not ticked")

@@ -1,5 +1,5 @@
-"""Writes a sphere with colours, which are `f` as well, the array that all tests choose, labels of its
-halves, a function and a vector field at its points."""
+"""Writes a sphere with arrays at its points: colors, which are also `f`, the array that all tests
+choose, labels of its halves, a function and a vector field."""
 import sys
 
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkIntArray, vtkUnsignedCharArray

@@ -1,5 +1,6 @@
-"""Writes what TestGuiEdits.sh plays: with every filter in turn, Apply, a change of what defines its result,
-undo, redo and delete, with a state saved in between; at last a state is loaded into the window."""
+"""Writes the actions that TestGuiEdits.sh plays. With every filter in turn, they are Apply, a change of
+the property that defines its result, undo, redo and delete. A state is saved in between. At last a
+state is loaded into the window."""
 import os
 import sys
 
