@@ -52,15 +52,18 @@ def signatures(points, cells, number=100, **properties):
     return results["HeatKernelSignature"], results["WaveKernelSignature"]
 
 
-def poisson(points, cells, values=None, gradients=None, weights=None, held=None, **properties):
+def poisson(points, cells, values=None, gradients=None, weights=None, held=None, gradient_scale=None,
+            flux=None, **properties):
     """Computes the function nearest to values whose gradients are nearest to given ones.
 
     values: N or M rows; None takes the coordinates. gradients: a vector for each column of the values;
     None takes zero, which smooths. weights: weights of the values. held: where it is true at the
-    points, the values stay. ScreeningWeight determines how much values count. UseValueGradient and
-    GradientScale sharpen. FillUnknown fills in NaN.
+    points, the values stay. gradient_scale: a factor on the gradients. flux: the slope of the solution out
+    of the surface, at the points of its boundary. ScreeningWeight determines how much values count.
+    UseValueGradient and GradientScale sharpen. FillUnknown fills in NaN.
     """
-    given = {"values": values, "gradients": gradients, "weights": weights, "held": held}
+    given = {"values": values, "gradients": gradients, "weights": weights, "held": held,
+             "gradient_scale": gradient_scale, "flux": flux}
     return _solve("ScreenedPoisson", points, cells, given, properties)["Solution"]
 
 
@@ -100,13 +103,13 @@ def farthest_points(points, cells, number, **properties):
     return ids, nearest, results["Distance"]
 
 
-def diffuse(points, cells, values, time, held=None, **properties):
+def diffuse(points, cells, values, time, held=None, source=None, **properties):
     """Computes values after heat has spread for a time, a squared length in ParameterUnits, in 8 steps.
 
     held: where it is true at the points, the values stay. With BoundaryValues they also stay along the
-    boundary.
+    boundary. source: added per unit of time.
     """
-    return _solve("HeatDiffusion", points, cells, {"values": values, "held": held},
+    return _solve("HeatDiffusion", points, cells, {"values": values, "held": held, "source": source},
                   {"DiffusionTime": time, "NumberOfSteps": 8, **properties})["Diffused"]
 
 
@@ -176,10 +179,15 @@ def decompose(points, cells, vectors, **properties):
     return results["GradientPart"], results["RotationPart"], results["HarmonicPart"]
 
 
-def detail(points, cells, scale=2.0, **properties):
-    """Moves the points of the surface so that details grow (scale above 1) or vanish (scale 0)."""
-    return _solve(
-        "SurfaceDetail", points, cells, {}, {"DetailScale": scale, **properties})["Points"]
+def detail(points, cells, scale=2.0, values=None, scales=None, **properties):
+    """Computes the points of the surface with its details enlarged (scale above 1) or removed (scale 0).
+
+    values: numbers at the points, which are returned with their details scaled in place of the points.
+    scales: factors on the scale, at points or cells.
+    """
+    results = _solve("SurfaceDetail", points, cells, {"values": values, "scales": scales},
+                     {"DetailScale": scale, **properties})
+    return results["Points" if values is None else "Filtered"]
 
 
 def flow(points, cells, steps=10, **properties):

@@ -16,9 +16,12 @@ from ._inputs import Error, checked, placed
 _POINTS = vtkDataObject.FIELD_ASSOCIATION_POINTS
 _CELLS = vtkDataObject.FIELD_ASSOCIATION_CELLS
 
-# The indices of SetInputArrayToProcess.
-_INDICES = {"values": 0, "gradients": 1, "weights": 3, "colors": 0, "labels": 1}
-_HELD_INDICES = {"ScreenedPoisson": 4, "HeatDiffusion": 2}
+# The indices of SetInputArrayToProcess by filter, and those of all other filters.
+_INDICES = {
+    "ScreenedPoisson": {"values": 0, "gradients": 1, "gradient_scale": 2, "weights": 3, "held": 4, "flux": 6},
+    "HeatDiffusion": {"values": 0, "source": 1, "held": 2},
+    "SurfaceDetail": {"values": 0, "scales": 1}}
+_OTHER_INDICES = {"values": 0, "colors": 0, "labels": 1}
 
 
 def surface(points, cells):
@@ -94,8 +97,8 @@ def solve(name, points, cells, arrays, properties, sources=()):
         column = numpy_to_vtk(values, deep=True)
         column.SetName(array)
         (data.GetPointData() if on_points else data.GetCellData()).AddArray(column)
-        algorithm.SetInputArrayToProcess(
-            _HELD_INDICES[name] if array == "held" else _INDICES[array], 0, 0, _POINTS if on_points else _CELLS, array)
+        index = _INDICES.get(name, _OTHER_INDICES)[array]
+        algorithm.SetInputArrayToProcess(index, 0, 0, _POINTS if on_points else _CELLS, array)
     if name == "LaplaceSpectrum":
         algorithm.AllModesOn()
     for key, value in properties.items():

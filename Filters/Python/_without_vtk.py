@@ -78,7 +78,7 @@ def solve(name, points, cells, arrays, properties, sources=()):
         warnings.warn(text, RuntimeWarning, stacklevel=3)
     results = {array: values[:, 0] if values.shape[1] == 1 and array != "Modes" else values
                for array, values in results.items()}
-    for array in ("Solution", "Interpolated"):  # they have the type of the given values
+    for array in ("Solution", "Interpolated", "Filtered"):  # they have the type of the given values
         if array in results and "values" in given and given["values"][0].dtype == numpy.float32:
             results[array] = results[array].astype(numpy.float32)
     if "StitchedColors" in results:

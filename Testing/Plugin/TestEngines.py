@@ -96,6 +96,10 @@ class Engines(unittest.TestCase):
         self.compare(lambda g, p, c, **o: g.poisson(p, c, p, held=p[:, 0] > 0.9, ScreeningWeight=1, **o))
         self.compare(lambda g, p, c, **o: g.diffuse(p, c, p, 0.01, held=p[:, 0] > 0.9, NumberOfSteps=2, **o))
         self.compare(lambda g, p, c, **o: g.poisson(p, c, p[:, 2], BoundaryValues=True, **o))
+        self.compare(lambda g, p, c, **o: g.poisson(p, c, p[:, 2], flux=p[:, 0], ScreeningWeight=0.5, **o))
+        self.compare(lambda g, p, c, **o: g.poisson(
+            p, c, p[:, 0] ** 2, UseValueGradient=True, gradient_scale=1 + p[:, 1] ** 2, **o))
+        self.compare(lambda g, p, c, **o: g.diffuse(p, c, p[:, 2], 0.01, source=p[:, 0] ** 2, **o))
         self.compare(lambda g, p, c, **o: g.poisson(
             p, c, numpy.where(p[:, 0] > 0, p[:, 1], numpy.nan), FillUnknown=True, **o))
 
@@ -143,6 +147,8 @@ class Engines(unittest.TestCase):
 
     def test_detail(self):
         self.compare(lambda g, p, c, **o: g.detail(p, c, 1.5, **o))
+        self.compare(lambda g, p, c, **o: g.detail(p, c, 1.5, scales=1 + p[:, 0] ** 2, **o))
+        self.compare(lambda g, p, c, **o: g.detail(p, c, 0.5, values=numpy.sin(5 * p[:, 0]), **o))
         for transfer in range(1, 5):
             self.compare(lambda g, p, c, **o: g.detail(
                 p, c, TransferFunction=transfer, KeepVolume=True, **o))

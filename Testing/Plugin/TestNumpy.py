@@ -146,6 +146,13 @@ class Numpy(unittest.TestCase):
         smooth = gridfem.detail(*self.mesh, 0.0, ScreeningWeight=3.0, ParameterUnits=0, **OPTIONS)
         numpy.testing.assert_allclose(
             numpy.linalg.norm(smooth, axis=1), 0.6, atol=0.005)
+        height = self.points[:, 2]
+        numpy.testing.assert_allclose(
+            gridfem.detail(*self.mesh, 0.0, values=height, ScreeningWeight=3.0, ParameterUnits=0, **OPTIONS),
+            0.6 * height, atol=0.01)
+        warmed = gridfem.diffuse(*self.mesh, 0 * height, 0.1, source=numpy.ones(len(height)),
+                                 ParameterUnits=0, **OPTIONS)
+        numpy.testing.assert_allclose(warmed, 0.1, atol=1e-5)  # the same source everywhere: u = t
         flowing = gridfem.flow(*self.mesh, 10, TimeStep=0.01, ParameterUnits=0, **OPTIONS)
         numpy.testing.assert_allclose(
             numpy.linalg.norm(flowing, axis=1), numpy.sqrt(1 - 4 * 0.1), atol=0.02)

@@ -28,11 +28,17 @@ public:
     Stages stages;
     LocalSurface surface(stages, given.mesh, surface_);
     DetailSolver::Input input;
+    input.values = given.Field("values");
+    input.scale = given.Field("scales");
     input.custom = [](double curvature) { return std::min(std::abs(curvature), 1.0); };
     DetailSolver solver;
     const DetailSolver::Result& result = solver.Update(surface, input, options_, { 0, progress });
     Results results;
     results.arrays["Points"] = RowsOf(result.points);
+    if (input.values)
+    {
+      results.arrays["Filtered"] = given.arrays.at("values").values + result.change;
+    }
     results.Warn(result.warnings);
     return results;
   }
