@@ -1,16 +1,17 @@
-// Step 5: the library below the filters, without VTK. Fits a function to the heights of the points
-// of a bumpy plate, and computes its first eigenvalues in the same space.
+// Step 5: the library below the filters, without VTK. Smooths the heights of a bumpy plate with two
+// weights, and computes its first eigenvalues.
 //
 //   gridfem_step_5 DEPTH
 
-#include <Problems/Poisson.h>
-#include <Problems/Spectrum.h>
-#include <Spaces/SpaceChoice.h>
+#include <Solvers/LocalSurface.h>
+#include <Solvers/PoissonSolver.h>
+#include <Solvers/SpectrumSolver.h>
 
 #include <cmath>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <memory>
 
 namespace
 {
@@ -40,45 +41,54 @@ gridfem::TriangleMesh Plate(gridfem::Id n)
   return mesh;
 }
 
+/// The heights of the points, as a solver takes them.
+gridfem::GivenField Heights(const gridfem::TriangleMesh& mesh)
+{
+  gridfem::Field heights; // on points, one column
+  heights.values.resize(static_cast<gridfem::Id>(mesh.points.size()), 1);
+  for (gridfem::Id point = 0; point < heights.values.rows(); ++point)
+  {
+    heights.values(point, 0) = mesh.points[static_cast<std::size_t>(point)][2];
+  }
+  return gridfem::GivenField::Of("height", heights);
+}
+
 void Run(int depth)
 {
-  const gridfem::TriangleMesh mesh = Plate(60);
+  const auto mesh = std::make_shared<const gridfem::TriangleMesh>(Plate(60));
+  gridfem::SurfaceOptions functions;
+  functions.space.depth = depth; // 2^depth cells along the plate
+  functions.parameterUnits = gridfem::ParameterUnits::World;
 
-  // A space of functions: the mesh is clipped to a grid, and every connected piece of a support
-  // gets a function. FunctionKind::Hats would take the mesh's own.
-  gridfem::SpaceOptions options;
-  options.depth = depth;
-  const auto space = gridfem::BuildSpace(mesh, options, gridfem::SpaceChoice(), {});
-  std::cout << space->NumberOfFunctions(0) << " functions on " << space->NumberOfLevels()
-            << " levels\n";
-
-  // (λM + L) u = λ f, with a hierarchy of λM + L and integrals of f. Lengths in the space are in
-  // its own unit, so that λ, which is per area, is multiplied by that squared.
-  gridfem::Field heights;
-  heights.values.resize(static_cast<gridfem::Id>(mesh.points.size()), 1);
-  for (std::size_t point = 0; point < mesh.points.size(); ++point)
+  // A surface and a solver that stay: after a change of an option the solver repeats only the
+  // stages that depend on it. Here the functions and the integrals of the heights are kept.
+  gridfem::Stages stages;
+  gridfem::LocalSurface surface(stages, mesh, functions);
+  gridfem::PoissonSolver smooth;
+  gridfem::PoissonSolver::Input input;
+  input.values = Heights(*mesh);
+  gridfem::PoissonSolver::Options options;
+  for (const double weight : { 500.0, 50.0 })
   {
-    heights.values(static_cast<gridfem::Id>(point), 0) = mesh.points[point][2];
+    options.screeningWeight = weight;
+    const gridfem::PoissonSolver::Result& result = smooth.Update(surface, input, options, {});
+    std::cout << "weight " << weight << ": " << (result.report.converged ? "converged" : "stopped")
+              << " after " << result.report.iterations << " iterations, heights up to "
+              << result.atPoints.maxCoeff() << "\n";
   }
-  gridfem::PoissonOptions equation;
-  equation.screeningWeight = 500.0 * space->UnitLength() * space->UnitLength();
-  equation.accuracy = 0.1; // iterate to a tenth of the error of the space
-  const gridfem::Multigrid multigrid =
-    gridfem::BuildMultigrid(*space, equation.screeningWeight, 1.0, equation.multigrid);
-  const gridfem::PoissonSolution solution =
-    gridfem::SolvePoisson(*space, multigrid, space->LoadOfValues(heights), {}, equation);
-  const gridfem::MultiVector atPoints = space->ValuesAtPoints(solution.coefficients);
-  std::cout << (solution.report.converged ? "converged" : "stopped") << " after "
-            << solution.report.iterations << " iterations; heights up to "
-            << heights.values.maxCoeff() << " became " << atPoints.maxCoeff() << "\n";
+  std::cout << surface.Space().NumberOfFunctions(0) << " functions, made "
+            << stages.Runs(gridfem::SpaceStage) << " time, solved "
+            << stages.Runs(gridfem::SolveStage) << " times\n";
 
-  gridfem::SpectrumOptions modes;
+  // One call without anything that stays.
+  gridfem::SpectrumSolver::Options modes;
   modes.numberOfModes = 5;
-  const gridfem::Spectrum spectrum = gridfem::ComputeSpectrum(*space, modes);
-  std::cout << "eigenvalues per area:";
+  const gridfem::SpectrumSolver::Result spectrum =
+    gridfem::SpectrumSolver::Solve(mesh, {}, modes, functions);
+  std::cout << "eigenvalues:";
   for (const double eigenvalue : spectrum.eigenvalues)
   {
-    std::cout << " " << eigenvalue / (space->UnitLength() * space->UnitLength());
+    std::cout << " " << eigenvalue;
   }
   std::cout << "\n";
 }

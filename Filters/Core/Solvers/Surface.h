@@ -51,7 +51,8 @@ public:
   /// The triangles that Prepare is going to work on, for the choice of a depth.
   virtual std::shared_ptr<const TriangleMesh> ReadMesh() const = 0;
 
-  /// The stages of the surface and of the solver that works on it.
+  /// The stages of the surface and of the solver that works on it. A surface serves one solver: two
+  /// would take each other's results for their own. Give another solver a surface of its own.
   Stages& GetStages() const { return stages_; }
 
   /// Changes when functions are added, removed or renumbered, so that a hierarchy cannot be
