@@ -110,7 +110,7 @@ double LargestError(
   double error = 0.0;
   for (std::size_t k = 1; k < std::min({ count, values.size(), exact.size() }); ++k)
   {
-    error = Larger(error, std::abs(values[k] / exact[k] - 1.0));
+    error = gridfem::testing::Larger(error, std::abs(values[k] / exact[k] - 1.0));
   }
   return values.size() < count ? HUGE_VAL : error;
 }
@@ -174,11 +174,11 @@ void RunRigidMotions(const NamedMesh& mesh)
     for (const std::vector<double>& spectrum : spectra)
     {
       low = std::min(low, spectrum.at(mode));
-      high = Larger(high, spectrum.at(mode));
+      high = gridfem::testing::Larger(high, spectrum.at(mode));
     }
     const double spread = 2.0 * (high - low) / (high + low);
     spread50 = mode < 50 ? std::max(spread50, spread) : spread50;
-    spread100 = Larger(spread100, spread);
+    spread100 = gridfem::testing::Larger(spread100, spread);
   }
   std::printf("\n%s, ten rigid motions, depth %d\n", mesh.name.c_str(), Depth);
   std::string name = mesh.name;

@@ -1,4 +1,5 @@
 #include "DistanceErrors.h"
+
 #include "Largest.h"
 
 #include <algorithm>
@@ -17,8 +18,8 @@ DistanceErrors ErrorsOf(const std::vector<double>& found, const std::vector<doub
     if (std::isfinite(exact[i]))
     {
       const double error = std::abs(found[i] - exact[i]);
-      longest = Larger(longest, exact[i]);
-      errors.largest = std::max(errors.largest, error);
+      longest = std::max(longest, exact[i]);
+      errors.largest = testing::Larger(errors.largest, error);
       errors.mean += error * error;
       count += 1.0;
     }

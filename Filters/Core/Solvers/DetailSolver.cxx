@@ -262,18 +262,23 @@ void DetailSolver::SolveBlocks(
     request, options.equation, job.progress);
 }
 
-/// Returns the coefficients of the change, which is linear in the scales inside and outside of the
-/// selection.
-MultiVector DetailSolver::Change(const Options& options) const
+/// Returns the change at the points. It is linear in the scales inside and outside of the
+/// selection. The solution reaches beyond the selection by about 1 / sqrt(ScreeningWeight), so the
+/// part of the selection counts only where its fade does: points outside keep the change of the
+/// outer scale.
+MultiVector DetailSolver::ChangeAtPoints(const Options& options, int threads) const
 {
   const MultiVector& solved = equation_.Solution().coefficients;
   const Id columns = signal_.coefficients.cols();
   const double everywhere = fade_ ? options.outsideScale : options.detailScale;
-  MultiVector change =
+  const MultiVector outside =
     everywhere * solved.middleCols(scale_ ? columns : 0, columns) - solved.leftCols(columns);
+  MultiVector change = this->MetricSpace().ValuesAtPoints(outside, threads);
   if (fade_)
   {
-    change += (options.detailScale - options.outsideScale) * solved.rightCols(columns);
+    const MultiVector inside = this->MetricSpace().ValuesAtPoints(
+      (options.detailScale - options.outsideScale) * solved.rightCols(columns), threads);
+    change += fade_->values.col(0).asDiagonal() * inside;
   }
   return change;
 }
@@ -308,7 +313,7 @@ void DetailSolver::Report(const Surface& surface, const Input& input, const Opti
 {
   const TriangleMesh& mesh = surface.Mesh();
   const int threads = surface.Threads();
-  result_.change = this->MetricSpace().ValuesAtPoints(this->Change(options), threads);
+  result_.change = this->ChangeAtPoints(options, threads);
   result_.points.clear();
   if (input.values)
   {

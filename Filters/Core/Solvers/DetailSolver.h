@@ -95,7 +95,7 @@ private:
   void SolveBlocks(
     const Surface& surface, const Input& input, const Options& options, const Job& job);
   const FiniteElementSpace& MetricSpace() const; // in the metric that the curvatures give
-  MultiVector Change(const Options& options) const;
+  MultiVector ChangeAtPoints(const Options& options, int threads) const;
   MultiVector ScaleAtPoints(const TriangleMesh& mesh, const Options& options, int threads) const;
   SolutionAccuracy AccuracyOfChange(const Options& options) const;
   void Report(const Surface& surface, const Input& input, const Options& options);

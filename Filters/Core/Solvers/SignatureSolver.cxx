@@ -65,6 +65,28 @@ void RequireOnPoints(const GivenField& values)
   }
 }
 
+/// Throws InvalidInput for a band that no mode is in.
+/// @return  the warning about modes that the filter asks for and that do not exist; empty: none
+std::string WarningOfBand(const SignatureSolver::Options& options, int modes)
+{
+  const bool isBand = options.filterType == ModeFilter::BandPass;
+  if (isBand && options.firstMode >= modes)
+  {
+    throw InvalidInput("There is no mode " + std::to_string(options.firstMode) +
+                       ", only modes 0 to " + std::to_string(modes - 1) +
+                       ": no mode passes. Choose a smaller FirstMode or a larger NumberOfModes.");
+  }
+  const bool isHigh = options.filterType == ModeFilter::HighPass;
+  const int last = isHigh ? options.firstMode - 1 : options.lastMode;
+  if (options.filterType == ModeFilter::None || last < modes)
+  {
+    return {};
+  }
+  return std::string(isHigh ? "FirstMode" : "LastMode") + " is beyond the last mode, " +
+         std::to_string(modes - 1) + ": the filter " + (isHigh ? "removes" : "keeps") +
+         " the modes that exist. A larger NumberOfModes adds more.";
+}
+
 } // namespace
 
 const SignatureSolver::Result& SignatureSolver::Update(
@@ -75,9 +97,20 @@ const SignatureSolver::Result& SignatureSolver::Update(
   {
     RequireOnPoints(input.values);
   }
+  if (options.filterType == ModeFilter::BandPass && options.firstMode > options.lastMode)
+  {
+    throw InvalidInput("FirstMode " + std::to_string(options.firstMode) + " is above LastMode " +
+                       std::to_string(options.lastMode) + ": no mode passes.");
+  }
   job.Check(0.0);
   this->UpdateModes(surface, input, options, job.progress.Part(0.0, 0.97));
   job.Check(0.97);
+  const std::string warning =
+    WarningOfBand(options, static_cast<int>(result_.modes->eigenvalues.size()));
+  if (!warning.empty())
+  {
+    result_.warnings.push_back(warning);
+  }
   this->UpdateSums(surface, input, options, OfOwnPoints(surface, job.progress.Part(0.97, 1.0)));
   return result_;
 }
@@ -96,6 +129,7 @@ void SignatureSolver::UpdateModes(
         result_ = {};
         result_.modes = input.modes.modes;
       });
+    result_.warnings.clear();
     return;
   }
   SpectrumSolver::Input ofSpectrum;

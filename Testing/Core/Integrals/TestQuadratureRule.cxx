@@ -64,7 +64,7 @@ TEST_P(TriangleRules, AreNotExactBeyondTheirDegree)
   {
     const double error =
       Moment(rule, i, rule.degree + 1 - i, 0) - ExactMoment(i, rule.degree + 1 - i, 0);
-    worst = Larger(worst, std::abs(error));
+    worst = gridfem::testing::Larger(worst, std::abs(error));
   }
   EXPECT_GT(worst, 1e-9);
 }

@@ -54,7 +54,7 @@ double WorstReduction(const Multigrid& multigrid)
   double worst = 0.0;
   for (std::size_t i = 1; i < history.size(); ++i)
   {
-    worst = Larger(worst, history[i] / history[i - 1]);
+    worst = gridfem::testing::Larger(worst, history[i] / history[i - 1]);
   }
   return worst;
 }

@@ -108,6 +108,27 @@ TEST(DetailSolver, AnArrayIsScaledAsTheCoordinatesAre)
   EXPECT_LT(difference, 1e-6);
 }
 
+TEST(DetailSolver, PointsOutsideTheSelectionAndItsTransitionStay)
+{
+  const auto mesh = Ring();
+  const DetailSolver::Input input = HalfSelected(*mesh);
+  DetailSolver::Options options = ByCurvature();
+  options.outsideScale = 1.0;
+  for (const double width : { 0.0, 0.1 })
+  {
+    options.transitionWidth = width;
+    const DetailSolver::Result result = DetailSolver::Solve(mesh, input, options, Coarse());
+    double inside = 0.0;
+    for (Id point = 0; point < result.change.rows(); ++point)
+    {
+      const double move = result.change.row(point).norm();
+      inside = Larger(inside, move);
+      EXPECT_TRUE(result.selected(point, 0) > 0.0 || move == 0.0) << point;
+    }
+    EXPECT_GT(inside, 1e-3);
+  }
+}
+
 TEST(DetailSolver, EachOptionChangesTheResultAsInANewSolver)
 {
   const auto mesh = Ring();

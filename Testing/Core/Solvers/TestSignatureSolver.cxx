@@ -144,5 +144,27 @@ TEST_F(Signatures, WrongInputIsRefused)
   EXPECT_THROW(SignatureSolver::Solve(mesh, {}, options, asked), InvalidInput);
 }
 
+TEST_F(Signatures, BandsBeyondTheModesAreToldAndEmptyOnesRefused)
+{
+  LocalSurface surface(stages, mesh, asked);
+  options.filterType = ModeFilter::LowPass;
+  options.lastMode = 20;
+  EXPECT_TRUE(solver.Update(surface, input, options, {}).warnings.empty());
+  options.lastMode = 500;
+  EXPECT_EQ(solver.Update(surface, input, options, {}).warnings.size(), 1u);
+  EXPECT_EQ(solver.Update(surface, input, options, {}).warnings.size(), 1u);
+  options.filterType = ModeFilter::HighPass;
+  options.firstMode = 26; // removes all 25 modes, and no other
+  EXPECT_EQ(solver.Update(surface, input, options, {}).warnings.size(), 1u);
+  options.firstMode = 25;
+  EXPECT_TRUE(solver.Update(surface, input, options, {}).warnings.empty());
+  options.filterType = ModeFilter::BandPass;
+  options.lastMode = 50;
+  EXPECT_THROW(solver.Update(surface, input, options, {}), InvalidInput);
+  options.firstMode = 10;
+  options.lastMode = 5;
+  EXPECT_THROW(solver.Update(surface, input, options, {}), InvalidInput);
+}
+
 } // namespace
 } // namespace gridfem
