@@ -161,6 +161,7 @@ int vtkSurfaceFEMAlgorithm::RequestData(
   options.solve.maximumIterations = this->MaximumIterations;
   options.accuracy = this->WantedAccuracy();
   options.parameterUnits = static_cast<gridfem::ParameterUnits>(this->ParameterUnits);
+  this->State->SetInput(nullptr, nullptr); // Compute sets it; that of the last run may be gone
 
   EmptyOutputs(outputs);
   this->SetErrorCode(vtkErrorCode::NoError);
@@ -217,8 +218,8 @@ int vtkSurfaceFEMAlgorithm::RunCompute(vtkInformationVector** inputs, vtkInforma
   catch (const std::bad_alloc&)
   {
     this->FreeStages(); // the next run and the message may need the memory
-    vtkErrorMacro(
-      "Out of memory at Depth " << this->State->options.space.depth << ": choose a smaller Depth.");
+    vtkErrorMacro("Out of memory at Depth " << this->State->UsedOptions().space.depth
+                                            << ": choose a smaller Depth.");
   }
   catch (const std::exception& error)
   {

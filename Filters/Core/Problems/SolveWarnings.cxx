@@ -70,6 +70,12 @@ IterationRecord LastRecord(const SolveReport& report)
   return report.history.empty() ? IterationRecord{ 0, 0.0, 0.0 } : report.history.back();
 }
 
+std::vector<std::string> NotEmpty(std::vector<std::string> sentences)
+{
+  sentences.erase(std::remove(sentences.begin(), sentences.end(), std::string()), sentences.end());
+  return sentences;
+}
+
 std::string Joined(const std::vector<std::string>& sentences)
 {
   std::string text;

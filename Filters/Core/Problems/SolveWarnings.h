@@ -26,6 +26,9 @@ IterationRecord LastRecord(const SolveReport& report);
 /// The sentences that are not empty, with spaces between them.
 std::string Joined(const std::vector<std::string>& sentences);
 
+/// The sentences that are not empty.
+std::vector<std::string> NotEmpty(std::vector<std::string> sentences);
+
 /// The warning when a solve has not converged to a tolerance.
 std::string WarningOf(const SolveReport& report, double tolerance);
 

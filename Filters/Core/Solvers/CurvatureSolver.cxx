@@ -46,14 +46,6 @@ PrincipalCurvatures CurvaturesOf(const Surface& surface, double smoothingScale,
     space.get(), smoothing, report, job);
 }
 
-EquationOptions CurvatureSolver::OfSmoothing()
-{
-  EquationOptions equation;
-  equation.solve.tolerance = 1e-4;
-  equation.solve.maximumIterations = 200;
-  return equation;
-}
-
 SurfaceOptions CurvatureSolver::SurfaceDefaults()
 {
   SurfaceOptions options;

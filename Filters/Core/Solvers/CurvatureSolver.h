@@ -27,7 +27,7 @@ class CurvatureSolver
 public:
   struct Options
   {
-    EquationOptions equation = OfSmoothing();
+    EquationOptions equation = EndedByTolerance(1e-4);
     double smoothingScale = 0.0; // of the normals: length in parameter units; 0: none
 
     template<class Self, class Visit>
@@ -64,8 +64,6 @@ public:
     const SurfaceOptions& surfaceOptions = SurfaceDefaults(), const Job& job = {});
 
 private:
-  static EquationOptions OfSmoothing();
-
   void Fit(const Surface& surface, const Options& options, const Job& job);
 
   Result result_;

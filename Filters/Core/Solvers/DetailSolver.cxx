@@ -97,14 +97,6 @@ EquationOptions WithThreads(EquationOptions equation, int threads)
 
 } // namespace
 
-EquationOptions DetailSolver::ToDetail()
-{
-  EquationOptions equation;
-  equation.solve.tolerance = 1e-4;
-  equation.solve.maximumIterations = 200;
-  return equation;
-}
-
 SurfaceOptions DetailSolver::SurfaceDefaults()
 {
   SurfaceOptions options;

@@ -22,7 +22,7 @@ class DetailSolver
 public:
   struct Options
   {
-    EquationOptions equation = ToDetail();
+    EquationOptions equation = EndedByTolerance(1e-4);
     double detailScale = 2.0;        // within the selection, or everywhere without one
     double outsideScale = 1.0;       // outside the selection
     double transitionWidth = 0.02;   // between them: length in parameter units
@@ -83,8 +83,6 @@ public:
     const Job& job = {});
 
 private:
-  static EquationOptions ToDetail();
-
   void UpdateMetric(const Surface& surface, const Options& options, const Job& job);
   void UpdateWeights(
     const Surface& surface, const Input& input, const Options& options, const Job& job);

@@ -163,8 +163,7 @@ std::vector<std::string> DiffusionSolver::Warnings(int step) const
   {
     warnings.push_back(WarningOfConstraints(shown.met));
   }
-  warnings.erase(std::remove(warnings.begin(), warnings.end(), std::string()), warnings.end());
-  return warnings;
+  return NotEmpty(std::move(warnings));
 }
 
 DiffusionSolver::Result DiffusionSolver::Solve(std::shared_ptr<const TriangleMesh> mesh,

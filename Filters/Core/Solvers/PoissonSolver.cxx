@@ -4,7 +4,6 @@
 #include "Problems/SolveWarnings.h"
 #include "Solvers/LocalSurface.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace gridfem
@@ -263,8 +262,7 @@ void PoissonSolver::Report(const Surface& surface, const Input& input, const Opt
     result_.warnings.push_back(
       WarningOfWantedError(options.wantedError, error, surface.UsedOptions().choice.kind));
   }
-  auto& warnings = result_.warnings;
-  warnings.erase(std::remove(warnings.begin(), warnings.end(), std::string()), warnings.end());
+  result_.warnings = NotEmpty(std::move(result_.warnings));
 }
 
 PoissonSolver::Result PoissonSolver::Solve(std::shared_ptr<const TriangleMesh> mesh,

@@ -116,9 +116,8 @@ const StitchSolver::Result& StitchSolver::Update(
       result_.accuracy = stitched.accuracy;
       result_.isReached = space->PointsWithFunctions();
     });
-  const std::string warning =
-    WarningOf(result_.report, result_.accuracy, options.equation.solve.tolerance);
-  result_.warnings.assign(warning.empty() ? 0 : 1, warning);
+  result_.warnings =
+    NotEmpty({ WarningOf(result_.report, result_.accuracy, options.equation.solve.tolerance) });
   return result_;
 }
 
