@@ -224,14 +224,17 @@ private:
 
 vtkStandardNewMacro(vtkSMShowsLastStep);
 
-/// Whether the values of an array are colours themselves.
-bool AreColors(vtkPVArrayInformation* array)
+/// Whether the values of an array are colors themselves.
+/// @param direct  "bytes", or "fractions": numbers from 0 to 1 as well
+bool AreColors(vtkPVArrayInformation* array, const std::string& direct)
 {
-  if (array->GetNumberOfComponents() != 3 && array->GetNumberOfComponents() != 4)
+  const int components = array->GetNumberOfComponents();
+  if (direct.empty() || (components != 3 && components != 4))
   {
     return false;
   }
-  bool areFractions = array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
+  bool areFractions = direct == "fractions" &&
+                      (array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE);
   for (int c = 0; c < array->GetNumberOfComponents(); ++c)
   {
     const double* range = array->GetComponentRange(c);
@@ -249,11 +252,10 @@ public:
   void PostInitializeProxy(vtkSMProxy* proxy, vtkPVXMLElement* xml, vtkMTimeType) override
   {
     const std::string name = xml->GetAttributeOrEmpty("array");
-    int isDirect = 0;
-    xml->GetScalarAttribute("direct", &isDirect);
+    const std::string direct = xml->GetAttributeOrEmpty("direct");
     auto* filter = vtkSMSourceProxy::SafeDownCast(proxy);
     Watch(proxy, vtkCommand::UpdateDataEvent,
-      [filter, name, isDirect](void*)
+      [filter, name, direct](void*)
       {
         vtkPVDataInformation* data = filter ? filter->GetDataInformation(0) : nullptr;
         for (int association : { vtkDataObject::POINT, vtkDataObject::CELL })
@@ -264,7 +266,7 @@ public:
           {
             if (HasWindow())
             {
-              ColorBy(filter, array, association, isDirect && AreColors(array));
+              ColorBy(filter, array, association, AreColors(array, direct));
             }
             return true;
           }

@@ -3,7 +3,7 @@
 //   <Hints>
 //     <InitializationHelper class="vtkSMOpensBeside" port="1" />
 //     <InitializationHelper class="vtkSMShowsLastStep" />
-//     <InitializationHelper class="vtkSMColorsLater" array="StitchedColors" direct="1" />
+//     <InitializationHelper class="vtkSMColorsLater" array="StitchedColors" direct="fractions" />
 //     <InitializationHelper class="vtkSMShowsEdges" most="20000" />
 //   </Hints>
 //
@@ -13,8 +13,9 @@
 //                       source has time steps that would move with it
 //   vtkSMColorsLater    port 0 is coloured by the array as soon as it has it. ParaView looks once,
 //                       when it shows a filter, which may be before its arrays were chosen. Colours
-//                       of the user are left alone. direct: three or four bytes, or numbers from 0
-//                       to 1, are shown as the colours that they are, without a bar.
+//                       of the user are left alone. direct="bytes" shows three or four bytes as the
+//                       colors they are, without a bar; "fractions" does the same for numbers from
+//                       0 to 1, too
 //   vtkSMShowsEdges     port 0 is a surface with edges when it is first shown, where it has no more
 //                       cells than this: more edges hide the colours
 //

@@ -6,8 +6,12 @@
 `points` is an array of N rows with three coordinates. `cells` is an array of M rows with the point ids
 of a polygon each: triangles, or any other number of corners. `gridfem.arrays(mesh)` gives both for a
 mesh of PyVista, trimesh or meshio. Values with N rows belong to points, values with M rows to cells.
-Keyword arguments in capitals, such as `Depth=8` or `FunctionSpace=1`, are properties of the filter that
-does the work. The pages in Plugin/Documentation describe them.
+Keyword arguments in capitals, such as `Depth=8` or `FunctionSpace="HatFunctions"`, are properties of the
+filter that does the work. The pages in Plugin/Documentation describe them. A choice is a name or its
+number. A value out of range raises Error.
+
+A part of a mesh is its cells: `cells[labels == 1]` computes there as if the rest were cut away. Results
+are NaN at points that no cell uses.
 
 The package comes in two forms with the same functions and results. The form beside ParaView's plugin
 runs the filters. On several MPI ranks each rank computes alone, on its own arrays. The filters
@@ -19,16 +23,29 @@ properties that change the result of a function.
 import numpy
 
 from . import _inputs
-from ._inputs import Error, arrays
+from ._inputs import Error
 
 try:
-    from ._without_vtk import solve as _solve
+    from ._without_vtk import solve as _solve_numbered, triangulate as _triangulate
 except ImportError:
-    from ._with_vtk import solve as _solve, surface
+    from ._with_vtk import solve as _solve_numbered, surface, triangulate as _triangulate
 
 __all__ = ["Error", "arrays", "curvatures", "decompose", "detail", "diffuse", "distance",
            "divergence", "farthest_points", "flow", "gradient", "interpolate", "poisson", "signatures",
            "signed_distance", "spectrum", "stitch"]
+
+
+def arrays(mesh):
+    """Returns the points and cells of a mesh of PyVista, trimesh or meshio, or of any data set of VTK.
+
+    Polygons of different numbers of corners, and strips, become triangles. A volume mesh of PyVista or
+    VTK gives its surface.
+    """
+    return _inputs.mesh_arrays(mesh, _triangulate)
+
+
+def _solve(name, points, cells, given, properties, sources=()):
+    return _solve_numbered(name, points, cells, given, _inputs.chosen(properties), sources)
 
 
 def spectrum(points, cells, number=20, **properties):

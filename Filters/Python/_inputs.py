@@ -75,6 +75,47 @@ def placed(name, values, points, cells):
     return values, len(values) == len(points)
 
 
+# The values of choices by name, in the order of their numbers.
+CHOICES = {
+    "FilterType": ("NoFilter", "LowPass", "HighPass", "BandPass"),
+    "FunctionSpace": ("Grid", "HatFunctions"),
+    "ParameterUnits": ("World", "UnitArea", "UnitCube"),
+    "Rescale": ("Automatic", "NoRescale", "ConstantArea", "ConstantVolume"),
+    "Smoothness": ("Harmonic", "Biharmonic"),
+    "TransferFunction": ("Isotropic", "LargeNegative", "LargePositive", "LargeAbsolute", "Custom")}
+
+
+def chosen(properties):
+    """Returns properties with numbers in place of the names of choices."""
+    numbered = dict(properties)
+    for name, value in properties.items():
+        if isinstance(value, str) and name in CHOICES:
+            if value not in CHOICES[name]:
+                raise Error(f"{name} = {value!r}: must be one of {', '.join(CHOICES[name])}")
+            numbered[name] = CHOICES[name].index(value)
+    return numbered
+
+
+def require_range(name, value, least, most):
+    """Raises Error for a number outside of [least, most]. NaN passes: the solver refuses it."""
+    if value < least or value > most:
+        bounds = f"{least:g} or more" if most > 1e9 else f"{least:g} to {most:g}"
+        raise Error(f"{name} = {value!r}: must be {bounds}")
+
+
+def result_like(result, given, on_points):
+    """Returns a solution in the type of the values: bytes for colors, float32, or float64.
+
+    Colors are clamped and rounded. Where there is no solution, they are the given ones, or black.
+    """
+    if given.dtype == numpy.uint8 and given.ndim == 2 and given.shape[1] in (3, 4):
+        unsolved = numpy.isnan(result)
+        if unsolved.any():
+            result = numpy.where(unsolved, given if on_points else 0, result)
+        return numpy.clip(numpy.round(result), 0, 255).astype(numpy.uint8)
+    return result.astype(numpy.float32) if given.dtype == numpy.float32 else result
+
+
 def _from_counted(faces):
     """Returns rows of ids from a list in which the number of corners stands before the ids of each
     face."""
@@ -87,40 +128,70 @@ def _from_counted(faces):
     return polygons
 
 
-def _rows(polygons):
-    """Returns one array of the polygons. Polygons of different sizes become triangles, as fans."""
-    polygons = [numpy.asarray(polygon) for polygon in polygons]
+def _rows(points, polygons, triangulate):
+    """Returns one array of the polygons. Polygons of different sizes become triangles."""
+    polygons = [numpy.asarray(polygon, dtype=numpy.int64) for polygon in polygons]
     if len({len(polygon) for polygon in polygons}) > 1:
-        polygons = [polygon[[0, k, k + 1]] for polygon in polygons
-                    for k in range(1, len(polygon) - 1)]
+        polygons = [triangle for polygon in polygons if len(polygon) > 2
+                    for triangle in polygon[triangulate(_in_space(points)[polygon])]]
     return numpy.array(polygons, dtype=numpy.int64)
 
 
-def arrays(mesh):
-    """Returns the points and cells of a mesh of PyVista, trimesh or meshio, or of a vtkPolyData.
-
-    Polygons of different numbers of corners become triangles.
-    """
-    if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):  # trimesh.Trimesh
-        points, cells = mesh.vertices, mesh.faces
-    elif hasattr(mesh, "points") and hasattr(mesh, "faces"):  # pyvista.PolyData
-        points, cells = mesh.points, _rows(_from_counted(mesh.faces))
-    elif hasattr(mesh, "points") and hasattr(mesh, "cells"):  # meshio.Mesh
-        points = mesh.points
-        cells = _rows([polygon for block in mesh.cells
-                       if block.type in ("triangle", "quad", "polygon") for polygon in block.data])
-    elif hasattr(mesh, "GetPolys"):  # vtkPolyData
-        from vtkmodules.util.numpy_support import vtk_to_numpy
-        points = vtk_to_numpy(mesh.GetPoints().GetData())
-        offsets = vtk_to_numpy(mesh.GetPolys().GetOffsetsArray())
-        ids = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray())
-        cells = _rows(numpy.split(ids, offsets[1:-1]))
-    else:
-        raise Error(f"{type(mesh).__name__} is no mesh with points and faces, vertices and faces, "
-                    "or points and cells")
+def _in_space(points):
+    """Returns points with three coordinates. Those in the plane, as meshio has them, get z = 0."""
     points = numpy.asarray(points, dtype=float)
-    if points.ndim == 2 and points.shape[1] == 2:  # meshio's form in the plane
+    if points.ndim == 2 and points.shape[1] == 2:
         points = numpy.column_stack([points, numpy.zeros(len(points))])
+    return points
+
+
+def _of_vtk(data):
+    """Returns points and polygons of a data set of VTK: of its surface, with strips as triangles."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkCommonDataModel import vtkPolyData
+    from vtkmodules.vtkFiltersCore import vtkTriangleFilter
+    from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
+    if not isinstance(data, vtkPolyData):
+        surface = vtkDataSetSurfaceFilter()
+        surface.SetInputData(data)
+        surface.Update()
+        data = surface.GetOutput()
+    if data.GetNumberOfStrips() or len(numpy.unique(numpy.diff(
+            vtk_to_numpy(data.GetPolys().GetOffsetsArray())))) > 1:
+        triangles = vtkTriangleFilter()
+        triangles.SetInputData(data)
+        triangles.PassVertsOff()
+        triangles.PassLinesOff()
+        triangles.Update()
+        data = triangles.GetOutput()
+    if not data.GetNumberOfPolys():
+        raise Error("The mesh has no polygons.")
+    ids = vtk_to_numpy(data.GetPolys().GetConnectivityArray())
+    return (vtk_to_numpy(data.GetPoints().GetData()),
+            ids.reshape(data.GetNumberOfPolys(), -1))
+
+
+def mesh_arrays(mesh, triangulate):
+    """Returns the points and cells of a mesh.
+
+    triangulate: returns the triangles of one polygon as rows of its corners, from their coordinates.
+    """
+    if hasattr(mesh, "IsA") and mesh.IsA("vtkDataSet"):  # also PyVista's
+        points, cells = _of_vtk(mesh)
+    elif hasattr(mesh, "vertices") and hasattr(mesh, "faces"):  # trimesh.Trimesh
+        points, cells = mesh.vertices, mesh.faces
+    elif hasattr(mesh, "points") and hasattr(mesh, "faces"):  # in the form of pyvista.PolyData
+        points = mesh.points
+        cells = _rows(points, _from_counted(mesh.faces), triangulate)
+    elif hasattr(mesh, "points") and all(hasattr(block, "type") for block in getattr(mesh, "cells", [0])):
+        points = mesh.points  # meshio.Mesh
+        cells = _rows(points, [polygon for block in mesh.cells
+                               if block.type in ("triangle", "quad", "polygon")
+                               for polygon in block.data], triangulate)
+    else:
+        raise Error(f"{type(mesh).__name__} is no mesh with points and faces, vertices and faces, or "
+                    "points and blocks of cells. PyVista's extract_surface() makes one of a volume mesh.")
+    points = _in_space(points)
     cells = numpy.asarray(cells, dtype=numpy.int64)
     if cells.size == 0:
         raise Error("The mesh has no polygons.")

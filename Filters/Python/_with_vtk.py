@@ -7,11 +7,12 @@ import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.util.vtkConstants import VTK_STRING
 from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataObject, vtkPolyData
+from vtkmodules.vtkCommonCore import vtkIdList
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataObject, vtkPolyData, vtkPolygon
 from vtkmodules.vtkParallelCore import vtkDummyController, vtkMultiProcessController
 
 from . import vtkGridFEMFilters
-from ._inputs import Error, checked, placed
+from ._inputs import Error, checked, placed, require_range
 
 _POINTS = vtkDataObject.FIELD_ASSOCIATION_POINTS
 _CELLS = vtkDataObject.FIELD_ASSOCIATION_CELLS
@@ -79,6 +80,32 @@ class _Results:
         return vtk_to_numpy(found.GetArray(name)).copy()
 
 
+def triangulate(corners):
+    """Returns the triangles of a polygon, which may be concave, as rows of its corners."""
+    polygon = vtkPolygon()
+    polygon.GetPoints().SetData(numpy_to_vtk(corners, deep=True))
+    polygon.GetPointIds().SetNumberOfIds(len(corners))
+    for k in range(len(corners)):
+        polygon.GetPointIds().SetId(k, k)
+    triangles = vtkIdList()
+    polygon.Triangulate(triangles)
+    return numpy.array([triangles.GetId(k) for k in range(triangles.GetNumberOfIds())],
+                       dtype=numpy.int64).reshape(-1, 3)
+
+
+def _set(algorithm, name, key, value):
+    """Sets a property. Raises Error for one that does not exist, and for a value out of range."""
+    if not hasattr(algorithm, "Set" + key):
+        raise Error(f"{name} has no property {key}")
+    try:
+        if hasattr(algorithm, f"Get{key}MinValue") and not isinstance(value, str):
+            require_range(key, value, getattr(algorithm, f"Get{key}MinValue")(),
+                          getattr(algorithm, f"Get{key}MaxValue")())
+        getattr(algorithm, "Set" + key)(value)
+    except (TypeError, OverflowError) as error:
+        raise Error(f"{key} = {value!r}: {error}") from None
+
+
 def solve(name, points, cells, arrays, properties, sources=()):
     """Returns the arrays that the filter gives, by their names.
 
@@ -102,12 +129,7 @@ def solve(name, points, cells, arrays, properties, sources=()):
     if name == "LaplaceSpectrum":
         algorithm.AllModesOn()
     for key, value in properties.items():
-        if not hasattr(algorithm, "Set" + key):
-            raise Error(f"{name} has no property {key}")
-        try:
-            getattr(algorithm, "Set" + key)(value)
-        except (TypeError, OverflowError) as error:
-            raise Error(f"{key} = {value!r}: {error}") from None
+        _set(algorithm, name, key, value)
     for point in sources:
         algorithm.AddSourcePointId(int(point))
     algorithm.SetInputData(data)

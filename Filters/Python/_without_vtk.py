@@ -5,7 +5,7 @@ import warnings
 
 import numpy
 
-from ._inputs import Error, checked, placed
+from ._inputs import Error, checked, placed, require_range, result_like
 
 
 def _levels():
@@ -55,6 +55,11 @@ def _number(name, value):
         raise Error(f"{name} = {value!r}: must be a number") from None
 
 
+def triangulate(corners):
+    """Returns the triangles of a polygon, which may be concave, as rows of its corners."""
+    return _core.triangulate(corners)
+
+
 def solve(name, points, cells, arrays, properties, sources=()):
     """Returns the arrays that the filter of this name would give, by their names.
 
@@ -63,14 +68,18 @@ def solve(name, points, cells, arrays, properties, sources=()):
     points, cells = checked(points, cells)
     given = {array: placed(array, values, points, cells)
              for array, values in arrays.items() if values is not None}
+    numbers = {key: _number(key, value) for key, value in properties.items()}
+    ranges = _core.properties(name)
+    for key in numbers.keys() & ranges.keys():
+        require_range(key, properties[key], *ranges[key][1:])
     try:
         results, messages = _core.solve(
             name, points, cells,
             {array: (_matrix(values), on_points) for array, (values, on_points) in given.items()},
-            {key: _number(key, value) for key, value in properties.items()},
+            numbers,
             [int(source) for source in sources])
     except MemoryError:
-        depth = properties.get("Depth", _core.properties(name)["Depth"][0])
+        depth = properties.get("Depth", ranges["Depth"][0])
         raise Error(f"Out of memory at Depth {depth:g}: choose a smaller Depth.") from None
     except ValueError as error:
         raise Error(str(error)) from None
@@ -78,9 +87,9 @@ def solve(name, points, cells, arrays, properties, sources=()):
         warnings.warn(text, RuntimeWarning, stacklevel=3)
     results = {array: values[:, 0] if values.shape[1] == 1 and array != "Modes" else values
                for array, values in results.items()}
-    for array in ("Solution", "Interpolated", "Filtered"):  # they have the type of the given values
-        if array in results and "values" in given and given["values"][0].dtype == numpy.float32:
-            results[array] = results[array].astype(numpy.float32)
+    for array in {"Solution", "Diffused", "Interpolated", "Filtered"} & results.keys():
+        if "values" in given:
+            results[array] = result_like(results[array], *given["values"])
     if "StitchedColors" in results:
         results["StitchedColors"] = _colors(results["StitchedColors"], given["colors"][0])
     return results

@@ -140,11 +140,9 @@ void vtkHarmonicInterpolation::Compute(vtkInformationVector** inputs, vtkInforma
   const gridfem::InterpolationSolver::Result& result =
     data.Solver.Update(state, { values }, options, { 0, state.GetProgress() });
 
-  auto array =
-    gridfem::MakePointArray("Interpolated", result.atPoints, data.Array.array->GetDataType());
-  array->CopyComponentNames(data.Array.array);
   output->ShallowCopy(input);
-  output->GetPointData()->AddArray(array);
+  output->GetPointData()->AddArray(gridfem::MakeSolution(
+    "Interpolated", result.atPoints, data.Array, data.Array.array->GetDataType()));
   output->GetPointData()->SetActiveScalars("Interpolated");
   gridfem::AddReport(result.report, output);
   gridfem::AddAccuracy(result.accuracy, output);

@@ -56,6 +56,10 @@ int vtkHeatDiffusion::FillInputPortInformation(int port, vtkInformation* info)
 
 std::vector<double> vtkHeatDiffusion::OwnTimeSteps()
 {
+  if (this->TimeFrom == Input || this->NumberOfSteps == 1)
+  {
+    return {};
+  }
   std::vector<double> steps(static_cast<std::size_t>(this->NumberOfSteps));
   std::iota(steps.begin(), steps.end(), 1.0);
   return steps;
@@ -92,7 +96,10 @@ void vtkHeatDiffusion::Compute(vtkInformationVector** inputs, vtkInformationVect
     options, { state.Threads(), progress.Part(0.0, 0.95) });
   data.Result = &result;
 
-  const int shown = gridfem::ShownStep(outputs->GetInformationObject(0), 1, this->NumberOfSteps);
+  const int shown =
+    this->OwnTimeSteps().empty()
+      ? this->NumberOfSteps
+      : gridfem::ShownStep(outputs->GetInformationObject(0), 1, this->NumberOfSteps);
   const gridfem::DiffusionSolver::Step& step = result.steps[static_cast<std::size_t>(shown) - 1];
   state.Together(
     [&]
@@ -119,21 +126,18 @@ void vtkHeatDiffusion::WriteStep(int shown, vtkPolyData* input, vtkPolyData* out
   const gridfem::InputArray& array = this->Data->Array;
   const gridfem::DiffusionSolver::Result& result = *this->Data->Result;
   gridfem::MultiVector values = result.steps[static_cast<std::size_t>(shown) - 1].atPoints;
-  vtkDataArray* given = array.array ? array.array : input->GetPoints()->GetData();
-  if (array.association == gridfem::FieldAssociation::Points)
-  {
-    gridfem::KeepUnsolved(result.isReached, given, values);
-  }
   output->ShallowCopy(input);
-  auto diffused = gridfem::MakePointArray("Diffused", values, VTK_DOUBLE);
+  vtkPointData* points = output->GetPointData();
   if (array.array)
   {
-    diffused->CopyComponentNames(array.array);
+    points->AddArray(
+      gridfem::MakeSolution("Diffused", values, array, this->State->DataTypeOf(0, array)));
+    points->SetActiveScalars("Diffused");
   }
-  output->GetPointData()->AddArray(diffused);
-  output->GetPointData()->SetActiveScalars("Diffused");
-  if (!array.array)
+  else
   {
+    gridfem::KeepUnsolved(input->GetPoints()->GetData(), values);
+    points->AddArray(gridfem::MakePointArray("Diffused", values, VTK_DOUBLE));
     gridfem::MoveSurface(this->State->Mesh(), values, gridfem::OutputPrecision(input->GetPoints()),
       this->NumberOfThreads, output);
   }
@@ -151,5 +155,6 @@ void vtkHeatDiffusion::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "DiffusionTime: " << this->DiffusionTime << "\n";
   os << indent << "NumberOfSteps: " << this->NumberOfSteps << "\n";
+  os << indent << "TimeFrom: " << this->TimeFrom << "\n";
   os << indent << "BoundaryValues: " << this->BoundaryValues << "\n";
 }

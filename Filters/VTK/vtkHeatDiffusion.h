@@ -32,7 +32,8 @@
  *   `Residual`, `ConvergenceFactor` and the estimated errors of vtkPoissonAlgorithm.
  * - field data, if values are held: `Misfit` (double, 1), the largest difference from a held value.
  *
- * Time: the steps are the time steps 1 .. NumberOfSteps. A request without a time gets the last.
+ * Time: the steps are the time steps 1 .. NumberOfSteps. A request without a time gets the last. A
+ * single step, or TimeFrom, gives the times of the input instead.
  * Steps are computed once and kept. If you ask for more steps of the same length, DiffusionTime /
  * NumberOfSteps, the filter computes only the new ones.
  *
@@ -78,6 +79,21 @@ public:
   vtkGetMacro(NumberOfSteps, int);
   ///@}
 
+  enum TimeFromType
+  {
+    Steps = 0,
+    Input = 1
+  };
+  ///@{
+  /**
+   * The meaning of time. Steps (default): every step is a time step of the output, and the input
+   * stays at one time. Input: the output has the times of the input, with the last step at each of
+   * them. A single step always follows the input.
+   */
+  vtkSetClampMacro(TimeFrom, int, Steps, Input);
+  vtkGetMacro(TimeFrom, int);
+  ///@}
+
   ///@{
   /**
    * When on, values are also held along the boundary of the surface. Default off.
@@ -109,6 +125,7 @@ protected:
 
   double DiffusionTime = 0.001;
   int NumberOfSteps = 1;
+  int TimeFrom = Steps;
   bool BoundaryValues = false;
 
 private:

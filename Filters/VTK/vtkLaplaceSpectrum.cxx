@@ -168,7 +168,10 @@ int vtkLaplaceSpectrum::ShownMode(vtkInformation* output) const
 void vtkLaplaceSpectrum::WriteModes(vtkPolyData* input, vtkInformation* info, vtkPolyData* output)
 {
   output->ShallowCopy(input);
-  gridfem::RemoveModes(output); // an earlier run may have had more
+  if (gridfem::CarriesModes(output))
+  {
+    gridfem::RemoveModes(output); // an earlier run may have had more
+  }
   if (!this->AllModes)
   {
     int shown = 0;

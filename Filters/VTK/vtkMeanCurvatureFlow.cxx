@@ -75,6 +75,10 @@ int vtkMeanCurvatureFlow::FillOutputPortInformation(int port, vtkInformation* in
 
 std::vector<double> vtkMeanCurvatureFlow::OwnTimeSteps()
 {
+  if (this->TimeFrom == Input)
+  {
+    return {};
+  }
   std::vector<double> steps(static_cast<std::size_t>(this->NumberOfSteps) + 1);
   std::iota(steps.begin(), steps.end(), 0.0);
   return steps;
@@ -108,7 +112,8 @@ void vtkMeanCurvatureFlow::Compute(vtkInformationVector** inputs, vtkInformation
     solver.Update(state, options, { state.Threads(), progress.Part(0.0, 0.9) });
 
   const int last = static_cast<int>(result.steps.size()) - 1;
-  const int shown = gridfem::ShownStep(outputs->GetInformationObject(0), 0, last);
+  const int shown =
+    this->TimeFrom == Input ? last : gridfem::ShownStep(outputs->GetInformationObject(0), 0, last);
   output->ShallowCopy(input);
   gridfem::MoveMesh(state.Mesh(), solver.PointsAt(shown, state, progress.Part(0.9, 0.98)),
     gridfem::OutputPrecision(input->GetPoints()), this->NumberOfThreads, output);
@@ -126,6 +131,7 @@ void vtkMeanCurvatureFlow::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "TimeStep: " << this->TimeStep << "\n";
   os << indent << "NumberOfSteps: " << this->NumberOfSteps << "\n";
+  os << indent << "TimeFrom: " << this->TimeFrom << "\n";
   os << indent << "Conformalized: " << this->Conformalized << "\n";
   os << indent << "TrackMetric: " << this->TrackMetric << "\n";
   os << indent << "FixedBoundary: " << this->FixedBoundary << "\n";

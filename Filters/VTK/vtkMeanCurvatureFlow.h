@@ -53,11 +53,11 @@
  *   contribute nothing.
  * - `DiscretizationError`, `Seconds`.
  *
- * Time: every step is a time step, with its number as time value, from 0, the input. A request
- * without a time gets the last step. All steps are computed once, and a larger NumberOfSteps
- * continues. The filter keeps evenly spread steps within a gigabyte, at 24 bytes for each function.
- * It always keeps the last. To show another step, it computes it again from the nearest kept step
- * before, with the same bits.
+ * Time: every step is a time step, with its number as time value, from 0, the input. TimeFrom can
+ * give the times of the input instead. A request without a time gets the last step. All steps are
+ * computed once, and a larger NumberOfSteps continues. The filter keeps evenly spread steps within
+ * a gigabyte, at 24 bytes for each function. It always keeps the last. To show another step, it
+ * computes it again from the nearest kept step before, with the same bits.
  *
  * A step fails if the surface has vanished or a matrix is not positive. The flow then ends with a
  * warning, and later times show the last step. Tolerance (default 5e-4) is on the energy of a
@@ -93,6 +93,21 @@ public:
    */
   vtkSetClampMacro(NumberOfSteps, int, 1, 100000);
   vtkGetMacro(NumberOfSteps, int);
+  ///@}
+
+  enum TimeFromType
+  {
+    Steps = 0,
+    Input = 1
+  };
+  ///@{
+  /**
+   * The meaning of time. Steps (default): every step is a time step of the output, and the input
+   * stays at one time. Input: the output has the times of the input, with the last step at each of
+   * them.
+   */
+  vtkSetClampMacro(TimeFrom, int, Steps, Input);
+  vtkGetMacro(TimeFrom, int);
   ///@}
 
   ///@{
@@ -160,6 +175,7 @@ protected:
 
   double TimeStep = 5e-5;
   int NumberOfSteps = 10;
+  int TimeFrom = Steps;
   bool Conformalized = false;
   bool TrackMetric = true;
   bool FixedBoundary = false;

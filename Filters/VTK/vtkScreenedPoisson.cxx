@@ -159,22 +159,19 @@ void vtkScreenedPoisson::WriteSolution(vtkPolyData* input, vtkPolyData* output)
   const Internals& data = *this->Data;
   const gridfem::SurfaceSolverState& state = *this->State;
   gridfem::MultiVector values = data.Result->atPoints;
-  vtkDataArray* given = data.Value.array ? data.Value.array : input->GetPoints()->GetData();
-  if (data.Value.association == gridfem::FieldAssociation::Points)
-  {
-    gridfem::KeepUnsolved(data.Result->isReached, given, values);
-  }
-  auto solution = gridfem::MakePointArray(
-    "Solution", values, data.Value.array ? state.DataTypeOf(0, data.Value) : given->GetDataType());
+  output->ShallowCopy(input);
+  vtkPointData* points = output->GetPointData();
   if (data.Value.array)
   {
-    solution->CopyComponentNames(data.Value.array);
+    points->AddArray(
+      gridfem::MakeSolution("Solution", values, data.Value, state.DataTypeOf(0, data.Value)));
+    points->SetActiveScalars("Solution");
   }
-  output->ShallowCopy(input);
-  output->GetPointData()->AddArray(solution);
-  output->GetPointData()->SetActiveScalars("Solution");
-  if (!data.Value.array)
+  else
   {
+    vtkDataArray* places = input->GetPoints()->GetData();
+    gridfem::KeepUnsolved(places, values);
+    points->AddArray(gridfem::MakePointArray("Solution", values, places->GetDataType()));
     gridfem::MoveSurface(state.CurrentMesh(), values, gridfem::OutputPrecision(input->GetPoints()),
       this->NumberOfThreads, output);
   }

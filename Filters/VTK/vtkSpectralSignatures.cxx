@@ -269,18 +269,19 @@ void vtkSpectralSignatures::WriteFiltered(vtkPolyData* input, vtkPolyData* outpu
 {
   const Internals& data = *this->Data;
   const gridfem::TriangleMesh& mesh = *data.Mesh.triangles;
-  vtkDataArray* given = data.Value.array ? data.Value.array : input->GetPoints()->GetData();
   gridfem::MultiVector values = data.Result->filtered;
-  gridfem::KeepUnsolved(gridfem::UsedPoints(mesh), given, values);
-  auto array = gridfem::MakePointArray("Filtered", values, given->GetDataType());
+  vtkPointData* points = output->GetPointData();
   if (data.Value.array)
   {
-    array->CopyComponentNames(data.Value.array);
+    points->AddArray(
+      gridfem::MakeSolution("Filtered", values, data.Value, data.Value.array->GetDataType()));
+    points->SetActiveScalars("Filtered");
   }
-  output->GetPointData()->AddArray(array);
-  output->GetPointData()->SetActiveScalars("Filtered");
-  if (!data.Value.array)
+  else
   {
+    vtkDataArray* places = input->GetPoints()->GetData();
+    gridfem::KeepUnsolved(places, values);
+    points->AddArray(gridfem::MakePointArray("Filtered", values, places->GetDataType()));
     gridfem::MoveSurface(
       mesh, values, gridfem::OutputPrecision(input->GetPoints()), this->NumberOfThreads, output);
   }

@@ -143,9 +143,8 @@ void vtkSurfaceDetail::WriteArray(vtkPolyData* output)
       values(point, c) += given->GetComponent(point, static_cast<int>(c));
     }
   }
-  auto filtered = gridfem::MakePointArray("Filtered", values, given->GetDataType());
-  filtered->CopyComponentNames(given);
-  output->GetPointData()->AddArray(filtered);
+  output->GetPointData()->AddArray(
+    gridfem::MakeSolution("Filtered", values, this->Data->Value, given->GetDataType()));
   output->GetPointData()->SetActiveScalars("Filtered");
 }
 

@@ -2,6 +2,7 @@
 
 #include "Private/BlockTables.h"
 #include "Private/CanDistribute.h"
+#include "Private/Domain.h"
 #include "Private/FailureDump.h"
 #include "Private/InputArray.h"
 #include "Private/InputBlocks.h"
@@ -11,6 +12,7 @@
 #include "Private/RankedOutput.h"
 #include "Private/RankedSurface.h"
 #include "Private/Ranks.h"
+#include "Private/ResultNames.h"
 #include "Private/SolverOutput.h"
 #include "Private/SurfaceInput.h"
 #include "Private/SurfaceSolverState.h"
@@ -49,7 +51,7 @@ void EmptyOutputs(vtkInformationVector* outputs)
 
 vtkSurfaceFEMAlgorithm::vtkSurfaceFEMAlgorithm()
   : State(std::make_unique<gridfem::SurfaceSolverState>(this)),
-    Surface(std::make_unique<gridfem::SurfaceInput>()),
+    Surface(std::make_unique<gridfem::SurfaceInput>()), Inside(std::make_unique<gridfem::Domain>()),
     Time(std::make_unique<gridfem::InputTime>()), Dump(std::make_unique<gridfem::FailureDump>()),
     Ranked(std::make_unique<gridfem::RankedSurface>()),
     Blocks(std::make_unique<gridfem::InputBlocks>()),
@@ -324,8 +326,8 @@ void vtkSurfaceFEMAlgorithm::ComputeJoinedBlocks(vtkInformationVector** inputs)
   }
 }
 
-/// Calls Compute and adds the field array that all outputs have: the depth of the grid, if there is
-/// one.
+/// Calls Compute within the domain, and adds the field array that all outputs have: the depth of
+/// the grid, if there is one.
 void vtkSurfaceFEMAlgorithm::ComputeSurface(
   vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
@@ -333,12 +335,25 @@ void vtkSurfaceFEMAlgorithm::ComputeSurface(
   {
     this->FreeStages();
   }
-  this->Compute(inputs, outputs);
+  this->ComputeInside(inputs, outputs);
   if (this->State->basis.space)
   {
     gridfem::AddFieldInt(
       vtkPolyData::GetData(outputs), "UsedDepth", this->State->Functions().GetGrid().depth);
   }
+}
+
+/// Calls Compute on the inputs restricted to the domain. The outputs are not. Collective.
+void vtkSurfaceFEMAlgorithm::ComputeInside(
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkInformationVector** inside = inputs;
+  this->State->Together(
+    [&] { inside = this->Inside->Apply(this, inputs, this->GetNumberOfInputPorts()); });
+  this->Compute(inside, outputs);
+  vtkPolyData* output = vtkPolyData::GetData(outputs);
+  this->Inside->PutBack(output);
+  gridfem::NameResults(vtkPolyData::GetData(inputs[0]), this->ResultPrefix, output);
 }
 
 /// Computes on several MPI ranks. All of them call it, also those without a piece of the surface.
@@ -399,9 +414,13 @@ bool vtkSurfaceFEMAlgorithm::TryTogether(
   {
     if (!gridfem::CanDistribute(this, inputs, this->NeedsWholeSurface()))
     {
-      return this->ComputeTogether(inputs, outputs);
+      vtkInformationVector** inside = inputs;
+      gridfem::Ranks().Together(
+        [&] { inside = this->Inside->Apply(this, inputs, this->GetNumberOfInputPorts()); });
+      return this->ComputeTogether(inside, outputs);
     }
-    this->State->RunTogether([&](const gridfem::Progress&) { this->Compute(inputs, outputs); });
+    this->State->RunTogether(
+      [&](const gridfem::Progress&) { this->ComputeInside(inputs, outputs); });
     vtkPolyData* output = vtkPolyData::GetData(outputs);
     gridfem::AddFieldInt(output, gridfem::DistributedName, 1);
     if (this->State->together.IsUsed())
@@ -451,6 +470,7 @@ void vtkSurfaceFEMAlgorithm::FreeStages()
 {
   this->State->Free();
   this->Surface->Free();
+  this->Inside->Free();
   this->Ranked->Free();
 }
 
@@ -487,4 +507,5 @@ void vtkSurfaceFEMAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "ParameterUnits: " << this->ParameterUnits << "\n";
   os << indent << "BlocksAsOne: " << this->BlocksAsOne << "\n";
+  os << indent << "ResultPrefix: " << this->ResultPrefix << "\n";
 }

@@ -26,6 +26,14 @@
  * and the clip leaves them out. Computation is in double precision. Results do not depend on
  * NumberOfThreads.
  *
+ * Index 9 of SetInputArrayToProcess chooses the DomainArray, a point or cell array with one
+ * component. The filter computes where it is neither 0 nor NaN, as if the rest of the surface were
+ * cut away. A cell is inside if its value is, or if all values at its points are. The output of a
+ * solver has all points and cells of the input.
+ *
+ * Points that no polygon inside the domain uses have NaN in all results, and the color of the input
+ * in results that are colors. Where a filter moves points, they stay in place.
+ *
  * On several MPI ranks, all ranks compute together if they can, and none gathers the surface, which
  * may be larger than one machine. The field array `Distributed` is 1 then. This needs welded points
  * and the patch smoother, excludes BlocksAsOne, and works in most solvers; the page of each filter
@@ -65,6 +73,7 @@
 namespace gridfem
 {
 class BlockTables;
+class Domain;
 class FailureDump;
 class InputBlocks;
 class InputTime;
@@ -201,6 +210,16 @@ public:
   vtkBooleanMacro(BlocksAsOne, bool);
   ///@}
 
+  ///@{
+  /**
+   * Put before the names of all point and cell arrays of the results, so that the results of
+   * several filters stay side by side. Default: nothing. Only solvers use it. Without it, too, no
+   * array of the input is lost: one that has the name of a result is kept as `name_input`.
+   */
+  vtkSetStdStringFromCharMacro(ResultPrefix);
+  vtkGetCharFromStdStringMacro(ResultPrefix);
+  ///@}
+
   enum ParameterUnitsType
   {
     World = 0,
@@ -311,6 +330,7 @@ protected:
   int NumberOfThreads = 0;
   int ParameterUnits = UnitArea;
   bool BlocksAsOne = false;
+  std::string ResultPrefix;
 
   std::unique_ptr<gridfem::SurfaceSolverState> State;
 
@@ -323,6 +343,7 @@ private:
   void ComputeBlock(vtkInformationVector** inputs, vtkInformationVector* outputs);
   void ComputeJoinedBlocks(vtkInformationVector** inputs);
   void ComputeSurface(vtkInformationVector** inputs, vtkInformationVector* outputs);
+  void ComputeInside(vtkInformationVector** inputs, vtkInformationVector* outputs);
   void ComputeOnRanks(vtkInformationVector** inputs, vtkInformationVector* outputs);
   bool TryTogether(vtkInformationVector** inputs, vtkInformationVector* outputs);
   bool HasNoPoints(vtkInformationVector** inputs) const;
@@ -330,6 +351,7 @@ private:
   void FinishAbort(vtkInformationVector* outputs);
 
   std::unique_ptr<gridfem::SurfaceInput> Surface;
+  std::unique_ptr<gridfem::Domain> Inside;
   std::unique_ptr<gridfem::InputTime> Time;
   std::unique_ptr<gridfem::FailureDump> Dump;
   std::unique_ptr<gridfem::RankedSurface> Ranked;

@@ -5,7 +5,9 @@
 
 #include "vtkClipToOctree.h"
 #include "vtkConnectivityAwareBasis.h"
+#include "vtkHeatDiffusion.h"
 #include "vtkLaplaceSpectrum.h"
+#include "vtkMeanCurvatureFlow.h"
 #include "vtkScreenedPoisson.h"
 #include "vtkSpectralSignatures.h"
 
@@ -89,6 +91,39 @@ TEST_F(Time, ScreenedPoissonFollowsTheInput)
       const auto solution = PointValues(output, "Solution");
       EXPECT_NEAR(*std::max_element(solution.begin(), solution.end()), time, 0.05 * time);
     });
+}
+
+TEST_F(Time, ASingleStepOfHeatFollowsTheInput)
+{
+  vtkNew<vtkHeatDiffusion> heat;
+  this->Connect(heat.Get());
+  heat->SetInputArrayToProcess(0, 0, 0, Points, "x");
+  const auto look = [](vtkPolyData* output, double time)
+  {
+    const auto diffused = PointValues(output, "Diffused");
+    EXPECT_NEAR(*std::max_element(diffused.begin(), diffused.end()), time, 0.05 * time);
+  };
+  this->AtEveryTime(heat, look);
+  heat->SetNumberOfSteps(2);
+  EXPECT_EQ(StepsOf(heat), (std::vector<double>{ 1, 2 }));
+  heat->SetTimeFrom(vtkHeatDiffusion::Input);
+  this->AtEveryTime(heat,
+    [&](vtkPolyData* output, double time)
+    {
+      EXPECT_EQ(FieldValue(output, "Step"), 2);
+      look(output, time);
+    });
+}
+
+TEST_F(Time, TheLastStepOfAFlowFollowsTheInput)
+{
+  vtkNew<vtkMeanCurvatureFlow> flow;
+  this->Connect(flow.Get());
+  flow->SetNumberOfSteps(2);
+  EXPECT_EQ(StepsOf(flow), (std::vector<double>{ 0, 1, 2 }));
+  flow->SetTimeFrom(vtkMeanCurvatureFlow::Input);
+  this->AtEveryTime(
+    flow, [](vtkPolyData* output, double) { EXPECT_EQ(FieldValue(output, "Step"), 2); });
 }
 
 TEST_F(Time, EigenvaluesScaleWithTheGrowingSurface)

@@ -1,5 +1,6 @@
 #include "Solvers/CurvatureSolver.h"
 
+#include "Base/UnsolvedRows.h"
 #include "Base/VectorRows.h"
 #include "Problems/SolveWarnings.h"
 #include "Solvers/LocalSurface.h"
@@ -87,6 +88,12 @@ void CurvatureSolver::Fit(const Surface& surface, const Options& options, const 
   result_.numbers = NumbersOf(curvatures, SurfaceArea(surface.Mesh()));
   result_.minimumDirection = RowsOf(curvatures.minimumDirection);
   result_.maximumDirection = RowsOf(curvatures.maximumDirection);
+  const std::vector<char> isUsed = UsedPoints(surface.Mesh(), job.threads);
+  for (MultiVector* values :
+    { &result_.numbers, &result_.minimumDirection, &result_.maximumDirection })
+  {
+    ClearRows(isUsed, *values);
+  }
   if (result_.isSmoothed && !result_.report.converged)
   {
     result_.warnings.push_back(WarningOf(result_.report, options.equation.solve.tolerance));

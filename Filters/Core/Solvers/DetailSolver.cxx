@@ -1,6 +1,7 @@
 #include "Solvers/DetailSolver.h"
 
 #include "Base/Errors.h"
+#include "Base/UnsolvedRows.h"
 #include "Problems/MarchedDistance.h"
 #include "Problems/MovedSurface.h"
 #include "Problems/SolveWarnings.h"
@@ -319,6 +320,7 @@ void DetailSolver::Report(const Surface& surface, const Input& input, const Opti
         result_.change.row(point) += (scale(point, 0) - 1.0) * signal_.remainder.row(point);
       }
     }
+    ClearRows(isReached, result_.change);
   }
   else
   {

@@ -105,7 +105,6 @@ void DiffusionSolver::UpdateLoads(
         sources_ = std::pow(space.UnitLength(), 2) *
                    space.LoadOfValues(ReadField(surface, input.source), job.Part(0.5, 1.0));
       }
-      result_.isReached = surface.PointsWithFunctions();
     });
 }
 

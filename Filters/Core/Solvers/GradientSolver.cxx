@@ -97,6 +97,7 @@ void GradientSolver::Derive(const Surface& surface, const Input& input, const St
       for (Derived& field : derived)
       {
         surface.FillCopies(field.atPoints);
+        surface.ClearUnreached(field.atPoints);
       }
       ofDerivatives_ = { std::move(found.report), found.accuracy, {} };
       ofDerivatives_.accuracy.largest = surface.Largest(found.accuracy.largest);
@@ -121,6 +122,10 @@ void GradientSolver::Decompose(const Surface& surface, const Input& input, const
         { "HarmonicPart", std::move(found.restAtPoints), std::move(found.restOnTriangles) });
       parts.push_back({ "Potential", std::move(found.potentialAtPoints), {} });
       parts.push_back({ "StreamFunction", std::move(found.streamAtPoints), {} });
+      for (Derived& part : parts)
+      {
+        surface.ClearUnreached(part.atPoints);
+      }
       ofParts_ = { std::move(found.report), found.accuracy, WarningOfOneSided(found) };
     });
 }

@@ -53,14 +53,6 @@ void InterpolationSolver::Take(
   ConstrainedSolution solution, const Surface& surface, const Options& options)
 {
   result_.atPoints = surface.ValuesAtPoints(solution.coefficients);
-  result_.isReached = surface.PointsWithFunctions();
-  for (Id point = 0; point < result_.atPoints.rows(); ++point)
-  {
-    if (!result_.isReached[point])
-    {
-      result_.atPoints.row(point).setConstant(std::numeric_limits<double>::quiet_NaN());
-    }
-  }
   result_.warnings = WarningsOfValues(solution, options.equation.solve.tolerance);
   result_.report = std::move(solution.report);
   result_.accuracy = solution.accuracy;

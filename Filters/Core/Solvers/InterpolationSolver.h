@@ -36,8 +36,7 @@ public:
 
   struct Result
   {
-    MultiVector atPoints;        // NaN on components without a value, and where no function reaches
-    std::vector<char> isReached; // per point: 1 where a function does
+    MultiVector atPoints; // NaN on components without a value, and where no function reaches
     SolveReport report;
     SolutionAccuracy accuracy; // unknown for biharmonic functions of many points
     double misfit = 0.0;       // the largest difference from a given value

@@ -250,7 +250,6 @@ void PoissonSolver::Report(const Surface& surface, const Input& input, const Opt
   const double tolerance = EquationOf(input, options).solve.tolerance;
   result_.atPoints = surface.ValuesAtPoints(
     isConstrained ? constrained_.Coefficients() : equation_.Solution().coefficients);
-  result_.isReached = surface.PointsWithFunctions();
   result_.holdsValues = HoldsValues(input, options);
   result_.misfit = result_.holdsValues ? constrained_.Misfit() : 0.0;
   result_.warnings = { isConstrained ? constrained_.Warning(tolerance)

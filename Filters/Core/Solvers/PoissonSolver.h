@@ -55,8 +55,7 @@ public:
 
   struct Result
   {
-    MultiVector atPoints;        // of the solution; NaN where nothing is known
-    std::vector<char> isReached; // per point: a function reaches it
+    MultiVector atPoints; // of the solution; NaN where nothing is known
     SolveReport report;
     SolutionAccuracy accuracy;
     bool isAccurate = true; // wantedError is reached, where there is one

@@ -1,6 +1,7 @@
 #include "Solvers/SignatureSolver.h"
 
 #include "Base/Errors.h"
+#include "Base/UnsolvedRows.h"
 #include "Grid/Grid.h"
 #include "Solvers/LocalSurface.h"
 #include "Solvers/SurfaceFields.h"
@@ -128,6 +129,7 @@ void SignatureSolver::UpdateModes(
       {
         result_ = {};
         result_.modes = input.modes.modes;
+        isReached_ = UsedPoints(*input.modes.mesh);
       });
     result_.warnings.clear();
     return;
@@ -147,6 +149,8 @@ void SignatureSolver::UpdateModes(
       modes->area = surface.Area();
       modes->values = spectrum_.ModesAtPoints(
         surface, 0, solved.NumberOfModes(), OfOwnPoints(surface, progress.Part(0.98, 1.0)));
+      isReached_ = surface.PointsWithFunctions();
+      FillRows(isReached_, 0.0, modes->values);
       result_.modes = std::move(modes);
     });
   result_.isConverged = solved.spectrum.converged;
@@ -170,6 +174,8 @@ void SignatureSolver::UpdateSums(
       result_.heatTimes = HeatTimes(modes, options.numberOfScales);
       result_.heatKernel =
         HeatKernelSignature(modes, result_.heatTimes, { threads, progress.Part(0.4, 0.8) });
+      ClearRows(isReached_, result_.waveKernel);
+      ClearRows(isReached_, result_.heatKernel);
     });
   const ParameterUnits units = surface.UsedOptions().parameterUnits;
   key = {};
@@ -185,6 +191,8 @@ void SignatureSolver::UpdateSums(
         const double time = options.diffusionTime * SquaredUnit(units, mesh, modes.area);
         result_.diffusionDistance = DiffusionDistance(modes, input.sources, time, threads);
         result_.biharmonicDistance = BiharmonicDistance(modes, input.sources, threads);
+        ClearRows(isReached_, result_.diffusionDistance);
+        ClearRows(isReached_, result_.biharmonicDistance);
       }
     });
   key = {};
@@ -215,6 +223,7 @@ void SignatureSolver::Filter(
   {
     result_.filtered = values - result_.filtered;
   }
+  ClearRows(isReached_, result_.filtered);
 }
 
 SignatureSolver::Result SignatureSolver::Solve(std::shared_ptr<const TriangleMesh> mesh,

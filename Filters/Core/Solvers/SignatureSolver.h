@@ -69,7 +69,7 @@ public:
     SpectrumSolver::Announcement announce;
   };
 
-  /// Rows are the points of this process.
+  /// Rows are the points of this process. Descriptors are NaN at points without modes.
   struct Result
   {
     std::shared_ptr<const PointModes> modes;
@@ -107,6 +107,7 @@ private:
     const Surface& surface, const TriangleMesh& mesh, const Input& input, const Options& options);
 
   SpectrumSolver spectrum_;
+  std::vector<char> isReached_; // per point: the modes have a value
   Result result_;
 };
 

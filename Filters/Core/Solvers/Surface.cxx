@@ -1,5 +1,6 @@
 #include "Solvers/Surface.h"
 
+#include "Base/UnsolvedRows.h"
 #include "Problems/GeodesicDistance.h"
 #include "Problems/MemoryEstimate.h"
 
@@ -46,7 +47,13 @@ MultiVector Surface::ValuesAtPoints(const MultiVector& coefficients, const Progr
 {
   MultiVector values = this->Space().ValuesAtPoints(coefficients, this->MakeJob(progress));
   this->FillCopies(values);
+  this->ClearUnreached(values);
   return values;
+}
+
+void Surface::ClearUnreached(MultiVector& atPoints) const
+{
+  ClearRows(this->PointsWithFunctions(), atPoints);
 }
 
 } // namespace gridfem

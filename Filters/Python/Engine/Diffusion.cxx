@@ -29,7 +29,7 @@ public:
       { 0, progress });
     Results results;
     MultiVector diffused = result.steps.back().atPoints;
-    given.KeepUnsolved("values", result.isReached, diffused);
+    given.KeepPlaces("values", diffused);
     results.arrays["Diffused"] = std::move(diffused);
     results.Warn(solver.Warnings(options_.numberOfSteps));
     return results;

@@ -153,6 +153,14 @@ void Given::KeepUnsolved(
   }
 }
 
+void Given::KeepPlaces(const std::string& name, MultiVector& places) const
+{
+  if (!this->Find(name))
+  {
+    places = places.array().isNaN().select(RowsOf(mesh->points), places);
+  }
+}
+
 MultiVector Given::MeansOnCells(const MultiVector& onTriangles) const
 {
   MultiVector mean = MultiVector::Zero(numberOfCells, onTriangles.cols());

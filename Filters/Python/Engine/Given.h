@@ -62,6 +62,10 @@ struct Given
   void KeepUnsolved(
     const std::string& name, const std::vector<char>& isReached, MultiVector& values) const;
 
+  /// If the array is not given, so that the coordinates are solved for: restores the places of
+  /// points without a solution, NaN.
+  void KeepPlaces(const std::string& name, MultiVector& places) const;
+
   /// Returns means over the cells of values on triangles, weighted by area.
   MultiVector MeansOnCells(const MultiVector& onTriangles) const;
 };

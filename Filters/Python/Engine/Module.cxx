@@ -4,6 +4,7 @@
 #include "Base/Errors.h"
 #include "Base/LargeMemory.h"
 #include "Base/ShortWaits.h"
+#include "Grid/PolygonTriangles.h"
 
 #include <pybind11/eigen.h>
 #include <pybind11/numpy.h>
@@ -11,6 +12,7 @@
 #include <pybind11/stl.h>
 
 #include <chrono>
+#include <numeric>
 
 namespace py = pybind11;
 
@@ -104,6 +106,13 @@ py::tuple Solve(const std::string& name, const Points& points, const Cells& cell
   }
 }
 
+std::vector<Triangle> Triangulate(const Points& corners)
+{
+  std::vector<Id> ids(static_cast<std::size_t>(corners.shape(0)));
+  std::iota(ids.begin(), ids.end(), Id{ 0 });
+  return TrianglesOfPolygon(VectorsOf(corners), 0, ids);
+}
+
 /// Returns the default and the range of each property by name.
 std::map<std::string, std::array<double, 3>> KnownProperties(const std::string& name)
 {
@@ -127,6 +136,7 @@ PYBIND11_MODULE(_core, module)
     "arrays: per name a matrix and whether its rows are points, else they are cells.",
     py::arg("name"), py::arg("points"), py::arg("cells"), py::arg("arrays"), py::arg("properties"),
     py::arg("sources"));
+  module.def("triangulate", &Triangulate, "The triangles of a polygon, by its corners.");
   module.def("properties", &KnownProperties, "Per property its default and its range.");
 }
 

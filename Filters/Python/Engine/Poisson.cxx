@@ -32,7 +32,7 @@ public:
     input.constraints = given.Constraints("held");
     PoissonSolver solver;
     PoissonSolver::Result result = solver.Update(surface, input, options_, { 0, progress });
-    given.KeepUnsolved("values", result.isReached, result.atPoints);
+    given.KeepPlaces("values", result.atPoints);
     Results results;
     results.arrays["Solution"] = std::move(result.atPoints);
     results.Warn(result.warnings);

@@ -244,7 +244,8 @@ InputMesh ReadInputMesh(vtkPolyData* input, int threads, const Progress& progres
   KeepCells(GhostsOf(input->GetCellData(), input->GetNumberOfCells()), mesh, *triangles, IsShown);
   if (triangles->triangles.empty())
   {
-    throw InvalidInput("All polygons are marked by vtkGhostType as hidden or as duplicates.");
+    throw InvalidInput("All polygons are outside of the DomainArray, or marked by vtkGhostType as "
+                       "hidden or as duplicates.");
   }
   mesh.triangles = std::move(triangles);
   return mesh;

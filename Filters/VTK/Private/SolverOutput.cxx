@@ -10,6 +10,7 @@
 #include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkTable.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
 #include <cmath>
@@ -85,15 +86,48 @@ void AddFieldNumbers(vtkPolyData* output, const char* name, const std::vector<do
   output->GetFieldData()->AddArray(array);
 }
 
-void KeepUnsolved(const std::vector<char>& isSolved, vtkDataArray* given, MultiVector& values)
+void KeepUnsolved(vtkDataArray* given, MultiVector& values)
 {
   for (Id point = 0; point < values.rows(); ++point)
   {
-    for (Id c = 0; !isSolved[point] && c < values.cols(); ++c)
+    for (Id c = 0; c < values.cols(); ++c)
     {
-      values(point, c) = given->GetComponent(point, static_cast<int>(c));
+      if (std::isnan(values(point, c)))
+      {
+        values(point, c) = given->GetComponent(point, static_cast<int>(c));
+      }
     }
   }
+}
+
+namespace
+{
+
+bool AreColors(const MultiVector& values, int dataType)
+{
+  return dataType == VTK_UNSIGNED_CHAR && (values.cols() == 3 || values.cols() == 4);
+}
+
+vtkSmartPointer<vtkDataArray> MakeColors(
+  const char* name, MultiVector values, const InputArray& given)
+{
+  if (given.association == FieldAssociation::Points)
+  {
+    KeepUnsolved(given.array, values);
+  }
+  values = values.array().isNaN().select(0.0, values);
+  return CopyRows<vtkUnsignedCharArray>(name, values.array().round().cwiseMax(0.0).cwiseMin(255.0));
+}
+
+} // namespace
+
+vtkSmartPointer<vtkDataArray> MakeSolution(
+  const char* name, const MultiVector& values, const InputArray& given, int dataType)
+{
+  auto array = AreColors(values, dataType) ? MakeColors(name, values, given)
+                                           : MakePointArray(name, values, dataType);
+  array->CopyComponentNames(given.array);
+  return array;
 }
 
 void AddReport(const SolveReport& report, vtkPolyData* output)

@@ -3,6 +3,7 @@
 #define GridFEM_SolverOutput_h
 
 #include "Base/Types.h"
+#include "InputArray.h"
 #include "Krylov/ConjugateGradients.h"
 #include "Problems/SolveWarnings.h"
 
@@ -24,10 +25,16 @@ vtkSmartPointer<vtkDataArray> MakePointArray(
 /// Returns an array of ids of points.
 vtkSmartPointer<vtkDataArray> MakeIdArray(const char* name, const std::vector<Id>& ids);
 
-/// Restores the given values at points that no function reaches.
-/// @param isSolved  a flag for each point
-/// @param given     has as many components as `values` has columns
-void KeepUnsolved(const std::vector<char>& isSolved, vtkDataArray* given, MultiVector& values);
+/// Returns the array of a solution for a chosen array, with the names of its components. It is of
+/// bytes if the chosen array holds colors, else float if it is, else double. Colors are rounded and
+/// clamped. Where a solution has no color, NaN, it is that of the given point, or black.
+/// @param dataType  the type of the chosen array on all ranks
+vtkSmartPointer<vtkDataArray> MakeSolution(
+  const char* name, const MultiVector& values, const InputArray& given, int dataType);
+
+/// Restores the given values where a solution has none, NaN.
+/// @param given  has as many components as `values` has columns
+void KeepUnsolved(vtkDataArray* given, MultiVector& values);
 
 /// Adds the field arrays Converged, Iterations, DoublePrecisionSince (iteration of the fall-back;
 /// -1: none), Residual and ConvergenceFactor (mean per iteration).

@@ -7,6 +7,7 @@
 #include "Spaces.h"
 #include "Support/HatSystem.h"
 
+#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,0 +1,223 @@
+// Tests the DomainArray of every filter: the results are those of the surface with the rest cut
+// away, and the output keeps all points, cells and arrays of the input.
+
+#include "AllFilters.h"
+
+#include "vtkUnsignedCharArray.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <map>
+
+using namespace gridfem;
+using namespace gridfem::testing;
+
+namespace
+{
+
+constexpr int DomainIndex = 9;
+
+bool IsInside(const TriangleMesh& mesh, std::size_t triangle)
+{
+  double height = 0.0;
+  for (const Id corner : mesh.triangles[triangle])
+  {
+    height += mesh.points[corner][2];
+  }
+  return height > -0.6;
+}
+
+vtkSmartPointer<vtkPolyData> WithArrays(const TriangleMesh& mesh)
+{
+  auto surface = ToPolyData(mesh);
+  AddArraysOfAllFilters(surface);
+  return surface;
+}
+
+/// Returns the point arrays that a filter has added, and the number of points. NaN is the largest
+/// number here, so that equal arrays compare equal.
+std::map<std::string, std::vector<double>> Results(vtkPolyData* input, vtkAlgorithm* filter)
+{
+  auto* output = vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0));
+  auto* points = output->GetPointData();
+  std::map<std::string, std::vector<double>> results;
+  results["number of points"] = { double(output->GetNumberOfPoints()) };
+  for (int k = 0; k < points->GetNumberOfArrays(); ++k)
+  {
+    const std::string name = points->GetArrayName(k);
+    if (!input->GetPointData()->HasArray(name.c_str()))
+    {
+      std::vector<double> values = Values(points->GetArray(k));
+      std::replace_if(
+        values.begin(), values.end(), [](double value) { return std::isnan(value); },
+        std::numeric_limits<double>::max());
+      results[name] = std::move(values);
+    }
+  }
+  return results;
+}
+
+class Domain : public ::testing::TestWithParam<FilterCase>
+{
+protected:
+  Domain()
+  {
+    vtkNew<vtkDoubleArray> cells;
+    cells->SetName("region");
+    TriangleMesh part = sphere;
+    part.triangles.clear();
+    std::vector<char> isInside(sphere.points.size(), 0);
+    for (std::size_t t = 0; t < sphere.triangles.size(); ++t)
+    {
+      const bool isKept = IsInside(sphere, t);
+      // NaN is outside, and so is 0.
+      cells->InsertNextValue(isKept ? 1.0 + double(t) : t % 2 ? 0.0 : std::nan(""));
+      if (isKept)
+      {
+        part.triangles.push_back(sphere.triangles[t]);
+      }
+    }
+    whole = WithArrays(sphere);
+    whole->GetCellData()->AddArray(cells);
+    cut = WithArrays(part);
+  }
+
+  vtkSmartPointer<vtkSurfaceFEMAlgorithm> Run(vtkPolyData* surface, bool within)
+  {
+    auto filter = this->GetParam().make();
+    filter->SetDepth(4);
+    if (auto* farthest = vtkFarthestPoints::SafeDownCast(filter))
+    {
+      farthest->SetFirstPointId(top);
+    }
+    if (auto* distance = vtkGeodesicDistance::SafeDownCast(filter))
+    {
+      distance->AddSourcePointId(top);
+    }
+    if (within)
+    {
+      filter->SetInputArrayToProcess(DomainIndex, 0, 0, Cells, "region");
+    }
+    filter->SetInputDataObject(surface);
+    filter->Update();
+    return filter;
+  }
+
+  const TriangleMesh sphere = GeodesicSphere(3);
+  const Id top = std::max_element(sphere.points.begin(), sphere.points.end(),
+                   [](const Vec3& a, const Vec3& b) { return a[2] < b[2]; }) -
+                 sphere.points.begin();
+  vtkSmartPointer<vtkPolyData> whole;
+  vtkSmartPointer<vtkPolyData> cut;
+};
+
+TEST_P(Domain, GivesTheResultsOfTheCutSurface)
+{
+  const auto within = this->Run(whole, true);
+  const auto alone = this->Run(cut, false);
+  const auto expected = Results(cut, alone);
+  EXPECT_EQ(Results(whole, within), expected);
+  auto* output = vtkPolyData::SafeDownCast(within->GetOutputDataObject(0));
+  auto* outputOfCut = vtkPolyData::SafeDownCast(alone->GetOutputDataObject(0));
+  ASSERT_GT(output->GetNumberOfPoints(), 0);
+  EXPECT_EQ(Values(output->GetPoints()->GetData()), Values(outputOfCut->GetPoints()->GetData()));
+  EXPECT_FALSE(output->GetCellData()->HasArray(vtkDataSetAttributes::GhostArrayName()));
+  // The filters below have cells of their own.
+  if (!vtkClipToOctree::SafeDownCast(within) && !vtkConnectivityAwareBasis::SafeDownCast(within))
+  {
+    EXPECT_EQ(output->GetNumberOfCells(), whole->GetNumberOfCells());
+    EXPECT_TRUE(output->GetCellData()->HasArray("region"));
+  }
+}
+
+TEST_P(Domain, KeepsTheGhostFlagsOfTheInput)
+{
+  vtkNew<vtkUnsignedCharArray> ghosts;
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  ghosts->SetNumberOfTuples(whole->GetNumberOfCells());
+  ghosts->FillValue(0);
+  ghosts->SetValue(0, vtkDataSetAttributes::HIDDENCELL);
+  whole->GetCellData()->AddArray(ghosts);
+  const auto filter = this->Run(whole, true);
+  auto* output = vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0));
+  vtkDataArray* kept = output->GetCellData()->GetArray(vtkDataSetAttributes::GhostArrayName());
+  ASSERT_NE(kept, nullptr);
+  if (output->GetNumberOfCells() == whole->GetNumberOfCells())
+  {
+    EXPECT_EQ(Values(kept), Values(ghosts));
+  }
+}
+
+TEST_P(Domain, OfPointsTakesTheCellsWithAllPointsInside)
+{
+  std::vector<char> isInside(sphere.points.size(), 1);
+  for (std::size_t t = 0; t < sphere.triangles.size(); ++t)
+  {
+    for (const Id corner : sphere.triangles[t])
+    {
+      isInside[corner] = isInside[corner] && IsInside(sphere, t);
+    }
+  }
+  vtkNew<vtkDoubleArray> ofPoints;
+  ofPoints->SetName("region");
+  for (const char inside : isInside)
+  {
+    ofPoints->InsertNextValue(inside);
+  }
+  auto* ofCells = vtkDoubleArray::SafeDownCast(whole->GetCellData()->GetArray("region"));
+  for (std::size_t t = 0; t < sphere.triangles.size(); ++t)
+  {
+    const auto& corners = sphere.triangles[t];
+    ofCells->SetValue(static_cast<vtkIdType>(t),
+      isInside[corners[0]] && isInside[corners[1]] && isInside[corners[2]] ? 1.0 : 0.0);
+  }
+  const auto onCells = Results(whole, this->Run(whole, true));
+  whole->GetPointData()->AddArray(ofPoints);
+  auto filter = this->GetParam().make();
+  const auto named = this->Run(whole, false);
+  named->SetInputArrayToProcess(DomainIndex, 0, 0, Points, "region");
+  named->Update();
+  EXPECT_EQ(Results(whole, named), onCells);
+}
+
+TEST_P(Domain, AChangeOfTheRegionIsSeen)
+{
+  const auto filter = this->Run(whole, true);
+  auto* region = whole->GetCellData()->GetArray("region");
+  const auto before = Results(whole, filter);
+  std::vector<double> old = Values(region);
+  region->Fill(1.0);
+  region->Modified();
+  whole->Modified();
+  filter->Update();
+  EXPECT_NE(Results(whole, filter), before);
+  for (vtkIdType cell = 0; cell < region->GetNumberOfTuples(); ++cell)
+  {
+    region->SetComponent(cell, 0, old[cell]);
+  }
+  region->Modified();
+  whole->Modified();
+  filter->Update();
+  EXPECT_EQ(Results(whole, filter), before);
+}
+
+TEST_P(Domain, OfNothingAndOfSeveralComponentsIsRefused)
+{
+  const auto filter = this->Run(whole, false);
+  const Messages messages(filter);
+  whole->GetCellData()->GetArray("region")->Fill(0.0);
+  filter->SetInputArrayToProcess(DomainIndex, 0, 0, Cells, "region");
+  filter->Update();
+  AddPointArray(whole, "three", 3, Wave);
+  whole->Modified();
+  filter->SetInputArrayToProcess(DomainIndex, 0, 0, Points, "three");
+  filter->Update();
+  ASSERT_EQ(messages.errors.size(), 2u);
+  EXPECT_NE(messages.errors[0].find("DomainArray"), std::string::npos) << messages.errors[0];
+  EXPECT_NE(messages.errors[1].find("one component"), std::string::npos) << messages.errors[1];
+}
+
+INSTANTIATE_TEST_SUITE_P(AllFilters, Domain, AllFilters(), NameOf);
+
+} // namespace
