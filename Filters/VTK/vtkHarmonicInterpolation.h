@@ -27,9 +27,9 @@
  * Several values at one point are met in the mean. The filter warns if they differ.
  *
  * Output port 0 (vtkPolyData): the input with the following arrays.
- * - point data: `Interpolated`, with the components of the values. It is float if they are float,
- *   else double. It is NaN at points that no polygon uses, and on connected components without any
- *   value. The filter warns once of such components.
+ * - point data: `Interpolated`, with the components of the values. It is of bytes if they are
+ *   colors (three or four bytes), float if they are float, else double. It is NaN on connected
+ *   components without any value. The filter warns once of such components.
  * - field data: `Misfit` (double, 1), the largest difference from a given value.
  * - field data: `Converged`, `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor`.
  * - field data: `DiscretizationError`, `LargestDiscretizationError`, `AlgebraicError` and

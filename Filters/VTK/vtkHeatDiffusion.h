@@ -22,8 +22,8 @@
  *   the value of time 0. The array at time 0 must be point data then.
  *
  * Output port 0 (vtkPolyData): the input with the following arrays.
- * - point data, double: `Diffused` (C components). Points that no polygon uses keep the array if it
- *   is a point array, else get 0. Without an array, the points move to their spread coordinates.
+ * - point data: `Diffused` (C components). It is of bytes if the array holds colors (three or four
+ *   bytes), float if the array is float, else double. Without an array, the points move to their spread coordinates.
  *   The output then has `Displacement` and `NormalDisplacement`, and normals follow. The clip,
  *   basis and modes belong to the old shape and are left out.
  * - field data: `Step` (int, 1).

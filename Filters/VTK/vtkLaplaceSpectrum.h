@@ -20,8 +20,8 @@
  * Output port 0 (vtkPolyData): the input with the following arrays.
  * - point data, in the precision of the points (double when they are integers): `Mode` (1
  *   component), the shown mode. With AllModes on, the output has `Mode000`, `Mode001`, ... instead.
- *   The integral of a squared mode over the surface is 1 in world units. Points that no polygon
- *   uses get 0. Arrays of the input with such names are left out.
+ *   The integral of a squared mode over the surface is 1 in world units. Modes that an
+ *   earlier Laplace Spectrum has left on the input are left out.
  * - field data: `Eigenvalues` (double, 1), one tuple per mode, in one over squared world length.
  * - field data: `Converged` (int, 1).
  * - field data: `CutsGroup` (int, 1): 1 if the last modes are part of a longer group of equal

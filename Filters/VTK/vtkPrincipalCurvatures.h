@@ -26,9 +26,8 @@
  *   1). It is 2/π atan(H / h), so that a few extremes do not hide the rest. h is the median of |H|,
  *   at least 1/√area.
  *
- * All arrays are 0 at points that no polygon with an area uses. With a SmoothingScale, the field
- * data have `Converged`, `Iterations`, `Residual`, `ConvergenceFactor` and `DoublePrecisionSince`
- * of the smoothing, as in vtkScreenedPoisson.
+ * With a SmoothingScale, the field data have `Converged`, `Iterations`, `Residual`,
+ * `ConvergenceFactor` and `DoublePrecisionSince` of the smoothing, as in vtkScreenedPoisson.
  *
  * Without a SmoothingScale the filter uses only WeldCoincidentPoints and NumberOfThreads. Tolerance
  * is 1e-4 and NormalStabilization 1e-2 by default. The function space has stages. The fit is the

@@ -32,17 +32,15 @@
  * another mesh: the integral of a squared mode is not 1, or its Rayleigh quotient is not the
  * eigenvalue. The filter then warns, leaves the modes out and computes new ones.
  *
- * Output port 0 (vtkPolyData): the input with the following arrays. Points that no polygon uses get
- * 0 unless noted.
+ * Output port 0 (vtkPolyData): the input with the following arrays.
  * - point data, in the precision of the points (double when they are integers):
  *   `HeatKernelSignature` and `WaveKernelSignature` (NumberOfScales components; no unit).
  * - point data, in the same precision: `Signature`, the heat kernel signature at its middle scale.
  * - point data, with sources: `BiharmonicDistance` (1 component, world length). It is NaN on
- *   components of the surface without a source and at points that no polygon uses.
+ *   components of the surface without a source.
  * - point data, with sources: `DiffusionDistance` (1 component, no unit).
- * - point data, with a FilterType: `Filtered`, with the components of the array. It is float if the
- *   array is float, else double. Points that no polygon uses keep their value. If the coordinates
- *   are filtered, the points move to their filtered places. The output then has `Displacement` and
+ * - point data, with a FilterType: `Filtered`, with the components of the array. It is of bytes if
+ *   the array holds colors, float if it is float, else double. If the coordinates are filtered, the points move to their filtered places. The output then has `Displacement` and
  *   `NormalDisplacement`, and normals follow. The clip, basis and modes belong to the old shape and
  *   are left out.
  * - field data, one tuple per scale: `HeatTimes` (double, world length squared) and `WaveEnergies`

@@ -15,8 +15,8 @@
  * components C. Without it the filter takes the coordinates. Their Laplacian is the mean curvature
  * vector (twice the mean curvature along the normal).
  *
- * Output port 0 (vtkPolyData): the input with the following arrays. Cells that are no polygons and
- * points that no polygon uses get 0. A polygon has the mean of its triangles, weighted by area.
+ * Output port 0 (vtkPolyData): the input with the following arrays. Cells that are no polygons
+ * get 0. A polygon has the mean of its triangles, weighted by area.
  * - point and cell data, double: `Gradient` (3 C components, the three of component 0 first; per
  *   unit of length).
  * - point and cell data, double: `Laplacian` (C components; per unit of length squared, negative at

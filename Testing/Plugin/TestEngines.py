@@ -9,7 +9,9 @@ import numpy
 
 import gridfem
 from gridfem import vtkGridFEMFilters
-from TestNumpy import misuses, unit_sphere
+from TestNumpy import areas, misuses, unit_sphere
+from vtkmodules.vtkFiltersCore import vtkDelaunay3D, vtkStripper
+from vtkmodules.vtkFiltersSources import vtkSphereSource
 
 
 def load(name, folder):
@@ -189,6 +191,41 @@ class Engines(unittest.TestCase):
                     if hasattr(algorithm, f"Get{key}MinValue"):
                         self.assertEqual(least, getattr(algorithm, f"Get{key}MinValue")())
                         self.assertEqual(most, getattr(algorithm, f"Get{key}MaxValue")())
+
+    def test_arrays_of_other_data_sets_of_vtk(self):
+        """The surface of a volume mesh, and triangles of strips."""
+        ball = vtkSphereSource(ThetaResolution=12, PhiResolution=12)
+        volume = vtkDelaunay3D(InputConnection=ball.GetOutputPort())
+        volume.Update()
+        strips = vtkStripper(InputConnection=ball.GetOutputPort())
+        strips.Update()
+        self.assertGreater(strips.GetOutput().GetNumberOfStrips(), 0)
+        expected = areas(*gridfem.arrays(ball.GetOutput())).sum()
+        for package in (gridfem, self.core):
+            for data in (volume.GetOutput(), strips.GetOutput()):
+                points, cells = package.arrays(data)
+                self.assertEqual(cells.shape[1], 3)
+                self.assertAlmostEqual(areas(points, cells).sum(), expected, delta=1e-6)
+
+    def test_choices_are_those_of_the_filters(self):
+        owners = {"FilterType": "SpectralSignatures", "Rescale": "MeanCurvatureFlow",
+                  "Smoothness": "HarmonicInterpolation", "TransferFunction": "SurfaceDetail",
+                  "FunctionSpace": "ScreenedPoisson", "ParameterUnits": "ScreenedPoisson"}
+        choices = sys.modules["gridfem_core._inputs"].CHOICES
+        self.assertEqual(choices.keys(), owners.keys())
+        for choice, names in choices.items():
+            owner = getattr(vtkGridFEMFilters, "vtk" + owners[choice])
+            self.assertEqual([getattr(owner, name) for name in names], list(range(len(names))))
+            self.assertEqual(getattr(owner(), f"Get{choice}MaxValue")(), len(names) - 1)
+
+    def test_colors_of_both_are_the_same(self):
+        points, triangles = unit_sphere()
+        colors = (127.5 * (points + 1)).astype(numpy.uint8)
+        for call in (lambda g: g.poisson(points, triangles, colors, Depth=5),
+                     lambda g: g.detail(points, triangles, 3.0, values=colors, Depth=5)):
+            ours, theirs = call(self.core), call(gridfem)
+            self.assertEqual(ours.dtype, theirs.dtype)
+            numpy.testing.assert_allclose(ours.astype(int), theirs.astype(int), atol=1)  # rounding
 
     def test_arrays_of_a_surface_are_those_it_was_made_of(self):
         for points, cells in self.meshes.values():

@@ -57,6 +57,13 @@ def misuses(package, points, triangles):
     }
 
 
+def areas(points, triangles):
+    """Returns the areas of triangles."""
+    corner = points[triangles]
+    return numpy.linalg.norm(
+        numpy.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]), axis=1) / 2
+
+
 class Numpy(unittest.TestCase):
 
     def setUp(self):
@@ -179,13 +186,60 @@ class Numpy(unittest.TestCase):
                 given = gridfem.arrays(mesh)
                 numpy.testing.assert_array_equal(given[0], points)
                 numpy.testing.assert_array_equal(given[1], triangles)
-        mixed = block(points=points, faces=[3, 0, 1, 2, 4, 0, 1, 2, 3])
-        self.assertEqual(gridfem.arrays(mixed)[1].tolist(), [[0, 1, 2], [0, 1, 2], [0, 2, 3]])
+        flat = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2], [-1, 0]]
+        mixed = block(points=flat, faces=[6, 1, 2, 3, 4, 5, 0, 3, 0, 5, 6])  # an L and a triangle
+        corners, cells = gridfem.arrays(mixed)
+        self.assertEqual(cells.shape, (5, 3))
+        self.assertAlmostEqual(areas(corners, cells).sum(), 4.0, delta=1e-12)
         quads = block(points=points, faces=[4, 0, 1, 2, 3, 4, 3, 2, 1, 0])
         self.assertEqual(gridfem.arrays(quads)[1].tolist(), [[0, 1, 2, 3], [3, 2, 1, 0]])
         for wrong in (points, block(points=points, cells=[])):
             with self.assertRaises(gridfem.Error):
                 gridfem.arrays(wrong)
+
+    def test_choices_have_names(self):
+        points, triangles = self.mesh
+        for name, number in (("Grid", 0), ("HatFunctions", 1)):
+            numpy.testing.assert_array_equal(
+                gridfem.poisson(points, triangles, FunctionSpace=name, **OPTIONS),
+                gridfem.poisson(points, triangles, FunctionSpace=number, **OPTIONS))
+        with self.assertRaisesRegex(gridfem.Error, "one of Harmonic, Biharmonic"):
+            gridfem.interpolate(points, triangles, [0], [1.0], Smoothness="Smooth")
+
+    def test_values_out_of_range_raise(self):
+        points, triangles = self.mesh
+        with self.assertRaisesRegex(gridfem.Error, "NumberOfModes = 0: must be 1 to 100000"):
+            gridfem.spectrum(points, triangles, 0)
+        with self.assertRaisesRegex(gridfem.Error, "Depth = 15: must be 0 to 14"):
+            gridfem.poisson(points, triangles, Depth=15)
+        with self.assertRaisesRegex(gridfem.Error, "Smoothness = 2: must be 0 to 1"):
+            gridfem.interpolate(points, triangles, [0], [1.0], Smoothness=2)
+
+    def test_a_part_is_its_cells(self):
+        points, triangles = self.mesh
+        north = triangles[points[triangles, 2].min(axis=1) > -0.5]
+        used = numpy.isin(numpy.arange(len(points)), north)
+        distance = gridfem.distance(points, north, 0, **OPTIONS)
+        numpy.testing.assert_array_equal(numpy.isfinite(distance), used)
+        solution = gridfem.poisson(points, north, points[:, 2], **OPTIONS)
+        numpy.testing.assert_array_equal(numpy.isfinite(solution), used)
+        smooth = gridfem.poisson(points, north, **OPTIONS)
+        numpy.testing.assert_array_equal(smooth[~used], points[~used])
+
+    def test_colors_stay_colors(self):
+        points, triangles = self.mesh
+        colors = numpy.where(points[:, 2:] > 0, numpy.uint8([250, 128, 5]), numpy.uint8([5, 128, 250]))
+        sharp = gridfem.detail(points, triangles, 4.0, values=colors, **OPTIONS)
+        self.assertEqual(sharp.dtype, numpy.uint8)
+        self.assertEqual((sharp.min(), sharp.max()), (0, 255))  # clamped
+        diffused = gridfem.diffuse(points, triangles, colors, 1e-3, **OPTIONS)
+        self.assertEqual(diffused.dtype, numpy.uint8)
+        self.assertTrue((abs(diffused[:, 1].astype(int) - 128) <= 1).all())
+        # A color outside of the surface stays.
+        north = triangles[points[triangles, 2].min(axis=1) > -0.5]
+        unused = ~numpy.isin(numpy.arange(len(points)), north)
+        numpy.testing.assert_array_equal(
+            gridfem.poisson(points, north, colors, **OPTIONS)[unused], colors[unused])
 
     def test_misuse_raises(self):
         points, triangles = self.mesh

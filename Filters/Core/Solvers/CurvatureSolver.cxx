@@ -5,6 +5,8 @@
 #include "Problems/SolveWarnings.h"
 #include "Solvers/LocalSurface.h"
 
+#include <algorithm>
+
 namespace gridfem
 {
 namespace
@@ -88,11 +90,14 @@ void CurvatureSolver::Fit(const Surface& surface, const Options& options, const 
   result_.numbers = NumbersOf(curvatures, SurfaceArea(surface.Mesh()));
   result_.minimumDirection = RowsOf(curvatures.minimumDirection);
   result_.maximumDirection = RowsOf(curvatures.maximumDirection);
-  const std::vector<char> isUsed = UsedPoints(surface.Mesh(), job.threads);
+  // Points without a triangle that has an area have no direction.
+  std::vector<char> isFitted(curvatures.minimumDirection.size());
+  std::transform(curvatures.minimumDirection.begin(), curvatures.minimumDirection.end(),
+    isFitted.begin(), [](const Vec3& direction) { return direction.squaredNorm() > 0.0; });
   for (MultiVector* values :
     { &result_.numbers, &result_.minimumDirection, &result_.maximumDirection })
   {
-    ClearRows(isUsed, *values);
+    ClearRows(isFitted, *values);
   }
   if (result_.isSmoothed && !result_.report.converged)
   {
