@@ -247,7 +247,7 @@ void vtkSurfaceFEMAlgorithm::ComputeAlone(
     }
     EmptyOutputs(outputs);
     vtkPolyData::GetData(outputs)->ShallowCopy(vtkPolyData::GetData(surfaces[0]));
-    vtkWarningMacro("A block has no array '" << error.array << "'; it is passed on as it is.");
+    vtkWarningMacro("A block has no array '" << error.array << "'. It is output unchanged.");
   }
   gridfem::StampTime(!this->OwnTimeSteps().empty(), inputs[0], outputs);
 }
@@ -317,8 +317,9 @@ void vtkSurfaceFEMAlgorithm::ComputeJoinedBlocks(vtkInformationVector** inputs)
       }
       for (const std::string& block : without)
       {
-        vtkWarningMacro("The surface is without " << block << ", which has no array '"
-                                                  << error.array << "' and is passed on as it is.");
+        vtkWarningMacro("The surface does not include " << block << ", because it has no array '"
+                                                        << error.array
+                                                        << "'. It is output unchanged.");
       }
     }
   }

@@ -195,7 +195,7 @@ class Numpy(unittest.TestCase):
             "no property Dept": lambda: gridfem.spectrum(points, triangles, Dept=5),
             "not a finite number": lambda: gridfem.spectrum(points * numpy.nan, triangles),
             "has 7 rows": lambda: gridfem.poisson(points, triangles, numpy.ones(7)),
-            "not a point": lambda: gridfem.distance(points, triangles, len(points)),
+            "no polygon of the mesh has": lambda: gridfem.distance(points, triangles, len(points)),
             "no sources": lambda: gridfem.distance(points, triangles, []),
             "no border": lambda: gridfem.signed_distance(points, triangles, points[:, 0] * 0),
             "must be integers": lambda: gridfem.signed_distance(points, triangles, points[:, 0]),

@@ -139,7 +139,7 @@ TEST(ConnectivityAwareBasis, AWrongBasisIdIsRefusedByNumber)
   filter->SetBasisId(1000000);
   filter->Update();
   ASSERT_EQ(messages.errors.size(), 1u);
-  EXPECT_NE(messages.errors[0].find("BasisId 1000000"), std::string::npos);
+  EXPECT_NE(messages.errors[0].find("Basis Id 1000000"), std::string::npos);
   EXPECT_TRUE(IsEmptyData(filter->GetOutput()));
 }
 

@@ -310,12 +310,12 @@ TEST_F(TrackMetric, WhatDoesNotGoTogetherIsRefused)
   poisson->SetInputArrayToProcess(5, 0, 0, Points, "metric");
   poisson->Update();
   ASSERT_EQ(messages.errors.size(), 1u);
-  EXPECT_NE(messages.errors[0].find("TrackMetric"), std::string::npos);
+  EXPECT_NE(messages.errors[0].find("Track Metric"), std::string::npos);
   poisson->SetInputArrayToProcess(5, 0, 0, Points, "None");
   poisson->SetInputArrayToProcess(6, 0, 0, Points, "f");
   poisson->Update();
   ASSERT_EQ(messages.errors.size(), 2u);
-  EXPECT_NE(messages.errors[1].find("TrackMetric"), std::string::npos);
+  EXPECT_NE(messages.errors[1].find("Track Metric"), std::string::npos);
 }
 
 TEST_F(TrackMetric, TimeStepsSayWhichOneTheyStandOn)

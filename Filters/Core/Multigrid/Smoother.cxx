@@ -31,7 +31,7 @@ void CheckOrder(const SparseMatrix& A, const PatchOrder& order, int threads)
   const Id blocks = std::max<Id>(0, Id(order.blockBegin.size()) - 1);
   if (!Covers(order.blockBegin, order.dof.Count()) || !Covers(order.colourBegin, blocks))
   {
-    throw InvalidInput("blocks and colours of a patch order must cover all patches");
+    throw InvalidInput("blocks and colors of a patch order must cover all patches");
   }
   ParallelRanges(order.dof.Count(), threads,
     [&](Id begin, Id end)

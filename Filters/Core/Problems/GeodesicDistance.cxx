@@ -54,7 +54,7 @@ std::vector<char> MarkSources(const std::vector<Id>& sources, std::size_t points
 {
   if (sources.empty())
   {
-    throw InvalidInput("There are no sources that distances could start from.");
+    throw InvalidInput("There are no sources for the distance.");
   }
   RequireSources(sources, points);
   std::vector<char> isSource(points, 0);

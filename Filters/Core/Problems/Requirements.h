@@ -48,8 +48,7 @@ struct MemoryNeed
   std::string advice;
 };
 
-inline constexpr const char* CoarserGrid =
-  "Every step down in Depth takes a quarter of the memory.";
+inline constexpr const char* CoarserGrid = "Each step down in Depth needs a quarter of the memory.";
 
 /// The memory for this number of eigenvectors.
 MemoryNeed NeedOfModes(Id functions, Id modes, int threads);

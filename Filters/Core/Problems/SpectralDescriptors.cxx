@@ -163,8 +163,8 @@ Index CountZeroModes(const PointModes& modes)
   {
     throw InvalidInput(
       "All " + std::to_string(values.size()) +
-      " modes are constants, of which every component of the surface has one: more "
-      "modes than components are needed.");
+      " modes are constants. Every component of the surface has one constant mode, so "
+      "more modes than components are needed.");
   }
   Index zeros = 0;
   while (values[zeros] <= ZeroFraction * last)

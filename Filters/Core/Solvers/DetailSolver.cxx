@@ -76,16 +76,16 @@ void RequireInput(const DetailSolver::Input& input, const DetailSolver::Options&
   RequireOptions(options);
   if (options.transferFunction == CurvatureTransfer::Custom && !input.custom)
   {
-    throw InvalidInput("CustomTransferFunction has no points.");
+    throw InvalidInput("The Custom Transfer Function has no points.");
   }
   if (!input.values.IsOnPoints())
   {
-    throw InvalidInput("ValueArray needs values at points, but '" + input.values.name +
-                       "' is a cell array. Cell Data to Point Data converts it.");
+    throw InvalidInput("The Value Array has to be point data, but '" + input.values.name +
+                       "' is a cell array. Convert it with Cell Data to Point Data.");
   }
   if (input.scale && input.scale.components != 1)
   {
-    throw InvalidInput("DetailScaleArray '" + input.scale.name + "' must have one component.");
+    throw InvalidInput("Detail Scale Array '" + input.scale.name + "' must have one component.");
   }
 }
 

@@ -40,7 +40,7 @@ public:
   /// Points of this process, to be found on the mesh.
   struct FoundPoints
   {
-    std::string property; // for messages: "a Selection"
+    std::string property; // for messages: "the Selection"
     std::string none;     // for messages: "The Selection takes no point of a polygon"
     std::function<std::vector<Id>()> find; // throws InvalidInput
   };

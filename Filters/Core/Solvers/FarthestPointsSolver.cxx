@@ -28,7 +28,7 @@ Id FirstPoint(const TriangleMesh& mesh, int wanted)
   if (wanted >= static_cast<Id>(used.size()) || !used[wanted])
   {
     throw InvalidInput(
-      "FirstPointId: " + std::to_string(wanted) + " is not a point of a polygon of the mesh.");
+      "First Point Id: no polygon of the mesh has a point " + std::to_string(wanted) + ".");
   }
   return wanted;
 }

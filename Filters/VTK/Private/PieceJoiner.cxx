@@ -182,8 +182,8 @@ void PieceJoiner::RequireSamePlace(vtkIdType point, vtkIdType other, vtkIdType i
   const Vec3 there = this->PositionOf(other);
   if (here != there && !here.hasNaN())
   {
-    throw InvalidInput("The global point id " + std::to_string(id) + " stands for a point of " +
-                       owners_[points_.PieceOf(point)] + " and for one at another place of " +
+    throw InvalidInput("The global point id " + std::to_string(id) + " belongs to a point of " +
+                       owners_[points_.PieceOf(point)] + " and to a point elsewhere of " +
                        owners_[points_.PieceOf(other)] +
                        ". Remove the wrong ids, for example with Pass Arrays.");
   }

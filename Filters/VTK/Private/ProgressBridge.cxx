@@ -25,7 +25,7 @@ void ProgressBridge::Announce(const std::string& cost, bool takesHours)
   algorithm_->SetProgressText(cost.c_str());
   if (takesHours)
   {
-    vtkWarningWithObjectMacro(algorithm_, << cost << ". An abort ends it at any time.");
+    vtkWarningWithObjectMacro(algorithm_, << cost << ".");
   }
 }
 
