@@ -2,11 +2,11 @@
 // steps of its mean-curvature flow come out. Examples/run.sh builds it, runs it and renders what it
 // writes.
 //
-// What the Poisson solution shows: noise is taken off a striped (or coloured) surface. Minimising
-// ∫ λ (u - f)² + |∇u|² keeps u near the noisy f over lengths above 1 / √λ and smooths below.
+// The Poisson solution removes noise from a striped (or colored) surface. It minimizes ∫ w (u - f)²
+// + |∇u|², so u stays near the noisy f over lengths above 1 / √w and is smooth below.
 //
-// Exit codes: 0 all written; 1 a step could not do its work; 2 the command line is wrong;
-// 3 all written, but a solver stopped before it reached its tolerance.
+// Exit codes: 0: everything is written. 1: a step failed. 2: the command line is wrong. 3:
+// everything is written, but a solver stopped before its tolerance.
 
 #include "MeshInput.h"
 #include "Report.h"
@@ -56,10 +56,10 @@ struct Options
   int modes = 24;
 };
 
-/// 1 / √λ is a fiftieth of the side of a square with the surface's area (units: UnitArea).
+/// 1 / √w is a fiftieth of the side of a square with the surface's area (units: UnitArea).
 constexpr double ScreeningWeight = 2500;
 
-/// Of the flow, which takes the noise of a scan away and rounds what is sharp.
+/// The flow removes the noise of a scan and rounds sharp features.
 constexpr int FlowSteps = 5;
 constexpr double FlowTimeStep = 2e-4; // of the surface's area
 
@@ -130,7 +130,7 @@ void Run(Pipeline& p, StepClock& clock)
   clock.Run("Mean Curvature Flow", p.flow);
 }
 
-/// Tables have a line per row and one for the names; VTK's files end with their outermost tag.
+/// Tables have a line per row and a line for the names. VTK's files end with their outermost tag.
 bool IsWhole(const fs::path& path, vtkDataObject* data)
 {
   std::ifstream file(path, std::ios::binary);
@@ -146,7 +146,7 @@ bool IsWhole(const fs::path& path, vtkDataObject* data)
   return tail.find("</VTKFile>") != std::string::npos;
 }
 
-/// On a full disk VTK's writers may say nothing: what they wrote does.
+/// On a full disk VTK's writers may report nothing, so this function looks at the written file.
 template<class Writer>
 void Run(Writer* writer, const fs::path& path, StepClock& clock)
 {
@@ -167,7 +167,7 @@ void Write(const fs::path& path, vtkAlgorithmOutput* port, StepClock& clock)
   Run(writer.Get(), path, clock);
 }
 
-/// Every step as a file; ParaView opens them as one surface that moves.
+/// Writes every step as a file. ParaView opens the files as one moving surface.
 void WriteFlow(const fs::path& folder, vtkMeanCurvatureFlow* flow, StepClock& clock)
 {
   for (int step = 0; step <= FlowSteps; ++step)

@@ -3,7 +3,8 @@
     PYTHONPATH=build/lib/python3/dist-packages \\
         xvfb-run -a pvpython inpaint.py MESH DEPTH PICTURE.png
 
-MESH is a .vtp or .ply file. Of a smooth field what lies near some points is lost, a fifth of all.
+MESH is a .vtp or .ply file. The script deletes a fifth of the values of a smooth field, near some
+points.
 """
 
 import math

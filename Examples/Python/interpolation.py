@@ -30,7 +30,7 @@ def read(path):
 
 
 def far_apart(mesh, count):
-    """Points of the mesh, each the farthest from those before it."""
+    """Points of the mesh, each the farthest from the points before it."""
     points = [mesh.GetPoint(k) for k in range(mesh.GetNumberOfPoints())]
     chosen, nearest = [points[0]], [float("inf")] * len(points)
     while len(chosen) < count:

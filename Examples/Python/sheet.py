@@ -1,5 +1,5 @@
-"""What the examples with pictures share: draws them side by side on one white sheet, with VTK's own
-classes.
+"""Draws pictures side by side on one white sheet, with VTK's own classes. The examples with
+pictures share it.
 """
 
 import math
@@ -44,7 +44,7 @@ class Layer:
 
 @dataclass
 class View:
-    """Where a tile is looked at from, in parallel projection."""
+    """The view of a tile, in parallel projection."""
 
     centre: tuple
     direction: tuple  # from the centre to the eye
@@ -67,7 +67,8 @@ def required(data):
 
 
 def from_the_front(mesh, room=1.1):
-    """The plane of x and y, as scans often stand; room times what the mesh takes."""
+    """The plane of x and y, as scans often stand. `room` is the size of the view in sizes of the
+    mesh."""
     bounds = mesh.GetBounds()
     height = room * max(bounds[1] - bounds[0], bounds[3] - bounds[2])
     return View(mesh.GetCenter(), (0, 0, -1), (0, 1, 0), height)

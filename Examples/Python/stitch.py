@@ -43,8 +43,8 @@ def colours_of(mesh):
 
 
 def add_scans(mesh):
-    """Adds what the scanners see, Seen, and which one it was, Scan: sectors around the
-    longest axis, whose number is returned."""
+    """Adds the colors that the scanners see, Seen, and the number of the scanner, Scan. Each
+    scanner sees a sector around the longest axis. Returns the number of this axis."""
     bounds = mesh.GetBounds()
     extent = [bounds[2 * k + 1] - bounds[2 * k] for k in range(3)]
     upright = extent.index(max(extent))
