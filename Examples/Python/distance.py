@@ -36,7 +36,7 @@ def isolines(mesh, largest):
 
 
 def add_regions(mesh, sources):
-    """The point array Region: the number of the nearest source in the list, for few colours."""
+    """The point array Region: the number of the nearest source in the list, for few colors."""
     nearest = mesh.GetPointData().GetArray("NearestPoint")
     number = {source: k for k, source in enumerate(sources)}
     region = vtkIntArray()

@@ -29,14 +29,14 @@ GAP = 8  # pixels between tiles
 
 @dataclass
 class Layer:
-    """A data set in a tile: coloured by a point or cell array, or all grey."""
+    """A data set in a tile: colored by a point or cell array, or all gray."""
 
     data: object
     array: str = ""
     low: float = -1.0
     high: float = 1.0
-    shuffled: bool = False  # ids: every value its own colour
-    direct: bool = False  # the array holds colours
+    shuffled: bool = False  # ids: every value its own color
+    direct: bool = False  # the array holds colors
     wireframe: bool = False
     edges: bool = False
     color: tuple = (0.85, 0.85, 0.83)
@@ -47,7 +47,7 @@ class View:
     """The view of a tile, in parallel projection."""
 
     centre: tuple
-    direction: tuple  # from the centre to the eye
+    direction: tuple  # from the center to the eye
     up: tuple
     height: float  # of what is seen
 
@@ -103,7 +103,7 @@ def diverging_colors(low, high):
 
 
 def shuffled_colors(count):
-    """Light colours of which neighbouring numbers differ."""
+    """Light colors of which neighboring numbers differ."""
     colors = vtkColorTransferFunction()
     colors.SetColorSpaceToHSV()
     colors.HSVWrapOff()

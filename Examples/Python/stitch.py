@@ -1,9 +1,9 @@
-"""The colours of five scans of a surface, stitched to one, and a picture of before and after.
+"""The colors of five scans of a surface, stitched to one, and a picture of before and after.
 
     PYTHONPATH=build/lib/python3/dist-packages \\
         xvfb-run -a pvpython stitch.py MESH DEPTH PICTURE.png
 
-MESH is a .vtp or .ply file. Its colours, or stripes where it has none, are seen by five scanners from
+MESH is a .vtp or .ply file. Its colors, or stripes where it has none, are seen by five scanners from
 five sides, each with a gain and an offset of its own.
 """
 
@@ -30,7 +30,7 @@ def read(path):
 
 
 def colours_of(mesh):
-    """A function that gives the three colours of a point."""
+    """A function that gives the three colors of a point."""
     given = mesh.GetPointData().GetArray("RGB") or mesh.GetPointData().GetArray("RGBA")
     if given:
         return lambda point: given.GetTuple(point)[:3]

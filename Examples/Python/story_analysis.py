@@ -41,7 +41,7 @@ def add_heat(mesh):
 
 
 def summits(mesh):
-    """The points that keep more heat than their neighbours, the hottest first."""
+    """The points that keep more heat than their neighbors, the hottest first."""
     heat = mesh.GetPointData().GetArray("Heat").GetValue
     is_summit = [True] * mesh.GetNumberOfPoints()
     for k in range(mesh.GetNumberOfCells()):

@@ -47,7 +47,7 @@ def clear():
 
 
 def colors(view):
-    """How many colours a view shows."""
+    """How many colors a view shows."""
     view.ViewSize = [200, 150]
     simple.Render(view)
     image = vtkWindowToImageFilter()

@@ -4,7 +4,7 @@
 // one cycle from the last solution; "rhs" integrates a new scale first; "matrix" weighs the
 // elements for a new transfer function before that and brings the hierarchy up to date. "scale" is
 // what the filter does for another DetailScale: the solution is linear in it, so nothing is solved.
-// The peer solves the same equation on hat functions and factorises again.
+// The peer solves the same equation on hat functions and factorizes again.
 #include "Cholmod.h"
 #include "Measure.h"
 #include "Meshes.h"
@@ -205,7 +205,7 @@ private:
   std::vector<Vec3> positions_;
 };
 
-/// CHOLMOD's numeric factorisation and solution of three columns for a changed matrix of the hats.
+/// CHOLMOD's numeric factorization and solution of three columns for a changed matrix of the hats.
 double CholmodSecondsPerChange(const TriangleMesh& mesh)
 {
   SetBlasThreads(Threads);

@@ -3,7 +3,7 @@
 //
 // "from the mesh on" is clip, functions, both hierarchies and ten distances. The peer is the heat
 // method on hat functions with t = (mean edge)², as Crane, Weischedel and Wardetzky give it, by
-// CHOLMOD: both matrices are factorised once, and a further source costs two substitutions with a
+// CHOLMOD: both matrices are factorized once, and a further source costs two substitutions with a
 // gradient and a divergence between them. Errors are those of one distance on surfaces where it is
 // known, or computed exactly by CGAL.
 #include "Cholmod.h"

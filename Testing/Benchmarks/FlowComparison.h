@@ -1,4 +1,4 @@
-// Which discretisation and which solver come nearest to the conformalised flow of a folded surface
+// Which discretization and which solver come nearest to the conformalized flow of a folded surface
 // in a given time: each makes as many steps as it has time for. [T §6.2.3, Table 6.2, Figure 6.9]
 #ifndef GridFEM_Benchmarks_FlowComparison_h
 #define GridFEM_Benchmarks_FlowComparison_h

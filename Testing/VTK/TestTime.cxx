@@ -47,7 +47,7 @@ protected:
     filter->SetInputConnection(source->GetOutputPort());
   }
 
-  /// Checks the output at every time, forwards and backwards.
+  /// Checks the output at every time, forward and backward.
   template<class Look>
   void AtEveryTime(vtkSurfaceFEMAlgorithm* filter, Look&& look)
   {

@@ -260,7 +260,7 @@ std::vector<double> GeodesicDistance::ShiftedToSources(
   return ShiftedToZero(value, component_, sum, isSource);
 }
 
-/// ∫ <X, ∇b_i>, where X points away from the curve outside and towards it inside. Near the curve, X
+/// ∫ <X, ∇b_i>, where X points away from the curve outside and toward it inside. Near the curve, X
 /// is the gradient of the distance through space; farther away, the direction of the heat with the
 /// sign of the side.
 MultiVector GeodesicDistance::LoadOfSignedDistance(const MultiVector& heat,

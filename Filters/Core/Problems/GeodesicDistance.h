@@ -83,7 +83,7 @@ public:
     const std::vector<Id>& sources, const SolveOptions& solve, const Job& job = {}) const override;
 
   /// The distance from a curve, negative inside: L φ = ∫ <X, ∇b_i>. X points away from the curve
-  /// outside and towards it inside, so φ has no crease at the curve.
+  /// outside and toward it inside, so φ has no crease at the curve.
   /// Near the curve X is the gradient of the distance through space (DistancesNear). The result
   /// blends into this distance too, the more the nearer. Farther away the direction comes from heat
   /// that starts everywhere on the curve. φ is shifted so that its mean over the curve is 0 on each

@@ -15,7 +15,7 @@ namespace gridfem::benchmarks
 using Prolongation = Eigen::SparseMatrix<double>;
 
 /// Prolongations, finest first: rows = vertices of a level, columns = those that are left. A vertex
-/// that stays keeps its value. The neighbours of one that is removed are laid into the plane around
+/// that stays keeps its value. The neighbors of one that is removed are laid into the plane around
 /// it, lengths kept and angles scaled to a full turn; it gets the linear interpolation of the new
 /// triangle it lies in. Vertices on boundaries and non-manifold edges stay.
 /// @param mesh  every point is used

@@ -106,7 +106,7 @@ Vec3 OnSaddle(double x, double y)
 }
 
 /// Exact curvatures of the graph of (x² - y²) / 2, seen from above: negative where it opens
-/// upwards.
+/// upward.
 Exact OfSaddle(const Vec3& p)
 {
   const Vec3 u(1.0, 0.0, p[0]);
