@@ -24,8 +24,8 @@ vtkStandardNewMacro(vtkHarmonicInterpolation);
 namespace
 {
 
-/// Returns the array chosen for the second data set, or else the one chosen for the first, or else
-/// the active scalars.
+/// Returns the array chosen for the second data set, or else the array chosen for the first data
+/// set, or else the active scalars.
 gridfem::InputArray FindArrayOf(vtkAlgorithm* algorithm, vtkDataSet* values)
 {
   gridfem::InputArray array = gridfem::FindInputArray(algorithm, 2, values, "SourceArray");

@@ -161,7 +161,7 @@ int vtkSurfaceFEMAlgorithm::RequestData(
   options.solve.maximumIterations = this->MaximumIterations;
   options.accuracy = this->WantedAccuracy();
   options.parameterUnits = static_cast<gridfem::ParameterUnits>(this->ParameterUnits);
-  this->State->SetInput(nullptr, nullptr); // Compute sets it; that of the last run may be gone
+  this->State->SetInput(nullptr, nullptr); // Compute sets it; the last input may be gone
 
   EmptyOutputs(outputs);
   this->SetErrorCode(vtkErrorCode::NoError);
@@ -387,7 +387,7 @@ void vtkSurfaceFEMAlgorithm::ComputeOnRanks(
       gridfem::StampTime(!this->OwnTimeSteps().empty(), gathered[0], results);
       return this->OwnTimeSteps();
     });
-  // The array would otherwise be that of an earlier filter.
+  // Otherwise the array of an earlier filter would stay.
   vtkPolyData::GetData(outputs)->GetFieldData()->RemoveArray(gridfem::DistributedName);
 }
 

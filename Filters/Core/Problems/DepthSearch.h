@@ -1,4 +1,4 @@
-// Finds the depth of the grid for a wanted error. It goes from a coarse grid to finer ones, until
+// Finds the depth of the grid for a wanted error. It goes from a coarse grid to finer grids, until
 // the estimated error is small enough or the next grid does not fit into memory.
 #ifndef GridFEM_DepthSearch_h
 #define GridFEM_DepthSearch_h

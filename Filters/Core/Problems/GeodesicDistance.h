@@ -85,12 +85,12 @@ public:
   /// The distance from a curve, negative inside: L φ = ∫ <X, ∇b_i>. X points away from the curve
   /// outside and toward it inside, so φ has no crease at the curve.
   /// Near the curve X is the gradient of the distance through space (DistancesNear). The result
-  /// blends into this distance too, the more the nearer. Farther away the direction comes from heat
-  /// that starts everywhere on the curve. φ is shifted so that its mean over the curve is 0 on each
-  /// component.
-  /// Close to the curve the error is that of linear functions on the triangles, farther away that
-  /// of From. Throws InvalidInput when the curve is not of this mesh, and Aborted. Same bits for
-  /// any number of threads.
+  /// also blends into this distance, increasingly toward the curve. Farther away the direction
+  /// comes from heat that starts everywhere on the curve. φ is shifted so that its mean over the
+  /// curve is 0 on each component.
+  /// Close to the curve the error is the error of linear functions on the triangles. Farther away
+  /// it is the error of From. Throws InvalidInput when the curve is not of this mesh, and Aborted.
+  /// Same bits for any number of threads.
   DistanceField FromCurve(
     const SurfaceCurve& curve, const SolveOptions& solve, const Job& job = {}) const override;
 

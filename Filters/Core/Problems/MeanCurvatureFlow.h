@@ -28,8 +28,8 @@ enum class Rescaling
 struct FlowOptions
 {
   double timeStep = 1e-3; // δ > 0, squared units of length of the space
-  /// The stiffness stays that of the start: (M_t + δ L_0) X⁺ = M_t X [T (6.2)]. The map from the
-  /// start then tends to a conformal map.
+  /// Every step uses the stiffness matrix of the start: (M_t + δ L_0) X⁺ = M_t X [T (6.2)]. The map
+  /// from the start then tends to a conformal map.
   bool conformalized = false;
   Rescaling rescaling = Rescaling::None;
   /// The part of the surface that stays in place; empty: the boundary moves freely. Not for the

@@ -255,9 +255,8 @@ void DetailSolver::SolveBlocks(
 }
 
 /// Returns the change at the points. It is linear in the scales inside and outside of the
-/// selection. The solution reaches beyond the selection by about 1 / sqrt(ScreeningWeight), so the
-/// part of the selection counts only where its fade does: points outside keep the change of the
-/// outer scale.
+/// selection. The solution reaches beyond the selection by about 1 / sqrt(ScreeningWeight), so its
+/// part fades out around the selection. Points outside keep the change of the outer scale.
 MultiVector DetailSolver::ChangeAtPoints(const Options& options, int threads) const
 {
   const MultiVector& solved = equation_.Solution().coefficients;

@@ -58,7 +58,7 @@ public:
     std::vector<Id> ids;
     GivenField mask; // sources are where it is not 0
     std::vector<FoundPoints> points;
-    GivenField labels; // curves are the border of a label, else the given ones
+    GivenField labels; // curves are the border of a label; none: `curve`
     GivenCurve curve;
   };
 

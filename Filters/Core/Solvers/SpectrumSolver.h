@@ -17,7 +17,7 @@ namespace gridfem
 /// those of the space. A V-cycle costs less than a W-cycle.
 EquationOptions EquationOfModes();
 
-/// Computes the modes at the depth of the surface, or at the one that a wanted accuracy needs.
+/// Computes the modes at the depth of the surface, or at the depth that a wanted accuracy needs.
 class SpectrumSolver
 {
 public:

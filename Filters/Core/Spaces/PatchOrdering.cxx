@@ -24,8 +24,8 @@ int Colour(MortonKey block)
 }
 
 /// Returns the patches of a block by the parity of their cell, as if the cells of each block were
-/// colored again; equal ones are in Morton order. Neighbors then do not wait for each other.
-/// Conjugate gradients need 10 to 20 % fewer iterations than with plain Morton order.
+/// colored again. Patches of equal parity are in Morton order. Neighbors then do not wait for each
+/// other. Conjugate gradients need 10 to 20 % fewer iterations than with plain Morton order.
 std::vector<Id> VisitingOrder(const PatchLevel& level, Id begin, Id end)
 {
   std::vector<Id> patches(end - begin);

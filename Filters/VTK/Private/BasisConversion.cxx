@@ -169,8 +169,8 @@ bool IsStored(const Vec3& stored, const Vec3& given)
   return stored == given || stored == Vec3(given.cast<float>().cast<double>());
 }
 
-/// Returns the corner of a triangle that a stored point is, or -1. It prefers, among several
-/// corners at one place, the one with the point's number. Otherwise it takes the first that the
+/// Returns the corner of a triangle that a stored point is, or -1. Among several corners at one
+/// place, it prefers the corner with the point's number. Otherwise it takes the first that the
 /// piece lacks among its corners taken .. end.
 Id FindCorner(Id point, const TriangleMesh& stored, const TriangleMesh& given,
   const std::array<Id, 3>& corners, const Index* taken, const Index* end)

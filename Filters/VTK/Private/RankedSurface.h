@@ -63,7 +63,7 @@ private:
   std::vector<Bytes> Parts(vtkInformationVector* outputs, const std::vector<double>& steps) const;
   void TakeParts(Bytes bytes, const std::vector<double>& ownSteps, vtkInformationVector* outputs);
 
-  StageKey key_; // what this rank has given
+  StageKey key_; // the data that this rank has given
   bool isGathered_ = false;
   bool isEmpty_ = true;
   vtkSmartPointer<vtkPolyData> own_;                   // the surface of this rank
