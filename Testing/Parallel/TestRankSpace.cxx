@@ -1,4 +1,4 @@
-// The space on several ranks is that of one rank, with the same patches and functions on every
+// The space on several ranks equals the space of one rank: the same patches and functions on every
 // level, and the same entries of M, L and the prolongations.
 #include "Largest.h"
 #include "Meshes.h"

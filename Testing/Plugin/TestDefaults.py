@@ -7,17 +7,17 @@ from paraview.modules.vtkRemotingServerManager import vtkSMOrderedPropertyIterat
 
 import plugin
 
-# The ends of int, vtkIdType and double: a class that allows them has no end.
+# The ends of int, vtkIdType and double. A class that allows them has no bound.
 UNBOUNDED = {2**31 - 1, 2**63 - 1, 1.7976931348623157e308}
 
-# The arrays of a panel are numbered as they come, but for these.
+# The arrays of a panel are numbered in their order, except for these.
 INDICES = {("LaplaceSpectrum", "MetricArray"): 5}
 
-# What the panel of a filter that was just made shows without its advanced properties: at most so many,
-# besides inputs.
+# The panel of a new filter shows at most this number of properties, without inputs and advanced
+# properties.
 MOST_SHOWN = 5
 
-# The class does not clamp these but refuses what is below, with a message.
+# The class does not clamp these properties. It refuses values below the range, with a message.
 REFUSED_BELOW = {"ScreeningWeight": 0, "Mode": -1, "DiffusionTime": 0, "SmoothingScale": 0,
                  "TransitionWidth": 0}
 

@@ -66,7 +66,7 @@ def apart(ours, theirs, what, tolerance=1e-12):
 
 class DistributedClip(unittest.TestCase):
     def compare_meshes(self, output, whole, kind, case):
-        """Triangles have the order of one rank if the pieces have that of the mesh."""
+        """Triangles have the order of one rank if the pieces have the order of the mesh."""
         theirs, names = rows_of_triangles(whole)
         ours = of_all_ranks(rows_of_triangles(output)[0])
         problems = []

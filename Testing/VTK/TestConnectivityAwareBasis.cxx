@@ -196,7 +196,7 @@ TEST(ConnectivityAwareBasis, AClippedInputGivesTheSameBasis)
   clip->SetDepth(4);
   clip->SetInputData(ToPolyData(mesh));
   vtkNew<vtkConnectivityAwareBasis> chained;
-  chained->SetDepth(7); // not used: the grid is that of the clip
+  chained->SetDepth(7); // not used, because the clip has the grid
   chained->SetInputConnection(clip->GetOutputPort());
   chained->Update();
   for (const char* name : { "PatchBasisIds", "PatchCellId", "OctreeCells", "GridDepth" })

@@ -155,7 +155,7 @@ TEST_F(ScreenedPoisson, UnitsOfTheWeight)
   const auto world = this->Solution();
   filter->SetParameterUnits(Poisson::UnitArea);
   filter->SetScreeningWeight(3.0 * area);
-  EXPECT_LT(Difference(this->Solution(), world), 1e-6); // each starts from the one before
+  EXPECT_LT(Difference(this->Solution(), world), 1e-6); // each starts from the solution before
   filter->SetParameterUnits(Poisson::UnitCube);
   filter->SetScreeningWeight(3.0 * 4.0); // the box has side 2
   EXPECT_LT(Difference(this->Solution(), world), 1e-6);

@@ -419,8 +419,8 @@ TEST_P(SurfaceDetailFilter, GoesOnAfterAnAbort)
   EXPECT_LE(Difference(Positions(filter->GetOutput()), PositionsFrom(fresh)), 1e-9);
 }
 
-/// The points of the curve are set by hand. The curve has no effect, or that of a preset where the
-/// preset has no bend.
+/// The points of the curve are set by hand. The curve has no effect, or the effect of a preset
+/// where the preset has no bend.
 TEST_P(SurfaceDetailFilter, TakesATransferFunctionOfOnesOwn)
 {
   const auto sphere = WavySphere();

@@ -134,7 +134,7 @@ TEST_F(Time, ModesAsTimeAreThoseOfTheSurfaceAtOneTime)
   vtkNew<vtkLaplaceSpectrum> spectrum;
   this->Connect(spectrum.Get());
   spectrum->SetNumberOfModes(9);
-  source->UpdateTimeStep(2.0); // what was shown before the filter was put on it
+  source->UpdateTimeStep(2.0); // shown before the filter was added
   const int runs = source->Runs;
   for (const double mode : { 3, 1, 8, 2 })
   {

@@ -37,7 +37,7 @@ TriangleMesh MovedMesh(TriangleMesh mesh, const Map& map)
   return mesh;
 }
 
-/// Makes all arrays anew, as a reader does. The point array "f" is that of the mesh before.
+/// Makes all arrays anew, as a reader does. The point array "f" belongs to the mesh before.
 vtkSmartPointer<vtkPolyData> Read(const TriangleMesh& mesh, const Map& map)
 {
   auto data = ToPolyData(mesh);
@@ -340,8 +340,8 @@ TEST_F(TrackMetric, TimeStepsSayWhichOneTheyStandOn)
   EXPECT_EQ(spectrum->GetNumberOfRuns("Solve"), 4);
 }
 
-/// Reads a scan that bends from files. The grid stays, and the solution is that of a new grid up to
-/// the errors of both.
+/// Reads a scan that bends from files. The grid stays, and the solution equals the solution on a
+/// new grid up to the errors of both.
 TEST_F(TrackMetric, AScanBends)
 {
   const std::string path = RealMesh("armadillo_100k.ply");

@@ -121,7 +121,7 @@ TEST(SingleMultigrid, IsTheDoubleOneUpToSinglePrecision)
   }
 }
 
-/// The energy follows from half of the cycle and equals that of the whole cycle.
+/// The energy follows from half of the cycle and equals the energy of the whole cycle.
 TEST(SingleMultigrid, EveryCycleKnowsItsEnergy)
 {
   const Discretisation on = Discretise(Torus(64, 32, 1.0, 0.4), 5);

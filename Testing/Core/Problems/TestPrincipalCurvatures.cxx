@@ -1,4 +1,4 @@
-// Curvatures and their directions against exact ones, on good, irregular and bad triangles.
+// Curvatures and their directions against exact values, on good, irregular and bad triangles.
 #include "Largest.h"
 #include "Problems/PrincipalCurvatures.h"
 

@@ -1,4 +1,4 @@
-// Signed distances from curves against exact ones, on both kinds of space.
+// Signed distances from curves against exact distances, on both kinds of space.
 #include "Largest.h"
 #include "Problems/CurveDistance.h"
 #include "Problems/GeodesicDistance.h"

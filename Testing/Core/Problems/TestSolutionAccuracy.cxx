@@ -1,5 +1,5 @@
 // Estimated errors against true errors. The true error of the space comes from a grid two levels
-// finer, that of the iteration from the solution of the discrete equations.
+// finer. The true error of the iteration comes from the solution of the discrete equations.
 #include "Problems/Poisson.h"
 
 #include "Grid/SurfaceEdges.h"

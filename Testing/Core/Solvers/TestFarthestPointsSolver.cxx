@@ -1,4 +1,4 @@
-// Points that are spread evenly, and what more or fewer of them cost.
+// Points that are spread evenly, and the cost of more or fewer points.
 #include "Solvers/FarthestPointsSolver.h"
 
 #include "Base/Errors.h"
