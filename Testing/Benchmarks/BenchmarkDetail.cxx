@@ -1,4 +1,4 @@
-// Frames per second of Surface Detail: what a user waits for who turns a knob. [T Table 5.5]
+// Frames per second of Surface Detail, while a user moves a slider. [T Table 5.5]
 //
 // A frame ends with new positions of all vertices. Its states are those of the thesis: "solve" is
 // one cycle from the last solution; "rhs" integrates a new scale first; "matrix" weighs the
@@ -126,7 +126,7 @@ private:
     this->Solve();
   }
 
-  /// A user's hand: every frame a little farther.
+  /// A user's hand moves a little farther in every frame.
   void Weigh(int frame)
   {
     const double strength = 4.0 + 0.05 * frame;

@@ -1,4 +1,4 @@
-// What a figure shows: panels of curves, or colored surfaces. Written as files that
+// The content of a figure: panels of curves, or colored surfaces. Written as files that
 // draw_figures.py turns into pictures.
 #ifndef GridFEM_Benchmarks_Chart_h
 #define GridFEM_Benchmarks_Chart_h

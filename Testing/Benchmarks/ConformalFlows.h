@@ -20,7 +20,7 @@ public:
   /// Coefficients of the surface's points before it moves.
   virtual Eigen::MatrixXd Start() const = 0;
 
-  /// The mass becomes that of the surface with these coefficients. In place.
+  /// The mass becomes the mass of the surface with these coefficients. In place.
   virtual void Move(const Eigen::MatrixXd& coefficients) = 0;
 
   /// The points of the mesh, world units.
@@ -50,7 +50,7 @@ class ConformalFlow
 public:
   virtual ~ConformalFlow() = default;
 
-  /// Back to the start. What all steps have in common is prepared here, or in the first step.
+  /// Back to the start. The data that all steps share is prepared here, or in the first step.
   /// @param timeStep  squared world units
   virtual void Begin(double timeStep) = 0;
 

@@ -58,7 +58,7 @@ struct HatProblem
   double Error(const Eigen::MatrixXd& x) const;
 };
 
-/// The matrix alone: what the peers' "assembly" means in every table.
+/// The matrix alone, which is the peers' "assembly" in every table.
 HatProblem AssembleProblem(const TriangleMesh& mesh, double screeningWeight = ScreeningWeight);
 void ChooseColours(const TriangleMesh& mesh, HatProblem& problem, int columns);
 

@@ -12,7 +12,7 @@
 namespace gridfem::benchmarks
 {
 
-/// What a rank adds to a matrix of all ranks, and which of its rows are its own.
+/// The contribution of a rank to a matrix of all ranks, and the rows that belong to the rank.
 struct MatrixPart
 {
   const SymmetricMatrix& matrix;

@@ -205,7 +205,7 @@ TriangleMesh Compact(const ChangingMesh& mesh, const std::vector<Id>& number)
   return result;
 }
 
-/// One level: replaces the mesh by what is left of it.
+/// Makes one level: replaces the mesh by the remaining mesh.
 Prolongation RemoveOneSet(TriangleMesh& mesh)
 {
   ChangingMesh changing(mesh);
