@@ -74,7 +74,7 @@ def distance(points, cells, sources, nearest=False, **properties):
     """
     sources = _inputs.ids("sources", sources)
     if sources.size == 0:
-        raise Error("no sources")
+        raise Error("there are no sources")
     results = _solve("GeodesicDistance", points, cells, {},
                      {"NearestSource": bool(nearest), **properties}, sources)
     if nearest:
@@ -121,7 +121,7 @@ def interpolate(points, cells, ids, values, **properties):
         raise Error(f"there are {len(ids)} ids and {len(values)} values")
     points, cells = _inputs.checked(points, cells)
     if ids.size and not (0 <= ids.min() and ids.max() < len(points)):
-        raise Error(f"ids must be those of the {len(points)} points, from 0")
+        raise Error(f"ids must be ids of the {len(points)} points, from 0")
     known = numpy.full((len(points), *values.shape[1:]), numpy.nan)
     known[ids] = 0.0
     numpy.add.at(known, ids, values)

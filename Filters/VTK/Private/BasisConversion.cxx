@@ -265,7 +265,7 @@ SurfaceBasis OnSourceMesh(
     if (candidates.first == candidates.second)
     {
       RefuseForeignBasis(
-        "it refers to cell " + std::to_string(cell) + ", which is no polygon here.");
+        "it refers to cell " + std::to_string(cell) + ", which is not a polygon of this mesh.");
     }
     const Id triangle = FindSourceTriangle(before, piece, candidates, given);
     const auto& corners = given.triangles[triangle];
