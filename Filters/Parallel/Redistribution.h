@@ -46,7 +46,7 @@ public:
 
   Id NumberOfOwnPoints() const { return numberOfOwnPoints_; }
 
-  /// ///@{ Own points and own triangles that are sent to a rank, ascending.
+  ///@{ Own points and own triangles that are sent to a rank, ascending.
   const std::vector<Index>& PointsTo(int rank) const { return sentPoints_[rank]; }
   const std::vector<Index>& TrianglesTo(int rank) const { return sentTriangles_[rank]; }
   ///@}

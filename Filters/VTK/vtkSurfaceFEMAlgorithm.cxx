@@ -391,7 +391,7 @@ void vtkSurfaceFEMAlgorithm::ComputeOnRanks(
   vtkPolyData::GetData(outputs)->GetFieldData()->RemoveArray(gridfem::DistributedName);
 }
 
-/// Starts all ranks anew after a failure, because the data of one rank may not fit those of the
+/// Starts all ranks anew after a failure, because the data of one rank may not fit the data of the
 /// others.
 bool vtkSurfaceFEMAlgorithm::TryTogether(
   vtkInformationVector** inputs, vtkInformationVector* outputs)

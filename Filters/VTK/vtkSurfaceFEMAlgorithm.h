@@ -33,8 +33,8 @@
  * its threads. The other ranks sleep. Ghost cells count once. Points on borders are joined by
  * global point ids, or else by their coordinates with WeldCoincidentPoints. Port 0 is each rank's
  * own input plus arrays, borders and ghosts included. Outputs with cells of their own, and tables,
- * are on rank 0. Ids, such as those of sources and in messages, count through the gathered surface.
- * The same ranks have to run the filter together. If one fails, all fail with one message.
+ * are on rank 0. Ids of sources, and ids in messages, count through the gathered surface. The same
+ * ranks have to run the filter together. If one fails, all fail with one message.
  *
  * A solver filter looks for its function space in this order:
  * - on input port 0, if that is the output of vtkConnectivityAwareBasis;
@@ -189,9 +189,9 @@ public:
    * one result. Field arrays describe the one surface. Outputs with cells of their own, and tables,
    * are in the first leaf.
    *
-   * Ids, such as those of sources and in messages, count through all leaves. Joined points count
-   * once. Only arrays that all leaves have can be chosen. A leaf without a chosen array that others
-   * have is passed on unchanged, with a warning.
+   * Ids of sources, and ids in messages, count through all leaves. Joined points count once. Only
+   * arrays that all leaves have can be chosen. A leaf without a chosen array that others have is
+   * passed on unchanged, with a warning.
    *
    * When off (default), every leaf is a surface by itself. The property has no effect on other
    * inputs.
@@ -246,7 +246,7 @@ protected:
 
   /**
    * The ascending time steps of a filter that shows its own results by time. Empty (default) if the
-   * times are those of the input. Called again after Compute, which may find other steps.
+   * input gives the times. Called again after Compute, which may find other steps.
    */
   virtual std::vector<double> OwnTimeSteps();
 

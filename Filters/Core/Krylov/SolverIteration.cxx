@@ -80,7 +80,7 @@ SolverIteration::SolverIteration(const LinearOperator& A, const Preconditioner& 
   this->Judge();
 }
 
-/// Measures |b|. Retires the columns without a solution and those with a trivial solution.
+/// Measures |b|. Retires the columns without a solution and the columns with a trivial solution.
 void SolverIteration::MeasureZero()
 {
   residualOfZero_ = A_.products(r, r).sqrt();

@@ -204,7 +204,7 @@ private:
 
 using Multigrid = BasicMultigrid<double>;
 
-/// ///@{ Functions of hierarchies in double precision only.
+///@{ Functions of hierarchies in double precision only.
 template<>
 void BasicMultigrid<float>::Update(const std::function<void(std::size_t, SparseMatrix&)>&) = delete;
 template<>

@@ -42,7 +42,7 @@ void CheckOrder(const SparseMatrix& A, const PatchOrder& order, int threads)
         {
           if (unknown < -1 || unknown >= A.rows)
           {
-            throw InvalidInput("patch " + std::to_string(patch) + " names unknown " +
+            throw InvalidInput("Patch " + std::to_string(patch) + " names unknown " +
                                std::to_string(unknown) + " of " + std::to_string(A.rows));
           }
         }

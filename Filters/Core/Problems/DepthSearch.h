@@ -32,7 +32,7 @@ private:
   bool wasAccurate_ = false;
 };
 
-/// ///@{ Search for a spectrum: the first depth, and the next depth after `depth`. The second
+///@{ Search for a spectrum: the first depth, and the next depth after `depth`. The second
 /// function gets the estimated relative errors of the eigenvalues on the grid of `depth`. It
 /// returns `depth` itself when they are small enough.
 /// @param accuracy  wanted relative error, in (0, 1)

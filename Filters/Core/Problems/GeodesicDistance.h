@@ -123,7 +123,7 @@ private:
   std::unique_ptr<Multigrid> poisson_;       // of L
 };
 
-/// ///@{ Steps shared with the distance on several processes, which take them on their own parts.
+///@{ Steps shared with the distance on several processes, which take them on their own parts.
 
 /// With a smoothing below this value heat flows on the finest level.
 constexpr double MostSmoothing = 3.5; // twice the default

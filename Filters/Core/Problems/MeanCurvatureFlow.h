@@ -87,9 +87,9 @@ struct StepSolution
 
 /// One step solves (M_t + δ L_t) X⁺ = M_t X for the three coordinates at once. The solve starts
 /// from the last X plus the displacement that the coarser levels find.
-/// From the second step on, patterns, prolongations and orders are those of the first, unless the
-/// functions are made anew. HeldBoundary describes the terms of a fixed boundary. Same bits for any
-/// number of threads, and for any path to a step. Hold a MemoryReuse over several steps.
+/// From the second step on, patterns, prolongations and orders stay the same, unless the functions
+/// are made anew. HeldBoundary describes the terms of a fixed boundary. Same bits for any number of
+/// threads, and for any path to a step. Hold a MemoryReuse over several steps.
 class MeanCurvatureFlow
 {
 public:

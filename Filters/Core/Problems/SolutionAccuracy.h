@@ -13,8 +13,8 @@
 namespace gridfem
 {
 
-/// Errors of a solution; those of the worst column if there are several. NaN where nothing is
-/// known.
+/// Errors of a solution. With several columns, they are the errors of the worst column. NaN where
+/// nothing is known.
 struct SolutionAccuracy
 {
   static constexpr double Unknown = std::numeric_limits<double>::quiet_NaN();

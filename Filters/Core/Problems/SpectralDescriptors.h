@@ -47,8 +47,8 @@ struct WaveBands
   double width = 0.0;
 };
 
-/// `count` >= 1 energies, evenly between those of the first mode that is not constant and of the
-/// last mode, two widths inside. The width is 7/128 of that range, which is seven steps of the
+/// `count` >= 1 energies, evenly between the energies of the first mode that is not constant and of
+/// the last mode, two widths inside. The width is 7/128 of that range, which is seven steps of the
 /// hundred that the authors take.
 WaveBands WaveEnergies(const PointModes& modes, int count);
 

@@ -184,7 +184,7 @@ BlockReport NestedIteration<Real>::FinishList(
   return report.block;
 }
 
-/// Computes the pairs of a level from those of the next coarser one, or from nothing on level
+/// Computes the pairs of a level from the pairs of the next coarser level, or from nothing on level
 /// `start`.
 template<class Real>
 BlockReport NestedIteration<Real>::ImproveLevel(std::size_t level, std::size_t start,

@@ -10,7 +10,7 @@
 namespace gridfem
 {
 
-/// Computes distances. Its stages are those of Surface, CurveStage and NearestStage.
+/// Computes distances. Its stages are the stages of Surface, CurveStage and NearestStage.
 class DistanceSolver
 {
 public:
@@ -52,7 +52,7 @@ public:
   };
 
   /// All given points together are the sources. Without any, the first point of the first triangle
-  /// is.
+  /// is the source.
   struct Input
   {
     std::vector<Id> ids;

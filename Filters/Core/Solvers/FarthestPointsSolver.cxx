@@ -71,7 +71,7 @@ void FarthestPointsSolver::AddPoint(
   result_.atPoints(next_, 0) = 0.0;
   result_.nearest[next_] = next_;
   result_.points.push_back(next_);
-  if (result_.warnings.empty()) // those of all points alike
+  if (result_.warnings.empty()) // the warnings of all points are alike
   {
     result_.warnings = WarningsOf(field, solve.tolerance);
   }

@@ -1,4 +1,4 @@
-// Spreads points evenly over a surface: each is the one farthest from those before it.
+// Spreads points evenly over a surface: each is the farthest from the points before it.
 #ifndef GridFEM_FarthestPointsSolver_h
 #define GridFEM_FarthestPointsSolver_h
 

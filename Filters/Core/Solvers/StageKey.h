@@ -10,7 +10,7 @@
 namespace gridfem
 {
 
-/// A list of numbers. Two keys are equal if their numbers are.
+/// A list of numbers. Two keys are equal if their numbers are equal.
 class StageKey
 {
 public:

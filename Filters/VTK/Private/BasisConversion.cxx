@@ -25,8 +25,8 @@ constexpr double SameTriangle = 0.05;
     " Connect the mesh that went into the basis filter, or the output of the basis filter itself.");
 }
 
-/// Returns the corners of the clipped triangles: the fan of every piece. The points are exactly
-/// those that the basis filter outputs in double precision.
+/// Returns the corners of the clipped triangles: the fan of every piece. The points are exactly the
+/// points that the basis filter outputs in double precision.
 TriangleMesh FanTriangles(const SurfaceBasis& basis)
 {
   const ClippedMesh& clipped = basis.space->clipped;

@@ -49,7 +49,7 @@ public:
   void NoteComputed() { isEmpty_ = false; }
 
   /// Returns the time steps of the first rank, which may know more of them after a run. If this
-  /// rank's properties have changed since, it returns those of this rank.
+  /// rank's properties have changed since, it returns the steps of this rank.
   const std::vector<double>& StepsOf(const std::vector<double>& own) const;
 
   /// Frees the gathered inputs.

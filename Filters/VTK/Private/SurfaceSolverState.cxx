@@ -329,7 +329,7 @@ std::vector<double> SurfaceSolverState::TakeBasisTogether(
   return told;
 }
 
-/// Requires that the functions are those of the basis, as far as the numbers tell.
+/// Requires that the functions belong to the basis, as far as the numbers tell.
 void SurfaceSolverState::RequireBasisTogether(const std::vector<double>& told) const
 {
   const Grid& grid = together.GridOfRanks();
