@@ -102,7 +102,8 @@ def outcome(proxy, messages):
 
 
 def read_off(path):
-    """The polygons of an OFF file; neither ParaView nor meshio reads those with more than three corners."""
+    """The polygons of an OFF file; neither ParaView nor meshio reads polygons with more than three
+    corners."""
     from vtkmodules.vtkCommonCore import vtkPoints
     from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
     text = re.sub("#.*", "", pathlib.Path(path).read_text(encoding="ascii"))

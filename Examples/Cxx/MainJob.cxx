@@ -81,14 +81,15 @@ vtkSmartPointer<vtkPolyData> ReadMesh(const Options& options, StepClock& clock)
   vtkSmartPointer<vtkAlgorithm> reader = FindReader(options.mesh);
   if (!reader)
   {
-    throw StepFailed(options.mesh + ": not a kind of file this reads; give one that ends in " +
+    throw StepFailed(options.mesh +
+                     ": this kind of file is not supported. Choose a file that ends in " +
                      MeshFileEndings + ".");
   }
   clock.Run("Read " + fs::path(options.mesh).filename().string(), reader);
   vtkPolyData* mesh = vtkPolyData::SafeDownCast(reader->GetOutputDataObject(0));
   if (!mesh || mesh->GetNumberOfPolys() + mesh->GetNumberOfStrips() == 0)
   {
-    throw StepFailed(options.mesh + ": holds no polygons.");
+    throw StepFailed(options.mesh + ": the file has no polygons.");
   }
   return mesh;
 }
@@ -155,7 +156,7 @@ void Run(Writer* writer, const fs::path& path, StepClock& clock)
   if (writer->GetErrorCode() != vtkErrorCode::NoError ||
       !IsWhole(path, writer->GetInputDataObject(0, 0)))
   {
-    throw StepFailed("Not all of " + path.string() + " could be written. Is the disk full?");
+    throw StepFailed("The file " + path.string() + " is incomplete. Is the disk full?");
   }
 }
 
@@ -224,7 +225,7 @@ void PrintResults(vtkPolyData* mesh, const std::string& array, Pipeline& p, cons
   PrintConvergence(vtkTable::SafeDownCast(p.poisson->GetOutputDataObject(1)), std::cout);
   PrintEigenvalues(vtkTable::SafeDownCast(p.spectrum->GetOutputDataObject(1)), std::cout);
   clock.Print(std::cout);
-  std::cout << "\nexpected of the grid, its matrices and their hierarchy, without any output: "
+  std::cout << "\nestimated memory of the grid, its matrices and their hierarchy, without outputs: "
             << std::lround(ExpectedMegabytes(mesh, p.clip->GetDepth())) << " MB\n";
 }
 
@@ -234,8 +235,8 @@ void CreateFolder(const fs::path& folder)
   fs::create_directories(folder, error);
   if (!fs::is_directory(folder))
   {
-    throw StepFailed("The folder " + folder.string() + " cannot be made (" + error.message() +
-                     "); choose another with --output.");
+    throw StepFailed("The folder " + folder.string() + " cannot be created (" + error.message() +
+                     "). Choose another folder with --output.");
   }
 }
 
@@ -264,13 +265,13 @@ int main(int argc, char* argv[])
   CLI::App app("Octree, basis, Poisson solution, Laplace spectrum and flow of a triangle mesh.");
   app
     .add_option("MESH", options.mesh,
-      std::string("a mesh to work on (") + MeshFileEndings +
-        "); without one, a trefoil knot whose strands nearly touch")
+      std::string("the mesh to work on (") + MeshFileEndings +
+        "); by default a trefoil knot with strands that nearly touch")
     ->check(CLI::ExistingFile);
   app.add_option("--depth", options.depth, "2^DEPTH cells lie along the longest side")
     ->check(CLI::Range(2, 14))
     ->capture_default_str();
-  app.add_option("--modes", options.modes, "how many eigenfunctions")
+  app.add_option("--modes", options.modes, "the number of eigenfunctions")
     ->check(CLI::Range(1, 10000))
     ->capture_default_str();
   app.add_option("--output", options.output, "the folder to write to")->capture_default_str();

@@ -247,10 +247,11 @@ void PrintConvergence(vtkTable* history, std::ostream& out)
   {
     return;
   }
-  out << history->GetValueByName(last, "Iteration").ToInt() << " iterations leave "
-      << std::setprecision(2) << history->GetValueByName(last, "AlgebraicError").ToDouble()
-      << " of the solution, the function space "
-      << history->GetValueByName(last, "DiscretizationError").ToDouble() << " (estimates)\n";
+  out << history->GetValueByName(last, "Iteration").ToInt()
+      << " iterations; estimated error of the solver " << std::setprecision(2)
+      << history->GetValueByName(last, "AlgebraicError").ToDouble() << ", of the function space "
+      << history->GetValueByName(last, "DiscretizationError").ToDouble()
+      << ", relative to the solution\n";
 }
 
 void PrintEigenvalues(vtkTable* spectrum, std::ostream& out)

@@ -107,7 +107,7 @@ struct Result
 {
   double iterations;
   double time;  // over that to a tolerance of 1e-6
-  double error; // over that of the discrete solution
+  double error; // over the error of the discrete solution
 };
 
 /// Data that the rows of a mesh share. Columns: smooth and rough data.

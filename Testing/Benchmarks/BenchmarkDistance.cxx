@@ -3,7 +3,7 @@
 // "from the mesh on" is clip, functions, both hierarchies and ten distances. The peer is the heat
 // method of Crane, Weischedel and Wardetzky on hat functions with t = (mean edge)², by CHOLMOD.
 // Both matrices are factorized once. A further source costs two substitutions, with a gradient and
-// a divergence between them. Errors are those of one distance on surfaces where it is known, or
+// a divergence between them. The errors belong to one distance on surfaces where it is known, or
 // computed exactly by CGAL.
 #include "Cholmod.h"
 #include "DistanceErrors.h"
@@ -334,8 +334,8 @@ HeldTimes MeasureHeld(const TriangleMesh& mesh, int depth, int count)
   return times;
 }
 
-/// Rows for so many points that are held; iterations of the last over those of the first, which
-/// holds none.
+/// Prints a row for each number of held points, and the iterations of the last row over the
+/// iterations of the first, which holds none.
 double PrintHeld(
   const Table& table, const TriangleMesh& mesh, int depth, const std::vector<int>& counts)
 {

@@ -323,7 +323,7 @@ FlowComparison CompareFlows(const FlowComparisonOptions& options)
   if (options.hasFinerTruth)
   {
     finer.emplace(TruthOf(std::make_shared<const TriangleMesh>(testing::SubdivideInPlane(*mesh)),
-      points, options)); // whose first points are those of the mesh
+      points, options)); // it begins with the points of the mesh
     result.finerTruth = Rms(finer->End() - truth.End());
   }
   result.points = static_cast<double>(points);

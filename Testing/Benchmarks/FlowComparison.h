@@ -23,7 +23,7 @@ struct FlowComparisonOptions
   int truthSteps = 24;  // before extrapolation; even
   bool hasFinerTruth = false;
   double tolerance = 5e-4; // of iterative solvers
-  /// One: processor time is the same measure for libraries that use threads and those that do not.
+  /// One: processor time is the same measure for libraries with and without threads.
   int threads = 1;
 };
 

@@ -67,7 +67,7 @@ struct LimitedRun
 {
   std::vector<double> numbers; // none when it was stopped
   bool isStopped = false;
-  double peak = 0.0; // bytes it had taken until then, beyond those of this process
+  double peak = 0.0; // bytes it had taken until then, beyond the bytes of this process
 };
 
 /// The same, but stops the process after so many seconds.

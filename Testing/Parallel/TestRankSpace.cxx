@@ -147,7 +147,7 @@ void MatchFunctions(const GatheredLevel& level, const PatchLevel& whole, Numbers
   }
 }
 
-/// Compares entries, after adding up those at one place, to 1e-12 of the largest.
+/// Adds up entries at one place, and compares them to 1e-12 of the largest.
 void CompareEntries(std::vector<Entry> entries, const SparseMatrix& whole, const Numbers& rows,
   const Numbers& columns)
 {

@@ -38,8 +38,8 @@ def is_shown(proxy, decorator):
 
 
 def shown_properties(proxy):
-    """Returns the properties in the panel of a filter, without inputs, advanced properties and those
-    that another one hides."""
+    """Returns the properties in the panel of a filter, without inputs, advanced properties and
+    properties that another one hides."""
     for key in proxy.ListProperties():
         prop = proxy.SMProxy.GetProperty(key)
         if (prop.IsA("vtkSMInputProperty") or prop.GetInformationOnly()
@@ -83,7 +83,7 @@ class TestDefaults(unittest.TestCase):
                 yield name, instance, key, proxy.SMProxy.GetProperty(key)
 
     def values(self):
-        """Yields those whose value a getter of the class gives."""
+        """Yields the properties with a getter in the class."""
         for name, instance, key, prop in self.properties():
             if not (prop.IsA("vtkSMProxyProperty") or prop.GetInformationOnly() or prop.GetRepeatable()
                     or prop.GetCommand() == "SetInputArrayToProcess"):

@@ -14,7 +14,7 @@ from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
 import plugin
 from running_out import MEGABYTE, Outcome, take_arrays_from_the_system
 
-STEPS = 8  # limits below the one that was enough
+STEPS = 8  # limits below the first sufficient limit
 OPTIONS = {
     "LaplaceSpectrum": {"NumberOfModes": 8},
     "MeanCurvatureFlow": {"NumberOfSteps": 2},

@@ -317,8 +317,8 @@ class DistributedClip(unittest.TestCase):
         return problems
 
     def wrong_spread(self, output, spread, case):
-        """Evaluates a basis function at the points of the piece. Numbers of functions follow those of
-        patches."""
+        """Evaluates a basis function at the points of the piece. Numbers of functions follow the
+        numbers of patches."""
         if not output.GetNumberOfPoints() or "scattered" in case:
             return []
 

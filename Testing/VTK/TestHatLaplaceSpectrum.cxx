@@ -183,7 +183,7 @@ TEST_F(HatLaplaceSpectrum, TakesABasisOrTheClippedMesh)
   ASSERT_EQ(clipped.size(), coarse.size());
   for (int k = 1; k < Modes; ++k)
   {
-    EXPECT_LT(clipped[k], coarse[k]); // the hats of the clipped mesh hold those of the mesh
+    EXPECT_LT(clipped[k], coarse[k]); // the hats of the clipped mesh contain the mesh's
   }
 }
 

@@ -1,5 +1,5 @@
 // Tests surfaces that change with time. No filter shows the result of another time, and modes as
-// time steps are those of one surface.
+// time steps belong to one surface.
 
 #include "GrowingSphere.h"
 

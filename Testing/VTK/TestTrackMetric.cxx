@@ -1,5 +1,5 @@
 // Tests TrackMetric of Screened Poisson and Laplace Spectrum. If only the points of a surface move,
-// it keeps its functions, and results are those of the moved surface.
+// it keeps its functions, and results belong to the moved surface.
 
 #include "FilterSupport.h"
 #include "GrowingSphere.h"
@@ -163,7 +163,7 @@ TEST_F(TrackMetric, AScaledSurfaceScales)
   }
 }
 
-/// Hat functions are those of the moved mesh itself.
+/// Hat functions belong to the moved mesh itself.
 TEST_F(TrackMetric, OnHatFunctionsItIsTheSolutionOfTheMovedMesh)
 {
   const auto moved = Read(mesh, Bend);

@@ -16,7 +16,7 @@ namespace gridfem::benchmarks
 struct MatrixPart
 {
   const SymmetricMatrix& matrix;
-  const std::vector<int>& number; // per row: that of the whole
+  const std::vector<int>& number; // per row: its number in the whole
   int own;                        // rows of the whole that this rank owns, contiguous
 };
 

@@ -14,9 +14,9 @@ namespace gridfem::benchmarks
 
 using Prolongation = Eigen::SparseMatrix<double>;
 
-/// Prolongations, finest first: rows = vertices of a level, columns = those that are left. A vertex
-/// that stays keeps its value. The neighbors of a removed vertex are laid into the plane around it,
-/// with their lengths and with angles scaled to a full turn. The vertex gets the linear
+/// Prolongations, finest first: rows = vertices of a level, columns = the remaining vertices. A
+/// vertex that stays keeps its value. The neighbors of a removed vertex are laid into the plane
+/// around it, with their lengths and with angles scaled to a full turn. The vertex gets the linear
 /// interpolation of its new triangle. Vertices on boundaries and non-manifold edges stay.
 /// @param mesh  every point is used
 /// @param smallest  ends at the first level with at most that many vertices, or when less than a

@@ -22,8 +22,8 @@ struct HatSpectrum
 constexpr double PairTolerance = 1e-3;
 constexpr double TruthTolerance = 1e-8;
 
-/// The `count` smallest. Threads are those of the BLAS. Spectra gets a basis of 1.5 count vectors,
-/// which is faster here than the usual 2 count.
+/// The `count` smallest pairs. The BLAS has its own threads. Spectra gets a basis of 1.5 count
+/// vectors, which is faster here than the usual 2 count.
 HatSpectrum SpectraSpectrum(const CotangentSystem& hats, int count, double tolerance);
 
 /// The same with SLEPc's own choices. MessagePassing must be alive.

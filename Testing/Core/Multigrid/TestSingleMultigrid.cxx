@@ -1,5 +1,5 @@
-// Hierarchies in single precision against those in double precision, and the choice between the
-// two.
+// Hierarchies in single precision against hierarchies in double precision, and the choice between
+// the two.
 #include "Algebra/BlockVectors.h"
 #include "Base/Errors.h"
 #include "Base/Parallel.h"

@@ -216,8 +216,7 @@ std::vector<Vec3> Circle(const Vec3& centre, double radius, int count)
 
 } // namespace
 
-/// A line from border to border. The errors are those of heat at the ends, where it leaves
-/// obliquely.
+/// A line from border to border. The errors come from heat at the ends, where it leaves obliquely.
 TEST(SignedDistance, FromALineOnASquareIsTheDistanceFromItAndErrorsFallWithDepth)
 {
   const Distance exact = [](const Vec3& p)

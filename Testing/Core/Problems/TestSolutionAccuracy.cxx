@@ -261,7 +261,7 @@ TEST(SolutionAccuracy, IsKnownWhereValuesAreHeld)
 
 TEST(SolutionAccuracy, OfHeldValuesKnowsAHarmonicFunction)
 {
-  // The boundary determines the solution. Errors are those of the space, and fall by four from
+  // The boundary determines the solution. Errors are errors of the space, and fall by four from
   // depth to depth.
   TriangleMesh mesh = FlatRectangle(60, 50, 2.0, 1.5);
   MultiVector exact(static_cast<Id>(mesh.points.size()), 1);

@@ -128,8 +128,8 @@ TEST(FarthestPointsSolver, GoesOnAfterAnAbort)
   EXPECT_LT(afterAbort, reports);
 }
 
-/// Each component gets a point before any gets a second one. There are no more points than those
-/// of the mesh.
+/// Each component gets a point before any gets a second one. There are no more found
+/// points than points of the mesh.
 TEST(FarthestPointsSolver, ComponentsAndTheLastPoint)
 {
   const TriangleMesh sphere = GeodesicSphere(1);
