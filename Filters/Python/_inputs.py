@@ -33,7 +33,7 @@ def whole(name, values):
                     "ids where a mask is true")
     most = numpy.iinfo(numpy.int64).max
     if array.size and not (numpy.abs(array.astype(float)) < most).all():
-        raise Error(f"{name} must be whole numbers; there is one that is none, or too large")
+        raise Error(f"{name} must be whole numbers; there is one that is not finite, or too large")
     if array.dtype.kind == "f" and (array != numpy.floor(array)).any():
         raise Error(f"{name} must be whole numbers; there is {array[array != numpy.floor(array)][0]}")
     return array.astype(numpy.int64)

@@ -35,7 +35,7 @@ constexpr const char* ClipStage = "ClipOfRanks";
 
 struct vtkConnectivityAwareBasis::Internals
 {
-  vtkNew<vtkPolyData> Frame;                         // what does not depend on the input's arrays
+  vtkNew<vtkPolyData> Frame;                         // independent of the input's arrays
   std::unique_ptr<gridfem::DistributedClip> OfRanks; // null where one computes for all
 };
 

@@ -84,10 +84,10 @@ void vtkGeodesicDistance::FindSources(vtkDataSet* places)
   gridfem::SurfaceSolverState& state = *this->State;
   gridfem::DistanceSolver::Input& input = this->Data->Input;
   input.ids = this->Data->SourceIds;
-  input.mask = state.Given(state.Find(0, "SourceArray"));
+  input.mask = state.Given(state.Find(0, "Source Array"));
   if (this->Selection->IsGiven())
   {
-    input.points.push_back({ "a Selection", "The Selection takes no point of a polygon",
+    input.points.push_back({ "the Selection", "The Selection takes no point of a polygon",
       [this] { return this->Selection->Ids(this->State->Mesh()); } });
   }
   if (places && !this->Signed)
@@ -106,7 +106,7 @@ void vtkGeodesicDistance::FindCurve(vtkDataSet* lines)
 {
   gridfem::SurfaceSolverState& state = *this->State;
   gridfem::DistanceSolver::Input& input = this->Data->Input;
-  input.labels = state.Given(state.Find(1, "LabelArray"));
+  input.labels = state.Given(state.Find(1, "Label Array"));
   input.curve.version.Add(lines);
   input.curve.divide = [&state, lines]
   { return gridfem::CurveOfLines(lines, state.Mesh(), state.AreCoincidentPointsWelded()); };

@@ -81,8 +81,8 @@ void vtkHeatDiffusion::Compute(vtkInformationVector** inputs, vtkInformationVect
   state.SetInput(input, vtkPolyData::GetData(inputs[1]));
   state.Select(*this->Selection, vtkSelection::GetData(inputs[2]));
   data.Array = state.Find(0, "Array");
-  data.Source = state.Find(1, "HeatSourceArray");
-  data.Mask = state.Find(2, "ConstraintArray");
+  data.Source = state.Find(1, "Heat Source Array");
+  data.Mask = state.Find(2, "Constraint Array");
 
   gridfem::DiffusionSolver::Options options;
   options.equation = state.options;

@@ -153,8 +153,8 @@ void vtkSpectralSignatures::Compute(vtkInformationVector** inputs, vtkInformatio
     });
   if (!data.Carried.Misfit().empty())
   {
-    this->Warn({ "The modes of the input are those of another shape: " + data.Carried.Misfit() +
-                 ". They are left out, and computed anew." });
+    this->Warn({ "The modes of the input belong to another shape: " + data.Carried.Misfit() +
+                 ". The filter computes new modes." });
   }
   this->Warn(data.Result->warnings);
   state.GetProgress().Check(1.0);
@@ -172,7 +172,7 @@ void vtkSpectralSignatures::Solve(vtkDataSet* sources)
   data.Mesh = data.Given.modes ? data.Carried.Mesh() : state.mesh;
   if (sources && sources->GetNumberOfPoints() == 0)
   {
-    vtkWarningMacro("The input Sources has no points, so no distance starts there.");
+    vtkWarningMacro("The input Sources has no points. It adds no sources to the distances.");
   }
   state.Together([&]
     { data.Given.sources = gridfem::SourcePoints(*data.Mesh.triangles, data.SourceIds, sources); });
@@ -206,7 +206,7 @@ void vtkSpectralSignatures::FindValues()
   {
     return;
   }
-  data.Value = state.FindOn(data.Mesh, 0, "ValueArray");
+  data.Value = state.FindOn(data.Mesh, 0, "Value Array");
   data.Given.values = state.Given(data.Value);
   if (data.Given.values)
   {

@@ -87,12 +87,12 @@ void vtkSurfaceDetail::Compute(vtkInformationVector** inputs, vtkInformationVect
   Internals& data = *this->Data;
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
   state.SetInput(input, vtkPolyData::GetData(inputs[1]));
-  data.Value = state.Find(0, "ValueArray");
+  data.Value = state.Find(0, "Value Array");
   state.Select(*this->Selection, vtkSelection::GetData(inputs[2]));
 
   gridfem::DetailSolver::Input given;
   given.values = state.Given(data.Value);
-  given.scale = state.Given(state.Find(1, "DetailScaleArray"));
+  given.scale = state.Given(state.Find(1, "Detail Scale Array"));
   given.hasSelection = this->Selection->IsGiven();
   given.selected = this->Selection->Points();
   given.selection.Add(this->Selection->Version());

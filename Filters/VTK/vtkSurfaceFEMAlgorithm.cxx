@@ -163,7 +163,7 @@ int vtkSurfaceFEMAlgorithm::RequestData(
   options.solve.maximumIterations = this->MaximumIterations;
   options.accuracy = this->WantedAccuracy();
   options.parameterUnits = static_cast<gridfem::ParameterUnits>(this->ParameterUnits);
-  this->State->SetInput(nullptr, nullptr); // Compute sets it; that of the last run may be gone
+  this->State->SetInput(nullptr, nullptr); // Compute sets it; the last input may be gone
 
   EmptyOutputs(outputs);
   this->SetErrorCode(vtkErrorCode::NoError);
@@ -249,7 +249,7 @@ void vtkSurfaceFEMAlgorithm::ComputeAlone(
     }
     EmptyOutputs(outputs);
     vtkPolyData::GetData(outputs)->ShallowCopy(vtkPolyData::GetData(surfaces[0]));
-    vtkWarningMacro("A block has no array '" << error.array << "'; it is passed on as it is.");
+    vtkWarningMacro("A block has no array '" << error.array << "'. It is output unchanged.");
   }
   gridfem::StampTime(!this->OwnTimeSteps().empty(), inputs[0], outputs);
 }
@@ -319,8 +319,9 @@ void vtkSurfaceFEMAlgorithm::ComputeJoinedBlocks(vtkInformationVector** inputs)
       }
       for (const std::string& block : without)
       {
-        vtkWarningMacro("The surface is without " << block << ", which has no array '"
-                                                  << error.array << "' and is passed on as it is.");
+        vtkWarningMacro("The surface does not include " << block << ", because it has no array '"
+                                                        << error.array
+                                                        << "'. It is output unchanged.");
       }
     }
   }
@@ -401,11 +402,11 @@ void vtkSurfaceFEMAlgorithm::ComputeOnRanks(
       gridfem::StampTime(!this->OwnTimeSteps().empty(), gathered[0], results);
       return this->OwnTimeSteps();
     });
-  // The array would otherwise be that of an earlier filter.
+  // Otherwise the array of an earlier filter would stay.
   vtkPolyData::GetData(outputs)->GetFieldData()->RemoveArray(gridfem::DistributedName);
 }
 
-/// Starts all ranks anew after a failure, because the data of one rank may not fit those of the
+/// Starts all ranks anew after a failure, because the data of one rank may not fit the data of the
 /// others.
 bool vtkSurfaceFEMAlgorithm::TryTogether(
   vtkInformationVector** inputs, vtkInformationVector* outputs)

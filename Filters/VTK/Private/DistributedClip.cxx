@@ -40,7 +40,7 @@ using CountsOfKinds = std::array<Id, CellKinds>;
 /// no copies, as PieceJoiner numbers them without global ids. Collective.
 std::vector<Id> NumberCells(const Communicator& ranks, vtkPolyData* piece, bool isCounted)
 {
-  std::vector<Id> number; // among those of the rank and the kind
+  std::vector<Id> number; // among the cells of the rank and the kind
   CountsOfKinds own{};
   CountsOfKinds ends{}; // of the piece's cells
   ranks.Together(

@@ -14,9 +14,9 @@ namespace gridfem
 {
 
 /// The clip of this rank. Functions with arguments are collective and called within
-/// DistributedSurface::Run. The results of all ranks, in rank order, are those of one rank on the
-/// gathered surface. Each rank has only the points of its pieces, the input's first. Points between
-/// two ranks are on both.
+/// DistributedSurface::Run. The results of all ranks, in rank order, are the results of one rank on
+/// the gathered surface. Each rank has only the points of its pieces, the input's first. Points
+/// between two ranks are on both.
 class DistributedClip
 {
 public:
@@ -42,8 +42,9 @@ public:
   virtual void WriteMesh(
     vtkPolyData* piece, const InputMesh& mesh, int threads, vtkPolyData* output) const = 0;
 
-  /// Writes the functions of a level, as WriteBasisFunctions does: those that patches of this rank
-  /// have. All ranks know the coarse levels, and the first rank writes all their functions.
+  /// Writes the functions of a level, as WriteBasisFunctions does: the functions that patches of
+  /// this rank have. All ranks know the coarse levels, and the first rank writes all their
+  /// functions.
   virtual void WriteFunctions(int level, vtkUnstructuredGrid* output) const = 0;
 
   /// Adds the point array BasisFunction, a function of a level, to the clipped mesh.

@@ -233,8 +233,9 @@ std::shared_ptr<const GivenCells> DistributedSurface::ReadCells(
     {
       if (!own.empty() && own != numbers)
       {
-        throw InvalidInput("The surface here was clipped to other cells than that of other ranks. "
-                           "Clip it again.");
+        throw InvalidInput(
+          "The surface of this rank was clipped to a different grid than the surface of "
+          "other ranks. Clip it again.");
       }
     });
   given->grid.origin = Vec3(numbers[0], numbers[1], numbers[2]);
@@ -281,9 +282,10 @@ void DistributedSurface::Agree(int index, InputArray& array)
     {
       if (own.columns > 0 && (own.columns != first->columns || own.isOnCells != first->isOnCells))
       {
-        throw InvalidInput("Array '" + array.name +
-                           "' has other components here than on another rank, or is of cells here "
-                           "and of points there.");
+        throw InvalidInput(
+          "Array '" + array.name +
+          "' differs between ranks: in its number of components, or it belongs to points "
+          "on one rank and to cells on another.");
       }
       StandIn& known = arrays_[index];
       known.dataType = first->dataType;

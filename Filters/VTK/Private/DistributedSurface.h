@@ -68,7 +68,7 @@ public:
   void BuildSpace(
     vtkPolyData* piece, const SurfaceOptions& options, bool isClipped, InputMesh& mesh);
 
-  /// Returns the threads that a rank may use. Ranks share those of a machine.
+  /// Returns the threads that a rank may use. Ranks share the threads of a machine.
   int ThreadsOfRank(int wanted) const;
 
   /// Tells the other ranks of the array that ranks with polygons have found. They get an array of
@@ -85,7 +85,7 @@ public:
   /// Returns the type of results for an agreed array, the same on all ranks.
   int DataTypeOf(int index) const;
 
-  /// Replaces the numbers by those of the first rank that has any.
+  /// Replaces the numbers by the numbers of the first rank that has any.
   void Agree(std::vector<double>& numbers) const;
 
   /// Returns the largest number of all ranks. NaN if one is unknown, NaN or infinite.

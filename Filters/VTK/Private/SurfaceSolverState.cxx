@@ -216,7 +216,8 @@ void SurfaceSolverState::UpdateSystem(const Progress& progress)
   key.Add(tracked_.Motion());
   if (metricArray.array && options.trackMetric)
   {
-    throw InvalidInput("MetricArray and TrackMetric do not go together: each is a metric.");
+    throw InvalidInput(
+      "A Metric Array cannot be combined with Track Metric, because each is a metric.");
   }
   if (stages.IsCurrent(SystemStage, key))
   {
@@ -328,7 +329,7 @@ std::vector<double> SurfaceSolverState::TakeBasisTogether(
   return told;
 }
 
-/// Requires that the functions are those of the basis, as far as the numbers tell.
+/// Requires that the functions belong to the basis, as far as the numbers tell.
 void SurfaceSolverState::RequireBasisTogether(const std::vector<double>& told) const
 {
   const Grid& grid = together.GridOfRanks();
@@ -671,7 +672,7 @@ GivenConstraints SurfaceSolverState::ConstraintsOf(
     held.array = input_ && input_->GetPoints() ? input_->GetPoints()->GetData() : nullptr;
     held.name = "coordinates";
   }
-  constraints.property = mask.array ? "ConstraintArray" : "A Selection";
+  constraints.property = mask.array ? "Constraint Array" : "The Selection";
   constraints.version.Add(mask.array).Add(selection.Version());
   constraints.find = [this, held, mask, &selection]
   {

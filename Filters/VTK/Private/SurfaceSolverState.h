@@ -201,7 +201,7 @@ private:
   TrackedMesh tracked_;
   StageKey structureKey_;
   std::int64_t structure_ = 0;
-  std::shared_ptr<const TriangleMetric> metric_; // of `space`; null: that of the mesh
+  std::shared_ptr<const TriangleMetric> metric_; // of `space`; null: the metric of the mesh
 };
 
 } // namespace gridfem
