@@ -5,6 +5,7 @@
 #include "PointCoordinates.h"
 
 #include "Base/Parallel.h"
+#include "Grid/CopiedTriangles.h"
 #include "Grid/PolygonTriangles.h"
 
 #include "vtkAOSDataArrayTemplate.h"
@@ -244,9 +245,10 @@ InputMesh ReadInputMesh(vtkPolyData* input, int threads, const Progress& progres
   KeepCells(GhostsOf(input->GetCellData(), input->GetNumberOfCells()), mesh, *triangles, IsShown);
   if (triangles->triangles.empty())
   {
-    throw InvalidInput("All polygons are outside of the DomainArray, or marked by vtkGhostType as "
+    throw InvalidInput("All polygons are outside the Domain Array, or marked by vtkGhostType as "
                        "hidden or as duplicates.");
   }
+  DropCopies(*triangles, mesh.sourceCell);
   mesh.triangles = std::move(triangles);
   return mesh;
 }
@@ -267,6 +269,7 @@ InputMesh ReadPiece(vtkPolyData* piece, int threads, InputMesh& copies)
       [](int mark) { return (mark & vtkDataSetAttributes::DUPLICATECELL) != 0; });
     KeepCells(ghosts, mesh, *triangles, IsShown);
   }
+  DropCopies(*triangles, mesh.sourceCell);
   copies.triangles = std::move(triangleCopies);
   mesh.triangles = std::move(triangles);
   return mesh;

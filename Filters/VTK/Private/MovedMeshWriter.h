@@ -12,7 +12,7 @@ namespace gridfem
 {
 
 /// Gives a copy of the input its new points, and the point arrays Displacement and
-/// NormalDisplacement (along the normals of the input). The active scalars are NormalDisplacement.
+/// NormalDisplacement (along the normals of the input, whose triangles are made to face alike). The active scalars are NormalDisplacement.
 /// Active normals at points become those of the new surface. Normals at cells and the arrays of
 /// clip, basis and spectrum belong to the input and are removed.
 /// @param mesh      the triangles of the input
