@@ -53,6 +53,7 @@ void vtkPrincipalCurvatures::Compute(vtkInformationVector** inputs, vtkInformati
   add("MinimumCurvatureDirection", result.minimumDirection);
   add("MaximumCurvatureDirection", result.maximumDirection);
   points->SetActiveScalars("Bending");
+  gridfem::AddFieldInt(output, "TurnedTriangles", static_cast<int>(result.turned));
   if (result.isSmoothed)
   {
     gridfem::AddReport(result.report, output);

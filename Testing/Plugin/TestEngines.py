@@ -194,11 +194,11 @@ class Engines(unittest.TestCase):
 
     def test_arrays_of_other_data_sets_of_vtk(self):
         """The surface of a volume mesh, and triangles of strips."""
-        ball = vtkSphereSource(ThetaResolution=12, PhiResolution=12)
-        volume = vtkDelaunay3D(InputConnection=ball.GetOutputPort())
-        volume.Update()
-        strips = vtkStripper(InputConnection=ball.GetOutputPort())
-        strips.Update()
+        ball, volume, strips = vtkSphereSource(), vtkDelaunay3D(), vtkStripper()
+        ball.Update()
+        for filter_ in (volume, strips):
+            filter_.SetInputConnection(ball.GetOutputPort())
+            filter_.Update()
         self.assertGreater(strips.GetOutput().GetNumberOfStrips(), 0)
         expected = areas(*gridfem.arrays(ball.GetOutput())).sum()
         for package in (gridfem, self.core):

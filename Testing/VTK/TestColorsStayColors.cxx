@@ -43,6 +43,7 @@ vtkSmartPointer<vtkSurfaceFEMAlgorithm> MakeSharpener()
 vtkSmartPointer<vtkSurfaceFEMAlgorithm> MakeBand()
 {
   auto filter = vtkSmartPointer<vtkSpectralSignatures>::New();
+  filter->SetNumberOfModes(20);
   filter->SetFilterType(vtkSpectralSignatures::LowPass);
   filter->SetLastMode(8);
   return filter;

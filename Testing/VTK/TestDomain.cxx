@@ -214,7 +214,7 @@ TEST_P(Domain, OfNothingAndOfSeveralComponentsIsRefused)
   filter->SetInputArrayToProcess(DomainIndex, 0, 0, Points, "three");
   filter->Update();
   ASSERT_EQ(messages.errors.size(), 2u);
-  EXPECT_NE(messages.errors[0].find("DomainArray"), std::string::npos) << messages.errors[0];
+  EXPECT_NE(messages.errors[0].find("Domain Array"), std::string::npos) << messages.errors[0];
   EXPECT_NE(messages.errors[1].find("one component"), std::string::npos) << messages.errors[1];
 }
 

@@ -119,6 +119,28 @@ TEST_F(GhostCells, AChangeOfTheFlagsIsAChangeOfTheMesh)
   EXPECT_NE(this->Run(poisson.Get(), withGhosts, "Solution"), before);
 }
 
+TEST_F(GhostCells, AFaceThatIsThereTwiceCountsOnce)
+{
+  for (const bool turned : { false, true })
+  {
+    TriangleMesh twice = sphere;
+    for (auto triangle : sphere.triangles)
+    {
+      if (turned)
+      {
+        std::swap(triangle[1], triangle[2]);
+      }
+      twice.triangles.push_back(triangle);
+    }
+    const auto doubled = ToPolyData(twice);
+    AddPointArray(doubled, "f", 1, Wave);
+    vtkNew<vtkLaplaceSpectrum> ofDoubled;
+    vtkNew<vtkLaplaceSpectrum> ofAlone;
+    EXPECT_EQ(
+      this->Run(ofDoubled.Get(), doubled, "Mode"), this->Run(ofAlone.Get(), alone, "Mode"));
+  }
+}
+
 TEST_F(GhostCells, NothingButGhostsIsRefused)
 {
   vtkDataArray* ghosts =

@@ -5,7 +5,6 @@
 #include "Grid/TriangleSides.h"
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 
 namespace gridfem
@@ -85,6 +84,38 @@ bool SpreadSide(
   return hasTwoSides;
 }
 
+/// Six times the volume of the cone from a point to a triangle.
+double ConeOver(const TriangleMesh& mesh, Id triangle, const Vec3& tip)
+{
+  const std::array<Id, 3>& corner = mesh.triangles[triangle];
+  const Vec3 a = mesh.points[corner[0]] - tip;
+  const Vec3 b = mesh.points[corner[1]] - tip;
+  return a.cross(b).dot(mesh.points[corner[2]] - tip);
+}
+
+/// Returns 1 if a component faces as the side of its first triangle, or -1 if it faces the other
+/// way.
+int SideOf(const TriangleMesh& mesh, const Neighbours& neighbours, const std::vector<Id>& members,
+  const std::vector<signed char>& side)
+{
+  double area = 0.0;
+  double volume = 0.0;
+  bool isClosed = true;
+  bool facesAlike = true;
+  const Vec3& tip = mesh.points[mesh.triangles[members.front()][0]];
+  for (const Id t : members)
+  {
+    area += side[t] * AreaOf(mesh, t);
+    volume += side[t] * ConeOver(mesh, t, tip);
+    facesAlike = facesAlike && side[t] == side[members.front()];
+    for (const Neighbour& neighbour : neighbours[t])
+    {
+      isClosed = isClosed && neighbour.triangle != None;
+    }
+  }
+  return (isClosed && !facesAlike ? volume : area) < 0.0 ? -1 : 1;
+}
+
 void FindSides(const TriangleMesh& mesh, const Neighbours& neighbours, SurfaceEdges& edges)
 {
   edges.side.assign(mesh.triangles.size(), 0);
@@ -99,9 +130,7 @@ void FindSides(const TriangleMesh& mesh, const Neighbours& neighbours, SurfaceEd
     members.assign(1, first);
     edges.side[first] = 1;
     const bool hasTwoSides = SpreadSide(neighbours, edges.side, members);
-    const double area = std::accumulate(members.begin(), members.end(), 0.0,
-      [&](double sum, Id t) { return sum + edges.side[t] * AreaOf(mesh, t); });
-    const int factor = !hasTwoSides ? 0 : area < 0.0 ? -1 : 1;
+    const int factor = hasTwoSides ? SideOf(mesh, neighbours, members, edges.side) : 0;
     for (const Id t : members)
     {
       edges.side[t] = static_cast<signed char>(factor * edges.side[t]);

@@ -2,6 +2,7 @@
 
 #include "Base/Errors.h"
 #include "Base/Parallel.h"
+#include "Grid/OrientedMesh.h"
 #include "Problems/Poisson.h"
 
 #include <Eigen/Cholesky>
@@ -442,17 +443,22 @@ HatFunctions TrianglesAroundPoints(const TriangleMesh& mesh, bool weldCoincident
 
 } // namespace
 
-PrincipalCurvatures CurvaturesOfSurface(const TriangleMesh& mesh, bool weldCoincidentPoints,
-  const FiniteElementSpace* space, const NormalSmoothing& smoothing, SolveReport& report,
+PrincipalCurvatures CurvaturesOfSurface(const TriangleMesh& given, bool weldCoincidentPoints,
+  const FiniteElementSpace* space, const NormalSmoothing& smoothing, CurvatureReport& report,
   const Job& job)
 {
+  OrientedMesh oriented = Orient(given, weldCoincidentPoints, job.threads);
+  const TriangleMesh& mesh = oriented.mesh ? *oriented.mesh : given;
+  report.turned = oriented.turned;
+  report.copies = oriented.copies;
+  report.oneSided = oriented.oneSided;
   const HatFunctions around = TrianglesAroundPoints(mesh, weldCoincidentPoints, job.threads);
   job.Check(0.1);
   MultiVector normals = PointNormals(mesh, around, job.threads);
   job.Check(0.2);
   if (smoothing.scale > 0.0)
   {
-    normals = SmoothNormals(*space, normals, smoothing, report, job.Part(0.2, 0.7));
+    normals = SmoothNormals(*space, normals, smoothing, report.smoothing, job.Part(0.2, 0.7));
   }
   return ComputeCurvatures(mesh, around, normals, job.Part(0.7, 1.0));
 }

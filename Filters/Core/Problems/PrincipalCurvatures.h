@@ -55,13 +55,22 @@ MultiVector SmoothNormals(const FiniteElementSpace& space, const MultiVector& no
 PrincipalCurvatures ComputeCurvatures(const TriangleMesh& mesh, const HatFunctions& hats,
   const MultiVector& normals, const Job& job = {});
 
-/// Computes the curvatures of a surface from start to end, with or without smoothing.
+/// The facts about a computation of curvatures.
+struct CurvatureReport
+{
+  SolveReport smoothing;
+  Id turned = 0;      // triangles that faced against their component and count as turned round
+  Id copies = 0;      // triangles left out: others have the same corners
+  Index oneSided = 0; // components that have no outside, such as a Möbius strip
+};
+
+/// Computes the curvatures of a surface from start to end, with or without smoothing. The triangles
+/// of a component are first made to face alike (Orient).
 /// @param weldCoincidentPoints  coincident points share their triangles
 /// @param space      of the mesh; null if nothing is smoothed
 /// @param smoothing  scale 0: no smoothing
-/// @param report     of the smoothing
 PrincipalCurvatures CurvaturesOfSurface(const TriangleMesh& mesh, bool weldCoincidentPoints,
-  const FiniteElementSpace* space, const NormalSmoothing& smoothing, SolveReport& report,
+  const FiniteElementSpace* space, const NormalSmoothing& smoothing, CurvatureReport& report,
   const Job& job = {});
 
 /// Koenderink's shape index in [-1, 1]: -1 cup, -0.5 rut, 0 saddle, 0.5 ridge, 1 cap; 0 if both

@@ -33,7 +33,7 @@ MultiVector NumbersOf(const PrincipalCurvatures& curvatures, double area)
 } // namespace
 
 PrincipalCurvatures CurvaturesOf(const Surface& surface, double smoothingScale,
-  const EquationOptions& equation, SolveReport& report, const Job& job)
+  const EquationOptions& equation, CurvatureReport& report, const Job& job)
 {
   NormalSmoothing smoothing;
   smoothing.multigrid = equation.multigrid;
@@ -85,8 +85,11 @@ void CurvatureSolver::Fit(const Surface& surface, const Options& options, const 
 {
   result_ = {};
   result_.isSmoothed = options.smoothingScale > 0.0;
+  CurvatureReport facts;
   const PrincipalCurvatures curvatures =
-    CurvaturesOf(surface, options.smoothingScale, options.equation, result_.report, job);
+    CurvaturesOf(surface, options.smoothingScale, options.equation, facts, job);
+  result_.report = std::move(facts.smoothing);
+  result_.turned = facts.turned;
   result_.numbers = NumbersOf(curvatures, SurfaceArea(surface.Mesh()));
   result_.minimumDirection = RowsOf(curvatures.minimumDirection);
   result_.maximumDirection = RowsOf(curvatures.maximumDirection);
@@ -98,6 +101,12 @@ void CurvatureSolver::Fit(const Surface& surface, const Options& options, const 
     { &result_.numbers, &result_.minimumDirection, &result_.maximumDirection })
   {
     ClearRows(isFitted, *values);
+  }
+  if (facts.oneSided > 0)
+  {
+    result_.warnings.push_back("The surface has " + std::to_string(facts.oneSided) +
+                               " one-sided components, such as a Möbius strip. There the signs of "
+                               "curvatures change somewhere, because no side is outside.");
   }
   if (result_.isSmoothed && !result_.report.converged)
   {

@@ -20,7 +20,7 @@ namespace gridfem
 /// @param smoothingScale  length in parameter units; 0: the normals are not smoothed
 /// @param report   describes the smoothing
 PrincipalCurvatures CurvaturesOf(const Surface& surface, double smoothingScale,
-  const EquationOptions& equation, SolveReport& report, const Job& job);
+  const EquationOptions& equation, CurvatureReport& report, const Job& job);
 
 class CurvatureSolver
 {
@@ -49,6 +49,7 @@ public:
     MultiVector maximumDirection;
     bool isSmoothed = false;
     SolveReport report; // of the smoothing
+    Id turned = 0;      // triangles that faced against their component and count as turned round
     std::vector<std::string> warnings;
   };
 

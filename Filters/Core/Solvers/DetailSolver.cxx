@@ -139,7 +139,7 @@ void DetailSolver::UpdateMetric(const Surface& surface, const Options& options, 
     [&]
     {
       const TriangleMesh& mesh = surface.Mesh();
-      SolveReport report; // of the smoothing: to a tolerance far below its own error
+      CurvatureReport report; // the smoothing ends at a tolerance far below its own error
       curvatures_ = CurvaturesOnTriangles(mesh,
         CurvaturesOf(surface, options.smoothingScale,
           WithThreads(options.equation, surface.Threads()), report,

@@ -2,6 +2,7 @@
 
 #include "Base/Errors.h"
 #include "Base/VectorRows.h"
+#include "Grid/CopiedTriangles.h"
 #include "Grid/PolygonTriangles.h"
 
 #include <cmath>
@@ -37,6 +38,7 @@ void Given::SetCells(std::vector<Vec3> points, const Id* cells, Id count, Id cor
       }
     }
   }
+  DropCopies(*triangles, sourceCell);
   mesh = std::move(triangles);
 }
 

@@ -37,7 +37,7 @@ vtkInformationVector** Domain::Apply(
 {
   vtkPolyData* surface = vtkPolyData::GetData(inputs[0]);
   const InputArray array = surface && surface->GetNumberOfCells() > 0
-                             ? FindInputArray(filter, DomainIndex, surface, "DomainArray")
+                             ? FindInputArray(filter, DomainIndex, surface, "Domain Array")
                              : InputArray();
   if (!array.array)
   {
@@ -46,7 +46,7 @@ vtkInformationVector** Domain::Apply(
   }
   if (array.array->GetNumberOfComponents() != 1)
   {
-    throw InvalidInput("DomainArray '" + array.name + "' must have one component.");
+    throw InvalidInput("Domain Array '" + array.name + "' must have one component.");
   }
   StageKey key;
   AddMesh(key, surface);

@@ -5,6 +5,7 @@
 #include "PointCoordinates.h"
 
 #include "Base/Parallel.h"
+#include "Grid/CopiedTriangles.h"
 #include "Grid/PolygonTriangles.h"
 
 #include "vtkAOSDataArrayTemplate.h"
@@ -249,6 +250,7 @@ InputMesh ReadInputMesh(vtkPolyData* input, int threads, const Progress& progres
     throw InvalidInput("All polygons lie outside the Domain Array, or are hidden or duplicates "
                        "according to the array vtkGhostType.");
   }
+  DropCopies(*triangles, mesh.sourceCell);
   mesh.triangles = std::move(triangles);
   return mesh;
 }
@@ -269,6 +271,7 @@ InputMesh ReadPiece(vtkPolyData* piece, int threads, InputMesh& copies)
       [](int mark) { return (mark & vtkDataSetAttributes::DUPLICATECELL) != 0; });
     KeepCells(ghosts, mesh, *triangles, IsShown);
   }
+  DropCopies(*triangles, mesh.sourceCell);
   copies.triangles = std::move(triangleCopies);
   mesh.triangles = std::move(triangles);
   return mesh;

@@ -1,6 +1,7 @@
 #include "MovedMeshWriter.h"
 
 #include "Base/VectorRows.h"
+#include "Grid/OrientedMesh.h"
 #include "MovedPoints.h"
 #include "Problems/MovedSurface.h"
 #include "SolverOutput.h"
@@ -68,7 +69,9 @@ void MoveSurface(const TriangleMesh& mesh, const std::vector<Vec3>& points, int 
   int threads, vtkPolyData* output)
 {
   Move(mesh, points, dataType, threads, output);
-  const std::vector<Vec3> normals = NormalsAtPoints(mesh.points, mesh.triangles, threads);
+  const OrientedMesh oriented = Orient(mesh, true, threads);
+  const auto& triangles = oriented.mesh ? oriented.mesh->triangles : mesh.triangles;
+  const std::vector<Vec3> normals = NormalsAtPoints(mesh.points, triangles, threads);
   std::vector<double> along(points.size());
   for (std::size_t k = 0; k < points.size(); ++k)
   {

@@ -1,0 +1,29 @@
+// Turns the triangles of a mesh so that all of a component face alike, and leaves out copies.
+#ifndef GridFEM_OrientedMesh_h
+#define GridFEM_OrientedMesh_h
+
+#include "Grid/TriangleMesh.h"
+
+#include <optional>
+
+namespace gridfem
+{
+
+/// A mesh for normals. Its points are those of the given mesh.
+struct OrientedMesh
+{
+  std::optional<TriangleMesh> mesh; // none if the given one is oriented already
+  Id turned = 0;                    // triangles that now face the other way
+  Id copies = 0;                    // triangles left out: others have the same corners
+  Index oneSided = 0;               // components that cannot be oriented, such as a Möbius strip
+};
+
+/// Orients a mesh. A component whose triangles already face alike stays as it is. Another closed
+/// one gets the side that makes its volume positive, and another open one that of most of its area.
+/// Cost O(n) for an oriented mesh, otherwise O(n log n). Same result for any number of threads.
+/// @param weldCoincidentPoints  coincident points count as one
+OrientedMesh Orient(const TriangleMesh& mesh, bool weldCoincidentPoints, int threads = 0);
+
+} // namespace gridfem
+
+#endif
