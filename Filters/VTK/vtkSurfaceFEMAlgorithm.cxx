@@ -414,6 +414,11 @@ bool vtkSurfaceFEMAlgorithm::TryTogether(
   {
     throw;
   }
+  catch (const gridfem::NeedsWholeSurface&)
+  {
+    this->FreeStages();
+    return false;
+  }
   catch (...)
   {
     this->FreeStages();
