@@ -1,5 +1,6 @@
 #include "Grid/OpenEdges.h"
 
+#include "Base/Errors.h"
 #include "Base/Parallel.h"
 #include "Base/PerThreadLists.h"
 #include "Grid/KeepOdd.h"
@@ -30,49 +31,65 @@ struct NumberedEdge
   }
 };
 
-std::uint64_t HashEdge(Id low, Id high)
+std::uint64_t HashEdge(std::uint64_t low, std::uint64_t high)
 {
-  std::uint64_t hash = static_cast<std::uint64_t>(low) * 0x9e3779b97f4a7c15u +
-                       static_cast<std::uint64_t>(high) * 0xd1b54a32d192ed03u;
+  std::uint64_t hash = low * 0x9e3779b97f4a7c15u + high * 0xd1b54a32d192ed03u;
   hash = (hash ^ (hash >> 30)) * 0xbf58476d1ce4e5b9u;
   hash = (hash ^ (hash >> 27)) * 0x94d049bb133111ebu;
   return hash ^ (hash >> 31);
 }
 
-/// Calls visit(low, high) for the sides of a triangle whose ends have different numbers.
-template<class NumberOf, class Visit>
-void ForSides(const std::array<Id, 3>& triangle, const NumberOf& numberOf, Visit&& visit)
+/// Returns the hashes of the sides of a triangle, identified by the ids of their ends. A side
+/// without two ends has none.
+std::array<std::uint64_t, 3> HashesOfSides(const std::array<Id, 3>& corner)
 {
-  const std::array<Id, 3> corner{ numberOf(triangle[0]), numberOf(triangle[1]),
-    numberOf(triangle[2]) };
+  std::array<std::uint64_t, 3> hash;
   for (int k = 0; k < 3; ++k)
   {
-    const Id a = corner[k];
-    const Id b = corner[k == 2 ? 0 : k + 1];
-    if (a != b)
-    {
-      visit(std::min(a, b), std::max(a, b));
-    }
+    const Id from = corner[k];
+    const Id to = corner[k == 2 ? 0 : k + 1];
+    hash[k] = from == to ? 0
+                         : HashEdge(static_cast<std::uint64_t>(std::min(from, to)),
+                             static_cast<std::uint64_t>(std::max(from, to)));
   }
+  return hash;
 }
 
-/// Whether the hashes of all sides cancel, as those of a closed surface do.
-template<class NumberOf>
-bool AreAllPaired(const TriangleMesh& mesh, const NumberOf& numberOf, int threads)
+struct Parity
 {
-  struct Parity
-  {
-    std::uint64_t bits = 0;
-    void operator+=(const Parity& other) { bits ^= other.bits; }
-  };
+  std::uint64_t bits = 0;
+  void operator+=(const Parity& other) { bits ^= other.bits; }
+};
+
+/// Whether the hashes of all sides cancel, as those of a closed surface do.
+bool AreAllPaired(const TriangleMesh& mesh, int threads)
+{
   return ParallelSum(static_cast<Id>(mesh.triangles.size()), threads, Parity(),
            [&](Id begin, Id end)
            {
              Parity part;
              for (Id t = begin; t < end; ++t)
              {
-               ForSides(mesh.triangles[t], numberOf,
-                 [&](Id low, Id high) { part.bits ^= HashEdge(low, high); });
+               const auto hash = HashesOfSides(mesh.triangles[t]);
+               part.bits ^= hash[0] ^ hash[1] ^ hash[2];
+             }
+             return part;
+           })
+           .bits == 0;
+}
+
+/// Whether the hashes of the sides cancel if coincident points count as one.
+bool AreAllPaired(const Array<NumberedEdge>& sides, const TriangleMesh& mesh, int threads)
+{
+  return ParallelSum(static_cast<Id>(sides.size()), threads, Parity(),
+           [&](Id begin, Id end)
+           {
+             Parity part;
+             for (Id k = begin; k < end; ++k)
+             {
+               const std::uint64_t a = HashPlace(PlaceOf(mesh.points[sides[k].low]));
+               const std::uint64_t b = HashPlace(PlaceOf(mesh.points[sides[k].high]));
+               part.bits ^= a == b ? 0 : HashEdge(std::min(a, b), std::max(a, b));
              }
              return part;
            })
@@ -89,22 +106,46 @@ std::vector<char> EndsOfUnpaired(const TriangleMesh& mesh, int threads)
     {
       for (Id t = begin; t < end; ++t)
       {
-        ForSides(
-          mesh.triangles[t], [](Id point) { return point; },
-          [&](Id low, Id high)
-          {
-            const std::uint64_t hash = HashEdge(low, high);
+        const auto hash = HashesOfSides(mesh.triangles[t]);
+        for (int k = 0; k < 3; ++k)
+        {
+          const std::uint64_t ofCorner = hash[k] ^ hash[k == 0 ? 2 : k - 1];
 #pragma omp atomic
-            parity[low] ^= hash;
-#pragma omp atomic
-            parity[high] ^= hash;
-          });
+          parity[mesh.triangles[t][k]] ^= ofCorner;
+        }
       }
     });
   std::vector<char> isEnd(parity.size());
   std::transform(
     parity.begin(), parity.end(), isEnd.begin(), [](std::uint64_t bits) { return bits != 0; });
   return isEnd;
+}
+
+/// Returns the sides whose both ends are marked, as many times as there are triangles with them.
+/// Their ends are ids of points, in no order.
+Array<NumberedEdge> SidesBetween(
+  const std::vector<char>& isEnd, const TriangleMesh& mesh, int threads)
+{
+  RequireIndices(static_cast<double>(mesh.points.size()), "points");
+  Array<NumberedEdge> sides;
+  AppendRanges(static_cast<Id>(mesh.triangles.size()), threads, sides,
+    [&](Id begin, Id end, Array<NumberedEdge>& list)
+    {
+      for (Id t = begin; t < end; ++t)
+      {
+        const auto& corner = mesh.triangles[t];
+        for (int k = 0; k < 3; ++k)
+        {
+          const Id from = corner[k];
+          const Id to = corner[k == 2 ? 0 : k + 1];
+          if (isEnd[from] && isEnd[to])
+          {
+            list.push_back({ static_cast<Index>(from), static_cast<Index>(to) });
+          }
+        }
+      }
+    });
+  return sides;
 }
 
 bool FitsFloat(const Vec3& point)
@@ -119,55 +160,36 @@ double LengthOf(const Vec3& a, const Vec3& b)
   const double unit = FitsFloat(a) && FitsFloat(b) ? std::numeric_limits<float>::epsilon()
                                                    : std::numeric_limits<double>::epsilon();
   const double rounding = 4.0 * unit * a.cwiseAbs().cwiseMax(b.cwiseAbs()).maxCoeff();
-  const double length = (b - a).norm();
+  const double length = (b - a).stableNorm();
   return length > rounding ? length : std::numeric_limits<double>::infinity();
-}
-
-/// Returns the sides whose both ends are marked, as many times as there are triangles with them.
-std::vector<NumberedEdge> SidesBetween(const std::vector<char>& isEnd, const TriangleMesh& mesh,
-  const Array<Index>& pointClass, int threads)
-{
-  Array<NumberedEdge> sides;
-  AppendRanges(static_cast<Id>(mesh.triangles.size()), threads, sides,
-    [&](Id begin, Id end, Array<NumberedEdge>& list)
-    {
-      for (Id t = begin; t < end; ++t)
-      {
-        const auto& corner = mesh.triangles[t];
-        for (int k = 0; k < 3; ++k)
-        {
-          const Id from = corner[k];
-          const Id to = corner[k == 2 ? 0 : k + 1];
-          const auto [low, high] = std::minmax(pointClass[from], pointClass[to]);
-          if (isEnd[from] && isEnd[to] && low != high)
-          {
-            list.push_back({ low, high });
-          }
-        }
-      }
-    });
-  return { sides.begin(), sides.end() };
 }
 
 } // namespace
 
 std::vector<OpenEdge> FindOpenEdges(const TriangleMesh& mesh, int threads)
 {
-  if (AreAllPaired(
-        mesh, [](Id point) { return point; }, threads))
+  if (AreAllPaired(mesh, threads))
   {
     return {};
   }
   Validate(mesh, threads);
   // Edges that are open once coincident points count as one are among those that are open before.
   const std::vector<char> isEnd = EndsOfUnpaired(mesh, threads);
-  const Array<Index> pointClass = WeldCoincidentPoints(mesh.points, isEnd, threads);
-  if (AreAllPaired(
-        mesh, [&](Id point) { return Id{ pointClass[point] }; }, threads))
+  const Array<NumberedEdge> sides = SidesBetween(isEnd, mesh, threads);
+  if (AreAllPaired(sides, mesh, threads))
   {
     return {};
   }
-  std::vector<NumberedEdge> odd = SidesBetween(isEnd, mesh, pointClass, threads);
+  const Array<Index> pointClass = WeldCoincidentPoints(mesh.points, isEnd, threads);
+  std::vector<NumberedEdge> odd;
+  for (const NumberedEdge& side : sides)
+  {
+    const auto [low, high] = std::minmax(pointClass[side.low], pointClass[side.high]);
+    if (low != high)
+    {
+      odd.push_back({ low, high });
+    }
+  }
   KeepOdd(odd);
   std::vector<OpenEdge> open;
   open.reserve(odd.size());

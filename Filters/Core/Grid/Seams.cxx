@@ -6,7 +6,7 @@
 #include "Grid/PointTree.h"
 
 #include <algorithm>
-#include <iterator>
+#include <cmath>
 
 namespace gridfem
 {
@@ -42,7 +42,8 @@ private:
 
   const int threads_;
   std::vector<Place> places_; // ascending, each once
-  std::vector<Vec3> points_;  // the same
+  // The rest has a unit of length of its own, so that squares stay in the range of numbers.
+  std::vector<Vec3> points_; // of the places
   std::vector<double> tolerance_;
   std::vector<Edge> edges_; // ascending, each once
   std::vector<Index> edgeBegin_;
@@ -55,10 +56,13 @@ SeamFinder::SeamFinder(const std::vector<OpenEdge>& open, const std::vector<doub
 {
   const PlaceNumbers numbers = NumberEnds(open);
   places_ = numbers.Places();
-  std::transform(places_.begin(), places_.end(), std::back_inserter(points_), PointAt);
+  for (const Place& place : places_)
+  {
+    points_.emplace_back((PointAt(place) - PointAt(places_[0])) / longestSide);
+  }
   for (const double side : shortest)
   {
-    tolerance_.push_back(std::min(SeamTolerance * longestSide, SeamShare * side));
+    tolerance_.push_back(std::min(SeamTolerance, SeamShare * (side / longestSide)));
   }
   for (const OpenEdge& edge : open)
   {
@@ -222,6 +226,10 @@ Seams SeamFinder::Find()
 Seams FindSeams(const std::vector<OpenEdge>& open, const std::vector<double>& shortest,
   double longestSide, int threads)
 {
+  if (open.empty() || !(longestSide > 0.0) || std::isinf(longestSide))
+  {
+    return {};
+  }
   return SeamFinder(open, shortest, longestSide, threads).Find();
 }
 
