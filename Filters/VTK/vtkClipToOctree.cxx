@@ -65,7 +65,8 @@ void vtkClipToOctree::Compute(vtkInformationVector** inputs, vtkInformationVecto
   key.Add(options.depth).Add(options.weldCoincidentPoints);
   const auto clip = [&]
   {
-    state.mesh = gridfem::ReadInputMesh(input, options.threads, progress.Part(0.0, 0.1));
+    state.mesh = gridfem::ReadInputMesh(
+      input, options.weldCoincidentPoints, options.threads, progress.Part(0.0, 0.1));
     gridfem::RequireSurface(*state.mesh.triangles);
     state.ChooseDepth();
     const gridfem::SpaceOptions& used = state.UsedOptions().space;

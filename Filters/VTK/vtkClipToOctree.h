@@ -11,7 +11,7 @@
  *
  * Output port 0 (vtkPolyData) is the clipped mesh, made of triangles. Its points are the input's
  * points first, in the same order and precision (double when they are integers), then the cut
- * points.
+ * points. Points of a seam that coincide but for rounding are at one place.
  * - point data: the input's arrays. Real numbers are interpolated to double. Colors (unsigned char,
  *   3 or 4 components) are interpolated and rounded. Other integers and text come from the nearest
  *   corner. Global and pedigree ids are left out, because a cut point has none.

@@ -58,7 +58,7 @@ void vtkConnectivityAwareBasis::ReadClip(vtkPolyData* input)
   const gridfem::SpaceOptions& options = state.options.space;
   const gridfem::Progress progress = state.bridge.GetProgress();
   state.basis = {};
-  state.mesh = gridfem::ReadInputMesh(input, options.threads, progress.Part(0.0, 0.1));
+  state.mesh = gridfem::ReadInputMesh(input, false, options.threads, progress.Part(0.0, 0.1));
   gridfem::RequireSurface(*state.mesh.triangles);
   gridfem::ClippedMesh clipped = gridfem::ReadClippedMesh(
     input, state.mesh, options.weldCoincidentPoints, progress.Part(0.1, 0.4));

@@ -434,6 +434,11 @@ bool vtkSurfaceFEMAlgorithm::TryTogether(
   {
     throw;
   }
+  catch (const gridfem::NeedsWholeSurface&)
+  {
+    this->FreeStages();
+    return false;
+  }
   catch (...)
   {
     this->FreeStages();

@@ -39,10 +39,11 @@
  * and the patch smoother, excludes BlocksAsOne, and works in most solvers; the page of each filter
  * gives details. Otherwise, rank 0 gathers the surface, has to hold all of it, and computes with
  * its threads. The other ranks sleep. Ghost cells count once. Points on borders are joined by
- * global point ids, or else by their coordinates with WeldCoincidentPoints. Port 0 is each rank's
- * own input plus arrays, borders and ghosts included. Outputs with cells of their own, and tables,
- * are on rank 0. Ids of sources, and ids in messages, count through the gathered surface. The same
- * ranks have to run the filter together. If one fails, all fail with one message.
+ * global point ids, or else by their coordinates with WeldCoincidentPoints. Rank 0 also gathers a
+ * surface with hanging nodes. Port 0 is each rank's own input plus arrays, borders and ghosts
+ * included. Outputs with cells of their own, and tables, are on rank 0. Ids of sources, and
+ * ids in messages, count through the gathered surface. The same ranks have to run the
+ * filter together. If one fails, all fail with one message.
  *
  * A solver filter looks for its function space in this order:
  * - on input port 0, if that is the output of vtkConnectivityAwareBasis;
@@ -112,8 +113,11 @@ public:
 
   ///@{
   /**
-   * When on, coincident points count as one point for connectivity. Meshes from STL files need
-   * this. The output keeps the input's points either way. Default on.
+   * When on, coincident points count as one for connectivity. Meshes from STL files need this. Border
+   * points that coincide but for rounding count as one, too. Polygons are divided, for the
+   * computation only, at hanging nodes on their sides. Two points count as one up to 1e-6 of the
+   * longest side of the bounding box, and up to a thousandth of the shortest side of a triangle
+   * there. The output keeps the input's points either way. Default on.
    */
   vtkSetMacro(WeldCoincidentPoints, bool);
   vtkGetMacro(WeldCoincidentPoints, bool);

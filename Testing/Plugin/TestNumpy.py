@@ -172,6 +172,25 @@ class Numpy(unittest.TestCase):
         self.assertEqual(solution.shape, (81,))
         self.assertAlmostEqual(solution.mean(), 4.0, delta=0.01)
 
+    def test_seams_and_hanging_nodes(self):
+        u, v = numpy.meshgrid(numpy.linspace(0, 2 * numpy.pi, 61), numpy.linspace(0, 3, 31))
+        tube = numpy.stack([numpy.cos(u), numpy.sin(u), v], axis=-1).reshape(-1, 3)
+        a = (61 * numpy.arange(30)[:, None] + numpy.arange(60)).ravel()
+        quads = numpy.stack([a, a + 1, a + 62, a + 61], axis=1)
+        eigenvalues, _ = gridfem.spectrum(tube, quads, 4, **OPTIONS)
+        numpy.testing.assert_allclose(eigenvalues, [0, 1, 1, numpy.pi ** 2 / 9], rtol=0.01, atol=1e-9)
+        eigenvalues, _ = gridfem.spectrum(tube, quads, 2, WeldCoincidentPoints=False, **OPTIONS)
+        self.assertAlmostEqual(eigenvalues[1], 0.25, delta=0.01)  # cut open along the seam
+
+        # Two squares below a rectangle, which has a hanging node. Values may be on the cells.
+        points = numpy.array([[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0], [1, 1, 0], [2, 1, 0],
+                              [0, 2, 0], [2, 2, 0]], dtype=float)
+        squares = numpy.array([[0, 1, 4, 3], [1, 2, 5, 4], [3, 5, 7, 6]])
+        distance = gridfem.distance(points, squares, [0], **OPTIONS)
+        numpy.testing.assert_allclose(distance, numpy.linalg.norm(points, axis=1), atol=0.1)
+        solution = gridfem.poisson(points, squares, numpy.full(3, 2.0), **OPTIONS)
+        numpy.testing.assert_allclose(solution, 2.0, rtol=1e-3)
+
     def test_meshes_of_other_libraries(self):
         points, triangles = self.mesh
         counted = numpy.column_stack([numpy.full(len(triangles), 3), triangles]).ravel()

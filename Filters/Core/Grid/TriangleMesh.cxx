@@ -3,9 +3,9 @@
 #include "Base/Errors.h"
 #include "Base/Parallel.h"
 #include "Base/RadixSort.h"
+#include "Grid/PlaceNumbers.h"
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -69,26 +69,6 @@ void Validate(const TriangleMesh& mesh, int threads)
   }
 }
 
-namespace
-{
-
-/// Mixes the bits of the coordinates. Equal points give equal values.
-std::uint64_t HashPoint(const Vec3& point)
-{
-  std::uint64_t hash = 0;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double value = point[axis] + 0.0; // turns -0 into 0
-    std::uint64_t bits;
-    std::memcpy(&bits, &value, sizeof(bits));
-    hash = (hash ^ bits) * 0x9e3779b97f4a7c15u;
-    hash ^= hash >> 32;
-  }
-  return hash;
-}
-
-} // namespace
-
 Array<Index> WeldCoincidentPoints(
   const std::vector<Vec3>& points, const std::vector<char>& used, int threads)
 {
@@ -105,7 +85,7 @@ Array<Index> WeldCoincidentPoints(
       {
         if (used.empty() || used[i])
         {
-          add(HashPoint(points[i]) >> (64 - HashBits), i);
+          add(HashPlace(PlaceOf(points[i])) >> (64 - HashBits), i);
         }
       }
     });

@@ -3,14 +3,17 @@
 #include "Base/Errors.h"
 #include "Base/VectorRows.h"
 #include "Grid/CopiedTriangles.h"
+#include "Grid/JoinSeams.h"
 #include "Grid/PolygonTriangles.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace gridfem
 {
 
-void Given::SetCells(std::vector<Vec3> points, const Id* cells, Id count, Id corners)
+void Given::SetCells(
+  std::vector<Vec3> points, const Id* cells, Id count, Id corners, bool weldCoincidentPoints)
 {
   auto triangles = std::make_shared<TriangleMesh>();
   triangles->points = std::move(points);
@@ -39,6 +42,17 @@ void Given::SetCells(std::vector<Vec3> points, const Id* cells, Id count, Id cor
     }
   }
   DropCopies(*triangles, sourceCell);
+  if (weldCoincidentPoints)
+  {
+    const std::vector<Id> cellOf = sourceCell;
+    const std::vector<Id> source = JoinSeams(*triangles).sourceTriangle;
+    if (!source.empty())
+    {
+      sourceCell.resize(source.size());
+      std::transform(source.begin(), source.end(), sourceCell.begin(),
+        [&](Id triangle) { return cellOf[triangle]; });
+    }
+  }
   mesh = std::move(triangles);
 }
 

@@ -31,7 +31,10 @@ struct Given
   std::vector<Id> sources; // points
 
   /// @param cells  a row of ids of points for each cell, `corners` in each
-  void SetCells(std::vector<Vec3> points, const Id* cells, Id numberOfCells, Id corners);
+  /// @param weldCoincidentPoints  joins seams (JoinSeams); cells with hanging nodes get more
+  /// triangles
+  void SetCells(std::vector<Vec3> points, const Id* cells, Id numberOfCells, Id corners,
+    bool weldCoincidentPoints);
 
   /// Returns a row for each point: the row of the array, 0 if the array is on cells, or the
   /// coordinates without an array.

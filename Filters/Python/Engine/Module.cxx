@@ -5,6 +5,7 @@
 #include "Base/LargeMemory.h"
 #include "Base/ShortWaits.h"
 #include "Grid/PolygonTriangles.h"
+#include "Solvers/SurfaceOptions.h"
 
 #include <pybind11/eigen.h>
 #include <pybind11/numpy.h>
@@ -87,9 +88,11 @@ py::tuple Solve(const std::string& name, const Points& points, const Cells& cell
 {
   Properties properties(name, numbers);
   const std::unique_ptr<Problem> problem = Problems.at(name)(properties);
+  const bool welds =
+    properties.Switch("WeldCoincidentPoints", SurfaceOptions().space.weldCoincidentPoints);
   properties.RequireNoOther();
   Given given;
-  given.SetCells(VectorsOf(points), cells.data(), cells.shape(0), cells.shape(1));
+  given.SetCells(VectorsOf(points), cells.data(), cells.shape(0), cells.shape(1), welds);
   for (const auto& [array, values] : arrays)
   {
     given.arrays[array] = { values.first, values.second };

@@ -332,7 +332,7 @@ SurfaceBasis ReadBasisFor(vtkPolyData* data, const InputMesh& source, const Prog
   {
     return holder->OnSourceMesh();
   }
-  const InputMesh mesh = ReadInputMesh(data, 1, progress.Part(0.0, 0.1));
+  const InputMesh mesh = ReadInputMesh(data, false, 1, progress.Part(0.0, 0.1));
   const SurfaceBasis basis = ReadBasis(data, mesh, progress.Part(0.1, 0.9));
   return OnSourceMesh(basis, ReadSourceCells(data, mesh), source);
 }

@@ -1,6 +1,7 @@
 #include "CarriedModes.h"
 
 #include "CanDistribute.h"
+#include "ClippedArrays.h"
 #include "ModeCheck.h"
 #include "ModeReader.h"
 #include "SurfaceSolverState.h"
@@ -51,7 +52,7 @@ GivenModes CarriedModes::Update(SurfaceSolverState& state, vtkPolyData* input)
 
 PointModes CarriedModes::Read(SurfaceSolverState& state, vtkPolyData* input)
 {
-  mesh_ = ReadInputMesh(input, state.Threads());
+  mesh_ = state.ReadMeshOf(input, {});
   RequireSurface(*mesh_.triangles);
   return ReadModes(input, mesh_);
 }
@@ -59,7 +60,7 @@ PointModes CarriedModes::Read(SurfaceSolverState& state, vtkPolyData* input)
 PointModes CarriedModes::ReadTogether(SurfaceSolverState& state, vtkPolyData* piece)
 {
   DistributedSurface& together = state.together;
-  mesh_ = together.ReadPieces(piece, state.Threads());
+  mesh_ = together.ReadPieces(piece, !state.Any(piece && CarriesBasis(piece)), state.Threads());
   PointModes modes;
   state.Together(
     [&]

@@ -55,9 +55,11 @@ void AddInt(vtkPolyData* output, const char* name, int value)
   output->GetFieldData()->AddArray(array);
 }
 
-/// Returns the input's points unchanged, then the cut points.
+/// Returns the input's points, then the cut points. Points that joining seams moved stand where
+/// they were computed on, so that the clipped mesh is connected there when it is read again.
 template<class Real>
-void FillPoints(vtkPoints* input, const ClippedMesh& clipped, int threads, Real* output)
+void FillPoints(
+  vtkPoints* input, const InputMesh& mesh, const ClippedMesh& clipped, int threads, Real* output)
 {
   const Id inputs = clipped.numberOfInputPoints;
   const auto copy = [&](const auto* given)
@@ -72,6 +74,10 @@ void FillPoints(vtkPoints* input, const ClippedMesh& clipped, int threads, Real*
       StorePoint(Vec3(input->GetPoint(point)), output + 3 * point);
     }
   }
+  for (const MovedPoint& moved : mesh.moved)
+  {
+    StorePoint(mesh.triangles->points[moved.point], output + 3 * moved.point);
+  }
   ParallelRanges(static_cast<Id>(clipped.position.size()) - inputs, threads,
     [&](Id begin, Id end)
     {
@@ -82,13 +88,14 @@ void FillPoints(vtkPoints* input, const ClippedMesh& clipped, int threads, Real*
     });
 }
 
-vtkSmartPointer<vtkPoints> MakePoints(vtkPolyData* input, const ClippedMesh& clipped, int threads)
+vtkSmartPointer<vtkPoints> MakePoints(
+  vtkPolyData* input, const InputMesh& mesh, const ClippedMesh& clipped, int threads)
 {
   auto points = vtkSmartPointer<vtkPoints>::New();
   points->SetDataType(OutputPrecision(input->GetPoints()));
   SetTuples(points->GetData(), static_cast<vtkIdType>(clipped.position.size()));
-  VisitCoordinates(points,
-    [&](auto* coordinates) { FillPoints(input->GetPoints(), clipped, threads, coordinates); });
+  VisitCoordinates(points, [&](auto* coordinates)
+    { FillPoints(input->GetPoints(), mesh, clipped, threads, coordinates); });
   return points;
 }
 
@@ -212,7 +219,7 @@ void WriteClippedFrame(vtkPolyData* input, const InputMesh& mesh, const ClippedM
   const std::vector<MortonKey>& cells, bool weldCoincidentPoints, int threads, vtkPolyData* frame)
 {
   frame->Initialize();
-  frame->SetPoints(MakePoints(input, part, threads));
+  frame->SetPoints(MakePoints(input, mesh, part, threads));
   frame->SetPolys(MakeTriangles(part, threads));
   AddCellIds(mesh, part, cells, threads, frame);
   AddGrid(part.grid, cells, frame);

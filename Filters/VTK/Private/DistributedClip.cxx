@@ -263,7 +263,7 @@ private:
 void ClipOfRanks::Build(DistributedSurface& together, vtkPolyData* piece,
   const SurfaceOptions& options, InputMesh& mesh, const Progress& progress)
 {
-  mesh = together.ReadPieces(piece, options.space.threads);
+  mesh = together.ReadPieces(piece, true, options.space.threads);
   RankClip clip(ranks_, *mesh.triangles, RankOptionsOf(options), progress,
     together.CopiedTriangles().triangles->triangles);
   clip.KeepOwn(ranks_);

@@ -13,6 +13,7 @@
 #include "Parallel/RankBoundary.h"
 #include "Parallel/RankDistance.h"
 #include "Parallel/RankMemory.h"
+#include "Parallel/RankSeams.h"
 
 #include "vtkDataArray.h"
 #include "vtkMPI.h"
@@ -97,6 +98,33 @@ bool IsRepeated(const Communicator& ranks, const TriangleMesh& mesh)
   return hasAny && std::find(digests.begin(), own, *own) != own;
 }
 
+void ApplyMoves(const Seams& seams, int threads, InputMesh& mesh)
+{
+  auto triangles = std::make_shared<TriangleMesh>(*mesh.triangles);
+  mesh.moved = MovePoints(seams.moves, *triangles, threads);
+  mesh.isWelded = true;
+  mesh.triangles = std::move(triangles);
+}
+
+/// Joins the seams of the surface of all ranks, also in the copies of triangles. Collective.
+void JoinSeamsOfRanks(const Communicator& ranks, int threads, InputMesh& mesh, InputMesh& copies)
+{
+  const Seams seams = FindSeams(ranks, *mesh.triangles, threads);
+  if (!seams.divisions.empty())
+  {
+    throw NeedsWholeSurface();
+  }
+  if (!seams.moves.empty())
+  {
+    ranks.Together(
+      [&]
+      {
+        ApplyMoves(seams, threads, mesh);
+        ApplyMoves(seams, threads, copies);
+      });
+  }
+}
+
 /// A chosen array as all ranks see it.
 struct Shape
 {
@@ -129,6 +157,10 @@ void DistributedSurface::Run(const Progress& progress, const Body& body)
       throw FailedElsewhere();
     }
     throw InvalidInput("Rank " + std::to_string(failure.rank) + ": " + failure.what());
+  }
+  catch (const NeedsWholeSurface&)
+  {
+    throw;
   }
   catch (const InvalidInput&) // an error that is the same on all ranks
   {
@@ -179,7 +211,7 @@ int DistributedSurface::ThreadsOfRank(int wanted) const
   return wanted > 0 ? wanted : all;
 }
 
-InputMesh DistributedSurface::ReadPieces(vtkPolyData* piece, int threads)
+InputMesh DistributedSurface::ReadPieces(vtkPolyData* piece, bool joinsSeams, int threads)
 {
   const Communicator& ranks = ranks_->ranks;
   InputMesh mesh;
@@ -198,6 +230,10 @@ InputMesh DistributedSurface::ReadPieces(vtkPolyData* piece, int threads)
     none->points = copies_.triangles->points;
     mesh = {};
     mesh.triangles = std::move(none);
+  }
+  if (joinsSeams)
+  {
+    JoinSeamsOfRanks(ranks, threads, mesh, copies_);
   }
   area_ = SurfaceArea(*mesh.triangles);
   ranks.Sum(&area_, 1);
@@ -248,7 +284,7 @@ void DistributedSurface::BuildSpace(
   vtkPolyData* piece, const SurfaceOptions& options, bool isClipped, InputMesh& mesh)
 {
   this->Free();
-  mesh = this->ReadPieces(piece, options.space.threads);
+  mesh = this->ReadPieces(piece, !isClipped, options.space.threads);
   const Communicator& ranks = ranks_->ranks;
   RankSpaceOptions rankOptions = RankOptionsOf(options);
   if (isClipped)
@@ -473,7 +509,7 @@ double DistributedSurface::Largest(double) const
   RefuseWithoutMpi();
 }
 
-InputMesh DistributedSurface::ReadPieces(vtkPolyData*, int)
+InputMesh DistributedSurface::ReadPieces(vtkPolyData*, bool, int)
 {
   RefuseWithoutMpi();
 }

@@ -32,6 +32,13 @@ struct MemoryNeed;
 struct DistanceOptions;
 struct SurfaceOptions;
 
+/// Thrown on all ranks if one process has to compute on the whole surface: the parts of a triangle
+/// with a hanging node may need a point of another rank.
+struct NeedsWholeSurface : InvalidInput
+{
+  NeedsWholeSurface() : InvalidInput("The surface has hanging nodes, and ranks share it.") {}
+};
+
 /// The surface of all ranks. All functions but Free, IsUsed, Space, Area, Side, Depth, GridOfRanks,
 /// NumberOfFunctions, Parts, CopiedTriangles, IsPieceRepeated, DataTypeOf, Numbers and WithCopies
 /// are collective on the ranks of VTK's global controller. All but Run are called within Run. A
@@ -57,8 +64,10 @@ public:
 
   /// Reads this rank's piece, which may be null. Copies count once: cells that vtkGhostType marks
   /// as duplicates, and pieces that an earlier rank has, too.
+  /// @param joinsSeams  gives points that coincide but for rounding the same coordinates. Throws
+  ///   NeedsWholeSurface if there are hanging nodes.
   /// @return  the piece without the copies
-  InputMesh ReadPieces(vtkPolyData* piece, int threads);
+  InputMesh ReadPieces(vtkPolyData* piece, bool joinsSeams, int threads);
 
   /// Reads the pieces and clips them.
   /// @param options  has the threads of one rank

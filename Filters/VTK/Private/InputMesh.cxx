@@ -210,6 +210,24 @@ bool IsShown(int mark)
   return (mark & (vtkDataSetAttributes::HIDDENCELL | vtkDataSetAttributes::DUPLICATECELL)) == 0;
 }
 
+/// Joins the seams of the triangles.
+void Join(InputMesh& mesh, TriangleMesh& triangles, int threads)
+{
+  JoinedSeams joined = JoinSeams(triangles, threads);
+  mesh.isWelded = true;
+  mesh.moved = std::move(joined.moved);
+  if (!joined.sourceTriangle.empty())
+  {
+    std::vector<Id> sourceCell;
+    sourceCell.reserve(joined.sourceTriangle.size());
+    for (const Id triangle : joined.sourceTriangle)
+    {
+      sourceCell.push_back(mesh.sourceCell[triangle]);
+    }
+    mesh.sourceCell = std::move(sourceCell);
+  }
+}
+
 /// Reads the triangles of all cells, including ghosts, into `triangles`.
 InputMesh ReadCells(
   vtkPolyData* input, int threads, const Progress& progress, TriangleMesh& triangles)
@@ -233,7 +251,8 @@ InputMesh ReadCells(
 
 } // namespace
 
-InputMesh ReadInputMesh(vtkPolyData* input, int threads, const Progress& progress)
+InputMesh ReadInputMesh(
+  vtkPolyData* input, bool weldCoincidentPoints, int threads, const Progress& progress)
 {
   auto triangles = std::make_shared<TriangleMesh>();
   InputMesh mesh = ReadCells(input, threads, progress, *triangles);
@@ -251,8 +270,22 @@ InputMesh ReadInputMesh(vtkPolyData* input, int threads, const Progress& progres
                        "according to the array vtkGhostType.");
   }
   DropCopies(*triangles, mesh.sourceCell);
+  if (weldCoincidentPoints)
+  {
+    Join(mesh, *triangles, threads);
+  }
   mesh.triangles = std::move(triangles);
   return mesh;
+}
+
+std::vector<Vec3> ReadPointsLike(const InputMesh& mesh, vtkPolyData* data)
+{
+  std::vector<Vec3> points = ReadPoints(data, 1);
+  for (const MovedPoint& moved : mesh.moved)
+  {
+    points[moved.point] = points[moved.twin];
+  }
+  return points;
 }
 
 InputMesh ReadPiece(vtkPolyData* piece, int threads, InputMesh& copies)

@@ -3,7 +3,7 @@
 #define GridFEM_InputMesh_h
 
 #include "Base/Progress.h"
-#include "Grid/TriangleMesh.h"
+#include "Grid/JoinSeams.h"
 
 #include <memory>
 #include <utility>
@@ -20,13 +20,21 @@ struct InputMesh
 {
   std::shared_ptr<const TriangleMesh> triangles;
   std::vector<Id> sourceCell; // per triangle, ascending: the cell of the vtkPolyData it comes from
+  bool isWelded = false;      // seams were joined (JoinSeams)
+  std::vector<MovedPoint> moved; // points that joining seams moved, ascending
 };
 
 /// Decomposes polygons of any size, concave ones too, and strips. Leaves out vertices, lines,
 /// polygons with fewer than three corners, and cells that vtkGhostType marks as hidden or as
 /// duplicates. Throws InvalidInput if no triangle is left, or naming the first cell with a point
 /// that does not exist.
-InputMesh ReadInputMesh(vtkPolyData* input, int threads, const Progress& progress = {});
+/// @param weldCoincidentPoints  joins seams (JoinSeams). Polygons with hanging nodes get more
+///   triangles. A clipped mesh that is read with its cells has no seams to join.
+InputMesh ReadInputMesh(
+  vtkPolyData* input, bool weldCoincidentPoints, int threads, const Progress& progress = {});
+
+/// Reads the points of the data, and moves them as joining the seams of the mesh moved its points.
+std::vector<Vec3> ReadPointsLike(const InputMesh& mesh, vtkPolyData* data);
 
 /// Reads the piece of one of several ranks, which may be null or without polygons. The mesh has all
 /// points of the piece. Throws InvalidInput as ReadInputMesh does, but the piece may be empty.

@@ -16,7 +16,7 @@ bool HasSameContents(vtkPolyData* data, const InputMesh& last, int threads)
   {
     return false;
   }
-  const InputMesh mesh = ReadInputMesh(data, threads);
+  const InputMesh mesh = ReadInputMesh(data, last.isWelded, threads);
   return mesh.sourceCell == last.sourceCell && mesh.triangles->points == last.triangles->points &&
          mesh.triangles->triangles == last.triangles->triangles;
 }

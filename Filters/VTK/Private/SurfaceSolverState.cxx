@@ -120,7 +120,7 @@ void SurfaceSolverState::UpdateSpace(
     }
     basis = {};
     space = {};
-    mesh = ReadInputMesh(input, options.space.threads, progress.Part(0.0, 0.1));
+    mesh = this->ReadMeshOf(input, progress.Part(0.0, 0.1));
     RequireSurface(*mesh.triangles);
     if (!carries && !CarriesBasis(basisData))
     {
@@ -191,7 +191,8 @@ void SurfaceSolverState::BuildSpace(vtkPolyData* input, const Progress& progress
 {
   basis = {}; // frees the memory of the last one first
   space = {};
-  mesh = ReadInputMesh(input, options.space.threads, progress.Part(0.0, 0.1));
+  mesh = ReadInputMesh(
+    input, options.space.weldCoincidentPoints, options.space.threads, progress.Part(0.0, 0.1));
   RequireSurface(*mesh.triangles);
   used_ = options;
   this->ChooseDepth();
@@ -428,9 +429,18 @@ std::shared_ptr<const FiniteElementSpace> SurfaceSolverState::WholeSpace() const
   return space;
 }
 
+InputMesh SurfaceSolverState::ReadMeshOf(vtkPolyData* data, const Progress& progress) const
+{
+  const bool isBasisOfData = CarriesBasis(data);
+  const bool isGiven = !isBasisOfData && basisData_ && CarriesBasis(basisData_);
+  const bool isWelded =
+    isGiven ? WeldsCoincidentPoints(basisData_) : options.space.weldCoincidentPoints;
+  return ReadInputMesh(data, isWelded && !isBasisOfData, options.space.threads, progress);
+}
+
 std::shared_ptr<const TriangleMesh> SurfaceSolverState::ReadMesh() const
 {
-  return ReadInputMesh(input_, options.space.threads).triangles;
+  return this->ReadMeshOf(input_, {}).triangles;
 }
 
 void SurfaceSolverState::Require(const MemoryNeed& own) const
@@ -716,10 +726,11 @@ void SurfaceSolverState::PrepareMesh(const Progress& progress)
   used_ = options;
   StageKey key;
   AddMesh(key, input_);
+  key.Add(options.space.weldCoincidentPoints);
   stages.Run(MeshStage, key,
     [&]
     {
-      mesh = ReadInputMesh(input_, options.space.threads, progress);
+      mesh = this->ReadMeshOf(input_, progress);
       RequireSurface(*mesh.triangles);
     });
 }

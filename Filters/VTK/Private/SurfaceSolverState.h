@@ -90,6 +90,10 @@ public:
   /// surface. Throws InvalidInput and Aborted.
   void UpdateSpace(vtkPolyData* input, vtkPolyData* basisData, const Progress& progress);
 
+  /// Reads triangles as those that the functions of the run are on. Their seams are joined as the
+  /// properties or a given basis say.
+  InputMesh ReadMeshOf(vtkPolyData* data, const Progress& progress) const;
+
   /// Chooses the depth for `mesh`.
   void ChooseDepth();
 

@@ -73,11 +73,7 @@ bool TrackedMesh::Follow(vtkPolyData* data, const InputMesh& reference)
     this->Stop();
     return false;
   }
-  auto points = std::vector<Vec3>(reference.triangles->points.size());
-  for (std::size_t point = 0; point < points.size(); ++point)
-  {
-    data->GetPoint(static_cast<vtkIdType>(point), points[point].data());
-  }
+  std::vector<Vec3> points = ReadPointsLike(reference, data);
   if (points == reference.triangles->points)
   {
     this->Stop();
@@ -93,7 +89,7 @@ bool TrackedMesh::Follow(vtkPolyData* data, const InputMesh& reference)
   this->Stop();
   if (metric)
   {
-    moved_ = { moved, reference.sourceCell };
+    moved_ = { moved, reference.sourceCell, reference.isWelded, reference.moved };
     metric_ = std::make_shared<const TriangleMetric>(std::move(*metric));
     ++motion_;
   }
