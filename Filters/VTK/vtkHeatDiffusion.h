@@ -3,10 +3,13 @@
  * @brief   an array that spreads along a surface as heat does, in time steps
  *
  * Solves du/dt = div grad u + s on the surface, from the array at time 0 to the DiffusionTime. The
- * time is cut into NumberOfSteps equal steps, and each is a time step of the output. A step takes
- * two solves, is of second order in its length, and is stable for any length. No heat flows over
- * boundaries. The integral over every connected component changes only by what the source adds.
- * Held values, however, let heat enter and leave.
+ * time is cut into NumberOfSteps equal steps, and each is a time step of the output. Steps are of
+ * second order in their length and stable for any length. The first takes three solves and damps
+ * details of any size; each later one takes two. One step leaves at most 0.006 of a detail with the
+ * wrong sign, and the heat of a point stays positive. Only jumps within a cell make the functions
+ * go below and above the given values. No heat flows over boundaries. The integral over every
+ * connected component changes only by what the source adds. Held values, however, let heat enter
+ * and leave.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
  * vtkConnectivityAwareBasis.
@@ -63,8 +66,9 @@ public:
 
   ///@{
   /**
-   * How long heat spreads, in the squared unit of length of ParameterUnits. Details smaller than
-   * about its square root vanish. Above 0, default 0.001.
+   * How long heat spreads, in the squared unit of length of ParameterUnits. Waves of length l fade
+   * by exp(-(2 pi / l)^2 t): to 2 % if l is 3.1 times the square root of the time t. Above 0,
+   * default 0.001.
    */
   vtkSetMacro(DiffusionTime, double);
   vtkGetMacro(DiffusionTime, double);
