@@ -57,10 +57,10 @@ def poisson(points, cells, values=None, gradients=None, weights=None, held=None,
     """Computes the function nearest to values whose gradients are nearest to given ones.
 
     values: N or M rows; None takes the coordinates. gradients: a vector for each column of the values;
-    None takes zero, which smooths. weights: weights of the values. held: where it is true at the
-    points, the values stay. gradient_scale: a factor on the gradients. flux: the slope of the solution out
-    of the surface, at the points of its boundary. ScreeningWeight determines how much values count.
-    UseValueGradient and GradientScale sharpen. FillUnknown fills in NaN.
+    None takes zero, which smooths. weights: weights of the values; values of weight 0 may be NaN. held:
+    where it is true at the points, the values stay. gradient_scale: a factor on the gradients. flux: the
+    slope of the solution out of the surface, at the points of its boundary. ScreeningWeight determines how
+    much values count. UseValueGradient and GradientScale sharpen. FillUnknown fills in NaN.
     """
     given = {"values": values, "gradients": gradients, "weights": weights, "held": held,
              "gradient_scale": gradient_scale, "flux": flux}

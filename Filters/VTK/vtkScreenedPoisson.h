@@ -25,7 +25,9 @@
  *   component of f, then those of the second, ...
  * - index 2, `GradientScaleArray` (optional): one component, which multiplies GradientScale.
  * - index 3, `ValueWeightArray` (optional): one component, 0 or more, which multiplies
- *   ScreeningWeight. A triangle takes the mean of a point array.
+ *   ScreeningWeight. A triangle takes the mean of a point array. Values of weight 0 do not count.
+ *   They may be any number or NaN. With UseValueGradient their gradients still count, unless they
+ *   are NaN.
  * - index 4, `ConstraintArray` (optional): point data, one component. The solution has the value
  *   exactly at points where it is neither 0 nor NaN. The values must be point data then.
  * - index 5, `MetricArray` (optional): a symmetric tensor of six components (XX, YY, ZZ, XY, YZ,

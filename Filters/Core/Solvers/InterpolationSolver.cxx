@@ -2,6 +2,7 @@
 
 #include "Problems/SolveWarnings.h"
 #include "Solvers/LocalSurface.h"
+#include "Solvers/SurfaceFields.h"
 
 #include <algorithm>
 
@@ -49,11 +50,12 @@ void InterpolationSolver::TakeValues(PointValues given)
   given_ = std::move(given);
 }
 
-void InterpolationSolver::Take(
-  ConstrainedSolution solution, const Surface& surface, const Options& options)
+void InterpolationSolver::Take(ConstrainedSolution solution, const Eigen::RowVectorXd& constants,
+  const Surface& surface, const Options& options)
 {
   result_.atPoints = surface.ValuesAtPoints(solution.coefficients);
   result_.isReached = surface.PointsWithFunctions();
+  AddConstants(constants, result_.isReached, result_.atPoints);
   for (Id point = 0; point < result_.atPoints.rows(); ++point)
   {
     if (!result_.isReached[point])
@@ -85,9 +87,10 @@ const InterpolationSolver::Result& InterpolationSolver::Update(
       own.multigrid = options.equation.multigrid;
       own.multigrid.threads = surface.Threads();
       own.solve = options.equation.solve;
-      this->Take(InterpolateHarmonically(*space, space->RowsAtPoints(given_.points), given_.values,
-                   own, job.progress.Part(0.5, 0.95)),
-        surface, options);
+      const Eigen::RowVectorXd constants = LargeConstants(surface, given_.values);
+      this->Take(InterpolateHarmonically(*space, space->RowsAtPoints(given_.points),
+                   given_.values.rowwise() - constants, own, job.progress.Part(0.5, 0.95)),
+        constants, surface, options);
     });
   job.Check(1.0);
   return result_;
