@@ -151,15 +151,15 @@ TEST(HeatDiffusion, OfAPointIsNeverNegativeBeyondTheErrorOfTheSpace)
             euler.Advance();
           }
           const MultiVector u = space->ValuesAtPoints(heat.Coefficients());
-          const double below =
-            std::min(0.0, space->ValuesAtPoints(euler.Coefficients()).minCoeff());
-          ASSERT_TRUE(u.allFinite());
-          EXPECT_GT(u.minCoeff(), 1.2 * below - 1e-4 * u.maxCoeff())
+          const double below = std::min(
+            0.0, space->ValuesAtPoints(euler.Coefficients()).minCoeff<Eigen::PropagateNaN>());
+          const double most = u.maxCoeff<Eigen::PropagateNaN>();
+          EXPECT_GT(u.minCoeff<Eigen::PropagateNaN>(), 1.2 * below - 1e-4 * most)
             << step << " " << k << isOnHats << below;
           // A single step leaves a ring around the source that is hotter by an eighth. On the torus
           // the heat of a long time gathers elsewhere.
           const double least = k == 0 ? 0.87 : 0.98;
-          EXPECT_TRUE((mesh == &torus && step > 1.0) || u(source, 0) > least * u.maxCoeff())
+          EXPECT_TRUE((mesh == &torus && step > 1.0) || u(source, 0) > least * most)
             << step << " " << k << isOnHats;
         }
       }
