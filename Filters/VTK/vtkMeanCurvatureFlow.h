@@ -79,8 +79,9 @@ public:
   ///@{
   /**
    * How far a step goes in time, in the squared unit of length of ParameterUnits. Above 0, default
-   * 5e-5. Details smaller than about the square root of TimeStep vanish in one step. Toward a
-   * sphere with Conformalized, ten times the default is a good step.
+   * 5e-5. Details as long as the square root of TimeStep fade to 2.5 % in one step. The flow is of
+   * first order in TimeStep. Toward a sphere with Conformalized, ten times the default is a good
+   * step.
    */
   vtkSetMacro(TimeStep, double);
   vtkGetMacro(TimeStep, double);
