@@ -74,8 +74,8 @@ def poisson(points, cells, values=None, gradients=None, weights=None, held=None,
     """Computes a function that is close to given values, with gradients close to given gradients.
 
     values: N or M rows; None takes the coordinates. gradients: a vector for each column of the
-    values; None takes zero, which smooths. weights: weights of the values. held: true at points
-    where the values stay. gradient_scale: a factor on the gradients. flux: the slope of the
+    values; None takes zero, which smooths. weights: weights of the values; values
+    of weight 0 may be NaN. held: true at points where the values stay. gradient_scale: a factor on the gradients. flux: the slope of the
     solution out of the surface, at the points of its boundary. ScreeningWeight determines how much
     values count. UseValueGradient and GradientScale sharpen. FillUnknown fills in NaN.
     """

@@ -4,7 +4,11 @@
  *
  * Solves ∂u/∂t = Δu + s on the surface, from the array u at time 0 to the DiffusionTime, with the
  * source s. The time is divided into NumberOfSteps equal steps, and each is a time step of the
- * output. A step takes two solves, is of second order in its length, and is stable for any length.
+ * output. Steps are of second order in their length and stable for any length. The first step takes
+ * three solves and damps details of any size; each later one takes two. One step leaves at most
+ * 0.006 of a detail with the wrong sign, and the heat of a point stays positive. Only jumps within a
+ * cell make the functions go below and above the given values.
+ *
  * No heat flows over boundaries. The integral over every connected component changes only by the
  * source. Held values, however, let heat enter and leave.
  *
@@ -65,8 +69,9 @@ public:
 
   ///@{
   /**
-   * How long heat spreads, in the squared unit of length of ParameterUnits. Details smaller than
-   * about its square root vanish. Above 0, default 0.001.
+   * How long heat spreads, in the squared unit of length of ParameterUnits. Waves of length l fade
+   * by exp(-(2 pi / l)^2 t): to 2 % if l is 3.1 times the square root of the time t. Above 0,
+   * default 0.001.
    */
   vtkSetMacro(DiffusionTime, double);
   vtkGetMacro(DiffusionTime, double);

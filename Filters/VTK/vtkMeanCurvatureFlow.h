@@ -80,8 +80,8 @@ public:
   ///@{
   /**
    * The length of a time step, in the squared unit of length of ParameterUnits. Above 0, default
-   * 5e-5. Details smaller than about the square root of TimeStep vanish in one step. To reach a
-   * sphere with Conformalized on, use ten times the default.
+   * 5e-5. Details as long as the square root of TimeStep fade to 2.5 % in one step. The flow is of
+   * first order in TimeStep. To reach a sphere with Conformalized on, use ten times the default.
    */
   vtkSetMacro(TimeStep, double);
   vtkGetMacro(TimeStep, double);

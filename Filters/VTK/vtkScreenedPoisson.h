@@ -26,7 +26,9 @@
  *   the first component of f come first.
  * - index 2, `GradientScaleArray` (optional): one component, which multiplies GradientScale.
  * - index 3, `ValueWeightArray` (optional): one component, 0 or more, which multiplies
- *   ScreeningWeight. A triangle takes the mean of a point array.
+ *   ScreeningWeight. A triangle takes the mean of a point array. Values of weight 0 do not count.
+ *   They may be any number or NaN. With UseValueGradient their gradients still count, unless they
+ *   are NaN.
  * - index 4, `ConstraintArray` (optional): point data, one component. The solution has exactly the
  *   value f at points where the array is neither 0 nor NaN. The values must be point data in this
  *   case.

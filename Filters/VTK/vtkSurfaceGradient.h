@@ -5,7 +5,9 @@
  * Computes the derivatives of the array's projection into the function space, in the weak sense.
  * The gradient on cells is projected to points, and the Laplacian is the divergence of this
  * projection. The derivatives therefore do not depend on the layout of the triangles. Noise below
- * the resolution of the space is left out. Boundaries impose no condition.
+ * the resolution of the space is left out. Within about two cells of a boundary the Laplacian, and
+ * the gradient of cell data, are continued from inside. They are of first order there, except for
+ * the Laplacian of cell data, which keeps an error of about a sixth.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
  * vtkConnectivityAwareBasis.

@@ -210,7 +210,8 @@ void Derive(Choice& choice, RandomSurface& surface, Outcome& outcome)
   options.solve = RandomSolve(choice);
   const Field f = RandomField(choice, *surface.mesh, choice.Integer(1, 3),
     choice.Of({ FieldAssociation::Points, FieldAssociation::Triangles }));
-  const SurfaceDerivatives found = ComputeDerivatives(*surface.space, *surface.mesh, f, options);
+  const SurfaceDerivatives found =
+    ComputeDerivatives(*surface.space, *surface.mesh, f, nullptr, options);
   outcome.Add(found.report);
   outcome.RequireFinite(found.gradientOnTriangles, "a gradient");
   outcome.RequireFinite(found.gradientAtPoints, "a gradient at a point");

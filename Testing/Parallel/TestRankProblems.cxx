@@ -41,13 +41,13 @@ void CompareDerivatives(const NamedSurface& surface, Dealing dealing, bool withC
   const Field f{ FieldAssociation::Points, VectorsAt(surface.mesh.points) };
   EquationOptions options = Exactly();
   options.solve.tolerance = hasHats ? 1e-11 : options.solve.tolerance; // rounding is 1e-12
-  const SurfaceDerivatives expected = ComputeDerivatives(*alone, surface.mesh, f, options);
+  const SurfaceDerivatives expected = ComputeDerivatives(*alone, surface.mesh, f, nullptr, options);
 
   const Piece piece = PieceOf(surface.mesh, dealing, withCopies);
   const RankSurface pieces(ranks, piece.mesh, StableOptions(), hasHats, {}, piece.copies);
   const RankSpace& space = pieces.Space();
   const Field own{ FieldAssociation::Points, VectorsAt(piece.mesh.points) };
-  SurfaceDerivatives found = ComputeDerivatives(pieces.Levels(), piece.mesh, own, options);
+  SurfaceDerivatives found = ComputeDerivatives(pieces.Levels(), piece.mesh, own, nullptr, options);
   EXPECT_TRUE(found.report.converged);
   const auto compare = [&](const char* name, MultiVector& atPoints, const MultiVector& onTriangles,
                          const MultiVector& pointsOfWhole, const MultiVector& trianglesOfWhole,

@@ -86,6 +86,15 @@ class Numpy(unittest.TestCase):
                                    **OPTIONS)
         numpy.testing.assert_allclose(solution, self.points[:, 2], atol=0.01)
 
+    def test_values_of_weight_zero_may_be_anything(self):
+        z = self.points[:, 2]
+        weights = (z < 0.7).astype(float)
+        solutions = [
+            gridfem.poisson(*self.mesh, numpy.where(weights > 0, z, filler), weights=weights, **OPTIONS)
+            for filler in (0.0, 1e30, numpy.nan)]
+        for solution in solutions[1:]:
+            numpy.testing.assert_array_equal(solution, solutions[0])
+
     def test_without_values_the_shape_is_smoothed(self):
         solution = gridfem.poisson(*self.mesh, ScreeningWeight=3.0, ParameterUnits=0, **OPTIONS)
         numpy.testing.assert_allclose(solution, 0.6 * self.points, atol=0.005)
@@ -115,6 +124,14 @@ class Numpy(unittest.TestCase):
         diffused = gridfem.diffuse(*self.mesh, self.points[:, 2], 0.5, ParameterUnits=0, **OPTIONS)
         numpy.testing.assert_allclose(
             diffused, numpy.exp(-1.0) * self.points[:, 2], atol=0.005)
+
+    def test_heat_of_a_point_is_positive(self):
+        put = numpy.zeros(len(self.points))
+        put[200] = 1.0
+        for steps in (1, 2, 8):
+            diffused = gridfem.diffuse(*self.mesh, put, 0.1, ParameterUnits=0, NumberOfSteps=steps, **OPTIONS)
+            self.assertGreater(diffused.min(), -1e-3 * diffused.max())
+            self.assertGreater(diffused[200], 0.87 * diffused.max())
 
     def test_interpolation_between_two_circles(self):
         # Harmonic functions of the latitude are linear functions of log tan(theta / 2).

@@ -110,6 +110,28 @@ TEST_P(ConstrainedPoisson, UnknownIsAWeightOfZeroOnTheTriangles)
   EXPECT_LT(Difference(this->Solution(), filled), 1e-9);
 }
 
+TEST_P(ConstrainedPoisson, PointValuesOfWeightZeroMayBeAnything)
+{
+  filter->SetInputArrayToProcess(0, 0, 0, Points, "holes");
+  filter->FillUnknownOn();
+  const auto filled = this->Solution();
+  filter->FillUnknownOff();
+  AddPointArray(input, "weight", 1, [](const Vec3& p, int) { return IsInHole(p) ? 0.0 : 1.0; });
+  filter->SetInputArrayToProcess(3, 0, 0, Points, "weight");
+  for (const double filler : { NaN, 0.0, -9999.0, 1e30 })
+  {
+    AddPointArray(
+      input, "filled", 2, [=](const Vec3& p, int c) { return IsInHole(p) ? filler : 5.0 + p[c]; });
+    filter->SetInputArrayToProcess(0, 0, 0, Points, "filled");
+    EXPECT_LT(Difference(this->Solution(), filled), 1e-9) << filler;
+    EXPECT_TRUE(messages.warnings.empty() && messages.errors.empty());
+  }
+  AddPointArray(input, "all", 1, [](const Vec3&, int) { return 1.0; });
+  filter->SetInputArrayToProcess(0, 0, 0, Points, "holes");
+  filter->SetInputArrayToProcess(3, 0, 0, Points, "all");
+  this->ExpectRefused("where ValueWeightArray 'all' is not 0");
+}
+
 TEST_P(ConstrainedPoisson, WeightsOfOneChangeNothing)
 {
   filter->SetTolerance(1e-9);

@@ -65,6 +65,32 @@ TEST(HeatDiffusionFilter, DecaysInTimeStepsAsTheSphereSays)
   EXPECT_EQ(filter->GetNumberOfRuns("Hierarchy"), 1);
 }
 
+/// The heat of a point has the sign of what was put there, from the first step on.
+TEST(HeatDiffusionFilter, TheHeatOfAPointIsPositiveAndLargeWhereItWasPut)
+{
+  for (const int space : { 0, 1 })
+  {
+    for (const double time : { 0.1, 0.4, 2.0 }) // the root is 5, 10 and 23 cells
+    {
+      auto filter = MakeFilter(time, 2);
+      auto sphere = Input();
+      const Vec3 source(sphere->GetPoint(100));
+      AddPointArray(sphere, "heat", 1, [&](const Vec3& p, int) { return p == source ? 1.0 : 0.0; });
+      filter->SetInputDataObject(sphere);
+      filter->SetFunctionSpace(space);
+      filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "heat");
+      for (const int step : { 1, 2 })
+      {
+        const std::vector<double> heat = DiffusedAt(filter, step);
+        ASSERT_TRUE(AllFinite(heat));
+        const double most = HeightAtPole(heat);
+        EXPECT_GT(*std::min_element(heat.begin(), heat.end()), -1e-3 * most) << time;
+        EXPECT_GT(heat[100], (step == 1 ? 0.87 : 0.97) * most) << time << " " << step;
+      }
+    }
+  }
+}
+
 TEST(HeatDiffusionFilter, AddsItsSourcePerWorldTime)
 {
   auto filter = MakeFilter(0.8, 2);

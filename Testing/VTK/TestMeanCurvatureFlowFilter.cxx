@@ -55,6 +55,18 @@ protected:
   Messages messages;
 };
 
+TEST_P(MeanCurvatureFlowFilter, AFlatSquareInAPlaneOfTheGridTakesFewIterations)
+{
+  filter->SetInputData(ToPolyData(FlatRectangle(20, 20)));
+  filter->Update();
+  EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 1);
+  for (const double iterations : this->Column("Iterations"))
+  {
+    EXPECT_LE(iterations, 5);
+  }
+  EXPECT_TRUE(messages.errors.empty());
+}
+
 TEST_P(MeanCurvatureFlowFilter, StepsAreTimeStepsFromTheInputOn)
 {
   filter->UpdateInformation();

@@ -273,6 +273,29 @@ TEST(SurfaceGradientFilter, TakesASharedBasis)
   }
 }
 
+/// The Laplacian of x² + 2 y² is 6, up to the boundary of a sheet.
+TEST_P(SurfaceGradient, HasTheLaplacianUpToTheBoundary)
+{
+  const auto sheet = MixedSheet(48);
+  const auto back = Eigen::AngleAxisd(-0.2, Vec3(1, 1, 0.5).normalized());
+  AddPointArray(sheet, "f", 1,
+    [&](const Vec3& p, int)
+    {
+      const Vec3 flat = back * p;
+      return flat[0] * flat[0] + 2.0 * flat[1] * flat[1];
+    });
+  vtkNew<vtkSurfaceGradient> filter;
+  filter->SetInputData(sheet);
+  filter->SetInputArrayToProcess(0, 0, 0, Points, "f");
+  filter->SetDepth(6);
+  filter->SetFunctionSpace(this->GetParam());
+  filter->Update();
+  for (const double laplacian : PointValues(filter->GetOutput(), "Laplacian"))
+  {
+    ASSERT_NEAR(laplacian, 6.0, 0.6);
+  }
+}
+
 TEST(SurfaceGradientFilter, TakesTheCoordinatesWithoutAnArray)
 {
   vtkNew<vtkSurfaceGradient> filter;

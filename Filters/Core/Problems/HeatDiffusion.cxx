@@ -88,22 +88,37 @@ SolveReport HeatDiffusion::Advance(const Job& job)
 {
   const MultiVector added = stageStep_ * sources_;
   const bool isFirstOrder = options_.scheme == TimeScheme::BackwardEuler;
-  PoissonSolution solution = this->Solve(load_ + added, isFirstOrder ? job : job.Part(0.0, 0.5));
-  SolutionAccuracy accuracy = solution.accuracy;
-  MultiVector now = this->IntegralsOf(solution.coefficients, job);
-  if (!isFirstOrder)
+  const bool isStart = !isFirstOrder && !hasStarted_;
+  const int solves = isFirstOrder ? 1 : isStart ? 3 : 2;
+  PoissonSolution solution;
+  MultiVector before; // coefficients of the solve before the last
+  MultiVector now = load_;
+  SolutionAccuracy accuracy;
+  bool converged = true;
+  for (int k = 0; k < solves; ++k)
   {
-    // M U - load is γδ times the slope of the first stage.
-    const MultiVector load = load_ + (1.0 - Gamma) / Gamma * (now - load_) + added;
-    const bool converged = solution.report.converged;
-    solution = this->Solve(load, job.Part(0.5, 1.0));
-    solution.report.converged = solution.report.converged && converged;
+    if (k > 0 && !isStart)
+    {
+      // M U - load is γδ times the slope of the first stage.
+      now = load_ + (1.0 - Gamma) / Gamma * (now - load_);
+    }
+    before = std::move(solution.coefficients);
+    solution = this->Solve(now + added, job.Part(double(k) / solves, double(k + 1) / solves));
+    converged = converged && solution.report.converged;
     KeepWorse(solution.accuracy, accuracy);
+    now = this->IntegralsOf(solution.coefficients, job);
+  }
+  if (isStart)
+  {
+    // The last two solves are at 2γδ and 3γδ. The line through them is followed to δ.
+    solution.coefficients += (1.0 / Gamma - 3.0) * (solution.coefficients - before);
     now = this->IntegralsOf(solution.coefficients, job);
   }
   load_ = std::move(now);
   coefficients_ = std::move(solution.coefficients);
   accuracy_ = accuracy;
+  hasStarted_ = true;
+  solution.report.converged = converged;
   return std::move(solution.report);
 }
 

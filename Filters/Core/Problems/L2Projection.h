@@ -15,6 +15,8 @@ namespace gridfem
 class L2Projection
 {
 public:
+  static constexpr double Smoothing = 0.1; // δ, in squared units of length
+
   L2Projection(const SpaceLevels& space, const EquationOptions& options, const Job& job)
     : space_(space), poisson_{ options, 1.0 / Smoothing },
       multigrid_(BuildMultigrid(space, 1.0 / Smoothing, 1.0, options.multigrid, job.progress))
@@ -37,8 +39,6 @@ public:
   SolutionAccuracy accuracy;
 
 private:
-  static constexpr double Smoothing = 0.1; // δ, in squared units of length
-
   const SpaceLevels& space_;
   PoissonOptions poisson_;
   Multigrid multigrid_;

@@ -284,6 +284,18 @@ StepSolution MeanCurvatureFlow::Solve(const MultiVector& embedding, const Job& j
       this->Points(job.threads), mesh_->triangles, embedding - solution.embedding, job.threads);
   }
   project.residual(b);
+  // A coordinate is constant if the surface lies in a plane of the grid. Only functions that vanish
+  // on the surface are then left of it, and no iteration could solve for them.
+  constexpr double Rounding = 1e-12; // of the size of the surface
+  const Columns squares = moving_->SquaredNorms(solution.embedding, job.threads).max(0.0);
+  for (Id c = 0; c < b.cols(); ++c)
+  {
+    if (squares[c] <= Rounding * Rounding * squares.sum())
+    {
+      solution.embedding.col(c).setZero();
+      b.col(c).setZero();
+    }
+  }
   SolveStep(*moving_, *multigrid_, b, options_.solve, project, job, solution);
   means.AddConstants(mean, solution.embedding);
   return solution;

@@ -47,6 +47,45 @@ std::vector<char> TakeOutUnknown(MultiVector& rows)
   return isKnown;
 }
 
+/// The values of each corner of the triangles.
+Field AtCorners(const Field& f, const TriangleMesh& mesh)
+{
+  Field corners{ FieldAssociation::Corners,
+    MultiVector(3 * static_cast<Id>(mesh.triangles.size()), f.values.cols()) };
+  for (Id t = 0; t < static_cast<Id>(mesh.triangles.size()); ++t)
+  {
+    const auto rows = f.RowsOf(t, mesh.triangles[t]);
+    for (int k = 0; k < 3; ++k)
+    {
+      corners.values.row(3 * t + k) = f.values.row(rows[k]);
+    }
+  }
+  return corners;
+}
+
+/// Replaces the values of corners that do not count by the mean of the others.
+void FillCorners(
+  const std::array<Id, 3>& points, const std::vector<char>& counts, Id first, MultiVector& corners)
+{
+  Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(corners.cols());
+  double number = 0.0;
+  for (int k = 0; k < 3; ++k)
+  {
+    if (counts[points[k]])
+    {
+      sum += corners.row(first + k);
+      number += 1.0;
+    }
+  }
+  for (int k = 0; k < 3; ++k)
+  {
+    if (!counts[points[k]])
+    {
+      corners.row(first + k) = sum / number;
+    }
+  }
+}
+
 } // namespace
 
 PartialField SplitField(Field field, const Field* weight, const TriangleMesh& mesh)
@@ -69,6 +108,58 @@ PartialField SplitField(Field field, const Field* weight, const TriangleMesh& me
   return partial;
 }
 
+void LeaveOutWeightless(
+  const SurfaceSpace& space, const Field& weight, const TriangleMesh& mesh, PartialField& field)
+{
+  if (field.values.association != FieldAssociation::Points ||
+      weight.association != FieldAssociation::Points)
+  {
+    return;
+  }
+  const auto points = static_cast<Id>(mesh.points.size());
+  std::vector<char> counts(points);
+  for (Id point = 0; point < points; ++point)
+  {
+    counts[point] = field.hasValue[point] && weight.values(point, 0) > 0.0;
+  }
+  const auto isCounted = [&](Id point) { return counts[point] != 0; };
+  MultiVector whole = MultiVector::Zero(points, 1); // triangles whose corners all count
+  for (const auto& corner : mesh.triangles)
+  {
+    const bool isWhole = std::all_of(corner.begin(), corner.end(), isCounted);
+    for (const Id point : corner)
+    {
+      whole(point, 0) += isWhole;
+    }
+  }
+  space.SumAtPoints(whole);
+  const auto needsMore = [&](Id point) { return isCounted(point) && whole(point, 0) == 0.0; };
+  // A value that would count is unknown.
+  const auto isUnknown = [&](Id point)
+  { return !field.hasValue[point] && weight.values(point, 0) > 0.0; };
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  {
+    const auto& corner = mesh.triangles[t];
+    if (std::all_of(corner.begin(), corner.end(), isCounted))
+    {
+      continue;
+    }
+    field.weight[t] = 0.0;
+    if (std::any_of(corner.begin(), corner.end(), needsMore) &&
+        std::none_of(corner.begin(), corner.end(), isUnknown))
+    {
+      if (!field.counted)
+      {
+        field.counted = AtCorners(field.values, mesh);
+      }
+      FillCorners(corner, counts, 3 * static_cast<Id>(t), field.counted->values);
+      field.weight[t] =
+        (weight.values(corner[0], 0) + weight.values(corner[1], 0) + weight.values(corner[2], 0)) /
+        3.0;
+    }
+  }
+}
+
 Id CountIgnoredPoints(
   const SurfaceSpace& space, const PartialField& field, const TriangleMesh& mesh)
 {
@@ -82,7 +173,7 @@ Id CountIgnoredPoints(
   {
     for (const Id point : mesh.triangles[t])
     {
-      around(point, 0) += field.isKnown[t];
+      around(point, 0) += field.isKnown[t] || field.weight[t] > 0.0;
       around(point, 1) = 1.0;
     }
   }

@@ -6,12 +6,16 @@
 #include "Grid/TriangleMesh.h"
 #include "Spaces/SurfaceSpace.h"
 
+#include <optional>
+
 namespace gridfem
 {
 
 struct PartialField
 {
-  Field values;                 // 0 where unknown
+  Field values; // 0 where unknown
+  /// The values that the weights multiply, where LeaveOutWeightless has changed them.
+  std::optional<Field> counted;
   std::vector<double> weight;   // per triangle; 0 if it has an unknown value
   std::vector<char> isKnown;    // per triangle: none of its values is unknown
   std::vector<char> hasValue;   // per row of the values: the value is known
@@ -24,6 +28,14 @@ struct PartialField
 ///   mean over a triangle. Null: 1
 /// Throws InvalidInput when rows or columns do not fit, or a weight is negative or not finite.
 PartialField SplitField(Field field, const Field* weight, const TriangleMesh& mesh);
+
+/// Leaves out the values at points of weight 0, which may be anything. A triangle with such a
+/// corner gets the weight 0 if each of its other points has a triangle without one. Otherwise the
+/// mean of its weighed corners replaces the value of the others, so that single weighed points
+/// count. Does nothing unless values and weights are on points. Collective.
+/// @param weight  as in SplitField
+void LeaveOutWeightless(
+  const SurfaceSpace& space, const Field& weight, const TriangleMesh& mesh, PartialField& field);
 
 /// Number of known points without effect, because each of their triangles has an unknown value.
 /// Collective: the number over all processes.

@@ -1,12 +1,26 @@
 #include "Solvers/ConstrainedEquation.h"
 
+#include "Base/Errors.h"
 #include "Problems/SolveWarnings.h"
 #include "Solvers/OptionFields.h"
 
 #include <algorithm>
+#include <limits>
+#include <sstream>
 
 namespace gridfem
 {
+namespace
+{
+
+std::string Shown(double number)
+{
+  std::ostringstream text;
+  text << number;
+  return text.str();
+}
+
+} // namespace
 
 void ConstrainedEquation::Update(const Surface& surface, const StageKey& fields,
   const Integrate& integrate, const PoissonRequest& request, EquationOptions options,
@@ -16,6 +30,7 @@ void ConstrainedEquation::Update(const Surface& surface, const StageKey& fields,
   this->UpdateSystem(surface, fields, integrate, progress.Part(0.0, 0.3));
   progress.Check(0.3);
   const double weight = surface.WeightInSpaceUnits(request.weight);
+  this->RequireResolvable(weight);
   StageKey key;
   key.Add(surface.GetStages().Version(RightHandSideStage)).Add(weight);
   EquationOptions ofHierarchy;
@@ -45,12 +60,33 @@ void ConstrainedEquation::UpdateSystem(
       load_ = integrate(surface.MakeJob(progress.Part(0.0, 0.4)));
       const Job job = surface.MakeJob(progress.Part(0.4, 1.0));
       const std::shared_ptr<const SurfaceSpace> space = surface.SharedSpace();
-      values_ =
-        space->LoadOfWeightedValues(load_.field.values, load_.field.weight, job.Part(0.0, 0.2));
+      const PartialField& field = load_.field;
+      const auto range = std::minmax_element(field.weight.begin(), field.weight.end());
+      const bool isEmpty = field.weight.empty(); // as a process may be
+      largestWeight_ = surface.Largest(isEmpty ? 0.0 : *range.second);
+      leastWeight_ =
+        -surface.Largest(isEmpty ? -std::numeric_limits<double>::infinity() : -*range.first);
+      values_ = space->LoadOfWeightedValues(
+        field.counted ? *field.counted : field.values, field.weight, job.Part(0.0, 0.2));
       meanOfField_ = MeansOfKnown(*space, load_.field, job.Part(0.2, 0.5));
       weighted_ =
         load_.isWeighed ? space->WithWeighedMass(load_.field.weight, job.Part(0.5, 1.0)) : space;
     });
+}
+
+/// A tolerance is relative to the energy of the whole solution. Where weights are far larger than
+/// elsewhere, they hide the rest of the solution. The stiffness of a cell is about 1.
+void ConstrainedEquation::RequireResolvable(double weight) const
+{
+  constexpr double MostTimes = 1e9;
+  if (weight * largestWeight_ > MostTimes * std::max(1.0, weight * leastWeight_))
+  {
+    throw InvalidInput("The largest weight of the values, " + Shown(largestWeight_) +
+                       ", is too large beside the smallest, " + Shown(leastWeight_) +
+                       ", or beside the gradients. The solver would lose the solution there. Use "
+                       "smaller weights, a smaller ScreeningWeight, or a ConstraintArray for "
+                       "values that hold exactly.");
+  }
 }
 
 void ConstrainedEquation::Solve(const Surface& surface, const PoissonRequest& request,

@@ -33,6 +33,7 @@ public:
   using Integrate = std::function<ConstrainedLoad(const Job&)>;
 
   /// Works as PoissonEquation::Update. The request's weight and scale of the gradients count.
+  /// Throws InvalidInput if some weights are too large beside the others.
   void Update(const Surface& surface, const StageKey& fields, const Integrate& integrate,
     const PoissonRequest& request, EquationOptions options, const Progress& progress);
 
@@ -51,14 +52,17 @@ public:
 
 private:
   MultiVector BalancedFlux(const Surface& surface, double weight);
+  void RequireResolvable(double weight) const;
   void UpdateSystem(
     const Surface& surface, StageKey fields, const Integrate& integrate, const Progress& progress);
   void Solve(const Surface& surface, const PoissonRequest& request, const EquationOptions& options,
     const Progress& progress);
 
   ConstrainedLoad load_;
-  MultiVector values_;                              // ∫ w f b_i
-  MultiVector meanOfField_;                         // mean of each component
+  MultiVector values_;         // ∫ w f b_i
+  MultiVector meanOfField_;    // mean of each component
+  double largestWeight_ = 0.0; // of a triangle
+  double leastWeight_ = 0.0;
   std::shared_ptr<const SurfaceSpace> weighted_;    // space with the mass of known values
   std::unique_ptr<ConstrainedHierarchy> hierarchy_; // refers to it
   ConstrainedSolution solution_;

@@ -78,13 +78,15 @@ void DiffusionSolver::UpdateLoads(
     [&]
     {
       const SurfaceSpace& space = surface.Space();
-      const Field values = ReadField(surface, input.values);
+      Field values = ReadField(surface, input.values);
+      constants_ = TakeConstantsOut(surface, values);
       start_ = space.LoadOfValues(values, job.Part(0.0, 0.5));
       result_.warning.clear();
       held_ = {};
       if (input.constraints || options.boundaryValues)
       {
         held_ = HoldConstraints(surface, input.values, input.constraints);
+        held_.values.rowwise() -= constants_;
       }
       if (options.boundaryValues)
       {
@@ -147,8 +149,9 @@ void DiffusionSolver::MakeSteps(const Surface& surface, const Options& options, 
         SolveReport report = diffusion_->Advance(job.Part(done, done + share));
         SolutionAccuracy accuracy = diffusion_->Accuracy();
         accuracy.largest = surface.Largest(accuracy.largest);
-        steps.push_back({ surface.ValuesAtPoints(diffusion_->Coefficients()), std::move(report),
-          accuracy, diffusion_->Held() });
+        MultiVector atPoints = surface.ValuesAtPoints(diffusion_->Coefficients());
+        atPoints.rowwise() += constants_;
+        steps.push_back({ std::move(atPoints), std::move(report), accuracy, diffusion_->Held() });
       });
   }
 }

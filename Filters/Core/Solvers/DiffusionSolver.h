@@ -80,6 +80,7 @@ private:
   void UpdateHierarchy(const Surface& surface, const Options& options, const Job& job);
   void MakeSteps(const Surface& surface, const Options& options, const Job& job);
 
+  Eigen::RowVectorXd constants_; // that the start, held values and solutions lack
   MultiVector start_;
   MultiVector sources_;
   HeldValues held_;

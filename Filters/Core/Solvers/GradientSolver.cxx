@@ -80,8 +80,12 @@ void GradientSolver::Derive(const Surface& surface, const Input& input, const St
   surface.GetStages().Run(SolveStage, key,
     [&]
     {
-      SurfaceDerivatives found = ComputeDerivatives(
-        surface.Space(), surface.Mesh(), ReadField(surface, input.values), equation, job);
+      const MultiVector one = MultiVector::Ones(static_cast<Id>(surface.Mesh().points.size()), 1);
+      const BoundaryTerms boundary = surface.OnBoundary(&one, nullptr);
+      Field values = ReadField(surface, input.values);
+      TakeConstantsOut(surface, values);
+      SurfaceDerivatives found = ComputeDerivatives(surface.Space(), surface.Mesh(), values,
+        boundary.isThere ? &boundary.load : nullptr, equation, job);
       std::vector<Derived>& derived = result_.derivatives;
       derived.clear();
       derived.push_back(

@@ -2,6 +2,7 @@
 
 #include "Problems/SolveWarnings.h"
 #include "Solvers/LocalSurface.h"
+#include "Solvers/SurfaceFields.h"
 
 #include <algorithm>
 
@@ -50,10 +51,11 @@ void InterpolationSolver::TakeValues(PointValues given)
   given_ = std::move(given);
 }
 
-void InterpolationSolver::Take(
-  ConstrainedSolution solution, const Surface& surface, const Options& options)
+void InterpolationSolver::Take(ConstrainedSolution solution, const Eigen::RowVectorXd& constants,
+  const Surface& surface, const Options& options)
 {
   result_.atPoints = surface.ValuesAtPoints(solution.coefficients);
+  result_.atPoints.rowwise() += constants;
   result_.warnings = WarningsOfValues(solution, options.equation.solve.tolerance);
   result_.report = std::move(solution.report);
   result_.accuracy = solution.accuracy;
@@ -78,9 +80,10 @@ const InterpolationSolver::Result& InterpolationSolver::Update(
       own.multigrid = options.equation.multigrid;
       own.multigrid.threads = surface.Threads();
       own.solve = options.equation.solve;
-      this->Take(InterpolateHarmonically(*space, space->RowsAtPoints(given_.points), given_.values,
-                   own, job.progress.Part(0.5, 0.95)),
-        surface, options);
+      const Eigen::RowVectorXd constants = LargeConstants(surface, given_.values);
+      this->Take(InterpolateHarmonically(*space, space->RowsAtPoints(given_.points),
+                   given_.values.rowwise() - constants, own, job.progress.Part(0.5, 0.95)),
+        constants, surface, options);
     });
   job.Check(1.0);
   return result_;

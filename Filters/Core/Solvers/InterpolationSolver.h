@@ -54,7 +54,9 @@ public:
 
 private:
   void TakeValues(PointValues given);
-  void Take(ConstrainedSolution solution, const Surface& surface, const Options& options);
+  /// @param constants  that the solution lacks
+  void Take(ConstrainedSolution solution, const Eigen::RowVectorXd& constants,
+    const Surface& surface, const Options& options);
 
   PointValues given_;
   int version_ = 0; // of the given values

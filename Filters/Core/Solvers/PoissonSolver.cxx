@@ -4,6 +4,7 @@
 #include "Problems/SolveWarnings.h"
 #include "Solvers/LocalSurface.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace gridfem
@@ -79,10 +80,12 @@ StageKey KeyOfLoad(const Input& input, const Options& options)
   return key;
 }
 
+/// @param constants  receives the constants that the load lacks
 PoissonLoad Integrate(const Surface& surface, const SurfaceSpace& space, const Input& input,
-  const Options& options, const Job& job)
+  const Options& options, Eigen::RowVectorXd& constants, const Job& job)
 {
-  const Field values = ReadField(surface, input.values);
+  Field values = ReadField(surface, input.values);
+  constants = TakeConstantsOut(surface, values);
   const auto scale = ReadOptional(surface, input.gradientScale);
   PoissonLoad load;
   load.values = space.LoadOfValues(values, job.Part(0.0, 0.5));
@@ -138,18 +141,65 @@ void AddGradients(const Surface& surface, const Input& input, const Options& opt
   }
 }
 
-ConstrainedLoad IntegrateConstrained(
-  const Surface& surface, const Input& input, const Options& options, const Job& job)
+/// Throws InvalidInput if a value is NaN where it counts.
+void RequireWeighedValues(
+  const Input& input, const Field& values, const Field& weight, const TriangleMesh& mesh)
+{
+  RequireField(values, mesh);
+  RequireScale(&weight, mesh);
+  const auto isCounted = [&](Id row) { return weight.values(row, 0) != 0.0; };
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  {
+    const auto rows = values.RowsOf(static_cast<Id>(t), mesh.triangles[t]);
+    const auto weights = weight.RowsOf(static_cast<Id>(t), mesh.triangles[t]);
+    const bool sharesPoints = values.association == weight.association;
+    for (std::size_t k = 0; k < rows.size(); ++k)
+    {
+      const bool counts = sharesPoints ? isCounted(weights[k])
+                                       : std::any_of(weights.begin(), weights.end(), isCounted);
+      if (counts && values.values.row(rows[k]).hasNaN())
+      {
+        throw InvalidInput("Array '" + input.values.name + "' has a NaN value " +
+                           (input.values.IsOnPoints() ? "at point " + std::to_string(rows[k])
+                                                      : std::string("on a cell")) +
+                           ", where ValueWeightArray '" + input.weights.name +
+                           "' is not 0. FillUnknown takes NaN for an unknown value.");
+      }
+    }
+  }
+}
+
+/// Reads the values. Those of weight 0 may be NaN.
+Field ReadWeighedValues(
+  const Surface& surface, const Input& input, const Field* weight, const Options& options)
+{
+  Field values =
+    ReadField(surface, input.values, options.fillUnknown || weight ? NaNs::Kept : NaNs::Refused);
+  if (weight && !options.fillUnknown)
+  {
+    surface.Together([&] { RequireWeighedValues(input, values, *weight, surface.Mesh()); });
+  }
+  return values;
+}
+
+/// @param constants  receives the constants that the load lacks
+ConstrainedLoad IntegrateConstrained(const Surface& surface, const Input& input,
+  const Options& options, Eigen::RowVectorXd& constants, const Job& job)
 {
   const auto weight = ReadOptional(surface, input.weights);
-  const Field values =
-    ReadField(surface, input.values, options.fillUnknown ? NaNs::Kept : NaNs::Refused);
+  Field values = ReadWeighedValues(surface, input, weight.get(), options);
+  constants = TakeConstantsOut(surface, values);
   ConstrainedLoad load;
   load.isWeighed = weight || options.fillUnknown;
   surface.Together([&] { load.field = SplitField(values, weight.get(), surface.Mesh()); });
+  if (weight && !(options.useValueGradient && !input.gradients))
+  {
+    LeaveOutWeightless(surface.Space(), *weight, surface.Mesh(), load.field);
+  }
   load.field.numberOfIgnoredPoints =
     CountIgnoredPoints(surface.Space(), load.field, surface.Mesh());
   load.held = HoldConstraints(surface, input.values, input.constraints);
+  load.held.values.rowwise() -= constants;
   if (options.boundaryValues || input.flux)
   {
     AddBoundary(surface, values, input, options, load);
@@ -230,8 +280,9 @@ void PoissonSolver::SolvePrepared(
   {
     constrained_.Update(
       surface, fields,
-      [&](const Job& job) { return IntegrateConstrained(surface, input, options, job); }, request,
-      equation, progress);
+      [&](const Job& job)
+      { return IntegrateConstrained(surface, input, options, constants_, job); },
+      request, equation, progress);
     result_.report = constrained_.Report();
     result_.accuracy = constrained_.Accuracy();
     return;
@@ -239,7 +290,7 @@ void PoissonSolver::SolvePrepared(
   equation_.Update(
     surface, fields,
     [&](const SurfaceSpace& space, const Job& job)
-    { return Integrate(surface, space, input, options, job); },
+    { return Integrate(surface, space, input, options, constants_, job); },
     request, equation, progress);
   result_.report = equation_.Report();
   result_.accuracy = equation_.Accuracy();
@@ -251,6 +302,7 @@ void PoissonSolver::Report(const Surface& surface, const Input& input, const Opt
   const double tolerance = EquationOf(input, options).solve.tolerance;
   result_.atPoints = surface.ValuesAtPoints(
     isConstrained ? constrained_.Coefficients() : equation_.Solution().coefficients);
+  result_.atPoints.rowwise() += constants_;
   result_.holdsValues = HoldsValues(input, options);
   result_.misfit = result_.holdsValues ? constrained_.Misfit() : 0.0;
   result_.warnings = { isConstrained ? constrained_.Warning(tolerance)

@@ -83,6 +83,7 @@ private:
   StageKey searched_; // all that the depth found depends on
   PoissonEquation equation_;
   ConstrainedEquation constrained_;
+  Eigen::RowVectorXd constants_; // that the loads and solutions of both lack
   Result result_;
 };
 

@@ -2,6 +2,10 @@
 
 #include "Base/Errors.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace gridfem
 {
 namespace
@@ -43,6 +47,47 @@ Field ReadField(const Surface& surface, const GivenField& field, NaNs nans)
 std::unique_ptr<const Field> ReadOptional(const Surface& surface, const GivenField& field)
 {
   return field ? std::make_unique<const Field>(ReadField(surface, field)) : nullptr;
+}
+
+Eigen::RowVectorXd LargeConstants(
+  const Surface& surface, const MultiVector& values, const std::vector<char>& isUsed)
+{
+  constexpr double SmallVariation = 1e-5;
+  constexpr double None = -std::numeric_limits<double>::infinity();
+  Eigen::RowVectorXd constants = Eigen::RowVectorXd::Zero(values.cols());
+  for (Id c = 0; c < values.cols(); ++c)
+  {
+    double most = None;
+    double least = None; // its negative
+    for (Id row = 0; row < values.rows(); ++row)
+    {
+      if (isUsed.empty() || isUsed[row])
+      {
+        most = std::fmax(most, values(row, c));
+        least = std::fmax(least, -values(row, c));
+      }
+    }
+    most = surface.Largest(most);
+    least = -surface.Largest(least);
+    const double size = std::min(std::abs(most), std::abs(least));
+    if (most - least < SmallVariation * size)
+    {
+      constants[c] = least + 0.5 * (most - least);
+    }
+  }
+  return constants;
+}
+
+Eigen::RowVectorXd TakeConstantsOut(const Surface& surface, Field& field)
+{
+  const bool onPoints = field.association == FieldAssociation::Points;
+  const Eigen::RowVectorXd constants = LargeConstants(surface, field.values,
+    onPoints ? UsedPoints(surface.Mesh(), surface.Threads()) : std::vector<char>());
+  if (!constants.isZero(0.0))
+  {
+    field.values.rowwise() -= constants;
+  }
+  return constants;
 }
 
 void RequireHoldable(const GivenField& values, const GivenConstraints& constraints, bool onBoundary)

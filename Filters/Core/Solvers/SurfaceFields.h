@@ -24,6 +24,16 @@ Field ReadField(const Surface& surface, const GivenField& field, NaNs nans = NaN
 /// Returns an optional field, or null if it is not given.
 std::unique_ptr<const Field> ReadOptional(const Surface& surface, const GivenField& field);
 
+/// Returns a constant for each column whose values differ by less than 1e-5 of their size, and 0
+/// for the others. Integrals of such a column would lose the digits of its variation. Subtracting
+/// the constant rounds nothing. NaN does not count. Collective.
+/// @param isUsed  the rows that count; empty: all
+Eigen::RowVectorXd LargeConstants(
+  const Surface& surface, const MultiVector& values, const std::vector<char>& isUsed = {});
+
+/// Subtracts the large constants of a field, and returns them. Collective.
+Eigen::RowVectorXd TakeConstantsOut(const Surface& surface, Field& field);
+
 /// Throws InvalidInput if values on cells are to be held at points or on the boundary.
 void RequireHoldable(
   const GivenField& values, const GivenConstraints& constraints, bool onBoundary);

@@ -483,6 +483,43 @@ TEST_P(MeanCurvatureFlows, AFlatSurfaceWithAFixedBoundaryStays)
   }
 }
 
+/// A flat square shrinks in its plane as it does when it is turned, however it lies in the grid.
+TEST_P(MeanCurvatureFlows, AFlatSurfaceInAPlaneOfTheGridFlowsAsATurnedOne)
+{
+  const TriangleMesh flat = FlatRectangle(20, 20);
+  const auto areaAfter = [&](const Vec3& axis, double angle)
+  {
+    FlowOnMesh surface(Transform(flat, axis, angle), GetParam(), 5);
+    surface.options.solve.tolerance = FlowOptions().solve.tolerance;
+    surface.SetTimeStep(1e-3);
+    MeanCurvatureFlow flow = surface.Make();
+    FlowStep step;
+    for (int k = 0; k < 3; ++k)
+    {
+      step = flow.Advance({});
+      EXPECT_EQ(step.end, FlowEnd::None);
+      EXPECT_TRUE(step.converged);
+      EXPECT_LE(step.iterations, 8);
+    }
+    const Vec3 normal = Eigen::AngleAxisd(angle, axis.normalized()) * Vec3::UnitZ();
+    double off = 0.0;
+    for (const Vec3& point : flow.Points())
+    {
+      off = Larger(off, std::abs(normal.dot(point)));
+    }
+    EXPECT_LT(off, 1e-4); // a fifth of the tolerance
+    return step.area;
+  };
+  const double turned = areaAfter({ 1, 2, 3 }, 0.7);
+  EXPECT_LT(turned, 0.99);
+  const double half = 0.5 * std::acos(-1.0);
+  for (const Vec3& axis : { Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1) })
+  {
+    EXPECT_NEAR(areaAfter(axis, half), turned, 0.005);
+    EXPECT_NEAR(areaAfter(axis, 0.0), turned, 0.005);
+  }
+}
+
 /// A dented plane becomes flatter within its boundary. A sphere next to it shrinks as if alone.
 TEST_P(MeanCurvatureFlows, WhatIsHeldIsAComponentsOwnMatter)
 {

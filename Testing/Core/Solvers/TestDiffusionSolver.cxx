@@ -55,6 +55,27 @@ TEST(DiffusionSolver, LetsAHarmonicOfTheSphereDecay)
   EXPECT_LT(error, 5e-3); // cells of side 0.06: second order
 }
 
+/// A constant that is far larger than the variation stays, and the variation spreads as without.
+TEST(DiffusionSolver, KeepsTheVariationAboveALargeConstant)
+{
+  const auto mesh = std::make_shared<const TriangleMesh>(GeodesicSphere(16));
+  const DiffusionSolver::Input plain = HeightOn(*mesh);
+  const MultiVector expected =
+    DiffusionSolver::Solve(mesh, plain, For(0.5, 2), InWorldUnits(4)).steps.back().atPoints;
+  for (const double constant : { 1e6, -1e9, 1e12 })
+  {
+    Field values = plain.values.read(NaNs::Refused);
+    values.values.array() += constant;
+    DiffusionSolver::Input input;
+    input.values = GivenField::Of("f", values);
+    MultiVector found =
+      DiffusionSolver::Solve(mesh, input, For(0.5, 2), InWorldUnits(4)).steps.back().atPoints;
+    found.array() -= constant;
+    EXPECT_LT((found - expected).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(),
+      1e-6 + 4e-16 * std::abs(constant));
+  }
+}
+
 TEST(DiffusionSolver, MoreStepsOfTheSameLengthGoOnFromTheLast)
 {
   const auto mesh = std::make_shared<const TriangleMesh>(GeodesicSphere(16));

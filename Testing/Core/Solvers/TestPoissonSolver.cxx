@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 using namespace gridfem;
 using namespace gridfem::testing;
@@ -147,6 +148,147 @@ TEST(PoissonSolver, HoldsGivenPointsExactly)
   EXPECT_NEAR(result.atPoints(held, 0), 5.0, 1e-5);
   EXPECT_TRUE(result.holdsValues);
   EXPECT_LT(result.misfit, 1e-5);
+}
+
+/// Values of weight 0 may be anything. Points of weight 1 then count as with unknown values.
+TEST(PoissonSolver, ValuesOfWeightZeroHaveNoInfluence)
+{
+  const auto square =
+    std::make_shared<const TriangleMesh>(Transform(FlatRectangle(24, 24), { 1, 2, 3 }, 0.4));
+  for (const auto& mesh : { Bowl(), square })
+  {
+    const MultiVector points = PointCoordinates(*mesh);
+    const std::vector<char> used = UsedPoints(*mesh);
+    MultiVector f = (4.0 * points.col(0)).array().sin();
+    MultiVector weight(points.rows(), 1);
+    for (Id k = 0; k < weight.rows(); ++k)
+    {
+      f(k, 0) *= used[k]; // the solution is 0 at points of no triangle
+      weight(k, 0) = (points.row(k) - points.row(points.rows() / 2)).norm() < 0.25 ? 0.0 : 1.0;
+    }
+    PoissonSolver::Options options = Exactly();
+    options.screeningWeight = 1e4;
+    const auto solveWith = [&](double filler, bool isWeighed)
+    {
+      MultiVector filled = f;
+      for (Id k = 0; k < f.rows(); ++k)
+      {
+        filled(k, 0) = weight(k, 0) == 0.0 ? filler : f(k, 0);
+      }
+      PoissonSolver::Input input;
+      input.values = GivenField::Of("f", { FieldAssociation::Points, filled });
+      if (isWeighed)
+      {
+        input.weights = GivenField::Of("w", { FieldAssociation::Points, weight });
+      }
+      PoissonSolver::Options own = options;
+      own.fillUnknown = !isWeighed;
+      return PoissonSolver::Solve(mesh, input, own, AtDepth(5)).atPoints;
+    };
+    const MultiVector zero = solveWith(0.0, true);
+    EXPECT_LT(Difference((zero - f).cwiseProduct(weight), 0.0 * f), 0.15); // the range is 2
+    for (const double filler : { -9999.0, 1e30, std::nan("") })
+    {
+      EXPECT_EQ(solveWith(filler, true), zero) << filler;
+    }
+    EXPECT_LT(Difference(solveWith(std::nan(""), false), zero), 1e-7);
+  }
+}
+
+/// A point of weight 1 counts even if all points around it have weight 0.
+TEST(PoissonSolver, ASingleWeighedPointHoldsTheSurface)
+{
+  const auto mesh = Bowl();
+  const MultiVector points = PointCoordinates(*mesh);
+  const std::vector<char> used = UsedPoints(*mesh);
+  const Id first = std::find(used.begin(), used.end(), 1) - used.begin();
+  MultiVector f = MultiVector::Constant(points.rows(), 1, 1e30);
+  MultiVector weight = MultiVector::Zero(points.rows(), 1);
+  f(first, 0) = 5.0;
+  weight(first, 0) = 1.0;
+  PoissonSolver::Input input;
+  input.values = GivenField::Of("f", { FieldAssociation::Points, f });
+  input.weights = GivenField::Of("w", { FieldAssociation::Points, weight });
+  const PoissonSolver::Result result = PoissonSolver::Solve(mesh, input, Exactly(), AtDepth(4));
+  for (Id k = 0; k < points.rows(); ++k)
+  {
+    ASSERT_TRUE(!used[k] || std::abs(result.atPoints(k, 0) - 5.0) < 1e-6) << k;
+  }
+  EXPECT_TRUE(result.warnings.empty());
+}
+
+TEST(PoissonSolver, RefusesNaNWhereItCounts)
+{
+  const auto mesh = Bowl();
+  PoissonSolver::Input input = InputOn(*mesh);
+  Field values = input.values.read(NaNs::Refused);
+  const Id point = mesh->triangles[7][1];
+  values.values(point, 0) = std::nan("");
+  input.values = GivenField::Of("f", values);
+  MultiVector weight = MultiVector::Ones(values.values.rows(), 1);
+  input.weights = GivenField::Of("w", { FieldAssociation::Points, weight });
+  EXPECT_THROW(PoissonSolver::Solve(mesh, input, Exactly(), AtDepth(4)), InvalidInput);
+  weight(point, 0) = 0.0;
+  input.weights = GivenField::Of("w", { FieldAssociation::Points, weight });
+  const PoissonSolver::Result result = PoissonSolver::Solve(mesh, input, Exactly(), AtDepth(4));
+  EXPECT_TRUE(result.atPoints.allFinite());
+}
+
+/// A weight may have any size if all are alike. Far larger weights than the others are refused,
+/// because the rest of the solution would be lost.
+TEST(PoissonSolver, HugeWeightsAreRightOrRefused)
+{
+  const auto mesh = std::make_shared<const TriangleMesh>(GeodesicSphere(16));
+  const MultiVector z = Height(*mesh).values;
+  PoissonSolver::Input input;
+  input.values = GivenField::Of("z", Height(*mesh));
+  SurfaceOptions hats = AtDepth(4);
+  hats.choice.kind = FunctionKind::Hats;
+  for (const double huge : { 1e20, 1e100 })
+  {
+    PoissonSolver::Options options;
+    options.screeningWeight = huge;
+    EXPECT_LT(Difference(PoissonSolver::Solve(mesh, input, options, hats).atPoints, z), 1e-8);
+    PoissonSolver::Input weighed = input;
+    MultiVector weight = MultiVector::Constant(z.rows(), 1, huge);
+    weighed.weights = GivenField::Of("w", { FieldAssociation::Points, weight });
+    EXPECT_LT(Difference(PoissonSolver::Solve(mesh, weighed, {}, hats).atPoints, z), 1e-8);
+    for (const double other : { 0.0, 1.0 })
+    {
+      weight.topRows(z.rows() / 2).setConstant(other);
+      weighed.weights = GivenField::Of("w", { FieldAssociation::Points, weight });
+      EXPECT_THROW(PoissonSolver::Solve(mesh, weighed, {}, hats), InvalidInput);
+    }
+  }
+}
+
+/// A constant that is far larger than the variation is added to the solution and changes nothing.
+TEST(PoissonSolver, KeepsTheVariationAboveALargeConstant)
+{
+  const auto mesh = Bowl();
+  PoissonSolver::Options options = Exactly();
+  options.screeningWeight = 6.0;
+  const PoissonSolver::Input plain = InputOn(*mesh);
+  const std::vector<char> used = UsedPoints(*mesh);
+  for (const bool isConstrained : { false, true })
+  {
+    options.boundaryValues = isConstrained;
+    const MultiVector expected = PoissonSolver::Solve(mesh, plain, options, AtDepth(4)).atPoints;
+    for (const double constant : { 1e6, -1e9, 1e12 })
+    {
+      Field values = plain.values.read(NaNs::Refused);
+      values.values.array() += constant;
+      PoissonSolver::Input input;
+      input.values = GivenField::Of("f", values);
+      const MultiVector found = PoissonSolver::Solve(mesh, input, options, AtDepth(4)).atPoints;
+      for (Id k = 0; k < found.rows(); ++k)
+      {
+        ASSERT_TRUE(!used[k] || std::abs(found(k, 0) - constant - expected(k, 0)) <
+                                  1e-6 + 4e-16 * std::abs(constant))
+          << constant << " " << k;
+      }
+    }
+  }
 }
 
 TEST(PoissonSolver, AWantedErrorChoosesTheDepth)
