@@ -15,8 +15,8 @@ SpectrumOptions StartOptions(SpectrumOptions options);
 /// The second step of ComputeSpectrum. The result is that of any solver for the finest matrices.
 /// Constants of the components are exact. Same bits for any number of threads. Throws Aborted.
 /// @param start  of the nested levels, with StartOptions
-Spectrum ImproveSpectrum(const SurfaceSpace& space, const Spectrum& start,
-  const SpectrumOptions& options, const Progress& progress = {});
+Spectrum ImproveSpectrum(const SurfaceSpace& space, Spectrum start, const SpectrumOptions& options,
+  const Progress& progress = {});
 
 } // namespace gridfem
 
