@@ -2,6 +2,7 @@
 
 #include "Parallel/HeldPoints.h"
 #include "Problems/Poisson.h"
+#include "Problems/StraightDistance.h"
 #include "Spaces/PointComponents.h"
 
 #include <array>
@@ -101,6 +102,35 @@ std::vector<char> RankDistance::MarkSources(const std::vector<Id>& sources) cons
   return isSource;
 }
 
+/// The distance through space from the sources of all ranks.
+std::vector<double> RankDistance::StraightDistances(
+  const std::vector<char>& isSource, int threads) const
+{
+  const Communicator& ranks = levels_.Space().Ranks();
+  std::vector<std::array<double, 6>> own; // the ends of segments
+  ranks.Together(
+    [&]
+    {
+      for (const auto& [a, b] : RimOfSources(*mesh_, isSource, threads))
+      {
+        own.push_back({ a[0], a[1], a[2], b[0], b[1], b[2] });
+      }
+    });
+  const std::vector<std::array<double, 6>> all = ranks.Gather(own);
+  std::vector<double> straight;
+  ranks.Together(
+    [&]
+    {
+      std::vector<Segment> rim;
+      for (const std::array<double, 6>& ends : all)
+      {
+        rim.push_back({ Vec3(ends[0], ends[1], ends[2]), Vec3(ends[3], ends[4], ends[5]) });
+      }
+      straight = DistancesThroughSpace(*mesh_, std::move(rim), threads);
+    });
+  return straight;
+}
+
 MultiVector RankDistance::LoadOfDistance(
   const MultiVector& heat, const std::vector<char>& isSource) const
 {
@@ -141,12 +171,13 @@ std::vector<double> RankDistance::ZeroesAt(
 DistanceField RankDistance::From(
   const std::vector<Id>& sources, const SolveOptions& solve, const Job& job) const
 {
-  const std::vector<char> isSource = this->MarkSources(sources);
+  SourceMarks marks{ this->MarkSources(sources), {} };
+  marks.straight = this->StraightDistances(marks.isSource, job.threads);
   const MultiVector zeroes = MultiVector::Zero(static_cast<Id>(sources.size()), 1);
   const HeldValues onGrid = HoldPoints(levels_.OfGrid(), sources, zeroes);
   const HeldValues held = levels_.Hats() ? HoldPoints(levels_, sources, zeroes) : onGrid;
   const HeatField heat = heat_->From(LoadOfRows(levels_.OfGrid(), onGrid.rows), job.Part(0.0, 0.5));
-  const MultiVector load = this->LoadOfDistance(heat.coefficients, isSource);
+  const MultiVector load = this->LoadOfDistance(heat.coefficients, marks.isSource);
   const PoissonOptions options{ { options_.multigrid, solve }, 0.0 };
   PoissonSolution solution = SolvePoisson(levels_, *poisson_, MultiVector::Zero(load.rows(), 1),
     load, options, job.progress.Part(0.5, 0.95));
@@ -159,7 +190,7 @@ DistanceField RankDistance::From(
   field.report.converged = field.report.converged && field.heatConverged;
   const std::vector<double> zero = this->ZeroesAt(held.rows, solution.coefficients);
   const MultiVector value = levels_.ValuesAtPoints(solution.coefficients);
-  field.atPoints = ShiftedToZero(value, component_, zero, isSource);
+  field.atPoints = ShiftedToZero(value, component_, zero, marks);
   return field;
 }
 

@@ -31,6 +31,7 @@ public:
 
 private:
   std::vector<char> MarkSources(const std::vector<Id>& sources) const;
+  std::vector<double> StraightDistances(const std::vector<char>& isSource, int threads) const;
   MultiVector LoadOfDistance(const MultiVector& heat, const std::vector<char>& isSource) const;
   std::vector<double> ZeroesAt(const SparseMatrix& rows, const MultiVector& distance) const;
 

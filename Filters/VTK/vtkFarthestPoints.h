@@ -47,7 +47,7 @@ public:
 
   ///@{
   /**
-   * The id of the first point. -1 (default) takes the first point of the first polygon. The filter
+   * The id of the first point. -1 (default) takes the first point of the surface. The filter
    * refuses an id that no polygon uses when it runs.
    */
   vtkSetClampMacro(FirstPointId, int, -1, VTK_INT_MAX);

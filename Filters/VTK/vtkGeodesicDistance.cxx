@@ -87,7 +87,7 @@ void vtkGeodesicDistance::FindSources(vtkDataSet* places)
   input.mask = state.Given(state.Find(0, "Source Array"));
   if (this->Selection->IsGiven())
   {
-    input.points.push_back({ "the Selection", "The Selection takes no point of a polygon",
+    input.points.push_back({ "The Selection", "The Selection takes no point of a polygon",
       [this] { return this->Selection->Ids(this->State->Mesh()); } });
   }
   if (places && !this->Signed)

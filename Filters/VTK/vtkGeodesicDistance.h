@@ -14,8 +14,9 @@
  * - the mesh points nearest to the points of input port 2;
  * - the points in the selection of port 3.
  *
- * If none of the four is given, the first point of the first polygon is the source. A triangle
- * whose corners are all sources is at distance 0 as a whole.
+ * If none of the four is given, the source is the first point of the surface: the one with the
+ * smallest id that a polygon uses. A triangle whose corners are all sources is at distance 0 as a
+ * whole. A warning tells when more than half of the points have no distance.
  *
  * With Signed on, distances are from a curve instead, and they are negative inside. The curve is
  * the border of the points or cells whose LabelArray is InsideLabel. If no LabelArray is chosen, it
@@ -37,7 +38,9 @@
  *
  * Output port 0 (vtkPolyData): the input with the following arrays.
  * - point data, double: `Distance`, in the unit of the points. It is 0 at sources and negative only
- *   inside a curve. It is NaN on a component without a source and at points that no polygon uses.
+ *   inside a curve. Its absolute value is never below the straight distance through space from the
+ *   sources or the curve. It is NaN on a component without a source and at points that no polygon
+ * uses.
  * - point data, vtkIdType, with NearestSource on: `NearestSource`, the id of the source that the
  *   distance is from. It is -1 where no source can be reached.
  * - field data, of the solve for the distance: `Converged`, `Iterations`, `DoublePrecisionSince`,
@@ -90,10 +93,11 @@ public:
   ///@{
   /**
    * sqrt(t), in units of the mean distance between grid functions that overlap, which is 1.2 cells.
-   * A larger value rounds the distance off where fronts meet and takes a little longer. A much
-   * smaller value makes the heat oscillate. 0.5..1000, default 1.75.
+   * A larger value rounds the distance off where fronts meet and takes somewhat longer. A value
+   * below 0.9 makes the heat oscillate and the distance wrong; the filter refuses it when it runs.
+   * 0.9..1000, default 1.2.
    */
-  vtkSetClampMacro(Smoothing, double, 0.5, 1000.0);
+  vtkSetMacro(Smoothing, double);
   vtkGetMacro(Smoothing, double);
   ///@}
 
@@ -151,7 +155,7 @@ protected:
   bool NeedsWholeSurface() override;
   void FreeStages() override;
 
-  double Smoothing = 1.75;
+  double Smoothing = 1.2;
   bool NearestSource = false;
   bool Signed = false;
   int InsideLabel = 1;

@@ -207,6 +207,7 @@ void vtkLaplaceSpectrum::WriteFields(vtkPolyData* output) const
   const bool converged = result.spectrum.converged && result.isAccurate;
   gridfem::AddFieldInt(output, "Converged", converged ? 1 : 0);
   gridfem::AddFieldInt(output, "CutsGroup", result.spectrum.cutsMultiplet ? 1 : 0);
+  gridfem::AddFieldInt(output, "TrustedEstimate", result.isErrorTrusted ? 1 : 0);
   this->State->WriteTracking(output);
 }
 
@@ -219,6 +220,9 @@ void vtkLaplaceSpectrum::WriteTable(vtkTable* table) const
   gridfem::AddColumn(table, "Eigenvalue", result.eigenvalues);
   gridfem::AddColumn(table, "Residual", result.spectrum.residuals);
   gridfem::AddColumn(table, "EstimatedError", result.spectrum.estimatedErrors);
+  const std::vector<char>& isTrusted = result.spectrum.isErrorTrusted;
+  gridfem::AddColumn(
+    table, "TrustedEstimate", std::vector<int>(isTrusted.begin(), isTrusted.end()));
 }
 
 void vtkLaplaceSpectrum::FreeStages()

@@ -27,6 +27,7 @@
  * - field data: `CutsGroup` (int, 1): 1 if the last modes are part of a longer group of equal
  *   eigenvalues. A larger NumberOfModes has all of it. Eigenvalues count as equal if they differ by
  *   less than 1 % and by less than a quarter of their mean distance.
+ * - field data: `TrustedEstimate` (int, 1): 1 if every estimated error is trusted.
  * - field data: `UsedDepth` (int, 1), the depth of the space.
  *
  * Output port 1 (vtkTable) has a row per mode.
@@ -34,10 +35,12 @@
  * - `Residual` (double): its square estimates the relative error of the eigenvalue in the function
  *   space.
  * - `EstimatedError` (double): the estimated relative error of the eigenvalue of the surface. The
- *   estimate comes from the space of half the resolution, whose errors are four times as large. It
- *   is 1 if that space has no such mode. With HatFunctions the estimate also includes the
- *   difference to the eigenvalue of the grid, if the eigenvalue of the hat functions is larger.
- *   Both eigenvalues are upper bounds, so the estimate is the error of the worse of the two.
+ *   estimate comes from the values of the same mode in the spaces of half and of a quarter of the
+ *   resolution. It is 1 if the first of them has no such mode. With HatFunctions the estimate also
+ *   includes the difference to the eigenvalue of the grid, if the eigenvalue of the hat functions is
+ *   larger. Both eigenvalues are upper bounds, so the estimate is the error of the worse of the two.
+ * - `TrustedEstimate` (int): 1 if the three values approach each other as on a resolved surface. If
+ *   it is 0, the error may be far larger.
  *
  * Time: every mode but mode 0 is a time step, with its index as time value, unless AllModes is on
  * or Mode is fixed. Mode 0 is constant and shows nothing; set Mode to 0 to see it. All modes are
@@ -122,9 +125,10 @@ public:
   /**
    * The wanted relative error of the eigenvalues of the surface. Above 0, it replaces Depth: the
    * filter chooses the depth at which the estimated error of every eigenvalue is at most Accuracy.
-   * If the depth does not fit into memory or a basis is given, Accuracy may not be reached. A
-   * warning says so, and `Converged` is 0. With HatFunctions the mesh may be too coarse, and no
-   * depth changes its error. 0..0.5, default 0: Depth is used.
+   * Estimates that are not trusted have to hold at one more depth. If the depth does not fit into
+   * memory or a basis is given, Accuracy may not be reached. A warning says so, and `Converged` is 0.
+   * With HatFunctions the mesh may be too coarse, and no depth changes its error. 0..0.5, default 0:
+   * Depth is used.
    */
   vtkSetClampMacro(Accuracy, double, 0.0, 0.5);
   vtkGetMacro(Accuracy, double);

@@ -2,6 +2,7 @@
 #include "Largest.h"
 #include "Parallel/RankDistance.h"
 #include "Pieces.h"
+#include "Problems/StraightDistance.h"
 #include "Spaces/GridSpace.h"
 
 #include <gtest/gtest.h>
@@ -110,6 +111,13 @@ void CompareDistances(
   const MultiVector values = ColumnOf(found.atPoints);
   ExpectRows("distance", values, ColumnOf(expected.atPoints), piece.points);
   ExpectOneValue(ranks, piece, values, mesh->points.size());
+  const std::vector<double> straight =
+    DistancesThroughSpace(*mesh, RimOfSources(*mesh, isSource, 1), 1);
+  for (std::size_t k = 0; k < piece.points.size(); ++k)
+  {
+    const double bound = isSource[piece.points[k]] ? 0.0 : straight[piece.points[k]];
+    ASSERT_FALSE(found.atPoints[k] < (1.0 - 1e-14) * bound) << k; // NaN beyond all sources
+  }
 }
 
 } // namespace

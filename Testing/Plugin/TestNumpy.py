@@ -106,6 +106,15 @@ class Numpy(unittest.TestCase):
         self.assertEqual(distances[0], 0)
         self.assertLess(numpy.abs(distances - exact).max(), 0.06)
 
+    def test_no_distance_is_below_the_straight_line(self):
+        sources = numpy.arange(0, len(self.points), 9)
+        distances = gridfem.distance(*self.mesh, sources, **OPTIONS)
+        straight = numpy.linalg.norm(self.points[:, None] - self.points[sources], axis=2).min(1)
+        self.assertTrue((distances >= (1 - 1e-14) * straight).all())
+        numpy.testing.assert_array_equal(distances == 0, straight == 0)
+        with self.assertRaisesRegex(gridfem.Error, "Smoothing"):
+            gridfem.distance(*self.mesh, [0], Smoothing=0.5, **OPTIONS)
+
     def test_the_point_farthest_from_a_pole_is_the_other_one(self):
         ids, nearest, distances = gridfem.farthest_points(*self.mesh, 2, FirstPointId=0, **OPTIONS)
         self.assertEqual(ids[0], 0)
@@ -285,7 +294,7 @@ class Numpy(unittest.TestCase):
             "no property Dept": lambda: gridfem.spectrum(points, triangles, Dept=5),
             "not a finite number": lambda: gridfem.spectrum(points * numpy.nan, triangles),
             "has 7 rows": lambda: gridfem.poisson(points, triangles, numpy.ones(7)),
-            "no polygon of the mesh has": lambda: gridfem.distance(points, triangles, len(points)),
+            "there is no point": lambda: gridfem.distance(points, triangles, len(points)),
             "no sources": lambda: gridfem.distance(points, triangles, []),
             "no border": lambda: gridfem.signed_distance(points, triangles, points[:, 0] * 0),
             "must be integers": lambda: gridfem.signed_distance(points, triangles, points[:, 0]),

@@ -6,6 +6,7 @@
 #include "vtkConnectivityAwareBasis.h"
 #include "vtkCutter.h"
 #include "vtkGeodesicDistance.h"
+#include "vtkMath.h"
 #include "vtkPlane.h"
 
 #include <gtest/gtest.h>
@@ -103,7 +104,77 @@ TEST(GeodesicDistanceFilter, StartsAtTheFirstPointWhereNothingIsChosen)
 {
   const TriangleMesh mesh = GeodesicSphere(8);
   auto filter = MakeFilter(ToPolyData(mesh), 4);
-  EXPECT_EQ(DistancesOf(filter)[mesh.triangles[0][0]], 0.0);
+  const std::vector<double> found = DistancesOf(filter);
+  EXPECT_EQ(found[0], 0.0);
+  EXPECT_EQ(std::count(found.begin(), found.end(), 0.0), 1);
+}
+
+/// A disk whose rim is wavy and has points at uneven distances, and whose inner points are random.
+TEST(GeodesicDistanceFilter, IsNoLessThanTheStraightLineToAnUnevenRim)
+{
+  constexpr int Around = 90;
+  constexpr int Rings = 20;
+  TriangleMesh mesh;
+  for (int ring = 0; ring <= Rings; ++ring)
+  {
+    for (int k = 0; k < Around; ++k)
+    {
+      const double angle = 2.0 * vtkMath::Pi() * k / Around;
+      const double uneven = angle + 0.9 * std::sin(3.0 * angle) / 3.0;
+      const double radius = (1.0 + 0.35 * std::sin(7.0 * uneven)) * (Rings - ring + 0.1) / Rings;
+      mesh.points.push_back({ radius * std::cos(uneven), radius * std::sin(uneven), 0.0 });
+    }
+  }
+  for (Id ring = 0; ring < Rings; ++ring)
+  {
+    for (Id k = 0; k < Around; ++k)
+    {
+      const Id a = ring * Around + k;
+      const Id b = ring * Around + (k + 1) % Around;
+      mesh.triangles.push_back({ a, b, b + Around });
+      mesh.triangles.push_back({ a, b + Around, a + Around });
+    }
+  }
+  auto data = ToPolyData(mesh);
+  Id point = 0;
+  AddPointArray(data, "rim", 1, [&](const Vec3&, int) { return point++ < Around ? 1.0 : 0.0; });
+  for (const int depth : { 4, 6 })
+  {
+    auto filter = MakeFilter(data, depth);
+    filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "rim");
+    const std::vector<double> found = DistancesOf(filter);
+    for (std::size_t i = 0; i < found.size(); ++i)
+    {
+      double least = 1e300;
+      for (int k = 0; k < Around; ++k)
+      {
+        least = std::min(least, (mesh.points[i] - mesh.points[k]).norm());
+      }
+      ASSERT_GE(found[i], (1.0 - 1e-14) * least) << i << " at depth " << depth;
+    }
+  }
+}
+
+TEST(GeodesicDistanceFilter, WarnsWhenMostPointsHaveNoDistance)
+{
+  TriangleMesh crumb;
+  crumb.points = { { 3, 0, 0 }, { 3.01, 0, 0 }, { 3, 0.01, 0 } };
+  crumb.triangles = { { 0, 1, 2 } };
+  auto filter = MakeFilter(ToPolyData(Join(crumb, GeodesicSphere(8))), 4);
+  const Messages messages(filter);
+  DistancesOf(filter);
+  ASSERT_EQ(messages.warnings.size(), 1u);
+  EXPECT_NE(messages.warnings[0].find("No source is chosen"), std::string::npos);
+}
+
+TEST(GeodesicDistanceFilter, RefusesASmoothingThatMakesTheHeatOscillate)
+{
+  auto filter = MakeFilter(ToPolyData(GeodesicSphere(8)), 4);
+  filter->SetSmoothing(0.89);
+  ExpectRefused(filter, "Smoothing is 0.89; it must be 0.9 or more");
+  filter = MakeFilter(ToPolyData(GeodesicSphere(8)), 4);
+  filter->SetSmoothing(1e4);
+  ExpectRefused(filter, "1000 or less");
 }
 
 TEST(GeodesicDistanceFilter, NamesTheNearestSource)
@@ -296,7 +367,7 @@ TEST(GeodesicDistanceFilter, IsSignedByLabelsOfPointsAndOfCells)
   EXPECT_EQ(filter->GetNumberOfRuns("Hierarchy"), 1);
 
   filter->SetInsideLabel(3);
-  ExpectRefused(filter, "'cells' and InsideLabel 3");
+  ExpectRefused(filter, "'cells': no point or cell has the Inside Label 3");
   AddPointArray(data, "half", 1, [](const Vec3&, int) { return 0.5; });
   filter = MakeFilter(data, 4);
   filter->SignedOn();

@@ -294,6 +294,11 @@ TEST_F(LaplaceSpectrum, TheDepthFollowsFromTheAccuracy)
     {
       EXPECT_LE(error, accuracy);
     }
+    const auto isTrusted =
+      Values(vtkDataArray::SafeDownCast(table->GetColumnByName("TrustedEstimate")));
+    ASSERT_EQ(isTrusted.size(), 9u);
+    EXPECT_EQ(FieldValue(filter->GetOutput(), "TrustedEstimate"),
+      *std::min_element(isTrusted.begin(), isTrusted.end()));
   }
   EXPECT_LE(depth, 6);
   // Another time step computes nothing, though the depth was found by trying.

@@ -15,6 +15,9 @@ namespace
 constexpr Id MostSums = 16;
 constexpr Id RowsPerComponent = 64;
 
+/// Share of the mass that a component without an area may have by rounding.
+constexpr double Nothing = 1e-30;
+
 } // namespace
 
 Constants::Constants(const SparseMatrix& mass, std::vector<Index> component,
@@ -39,7 +42,7 @@ Constants::Constants(const SparseMatrix& mass, std::vector<Index> component,
   const double total = std::accumulate(mass_.begin(), mass_.end(), 0.0);
   for (Index c = 0; c < components; ++c)
   {
-    if (mass_[c] > 1e-14 * total)
+    if (mass_[c] > Nothing * total)
     {
       massive_.push_back(c);
     }

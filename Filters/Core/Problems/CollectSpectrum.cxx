@@ -157,6 +157,7 @@ Spectrum CollectSpectrum(const Constants& constants, Index zeros, EigenPairs<Rea
   residuals.insert(residuals.end(), report.residuals.begin(), report.residuals.end());
   spectrum.residuals = Ordered(residuals, order);
   spectrum.estimatedErrors.assign(zeros, 0.0);
+  spectrum.isErrorTrusted.assign(zeros, 1);
   spectrum.numberOfConverged = static_cast<Index>(std::count_if(spectrum.residuals.begin(),
     spectrum.residuals.end(), [&](double residual) { return residual * residual <= tolerance; }));
   spectrum.converged = spectrum.numberOfConverged == static_cast<Index>(order.size());

@@ -15,20 +15,13 @@ namespace
 
 constexpr double Far = std::numeric_limits<double>::infinity();
 
-double DistanceFromSegment(const Vec3& position, const Vec3& from, const Vec3& to)
-{
-  const Vec3 along = to - from;
-  const double square = along.squaredNorm();
-  const double t = square > 0.0 ? std::clamp((position - from).dot(along) / square, 0.0, 1.0) : 0.0;
-  return (position - from - t * along).norm();
-}
-
 /// Spreads distances: points take over the segments of their neighbors, the nearest first.
 class Spread
 {
 public:
   Spread(const SurfaceCurve& curve, const TriangleMesh& mesh, double limit, int threads)
-    : curve_(curve), mesh_(mesh), limit_(limit), distance_(mesh.points.size(), Far)
+    : curve_(curve), mesh_(mesh), limit_(limit), ends_(PiecesOf(curve, mesh)),
+      distance_(mesh.points.size(), Far)
   {
     std::vector<Index> cornerPlace;
     for (const auto& corner : mesh.triangles)
@@ -39,14 +32,7 @@ public:
     std::vector<Index> segmentPlace;
     for (const TriangleSegment& segment : curve.segments)
     {
-      const auto& corner = mesh.triangles[segment.triangle];
-      const auto pointAt = [&](double t)
-      {
-        return PointOfSegment(
-          segment, t, mesh.points[corner[0]], mesh.points[corner[1]], mesh.points[corner[2]]);
-      };
-      ends_.push_back({ pointAt(0.0), pointAt(1.0) });
-      this->AppendPlaces(corner, segmentPlace);
+      this->AppendPlaces(mesh.triangles[segment.triangle], segmentPlace);
     }
     segments_ = this->GroupByPlace(segmentPlace, threads);
   }
@@ -112,7 +98,7 @@ private:
 
   double DistanceFrom(Index segment, Index place) const
   {
-    return DistanceFromSegment(mesh_.points[place], ends_[segment][0], ends_[segment][1]);
+    return DistanceFromSegment(ends_[segment], mesh_.points[place]);
   }
 
   /// Follows the curve to a nearer segment, over triangles that touch, as long as the distance
@@ -168,14 +154,30 @@ private:
   const SurfaceCurve& curve_;
   const TriangleMesh& mesh_;
   double limit_;
-  Groups corners_;  // per place: 3 triangle + corner
-  Groups segments_; // per place: 3 segment + corner of its triangle
-  std::vector<std::array<Vec3, 2>> ends_;
+  std::vector<Segment> ends_;
+  Groups corners_;               // per place: 3 triangle + corner
+  Groups segments_;              // per place: 3 segment + corner of its triangle
   std::vector<double> distance_; // per place
   std::priority_queue<Entry> next_;
 };
 
 } // namespace
+
+std::vector<Segment> PiecesOf(const SurfaceCurve& curve, const TriangleMesh& mesh)
+{
+  std::vector<Segment> pieces;
+  for (const TriangleSegment& segment : curve.segments)
+  {
+    const auto& corner = mesh.triangles[segment.triangle];
+    const auto pointAt = [&](double t)
+    {
+      return PointOfSegment(
+        segment, t, mesh.points[corner[0]], mesh.points[corner[1]], mesh.points[corner[2]]);
+    };
+    pieces.push_back({ pointAt(0.0), pointAt(1.0) });
+  }
+  return pieces;
+}
 
 std::vector<double> DistancesNear(
   const SurfaceCurve& curve, const TriangleMesh& mesh, double limit, int threads)

@@ -3,12 +3,16 @@
 #ifndef GridFEM_CurveDistance_h
 #define GridFEM_CurveDistance_h
 
+#include "Problems/StraightDistance.h"
 #include "Problems/SurfaceCurve.h"
 
 #include <vector>
 
 namespace gridfem
 {
+
+/// The straight pieces of the curve, world units.
+std::vector<Segment> PiecesOf(const SurfaceCurve& curve, const TriangleMesh& mesh);
 
 /// The distance per point through space from the nearest segment of the curve, with the sign of the
 /// point's side. It is NaN beyond the limit, except at corners of triangles that the curve runs

@@ -43,10 +43,14 @@ int FirstDepthForModes(const TriangleMesh& mesh, Id modes, double accuracy, Func
   return FittingDepth(mesh, depth, MinimumDepth, kind);
 }
 
-int NextDepthForModes(const TriangleMesh& mesh, const std::vector<double>& errors, int depth,
-  double accuracy, FunctionKind kind)
+int NextDepthForModes(const TriangleMesh& mesh, const std::vector<double>& errors, bool isConfirmed,
+  int depth, double accuracy, FunctionKind kind)
 {
-  const int next = DepthForAccuracy(errors, depth, accuracy);
+  int next = DepthForAccuracy(errors, depth, accuracy);
+  if (next == depth && !isConfirmed)
+  {
+    next = std::min(depth + 1, MaximumDepth);
+  }
   return next == depth || FitsMemory(mesh, next, kind) ? next : depth;
 }
 

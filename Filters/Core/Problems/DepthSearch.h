@@ -34,12 +34,15 @@ private:
 
 ///@{ Search for a spectrum: the first depth, and the next depth after `depth`. The second
 /// function gets the estimated relative errors of the eigenvalues on the grid of `depth`. It
-/// returns `depth` itself when they are small enough.
+/// returns `depth` itself when they are small enough and confirmed, or when the next depth does not
+/// fit into memory.
+/// @param isConfirmed  whether the errors are trusted, or were small enough at the depth before,
+/// too
 /// @param accuracy  wanted relative error, in (0, 1)
 /// @param kind      Hats: hat functions of the mesh stand above the grid
 int FirstDepthForModes(const TriangleMesh& mesh, Id modes, double accuracy, FunctionKind kind);
-int NextDepthForModes(const TriangleMesh& mesh, const std::vector<double>& errors, int depth,
-  double accuracy, FunctionKind kind);
+int NextDepthForModes(const TriangleMesh& mesh, const std::vector<double>& errors, bool isConfirmed,
+  int depth, double accuracy, FunctionKind kind);
 ///@}
 
 } // namespace gridfem

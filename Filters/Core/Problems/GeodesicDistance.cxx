@@ -5,6 +5,7 @@
 #include "Problems/CurveDistance.h"
 #include "Problems/NearestSource.h"
 #include "Problems/Poisson.h"
+#include "Problems/StraightDistance.h"
 #include "Spaces/PointComponents.h"
 
 #include <algorithm>
@@ -41,11 +42,11 @@ const FiniteElementSpace& HeatSpace(const FiniteElementSpace& space)
   return nested ? *nested : space;
 }
 
-/// The coarsest level on which √t is as long as by default on the finest level. Functions of the
-/// next coarser level are twice as far from each other.
+/// The coarsest level on which √t is at least half of MostSmoothing. Functions of the next coarser
+/// level are twice as far from each other.
 std::size_t LevelFor(double smoothing, const FiniteElementSpace& space)
 {
-  const double coarser = std::floor(std::log2(smoothing / DistanceOptions().smoothing));
+  const double coarser = std::floor(std::log2(2.0 * smoothing / MostSmoothing));
   return static_cast<std::size_t>(
     std::clamp(coarser, 0.0, static_cast<double>(space.NumberOfLevels() - 1)));
 }
@@ -180,7 +181,7 @@ Field AwayFromSources(const TriangleMesh& mesh, const std::vector<char>& isSourc
 }
 
 std::vector<double> ShiftedToZero(const MultiVector& value, const std::vector<Index>& component,
-  const std::vector<double>& zero, const std::vector<char>& isSource)
+  const std::vector<double>& zero, const SourceMarks& marks)
 {
   std::vector<double> shifted(component.size(), NaN);
   for (std::size_t point = 0; point < component.size(); ++point)
@@ -188,8 +189,9 @@ std::vector<double> ShiftedToZero(const MultiVector& value, const std::vector<In
     const Index c = component[point];
     if (c >= 0 && !std::isnan(zero[c]))
     {
-      shifted[point] =
-        isSource[point] ? 0.0 : std::max(0.0, value(static_cast<Id>(point), 0) - zero[c]);
+      shifted[point] = marks.isSource[point] ? 0.0
+                                             : std::max(marks.straight[point],
+                                                 value(static_cast<Id>(point), 0) - zero[c]);
     }
   }
   return shifted;
@@ -234,8 +236,8 @@ MultiVector GeodesicDistance::LoadOfDistance(
   return space_->LoadOfDirections(heat, &away, job);
 }
 
-std::vector<double> GeodesicDistance::ShiftedToSources(
-  const MultiVector& distance, const std::vector<Id>& sources, const Job& job) const
+std::vector<double> GeodesicDistance::ShiftedToSources(const MultiVector& distance,
+  const std::vector<Id>& sources, const SourceMarks& marks, const Job& job) const
 {
   const MultiVector value = space_->ValuesAtPoints(distance, job);
   const auto last = std::max_element(component_.begin(), component_.end());
@@ -252,12 +254,7 @@ std::vector<double> GeodesicDistance::ShiftedToSources(
   }
   std::transform(sum.begin(), sum.end(), count.begin(), sum.begin(),
     [](double total, Id of) { return of > 0 ? total / static_cast<double>(of) : NaN; });
-  std::vector<char> isSource(component_.size(), 0);
-  for (const Id source : sources)
-  {
-    isSource[source] = 1;
-  }
-  return ShiftedToZero(value, component_, sum, isSource);
+  return ShiftedToZero(value, component_, sum, marks);
 }
 
 /// ∫ <X, ∇b_i>, where X points away from the curve outside and toward it inside. Near the curve, X
@@ -313,7 +310,8 @@ std::vector<double> GeodesicDistance::ZeroesOnCurve(
 }
 
 std::vector<double> GeodesicDistance::ShiftedToCurve(const MultiVector& distance,
-  const SurfaceCurve& curve, const std::vector<double>& near, const Job& job) const
+  const SurfaceCurve& curve, const std::vector<double>& near, const std::vector<double>& straight,
+  const Job& job) const
 {
   const std::vector<double> zero = this->ZeroesOnCurve(distance, curve);
   const MultiVector value = space_->ValuesAtPoints(distance, job);
@@ -335,8 +333,8 @@ std::vector<double> GeodesicDistance::ShiftedToCurve(const MultiVector& distance
     const double mixed = isNear ? share * near[point] + (1.0 - share) * solved : solved;
     const auto side = curve.side[point];
     shifted[point] = std::isnan(solved) ? NaN
-                     : side > 0         ? std::max(0.0, mixed)
-                     : side < 0         ? std::min(0.0, mixed)
+                     : side > 0         ? std::max(straight[point], mixed)
+                     : side < 0         ? std::min(-straight[point], mixed)
                                         : mixed;
   }
   return shifted;
@@ -402,12 +400,14 @@ void GeodesicDistance::EstimateErrors(
 DistanceField GeodesicDistance::From(
   const std::vector<Id>& sources, const SolveOptions& solve, const Job& job) const
 {
-  const std::vector<char> isSource = MarkSources(sources, mesh_->points.size());
+  SourceMarks marks{ MarkSources(sources, mesh_->points.size()), {} };
+  marks.straight =
+    DistancesThroughSpace(*mesh_, RimOfSources(*mesh_, marks.isSource, job.threads), job.threads);
   return this->FromAll({ LoadOfPoints(HeatSpace(*space_), sources),
                          [&](const MultiVector& heat, const Job& part)
-                         { return this->LoadOfDistance(heat, isSource, part); },
+                         { return this->LoadOfDistance(heat, marks.isSource, part); },
                          [&](const MultiVector& distance, const Job& part)
-                         { return this->ShiftedToSources(distance, sources, part); } },
+                         { return this->ShiftedToSources(distance, sources, marks, part); } },
     solve, job);
 }
 
@@ -422,11 +422,13 @@ DistanceField GeodesicDistance::FromCurve(
   }
   const double reach = NearReach * std::sqrt(time_) * space_->UnitLength();
   const std::vector<double> near = DistancesNear(curve, *mesh_, reach, job.threads);
+  const std::vector<double> straight =
+    DistancesThroughSpace(*mesh_, PiecesOf(curve, *mesh_), job.threads);
   return this->FromAll({ LoadOfCurve(HeatSpace(*space_), curve),
                          [&](const MultiVector& heat, const Job& part)
                          { return this->LoadOfSignedDistance(heat, curve, near, part); },
                          [&](const MultiVector& distance, const Job& part)
-                         { return this->ShiftedToCurve(distance, curve, near, part); } },
+                         { return this->ShiftedToCurve(distance, curve, near, straight, part); } },
     solve, job.Part(0.05, 1.0));
 }
 

@@ -20,10 +20,13 @@ namespace gridfem
 
 struct DistanceOptions
 {
-  /// sqrt(t) over the mean distance between functions that overlap, which is 1.2 cells. With a much
-  /// smaller value, the heat of discrete functions oscillates. A larger value takes more time. It
-  /// also rounds off the distance where fronts meet and between near sources, by about sqrt(t) / 2.
-  double smoothing = 1.75;
+  /// With a smaller smoothing the heat oscillates, and distances may be wrong by half their range.
+  static constexpr double LeastSmoothing = 0.9;
+
+  /// sqrt(t) over the mean distance between functions that overlap, which is 1.2 cells. A larger
+  /// value takes more time. It also rounds off the distance where fronts meet and between near
+  /// sources, by about sqrt(t) / 2.
+  double smoothing = 1.2;
   MultigridOptions multigrid;
   bool estimateErrors = false; // of every distance; takes a sixth to two fifths more time
   double heatChange = DistantHeat::SmallChange; // accuracy of the heat
@@ -31,9 +34,9 @@ struct DistanceOptions
 
 struct DistanceField
 {
-  /// Distance of each point of the mesh, world units. It is 0 at sources and at least 0 elsewhere;
-  /// inside a curve it is at most 0. NaN if no function reaches the point or its component has no
-  /// source.
+  /// Distance of each point of the mesh, world units. It is 0 at sources. Elsewhere it is at least
+  /// the straight distance through space from the sources; inside a curve it is at most the
+  /// negative of that. NaN if no function reaches the point or its component has no source.
   std::vector<double> atPoints;
   SolveReport report; // of the distance; not converged if the heat was not
   bool heatConverged = false;
@@ -43,6 +46,13 @@ struct DistanceField
   /// each other. On real meshes it is within a factor of four, mostly of two. The largest error is
   /// in world units. Trusted if heat reached every function and converged.
   SolutionAccuracy accuracy;
+};
+
+/// What is known about every point of the mesh before its distance is computed.
+struct SourceMarks
+{
+  std::vector<char> isSource;
+  std::vector<double> straight; // distance through space from the sources; no path is shorter
 };
 
 /// A method to find distances from points.
@@ -107,11 +117,11 @@ private:
   struct Sources;
   DistanceField FromAll(const Sources& sources, const SolveOptions& solve, const Job& job) const;
   void EstimateErrors(const Sources& sources, DistanceField& field, const Job& job) const;
-  std::vector<double> ShiftedToSources(
-    const MultiVector& distance, const std::vector<Id>& sources, const Job& job) const;
+  std::vector<double> ShiftedToSources(const MultiVector& distance, const std::vector<Id>& sources,
+    const SourceMarks& marks, const Job& job) const;
   std::vector<double> ZeroesOnCurve(const MultiVector& distance, const SurfaceCurve& curve) const;
   std::vector<double> ShiftedToCurve(const MultiVector& distance, const SurfaceCurve& curve,
-    const std::vector<double>& near, const Job& job) const;
+    const std::vector<double>& near, const std::vector<double>& straight, const Job& job) const;
 
   std::shared_ptr<const FiniteElementSpace> space_;
   std::shared_ptr<const TriangleMesh> mesh_;
@@ -126,7 +136,7 @@ private:
 ///@{ Steps shared with the distance on several processes, which take them on their own parts.
 
 /// With a smoothing below this value heat flows on the finest level.
-constexpr double MostSmoothing = 3.5; // twice the default
+constexpr double MostSmoothing = 3.5;
 
 /// Σ w d² and Σ w over pairs of functions, where w is their overlap and d their distance. The root
 /// of the quotient is the mean spacing.
@@ -135,11 +145,11 @@ std::array<double, 2> SpacingSums(const SparseMatrix& mass, const MultiVector& p
 /// The factor of the heat's direction on each triangle: -1, or 0 if all corners are sources.
 Field AwayFromSources(const TriangleMesh& mesh, const std::vector<char>& isSource);
 
-/// Shifts values at points to a distance: 0 at sources, elsewhere at least 0.
+/// Shifts values at points to a distance: 0 at sources, elsewhere at least the straight distance.
 /// @param component  of every point; -1 if no function reaches it
 /// @param zero       the value on each component that becomes 0; NaN if it has no source
 std::vector<double> ShiftedToZero(const MultiVector& value, const std::vector<Index>& component,
-  const std::vector<double>& zero, const std::vector<char>& isSource);
+  const std::vector<double>& zero, const SourceMarks& marks);
 ///@}
 
 } // namespace gridfem

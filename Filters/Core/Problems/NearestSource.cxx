@@ -64,8 +64,8 @@ public:
   }
 
   /// Visits all points from the nearest to the farthest. A point that is no source may be nearer
-  /// than all points around it, for example where distances were clamped to 0. Such a point waits
-  /// for a neighbor that knows its source.
+  /// than all points around it, for example in the place of a source. Such a point waits for a
+  /// neighbor that knows its source.
   void Run(const Job& job)
   {
     const std::vector<Index> order = this->PlacesByDistance();
@@ -281,6 +281,35 @@ void RequireSources(const std::vector<Id>& sources, std::size_t points)
       throw InvalidInput("The source " + std::to_string(source) + " is not a point of the mesh.");
     }
   }
+}
+
+void RequireUsed(const std::string& property, const std::vector<Id>& ids, const TriangleMesh& mesh)
+{
+  const std::vector<char> used = ids.empty() ? std::vector<char>() : UsedPoints(mesh);
+  const auto points = static_cast<Id>(used.size());
+  for (const Id id : ids)
+  {
+    if (id < 0 || id >= points)
+    {
+      throw InvalidInput(property + ": there is no point " + std::to_string(id) +
+                         ". Choose an id from 0 to " + std::to_string(points - 1) + ".");
+    }
+    if (!used[id])
+    {
+      throw InvalidInput(property + ": no polygon uses point " + std::to_string(id) +
+                         ", so that it is not on the surface. Choose a corner of a polygon.");
+    }
+  }
+}
+
+Id FirstUsedPoint(const TriangleMesh& mesh)
+{
+  Id first = mesh.triangles.front()[0];
+  for (const auto& corner : mesh.triangles)
+  {
+    first = std::min({ first, corner[0], corner[1], corner[2] });
+  }
+  return first;
 }
 
 std::vector<Id> NearestSources(const TriangleMesh& mesh, const std::vector<double>& distance,

@@ -5,6 +5,7 @@
 #include "Base/Job.h"
 #include "Grid/TriangleMesh.h"
 
+#include <string>
 #include <vector>
 
 namespace gridfem
@@ -13,6 +14,12 @@ namespace gridfem
 /// Throws InvalidInput that names the first source that is not a point of a mesh with this many
 /// points.
 void RequireSources(const std::vector<Id>& sources, std::size_t points);
+
+/// Throws InvalidInput that names the property and the first id that no triangle uses.
+void RequireUsed(const std::string& property, const std::vector<Id>& ids, const TriangleMesh& mesh);
+
+/// The least id that a triangle uses: the source where none is chosen.
+Id FirstUsedPoint(const TriangleMesh& mesh);
 
 /// Traces every point back to the origin of its distance. The steepest descent on the triangles
 /// around the point leads to a place between two nearer points. The labels of these two are mixed

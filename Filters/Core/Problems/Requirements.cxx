@@ -41,6 +41,16 @@ void RequireAtLeast(const char* property, double value, double least)
   }
 }
 
+void RequireAtMost(const char* property, double value, double most)
+{
+  if (value > most)
+  {
+    std::ostringstream message;
+    message << property << " is " << value << "; it must be " << most << " or less.";
+    throw InvalidInput(message.str());
+  }
+}
+
 bool FitsMemory(const TriangleMesh& mesh, int depth, FunctionKind kind)
 {
   return BytesOf(mesh, EstimateMemory(mesh, depth), kind) <= AvailableMemory();

@@ -17,6 +17,9 @@ void RequireNumber(const char* property, double value);
 /// Throws InvalidInput, naming the property, if its value is not finite or below `least`.
 void RequireAtLeast(const char* property, double value, double least);
 
+/// Throws InvalidInput, naming the property, if its value is above `most`.
+void RequireAtMost(const char* property, double value, double most);
+
 /// Whether everything that a solver makes at this depth should fit into memory.
 bool FitsMemory(const TriangleMesh& mesh, int depth, FunctionKind kind = FunctionKind::Grid);
 

@@ -131,8 +131,9 @@ std::string WarningOfAccuracy(double wanted, double estimated, FunctionKind kind
 {
   std::ostringstream text;
   text << "The wanted Accuracy of " << wanted << " is not reached: at Depth " << depth
-       << " the estimated error is up to " << estimated << ". " << ReasonOfError(kind)
-       << " The result is kept.";
+       << " the estimated error is up to " << estimated
+       << (estimated <= wanted ? ", but coarser grids do not confirm it" : "") << ". "
+       << ReasonOfError(kind) << " The result is kept.";
   return text.str();
 }
 

@@ -7,12 +7,15 @@
 #include "Krylov/LobpcgWindows.h"
 #include "Problems/CollectSpectrum.h"
 #include "Problems/LevelProblem.h"
+#include "Problems/MassUnit.h"
+#include "Problems/ModeMatch.h"
 #include "Problems/SpectrumAccuracy.h"
 #include "Problems/SpectrumCycle.h"
 #include "Problems/SpectrumList.h"
 #include "Problems/UnnestedSpectrum.h"
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace gridfem
@@ -40,16 +43,17 @@ bool CanBeDense(const SpaceLevels& space, std::size_t level, Index blockSize)
   return !space.Divided(level) && IsDense(space.NumberOfFunctions(level), blockSize);
 }
 
-/// The level where the iteration starts. If the finest level is solved densely, it is the level
-/// below. Otherwise it is the coarsest level with enough functions, or the level below that one if
-/// it is too large for a dense solve.
+/// The level where the iteration starts. If the finest level is solved densely, the levels below
+/// only serve the error estimate. Otherwise it is the coarsest level with enough functions, or the
+/// level below that one if it is too large for a dense solve.
 std::size_t StartLevel(const SpaceLevels& space, Index blockSize)
 {
+  constexpr std::size_t ForTheEstimate = 2;
   const std::size_t levels = space.NumberOfLevels();
   const auto size = [&](std::size_t l) { return space.NumberOfFunctions(l); };
   if (CanBeDense(space, 0, blockSize))
   {
-    return std::min<std::size_t>(1, levels - 1);
+    return std::min(ForTheEstimate, levels - 1);
   }
   std::size_t level = 0;
   while (level + 1 < levels && (!CanBeDense(space, level, blockSize) ||
@@ -60,7 +64,8 @@ std::size_t StartLevel(const SpaceLevels& space, Index blockSize)
   return level;
 }
 
-void Append(std::vector<double>& list, const std::vector<double>& more)
+template<class Number>
+void Append(std::vector<Number>& list, const std::vector<Number>& more)
 {
   list.insert(list.end(), more.begin(), more.end());
 }
@@ -90,9 +95,11 @@ template<class Real>
 class NestedIteration
 {
 public:
-  NestedIteration(
-    const SpaceLevels& space, const SpectrumOptions& options, SpectrumCycle& cycle, double shift)
-    : space_(space), options_(options), cycle_(cycle), shift_(shift)
+  /// @param unit   of the mass
+  /// @param shift  of the problem with that mass
+  NestedIteration(const SpaceLevels& space, const SpectrumOptions& options, SpectrumCycle& cycle,
+    double unit, double shift)
+    : space_(space), options_(options), cycle_(cycle), unit_(unit), shift_(shift)
   {
   }
 
@@ -105,16 +112,22 @@ private:
   BlockReport ImproveLevel(std::size_t level, std::size_t start,
     const SpectralProblem<Real>& problem, const Progress& progress);
   void Prolong(std::size_t level, const Constants& constants, BlockOptions& block);
+  void Compare(std::size_t level, const SpectralProblem<Real>& problem);
+  EigenvalueErrors Errors(const BlockReport& report) const;
   BlockReport FinishList(
     const SpectralProblem<Real>& problem, const BlockOptions& block, const Progress& progress);
 
   const SpaceLevels& space_;
   const SpectrumOptions& options_;
   SpectrumCycle& cycle_;
+  const double unit_;
   const double shift_;
   Index zeros_ = 0;
   Index coarserConstants_ = 0; // number on the level that the pairs come from
   EigenPairs<Real> pairs_;
+  EigenPairs<Real> coarser_; // of the next coarser level
+  /// Per pair, its values on the next coarser levels: one column for each level, at most two.
+  Eigen::MatrixXd valuesBelow_;
   bool isDense_ = false; // the finest level was solved densely
   bool cutsMultiplet_ = false;
 };
@@ -154,19 +167,36 @@ void NestedIteration<Real>::Prolong(
 {
   const SharedMatrix prolongation = space_.Prolongation(level);
   const SparseMatrix& P = prolongation;
-  BlockBuffer<Real> coarse;
-  std::swap(coarse, pairs_.vectors);
-  const Id columns = coarse.Columns();
+  const Id columns = coarser_.vectors.Columns();
   pairs_.vectors.Reserve(P.rows, std::max<Id>(columns, block.blockSize));
   pairs_.vectors.Show(columns);
-  MultiplyBlock<Real>(P, coarse.View(), pairs_.vectors.View(), options_.multigrid.threads);
+  MultiplyBlock<Real>(
+    P, coarser_.vectors.View(), pairs_.vectors.View(), options_.multigrid.threads);
   constants.Remove<Real>(pairs_.vectors.View());
-  pairs_.isRenewed = pairs_.isRenewed && constants.Count() == coarserConstants_;
+  pairs_.values = coarser_.values;
+  pairs_.isRenewed = coarser_.isRenewed && constants.Count() == coarserConstants_;
   block.minimumIterations = std::min(1, block.maximumIterations);
   if (columns < block.wanted)
   {
     block.maximumIterations = std::max(RandomStartIterations, block.maximumIterations);
   }
+}
+
+/// Finds the values that the next coarser levels have for the pairs.
+template<class Real>
+void NestedIteration<Real>::Compare(std::size_t level, const SpectralProblem<Real>& problem)
+{
+  Eigen::MatrixXd below(coarser_.values.size(), 2);
+  below.col(0) = coarser_.values;
+  below.col(1).setConstant(std::numeric_limits<double>::quiet_NaN());
+  if (valuesBelow_.cols() > 0)
+  {
+    below.col(1) = valuesBelow_.col(0);
+  }
+  const SharedMatrix prolongation = space_.Prolongation(level);
+  valuesBelow_ = MatchNumbers<Real>(
+    problem, pairs_.vectors.View(), prolongation, coarser_.vectors.View(), below);
+  coarser_ = {};
 }
 
 /// Completes the list. Values of a dense solve are all there are if they are fewer than the block
@@ -192,8 +222,14 @@ BlockReport NestedIteration<Real>::ImproveLevel(std::size_t level, std::size_t s
 {
   // No level has more pairs than functions; room for more would only cost memory.
   const Index functions = space_.NumberOfFunctions(level);
+  const bool isFirst = level == start;
+  if (!isFirst)
+  {
+    coarser_ = std::move(pairs_);
+    pairs_ = {};
+  }
   BlockOptions block = this->Options(level, std::min(options_.numberOfModes - zeros_, functions));
-  if ((level == start || level == 0) && CanBeDense(space_, level, block.blockSize))
+  if ((isFirst || level == 0) && CanBeDense(space_, level, block.blockSize))
   {
     pairs_ = SolveDense<Real>(problem, block.blockSize);
     isDense_ = level == 0;
@@ -202,7 +238,7 @@ BlockReport NestedIteration<Real>::ImproveLevel(std::size_t level, std::size_t s
       return {};
     }
   }
-  else if (level != start)
+  else if (!isFirst)
   {
     this->Prolong(level, *problem.constants, block);
   }
@@ -210,8 +246,30 @@ BlockReport NestedIteration<Real>::ImproveLevel(std::size_t level, std::size_t s
   {
     block.maximumIterations = std::max(RandomStartIterations, options_.maximumIterations);
   }
-  return level == 0 ? this->FinishList(problem, block, progress)
-                    : ImproveManyEigenPairs<Real>(problem, block, pairs_, progress);
+  const BlockReport report = level == 0
+                               ? this->FinishList(problem, block, progress)
+                               : ImproveManyEigenPairs<Real>(problem, block, pairs_, progress);
+  if (!isFirst)
+  {
+    this->Compare(level, problem);
+  }
+  return report;
+}
+
+/// The errors of the pairs in the report.
+template<class Real>
+EigenvalueErrors NestedIteration<Real>::Errors(const BlockReport& report) const
+{
+  ValuesOnLevels values;
+  values.finest = pairs_.values;
+  values.next.setConstant(pairs_.values.size(), std::numeric_limits<double>::quiet_NaN());
+  values.afterNext = values.next;
+  if (valuesBelow_.cols() > 0)
+  {
+    values.next = valuesBelow_.col(0);
+    values.afterNext = valuesBelow_.col(1);
+  }
+  return EstimateErrors(values, report.residuals);
 }
 
 template<class Real>
@@ -225,24 +283,70 @@ Spectrum NestedIteration<Real>::Run(
   for (std::size_t level = start; level > 0; --level)
   {
     SparseMatrix levelMass = space_.Matrix(level, 1.0, 0.0, threads);
+    DivideBy(unit_, levelMass);
     const Constants constants = ConstantsOnLevel(space_, level, levelMass, threads);
     const SpectralProblem<Real> problem = this->Problem(level, constants, std::move(levelMass));
     this->ImproveLevel(level, start, problem, LevelPart(progress, level));
     coarserConstants_ = constants.Count();
   }
-  const Eigen::VectorXd coarseValues = pairs_.values;
   const SpectralProblem<Real> problem = this->Problem(0, zeroModes, std::move(mass));
   const BlockReport report = this->ImproveLevel(0, start, problem, LevelPart(progress, 0));
-  const std::vector<double> errors = EstimateErrors(coarseValues, pairs_.values, report.residuals);
+  const EigenvalueErrors errors = this->Errors(report);
   Spectrum spectrum =
     CollectSpectrum(zeroModes, zeros_, pairs_, report, options_.tolerance, problem, progress);
-  Append(spectrum.estimatedErrors, errors);
+  Append(spectrum.estimatedErrors, errors.relative);
+  Append(spectrum.isErrorTrusted, errors.isTrusted);
   // The dropped pairs without mass are the last, because their values are the largest.
   spectrum.estimatedErrors.resize(spectrum.eigenvalues.size());
+  spectrum.isErrorTrusted.resize(spectrum.eigenvalues.size());
   spectrum.truncated = static_cast<Index>(spectrum.eigenvalues.size()) < options_.numberOfModes;
   spectrum.cutsMultiplet = cutsMultiplet_;
   spectrum.singlePrecision = cycle_.IsSingle();
   return spectrum;
+}
+
+/// Approximate lowest value above 0 of the problem with the mass over the unit.
+double ShiftFor(
+  const SpaceLevels& space, const SparseMatrix& mass, Index constants, double unit, int threads)
+{
+  const bool isUnusual = unit != 1.0 || IsStretched(space, mass, threads);
+  const double lowest = isUnusual ? LowestOnCoarsest(space, unit, threads) : 0.0;
+  if (lowest > 0.0)
+  {
+    return lowest;
+  }
+  double area = std::accumulate(mass.value.begin(), mass.value.end(), 0.0);
+  if (space.Divided(0))
+  {
+    space.Divided(0)->SumNumbers(&area, 1);
+  }
+  return constants * LowestValue(area, space.Extent());
+}
+
+/// @param mass  of the finest level, over the unit
+Spectrum IterateOnLevels(const SpaceLevels& space, const SpectrumOptions& options,
+  const Constants& zeroModes, SparseMatrix mass, double unit, const Progress& progress)
+{
+  const int threads = options.multigrid.threads;
+  const double shift = ShiftFor(space, mass, zeroModes.Count(), unit, threads);
+  SpectrumCycle cycle(space, shift / unit, options.multigrid, progress.Part(0.0, 0.1));
+  const bool wasSingle = cycle.IsSingle() && options.tolerance >= SmallestSingleTolerance;
+  if (wasSingle)
+  {
+    SpectrumOptions few = options;
+    few.maximumIterations = std::min(options.maximumIterations, SingleIterations);
+    Spectrum spectrum = NestedIteration<float>(space, few, cycle, unit, shift)
+                          .Run(zeroModes, std::move(mass), progress.Part(0.0, 0.99));
+    const bool isLost = !spectrum.eigenvalues.empty() && std::isnan(spectrum.eigenvalues.back());
+    if (!isLost && (spectrum.converged || options.maximumIterations <= SingleIterations))
+    {
+      return spectrum;
+    }
+    mass = space.Matrix(0, 1.0, 0.0, threads);
+    DivideBy(unit, mass);
+  }
+  return NestedIteration<double>(space, options, cycle, unit, shift)
+    .Run(zeroModes, std::move(mass), progress.Part(wasSingle ? 0.99 : 0.0, 1.0));
 }
 
 } // namespace
@@ -253,36 +357,17 @@ Spectrum ComputeOnNestedLevels(
   Validate(options);
   const MemoryReuse reuse; // the blocks of a level reuse the memory of the level before
   const int threads = options.multigrid.threads;
+  const double unit = MassUnit(space, threads);
   SparseMatrix mass = space.Matrix(0, 1.0, 0.0, threads);
+  DivideBy(unit, mass);
   const Constants zeroModes = ConstantsOnLevel(space, 0, mass, threads);
-  if (zeroModes.Count() >= options.numberOfModes)
-  {
-    return OnlyConstants(
-      zeroModes, ProblemOnLevel<double>(space, 0, zeroModes, std::move(mass), threads), options);
-  }
-  double area = std::accumulate(mass.value.begin(), mass.value.end(), 0.0);
-  if (space.Divided(0))
-  {
-    space.Divided(0)->SumNumbers(&area, 1);
-  }
-  const double shift = zeroModes.Count() * LowestValue(area, space.Extent());
-  SpectrumCycle cycle(space, shift, options.multigrid, progress.Part(0.0, 0.1));
-  const bool wasSingle = cycle.IsSingle() && options.tolerance >= SmallestSingleTolerance;
-  if (wasSingle)
-  {
-    SpectrumOptions few = options;
-    few.maximumIterations = std::min(options.maximumIterations, SingleIterations);
-    Spectrum spectrum = NestedIteration<float>(space, few, cycle, shift)
-                          .Run(zeroModes, std::move(mass), progress.Part(0.0, 0.99));
-    const bool isLost = !spectrum.eigenvalues.empty() && std::isnan(spectrum.eigenvalues.back());
-    if (!isLost && (spectrum.converged || options.maximumIterations <= SingleIterations))
-    {
-      return spectrum;
-    }
-    mass = space.Matrix(0, 1.0, 0.0, threads);
-  }
-  return NestedIteration<double>(space, options, cycle, shift)
-    .Run(zeroModes, std::move(mass), progress.Part(wasSingle ? 0.99 : 0.0, 1.0));
+  Spectrum spectrum =
+    zeroModes.Count() >= options.numberOfModes
+      ? OnlyConstants(
+          zeroModes, ProblemOnLevel<double>(space, 0, zeroModes, std::move(mass), threads), options)
+      : IterateOnLevels(space, options, zeroModes, std::move(mass), unit, progress);
+  ConvertUnit(unit, 1.0, spectrum);
+  return spectrum;
 }
 
 void Validate(const SpectrumOptions& options)
@@ -317,7 +402,7 @@ Spectrum ComputeNestedSpectrum(
 Spectrum FinishSpectrum(const SurfaceSpace& space, Spectrum nested, const SpectrumOptions& options,
   const Progress& progress)
 {
-  return space.NestedLevels() ? ImproveSpectrum(space, nested, options, progress)
+  return space.NestedLevels() ? ImproveSpectrum(space, std::move(nested), options, progress)
                               : std::move(nested);
 }
 

@@ -37,10 +37,11 @@ struct Spectrum
   bool truncated = false;          // fewer modes exist than were asked for
   Index numberOfConstants = 0;     // how many exist: one per connected component
   bool cutsMultiplet = false;      // the next eigenvalue belongs to the multiplet of the last
-  /// The relative error of each eigenvalue, as the error of the space. It follows from the next
-  /// coarser level, whose error is four times as large. It is 1 (unknown) if that level has no such
-  /// pair.
+  /// The relative error of each eigenvalue, as the error of the space. It follows from the values
+  /// of the same modes on the two next coarser levels. It is 1 (unknown) if the next one has no
+  /// such mode. [SpectrumAccuracy.h]
   std::vector<double> estimatedErrors;
+  std::vector<char> isErrorTrusted; // per eigenvalue: the levels show that the error falls
 };
 
 /// Computes the smallest eigenpairs by a dense problem on a coarse level, prolongation, and block

@@ -18,6 +18,16 @@ constexpr double FunctionsPerModeAndError = 1.0;
 /// With fewer functions per mode, the error is not yet of second order.
 constexpr double LeastFunctionsPerMode = 16.0;
 
+///@{ The ratio of the differences between three levels.
+constexpr double SecondOrder = 4.0;   // the best that errors are taken to fall
+constexpr double LeastRatio = 1.5;    // the worst
+constexpr double SmallestRatio = 1.7; // range of a trusted one
+constexpr double LargestRatio = 16.0;
+///@}
+
+/// Relative error that the iteration leaves on coarser levels. Smaller differences say nothing.
+constexpr double IterationError = 1e-4;
+
 void CheckAccuracy(double accuracy)
 {
   if (!(accuracy > 0.0 && accuracy < 1.0))
@@ -39,16 +49,23 @@ double LowestValue(double area, double side)
   return std::min(4.0 * pi / area, pi * pi / (side * side));
 }
 
-std::vector<double> EstimateErrors(
-  const Eigen::VectorXd& coarse, const Eigen::VectorXd& fine, const std::vector<double>& residuals)
+EigenvalueErrors EstimateErrors(const ValuesOnLevels& values, const std::vector<double>& residuals)
 {
-  std::vector<double> errors;
+  EigenvalueErrors errors;
   for (std::size_t j = 0; j < residuals.size(); ++j)
   {
-    const Id pair = static_cast<Id>(j);
-    const double difference =
-      pair < coarse.size() ? std::max(0.0, coarse[pair] - fine[pair]) / (3.0 * fine[pair]) : 1.0;
-    errors.push_back(std::min(1.0, difference + residuals[j] * residuals[j]));
+    const Id mode = static_cast<Id>(j);
+    const double finest = values.finest[mode];
+    const double step = std::abs(values.next[mode] - finest) / finest;
+    const double before = std::abs(values.afterNext[mode] - values.next[mode]) / finest;
+    const double ratio = step > 0.0 ? before / step : LargestRatio; // NaN: unknown
+    const double used =
+      std::isnan(ratio) ? SecondOrder : std::clamp(ratio, LeastRatio, SecondOrder);
+    const double error = std::isnan(step) ? 1.0 : step / (used - 1.0);
+    const bool isRounding = step < IterationError && before < 10.0 * IterationError;
+    errors.relative.push_back(std::min(1.0, error + residuals[j] * residuals[j]));
+    errors.isTrusted.push_back(
+      isRounding || (ratio >= SmallestRatio && ratio <= LargestRatio && error < 1.0));
   }
   return errors;
 }

@@ -1,4 +1,4 @@
-// The accuracy of a list of eigenvalues. Two levels are compared to find the error of the space,
+// The accuracy of a list of eigenvalues. Three levels are compared to find the error of the space,
 // and the depth for a wanted accuracy. Another test finds whether the list ends inside a multiplet.
 #ifndef GridFEM_SpectrumAccuracy_h
 #define GridFEM_SpectrumAccuracy_h
@@ -20,14 +20,30 @@ bool IsMultiplet(double a, double b, Id count);
 /// values would cost their digits.
 double LowestValue(double area, double side);
 
-/// Relative errors of eigenvalues as approximations of the surface's. The error is O(h²), so the
-/// next coarser level has four times the error, and the error of `fine` is a third of the
-/// difference. The squared residuals, the error of the iteration, are added. Errors are at most 1,
-/// which stands for unknown: the coarser level does not have the pair.
-/// @param coarse     values of the next coarser level, ascending; may be fewer
-/// @param residuals  one per wanted pair, at most as many as `fine`
-std::vector<double> EstimateErrors(
-  const Eigen::VectorXd& coarse, const Eigen::VectorXd& fine, const std::vector<double>& residuals);
+struct EigenvalueErrors
+{
+  std::vector<double> relative;
+  std::vector<char> isTrusted; // whether three levels show that the error falls as it should
+};
+
+/// The values of the same modes on three levels. NaN where a level does not have the mode.
+struct ValuesOnLevels
+{
+  Eigen::VectorXd finest;
+  Eigen::VectorXd next;      // of half the resolution
+  Eigen::VectorXd afterNext; // of a quarter
+};
+
+/// Relative errors of the finest eigenvalues as approximations of the surface's. On smooth surfaces
+/// the error falls by four from level to level, at thin edges by two. The ratio of the two
+/// differences tells which. It is not trusted to be better than four. The squared residuals, the
+/// error of the iteration, are added. Errors are at most 1, which stands for unknown: the next
+/// level does not have the mode.
+///
+/// An error is trusted if the ratio shows that the differences fall. An unresolved surface has
+/// differences that stay or grow.
+/// @param residuals  one per wanted mode, at most as many as there are values
+EigenvalueErrors EstimateErrors(const ValuesOnLevels& values, const std::vector<double>& residuals);
 
 /// The depth at which all these errors, made at `depth`, should be at most `accuracy`. Each level
 /// divides them by four. At least `depth`, at most MaximumDepth. Throws InvalidInput for an

@@ -5,6 +5,8 @@
 #include "Multigrid/BlockPreconditioner.h"
 #include "Problems/CollectSpectrum.h"
 #include "Problems/LevelProblem.h"
+#include "Problems/MassUnit.h"
+#include "Problems/ModeMatch.h"
 #include "Problems/SpectrumAccuracy.h"
 
 #include <algorithm>
@@ -123,22 +125,34 @@ BlockReport FindPairs(const SpectralProblem<double>& problem, const SpectrumOpti
   return report;
 }
 
-/// Relative errors as eigenvalues of the surface; 1 (unknown) if the start has no such value.
-std::vector<double> EstimateErrorsBeyond(const std::vector<double>& values, const Spectrum& start)
+/// For each pair, the value, the error and the trust (0 or 1) of the same mode of the start. NaN if
+/// the start has no such mode.
+Eigen::MatrixXd MatchStart(const SpectralProblem<double>& problem, const EigenPairs<double>& pairs,
+  const SparseMatrix& prolongation, const Spectrum& start)
 {
-  std::vector<double> errors(values.size(), 0.0);
-  for (std::size_t k = 0; k < values.size(); ++k)
+  Eigen::MatrixXd numbers(start.vectors.cols(), 3);
+  for (Id k = 0; k < numbers.rows(); ++k)
   {
-    const double below = k < start.eigenvalues.size() ? start.eigenvalues[k] : 0.0;
-    if (values[k] > 0.0)
-    {
-      errors[k] =
-        below > 0.0
-          ? std::min(1.0, start.estimatedErrors[k] + std::max(0.0, values[k] - below) / below)
-          : 1.0;
-    }
+    numbers.row(k) << start.eigenvalues[k], start.estimatedErrors[k],
+      start.isErrorTrusted[k] ? 1.0 : 0.0;
   }
-  return errors;
+  return MatchNumbers<double>(problem, pairs.vectors.View(), prolongation, start.vectors, numbers);
+}
+
+/// Adds relative errors as eigenvalues of the surface; 1 (unknown) if the start has no such mode.
+/// @param matched  as MatchStart returns them, for the values behind the constants
+void AddErrorsBeyond(const Eigen::MatrixXd& matched, Spectrum& spectrum)
+{
+  const std::size_t zeros = spectrum.estimatedErrors.size();
+  for (std::size_t k = zeros; k < spectrum.eigenvalues.size(); ++k)
+  {
+    const auto mode = static_cast<Id>(k - zeros);
+    const double below = matched(mode, 0);
+    const double excess = std::max(0.0, spectrum.eigenvalues[k] - below) / below;
+    const bool isKnown = below > 0.0; // not NaN
+    spectrum.estimatedErrors.push_back(isKnown ? std::min(1.0, matched(mode, 1) + excess) : 1.0);
+    spectrum.isErrorTrusted.push_back(isKnown && matched(mode, 2) > 0.9);
+  }
 }
 
 } // namespace
@@ -150,11 +164,14 @@ SpectrumOptions StartOptions(SpectrumOptions options)
   return options;
 }
 
-Spectrum ImproveSpectrum(const SurfaceSpace& space, const Spectrum& start,
-  const SpectrumOptions& options, const Progress& progress)
+Spectrum ImproveSpectrum(const SurfaceSpace& space, Spectrum start, const SpectrumOptions& options,
+  const Progress& progress)
 {
   const int threads = options.multigrid.threads;
+  const double unit = MassUnit(*space.NestedLevels(), threads);
+  ConvertUnit(1.0, unit, start);
   SparseMatrix mass = space.Matrix(0, 1.0, 0.0, threads);
+  DivideBy(unit, mass);
   const Constants constants = ConstantsOnLevel(space, 0, mass, threads);
   const Index zeros = constants.Count();
   const Index all = space.NumberOfFunctions(0) - zeros;
@@ -163,25 +180,29 @@ Spectrum ImproveSpectrum(const SurfaceSpace& space, const Spectrum& start,
     ProblemOnLevel<double>(space, 0, constants, std::move(mass), threads);
   EigenPairs<double> pairs;
   BlockReport report;
+  Eigen::MatrixXd matched;
   if (options.numberOfModes > zeros && all > 0)
   {
     problem.shift = LowestValue(start);
-    const Multigrid multigrid = BuildMultigrid(space, problem.shift, 1.0, options.multigrid);
+    const Multigrid multigrid = BuildMultigrid(space, problem.shift / unit, 1.0, options.multigrid);
     problem.preconditioner = BlockCycleWithFallback(multigrid);
     progress.Check(0.1);
     pairs.vectors.Reserve(problem.mass.rows, start.vectors.cols());
     pairs.vectors.Show(start.vectors.cols());
-    MultiplyBlock<double>(space.Prolongation(0), start.vectors, pairs.vectors.View(), threads);
+    const SharedMatrix prolongation = space.Prolongation(0);
+    MultiplyBlock<double>(prolongation, start.vectors, pairs.vectors.View(), threads);
     SumProlonged<double>(space.Divided(0), pairs.vectors.View());
     RemoveConstants(constants, space.Divided(0), pairs.vectors.View());
     report = FindPairs(
       problem, options, ListLength(start, options) - zeros, all, pairs, progress.Part(0.1, 1.0));
+    matched = MatchStart(problem, pairs, prolongation, start);
   }
   Spectrum spectrum = CollectSpectrum(constants, listed, pairs, report, options.tolerance, problem);
-  spectrum.estimatedErrors = EstimateErrorsBeyond(spectrum.eigenvalues, start);
+  AddErrorsBeyond(matched, spectrum);
   const auto others = static_cast<Index>(report.residuals.size());
   spectrum.truncated = static_cast<Index>(spectrum.eigenvalues.size()) < options.numberOfModes;
   spectrum.cutsMultiplet = listed < zeros || EndsInside(pairs.values, zeros, others);
+  ConvertUnit(unit, 1.0, spectrum);
   return spectrum;
 }
 

@@ -1,5 +1,6 @@
 #include "Solvers/DistanceSolver.h"
 
+#include "Algebra/DividedRows.h"
 #include "Base/Errors.h"
 #include "Problems/NearestSource.h"
 #include "Problems/SolveWarnings.h"
@@ -7,6 +8,9 @@
 #include "Solvers/LocalSurface.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
 
 namespace gridfem
 {
@@ -16,17 +20,15 @@ namespace
 /// Refuses sources that are points, because points have no sides.
 void RefusePoints(const DistanceSolver::Input& input, bool nearestSource)
 {
-  const std::string given = !input.ids.empty()      ? "the Source Point Ids"
-                            : input.mask            ? "the Source Array"
+  const std::string given = !input.ids.empty()      ? "Source Point Ids"
+                            : input.mask            ? "Source Array"
                             : !input.points.empty() ? input.points.front().property
                             : nearestSource         ? "Nearest Source"
                                                     : "";
   if (!given.empty())
   {
-    throw InvalidInput(
-      "Signed distances start from curves that divide the surface into two sides, not from "
-      "points. Clear " +
-      given + ", or turn Signed off.");
+    throw InvalidInput("Signed distances start from curves, because curves have two sides. " +
+                       given + " is about points. Clear it, or turn Signed off.");
   }
 }
 
@@ -39,32 +41,28 @@ void Require(const DistanceSolver::Input& input, const DistanceSolver::Options& 
   }
   if (input.mask && (!input.mask.IsOnPoints() || input.mask.components != 1))
   {
-    throw InvalidInput("Source Array '" + input.mask.name +
-                       "' must be a point array with one component, 0 where there is no source.");
+    throw InvalidInput(
+      "Source Array '" + input.mask.name + "' has " + std::to_string(input.mask.components) +
+      " components" + (input.mask.IsOnPoints() ? "" : " on cells") +
+      ". Choose a point array with one component, which is 0 where there is no source.");
   }
   if (options.isSigned && input.labels && input.labels.components != 1)
   {
-    throw InvalidInput("Label Array '" + input.labels.name + "' must have one component.");
+    throw InvalidInput("Label Array '" + input.labels.name + "' has " +
+                       std::to_string(input.labels.components) +
+                       " components. Choose an array with one component, an integer label.");
   }
 }
 
-void RequireUsed(const std::vector<Id>& ids, const TriangleMesh& mesh)
+bool HasNoSources(const DistanceSolver::Input& input)
 {
-  const std::vector<char> used = ids.empty() ? std::vector<char>() : UsedPoints(mesh);
-  for (const Id id : ids)
-  {
-    if (id < 0 || id >= static_cast<Id>(used.size()) || !used[id])
-    {
-      throw InvalidInput(
-        "Source Point Ids: no polygon of the mesh has a point " + std::to_string(id) + ".");
-    }
-  }
+  return input.ids.empty() && !input.mask && input.points.empty();
 }
 
 /// Returns the sources of this process, ascending, each once.
 std::vector<Id> CollectSources(const TriangleMesh& mesh, const DistanceSolver::Input& input)
 {
-  RequireUsed(input.ids, mesh);
+  RequireUsed("Source Point Ids", input.ids, mesh);
   std::vector<Id> sources = input.ids;
   if (input.mask)
   {
@@ -91,11 +89,11 @@ std::vector<Id> FindSources(const Surface& surface, const DistanceSolver::Input&
 {
   const TriangleMesh& mesh = surface.Mesh();
   std::vector<Id> sources;
-  if (input.ids.empty() && !input.mask && input.points.empty())
+  if (HasNoSources(input))
   {
     if (surface.IsFirst(!mesh.triangles.empty()))
     {
-      sources = { mesh.triangles.front()[0] };
+      sources = { FirstUsedPoint(mesh) };
     }
     return sources;
   }
@@ -105,15 +103,80 @@ std::vector<Id> FindSources(const Surface& surface, const DistanceSolver::Input&
     throw InvalidInput(
       (input.mask ? "Source Array '" + input.mask.name + "' is 0 at all points of polygons"
                   : input.points.front().none) +
-      ", so no distance starts.");
+      ", so that no distance starts. Choose at least one point of the surface.");
   }
   return sources;
+}
+
+/// Throws InvalidInput if the label is nowhere or everywhere, because it has no border then.
+void RequireLabel(const MultiVector& labels, const std::string& name, int inside)
+{
+  const auto count = (labels.array() == static_cast<double>(inside)).count();
+  if (labels.size() > 0 && (count == 0 || count == labels.size()))
+  {
+    std::ostringstream message;
+    message << "Label Array '" << name
+            << "': " << (count == 0 ? "no point or cell has" : "all points or cells have")
+            << " the Inside Label " << inside << ". ";
+    if (count == 0)
+    {
+      message << "The labels are from " << labels.minCoeff() << " to " << labels.maxCoeff()
+              << "; choose one of them.";
+    }
+    else
+    {
+      message << "A curve needs a second label around it.";
+    }
+    throw InvalidInput(message.str());
+  }
+}
+
+/// The share of the points of all processes that functions reach and that have no distance.
+double ShareWithout(const Surface& surface, const MultiVector& distance)
+{
+  const std::vector<char> isReached = surface.PointsWithFunctions();
+  double counts[2] = { 0.0, 0.0 };
+  for (std::size_t point = 0; point < isReached.size(); ++point)
+  {
+    if (isReached[point])
+    {
+      counts[0] += std::isnan(distance(static_cast<Id>(point), 0)) ? 1.0 : 0.0;
+      counts[1] += 1.0;
+    }
+  }
+  if (const DividedRows* sums = surface.SumsOverProcesses())
+  {
+    sums->SumNumbers(counts, 2);
+  }
+  return counts[1] > 0.0 ? counts[0] / counts[1] : 0.0;
+}
+
+/// The warning if most points have no distance; empty: none.
+std::string WarningOfShare(double without, const DistanceSolver::Input& input, bool isSigned)
+{
+  if (without <= 0.5)
+  {
+    return {};
+  }
+  const bool isDefault = !isSigned && HasNoSources(input);
+  std::ostringstream text;
+  text << (isDefault ? "No source is chosen, so that distances start at the first point of the "
+                       "surface. "
+                     : "")
+       << std::setprecision(3) << 100.0 * without
+       << " % of the points have no distance, because no " << (isSigned ? "curve" : "source")
+       << " is on their connected components. "
+       << (isSigned ? "Draw a curve on each of them"
+                    : "Choose points there by Source Array, Selection or Sources")
+       << ", or leave fragments out with the filter Connectivity.";
+  return text.str();
 }
 
 SurfaceCurve BorderOf(
   const Surface& surface, const GivenField& labels, const DistanceSolver::Options& options)
 {
   const Field field = labels.read(NaNs::Refused);
+  RequireLabel(field.values, labels.name, options.insideLabel);
   try
   {
     return BorderOfLabel(
@@ -153,8 +216,9 @@ void DistanceSolver::UpdateCurve(const Surface& surface, const Input& input, con
       if (curve_.segments.empty())
       {
         throw InvalidInput(
-          "A signed distance starts from a curve. Choose a Label Array, or connect "
-          "Sources to lines on the surface, such as a Slice or a Contour.");
+          "Signed distances start from a curve, and none is given. Choose a Label "
+          "Array, or connect lines on the surface as Sources, such as a Slice or a "
+          "Contour of it.");
       }
     });
 }
@@ -179,7 +243,8 @@ void DistanceSolver::UpdateDistance(const Surface& surface, const std::vector<Id
       result_.report = field.report;
       result_.accuracy = field.accuracy;
       result_.heatSweeps = field.heatSweeps;
-      result_.warnings = WarningsOf(field, solve.tolerance);
+      solveWarnings_ = WarningsOf(field, solve.tolerance);
+      shareWithout_ = ShareWithout(surface, result_.atPoints);
     });
 }
 
@@ -223,6 +288,9 @@ const DistanceSolver::Result& DistanceSolver::Update(
   UpdateDistanceMethod(surface, ofMethod, method_, job.progress.Part(0.3, 0.4));
   this->UpdateDistance(surface, sources, options, job.progress.Part(0.4, 0.98));
   this->UpdateNearest(surface, sources, options, job.progress.Part(0.98, 1.0));
+  result_.warnings = solveWarnings_;
+  result_.warnings.push_back(WarningOfShare(shareWithout_, input, options.isSigned));
+  result_.warnings = NotEmpty(std::move(result_.warnings));
   job.Check(1.0);
   return result_;
 }

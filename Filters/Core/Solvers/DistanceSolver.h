@@ -30,7 +30,7 @@ public:
     {
       constexpr double Largest = std::numeric_limits<int>::max();
       visit(self.equation);
-      visit("Smoothing", self.smoothing, Clamped(0.5, 1000.0));
+      visit("Smoothing", self.smoothing, Within(DistanceOptions::LeastSmoothing, 1000.0));
       visit("NearestSource", self.nearestSource, AnyValue());
       visit("Signed", self.isSigned, AnyValue());
       visit("InsideLabel", self.insideLabel, Clamped(-Largest, Largest));
@@ -51,7 +51,7 @@ public:
     std::function<SurfaceCurve()> divide; // may find no segments; throws InvalidInput
   };
 
-  /// All given points together are the sources. Without any, the first point of the first triangle
+  /// All given points together are the sources. Without any, the first point that a triangle uses
   /// is the source.
   struct Input
   {
@@ -95,6 +95,8 @@ private:
 
   std::unique_ptr<DistanceMethod> method_;
   SurfaceCurve curve_;
+  std::vector<std::string> solveWarnings_;
+  double shareWithout_ = 0.0; // of the points: those without a distance
   Result result_;
 };
 

@@ -1,6 +1,6 @@
 #include "Solvers/FarthestPointsSolver.h"
 
-#include "Base/Errors.h"
+#include "Problems/NearestSource.h"
 #include "Problems/SolveWarnings.h"
 #include "Solvers/DistanceHierarchy.h"
 #include "Solvers/DistanceSolver.h"
@@ -22,14 +22,9 @@ Id FirstPoint(const TriangleMesh& mesh, int wanted)
 {
   if (wanted < 0)
   {
-    return mesh.triangles.front()[0];
+    return FirstUsedPoint(mesh);
   }
-  const std::vector<char> used = UsedPoints(mesh);
-  if (wanted >= static_cast<Id>(used.size()) || !used[wanted])
-  {
-    throw InvalidInput(
-      "First Point Id: no polygon of the mesh has a point " + std::to_string(wanted) + ".");
-  }
+  RequireUsed("First Point Id", { wanted }, mesh);
   return wanted;
 }
 

@@ -31,6 +31,11 @@ constexpr Range AtLeast(double least)
   return { least, std::numeric_limits<double>::infinity(), false };
 }
 
+constexpr Range Within(double least, double most)
+{
+  return { least, most, false };
+}
+
 /// Any finite number.
 constexpr Range Finite()
 {
@@ -113,6 +118,7 @@ struct RequireInRange
       if (!range.isClamped)
       {
         RequireAtLeast(name, value, range.least);
+        RequireAtMost(name, value, range.most);
       }
     }
   }

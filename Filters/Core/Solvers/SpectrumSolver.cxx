@@ -72,6 +72,11 @@ std::vector<double> InWorldUnits(std::vector<double> eigenvalues, double unitLen
   return eigenvalues;
 }
 
+bool AreAllTrusted(const std::vector<char>& isTrusted)
+{
+  return std::all_of(isTrusted.begin(), isTrusted.end(), [](char trusted) { return trusted != 0; });
+}
+
 } // namespace
 
 EquationOptions EquationOfModes()
@@ -133,6 +138,7 @@ int SpectrumSolver::FirstDepth(Surface& surface, const Options& options)
   if (key != depthKey_)
   {
     depthKey_ = key;
+    wasAccurate_ = false;
     const std::shared_ptr<const TriangleMesh> mesh = surface.ReadMesh();
     RequireSurface(*mesh);
     chosenDepth_ = FirstDepthForModes(
@@ -146,8 +152,8 @@ int SpectrumSolver::FirstDepth(Surface& surface, const Options& options)
 int SpectrumSolver::NextDepth(const Surface& surface, double accuracy) const
 {
   const SurfaceOptions& used = surface.UsedOptions();
-  return accuracy > 0.0 ? NextDepthForModes(surface.Mesh(), gridErrors_, used.space.depth, accuracy,
-                            used.choice.kind)
+  return accuracy > 0.0 ? NextDepthForModes(surface.Mesh(), gridErrors_, isConfirmed_,
+                            used.space.depth, accuracy, used.choice.kind)
                         : used.space.depth;
 }
 
@@ -171,11 +177,7 @@ void SpectrumSolver::UpdateModes(
       const SpectrumOptions ofSpectrum = OptionsOfSpectrum(surface, input, options);
       const double split = isNested ? 1.0 : 0.3;
       Spectrum nested = ComputeNestedSpectrum(space, ofSpectrum, progress.Part(0.0, split));
-      gridErrors_ = nested.estimatedErrors;
-      if (!isNested) // guards have been computed, too
-      {
-        gridErrors_.resize(std::min<std::size_t>(gridErrors_.size(), options.numberOfModes));
-      }
+      this->TakeGridErrors(nested, options);
       if (isNested ||
           this->NextDepth(surface, ofModes.accuracy) == surface.UsedOptions().space.depth)
       {
@@ -186,6 +188,19 @@ void SpectrumSolver::UpdateModes(
     });
 }
 
+/// @param nested  may have more modes than wanted: guards
+void SpectrumSolver::TakeGridErrors(const Spectrum& nested, const Options& options)
+{
+  gridErrors_ = nested.estimatedErrors;
+  std::vector<char> isTrusted = nested.isErrorTrusted;
+  const auto wanted = std::min<std::size_t>(gridErrors_.size(), options.numberOfModes);
+  gridErrors_.resize(wanted);
+  isTrusted.resize(wanted);
+  isConfirmed_ = wasAccurate_ || AreAllTrusted(isTrusted);
+  wasAccurate_ = std::all_of(gridErrors_.begin(), gridErrors_.end(),
+    [&](double error) { return error <= options.accuracy; });
+}
+
 /// The warnings, and whether the eigenvalues are as accurate as wanted.
 void SpectrumSolver::Judge(const Surface& surface, const Options& options)
 {
@@ -194,7 +209,9 @@ void SpectrumSolver::Judge(const Surface& surface, const Options& options)
     WarningsOf(result_.spectrum, options.numberOfModes, PlaceOf(kind, result_.depth));
   const std::vector<double>& errors = result_.spectrum.estimatedErrors;
   const double error = errors.empty() ? 0.0 : *std::max_element(errors.begin(), errors.end());
-  result_.isAccurate = options.accuracy == 0.0 || error <= options.accuracy;
+  result_.isErrorTrusted = AreAllTrusted(result_.spectrum.isErrorTrusted);
+  result_.isAccurate = options.accuracy == 0.0 ||
+                       (error <= options.accuracy && (isConfirmed_ || result_.isErrorTrusted));
   if (!result_.isAccurate)
   {
     result_.warnings.push_back(WarningOfAccuracy(options.accuracy, error, kind, result_.depth));

@@ -55,6 +55,7 @@ public:
     MultiVector atPoints;            // of Solve alone: a column per mode (ModesAtPoints)
     int depth = 0;                   // of the grid
     bool isAccurate = true;          // as accurate as wanted
+    bool isErrorTrusted = true;      // all estimated errors
     std::vector<std::string> warnings;
 
     int NumberOfModes() const { return static_cast<int>(eigenvalues.size()); }
@@ -64,7 +65,8 @@ public:
   static SurfaceOptions SurfaceDefaults();
 
   /// Computes the modes. With a wanted accuracy it raises the depth until the estimated errors on
-  /// the grid are small enough, or the next depth does not fit into memory. Collective. Throws
+  /// the grid are small enough, or the next depth does not fit into memory. Errors that are not
+  /// trusted have to be small enough at two depths, one after the other. Collective. Throws
   /// InvalidInput and Aborted.
   const Result& Update(
     Surface& surface, const Input& input, const Options& options, const Job& job);
@@ -86,9 +88,12 @@ private:
   int NextDepth(const Surface& surface, double accuracy) const;
   void UpdateModes(
     const Surface& surface, const Input& input, const Options& options, const Progress& progress);
+  void TakeGridErrors(const Spectrum& nested, const Options& options);
   void Judge(const Surface& surface, const Options& options);
 
   std::vector<double> gridErrors_; // estimated, of the wanted modes on the grid
+  bool isConfirmed_ = false;       // whether these errors are certain enough to end a search
+  bool wasAccurate_ = false;       // whether they were small enough at the depth before
   StageKey depthKey_;              // of the mesh and the wishes that a depth was chosen for
   int chosenDepth_ = 0;
   Result result_;

@@ -2,12 +2,11 @@
 
 #include "NearestPoints.h"
 
-#include "Base/Errors.h"
+#include "Problems/NearestSource.h"
 
 #include "vtkDataSet.h"
 
 #include <algorithm>
-#include <string>
 
 namespace gridfem
 {
@@ -15,15 +14,7 @@ namespace gridfem
 std::vector<Id> SourcePoints(
   const TriangleMesh& mesh, const std::vector<Id>& ids, vtkDataSet* places)
 {
-  const std::vector<char> used = UsedPoints(mesh);
-  for (const Id id : ids)
-  {
-    if (id < 0 || id >= static_cast<Id>(used.size()) || !used[id])
-    {
-      throw InvalidInput(
-        "Source Point Ids: no polygon of the mesh has a point " + std::to_string(id) + ".");
-    }
-  }
+  RequireUsed("Source Point Ids", ids, mesh);
   std::vector<Id> sources = ids;
   if (places && places->GetNumberOfPoints() > 0)
   {

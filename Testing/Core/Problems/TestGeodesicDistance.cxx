@@ -5,6 +5,7 @@
 #include "Base/Errors.h"
 #include "Dense.h"
 #include "EitherSpace.h"
+#include "Problems/CurveDistance.h"
 #include "Problems/DistantHeat.h"
 #include "Spaces.h"
 
@@ -307,6 +308,91 @@ TEST(GeodesicDistance, FromARegionIsThatFromItsRim)
   {
     // sqrt(t) is 0.033 on the grid and 0.016 on the hats. Fronts end near their corners.
     EXPECT_LT(LargestError(Distances(mesh, sources, isOnHats, 6), exact), 0.033) << isOnHats;
+  }
+}
+
+namespace
+{
+
+/// Points on the border of a square. Without its corners no triangle is a source as a whole.
+std::vector<Id> BorderOfSquare(const TriangleMesh& mesh)
+{
+  std::vector<Id> border;
+  for (Id i = 0; i < static_cast<Id>(mesh.points.size()); ++i)
+  {
+    const Vec3& p = mesh.points[i];
+    const double x = std::min(p[0], 1.0 - p[0]);
+    const double y = std::min(p[1], 1.0 - p[1]);
+    if ((x < 1e-9) != (y < 1e-9))
+    {
+      border.push_back(i);
+    }
+  }
+  return border;
+}
+
+/// Every nth point.
+std::vector<Id> EveryPoint(const TriangleMesh& mesh, Id n)
+{
+  std::vector<Id> points;
+  for (Id i = 0; i < static_cast<Id>(mesh.points.size()); i += n)
+  {
+    points.push_back(i);
+  }
+  return points;
+}
+
+} // namespace
+
+/// No path along the surface is shorter than the straight line to the nearest source. Many sources
+/// along a curve, at corners and beside each other make the heat method go wrong there.
+TEST(GeodesicDistance, IsNeverBelowTheStraightLineNorZeroBesideASource)
+{
+  const TriangleMesh square = FlatRectangle(60, 60);
+  const TriangleMesh sphere = GeodesicSphere(24);
+  const TriangleMesh torus = Torus(60, 30, 1.0, 0.4);
+  const std::pair<const TriangleMesh&, std::vector<Id>> cases[] = { { square,
+                                                                      BorderOfSquare(square) },
+    { sphere, EveryPoint(sphere, 7) }, { sphere, { 0 } }, { torus, EveryPoint(torus, 50) } };
+  for (const auto& [mesh, sources] : cases)
+  {
+    const std::vector<double> straight = DistancesInSpace(mesh, sources);
+    for (const bool isOnHats : { false, true })
+    {
+      const DistanceField field = Distances(mesh, sources, isOnHats, 5);
+      for (std::size_t i = 0; i < straight.size(); ++i)
+      {
+        ASSERT_GE(field.atPoints[i], (1.0 - 1e-14) * straight[i]) << i << " " << isOnHats;
+        ASSERT_EQ(field.atPoints[i] == 0.0, straight[i] == 0.0) << i << " " << isOnHats;
+      }
+    }
+  }
+}
+
+/// The bound of a signed distance is on its absolute value.
+TEST(GeodesicDistance, WithASignIsNeverNearerThanTheStraightLine)
+{
+  const TriangleMesh mesh = FlatRectangle(60, 60);
+  Field isInside;
+  isInside.values = MultiVector::Zero(static_cast<Id>(mesh.points.size()), 1);
+  for (Id i = 0; i < isInside.values.rows(); ++i)
+  {
+    const Vec3 p = mesh.points[i] - Vec3(0.5, 0.5, 0.0);
+    const double angle = std::atan2(p[1], p[0]);
+    isInside.values(i, 0) = p.norm() < 0.3 + 0.1 * std::sin(7.0 * angle) ? 1.0 : 0.0;
+  }
+  const SurfaceCurve curve = BorderOfRegion(mesh, isInside, false);
+  const std::vector<double> straight = DistancesThroughSpace(mesh, PiecesOf(curve, mesh), 1);
+  for (const bool isOnHats : { false, true })
+  {
+    const GeodesicDistance distance(
+      Build(mesh, isOnHats, 4), std::make_shared<const TriangleMesh>(mesh), {});
+    const std::vector<double> found = distance.FromCurve(curve, Solve()).atPoints;
+    for (std::size_t i = 0; i < found.size(); ++i)
+    {
+      ASSERT_GE(std::abs(found[i]), (1.0 - 1e-14) * straight[i]) << i;
+      ASSERT_EQ(found[i]<0.0, isInside.values(static_cast<Id>(i), 0)> 0.0) << i;
+    }
   }
 }
 

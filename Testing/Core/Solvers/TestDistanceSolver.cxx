@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -138,7 +139,7 @@ TEST_F(Stepwise, SignedDistanceIsNegativeInside)
 TEST_F(Stepwise, SourcesOfAllKinds)
 {
   this->Update();
-  EXPECT_EQ(result->atPoints(Sphere->triangles.front()[0], 0), 0.0);
+  EXPECT_EQ(result->atPoints(0, 0), 0.0);
   input.ids = { 0 };
   input.mask = Cap("cap", 0.99);
   input.points = { { "a Selection", "The Selection takes no point", [] {
@@ -168,6 +169,86 @@ TEST_F(Stepwise, RefusesWhatIsNoSource)
   input.mask = {}; // neither labels nor a curve
   EXPECT_THROW(this->Update(), InvalidInput);
   input.labels = Cap("cap", 0.0);
-  options.smoothing = std::nan("");
-  EXPECT_THROW(this->Update(), InvalidInput);
+  for (const double smoothing : { std::nan(""), 0.5, 0.89, 1001.0 })
+  {
+    options.smoothing = smoothing;
+    EXPECT_THROW(this->Update(), InvalidInput) << smoothing;
+  }
+}
+
+namespace
+{
+
+/// The only warning of distances at a low depth; empty if there is none.
+std::string WarningOf(const TriangleMesh& mesh, const DistanceSolver::Input& input,
+  const DistanceSolver::Options& options = {})
+{
+  const DistanceSolver::Result result =
+    DistanceSolver::Solve(std::make_shared<const TriangleMesh>(mesh), input, options, AtDepth(4));
+  EXPECT_LE(result.warnings.size(), 1u);
+  return result.warnings.empty() ? std::string() : result.warnings.front();
+}
+
+TriangleMesh Crumb()
+{
+  TriangleMesh crumb;
+  crumb.points = { { 3, 0, 0 }, { 3.01, 0, 0 }, { 3, 0.01, 0 } };
+  crumb.triangles = { { 0, 1, 2 } };
+  return crumb;
+}
+
+} // namespace
+
+/// The first point is the one with the least id, whatever the order of the triangles.
+TEST(DistanceSolver, StartsAtTheFirstPointWhereNoSourceIsChosen)
+{
+  TriangleMesh mesh = *Sphere;
+  std::reverse(mesh.triangles.begin(), mesh.triangles.end());
+  const DistanceSolver::Result result =
+    DistanceSolver::Solve(std::make_shared<const TriangleMesh>(mesh), {}, {}, AtDepth(4));
+  EXPECT_EQ((result.atPoints.array() == 0.0).count(), 1);
+  EXPECT_EQ(result.atPoints(0, 0), 0.0);
+  EXPECT_TRUE(result.warnings.empty());
+}
+
+TEST(DistanceSolver, TellsWhenMostPointsHaveNoDistance)
+{
+  const TriangleMesh crumbFirst = Join(Crumb(), *Sphere);
+  EXPECT_NE(WarningOf(crumbFirst, {}).find("No source is chosen"), std::string::npos);
+  DistanceSolver::Input chosen;
+  chosen.ids = { 1 }; // of the crumb
+  const std::string warning = WarningOf(crumbFirst, chosen);
+  EXPECT_NE(warning.find("% of the points have no distance"), std::string::npos);
+  EXPECT_EQ(warning.find("No source is chosen"), std::string::npos);
+  chosen.ids = { 7 }; // of the sphere: three points have no distance
+  EXPECT_EQ(WarningOf(crumbFirst, chosen), "");
+  EXPECT_EQ(WarningOf(Join(*Sphere, Crumb()), {}), "");
+  chosen.ids = { 1, 7 };
+  EXPECT_EQ(WarningOf(crumbFirst, chosen), "");
+}
+
+TEST(DistanceSolver, NamesALabelThatIsNowhereOrEverywhere)
+{
+  DistanceSolver::Options options;
+  options.isSigned = true;
+  DistanceSolver::Input input;
+  input.labels = Cap("cap", 0.2);
+  const auto message = [&](int label) -> std::string
+  {
+    options.insideLabel = label;
+    try
+    {
+      DistanceSolver::Solve(Sphere, input, options, AtDepth(4));
+    }
+    catch (const InvalidInput& error)
+    {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_NE(message(77).find("no point or cell has the Inside Label 77"), std::string::npos);
+  EXPECT_NE(message(77).find("from 0 to 1"), std::string::npos);
+  EXPECT_EQ(message(1), "");
+  input.labels = Cap("cap", -2.0);
+  EXPECT_NE(message(1).find("all points or cells have the Inside Label 1"), std::string::npos);
 }

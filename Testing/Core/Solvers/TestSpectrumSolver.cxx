@@ -1,5 +1,6 @@
 // The solver of a spectrum: the eigenvalues of a sphere, the stages that a change repeats, and the
 // depth for a wanted accuracy.
+#include "Largest.h"
 #include "Meshes.h"
 
 #include "Solvers/LocalSurface.h"
@@ -98,8 +99,64 @@ TEST_F(Spectra, TheAccuracyChoosesTheDepth)
     const std::int64_t runs = own.Runs(SolveStage);
     EXPECT_EQ(spectra.Update(surface, {}, options, {}).depth, result.depth);
     EXPECT_EQ(own.Runs(SolveStage), runs);
-    options.accuracy = 0.005;
+    options.accuracy = 0.002;
     EXPECT_GT(spectra.Update(surface, {}, options, {}).depth, result.depth);
+  }
+}
+
+namespace
+{
+
+/// A strip with 16 box-shaped pleats, which unfolds to 3 x 0.3.
+TriangleMesh Pleats()
+{
+  constexpr int Periods = 16;
+  constexpr int Cuts = 4; // of each of the four sides of a pleat
+  constexpr double Period = 1.0 / Periods;
+  TriangleMesh mesh = FlatRectangle(Periods * 4 * Cuts, 6, 3.0, 0.3);
+  for (Vec3& point : mesh.points)
+  {
+    const double along = point[0] / 3.0 * Periods;
+    const double part = 4.0 * (along - std::floor(along));
+    const double across[4] = { 0.0, 1.0, 1.0, 0.0 };
+    const int side = std::min(3, static_cast<int>(part));
+    const double rest = part - side;
+    const double x = side == 0 ? 0.5 * rest : side == 1 ? 0.5 : side == 2 ? 0.5 + 0.5 * rest : 1.0;
+    const double z = side % 2 == 0 ? across[side] : side == 1 ? rest : 1.0 - rest;
+    point = Vec3(Period * (std::floor(along) + x), point[1], Period * z);
+  }
+  return Transform(mesh, { 2, 1, 3 }, 0.6);
+}
+
+} // namespace
+
+/// Coarse grids do not see the pleats: their eigenvalues are too large by more than 100 %, and
+/// differ little from each other.
+TEST_F(Spectra, AnAccuracyIsReachedOnlyWhereTheSurfaceIsResolved)
+{
+  const auto pleats = std::make_shared<const TriangleMesh>(Pleats());
+  const auto errorOf = [](const SpectrumSolver::Result& result)
+  {
+    double largest = 0.0;
+    for (int k = 1; k < 6; ++k)
+    {
+      const double exact = std::pow(3.14159265358979323846 * k / 3.0, 2);
+      largest = Larger(largest, std::abs(result.eigenvalues[k] / exact - 1.0));
+    }
+    return largest;
+  };
+  options.numberOfModes = 6;
+  asked.space.depth = 3;
+  const SpectrumSolver::Result coarse = SpectrumSolver::Solve(pleats, {}, options, asked);
+  EXPECT_GT(errorOf(coarse), 1.0);
+  EXPECT_FALSE(coarse.isErrorTrusted);
+  for (const double accuracy : { 0.3, 0.1 })
+  {
+    options.accuracy = accuracy;
+    const SpectrumSolver::Result result = SpectrumSolver::Solve(pleats, {}, options, asked);
+    EXPECT_TRUE(result.isAccurate);
+    EXPECT_TRUE(result.warnings.empty());
+    EXPECT_LE(errorOf(result), accuracy);
   }
 }
 
