@@ -40,7 +40,7 @@
  * - point data, double: `Distance`, in the unit of the points. It is 0 at sources and negative only
  *   inside a curve. Its absolute value is never below the straight distance through space from the
  *   sources or the curve. It is NaN on a component without a source and at points that no polygon
- * uses.
+ *   uses.
  * - point data, vtkIdType, with NearestSource on: `NearestSource`, the id of the source that the
  *   distance is from. It is -1 where no source can be reached.
  * - field data, of the solve for the distance: `Converged`, `Iterations`, `DoublePrecisionSince`,

@@ -85,10 +85,10 @@ TEST(DepthSearch, FindsModesBetweenItsBounds)
     const int first = FirstDepthForModes(mesh, 20, accuracy, FunctionKind::Grid);
     EXPECT_GE(first, last);
     last = first;
-    EXPECT_EQ(
-      NextDepthForModes(mesh, { 0.5 * accuracy, accuracy }, first, accuracy, FunctionKind::Grid),
-      first);
-    EXPECT_EQ(
-      NextDepthForModes(mesh, { 4.0 * accuracy }, first, accuracy, FunctionKind::Grid), first + 1);
+    const auto next = [&](const std::vector<double>& errors, bool isConfirmed)
+    { return NextDepthForModes(mesh, errors, isConfirmed, first, accuracy, FunctionKind::Grid); };
+    EXPECT_EQ(next({ 0.5 * accuracy, accuracy }, true), first);
+    EXPECT_EQ(next({ 0.5 * accuracy, accuracy }, false), first + 1);
+    EXPECT_EQ(next({ 4.0 * accuracy }, true), first + 1);
   }
 }
