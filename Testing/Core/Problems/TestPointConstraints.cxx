@@ -179,6 +179,47 @@ TEST(BoundaryConstraints, HaveErrorsOfSecondOrder)
   EXPECT_LT(last, 3e-4);
 }
 
+/// A closed mesh has no boundary, whether its triangles share points or face alike. A missing
+/// triangle leaves a boundary of its perimeter.
+TEST(BoundaryConstraints, ExistWhereATriangleIsMissing)
+{
+  const auto termsOf = [](const TriangleMesh& mesh)
+  {
+    const auto space = BuildEither(mesh, false, 3, 1e-2);
+    const MultiVector one = MultiVector::Ones(static_cast<Id>(mesh.points.size()), 1);
+    return TermsOnBoundary(*space, mesh, true, &one, nullptr);
+  };
+  for (const TriangleMesh& closed :
+    { GeodesicSphere(6), Transform(Box(4), { 1, 2, 3 }, 0.4), Torus(16, 8, 1.0, 0.4) })
+  {
+    TriangleMesh turned = closed;
+    std::swap(turned.triangles[5][0], turned.triangles[5][1]);
+    TriangleMesh degenerate = closed;
+    degenerate.triangles.push_back({ 2, 3, 3 });
+    for (const TriangleMesh& mesh : { closed, Unweld(closed), turned, degenerate })
+    {
+      EXPECT_FALSE(termsOf(mesh).isThere);
+    }
+    for (const std::size_t missing : { std::size_t(0), closed.triangles.size() / 2 })
+    {
+      TriangleMesh open = closed;
+      const auto corner = open.triangles[missing];
+      open.triangles.erase(open.triangles.begin() + static_cast<std::ptrdiff_t>(missing));
+      double perimeter = 0.0;
+      for (int k = 0; k < 3; ++k)
+      {
+        perimeter += (open.points[corner[k]] - open.points[corner[(k + 1) % 3]]).norm();
+      }
+      for (const TriangleMesh& mesh : { open, Unweld(open) })
+      {
+        const BoundaryTerms terms = termsOf(mesh);
+        EXPECT_TRUE(terms.isThere);
+        EXPECT_NEAR(terms.load.sum(), perimeter, 1e-9);
+      }
+    }
+  }
+}
+
 TEST_P(PointConstraints, ThatContradictEachOtherAreMetInTheMean)
 {
   const TriangleMesh mesh = GeodesicSphere(12);

@@ -70,6 +70,28 @@ TEST(InterpolationSolver, BetweenTwoSidesOfARectangleIsLinear)
   }
 }
 
+/// A constant that is far larger than the variation changes nothing else.
+TEST(InterpolationSolver, KeepsTheVariationAboveALargeConstant)
+{
+  const auto mesh = std::make_shared<const TriangleMesh>(GeodesicSphere(12));
+  InterpolationSolver::Options options;
+  options.equation.solve.tolerance = 1e-10;
+  for (const Smoothness smoothness : { Smoothness::Harmonic, Smoothness::Biharmonic })
+  {
+    options.smoothness = smoothness;
+    const MultiVector expected =
+      InterpolationSolver::Solve(mesh, Values({ 0.0, 1.0, 3.0 }), options, AtDepth(4)).atPoints;
+    for (const double constant : { -1e9, 1e12 })
+    {
+      MultiVector found = InterpolationSolver::Solve(
+        mesh, Values({ constant, constant + 1.0, constant + 3.0 }), options, AtDepth(4))
+                            .atPoints;
+      found.array() -= constant;
+      EXPECT_LT((found - expected).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(), 3e-4);
+    }
+  }
+}
+
 TEST(InterpolationSolver, StepwiseUseGivesTheBitsOfOneShot)
 {
   const auto mesh = std::make_shared<const TriangleMesh>(GeodesicSphere(12));
