@@ -41,8 +41,8 @@ Seams OfOneProcess(const TriangleMesh& mesh)
 {
   const std::vector<OpenEdge> open = FindOpenEdges(mesh);
   const Bounds bounds = BoundsOf(mesh.points);
-  return FindSeams(
-    open, ShortestSides(mesh, NumberEnds(open)), (bounds.high - bounds.low).maxCoeff());
+  return FindSeams(open, ShortestSides(mesh, NumberEnds(open)),
+    (bounds.high - bounds.low).maxCoeff<Eigen::PropagateNaN>());
 }
 
 } // namespace
