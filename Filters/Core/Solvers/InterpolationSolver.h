@@ -55,6 +55,12 @@ public:
 
 private:
   void TakeValues(PointValues given);
+  ConstrainedSolution SolveOnce(const Surface& surface, const HeldValues& held,
+    const Options& options, const Progress& progress) const;
+  ConstrainedSolution Interpolate(
+    const Surface& surface, const Options& options, const Progress& progress);
+  ConstrainedSolution InterpolateBetween(
+    const Surface& surface, const Options& options, const Progress& progress);
   void Take(ConstrainedSolution solution, const Surface& surface, const Options& options);
 
   PointValues given_;
