@@ -55,6 +55,24 @@ HeldValues HoldOnGrid(const RankSpace& space, const MultiVector& received)
   return held;
 }
 
+/// Collective. Rows of received points: 1 where a point is held, followed by its values.
+/// @param points  this rank's own
+MultiVector SendHeld(
+  const RankSpace& space, const std::vector<Id>& points, const MultiVector& values)
+{
+  MultiVector own;
+  space.Ranks().Together(
+    [&]
+    {
+      own = MultiVector::Zero(space.Distribution().NumberOfOwnPoints(), 1 + values.cols());
+      for (std::size_t k = 0; k < points.size(); ++k)
+      {
+        own.row(points[k]) << 1.0, values.row(static_cast<Id>(k));
+      }
+    });
+  return space.Distribution().SendPoints(own);
+}
+
 constexpr double Nobody = std::numeric_limits<double>::infinity();
 
 /// Calls body(hat, place, rank that has sent the point) for every place where a hat's point is
@@ -145,18 +163,34 @@ HeldValues HoldHats(const RankLevels& levels, const MultiVector& received)
 HeldValues HoldPoints(
   const RankLevels& levels, const std::vector<Id>& points, const MultiVector& values)
 {
+  return HoldReceived(levels, SendHeld(levels.Space(), points, values));
+}
+
+/// A rank that owns a cell has received all triangles with a part in it. The ranks choose the same
+/// triangle of an edge, so that one of them samples each stretch.
+HeldValues HoldPointsAndEdges(const RankLevels& levels, bool weldCoincidentPoints,
+  const std::vector<Id>& points, const MultiVector& values)
+{
   const RankSpace& space = levels.Space();
-  MultiVector own; // 1 where a point is held, followed by its values
+  const MultiVector received = SendHeld(space, points, values);
+  HeldValues held = HoldReceived(levels, received);
+  if (levels.Hats()) // they are linear along edges
+  {
+    return held;
+  }
   space.Ranks().Together(
     [&]
     {
-      own = MultiVector::Zero(space.Distribution().NumberOfOwnPoints(), 1 + values.cols());
-      for (std::size_t k = 0; k < points.size(); ++k)
-      {
-        own.row(points[k]) << 1.0, values.row(static_cast<Id>(k));
-      }
+      const TriangleMesh& mesh = space.Own().Mesh();
+      const Eigen::ArrayXd marks = received.col(0);
+      std::vector<char> isHeld(marks.size());
+      std::transform(
+        marks.begin(), marks.end(), isHeld.begin(), [](double mark) { return mark != 0.0; });
+      held = Join(
+        held, HoldWithinEdges(space.Own(), mesh, EdgesBetween(mesh, isHeld, weldCoincidentPoints),
+                received.rightCols(values.cols())));
     });
-  return HoldReceived(levels, space.Distribution().SendPoints(own));
+  return held;
 }
 
 HeldValues HoldReceived(const RankLevels& levels, const MultiVector& received)

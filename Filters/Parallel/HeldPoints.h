@@ -18,6 +18,10 @@ namespace gridfem
 HeldValues HoldPoints(
   const RankLevels& levels, const std::vector<Id>& points, const MultiVector& values);
 
+/// Collective. HoldPointsAndEdges for several ranks.
+HeldValues HoldPointsAndEdges(const RankLevels& levels, bool weldCoincidentPoints,
+  const std::vector<Id>& points, const MultiVector& values);
+
 /// Collective. The held values at the points that this rank has received.
 /// @param received  rows = received points: a number that is not 0 where a point is held, then its
 ///   values

@@ -3,8 +3,8 @@
  * @brief   spread values from a few points over a whole surface
  *
  * Finds the smoothest function on the surface that has the given values at some points. A harmonic
- * function stays between the values and has a peak at an isolated point. A biharmonic function is
- * smooth at isolated points.
+ * function stays between the values and has a peak at an isolated point. It is linear along an edge
+ * between two known points. A biharmonic function is smooth at the points and may overshoot.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
  * vtkConnectivityAwareBasis.
@@ -36,9 +36,12 @@
  *   `TrustedEstimate` of vtkPoissonAlgorithm. They are NaN for biharmonic functions of more than
  *   256 points.
  *
- * Tolerance (default 1e-6) is on the energy residual, as in vtkScreenedPoisson. Values are met to
- * 1e-7 of their range wherever the functions can meet them. NormalStabilization is 1e-2 and
- * MaximumIterations 200 by default. The filter uses all shared properties but ParameterUnits.
+ * Tolerance (default 1e-6) is on the energy residual, as in vtkScreenedPoisson. Harmonic
+ * functions meet all values: where different values are closer to each other than the functions can
+ * follow, the filter corrects the points within a cell around them on the mesh. Biharmonic
+ * functions meet values to 1e-7 of their range wherever they can follow them. NormalStabilization
+ * is 1e-2 and MaximumIterations 200 by default. The filter uses all shared properties but
+ * ParameterUnits.
  */
 #ifndef vtkHarmonicInterpolation_h
 #define vtkHarmonicInterpolation_h

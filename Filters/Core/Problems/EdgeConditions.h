@@ -2,6 +2,7 @@
 #ifndef GridFEM_EdgeConditions_h
 #define GridFEM_EdgeConditions_h
 
+#include "Problems/RowPenalty.h"
 #include "Spaces/FiniteElementSpace.h"
 
 namespace gridfem
@@ -10,7 +11,7 @@ namespace gridfem
 /// Held values, the input of ConstrainedHierarchy and SolveConstrained.
 struct HeldValues
 {
-  SparseMatrix rows;
+  HeldRows rows;
   MultiVector values; // one row for each row of `rows`
 };
 
@@ -19,17 +20,30 @@ struct HeldValues
 HeldValues HoldPoints(
   const FiniteElementSpace& space, const std::vector<Id>& points, MultiVector values);
 
+/// Holds the values of points, and along every edge between two of them. Without the edges, a
+/// function peaks at each point as soon as its cells are smaller than the edges.
+/// @param points  a point may be listed several times
+HeldValues HoldPointsAndEdges(const FiniteElementSpace& space, const TriangleMesh& mesh,
+  bool weldCoincidentPoints, const std::vector<Id>& points, const MultiVector& values);
+
 /// Both sets of held values, beginning with `first`.
 HeldValues Join(const HeldValues& first, const HeldValues& second);
 
-/// Holds the values at the ends of the edges. On edges longer than a unit of length it also holds
-/// the middle of every stretch, with linearly interpolated values, because functions are not linear
-/// there.
+/// Returns each edge between two marked points once, ascending. If triangles share an edge, the one
+/// with the least coordinates opposite to it counts, so that all processes choose the same.
+/// Triangles without area have no edges.
+std::vector<TriangleEdge> EdgesBetween(
+  const TriangleMesh& mesh, const std::vector<char>& isMarked, bool weldCoincidentPoints);
+
+/// Holds the values at the ends of the edges. Between the ends of edges longer than a quarter of a
+/// unit of length it pulls the functions towards the linearly interpolated values, because
+/// functions are not linear there. The pull is an integral along the edge. It leaves the functions
+/// free to follow the slope of the solution across the edge, unlike more held places.
 /// @param values  rows = points of the mesh; an edge with an unknown value (NaN) is left free
 HeldValues HoldEdges(const FiniteElementSpace& space, const TriangleMesh& mesh,
   const std::vector<TriangleEdge>& edges, const MultiVector& values);
 
-/// The two parts of HoldEdges: the edges with known values at both ends, and the held values
+/// The two parts of HoldEdges: the edges with known values at both ends, and the pulled values
 /// between the ends of such edges.
 std::vector<TriangleEdge> KnownEdges(
   const TriangleMesh& mesh, const std::vector<TriangleEdge>& edges, const MultiVector& values);

@@ -233,9 +233,8 @@ void ForgetFree(const FiniteElementSpace& space, int threads, ConstrainedSolutio
 
 } // namespace
 
-ConstrainedSolution InterpolateHarmonically(const FiniteElementSpace& space,
-  const SparseMatrix& rows, const MultiVector& values, const InterpolationOptions& options,
-  const Progress& progress)
+ConstrainedSolution InterpolateHarmonically(const FiniteElementSpace& space, const HeldRows& rows,
+  const MultiVector& values, const InterpolationOptions& options, const Progress& progress)
 {
   if (rows.column.empty() || rows.rows != values.rows())
   {

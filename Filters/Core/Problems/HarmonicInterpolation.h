@@ -30,13 +30,12 @@ struct InterpolationOptions
 /// Biharmonic: u = G μ + c with the Green's function G = L⁺ M L⁺ of the points, c constant on each
 /// connected component. The multipliers μ solve (C G Cᵀ) μ + c = g, Σ μ = 0. Contradictory values
 /// are met in the mean. For many points see IterateBiharmonic.
-/// @param rows    RowsAtPoints of the points
-/// @param values  rows = points, one column per component
+/// @param rows    RowsAtPoints of the points, or HoldPointsAndEdges for harmonic functions
+/// @param values  a row for each of them, one column per component
 /// Throws InvalidInput when there is no point or shapes do not fit, and Aborted. Same bits for any
 /// number of threads.
-ConstrainedSolution InterpolateHarmonically(const FiniteElementSpace& space,
-  const SparseMatrix& rows, const MultiVector& values, const InterpolationOptions& options,
-  const Progress& progress = {});
+ConstrainedSolution InterpolateHarmonically(const FiniteElementSpace& space, const HeldRows& rows,
+  const MultiVector& values, const InterpolationOptions& options, const Progress& progress = {});
 
 } // namespace gridfem
 

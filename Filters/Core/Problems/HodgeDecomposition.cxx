@@ -63,7 +63,7 @@ MultiVector SolveFree(const FiniteElementSpace& space, const MultiVector& load,
 constexpr double HeldTolerance = 1e-4;
 
 /// Solves L x = load with the value 0 on some edges.
-MultiVector SolveHeld(const FiniteElementSpace& space, SparseMatrix rows, const MultiVector& load,
+MultiVector SolveHeld(const FiniteElementSpace& space, HeldRows rows, const MultiVector& load,
   const HodgeOptions& options, HodgeDecomposition& parts, const Job& job)
 {
   SolveOptions solve = options.solve;

@@ -29,15 +29,19 @@ void SumParts(const DividedRows* divided, std::vector<double>& x)
 
 /// Penalties of the constraints. They are relative to the diagonal at a point's functions, and
 /// divided among the constraints that share functions.
-std::vector<double> WeightsOfRows(
-  const SparseMatrix& rows, const SparseMatrix& A, double penalty, const DividedRows* divided)
+/// @param unitOfPull  the weight of a pull of 1
+std::vector<double> WeightsOfRows(const HeldRows& rows, const SparseMatrix& A, double penalty,
+  double unitOfPull, const DividedRows* divided)
 {
   std::vector<double> diagonal = A.Diagonal();
   SumParts(divided, diagonal);
   std::vector<double> touched(A.rows, 0.0); // sum over all rows at each function
-  for (std::size_t k = 0; k < rows.column.size(); ++k)
+  for (Index row = 0; row < rows.rows; ++row)
   {
-    touched[rows.column[k]] += rows.value[k];
+    for (Id k = rows.rowBegin[row]; k < rows.rowBegin[row + 1] && !rows.IsPulled(row); ++k)
+    {
+      touched[rows.column[k]] += rows.value[k];
+    }
   }
   SumParts(divided, touched);
   std::vector<double> weight(rows.rows, 0.0);
@@ -50,7 +54,8 @@ std::vector<double> WeightsOfRows(
       own += rows.value[k] * diagonal[rows.column[k]];
       shared += rows.value[k] * touched[rows.column[k]];
     }
-    weight[row] = penalty * own / std::max(1.0, shared);
+    weight[row] =
+      rows.IsPulled(row) ? rows.pull[row] * unitOfPull : penalty * own / std::max(1.0, shared);
   }
   return weight;
 }
@@ -199,14 +204,14 @@ private:
     return relative;
   }
 
-  /// The misfits at points that functions reach; 0 at others.
+  /// The misfits of rows that are held and that functions reach; 0 at others.
   MultiVector Misfits(const MultiVector& atPoints) const
   {
     MultiVector rest = values_ - atPoints;
     const SparseMatrix& rows = hierarchy_.Rows();
     for (Index row = 0; row < rows.rows; ++row)
     {
-      if (rows.rowBegin[row] == rows.rowBegin[row + 1])
+      if (rows.rowBegin[row] == rows.rowBegin[row + 1] || hierarchy_.IsPulled(row))
       {
         rest.row(row).setZero();
       }
@@ -278,7 +283,7 @@ MultiVector MeansOfFree(const std::vector<char>& isHeld, MultiVector means)
 }
 
 ConstrainedHierarchy::ConstrainedHierarchy(const SpaceLevels& space, double a, double b,
-  SparseMatrix rows, double penalty, const MultigridOptions& options, const Progress& progress)
+  HeldRows rows, double penalty, const MultigridOptions& options, const Progress& progress)
   : multigrid_(
       this->BuildLevels(space, a, b, std::move(rows), penalty, options, progress.Part(0.0, 0.5)),
       options)
@@ -287,12 +292,13 @@ ConstrainedHierarchy::ConstrainedHierarchy(const SpaceLevels& space, double a, d
 }
 
 std::vector<MultigridLevel> ConstrainedHierarchy::BuildLevels(const SpaceLevels& space, double a,
-  double b, SparseMatrix rows, double penalty, const MultigridOptions& options,
+  double b, HeldRows rows, double penalty, const MultigridOptions& options,
   const Progress& progress)
 {
   std::vector<MultigridLevel> levels = BuildMultigridLevels(space, a, b, options, progress);
   const DividedRows* const divided = space.Divided(0);
-  std::vector<double> weight = WeightsOfRows(rows, levels.front().A, penalty, divided);
+  std::vector<double> weight = WeightsOfRows(rows, levels.front().A, penalty, a + b, divided);
+  pull_ = std::move(rows.pull);
   penalty_ = RowPenalty(space, std::move(rows), std::move(weight), options.threads);
   for (std::size_t l = 0; l < levels.size(); ++l)
   {

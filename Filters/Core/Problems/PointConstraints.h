@@ -30,19 +30,21 @@ class ConstrainedHierarchy
 public:
   /// @param rows  RowsAtPoints of the constrained points; the row of a point without functions is
   ///   empty
-  ConstrainedHierarchy(const SpaceLevels& space, double a, double b, SparseMatrix rows,
-    double penalty, const MultigridOptions& options, const Progress& progress = {});
+  ConstrainedHierarchy(const SpaceLevels& space, double a, double b, HeldRows rows, double penalty,
+    const MultigridOptions& options, const Progress& progress = {});
 
   const Multigrid& GetMultigrid() const { return multigrid_; }
   const RowPenalty& Penalty() const { return penalty_; }
   const SparseMatrix& Rows() const { return penalty_.Rows(); }
+  bool IsPulled(Index row) const { return !pull_.empty() && pull_[row] > 0.0; }
 
 private:
   std::vector<MultigridLevel> BuildLevels(const SpaceLevels& space, double a, double b,
-    SparseMatrix rows, double penalty, const MultigridOptions& options, const Progress& progress);
+    HeldRows rows, double penalty, const MultigridOptions& options, const Progress& progress);
   void AddWholePenalty(
     std::size_t level, const DividedRows& divided, SparseMatrix& A, int threads) const;
 
+  std::vector<double> pull_; // HeldRows::pull
   RowPenalty penalty_;
   Multigrid multigrid_;
 };
@@ -53,7 +55,8 @@ struct ConstrainedSolution
   SolveReport report;        // of all steps, in sequence
   SolutionAccuracy accuracy; // of held components; unknown unless asked for
   int steps = 0;
-  /// Largest difference from the given values, over all points and columns.
+  /// Largest difference from the held values, over all points and columns. Pulled rows do not
+  /// count.
   double misfit = 0.0;
   double relativeMisfit = 0.0; // relative as the tolerance is; of the worst column
   /// All constraints are met. Otherwise they contradict each other, or are more than the functions
@@ -96,8 +99,8 @@ MultiVector ConstantsOf(const SpaceLevels& space, double a, const MultiVector& l
 
 /// Minimizes ½ uᵀ (a M + b L) u - loadᵀ u among the functions with these values at the points. The
 /// method is an augmented Lagrangian: each step solves with the penalty of the misfit and adds the
-/// remaining misfit to the load. Components that have neither a constraint nor mass are
-/// undetermined. Collective; each process has constraints of its own.
+/// remaining misfit to the load. Pulled rows have their penalty alone. Components that have neither
+/// a constraint nor mass are undetermined. Collective; each process has constraints of its own.
 /// @param load    right-hand side: rows = functions; no rows: 0
 /// @param values  rows = rows of C, one column per component
 /// Throws InvalidInput when shapes do not fit, and Aborted. Same bits for any number of threads.

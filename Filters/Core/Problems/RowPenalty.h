@@ -9,6 +9,22 @@
 namespace gridfem
 {
 
+/// Places at which a function is held: the rows of C.
+struct HeldRows : SparseMatrix
+{
+  HeldRows() = default;
+  HeldRows(SparseMatrix rowsOfPlaces, std::vector<double> pullOfRows = {})
+    : SparseMatrix(std::move(rowsOfPlaces)), pull(std::move(pullOfRows))
+  {
+  }
+
+  bool IsPulled(Index row) const { return !pull.empty() && pull[row] > 0.0; }
+
+  /// A row with a pull above 0 is not held exactly. The square of its misfit counts with this
+  /// weight, in units of a + b for the matrix a M + b L. Empty: all rows are held.
+  std::vector<double> pull;
+};
+
 /// The matrix Cᵀ W C. Each row of C holds the values of all functions at one place, and W has one
 /// weight per place. A place adds a rank-one term on the functions of one patch, which the patch
 /// smoother inverts. On coarser levels C has the rows C P. If several processes hold the functions,

@@ -1,5 +1,6 @@
 #include "Solvers/InterpolationSolver.h"
 
+#include "Problems/LocalCorrection.h"
 #include "Problems/SolveWarnings.h"
 #include "Solvers/LocalSurface.h"
 #include "Solvers/SurfaceFields.h"
@@ -34,6 +35,43 @@ std::vector<std::string> WarningsOfValues(const ConstrainedSolution& solution, d
   return warnings;
 }
 
+/// Turns held rows into pulled ones if they share a function with some other rows. The pull is near
+/// the energy of a peak that the mesh adds to the functions: 2π over the logarithm of its radii.
+void PullCrowded(const SparseMatrix& others, HeldRows& rows)
+{
+  constexpr double PullOfPeak = 1.0;
+  std::vector<char> isTouched(rows.columns, 0);
+  for (const Index function : others.column)
+  {
+    isTouched[function] = 1;
+  }
+  rows.pull.resize(rows.rows, 0.0);
+  for (Index row = 0; row < rows.rows; ++row)
+  {
+    const auto begin = rows.column.data() + rows.rowBegin[row];
+    const auto end = rows.column.data() + rows.rowBegin[row + 1];
+    if (std::any_of(begin, end, [&](Index function) { return isTouched[function]; }))
+    {
+      rows.pull[row] = rows.IsPulled(row) ? std::min(rows.pull[row], PullOfPeak) : PullOfPeak;
+    }
+  }
+}
+
+/// Measures how far the values at points are from the given ones.
+void MeasureMisfit(
+  const PointValues& given, const MultiVector& atPoints, ConstrainedSolution& solution)
+{
+  solution.misfit = 0.0;
+  for (std::size_t k = 0; k < given.points.size(); ++k)
+  {
+    const auto off = (atPoints.row(given.points[k]) - given.values.row(static_cast<Id>(k))).array();
+    solution.misfit = std::max(solution.misfit, off.isNaN().select(0.0, off.abs()).maxCoeff());
+  }
+  const double range =
+    (given.values.colwise().maxCoeff() - given.values.colwise().minCoeff()).maxCoeff();
+  solution.relativeMisfit = range > 0.0 ? solution.misfit / range : solution.misfit;
+}
+
 } // namespace
 
 SurfaceOptions InterpolationSolver::SurfaceDefaults()
@@ -43,19 +81,75 @@ SurfaceOptions InterpolationSolver::SurfaceDefaults()
   return options;
 }
 
-void InterpolationSolver::TakeValues(PointValues given)
+/// Takes the values without their large constants.
+void InterpolationSolver::TakeValues(const Surface& surface, PointValues given)
 {
+  const Eigen::RowVectorXd constants = LargeConstants(surface, given.values);
+  given.values.rowwise() -= constants;
   const bool isSame = given.points == given_.points &&
-                      given.values.cols() == given_.values.cols() && given.values == given_.values;
+                      given.values.cols() == given_.values.cols() &&
+                      given.values == given_.values && constants == constants_;
+  constants_ = constants;
   version_ += isSame ? 0 : 1;
   given_ = std::move(given);
 }
 
-void InterpolationSolver::Take(ConstrainedSolution solution, const Eigen::RowVectorXd& constants,
-  const Surface& surface, const Options& options)
+ConstrainedSolution InterpolationSolver::SolveOnce(const Surface& surface, const HeldValues& held,
+  const Options& options, const Progress& progress) const
 {
+  InterpolationOptions own;
+  own.smoothness = options.smoothness;
+  own.multigrid = options.equation.multigrid;
+  own.multigrid.threads = surface.Threads();
+  own.solve = options.equation.solve;
+  return InterpolateHarmonically(*surface.WholeSpace(), held.rows, held.values, own, progress);
+}
+
+/// Solves, and leaves the values at the points in the result.
+ConstrainedSolution InterpolationSolver::Interpolate(
+  const Surface& surface, const Options& options, const Progress& progress)
+{
+  if (options.smoothness == Smoothness::Harmonic)
+  {
+    return this->InterpolateBetween(surface, options, progress);
+  }
+  ConstrainedSolution solution = this->SolveOnce(
+    surface, HoldPoints(*surface.WholeSpace(), given_.points, given_.values), options, progress);
   result_.atPoints = surface.ValuesAtPoints(solution.coefficients);
-  result_.atPoints.rowwise() += constants;
+  return solution;
+}
+
+/// Interpolates harmonically, between the given values. Functions that are to meet different values
+/// closer to each other than their size leave the range of the values. Then these values only pull
+/// the functions, and the points around them are corrected on the mesh.
+ConstrainedSolution InterpolationSolver::InterpolateBetween(
+  const Surface& surface, const Options& options, const Progress& progress)
+{
+  constexpr double Overshoot = 0.05; // of the range
+  const std::shared_ptr<const FiniteElementSpace> space = surface.WholeSpace();
+  const LocalCorrection correction(surface.Mesh(), surface.AreCoincidentPointsWelded(),
+    given_.points, given_.values, surface.Threads());
+  HeldValues held = surface.Hold(given_.points, given_.values);
+  ConstrainedSolution solution = this->SolveOnce(surface, held, options, progress.Part(0.0, 0.9));
+  result_.atPoints = surface.ValuesAtPoints(solution.coefficients);
+  const std::vector<Id> beyond = correction.PointsBeyond(result_.atPoints, Overshoot);
+  if (!beyond.empty())
+  {
+    PullCrowded(space->RowsAtPoints(beyond), held.rows);
+    solution = this->SolveOnce(surface, held, options, progress.Part(0.5, 0.9));
+    result_.atPoints = surface.ValuesAtPoints(solution.coefficients);
+  }
+  correction.Apply(
+    space->UnitLength(), result_.atPoints, { surface.Threads(), progress.Part(0.9, 1.0) });
+  MeasureMisfit(given_, result_.atPoints, solution);
+  return solution;
+}
+
+void InterpolationSolver::Take(
+  ConstrainedSolution solution, const Surface& surface, const Options& options)
+{
+  surface.ClearUnreached(result_.atPoints);
+  result_.atPoints.rowwise() += constants_;
   result_.warnings = WarningsOfValues(solution, options.equation.solve.tolerance);
   result_.report = std::move(solution.report);
   result_.accuracy = solution.accuracy;
@@ -67,23 +161,15 @@ const InterpolationSolver::Result& InterpolationSolver::Update(
 {
   RequireOptions(options);
   surface.Prepare(job.progress.Part(0.0, 0.5));
-  this->TakeValues(input.values.find());
+  this->TakeValues(surface, input.values.find());
   Stages& stages = surface.GetStages();
   StageKey key;
   key.Add(stages.Version(SystemStage)).Add(version_).Add(KeyOfOptions(options));
   stages.Run(SolveStage, key,
     [&]
     {
-      const std::shared_ptr<const FiniteElementSpace> space = surface.WholeSpace();
-      InterpolationOptions own;
-      own.smoothness = options.smoothness;
-      own.multigrid = options.equation.multigrid;
-      own.multigrid.threads = surface.Threads();
-      own.solve = options.equation.solve;
-      const Eigen::RowVectorXd constants = LargeConstants(surface, given_.values);
-      this->Take(InterpolateHarmonically(*space, space->RowsAtPoints(given_.points),
-                   given_.values.rowwise() - constants, own, job.progress.Part(0.5, 0.95)),
-        constants, surface, options);
+      this->Take(
+        this->Interpolate(surface, options, job.progress.Part(0.5, 0.95)), surface, options);
     });
   job.Check(1.0);
   return result_;

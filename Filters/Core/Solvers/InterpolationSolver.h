@@ -53,13 +53,18 @@ public:
     const Job& job = {});
 
 private:
-  void TakeValues(PointValues given);
-  /// @param constants  that the solution lacks
-  void Take(ConstrainedSolution solution, const Eigen::RowVectorXd& constants,
-    const Surface& surface, const Options& options);
+  void TakeValues(const Surface& surface, PointValues given);
+  ConstrainedSolution SolveOnce(const Surface& surface, const HeldValues& held,
+    const Options& options, const Progress& progress) const;
+  ConstrainedSolution Interpolate(
+    const Surface& surface, const Options& options, const Progress& progress);
+  ConstrainedSolution InterpolateBetween(
+    const Surface& surface, const Options& options, const Progress& progress);
+  void Take(ConstrainedSolution solution, const Surface& surface, const Options& options);
 
   PointValues given_;
-  int version_ = 0; // of the given values
+  Eigen::RowVectorXd constants_; // that the given values and the solution lack
+  int version_ = 0;              // of the given values
   Result result_;
 };
 

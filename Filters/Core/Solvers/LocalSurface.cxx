@@ -66,7 +66,7 @@ double LocalSurface::LongestSide() const
 
 HeldValues LocalSurface::Hold(const std::vector<Id>& points, const MultiVector& values) const
 {
-  return HoldPoints(*space_, points, values);
+  return HoldPointsAndEdges(*space_, *mesh_, used_.space.weldCoincidentPoints, points, values);
 }
 
 BoundaryTerms LocalSurface::OnBoundary(const MultiVector* flux, const MultiVector* values) const

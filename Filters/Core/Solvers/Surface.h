@@ -119,7 +119,8 @@ public:
 
   bool Any(bool holds) const { return this->Largest(holds ? 1.0 : 0.0) > 0.0; }
 
-  /// Rows and values that hold a solution at points of this process.
+  /// Rows and values that hold a solution at points of this process, and along every edge between
+  /// two of them (HoldPointsAndEdges).
   virtual HeldValues Hold(const std::vector<Id>& points, const MultiVector& values) const = 0;
 
   /// The terms that the boundary of the whole surface adds to an equation (TermsOnBoundary).

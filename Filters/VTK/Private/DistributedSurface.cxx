@@ -427,9 +427,10 @@ std::vector<char> DistributedSurface::PointsWithFunctions() const
   return has;
 }
 
-HeldValues DistributedSurface::Hold(const std::vector<Id>& points, const MultiVector& values) const
+HeldValues DistributedSurface::Hold(
+  bool weldCoincidentPoints, const std::vector<Id>& points, const MultiVector& values) const
 {
-  return HoldPoints(ranks_->whole->Levels(), points, values);
+  return HoldPointsAndEdges(ranks_->whole->Levels(), weldCoincidentPoints, points, values);
 }
 
 BoundaryTerms DistributedSurface::OnBoundary(
@@ -570,7 +571,7 @@ std::vector<char> DistributedSurface::PointsWithFunctions() const
   RefuseWithoutMpi();
 }
 
-HeldValues DistributedSurface::Hold(const std::vector<Id>&, const MultiVector&) const
+HeldValues DistributedSurface::Hold(bool, const std::vector<Id>&, const MultiVector&) const
 {
   RefuseWithoutMpi();
 }

@@ -132,8 +132,9 @@ public:
   /// A flag for each point of this rank: 1 if a function of any rank reaches it.
   std::vector<char> PointsWithFunctions() const;
 
-  /// Values that are held at this rank's own points (HoldPoints).
-  HeldValues Hold(const std::vector<Id>& points, const MultiVector& values) const;
+  /// Values that are held at this rank's own points (HoldPointsAndEdges).
+  HeldValues Hold(
+    bool weldCoincidentPoints, const std::vector<Id>& points, const MultiVector& values) const;
 
   /// The terms that the boundary of the whole surface adds to an equation (TermsOnBoundary).
   BoundaryTerms OnBoundary(

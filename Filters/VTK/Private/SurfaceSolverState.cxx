@@ -496,7 +496,9 @@ void SurfaceSolverState::Together(const std::function<void()>& body) const
 
 HeldValues SurfaceSolverState::Hold(const std::vector<Id>& points, const MultiVector& values) const
 {
-  return together.IsUsed() ? together.Hold(points, values) : HoldPoints(*space, points, values);
+  return together.IsUsed() ? together.Hold(used_.space.weldCoincidentPoints, points, values)
+                           : HoldPointsAndEdges(
+                               *space, *mesh.triangles, basis.weldCoincidentPoints, points, values);
 }
 
 BoundaryTerms SurfaceSolverState::OnBoundary(
