@@ -2,12 +2,12 @@
 
 #include "Private/CanDistribute.h"
 #include "Private/ClippedMeshWriter.h"
+#include "Private/FilterState.h"
 #include "Private/InputArray.h"
 #include "Private/MovedMeshWriter.h"
 #include "Private/PipelineTime.h"
 #include "Private/SelectedPoints.h"
 #include "Private/SolverOutput.h"
-#include "Private/SurfaceSolverState.h"
 
 #include "Integrals/QuadratureRule.h"
 #include "Solvers/DiffusionSolver.h"
@@ -71,14 +71,14 @@ void vtkHeatDiffusion::Compute(vtkInformationVector** inputs, vtkInformationVect
 {
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
-  gridfem::SurfaceSolverState& state = *this->State;
+  gridfem::FilterState& state = *this->State;
   Internals& data = *this->Data;
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
-  state.SetInput(input, vtkPolyData::GetData(inputs[1]));
-  state.Select(*this->Selection, vtkSelection::GetData(inputs[2]));
-  data.Array = state.Find(0, "Array");
-  data.Source = state.Find(1, "HeatSourceArray");
-  data.Mask = state.Find(2, "ConstraintArray");
+  gridfem::InputSurface& surface = state.Read(input, vtkPolyData::GetData(inputs[1]));
+  surface.Select(*this->Selection, vtkSelection::GetData(inputs[2]));
+  data.Array = surface.Find(0, "Array");
+  data.Source = surface.Find(1, "HeatSourceArray");
+  data.Mask = surface.Find(2, "ConstraintArray");
 
   gridfem::DiffusionSolver::Options options;
   options.equation = state.options;
@@ -86,15 +86,15 @@ void vtkHeatDiffusion::Compute(vtkInformationVector** inputs, vtkInformationVect
   options.numberOfSteps = this->NumberOfSteps;
   options.boundaryValues = this->BoundaryValues;
   const gridfem::Progress progress = state.GetProgress();
-  const gridfem::DiffusionSolver::Result& result = data.Solver.Update(state,
-    { state.Given(data.Array), state.Given(data.Source),
-      state.ConstraintsOf(data.Array, data.Mask, *this->Selection) },
-    options, { state.Threads(), progress.Part(0.0, 0.95) });
+  const gridfem::DiffusionSolver::Result& result = data.Solver.Update(surface,
+    { surface.Given(data.Array), surface.Given(data.Source),
+      surface.ConstraintsOf(data.Array, data.Mask, *this->Selection) },
+    options, { surface.Threads(), progress.Part(0.0, 0.95) });
   data.Result = &result;
 
   const int shown = gridfem::ShownStep(outputs->GetInformationObject(0), 1, this->NumberOfSteps);
   const gridfem::DiffusionSolver::Step& step = result.steps[static_cast<std::size_t>(shown) - 1];
-  state.Together(
+  surface.Together(
     [&]
     {
       if (input && input->GetPoints())
@@ -134,8 +134,8 @@ void vtkHeatDiffusion::WriteStep(int shown, vtkPolyData* input, vtkPolyData* out
   output->GetPointData()->SetActiveScalars("Diffused");
   if (!array.array)
   {
-    gridfem::MoveSurface(this->State->Mesh(), values, gridfem::OutputPrecision(input->GetPoints()),
-      this->NumberOfThreads, output);
+    gridfem::MoveSurface(this->State->Surface().Mesh(), values,
+      gridfem::OutputPrecision(input->GetPoints()), this->NumberOfThreads, output);
   }
 }
 

@@ -2,12 +2,12 @@
 
 #include "Private/CanDistribute.h"
 #include "Private/ClippedMeshWriter.h"
+#include "Private/FilterState.h"
 #include "Private/InputArray.h"
 #include "Private/MovedMeshWriter.h"
 #include "Private/Ranks.h"
 #include "Private/SelectedPoints.h"
 #include "Private/SolverOutput.h"
-#include "Private/SurfaceSolverState.h"
 
 #include "Base/Errors.h"
 #include "Integrals/QuadratureRule.h"
@@ -71,14 +71,14 @@ bool vtkScreenedPoisson::NeedsWholeSurface()
 void vtkScreenedPoisson::FindArrays()
 {
   Internals& data = *this->Data;
-  gridfem::SurfaceSolverState& state = *this->State;
-  data.Value = state.Find(0, "ValueArray");
-  data.Gradient = state.Find(1, "GradientArray");
-  data.Scale = state.Find(2, "GradientScaleArray");
-  data.Weight = state.Find(3, "ValueWeightArray");
-  data.Constraint = state.Find(4, "ConstraintArray");
-  state.metricArray = state.Find(5, "MetricArray");
-  data.Flux = state.Find(6, "BoundaryFluxArray");
+  gridfem::InputSurface& surface = this->State->Surface();
+  data.Value = surface.Find(0, "ValueArray");
+  data.Gradient = surface.Find(1, "GradientArray");
+  data.Scale = surface.Find(2, "GradientScaleArray");
+  data.Weight = surface.Find(3, "ValueWeightArray");
+  data.Constraint = surface.Find(4, "ConstraintArray");
+  this->State->options.metricArray = surface.Find(5, "MetricArray");
+  data.Flux = surface.Find(6, "BoundaryFluxArray");
   this->RequireFluxFits();
 }
 
@@ -90,7 +90,7 @@ void vtkScreenedPoisson::RequireFluxFits() const
       "BoundaryFluxArray and TrackMetric do not go together: a flux is per "
       "length of the boundary as it was when the functions were made.");
   }
-  if (this->Data->Flux.array && this->State->metricArray.array)
+  if (this->Data->Flux.array && this->State->options.metricArray.array)
   {
     throw gridfem::InvalidInput(
       "BoundaryFluxArray and MetricArray do not go together: a flux is per "
@@ -103,11 +103,11 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
   Internals& data = *this->Data;
-  gridfem::SurfaceSolverState& state = *this->State;
+  gridfem::FilterState& state = *this->State;
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
   state.options.trackMetric = this->TrackMetric && !(this->WantedError > 0.0);
-  state.SetInput(input, vtkPolyData::GetData(inputs[1]));
-  state.Select(*this->Selection, vtkSelection::GetData(inputs[2]));
+  gridfem::InputSurface& surface = state.Read(input, vtkPolyData::GetData(inputs[1]));
+  surface.Select(*this->Selection, vtkSelection::GetData(inputs[2]));
   this->FindArrays();
 
   gridfem::PoissonSolver::Options options;
@@ -119,13 +119,13 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
   options.boundaryValues = this->BoundaryValues;
   options.wantedError = this->WantedError;
   const gridfem::Progress progress = state.GetProgress();
-  const gridfem::PoissonSolver::Result& result = data.Solver.Update(state,
-    { state.Given(data.Value), state.Given(data.Gradient), state.Given(data.Scale),
-      state.Given(data.Weight), state.Given(data.Flux),
-      state.ConstraintsOf(data.Value, data.Constraint, *this->Selection) },
-    options, { state.Threads(), progress.Part(0.0, 0.95) });
+  const gridfem::PoissonSolver::Result& result = data.Solver.Update(surface,
+    { surface.Given(data.Value), surface.Given(data.Gradient), surface.Given(data.Scale),
+      surface.Given(data.Weight), surface.Given(data.Flux),
+      surface.ConstraintsOf(data.Value, data.Constraint, *this->Selection) },
+    options, { surface.Threads(), progress.Part(0.0, 0.95) });
   data.Result = &result;
-  state.Together(
+  surface.Together(
     [&]
     {
       if (input && input->GetPoints())
@@ -134,7 +134,7 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
       }
       gridfem::AddReport(result.report, output);
       gridfem::AddAccuracy(result.accuracy, output);
-      state.WriteTracking(output);
+      surface.WriteTracking(output);
       if (result.holdsValues)
       {
         gridfem::AddFieldNumber(output, "Misfit", result.misfit);
@@ -157,15 +157,15 @@ void vtkScreenedPoisson::Compute(vtkInformationVector** inputs, vtkInformationVe
 void vtkScreenedPoisson::WriteSolution(vtkPolyData* input, vtkPolyData* output)
 {
   const Internals& data = *this->Data;
-  const gridfem::SurfaceSolverState& state = *this->State;
+  const gridfem::InputSurface& surface = this->State->Surface();
   gridfem::MultiVector values = data.Result->atPoints;
   vtkDataArray* given = data.Value.array ? data.Value.array : input->GetPoints()->GetData();
   if (data.Value.association == gridfem::FieldAssociation::Points)
   {
     gridfem::KeepUnsolved(data.Result->isReached, given, values);
   }
-  auto solution = gridfem::MakePointArray(
-    "Solution", values, data.Value.array ? state.DataTypeOf(0, data.Value) : given->GetDataType());
+  auto solution = gridfem::MakePointArray("Solution", values,
+    data.Value.array ? surface.DataTypeOf(0, data.Value) : given->GetDataType());
   if (data.Value.array)
   {
     solution->CopyComponentNames(data.Value.array);
@@ -175,8 +175,8 @@ void vtkScreenedPoisson::WriteSolution(vtkPolyData* input, vtkPolyData* output)
   output->GetPointData()->SetActiveScalars("Solution");
   if (!data.Value.array)
   {
-    gridfem::MoveSurface(state.CurrentMesh(), values, gridfem::OutputPrecision(input->GetPoints()),
-      this->NumberOfThreads, output);
+    gridfem::MoveSurface(surface.CurrentMesh(), values,
+      gridfem::OutputPrecision(input->GetPoints()), this->NumberOfThreads, output);
   }
 }
 

@@ -2,12 +2,23 @@
 #ifndef GridFEM_CanDistribute_h
 #define GridFEM_CanDistribute_h
 
+#include <memory>
+
+class vtkAlgorithm;
 class vtkInformationVector;
 class vtkPolyData;
 class vtkSurfaceFEMAlgorithm;
 
 namespace gridfem
 {
+
+class InputSurface;
+class Stages;
+struct FilterOptions;
+
+/// Returns the surface of this rank's pieces. Null in a build without MPI.
+std::unique_ptr<InputSurface> MakePieceSurface(
+  Stages& stages, vtkAlgorithm* filter, const FilterOptions& options);
 
 /// Whether all ranks can compute together, each with its piece on port 0. Otherwise rank 0 gathers
 /// the surface. Only a basis and a selection may be connected to other ports, because ranks
