@@ -12,7 +12,6 @@
 #include "Private/SourcePoints.h"
 
 #include "Integrals/QuadratureRule.h"
-#include "Solvers/SignatureSolver.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
