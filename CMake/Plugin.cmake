@@ -14,7 +14,7 @@ if (PARAVIEW_USE_QT AND CMARK_GFM AND XMLPATTERNS AND Qt5Help_FOUND)
   set(GRIDFEM_NO_HELP OFF)
 else ()
   set(GRIDFEM_NO_HELP ON)
-  message(STATUS "No help pages in ParaView: these need cmark-gfm, xmlpatterns and Qt5Help")
+  message(STATUS "ParaView will have no help pages: they need cmark-gfm, xmlpatterns and Qt5Help")
 endif ()
 paraview_plugin_build(
   PLUGINS ${plugins}

@@ -38,7 +38,7 @@ constexpr unsigned char Categories[16][3] = { { 102, 194, 165 }, { 252, 141, 98 
   { 179, 179, 179 }, { 27, 158, 119 }, { 217, 95, 2 }, { 117, 112, 179 }, { 231, 41, 138 },
   { 102, 166, 30 }, { 230, 171, 2 }, { 166, 118, 29 }, { 102, 102, 102 } };
 
-/// Does not look at the array again: the values are known to be 0 to 7, or to 15.
+/// Does not look at the array again, because its values are known: 0 to 7, or 0 to 15.
 void SetCategories(vtkSMProxy* map, bool all)
 {
   const unsigned int count = all ? 16 : 8;
@@ -53,15 +53,15 @@ void SetCategories(vtkSMProxy* map, bool all)
   }
   vtkSMPropertyHelper(map, "RGBPoints")
     .Set(points.data(), static_cast<unsigned int>(points.size()));
-  // As many entries as values: each value has its own. Annotated values would do the same for the
-  // eye, but are looked up one by one.
+  // There are as many entries as values, one for each value. Annotated values would look the same,
+  // but are looked up one by one.
   vtkSMPropertyHelper(map, "Discretize").Set(1);
   vtkSMPropertyHelper(map, "NumberOfTableValues").Set(static_cast<int>(count));
   vtkSMPropertyHelper(map, "ScalarRangeInitialized").Set(1);
   map->UpdateVTKObjects();
 }
 
-/// The colour map of the arrays of this name, or null if there is none.
+/// The color map of the arrays with this name, or null if there is none.
 vtkSMProxy* FindMap(const std::string& array, vtkSMSessionProxyManager* proxies)
 {
   return proxies->GetProxy("lookup_tables", (array + ".PVLookupTable").c_str());
@@ -74,8 +74,8 @@ bool UserHasColors(const std::string& array)
          settings->HasSetting((".array_lookup_tables." + array).c_str());
 }
 
-/// Widens the range about 0 such that it holds the one of the data, unless the user has another or
-/// a locked one.
+/// Widens the range symmetrically about 0 until it holds the range of the data. A range that the
+/// user has chosen or locked stays.
 void KeepZeroInTheMiddle(vtkSMProxy* map, const double dataRange[2])
 {
   double range[2];
@@ -97,7 +97,7 @@ void KeepZeroInTheMiddle(vtkSMProxy* map, const double dataRange[2])
   }
 }
 
-/// Looks at the array whenever the filter has run, before ParaView shows it.
+/// Looks at the array after every run of the filter, before ParaView shows it.
 class ArrayObserver : public vtkCommand
 {
 public:

@@ -1,25 +1,25 @@
-// Gives an array of a filter the colours that suit it. In the XML of the filter:
+// Chooses suitable colors for an array of a filter. The XML of the filter has the hint:
 //
 //   <Hints>
 //     <InitializationHelper class="vtkSMArrayColors" array="Mode" colors="diverging" />
 //   </Hints>
 //
 // `array` is a point or cell array of port 0 with one component. `colors` is one of
-//   diverging    the colours that ParaView has by default, with 0 always in their middle
-//   sequential   from dark to light; diverging where there are values below 0
-//   categorical  one colour each for the whole numbers 0 to 7, pale, and 8 to 15, dark
+//   diverging    ParaView's default colors, with 0 always in the middle
+//   sequential   from dark to light; diverging if some values are below 0
+//   categorical  one color for each whole number: pale for 0 to 7, dark for 8 to 15
 //
-// ParaView has one colour map for all arrays of a name. It is made here when the filter first has
-// the array, unless there is one already or the user has saved one for this name. After that a
-// range that lies evenly about 0 stays so when it grows with the data; any other is the user's, and
-// left alone.
+// ParaView has one color map for all arrays of a name. This class makes the map when the filter
+// first has the array, unless a map exists or the user has saved a map for this name. Later the
+// range grows with the data and stays symmetric about 0. Any other range is the user's and stays
+// unchanged.
 #ifndef GridFEM_ArrayColors_h
 #define GridFEM_ArrayColors_h
 
 namespace gridfem
 {
 
-/// Makes the class known by which hints call it; for the plugin, when it is loaded.
+/// Registers the class under the name that hints use. The plugin calls it when it is loaded.
 void RegisterArrayColors();
 
 } // namespace gridfem

@@ -39,7 +39,7 @@ public:
 
   void Execute(vtkObject* caller, unsigned long, void* data) override
   {
-    if (this->IsBusy) // what the function does makes events as well
+    if (this->IsBusy) // the function causes events as well
     {
       return;
     }
@@ -64,13 +64,13 @@ void Watch(vtkObject* object, unsigned long event, std::function<bool(void*)> is
   object->AddObserver(event, watcher);
 }
 
-/// Whether someone drives ParaView's window: only there changes can be undone.
+/// Whether ParaView's window is in use. Only there changes can be undone.
 bool HasWindow()
 {
   return vtkSMProxyManager::GetProxyManager()->GetUndoStackBuilder() != nullptr;
 }
 
-/// The views that show a port of a filter, with how they do that.
+/// The views that show a port of a filter, with their representations.
 std::vector<std::pair<vtkSMViewProxy*, vtkSMProxy*>> ViewsOf(vtkSMSourceProxy* filter, int port)
 {
   std::vector<std::pair<vtkSMViewProxy*, vtkSMProxy*>> views;
@@ -89,7 +89,7 @@ std::vector<std::pair<vtkSMViewProxy*, vtkSMProxy*>> ViewsOf(vtkSMSourceProxy* f
   return views;
 }
 
-/// Makes a view that shows port 0 the active one.
+/// Activates a view that shows port 0.
 void ActivateFirstPort(vtkSMSourceProxy* filter)
 {
   vtkSMProxySelectionModel* active =
@@ -108,7 +108,7 @@ bool ShowsPort(vtkSMProxy* representation, vtkSMSourceProxy* filter, int port)
          static_cast<int>(input.GetOutputPort()) == port;
 }
 
-/// Calls a function with what shows a port of a filter first, before that is drawn.
+/// Calls a function with the first representation of a port of a filter, before it is drawn.
 void WhenShown(const vtkWeakPointer<vtkSMSourceProxy>& filter, int port,
   const std::function<void(vtkSMProxy*)>& act)
 {
@@ -121,7 +121,7 @@ void WhenShown(const vtkWeakPointer<vtkSMSourceProxy>& filter, int port,
       }
       const auto* made = static_cast<vtkSMProxyManager::RegisteredProxyInformation*>(data);
       auto* representation = vtkSMRepresentationProxy::SafeDownCast(made->Proxy);
-      // Axes around the data have the same input, and are registered among helpers before it.
+      // Axes around the data have the same input, and are registered earlier, among helpers.
       if (!representation || made->GroupName != std::string("representations") ||
           !ShowsPort(representation, filter, port))
       {
@@ -132,7 +132,7 @@ void WhenShown(const vtkWeakPointer<vtkSMSourceProxy>& filter, int port,
     });
 }
 
-/// The same from the first data of the filter on, where ParaView has a window.
+/// Does the same after the first data of the filter, if ParaView has a window.
 void WhenFirstShown(
   vtkSMProxy* proxy, int port, std::function<void(vtkSMProxy* shown, vtkSMSourceProxy* filter)> act)
 {
@@ -154,8 +154,8 @@ public:
   static vtkSMOpensBeside* New();
   vtkTypeMacro(vtkSMOpensBeside, vtkSMProxyInitializationHelper);
 
-  /// A new view becomes active before it shows anything, and another one can be made active for
-  /// good when it has: hence after the first data of what shows the port.
+  /// A new view becomes active before it shows anything. Another view stays active only if it is
+  /// activated later. So this waits for the first data of the representation.
   void PostInitializeProxy(vtkSMProxy* proxy, vtkPVXMLElement* xml, vtkMTimeType) override
   {
     int port = 1;
@@ -224,7 +224,7 @@ private:
 
 vtkStandardNewMacro(vtkSMShowsLastStep);
 
-/// Whether the values of an array are colours themselves.
+/// Whether the values of an array are themselves colors.
 bool AreColors(vtkPVArrayInformation* array)
 {
   if (array->GetNumberOfComponents() != 3 && array->GetNumberOfComponents() != 4)
@@ -274,7 +274,8 @@ public:
   }
 
 private:
-  /// What shows the filter already, or else, where ParaView's own way is not right, what will.
+  /// The representation that shows the filter already. If ParaView's own choice is wrong, a later
+  /// one.
   static void ColorBy(
     vtkSMSourceProxy* filter, vtkPVArrayInformation* array, int association, bool areColors)
   {
@@ -300,7 +301,7 @@ private:
     }
   }
 
-  /// ParaView shows a colour bar after it has drawn the data for the first time, or before.
+  /// ParaView shows a color bar before or after it has drawn the data for the first time.
   static void ShowDirectly(vtkSMProxy* shown, const vtkWeakPointer<vtkSMSourceProxy>& filter)
   {
     Watch(shown, vtkCommand::UpdateDataEvent,
@@ -337,7 +338,7 @@ private:
       });
   }
 
-  /// Of the user's settings; 0 is the one by which ParaView shows colour bars itself.
+  /// The user's setting. With 0, ParaView itself shows color bars.
   static bool ShowsColorBars(vtkSMSessionProxyManager* proxies)
   {
     vtkSMProxy* settings = proxies->GetProxy("settings", "GeneralSettings");

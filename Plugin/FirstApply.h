@@ -1,4 +1,5 @@
-// What a filter shows by itself, beyond its colours (ArrayColors.h). In the XML of the filter:
+// Effects of the first Apply of a filter, other than colors (ArrayColors.h). The XML of the filter
+// has the hints:
 //
 //   <Hints>
 //     <InitializationHelper class="vtkSMOpensBeside" port="1" />
@@ -7,31 +8,31 @@
 //     <InitializationHelper class="vtkSMShowsEdges" most="20000" />
 //   </Hints>
 //
-//   vtkSMOpensBeside    the view that opens for this port at the first Apply stands beside that of
-//                       port 0, which stays the active one: what the next filter makes comes there
-//   vtkSMShowsLastStep  the first Apply goes to the last of the filter's time steps, where no other
-//                       source has time steps that would move with it
-//   vtkSMColorsLater    port 0 is coloured by the array as soon as it has it. ParaView looks once,
-//                       when it shows a filter, which may be before its arrays were chosen. Colours
-//                       of the user are left alone. direct: three or four bytes, or numbers from 0
-//                       to 1, are shown as the colours that they are, without a bar.
-//   vtkSMShowsEdges     port 0 is a surface with edges when it is first shown, where it has no more
-//                       cells than this: more edges hide the colours
+//   vtkSMOpensBeside    the first Apply opens a view for this port beside the view of port 0. The
+//                       view of port 0 stays active, so it also shows the next filter
+//   vtkSMShowsLastStep  the first Apply goes to the last of the filter's time steps, unless another
+//                       source has time steps that would change with it
+//   vtkSMColorsLater    the array colors port 0 as soon as port 0 has it. ParaView looks only once,
+//                       when it first shows a filter, and the user may choose arrays later. The
+//                       user's own coloring stays. With direct, three or four bytes, or numbers
+//                       from 0 to 1, are shown directly as colors, without a bar
+//   vtkSMShowsEdges     port 0 is first shown with edges if it has at most this number of cells,
+//                       because more edges would hide the colors
 //
-// and in that of a chart:
+// The XML of a chart has the hint:
 //
 //     <InitializationHelper class="vtkSMAxisTitles" bottom="Mode" left="Eigenvalue" />
 //
-//   vtkSMAxisTitles     the axes that have no title when the chart is first drawn get these
+//   vtkSMAxisTitles     axes without a title get these titles when the chart is first drawn
 //
-// Only the last also acts without ParaView's window: scripts say themselves what they show.
+// Only the last hint also acts without ParaView's window, because scripts choose their views.
 #ifndef GridFEM_FirstApply_h
 #define GridFEM_FirstApply_h
 
 namespace gridfem
 {
 
-/// Makes the classes known by which hints call them; for the plugin, when it is loaded.
+/// Registers the classes under the names that hints use. The plugin calls it when it is loaded.
 void RegisterFirstApply();
 
 } // namespace gridfem

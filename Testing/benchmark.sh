@@ -105,7 +105,7 @@ CountMessages()
   done
 }
 
-# Threads that wait must not take processor time from those that work.
+# Waiting threads must not take processor time from working threads.
 export OMP_WAIT_POLICY="${OMP_WAIT_POLICY:-passive}"
 for group in "${groups[@]}"; do
   Say "$group"

@@ -37,7 +37,7 @@ IsInstalled()
   [ "$(dpkg-query -W -f='${Status}' "$1" 2> /dev/null)" = "install ok installed" ]
 }
 
-# Installs those of the given Debian packages that are missing.
+# Installs the given Debian packages that are missing.
 InstallMissing()
 {
   if ! command -v dpkg-query > /dev/null || ! command -v apt-get > /dev/null; then

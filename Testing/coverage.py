@@ -1,6 +1,6 @@
-"""Prints the part of the lines below a folder that has run, of what gcov has counted in a build.
+"""Prints the share of lines below a folder that have run, as gcov has counted in a build.
 
-coverage.py BUILD FOLDER PERCENT exits with 1 where the part is less than PERCENT.
+coverage.py BUILD FOLDER PERCENT exits with 1 if the share is less than PERCENT.
 """
 import collections
 import json
@@ -10,7 +10,8 @@ import sys
 
 
 def lines_that_ran(build, folder):
-    """Per file below the folder: line number -> whether it ran, in any program that has the file."""
+    """Returns for each file below the folder: line number -> whether it ran, in any program that
+    has the file."""
     found = collections.defaultdict(dict)
     for counts in sorted(build.rglob("*.gcda")):
         text = subprocess.run(["gcov", "--json-format", "--stdout", str(counts)], cwd=build,

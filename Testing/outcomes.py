@@ -1,5 +1,5 @@
-"""What every filter makes of real meshes, at two depths and with hat functions, with all other
-properties as in the panel: prints the page Plugin/Documentation/RealMeshes.md.
+"""Runs every filter on real meshes, at two depths and with hat functions, with all other properties
+as in the panel. Prints the page Plugin/Documentation/RealMeshes.md.
 
     export GRIDFEM_SOURCE_DIR=. GRIDFEM_PLUGIN=build/lib/paraview-5.11/plugins/GridFEM/GridFEM.so
     export PYTHONPATH=Testing/Plugin PV_PLUGIN_CONFIG_FILE=build/lib/paraview-5.11/plugins/gridfem.plugins.xml
@@ -53,8 +53,8 @@ def name_of(way):
 
 
 def nan_of(output):
-    """Where the floating-point arrays of a surface have a number that is none: per array of points, for each
-    point; True for any other array that has one."""
+    """Returns the places of NaN in the floating-point arrays of a surface: per array of points, for
+    each point; True for any other array that has one."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
     found = []
     for attributes in output.GetPointData(), output.GetCellData():
@@ -102,7 +102,8 @@ def outcome(proxy, messages):
 
 
 def read_off(path):
-    """The polygons of an OFF file; neither ParaView nor meshio reads those with more than three corners."""
+    """The polygons of an OFF file; neither ParaView nor meshio reads polygons with more than three
+    corners."""
     from vtkmodules.vtkCommonCore import vtkPoints
     from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
     text = re.sub("#.*", "", pathlib.Path(path).read_text(encoding="ascii"))

@@ -2,11 +2,11 @@
 // steps of its mean-curvature flow come out. Examples/run.sh builds it, runs it and renders what it
 // writes.
 //
-// What the Poisson solution shows: noise is taken off a striped (or coloured) surface. Minimising
-// ∫ λ (u - f)² + |∇u|² keeps u near the noisy f over lengths above 1 / √λ and smooths below.
+// The Poisson solution removes noise from a striped (or colored) surface. It minimizes ∫ w (u - f)²
+// + |∇u|², so u stays near the noisy f over lengths above 1 / √w and is smooth below.
 //
-// Exit codes: 0 all written; 1 a step could not do its work; 2 the command line is wrong;
-// 3 all written, but a solver stopped before it reached its tolerance.
+// Exit codes: 0: everything is written. 1: a step failed. 2: the command line is wrong. 3:
+// everything is written, but a solver stopped before its tolerance.
 
 #include "MeshInput.h"
 #include "Report.h"
@@ -56,10 +56,10 @@ struct Options
   int modes = 24;
 };
 
-/// 1 / √λ is a fiftieth of the side of a square with the surface's area (units: UnitArea).
+/// 1 / √w is a fiftieth of the side of a square with the surface's area (units: UnitArea).
 constexpr double ScreeningWeight = 2500;
 
-/// Of the flow, which takes the noise of a scan away and rounds what is sharp.
+/// The flow removes the noise of a scan and rounds sharp features.
 constexpr int FlowSteps = 5;
 constexpr double FlowTimeStep = 2e-4; // of the surface's area
 
@@ -81,14 +81,15 @@ vtkSmartPointer<vtkPolyData> ReadMesh(const Options& options, StepClock& clock)
   vtkSmartPointer<vtkAlgorithm> reader = FindReader(options.mesh);
   if (!reader)
   {
-    throw StepFailed(options.mesh + ": not a kind of file this reads; give one that ends in " +
+    throw StepFailed(options.mesh +
+                     ": this kind of file is not supported. Choose a file that ends in " +
                      MeshFileEndings + ".");
   }
   clock.Run("Read " + fs::path(options.mesh).filename().string(), reader);
   vtkPolyData* mesh = vtkPolyData::SafeDownCast(reader->GetOutputDataObject(0));
   if (!mesh || mesh->GetNumberOfPolys() + mesh->GetNumberOfStrips() == 0)
   {
-    throw StepFailed(options.mesh + ": holds no polygons.");
+    throw StepFailed(options.mesh + ": the file has no polygons.");
   }
   return mesh;
 }
@@ -130,7 +131,7 @@ void Run(Pipeline& p, StepClock& clock)
   clock.Run("Mean Curvature Flow", p.flow);
 }
 
-/// Tables have a line per row and one for the names; VTK's files end with their outermost tag.
+/// Tables have a line per row and a line for the names. VTK's files end with their outermost tag.
 bool IsWhole(const fs::path& path, vtkDataObject* data)
 {
   std::ifstream file(path, std::ios::binary);
@@ -146,7 +147,7 @@ bool IsWhole(const fs::path& path, vtkDataObject* data)
   return tail.find("</VTKFile>") != std::string::npos;
 }
 
-/// On a full disk VTK's writers may say nothing: what they wrote does.
+/// On a full disk VTK's writers may report nothing, so this function looks at the written file.
 template<class Writer>
 void Run(Writer* writer, const fs::path& path, StepClock& clock)
 {
@@ -155,7 +156,7 @@ void Run(Writer* writer, const fs::path& path, StepClock& clock)
   if (writer->GetErrorCode() != vtkErrorCode::NoError ||
       !IsWhole(path, writer->GetInputDataObject(0, 0)))
   {
-    throw StepFailed("Not all of " + path.string() + " could be written. Is the disk full?");
+    throw StepFailed("The file " + path.string() + " is incomplete. Is the disk full?");
   }
 }
 
@@ -167,7 +168,7 @@ void Write(const fs::path& path, vtkAlgorithmOutput* port, StepClock& clock)
   Run(writer.Get(), path, clock);
 }
 
-/// Every step as a file; ParaView opens them as one surface that moves.
+/// Writes every step as a file. ParaView opens the files as one moving surface.
 void WriteFlow(const fs::path& folder, vtkMeanCurvatureFlow* flow, StepClock& clock)
 {
   for (int step = 0; step <= FlowSteps; ++step)
@@ -224,7 +225,7 @@ void PrintResults(vtkPolyData* mesh, const std::string& array, Pipeline& p, cons
   PrintConvergence(vtkTable::SafeDownCast(p.poisson->GetOutputDataObject(1)), std::cout);
   PrintEigenvalues(vtkTable::SafeDownCast(p.spectrum->GetOutputDataObject(1)), std::cout);
   clock.Print(std::cout);
-  std::cout << "\nexpected of the grid, its matrices and their hierarchy, without any output: "
+  std::cout << "\nestimated memory of the grid, its matrices and their hierarchy, without outputs: "
             << std::lround(ExpectedMegabytes(mesh, p.clip->GetDepth())) << " MB\n";
 }
 
@@ -234,8 +235,8 @@ void CreateFolder(const fs::path& folder)
   fs::create_directories(folder, error);
   if (!fs::is_directory(folder))
   {
-    throw StepFailed("The folder " + folder.string() + " cannot be made (" + error.message() +
-                     "); choose another with --output.");
+    throw StepFailed("The folder " + folder.string() + " cannot be created (" + error.message() +
+                     "). Choose another folder with --output.");
   }
 }
 
@@ -264,13 +265,13 @@ int main(int argc, char* argv[])
   CLI::App app("Octree, basis, Poisson solution, Laplace spectrum and flow of a triangle mesh.");
   app
     .add_option("MESH", options.mesh,
-      std::string("a mesh to work on (") + MeshFileEndings +
-        "); without one, a trefoil knot whose strands nearly touch")
+      std::string("the mesh to work on (") + MeshFileEndings +
+        "); by default a trefoil knot with strands that nearly touch")
     ->check(CLI::ExistingFile);
   app.add_option("--depth", options.depth, "2^DEPTH cells lie along the longest side")
     ->check(CLI::Range(2, 14))
     ->capture_default_str();
-  app.add_option("--modes", options.modes, "how many eigenfunctions")
+  app.add_option("--modes", options.modes, "the number of eigenfunctions")
     ->check(CLI::Range(1, 10000))
     ->capture_default_str();
   app.add_option("--output", options.output, "the folder to write to")->capture_default_str();

@@ -1,4 +1,4 @@
-// Where the main job gets its mesh, and what it smooths on it.
+// The mesh of the main job, and the function on it that the job smooths.
 #ifndef GridFEM_Examples_MeshInput_h
 #define GridFEM_Examples_MeshInput_h
 
@@ -8,16 +8,16 @@
 
 #include <string>
 
-/// The endings FindReader knows, as it is said to a user.
+/// The endings that FindReader knows, in words for the user.
 constexpr const char* MeshFileEndings = ".ply .obj .stl .vtp .vtk";
 
-/// VTK's reader for a file, chosen by the ending of its name (in any case of letters); null for an
-/// ending that is not in MeshFileEndings.
+/// Returns VTK's reader for a file, chosen by the ending of its name, in upper or lower case. Null
+/// for an ending that is not in MeshFileEndings.
 vtkSmartPointer<vtkAlgorithm> FindReader(const std::string& path);
 
-/// Chooses what the screened Poisson equation smooths, and adds it to the mesh if need be:
-/// the mesh's own point scalars when it has some (a scan's colours); else `Stripes` along its
-/// longest side. Scalars of one component get noise, as a measured value would have.
+/// Chooses the function that the screened Poisson equation smooths. If the mesh has point scalars,
+/// such as the colors of a scan, they are the function. Otherwise the function adds `Stripes` along
+/// the longest side to the mesh. Scalars of one component get noise, like a measured value.
 /// @return  the name of the point array
 std::string AddArrayToSmooth(vtkPolyData* mesh);
 

@@ -34,7 +34,7 @@ public:
   void DisplayErrorText(const char* text) override
   {
     const std::string message = Message(text);
-    // The pipeline repeats that an algorithm failed; why it did was said just before.
+    // The pipeline only repeats that an algorithm failed. The message before gives the reason.
     if (message.rfind("Algorithm ", 0) != 0)
     {
       this->Errors += (this->Errors.empty() ? "" : "\n") + message;
@@ -52,7 +52,7 @@ protected:
   MessageWindow() = default;
 
 private:
-  /// What is left of VTK's text without file, line, and the address of the object.
+  /// Returns VTK's text without the file, the line, and the address of the object.
   static std::string Message(const std::string& text)
   {
     const std::size_t line = text.find('\n');
@@ -84,7 +84,8 @@ double PeakMegabytes()
 #endif
 }
 
-/// What the process holds now; 0 where the system does not tell (only Linux does).
+/// Returns the memory that the process holds now, or 0 if the system does not tell. Only Linux
+/// tells.
 double ResidentMegabytes()
 {
   long pages = 0;
@@ -125,7 +126,7 @@ unsigned long ObserveProgress(const std::string& name, vtkAlgorithm* algorithm)
 
 StepClock::StepClock()
 {
-  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF); // would say all of it a second time
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF); // would print all of it twice
   vtkNew<MessageWindow> window;
   vtkOutputWindow::SetInstance(window);
 }
@@ -246,10 +247,11 @@ void PrintConvergence(vtkTable* history, std::ostream& out)
   {
     return;
   }
-  out << history->GetValueByName(last, "Iteration").ToInt() << " iterations leave "
-      << std::setprecision(2) << history->GetValueByName(last, "AlgebraicError").ToDouble()
-      << " of the solution, the function space "
-      << history->GetValueByName(last, "DiscretizationError").ToDouble() << " (estimates)\n";
+  out << history->GetValueByName(last, "Iteration").ToInt()
+      << " iterations; estimated error of the solver " << std::setprecision(2)
+      << history->GetValueByName(last, "AlgebraicError").ToDouble() << ", of the function space "
+      << history->GetValueByName(last, "DiscretizationError").ToDouble()
+      << ", relative to the solution\n";
 }
 
 void PrintEigenvalues(vtkTable* spectrum, std::ostream& out)

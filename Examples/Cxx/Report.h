@@ -1,4 +1,4 @@
-// What the main job says while it works and when it is done.
+// The messages of the main job, while it works and at its end.
 #ifndef GridFEM_Examples_Report_h
 #define GridFEM_Examples_Report_h
 
@@ -12,30 +12,30 @@
 #include <string>
 #include <vector>
 
-/// A step of the pipeline could not do its work; what() is fit for the user.
+/// A step of the pipeline failed. what() is a message for the user.
 class StepFailed : public std::runtime_error
 {
 public:
   using std::runtime_error::runtime_error;
 };
 
-/// Runs pipeline steps one after the other and keeps what each took. While a step runs, a line
-/// shows how far it is, when standard error is a terminal.
+/// Runs pipeline steps one after the other and records the time and memory of each. If standard
+/// error is a terminal, a line shows the progress of the current step.
 class StepClock
 {
 public:
   /// Sends VTK's warnings through this class: each becomes one line on standard error.
   StepClock();
 
-  /// Updates an algorithm; runs of one name in a row count as one step. Throws StepFailed with what
-  /// the algorithm reported.
+  /// Updates an algorithm. Consecutive runs with the same name count as one step. Throws StepFailed
+  /// with the messages of the algorithm.
   void Run(const std::string& name, vtkAlgorithm* algorithm);
 
-  /// Adds a part of a step that ran already; it has no memory of its own.
+  /// Adds a part of a step that has already run. A part has no memory of its own.
   void AddPart(const std::string& name, double seconds);
 
-  /// A table: seconds of every step, the largest memory the process had used when it ended, and
-  /// what it held then: all filters keep what they made, for the next change.
+  /// Prints a table: the seconds of every step, the largest memory of the process until its end,
+  /// and the memory at its end. All filters keep their results for the next change.
   void Print(std::ostream& out) const;
 
 private:
@@ -49,9 +49,9 @@ private:
   std::vector<Step> steps_;
 };
 
-/// What clip, function space, matrices and hierarchy of a mesh with one right-hand side are
-/// expected to take, without the outputs of filters: they refuse what does not fit the memory of
-/// the machine.
+/// Estimates the memory of clip, function space, matrices and hierarchy of a mesh with one
+/// right-hand side, without the outputs of filters. The filters refuse a mesh that exceeds the
+/// memory of the machine.
 double ExpectedMegabytes(vtkPolyData* mesh, int depth);
 
 /// One level of the function space.

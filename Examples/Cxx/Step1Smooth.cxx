@@ -1,4 +1,4 @@
-// Step 1: one filter on a mesh. Smooths the shape, and looks at what the filter says of its answer.
+// Step 1: one filter on a mesh. Smooths the shape, and prints the filter's report on its answer.
 //
 //   gridfem_step_1 MESH.vtp DEPTH SMOOTH.vtp
 
@@ -25,13 +25,13 @@ int main(int argc, char* argv[])
   reader->SetFileName(argv[1]);
 
   // The filter clips the mesh and builds its functions itself: 2^Depth cells lie along the longest
-  // side. No array is chosen, so that the coordinates are what is smoothed, and the points move.
+  // side. No array is chosen, so the filter smooths the coordinates, and the points move.
   vtkNew<vtkScreenedPoisson> poisson;
   poisson->SetInputConnection(reader->GetOutputPort());
   poisson->SetDepth(std::atoi(argv[2]));
   poisson->SetScreeningWeight(1000); // per area of the surface; larger keeps more
 
-  // What goes wrong is said on standard error by VTK, and leaves the output empty.
+  // VTK prints errors on standard error. The output is then empty.
   poisson->Update();
   vtkPolyData* smooth = poisson->GetOutput();
   if (smooth->GetNumberOfPoints() == 0)
@@ -39,7 +39,7 @@ int main(int argc, char* argv[])
     return EXIT_FAILURE;
   }
 
-  // What the filter knows of the answer lies in the field data.
+  // The field data has the filter's report on its answer.
   const auto said = [&](const char* name)
   { return smooth->GetFieldData()->GetArray(name)->GetTuple1(0); };
   std::cout << (said("Converged") != 0 ? "Converged" : "Stopped") << " after " << said("Iterations")

@@ -35,7 +35,7 @@ int main(int argc, char* argv[])
   basis->SetInputConnection(clip->GetOutputPort());
 
   // A solver takes the mesh on port 0 and the basis on port 1; its output has the mesh's own points
-  // and cells. No array is chosen here, so that the coordinates are what is smoothed.
+  // and cells. No array is chosen here, so the filter smooths the coordinates.
   vtkNew<vtkScreenedPoisson> poisson;
   poisson->SetInputConnection(0, reader->GetOutputPort());
   poisson->SetInputConnection(1, basis->GetOutputPort());
@@ -55,8 +55,8 @@ int main(int argc, char* argv[])
   modesWriter->SetInputConnection(spectrum->GetOutputPort());
   modesWriter->SetFileName(argv[4]);
 
-  // The clip and the basis run once, for both. What goes wrong is said on standard error by VTK,
-  // and leaves the output empty.
+  // The clip and the basis run once, for both. VTK prints errors on standard error. The output is
+  // then empty.
   const bool written = smoothWriter->Write() && modesWriter->Write();
   const bool solved =
     poisson->GetOutput()->GetNumberOfPoints() > 0 && spectrum->GetOutput()->GetNumberOfPoints() > 0;

@@ -1,5 +1,5 @@
-// Step 3: modes, what they tell about the points, and a long computation that reports and can be
-// stopped.
+// Step 3: modes, signatures of the points, and a long computation that reports its progress and can
+// be stopped.
 //
 //   gridfem_step_3 MESH.vtp DEPTH SIGNATURES.vtp
 
@@ -19,7 +19,8 @@
 namespace
 {
 
-/// Prints every tenth. To stop the computation one would call filter->SetAbortExecute(1) here.
+/// Prints every tenth of the progress. To stop the computation, call filter->SetAbortExecute(1)
+/// here.
 void Report(vtkObject* caller, unsigned long /*event*/, void* client, void* /*data*/)
 {
   auto* filter = static_cast<vtkAlgorithm*>(caller);
@@ -67,8 +68,8 @@ int main(int argc, char* argv[])
             << modes->GetValueByName(1, "Eigenvalue").ToDouble() << ", known to a part of "
             << modes->GetValueByName(1, "EstimatedError").ToDouble() << ".\n";
 
-  // Takes the modes of its input, and adds arrays: the heat kernel signature, the distance in the
-  // sense of the modes from point 0.
+  // The filter takes the modes of its input and adds arrays, such as the heat kernel signature and
+  // the biharmonic distance from point 0.
   vtkNew<vtkSpectralSignatures> signatures;
   signatures->SetInputConnection(spectrum->GetOutputPort());
   signatures->AddSourcePointId(0);

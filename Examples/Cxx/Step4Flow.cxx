@@ -28,8 +28,8 @@ int main(int argc, char* argv[])
   vtkNew<vtkXMLPolyDataReader> reader;
   reader->SetFileName(argv[1]);
 
-  // The conformalised flow makes a closed surface without handles round; of any other the filter
-  // says that it will not become so.
+  // The conformalized flow turns a closed surface without handles into a sphere. For any other
+  // surface the filter warns that it will not become a sphere.
   vtkNew<vtkMeanCurvatureFlow> flow;
   flow->SetInputConnection(reader->GetOutputPort());
   flow->SetDepth(std::atoi(argv[2]));
@@ -41,12 +41,12 @@ int main(int argc, char* argv[])
   flow->UpdateInformation();
   vtkInformation* information = flow->GetOutputInformation(0);
   const double* first = information->Get(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
-  const std::vector<double> times( // a copy, for an update may replace them
+  const std::vector<double> times( // a copy, because an update may replace them
     first, first + information->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS()));
 
   for (const double time : times)
   {
-    flow->UpdateTimeStep(time); // goes on from the step before, which is kept
+    flow->UpdateTimeStep(time); // continues from the step before, which is kept
     if (flow->GetOutput()->GetNumberOfPoints() == 0)
     {
       return EXIT_FAILURE;

@@ -80,7 +80,7 @@ void Run(int depth)
             << stages.Runs(gridfem::SpaceStage) << " time, solved "
             << stages.Runs(gridfem::SolveStage) << " times\n";
 
-  // One call without anything that stays.
+  // One call that keeps nothing.
   gridfem::SpectrumSolver::Options modes;
   modes.numberOfModes = 5;
   const gridfem::SpectrumSolver::Result spectrum =
@@ -106,7 +106,7 @@ int main(int argc, char* argv[])
   {
     Run(std::atoi(argv[1]));
   }
-  catch (const std::exception& error) // Core says everything that it cannot do by an exception
+  catch (const std::exception& error) // Core throws an exception for everything that it cannot do
   {
     std::cerr << error.what() << "\n";
     return EXIT_FAILURE;

@@ -17,7 +17,7 @@ constexpr int Along = 400;
 constexpr int Around = 48;
 constexpr double Height = 0.7; // half the distance of two strands where they cross
 constexpr double TubeRadius = 0.68;
-constexpr int NumberOfStripes = 18; // where strands cross, the middles of two of unlike colour meet
+constexpr int NumberOfStripes = 18; // where strands cross, two stripes of different colors meet
 
 vtkVector3d Centre(double t)
 {

@@ -32,7 +32,8 @@ def curvatures_of(mesh, scale):
 
 
 def usual_size(mesh, name):
-    """What nine tenths of the points do not exceed: a few extremes would hide all others."""
+    """The value that nine tenths of the points do not exceed, because a few extremes would hide the
+    rest."""
     array = mesh.GetPointData().GetArray(name)
     values = sorted(abs(array.GetValue(point)) for point in range(array.GetNumberOfTuples()))
     return values[9 * len(values) // 10]

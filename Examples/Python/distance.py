@@ -1,5 +1,5 @@
 """Distances along a surface, in ParaView's Python: isolines from one point and from four, and the
-regions of eight. Each point is as far as it can be from those before.
+regions of eight. Each point is as far as possible from the points before it.
 
     PV_PLUGIN_CONFIG_FILE=build/lib/paraview-5.11/plugins/gridfem.plugins.xml \\
         xvfb-run -a pvpython distance.py MESH DEPTH PICTURE.png
@@ -36,7 +36,7 @@ def isolines(mesh, largest):
 
 
 def add_regions(mesh, sources):
-    """The point array Region: the number of the nearest source in the list, for few colours."""
+    """The point array Region: the number of the nearest source in the list, for few colors."""
     nearest = mesh.GetPointData().GetArray("NearestPoint")
     number = {source: k for k, source in enumerate(sources)}
     region = vtkIntArray()

@@ -3,7 +3,8 @@
     PYTHONPATH=build/lib/python3/dist-packages \\
         xvfb-run -a pvpython inpaint.py MESH DEPTH PICTURE.png
 
-MESH is a .vtp or .ply file. Of a smooth field what lies near some points is lost, a fifth of all.
+MESH is a .vtp or .ply file. The script deletes a fifth of the values of a smooth field, near some
+points.
 """
 
 import math
@@ -48,7 +49,7 @@ def field_of(mesh):
 
 
 def is_lost(mesh):
-    """Whether a point is one of the nearest to the centres of the holes."""
+    """Whether a point is one of the nearest to the centers of the holes."""
     points = [mesh.GetPoint(point) for point in range(mesh.GetNumberOfPoints())]
     centres = points[::max(1, len(points) // HOLES)]
     nearest = [min(math.dist(point, centre) for centre in centres) for point in points]

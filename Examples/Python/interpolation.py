@@ -30,7 +30,7 @@ def read(path):
 
 
 def far_apart(mesh, count):
-    """Points of the mesh, each the farthest from those before it."""
+    """Points of the mesh, each the farthest from the points before it."""
     points = [mesh.GetPoint(k) for k in range(mesh.GetNumberOfPoints())]
     chosen, nearest = [points[0]], [float("inf")] * len(points)
     while len(chosen) < count:
@@ -42,7 +42,7 @@ def far_apart(mesh, count):
 
 
 def coloured_points(places):
-    """Twelve bright colours at twelve places."""
+    """Twelve bright colors at twelve places."""
     points, colours = vtkPoints(), vtkUnsignedCharArray()
     colours.SetName("Colour")
     colours.SetNumberOfComponents(3)
@@ -69,7 +69,7 @@ def spread(mesh, places, depth, smoothness):
 
 
 def as_bytes(mesh):
-    """The mesh with its interpolated colours as bytes."""
+    """The mesh with its interpolated colors as bytes."""
     colours = vtkUnsignedCharArray()
     colours.SetName("Colour")
     colours.SetNumberOfComponents(3)
@@ -95,7 +95,7 @@ def dots(places, size):
 
 
 def upright(mesh, size):
-    """With y upwards, as scans often stand, a little from above."""
+    """With y upward, as scans often stand, a little from above."""
     return View(mesh.GetCenter(), (0.0, 0.3, 0.95), (0.0, 1.0, 0.0), 1.1 * size)
 
 

@@ -3,7 +3,7 @@
     PV_PLUGIN_CONFIG_FILE=build/lib/paraview-5.11/plugins/gridfem.plugins.xml \\
         pvpython pipeline.py MESH.vtp DEPTH SMOOTH.vtp MODES.vtp
 
-Installed, the first line is needed too, with the path of the installed gridfem.plugins.xml.
+With an installed GridFEM, use the path of the installed gridfem.plugins.xml.
 """
 
 import sys
@@ -22,11 +22,11 @@ clip = ClipToOctree(Input=mesh, Depth=int(sys.argv[2]))  # noqa: F821, from the 
 basis = ConnectivityAwareBasis(Input=clip)  # noqa: F821
 
 # A solver takes the mesh and the basis; its output has the mesh's own points and cells. No array is
-# chosen here, so that the coordinates are what is smoothed.
+# chosen here, so the filter smooths the coordinates.
 smooth = ScreenedPoisson(Input=mesh, Basis=basis, ScreeningWeight=1000)  # noqa: F821
 modes = LaplaceSpectrum(Input=mesh, Basis=basis, NumberOfModes=10, AllModes=1)  # noqa: F821
 
-# ParaView runs what is needed, once: clip and basis serve both.
+# ParaView runs every needed filter once. Clip and basis serve both solvers.
 SaveData(sys.argv[3], proxy=smooth)
 SaveData(sys.argv[4], proxy=modes)
 

@@ -3,8 +3,8 @@
     PYTHONPATH=build/lib/python3/dist-packages python3 pipeline_vtk.py \\
         MESH.vtp DEPTH SMOOTH.vtp MODES.vtp
 
-Python has to be the one of the VTK that GridFEM was built with; for ParaView's, that is python3 of
-the system or pvpython.
+Use the Python of the VTK that GridFEM was built with. For ParaView's VTK, use the python3 of the
+system or pvpython.
 """
 
 import sys
@@ -41,7 +41,7 @@ basis = vtkConnectivityAwareBasis()
 basis.SetInputConnection(clip.GetOutputPort())
 
 # A solver takes the mesh on port 0 and the basis on port 1; its output has the mesh's own points
-# and cells. No array is chosen here, so that the coordinates are what is smoothed.
+# and cells. No array is chosen here, so the filter smooths the coordinates.
 poisson = vtkScreenedPoisson()
 poisson.SetInputConnection(0, reader.GetOutputPort())
 poisson.SetInputConnection(1, basis.GetOutputPort())

@@ -3,8 +3,8 @@
     PV_PLUGIN_CONFIG_FILE=build/lib/paraview-5.11/plugins/gridfem.plugins.xml \\
         xvfb-run -a mpiexec -n 4 --bind-to none pvbatch ranks.py MESH DEPTH MODES.pvtp PICTURE.png
 
-MESH is a file that ParaView reads (.ply, .vtp, ...). Without --bind-to none a rank may have one
-processor only.
+MESH is a file that ParaView reads (.ply, .vtp, ...). Without --bind-to none a rank may get only one
+processor.
 """
 
 import pathlib

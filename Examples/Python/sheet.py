@@ -1,5 +1,5 @@
-"""What the examples with pictures share: draws them side by side on one white sheet, with VTK's own
-classes.
+"""Draws pictures side by side on one white sheet, with VTK's own classes. The examples with
+pictures share it.
 """
 
 import math
@@ -29,14 +29,14 @@ GAP = 8  # pixels between tiles
 
 @dataclass
 class Layer:
-    """A data set in a tile: coloured by a point or cell array, or all grey."""
+    """A data set in a tile: colored by a point or cell array, or all gray."""
 
     data: object
     array: str = ""
     low: float = -1.0
     high: float = 1.0
-    shuffled: bool = False  # ids: every value its own colour
-    direct: bool = False  # the array holds colours
+    shuffled: bool = False  # ids: every value its own color
+    direct: bool = False  # the array holds colors
     wireframe: bool = False
     edges: bool = False
     color: tuple = (0.85, 0.85, 0.83)
@@ -44,10 +44,10 @@ class Layer:
 
 @dataclass
 class View:
-    """Where a tile is looked at from, in parallel projection."""
+    """The view of a tile, in parallel projection."""
 
     centre: tuple
-    direction: tuple  # from the centre to the eye
+    direction: tuple  # from the center to the eye
     up: tuple
     height: float  # of what is seen
 
@@ -67,7 +67,8 @@ def required(data):
 
 
 def from_the_front(mesh, room=1.1):
-    """The plane of x and y, as scans often stand; room times what the mesh takes."""
+    """The plane of x and y, as scans often stand. `room` is the size of the view in sizes of the
+    mesh."""
     bounds = mesh.GetBounds()
     height = room * max(bounds[1] - bounds[0], bounds[3] - bounds[2])
     return View(mesh.GetCenter(), (0, 0, -1), (0, 1, 0), height)
@@ -102,7 +103,7 @@ def diverging_colors(low, high):
 
 
 def shuffled_colors(count):
-    """Light colours of which neighbouring numbers differ."""
+    """Light colors of which neighboring numbers differ."""
     colors = vtkColorTransferFunction()
     colors.SetColorSpaceToHSV()
     colors.HSVWrapOff()

@@ -46,7 +46,8 @@ def moved(mesh):
 
 
 def logarithm(mesh, name, component):
-    """Adds the logarithm of one component, by which a signature is best seen; its name and range."""
+    """Adds the logarithm of one component, which shows a signature best. Returns its name and
+    range."""
     source = mesh.GetPointData().GetArray(name)
     values = source.NewInstance()
     values.SetName(f"log {name} {component}")

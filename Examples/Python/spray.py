@@ -1,10 +1,10 @@
-"""Detail in one place: what lies near a point is selected and sharpened, the rest is smoothed.
+"""Detail in one place: points near one point are selected and sharpened, and the rest is smoothed.
 
     PV_PLUGIN_CONFIG_FILE=build/lib/paraview-5.11/plugins/gridfem.plugins.xml \\
         xvfb-run -a pvpython spray.py MESH DEPTH PICTURE.png
 
-MESH is a file that ParaView reads (.ply, .vtp, ...). In ParaView's window the mouse selects, and Copy
-Active Selection in the panel of Surface Detail takes what is selected.
+MESH is a file that ParaView reads (.ply, .vtp, ...). In ParaView's window, select with the mouse
+and press Copy Active Selection in the panel of Surface Detail.
 """
 
 import pathlib

@@ -1,9 +1,9 @@
-"""The colours of five scans of a surface, stitched to one, and a picture of before and after.
+"""The colors of five scans of a surface, stitched to one, and a picture of before and after.
 
     PYTHONPATH=build/lib/python3/dist-packages \\
         xvfb-run -a pvpython stitch.py MESH DEPTH PICTURE.png
 
-MESH is a .vtp or .ply file. Its colours, or stripes where it has none, are seen by five scanners from
+MESH is a .vtp or .ply file. Its colors, or stripes where it has none, are seen by five scanners from
 five sides, each with a gain and an offset of its own.
 """
 
@@ -30,7 +30,7 @@ def read(path):
 
 
 def colours_of(mesh):
-    """A function that gives the three colours of a point."""
+    """A function that gives the three colors of a point."""
     given = mesh.GetPointData().GetArray("RGB") or mesh.GetPointData().GetArray("RGBA")
     if given:
         return lambda point: given.GetTuple(point)[:3]
@@ -43,8 +43,8 @@ def colours_of(mesh):
 
 
 def add_scans(mesh):
-    """Adds what the scanners see, Seen, and which one it was, Scan: sectors around the
-    longest axis, whose number is returned."""
+    """Adds the colors that the scanners see, Seen, and the number of the scanner, Scan. Each
+    scanner sees a sector around the longest axis. Returns the number of this axis."""
     bounds = mesh.GetBounds()
     extent = [bounds[2 * k + 1] - bounds[2 * k] for k in range(3)]
     upright = extent.index(max(extent))

@@ -1,5 +1,5 @@
-"""Where are the limbs of a scan? Its eigenfunctions tell the tips, distances along the surface the
-regions around them, in ParaView's Python.
+"""Finds the limbs of a scan in ParaView's Python: the tips by eigenfunctions, and the regions
+around them by distances along the surface.
 
     PV_PLUGIN_CONFIG_FILE=build/lib/paraview-5.11/plugins/gridfem.plugins.xml \\
         xvfb-run -a pvpython story_analysis.py MESH DEPTH TIPS PICTURE.png
@@ -41,7 +41,7 @@ def add_heat(mesh):
 
 
 def summits(mesh):
-    """The points that keep more heat than their neighbours, the hottest first."""
+    """The points that keep more heat than their neighbors, the hottest first."""
     heat = mesh.GetPointData().GetArray("Heat").GetValue
     is_summit = [True] * mesh.GetNumberOfPoints()
     for k in range(mesh.GetNumberOfCells()):
@@ -54,7 +54,8 @@ def summits(mesh):
 
 
 def find_tips(signatures, mesh, depth, count):
-    """The hottest summits, each far from those before; the filter with the distances from them."""
+    """Returns the hottest summits, each far from the summits before it, and the filter with the
+    distances from them."""
     candidates = summits(mesh)
     tips = [candidates[0]]
     distance = GeodesicDistance(Input=signatures, Depth=depth, SourcePointIds=tips, NearestSource=1)

@@ -1,4 +1,4 @@
-"""A folded surface unfolds, and what was measured on it comes along, in ParaView's Python.
+"""A folded surface unfolds, and measurements on it come along, in ParaView's Python.
 
     PV_PLUGIN_CONFIG_FILE=build/lib/paraview-5.11/plugins/gridfem.plugins.xml \\
         xvfb-run -a pvpython story_unfolding.py MESH DEPTH PICTURE.png

@@ -1,5 +1,5 @@
-"""A surface whose folds nearly touch unfolds, in ParaView's Python: plain functions above,
-connectivity-aware ones below, four steps of each as one picture.
+"""A surface with folds that nearly touch unfolds, in ParaView's Python. The picture shows four
+steps with plain functions above, and with connectivity-aware functions below.
 
     PV_PLUGIN_CONFIG_FILE=build/lib/paraview-5.11/plugins/gridfem.plugins.xml \\
         xvfb-run -a pvpython unfolding.py MESH DEPTH PICTURE.png

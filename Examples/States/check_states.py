@@ -1,6 +1,6 @@
-"""Loads all states of this folder one after the other, at depth 4 so that they take little time, and draws
-them small. Ends with 1 unless each has at least so many time steps, the point array of its source differs
-from point to point, and every view shows more than its background.
+"""Loads all states of this folder one after the other, at depth 4 to save time, and draws them
+small. Ends with 1 if a state has too few time steps, if the point array of its source is constant,
+or if a view shows only its background.
 
     pvpython check_states.py FOLDER
 
@@ -47,7 +47,7 @@ def clear():
 
 
 def colors(view):
-    """How many colours a view shows."""
+    """How many colors a view shows."""
     view.ViewSize = [200, 150]
     simple.Render(view)
     image = vtkWindowToImageFilter()

@@ -1,6 +1,5 @@
-"""A ParaView state: how a surface bends. The left view has the mean curvature, blue where it is hollow and
-red where it bulges, the right one the shape index, which tells a valley from a ridge whatever their
-size.
+"""A ParaView state: how a surface bends. The left view has the mean curvature, blue in hollows and
+red on bulges. The right view has the shape index, which tells a valley from a ridge of any size.
 
 In ParaView: File > Load State (with the plugin loaded), or with a mesh of your own
 

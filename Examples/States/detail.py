@@ -1,5 +1,5 @@
-"""A ParaView state: a surface smoothed, above, and sharpened, below; everywhere, and by its curvature
-with what is across valleys, across ridges, or across both kept.
+"""A ParaView state: a surface smoothed (above) and sharpened (below). The columns keep nothing,
+valleys, ridges, and both.
 
 In ParaView: File > Load State (with the plugin loaded), for example with a scan
 

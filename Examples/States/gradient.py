@@ -1,5 +1,5 @@
-"""A ParaView state: a field of vectors taken apart. The left view has what flows out of sources, with its
-potential, the right one what turns in eddies, with its stream function.
+"""A ParaView state: a field of vectors taken apart. The left view has the flow out of sources with
+its potential. The right view has the eddies with their stream function.
 
 In ParaView: File > Load State (with the plugin loaded), or with a mesh of your own
 

@@ -26,7 +26,7 @@ simple.RenameSource("Clip", clip)
 basis = ConnectivityAwareBasis(Input=clip)
 simple.RenameSource("Basis", basis)
 
-# Of the functions in front the one that lives on most of the surface.
+# The function in front that lives on the largest part of the surface.
 functions = servermanager.Fetch(basis, idx=1)
 area = functions.GetPointData().GetArray("SupportArea")
 middle = functions.GetCenter()[2]

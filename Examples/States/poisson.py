@@ -1,5 +1,5 @@
-"""A ParaView state: noise is taken off an array. The left view has noisy stripes, the right one what
-Screened Poisson makes of them.
+"""A ParaView state: noise is taken off an array. The left view has noisy stripes. The right view
+has the result of Screened Poisson.
 
 In ParaView: File > Load State (with the plugin loaded), or with a mesh of your own
 

@@ -1,5 +1,6 @@
-"""A ParaView state: what the modes of a surface tell about its points. The left view has the heat kernel
-signature, the same at points that look alike, the right one the biharmonic distance from a point.
+"""A ParaView state: signatures of the points of a surface, computed from its modes. The left view
+has the heat kernel signature, the same at points that look alike, the right one the biharmonic
+distance from a point.
 
 In ParaView: File > Load State (with the plugin loaded), or with a mesh of your own
 

@@ -1,5 +1,5 @@
-"""A ParaView state: detail in one place, as with a spray can. The left view has the input and what is
-selected, the right one the selection sharpened and the rest smoothed.
+"""A ParaView state: detail in one place, as with a spray can. The left view has the input and the
+selection. The right view has the selection sharpened and the rest smoothed.
 
 In ParaView: File > Load State (with the plugin loaded), for example with a scan
 
@@ -43,7 +43,7 @@ RenameSource("Mesh", mesh)
 mesh.UpdatePipeline()
 low_x, high_x, low_y, high_y, low_z, high_z = mesh.GetDataInformation().GetBounds()
 
-# What is near to a point in front of the upper part.
+# The points near a place in front of the upper part.
 place = PointSource(
     Center=[(low_x + high_x) / 2, low_y + 0.835 * (high_y - low_y), low_z], Radius=0.0)
 RenameSource("Place", place)

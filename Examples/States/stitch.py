@@ -1,5 +1,5 @@
-"""A ParaView state: the colours of two scans made one. The left view has what two scanners saw, one of
-them too bright and too red, the right one what Stitch Colors makes of it.
+"""A ParaView state: the colors of two scans made one. The left view has the colors of two
+scanners, one of them too bright and too red. The right view has the result of Stitch Colors.
 
 In ParaView: File > Load State (with the plugin loaded), or with a mesh of your own
 

@@ -28,8 +28,8 @@ public:
   BlockPartition(const Communicator& ranks, const TriangleMesh& mesh, const ClipFrame& frame,
     int granularity, const std::vector<MortonKey>* cells = nullptr);
 
-  /// Largest automatic number of blocks. All ranks hold each of their functions, on that level and
-  /// on coarser ones.
+  /// Largest automatic number of blocks. All ranks hold each of their functions, on this level and
+  /// on coarser levels.
   static constexpr Id MostBlocks = 4096;
 
   int Depth() const { return depth_; }

@@ -143,8 +143,9 @@ void DistributedSurface::AgreeOn(GivenCells& cells) const
     {
       if (!own.empty() && own != numbers)
       {
-        throw InvalidInput("The surface here was clipped to other cells than that of other ranks. "
-                           "Clip it again.");
+        throw InvalidInput(
+          "The surface of this rank was clipped to a different grid than the surface of "
+          "other ranks. Clip it again.");
       }
     });
   cells.grid.origin = Vec3(numbers[0], numbers[1], numbers[2]);

@@ -20,8 +20,8 @@ struct RankNeighbour
 
 /// The functions that touch a cell of this rank; for hats, the functions that the rank holds
 /// (RankHats). A function belongs to the lowest rank whose cells it touches. Functions of other
-/// ranks therefore have lower numbers and come first here. Numbers ascend, and those of one rank
-/// are contiguous.
+/// ranks therefore have lower numbers and come first here. Numbers ascend, and the numbers of one
+/// rank are contiguous.
 struct LevelNumbering
 {
   Id begin = 0; // number of this rank's first function
@@ -35,7 +35,7 @@ struct LevelNumbering
   Index OwnFunctions() const { return this->Functions() - foreign; }
 };
 
-/// Patches first .. last of a level: those in cells that this rank owns.
+/// Patches first .. last of a level are the patches in cells that this rank owns.
 struct PatchRange
 {
   Index first = 0;
@@ -51,7 +51,8 @@ PatchRange OwnPatches(const PatchLevel& level, const BlockPartition& partition, 
 LevelNumbering NumberLevel(const Communicator& ranks, const BlockPartition& partition,
   const PatchLevel& level, std::vector<Index>& place);
 
-/// The place of a patch among those of its cell. It is the same on all ranks that see the cell.
+/// The place of a patch among the patches of its cell. It is the same on all ranks that see the
+/// cell.
 Index PlaceInCell(const PatchLevel& level, Index patch);
 
 /// The first patch in a cell; if there is none, the first patch behind it.

@@ -116,7 +116,7 @@ ClipFrame FrameOf(
   return frame;
 }
 
-/// Collective. The cells of the received triangles, and those of them in this rank's region.
+/// Collective. The cells of the received triangles, and the cells among them in this rank's region.
 GivenCells SendCells(
   const Redistribution& distribution, const GivenCells& given, const CellRegion& region)
 {

@@ -90,7 +90,7 @@ std::vector<char> RankDistance::MarkSources(const std::vector<Id>& sources) cons
   space.Ranks().Maximum(&any, 1);
   if (any == 0.0)
   {
-    throw InvalidInput("There are no sources that distances could start from.");
+    throw InvalidInput("There are no sources for the distance.");
   }
   space.SumAtPoints(count);
   std::vector<char> isSource(mesh_->points.size());

@@ -15,7 +15,7 @@ namespace gridfem
 
 /// The divided levels come first: the functions of RankHats::Numbering if there are hats, then
 /// those of RankSpace::Numberings. The shared levels follow. The mesh consists of the rank's own
-/// triangles. All functions are collective, except those that return a number or a reference. A
+/// triangles. All functions are collective, except functions that return a number or a reference. A
 /// progress passed to them has to give the same answer on all ranks. Keeps references to the space
 /// and the hats.
 class RankLevels : public SurfaceSpace

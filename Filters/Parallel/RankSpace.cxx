@@ -12,7 +12,7 @@ namespace gridfem
 namespace
 {
 
-/// Replaces the links of the finer level's patches by those of the coarser level's patches.
+/// Replaces the links of the finer level's patches by the links of the coarser level's patches.
 void CoarsenLinks(const PatchLevel& fine, int threads, Array<Link>& links)
 {
   links = LinksOfGroups(links, fine.parent, threads);

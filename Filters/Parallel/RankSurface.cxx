@@ -10,8 +10,7 @@ RankSurface::RankSurface(const Communicator& ranks, const TriangleMesh& own,
   const SpaceOptions& functions = options.space.functions;
   if (hasHats && !functions.weldCoincidentPoints)
   {
-    throw InvalidInput("Hat functions on several ranks join coincident points: "
-                       "WeldCoincidentPoints has to be on.");
+    throw InvalidInput("Hat functions on several ranks need Weld Coincident Points. Turn it on.");
   }
   const auto clip = [&](const RankSpaceOptions& how, double from, double to)
   { return std::make_unique<const RankSpace>(ranks, own, how, progress.Part(from, to), copies); };

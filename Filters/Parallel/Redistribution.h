@@ -21,8 +21,8 @@ public:
     const BlockPartition& partition, const std::vector<MortonKey>* cells = nullptr);
 
   /// The mesh that this rank has received; it is given up. Triangles are in the order of their
-  /// numbers. Points are sorted in space by their coordinates alone, coincident ones in the order
-  /// of their numbers. This order helps to make clipping the same on all ranks.
+  /// numbers. Points are sorted in space by their coordinates alone. Coincident points keep the
+  /// order of their numbers. This order helps to make clipping the same on all ranks.
   TriangleMesh TakeMesh() { return std::move(mesh_); }
 
   /// Collective. Sends the rows of a field to the points, or the triangles, of the received mesh.
@@ -46,7 +46,7 @@ public:
 
   Id NumberOfOwnPoints() const { return numberOfOwnPoints_; }
 
-  /// ///@{ Own points and own triangles that are sent to a rank, ascending.
+  ///@{ Own points and own triangles that are sent to a rank, ascending.
   const std::vector<Index>& PointsTo(int rank) const { return sentPoints_[rank]; }
   const std::vector<Index>& TrianglesTo(int rank) const { return sentTriangles_[rank]; }
   ///@}

@@ -54,13 +54,13 @@ def signatures(points, cells, number=100, **properties):
 
 def poisson(points, cells, values=None, gradients=None, weights=None, held=None, gradient_scale=None,
             flux=None, **properties):
-    """Computes the function nearest to values whose gradients are nearest to given ones.
+    """Computes a function that is close to given values, with gradients close to given gradients.
 
-    values: N or M rows; None takes the coordinates. gradients: a vector for each column of the values;
-    None takes zero, which smooths. weights: weights of the values. held: where it is true at the
-    points, the values stay. gradient_scale: a factor on the gradients. flux: the slope of the solution out
-    of the surface, at the points of its boundary. ScreeningWeight determines how much values count.
-    UseValueGradient and GradientScale sharpen. FillUnknown fills in NaN.
+    values: N or M rows; None takes the coordinates. gradients: a vector for each column of the
+    values; None takes zero, which smooths. weights: weights of the values. held: true at points
+    where the values stay. gradient_scale: a factor on the gradients. flux: the slope of the
+    solution out of the surface, at the points of its boundary. ScreeningWeight determines how much
+    values count. UseValueGradient and GradientScale sharpen. FillUnknown fills in NaN.
     """
     given = {"values": values, "gradients": gradients, "weights": weights, "held": held,
              "gradient_scale": gradient_scale, "flux": flux}
@@ -74,7 +74,7 @@ def distance(points, cells, sources, nearest=False, **properties):
     """
     sources = _inputs.ids("sources", sources)
     if sources.size == 0:
-        raise Error("no sources")
+        raise Error("there are no sources")
     results = _solve("GeodesicDistance", points, cells, {},
                      {"NearestSource": bool(nearest), **properties}, sources)
     if nearest:
@@ -121,7 +121,7 @@ def interpolate(points, cells, ids, values, **properties):
         raise Error(f"there are {len(ids)} ids and {len(values)} values")
     points, cells = _inputs.checked(points, cells)
     if ids.size and not (0 <= ids.min() and ids.max() < len(points)):
-        raise Error(f"ids must be those of the {len(points)} points, from 0")
+        raise Error(f"ids must be ids of the {len(points)} points, from 0")
     known = numpy.full((len(points), *values.shape[1:]), numpy.nan)
     known[ids] = 0.0
     numpy.add.at(known, ids, values)
@@ -182,8 +182,8 @@ def decompose(points, cells, vectors, **properties):
 def detail(points, cells, scale=2.0, values=None, scales=None, **properties):
     """Computes the points of the surface with its details enlarged (scale above 1) or removed (scale 0).
 
-    values: numbers at the points, which are returned with their details scaled in place of the points.
-    scales: factors on the scale, at points or cells.
+    values: numbers at the points. With values, the function returns them with scaled details
+    instead of the points. scales: factors on the scale, at points or cells.
     """
     results = _solve("SurfaceDetail", points, cells, {"values": values, "scales": scales},
                      {"DetailScale": scale, **properties})

@@ -33,7 +33,7 @@ def whole(name, values):
                     "ids where a mask is true")
     most = numpy.iinfo(numpy.int64).max
     if array.size and not (numpy.abs(array.astype(float)) < most).all():
-        raise Error(f"{name} must be whole numbers; there is one that is none, or too large")
+        raise Error(f"{name} must be whole numbers; there is one that is not finite, or too large")
     if array.dtype.kind == "f" and (array != numpy.floor(array)).any():
         raise Error(f"{name} must be whole numbers; there is {array[array != numpy.floor(array)][0]}")
     return array.astype(numpy.int64)
@@ -116,7 +116,7 @@ def arrays(mesh):
         ids = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray())
         cells = _rows(numpy.split(ids, offsets[1:-1]))
     else:
-        raise Error(f"{type(mesh).__name__} is no mesh with points and faces, vertices and faces, "
+        raise Error(f"{type(mesh).__name__} is not a mesh with points and faces, vertices and faces, "
                     "or points and cells")
     points = numpy.asarray(points, dtype=float)
     if points.ndim == 2 and points.shape[1] == 2:  # meshio's form in the plane

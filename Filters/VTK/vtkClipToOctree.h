@@ -4,7 +4,7 @@
  *
  * Lays the surface into a cube of 2^Depth cells per side and cuts every polygon along the cell
  * faces. Every triangle of the output lies in one cell. All surface finite element filters
- * integrate on this mesh. The output is also the input of vtkConnectivityAwareBasis.
+ * integrate on such a mesh. The output is also an input of vtkConnectivityAwareBasis.
  *
  * Input: vtkPolyData with polygons of any size, concave ones too, or triangle strips. Vertices and
  * lines are left out.
@@ -38,7 +38,7 @@
  * QuadratureDegree. QuadratureDegree changes only output port 1.
  *
  * On several MPI ranks, each rank outputs the triangles in its own cells of the octree, wherever
- * their polygons came from. The triangles of all ranks, in rank order, are those that one rank
+ * their polygons came from. In rank order, the ranks together output the triangles that one rank
  * would output. Each rank has only the points that its triangles use: the input's points first, in
  * another order. `OctreeCells` lists the cells of all ranks, on each rank. Only arrays that the
  * pieces of all ranks have are output.
@@ -72,9 +72,9 @@ public:
   };
   ///@{
   /**
-   * Whether output port 1 has the quadrature points. Every clipped triangle has at least three, so
-   * they take several times the memory of the clipped mesh. Off leaves the port empty. Automatic
-   * (default) fills it if there are at most a million points.
+   * Whether output port 1 has the quadrature points. Every clipped triangle has at least three
+   * points, so they take several times the memory of the clipped mesh. Off leaves the port empty.
+   * Automatic (default) fills it if there are at most a million points.
    */
   vtkSetClampMacro(GenerateQuadraturePoints, int, QuadraturePointsOff, QuadraturePointsAutomatic);
   vtkGetMacro(GenerateQuadraturePoints, int);

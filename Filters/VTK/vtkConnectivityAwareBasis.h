@@ -11,7 +11,7 @@
  * of a clipped mesh and clips any other input first.
  *
  * Output port 0 (vtkPolyData) is the clipped mesh with all arrays of vtkClipToOctree and the
- * following ones.
+ * following arrays.
  * - cell data: `PatchId` (vtkIdType, 1) is an index into `PatchBasisIds`.
  * - cell data: `PatchColor` (signed char, 1) differs where patches of two cells touch. The first
  *   patch of an octree cell has 0 to 7, the cell's other patches have 8 to 15.
@@ -29,11 +29,11 @@
  * - cell data: `PatchId` (vtkIdType, 1), `Level` (int, 1).
  *
  * The filter uses the shared properties Depth, ConnectivityAware, WeldCoincidentPoints and
- * NumberOfThreads. Depth has no effect on a clipped mesh. WeldCoincidentPoints has its effect on a
- * clipped mesh too, whatever the clip was made with.
+ * NumberOfThreads. Depth has no effect on a clipped mesh. WeldCoincidentPoints also applies to a
+ * clipped mesh, whatever value the clip was made with.
  *
  * On several MPI ranks, each rank outputs the triangles in its own cells of the octree, wherever
- * their polygons came from. The triangles of all ranks, in rank order, are those that one rank
+ * their polygons came from. In rank order, the ranks together output the triangles that one rank
  * would output. Every rank has the whole tables of the basis, coarse levels included. The first
  * rank shows the functions of coarse levels. Only arrays that the pieces of all ranks have are
  * output. Triangles that were clipped before, by all ranks or by one, stay on their ranks.

@@ -2,11 +2,11 @@
  * @class   vtkFarthestPoints
  * @brief   points spread evenly over a surface, and the region of each
  *
- * Finds points one after the other. Each is the point that is farthest along the surface from all
- * points before it. The largest distance to a found point is therefore at most twice that of the
- * best choice of as many points. Every connected component gets a point before any component gets a
- * second one. Each point takes one solution of vtkGeodesicDistance. A larger NumberOfPoints
- * continues from the points found before.
+ * Finds points one after the other. Each new point is the farthest, along the surface, from all
+ * points before it. The largest distance to a found point is therefore at most twice the largest
+ * distance of the best choice of equally many points. Every connected component gets a point before
+ * any component gets a second one. Each point takes one solution of vtkGeodesicDistance. A larger
+ * NumberOfPoints continues from the points found before.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
  * vtkConnectivityAwareBasis.
@@ -21,9 +21,9 @@
  *   are fewer than NumberOfPoints if the surface has fewer points.
  * - field data: `Radius` (double, 1), the largest Distance.
  *
- * Tolerance, NormalStabilization and MaximumIterations have the defaults of vtkGeodesicDistance,
- * and so errors have the same size. The filter uses all shared properties but ParameterUnits. On
- * several MPI ranks the surface is gathered.
+ * Tolerance, NormalStabilization and MaximumIterations have the defaults of vtkGeodesicDistance, so
+ * errors have the same size. The filter uses all shared properties but ParameterUnits. On several
+ * MPI ranks the surface is gathered.
  */
 #ifndef vtkFarthestPoints_h
 #define vtkFarthestPoints_h

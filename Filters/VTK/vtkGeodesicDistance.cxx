@@ -84,10 +84,10 @@ void vtkGeodesicDistance::FindSources(vtkDataSet* places)
   gridfem::InputSurface& surface = this->State->Surface();
   gridfem::DistanceSolver::Input& input = this->Data->Input;
   input.ids = this->Data->SourceIds;
-  input.mask = surface.Given(surface.Find(0, "SourceArray"));
+  input.mask = surface.Given(surface.Find(0, "Source Array"));
   if (this->Selection->IsGiven())
   {
-    input.points.push_back({ "a Selection", "The Selection takes no point of a polygon",
+    input.points.push_back({ "the Selection", "The Selection takes no point of a polygon",
       [this, &surface] { return this->Selection->Ids(surface.Mesh()); } });
   }
   if (places && !this->Signed)
@@ -106,7 +106,7 @@ void vtkGeodesicDistance::FindCurve(vtkDataSet* lines)
 {
   gridfem::InputSurface& surface = this->State->Surface();
   gridfem::DistanceSolver::Input& input = this->Data->Input;
-  input.labels = surface.Given(surface.Find(1, "LabelArray"));
+  input.labels = surface.Given(surface.Find(1, "Label Array"));
   input.curve.version.Add(lines);
   input.curve.divide = [&surface, lines]
   { return gridfem::CurveOfLines(lines, surface.Mesh(), surface.AreCoincidentPointsWelded()); };

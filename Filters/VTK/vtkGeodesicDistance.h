@@ -5,8 +5,8 @@
  * Computes the distance by the heat method (Crane, Weischedel, Wardetzky 2013). Heat spreads from
  * the sources for a short time t. The distance grows in the direction in which the heat falls. The
  * result is the function whose gradient is nearest to these directions. The filter solves two
- * equations. It keeps everything that does not depend on the sources, so that other sources repeat
- * only the two solves.
+ * equations. It keeps everything that does not depend on the sources, so a change of the sources
+ * repeats only the two solves.
  *
  * The sources are all of the following points together:
  * - the points in SourcePointIds;
@@ -39,19 +39,19 @@
  * - point data, double: `Distance`, in the unit of the points. It is 0 at sources and negative only
  *   inside a curve. It is NaN on a component without a source and at points that no polygon uses.
  * - point data, vtkIdType, with NearestSource on: `NearestSource`, the id of the source that the
- *   distance is from. It is -1 where there is none.
+ *   distance is from. It is -1 where no source can be reached.
  * - field data, of the solve for the distance: `Converged`, `Iterations`, `DoublePrecisionSince`,
  *   `Residual`, `ConvergenceFactor`.
  * - field data: `HeatSweeps` (double, 1).
  *
  * Errors are proportional to the size of the functions. They are sqrt(t) / 2 to sqrt(t) near
- * boundaries and where fronts meet, and a small fraction of that elsewhere. Sheets that are nearer
- * to each other than a cell do not influence each other while ConnectivityAware is on.
+ * boundaries and where fronts meet, and a small fraction of sqrt(t) elsewhere. Sheets that are
+ * closer to each other than a cell do not interact while ConnectivityAware is on.
  *
  * Tolerance (default 1e-4) is on the solve for the distance from its gradient, as in
  * vtkScreenedPoisson. The heat is always solved to the same relative accuracy everywhere.
- * NormalStabilization is 0.1 by default: with less, functions that hide in the surface spoil small
- * numbers. The filter uses all shared properties but ParameterUnits.
+ * NormalStabilization is 0.1 by default: with a smaller value, functions that are almost zero on
+ * the surface spoil small numbers. The filter uses all shared properties but ParameterUnits.
  *
  * All MPI ranks compute together if the sources are a SourceArray, a selection or the first point.
  * Rank 0 gathers the surface and computes alone with SourcePointIds, Sources, Signed,
@@ -78,8 +78,8 @@ public:
 
   ///@{
   /**
-   * Points that distances start from, besides those of the SourceArray, of port 2 and of port 3.
-   * None by default. The filter refuses an id that no polygon uses when it runs.
+   * Points from which distances start, in addition to the sources of the SourceArray, of port 2 and
+   * of port 3. None by default. The filter refuses an id that no polygon uses when it runs.
    */
   void AddSourcePointId(vtkIdType id);
   void ClearSourcePointIds();
@@ -90,8 +90,8 @@ public:
   ///@{
   /**
    * sqrt(t), in units of the mean distance between grid functions that overlap, which is 1.2 cells.
-   * A larger value rounds the distance off where fronts meet and takes somewhat longer. A much
-   * smaller one makes the heat oscillate. 0.5..1000, default 1.75.
+   * A larger value rounds the distance off where fronts meet and takes a little longer. A much
+   * smaller value makes the heat oscillate. 0.5..1000, default 1.75.
    */
   vtkSetClampMacro(Smoothing, double, 0.5, 1000.0);
   vtkGetMacro(Smoothing, double);
@@ -100,7 +100,7 @@ public:
   ///@{
   /**
    * Whether to output the point array `NearestSource`. It divides the surface into regions whose
-   * points have the same nearest source. The borders of the regions are right to within some cells.
+   * points have the same nearest source. The borders of the regions are accurate to a few cells.
    * Off by default.
    */
   vtkSetMacro(NearestSource, bool);
@@ -111,7 +111,8 @@ public:
   ///@{
   /**
    * Whether distances are from curves, negative inside. SourcePointIds, SourceArray, a selection
-   * and NearestSource need points as sources, and are refused then. Off by default.
+   * and NearestSource need points as sources, so the filter refuses them with Signed. Off by
+   * default.
    */
   vtkSetMacro(Signed, bool);
   vtkGetMacro(Signed, bool);
@@ -120,7 +121,7 @@ public:
 
   ///@{
   /**
-   * The label of what is inside, with a LabelArray. Default 1.
+   * The value of LabelArray inside the curve. Default 1.
    */
   vtkSetMacro(InsideLabel, int);
   vtkGetMacro(InsideLabel, int);

@@ -24,14 +24,14 @@ vtkStandardNewMacro(vtkHarmonicInterpolation);
 namespace
 {
 
-/// Returns the array chosen for the second data set, or else the one chosen for the first, or else
-/// the active scalars.
+/// Returns the array chosen for the second data set, or else the array chosen for the first data
+/// set, or else the active scalars.
 gridfem::InputArray FindArrayOf(vtkAlgorithm* algorithm, vtkDataSet* values)
 {
   gridfem::InputArray array = gridfem::FindInputArray(algorithm, 2, values, "SourceArray");
   if (!array.array)
   {
-    array = gridfem::FindInputArray(algorithm, 0, values, "ValueArray, of the input Values,");
+    array = gridfem::FindInputArray(algorithm, 0, values, "In the input Values, the Value Array");
   }
   vtkDataArray* scalars = values->GetPointData()->GetScalars();
   if (!array.array && scalars)
@@ -40,7 +40,7 @@ gridfem::InputArray FindArrayOf(vtkAlgorithm* algorithm, vtkDataSet* values)
     array.name = scalars->GetName() ? scalars->GetName() : "";
   }
   gridfem::RequirePointArray(
-    array, "ValueArray", "the input Values has no active scalars to take instead");
+    array, "Value Array", "The input Values has no active scalars to use instead.");
   return array;
 }
 
@@ -65,7 +65,7 @@ bool KnowsSome(vtkDataArray* array)
 /// unknown values.
 gridfem::InputArray FindValueArray(vtkAlgorithm* algorithm, vtkDataSet* input)
 {
-  gridfem::InputArray array = gridfem::FindInputArray(algorithm, 0, input, "ValueArray");
+  gridfem::InputArray array = gridfem::FindInputArray(algorithm, 0, input, "Value Array");
   if (array.array)
   {
     return array;
@@ -117,9 +117,9 @@ gridfem::GivenConstraints vtkHarmonicInterpolation::FindValues(
     return values;
   }
   array = FindValueArray(this, input);
-  gridfem::RequirePointArray(array, "ValueArray",
-    "values at some points, with NaN, a MaskArray or a Selection for the others");
-  const gridfem::InputArray mask = surface.Find(1, "MaskArray");
+  gridfem::RequirePointArray(array, "Value Array",
+    "Mark the known points by a Mask Array or a selection, or put NaN at the unknown points.");
+  const gridfem::InputArray mask = surface.Find(1, "Mask Array");
   values.find = [this, array, mask, &surface]
   { return gridfem::KnownValues(array, mask, *this->Selection, surface.Mesh()); };
   return values;

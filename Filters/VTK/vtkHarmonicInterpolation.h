@@ -4,7 +4,7 @@
  *
  * Finds the smoothest function on the surface that has the given values at some points. A harmonic
  * function stays between the values and has a peak at an isolated point. A biharmonic function is
- * smooth there.
+ * smooth at isolated points.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
  * vtkConnectivityAwareBasis.
@@ -20,7 +20,7 @@
  * - index 1, `MaskArray` (optional): point data of port 0, one component. Values are known where it
  *   is neither 0 nor NaN. With a mask or a selection, only masked and selected points have known
  *   values.
- * - index 2 (optional): point data of port 2, if that is connected. If none is chosen, the filter
+ * - index 2 (optional): point data of port 2, if port 2 is connected. If none is chosen, the filter
  *   takes the array of port 2 with the name of ValueArray, or the active scalars if ValueArray is
  *   not chosen either. The MaskArray and the selection are not used then.
  *
@@ -29,7 +29,7 @@
  * Output port 0 (vtkPolyData): the input with the following arrays.
  * - point data: `Interpolated`, with the components of the values. It is float if they are float,
  *   else double. It is NaN at points that no polygon uses, and on connected components without any
- *   value. The filter warns once of such components.
+ *   value. The filter warns once about such components.
  * - field data: `Misfit` (double, 1), the largest difference from a given value.
  * - field data: `Converged`, `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor`.
  * - field data: `DiscretizationError`, `LargestDiscretizationError`, `AlgebraicError` and

@@ -77,8 +77,8 @@ void vtkHeatDiffusion::Compute(vtkInformationVector** inputs, vtkInformationVect
   gridfem::InputSurface& surface = state.Read(input, vtkPolyData::GetData(inputs[1]));
   surface.Select(*this->Selection, vtkSelection::GetData(inputs[2]));
   data.Array = surface.Find(0, "Array");
-  data.Source = surface.Find(1, "HeatSourceArray");
-  data.Mask = surface.Find(2, "ConstraintArray");
+  data.Source = surface.Find(1, "Heat Source Array");
+  data.Mask = surface.Find(2, "Constraint Array");
 
   gridfem::DiffusionSolver::Options options;
   options.equation = state.options;

@@ -2,11 +2,11 @@
  * @class   vtkHeatDiffusion
  * @brief   an array that spreads along a surface as heat does, in time steps
  *
- * Solves du/dt = div grad u + s on the surface, from the array at time 0 to the DiffusionTime. The
- * time is cut into NumberOfSteps equal steps, and each is a time step of the output. A step takes
- * two solves, is of second order in its length, and is stable for any length. No heat flows over
- * boundaries. The integral over every connected component changes only by what the source adds.
- * Held values, however, let heat enter and leave.
+ * Solves ∂u/∂t = Δu + s on the surface, from the array u at time 0 to the DiffusionTime, with the
+ * source s. The time is divided into NumberOfSteps equal steps, and each is a time step of the
+ * output. A step takes two solves, is of second order in its length, and is stable for any length.
+ * No heat flows over boundaries. The integral over every connected component changes only by the
+ * source. Held values, however, let heat enter and leave.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
  * vtkConnectivityAwareBasis.
@@ -19,7 +19,7 @@
  * - index 1: the source, which is added per unit of time, point or cell data with C components.
  *   Without it the source is 0.
  * - index 2, the ConstraintArray: point data with one component. Points at which it is not 0 keep
- *   the value of time 0. The array at time 0 must be point data then.
+ *   the value of time 0. The array at time 0 must be point data in this case.
  *
  * Output port 0 (vtkPolyData): the input with the following arrays.
  * - point data, double: `Diffused` (C components). Points that no polygon uses keep the array if it
@@ -42,7 +42,8 @@
  * properties. DiffusionTime is in the squared unit of length of ParameterUnits, and the source is
  * per squared world length.
  *
- * All MPI ranks compute together if an array spreads. Rank 0 computes alone if the coordinates do.
+ * All MPI ranks compute together if an array spreads. Rank 0 computes alone if the coordinates
+ * spread.
  */
 #ifndef vtkHeatDiffusion_h
 #define vtkHeatDiffusion_h
@@ -72,7 +73,7 @@ public:
 
   ///@{
   /**
-   * The number of equal steps that the time is cut into. 1..10000, default 1.
+   * The number of equal time steps. 1..10000, default 1.
    */
   vtkSetClampMacro(NumberOfSteps, int, 1, 10000);
   vtkGetMacro(NumberOfSteps, int);

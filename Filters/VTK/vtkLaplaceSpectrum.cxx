@@ -103,7 +103,7 @@ void vtkLaplaceSpectrum::Compute(vtkInformationVector** inputs, vtkInformationVe
   state.options.functionsPerPoint =
     choosesDepth ? gridfem::AsManyAsWanted
                  : gridfem::SpectrumSolver::SurfaceDefaults().functionsPerPoint;
-  state.options.metricArray = surface.Find(5, "MetricArray");
+  state.options.metricArray = surface.Find(5, "Metric Array");
   this->Solve();
 
   const vtkNew<vtkPolyData> nothing; // field arrays are on all ranks
@@ -144,9 +144,9 @@ int vtkLaplaceSpectrum::ShownMode(vtkInformation* output) const
   const int count = this->Data->FoundModes;
   if (this->Mode >= count)
   {
-    throw gridfem::InvalidInput("Mode " + std::to_string(this->Mode) +
-                                " does not exist: there are " + std::to_string(count) +
-                                " modes. Raise NumberOfModes or Depth.");
+    throw gridfem::InvalidInput(
+      "Mode " + std::to_string(this->Mode) + " does not exist: there are " + std::to_string(count) +
+      " modes. Choose a smaller Mode, or a larger Number Of Modes or Depth.");
   }
   if (this->Mode >= 0)
   {

@@ -31,20 +31,20 @@
  *
  * Output port 1 (vtkTable) has a row per mode.
  * - `Mode` (int) and `Eigenvalue` (double).
- * - `Residual` (double): its square estimates the relative error of the eigenvalue as one of the
+ * - `Residual` (double): its square estimates the relative error of the eigenvalue in the function
  *   space.
- * - `EstimatedError` (double): the estimated relative error of the eigenvalue as one of the
- *   surface. The estimate comes from the space of half the resolution, whose errors are four times
- *   as large. It is 1 if that space has no such mode. With HatFunctions it also includes how far
- *   the eigenvalue of the hat functions lies above that of the grid. Both are upper bounds, so this
- *   is the error of the worse of the two.
+ * - `EstimatedError` (double): the estimated relative error of the eigenvalue of the surface. The
+ *   estimate comes from the space of half the resolution, whose errors are four times as large. It
+ *   is 1 if that space has no such mode. With HatFunctions the estimate also includes the
+ *   difference to the eigenvalue of the grid, if the eigenvalue of the hat functions is larger.
+ *   Both eigenvalues are upper bounds, so the estimate is the error of the worse of the two.
  *
  * Time: every mode but mode 0 is a time step, with its index as time value, unless AllModes is on
  * or Mode is fixed. Mode 0 is constant and shows nothing; set Mode to 0 to see it. All modes are
- * computed once. A change of time or of Mode computes nothing. The modes are those of the input at
- * one time, which stays the same. With AllModes on or Mode fixed, the times are the input's.
+ * computed once. A change of time or of Mode computes nothing. All modes belong to the input at one
+ * time, which stays the same. With AllModes on or Mode fixed, the times are the input's.
  *
- * Tolerance (default 1e-6) is the wanted relative error of the eigenvalues as those of the space.
+ * Tolerance (default 1e-6) is the wanted relative error of the eigenvalues in the function space.
  * Depth or Accuracy determines the error of the space itself. The filter uses all shared properties
  * but ParameterUnits. Cycles run in single precision if that resolves the surface. Eigenvalues and
  * modes are always double.
@@ -69,7 +69,7 @@ public:
 
   ///@{
   /**
-   * How many modes to compute. A warning says if fewer exist. 1..100000, default 20.
+   * How many modes to compute. If fewer exist, a warning says so. 1..100000, default 20.
    */
   vtkSetClampMacro(NumberOfModes, int, 1, 100000);
   vtkGetMacro(NumberOfModes, int);
@@ -98,16 +98,16 @@ public:
   /**
    * When on, the functions stay as long as only points of the surface move, as in the next time
    * step of an animation. This is faster than starting again. The grid, the clip and the patterns
-   * are those of the surface seen first, and integrals are in the metric of the current surface.
-   * The filter starts again if cells have changed or a triangle has lost its area.
+   * belong to the surface seen first, and integrals are in the metric of the current surface. The
+   * filter starts again if cells have changed or a triangle has lost its area.
    *
    * The functions move with the surface. They stay as good as on the surface seen first where the
    * motion bends it. They become poorer where the motion stretches one direction more than another.
-   * Parts that come near to each other later do not influence each other.
+   * Parts that come close to each other later do not interact.
    *
    * Results therefore depend, within the error of the space, on the time step that was computed
-   * first. A change of Depth and the like makes the next step the first. The field array
-   * `ReferenceTime` names this time step if the input has times. The field array
+   * first. After a change of Depth or a similar property, the next step counts as the first. The
+   * field array `ReferenceTime` names this time step if the input has times. The field array
    * `LargestStretchRatio` measures how far the map from there is from keeping angles; 1 keeps them.
    *
    * Needs ReleaseDataFlagOff, the default, and excludes MetricArray. It has no effect with an
@@ -120,11 +120,11 @@ public:
 
   ///@{
   /**
-   * The wanted relative error of the eigenvalues as those of the surface. Above 0, it replaces
-   * Depth: the filter chooses the depth at which the estimated error of every eigenvalue is at most
-   * Accuracy. If the depth does not fit into memory or a basis is given, Accuracy may not be
-   * reached. A warning says so, and `Converged` is 0. With HatFunctions the mesh may be too coarse,
-   * and no depth changes its error. 0..0.5, default 0: Depth is used.
+   * The wanted relative error of the eigenvalues of the surface. Above 0, it replaces Depth: the
+   * filter chooses the depth at which the estimated error of every eigenvalue is at most Accuracy.
+   * If the depth does not fit into memory or a basis is given, Accuracy may not be reached. A
+   * warning says so, and `Converged` is 0. With HatFunctions the mesh may be too coarse, and no
+   * depth changes its error. 0..0.5, default 0: Depth is used.
    */
   vtkSetClampMacro(Accuracy, double, 0.0, 0.5);
   vtkGetMacro(Accuracy, double);

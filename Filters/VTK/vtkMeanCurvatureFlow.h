@@ -2,17 +2,18 @@
  * @class   vtkMeanCurvatureFlow
  * @brief   a surface that moves by its mean curvature, step by step
  *
- * Every step solves (M + d L) X+ = M X for the coordinates X. M is the mass and L the stiffness of
- * the current surface, and d is the TimeStep. The functions are those of the input. Only the metric
- * of their integrals follows the surface, so that a step costs a fraction of a new set-up. With
- * Conformalized on, L stays that of the input, and the map from the input tends to a conformal one.
+ * Every step solves (M + δ L) X⁺ = M X for the coordinates X. M is the mass matrix and L the
+ * stiffness matrix of the current surface, and δ is the TimeStep. The functions of the input stay.
+ * Only the metric of their integrals follows the surface, so a step costs a fraction of a new
+ * set-up. With Conformalized on, L stays the stiffness matrix of the input, and the map from the
+ * input becomes nearly conformal.
  *
  * The area of the surface in its function space never grows, for any TimeStep, up to Tolerance and
  * without Rescale and FixedBoundary. The surface may, however, intersect itself. The ordinary flow
- * forms necks that become infinitely thin in finite time. There its samples lock, and it may end
- * with a warning. In practice, the conformalized flow of a closed surface without handles ends as a
- * sphere. Other surfaces do not, and a warning says so. Boundaries move freely, and open surfaces
- * shrink, unless FixedBoundary makes a soap film of them.
+ * forms necks that become infinitely thin in finite time. Samples collapse and lock there, and the
+ * flow may end with a warning. In practice, the conformalized flow of a closed surface without
+ * handles ends as a sphere. Other surfaces do not become a sphere, and a warning says so.
+ * Boundaries move freely, and open surfaces shrink, unless FixedBoundary makes a soap film of them.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
  * vtkConnectivityAwareBasis.
@@ -21,15 +22,15 @@
  * Output port 0 (vtkPolyData): the input with moved points, in their precision (double when they
  * are integers), and the following arrays.
  * - point data, in the precision of the points: `Displacement` (3 components) from the input.
- * - point data, in the same precision: `ConformalFactor`, the area around the point over its area
- *   in the input.
- * - point data, in the same precision: `QuasiConformalError`, the larger over the smaller stretch
- *   of the map from the input. It is 1 where the map keeps angles, and at most 1e7.
+ * - point data, in the same precision: `ConformalFactor`, the ratio of the area around the point to
+ *   its area in the input.
+ * - point data, in the same precision: `QuasiConformalError`, the ratio of the larger to the
+ *   smaller stretch of the map from the input. It is 1 where the map keeps angles, and at most 1e7.
  * - `ConformalFactor` and `QuasiConformalError` are means over the triangles around the point,
  *   weighted by their area in the input. They are 1 at points that no polygon uses, which do not
  *   move.
- * - The active point normals, if the input has some, are those of the moved surface. Normals at
- *   cells are left out.
+ * - The active point normals, if the input has some, become the normals of the moved surface.
+ *   Normals at cells are left out.
  * - field data: `Step` (int, 1); `FlowTime` (double, 1; squared world length).
  * - field data: `Converged` (int, 1). It is 0 if this step or one before it has not converged, or
  *   if the flow has ended before NumberOfSteps.
@@ -44,8 +45,8 @@
  * The arrays of the clip and the basis, and `Eigenvalues`, belong to the input and are left out.
  *
  * Output port 1 (vtkTable) has a row per step, in world units. The input is step 0.
- * - `Step` (int), `Time`, `Area`, `Volume`, which is that of the cone to the centroid for an open
- *   surface.
+ * - `Step` (int), `Time`, `Area`, `Volume`. The volume of an open surface is the volume of the cone
+ *   from the surface to its centroid.
  * - `Sphericity`: π^(1/3) (6 V)^(2/3) / A, 1 for a sphere.
  * - `QuasiConformalError`: the mean over the surface.
  * - `Iterations` (int).
@@ -61,8 +62,8 @@
  *
  * A step fails if the surface has vanished or a matrix is not positive. The flow then ends with a
  * warning, and later times show the last step. Tolerance (default 5e-4) is on the energy of a
- * step's error, relative to the shape's. The filter uses all shared properties. TimeStep is in the
- * squared unit of length of ParameterUnits.
+ * step's error, relative to the energy of the shape. The filter uses all shared properties.
+ * TimeStep is in the squared unit of length of ParameterUnits.
  */
 #ifndef vtkMeanCurvatureFlow_h
 #define vtkMeanCurvatureFlow_h
@@ -78,9 +79,9 @@ public:
 
   ///@{
   /**
-   * How far a step goes in time, in the squared unit of length of ParameterUnits. Above 0, default
-   * 5e-5. Details smaller than about the square root of TimeStep vanish in one step. Toward a
-   * sphere with Conformalized, ten times the default is a good step.
+   * The length of a time step, in the squared unit of length of ParameterUnits. Above 0, default
+   * 5e-5. Details smaller than about the square root of TimeStep vanish in one step. To reach a
+   * sphere with Conformalized on, use ten times the default.
    */
   vtkSetMacro(TimeStep, double);
   vtkGetMacro(TimeStep, double);
@@ -88,8 +89,8 @@ public:
 
   ///@{
   /**
-   * How many steps to make. 1..100000, default 10. A larger number continues the flow. A smaller
-   * one computes nothing.
+   * How many steps to compute. 1..100000, default 10. A larger number continues the flow. A smaller
+   * number computes nothing.
    */
   vtkSetClampMacro(NumberOfSteps, int, 1, 100000);
   vtkGetMacro(NumberOfSteps, int);
@@ -97,8 +98,8 @@ public:
 
   ///@{
   /**
-   * When on, the stiffness stays that of the input. Necks do not form, and the map from the input
-   * tends to a conformal one. Needs TrackMetric. Default off.
+   * When on, every step uses the stiffness matrix of the input. Necks do not form, and the map from
+   * the input becomes nearly conformal. Needs TrackMetric. Default off.
    */
   vtkSetMacro(Conformalized, bool);
   vtkGetMacro(Conformalized, bool);
@@ -118,9 +119,9 @@ public:
   ///@{
   /**
    * When on, points of edges with one polygon stay. The surface tends to the soap film between its
-   * boundaries. The functions themselves are drawn to the boundary, after Nitsche. They are off by
-   * some hundredths of a cell at rest, and by more in steps that move the surface by many cells.
-   * Excludes Conformalized and Rescale. Default off: boundaries move freely.
+   * boundaries. The functions themselves are drawn to the boundary, after Nitsche. They miss the
+   * boundary by some hundredths of a cell at rest, and by more in steps that move the surface by
+   * many cells. Excludes Conformalized and Rescale. Default off: boundaries move freely.
    */
   vtkSetMacro(FixedBoundary, bool);
   vtkGetMacro(FixedBoundary, bool);
@@ -137,8 +138,8 @@ public:
   ///@{
   /**
    * The quantity that every step keeps by scaling about its centroid: none, the area of the input,
-   * or its volume. Automatic (default) is ConstantArea with Conformalized, whose surface would
-   * shrink to nothing, else NoRescale.
+   * or its volume. Automatic (default) is ConstantArea with Conformalized, because the surface
+   * would shrink to nothing. Otherwise it is NoRescale.
    */
   vtkSetClampMacro(Rescale, int, Automatic, ConstantVolume);
   vtkGetMacro(Rescale, int);

@@ -12,10 +12,10 @@
  *   over the surface, relative to the solution without its mean.
  * - `LargestDiscretizationError` (double, 1): the largest error at a point, in units of the
  *   solution.
- * - `AlgebraicError` (double, 1): the error that the iteration has left, relative as
+ * - `AlgebraicError` (double, 1): the remaining error of the iteration, relative like
  *   `DiscretizationError`.
- * - `TrustedEstimate` (int, 1): 0 if levels do not differ as they do on a resolved surface.
- *   `DiscretizationError` may be too small then.
+ * - `TrustedEstimate` (int, 1): 0 if levels do not differ as they do on a resolved surface. In this
+ *   case `DiscretizationError` may be too small.
  *
  * Several components or solves give the worst value. An unknown error, for example without coarser
  * levels, is NaN.
@@ -33,9 +33,9 @@ public:
 
   ///@{
   /**
-   * How well to solve the discrete equations. The iteration ends when its own estimated error is
-   * this part of the error that the function space has anyway. Above 0, at most 1, default 0.1.
-   * Used if Tolerance is 0. The estimates are in the field data.
+   * How exactly to solve the discrete equations. The iteration ends when its own estimated error is
+   * this fraction of the error of the function space. The value is above 0 and at most 1, by
+   * default 0.1. Used if Tolerance is 0. The estimates are in the field data.
    */
   vtkSetClampMacro(Accuracy, double, 1e-6, 1.0);
   vtkGetMacro(Accuracy, double);

@@ -8,8 +8,8 @@
  * surface, in the function space of the shared properties. This removes the noise of scans and the
  * errors of irregular triangles.
  *
- * Curvatures are positive where the surface is convex seen from outside. Normals have to point
- * outwards, as the order of the corners says. A triangle that faces the other way than its
+ * Curvatures are positive where the surface is convex seen from outside. The order of the corners
+ * gives the normals, which have to point outward. A triangle that faces the other way than its
  * neighbors is treated as flipped.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips.
@@ -18,7 +18,7 @@
  * - `MinimumCurvature`, `MaximumCurvature` (1 component each): the smaller and the larger
  *   curvature, with their signs.
  * - `MinimumCurvatureDirection`, `MaximumCurvatureDirection` (3): unit vectors perpendicular to the
- *   normal, of no particular sign. They are any two such vectors where the curvatures are equal.
+ *   normal, with an arbitrary sign. Where the curvatures are equal, they are any two such vectors.
  * - `MeanCurvature` (1): half of the sum of the curvatures.
  * - `GaussianCurvature` (1; per squared unit of length): their product.
  * - `ShapeIndex` (1; no unit): -1 cup, -0.5 rut, 0 saddle or plane, 0.5 ridge, 1 cap.
@@ -31,8 +31,8 @@
  * of the smoothing, as in vtkScreenedPoisson.
  *
  * Without a SmoothingScale the filter uses only WeldCoincidentPoints and NumberOfThreads. Tolerance
- * is 1e-4 and NormalStabilization 1e-2 by default. The function space has stages. The fit is the
- * stage Solve.
+ * is 1e-4 and NormalStabilization 1e-2 by default. The function space has the usual stages. The fit
+ * is the stage Solve.
  */
 #ifndef vtkPrincipalCurvatures_h
 #define vtkPrincipalCurvatures_h
@@ -49,9 +49,8 @@ public:
   ///@{
   /**
    * The standard deviation of the Gaussian that smooths the normals along the surface, in the unit
-   * of length of ParameterUnits. Smaller details no longer bend the surface. 0 (default) smooths
-   * nothing. One to two edges of the mesh suit scans. The filter refuses a negative one when it
-   * runs.
+   * of length of ParameterUnits. Smaller details do not count. 0 (default) smooths nothing. One to
+   * two edges of the mesh suit scans. The filter refuses a negative value when it runs.
    */
   vtkSetMacro(SmoothingScale, double);
   vtkGetMacro(SmoothingScale, double);

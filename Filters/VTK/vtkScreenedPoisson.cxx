@@ -72,13 +72,13 @@ void vtkScreenedPoisson::FindArrays()
 {
   Internals& data = *this->Data;
   gridfem::InputSurface& surface = this->State->Surface();
-  data.Value = surface.Find(0, "ValueArray");
-  data.Gradient = surface.Find(1, "GradientArray");
-  data.Scale = surface.Find(2, "GradientScaleArray");
-  data.Weight = surface.Find(3, "ValueWeightArray");
-  data.Constraint = surface.Find(4, "ConstraintArray");
-  this->State->options.metricArray = surface.Find(5, "MetricArray");
-  data.Flux = surface.Find(6, "BoundaryFluxArray");
+  data.Value = surface.Find(0, "Value Array");
+  data.Gradient = surface.Find(1, "Gradient Array");
+  data.Scale = surface.Find(2, "Gradient Scale Array");
+  data.Weight = surface.Find(3, "Value Weight Array");
+  data.Constraint = surface.Find(4, "Constraint Array");
+  this->State->options.metricArray = surface.Find(5, "Metric Array");
+  data.Flux = surface.Find(6, "Boundary Flux Array");
   this->RequireFluxFits();
 }
 
@@ -87,14 +87,14 @@ void vtkScreenedPoisson::RequireFluxFits() const
   if (this->Data->Flux.array && this->State->options.trackMetric)
   {
     throw gridfem::InvalidInput(
-      "BoundaryFluxArray and TrackMetric do not go together: a flux is per "
-      "length of the boundary as it was when the functions were made.");
+      "A Boundary Flux Array cannot be combined with Track Metric, because the flux is "
+      "per length of the boundary, and the kept functions have its earlier length.");
   }
   if (this->Data->Flux.array && this->State->options.metricArray.array)
   {
     throw gridfem::InvalidInput(
-      "BoundaryFluxArray and MetricArray do not go together: a flux is per "
-      "length of the surface's own boundary.");
+      "A Boundary Flux Array cannot be combined with a Metric Array, because the flux is "
+      "per length of the surface's own boundary.");
   }
 }
 

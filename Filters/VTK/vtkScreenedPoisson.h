@@ -4,7 +4,7 @@
  *
  * Finds the function u that minimizes, over the surface, the integral of
  *
- *     w (u - f)^2 + |grad u - s g|^2
+ *     w (u - f)² + |∇u - s g|²
  *
  * with the values f, the gradients g, the ScreeningWeight w and the gradient scale s. Without
  * gradients it smooths f. With amplified gradients it sharpens f. With gradients from elsewhere it
@@ -15,19 +15,21 @@
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
  * vtkConnectivityAwareBasis.
  * Input port 1 (optional): the output of vtkConnectivityAwareBasis for the mesh of port 0.
- * Input port 2 (optional): vtkSelection of points or cells of port 0, at which the solution has the
- * values exactly. A selected cell selects its points. The selection adds to the ConstraintArray.
+ * Input port 2 (optional): vtkSelection of points or cells of port 0. The solution has exactly the
+ * given values there. A selected cell selects its points. The selection adds to the
+ * ConstraintArray.
  *
  * Arrays are point or cell data of input port 0, of any numeric type. SetInputArrayToProcess
  * chooses them:
  * - index 0, `ValueArray`: f, with any number of components C. Without it f is the coordinates.
- * - index 1, `GradientArray` (optional): g in world units, 3 C components: the three of the first
- *   component of f, then those of the second, ...
+ * - index 1, `GradientArray` (optional): g in world units, 3 C components. The three components for
+ *   the first component of f come first.
  * - index 2, `GradientScaleArray` (optional): one component, which multiplies GradientScale.
  * - index 3, `ValueWeightArray` (optional): one component, 0 or more, which multiplies
  *   ScreeningWeight. A triangle takes the mean of a point array.
- * - index 4, `ConstraintArray` (optional): point data, one component. The solution has the value
- *   exactly at points where it is neither 0 nor NaN. The values must be point data then.
+ * - index 4, `ConstraintArray` (optional): point data, one component. The solution has exactly the
+ *   value f at points where the array is neither 0 nor NaN. The values must be point data in this
+ *   case.
  * - index 5, `MetricArray` (optional): a symmetric tensor of six components (XX, YY, ZZ, XY, YZ,
  *   XZ) or nine. It is the metric of all integrals and gradients and of the area in ParameterUnits,
  *   as if the surface had been moved to a shape with this metric. Use J^T J for a map with the
@@ -35,17 +37,18 @@
  *   positive definite. A triangle takes the mean of a point array. With a metric, g is the
  *   derivative of a function on the input, as vtkSurfaceGradient gives it.
  * - index 6, `BoundaryFluxArray` (optional): point data, C components, in units of f over length.
- *   It is the outward slope of u minus that of s g, at points of the boundary. It excludes a
- *   MetricArray.
+ *   It is the outward slope of u minus the outward slope of s g, at points of the boundary. It
+ *   cannot be combined with a MetricArray.
  *
  * With weights, constraints, a flux, BoundaryValues or FillUnknown, the mean is kept only on
- * connected components without a weight or constraint that holds them. The filter warns once of
+ * connected components without a weight or constraint that holds them. The filter warns once about
  * such components.
  *
  * Output port 0 (vtkPolyData): the input with the following arrays.
- * - point data: `Solution` (C components, named as those of f). It is float if f, or the
- *   coordinates in its place, are float, else double. Points that no polygon uses keep f if f is a
- *   point array, else get 0. With HatFunctions, so do points that no polygon with an area uses.
+ * - point data: `Solution` (C components, with the names of the components of f). It is float if f
+ *   (or the coordinates without f) is float, else double. Points that no polygon uses keep f if f
+ *   is a point array, else get 0. With HatFunctions, so do points that no polygon with an area
+ *   uses.
  * - without a ValueArray: the points move to the solution and have the point arrays `Displacement`
  *   and `NormalDisplacement`. Normals follow. The clip, basis and modes of the old shape are left
  *   out.
@@ -54,8 +57,8 @@
  *   side. Tolerance is on another measure.
  * - field data: `ConvergenceFactor` (double, 1), the mean reduction of the energy residual per
  *   iteration.
- * - field data: `DoublePrecisionSince` (int, 1), the iteration after which the smoother went on in
- *   double precision, because single precision was too slow or broke down. -1 means never.
+ * - field data: `DoublePrecisionSince` (int, 1), the iteration after which the smoother used double
+ *   precision, because single precision was too slow or broke down. -1 means never.
  * - field data: the estimated errors of vtkPoissonAlgorithm, also with a Tolerance.
  * - field data, with a ConstraintArray, a selection or BoundaryValues: `Misfit` (double, 1), the
  *   largest difference from a held value.
@@ -63,10 +66,10 @@
  * Output port 1 (vtkTable) has a row per iteration. The result is one correction ahead of the last
  * row.
  * - `Iteration` (int): 0 is the start by nested iteration.
- * - `EnergyResidual` (double): an estimate of the error in the energy norm, relative to the
- *   solution's, the largest over the components.
+ * - `EnergyResidual` (double): an estimate of the error in the energy norm, relative to the energy
+ *   norm of the solution. It is the largest value over the components.
  * - `Residual` (double): relative to the right-hand side, the largest over the components.
- * - `ConvergenceFactor` (double): the energy residual over that of the row before.
+ * - `ConvergenceFactor` (double): the energy residual divided by the residual of the row before.
  * - `Log10EnergyResidual` and `Log10Residual`.
  * - `AlgebraicError`, the error that the correction of the row leaves, `DiscretizationError`, and
  *   the logarithms of both.
@@ -105,7 +108,7 @@ public:
   /**
    * How strongly the solution is held to the values, in one over the squared length of
    * ParameterUnits. Features smaller than about 1 / sqrt(ScreeningWeight) follow the gradients. 0
-   * or more, default 100. The filter refuses a negative one when it runs.
+   * or more, default 100. The filter refuses a negative value when it runs.
    */
   vtkSetMacro(ScreeningWeight, double);
   vtkGetMacro(ScreeningWeight, double);
@@ -121,8 +124,8 @@ public:
 
   ///@{
   /**
-   * When on and no GradientArray is chosen, the gradients are those of the values, which must be
-   * point data then. When off (default), no GradientArray means zero gradients.
+   * When on and no GradientArray is chosen, the filter uses the gradients of the values, which must
+   * be point data. When off (default), no GradientArray means zero gradients.
    */
   vtkSetMacro(UseValueGradient, bool);
   vtkGetMacro(UseValueGradient, bool);
@@ -133,16 +136,16 @@ public:
   /**
    * When on, the functions stay as long as only points of the surface move, as in the next time
    * step of an animation. This is faster than starting again. The grid, the clip and the patterns
-   * are those of the surface seen first, and integrals are in the metric of the current surface.
-   * The filter starts again if cells have changed or a triangle has lost its area.
+   * belong to the surface seen first, and integrals are in the metric of the current surface. The
+   * filter starts again if cells have changed or a triangle has lost its area.
    *
    * The functions move with the surface. They stay as good as on the surface seen first where the
    * motion bends it. They become poorer where the motion stretches one direction more than another.
-   * Parts that come near to each other later do not influence each other.
+   * Parts that come close to each other later do not interact.
    *
    * Results therefore depend, within the error of the space, on the time step that was computed
-   * first. A change of Depth and the like makes the next step the first. The field array
-   * `ReferenceTime` names this time step if the input has times. The field array
+   * first. After a change of Depth or a similar property, the next step counts as the first. The
+   * field array `ReferenceTime` names this time step if the input has times. The field array
    * `LargestStretchRatio` measures how far the map from there is from keeping angles; 1 keeps them.
    *
    * Needs ReleaseDataFlagOff, the default, and excludes MetricArray and BoundaryFluxArray. It has
@@ -156,10 +159,10 @@ public:
   ///@{
   /**
    * The wanted error of the function space, relative to the solution without its mean. Above 0, the
-   * filter chooses the depth at which the estimated error is at most this. The field array
-   * `UsedDepth` gives the depth. Not used with a given basis. The error of HatFunctions is that of
-   * the mesh. If the error stays too large, or the next depth does not fit into memory, the filter
-   * warns and `Converged` is 0. 0..0.5, default 0: Depth is used.
+   * filter chooses a depth at which the estimated error is at most this value. The field array
+   * `UsedDepth` gives the depth. Not used with a given basis. The error of HatFunctions is the
+   * error of the mesh. If the error stays too large, or the next depth does not fit into memory,
+   * the filter warns and `Converged` is 0. 0..0.5, default 0: Depth is used.
    */
   vtkSetClampMacro(WantedError, double, 0.0, 0.5);
   vtkGetMacro(WantedError, double);
@@ -179,7 +182,7 @@ public:
   ///@{
   /**
    * When on, the solution has the values f along the boundary of the surface, the edges with one
-   * triangle, except at unknown values. f must be point data then. Default off.
+   * triangle, except at unknown values. f must be point data in this case. Default off.
    */
   vtkSetMacro(BoundaryValues, bool);
   vtkGetMacro(BoundaryValues, bool);

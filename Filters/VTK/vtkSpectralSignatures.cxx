@@ -119,8 +119,8 @@ void vtkSpectralSignatures::Compute(vtkInformationVector** inputs, vtkInformatio
     });
   if (!data.Carried.Misfit().empty())
   {
-    this->Warn({ "The modes of the input are those of another shape: " + data.Carried.Misfit() +
-                 ". They are left out, and computed anew." });
+    this->Warn({ "The modes of the input belong to another shape: " + data.Carried.Misfit() +
+                 ". The filter computes new modes." });
   }
   this->Warn(data.Result->warnings);
   state.GetProgress().Check(1.0);
@@ -139,7 +139,7 @@ void vtkSpectralSignatures::Solve(vtkDataSet* sources)
   data.Mesh = data.Given.modes ? data.Carried.Mesh() : surface.Triangles();
   if (sources && sources->GetNumberOfPoints() == 0)
   {
-    vtkWarningMacro("The input Sources has no points, so no distance starts there.");
+    vtkWarningMacro("The input Sources has no points. It adds no sources to the distances.");
   }
   surface.Together([&]
     { data.Given.sources = gridfem::SourcePoints(*data.Mesh.triangles, data.SourceIds, sources); });
@@ -170,7 +170,7 @@ void vtkSpectralSignatures::FindValues()
   {
     return;
   }
-  data.Value = surface.FindOn(data.Mesh, 0, "ValueArray");
+  data.Value = surface.FindOn(data.Mesh, 0, "Value Array");
   data.Given.values = surface.Given(data.Value);
   if (data.Given.values)
   {

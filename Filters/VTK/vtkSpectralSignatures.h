@@ -3,20 +3,20 @@
  * @brief   what the eigenfunctions of a surface tell about its points and its shape
  *
  * Computes signatures of every point, distances from chosen points, frequency filters, and a
- * fingerprint of the shape. All are sums over the modes of vtkLaplaceSpectrum, with the eigenvalue
- * l and the mode p:
+ * fingerprint of the shape. All are sums over the modes of vtkLaplaceSpectrum. λ is the eigenvalue
+ * of the mode φ:
  *
- * - Heat kernel signature: area * sum exp(-l t) p(x)^2 for NumberOfScales times t. They lie between
- *   4 ln 10 / l of the last mode and 4 ln 10 / l of the first one that is not constant. Small times
- *   show details, large ones the whole shape.
- * - Wave kernel signature: the mean of area * p(x)^2 over bands of log l.
- * - Biharmonic distance: sqrt(sum (p(x) - p(y))^2 / l^2), from every point to the nearest source.
- * - Diffusion distance: sqrt(area * sum exp(-2 l t) (p(x) - p(y))^2) with t = DiffusionTime, from
- *   every point to the nearest source.
- * - Low, high and band pass: the sum of the shares of a point array, or of the shape itself, in
+ * - Heat kernel signature: area Σ exp(-λ t) φ(x)² for NumberOfScales times t. The times lie between
+ *   4 ln 10 / λ of the last mode and 4 ln 10 / λ of the first mode that is not constant. Small
+ *   times show details, large times show the whole shape.
+ * - Wave kernel signature: the mean of area φ(x)² over bands of log λ.
+ * - Biharmonic distance: √(Σ (φ(x) - φ(y))² / λ²), from every point to the nearest source.
+ * - Diffusion distance: √(area Σ exp(-2 λ t) (φ(x) - φ(y))²) with t = DiffusionTime, from every
+ *   point to the nearest source.
+ * - Low, high and band pass: the part of a point array, or of the shape itself, that consists of
  *   some of the modes. Function and modes are linear on every triangle, and their products are
  *   integrated exactly.
- * - Shape-DNA: area * l, the same for a scaled shape.
+ * - Shape-DNA: area λ, the same for a scaled shape.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips.
  * Input port 1 (optional): the output of vtkConnectivityAwareBasis for the mesh of port 0.
@@ -76,8 +76,8 @@ public:
 
   ///@{
   /**
-   * The least number of modes to compute if the input has none. The filter computes more rather
-   * than cut a group of equal eigenvalues. 2..100000, default 100.
+   * The smallest number of modes to compute if the input has none. The filter adds modes to
+   * complete the last group of equal eigenvalues. 2..100000, default 100.
    */
   vtkSetClampMacro(NumberOfModes, int, 2, 100000);
   vtkGetMacro(NumberOfModes, int);
@@ -85,8 +85,8 @@ public:
 
   ///@{
   /**
-   * The number of times of the heat kernel signature, and of bands of the wave kernel signature.
-   * 1..1000, default 16.
+   * The number of components of each signature: the times of the heat kernel, and the bands of the
+   * wave kernel. 1..1000, default 16.
    */
   vtkSetClampMacro(NumberOfScales, int, 1, 1000);
   vtkGetMacro(NumberOfScales, int);
@@ -94,8 +94,8 @@ public:
 
   ///@{
   /**
-   * Points that distances are measured from, besides those of port 2. None by default. The filter
-   * refuses an id that no polygon uses when it runs.
+   * Points from which distances start, in addition to the sources of port 2. None by default. The
+   * filter refuses an id that no polygon uses when it runs.
    */
   void AddSourcePointId(vtkIdType id);
   void ClearSourcePointIds();
@@ -107,7 +107,7 @@ public:
   /**
    * The time of the diffusion distance, in the squared unit of length of ParameterUnits. Features
    * smaller than about its square root are blurred. 0 or more, default 0.01. The filter refuses a
-   * negative one when it runs.
+   * negative value when it runs.
    */
   vtkSetMacro(DiffusionTime, double);
   vtkGetMacro(DiffusionTime, double);
@@ -125,8 +125,8 @@ public:
    * What to do with the ValueArray.
    * - NoFilter (default): nothing.
    * - LowPass: keep modes 0..LastMode.
-   * - HighPass: remove modes 0..FirstMode - 1 and keep all the rest, also the part that no mode
-   *   shows.
+   * - HighPass: remove modes 0..FirstMode - 1 and keep the rest, including the part that no mode
+   *   describes.
    * - BandPass: keep modes FirstMode..LastMode.
    */
   vtkSetClampMacro(FilterType, int, NoFilter, BandPass);
@@ -143,8 +143,8 @@ public:
 
   ///@{
   /**
-   * The last mode that passes, for LowPass and BandPass. A larger number means the last mode there
-   * is. 0 or more, default 20.
+   * The last mode that passes, for LowPass and BandPass. A larger number means the last existing
+   * mode. 0 or more, default 20.
    */
   vtkSetClampMacro(LastMode, int, 0, VTK_INT_MAX);
   vtkGetMacro(LastMode, int);

@@ -65,21 +65,21 @@ bool AreLabels(vtkDataArray* array)
 
 gridfem::InputArray FindColors(vtkAlgorithm* algorithm, vtkPolyData* input)
 {
-  gridfem::InputArray colors = gridfem::FindInputArray(algorithm, 0, input, "ColorArray");
+  gridfem::InputArray colors = gridfem::FindInputArray(algorithm, 0, input, "Color Array");
   if (!colors.array)
   {
     colors = gridfem::OnlyArray(input, [](vtkDataArray* array, auto) { return AreColors(array); });
   }
   if (!colors.array)
   {
-    throw gridfem::InvalidInput("Choose a ColorArray: the colors of the scans.");
+    throw gridfem::InvalidInput("Choose a Color Array with the colors of the scans.");
   }
   return colors;
 }
 
 gridfem::InputArray FindLabels(vtkAlgorithm* algorithm, vtkPolyData* input, vtkDataArray* colors)
 {
-  gridfem::InputArray labels = gridfem::FindInputArray(algorithm, 1, input, "LabelArray");
+  gridfem::InputArray labels = gridfem::FindInputArray(algorithm, 1, input, "Label Array");
   if (!labels.array)
   {
     labels =
@@ -88,7 +88,8 @@ gridfem::InputArray FindLabels(vtkAlgorithm* algorithm, vtkPolyData* input, vtkD
   }
   if (!labels.array)
   {
-    throw gridfem::InvalidInput("Choose a LabelArray: it says which scan a color comes from.");
+    throw gridfem::InvalidInput(
+      "Choose a Label Array with the number of the scan that each color comes from.");
   }
   return labels;
 }

@@ -2,9 +2,9 @@
  * @class   vtkStitchColors
  * @brief   make one coloring of the colors of several scans
  *
- * Scans of one surface differ in exposure, so that their colors jump where they meet. The result
- * has the gradients that the colors have inside the scans, and no jumps. It solves one Poisson
- * equation for all components at once.
+ * Scans of one surface differ in exposure, so their colors jump where they meet. The result has the
+ * gradients of the colors inside the scans, and no jumps. The filter solves one Poisson equation
+ * for all components at once.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
  * vtkConnectivityAwareBasis.
@@ -23,13 +23,13 @@
  *   Integers are rounded and stay in the range of their type. Real numbers that lie in 0..1 stay
  *   there. Points and cells that no polygon uses keep their color.
  * - field data: `Converged`, `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor`
- *   and the estimated errors of vtkPoissonAlgorithm. They are those of the function before
- *   KeepDetails adds details.
+ *   and the estimated errors of vtkPoissonAlgorithm. They describe the function before KeepDetails
+ *   adds details.
  *
  * Colors at points are linear on triangles. Triangles that touch two scans are seams, whose
  * gradients are left out. Scans whose borders coincide without sharing points are stitched as well
  * (WeldCoincidentPoints). With ConnectivityAware off, a grid also stitches across gaps narrower
- * than a cell, but then sheets that lie as close influence each other.
+ * than a cell, but then sheets that are equally close interact.
  *
  * NormalStabilization is 1e-2 by default. The filter uses all shared properties but ParameterUnits.
  */
@@ -47,9 +47,9 @@ public:
 
   ///@{
   /**
-   * The scan that keeps its own colors, since gradients determine colors only up to a constant. -1
-   * (default): every connected component keeps its mean color. Any other label: the scan with this
-   * label keeps its own mean. Components without the label keep theirs.
+   * The scan that keeps its mean color, because gradients determine colors only up to a constant.
+   * -1 (default): every connected component keeps its mean color. Any other label: the scan with
+   * this label keeps its own mean. Components without the label keep theirs.
    */
   vtkSetMacro(ReferenceLabel, int);
   vtkGetMacro(ReferenceLabel, int);

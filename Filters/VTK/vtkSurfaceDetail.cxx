@@ -87,12 +87,12 @@ void vtkSurfaceDetail::Compute(vtkInformationVector** inputs, vtkInformationVect
   Internals& data = *this->Data;
   gridfem::TriangleRule(this->QuadratureDegree); // refuses a wrong degree before the long work
   gridfem::InputSurface& surface = state.Read(input, vtkPolyData::GetData(inputs[1]));
-  data.Value = surface.Find(0, "ValueArray");
+  data.Value = surface.Find(0, "Value Array");
   surface.Select(*this->Selection, vtkSelection::GetData(inputs[2]));
 
   gridfem::DetailSolver::Input given;
   given.values = surface.Given(data.Value);
-  given.scale = surface.Given(surface.Find(1, "DetailScaleArray"));
+  given.scale = surface.Given(surface.Find(1, "Detail Scale Array"));
   given.hasSelection = this->Selection->IsGiven();
   given.selected = this->Selection->Points();
   given.selection.Add(this->Selection->Version());

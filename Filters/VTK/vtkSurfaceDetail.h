@@ -4,21 +4,21 @@
  *
  * Finds the shape (or array) u that minimizes, over the surface, the integral of
  *
- *     w (u - f)^2 + |grad u - s grad f|^2
+ *     w (u - f)² + |∇u - s ∇f|²
  *
- * with the input f, the ScreeningWeight w and the DetailScale s. A scale of more than 1 sharpens,
- * less smooths, and 1 changes nothing. Details smaller than about 1 / sqrt(w) are scaled. Larger
- * ones stay.
+ * with the input f, the ScreeningWeight w and the DetailScale s. A scale above 1 sharpens, a scale
+ * below 1 smooths, and 1 changes nothing. Details smaller than about 1 / sqrt(w) are scaled. Larger
+ * details stay.
  *
  * With a selection, s is DetailScale at the selected points and OutsideScale elsewhere. Between
  * them it changes smoothly within the TransitionWidth, a distance along the surface from the
  * selected points (MarchDistance in Core). The selection has no effect beyond this distance.
  *
  * With a TransferFunction, curvature changes the lengths that the filter uses. Along a principal
- * direction with curvature k, lengths are a(k) times as long. The input is kept where a is more
- * than 1. LargePositive, for example, leaves ridges as they are across them. Curvatures come from
- * vtkPrincipalCurvatures, relative to their usual size, which nine tenths of the area do not
- * exceed. Every element of the function space has the mean of its own curvatures.
+ * direction with curvature κ, lengths are multiplied by α(κ). The input is kept where α is larger
+ * than 1. LargePositive, for example, keeps the profile of ridges. Curvatures come from
+ * vtkPrincipalCurvatures, divided by a usual curvature, which nine tenths of the area do not
+ * exceed. Every element of the function space uses the mean over its area.
  *
  * Input port 0: vtkPolyData with polygons or triangle strips, or the output of
  * vtkConnectivityAwareBasis.
@@ -35,26 +35,26 @@
  * Output port 0 (vtkPolyData): the input with the following changes.
  * - Without a ValueArray, the points move, in their precision (double when they are integers). The
  *   output has the point arrays `Displacement` (3 components) and `NormalDisplacement` (1; positive
- *   outwards). Active normals at points become those of the moved surface. Other normals and the
- *   arrays of the clip and the basis are left out.
+ *   outward). Active normals at points become the normals of the moved surface. Other normals and
+ *   the arrays of the clip and the basis are left out.
  * - With a ValueArray, the output has the point array `Filtered`, in the array's precision. Details
  *   that are too fine for the function space are scaled by s.
  * - With a selection, the output has the point array `Selected` (double, 1 component). It is 1 at
  *   selected points and falls to 0 within the TransitionWidth.
  * - field data: `DiscretizationError`, `LargestDiscretizationError`, `AlgebraicError` and
  *   `TrustedEstimate` of vtkPoissonAlgorithm. They are errors of the change that the filter makes,
- *   relative to this change. With a selection or a scale array, `LargestDiscretizationError` is a
- *   bound.
+ *   relative to this change. With a selection or a scale array, `LargestDiscretizationError` is an
+ *   upper bound.
  * - field data: `Converged`, `Iterations`, `DoublePrecisionSince`, `Residual`, `ConvergenceFactor`,
  *   as in vtkScreenedPoisson.
  * - field data, with a TransferFunction: `UsualCurvature` (double, 1).
  *
- * The solution is linear in s, so that other scales compute only the new points. Another selection,
- * array or width sums a right-hand side from the elements and solves. Another transfer function
- * also weights the elements before. None of them visits the triangles again (stages Metric,
+ * The solution is linear in s, so a change of a scale only computes new points. Another selection,
+ * array or width computes a right-hand side from the elements and solves. Another transfer function
+ * first computes new weights of the elements. No change visits the triangles again (stages Metric,
  * Weights, Hierarchy, RightHandSide, Solve). Every solve starts from the last solution. Tolerance
- * (default 1e-4) is on the energy of the change, not on that of the shape. NormalStabilization is
- * 1e-2 by default.
+ * (default 1e-4) is on the energy of the change, not of the shape. NormalStabilization is 1e-2 by
+ * default.
  */
 #ifndef vtkSurfaceDetail_h
 #define vtkSurfaceDetail_h
@@ -78,8 +78,8 @@ public:
 
   ///@{
   /**
-   * The factor s on the gradients: 0 smooths most, 1 changes nothing, more sharpens. With a
-   * selection it counts inside the selection. Default 2. Any finite number.
+   * The factor s on the gradients: 0 smooths most, 1 changes nothing, a larger value sharpens. With
+   * a selection it applies only to the selection. Default 2. Any finite number.
    */
   vtkSetMacro(DetailScale, double);
   vtkGetMacro(DetailScale, double);
@@ -96,7 +96,7 @@ public:
   ///@{
   /**
    * The distance from the selected points, along the surface, at which s becomes OutsideScale. The
-   * length is in the units of ParameterUnits. 0 switches at once. 0 or more, default 0.02.
+   * length is in the units of ParameterUnits. 0 makes a sharp border. 0 or more, default 0.02.
    */
   vtkSetMacro(TransitionWidth, double);
   vtkGetMacro(TransitionWidth, double);
@@ -124,7 +124,7 @@ public:
    * The factor on lengths along a principal direction, by its curvature.
    * - Isotropic (default): 1.
    * - LargeNegative, LargePositive, LargeAbsolute: rises from 1 at curvature 0 to Anisotropy at the
-   *   usual size.
+   *   usual curvature.
    * - Custom: follows the CustomTransferFunction.
    */
   vtkSetClampMacro(TransferFunction, int, Isotropic, Custom);
@@ -133,8 +133,8 @@ public:
 
   ///@{
   /**
-   * The factor on lengths along directions of large curvature. 0.001..1000, default 5. Below 1,
-   * these directions are changed more than others.
+   * The factor on lengths along directions of large curvature. 0.001..1000, default 5. A value
+   * below 1 changes these directions more than others.
    */
   vtkSetClampMacro(Anisotropy, double, 1e-3, 1e3);
   vtkGetMacro(Anisotropy, double);
@@ -142,10 +142,11 @@ public:
 
   ///@{
   /**
-   * The function f of the TransferFunction Custom, with a(k) = 1 + (Anisotropy - 1) f(k). Its
-   * argument is a curvature relative to the usual size: -1 is as hollow as usual, 1 as bulging.
-   * a(k) must be above 0. Default: (-1, 1), (0, 0), (1, 1), linear in between and constant beyond,
-   * as LargeAbsolute without its smooth ends. A change of the function modifies the filter.
+   * The function f of the TransferFunction Custom, with α(κ) = 1 + (Anisotropy - 1) f(κ). Its
+   * argument is the curvature divided by the usual curvature: negative in valleys, positive on
+   * ridges. α(κ) must be above 0. The default goes through (-1, 1), (0, 0) and (1, 1). It is linear
+   * in between and constant beyond, like LargeAbsolute without the smooth ends. A change of the
+   * function modifies the filter.
    */
   virtual void SetCustomTransferFunction(vtkPiecewiseFunction* function);
   vtkPiecewiseFunction* GetCustomTransferFunction();
@@ -164,7 +165,7 @@ public:
   ///@{
   /**
    * When on, the moved surface is scaled about its centroid to the volume of the input. The volume
-   * of an open surface is that of the cone to the centroid. Default off.
+   * of an open surface is the volume of the cone from the surface to its centroid. Default off.
    */
   vtkSetMacro(KeepVolume, bool);
   vtkGetMacro(KeepVolume, bool);
@@ -177,7 +178,7 @@ public:
   void SetBasisConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
 
   /**
-   * The input of port 2: a selection of points where DetailScale counts.
+   * The input of port 2: a selection of points to which DetailScale applies.
    */
   void SetSelectionConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(2, output); }
 

@@ -158,7 +158,7 @@ int vtkSurfaceFEMAlgorithm::RequestData(
   options.solve.maximumIterations = this->MaximumIterations;
   options.accuracy = this->WantedAccuracy();
   options.parameterUnits = static_cast<gridfem::ParameterUnits>(this->ParameterUnits);
-  this->State->Read(nullptr, nullptr); // Compute sets it; that of the last run may be gone
+  this->State->Read(nullptr, nullptr); // Compute sets it; the last input may be gone
 
   EmptyOutputs(outputs);
   this->SetErrorCode(vtkErrorCode::NoError);
@@ -244,7 +244,7 @@ void vtkSurfaceFEMAlgorithm::ComputeAlone(
     }
     EmptyOutputs(outputs);
     vtkPolyData::GetData(outputs)->ShallowCopy(vtkPolyData::GetData(surfaces[0]));
-    vtkWarningMacro("A block has no array '" << error.array << "'; it is passed on as it is.");
+    vtkWarningMacro("A block has no array '" << error.array << "'. It is output unchanged.");
   }
   gridfem::StampTime(!this->OwnTimeSteps().empty(), inputs[0], outputs);
 }

@@ -33,8 +33,8 @@
  * its threads. The other ranks sleep. Ghost cells count once. Points on borders are joined by
  * global point ids, or else by their coordinates with WeldCoincidentPoints. Port 0 is each rank's
  * own input plus arrays, borders and ghosts included. Outputs with cells of their own, and tables,
- * are on rank 0. Ids, such as those of sources and in messages, count through the gathered surface.
- * The same ranks have to run the filter together. If one fails, all fail with one message.
+ * are on rank 0. Ids of sources, and ids in messages, count through the gathered surface. The same
+ * ranks have to run the filter together. If one fails, all fail with one message.
  *
  * A solver filter looks for its function space in this order:
  * - on input port 0, if that is the output of vtkConnectivityAwareBasis;
@@ -44,13 +44,13 @@
  *
  * Time: outputs have the time steps of the input. A filter asks its input for the time that its
  * outputs are asked for. Some filters have time steps of their own, such as modes. They ask their
- * inputs for one fixed time: the last one that was requested, or else the one the inputs have.
+ * inputs for one fixed time: the last requested time, or else the time of the inputs.
  *
  * Memory: a filter keeps the results of its steps, so that a change repeats only the steps that
- * depend on it. It holds the clipped mesh, its functions, element and level matrices, the hierarchy
- * with its smoothers, and the last result. With ReleaseDataFlagOn it frees them after every run.
- * This takes the least memory, but every change, even of the time step, repeats all steps. Filters
- * that share its basis then read the basis from its arrays.
+ * depend on it. These results are the clipped mesh, its functions, element and level matrices, the
+ * hierarchy with its smoothers, and the last result. With ReleaseDataFlagOn it frees them after
+ * every run. This takes the least memory, but every change, even of the time step, repeats all
+ * steps. Filters that share its basis then read the basis from its arrays.
  */
 #ifndef vtkSurfaceFEMAlgorithm_h
 #define vtkSurfaceFEMAlgorithm_h
@@ -94,8 +94,7 @@ public:
   ///@{
   /**
    * When on, a function is split if its support meets the surface in several connected pieces. Each
-   * piece gets a function, so that sheets that are close in space do not influence each other.
-   * Default on.
+   * piece gets a function, so sheets that are close in space do not interact. Default on.
    */
   vtkSetMacro(ConnectivityAware, bool);
   vtkGetMacro(ConnectivityAware, bool);
@@ -104,8 +103,8 @@ public:
 
   ///@{
   /**
-   * When on, coincident points count as one for connectivity. Meshes from STL files need it. The
-   * output keeps the input's points either way. Default on.
+   * When on, coincident points count as one point for connectivity. Meshes from STL files need
+   * this. The output keeps the input's points either way. Default on.
    */
   vtkSetMacro(WeldCoincidentPoints, bool);
   vtkGetMacro(WeldCoincidentPoints, bool);
@@ -124,9 +123,9 @@ public:
    * Grid (default) takes the functions of the grid. Depth determines how fine they are.
    *
    * HatFunctions takes the piecewise linear functions of the mesh itself, with cotangent stiffness
-   * and consistent area mass. The result at the points is that of a direct solver for the same
-   * system. The grid only speeds up the iteration. It therefore becomes coarser than Depth, or a
-   * given basis, asks for if it would have more functions than the mesh has points. Spectra allow
+   * and consistent area mass. The result at the points is the result of a direct solver for the
+   * same system. The grid only speeds up the iteration. The grid therefore becomes coarser than
+   * Depth or a given basis if it would have more functions than the mesh has points. Spectra allow
    * up to four functions for each point, because they take their estimated errors from the grid.
    * The grid keeps its depth if its own solution counts: for distances, for details of stitched
    * colors, or for a wanted accuracy. The field array `UsedDepth` gives the depth.
@@ -147,7 +146,7 @@ public:
   ///@{
   /**
    * The weight s of the squared normal derivative in the operator on a grid. Functions of the
-   * surface have no such derivative. The default of 1e-12 only determines functions that hide in
+   * surface have no such derivative. The default of 1e-12 only fixes functions that are zero on
    * flat parts of the surface. With 1e-2, iterations to small tolerances stay few on any surface
    * and for any Depth. The error of the space is then 1.1 to 1.4 times as large on scans and parts,
    * and two to four times on spheres and cubes. 1e-14..1. Hat functions have none.
@@ -187,14 +186,15 @@ public:
    * When on, the leaves of a composite input are one surface. It is joined at points with the same
    * coordinates if WeldCoincidentPoints is on, or with the same global ids. The filter computes on
    * it once, and every leaf gets its points, cells and results back. Points of several leaves have
-   * one result. Field arrays are those of the one surface. Outputs with cells of their own, and
-   * tables, are in the first leaf.
+   * one result. Field arrays describe the one surface. Outputs with cells of their own, and tables,
+   * are in the first leaf.
    *
-   * Ids, such as those of sources and in messages, count through all leaves. Joined points count
-   * once. Only arrays that all leaves have can be chosen. A leaf without a chosen array that others
-   * have is passed on unchanged, with a warning.
+   * Ids of sources, and ids in messages, count through all leaves. Joined points count once. Only
+   * arrays that all leaves have can be chosen. A leaf without a chosen array that others have is
+   * passed on unchanged, with a warning.
    *
-   * When off (default), every leaf is a surface by itself. Without effect on other inputs.
+   * When off (default), every leaf is a surface by itself. The property has no effect on other
+   * inputs.
    */
   vtkSetMacro(BlocksAsOne, bool);
   vtkGetMacro(BlocksAsOne, bool);
@@ -210,8 +210,8 @@ public:
   ///@{
   /**
    * The length unit of weights and times that are given as properties. World takes the units of the
-   * points. UnitArea (default) takes those of the surface scaled to area 1, and UnitCube those of
-   * the surface scaled to a longest side of 1. Results are always in world units.
+   * points. UnitArea (default) takes the units of the surface scaled to area 1. UnitCube takes the
+   * units of the surface scaled to a longest side of 1. Results are always in world units.
    */
   vtkSetClampMacro(ParameterUnits, int, World, UnitCube);
   vtkGetMacro(ParameterUnits, int);
@@ -246,7 +246,7 @@ protected:
 
   /**
    * The ascending time steps of a filter that shows its own results by time. Empty (default) if the
-   * times are those of the input. Called again after Compute, which may find other steps.
+   * input gives the times. Called again after Compute, which may find other steps.
    */
   virtual std::vector<double> OwnTimeSteps();
 
@@ -278,7 +278,7 @@ protected:
   void Warn(const std::vector<std::string>& warnings);
 
   /**
-   * Whether the results of a run stay for the next one. They do without ReleaseDataFlag.
+   * Whether the results of a run stay for the next run. They stay without ReleaseDataFlag.
    */
   bool KeepsStages();
 

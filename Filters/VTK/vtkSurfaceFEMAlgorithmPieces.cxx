@@ -79,8 +79,9 @@ void vtkSurfaceFEMAlgorithm::ComputeJoinedBlocks(vtkInformationVector** inputs)
       }
       for (const std::string& block : without)
       {
-        vtkWarningMacro("The surface is without " << block << ", which has no array '"
-                                                  << error.array << "' and is passed on as it is.");
+        vtkWarningMacro("The surface does not include " << block << ", because it has no array '"
+                                                        << error.array
+                                                        << "'. It is output unchanged.");
       }
     }
   }
@@ -128,11 +129,11 @@ void vtkSurfaceFEMAlgorithm::ComputeOnRanks(
       gridfem::StampTime(!this->OwnTimeSteps().empty(), gathered[0], results);
       return this->OwnTimeSteps();
     });
-  // The array would otherwise be that of an earlier filter.
+  // Otherwise the array of an earlier filter would stay.
   vtkPolyData::GetData(outputs)->GetFieldData()->RemoveArray(gridfem::DistributedName);
 }
 
-/// Starts all ranks anew after a failure, because the data of one rank may not fit those of the
+/// Starts all ranks anew after a failure, because the data of one rank may not fit the data of the
 /// others.
 bool vtkSurfaceFEMAlgorithm::TryTogether(
   vtkInformationVector** inputs, vtkInformationVector* outputs)

@@ -17,14 +17,14 @@
  *
  * Output port 0 (vtkPolyData): the input with the following arrays. Cells that are no polygons and
  * points that no polygon uses get 0. A polygon has the mean of its triangles, weighted by area.
- * - point and cell data, double: `Gradient` (3 C components, the three of component 0 first; per
- *   unit of length).
+ * - point and cell data, double: `Gradient` (3 C components, the three components for component 0
+ *   first; per unit of length).
  * - point and cell data, double: `Laplacian` (C components; per unit of length squared, negative at
  *   a maximum).
  * - the same, for an array of vectors (C = 3): `Divergence` (1; per unit of length) along the
- *   surface. A part along the normal counts with the curvature.
+ *   surface. The normal part of the vectors contributes through the curvature.
  * - the same, for an array of vectors: `Curl` (1; per unit of length), the part of the rotation
- *   along the normal. It is positive counterclockwise seen from outside.
+ *   along the normal. It is positive for counterclockwise rotation, seen from outside.
  * - point and cell data, double, for an array of vectors with HodgeDecomposition: `GradientPart`,
  *   `RotationPart` and `HarmonicPart` (3 components each, in the unit of the array). They are
  *   described below.
@@ -33,22 +33,22 @@
  * - field data, of the solve that took most iterations: `Converged`, `Iterations`,
  *   `DoublePrecisionSince`, `Residual`, `ConvergenceFactor`.
  * - field data: the estimated errors of vtkPoissonAlgorithm. They measure how well the functions
- *   follow the array, its gradient and its Laplacian. The worst of them counts.
+ *   follow the array, its gradient and its Laplacian. The largest error counts.
  *
- * The Hodge decomposition writes the part v of the vectors along the surface as grad u + n x grad w
- * + h. Here n is the normal, u the Potential, w the StreamFunction, and h the rest. The rest has
- * neither sources nor eddies. It goes around handles and holes, and holds everything that the
- * functions cannot follow. The three parts are orthogonal: their squares integrate to that of v. On
- * cells they add up to v. At points they are projected like the gradient.
+ * The Hodge decomposition writes the part v of the vectors along the surface as ∇u + n x ∇w + h.
+ * Here n is the normal, u the Potential, w the StreamFunction, and h the rest. The rest has neither
+ * sources nor eddies. It goes around handles and holes, and holds everything that the functions
+ * cannot follow. The three parts are orthogonal: the integrals of their squares add up to the
+ * integral of v². On cells they add up to v. At points they are projected like the gradient.
  *
  * w is 0 along boundaries, so h does not cross the boundary. Flow across the boundary is in the
  * gradient part. Edges of more than two triangles count as a boundary for w. Triangles may face
- * either way: each is taken to face as most of its component's area does. Components without two
+ * either way: each counts as facing like most of the area of its component. Components without two
  * sides, such as a Moebius strip, have no rotation part, and the filter warns.
  *
- * Accuracy, or a Tolerance, is that of the projections and potentials. A StreamFunction that is
- * held at boundaries is solved for to a Tolerance, which is 1e-4 if the property is 0.
- * NormalStabilization is 1e-2 by default. The filter uses all shared properties but ParameterUnits.
+ * Accuracy or Tolerance applies to the projections and potentials. A StreamFunction that is held at
+ * boundaries is solved to a Tolerance, which is 1e-4 if the property is 0. NormalStabilization is
+ * 1e-2 by default. The filter uses all shared properties but ParameterUnits.
  *
  * All MPI ranks compute together. Rank 0 computes a HodgeDecomposition alone.
  */

@@ -42,7 +42,7 @@ struct Equation
 
   double Lambda() const { return 100.0 / areas.sum(); }
 
-  /// Relative to what varies of the truth.
+  /// Relative to the truth without its mean.
   double Error(const Eigen::VectorXd& u) const
   {
     const auto norm = [this](const Eigen::VectorXd& v)

@@ -8,10 +8,10 @@
 namespace gridfem::benchmarks
 {
 
-/// Solves λ u - Δu = λ f, λ = 100 / area, on the grid of `depth` by `Accuracy` 0.1, and by
-/// conjugate gradients with BoomerAMG and with GAMG in as few iterations as are as accurate. Errors
-/// are in the mean square over the points, against a grid two levels finer. Prints a table and the
-/// ratio to the faster peer. MessagePassing must be up.
+/// Solves λ u - Δu = λ f, λ = 100 / area, on the grid of `depth` with `Accuracy` 0.1. The peers are
+/// conjugate gradients with BoomerAMG and with GAMG, with the fewest iterations that give the same
+/// accuracy. Errors are in the mean square over the points, against a grid two levels finer. Prints
+/// a table and the ratio to the faster peer. MessagePassing must be up.
 /// @param f  a column: values at the points
 void ComparePeers(const char* name, const TriangleMesh& mesh, int depth, const MultiVector& f);
 

@@ -1,6 +1,6 @@
-// Solves to the accuracy of the grid beside solves to a tolerance, on all real meshes: iterations,
-// time, the error that is paid for it, and whether the estimates tell the truth. The error of the
-// space is the difference to a grid two levels finer.
+// Compares solves to the accuracy of the grid with solves to a tolerance, on all real meshes:
+// iterations, time, additional error, and the quality of the estimates. The error of the space is
+// the difference to a grid two levels finer.
 #include "AccuracyPeers.h"
 #include "AlgebraicMultigrid.h"
 #include "Measure.h"
@@ -23,7 +23,7 @@ using namespace gridfem;
 using namespace gridfem::benchmarks;
 
 constexpr int Depth = 7;
-constexpr int Runs = 2; // of what is timed: the first one touches new memory
+constexpr int Runs = 2; // timed runs; the first run touches new memory
 
 std::vector<std::filesystem::path> MeshFiles()
 {
@@ -107,10 +107,10 @@ struct Result
 {
   double iterations;
   double time;  // over that to a tolerance of 1e-6
-  double error; // over that of the discrete solution
+  double error; // over the error of the discrete solution
 };
 
-/// What the rows of a mesh have in common. Columns: smooth and rough data.
+/// Data that the rows of a mesh share. Columns: smooth and rough data.
 struct Subject
 {
   std::string name;

@@ -1,10 +1,10 @@
-// Frames per second of Surface Detail: what a user waits for who turns a knob. [T Table 5.5]
+// Frames per second of Surface Detail, while a user moves a slider. [T Table 5.5]
 //
-// A frame ends with new positions of all vertices. Its states are those of the thesis: "solve" is
-// one cycle from the last solution; "rhs" integrates a new scale first; "matrix" weighs the
-// elements for a new transfer function before that and brings the hierarchy up to date. "scale" is
-// what the filter does for another DetailScale: the solution is linear in it, so nothing is solved.
-// The peer solves the same equation on hat functions and factorises again.
+// A frame ends with new positions of all vertices. It has the states of the thesis: "solve" is one
+// cycle from the last solution; "rhs" integrates a new scale first; "matrix" weighs the elements
+// for a new transfer function before that and brings the hierarchy up to date. "scale" is what the
+// filter does for another DetailScale: the solution is linear in it, so nothing is solved. The peer
+// solves the same equation on hat functions and factorizes again.
 #include "Cholmod.h"
 #include "Measure.h"
 #include "Meshes.h"
@@ -126,7 +126,7 @@ private:
     this->Solve();
   }
 
-  /// A user's hand: every frame a little farther.
+  /// A user's hand moves a little farther in every frame.
   void Weigh(int frame)
   {
     const double strength = 4.0 + 0.05 * frame;
@@ -205,7 +205,7 @@ private:
   std::vector<Vec3> positions_;
 };
 
-/// CHOLMOD's numeric factorisation and solution of three columns for a changed matrix of the hats.
+/// CHOLMOD's numeric factorization and solution of three columns for a changed matrix of the hats.
 double CholmodSecondsPerChange(const TriangleMesh& mesh)
 {
   SetBlasThreads(Threads);

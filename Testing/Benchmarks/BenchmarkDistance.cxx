@@ -1,11 +1,10 @@
-// Distances along a surface from ten points, one after the other, and what values that are held
-// cost.
+// Distances along a surface from ten points, one after the other, and the cost of held values.
 //
 // "from the mesh on" is clip, functions, both hierarchies and ten distances. The peer is the heat
-// method on hat functions with t = (mean edge)², as Crane, Weischedel and Wardetzky give it, by
-// CHOLMOD: both matrices are factorised once, and a further source costs two substitutions with a
-// gradient and a divergence between them. Errors are those of one distance on surfaces where it is
-// known, or computed exactly by CGAL.
+// method of Crane, Weischedel and Wardetzky on hat functions with t = (mean edge)², by CHOLMOD.
+// Both matrices are factorized once. A further source costs two substitutions, with a gradient and
+// a divergence between them. The errors belong to one distance on surfaces where it is known, or
+// computed exactly by CGAL.
 #include "Cholmod.h"
 #include "DistanceErrors.h"
 #include "Measure.h"
@@ -335,8 +334,8 @@ HeldTimes MeasureHeld(const TriangleMesh& mesh, int depth, int count)
   return times;
 }
 
-/// Rows for so many points that are held; iterations of the last over those of the first, which
-/// holds none.
+/// Prints a row for each number of held points, and the iterations of the last row over the
+/// iterations of the first, which holds none.
 double PrintHeld(
   const Table& table, const TriangleMesh& mesh, int depth, const std::vector<int>& counts)
 {

@@ -1,6 +1,6 @@
-// The figures of the thesis' chapters 4 and 6.2: writes into the folder that is the first
-// argument what draw_figures.py draws. Further arguments: the figures to compute (default: all
-// but 6.9, whose errors take ten minutes).
+// Computes the figures of the thesis' chapters 4 and 6.2. Writes the input of draw_figures.py into
+// the folder of the first argument. Further arguments: the figures to compute (default: all but
+// 6.9, whose errors take ten minutes).
 #include "AlgebraicMultigrid.h"
 #include "Figures.h"
 #include "FlowComparison.h"

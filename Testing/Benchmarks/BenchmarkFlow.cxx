@@ -1,12 +1,11 @@
-// Mean-curvature flow: what tracking the metric saves against clipping again, and a step against
-// those of CHOLMOD and of algebraic multigrid on hat functions. [T Table 5.4, Figure 5.4]
+// Mean-curvature flow: the savings of tracking the metric over clipping again. A step is compared
+// with the steps of CHOLMOD and of algebraic multigrid on hat functions. [T Table 5.4, Figure 5.4]
 //
-// "set-up" is from triangles to a hierarchy that is ready to solve; "update" is the metric of the
-// embedding, element matrices and the hierarchy, in a running flow; "step" is all that a step
-// takes, up to the points. A step of the peers is the assembly on the moved mesh, their numeric
-// work, and three columns; CHOLMOD's symbolic work is done once. Algebraic multigrid starts from
-// the last points, as ours does, and takes the fewest iterations to the algebraic error of our
-// step.
+// "set-up" is from triangles to a hierarchy that is ready to solve. "update" is the metric of the
+// embedding, element matrices and the hierarchy, in a running flow. "step" is a whole step, up to
+// the points. A step of the peers is the assembly on the moved mesh, their numeric work, and three
+// columns; CHOLMOD's symbolic work is done once. Algebraic multigrid starts from the last points,
+// as ours does, and takes the fewest iterations to the algebraic error of our step.
 #include "AlgebraicMultigrid.h"
 #include "Cholmod.h"
 #include "FlowComparison.h"
@@ -196,7 +195,7 @@ FlowTimes MeasureGrid(const TriangleMesh& mesh, int depth, std::vector<Vec3>& mo
   return times;
 }
 
-/// The system of a step on hats, and what it starts from.
+/// The system of a step on hats, and its start.
 struct HatStep
 {
   CotangentSystem hats;

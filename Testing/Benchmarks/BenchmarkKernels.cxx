@@ -16,7 +16,7 @@ using namespace gridfem;
 
 constexpr int Depth = 7;
 
-/// What all kernels work on, built once.
+/// The data of all kernels, built once.
 struct Problem
 {
   TriangleMesh mesh = benchmarks::RockerArm(2).mesh;

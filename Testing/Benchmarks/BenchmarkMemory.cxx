@@ -1,4 +1,4 @@
-// The estimate of memory against the real peak, and the expected sizes against the real ones.
+// Compares the estimate of memory with the real peak, and the expected sizes with the real sizes.
 #include "Discretisation.h"
 #include "Measure.h"
 #include "Meshes.h"

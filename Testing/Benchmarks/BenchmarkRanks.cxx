@@ -1,12 +1,12 @@
-// One screened Poisson equation, or the spectrum, on the ranks that the program runs on, and on one
-// process by Core alone; or what the ranks send to each other in one cycle. Prints one row of a
+// Solves one screened Poisson equation, or the spectrum, on the ranks of the program, and in one
+// process by Core alone. Or counts the messages between the ranks in one cycle. Prints one row of a
 // table: run it once for each number of ranks. `peers` is `hats` and the same system by algebraic
 // multigrid on the same ranks and with the same owners.
 //
 //   mpiexec -n N BenchmarkRanks poisson|spectrum|hats|hat_spectrum|peers|messages MESH DEPTH [core]
 //
-// MESH is a file, which the first rank reads and the others get their part of, or torus:N, of which
-// every rank makes its own N x N / 4 quadrilaterals' share, so that none ever holds the whole.
+// MESH is a file or torus:N. The first rank reads the file and sends each rank its part. Every rank
+// makes its own share of the N x N / 4 quadrilaterals of the torus, so no rank holds the whole.
 #include "Base/Parallel.h"
 #include "Parallel/RankSurface.h"
 #include "Peers/AlgebraicMultigrid.h"
@@ -28,7 +28,7 @@ using namespace gridfem;
 namespace
 {
 
-/// What this rank has sent.
+/// The messages that this rank has sent.
 struct Traffic
 {
   double messages = 0.0;
@@ -234,7 +234,7 @@ Measured OnRanks(
   return measured;
 }
 
-/// What triangles that a rank integrates add to λM + L of the hats.
+/// The contributions to λM + L of the hats from the triangles that a rank integrates.
 benchmarks::SymmetricMatrix OwnCotangents(
   const RankLevels& levels, double lambda, std::vector<int>& number)
 {
@@ -273,8 +273,8 @@ void PrintPeer(const Communicator& ranks, const char* peer, double setUp, double
   }
 }
 
-/// Ours from the rank's triangles to its rows of the solution, whole; the peers' from the triangles
-/// and owners that ours has found to the same, so that they send no triangles and number nothing.
+/// Our time is from the rank's triangles to its rows of the solution. The peers start from the
+/// triangles and owners that ours has found, so they send no triangles and number nothing.
 void PrintPeers(const Communicator& ranks, const std::string& name, int depth)
 {
   const TriangleMesh own = OwnPart(ranks, name);

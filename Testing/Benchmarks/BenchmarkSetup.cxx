@@ -1,5 +1,5 @@
-// Time and memory of everything that comes before a solve, and of one solve with it: where they go,
-// how they grow, and what the peers need for the same surface.
+// Time and memory of everything before a solve, and of one solve: their distribution, their growth,
+// and the peers' needs for the same surface.
 #include "Cholmod.h"
 #include "Measure.h"
 #include "PeerTimes.h"
@@ -92,8 +92,8 @@ double Spread(const std::vector<std::pair<int, Measurement>>& sizes)
   return MicrosecondsPerTriangle(high->second) / MicrosecondsPerTriangle(low->second);
 }
 
-/// The same for the triangles that a size has more than the one before it: at a fixed depth the
-/// grid is paid for by then.
+/// The same for the additional triangles of each size. At a fixed depth these triangles no longer
+/// pay for the grid.
 double SpreadOfFurther(const std::vector<std::pair<int, Measurement>>& sizes)
 {
   std::vector<double> cost;

@@ -132,8 +132,8 @@ struct HatIterations
   HatSolve pseudo; // its values from the grid by pseudo-evaluation
   HatSolve boomerAmg;
   HatSolve gamg;
-  // Of the hybrid alone, W with ten Gauss-Seidel sweeps everywhere, as the thesis; and when each
-  // sweep over the hats also relaxes their groups.
+  // Cycles of the hybrid alone: W with ten Gauss-Seidel sweeps everywhere, as in the thesis, and
+  // with sweeps over the hats that also relax their groups.
   double thesisCycles = Never;
   double groupedCycles = Never;
 };
@@ -154,7 +154,7 @@ int Iterations(const SolveReport& report)
   return report.converged ? report.iterations : Never;
 }
 
-/// Of the hybrid alone, to the same residual as conjugate gradients.
+/// Cycles of the hybrid alone, to the same residual as conjugate gradients.
 int CyclesAlone(const TriangleMesh& mesh, const HybridProblem& hybrid, double weight,
   const testing::HybridCycle& options)
 {
@@ -285,8 +285,8 @@ double BytesOf(const SparseMatrix& A)
   return double(A.NonZeros()) * (sizeof(double) + sizeof(Index)) + double(A.rows) * sizeof(Id);
 }
 
-/// What a W(1,1) cycle has to move at least: the matrices, factors and vectors of every sweep,
-/// residual and transfer on all levels but the coarsest, once for every visit.
+/// The least memory traffic of a W(1,1) cycle: the matrices, factors and vectors of every sweep,
+/// residual and transfer on all levels except the coarsest, once for every visit.
 double BytesOfCycle(const Multigrid& multigrid, int columns)
 {
   const std::vector<MultigridLevel>& levels = multigrid.Levels();
@@ -328,7 +328,7 @@ double ReadBandwidth()
   return sum > 0.0 ? double(count) * sizeof(double) / seconds : 0.0;
 }
 
-/// A cycle over the time in which memory could deliver what it needs.
+/// The time of a cycle over the time in which memory could deliver its data.
 void RunMemory()
 {
   const GridProblem grid = SetUp(RockerArm(3).mesh, 8, Threads);

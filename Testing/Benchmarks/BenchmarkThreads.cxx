@@ -1,5 +1,5 @@
-// What more threads bring: seconds of every step on 1, 2, 4, ... threads, to the number of
-// processors, beside what they bring to the reading of memory.
+// The gain by more threads: seconds of every step on 1, 2, 4, ... threads, up to the number of
+// processors. The gain in reading memory is measured for comparison.
 #include "Discretisation.h"
 #include "Measure.h"
 #include "Problems.h"

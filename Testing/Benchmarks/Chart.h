@@ -1,4 +1,4 @@
-// What a figure shows: panels of curves, or coloured surfaces. Written as files that
+// The content of a figure: panels of curves, or colored surfaces. Written as files that
 // draw_figures.py turns into pictures.
 #ifndef GridFEM_Benchmarks_Chart_h
 #define GridFEM_Benchmarks_Chart_h
@@ -46,7 +46,7 @@ struct Figure
 Curve CountedCurve(
   const std::string& name, Curve::Kind kind, const std::vector<double>& y, int first = 0);
 
-/// A surface coloured by one value per point between 0 and `largest`.
+/// A surface colored by one value per point between 0 and `largest`.
 struct ColouredSurface
 {
   std::string title;

@@ -145,7 +145,7 @@ private:
   int threads_;
 };
 
-/// What direct and algebraic solvers share: the matrix of a step.
+/// The matrix of a step, which direct and algebraic solvers share.
 class MatrixFlow : public ConformalFlow
 {
 public:

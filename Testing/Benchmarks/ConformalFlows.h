@@ -1,4 +1,4 @@
-// The conformalised mean-curvature flow (M_t + δ L_0) X⁺ = M_t X by several discretisations and
+// The conformalized mean-curvature flow (M_t + δ L_0) X⁺ = M_t X by several discretizations and
 // solvers, as the thesis compares them. [T (6.2), §6.2.3]
 #ifndef GridFEM_Benchmarks_ConformalFlows_h
 #define GridFEM_Benchmarks_ConformalFlows_h
@@ -20,7 +20,7 @@ public:
   /// Coefficients of the surface's points before it moves.
   virtual Eigen::MatrixXd Start() const = 0;
 
-  /// The mass becomes that of the surface with these coefficients. In place.
+  /// The mass becomes the mass of the surface with these coefficients. In place.
   virtual void Move(const Eigen::MatrixXd& coefficients) = 0;
 
   /// The points of the mesh, world units.
@@ -50,7 +50,7 @@ class ConformalFlow
 public:
   virtual ~ConformalFlow() = default;
 
-  /// Back to the start. What all steps have in common is prepared here, or in the first step.
+  /// Back to the start. The data that all steps share is prepared here, or in the first step.
   /// @param timeStep  squared world units
   virtual void Begin(double timeStep) = 0;
 
@@ -65,7 +65,7 @@ public:
 std::unique_ptr<ConformalFlow> MakeCholmodFlow(std::shared_ptr<MovingSystem> system, int threads);
 
 /// BoomerAMG with a new hierarchy in every step; the solve starts from the last points.
-/// @param tolerance  on |r| over |M x|, x centred at 0
+/// @param tolerance  on |r| over |M x|, x centered at 0
 std::unique_ptr<ConformalFlow> MakeAmgFlow(std::shared_ptr<MovingSystem> system, double tolerance);
 
 /// MeanCurvatureFlow.

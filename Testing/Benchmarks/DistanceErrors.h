@@ -1,4 +1,4 @@
-// How far distances are from the exact ones.
+// Errors of distances against exact distances.
 #ifndef GridFEM_Benchmarks_DistanceErrors_h
 #define GridFEM_Benchmarks_DistanceErrors_h
 

@@ -132,7 +132,7 @@ std::vector<char> PointsAtPartings(const GridFunctions& space)
   return marks;
 }
 
-/// The functions of some contestants and what they are compared with.
+/// The functions of some contestants and their reference.
 struct ComparedSpace
 {
   std::string name;
@@ -154,8 +154,8 @@ double ProcessorSeconds()
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-/// The least of three steps after one that has the set-up; all contestants in turns, so that what
-/// else the machine does meets all of them.
+/// The least time of three steps, after a step with the set-up. The contestants take turns, so
+/// other work on the machine meets all of them.
 void TimeSteps(std::vector<Contestant>& contestants, double time)
 {
   constexpr int LikelySteps = 16;
@@ -251,7 +251,7 @@ Truth TruthOf(const std::shared_ptr<const GridSpace>& space,
     options.truthSteps, static_cast<Id>(mesh->points.size()) };
 }
 
-/// Of hat functions on a mesh, at its first points.
+/// The truth of hat functions on a mesh, at its first points.
 Truth TruthOf(const std::shared_ptr<const TriangleMesh>& mesh, std::size_t points,
   const FlowComparisonOptions& options)
 {
@@ -277,7 +277,7 @@ std::vector<double> FromStart(const std::vector<double>& steps)
   return result;
 }
 
-/// The last of the flows is connectivity-aware multigrid, and three before it stand the plain ones.
+/// The last flow is connectivity-aware multigrid. Three places before it is the plain multigrid.
 void PrintRatios(const FlowComparison& comparison)
 {
   using Errors = std::vector<double> BudgetedFlow::*;
@@ -323,7 +323,7 @@ FlowComparison CompareFlows(const FlowComparisonOptions& options)
   if (options.hasFinerTruth)
   {
     finer.emplace(TruthOf(std::make_shared<const TriangleMesh>(testing::SubdivideInPlane(*mesh)),
-      points, options)); // whose first points are those of the mesh
+      points, options)); // it begins with the points of the mesh
     result.finerTruth = Rms(finer->End() - truth.End());
   }
   result.points = static_cast<double>(points);

@@ -1,5 +1,6 @@
-// Which discretisation and which solver come nearest to the conformalised flow of a folded surface
-// in a given time: each makes as many steps as it has time for. [T §6.2.3, Table 6.2, Figure 6.9]
+// Compares discretizations and solvers by their error in the conformalized flow of a folded surface
+// within a given time. Each takes as many steps as the time allows. [T §6.2.3, Table 6.2, Figure
+// 6.9]
 #ifndef GridFEM_Benchmarks_FlowComparison_h
 #define GridFEM_Benchmarks_FlowComparison_h
 
@@ -22,11 +23,11 @@ struct FlowComparisonOptions
   int truthSteps = 24;  // before extrapolation; even
   bool hasFinerTruth = false;
   double tolerance = 5e-4; // of iterative solvers
-  /// One: processor time is the same measure for libraries that use threads and those that do not.
+  /// One: processor time is the same measure for libraries with and without threads.
   int threads = 1;
 };
 
-/// What one contestant comes to with its budget. Errors are distances of points from where a truth
+/// The result of one contestant with its budget. Errors are distances of points from where a truth
 /// has them: RMS over the points, in millimetres.
 struct BudgetedFlow
 {

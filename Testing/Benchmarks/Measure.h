@@ -1,4 +1,4 @@
-// What all benchmarks share: clock, memory of the process, tables, and lines a machine can read.
+// The tools of all benchmarks: clock, memory of the process, tables, and machine-readable lines.
 #ifndef GridFEM_Benchmarks_Measure_h
 #define GridFEM_Benchmarks_Measure_h
 
@@ -26,7 +26,8 @@ private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// The least of what body(run) takes in so many runs, which is what the machine can do.
+/// The least time of body(run) in `runs` runs, because the least time shows the ability of the
+/// machine.
 template<class Body>
 double LeastSeconds(int runs, Body&& body)
 {
@@ -49,24 +50,24 @@ double PeakBytes();
 void ReleaseFreeMemory();
 
 /// Touches that much memory and gives it back. A virtual machine gets pages from its host when it
-/// touches them first, ten times as slowly as later, and loses them when it leaves them free for
-/// seconds: whoever is measured first would pay for all.
+/// first touches them, ten times as slowly as later. It loses pages that are free for seconds. So
+/// the first measurement would pay for all.
 void WarmMemory(double bytes);
 
-/// Where the system does not allow this, peaks are those of the whole run.
+/// If the system does not allow this, peaks describe the whole run.
 void ResetPeak();
 
-/// Runs `body` in a process of its own, so that what other measurements left in memory does not
-/// count; returns its numbers. This process must not have used threads. Throws std::runtime_error
-/// when the other one fails.
+/// Runs `body` in a process of its own, so memory of other measurements does not count. Returns its
+/// numbers. This process must not have used threads. Throws std::runtime_error when the other one
+/// fails.
 std::vector<double> InOwnProcess(const std::function<std::vector<double>()>& body);
 
-/// What a process has left that may have been stopped.
+/// The remaining numbers of a process that may have been stopped.
 struct LimitedRun
 {
   std::vector<double> numbers; // none when it was stopped
   bool isStopped = false;
-  double peak = 0.0; // bytes it had taken until then, beyond those of this process
+  double peak = 0.0; // bytes it had taken until then, beyond the bytes of this process
 };
 
 /// The same, but stops the process after so many seconds.

@@ -124,7 +124,8 @@ private:
     Time(times.cycle, [&] { grid.multigrid->Precondition(b, x); });
   }
 
-  /// What changes the values of the system on the same patches; leaves those of the mesh.
+  /// Times changes of the values of the system on the same patches. The last change restores the
+  /// values of the mesh.
   void RunUpdates(int threads, GridProblem& grid, GridTimes& times) const
   {
     const MemoryReuse reuse; // as around a flow of many updates

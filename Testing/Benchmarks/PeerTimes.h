@@ -1,5 +1,5 @@
-// The same surface and the same accuracy for everybody: seconds of every stage of ours and of the
-// peers, in one process and in turns, so that whatever else the machine does meets all of them.
+// Seconds of every stage of ours and of the peers, with the same surface and the same accuracy.
+// They take turns in one process, so other work on the machine meets all of them.
 #ifndef GridFEM_Benchmarks_PeerTimes_h
 #define GridFEM_Benchmarks_PeerTimes_h
 
@@ -12,7 +12,7 @@
 namespace gridfem::benchmarks
 {
 
-/// What is timed; every stage is the best of the repetitions.
+/// The times. Every stage has the best time of the repetitions.
 struct GridTimes
 {
   double setup = 0.0;    // triangles to ready-to-solve hierarchy

@@ -1,6 +1,6 @@
-// One Poisson problem in the two discretisations that are compared: B-splines of the grid and hat
+// One Poisson problem in the two discretizations that are compared: B-splines of the grid and hat
 // functions of the mesh. λ = 0.01 for a mesh of longest side 1; the exact solution is a smooth
-// colour, so that errors are known without another solver.
+// color, so that errors are known without another solver.
 #ifndef GridFEM_Benchmarks_Problems_h
 #define GridFEM_Benchmarks_Problems_h
 
@@ -28,7 +28,7 @@ struct GridProblem
   PoissonOptions options;
   std::unique_ptr<Multigrid> multigrid;
   SparseMatrix mass;
-  MultiVector exact;     // coefficients of the colours at the grid's corners
+  MultiVector exact;     // coefficients of the colors at the grid's corners
   MultiVector values;    // M exact
   MultiVector gradients; // L exact
 
@@ -58,11 +58,11 @@ struct HatProblem
   double Error(const Eigen::MatrixXd& x) const;
 };
 
-/// The matrix alone: what the peers' "assembly" means in every table.
+/// The matrix alone, which is the peers' "assembly" in every table.
 HatProblem AssembleProblem(const TriangleMesh& mesh, double screeningWeight = ScreeningWeight);
 void ChooseColours(const TriangleMesh& mesh, HatProblem& problem, int columns);
 
-/// Colours at the points of a mesh, centred and scaled by its bounding box.
+/// Colors at the points of a mesh, centered and scaled by its bounding box.
 MultiVector ColoursAtPoints(const TriangleMesh& mesh, int columns);
 
 /// Hat functions of the mesh above the levels of a grid: the same equation as HatProblem's.

@@ -29,7 +29,7 @@ constexpr std::array<const char*, SetupStages> SetupStageNames = { "Clip", "Buil
 struct StageCost
 {
   double seconds = 0.0;
-  double held = 0.0; // bytes in memory after the stage, beyond those before the first stage
+  double held = 0.0; // growth in bytes from before the first stage to after this stage
   double peak = 0.0; // the same for the most there were during the stage
 };
 

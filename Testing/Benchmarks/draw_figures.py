@@ -2,8 +2,8 @@
 
     pvpython draw_figures.py NUMBERS PICTURES
 
-NUMBERS is the folder with the .csv and .vtk files, PICTURES the one for the .png files. Needs a
-display (xvfb-run gives one).
+NUMBERS is the folder with the .csv and .vtk files, PICTURES is the folder for the .png files. Needs
+a display (xvfb-run gives one).
 """
 
 import csv

@@ -1,4 +1,4 @@
-"""What Testing/package.sh runs in pvpython where nothing but the package and ParaView is installed."""
+"""Testing/package.sh runs this script in pvpython, in a root with only the package and ParaView."""
 import os
 import sys
 

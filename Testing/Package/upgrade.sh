@@ -48,7 +48,7 @@ BuildTree "$OBJECTS/GoneSince.cxx.o" "${OPTIONS[@]}" -DGRIDFEM_NATIVE=OFF -DGRID
 rm "$SOURCE/Filters/Core/Base/GoneSince.cxx"
 mv "$SOURCE/kept.cxx" "$SOURCE/Filters/Core/Base/ShortWaits.cxx"
 
-# First with the options that it had, as after `git pull`, then with those of this release.
+# First with the options that it had, as after `git pull`, then with the options of this release.
 for newer in "-DGRIDFEM_NATIVE=OFF -DGRIDFEM_GONE_SINCE=ON" "-DGRIDFEM_NATIVE=ON"; do
   read -ra newer <<< "$newer"
   BuildTree "$OBJECTS/ShortWaits.cxx.o" "${OPTIONS[@]}" "${newer[@]}"

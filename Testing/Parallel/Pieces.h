@@ -46,8 +46,8 @@ struct Piece
 /// @param withCopies  whether the part has copies of the triangles that touch it
 Piece PieceOf(const TriangleMesh& mesh, Dealing dealing, bool withCopies);
 
-/// Expects that rows here are those of the whole, to 1e-8 of its largest number. NaN has to be at
-/// the same places.
+/// Expects that rows here equal the rows of the whole, to 1e-8 of its largest number. NaN has to be
+/// at the same places.
 void ExpectRows(const char* name, const MultiVector& found, const MultiVector& whole,
   const std::vector<Id>& places, const std::vector<char>& isCompared = {});
 

@@ -1,4 +1,4 @@
-// Distances along the pieces of several ranks are those of one rank.
+// Distances along the pieces of several ranks equal the distances of one rank.
 #include "Largest.h"
 #include "Parallel/RankDistance.h"
 #include "Pieces.h"

@@ -75,7 +75,7 @@ SolveReport Solve(const Communicator& ranks, const TriangleMesh& own, bool hasHa
   PoissonOptions poisson;
   poisson.screeningWeight = 0.05;
   poisson.multigrid.threads = 1;
-  poisson.solve.tolerance = 1e-3; // two iterations: further ones allocate the same as the second
+  poisson.solve.tolerance = 1e-3; // two iterations: later ones allocate the same as the second
   const PoissonSolution solution = SolveScreened(surface.Levels(), ValuesAt(own.points), poisson);
   surface.Levels().ValuesAtPoints(solution.coefficients);
   return solution.report;

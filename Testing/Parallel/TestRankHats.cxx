@@ -1,4 +1,5 @@
-// Hat functions on several ranks are those of one rank, with the same matrices and prolongation.
+// Hat functions on several ranks equal the hat functions of one rank, with the same matrices and
+// prolongation.
 #include "Parallel/RankSurface.h"
 #include "Pieces.h"
 #include "Spaces/HatSpace.h"

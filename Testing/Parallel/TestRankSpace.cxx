@@ -1,4 +1,4 @@
-// The space on several ranks is that of one rank, with the same patches and functions on every
+// The space on several ranks equals the space of one rank: the same patches and functions on every
 // level, and the same entries of M, L and the prolongations.
 #include "Largest.h"
 #include "Meshes.h"
@@ -147,7 +147,7 @@ void MatchFunctions(const GatheredLevel& level, const PatchLevel& whole, Numbers
   }
 }
 
-/// Compares entries, after adding up those at one place, to 1e-12 of the largest.
+/// Adds up entries at one place, and compares them to 1e-12 of the largest.
 void CompareEntries(std::vector<Entry> entries, const SparseMatrix& whole, const Numbers& rows,
   const Numbers& columns)
 {

@@ -1,4 +1,5 @@
-// The spectrum on several ranks is that of one rank: its values, and its vectors at every point.
+// The spectrum on several ranks equals the spectrum of one rank: its values, and its vectors at
+// every point.
 #include "Krylov/SpectralProblem.h"
 #include "Largest.h"
 #include "Pieces.h"

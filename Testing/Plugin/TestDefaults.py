@@ -7,17 +7,17 @@ from paraview.modules.vtkRemotingServerManager import vtkSMOrderedPropertyIterat
 
 import plugin
 
-# The ends of int, vtkIdType and double: a class that allows them has no end.
+# The ends of int, vtkIdType and double. A class that allows them has no bound.
 UNBOUNDED = {2**31 - 1, 2**63 - 1, 1.7976931348623157e308}
 
-# The arrays of a panel are numbered as they come, but for these.
+# The arrays of a panel are numbered in their order, except for these.
 INDICES = {("LaplaceSpectrum", "MetricArray"): 5}
 
-# What the panel of a filter that was just made shows without its advanced properties: at most so many,
-# besides inputs.
+# The panel of a new filter shows at most this number of properties, without inputs and advanced
+# properties.
 MOST_SHOWN = 5
 
-# The class does not clamp these but refuses what is below, with a message.
+# The class does not clamp these properties. It refuses values below the range, with a message.
 REFUSED_BELOW = {"ScreeningWeight": 0, "Mode": -1, "DiffusionTime": 0, "SmoothingScale": 0,
                  "TransitionWidth": 0}
 
@@ -38,8 +38,8 @@ def is_shown(proxy, decorator):
 
 
 def shown_properties(proxy):
-    """Returns the properties in the panel of a filter, without inputs, advanced properties and those
-    that another one hides."""
+    """Returns the properties in the panel of a filter, without inputs, advanced properties and
+    properties that another one hides."""
     for key in proxy.ListProperties():
         prop = proxy.SMProxy.GetProperty(key)
         if (prop.IsA("vtkSMInputProperty") or prop.GetInformationOnly()
@@ -83,7 +83,7 @@ class TestDefaults(unittest.TestCase):
                 yield name, instance, key, proxy.SMProxy.GetProperty(key)
 
     def values(self):
-        """Yields those whose value a getter of the class gives."""
+        """Yields the properties with a getter in the class."""
         for name, instance, key, prop in self.properties():
             if not (prop.IsA("vtkSMProxyProperty") or prop.GetInformationOnly() or prop.GetRepeatable()
                     or prop.GetCommand() == "SetInputArrayToProcess"):

@@ -223,7 +223,7 @@ class Engines(unittest.TestCase):
             try:
                 call(package)
             except package.Error as error:
-                # What names the place for the user of ParaView's window is left out.
+                # The hint for users of ParaView's window is left out.
                 return str(error).split(", for example with the Calculator")[0].rstrip(".")
         return [str(warning.message) for warning in caught]
 

@@ -8,7 +8,8 @@ import plugin
 
 DEPTH = 4
 
-# What the hints of the panels have to come to; of a filter that is not named any array of its output will do.
+# The arrays that color a filter by the hints of its panel. For a filter without an entry, any array
+# of its output is right.
 COLORED_BY = {
     "ClipToOctree": ("CELLS", "OctreeCellColor"),
     "ConnectivityAwareBasis": ("CELLS", "PatchColor"),

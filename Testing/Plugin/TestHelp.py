@@ -15,7 +15,7 @@ class TestHelp(unittest.TestCase):
         self.database = sqlite3.connect(HELP)
         rows = self.database.execute("SELECT Name, Data FROM FileNameTable, FileDataTable WHERE "
                                      "FileNameTable.FileId = FileDataTable.Id AND Name != ''")
-        # Qt writes four bytes with the length in front of what zlib has packed.
+        # Qt writes four bytes with the length in front of the data from zlib.
         self.files = {name: zlib.decompress(data[4:]) for name, data in rows}
         self.pages = {name: data.decode() for name, data in self.files.items()
                       if name.endswith(".html")}

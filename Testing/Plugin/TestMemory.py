@@ -10,7 +10,7 @@ import plugin
 
 MEGABYTE = 1 << 20
 
-# Few modes and steps: what is tested is what stays, not what is made.
+# Few modes and steps are enough, because the test is about the data that stays.
 OPTIONS = {
     "LaplaceSpectrum": {"NumberOfModes": 8},
     "MeanCurvatureFlow": {"NumberOfSteps": 2},
@@ -73,7 +73,7 @@ class TestMemory(unittest.TestCase):
                     simple.Delete(proxy)
                     del proxy
                 print(f"{name}: {held / MEGABYTE:.0f} MB held, {data / MEGABYTE:.0f} of data")
-                # Allocators round up and keep a little: that of the largest share is 4 MB.
+                # Allocators round up and keep a little: the largest share is 4 MB.
                 self.assertLess(held, 1.3 * data + 4 * MEGABYTE)
 
 

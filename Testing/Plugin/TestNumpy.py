@@ -110,7 +110,7 @@ class Numpy(unittest.TestCase):
             diffused, numpy.exp(-1.0) * self.points[:, 2], atol=0.005)
 
     def test_interpolation_between_two_circles(self):
-        # Harmonic functions of the latitude are those of log tan(theta / 2).
+        # Harmonic functions of the latitude are linear functions of log tan(theta / 2).
         theta = numpy.arccos(numpy.clip(self.points[:, 2], -1, 1))
         inner = 8 * numpy.pi / 30  # a ring of points
         known = numpy.flatnonzero(numpy.abs(theta - numpy.pi / 2) > numpy.pi / 2 - inner - 1e-9)
@@ -195,7 +195,7 @@ class Numpy(unittest.TestCase):
             "no property Dept": lambda: gridfem.spectrum(points, triangles, Dept=5),
             "not a finite number": lambda: gridfem.spectrum(points * numpy.nan, triangles),
             "has 7 rows": lambda: gridfem.poisson(points, triangles, numpy.ones(7)),
-            "not a point": lambda: gridfem.distance(points, triangles, len(points)),
+            "no polygon of the mesh has": lambda: gridfem.distance(points, triangles, len(points)),
             "no sources": lambda: gridfem.distance(points, triangles, []),
             "no border": lambda: gridfem.signed_distance(points, triangles, points[:, 0] * 0),
             "must be integers": lambda: gridfem.signed_distance(points, triangles, points[:, 0]),

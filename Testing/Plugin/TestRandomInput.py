@@ -31,11 +31,11 @@ LONGEST = 10.0  # seconds
 # minute of one processor.
 MANY_VALUES = 60.0
 
-# What a random choice must not set: where output goes, how long a run may take.
+# Properties that a random choice must not set: the place of output, and the time of a run.
 NEVER_SET = {"Depth", "NumberOfModes", "NumberOfSteps", "NumberOfThreads", "MaximumIterations",
              "WantedError", "QuadratureDegree", "ErrorCode", "AbortExecute", "ReferenceCount",
              "Debug", "ReleaseDataFlag", "Progress", "NumberOfScales"}
-# What filters make the active scalars, but for what is not a number where nothing reaches.
+# The active scalars of the filters, without arrays that have NaN where nothing reaches.
 MADE = {"Solution", "NormalDisplacement", "Filtered", "Mode", "Mode000", "Diffused", "Laplacian", "Bending",
         "Signature", "StitchedColors"}
 KEPT_WHERE_NOTHING_REACHES = {"Solution", "Filtered", "Diffused", "StitchedColors"}  # the input's values

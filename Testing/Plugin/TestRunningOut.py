@@ -1,7 +1,7 @@
-"""Tests filters that run out of memory. Under every limit a filter gives one message and empty outputs,
-or its result, and works again when there is room. The limit is that of `ulimit -d`, counted from the
-memory of the process at the filter's start. Small limits stop the first stages, larger ones the
-last."""
+"""Tests filters that run out of memory. Under every limit a filter gives one message and empty
+outputs, or its result, and works again when there is room. The limit is the limit of `ulimit -d`,
+counted from the memory of the process at the filter's start. Small limits stop the first stages,
+and larger limits stop the last."""
 import os
 import pathlib
 import subprocess
@@ -14,7 +14,7 @@ from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
 import plugin
 from running_out import MEGABYTE, Outcome, take_arrays_from_the_system
 
-STEPS = 8  # limits below the one that was enough
+STEPS = 8  # limits below the first sufficient limit
 OPTIONS = {
     "LaplaceSpectrum": {"NumberOfModes": 8},
     "MeanCurvatureFlow": {"NumberOfSteps": 2},

@@ -1,4 +1,4 @@
-"""Tests a surface that grows with time, through every filter, forwards and backwards."""
+"""Tests a surface that grows with time, through every filter, forward and backward."""
 import unittest
 
 import gridfem.vtkGridFEMFilters  # before the plugin, which makes objects of its classes

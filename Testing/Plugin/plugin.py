@@ -16,15 +16,16 @@ def _panels():
 _PANELS = _panels()
 PROXIES = tuple(_PANELS)
 
-# What is known here of single filters, for all tests; one that is not named works without.
+# Facts about single filters, for all tests. A filter without an entry needs none.
 
 # Filters that compute nothing without an array: properties that choose one, for a surface with the
-# point arrays `f`, any numbers, and `label`, whole ones.
+# point arrays `f`, any numbers, and `label`, whole numbers.
 CHOICES = {
     "StitchColors": {"ColorArray": ["POINTS", "f"], "LabelArray": ["POINTS", "label"]},
     "HarmonicInterpolation": {"ValueArray": ["POINTS", "f"]}}
 
-# What is changed of a filter in the window, and the value as it stands in a state; else its depth.
+# The property of a filter that the window tests change, and its value in a state. Without an entry
+# it is the depth.
 CHANGES = {
     "ConnectivityAwareBasis": ("ConnectivityAware", "0"), "GeodesicDistance": ("SourceArray", "label"),
     "FarthestPoints": ("NumberOfPoints", "4"),

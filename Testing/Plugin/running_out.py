@@ -31,8 +31,8 @@ def data_size():
 
 
 class Limit:
-    """Limits the growth of the process to so many bytes. The limit is not that of `ulimit -v`: filters
-    check that one before they compute, and refuse a run that needs more."""
+    """Limits the growth of the process to so many bytes. The limit is not `ulimit -v`, because
+    filters check `ulimit -v` before they compute, and refuse a run that needs more."""
 
     def __init__(self, room):
         self.room = room

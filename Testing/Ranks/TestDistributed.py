@@ -97,7 +97,7 @@ class Distributed(unittest.TestCase):
             found, expected = number(output, name), number(whole, name)
             if not abs(found - expected) <= 0.1 * expected:
                 problems.append(f"{name} is {found} instead of {expected}")
-        # The iteration ends when this part is what it has left: the default of Accuracy is a tenth.
+        # The iteration ends when this part remains: the default of Accuracy is a tenth.
         if not 0.0 < number(output, "AlgebraicError") <= 0.2 * number(output, "DiscretizationError"):
             problems.append(f"AlgebraicError is {number(output, 'AlgebraicError')}")
         if number(output, "Distributed") != 1 or number(output, "Converged") != 1:

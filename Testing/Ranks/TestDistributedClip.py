@@ -66,7 +66,7 @@ def apart(ours, theirs, what, tolerance=1e-12):
 
 class DistributedClip(unittest.TestCase):
     def compare_meshes(self, output, whole, kind, case):
-        """Triangles have the order of one rank if the pieces have that of the mesh."""
+        """Triangles have the order of one rank if the pieces have the order of the mesh."""
         theirs, names = rows_of_triangles(whole)
         ours = of_all_ranks(rows_of_triangles(output)[0])
         problems = []
@@ -317,8 +317,8 @@ class DistributedClip(unittest.TestCase):
         return problems
 
     def wrong_spread(self, output, spread, case):
-        """Evaluates a basis function at the points of the piece. Numbers of functions follow those of
-        patches."""
+        """Evaluates a basis function at the points of the piece. Numbers of functions follow the
+        numbers of patches."""
         if not output.GetNumberOfPoints() or "scattered" in case:
             return []
 

@@ -10,8 +10,8 @@ from vtkmodules.vtkCommonDataModel import vtkSelection, vtkSelectionNode
 
 import ranks
 
-# A filter and its properties; what is compared, and how exactly: modes of eigenvalues known to 1e-12
-# are known to 1e-6; misfits of held values end at 1e-7.
+# A filter, its properties, and the tolerance of the comparison. If eigenvalues are known to 1e-12,
+# their modes are known to 1e-6. Misfits of held values end at 1e-7.
 CASES = {
     "gradient": ("SurfaceGradient", {}, 1e-8),
     "gradient of vectors": ("SurfaceGradient", {"arrays": {0: "v"}}, 1e-8),

@@ -238,8 +238,8 @@ def piece(mesh, kind, global_ids=False):
 
 # --- filters ----------------------------------------------------------------------------------
 
-# Besides Depth and a Tolerance of 1e-13: what a filter needs to compute something that numbers can be
-# compared of.
+# The properties, besides Depth and a Tolerance of 1e-13, that a filter needs to give comparable
+# numbers.
 CHOICES = {
     "ScreenedPoisson": {"ScreeningWeight": 100.0},
     "LaplaceSpectrum": {"NumberOfModes": 5, "AllModes": True, "Tolerance": 1e-12},

@@ -1,5 +1,5 @@
-"""Runs Screened Poisson by all ranks together with little memory: the last rank, or each rank with a
-larger surface, can grow only by so many megabytes.
+"""Runs Screened Poisson by all ranks together with little memory. The last rank, or each rank with
+a larger surface, can grow only by MEGABYTES.
 
     mpiexec -n 2 pvbatch --symmetric running_out.py MEGABYTES [each]
 

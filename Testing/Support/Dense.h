@@ -25,7 +25,7 @@ Eigen::MatrixXd Congruent(const Eigen::MatrixXd& A, const Eigen::MatrixXd& V);
 /// Returns A⁻¹ b for a symmetric positive definite A.
 Eigen::MatrixXd DenseSolution(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b);
 
-/// Returns, for any A, the smallest x among those that minimize |A x - b|.
+/// Returns, for any A, the smallest x that minimizes |A x - b|.
 Eigen::MatrixXd LeastSquares(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b);
 
 struct DenseEigenPairs

@@ -79,7 +79,7 @@ inline vtkDoubleArray* AddPointArray(vtkPolyData* data, const char* name, int co
   return array;
 }
 
-/// Collects the messages of a filter, and keeps those of its executive quiet.
+/// Collects the messages of a filter, and silences the messages of its executive.
 class Messages
 {
 public:

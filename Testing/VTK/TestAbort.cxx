@@ -35,7 +35,7 @@ double SecondsComputed()
 }
 
 /// Records the longest time between two reports of progress, and whether each report is above the
-/// one before.
+/// report before.
 class Reports
 {
 public:

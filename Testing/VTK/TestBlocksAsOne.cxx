@@ -127,7 +127,7 @@ protected:
     return blocks;
   }
 
-  /// The largest difference between an array of the leaves and that of the whole.
+  /// The largest difference between an array of the leaves and the array of the whole.
   static double Apart(vtkDataObject* output, vtkPolyData* reference, const char* name)
   {
     double apart = 0.0;

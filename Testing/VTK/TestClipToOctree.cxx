@@ -396,7 +396,7 @@ TEST(ClipToOctree, PointArraysAreInterpolatedLinearly)
   EXPECT_EQ(FieldValue(output, "field"), 3);
 }
 
-/// Whether a value is that of a corner of the source triangle.
+/// Whether a value equals the value at a corner of the source triangle.
 bool IsOfACorner(vtkPolyData* input, vtkIdType cell, vtkDataArray* array, double value)
 {
   vtkNew<vtkIdList> corners;

@@ -139,7 +139,7 @@ TEST(ConnectivityAwareBasis, AWrongBasisIdIsRefusedByNumber)
   filter->SetBasisId(1000000);
   filter->Update();
   ASSERT_EQ(messages.errors.size(), 1u);
-  EXPECT_NE(messages.errors[0].find("BasisId 1000000"), std::string::npos);
+  EXPECT_NE(messages.errors[0].find("Basis Id 1000000"), std::string::npos);
   EXPECT_TRUE(IsEmptyData(filter->GetOutput()));
 }
 
@@ -196,7 +196,7 @@ TEST(ConnectivityAwareBasis, AClippedInputGivesTheSameBasis)
   clip->SetDepth(4);
   clip->SetInputData(ToPolyData(mesh));
   vtkNew<vtkConnectivityAwareBasis> chained;
-  chained->SetDepth(7); // not used: the grid is that of the clip
+  chained->SetDepth(7); // not used, because the clip has the grid
   chained->SetInputConnection(clip->GetOutputPort());
   chained->Update();
   for (const char* name : { "PatchBasisIds", "PatchCellId", "OctreeCells", "GridDepth" })

@@ -177,7 +177,7 @@ TEST_P(ConstrainedPoisson, SolvesForValuesHeldAtTheBoundary)
 }
 
 /// On a tube along z, flow enters at the bottom and leaves at the top. With screening, λ u = Δu
-/// holds instead, and the flux is that of cosh.
+/// holds instead, and the flux is the flux of cosh.
 TEST_P(ConstrainedPoisson, TakesAFluxAcrossTheBoundary)
 {
   TriangleMesh tube = FlatRectangle(80, 20);

@@ -533,7 +533,7 @@ TEST_P(FailureRule, AnAbortInAnyStageGivesEmptyOutputsAndLeavesNothingHalfDone)
     course.Restart(report);
     this->ExpectAborted(data);
     EXPECT_GE(course.abortedAt, 0.0);
-    EXPECT_LT(course.abortedAt, 1.0); // what the pipeline reports when all is done
+    EXPECT_LT(course.abortedAt, 1.0); // the pipeline's report at the end
     course.Restart();
     filter->Modified();
     this->ExpectComputed(data); // goes on from the stages that were done

@@ -313,13 +313,13 @@ TEST(GeodesicDistanceFilter, RefusesSignsWithoutSides)
     filter->SignedOn();
     return filter;
   };
-  ExpectRefused(make(), "LabelArray");
+  ExpectRefused(make(), "Label Array");
   auto filter = make();
   filter->AddSourcePointId(3);
-  ExpectRefused(filter, "SourcePointIds");
+  ExpectRefused(filter, "Source Point Ids");
   filter = make();
   filter->NearestSourceOn();
-  ExpectRefused(filter, "NearestSource");
+  ExpectRefused(filter, "Nearest Source");
 
   auto slice = SliceAt(data, 0.3);
   const vtkIdType last = slice->GetNumberOfCells() - 5; // a gap within a triangle closes itself

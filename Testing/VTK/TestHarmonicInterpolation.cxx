@@ -286,7 +286,7 @@ TEST(HarmonicInterpolationFilter, TakesTheOnlyArrayThatIsKnownInPart)
   Messages messages(filter);
   EXPECT_EQ(filter->GetExecutive()->Update(), 0);
   ASSERT_EQ(messages.errors.size(), 1u);
-  EXPECT_NE(messages.errors[0].find("Choose a ValueArray"), std::string::npos);
+  EXPECT_NE(messages.errors[0].find("Choose a Value Array"), std::string::npos);
 }
 
 TEST(HarmonicInterpolationFilter, RefusesWhatItCannotUse)
@@ -308,7 +308,7 @@ TEST(HarmonicInterpolationFilter, RefusesWhatItCannotUse)
     EXPECT_NE(messages.errors[0].find(reason), std::string::npos) << messages.errors[0];
     EXPECT_TRUE(IsEmptyData(filter->GetOutput()));
   };
-  expectRefused("None", "None", "Choose a ValueArray");
+  expectRefused("None", "None", "Choose a Value Array");
   expectRefused("Nothing", "None", "all are NaN");
   expectRefused("Infinite", "None", "not finite");
   expectRefused("Value", "Zero", "masked");

@@ -49,7 +49,7 @@ protected:
     return Values(filter->GetOutput()->GetFieldData()->GetArray("Eigenvalues"));
   }
 
-  /// The tolerance is the relative error of a value; that of the reference is 1e-8.
+  /// The tolerance is the relative error of a value. The error of the reference is 1e-8.
   void ExpectSpectrumOf(const TriangleMesh& surface, const std::string& what)
   {
     const std::vector<double> expected = HatEigenvalues(BuildHatSystem(surface), Modes);
@@ -183,7 +183,7 @@ TEST_F(HatLaplaceSpectrum, TakesABasisOrTheClippedMesh)
   ASSERT_EQ(clipped.size(), coarse.size());
   for (int k = 1; k < Modes; ++k)
   {
-    EXPECT_LT(clipped[k], coarse[k]); // the hats of the clipped mesh hold those of the mesh
+    EXPECT_LT(clipped[k], coarse[k]); // the hats of the clipped mesh contain the mesh's
   }
 }
 

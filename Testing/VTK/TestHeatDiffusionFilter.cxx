@@ -118,7 +118,7 @@ TEST(HeatDiffusionFilter, RefusesASourceOfOtherComponentsAndNoTime)
   const Messages messages(filter);
   EXPECT_EQ(filter->GetExecutive()->Update(), 0);
   ASSERT_EQ(messages.errors.size(), 1u);
-  EXPECT_NE(messages.errors[0].find("DiffusionTime is 0"), std::string::npos);
+  EXPECT_NE(messages.errors[0].find("Diffusion Time is 0"), std::string::npos);
 }
 
 /// Makes a square that is 0 at its boundary and 1 in the middle at first.

@@ -225,7 +225,7 @@ TEST_F(LaplaceSpectrum, MoreModesThanMemoryHoldsAreRefusedWithTheEstimate)
   filter->SetNumberOfModes(100000);
   EXPECT_EQ(filter->GetExecutive()->Update(), 0);
   ASSERT_EQ(messages.errors.size(), 1u);
-  EXPECT_NE(messages.errors[0].find("NumberOfModes 100000"), std::string::npos);
+  EXPECT_NE(messages.errors[0].find("Number Of Modes 100000"), std::string::npos);
 }
 
 TEST_F(LaplaceSpectrum, ManyModesAnnounceWhatTheyCostAndCanBeAborted)
@@ -341,7 +341,7 @@ TEST_F(LaplaceSpectrum, ManyComponentsSayHowManyModesAreNeeded)
   EXPECT_EQ(this->Eigenvalues(), std::vector<double>(4, 0.0));
   ASSERT_EQ(messages.warnings.size(), 1u);
   EXPECT_NE(messages.warnings[0].find("All 4 modes are constants"), std::string::npos);
-  EXPECT_NE(messages.warnings[0].find("a NumberOfModes above 12."), std::string::npos);
+  EXPECT_NE(messages.warnings[0].find("a Number Of Modes above 12."), std::string::npos);
   filter->SetNumberOfModes(13);
   EXPECT_GT(this->Eigenvalues().back(), 1.0);
 }

@@ -105,7 +105,7 @@ TEST_P(ManyComponents, AreReportedAndCanBeAborted)
   EXPECT_EQ(this->HasOutput(), hasResult);
   if (!hasResult) // signatures, which need modes that are not constants
   {
-    EXPECT_NE(messages.errors[0].find("NumberOfModes above 10000"), std::string::npos)
+    EXPECT_NE(messages.errors[0].find("Number Of Modes above 10000"), std::string::npos)
       << messages.errors[0];
     messages.errors.clear();
   }

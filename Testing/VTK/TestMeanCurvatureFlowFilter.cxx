@@ -208,7 +208,7 @@ TEST_P(MeanCurvatureFlowFilter, ClippingAgainIsNearTracking)
   filter->ConformalizedOn();
   EXPECT_EQ(filter->GetExecutive()->Update(), 0);
   ASSERT_EQ(messages.errors.size(), 1u);
-  EXPECT_NE(messages.errors[0].find("TrackMetric"), std::string::npos);
+  EXPECT_NE(messages.errors[0].find("Track Metric"), std::string::npos);
 }
 
 TEST_P(MeanCurvatureFlowFilter, TheConformalisedFlowWarnsWhereNoSphereComesOut)
@@ -308,7 +308,7 @@ TEST_P(MeanCurvatureFlowFilter, AFixedBoundaryStaysInEveryStepAndAllElseMoves)
   filter->ConformalizedOn();
   EXPECT_EQ(filter->GetExecutive()->Update(), 0);
   ASSERT_EQ(messages.errors.size(), 1u);
-  EXPECT_NE(messages.errors[0].find("FixedBoundary"), std::string::npos);
+  EXPECT_NE(messages.errors[0].find("Fixed Boundary"), std::string::npos);
 }
 
 TEST_P(MeanCurvatureFlowFilter, UnusableValuesAreRefusedAndEmptyInputsAreNot)
@@ -318,7 +318,7 @@ TEST_P(MeanCurvatureFlowFilter, UnusableValuesAreRefusedAndEmptyInputsAreNot)
     filter->SetTimeStep(step);
     EXPECT_EQ(filter->GetExecutive()->Update(), 0);
     ASSERT_EQ(messages.errors.size(), 1u);
-    EXPECT_NE(messages.errors[0].find("TimeStep"), std::string::npos);
+    EXPECT_NE(messages.errors[0].find("Time Step"), std::string::npos);
     messages.errors.clear();
   }
   filter->SetTimeStep(1e-3);

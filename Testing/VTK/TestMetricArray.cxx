@@ -297,7 +297,7 @@ TEST_F(RefusedMetric, WithAnotherNumberOfComponents)
   array->SetNumberOfTuples(input->GetNumberOfPoints());
   array->Fill(1.0);
   input->GetPointData()->AddArray(array);
-  this->ExpectRefused(Points, "MetricArray 'metric' has 4 components");
+  this->ExpectRefused(Points, "Metric Array 'metric' has 4 components");
 }
 
 TEST_F(RefusedMetric, WithANaN)

@@ -155,7 +155,7 @@ TEST_F(ScreenedPoisson, UnitsOfTheWeight)
   const auto world = this->Solution();
   filter->SetParameterUnits(Poisson::UnitArea);
   filter->SetScreeningWeight(3.0 * area);
-  EXPECT_LT(Difference(this->Solution(), world), 1e-6); // each starts from the one before
+  EXPECT_LT(Difference(this->Solution(), world), 1e-6); // each starts from the solution before
   filter->SetParameterUnits(Poisson::UnitCube);
   filter->SetScreeningWeight(3.0 * 4.0); // the box has side 2
   EXPECT_LT(Difference(this->Solution(), world), 1e-6);
@@ -380,7 +380,7 @@ TEST_F(ScreenedPoisson, NotConvergedWarnsAndKeepsTheResult)
   EXPECT_EQ(filter->GetExecutive()->Update(), 1);
   EXPECT_TRUE(messages.errors.empty());
   ASSERT_EQ(messages.warnings.size(), 1u);
-  EXPECT_NE(messages.warnings[0].find("more are not allowed"), std::string::npos);
+  EXPECT_NE(messages.warnings[0].find("Maximum Iterations allows no more"), std::string::npos);
   EXPECT_NE(messages.warnings[0].find("residual"), std::string::npos);
   EXPECT_EQ(FieldValue(filter->GetOutput(), "Converged"), 0);
   EXPECT_FALSE(PointValues(filter->GetOutput(), "Solution").empty());
@@ -511,7 +511,7 @@ TEST_F(ScreenedPoisson, TextIsRefused)
 TEST_F(ScreenedPoisson, AGradientOfWrongSizeIsRefused)
 {
   filter->SetInputArrayToProcess(1, 0, 0, Points, "f");
-  this->ExpectRefused("GradientArray 'f' has 1 components");
+  this->ExpectRefused("Gradient Array 'f' has 1 components");
 }
 
 TEST_F(ScreenedPoisson, ValueGradientOfCellDataIsRefused)

@@ -275,7 +275,7 @@ TEST(Selection, DoesNotTakeWhatAnotherExtractionHasMarked)
   EXPECT_TRUE(sphere->GetPointData()->HasArray("vtkInsidedness"));
 }
 
-/// Ids are those of the data set that the user clicks on, not those of its surface.
+/// Ids belong to the data set that the user clicks on, not to its surface.
 TEST(Selection, OfAGridMarksThePointsOfItsSurface)
 {
   vtkNew<vtkImageData> image;

@@ -168,7 +168,7 @@ TEST_F(SpectralSignaturesFilter, ASourceThatIsNoPointIsRefused)
   filter->AddSourcePointId(vtkIdType(sphere.points.size()));
   EXPECT_EQ(filter->GetExecutive()->Update(), 0);
   ASSERT_EQ(messages.errors.size(), 1u);
-  EXPECT_NE(messages.errors[0].find("SourcePointIds"), std::string::npos);
+  EXPECT_NE(messages.errors[0].find("Source Point Ids"), std::string::npos);
 }
 
 TEST_F(SpectralSignaturesFilter, SourcesThatAreNowhereAreRefusedByName)

@@ -243,7 +243,7 @@ TEST(StitchColorsFilter, TakesTheOnlyColorsAndTheOnlyLabels)
   others->SetName("Others");
   plain->GetPointData()->AddArray(others);
   const auto filter = Stitch(plain, "None", 4);
-  ExpectToBeChosen(filter, "ColorArray");
+  ExpectToBeChosen(filter, "Color Array");
 }
 
 TEST(StitchColorsFilter, TakesNoColorsAndNoIdsForLabels)
@@ -254,7 +254,7 @@ TEST(StitchColorsFilter, TakesNoColorsAndNoIdsForLabels)
   data->GetPointData()->RemoveArray("Scan");
   const auto filter = Stitch(data, "Grey", 4);
   filter->SetInputArrayToProcess(1, 0, 0, Points, "None");
-  ExpectToBeChosen(filter, "LabelArray");
+  ExpectToBeChosen(filter, "Label Array");
 }
 
 /// Borders coincide without common points, or leave a gap that only a plain grid closes.
@@ -377,8 +377,8 @@ TEST(StitchColorsFilter, RefusesWhatIsNoColorOrNoLabel)
   other->DeepCopy(data->GetPointData()->GetArray("Scan"));
   other->SetName("Other");
   data->GetPointData()->AddArray(other);
-  expectRefused("None", "Scan", "Choose a ColorArray");
-  expectRefused("Seen", "None", "Choose a LabelArray");
+  expectRefused("None", "Scan", "Choose a Color Array");
+  expectRefused("Seen", "None", "Choose a Label Array");
   expectRefused("Five", "Scan", "1 to 4");
   expectRefused("Seen", "Seen", "one component");
   expectRefused("Seen", "Halves", "integers");
@@ -389,7 +389,7 @@ TEST(StitchColorsFilter, RefusesWhatIsNoColorOrNoLabel)
   Messages messages(filter);
   EXPECT_EQ(filter->GetExecutive()->Update(), 0);
   ASSERT_EQ(messages.errors.size(), 1u);
-  EXPECT_NE(messages.errors[0].find("ReferenceLabel 3"), std::string::npos);
+  EXPECT_NE(messages.errors[0].find("Reference Label 3"), std::string::npos);
 }
 
 /// A real scan with colors, cut into five scans with other gains and offsets.

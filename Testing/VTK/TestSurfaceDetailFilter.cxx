@@ -419,8 +419,8 @@ TEST_P(SurfaceDetailFilter, GoesOnAfterAnAbort)
   EXPECT_LE(Difference(Positions(filter->GetOutput()), PositionsFrom(fresh)), 1e-9);
 }
 
-/// The points of the curve are set by hand. The curve has no effect, or that of a preset where the
-/// preset has no bend.
+/// The points of the curve are set by hand. The curve has no effect, or the effect of a preset
+/// where the preset has no bend.
 TEST_P(SurfaceDetailFilter, TakesATransferFunctionOfOnesOwn)
 {
   const auto sphere = WavySphere();
@@ -533,13 +533,13 @@ TEST(SurfaceDetailOfVTK, RefusesWhatItCannotUse)
     filter->SetCustomTransferFunction(function);
   };
   vtkNew<vtkPiecewiseFunction> empty;
-  refuses("CustomTransferFunction", [&](auto* filter) { setCustom(filter, empty); });
-  refuses("CustomTransferFunction", [&](auto* filter) { setCustom(filter, nullptr); });
+  refuses("Custom Transfer Function", [&](auto* filter) { setCustom(filter, empty); });
+  refuses("Custom Transfer Function", [&](auto* filter) { setCustom(filter, nullptr); });
   vtkNew<vtkPiecewiseFunction> negative; // lengths of 1 - 4 = -3
   negative->AddPoint(0.0, -1.0);
   refuses("must be above 0", [&](auto* filter) { setCustom(filter, negative); });
-  refuses(
-    "DetailScaleArray", [](auto* filter) { filter->SetInputArrayToProcess(1, 0, 0, Points, "f"); });
+  refuses("Detail Scale Array",
+    [](auto* filter) { filter->SetInputArrayToProcess(1, 0, 0, Points, "f"); });
   refuses(
     "nothing", [](auto* filter) { filter->SetInputArrayToProcess(0, 0, 0, Points, "nothing"); });
 }

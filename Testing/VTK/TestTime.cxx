@@ -1,5 +1,5 @@
 // Tests surfaces that change with time. No filter shows the result of another time, and modes as
-// time steps are those of one surface.
+// time steps belong to one surface.
 
 #include "GrowingSphere.h"
 
@@ -47,7 +47,7 @@ protected:
     filter->SetInputConnection(source->GetOutputPort());
   }
 
-  /// Checks the output at every time, forwards and backwards.
+  /// Checks the output at every time, forward and backward.
   template<class Look>
   void AtEveryTime(vtkSurfaceFEMAlgorithm* filter, Look&& look)
   {
@@ -134,7 +134,7 @@ TEST_F(Time, ModesAsTimeAreThoseOfTheSurfaceAtOneTime)
   vtkNew<vtkLaplaceSpectrum> spectrum;
   this->Connect(spectrum.Get());
   spectrum->SetNumberOfModes(9);
-  source->UpdateTimeStep(2.0); // what was shown before the filter was put on it
+  source->UpdateTimeStep(2.0); // shown before the filter was added
   const int runs = source->Runs;
   for (const double mode : { 3, 1, 8, 2 })
   {

@@ -1,5 +1,5 @@
 // Tests TrackMetric of Screened Poisson and Laplace Spectrum. If only the points of a surface move,
-// it keeps its functions, and results are those of the moved surface.
+// it keeps its functions, and results belong to the moved surface.
 
 #include "FilterSupport.h"
 #include "GrowingSphere.h"
@@ -37,7 +37,7 @@ TriangleMesh MovedMesh(TriangleMesh mesh, const Map& map)
   return mesh;
 }
 
-/// Makes all arrays anew, as a reader does. The point array "f" is that of the mesh before.
+/// Makes all arrays anew, as a reader does. The point array "f" belongs to the mesh before.
 vtkSmartPointer<vtkPolyData> Read(const TriangleMesh& mesh, const Map& map)
 {
   auto data = ToPolyData(mesh);
@@ -163,7 +163,7 @@ TEST_F(TrackMetric, AScaledSurfaceScales)
   }
 }
 
-/// Hat functions are those of the moved mesh itself.
+/// Hat functions belong to the moved mesh itself.
 TEST_F(TrackMetric, OnHatFunctionsItIsTheSolutionOfTheMovedMesh)
 {
   const auto moved = Read(mesh, Bend);
@@ -310,12 +310,12 @@ TEST_F(TrackMetric, WhatDoesNotGoTogetherIsRefused)
   poisson->SetInputArrayToProcess(5, 0, 0, Points, "metric");
   poisson->Update();
   ASSERT_EQ(messages.errors.size(), 1u);
-  EXPECT_NE(messages.errors[0].find("TrackMetric"), std::string::npos);
+  EXPECT_NE(messages.errors[0].find("Track Metric"), std::string::npos);
   poisson->SetInputArrayToProcess(5, 0, 0, Points, "None");
   poisson->SetInputArrayToProcess(6, 0, 0, Points, "f");
   poisson->Update();
   ASSERT_EQ(messages.errors.size(), 2u);
-  EXPECT_NE(messages.errors[1].find("TrackMetric"), std::string::npos);
+  EXPECT_NE(messages.errors[1].find("Track Metric"), std::string::npos);
 }
 
 TEST_F(TrackMetric, TimeStepsSayWhichOneTheyStandOn)
@@ -340,8 +340,8 @@ TEST_F(TrackMetric, TimeStepsSayWhichOneTheyStandOn)
   EXPECT_EQ(spectrum->GetNumberOfRuns("Solve"), 4);
 }
 
-/// Reads a scan that bends from files. The grid stays, and the solution is that of a new grid up to
-/// the errors of both.
+/// Reads a scan that bends from files. The grid stays, and the solution equals the solution on a
+/// new grid up to the errors of both.
 TEST_F(TrackMetric, AScanBends)
 {
   const std::string path = RealMesh("armadillo_100k.ply");

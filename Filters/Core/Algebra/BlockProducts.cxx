@@ -90,7 +90,8 @@ void CheckShapes(const SparseMatrix& A, const SparseMatrix& B, const ConstBlock<
   if (A.columns != X.rows() || B.rows != A.rows || B.columns != A.columns ||
       B.NonZeros() != A.NonZeros())
   {
-    throw InvalidInput("a paired product needs two matrices of one pattern that fit the block");
+    throw InvalidInput(
+      "A paired product needs two matrices with the same pattern that fit the block.");
   }
 }
 
@@ -108,7 +109,7 @@ std::vector<Index> CheckColumns(
 {
   if (values.size() != X.cols() || (!columns.empty() && columns.back() >= X.cols()))
   {
-    throw InvalidInput("a residual needs a value for every column, and wanted columns of these");
+    throw InvalidInput("A residual needs a value for every column, and wanted columns among them.");
   }
   return columns;
 }
@@ -170,7 +171,7 @@ void MultiplyRows(
 {
   if (A.columns != X.rows())
   {
-    throw InvalidInput("a matrix does not fit the block it is multiplied with");
+    throw InvalidInput("A matrix does not fit the block that it is multiplied with.");
   }
   const RowView rows(A);
   for (Id row = begin; row < end; ++row)

@@ -14,7 +14,7 @@ namespace gridfem
 
 /// Blocks have one row per function and any number of columns; means have one row per component.
 /// Same bits for any number of threads. Keeps references to the constructor's arguments. Collective
-/// if the rows are divided (see DividedRows); the means are those of the whole surface.
+/// if the rows are divided (see DividedRows); the means cover the whole surface.
 class ComponentMeans
 {
 public:

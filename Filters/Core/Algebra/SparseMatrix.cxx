@@ -16,7 +16,7 @@ void CheckRows(Id have, Id want, const char* what)
 {
   if (have != want)
   {
-    throw InvalidInput(std::string("a sparse matrix product needs ") + std::to_string(want) +
+    throw InvalidInput(std::string("A sparse matrix product needs ") + std::to_string(want) +
                        " rows of " + what + ", got " + std::to_string(have));
   }
 }

@@ -12,7 +12,7 @@ namespace gridfem
 constexpr std::size_t LargeMemorySize = std::size_t{ 1 } << 20;
 
 /// Allocates uninitialized memory, aligned to a page. Freed memory returns to the system at once
-/// (except under MemoryReuse), so the peak of a run is what its arrays need. Any thread may call
+/// (except under MemoryReuse), so the peak of a run is the size of its arrays. Any thread may call
 /// it. Throws std::bad_alloc.
 void* AllocateLargeMemory(std::size_t bytes);
 
@@ -40,8 +40,8 @@ void ReturnLargeMemory(std::size_t bytes) noexcept;
 void ReturnFreedMemory() noexcept;
 
 /// Asks the system for large pages in untouched memory of any origin, wherever the range spans
-/// whole ones. This is only a hint, and only on Linux: the system may ignore it. Contents do not
-/// change.
+/// whole large pages. This is only a hint, and only on Linux: the system may ignore it. Contents do
+/// not change.
 void PreferLargePages(void* begin, std::size_t bytes) noexcept;
 
 } // namespace gridfem

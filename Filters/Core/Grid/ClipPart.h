@@ -1,5 +1,5 @@
-// Clips a part of a surface. The grid is that of the whole surface, but pieces are made only in
-// some of its cells. In the cells that two parts share, they make the same pieces, bit for bit.
+// Clips a part of a surface. It uses the grid of the whole surface, but makes pieces only in some
+// of its cells. In the cells that two parts share, they make the same pieces, bit for bit.
 #ifndef GridFEM_ClipPart_h
 #define GridFEM_ClipPart_h
 

@@ -59,7 +59,7 @@ void RequireWeights(const std::vector<double>& weight, const TriangleMesh& mesh)
     weight.begin(), weight.end(), [](double w) { return w >= 0.0 && std::isfinite(w); });
   if (weight.size() != mesh.triangles.size() || !areUsable)
   {
-    throw InvalidInput("every triangle needs a finite weight that is not negative");
+    throw InvalidInput("Every triangle needs a finite weight that is not negative.");
   }
 }
 

@@ -35,7 +35,7 @@ struct GridFunctions
   std::vector<Index> component;   // the component of each function of the finest level
   Index numberOfComponents = 0;
   bool isPart = false;                   // other processes have the rest of the surface
-  std::vector<PieceElsewhere> elsewhere; // pieces near those of this process
+  std::vector<PieceElsewhere> elsewhere; // pieces near the pieces of this process
 
   const Grid& GetGrid() const { return clipped.grid; }
   const PatchLevel& Finest() const { return levels.front(); }

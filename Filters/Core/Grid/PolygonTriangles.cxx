@@ -138,7 +138,7 @@ private:
     {
       throw InvalidInput("Cell " + std::to_string(cell_) + " is a polygon with " +
                          std::to_string(corners_.size()) +
-                         " corners, so many of which point inward that to cut it into triangles "
+                         " corners. So many of them point inward that cutting it into triangles "
                          "would take too long. Split it into smaller polygons first.");
     }
   }

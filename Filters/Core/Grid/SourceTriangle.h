@@ -15,9 +15,9 @@ public:
   /// Keeps references to both meshes. The clipped mesh must come from `mesh`.
   SourceTriangle(const ClippedMesh& clipped, const TriangleMesh& mesh, Id triangle);
 
-  /// Returns the barycentric coordinates of a point of the clipped mesh on this triangle: exactly
-  /// the ones it was made with. The point may have been made from another triangle at the same
-  /// edge. A point of unknown origin is located by its position.
+  /// Returns the barycentric coordinates of a point of the clipped mesh on this triangle, exactly
+  /// as the clip made them. The point may have been made from another triangle at the same edge. A
+  /// point of unknown origin is located by its position.
   Barycentric Locate(Id point) const;
 
 private:

@@ -22,7 +22,7 @@ void AssembleValues(const PatchLevel& level, const FunctionPlaces& places,
   const Array<ElementMatrix>& mass, double a, const Array<ElementMatrix>& stiffness, double b,
   SparseMatrix& matrix, int threads = 0);
 
-/// Returns the matrix that writes coarse functions in terms of fine ones: rows = functions of
+/// Returns the matrix that expresses coarse functions by fine functions: rows = functions of
 /// `fine`, columns = functions of `coarse`. Every patch in a fine function's support gives the same
 /// row [T (6.1)]; the first one is used.
 /// @param places  places of the fine functions

@@ -70,7 +70,7 @@ DirectionalElements IntegrateElements(const GridFunctions& space, const Quadratu
   if (!triangles.empty() &&
       *std::max_element(triangles.begin(), triangles.end()) >= static_cast<Id>(direction.size()))
   {
-    throw InvalidInput("a direction is needed for every source triangle");
+    throw InvalidInput("Every source triangle needs a direction.");
   }
   DirectionalElements elements;
   const Id patches = space.Finest().NumberOfPatches();
@@ -116,7 +116,7 @@ void Weigh(const DirectionalElements& elements, const std::vector<ElementWeights
     { return IsUsable(w.mass) && IsUsable(w.stiffness[0]) && IsUsable(w.stiffness[1]); });
   if (weights.size() != elements.mass.size() || !areUsable)
   {
-    throw InvalidInput("every patch needs finite weights that are not negative");
+    throw InvalidInput("Every patch needs finite weights that are not negative.");
   }
   result.mass.resize(weights.size());
   result.stiffness.resize(weights.size());

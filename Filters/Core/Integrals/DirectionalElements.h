@@ -26,7 +26,7 @@ struct ElementWeights
   std::array<double, 2> stiffness = { 1.0, 1.0 };
 };
 
-/// Integrates the element matrices of both directions. Cost and determinism are those of
+/// Integrates the element matrices of both directions. Cost and determinism are the same as for
 /// IntegrateElements. Throws InvalidInput when there are fewer directions than source triangles.
 /// @param direction  the first direction on each source triangle. Only its part in the triangle's
 ///   plane counts, not its length; the second direction is perpendicular. Without such a part, each

@@ -210,7 +210,7 @@ SampleMetric MetricOfEmbedding(const GridFunctions& space, const QuadratureRule&
   const PatchLevel& level = space.Finest();
   if (embedding.rows() != level.numberOfFunctions || embedding.cols() != 3)
   {
-    throw InvalidInput("an embedding needs three coefficients for each function of the space");
+    throw InvalidInput("An embedding needs three coefficients for each function of the space.");
   }
   const Id points = static_cast<Id>(rule.points.size());
   SampleMetric metric(NumberOfSamples(space.clipped, rule));
@@ -242,7 +242,8 @@ SampleMetric MetricOfMesh(const GridFunctions& space, const QuadratureRule& rule
 {
   if (mesh.points.size() != moved.points.size() || mesh.triangles != moved.triangles)
   {
-    throw InvalidInput("a moved mesh needs the points and triangles of the mesh it comes from");
+    throw InvalidInput(
+      "A moved mesh needs the points and triangles of the mesh before the motion.");
   }
   const Id points = static_cast<Id>(rule.points.size());
   SampleMetric metric(NumberOfSamples(space.clipped, rule));
@@ -269,7 +270,7 @@ Id IntegrateElements(const GridFunctions& space, const QuadratureRule& rule,
 {
   if (static_cast<Id>(metric.size()) != NumberOfSamples(space.clipped, rule))
   {
-    throw InvalidInput("a metric is needed for every sample of the quadrature rule");
+    throw InvalidInput("Every sample of the quadrature rule needs a metric.");
   }
   std::atomic<Id> singular = 0;
   IntegratePatches(space, rule, job, result, parts,

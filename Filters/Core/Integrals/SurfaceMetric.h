@@ -39,8 +39,8 @@ SampleMetric MetricOfMesh(const GridFunctions& space, const QuadratureRule& rule
 /// [T (5.6)] The normal derivative is taken and integrated on the mesh for every metric. It only
 /// serves to determine all functions. It does not scale, just like the stiffness of a scaled
 /// surface.
-/// Cost and determinism are those of IntegrateElements. Throws InvalidInput unless there is one
-/// metric per sample of the rule.
+/// Cost and determinism are the same as for IntegrateElements. Throws InvalidInput unless there is
+/// one metric per sample of the rule.
 /// @param result  updated in place: the finest element matrices of a system, for UpdateOperators
 /// @return  number of samples on triangles with area that contribute nothing, because their metric
 ///   is singular. Such a metric is not positive definite, not finite, stretches one direction 1e7

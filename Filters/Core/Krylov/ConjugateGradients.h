@@ -89,11 +89,11 @@ struct SolveReport
 /// The value of `convergenceFactor`.
 double MeanFactor(const SolveReport& report);
 
-/// Appends the history of one solve to that of the solves before it.
+/// Appends the history of one solve to the history of the solves before it.
 void Append(const SolveReport& step, SolveReport& report);
 
-/// Keeps the report of the worse of two solves: the one that has not converged, or else the one
-/// that took more iterations.
+/// Keeps the report of the worse of two solves: the solve that has not converged, or else the solve
+/// with more iterations.
 void KeepWorse(SolveReport report, SolveReport& kept);
 
 /// Keeps an iteration out of directions that are solved by other means, such as the constants of

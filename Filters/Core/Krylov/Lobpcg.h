@@ -41,7 +41,7 @@ struct BlockWorkspace
   BlockBuffer<Real> corrections;
 };
 
-/// Improves `pairs` until the wanted ones reach the tolerance. `pairs` may be orthonormal Ritz
+/// Improves `pairs` until the wanted pairs reach the tolerance. `pairs` may be orthonormal Ritz
 /// pairs, vectors of any kind without values, fewer than blockSize of either, or empty. Returns at
 /// most blockSize pairs, fewer when fewer exist.
 /// Converged columns drop out of the work until they move again. A few fixed random directions are

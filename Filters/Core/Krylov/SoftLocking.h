@@ -21,7 +21,8 @@ public:
   {
   }
 
-  /// Puts to work the columns that have not converged, and those whose values have moved since.
+  /// Activates the columns that have not converged, and the columns with values that have moved
+  /// since.
   void Start(const Eigen::VectorXd& values);
 
   /// Puts the wanted columns to work.

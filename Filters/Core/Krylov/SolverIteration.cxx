@@ -17,17 +17,18 @@ void CheckProblem(
 {
   if (b.rows() != A.rows || x.rows() != b.rows() || x.cols() != b.cols())
   {
-    throw InvalidInput("a system of " + std::to_string(A.rows) + " unknowns got b " +
+    throw InvalidInput("A system of " + std::to_string(A.rows) + " unknowns got b " +
                        std::to_string(b.rows()) + " x " + std::to_string(b.cols()) + " and x " +
                        std::to_string(x.rows()) + " x " + std::to_string(x.cols()));
   }
   if (!(options.tolerance > 0.0) || options.maximumIterations < 1)
   {
-    throw InvalidInput("the tolerance must be positive and at least one iteration allowed");
+    throw InvalidInput(
+      "The tolerance must be positive, and the solver needs at least one iteration.");
   }
   if (!x.allFinite())
   {
-    throw InvalidInput("the start of the iteration contains values that are not finite");
+    throw InvalidInput("The start of the iteration contains values that are not finite.");
   }
 }
 
@@ -79,7 +80,7 @@ SolverIteration::SolverIteration(const LinearOperator& A, const Preconditioner& 
   this->Judge();
 }
 
-/// Measures |b|. Retires the columns without a solution and those with a trivial solution.
+/// Measures |b|. Retires the columns without a solution and the columns with a trivial solution.
 void SolverIteration::MeasureZero()
 {
   residualOfZero_ = A_.products(r, r).sqrt();

@@ -30,7 +30,7 @@ public:
   {
   }
 
-  /// Called once per iteration; the first measure is that of the start. NaN counts as no progress.
+  /// Called once per iteration. The first measure describes the start. NaN counts as no progress.
   void Add(double measure);
 
   /// True if, at the mean pace of the last PaceWindow iterations, the remaining iterations do not

@@ -28,7 +28,7 @@ struct RowSource
 template<class Real>
 using RowSink = std::function<void(Id begin, Id end, const ConstBlock<Real>& part)>;
 
-/// Loads all rows into a block of to.cols() columns. Columns beyond those of r become zero.
+/// Loads all rows into a block of to.cols() columns. Columns beyond the columns of r become zero.
 /// @param norm  if not null: rᵀr
 template<class Given, class Real>
 void LoadRows(const RowSource<Given>& r, Vectors<Real>& to, Columns* norm, int threads);
@@ -55,7 +55,7 @@ using CorrectionTest = std::function<bool(const ResidualMeasures&)>;
 /// Hands over z = B r where it is wanted. B is symmetric positive semi-definite, and r has at most
 /// WidestPanel columns. Safe to call from several threads; same bits for any number of them.
 /// Collective, called by one thread of each process: r is this process's part of the sum over all
-/// processes, and the measures are those of the sum.
+/// processes, and the measures describe the sum.
 template<class Real>
 using BlockPreconditioner = std::function<ResidualMeasures(
   const RowSource<Real>& r, const CorrectionTest& isWanted, const RowSink<Real>& z)>;

@@ -60,7 +60,7 @@ CoarseSolver::CoarseSolver(const SparseMatrix& A, int threads) : rows_(A.rows)
 {
   if (A.rows != A.columns)
   {
-    throw InvalidInput("the coarsest matrix is not square");
+    throw InvalidInput("The coarsest matrix is not square.");
   }
   const Groups members = FindComponents(A);
   components_.resize(members.begin.size() - 1);
@@ -132,7 +132,7 @@ void CoarseSolver::Solve(const MultiVector& b, MultiVector& x, int threads) cons
 {
   if (b.rows() != rows_)
   {
-    throw InvalidInput("the coarsest system has " + std::to_string(rows_) +
+    throw InvalidInput("The coarsest system has " + std::to_string(rows_) +
                        " unknowns, the right-hand side " + std::to_string(b.rows()));
   }
   x.setZero(b.rows(), b.cols());

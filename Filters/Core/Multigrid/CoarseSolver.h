@@ -10,9 +10,9 @@ namespace gridfem
 {
 
 /// Dense factors of a symmetric positive semi-definite matrix, one per connected component of its
-/// graph. Thousands of components therefore cost no more than one. Left out are dependent
-/// directions (pivots below 1e-12 of the scaled diagonal) and unknowns whose diagonal is not a
-/// positive number. Cost: n³ / 3 multiplications and 8 n² bytes for a component of n unknowns.
+/// graph. Thousands of components therefore cost no more than one. It leaves out dependent
+/// directions (pivots below 1e-12 of the scaled diagonal) and unknowns without a positive number on
+/// the diagonal. Cost: n³ / 3 multiplications and 8 n² bytes for a component of n unknowns.
 class CoarseSolver
 {
 public:

@@ -23,7 +23,7 @@ void CheckSweeps(int pre, int post)
 {
   if (pre < 0 || post < 0)
   {
-    throw InvalidInput("the number of smoothing sweeps must not be negative");
+    throw InvalidInput("The number of smoothing sweeps must not be negative.");
   }
 }
 
@@ -31,7 +31,7 @@ void CheckLevels(const std::vector<MultigridLevel>& levels, const MultigridOptio
 {
   if (levels.empty())
   {
-    throw InvalidInput("a multigrid hierarchy needs at least one level");
+    throw InvalidInput("A multigrid hierarchy needs at least one level.");
   }
   CheckSweeps(options.preSweeps, options.postSweeps);
   for (std::size_t l = 0; l < levels.size(); ++l)
@@ -47,7 +47,7 @@ void CheckLevels(const std::vector<MultigridLevel>& levels, const MultigridOptio
         (!isCoarsest && (P.rows != A.rows || P.columns != levels[l + 1].A.rows)))
     {
       throw InvalidInput(
-        "the matrix or the prolongation of level " + std::to_string(l) + " has the wrong shape");
+        "The matrix or the prolongation of level " + std::to_string(l) + " has the wrong shape.");
     }
   }
 }
@@ -217,7 +217,7 @@ std::unique_ptr<BasicSmoother<Real>> BasicMultigrid<Real>::MakeFirstSmoother(
   }
   else if (type != SmootherType::Patch)
   {
-    throw InvalidInput("a cycle in single precision relaxes patches");
+    throw InvalidInput("A cycle in single precision needs a smoother of patches.");
   }
   return MakePatches<Real>(level.A, level.order, options_);
 }

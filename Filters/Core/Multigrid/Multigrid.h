@@ -119,7 +119,7 @@ public:
   /// solution and improves it by one cycle on every level but the finest. The result is x = C b,
   /// with C symmetric positive semi-definite where B is. Cost: a third of a W cycle. x must not be
   /// b.
-  /// @param lastStep  if not null: the solution of the second level minus that of the third,
+  /// @param lastStep if not null: the solution of the second level minus the solution of the third,
   ///   prolonged to the finest; without columns if there are fewer levels
   void NestedIteration(
     const Vectors<Real>& b, Vectors<Real>& x, Vectors<Real>* lastStep = nullptr) const;
@@ -204,7 +204,7 @@ private:
 
 using Multigrid = BasicMultigrid<double>;
 
-/// ///@{ Functions of hierarchies in double precision only.
+///@{ Functions of hierarchies in double precision only.
 template<>
 void BasicMultigrid<float>::Update(const std::function<void(std::size_t, SparseMatrix&)>&) = delete;
 template<>

@@ -108,8 +108,8 @@ void BasicMultigrid<Real>::CheckRows(std::size_t level, Id rows) const
   const Index unknowns = levels_.at(level).A.rows;
   if (rows != unknowns)
   {
-    throw InvalidInput("a right-hand side of " + std::to_string(rows) +
-                       " rows does not fit a system of " + std::to_string(unknowns) + " unknowns");
+    throw InvalidInput("A right-hand side of " + std::to_string(rows) +
+                       " rows does not fit a system of " + std::to_string(unknowns) + " unknowns.");
   }
 }
 
@@ -121,8 +121,9 @@ void BasicMultigrid<Real>::RequireSymmetry(std::size_t level) const
     const LevelSmoothing smoothing = this->SmoothingOf(levels_[l].smoothing);
     if (smoothing.preSweeps != smoothing.postSweeps)
     {
-      throw InvalidInput("a cycle that preconditions needs as many sweeps before as after the "
-                         "correction");
+      throw InvalidInput(
+        "A cycle that preconditions needs equally many sweeps before and after the "
+        "correction.");
     }
   }
 }
@@ -132,7 +133,7 @@ void BasicMultigrid<Real>::Cycle(const Vectors<Real>& b, Vectors<Real>& x) const
 {
   if (x.rows() != b.rows() || x.cols() != b.cols())
   {
-    throw InvalidInput("x and b of a multigrid cycle must have the same shape");
+    throw InvalidInput("The blocks x and b of a multigrid cycle must have the same shape.");
   }
   this->CheckRows(0, b.rows());
   const typename Pool<Workspace>::Loan workspace(*workspace_);
@@ -186,7 +187,7 @@ ResidualMeasures BasicMultigrid<Real>::PreconditionRows(std::size_t l, const Row
   this->CheckRows(l, r.rows);
   if (r.columns > WidestPanel)
   {
-    throw InvalidInput("a cycle preconditions a few columns at a time");
+    throw InvalidInput("A cycle preconditions only a few columns at a time.");
   }
   this->RequireSymmetry(l);
   const int threads = options_.threads;

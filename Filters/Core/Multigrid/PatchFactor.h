@@ -47,7 +47,7 @@ struct PatchFactor
 struct GroupFactor
 {
   Eigen::MatrixXd V;          // lower triangular; zero above the diagonal
-  std::vector<Index> unknown; // the solvable ones, those of V first; else any one
+  std::vector<Index> unknown; // the solvable unknowns, V's first; else any unknown
   bool isComplete = true;
   bool hasLargeScales = false;
 };

@@ -38,8 +38,8 @@ PatchInverses::PatchInverses(const SparseMatrix& A, const UnknownGroups& patches
 {
   if (patches.size > LargestGroup)
   {
-    throw InvalidInput("a patch of " + std::to_string(patches.size) + " unknowns; at most " +
-                       std::to_string(LargestGroup) + " are relaxed together");
+    throw InvalidInput("A patch has " + std::to_string(patches.size) + " unknowns; at most " +
+                       std::to_string(LargestGroup) + " are relaxed together.");
   }
   unresolved_ = patches.size == PatchKernelWidth
                   ? this->FillPatches(A, patches, threads, precision)

@@ -50,12 +50,12 @@ void CheckSlices(const SparseMatrix& A, const PatchOrder& order, int sweeps)
 {
   if (sweeps < 1)
   {
-    throw InvalidInput("a slice-decomposed smoother needs at least one sweep");
+    throw InvalidInput("A slice-decomposed smoother needs at least one sweep.");
   }
   if (A.rows != A.columns || static_cast<Index>(order.slice.size()) != A.rows)
   {
-    throw InvalidInput("there are " + std::to_string(order.slice.size()) +
-                       " slices of unknowns for " + std::to_string(A.rows) + " rows");
+    throw InvalidInput("There are " + std::to_string(order.slice.size()) +
+                       " slices of unknowns for " + std::to_string(A.rows) + " rows.");
   }
   for (Index row = 0; row < A.rows; ++row)
   {
@@ -63,8 +63,9 @@ void CheckSlices(const SparseMatrix& A, const PatchOrder& order, int sweeps)
     {
       if (std::abs(order.slice[row] - order.slice[A.column[k]]) > 1)
       {
-        throw InvalidInput("unknowns " + std::to_string(row) + " and " +
-                           std::to_string(A.column[k]) + " are coupled but not in adjacent slices");
+        throw InvalidInput("Unknowns " + std::to_string(row) + " and " +
+                           std::to_string(A.column[k]) +
+                           " are coupled but not in adjacent slices.");
       }
     }
   }

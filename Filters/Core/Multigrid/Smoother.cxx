@@ -26,12 +26,12 @@ void CheckOrder(const SparseMatrix& A, const PatchOrder& order, int threads)
 {
   if (A.rows != A.columns || static_cast<Id>(A.rowBegin.size()) != Id(A.rows) + 1)
   {
-    throw InvalidInput("a smoother needs a square matrix");
+    throw InvalidInput("A smoother needs a square matrix.");
   }
   const Id blocks = std::max<Id>(0, Id(order.blockBegin.size()) - 1);
   if (!Covers(order.blockBegin, order.dof.Count()) || !Covers(order.colourBegin, blocks))
   {
-    throw InvalidInput("blocks and colours of a patch order must cover all patches");
+    throw InvalidInput("Blocks and colors of a patch order must cover all patches.");
   }
   ParallelRanges(order.dof.Count(), threads,
     [&](Id begin, Id end)
@@ -42,7 +42,7 @@ void CheckOrder(const SparseMatrix& A, const PatchOrder& order, int threads)
         {
           if (unknown < -1 || unknown >= A.rows)
           {
-            throw InvalidInput("patch " + std::to_string(patch) + " names unknown " +
+            throw InvalidInput("Patch " + std::to_string(patch) + " names unknown " +
                                std::to_string(unknown) + " of " + std::to_string(A.rows));
           }
         }
@@ -56,7 +56,7 @@ void CheckSweep(
 {
   if (A.rows != rows || b.rows() != rows || x.rows() != rows || b.cols() != x.cols())
   {
-    throw InvalidInput("a sweep over " + std::to_string(rows) + " unknowns got a matrix of " +
+    throw InvalidInput("A sweep over " + std::to_string(rows) + " unknowns got a matrix of " +
                        std::to_string(A.rows) + ", b " + std::to_string(b.rows()) + " x " +
                        std::to_string(b.cols()) + " and x " + std::to_string(x.rows()) + " x " +
                        std::to_string(x.cols()));

@@ -100,7 +100,7 @@ struct StencilBlocks::Draft
   std::vector<Extra> extras; // of all its patches, without values
   bool fits = true;
 
-  /// @param number  per unknown of the level: 0, and 0 again afterwards
+  /// @param number  per unknown of the level: 0, and 0 again afterward
   Draft(const SparseMatrix& A, const PatchOrder& order, Id begin, Id end,
     std::vector<Index>& number, Patch* patches)
   {

@@ -15,7 +15,8 @@ namespace
 /// as the functions take longer to settle.
 constexpr double Penalty = 30.0;
 
-/// Tolerances of the solves with K and of the multipliers, unless larger ones are wanted.
+/// Tolerances of the solves with K and of the multipliers. A larger tolerance of the caller
+/// replaces them.
 constexpr double InnerTolerance = 1e-7;
 constexpr double OuterTolerance = 1e-5;
 constexpr double OuterOverInner = OuterTolerance / InnerTolerance;

@@ -18,7 +18,7 @@ namespace gridfem
 /// not on how many there are.
 /// Conjugate gradients solve with S. Their preconditioner is the row sums of S: the area around
 /// each point. A product with S takes two solves with K, by multigrid. Finally, a harmonic function
-/// takes away the misfit that is left.
+/// removes the remaining misfit.
 /// @param rows    RowsAtPoints of the points. Contradictory values are first replaced by the values
 ///   that a harmonic function reaches.
 /// @param values  rows = points, one column per component

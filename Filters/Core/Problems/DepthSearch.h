@@ -1,4 +1,4 @@
-// Finds the depth of the grid for a wanted error. It goes from a coarse grid to finer ones, until
+// Finds the depth of the grid for a wanted error. It goes from a coarse grid to finer grids, until
 // the estimated error is small enough or the next grid does not fit into memory.
 #ifndef GridFEM_DepthSearch_h
 #define GridFEM_DepthSearch_h
@@ -32,7 +32,7 @@ private:
   bool wasAccurate_ = false;
 };
 
-/// ///@{ Search for a spectrum: the first depth, and the next depth after `depth`. The second
+///@{ Search for a spectrum: the first depth, and the next depth after `depth`. The second
 /// function gets the estimated relative errors of the eigenvalues on the grid of `depth`. It
 /// returns `depth` itself when they are small enough.
 /// @param accuracy  wanted relative error, in (0, 1)

@@ -19,7 +19,7 @@ struct HeldValues
 HeldValues HoldPoints(
   const FiniteElementSpace& space, const std::vector<Id>& points, MultiVector values);
 
-/// Both sets of held values, those of `first` first.
+/// Both sets of held values, beginning with `first`.
 HeldValues Join(const HeldValues& first, const HeldValues& second);
 
 /// Holds the values at the ends of the edges. On edges longer than a unit of length it also holds

@@ -83,14 +83,14 @@ public:
     const std::vector<Id>& sources, const SolveOptions& solve, const Job& job = {}) const override;
 
   /// The distance from a curve, negative inside: L φ = ∫ <X, ∇b_i>. X points away from the curve
-  /// outside and towards it inside, so φ has no crease at the curve.
+  /// outside and toward it inside, so φ has no crease at the curve.
   /// Near the curve X is the gradient of the distance through space (DistancesNear). The result
-  /// blends into this distance too, the more the nearer. Farther away the direction comes from heat
-  /// that starts everywhere on the curve. φ is shifted so that its mean over the curve is 0 on each
-  /// component.
-  /// Close to the curve the error is that of linear functions on the triangles, farther away that
-  /// of From. Throws InvalidInput when the curve is not of this mesh, and Aborted. Same bits for
-  /// any number of threads.
+  /// also blends into this distance, increasingly toward the curve. Farther away the direction
+  /// comes from heat that starts everywhere on the curve. φ is shifted so that its mean over the
+  /// curve is 0 on each component.
+  /// Close to the curve the error is the error of linear functions on the triangles. Farther away
+  /// it is the error of From. Throws InvalidInput when the curve is not of this mesh, and Aborted.
+  /// Same bits for any number of threads.
   DistanceField FromCurve(
     const SurfaceCurve& curve, const SolveOptions& solve, const Job& job = {}) const override;
 
@@ -123,7 +123,7 @@ private:
   std::unique_ptr<Multigrid> poisson_;       // of L
 };
 
-/// ///@{ Steps shared with the distance on several processes, which take them on their own parts.
+///@{ Steps shared with the distance on several processes, which take them on their own parts.
 
 /// With a smoothing below this value heat flows on the finest level.
 constexpr double MostSmoothing = 3.5; // twice the default

@@ -142,7 +142,7 @@ HodgeDecomposition DecomposeField(const FiniteElementSpace& space, const Triangl
   RequireVectors(v, mesh);
   if (v.values.cols() != 3)
   {
-    throw InvalidInput("A field that is taken apart has three components.");
+    throw InvalidInput("A field to be decomposed needs three components.");
   }
   const SurfaceEdges edges = FindSurfaceEdges(mesh, options.weldCoincidentPoints, job.threads);
   job.Check(0.1);

@@ -38,8 +38,9 @@ struct HodgeDecomposition
 /// Splits v = ∇u + n x ∇w + h into mutually orthogonal parts.
 ///   ∫ <∇u, ∇b> = ∫ <v, ∇b> for all b,
 ///   ∫ <n x ∇w, n x ∇b> = ∫ <v, n x ∇b> for all b that are 0 where the surface ends, as w is.
-/// So h has no sources, no eddies, and does not cross a boundary. It is 0 on a disc and on a
-/// sphere. Other surfaces have one such field for each hole but the first, and two for each handle.
+/// So h has no sources, no eddies, and does not cross a boundary. It is 0 on a disk and on a
+/// sphere. Other surfaces have one such field for each hole except the first, and two for each
+/// handle.
 ///
 /// Triangles with the opposite orientation to their component are treated as turned round. Vectors
 /// at points are then replaced by their means over triangles. Edges of more than two triangles

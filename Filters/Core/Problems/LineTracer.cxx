@@ -140,9 +140,9 @@ void LineTracer::RequireNoEnds() const
   {
     if (this->IsOdd(t))
     {
-      throw InvalidInput("A line ends, or three meet, within the surface near " +
+      throw InvalidInput("A line ends, or three lines meet, within the surface near " +
                          TextOf(this->CentreOf(t)) +
-                         ": no side of it is inside. Close it, or lead it to the border.");
+                         ", so it encloses nothing. Close it, or lead it to the border.");
     }
   }
 }
@@ -161,8 +161,8 @@ void LineTracer::RequireClosed(const std::vector<char>& isDivided) const
   {
     if (end.second % 2 == 1 && !isDivided[place_[mesh_.triangles[end.first][0]]])
     {
-      throw InvalidInput("A line is within a triangle near " + TextOf(Vec3(at[0], at[1], at[2])) +
-                         " and not closed: no side of it is inside. Close it, or lead it to the "
+      throw InvalidInput("A line within a triangle near " + TextOf(Vec3(at[0], at[1], at[2])) +
+                         " is not closed, so it encloses nothing. Close it, or lead it to the "
                          "border.");
     }
   }
@@ -394,7 +394,7 @@ void LineTracer::WalkAround(const SurfacePlace& a, const SurfacePlace& b)
   {
     throw InvalidInput("A line jumps from one part of the surface to another near " +
                        TextOf(a.position) +
-                       ": its points have to lie nearer to the surface, or nearer to each "
+                       ". Its points have to be closer to the surface, or closer to each "
                        "other.");
   }
 }

@@ -28,8 +28,8 @@ void CheckOptions(const FlowOptions& options)
   }
   if (options.conformalized && options.rebuild)
   {
-    throw InvalidInput("The conformalised flow keeps the stiffness of the start, so its metric has "
-                       "to be tracked: the functions cannot be made anew in every step.");
+    throw InvalidInput("The conformalized flow keeps the stiffness matrix of the start. It cannot "
+                       "rebuild the functions in every step.");
   }
 }
 
@@ -38,8 +38,8 @@ void CheckBoundary(const FlowOptions& options)
   if (!options.fixed.edges.empty() &&
       (options.conformalized || options.rescaling != Rescaling::None))
   {
-    throw InvalidInput("The boundary is to stay, but the conformalised flow and a rescaling move "
-                       "all of the surface.");
+    throw InvalidInput("A fixed boundary cannot be combined with the conformalized flow or with "
+                       "rescaling, because both move the whole surface.");
   }
 }
 
@@ -119,7 +119,7 @@ MeanCurvatureFlow::MeanCurvatureFlow(std::shared_ptr<const FiniteElementSpace> s
   if (options_.rescaling == Rescaling::ConstantVolume &&
       !(std::abs(startVolume_) > 1e-9 * std::pow(startArea_, 1.5)))
   {
-    throw InvalidInput("The surface encloses no volume that could be kept constant.");
+    throw InvalidInput("The surface encloses no volume, so its volume cannot be kept constant.");
   }
   this->GoToStart();
 }

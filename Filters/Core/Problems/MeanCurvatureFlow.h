@@ -28,8 +28,8 @@ enum class Rescaling
 struct FlowOptions
 {
   double timeStep = 1e-3; // δ > 0, squared units of length of the space
-  /// The stiffness stays that of the start: (M_t + δ L_0) X⁺ = M_t X [T (6.2)]. The map from the
-  /// start then tends to a conformal map.
+  /// Every step uses the stiffness matrix of the start: (M_t + δ L_0) X⁺ = M_t X [T (6.2)]. The map
+  /// from the start then tends to a conformal map.
   bool conformalized = false;
   Rescaling rescaling = Rescaling::None;
   /// The part of the surface that stays in place; empty: the boundary moves freely. Not for the
@@ -87,9 +87,9 @@ struct StepSolution
 
 /// One step solves (M_t + δ L_t) X⁺ = M_t X for the three coordinates at once. The solve starts
 /// from the last X plus the displacement that the coarser levels find.
-/// From the second step on, patterns, prolongations and orders are those of the first, unless the
-/// functions are made anew. HeldBoundary describes the terms of a fixed boundary. Same bits for any
-/// number of threads, and for any path to a step. Hold a MemoryReuse over several steps.
+/// From the second step on, patterns, prolongations and orders stay the same, unless the functions
+/// are made anew. HeldBoundary describes the terms of a fixed boundary. Same bits for any number of
+/// threads, and for any path to a step. Hold a MemoryReuse over several steps.
 class MeanCurvatureFlow
 {
 public:

@@ -14,7 +14,7 @@ struct SurfaceSize
 {
   double area = 0.0;
   // Enclosed volume; an open surface has the volume of the cone to the centroid. Negative if the
-  // triangles face inwards.
+  // triangles face inward.
   double volume = 0.0;
   Vec3 centroid = Vec3::Zero(); // of the area
 

@@ -12,7 +12,7 @@ namespace gridfem
 struct PartialField
 {
   Field values;                 // 0 where unknown
-  std::vector<double> weight;   // per triangle; 0 on those with an unknown value
+  std::vector<double> weight;   // per triangle; 0 if it has an unknown value
   std::vector<char> isKnown;    // per triangle: none of its values is unknown
   std::vector<char> hasValue;   // per row of the values: the value is known
   Id numberOfIgnoredPoints = 0; // CountIgnoredPoints; set by callers that need it

@@ -57,7 +57,7 @@ struct ConstrainedSolution
   double misfit = 0.0;
   double relativeMisfit = 0.0; // relative as the tolerance is; of the worst column
   /// All constraints are met. Otherwise they contradict each other, or are more than the functions
-  /// can meet. The solution is then the one with the least (weighted) squares of the misfits.
+  /// can meet. The solution then has the least (weighted) squares of the misfits.
   bool isExact = true;
   std::vector<char> isHeld; // per component of the functions
   double wanted = 0.0;      // tolerance of the report; 0: as in the options

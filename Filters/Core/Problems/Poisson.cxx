@@ -103,7 +103,7 @@ Columns EnergyOfMeans(
 
 /// Overlapping sheets: clipping perturbs their integrals by about 1e-10 cells. Opposite fields on
 /// them therefore leave a spurious load of that size, which no function needs to match. A column is
-/// dropped if the energy of its solution is equally small beside that of the means.
+/// dropped if the energy of its solution is equally small, relative to the energy of the means.
 /// @param energyOfMeans  the square root of this energy, of every column
 /// @return               whether a column was dropped
 bool DropCancelled(const Multigrid& multigrid, const Projection& project,

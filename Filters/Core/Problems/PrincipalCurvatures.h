@@ -25,9 +25,9 @@ struct PrincipalCurvatures
 
 /// Unit normals at the points, exact for points of a sphere. They are the normals of the triangles,
 /// weighted as in Max, Weights for Computing Vertex Normals from Facet Normals, 1999. If triangles
-/// of opposite orientation cancel, the normal is that of the first one. Points without a triangle
-/// get 0. Normals at a boundary follow from the neighbors' normals, so that a quadratic surface
-/// keeps its curvature there.
+/// of opposite orientation cancel, the point takes the normal of the first triangle. Points without
+/// a triangle get 0. Normals at a boundary follow from the neighbors' normals, so that a quadratic
+/// surface keeps its curvature there.
 /// @param hats  of the mesh: the triangles around each point, with coincident points welded or not
 /// @return      points x 3
 MultiVector PointNormals(const TriangleMesh& mesh, const HatFunctions& hats, int threads = 0);

@@ -78,7 +78,7 @@ void RequireMemory(const MemoryNeed& need, double available, const std::string& 
 MemoryNeed NeedOfModes(Id functions, Id modes, int threads)
 {
   return { EstimateSpectrumMemory(functions, modes, threads),
-    "NumberOfModes " + std::to_string(modes) + " with " + std::to_string(functions) +
+    "Number Of Modes " + std::to_string(modes) + " with " + std::to_string(functions) +
       " basis functions",
     "Choose fewer modes or a smaller Depth." };
 }
@@ -100,7 +100,7 @@ void RequireMemoryForHats(const TriangleMesh& mesh, Id functions)
 {
   RequireMemory({ EstimateHatMemory(mesh, static_cast<double>(functions)),
                   "Hat functions on " + std::to_string(mesh.points.size()) + " points",
-                  "Choose the functions of the grid, or fewer points." },
+                  "Set Function Space to Grid, or use a mesh with fewer points." },
     AvailableMemory());
 }
 

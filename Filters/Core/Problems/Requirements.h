@@ -28,7 +28,7 @@ int FittingDepth(
 /// into memory.
 inline constexpr int AutomaticDepth = 0;
 
-/// ///@{ Largest number of functions per point of the mesh for a grid below hat functions. More
+///@{ Largest number of functions per point of the mesh for a grid below hat functions. More
 /// functions make every step more expensive and save none (Testing/Benchmarks/README.md).
 inline constexpr double EnoughToPrecondition = 1.0;
 inline constexpr double EnoughToEstimate = 4.0; // its errors are small beside the hats'
@@ -48,8 +48,7 @@ struct MemoryNeed
   std::string advice;
 };
 
-inline constexpr const char* CoarserGrid =
-  "Every step down in Depth takes a quarter of the memory.";
+inline constexpr const char* CoarserGrid = "Each step down in Depth needs a quarter of the memory.";
 
 /// The memory for this number of eigenvectors.
 MemoryNeed NeedOfModes(Id functions, Id modes, int threads);

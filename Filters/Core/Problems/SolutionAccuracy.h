@@ -13,8 +13,8 @@
 namespace gridfem
 {
 
-/// Errors of a solution; those of the worst column if there are several. NaN where nothing is
-/// known.
+/// Errors of a solution. With several columns, they are the errors of the worst column. NaN where
+/// nothing is known.
 struct SolutionAccuracy
 {
   static constexpr double Unknown = std::numeric_limits<double>::quiet_NaN();
@@ -52,7 +52,7 @@ public:
   /// @param nested    the coarser solution, prolonged
   /// @param coarser   its difference from the solution of the level below; no columns: there is
   ///   none
-  /// @param accuracy  wanted ratio of the algebraic error to that of the space; 0: only watches
+  /// @param accuracy wanted ratio of the algebraic error to the error of the space; 0: only watches
   AccuracyWatch(const SpaceLevels& space, MultiVector nested, const MultiVector& coarser,
     double accuracy, int threads);
 

@@ -31,16 +31,17 @@ const char* ReasonOf(FlowEnd end)
       break;
   }
   return "its equations cannot be solved: the matrix is not positive, or numbers leave their "
-         "range. A smaller TimeStep may help";
+         "range. A smaller Time Step may help";
 }
 
 /// Why no choice of the depth reaches the wanted error.
 const char* ReasonOfError(FunctionKind kind)
 {
   return IsRefinedByDepth(kind)
-           ? "A given basis has a fixed Depth; else the next one does not fit into memory."
-           : "No Depth changes the error of hat functions: subdivide the mesh, or take "
-             "FunctionSpace = Grid.";
+           ? "The depth cannot grow: a given basis fixes it, or the next depth does not fit into "
+             "memory."
+           : "No Depth changes the error of hat functions: subdivide the mesh, or set Function "
+             "Space to Grid.";
 }
 
 } // namespace
@@ -52,17 +53,17 @@ const char* ReasonOf(const SolveReport& report)
     case SolveEnd::Converged:
       return "it has converged";
     case SolveEnd::IterationLimit:
-      return "more are not allowed";
+      return "Maximum Iterations allows no more";
     case SolveEnd::NotFinite:
       return "the values or gradients contain numbers that are not finite";
     case SolveEnd::Stagnation:
-      return "it stagnated: more would bring nothing. Where triangles are narrow, or pieces far "
-             "smaller than the cells, NormalStabilization = 1e-2 or the filter Clean helps";
+      return "it stagnated: more iterations would not help. On narrow triangles, or pieces far "
+             "smaller than the cells, set Normal Stabilization to 1e-2 or apply Clean";
     case SolveEnd::Breakdown:
       break;
   }
-  return "it broke down: the system has no solution, or its numbers span more digits than there "
-         "are, as those of hat functions on triangles narrower than 1e-7 of their length";
+  return "it broke down: the system has no solution, or its numbers span too many digits. Hat "
+         "functions have such numbers on triangles narrower than 1e-7 of their length";
 }
 
 IterationRecord LastRecord(const SolveReport& report)
@@ -90,8 +91,8 @@ std::string WarningOf(const SolveReport& report, double tolerance)
 {
   const IterationRecord last = LastRecord(report);
   std::ostringstream text;
-  text << HowItEnded(report) << " The energy residual is " << last.energy << ", the residual "
-       << last.residual << ", wanted is " << tolerance << ". The result is kept.";
+  text << HowItEnded(report) << " The energy residual is " << last.energy << ", the residual is "
+       << last.residual << ", and the Tolerance is " << tolerance << ". The result is kept.";
   return text.str();
 }
 
@@ -106,9 +107,9 @@ std::string WarningOf(const SolveReport& report, const SolutionAccuracy& accurac
     return WarningOf(report, tolerance);
   }
   std::ostringstream text;
-  text << HowItEnded(report) << " What the iteration has left is estimated to be "
-       << accuracy.algebraic << " of the solution, the error of the function space "
-       << accuracy.discretization << ". The result is kept.";
+  text << HowItEnded(report) << " The estimated error of the solver is " << accuracy.algebraic
+       << " of the solution; the error of the function space is " << accuracy.discretization
+       << ". The result is kept.";
   return text.str();
 }
 
@@ -121,8 +122,8 @@ std::string PlaceOf(FunctionKind kind, int depth)
 std::string WarningOfWantedError(double wanted, double estimated, FunctionKind kind)
 {
   std::ostringstream text;
-  text << "The WantedError of " << wanted << " is not reached: the estimated error is " << estimated
-       << ". " << ReasonOfError(kind) << " The result is kept.";
+  text << "The Wanted Error of " << wanted << " is not reached: the estimated error is "
+       << estimated << ". " << ReasonOfError(kind) << " The result is kept.";
   return text.str();
 }
 
@@ -143,10 +144,9 @@ std::string WarningOfConstraints(const ConstrainedSolution& solution)
     return {};
   }
   std::ostringstream text;
-  text << "The values are not met, by " << solution.misfit
-       << " at worst: they contradict each other, or lie closer together than the functions can "
-          "follow. The result has the least squares of these differences; a larger Depth or hat "
-          "functions come closer.";
+  text << "The result misses given values by up to " << solution.misfit
+       << ": they contradict each other, or lie too close together for the functions. The result "
+          "is the best compromise, by least squares. A larger Depth or hat functions come closer.";
   return text.str();
 }
 
@@ -162,8 +162,8 @@ std::vector<std::string> WarningsOf(const ConstrainedSolution& solution, double 
   if (free > 0)
   {
     sentences.push_back(std::to_string(free) + " of " + std::to_string(solution.isHeld.size()) +
-                        " connected components have neither a weight nor a constraint: they keep "
-                        "the mean of what is known there, or are NaN where nothing is.");
+                        " connected components have neither a weight nor a constraint. They keep "
+                        "the mean of their known values, or become NaN if none is known.");
   }
   return sentences;
 }
@@ -173,8 +173,8 @@ std::string WarningOf(const PartialField& field)
   return field.numberOfIgnoredPoints == 0
            ? std::string()
            : std::to_string(field.numberOfIgnoredPoints) +
-               " known points have no triangle with known values at all corners, so that they do "
-               "not count. ConstraintArray can hold them.";
+               " known points are ignored, because none of their triangles has known values at "
+               "all corners. A Constraint Array can hold them.";
 }
 
 std::vector<std::string> WarningsOf(const Spectrum& spectrum, int wanted, const std::string& where)
@@ -191,8 +191,8 @@ std::vector<std::string> WarningsOf(const Spectrum& spectrum, int wanted, const 
   {
     const std::string components = std::to_string(constants);
     sentences.push_back("All " + std::to_string(modes) + " modes are constants: the surface has " +
-                        components + " connected components, each with one. Others need a " +
-                        "NumberOfModes above " + components + ".");
+                        components + " connected components, each with one constant mode. " +
+                        "Choose a Number Of Modes above " + components + ".");
   }
   if (!spectrum.converged)
   {
@@ -200,7 +200,7 @@ std::vector<std::string> WarningsOf(const Spectrum& spectrum, int wanted, const 
     std::ostringstream text;
     text << "Not converged after " << spectrum.iterations
          << " iterations: " << spectrum.numberOfConverged << " of " << modes
-         << " modes reached the tolerance, the largest residual is "
+         << " modes reached the Tolerance. The largest residual is "
          << (residuals.empty() ? 0.0 : *std::max_element(residuals.begin(), residuals.end()))
          << ". The result is kept.";
     sentences.push_back(text.str());
@@ -215,8 +215,8 @@ std::vector<std::string> WarningsOf(const DistanceField& field, double tolerance
   {
     sentences.push_back(
       "Distances are wrong far from the sources: " + std::to_string(field.unreached) +
-      " functions are too far for the heat that comes there to be a number. A "
-      "larger Smoothing or a smaller Depth helps.");
+      " functions are so far that hardly any heat arrives. Choose a larger Smoothing "
+      "or a smaller Depth.");
   }
   if (!field.heatConverged)
   {
@@ -242,12 +242,12 @@ std::string WarningOf(const FlowSummary& flow, bool conformalized, const Triangl
   if (flow.unconverged > 0)
   {
     text << flow.unconverged << (flow.unconverged == 1 ? " step has" : " steps have")
-         << " not converged to the Tolerance; what came out is kept. ";
+         << " not converged to the Tolerance. The result is kept. ";
   }
   if (conformalized && !IsLikeASphere(mesh))
   {
-    text << "The surface has a boundary, a handle, or more than one component: the conformalised "
-            "flow goes on, but will not end as a sphere. ";
+    text << "The surface has a boundary, a handle, or more than one component. The conformalized "
+            "flow goes on, but it will not become a sphere. ";
   }
   return text.str();
 }

@@ -39,7 +39,7 @@ std::string WarningOf(
 /// The space of a solve, for messages: "at Depth 6" or "with the hat functions of this mesh".
 std::string PlaceOf(FunctionKind kind, int depth);
 
-/// ///@{ The warnings when no depth gives the wanted error: of a solution, of eigenvalues.
+///@{ The warnings when no depth gives the wanted error: of a solution, of eigenvalues.
 std::string WarningOfWantedError(double wanted, double estimated, FunctionKind kind);
 std::string WarningOfAccuracy(double wanted, double estimated, FunctionKind kind, int depth);
 ///@}

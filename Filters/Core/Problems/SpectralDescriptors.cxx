@@ -33,7 +33,7 @@ void RequireCount(int count)
 {
   if (count < 1)
   {
-    throw InvalidInput("the number of scales must be at least 1");
+    throw InvalidInput("The number of scales must be at least 1.");
   }
 }
 
@@ -57,16 +57,16 @@ void CheckSources(const PointModes& modes, const std::vector<Id>& sources)
 {
   if (sources.empty())
   {
-    throw InvalidInput("a distance needs at least one source");
+    throw InvalidInput("A distance needs at least one source.");
   }
   for (const Id source : sources)
   {
     if (source < 0 || source >= modes.values.rows())
     {
-      throw InvalidInput("source " + std::to_string(source) +
+      throw InvalidInput("Source " + std::to_string(source) +
                          " is not a point of the mesh, which "
                          "has " +
-                         std::to_string(modes.values.rows()) + " points");
+                         std::to_string(modes.values.rows()) + " points.");
     }
   }
 }
@@ -146,16 +146,16 @@ Index CountZeroModes(const PointModes& modes)
   const std::vector<double>& values = modes.eigenvalues;
   if (static_cast<Id>(values.size()) != modes.values.cols())
   {
-    throw InvalidInput("there are " + std::to_string(values.size()) + " eigenvalues for " +
-                       std::to_string(modes.values.cols()) + " modes");
+    throw InvalidInput("There are " + std::to_string(values.size()) + " eigenvalues for " +
+                       std::to_string(modes.values.cols()) + " modes.");
   }
   for (std::size_t k = 0; k < values.size(); ++k)
   {
     if (!std::isfinite(values[k]) || (k > 0 && values[k] < values[k - 1]))
     {
-      throw InvalidInput("eigenvalue " + std::to_string(k) +
-                         " is not a number, or smaller than "
-                         "the one before");
+      throw InvalidInput("Eigenvalue " + std::to_string(k) +
+                         " is not a number, or it is smaller than "
+                         "the eigenvalue before.");
     }
   }
   const double last = values.empty() ? 0.0 : values.back();
@@ -163,8 +163,8 @@ Index CountZeroModes(const PointModes& modes)
   {
     throw InvalidInput(
       "All " + std::to_string(values.size()) +
-      " modes are constants, of which every component of the surface has one: more "
-      "modes than components are needed.");
+      " modes are constants. Every component of the surface has one constant mode, so "
+      "more modes than components are needed.");
   }
   Index zeros = 0;
   while (values[zeros] <= ZeroFraction * last)
@@ -225,7 +225,7 @@ MultiVector WaveKernelSignature(const PointModes& modes, const WaveBands& bands,
   const Index zeros = CountZeroModes(modes);
   if (!(bands.width > 0.0))
   {
-    throw InvalidInput("the width of the wave kernel's bands must be positive");
+    throw InvalidInput("The width of the bands of the wave kernel must be positive.");
   }
   Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(modes.values.cols(), bands.energies.size());
   for (Id j = 0; j < weights.cols(); ++j)
@@ -275,7 +275,7 @@ std::vector<double> DiffusionDistance(
   CheckSources(modes, sources);
   if (!(time >= 0.0))
   {
-    throw InvalidInput("the diffusion time must not be negative");
+    throw InvalidInput("The diffusion time must not be negative.");
   }
   Eigen::RowVectorXd weights(modes.values.cols());
   for (Id k = 0; k < weights.size(); ++k)
@@ -298,7 +298,7 @@ MultiVector ModeShares(const TriangleMesh& mesh, const PointModes& modes, const 
   const Id count = modes.values.cols();
   if (modes.values.rows() != points || f.rows() != points)
   {
-    throw InvalidInput("modes and functions must have a row for every point of the mesh");
+    throw InvalidInput("Modes and functions must have a row for every point of the mesh.");
   }
   MultiVector values(points, count + f.cols());
   values << modes.values, f;

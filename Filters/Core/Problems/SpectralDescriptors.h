@@ -29,7 +29,8 @@ struct PointModes
 Index CountZeroModes(const PointModes& modes);
 
 /// `count` >= 1 times (L²) in geometric order between 4 ln 10 / λ of the last mode and of the first
-/// mode that is not constant. They range from the fading of the last mode to that of the first.
+/// mode that is not constant. At the smallest time the last mode fades, at the largest time the
+/// first mode fades.
 std::vector<double> HeatTimes(const PointModes& modes, int count);
 
 /// The heat that remains at x, if it was put there, times the area: area Σ exp(-λ t) φ(x)². Rows =
@@ -46,8 +47,8 @@ struct WaveBands
   double width = 0.0;
 };
 
-/// `count` >= 1 energies, evenly between those of the first mode that is not constant and of the
-/// last mode, two widths inside. The width is 7/128 of that range, which is seven steps of the
+/// `count` >= 1 energies, evenly between the energies of the first mode that is not constant and of
+/// the last mode, two widths inside. The width is 7/128 of that range, which is seven steps of the
 /// hundred that the authors take.
 WaveBands WaveEnergies(const PointModes& modes, int count);
 

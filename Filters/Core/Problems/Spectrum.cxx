@@ -184,7 +184,7 @@ BlockReport NestedIteration<Real>::FinishList(
   return report.block;
 }
 
-/// Computes the pairs of a level from those of the next coarser one, or from nothing on level
+/// Computes the pairs of a level from the pairs of the next coarser level, or from nothing on level
 /// `start`.
 template<class Real>
 BlockReport NestedIteration<Real>::ImproveLevel(std::size_t level, std::size_t start,
@@ -289,20 +289,20 @@ void Validate(const SpectrumOptions& options)
 {
   if (options.numberOfModes < 1)
   {
-    throw InvalidInput("the number of modes must be at least 1");
+    throw InvalidInput("The number of modes must be at least 1.");
   }
   if (!(options.tolerance > 0.0 && options.tolerance < 1.0))
   {
-    throw InvalidInput("the tolerance of the spectrum must lie between 0 and 1");
+    throw InvalidInput("The tolerance of the spectrum must lie between 0 and 1.");
   }
   if (options.maximumIterations < 0)
   {
-    throw InvalidInput("the number of iterations must not be negative");
+    throw InvalidInput("The number of iterations must not be negative.");
   }
   if (options.multigrid.preSweeps != options.multigrid.postSweeps)
   {
     throw InvalidInput(
-      "the cycles of a spectrum need as many sweeps before as after the correction");
+      "The cycles of a spectrum need equally many sweeps before and after the correction.");
   }
 }
 

@@ -69,9 +69,9 @@ Spectrum ComputeNestedSpectrum(
 
 /// The second step. It does nothing if all levels are nested. Otherwise it prolongs the pairs to
 /// the finest level and improves them by block iterations with one cycle of the whole hierarchy.
-/// Estimated errors are those of the nested levels plus the excess of the finest level's values
-/// over theirs. No space has eigenvalues below those of the surface, so the sum is the error of the
-/// worse of the two.
+/// Estimated errors are the errors of the nested levels plus the excess of the finest level's
+/// values over the values of the nested levels. No space has eigenvalues below the eigenvalues of
+/// the surface, so the sum is the error of the worse of the two.
 /// @param nested  may have fewer modes than asked for, at the price of more iterations
 Spectrum FinishSpectrum(const SurfaceSpace& space, Spectrum nested, const SpectrumOptions& options,
   const Progress& progress = {});

@@ -22,7 +22,7 @@ void CheckAccuracy(double accuracy)
 {
   if (!(accuracy > 0.0 && accuracy < 1.0))
   {
-    throw InvalidInput("the wanted accuracy of the eigenvalues must lie between 0 and 1");
+    throw InvalidInput("The wanted accuracy of the eigenvalues must lie between 0 and 1.");
   }
 }
 

@@ -10,9 +10,9 @@
 namespace gridfem
 {
 
-/// Whether neighboring eigenvalues a <= b count as a multiplet that the grid has split; b is the
-/// one after the first `count`. They count if they are closer than a quarter of the mean distance b
-/// / count, and closer than 1 %.
+/// Whether neighboring eigenvalues a <= b count as a multiplet that the grid has split. There are
+/// `count` eigenvalues up to a. The two count as a multiplet if they are closer than a quarter of
+/// the mean distance b / count, and closer than 1 %.
 bool IsMultiplet(double a, double b, Id count);
 
 /// Approximate lowest value of a connected surface. It follows from the area as on a sphere, or

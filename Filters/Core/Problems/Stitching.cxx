@@ -395,7 +395,7 @@ std::vector<double> KeptShares(const TriangleMesh& mesh, const ScanCut& cut, dou
   if (!(width >= 0.0) || std::isinf(width))
   {
     throw InvalidInput(
-      "The blend width is " + std::to_string(width) + "; it must be a number from 0 on.");
+      "The blend width is " + std::to_string(width) + "; it must be a number of 0 or more.");
   }
   std::vector<double> share(mesh.triangles.size(), 1.0);
   if (width > 0.0)

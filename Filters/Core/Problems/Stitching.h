@@ -60,9 +60,9 @@ struct StitchedColors
   SolutionAccuracy accuracy; // of the function before details
 };
 
-/// Finds the function whose gradients are those of the colors, and zero on seams. Its mean on every
-/// connected component is that of the colors, or that of the reference. Scans on two sides of a gap
-/// are stitched across the gap if functions overlap it.
+/// Finds the function with the gradients of the colors inside the scans, and zero gradients on
+/// seams. On every connected component it has the mean of the colors, or the mean of the reference.
+/// Scans on two sides of a gap are stitched across the gap if functions overlap it.
 /// @param details  a space on cut.pieces, connectivity-aware and without welding, or null. With it,
 ///   the result is the colors plus the change by stitching, smoothed over two units of length
 ///   within each scan. Details finer than the functions then stay. The result is the function

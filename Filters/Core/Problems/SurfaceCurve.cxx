@@ -183,9 +183,8 @@ private:
         }
         else if (side_[to] != wanted)
         {
-          throw InvalidInput("The lines do not divide the surface: there is a way around from one "
-                             "side of them to the other, through point " +
-                             std::to_string(to) + ".");
+          throw InvalidInput("The lines do not divide the surface: a path through point " +
+                             std::to_string(to) + " leads around them from one side to the other.");
         }
       }
     }

@@ -47,8 +47,8 @@ using NearestPlaces =
 
 /// Divides the surface by lines. Each point of a line is moved to its nearest place on the surface.
 /// Lines may cross and come in pieces. They may end in triangles at the border of the surface, but
-/// nowhere else. On each connected component, the smaller area is inside. If both are equal, the
-/// one without the first point is inside.
+/// nowhere else. On each connected component, the smaller area is inside. If both parts are equal,
+/// the part without the first point is inside.
 ///
 /// An edge of the mesh that lines cross an odd number of times separates two sides. A line that
 /// ends within the surface leaves a triangle with an odd number of such edges. Some lines do not

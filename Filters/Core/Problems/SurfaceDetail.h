@@ -61,7 +61,7 @@ std::vector<ElementWeights> WeightsOfMetric(
 struct SignalInSpace
 {
   MultiVector coefficients;
-  MultiVector remainder; // points x columns: values minus those of the function
+  MultiVector remainder; // points x columns: values minus the function's values
   SolveReport report;    // of the projection
 };
 

@@ -12,8 +12,9 @@ namespace gridfem
 /// tolerance.
 SpectrumOptions StartOptions(SpectrumOptions options);
 
-/// The second step of ComputeSpectrum. The result is that of any solver for the finest matrices.
-/// Constants of the components are exact. Same bits for any number of threads. Throws Aborted.
+/// The second step of ComputeSpectrum. The result is the same as from any solver for the finest
+/// matrices. Constants of the components are exact. Same bits for any number of threads. Throws
+/// Aborted.
 /// @param start  of the nested levels, with StartOptions
 Spectrum ImproveSpectrum(const SurfaceSpace& space, const Spectrum& start,
   const SpectrumOptions& options, const Progress& progress = {});

@@ -121,8 +121,8 @@ std::string ConstrainedEquation::Warning(double tolerance) const
   if (unbalanced_ > 0)
   {
     sentences.push_back("On " + std::to_string(unbalanced_) +
-                        " of them the flux across the boundary does not add up to 0: what is too "
-                        "much leaves the surface evenly.");
+                        " of them the flux across the boundary does not add up to 0. The surplus "
+                        "is removed evenly from the surface.");
   }
   sentences.push_back(load_.warning);
   sentences.push_back(WarningOf(load_.field));

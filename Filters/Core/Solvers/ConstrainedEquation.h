@@ -23,7 +23,7 @@ struct ConstrainedLoad
   MultiVector gradients; // may have no rows
   MultiVector flux;      // boundary integrals; may have no rows
   HeldValues held;       // values that the solution has exactly
-  std::string warning;   // about what was given; may be empty
+  std::string warning;   // about the input; may be empty
 };
 
 /// Repeats a stage only when something it depends on has changed. Collective.

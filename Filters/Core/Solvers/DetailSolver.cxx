@@ -76,16 +76,16 @@ void RequireInput(const DetailSolver::Input& input, const DetailSolver::Options&
   RequireOptions(options);
   if (options.transferFunction == CurvatureTransfer::Custom && !input.custom)
   {
-    throw InvalidInput("CustomTransferFunction has no points.");
+    throw InvalidInput("The Custom Transfer Function has no points.");
   }
   if (!input.values.IsOnPoints())
   {
-    throw InvalidInput("ValueArray needs values at points, but '" + input.values.name +
-                       "' is a cell array. Cell Data to Point Data converts it.");
+    throw InvalidInput("The Value Array has to be point data, but '" + input.values.name +
+                       "' is a cell array. Convert it with Cell Data to Point Data.");
   }
   if (input.scale && input.scale.components != 1)
   {
-    throw InvalidInput("DetailScaleArray '" + input.scale.name + "' must have one component.");
+    throw InvalidInput("Detail Scale Array '" + input.scale.name + "' must have one component.");
   }
 }
 
@@ -255,9 +255,8 @@ void DetailSolver::SolveBlocks(
 }
 
 /// Returns the change at the points. It is linear in the scales inside and outside of the
-/// selection. The solution reaches beyond the selection by about 1 / sqrt(ScreeningWeight), so the
-/// part of the selection counts only where its fade does: points outside keep the change of the
-/// outer scale.
+/// selection. The solution reaches beyond the selection by about 1 / sqrt(ScreeningWeight), so its
+/// part fades out around the selection. Points outside keep the change of the outer scale.
 MultiVector DetailSolver::ChangeAtPoints(const Options& options, int threads) const
 {
   const MultiVector& solved = equation_.Solution().coefficients;

@@ -17,14 +17,14 @@ void RequireInput(const DiffusionSolver::Input& input, const DiffusionSolver::Op
   RequireOptions(options);
   if (options.diffusionTime == 0.0)
   {
-    throw InvalidInput("DiffusionTime is 0: nothing spreads. It must be above 0.");
+    throw InvalidInput("Diffusion Time is 0, so nothing spreads. It must be above 0.");
   }
   const Id components = ComponentsOf(input.values);
   if (input.source && input.source.components != components)
   {
-    throw InvalidInput("HeatSourceArray '" + input.source.name + "' has " +
+    throw InvalidInput("Heat Source Array '" + input.source.name + "' has " +
                        std::to_string(input.source.components) + " components instead of the " +
-                       std::to_string(components) + " of the array that spreads.");
+                       std::to_string(components) + " of the Array.");
   }
   RequireHoldable(input.values, input.constraints, options.boundaryValues);
 }
@@ -95,7 +95,7 @@ void DiffusionSolver::UpdateLoads(
         }
         else
         {
-          result_.warning = "The surface has no boundary for BoundaryValues.";
+          result_.warning = "The surface has no boundary, so Boundary Values has no effect.";
         }
       }
       sources_ = {};

@@ -56,7 +56,7 @@ public:
     std::vector<char> isReached; // per point: a function reaches it
     double stepLength = 0.0;     // squared world units
     EquationOptions equation;    // with the tolerance that was used
-    std::string warning;         // about what was given; empty: none
+    std::string warning;         // about the input; empty: none
   };
 
   /// The default options of the surface.

@@ -16,16 +16,17 @@ namespace
 /// Refuses sources that are points, because points have no sides.
 void RefusePoints(const DistanceSolver::Input& input, bool nearestSource)
 {
-  const std::string given = !input.ids.empty()      ? "SourcePointIds"
-                            : input.mask            ? "a SourceArray"
+  const std::string given = !input.ids.empty()      ? "the Source Point Ids"
+                            : input.mask            ? "the Source Array"
                             : !input.points.empty() ? input.points.front().property
-                            : nearestSource         ? "NearestSource"
+                            : nearestSource         ? "Nearest Source"
                                                     : "";
   if (!given.empty())
   {
-    throw InvalidInput("Signed distances are from curves, which divide the surface into two sides: "
-                       "clear " +
-                       given + ", which is about points, or turn Signed off.");
+    throw InvalidInput(
+      "Signed distances start from curves that divide the surface into two sides, not from "
+      "points. Clear " +
+      given + ", or turn Signed off.");
   }
 }
 
@@ -38,12 +39,12 @@ void Require(const DistanceSolver::Input& input, const DistanceSolver::Options& 
   }
   if (input.mask && (!input.mask.IsOnPoints() || input.mask.components != 1))
   {
-    throw InvalidInput("SourceArray '" + input.mask.name +
-                       "' must be a point array with one component: 0 where there is no source.");
+    throw InvalidInput("Source Array '" + input.mask.name +
+                       "' must be a point array with one component, 0 where there is no source.");
   }
   if (options.isSigned && input.labels && input.labels.components != 1)
   {
-    throw InvalidInput("LabelArray '" + input.labels.name + "' must have one component.");
+    throw InvalidInput("Label Array '" + input.labels.name + "' must have one component.");
   }
 }
 
@@ -55,7 +56,7 @@ void RequireUsed(const std::vector<Id>& ids, const TriangleMesh& mesh)
     if (id < 0 || id >= static_cast<Id>(used.size()) || !used[id])
     {
       throw InvalidInput(
-        "SourcePointIds: " + std::to_string(id) + " is not a point of a polygon of the mesh.");
+        "Source Point Ids: no polygon of the mesh has a point " + std::to_string(id) + ".");
     }
   }
 }
@@ -102,7 +103,7 @@ std::vector<Id> FindSources(const Surface& surface, const DistanceSolver::Input&
   if (!surface.Any(!sources.empty()))
   {
     throw InvalidInput(
-      (input.mask ? "SourceArray '" + input.mask.name + "' is 0 at all points of polygons"
+      (input.mask ? "Source Array '" + input.mask.name + "' is 0 at all points of polygons"
                   : input.points.front().none) +
       ", so no distance starts.");
   }
@@ -120,7 +121,7 @@ SurfaceCurve BorderOf(
   }
   catch (const InvalidInput& error)
   {
-    throw InvalidInput("LabelArray '" + labels.name + "' and InsideLabel " +
+    throw InvalidInput("Label Array '" + labels.name + "' and Inside Label " +
                        std::to_string(options.insideLabel) + ": " + error.what());
   }
 }
@@ -151,8 +152,9 @@ void DistanceSolver::UpdateCurve(const Surface& surface, const Input& input, con
                                     : SurfaceCurve{};
       if (curve_.segments.empty())
       {
-        throw InvalidInput("A signed distance is that from a curve: choose a LabelArray, or give "
-                           "lines on the surface as Sources, such as a Slice or a Contour of it.");
+        throw InvalidInput(
+          "A signed distance starts from a curve. Choose a Label Array, or connect "
+          "Sources to lines on the surface, such as a Slice or a Contour.");
       }
     });
 }

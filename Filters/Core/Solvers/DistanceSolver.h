@@ -10,7 +10,7 @@
 namespace gridfem
 {
 
-/// Computes distances. Its stages are those of Surface, CurveStage and NearestStage.
+/// Computes distances. Its stages are the stages of Surface, CurveStage and NearestStage.
 class DistanceSolver
 {
 public:
@@ -40,7 +40,7 @@ public:
   /// Points of this process, to be found on the mesh.
   struct FoundPoints
   {
-    std::string property; // for messages: "a Selection"
+    std::string property; // for messages: "the Selection"
     std::string none;     // for messages: "The Selection takes no point of a polygon"
     std::function<std::vector<Id>()> find; // throws InvalidInput
   };
@@ -52,13 +52,13 @@ public:
   };
 
   /// All given points together are the sources. Without any, the first point of the first triangle
-  /// is.
+  /// is the source.
   struct Input
   {
     std::vector<Id> ids;
     GivenField mask; // sources are where it is not 0
     std::vector<FoundPoints> points;
-    GivenField labels; // curves are the border of a label, else the given ones
+    GivenField labels; // curves are the border of a label; none: `curve`
     GivenCurve curve;
   };
 

@@ -28,7 +28,7 @@ Id FirstPoint(const TriangleMesh& mesh, int wanted)
   if (wanted >= static_cast<Id>(used.size()) || !used[wanted])
   {
     throw InvalidInput(
-      "FirstPointId: " + std::to_string(wanted) + " is not a point of a polygon of the mesh.");
+      "First Point Id: no polygon of the mesh has a point " + std::to_string(wanted) + ".");
   }
   return wanted;
 }
@@ -71,7 +71,7 @@ void FarthestPointsSolver::AddPoint(
   result_.atPoints(next_, 0) = 0.0;
   result_.nearest[next_] = next_;
   result_.points.push_back(next_);
-  if (result_.warnings.empty()) // those of all points alike
+  if (result_.warnings.empty()) // the warnings of all points are alike
   {
     result_.warnings = WarningsOf(field, solve.tolerance);
   }

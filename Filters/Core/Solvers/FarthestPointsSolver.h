@@ -1,4 +1,4 @@
-// Spreads points evenly over a surface: each is the one farthest from those before it.
+// Spreads points evenly over a surface: each is the farthest from the points before it.
 #ifndef GridFEM_FarthestPointsSolver_h
 #define GridFEM_FarthestPointsSolver_h
 
@@ -10,8 +10,8 @@ namespace gridfem
 {
 
 /// Samples the farthest points by geodesic distance. [Moenning and Dodgson 2003]
-/// The largest distance that remains is at most twice that of the best choice of as many points.
-/// [Gonzalez 1985]
+/// The largest remaining distance is at most twice the largest distance of the best choice of
+/// equally many points. [Gonzalez 1985]
 /// Each point takes one solution. More points continue from the existing ones. One process has to
 /// hold the surface.
 class FarthestPointsSolver

@@ -31,21 +31,21 @@ Rescaling RescalingOf(const FlowSolver::Options& options)
 
 void RequireFlow(const FlowSolver::Options& options)
 {
-  RequireNumber("TimeStep", options.timeStep);
+  RequireNumber("Time Step", options.timeStep);
   if (!(options.timeStep > 0.0) || std::isinf(options.timeStep))
   {
-    throw InvalidInput("TimeStep must be above 0 and finite.");
+    throw InvalidInput("Time Step must be above 0 and finite.");
   }
   RequireOptions(options);
   if (options.conformalized && !options.trackMetric)
   {
-    throw InvalidInput("Conformalized keeps the stiffness of the input on its functions, so "
-                       "TrackMetric has to be on.");
+    throw InvalidInput("Conformalized needs the functions of the input in every step. Turn Track "
+                       "Metric on.");
   }
   if (options.fixedBoundary && (options.conformalized || RescalingOf(options) != Rescaling::None))
   {
-    throw InvalidInput("FixedBoundary holds the boundary where it is, but Conformalized and "
-                       "Rescale move all of the surface.");
+    throw InvalidInput("Fixed Boundary holds the boundary in place, but Conformalized and Rescale "
+                       "move the whole surface. Turn one of them off.");
   }
 }
 

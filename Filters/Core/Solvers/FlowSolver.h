@@ -37,7 +37,7 @@ public:
     EquationOptions equation = OfStep();
     double timeStep = 5e-5; // squared parameter units, above 0
     int numberOfSteps = 10;
-    bool conformalized = false; // the stiffness stays that of the start
+    bool conformalized = false; // keep the stiffness of the start
     bool trackMetric = true;    // else the moved mesh is clipped again in each step
     bool fixedBoundary = false;
     Rescale rescale = Rescale::Automatic;
@@ -103,7 +103,7 @@ private:
   std::unique_ptr<MeanCurvatureFlow> flow_;
   std::vector<Step> made_; // the start and all steps made
   FlowEnd end_ = FlowEnd::None;
-  std::map<int, MultiVector> kept_; // shapes; that of the last step is always there
+  std::map<int, MultiVector> kept_; // shapes; the last step always has one
   int stride_ = 1;                  // of the steps that are kept
   std::int64_t advances_ = 0;
   Result result_;

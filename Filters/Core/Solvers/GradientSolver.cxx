@@ -13,12 +13,12 @@ namespace
 
 std::string WarningOfOneSided(const HodgeDecomposition& parts)
 {
-  return parts.numberOfOneSided == 0
-           ? std::string()
-           : std::to_string(parts.numberOfOneSided) + " of " +
-               std::to_string(parts.numberOfComponents) +
-               " connected components have only one side, so that no rotation can be told there: "
-               "what turns is in the HarmonicPart.";
+  return parts.numberOfOneSided == 0 ? std::string()
+                                     : std::to_string(parts.numberOfOneSided) + " of " +
+                                         std::to_string(parts.numberOfComponents) +
+                                         " connected components have only one side, so rotation "
+                                         "has no direction there. Their "
+                                         "rotating flow is in the HarmonicPart.";
 }
 
 } // namespace
@@ -36,8 +36,9 @@ const GradientSolver::Result& GradientSolver::Update(
   RequireOptions(options);
   if (options.hodgeDecomposition && input.values.components != 3)
   {
-    throw InvalidInput("HodgeDecomposition needs an Array with three components: vectors. Without "
-                       "one it has to be off.");
+    throw InvalidInput(
+      "Hodge Decomposition needs vectors. Choose an Array with three components, or "
+      "turn Hodge Decomposition off.");
   }
   surface.Prepare(job.progress.Part(0.0, 0.5));
   EquationOptions equation = options.equation;

@@ -26,8 +26,9 @@ std::vector<std::string> WarningsOfValues(const ConstrainedSolution& solution, d
   const auto free = std::count(solution.isHeld.begin(), solution.isHeld.end(), 0);
   if (free > 0)
   {
-    warnings.push_back(std::to_string(free) + " of " + std::to_string(solution.isHeld.size()) +
-                       " connected components of the surface have no value: they are NaN.");
+    warnings.push_back(
+      std::to_string(free) + " of " + std::to_string(solution.isHeld.size()) +
+      " connected components of the surface have no given value. They become NaN.");
   }
   return warnings;
 }

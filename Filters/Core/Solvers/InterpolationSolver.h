@@ -58,7 +58,7 @@ private:
   void Take(ConstrainedSolution solution, const Surface& surface, const Options& options);
 
   PointValues given_;
-  int version_ = 0; // of what is given
+  int version_ = 0; // of the given values
   Result result_;
 };
 

@@ -84,8 +84,8 @@ inline StageKey KeyOf(const EquationOptions& equation)
 ///     visit(self.equation);
 ///   }
 ///
-/// The names are those of the properties in VTK and ParaView. TestOptionFields refuses a struct
-/// with a field that ForEach leaves out.
+/// The properties in VTK and ParaView have the same names. TestOptionFields refuses a struct with a
+/// field that ForEach leaves out.
 namespace option_fields
 {
 

@@ -59,7 +59,7 @@ private:
 
   PoissonLoad load_;
   std::unique_ptr<Multigrid> multigrid_;
-  StageKey shape_; // what the hierarchy depends on besides the weight
+  StageKey shape_; // everything but the weight that the hierarchy depends on
   PoissonSolution solution_;
   StageKey solvedWith_; // space and solver that the solution comes from
 };

@@ -37,29 +37,29 @@ void RequireGradients(const Input& input, const Options& options)
   const Id components = ComponentsOf(input.values);
   if (input.gradients && input.gradients.components != 3 * components)
   {
-    throw InvalidInput("GradientArray '" + input.gradients.name + "' has " +
+    throw InvalidInput("Gradient Array '" + input.gradients.name + "' has " +
                        std::to_string(input.gradients.components) +
                        " components. The values have " + std::to_string(components) + ", so " +
-                       std::to_string(3 * components) + " are needed: a vector for each.");
+                       std::to_string(3 * components) + " are needed: three for each.");
   }
   if (options.useValueGradient && !input.gradients && !input.values.IsOnPoints())
   {
-    throw InvalidInput("UseValueGradient needs values at points, but '" + input.values.name +
-                       "' is a cell array. Cell Data to Point Data converts it.");
+    throw InvalidInput("Use Value Gradient needs point data, but '" + input.values.name +
+                       "' is a cell array. Convert it with Cell Data to Point Data.");
   }
 }
 
 void RequireInput(const Input& input, const Options& options)
 {
   RequireGradients(input, options);
-  RequireOneComponent(input.gradientScale, "GradientScaleArray");
+  RequireOneComponent(input.gradientScale, "Gradient Scale Array");
   RequireOptions(options);
-  RequireOneComponent(input.weights, "ValueWeightArray");
+  RequireOneComponent(input.weights, "Value Weight Array");
   RequireHoldable(input.values, input.constraints, options.boundaryValues);
   const Id components = ComponentsOf(input.values);
   if (input.flux && (!input.flux.IsOnPoints() || input.flux.components != components))
   {
-    throw InvalidInput("BoundaryFluxArray '" + input.flux.name +
+    throw InvalidInput("Boundary Flux Array '" + input.flux.name +
                        "' must be a point array with as many components as the values, " +
                        std::to_string(components) + ".");
   }
@@ -108,7 +108,8 @@ void AddBoundary(const Surface& surface, const Field& values, const Input& input
     flux ? &flux->values : nullptr, options.boundaryValues ? &values.values : nullptr);
   if (!terms.isThere)
   {
-    load.warning = "The surface has no boundary for BoundaryValues or a BoundaryFluxArray.";
+    load.warning =
+      "The surface has no boundary, so Boundary Values and Boundary Flux Array have no effect.";
     return;
   }
   load.flux = std::move(terms.load);

@@ -29,8 +29,9 @@ void RequireNonConstant(const Spectrum& spectrum)
   {
     const std::string components = std::to_string(spectrum.numberOfConstants);
     throw InvalidInput("All " + std::to_string(modes) + " modes are constants: the surface has " +
-                       components + " connected components, each with one. Signatures need a " +
-                       "NumberOfModes above " + components + ".");
+                       components +
+                       " connected components, each with one constant mode. Signatures " +
+                       "need a Number Of Modes above " + components + ".");
   }
 }
 
@@ -60,8 +61,8 @@ void RequireOnPoints(const GivenField& values)
 {
   if (values && !values.IsOnPoints())
   {
-    throw InvalidInput("ValueArray '" + values.name +
-                       "' must be a point array. Cell Data to Point Data converts it.");
+    throw InvalidInput("Value Array '" + values.name +
+                       "' must be a point array. Convert it with Cell Data to Point Data.");
   }
 }
 
@@ -72,9 +73,9 @@ std::string WarningOfBand(const SignatureSolver::Options& options, int modes)
   const bool isBand = options.filterType == ModeFilter::BandPass;
   if (isBand && options.firstMode >= modes)
   {
-    throw InvalidInput("There is no mode " + std::to_string(options.firstMode) +
-                       ", only modes 0 to " + std::to_string(modes - 1) +
-                       ": no mode passes. Choose a smaller FirstMode or a larger NumberOfModes.");
+    throw InvalidInput("First Mode is " + std::to_string(options.firstMode) +
+                       ", but the last mode is " + std::to_string(modes - 1) +
+                       ". Choose a smaller First Mode or a larger Number Of Modes.");
   }
   const bool isHigh = options.filterType == ModeFilter::HighPass;
   const int last = isHigh ? options.firstMode - 1 : options.lastMode;
@@ -82,9 +83,9 @@ std::string WarningOfBand(const SignatureSolver::Options& options, int modes)
   {
     return {};
   }
-  return std::string(isHigh ? "FirstMode" : "LastMode") + " is beyond the last mode, " +
+  return std::string(isHigh ? "First Mode" : "Last Mode") + " is beyond the last mode, " +
          std::to_string(modes - 1) + ": the filter " + (isHigh ? "removes" : "keeps") +
-         " the modes that exist. A larger NumberOfModes adds more.";
+         " the modes that exist. A larger Number Of Modes adds more.";
 }
 
 } // namespace
@@ -99,7 +100,7 @@ const SignatureSolver::Result& SignatureSolver::Update(
   }
   if (options.filterType == ModeFilter::BandPass && options.firstMode > options.lastMode)
   {
-    throw InvalidInput("FirstMode " + std::to_string(options.firstMode) + " is above LastMode " +
+    throw InvalidInput("First Mode " + std::to_string(options.firstMode) + " is above Last Mode " +
                        std::to_string(options.lastMode) + ": no mode passes.");
   }
   job.Check(0.0);

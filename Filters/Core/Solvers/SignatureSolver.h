@@ -30,7 +30,7 @@ enum class ModeFilter
 {
   None,
   LowPass,  // up to the last mode
-  HighPass, // all but those below the first mode, also the rest that no mode shows
+  HighPass, // from the first mode on, with the part that no mode describes
   BandPass  // from the first mode to the last
 };
 

@@ -204,7 +204,8 @@ void SpectrumSolver::Judge(const Surface& surface, const Options& options)
 MultiVector SpectrumSolver::ModesAtPoints(
   const Surface& surface, Id first, Id count, const Progress& progress) const
 {
-  // The integral over the space's units is UnitLength² times smaller than the one over world units.
+  // The integral in the units of the space is UnitLength² times smaller than the integral in world
+  // units.
   const MultiVector coefficients =
     result_.spectrum.vectors.middleCols(first, count) / surface.Space().UnitLength();
   return surface.ValuesAtPoints(coefficients, progress);

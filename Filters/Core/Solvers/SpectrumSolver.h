@@ -13,11 +13,11 @@
 namespace gridfem
 {
 
-/// The options of an equation for modes. Its tolerance is the relative error of the eigenvalues as
-/// those of the space. A V-cycle costs less than a W-cycle.
+/// The options of an equation for modes. Its tolerance is the relative error of the eigenvalues in
+/// the function space. A V-cycle costs less than a W-cycle.
 EquationOptions EquationOfModes();
 
-/// Computes the modes at the depth of the surface, or at the one that a wanted accuracy needs.
+/// Computes the modes at the depth of the surface, or at the depth that a wanted accuracy needs.
 class SpectrumSolver
 {
 public:
@@ -25,8 +25,8 @@ public:
   {
     EquationOptions equation = EquationOfModes();
     int numberOfModes = 20;
-    /// The wanted relative error of the eigenvalues as those of the surface. Above 0 it chooses the
-    /// depth, unless functions are given. Processes that share a surface cannot choose.
+    /// The wanted relative error of the eigenvalues of the surface. Above 0 it chooses the depth,
+    /// unless functions are given. Processes that share a surface cannot choose.
     double accuracy = 0.0;
 
     template<class Self, class Visit>

@@ -1,5 +1,4 @@
-// Identifies what the result of a stage depends on. The numbers of a key change if the stage has to
-// run again.
+// Identifies the inputs of a stage. The numbers of a key change if the stage has to run again.
 #ifndef GridFEM_StageKey_h
 #define GridFEM_StageKey_h
 
@@ -11,7 +10,7 @@
 namespace gridfem
 {
 
-/// A list of numbers. Two keys are equal if their numbers are.
+/// A list of numbers. Two keys are equal if their numbers are equal.
 class StageKey
 {
 public:

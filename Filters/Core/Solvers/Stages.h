@@ -1,5 +1,4 @@
-// Runs the steps of a solver. Each remembers what it was made from and runs again only if this
-// changes.
+// Runs the steps of a solver. Each step remembers its inputs and runs again only if they change.
 #ifndef GridFEM_Stages_h
 #define GridFEM_Stages_h
 

@@ -19,20 +19,21 @@ void RequireInput(const StitchSolver::Input& input)
   const GivenField& colors = input.colors;
   if (!colors)
   {
-    throw InvalidInput("Choose a ColorArray: the colors of the scans.");
+    throw InvalidInput("Choose a Color Array with the colors of the scans.");
   }
   if (colors.components > 4)
   {
-    throw InvalidInput("ColorArray '" + colors.name + "' has " + std::to_string(colors.components) +
-                       " components; colors have 1 to 4.");
+    throw InvalidInput("Color Array '" + colors.name + "' has " +
+                       std::to_string(colors.components) + " components; colors have 1 to 4.");
   }
   if (!input.labels)
   {
-    throw InvalidInput("Choose a LabelArray: it says which scan a color comes from.");
+    throw InvalidInput(
+      "Choose a Label Array with the number of the scan that each color comes from.");
   }
   if (input.labels.components != 1)
   {
-    throw InvalidInput("LabelArray '" + input.labels.name + "' must have one component.");
+    throw InvalidInput("Label Array '" + input.labels.name + "' must have one component.");
   }
 }
 
@@ -46,7 +47,7 @@ std::vector<double> DistinctLabels(const std::string& name, const Field& labels)
   {
     if (label != std::floor(label))
     {
-      throw InvalidInput("LabelArray '" + name + "' has the value " + std::to_string(label) +
+      throw InvalidInput("Label Array '" + name + "' has the value " + std::to_string(label) +
                          "; labels must be integers.");
     }
   }
@@ -157,7 +158,7 @@ std::optional<Index> StitchSolver::Reference(int label) const
   }
   if (!std::binary_search(labels_.begin(), labels_.end(), label))
   {
-    throw InvalidInput("There is no scan with the ReferenceLabel " + std::to_string(label) + ".");
+    throw InvalidInput("No scan has the Reference Label " + std::to_string(label) + ".");
   }
   return PlaceOf(label, labels_);
 }

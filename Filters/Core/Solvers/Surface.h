@@ -114,7 +114,7 @@ public:
   /// The largest number of all processes. NaN if one is NaN.
   virtual double Largest(double own) const { return own; }
 
-  /// Whether this process is the first of those where a condition holds.
+  /// Whether this process is the first process where a condition holds.
   virtual bool IsFirst(bool holds) const { return holds; }
 
   bool Any(bool holds) const { return this->Largest(holds ? 1.0 : 0.0) > 0.0; }
@@ -122,7 +122,7 @@ public:
   /// Rows and values that hold a solution at points of this process.
   virtual HeldValues Hold(const std::vector<Id>& points, const MultiVector& values) const = 0;
 
-  /// What the boundary of the whole surface adds to an equation (TermsOnBoundary).
+  /// The terms that the boundary of the whole surface adds to an equation (TermsOnBoundary).
   virtual BoundaryTerms OnBoundary(const MultiVector* flux, const MultiVector* values) const = 0;
 
   /// Distances on this surface as it is now. Throws InvalidInput and Aborted.

@@ -40,7 +40,7 @@ SurfaceBasis MakeSurfaceBasis(
 std::shared_ptr<const FiniteElementSpace> FindSpace(
   const SurfaceBasis& basis, const SpaceChoice& choice);
 
-/// Builds what is missing. Throws InvalidInput and Aborted.
+/// Builds the missing parts. Throws InvalidInput and Aborted.
 std::shared_ptr<const FiniteElementSpace> MakeSpace(
   const SurfaceBasis& basis, const SpaceChoice& choice, const Job& job);
 

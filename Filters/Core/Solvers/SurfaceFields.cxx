@@ -49,9 +49,9 @@ void RequireHoldable(const GivenField& values, const GivenConstraints& constrain
 {
   if ((constraints || onBoundary) && !values.IsOnPoints())
   {
-    throw InvalidInput((constraints ? constraints.property : std::string("BoundaryValues")) +
-                       " needs values at points, but '" + values.name +
-                       "' is a cell array. Cell Data to Point Data converts it.");
+    throw InvalidInput((constraints ? constraints.property : std::string("Boundary Values")) +
+                       " needs point data, but '" + values.name +
+                       "' is a cell array. Convert it with Cell Data to Point Data.");
   }
 }
 

@@ -66,8 +66,8 @@ public:
   /// Computes all integrals except loads in the metric of an embedding. Loads remain integrals over
   /// the mesh. [T §5.1]
   /// @param embedding  functions x 3 coefficients, in units of length
-  /// @param parts      Mass: only the mass uses the metric. The stiffness must be that of the mesh
-  ///   and does not change, as in the conformalized flow [T (6.2)]
+  /// @param parts Mass: only the mass uses the metric. The stiffness must belong to the mesh and
+  ///   does not change, as in the conformalized flow [T (6.2)]
   /// @return  number of samples whose metric is singular: they contribute nothing
   virtual Id SetMetric(
     const MultiVector& embedding, const Job& job = {}, ElementParts parts = ElementParts::Both) = 0;

@@ -260,7 +260,7 @@ Id HatSpace::SetMetric(const MultiVector& embedding, const Job& job, ElementPart
 {
   if (embedding.cols() != 3)
   {
-    throw InvalidInput("an embedding needs three coefficients for each function of the space");
+    throw InvalidInput("An embedding needs three coefficients for each function of the space.");
   }
   auto mesh = std::make_shared<TriangleMesh>(grid_.Mesh());
   TriangleMesh& moved = *mesh;

@@ -147,8 +147,8 @@ void AppendEntries(
   }
 }
 
-/// Returns one point of every function. Among the points that share a function, it is the one in
-/// the best patch, and the lowest one among equals.
+/// Returns one point of every function. Among the points that share a function, it is the point in
+/// the best patch, or the lowest of several such points.
 std::vector<Id> PointsOfFunctions(const HatFunctions& hats, const GridFunctions& space, int threads)
 {
   const PatchChoice patches(

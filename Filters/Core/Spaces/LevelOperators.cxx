@@ -98,7 +98,7 @@ LevelOperators BuildLevelOperators(const GridFunctions& space, const QuadratureR
 {
   if (!(normalStabilization > 0.0 && normalStabilization <= 1.0))
   {
-    throw InvalidInput("NormalStabilization must be above 0 and at most 1.");
+    throw InvalidInput("Normal Stabilization must be above 0 and at most 1.");
   }
   LevelOperators system = OperatorsOfElements(space,
     IntegrateElements(space, rule, job.Part(0.0, 0.5), normalStabilization), job.Part(0.5, 1.0),

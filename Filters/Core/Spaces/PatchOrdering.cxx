@@ -24,8 +24,8 @@ int Colour(MortonKey block)
 }
 
 /// Returns the patches of a block by the parity of their cell, as if the cells of each block were
-/// colored again; equal ones are in Morton order. Neighbors then do not wait for each other.
-/// Conjugate gradients need 10 to 20 % fewer iterations than with plain Morton order.
+/// colored again. Patches of equal parity are in Morton order. Neighbors then do not wait for each
+/// other. Conjugate gradients need 10 to 20 % fewer iterations than with plain Morton order.
 std::vector<Id> VisitingOrder(const PatchLevel& level, Id begin, Id end)
 {
   std::vector<Id> patches(end - begin);
@@ -65,14 +65,14 @@ void CheckLevel(const PatchLevel& level)
 {
   if (level.dof.size() != level.cell.size())
   {
-    throw InvalidInput("a level has " + std::to_string(level.cell.size()) + " cells but " +
-                       std::to_string(level.dof.size()) + " rows of functions");
+    throw InvalidInput("A level has " + std::to_string(level.cell.size()) + " cells but " +
+                       std::to_string(level.dof.size()) + " rows of functions.");
   }
   const auto wrong = std::is_sorted_until(level.cell.begin(), level.cell.end());
   if (wrong != level.cell.end())
   {
-    throw InvalidInput("patches must be sorted by the Morton key of their cell; patch " +
-                       std::to_string(wrong - level.cell.begin()) + " is not");
+    throw InvalidInput("Patches must be sorted by the Morton key of their cell; patch " +
+                       std::to_string(wrong - level.cell.begin()) + " is not.");
   }
 }
 

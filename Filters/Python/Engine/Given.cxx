@@ -134,7 +134,7 @@ GivenConstraints Given::Constraints(const std::string& mask) const
   GivenConstraints constraints;
   if (const GivenArray* array = this->Find(mask))
   {
-    constraints.property = "ConstraintArray";
+    constraints.property = "Constraint Array";
     constraints.find = [this, array] { return this->KnownValues(array); };
   }
   return constraints;

@@ -33,8 +33,8 @@ struct Given
   /// @param cells  a row of ids of points for each cell, `corners` in each
   void SetCells(std::vector<Vec3> points, const Id* cells, Id numberOfCells, Id corners);
 
-  /// Returns a row for each point: that of the array, 0 if the array is on cells, or the
-  /// coordinates if there is none.
+  /// Returns a row for each point: the row of the array, 0 if the array is on cells, or the
+  /// coordinates without an array.
   MultiVector RowsAtPoints(const std::string& name) const;
 
   /// Returns the known rows of the array `values`, which is on points. A row is known if it has no

@@ -11,7 +11,7 @@ namespace gridfem
 
 void RequireRoom(std::size_t bytes)
 {
-  // Volatile, or compilers leave out what is freed at once.
+  // Without volatile, compilers leave out memory that is freed at once.
   void* volatile const room = std::malloc(bytes);
   if (!room && bytes > 0)
   {

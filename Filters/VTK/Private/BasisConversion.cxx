@@ -25,8 +25,8 @@ constexpr double SameTriangle = 0.05;
     " Connect the mesh that went into the basis filter, or the output of the basis filter itself.");
 }
 
-/// Returns the corners of the clipped triangles: the fan of every piece. The points are exactly
-/// those that the basis filter outputs in double precision.
+/// Returns the corners of the clipped triangles: the fan of every piece. The points are exactly the
+/// points that the basis filter outputs in double precision.
 TriangleMesh FanTriangles(const SurfaceBasis& basis)
 {
   const ClippedMesh& clipped = basis.space->clipped;
@@ -169,8 +169,8 @@ bool IsStored(const Vec3& stored, const Vec3& given)
   return stored == given || stored == Vec3(given.cast<float>().cast<double>());
 }
 
-/// Returns the corner of a triangle that a stored point is, or -1. It prefers, among several
-/// corners at one place, the one with the point's number. Otherwise it takes the first that the
+/// Returns the corner of a triangle that a stored point is, or -1. Among several corners at one
+/// place, it prefers the corner with the point's number. Otherwise it takes the first that the
 /// piece lacks among its corners taken .. end.
 Id FindCorner(Id point, const TriangleMesh& stored, const TriangleMesh& given,
   const std::array<Id, 3>& corners, const Index* taken, const Index* end)
@@ -265,7 +265,7 @@ SurfaceBasis OnSourceMesh(
     if (candidates.first == candidates.second)
     {
       RefuseForeignBasis(
-        "it refers to cell " + std::to_string(cell) + ", which is no polygon here.");
+        "it refers to cell " + std::to_string(cell) + ", which is not a polygon of this mesh.");
     }
     const Id triangle = FindSourceTriangle(before, piece, candidates, given);
     const auto& corners = given.triangles[triangle];

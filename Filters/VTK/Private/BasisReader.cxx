@@ -150,7 +150,7 @@ bool IsStoredAs(const Vec3& ours, const Vec3& theirs, bool isSingle)
   return stored == theirs || theirs.hasNaN();
 }
 
-/// Whether the points and triangles of the shortcut are those of the data.
+/// Whether the shortcut has the points and triangles of the data.
 bool Fits(const SurfaceBasis& basis, vtkPolyData* data, const InputMesh& mesh)
 {
   const TriangleMesh& ours = *basis.mesh;

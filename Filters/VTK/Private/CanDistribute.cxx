@@ -31,7 +31,7 @@ bool HasMpi()
 }
 
 /// Whether a port from 2 on is connected. A selection does not count, because every rank evaluates
-/// its part. Port 1 is that of a basis.
+/// its part. Port 1 is for a basis.
 bool IsFurtherPortConnected(vtkSurfaceFEMAlgorithm* filter, vtkInformationVector** inputs)
 {
   for (int port = 2; port < filter->GetNumberOfInputPorts(); ++port)

@@ -19,12 +19,12 @@ class InputSurface;
 class CarriedModes
 {
 public:
-  /// Returns no modes if the input carries none, or carries those of another shape. Collective.
+  /// Returns no modes if the input carries none, or if they belong to another shape. Collective.
   /// Throws InvalidInput for arrays that do not fit.
   /// @param input  that of the surface: on a rank its own piece, which may be null
   GivenModes Update(InputSurface& surface, vtkPolyData* input);
 
-  /// The reason why the modes are those of another shape. Empty if they are not.
+  /// The reason why the modes belong to another shape. Empty if they do not.
   const std::string& Misfit() const { return misfit_; }
 
   /// The mesh that the modes were read on.

@@ -132,7 +132,7 @@ vtkSmartPointer<vtkCellArray> MakeTriangles(const ClippedMesh& clipped, int thre
                  : MakeTriangles<vtkTypeInt64Array>(clipped, threads);
 }
 
-/// Returns, for each cell of a part of a clipped mesh, its place among those of the whole.
+/// Returns, for each cell of a part of a clipped mesh, its place among the cells of the whole.
 std::vector<Id> PlacesOfCells(
   const std::vector<MortonKey>& part, const std::vector<MortonKey>& whole)
 {
@@ -235,7 +235,7 @@ void AddFieldArrays(vtkPolyData* input, vtkPolyData* output)
   for (int k = 0; k < fields->GetNumberOfArrays(); ++k)
   {
     vtkAbstractArray* array = fields->GetAbstractArray(k);
-    if (!IsClipFieldArray(array->GetName())) // those of an earlier clip
+    if (!IsClipFieldArray(array->GetName())) // arrays of an earlier clip
     {
       output->GetFieldData()->AddArray(array);
     }

@@ -62,7 +62,7 @@ public:
   /// Puts in the arrays that can travel and have so many tuples, and which of them are active. -1
   /// means any number of tuples.
   void PutArrays(vtkFieldData* arrays, vtkIdType tuples);
-  /// Takes out arrays and adds them to the existing ones.
+  /// Takes out arrays and adds them to the existing arrays.
   void TakeArrays(vtkFieldData* arrays);
 
   /// Puts in points, cells and arrays.

@@ -9,8 +9,8 @@ class vtkExecutive;
 namespace gridfem
 {
 
-/// Swallows the report that an executive prints if its filter fails. That report is the failed
-/// request: a page of keys beside the one message that helps.
+/// Swallows the report that an executive prints if its filter fails. The report prints the failed
+/// request: a page of keys beside the one useful message.
 class FailureDump
 {
 public:

@@ -17,7 +17,8 @@ class vtkPolyData;
 namespace gridfem
 {
 
-/// The places of a piece's points and cells in the whole. -1 for those that are missing there.
+/// The places of a piece's points and cells in the whole. -1 for points and cells that are missing
+/// there.
 struct PiecePlaces
 {
   std::vector<vtkIdType> points;
@@ -46,7 +47,7 @@ void RequireGoodCells(vtkPolyData* surface);
 /// - Points and cells are sorted by their global ids, so that the bits of a result do not depend on
 ///   the distribution. Without such ids they have the order of the owners.
 /// - Only arrays that all pieces with points have are joined. Arrays of different types become
-///   double. Field arrays are those of the first owner that has them.
+///   double. Field arrays come from the first owner that has them.
 /// - A piece that equals an earlier owner's piece, bit by bit, counts once.
 /// - If only one piece has points, it is taken unchanged, with its arrays.
 /// @param owners  the names of the owners in messages, such as "rank 3"

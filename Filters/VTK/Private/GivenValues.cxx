@@ -57,16 +57,16 @@ bool IsChosen(Id point, const InputArray& mask, const SelectedPoints& selection)
 } // namespace
 
 void RequirePointArray(
-  const InputArray& array, const std::string& property, const std::string& wanted)
+  const InputArray& array, const std::string& property, const std::string& advice)
 {
   if (!array.array)
   {
-    throw InvalidInput("Choose a " + property + ": " + wanted + ".");
+    throw InvalidInput("Choose a " + property + ". " + advice);
   }
   if (array.association != FieldAssociation::Points)
   {
     throw InvalidInput(property + " '" + array.name +
-                       "' must be a point array. Cell Data to Point Data converts it.");
+                       "' must be a point array. Convert it with Cell Data to Point Data.");
   }
 }
 
@@ -76,7 +76,7 @@ PointValues FindKnownValues(const InputArray& array, const InputArray& mask,
   if (mask.array &&
       (mask.association != FieldAssociation::Points || mask.array->GetNumberOfComponents() != 1))
   {
-    throw InvalidInput("MaskArray '" + mask.name + "' must be a point array with one component.");
+    throw InvalidInput("Mask Array '" + mask.name + "' must be a point array with one component.");
   }
   const std::vector<char> used = UsedPoints(mesh);
   PointValues given;

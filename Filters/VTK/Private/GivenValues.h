@@ -15,10 +15,10 @@ namespace gridfem
 
 class SelectedPoints;
 
-/// Throws InvalidInput if no array is chosen, or if it is cell data. The message says what the
-/// array should hold.
+/// Throws InvalidInput if no array is chosen, or if it is cell data. The advice ends the message
+/// about a missing choice.
 void RequirePointArray(
-  const InputArray& array, const std::string& property, const std::string& wanted);
+  const InputArray& array, const std::string& property, const std::string& advice);
 
 /// Returns the tuples without a NaN, at points that a triangle uses. With a mask or a selection,
 /// the mask must be neither 0 nor NaN at the point, or the point must be selected. Throws

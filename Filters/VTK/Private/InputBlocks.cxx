@@ -31,8 +31,8 @@ constexpr const char* NoBlocks = "one piece"; // stands for any input that is no
 
 [[noreturn]] void ThrowUnlike()
 {
-  throw InvalidInput("The input has not the same kind of blocks on all ranks, so no surface can be "
-                     "made of those that belong together.");
+  throw InvalidInput("The blocks of the input differ in kind between the ranks, so they cannot be "
+                     "joined into one surface.");
 }
 
 unsigned int NumberOfChildren(vtkDataObject* parent)

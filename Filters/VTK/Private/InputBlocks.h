@@ -24,8 +24,8 @@ class InputBlocks
 {
 public:
   /// Call it at the start of an execution. The pipeline starts one of its own for every block, too.
-  /// The outermost call is collective and replaces composite inputs by aligned ones. Throws
-  /// nothing.
+  /// The outermost call is collective and replaces composite inputs by aligned composite inputs.
+  /// Throws nothing.
   void Begin(vtkInformationVector** inputs, int ports);
 
   /// Call it at the end of an execution. The outermost call puts the inputs back.

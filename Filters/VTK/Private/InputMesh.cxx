@@ -238,13 +238,16 @@ InputMesh ReadInputMesh(vtkPolyData* input, int threads, const Progress& progres
   InputMesh mesh = ReadCells(input, threads, progress, *triangles);
   if (triangles->triangles.empty())
   {
-    throw InvalidInput("The input has no polygons and no triangle strips. A surface is needed: "
-                       "Extract Surface makes one from a volume mesh, Delaunay 2D from points.");
+    throw InvalidInput(
+      "The input has no polygons and no triangle strips, but the filter needs a surface. "
+      "Extract Surface makes one from a volume mesh, Delaunay 2D from the points of a "
+      "height field.");
   }
   KeepCells(GhostsOf(input->GetCellData(), input->GetNumberOfCells()), mesh, *triangles, IsShown);
   if (triangles->triangles.empty())
   {
-    throw InvalidInput("All polygons are marked by vtkGhostType as hidden or as duplicates.");
+    throw InvalidInput(
+      "All polygons are hidden or duplicates, according to the array vtkGhostType.");
   }
   mesh.triangles = std::move(triangles);
   return mesh;

@@ -100,7 +100,7 @@ GivenConstraints InputSurface::ConstraintsOf(
     held.array = input_ && input_->GetPoints() ? input_->GetPoints()->GetData() : nullptr;
     held.name = "coordinates";
   }
-  constraints.property = mask.array ? "ConstraintArray" : "A Selection";
+  constraints.property = mask.array ? "Constraint Array" : "The Selection";
   constraints.version.Add(mask.array).Add(selection.Version());
   constraints.find = [this, held, mask, &selection]
   {

@@ -32,10 +32,9 @@ void RequireNoVolume(vtkDataSet* piece)
     if (cell->GetCellDimension() == 3)
     {
       throw InvalidInput(
-        "The input is a volume mesh in pieces, on several ranks or in blocks taken as one, where "
-        "the "
-        "faces between pieces would count as surface. Ghost Cells (Merge Blocks) and Extract "
-        "Surface in front of this filter leave them out.");
+        "The input is a volume mesh in pieces, on several ranks or in blocks taken as one. The "
+        "faces between pieces would count as surface. Apply Ghost Cells (Merge Blocks) and "
+        "Extract Surface first.");
     }
   }
 }

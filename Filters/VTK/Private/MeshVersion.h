@@ -14,7 +14,8 @@ class MeshVersion
 {
 public:
   /// Returns the number of the mesh. It is the last number if both meshes have the same points and
-  /// triangles. Cost: none for the arrays of last time, O(points + triangles) for new ones.
+  /// triangles. The cost is nothing for the arrays of the last call, and O(points + triangles) for
+  /// new arrays.
   /// @param last  the triangles read from the mesh of the last call; empty: the mesh counts as new
   std::int64_t Of(vtkPolyData* data, const InputMesh& last, int threads);
 

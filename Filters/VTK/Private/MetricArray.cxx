@@ -16,7 +16,7 @@ namespace
 
 std::string NameOf(const InputArray& input)
 {
-  return "MetricArray '" + input.name + "'";
+  return "Metric Array '" + input.name + "'";
 }
 
 /// Returns the place of a row in the array: the point, or the cell of the row's triangle.

@@ -1,5 +1,5 @@
-// Checks whether the modes on a mesh are those of this mesh. It may have been moved since, or they
-// may come from another mesh.
+// Checks whether the modes on a mesh belong to this mesh. It may have been moved since, or they may
+// come from another mesh.
 #ifndef GridFEM_ModeCheck_h
 #define GridFEM_ModeCheck_h
 
@@ -10,7 +10,7 @@
 namespace gridfem
 {
 
-/// Returns the reason why the modes are not those of the mesh, for a message. Empty if they may be.
+/// Returns the reason why the modes do not belong to the mesh, for a message. Empty if they may.
 ///
 /// Every mode is taken as linear on the triangles. Its square has to integrate to 1, and its
 /// Rayleigh quotient has to be its eigenvalue. A coarse mesh is not held against a mode. The

@@ -24,8 +24,8 @@ void AddNumbers(
   output->GetPointData()->AddArray(MakePointArray(name, column, dataType));
 }
 
-/// Returns normals that replace the active ones at points, on the same side of the surface. Null if
-/// there are none.
+/// Returns normals that replace the active normals at points, on the same side of the surface. Null
+/// if there are none.
 vtkSmartPointer<vtkDataArray> MovedNormals(
   const TriangleMesh& mesh, const std::vector<Vec3>& points, int threads, vtkPolyData* data)
 {

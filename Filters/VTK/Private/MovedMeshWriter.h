@@ -13,8 +13,8 @@ namespace gridfem
 
 /// Gives a copy of the input its new points, and the point arrays Displacement and
 /// NormalDisplacement (along the normals of the input). The active scalars are NormalDisplacement.
-/// Active normals at points become those of the new surface. Normals at cells and the arrays of
-/// clip, basis and spectrum belong to the input and are removed.
+/// Active normals at points become the normals of the new surface. Normals at cells and the arrays
+/// of clip, basis and spectrum belong to the input and are removed.
 /// @param mesh      the triangles of the input
 /// @param dataType  the type of the points and the arrays: VTK_FLOAT or VTK_DOUBLE
 void MoveSurface(const TriangleMesh& mesh, const std::vector<Vec3>& points, int dataType,

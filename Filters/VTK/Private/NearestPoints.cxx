@@ -24,8 +24,9 @@ void RequireFinitePoints(vtkDataSet* places, const std::string& input)
     const double* point = places->GetPoint(k);
     if (!std::isfinite(point[0]) || !std::isfinite(point[1]) || !std::isfinite(point[2]))
     {
-      throw InvalidInput(input + ": point " + std::to_string(k) +
-                         " has a NaN or infinite coordinate, so that no point is nearest to it.");
+      throw InvalidInput(
+        input + ": point " + std::to_string(k) +
+        " has a NaN or infinite coordinate, so no point of the mesh is nearest to it.");
     }
   }
 }

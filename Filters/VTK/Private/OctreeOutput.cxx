@@ -318,7 +318,7 @@ void RequireBasisFunction(int depth, Id functions, Id function)
 {
   if (function < 0 || function >= functions)
   {
-    throw InvalidInput("BasisId " + std::to_string(function) + " does not exist: level " +
+    throw InvalidInput("Basis Id " + std::to_string(function) + " does not exist: level " +
                        std::to_string(depth) + " has the basis functions 0 to " +
                        std::to_string(functions - 1) + ".");
   }

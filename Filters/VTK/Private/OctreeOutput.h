@@ -30,7 +30,7 @@ void WriteQuadraturePoints(const InputMesh& mesh, const ClippedMesh& clipped,
 struct ShownLevel
 {
   const PatchLevel* level = nullptr;
-  Id firstPatch = 0;         // the number of the level's first one
+  Id firstPatch = 0;         // the number of the level's first patch
   std::vector<Id> function;  // the number of every function
   std::vector<double> area;  // of the patches that a function touches, world units
   std::vector<Id> component; // of every function

@@ -82,7 +82,7 @@ GatheredSurface PieceJoiner::Result()
   return result;
 }
 
-/// Finds the cells and points that are only copies of those of another rank.
+/// Finds the cells and points that are only copies of cells and points of another rank.
 void PieceJoiner::FindCopies()
 {
   isCopiedCell_.assign(cells_.Count(), 0);
@@ -133,8 +133,8 @@ vtkIdType PieceJoiner::AddPoint(vtkIdType point)
   return pointPlace_[point] = static_cast<vtkIdType>(pointSource_.size()) - 1;
 }
 
-/// Joins a point with one that another rank already has. Its values are those of the rank that owns
-/// it.
+/// Joins a point with a point that another rank already has. Its values come from the rank that
+/// owns it.
 void PieceJoiner::JoinPoint(vtkIdType point, vtkIdType place)
 {
   pointPlace_[point] = place;
@@ -182,8 +182,8 @@ void PieceJoiner::RequireSamePlace(vtkIdType point, vtkIdType other, vtkIdType i
   const Vec3 there = this->PositionOf(other);
   if (here != there && !here.hasNaN())
   {
-    throw InvalidInput("The global point id " + std::to_string(id) + " stands for a point of " +
-                       owners_[points_.PieceOf(point)] + " and for one at another place of " +
+    throw InvalidInput("The global point id " + std::to_string(id) + " belongs to a point of " +
+                       owners_[points_.PieceOf(point)] + " and to a point elsewhere of " +
                        owners_[points_.PieceOf(other)] +
                        ". Remove the wrong ids, for example with Pass Arrays.");
   }
@@ -319,8 +319,8 @@ void PieceJoiner::JoinCells()
   }
 }
 
-/// Calls body(cell, places) with the places that the cell's points, and those of its copies, have
-/// in common.
+/// Calls body(cell, places) with the places that the points of the cell, and of its copies, have in
+/// common.
 template<class Body>
 void PieceJoiner::ForEachCellThat(bool isCopied, Body&& body) const
 {

@@ -60,7 +60,7 @@ private:
   std::vector<vtkIdType> cellPlace_;
   std::vector<vtkIdType> pointSource_; // the point, per place
   std::vector<vtkIdType> cellSource_;
-  std::vector<vtkIdType> firstPlace_;  // of those with the same coordinates, by the lowest point
+  std::vector<vtkIdType> firstPlace_;  // of points with the same coordinates, by the lowest point
   std::vector<vtkIdType> nextPlace_;   // with the same coordinates, per place
   std::vector<std::size_t> lastPiece_; // that has the point, per place
   std::array<vtkIdType, CellKinds> kindEnd_{};

@@ -294,9 +294,10 @@ void PieceSurface::AgreeOnArray(int index, InputArray& array)
     {
       if (own.columns > 0 && (own.columns != first->columns || own.isOnCells != first->isOnCells))
       {
-        throw InvalidInput("Array '" + array.name +
-                           "' has other components here than on another rank, or is of cells here "
-                           "and of points there.");
+        throw InvalidInput(
+          "Array '" + array.name +
+          "' differs between ranks: in its number of components, or it belongs to points "
+          "on one rank and to cells on another.");
       }
       StandIn& known = arrays_[index];
       known.dataType = first->dataType;

@@ -28,7 +28,7 @@ public:
 
   /// For a filter with time steps of its own: asks all inputs for the same time, whatever time the
   /// outputs are asked for. Mode 3 belongs to the surface and not to the input's time 3. The time
-  /// is the last one noted, or else that of the first input's data, or else its first step. It
+  /// is the last noted time, or else the time of the first input's data, or else its first step. It
   /// stays until the first input is another one.
   /// @param ports  number of `inputs`, one vector for each port
   void Fix(vtkInformationVector** inputs, int ports);

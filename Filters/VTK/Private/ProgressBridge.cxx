@@ -25,7 +25,7 @@ void ProgressBridge::Announce(const std::string& cost, bool takesHours)
   algorithm_->SetProgressText(cost.c_str());
   if (takesHours)
   {
-    vtkWarningWithObjectMacro(algorithm_, << cost << ". An abort ends it at any time.");
+    vtkWarningWithObjectMacro(algorithm_, << cost << ".");
   }
 }
 
@@ -39,7 +39,7 @@ bool ProgressBridge::Report(double fraction)
   const auto now = Clock::now();
   const bool isFirst = lastReport_ == Clock::time_point::min();
   const bool isDue = isFirst || now - lastReport_ >= std::chrono::milliseconds(100);
-  // Skips progress backwards, NaN, and both ends, which the pipeline reports.
+  // Skips progress backward, NaN, and both ends, which the pipeline reports.
   const bool isNews = fraction > furthest_ && fraction < 1.0;
   if (isNews && (isDue || fraction >= furthest_ + LeastStep))
   {

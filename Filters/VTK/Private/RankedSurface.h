@@ -49,7 +49,7 @@ public:
   void NoteComputed() { isEmpty_ = false; }
 
   /// Returns the time steps of the first rank, which may know more of them after a run. If this
-  /// rank's properties have changed since, it returns those of this rank.
+  /// rank's properties have changed since, it returns the steps of this rank.
   const std::vector<double>& StepsOf(const std::vector<double>& own) const;
 
   /// Frees the gathered inputs.
@@ -63,7 +63,7 @@ private:
   std::vector<Bytes> Parts(vtkInformationVector* outputs, const std::vector<double>& steps) const;
   void TakeParts(Bytes bytes, const std::vector<double>& ownSteps, vtkInformationVector* outputs);
 
-  StageKey key_; // what this rank has given
+  StageKey key_; // the data that this rank has given
   bool isGathered_ = false;
   bool isEmpty_ = true;
   vtkSmartPointer<vtkPolyData> own_;                   // the surface of this rank

@@ -76,7 +76,7 @@ void RequireRoom(double bytesOfMessages)
     return;
   }
   RequireMemory({ WithSurface * bytesOfMessages, "What rank 0 gathers",
-                  "Most filters leave the pieces where they are: see the page about ranks." },
+                  "Most filters do not gather the surface: see the help page about MPI ranks." },
     AvailableMemory());
 }
 

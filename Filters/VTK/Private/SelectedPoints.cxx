@@ -106,7 +106,7 @@ int KindOf(vtkSelectionNode* node)
   const int kind = node->GetFieldType();
   if (kind != vtkSelectionNode::POINT && kind != vtkSelectionNode::CELL)
   {
-    throw InvalidInput("The Selection must be one of points or of cells, but is one of " +
+    throw InvalidInput("The Selection must consist of points or of cells, but its kind is " +
                        std::string(vtkSelectionNode::GetFieldTypeAsString(kind)) + ".");
   }
   vtkInformation* properties = node->GetProperties();
@@ -120,9 +120,8 @@ void RequireOneProcess(const std::string& what)
 {
   if (Ranks::AreSeveral())
   {
-    throw InvalidInput(what + " is evaluated on one MPI rank only. Extract Selection with "
-                              "Preserve Topology makes an array of it, which can be chosen "
-                              "instead.");
+    throw InvalidInput(what + " works on one MPI rank only. Convert it to an array with Extract "
+                              "Selection and Preserve Topology, and choose the array instead.");
   }
 }
 
@@ -139,7 +138,7 @@ void Validate(vtkSelection* selection)
     const int content = node->GetContentType();
     if (content == vtkSelectionNode::USER || (content == vtkSelectionNode::QUERY && !HasQueries))
     {
-      throw InvalidInput("The Selection is one by " +
+      throw InvalidInput("The Selection is of the kind " +
                          std::string(vtkSelectionNode::GetContentTypeAsString(content)) +
                          ", which cannot be evaluated here.");
     }
@@ -152,7 +151,7 @@ void Validate(vtkSelection* selection)
     if (content == vtkSelectionNode::FRUSTUM &&
         !(vtkDoubleArray::SafeDownCast(list) && list->GetNumberOfValues() == FrustumNumbers))
     {
-      throw InvalidInput("The Selection by a frustum needs the eight corners of it.");
+      throw InvalidInput("A Selection by a frustum needs the eight corners of the frustum.");
     }
   }
 }
@@ -180,9 +179,9 @@ vtkDataArray* OriginalIds(
   vtkDataArray* ids = attributes->GetArray(name);
   if (!ids && surface != original)
   {
-    throw InvalidInput("A Selection needs the data set that it was made on: the input has " +
-                       std::to_string(original) + " points or cells, and its surface, which has " +
-                       std::to_string(surface) + ", has no array '" + name + "'.");
+    throw InvalidInput("The Selection refers to the input with " + std::to_string(original) +
+                       " points or cells, but its surface has " + std::to_string(surface) +
+                       ". The surface lacks the array '" + name + "' with the original ids.");
   }
   return ids;
 }

@@ -32,7 +32,7 @@ vtkSmartPointer<vtkDataArray> CopyRows(const char* name, const MultiVector& valu
   return array;
 }
 
-/// Returns the logarithm. An exact zero gives that of the smallest number instead of minus
+/// Returns the logarithm. An exact zero gives the logarithm of the smallest number instead of minus
 /// infinity.
 double SafeLog10(double value)
 {

@@ -50,8 +50,8 @@ void AddFieldNumbers(vtkPolyData* output, const char* name, const std::vector<do
 ///@}
 
 /// Adds the columns Iteration, EnergyResidual, Residual, ConvergenceFactor, Log10EnergyResidual and
-/// Log10Residual. ConvergenceFactor is the energy residual over that of the row before; 1 in the
-/// first row.
+/// Log10Residual. ConvergenceFactor is the energy residual divided by the residual of the row
+/// before; 1 in the first row.
 void WriteHistory(const SolveReport& report, vtkTable* table);
 
 /// Adds the columns AlgebraicError, after the correction of each row, and DiscretizationError, with

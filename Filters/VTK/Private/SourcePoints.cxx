@@ -21,7 +21,7 @@ std::vector<Id> SourcePoints(
     if (id < 0 || id >= static_cast<Id>(used.size()) || !used[id])
     {
       throw InvalidInput(
-        "SourcePointIds: " + std::to_string(id) + " is not a point of a polygon of the mesh.");
+        "Source Point Ids: no polygon of the mesh has a point " + std::to_string(id) + ".");
     }
   }
   std::vector<Id> sources = ids;

@@ -11,7 +11,7 @@ class vtkDataSet;
 namespace gridfem
 {
 
-/// Returns the given point ids and the mesh points nearest to those of `places` (may be null),
+/// Returns the given point ids and the mesh points nearest to the points of `places` (may be null),
 /// ascending, every point once. Points that no polygon uses do not count. Throws InvalidInput
 /// naming an id that no polygon uses, or a point of `places` that is not finite.
 std::vector<Id> SourcePoints(

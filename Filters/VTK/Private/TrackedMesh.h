@@ -25,7 +25,7 @@ public:
   TrackedMesh();
   ~TrackedMesh();
 
-  /// Takes a mesh as the one that functions are made on. Nothing has moved then.
+  /// Takes a mesh as the mesh of the functions. Nothing has moved then.
   /// @param version  the mesh's number from MeshVersion
   void Refer(vtkPolyData* data, std::int64_t version);
 

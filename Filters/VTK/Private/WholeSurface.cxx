@@ -66,7 +66,8 @@ void WholeSurface::Update(const SurfaceOptions& asked, const Progress& progress)
   progress.Check(0.6);
   if (options_.metricArray.array && options_.trackMetric)
   {
-    throw InvalidInput("MetricArray and TrackMetric do not go together: each is a metric.");
+    throw InvalidInput(
+      "A Metric Array cannot be combined with Track Metric, because each is a metric.");
   }
   GivenMetric metric;
   metric.structure.Add(options_.metricArray.array).Add(options_.metricArray.association);

@@ -1,5 +1,5 @@
-// The figures of the thesis' chapters 4 and 6.2.2, computed again. Each function writes what
-// draw_figures.py draws into a folder; the figures have the thesis' numbers.
+// The figures of the thesis' chapters 4 and 6.2.2, computed again. Each function writes the input
+// of draw_figures.py into a folder. The figures have the thesis' numbers.
 #ifndef GridFEM_Benchmarks_Figures_h
 #define GridFEM_Benchmarks_Figures_h
 

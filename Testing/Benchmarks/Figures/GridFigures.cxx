@@ -150,8 +150,8 @@ double TwoLevelResidual(const GridCase& on, SmootherType smoother, int sweeps)
   return RelativeResidual(on.A, on.b, Cycles(twoLevels, on.b)(1));
 }
 
-/// Sum of what the other entries of a row are in excess of the diagonal, relative to the
-/// diagonals. [T (4.7), (4.8)]
+/// The excess of the sum of the other entries of each row over the diagonal, summed, relative to
+/// the diagonals. [T (4.7), (4.8)]
 double NonDiagonalDominance(const SymmetricMatrix& A)
 {
   double excess = 0.0;

@@ -1,5 +1,5 @@
-// The filter Clip To Octree, from vtkPolyData to vtkPolyData, against Core's clip that it stands
-// for: what reading, checking and writing arrays of VTK cost.
+// The filter Clip To Octree, from vtkPolyData to vtkPolyData, against the clip of Core: the cost of
+// reading, checking and writing arrays of VTK.
 #include "Grid/Clip.h"
 #include "Measure.h"
 #include "SetupCost.h"

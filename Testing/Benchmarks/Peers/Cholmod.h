@@ -9,8 +9,8 @@
 namespace gridfem::benchmarks
 {
 
-/// Threads of the BLAS that CHOLMOD and the eigensolvers call. Only OpenBLAS can be told; others
-/// keep what their environment variables say.
+/// Threads of the BLAS that CHOLMOD and the eigensolvers call. Only OpenBLAS accepts the number.
+/// Other libraries follow their environment variables.
 void SetBlasThreads(int threads);
 
 class Cholmod

@@ -1,5 +1,6 @@
-// The classical system the peers solve: piecewise linear hat functions on the mesh, consistent area
-// mass and cotangent stiffness [T (3.9), (3.10)], assembled row by row as fast as one thread can.
+// The classical system of the peers: piecewise linear hat functions on the mesh, consistent area
+// mass and cotangent stiffness [T (3.9), (3.10)]. One thread assembles it row by row as fast as
+// possible.
 #ifndef GridFEM_Benchmarks_CotangentSystem_h
 #define GridFEM_Benchmarks_CotangentSystem_h
 

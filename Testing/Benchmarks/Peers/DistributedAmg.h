@@ -12,11 +12,11 @@
 namespace gridfem::benchmarks
 {
 
-/// What a rank adds to a matrix of all ranks, and which of its rows are its own.
+/// The contribution of a rank to a matrix of all ranks, and the rows that belong to the rank.
 struct MatrixPart
 {
   const SymmetricMatrix& matrix;
-  const std::vector<int>& number; // per row: that of the whole
+  const std::vector<int>& number; // per row: its number in the whole
   int own;                        // rows of the whole that this rank owns, contiguous
 };
 

@@ -52,7 +52,7 @@ struct ChangingMesh
       [&](Id t) { return std::count(triangles[t].begin(), triangles[t].end(), b) > 0; });
   }
 
-  /// Neighbours in order around a vertex; empty unless they form one closed ring.
+  /// Neighbors in order around a vertex; empty unless they form one closed ring.
   std::vector<Id> Ring(Id vertex) const
   {
     std::vector<std::pair<Id, Id>> edges; // opposite to the vertex
@@ -141,7 +141,7 @@ std::optional<Fan> TryFan(const std::vector<Vec2>& plane, std::size_t apex)
   return best >= -1e-9 ? std::optional<Fan>(fan) : std::nullopt;
 }
 
-/// The fan from the nearest neighbour that makes a mesh again: its new edges must not exist yet.
+/// The fan from the nearest neighbor that makes a mesh again: its new edges must not exist yet.
 std::optional<Fan> FindFan(const ChangingMesh& mesh, Id vertex, const std::vector<Id>& ring)
 {
   const std::vector<Vec2> plane = Flatten(mesh, vertex, ring);
@@ -205,7 +205,7 @@ TriangleMesh Compact(const ChangingMesh& mesh, const std::vector<Id>& number)
   return result;
 }
 
-/// One level: replaces the mesh by what is left of it.
+/// Makes one level: replaces the mesh by the remaining mesh.
 Prolongation RemoveOneSet(TriangleMesh& mesh)
 {
   ChangingMesh changing(mesh);

@@ -14,17 +14,17 @@ namespace gridfem::benchmarks
 
 using Prolongation = Eigen::SparseMatrix<double>;
 
-/// Prolongations, finest first: rows = vertices of a level, columns = those that are left. A vertex
-/// that stays keeps its value. The neighbours of one that is removed are laid into the plane around
-/// it, lengths kept and angles scaled to a full turn; it gets the linear interpolation of the new
-/// triangle it lies in. Vertices on boundaries and non-manifold edges stay.
+/// Prolongations, finest first: rows = vertices of a level, columns = the remaining vertices. A
+/// vertex that stays keeps its value. The neighbors of a removed vertex are laid into the plane
+/// around it, with their lengths and with angles scaled to a full turn. The vertex gets the linear
+/// interpolation of its new triangle. Vertices on boundaries and non-manifold edges stay.
 /// @param mesh  every point is used
 /// @param smallest  ends at the first level with at most that many vertices, or when less than a
 /// twentieth can be removed
 std::vector<Prolongation> RemoveIndependentSets(const TriangleMesh& mesh, int smallest);
 
-/// Products of successive prolongations, so that each level has at most a quarter of the vertices
-/// of the one before ("Aksoylu #1" of the thesis; the hierarchy itself is "Aksoylu #2").
+/// Products of successive prolongations, so each level has at most a quarter of the vertices of the
+/// level before. This is "Aksoylu #1" of the thesis; the hierarchy itself is "Aksoylu #2".
 std::vector<Prolongation> Compose(const std::vector<Prolongation>& prolongations);
 
 } // namespace gridfem::benchmarks

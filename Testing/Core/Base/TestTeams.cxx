@@ -1,4 +1,4 @@
-// Tests what happens when the system refuses threads.
+// Tests the behavior when the system refuses threads.
 #include "Base/Errors.h"
 #include "Base/Parallel.h"
 #include "Base/Teams.h"

@@ -282,7 +282,7 @@ TEST(Clip, CubeOnGridPlanesIsHandledOnce)
 TEST(Clip, PlaneThroughGridLinesMakesNoSlivers)
 {
   // On x + y = constant through lattice points, rounding must not add cells beside the diagonal
-  // ones.
+  // cells.
   TriangleMesh diagonal;
   diagonal.points = { { 0, 0, 0 }, { 1, 1, 0 }, { 1, 1, 1 }, { 0, 0, 1 } };
   diagonal.triangles = { { 0, 1, 2 }, { 0, 2, 3 } };

@@ -52,7 +52,8 @@ std::vector<double> ErrorHistory(const Multigrid& multigrid, int cycles)
 double WorstReduction(const Multigrid& multigrid)
 {
   const std::vector<double> history = ErrorHistory(multigrid, 8);
-  const double rounding = 1e-7 * history.front(); // the root of that of the energy, and some
+  const double rounding =
+    1e-7 * history.front(); // the root of the energy's rounding, with a margin
   double worst = 0.0;
   for (std::size_t i = 1; i < history.size() && !(history[i - 1] <= rounding); ++i)
   {
@@ -168,7 +169,7 @@ TEST_P(Variants, PreconditionerIsSymmetric)
     MultiVector Bb;
     multigrid.Precondition(a, Ba);
     multigrid.Precondition(b, Bb);
-    // The worst rounding is that of local inverses of 1e10 times 1e-16, and only in directions of
+    // The worst rounding comes from local inverses of 1e10 times 1e-16, and only in directions of
     // little weight. In single precision it is 6e-8 of each number.
     EXPECT_LT(std::abs(b.cwiseProduct(Ba).sum() - a.cwiseProduct(Bb).sum()),
       (IsSingle() ? 1e-7 : 1e-9) * b.norm() * Ba.norm());

@@ -1,5 +1,5 @@
-// Hierarchies in single precision against those in double precision, and the choice between the
-// two.
+// Hierarchies in single precision against hierarchies in double precision, and the choice between
+// the two.
 #include "Algebra/BlockVectors.h"
 #include "Base/Errors.h"
 #include "Base/Parallel.h"
@@ -121,7 +121,7 @@ TEST(SingleMultigrid, IsTheDoubleOneUpToSinglePrecision)
   }
 }
 
-/// The energy follows from half of the cycle and equals that of the whole cycle.
+/// The energy follows from half of the cycle and equals the energy of the whole cycle.
 TEST(SingleMultigrid, EveryCycleKnowsItsEnergy)
 {
   const Discretisation on = Discretise(Torus(64, 32, 1.0, 0.4), 5);

@@ -194,7 +194,7 @@ UnknownGroups RandomGroups(Index unknowns, int size)
   return groups;
 }
 
-/// Sizes of patches: 8 for trilinear functions, 27 for quadratic B-splines, 64 for cubic ones.
+/// Sizes of patches: 8 for trilinear functions, 27 for quadratic B-splines, 64 for cubic B-splines.
 class GroupsOfAnySize : public ::testing::TestWithParam<int>
 {
 };

@@ -109,7 +109,8 @@ TEST_P(ConformalFlow, OfARealMeshWithoutHandlesEndsRound)
 }
 
 // Limbs end in parts of the sphere smaller than the resolution of the start's functions. The
-// armadillo's mean therefore exceeds that of a part, and the raptor's comes from its claws alone.
+// armadillo's mean therefore exceeds the mean of a part, and the raptor's mean comes from its claws
+// alone.
 INSTANTIATE_TEST_SUITE_P(Scans, ConformalFlow,
   ::testing::Values(Scan{ "fandisk_32k.ply", 6, 1.05 }, Scan{ "armadillo_100k.ply", 6, 1.2 },
     Scan{ "raptor_18k.ply", 6, INFINITY }));

@@ -1,4 +1,4 @@
-// Distances against exact ones on surfaces with known distances, on both kinds of space.
+// Distances against exact distances on surfaces with known distances, on both kinds of space.
 #include "Largest.h"
 #include "Problems/GeodesicDistance.h"
 

@@ -1,4 +1,4 @@
-// Voronoi regions against those of exact distances.
+// Voronoi regions against the regions of exact distances.
 #include "Largest.h"
 #include "Problems/NearestSource.h"
 

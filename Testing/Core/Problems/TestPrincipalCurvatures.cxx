@@ -1,4 +1,4 @@
-// Curvatures and their directions against exact ones, on good, irregular and bad triangles.
+// Curvatures and their directions against exact values, on good, irregular and bad triangles.
 #include "Largest.h"
 #include "Problems/PrincipalCurvatures.h"
 
@@ -106,7 +106,7 @@ Vec3 OnSaddle(double x, double y)
 }
 
 /// Exact curvatures of the graph of (x² - y²) / 2, seen from above: negative where it opens
-/// upwards.
+/// upward.
 Exact OfSaddle(const Vec3& p)
 {
   const Vec3 u(1.0, 0.0, p[0]);

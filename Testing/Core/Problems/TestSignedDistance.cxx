@@ -1,4 +1,4 @@
-// Signed distances from curves against exact ones, on both kinds of space.
+// Signed distances from curves against exact distances, on both kinds of space.
 #include "Largest.h"
 #include "Problems/CurveDistance.h"
 #include "Problems/GeodesicDistance.h"
@@ -216,8 +216,7 @@ std::vector<Vec3> Circle(const Vec3& centre, double radius, int count)
 
 } // namespace
 
-/// A line from border to border. The errors are those of heat at the ends, where it leaves
-/// obliquely.
+/// A line from border to border. The errors come from heat at the ends, where it leaves obliquely.
 TEST(SignedDistance, FromALineOnASquareIsTheDistanceFromItAndErrorsFallWithDepth)
 {
   const Distance exact = [](const Vec3& p)

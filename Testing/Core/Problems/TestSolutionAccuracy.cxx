@@ -1,5 +1,5 @@
 // Estimated errors against true errors. The true error of the space comes from a grid two levels
-// finer, that of the iteration from the solution of the discrete equations.
+// finer. The true error of the iteration comes from the solution of the discrete equations.
 #include "Problems/Poisson.h"
 
 #include "Grid/SurfaceEdges.h"
@@ -261,7 +261,7 @@ TEST(SolutionAccuracy, IsKnownWhereValuesAreHeld)
 
 TEST(SolutionAccuracy, OfHeldValuesKnowsAHarmonicFunction)
 {
-  // The boundary determines the solution. Errors are those of the space, and fall by four from
+  // The boundary determines the solution. Errors are errors of the space, and fall by four from
   // depth to depth.
   TriangleMesh mesh = FlatRectangle(60, 50, 2.0, 1.5);
   MultiVector exact(static_cast<Id>(mesh.points.size()), 1);

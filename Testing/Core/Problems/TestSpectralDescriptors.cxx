@@ -219,7 +219,7 @@ TEST_F(ModeSums, EveryModeIsItsOwnShare)
 TEST_F(ModeSums, TheShareOfTheConstantIsTheMeanOverTheSurface)
 {
   // Unequal triangles: a mean over points would be different. The values of x² at the points are
-  // interpolated linearly, so the mean over a strip is that of its ends.
+  // interpolated linearly, so the mean over a strip is the mean of its ends.
   TriangleMesh strip = FlatRectangle(4, 1);
   double exact = 0.0;
   const double ends[5] = { 0.0, 0.1, 0.15, 0.7, 1.0 };

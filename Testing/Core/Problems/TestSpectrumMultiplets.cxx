@@ -147,7 +147,7 @@ TEST(Spectrum, ManyComponentsHaveNoSmallLevel)
   EXPECT_TRUE(spectrum.converged);
   CheckPairs(on, spectrum);
   EXPECT_EQ(std::count(spectrum.eigenvalues.begin(), spectrum.eigenvalues.end(), 0.0), 27);
-  // The first value of a cube is threefold, that of 27 cubes is 81-fold.
+  // The first value of a cube is threefold. The first value of 27 cubes is 81-fold.
   EXPECT_NEAR(spectrum.eigenvalues.back() / spectrum.eigenvalues[27], 1.0, 1e-7);
 }
 

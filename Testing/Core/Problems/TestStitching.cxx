@@ -141,7 +141,7 @@ TEST_P(Stitching, RemovesJumpsAndKeepsGradients)
   EXPECT_LT(change, 0.05 * EdgeDifference(scans, scans.colors.values, false));
 }
 
-/// Scans that darken towards their borders. The colors of these margins are left out.
+/// Scans that darken toward their borders. The colors of these margins are left out.
 TEST_P(Stitching, BlendsOverMarginsThatAreWrong)
 {
   constexpr double Margin = 0.12;

@@ -1,4 +1,4 @@
-// Gradients and Laplacians against exact ones, on both kinds of space.
+// Gradients and Laplacians against exact values, on both kinds of space.
 #include "Problems/SurfaceDerivatives.h"
 
 #include "Base/Errors.h"
@@ -202,7 +202,7 @@ TEST(SurfaceDerivatives, OfARotationAndAScalingAreItsAxisAndTwo)
   }
 }
 
-/// At points, the curl is that of smoothed gradients along mean normals.
+/// At points, the curl comes from smoothed gradients along mean normals.
 TEST(SurfaceDerivatives, HaveTheCurlOfARotationAtPointsOfASphere)
 {
   const Vec3 axis(0.3, -0.5, 0.8);

@@ -1,4 +1,4 @@
-// Detail of a surface: what scales do to it, and what a change of an option repeats.
+// Detail of a surface: the effect of scales, and the stages that a change of an option repeats.
 #include "EachOption.h"
 #include "Largest.h"
 #include "Meshes.h"

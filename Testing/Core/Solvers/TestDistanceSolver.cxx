@@ -1,4 +1,4 @@
-// Distances in one shot and in steps, and what a changed option makes again.
+// Distances in one shot and in steps, and the stages that a changed option repeats.
 #include "Solvers/DistanceSolver.h"
 
 #include "Base/Errors.h"

@@ -1,4 +1,4 @@
-// Points that are spread evenly, and what more or fewer of them cost.
+// Points that are spread evenly, and the cost of more or fewer points.
 #include "Solvers/FarthestPointsSolver.h"
 
 #include "Base/Errors.h"
@@ -128,8 +128,8 @@ TEST(FarthestPointsSolver, GoesOnAfterAnAbort)
   EXPECT_LT(afterAbort, reports);
 }
 
-/// Each component gets a point before any gets a second one. There are no more points than those
-/// of the mesh.
+/// Each component gets a point before any gets a second one. There are no more found
+/// points than points of the mesh.
 TEST(FarthestPointsSolver, ComponentsAndTheLastPoint)
 {
   const TriangleMesh sphere = GeodesicSphere(1);

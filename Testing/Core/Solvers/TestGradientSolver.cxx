@@ -1,4 +1,5 @@
-// Derivatives of fields on a surface, and the parts of vectors: exact values, and what reruns when.
+// Derivatives of fields on a surface, and the parts of vectors: exact values, and the stages that a
+// change repeats.
 #include "Solvers/GradientSolver.h"
 
 #include "Base/Errors.h"

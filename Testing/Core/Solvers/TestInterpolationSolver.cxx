@@ -1,4 +1,4 @@
-// Interpolation in one shot and in steps, and what a changed option makes again.
+// Interpolation in one shot and in steps, and the stages that a changed option repeats.
 #include "Solvers/InterpolationSolver.h"
 
 #include "Meshes.h"

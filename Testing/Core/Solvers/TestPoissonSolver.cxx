@@ -1,4 +1,4 @@
-// The solver against an exact solution, and its stages: what a change repeats.
+// The solver against an exact solution, and the stages that a change repeats.
 #include "EachOption.h"
 #include "Meshes.h"
 #include "Solvers/LocalSurface.h"

@@ -1,4 +1,5 @@
-// The solver of signatures: exact values on a sphere, given modes, and what runs again.
+// The solver of signatures: exact values on a sphere, given modes, and the stages that a change
+// repeats.
 #include "Meshes.h"
 
 #include "Solvers/LocalSurface.h"

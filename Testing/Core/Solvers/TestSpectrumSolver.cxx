@@ -1,5 +1,5 @@
-// The solver of a spectrum: the eigenvalues of a sphere, what runs again, and the depth that a
-// wanted accuracy needs.
+// The solver of a spectrum: the eigenvalues of a sphere, the stages that a change repeats, and the
+// depth for a wanted accuracy.
 #include "Meshes.h"
 
 #include "Solvers/LocalSurface.h"

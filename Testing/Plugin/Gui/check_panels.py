@@ -70,7 +70,8 @@ def check_arrays():
 
 
 def check_chain():
-    """The state has each filter on the one before, and the last has the arrays of all."""
+    """In the state each filter is on the filter before, and the last filter has the arrays of
+    all."""
     spectrum = only(load("chain"), "LaplaceSpectrum")
     names = []
     proxy = spectrum
